@@ -1,0 +1,23 @@
+// The number type of the per-point path. That path (points, normals, residuals, weights, Jacobians, sums) is written over a type N
+// that names one arithmetic type for each declared range and resolution, so that a fixed-point build is another N and not another path.
+//
+//   Length  metres, |x| <= 64 * the mission's length unit      Unit    components of unit vectors, |x| <= 1 (sums to 2)
+//   Ratio   quotients Length/Unit, weights, Tukey terms         Sum     sums of products over all points of a scan
+#pragma once
+
+#include <cstdint>
+
+namespace lasso {
+
+struct FloatNumber {
+  using Length = float;
+  using Unit = float;
+  using Ratio = float;
+  using Sum = double;  // 603e: same registers as float; sums of 4096 products lose nothing that matters
+
+  // Image words to numbers: value * 2^-fraction_bits.
+  static Length length(std::int32_t word, int fraction_bits);
+  static Unit unit(std::int32_t word);  // Q1.30
+};
+
+}  // namespace lasso

@@ -1,0 +1,23 @@
+// Symmetric 6x6 systems: factorisation that is checked, inverse, eigen-decomposition in bounded sweeps.
+#pragma once
+
+#include "fsw/core/status.hpp"
+#include "fsw/geometry/types.hpp"
+
+namespace lasso {
+
+// Solves A x = b by LDL^T, A symmetric positive definite. kSingular when a pivot is not above 1e-12 of A's largest diagonal,
+// kNotFinite when A or b is not finite; x is then untouched. Loop bound 6^3.
+Status solve6(const Mat6& A, const Vec6& b, Vec6& x);
+
+// A's inverse by the same factorisation and with the same answers.
+Status invert6(const Mat6& A, Mat6& inverse);
+
+struct Eigen6 {
+  Vec6 values;   // ascending
+  Mat6 vectors;  // columns, unit length, in the order of the values
+};
+// Cyclic Jacobi, at most 12 sweeps of 15 rotations.
+Eigen6 eigen6(const Mat6& A);
+
+}  // namespace lasso

@@ -1,0 +1,107 @@
+#include "fsw/mission/parameters.hpp"
+
+#include "fsw/geometry/portable_math.hpp"
+
+namespace lasso {
+namespace {
+
+using P = MissionParameters;
+constexpr ParameterKind kReal = ParameterKind::kReal;
+constexpr ParameterKind kInteger = ParameterKind::kInteger;
+constexpr ParameterKind kBoolean = ParameterKind::kBoolean;
+constexpr ParameterKind kChoice = ParameterKind::kChoice;
+constexpr double kDeg = kRadPerDeg;
+
+// clang-format off
+const ParameterRow kRows[] = {
+  {"sensor.sigma0_m", "m", kReal, &P::sigma0_m, 1, 1e-6, 1, 1e-4, "", "range noise, constant part (1 sigma)"},
+  {"sensor.sigma_k_per_m", "1/m", kReal, &P::sigma_k_per_m, 1, 0, 0.01, 1.0 / 9000, "", "range noise that grows with the square of the range"},
+  {"sensor.sigma_angle_rad", "rad", kReal, &P::sigma_angle_rad, 1, 0, 0.01, 0, "", "pointing noise of a ray (1 sigma, each axis)"},
+  {"sensor.range_min_m", "m", kReal, &P::range_min_m, 1, 0, 1000, 0.5, "", "nearest range that the sensor measures"},
+  {"sensor.range_max_m", "m", kReal, &P::range_max_m, 1, 0.01, 10000, 20, "", "farthest range that the sensor measures"},
+  {"sensor.fov_half_x_deg", "deg", kReal, &P::fov_half_x_rad, kDeg, 0.1, 60, 15, "", "half field of view, right and left"},
+  {"sensor.fov_half_y_deg", "deg", kReal, &P::fov_half_y_rad, kDeg, 0.1, 60, 15, "", "half field of view, up and down"},
+  {"sensor.dropout_probability", "1", kReal, &P::dropout_probability, 1, 0, 0.9, 0, "", "share of rays on the target that do not return"},
+  {"scan.pattern", "1", kChoice, &P::pattern, 1, 0, 2, 0, "rosette|lissajous|raster", "scan pattern"},
+  {"scan.points", "1", kInteger, &P::points, 1, 64, 4096, 1024, "", "rays of one scan"},
+  {"scan.duration_s", "s", kReal, &P::duration_s, 1, 0.001, 10, 0.18, "", "first to last sample of a scan"},
+  {"scan.cycles_a", "1", kInteger, &P::cycles_a, 1, 1, 500, 19, "", "rosette, Lissajous: first cycle count; raster: lines"},
+  {"scan.cycles_b", "1", kInteger, &P::cycles_b, 1, 1, 500, 12, "", "rosette, Lissajous: second cycle count, coprime to the first"},
+  {"scan.margin", "1", kReal, &P::margin, 1, 0.5, 3, 1, "", "scan extents over the target's predicted extents"},
+  {"scan.phase_step_turns", "1", kReal, &P::phase_step_turns, 1, 0, 1, 0.3819660112501051, "", "turn of the pattern from scan to scan"},
+  {"estimation.incidence_max_deg", "deg", kReal, &P::incidence_max_rad, kDeg, 45, 89, 86, "", "rays that graze the surface more than this do not count"},
+  {"estimation.kernel_width", "1", kReal, &P::kernel_width, 1, 2, 50, 10, "", "Tukey kernel's width in sigmas (tight is dishonest, see docs)"},
+  {"estimation.gate_first_m", "m", kReal, &P::gate_first_m, 1, 0, 10, 0.010, "", "added to the kernel's width in the first iteration"},
+  {"estimation.iterations_max", "1", kInteger, &P::iterations_max, 1, 2, 50, 12, "", "bound of the ray iterations"},
+  {"estimation.stop_translation_m", "m", kReal, &P::stop_translation_m, 1, 1e-7, 0.1, 1e-4, "", "converged when a step is smaller than this"},
+  {"estimation.stop_rotation_deg", "deg", kReal, &P::stop_rotation_rad, kDeg, 1e-6, 1, 0.01, "", "and smaller than this"},
+  {"estimation.silhouettes", "1", kBoolean, &P::silhouettes, 1, 0, 1, 1, "", "use rays that missed and occlusion edges as measurements"},
+  {"estimation.silhouette_sigma_m", "m", kReal, &P::silhouette_sigma_m, 1, 1e-6, 0.1, 1e-4, "", "uncertainty of a contour's place across the ray"},
+  {"estimation.silhouette_band_m", "m", kReal, &P::silhouette_band_m, 1, 1e-5, 1, 3e-3, "", "rays this near a contour are labels"},
+  {"estimation.edge_gap_min_m", "m", kReal, &P::edge_gap_min_m, 1, 1e-5, 10, 0.010, "", "an inner contour needs a step in range of at least this"},
+  {"estimation.edge_depth_m", "m", kReal, &P::edge_depth_m, 1, 1e-5, 10, 0.012, "", "the near side of a contour is found within this of the edge"},
+  {"estimation.probe_step_m", "m", kReal, &P::probe_step_m, 1, 1e-6, 0.1, 1.5e-4, "", "contours are confirmed this far on either side of the edge"},
+  {"estimation.label_error", "1", kReal, &P::label_error, 1, 1e-6, 0.4, 1e-3, "", "probability that a hit or miss label is wrong, without dropouts"},
+  {"estimation.deskew", "1", kBoolean, &P::deskew, 1, 0, 1, 1, "", "move each point to the scan's reference time by the predicted rates"},
+  {"estimation.noise_estimated", "1", kBoolean, &P::noise_estimated, 1, 0, 1, 1, "", "scale the covariance by the residuals instead of trusting sensor.sigma"},
+  {"estimation.surface_sigma_m", "m", kReal, &P::surface_sigma_m, 1, 0, 1, 1e-5, "", "how well the model's surface is known"},
+  {"estimation.wide_start", "1", kBoolean, &P::wide_start, 1, 0, 1, 1, "", "the first scan starts from centroid, far field and slides"},
+  {"filter.period_s", "s", kReal, &P::period_s, 1, 0.01, 100, 0.2, "", "frame period"},
+  {"filter.acceleration_mps2", "m/s2", kReal, &P::acceleration_mps2, 1, 1e-9, 100, 0.01, "", "unmodelled acceleration of the target (1 sigma)"},
+  {"filter.angular_acceleration_degps2", "deg/s2", kReal, &P::angular_acceleration_radps2, kDeg, 1e-9, 1000, 0.5, "", "unmodelled angular acceleration (1 sigma)"},
+  {"filter.initial_rate_mps", "m/s", kReal, &P::initial_rate_mps, 1, 1e-9, 100, 0.05, "", "uncertainty of the velocity at the start (1 sigma)"},
+  {"filter.initial_angular_rate_degps", "deg/s", kReal, &P::initial_angular_rate_radps, kDeg, 1e-9, 100, 10, "", "uncertainty of the angular rate at the start (1 sigma)"},
+  {"tracking.inliers_min", "1", kInteger, &P::inliers_min, 1, 12, 4096, 60, "", "fewer inliers: the pose is not valid"},
+  {"tracking.inlier_share_min", "1", kReal, &P::inlier_share_min, 1, 0, 1, 0.5, "", "least share of the returns that the pose explains"},
+  {"tracking.agreement_min", "1", kReal, &P::agreement_min, 1, 0, 1, 0.6, "", "least share of rays whose hit or miss is as predicted"},
+  {"tracking.normalized_residual_max", "1", kReal, &P::normalized_residual_max, 1, 1, 1000, 5, "", "largest root mean square of residuals over their sigma"},
+  {"tracking.sigma_position_max_m", "m", kReal, &P::sigma_position_max_m, 1, 1e-6, 100, 0.05, "", "a direction less certain than this is weak"},
+  {"tracking.sigma_attitude_max_deg", "deg", kReal, &P::sigma_attitude_max_rad, kDeg, 1e-6, 180, 2, "", "an axis less certain than this is weak"},
+  {"tracking.coast_frames", "1", kInteger, &P::coast_frames, 1, 0, 1000, 10, "", "frames without a valid pose before the track is lost"},
+  {"tracking.initial.present", "1", kBoolean, &P::initial_present, 1, 0, 1, 0, "", "tracking starts from the pose below"},
+  {"tracking.initial.qx", "1", kReal, &P::initial_qx, 1, -1, 1, 0, "", "quaternion of T_sensor_target"},
+  {"tracking.initial.qy", "1", kReal, &P::initial_qy, 1, -1, 1, 0, "", "quaternion of T_sensor_target"},
+  {"tracking.initial.qz", "1", kReal, &P::initial_qz, 1, -1, 1, 0, "", "quaternion of T_sensor_target"},
+  {"tracking.initial.qw", "1", kReal, &P::initial_qw, 1, -1, 1, 1, "", "quaternion of T_sensor_target, scalar part"},
+  {"tracking.initial.x_m", "m", kReal, &P::initial_x_m, 1, -1e4, 1e4, 0, "", "target's origin in the sensor frame, right"},
+  {"tracking.initial.y_m", "m", kReal, &P::initial_y_m, 1, -1e4, 1e4, 0, "", "target's origin in the sensor frame, down"},
+  {"tracking.initial.z_m", "m", kReal, &P::initial_z_m, 1, -1e4, 1e4, 1, "", "target's origin in the sensor frame, along the boresight"},
+  {"tracking.initial.wx_degps", "deg/s", kReal, &P::initial_wx_radps, kDeg, -360, 360, 0, "", "angular rate about the sensor's x"},
+  {"tracking.initial.wy_degps", "deg/s", kReal, &P::initial_wy_radps, kDeg, -360, 360, 0, "", "angular rate about the sensor's y"},
+  {"tracking.initial.wz_degps", "deg/s", kReal, &P::initial_wz_radps, kDeg, -360, 360, 0, "", "angular rate about the sensor's z"},
+  {"tracking.initial.vx_mps", "m/s", kReal, &P::initial_vx_mps, 1, -100, 100, 0, "", "velocity along the sensor's x"},
+  {"tracking.initial.vy_mps", "m/s", kReal, &P::initial_vy_mps, 1, -100, 100, 0, "", "velocity along the sensor's y"},
+  {"tracking.initial.vz_mps", "m/s", kReal, &P::initial_vz_mps, 1, -100, 100, 0, "", "velocity along the sensor's z"},
+};
+// clang-format on
+
+bool in_range(const ParameterRow& row, double si) {
+  const double slack = 1e-12 * (row.maximum - row.minimum);
+  const double value = si / row.to_si;
+  return value >= row.minimum - slack && value <= row.maximum + slack;
+}
+
+bool is_whole(double value) { return static_cast<double>(static_cast<std::int64_t>(value)) == value; }
+
+}  // namespace
+
+Span<const ParameterRow> parameter_rows() { return Span<const ParameterRow>(kRows); }
+
+MissionParameters preset_parameters() {
+  MissionParameters parameters{};
+  for (const ParameterRow& row : kRows) parameters.*row.member = row.preset * row.to_si;
+  return parameters;
+}
+
+Status validate(const MissionParameters& parameters, std::size_t& bad_row) {
+  for (bad_row = 0; bad_row < parameter_rows().size(); ++bad_row) {
+    const ParameterRow& row = kRows[bad_row];
+    const double value = parameters.*row.member;
+    if (!is_finite(value)) return Status::kNotFinite;
+    if (!in_range(row, value)) return Status::kBadValue;
+    if (row.kind != ParameterKind::kReal && !is_whole(value)) return Status::kBadValue;
+  }
+  return Status::kOk;
+}
+
+}  // namespace lasso

@@ -1,0 +1,51 @@
+// The mission's numbers as the flight component uses them: SI, radians. One row per parameter says everything about it; the mission
+// compiler, the image loader, the reports and (later) the parameter service read the same rows.
+#pragma once
+
+#include <cstdint>
+
+#include "fsw/core/span.hpp"
+#include "fsw/core/status.hpp"
+
+namespace lasso {
+
+struct MissionParameters {
+  // [sensor] the noise that the estimator assumes: sigma_r^2 = sigma0^2 + (k z^2)^2 along the ray, z*sigma_angle across it
+  double sigma0_m, sigma_k_per_m, sigma_angle_rad, range_min_m, range_max_m, fov_half_x_rad, fov_half_y_rad, dropout_probability;
+  // [scan]
+  double pattern, points, duration_s, cycles_a, cycles_b, margin, phase_step_turns;
+  // [estimation]
+  double incidence_max_rad, kernel_width, gate_first_m, iterations_max, stop_translation_m, stop_rotation_rad, silhouettes,
+      silhouette_sigma_m, silhouette_band_m, edge_gap_min_m, edge_depth_m, probe_step_m, label_error, deskew, noise_estimated,
+      surface_sigma_m, wide_start;
+  // [filter]
+  double period_s, acceleration_mps2, angular_acceleration_radps2, initial_rate_mps, initial_angular_rate_radps;
+  // [tracking] validity and loss
+  double inliers_min, inlier_share_min, agreement_min, normalized_residual_max, sigma_position_max_m, sigma_attitude_max_rad,
+      coast_frames;
+  // [tracking.initial] T_sensor_target and rates at the start
+  double initial_present, initial_qx, initial_qy, initial_qz, initial_qw, initial_x_m, initial_y_m, initial_z_m, initial_wx_radps,
+      initial_wy_radps, initial_wz_radps, initial_vx_mps, initial_vy_mps, initial_vz_mps;
+};
+
+enum class ParameterKind : std::uint8_t { kReal, kInteger, kBoolean, kChoice };
+
+struct ParameterRow {
+  const char* key;        // TOML path, e.g. "sensor.fov_half_x_deg"
+  const char* unit;       // unit of the TOML value: "m", "deg", "1", ...
+  ParameterKind kind;
+  double MissionParameters::*member;
+  double to_si;           // member = value * to_si
+  double minimum, maximum, preset;  // in the TOML unit, inclusive
+  const char* choices;    // kChoice: names joined by '|', value = position; otherwise ""
+  const char* meaning;    // one line
+};
+
+Span<const ParameterRow> parameter_rows();
+
+MissionParameters preset_parameters();
+
+// kNotFinite or kBadValue, with the row's index in `bad_row`, unless every value is within its row's range (and integers are whole).
+Status validate(const MissionParameters& parameters, std::size_t& bad_row);
+
+}  // namespace lasso
