@@ -1,0 +1,60 @@
+// A mission in memory: what the loader makes of a flight image. Views point into the caller's image buffer.
+#pragma once
+
+#include <cstdint>
+
+#include "fsw/core/span.hpp"
+#include "fsw/core/status.hpp"
+#include "fsw/geometry/number.hpp"
+#include "fsw/geometry/types.hpp"
+#include "fsw/mission/field.hpp"
+#include "fsw/mission/parameters.hpp"
+
+namespace lasso {
+
+// An edge of the model that can be a contour, with the planes of its two faces (n.p = d); see image_format.hpp.
+template <class N>
+struct ModelEdge {
+  typename N::Length a[3];
+  typename N::Length b[3];
+  typename N::Unit n0[3];
+  typename N::Length d0;
+  typename N::Unit n1[3];
+  typename N::Length d1;
+  std::uint32_t flags;
+};
+
+template <class N>
+struct HullPointOf {
+  typename N::Length p[3];
+};
+
+template <class N>
+struct MissionOf {
+  std::uint32_t id = 0;
+  std::uint32_t version = 0;
+  std::uint32_t image_crc = 0;  // CRC-32C of the image as received
+  MissionParameters parameters{};
+  Field<N> field;
+  Span<const ModelEdge<N>> edges;
+  Span<const HullPointOf<N>> hull;
+  Vec3 center_m = Vec3::Zero();  // target frame: the geometric centre, where scans are aimed
+  double radius_m = 0;           // largest distance of the model from the target's origin
+};
+
+using FlightNumber = FloatNumber;  // the number type of this build
+using Mission = MissionOf<FlightNumber>;
+
+struct LoadFailure {
+  Status status = Status::kOk;
+  std::uint32_t table = 0;   // TableId, 0: header or directory
+  std::uint32_t record = 0;  // first offending record
+  const char* what = "";     // a few words
+};
+
+// Validates the whole image (format, CRCs, every index, range, tree and capacity) and only then converts its tables in place to this
+// build's number type, so that the image's memory becomes the mission's. `image` must be aligned to 8 bytes. On failure neither `image`
+// nor `mission` is changed. Loop bound: the image's words.
+LoadFailure load_image(Bytes image, Mission& mission);
+
+}  // namespace lasso

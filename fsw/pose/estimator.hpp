@@ -1,0 +1,28 @@
+// From a range image to a pose and its covariance: match, solve, silhouettes, quality. The workspace is a member; no state is kept from
+// scan to scan. Work is bounded by kMaxRays, estimation.iterations_max and the field's list and walk bounds.
+#pragma once
+
+#include "fsw/mission/mission.hpp"
+#include "fsw/pose/result.hpp"
+#include "fsw/pose/workspace.hpp"
+#include "fsw/sense/range_image.hpp"
+
+namespace lasso {
+
+// Where the registration starts: the prediction for the scan's reference time.
+struct StartPoint {
+  Pose T_sensor_target;
+  Twist rates;        // for moving the points to the reference time (estimation.deskew)
+  bool wide = false;  // a rough start (20 deg, a quarter of the model's size): centroid, far field and slides come first
+};
+
+class Estimator {
+ public:
+  // Never fails silently: result.reason says whether and why the pose can(not) be trusted. With nothing to work on the pose is the start.
+  Registration estimate(const Mission& mission, const RangeImage& scan, const StartPoint& start);
+
+ private:
+  Workspace workspace_;
+};
+
+}  // namespace lasso
