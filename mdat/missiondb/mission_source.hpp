@@ -1,0 +1,83 @@
+// A mission as a person writes it: TOML, checked completely, with the origin of every value. Ground only; the flight component sees the
+// compiled image. All values here are SI and radians; the files hold the units that their keys name.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "fsw/mission/parameters.hpp"
+#include "mdat/missiondb/mission_error.hpp"
+#include "mdat/modelc/mesh.hpp"
+
+namespace lasso::mdat {
+
+// Where a value came from. Line 0: nobody wrote it, `preset` holds.
+struct Origin {
+  int line = 0, column = 0;
+  bool preset() const { return line == 0; }
+};
+
+struct TargetSource {
+  std::filesystem::path file;  // resolved; the model's TOML, or the mesh
+  bool parametric = false;     // file is a model (TOML), not a mesh
+  std::string file_key;        // "target.model" or "target.mesh"
+  std::string sha256;          // of the file's bytes as found, lower-case hex
+  double scale = 1;            // applied to the file's lengths to get metres
+  double crease_angle_rad = 0;  // facets that meet at less are one smooth surface
+  double cell_size_m = 0;       // of the look-up field
+  std::map<std::string, double> parameters;  // of the parametric model, in the units that the model states; only those that were written
+};
+
+enum class ScenarioKind : std::uint8_t { kPaper = 0, kSpin = 1 };
+
+// What the simulation does. Attitude of frame 0: target's x axis vertical in the image (+x up, -y of the sensor), its z axis away from the
+// sensor, then tilted by `tilt_rad` about the sensor's x (the -x end towards the sensor), then by `boresight_rad` about the boresight.
+// kPaper: the target stands still in each scan and is turned by `step_rad` about its own x axis from frame to frame.
+// kSpin: it turns at `spin_radps` and drifts at `drift_mps`, during the scans as well.
+struct Scenario {
+  double kind = 0;                  // a ScenarioKind
+  std::vector<double> ranges_m;     // along the boresight, one run of `frames` each
+  double frames = 0, step_rad = 0, tilt_rad = 0, boresight_rad = 0;
+  std::vector<double> offset_m;     // x, y of the target's origin in the sensor frame
+  std::vector<double> spin_radps;   // x, y, z in the target's axes
+  std::vector<double> drift_mps;    // x, y, z in the sensor's axes
+  // The simulated sensor, as against the noise that the estimator assumes ([sensor]), from which unwritten values are taken.
+  double noise = 1;                 // 0: perfect ranges and angles
+  double sigma0_m = 0, sigma_k_per_m = 0, angle_noise_rad = 0, dropout_probability = 0;
+  double dropout_incidence_rad = 0;  // rays that graze the surface more than this do not return
+  double outlier_probability = 0, edge_mixing_m = 0;
+  double seed = 0;
+
+  ScenarioKind scenario_kind() const { return static_cast<ScenarioKind>(static_cast<int>(kind)); }
+  std::map<std::string, double> overrides;  // key of a parameter row -> value in the row's TOML unit
+};
+
+struct MissionSource {
+  std::filesystem::path file;
+  std::uint32_t id = 0, version = 0;
+  std::string name;
+  TargetSource target;
+  MissionParameters parameters{};
+  std::map<std::string, Scenario> scenarios;
+  std::map<std::string, Origin> origins;  // by dotted key, all rows of parameter_rows() and of the ground sections
+  std::vector<std::string> warnings;
+};
+
+// Reads and checks everything except the geometry of the target (which load_target does). Throws MissionError with all problems.
+MissionSource load_mission(const std::filesystem::path& file);
+
+// The target's surface in metres, in the target frame. Throws MissionError (missing, corrupt, empty, not finite, of absurd size).
+Mesh load_target(const MissionSource& source);
+
+// The flight parameters that hold in a scenario: the mission's, with the scenario's overrides. An empty name: the mission's own.
+// Throws MissionError where there is no such scenario.
+MissionParameters parameters_for(const MissionSource& source, const std::string& scenario);
+
+// The scenario's definition. Throws MissionError naming those that exist.
+const Scenario& scenario_of(const MissionSource& source, const std::string& name);
+
+}  // namespace lasso::mdat
