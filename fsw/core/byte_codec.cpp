@@ -1,0 +1,90 @@
+#include "fsw/core/byte_codec.hpp"
+
+#include <cstring>
+#include <limits>
+
+namespace lasso {
+namespace {
+
+static_assert(std::numeric_limits<float>::is_iec559 && sizeof(float) == sizeof(std::uint32_t), "float is IEEE 754 binary32");
+static_assert(std::numeric_limits<double>::is_iec559 && sizeof(double) == sizeof(std::uint64_t), "double is IEEE 754 binary64");
+
+template <class To, class From>
+To same_bits(From from) {
+  static_assert(sizeof(To) == sizeof(From), "bits are neither added nor lost");
+  To to;
+  std::memcpy(&to, &from, sizeof(to));
+  return to;
+}
+
+// Shifts, not byte swaps: right on hosts of either byte order.
+template <class U>
+void store(std::uint8_t* to, U value) {
+  for (std::size_t i = 0; i < sizeof(U); ++i) to[i] = static_cast<std::uint8_t>((value >> (8 * (sizeof(U) - 1 - i))) & 0xFFU);
+}
+
+template <class U>
+U load(const std::uint8_t* from) {
+  std::uint64_t value = 0;
+  for (std::size_t i = 0; i < sizeof(U); ++i) value = (value << 8) | from[i];
+  return static_cast<U>(value);
+}
+
+}  // namespace
+
+bool ByteWriter::reserve(std::size_t n) {
+  ok_ = ok_ && n <= buffer_.size() - size_;
+  if (ok_) size_ += n;
+  return ok_;
+}
+
+void ByteWriter::u8(std::uint8_t value) {
+  if (reserve(1)) buffer_.data()[size_ - 1] = value;
+}
+
+void ByteWriter::u16(std::uint16_t value) {
+  if (reserve(sizeof(value))) store(buffer_.data() + size_ - sizeof(value), value);
+}
+
+void ByteWriter::u32(std::uint32_t value) {
+  if (reserve(sizeof(value))) store(buffer_.data() + size_ - sizeof(value), value);
+}
+
+void ByteWriter::u64(std::uint64_t value) {
+  if (reserve(sizeof(value))) store(buffer_.data() + size_ - sizeof(value), value);
+}
+
+void ByteWriter::f32(float value) { u32(same_bits<std::uint32_t>(value)); }
+void ByteWriter::f64(double value) { u64(same_bits<std::uint64_t>(value)); }
+
+void ByteWriter::bytes(ConstBytes value) {
+  // An empty span may hold a null pointer, which memmove must not see.
+  if (!value.empty() && reserve(value.size())) std::memmove(buffer_.data() + size_ - value.size(), value.data(), value.size());
+}
+
+bool ByteReader::take(std::size_t n) {
+  ok_ = ok_ && n <= remaining();
+  if (ok_) position_ += n;
+  return ok_;
+}
+
+std::uint8_t ByteReader::u8() { return take(1) ? buffer_.data()[position_ - 1] : std::uint8_t{0}; }
+
+std::uint16_t ByteReader::u16() {
+  return take(sizeof(std::uint16_t)) ? load<std::uint16_t>(buffer_.data() + position_ - sizeof(std::uint16_t)) : std::uint16_t{0};
+}
+
+std::uint32_t ByteReader::u32() {
+  return take(sizeof(std::uint32_t)) ? load<std::uint32_t>(buffer_.data() + position_ - sizeof(std::uint32_t)) : std::uint32_t{0};
+}
+
+std::uint64_t ByteReader::u64() {
+  return take(sizeof(std::uint64_t)) ? load<std::uint64_t>(buffer_.data() + position_ - sizeof(std::uint64_t)) : std::uint64_t{0};
+}
+
+float ByteReader::f32() { return same_bits<float>(u32()); }
+double ByteReader::f64() { return same_bits<double>(u64()); }
+
+ConstBytes ByteReader::bytes(std::size_t n) { return take(n) ? buffer_.subspan(position_ - n, n) : ConstBytes(); }
+
+}  // namespace lasso

@@ -1,0 +1,33 @@
+// Seeded random numbers with the same values on every platform (SplitMix64; the distributions of <random> are not portable).
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+namespace lasso::test {
+
+class Generator {
+ public:
+  explicit Generator(std::uint64_t seed) : state_(seed) {}
+
+  std::uint64_t bits() {
+    state_ += 0x9E3779B97F4A7C15U;
+    std::uint64_t z = state_;
+    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9U;
+    z = (z ^ (z >> 27)) * 0x94D049BB133111EBU;
+    return z ^ (z >> 31);
+  }
+  std::uint64_t below(std::uint64_t n) { return bits() % n; }  // n is small: the bias does not matter
+  double uniform(double low, double high) { return low + (high - low) * (static_cast<double>(bits() >> 11) * 0x1p-53); }
+  // Standard normal, by Box and Muller.
+  double normal() {
+    const double u = 1.0 - uniform(0, 1);
+    const double turn = uniform(0, 6.283185307179586);
+    return std::sqrt(-2.0 * std::log(u)) * std::cos(turn);
+  }
+
+ private:
+  std::uint64_t state_;
+};
+
+}  // namespace lasso::test
