@@ -1,17 +1,35 @@
 # Compiler settings. The flight component gives the same bits everywhere: no contraction, no vectorised Eigen, no errno in square roots.
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+get_target_property(LASSO_EIGEN_INCLUDE Eigen3::Eigen INTERFACE_INCLUDE_DIRECTORIES)
+include(GNUInstallDirs)
+set(LASSO_HEADERS ${CMAKE_INSTALL_INCLUDEDIR}/3dlasso)
+option(LASSO_WERROR "Treat warnings as errors" ON)
+
+# Host and target are compiled at the level at which the component is verified, unless the caller gives flags.
+if(CMAKE_CXX_FLAGS_RELEASE STREQUAL "-O3 -DNDEBUG")
+  set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG")
+endif()
 
 add_library(lasso_warnings INTERFACE)
 target_compile_options(lasso_warnings INTERFACE -Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wdouble-promotion -Wold-style-cast
-                                                -Wuseless-cast -Wshadow -Wnon-virtual-dtor -Werror)
+                                                -Wuseless-cast -Wshadow -Wnon-virtual-dtor)
+if(LASSO_WERROR)
+  target_compile_options(lasso_warnings INTERFACE -Werror)
+endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
   target_compile_options(lasso_warnings INTERFACE -Wno-unknown-warning-option)
 endif()
 
+# For everyone who compiles the flight headers: the linker keeps one copy of an inline function, and may take it from any of them.
+add_library(lasso_same_bits INTERFACE)
+target_compile_options(lasso_same_bits INTERFACE $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-ffp-contract=off>)
+target_compile_definitions(lasso_same_bits INTERFACE EIGEN_DONT_VECTORIZE)
+target_link_libraries(lasso_same_bits INTERFACE Eigen3::Eigen)
+
+# For the flight sources themselves.
 add_library(lasso_flight INTERFACE)
 target_compile_features(lasso_flight INTERFACE cxx_std_17)
-target_compile_options(lasso_flight INTERFACE -ffp-contract=off -fno-math-errno -fno-exceptions -fno-rtti -fno-threadsafe-statics)
-target_compile_definitions(lasso_flight INTERFACE EIGEN_DONT_VECTORIZE EIGEN_NO_DEBUG)
+target_compile_options(lasso_flight INTERFACE -fno-math-errno -fno-exceptions -fno-rtti -fno-threadsafe-statics)
+target_compile_definitions(lasso_flight INTERFACE EIGEN_NO_DEBUG)
 target_include_directories(lasso_flight INTERFACE ${PROJECT_SOURCE_DIR})
-get_target_property(LASSO_EIGEN_INCLUDE Eigen3::Eigen INTERFACE_INCLUDE_DIRECTORIES)
-target_include_directories(lasso_flight SYSTEM INTERFACE ${LASSO_EIGEN_INCLUDE})
+target_link_libraries(lasso_flight INTERFACE lasso_same_bits)

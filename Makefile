@@ -1,0 +1,75 @@
+# The commands of this repository. `make help` lists them.
+BUILD := out/build
+PPC := out/ppc
+BENCH := out/build-bench
+MISSION ?= cfg/missions/hubble_tenth.toml
+OUT ?= out/run
+PREFIX ?= /usr/local
+JOBS ?= $(shell nproc)
+SOURCES = git ls-files -z '*.cpp' '*.hpp'
+
+export CCACHE_BASEDIR := $(CURDIR)
+# A terminal gets ninja's one changing line, a log only what went wrong.
+NINJA_FLAGS := $(if $(MAKE_TERMOUT),,-- --quiet)
+export NINJA_STATUS := [%f/%t %es] 
+
+# $(call packages,LISTS), $(call configure,FOLDER,CMAKE OPTIONS), $(call compile,FOLDER), $(call ctest,FOLDER,REPORTS)
+packages = @cfg/packages/ensure $(1)
+configure = @[ -e $(1)/build.ninja ] || { echo "configure $(1)"; mkdir -p $(1); \
+  cmake -S . -B $(1) -G Ninja -DCMAKE_BUILD_TYPE=Release $$(command -v ccache >/dev/null && echo -DCMAKE_CXX_COMPILER_LAUNCHER=ccache) $(2) \
+    >$(1)/configure.log 2>&1 || { cat $(1)/configure.log; rm -f $(1)/build.ninja; false; }; }
+compile = @echo "build $(1)"; cmake --build $(1) --parallel $(JOBS) $(NINJA_FLAGS)
+ctest = @rm -rf $(2); mkdir -p $(2); GTEST_OUTPUT=xml:$(abspath $(2))/ \
+  ctest --test-dir $(1) --parallel $(JOBS) --output-on-failure --no-tests=error --output-junit $(abspath $(2))/ctest.xml
+
+.PHONY: help run test bench golden ppc-test format lint install clean build
+.DEFAULT_GOAL := help
+
+help: ## this list
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-10s %s\n", $$1, $$2 }' $(firstword $(MAKEFILE_LIST))
+
+run: build ## track the tenth-scale Hubble and report into out/run; MISSION=, SCENARIO=, SEED=, OUT=
+	@$(BUILD)/mdat/mdat run $(MISSION) $(if $(SCENARIO),--scenario $(SCENARIO)) $(if $(SEED),--seed $(SEED)) --out $(OUT)
+
+test: build ## build and pass all tests of the host; reports in out/test
+	$(call ctest,$(BUILD),out/test)
+
+bench: ## time the estimate, its stages and its peers; table, and out/bench/results.json
+	$(call packages,build bench)
+	$(call configure,$(BENCH),-DLASSO_BENCH=ON -DLASSO_TESTS=OFF)
+	$(call compile,$(BENCH))
+	@mkdir -p out/bench
+	@ft/bench/run $(BENCH) out/bench
+
+golden: build ## the same telemetry, bit for bit, from the host and from the emulated PowerPC 603e
+	$(call packages,target)
+	$(call configure,$(PPC),-DCMAKE_TOOLCHAIN_FILE=cfg/toolchains/ppc603e.cmake -DLASSO_GROUND=OFF)
+	$(call compile,$(PPC))
+	@ft/golden/run $(BUILD) $(PPC)
+
+ppc-test: ## unit tests of the flight component on the emulated PowerPC 603e; reports in out/ppc-test
+	$(call packages,build target)
+	$(call configure,$(PPC),-DCMAKE_TOOLCHAIN_FILE=cfg/toolchains/ppc603e.cmake -DLASSO_GROUND=OFF)
+	$(call compile,$(PPC))
+	$(call ctest,$(PPC),out/ppc-test)
+
+format: ## format all tracked sources
+	$(call packages,lint)
+	@$(SOURCES) | xargs -0 clang-format -i
+
+lint: ## check the formatting of all tracked sources
+	$(call packages,lint)
+	@$(SOURCES) | xargs -0 clang-format --dry-run -Werror
+	@echo "lint: $$($(SOURCES) | tr -cd '\0' | wc -c) files, no finding"
+
+install: build ## install mdat, the flight component and its CMake package under PREFIX= (/usr/local)
+	@cmake --install $(BUILD) --prefix $(abspath $(PREFIX)) >out/install.log || { cat out/install.log; false; }
+	@echo "installed under $(PREFIX): $$(wc -l <$(BUILD)/install_manifest.txt) files"
+
+clean: ## remove everything that was built (out/)
+	@rm -rf out
+
+build:
+	$(call packages,build)
+	$(call configure,$(BUILD),)
+	$(call compile,$(BUILD))

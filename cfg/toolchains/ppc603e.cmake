@@ -1,0 +1,19 @@
+# Linux programs for the PowerPC 603e, linked statically, run by user-mode emulation (Debian: g++-powerpc-linux-gnu, qemu-user).
+set(CMAKE_SYSTEM_NAME Linux)
+set(CMAKE_SYSTEM_PROCESSOR ppc)
+set(CMAKE_CXX_COMPILER powerpc-linux-gnu-g++)
+set(CMAKE_CXX_FLAGS_INIT "-mcpu=603e")
+set(CMAKE_EXE_LINKER_FLAGS_INIT "-static")
+set(CMAKE_CXX_STANDARD_LIBRARIES_INIT "-latomic")  # 64-bit atomics are calls on a 32-bit processor
+set(CMAKE_CROSSCOMPILING_EMULATOR qemu-ppc -cpu 603e)
+
+# Libraries of the target only; CMake packages of the host too, for those that are headers alone (Eigen).
+set(CMAKE_FIND_ROOT_PATH /usr/powerpc-linux-gnu)
+set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
+set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
+set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)
+set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE BOTH)
+
+set(CMAKE_CXX_LINK_EXECUTABLE
+    "<CMAKE_CXX_COMPILER> <FLAGS> <CMAKE_CXX_LINK_FLAGS> <LINK_FLAGS> <OBJECTS> -o <TARGET> <LINK_LIBRARIES>"
+    "${CMAKE_CURRENT_LIST_DIR}/replace_mffscrn <TARGET>")
