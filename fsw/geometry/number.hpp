@@ -18,6 +18,19 @@ struct FloatNumber {
   // Image words to numbers: value * 2^-fraction_bits.
   static Length length(std::int32_t word, int fraction_bits);
   static Unit unit(std::int32_t word);  // Q1.30
+  static Ratio ratio(std::int32_t word, int fraction_bits);
+
+  // Numbers of the once-per-scan arithmetic (double) to the path's types and back.
+  static Length to_length(double m) { return static_cast<float>(m); }
+  static Unit to_unit(double x) { return static_cast<float>(x); }
+  static Ratio to_ratio(double x) { return static_cast<float>(x); }
+  static double to_double(float x) { return static_cast<double>(x); }
 };
+
+// Scalar product in the path's types.
+template <class N, class A, class B>
+inline auto dot3(const A* a, const B* b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
 
 }  // namespace lasso

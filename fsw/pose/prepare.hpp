@@ -1,0 +1,12 @@
+// From a range image to the rays and points that the registration works on: validated, and moved to the scan's reference time.
+#pragma once
+
+#include "fsw/pose/estimator.hpp"
+
+namespace lasso {
+
+// Fills workspace.rays (every hit and miss, in the scan's order) and workspace.points (the hits). Invalid samples are left out. Where
+// estimation.deskew is on, each ray is moved by the target's predicted motion between its own time and the reference time.
+void prepare_rays(const Mission& mission, const RangeImage& scan, const StartPoint& start, Workspace& workspace);
+
+}  // namespace lasso

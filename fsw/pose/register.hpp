@@ -1,0 +1,27 @@
+// Registration of a scan's hits: maximum likelihood for a scanner whose ray directions are known and whose range is noisy.
+#pragma once
+
+#include "fsw/pose/estimator.hpp"
+
+namespace lasso {
+
+struct HitSolution {
+  Pose T_target_sensor;
+  Mat6 H = Mat6::Zero();  // information of x = (rotation, translation) in target axes, in units of the assumed noise
+  StopReason stop = StopReason::kNotRun;
+  std::uint16_t iterations = 0;
+  std::uint32_t inliers = 0;
+  std::uint32_t usable = 0;    // returns that could have been inliers
+  double chi_squared = 0;      // Tukey-weighted, in units of the assumed noise
+  double squared_residual_m2 = 0;
+};
+
+// Registers workspace.points from T_target_sensor. First closest planes and rays of a quarter of the points, then rays of all of them until
+// the step is below estimation.stop_*; at most estimation.iterations_max passes over all points.
+HitSolution register_hits(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace);
+
+// A rough start made good enough for register_hits: centroid, far field, slides along the target's axes. Converges from about 20 deg and a
+// quarter of the model's size. Bound: kFarPasses + 1 + 3 * kSlides short registrations of a quarter of the points.
+Pose approach_from_afar(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace);
+
+}  // namespace lasso
