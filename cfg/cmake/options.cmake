@@ -12,7 +12,10 @@ endif()
 
 add_library(lasso_warnings INTERFACE)
 target_compile_options(lasso_warnings INTERFACE -Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wdouble-promotion -Wold-style-cast
-                                                -Wuseless-cast -Wshadow -Wnon-virtual-dtor)
+                                                -Wshadow -Wnon-virtual-dtor)
+if(CMAKE_SIZEOF_VOID_P EQUAL 8)  # a cast to std::size_t that the host needs is useless on a 32-bit target
+  target_compile_options(lasso_warnings INTERFACE -Wuseless-cast)
+endif()
 if(LASSO_WERROR)
   target_compile_options(lasso_warnings INTERFACE -Werror)
 endif()
