@@ -1,0 +1,67 @@
+// Runs the flight component on Linux: the caller is the acquisition thread, a worker thread estimates. Time is either simulated
+// (lockstep: as fast as possible, the worker is waited for at each boundary, never an overrun) or real (absolute sleeps, overruns are
+// real). Estimates are timed here, outside the flight code.
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <mutex>
+#include <thread>
+
+#include "fsw/core/span.hpp"
+#include "fsw/core/time.hpp"
+#include "fsw/exec/component.hpp"
+
+namespace lasso::posix {
+
+enum class Pace : std::uint8_t { kLockstep, kRealTime };
+
+// What one call of run_frame() saw.
+struct FrameRecord {
+  std::uint32_t frame = 0;
+  TimeUs boundary_us = 0;            // time of its boundary
+  ConstBytes telemetry;              // whole packets taken at that boundary, valid until the next call
+  bool estimated = false;            // an estimate ran between the previous boundary and this one: the one that `telemetry` reports
+  std::int64_t estimate_cpu_ns = 0;  // processor time of that estimate's thread
+  std::int64_t estimate_wall_ns = 0;
+};
+
+class Runner {
+ public:
+  // `component` has its image and has begun. In real time boundary 0 is the moment of the first run_frame().
+  explicit Runner(Component& component, Pace pace = Pace::kLockstep);
+  ~Runner();  // waits for a running estimate
+  Runner(const Runner&) = delete;
+  Runner& operator=(const Runner&) = delete;
+
+  // Passes the boundary of the next frame and runs all its slots. Scan k is reported by the call for frame k + 2.
+  FrameRecord run_frame();
+
+ private:
+  struct Measurement {
+    bool ran = false;
+    std::int64_t cpu_ns = 0;
+    std::int64_t wall_ns = 0;
+  };
+  void run_slot();
+  void work();
+  void wait_for_worker();
+  TimeUs wait_until(TimeUs slot_us);
+
+  Component& component_;
+  Pace pace_;
+  std::int64_t clock_offset_ns_ = 0;  // monotonic clock at component time 0
+  bool clock_set_ = false;
+  std::uint32_t frame_ = 0;
+  std::uint8_t telemetry_[kTelemetryQueueBytes] = {};
+
+  std::mutex mutex_;  // guards what follows
+  std::condition_variable changed_;
+  bool requested_ = false;  // an estimate is wanted and not taken up yet
+  bool working_ = false;
+  bool ending_ = false;
+  Measurement measurement_;
+  std::thread worker_;  // last: uses all of the above
+};
+
+}  // namespace lasso::posix

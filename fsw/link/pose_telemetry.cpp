@@ -1,0 +1,99 @@
+#include "fsw/link/pose_telemetry.hpp"
+
+namespace lasso {
+namespace {
+
+using P = PoseTelemetry;
+constexpr char kYesNo[] = "0=no|1=yes";
+constexpr char kReasons[] =
+    "0=valid|1=no_scan|2=too_few_returns|3=too_few_inliers|4=low_inlier_share|5=low_agreement|6=high_residual|7=not_converged|"
+    "8=singular|9=no_track";
+constexpr char kStops[] = "0=converged|1=iteration_limit|2=too_few_points|3=singular|4=not_run";
+constexpr char kModes[] = "0=standby|1=starting|2=tracking|3=coasting|4=lost";
+constexpr char kPatterns[] = "0=rosette|1=lissajous|2=raster";
+
+// clang-format off
+constexpr TelemetryRow<P> kRows[] = {
+  make_row<&P::scan_id>(1, "scan_id", "1", "", "number of the scan: frames since the start of the component"),
+  make_row<&P::t_measurement_us>(2, "t_measurement_us", "us", "", "middle between first and last sample, at which the poses are stated"),
+  make_row<&P::t_publication_us>(3, "t_publication_us", "us", "", "when this packet was made"),
+  make_row<&P::age_us>(4, "age_us", "us", "", "publication minus measurement"),
+  make_row<&P::valid>(5, "valid", "1", kYesNo, "the registration can be trusted"),
+  make_row<&P::reason>(6, "reason", "1", kReasons, "why the registration can be trusted or not"),
+  make_row<&P::stop>(7, "stop", "1", kStops, "why the iterations ended"),
+  make_row<&P::mode>(8, "mode", "1", kModes, "tracking mode after this scan"),
+  make_row<&P::q_sensor_target>(9, "q_sensor_target", "1", "", "registration: Hamilton quaternion x, y, z, w, target to sensor"),
+  make_row<&P::p_sensor_target_m>(10, "p_sensor_target_m", "m", "", "registration: target's origin in the sensor frame"),
+  make_row<&P::covariance>(11, "covariance", "rad,m", "", "upper triangle by rows: rotation about target origin, translation; sensor axes"),
+  make_row<&P::filter_q_sensor_target>(12, "filter_q_sensor_target", "1", "", "filtered attitude, as q_sensor_target"),
+  make_row<&P::filter_p_sensor_target_m>(13, "filter_p_sensor_target_m", "m", "", "filtered position"),
+  make_row<&P::filter_omega_radps>(14, "filter_omega_radps", "rad/s", "", "filtered angular rate, sensor axes"),
+  make_row<&P::filter_v_mps>(15, "filter_v_mps", "m/s", "", "filtered velocity of the target's origin, sensor axes"),
+  make_row<&P::filter_sigma_pose>(16, "filter_sigma_pose", "rad,m", "", "filter's sigmas: rotation, translation"),
+  make_row<&P::filter_sigma_rates>(17, "filter_sigma_rates", "rad/s,m/s", "", "filter's sigmas: angular rate, velocity"),
+  make_row<&P::rays>(18, "rays", "1", "", "rays that say something: hits and misses"),
+  make_row<&P::returns>(19, "returns", "1", "", "rays that hit"),
+  make_row<&P::inliers>(20, "inliers", "1", "", "returns with weight in the last iteration"),
+  make_row<&P::labels>(21, "labels", "1", "", "silhouette measurements used"),
+  make_row<&P::iterations>(22, "iterations", "1", "", "iterations of the registration"),
+  make_row<&P::weak>(23, "weak", "1", "", "directions (of 6) that are less certain than the mission asks"),
+  make_row<&P::rms_m>(24, "rms_m", "m", "", "unweighted range residual of the inliers"),
+  make_row<&P::normalized_residual>(25, "normalized_residual", "1", "", "root of chi squared per degree of freedom"),
+  make_row<&P::inlier_share>(26, "inlier_share", "1", "", "share of the returns that the pose explains"),
+  make_row<&P::agreement>(27, "agreement", "1", "", "share of rays whose hit or miss is as predicted"),
+  make_row<&P::weakest_sigma_m>(28, "weakest_sigma_m", "m", "", "largest sigma of any direction, rotation times model radius"),
+  make_row<&P::weakest_direction>(29, "weakest_direction", "1", "", "that direction: rotation times radius, translation; sensor axes"),
+  make_row<&P::plan_center>(30, "plan_center", "1", "", "middle of the scan on the tangent plane z = 1"),
+  make_row<&P::plan_half_extents>(31, "plan_half_extents", "1", "", "half extents of the scan on the tangent plane"),
+  make_row<&P::plan_phase_turns>(32, "plan_phase_turns", "1", "", "phase of the pattern"),
+  make_row<&P::plan_points>(33, "plan_points", "1", "", "rays of the scan"),
+  make_row<&P::plan_duration_us>(34, "plan_duration_us", "us", "", "first to last sample of the scan"),
+  make_row<&P::plan_pattern>(35, "plan_pattern", "1", kPatterns, "pattern of the scan"),
+  make_row<&P::image_crc>(36, "image_crc", "1", "", "CRC-32C of the mission image"),
+  make_row<&P::software_version>(37, "software_version", "1", "", "major (8 bits), minor (8), patch (16)"),
+  make_row<&P::software_build>(38, "software_build", "1", "", "identifier given by the build, 0: development"),
+  make_row<&P::frames>(39, "frames", "1", "", "boundaries passed since the start of the component"),
+  make_row<&P::invalid_frames>(40, "invalid_frames", "1", "", "frames reported without a valid pose"),
+  make_row<&P::lost_scans>(41, "lost_scans", "1", "", "scans not started, incomplete or failed"),
+  make_row<&P::overruns>(42, "overruns", "1", "", "frames dropped because an estimate was late"),
+  make_row<&P::slot_slips>(43, "slot_slips", "1", "", "slots that began later than their own length"),
+  make_row<&P::dropped_packets>(44, "dropped_packets", "1", "", "packets that did not fit into the queue"),
+};
+// clang-format on
+
+constexpr std::size_t kStructureIdBytes = 2;
+
+bool is_pose_report(const PacketHeader& header) {
+  return header.service == kServiceHousekeeping && header.subservice == kSubserviceHousekeepingReport;
+}
+
+}  // namespace
+
+Span<const TelemetryRow<PoseTelemetry>> pose_rows() { return Span<const TelemetryRow<P>>(kRows); }
+
+std::size_t encode_pose(const PoseTelemetry& pose, PacketHeader header, Bytes out) {
+  header.service = kServiceHousekeeping;
+  header.subservice = kSubserviceHousekeepingReport;
+  ByteWriter writer(out);
+  begin_packet(header, writer);
+  writer.u16(kPoseStructureId);
+  for (const TelemetryRow<P>& row : kRows) row.write(pose, writer);
+  return finish_packet(writer, out);
+}
+
+Status decode_pose(ConstBytes packet, PacketHeader& header, PoseTelemetry& pose) {
+  PacketHeader parsed;
+  ConstBytes data;
+  const Status status = parse_packet(packet, parsed, data);
+  if (status != Status::kOk) return status;
+  ByteReader in(data);
+  if (!is_pose_report(parsed) || in.u16() != kPoseStructureId) return Status::kBadMagic;
+  if (in.remaining() != rows_size(pose_rows(), pose_rows().size())) return Status::kBadLength;
+  for (const TelemetryRow<P>& row : kRows) row.read(in, pose);
+  header = parsed;
+  return Status::kOk;
+}
+
+std::size_t pose_row_offset(std::size_t row) { return kPacketHeaderBytes + kStructureIdBytes + rows_size(pose_rows(), row); }
+
+}  // namespace lasso

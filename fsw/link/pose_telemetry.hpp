@@ -1,0 +1,90 @@
+// The navigation output of one frame, as plain values: what the packet `pose` says. The executive fills it, the rows of
+// pose_rows() carry it to the ground and back. Units and frames as in the design: SI, T_sensor_target, quaternions x, y, z, w.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "fsw/core/span.hpp"
+#include "fsw/core/status.hpp"
+#include "fsw/core/time.hpp"
+#include "fsw/link/packet.hpp"
+#include "fsw/link/row.hpp"
+
+namespace lasso {
+
+constexpr std::uint16_t kPoseStructureId = 1;
+constexpr std::size_t kPoseSigmas = 6;
+constexpr std::size_t kPoseCovarianceTerms = 21;
+
+struct PoseTelemetry {
+  std::uint32_t scan_id = 0;
+  TimeUs t_measurement_us = 0;  // the scan's reference time, at which registration and filter are stated
+  TimeUs t_publication_us = 0;
+  std::uint32_t age_us = 0;  // publication - measurement
+
+  std::uint8_t valid = 0;   // 1: the registration can be trusted
+  std::uint8_t reason = 0;  // PoseReason
+  std::uint8_t stop = 0;    // StopReason
+  std::uint8_t mode = 0;    // TrackingMode after this scan
+
+  double q_sensor_target[4] = {0, 0, 0, 1};  // registration of this scan alone; the prediction where it did not run
+  double p_sensor_target_m[3] = {};
+  // Upper triangle, row by row, of (rotation about the target's origin in sensor axes [rad], translation [m]).
+  float covariance[kPoseCovarianceTerms] = {};
+
+  double filter_q_sensor_target[4] = {0, 0, 0, 1};
+  double filter_p_sensor_target_m[3] = {};
+  double filter_omega_radps[3] = {};  // sensor axes
+  double filter_v_mps[3] = {};
+  float filter_sigma_pose[kPoseSigmas] = {};   // rotation [rad], translation [m]
+  float filter_sigma_rates[kPoseSigmas] = {};  // angular [rad/s], linear [m/s]
+
+  std::uint16_t rays = 0;
+  std::uint16_t returns = 0;
+  std::uint16_t inliers = 0;
+  std::uint16_t labels = 0;
+  std::uint16_t iterations = 0;
+  std::uint16_t weak = 0;
+  float rms_m = 0;
+  float normalized_residual = 0;
+  float inlier_share = 0;
+  float agreement = 0;
+  float weakest_sigma_m = 0;
+  float weakest_direction[kPoseSigmas] = {};
+
+  double plan_center[2] = {};  // tangent plane z = 1
+  double plan_half_extents[2] = {};
+  double plan_phase_turns = 0;
+  std::uint16_t plan_points = 0;
+  std::uint32_t plan_duration_us = 0;
+  std::uint8_t plan_pattern = 0;  // PatternKind
+
+  std::uint32_t image_crc = 0;
+  std::uint32_t software_version = 0;  // major << 24 | minor << 16 | patch
+  std::uint32_t software_build = 0;    // given by the build, 0: development
+
+  std::uint32_t frames = 0;           // frames since the start of the component
+  std::uint32_t invalid_frames = 0;   // reported without a valid pose
+  std::uint32_t lost_scans = 0;       // not started, incomplete or refused by the sensor
+  std::uint32_t overruns = 0;         // frames dropped because an estimate was not ready at its boundary
+  std::uint32_t slot_slips = 0;       // slots that began later than their own length
+  std::uint32_t dropped_packets = 0;  // did not fit into the telemetry queue
+};
+
+// The dictionary of the packet, in the order of the wire.
+Span<const TelemetryRow<PoseTelemetry>> pose_rows();
+
+constexpr std::size_t kMaxPosePacketBytes = 640;
+
+// Writes the whole packet (headers, structure id, rows, CRC) to `out`. `header` says counts and time; its service fields are set here.
+// Returns the packet's size, 0 when `out` is too small.
+std::size_t encode_pose(const PoseTelemetry& pose, PacketHeader header, Bytes out);
+
+// kTruncated, kBadLength, kBadCrc, kBadVersion or kBadMagic (not a pose packet); `header` and `pose` are then untouched.
+Status decode_pose(ConstBytes packet, PacketHeader& header, PoseTelemetry& pose);
+
+// Offset of a row's first byte from the packet's start. Loop bound: the rows.
+std::size_t pose_row_offset(std::size_t row);
+
+}  // namespace lasso
