@@ -285,7 +285,7 @@ void set_grid(const Table& geometry, int bits, Mission& mission) {
     field.origin[i] = N::length(geometry.signed_word(0, kOriginX + i), bits);
     field.bricks[i] = geometry.word(0, kBricksX + i);
     field.cells[i] = 8 * field.bricks[i];
-    mission.center_m[i] = static_cast<double>(N::length(geometry.signed_word(0, kCenterX + i), bits));
+    mission.center_m[static_cast<int>(i)] = static_cast<double>(N::length(geometry.signed_word(0, kCenterX + i), bits));
   }
   mission.radius_m = static_cast<double>(N::length(geometry.signed_word(0, kModelRadius), bits));
 }
