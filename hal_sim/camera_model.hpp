@@ -1,0 +1,42 @@
+// What is imperfect about the simulated laser camera, and the draws that decide it for one ray.
+#pragma once
+
+#include <cstdint>
+
+#include "fsw/geometry/portable_math.hpp"
+#include "hal_sim/random.hpp"
+
+namespace lasso::sim {
+
+// The presets are a perfect camera with a field of view of 30 degrees. The noise along the ray is the triangulation model
+// sigma_r^2 = sigma0^2 + (k z^2)^2, z the depth of the point along the boresight.
+struct CameraModel {
+  double sigma0_m = 0;         // >= 0
+  double sigma_k_per_m = 0;    // >= 0
+  double sigma_angle_rad = 0;  // of the ray about each of two axes: the ray that is measured differs from the reported one; [0, 0.1]
+  double fov_half_x_rad = 15 * kRadPerDeg;  // (0, pi/2), beside the boresight
+  double fov_half_y_rad = 15 * kRadPerDeg;
+  double range_min_m = 0.1;                // a return from nearer saturates: kInvalid
+  double range_max_m = 1000;               // a return from farther is too weak to be seen: kMiss
+  double dropout_probability = 0;          // of a return to be lost: kMiss, as the camera cannot know why nothing came back
+  double dropout_incidence_rad = kPi / 2;  // a return at a larger incidence is lost too; (0, pi/2], pi/2: none
+  double outlier_probability = 0;          // of any ray to report a hit, uniform between range_min and 1.5 times the target's range
+  double edge_mixing_m = 0;                // radius of the beam's footprint; 0: no mixing at range edges
+  double edge_mixing_probability = 1;      // of a mixed range where the footprint covers two surfaces
+  double range_step_m = 0;                 // quantisation of the range; 0: none
+};
+
+// Throws std::invalid_argument that names the member, its value and what was expected.
+void validate(const CameraModel& model);
+
+// All that chance decides for one ray. Every member is drawn whatever the model needs, so that two models with one seed share their noise.
+struct RayDraws {
+  double outlier, outlier_place, dropout, mixing, mixing_weight;  // uniform [0, 1)
+  double tilt_x, tilt_y, range;                                   // standard normal
+};
+RayDraws draw(std::uint64_t seed, std::uint32_t scan_id, std::uint32_t ray);
+
+// Standard deviation along the ray of a return at depth `z_m`.
+double range_sigma_m(const CameraModel& model, double z_m);
+
+}  // namespace lasso::sim

@@ -1,0 +1,147 @@
+#include "hal_sim/laser_camera.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fsw/sense/pattern.hpp"
+
+namespace lasso::sim {
+namespace {
+
+double tangent(double angle_rad) {
+  const SinCos sc = sin_cos(angle_rad);
+  return sc.sin / sc.cos;
+}
+
+// Two unit vectors across `u` (unit, z > 0) and across each other: the image's right and down for a ray along the boresight.
+struct Across {
+  Vec3 right;
+  Vec3 down;
+};
+Across across(const Vec3& u) {
+  const Vec3 right = Vec3::UnitY().cross(u).normalized();
+  return {right, u.cross(right)};
+}
+
+RangeSample sample_of(const Vec3& direction, TimeUs t_us, RayState state, double range_m) {
+  RangeSample sample;
+  for (int axis = 0; axis < 3; ++axis) sample.direction[axis] = static_cast<float>(direction[axis]);
+  sample.range_m = state == RayState::kHit ? static_cast<float>(range_m) : 0.0F;
+  sample.t_us = t_us;
+  sample.state = state;
+  return sample;
+}
+
+// The direction that the sample will carry, in double: measuring along it makes the reported point exact.
+Vec3 as_reported(const Vec3& direction) { return direction.cast<float>().cast<double>().normalized(); }
+
+double quantised_m(double range_m, double step_m) { return step_m > 0 ? std::floor(range_m / step_m + 0.5) * step_m : range_m; }
+
+}  // namespace
+
+struct RaySimulator::Beam {
+  Pose T_sensor_target;
+  Vec3 direction;  // along which the camera truly looks
+  RayDraws draws;
+};
+
+RaySimulator::RaySimulator(const RayCaster& target, const Trajectory& trajectory, const CameraModel& model, std::uint64_t seed)
+    : target_(target), trajectory_(trajectory), model_(model), seed_(seed) {
+  sim::validate(model);
+  cos_dropout_incidence_ = model.dropout_incidence_rad < kPi / 2 ? sin_cos(model.dropout_incidence_rad).cos : -1;
+}
+
+RayHit RaySimulator::cast(const Pose& T_sensor_target, const Vec3& direction) const {
+  const Pose T_target_sensor = inverse(T_sensor_target);
+  return target_.cast(T_target_sensor.p, rotate(T_target_sensor.q, direction));
+}
+
+RangeSample RaySimulator::measure(std::uint32_t scan_id, std::uint32_t ray, const Vec3& direction, TimeUs t_us) const {
+  const Vec3 nominal = as_reported(direction);
+  Beam beam{trajectory_.at(t_us).T_sensor_target, nominal, draw(seed_, scan_id, ray)};
+  if (beam.draws.outlier < model_.outlier_probability) {
+    const double farthest_m = std::min(1.5 * beam.T_sensor_target.p.norm(), model_.range_max_m);
+    const double range_m = model_.range_min_m + beam.draws.outlier_place * std::max(0.0, farthest_m - model_.range_min_m);
+    return sample_of(direction, t_us, RayState::kHit, range_m);
+  }
+  const Across axes = across(nominal);
+  const double sigma_rad = model_.sigma_angle_rad;
+  if (sigma_rad > 0) {
+    beam.direction = (nominal + sigma_rad * (beam.draws.tilt_x * axes.right + beam.draws.tilt_y * axes.down)).normalized();
+  }
+  const RayHit hit = cast(beam.T_sensor_target, beam.direction);
+  if (!hit.hit || lost(hit, beam)) return sample_of(direction, t_us, RayState::kMiss, 0);
+  if (hit.range_m < model_.range_min_m) return sample_of(direction, t_us, RayState::kInvalid, 0);
+  const double range_m = noisy_range_m(hit, beam);
+  return sample_of(direction, t_us, range_m > 0 ? RayState::kHit : RayState::kInvalid, range_m);
+}
+
+bool RaySimulator::lost(const RayHit& hit, const Beam& beam) const {
+  const Vec3 normal = rotate(beam.T_sensor_target.q, hit.normal);
+  const bool grazing = std::abs(normal.dot(beam.direction)) < cos_dropout_incidence_;
+  return hit.range_m > model_.range_max_m || grazing || beam.draws.dropout < model_.dropout_probability;
+}
+
+// A beam of finite width that lies partly on another surface returns a range between the two: the "phantom" points at range edges.
+// Four rays at the footprint's rim look for a surface that leaves the plane of the hit by more than the footprint's radius. Where the
+// rim sees empty space the hit stands, as the returned light all comes from it.
+double RaySimulator::mixed_range_m(const RayHit& hit, const Beam& beam) const {
+  const Vec3 normal = rotate(beam.T_sensor_target.q, hit.normal);
+  const Vec3 point = hit.range_m * beam.direction;
+  const Across axes = across(beam.direction);
+  double other_m = hit.range_m;
+  for (const Vec3& offset : {axes.right, Vec3(-axes.right), axes.down, Vec3(-axes.down)}) {
+    const Vec3 direction = (point + model_.edge_mixing_m * offset).normalized();
+    const RayHit rim = cast(beam.T_sensor_target, direction);
+    if (!rim.hit || std::abs(normal.dot(rim.range_m * direction - point)) <= model_.edge_mixing_m) continue;
+    if (std::abs(rim.range_m - hit.range_m) > std::abs(other_m - hit.range_m)) other_m = rim.range_m;
+  }
+  return hit.range_m + beam.draws.mixing_weight * (other_m - hit.range_m);
+}
+
+double RaySimulator::noisy_range_m(const RayHit& hit, const Beam& beam) const {
+  const bool mixing = model_.edge_mixing_m > 0 && beam.draws.mixing < model_.edge_mixing_probability;
+  const double range_m = mixing ? mixed_range_m(hit, beam) : hit.range_m;
+  const double sigma_m = range_sigma_m(model_, range_m * beam.direction.z());
+  return quantised_m(range_m + sigma_m * beam.draws.range, model_.range_step_m);
+}
+
+SimulatedCamera::SimulatedCamera(const RayCaster& target, const Trajectory& trajectory, const CameraModel& model, std::uint64_t seed)
+    : rays_(target, trajectory, model, seed), tan_half_x_(tangent(model.fov_half_x_rad)), tan_half_y_(tangent(model.fov_half_y_rad)) {}
+
+// A plan that touches the limit is inside: the planner caps its extents at the same limit, and may differ in the last bits.
+bool SimulatedCamera::within_field_of_view(const ScanPlan& plan) const {
+  constexpr double kRounding = 1e-6;
+  return std::abs(plan.center_x) + plan.half_x <= tan_half_x_ + kRounding &&
+         std::abs(plan.center_y) + plan.half_y <= tan_half_y_ + kRounding;
+}
+
+Status SimulatedCamera::start(const ScanPlan& plan, TimeUs t_start_us) {
+  if (running_) return Status::kBusy;
+  if (lasso::validate(plan) != Status::kOk || !within_field_of_view(plan)) return Status::kBadValue;
+  plan_ = plan;
+  t_start_us_ = t_start_us;
+  next_ = 0;
+  running_ = true;
+  return Status::kOk;
+}
+
+SensorPoll SimulatedCamera::poll(TimeUs now_us, Span<RangeSample> out) {
+  SensorPoll result;
+  if (!running_) {
+    result.status = Status::kNoData;
+    return result;
+  }
+  while (result.count < out.size() && next_ < plan_.points) {
+    const TimeUs t_us = t_start_us_ + pattern_time_us(plan_, next_);
+    if (t_us > now_us) break;
+    out[result.count] = rays_.measure(plan_.scan_id, next_, pattern_direction(plan_, next_), t_us);
+    ++result.count;
+    ++next_;
+  }
+  result.complete = next_ == plan_.points;
+  running_ = !result.complete;
+  return result;
+}
+
+}  // namespace lasso::sim

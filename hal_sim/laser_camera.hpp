@@ -1,0 +1,57 @@
+// A laser camera that scans a simulated target: behind the Sensor interface, point by point at each point's own time.
+#pragma once
+
+#include "fsw/sense/sensor.hpp"
+#include "hal_sim/camera_model.hpp"
+#include "hal_sim/ray_caster.hpp"
+#include "hal_sim/trajectory.hpp"
+
+namespace lasso::sim {
+
+// What one ray finds: pure, so that reports and tests can ask about any ray at any time.
+// `direction` is the reported (nominal) unit direction in the sensor frame; the ray is cast against the target where it is at `t_us`.
+class RaySimulator {
+ public:
+  // Keeps references: target and trajectory outlive the simulator. Throws std::invalid_argument as validate(model).
+  RaySimulator(const RayCaster& target, const Trajectory& trajectory, const CameraModel& model, std::uint64_t seed);
+
+  RangeSample measure(std::uint32_t scan_id, std::uint32_t ray, const Vec3& direction, TimeUs t_us) const;
+  const CameraModel& model() const { return model_; }
+
+ private:
+  struct Beam;
+  RayHit cast(const Pose& T_sensor_target, const Vec3& direction) const;
+  bool lost(const RayHit& hit, const Beam& beam) const;
+  double mixed_range_m(const RayHit& hit, const Beam& beam) const;
+  double noisy_range_m(const RayHit& hit, const Beam& beam) const;
+
+  const RayCaster& target_;
+  const Trajectory& trajectory_;
+  CameraModel model_;
+  std::uint64_t seed_;
+  double cos_dropout_incidence_;
+};
+
+class SimulatedCamera final : public Sensor {
+ public:
+  // References and exceptions as RaySimulator. What a scan returns depends on the plan, its start time and the seed alone.
+  SimulatedCamera(const RayCaster& target, const Trajectory& trajectory, const CameraModel& model, std::uint64_t seed);
+
+  // kBadValue: a plan that validate (pattern.hpp) refuses, or that leaves the field of view.
+  Status start(const ScanPlan& plan, TimeUs t_start_us) override;
+  // Casts at most out.size() rays. A sample is there from its own time on.
+  SensorPoll poll(TimeUs now_us, Span<RangeSample> out) override;
+  void abort() override { running_ = false; }
+
+ private:
+  bool within_field_of_view(const ScanPlan& plan) const;
+
+  RaySimulator rays_;
+  double tan_half_x_, tan_half_y_;
+  ScanPlan plan_;
+  TimeUs t_start_us_ = 0;
+  std::uint16_t next_ = 0;  // ray
+  bool running_ = false;
+};
+
+}  // namespace lasso::sim
