@@ -1,0 +1,109 @@
+#include "fsw/sense/pattern.hpp"
+
+#include "cfg/capacities.hpp"
+#include "fsw/core/invariant.hpp"
+
+namespace lasso {
+namespace {
+
+struct SquarePoint {
+  double x, y;
+};
+
+double absolute(double x) { return x < 0 ? -x : x; }
+
+bool coprime(std::uint32_t a, std::uint32_t b) {
+  while (b != 0) {
+    const std::uint32_t rest = a % b;
+    a = b;
+    b = rest;
+  }
+  return a == 1;
+}
+
+// Whole turns are dropped in integers, so that the angle is small and exact for every index.
+SinCos turn(std::uint16_t cycles, std::uint16_t index, std::uint16_t points, double phase_turns) {
+  const std::uint32_t part = std::uint32_t{cycles} * index % points;
+  return sin_cos(2 * kPi * (static_cast<double>(part) / static_cast<double>(points) + phase_turns));
+}
+
+SinCos add_angles(const SinCos& u, const SinCos& v) { return {u.sin * v.cos + u.cos * v.sin, u.cos * v.cos - u.sin * v.sin}; }
+
+SquarePoint curve_point(PatternKind kind, const SinCos& a, const SinCos& b) {
+  if (kind == PatternKind::kRosette) return {0.5 * (a.cos + b.cos), 0.5 * (a.sin - b.sin)};
+  return {a.sin, b.sin};
+}
+
+SquarePoint raster_point(const ScanPlan& plan, std::uint16_t index) {
+  const double path_lines = (index + plan.phase_turns) * plan.cycles_a / plan.points;  // [0, lines)
+  std::int32_t line = static_cast<std::int32_t>(path_lines);
+  if (line == plan.cycles_a) --line;  // a phase just below 1 can round up to the path's end
+  const double forward = 2 * (path_lines - line) - 1;
+  return {line % 2 == 0 ? forward : -forward, (2.0 * line + 1) / plan.cycles_a - 1};
+}
+
+Vec3 direction(const ScanPlan& plan, const SquarePoint& point) {
+  const double x = plan.center_x + plan.half_x * point.x;
+  const double y = plan.center_y + plan.half_y * point.y;
+  const double scale = 1 / square_root(x * x + y * y + 1);
+  return {x * scale, y * scale, scale};
+}
+
+bool cycles_valid(const ScanPlan& plan) {
+  const std::uint16_t most = static_cast<std::uint16_t>(plan.points / 2);
+  if (plan.cycles_a < 1 || plan.cycles_a > most) return false;
+  if (plan.kind == PatternKind::kRaster) return true;
+  if (plan.cycles_b < 1 || plan.cycles_b > most || plan.cycles_a == plan.cycles_b) return false;
+  return coprime(plan.cycles_a, plan.cycles_b);
+}
+
+bool extent_valid(double center, double half) { return half > 0 && absolute(center) + half <= kMaxTangent; }
+
+bool finite(const ScanPlan& plan) {
+  return is_finite(plan.phase_turns) && is_finite(plan.center_x) && is_finite(plan.center_y) && is_finite(plan.half_x) &&
+         is_finite(plan.half_y);
+}
+
+}  // namespace
+
+Status validate(const ScanPlan& plan) {
+  if (!finite(plan)) return Status::kNotFinite;
+  const bool known = plan.kind == PatternKind::kRosette || plan.kind == PatternKind::kLissajous || plan.kind == PatternKind::kRaster;
+  const bool sized = plan.points >= kMinPatternPoints && plan.points <= kMaxRays;
+  const bool timed = plan.duration_us >= 1 && plan.duration_us <= kMaxScanDurationUs;
+  const bool turned = plan.phase_turns >= 0 && plan.phase_turns < 1;
+  const bool placed = extent_valid(plan.center_x, plan.half_x) && extent_valid(plan.center_y, plan.half_y);
+  return known && sized && timed && turned && placed && cycles_valid(plan) ? Status::kOk : Status::kBadValue;
+}
+
+Vec3 pattern_direction(const ScanPlan& plan, std::uint16_t index) {
+  invariant(index < plan.points, "pattern index");
+  if (plan.kind == PatternKind::kRaster) return direction(plan, raster_point(plan, index));
+  const SinCos a = turn(plan.cycles_a, index, plan.points, plan.phase_turns);
+  const SinCos b = turn(plan.cycles_b, index, plan.points, 0);
+  return direction(plan, curve_point(plan.kind, a, b));
+}
+
+DurationUs pattern_time_us(const ScanPlan& plan, std::uint16_t index) {
+  invariant(index < plan.points, "pattern index");
+  return plan.duration_us * index / (plan.points - 1);
+}
+
+PatternGenerator::PatternGenerator(const ScanPlan& plan)
+    : plan_(plan),
+      a_(turn(plan.cycles_a, 0, plan.points, plan.phase_turns)),
+      b_(turn(plan.cycles_b, 0, plan.points, 0)),
+      step_a_(turn(plan.cycles_a, 1, plan.points, 0)),
+      step_b_(turn(plan.cycles_b, 1, plan.points, 0)) {}
+
+Vec3 PatternGenerator::next() {
+  invariant(!done(), "pattern has no more rays");
+  const std::uint16_t index = index_++;
+  if (plan_.kind == PatternKind::kRaster) return direction(plan_, raster_point(plan_, index));
+  const SquarePoint point = curve_point(plan_.kind, a_, b_);
+  a_ = add_angles(a_, step_a_);
+  b_ = add_angles(b_, step_b_);
+  return direction(plan_, point);
+}
+
+}  // namespace lasso

@@ -1,0 +1,310 @@
+#include "fsw/sense/acquisition.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "fsw/sense/pattern.hpp"
+#include "ut/support/verifies.hpp"
+
+namespace lasso {
+namespace {
+
+constexpr TimeUs kStart = 5'000'000'000;
+
+// Scans a wall at 3 m whose right half is missing. A test may damage the samples before they are handed over.
+class WallSensor final : public Sensor {
+ public:
+  std::vector<RangeSample> samples;
+  std::size_t next = 0;
+  Status refuse = Status::kOk;
+  Status lose = Status::kOk;
+  std::size_t lost_at = 1u << 20;
+  bool overclaim = false, ignores_time = false;
+  int aborts = 0, polls = 0;
+
+  Status start(const ScanPlan& plan, TimeUs t_start_us) override {
+    if (refuse != Status::kOk) return refuse;
+    if (samples.empty()) make(plan, t_start_us);
+    next = 0;
+    return Status::kOk;
+  }
+
+  SensorPoll poll(TimeUs now_us, Span<RangeSample> out) override {
+    ++polls;
+    SensorPoll result;
+    if (overclaim) result.count = out.size() + 1;
+    if (next >= lost_at) result.status = lose;
+    if (overclaim || result.status != Status::kOk) return result;
+    while (next < samples.size() && (ignores_time || samples[next].t_us <= now_us) && result.count < out.size()) {
+      out[result.count++] = samples[next++];
+    }
+    result.complete = next == samples.size();
+    return result;
+  }
+
+  void abort() override { ++aborts; }
+
+  void make(const ScanPlan& plan, TimeUs t_start_us) {
+    for (std::uint16_t i = 0; i < plan.points; ++i) {
+      const Vec3 ray = pattern_direction(plan, i);
+      RangeSample sample;
+      for (int k = 0; k < 3; ++k) sample.direction[k] = static_cast<float>(ray[k]);
+      sample.state = ray.x() < 0 ? RayState::kHit : RayState::kMiss;
+      sample.range_m = ray.x() < 0 ? static_cast<float>(3 / ray.z()) : 0.0F;
+      sample.t_us = t_start_us + pattern_time_us(plan, i);
+      samples.push_back(sample);
+    }
+  }
+};
+
+class AcquisitionTest : public ::testing::Test {
+ protected:
+  WallSensor sensor;
+  ScanPlan plan;
+  std::unique_ptr<RangeImage> image = std::make_unique<RangeImage>();
+  Acquisition acquisition;
+
+  void SetUp() override {
+    plan.scan_id = 42;
+    sensor.make(plan, kStart);
+  }
+  // All samples become available; as many steps as needed, at most `steps`.
+  ScanVerdict run(int steps = 100, TimeUs now = kStart + 200000) {
+    EXPECT_EQ(acquisition.start(sensor, plan, kStart, *image), Status::kOk);
+    for (int i = 0; i < steps && acquisition.under_way(); ++i) acquisition.step(sensor, now, *image);
+    return acquisition.finish(sensor, *image);
+  }
+};
+
+TEST_F(AcquisitionTest, StoresAWholeScanAsTheSensorSawIt) {
+  VERIFIES("LASSO-SNS-020 LASSO-SNS-021");
+  const ScanVerdict verdict = run();
+  EXPECT_TRUE(verdict.complete);
+  EXPECT_TRUE(verdict.usable);
+  EXPECT_EQ(verdict.reason, Status::kOk);
+  EXPECT_EQ(verdict.scan_id, 42u);
+  EXPECT_EQ(image->scan_id, 42u);
+  EXPECT_TRUE(image->misses_known);
+  ASSERT_EQ(image->samples.size(), 1024u);
+  int hits = 0;
+  for (std::size_t i = 0; i < image->samples.size(); ++i) {
+    const RangeSample &kept = image->samples[i], &seen = sensor.samples[i];
+    ASSERT_EQ(kept.state, seen.state);
+    ASSERT_EQ(kept.range_m, seen.range_m);
+    ASSERT_EQ(kept.t_us, seen.t_us);
+    for (int k = 0; k < 3; ++k) ASSERT_NEAR(kept.direction[k], seen.direction[k], 1.2e-7);
+    hits += kept.state == RayState::kHit;
+  }
+  EXPECT_EQ(verdict.hits, hits);
+  EXPECT_EQ(verdict.misses, 1024 - hits);
+  EXPECT_EQ(verdict.invalid, 0);
+  EXPECT_EQ(image->reference_time_us(), kStart + 90000);
+  EXPECT_EQ(sensor.aborts, 0);
+}
+
+TEST_F(AcquisitionTest, PollsOncePerStepAndAtMostTheCapacity) {
+  VERIFIES("LASSO-SNS-021");
+  ASSERT_EQ(acquisition.start(sensor, plan, kStart, *image), Status::kOk);
+  for (std::size_t step = 1; step <= 8; ++step) {
+    acquisition.step(sensor, kStart + 200000, *image);
+    EXPECT_EQ(sensor.polls, static_cast<int>(step));
+    EXPECT_EQ(image->samples.size(), step * kMaxSamplesPerPoll);
+  }
+  EXPECT_FALSE(acquisition.under_way());
+  acquisition.step(sensor, kStart + 200000, *image);
+  EXPECT_EQ(sensor.polls, 8) << "nothing is asked after the scan's end";
+}
+
+TEST_F(AcquisitionTest, TakesOnlyWhatHasBeenAcquiredByNow) {
+  VERIFIES("LASSO-SNS-021");
+  ASSERT_EQ(acquisition.start(sensor, plan, kStart, *image), Status::kOk);
+  acquisition.step(sensor, kStart - 1, *image);
+  EXPECT_EQ(image->samples.size(), 0u);
+  acquisition.step(sensor, kStart + 1000, *image);
+  EXPECT_EQ(image->samples.size(), 6u);  // one sample each 175.95 us
+}
+
+TEST_F(AcquisitionTest, BadSamplesBecomeInvalidAndAreCountedByReason) {
+  VERIFIES("LASSO-SNS-022");
+  std::vector<RangeSample>& s = sensor.samples;
+  for (const std::size_t i : {14u, 15u}) s[i].state = RayState::kHit;
+  s[10].direction[1] = std::numeric_limits<float>::quiet_NaN();
+  s[11].range_m = std::numeric_limits<float>::infinity();
+  s[12].direction[2] *= 1.003F;
+  s[13].direction[2] *= 0.997F;
+  s[14].range_m = -0.001F;
+  s[15].range_m = 1.01e5F;
+  s[16].t_us = s[15].t_us - 2000;
+  s[17].t_us = kStart + 200001;
+  s[18].state = static_cast<RayState>(3);
+  s[1023].t_us = kStart;
+  sensor.ignores_time = true;
+  const ScanVerdict verdict = run();
+  EXPECT_EQ(verdict.bad[static_cast<int>(BadSample::kNotFinite)], 2u);
+  EXPECT_EQ(verdict.bad[static_cast<int>(BadSample::kDirection)], 2u);
+  EXPECT_EQ(verdict.bad[static_cast<int>(BadSample::kRange)], 2u);
+  EXPECT_EQ(verdict.bad[static_cast<int>(BadSample::kTime)], 3u);
+  EXPECT_EQ(verdict.bad[static_cast<int>(BadSample::kState)], 1u);
+  EXPECT_EQ(verdict.invalid, 10);
+  EXPECT_EQ(verdict.count, 1024);
+  EXPECT_TRUE(verdict.usable);
+  for (const std::size_t i : {10u, 11u, 12u, 13u, 14u, 15u, 16u, 17u, 18u, 1023u}) {
+    EXPECT_EQ(image->samples[i].state, RayState::kInvalid) << i;
+    EXPECT_EQ(image->samples[i].range_m, 0) << i;
+    EXPECT_EQ(image->samples[i].direction[2], 1) << i;
+    EXPECT_EQ(image->samples[i].t_us, image->samples[i - 1].t_us) << i;
+  }
+  EXPECT_EQ(image->samples[19].t_us, s[19].t_us) << "a bad sample does not spoil the next one";
+  EXPECT_EQ(image->samples[19].state, s[19].state);
+}
+
+TEST_F(AcquisitionTest, SamplesBeforeTheStartAreBad) {
+  VERIFIES("LASSO-SNS-022");
+  sensor.samples[0].t_us = kStart - 1;
+  const ScanVerdict verdict = run();
+  EXPECT_EQ(verdict.bad[static_cast<int>(BadSample::kTime)], 1u);
+  EXPECT_EQ(image->samples[0].t_us, kStart);
+}
+
+TEST_F(AcquisitionTest, SlightlyWrongDirectionsAreBroughtToUnitLength) {
+  VERIFIES("LASSO-SNS-023");
+  for (int i = 0; i < 100; ++i) {
+    for (float& component : sensor.samples[static_cast<std::size_t>(i)].direction)
+      component *= 1 + 9.9e-6F * static_cast<float>(2 * i - 100);
+  }
+  ASSERT_TRUE(run().usable);
+  for (std::size_t i = 0; i < 100; ++i) {
+    const RangeSample& kept = image->samples[i];
+    ASSERT_EQ(kept.state, sensor.samples[i].state);
+    const double length = std::sqrt(std::pow(kept.direction[0], 2.0) + std::pow(kept.direction[1], 2.0) + std::pow(kept.direction[2], 2.0));
+    ASSERT_NEAR(length, 1, 1.5e-7) << i;
+    const Vec3 ray = pattern_direction(plan, static_cast<std::uint16_t>(i));
+    for (int k = 0; k < 3; ++k) ASSERT_NEAR(kept.direction[k], ray[k], 1.5e-7);
+  }
+}
+
+TEST_F(AcquisitionTest, RaysTheSensorDeclaresInvalidAreNotBadAndMissesHaveNoRange) {
+  VERIFIES("LASSO-SNS-021");
+  sensor.samples[5].state = RayState::kInvalid;
+  sensor.samples[5].direction[0] = std::numeric_limits<float>::quiet_NaN();
+  sensor.samples[6].state = RayState::kMiss;
+  sensor.samples[6].range_m = 17;
+  const ScanVerdict verdict = run();
+  EXPECT_EQ(verdict.invalid, 1);
+  for (const std::uint32_t bad : verdict.bad) EXPECT_EQ(bad, 0u);
+  EXPECT_EQ(image->samples[5].direction[0], 0);
+  EXPECT_EQ(image->samples[5].t_us, sensor.samples[5].t_us);
+  EXPECT_EQ(image->samples[6].range_m, 0);
+}
+
+TEST_F(AcquisitionTest, IncompleteScanIsUsableFromFourFifthsAndOtherwiseDiscarded) {
+  VERIFIES("LASSO-SNS-024");
+  const TimeUs enough = kStart + pattern_time_us(plan, 819);  // 820 of 1024 are the first to reach 80 %
+  const ScanVerdict usable = run(100, enough);
+  EXPECT_FALSE(usable.complete);
+  EXPECT_TRUE(usable.usable);
+  EXPECT_EQ(usable.reason, Status::kTimeout);
+  EXPECT_EQ(usable.count, 820);
+  EXPECT_EQ(image->samples.size(), 820u);
+  EXPECT_EQ(sensor.aborts, 1);
+  const ScanVerdict discarded = run(100, enough - 1);
+  EXPECT_FALSE(discarded.usable);
+  EXPECT_EQ(discarded.reason, Status::kTimeout);
+  EXPECT_EQ(discarded.count, 819);
+  EXPECT_TRUE(image->samples.empty());
+}
+
+TEST_F(AcquisitionTest, CompleteScanWithTooManyBadSamplesIsDiscarded) {
+  VERIFIES("LASSO-SNS-024");
+  for (std::size_t i = 0; i < 204; ++i) sensor.samples[i].direction[0] = 3;
+  EXPECT_TRUE(run().usable);
+  sensor.samples[204].direction[0] = 3;
+  const ScanVerdict verdict = run();
+  EXPECT_TRUE(verdict.complete);
+  EXPECT_FALSE(verdict.usable);
+  EXPECT_EQ(verdict.reason, Status::kBadValue);
+  EXPECT_EQ(verdict.bad[static_cast<int>(BadSample::kDirection)], 205u);
+  EXPECT_TRUE(image->samples.empty());
+}
+
+TEST_F(AcquisitionTest, LostScanIsDiscardedWithTheSensorsReason) {
+  VERIFIES("LASSO-SNS-025");
+  sensor.lost_at = 896;  // more than 80 % of the samples have been taken by then
+  sensor.lose = Status::kBadCrc;
+  const ScanVerdict verdict = run();
+  EXPECT_FALSE(verdict.complete);
+  EXPECT_FALSE(verdict.usable);
+  EXPECT_EQ(verdict.reason, Status::kBadCrc);
+  EXPECT_EQ(verdict.count, 896);
+  EXPECT_TRUE(image->samples.empty());
+  EXPECT_EQ(sensor.aborts, 1);
+}
+
+TEST_F(AcquisitionTest, MoreSamplesThanAskedForIsALostScan) {
+  VERIFIES("LASSO-SNS-025");
+  sensor.overclaim = true;
+  const ScanVerdict verdict = run();
+  EXPECT_EQ(verdict.reason, Status::kBadLength);
+  EXPECT_EQ(verdict.count, 0);
+  EXPECT_FALSE(verdict.usable);
+}
+
+TEST_F(AcquisitionTest, WhatTheImageCannotHoldIsCounted) {
+  VERIFIES("LASSO-SNS-026");
+  const RangeSample last = sensor.samples.back();
+  sensor.samples.resize(kMaxRays + 7, last);
+  const ScanVerdict verdict = run();
+  EXPECT_EQ(verdict.count, kMaxRays);
+  EXPECT_EQ(verdict.overflow, 7u);
+  EXPECT_TRUE(verdict.complete);
+}
+
+TEST_F(AcquisitionTest, RefusedStartsSayWhyAndLeaveNothingUnderWay) {
+  VERIFIES("LASSO-SNS-020");
+  sensor.refuse = Status::kBusy;
+  EXPECT_EQ(acquisition.start(sensor, plan, kStart, *image), Status::kBusy);
+  EXPECT_FALSE(acquisition.under_way());
+  EXPECT_EQ(acquisition.finish(sensor, *image).reason, Status::kBusy);
+  sensor.refuse = Status::kOk;
+  plan.half_x = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(acquisition.start(sensor, plan, kStart, *image), Status::kNotFinite);
+  acquisition.step(sensor, kStart + 200000, *image);
+  EXPECT_EQ(sensor.polls, 0);
+  const ScanVerdict verdict = acquisition.finish(sensor, *image);
+  EXPECT_EQ(verdict.reason, Status::kNotFinite);
+  EXPECT_FALSE(verdict.usable);
+  EXPECT_EQ(acquisition.finish(sensor, *image).reason, Status::kNoData) << "no scan was started since";
+}
+
+TEST_F(AcquisitionTest, ASecondStartIsRefusedAndDisturbsNothing) {
+  VERIFIES("LASSO-SNS-020");
+  ASSERT_EQ(acquisition.start(sensor, plan, kStart, *image), Status::kOk);
+  acquisition.step(sensor, kStart + 200000, *image);
+  ScanPlan other = plan;
+  other.scan_id = 43;
+  EXPECT_EQ(acquisition.start(sensor, other, kStart, *image), Status::kBusy);
+  EXPECT_EQ(image->samples.size(), kMaxSamplesPerPoll);
+  for (int i = 0; i < 7; ++i) acquisition.step(sensor, kStart + 200000, *image);
+  const ScanVerdict verdict = acquisition.finish(sensor, *image);
+  EXPECT_EQ(verdict.scan_id, 42u);
+  EXPECT_EQ(verdict.reason, Status::kOk);
+}
+
+TEST_F(AcquisitionTest, AScanAfterALostOneStartsAfresh) {
+  VERIFIES("LASSO-SNS-025");
+  sensor.lost_at = 500;
+  sensor.lose = Status::kTimeout;
+  EXPECT_FALSE(run().usable);
+  sensor.lost_at = 1u << 20;
+  const ScanVerdict verdict = run();
+  EXPECT_TRUE(verdict.usable);
+  EXPECT_EQ(verdict.count, 1024);
+  EXPECT_EQ(image->samples.size(), 1024u);
+}
+
+}  // namespace
+}  // namespace lasso
