@@ -19,12 +19,10 @@ enum class Lookup : std::uint8_t {
 template <class N>
 struct MatchSettings {
   typename N::Ratio kernel_squared;       // k^2 of Tukey's kernel, in sigmas^2
-  typename N::Ratio kernel_width;         // k
   typename N::Ratio surface_variance;     // m^2
   typename N::Ratio cos_incidence_max;
   typename N::Ratio reference_variance;   // m^2: weights are relative to it, so that sums stay of order one
   typename N::Length gate;                // m, added to k sigma while the start is uncertain
-  typename N::Length walk_extra;          // m, the part of the walk's reach that does not depend on the point
 };
 
 // Sums over the points of one pass.
@@ -47,7 +45,7 @@ struct SurfaceMatch {
 // How far from the measured point along its ray the surface may lie.
 template <class N>
 inline typename N::Length walk_reach(const MatchSettings<N>& s, const MatchPoint<N>& point) {
-  return point.reach + s.walk_extra;
+  return point.reach + s.gate;
 }
 
 template <class N>
@@ -56,11 +54,11 @@ inline FieldHit<N> find_hit(const Field<N>& field, const MatchSettings<N>& s, co
   const auto reach = walk_reach(s, point);
   FieldHit<N> hit;
   if (lookup == Lookup::kLast && point.element != kNoElement) {
-    hit.found = hit_element(field.elements[point.element], ray, static_cast<typename N::Length>(-reach), reach, hit.t);
+    hit.found = hit_element(field.elements[point.element], ray, -reach, reach, hit.t);
     hit.element = point.element;
     if (hit.found) return hit;
   }
-  return walk_field(field, ray, static_cast<typename N::Length>(-reach), reach);
+  return walk_field(field, ray, -reach, reach);
 }
 
 template <class N>

@@ -30,23 +30,37 @@ struct MatchPoint {
   std::uint32_t element;      // last element hit, or kNoElement
 };
 
-// A ray that may label one side of a contour: the nearest contour edges found for it.
-struct LabelCandidate {
-  std::uint16_t ray;
-  std::uint16_t edge;     // index into the view's contour
-  float distance_m;       // in the image, at the edge's range
-  float along;            // parameter of the closest point on the projected edge, 0..1
-};
-
+// An edge of the model that is on the contour of this view, projected on the sensor's tangent plane.
 template <class N>
 struct ContourEdge {
-  std::uint32_t edge;     // index into Mission::edges
-  float ax, ay, bx, by;   // projections on the tangent plane
-  float inverse_az, inverse_bz;
+  std::uint32_t edge;                 // index into Mission::edges
+  typename N::Ratio x, y;             // of its first end
+  typename N::Ratio dx, dy;           // to its second end
+  typename N::Ratio inverse_length2;  // 1 / (dx^2 + dy^2)
+  typename N::Length za, zb;          // depths of its ends
 };
 
-constexpr int kRayBins = 32;                 // bins across the scan, each way
-constexpr std::size_t kMaxLabelCandidates = 2048;
+constexpr std::size_t kEdgesPerRay = 4;
+
+// The contour edges closest to a ray in the image, nearest first.
+template <class N>
+struct RayEdges {
+  std::uint32_t count;
+  std::uint32_t contour[kEdgesPerRay];     // index into the view's contour
+  typename N::Ratio distance2[kEdgesPerRay];  // m^2 at the edge's depth
+  typename N::Ratio along[kEdgesPerRay];   // of the closest point, 0..1 in the image
+};
+
+constexpr int kRayBins = 32;  // bins across the scan, each way
+
+// Rays sorted into bins of the tangent plane.
+template <class N>
+struct RayBins {
+  typename N::Ratio x[kMaxRays], y[kMaxRays];  // where each ray meets the tangent plane, seen from the target's depth
+  typename N::Ratio x0, y0, bins_per_x, bins_per_y;
+  std::uint16_t start[kRayBins * kRayBins + 1];
+  std::uint16_t ray[kMaxRays];
+};
 
 // One hit/miss label: s(x) = d + a.x is the distance of the ray inside the contour after the step x.
 struct Label {
@@ -61,10 +75,9 @@ struct Workspace {
   FixedVector<ScanRay<FlightNumber>, kMaxRays> rays;
   FixedVector<MatchPoint<FlightNumber>, kMaxRays> points;
   FixedVector<ContourEdge<FlightNumber>, kMaxContourEdges> contour;
-  FixedVector<LabelCandidate, kMaxLabelCandidates> candidates;
+  RayEdges<FlightNumber> ray_edges[kMaxRays];
+  RayBins<FlightNumber> bins;
   FixedVector<Label, kMaxSites> labels;
-  std::uint16_t bin_start[kRayBins * kRayBins + 1] = {};
-  std::uint16_t bin_rays[kMaxRays] = {};
 };
 
 }  // namespace lasso

@@ -1,0 +1,26 @@
+// The model's contour in the sensor's view, and which rays pass near which of its edges.
+#pragma once
+
+#include "fsw/pose/estimator.hpp"
+#include "fsw/pose/path_pose.hpp"
+
+namespace lasso {
+
+// Where a view is taken from: T_target_sensor, in the path's types.
+template <class N>
+struct View {
+  PathPose<N> pose;
+  typename N::Length target_depth;  // of the target's centre along the boresight
+};
+
+View<FlightNumber> make_view(const Mission& mission, const Pose& T_target_sensor);
+
+// Fills workspace.contour with the edges that have one face towards the sensor and one away. Bound: the model's edges; past kMaxContourEdges
+// the rest is left out.
+void find_contour(const Mission& mission, const View<FlightNumber>& view, Workspace& workspace);
+
+// Fills workspace.ray_edges with the contour edges within band_m (at the edge's depth) of each ray, at most kEdgesPerRay, nearest first.
+// Bound: edges times the rays in the bins that their bands touch.
+void find_ray_edges(const View<FlightNumber>& view, double band_m, Workspace& workspace);
+
+}  // namespace lasso

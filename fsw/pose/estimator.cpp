@@ -1,0 +1,99 @@
+#include "fsw/pose/estimator.hpp"
+
+#include "fsw/geometry/portable_math.hpp"
+#include "fsw/geometry/symmetric6.hpp"
+#include "fsw/pose/labels.hpp"
+#include "fsw/pose/path_pose.hpp"
+#include "fsw/pose/prepare.hpp"
+#include "fsw/pose/quality.hpp"
+#include "fsw/pose/register.hpp"
+#include "fsw/pose/silhouette.hpp"
+
+namespace lasso {
+namespace {
+
+constexpr double kPoseDimensions = 6;
+constexpr double kSmallestNoiseScale = 1e-6;  // of the variance: a scan without any noise still has rounding
+
+std::uint16_t to_count(std::size_t n) { return static_cast<std::uint16_t>(n < 65535 ? n : 65535); }
+
+// Variance of the residuals over the assumed variance. Tukey's kernel trims the tails: for Gaussian noise its weighted sum of squares is
+// 1 - 6/k^2 + 15/k^4 of the whole.
+double noise_scale(const MissionParameters& p, const HitSolution& hits) {
+  const double k2 = p.kernel_width * p.kernel_width;
+  const double trimmed = 1 - 6 / k2 + 15 / (k2 * k2);
+  const double freedom = static_cast<double>(hits.inliers) - kPoseDimensions;
+  const double scale = freedom > 0 ? hits.chi_squared / (freedom * trimmed) : 1;
+  return scale > kSmallestNoiseScale ? scale : kSmallestNoiseScale;
+}
+
+// A step x of T_target_sensor in target axes is a step -R x of T_sensor_target in sensor axes, for rotation and translation alike.
+Mat6 to_sensor_axes(const Mat6& covariance, const Pose& T_target_sensor) {
+  const Mat3 R = to_matrix(T_target_sensor.q).transpose();
+  Mat6 J = Mat6::Zero();
+  J.topLeftCorner<3, 3>() = R;
+  J.bottomRightCorner<3, 3>() = R;
+  return J * covariance * J.transpose();
+}
+
+double range_sigma(const MissionParameters& p, double range_m, double scale) {
+  const double grown = p.sigma_k_per_m * range_m * range_m;
+  return square_root((p.sigma0_m * p.sigma0_m + grown * grown) * scale);
+}
+
+// Lets the silhouettes speak: moves the pose and shrinks the covariance.
+void use_silhouettes(const Mission& mission, bool misses_known, double scale, Workspace& workspace, Pose& pose, Mat6& covariance) {
+  LabelSearch search;
+  search.misses_known = misses_known;
+  search.covariance = covariance;
+  search.range_sigma_m = range_sigma(mission.parameters, square_root(pose.p.squaredNorm()), scale);
+  find_labels(mission, pose, search, workspace);
+  PoseBelief belief;
+  belief.covariance = covariance;
+  apply_labels(workspace.labels.span(), mission.parameters, belief);
+  pose = step_pose(pose, belief.mean);
+  covariance = belief.covariance;
+}
+
+void describe_hits(const HitSolution& hits, double scale, const Workspace& workspace, Registration& result) {
+  result.stop = hits.stop;
+  result.iterations = hits.iterations;
+  result.rays = to_count(workspace.rays.size());
+  result.returns = to_count(workspace.points.size());
+  result.inliers = to_count(hits.inliers);
+  result.inlier_share = hits.usable > 0 ? static_cast<double>(hits.inliers) / hits.usable : 0;
+  result.rms_m = hits.inliers > 0 ? square_root(hits.squared_residual_m2 / hits.inliers) : 0;
+  result.normalized_residual = square_root(scale);
+}
+
+bool has_information(const HitSolution& hits) { return hits.stop == StopReason::kConverged || hits.stop == StopReason::kIterationLimit; }
+
+}  // namespace
+
+Registration Estimator::estimate(const Mission& mission, const RangeImage& scan, const StartPoint& start) {
+  Registration result;
+  result.scan_id = scan.scan_id;
+  result.t_us = scan.reference_time_us();
+  result.T_sensor_target = start.T_sensor_target;
+  prepare_rays(mission, scan, start, workspace_);
+  Pose pose = inverse(start.T_sensor_target);
+  if (start.wide) pose = approach_from_afar(mission, pose, workspace_);
+  const HitSolution hits = register_hits(mission, pose, workspace_);
+  const double scale = noise_scale(mission.parameters, hits);
+  describe_hits(hits, scale, workspace_, result);
+  Mat6 covariance;
+  if (has_information(hits) && invert6(hits.H, covariance) == Status::kOk) {
+    pose = hits.T_target_sensor;
+    if (mission.parameters.noise_estimated > 0.5) covariance *= scale;
+    if (mission.parameters.silhouettes > 0.5) use_silhouettes(mission, scan.misses_known, scale, workspace_, pose, covariance);
+    result.labels = to_count(mission.parameters.silhouettes > 0.5 ? workspace_.labels.size() : 0);
+    result.T_sensor_target = inverse(pose);
+    result.covariance = to_sensor_axes(covariance, pose);
+    result.agreement = hit_miss_agreement(mission, pose, hits.inliers, hits.usable, scan.misses_known, workspace_);
+    find_weak_directions(mission, result);
+  }
+  result.reason = judge(mission.parameters, result);
+  return result;
+}
+
+}  // namespace lasso

@@ -1,0 +1,55 @@
+#include "fsw/pose/gauss_newton.hpp"
+
+#include "fsw/geometry/portable_math.hpp"
+#include "fsw/geometry/symmetric6.hpp"
+
+namespace lasso {
+namespace {
+
+using N = FlightNumber;
+
+// A prior as wide as the model itself keeps directions that no ray sees solvable; it says nothing where any ray does. The part that grows with
+// the information covers the rounding of the sums.
+void add_wide_prior(double radius_m, Mat6& H) {
+  const double rounding = 1e-7 * H.bottomRightCorner<3, 3>().trace();
+  for (int i = 0; i < 3; ++i) {
+    H(i, i) += 1 + rounding * radius_m * radius_m;
+    H(i + 3, i + 3) += 1 / (radius_m * radius_m) + rounding;
+  }
+}
+
+}  // namespace
+
+MatchSettings<N> make_settings(const MissionParameters& p, const Workspace& workspace) {
+  MatchSettings<N> s{};
+  s.kernel_squared = N::to_ratio(p.kernel_width * p.kernel_width);
+  s.surface_variance = N::to_ratio(p.surface_sigma_m * p.surface_sigma_m);
+  s.cos_incidence_max = N::to_ratio(sin_cos(p.incidence_max_rad).cos);
+  s.reference_variance = workspace.points[workspace.points.size() / 2].range_variance + s.surface_variance;
+  return s;
+}
+
+void set_gate(double gate_m, MatchSettings<N>& s) { s.gate = N::to_length(gate_m); }
+
+void solve_pass(const Mission& mission, const MatchSettings<N>& s, Pass& pass, Pose& T_target_sensor) {
+  if (pass.sums.equations.count < kMinimumPoints) return;
+  Vec6 b;
+  pass.sums.equations.unpack(pass.H, b);
+  const double scale = 1 / N::to_double(s.reference_variance);
+  pass.H *= scale;
+  b *= scale;
+  add_wide_prior(mission.radius_m, pass.H);
+  pass.status = solve6(pass.H, b, pass.x);
+  if (pass.status == Status::kOk) T_target_sensor = step_pose(T_target_sensor, pass.x);
+}
+
+Pass take_pass(const Mission& mission, const MatchSettings<N>& s, std::size_t stride, Lookup lookup, Workspace& workspace,
+               Pose& T_target_sensor) {
+  Pass pass;
+  const Span<MatchPoint<N>> points(workspace.points.begin(), workspace.points.size());
+  match_points(mission.field, to_path<N>(T_target_sensor), s, points, stride, lookup, pass.sums);
+  solve_pass(mission, s, pass, T_target_sensor);
+  return pass;
+}
+
+}  // namespace lasso

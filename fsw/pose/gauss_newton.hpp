@@ -1,0 +1,29 @@
+// One Gauss-Newton pass over the points: match, sum, solve, step. Shared by the registration and the wide start.
+#pragma once
+
+#include "fsw/pose/match.hpp"
+#include "fsw/pose/register.hpp"
+
+namespace lasso {
+
+constexpr std::size_t kQuarter = 4;  // stride of the passes over a quarter of the points
+constexpr std::uint32_t kMinimumPoints = 12;
+
+struct Pass {
+  PassSums<FlightNumber> sums;
+  Mat6 H = Mat6::Zero();
+  Vec6 x = Vec6::Zero();            // the step taken
+  Status status = Status::kNoData;  // kOk, kNoData (too few points), kSingular, kNotFinite: no step
+};
+
+MatchSettings<FlightNumber> make_settings(const MissionParameters& parameters, const Workspace& workspace);
+void set_gate(double gate_m, MatchSettings<FlightNumber>& settings);
+
+// Solves the sums of `pass` and, where that succeeds, steps the pose.
+void solve_pass(const Mission& mission, const MatchSettings<FlightNumber>& settings, Pass& pass, Pose& T_target_sensor);
+
+// A pass over every stride-th point from the pose, which takes the step.
+Pass take_pass(const Mission& mission, const MatchSettings<FlightNumber>& settings, std::size_t stride, Lookup lookup,
+               Workspace& workspace, Pose& T_target_sensor);
+
+}  // namespace lasso

@@ -1,0 +1,245 @@
+#include "fsw/pose/silhouette.hpp"
+
+#include "fsw/geometry/portable_math.hpp"
+#include "fsw/pose/clip.hpp"
+#include "fsw/pose/contour.hpp"
+
+namespace lasso {
+namespace {
+
+using N = FlightNumber;
+using Length = N::Length;
+using Ratio = N::Ratio;
+
+constexpr double kCertain2 = 36;         // labels that the pose makes certain to six sigma carry nothing
+constexpr double kGapSigmas = 8;         // an inner contour's step is at least this many range sigmas
+constexpr double kConsistentDepths = 4;  // a return belongs to a contour's near or far side within this many edge depths
+constexpr double kConsistentSigmas = 6;
+constexpr double kCornerCosine = 0.3;    // beyond an edge's end the contour turns at most this sharply
+
+Vec3 to_vec3(const Length* p) { return {N::to_double(p[0]), N::to_double(p[1]), N::to_double(p[2])}; }
+
+enum class ContourKind : std::uint8_t { kNone, kOuter, kInner };
+
+// A confirmed place on the contour.
+struct ContourPoint {
+  ContourKind kind = ContourKind::kNone;
+  Vec3 outward = Vec3::Zero();  // unit, across the edge and the ray, away from the model
+  double range_m = 0;           // of the edge
+  double far_range_m = 0;       // of what is seen beside it (inner contours)
+};
+
+struct ProbeSettings {
+  Length depth, step;
+  double gap_min_m;
+};
+
+struct Probe {
+  FieldRay<N> ray;
+  FieldSpan<N> span;  // the part of the ray inside the grid
+};
+
+// A ray from the sensor through `through`; t = 0 there.
+Probe make_probe(const Field<N>& field, const Vec3& origin, const Vec3& through) {
+  Probe probe;
+  const Vec3 line = through - origin;
+  const Vec3 u = line * (1 / square_root(line.squaredNorm()));
+  for (int i = 0; i < 3; ++i) {
+    probe.ray.m[i] = N::to_length(through[i]);
+    probe.ray.u[i] = N::to_unit(u[i]);
+  }
+  set_cells(field, probe.ray);
+  probe.span = clip_to_grid(field, probe.ray);
+  return probe;
+}
+
+bool meets_edge(const Field<N>& field, const Probe& probe, Length depth) {
+  return walk_field(field, probe.ray, -depth, depth).found;
+}
+
+bool hidden(const Field<N>& field, const Probe& probe, Length depth) {
+  return walk_field(field, probe.ray, probe.span.enter, -depth).found;
+}
+
+// Probes a little to either side of the edge decide whether, and which, contour is there.
+ContourPoint probe_contour(const Field<N>& field, const ProbeSettings& s, const Vec3& origin, const Vec3& edge, const Vec3& across) {
+  ContourPoint point;
+  const double step = N::to_double(s.step);
+  const Probe plus = make_probe(field, origin, edge + step * across);
+  const Probe minus = make_probe(field, origin, edge - step * across);
+  const bool plus_meets = meets_edge(field, plus, s.depth);
+  if (plus_meets == meets_edge(field, minus, s.depth)) return point;
+  const Probe& inside = plus_meets ? plus : minus;
+  const Probe& outside = plus_meets ? minus : plus;
+  if (hidden(field, inside, s.depth) || hidden(field, outside, s.depth)) return point;
+  point.outward = plus_meets ? Vec3(-across) : across;
+  point.range_m = square_root((edge - origin).squaredNorm());
+  const FieldHit<N> beyond = walk_field(field, outside.ray, s.depth, outside.span.leave);
+  point.kind = beyond.found ? ContourKind::kInner : ContourKind::kOuter;
+  point.far_range_m = point.range_m + N::to_double(beyond.found ? beyond.t : 0);
+  return point;
+}
+
+// A ray's line in the target frame.
+struct Line {
+  Vec3 origin, u;
+};
+
+Line to_line(const View<N>& view, const ScanRay<N>& ray) {
+  Length o[3];
+  N::Unit u[3];
+  transform(view.pose, ray.o, o);
+  rotate(view.pose, ray.u, u);
+  return {to_vec3(o), to_vec3(u)};
+}
+
+struct EdgePlace {
+  Vec3 point;      // on the edge, closest to the ray in the image
+  Vec3 confirm;    // where it is probed: not at the very end of the edge
+  Vec3 across;     // unit, across edge and ray
+  bool interior = false;  // the closest point is not an end
+  bool usable = false;
+};
+
+// The parameter in space of the point at parameter `along` of the projected edge.
+double along_in_space(const ContourEdge<N>& edge, double along) {
+  const double near_end = along * N::to_double(edge.za);
+  return near_end / (near_end + (1 - along) * N::to_double(edge.zb));
+}
+
+double clamp(double v, double low, double high) { return v < low ? low : v > high ? high : v; }
+
+EdgePlace place_on_edge(const ModelEdge<N>& model, const ContourEdge<N>& contour, double along, const Line& line) {
+  EdgePlace place;
+  const Vec3 a = to_vec3(model.a);
+  const Vec3 ab = to_vec3(model.b) - a;
+  const double t = along_in_space(contour, along);
+  const Vec3 normal = ab.cross(line.u);
+  const double length2 = normal.squaredNorm();
+  if (!(length2 > 1e-12 * ab.squaredNorm())) return place;
+  place.point = a + t * ab;
+  place.confirm = a + clamp(t, 0.02, 0.98) * ab;
+  place.across = normal * (1 / square_root(length2));
+  place.interior = along > 0 && along < 1;
+  place.usable = true;
+  return place;
+}
+
+// Distance of the ray inside the contour and its change with the pose: s = d + a.x, d > 0 inside. False where the contour turns away.
+bool measure(const EdgePlace& place, const ContourPoint& contour, const Line& line, Label& label) {
+  const Vec3 nearest = line.origin + (place.point - line.origin).dot(line.u) * line.u;
+  Vec3 outward = contour.outward;
+  label.d_m = outward.dot(place.point - nearest);
+  if (!place.interior) {  // beyond an end the contour is taken as the corner itself
+    const Vec3 w = place.point - nearest;
+    const double length = square_root(w.squaredNorm());
+    if (length > 1e-9) {
+      const double cosine = w.dot(outward) / length;
+      if (cosine < kCornerCosine && cosine > -kCornerCosine) return false;
+      const double side = cosine > 0 ? 1 : -1;
+      outward = w * (side / length);
+      label.d_m = side * length;
+    }
+  }
+  label.a.head<3>() = -nearest.cross(outward);
+  label.a.tail<3>() = -outward;
+  return true;
+}
+
+// +1 inside, -1 outside, 0 no statement.
+int side_of(const ScanRay<N>& ray, const ContourPoint& contour, const LabelSearch& search, double depth_m) {
+  const double slack = kConsistentDepths * depth_m + kConsistentSigmas * search.range_sigma_m;
+  const double range = N::to_double(ray.range);
+  if (ray.state == RayState::kMiss) return contour.kind == ContourKind::kOuter && search.misses_known ? -1 : 0;
+  const bool near_edge = range > contour.range_m - slack && range < contour.range_m + slack;
+  if (contour.kind == ContourKind::kOuter) return near_edge && search.misses_known ? 1 : 0;
+  if (range < 0.5 * (contour.range_m + contour.far_range_m)) return near_edge ? 1 : 0;
+  return range < contour.far_range_m + slack ? -1 : 0;
+}
+
+bool is_informative(const Label& label, const Mat6& covariance, double own_variance) {
+  const double variance = label.a.dot(covariance * label.a) + own_variance;
+  return label.d_m * label.d_m < kCertain2 * variance;
+}
+
+// Everything that stays the same from ray to ray.
+struct Search {
+  const Mission& mission;
+  const View<N>& view;
+  const LabelSearch& search;
+  ProbeSettings probe;
+  Vec3 origin;
+  double own_variance;
+  double across_variance;
+};
+
+// A label of one ray at one contour edge. `decided`: the edge is a true contour for this ray, whether or not it gave a label.
+bool label_edge(const Search& s, const ScanRay<N>& ray, const Line& line, const ContourEdge<N>& contour, double along, Label& label,
+                ContourPoint& point) {
+  const EdgePlace place = place_on_edge(s.mission.edges.data()[contour.edge], contour, along, line);
+  if (!place.usable) return false;
+  ContourPoint guess;
+  guess.outward = place.across;  // the sign does not matter for whether a label is worth a probe
+  if (!measure(place, guess, line, label) || !is_informative(label, s.search.covariance, s.own_variance)) return false;
+  point = probe_contour(s.mission.field, s.probe, s.origin, place.confirm, place.across);
+  if (point.kind == ContourKind::kNone) return false;
+  if (point.kind == ContourKind::kInner && point.far_range_m - point.range_m < s.probe.gap_min_m) return false;
+  label.inside = static_cast<std::int8_t>(side_of(ray, point, s.search, s.mission.parameters.edge_depth_m));
+  label.across_variance = s.across_variance;
+  return label.inside != 0 && measure(place, point, line, label);
+}
+
+// The nearest contour labels the ray; a second one does where the ray passes inside a thin part, between two contours.
+void label_ray(const Search& s, std::size_t ray_index, Workspace& workspace) {
+  const RayEdges<N>& edges = workspace.ray_edges[ray_index];
+  const ScanRay<N>& ray = workspace.rays[ray_index];
+  const Line line = to_line(s.view, ray);
+  Vec3 first_outward = Vec3::Zero();
+  int found = 0;
+  for (std::uint32_t k = 0; k < edges.count && found < 2; ++k) {
+    const ContourEdge<N>& contour = workspace.contour[edges.contour[k]];
+    Label label{};
+    ContourPoint point;
+    if (!label_edge(s, ray, line, contour, N::to_double(edges.along[k]), label, point)) continue;
+    if (found == 1 && point.outward.dot(first_outward) > -0.5) continue;
+    label.ray = static_cast<std::uint16_t>(ray_index);
+    if (!workspace.labels.push_back(label)) return;
+    first_outward = point.outward;
+    if (label.d_m < 0) return;
+    ++found;
+  }
+}
+
+double larger(double a, double b) { return a > b ? a : b; }
+double smaller(double a, double b) { return a < b ? a : b; }
+
+// Rays farther from a contour than six sigmas of the pose there carry nothing.
+double search_band(const Mission& mission, const Mat6& covariance, double own_variance) {
+  const double shift = covariance.bottomRightCorner<3, 3>().trace();
+  const double turn = covariance.topLeftCorner<3, 3>().trace() * mission.radius_m * mission.radius_m;
+  return smaller(mission.parameters.silhouette_band_m, square_root(kCertain2 * (2 * (shift + turn) + own_variance)));
+}
+
+Search make_search(const Mission& mission, const View<N>& view, const LabelSearch& search, double range_m) {
+  const MissionParameters& p = mission.parameters;
+  const double across = range_m * p.sigma_angle_rad;
+  const double gap = larger(p.edge_gap_min_m, kGapSigmas * search.range_sigma_m);
+  const ProbeSettings probe{N::to_length(p.edge_depth_m), N::to_length(p.probe_step_m), gap};
+  return {mission, view, search, probe, to_vec3(view.pose.t), p.silhouette_sigma_m * p.silhouette_sigma_m + across * across,
+          across * across};
+}
+
+}  // namespace
+
+void find_labels(const Mission& mission, const Pose& T_target_sensor, const LabelSearch& search, Workspace& workspace) {
+  workspace.labels.clear();
+  const View<N> view = make_view(mission, T_target_sensor);
+  const Search s = make_search(mission, view, search, N::to_double(view.target_depth));
+  find_contour(mission, view, workspace);
+  find_ray_edges(view, search_band(mission, search.covariance, s.own_variance), workspace);
+  for (std::size_t i = 0; i < workspace.rays.size() && !workspace.labels.full(); ++i) {
+    if (workspace.ray_edges[i].count > 0) label_ray(s, i, workspace);
+  }
+}
+
+}  // namespace lasso
