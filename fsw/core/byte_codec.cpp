@@ -1,21 +1,11 @@
 #include "fsw/core/byte_codec.hpp"
 
 #include <cstring>
-#include <limits>
+
+#include "fsw/core/bits.hpp"
 
 namespace lasso {
 namespace {
-
-static_assert(std::numeric_limits<float>::is_iec559 && sizeof(float) == sizeof(std::uint32_t), "float is IEEE 754 binary32");
-static_assert(std::numeric_limits<double>::is_iec559 && sizeof(double) == sizeof(std::uint64_t), "double is IEEE 754 binary64");
-
-template <class To, class From>
-To same_bits(From from) {
-  static_assert(sizeof(To) == sizeof(From), "bits are neither added nor lost");
-  To to;
-  std::memcpy(&to, &from, sizeof(to));
-  return to;
-}
 
 // Shifts, not byte swaps: right on hosts of either byte order.
 template <class U>

@@ -7,17 +7,18 @@
 namespace lasso {
 
 // Solves A x = b by LDL^T, A symmetric positive definite. kSingular when a pivot is not above 1e-12 of A's largest diagonal,
-// kNotFinite when A or b is not finite; x is then untouched. Loop bound 6^3.
+// kNotFinite when A or b is not finite; x is then untouched. Reads A's lower triangle. Loop bound 6^3.
 Status solve6(const Mat6& A, const Vec6& b, Vec6& x);
 
-// A's inverse by the same factorisation and with the same answers.
+// A's inverse by the same factorisation and with the same answers; exactly symmetric.
 Status invert6(const Mat6& A, Mat6& inverse);
 
 struct Eigen6 {
   Vec6 values;   // ascending
   Mat6 vectors;  // columns, unit length, in the order of the values
 };
-// Cyclic Jacobi, at most 12 sweeps of 15 rotations.
+// Cyclic Jacobi, at most 12 sweeps of 15 rotations. Relative accuracy also of the small eigenvalues of a positive definite matrix that is
+// badly scaled (rad beside m). What is not finite gives NaN. The sign of a vector is as the rotations leave it.
 Eigen6 eigen6(const Mat6& A);
 
 }  // namespace lasso
