@@ -32,7 +32,7 @@ void append(RangeImage& image, const Vec3& unit, double range_m, TimeUs t_us, Ra
   sample.t_us = t_us;
   sample.state = state;
   if (image.samples.push_back(sample)) return;
-  fail(place, "the scan has more than " + std::to_string(kMaxRays) + " rays, the most that can be processed; thin it out or cut it");
+  fail(place, "the scan has more than " + std::to_string(kMaxRays) + " rows, the most that can be processed; thin it out or cut it");
 }
 
 void check_finite(const Vec3& v, const std::string& place) {
