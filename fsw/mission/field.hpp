@@ -69,7 +69,7 @@ struct FieldHit {
 };
 
 constexpr std::uint32_t kNoElement = 0xFFFFFFFFu;
-constexpr int kMaxWalkSteps = 1024;      // bound of one walk
+constexpr int kMaxWalkSteps = 1024;         // bound of one walk
 constexpr float kMaxCellCoordinate = 1e6f;  // rays that start farther out are not looked up
 
 template <class N>

@@ -42,12 +42,18 @@ constexpr std::uint32_t kTableCount = 11;  // all of them, in the order of the i
 // Words of the one FieldGeometry record.
 enum FieldGeometryWord : std::uint32_t {
   kLengthFractionBits = 0,  // 8..30
-  kOriginX, kOriginY, kOriginZ,  // Length: the corner of cell (0, 0, 0)
-  kCellSize,                     // Length h; a brick is 8 cells, a near cell is 2 cells
-  kBricksX, kBricksY, kBricksZ,  // each 1..1023
-  kModelRadius,                  // Length: largest distance of a mesh vertex from the target's origin
-  kCenterX, kCenterY, kCenterZ,  // Length: the geometric centre (middle of the bounding box), where scans are aimed
-  kNearBand,                     // Length: every point within this of the surface lies in a near brick
+  kOriginX,
+  kOriginY,
+  kOriginZ,   // Length: the corner of cell (0, 0, 0)
+  kCellSize,  // Length h; a brick is 8 cells, a near cell is 2 cells
+  kBricksX,
+  kBricksY,
+  kBricksZ,      // each 1..1023
+  kModelRadius,  // Length: largest distance of a mesh vertex from the target's origin
+  kCenterX,
+  kCenterY,
+  kCenterZ,   // Length: the geometric centre (middle of the bounding box), where scans are aimed
+  kNearBand,  // Length: every point within this of the surface lies in a near brick
   kFieldGeometryWords
 };
 

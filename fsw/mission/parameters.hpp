@@ -21,8 +21,7 @@ struct MissionParameters {
   // [filter]
   double period_s, acceleration_mps2, angular_acceleration_radps2, initial_rate_mps, initial_angular_rate_radps;
   // [tracking] validity and loss
-  double inliers_min, inlier_share_min, agreement_min, normalized_residual_max, sigma_position_max_m, sigma_attitude_max_rad,
-      coast_frames;
+  double inliers_min, inlier_share_min, agreement_min, normalized_residual_max, sigma_position_max_m, sigma_attitude_max_rad, coast_frames;
   // [tracking.initial] T_sensor_target and rates at the start
   double initial_present, initial_qx, initial_qy, initial_qz, initial_qw, initial_x_m, initial_y_m, initial_z_m, initial_wx_radps,
       initial_wy_radps, initial_wz_radps, initial_vx_mps, initial_vy_mps, initial_vz_mps;
@@ -31,14 +30,14 @@ struct MissionParameters {
 enum class ParameterKind : std::uint8_t { kReal, kInteger, kBoolean, kChoice };
 
 struct ParameterRow {
-  const char* key;        // TOML path, e.g. "sensor.fov_half_x_deg"
-  const char* unit;       // unit of the TOML value: "m", "deg", "1", ...
+  const char* key;   // TOML path, e.g. "sensor.fov_half_x_deg"
+  const char* unit;  // unit of the TOML value: "m", "deg", "1", ...
   ParameterKind kind;
   double MissionParameters::*member;
-  double to_si;           // member = value * to_si
+  double to_si;                     // member = value * to_si
   double minimum, maximum, preset;  // in the TOML unit, inclusive
-  const char* choices;    // kChoice: names joined by '|', value = position; otherwise ""
-  const char* meaning;    // one line
+  const char* choices;              // kChoice: names joined by '|', value = position; otherwise ""
+  const char* meaning;              // one line
 };
 
 Span<const ParameterRow> parameter_rows();

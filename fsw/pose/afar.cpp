@@ -7,12 +7,12 @@ namespace {
 using N = FlightNumber;
 
 constexpr int kFarPasses = 20;
-constexpr double kFarGateFirst = 0.9;     // of the model's radius
-constexpr double kFarGateShrink = 0.8;    // per pass
-constexpr double kFrontOfCenter = 0.15;   // of the radius: how far in front of the model's centre its visible side lies
-constexpr int kSlides = 6;                // each way
-constexpr double kSlideStep = 0.055;      // of the radius
-constexpr double kGoodShare = 0.9;        // of the points explained: no slide can be better by much
+constexpr double kFarGateFirst = 0.9;    // of the model's radius
+constexpr double kFarGateShrink = 0.8;   // per pass
+constexpr double kFrontOfCenter = 0.15;  // of the radius: how far in front of the model's centre its visible side lies
+constexpr int kSlides = 6;               // each way
+constexpr double kSlideStep = 0.055;     // of the radius
+constexpr double kGoodShare = 0.9;       // of the points explained: no slide can be better by much
 constexpr int kNearPasses = 4;
 constexpr int kRayPasses = 3;
 

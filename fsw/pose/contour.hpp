@@ -15,8 +15,8 @@ struct View {
 
 View<FlightNumber> make_view(const Mission& mission, const Pose& T_target_sensor);
 
-// Fills workspace.contour with the edges that have one face towards the sensor and one away. Bound: the model's edges; past kMaxContourEdges
-// the rest is left out.
+// Fills workspace.contour with the edges that have one face towards the sensor and one away. Bound: the model's edges; past
+// kMaxContourEdges the rest is left out.
 void find_contour(const Mission& mission, const View<FlightNumber>& view, Workspace& workspace);
 
 // Fills workspace.ray_edges with the contour edges within band_m (at the edge's depth) of each ray, at most kEdgesPerRay, nearest first.

@@ -8,8 +8,8 @@ namespace {
 
 using N = FlightNumber;
 
-// A prior as wide as the model itself keeps directions that no ray sees solvable; it says nothing where any ray does. The part that grows with
-// the information covers the rounding of the sums.
+// A prior as wide as the model itself keeps directions that no ray sees solvable; it says nothing where any ray does. The part that grows
+// with the information covers the rounding of the sums.
 void add_wide_prior(double radius_m, Mat6& H) {
   const double rounding = 1e-7 * H.bottomRightCorner<3, 3>().trace();
   for (int i = 0; i < 3; ++i) {

@@ -23,7 +23,7 @@ void set_gate(double gate_m, MatchSettings<FlightNumber>& settings);
 void solve_pass(const Mission& mission, const MatchSettings<FlightNumber>& settings, Pass& pass, Pose& T_target_sensor);
 
 // A pass over every stride-th point from the pose, which takes the step.
-Pass take_pass(const Mission& mission, const MatchSettings<FlightNumber>& settings, std::size_t stride, Lookup lookup,
-               Workspace& workspace, Pose& T_target_sensor);
+Pass take_pass(const Mission& mission, const MatchSettings<FlightNumber>& settings, std::size_t stride, Lookup lookup, Workspace& workspace,
+               Pose& T_target_sensor);
 
 }  // namespace lasso

@@ -18,20 +18,20 @@ enum class Lookup : std::uint8_t {
 
 template <class N>
 struct MatchSettings {
-  typename N::Ratio kernel_squared;       // k^2 of Tukey's kernel, in sigmas^2
-  typename N::Ratio surface_variance;     // m^2
+  typename N::Ratio kernel_squared;    // k^2 of Tukey's kernel, in sigmas^2
+  typename N::Ratio surface_variance;  // m^2
   typename N::Ratio cos_incidence_max;
-  typename N::Ratio reference_variance;   // m^2: weights are relative to it, so that sums stay of order one
-  typename N::Length gate;                // m, added to k sigma while the start is uncertain
+  typename N::Ratio reference_variance;  // m^2: weights are relative to it, so that sums stay of order one
+  typename N::Length gate;               // m, added to k sigma while the start is uncertain
 };
 
 // Sums over the points of one pass.
 template <class N>
 struct PassSums {
   NormalEquations<N> equations;
-  typename N::Sum chi_squared{};      // sum w (r/sigma)^2, w Tukey's weight
-  typename N::Sum squared_residual{}; // m^2, unweighted, of the inliers
-  std::uint32_t usable = 0;           // points that hit a surface within the incidence limit, or nothing at all
+  typename N::Sum chi_squared{};       // sum w (r/sigma)^2, w Tukey's weight
+  typename N::Sum squared_residual{};  // m^2, unweighted, of the inliers
+  std::uint32_t usable = 0;            // points that hit a surface within the incidence limit, or nothing at all
 };
 
 template <class N>

@@ -12,8 +12,8 @@ namespace lasso {
 
 template <class N>
 struct NormalEquations {
-  // Lower triangle by rows: (0,0) (1,0) (1,1) (2,0) ...; then the right-hand side. Sums run in blocks of kBlock points in the path's type and
-  // go to N::Sum block by block: fast, and as exact as the long sum would be.
+  // Lower triangle by rows: (0,0) (1,0) (1,1) (2,0) ...; then the right-hand side. Sums run in blocks of kBlock points in the path's type
+  // and go to N::Sum block by block: fast, and as exact as the long sum would be.
   static constexpr int kBlock = 32;
   typename N::Ratio block[27] = {};
   typename N::Sum total[27] = {};

@@ -9,7 +9,7 @@ namespace lasso {
 namespace {
 
 using N = FlightNumber;
-constexpr std::size_t kMissSamples = 64;
+constexpr std::uint32_t kMissSamples = 64;
 
 // Does the ray meet the model anywhere?
 bool meets_model(const Mission& mission, const PathPose<N>& pose, const ScanRay<N>& ray) {
@@ -22,21 +22,21 @@ bool meets_model(const Mission& mission, const PathPose<N>& pose, const ScanRay<
 }
 
 struct MissSample {
-  std::uint32_t misses = 0;   // all of them
+  std::uint32_t misses = 0;  // all of them
   std::uint32_t looked_up = 0;
   std::uint32_t violated = 0;  // the model says that these should have hit
 };
 
 MissSample sample_misses(const Mission& mission, const Pose& T_target_sensor, const Workspace& workspace) {
   MissSample sample;
-  for (const ScanRay<N>& ray : workspace.rays) sample.misses += ray.state == RayState::kMiss ? 1 : 0;
+  for (const ScanRay<N>& ray : workspace.rays) sample.misses += ray.state == RayState::kMiss ? 1u : 0u;
   const std::uint32_t stride = sample.misses / kMissSamples + 1;
   const PathPose<N> pose = to_path<N>(T_target_sensor);
   std::uint32_t index = 0;
   for (const ScanRay<N>& ray : workspace.rays) {
     if (ray.state != RayState::kMiss || index++ % stride != 0) continue;
     ++sample.looked_up;
-    sample.violated += meets_model(mission, pose, ray) ? 1 : 0;
+    if (meets_model(mission, pose, ray)) ++sample.violated;
   }
   return sample;
 }

@@ -5,8 +5,8 @@
 
 namespace lasso {
 
-// Share of rays whose hit or miss is as the pose predicts: inliers and unexplained returns from the registration, and a sample of the misses
-// (at most kMissSamples) looked up in the field.
+// Share of rays whose hit or miss is as the pose predicts: inliers and unexplained returns from the registration, and a sample of the
+// misses (at most kMissSamples) looked up in the field.
 double hit_miss_agreement(const Mission& mission, const Pose& T_target_sensor, std::uint32_t inliers, std::uint32_t returns,
                           bool misses_known, const Workspace& workspace);
 

@@ -11,8 +11,8 @@ struct HitSolution {
   StopReason stop = StopReason::kNotRun;
   std::uint16_t iterations = 0;
   std::uint32_t inliers = 0;
-  std::uint32_t usable = 0;    // returns that could have been inliers
-  double chi_squared = 0;      // Tukey-weighted, in units of the assumed noise
+  std::uint32_t usable = 0;  // returns that could have been inliers
+  double chi_squared = 0;    // Tukey-weighted, in units of the assumed noise
   double squared_residual_m2 = 0;
 };
 

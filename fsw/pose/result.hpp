@@ -15,15 +15,15 @@ enum class StopReason : std::uint8_t { kConverged = 0, kIterationLimit = 1, kToo
 // Why a pose can be trusted, or not.
 enum class PoseReason : std::uint8_t {
   kValid = 0,
-  kNoScan = 1,            // the scan was lost or incomplete
-  kTooFewReturns = 2,     // too few rays came back
-  kTooFewInliers = 3,     // too few of them lie on the model
-  kLowInlierShare = 4,    // the pose explains too small a share of the returns
-  kLowAgreement = 5,      // hits and misses are not where the model says
-  kHighResidual = 6,      // residuals too large for their noise
-  kNotConverged = 7,      // iteration limit
-  kSingular = 8,          // the normal equations had no solution
-  kNoTrack = 9,           // nothing to start from
+  kNoScan = 1,          // the scan was lost or incomplete
+  kTooFewReturns = 2,   // too few rays came back
+  kTooFewInliers = 3,   // too few of them lie on the model
+  kLowInlierShare = 4,  // the pose explains too small a share of the returns
+  kLowAgreement = 5,    // hits and misses are not where the model says
+  kHighResidual = 6,    // residuals too large for their noise
+  kNotConverged = 7,    // iteration limit
+  kSingular = 8,        // the normal equations had no solution
+  kNoTrack = 9,         // nothing to start from
 };
 const char* to_string(PoseReason reason);
 const char* to_string(StopReason reason);
@@ -31,22 +31,22 @@ const char* to_string(StopReason reason);
 // Registration of a single scan. The prediction is its starting point and not information added to it.
 struct Registration {
   std::uint32_t scan_id = 0;
-  TimeUs t_us = 0;               // the scan's reference time, at which the pose is stated
+  TimeUs t_us = 0;  // the scan's reference time, at which the pose is stated
   Pose T_sensor_target;
   Mat6 covariance = Mat6::Zero();  // of (rotation about the target's origin in sensor axes [rad], translation [m])
   StopReason stop = StopReason::kNotRun;
   PoseReason reason = PoseReason::kNoTrack;
   std::uint16_t iterations = 0;
-  std::uint16_t rays = 0;        // with a statement: hits and misses
-  std::uint16_t returns = 0;     // hits
-  std::uint16_t inliers = 0;     // returns with weight in the last iteration
-  std::uint16_t labels = 0;      // silhouette measurements used
-  std::uint16_t weak = 0;        // directions (of 6) whose sigma exceeds tracking.sigma_*_max
-  double rms_m = 0;              // unweighted range residual of the inliers
-  double normalized_residual = 0;  // root of chi^2 per degree of freedom
-  double inlier_share = 0;       // inliers / returns that can be inliers
-  double agreement = 0;          // share of rays whose hit or miss is as predicted (not near a contour)
-  double weakest_sigma_m = 0;    // largest sigma of the covariance's eigen-directions, rotation scaled by the model's radius
+  std::uint16_t rays = 0;                 // with a statement: hits and misses
+  std::uint16_t returns = 0;              // hits
+  std::uint16_t inliers = 0;              // returns with weight in the last iteration
+  std::uint16_t labels = 0;               // silhouette measurements used
+  std::uint16_t weak = 0;                 // directions (of 6) whose sigma exceeds tracking.sigma_*_max
+  double rms_m = 0;                       // unweighted range residual of the inliers
+  double normalized_residual = 0;         // root of chi^2 per degree of freedom
+  double inlier_share = 0;                // inliers / returns that can be inliers
+  double agreement = 0;                   // share of rays whose hit or miss is as predicted (not near a contour)
+  double weakest_sigma_m = 0;             // largest sigma of the covariance's eigen-directions, rotation scaled by the model's radius
   Vec6 weakest_direction = Vec6::Zero();  // that direction: unit vector over (rotation * radius, translation), sensor axes
 
   bool valid() const { return reason == PoseReason::kValid; }

@@ -15,7 +15,7 @@ constexpr double kCertain2 = 36;         // labels that the pose makes certain t
 constexpr double kGapSigmas = 8;         // an inner contour's step is at least this many range sigmas
 constexpr double kConsistentDepths = 4;  // a return belongs to a contour's near or far side within this many edge depths
 constexpr double kConsistentSigmas = 6;
-constexpr double kCornerCosine = 0.3;    // beyond an edge's end the contour turns at most this sharply
+constexpr double kCornerCosine = 0.3;  // beyond an edge's end the contour turns at most this sharply
 
 Vec3 to_vec3(const Length* p) { return {N::to_double(p[0]), N::to_double(p[1]), N::to_double(p[2])}; }
 
@@ -53,9 +53,7 @@ Probe make_probe(const Field<N>& field, const Vec3& origin, const Vec3& through)
   return probe;
 }
 
-bool meets_edge(const Field<N>& field, const Probe& probe, Length depth) {
-  return walk_field(field, probe.ray, -depth, depth).found;
-}
+bool meets_edge(const Field<N>& field, const Probe& probe, Length depth) { return walk_field(field, probe.ray, -depth, depth).found; }
 
 bool hidden(const Field<N>& field, const Probe& probe, Length depth) {
   return walk_field(field, probe.ray, probe.span.enter, -depth).found;
@@ -94,9 +92,9 @@ Line to_line(const View<N>& view, const ScanRay<N>& ray) {
 }
 
 struct EdgePlace {
-  Vec3 point;      // on the edge, closest to the ray in the image
-  Vec3 confirm;    // where it is probed: not at the very end of the edge
-  Vec3 across;     // unit, across edge and ray
+  Vec3 point;             // on the edge, closest to the ray in the image
+  Vec3 confirm;           // where it is probed: not at the very end of the edge
+  Vec3 across;            // unit, across edge and ray
   bool interior = false;  // the closest point is not an end
   bool usable = false;
 };
@@ -225,7 +223,7 @@ Search make_search(const Mission& mission, const View<N>& view, const LabelSearc
   const double across = range_m * p.sigma_angle_rad;
   const double gap = larger(p.edge_gap_min_m, kGapSigmas * search.range_sigma_m);
   const ProbeSettings probe{N::to_length(p.edge_depth_m), N::to_length(p.probe_step_m), gap};
-  return {mission, view, search, probe, to_vec3(view.pose.t), p.silhouette_sigma_m * p.silhouette_sigma_m + across * across,
+  return {mission,        view, search, probe, to_vec3(view.pose.t), p.silhouette_sigma_m * p.silhouette_sigma_m + across * across,
           across * across};
 }
 

@@ -10,13 +10,14 @@
 namespace lasso {
 
 struct LabelSearch {
-  bool misses_known = true;   // false: a ray without return says nothing
-  Mat6 covariance = Mat6::Zero();  // of the pose before the labels, target axes (rotation, translation): labels that it makes certain are left out
-  double range_sigma_m = 0;   // of a return at the target's range
+  bool misses_known = true;  // false: a ray without return says nothing
+  Mat6 covariance =
+      Mat6::Zero();  // of the pose before the labels, target axes (rotation, translation): labels that it makes certain are left out
+  double range_sigma_m = 0;  // of a return at the target's range
 };
 
-// Fills workspace.labels from workspace.rays at the pose T_target_sensor. Bounds: the model's edges, kMaxContourEdges, four contour edges a ray,
-// kMaxSites labels; what exceeds them is left out in the order of the rays.
+// Fills workspace.labels from workspace.rays at the pose T_target_sensor. Bounds: the model's edges, kMaxContourEdges, four contour edges a
+// ray, kMaxSites labels; what exceeds them is left out in the order of the rays.
 void find_labels(const Mission& mission, const Pose& T_target_sensor, const LabelSearch& search, Workspace& workspace);
 
 }  // namespace lasso

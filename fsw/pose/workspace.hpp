@@ -22,12 +22,12 @@ struct ScanRay {
 // A return that the registration matches.
 template <class N>
 struct MatchPoint {
-  typename N::Length p[3];    // measured point, sensor frame at the reference time
-  typename N::Unit u[3];      // direction of its ray
+  typename N::Length p[3];            // measured point, sensor frame at the reference time
+  typename N::Unit u[3];              // direction of its ray
   typename N::Ratio range_variance;   // m^2, along the ray
   typename N::Ratio across_variance;  // m^2, across the ray
-  typename N::Length reach;   // m, kernel width times sigma: how far from the point its surface may lie along the ray
-  std::uint32_t element;      // last element hit, or kNoElement
+  typename N::Length reach;           // m, kernel width times sigma: how far from the point its surface may lie along the ray
+  std::uint32_t element;              // last element hit, or kNoElement
 };
 
 // An edge of the model that is on the contour of this view, projected on the sensor's tangent plane.
@@ -46,9 +46,9 @@ constexpr std::size_t kEdgesPerRay = 4;
 template <class N>
 struct RayEdges {
   std::uint32_t count;
-  std::uint32_t contour[kEdgesPerRay];     // index into the view's contour
+  std::uint32_t contour[kEdgesPerRay];        // index into the view's contour
   typename N::Ratio distance2[kEdgesPerRay];  // m^2 at the edge's depth
-  typename N::Ratio along[kEdgesPerRay];   // of the closest point, 0..1 in the image
+  typename N::Ratio along[kEdgesPerRay];      // of the closest point, 0..1 in the image
 };
 
 constexpr int kRayBins = 32;  // bins across the scan, each way

@@ -1,0 +1,147 @@
+#include "fsw/mission/field.hpp"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "fsw/geometry/so3.hpp"
+#include "fsw/mission/mission.hpp"
+#include "ut/support/box_image.hpp"
+#include "ut/support/generator.hpp"
+#include "ut/support/verifies.hpp"
+
+namespace lasso {
+namespace {
+
+using N = FlightNumber;
+
+class FieldTest : public ::testing::Test {
+ protected:
+  FieldTest() { EXPECT_EQ(load_image(Bytes(image_.data(), image_.size), *mission_).status, Status::kOk); }
+
+  FieldRay<N> ray(const Vec3& m, const Vec3& u) const {
+    FieldRay<N> r;
+    for (int i = 0; i < 3; ++i) {
+      r.m[i] = N::to_length(m[i]);
+      r.u[i] = N::to_unit(u[i]);
+    }
+    set_cells(mission_->field, r);
+    return r;
+  }
+  // A ray from a random place around the box towards a random place in it.
+  void draw(Vec3& origin, Vec3& u) {
+    origin = 3 * Vec3(random_.uniform(-1, 1), random_.uniform(-1, 1), random_.uniform(0.2, 1));
+    const Vec3 aim =
+        model_.center + Vec3(random_.uniform(-1, 1), random_.uniform(-1, 1), random_.uniform(-1, 1)).cwiseProduct(1.2 * model_.half);
+    u = (aim - origin).normalized();
+  }
+
+  test::BoxModel model_;
+  test::TestImage image_ = test::make_box_image(preset_parameters(), model_);
+  std::unique_ptr<Mission> mission_ = std::make_unique<Mission>();
+  test::Generator random_{2005};
+};
+
+TEST_F(FieldTest, WalkFindsWhatTheRayHits) {
+  VERIFIES("LASSO-IMG-007");
+  int hits = 0;
+  for (int i = 0; i < 20000; ++i) {
+    Vec3 origin;
+    Vec3 u;
+    draw(origin, u);
+    const double range = test::cast_box(model_, origin, u);
+    const double start = range > 0 ? range + random_.uniform(-0.05, 0.05) : (model_.center - origin).norm();
+    const FieldHit<N> hit = walk_field(mission_->field, ray(origin + start * u, u), -0.1F, 0.1F);
+    if (range < 0) continue;
+    ++hits;
+    ASSERT_TRUE(hit.found) << i;
+    ASSERT_NEAR(N::to_double(hit.t), range - start, 3e-6) << i;
+  }
+  EXPECT_GT(hits, 5000);
+}
+
+TEST_F(FieldTest, WalkReportsNothingWhereNothingIs) {
+  VERIFIES("LASSO-IMG-007");
+  int misses = 0;
+  for (int i = 0; i < 20000; ++i) {
+    Vec3 origin;
+    Vec3 u;
+    draw(origin, u);
+    if (test::cast_box(model_, origin, u) >= 0) continue;
+    ++misses;
+    ASSERT_FALSE(walk_field(mission_->field, ray(origin + (model_.center - origin).norm() * u, u), -0.6F, 0.6F).found) << i;
+  }
+  EXPECT_GT(misses, 500);
+}
+
+TEST_F(FieldTest, BackFacesDoNotCount) {
+  VERIFIES("LASSO-IMG-007");
+  const Vec3 u = Vec3(0.2, -0.1, 1).normalized();
+  // From inside the box outwards: only back faces lie ahead.
+  EXPECT_FALSE(walk_field(mission_->field, ray(model_.center, u), 0.0F, 0.5F).found);
+}
+
+TEST_F(FieldTest, SamplesSeeHalfACellToEitherSide) {
+  VERIFIES("LASSO-IMG-007");
+  const Vec3 u(0, 0, 1);
+  const Vec3 face = model_.center - Vec3(0, 0, model_.half[2]);
+  const float half = mission_->field.cell / 2;
+  float next = 0;
+  for (const double offset : {-0.99, -0.5, 0.0, 0.5, 0.99}) {
+    const FieldRay<N> r = ray(face + Vec3(0.013, 0.007, offset * static_cast<double>(half)), u);
+    EXPECT_TRUE(sample_field(mission_->field, r, 0.0F, next).found) << offset;
+  }
+  EXPECT_FALSE(sample_field(mission_->field, ray(face - Vec3(0, 0, 1.01 * static_cast<double>(half)), u), 0.0F, next).found);
+}
+
+TEST_F(FieldTest, AWalkFromFarAwayEnds) {
+  VERIFIES("LASSO-IMG-008");
+  const FieldRay<N> r = ray(Vec3(0, 0, -1000), Vec3(0, 0, 1));
+  EXPECT_FALSE(walk_field(mission_->field, r, 0.0F, 1e6F).found);  // 1024 samples of 20 mm do not reach the box
+  EXPECT_FALSE(near_grid(ray(Vec3(0, 0, -1e6), Vec3(0, 0, 1))));
+  EXPECT_TRUE(near_grid(r));
+}
+
+TEST_F(FieldTest, NearElementIsTheClosestThatFaces) {
+  VERIFIES("LASSO-IMG-007");
+  const float up[3] = {0, 0, 1};
+  const float down[3] = {0, 0, -1};
+  // Below the box's middle: its low z face (4) is closest and faces a ray upwards; for one downwards the opposing face is too far.
+  const FieldRay<N> r = ray(model_.center - Vec3(0, 0, model_.half[2] + 0.013), Vec3(0, 0, 1));
+  EXPECT_EQ(near_element(mission_->field, place_in_grid(mission_->field, r.cell_m), up), 4u);
+  EXPECT_EQ(near_element(mission_->field, place_in_grid(mission_->field, r.cell_m), down), kNoElement);
+  const FieldRay<N> outside = ray(Vec3(9, 9, 9), Vec3(0, 0, 1));
+  EXPECT_EQ(near_element(mission_->field, place_in_grid(mission_->field, outside.cell_m), up), kNoElement);
+}
+
+TEST_F(FieldTest, PlacesOutsideTheGridAreItsBorder) {
+  VERIFIES("LASSO-IMG-007");
+  const Field<N>& field = mission_->field;
+  const float low[3] = {-5, -1e5F, -1};
+  const GridPlace<N> first = place_in_grid(field, low);
+  EXPECT_FALSE(first.inside);
+  EXPECT_EQ(first.brick, 0u);
+  const float high[3] = {1e5F, 1e5F, 1e5F};
+  EXPECT_EQ(place_in_grid(field, high).brick, field.bricks[0] * field.bricks[1] * field.bricks[2] - 1);
+}
+
+TEST_F(FieldTest, CurvedElementsTurnTheirNormal) {
+  VERIFIES("LASSO-IMG-007");
+  // A cylinder of radius 0.5 along y: n(p) = n + G (p - c), G = I/r across the axis.
+  Element<N> e = mission_->field.elements[5];
+  e.curvature = 1;
+  Curvature<N> curved[2] = {};
+  curved[1].n[2] = 1;
+  curved[1].g[0] = 2;  // dn_x/dx
+  Field<N> field = mission_->field;
+  field.curvatures = curved;
+  const float p[3] = {0.1F, 0.3F, 0.5F};
+  float n[3];
+  surface_normal(field, e, p, n);
+  EXPECT_FLOAT_EQ(n[0], 0.2F);
+  EXPECT_FLOAT_EQ(n[1], 0.0F);
+  EXPECT_FLOAT_EQ(n[2], 1.0F);
+}
+
+}  // namespace
+}  // namespace lasso

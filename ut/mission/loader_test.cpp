@@ -1,0 +1,168 @@
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <memory>
+
+#include "fsw/core/crc.hpp"
+#include "fsw/mission/image_format.hpp"
+#include "fsw/mission/mission.hpp"
+#include "ut/support/box_image.hpp"
+#include "ut/support/verifies.hpp"
+
+namespace lasso {
+namespace {
+
+using test::TestImage;
+
+class LoaderTest : public ::testing::Test {
+ protected:
+  TestImage image_ = test::make_box_image(preset_parameters());
+  std::unique_ptr<Mission> mission_ = std::make_unique<Mission>();
+
+  LoadFailure load() { return load_image(Bytes(image_.data(), image_.size), *mission_); }
+  void put(std::size_t offset, std::uint32_t word) {
+    for (std::size_t i = 0; i < 4; ++i) image_.data()[offset + i] = static_cast<std::uint8_t>(word >> (24 - 8 * i));
+  }
+  // Changes one word of a table, with check sums made good again: what is left is for the validation to find.
+  void spoil(TableId id, std::size_t word, std::uint32_t value) {
+    put(test::table_offset(image_, static_cast<std::uint32_t>(id)) + 4 * word, value);
+    test::repair_crcs(image_);
+  }
+  // The load fails with `status`, and neither image nor mission has changed.
+  void expect_refused(Status status) {
+    const TestImage before = image_;
+    mission_->id = 4711;
+    const LoadFailure result = load();
+    EXPECT_EQ(result.status, status) << result.what;
+    EXPECT_STRNE(result.what, "");
+    EXPECT_EQ(mission_->id, 4711u);
+    EXPECT_EQ(image_.storage, before.storage);
+  }
+};
+
+TEST_F(LoaderTest, LoadsAValidImage) {
+  VERIFIES("LASSO-IMG-001");
+  ASSERT_EQ(load().status, Status::kOk);
+  EXPECT_EQ(mission_->id, 7u);
+  EXPECT_EQ(mission_->version, 3u);
+  EXPECT_EQ(mission_->field.element_count, 6u);
+  EXPECT_EQ(mission_->edges.size(), 12u);
+  EXPECT_EQ(mission_->hull.size(), 8u);
+  EXPECT_NEAR(mission_->center_m[1], -0.01, 1e-7);
+  EXPECT_NEAR(mission_->radius_m, Vec3(0.32, 0.21, 0.15).norm(), 1e-6);
+  EXPECT_DOUBLE_EQ(mission_->parameters.duration_s, preset_parameters().duration_s);
+  const Element<FlightNumber>& top = mission_->field.elements[1];  // high x face
+  EXPECT_FLOAT_EQ(top.n[0], 1.0F);
+  EXPECT_FLOAT_EQ(top.d, 0.32F);
+}
+
+TEST_F(LoaderTest, RefusesEveryTruncation) {
+  VERIFIES("LASSO-IMG-002");
+  for (std::size_t size : {std::size_t{0}, std::size_t{3}, std::size_t{63}, std::size_t{287}, image_.size / 2, image_.size - 1}) {
+    const LoadFailure result = load_image(Bytes(image_.data(), size), *mission_);
+    EXPECT_NE(result.status, Status::kOk) << size;
+  }
+}
+
+TEST_F(LoaderTest, RefusesAFlippedBitAnywhere) {
+  VERIFIES("LASSO-IMG-003");
+  std::uint32_t seed = 12345;
+  for (int i = 0; i < 60; ++i) {
+    seed = seed * 1664525u + 1013904223u;
+    const std::size_t byte = (seed >> 4) % image_.size;
+    const auto mask = static_cast<std::uint8_t>(1u << (seed & 7));
+    image_.data()[byte] = static_cast<std::uint8_t>(image_.data()[byte] ^ mask);
+    EXPECT_NE(load().status, Status::kOk) << "byte " << byte;
+    image_.data()[byte] = static_cast<std::uint8_t>(image_.data()[byte] ^ mask);
+  }
+  EXPECT_EQ(load().status, Status::kOk);
+}
+
+TEST_F(LoaderTest, RefusesMisalignedMemory) {
+  VERIFIES("LASSO-IMG-002");
+  EXPECT_EQ(load_image(Bytes(image_.data() + 4, image_.size - 4), *mission_).status, Status::kBadValue);
+}
+
+TEST_F(LoaderTest, NamesTheHeadersFault) {
+  VERIFIES("LASSO-IMG-002");
+  struct Case {
+    std::size_t word;
+    std::uint32_t value;
+    Status status;
+  };
+  for (const Case& c : {Case{0, 1, Status::kBadMagic}, Case{1, 99, Status::kBadVersion}, Case{2, 12, Status::kBadLength},
+                        Case{3, 10, Status::kBadLength}, Case{6, 1, Status::kBadVersion}}) {
+    image_ = test::make_box_image(preset_parameters());
+    put(4 * c.word, c.value);
+    expect_refused(c.status);
+  }
+}
+
+TEST_F(LoaderTest, RefusesParametersOutOfRange) {
+  VERIFIES("LASSO-IMG-004");
+  MissionParameters parameters = preset_parameters();
+  parameters.kernel_width = 1000;
+  image_ = test::make_box_image(parameters);
+  expect_refused(Status::kBadValue);
+  parameters.kernel_width = std::numeric_limits<double>::quiet_NaN();
+  image_ = test::make_box_image(parameters);
+  expect_refused(Status::kNotFinite);
+}
+
+TEST_F(LoaderTest, RefusesIndicesOutsideTheirTables) {
+  VERIFIES("LASSO-IMG-005");
+  struct Case {
+    TableId id;
+    std::size_t word;
+    std::uint32_t value;
+    Status status;
+  };
+  const Case cases[] = {
+      {TableId::kFieldGeometry, kLengthFractionBits, 31, Status::kBadValue},
+      {TableId::kFieldGeometry, kBricksY, 0, Status::kBadValue},
+      {TableId::kFieldGeometry, kBricksX, 1024, Status::kBadValue},
+      {TableId::kFieldGeometry, kBricksX, 1, Status::kOverCapacity},
+      {TableId::kFieldGeometry, kCellSize, 0x80000000u, Status::kBadValue},
+      {TableId::kFieldGeometry, kModelRadius, 0, Status::kBadValue},
+      {TableId::kElements, 0, 0, Status::kBadValue},   // low x face without its normal
+      {TableId::kElements, 20, 1, Status::kBadValue},  // curvature that is not there
+      {TableId::kElements, 21, 2, Status::kBadValue},  // unknown flag
+      {TableId::kBricks, 0, 0x7FFFFFFFu, Status::kBadIndex},
+      {TableId::kBricks, 0, kEmptyBit, Status::kBadIndex},  // no distance
+      {TableId::kBricks, 1, 1u << 20, Status::kBadIndex},
+      {TableId::kRayCells, 0, kEmptyBit | 251u, Status::kBadIndex},
+      {TableId::kRayCells, 0, 5, Status::kBadIndex},  // a list of nothing
+      {TableId::kRayCells, 7, 250u << kListOffsetBits | kListOffsetMask, Status::kBadIndex},
+      {TableId::kRayLists, 0, 6, Status::kBadIndex},
+      {TableId::kNearCells, 0, 7, Status::kBadIndex},
+      {TableId::kEdges, 6, 0x10000000u, Status::kBadValue},
+      {TableId::kEdges, 14, 2, Status::kBadValue},
+  };
+  for (const Case& c : cases) {
+    image_ = test::make_box_image(preset_parameters());
+    spoil(c.id, c.word, c.value);
+    SCOPED_TRACE(static_cast<int>(c.id) * 1000 + static_cast<int>(c.word));
+    expect_refused(c.status);
+  }
+}
+
+TEST_F(LoaderTest, RefusesADirectoryThatPointsAstray) {
+  VERIFIES("LASSO-IMG-005");
+  const std::size_t entry = 4 * (kImageHeaderWords + kDirectoryEntryWords * 2);  // elements
+  struct Case {
+    std::size_t word;
+    std::uint32_t value;
+    Status status;
+  };
+  for (const Case& c : {Case{0, 9, Status::kBadOrder}, Case{1, 20, Status::kBadLength}, Case{2, 1u << 30, Status::kTruncated},
+                        Case{3, 0, Status::kBadIndex}, Case{3, 0xFFFFFFF8u, Status::kBadIndex}, Case{3, 289, Status::kBadIndex}}) {
+    image_ = test::make_box_image(preset_parameters());
+    put(entry + 4 * c.word, c.value);
+    put(image_.size - 4, crc32c(ConstBytes(image_.data(), image_.size - 4)));
+    SCOPED_TRACE(c.word);
+    expect_refused(c.status);
+  }
+}
+
+}  // namespace
+}  // namespace lasso

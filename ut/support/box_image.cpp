@@ -1,0 +1,275 @@
+#include "ut/support/box_image.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fsw/core/byte_codec.hpp"
+#include "fsw/core/crc.hpp"
+#include "fsw/mission/image_format.hpp"
+
+namespace lasso::test {
+namespace {
+
+constexpr int kBits = 24;
+
+std::uint32_t length(double m) { return static_cast<std::uint32_t>(static_cast<std::int32_t>(m * (1 << kBits) + (m < 0 ? -0.5 : 0.5))); }
+std::uint32_t unit(double x) { return static_cast<std::uint32_t>(static_cast<std::int32_t>(x * (1 << 30))); }
+
+struct Grid {
+  Vec3 origin;
+  double cell;
+  std::uint32_t bricks[3];
+  Vec3 brick_center(std::uint32_t x, std::uint32_t y, std::uint32_t z) const {
+    return origin + 8 * cell * (Vec3(x, y, z) + Vec3::Constant(0.5));
+  }
+};
+
+// Face f: axis f / 2, side f % 2 (0 low, 1 high).
+struct Face {
+  int axis;
+  double sign;
+  double place;
+};
+Face face_of(const BoxModel& m, int f) {
+  const int axis = f / 2;
+  const double sign = f % 2 == 0 ? -1 : 1;
+  return {axis, sign, m.center[axis] + sign * m.half[axis]};
+}
+double low(const BoxModel& m, int axis) { return m.center[axis] - m.half[axis]; }
+double high(const BoxModel& m, int axis) { return m.center[axis] + m.half[axis]; }
+
+Vec3 closest_on_face(const BoxModel& m, const Face& face, const Vec3& p) {
+  Vec3 q;
+  for (int i = 0; i < 3; ++i) q[i] = i == face.axis ? face.place : std::clamp(p[i], low(m, i), high(m, i));
+  return q;
+}
+
+int closest_face(const BoxModel& m, const Vec3& p, int opposing_to, double limit) {
+  int best = -1;
+  for (int f = 0; f < 6; ++f) {
+    if (opposing_to >= 0 && f / 2 != opposing_to / 2) continue;
+    if (opposing_to == f) continue;
+    const double distance = (closest_on_face(m, face_of(m, f), p) - p).norm();
+    if (distance < limit) {
+      limit = distance;
+      best = f;
+    }
+  }
+  return best;
+}
+
+bool face_crosses(const BoxModel& m, const Face& face, const Vec3& center, double reach) {
+  for (int i = 0; i < 3; ++i) {
+    const double a = i == face.axis ? face.place : low(m, i);
+    const double b = i == face.axis ? face.place : high(m, i);
+    if (b < center[i] - reach || a > center[i] + reach) return false;
+  }
+  return true;
+}
+
+Grid make_grid(const BoxModel& m) {
+  Grid grid;
+  grid.cell = m.cell_m;
+  for (int i = 0; i < 3; ++i) {
+    grid.origin[i] = low(m, i) - m.margin_m - 0.0011;  // no face on a cell boundary
+    grid.bricks[i] = static_cast<std::uint32_t>(std::ceil((2 * m.half[i] + 2 * m.margin_m) / (8 * m.cell_m)) + 1);
+  }
+  return grid;
+}
+
+Words geometry_words(const BoxModel& m, const Grid& g) {
+  const double radius = (m.center.cwiseAbs() + m.half).norm();
+  return {kBits,       length(g.origin[0]), length(g.origin[1]), length(g.origin[2]), length(g.cell),      g.bricks[0],       g.bricks[1],
+          g.bricks[2], length(radius),      length(m.center[0]), length(m.center[1]), length(m.center[2]), length(5 * g.cell)};
+}
+
+void push_plane(Words& words, int axis, double sign, double offset) {
+  for (int i = 0; i < 3; ++i) words.push_back(unit(i == axis ? sign : 0));
+  words.push_back(length(offset));
+}
+
+Words element_words(const BoxModel& m) {
+  Words words;
+  for (int f = 0; f < 6; ++f) {
+    const Face face = face_of(m, f);
+    push_plane(words, face.axis, face.sign, face.sign * face.place);
+    for (int axis = 0; axis < 3; ++axis) {
+      if (axis == face.axis) continue;
+      push_plane(words, axis, 1, low(m, axis) - 1e-6);
+      push_plane(words, axis, -1, -high(m, axis) - 1e-6);
+    }
+    words.push_back(0);
+    words.push_back(0);
+  }
+  return words;
+}
+
+std::uint32_t ray_cell(const BoxModel& m, const Grid& g, const Vec3& center, Words& lists) {
+  const auto offset = static_cast<std::uint32_t>(lists.size());
+  for (int f = 0; f < 6; ++f) {
+    if (face_crosses(m, face_of(m, f), center, g.cell + 1e-6)) lists.push_back(static_cast<std::uint32_t>(f));
+  }
+  const auto count = static_cast<std::uint32_t>(lists.size()) - offset;
+  return count == 0 ? kEmptyBit | 1u : count << kListOffsetBits | offset;  // a distance of 1 is never too large
+}
+
+void push_ray_brick(const BoxModel& m, const Grid& g, const Vec3& corner, Words& cells, Words& lists) {
+  for (std::uint32_t k = 0; k < kRayCellsPerBrick; ++k) {
+    const Vec3 center = corner + g.cell * (Vec3(k & 7, k >> 3 & 7, k >> 6) + Vec3::Constant(0.5));
+    cells.push_back(ray_cell(m, g, center, lists));
+  }
+}
+
+void push_near_brick(const BoxModel& m, const Grid& g, const Vec3& corner, Words& near) {
+  for (std::uint32_t k = 0; k < 64; ++k) {
+    const Vec3 center = corner + 2 * g.cell * (Vec3(k & 3, k >> 2 & 3, k >> 4) + Vec3::Constant(0.5));
+    const int first = closest_face(m, center, -1, 1e9);
+    near.push_back(static_cast<std::uint32_t>(first + 1));
+    near.push_back(static_cast<std::uint32_t>(closest_face(m, center, first, 5 * g.cell) + 1));
+  }
+}
+
+void push_foot(const BoxModel& m, const Vec3& center, Words& feet) {
+  const Vec3 foot = closest_on_face(m, face_of(m, closest_face(m, center, -1, 1e9)), center);
+  for (int i = 0; i < 3; ++i) feet.push_back(length(foot[i]));
+}
+
+// Edge along `axis` between the faces of the two other axes.
+void push_edge(const BoxModel& m, int axis, double sign1, double sign2, Words& edges) {
+  const int i1 = (axis + 1) % 3;
+  const int i2 = (axis + 2) % 3;
+  Vec3 a = m.center;
+  a[i1] += sign1 * m.half[i1];
+  a[i2] += sign2 * m.half[i2];
+  Vec3 b = a;
+  a[axis] = low(m, axis);
+  b[axis] = high(m, axis);
+  for (int i = 0; i < 3; ++i) edges.push_back(length(a[i]));
+  for (int i = 0; i < 3; ++i) edges.push_back(length(b[i]));
+  push_plane(edges, i1, sign1, sign1 * a[i1]);
+  push_plane(edges, i2, sign2, sign2 * a[i2]);
+  edges.push_back(0);
+}
+
+Words edge_words(const BoxModel& m) {
+  Words words;
+  for (int k = 0; k < 12; ++k) push_edge(m, k / 4, (k & 1) == 0 ? -1 : 1, (k & 2) == 0 ? -1 : 1, words);
+  return words;
+}
+
+Words hull_words(const BoxModel& m) {
+  Words words;
+  for (int k = 0; k < 8; ++k) {
+    for (int i = 0; i < 3; ++i) words.push_back(length((k >> i & 1) == 0 ? low(m, i) : high(m, i)));
+  }
+  return words;
+}
+
+constexpr std::uint32_t kRecordWords[11] = {2, 13, 22, 15, 2, 512, 1, 128, 3, 15, 3};
+
+void put_u32(std::uint8_t* p, std::uint32_t v) {
+  for (int i = 0; i < 4; ++i) p[i] = static_cast<std::uint8_t>(v >> (24 - 8 * i));
+}
+std::uint32_t get_u32(const std::uint8_t* p) {
+  return static_cast<std::uint32_t>(p[0]) << 24 | static_cast<std::uint32_t>(p[1]) << 16 | static_cast<std::uint32_t>(p[2]) << 8 | p[3];
+}
+
+std::uint8_t* directory_entry(TestImage& image, std::uint32_t id) {
+  return image.data() + 4 * (kImageHeaderWords + kDirectoryEntryWords * (id - 1));
+}
+
+Words parameter_words(const MissionParameters& parameters) {
+  Words words;
+  for (const ParameterRow& row : parameter_rows()) {
+    std::uint8_t bytes[8];
+    ByteWriter writer{Bytes(bytes)};
+    writer.f64(parameters.*row.member);
+    words.push_back(get_u32(bytes));
+    words.push_back(get_u32(bytes + 4));
+  }
+  return words;
+}
+
+}  // namespace
+
+BoxTables make_box_tables(const BoxModel& m) {
+  const Grid g = make_grid(m);
+  BoxTables tables;
+  tables[1] = geometry_words(m, g);
+  tables[2] = element_words(m);
+  tables[3] = Words(kCurvatureWords, 0);
+  for (std::uint32_t z = 0, index = 0; z < g.bricks[2]; ++z) {
+    for (std::uint32_t y = 0; y < g.bricks[1]; ++y) {
+      for (std::uint32_t x = 0; x < g.bricks[0]; ++x, ++index) {
+        const Vec3 center = g.brick_center(x, y, z);
+        const Vec3 corner = center - Vec3::Constant(4 * g.cell);
+        tables[4].push_back(index);
+        tables[4].push_back(index + 1);
+        push_ray_brick(m, g, corner, tables[5], tables[6]);
+        push_near_brick(m, g, corner, tables[7]);
+        push_foot(m, center, tables[8]);
+      }
+    }
+  }
+  tables[9] = edge_words(m);
+  tables[10] = hull_words(m);
+  return tables;
+}
+
+TestImage make_image(const MissionParameters& parameters, const BoxTables& given) {
+  BoxTables tables = given;
+  tables[0] = parameter_words(parameters);
+  std::size_t size = (4 * (kImageHeaderWords + 11 * kDirectoryEntryWords) + 7) / 8 * 8;
+  std::size_t offsets[11];
+  for (std::size_t i = 0; i < 11; ++i) {
+    offsets[i] = size;
+    size = (size + 4 * tables[i].size() + 7) / 8 * 8;
+  }
+  TestImage image;
+  image.size = size + 4;
+  image.storage.resize((image.size + 7) / 8);
+  const std::uint32_t header[7] = {kImageMagic,
+                                   kImageVersion,
+                                   static_cast<std::uint32_t>(image.size),
+                                   kTableCount,
+                                   7,
+                                   3,
+                                   static_cast<std::uint32_t>(parameter_rows().size())};
+  for (std::size_t i = 0; i < 7; ++i) put_u32(image.data() + 4 * i, header[i]);
+  for (std::uint32_t i = 0; i < 11; ++i) {
+    std::uint8_t* entry = directory_entry(image, i + 1);
+    put_u32(entry, i + 1);
+    put_u32(entry + 4, kRecordWords[i]);
+    put_u32(entry + 8, static_cast<std::uint32_t>(tables[i].size()) / kRecordWords[i]);
+    put_u32(entry + 12, static_cast<std::uint32_t>(offsets[i]));
+    for (std::size_t k = 0; k < tables[i].size(); ++k) put_u32(image.data() + offsets[i] + 4 * k, tables[i][k]);
+  }
+  repair_crcs(image);
+  return image;
+}
+
+std::size_t table_offset(TestImage& image, std::uint32_t id) { return get_u32(directory_entry(image, id) + 12); }
+
+void repair_crcs(TestImage& image) {
+  for (std::uint32_t id = 1; id <= 11; ++id) {
+    std::uint8_t* entry = directory_entry(image, id);
+    const std::size_t bytes = 4u * get_u32(entry + 4) * get_u32(entry + 8);
+    if (table_offset(image, id) + bytes > image.size - 4) continue;  // a test made the table too long
+    put_u32(entry + 16, crc32c(ConstBytes(image.data() + table_offset(image, id), bytes)));
+  }
+  put_u32(image.data() + image.size - 4, crc32c(ConstBytes(image.data(), image.size - 4)));
+}
+
+double cast_box(const BoxModel& m, const Vec3& origin, const Vec3& u) {
+  double enter = 0;
+  double leave = 1e9;
+  for (int i = 0; i < 3; ++i) {
+    const double a = (low(m, i) - origin[i]) / u[i];
+    const double b = (high(m, i) - origin[i]) / u[i];
+    enter = std::max(enter, std::min(a, b));
+    leave = std::min(leave, std::max(a, b));
+  }
+  return enter <= leave ? enter : -1;
+}
+
+}  // namespace lasso::test

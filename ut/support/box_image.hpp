@@ -1,0 +1,46 @@
+// A flight image of a box, made by brute force and independently of the mission compiler: the flight rooms' tests run on it, on the host
+// and on the emulated target. Everything is axis-aligned, so each table has a closed form.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "fsw/geometry/types.hpp"
+#include "fsw/mission/parameters.hpp"
+
+namespace lasso::test {
+
+struct BoxModel {
+  Vec3 center{0.02, -0.01, 0.03};
+  Vec3 half{0.30, 0.20, 0.12};
+  double cell_m = 0.02;
+  double margin_m = 0.20;
+};
+
+using Words = std::vector<std::uint32_t>;
+
+// The tables in the order of TableId, without the parameters (table 1, index 0 stays empty).
+using BoxTables = std::array<Words, 11>;
+BoxTables make_box_tables(const BoxModel& model);
+
+// A complete image. Its memory is aligned for load_image (std::vector<std::uint64_t> behind the bytes).
+struct TestImage {
+  std::vector<std::uint64_t> storage;
+  std::size_t size = 0;
+  std::uint8_t* data() { return reinterpret_cast<std::uint8_t*>(storage.data()); }
+};
+TestImage make_image(const MissionParameters& parameters, const BoxTables& tables);
+inline TestImage make_box_image(const MissionParameters& parameters, const BoxModel& model = {}) {
+  return make_image(parameters, make_box_tables(model));
+}
+
+// Recomputes the check sums after a test has changed bytes.
+void repair_crcs(TestImage& image);
+// Byte offset of a table (1-based id) in the image.
+std::size_t table_offset(TestImage& image, std::uint32_t id);
+
+// Where a ray from `origin` along `u` (target frame) first meets the box: its range, or a negative number. Slab method.
+double cast_box(const BoxModel& model, const Vec3& origin, const Vec3& u);
+
+}  // namespace lasso::test
