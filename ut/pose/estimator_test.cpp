@@ -1,0 +1,189 @@
+#include "fsw/pose/estimator.hpp"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "fsw/geometry/symmetric6.hpp"
+#include "ut/support/box_scan.hpp"
+#include "ut/support/verifies.hpp"
+
+namespace lasso {
+namespace {
+
+using test::BoxScan;
+
+class EstimatorTest : public ::testing::Test {
+ protected:
+  EstimatorTest() {
+    EXPECT_EQ(load_image(Bytes(image_.data(), image_.size), *mission_).status, Status::kOk);
+    scan_.T_sensor_target = test::generic_box_pose();
+    parameters().sigma0_m = 1e-3;
+    parameters().sigma_k_per_m = 0;
+  }
+  MissionParameters& parameters() { return mission_->parameters; }
+  Registration estimate(const RangeImage& image, const StartPoint& start) { return estimator_->estimate(*mission_, image, start); }
+  Registration estimate_from(double rotation_rad, double shift_m) {
+    StartPoint start;
+    start.T_sensor_target = test::disturb(scan_.T_sensor_target, rotation_rad, shift_m, random_);
+    start.rates = scan_.rates;
+    return estimate(*test::scan_box(scan_, random_), start);
+  }
+  Vec6 error(const Registration& r) const { return pose_difference(r.T_sensor_target, scan_.T_sensor_target); }
+
+  test::TestImage image_ = test::make_box_image(preset_parameters());
+  std::unique_ptr<Mission> mission_ = std::make_unique<Mission>();
+  std::unique_ptr<Estimator> estimator_ = std::make_unique<Estimator>();
+  test::Generator random_{71};
+  BoxScan scan_;
+};
+
+TEST_F(EstimatorTest, NoiseFreeScanGivesTheExactPose) {
+  VERIFIES("LASSO-REG-001");
+  for (int i = 0; i < 20; ++i) {
+    scan_.T_sensor_target = test::disturb(test::generic_box_pose(), 0.2, 0.1, random_);
+    const Registration r = estimate_from(0.01, 0.005);
+    ASSERT_TRUE(r.valid()) << to_string(r.reason);
+    EXPECT_EQ(r.stop, StopReason::kConverged);
+    EXPECT_LT(error(r).tail<3>().norm(), 2e-5);
+    EXPECT_LT(error(r).head<3>().norm(), 5e-5);
+  }
+}
+
+struct Spread {
+  double nees = 0, shift2 = 0, turn2 = 0;
+};
+
+TEST_F(EstimatorTest, CovarianceIsHonestAndSilhouettesAddInformation) {
+  VERIFIES("LASSO-REG-002 LASSO-REG-003");
+  scan_.sigma_m = 1e-3;
+  Spread spread[2];
+  constexpr int kScans = 150;
+  for (int i = 0; i < kScans; ++i) {
+    scan_.T_sensor_target = test::disturb(test::generic_box_pose(), 0.2, 0.1, random_);
+    const auto image = test::scan_box(scan_, random_);
+    StartPoint start;
+    start.T_sensor_target = test::disturb(scan_.T_sensor_target, 0.005, 0.003, random_);
+    for (int silhouettes = 0; silhouettes < 2; ++silhouettes) {
+      parameters().silhouettes = silhouettes;
+      const Registration r = estimate(*image, start);
+      ASSERT_TRUE(r.valid());
+      Vec6 x;
+      ASSERT_EQ(solve6(r.covariance, error(r), x), Status::kOk);
+      spread[silhouettes].nees += error(r).dot(x) / kScans;
+      spread[silhouettes].turn2 += error(r).head<3>().squaredNorm();
+      spread[silhouettes].shift2 += error(r).tail<3>().squaredNorm();
+    }
+  }
+  for (const Spread& s : spread) {
+    EXPECT_GT(s.nees, 4.8);
+    EXPECT_LT(s.nees, 7.5);
+  }
+  EXPECT_LT(spread[1].turn2, spread[0].turn2);
+  EXPECT_LT(spread[1].shift2, spread[0].shift2);
+}
+
+TEST_F(EstimatorTest, EstimatesTheNoiseThatItWasNotTold) {
+  VERIFIES("LASSO-REG-003");
+  scan_.sigma_m = 2e-3;
+  const Registration r = estimate_from(0.005, 0.003);
+  ASSERT_TRUE(r.valid());
+  EXPECT_NEAR(r.normalized_residual, 2.0, 0.2);
+  EXPECT_NEAR(r.rms_m, 2e-3, 6e-4);
+}
+
+TEST_F(EstimatorTest, MovesPointsToTheReferenceTime) {
+  VERIFIES("LASSO-REG-004");
+  scan_.rates.omega_radps = Vec3(0.06, -0.05, 0.04);
+  scan_.rates.v_mps = Vec3(0.03, -0.02, 0.05);
+  const Registration deskewed = estimate_from(0.005, 0.003);
+  ASSERT_TRUE(deskewed.valid());
+  EXPECT_LT(error(deskewed).tail<3>().norm(), 3e-5);
+  EXPECT_LT(error(deskewed).head<3>().norm(), 1e-4);
+  parameters().deskew = 0;
+  EXPECT_GT(error(estimate_from(0.005, 0.003)).head<3>().norm(), 3e-4);  // what it would be without
+}
+
+TEST_F(EstimatorTest, WideStartConverges) {
+  VERIFIES("LASSO-REG-005");
+  for (int i = 0; i < 40; ++i) {
+    StartPoint start;
+    start.T_sensor_target = test::disturb(scan_.T_sensor_target, 0.2, 0.1, random_);
+    start.wide = true;
+    const Registration r = estimate(*test::scan_box(scan_, random_), start);
+    EXPECT_LT(error(r).tail<3>().norm(), 1e-3) << i;
+  }
+}
+
+TEST_F(EstimatorTest, OutliersAndDropoutsAreTolerated) {
+  VERIFIES("LASSO-REG-006");
+  scan_.sigma_m = 1e-3;
+  scan_.outliers = 0.3;
+  scan_.dropouts = 0.2;
+  parameters().dropout_probability = 0.2;
+  parameters().inlier_share_min = 0.3;
+  parameters().agreement_min = 0.3;
+  parameters().normalized_residual_max = 10;
+  for (int i = 0; i < 20; ++i) {
+    const Registration r = estimate_from(0.005, 0.003);
+    EXPECT_LT(error(r).tail<3>().norm(), 5e-3) << i;
+    EXPECT_LT(error(r).head<3>().norm(), 0.01) << i;
+  }
+}
+
+TEST_F(EstimatorTest, SaysWhyAPoseCannotBeTrusted) {
+  VERIFIES("LASSO-REG-007");
+  RangeImage empty;
+  StartPoint start;
+  start.T_sensor_target = scan_.T_sensor_target;
+  const Registration nothing = estimate(empty, start);
+  EXPECT_EQ(nothing.reason, PoseReason::kTooFewReturns);
+  EXPECT_EQ(nothing.T_sensor_target.p, start.T_sensor_target.p);  // the start, not something invented
+  const auto image = test::scan_box(scan_, random_);
+  start.T_sensor_target.p[2] += 1.0;  // a metre off: no ray meets the box within the gate
+  EXPECT_EQ(estimate(*image, start).reason, PoseReason::kTooFewInliers);
+  start.T_sensor_target = scan_.T_sensor_target;
+  start.T_sensor_target.q = exp_so3(Vec3(0, 0, 0.5)) * start.T_sensor_target.q;
+  EXPECT_FALSE(estimate(*image, start).valid());
+}
+
+TEST_F(EstimatorTest, ReportsWeakDirections) {
+  VERIFIES("LASSO-REG-008");
+  // One face alone, all other rays unknown: nothing holds the box in its plane.
+  parameters().silhouettes = 0;
+  scan_.T_sensor_target.q = Quat(1, 0, 0, 0);
+  scan_.half_angle = 0.04;
+  scan_.sigma_m = 1e-3;
+  const Registration r = estimate_from(0.0, 0.0);
+  EXPECT_EQ(r.weak, 3);  // two shifts in the plane and the turn about its normal
+  EXPECT_GT(r.weakest_sigma_m, 0.05);
+}
+
+TEST_F(EstimatorTest, PointCloudsWithoutMissesAreRegistered) {
+  VERIFIES("LASSO-REG-009");
+  scan_.sigma_m = 1e-3;
+  const auto image = test::scan_box(scan_, random_);
+  image->misses_known = false;
+  StartPoint start;
+  start.T_sensor_target = test::disturb(scan_.T_sensor_target, 0.005, 0.003, random_);
+  const Registration r = estimate(*image, start);
+  EXPECT_TRUE(r.valid());
+  EXPECT_EQ(r.labels, 0);  // a box alone has outer contours only
+}
+
+TEST_F(EstimatorTest, TheSameInputGivesTheSameBits) {
+  VERIFIES("LASSO-REG-010");
+  scan_.sigma_m = 1e-3;
+  const auto image = test::scan_box(scan_, random_);
+  StartPoint start;
+  start.T_sensor_target = test::disturb(scan_.T_sensor_target, 0.005, 0.003, random_);
+  const Registration first = estimate(*image, start);
+  (void)estimate_from(0.01, 0.01);  // another scan in between leaves no trace
+  const Registration second = estimate(*image, start);
+  EXPECT_EQ(first.T_sensor_target.p, second.T_sensor_target.p);
+  EXPECT_EQ(first.T_sensor_target.q.coeffs(), second.T_sensor_target.q.coeffs());
+  EXPECT_EQ(first.covariance, second.covariance);
+}
+
+}  // namespace
+}  // namespace lasso
