@@ -22,13 +22,13 @@ struct Origin {
 };
 
 struct TargetSource {
-  std::filesystem::path file;  // resolved; the model's TOML, or the mesh
-  bool parametric = false;     // file is a model (TOML), not a mesh
-  std::string file_key;        // "target.model" or "target.mesh"
-  std::string sha256;          // of the file's bytes as found, lower-case hex
-  double scale = 1;            // applied to the file's lengths to get metres
-  double crease_angle_rad = 0;  // facets that meet at less are one smooth surface
-  double cell_size_m = 0;       // of the look-up field
+  std::filesystem::path file;                // resolved; the model's TOML, or the mesh
+  bool parametric = false;                   // file is a model (TOML), not a mesh
+  std::string file_key;                      // "target.model" or "target.mesh"
+  std::string sha256;                        // of the file's bytes as found, lower-case hex
+  double scale = 1;                          // applied to the file's lengths to get metres
+  double crease_angle_rad = 0;               // facets that meet at less are one smooth surface
+  double cell_size_m = 0;                    // of the look-up field
   std::map<std::string, double> parameters;  // of the parametric model, in the units that the model states; only those that were written
 };
 
@@ -39,14 +39,14 @@ enum class ScenarioKind : std::uint8_t { kPaper = 0, kSpin = 1 };
 // kPaper: the target stands still in each scan and is turned by `step_rad` about its own x axis from frame to frame.
 // kSpin: it turns at `spin_radps` and drifts at `drift_mps`, during the scans as well.
 struct Scenario {
-  double kind = 0;                  // a ScenarioKind
-  std::vector<double> ranges_m;     // along the boresight, one run of `frames` each
+  double kind = 0;               // a ScenarioKind
+  std::vector<double> ranges_m;  // along the boresight, one run of `frames` each
   double frames = 0, step_rad = 0, tilt_rad = 0, boresight_rad = 0;
-  std::vector<double> offset_m;     // x, y of the target's origin in the sensor frame
-  std::vector<double> spin_radps;   // x, y, z in the target's axes
-  std::vector<double> drift_mps;    // x, y, z in the sensor's axes
+  std::vector<double> offset_m;    // x, y of the target's origin in the sensor frame
+  std::vector<double> spin_radps;  // x, y, z in the target's axes
+  std::vector<double> drift_mps;   // x, y, z in the sensor's axes
   // The simulated sensor, as against the noise that the estimator assumes ([sensor]), from which unwritten values are taken.
-  double noise = 1;                 // 0: perfect ranges and angles
+  double noise = 1;  // 0: perfect ranges and angles
   double sigma0_m = 0, sigma_k_per_m = 0, angle_noise_rad = 0, dropout_probability = 0;
   double dropout_incidence_rad = 0;  // rays that graze the surface more than this do not return
   double outlier_probability = 0, edge_mixing_m = 0;

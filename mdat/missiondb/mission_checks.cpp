@@ -1,0 +1,99 @@
+#include "mdat/missiondb/mission_checks.hpp"
+
+#include <cmath>
+#include <numeric>
+
+#include "cfg/capacities.hpp"
+#include "fsw/sense/scan_plan.hpp"
+#include "mdat/missiondb/value_row.hpp"
+
+namespace lasso::mdat {
+namespace {
+
+using Parameters = MissionParameters;
+
+void check_range(const Parameters& p, const Complaint& complain) {
+  if (p.range_min_m < p.range_max_m) return;
+  complain({"sensor.range_min_m", "sensor.range_max_m"}, number_text(p.range_min_m),
+           "expected less than sensor.range_max_m, which is " + number_text(p.range_max_m) + " m");
+}
+
+void check_points(const Parameters& p, const Complaint& complain) {
+  if (p.points > static_cast<double>(kMaxRays)) {
+    complain({"scan.points"}, number_text(p.points), "the flight component has room for " + std::to_string(kMaxRays) + " rays");
+  }
+  if (p.inliers_min > p.points) {
+    complain({"tracking.inliers_min", "scan.points"}, number_text(p.inliers_min),
+             "expected at most scan.points, which is " + number_text(p.points));
+  }
+}
+
+void check_pattern(const Parameters& p, const Complaint& complain) {
+  const auto a = static_cast<int>(p.cycles_a);
+  const auto b = static_cast<int>(p.cycles_b);
+  const auto kind = static_cast<PatternKind>(static_cast<int>(p.pattern));
+  if (kind == PatternKind::kRaster) {
+    if (p.points < 2 * p.cycles_a) {
+      complain({"scan.cycles_a", "scan.points"}, std::to_string(a),
+               "a raster needs at least 2 points a line: fewer lines, or more scan.points");
+    }
+  } else if (a == b || std::gcd(a, b) != 1) {
+    complain({"scan.cycles_b", "scan.cycles_a", "scan.pattern"}, std::to_string(b),
+             "expected a count that differs from scan.cycles_a, which is " + std::to_string(a) +
+                 ", and has no common divisor with it; otherwise the curve repeats itself");
+  }
+}
+
+void check_duration(const Parameters& p, const Complaint& complain) {
+  if (p.duration_s < p.period_s) return;
+  complain({"scan.duration_s", "filter.period_s"}, number_text(p.duration_s),
+           "expected less than filter.period_s, which is " + number_text(p.period_s) + " s: a scan ends before the next begins");
+}
+
+double quaternion_length(const Parameters& p) {
+  return std::sqrt(p.initial_qx * p.initial_qx + p.initial_qy * p.initial_qy + p.initial_qz * p.initial_qz + p.initial_qw * p.initial_qw);
+}
+
+void check_initial(const Parameters& p, const Complaint& complain) {
+  const double length = quaternion_length(p);
+  if (!(std::fabs(length - 1) <= kQuaternionTolerance)) {
+    const std::string value = "[" + number_text(p.initial_qx) + ", " + number_text(p.initial_qy) + ", " + number_text(p.initial_qz) + ", " +
+                              number_text(p.initial_qw) + "]";
+    complain({"tracking.initial.qw", "tracking.initial.qx", "tracking.initial.qy", "tracking.initial.qz"}, value,
+             "expected a quaternion of unit length (within " + number_text(kQuaternionTolerance) + "), this one's length is " +
+                 number_text(length));
+  }
+  if (p.initial_present != 0 && p.initial_z_m <= 0) {
+    complain({"tracking.initial.z_m", "tracking.initial.present"}, number_text(p.initial_z_m),
+             "expected more than 0: the target is in front");
+  }
+}
+
+}  // namespace
+
+void check_parameters(const MissionParameters& parameters, const Complaint& complain) {
+  check_range(parameters, complain);
+  check_points(parameters, complain);
+  check_pattern(parameters, complain);
+  check_duration(parameters, complain);
+  check_initial(parameters, complain);
+}
+
+void check_scenario(const Scenario& scenario, const MissionParameters& parameters, const Complaint& complain) {
+  for (const double range_m : scenario.ranges_m) {
+    if (range_m > parameters.range_min_m && range_m < parameters.range_max_m) continue;
+    complain({"ranges_m"}, number_text(range_m),
+             "expected between sensor.range_min_m and sensor.range_max_m, which are " + number_text(parameters.range_min_m) + " m and " +
+                 number_text(parameters.range_max_m) + " m");
+  }
+}
+
+void normalize_attitude(MissionParameters& parameters) {
+  const double length = quaternion_length(parameters);
+  parameters.initial_qx /= length;
+  parameters.initial_qy /= length;
+  parameters.initial_qz /= length;
+  parameters.initial_qw /= length;
+}
+
+}  // namespace lasso::mdat

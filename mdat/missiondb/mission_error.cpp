@@ -1,0 +1,35 @@
+#include "mdat/missiondb/mission_error.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+namespace lasso::mdat {
+namespace {
+
+std::string joined(const std::vector<Problem>& problems) {
+  std::string text;
+  for (const Problem& problem : problems) text += (text.empty() ? "" : "\n") + to_string(problem);
+  return text;
+}
+
+std::vector<Problem> in_order(std::vector<Problem> problems) {
+  std::stable_sort(problems.begin(), problems.end(), [](const Problem& a, const Problem& b) {
+    return std::tie(a.file, a.line, a.column) < std::tie(b.file, b.line, b.column);
+  });
+  return problems;
+}
+
+}  // namespace
+
+std::string to_string(const Problem& problem) {
+  std::string text = problem.file;
+  if (problem.line > 0) text += ":" + std::to_string(problem.line) + ":" + std::to_string(problem.column);
+  if (!problem.key.empty()) text += ": " + problem.key;
+  if (!problem.value.empty()) text += ": " + problem.value;
+  return text + ": " + problem.expected;
+}
+
+MissionError::MissionError(std::vector<Problem> problems)
+    : std::runtime_error(joined(in_order(problems))), problems_(in_order(std::move(problems))) {}
+
+}  // namespace lasso::mdat

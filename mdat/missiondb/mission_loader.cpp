@@ -1,0 +1,289 @@
+#include <algorithm>
+
+#include "mdat/missiondb/mesh_import.hpp"
+#include "mdat/missiondb/mission_checks.hpp"
+#include "mdat/missiondb/mission_source.hpp"
+#include "mdat/missiondb/model_file.hpp"
+#include "mdat/missiondb/sections.hpp"
+#include "mdat/missiondb/sha256.hpp"
+#include "mdat/missiondb/toml_reader.hpp"
+
+namespace lasso::mdat {
+namespace {
+
+double number_or(const FoundValues& found, const ValueRow& row, double preset) {
+  const auto value = found.find(row.key);
+  return value == found.end() ? preset : value->second.numbers.at(0);
+}
+
+std::string text_or_empty(const FoundValues& found, const std::string& key) {
+  const auto value = found.find(key);
+  return value == found.end() ? "" : value->second.text;
+}
+
+void override_parameters(MissionParameters& parameters, const std::map<std::string, double>& overrides) {
+  for (const ParameterRow& row : parameter_rows()) {
+    const auto value = overrides.find(row.key);
+    if (value != overrides.end()) parameters.*row.member = value->second * row.to_si;
+  }
+  normalize_attitude(parameters);
+}
+
+// Builds a MissionSource from a parsed file; the stages follow each other, problems gather.
+class Loader {
+ public:
+  explicit Loader(const std::filesystem::path& file) : root_(parse_toml(file)), problems_(file) { source_.file = file; }
+
+  MissionSource load() {
+    read_values();
+    if (problems_.empty()) read_target();
+    if (problems_.empty()) read_scenarios();
+    if (problems_.empty()) check_model();
+    if (problems_.empty()) check_contradictions();
+    problems_.throw_if_any();
+    normalize_attitude(source_.parameters);
+    return std::move(source_);
+  }
+
+ private:
+  // Values of all sections, scenarios included, so that one pass shows the mistakes of all.
+  void read_values() {
+    std::vector<ValueRow> rows = mission_rows();
+    rows.insert(rows.end(), flight_rows().begin(), flight_rows().end());
+    found_ = read_table(root_, "", rows, {"scenario", "target.parameters"}, problems_);
+    for (const ValueRow& row : rows) note_origin(row.key, found_, row.key);
+    read_scenario_values();
+    read_model_parameters();
+    fill_mission();
+  }
+  void note_origin(const std::string& key, const FoundValues& found, const std::string& found_key) {
+    const auto value = found.find(found_key);
+    source_.origins[key] = value == found.end() ? Origin{} : value->second.origin;
+  }
+  void fill_mission() {
+    for (const ParameterRow& row : parameter_rows()) {
+      source_.parameters.*row.member = number_or(found_, value_row(row), row.preset) * row.to_si;
+    }
+    source_.id = static_cast<std::uint32_t>(mission_number("mission.id"));
+    source_.version = static_cast<std::uint32_t>(mission_number("mission.version"));
+    source_.name = text_or_empty(found_, "mission.name");
+    source_.target.scale = mission_number("target.scale");
+    source_.target.crease_angle_rad = mission_number("target.crease_angle_deg");
+    source_.target.cell_size_m = mission_number("target.cell_size_m");
+  }
+  double mission_number(const std::string& key) const {
+    const ValueRow& row = *find_row(mission_rows(), key);
+    return number_or(found_, row, row.preset.empty() ? 0 : row.preset[0]) * row.to_si;
+  }
+
+  void read_scenario_values() {
+    const toml::node* node = root_.get("scenario");
+    if (node == nullptr) return;
+    if (!node->is_table()) return problems_.add(*node, "scenario", "wrong type: expected tables [scenario.NAME]");
+    for (const auto& [name, entry] : *node->as_table()) {
+      const std::string prefix = "scenario." + std::string(name.str());
+      if (const toml::table* table = entry.as_table()) {
+        read_scenario_table(std::string(name.str()), *table, prefix + ".");
+      } else {
+        problems_.add(entry, prefix, "wrong type: expected a table [" + prefix + "]");
+      }
+    }
+  }
+  void read_scenario_table(const std::string& name, const toml::table& table, const std::string& prefix) {
+    scenario_found_[name] = read_table(table, prefix, scenario_rows(), {"override"}, problems_);
+    for (const ValueRow& row : scenario_rows()) note_origin(prefix + row.key, scenario_found_[name], row.key);
+    const toml::node* node = table.get("override");
+    if (node == nullptr) return;
+    if (!node->is_table()) return problems_.add(*node, prefix + "override", "wrong type: expected a table of flight parameters");
+    overrides_[name] = read_table(*node->as_table(), prefix + "override.", flight_rows(), {}, problems_);
+    for (const auto& [key, value] : overrides_[name]) source_.origins[prefix + "override." + key] = value.origin;
+  }
+
+  void read_model_parameters() {
+    const auto node = root_.at_path("target.parameters");
+    if (!node) return;
+    if (!node.is_table()) return problems_.add(*node.node(), "target.parameters", "wrong type: expected a table of the model's parameters");
+    ValueRow any;
+    any.minimum = -1e9;
+    any.maximum = 1e9;
+    for (const auto& [name, value] : *node.as_table()) {
+      any.meaning = "a parameter of the model";
+      const std::string key = "target.parameters." + std::string(name.str());
+      const auto number = read_value(value, any, key, problems_);
+      if (!number) continue;
+      source_.target.parameters[std::string(name.str())] = number->numbers[0];
+      source_.origins[key] = number->origin;
+    }
+  }
+
+  void read_target() {
+    const bool model = found_.count("target.model") != 0;
+    const bool mesh = found_.count("target.mesh") != 0;
+    if (model == mesh) {
+      const Origin origin = model ? found_["target.mesh"].origin
+                                  : origin_of(root_.at_path("target").node() ? root_.at_path("target").node()->source() : root_.source());
+      return problems_.add(origin, "target", "", "expected exactly one of target.model (a parametric model) and target.mesh (a mesh)");
+    }
+    source_.target.parametric = model;
+    source_.target.file_key = model ? "target.model" : "target.mesh";
+    find_target_file();
+  }
+  void find_target_file() {
+    const FoundValue& written = found_[source_.target.file_key];
+    const std::filesystem::path folder = std::filesystem::absolute(source_.file).parent_path();
+    for (const auto& candidate : {folder / written.text, folder.parent_path() / written.text}) {
+      source_.target.file = candidate.lexically_normal();
+      if (std::filesystem::exists(candidate)) return check_digest(written);
+    }
+    problems_.add(written.origin, source_.target.file_key, '"' + written.text + '"',
+                  "no such file in " + folder.string() + " or the folder above it");
+  }
+  void check_digest(const FoundValue& written) {
+    try {
+      source_.target.sha256 = sha256_of(read_file(source_.target.file));
+    } catch (const std::runtime_error& error) {
+      return problems_.add(written.origin, source_.target.file_key, '"' + written.text + '"', error.what());
+    }
+    std::string expected = text_or_empty(found_, "target.sha256");
+    std::transform(expected.begin(), expected.end(), expected.begin(), [](char c) { return static_cast<char>(std::tolower(c)); });
+    if (expected.empty()) {
+      if (!source_.target.parametric) warn_of_digest(written);
+    } else if (expected != source_.target.sha256) {
+      problems_.add(
+          found_["target.sha256"].origin, "target.sha256", expected,
+          source_.target.file.string() + " has " + source_.target.sha256 + ": restore the file, or accept it by writing this digest");
+    }
+  }
+  void warn_of_digest(const FoundValue& written) {
+    source_.warnings.push_back(to_string({source_.file.string(), written.origin.line, written.origin.column, source_.target.file_key, "",
+                                          "not protected against change; add: sha256 = \"" + source_.target.sha256 + '"'}));
+  }
+
+  void check_model() {
+    TargetSource& target = source_.target;
+    if (!target.parametric) {
+      for (const auto& [name, value] : target.parameters) {
+        problems_.add(source_.origins["target.parameters." + name], "target.parameters." + name, number_text(value),
+                      "a mesh has no parameters");
+      }
+      return;
+    }
+    const std::vector<ModelParameter> known = model_parameters(target.file);
+    for (const auto& [name, value] : target.parameters) check_model_parameter(known, name, value);
+  }
+  void check_model_parameter(const std::vector<ModelParameter>& known, const std::string& name, double value) {
+    const std::string key = "target.parameters." + name;
+    const Origin origin = source_.origins[key];
+    std::vector<std::string> names;
+    for (const ModelParameter& parameter : known) {
+      names.push_back(parameter.name);
+      if (parameter.name != name) continue;
+      if (value >= parameter.minimum && value <= parameter.maximum) return;
+      return problems_.add(origin, key, number_text(value),
+                           "out of range: expected " + number_text(parameter.minimum) + " to " + number_text(parameter.maximum) + " " +
+                               parameter.unit + " (" + parameter.meaning + ")");
+    }
+    const std::string meant = nearest(name, names);
+    problems_.add(origin, key, number_text(value),
+                  "the model has no such parameter" + (meant.empty() ? "" : "; did you mean " + meant + "?"));
+  }
+
+  void read_scenarios() {
+    for (const auto& [name, found] : scenario_found_) {
+      Scenario scenario;
+      for (const auto& [key, value] : overrides_[name]) scenario.overrides[key] = value.numbers[0];
+      MissionParameters parameters = source_.parameters;
+      override_parameters(parameters, scenario.overrides);
+      for (const ScenarioField& field : scenario_fields()) fill_field(scenario, field, found, parameters);
+      source_.scenarios[name] = scenario;
+    }
+  }
+  static void fill_field(Scenario& scenario, const ScenarioField& field, const FoundValues& found, const MissionParameters& parameters) {
+    const auto value = found.find(field.row.key);
+    if (value == found.end() && !field.row.preset_from.empty()) {
+      for (const ParameterRow& row : parameter_rows()) {
+        if (field.row.preset_from == row.key) scenario.*field.number = parameters.*row.member;
+      }
+      return;
+    }
+    std::vector<double> numbers = value == found.end() ? field.row.preset : value->second.numbers;
+    for (double& number : numbers) number *= field.row.to_si;
+    if (field.list != nullptr) {
+      scenario.*field.list = numbers;
+    } else {
+      scenario.*field.number = numbers.at(0);
+    }
+  }
+
+  void check_contradictions() {
+    check_parameters(source_.parameters, [this](const auto& keys, const std::string& value, const std::string& expected) {
+      problems_.add(first_written({""}, keys), keys[0], value, expected);
+    });
+    if (!problems_.empty()) return;  // scenarios would repeat them
+    for (const auto& [name, scenario] : source_.scenarios) check_contradictions(name, scenario);
+  }
+  void check_contradictions(const std::string& name, const Scenario& scenario) {
+    MissionParameters parameters = source_.parameters;
+    for (const ParameterRow& row : parameter_rows()) {
+      const auto value = scenario.overrides.find(row.key);
+      if (value != scenario.overrides.end()) parameters.*row.member = value->second * row.to_si;
+    }
+    const std::string prefix = "scenario." + name + ".";
+    check_parameters(parameters, [&](const auto& keys, const std::string& value, const std::string& expected) {
+      problems_.add(first_written({prefix + "override.", ""}, keys), prefix + "override: " + keys[0], value, expected);
+    });
+    check_scenario(scenario, parameters, [&](const auto& keys, const std::string& value, const std::string& expected) {
+      problems_.add(first_written({prefix}, keys), prefix + keys[0], value, expected);
+    });
+  }
+  Origin first_written(const std::vector<std::string>& prefixes, const std::vector<std::string>& keys) const {
+    for (const std::string& prefix : prefixes) {
+      for (const std::string& key : keys) {
+        const auto origin = source_.origins.find(prefix + key);
+        if (origin != source_.origins.end() && !origin->second.preset()) return origin->second;
+      }
+    }
+    return {};
+  }
+
+  toml::table root_;
+  ProblemList problems_;
+  MissionSource source_;
+  FoundValues found_;
+  std::map<std::string, FoundValues> scenario_found_, overrides_;
+};
+
+}  // namespace
+
+MissionSource load_mission(const std::filesystem::path& file) { return Loader(file).load(); }
+
+Mesh load_target(const MissionSource& source) {
+  const TargetSource& target = source.target;
+  const Origin origin = source.origins.at(target.file_key);
+  try {
+    if (!target.parametric) return import_mesh(target.file, target.scale);
+    Mesh mesh = build_model(target.file, target.parameters);
+    for (Eigen::Vector3d& vertex : mesh.vertices) vertex *= target.scale;
+    check_extent(mesh);
+    return mesh;
+  } catch (const MeshError& error) {
+    throw MissionError({source.file.string(), origin.line, origin.column, target.file_key, target.file.string(), error.what()});
+  }
+}
+
+const Scenario& scenario_of(const MissionSource& source, const std::string& name) {
+  const auto found = source.scenarios.find(name);
+  if (found != source.scenarios.end()) return found->second;
+  std::string names;
+  for (const auto& entry : source.scenarios) names += (names.empty() ? "" : ", ") + entry.first;
+  throw MissionError(
+      {source.file.string(), 0, 0, "scenario", name, names.empty() ? "the mission has no scenarios" : "expected one of " + names});
+}
+
+MissionParameters parameters_for(const MissionSource& source, const std::string& scenario) {
+  MissionParameters parameters = source.parameters;
+  if (!scenario.empty()) override_parameters(parameters, scenario_of(source, scenario).overrides);
+  return parameters;
+}
+
+}  // namespace lasso::mdat

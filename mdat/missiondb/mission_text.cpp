@@ -1,0 +1,116 @@
+#include "mdat/missiondb/mission_text.hpp"
+
+#include <Eigen/Core>
+#include <iomanip>
+#include <sstream>
+
+#include "mdat/missiondb/sections.hpp"
+
+namespace lasso::mdat {
+namespace {
+
+struct Box {
+  Eigen::Vector3d low, high;
+};
+
+Box box_of(const Mesh& mesh) {
+  Box box{mesh.vertices.at(0), mesh.vertices.at(0)};
+  for (const Eigen::Vector3d& vertex : mesh.vertices) {
+    box.low = box.low.cwiseMin(vertex);
+    box.high = box.high.cwiseMax(vertex);
+  }
+  return box;
+}
+
+std::string place_text(const MissionSource& source, const std::string& key) {
+  const auto origin = source.origins.find(key);
+  if (origin == source.origins.end() || origin->second.preset()) return "preset";
+  return source.file.filename().string() + ":" + std::to_string(origin->second.line);
+}
+
+void write_line(std::ostream& out, const std::string& key, const std::string& value, const std::string& unit, const std::string& place,
+                const std::string& meaning) {
+  out << std::left << std::setw(40) << key << ' ' << std::setw(24) << value << ' ' << std::setw(7) << (unit == "1" ? "" : unit) << ' '
+      << std::setw(26) << place << ' ' << meaning << '\n';
+}
+
+// SI to the row's unit, without the last digits that the conversion makes up.
+std::string value_text(const ValueRow& row, std::vector<double> si) {
+  for (double& value : si) {
+    value /= row.to_si;
+    std::ostringstream rounded;
+    rounded << std::setprecision(12) << value;
+    value = std::stod(rounded.str());
+  }
+  return toml_text(row, si);
+}
+
+void write_parameters(std::ostream& out, const MissionSource& source, const std::string& scenario) {
+  const MissionParameters parameters = parameters_for(source, scenario);
+  const std::string prefix = "scenario." + scenario + ".override.";
+  for (const ParameterRow& row : parameter_rows()) {
+    const std::string key = row.key;
+    const bool overridden = source.origins.count(prefix + key) != 0;
+    write_line(out, key, value_text(value_row(row), {parameters.*row.member}), row.unit,
+               place_text(source, overridden ? prefix + key : key), row.meaning);
+  }
+}
+
+void write_scenario(std::ostream& out, const MissionSource& source, const std::string& name) {
+  const Scenario& scenario = scenario_of(source, name);
+  for (const ScenarioField& field : scenario_fields()) {
+    const std::string key = "scenario." + name + "." + field.row.key;
+    std::string place = place_text(source, key);
+    if (place == "preset" && !field.row.preset_from.empty()) place = "as sensor." + field.row.preset_from.substr(7);
+    const std::vector<double> values = field.list != nullptr ? scenario.*field.list : std::vector<double>{scenario.*field.number};
+    ValueRow row = field.row;
+    if (!row.preset_from.empty()) row.to_si = 1;
+    write_line(out, key, value_text(row, values), row.unit, place, row.meaning);
+  }
+}
+
+void write_target(std::ostream& out, const MissionSource& source) {
+  const TargetSource& target = source.target;
+  const double degrees = find_row(mission_rows(), "target.crease_angle_deg")->to_si;
+  write_line(out, target.file_key, target.file.filename().string(), "", place_text(source, target.file_key), "sha256 " + target.sha256);
+  write_line(out, "target.scale", number_text(target.scale), "1", place_text(source, "target.scale"),
+             "the file's lengths times this are metres");
+  ValueRow crease = *find_row(mission_rows(), "target.crease_angle_deg");
+  crease.to_si = degrees;
+  write_line(out, crease.key, value_text(crease, {target.crease_angle_rad}), crease.unit, place_text(source, crease.key), crease.meaning);
+  const ValueRow& cell = *find_row(mission_rows(), "target.cell_size_m");
+  write_line(out, cell.key, number_text(target.cell_size_m), cell.unit, place_text(source, cell.key), cell.meaning);
+  for (const auto& [name, value] : target.parameters) {
+    const std::string key = "target.parameters." + name;
+    write_line(out, key, number_text(value), "", place_text(source, key), "parameter of the model");
+  }
+}
+
+}  // namespace
+
+std::string check_text(const MissionSource& source) {
+  std::ostringstream out;
+  for (const std::string& warning : source.warnings) out << "warning: " << warning << '\n';
+  const Mesh mesh = load_target(source);
+  const Box box = box_of(mesh);
+  const Eigen::Vector3d size = box.high - box.low;
+  out << source.file.string() << ": good: mission " << source.id << " \"" << source.name << "\" version " << source.version
+      << ", target of " << mesh.triangles.size() << " triangles, " << std::setprecision(4) << size.x() << " x " << size.y() << " x "
+      << size.z() << " m, " << source.scenarios.size() << " scenarios\n";
+  return out.str();
+}
+
+std::string info_text(const MissionSource& source, const std::string& scenario) {
+  std::ostringstream out;
+  out << "mission " << source.id << " \"" << source.name << "\" version " << source.version << "\n\n";
+  write_target(out, source);
+  out << '\n';
+  write_parameters(out, source, scenario);
+  out << '\n';
+  for (const auto& entry : source.scenarios) {
+    if (scenario.empty() || entry.first == scenario) write_scenario(out, source, entry.first);
+  }
+  return out.str();
+}
+
+}  // namespace lasso::mdat

@@ -1,0 +1,125 @@
+#include "mdat/missiondb/sections.hpp"
+
+#include "fsw/geometry/portable_math.hpp"
+
+namespace lasso::mdat {
+namespace {
+
+using S = Scenario;
+constexpr ValueKind kReal = ValueKind::kReal;
+constexpr ValueKind kInteger = ValueKind::kInteger;
+constexpr double kDeg = kRadPerDeg;
+
+ValueRow number_row(const char* key, const char* unit, ValueKind kind, double to_si, double minimum, double maximum, double preset,
+                    const char* meaning) {
+  ValueRow row;
+  row.key = key;
+  row.unit = unit;
+  row.kind = kind;
+  row.to_si = to_si;
+  row.minimum = minimum;
+  row.maximum = maximum;
+  row.preset = {preset};
+  row.meaning = meaning;
+  return row;
+}
+
+ValueRow text_row(const char* key, const char* pattern, const char* meaning) {
+  ValueRow row;
+  row.key = key;
+  row.kind = ValueKind::kText;
+  row.pattern = pattern;
+  row.meaning = meaning;
+  return row;
+}
+
+ValueRow required(ValueRow row) {
+  row.preset.clear();
+  row.required = true;
+  return row;
+}
+
+ScenarioField field(double S::*member, ValueRow row) { return {std::move(row), member, nullptr}; }
+
+ScenarioField field(double S::*member, ValueRow row, const char* preset_from) {
+  row.preset_from = preset_from;
+  row.preset.clear();
+  return {std::move(row), member, nullptr};
+}
+
+ScenarioField field(std::vector<double> S::*member, ValueRow row, std::size_t count_min, std::size_t count_max,
+                    std::vector<double> preset) {
+  row.kind = ValueKind::kReals;
+  row.count_min = count_min;
+  row.count_max = count_max;
+  row.preset = std::move(preset);
+  row.required = row.preset.empty();
+  return {std::move(row), nullptr, member};
+}
+
+ValueRow kind_row() {
+  ValueRow row = number_row("kind", "1", ValueKind::kChoice, 1, 0, 1, 0,
+                            "paper: the target stands still in each scan and turns between them; spin: it moves all the time");
+  row.choices = {"paper", "spin"};
+  return required(row);
+}
+
+std::vector<ScenarioField> make_scenario_fields() {
+  // clang-format off
+  return {
+    field(&S::kind, kind_row()),
+    field(&S::ranges_m, number_row("ranges_m", "m", kReal, 1, 0.01, 10000, 0, "ranges of the target's origin along the boresight, one run each"), 1, 100, {}),
+    field(&S::frames, number_row("frames", "1", kInteger, 1, 1, 1000000, 360, "frames of a run")),
+    field(&S::step_rad, number_row("step_deg", "deg", kReal, kDeg, -180, 180, 1, "paper: turn about the target's x axis from frame to frame")),
+    field(&S::tilt_rad, number_row("tilt_deg", "deg", kReal, kDeg, -180, 180, 15, "tilt of the target's -x end towards the sensor; 0 is side-on")),
+    field(&S::boresight_rad, number_row("boresight_deg", "deg", kReal, kDeg, -180, 180, 5, "turn of the target about the boresight")),
+    field(&S::offset_m, number_row("offset_m", "m", kReal, 1, -10000, 10000, 0, "target's origin off the boresight: right, down"), 2, 2, {0.02, -0.01}),
+    field(&S::spin_radps, number_row("spin_degps", "deg/s", kReal, kDeg, -360, 360, 0, "spin: angular rate about the target's x, y, z"), 3, 3, {0, 0, 0}),
+    field(&S::drift_mps, number_row("drift_mps", "m/s", kReal, 1, -100, 100, 0, "spin: velocity along the sensor's x, y, z"), 3, 3, {0, 0, 0}),
+    field(&S::noise, number_row("noise", "1", ValueKind::kBoolean, 1, 0, 1, 1, "false: the simulated sensor measures ranges and angles without noise")),
+    field(&S::sigma0_m, number_row("sigma0_m", "m", kReal, 1, 0, 1, 0, "simulated range noise, constant part (1 sigma)"), "sensor.sigma0_m"),
+    field(&S::sigma_k_per_m, number_row("sigma_k_per_m", "1/m", kReal, 1, 0, 0.01, 0, "simulated range noise that grows with the square of the range"), "sensor.sigma_k_per_m"),
+    field(&S::angle_noise_rad, number_row("angle_noise_rad", "rad", kReal, 1, 0, 0.01, 0, "simulated pointing noise of a ray (1 sigma, each axis)"), "sensor.sigma_angle_rad"),
+    field(&S::dropout_probability, number_row("dropout_probability", "1", kReal, 1, 0, 0.9, 0, "share of the simulated rays on the target that do not return"), "sensor.dropout_probability"),
+    field(&S::dropout_incidence_rad, number_row("dropout_incidence_deg", "deg", kReal, kDeg, 0, 90, 90, "simulated rays that graze the surface more than this do not return")),
+    field(&S::outlier_probability, number_row("outlier_probability", "1", kReal, 1, 0, 0.9, 0, "share of the simulated returns with a wrong range")),
+    field(&S::edge_mixing_m, number_row("edge_mixing_m", "m", kReal, 1, 0, 1, 0, "simulated rays this near an edge return a range between both sides")),
+    field(&S::seed, number_row("seed", "1", kInteger, 1, 0, 4294967295.0, 1, "start of the random numbers")),
+  };
+  // clang-format on
+}
+
+}  // namespace
+
+const std::vector<ValueRow>& mission_rows() {
+  // clang-format off
+  static const std::vector<ValueRow> rows = {
+    required(number_row("mission.id", "1", kInteger, 1, 1, 2147483648.0, 0, "number of the mission in telemetry")),
+    required(number_row("mission.version", "1", kInteger, 1, 1, 2147483648.0, 0, "counts up with every change that flies")),
+    required(text_row("mission.name", "[^\\x00-\\x1f]{1,80}", "name in reports, at most 80 characters")),
+    text_row("target.model", "[^\\x00-\\x1f]+\\.toml", "parametric model (.toml), from the mission's folder or the one above; this or target.mesh"),
+    text_row("target.mesh", "[^\\x00-\\x1f]+", "mesh (STL, OBJ, PLY, glTF), from the mission's folder or the one above; this or target.model"),
+    text_row("target.sha256", "[0-9a-fA-F]{64}", "SHA-256 of that file, 64 hexadecimal digits"),
+    number_row("target.scale", "1", kReal, 1, 1e-9, 1e9, 1, "the file's lengths times this are metres"),
+    number_row("target.crease_angle_deg", "deg", kReal, kDeg, 0, 90, 30, "facets that meet at a smaller angle are one smooth surface"),
+    number_row("target.cell_size_m", "m", kReal, 1, 1e-5, 10, 0.008, "cell of the look-up field: smaller is faster, larger takes less memory"),
+  };
+  // clang-format on
+  return rows;
+}
+
+const std::vector<ScenarioField>& scenario_fields() {
+  static const std::vector<ScenarioField> fields = make_scenario_fields();
+  return fields;
+}
+
+const std::vector<ValueRow>& scenario_rows() {
+  static const std::vector<ValueRow> rows = [] {
+    std::vector<ValueRow> result;
+    for (const ScenarioField& entry : scenario_fields()) result.push_back(entry.row);
+    return result;
+  }();
+  return rows;
+}
+
+}  // namespace lasso::mdat

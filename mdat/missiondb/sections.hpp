@@ -1,0 +1,25 @@
+// The ground sections of a mission ([mission], [target], [scenario.NAME]) as rows, with the members that they fill. Inside of missiondb.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mdat/missiondb/mission_source.hpp"
+#include "mdat/missiondb/value_row.hpp"
+
+namespace lasso::mdat {
+
+// Keys "mission.id", "target.scale", ... `target.parameters` is a table of numbers beside them.
+const std::vector<ValueRow>& mission_rows();
+
+struct ScenarioField {
+  ValueRow row;                        // key without "scenario.NAME."
+  double Scenario::*number = nullptr;  // one of the two
+  std::vector<double> Scenario::*list = nullptr;
+};
+
+// `override` is a table of flight parameters beside them.
+const std::vector<ScenarioField>& scenario_fields();
+const std::vector<ValueRow>& scenario_rows();
+
+}  // namespace lasso::mdat

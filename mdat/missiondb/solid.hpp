@@ -1,0 +1,38 @@
+// Primitive solids as closed triangle meshes, oriented outwards. Lengths in any one unit, angles in radians.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "mdat/modelc/mesh.hpp"
+
+namespace lasso::mdat {
+
+// Six faces, centred on the origin.
+Mesh make_box(const Eigen::Vector3d& size);
+
+// The closed polygon `profile` of points (x, r), r >= 0, turned about the x axis from `start` (0 at +y, growing towards +z) over `sweep`
+// (2 pi: all around) in `sides` steps. Neither the profile nor the solid may cross itself. Less than a full turn is closed by caps.
+struct Turn {
+  double start_rad = 0;
+  double sweep_rad = 0;
+  int sides = 0;
+};
+Mesh make_revolve(const std::vector<Eigen::Vector2d>& profile, const Turn& turn);
+
+// A cylinder or cone from `from` to `to`; a radius of 0 is a tip.
+Mesh make_rod(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double radius_from, double radius_to, int sides);
+
+// A paraboloid shell that opens towards +x: inner apex at the origin, rim at x = depth and r = radius; `thickness` along x, behind.
+struct DishShape {
+  double radius = 0, depth = 0, thickness = 0;
+  int rings = 0, sides = 0;
+};
+Mesh make_dish(const DishShape& shape);
+
+// Positive where the surface is closed and oriented outwards.
+double signed_volume(const Mesh& mesh);
+
+void append(Mesh& mesh, const Mesh& part);
+
+}  // namespace lasso::mdat

@@ -1,0 +1,148 @@
+#include "mdat/missiondb/value_row.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <numeric>
+#include <sstream>
+
+namespace lasso::mdat {
+namespace {
+
+std::vector<std::string> split(const std::string& text, char separator) {
+  std::vector<std::string> parts;
+  std::istringstream stream(text);
+  for (std::string part; std::getline(stream, part, separator);) parts.push_back(part);
+  return parts;
+}
+
+ValueKind value_kind(ParameterKind kind) {
+  switch (kind) {
+    case ParameterKind::kInteger:
+      return ValueKind::kInteger;
+    case ParameterKind::kBoolean:
+      return ValueKind::kBoolean;
+    case ParameterKind::kChoice:
+      return ValueKind::kChoice;
+    case ParameterKind::kReal:
+      break;
+  }
+  return ValueKind::kReal;
+}
+
+// Levenshtein distance.
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i + 1;
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t substitute = diagonal + (a[i] == b[j] ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({row[j] + 1, row[j + 1] + 1, substitute});
+    }
+  }
+  return row.back();
+}
+
+std::string last_part(const std::string& key) { return key.substr(key.rfind('.') + 1); }
+
+// A key without its unit, or in the wrong section, is as good as a spelling mistake.
+std::size_t dissimilarity(const std::string& written, const std::string& candidate) {
+  const std::string a = last_part(written);
+  const std::string b = last_part(candidate);
+  const std::size_t whole = edit_distance(written, candidate);
+  if (a == b || (a.size() > 3 && b.rfind(a, 0) == 0) || (b.size() > 3 && a.rfind(b, 0) == 0)) return std::min<std::size_t>(whole, 1);
+  return whole;
+}
+
+std::string range_text(const ValueRow& row) {
+  const std::string unit = row.unit.empty() || row.unit == "1" ? "" : " " + row.unit;
+  return number_text(row.minimum) + " to " + number_text(row.maximum) + unit;
+}
+
+std::string item_text(const ValueRow& row, double value) {
+  if (row.kind == ValueKind::kBoolean) return value != 0 ? "true" : "false";
+  if (row.kind == ValueKind::kChoice) return '"' + row.choices.at(static_cast<std::size_t>(value)) + '"';
+  return number_text(value);
+}
+
+}  // namespace
+
+ValueRow value_row(const ParameterRow& row) {
+  ValueRow result;
+  result.key = row.key;
+  result.unit = row.unit;
+  result.kind = value_kind(row.kind);
+  result.to_si = row.to_si;
+  result.minimum = row.minimum;
+  result.maximum = row.maximum;
+  result.preset = {row.preset};
+  result.choices = split(row.choices, '|');
+  result.meaning = row.meaning;
+  return result;
+}
+
+const std::vector<ValueRow>& flight_rows() {
+  static const std::vector<ValueRow> rows = [] {
+    std::vector<ValueRow> result;
+    for (const ParameterRow& row : parameter_rows()) result.push_back(value_row(row));
+    return result;
+  }();
+  return rows;
+}
+
+const ValueRow* find_row(const std::vector<ValueRow>& rows, const std::string& key) {
+  const auto found = std::find_if(rows.begin(), rows.end(), [&](const ValueRow& row) { return row.key == key; });
+  return found == rows.end() ? nullptr : &*found;
+}
+
+std::string expectation(const ValueRow& row) {
+  switch (row.kind) {
+    case ValueKind::kReal:
+      return "expected a number from " + range_text(row);
+    case ValueKind::kInteger:
+      return "expected a whole number from " + range_text(row);
+    case ValueKind::kBoolean:
+      return "expected true or false, without quotes";
+    case ValueKind::kText:
+      return "expected a text in quotes";
+    case ValueKind::kChoice:
+      break;
+    case ValueKind::kReals: {
+      const std::string upper = row.count_max == row.count_min ? "" : " to " + std::to_string(row.count_max);
+      return "expected a list of " + std::to_string(row.count_min) + upper + " numbers, each from " + range_text(row);
+    }
+  }
+  std::string names;
+  for (const std::string& choice : row.choices) names += (names.empty() ? "\"" : ", \"") + choice + '"';
+  return "expected one of " + names;
+}
+
+std::string number_text(double value) {
+  char buffer[32];
+  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value);
+  return {buffer, end.ptr};
+}
+
+std::string toml_text(const ValueRow& row, const std::vector<double>& value) {
+  if (row.kind != ValueKind::kReals) return item_text(row, value.at(0));
+  std::string text;
+  for (const double item : value) text += (text.empty() ? "" : ", ") + item_text(row, item);
+  return "[" + text + "]";
+}
+
+std::string nearest(const std::string& written, const std::vector<std::string>& candidates) {
+  std::string best;
+  std::size_t least = std::max<std::size_t>(2, written.size() / 4) + 1;
+  for (const std::string& candidate : candidates) {
+    const std::size_t distance = dissimilarity(written, candidate);
+    if (distance < least) {
+      least = distance;
+      best = candidate;
+    }
+  }
+  return best;
+}
+
+}  // namespace lasso::mdat
