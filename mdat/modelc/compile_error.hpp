@@ -1,0 +1,24 @@
+// Why a model cannot become a flight image.
+#pragma once
+
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+namespace lasso::mdat {
+
+// The message says what was found, where, its figure and the limit; the caller adds the file's name.
+class CompileError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+// Joins anything that prints into one CompileError and throws it.
+template <class... Parts>
+[[noreturn]] void fail(const Parts&... parts) {
+  std::ostringstream text;
+  (text << ... << parts);
+  throw CompileError(text.str());
+}
+
+}  // namespace lasso::mdat

@@ -1,0 +1,167 @@
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+
+#include "cfg/capacities.hpp"
+#include "mdat/modelc/hull.hpp"
+#include "mdat/modelc/model.hpp"
+#include "mdat/modelc/near_field.hpp"
+#include "mdat/modelc/outward.hpp"
+#include "mdat/modelc/ray_field.hpp"
+#include "mdat/modelc/repair.hpp"
+#include "mdat/modelc/silhouette_edges.hpp"
+
+namespace lasso::mdat {
+namespace {
+
+constexpr double kCellsPerExtent = 165;
+constexpr double kBandCells = 5;
+
+void check_range(const char* name, double value, double low, double high) {
+  if (!(value >= low && value <= high)) fail("model option ", name, " is ", value, "; it must lie between ", low, " and ", high);
+}
+
+void check_options(const ModelOptions& options) {
+  check_range("cell_size_m", options.cell_size_m, 0, kExtentMax_m);
+  check_range("crease_angle_deg", options.crease_angle_deg, 0, 90);
+  check_range("weld_tolerance_m", options.weld_tolerance_m, 0, 0.1);
+  check_range("far_margin", options.far_margin, 0, 5);
+  check_range("near_band_m", options.near_band_m, 0, kExtentMax_m);
+}
+
+Surface prepare_surface(const Mesh& mesh, const ModelOptions& options, CompileReport& report, const Progress& progress) {
+  progress("repair the mesh", 0);
+  Surface surface = repair_mesh(mesh, options.weld_tolerance_m, report);
+  const Components components = orient_consistently(surface, report);
+  progress("find the outside", 0.05);
+  turn_outward(surface, components, report);
+  return surface;
+}
+
+std::uint32_t length_word(const LengthScale& scale, double metres) { return static_cast<std::uint32_t>(scale.to_word(metres)); }
+
+void append_point(std::vector<std::uint32_t>& words, const LengthScale& scale, const Vec3d& p) {
+  for (int i = 0; i < 3; ++i) words.push_back(length_word(scale, p[i]));
+}
+
+std::vector<std::uint32_t> geometry_words(const Surface& surface, const Grid& grid, const LengthScale& scale, double band_m) {
+  double radius = 0;
+  for (const Vec3d& v : surface.vertices) radius = std::max(radius, v.norm());
+  std::vector<std::uint32_t> words = {static_cast<std::uint32_t>(scale.bits())};
+  append_point(words, scale, grid.origin);
+  words.push_back(length_word(scale, grid.cell_m));
+  words.insert(words.end(), grid.bricks.begin(), grid.bricks.end());
+  words.push_back(length_word(scale, radius + scale.resolution_m()));
+  append_point(words, scale, (surface.low + surface.high) / 2);
+  words.push_back(length_word(scale, band_m));
+  return words;
+}
+
+std::vector<std::uint32_t> hull_words(const Surface& surface, const LengthScale& scale, CompileReport& report) {
+  const std::vector<Vec3d> points = extreme_points(surface.vertices, surface.extent, kMaxHullPoints);
+  report.hull_points = points.size();
+  std::vector<std::uint32_t> words;
+  for (const Vec3d& p : points) append_point(words, scale, p);
+  return words;
+}
+
+void put_field(RayField ray, NearField near, ModelTables& tables) {
+  std::vector<std::uint32_t>& bricks = tables[TableId::kBricks];
+  for (std::size_t i = 0; i < ray.brick_words.size(); ++i) {
+    bricks.push_back(ray.brick_words[i]);
+    bricks.push_back(near.brick_words[i]);
+  }
+  tables[TableId::kRayCells] = std::move(ray.cells);
+  tables[TableId::kRayLists] = std::move(ray.lists);
+  tables[TableId::kNearCells] = std::move(near.cells);
+  tables[TableId::kFootPoints] = std::move(near.foot_points);
+}
+
+void put_sizes(const ModelTables& tables, CompileReport& report) {
+  report.total_bytes = 0;
+  for (std::size_t id = 0; id < tables.words.size(); ++id) {
+    report.table_bytes[id] = 4 * tables.words[id].size();
+    report.total_bytes += report.table_bytes[id];
+  }
+  if (report.total_bytes <= kMaxImageBytes) return;
+  fail("the tables need ", report.total_bytes, " bytes (elements ", report.table_bytes[static_cast<std::size_t>(TableId::kElements)],
+       ", ray cells ", report.table_bytes[static_cast<std::size_t>(TableId::kRayCells)], ", lists ",
+       report.table_bytes[static_cast<std::size_t>(TableId::kRayLists)], ", near cells ",
+       report.table_bytes[static_cast<std::size_t>(TableId::kNearCells)], ", edges ",
+       report.table_bytes[static_cast<std::size_t>(TableId::kEdges)], "); the limit of an image is ", kMaxImageBytes,
+       ": take larger cells or a coarser mesh");
+}
+
+ModelTables make_tables(const Surface& surface, const ModelOptions& options, CompileReport& report, const Progress& progress) {
+  progress("make elements", 0.2);
+  const std::vector<EdgeUse> uses = edge_uses(surface);
+  const auto normals = smooth_normals(surface, options.crease_angle_deg * std::numbers::pi / 180);
+  const Polygons polygons = make_polygons(surface, uses, normals);
+  const double cell_m = options.cell_size_m > 0 ? options.cell_size_m : surface.extent / kCellsPerExtent;
+  const double margin_m = options.far_margin * surface.extent;
+  const LengthScale scale(image_reach_m(surface, margin_m, cell_m));
+  const Grid grid = make_grid(surface, margin_m, cell_m, scale);
+  const double band_m = scale.round(options.near_band_m > 0 ? options.near_band_m : kBandCells * cell_m);
+  ElementSet elements = make_elements(polygons.list, scale, surface.extent, report);
+  report.cell_size_m = grid.cell_m;
+  report.near_band_m = band_m;
+  report.length_fraction_bits = scale.bits();
+
+  ModelTables tables;
+  tables[TableId::kEdges] = make_edges(surface, uses, polygons, elements.list, scale, report);
+  progress("list the elements of each cell", 0.3);
+  RayField ray = make_ray_field(elements.list, grid, report);
+  progress("find closest elements", 0.6);
+  put_field(std::move(ray), make_near_field(elements.list, grid, scale, band_m, report), tables);
+  tables[TableId::kFieldGeometry] = geometry_words(surface, grid, scale, band_m);
+  tables[TableId::kElements] = std::move(elements.words);
+  tables[TableId::kCurvatures] = std::move(elements.curvature_words);
+  tables[TableId::kHull] = hull_words(surface, scale, report);
+  return tables;
+}
+
+}  // namespace
+
+ModelTables compile_model(const Mesh& mesh, const ModelOptions& options, CompileReport& report, const Progress& progress) {
+  const auto start = std::chrono::steady_clock::now();
+  const Progress tell = progress ? progress : [](const std::string&, double) {};
+  report = {};
+  check_options(options);
+  const Surface surface = prepare_surface(mesh, options, report, tell);
+  ModelTables tables = make_tables(surface, options, report, tell);
+  put_sizes(tables, report);
+  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  tell("done", 1);
+  return tables;
+}
+
+std::uint32_t words_per_record(TableId id) {
+  switch (id) {
+    case TableId::kParameters:
+      return 2;
+    case TableId::kFieldGeometry:
+      return kFieldGeometryWords;
+    case TableId::kElements:
+      return kElementWords;
+    case TableId::kCurvatures:
+      return kCurvatureWords;
+    case TableId::kBricks:
+      return kBrickWords;
+    case TableId::kRayCells:
+      return kRayCellsPerBrick;
+    case TableId::kRayLists:
+      return 1;
+    case TableId::kNearCells:
+      return kNearWordsPerBrick;
+    case TableId::kFootPoints:
+      return kFootWords;
+    case TableId::kEdges:
+      return kEdgeWords;
+    case TableId::kHull:
+      return 3;
+  }
+  return 1;
+}
+
+}  // namespace lasso::mdat

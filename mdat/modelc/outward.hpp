@@ -1,0 +1,14 @@
+// Which side of the surface is outside: the side that light from far away reaches.
+#pragma once
+
+#include "mdat/modelc/model.hpp"
+#include "mdat/modelc/topology.hpp"
+
+namespace lasso::mdat {
+
+// From seeded random points on both sides of each triangle, cosine-weighted rays are followed (Embree). A component turns to the side from
+// which more rays escape (by area); a closed hidden one to positive volume. Triangles of open components whose both sides let rays escape
+// become two-sided: all of them if the back has a fifth of the component's escapes, else one by one.
+void turn_outward(Surface& surface, const Components& components, CompileReport& report);
+
+}  // namespace lasso::mdat
