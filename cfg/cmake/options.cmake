@@ -33,6 +33,7 @@ endif()
 add_library(lasso_same_bits INTERFACE)
 target_compile_options(lasso_same_bits INTERFACE $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-ffp-contract=off>)
 target_compile_definitions(lasso_same_bits INTERFACE EIGEN_DONT_VECTORIZE)
+target_compile_features(lasso_same_bits INTERFACE cxx_std_17)
 target_link_libraries(lasso_same_bits INTERFACE Eigen3::Eigen)
 
 # For the flight sources themselves.
