@@ -24,6 +24,8 @@ const char* to_string(PoseReason reason) {
       return "singular";
     case PoseReason::kNoTrack:
       return "no_track";
+    case PoseReason::kOverrun:
+      return "overrun";
   }
   return "unknown";
 }
