@@ -24,6 +24,7 @@ enum class PoseReason : std::uint8_t {
   kNotConverged = 7,    // iteration limit
   kSingular = 8,        // the normal equations had no solution
   kNoTrack = 9,         // nothing to start from
+  kOverrun = 10,        // the estimate was not ready at its boundary: dropped whole
 };
 const char* to_string(PoseReason reason);
 const char* to_string(StopReason reason);
