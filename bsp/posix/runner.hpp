@@ -45,6 +45,8 @@ class Runner {
   };
   void run_slot();
   void work();
+  Measurement estimate();
+  Measurement take_measurement();
   void wait_for_worker();
   TimeUs wait_until(TimeUs slot_us);
 

@@ -19,8 +19,10 @@
 #include "fsw/exec/estimation_task.hpp"
 #include "fsw/exec/executive.hpp"
 #include "fsw/geometry/se3.hpp"
+#include "fsw/link/pose_telemetry.hpp"
 #include "fsw/link/telemetry_queue.hpp"
 #include "fsw/mission/mission.hpp"
+#include "fsw/mode/tracker.hpp"
 #include "fsw/sense/sensor.hpp"
 
 namespace lasso {
@@ -38,8 +40,9 @@ class Component {
   // begun already.
   Status begin(TimeUs boundary_0_us);
 
-  // Tracking starts from T_sensor_target and its rates at t_us, at the next boundary; a running track is left. kBadOrder before begin(),
-  // kNotFinite, kBadValue (quaternion not of unit length).
+  // Tracking starts from T_sensor_target and its rates at t_us, at the next boundary; a running track is left, its scan in
+  // flight is not reported. kBadOrder before begin(), kNotFinite, kBadValue (quaternion not of unit length, t_us more than
+  // kMaxPredictionUs from that boundary): nothing has then changed.
   Status start_tracking(const Pose& T_sensor_target, const Twist& rates, TimeUs t_us);
   // To standby at the next boundary: no scans. kBadOrder before begin().
   Status stop_tracking();
@@ -52,7 +55,7 @@ class Component {
 
   bool estimation_pending() const { return estimation_.pending(); }
   // Runs the pending estimate, if any. The result waits for the boundary.
-  void run_estimation();
+  void run_estimation() { estimation_.run(mission_); }
 
   // Moves whole packets into `out` and returns their bytes, oldest first.
   std::size_t take_telemetry(Bytes out) { return queue_.take(out); }
@@ -62,20 +65,43 @@ class Component {
 
  private:
   enum class Request : std::uint8_t { kNone, kStart, kStop };
+  // A scan on its way through the pipeline.
+  struct ScanInFlight {
+    bool active = false;  // it was wanted, and will be reported
+    std::uint32_t scan_id = 0;
+    TimeUs t_nominal_us = 0;  // planned middle
+    ScanPlan plan;
+  };
+  struct Counters {
+    std::uint32_t invalid_frames = 0;
+    std::uint32_t lost_scans = 0;
+    std::uint32_t overruns = 0;
+    std::uint16_t packets = 0;  // PUS message type counter; its lower 14 bits are the sequence count while there is one kind of packet
+  };
+
   void run_task(TaskId task, TimeUs now_us);
-  void pass_boundary(TimeUs now_us);
+  // A boundary, in this order.
+  void publish_estimate(TimeUs now_us);
   void apply_request();
-  void publish(TimeUs now_us);
   void hand_over_scan();
-  void start_scan(TimeUs boundary_us);
+  void start_scan();
+
+  TrackStep step_without_estimate();
+  void send(const TrackStep& step, TimeUs now_us);
+  void set_counters(PoseTelemetry& report) const;
 
   Mission mission_;
   Executive executive_;
   AcquisitionTask acquisition_;
   EstimationTask estimation_;
   TelemetryQueue queue_;
-  TrackState track_;
+  TrackState track_;        // as of the last boundary
+  ScanInFlight acquired_;   // in this frame
+  ScanInFlight estimated_;  // in this frame
+  Counters counters_;
   Request request_ = Request::kNone;
+  TrackState requested_;  // kStart: the state to start from, stated at the time given
+  bool loaded_ = false;
 };
 
 }  // namespace lasso

@@ -29,11 +29,11 @@ constexpr ModeTransition kTransitions[] = {
 };
 
 constexpr ModeProperties kProperties[] = {
-  //              scans  reports wide
+  //              scans  says_lost wide
   {M::kStandby,  false, false,  false, "standby"},
-  {M::kStarting, true,  true,   true,  "starting"},
-  {M::kTracking, true,  true,   false, "tracking"},
-  {M::kCoasting, true,  true,   false, "coasting"},
+  {M::kStarting, true,  false,  true,  "starting"},
+  {M::kTracking, true,  false,  false, "tracking"},
+  {M::kCoasting, true,  false,  false, "coasting"},
   {M::kLost,     false, true,   false, "lost"},
 };
 // clang-format on

@@ -33,8 +33,8 @@ struct ModeTransition {
 // What the component does while in a mode.
 struct ModeProperties {
   TrackingMode mode;
-  bool scans;       // a scan is planned and started in each frame
-  bool reports;     // a pose packet is published in each frame
+  bool scans;       // a scan is planned and started in each frame; each scan is reported
+  bool says_lost;   // frames without a scan are reported too
   bool wide_start;  // registration starts wide (where estimation.wide_start is set)
   const char* name;
 };

@@ -1,0 +1,114 @@
+#include "bsp/posix/runner.hpp"
+
+#include <chrono>
+#include <ctime>
+
+namespace lasso::posix {
+namespace {
+
+constexpr std::int64_t kNsPerSecond = 1000000000;
+constexpr std::int64_t kNsPerUs = 1000;
+
+std::int64_t clock_ns(clockid_t clock) {
+  timespec t{};
+  clock_gettime(clock, &t);
+  const std::int64_t seconds = t.tv_sec;
+  return seconds * kNsPerSecond + t.tv_nsec;
+}
+
+// An absolute sleep on CLOCK_MONOTONIC, which is what steady_clock is here.
+void sleep_until(std::int64_t monotonic_ns) {
+  std::this_thread::sleep_until(std::chrono::steady_clock::time_point(std::chrono::nanoseconds(monotonic_ns)));
+}
+
+}  // namespace
+
+Runner::Runner(Component& component, Pace pace) : component_(component), pace_(pace), worker_(&Runner::work, this) {}
+
+Runner::~Runner() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    ending_ = true;
+  }
+  changed_.notify_all();
+  worker_.join();
+}
+
+FrameRecord Runner::run_frame() {
+  if (pace_ == Pace::kLockstep) wait_for_worker();
+  FrameRecord record;
+  record.frame = frame_;
+  record.boundary_us = component_.next_slot_us();
+  const Measurement measured = take_measurement();
+  do {
+    run_slot();
+  } while (!component_.next_slot_is_boundary());
+  record.telemetry = ConstBytes(telemetry_, component_.take_telemetry(Bytes(telemetry_)));
+  record.estimated = measured.ran;
+  record.estimate_cpu_ns = measured.cpu_ns;
+  record.estimate_wall_ns = measured.wall_ns;
+  ++frame_;
+  return record;
+}
+
+void Runner::run_slot() {
+  component_.run_slot(wait_until(component_.next_slot_us()));
+  if (!component_.estimation_pending()) return;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    requested_ = true;
+  }
+  changed_.notify_all();
+}
+
+TimeUs Runner::wait_until(TimeUs slot_us) {
+  if (pace_ == Pace::kLockstep) return slot_us;
+  if (!clock_set_) {
+    clock_offset_ns_ = clock_ns(CLOCK_MONOTONIC) - slot_us * kNsPerUs;
+    clock_set_ = true;
+  }
+  sleep_until(slot_us * kNsPerUs + clock_offset_ns_);
+  const TimeUs now_us = (clock_ns(CLOCK_MONOTONIC) - clock_offset_ns_) / kNsPerUs;
+  return now_us > slot_us ? now_us : slot_us;
+}
+
+void Runner::wait_for_worker() {
+  std::unique_lock<std::mutex> lock(mutex_);
+  changed_.wait(lock, [this] { return !requested_ && !working_; });
+}
+
+Runner::Measurement Runner::take_measurement() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const Measurement measured = measurement_;
+  measurement_ = Measurement{};
+  return measured;
+}
+
+void Runner::work() {
+  std::unique_lock<std::mutex> lock(mutex_);
+  while (true) {
+    changed_.wait(lock, [this] { return requested_ || ending_; });
+    if (!requested_) return;
+    requested_ = false;
+    working_ = true;
+    lock.unlock();
+    const Measurement measured = estimate();
+    lock.lock();
+    measurement_ = measured;
+    working_ = false;
+    changed_.notify_all();
+  }
+}
+
+Runner::Measurement Runner::estimate() {
+  const std::int64_t wall_ns = clock_ns(CLOCK_MONOTONIC);
+  const std::int64_t cpu_ns = clock_ns(CLOCK_THREAD_CPUTIME_ID);
+  component_.run_estimation();
+  Measurement measured;
+  measured.ran = true;
+  measured.cpu_ns = clock_ns(CLOCK_THREAD_CPUTIME_ID) - cpu_ns;
+  measured.wall_ns = clock_ns(CLOCK_MONOTONIC) - wall_ns;
+  return measured;
+}
+
+}  // namespace lasso::posix

@@ -1,0 +1,31 @@
+#include "fsw/exec/acquisition_task.hpp"
+
+#include "fsw/sense/planner.hpp"
+
+namespace lasso {
+namespace {
+
+constexpr std::size_t kMaxPolls = kMaxRays / kMaxSamplesPerPoll;
+
+}  // namespace
+
+void AcquisitionTask::start(const Mission& mission, const Pose& T_sensor_target, std::uint32_t scan_id, TimeUs t_start_us, ScanPlan& plan) {
+  plan.scan_id = scan_id;
+  const TargetOutline outline{mission.hull, mission.center_m};
+  if (plan_scan(mission.parameters, outline, T_sensor_target, scan_id, plan) != Status::kOk) return;
+  // A refusal comes back as the verdict of finish().
+  static_cast<void>(acquisition_.start(sensor_, plan, t_start_us, images_[filling_]));
+}
+
+void AcquisitionTask::poll(TimeUs now_us) {
+  RangeImage& image = images_[filling_];
+  for (std::size_t i = 0; i < kMaxPolls && acquisition_.under_way(); ++i) {
+    const std::size_t before = image.samples.size();
+    acquisition_.step(sensor_, now_us, image);
+    if (image.samples.size() < before + kMaxSamplesPerPoll) return;  // the sensor has no more
+  }
+}
+
+bool AcquisitionTask::finish() { return acquisition_.finish(sensor_, images_[filling_]).usable; }
+
+}  // namespace lasso

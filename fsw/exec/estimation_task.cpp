@@ -1,0 +1,35 @@
+#include "fsw/exec/estimation_task.hpp"
+
+#include "fsw/core/invariant.hpp"
+
+namespace lasso {
+
+void EstimationTask::submit(const EstimationJob& job) {
+  invariant(idle(), "estimation job submitted while busy");
+  job_ = job;
+  phase_.store(kPending, std::memory_order_release);
+}
+
+bool EstimationTask::collect(TrackStep& step) {
+  const std::uint32_t phase = phase_.load(std::memory_order_acquire);
+  if (phase == kIdle) return false;
+  if (phase != kDone) {
+    dropped_ = true;
+    return false;
+  }
+  const bool in_time = !dropped_;
+  if (in_time) step = step_;
+  dropped_ = false;
+  phase_.store(kIdle, std::memory_order_release);
+  return in_time;
+}
+
+void EstimationTask::run(const Mission& mission) {
+  if (!pending()) return;
+  phase_.store(kRunning, std::memory_order_release);
+  step_ = job_.scan == nullptr ? track_without_scan(mission, PoseReason::kNoScan, job_.scan_id, job_.t_nominal_us, job_.before)
+                               : track_scan(mission, estimator_, *job_.scan, job_.before);
+  phase_.store(kDone, std::memory_order_release);
+}
+
+}  // namespace lasso

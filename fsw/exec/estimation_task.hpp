@@ -1,0 +1,47 @@
+// The estimation task: one job at a time, handed over at a frame boundary, run by the estimation thread, collected at the next boundary.
+// A job is a copy of all it needs except the range image, which nobody else touches while the task is not idle. The hand-over is one
+// 32-bit atomic (64-bit ones need a library on the 603e): release after writing, acquire before reading.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+
+#include "fsw/core/time.hpp"
+#include "fsw/mission/mission.hpp"
+#include "fsw/mode/tracker.hpp"
+#include "fsw/pose/estimator.hpp"
+#include "fsw/sense/range_image.hpp"
+
+namespace lasso {
+
+struct EstimationJob {
+  std::uint32_t scan_id = 0;
+  const RangeImage* scan = nullptr;  // null: the scan was lost, the filter coasts
+  TimeUs t_nominal_us = 0;           // planned middle of the scan, for a lost one
+  TrackState before;
+};
+
+class EstimationTask {
+ public:
+  // Acquisition thread, at a boundary. submit() only while idle(), an invariant.
+  bool idle() const { return phase_.load(std::memory_order_acquire) == kIdle; }
+  void submit(const EstimationJob& job);
+  // True, with the step in `step`, when the job is done in time. False when there is none, or when it is late: its result is then
+  // dropped whole whenever it comes, and the task stays busy until a later collect() finds it done.
+  bool collect(TrackStep& step);
+
+  // Any thread: a job waits to be run.
+  bool pending() const { return phase_.load(std::memory_order_acquire) == kPending; }
+  // Estimation thread: runs the pending job, if there is one.
+  void run(const Mission& mission);
+
+ private:
+  enum Phase : std::uint32_t { kIdle = 0, kPending = 1, kRunning = 2, kDone = 3 };
+  std::atomic<std::uint32_t> phase_{kIdle};
+  bool dropped_ = false;  // acquisition thread only
+  EstimationJob job_;
+  TrackStep step_;
+  Estimator estimator_;
+};
+
+}  // namespace lasso

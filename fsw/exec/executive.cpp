@@ -1,0 +1,44 @@
+#include "fsw/exec/executive.hpp"
+
+namespace lasso {
+namespace {
+
+// clang-format off
+constexpr SlotRow kSlotTable[] = {
+  // A boundary's poll comes before its hand-over: the last samples of the scan that ends belong to it.
+  {TaskId::kPollSensor,   1,              0, 1500, "poll sensor"},
+  {TaskId::kPassBoundary, kSlotsPerFrame, 0, 4000, "publish, hand over, plan"},
+};
+// clang-format on
+
+}  // namespace
+
+Span<const SlotRow> slot_table() { return Span<const SlotRow>(kSlotTable); }
+
+bool is_due(const SlotRow& row, std::uint32_t slot) { return slot % row.period_slots == row.offset_slot; }
+
+Status Executive::begin(TimeUs boundary_0_us, DurationUs period_us) {
+  if (period_us < static_cast<DurationUs>(kSlotsPerFrame)) return Status::kBadValue;
+  boundary_us_ = boundary_0_us;
+  period_us_ = period_us;
+  return Status::kOk;
+}
+
+TimeUs Executive::next_slot_us() const {
+  return boundary_us_ + period_us_ * static_cast<DurationUs>(slot_) / static_cast<DurationUs>(kSlotsPerFrame);
+}
+
+void Executive::note_start(TimeUs now_us) {
+  const DurationUs late_us = now_us - next_slot_us();
+  if (late_us > worst_lateness_us_) worst_lateness_us_ = late_us;
+  if (late_us > period_us_ / static_cast<DurationUs>(kSlotsPerFrame)) ++slips_;
+}
+
+void Executive::advance() {
+  if (++slot_ < kSlotsPerFrame) return;
+  slot_ = 0;
+  ++frame_;
+  boundary_us_ += period_us_;
+}
+
+}  // namespace lasso

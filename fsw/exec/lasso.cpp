@@ -1,0 +1,36 @@
+#include "fsw/exec/lasso.hpp"
+
+#include <new>
+
+namespace lasso {
+
+std::size_t required_memory() { return sizeof(Component); }
+
+std::size_t required_alignment() { return alignof(Component); }
+
+Component* create(void* memory, std::size_t size, Sensor& sensor) {
+  if (memory == nullptr || size < required_memory()) return nullptr;
+  if (reinterpret_cast<std::uintptr_t>(memory) % required_alignment() != 0) return nullptr;
+  return new (memory) Component(sensor);
+}
+
+LoadFailure load_image(Component& component, Bytes image) { return component.load_image(image); }
+
+Status begin(Component& component, TimeUs boundary_0_us) { return component.begin(boundary_0_us); }
+
+Status start_tracking(Component& component, const Pose& T_sensor_target, const Twist& rates, TimeUs t_us) {
+  return component.start_tracking(T_sensor_target, rates, t_us);
+}
+
+Status stop_tracking(Component& component) { return component.stop_tracking(); }
+
+std::size_t take_telemetry(Component& component, Bytes out) { return component.take_telemetry(out); }
+
+bool step(Component& component, TimeUs now_us) {
+  if (now_us < component.next_slot_us()) return false;
+  component.run_slot(now_us);
+  component.run_estimation();
+  return true;
+}
+
+}  // namespace lasso

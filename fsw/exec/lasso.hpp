@@ -1,0 +1,31 @@
+// The component for those who build it into a program of their own: a few functions, no threads, memory that the caller owns.
+// docs/embedding/ shows a whole host program. Boards with two threads use Component itself (fsw/exec/component.hpp).
+#pragma once
+
+#include <cstddef>
+
+#include "fsw/exec/component.hpp"
+#include "fsw/exec/report.hpp"
+
+namespace lasso {
+
+// The memory that create() needs, image apart, and its alignment.
+std::size_t required_memory();
+std::size_t required_alignment();
+
+// A component in `memory`; null when it is too small or not aligned. There is nothing to destroy: the memory may be reused at any time.
+// `sensor` and `memory` outlive it.
+Component* create(void* memory, std::size_t size, Sensor& sensor);
+
+// See the functions of the same name of Component.
+LoadFailure load_image(Component& component, Bytes image);
+Status begin(Component& component, TimeUs boundary_0_us);
+Status start_tracking(Component& component, const Pose& T_sensor_target, const Twist& rates, TimeUs t_us);
+Status stop_tracking(Component& component);
+std::size_t take_telemetry(Component& component, Bytes out);
+
+// Runs the next slot, and the estimate that it may leave pending, if the slot's time has come at now_us. False, and nothing has
+// happened, when it has not. Call it until it says false.
+bool step(Component& component, TimeUs now_us);
+
+}  // namespace lasso

@@ -1,0 +1,110 @@
+#include "fsw/exec/report.hpp"
+
+#include "fsw/geometry/portable_math.hpp"
+
+#ifndef LASSO_BUILD_ID
+#define LASSO_BUILD_ID 0
+#endif
+
+namespace lasso {
+namespace {
+
+constexpr std::uint32_t kMajor = 0;
+constexpr std::uint32_t kMinor = 1;
+constexpr std::uint32_t kPatch = 0;
+constexpr char kVersion[] = "0.1.0";
+constexpr std::int64_t kMaxAgeUs = 0xFFFFFFFF;
+
+void copy_pose(const Pose& pose, double (&q)[4], double (&p)[3]) {
+  const double coefficients[4] = {pose.q.x(), pose.q.y(), pose.q.z(), pose.q.w()};
+  for (int i = 0; i < 4; ++i) q[i] = coefficients[i];
+  for (int i = 0; i < 3; ++i) p[i] = pose.p[i];
+}
+
+void copy_upper_triangle(const Mat6& covariance, float (&terms)[kPoseCovarianceTerms]) {
+  std::size_t term = 0;
+  for (int row = 0; row < 6; ++row) {
+    for (int column = row; column < 6; ++column) {
+      terms[term] = static_cast<float>(covariance(row, column));
+      ++term;
+    }
+  }
+}
+
+float sigma_of(double variance) { return static_cast<float>(variance > 0 ? square_root(variance) : 0); }
+
+void describe_registration(const Registration& r, PoseTelemetry& out) {
+  out.scan_id = r.scan_id;
+  out.t_measurement_us = r.t_us;
+  out.valid = r.valid() ? 1 : 0;
+  out.reason = static_cast<std::uint8_t>(r.reason);
+  out.stop = static_cast<std::uint8_t>(r.stop);
+  copy_pose(r.T_sensor_target, out.q_sensor_target, out.p_sensor_target_m);
+  copy_upper_triangle(r.covariance, out.covariance);
+}
+
+void describe_quality(const Registration& r, PoseTelemetry& out) {
+  out.rays = r.rays;
+  out.returns = r.returns;
+  out.inliers = r.inliers;
+  out.labels = r.labels;
+  out.iterations = r.iterations;
+  out.weak = r.weak;
+  out.rms_m = static_cast<float>(r.rms_m);
+  out.normalized_residual = static_cast<float>(r.normalized_residual);
+  out.inlier_share = static_cast<float>(r.inlier_share);
+  out.agreement = static_cast<float>(r.agreement);
+  out.weakest_sigma_m = static_cast<float>(r.weakest_sigma_m);
+  for (int i = 0; i < 6; ++i) out.weakest_direction[i] = static_cast<float>(r.weakest_direction[i]);
+}
+
+void describe_filter(const FilterState& filter, PoseTelemetry& out) {
+  copy_pose(filter.T_sensor_target, out.filter_q_sensor_target, out.filter_p_sensor_target_m);
+  for (int i = 0; i < 3; ++i) {
+    out.filter_omega_radps[i] = filter.rates.omega_radps[i];
+    out.filter_v_mps[i] = filter.rates.v_mps[i];
+  }
+  for (int i = 0; i < 6; ++i) {
+    out.filter_sigma_pose[i] = sigma_of(filter.covariance(i, i));
+    out.filter_sigma_rates[i] = sigma_of(filter.covariance(i + 6, i + 6));
+  }
+}
+
+void describe_plan(const ScanPlan& plan, PoseTelemetry& out) {
+  out.plan_center[0] = plan.center_x;
+  out.plan_center[1] = plan.center_y;
+  out.plan_half_extents[0] = plan.half_x;
+  out.plan_half_extents[1] = plan.half_y;
+  out.plan_phase_turns = plan.phase_turns;
+  out.plan_points = plan.points;
+  out.plan_duration_us = static_cast<std::uint32_t>(plan.duration_us);
+  out.plan_pattern = static_cast<std::uint8_t>(plan.kind);
+}
+
+std::uint32_t bounded_age(DurationUs age_us) {
+  if (age_us < 0) return 0;
+  return static_cast<std::uint32_t>(age_us < kMaxAgeUs ? age_us : kMaxAgeUs);
+}
+
+}  // namespace
+
+std::uint32_t software_version() { return kMajor << 24 | kMinor << 16 | kPatch; }
+
+const char* version() { return kVersion; }
+
+PoseTelemetry make_report(const Mission& mission, const TrackStep& step, const ScanPlan& plan, TimeUs t_publication_us) {
+  PoseTelemetry out;
+  describe_registration(step.registration, out);
+  describe_quality(step.registration, out);
+  describe_filter(step.after.filter, out);
+  describe_plan(plan, out);
+  out.t_publication_us = t_publication_us;
+  out.age_us = bounded_age(t_publication_us - out.t_measurement_us);
+  out.mode = static_cast<std::uint8_t>(step.after.mode);
+  out.image_crc = mission.image_crc;
+  out.software_version = software_version();
+  out.software_build = LASSO_BUILD_ID;
+  return out;
+}
+
+}  // namespace lasso

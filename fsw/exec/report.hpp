@@ -1,0 +1,19 @@
+// What a step of the track looks like in telemetry.
+#pragma once
+
+#include "fsw/core/time.hpp"
+#include "fsw/link/pose_telemetry.hpp"
+#include "fsw/mission/mission.hpp"
+#include "fsw/mode/tracker.hpp"
+#include "fsw/sense/scan_plan.hpp"
+
+namespace lasso {
+
+// major << 24 | minor << 16 | patch, and the same as text.
+std::uint32_t software_version();
+const char* version();
+
+// Everything except the counters.
+PoseTelemetry make_report(const Mission& mission, const TrackStep& step, const ScanPlan& plan, TimeUs t_publication_us);
+
+}  // namespace lasso

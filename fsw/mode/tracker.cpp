@@ -1,0 +1,116 @@
+#include "fsw/mode/tracker.hpp"
+
+#include "fsw/geometry/portable_math.hpp"
+
+namespace lasso {
+namespace {
+
+// A start is believed this well until a scan confirms it: the basin of a wide start.
+constexpr double kStartSigmaRotation_rad = 20 * kRadPerDeg;
+constexpr double kStartSigmaPosition_m = 0.3;
+
+FilterNoise filter_noise(const MissionParameters& p) { return {p.acceleration_mps2, p.angular_acceleration_radps2}; }
+
+FilterStart filter_start(const MissionParameters& p, const Pose& T_sensor_target, const Twist& rates, TimeUs t_us) {
+  FilterStart from;
+  from.t_us = t_us;
+  from.T_sensor_target = T_sensor_target;
+  from.rates = rates;
+  from.sigma_omega_radps = p.initial_angular_rate_radps;
+  from.sigma_v_mps = p.initial_rate_mps;
+  return from;
+}
+
+Mat6 start_covariance() {
+  Vec6 variances;
+  variances.head<3>().setConstant(kStartSigmaRotation_rad * kStartSigmaRotation_rad);
+  variances.tail<3>().setConstant(kStartSigmaPosition_m * kStartSigmaPosition_m);
+  return variances.asDiagonal();
+}
+
+Status restart_from(const MissionParameters& p, const Registration& registration, FilterState& filter) {
+  FilterStart from = filter_start(p, registration.T_sensor_target, filter.rates, registration.t_us);
+  from.pose_covariance = registration.covariance;
+  return start_filter(filter, from);
+}
+
+// `filter` is predicted to the registration's time.
+Status join(const Mission& mission, TrackingMode mode, const Registration& registration, FilterState& filter) {
+  const PoseMeasurement measured{registration.t_us, registration.T_sensor_target, registration.covariance};
+  if (mode != TrackingMode::kStarting && update_filter(filter, measured, kNoGate).status == Status::kOk) return Status::kOk;
+  return restart_from(mission.parameters, registration, filter);
+}
+
+// Where the prediction has no meaning any more (too long a step), pose and rates stay as they were and a valid scan starts anew.
+void predict_or_hold(const MissionParameters& p, TimeUs t_us, FilterState& filter) {
+  if (predict_filter(filter, t_us, filter_noise(p)) != Status::kOk) filter.t_us = t_us;
+}
+
+ModeEvent event_of(const MissionParameters& p, bool valid, std::uint16_t missed) {
+  if (valid) return ModeEvent::kPoseValid;
+  return missed > p.coast_frames ? ModeEvent::kExhausted : ModeEvent::kPoseInvalid;
+}
+
+// coast_frames is at most 1000, and exhausted counts end the scans: no overflow.
+void change_mode(const Mission& mission, bool valid, TrackState& state) {
+  state.missed = valid ? std::uint16_t{0} : static_cast<std::uint16_t>(state.missed + 1);
+  state.mode = next_mode(state.mode, event_of(mission.parameters, valid, state.missed));
+}
+
+Registration not_registered(PoseReason reason, std::uint32_t scan_id, const FilterState& filter) {
+  Registration registration;
+  registration.scan_id = scan_id;
+  registration.t_us = filter.t_us;
+  registration.T_sensor_target = filter.T_sensor_target;
+  registration.reason = reason;
+  return registration;
+}
+
+bool finite(const Twist& rates) { return is_finite(rates.omega_radps.squaredNorm()) && is_finite(rates.v_mps.squaredNorm()); }
+
+}  // namespace
+
+Status start_track(const Mission& mission, const Pose& T_sensor_target, const Twist& rates, TimeUs stated_us, TimeUs t_us,
+                   TrackState& state) {
+  const DurationUs dt_us = t_us - stated_us;
+  if (!finite(rates)) return Status::kNotFinite;
+  if (dt_us > kMaxPredictionUs || dt_us < -kMaxPredictionUs || !is_valid(T_sensor_target)) return Status::kBadValue;
+  FilterStart from = filter_start(mission.parameters, propagate(T_sensor_target, rates, to_seconds(dt_us)), rates, t_us);
+  from.pose_covariance = start_covariance();
+  FilterState filter;
+  const Status status = start_filter(filter, from);
+  if (status != Status::kOk) return status;
+  state.mode = next_mode(state.mode, ModeEvent::kStart);
+  state.missed = 0;
+  state.filter = filter;
+  return Status::kOk;
+}
+
+TrackStep track_scan(const Mission& mission, Estimator& estimator, const RangeImage& scan, const TrackState& before) {
+  TrackStep step;
+  step.after = before;
+  FilterState& filter = step.after.filter;
+  predict_or_hold(mission.parameters, scan.reference_time_us(), filter);
+  const bool wide = properties(before.mode).wide_start && mission.parameters.wide_start > 0.5;
+  step.registration = estimator.estimate(mission, scan, StartPoint{filter.T_sensor_target, filter.rates, wide});
+  if (step.registration.valid() && join(mission, before.mode, step.registration, filter) != Status::kOk) {
+    step.registration.reason = PoseReason::kSingular;
+  }
+  change_mode(mission, step.registration.valid(), step.after);
+  return step;
+}
+
+TrackStep track_without_scan(const Mission& mission, PoseReason reason, std::uint32_t scan_id, TimeUs t_us, const TrackState& before) {
+  TrackStep step;
+  step.after = before;
+  predict_or_hold(mission.parameters, t_us, step.after.filter);
+  step.registration = not_registered(reason, scan_id, step.after.filter);
+  change_mode(mission, false, step.after);
+  return step;
+}
+
+TrackStep no_track(std::uint32_t scan_id, const TrackState& before) {
+  return {before, not_registered(PoseReason::kNoTrack, scan_id, before.filter)};
+}
+
+}  // namespace lasso
