@@ -145,7 +145,8 @@ inline FieldHit<N> sample_field(const Field<N>& field, const FieldRay<N>& ray, t
 template <class N>
 inline FieldHit<N> walk_field(const Field<N>& field, const FieldRay<N>& ray, typename N::Length from, typename N::Length to) {
   typename N::Length t = from;
-  for (int step = 0; step < kMaxWalkSteps && t <= to; ++step) {
+  const auto last = to + field.cell / 2;  // the sample there still sees back to `to`
+  for (int step = 0; step < kMaxWalkSteps && t <= last; ++step) {
     typename N::Length next;
     const FieldHit<N> hit = sample_field(field, ray, t, next);
     if (hit.found) return hit;

@@ -51,13 +51,29 @@ TEST_F(FieldTest, WalkFindsWhatTheRayHits) {
     draw(origin, u);
     const double range = test::cast_box(model_, origin, u);
     const double start = range > 0 ? range + random_.uniform(-0.05, 0.05) : (model_.center - origin).norm();
-    const FieldHit<N> hit = walk_field(mission_->field, ray(origin + start * u, u), -0.1F, 0.1F);
+    const float reach = static_cast<float>(random_.uniform(0.0501, 0.1));
+    const FieldHit<N> hit = walk_field(mission_->field, ray(origin + start * u, u), -reach, reach);
     if (range < 0) continue;
     ++hits;
     ASSERT_TRUE(hit.found) << i;
     ASSERT_NEAR(N::to_double(hit.t), range - start, 3e-6) << i;
   }
   EXPECT_GT(hits, 5000);
+}
+
+TEST_F(FieldTest, WalksShorterThanACellSeeBothEnds) {
+  VERIFIES("LASSO-IMG-007");
+  for (int i = 0; i < 5000; ++i) {
+    Vec3 origin;
+    Vec3 u;
+    draw(origin, u);
+    const double range = test::cast_box(model_, origin, u);
+    if (range < 0) continue;
+    const double offset = random_.uniform(-0.004, 0.004);  // a fifth of a cell
+    const FieldHit<N> hit = walk_field(mission_->field, ray(origin + (range + offset) * u, u), -0.0041F, 0.0041F);
+    ASSERT_TRUE(hit.found) << i;
+    ASSERT_NEAR(N::to_double(hit.t), -offset, 3e-6) << i;
+  }
 }
 
 TEST_F(FieldTest, WalkReportsNothingWhereNothingIs) {
