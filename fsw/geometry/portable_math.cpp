@@ -142,12 +142,12 @@ constexpr double kExponential[] = {0x1.0000000000000p-1,  0x1.5555555553b78p-3, 
                                    0x1.a019c9a5652d3p-16, 0x1.72c72ca338df0p-19, 0x1.2880411bad1aap-22};
 
 // Mills' ratio Phi(-t)/density(t) for t in [0, 40] as a quotient, by weighted least squares with Lawson's weights: 6e-16 of Phi for small
-// t, 3e-12 relative in the tail. All coefficients are positive: nothing cancels.
-constexpr double kMillsNumerator[] = {0x1.40d931ff626ffp+0, 0x1.972432c16b7acp+0, 0x1.fdbb4880c3768p-1,  0x1.89d70e181063fp-2,
-                                      0x1.90d3ae6d54a70p-4, 0x1.0be5340ce815bp-6, 0x1.b55506909dab2p-10, 0x1.54a7de662f946p-14};
-constexpr double kMillsDenominator[] = {0x1.0000000000000p+0, 0x1.088e1dcb774acp+1,  0x1.f185bc4022573p+0,
-                                        0x1.170e61a113d00p+0, 0x1.9a6b406fb35b8p-2,  0x1.97a8ee412cc8ep-4,
-                                        0x1.0d39de39e7fe8p-6, 0x1.b55505f66821ep-10, 0x1.54a7de776e1eap-14};
+// t, 3e-12 relative in the tail, and Phi(0) = 1/2 to the bit. All coefficients are positive: nothing cancels.
+constexpr double kMillsNumerator[] = {0x1.40d931ff62705p+0, 0x1.96edf0d8427fdp+0, 0x1.fd3b5d47cf558p-1,  0x1.8943b070da4bep-2,
+                                      0x1.9007277540effp-4, 0x1.0b3270e873784p-6, 0x1.b3de464f62330p-10, 0x1.532fe5960d4d9p-14};
+constexpr double kMillsDenominator[] = {0x1.0000000000000p+0, 0x1.08787885a8ddep+1,  0x1.f13029683434bp+0,
+                                        0x1.16c25a9744754p+0, 0x1.99cce6dca3217p-2,  0x1.96d68c062b364p-4,
+                                        0x1.0c85a32518bb8p-6, 0x1.b3de45b2bc62ep-10, 0x1.532fe5a7976cep-14};
 constexpr double kMillsMax = 40;
 
 }  // namespace

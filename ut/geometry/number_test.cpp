@@ -1,0 +1,67 @@
+#include "fsw/geometry/number.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "ut/support/generator.hpp"
+#include "ut/support/verifies.hpp"
+
+namespace lasso {
+namespace {
+
+TEST(FloatNumber, LengthIsTheWordRoundedOnceAndScaledExactly) {
+  VERIFIES("LASSO-GEO-008");
+  test::Generator generator(41);
+  for (int i = 0; i < 200000; ++i) {
+    const auto word = static_cast<std::int32_t>(static_cast<std::uint32_t>(generator.bits() >> (32 + i % 31)));
+    const int fraction_bits = i % 96;
+    // Double holds the exact value; its conversion rounds once.
+    const auto truth = static_cast<float>(std::ldexp(static_cast<double>(word), -fraction_bits));
+    ASSERT_EQ(FloatNumber::length(word, fraction_bits), truth) << word << ' ' << fraction_bits;
+    ASSERT_EQ(FloatNumber::ratio(word, fraction_bits), truth) << word << ' ' << fraction_bits;
+  }
+}
+
+TEST(FloatNumber, EndsOfTheRange) {
+  VERIFIES("LASSO-GEO-008");
+  EXPECT_EQ(FloatNumber::length(0, 20), 0.0F);
+  EXPECT_EQ(FloatNumber::length(std::numeric_limits<std::int32_t>::min(), 31), -1.0F);
+  EXPECT_EQ(FloatNumber::length(1, 0), 1.0F);
+  EXPECT_EQ(FloatNumber::length(3, 1), 1.5F);
+  EXPECT_EQ(FloatNumber::unit(1 << 30), 1.0F);
+  EXPECT_EQ(FloatNumber::unit(-(1 << 29)), -0.5F);
+}
+
+TEST(FloatNumber, UnitIsWithinHalfAnUlp) {
+  VERIFIES("LASSO-GEO-008");
+  test::Generator generator(42);
+  for (int i = 0; i < 100000; ++i) {
+    const auto word = static_cast<std::int32_t>(generator.bits() >> 33) - (1 << 30);
+    const double exact = static_cast<double>(word) / 1073741824.0;
+    ASSERT_LE(std::fabs(static_cast<double>(FloatNumber::unit(word)) - exact), std::fabs(exact) * 0x1p-24) << word;
+  }
+}
+
+TEST(FloatNumber, DoublesRoundToThePathAndReturnExactly) {
+  VERIFIES("LASSO-GEO-008");
+  test::Generator generator(43);
+  for (int i = 0; i < 100000; ++i) {
+    const double x = generator.uniform(-64, 64);
+    ASSERT_LE(std::fabs(FloatNumber::to_double(FloatNumber::to_length(x)) - x), std::fabs(x) * 0x1p-24);
+    ASSERT_EQ(FloatNumber::to_unit(x / 64), FloatNumber::to_ratio(x / 64));
+    const float single = FloatNumber::to_length(x);
+    ASSERT_EQ(FloatNumber::to_length(FloatNumber::to_double(single)), single);
+  }
+}
+
+TEST(Dot3, IsTheScalarProduct) {
+  VERIFIES("LASSO-GEO-008");
+  const float a[] = {1.5F, -2.0F, 0.25F};
+  const float b[] = {4.0F, 0.5F, -8.0F};
+  EXPECT_EQ(dot3<FloatNumber>(a, b), 3.0F);
+}
+
+}  // namespace
+}  // namespace lasso
