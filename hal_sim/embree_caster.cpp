@@ -129,12 +129,12 @@ class EmbreeCaster final : public RayCaster {
     const Vec3 from_center = origin_m - ball_.center_m;
     const double skipped_m = std::max(0.0, -from_center.dot(direction) - 1.01 * ball_.radius_m);
     RTCRayHit query = single_precision_ray(from_center + skipped_m * direction, direction);
-    RTCIntersectContext context;
+    RTCIntersectContext context{};
     rtcInitIntersectContext(&context);
     rtcIntersect1(scene_.get(), &context, &query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
     const Plane& plane = planes_[query.hit.primID];
-    return {true, exact_range(plane, origin_m, direction, skipped_m + double{query.ray.tfar}), query.hit.primID, plane.normal};
+    return {true, exact_range(plane, origin_m, direction, skipped_m + static_cast<double>(query.ray.tfar)), query.hit.primID, plane.normal};
   }
 
  private:

@@ -59,8 +59,8 @@ void put_time(std::string& text, TimeUs t_us) {
 
 void put_row(std::string& text, const RangeSample& sample) {
   const bool hit = sample.state == RayState::kHit;
-  const Vec3 direction(double{sample.direction[0]}, double{sample.direction[1]}, double{sample.direction[2]});
-  const Vec3 written = hit ? Vec3(direction.normalized() * double{sample.range_m}) : direction;
+  const Vec3 direction = Eigen::Map<const Eigen::Vector3f>(sample.direction).cast<double>();
+  const Vec3 written = hit ? Vec3(direction.normalized() * static_cast<double>(sample.range_m)) : direction;
   put_time(text, sample.t_us);
   for (int axis = 0; axis < 3; ++axis) put(text, written[axis], ',');
   text += hit ? "1\n" : "0\n";

@@ -1,4 +1,5 @@
 // Points of a PCD file (Point Cloud Library, version 0.6 or 0.7). Strict, as for PLY.
+#include <algorithm>
 #include <array>
 
 #include "hal_sim/scan_text.hpp"
@@ -92,13 +93,14 @@ void read_points(const Words& word, Header& header, const std::string& place) {
   check_point_count(header.points, place);
 }
 
-void read_fields(const Words& word, Header& header) {
+void read_fields(const Words& word, Header& header, const std::string& place) {
+  if (!header.fields.empty()) fail(place, "FIELDS is declared twice");
   for (std::size_t i = 1; i < word.size(); ++i) header.fields.push_back({std::string(word[i]), 0, {}, 1});
 }
 
 void read_entry(const Words& word, Header& header, const std::string& place) {
   if (word[0] == "VERSION") return;
-  if (word[0] == "FIELDS") return read_fields(word, header);
+  if (word[0] == "FIELDS") return read_fields(word, header, place);
   if (word[0] == "SIZE") return read_sizes(word, header, place);
   if (word[0] == "TYPE") return read_types(word, header, place);
   if (word[0] == "COUNT") return read_counts(word, header, place);
@@ -136,19 +138,23 @@ Header read_header(Lines& lines) {
   fail(lines.number() == 0 ? at_line(lines.file(), 1) : lines.place(), "the header has no DATA: not a PCD file, or truncated");
 }
 
+// Appends a field to the layout of a point, noting where a coordinate stands.
+void place_field(const Field& field, Layout& layout, const std::string& place) {
+  const auto axis = std::find(kAxes.begin(), kAxes.end(), field.name);
+  if (axis != kAxes.end()) {
+    const bool real = field.type == "F" && (field.bytes == 4 || field.bytes == 8) && field.count == 1;
+    if (!real) fail(place, "field " + shown(field.name) + " is not a single float or double (TYPE F, SIZE 4 or 8, COUNT 1)");
+    Coordinate& coordinate = layout.xyz[static_cast<std::size_t>(axis - kAxes.begin())];
+    if (coordinate.bytes != 0) fail(place, "field " + shown(field.name) + " is declared twice");
+    coordinate = {layout.words, layout.bytes, static_cast<std::size_t>(field.bytes)};
+  }
+  layout.words += field.count;
+  layout.bytes += field.bytes * field.count;
+}
+
 Layout layout_of(const Header& header, const std::string& place) {
   Layout layout;
-  for (const Field& field : header.fields) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      if (field.name != kAxes[axis]) continue;
-      const bool real = field.type == "F" && (field.bytes == 4 || field.bytes == 8) && field.count == 1;
-      if (!real) fail(place, "field " + shown(field.name) + " is not a single float or double (TYPE F, SIZE 4 or 8, COUNT 1)");
-      if (layout.xyz[axis].bytes != 0) fail(place, "field " + shown(field.name) + " is declared twice");
-      layout.xyz[axis] = {layout.words, layout.bytes, static_cast<std::size_t>(field.bytes)};
-    }
-    layout.words += field.count;
-    layout.bytes += field.bytes * field.count;
-  }
+  for (const Field& field : header.fields) place_field(field, layout, place);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (layout.xyz[axis].bytes == 0) fail(place, "FIELDS has no " + shown(kAxes[axis]) + ", expected x y z");
   }

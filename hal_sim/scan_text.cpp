@@ -136,7 +136,7 @@ double scalar_at(const char* bytes, std::size_t size, bool big_endian) {
     const std::size_t from_top = big_endian ? i : size - 1 - i;
     word = (word << 8) | static_cast<unsigned char>(bytes[from_top]);
   }
-  return size == 8 ? std::bit_cast<double>(word) : double{std::bit_cast<float>(static_cast<std::uint32_t>(word))};
+  return size == 8 ? std::bit_cast<double>(word) : static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(word)));
 }
 
 }  // namespace lasso::sim

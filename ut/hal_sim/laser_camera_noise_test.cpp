@@ -53,8 +53,8 @@ Statistics measure(const RaySimulator& rays, const Vec3& direction = kDirection)
       EXPECT_EQ(sample.range_m, 0);
       continue;
     }
-    sum += double{sample.range_m} - 3;
-    sum2 += std::pow(double{sample.range_m} - 3, 2);
+    sum += static_cast<double>(sample.range_m) - 3;
+    sum2 += std::pow(static_cast<double>(sample.range_m) - 3, 2);
   }
   s.mean = 3 + sum / s.hits;
   s.sigma = std::sqrt(std::max(0.0, sum2 / s.hits - std::pow(sum / s.hits, 2)));
@@ -146,8 +146,8 @@ TEST(CameraNoise, OutliersAreUniformAlongHitAndMissedRays) {
     std::vector<double> outliers;
     for (std::uint32_t i = 0; i < kRays; ++i) {
       const RangeSample sample = rays.measure(0, i, direction, 0);
-      const bool is_true_hit = std::abs(double{sample.range_m} - wall_range(0.1)) < 1e-6 && direction.z() > 0;
-      if (sample.state == RayState::kHit && !is_true_hit) outliers.push_back(double{sample.range_m});
+      const bool is_true_hit = std::abs(static_cast<double>(sample.range_m) - wall_range(0.1)) < 1e-6 && direction.z() > 0;
+      if (sample.state == RayState::kHit && !is_true_hit) outliers.push_back(static_cast<double>(sample.range_m));
     }
     EXPECT_NEAR(static_cast<double>(outliers.size()) / kRays, 0.3, share_bound(0.3));
     std::sort(outliers.begin(), outliers.end());
@@ -177,7 +177,7 @@ TEST(CameraNoise, RangesMixAtTheEdgeBetweenTwoSurfaces) {
     const Vec3 direction = Vec3(x_at_near_m / 2.6, 0.01, 1).normalized();
     int count = 0;
     for (std::uint32_t i = 0; i < kRays / 4; ++i) {
-      const double z = double{rays.measure(1, i, direction, 0).range_m} * direction.z();
+      const double z = static_cast<double>(rays.measure(1, i, direction, 0).range_m) * direction.z();
       EXPECT_GE(z, 2.6 - 1e-4);
       EXPECT_LE(z, 3.0 + 1e-3);
       count += z > 2.6 + 1e-3 && z < 3.0 - 1e-3 ? 1 : 0;
@@ -200,7 +200,7 @@ TEST(CameraNoise, RangesAreQuantised) {
   const Wall wall(0.4);
   const RaySimulator stepped = wall.rays(model);
   for (std::uint32_t i = 0; i < 2000; ++i) {
-    const double steps = double{stepped.measure(0, i, kDirection, 0).range_m} / 0.01;
+    const double steps = static_cast<double>(stepped.measure(0, i, kDirection, 0).range_m) / 0.01;
     ASSERT_NEAR(steps, std::round(steps), 1e-4);
   }
   EXPECT_NEAR(measure(stepped).mean, wall_range(0.4), 4.5 * 0.05 / std::sqrt(double{kRays}));

@@ -62,7 +62,8 @@ std::vector<RangeSample> scan(Sensor& sensor, const ScanPlan& plan, TimeUs t_sta
 }
 
 Vec3 direction_of(const RangeSample& sample) {
-  return Vec3(double{sample.direction[0]}, double{sample.direction[1]}, double{sample.direction[2]}).normalized();
+  return Vec3(static_cast<double>(sample.direction[0]), static_cast<double>(sample.direction[1]), static_cast<double>(sample.direction[2]))
+      .normalized();
 }
 
 double true_box_range(const Pose& T_sensor_target, const Vec3& direction, const Vec3& half = kHalf) {
@@ -106,7 +107,7 @@ TEST(SimulatedCamera, EachRaySeesTheMovingTargetAtItsOwnTime) {
       const double expected = true_box_range(pose, direction);
       ASSERT_EQ(sample.state, expected == kNoHit ? RayState::kMiss : RayState::kHit);
       const double reported = expected == kNoHit ? 0 : expected;
-      ASSERT_NEAR(double{sample.range_m}, reported, 3e-7 * reported);  // half a unit in the last place of a float
+      ASSERT_NEAR(static_cast<double>(sample.range_m), reported, 3e-7 * reported);  // half a unit in the last place of a float
       hits += sample.state == RayState::kHit ? 1u : 0u;
       misses += sample.state == RayState::kMiss ? 1u : 0u;
       const double at_start = true_box_range(first, direction);
@@ -132,8 +133,8 @@ TEST(SimulatedCamera, RangesToASphereAndAPlaneAreClosedForm) {
     const double far_m = test::sphere_range(inner, origin, direction);
     if (far_m == kNoHit) continue;
     ASSERT_EQ(sample.state, RayState::kHit);
-    ASSERT_GE(double{sample.range_m}, near_m - 5e-7);
-    ASSERT_LE(double{sample.range_m}, far_m + 5e-7);
+    ASSERT_GE(static_cast<double>(sample.range_m), near_m - 5e-7);
+    ASSERT_LE(static_cast<double>(sample.range_m), far_m + 5e-7);
     ++hits;
   }
   EXPECT_GT(hits, 300u);
@@ -146,7 +147,7 @@ TEST(SimulatedCamera, RangesToASphereAndAPlaneAreClosedForm) {
     const Pose pose = plane.motion.at(sample.t_us).T_sensor_target;
     const Vec3 normal = pose.q.toRotationMatrix().col(2);
     ASSERT_EQ(sample.state, RayState::kHit);
-    ASSERT_NEAR(double{sample.range_m}, normal.dot(pose.p) / normal.dot(direction_of(sample)), 5e-7);
+    ASSERT_NEAR(static_cast<double>(sample.range_m), normal.dot(pose.p) / normal.dot(direction_of(sample)), 5e-7);
   }
 }
 

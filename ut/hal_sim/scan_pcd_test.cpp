@@ -74,6 +74,7 @@ TEST(ScanPcd, EachErrorNamesItsPlaceAndItsRemedy) {
   expect_refused("a.pcd", header("ascii", "COUNT", "COUNT 1 1 1 99999999999\n"), ":6: COUNT is \"99999999999\"", "at most 4096");
   expect_refused("a.pcd", header("ascii", "FIELDS", "FIELDS x y w rgb\n"), ":11: FIELDS has no \"z\"", "expected x y z");
   expect_refused("a.pcd", header("ascii", "FIELDS", "FIELDS x y z x\n"), ":11: field \"x\"", "");
+  expect_refused("a.pcd", header("ascii", "COUNT", "FIELDS w\n"), ":6: FIELDS is declared twice", "");
   expect_refused("a.pcd", header("ascii", "VIEWPOINT", "VIEWPOINT 0 0 1 1 0 0 0\n"), ":9: ", "sensor's frame");
   expect_refused("a.pcd", header("ascii", "POINTS", "POINTS 0\n"), ":10: the file declares no point", "at least one");
   expect_refused("a.pcd", header("ascii", "POINTS", "POINTS 5000\n"), ":10: the file declares 5000 points", "thin it out");

@@ -61,9 +61,9 @@ TEST(ScanText, ScalarsReadInBothByteOrders) {
     std::reverse(bytes, bytes + 8);
     EXPECT_EQ(scalar_at(bytes, 8, std::endian::native == std::endian::little), wide);
     std::memcpy(bytes, &narrow, 4);
-    EXPECT_EQ(scalar_at(bytes, 4, std::endian::native == std::endian::big), double{narrow});
+    EXPECT_EQ(scalar_at(bytes, 4, std::endian::native == std::endian::big), static_cast<double>(narrow));
     std::reverse(bytes, bytes + 4);
-    EXPECT_EQ(scalar_at(bytes, 4, std::endian::native == std::endian::little), double{narrow});
+    EXPECT_EQ(scalar_at(bytes, 4, std::endian::native == std::endian::little), static_cast<double>(narrow));
   }
 }
 
