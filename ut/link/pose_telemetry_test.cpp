@@ -1,0 +1,170 @@
+#include "fsw/link/pose_telemetry.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "fsw/core/crc.hpp"
+#include "ut/support/generator.hpp"
+#include "ut/support/verifies.hpp"
+
+namespace lasso {
+namespace {
+
+using Packet = std::vector<std::uint8_t>;
+
+Packet encode(const PoseTelemetry& pose, const PacketHeader& header = {}) {
+  Packet packet(kMaxPosePacketBytes);
+  packet.resize(encode_pose(pose, header, Bytes(packet.data(), packet.size())));
+  return packet;
+}
+
+ConstBytes view(const Packet& packet) { return ConstBytes(packet.data(), packet.size()); }
+
+void repair_crc(Packet& packet) {
+  const std::size_t n = packet.size() - kPacketTrailerBytes;
+  const std::uint16_t crc = crc16_ccitt(ConstBytes(packet.data(), n));
+  packet[n] = static_cast<std::uint8_t>(crc >> 8);
+  packet[n + 1] = static_cast<std::uint8_t>(crc & 0xFF);
+}
+
+std::size_t row_named(const std::string& name) {
+  for (std::size_t i = 0; i < pose_rows().size(); ++i) {
+    if (name == pose_rows()[i].name) return i;
+  }
+  ADD_FAILURE() << "no row " << name;
+  return 0;
+}
+
+std::size_t offset_of(const std::string& name) { return pose_row_offset(row_named(name)); }
+
+TEST(PoseTelemetry, LiesAtTheseBytes) {
+  VERIFIES("LASSO-LNK-002");
+  // Written down by hand: who changes the layout changes an interface.
+  EXPECT_EQ(offset_of("scan_id"), 22u);
+  EXPECT_EQ(offset_of("t_measurement_us"), 26u);
+  EXPECT_EQ(offset_of("t_publication_us"), 34u);
+  EXPECT_EQ(offset_of("age_us"), 42u);
+  EXPECT_EQ(offset_of("valid"), 46u);
+  EXPECT_EQ(offset_of("mode"), 49u);
+  EXPECT_EQ(offset_of("q_sensor_target"), 50u);
+  EXPECT_EQ(offset_of("p_sensor_target_m"), 82u);
+  EXPECT_EQ(offset_of("covariance"), 106u);
+  EXPECT_EQ(offset_of("filter_q_sensor_target"), 190u);
+  EXPECT_EQ(offset_of("filter_omega_radps"), 246u);
+  EXPECT_EQ(offset_of("filter_sigma_pose"), 294u);
+  EXPECT_EQ(offset_of("rays"), 342u);
+  EXPECT_EQ(offset_of("rms_m"), 354u);
+  EXPECT_EQ(offset_of("weakest_direction"), 374u);
+  EXPECT_EQ(offset_of("plan_center"), 398u);
+  EXPECT_EQ(offset_of("plan_points"), 438u);
+  EXPECT_EQ(offset_of("image_crc"), 445u);
+  EXPECT_EQ(offset_of("frames"), 457u);
+  EXPECT_EQ(offset_of("dropped_packets"), 477u);
+  EXPECT_EQ(encode(PoseTelemetry{}).size(), 483u);
+}
+
+TEST(PoseTelemetry, WritesEachValueWhereItsRowSays) {
+  VERIFIES("LASSO-LNK-002");
+  PoseTelemetry pose;
+  pose.scan_id = 0xA1B2C3D4;
+  pose.q_sensor_target[3] = -2.0;
+  pose.covariance[20] = 1.0f;
+  pose.iterations = 0x0102;
+  const Packet packet = encode(pose);
+  const std::uint8_t scan_id[] = {0xA1, 0xB2, 0xC3, 0xD4};
+  const std::uint8_t minus_two[] = {0xC0, 0, 0, 0, 0, 0, 0, 0};
+  const std::uint8_t one[] = {0x3F, 0x80, 0, 0};
+  EXPECT_EQ(std::memcmp(packet.data() + 22, scan_id, 4), 0);
+  EXPECT_EQ(std::memcmp(packet.data() + 50 + 24, minus_two, 8), 0);
+  EXPECT_EQ(std::memcmp(packet.data() + 106 + 80, one, 4), 0);
+  EXPECT_EQ(packet[offset_of("iterations")], 1);
+  EXPECT_EQ(packet[offset_of("iterations") + 1], 2);
+}
+
+TEST(PoseTelemetry, CarriesServiceStructureAndCounts) {
+  VERIFIES("LASSO-LNK-001 LASSO-LNK-004");
+  PacketHeader header;
+  header.sequence_count = 77;
+  header.t_us = 5000000;
+  const Packet packet = encode(PoseTelemetry{}, header);
+  EXPECT_EQ(packet[7], 3);
+  EXPECT_EQ(packet[8], 25);
+  EXPECT_EQ(packet[20], 0);
+  EXPECT_EQ(packet[21], kPoseStructureId);
+  PacketHeader decoded;
+  PoseTelemetry pose;
+  ASSERT_EQ(decode_pose(view(packet), decoded, pose), Status::kOk);
+  EXPECT_EQ(decoded.sequence_count, 77);
+  EXPECT_EQ(decoded.t_us, 5000000);
+}
+
+TEST(PoseTelemetry, EncodeDecodeEncodeIsByteIdentical) {
+  VERIFIES("LASSO-LNK-004");
+  test::Generator random(11);
+  const Packet blank = encode(PoseTelemetry{});
+  for (int i = 0; i < 1000; ++i) {
+    Packet packet = blank;
+    for (std::size_t j = 22; j + kPacketTrailerBytes < packet.size(); ++j) packet[j] = static_cast<std::uint8_t>(random.below(256));
+    repair_crc(packet);
+    PacketHeader header;
+    PoseTelemetry pose;
+    ASSERT_EQ(decode_pose(view(packet), header, pose), Status::kOk);
+    ASSERT_EQ(encode(pose, header), packet);
+  }
+}
+
+TEST(PoseTelemetry, RefusesOtherPacketsAndLeavesThePoseAlone) {
+  VERIFIES("LASSO-LNK-005");
+  const Packet good = encode(PoseTelemetry{});
+  PacketHeader header;
+  PoseTelemetry pose;
+  pose.scan_id = 99;
+  Packet other = good;
+  other[8] = 26;
+  repair_crc(other);
+  EXPECT_EQ(decode_pose(view(other), header, pose), Status::kBadMagic);
+  other = good;
+  other[21] = 2;
+  repair_crc(other);
+  EXPECT_EQ(decode_pose(view(other), header, pose), Status::kBadMagic);
+  other = good;
+  other.erase(other.begin() + 100);
+  other[5] = static_cast<std::uint8_t>(other[5] - 1);
+  repair_crc(other);
+  EXPECT_EQ(decode_pose(view(other), header, pose), Status::kBadLength);
+  other = good;
+  other[100] ^= 1;
+  EXPECT_EQ(decode_pose(view(other), header, pose), Status::kBadCrc);
+  other = Packet(good.begin(), good.end() - 1);
+  EXPECT_EQ(decode_pose(view(other), header, pose), Status::kTruncated);
+  EXPECT_EQ(pose.scan_id, 99u);
+}
+
+TEST(PoseTelemetry, TooSmallABufferGivesNoPacket) {
+  VERIFIES("LASSO-LNK-004");
+  Packet packet(482);
+  EXPECT_EQ(encode_pose(PoseTelemetry{}, PacketHeader{}, Bytes(packet.data(), packet.size())), 0u);
+}
+
+TEST(PoseTelemetry, DictionaryIsCompleteAndUnambiguous) {
+  VERIFIES("LASSO-LNK-002");
+  std::set<std::string> names;
+  std::set<std::uint16_t> ids;
+  for (const auto& row : pose_rows()) {
+    EXPECT_TRUE(names.insert(row.name).second) << row.name;
+    EXPECT_TRUE(ids.insert(row.id).second) << row.name;
+    EXPECT_STRNE(row.unit, "") << row.name;
+    EXPECT_STRNE(row.meaning, "") << row.name;
+  }
+}
+
+TEST(PoseTelemetry, FiveFramesASecondFitTheLink) {
+  VERIFIES("LASSO-LNK-007");
+  EXPECT_LE(encode(PoseTelemetry{}).size() * 8 * 5, 64000u);
+}
+
+}  // namespace
+}  // namespace lasso
