@@ -4,6 +4,7 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <assimp/Importer.hpp>
 #include <cctype>
@@ -13,6 +14,7 @@
 
 #include "mdat/missiondb/mesh_precheck.hpp"
 #include "mdat/missiondb/sha256.hpp"
+#include "mdat/missiondb/solid.hpp"
 #include "mdat/missiondb/value_row.hpp"
 
 namespace lasso::mdat {
@@ -46,21 +48,40 @@ void check_finite(const aiMesh& part) {
   }
 }
 
-void add_faces(const aiMesh& part, Joiner& joiner) {
-  for (unsigned int i = 0; i < part.mNumFaces; ++i) {
-    const aiFace& face = part.mFaces[i];
-    if (face.mNumIndices != 3) throw MeshError("holds points or lines beside triangles: export the surface only");
-    std::array<std::uint32_t, 3> triangle{};
-    for (unsigned int k = 0; k < 3; ++k) {
-      if (face.mIndices[k] >= part.mNumVertices) throw MeshError("triangle " + std::to_string(i) + " refers to a vertex that is not there");
-      triangle[k] = joiner.index_of(part.mVertices[face.mIndices[k]]);
-    }
-    joiner.mesh.triangles.push_back(triangle);
+constexpr unsigned int kMaxCorners = 1000;
+
+// The corners in a plane across the polygon's mean normal (Newell), in which it runs counter-clockwise.
+std::vector<Eigen::Vector2d> flattened(const std::vector<Eigen::Vector3d>& corners) {
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < corners.size(); ++i) normal += corners[i].cross(corners[(i + 1) % corners.size()]);
+  const Eigen::Vector3d u = normal.unitOrthogonal();
+  const Eigen::Vector3d v = normal.normalized().cross(u);
+  std::vector<Eigen::Vector2d> points;
+  for (const Eigen::Vector3d& corner : corners) points.emplace_back(u.dot(corner), v.dot(corner));
+  return points;
+}
+
+// Polygons are cut here: the library's own step ends the process on some corrupt files.
+void add_face(const aiMesh& part, const aiFace& face, Joiner& joiner) {
+  if (face.mNumIndices < 3 || face.mNumIndices > kMaxCorners) {
+    throw MeshError("has a face of " + std::to_string(face.mNumIndices) +
+                    " corners: points and lines are no surface (export triangles only), or the file is truncated");
+  }
+  std::vector<std::uint32_t> indices;
+  std::vector<Eigen::Vector3d> corners;
+  for (unsigned int k = 0; k < face.mNumIndices; ++k) {
+    if (face.mIndices[k] >= part.mNumVertices) throw MeshError("has a face that refers to a vertex that is not there");
+    indices.push_back(joiner.index_of(part.mVertices[face.mIndices[k]]));
+    corners.push_back(joiner.mesh.vertices[indices.back()]);
+  }
+  if (indices.size() == 3) return joiner.mesh.triangles.push_back({indices[0], indices[1], indices[2]});
+  for (const auto& triangle : triangulate_polygon(flattened(corners))) {
+    joiner.mesh.triangles.push_back({indices[triangle[0]], indices[triangle[1]], indices[triangle[2]]});
   }
 }
 
 const aiScene& read_scene(Assimp::Importer& importer, const std::filesystem::path& file) {
-  const aiScene* scene = importer.ReadFile(file.string(), aiProcess_Triangulate | aiProcess_PreTransformVertices);
+  const aiScene* scene = importer.ReadFile(file.string(), aiProcess_PreTransformVertices);
   if (scene == nullptr) throw MeshError(std::string("cannot be read as a mesh: ") + importer.GetErrorString());
   if ((scene->mFlags & AI_SCENE_FLAGS_INCOMPLETE) != 0) throw MeshError("is incomplete");
   return *scene;
@@ -81,7 +102,7 @@ Mesh import_mesh(const std::filesystem::path& file, double scale) {
   Joiner joiner(scale);
   for (unsigned int i = 0; i < scene.mNumMeshes; ++i) {
     check_finite(*scene.mMeshes[i]);
-    add_faces(*scene.mMeshes[i], joiner);
+    for (unsigned int k = 0; k < scene.mMeshes[i]->mNumFaces; ++k) add_face(*scene.mMeshes[i], scene.mMeshes[i]->mFaces[k], joiner);
   }
   if (joiner.mesh.triangles.size() < faces_expected) {
     throw MeshError("has " + std::to_string(joiner.mesh.triangles.size()) + " readable triangles, expected at least " +

@@ -76,7 +76,7 @@ Values sized_values(const Size& size) {
   values["tracking.initial.present"] = 1;
   values["tracking.initial.x_m"] = rounded(-size.center.x());
   values["tracking.initial.y_m"] = rounded(-size.center.y());
-  values["tracking.initial.z_m"] = range_m - rounded(size.center.z());
+  values["tracking.initial.z_m"] = rounded(range_m - size.center.z());
   return values;
 }
 
@@ -170,7 +170,7 @@ std::string new_mission_text(const std::filesystem::path& model, double scale, c
   const double cell_size_m = std::clamp(rounded(cell.preset[0] * size.largest / kReferenceSize_m), cell.minimum, cell.maximum);
   std::ostringstream out;
   write_head(out, model.stem().string(), model_path, sha256_of(read_file(model)), model.extension() == ".toml", scale, cell_size_m);
-  out << "\n# [sensor] describes your sensor; the noise here is a millimetre for every metre of a target of this size's usual range.\n";
+  out << "\n# [sensor] describes your sensor; the noise written here grows with the target's size: replace it by your sensor's.\n";
   write_flight_parameters(out, sized_values(size));
   write_scenario(out, initial_range(size));
   return out.str();

@@ -170,10 +170,16 @@ class ModelReader {
     where_ = name + ": ";
     const Mesh solid = make_part(part);
     if (!problems_.empty()) return;
-    if (!(signed_volume(solid) > 0)) {
+    if (!has_volume(solid)) {
       return problems_.add(origin_of(part.source()), name, "", "has no volume: expected a closed solid that does not cross itself");
     }
     append_repeated(part, placed(part, solid), mesh);
+  }
+  static bool has_volume(const Mesh& solid) {
+    constexpr double kLeastShare = 1e-9;  // of the cube about it; a rod a thousand times longer than thick has 1e-6
+    double extent = 0;
+    for (const Vector3d& vertex : solid.vertices) extent = std::max(extent, (vertex - solid.vertices[0]).cwiseAbs().maxCoeff());
+    return signed_volume(solid) > kLeastShare * extent * extent * extent;
   }
   Mesh make_part(const toml::table& part) {
     const std::string kind = part["kind"].value_or(std::string());

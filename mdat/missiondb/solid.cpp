@@ -19,7 +19,7 @@ void orient_outwards(Mesh& mesh) {
 double cross2(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 bool inside(const Vector2d& p, const Vector2d& a, const Vector2d& b, const Vector2d& c) {
-  return cross2(b - a, p - a) > 0 && cross2(c - b, p - b) > 0 && cross2(a - c, p - c) > 0;
+  return cross2(b - a, p - a) >= 0 && cross2(c - b, p - b) >= 0 && cross2(a - c, p - c) >= 0;
 }
 
 bool is_ear(const std::vector<Vector2d>& points, const std::vector<Index>& polygon, std::size_t i) {
@@ -29,26 +29,10 @@ bool is_ear(const std::vector<Vector2d>& points, const std::vector<Index>& polyg
   const Vector2d& c = points[polygon[(i + 1) % n]];
   if (cross2(b - a, c - b) <= 0) return false;
   for (const Index k : polygon) {
-    if (inside(points[k], a, b, c)) return false;
+    const bool corner = points[k] == a || points[k] == b || points[k] == c;
+    if (!corner && inside(points[k], a, b, c)) return false;
   }
   return true;
-}
-
-// Triangles of a simple polygon by cutting ears; each is counter-clockwise.
-std::vector<std::array<Index, 3>> triangulate(const std::vector<Vector2d>& points) {
-  double area = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) area += cross2(points[i], points[(i + 1) % points.size()]);
-  std::vector<Index> polygon;
-  for (std::size_t i = 0; i < points.size(); ++i) polygon.push_back(static_cast<Index>(area > 0 ? i : points.size() - 1 - i));
-  std::vector<std::array<Index, 3>> triangles;
-  while (polygon.size() > 2) {
-    const std::size_t n = polygon.size();
-    std::size_t ear = 0;
-    while (ear + 1 < n && !is_ear(points, polygon, ear)) ++ear;
-    triangles.push_back({polygon[(ear + n - 1) % n], polygon[ear], polygon[(ear + 1) % n]});
-    polygon.erase(polygon.begin() + static_cast<std::ptrdiff_t>(ear));
-  }
-  return triangles;
 }
 
 // The vertices of a turned profile: a ring for each point off the axis, one vertex for each point on it.
@@ -92,7 +76,7 @@ void add_band(const Rings& rings, std::size_t from, std::size_t to, Index sides,
 void add_caps(const Rings& rings, const std::vector<Vector2d>& profile, Index sides, Mesh& mesh) {
   double area = 0;
   for (std::size_t i = 0; i < profile.size(); ++i) area += cross2(profile[i], profile[(i + 1) % profile.size()]);
-  for (auto triangle : triangulate(profile)) {
+  for (auto triangle : triangulate_polygon(profile)) {
     if (area < 0) std::swap(triangle[1], triangle[2]);
     mesh.triangles.push_back({rings.at(triangle[0], 0), rings.at(triangle[2], 0), rings.at(triangle[1], 0)});
     mesh.triangles.push_back({rings.at(triangle[0], sides), rings.at(triangle[1], sides), rings.at(triangle[2], sides)});
@@ -106,6 +90,22 @@ std::pair<Vector3d, Vector3d> across(const Vector3d& axis) {
 }
 
 }  // namespace
+
+std::vector<std::array<Index, 3>> triangulate_polygon(const std::vector<Vector2d>& points) {
+  double area = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) area += cross2(points[i], points[(i + 1) % points.size()]);
+  std::vector<Index> polygon;
+  for (std::size_t i = 0; i < points.size(); ++i) polygon.push_back(static_cast<Index>(area > 0 ? i : points.size() - 1 - i));
+  std::vector<std::array<Index, 3>> triangles;
+  while (polygon.size() > 2) {
+    const std::size_t n = polygon.size();
+    std::size_t ear = 0;
+    while (ear + 1 < n && !is_ear(points, polygon, ear)) ++ear;
+    triangles.push_back({polygon[(ear + n - 1) % n], polygon[ear], polygon[(ear + 1) % n]});
+    polygon.erase(polygon.begin() + static_cast<std::ptrdiff_t>(ear));
+  }
+  return triangles;
+}
 
 Mesh make_box(const Vector3d& size) {
   Mesh mesh;

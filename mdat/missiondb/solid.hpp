@@ -30,6 +30,9 @@ struct DishShape {
 };
 Mesh make_dish(const DishShape& shape);
 
+// Triangles of a simple polygon (it need not be convex), each counter-clockwise, as indices of `points`; bounded by their number cubed.
+std::vector<std::array<std::uint32_t, 3>> triangulate_polygon(const std::vector<Eigen::Vector2d>& points);
+
 // Positive where the surface is closed and oriented outwards.
 double signed_volume(const Mesh& mesh);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <numeric>
 #include <sstream>
 
@@ -120,6 +121,8 @@ std::string expectation(const ValueRow& row) {
 }
 
 std::string number_text(double value) {
+  constexpr double kLongestWhole = 1e15;
+  if (std::fabs(value) < kLongestWhole && value == std::trunc(value)) return std::to_string(static_cast<long long>(value));
   char buffer[32];
   const auto end = std::to_chars(buffer, buffer + sizeof buffer, value);
   return {buffer, end.ptr};

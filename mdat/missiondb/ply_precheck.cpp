@@ -1,0 +1,148 @@
+#include "mdat/missiondb/ply_precheck.hpp"
+
+#include <cstdint>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "mdat/missiondb/mesh_import.hpp"
+
+namespace lasso::mdat {
+namespace {
+
+struct Property {
+  std::size_t count_size = 0;  // bytes of a list's length; 0: a single value
+  std::size_t value_size = 0;
+};
+struct Element {
+  std::string name;
+  std::size_t count = 0;
+  std::vector<Property> properties;
+};
+enum class Format { kAscii, kLittle, kBig };
+struct Header {
+  Format format = Format::kAscii;
+  std::vector<Element> elements;
+  std::size_t end = 0;  // first byte of the data
+};
+
+std::size_t size_of_type(const std::string& type) {
+  static const std::map<std::string, std::size_t> sizes{
+      {"char", 1}, {"uchar", 1}, {"int8", 1},  {"uint8", 1},  {"short", 2}, {"ushort", 2},  {"int16", 2},  {"uint16", 2},
+      {"int", 4},  {"uint", 4},  {"int32", 4}, {"uint32", 4}, {"float", 4}, {"float32", 4}, {"double", 8}, {"float64", 8}};
+  const auto found = sizes.find(type);
+  if (found == sizes.end()) throw MeshError("has a PLY header with an unknown type \"" + type + '"');
+  return found->second;
+}
+
+Property read_property(std::istringstream& words) {
+  std::string type;
+  words >> type;
+  if (type != "list") return {0, size_of_type(type)};
+  std::string count, value;
+  words >> count >> value;
+  return {size_of_type(count), size_of_type(value)};
+}
+
+void read_line(const std::string& line, Header& header) {
+  std::istringstream words(line);
+  std::string keyword, name;
+  words >> keyword;
+  if (keyword == "format" && words >> name) {
+    header.format = name == "ascii" ? Format::kAscii : name == "binary_big_endian" ? Format::kBig : Format::kLittle;
+  } else if (keyword == "element") {
+    Element element;
+    words >> element.name >> element.count;
+    header.elements.push_back(element);
+  } else if (keyword == "property" && !header.elements.empty()) {
+    header.elements.back().properties.push_back(read_property(words));
+  }
+}
+
+Header read_header(std::string_view bytes) {
+  const std::size_t mark = bytes.find("end_header");
+  const std::size_t end = mark == std::string_view::npos ? mark : bytes.find('\n', mark);
+  if (bytes.substr(0, 3) != "ply" || end == std::string_view::npos) throw MeshError("is not a PLY file, or its header is truncated");
+  Header header;
+  header.end = end + 1;
+  std::istringstream lines{std::string(bytes.substr(0, mark))};
+  for (std::string line; std::getline(lines, line);) read_line(line, header);
+  return header;
+}
+
+// Walks through the data, value by value.
+class Data {
+ public:
+  Data(std::string_view bytes, Format format) : bytes_(bytes), format_(format) {}
+
+  // False at the end of the data.
+  bool skip(std::size_t values, std::size_t value_size) {
+    if (format_ == Format::kAscii) {
+      for (std::size_t i = 0; i < values; ++i) {
+        if (next_word().empty()) return false;
+      }
+      return true;
+    }
+    if (values > (bytes_.size() - position_) / value_size) return false;
+    position_ += values * value_size;
+    return true;
+  }
+  bool read_count(std::size_t size, std::size_t& count) {
+    count = 0;
+    if (format_ == Format::kAscii) {
+      const std::string word(next_word());
+      count = static_cast<std::size_t>(std::strtoull(word.c_str(), nullptr, 10));
+      return !word.empty();
+    }
+    if (size > bytes_.size() - position_) return false;
+    for (std::size_t i = 0; i < size; ++i) {
+      const std::size_t shift = 8 * (format_ == Format::kBig ? size - 1 - i : i);
+      count |= std::size_t{static_cast<unsigned char>(bytes_[position_ + i])} << shift;
+    }
+    position_ += size;
+    return true;
+  }
+
+ private:
+  std::string_view next_word() {
+    constexpr std::string_view kSpace = " \t\r\n";
+    const std::size_t begin = bytes_.find_first_not_of(kSpace, position_);
+    if (begin == std::string_view::npos) return {};
+    position_ = std::min(bytes_.find_first_of(kSpace, begin), bytes_.size());
+    return bytes_.substr(begin, position_ - begin);
+  }
+  std::string_view bytes_;
+  Format format_;
+  std::size_t position_ = 0;
+};
+
+bool skip_element(const Element& element, Data& data) {
+  for (const Property& property : element.properties) {
+    std::size_t values = 1;
+    if (property.count_size > 0 && !data.read_count(property.count_size, values)) return false;
+    if (!data.skip(values, property.value_size)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::size_t precheck_ply(std::string_view bytes) {
+  const Header header = read_header(bytes);
+  Data data(bytes.substr(header.end), header.format);
+  std::size_t faces = 0;
+  for (const Element& element : header.elements) {
+    if (element.properties.empty()) throw MeshError("has a PLY element without properties: \"" + element.name + '"');
+    if (element.name == "face") faces = element.count;
+    for (std::size_t i = 0; i < element.count; ++i) {
+      if (skip_element(element, data)) continue;
+      throw MeshError("is truncated: its header announces " + std::to_string(element.count) + " of \"" + element.name +
+                      "\", the data end at " + std::to_string(i));
+    }
+  }
+  if (faces == 0) throw MeshError("is empty: it holds no face (points alone are a scan, not a target)");
+  return faces;
+}
+
+}  // namespace lasso::mdat

@@ -1,0 +1,63 @@
+#include "mdat/missiondb/mission_text.hpp"
+
+#include <sstream>
+
+#include "ut/mdat/missiondb/support.hpp"
+#include "ut/support/verifies.hpp"
+
+namespace lasso::mdat {
+namespace {
+
+// The line of `text` that begins with `key`, its words.
+std::vector<std::string> words_of(const std::string& text, const std::string& key) {
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.rfind(key + " ", 0) != 0) continue;
+    std::istringstream stream(line);
+    std::vector<std::string> words;
+    for (std::string word; stream >> word;) words.push_back(word);
+    return words;
+  }
+  return {};
+}
+
+std::size_t line_of(const std::filesystem::path& file, const std::string& text) {
+  std::ifstream stream(file);
+  std::size_t number = 1;
+  for (std::string line; std::getline(stream, line); ++number) {
+    if (line.rfind(text, 0) == 0) return number;
+  }
+  return 0;
+}
+
+TEST(MissionText, InfoShowsEveryValueAndItsOrigin) {
+  VERIFIES("LASSO-GND-002");
+  const MissionSource source = load_mission(kShippedMission);
+  const std::string text = info_text(source);
+  for (const ParameterRow& row : parameter_rows()) EXPECT_GE(words_of(text, row.key).size(), 4u) << row.key;
+  const std::string place = "hubble_tenth.toml:" + std::to_string(line_of(kShippedMission, "points ="));
+  const std::vector<std::string> points = words_of(text, "scan.points");
+  EXPECT_EQ(points[1], "1024");
+  EXPECT_EQ(points[2], place);
+  EXPECT_EQ(words_of(text, "scan.margin")[2], "preset");
+  EXPECT_EQ(words_of(text, "sensor.fov_half_x_deg")[1], "15");  // in the unit that a person wrote
+}
+
+TEST(MissionText, InfoOfAScenarioShowsItsOverrides) {
+  VERIFIES("LASSO-GND-002 LASSO-GND-010");
+  const MissionSource source = load_mission(kShippedMission);
+  EXPECT_EQ(words_of(info_text(source, "paper"), "estimation.deskew")[1], "false");
+  EXPECT_EQ(words_of(info_text(source, "spin"), "estimation.deskew")[1], "true");
+  EXPECT_EQ(words_of(info_text(source, "spin"), "scenario.paper.frames").size(), 0u);
+  EXPECT_EQ(words_of(info_text(source, "spin"), "scenario.spin.tilt_deg")[1], "15");
+}
+
+TEST(MissionText, CheckSaysWhatIsGood) {
+  VERIFIES("LASSO-GND-003");
+  const std::string text = check_text(load_mission(kShippedMission));
+  EXPECT_NE(text.find("good: mission 1 \"Hubble, tenth scale\""), std::string::npos) << text;
+  EXPECT_NE(text.find("5 scenarios"), std::string::npos) << text;
+}
+
+}  // namespace
+}  // namespace lasso::mdat
