@@ -1,0 +1,78 @@
+#include "fsw/exec/acquisition_task.hpp"
+
+#include <memory>
+
+#include "ut/support/box_scene.hpp"
+#include "ut/support/verifies.hpp"
+
+namespace lasso {
+namespace {
+
+class AcquisitionTaskTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    MissionParameters p = test::box_parameters(scene_);
+    p.points = 4096;
+    image_ = test::make_box_image(p, scene_.box);
+    ASSERT_EQ(load_image(Bytes(image_.data(), image_.size), mission_).status, Status::kOk);
+  }
+  void start(std::uint32_t scan_id, TimeUs t_us) { task_->start(mission_, scene_.pose_at(t_us), scan_id, t_us, plan_); }
+
+  test::BoxScene scene_ = test::default_scene();
+  test::TestImage image_;
+  Mission mission_;
+  ScanPlan plan_;
+  test::BoxSensor sensor_{scene_};
+  std::unique_ptr<AcquisitionTask> task_ = std::make_unique<AcquisitionTask>(sensor_);
+};
+
+TEST_F(AcquisitionTaskTest, TakesTheLargestScanInOnePoll) {
+  VERIFIES("LASSO-EXE-005");
+  start(3, 1000);
+  EXPECT_EQ(plan_.scan_id, 3u);
+  task_->poll(200000);
+  EXPECT_TRUE(task_->finish());
+  EXPECT_EQ(task_->filling().samples.size(), 4096u);
+  EXPECT_EQ(task_->filling().scan_id, 3u);
+}
+
+TEST_F(AcquisitionTaskTest, FillsTheOtherImageAfterTheHandOver) {
+  VERIFIES("LASSO-EXE-002");
+  start(0, 0);
+  task_->poll(200000);
+  ASSERT_TRUE(task_->finish());
+  const RangeImage& handed_over = task_->filling();
+  const TimeUs t_us = handed_over.reference_time_us();
+  task_->swap_images();
+  start(1, 200000);
+  task_->poll(400000);
+  ASSERT_TRUE(task_->finish());
+  EXPECT_NE(&task_->filling(), &handed_over);
+  EXPECT_EQ(handed_over.scan_id, 0u);
+  EXPECT_EQ(handed_over.reference_time_us(), t_us);
+  EXPECT_EQ(task_->filling().scan_id, 1u);
+}
+
+TEST_F(AcquisitionTaskTest, ScanThatFailsOrNeverStartsIsNotFit) {
+  VERIFIES("LASSO-EXE-005");
+  sensor_.refused = {0};
+  sensor_.lost = {1};
+  start(0, 0);
+  task_->poll(200000);
+  EXPECT_FALSE(task_->finish());
+  start(1, 200000);
+  task_->poll(400000);
+  EXPECT_FALSE(task_->finish());
+  Pose behind = scene_.at_zero;
+  behind.p.z() = -2;
+  task_->start(mission_, behind, 2, 400000, plan_);  // nothing to aim at
+  task_->poll(600000);
+  EXPECT_FALSE(task_->finish());
+  EXPECT_TRUE(task_->filling().samples.empty());
+  start(3, 600000);
+  task_->poll(800000);
+  EXPECT_TRUE(task_->finish());
+}
+
+}  // namespace
+}  // namespace lasso

@@ -1,0 +1,243 @@
+#include "fsw/exec/component.hpp"
+
+#include <cstdio>
+
+#include "fsw/sense/planner.hpp"
+#include "ut/exec/component_scene.hpp"
+
+namespace lasso {
+namespace {
+
+using test::ComponentScene;
+using test::Report;
+
+constexpr auto kTracking = static_cast<std::uint8_t>(TrackingMode::kTracking);
+constexpr auto kCoasting = static_cast<std::uint8_t>(TrackingMode::kCoasting);
+constexpr auto kLost = static_cast<std::uint8_t>(TrackingMode::kLost);
+
+MissionParameters parameters() {
+  Vec6 off;
+  off << 0.02, -0.03, 0.01, 0.01, 0.02, -0.02;
+  return test::box_parameters(test::default_scene(), off);
+}
+
+std::uint8_t reason(PoseReason reason) { return static_cast<std::uint8_t>(reason); }
+
+// Runs frames up to the one whose boundary reports scan `scan_id`, and gives that report.
+PoseTelemetry report_of(ComponentScene& scene, std::uint32_t scan_id) {
+  for (std::uint32_t frame = 0; frame < 100; ++frame) {
+    for (const Report& report : scene.run_frame()) {
+      if (report.pose.scan_id == scan_id) return report.pose;
+    }
+  }
+  ADD_FAILURE() << "scan " << scan_id << " was never reported";
+  return {};
+}
+
+TEST(Component, ReportsEachScanTwoBoundariesLater) {
+  VERIFIES("LASSO-EXE-002");
+  ComponentScene scene(parameters());
+  scene.begin();
+  for (std::uint32_t frame = 0; frame < 40; ++frame) {
+    const auto reports = scene.run_frame();
+    ASSERT_EQ(reports.size(), frame < 2 ? 0u : 1u);
+    if (reports.empty()) continue;
+    const PoseTelemetry& t = reports[0].pose;
+    EXPECT_EQ(t.scan_id, frame - 2);
+    EXPECT_EQ(reports[0].header.sequence_count, frame - 2);
+    EXPECT_EQ(reports[0].header.t_us, frame * 200000);
+    EXPECT_EQ(t.t_publication_us, frame * 200000);
+    EXPECT_EQ(t.t_measurement_us, (frame - 2) * 200000 + 90000);
+    EXPECT_EQ(t.age_us, 310000u);
+    EXPECT_EQ(t.frames, frame + 1);
+  }
+}
+
+TEST(Component, PublishesWithinFourTenthsOfASecond) {
+  VERIFIES("LASSO-EXE-007");
+  ComponentScene scene(parameters());
+  scene.begin();
+  EXPECT_LE(report_of(scene, 5).age_us, 400000u);
+}
+
+TEST(Component, TracksTheTarget) {
+  VERIFIES("LASSO-EXE-005");
+  ComponentScene scene(parameters());
+  scene.begin();
+  for (std::uint32_t frame = 0; frame < 40; ++frame) {
+    for (const Report& report : scene.run_frame()) {
+      ASSERT_EQ(report.pose.valid, 1) << report.pose.scan_id << " reason " << int{report.pose.reason};
+      EXPECT_EQ(report.pose.mode, kTracking);
+      EXPECT_LT(scene.error(report.pose).head<3>().norm(), 3e-3);
+      EXPECT_LT(scene.error(report.pose).tail<3>().norm(), 1e-3);
+      EXPECT_EQ(report.pose.plan_points, 1024);
+    }
+  }
+}
+
+TEST(Component, PlansFromThePredictionOfTheLastPublishedScan) {
+  VERIFIES("LASSO-EXE-002");
+  ComponentScene scene(parameters());
+  scene.begin();
+  for (int frame = 0; frame < 30; ++frame) scene.run_frame();
+  const auto reports = scene.run_frame();
+  const PoseTelemetry& t = reports.at(0).pose;
+  FilterState filter;
+  Pose pose;
+  pose.q = Quat(t.filter_q_sensor_target[3], t.filter_q_sensor_target[0], t.filter_q_sensor_target[1], t.filter_q_sensor_target[2]);
+  pose.p = Vec3(t.filter_p_sensor_target_m[0], t.filter_p_sensor_target_m[1], t.filter_p_sensor_target_m[2]);
+  Twist rates;
+  rates.omega_radps = Vec3(t.filter_omega_radps[0], t.filter_omega_radps[1], t.filter_omega_radps[2]);
+  rates.v_mps = Vec3(t.filter_v_mps[0], t.filter_v_mps[1], t.filter_v_mps[2]);
+  ScanPlan expected;
+  const Mission& mission = scene.component->mission();
+  ASSERT_EQ(plan_scan(mission.parameters, {mission.hull, mission.center_m}, propagate(pose, rates, 0.4), 30, expected), Status::kOk);
+  EXPECT_EQ(scene.sensor.last_plan.scan_id, 30u);
+  EXPECT_NEAR(scene.sensor.last_plan.center_x, expected.center_x, 1e-12);
+  EXPECT_NEAR(scene.sensor.last_plan.half_y, expected.half_y, 1e-12);
+  EXPECT_EQ(scene.sensor.last_plan.phase_turns, expected.phase_turns);
+}
+
+TEST(Component, LostScansCoastAndAreCounted) {
+  VERIFIES("LASSO-EXE-005 LASSO-MOD-005");
+  ComponentScene scene(parameters());
+  scene.sensor.lost = {10};
+  scene.sensor.refused = {11};
+  scene.begin();
+  EXPECT_EQ(report_of(scene, 9).lost_scans, 0u);
+  const PoseTelemetry lost = report_of(scene, 10);
+  EXPECT_EQ(lost.reason, reason(PoseReason::kNoScan));
+  EXPECT_EQ(lost.valid, 0);
+  EXPECT_EQ(lost.lost_scans, 1u);
+  EXPECT_EQ(lost.mode, kCoasting);
+  EXPECT_EQ(lost.t_measurement_us, 2090000);
+  EXPECT_LT(scene.error(lost).norm(), 1e-2);
+  EXPECT_EQ(report_of(scene, 11).invalid_frames, 2u);
+  const PoseTelemetry next = report_of(scene, 12);
+  EXPECT_EQ(next.valid, 1);
+  EXPECT_EQ(next.mode, kTracking);
+  EXPECT_EQ(next.lost_scans, 2u);
+}
+
+TEST(Component, LateEstimateIsDroppedWholeAndTheTrackGoesOn) {
+  VERIFIES("LASSO-EXE-003");
+  ComponentScene scene(parameters());
+  scene.begin();
+  for (int frame = 0; frame < 10; ++frame) scene.run_frame();
+  scene.run_frame(false);                   // frame 10: the estimate of scan 9 does not get the processor
+  const auto late = scene.run_frame(true);  // boundary 11: late; it ends in this frame
+  ASSERT_EQ(late.size(), 1u);
+  EXPECT_EQ(late[0].pose.scan_id, 9u);
+  EXPECT_EQ(late[0].pose.reason, reason(PoseReason::kOverrun));
+  EXPECT_EQ(late[0].pose.overruns, 1u);
+  const auto blocked = scene.run_frame();  // scan 10 found the estimator busy
+  EXPECT_EQ(blocked.at(0).pose.scan_id, 10u);
+  EXPECT_EQ(blocked.at(0).pose.reason, reason(PoseReason::kOverrun));
+  EXPECT_EQ(blocked.at(0).pose.overruns, 2u);
+  const auto next = scene.run_frame();
+  EXPECT_EQ(next.at(0).pose.scan_id, 11u);
+  EXPECT_EQ(next.at(0).pose.valid, 1);
+  EXPECT_LT(scene.error(next.at(0).pose).norm(), 5e-3);
+}
+
+TEST(Component, LostTrackStopsScanningAndSaysSo) {
+  VERIFIES("LASSO-MOD-005");
+  MissionParameters p = parameters();
+  p.coast_frames = 2;
+  ComponentScene scene(p);
+  scene.sensor.lost = {5, 6, 7};
+  scene.begin();
+  EXPECT_EQ(report_of(scene, 7).mode, kLost);
+  const int starts = scene.sensor.starts;
+  const PoseTelemetry after = report_of(scene, 12);
+  EXPECT_EQ(scene.sensor.starts, starts);
+  EXPECT_EQ(after.mode, kLost);
+  EXPECT_EQ(after.reason, reason(PoseReason::kNoTrack));
+  EXPECT_EQ(after.plan_points, 0);
+  EXPECT_EQ(after.age_us, 14u * 200000 - (7 * 200000 + 90000));  // the pose is that of scan 7, and grows old
+}
+
+TEST(Component, StartsAgainFromAGivenPose) {
+  VERIFIES("LASSO-MOD-006");
+  MissionParameters p = parameters();
+  p.initial_present = 0;
+  ComponentScene scene(p);
+  scene.begin();
+  for (int frame = 0; frame < 5; ++frame) EXPECT_TRUE(scene.run_frame().empty());
+  EXPECT_EQ(scene.sensor.starts, 0);
+  const test::BoxScene truth = test::default_scene();
+  ASSERT_EQ(scene.component->start_tracking(truth.pose_at(900000), truth.rates, 900000), Status::kOk);
+  const PoseTelemetry first = report_of(scene, 5);
+  EXPECT_EQ(first.valid, 1);
+  EXPECT_EQ(first.mode, kTracking);
+  ASSERT_EQ(scene.component->stop_tracking(), Status::kOk);
+  scene.run_frame();
+  const int starts = scene.sensor.starts;
+  for (int frame = 0; frame < 5; ++frame) EXPECT_TRUE(scene.run_frame().empty());
+  EXPECT_EQ(scene.sensor.starts, starts);
+}
+
+TEST(Component, RefusesAStartThatMeansNothing) {
+  VERIFIES("LASSO-MOD-006");
+  ComponentScene scene(parameters());
+  EXPECT_EQ(scene.component->start_tracking(Pose{}, Twist{}, 0), Status::kBadOrder);
+  EXPECT_EQ(scene.component->stop_tracking(), Status::kBadOrder);
+  scene.begin();
+  Pose bad;
+  bad.q.w() = 0.9;
+  EXPECT_EQ(scene.component->start_tracking(bad, Twist{}, 0), Status::kBadValue);
+  EXPECT_EQ(report_of(scene, 3).valid, 1);  // the mission's own start stands
+}
+
+TEST(Component, NeedsAnImageThatFitsItsFrames) {
+  VERIFIES("LASSO-EXE-008");
+  ComponentScene scene(parameters());
+  EXPECT_EQ(scene.component->begin(0), Status::kMissing);
+  scene.begin();
+  EXPECT_EQ(scene.component->begin(0), Status::kBadOrder);
+  EXPECT_EQ(scene.load().status, Status::kBadOrder);
+  MissionParameters p = parameters();
+  p.period_s = 0.17;
+  ComponentScene slow(p);
+  EXPECT_EQ(slow.load().status, Status::kBadValue);
+  EXPECT_EQ(slow.component->begin(0), Status::kMissing);
+}
+
+TEST(Component, SequenceCountWrapsThroughTheWholeChain) {
+  VERIFIES("LASSO-LNK-001");
+  MissionParameters p = parameters();
+  p.coast_frames = 0;
+  ComponentScene scene(p);
+  scene.sensor.refused = {0};
+  scene.begin();
+  std::uint16_t expected = 0;
+  for (int frame = 0; frame < 0x4003; ++frame) {
+    for (const Report& report : scene.run_frame()) {
+      ASSERT_EQ(report.header.sequence_count, expected);
+      expected = static_cast<std::uint16_t>((expected + 1) & kSequenceCountMask);
+    }
+  }
+  EXPECT_EQ(expected, 1);
+}
+
+TEST(Component, FullQueueCountsWhatItDrops) {
+  VERIFIES("LASSO-LNK-006");
+  ComponentScene scene(parameters());
+  scene.begin();
+  for (int slot = 0; slot < 25 * 20; ++slot) {
+    scene.component->run_slot(scene.component->next_slot_us());
+    scene.component->run_estimation();
+  }
+  scene.run_frame();  // empties the queue
+  const auto reports = scene.run_frame();
+  EXPECT_EQ(reports.at(0).pose.dropped_packets, 24u - kTelemetryQueueBytes / 483);
+}
+
+TEST(Component, StaysWithinItsMemory) {
+  VERIFIES("LASSO-EXE-009");
+  std::printf("static memory of the component, image apart: %zu bytes\n", sizeof(Component));
+  EXPECT_LE(sizeof(Component), 2u << 20);
+}
+
+}  // namespace
+}  // namespace lasso

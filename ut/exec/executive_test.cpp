@@ -1,0 +1,78 @@
+#include "fsw/exec/executive.hpp"
+
+#include <vector>
+
+#include "ut/support/verifies.hpp"
+
+namespace lasso {
+namespace {
+
+TEST(Executive, SlotsDivideTheFrameWithoutDrift) {
+  VERIFIES("LASSO-EXE-001");
+  Executive executive;
+  ASSERT_EQ(executive.begin(1000, 200003), Status::kOk);
+  for (std::int64_t n = 0; n < 1000; ++n) {
+    const std::int64_t frame = n / 20;
+    const std::int64_t slot = n % 20;
+    ASSERT_EQ(executive.next_slot_us(), 1000 + frame * 200003 + slot * 200003 / 20);
+    ASSERT_EQ(executive.next_slot(), slot);
+    ASSERT_EQ(executive.frame(), frame);
+    executive.advance();
+  }
+}
+
+TEST(Executive, KnowsTheNextBoundary) {
+  VERIFIES("LASSO-EXE-001");
+  Executive executive;
+  ASSERT_EQ(executive.begin(500, 20000), Status::kOk);
+  EXPECT_EQ(executive.next_boundary_us(), 500);
+  executive.advance();
+  EXPECT_EQ(executive.next_boundary_us(), 20500);
+}
+
+TEST(Executive, RefusesSlotsShorterThanItsClock) {
+  VERIFIES("LASSO-EXE-001");
+  Executive executive;
+  EXPECT_EQ(executive.begin(0, 19), Status::kBadValue);
+  EXPECT_FALSE(executive.begun());
+  EXPECT_EQ(executive.begin(0, 20), Status::kOk);
+  EXPECT_TRUE(executive.begun());
+}
+
+TEST(Executive, PollsInEverySlotAndPassesTheBoundaryAfterItsPoll) {
+  VERIFIES("LASSO-EXE-001");
+  for (std::uint32_t slot = 0; slot < kSlotsPerFrame; ++slot) {
+    std::vector<TaskId> order;
+    for (const SlotRow& row : slot_table()) {
+      if (is_due(row, slot)) order.push_back(row.task);
+    }
+    std::vector<TaskId> expected{TaskId::kPollSensor};
+    if (slot == 0) expected.push_back(TaskId::kPassBoundary);
+    EXPECT_EQ(order, expected) << slot;
+  }
+}
+
+TEST(Executive, BudgetsOfASlotFitIntoIt) {
+  VERIFIES("LASSO-EXE-001");
+  constexpr DurationUs kNominalSlotUs = 10000;
+  for (std::uint32_t slot = 0; slot < kSlotsPerFrame; ++slot) {
+    DurationUs sum = 0;
+    for (const SlotRow& row : slot_table()) sum += is_due(row, slot) ? row.budget_us : 0;
+    EXPECT_LE(sum, kNominalSlotUs);
+  }
+}
+
+TEST(Executive, CountsASlipWhenASlotBeginsLaterThanItsLength) {
+  VERIFIES("LASSO-EXE-004");
+  Executive executive;
+  ASSERT_EQ(executive.begin(0, 200000), Status::kOk);
+  executive.note_start(10000);
+  EXPECT_EQ(executive.slips(), 0u);
+  executive.advance();
+  executive.note_start(20001);
+  EXPECT_EQ(executive.slips(), 1u);
+  EXPECT_EQ(executive.worst_lateness_us(), 10001);
+}
+
+}  // namespace
+}  // namespace lasso

@@ -1,0 +1,146 @@
+#include "fsw/exec/report.hpp"
+
+#include <cmath>
+#include <string>
+
+#include "ut/support/verifies.hpp"
+
+namespace lasso {
+namespace {
+
+// Every value differs from every other, so that a swap shows.
+TrackStep numbered_step() {
+  TrackStep step;
+  Registration& r = step.registration;
+  r.scan_id = 1;
+  r.t_us = 2000000;
+  r.T_sensor_target.q = normalized(Quat(0.9, 0.1, -0.2, 0.3));
+  r.T_sensor_target.p = Vec3(1.5, -2.5, 3.5);
+  for (int row = 0; row < 6; ++row) {
+    for (int column = 0; column < 6; ++column) r.covariance(row, column) = 10 * std::min(row, column) + std::max(row, column);
+  }
+  r.reason = PoseReason::kValid;
+  r.stop = StopReason::kIterationLimit;
+  r.iterations = 5;
+  r.rays = 6;
+  r.returns = 7;
+  r.inliers = 8;
+  r.labels = 9;
+  r.weak = 2;
+  r.rms_m = 0.011;
+  r.normalized_residual = 0.012;
+  r.inlier_share = 0.013;
+  r.agreement = 0.014;
+  r.weakest_sigma_m = 0.015;
+  r.weakest_direction << 1, 2, 3, 4, 5, 6;
+  step.after.mode = TrackingMode::kCoasting;
+  step.after.filter.T_sensor_target.p = Vec3(7, 8, 9);
+  step.after.filter.rates.omega_radps = Vec3(0.1, 0.2, 0.3);
+  step.after.filter.rates.v_mps = Vec3(0.4, 0.5, 0.6);
+  for (int i = 0; i < 12; ++i) step.after.filter.covariance(i, i) = (i + 1) * (i + 1);
+  return step;
+}
+
+ScanPlan numbered_plan() {
+  ScanPlan plan;
+  plan.kind = PatternKind::kRaster;
+  plan.points = 99;
+  plan.phase_turns = 0.25;
+  plan.center_x = 0.01;
+  plan.center_y = 0.02;
+  plan.half_x = 0.03;
+  plan.half_y = 0.04;
+  plan.duration_us = 150000;
+  return plan;
+}
+
+PoseTelemetry numbered_report() {
+  Mission mission;
+  mission.image_crc = 0xABCDEF01;
+  return make_report(mission, numbered_step(), numbered_plan(), 2310000);
+}
+
+TEST(Report, CarriesTheRegistration) {
+  VERIFIES("LASSO-EXE-006");
+  const PoseTelemetry t = numbered_report();
+  const Quat q = numbered_step().registration.T_sensor_target.q;
+  EXPECT_EQ(t.scan_id, 1u);
+  EXPECT_EQ(t.t_measurement_us, 2000000);
+  EXPECT_EQ(t.t_publication_us, 2310000);
+  EXPECT_EQ(t.age_us, 310000u);
+  EXPECT_EQ(t.valid, 1);
+  EXPECT_EQ(t.reason, 0);
+  EXPECT_EQ(t.stop, 1);
+  EXPECT_EQ(t.mode, 3);
+  EXPECT_EQ(t.q_sensor_target[0], q.x());
+  EXPECT_EQ(t.q_sensor_target[1], q.y());
+  EXPECT_EQ(t.q_sensor_target[2], q.z());
+  EXPECT_EQ(t.q_sensor_target[3], q.w());
+  EXPECT_EQ(t.p_sensor_target_m[1], -2.5);
+  const float upper[] = {0, 1, 2, 3, 4, 5, 11, 12, 13, 14, 15, 22, 23, 24, 25, 33, 34, 35, 44, 45, 55};
+  for (std::size_t i = 0; i < kPoseCovarianceTerms; ++i) EXPECT_EQ(t.covariance[i], upper[i]) << i;
+}
+
+TEST(Report, CarriesQualityAndFilter) {
+  VERIFIES("LASSO-EXE-006");
+  const PoseTelemetry t = numbered_report();
+  EXPECT_EQ(t.iterations, 5);
+  EXPECT_EQ(t.rays, 6);
+  EXPECT_EQ(t.returns, 7);
+  EXPECT_EQ(t.inliers, 8);
+  EXPECT_EQ(t.labels, 9);
+  EXPECT_EQ(t.weak, 2);
+  EXPECT_FLOAT_EQ(t.rms_m, 0.011f);
+  EXPECT_FLOAT_EQ(t.normalized_residual, 0.012f);
+  EXPECT_FLOAT_EQ(t.inlier_share, 0.013f);
+  EXPECT_FLOAT_EQ(t.agreement, 0.014f);
+  EXPECT_FLOAT_EQ(t.weakest_sigma_m, 0.015f);
+  EXPECT_EQ(t.weakest_direction[5], 6.0f);
+  EXPECT_EQ(t.filter_p_sensor_target_m[2], 9);
+  EXPECT_EQ(t.filter_omega_radps[1], 0.2);
+  EXPECT_EQ(t.filter_v_mps[0], 0.4);
+  for (std::size_t i = 0; i < 6; ++i) {
+    EXPECT_EQ(t.filter_sigma_pose[i], static_cast<float>(i + 1));
+    EXPECT_EQ(t.filter_sigma_rates[i], static_cast<float>(i + 7));
+  }
+}
+
+TEST(Report, CarriesPlanImageAndVersion) {
+  VERIFIES("LASSO-EXE-006");
+  const PoseTelemetry t = numbered_report();
+  EXPECT_EQ(t.plan_center[0], 0.01);
+  EXPECT_EQ(t.plan_center[1], 0.02);
+  EXPECT_EQ(t.plan_half_extents[0], 0.03);
+  EXPECT_EQ(t.plan_half_extents[1], 0.04);
+  EXPECT_EQ(t.plan_phase_turns, 0.25);
+  EXPECT_EQ(t.plan_points, 99);
+  EXPECT_EQ(t.plan_duration_us, 150000u);
+  EXPECT_EQ(t.plan_pattern, 2);
+  EXPECT_EQ(t.image_crc, 0xABCDEF01u);
+  const std::uint32_t v = t.software_version;
+  const std::string text = std::to_string(v >> 24) + "." + std::to_string(v >> 16 & 0xFF) + "." + std::to_string(v & 0xFFFF);
+  EXPECT_EQ(text, version());
+}
+
+TEST(Report, AgeIsNeverNegativeAndNeverWraps) {
+  VERIFIES("LASSO-EXE-006");
+  EXPECT_EQ(make_report(Mission{}, numbered_step(), ScanPlan{}, 1999999).age_us, 0u);
+  EXPECT_EQ(make_report(Mission{}, numbered_step(), ScanPlan{}, 2000000 + (1LL << 33)).age_us, 0xFFFFFFFFu);
+}
+
+TEST(Report, DictionaryNamesTheEnumerationsAsTheCodeDoes) {
+  VERIFIES("LASSO-LNK-002");
+  for (const auto& row : pose_rows()) {
+    const std::string name = row.name;
+    std::string expected;
+    for (int i = 0; i <= 10 && name == "reason"; ++i) expected += std::to_string(i) + "=" + to_string(static_cast<PoseReason>(i)) + "|";
+    for (int i = 0; i <= 4 && name == "stop"; ++i) expected += std::to_string(i) + "=" + to_string(static_cast<StopReason>(i)) + "|";
+    for (int i = 0; i <= 4 && name == "mode"; ++i) expected += std::to_string(i) + "=" + to_string(static_cast<TrackingMode>(i)) + "|";
+    if (!expected.empty()) {
+      EXPECT_EQ(std::string(row.choices) + "|", expected) << name;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace lasso

@@ -1,0 +1,101 @@
+#include "bsp/posix/runner.hpp"
+
+#include <chrono>
+
+#include "ut/exec/component_scene.hpp"
+
+namespace lasso::posix {
+namespace {
+
+constexpr int kFrames = 40;
+
+std::vector<std::uint8_t> single_threaded() {
+  test::ComponentScene scene(test::box_parameters(test::default_scene()));
+  scene.begin();
+  for (int frame = 0; frame < kFrames; ++frame) scene.run_frame();
+  return scene.stream;
+}
+
+TEST(Runner, TwoThreadsGiveTheBytesOfOne) {
+  VERIFIES("LASSO-EXE-002");
+  const std::vector<std::uint8_t> expected = single_threaded();
+  ASSERT_GT(expected.size(), 0u);
+  for (int repetition = 0; repetition < 5; ++repetition) {
+    test::ComponentScene scene(test::box_parameters(test::default_scene()));
+    scene.begin();
+    Runner runner(*scene.component);
+    std::vector<std::uint8_t> stream;
+    for (int frame = 0; frame < kFrames; ++frame) {
+      const FrameRecord record = runner.run_frame();
+      stream.insert(stream.end(), record.telemetry.begin(), record.telemetry.end());
+    }
+    ASSERT_EQ(stream, expected) << repetition;
+  }
+}
+
+TEST(Runner, MeasuresTheEstimateThatEachFrameReports) {
+  VERIFIES("LASSO-EXE-011");
+  test::ComponentScene scene(test::box_parameters(test::default_scene()));
+  scene.begin();
+  Runner runner(*scene.component);
+  for (std::uint32_t frame = 0; frame < 10; ++frame) {
+    const FrameRecord record = runner.run_frame();
+    EXPECT_EQ(record.frame, frame);
+    EXPECT_EQ(record.boundary_us, frame * 200000);
+    EXPECT_EQ(record.estimated, frame >= 2);
+    EXPECT_EQ(record.telemetry.empty(), frame < 2);
+    if (record.estimated) {
+      EXPECT_GT(record.estimate_cpu_ns, 0);
+      EXPECT_LT(record.estimate_cpu_ns, record.estimate_wall_ns + 1000000);
+    }
+  }
+}
+
+TEST(Runner, RealTimeKeepsItsPace) {
+  VERIFIES("LASSO-EXE-011");
+  MissionParameters parameters = test::box_parameters(test::default_scene());
+  parameters.period_s = 0.1;
+  parameters.duration_s = 0.09;
+  test::ComponentScene scene(parameters);
+  scene.begin();
+  Runner runner(*scene.component, Pace::kRealTime);
+  const auto start = std::chrono::steady_clock::now();
+  std::size_t packets = 0;
+  for (int frame = 0; frame < 10; ++frame) packets += runner.run_frame().telemetry.size() / 483;
+  const double elapsed_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  EXPECT_GE(elapsed_s, 0.995);  // from boundary 0 to the last slot of frame 9
+  EXPECT_LT(elapsed_s, 2.0);
+  EXPECT_EQ(packets, 8u);
+}
+
+// At the shortest period and the largest scan, whether an estimate is late is up to the machine. Either way each scan is reported once, a
+// late one says so, and no pose comes from half an estimate.
+TEST(Runner, RealTimeReportsEachScanOnceLateOrNot) {
+  VERIFIES("LASSO-EXE-003");
+  MissionParameters parameters = test::box_parameters(test::default_scene());
+  parameters.period_s = 0.01;
+  parameters.duration_s = 0.009;
+  parameters.points = 4096;
+  parameters.iterations_max = 50;
+  parameters.coast_frames = 1000;
+  test::ComponentScene scene(parameters);
+  scene.begin();
+  Runner runner(*scene.component, Pace::kRealTime);
+  std::uint32_t reports = 0;
+  std::uint32_t late = 0;
+  for (int frame = 0; frame < 50; ++frame) {
+    for (const test::Report& report : test::decode_all(runner.run_frame().telemetry)) {
+      EXPECT_EQ(report.pose.scan_id, reports);  // one for each scan, late or not
+      ++reports;
+      late += report.pose.reason == static_cast<std::uint8_t>(PoseReason::kOverrun) ? 1u : 0u;
+      EXPECT_EQ(report.pose.overruns, late);
+      if (report.pose.valid == 1) {
+        EXPECT_LT(scene.error(report.pose).norm(), 1e-2);
+      }
+    }
+  }
+  EXPECT_EQ(reports, 48u);
+}
+
+}  // namespace
+}  // namespace lasso::posix
