@@ -9,6 +9,7 @@
 #include <string>
 
 #include "mdat/missiondb/mesh_import.hpp"
+#include "mdat/missiondb/ply_precheck.hpp"
 
 namespace lasso::mdat {
 namespace {
@@ -65,20 +66,6 @@ std::size_t precheck_stl(std::string_view bytes) {
   const std::size_t n = little_endian_u32(bytes, kStlHeader - 4);
   throw MeshError("is truncated or corrupt: its header announces " + std::to_string(n) + " triangles, that is " +
                   std::to_string(kStlHeader + kStlTriangle * n) + " bytes, but it has " + std::to_string(bytes.size()));
-}
-
-std::size_t precheck_ply(std::string_view bytes) {
-  const std::size_t end = bytes.find("end_header");
-  if (bytes.substr(0, 3) != "ply" || end == std::string_view::npos) throw MeshError("is not a PLY file, or its header is truncated");
-  std::istringstream header{std::string(bytes.substr(0, end))};
-  std::size_t faces = 0;
-  for (std::string line; std::getline(header, line);) {
-    std::istringstream words(line);
-    std::string element, kind;
-    if (words >> element >> kind && element == "element" && kind == "face") words >> faces;
-  }
-  if (faces == 0) throw MeshError("is empty: it holds no face (points alone are a scan, not a target)");
-  return faces;
 }
 
 // Counts vertices and faces; an index past the vertices so far is a broken file.

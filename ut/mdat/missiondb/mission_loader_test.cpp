@@ -97,7 +97,13 @@ TEST_F(Missions, AllProblemsAreListedInOrder) {
   EXPECT_LT(
       message.find("m.toml:8:1: scan.ponts: unknown key; did you mean scan.points?"),
       message.find("m.toml:9:11: scan.pattern: rosete: expected one of \"rosette\", \"lissajous\", \"raster\"; did you mean \"rosette\"?"));
-  EXPECT_LT(message.find("m.toml:9:11"), message.find("m.toml:11:12: filter.period_s: -1: out of range"));
+  const std::size_t first = message.find("m.toml:8:1: scan.ponts: unknown key; did you mean scan.points?");
+  const std::size_t second = message.find(
+      "m.toml:9:11: scan.pattern: 'rosete': expected one of \"rosette\", \"lissajous\", \"raster\"; did you mean \"rosette\"?");
+  const std::size_t third = message.find("m.toml:11:12: filter.period_s: -1: out of range");
+  EXPECT_LT(first, second) << message;
+  EXPECT_LT(second, third) << message;
+  EXPECT_NE(third, std::string::npos) << message;
   EXPECT_NE(message.find("scanner: unknown key"), std::string::npos) << message;
 }
 
