@@ -36,16 +36,19 @@ class Loader {
 
   MissionSource load() {
     read_values();
-    if (problems_.empty()) read_target();
-    if (problems_.empty()) read_scenarios();
-    if (problems_.empty()) check_model();
-    if (problems_.empty()) check_contradictions();
+    if (problems_.empty()) check_whole();  // wrong values would only cause further complaints
     problems_.throw_if_any();
     normalize_attitude(source_.parameters);
     return std::move(source_);
   }
 
  private:
+  void check_whole() {
+    read_target();
+    if (problems_.empty()) check_model();
+    read_scenarios();
+    check_contradictions();
+  }
   // Values of all sections, scenarios included, so that one pass shows the mistakes of all.
   void read_values() {
     std::vector<ValueRow> rows = mission_rows();
@@ -168,8 +171,17 @@ class Loader {
       }
       return;
     }
-    const std::vector<ModelParameter> known = model_parameters(target.file);
+    const std::vector<ModelParameter> known = known_parameters(target.file);
+    if (!problems_.empty()) return;
     for (const auto& [name, value] : target.parameters) check_model_parameter(known, name, value);
+  }
+  std::vector<ModelParameter> known_parameters(const std::filesystem::path& file) {
+    try {
+      return model_parameters(file);
+    } catch (const MissionError& error) {
+      problems_.add(error);
+    }
+    return {};
   }
   void check_model_parameter(const std::vector<ModelParameter>& known, const std::string& name, double value) {
     const std::string key = "target.parameters." + name;
@@ -216,10 +228,12 @@ class Loader {
   }
 
   void check_contradictions() {
-    check_parameters(source_.parameters, [this](const auto& keys, const std::string& value, const std::string& expected) {
+    bool good = true;
+    check_parameters(source_.parameters, [&](const auto& keys, const std::string& value, const std::string& expected) {
       problems_.add(first_written({""}, keys), keys[0], value, expected);
+      good = false;
     });
-    if (!problems_.empty()) return;  // scenarios would repeat them
+    if (!good) return;  // scenarios would repeat them
     for (const auto& [name, scenario] : source_.scenarios) check_contradictions(name, scenario);
   }
   void check_contradictions(const std::string& name, const Scenario& scenario) {

@@ -63,7 +63,9 @@ void read_line(const std::string& line, Header& header) {
 Header read_header(std::string_view bytes) {
   const std::size_t mark = bytes.find("end_header");
   const std::size_t end = mark == std::string_view::npos ? mark : bytes.find('\n', mark);
-  if (bytes.substr(0, 3) != "ply" || end == std::string_view::npos) throw MeshError("is not a PLY file, or its header is truncated");
+  const std::string_view rest = end == std::string_view::npos ? bytes : bytes.substr(mark + 10, end - mark - 10);
+  if (bytes.substr(0, 3) != "ply" || !(rest.empty() || rest == "\r") || end == std::string_view::npos)
+    throw MeshError("is not a PLY file, or its header is truncated");
   Header header;
   header.end = end + 1;
   std::istringstream lines{std::string(bytes.substr(0, mark))};

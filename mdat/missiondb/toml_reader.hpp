@@ -16,12 +16,15 @@ namespace lasso::mdat {
 
 Origin origin_of(const toml::source_region& region);
 
-// The problems of one file.
+// The problems of one file, and of those that it names.
 class ProblemList {
  public:
   explicit ProblemList(const std::filesystem::path& file) : file_(file.string()) {}
   void add(Origin origin, const std::string& key, const std::string& value, const std::string& expected);
   void add(const toml::node& node, const std::string& key, const std::string& expected);  // the value as written
+  void add(const MissionError& error) {
+    problems_.insert(problems_.end(), error.problems().begin(), error.problems().end());
+  }  // of other files
   bool empty() const { return problems_.empty(); }
   void throw_if_any() const;
 

@@ -107,6 +107,16 @@ TEST_F(Missions, AllProblemsAreListedInOrder) {
   EXPECT_NE(message.find("scanner: unknown key"), std::string::npos) << message;
 }
 
+TEST_F(Missions, MissingTargetsAndContradictionsAreListedTogether) {
+  VERIFIES("LASSO-GND-003");
+  const std::string message =
+      error("[mission]\nid = 7\nversion = 2\nname = 'test'\n[target]\nmodel = 'none.toml'\n[scan]\nduration_s = 1\ncycles_b = 38\n");
+  EXPECT_EQ(lines_of(message), 3u) << message;
+  folder.write("box.toml", "[parameters.width]\n");
+  const std::string model = error(kHead + "[scan]\nduration_s = 1\n");
+  EXPECT_EQ(lines_of(model), 6u) << model;  // five keys of the model's parameter, and the scan
+}
+
 TEST_F(Missions, MissingAndWrongHeadersAreNamed) {
   VERIFIES("LASSO-GND-003");
   const std::string message = error("[target]\nmodel = 'box.toml'\n");
