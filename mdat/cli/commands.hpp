@@ -1,0 +1,12 @@
+// The subcommands of mdat. Each adds itself to the command line and runs when chosen, before the parser returns.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace lasso::mdat {
+
+void add_mission_commands(CLI::App& app);
+void add_run_command(CLI::App& app);
+void add_replay_command(CLI::App& app);
+
+}  // namespace lasso::mdat

@@ -1,0 +1,56 @@
+// mdat, the mission design and analysis tool. Exit codes: 0 done, 1 the run failed, 2 usage or bad input.
+#include <cstdio>
+#include <exception>
+
+#include "hal_sim/scan_file.hpp"
+#include "mdat/cli/commands.hpp"
+#include "mdat/common/errors.hpp"
+#include "mdat/common/version.hpp"
+#include "mdat/missiondb/mission_error.hpp"
+
+namespace {
+
+using namespace lasso::mdat;
+
+int refuse(const std::exception& error, int exit_code) {
+  std::fprintf(stderr, "mdat: %s\n", error.what());
+  return exit_code;
+}
+
+int usage(const CLI::App& app, const CLI::ParseError& error) {
+  if (error.get_exit_code() == 0) return app.exit(error);  // help or version: as asked, on standard output
+  std::fprintf(stderr, "mdat: %s (mdat --help shows the commands, mdat COMMAND --help their options)\n", error.what());
+  return kExitBadInput;
+}
+
+int run(int argc, char** argv) {
+  CLI::App app("3DLASSO mission design and analysis tool", "mdat");
+  app.set_version_flag("--version", std::string("mdat ") + kVersion);
+  app.require_subcommand(1);
+  add_mission_commands(app);
+  add_run_command(app);
+  add_replay_command(app);
+  app.footer("Exit codes: 0 done, 1 the run failed, 2 usage or bad input.");
+  try {
+    app.parse(argc, argv);
+    return kExitDone;
+  } catch (const CLI::ParseError& error) {
+    return usage(app, error);
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const InputError& error) {
+    return refuse(error, kExitBadInput);
+  } catch (const MissionError& error) {
+    return refuse(error, kExitBadInput);
+  } catch (const lasso::sim::ScanFileError& error) {
+    return refuse(error, kExitBadInput);
+  } catch (const std::exception& error) {
+    return refuse(error, kExitFailed);
+  }
+}

@@ -1,0 +1,126 @@
+#include <cstdio>
+#include <memory>
+
+#include "mdat/cli/commands.hpp"
+#include "mdat/common/errors.hpp"
+#include "mdat/common/flight_image.hpp"
+#include "mdat/common/output.hpp"
+#include "mdat/missiondb/mission_text.hpp"
+#include "mdat/missiondb/mission_writer.hpp"
+
+namespace lasso::mdat {
+namespace {
+
+struct MissionOptions {
+  std::string file, scenario, out, model;
+  double scale = 1;
+};
+
+void print(const std::string& text) { std::fputs(text.c_str(), stdout); }
+
+std::string image_text(const std::string& file) {
+  const std::vector<std::uint8_t> bytes = read_bytes(file);
+  const LoadedImage image(file, bytes);
+  const Mission& mission = image.mission();
+  char text[400];
+  std::snprintf(text, sizeof text,
+                "%s: flight image, mission %u version %u, %zu bytes, CRC-32C %08X, radius %.3f m, %zu edges, %zu hull points\n",
+                file.c_str(), mission.id, mission.version, bytes.size(), mission.image_crc, mission.radius_m, mission.edges.size(),
+                mission.hull.size());
+  return text;
+}
+
+std::string parameters_text(const std::string& file) {
+  const LoadedImage image(file, read_bytes(file));
+  std::string text;
+  for (const ParameterRow& row : parameter_rows()) {
+    char line[240];
+    std::snprintf(line, sizeof line, "%-42s %-14.9g %-7s %s\n", row.key, image.mission().parameters.*row.member / row.to_si, row.unit,
+                  row.meaning);
+    text += line;
+  }
+  return text;
+}
+
+void check(const MissionOptions& options) {
+  print(is_image_file(options.file) ? image_text(options.file) : check_text(load_mission(options.file)));
+}
+
+void info(const MissionOptions& options) {
+  if (is_image_file(options.file)) {
+    print(image_text(options.file) + parameters_text(options.file));
+  } else {
+    print(info_text(load_mission(options.file), options.scenario));
+  }
+}
+
+std::string report_text(const CompiledMission& mission, const std::string& out, std::size_t bytes) {
+  const CompileReport& r = mission.report;
+  char text[900];
+  std::snprintf(
+      text, sizeof text,
+      "mesh: %zu vertices, %zu triangles, %zu parts (%zu open)\n"
+      "repaired: %zu vertices welded, %zu degenerate and %zu double triangles dropped, %zu triangles turned outwards, %zu seen from both "
+      "sides\n"
+      "model: %zu elements (%zu curved), %zu edges, cells of %.4g m with %.1f elements on average, %zu at most\n"
+      "%s: %zu bytes, compiled in %.1f s\n",
+      r.vertices, r.triangles, r.components, r.open_components, r.welded_vertices, r.dropped_degenerate, r.dropped_duplicates,
+      r.flipped_triangles, r.two_sided_triangles, r.elements, r.curved_elements, r.edges, r.cell_size_m, r.ray_lists.mean, r.ray_lists.max,
+      out.c_str(), bytes, r.seconds);
+  return text;
+}
+
+void compile(const MissionOptions& options) {
+  const std::filesystem::path out =
+      options.out.empty() ? std::filesystem::path(options.file).filename().replace_extension(".3dli") : std::filesystem::path(options.out);
+  check_writable(out);
+  const CompiledMission mission = compile_mission(options.file);
+  for (const std::string& warning : mission.source.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
+  const std::vector<std::uint8_t> bytes = image_bytes(mission, parameters_for(mission.source, options.scenario));
+  const LoadedImage loads_in_flight(out.string(), bytes);
+  write_file(out, std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+  print(report_text(mission, out.string(), bytes.size()));
+}
+
+void write_new(const MissionOptions& options) {
+  check_writable(options.out);
+  write_new_mission(options.model, options.scale, options.out);
+  print(options.out + ": written; `mdat mission compile` makes its flight image\n");
+}
+
+CLI::App* add(CLI::App& parent, const char* name, const char* meaning, void (*action)(const MissionOptions&),
+              const std::shared_ptr<MissionOptions>& options) {
+  CLI::App* command = parent.add_subcommand(name, meaning);
+  command->callback([action, options] { action(*options); });
+  return command;
+}
+
+}  // namespace
+
+void add_mission_commands(CLI::App& app) {
+  const auto options = std::make_shared<MissionOptions>();
+  CLI::App* mission = app.add_subcommand("mission", "check, compile, show or begin a mission");
+  mission->require_subcommand(1);
+
+  CLI::App* check_command = add(*mission, "check", "check a mission (.toml) and its target, or a flight image (.3dli)", check, options);
+  check_command->add_option("MISSION", options->file, "mission file or flight image")->required();
+
+  CLI::App* compile_command = add(*mission, "compile", "make the flight image of a mission", compile, options);
+  compile_command->add_option("MISSION", options->file, "mission file")->required();
+  compile_command->add_option("-o,--out", options->out, "flight image to write (the mission's name with .3dli, here)");
+  compile_command->add_option("--scenario", options->scenario, "with this scenario's overrides of parameters");
+
+  CLI::App* info_command =
+      add(*mission, "info", "print every value of a mission or a flight image, its unit, meaning and origin", info, options);
+  info_command->add_option("MISSION", options->file, "mission file or flight image")->required();
+  info_command->add_option("--scenario", options->scenario, "with this scenario's overrides of parameters");
+
+  CLI::App* new_command = add(*mission, "new", "write a commented mission for any mesh, ready to compile", write_new, options);
+  new_command->add_option("--model", options->model, "mesh (STL, OBJ, PLY, glTF) or parametric model (.toml)")->required();
+  new_command->add_option("--scale", options->scale, "the file's lengths times this are metres")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  new_command->add_option("-o,--out", options->out, "mission to write")->required();
+}
+
+}  // namespace lasso::mdat

@@ -1,0 +1,49 @@
+#include "mdat/replay/replay.hpp"
+
+#include <cstdio>
+#include <memory>
+
+#include "mdat/cli/commands.hpp"
+#include "mdat/common/flight_image.hpp"
+#include "mdat/common/output.hpp"
+
+namespace lasso::mdat {
+namespace {
+
+struct Options {
+  std::string mission, scenario, out;
+  ReplayOptions replay;
+};
+
+LoadedImage load(const Options& options) {
+  if (is_image_file(options.mission)) return LoadedImage(options.mission, read_bytes(options.mission));
+  const CompiledMission mission = compile_mission(options.mission);
+  return LoadedImage(options.mission, image_bytes(mission, parameters_for(mission.source, options.scenario)));
+}
+
+void run(const Options& options) {
+  check_writable(options.out);
+  const LoadedImage image = load(options);
+  const std::vector<ReplayedScan> scans = replay(image.mission(), options.replay);
+  write_file(options.out, replay_csv(scans));
+  std::fputs((replay_summary(scans) + options.out + ": written\n").c_str(), stdout);
+}
+
+}  // namespace
+
+void add_replay_command(CLI::App& app) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("replay", "register recorded scans (.csv, .ply, .pcd) from given initial poses");
+  command->add_option("MISSION", options->mission, "mission file or flight image")->required();
+  command->add_option("--scans", options->replay.scans, "folder of scans, taken in name order")->required();
+  command->add_option("--initial", options->replay.initial, "poses to start from: scan,qx,qy,qz,qw,x_m,y_m,z_m (T_sensor_target)")
+      ->required();
+  command->add_option("-o,--out", options->out, "file of poses to write")->required();
+  command->add_flag("--closed-loop", options->replay.closed_loop,
+                    "start from the first row, then from the filter's prediction, as in flight");
+  command->add_flag("--wide", options->replay.wide, "the initial poses are rough (20 deg, a quarter of the target's size)");
+  command->add_option("--scenario", options->scenario, "with this scenario's overrides of parameters");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace lasso::mdat

@@ -1,0 +1,51 @@
+// From a mission's source to the bytes that the flight component loads, and back.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "fsw/geometry/portable_math.hpp"
+#include "fsw/mission/mission.hpp"
+#include "mdat/missiondb/mission_source.hpp"
+#include "mdat/modelc/model.hpp"
+
+namespace lasso::mdat {
+
+// A mission whose target is compiled; images for different parameters follow from it in no time.
+struct CompiledMission {
+  MissionSource source;
+  Mesh mesh;
+  ModelTables tables;
+  CompileReport report;
+};
+
+// Throws MissionError, or InputError where the target does not fit the flight component.
+CompiledMission compile_mission(const std::filesystem::path& file, const std::function<void(const std::string&, double)>& progress = {});
+std::vector<std::uint8_t> image_bytes(const CompiledMission& mission, const MissionParameters& parameters);
+
+// The memory of one image, aligned as the loader wants it, and the mission in it.
+class LoadedImage {
+ public:
+  // Throws InputError that names `name` and what the loader refused.
+  LoadedImage(const std::string& name, const std::vector<std::uint8_t>& bytes);
+  const Mission& mission() const { return mission_; }
+
+ private:
+  std::vector<std::uint64_t> memory_;
+  Mission mission_;
+};
+
+// A copy of the image in 8-byte aligned memory, and a view of it.
+std::vector<std::uint64_t> aligned_copy(const std::vector<std::uint8_t>& bytes);
+Bytes view(std::vector<std::uint64_t>& memory, std::size_t size);
+
+std::string to_string(const LoadFailure& failure);
+
+// Is this file meant to be a flight image (by its first bytes, or its name .3dli) and not a mission source?
+bool is_image_file(const std::filesystem::path& file);
+std::vector<std::uint8_t> read_bytes(const std::filesystem::path& file);
+
+}  // namespace lasso::mdat

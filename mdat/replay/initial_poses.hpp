@@ -1,0 +1,26 @@
+// The file of initial poses that replay starts from: header `scan,qx,qy,qz,qw,x_m,y_m,z_m`, one row a scan, T_sensor_target.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "fsw/geometry/se3.hpp"
+
+namespace lasso::mdat {
+
+constexpr double kQuaternionLengthTolerance = 1e-3;
+
+struct InitialPose {
+  std::string scan;  // the stem of the scan's file
+  Pose T_sensor_target;
+};
+
+// Reads the file whole. Throws InputError with file:line:column: wrong header, ragged row, not a number, NaN or infinity, an empty or
+// double name, a quaternion whose length differs from 1 by more than the tolerance (the returned one is normalised), no row.
+std::vector<InitialPose> read_initial_poses(const std::filesystem::path& file);
+
+// The pose of a scan. Throws InputError that names both files.
+const Pose& pose_of(const std::vector<InitialPose>& poses, const std::string& scan, const std::filesystem::path& file);
+
+}  // namespace lasso::mdat

@@ -1,0 +1,145 @@
+#include "mdat/report/figures.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "mdat/common/text.hpp"
+#include "mdat/run/results.hpp"
+
+namespace lasso::mdat {
+namespace {
+
+constexpr const char* kStyle =
+    "set border 3 lc rgb '#8a94a3'\nset tics nomirror out scale 0.5 textcolor '#46505f'\nset grid lc rgb '#e3e7ed' lt 1 lw 0.7\n"
+    "set key textcolor '#2b3440'\nset title textcolor '#2b3440'\n";
+
+// From near (dark blue) to far (orange): distinct on white, in print and for most colour-blind readers.
+constexpr const char* kRangeColours[] = {"#1b2a6b", "#2563b8", "#1e9aa8", "#5aaf4a", "#d9a300", "#d4571e", "#a3123a", "#6b2b86"};
+constexpr std::size_t kRangeColourCount = std::size(kRangeColours);
+constexpr const char* kVariantColours[] = {"#1e9aa8", "#d4571e", "#2563b8", "#a3123a"};
+
+const char* variant_colour(std::size_t i) { return kVariantColours[i % std::size(kVariantColours)]; }
+
+double error_of(const PoseError& error, std::size_t axis) {
+  const int i = static_cast<int>(axis % 3);
+  return axis < 3 ? 1e3 * error.translation_m[i] : error.yaw_pitch_roll[i] / kRadPerDeg;
+}
+
+// One line a frame: abscissa, then the six errors; a gap where the frame is lost.
+std::string errors_text(const CaseResult& run, double abscissa_step) {
+  std::string text;
+  for (std::size_t frame = 0; frame < run.frames.size(); ++frame) {
+    const FrameError& error = run.frames[frame];
+    if (error.lost()) {
+      text += "\n";
+      continue;
+    }
+    text += format("%g", static_cast<double>(frame) * abscissa_step);
+    for (std::size_t axis = 0; axis < 6; ++axis) text += format(" %.4g", error_of(error.registration, axis));
+    text += "\n";
+  }
+  return text;
+}
+
+std::string angle_panel(const std::vector<std::string>& files, const Scenario& scenario, std::size_t axis) {
+  std::string text = format("set title '%s, %s'\nplot ", kErrorAxes[axis].name, kErrorAxes[axis].unit);
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    text += format("%s%s using 1:%zu with lines lw 0.8 lc rgb '%s' title '%g m'", i > 0 ? ", " : "", files[i].c_str(), axis + 2,
+                   kRangeColours[i % kRangeColourCount], scenario.ranges_m[i]);
+  }
+  return text + "\n";
+}
+
+// One line a range: range, rms in mm and degrees, bound in mm and degrees.
+std::string ranges_text(const VariantResult& variant, const Scenario& scenario) {
+  std::string text;
+  for (std::size_t i = 0; i < variant.by_range.size(); ++i) {
+    const RunStatistics& run = variant.by_range[i];
+    text += format("%g %.6g %.6g %.6g %.6g\n", scenario.ranges_m[i], run.registration.rms_mm, run.registration.rms_deg, run.crlb_mm,
+                   run.crlb_deg);
+  }
+  return text;
+}
+
+std::string range_panel(const std::vector<std::string>& files, const TableResult& table, bool rotation) {
+  const int column = rotation ? 3 : 2;
+  std::string text = rotation ? "set title 'rotation, deg'\nplot " : "set title 'translation, mm'\nplot ";
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    text += format("%s using 1:%d with linespoints pt 7 ps 0.6 lw 1.4 lc rgb '%s' title '%s', ", files[i].c_str(), column,
+                   variant_colour(i), table.variants[i].variant.title);
+  }
+  return text + format("%s using 1:%d with lines dt 2 lw 1.4 lc rgb '#2b3440' title 'Cramér-Rao bound of the hits'\n", files[0].c_str(),
+                       column + 2);
+}
+
+std::vector<double> all_times_us(const VariantResult& variant) {
+  std::vector<double> times;
+  for (const CaseResult& run : variant.cases) {
+    for (const FrameError& frame : run.frames) {
+      if (frame.reported) times.push_back(frame.estimate_us);
+    }
+  }
+  return times;
+}
+
+std::string histogram_text(const std::vector<double>& times, double bin_us) {
+  std::map<long, std::size_t> bins;
+  for (const double time : times) ++bins[std::lround(std::floor(time / bin_us))];
+  std::string text;
+  for (const auto& [bin, count] : bins) {
+    text += format("%g %g\n", (static_cast<double>(bin) + 0.5) * bin_us,
+                   100.0 * static_cast<double>(count) / static_cast<double>(times.size()));
+  }
+  return text + "\n";
+}
+
+}  // namespace
+
+std::string error_against_angle(Plotter& plotter, const TableResult& table, const VariantResult& variant) {
+  const bool turns = table.scenario.scenario_kind() == ScenarioKind::kPaper && table.scenario.step_rad != 0;
+  const double step = turns ? table.scenario.step_rad / kRadPerDeg : 1;
+  std::vector<std::string> files;
+  for (const CaseResult& run : variant.cases) files.push_back(plotter.data(errors_text(run, step)));
+  std::string script =
+      std::string(kStyle) +
+      "set multiplot layout 2,3 margins 0.05,0.985,0.09,0.94 spacing 0.055,0.14\nset key top right opaque samplen 1 font ',11'\n";
+  script += format("set xrange [0:%g]\n", step * static_cast<double>(std::max<std::size_t>(variant.cases[0].frames.size(), 2) - 1));
+  if (turns && variant.cases[0].frames.size() > 180) script += "set xtics 90\n";
+  for (std::size_t axis = 0; axis < 6; ++axis) {
+    if (axis == 1) script += "unset key\n";
+    if (axis == 3) script += turns ? "set xlabel 'turn about the cylinder axis, deg' textcolor '#46505f'\n" : "set xlabel 'frame'\n";
+    script += angle_panel(files, table.scenario, axis);
+  }
+  return plotter.svg(1080, 560, script + "unset multiplot\n");
+}
+
+std::string error_against_range(Plotter& plotter, const TableResult& table) {
+  std::vector<std::string> files;
+  for (const VariantResult& variant : table.variants) files.push_back(plotter.data(ranges_text(variant, table.scenario)));
+  const auto [nearest, farthest] = std::minmax_element(table.scenario.ranges_m.begin(), table.scenario.ranges_m.end());
+  std::string script =
+      std::string(kStyle) + "set multiplot layout 1,2 margins 0.06,0.985,0.26,0.92 spacing 0.07,0\nset logscale y\nset format y '%g'\n";
+  script += format("set xrange [%g:%g]\nset xlabel 'range, m' textcolor '#46505f'\nset key below maxrows 3 samplen 2\n", *nearest - 0.2,
+                   *farthest + 0.2);
+  script += range_panel(files, table, false) + range_panel(files, table, true);
+  return plotter.svg(1080, 430, script + "unset multiplot\n");
+}
+
+std::string time_histogram(Plotter& plotter, const TableResult& table) {
+  double p99_us = 1;
+  for (const VariantResult& variant : table.variants) p99_us = std::max(p99_us, variant.all.time.p99_us);
+  const double limit_us = 1.3 * p99_us, bin_us = limit_us / 130;
+  std::string script =
+      std::string(kStyle) +
+      "set xlabel 'processor time of an estimate, us' textcolor '#46505f'\nset ylabel 'share of frames, %' textcolor '#46505f'\n";
+  script += format("set xrange [0:%g]\nset yrange [0:*]\nset key top right\nplot ", limit_us);
+  for (std::size_t i = 0; i < table.variants.size(); ++i) {
+    const std::string file = plotter.data(histogram_text(all_times_us(table.variants[i]), bin_us));
+    script += format("%s%s with histeps lw 1.4 lc rgb '%s' title '%s'", i > 0 ? ", " : "", file.c_str(), variant_colour(i),
+                     table.variants[i].variant.title);
+  }
+  return plotter.svg(1080, 330, script + "\n");
+}
+
+}  // namespace lasso::mdat

@@ -1,0 +1,150 @@
+#include "mdat/report/scan_view.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <sstream>
+
+#include "mdat/common/text.hpp"
+
+namespace lasso::mdat {
+namespace {
+
+constexpr int kPanelWidth = 480, kPanelHeight = 640;
+constexpr int kSamplesPerAxis = 3;  // rays of a pixel
+constexpr double kFrameMargin = 1.06;
+using Colour = std::array<double, 3>;
+constexpr Colour kBackground = {255, 255, 255}, kDark = {72, 84, 104}, kBright = {226, 231, 238};
+
+// What a panel shows: a rectangle of the tangent plane with square pixels.
+struct View {
+  double x, y, half_x, half_y;  // tangent plane
+  int width, height;            // pixels
+};
+
+// The scan's rectangle with a margin, at the panel's proportions.
+View make_view(const PoseTelemetry& telemetry, double half_x, double half_y) {
+  View view{telemetry.plan_center[0], telemetry.plan_center[1], half_x, half_y, 0, 0};
+  view.width = 300;
+  view.height = static_cast<int>(std::lround(view.width * half_y / half_x));
+  return view;
+}
+
+Vec3 direction_of(const View& view, double column, double row) {
+  const double x = view.x + view.half_x * (2 * column / view.width - 1);
+  const double y = view.y + view.half_y * (2 * row / view.height - 1);
+  return Vec3(x, y, 1).normalized();
+}
+
+Colour shade(const sim::RayCaster& target, const Pose& T_target_sensor, const Vec3& direction) {
+  const Vec3 u = rotate(T_target_sensor.q, direction);
+  const sim::RayHit hit = target.cast(T_target_sensor.p, u);
+  if (!hit.hit) return kBackground;
+  const double light = std::fabs(hit.normal.dot(u));
+  Colour colour{};
+  for (std::size_t i = 0; i < 3; ++i) colour[i] = kDark[i] + (kBright[i] - kDark[i]) * light;
+  return colour;
+}
+
+Colour pixel(const sim::RayCaster& target, const Pose& T_target_sensor, const View& view, int column, int row) {
+  Colour sum{};
+  for (int i = 0; i < kSamplesPerAxis * kSamplesPerAxis; ++i) {
+    const double x = column + (i % kSamplesPerAxis + 0.5) / kSamplesPerAxis;
+    const double y = row + (i / kSamplesPerAxis + 0.5) / kSamplesPerAxis;
+    const Colour colour = shade(target, T_target_sensor, direction_of(view, x, y));
+    for (std::size_t c = 0; c < 3; ++c) sum[c] += colour[c] / (kSamplesPerAxis * kSamplesPerAxis);
+  }
+  return sum;
+}
+
+// Red, green and blue bytes, row by row from the top.
+std::string render(const sim::RayCaster& target, const Pose& T_sensor_target, const View& view) {
+  const Pose T_target_sensor = inverse(T_sensor_target);
+  std::string bytes;
+  for (int row = 0; row < view.height; ++row) {
+    for (int column = 0; column < view.width; ++column) {
+      for (const double value : pixel(target, T_target_sensor, view, column, row)) bytes += static_cast<char>(std::lround(value));
+    }
+  }
+  return bytes;
+}
+
+Vec3 direction_of(const RangeSample& sample) {
+  return {double{sample.direction[0]}, double{sample.direction[1]}, double{sample.direction[2]}};
+}
+
+std::string points_text(const std::vector<RangeSample>& samples, RayState state, const sim::RayCaster& target, const Pose& pose) {
+  std::string text;
+  for (const RangeSample& sample : samples) {
+    if (sample.state != state) continue;
+    const Vec3 u = direction_of(sample);
+    const double residual = state == RayState::kHit ? residual_m(target, pose, sample) : 0;
+    if (!std::isnan(residual)) text += format("%.5f %.5f %.4f\n", u.x() / u.z(), u.y() / u.z(), 1e3 * residual);
+  }
+  return text;
+}
+
+// The largest residual that is not exceptional, so that the colours show the bulk.
+double residual_span_mm(const sim::RayCaster& target, const std::vector<KeptScan>& scans) {
+  std::vector<double> sizes;
+  for (const KeptScan& scan : scans) {
+    for (const RangeSample& sample : scan.samples) {
+      const double residual = sample.state == RayState::kHit ? residual_m(target, registration_pose(scan.telemetry), sample) : 0;
+      if (sample.state == RayState::kHit && !std::isnan(residual)) sizes.push_back(1e3 * std::fabs(residual));
+    }
+  }
+  if (sizes.empty()) return 1;
+  std::sort(sizes.begin(), sizes.end());
+  return std::max(1e-3, sizes[sizes.size() * 97 / 100]);
+}
+
+std::string panel(Plotter& plotter, const sim::RayCaster& target, const KeptScan& scan, double step_rad, const View& view) {
+  const Pose pose = registration_pose(scan.telemetry);
+  const std::string image = plotter.data(render(target, pose, view));
+  const std::string misses = plotter.data(points_text(scan.samples, RayState::kMiss, target, pose) + "\n");
+  const std::string hits = plotter.data(points_text(scan.samples, RayState::kHit, target, pose) + "\n");
+  const double z_m = pose.p.z();
+  std::string text = format("set title '%.0f°   %u returns of %u rays'\n", scan.frame * step_rad / kRadPerDeg, scan.telemetry.returns,
+                            scan.telemetry.plan_points);
+  text += format("set xrange [%.4f:%.4f]\nset yrange [%.4f:%.4f]\n", z_m * (view.x - view.half_x), z_m * (view.x + view.half_x),
+                 z_m * (view.y + view.half_y), z_m * (view.y - view.half_y));
+  const double dx = 2 * view.half_x * z_m / view.width, dy = 2 * view.half_y * z_m / view.height;
+  text += format("plot %s binary array=(%d,%d) format='%%uchar' dx=%.7f dy=%.7f origin=(%.5f,%.5f) with rgbimage notitle, ", image.c_str(),
+                 view.width, view.height, dx, dy, z_m * (view.x - view.half_x) + dx / 2, z_m * (view.y - view.half_y) + dy / 2);
+  text += format("%s using ($1*%.5f):($2*%.5f) with points pt 7 ps 0.3 lc rgb '#b6bec9' notitle, ", misses.c_str(), z_m, z_m);
+  return text + format("%s using ($1*%.5f):($2*%.5f):3 with points pt 7 ps 0.5 lc palette notitle\n", hits.c_str(), z_m, z_m);
+}
+
+}  // namespace
+
+double residual_m(const sim::RayCaster& target, const Pose& T_sensor_target, const RangeSample& sample) {
+  const Pose T_target_sensor = inverse(T_sensor_target);
+  const sim::RayHit hit = target.cast(T_target_sensor.p, rotate(T_target_sensor.q, direction_of(sample)));
+  return hit.hit ? double{sample.range_m} - hit.range_m : std::numeric_limits<double>::quiet_NaN();
+}
+
+std::string scan_view_png(Plotter& plotter, const sim::RayCaster& target, const std::vector<KeptScan>& scans, double step_rad) {
+  const double span_mm = residual_span_mm(target, scans);
+  double half_x = 1e-3, half_y = 1e-3;
+  for (const KeptScan& scan : scans) {
+    half_x = std::max(half_x, kFrameMargin * scan.telemetry.plan_half_extents[0]);
+    half_y = std::max(half_y, kFrameMargin * scan.telemetry.plan_half_extents[1]);
+  }
+  std::string script =
+      format("set multiplot layout 1,%zu\nset size ratio -1\nset tics nomirror out scale 0.5 textcolor '#46505f'\n", scans.size());
+  script +=
+      "set border 0\nset xlabel 'right, m' textcolor '#46505f'\nset ylabel 'down, m' textcolor '#46505f' offset 1\nset xtics 0.4\nset "
+      "ytics 0.2\n";
+  script += format("set palette defined (-1 '#1257b0', -0.5 '#49a0e8', 0 '#f2d43d', 0.5 '#ef7d2b', 1 '#b3102a')\nset cbrange [%g:%g]\n",
+                   -span_mm, span_mm);
+  script += "unset colorbox\n";
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    if (i + 1 == scans.size()) script += "set colorbox\nset cblabel 'measured - predicted range, mm' textcolor '#46505f'\n";
+    script += panel(plotter, target, scans[i], step_rad, make_view(scans[i].telemetry, half_x, half_y));
+  }
+  return plotter.png(kPanelWidth * static_cast<int>(scans.size()), kPanelHeight, script + "unset multiplot\n");
+}
+
+}  // namespace lasso::mdat

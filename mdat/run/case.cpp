@@ -1,0 +1,174 @@
+#include "mdat/run/case.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "bsp/posix/runner.hpp"
+#include "fsw/exec/component.hpp"
+#include "mdat/common/errors.hpp"
+#include "mdat/common/flight_image.hpp"
+#include "mdat/run/recording_sensor.hpp"
+
+namespace lasso::mdat {
+namespace {
+
+constexpr std::uint32_t kPipelineFrames = 2;  // scan k is reported at boundary k + 2
+
+Pose to_pose(const double (&q)[4], const double (&p_m)[3]) { return {Quat(q[3], q[0], q[1], q[2]), Vec3(p_m[0], p_m[1], p_m[2])}; }
+
+// Everything of one case that lives as long as it runs.
+class Case {
+ public:
+  explicit Case(const CaseSetup& setup)
+      : setup_(setup),
+        period_us_(mdat::period_us(setup.parameters)),
+        noisy_model_(camera_model(setup.scenario, setup.parameters, true)),
+        trajectory_(make_trajectory(setup.scenario, setup.range_m, kEpochUs, period_us_)),
+        camera_(*setup.target, *trajectory_, camera_model(setup.scenario, setup.parameters, setup.noise), setup.seed),
+        sensor_(camera_),
+        component_(std::make_unique<Component>(sensor_)),
+        image_(aligned_copy(*setup.image)) {
+    result_.frames.resize(setup.frames);
+    const LoadFailure failure = component_->load_image(view(image_, setup.image->size()));
+    if (failure.status != Status::kOk) throw RunError("the component refused the image: " + to_string(failure));
+    expect(component_->begin(kEpochUs), "begin");
+    start(kEpochUs - period_us_);
+  }
+
+  CaseResult run(std::atomic<std::size_t>& done) {
+    posix::Runner runner(*component_);
+    for (std::uint32_t frame = 0; frame < setup_.frames + kPipelineFrames; ++frame) {
+      const posix::FrameRecord record = runner.run_frame();
+      result_.telemetry.insert(result_.telemetry.end(), record.telemetry.begin(), record.telemetry.end());
+      read_packets(record);
+      if (frame >= kPipelineFrames) ++done;
+    }
+    return std::move(result_);
+  }
+
+ private:
+  static void expect(Status status, const std::string& what) {
+    if (status != Status::kOk) throw RunError("the component refused to " + what + ": " + to_string(status));
+  }
+
+  void start(TimeUs truth_us) {
+    expect(component_->start_tracking(trajectory_->at(truth_us).T_sensor_target, Twist{}, truth_us + period_us_), "start tracking");
+  }
+
+  void read_packets(const posix::FrameRecord& record) {
+    ConstBytes stream = record.telemetry;
+    while (const std::size_t size = packet_size(stream)) {
+      PacketHeader header;
+      PoseTelemetry pose;
+      const ConstBytes packet = stream.first(std::min(size, stream.size()));
+      expect(decode_pose(packet, header, pose), "give telemetry that can be decoded");
+      note(pose, record);
+      stream = stream.subspan(packet.size(), stream.size() - packet.size());
+    }
+  }
+
+  void note(const PoseTelemetry& pose, const posix::FrameRecord& record) {
+    const std::vector<RangeSample> scan = sensor_.take(pose.scan_id);
+    if (static_cast<TrackingMode>(pose.mode) == TrackingMode::kLost) start(record.boundary_us);
+    if (static_cast<StopReason>(pose.stop) == StopReason::kNotRun) return;
+    const std::int64_t frame = (pose.t_measurement_us - kEpochUs) / period_us_;
+    if (pose.t_measurement_us < kEpochUs || frame >= setup_.frames) return;
+    result_.frames[static_cast<std::size_t>(frame)] = judged(pose, scan, record);
+    keep(static_cast<std::uint32_t>(frame), pose, scan);
+  }
+
+  FrameError judged(const PoseTelemetry& pose, const std::vector<RangeSample>& scan, const posix::FrameRecord& record) const {
+    const sim::TruthState truth = trajectory_->at(pose.t_measurement_us);
+    FrameError error;
+    error.reported = true;
+    error.valid = pose.valid != 0;
+    error.registration = pose_error(registration_pose(pose), truth.T_sensor_target);
+    error.filtered = pose_error(filtered_pose(pose), truth.T_sensor_target);
+    error.nees = nees(registration_pose(pose), truth.T_sensor_target, registration_covariance(pose));
+    error.bound = bound(truth.T_sensor_target, scan);
+    error.estimate_us = 1e-3 * static_cast<double>(record.estimate_cpu_ns);
+    error.omega_error_radps = (Vec3(pose.filter_omega_radps) - truth.rates.omega_radps).norm();
+    error.v_error_mps = (Vec3(pose.filter_v_mps) - truth.rates.v_mps).norm();
+    return error;
+  }
+
+  // Only for a target that stands still in the scan: the bound knows one pose.
+  PoseBound bound(const Pose& truth, const std::vector<RangeSample>& scan) const {
+    if (setup_.scenario.scenario_kind() != ScenarioKind::kPaper) return {};
+    return pose_bound(*setup_.target, truth, scan, [&](double z_m) { return sim::range_sigma_m(noisy_model_, z_m); });
+  }
+
+  void keep(std::uint32_t frame, const PoseTelemetry& pose, const std::vector<RangeSample>& scan) {
+    if (!std::binary_search(setup_.keep_frames.begin(), setup_.keep_frames.end(), frame)) return;
+    result_.scans.push_back({frame, trajectory_->at(pose.t_measurement_us).T_sensor_target, pose, scan});
+  }
+
+  const CaseSetup& setup_;
+  DurationUs period_us_;
+  sim::CameraModel noisy_model_;
+  std::unique_ptr<sim::Trajectory> trajectory_;
+  sim::SimulatedCamera camera_;
+  RecordingSensor sensor_;
+  std::unique_ptr<Component> component_;
+  std::vector<std::uint64_t> image_;
+  CaseResult result_;
+};
+
+}  // namespace
+
+DurationUs period_us(const MissionParameters& parameters) { return static_cast<DurationUs>(std::llround(parameters.period_s * 1e6)); }
+
+sim::CameraModel camera_model(const Scenario& scenario, const MissionParameters& parameters, bool noise) {
+  sim::CameraModel model;
+  if (noise) {
+    model.sigma0_m = scenario.sigma0_m;
+    model.sigma_k_per_m = scenario.sigma_k_per_m;
+    model.sigma_angle_rad = scenario.angle_noise_rad;
+  }
+  model.fov_half_x_rad = parameters.fov_half_x_rad;
+  model.fov_half_y_rad = parameters.fov_half_y_rad;
+  model.range_min_m = parameters.range_min_m;
+  model.range_max_m = parameters.range_max_m;
+  model.dropout_probability = scenario.dropout_probability;
+  model.dropout_incidence_rad = scenario.dropout_incidence_rad;
+  model.outlier_probability = scenario.outlier_probability;
+  model.edge_mixing_m = scenario.edge_mixing_m;
+  return model;
+}
+
+std::unique_ptr<sim::Trajectory> make_trajectory(const Scenario& scenario, double range_m, TimeUs epoch_us, DurationUs period) {
+  Pose start;
+  start.q = sim::upright_attitude(scenario.tilt_rad, scenario.boresight_rad);
+  start.p = Vec3(scenario.offset_m.at(0), scenario.offset_m.at(1), range_m);
+  if (scenario.scenario_kind() == ScenarioKind::kPaper) {
+    sim::SteppedSpin::Setup setup;
+    setup.T_sensor_target_frame0 = start;
+    setup.step_rad = scenario.step_rad;
+    setup.epoch_us = epoch_us;
+    setup.period_us = period;
+    return std::make_unique<sim::SteppedSpin>(setup);
+  }
+  const Twist rates{rotate(start.q, Vec3(scenario.spin_radps.data())), Vec3(scenario.drift_mps.data())};
+  return std::make_unique<sim::ConstantTwist>(sim::TruthState{start, rates}, epoch_us);
+}
+
+CaseResult run_case(const CaseSetup& setup, std::atomic<std::size_t>& done) { return Case(setup).run(done); }
+
+Pose registration_pose(const PoseTelemetry& telemetry) { return to_pose(telemetry.q_sensor_target, telemetry.p_sensor_target_m); }
+
+Pose filtered_pose(const PoseTelemetry& telemetry) { return to_pose(telemetry.filter_q_sensor_target, telemetry.filter_p_sensor_target_m); }
+
+Mat6 registration_covariance(const PoseTelemetry& telemetry) {
+  Mat6 covariance;
+  std::size_t term = 0;
+  for (int row = 0; row < 6; ++row) {
+    for (int column = row; column < 6; ++column, ++term) {
+      covariance(row, column) = double{telemetry.covariance[term]};
+      covariance(column, row) = covariance(row, column);
+    }
+  }
+  return covariance;
+}
+
+}  // namespace lasso::mdat

@@ -1,0 +1,62 @@
+// One closed-loop run: the simulated camera, the flight component on its Linux board, and what its telemetry says against the truth.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "fsw/link/pose_telemetry.hpp"
+#include "hal_sim/laser_camera.hpp"
+#include "hal_sim/ray_caster.hpp"
+#include "hal_sim/trajectory.hpp"
+#include "mdat/missiondb/mission_source.hpp"
+#include "mdat/run/statistics.hpp"
+
+namespace lasso::mdat {
+
+constexpr TimeUs kEpochUs = 1'000'000;  // begin of frame 0 of every run
+DurationUs period_us(const MissionParameters& parameters);
+
+struct CaseSetup {
+  Scenario scenario;
+  double range_m = 0;
+  bool noise = true;  // of the simulated camera
+  std::uint64_t seed = 1;
+  std::uint32_t frames = 0;
+  MissionParameters parameters{};  // as compiled into the image
+  const std::vector<std::uint8_t>* image = nullptr;
+  const sim::RayCaster* target = nullptr;
+  std::vector<std::uint32_t> keep_frames;  // whose scans the result holds; ascending
+};
+
+// A scan with all that a picture of it needs.
+struct KeptScan {
+  std::uint32_t frame = 0;
+  Pose truth;
+  PoseTelemetry telemetry;
+  std::vector<RangeSample> samples;
+};
+
+struct CaseResult {
+  std::vector<FrameError> frames;
+  std::vector<std::uint8_t> telemetry;  // all packets, in order
+  std::vector<KeptScan> scans;
+};
+
+// The camera of a scenario; without noise its ranges and directions are exact.
+sim::CameraModel camera_model(const Scenario& scenario, const MissionParameters& parameters, bool noise);
+
+// The target's motion; frame 0 begins at `epoch_us`.
+std::unique_ptr<sim::Trajectory> make_trajectory(const Scenario& scenario, double range_m, TimeUs epoch_us, DurationUs period_us);
+
+// Starts the track from the true pose of one frame before the first, at rest. All that the result says of the estimates was decoded from
+// telemetry packets. A track that the component gives up is started again from the true pose of the frame before (its frames count as
+// lost). Counts each frame in `done`. Throws RunError where the component refuses its image or a start.
+CaseResult run_case(const CaseSetup& setup, std::atomic<std::size_t>& done);
+
+Pose registration_pose(const PoseTelemetry& telemetry);
+Pose filtered_pose(const PoseTelemetry& telemetry);
+Mat6 registration_covariance(const PoseTelemetry& telemetry);
+
+}  // namespace lasso::mdat

@@ -1,0 +1,63 @@
+#include "mdat/run/recording.hpp"
+
+#include <cstdio>
+
+#include "hal_sim/scan_file.hpp"
+#include "mdat/common/errors.hpp"
+#include "mdat/common/output.hpp"
+
+namespace lasso::mdat {
+namespace {
+
+constexpr char kHeader[] = "scan,qx,qy,qz,qw,x_m,y_m,z_m\n";
+
+std::string scan_name(std::uint32_t frame) {
+  char name[16];
+  std::snprintf(name, sizeof name, "f%05u", frame);
+  return name;
+}
+
+std::string pose_row(std::uint32_t frame, const Pose& pose) {
+  char row[256];
+  std::snprintf(row, sizeof row, "%s,%.12f,%.12f,%.12f,%.12f,%.9f,%.9f,%.9f\n", scan_name(frame).c_str(), pose.q.x(), pose.q.y(),
+                pose.q.z(), pose.q.w(), pose.p.x(), pose.p.y(), pose.p.z());
+  return row;
+}
+
+void write_scan(const std::filesystem::path& folder, const KeptScan& scan) {
+  const auto image = std::make_unique<RangeImage>();
+  for (const RangeSample& sample : scan.samples) (void)image->samples.push_back(sample);  // a scan has at most kMaxRays
+  sim::write_scan_csv(folder / (scan_name(scan.frame) + ".csv"), *image);
+}
+
+void write_range(const std::filesystem::path& folder, const CaseResult& run, const sim::Trajectory& truth, DurationUs period_us) {
+  OutputFolder scans(folder / "scans");
+  std::string truth_rows = kHeader, start_rows = kHeader;
+  for (const KeptScan& scan : run.scans) {
+    write_scan(scans.path(), scan);
+    truth_rows += pose_row(scan.frame, scan.truth);
+    start_rows += pose_row(scan.frame, truth.at(scan.telemetry.t_measurement_us - period_us).T_sensor_target);
+  }
+  scans.commit();
+  write_file(folder / "truth.csv", truth_rows);
+  write_file(folder / "poses.csv", start_rows);
+}
+
+}  // namespace
+
+void write_recording(const CompiledMission& mission, SimulationOptions options, const std::filesystem::path& folder) {
+  options.plain = true;
+  options.keep_scans = true;
+  const SimulationResult result = simulate(mission, options);
+  const TableResult& table = result.tables.front();
+  const VariantResult& variant = table.variants.front();
+  const DurationUs period = period_us(variant.parameters);
+  for (std::size_t i = 0; i < variant.cases.size(); ++i) {
+    const double range_m = table.scenario.ranges_m[i];
+    char name[32];
+    std::snprintf(name, sizeof name, "%gm", range_m);
+    write_range(folder / name, variant.cases[i], *make_trajectory(table.scenario, range_m, kEpochUs, period), period);
+  }
+}
+
+}  // namespace lasso::mdat

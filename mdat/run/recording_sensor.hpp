@@ -1,0 +1,29 @@
+// A sensor that remembers what it handed over, scan by scan, for reports, bounds and recordings. It changes nothing on the way.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <vector>
+
+#include "fsw/sense/sensor.hpp"
+
+namespace lasso::mdat {
+
+class RecordingSensor final : public Sensor {
+ public:
+  explicit RecordingSensor(Sensor& sensor) : sensor_(sensor) {}
+
+  Status start(const ScanPlan& plan, TimeUs t_start_us) override;
+  SensorPoll poll(TimeUs now_us, Span<RangeSample> out) override;
+  void abort() override { sensor_.abort(); }
+
+  // The samples of a scan, which are then forgotten; empty for a scan that never was.
+  std::vector<RangeSample> take(std::uint32_t scan_id);
+
+ private:
+  Sensor& sensor_;
+  std::uint32_t scan_id_ = 0;
+  std::map<std::uint32_t, std::vector<RangeSample>> scans_;
+};
+
+}  // namespace lasso::mdat

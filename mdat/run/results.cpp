@@ -1,0 +1,136 @@
+#include "mdat/run/results.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "mdat/common/text.hpp"
+#include "mdat/common/version.hpp"
+#include "mdat/run/paper.hpp"
+
+namespace lasso::mdat {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json axes_json(const ErrorStatistics& errors) {
+  Json json;
+  for (const ErrorAxis& axis : kErrorAxes) json[axis.key] = {{"mean", (errors.*axis.member).mean}, {"std", (errors.*axis.member).std}};
+  return json;
+}
+
+Json with_rms(const ErrorStatistics& errors) {
+  Json json = axes_json(errors);
+  json["rms_mm"] = errors.rms_mm;
+  json["rms_deg"] = errors.rms_deg;
+  return json;
+}
+
+Json statistics_json(const RunStatistics& run, bool noise, ScenarioKind kind) {
+  Json json = axes_json(run.registration);
+  json["frames"] = run.frames;
+  json["lost"] = run.lost;
+  json["invalid"] = run.invalid;
+  json["rms_mm"] = run.registration.rms_mm;
+  json["rms_deg"] = run.registration.rms_deg;
+  if (kind == ScenarioKind::kPaper) {
+    json["crlb_mm"] = run.crlb_mm;
+    json["crlb_deg"] = run.crlb_deg;
+  } else {
+    json["rates"] = {{"rms_degps", run.omega_rms_degps}, {"rms_mmps", run.v_rms_mmps}};
+  }
+  json["nees"] = noise ? Json(run.nees) : Json(nullptr);
+  json["estimate_us"] = {{"median", run.time.median_us}, {"p99", run.time.p99_us}, {"max", run.time.max_us}};
+  json["filtered"] = with_rms(run.filtered);
+  return json;
+}
+
+Json variant_json(const VariantResult& variant, const Scenario& scenario) {
+  Json json = statistics_json(variant.all, variant.variant.noise, scenario.scenario_kind());
+  json["by_range"] = Json::array();
+  for (std::size_t i = 0; i < variant.by_range.size(); ++i) {
+    Json range = {{"range_m", scenario.ranges_m[i]}};
+    range.update(statistics_json(variant.by_range[i], variant.variant.noise, scenario.scenario_kind()));
+    json["by_range"].push_back(range);
+  }
+  return json;
+}
+
+std::string cell(const MeanStd& value) { return format("%8.4f /%8.4f", value.mean, value.std); }
+
+// One column an axis table: the paper's first where it applies.
+std::string axes_table(const TableResult& table, bool paper) {
+  std::string text = "  mean / std   ";
+  if (paper) text += format("%-21s", "   paper 2005");
+  for (const VariantResult& variant : table.variants) text += format("%-23s", variant.variant.title);
+  text += "\n";
+  const ErrorStatistics reference = paper_table_1();
+  for (const ErrorAxis& axis : kErrorAxes) {
+    text += format("  %-6s %-4s ", axis.name, axis.unit);
+    if (paper) text += cell(reference.*axis.member) + "   ";
+    for (const VariantResult& variant : table.variants) text += cell(variant.all.registration.*axis.member) + "     ";
+    text += "\n";
+  }
+  return text;
+}
+
+std::string ratio(double value, double bound) { return bound > 0 ? format("%6.2f", value / bound) : std::string("     -"); }
+
+std::string quality_line(const VariantResult& variant, ScenarioKind kind) {
+  const RunStatistics& run = variant.all;
+  std::string text = format("  %-24s %7.4f %8.5f", variant.variant.title, run.registration.rms_mm, run.registration.rms_deg);
+  if (kind == ScenarioKind::kPaper) {
+    const bool noise = variant.variant.noise;
+    text +=
+        "  " + ratio(run.registration.rms_mm, noise ? run.crlb_mm : 0) + " " + ratio(run.registration.rms_deg, noise ? run.crlb_deg : 0);
+  } else {
+    text += format("  %6.3f %6.1f", run.omega_rms_degps, run.v_rms_mmps);
+  }
+  text += variant.variant.noise ? format("  %6.2f", run.nees) : std::string("       -");
+  text += format("  %4zu/%-5zu %5zu", run.lost, run.frames, run.invalid);
+  return text + format("  %7.0f %7.0f %7.0f\n", run.time.median_us, run.time.p99_us, run.time.max_us);
+}
+
+std::string quality_table(const TableResult& table) {
+  const bool paper = table.scenario.scenario_kind() == ScenarioKind::kPaper;
+  std::string text = "                            rms error         ";
+  text += paper ? "over bound      " : "rates error     ";
+  text += "NEES  lost       invalid  time of an estimate, us\n";
+  text += "                            mm       deg      ";
+  text += paper ? "mm     deg      " : "deg/s  mm/s     ";
+  text += "of 6                       median     p99     max\n";
+  for (const VariantResult& variant : table.variants) text += quality_line(variant, table.scenario.scenario_kind());
+  return text;
+}
+
+std::string table_text(const SimulationResult& result, const TableResult& table) {
+  const Scenario& scenario = table.scenario;
+  std::string text = format("%s, scenario %s%s: ", result.mission.c_str(), result.scenario.c_str(), table.name.empty() ? "" : ", no tilt");
+  text += format("%zu ranges (%g to %g m) x %u frames, tilt %g deg, registration of single scans\n", scenario.ranges_m.size(),
+                 scenario.ranges_m.front(), scenario.ranges_m.back(), result.frames, scenario.tilt_rad / kRadPerDeg);
+  text += axes_table(table, table.name.empty() && result.kind == ScenarioKind::kPaper);
+  return text + quality_table(table) + "\n";
+}
+
+}  // namespace
+
+std::string results_json(const SimulationResult& result) {
+  Json json = {{"mission", result.mission}, {"scenario", result.scenario}, {"seed", result.seed}, {"version", kVersion}};
+  for (const TableResult& table : result.tables) {
+    Json variants;
+    for (const VariantResult& variant : table.variants) variants[variant.variant.name] = variant_json(variant, table.scenario);
+    if (table.name.empty()) {
+      json.update(variants);
+    } else {
+      json[table.name] = variants;
+    }
+  }
+  if (result.kind == ScenarioKind::kPaper) json["paper_2005"] = axes_json(paper_table_1());
+  return json.dump(2) + "\n";
+}
+
+std::string summary_text(const SimulationResult& result) {
+  std::string text = "\n";
+  for (const TableResult& table : result.tables) text += table_text(result, table);
+  return text;
+}
+
+}  // namespace lasso::mdat

@@ -1,0 +1,30 @@
+// What a run leaves for programs (results.json) and says on the terminal.
+#pragma once
+
+#include <string>
+
+#include "mdat/run/simulation.hpp"
+
+namespace lasso::mdat {
+
+// Keys as in docs/user_guide: mission, scenario, seed, version, one object a variant; `side_on` with the same ones; `paper_2005`.
+std::string results_json(const SimulationResult& result);
+
+// The tables for a person: the paper's beside this run's, then accuracy over the bound, honesty, losses and time.
+std::string summary_text(const SimulationResult& result);
+
+// The six error axes with their names and units.
+struct ErrorAxis {
+  const char* key;   // "x_mm"
+  const char* name;  // "X"
+  const char* unit;  // "mm"
+  MeanStd ErrorStatistics::*member;
+};
+constexpr ErrorAxis kErrorAxes[] = {{"x_mm", "X", "mm", &ErrorStatistics::x_mm},
+                                    {"y_mm", "Y", "mm", &ErrorStatistics::y_mm},
+                                    {"z_mm", "Z", "mm", &ErrorStatistics::z_mm},
+                                    {"yaw_deg", "yaw", "deg", &ErrorStatistics::yaw_deg},
+                                    {"pitch_deg", "pitch", "deg", &ErrorStatistics::pitch_deg},
+                                    {"roll_deg", "roll", "deg", &ErrorStatistics::roll_deg}};
+
+}  // namespace lasso::mdat

@@ -1,0 +1,217 @@
+#include "mdat/run/simulation.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <exception>
+#include <mutex>
+#include <numeric>
+#include <thread>
+
+#include "hal_sim/random.hpp"
+#include "mdat/common/errors.hpp"
+#include "mdat/common/progress_bar.hpp"
+#include "mdat/modelc/image_writer.hpp"
+
+namespace lasso::mdat {
+namespace {
+
+constexpr Variant kNoisy = {"noisy", "with noise", true, true};
+constexpr Variant kNoiseFree = {"noise_free", "no noise", false, true};
+constexpr Variant kPaperVariants[] = {kNoiseFree,
+                                      kNoisy,
+                                      {"noise_free_hits_only", "no noise, hits only", false, false},
+                                      {"noisy_hits_only", "with noise, hits only", true, false}};
+
+// One image for each set of parameters, and all cases in order.
+struct Plan {
+  std::vector<std::vector<std::uint8_t>> images;
+  std::vector<CaseSetup> cases;
+};
+
+std::vector<Variant> variants_of(const Scenario& scenario, const MissionParameters& parameters, bool plain) {
+  if (scenario.scenario_kind() == ScenarioKind::kPaper && !plain) return {std::begin(kPaperVariants), std::end(kPaperVariants)};
+  Variant variant = scenario.noise != 0 ? kNoisy : kNoiseFree;
+  variant.silhouettes = parameters.silhouettes != 0;
+  return {variant};
+}
+
+MissionParameters variant_parameters(const Scenario& scenario, MissionParameters parameters, const Variant& variant) {
+  parameters.silhouettes = variant.silhouettes ? 1 : 0;
+  const bool still = scenario.scenario_kind() == ScenarioKind::kPaper && scenario.overrides.count("estimation.deskew") == 0;
+  if (still) parameters.deskew = 0;
+  return parameters;
+}
+
+std::vector<TableResult> make_tables(const Scenario& scenario, const MissionParameters& parameters, bool plain) {
+  std::vector<TableResult> tables(1);
+  tables[0].scenario = scenario;
+  if (scenario.scenario_kind() == ScenarioKind::kPaper && scenario.tilt_rad != 0 && !plain) {
+    tables.push_back(tables[0]);
+    tables[1].name = "side_on";
+    tables[1].scenario.tilt_rad = 0;
+  }
+  for (TableResult& table : tables) {
+    for (const Variant& variant : variants_of(scenario, parameters, plain)) {
+      VariantResult result;
+      result.variant = variant;
+      result.parameters = variant_parameters(scenario, parameters, variant);
+      table.variants.push_back(std::move(result));
+    }
+  }
+  return tables;
+}
+
+// Noise with and without silhouettes is the same for the same range.
+std::uint64_t case_seed(std::uint64_t seed, std::size_t table, std::size_t range) {
+  std::uint64_t state = seed ^ (std::uint64_t{table} << 40) ^ (std::uint64_t{range} << 48);
+  return sim::split_mix64(state);
+}
+
+std::vector<std::uint32_t> all_frames(std::uint32_t frames) {
+  std::vector<std::uint32_t> result(frames);
+  std::iota(result.begin(), result.end(), 0U);
+  return result;
+}
+
+CaseSetup make_case(const SimulationResult& result, const TableResult& table, const VariantResult& variant, std::size_t range) {
+  CaseSetup setup;
+  setup.scenario = table.scenario;
+  setup.range_m = table.scenario.ranges_m[range];
+  setup.noise = variant.variant.noise;
+  setup.frames = result.frames;
+  setup.parameters = variant.parameters;
+  if (range == shown_range(table.scenario)) setup.keep_frames = shown_frames(table.scenario, result.frames);
+  return setup;
+}
+
+Plan make_plan(const CompiledMission& mission, const SimulationResult& result, const sim::RayCaster& target) {
+  Plan plan;
+  std::size_t count = 0;
+  for (const TableResult& table : result.tables) count += table.variants.size();
+  plan.images.reserve(count);  // cases point into it
+  for (std::size_t t = 0; t < result.tables.size(); ++t) {
+    const TableResult& table = result.tables[t];
+    for (const VariantResult& variant : table.variants) {
+      plan.images.push_back(image_bytes(mission, variant.parameters));
+      for (std::size_t range = 0; range < table.scenario.ranges_m.size(); ++range) {
+        plan.cases.push_back(make_case(result, table, variant, range));
+        plan.cases.back().seed = case_seed(result.seed, t, range);
+        plan.cases.back().image = &plan.images.back();
+        plan.cases.back().target = &target;
+      }
+    }
+  }
+  return plan;
+}
+
+// Cases in the order of the plan, whoever ran them.
+class Pool {
+ public:
+  Pool(const std::vector<CaseSetup>& cases, unsigned jobs) : cases_(cases), results_(cases.size()) {
+    for (unsigned i = 0; i < std::max(1U, jobs); ++i) threads_.emplace_back([this] { work(); });
+  }
+
+  std::vector<CaseResult> wait(ProgressBar& bar) {
+    while (running() && !failed_) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+      bar.show(done_);
+    }
+    threads_.clear();  // joins
+    if (error_) std::rethrow_exception(error_);
+    return std::move(results_);
+  }
+
+ private:
+  bool running() const { return finished_ < cases_.size(); }
+
+  void work() {
+    for (std::size_t i = next_++; i < cases_.size() && !failed_; i = next_++) {
+      try {
+        results_[i] = run_case(cases_[i], done_);
+      } catch (...) {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        if (!error_) error_ = std::current_exception();
+        failed_ = true;
+      }
+      ++finished_;
+    }
+  }
+
+  const std::vector<CaseSetup>& cases_;
+  std::vector<CaseResult> results_;
+  std::atomic<std::size_t> next_{0}, finished_{0}, done_{0};
+  std::atomic<bool> failed_{false};
+  std::mutex mutex_;
+  std::exception_ptr error_;
+  std::vector<std::jthread> threads_;
+};
+
+void evaluate(VariantResult& variant) {
+  std::vector<FrameError> all;
+  for (const CaseResult& result : variant.cases) {
+    variant.by_range.push_back(run_statistics(result.frames));
+    all.insert(all.end(), result.frames.begin(), result.frames.end());
+  }
+  variant.all = run_statistics(all);
+}
+
+void collect(std::vector<CaseResult> cases, SimulationResult& result) {
+  std::size_t next = 0;
+  for (TableResult& table : result.tables) {
+    for (VariantResult& variant : table.variants) {
+      for (std::size_t range = 0; range < table.scenario.ranges_m.size(); ++range) variant.cases.push_back(std::move(cases[next++]));
+      evaluate(variant);
+    }
+  }
+}
+
+}  // namespace
+
+std::unique_ptr<sim::RayCaster> make_target(const Mesh& mesh) { return sim::make_ray_caster(mesh.vertices, mesh.triangles); }
+
+std::vector<std::uint32_t> shown_frames(const Scenario& scenario, std::uint32_t frames) {
+  std::vector<std::uint32_t> result;
+  if (scenario.scenario_kind() != ScenarioKind::kPaper || scenario.step_rad == 0)
+    return frames > 0 ? std::vector<std::uint32_t>{0} : result;
+  for (const double angle_deg : {0.0, 45.0, 90.0}) {
+    const double frame = std::round(angle_deg * kRadPerDeg / std::fabs(scenario.step_rad));
+    if (frame < frames) result.push_back(static_cast<std::uint32_t>(frame));
+  }
+  return result;
+}
+
+SimulationResult simulate(const CompiledMission& mission, const SimulationOptions& options) {
+  const Scenario& scenario = scenario_of(mission.source, options.scenario);
+  const MissionParameters parameters = parameters_for(mission.source, options.scenario);
+  SimulationResult result;
+  result.mission = mission.source.name;
+  result.scenario = options.scenario;
+  result.kind = scenario.scenario_kind();
+  result.seed = options.seed.value_or(static_cast<std::uint64_t>(scenario.seed));
+  result.frames = options.frames.value_or(static_cast<std::uint32_t>(scenario.frames));
+  result.tables = make_tables(scenario, parameters, options.plain);
+
+  const auto begin = std::chrono::steady_clock::now();
+  const std::unique_ptr<sim::RayCaster> target = make_target(mission.mesh);
+  Plan plan = make_plan(mission, result, *target);
+  for (CaseSetup& setup : plan.cases) {
+    if (options.keep_scans) setup.keep_frames = all_frames(result.frames);
+  }
+  ProgressBar bar("track", plan.cases.size() * result.frames, "frames");
+  collect(Pool(plan.cases, options.jobs).wait(bar), result);
+  bar.finish();
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return result;
+}
+
+std::string telemetry_bytes(const SimulationResult& result) {
+  std::string bytes;
+  for (const TableResult& table : result.tables) {
+    for (const VariantResult& variant : table.variants) {
+      for (const CaseResult& run : variant.cases) bytes.append(run.telemetry.begin(), run.telemetry.end());
+    }
+  }
+  return bytes;
+}
+
+}  // namespace lasso::mdat

@@ -1,0 +1,70 @@
+// A whole scenario: its tables, variants and ranges as independent cases, run on all cores, and their statistics.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mdat/common/flight_image.hpp"
+#include "mdat/run/case.hpp"
+
+namespace lasso::mdat {
+
+struct SimulationOptions {
+  std::string scenario = "paper";
+  std::optional<std::uint64_t> seed;    // otherwise the scenario's
+  std::optional<std::uint32_t> frames;  // otherwise the scenario's
+  unsigned jobs = 1;                    // cases at a time; the results do not depend on it
+  bool plain = false;                   // the scenario as it stands: one table, one variant
+  bool keep_scans = false;              // of all frames; otherwise of those that the report shows
+};
+
+// What a table compares. In the noise-free variants the estimator keeps the mission's noise model.
+struct Variant {
+  const char* name;   // key in results.json
+  const char* title;  // for people
+  bool noise;
+  bool silhouettes;
+};
+
+struct VariantResult {
+  Variant variant{};
+  MissionParameters parameters{};
+  std::vector<CaseResult> cases;  // one a range
+  std::vector<RunStatistics> by_range;
+  RunStatistics all;
+};
+
+struct TableResult {
+  std::string name;  // "" the scenario itself, "side_on" the same without tilt
+  Scenario scenario;
+  std::vector<VariantResult> variants;
+};
+
+struct SimulationResult {
+  std::string mission, scenario;
+  ScenarioKind kind = ScenarioKind::kPaper;
+  std::uint64_t seed = 0;
+  std::uint32_t frames = 0;
+  std::vector<TableResult> tables;
+  double seconds = 0;
+};
+
+// The paper's kind of scenario has four variants (noise x silhouettes), and a second table without tilt where it has one; deskewing is off,
+// as its target stands still in each scan, unless the scenario overrides estimation.deskew. Other kinds have the one variant they state.
+// Throws InputError, MissionError or RunError.
+SimulationResult simulate(const CompiledMission& mission, const SimulationOptions& options);
+
+// All packets, in the order of tables, variants and ranges.
+std::string telemetry_bytes(const SimulationResult& result);
+
+// The ray caster of a mission's target.
+std::unique_ptr<sim::RayCaster> make_target(const Mesh& mesh);
+
+// Index of the range whose scans the report shows: the middle one.
+inline std::size_t shown_range(const Scenario& scenario) { return scenario.ranges_m.size() / 2; }
+// The frames whose scans are kept for the report: at 0, 45 and 90 degrees.
+std::vector<std::uint32_t> shown_frames(const Scenario& scenario, std::uint32_t frames);
+
+}  // namespace lasso::mdat

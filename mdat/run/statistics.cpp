@@ -1,0 +1,130 @@
+#include "mdat/run/statistics.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "fsw/geometry/symmetric6.hpp"
+
+namespace lasso::mdat {
+namespace {
+
+template <class Items, class Function>
+MeanStd mean_std_of(const Items& items, double scale, const Function& value) {
+  std::vector<double> values;
+  values.reserve(items.size());
+  for (const auto& item : items) values.push_back(scale * value(item));
+  return mean_std(values);
+}
+
+double root_mean(double sum, std::size_t n) { return n == 0 ? 0 : std::sqrt(sum / static_cast<double>(n)); }
+
+double nearest_rank(const std::vector<double>& sorted, double share) {
+  if (sorted.empty()) return 0;
+  const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(sorted.size())));
+  return sorted[std::max<std::size_t>(rank, 1) - 1];
+}
+
+struct Sums {
+  std::size_t tracked = 0, bounded = 0;
+  double bound_m2 = 0, bound_rad2 = 0, nees = 0, omega2 = 0, v2 = 0;
+
+  void add(const FrameError& frame) {
+    ++tracked;
+    nees += frame.nees;
+    omega2 += frame.omega_error_radps * frame.omega_error_radps;
+    v2 += frame.v_error_mps * frame.v_error_mps;
+    if (!frame.bound.defined) return;
+    ++bounded;
+    bound_m2 += frame.bound.translation_m2;
+    bound_rad2 += frame.bound.rotation_rad2;
+  }
+};
+
+}  // namespace
+
+PoseError pose_error(const Pose& estimate, const Pose& truth) {
+  const Vec6 difference = pose_difference(estimate, truth);
+  PoseError error;
+  error.translation_m = difference.tail<3>();
+  error.rotation_rad = difference.head<3>().norm();
+  error.yaw_pitch_roll = euler_zyx(to_matrix(truth.q).transpose() * to_matrix(estimate.q));
+  return error;
+}
+
+double nees(const Pose& estimate, const Pose& truth, const Mat6& covariance) {
+  const Vec6 difference = pose_difference(estimate, truth);
+  const Vec6 sigma = covariance.diagonal().cwiseMax(0).cwiseSqrt();
+  if (!(sigma.minCoeff() > 0)) return std::numeric_limits<double>::infinity();
+  const Vec6 scale = sigma.cwiseInverse();  // metres and radians side by side
+  const Mat6 correlation = scale.asDiagonal() * covariance * scale.asDiagonal();
+  const Vec6 scaled = scale.cwiseProduct(difference);
+  Vec6 solution;
+  if (solve6(correlation, scaled, solution) != Status::kOk) return std::numeric_limits<double>::infinity();
+  return scaled.dot(solution);
+}
+
+MeanStd mean_std(const std::vector<double>& values) {
+  if (values.empty()) return {};
+  const double n = static_cast<double>(values.size());
+  double sum = 0;
+  for (const double value : values) sum += value;
+  MeanStd result{sum / n, 0};
+  double squares = 0;
+  for (const double value : values) squares += (value - result.mean) * (value - result.mean);
+  result.std = std::sqrt(squares / n);
+  return result;
+}
+
+ErrorStatistics error_statistics(const std::vector<PoseError>& errors) {
+  constexpr double kMm = 1e3, kDeg = 1 / kRadPerDeg;
+  ErrorStatistics result;
+  MeanStd* const lengths[] = {&result.x_mm, &result.y_mm, &result.z_mm};
+  MeanStd* const angles[] = {&result.yaw_deg, &result.pitch_deg, &result.roll_deg};
+  for (int i = 0; i < 3; ++i) {
+    *lengths[i] = mean_std_of(errors, kMm, [i](const PoseError& e) { return e.translation_m[i]; });
+    *angles[i] = mean_std_of(errors, kDeg, [i](const PoseError& e) { return e.yaw_pitch_roll[i]; });
+  }
+  double squares_m2 = 0, squares_rad2 = 0;
+  for (const PoseError& error : errors) {
+    squares_m2 += error.translation_m.squaredNorm();
+    squares_rad2 += error.rotation_rad * error.rotation_rad;
+  }
+  result.rms_mm = kMm * root_mean(squares_m2, errors.size());
+  result.rms_deg = kDeg * root_mean(squares_rad2, errors.size());
+  return result;
+}
+
+TimeStatistics time_statistics(std::vector<double> times_us) {
+  std::sort(times_us.begin(), times_us.end());
+  return {nearest_rank(times_us, 0.5), nearest_rank(times_us, 0.99), nearest_rank(times_us, 1)};
+}
+
+RunStatistics run_statistics(const std::vector<FrameError>& frames) {
+  RunStatistics result;
+  Sums sums;
+  std::vector<PoseError> registrations, filtered;
+  std::vector<double> times_us;
+  for (const FrameError& frame : frames) {
+    ++result.frames;
+    result.lost += frame.lost() ? 1U : 0U;
+    result.invalid += frame.valid ? 0U : 1U;
+    if (frame.reported && !frame.filtered.lost()) filtered.push_back(frame.filtered);
+    if (frame.reported) times_us.push_back(frame.estimate_us);
+    if (frame.lost()) continue;
+    registrations.push_back(frame.registration);
+    sums.add(frame);
+  }
+  const double n = static_cast<double>(std::max<std::size_t>(sums.tracked, 1));
+  result.registration = error_statistics(registrations);
+  result.filtered = error_statistics(filtered);
+  result.crlb_mm = 1e3 * root_mean(sums.bound_m2, sums.bounded);
+  result.crlb_deg = root_mean(sums.bound_rad2, sums.bounded) / kRadPerDeg;
+  result.nees = sums.nees / n;
+  result.omega_rms_degps = root_mean(sums.omega2, sums.tracked) / kRadPerDeg;
+  result.v_rms_mmps = 1e3 * root_mean(sums.v2, sums.tracked);
+  result.time = time_statistics(std::move(times_us));
+  return result;
+}
+
+}  // namespace lasso::mdat

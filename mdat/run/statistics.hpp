@@ -1,0 +1,69 @@
+// Errors of poses against the truth, and what is said about many of them.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "fsw/geometry/se3.hpp"
+#include "mdat/run/bound.hpp"
+
+namespace lasso::mdat {
+
+constexpr double kLostTranslation_m = 0.050;
+constexpr double kLostRotation_rad = 5 * kRadPerDeg;
+
+// One estimate against the truth at the same time.
+struct PoseError {
+  Vec3 translation_m = Vec3::Zero();   // estimate - truth, sensor axes
+  Vec3 yaw_pitch_roll = Vec3::Zero();  // rad, ZYX Euler angles of R_true^T R_estimated: roll is about the target's x axis
+  double rotation_rad = 0;             // the whole angle
+
+  bool lost() const { return translation_m.norm() > kLostTranslation_m || rotation_rad > kLostRotation_rad; }
+};
+PoseError pose_error(const Pose& estimate, const Pose& truth);
+
+// Normalised estimation error squared of (rotation, translation) in sensor axes; 6 on average when `covariance` is honest. Infinite where
+// the covariance is not positive definite.
+double nees(const Pose& estimate, const Pose& truth, const Mat6& covariance);
+
+// One frame of a run.
+struct FrameError {
+  bool reported = false;  // a registration of this frame's scan is in the telemetry
+  bool valid = false;     // and it says that it can be trusted
+  PoseError registration, filtered;
+  double nees = 0;
+  PoseBound bound;
+  double estimate_us = 0;
+  double omega_error_radps = 0, v_error_mps = 0;  // of the filter's rates: norms
+
+  bool lost() const { return !reported || registration.lost(); }
+};
+
+struct MeanStd {
+  double mean = 0, std = 0;
+};
+
+struct ErrorStatistics {
+  MeanStd x_mm, y_mm, z_mm, yaw_deg, pitch_deg, roll_deg;
+  double rms_mm = 0, rms_deg = 0;  // of the norms
+};
+
+struct TimeStatistics {
+  double median_us = 0, p99_us = 0, max_us = 0;
+};
+
+struct RunStatistics {
+  std::size_t frames = 0, lost = 0, invalid = 0;
+  ErrorStatistics registration, filtered;  // lost frames left out (each by its own error)
+  double crlb_mm = 0, crlb_deg = 0;        // root of the mean trace, over frames that are not lost
+  double nees = 0;                         // mean
+  double omega_rms_degps = 0, v_rms_mmps = 0;
+  TimeStatistics time;
+};
+
+MeanStd mean_std(const std::vector<double>& values);  // of the whole population (division by n); 0 of nothing
+ErrorStatistics error_statistics(const std::vector<PoseError>& errors);
+TimeStatistics time_statistics(std::vector<double> times_us);  // percentiles by nearest rank; the lower median
+RunStatistics run_statistics(const std::vector<FrameError>& frames);
+
+}  // namespace lasso::mdat
