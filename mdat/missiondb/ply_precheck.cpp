@@ -1,5 +1,6 @@
 #include "mdat/missiondb/ply_precheck.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <sstream>
@@ -12,6 +13,7 @@ namespace lasso::mdat {
 namespace {
 
 struct Property {
+  std::string name;
   std::size_t count_size = 0;  // bytes of a list's length; 0: a single value
   std::size_t value_size = 0;
 };
@@ -36,41 +38,78 @@ std::size_t size_of_type(const std::string& type) {
   return found->second;
 }
 
-Property read_property(std::istringstream& words) {
-  std::string type;
+[[noreturn]] void refuse(const std::string& line) {
+  throw MeshError("has a PLY header with a line that is not understood: \"" + line + '"');
+}
+
+Property read_property(std::istringstream& words, const std::string& line) {
+  std::string type, count;
+  Property property;
   words >> type;
-  if (type != "list") return {0, size_of_type(type)};
-  std::string count, value;
-  words >> count >> value;
-  return {size_of_type(count), size_of_type(value)};
+  if (type == "list") words >> count >> type;
+  if (!(words >> property.name)) refuse(line);
+  if (!count.empty()) property.count_size = size_of_type(count);
+  property.value_size = size_of_type(type);
+  return property;
+}
+
+Format read_format(std::istringstream& words, const std::string& line) {
+  static const std::map<std::string, Format> formats{
+      {"ascii", Format::kAscii}, {"binary_little_endian", Format::kLittle}, {"binary_big_endian", Format::kBig}};
+  std::string name, version;
+  words >> name >> version;
+  const auto found = formats.find(name);
+  if (found == formats.end() || version != "1.0") refuse(line);
+  return found->second;
 }
 
 void read_line(const std::string& line, Header& header) {
   std::istringstream words(line);
-  std::string keyword, name;
+  std::string keyword;
   words >> keyword;
-  if (keyword == "format" && words >> name) {
-    header.format = name == "ascii" ? Format::kAscii : name == "binary_big_endian" ? Format::kBig : Format::kLittle;
+  if (keyword == "ply" || keyword == "comment" || keyword == "obj_info") return;
+  if (keyword == "format") {
+    header.format = read_format(words, line);
   } else if (keyword == "element") {
     Element element;
-    words >> element.name >> element.count;
+    if (!(words >> element.name >> element.count)) refuse(line);
     header.elements.push_back(element);
   } else if (keyword == "property" && !header.elements.empty()) {
-    header.elements.back().properties.push_back(read_property(words));
+    header.elements.back().properties.push_back(read_property(words, line));
+  } else {
+    refuse(line);
   }
 }
 
+// The mesh library is strict about none of this: it searches on for ever, or reads past the end.
 Header read_header(std::string_view bytes) {
-  const std::size_t mark = bytes.find("end_header");
-  const std::size_t end = mark == std::string_view::npos ? mark : bytes.find('\n', mark);
-  const std::string_view rest = end == std::string_view::npos ? bytes : bytes.substr(mark + 10, end - mark - 10);
-  if (bytes.substr(0, 3) != "ply" || !(rest.empty() || rest == "\r") || end == std::string_view::npos)
-    throw MeshError("is not a PLY file, or its header is truncated");
   Header header;
-  header.end = end + 1;
-  std::istringstream lines{std::string(bytes.substr(0, mark))};
-  for (std::string line; std::getline(lines, line);) read_line(line, header);
-  return header;
+  std::size_t begin = 0;
+  for (std::size_t end = bytes.find('\n'); end != std::string_view::npos; begin = end + 1, end = bytes.find('\n', begin)) {
+    std::string line(bytes.substr(begin, end - begin));
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+    if (begin == 0 && line != "ply") break;
+    header.end = end + 1;
+    if (line == "end_header") return header;
+    read_line(line, header);
+  }
+  throw MeshError("is not a PLY file, or its header is truncated");
+}
+
+bool has_property(const Element& element, const std::string& name, bool list) {
+  return std::any_of(element.properties.begin(), element.properties.end(),
+                     [&](const Property& property) { return property.name == name && (property.count_size > 0) == list; });
+}
+
+void check_properties(const Element& element) {
+  if (element.properties.empty()) throw MeshError("has a PLY element without properties: \"" + element.name + '"');
+  if (element.name == "vertex" &&
+      !(has_property(element, "x", false) && has_property(element, "y", false) && has_property(element, "z", false))) {
+    throw MeshError("has vertices without the properties x, y, z");
+  }
+  if (element.name == "face" && !has_property(element, "vertex_index", true) && !has_property(element, "vertex_indices", true)) {
+    throw MeshError("has faces without a list of vertex_index or vertex_indices");
+  }
 }
 
 // Walks through the data, value by value.
@@ -135,7 +174,7 @@ std::size_t precheck_ply(std::string_view bytes) {
   Data data(bytes.substr(header.end), header.format);
   std::size_t faces = 0;
   for (const Element& element : header.elements) {
-    if (element.properties.empty()) throw MeshError("has a PLY element without properties: \"" + element.name + '"');
+    check_properties(element);
     if (element.name == "face") faces = element.count;
     for (std::size_t i = 0; i < element.count; ++i) {
       if (skip_element(element, data)) continue;
