@@ -17,6 +17,7 @@ namespace {
 constexpr std::size_t kStlHeader = 84;
 constexpr std::size_t kStlTriangle = 50;
 constexpr std::size_t kGlbHeader = 12;
+constexpr std::size_t kGlbChunkHeader = 8;
 
 std::uint32_t little_endian_u32(std::string_view bytes, std::size_t offset) {
   std::uint32_t value = 0;
@@ -92,18 +93,29 @@ std::size_t precheck_obj(std::string_view bytes) {
   return faces;
 }
 
-std::size_t precheck_glb(std::string_view bytes) {
-  if (bytes.size() < kGlbHeader || bytes.substr(0, 4) != "glTF") throw MeshError("is not a binary glTF file, or truncated");
-  const std::size_t length = little_endian_u32(bytes, 8);
-  if (length > bytes.size()) {
-    throw MeshError("is truncated: its header says " + std::to_string(length) + " bytes, but it has " + std::to_string(bytes.size()));
+// Counts in a glTF's JSON that its buffers cannot hold: the mesh library would try them all.
+std::size_t precheck_gltf(std::string_view text) {
+  const nlohmann::json root = nlohmann::json::parse(text, nullptr, false);
+  if (!root.is_object()) throw MeshError("is not a glTF file (its JSON is truncated or corrupt)");
+  double bytes = 0;
+  for (const auto& buffer : root.value("buffers", nlohmann::json::array()))
+    bytes += buffer.is_object() ? buffer.value("byteLength", 0.0) : 0.0;
+  for (const auto& accessor : root.value("accessors", nlohmann::json::array())) {
+    const double count = accessor.is_object() ? accessor.value("count", -1.0) : -1.0;
+    if (!(count >= 0 && count <= bytes)) throw MeshError("has a glTF accessor whose count does not fit its buffers: the file is corrupt");
   }
   return 1;
 }
 
-std::size_t precheck_gltf(std::string_view bytes) {
-  if (!nlohmann::json::accept(bytes)) throw MeshError("is not a glTF file (its JSON is truncated or corrupt)");
-  return 1;
+std::size_t precheck_glb(std::string_view bytes) {
+  if (bytes.size() < kGlbHeader + kGlbChunkHeader || bytes.substr(0, 4) != "glTF")
+    throw MeshError("is not a binary glTF file, or truncated");
+  const std::size_t length = little_endian_u32(bytes, 8);
+  const std::size_t text_length = little_endian_u32(bytes, kGlbHeader);
+  if (length > bytes.size() || text_length > bytes.size() - kGlbHeader - kGlbChunkHeader) {
+    throw MeshError("is truncated or corrupt: its header announces more than its " + std::to_string(bytes.size()) + " bytes");
+  }
+  return precheck_gltf(bytes.substr(kGlbHeader + kGlbChunkHeader, text_length));
 }
 
 }  // namespace
@@ -114,8 +126,12 @@ std::size_t precheck_mesh_file(const std::filesystem::path& file, std::string_vi
   if (kind == ".stl") return precheck_stl(bytes);
   if (kind == ".ply") return precheck_ply(bytes);
   if (kind == ".obj") return precheck_obj(bytes);
-  if (kind == ".glb") return precheck_glb(bytes);
-  if (kind == ".gltf") return precheck_gltf(bytes);
+  try {
+    if (kind == ".glb") return precheck_glb(bytes);
+    if (kind == ".gltf") return precheck_gltf(bytes);
+  } catch (const nlohmann::json::exception&) {
+    throw MeshError("is a corrupt glTF file: a value is of the wrong type");
+  }
   throw MeshError("is of kind \"" + kind + "\", expected .stl, .obj, .ply, .gltf or .glb");
 }
 

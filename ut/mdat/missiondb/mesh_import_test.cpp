@@ -175,6 +175,25 @@ TEST(MeshImport, RefusesTruncationOfOtherFormats) {
   EXPECT_NE(import_error(file), "");
 }
 
+// The binary form of a glTF text, with an empty buffer chunk.
+std::string glb(std::string text, std::uint32_t text_length) {
+  const auto word = [](std::uint32_t value) { return little_endian(&value, 4); };
+  return "glTF" + word(2) + word(static_cast<std::uint32_t>(20 + text.size())) + word(text_length) + "JSON" + text;
+}
+
+TEST(MeshImport, RefusesCountsThatAGltfCannotHold) {
+  VERIFIES("LASSO-GND-005");
+  const Folder folder;
+  std::string text = gltf(box(), folder);
+  const auto length = static_cast<std::uint32_t>(text.size());
+  EXPECT_NE(import_error(folder.write("g.glb", glb(text, length + 1))).find("truncated or corrupt"), std::string::npos);
+  EXPECT_NE(import_error(folder.write("g.glb", glb(text, 0xA2000000u))).find("truncated or corrupt"), std::string::npos);
+  text.replace(text.find("\"count\":36"), 10, "\"count\":36000000000");
+  EXPECT_NE(import_error(folder.write("g.gltf", text)).find("accessor"), std::string::npos);
+  text.replace(text.find("36000000000"), 11, "\"many\"");
+  EXPECT_NE(import_error(folder.write("g.gltf", text)).find("wrong type"), std::string::npos);
+}
+
 TEST(MeshImport, RefusesNotANumber) {
   VERIFIES("LASSO-GND-005");
   const Folder folder;
