@@ -1,7 +1,9 @@
 #include "bsp/posix/runner.hpp"
 
 #include <chrono>
+#include <cstdio>
 
+#include "fsw/core/crc.hpp"
 #include "ut/exec/component_scene.hpp"
 
 namespace lasso::posix {
@@ -19,7 +21,9 @@ std::vector<std::uint8_t> single_threaded() {
 TEST(Runner, TwoThreadsGiveTheBytesOfOne) {
   VERIFIES("LASSO-EXE-002");
   const std::vector<std::uint8_t> expected = single_threaded();
-  ASSERT_GT(expected.size(), 0u);
+  ASSERT_EQ(expected.size(), (kFrames - 2) * 483u);
+  // The same on every processor: to be compared between host and target.
+  std::printf("CRC-32C of the telemetry: %08lX\n", 0UL + crc32c(ConstBytes(expected.data(), expected.size())));
   for (int repetition = 0; repetition < 5; ++repetition) {
     test::ComponentScene scene(test::box_parameters(test::default_scene()));
     scene.begin();
@@ -64,7 +68,7 @@ TEST(Runner, RealTimeKeepsItsPace) {
   for (int frame = 0; frame < 10; ++frame) packets += runner.run_frame().telemetry.size() / 483;
   const double elapsed_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   EXPECT_GE(elapsed_s, 0.995);  // from boundary 0 to the last slot of frame 9
-  EXPECT_LT(elapsed_s, 2.0);
+  EXPECT_LT(elapsed_s, 5.0);    // a busy machine may be late, and catches up
   EXPECT_EQ(packets, 8u);
 }
 
