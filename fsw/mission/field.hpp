@@ -141,15 +141,16 @@ inline FieldHit<N> sample_field(const Field<N>& field, const FieldRay<N>& ray, t
   return hit;
 }
 
-// The first element that the ray hits with t in [from, to] (to within half a cell). Bound: kMaxWalkSteps samples.
+// The first element that the ray hits with t in [from, to]. Bound: kMaxWalkSteps samples.
 template <class N>
 inline FieldHit<N> walk_field(const Field<N>& field, const FieldRay<N>& ray, typename N::Length from, typename N::Length to) {
-  typename N::Length t = from;
-  const auto last = to + field.cell / 2;  // the sample there still sees back to `to`
-  for (int step = 0; step < kMaxWalkSteps && t <= last; ++step) {
+  const auto half = field.cell / 2;  // a sample sees half a cell to either side
+  typename N::Length t = from + half;
+  const auto end = to + half;
+  for (int step = 0; step < kMaxWalkSteps && t < end; ++step) {
     typename N::Length next;
     const FieldHit<N> hit = sample_field(field, ray, t, next);
-    if (hit.found) return hit;
+    if (hit.found) return hit.t > to ? FieldHit<N>() : hit;
     t = next;
   }
   return {};

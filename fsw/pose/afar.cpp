@@ -56,35 +56,51 @@ void add_foot(const Field<N>& field, const GridPlace<N>& place, N::Length gate, 
   for (int axis = 0; axis < 3; ++axis) {
     N::Unit n[3] = {0, 0, 0};
     n[axis] = 1;
-    sums.equations.add(ray.m, n, gap[axis], (1 - q) * (1 - q));
+    sums.rows.add(ray.m, n, gap[axis], (1 - q) * (1 - q), gap[axis]);
   }
 }
 
-void add_far_point(const Field<N>& field, const MatchSettings<N>& s, const FieldRay<N>& ray, PassSums<N>& sums) {
-  const GridPlace<N> place = place_in_grid(field, ray.cell_m);
-  const bool near = place.inside && field.brick_words[kBrickWords * place.brick + 1] != 0;
-  if (!near) return add_foot(field, place, s.gate, ray, sums);
-  const SurfaceMatch<N> match = match_near(field, s, ray);
-  if (match.found) add_near_match(s, ray, match, sums);
+// The plane of the closest element that faces the ray: cheap and wide, exact only near the near cell's centre.
+void add_near_plane(const Field<N>& field, const GridPlace<N>& place, N::Length gate, const FieldRay<N>& ray, PassSums<N>& sums) {
+  const std::uint32_t index = near_element(field, place, ray.u);
+  if (index == kNoElement) return;
+  const Element<N>& e = field.elements[index];
+  const N::Length distance = e.d - dot3<N>(e.n, ray.m);
+  const auto q = distance / gate;
+  if (!(q < 1 && q > -1)) return;
+  sums.rows.add(ray.m, e.n, distance, (1 - q * q) * (1 - q * q), distance);
 }
 
-void take_far_pass(const Mission& mission, const MatchSettings<N>& s, const Workspace& workspace, Pose& pose) {
-  Pass pass;
+bool is_near(const Field<N>& field, const GridPlace<N>& place) {
+  return place.inside && field.brick_words[kBrickWords * place.brick + 1] != 0;
+}
+
+// A pass over a quarter of the points on closest planes and, where `far` and the surface is far, foot points.
+void take_plane_pass(const Mission& mission, const MatchSettings<N>& s, bool far, const Workspace& workspace, Pose& pose) {
+  const Field<N>& field = mission.field;
   const PathPose<N> path = to_path<N>(pose);
+  Pass pass;
   for (std::size_t i = 0; i < workspace.points.size(); i += kQuarter) {
-    FieldRay<N> ray;
-    if (to_field_ray(mission.field, path, workspace.points[i], ray)) add_far_point(mission.field, s, ray, pass.sums);
+    FieldRay<N> ray = to_target(path, workspace.points[i]);
+    set_cells(field, ray);
+    if (!near_grid(ray)) continue;
+    const GridPlace<N> place = place_in_grid(field, ray.cell_m);
+    if (is_near(field, place)) {
+      add_near_plane(field, place, s.gate, ray, pass.sums);
+    } else if (far) {
+      add_foot(field, place, s.gate, ray, pass.sums);
+    }
   }
-  pass.sums.equations.flush();
-  solve_pass(mission, s, pass, pose);
+  pass.sums.rows.flush();
+  solve_pass(mission, s, 1, pass, pose);
 }
 
 void settle(const Mission& mission, MatchSettings<N>& s, Workspace& workspace, Pose& pose) {
   const double gate_m = mission.parameters.gate_first_m;
   set_gate(2 * gate_m, s);
-  for (int i = 0; i < kNearPasses; ++i) (void)take_pass(mission, s, kQuarter, Lookup::kNear, workspace, pose);
+  for (int i = 0; i < kNearPasses; ++i) take_plane_pass(mission, s, false, workspace, pose);
   set_gate(gate_m, s);
-  for (int i = 0; i < kRayPasses; ++i) (void)take_pass(mission, s, kQuarter, Lookup::kWalk, workspace, pose);
+  for (int i = 0; i < kRayPasses; ++i) (void)take_pass(mission, s, {kQuarter, Lookup::kWalk, 1}, workspace, pose);
 }
 
 // How many of a quarter of the points lie on the model, to within their noise and a little more.
@@ -94,8 +110,9 @@ std::uint32_t explained(const Mission& mission, MatchSettings<N> s, const Pose& 
   std::uint32_t count = 0;
   for (std::size_t i = 0; i < workspace.points.size(); i += kQuarter) {
     const MatchPoint<N>& point = workspace.points[i];
-    FieldRay<N> ray;
-    if (!to_field_ray(mission.field, path, point, ray)) continue;
+    FieldRay<N> ray = to_target(path, point);
+    set_cells(mission.field, ray);
+    if (!near_grid(ray)) continue;
     const N::Length reach = N::to_length(0.4) * point.reach + s.gate;
     if (walk_field(mission.field, ray, -reach, reach).found) ++count;
   }
@@ -135,7 +152,7 @@ Pose approach_from_afar(const Mission& mission, const Pose& T_target_sensor, Wor
   double gate_m = kFarGateFirst * mission.radius_m;
   for (int i = 0; i < kFarPasses; ++i) {
     set_gate(gate_m, s);
-    take_far_pass(mission, s, workspace, pose);
+    take_plane_pass(mission, s, true, workspace, pose);
     gate_m = gate_m * kFarGateShrink > 2 * mission.parameters.gate_first_m ? gate_m * kFarGateShrink : 2 * mission.parameters.gate_first_m;
   }
   Candidate best = settled(mission, s, pose, workspace);

@@ -41,7 +41,17 @@ double range_sigma(const MissionParameters& p, double range_m, double scale) {
   return square_root((p.sigma0_m * p.sigma0_m + grown * grown) * scale);
 }
 
-// Lets the silhouettes speak: moves the pose and shrinks the covariance.
+// Labels were found, and are linear, within the band around the contour. A step that leaves it (the hits alone held the pose too loosely)
+// would be an extrapolation.
+bool stays_in_band(const Vec6& step, double band_m, Span<const Label> labels) {
+  for (const Label& label : labels) {
+    const double shift = label.a.dot(step);
+    if (!(shift < band_m && shift > -band_m)) return false;
+  }
+  return true;
+}
+
+// Lets the silhouettes speak: moves the pose and shrinks the covariance. Labels that cannot be used are dropped.
 void use_silhouettes(const Mission& mission, bool misses_known, double scale, Workspace& workspace, Pose& pose, Mat6& covariance) {
   LabelSearch search;
   search.misses_known = misses_known;
@@ -51,6 +61,10 @@ void use_silhouettes(const Mission& mission, bool misses_known, double scale, Wo
   PoseBelief belief;
   belief.covariance = covariance;
   apply_labels(workspace.labels.span(), mission.parameters, belief);
+  if (!stays_in_band(belief.mean, mission.parameters.silhouette_band_m, workspace.labels.span())) {
+    workspace.labels.clear();
+    return;
+  }
   pose = step_pose(pose, belief.mean);
   covariance = belief.covariance;
 }

@@ -31,24 +31,24 @@ MatchSettings<N> make_settings(const MissionParameters& p, const Workspace& work
 
 void set_gate(double gate_m, MatchSettings<N>& s) { s.gate = N::to_length(gate_m); }
 
-void solve_pass(const Mission& mission, const MatchSettings<N>& s, Pass& pass, Pose& T_target_sensor) {
-  if (pass.sums.equations.count < kMinimumPoints) return;
+void solve_pass(const Mission& mission, const MatchSettings<N>& s, double damping, Pass& pass, Pose& T_target_sensor) {
+  if (pass.sums.rows.count() < kMinimumPoints) return;
   Vec6 b;
-  pass.sums.equations.unpack(pass.H, b);
+  pass.sums.rows.unpack(pass.H, b);
   const double scale = 1 / N::to_double(s.reference_variance);
   pass.H *= scale;
   b *= scale;
   add_wide_prior(mission.radius_m, pass.H);
   pass.status = solve6(pass.H, b, pass.x);
+  pass.x *= damping;
   if (pass.status == Status::kOk) T_target_sensor = step_pose(T_target_sensor, pass.x);
 }
 
-Pass take_pass(const Mission& mission, const MatchSettings<N>& s, std::size_t stride, Lookup lookup, Workspace& workspace,
-               Pose& T_target_sensor) {
+Pass take_pass(const Mission& mission, const MatchSettings<N>& s, const PassKind& kind, Workspace& workspace, Pose& T_target_sensor) {
   Pass pass;
   const Span<MatchPoint<N>> points(workspace.points.begin(), workspace.points.size());
-  match_points(mission.field, to_path<N>(T_target_sensor), s, points, stride, lookup, pass.sums);
-  solve_pass(mission, s, pass, T_target_sensor);
+  match_points(mission.field, to_path<N>(T_target_sensor), s, points, kind.stride, kind.lookup, pass.sums);
+  solve_pass(mission, s, kind.damping, pass, T_target_sensor);
   return pass;
 }
 

@@ -9,6 +9,13 @@ namespace lasso {
 constexpr std::size_t kQuarter = 4;  // stride of the passes over a quarter of the points
 constexpr std::uint32_t kMinimumPoints = 12;
 
+// Which points a pass takes, how it looks for their surface, and how much of the solution it steps.
+struct PassKind {
+  std::size_t stride = 1;
+  Lookup lookup = Lookup::kWalk;
+  double damping = 1;
+};
+
 struct Pass {
   PassSums<FlightNumber> sums;
   Mat6 H = Mat6::Zero();
@@ -19,11 +26,11 @@ struct Pass {
 MatchSettings<FlightNumber> make_settings(const MissionParameters& parameters, const Workspace& workspace);
 void set_gate(double gate_m, MatchSettings<FlightNumber>& settings);
 
-// Solves the sums of `pass` and, where that succeeds, steps the pose.
-void solve_pass(const Mission& mission, const MatchSettings<FlightNumber>& settings, Pass& pass, Pose& T_target_sensor);
+// Solves the sums of `pass` and, where that succeeds, steps the pose by `damping` times the solution.
+void solve_pass(const Mission& mission, const MatchSettings<FlightNumber>& settings, double damping, Pass& pass, Pose& T_target_sensor);
 
-// A pass over every stride-th point from the pose, which takes the step.
-Pass take_pass(const Mission& mission, const MatchSettings<FlightNumber>& settings, std::size_t stride, Lookup lookup, Workspace& workspace,
+// A pass from the pose, which takes the step.
+Pass take_pass(const Mission& mission, const MatchSettings<FlightNumber>& settings, const PassKind& kind, Workspace& workspace,
                Pose& T_target_sensor);
 
 }  // namespace lasso

@@ -7,59 +7,99 @@ namespace {
 
 using N = FlightNumber;
 
+constexpr double kInsignificant = 0.03;  // squared step in sigmas^2
+constexpr int kUndampedPasses = 6;
+
 bool is_small(const Vec6& x, const MissionParameters& p) {
   return x.head<3>().squaredNorm() < p.stop_rotation_rad * p.stop_rotation_rad &&
          x.tail<3>().squaredNorm() < p.stop_translation_m * p.stop_translation_m;
+}
+
+// A step far below the pose's own uncertainty, by the noise that the residuals show: points at edges may change sides for ever.
+bool is_insignificant(const Pass& pass, const MatchSettings<N>& s) {
+  const double noise = pass.sums.rows.chi_squared() / N::to_double(s.reference_variance) / pass.sums.rows.count();
+  return pass.x.dot(pass.H * pass.x) < kInsignificant * noise;
 }
 
 StopReason reason_of(Status status) { return status == Status::kNoData ? StopReason::kTooFewPoints : StopReason::kSingular; }
 
 void keep(const Pass& pass, const MatchSettings<N>& s, HitSolution& solution) {
   solution.H = pass.H;
-  solution.inliers = pass.sums.equations.count;
+  solution.inliers = pass.sums.rows.count();
   solution.usable = pass.sums.usable;
-  solution.chi_squared = static_cast<double>(pass.sums.chi_squared) / N::to_double(s.reference_variance);
-  solution.squared_residual_m2 = static_cast<double>(pass.sums.squared_residual);
+  solution.chi_squared = pass.sums.rows.chi_squared() / N::to_double(s.reference_variance);
+  solution.squared_residual_m2 = pass.sums.rows.squared_range();
 }
 
-// Passes over all points, the first of them a walk along the whole gate: without one, surfaces in front go unnoticed.
+// Passes over all points, the first of them a walk along the whole gate: without one, surfaces in front go unnoticed. Points at edges can
+// change sides for ever, which the undamped steps would follow to and fro.
 void iterate_all(const Mission& mission, const MatchSettings<N>& s, Workspace& workspace, HitSolution& solution) {
   const int limit = static_cast<int>(mission.parameters.iterations_max);
   solution.stop = StopReason::kIterationLimit;
+  PassKind kind{1, Lookup::kWalk, 1};
   for (int i = 0; i < limit; ++i) {
-    const Pass pass = take_pass(mission, s, 1, i == 0 ? Lookup::kWalk : Lookup::kLast, workspace, solution.T_target_sensor);
+    const Pass pass = take_pass(mission, s, kind, workspace, solution.T_target_sensor);
+    kind.lookup = Lookup::kLast;
+    if (i + 1 >= kUndampedPasses) kind.damping *= 0.5;
     ++solution.iterations;
     keep(pass, s, solution);
     if (pass.status != Status::kOk) {
       solution.stop = reason_of(pass.status);
       return;
     }
-    if (is_small(pass.x, mission.parameters)) {
+    if (is_small(pass.x, mission.parameters) || is_insignificant(pass, s)) {
       solution.stop = StopReason::kConverged;
       return;
     }
   }
 }
 
-}  // namespace
+// How a registration begins: passes on rays with a wide gate that shrinks.
+struct Opening {
+  int passes;
+  double gate_first;   // in estimation.gate_first_m
+  double gate_shrink;  // from pass to pass
+  std::size_t stride;  // of the points
+};
+constexpr Opening kUsual{2, 1.0, 0.3, kQuarter};
+constexpr Opening kSecondLook{3, 2.0, 0.5, 1};
+constexpr double kExplainedShare = 0.99;  // of the returns: below, the pose may sit in a wrong minimum
 
-HitSolution register_hits(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace) {
+HitSolution register_from(const Mission& mission, const Pose& start, const Opening& opening, Workspace& workspace) {
   HitSolution solution;
-  solution.T_target_sensor = T_target_sensor;
-  solution.stop = StopReason::kTooFewPoints;
-  if (workspace.points.size() < kMinimumPoints) return solution;
+  solution.T_target_sensor = start;
   MatchSettings<N> s = make_settings(mission.parameters, workspace);
-  const double gate_m = mission.parameters.gate_first_m;
-  if (gate_m > 0) {
-    set_gate(1.5 * gate_m, s);
-    (void)take_pass(mission, s, kQuarter, Lookup::kNear, workspace, solution.T_target_sensor);
+  double gate_m = opening.gate_first * mission.parameters.gate_first_m;
+  for (int i = 0; i < opening.passes; ++i) {
     set_gate(gate_m, s);
-    (void)take_pass(mission, s, kQuarter, Lookup::kWalk, workspace, solution.T_target_sensor);
-    solution.iterations = 2;
+    (void)take_pass(mission, s, {opening.stride, Lookup::kWalk, 1}, workspace, solution.T_target_sensor);
+    gate_m *= opening.gate_shrink;
+    ++solution.iterations;
   }
   set_gate(0, s);
   iterate_all(mission, s, workspace, solution);
   return solution;
+}
+
+double explained_share(const HitSolution& solution) {
+  return solution.usable > 0 ? static_cast<double>(solution.inliers) / solution.usable : 0;
+}
+
+}  // namespace
+
+HitSolution register_hits(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace) {
+  if (workspace.points.size() < kMinimumPoints) {
+    HitSolution nothing;
+    nothing.T_target_sensor = T_target_sensor;
+    nothing.stop = StopReason::kTooFewPoints;
+    return nothing;
+  }
+  HitSolution first = register_from(mission, T_target_sensor, kUsual, workspace);
+  if (explained_share(first) >= kExplainedShare) return first;
+  HitSolution second = register_from(mission, first.T_target_sensor, kSecondLook, workspace);
+  second.iterations = static_cast<std::uint16_t>(second.iterations + first.iterations);
+  first.iterations = second.iterations;
+  return explained_share(second) > explained_share(first) ? second : first;
 }
 
 }  // namespace lasso
