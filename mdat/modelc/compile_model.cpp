@@ -17,6 +17,7 @@ namespace {
 
 constexpr double kCellsPerExtent = 165;
 constexpr double kBandCells = 5;
+constexpr std::size_t kHullPointsMin = 4;  // the loader expects a body
 
 void check_range(const char* name, double value, double low, double high) {
   if (!(value >= low && value <= high)) fail("model option ", name, " is ", value, "; it must lie between ", low, " and ", high);
@@ -59,25 +60,30 @@ std::vector<std::uint32_t> geometry_words(const Surface& surface, const Grid& gr
 }
 
 std::vector<std::uint32_t> hull_words(const Surface& surface, const LengthScale& scale, CompileReport& report) {
-  const std::vector<Vec3d> points = extreme_points(surface.vertices, surface.extent, kMaxHullPoints);
+  std::vector<Vec3d> points = extreme_points(surface.vertices, surface.extent, kMaxHullPoints);
+  while (points.size() < kHullPointsMin) points.push_back(points.back());  // a single triangle has but three
   report.hull_points = points.size();
   std::vector<std::uint32_t> words;
   for (const Vec3d& p : points) append_point(words, scale, p);
   return words;
 }
 
-void put_field(RayField ray, NearField near, ModelTables& tables) {
-  std::vector<std::uint32_t>& bricks = tables[TableId::kBricks];
-  for (std::size_t i = 0; i < ray.brick_words.size(); ++i) {
-    bricks.push_back(ray.brick_words[i]);
-    bricks.push_back(near.brick_words[i]);
+void put_ray_field(RayField ray, ModelTables& tables) {
+  for (const std::uint32_t word : ray.brick_words) {
+    tables[TableId::kBricks].push_back(word);
+    tables[TableId::kBricks].push_back(0);  // no near cells yet
   }
   tables[TableId::kRayCells] = std::move(ray.cells);
   tables[TableId::kRayLists] = std::move(ray.lists);
+}
+
+void put_near_field(NearField near, ModelTables& tables) {
+  for (std::size_t i = 0; i < near.brick_words.size(); ++i) tables[TableId::kBricks][kBrickWords * i + 1] = near.brick_words[i];
   tables[TableId::kNearCells] = std::move(near.cells);
   tables[TableId::kFootPoints] = std::move(near.foot_points);
 }
 
+// Also asked half-way, before time is spent on a model that cannot fit.
 void put_sizes(const ModelTables& tables, CompileReport& report) {
   report.total_bytes = 0;
   for (std::size_t id = 0; id < tables.words.size(); ++id) {
@@ -111,12 +117,13 @@ ModelTables make_tables(const Surface& surface, const ModelOptions& options, Com
   ModelTables tables;
   tables[TableId::kEdges] = make_edges(surface, uses, polygons, elements.list, scale, report);
   progress("list the elements of each cell", 0.3);
-  RayField ray = make_ray_field(elements.list, grid, report);
-  progress("find closest elements", 0.6);
-  put_field(std::move(ray), make_near_field(elements.list, grid, scale, band_m, report), tables);
-  tables[TableId::kFieldGeometry] = geometry_words(surface, grid, scale, band_m);
+  put_ray_field(make_ray_field(elements.list, grid, report), tables);
   tables[TableId::kElements] = std::move(elements.words);
   tables[TableId::kCurvatures] = std::move(elements.curvature_words);
+  put_sizes(tables, report);
+  progress("find closest elements", 0.6);
+  put_near_field(make_near_field(elements.list, grid, scale, band_m, report), tables);
+  tables[TableId::kFieldGeometry] = geometry_words(surface, grid, scale, band_m);
   tables[TableId::kHull] = hull_words(surface, scale, report);
   return tables;
 }

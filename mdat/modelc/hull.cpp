@@ -44,6 +44,17 @@ Support find_support(const std::vector<Vec3d>& vertices, const Vec3d& direction)
   return support;
 }
 
+// Away from the middle of the points.
+void move_outward(double distance, std::vector<Vec3d>& points) {
+  Vec3d low = points.front(), high = low;
+  for (const Vec3d& p : points) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  const Vec3d middle = (low + high) / 2;
+  for (Vec3d& p : points) p += distance * (p - middle).normalized();
+}
+
 }  // namespace
 
 std::vector<Vec3d> extreme_points(const std::vector<Vec3d>& vertices, double extent_m, std::size_t count_max) {
@@ -58,15 +69,13 @@ std::vector<Vec3d> extreme_points(const std::vector<Vec3d>& vertices, double ext
     }
   };
   const auto deficit = [](const Support& s) { return s.reach - s.chosen; };
+  const auto less = [&](const Support& x, const Support& y) { return deficit(x) < deficit(y); };
   for (std::size_t i = 0; i < 6 && points.size() < count_max; ++i) {
     if (deficit(supports[i]) > kClose * extent_m) choose(supports[i].vertex);
   }
-  while (points.size() < count_max) {
-    const auto worst =
-        std::max_element(supports.begin(), supports.end(), [&](const Support& x, const Support& y) { return deficit(x) < deficit(y); });
-    if (deficit(*worst) <= kClose * extent_m) break;
-    choose(worst->vertex);
-  }
+  const auto worst = [&] { return std::max_element(supports.begin(), supports.end(), less); };
+  while (points.size() < count_max && deficit(*worst()) > kClose * extent_m) choose(worst()->vertex);
+  if (deficit(*worst()) > kClose * extent_m) move_outward(deficit(*worst()) / 2, points);
   return points;
 }
 

@@ -10,10 +10,10 @@
 namespace lasso::mdat {
 namespace {
 
-constexpr int kRaysPerSide = 32;
-constexpr int kEscapesMin = 2;             // fewer are leaks through cracks
-constexpr double kBackShareOfSheet = 0.2;  // of a component's escapes
-constexpr double kLift = 4e-6;             // start of a ray above the surface, as a share of the extent
+constexpr int kRaysPerSide = 64;
+constexpr int kEscapesMin = 2;         // fewer are leaks through cracks
+constexpr double kShareOfSheet = 0.5;  // of a component's lit area
+constexpr double kLift = 4e-6;         // start of a ray above the surface, as a share of the extent
 constexpr std::uint64_t kSeed = 20050331;
 
 struct Escapes {
@@ -52,6 +52,7 @@ Escapes count_escapes(const Surface& surface, const EmbreeScene& scene, std::siz
 
 struct ComponentLight {
   double front = 0, back = 0, volume = 0;
+  double lit = 0, lit_twice = 0;  // area lit from any side, from both
 };
 
 std::vector<ComponentLight> sum_light(const Surface& surface, const Components& components, const std::vector<Escapes>& escapes) {
@@ -60,6 +61,9 @@ std::vector<ComponentLight> sum_light(const Surface& surface, const Components& 
     ComponentLight& sum = light[components.of_triangle[t]];
     const Vec3d a = surface.corner(t, 0) - surface.low, b = surface.corner(t, 1) - surface.low, c = surface.corner(t, 2) - surface.low;
     const double area = (b - a).cross(c - a).norm();
+    const int less = std::min(escapes[t].front, escapes[t].back);
+    sum.lit += escapes[t].front + escapes[t].back > 0 ? area : 0;
+    sum.lit_twice += less >= kEscapesMin ? area : 0;
     sum.front += area * escapes[t].front;
     sum.back += area * escapes[t].back;
     sum.volume += a.dot(b.cross(c));
@@ -86,8 +90,7 @@ void turn_outward(Surface& surface, const Components& components, CompileReport&
     flip[c] = is_inside_out(light[c], components.open[c] != 0);
     report.flipped_components += flip[c];
     report.hidden_components += light[c].front + light[c].back == 0;
-    const double back = std::min(light[c].front, light[c].back);
-    sheet[c] = components.open[c] != 0 && back > 0 && back >= kBackShareOfSheet * (light[c].front + light[c].back);
+    sheet[c] = components.open[c] != 0 && light[c].lit_twice > kShareOfSheet * light[c].lit;
   }
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
     const std::uint32_t c = components.of_triangle[t];

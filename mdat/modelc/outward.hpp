@@ -8,7 +8,7 @@ namespace lasso::mdat {
 
 // From seeded random points on both sides of each triangle, cosine-weighted rays are followed (Embree). A component turns to the side from
 // which more rays escape (by area); a closed hidden one to positive volume. Triangles of open components whose both sides let rays escape
-// become two-sided: all of them if the back has a fifth of the component's escapes, else one by one.
+// become two-sided: all of a component's triangles if that is so for more than half of its lit area, else one by one.
 void turn_outward(Surface& surface, const Components& components, CompileReport& report);
 
 }  // namespace lasso::mdat

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <tuple>
 
 #include "cfg/capacities.hpp"
@@ -106,7 +107,8 @@ ListStatistics statistics(std::vector<std::size_t> lengths) {
   if (lengths.empty()) return result;
   std::sort(lengths.begin(), lengths.end());
   result.count = lengths.size();
-  for (const std::size_t length : lengths) result.mean += static_cast<double>(length) / static_cast<double>(lengths.size());
+  const std::size_t sum = std::accumulate(lengths.begin(), lengths.end(), std::size_t{0});
+  result.mean = static_cast<double>(sum) / static_cast<double>(lengths.size());
   result.p99 = lengths[(lengths.size() - 1) * 99 / 100];
   result.max = lengths.back();
   return result;
@@ -140,6 +142,13 @@ void place_lists(const std::vector<Entry>& entries, const Grid& grid, RayField& 
   }
   report.ray_lists = statistics(std::move(lengths));
   report.distinct_lists = pool.count();
+}
+
+// Before time is spent on distances.
+void check_size(const RayField& field) {
+  const std::size_t bytes = 4 * (field.cells.size() + field.lists.size());
+  if (bytes > kMaxImageBytes)
+    fail("the ray cells alone need ", bytes, " bytes; the limit of an image is ", kMaxImageBytes, ": take larger cells");
 }
 
 std::array<std::uint32_t, 3> cell_place(const Grid& grid, std::uint32_t brick, std::uint32_t cell) {
@@ -215,6 +224,7 @@ RayField make_ray_field(const std::vector<Element>& elements, const Grid& grid, 
   RayField field;
   field.brick_words.assign(grid.brick_count(), kEmptyBit);
   place_lists(collect_entries(elements, grid), grid, field, report);
+  check_size(field);
   place_distances(grid, field);
   report.ray_bricks = field.cells.size() / kRayCellsPerBrick;
   return field;
