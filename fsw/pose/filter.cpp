@@ -64,7 +64,9 @@ Status check_noise(const FilterNoise& noise) {
 Status check_step(const FilterState& state, TimeUs t_us) {
   if (!state.initialised) return Status::kNoData;
   if (t_us < state.t_us) return Status::kBadOrder;
-  if (t_us - state.t_us > kMaxPredictionUs) return Status::kBadValue;
+  // Unsigned, so that even the farthest instants have a difference.
+  const std::uint64_t step_us = static_cast<std::uint64_t>(t_us) - static_cast<std::uint64_t>(state.t_us);
+  if (step_us > static_cast<std::uint64_t>(kMaxPredictionUs)) return Status::kBadValue;
   const Vec3 rotation = to_seconds(t_us - state.t_us) * state.rates.omega_radps;
   return rotation.squaredNorm() <= kMaxStepRotationRad * kMaxStepRotationRad ? Status::kOk : Status::kBadValue;
 }
