@@ -17,4 +17,10 @@ std::string format(const char* pattern, ...) {
   return text;
 }
 
+std::string decimals(double value, int count) {
+  const std::string text = format("%.*f", count, value);
+  const bool zero = text.find_first_not_of("-0.") == std::string::npos;
+  return zero && text[0] == '-' ? text.substr(1) : text;
+}
+
 }  // namespace lasso::mdat

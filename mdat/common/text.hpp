@@ -1,10 +1,14 @@
-// printf into a string.
+// Text for people.
 #pragma once
 
 #include <string>
 
 namespace lasso::mdat {
 
+// printf into a string.
 [[gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...);
+
+// A number with this many decimals, never as -0.
+std::string decimals(double value, int count);
 
 }  // namespace lasso::mdat

@@ -42,13 +42,14 @@ std::string errors_text(const CaseResult& run, double abscissa_step) {
   return text;
 }
 
+// Far ranges first, so that near ones (with smaller errors) lie on top.
 std::string angle_panel(const std::vector<std::string>& files, const Scenario& scenario, std::size_t axis) {
   std::string text = format("set title '%s, %s'\nplot ", kErrorAxes[axis].name, kErrorAxes[axis].unit);
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    text += format("%s%s using 1:%zu with lines lw 0.8 lc rgb '%s' title '%g m'", i > 0 ? ", " : "", files[i].c_str(), axis + 2,
-                   kRangeColours[i % kRangeColourCount], scenario.ranges_m[i]);
+  for (std::size_t i = files.size(); i-- > 0;) {
+    text += format("%s using 1:%zu with lines lw 0.8 lc rgb '%s' title '%g m'%s", files[i].c_str(), axis + 2,
+                   kRangeColours[i % kRangeColourCount], scenario.ranges_m[i], i > 0 ? ", " : "\n");
   }
-  return text + "\n";
+  return text;
 }
 
 // One line a range: range, rms in mm and degrees, bound in mm and degrees.
@@ -69,8 +70,7 @@ std::string range_panel(const std::vector<std::string>& files, const TableResult
     text += format("%s using 1:%d with linespoints pt 7 ps 0.6 lw 1.4 lc rgb '%s' title '%s', ", files[i].c_str(), column,
                    variant_colour(i), table.variants[i].variant.title);
   }
-  return text + format("%s using 1:%d with lines dt 2 lw 1.4 lc rgb '#2b3440' title 'Cramér-Rao bound of the hits'\n", files[0].c_str(),
-                       column + 2);
+  return text + format("%s using 1:%d with lines dt 2 lw 1.4 lc rgb '#2b3440' title 'bound of the hits'\n", files[0].c_str(), column + 2);
 }
 
 std::vector<double> all_times_us(const VariantResult& variant) {
@@ -101,10 +101,10 @@ std::string error_against_angle(Plotter& plotter, const TableResult& table, cons
   const double step = turns ? table.scenario.step_rad / kRadPerDeg : 1;
   std::vector<std::string> files;
   for (const CaseResult& run : variant.cases) files.push_back(plotter.data(errors_text(run, step)));
-  std::string script =
-      std::string(kStyle) +
-      "set multiplot layout 2,3 margins 0.05,0.985,0.09,0.94 spacing 0.055,0.14\nset key top right opaque samplen 1 font ',11'\n";
-  script += format("set xrange [0:%g]\n", step * static_cast<double>(std::max<std::size_t>(variant.cases[0].frames.size(), 2) - 1));
+  std::string script = std::string(kStyle) +
+                       "set multiplot layout 2,3 margins 0.045,0.925,0.125,0.95 spacing 0.055,0.13\n"
+                       "set key at screen 0.998,0.95 right top vertical samplen 1.2 spacing 1.2\n";
+  script += format("set xrange [0:%g]\n", step * static_cast<double>(variant.cases[0].frames.size()));
   if (turns && variant.cases[0].frames.size() > 180) script += "set xtics 90\n";
   for (std::size_t axis = 0; axis < 6; ++axis) {
     if (axis == 1) script += "unset key\n";
@@ -119,11 +119,13 @@ std::string error_against_range(Plotter& plotter, const TableResult& table) {
   for (const VariantResult& variant : table.variants) files.push_back(plotter.data(ranges_text(variant, table.scenario)));
   const auto [nearest, farthest] = std::minmax_element(table.scenario.ranges_m.begin(), table.scenario.ranges_m.end());
   std::string script =
-      std::string(kStyle) + "set multiplot layout 1,2 margins 0.06,0.985,0.26,0.92 spacing 0.07,0\nset logscale y\nset format y '%g'\n";
-  script += format("set xrange [%g:%g]\nset xlabel 'range, m' textcolor '#46505f'\nset key below maxrows 3 samplen 2\n", *nearest - 0.2,
-                   *farthest + 0.2);
-  script += range_panel(files, table, false) + range_panel(files, table, true);
-  return plotter.svg(1080, 430, script + "unset multiplot\n");
+      std::string(kStyle) + "set multiplot layout 1,2 margins 0.06,0.79,0.18,0.91 spacing 0.07,0\nset logscale y\nset format y '%g'\n";
+  script += format(
+      "set xrange [%g:%g]\nset xlabel 'range, m' textcolor '#46505f'\n"
+      "set key at screen 0.998,0.91 right top vertical samplen 1.5 spacing 1.3\n",
+      *nearest - 0.2, *farthest + 0.2);
+  script += range_panel(files, table, false) + "unset key\n" + range_panel(files, table, true);
+  return plotter.svg(1080, 380, script + "unset multiplot\n");
 }
 
 std::string time_histogram(Plotter& plotter, const TableResult& table) {

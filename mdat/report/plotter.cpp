@@ -6,6 +6,7 @@
 
 #include "mdat/common/errors.hpp"
 #include "mdat/common/output.hpp"
+#include "mdat/common/text.hpp"
 
 namespace lasso::mdat {
 namespace {
@@ -45,8 +46,12 @@ std::string Plotter::svg(int width, int height, const std::string& script) {
       draw("svg" + size_text(width, height) + " dynamic enhanced font 'Arial,13' linewidth 1.2 background '#ffffff'", script));
 }
 
-std::string Plotter::png(int width, int height, const std::string& script) {
-  return draw("pngcairo" + size_text(width, height) + " enhanced font 'Sans,15' linewidth 1.5 background '#ffffff'", script);
+std::string Plotter::png(int width, int height, double scale, const std::string& script) {
+  const std::string size = size_text(static_cast<int>(scale * width), static_cast<int>(scale * height));
+  return draw(
+      "pngcairo" + size +
+          format(" enhanced font 'Sans,14' fontscale %g pointscale %g linewidth %g background '#ffffff'", scale, scale, 1.5 * scale),
+      script);
 }
 
 std::string Plotter::draw(const std::string& terminal, const std::string& script) {

@@ -17,9 +17,10 @@ class Plotter {
   // Puts data into a file and returns its name as a script writes it, in quotes.
   std::string data(std::string_view content);
 
-  // Runs a script and returns what it drew: an inline SVG element, or a PNG file's bytes. `pixels`: width and height. Throws RunError.
+  // Runs a script and returns what it drew: an inline SVG element, or the bytes of a PNG file, all of it scaled. Width and height in
+  // pixels before the scale. Throws RunError.
   std::string svg(int width, int height, const std::string& script);
-  std::string png(int width, int height, const std::string& script);
+  std::string png(int width, int height, double scale, const std::string& script);
 
  private:
   std::string draw(const std::string& terminal, const std::string& script);

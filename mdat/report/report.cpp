@@ -13,7 +13,7 @@
 namespace lasso::mdat {
 namespace {
 
-std::string mean_std_cell(const MeanStd& value) { return format("%.4f <small>±</small> %.4f", value.mean, value.std); }
+std::string mean_std_cell(const MeanStd& value) { return decimals(value.mean, 4) + " <small>±</small> " + decimals(value.std, 4); }
 
 // The paper's table 1 beside this run's: axes down, runs across.
 std::string accuracy_table(const TableResult& table, bool paper) {
@@ -82,7 +82,7 @@ const std::vector<KeptScan>& shown_scans(const TableResult& table) { return main
 
 std::string scans_figure(Plotter& plotter, const sim::RayCaster& target, const TableResult& table) {
   if (shown_scans(table).empty()) return "";
-  const std::string png = scan_view_png(plotter, target, shown_scans(table), table.scenario.step_rad);
+  const std::string png = scan_view_png(plotter, target, shown_scans(table), table.scenario.step_rad, 1);
   const std::string caption = format(
       "The scan on the target at %g m, as the sensor sees it. The model is drawn at the estimated pose. Colour: measured minus predicted "
       "range of each return; grey: rays that missed, which locate the outline.",
@@ -109,11 +109,14 @@ std::string table_section(Plotter& plotter, const sim::RayCaster& target, const 
   std::string html = "<section>\n<h2>" + title + "</h2>\n";
   html += accuracy_table(table, paper && table.name.empty()) + quality_table(table) + range_table(table);
   html += scans_figure(plotter, target, table) + angle_figures(plotter, table);
-  html += figure(error_against_range(plotter, table), "Root mean square error against range (the paper's figure 13).");
+  html += figure(error_against_range(plotter, table),
+                 "Root mean square error against range (the paper's figure 13), and the Cramér-Rao bound of the hits of the same scans.");
   html +=
       figure(time_histogram(plotter, table), "Processor time of whole estimates (range image in, pose and covariance out) on one thread.");
   return html + "</section>\n";
 }
+
+constexpr double kPictureScale = 0.72;  // of the picture for the README
 
 std::string introduction(const SimulationResult& result) {
   const Scenario& scenario = result.tables.front().scenario;
@@ -146,7 +149,7 @@ std::string picture_png(const CompiledMission& mission, const SimulationResult& 
   const TableResult& table = result.tables.front();
   if (shown_scans(table).empty()) throw RunError("no scan to show: the run has no frame at the angles of the picture");
   Plotter plotter;
-  return scan_view_png(plotter, *make_target(mission.mesh), shown_scans(table), table.scenario.step_rad);
+  return scan_view_png(plotter, *make_target(mission.mesh), shown_scans(table), table.scenario.step_rad, kPictureScale);
 }
 
 }  // namespace lasso::mdat

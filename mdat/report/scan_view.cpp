@@ -12,7 +12,7 @@
 namespace lasso::mdat {
 namespace {
 
-constexpr int kPanelWidth = 480, kPanelHeight = 640;
+constexpr int kPanelWidth = 400, kPanelHeight = 520;
 constexpr int kSamplesPerAxis = 3;  // rays of a pixel
 constexpr double kFrameMargin = 1.06;
 using Colour = std::array<double, 3>;
@@ -106,7 +106,7 @@ std::string panel(Plotter& plotter, const sim::RayCaster& target, const KeptScan
   const std::string misses = plotter.data(points_text(scan.samples, RayState::kMiss, target, pose) + "\n");
   const std::string hits = plotter.data(points_text(scan.samples, RayState::kHit, target, pose) + "\n");
   const double z_m = pose.p.z();
-  std::string text = format("set title '%.0f°   %u returns of %u rays'\n", scan.frame * step_rad / kRadPerDeg, scan.telemetry.returns,
+  std::string text = format("set title '%.0f°: %u of %u rays return'\n", scan.frame * step_rad / kRadPerDeg, scan.telemetry.returns,
                             scan.telemetry.plan_points);
   text += format("set xrange [%.4f:%.4f]\nset yrange [%.4f:%.4f]\n", z_m * (view.x - view.half_x), z_m * (view.x + view.half_x),
                  z_m * (view.y + view.half_y), z_m * (view.y - view.half_y));
@@ -117,6 +117,25 @@ std::string panel(Plotter& plotter, const sim::RayCaster& target, const KeptScan
   return text + format("%s using ($1*%.5f):($2*%.5f):3 with points pt 7 ps 0.5 lc palette notitle\n", hits.c_str(), z_m, z_m);
 }
 
+constexpr const char* kStyle =
+    "set size ratio -1\nset border 0\nset tics nomirror out scale 0.4 textcolor '#46505f' font ',12'\nset title textcolor '#2b3440' offset "
+    "0,-0.6\n"
+    "set xlabel 'right, m' textcolor '#46505f' font ',12' offset 0,0.4\nset xtics 0.4\nset ytics 0.4\n"
+    "set palette defined (-1 '#1257b0', -0.5 '#49a0e8', 0 '#f2d43d', 0.5 '#ef7d2b', 1 '#b3102a')\n"
+    "set cblabel 'measured minus predicted range, mm' textcolor '#46505f' font ',12'\nset cbtics scale 0\n";
+
+// Equal panels from left to right; the last one has the colour scale at its right.
+std::string place(std::size_t i, std::size_t count) {
+  constexpr double kLeft = 0.055, kRight = 0.89;
+  const double width = (kRight - kLeft) / static_cast<double>(count);
+  std::string text = format("set lmargin at screen %.4f\nset rmargin at screen %.4f\n", kLeft + static_cast<double>(i) * width,
+                            kLeft + static_cast<double>(i + 1) * width);
+  text += "set bmargin at screen 0.13\nset tmargin at screen 0.92\n";
+  text += i == 0 ? "set ylabel 'down, m' textcolor '#46505f' font ',12' offset 1\n" : "unset ylabel\nset format y ''\n";
+  text += i + 1 < count ? "unset colorbox\n" : "set colorbox user origin screen 0.915,0.2 size screen 0.012,0.64\n";
+  return text;
+}
+
 }  // namespace
 
 double residual_m(const sim::RayCaster& target, const Pose& T_sensor_target, const RangeSample& sample) {
@@ -125,26 +144,20 @@ double residual_m(const sim::RayCaster& target, const Pose& T_sensor_target, con
   return hit.hit ? double{sample.range_m} - hit.range_m : std::numeric_limits<double>::quiet_NaN();
 }
 
-std::string scan_view_png(Plotter& plotter, const sim::RayCaster& target, const std::vector<KeptScan>& scans, double step_rad) {
+std::string scan_view_png(Plotter& plotter, const sim::RayCaster& target, const std::vector<KeptScan>& scans, double step_rad,
+                          double scale) {
   const double span_mm = residual_span_mm(target, scans);
   double half_x = 1e-3, half_y = 1e-3;
   for (const KeptScan& scan : scans) {
     half_x = std::max(half_x, kFrameMargin * scan.telemetry.plan_half_extents[0]);
     half_y = std::max(half_y, kFrameMargin * scan.telemetry.plan_half_extents[1]);
   }
-  std::string script =
-      format("set multiplot layout 1,%zu\nset size ratio -1\nset tics nomirror out scale 0.5 textcolor '#46505f'\n", scans.size());
-  script +=
-      "set border 0\nset xlabel 'right, m' textcolor '#46505f'\nset ylabel 'down, m' textcolor '#46505f' offset 1\nset xtics 0.4\nset "
-      "ytics 0.2\n";
-  script += format("set palette defined (-1 '#1257b0', -0.5 '#49a0e8', 0 '#f2d43d', 0.5 '#ef7d2b', 1 '#b3102a')\nset cbrange [%g:%g]\n",
-                   -span_mm, span_mm);
-  script += "unset colorbox\n";
+  std::string script = kStyle + format("set cbrange [%g:%g]\nset multiplot\n", -span_mm, span_mm);
   for (std::size_t i = 0; i < scans.size(); ++i) {
-    if (i + 1 == scans.size()) script += "set colorbox\nset cblabel 'measured - predicted range, mm' textcolor '#46505f'\n";
+    script += place(i, scans.size());
     script += panel(plotter, target, scans[i], step_rad, make_view(scans[i].telemetry, half_x, half_y));
   }
-  return plotter.png(kPanelWidth * static_cast<int>(scans.size()), kPanelHeight, script + "unset multiplot\n");
+  return plotter.png(kPanelWidth * static_cast<int>(scans.size()), kPanelHeight, scale, script + "unset multiplot\n");
 }
 
 }  // namespace lasso::mdat

@@ -10,9 +10,10 @@
 
 namespace lasso::mdat {
 
-// One panel a scan, side by side, with `title` before the angles: the target shaded at the estimated pose, the rays that missed as grey
-// points, the returns coloured by measured minus predicted range. A PNG file's bytes.
-std::string scan_view_png(Plotter& plotter, const sim::RayCaster& target, const std::vector<KeptScan>& scans, double step_rad);
+// One panel a scan, side by side, 400 x 520 pixels times `scale` each: the target shaded at the estimated pose, the rays that missed as
+// grey points, the returns coloured by measured minus predicted range. A PNG file's bytes.
+std::string scan_view_png(Plotter& plotter, const sim::RayCaster& target, const std::vector<KeptScan>& scans, double step_rad,
+                          double scale);
 
 // Measured minus predicted range of a return at a pose; NaN where the ray does not meet the model there.
 double residual_m(const sim::RayCaster& target, const Pose& T_sensor_target, const RangeSample& sample);

@@ -54,7 +54,7 @@ Json variant_json(const VariantResult& variant, const Scenario& scenario) {
   return json;
 }
 
-std::string cell(const MeanStd& value) { return format("%8.4f /%8.4f", value.mean, value.std); }
+std::string cell(const MeanStd& value) { return format("%8s /%8s", decimals(value.mean, 4).c_str(), decimals(value.std, 4).c_str()); }
 
 // One column an axis table: the paper's first where it applies.
 std::string axes_table(const TableResult& table, bool paper) {
@@ -104,8 +104,9 @@ std::string quality_table(const TableResult& table) {
 std::string table_text(const SimulationResult& result, const TableResult& table) {
   const Scenario& scenario = table.scenario;
   std::string text = format("%s, scenario %s%s: ", result.mission.c_str(), result.scenario.c_str(), table.name.empty() ? "" : ", no tilt");
-  text += format("%zu ranges (%g to %g m) x %u frames, tilt %g deg, registration of single scans\n", scenario.ranges_m.size(),
-                 scenario.ranges_m.front(), scenario.ranges_m.back(), result.frames, scenario.tilt_rad / kRadPerDeg);
+  text += format("%zu range%s (%g to %g m) x %u frames, tilt %g deg, registration of single scans\n", scenario.ranges_m.size(),
+                 scenario.ranges_m.size() == 1 ? "" : "s", scenario.ranges_m.front(), scenario.ranges_m.back(), result.frames,
+                 scenario.tilt_rad / kRadPerDeg);
   text += axes_table(table, table.name.empty() && result.kind == ScenarioKind::kPaper);
   return text + quality_table(table) + "\n";
 }

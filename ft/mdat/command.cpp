@@ -1,0 +1,84 @@
+#include "ft/mdat/command.hpp"
+
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <stdexcept>
+
+namespace lasso::ft {
+
+namespace fs = std::filesystem;
+
+Workplace::Workplace() {
+  std::string name = (fs::temp_directory_path() / "mdat-ft-XXXXXX").string();
+  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
+  folder_ = name;
+  fs::create_directories(folder_ / "missions/models");
+  fs::copy(fs::path(MDAT_SOURCES) / "cfg/models/hubble_tenth.toml", folder_ / "missions/models");
+  write_mission();
+}
+
+Workplace::~Workplace() {
+  std::error_code ignored;
+  fs::remove_all(folder_, ignored);
+}
+
+Answer Workplace::mdat(const std::string& arguments) const {
+  const fs::path out = folder_.string() + ".out", err = folder_.string() + ".err";
+  const std::string command =
+      "cd '" + folder_.string() + "' && '" MDAT_PROGRAM "' " + arguments + " >'" + out.string() + "' 2>'" + err.string() + "'";
+  const int status = std::system(command.c_str());
+  Answer answer{WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text(out), read_text(err)};
+  fs::remove(out);
+  fs::remove(err);
+  return answer;
+}
+
+void Workplace::write(const std::string& name, const std::string& content) const {
+  fs::create_directories((folder_ / name).parent_path());
+  std::ofstream(folder_ / name, std::ios::binary) << content;
+}
+
+std::string Workplace::read(const std::string& name) const { return read_text(folder_ / name); }
+
+void Workplace::write_mission(const std::vector<std::pair<std::string, std::string>>& replacements) const {
+  std::string text = read_text(fs::path(MDAT_SOURCES) / "cfg/missions/hubble_tenth.toml");
+  for (const auto& [from, to] : replacements) {
+    const std::size_t place = text.find(from);
+    if (place == std::string::npos) throw std::runtime_error("not in the mission: " + from);
+    text.replace(place, from.size(), to);
+  }
+  write("missions/test.toml", text);
+}
+
+std::vector<std::string> Workplace::contents() const {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::recursive_directory_iterator(folder_)) names.push_back(fs::relative(entry.path(), folder_).string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::string read_text(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::istringstream in(text);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+std::vector<std::string> fields_of(const std::string& line) {
+  std::istringstream in(line);
+  std::vector<std::string> fields;
+  for (std::string field; std::getline(in, field, ',');) fields.push_back(field);
+  return fields;
+}
+
+}  // namespace lasso::ft

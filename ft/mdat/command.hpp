@@ -1,0 +1,42 @@
+// mdat as its user sees it: a command line, what it prints, its exit code, and the files it leaves.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace lasso::ft {
+
+struct Answer {
+  int exit_code = -1;  // -1: ended by a signal
+  std::string out, err;
+};
+
+// A folder for one test, with a copy of the default mission in it; removed at the end.
+class Workplace {
+ public:
+  Workplace();
+  ~Workplace();
+  Workplace(const Workplace&) = delete;
+  Workplace& operator=(const Workplace&) = delete;
+
+  // Runs `mdat ARGUMENTS` in this folder, by a shell.
+  Answer mdat(const std::string& arguments) const;
+
+  std::filesystem::path operator/(const std::string& name) const { return folder_ / name; }
+  void write(const std::string& name, const std::string& content) const;
+  std::string read(const std::string& name) const;
+  // missions/test.toml: the default mission with each of the texts replaced (which must occur).
+  void write_mission(const std::vector<std::pair<std::string, std::string>>& replacements = {}) const;
+  // All files and folders below, sorted: shows what a command left behind.
+  std::vector<std::string> contents() const;
+
+ private:
+  std::filesystem::path folder_;
+};
+
+std::string read_text(const std::filesystem::path& file);
+std::vector<std::string> lines_of(const std::string& text);
+std::vector<std::string> fields_of(const std::string& line);  // separated by commas
+
+}  // namespace lasso::ft

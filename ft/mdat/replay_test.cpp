@@ -1,0 +1,140 @@
+// Scans that the simulator wrote, registered again from their files.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+#include "ft/mdat/command.hpp"
+#include "ut/support/verifies.hpp"
+
+namespace lasso::ft {
+namespace {
+
+constexpr char kHeader[] =
+    "scan,qx,qy,qz,qw,x_m,y_m,z_m,t_s,valid,reason,iterations,inliers,rms_m,sigma_x_m,sigma_y_m,sigma_z_m,sigma_rx_rad,sigma_ry_rad,"
+    "sigma_rz_rad,estimate_us";
+constexpr std::size_t kFrames = 8;
+
+using Row = std::map<std::string, std::string>;
+
+// Rows of a CSV file by the names in its header.
+std::vector<Row> table(const std::string& text) {
+  const std::vector<std::string> lines = lines_of(text);
+  const std::vector<std::string> names = fields_of(lines.at(0));
+  std::vector<Row> rows;
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    const std::vector<std::string> fields = fields_of(lines[i]);
+    Row row;
+    for (std::size_t k = 0; k < names.size(); ++k) row[names[k]] = fields.at(k);
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+double value(const Row& row, const std::string& name) { return std::stod(row.at(name)); }
+
+double distance_m(const Row& a, const Row& b) {
+  return std::hypot(value(a, "x_m") - value(b, "x_m"), value(a, "y_m") - value(b, "y_m"), value(a, "z_m") - value(b, "z_m"));
+}
+
+// Angle between two attitudes.
+double angle_rad(const Row& a, const Row& b) {
+  double dot = 0;
+  for (const char* name : {"qx", "qy", "qz", "qw"}) dot += value(a, name) * value(b, name);
+  return 2 * std::acos(std::min(1.0, std::fabs(dot)));
+}
+
+class Replay : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const Answer recorded = work.mdat("run missions/test.toml --scenario dropouts --frames 8 --record rec");
+    ASSERT_EQ(recorded.exit_code, 0) << recorded.err;
+    const Answer compiled = work.mdat("mission compile missions/test.toml --scenario dropouts -o image.3dli");
+    ASSERT_EQ(compiled.exit_code, 0) << compiled.err;
+  }
+
+  std::vector<Row> replay(const std::string& mission, const std::string& scans, const std::string& options) const {
+    const Answer answer = work.mdat("replay " + mission + " --scans " + scans + " --initial rec/4m/poses.csv --out out.csv " + options);
+    EXPECT_EQ(answer.exit_code, 0) << answer.err;
+    const std::string text = work.read("out.csv");
+    EXPECT_EQ(lines_of(text).at(0), kHeader);
+    return table(text);
+  }
+
+  void expect_near_truth(const std::vector<Row>& rows, double limit_m, double limit_rad) const {
+    const std::vector<Row> truth = table(work.read("rec/4m/truth.csv"));
+    ASSERT_EQ(rows.size(), kFrames);
+    ASSERT_EQ(truth.size(), kFrames);
+    for (std::size_t i = 0; i < kFrames; ++i) {
+      EXPECT_EQ(rows[i].at("scan"), truth[i].at("scan"));
+      EXPECT_EQ(rows[i].at("valid"), "1") << rows[i].at("reason");
+      EXPECT_LT(distance_m(rows[i], truth[i]), limit_m);
+      EXPECT_LT(angle_rad(rows[i], truth[i]), limit_rad);
+      const double sigma_m = std::hypot(value(rows[i], "sigma_x_m"), value(rows[i], "sigma_y_m"), value(rows[i], "sigma_z_m"));
+      EXPECT_LT(distance_m(rows[i], truth[i]), 6 * sigma_m) << "the covariance is honest";
+      EXPECT_GT(value(rows[i], "inliers"), 300);
+      EXPECT_NEAR(value(rows[i], "rms_m"), 16.0 / 9000, 0.3 * 16.0 / 9000) << "the noise of the camera at 4 m";
+      EXPECT_GT(value(rows[i], "estimate_us"), 10);
+    }
+  }
+  Workplace work;
+};
+
+TEST_F(Replay, RegistersEachScanFromItsPose) {
+  VERIFIES("LASSO-MDT-006");
+  const std::vector<Row> rows = replay("image.3dli", "rec/4m/scans", "");
+  expect_near_truth(rows, 1e-3, 0.002);
+  EXPECT_NEAR(value(rows[3], "t_s") - value(rows[2], "t_s"), 0.2, 1e-6) << "the middle of each scan";
+}
+
+TEST_F(Replay, AcceptsAMissionAsWellAsItsImage) {
+  VERIFIES("LASSO-MDT-006");
+  const std::vector<Row> image = replay("image.3dli", "rec/4m/scans", "");
+  const std::vector<Row> mission = replay("missions/test.toml", "rec/4m/scans", "--scenario dropouts");
+  ASSERT_EQ(image.size(), mission.size());
+  for (std::size_t i = 0; i < image.size(); ++i) EXPECT_EQ(image[i].at("qx"), mission[i].at("qx"));
+}
+
+TEST_F(Replay, TracksInClosedLoopFromTheFirstRowAlone) {
+  VERIFIES("LASSO-MDT-006");
+  const std::vector<std::string> lines = lines_of(work.read("rec/4m/poses.csv"));
+  std::string other = lines.at(1);
+  other.replace(0, other.find(','), "start");  // not the name of a scan
+  work.write("rec/4m/poses.csv", lines.at(0) + "\n" + other + "\n");
+  expect_near_truth(replay("image.3dli", "rec/4m/scans", "--closed-loop"), 1e-3, 0.002);
+}
+
+// The points of a scan's hits as a PLY file: no times, no misses.
+std::string to_ply(const std::string& csv) {
+  std::string points;
+  std::size_t count = 0;
+  for (const Row& row : table(csv)) {
+    if (row.at("valid") != "1") continue;
+    points += row.at("x_m") + " " + row.at("y_m") + " " + row.at("z_m") + "\n";
+    ++count;
+  }
+  return "ply\nformat ascii 1.0\nelement vertex " + std::to_string(count) +
+         "\nproperty float x\nproperty float y\nproperty float z\nend_header\n" + points;
+}
+
+TEST_F(Replay, RegistersPointClouds) {
+  VERIFIES("LASSO-MDT-006");
+  for (const Row& row : table(work.read("rec/4m/truth.csv"))) {
+    work.write("clouds/" + row.at("scan") + ".ply", to_ply(work.read("rec/4m/scans/" + row.at("scan") + ".csv")));
+  }
+  expect_near_truth(replay("image.3dli", "clouds", ""), 1.5e-3, 0.003);
+}
+
+TEST_F(Replay, SaysWhyAScanHasNoValidPose) {
+  VERIFIES("LASSO-MDT-006");
+  std::string scan = "t_s,x_m,y_m,z_m,valid\n";
+  for (int i = 0; i < 200; ++i) scan += std::to_string(0.001 * i) + ",0,0,1,0\n";  // every ray missed
+  work.write("dark/f00000.csv", scan);
+  const std::vector<Row> rows = replay("image.3dli", "dark", "");
+  ASSERT_EQ(rows.size(), 1U);
+  EXPECT_EQ(rows[0].at("valid"), "0");
+  EXPECT_NE(rows[0].at("reason").find("returns"), std::string::npos) << rows[0].at("reason");
+}
+
+}  // namespace
+}  // namespace lasso::ft

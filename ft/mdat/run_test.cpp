@@ -1,0 +1,108 @@
+// The paper's run in a shortened form, by its results.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "ft/mdat/command.hpp"
+#include "ut/support/verifies.hpp"
+
+namespace lasso::ft {
+namespace {
+
+using Json = nlohmann::json;
+
+const std::vector<std::pair<std::string, std::string>> kTwoRanges = {
+    {"ranges_m = [2.0, 3.0, 4.0, 5.0, 6.0, 7.0]", "ranges_m = [3.0, 4.0]"}};
+constexpr int kFrames = 12;
+constexpr const char* kVariants[] = {"noise_free", "noisy", "noise_free_hits_only", "noisy_hits_only"};
+
+void expect_sane(const Json& variant, bool noise, double rms_mm, double rms_deg) {
+  for (const char* axis : {"x_mm", "y_mm", "z_mm", "yaw_deg", "pitch_deg", "roll_deg"}) {
+    EXPECT_LT(std::fabs(variant.at(axis).at("mean").get<double>()), rms_mm) << axis;
+    EXPECT_GT(variant.at(axis).at("std").get<double>(), 0) << axis;
+  }
+  EXPECT_EQ(variant.at("frames"), 2 * kFrames);
+  EXPECT_EQ(variant.at("lost"), 0);
+  EXPECT_LT(variant.at("rms_mm").get<double>(), rms_mm);
+  EXPECT_LT(variant.at("rms_deg").get<double>(), rms_deg);
+  EXPECT_GT(variant.at("crlb_mm").get<double>(), 0.02);
+  EXPECT_LT(variant.at("crlb_mm").get<double>(), 0.5);
+  EXPECT_GT(variant.at("crlb_deg").get<double>(), 0.002);
+  EXPECT_LT(variant.at("crlb_deg").get<double>(), 0.1);
+  EXPECT_EQ(variant.at("nees").is_null(), !noise);
+  const Json& time = variant.at("estimate_us");
+  EXPECT_GT(time.at("median").get<double>(), 0);
+  EXPECT_LE(time.at("median").get<double>(), time.at("p99").get<double>());
+  EXPECT_LE(time.at("p99").get<double>(), time.at("max").get<double>());
+  EXPECT_GT(variant.at("filtered").at("rms_mm").get<double>(), 0);
+  EXPECT_EQ(variant.at("by_range").size(), 2U);
+}
+
+TEST(PaperRun, LeavesResultsReportAndTelemetry) {
+  VERIFIES("LASSO-MDT-004");
+  const Workplace work;
+  work.write_mission(kTwoRanges);
+  const Answer answer = work.mdat("run missions/test.toml --frames 12 --seed 7 --out out/run");
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  const Json results = Json::parse(work.read("out/run/results.json"));
+  EXPECT_EQ(results.at("seed"), 7);
+  EXPECT_EQ(results.at("scenario"), "paper");
+  EXPECT_EQ(results.at("paper_2005").at("z_mm").at("std"), 6.25);
+  for (const char* name : kVariants) {
+    const bool noise = std::string(name).starts_with("noisy");
+    expect_sane(results.at(name), noise, noise ? 0.5 : 0.1, noise ? 0.1 : 0.01);
+    EXPECT_TRUE(results.at("side_on").contains(name));
+  }
+  EXPECT_LT(results.at("noisy_hits_only").at("rms_mm").get<double>(), 2 * results.at("noisy_hits_only").at("crlb_mm").get<double>());
+
+  const std::string report = work.read("out/run/report.html");
+  EXPECT_NE(report.find("<svg"), std::string::npos);
+  EXPECT_NE(report.find("data:image/png;base64,"), std::string::npos);
+  EXPECT_EQ(report.find("src='http"), std::string::npos) << "the report opens offline";
+  EXPECT_NE(answer.out.find("paper 2005"), std::string::npos);
+  EXPECT_NE(answer.err.find("frames"), std::string::npos) << "progress";
+  EXPECT_EQ(answer.err.find('\r'), std::string::npos) << "plain lines where there is no terminal";
+}
+
+// Packets of the stream by their length fields (CCSDS 133.0-B-2), 0 if it does not end with a whole one.
+std::size_t count_packets(const std::string& stream) {
+  std::size_t packets = 0, place = 0;
+  while (place + 6 <= stream.size()) {
+    const auto byte = [&](std::size_t i) { return static_cast<std::size_t>(static_cast<unsigned char>(stream[place + i])); };
+    place += 7 + (byte(4) << 8 | byte(5));
+    ++packets;
+  }
+  return place == stream.size() ? packets : 0;
+}
+
+TEST(PaperRun, IsTheSameForAnyNumberOfJobsAndChangesWithTheSeed) {
+  VERIFIES("LASSO-MDT-005");
+  const Workplace work;
+  work.write_mission(kTwoRanges);
+  const std::string run = "run missions/test.toml --frames 5 --no-report ";
+  ASSERT_EQ(work.mdat(run + "--seed 3 --jobs 1 --out one").exit_code, 0);
+  ASSERT_EQ(work.mdat(run + "--seed 3 --jobs 3 --out three").exit_code, 0);
+  ASSERT_EQ(work.mdat(run + "--seed 4 --out other").exit_code, 0);
+  const std::string stream = work.read("one/telemetry.ccsds");
+  EXPECT_EQ(count_packets(stream), 2U * 4U * 2U * 5U);  // tables, variants, ranges, frames
+  EXPECT_TRUE(stream == work.read("three/telemetry.ccsds"));
+  EXPECT_FALSE(stream == work.read("other/telemetry.ccsds"));
+}
+
+TEST(SpinRun, TracksATargetThatMovesWithinItsScans) {
+  VERIFIES("LASSO-MDT-004");
+  const Workplace work;
+  const Answer answer = work.mdat("run missions/test.toml --scenario spin --frames 30 --out out");
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  const Json results = Json::parse(work.read("out/results.json"));
+  const Json& noisy = results.at("noisy");
+  EXPECT_FALSE(results.contains("noise_free"));
+  EXPECT_EQ(noisy.at("frames"), 30);
+  EXPECT_EQ(noisy.at("lost"), 0);
+  EXPECT_LT(noisy.at("rms_mm").get<double>(), 1);
+  EXPECT_LT(noisy.at("rates").at("rms_degps").get<double>(), 5);
+}
+
+}  // namespace
+}  // namespace lasso::ft

@@ -1,0 +1,162 @@
+#include "mdat/run/statistics.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <cmath>
+
+#include "ut/support/generator.hpp"
+#include "ut/support/verifies.hpp"
+
+namespace lasso::mdat {
+namespace {
+
+Pose generic_pose() {
+  Pose pose;
+  pose.q = exp_so3(Vec3(0.8, -1.1, 0.4));
+  pose.p = Vec3(0.1, -0.2, 4);
+  return pose;
+}
+
+// A covariance as badly scaled as real ones: milliradians beside millimetres, all correlated.
+Mat6 generic_covariance(test::Generator& random) {
+  Mat6 root;
+  for (int i = 0; i < 36; ++i) root(i / 6, i % 6) = random.normal();
+  Vec6 scale;
+  scale << 3e-4, 1e-4, 5e-4, 1e-3, 2e-4, 4e-5;
+  root = scale.asDiagonal() * root;
+  return root * root.transpose();
+}
+
+Pose disturbed(const Pose& truth, const Vec6& error) {
+  Pose pose;
+  pose.q = exp_so3(error.head<3>()) * truth.q;
+  pose.p = truth.p + error.tail<3>();
+  return pose;
+}
+
+TEST(PoseError, SplitsIntoSensorAxesAndAnglesAboutTheTargetsAxes) {
+  VERIFIES("LASSO-MDT-002");
+  const Pose truth = generic_pose();
+  const double yaw = 0.03, pitch = -0.02, roll = 0.05;
+  Pose estimate = truth;
+  estimate.q = truth.q * Quat(Eigen::AngleAxisd(yaw, Vec3::UnitZ()) * Eigen::AngleAxisd(pitch, Vec3::UnitY()) *
+                              Eigen::AngleAxisd(roll, Vec3::UnitX()));
+  estimate.p += Vec3(0.001, -0.002, 0.003);
+  const PoseError error = pose_error(estimate, truth);
+  EXPECT_NEAR((error.translation_m - Vec3(0.001, -0.002, 0.003)).norm(), 0, 1e-15);
+  EXPECT_NEAR((error.yaw_pitch_roll - Vec3(yaw, pitch, roll)).norm(), 0, 1e-12);
+  EXPECT_NEAR(error.rotation_rad, truth.q.angularDistance(estimate.q), 1e-12);
+}
+
+TEST(PoseError, IsLostBeyondFiftyMillimetresOrFiveDegrees) {
+  VERIFIES("LASSO-MDT-002");
+  const Pose truth = generic_pose();
+  Vec6 error = Vec6::Zero();
+  error[4] = 0.0499;
+  EXPECT_FALSE(pose_error(disturbed(truth, error), truth).lost());
+  error[4] = 0.0501;
+  EXPECT_TRUE(pose_error(disturbed(truth, error), truth).lost());
+  error[4] = 0;
+  error[1] = 4.99 * kRadPerDeg;
+  EXPECT_FALSE(pose_error(disturbed(truth, error), truth).lost());
+  error[1] = 5.01 * kRadPerDeg;
+  EXPECT_TRUE(pose_error(disturbed(truth, error), truth).lost());
+}
+
+TEST(Nees, IsTheMahalanobisDistance) {
+  VERIFIES("LASSO-MDT-003");
+  test::Generator random(3);
+  const Pose truth = generic_pose();
+  for (int i = 0; i < 50; ++i) {
+    const Mat6 covariance = generic_covariance(random);
+    Vec6 error;
+    for (int k = 0; k < 6; ++k) error[k] = 1e-3 * random.normal();
+    const double expected = error.dot(covariance.inverse() * error);
+    EXPECT_NEAR(nees(disturbed(truth, error), truth, covariance) / expected, 1, 1e-6);
+  }
+}
+
+TEST(Nees, IsSixOnAverageForErrorsOfThatCovariance) {
+  VERIFIES("LASSO-MDT-003");
+  test::Generator random(4);
+  const Pose truth = generic_pose();
+  const Mat6 covariance = generic_covariance(random);
+  const Mat6 root = covariance.llt().matrixL();
+  double sum = 0;
+  constexpr int kDraws = 20000;
+  for (int i = 0; i < kDraws; ++i) {
+    Vec6 unit;
+    for (int k = 0; k < 6; ++k) unit[k] = random.normal();
+    sum += nees(disturbed(truth, root * unit), truth, covariance);
+  }
+  EXPECT_NEAR(sum / kDraws, 6, 5 * std::sqrt(12.0 / kDraws));  // chi^2 of 6 degrees has the variance 12
+}
+
+TEST(Nees, IsInfiniteWithoutAProperCovariance) {
+  VERIFIES("LASSO-MDT-003");
+  EXPECT_TRUE(std::isinf(nees(generic_pose(), generic_pose(), Mat6::Zero())));
+  Mat6 indefinite = Mat6::Identity();
+  indefinite(0, 1) = indefinite(1, 0) = 2;
+  EXPECT_TRUE(std::isinf(nees(generic_pose(), generic_pose(), indefinite)));
+}
+
+TEST(Statistics, MeansStandardDeviationsAndRoots) {
+  VERIFIES("LASSO-MDT-002");
+  const MeanStd values = mean_std({1, 2, 3, 6});
+  EXPECT_DOUBLE_EQ(values.mean, 3);
+  EXPECT_DOUBLE_EQ(values.std, std::sqrt(3.5));
+  EXPECT_EQ(mean_std({}).std, 0);
+
+  PoseError a, b;
+  a.translation_m = Vec3(0.003, 0, 0.004);
+  b.translation_m = Vec3(0, 0, -0.001);
+  a.yaw_pitch_roll = Vec3(0.1, 0.2, 0.3) * kRadPerDeg;
+  b.yaw_pitch_roll = Vec3(0.3, 0.2, 0.1) * kRadPerDeg;
+  a.rotation_rad = 3 * kRadPerDeg;
+  b.rotation_rad = 4 * kRadPerDeg;
+  const ErrorStatistics errors = error_statistics({a, b});
+  EXPECT_NEAR(errors.x_mm.mean, 1.5, 1e-12);
+  EXPECT_NEAR(errors.z_mm.std, 2.5, 1e-12);
+  EXPECT_NEAR(errors.yaw_deg.mean, 0.2, 1e-12);
+  EXPECT_NEAR(errors.roll_deg.std, 0.1, 1e-12);
+  EXPECT_NEAR(errors.rms_mm, std::sqrt((25 + 1) / 2.0), 1e-12);
+  EXPECT_NEAR(errors.rms_deg, std::sqrt((9 + 16) / 2.0), 1e-12);
+}
+
+TEST(Statistics, PercentilesByNearestRank) {
+  VERIFIES("LASSO-MDT-002");
+  std::vector<double> times;
+  for (int i = 200; i >= 1; --i) times.push_back(i);
+  const TimeStatistics result = time_statistics(times);
+  EXPECT_EQ(result.median_us, 100);
+  EXPECT_EQ(result.p99_us, 198);
+  EXPECT_EQ(result.max_us, 200);
+  EXPECT_EQ(time_statistics({}).max_us, 0);
+}
+
+TEST(Statistics, LostFramesAreCountedAndLeftOutOfErrors) {
+  VERIFIES("LASSO-MDT-002");
+  FrameError good, lost;
+  good.reported = lost.reported = true;
+  good.valid = true;
+  good.registration.translation_m = Vec3(0.001, 0, 0);
+  good.bound = {true, 4e-6, 9e-6};
+  good.nees = 5;
+  good.estimate_us = 100;
+  lost.registration.translation_m = Vec3(0.2, 0, 0);
+  lost.nees = 1e6;
+  lost.estimate_us = 300;
+  const FrameError missing;  // no telemetry of it
+  const RunStatistics run = run_statistics({good, lost, missing});
+  EXPECT_EQ(run.frames, 3U);
+  EXPECT_EQ(run.lost, 2U);
+  EXPECT_EQ(run.invalid, 2U);
+  EXPECT_NEAR(run.registration.rms_mm, 1, 1e-12);
+  EXPECT_NEAR(run.crlb_mm, 2, 1e-12);
+  EXPECT_NEAR(run.crlb_deg, 0.003 / kRadPerDeg, 1e-12);
+  EXPECT_EQ(run.nees, 5);
+  EXPECT_EQ(run.time.max_us, 300);
+}
+
+}  // namespace
+}  // namespace lasso::mdat
