@@ -172,17 +172,13 @@ Status check_measurement(const FilterState& state, const PoseMeasurement& measur
   return status == Status::kOk ? check_covariance(measured.covariance) : status;
 }
 
-Status join_measurement(FilterState& state, const PoseMeasurement& measured, const Vec6& innovation, const Mat6& S_inverse) {
+void join_measurement(FilterState& state, const PoseMeasurement& measured, const Vec6& innovation, const Mat6& S_inverse) {
   const Blocks P = split(state.covariance);
   const Mat6 pose_gain = P.pose * S_inverse;
   const Mat6 rates_gain = P.cross.transpose() * S_inverse;
-  FilterState next = state;
-  correct(next, pose_gain * innovation, rates_gain * innovation);
-  next.covariance = joseph(P, measured.covariance, pose_gain, rates_gain);
-  if (!finite(next.covariance)) return Status::kSingular;
-  ++next.accepted;
-  state = next;
-  return Status::kOk;
+  correct(state, pose_gain * innovation, rates_gain * innovation);
+  state.covariance = joseph(P, measured.covariance, pose_gain, rates_gain);
+  ++state.accepted;
 }
 
 }  // namespace
@@ -205,6 +201,7 @@ Status start_filter(FilterState& state, const FilterStart& from) {
     const double sigma = i < 9 ? from.sigma_omega_radps : from.sigma_v_mps;
     started.covariance(i, i) = sigma * sigma;
   }
+  if (!finite(started.covariance)) return Status::kNotFinite;
   started.initialised = true;
   state = started;
   return Status::kOk;
@@ -235,12 +232,17 @@ FilterUpdate update_filter(FilterState& state, const PoseMeasurement& measured, 
   result.status = invert_covariance(S, S_inverse);
   if (result.status != Status::kOk) return result;
   result.nis = innovation.dot(S_inverse * innovation);
+  // A finite nis bounds the correction, too: |K y|^2 <= nis * P.
+  if (!is_finite(result.nis)) {
+    result.status = Status::kNotFinite;
+    return result;
+  }
   if (gate_nis > 0 && result.nis > gate_nis) {
     ++state.rejected;
     return result;
   }
-  result.status = join_measurement(state, measured, innovation, S_inverse);
-  result.accepted = result.status == Status::kOk;
+  join_measurement(state, measured, innovation, S_inverse);
+  result.accepted = true;
   return result;
 }
 

@@ -81,7 +81,8 @@ Status predict_filter(FilterState& state, TimeUs t_us, const FilterNoise& noise)
 
 // Joins a measurement to the state, at the state's own time (predict first). With gate > 0 a measurement whose nis exceeds it is counted as
 // rejected and changes nothing else (22.46: one in a thousand of the honest ones). kNoData: not started; kBadOrder: another time;
-// kNotFinite, kBadValue: pose, covariance (as for start_filter) or gate; kSingular: innovation covariance without an inverse.
+// kNotFinite, kBadValue: pose, covariance (as for start_filter) or gate; kNotFinite: a nis that overflows; kSingular: innovation covariance
+// without an inverse.
 // Covariance by Joseph's form: symmetric and positive for any gain (Bucy & Joseph 1968).
 FilterUpdate update_filter(FilterState& state, const PoseMeasurement& measured, double gate_nis);
 

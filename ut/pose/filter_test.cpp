@@ -398,6 +398,7 @@ TEST(FilterInput, BadStartsAreRefused) {
   EXPECT_EQ(refused([](FilterStart& s) { s.sigma_v_mps = kNan; }), Status::kNotFinite);
   EXPECT_EQ(refused([](FilterStart& s) { s.sigma_omega_radps = 0; }), Status::kBadValue);
   EXPECT_EQ(refused([](FilterStart& s) { s.sigma_v_mps = -1; }), Status::kBadValue);
+  EXPECT_EQ(refused([](FilterStart& s) { s.sigma_v_mps = 1e200; }), Status::kNotFinite) << "its square";
   EXPECT_EQ(refused([](FilterStart& s) { s.pose_covariance(2, 3) = kNan; }), Status::kNotFinite);
   EXPECT_EQ(refused([](FilterStart& s) { s.pose_covariance(4, 4) = 0; }), Status::kBadValue);
   EXPECT_EQ(refused([](FilterStart& s) { s.pose_covariance(1, 0) += 1e-6; }), Status::kBadValue) << "not symmetric";
@@ -459,6 +460,7 @@ TEST(FilterInput, BadMeasurementsAreRefused) {
   EXPECT_EQ(refused([](PoseMeasurement& m) { ++m.t_us; }), Status::kBadOrder);
   EXPECT_EQ(refused([](PoseMeasurement& m) { --m.t_us; }), Status::kBadOrder);
   EXPECT_EQ(refused([](PoseMeasurement& m) { m.T_sensor_target.p.x() = kNan; }), Status::kNotFinite);
+  EXPECT_EQ(refused([](PoseMeasurement& m) { m.T_sensor_target.p.x() = 1e200; }), Status::kNotFinite) << "its square";
   EXPECT_EQ(refused([](PoseMeasurement& m) { m.T_sensor_target.q.w() = kNan; }), Status::kNotFinite);
   EXPECT_EQ(refused([](PoseMeasurement& m) { m.T_sensor_target.q.coeffs() *= 0.5; }), Status::kBadValue);
   EXPECT_EQ(refused([](PoseMeasurement& m) { m.covariance(0, 5) = kNan; }), Status::kNotFinite);
