@@ -2,6 +2,7 @@
 BUILD := out/build
 PPC := out/ppc
 BENCH := out/build-bench
+DEBUG := out/build-debug
 MISSION ?= cfg/missions/hubble_tenth.toml
 OUT ?= out/run
 PREFIX ?= /usr/local
@@ -13,12 +14,12 @@ export CCACHE_BASEDIR := $(CURDIR)
 NINJA_FLAGS := $(if $(MAKE_TERMOUT),,-- --quiet)
 export NINJA_STATUS := [%f/%t %es] 
 
-# $(call packages,LISTS), $(call configure,FOLDER,CMAKE OPTIONS), $(call compile,FOLDER), $(call ctest,FOLDER,REPORTS)
+# $(call packages,LISTS), $(call configure,FOLDER,CMAKE OPTIONS), $(call compile,FOLDER[,TARGETS]), $(call ctest,FOLDER,REPORTS)
 packages = @cfg/packages/ensure $(1)
 configure = @[ -e $(1)/build.ninja ] || { echo "configure $(1)"; mkdir -p $(1); \
   cmake -S . -B $(1) -G Ninja -DCMAKE_BUILD_TYPE=Release $$(command -v ccache >/dev/null && echo -DCMAKE_CXX_COMPILER_LAUNCHER=ccache) $(2) \
     >$(1)/configure.log 2>&1 || { cat $(1)/configure.log; rm -f $(1)/build.ninja; false; }; }
-compile = @echo "build $(1)"; cmake --build $(1) --parallel $(JOBS) $(NINJA_FLAGS)
+compile = @echo "build $(1)$(if $(2), ($(2)))"; cmake --build $(1) --parallel $(JOBS) $(if $(2),--target $(2)) $(NINJA_FLAGS)
 ctest = @rm -rf $(2); mkdir -p $(2); GTEST_OUTPUT=xml:$(abspath $(2))/ \
   ctest --test-dir $(1) --parallel $(JOBS) --output-on-failure --no-tests=error --output-junit $(abspath $(2))/ctest.xml
 
@@ -44,8 +45,10 @@ bench: ## time the estimate, its stages and its peers; table, and out/bench/resu
 golden: build ## the same telemetry, bit for bit, from the host and from the emulated PowerPC 603e
 	$(call packages,target)
 	$(call configure,$(PPC),-DCMAKE_TOOLCHAIN_FILE=cfg/toolchains/ppc603e.cmake -DLASSO_GROUND=OFF)
-	$(call compile,$(PPC))
-	@ft/golden/run $(BUILD) $(PPC)
+	$(call compile,$(PPC),golden_replay)
+	$(call configure,$(DEBUG),-DCMAKE_BUILD_TYPE=Debug -DLASSO_GROUND=OFF)
+	$(call compile,$(DEBUG),golden_replay)
+	@ft/golden/run $(BUILD) $(PPC) $(DEBUG)
 
 ppc-test: ## unit tests of the flight component on the emulated PowerPC 603e; reports in out/ppc-test
 	$(call packages,build target)
