@@ -24,32 +24,53 @@ struct Grid {
   }
 };
 
-// Face f: axis f / 2, side f % 2 (0 low, 1 high).
+// Face f of all: box f / 6, axis f % 6 / 2, side f % 2 (0 low, 1 high).
 struct Face {
+  const BoxModel& box;
   int axis;
   double sign;
   double place;
 };
-Face face_of(const BoxModel& m, int f) {
-  const int axis = f / 2;
+int face_count(const Boxes& boxes) { return 6 * static_cast<int>(boxes.size()); }
+Face face_of(const Boxes& boxes, int f) {
+  const BoxModel& box = boxes[static_cast<std::size_t>(f / 6)];
+  const int axis = f % 6 / 2;
   const double sign = f % 2 == 0 ? -1 : 1;
-  return {axis, sign, m.center[axis] + sign * m.half[axis]};
+  return {box, axis, sign, box.center[axis] + sign * box.half[axis]};
 }
 double low(const BoxModel& m, int axis) { return m.center[axis] - m.half[axis]; }
 double high(const BoxModel& m, int axis) { return m.center[axis] + m.half[axis]; }
 
-Vec3 closest_on_face(const BoxModel& m, const Face& face, const Vec3& p) {
+// The smallest box around all of them, with the first one's cells.
+BoxModel bounds_of(const Boxes& boxes) {
+  BoxModel bounds = boxes[0];
+  if (boxes.size() == 1) return bounds;
+  for (int i = 0; i < 3; ++i) {
+    double from = low(bounds, i);
+    double to = high(bounds, i);
+    for (const BoxModel& box : boxes) {
+      from = std::min(from, low(box, i));
+      to = std::max(to, high(box, i));
+    }
+    bounds.center[i] = (from + to) / 2;
+    bounds.half[i] = (to - from) / 2;
+  }
+  return bounds;
+}
+
+Vec3 closest_on_face(const Face& face, const Vec3& p) {
   Vec3 q;
-  for (int i = 0; i < 3; ++i) q[i] = i == face.axis ? face.place : std::clamp(p[i], low(m, i), high(m, i));
+  for (int i = 0; i < 3; ++i) q[i] = i == face.axis ? face.place : std::clamp(p[i], low(face.box, i), high(face.box, i));
   return q;
 }
 
-int closest_face(const BoxModel& m, const Vec3& p, int opposing_to, double limit) {
+bool opposed(const Face& a, const Face& b) { return a.axis == b.axis && a.sign != b.sign; }
+
+int closest_face(const Boxes& boxes, const Vec3& p, int opposing_to, double limit) {
   int best = -1;
-  for (int f = 0; f < 6; ++f) {
-    if (opposing_to >= 0 && f / 2 != opposing_to / 2) continue;
-    if (opposing_to == f) continue;
-    const double distance = (closest_on_face(m, face_of(m, f), p) - p).norm();
+  for (int f = 0; f < face_count(boxes); ++f) {
+    if (opposing_to >= 0 && !opposed(face_of(boxes, f), face_of(boxes, opposing_to))) continue;
+    const double distance = (closest_on_face(face_of(boxes, f), p) - p).norm();
     if (distance < limit) {
       limit = distance;
       best = f;
@@ -58,10 +79,10 @@ int closest_face(const BoxModel& m, const Vec3& p, int opposing_to, double limit
   return best;
 }
 
-bool face_crosses(const BoxModel& m, const Face& face, const Vec3& center, double reach) {
+bool face_crosses(const Face& face, const Vec3& center, double reach) {
   for (int i = 0; i < 3; ++i) {
-    const double a = i == face.axis ? face.place : low(m, i);
-    const double b = i == face.axis ? face.place : high(m, i);
+    const double a = i == face.axis ? face.place : low(face.box, i);
+    const double b = i == face.axis ? face.place : high(face.box, i);
     if (b < center[i] - reach || a > center[i] + reach) return false;
   }
   return true;
@@ -77,8 +98,9 @@ Grid make_grid(const BoxModel& m) {
   return grid;
 }
 
-Words geometry_words(const BoxModel& m, const Grid& g) {
-  const double radius = (m.center.cwiseAbs() + m.half).norm();
+Words geometry_words(const Boxes& boxes, const BoxModel& m, const Grid& g) {
+  double radius = 0;
+  for (const BoxModel& box : boxes) radius = std::max(radius, (box.center.cwiseAbs() + box.half).norm());
   return {kBits,       length(g.origin[0]), length(g.origin[1]), length(g.origin[2]), length(g.cell),      g.bricks[0],       g.bricks[1],
           g.bricks[2], length(radius),      length(m.center[0]), length(m.center[1]), length(m.center[2]), length(5 * g.cell)};
 }
@@ -88,49 +110,61 @@ void push_plane(Words& words, int axis, double sign, double offset) {
   words.push_back(length(offset));
 }
 
-Words element_words(const BoxModel& m) {
-  Words words;
-  for (int f = 0; f < 6; ++f) {
-    const Face face = face_of(m, f);
-    push_plane(words, face.axis, face.sign, face.sign * face.place);
-    for (int axis = 0; axis < 3; ++axis) {
-      if (axis == face.axis) continue;
-      push_plane(words, axis, 1, low(m, axis) - 1e-6);
-      push_plane(words, axis, -1, -high(m, axis) - 1e-6);
+// The sides of a face: low and high ends of the two other axes, normals by component, then offsets.
+void push_sides(const BoxModel& m, int face_axis, Words& words) {
+  const int first = (face_axis + 1) % 3;
+  const int second = (face_axis + 2) % 3;
+  for (int component = 0; component < 3; ++component) {
+    for (int axis : {first, second}) {
+      words.push_back(unit(component == axis ? 1 : 0));
+      words.push_back(unit(component == axis ? -1 : 0));
     }
+  }
+  for (int axis : {first, second}) {
+    words.push_back(length(low(m, axis) - 1e-6));
+    words.push_back(length(-high(m, axis) - 1e-6));
+  }
+}
+
+Words element_words(const Boxes& boxes) {
+  Words words;
+  for (int f = 0; f < face_count(boxes); ++f) {
+    const Face face = face_of(boxes, f);
+    push_plane(words, face.axis, face.sign, face.sign * face.place);
     words.push_back(0);
     words.push_back(0);
+    push_sides(face.box, face.axis, words);
   }
   return words;
 }
 
-std::uint32_t ray_cell(const BoxModel& m, const Grid& g, const Vec3& center, Words& lists) {
+std::uint32_t ray_cell(const Boxes& boxes, const Grid& g, const Vec3& center, Words& lists) {
   const auto offset = static_cast<std::uint32_t>(lists.size());
-  for (int f = 0; f < 6; ++f) {
-    if (face_crosses(m, face_of(m, f), center, g.cell + 1e-6)) lists.push_back(static_cast<std::uint32_t>(f));
+  for (int f = 0; f < face_count(boxes); ++f) {
+    if (face_crosses(face_of(boxes, f), center, g.cell + 1e-6)) lists.push_back(static_cast<std::uint32_t>(f));
   }
   const auto count = static_cast<std::uint32_t>(lists.size()) - offset;
   return count == 0 ? kEmptyBit | 1u : count << kListOffsetBits | offset;  // a distance of 1 is never too large
 }
 
-void push_ray_brick(const BoxModel& m, const Grid& g, const Vec3& corner, Words& cells, Words& lists) {
+void push_ray_brick(const Boxes& boxes, const Grid& g, const Vec3& corner, Words& cells, Words& lists) {
   for (std::uint32_t k = 0; k < kRayCellsPerBrick; ++k) {
     const Vec3 center = corner + g.cell * (Vec3(k & 7, k >> 3 & 7, k >> 6) + Vec3::Constant(0.5));
-    cells.push_back(ray_cell(m, g, center, lists));
+    cells.push_back(ray_cell(boxes, g, center, lists));
   }
 }
 
-void push_near_brick(const BoxModel& m, const Grid& g, const Vec3& corner, Words& near) {
+void push_near_brick(const Boxes& boxes, const Grid& g, const Vec3& corner, Words& near) {
   for (std::uint32_t k = 0; k < 64; ++k) {
     const Vec3 center = corner + 2 * g.cell * (Vec3(k & 3, k >> 2 & 3, k >> 4) + Vec3::Constant(0.5));
-    const int first = closest_face(m, center, -1, 1e9);
+    const int first = closest_face(boxes, center, -1, 1e9);
     near.push_back(static_cast<std::uint32_t>(first + 1));
-    near.push_back(static_cast<std::uint32_t>(closest_face(m, center, first, 5 * g.cell) + 1));
+    near.push_back(static_cast<std::uint32_t>(closest_face(boxes, center, first, 5 * g.cell) + 1));
   }
 }
 
-void push_foot(const BoxModel& m, const Vec3& center, Words& feet) {
-  const Vec3 foot = closest_on_face(m, face_of(m, closest_face(m, center, -1, 1e9)), center);
+void push_foot(const Boxes& boxes, const Vec3& center, Words& feet) {
+  const Vec3 foot = closest_on_face(face_of(boxes, closest_face(boxes, center, -1, 1e9)), center);
   for (int i = 0; i < 3; ++i) feet.push_back(length(foot[i]));
 }
 
@@ -151,16 +185,20 @@ void push_edge(const BoxModel& m, int axis, double sign1, double sign2, Words& e
   edges.push_back(0);
 }
 
-Words edge_words(const BoxModel& m) {
+Words edge_words(const Boxes& boxes) {
   Words words;
-  for (int k = 0; k < 12; ++k) push_edge(m, k / 4, (k & 1) == 0 ? -1 : 1, (k & 2) == 0 ? -1 : 1, words);
+  for (const BoxModel& box : boxes) {
+    for (int k = 0; k < 12; ++k) push_edge(box, k / 4, (k & 1) == 0 ? -1 : 1, (k & 2) == 0 ? -1 : 1, words);
+  }
   return words;
 }
 
-Words hull_words(const BoxModel& m) {
+Words hull_words(const Boxes& boxes) {
   Words words;
-  for (int k = 0; k < 8; ++k) {
-    for (int i = 0; i < 3; ++i) words.push_back(length((k >> i & 1) == 0 ? low(m, i) : high(m, i)));
+  for (const BoxModel& box : boxes) {
+    for (int k = 0; k < 8; ++k) {
+      for (int i = 0; i < 3; ++i) words.push_back(length((k >> i & 1) == 0 ? low(box, i) : high(box, i)));
+    }
   }
   return words;
 }
@@ -192,11 +230,12 @@ Words parameter_words(const MissionParameters& parameters) {
 
 }  // namespace
 
-BoxTables make_box_tables(const BoxModel& m) {
-  const Grid g = make_grid(m);
+BoxTables make_box_tables(const Boxes& boxes) {
+  const BoxModel bounds = bounds_of(boxes);
+  const Grid g = make_grid(bounds);
   BoxTables tables;
-  tables[1] = geometry_words(m, g);
-  tables[2] = element_words(m);
+  tables[1] = geometry_words(boxes, bounds, g);
+  tables[2] = element_words(boxes);
   tables[3] = Words(kCurvatureWords, 0);
   for (std::uint32_t z = 0, index = 0; z < g.bricks[2]; ++z) {
     for (std::uint32_t y = 0; y < g.bricks[1]; ++y) {
@@ -205,14 +244,14 @@ BoxTables make_box_tables(const BoxModel& m) {
         const Vec3 corner = center - Vec3::Constant(4 * g.cell);
         tables[4].push_back(index);
         tables[4].push_back(index + 1);
-        push_ray_brick(m, g, corner, tables[5], tables[6]);
-        push_near_brick(m, g, corner, tables[7]);
-        push_foot(m, center, tables[8]);
+        push_ray_brick(boxes, g, corner, tables[5], tables[6]);
+        push_near_brick(boxes, g, corner, tables[7]);
+        push_foot(boxes, center, tables[8]);
       }
     }
   }
-  tables[9] = edge_words(m);
-  tables[10] = hull_words(m);
+  tables[9] = edge_words(boxes);
+  tables[10] = hull_words(boxes);
   return tables;
 }
 
@@ -270,6 +309,15 @@ double cast_box(const BoxModel& m, const Vec3& origin, const Vec3& u) {
     leave = std::min(leave, std::max(a, b));
   }
   return enter <= leave ? enter : -1;
+}
+
+double cast_boxes(const Boxes& boxes, const Vec3& origin, const Vec3& u) {
+  double nearest = -1;
+  for (const BoxModel& box : boxes) {
+    const double range = cast_box(box, origin, u);
+    if (range >= 0 && (nearest < 0 || range < nearest)) nearest = range;
+  }
+  return nearest;
 }
 
 }  // namespace lasso::test

@@ -1,5 +1,5 @@
-// A flight image of a box, made by brute force and independently of the mission compiler: the flight rooms' tests run on it, on the host
-// and on the emulated target. Everything is axis-aligned, so each table has a closed form.
+// A flight image of a box or of several, made by brute force and independently of the mission compiler: the flight rooms' tests run on it,
+// on the host and on the emulated target. Everything is axis-aligned, so each table has a closed form.
 #pragma once
 
 #include <array>
@@ -18,11 +18,13 @@ struct BoxModel {
   double margin_m = 0.20;
 };
 
+using Boxes = std::vector<BoxModel>;  // apart from each other; the first one says cell and margin
 using Words = std::vector<std::uint32_t>;
 
 // The tables in the order of TableId, without the parameters (table 1, index 0 stays empty).
 using BoxTables = std::array<Words, 11>;
-BoxTables make_box_tables(const BoxModel& model);
+BoxTables make_box_tables(const Boxes& boxes);
+inline BoxTables make_box_tables(const BoxModel& model) { return make_box_tables(Boxes{model}); }
 
 // A complete image. Its memory is aligned for load_image (std::vector<std::uint64_t> behind the bytes).
 struct TestImage {
@@ -42,5 +44,6 @@ std::size_t table_offset(TestImage& image, std::uint32_t id);
 
 // Where a ray from `origin` along `u` (target frame) first meets the box: its range, or a negative number. Slab method.
 double cast_box(const BoxModel& model, const Vec3& origin, const Vec3& u);
+double cast_boxes(const Boxes& boxes, const Vec3& origin, const Vec3& u);  // the first of them that is met
 
 }  // namespace lasso::test

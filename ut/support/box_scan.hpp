@@ -11,7 +11,8 @@
 namespace lasso::test {
 
 struct BoxScan {
-  BoxModel model;
+  BoxModel model;        // what the scan is aimed at
+  Boxes others;          // in the scene too
   Pose T_sensor_target;  // at the scan's reference time
   Twist rates;
   double sigma_m = 0;  // range noise
@@ -25,6 +26,8 @@ struct BoxScan {
 // A raster of side x side rays around the box's centre, with the target moving while it is scanned.
 inline std::unique_ptr<RangeImage> scan_box(const BoxScan& s, Generator& random) {
   auto image = std::make_unique<RangeImage>();
+  Boxes scene = s.others;
+  scene.push_back(s.model);
   const Vec3 aim = s.T_sensor_target * s.model.center;
   const int rays = s.side * s.side;
   for (int i = 0; i < rays; ++i) {
@@ -37,7 +40,7 @@ inline std::unique_ptr<RangeImage> scan_box(const BoxScan& s, Generator& random)
                      static_cast<double>(sample.direction[2]));
     sample.t_us = 1000000 + s.duration_us * i / (rays - 1);
     const Pose T_target_sensor = inverse(propagate(s.T_sensor_target, s.rates, to_seconds(sample.t_us - 1000000 - s.duration_us / 2)));
-    double range = cast_box(s.model, T_target_sensor.p, rotate(T_target_sensor.q, exact));
+    double range = cast_boxes(scene, T_target_sensor.p, rotate(T_target_sensor.q, exact));
     if (random.uniform(0, 1) < s.dropouts) range = -1;
     if (range > 0) range += s.sigma_m * random.normal();
     if (random.uniform(0, 1) < s.outliers) range = aim[2] * random.uniform(0.5, 1.5);

@@ -1,0 +1,294 @@
+// The passes, and the matching of single points in match.hpp and scan_sums.hpp that they are made of.
+#include "fsw/pose/gauss_newton.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "ut/pose/pose_fixture.hpp"
+#include "ut/support/verifies.hpp"
+
+namespace lasso {
+namespace {
+
+using N = FlightNumber;
+using Point = MatchPoint<N>;
+
+Vec3 to_vec3(const float* v) { return Vec3(static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])); }
+
+// A measured point and the box, in double: where along its ray the box's front is met, and on which face.
+struct Met {
+  bool met = false;
+  bool clear = false;  // not at an edge of a face, where rounding decides
+  double t = 0;        // m, from the point along its ray
+  Vec3 m = Vec3::Zero(), u = Vec3::Zero(), n = Vec3::Zero();
+  double residual() const { return t * n.dot(u); }
+};
+
+Met meet(const test::BoxModel& box, const Pose& T_target_sensor, const Point& point) {
+  Met met;
+  met.m = T_target_sensor * to_vec3(point.p);
+  met.u = rotate(T_target_sensor.q, to_vec3(point.u));
+  const double range = test::cast_box(box, met.m - 10 * met.u, met.u);
+  met.met = range > 0;
+  met.t = range - 10;
+  Vec3 depth = (met.m + met.t * met.u - box.center).cwiseAbs() - box.half;  // 0 for the face's own axis
+  int axis = 0;
+  (void)depth.maxCoeff(&axis);
+  met.n[axis] = met.u[axis] < 0 ? 1 : -1;
+  depth[axis] = -1;
+  met.clear = !met.met || depth.maxCoeff() < -1e-3;
+  return met;
+}
+
+// A pass over every stride-th point by brute force, in double.
+struct BruteSums {
+  Mat6 H = Mat6::Zero();
+  Vec6 b = Vec6::Zero();
+  double chi_squared = 0, squared_range = 0;
+  std::uint32_t count = 0, usable = 0;
+};
+
+struct BruteSettings {
+  double width, surface2, reference2, cos_incidence_max, gate;
+};
+
+void add_brute(const BruteSettings& s, const Point& point, const Met& met, BruteSums& sums) {
+  const double tilt = met.n.dot(met.u);
+  if (met.met && std::abs(met.t) < static_cast<double>(point.reach) + 3 * s.gate && std::abs(tilt) < s.cos_incidence_max) return;
+  ++sums.usable;
+  if (!met.met || std::abs(met.t) > static_cast<double>(point.reach) + 3 * s.gate) return;
+  const double variance =
+      tilt * tilt * static_cast<double>(point.range_variance) + (1 - tilt * tilt) * static_cast<double>(point.across_variance) + s.surface2;
+  const double r = met.residual();
+  const double limit = s.width * s.width * variance + s.gate * s.gate;
+  if (r * r >= limit) return;
+  const double weight = std::pow(1 - r * r / limit, 2) / variance;
+  Vec6 J;
+  J << met.m.cross(met.n), met.n;
+  sums.H += weight * J * J.transpose();
+  sums.b += weight * r * J;
+  sums.chi_squared += weight * r * r;
+  sums.squared_range += met.t * met.t;
+  ++sums.count;
+}
+
+class GaussNewtonTest : public test::PoseFixture {
+ protected:
+  GaussNewtonTest() {
+    scan_.side = 20;
+    scan_.sigma_m = 1e-3;
+    parameters().sigma_angle_rad = 3e-4;
+    parameters().surface_sigma_m = 2e-4;
+  }
+
+  MatchSettings<N> settings(double gate_m = 0) {
+    MatchSettings<N> s = make_settings(parameters(), *workspace_);
+    set_gate(gate_m, s);
+    return s;
+  }
+
+  Span<Point> points() { return {workspace_->points.begin(), workspace_->points.size()}; }
+
+  // Leaves the points out that an edge of the box could push to either side.
+  void keep_clear_points(const Pose& pose) {
+    keep_points([&](std::size_t, const Point& point) { return meet(scan_.model, pose, point).clear; });
+  }
+
+  BruteSums brute(const Pose& pose, double gate_m, std::size_t stride) const {
+    const MissionParameters& p = mission_.parameters;
+    const double surface2 = p.surface_sigma_m * p.surface_sigma_m;
+    const auto reference2 = static_cast<double>(workspace_->points[workspace_->points.size() / 2].range_variance) + surface2;
+    const BruteSettings s{p.kernel_width, surface2, reference2, std::cos(p.incidence_max_rad), gate_m};
+    BruteSums sums;
+    for (std::size_t i = 0; i < workspace_->points.size(); i += stride) {
+      add_brute(s, workspace_->points[i], meet(scan_.model, pose, workspace_->points[i]), sums);
+    }
+    return sums;
+  }
+
+  void expect_sums(const PassSums<N>& sums, const BruteSums& truth, double reference_variance) const {
+    Mat6 H;
+    Vec6 b;
+    sums.rows.unpack(H, b);
+    H /= reference_variance;
+    b /= reference_variance;
+    EXPECT_EQ(sums.rows.count(), truth.count);
+    EXPECT_EQ(sums.usable, truth.usable);
+    const double size = std::sqrt(truth.chi_squared);
+    for (int i = 0; i < 6; ++i) {
+      for (int j = 0; j < 6; ++j) EXPECT_NEAR(H(i, j), truth.H(i, j), 1e-3 * std::sqrt(truth.H(i, i) * truth.H(j, j)));
+      EXPECT_NEAR(b[i], truth.b[i], 1e-3 * std::sqrt(truth.H(i, i)) * size);
+    }
+    EXPECT_NEAR(sums.rows.chi_squared() / reference_variance, truth.chi_squared, 1e-3 * truth.chi_squared);
+    EXPECT_NEAR(sums.rows.squared_range(), truth.squared_range, 1e-3 * truth.squared_range);
+  }
+};
+
+TEST_F(GaussNewtonTest, RowsAreTheDerivativesOfTheResiduals) {
+  VERIFIES("LASSO-REG-001");
+  scan();
+  const Pose pose = inverse(test::disturb(scan_.T_sensor_target, 0.01, 0.004, random_));
+  keep_clear_points(pose);
+  int tested = 0;
+  for (std::size_t i = 0; i < workspace_->points.size(); i += 7) {
+    const Point& point = workspace_->points[i];
+    PassSums<N> sums;
+    match_points(mission_.field, to_path<N>(pose), settings(0.02), points().subspan(i, 1), 1, Lookup::kWalk, sums);
+    if (sums.rows.count() == 0) continue;
+    const double r = meet(scan_.model, pose, point).residual();
+    if (std::abs(r) < 1e-4) continue;
+    Mat6 H;
+    Vec6 b;
+    sums.rows.unpack(H, b);
+    const Vec6 J = b * (r / sums.rows.chi_squared());  // b = w r J, chi^2 = w r^2
+    for (int k = 0; k < 6; ++k) {
+      const Vec6 step = 1e-5 * Vec6::Unit(k);
+      const double slope =
+          (meet(scan_.model, step_pose(pose, step), point).residual() - meet(scan_.model, step_pose(pose, -step), point).residual()) / 2e-5;
+      EXPECT_NEAR(J[k], -slope, 3e-3) << k;  // moving the scan by x takes J.x off the residual
+    }
+    ++tested;
+  }
+  EXPECT_GT(tested, 10);
+}
+
+TEST_F(GaussNewtonTest, SumsAreThoseOfABruteForcePass) {
+  VERIFIES("LASSO-REG-001");
+  for (int i = 0; i < 12; ++i) {
+    scan_.T_sensor_target = test::random_box_pose(random_);
+    parameters().incidence_max_rad = i % 2 == 0 ? 0.9 : 1.5;
+    const double gate_m = i % 3 == 0 ? 0 : 0.01;
+    scan();
+    const Pose pose = inverse(test::disturb(scan_.T_sensor_target, 0.005, 0.005, random_));
+    keep_clear_points(pose);
+    const PassKind kind{i % 4 == 0 ? kQuarter : 1, Lookup::kWalk, 1};
+    const MatchSettings<N> s = settings(gate_m);
+    PassSums<N> sums;
+    match_points(mission_.field, to_path<N>(pose), s, points(), kind.stride, kind.lookup, sums);
+    ASSERT_GT(sums.rows.count(), 12u);
+    expect_sums(sums, brute(pose, gate_m, kind.stride), N::to_double(s.reference_variance));
+  }
+}
+
+TEST_F(GaussNewtonTest, TheStepSolvesTheNormalEquations) {
+  VERIFIES("LASSO-REG-001");
+  scan();
+  Pose pose = inverse(test::disturb(scan_.T_sensor_target, 0.004, 0.003, random_));
+  const Pose before = pose;
+  keep_clear_points(pose);
+  const BruteSums truth = brute(pose, 0.01, 1);
+  const Pass pass = take_pass(mission_, settings(0.01), {1, Lookup::kWalk, 1}, *workspace_, pose);
+  ASSERT_EQ(pass.status, Status::kOk);
+  const Vec6 left = truth.H * pass.x - truth.b;  // three faces: the wide prior does not matter
+  for (int i = 0; i < 6; ++i) EXPECT_LT(std::abs(left[i]), 2e-3 * std::sqrt(truth.H(i, i) * truth.chi_squared));
+  const Pose stepped = step_pose(before, pass.x);
+  EXPECT_EQ(pose.p, stepped.p);
+  EXPECT_EQ(pose.q.coeffs(), stepped.q.coeffs());
+  EXPECT_LT(error_of(pose).norm(), 0.2 * error_of(before).norm());
+}
+
+TEST_F(GaussNewtonTest, DampingShortensTheStep) {
+  VERIFIES("LASSO-REG-001");
+  scan();
+  const Pose start = inverse(test::disturb(scan_.T_sensor_target, 0.004, 0.003, random_));
+  Pose whole = start;
+  Pose quarter = start;
+  const Pass full = take_pass(mission_, settings(0.01), {1, Lookup::kWalk, 1}, *workspace_, whole);
+  const Pass damped = take_pass(mission_, settings(0.01), {1, Lookup::kWalk, 0.25}, *workspace_, quarter);
+  EXPECT_EQ(damped.x, Vec6(0.25 * full.x));
+  EXPECT_EQ(damped.H, full.H);
+  EXPECT_EQ(quarter.p, step_pose(start, 0.25 * full.x).p);
+}
+
+TEST_F(GaussNewtonTest, TheElementHitLastTimeIsOnlyAShortCut) {
+  VERIFIES("LASSO-REG-010");
+  scan();
+  const Pose start = inverse(test::disturb(scan_.T_sensor_target, 0.004, 0.003, random_));
+  Pose walked = start;
+  const Pass walk = take_pass(mission_, settings(0.01), {1, Lookup::kWalk, 1}, *workspace_, walked);
+  Pose remembered = start;
+  const Pass last = take_pass(mission_, settings(0.01), {1, Lookup::kLast, 1}, *workspace_, remembered);
+  for (Point& point : workspace_->points) point.element = (point.element + 2) % 6;  // a face that the ray does not hit
+  Pose misled = start;
+  const Pass wrong = take_pass(mission_, settings(0.01), {1, Lookup::kLast, 1}, *workspace_, misled);
+  EXPECT_EQ(walk.sums.rows.count(), last.sums.rows.count());
+  EXPECT_LT((walk.x - last.x).norm(), 1e-6 * walk.x.norm());
+  EXPECT_LT((walk.x - wrong.x).norm(), 1e-6 * walk.x.norm());
+}
+
+TEST_F(GaussNewtonTest, TooFewPointsTakeNoStep) {
+  VERIFIES("LASSO-REG-007");
+  scan();
+  const Pose start = truth();
+  for (std::size_t count : {std::size_t{kMinimumPoints}, std::size_t{kMinimumPoints - 1}}) {
+    keep_first_points(count);
+    Pose pose = start;
+    const Pass pass = take_pass(mission_, settings(0.01), {1, Lookup::kWalk, 1}, *workspace_, pose);
+    EXPECT_EQ(pass.sums.rows.count(), count);
+    EXPECT_EQ(pass.status, count == kMinimumPoints ? Status::kOk : Status::kNoData);
+    EXPECT_EQ(pose.p == start.p, count < kMinimumPoints);
+  }
+}
+
+// Sums of `count` rows that all look at n from m.
+Pass equal_rows(const Vec3& m, const Vec3& n, double residual, double weight, int count) {
+  Pass pass;
+  float fm[3];
+  float fn[3];
+  for (int i = 0; i < 3; ++i) {
+    fm[i] = static_cast<float>(m[i]);
+    fn[i] = static_cast<float>(n[i]);
+  }
+  const auto r = static_cast<float>(residual);
+  for (int i = 0; i < count; ++i) pass.sums.rows.add(fm, fn, r, static_cast<float>(weight), r);
+  pass.sums.rows.flush();
+  return pass;
+}
+
+TEST_F(GaussNewtonTest, DirectionsThatNoRaySeesStayWhereTheyAre) {
+  VERIFIES("LASSO-REG-008");
+  scan();
+  const Vec3 n(0, 0, 1);
+  Pass pass = equal_rows(Vec3(0.1, 0.2, -0.1), n, 2e-3, 1, 100);
+  Pose pose = truth();
+  solve_pass(mission_, settings(), 1, pass, pose);
+  ASSERT_EQ(pass.status, Status::kOk);
+  Vec6 J;
+  J << Vec3(0.1, 0.2, -0.1).cross(n), n;
+  EXPECT_NEAR(J.dot(pass.x), 2e-3, 1e-6);                       // the one direction that is seen
+  EXPECT_LT((pass.x.tail<3>() - pass.x[5] * n).norm(), 1e-12);  // and not a shift in the plane
+  EXPECT_EQ(pass.x[2], 0);                                      // nor a turn about the normal
+}
+
+TEST_F(GaussNewtonTest, SaysWhenThereIsNoSolution) {
+  VERIFIES("LASSO-REG-007");
+  scan();
+  const Pose start = truth();
+  Pose pose = start;
+  // So far from the origin that the turns drown the shifts in rounding.
+  Pass far = equal_rows(Vec3(2e6, -3e6, 1e6), Vec3(0.6, 0, 0.8), 1e-3, 1, 20);
+  solve_pass(mission_, settings(), 1, far, pose);
+  EXPECT_EQ(far.status, Status::kSingular);
+  Pass infinite = equal_rows(Vec3(0.1, 0.2, -0.1), Vec3(0.6, 0, 0.8), 1e-3, std::numeric_limits<double>::infinity(), 20);
+  solve_pass(mission_, settings(), 1, infinite, pose);
+  EXPECT_EQ(infinite.status, Status::kNotFinite);
+  EXPECT_EQ(pose.p, start.p);
+  EXPECT_EQ(pose.q.coeffs(), start.q.coeffs());
+}
+
+TEST_F(GaussNewtonTest, SettingsAreTheMissions) {
+  VERIFIES("LASSO-REG-003");
+  scan();
+  parameters().kernel_width = 7;
+  parameters().incidence_max_rad = 1.1;
+  const MatchSettings<N> s = settings(0.03);
+  EXPECT_FLOAT_EQ(s.kernel_squared, 49);
+  EXPECT_FLOAT_EQ(s.cos_incidence_max, static_cast<float>(std::cos(1.1)));
+  EXPECT_FLOAT_EQ(s.surface_variance, 4e-8F);
+  EXPECT_FLOAT_EQ(s.reference_variance, workspace_->points[0].range_variance + 4e-8F);  // the same at every range here
+  EXPECT_FLOAT_EQ(s.gate, 0.03F);
+}
+
+}  // namespace
+}  // namespace lasso

@@ -1,0 +1,138 @@
+#include "fsw/pose/prepare.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "ut/pose/pose_fixture.hpp"
+#include "ut/support/verifies.hpp"
+
+namespace lasso {
+namespace {
+
+Vec3 to_vec3(const float* v) { return Vec3(static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])); }
+
+class PrepareTest : public test::PoseFixture {
+ protected:
+  PrepareTest() {
+    scan_.side = 16;
+    scan_.rates.omega_radps = Vec3(0.3, -0.5, 0.4);
+    scan_.rates.v_mps = Vec3(0.3, -0.2, 0.5);
+  }
+  // T_target_sensor when the sample was taken, relative to the scan's reference time.
+  Pose pose_at(const RangeSample& sample) const {
+    const double tau_s = to_seconds(sample.t_us - image_->reference_time_us());
+    return inverse(propagate(scan_.T_sensor_target, scan_.rates, tau_s));
+  }
+};
+
+TEST_F(PrepareTest, MovesEachRayByTheMotionSinceItsOwnTime) {
+  VERIFIES("LASSO-REG-004");
+  scan();
+  ASSERT_EQ(workspace_->rays.size(), image_->samples.size());
+  double farthest = 0;
+  for (std::size_t i = 0; i < workspace_->rays.size(); ++i) {
+    const ScanRay<FlightNumber>& ray = workspace_->rays[i];
+    const RangeSample& sample = image_->samples[i];
+    const Pose then = pose_at(sample);
+    const double cayley = std::pow(log_so3(truth().q.conjugate() * then.q).norm(), 3) / 12;  // stated in prepare.cpp
+    EXPECT_LT((truth() * to_vec3(ray.o) - then.p).norm(), 2e-6 + 3 * cayley);
+    EXPECT_LT((rotate(truth().q, to_vec3(ray.u)) - rotate(then.q, to_vec3(sample.direction))).norm(), 3e-7 + cayley);
+    farthest = std::max(farthest, to_vec3(ray.o).norm());
+  }
+  EXPECT_GT(farthest, 0.1);  // it is no small matter here
+}
+
+TEST_F(PrepareTest, PointsLieOnTheBoxAtTheReferenceTime) {
+  VERIFIES("LASSO-REG-004");
+  scan_.rates.omega_radps = Vec3(0.1, -0.15, 0.12);
+  scan();
+  ASSERT_GT(workspace_->points.size(), 60u);
+  for (const MatchPoint<FlightNumber>& point : workspace_->points) {
+    const Vec3 away = truth() * to_vec3(point.p) - scan_.model.center;
+    const double depth = (away.cwiseAbs() - scan_.model.half).maxCoeff();  // 0 on the surface
+    EXPECT_NEAR(depth, 0, 3e-6);
+    EXPECT_EQ(point.element, kNoElement);
+  }
+}
+
+TEST_F(PrepareTest, RaysStayAsMeasuredWithoutMotionOrDeskewing) {
+  VERIFIES("LASSO-REG-004");
+  for (const bool deskew : {false, true}) {
+    parameters().deskew = deskew ? 1 : 0;
+    if (deskew) scan_.rates = Twist{};
+    scan();
+    for (std::size_t i = 0; i < workspace_->rays.size(); ++i) {
+      EXPECT_EQ(to_vec3(workspace_->rays[i].o), Vec3(Vec3::Zero()));
+      EXPECT_EQ(to_vec3(workspace_->rays[i].u), to_vec3(image_->samples[i].direction));
+    }
+  }
+}
+
+TEST_F(PrepareTest, ANoiseModelThatGrowsWithRange) {
+  VERIFIES("LASSO-REG-003");
+  parameters().sigma_k_per_m = 1.3e-4;
+  parameters().sigma_angle_rad = 4e-4;
+  parameters().surface_sigma_m = 2e-4;
+  RangeImage image;
+  for (const float range : {0.7F, 2.0F, 9.0F}) {
+    RangeSample sample;
+    sample.range_m = range;
+    sample.state = RayState::kHit;
+    ASSERT_TRUE(image.samples.push_back(sample));
+  }
+  prepare_rays(mission_, image, StartPoint(), *workspace_);
+  for (const MatchPoint<FlightNumber>& point : workspace_->points) {
+    const double z = to_vec3(point.p).norm();
+    const double along2 = 1e-3 * 1e-3 + std::pow(1.3e-4 * z * z, 2);
+    const double across2 = std::pow(4e-4 * z, 2);
+    EXPECT_NEAR(static_cast<double>(point.range_variance), along2, 1e-5 * along2);
+    EXPECT_NEAR(static_cast<double>(point.across_variance), across2, 1e-5 * across2);
+    // The surface may lie k sigma off along the ray, sigma as it is at up to 76 deg of incidence.
+    const double reach = static_cast<double>(point.reach);
+    EXPECT_GE(reach, parameters().kernel_width * std::sqrt(along2 + 16 * across2 + 2e-4 * 2e-4));
+    EXPECT_LE(reach, parameters().kernel_width * 2 * std::sqrt(along2 + 16 * across2 + 2e-4 * 2e-4));  // four terms, not their root
+  }
+}
+
+TEST_F(PrepareTest, KeepsMissesAndLeavesInvalidSamplesOut) {
+  VERIFIES("LASSO-REG-006 LASSO-REG-009");
+  const RayState states[] = {RayState::kMiss, RayState::kInvalid, RayState::kHit, RayState::kInvalid, RayState::kMiss, RayState::kHit};
+  RangeImage image;
+  for (const RayState state : states) {
+    RangeSample sample;
+    sample.direction[0] = 0.1F * static_cast<float>(image.samples.size());
+    sample.range_m = 2;  // also where it means nothing
+    sample.state = state;
+    ASSERT_TRUE(image.samples.push_back(sample));
+  }
+  scan();  // what it left behind is cleared
+  prepare_rays(mission_, image, StartPoint(), *workspace_);
+  ASSERT_EQ(workspace_->rays.size(), 4u);
+  ASSERT_EQ(workspace_->points.size(), 2u);
+  const std::size_t kept[] = {0, 2, 4, 5};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const ScanRay<FlightNumber>& ray = workspace_->rays[i];
+    EXPECT_EQ(ray.state, states[kept[i]]);
+    EXPECT_EQ(ray.u[0], 0.1F * static_cast<float>(kept[i]));
+    EXPECT_EQ(ray.range, ray.state == RayState::kHit ? 2.0F : 0.0F);
+  }
+  EXPECT_EQ(workspace_->points[1].u[0], 0.5F);
+  EXPECT_EQ(workspace_->points[1].p[2], 2.0F);
+}
+
+TEST_F(PrepareTest, TakesAsManyRaysAsAScanCanHave) {
+  VERIFIES("LASSO-REG-009");
+  RangeImage image;
+  RangeSample sample;
+  sample.range_m = 2;
+  sample.state = RayState::kHit;
+  while (image.samples.push_back(sample)) {
+  }
+  prepare_rays(mission_, image, StartPoint(), *workspace_);
+  EXPECT_EQ(workspace_->rays.size(), kMaxRays);
+  EXPECT_EQ(workspace_->points.size(), kMaxRays);
+}
+
+}  // namespace
+}  // namespace lasso
