@@ -1,6 +1,8 @@
 // mdat, the mission design and analysis tool. Exit codes: 0 done, 1 the run failed, 2 usage or bad input.
 #include <cstdio>
 #include <exception>
+#include <string>
+#include <vector>
 
 #include "hal_sim/scan_file.hpp"
 #include "mdat/cli/commands.hpp"
@@ -19,7 +21,9 @@ int refuse(const std::exception& error, int exit_code) {
 
 int usage(const CLI::App& app, const CLI::ParseError& error) {
   if (error.get_exit_code() == 0) return app.exit(error);  // help or version: as asked, on standard output
-  std::fprintf(stderr, "mdat: %s (mdat --help shows the commands, mdat COMMAND --help their options)\n", error.what());
+  const std::vector<std::string> unknown = app.remaining(true);
+  const std::string what = unknown.empty() ? error.what() : "'" + unknown.front() + "' is not known here";
+  std::fprintf(stderr, "mdat: %s (mdat --help shows the commands, mdat COMMAND --help their options)\n", what.c_str());
   return kExitBadInput;
 }
 

@@ -39,8 +39,8 @@ TEST(PoseError, SplitsIntoSensorAxesAndAnglesAboutTheTargetsAxes) {
   const Pose truth = generic_pose();
   const double yaw = 0.03, pitch = -0.02, roll = 0.05;
   Pose estimate = truth;
-  estimate.q = truth.q * Quat(Eigen::AngleAxisd(yaw, Vec3::UnitZ()) * Eigen::AngleAxisd(pitch, Vec3::UnitY()) *
-                              Eigen::AngleAxisd(roll, Vec3::UnitX()));
+  estimate.q =
+      truth.q * (Eigen::AngleAxisd(yaw, Vec3::UnitZ()) * Eigen::AngleAxisd(pitch, Vec3::UnitY()) * Eigen::AngleAxisd(roll, Vec3::UnitX()));
   estimate.p += Vec3(0.001, -0.002, 0.003);
   const PoseError error = pose_error(estimate, truth);
   EXPECT_NEAR((error.translation_m - Vec3(0.001, -0.002, 0.003)).norm(), 0, 1e-15);
