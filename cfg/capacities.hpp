@@ -8,8 +8,8 @@ namespace lasso {
 
 constexpr std::size_t kMaxRays = 4096;               // rays of one scan (nominal 1024)
 constexpr std::size_t kMaxSamplesPerPoll = 128;      // samples a sensor hands over in one call
-constexpr std::size_t kMaxImageBytes = 16u << 20;    // flight image
-constexpr std::uint32_t kMaxElementsPerCell = 250;   // elements in one ray cell's list
+constexpr std::size_t kMaxImageBytes = 32u << 20;    // flight image: 70,000 curved triangles
+constexpr std::uint32_t kMaxElementsPerCell = 500;   // elements in one ray cell's list
 constexpr std::uint32_t kMaxCellDistance = 250;      // longest jump through empty cells, in cells
 constexpr std::size_t kMaxHullPoints = 256;          // extreme points of the target, for aiming
 constexpr std::uint32_t kMaxElements = 1u << 18;

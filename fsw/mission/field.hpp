@@ -12,20 +12,15 @@
 
 namespace lasso {
 
-template <class N>
-struct ElementSide {
-  typename N::Unit m[3];
-  typename N::Length c;
-};
-
-// A convex polygon of 3 or 4 sides, see image_format.hpp.
+// A convex polygon of 3 or 4 sides, see image_format.hpp. What decides most candidates comes first; the sides lie component by component.
 template <class N>
 struct Element {
   typename N::Unit n[3];
   typename N::Length d;
-  ElementSide<N> side[4];
   std::uint32_t curvature;
   std::uint32_t flags;
+  typename N::Unit side[3][4];
+  typename N::Length side_offset[4];
 };
 
 template <class N>
@@ -89,23 +84,24 @@ inline bool near_grid(const FieldRay<N>& ray) {
 }
 
 // Does the ray hit this element's front with t in [low, high)? On a hit t is set. A tilt n.u >= 0 is a back face, which counts only for
-// two-sided elements.
+// two-sided elements. The conditions are joined without branches, which no processor could predict.
 template <class N>
 inline bool hit_element(const Element<N>& e, const FieldRay<N>& ray, typename N::Length low, typename N::Length high,
                         typename N::Length& t) {
   const auto tilt = dot3<N>(e.n, ray.u);
   const auto gap = e.d - dot3<N>(e.n, ray.m);
-  if (tilt < 0) {
-    if (gap > low * tilt || gap <= high * tilt) return false;
-  } else {
-    if ((e.flags & kElementTwoSided) == 0 || !(tilt > 0)) return false;
-    if (gap < low * tilt || gap >= high * tilt) return false;
-  }
+  const auto first = low * tilt;
+  const auto last = high * tilt;
+  const bool front = (static_cast<int>(tilt < 0) & static_cast<int>(gap <= first) & static_cast<int>(gap > last)) != 0;
+  const bool back = (static_cast<int>(tilt > 0) & static_cast<int>(gap >= first) & static_cast<int>(gap < last)) != 0;
+  if (!(front || (back && (e.flags & kElementTwoSided) != 0))) return false;
   const auto x = gap / tilt;
   const typename N::Length p[3] = {ray.m[0] + x * ray.u[0], ray.m[1] + x * ray.u[1], ray.m[2] + x * ray.u[2]};
-  for (const ElementSide<N>& side : e.side) {
-    if (dot3<N>(side.m, p) < side.c) return false;
+  int outside = 0;
+  for (int i = 0; i < 4; ++i) {
+    outside |= static_cast<int>(e.side[0][i] * p[0] + e.side[1][i] * p[1] + e.side[2][i] * p[2] < e.side_offset[i]);
   }
+  if (outside != 0) return false;
   t = x;
   return true;
 }

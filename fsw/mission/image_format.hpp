@@ -57,9 +57,9 @@ enum FieldGeometryWord : std::uint32_t {
   kFieldGeometryWords
 };
 
-// Element: a convex planar polygon of 3 or 4 sides. Words: 0..2 unit normal n (Unit, outward), 3 plane offset d (Length, n.p = d);
-// four sides of 4 words: unit inward normal m in the plane (Unit), offset c (Length): inside where m.p >= c. A triangle's fourth side
-// has m = 0 and c = -2^31. Word 20: curvature index (0 flat), word 21: flags.
+// Element: a convex planar polygon of 3 or 4 sides. Words: 0..2 unit normal n (Unit, outward), 3 plane offset d (Length, n.p = d),
+// 4 curvature index (0 flat), 5 flags; then its four sides, each with a unit inward normal m in the plane (Unit) and an offset c (Length),
+// inside where m.p >= c: 6..9 m_x of the sides, 10..13 m_y, 14..17 m_z, 18..21 c. A triangle's fourth side has m = 0 and c = -2^31.
 constexpr std::uint32_t kElementWords = 22;
 constexpr std::uint32_t kElementTwoSided = 1;  // flag: seen from behind too (sheets without thickness)
 
@@ -73,11 +73,11 @@ constexpr std::uint32_t kBrickWords = 2;
 constexpr std::uint32_t kEmptyBit = 0x80000000u;
 
 // Ray cell word: kEmptyBit | D, D = Chebyshev distance in cells to the nearest occupied cell (1..kMaxCellDistance, never too large);
-// or count << 23 | offset into kRayLists (count 1..kMaxElementsPerCell, offset < 2^23).
+// or count << 22 | offset into kRayLists (count 1..kMaxElementsPerCell, offset < 2^22).
 // A cell's list holds every element that crosses the cell's box widened by half a cell on each side (the sample spacing is one cell).
 // Hence, for any ray: samples along it at a spacing of one cell list every element that it hits within half a spacing of the sample.
 constexpr std::uint32_t kRayCellsPerBrick = 512;
-constexpr std::uint32_t kListOffsetBits = 23;
+constexpr std::uint32_t kListOffsetBits = 22;
 constexpr std::uint32_t kListOffsetMask = (1u << kListOffsetBits) - 1;
 
 // Near cell = 2x2x2 ray cells; index in the brick = (iz&7)>>1 << 4 | (iy&7)>>1 << 2 | (ix&7)>>1. Word 0: 1 + the element closest to the
@@ -88,8 +88,9 @@ constexpr std::uint32_t kNearWordsPerBrick = 128;
 // Foot point: the surface point closest to the brick's centre (Length x3).
 constexpr std::uint32_t kFootWords = 3;
 
-// Edge for silhouettes: every mesh edge whose faces are not coplanar, and every boundary edge. Words: 0..2 a, 3..5 b (Length), 6..8 n0
-// (Unit), 9 d0, 10..12 n1, 13 d1 (Length): the planes of its two faces. A boundary edge has n1 = -n0, d1 = -d0. Word 14 flags.
+// Edge for silhouettes: every convex mesh edge whose faces are not coplanar (concave ones are never contours, but where a face is
+// two-sided) and every boundary edge. Words: 0..2 a, 3..5 b (Length), 6..8 n0 (Unit), 9 d0, 10..12 n1, 13 d1 (Length): the planes of its
+// two faces. A boundary edge has n1 = -n0, d1 = -d0. Word 14 flags.
 constexpr std::uint32_t kEdgeWords = 15;
 constexpr std::uint32_t kEdgeBoundary = 1;
 

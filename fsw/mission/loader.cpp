@@ -17,7 +17,7 @@ static_assert(sizeof(ModelEdge<N>) == 4 * kEdgeWords, "edges are converted in pl
 static_assert(sizeof(HullPointOf<N>) == 4 * 3, "hull points are converted in place");
 
 // Each letter is a word of a record: u plain, L length, U unit vector, K curvature.
-constexpr const char* kElementLayout = "UUULUUULUUULUUULUUULuu";
+constexpr const char* kElementLayout = "UUULuuUUUUUUUUUUUULLLL";
 constexpr const char* kCurvatureLayout = "UUULLLKKKKKKKKK";
 constexpr const char* kEdgeLayout = "LLLLLLUUULUUULu";
 constexpr std::uint32_t kDirectoryBytes = 4 * (kImageHeaderWords + kTableCount * kDirectoryEntryWords);
@@ -199,10 +199,10 @@ LoadFailure check_indices(const Image& image, TableId id, std::uint32_t maximum)
   return {};
 }
 
-// |v|^2 of the unit vector at words k..k+2, in double: close to 1 where it is one.
-double squared_unit(const Table& table, std::uint32_t record, std::uint32_t k) {
+// |v|^2 of the unit vector at words k, k + stride, k + 2 stride, in double: close to 1 where it is one.
+double squared_unit(const Table& table, std::uint32_t record, std::uint32_t k, std::uint32_t stride = 1) {
   double sum = 0;
-  for (std::uint32_t i = k; i < k + 3; ++i) {
+  for (std::uint32_t i = k; i < k + 3 * stride; i += stride) {
     const double x = static_cast<double>(table.signed_word(record, i)) / static_cast<double>(1 << kUnitFractionBits);
     sum += x * x;
   }
@@ -213,9 +213,9 @@ bool is_unit(double squared) { return squared > 0.999 && squared < 1.001; }
 LoadFailure check_elements(const Image& image) {
   const Table& elements = image[TableId::kElements];
   for (std::uint32_t i = 0; i < elements.records; ++i) {
-    bool ok = is_unit(squared_unit(elements, i, 0)) && elements.word(i, 20) < image[TableId::kCurvatures].records;
-    for (std::uint32_t side = 0; side < 3; ++side) ok = ok && is_unit(squared_unit(elements, i, 4 + 4 * side));
-    if (!ok || elements.word(i, 21) > kElementTwoSided) return failure(Status::kBadValue, "element", TableId::kElements, i);
+    bool ok = is_unit(squared_unit(elements, i, 0)) && elements.word(i, 4) < image[TableId::kCurvatures].records;
+    for (std::uint32_t side = 0; side < 3; ++side) ok = ok && is_unit(squared_unit(elements, i, 6 + side, 4));
+    if (!ok || elements.word(i, 5) > kElementTwoSided) return failure(Status::kBadValue, "element", TableId::kElements, i);
   }
   return {};
 }

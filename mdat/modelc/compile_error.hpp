@@ -13,12 +13,18 @@ class CompileError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+// A cell lists more elements than the flight component looks through. Smaller cells help.
+class CrowdedCellError : public CompileError {
+ public:
+  using CompileError::CompileError;
+};
+
 // Joins anything that prints into one CompileError and throws it.
-template <class... Parts>
+template <class Error = CompileError, class... Parts>
 [[noreturn]] void fail(const Parts&... parts) {
   std::ostringstream text;
   (text << ... << parts);
-  throw CompileError(text.str());
+  throw Error(text.str());
 }
 
 }  // namespace lasso::mdat

@@ -17,6 +17,8 @@ namespace {
 
 constexpr double kCellsPerExtent = 165;
 constexpr double kBandCells = 5;
+constexpr int kCellTries = 4;              // sizes of automatic cells after the first
+constexpr double kCellShrink = 0.75;       // from one to the next
 constexpr std::size_t kHullPointsMin = 4;  // the loader expects a body
 
 void check_range(const char* name, double value, double low, double high) {
@@ -99,6 +101,24 @@ void put_sizes(const ModelTables& tables, CompileReport& report) {
        ": take larger cells or a coarser mesh");
 }
 
+struct GriddedField {
+  Grid grid;
+  RayField ray;
+};
+
+// With automatic cells, smaller ones are tried where the mesh is too dense for the first.
+GriddedField make_gridded_field(const Surface& surface, const std::vector<Element>& elements, const LengthScale& scale, double margin_m,
+                                double cell_m, int tries, CompileReport& report) {
+  for (;; --tries, cell_m *= kCellShrink) {
+    const Grid grid = make_grid(surface, margin_m, cell_m, scale);
+    try {
+      return {grid, make_ray_field(elements, grid, report)};
+    } catch (const CrowdedCellError&) {
+      if (tries <= 0) throw;
+    }
+  }
+}
+
 ModelTables make_tables(const Surface& surface, const ModelOptions& options, CompileReport& report, const Progress& progress) {
   progress("make elements", 0.2);
   const std::vector<EdgeUse> uses = edge_uses(surface);
@@ -107,17 +127,19 @@ ModelTables make_tables(const Surface& surface, const ModelOptions& options, Com
   const double cell_m = options.cell_size_m > 0 ? options.cell_size_m : surface.extent / kCellsPerExtent;
   const double margin_m = options.far_margin * surface.extent;
   const LengthScale scale(image_reach_m(surface, margin_m, cell_m));
-  const Grid grid = make_grid(surface, margin_m, cell_m, scale);
   const double band_m = scale.round(options.near_band_m > 0 ? options.near_band_m : kBandCells * cell_m);
   ElementSet elements = make_elements(polygons.list, scale, surface.extent, report);
-  report.cell_size_m = grid.cell_m;
   report.near_band_m = band_m;
   report.length_fraction_bits = scale.bits();
 
   ModelTables tables;
   tables[TableId::kEdges] = make_edges(surface, uses, polygons, elements.list, scale, report);
   progress("list the elements of each cell", 0.3);
-  put_ray_field(make_ray_field(elements.list, grid, report), tables);
+  GriddedField field =
+      make_gridded_field(surface, elements.list, scale, margin_m, cell_m, options.cell_size_m > 0 ? 0 : kCellTries, report);
+  const Grid& grid = field.grid;
+  report.cell_size_m = grid.cell_m;
+  put_ray_field(std::move(field.ray), tables);
   tables[TableId::kElements] = std::move(elements.words);
   tables[TableId::kCurvatures] = std::move(elements.curvature_words);
   put_sizes(tables, report);

@@ -56,13 +56,13 @@ void append_unit(std::vector<std::uint32_t>& words, const Vec3d& v) {
 void append_element(const Element& e, const LengthScale& scale, std::vector<std::uint32_t>& words) {
   append_unit(words, e.n);
   append(words, scale.to_word(e.d));
-  for (std::size_t i = 0; i < 4; ++i) {
-    const bool used = static_cast<int>(i) < e.sides;
-    append_unit(words, used ? e.m[i] : Vec3d(Vec3d::Zero()));
-    append(words, used ? scale.to_word(e.c[i]) : std::numeric_limits<std::int32_t>::min());
-  }
   words.push_back(e.curvature);
   words.push_back(e.two_sided ? kElementTwoSided : 0);
+  const auto used = static_cast<std::size_t>(e.sides);
+  for (int axis = 0; axis < 3; ++axis) {
+    for (std::size_t i = 0; i < 4; ++i) append(words, i < used ? unit_word(e.m[i][axis]) : 0);
+  }
+  for (std::size_t i = 0; i < 4; ++i) append(words, i < used ? scale.to_word(e.c[i]) : std::numeric_limits<std::int32_t>::min());
 }
 
 bool is_flat(const Polygon& polygon) {

@@ -116,8 +116,8 @@ ListStatistics statistics(std::vector<std::size_t> lengths) {
 
 void check_list(const Grid& grid, const Entry& entry, std::size_t count) {
   if (count <= kMaxElementsPerCell) return;
-  fail("the cell at (", cell_center(grid, entry).transpose(), ") m lists ", count, " elements; the limit is ", kMaxElementsPerCell,
-       ": take smaller cells than ", grid.cell_m, " m or a mesh with less detail there");
+  fail<CrowdedCellError>("the cell at (", cell_center(grid, entry).transpose(), ") m lists ", count, " elements; the limit is ",
+                         kMaxElementsPerCell, ": take smaller cells than ", grid.cell_m, " m or a mesh with less detail there");
 }
 
 // One word for each occupied cell, in the records of the occupied bricks; other cells are zero yet.

@@ -29,7 +29,7 @@ class EdgeTable {
       }
       const Face other = *partner;
       faces.erase(partner);
-      if (!coplanar(face, other)) write(a, b, face, &other);
+      if (!coplanar(face, other) && !hidden_in_solid(b - a, face, other)) write(a, b, face, &other);
     }
   }
   std::vector<std::uint32_t>& words() { return words_; }
@@ -64,6 +64,12 @@ class EdgeTable {
     if (x.element == y.element) return true;
     const double sign = x.forward != y.forward ? 1 : -1;
     return (elements_[x.element].n - sign * elements_[y.element].n).norm() < kCoplanarAngle_rad;
+  }
+
+  // A concave edge of a solid is never seen as a contour: whatever looks at its one face from behind looks through the solid.
+  bool hidden_in_solid(const Vec3d& edge, const Face& x, const Face& y) const {
+    if (elements_[x.element].two_sided || elements_[y.element].two_sided || x.forward == y.forward) return false;
+    return angle_through_solid(edge, x, y) > std::numbers::pi;
   }
 
   void put(std::int32_t word) { words_.push_back(static_cast<std::uint32_t>(word)); }

@@ -125,14 +125,14 @@ TEST_F(LoaderTest, RefusesIndicesOutsideTheirTables) {
       {TableId::kFieldGeometry, kCellSize, 0x80000000u, Status::kBadValue},
       {TableId::kFieldGeometry, kModelRadius, 0, Status::kBadValue},
       {TableId::kElements, 0, 0, Status::kBadValue},   // low x face without its normal
-      {TableId::kElements, 20, 1, Status::kBadValue},  // curvature that is not there
-      {TableId::kElements, 21, 2, Status::kBadValue},  // unknown flag
+      {TableId::kElements, 4, 1, Status::kBadValue},  // curvature that is not there
+      {TableId::kElements, 5, 2, Status::kBadValue},  // unknown flag
       {TableId::kBricks, 0, 0x7FFFFFFFu, Status::kBadIndex},
       {TableId::kBricks, 0, kEmptyBit, Status::kBadIndex},  // no distance
       {TableId::kBricks, 1, 1u << 20, Status::kBadIndex},
       {TableId::kRayCells, 0, kEmptyBit | 251u, Status::kBadIndex},
       {TableId::kRayCells, 0, 5, Status::kBadIndex},  // a list of nothing
-      {TableId::kRayCells, 7, 250u << kListOffsetBits | kListOffsetMask, Status::kBadIndex},
+      {TableId::kRayCells, 7, 500u << kListOffsetBits | kListOffsetMask, Status::kBadIndex},
       {TableId::kRayLists, 0, 6, Status::kBadIndex},
       {TableId::kNearCells, 0, 7, Status::kBadIndex},
       {TableId::kEdges, 6, 0x10000000u, Status::kBadValue},

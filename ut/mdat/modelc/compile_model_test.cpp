@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "cfg/capacities.hpp"
 #include "mdat/modelc/model.hpp"
 #include "ut/mdat/modelc/meshes.hpp"
 #include "ut/mdat/modelc/tables.hpp"
@@ -321,10 +322,10 @@ TEST(CompileModel, RefusesWhatExceedsTheFlightCapacityWithFigureAndLimit) {
   ModelOptions options;
   options.cell_size_m = 0.2;
   const std::string crowded = message_of(shapes::sphere(0.3, 40, 60), options);
-  EXPECT_NE(crowded.find("the limit is 250"), std::string::npos) << crowded;
-  options.cell_size_m = 0.0025;
+  EXPECT_NE(crowded.find("the limit is " + std::to_string(kMaxElementsPerCell)), std::string::npos) << crowded;
+  options.cell_size_m = 0.0018;
   const std::string large = message_of(shapes::sphere(0.5, 30, 40), options);
-  EXPECT_NE(large.find("16777216"), std::string::npos) << large;
+  EXPECT_NE(large.find("the limit of an image is " + std::to_string(kMaxImageBytes)), std::string::npos) << large;
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "cfg/capacities.hpp"
 #include "mdat/modelc/repair.hpp"
 #include "ut/mdat/modelc/meshes.hpp"
 #include "ut/support/verifies.hpp"
@@ -107,7 +108,7 @@ TEST(RayField, EqualListsAreStoredOnceAndCounted) {
 
 TEST(RayField, ATooLongListNamesItsPlace) {
   VERIFIES("LASSO-MDL-008");
-  std::vector<Element> elements = elements_of(shapes::soup(251, 0.01, 25));
+  std::vector<Element> elements = elements_of(shapes::soup(kMaxElementsPerCell + 1, 0.01, 25));
   Grid grid;
   grid.origin = Vec3d::Constant(-1);
   grid.cell_m = 0.125;
@@ -117,7 +118,7 @@ TEST(RayField, ATooLongListNamesItsPlace) {
     make_ray_field(elements, grid, report);
     FAIL();
   } catch (const CompileError& error) {
-    EXPECT_NE(std::string(error.what()).find("lists 251 elements; the limit is 250"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("lists 501 elements; the limit is 500"), std::string::npos) << error.what();
     EXPECT_NE(std::string(error.what()).find("the cell at ("), std::string::npos) << error.what();
   }
   elements.pop_back();

@@ -86,10 +86,10 @@ class DecodedTables {
   DecodedElement decode(std::size_t index) const {
     const auto& words = tables_[TableId::kElements];
     const std::size_t at = kElementWords * index;
-    DecodedElement e{direction(TableId::kElements, at), length(words[at + 3]), {}, {}, words[at + 20], words[at + 21]};
+    DecodedElement e{direction(TableId::kElements, at), length(words[at + 3]), {}, {}, words[at + 4], words[at + 5]};
     for (std::size_t i = 0; i < 4; ++i) {
-      e.m[i] = direction(TableId::kElements, at + 4 + 4 * i);
-      e.c[i] = length(words[at + 7 + 4 * i]);
+      for (int axis = 0; axis < 3; ++axis) e.m[i][axis] = unit(words[at + 6 + 4 * static_cast<std::size_t>(axis) + i]);
+      e.c[i] = length(words[at + 18 + i]);
     }
     return e;
   }
