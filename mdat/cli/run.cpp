@@ -54,7 +54,8 @@ void add_run_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("run", "track a mission's target in simulation, and report");
   command->add_option("MISSION", options->mission, "mission file")->required();
   command->add_option("--scenario", options->simulation.scenario, "scenario of the mission")->capture_default_str();
-  command->add_option("--seed", options->simulation.seed, "start of the random numbers (the scenario's)")->check(CLI::NonNegativeNumber);
+  command->add_option("--seed", options->simulation.seed, "start of the random numbers (the scenario's)")
+      ->check(CLI::Range(std::int64_t{0}, std::int64_t{4294967295}));
   command->add_option("-o,--out", options->out, "folder to write")->capture_default_str();
   command->add_option("--frames", options->simulation.frames, "frames of each range (the scenario's)")->check(CLI::Range(1, 1000000));
   command->add_option("-j,--jobs", options->simulation.jobs, "ranges and variants at a time; no effect on the results")
