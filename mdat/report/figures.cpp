@@ -102,7 +102,7 @@ std::string error_against_angle(Plotter& plotter, const TableResult& table, cons
   std::vector<std::string> files;
   for (const CaseResult& run : variant.cases) files.push_back(plotter.data(errors_text(run, step)));
   std::string script = std::string(kStyle) +
-                       "set multiplot layout 2,3 margins 0.045,0.925,0.125,0.93 spacing 0.055,0.14\n"
+                       "set multiplot layout 2,3 margins 0.06,0.925,0.125,0.93 spacing 0.062,0.14\n"
                        "set key at screen 0.998,0.95 right top vertical samplen 1.2 spacing 1.2\n";
   script += format("set xrange [0:%g]\n", step * static_cast<double>(variant.cases[0].frames.size()));
   if (turns && variant.cases[0].frames.size() > 180) script += "set xtics 90\n";
