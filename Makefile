@@ -23,7 +23,7 @@ compile = @echo "build $(1)$(if $(2), ($(2)))"; cmake --build $(1) --parallel $(
 ctest = @rm -rf $(2); mkdir -p $(2); GTEST_OUTPUT=xml:$(abspath $(2))/ \
   ctest --test-dir $(1) --parallel $(JOBS) --output-on-failure --no-tests=error --output-junit $(abspath $(2))/ctest.xml
 
-.PHONY: help run test bench golden ppc-test format lint install clean build
+.PHONY: help run test bench golden ppc-count memory ppc-test format lint install clean build
 .DEFAULT_GOAL := help
 
 help: ## this list
@@ -49,6 +49,17 @@ golden: build ## the same telemetry, bit for bit, from the host and from the emu
 	$(call configure,$(DEBUG),-DCMAKE_BUILD_TYPE=Debug -DLASSO_GROUND=OFF)
 	$(call compile,$(DEBUG),golden_replay)
 	@ft/golden/run $(BUILD) $(PPC) $(DEBUG)
+
+ppc-count: build ## instructions of one estimate on the PowerPC 603e, by function; table, and out/ppc-count/results.json
+	$(call packages,target)
+	$(call configure,$(PPC),-DCMAKE_TOOLCHAIN_FILE=cfg/toolchains/ppc603e.cmake -DLASSO_GROUND=OFF)
+	$(call compile,$(PPC),golden_replay)
+	@ft/ppc603e/count $(BUILD) $(PPC)
+
+memory: ## static memory of the flight component and stack of its tasks on the PowerPC 603e; out/ppc-memory/results.json
+	$(call packages,build target)
+	$(call configure,$(PPC),-DCMAKE_TOOLCHAIN_FILE=cfg/toolchains/ppc603e.cmake -DLASSO_GROUND=OFF)
+	@ft/ppc603e/memory $(PPC)
 
 ppc-test: ## unit tests of the flight component on the emulated PowerPC 603e; reports in out/ppc-test
 	$(call packages,build target)

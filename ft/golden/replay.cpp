@@ -1,6 +1,7 @@
 // golden_replay IMAGE TRACE TELEMETRY: runs the flight component on one thread against a trace (ft/golden/trace.hpp), writes its telemetry
 // and says one line about it. Nothing here depends on the processor or the clock.
 // Exit codes: 0 done, 1 the component left the trace or refused its input, 2 usage or unreadable files.
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -49,8 +50,9 @@ Status begin(Component& component, Bytes image, const TraceHeader& header) {
 }
 
 struct Tally {
-  unsigned poses = 0;
-  unsigned valid = 0;
+  std::size_t poses = 0;
+  std::size_t valid = 0;
+  std::size_t returns = 0;
 };
 
 Tally tally(ConstBytes stream) {
@@ -62,6 +64,7 @@ Tally tally(ConstBytes stream) {
     invariant(decode_pose(packet, header, pose) == Status::kOk, "telemetry that cannot be decoded");
     ++result.poses;
     result.valid += pose.valid;
+    result.returns += pose.returns;
     stream = stream.subspan(packet.size(), stream.size() - packet.size());
   }
   return result;
@@ -73,8 +76,9 @@ int report(const char* name, const TracePlayer& player, ConstBytes telemetry) {
                        std::to_string(kTraceHeaderBytes + player.position()));
   }
   if (!write_file(name, telemetry)) return fail(2, std::string("cannot write ") + name);
-  const Tally poses = tally(telemetry);
-  std::printf("%u poses, %u valid, %zu bytes, CRC-32C %08lX\n", poses.poses, poses.valid, telemetry.size(), 0UL + crc32c(telemetry));
+  const Tally sum = tally(telemetry);
+  std::printf("%zu poses, %zu valid, %zu returns a scan, %zu bytes, CRC-32C %08lX\n", sum.poses, sum.valid,
+              sum.returns / std::max<std::size_t>(sum.poses, 1), telemetry.size(), 0UL + crc32c(telemetry));
   return 0;
 }
 
