@@ -7,12 +7,12 @@ namespace {
 using N = FlightNumber;
 
 constexpr int kFarPasses = 20;
-constexpr double kFarGateFirst = 0.9;    // of the model's radius
-constexpr double kFarGateShrink = 0.8;   // per pass
-constexpr double kFrontOfCenter = 0.15;  // of the radius: how far in front of the model's centre its visible side lies
-constexpr int kSlides = 6;               // each way
-constexpr double kSlideStep = 0.055;     // of the radius
-constexpr double kGoodShare = 0.9;       // of the points explained: no slide can be better by much
+constexpr double kFarGateFirst = 0.9;            // of the model's radius
+constexpr double kFarGateShrink = 0.8;           // per pass
+constexpr double kFrontOfCenter = 0.15;          // of the radius: how far in front of the model's centre its visible side lies
+constexpr int kSlides = 6;                       // each way
+constexpr double kSlideSteps[] = {0.055, 0.01};  // of the radius: coarse, fine
+constexpr double kGoodShare = 0.98;              // of the points explained: no slide can be better by much
 constexpr int kNearPasses = 4;
 constexpr int kRayPasses = 3;
 
@@ -131,12 +131,12 @@ Candidate settled(const Mission& mission, const MatchSettings<N>& settings, Pose
 }
 
 // A wrong minimum is mostly a slide along an axis with a good rotation: tries them.
-Candidate slide(const Mission& mission, const MatchSettings<N>& s, int axis, const Candidate& start, Workspace& workspace) {
+Candidate slide(const Mission& mission, const MatchSettings<N>& s, int axis, double step_m, const Candidate& start, Workspace& workspace) {
   Candidate best = start;
   for (int step = -kSlides; step <= kSlides; ++step) {
     if (step == 0) continue;
     Pose moved = start.pose;
-    moved.p[axis] += step * kSlideStep * mission.radius_m;
+    moved.p[axis] += step * step_m;
     const Candidate candidate = settled(mission, s, moved, workspace);
     if (candidate.score > best.score) best = candidate;
   }
@@ -157,7 +157,11 @@ Pose approach_from_afar(const Mission& mission, const Pose& T_target_sensor, Wor
   }
   Candidate best = settled(mission, s, pose, workspace);
   const double enough = kGoodShare * static_cast<double>(workspace.points.size() / kQuarter);
-  for (int axis = 0; axis < 3 && best.score < enough; ++axis) best = slide(mission, s, axis, best, workspace);
+  for (const double step : kSlideSteps) {
+    for (int axis = 0; axis < 3 && best.score < enough; ++axis) {
+      best = slide(mission, s, axis, step * mission.radius_m, best, workspace);
+    }
+  }
   return best.pose;
 }
 
