@@ -1,0 +1,69 @@
+// approach_from_afar (register.hpp).
+#include <gtest/gtest.h>
+
+#include "fsw/geometry/portable_math.hpp"
+#include "fsw/pose/register.hpp"
+#include "ut/pose/pose_fixture.hpp"
+#include "ut/support/verifies.hpp"
+
+namespace lasso {
+namespace {
+
+class AfarTest : public test::PoseFixture {
+ protected:
+  AfarTest() { scan_.sigma_m = 1e-3; }
+};
+
+TEST_F(AfarTest, ConvergesFromTwentyDegreesAndAQuarterOfTheSize) {
+  VERIFIES("LASSO-REG-005");
+  constexpr int kStarts = 200;
+  const double rotation_rad = 20 * kPi / 180;
+  const double shift_m = 0.25 * mission_.radius_m;
+  int lost = 0;
+  for (int i = 0; i < kStarts; ++i) {
+    if (i % 10 == 0) {
+      scan_.T_sensor_target = test::disturb(test::generic_box_pose(), 0.15, 0.1, random_);
+      scan();
+    }
+    const Pose start = inverse(test::disturb(scan_.T_sensor_target, rotation_rad, shift_m, random_));
+    const HitSolution solution = register_hits(mission_, approach_from_afar(mission_, start, *workspace_), *workspace_);
+    const Vec6 error = error_of(solution.T_target_sensor);
+    if (error.tail<3>().norm() > 2e-3 || error.head<3>().norm() > 5e-3) ++lost;
+  }
+  EXPECT_LE(lost, kStarts / 100);
+}
+
+TEST_F(AfarTest, IsNeededFromThere) {
+  VERIFIES("LASSO-REG-005");
+  scan();
+  int lost = 0;
+  for (int i = 0; i < 10; ++i) {
+    const Pose start = inverse(test::disturb(scan_.T_sensor_target, 0.35, 0.25 * mission_.radius_m, random_));
+    if (error_of(register_hits(mission_, start, *workspace_).T_target_sensor).tail<3>().norm() > 2e-3) ++lost;
+  }
+  EXPECT_GT(lost, 7);
+}
+
+TEST_F(AfarTest, TooFewPointsLeaveTheStart) {
+  VERIFIES("LASSO-REG-007");
+  scan();
+  for (const std::size_t count : {std::size_t{47}, std::size_t{0}}) {  // a quarter of 47: 11
+    keep_first_points(count);
+    const Pose start = inverse(test::disturb(scan_.T_sensor_target, 0.3, 0.1, random_));
+    const Pose result = approach_from_afar(mission_, start, *workspace_);
+    EXPECT_EQ(result.p, start.p);
+    EXPECT_EQ(result.q.coeffs(), start.q.coeffs());
+  }
+}
+
+TEST_F(AfarTest, AScanOfSomethingElseStaysFinite) {
+  VERIFIES("LASSO-REG-007");
+  scan();
+  for (MatchPoint<FlightNumber>& point : workspace_->points) {
+    for (float& p : point.p) p *= static_cast<float>(random_.uniform(0.2, 300));
+  }
+  EXPECT_TRUE(is_valid(approach_from_afar(mission_, truth(), *workspace_)));
+}
+
+}  // namespace
+}  // namespace lasso

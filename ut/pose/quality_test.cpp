@@ -1,0 +1,205 @@
+#include "fsw/pose/quality.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/QR>
+
+#include "ut/pose/pose_fixture.hpp"
+#include "ut/support/verifies.hpp"
+
+namespace lasso {
+namespace {
+
+class AgreementTest : public test::PoseFixture {
+ protected:
+  // By brute force: does the box stand in the ray's way, seen from the pose?
+  bool meets(const ScanRay<FlightNumber>& ray, const Pose& T_target_sensor) const {
+    Vec3 o;
+    Vec3 u;
+    for (int i = 0; i < 3; ++i) {
+      o[i] = static_cast<double>(ray.o[i]);
+      u[i] = static_cast<double>(ray.u[i]);
+    }
+    return test::cast_box(scan_.model, T_target_sensor * o, rotate(T_target_sensor.q, u)) > 0;
+  }
+  // Misses that `pose` says should have hit, among every stride-th; and all misses.
+  double violated_share(const Pose& pose, std::size_t stride, std::size_t& misses) const {
+    double violated = 0;
+    double looked_up = 0;
+    misses = 0;
+    for (const ScanRay<FlightNumber>& ray : workspace_->rays) {
+      if (ray.state != RayState::kMiss || misses++ % stride != 0) continue;
+      looked_up += 1;
+      violated += meets(ray, pose) ? 1 : 0;
+    }
+    return violated / looked_up;
+  }
+  double agreement(const Pose& pose, std::uint32_t inliers, std::uint32_t returns, bool misses_known = true) const {
+    return hit_miss_agreement(mission_, pose, inliers, returns, misses_known, *workspace_);
+  }
+};
+
+TEST_F(AgreementTest, IsTheShareOfRaysThatAreAsPredicted) {
+  VERIFIES("LASSO-REG-007");
+  scan_.side = 9;
+  scan_.rates.v_mps = Vec3(0.3, -0.2, 0.5);  // rays with an origin of their own
+  int blamed = 0;
+  for (int i = 0; i < 30; ++i) {
+    scan_.T_sensor_target = test::random_box_pose(random_);
+    scan();
+    const Pose pose = inverse(test::disturb(scan_.T_sensor_target, 0.3, 0.15, random_));
+    std::size_t misses = 0;
+    const double violated = violated_share(pose, 1, misses);
+    if (misses > 63) continue;  // more are sampled
+    const auto m = static_cast<double>(misses);
+    EXPECT_NEAR(agreement(pose, 30, 40), (30 + m * (1 - violated)) / (40 + m), 1e-12);
+    blamed += violated > 0.1 ? 1 : 0;
+    mission_.parameters.dropout_probability = 0.1;
+    EXPECT_NEAR(agreement(pose, 30, 40), (30 + m * (1 - std::max(0.0, violated - 0.1))) / (40 + m), 1e-12);
+    mission_.parameters.dropout_probability = 0;
+  }
+  EXPECT_GT(blamed, 10);
+}
+
+TEST_F(AgreementTest, ManyMissesAreSampledEvenly) {
+  VERIFIES("LASSO-REG-007");
+  scan();
+  const Pose pose = inverse(test::disturb(scan_.T_sensor_target, 0.3, 0.15, random_));
+  std::size_t misses = 0;
+  const double all = violated_share(pose, 1, misses);
+  ASSERT_GT(misses, 300u);
+  const double sampled = violated_share(pose, misses / 64 + 1, misses);
+  EXPECT_GT(sampled, 0.02);
+  EXPECT_NEAR(sampled, all, 0.05);
+  const auto m = static_cast<double>(misses);
+  EXPECT_NEAR(agreement(pose, 300, 400), (300 + m * (1 - sampled)) / (400 + m), 1e-12);
+}
+
+TEST_F(AgreementTest, IsOneAtTheTruth) {
+  VERIFIES("LASSO-REG-007");
+  scan();
+  EXPECT_EQ(agreement(truth(), 400, 400), 1);
+}
+
+TEST_F(AgreementTest, UnknownMissesDoNotCount) {
+  VERIFIES("LASSO-REG-009");
+  scan();
+  EXPECT_EQ(agreement(truth(), 30, 40, false), 0.75);
+  EXPECT_EQ(agreement(truth(), 0, 0, false), 0);
+  workspace_->rays.clear();
+  EXPECT_EQ(agreement(truth(), 30, 40, true), 0.75);
+}
+
+TEST_F(AgreementTest, WhatLiesBehindTheSensorIsNotMet) {
+  VERIFIES("LASSO-REG-007");
+  scan();
+  for (ScanRay<FlightNumber>& ray : workspace_->rays) ray.state = RayState::kMiss;
+  EXPECT_LT(agreement(truth(), 0, 0), 0.9);
+  Pose behind = scan_.T_sensor_target;
+  behind.p = -behind.p;
+  EXPECT_EQ(agreement(inverse(behind), 0, 0), 1);
+}
+
+class WeakDirectionsTest : public test::PoseFixture {
+ protected:
+  // A covariance with the given sigmas [m] along orthogonal directions, rotation scaled by the radius.
+  void make_covariance(const Vec6& sigmas_m) {
+    Mat6 A;
+    for (int i = 0; i < 36; ++i) A.data()[i] = random_.uniform(-1, 1);
+    axes_ = Eigen::HouseholderQR<Mat6>(A).householderQ();
+    Vec6 scale = Vec6::Ones();
+    scale.head<3>().setConstant(1 / mission_.radius_m);
+    const Mat6 scaled = axes_ * sigmas_m.cwiseAbs2().asDiagonal() * axes_.transpose();
+    result_.covariance = scale.asDiagonal() * scaled * scale.asDiagonal();
+  }
+  Mat6 axes_;
+  Registration result_;
+};
+
+TEST_F(WeakDirectionsTest, AreThoseOfTheCovariance) {
+  VERIFIES("LASSO-REG-008");
+  parameters().sigma_position_max_m = 0.05;
+  parameters().sigma_attitude_max_rad = 3.0;
+  for (int i = 0; i < 20; ++i) {
+    Vec6 sigmas;
+    sigmas << 1e-4, 0.06, 2e-3, 0.3, 0.049, 0.051;
+    make_covariance(sigmas);
+    find_weak_directions(mission_, result_);
+    EXPECT_EQ(result_.weak, 3);
+    EXPECT_NEAR(result_.weakest_sigma_m, 0.3, 1e-9);
+    EXPECT_NEAR(std::abs(result_.weakest_direction.dot(axes_.col(3))), 1, 1e-9);
+    EXPECT_NEAR(result_.weakest_direction.norm(), 1, 1e-12);
+  }
+}
+
+TEST_F(WeakDirectionsTest, AreMeasuredByTheTighterLimit) {
+  VERIFIES("LASSO-REG-008");
+  parameters().sigma_position_max_m = 0.05;
+  parameters().sigma_attitude_max_rad = 0.01 / mission_.radius_m;
+  Vec6 sigmas;
+  sigmas << 0.009, 0.011, 0.04, 0.001, 0.0099, 0.0101;
+  make_covariance(sigmas);
+  find_weak_directions(mission_, result_);
+  EXPECT_EQ(result_.weak, 3);
+  EXPECT_NEAR(result_.weakest_sigma_m, 0.04, 1e-9);
+}
+
+TEST_F(WeakDirectionsTest, ThereAreNoneInAGoodPose) {
+  VERIFIES("LASSO-REG-008");
+  make_covariance(Vec6::Constant(1e-4));
+  find_weak_directions(mission_, result_);
+  EXPECT_EQ(result_.weak, 0);
+  EXPECT_NEAR(result_.weakest_sigma_m, 1e-4, 1e-12);
+}
+
+Registration good_result() {
+  Registration r;
+  r.stop = StopReason::kConverged;
+  r.returns = 400;
+  r.inliers = 390;
+  r.inlier_share = 0.97;
+  r.agreement = 0.99;
+  r.normalized_residual = 1.1;
+  return r;
+}
+
+PoseReason judge_with(void (*spoil)(const MissionParameters&, Registration&)) {
+  const MissionParameters p = preset_parameters();
+  Registration r = good_result();
+  spoil(p, r);
+  return judge(p, r);
+}
+
+TEST(Judge, NamesTheCheckThatFails) {
+  VERIFIES("LASSO-REG-007");
+  using P = const MissionParameters&;
+  using R = Registration&;
+  EXPECT_EQ(judge_with([](P, R) {}), PoseReason::kValid);
+  EXPECT_EQ(judge_with([](P p, R r) { r.returns = static_cast<std::uint16_t>(p.inliers_min - 1); }), PoseReason::kTooFewReturns);
+  EXPECT_EQ(judge_with([](P, R r) { r.stop = StopReason::kSingular; }), PoseReason::kSingular);
+  EXPECT_EQ(judge_with([](P, R r) { r.stop = StopReason::kTooFewPoints; }), PoseReason::kTooFewInliers);
+  EXPECT_EQ(judge_with([](P p, R r) { r.inliers = static_cast<std::uint16_t>(p.inliers_min - 1); }), PoseReason::kTooFewInliers);
+  EXPECT_EQ(judge_with([](P, R r) { r.stop = StopReason::kIterationLimit; }), PoseReason::kNotConverged);
+  EXPECT_EQ(judge_with([](P p, R r) { r.inlier_share = p.inlier_share_min - 1e-9; }), PoseReason::kLowInlierShare);
+  EXPECT_EQ(judge_with([](P p, R r) { r.agreement = p.agreement_min - 1e-9; }), PoseReason::kLowAgreement);
+  EXPECT_EQ(judge_with([](P p, R r) { r.normalized_residual = p.normalized_residual_max + 1e-9; }), PoseReason::kHighResidual);
+}
+
+TEST(Judge, LimitsThemselvesAreValid) {
+  VERIFIES("LASSO-REG-007");
+  const MissionParameters p = preset_parameters();
+  Registration r = good_result();
+  r.returns = r.inliers = static_cast<std::uint16_t>(p.inliers_min);
+  r.inlier_share = p.inlier_share_min;
+  r.agreement = p.agreement_min;
+  r.normalized_residual = p.normalized_residual_max;
+  EXPECT_EQ(judge(p, r), PoseReason::kValid);
+}
+
+TEST(Judge, NothingRunIsNotValid) {
+  VERIFIES("LASSO-REG-007");
+  EXPECT_EQ(judge(preset_parameters(), Registration()), PoseReason::kTooFewReturns);
+}
+
+}  // namespace
+}  // namespace lasso

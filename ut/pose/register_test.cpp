@@ -1,0 +1,160 @@
+#include "fsw/pose/register.hpp"
+
+#include <gtest/gtest.h>
+
+#include "ut/pose/pose_fixture.hpp"
+#include "ut/support/verifies.hpp"
+
+namespace lasso {
+namespace {
+
+constexpr int kOpening = 2;        // passes before those over all points
+constexpr int kSecondOpening = 3;  // the same of the second look
+
+class RegisterTest : public test::PoseFixture {
+ protected:
+  RegisterTest() { scan_.side = 24; }
+
+  HitSolution register_from(double rotation_rad, double shift_m) {
+    return register_hits(mission_, inverse(test::disturb(scan_.T_sensor_target, rotation_rad, shift_m, random_)), *workspace_);
+  }
+  void never_small_enough() {
+    parameters().stop_translation_m = 0;
+    parameters().stop_rotation_rad = 0;
+  }
+};
+
+TEST_F(RegisterTest, ConvergesInFewPasses) {
+  VERIFIES("LASSO-REG-001");
+  for (int i = 0; i < 15; ++i) {
+    scan_.T_sensor_target = test::disturb(test::generic_box_pose(), 0.2, 0.1, random_);
+    scan();
+    const HitSolution solution = register_from(0.01, 0.005);
+    EXPECT_EQ(solution.stop, StopReason::kConverged);
+    EXPECT_LE(solution.iterations, kOpening + 4);
+    EXPECT_GT(solution.inliers, 0.99 * static_cast<double>(workspace_->points.size()));
+    EXPECT_LE(solution.usable, workspace_->points.size());
+    EXPECT_LT(error_of(solution.T_target_sensor).head<3>().norm(), 5e-5);
+    EXPECT_LT(error_of(solution.T_target_sensor).tail<3>().norm(), 2e-5);
+  }
+}
+
+TEST_F(RegisterTest, OnePassOverAllPointsIsEnoughAtTheTruth) {
+  VERIFIES("LASSO-REG-001");
+  scan();
+  const HitSolution solution = register_from(0, 0);
+  EXPECT_EQ(solution.stop, StopReason::kConverged);
+  EXPECT_EQ(solution.iterations, kOpening + 1);
+}
+
+TEST_F(RegisterTest, SumsOfResidualsTellTheNoise) {
+  VERIFIES("LASSO-REG-003");
+  scan_.sigma_m = 2e-3;
+  double chi_squared = 0;
+  double squared = 0;
+  double freedom = 0;
+  for (int i = 0; i < 6; ++i) {
+    scan();
+    const HitSolution solution = register_from(0.003, 0.002);
+    chi_squared += solution.chi_squared;
+    squared += solution.squared_residual_m2;
+    freedom += solution.inliers - 6;
+  }
+  // Twice the assumed sigma, seen through Tukey's kernel of 10 assumed sigmas.
+  EXPECT_NEAR(chi_squared / freedom, 4 * (1 - 6 / 25.0 + 15 / 625.0), 0.3);
+  EXPECT_NEAR(squared / freedom, 4e-6, 0.4e-6);
+}
+
+TEST_F(RegisterTest, TheInformationIsTheInverseOfTheErrorsCovariance) {
+  VERIFIES("LASSO-REG-003");
+  scan_.sigma_m = 1e-3;
+  double nees = 0;
+  constexpr int kScans = 40;
+  for (int i = 0; i < kScans; ++i) {
+    scan();
+    const HitSolution solution = register_from(0.003, 0.002);
+    // The error as the step from the estimate to the truth, target axes.
+    const Pose step = truth() * inverse(solution.T_target_sensor);
+    Vec6 x;
+    x << log_so3(step.q), truth().p - rotate(step.q, solution.T_target_sensor.p);
+    nees += x.dot(solution.H * x) / kScans;
+  }
+  EXPECT_NEAR(nees, 6, 1.2);
+}
+
+TEST_F(RegisterTest, StopsAtTheIterationLimit) {
+  VERIFIES("LASSO-REG-007");
+  scan_.sigma_m = 1e-3;
+  scan();
+  never_small_enough();
+  parameters().iterations_max = 1;
+  const HitSolution solution = register_from(0.005, 0.003);
+  EXPECT_EQ(solution.stop, StopReason::kIterationLimit);
+  EXPECT_EQ(solution.iterations, kOpening + 1);
+}
+
+TEST_F(RegisterTest, LooksASecondTimeWhereReturnsStayUnexplained) {
+  VERIFIES("LASSO-REG-006");
+  scan_.outliers = 0.2;
+  scan_.sigma_m = 1e-3;
+  scan();
+  never_small_enough();
+  parameters().iterations_max = 1;
+  const HitSolution solution = register_from(0.005, 0.003);
+  EXPECT_EQ(solution.iterations, kOpening + 1 + kSecondOpening + 1);
+  EXPECT_LT(error_of(solution.T_target_sensor).tail<3>().norm(), 2e-3);
+}
+
+TEST_F(RegisterTest, TheSecondLookReachesFarther) {
+  VERIFIES("LASSO-REG-001");
+  scan();
+  for (const double gates : {-3.0, -2.0, 2.0, 3.0}) {  // beyond the first look's gate, within the second's
+    Pose start = scan_.T_sensor_target;
+    start.p[2] += gates * parameters().gate_first_m;
+    const HitSolution solution = register_hits(mission_, inverse(start), *workspace_);
+    EXPECT_GT(solution.iterations, kOpening + kSecondOpening);
+    EXPECT_EQ(solution.stop, StopReason::kConverged);
+    EXPECT_LT(error_of(solution.T_target_sensor).tail<3>().norm(), 2e-5);
+  }
+}
+
+TEST_F(RegisterTest, TooFewPointsLeaveTheStart) {
+  VERIFIES("LASSO-REG-007");
+  scan();
+  keep_first_points(11);
+  const Pose start = inverse(test::disturb(scan_.T_sensor_target, 0.01, 0.01, random_));
+  const HitSolution solution = register_hits(mission_, start, *workspace_);
+  EXPECT_EQ(solution.stop, StopReason::kTooFewPoints);
+  EXPECT_EQ(solution.iterations, 0);
+  EXPECT_EQ(solution.inliers, 0u);
+  EXPECT_EQ(solution.T_target_sensor.p, start.p);
+  EXPECT_EQ(solution.T_target_sensor.q.coeffs(), start.q.coeffs());
+}
+
+TEST_F(RegisterTest, PointsThatMeetNothingAreTooFew) {
+  VERIFIES("LASSO-REG-007");
+  scan();
+  Pose start = truth();
+  start.p += Vec3(0.7, 0.8, -0.9);
+  const HitSolution solution = register_hits(mission_, start, *workspace_);
+  EXPECT_EQ(solution.stop, StopReason::kTooFewPoints);
+  EXPECT_EQ(solution.inliers, 0u);
+  EXPECT_EQ(solution.usable, workspace_->points.size());
+  EXPECT_EQ(solution.T_target_sensor.p, start.p);
+}
+
+TEST_F(RegisterTest, SumsWithoutASolutionAreSaid) {
+  VERIFIES("LASSO-REG-007");
+  scan();
+  parameters().surface_sigma_m = 0;
+  // Weights are relative to the middle point's variance: the others' are beyond all numbers.
+  for (MatchPoint<FlightNumber>& point : workspace_->points) point.range_variance = 1e-8F;
+  workspace_->points[workspace_->points.size() / 2].range_variance = 1e38F;
+  const Pose start = truth();
+  const HitSolution solution = register_hits(mission_, start, *workspace_);
+  EXPECT_EQ(solution.stop, StopReason::kSingular);
+  EXPECT_EQ(solution.T_target_sensor.p, start.p);
+}
+
+}  // namespace
+}  // namespace lasso
