@@ -42,16 +42,20 @@ bench: ## time the estimate, its stages and its peers; table, and out/bench/resu
 	@mkdir -p out/bench
 	@ft/bench/run $(BENCH) out/bench
 
-golden: build ## the same telemetry, bit for bit, from the host and from the emulated PowerPC 603e
-	$(call packages,target)
+golden: ## the same telemetry, bit for bit, from the host and from the emulated PowerPC 603e
+	$(call packages,build target)
+	$(call configure,$(BUILD),)
+	$(call compile,$(BUILD),golden_record golden_replay golden_compare)
 	$(call configure,$(PPC),-DCMAKE_TOOLCHAIN_FILE=cfg/toolchains/ppc603e.cmake -DLASSO_GROUND=OFF)
 	$(call compile,$(PPC),golden_replay)
 	$(call configure,$(DEBUG),-DCMAKE_BUILD_TYPE=Debug -DLASSO_GROUND=OFF)
 	$(call compile,$(DEBUG),golden_replay)
 	@ft/golden/run $(BUILD) $(PPC) $(DEBUG)
 
-ppc-count: build ## instructions of one estimate on the PowerPC 603e, by function; table, and out/ppc-count/results.json
-	$(call packages,target)
+ppc-count: ## instructions of one estimate on the PowerPC 603e, by function; table, and out/ppc-count/results.json
+	$(call packages,build target)
+	$(call configure,$(BUILD),)
+	$(call compile,$(BUILD),golden_record golden_replay golden_compare)
 	$(call configure,$(PPC),-DCMAKE_TOOLCHAIN_FILE=cfg/toolchains/ppc603e.cmake -DLASSO_GROUND=OFF)
 	$(call compile,$(PPC),golden_replay)
 	@ft/ppc603e/count $(BUILD) $(PPC)
