@@ -1,5 +1,7 @@
 #include "ft/bench/comparison.hpp"
 
+#include <algorithm>
+
 #include "mdat/common/cpu_clock.hpp"
 #include "mdat/common/errors.hpp"
 
@@ -33,24 +35,34 @@ void run_once(Method& method, const Scan& scan, Track& track) {
   track.iterations += outcome.iterations;
 }
 
-}  // namespace
+using Methods = std::vector<std::unique_ptr<Method>>;
 
-std::vector<MethodResult> compare(const std::vector<std::unique_ptr<Method>>& methods, const std::vector<Scan>& scans, std::size_t done,
-                                  mdat::ProgressBar& bar) {
+// `turn` scans each; another method begins each round.
+std::vector<Track> take_turns(const Methods& methods, const std::vector<Scan>& scans, std::size_t turn, std::size_t done,
+                              mdat::ProgressBar& bar) {
   const std::size_t n = methods.size();
   std::vector<Track> tracks(n);
-  for (const auto& method : methods) {
-    Track warm_up;
-    run_once(*method, scans.front(), warm_up);
+  for (std::size_t begin = 0, round = 0; begin < scans.size(); begin += turn, ++round) {
+    const std::size_t end = std::min(begin + turn, scans.size());
+    for (std::size_t m = 0; m < n; ++m) {
+      const std::size_t now = (round + m) % n;
+      for (std::size_t i = begin; i < end; ++i) run_once(*methods[now], scans[i], tracks[now]);
+    }
+    bar.show(done + end);
   }
-  for (std::size_t i = 0; i < scans.size(); ++i) {
-    for (std::size_t turn = 0; turn < n; ++turn) run_once(*methods[(i + turn) % n], scans[i], tracks[(i + turn) % n]);
-    bar.show(done + i + 1);
-  }
+  return tracks;
+}
+
+}  // namespace
+
+std::vector<MethodResult> compare(const Methods& methods, const std::vector<Scan>& scans, std::size_t done, mdat::ProgressBar& bar) {
+  const std::vector<Track> in_a_row = take_turns(methods, scans, kScansInARow, done, bar);
+  const std::vector<Track> by_turns = take_turns(methods, scans, 1, done + scans.size(), bar);
   std::vector<MethodResult> results;
-  for (std::size_t m = 0; m < n; ++m) {
-    const double mean = tracks[m].iterations / static_cast<double>(scans.size());
-    results.push_back({methods[m]->name(), methods[m]->is_peer(), mdat::run_statistics(tracks[m].frames), mean});
+  for (std::size_t m = 0; m < methods.size(); ++m) {
+    const double mean = in_a_row[m].iterations / static_cast<double>(scans.size());
+    const mdat::RunStatistics statistics = mdat::run_statistics(in_a_row[m].frames);
+    results.push_back({methods[m]->name(), methods[m]->is_peer(), statistics, mdat::run_statistics(by_turns[m].frames).time, mean});
   }
   return results;
 }

@@ -1,4 +1,4 @@
-// One run of all methods over the same scans, scan by scan in turn, so that what disturbs the machine disturbs all of them.
+// One run of all methods over the same scans, a few scans each by turns, so that what disturbs the machine disturbs all of them.
 #pragma once
 
 #include "ft/bench/methods.hpp"
@@ -10,12 +10,14 @@ namespace lasso::bench {
 struct MethodResult {
   std::string name;
   bool peer = false;
-  mdat::RunStatistics statistics;  // as those of `mdat run`; nees only where the method states a covariance
+  mdat::RunStatistics statistics;  // as those of `mdat run`, scans in a row; nees only where the method states a covariance
+  mdat::TimeStatistics by_turns;   // of the same scans, when all other methods have run since the last one and the caches hold their data
   double iterations = 0;           // mean
 };
 
-// Times are processor time of the calling thread. `done` scans were already shown in the bar. The first scan is registered once before, so
-// that nothing is timed that happens only once.
+// Every method registers kScansInARow scans, then the next one does; and all over again with one scan each. Times are processor time of the
+// calling thread. Counts in `bar`: `done` steps were shown before, 2 * scans.size() are added.
+constexpr std::size_t kScansInARow = 20;
 std::vector<MethodResult> compare(const std::vector<std::unique_ptr<Method>>& methods, const std::vector<Scan>& scans, std::size_t done,
                                   mdat::ProgressBar& bar);
 

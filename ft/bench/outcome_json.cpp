@@ -1,3 +1,4 @@
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "ft/bench/outcome_table.hpp"
@@ -7,22 +8,31 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+double rounded(double value) { return std::round(1e6 * value) / 1e6; }
+
 Json figures(const MethodResult& result) {
   const mdat::RunStatistics& s = result.statistics;
-  Json json = {
-      {"us", s.time.median_us}, {"p99_us", s.time.p99_us},        {"rms_mm", s.registration.rms_mm}, {"rms_deg", s.registration.rms_deg},
-      {"lost", s.lost},         {"iterations", result.iterations}};
+  Json json = {{"us", rounded(s.time.median_us)},
+               {"p99_us", rounded(s.time.p99_us)},
+               {"us_by_turns", rounded(result.by_turns.median_us)},
+               {"p99_us_by_turns", rounded(result.by_turns.p99_us)},
+               {"rms_mm", rounded(s.registration.rms_mm)},
+               {"rms_deg", rounded(s.registration.rms_deg)},
+               {"lost", s.lost},
+               {"iterations", rounded(result.iterations)}};
   if (result.peer) return json;
-  json["p99_over_median"] = s.time.p99_us / s.time.median_us;
+  json["p99_over_median"] = rounded(s.time.p99_us / s.time.median_us);
   json["invalid"] = s.invalid;
   return json;
 }
 
 // How many times longer the peer takes than the estimator, hits alone and with silhouettes.
 Json ratios(const std::vector<MethodResult>& results, const MethodResult& peer) {
-  const double us = peer.statistics.time.median_us;
-  return {{"over_hits", us / result_of(results, kHits).statistics.time.median_us},
-          {"over_silhouettes", us / result_of(results, kSilhouettes).statistics.time.median_us}};
+  const MethodResult &hits = result_of(results, kHits), &silhouettes = result_of(results, kSilhouettes);
+  return {{"over_hits", rounded(peer.statistics.time.median_us / hits.statistics.time.median_us)},
+          {"over_silhouettes", rounded(peer.statistics.time.median_us / silhouettes.statistics.time.median_us)},
+          {"over_hits_by_turns", rounded(peer.by_turns.median_us / hits.by_turns.median_us)},
+          {"over_silhouettes_by_turns", rounded(peer.by_turns.median_us / silhouettes.by_turns.median_us)}};
 }
 
 // The noisy figures stand first, all of them in their own objects.
@@ -38,14 +48,14 @@ Json method_json(const Comparison& c, const MethodResult& noisy) {
     return json;
   }
   const mdat::RunStatistics& s = noisy.statistics;
-  json["noisy"].update({{"crlb_mm", s.crlb_mm}, {"crlb_deg", s.crlb_deg}, {"nees", s.nees}});
+  json["noisy"].update({{"crlb_mm", rounded(s.crlb_mm)}, {"crlb_deg", rounded(s.crlb_deg)}, {"nees", rounded(s.nees)}});
   return json;
 }
 
 Json time_json(const Comparison& c, const char* name) {
   const auto times = [&](const std::vector<MethodResult>& results) {
     const mdat::TimeStatistics& time = result_of(results, name).statistics.time;
-    return Json{{"median", time.median_us}, {"p99", time.p99_us}, {"max", time.max_us}};
+    return Json{{"median", rounded(time.median_us)}, {"p99", rounded(time.p99_us)}, {"max", rounded(time.max_us)}};
   };
   Json json = times(c.noisy);
   json["noise_free"] = times(c.noise_free);

@@ -12,8 +12,8 @@
 namespace lasso::bench {
 
 struct ScanOptions {
-  std::string scenario = "paper";
-  std::uint32_t stride = 3;  // every stride-th frame of the scenario
+  std::string scenario = "paper";  // of the paper's kind
+  std::uint32_t stride = 6;        // every stride-th frame of the scenario
   bool noise = true;
 };
 
@@ -27,7 +27,8 @@ struct Scan {
 };
 
 // The scans of all ranges, planned from their starts. The same options give the same scans, and the same scans with and without noise.
-// Throws MissionError or RunError.
+// The peers know nothing of motion, so the target must stand still in each scan. Throws MissionError, InputError (the scenario is of
+// another kind) or RunError.
 std::vector<Scan> make_scans(const mdat::CompiledMission& mission, const ScanOptions& options);
 
 // The flight image of the scenario, in memory. Throws as its parts.

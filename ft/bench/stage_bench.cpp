@@ -2,6 +2,7 @@
 // Each stage works on what the stages before it leave; these run untimed. Times are processor time of the thread.
 #include <benchmark/benchmark.h>
 
+#include <cmath>
 #include <cstdio>
 #include <exception>
 
@@ -16,6 +17,7 @@
 #include "ft/bench/scans.hpp"
 #include "mdat/common/cpu_clock.hpp"
 #include "mdat/common/errors.hpp"
+#include "mdat/missiondb/mission_error.hpp"
 
 namespace {
 
@@ -23,6 +25,8 @@ using namespace lasso;
 using bench::Scan;
 
 constexpr std::uint32_t kStride = 18;  // 20 of the paper's 360 frames in each range
+constexpr std::size_t kRounds = 5;     // over all scans
+constexpr int kLoads = 20;
 
 // The scan that a stage works on, and what the stages before it made of it.
 struct Bench {
@@ -139,13 +143,18 @@ std::unique_ptr<Bench> make_bench(const char* mission_file) {
 
 void run(const char* mission_file) {
   const std::unique_ptr<Bench> bench = make_bench(mission_file);
-  for (const Stage& stage : kStages) {
-    benchmark::RegisterBenchmark(stage.name, time_stage, bench.get(), stage.before, stage.stage)
-        ->UseManualTime()
-        ->Unit(benchmark::kMicrosecond);
-  }
-  benchmark::RegisterBenchmark("load_image", time_load, bench.get())->UseManualTime()->Unit(benchmark::kMicrosecond);
+  const auto rounds = static_cast<benchmark::IterationCount>(kRounds * bench->scans.size());
+  const auto set_up = [](benchmark::internal::Benchmark* b, benchmark::IterationCount n) {
+    b->UseManualTime()->Unit(benchmark::kMicrosecond)->Iterations(n);
+  };
+  for (const Stage& s : kStages) set_up(benchmark::RegisterBenchmark(s.name, time_stage, bench.get(), s.before, s.stage), rounds);
+  set_up(benchmark::RegisterBenchmark("load_image", time_load, bench.get()), kLoads);
   benchmark::RunSpecifiedBenchmarks();
+}
+
+int refuse(const std::exception& error, int exit_code) {
+  std::fprintf(stderr, "stage_bench: %s\n", error.what());
+  return exit_code;
 }
 
 }  // namespace
@@ -159,8 +168,11 @@ int main(int argc, char** argv) {
   try {
     run(argv[1]);
     return mdat::kExitDone;
+  } catch (const mdat::InputError& error) {
+    return refuse(error, mdat::kExitBadInput);
+  } catch (const mdat::MissionError& error) {
+    return refuse(error, mdat::kExitBadInput);
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "stage_bench: %s\n", error.what());
-    return mdat::kExitFailed;
+    return refuse(error, mdat::kExitFailed);
   }
 }
