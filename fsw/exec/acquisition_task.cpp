@@ -9,10 +9,10 @@ constexpr std::size_t kMaxPolls = kMaxRays / kMaxSamplesPerPoll;
 
 }  // namespace
 
-void AcquisitionTask::start(const Mission& mission, const Pose& T_sensor_target, std::uint32_t scan_id, TimeUs t_start_us, ScanPlan& plan) {
+void AcquisitionTask::start(const Mission& mission, const Aim& aim, std::uint32_t scan_id, TimeUs t_start_us, ScanPlan& plan) {
   plan.scan_id = scan_id;
-  const TargetOutline outline{mission.hull, mission.center_m};
-  if (plan_scan(mission.parameters, outline, T_sensor_target, scan_id, plan) != Status::kOk) return;
+  const TargetOutline outline{mission.hull, mission.center_m, aim.uncertainty_m};
+  if (plan_scan(mission.parameters, outline, aim.T_sensor_target, scan_id, plan) != Status::kOk) return;
   // A refusal comes back as the verdict of finish().
   static_cast<void>(acquisition_.start(sensor_, plan, t_start_us, images_[filling_]));
 }

@@ -14,13 +14,19 @@
 
 namespace lasso {
 
+// Where the target is expected, and one sigma of how far off that may be.
+struct Aim {
+  Pose T_sensor_target;
+  double uncertainty_m = 0;
+};
+
 class AcquisitionTask {
  public:
   explicit AcquisitionTask(Sensor& sensor) : sensor_(sensor) {}
 
   // Plans scan `scan_id` on the predicted pose and arms the sensor. A refusal is what finish() then says. `plan` is written even then, as
   // far as it was made.
-  void start(const Mission& mission, const Pose& T_sensor_target, std::uint32_t scan_id, TimeUs t_start_us, ScanPlan& plan);
+  void start(const Mission& mission, const Aim& aim, std::uint32_t scan_id, TimeUs t_start_us, ScanPlan& plan);
   // Takes what the sensor has. Loop bound: kMaxRays / kMaxSamplesPerPoll polls.
   void poll(TimeUs now_us);
   // Ends the scan: true when its image is fit for an estimate. The image is filling(), until the next start().

@@ -1,6 +1,7 @@
 #include "fsw/exec/component.hpp"
 
 #include "fsw/exec/report.hpp"
+#include "fsw/geometry/portable_math.hpp"
 
 namespace lasso {
 namespace {
@@ -21,6 +22,13 @@ Twist initial_rates(const MissionParameters& p) {
   rates.omega_radps = Vec3(p.initial_wx_radps, p.initial_wy_radps, p.initial_wz_radps);
   rates.v_mps = Vec3(p.initial_vx_mps, p.initial_vy_mps, p.initial_vz_mps);
   return rates;
+}
+
+// One sigma of the target's place on the least certain axis; what is less certain than the model's own size is not scanned wider.
+double place_sigma(const Mission& mission, const FilterState& filter) {
+  const double variance = filter.covariance.diagonal().segment<3>(3).maxCoeff();
+  const double sigma = square_root(variance > 0 ? variance : 0);
+  return sigma < mission.radius_m ? sigma : mission.radius_m;
 }
 
 ScanPlan no_plan() {
@@ -144,7 +152,8 @@ void Component::start_scan() {
   predicted.T_sensor_target = track_.filter.T_sensor_target;
   // Where the prediction has no meaning the scan is aimed where the target was last.
   static_cast<void>(predict_pose(track_.filter, acquired_.t_nominal_us, predicted));
-  acquisition_.start(mission_, predicted.T_sensor_target, acquired_.scan_id, boundary_us, acquired_.plan);
+  acquisition_.start(mission_, {predicted.T_sensor_target, place_sigma(mission_, track_.filter)}, acquired_.scan_id, boundary_us,
+                     acquired_.plan);
 }
 
 void Component::send(const TrackStep& step, TimeUs now_us) {

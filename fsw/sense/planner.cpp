@@ -42,9 +42,10 @@ double tangent(double angle_rad) {
   return angle.sin / angle.cos;
 }
 
-Interval fit(const Interval& seen, double margin, double fov_half_rad) {
+Interval fit(const Interval& seen, double margin, double uncertainty, double fov_half_rad) {
   const double limit = tangent(fov_half_rad);
-  Interval fitted{seen.middle() - margin * seen.half(), seen.middle() + margin * seen.half()};
+  const double half = margin * seen.half() + uncertainty;
+  Interval fitted{seen.middle() - half, seen.middle() + half};
   if (fitted.low < -limit) fitted.low = -limit;
   if (fitted.high > limit) fitted.high = limit;
   return fitted;
@@ -91,8 +92,9 @@ Status plan_scan(const MissionParameters& parameters, const TargetOutline& targe
 
   const Rectangle seen = project(target.hull, T_sensor_target);
   if (seen.x.empty() || seen.y.empty()) return Status::kBadValue;
-  const Interval x = fit(seen.x, parameters.margin, parameters.fov_half_x_rad);
-  const Interval y = fit(seen.y, parameters.margin, parameters.fov_half_y_rad);
+  const double uncertainty = target.uncertainty_m / center.z();
+  const Interval x = fit(seen.x, parameters.margin, uncertainty, parameters.fov_half_x_rad);
+  const Interval y = fit(seen.y, parameters.margin, uncertainty, parameters.fov_half_y_rad);
   if (x.empty() || y.empty()) return Status::kBadValue;
 
   ScanPlan candidate = pattern_of_mission(parameters, scan_id);

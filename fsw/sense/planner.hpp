@@ -17,14 +17,16 @@ using HullPoint = HullPointOf<FlightNumber>;  // target frame, metres
 struct TargetOutline {
   Span<const HullPoint> hull;    // extreme points of the model; at most kMaxHullPoints
   Vec3 center_m = Vec3::Zero();  // target frame: the geometric centre
+  double uncertainty_m = 0;      // how far off the prediction may be, one sigma: the scan reaches that much farther on each side
 };
 
 // The plan of scan `scan_id` for a target predicted at T_sensor_target.
 //
 // On the tangent plane z = 1 the scan is the rectangle around the projected hull points (those in front of the sensor), widened about its
-// middle by scan.margin and cut at the field of view; its middle is the plan's centre. For a target seen whole this is the paper's aim at
-// the geometric centre, up to perspective; a target larger than the field of view on both sides is cut alike on both, and one that is
-// partly outside is scanned where it can be seen. The phase is the fraction of scan_id * scan.phase_step_turns.
+// middle by scan.margin and by the prediction's uncertainty, and cut at the field of view; its middle is the plan's centre. For a target
+// seen whole this is the paper's aim at the geometric centre, up to perspective; a target larger than the field of view on both sides is
+// cut alike on both, and one that is partly outside is scanned where it can be seen. The phase is the fraction of scan_id *
+// scan.phase_step_turns.
 //
 // `parameters` as the loader validates them. Refused, with `plan` as it was: kNotFinite or kBadValue for a pose that is not finite or not
 // of unit length, kNoData without hull points, kBadValue for a centre that is not in front of the sensor, a target wholly outside the

@@ -16,7 +16,7 @@ class AcquisitionTaskTest : public ::testing::Test {
     image_ = test::make_box_image(p, scene_.box);
     ASSERT_EQ(load_image(Bytes(image_.data(), image_.size), mission_).status, Status::kOk);
   }
-  void start(std::uint32_t scan_id, TimeUs t_us) { task_->start(mission_, scene_.pose_at(t_us), scan_id, t_us, plan_); }
+  void start(std::uint32_t scan_id, TimeUs t_us) { task_->start(mission_, {scene_.pose_at(t_us), 0}, scan_id, t_us, plan_); }
 
   test::BoxScene scene_ = test::default_scene();
   test::TestImage image_;
@@ -65,7 +65,7 @@ TEST_F(AcquisitionTaskTest, ScanThatFailsOrNeverStartsIsNotFit) {
   EXPECT_FALSE(task_->finish());
   Pose behind = scene_.at_zero;
   behind.p.z() = -2;
-  task_->start(mission_, behind, 2, 400000, plan_);  // nothing to aim at
+  task_->start(mission_, {behind, 0}, 2, 400000, plan_);  // nothing to aim at
   task_->poll(600000);
   EXPECT_FALSE(task_->finish());
   EXPECT_TRUE(task_->filling().samples.empty());

@@ -25,7 +25,7 @@ struct Box {
       hull.push_back({{static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())}});
     }
   }
-  TargetOutline outline() const { return {Span<const HullPoint>(hull.data(), hull.size()), center}; }
+  TargetOutline outline() const { return {Span<const HullPoint>(hull.data(), hull.size()), center, 0}; }
 };
 
 // The attitude through Eigen's own functions: independent of the flight code's geometry.
@@ -70,6 +70,22 @@ TEST(Planner, FitsTheRectangleAroundTheTarget) {
     EXPECT_NEAR(plan.half_x, margin * (bounds.x_high - bounds.x_low) / 2, 1e-12);
     EXPECT_NEAR(plan.half_y, margin * (bounds.y_high - bounds.y_low) / 2, 1e-12);
   }
+}
+
+TEST(Planner, ReachesFartherForAnUncertainTarget) {
+  VERIFIES("LASSO-SNS-010");
+  const Box box;
+  const Pose pose = generic_pose({0.1, -0.2, 6});
+  ScanPlan sure;
+  ASSERT_EQ(plan_box(preset_parameters(), pose, sure), Status::kOk);
+  TargetOutline outline = box.outline();
+  outline.uncertainty_m = 0.3;
+  ScanPlan unsure;
+  ASSERT_EQ(plan_scan(preset_parameters(), outline, pose, 1, unsure), Status::kOk);
+  const double widening = 0.3 / (pose * box.center).z();
+  EXPECT_NEAR(unsure.half_x, sure.half_x + widening, 1e-12);
+  EXPECT_NEAR(unsure.half_y, sure.half_y + widening, 1e-12);
+  EXPECT_NEAR(unsure.center_x, sure.center_x, 1e-12);
 }
 
 TEST(Planner, AimsAtTheGeometricCentreUpToPerspective) {
