@@ -1,0 +1,255 @@
+// The contour and the rays near it; and clip.hpp.
+#include "fsw/pose/contour.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "fsw/pose/clip.hpp"
+#include "ut/pose/box_contour.hpp"
+#include "ut/pose/pose_fixture.hpp"
+#include "ut/support/verifies.hpp"
+
+namespace lasso {
+namespace {
+
+using N = FlightNumber;
+
+class ContourTest : public test::PoseFixture {
+ protected:
+  Vec3 to_sensor(const Vec3& p_target) const { return scan_.T_sensor_target * p_target; }
+  // In front of the sensor, so that it has an image.
+  bool before(const Vec3& p_target) const { return to_sensor(p_target)[2] > 0; }
+
+  // Near a face's plane rounding decides whether the face is seen.
+  bool is_clear() const {
+    const Vec3 off = ((truth().p - scan_.model.center).cwiseAbs() - scan_.model.half).cwiseAbs();
+    return off.minCoeff() > 1e-4;
+  }
+  std::vector<std::uint32_t> brute_contour() const {
+    std::vector<std::uint32_t> edges;
+    for (int k = 0; k < 12; ++k) {
+      const test::BoxEdge edge = test::edge_of_box({scan_.model}, 0, k);
+      if (test::is_contour({scan_.model}, 0, k, truth().p) && before(edge.a) && before(edge.b))
+        edges.push_back(static_cast<std::uint32_t>(k));
+    }
+    return edges;
+  }
+  std::vector<std::uint32_t> found_contour() const {
+    std::vector<std::uint32_t> edges;
+    for (const ContourEdge<N>& edge : workspace_->contour) edges.push_back(edge.edge);
+    return edges;
+  }
+  void find() { find_contour(mission_, make_view(mission_, truth()), *workspace_); }
+
+  // Distances of all contour edges from a ray's point in the image, at the edges' own depth, nearest first.
+  std::vector<double> brute_distances(const ScanRay<N>& ray) const {
+    const Eigen::Vector2d at(static_cast<double>(ray.u[0] / ray.u[2]), static_cast<double>(ray.u[1] / ray.u[2]));
+    std::vector<double> distances;
+    for (const std::uint32_t k : brute_contour()) {
+      const test::BoxEdge edge = test::edge_of_box({scan_.model}, 0, static_cast<int>(k));
+      const Vec3 a = to_sensor(edge.a);
+      const Vec3 b = to_sensor(edge.b);
+      const Eigen::Vector2d image_a = a.head<2>() / a[2];
+      const Eigen::Vector2d ab = b.head<2>() / b[2] - image_a;
+      const double t = std::clamp((at - image_a).dot(ab) / ab.squaredNorm(), 0.0, 1.0);
+      const double depth = 1 / ((1 - t) / a[2] + t / b[2]);
+      distances.push_back((at - image_a - t * ab).norm() * depth);
+    }
+    std::sort(distances.begin(), distances.end());
+    return distances;
+  }
+  void expect_edges(const ScanRay<N>& ray, const RayEdges<N>& found, double band_m) const;
+};
+
+// The path takes depths between an edge's ends as linear in the image: within 2 % for this box.
+constexpr double kDepthError = 0.02;
+
+void ContourTest::expect_edges(const ScanRay<N>& ray, const RayEdges<N>& found, double band_m) const {
+  const std::vector<double> truth = brute_distances(ray);
+  const auto within = [&truth](double band) { return std::count_if(truth.begin(), truth.end(), [band](double d) { return d < band; }); };
+  ASSERT_LE(found.count, std::min<long>(within(band_m * (1 + kDepthError)), kEdgesPerRay));
+  ASSERT_GE(found.count, std::min<long>(within(band_m * (1 - kDepthError)), kEdgesPerRay));
+  for (std::uint32_t i = 0; i < found.count; ++i) {
+    EXPECT_NEAR(std::sqrt(static_cast<double>(found.distance2[i])), truth[i], kDepthError * truth[i] + 2e-6);
+    EXPECT_GE(found.along[i], 0);
+    EXPECT_LE(found.along[i], 1);
+    EXPECT_LE(found.distance2[i > 0 ? i - 1 : 0], found.distance2[i]);
+  }
+}
+
+TEST_F(ContourTest, IsTheEdgesWithOneFaceTowardsTheSensor) {
+  VERIFIES("LASSO-REG-002");
+  int hexagons = 0;
+  for (int i = 0; i < 200; ++i) {
+    scan_.T_sensor_target = test::random_box_pose(random_);
+    if (!is_clear()) continue;
+    find();
+    EXPECT_EQ(found_contour(), brute_contour());
+    hexagons += workspace_->contour.size() == 6 ? 1 : 0;
+  }
+  EXPECT_GT(hexagons, 150);
+}
+
+TEST_F(ContourTest, EdgesAreProjectedToTheTangentPlane) {
+  VERIFIES("LASSO-REG-002");
+  for (int i = 0; i < 20; ++i) {
+    scan_.T_sensor_target = test::random_box_pose(random_);
+    find();
+    for (const ContourEdge<N>& edge : workspace_->contour) {
+      const test::BoxEdge truth = test::edge_of_box({scan_.model}, 0, static_cast<int>(edge.edge));
+      const Vec3 a = to_sensor(truth.a);
+      const Vec3 b = to_sensor(truth.b);
+      EXPECT_NEAR(static_cast<double>(edge.x), a[0] / a[2], 5e-7);
+      EXPECT_NEAR(static_cast<double>(edge.y), a[1] / a[2], 5e-7);
+      EXPECT_NEAR(static_cast<double>(edge.x + edge.dx), b[0] / b[2], 5e-7);
+      EXPECT_NEAR(static_cast<double>(edge.y + edge.dy), b[1] / b[2], 5e-7);
+      EXPECT_NEAR(static_cast<double>(edge.za), a[2], 2e-6);
+      EXPECT_NEAR(static_cast<double>(edge.zb), b[2], 2e-6);
+      EXPECT_NEAR(static_cast<double>((edge.dx * edge.dx + edge.dy * edge.dy) * edge.inverse_length2), 1, 1e-6);
+    }
+  }
+}
+
+TEST_F(ContourTest, EdgesBehindTheSensorAreLeftOut) {
+  VERIFIES("LASSO-REG-002");
+  int left_out = 0;
+  for (int i = 0; i < 100; ++i) {
+    scan_.T_sensor_target = test::random_box_pose(random_);
+    scan_.T_sensor_target.p = test::random_vec3(random_, 0.4) + Vec3(0, 0.4, 0);
+    if (!is_clear()) continue;
+    find();
+    EXPECT_EQ(found_contour(), brute_contour());
+    left_out += workspace_->contour.size() < 4 ? 1 : 0;
+  }
+  EXPECT_GT(left_out, 20);
+}
+
+TEST_F(ContourTest, EveryRayHasItsNearestEdges) {
+  VERIFIES("LASSO-REG-002");
+  scan_.side = 14;
+  for (const double band_m : {0.006, 0.03, 0.8}) {  // the last one holds all edges: only the nearest four are kept
+    scan_.T_sensor_target = test::random_box_pose(random_);
+    scan();
+    find();
+    find_ray_edges(make_view(mission_, truth()), band_m, *workspace_);
+    std::size_t edges = 0;
+    for (std::size_t i = 0; i < workspace_->rays.size(); ++i) {
+      expect_edges(workspace_->rays[i], workspace_->ray_edges[i], band_m);
+      edges += workspace_->ray_edges[i].count;
+    }
+    EXPECT_GT(edges, band_m > 0.5 ? 3 * workspace_->rays.size() : 4u);
+  }
+}
+
+TEST_F(ContourTest, EveryRayIsInItsBinOnce) {
+  VERIFIES("LASSO-REG-002");
+  scan_.side = 20;
+  scan();
+  find();
+  find_ray_edges(make_view(mission_, truth()), 0.01, *workspace_);
+  const RayBins<N>& bins = workspace_->bins;
+  const auto bin = [](float v, float origin, float scale) {
+    return std::min(std::max(static_cast<int>((v - origin) * scale), 0), kRayBins - 1);
+  };
+  std::vector<int> seen(workspace_->rays.size(), 0);
+  EXPECT_EQ(bins.start[0], 0);
+  EXPECT_EQ(bins.start[kRayBins * kRayBins], workspace_->rays.size());
+  for (int b = 0; b < kRayBins * kRayBins; ++b) {
+    ASSERT_LE(bins.start[b], bins.start[b + 1]);
+    for (int k = bins.start[b]; k < bins.start[b + 1]; ++k) {
+      const std::uint16_t ray = bins.ray[k];
+      ++seen[ray];
+      EXPECT_EQ(bin(bins.x[ray], bins.x0, bins.bins_per_x), b % kRayBins);
+      EXPECT_EQ(bin(bins.y[ray], bins.y0, bins.bins_per_y), b / kRayBins);
+    }
+  }
+  EXPECT_EQ(std::count(seen.begin(), seen.end(), 1), static_cast<long>(seen.size()));
+}
+
+TEST_F(ContourTest, RaysOnOneLineOrPointHaveTheirEdgesToo) {
+  VERIFIES("LASSO-REG-002");
+  scan_.side = 12;
+  scan();
+  find();
+  const ScanRay<N> one = workspace_->rays[30];
+  for (const float tilt : {0.0F, 0.02F}) {
+    for (std::size_t i = 0; i < workspace_->rays.size(); ++i) {
+      workspace_->rays[i] = one;
+      workspace_->rays[i].u[1] += tilt * static_cast<float>(i) / 144;
+    }
+    find_ray_edges(make_view(mission_, truth()), 0.1, *workspace_);
+    for (std::size_t i = 0; i < workspace_->rays.size(); ++i) expect_edges(workspace_->rays[i], workspace_->ray_edges[i], 0.1);
+  }
+}
+
+TEST_F(ContourTest, NothingIsNearATargetBehindTheSensor) {
+  VERIFIES("LASSO-REG-002");
+  scan();
+  find();
+  scan_.T_sensor_target.p = -scan_.T_sensor_target.p;
+  find_ray_edges(make_view(mission_, truth()), 1.0, *workspace_);
+  for (std::size_t i = 0; i < workspace_->rays.size(); ++i) EXPECT_EQ(workspace_->ray_edges[i].count, 0u);
+}
+
+class ClipTest : public test::PoseFixture {
+ protected:
+  // How deep inside the grid the ray is at t, in cells; negative outside. A slab that the ray runs along counts as inside.
+  double depth(const FieldRay<N>& ray, double t) const {
+    double least = 1e9;
+    for (int i = 0; i < 3; ++i) {
+      if (ray.cell_u[i] == 0) continue;
+      const double at = static_cast<double>(ray.cell_m[i]) + t * static_cast<double>(ray.cell_u[i]);
+      least = std::min({least, at, mission_.field.cells[i] - at});
+    }
+    return least;
+  }
+  FieldRay<N> random_ray(int parallel_axis) {
+    FieldRay<N> ray{};
+    const Vec3 m = mission_.center_m + test::random_vec3(random_, 1.2);
+    Vec3 u = test::random_vec3(random_, 1);
+    if (parallel_axis < 3) u[parallel_axis] = 0;
+    u.normalize();
+    for (int i = 0; i < 3; ++i) {
+      ray.m[i] = static_cast<float>(m[i]);
+      ray.u[i] = static_cast<float>(u[i]);
+    }
+    set_cells(mission_.field, ray);
+    return ray;
+  }
+};
+
+TEST_F(ClipTest, ARayIsInsideTheGridExactlyWithinItsSpan) {
+  VERIFIES("LASSO-REG-007");
+  int met = 0;
+  for (int i = 0; i < 100; ++i) {
+    const FieldRay<N> ray = random_ray(i % 8);
+    const FieldSpan<N> span = clip_to_grid(mission_.field, ray);
+    bool inside_somewhere = false;
+    for (int k = -200; k <= 200; ++k) {
+      const double t = 0.02 * k;
+      const double cells = depth(ray, t);
+      if (std::abs(cells) < 1e-3) continue;
+      EXPECT_EQ(cells > 0, t > static_cast<double>(span.enter) && t < static_cast<double>(span.leave)) << t;
+      inside_somewhere = inside_somewhere || cells > 0;
+    }
+    met += inside_somewhere ? 1 : 0;
+  }
+  EXPECT_GT(met, 25);
+  EXPECT_LT(met, 95);
+}
+
+TEST_F(ClipTest, ARayWithoutDirectionIsNotBounded) {
+  VERIFIES("LASSO-REG-007");
+  FieldRay<N> ray{};
+  set_cells(mission_.field, ray);
+  const FieldSpan<N> span = clip_to_grid(mission_.field, ray);
+  EXPECT_LT(span.enter, -1e5F);
+  EXPECT_GT(span.leave, 1e5F);
+}
+
+}  // namespace
+}  // namespace lasso
