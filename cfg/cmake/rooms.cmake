@@ -107,4 +107,4 @@ function(lasso_tests)
   endforeach()
 endfunction()
 
-set(LASSO_MISSING_TEST_SEVERITY WARNING)  # becomes FATAL_ERROR once all rooms are built
+set(LASSO_MISSING_TEST_SEVERITY FATAL_ERROR)
