@@ -25,6 +25,9 @@ struct MatchSettings {
 };
 
 template <class N>
+constexpr typename N::Ratio kFrontShare = static_cast<typename N::Ratio>(0.4F);  // of k sigma
+
+template <class N>
 struct PassSums {
   ScanSums<N> rows;
   std::uint32_t usable = 0;  // points that met a surface within the incidence limit, or none at all
@@ -45,6 +48,13 @@ inline typename N::Length reach_of(const MatchSettings<N>& s, const MatchPoint<N
   return point.reach + 3 * s.gate;
 }
 
+// How far in front of the measured point a surface hides what lies behind it. One farther in front would have been measured itself: the ray
+// went past its edge, and it is asked only where nothing lies behind.
+template <class N>
+inline typename N::Length front_of(const MatchSettings<N>& s, const MatchPoint<N>& point) {
+  return kFrontShare<N> * point.reach + s.gate;
+}
+
 template <class N>
 inline FieldHit<N> find_hit(const Field<N>& field, const MatchSettings<N>& s, const MatchPoint<N>& point, Lookup lookup, FieldRay<N>& ray) {
   const auto reach = reach_of(s, point);
@@ -55,7 +65,10 @@ inline FieldHit<N> find_hit(const Field<N>& field, const MatchSettings<N>& s, co
     if (hit.found) return hit;
   }
   set_cells(field, ray);
-  return near_grid(ray) ? walk_field(field, ray, -reach, reach) : FieldHit<N>();
+  if (!near_grid(ray)) return {};
+  const auto front = front_of(s, point);
+  hit = walk_field(field, ray, -front, reach);
+  return hit.found ? hit : walk_field(field, ray, -reach, -front);
 }
 
 // Adds the match of a ray with an element at t along the ray. The residual r = n.(q - m) = t (n.u) has variance
