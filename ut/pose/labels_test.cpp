@@ -49,7 +49,7 @@ PoseBelief sample_posterior(const PoseBelief& prior, const std::vector<Label>& l
   Vec6 sum = Vec6::Zero();
   Mat6 square = Mat6::Zero();
   double weight = 0;
-  for (int i = 0; i < 200000; ++i) {
+  for (int i = 0; i < 60000; ++i) {
     Vec6 z;
     for (int k = 0; k < 6; ++k) z[k] = random.normal();
     const Vec6 x = L * z;
