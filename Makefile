@@ -23,7 +23,7 @@ compile = @echo "build $(1)$(if $(2), ($(2)))"; cmake --build $(1) --parallel $(
 ctest = @rm -rf $(2); mkdir -p $(2); GTEST_OUTPUT=xml:$(abspath $(2))/ \
   ctest --test-dir $(1) --parallel $(JOBS) --output-on-failure --no-tests=error --output-junit $(abspath $(2))/ctest.xml
 
-.PHONY: help run test bench golden ppc-count memory ppc-test format lint install clean build
+.PHONY: help run test bench basin golden ppc-count memory ppc-test format lint install clean build
 .DEFAULT_GOAL := help
 
 help: ## this list
@@ -41,6 +41,12 @@ bench: ## time the estimate, its stages and its peers; table, and out/bench/resu
 	$(call compile,$(BENCH))
 	@mkdir -p out/bench
 	@ft/bench/run $(BENCH) out/bench
+
+basin: ## 1000 rough starts (20 deg, 0.3 m) at 4 m: how many the component finds; STARTS=, SEED=
+	$(call packages,build)
+	$(call configure,$(BUILD),)
+	$(call compile,$(BUILD),basin)
+	@$(BUILD)/ft/basin/basin $(MISSION) $(or $(STARTS),1000) $(or $(SEED),1)
 
 golden: ## the same telemetry, bit for bit, from the host and from the emulated PowerPC 603e
 	$(call packages,build target)
