@@ -171,39 +171,26 @@ struct Search {
   double across_variance;
 };
 
-enum class Answer : std::uint8_t {
-  kRefuted,  // the model does not end here, or so steeply that the probe does not see it
-  kSilent,   // a contour, or one too certain to be worth a probe: says nothing
-  kLabel,
-};
-
-// A label of one ray at one contour edge.
-Answer label_edge(const Search& s, const ScanRay<N>& ray, const Line& line, const ContourEdge<N>& contour, double along, Label& label,
-                  ContourPoint& point) {
+// A label of one ray at one contour edge; false where there is none.
+bool label_edge(const Search& s, const ScanRay<N>& ray, const Line& line, const ContourEdge<N>& contour, double along, Label& label,
+                ContourPoint& point) {
   const EdgePlace place = place_on_edge(s.mission.edges.data()[contour.edge], contour, along, line);
-  if (!place.usable) return Answer::kRefuted;
+  if (!place.usable) return false;
   ContourPoint guess;
   guess.outward = place.across;  // the sign does not matter for whether a label is worth a probe
-  if (!measure(place, guess, line, label)) return Answer::kRefuted;
-  if (!is_informative(label, s.search.covariance, s.own_variance)) return Answer::kSilent;
+  if (!measure(place, guess, line, label) || !is_informative(label, s.search.covariance, s.own_variance)) return false;
   point = probe_contour(s.mission.field, s.probe, s.origin, place.confirm, place.across);
-  if (point.kind == ContourKind::kNone) return Answer::kRefuted;
-  if (point.kind == ContourKind::kInner && point.far_range_m - point.range_m < s.probe.gap_min_m) return Answer::kSilent;
+  if (point.kind == ContourKind::kNone) return false;
+  if (point.kind == ContourKind::kInner && point.far_range_m - point.range_m < s.probe.gap_min_m) return false;
   label.inside = static_cast<std::int8_t>(side_of(ray, point, s.search, s.mission.parameters.edge_depth_m));
   label.across_variance = s.across_variance;
-  return label.inside != 0 && measure(place, point, line, label) ? Answer::kLabel : Answer::kSilent;
+  return label.inside != 0 && measure(place, point, line, label);
 }
 
-// Edges nearer to the ray that gave no label.
-struct Passed {
-  bool any = false;
-  bool silent = false;
-};
-
-// Beyond its end an edge takes the corner for the contour, and the side from its own line. A ray that passes another edge of the corner
-// more closely can be on that line's other side: what is inside the one edge is outside the other. Only reflex corners have an inside
-// beyond ends.
-bool misleads(const Passed& nearer, bool at_end, double d_m) { return at_end && (nearer.silent || (nearer.any && d_m > 0)); }
+// Beyond its end an edge takes the corner for the contour, and the side from its own line. A ray outside a corner can be on that line's
+// inner side: then it passes the corner's other edge more closely, which says so if it gives a label. Inside beyond an end are only reflex
+// corners.
+bool misleads(bool nearer_without_label, double along, double d_m) { return nearer_without_label && !(along > 0 && along < 1) && d_m > 0; }
 
 // The nearest contour labels the ray; a second one does where the ray passes inside a thin part, between two contours.
 void label_ray(const Search& s, std::size_t ray_index, Workspace& workspace) {
@@ -211,17 +198,15 @@ void label_ray(const Search& s, std::size_t ray_index, Workspace& workspace) {
   const ScanRay<N>& ray = workspace.rays[ray_index];
   const Line line = to_line(s.view, ray);
   Vec3 first_outward = Vec3::Zero();
-  Passed nearer;
+  bool passed_over = false;
   int found = 0;
   for (std::uint32_t k = 0; k < edges.count && found < 2; ++k) {
     const double along = N::to_double(edges.along[k]);
-    const bool at_end = !(along > 0 && along < 1);
     Label label{};
     ContourPoint point;
-    const Answer answer = label_edge(s, ray, line, workspace.contour[edges.contour[k]], along, label, point);
-    nearer.any = nearer.any || answer != Answer::kLabel;
-    nearer.silent = nearer.silent || answer == Answer::kSilent;
-    if (answer != Answer::kLabel || misleads(nearer, at_end, label.d_m)) continue;
+    const bool labelled = label_edge(s, ray, line, workspace.contour[edges.contour[k]], along, label, point);
+    passed_over = passed_over || !labelled;
+    if (!labelled || misleads(passed_over, along, label.d_m)) continue;
     if (found == 1 && point.outward.dot(first_outward) > -0.5) continue;
     label.ray = static_cast<std::uint16_t>(ray_index);
     if (!workspace.labels.push_back(label)) return;
