@@ -23,7 +23,7 @@ compile = @echo "build $(1)$(if $(2), ($(2)))"; cmake --build $(1) --parallel $(
 ctest = @rm -rf $(2); mkdir -p $(2); GTEST_OUTPUT=xml:$(abspath $(2))/ \
   ctest --test-dir $(1) --parallel $(JOBS) --output-on-failure --no-tests=error --output-junit $(abspath $(2))/ctest.xml
 
-.PHONY: help run test bench basin golden ppc-count memory ppc-test format lint install clean build
+.PHONY: help run test bench basin golden ppc-count memory ppc-test figures format lint install clean build
 .DEFAULT_GOAL := help
 
 help: ## this list
@@ -76,6 +76,9 @@ ppc-test: ## unit tests of the flight component on the emulated PowerPC 603e; re
 	$(call configure,$(PPC),-DCMAKE_TOOLCHAIN_FILE=cfg/toolchains/ppc603e.cmake -DLASSO_GROUND=OFF)
 	$(call compile,$(PPC))
 	$(call ctest,$(PPC),out/ppc-test)
+
+figures: ## write README.md's table from the results of run, bench, ppc-count and memory
+	@docs/figures
 
 format: ## format all tracked sources
 	$(call packages,lint)

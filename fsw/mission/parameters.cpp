@@ -51,6 +51,8 @@ const ParameterRow kRows[] = {
   {"filter.angular_acceleration_degps2", "deg/s2", kReal, &P::angular_acceleration_radps2, kDeg, 1e-9, 1000, 0.5, "", "unmodelled angular acceleration (1 sigma)"},
   {"filter.initial_rate_mps", "m/s", kReal, &P::initial_rate_mps, 1, 1e-9, 100, 0.05, "", "uncertainty of the velocity at the start (1 sigma)"},
   {"filter.initial_angular_rate_degps", "deg/s", kReal, &P::initial_angular_rate_radps, kDeg, 1e-9, 100, 10, "", "uncertainty of the angular rate at the start (1 sigma)"},
+  {"tracking.start_sigma_m", "m", kReal, &P::start_sigma_m, 1, 1e-6, 100, 0.3, "", "how far off a track's first pose may be, each axis (1 sigma); the first scans reach that much farther"},
+  {"tracking.start_sigma_deg", "deg", kReal, &P::start_sigma_rad, kDeg, 1e-4, 180, 20, "", "how far a track's first attitude may be off, each axis (1 sigma)"},
   {"tracking.inliers_min", "1", kInteger, &P::inliers_min, 1, 12, 4096, 60, "", "fewer inliers: the pose is not valid"},
   {"tracking.inlier_share_min", "1", kReal, &P::inlier_share_min, 1, 0, 1, 0.5, "", "least share of the returns that the pose explains"},
   {"tracking.agreement_min", "1", kReal, &P::agreement_min, 1, 0, 1, 0.6, "", "least share of rays whose hit or miss is as predicted"},

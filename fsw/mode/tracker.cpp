@@ -5,10 +5,6 @@
 namespace lasso {
 namespace {
 
-// A start is believed this well until a scan confirms it: the basin of a wide start.
-constexpr double kStartSigmaRotation_rad = 20 * kRadPerDeg;
-constexpr double kStartSigmaPosition_m = 0.3;
-
 FilterNoise filter_noise(const MissionParameters& p) { return {p.acceleration_mps2, p.angular_acceleration_radps2}; }
 
 FilterStart filter_start(const MissionParameters& p, const Pose& T_sensor_target, const Twist& rates, TimeUs t_us) {
@@ -21,10 +17,11 @@ FilterStart filter_start(const MissionParameters& p, const Pose& T_sensor_target
   return from;
 }
 
-Mat6 start_covariance() {
+// A start is believed this well until a scan confirms it.
+Mat6 start_covariance(const MissionParameters& p) {
   Vec6 variances;
-  variances.head<3>().setConstant(kStartSigmaRotation_rad * kStartSigmaRotation_rad);
-  variances.tail<3>().setConstant(kStartSigmaPosition_m * kStartSigmaPosition_m);
+  variances.head<3>().setConstant(p.start_sigma_rad * p.start_sigma_rad);
+  variances.tail<3>().setConstant(p.start_sigma_m * p.start_sigma_m);
   return variances.asDiagonal();
 }
 
@@ -76,7 +73,7 @@ Status start_track(const Mission& mission, const Pose& T_sensor_target, const Tw
   if (!finite(rates)) return Status::kNotFinite;
   if (dt_us > kMaxPredictionUs || dt_us < -kMaxPredictionUs || !is_valid(T_sensor_target)) return Status::kBadValue;
   FilterStart from = filter_start(mission.parameters, propagate(T_sensor_target, rates, to_seconds(dt_us)), rates, t_us);
-  from.pose_covariance = start_covariance();
+  from.pose_covariance = start_covariance(mission.parameters);
   FilterState filter;
   const Status status = start_filter(filter, from);
   if (status != Status::kOk) return status;

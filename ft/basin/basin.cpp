@@ -56,7 +56,7 @@ class Trial {
   explicit Trial(const mdat::CompiledMission& mission, std::uint64_t seed)
       : scenario_(mdat::scenario_of(mission.source, "paper")),
         parameters_(mdat::parameters_for(mission.source, "paper")),
-        image_(mdat::image_bytes(mission, without_start(parameters_))),
+        image_(mdat::image_bytes(mission, with_rough_start(parameters_))),
         memory_(mdat::aligned_copy(image_)),
         target_(mdat::make_target(mission.mesh)),
         camera_(*target_, still_, mdat::camera_model(scenario_, parameters_, true), seed),
@@ -76,8 +76,10 @@ class Trial {
   }
 
  private:
-  static MissionParameters without_start(MissionParameters parameters) {
+  static MissionParameters with_rough_start(MissionParameters parameters) {
     parameters.initial_present = 0;
+    parameters.start_sigma_rad = kRotation_rad;
+    parameters.start_sigma_m = kShift_m;
     return parameters;
   }
   void run_frame(PoseTelemetry& last) {

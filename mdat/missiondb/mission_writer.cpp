@@ -59,10 +59,10 @@ double initial_range(const Size& size) {
 Values sized_values(const Size& size) {
   Values values;
   const double ratio = size.largest / kReferenceSize_m;
-  for (const char* key :
-       {"sensor.sigma0_m", "estimation.gate_first_m", "estimation.stop_translation_m", "estimation.silhouette_sigma_m",
-        "estimation.silhouette_band_m", "estimation.edge_gap_min_m", "estimation.edge_depth_m", "estimation.probe_step_m",
-        "estimation.surface_sigma_m", "filter.acceleration_mps2", "filter.initial_rate_mps", "tracking.sigma_position_max_m"}) {
+  for (const char* key : {"sensor.sigma0_m", "estimation.gate_first_m", "estimation.stop_translation_m", "estimation.silhouette_sigma_m",
+                          "estimation.silhouette_band_m", "estimation.edge_gap_min_m", "estimation.edge_depth_m", "estimation.probe_step_m",
+                          "estimation.surface_sigma_m", "filter.acceleration_mps2", "filter.initial_rate_mps", "tracking.start_sigma_m",
+                          "tracking.sigma_position_max_m"}) {
     values[key] = find_row(flight_rows(), key)->preset[0] * ratio;
   }
   values["sensor.sigma_k_per_m"] = find_row(flight_rows(), "sensor.sigma_k_per_m")->preset[0] / ratio;
