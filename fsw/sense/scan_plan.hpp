@@ -13,13 +13,13 @@ enum class PatternKind : std::uint8_t { kRosette = 0, kLissajous = 1, kRaster = 
 struct ScanPlan {
   std::uint32_t scan_id = 0;
   PatternKind kind = PatternKind::kRosette;
-  std::uint16_t points = 1024;         // 16..kMaxRays
-  std::uint16_t cycles_a = 19;         // rosette, Lissajous: coprime; raster: lines (cycles_b unused)
+  std::uint16_t points = 1024;  // 16..kMaxRays
+  std::uint16_t cycles_a = 19;  // rosette, Lissajous: coprime; raster: lines (cycles_b unused)
   std::uint16_t cycles_b = 12;
-  double phase_turns = 0;              // [0, 1): turns the pattern's start from scan to scan
-  double center_x = 0, center_y = 0;   // tangent-plane coordinates of the middle
-  double half_x = 0.1, half_y = 0.1;   // half extents on the tangent plane, > 0
-  DurationUs duration_us = 180000;     // first to last sample
+  double phase_turns = 0;             // [0, 1): turns the pattern's start from scan to scan
+  double center_x = 0, center_y = 0;  // tangent-plane coordinates of the middle
+  double half_x = 0.1, half_y = 0.1;  // half extents on the tangent plane, > 0
+  DurationUs duration_us = 180000;    // first to last sample
 };
 
 }  // namespace lasso

@@ -11,9 +11,9 @@
 namespace lasso {
 
 struct SensorPoll {
-  Status status = Status::kOk;   // kOk; kNoData: idle; kTimeout, kBadCrc, kBadValue, ...: the scan is lost, reason given
-  std::size_t count = 0;         // samples written, in time order, none twice
-  bool complete = false;         // the scan's last sample has been handed over
+  Status status = Status::kOk;  // kOk; kNoData: idle; kTimeout, kBadCrc, kBadValue, ...: the scan is lost, reason given
+  std::size_t count = 0;        // samples written, in time order, none twice
+  bool complete = false;        // the scan's last sample has been handed over
 };
 
 class Sensor {

@@ -1,8 +1,10 @@
 #include "mdat/run/simulation.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <exception>
+#include <iterator>
 #include <mutex>
 #include <numeric>
 #include <thread>
@@ -167,7 +169,14 @@ void collect(std::vector<CaseResult> cases, SimulationResult& result) {
 
 }  // namespace
 
-std::unique_ptr<sim::RayCaster> make_target(const Mesh& mesh) { return sim::make_ray_caster(mesh.vertices, mesh.triangles); }
+std::unique_ptr<sim::RayCaster> make_target(const Mesh& mesh) {
+  const auto has_area = [&](const std::array<std::uint32_t, 3>& t) {
+    return (mesh.vertices[t[1]] - mesh.vertices[t[0]]).cross(mesh.vertices[t[2]] - mesh.vertices[t[0]]).norm() > 0;
+  };
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::copy_if(mesh.triangles.begin(), mesh.triangles.end(), std::back_inserter(triangles), has_area);
+  return sim::make_ray_caster(mesh.vertices, triangles);
+}
 
 std::vector<std::uint32_t> shown_frames(const Scenario& scenario, std::uint32_t frames) {
   std::vector<std::uint32_t> result;

@@ -60,6 +60,7 @@ SimulationResult simulate(const CompiledMission& mission, const SimulationOption
 std::string telemetry_bytes(const SimulationResult& result);
 
 // The ray caster of a mission's target.
+// The target for the ray caster: triangles without area, which no ray can hit, are left out.
 std::unique_ptr<sim::RayCaster> make_target(const Mesh& mesh);
 
 // Index of the range whose scans the report shows: the middle one.

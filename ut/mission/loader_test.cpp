@@ -124,7 +124,7 @@ TEST_F(LoaderTest, RefusesIndicesOutsideTheirTables) {
       {TableId::kFieldGeometry, kBricksX, 1, Status::kOverCapacity},
       {TableId::kFieldGeometry, kCellSize, 0x80000000u, Status::kBadValue},
       {TableId::kFieldGeometry, kModelRadius, 0, Status::kBadValue},
-      {TableId::kElements, 0, 0, Status::kBadValue},   // low x face without its normal
+      {TableId::kElements, 0, 0, Status::kBadValue},  // low x face without its normal
       {TableId::kElements, 4, 1, Status::kBadValue},  // curvature that is not there
       {TableId::kElements, 5, 2, Status::kBadValue},  // unknown flag
       {TableId::kBricks, 0, 0x7FFFFFFFu, Status::kBadIndex},
