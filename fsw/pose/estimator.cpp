@@ -80,6 +80,14 @@ void describe_hits(const HitSolution& hits, double scale, const Workspace& works
   result.normalized_residual = square_root(scale);
 }
 
+// A start that may be rough: the far way is taken only where the near one does not explain the scan.
+HitSolution register_wide(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace) {
+  const HitSolution near = register_hits(mission, T_target_sensor, workspace);
+  if (explained_share(near) >= kExplainedShare) return near;
+  const HitSolution far = register_hits(mission, approach_from_afar(mission, T_target_sensor, workspace), workspace);
+  return explained_share(far) > explained_share(near) ? far : near;
+}
+
 bool has_information(const HitSolution& hits) { return hits.stop == StopReason::kConverged || hits.stop == StopReason::kIterationLimit; }
 
 }  // namespace
@@ -91,8 +99,7 @@ Registration Estimator::estimate(const Mission& mission, const RangeImage& scan,
   result.T_sensor_target = start.T_sensor_target;
   prepare_rays(mission, scan, start, workspace_);
   Pose pose = inverse(start.T_sensor_target);
-  if (start.wide) pose = approach_from_afar(mission, pose, workspace_);
-  const HitSolution hits = register_hits(mission, pose, workspace_);
+  const HitSolution hits = start.wide ? register_wide(mission, pose, workspace_) : register_hits(mission, pose, workspace_);
   const double scale = noise_scale(mission.parameters, hits);
   describe_hits(hits, scale, workspace_, result);
   Mat6 covariance;

@@ -63,7 +63,6 @@ struct Opening {
 };
 constexpr Opening kUsual{2, 1.0, 0.3, kQuarter};
 constexpr Opening kSecondLook{3, 2.0, 0.5, 1};
-constexpr double kExplainedShare = 0.99;  // of the returns: below, the pose may sit in a wrong minimum
 
 HitSolution register_from(const Mission& mission, const Pose& start, const Opening& opening, Workspace& workspace) {
   HitSolution solution;
@@ -81,11 +80,11 @@ HitSolution register_from(const Mission& mission, const Pose& start, const Openi
   return solution;
 }
 
+}  // namespace
+
 double explained_share(const HitSolution& solution) {
   return solution.usable > 0 ? static_cast<double>(solution.inliers) / solution.usable : 0;
 }
-
-}  // namespace
 
 HitSolution register_hits(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace) {
   if (workspace.points.size() < kMinimumPoints) {
@@ -96,7 +95,7 @@ HitSolution register_hits(const Mission& mission, const Pose& T_target_sensor, W
   }
   HitSolution first = register_from(mission, T_target_sensor, kUsual, workspace);
   if (explained_share(first) >= kExplainedShare) return first;
-  HitSolution second = register_from(mission, first.T_target_sensor, kSecondLook, workspace);
+  HitSolution second = register_from(mission, T_target_sensor, kSecondLook, workspace);
   second.iterations = static_cast<std::uint16_t>(second.iterations + first.iterations);
   first.iterations = second.iterations;
   return explained_share(second) > explained_share(first) ? second : first;

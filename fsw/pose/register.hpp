@@ -16,6 +16,10 @@ struct HitSolution {
   double squared_residual_m2 = 0;
 };
 
+// Share of the returns that the solution explains; below kExplainedShare the pose may sit in a wrong minimum (or the scan has outliers).
+double explained_share(const HitSolution& solution);
+constexpr double kExplainedShare = 0.99;
+
 // Registers workspace.points from T_target_sensor. First closest planes and rays of a quarter of the points, then rays of all of them until
 // the step is below estimation.stop_*; at most estimation.iterations_max passes over all points.
 HitSolution register_hits(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace);
