@@ -96,7 +96,7 @@ install: build ## install mdat, the flight component and its CMake package under
 clean: ## remove everything that was built (out/)
 	@rm -rf out
 
-build:
+build: ## build everything of the host into out/build
 	$(call packages,build)
 	$(call configure,$(BUILD),)
 	$(call compile,$(BUILD))

@@ -51,6 +51,7 @@ LoadFailure Component::load_image(Bytes image) {
     failure.what = "the component has begun";
     return failure;
   }
+  loaded_ = false;  // whatever follows, the image that was loaded before may have been overwritten
   failure = lasso::load_image(image, mission_);
   if (failure.status != Status::kOk) return failure;
   loaded_ = mission_.parameters.duration_s <= mission_.parameters.period_s;

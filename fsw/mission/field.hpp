@@ -140,9 +140,10 @@ inline FieldHit<N> sample_field(const Field<N>& field, const FieldRay<N>& ray, t
 // The first element that the ray hits with t in [from, to]. Bound: kMaxWalkSteps samples.
 template <class N>
 inline FieldHit<N> walk_field(const Field<N>& field, const FieldRay<N>& ray, typename N::Length from, typename N::Length to) {
-  const auto half = field.cell / 2;  // a sample sees half a cell to either side
-  typename N::Length t = from + half;
-  const auto end = to + half;
+  const auto half = field.cell / 2;                       // a sample sees half a cell to either side
+  const auto farthest = kMaxCellCoordinate * field.cell;  // keeps cell coordinates within integers
+  typename N::Length t = (from > -farthest ? from : -farthest) + half;
+  const auto end = (to < farthest ? to : farthest) + half;
   for (int step = 0; step < kMaxWalkSteps && t < end; ++step) {
     typename N::Length next;
     const FieldHit<N> hit = sample_field(field, ray, t, next);

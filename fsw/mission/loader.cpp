@@ -22,6 +22,7 @@ constexpr const char* kCurvatureLayout = "UUULLLKKKKKKKKK";
 constexpr const char* kEdgeLayout = "LLLLLLUUULUUULu";
 constexpr std::uint32_t kDirectoryBytes = 4 * (kImageHeaderWords + kTableCount * kDirectoryEntryWords);
 constexpr std::uint32_t kMaxBricksPerAxis = 1023;
+constexpr N::Length kSmallestCell_m = 1e-6F;
 
 struct TableShape {
   std::uint32_t words;  // per record
@@ -130,7 +131,8 @@ LoadFailure check_geometry(const Image& image) {
     const std::uint32_t n = geometry.word(0, i);
     if (n == 0 || n > kMaxBricksPerAxis) return failure(Status::kBadValue, "bricks along an axis", TableId::kFieldGeometry);
   }
-  if (geometry.signed_word(0, kCellSize) <= 0) return failure(Status::kBadValue, "cell size", TableId::kFieldGeometry);
+  if (!(N::length(geometry.signed_word(0, kCellSize), static_cast<int>(bits)) > kSmallestCell_m))
+    return failure(Status::kBadValue, "cell size", TableId::kFieldGeometry);
   if (geometry.signed_word(0, kModelRadius) <= 0) return failure(Status::kBadValue, "model radius", TableId::kFieldGeometry);
   return {};
 }

@@ -69,9 +69,9 @@ bool finite(const Twist& rates) { return is_finite(rates.omega_radps.squaredNorm
 
 Status start_track(const Mission& mission, const Pose& T_sensor_target, const Twist& rates, TimeUs stated_us, TimeUs t_us,
                    TrackState& state) {
-  const DurationUs dt_us = t_us - stated_us;
   if (!finite(rates)) return Status::kNotFinite;
-  if (dt_us > kMaxPredictionUs || dt_us < -kMaxPredictionUs || !is_valid(T_sensor_target)) return Status::kBadValue;
+  if (stated_us < t_us - kMaxPredictionUs || stated_us > t_us + kMaxPredictionUs || !is_valid(T_sensor_target)) return Status::kBadValue;
+  const DurationUs dt_us = t_us - stated_us;
   FilterStart from = filter_start(mission.parameters, propagate(T_sensor_target, rates, to_seconds(dt_us)), rates, t_us);
   from.pose_covariance = start_covariance(mission.parameters);
   FilterState filter;

@@ -103,7 +103,9 @@ Registration Estimator::estimate(const Mission& mission, const RangeImage& scan,
   const double scale = noise_scale(mission.parameters, hits);
   describe_hits(hits, scale, workspace_, result);
   Mat6 covariance;
-  if (has_information(hits) && invert6(hits.H, covariance) == Status::kOk) {
+  const bool known = has_information(hits) && invert6(hits.H, covariance) == Status::kOk;
+  if (has_information(hits) && !known) result.stop = StopReason::kSingular;
+  if (known) {
     pose = hits.T_target_sensor;
     if (mission.parameters.noise_estimated > 0.5) covariance *= scale;
     if (mission.parameters.silhouettes > 0.5) use_silhouettes(mission, scan.misses_known, scale, workspace_, pose, covariance);

@@ -83,6 +83,12 @@ ScanRay<N> make_ray(const RangeSample& sample) {
   return ray;
 }
 
+// A return from where the sensor does not measure says nothing.
+bool is_credible(const RangeSample& sample, const MissionParameters& p) {
+  const double range = static_cast<double>(sample.range_m);
+  return sample.state != RayState::kHit || (range >= p.range_min_m && range <= p.range_max_m);
+}
+
 MatchPoint<N> make_point(const ScanRay<N>& ray, const NoiseModel& noise) {
   MatchPoint<N> point{};
   for (int i = 0; i < 3; ++i) {
@@ -104,7 +110,7 @@ void prepare_rays(const Mission& mission, const RangeImage& scan, const StartPoi
   workspace.rays.clear();
   workspace.points.clear();
   for (const RangeSample& sample : scan.samples) {
-    if (sample.state == RayState::kInvalid) continue;
+    if (sample.state == RayState::kInvalid || !is_credible(sample, mission.parameters)) continue;
     ScanRay<N> ray = make_ray(sample);
     deskew.apply(N::to_ratio(to_seconds(sample.t_us - reference_us)), ray);
     invariant(workspace.rays.push_back(ray), "as many rays as a scan can have");

@@ -5,8 +5,9 @@
 
 namespace lasso {
 
-// Fills workspace.rays (every hit and miss, in the scan's order) and workspace.points (the hits). Invalid samples are left out. Where
-// estimation.deskew is on, each ray is moved by the target's predicted motion between its own time and the reference time.
+// Fills workspace.rays (every hit and miss, in the scan's order) and workspace.points (the hits). Invalid samples are left out, and returns
+// outside the sensor's range. Where estimation.deskew is on, each ray is moved by the target's predicted motion between its own time and
+// the reference time.
 void prepare_rays(const Mission& mission, const RangeImage& scan, const StartPoint& start, Workspace& workspace);
 
 }  // namespace lasso

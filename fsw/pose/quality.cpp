@@ -17,6 +17,7 @@ bool meets_model(const Mission& mission, const PathPose<N>& pose, const ScanRay<
   transform(pose, ray.o, r.m);
   rotate(pose, ray.u, r.u);
   set_cells(mission.field, r);
+  if (!near_grid(r)) return false;
   const FieldSpan<N> span = clip_to_grid(mission.field, r);
   return walk_field(mission.field, r, span.enter > 0 ? span.enter : 0, span.leave).found;
 }
@@ -82,9 +83,9 @@ PoseReason judge(const MissionParameters& p, const Registration& r) {
   if (r.stop == StopReason::kSingular) return PoseReason::kSingular;
   if (r.stop == StopReason::kTooFewPoints || r.inliers < p.inliers_min) return PoseReason::kTooFewInliers;
   if (r.stop == StopReason::kIterationLimit) return PoseReason::kNotConverged;
-  if (r.inlier_share < p.inlier_share_min) return PoseReason::kLowInlierShare;
-  if (r.agreement < p.agreement_min) return PoseReason::kLowAgreement;
-  if (r.normalized_residual > p.normalized_residual_max) return PoseReason::kHighResidual;
+  if (!(r.inlier_share >= p.inlier_share_min)) return PoseReason::kLowInlierShare;  // also what is not a number
+  if (!(r.agreement >= p.agreement_min)) return PoseReason::kLowAgreement;
+  if (!(r.normalized_residual <= p.normalized_residual_max)) return PoseReason::kHighResidual;
   return PoseReason::kValid;
 }
 

@@ -20,12 +20,13 @@ struct HitSolution {
 double explained_share(const HitSolution& solution);
 constexpr double kExplainedShare = 0.99;
 
-// Registers workspace.points from T_target_sensor. First closest planes and rays of a quarter of the points, then rays of all of them until
-// the step is below estimation.stop_*; at most estimation.iterations_max passes over all points.
+// Registers workspace.points from T_target_sensor: rays of a quarter of the points, then of all of them until the step is below
+// estimation.stop_*; a second look with a wider gate where the first does not explain the scan. At most 2 estimation.iterations_max + 3
+// passes over all points.
 HitSolution register_hits(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace);
 
 // A rough start made good enough for register_hits: centroid, far field, slides along the target's axes. Converges from about 20 deg and a
-// quarter of the model's size. Bound: kFarPasses + 1 + 3 * kSlides short registrations of a quarter of the points.
+// quarter of the model's size. Bound: 20 passes and 73 short registrations of a quarter of the points.
 Pose approach_from_afar(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace);
 
 }  // namespace lasso

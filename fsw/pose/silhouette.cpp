@@ -15,7 +15,8 @@ constexpr double kCertain2 = 36;         // labels that the pose makes certain t
 constexpr double kGapSigmas = 8;         // an inner contour's step is at least this many range sigmas
 constexpr double kConsistentDepths = 4;  // a return belongs to a contour's near or far side within this many edge depths
 constexpr double kConsistentSigmas = 6;
-constexpr double kCornerCosine = 0.3;  // beyond an edge's end the contour turns at most this sharply
+constexpr double kNearestEdge2 = 1e-6;  // m^2: an edge at the sensor's very place has no contour
+constexpr double kCornerCosine = 0.3;   // beyond an edge's end the contour turns at most this sharply
 
 Vec3 to_vec3(const Length* p) { return {N::to_double(p[0]), N::to_double(p[1]), N::to_double(p[2])}; }
 
@@ -62,6 +63,7 @@ bool hidden(const Field<N>& field, const Probe& probe, Length depth) {
 // Probes a little to either side of the edge decide whether, and which, contour is there.
 ContourPoint probe_contour(const Field<N>& field, const ProbeSettings& s, const Vec3& origin, const Vec3& edge, const Vec3& across) {
   ContourPoint point;
+  if (!((edge - origin).squaredNorm() > kNearestEdge2)) return point;
   const double step = N::to_double(s.step);
   const Probe plus = make_probe(field, origin, edge + step * across);
   const Probe minus = make_probe(field, origin, edge - step * across);

@@ -140,6 +140,8 @@ void write_scenario(std::ostream& out, double range_m) {
     if (row.key != "offset_m" && !row.preset.empty()) write_row(out, row, row.preset);
   }
   out << "override.estimation.deskew = false\n";
+  out << "override.tracking.start_sigma_m = " << rounded(0.005 * range_m) << "  # the track starts from the pose of one frame before\n";
+  out << "override.tracking.start_sigma_deg = 2\n";
 }
 
 [[noreturn]] void fail(const std::filesystem::path& file, const std::string& reason) {

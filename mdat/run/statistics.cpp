@@ -17,7 +17,10 @@ MeanStd mean_std_of(const Items& items, double scale, const Function& value) {
   return mean_std(values);
 }
 
-double root_mean(double sum, std::size_t n) { return n == 0 ? 0 : std::sqrt(sum / static_cast<double>(n)); }
+// Of nothing, nothing is known: not a number, null in results.json.
+double root_mean(double sum, std::size_t n) {
+  return n == 0 ? std::numeric_limits<double>::quiet_NaN() : std::sqrt(sum / static_cast<double>(n));
+}
 
 double nearest_rank(const std::vector<double>& sorted, double share) {
   if (sorted.empty()) return 0;
@@ -65,7 +68,7 @@ double nees(const Pose& estimate, const Pose& truth, const Mat6& covariance) {
 }
 
 MeanStd mean_std(const std::vector<double>& values) {
-  if (values.empty()) return {};
+  if (values.empty()) return {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()};
   const double n = static_cast<double>(values.size());
   double sum = 0;
   for (const double value : values) sum += value;

@@ -159,6 +159,9 @@ void expect_decomposition(const Mat6& A, const Eigen6& e, double tolerance) {
   for (int i = 1; i < 6; ++i) ASSERT_LE(e.values[i - 1], e.values[i]);
 }
 
+// The other solver does not converge in PowerPC's pairs of doubles; the decomposition itself is checked everywhere.
+constexpr bool kHasExtendedPrecision = std::numeric_limits<long double>::digits != 106;
+
 TEST(Eigen6, AgreesWithAnotherSolver) {
   VERIFIES("LASSO-GEO-018");
   test::Generator generator(75);
@@ -168,6 +171,7 @@ TEST(Eigen6, AgreesWithAnotherSolver) {
     const Eigen6 e = eigen6(A);
     const Eigen::SelfAdjointEigenSolver<Wide6> other(A.cast<long double>());
     expect_decomposition(A, e, 5e-15);
+    if (!kHasExtendedPrecision) continue;
     ASSERT_LE((e.values - other.eigenvalues().cast<double>()).norm(), 5e-15 * A.norm());
   }
 }
@@ -175,6 +179,7 @@ TEST(Eigen6, AgreesWithAnotherSolver) {
 // The least eigenvalues of information matrices tell the weak directions: they must not drown in the rounding of the largest.
 TEST(Eigen6, SmallEigenvaluesOfBadlyScaledMatricesAreAccurate) {
   VERIFIES("LASSO-GEO-018");
+  if (!kHasExtendedPrecision) GTEST_SKIP() << "no reference of higher precision on this target";
   test::Generator generator(76);
   for (int i = 0; i < 3000; ++i) {
     const Mat6 A = random_spd(generator, 3);
