@@ -11,7 +11,7 @@ constexpr char kPoses[] = "scan,qx,qy,qz,qw,x_m,y_m,z_m\n";
 constexpr char kScan[] = "t_s,x_m,y_m,z_m,valid\n0.0,0.01,0.02,4.0,1\n0.1,0.02,0.02,4.0,1\n";
 
 // `place` must stand in the one line.
-void expect_refused(const Workplace& work, const std::string& arguments, const std::string& place) {
+void expect_refused(const WorkFolder& work, const std::string& arguments, const std::string& place) {
   const std::vector<std::string> before = work.contents();
   const Answer answer = work.mdat(arguments);
   EXPECT_EQ(answer.exit_code, 2) << arguments << "\n" << answer.err;
@@ -22,7 +22,7 @@ void expect_refused(const Workplace& work, const std::string& arguments, const s
 }
 
 // A line of a file, counted from 1, that holds `text`.
-std::string line_with(const Workplace& work, const std::string& file, const std::string& text) {
+std::string line_with(const WorkFolder& work, const std::string& file, const std::string& text) {
   const std::vector<std::string> lines = lines_of(work.read(file));
   for (std::size_t i = 0; i < lines.size(); ++i) {
     if (lines[i].find(text) != std::string::npos) return std::to_string(i + 1);
@@ -32,7 +32,7 @@ std::string line_with(const Workplace& work, const std::string& file, const std:
 
 TEST(BadMission, MissingFile) {
   VERIFIES("LASSO-MDT-007");
-  const Workplace work;
+  const WorkFolder work;
   expect_refused(work, "mission check missions/none.toml", "missions/none.toml");
   expect_refused(work, "run missions/none.toml --out result", "missions/none.toml");
   expect_refused(work, "mission compile missions/none.toml -o image.3dli", "missions/none.toml");
@@ -53,7 +53,7 @@ TEST(BadMission, KeysUnknownOutOfRangeOfTheWrongTypeOrNotANumber) {
                           {"duration_s = 0.18", "duration_s = inf"},
                           {"pattern = \"rosette\"", "pattern = \"spiral\""}};
   for (const BadKey& bad : cases) {
-    const Workplace work;
+    const WorkFolder work;
     work.write_mission({{bad.from, bad.to}});
     expect_refused(work, "run missions/test.toml --out result",
                    "missions/test.toml:" + line_with(work, "missions/test.toml", bad.to) + ":");
@@ -62,7 +62,7 @@ TEST(BadMission, KeysUnknownOutOfRangeOfTheWrongTypeOrNotANumber) {
 
 TEST(BadMission, TruncatedInTheMiddleOfATable) {
   VERIFIES("LASSO-MDT-007");
-  const Workplace work;
+  const WorkFolder work;
   const std::string text = work.read("missions/test.toml");
   work.write("missions/cut.toml", text.substr(0, text.find("pattern = ") + 12));
   expect_refused(work, "mission check missions/cut.toml", "missions/cut.toml:");
@@ -70,12 +70,12 @@ TEST(BadMission, TruncatedInTheMiddleOfATable) {
 
 TEST(BadMission, ScenarioThatDoesNotExist) {
   VERIFIES("LASSO-MDT-007");
-  const Workplace work;
+  const WorkFolder work;
   expect_refused(work, "run missions/test.toml --scenario nowhere --out result", "nowhere");
 }
 
 // A mission whose target is a mesh file with this content.
-void use_mesh(const Workplace& work, const std::string& name, const std::string& content, const std::string& scale = "1.0") {
+void use_mesh(const WorkFolder& work, const std::string& name, const std::string& content, const std::string& scale = "1.0") {
   if (!content.empty()) work.write("missions/" + name, content);
   work.write_mission({{"model = \"models/hubble_tenth.toml\"", "mesh = \"" + name + "\""},
                       {"scale = 1.0", "scale = " + scale},
@@ -89,7 +89,7 @@ constexpr char kTetrahedron[] =
 TEST(BadMesh, MissingTruncatedCorruptOrEmpty) {
   VERIFIES("LASSO-MDT-007");
   const std::string binary_stl(80, ' ');
-  const Workplace work;
+  const WorkFolder work;
   use_mesh(work, "none.stl", "");
   expect_refused(work, "run missions/test.toml --out result", "none.stl");
   use_mesh(work, "cut.stl", binary_stl + std::string("\x10\0\0\0", 4) + std::string(60, '\1'));  // 16 triangles announced, one there
@@ -102,7 +102,7 @@ TEST(BadMesh, MissingTruncatedCorruptOrEmpty) {
 
 TEST(BadMesh, NotFiniteOrAMillionTimesTooLarge) {
   VERIFIES("LASSO-MDT-007");
-  const Workplace work;
+  const WorkFolder work;
   std::string text = kTetrahedron;
   text.replace(text.find("v 1 0 0"), 7, "v nan 0 0");
   use_mesh(work, "nan.obj", text);
@@ -113,7 +113,7 @@ TEST(BadMesh, NotFiniteOrAMillionTimesTooLarge) {
 
 TEST(BadImage, MissingTruncatedOrCorrupt) {
   VERIFIES("LASSO-MDT-007");
-  const Workplace work;
+  const WorkFolder work;
   ASSERT_EQ(work.mdat("mission compile missions/test.toml -o good.3dli").exit_code, 0);
   EXPECT_EQ(work.mdat("mission check good.3dli").exit_code, 0);
   const std::string image = work.read("good.3dli");
@@ -139,7 +139,7 @@ class BadReplay : public ::testing::Test {
     work.write("poses.csv", poses);
     expect_refused(work, "replay image.3dli --scans scans --initial poses.csv --out out.csv", place);
   }
-  Workplace work;
+  WorkFolder work;
 };
 
 TEST_F(BadReplay, Scans) {
@@ -168,7 +168,7 @@ TEST_F(BadReplay, InitialPoses) {
 
 TEST(BadOutput, AFolderThatCannotBeWritten) {
   VERIFIES("LASSO-MDT-007");
-  const Workplace work;
+  const WorkFolder work;
   work.write("file", "not a folder");
   expect_refused(work, "run missions/test.toml --out file/deeper", "file/deeper");
   expect_refused(work, "run missions/test.toml --out /proc/mdat", "/proc/mdat");  // nobody may write there, not even root
@@ -180,14 +180,14 @@ TEST(BadOutput, AFolderThatCannotBeWritten) {
 
 TEST(BadOutput, NothingStaysOfAFolderMadeForARunThatIsRefused) {
   VERIFIES("LASSO-MDT-007");
-  const Workplace work;
+  const WorkFolder work;
   work.write_mission({{"points = 1024", "points = 1"}});
   expect_refused(work, "run missions/test.toml --out one/two/three", "missions/test.toml:");
 }
 
 TEST(BadUsage, UnknownCommandsOptionsAndValues) {
   VERIFIES("LASSO-MDT-007");
-  const Workplace work;
+  const WorkFolder work;
   expect_refused(work, "", "--help");
   expect_refused(work, "fly", "fly");
   expect_refused(work, "run", "MISSION");
@@ -202,7 +202,7 @@ TEST(BadUsage, UnknownCommandsOptionsAndValues) {
 
 TEST(Help, OnEachCommand) {
   VERIFIES("LASSO-MDT-008");
-  const Workplace work;
+  const WorkFolder work;
   for (const char* command : {"", "mission ", "mission check ", "mission compile ", "mission info ", "mission new ", "run ", "replay "}) {
     const Answer answer = work.mdat(std::string(command) + "--help");
     EXPECT_EQ(answer.exit_code, 0) << command;

@@ -13,7 +13,7 @@ namespace lasso::ft {
 
 namespace fs = std::filesystem;
 
-Workplace::Workplace() {
+WorkFolder::WorkFolder() {
   std::string name = (fs::temp_directory_path() / "mdat-ft-XXXXXX").string();
   if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
   folder_ = name;
@@ -22,12 +22,12 @@ Workplace::Workplace() {
   write_mission();
 }
 
-Workplace::~Workplace() {
+WorkFolder::~WorkFolder() {
   std::error_code ignored;
   fs::remove_all(folder_, ignored);
 }
 
-Answer Workplace::mdat(const std::string& arguments) const {
+Answer WorkFolder::mdat(const std::string& arguments) const {
   const fs::path out = folder_.string() + ".out", err = folder_.string() + ".err";
   const std::string command =
       "cd '" + folder_.string() + "' && '" MDAT_PROGRAM "' " + arguments + " >'" + out.string() + "' 2>'" + err.string() + "'";
@@ -38,14 +38,14 @@ Answer Workplace::mdat(const std::string& arguments) const {
   return answer;
 }
 
-void Workplace::write(const std::string& name, const std::string& content) const {
+void WorkFolder::write(const std::string& name, const std::string& content) const {
   fs::create_directories((folder_ / name).parent_path());
   std::ofstream(folder_ / name, std::ios::binary) << content;
 }
 
-std::string Workplace::read(const std::string& name) const { return read_text(folder_ / name); }
+std::string WorkFolder::read(const std::string& name) const { return read_text(folder_ / name); }
 
-void Workplace::write_mission(const std::vector<std::pair<std::string, std::string>>& replacements) const {
+void WorkFolder::write_mission(const std::vector<std::pair<std::string, std::string>>& replacements) const {
   std::string text = read_text(fs::path(MDAT_SOURCES) / "cfg/missions/hubble_tenth.toml");
   for (const auto& [from, to] : replacements) {
     const std::size_t place = text.find(from);
@@ -55,7 +55,7 @@ void Workplace::write_mission(const std::vector<std::pair<std::string, std::stri
   write("missions/test.toml", text);
 }
 
-std::vector<std::string> Workplace::contents() const {
+std::vector<std::string> WorkFolder::contents() const {
   std::vector<std::string> names;
   for (const auto& entry : fs::recursive_directory_iterator(folder_)) names.push_back(fs::relative(entry.path(), folder_).string());
   std::sort(names.begin(), names.end());

@@ -13,12 +13,12 @@ struct Answer {
 };
 
 // A folder for one test, with a copy of the default mission in it; removed at the end.
-class Workplace {
+class WorkFolder {
  public:
-  Workplace();
-  ~Workplace();
-  Workplace(const Workplace&) = delete;
-  Workplace& operator=(const Workplace&) = delete;
+  WorkFolder();
+  ~WorkFolder();
+  WorkFolder(const WorkFolder&) = delete;
+  WorkFolder& operator=(const WorkFolder&) = delete;
 
   // Runs `mdat ARGUMENTS` in this folder, by a shell.
   Answer mdat(const std::string& arguments) const;

@@ -77,7 +77,7 @@ class Replay : public ::testing::Test {
       EXPECT_GT(value(rows[i], "estimate_us"), 10);
     }
   }
-  Workplace work;
+  WorkFolder work;
 };
 
 TEST_F(Replay, RegistersEachScanFromItsPose) {

@@ -41,7 +41,7 @@ void expect_sane(const Json& variant, bool noise, double rms_mm, double rms_deg)
 
 TEST(PaperRun, LeavesResultsReportAndTelemetry) {
   VERIFIES("LASSO-MDT-004");
-  const Workplace work;
+  const WorkFolder work;
   work.write_mission(kTwoRanges);
   const Answer answer = work.mdat("run missions/test.toml --frames 12 --seed 7 --out out/run");
   ASSERT_EQ(answer.exit_code, 0) << answer.err;
@@ -78,7 +78,7 @@ std::size_t count_packets(const std::string& stream) {
 
 TEST(PaperRun, IsTheSameForAnyNumberOfJobsAndChangesWithTheSeed) {
   VERIFIES("LASSO-MDT-005");
-  const Workplace work;
+  const WorkFolder work;
   work.write_mission(kTwoRanges);
   const std::string run = "run missions/test.toml --frames 5 --no-report ";
   ASSERT_EQ(work.mdat(run + "--seed 3 --jobs 1 --out one").exit_code, 0);
@@ -92,7 +92,7 @@ TEST(PaperRun, IsTheSameForAnyNumberOfJobsAndChangesWithTheSeed) {
 
 TEST(SpinRun, TracksATargetThatMovesWithinItsScans) {
   VERIFIES("LASSO-MDT-004");
-  const Workplace work;
+  const WorkFolder work;
   const Answer answer = work.mdat("run missions/test.toml --scenario spin --frames 30 --out out");
   ASSERT_EQ(answer.exit_code, 0) << answer.err;
   const Json results = Json::parse(work.read("out/results.json"));
