@@ -52,7 +52,7 @@ struct LoadFailure {
   const char* what = "";     // a few words
 };
 
-// Validates the whole image (format, CRCs, every index, range, tree and capacity) and only then converts its tables in place to this
+// Validates the whole image (format, CRCs, every index, range and capacity) and only then converts its tables in place to this
 // build's number type, so that the image's memory becomes the mission's. `image` must be aligned to 8 bytes. On failure neither `image`
 // nor `mission` is changed. Loop bound: the image's words.
 LoadFailure load_image(Bytes image, Mission& mission);

@@ -72,7 +72,7 @@ class Replay : public ::testing::Test {
       EXPECT_LT(angle_rad(rows[i], truth[i]), limit_rad);
       const double sigma_m = std::hypot(value(rows[i], "sigma_x_m"), value(rows[i], "sigma_y_m"), value(rows[i], "sigma_z_m"));
       EXPECT_LT(distance_m(rows[i], truth[i]), 6 * sigma_m) << "the covariance is honest";
-      EXPECT_GT(value(rows[i], "inliers"), 250);
+      EXPECT_GT(value(rows[i], "inliers"), 300);
       EXPECT_NEAR(value(rows[i], "rms_m"), 16.0 / 9000, 0.3 * 16.0 / 9000) << "the noise of the camera at 4 m";
       EXPECT_GT(value(rows[i], "estimate_us"), 10);
     }

@@ -59,7 +59,6 @@ SimulationResult simulate(const CompiledMission& mission, const SimulationOption
 // All packets, in the order of tables, variants and ranges.
 std::string telemetry_bytes(const SimulationResult& result);
 
-// The ray caster of a mission's target.
 // The target for the ray caster: triangles without area, which no ray can hit, are left out.
 std::unique_ptr<sim::RayCaster> make_target(const Mesh& mesh);
 
