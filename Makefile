@@ -1,8 +1,12 @@
 # The commands of this repository. `make help` lists them.
-BUILD := out/build
-PPC := out/ppc
-BENCH := out/build-bench
-DEBUG := out/build-debug
+# The sources and the folder for all results; `make gates-selftest` sets others.
+SOURCE ?= .
+LASSO_OUT ?= out
+export LASSO_OUT
+BUILD := $(LASSO_OUT)/build
+PPC := $(LASSO_OUT)/ppc
+BENCH := $(LASSO_OUT)/build-bench
+DEBUG := $(LASSO_OUT)/build-debug
 MISSION ?= cfg/missions/hubble_tenth.toml
 OUT ?= out/run
 PREFIX ?= /usr/local
@@ -17,23 +21,23 @@ export NINJA_STATUS := [%f/%t %es]
 # $(call packages,LISTS), $(call configure,FOLDER,CMAKE OPTIONS), $(call compile,FOLDER[,TARGETS]), $(call ctest,FOLDER,REPORTS)
 packages = @cfg/packages/ensure $(1)
 configure = @[ -e $(1)/build.ninja ] || { echo "configure $(1)"; mkdir -p $(1); \
-  cmake -S . -B $(1) -G Ninja -DCMAKE_BUILD_TYPE=Release $$(command -v ccache >/dev/null && echo -DCMAKE_CXX_COMPILER_LAUNCHER=ccache) $(2) \
+  cmake -S $(SOURCE) -B $(1) -G Ninja -DCMAKE_BUILD_TYPE=Release $$(command -v ccache >/dev/null && echo -DCMAKE_CXX_COMPILER_LAUNCHER=ccache) $(2) \
     >$(1)/configure.log 2>&1 || { cat $(1)/configure.log; rm -f $(1)/build.ninja; false; }; }
 compile = @echo "build $(1)$(if $(2), ($(2)))"; cmake --build $(1) --parallel $(JOBS) $(if $(2),--target $(2)) $(NINJA_FLAGS)
 ctest = @rm -rf $(2); mkdir -p $(2); GTEST_OUTPUT=xml:$(abspath $(2))/ \
   ctest --test-dir $(1) --parallel $(JOBS) --output-on-failure --no-tests=error --output-junit $(abspath $(2))/ctest.xml
 
-.PHONY: help run test bench basin golden ppc-count memory ppc-test figures format lint install clean build
+.PHONY: help run test bench basin golden ppc-count memory ppc-test arrows gates-selftest figures format lint install clean build
 .DEFAULT_GOAL := help
 
 help: ## this list
-	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-10s %s\n", $$1, $$2 }' $(firstword $(MAKEFILE_LIST))
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-14s %s\n", $$1, $$2 }' $(firstword $(MAKEFILE_LIST))
 
 run: build ## track the tenth-scale Hubble and report into out/run; MISSION=, SCENARIO=, SEED=, OUT=
 	@$(BUILD)/mdat/mdat run $(MISSION) $(if $(SCENARIO),--scenario $(SCENARIO)) $(if $(SEED),--seed $(SEED)) --out $(OUT)
 
 test: build ## build and pass all tests of the host; reports in out/test
-	$(call ctest,$(BUILD),out/test)
+	$(call ctest,$(BUILD),$(LASSO_OUT)/test)
 
 bench: ## time the estimate, its stages and its peers; table, and out/bench/results.json
 	$(call packages,build bench)
@@ -75,7 +79,14 @@ ppc-test: ## unit tests of the flight component on the emulated PowerPC 603e; re
 	$(call packages,build target)
 	$(call configure,$(PPC),-DCMAKE_TOOLCHAIN_FILE=cfg/toolchains/ppc603e.cmake -DLASSO_GROUND=OFF)
 	$(call compile,$(PPC))
-	$(call ctest,$(PPC),out/ppc-test)
+	$(call ctest,$(PPC),$(LASSO_OUT)/ppc-test)
+
+arrows: ## the includes obey the arrows between rooms and stages (cfg/quality/arrows.toml)
+	@cfg/quality/arrows
+
+gates-selftest: ## every gate fails on its planted violation (ut/gates)
+	$(call packages,build target lint)
+	@cfg/quality/gates-selftest
 
 figures: ## write README.md's table from the results of run, bench, ppc-count and memory
 	@docs/figures

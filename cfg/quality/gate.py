@@ -1,0 +1,82 @@
+"""What the gates have in common: findings, figures, tools, and the summary that each leaves in out/GATE/summary.json."""
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+
+TOP = pathlib.Path(__file__).resolve().parents[2]
+OUT = pathlib.Path(os.environ.get('LASSO_OUT', TOP / 'out')).resolve()
+
+# Programs that gates call, the Debian package of each, and the list that installs it (cfg/packages).
+TOOLS = {
+    'powerpc-linux-gnu-g++': ('g++-powerpc-linux-gnu', 'target'),
+    'powerpc-linux-gnu-nm': ('g++-powerpc-linux-gnu', 'target'),
+    'powerpc-linux-gnu-objdump': ('g++-powerpc-linux-gnu', 'target'),
+    'powerpc-linux-gnu-size': ('g++-powerpc-linux-gnu', 'target'),
+    'qemu-ppc': ('qemu-user', 'target'),
+    'clang-format': ('clang-format', 'lint'),
+    'clang-tidy-19': ('clang-tidy-19', 'lint'),
+    'cppcheck': ('cppcheck', 'lint'),
+    'ctest': ('cmake', 'build'),
+}
+
+
+class Gate:
+    """Collects what a gate finds and measures. `with Gate(name) as gate:` ends the program, at once if something cannot go on (stop())."""
+
+    def __init__(self, name):
+        self.name, self.findings, self.figures = name, [], {}
+        self.out = OUT / name
+
+    def __enter__(self):
+        self.out.mkdir(parents=True, exist_ok=True)
+        return self
+
+    def find(self, text):
+        """A finding: place, value, remedy."""
+        self.findings.append(text)
+
+    def stop(self, text):
+        """A finding after which nothing more can be checked."""
+        self.find(text)
+        raise Stopped
+
+    def figure(self, label, text):
+        self.figures[label] = str(text)
+
+    def tool(self, name):
+        if shutil.which(name) is None:
+            package, where = TOOLS[name]
+            self.stop(f'{name} is missing: install the Debian package {package} (cfg/packages/ensure {where})')
+        return name
+
+    def run(self, *command, **options):
+        """What the command wrote; a finding if it fails."""
+        self.tool(command[0]) if command[0] in TOOLS else None
+        done = subprocess.run([str(word) for word in command], capture_output=True, text=True, check=False, **options)
+        if done.returncode != 0:
+            self.stop(f'{" ".join(map(str, command))} failed:\n{done.stderr.strip() or done.stdout.strip()}')
+        return done.stdout
+
+    def __exit__(self, kind, error, trace):
+        if kind is not None and kind is not Stopped:
+            self.find(f'{kind.__name__}: {error}')
+            self.conclude()
+            return False
+        sys.exit(self.conclude())
+
+    def conclude(self):
+        passed = not self.findings
+        with open(self.out / 'summary.json', 'w', encoding='utf-8') as file:
+            json.dump({'gate': self.name, 'passed': passed, 'figures': self.figures}, file, indent=1, ensure_ascii=False)
+        for finding in self.findings:
+            print(f'{self.name}: {finding}', file=sys.stderr)
+        said = ', '.join(f'{text} {label}' for label, text in self.figures.items())
+        print(f'{self.name}: {"passed" if passed else f"FAILED, {len(self.findings)} findings"}{f" ({said})" if said else ""}')
+        return 0 if passed else 1
+
+
+class Stopped(Exception):
+    pass
