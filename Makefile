@@ -7,10 +7,12 @@ BUILD := $(LASSO_OUT)/build
 PPC := $(LASSO_OUT)/ppc
 BENCH := $(LASSO_OUT)/build-bench
 DEBUG := $(LASSO_OUT)/build-debug
+PROVE := $(LASSO_OUT)/build-prove
 MISSION ?= cfg/missions/hubble_tenth.toml
 OUT ?= out/run
 PREFIX ?= /usr/local
 JOBS ?= $(shell nproc)
+CROSS = -DCMAKE_TOOLCHAIN_FILE=cfg/toolchains/ppc603e.cmake -DLASSO_GROUND=OFF
 SOURCES = git ls-files -z '*.cpp' '*.hpp'
 
 export CCACHE_BASEDIR := $(CURDIR)
@@ -27,7 +29,7 @@ compile = @echo "build $(1)$(if $(2), ($(2)))"; cmake --build $(1) --parallel $(
 ctest = @rm -rf $(2); mkdir -p $(2); GTEST_OUTPUT=xml:$(abspath $(2))/ \
   ctest --test-dir $(1) --parallel $(JOBS) --output-on-failure --no-tests=error --output-junit $(abspath $(2))/ctest.xml
 
-.PHONY: help run test bench basin golden ppc-count memory ppc-test arrows gates-selftest figures format lint install clean build
+.PHONY: help run test bench basin golden ppc-count prove ppc-test arrows gates-selftest figures format lint install clean build
 .DEFAULT_GOAL := help
 
 help: ## this list
@@ -56,7 +58,7 @@ golden: ## the same telemetry, bit for bit, from the host and from the emulated 
 	$(call packages,build target)
 	$(call configure,$(BUILD),)
 	$(call compile,$(BUILD),golden_record golden_replay golden_compare)
-	$(call configure,$(PPC),-DCMAKE_TOOLCHAIN_FILE=cfg/toolchains/ppc603e.cmake -DLASSO_GROUND=OFF)
+	$(call configure,$(PPC),$(CROSS))
 	$(call compile,$(PPC),golden_replay)
 	$(call configure,$(DEBUG),-DCMAKE_BUILD_TYPE=Debug -DLASSO_GROUND=OFF)
 	$(call compile,$(DEBUG),golden_replay)
@@ -66,29 +68,31 @@ ppc-count: ## instructions of one estimate on the PowerPC 603e, by function; tab
 	$(call packages,build target)
 	$(call configure,$(BUILD),)
 	$(call compile,$(BUILD),golden_record golden_replay golden_compare)
-	$(call configure,$(PPC),-DCMAKE_TOOLCHAIN_FILE=cfg/toolchains/ppc603e.cmake -DLASSO_GROUND=OFF)
+	$(call configure,$(PPC),$(CROSS))
 	$(call compile,$(PPC),golden_replay)
 	@ft/ppc603e/count $(BUILD) $(PPC)
 
-memory: ## static memory of the flight component and stack of its tasks on the PowerPC 603e; out/ppc-memory/results.json
+prove: ## what the archives for the 603e do not do: heap, exceptions, recursion, contraction, too much stack or memory; out/prove
 	$(call packages,build target)
-	$(call configure,$(PPC),-DCMAKE_TOOLCHAIN_FILE=cfg/toolchains/ppc603e.cmake -DLASSO_GROUND=OFF)
-	@ft/ppc603e/memory $(PPC)
+	$(call configure,$(PROVE),$(CROSS) -DLASSO_TESTS=OFF -DLASSO_CALL_GRAPH=ON -DCMAKE_CXX_COMPILER_LAUNCHER=)
+	$(call compile,$(PROVE))
+	@cfg/quality/prove $(PROVE)
 
 ppc-test: ## unit tests of the flight component on the emulated PowerPC 603e; reports in out/ppc-test
 	$(call packages,build target)
-	$(call configure,$(PPC),-DCMAKE_TOOLCHAIN_FILE=cfg/toolchains/ppc603e.cmake -DLASSO_GROUND=OFF)
+	$(call configure,$(PPC),$(CROSS))
 	$(call compile,$(PPC))
 	$(call ctest,$(PPC),$(LASSO_OUT)/ppc-test)
 
 arrows: ## the includes obey the arrows between rooms and stages (cfg/quality/arrows.toml)
+	$(call packages,lint)
 	@cfg/quality/arrows
 
 gates-selftest: ## every gate fails on its planted violation (ut/gates)
 	$(call packages,build target lint)
 	@cfg/quality/gates-selftest
 
-figures: ## write README.md's table from the results of run, bench, ppc-count and memory
+figures: ## write README.md's table from the results of run, bench, ppc-count and prove
 	@docs/figures
 
 format: ## format all tracked sources

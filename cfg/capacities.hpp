@@ -17,5 +17,6 @@ constexpr std::uint32_t kMaxEdges = 1u << 17;
 constexpr std::size_t kMaxSites = 256;              // silhouette measurements of one scan
 constexpr std::size_t kMaxContourEdges = 4096;      // model edges on the contour of one view
 constexpr std::size_t kTelemetryQueueBytes = 8192;  // packets between two downlinks
+constexpr std::size_t kTaskStackBytes = 32u << 10;  // stack that a board gives each task; make prove: they need half of it at most
 
 }  // namespace lasso

@@ -1,0 +1,1 @@
+float planted(float a, float b, float c) { return a * b + c; }

@@ -1,0 +1,1 @@
+void planted(unsigned n) { asm volatile("" : : "r"(__builtin_alloca(n)) : "memory"); }

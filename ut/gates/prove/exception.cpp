@@ -1,0 +1,3 @@
+void planted(int value) {
+  if (value < 0) throw value;
+}

@@ -1,0 +1,1 @@
+int* planted(unsigned n) { return new int[n]; }

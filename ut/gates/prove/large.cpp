@@ -1,0 +1,1 @@
+char planted[65536];

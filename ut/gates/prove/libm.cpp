@@ -1,0 +1,2 @@
+#include <cmath>
+double planted(double x) { return std::sin(x); }
