@@ -29,7 +29,7 @@ compile = @echo "build $(1)$(if $(2), ($(2)))"; cmake --build $(1) --parallel $(
 ctest = @rm -rf $(2); mkdir -p $(2); GTEST_OUTPUT=xml:$(abspath $(2))/ \
   ctest --test-dir $(1) --parallel $(JOBS) --output-on-failure --no-tests=error --output-junit $(abspath $(2))/ctest.xml
 
-.PHONY: help run test bench basin golden ppc-count prove ppc-test arrows gates-selftest figures format lint install clean build
+.PHONY: help run test bench basin golden ppc-count prove ppc-test arrows trace evidence gates-selftest figures format lint install clean build
 .DEFAULT_GOAL := help
 
 help: ## this list
@@ -88,8 +88,16 @@ arrows: ## the includes obey the arrows between rooms and stages (cfg/quality/ar
 	$(call packages,lint)
 	@cfg/quality/arrows
 
+trace: ## every active requirement has a passing test or its evidence; after make test and make ppc-test; matrix in out/trace
+	$(call packages,trace)
+	@reqs/trace
+
+evidence: ## collect what the gates left into out/evidence, for a reviewer, and into docs/verification.md
+	$(call packages,trace)
+	@reqs/evidence
+
 gates-selftest: ## every gate fails on its planted violation (ut/gates)
-	$(call packages,build target lint)
+	$(call packages,build target lint trace)
 	@cfg/quality/gates-selftest
 
 figures: ## write README.md's table from the results of run, bench, ppc-count and prove

@@ -31,7 +31,7 @@ std::string line_with(const WorkFolder& work, const std::string& file, const std
 }
 
 TEST(BadMission, MissingFile) {
-  VERIFIES("LASSO-MDT-007");
+  VERIFIES("LASSO-MDT-007~1");
   const WorkFolder work;
   expect_refused(work, "mission check missions/none.toml", "missions/none.toml");
   expect_refused(work, "run missions/none.toml --out result", "missions/none.toml");
@@ -44,7 +44,7 @@ struct BadKey {
 };
 
 TEST(BadMission, KeysUnknownOutOfRangeOfTheWrongTypeOrNotANumber) {
-  VERIFIES("LASSO-MDT-007");
+  VERIFIES("LASSO-MDT-007~1");
   const BadKey cases[] = {{"points = 1024", "pionts = 1024"},
                           {"points = 1024", "points = 4097"},
                           {"points = 1024", "points = \"many\""},
@@ -61,7 +61,7 @@ TEST(BadMission, KeysUnknownOutOfRangeOfTheWrongTypeOrNotANumber) {
 }
 
 TEST(BadMission, TruncatedInTheMiddleOfATable) {
-  VERIFIES("LASSO-MDT-007");
+  VERIFIES("LASSO-MDT-007~1");
   const WorkFolder work;
   const std::string text = work.read("missions/test.toml");
   work.write("missions/cut.toml", text.substr(0, text.find("pattern = ") + 12));
@@ -69,7 +69,7 @@ TEST(BadMission, TruncatedInTheMiddleOfATable) {
 }
 
 TEST(BadMission, ScenarioThatDoesNotExist) {
-  VERIFIES("LASSO-MDT-007");
+  VERIFIES("LASSO-MDT-007~1");
   const WorkFolder work;
   expect_refused(work, "run missions/test.toml --scenario nowhere --out result", "nowhere");
 }
@@ -87,7 +87,7 @@ constexpr char kTetrahedron[] =
     "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
 
 TEST(BadMesh, MissingTruncatedCorruptOrEmpty) {
-  VERIFIES("LASSO-MDT-007");
+  VERIFIES("LASSO-MDT-007~1");
   const std::string binary_stl(80, ' ');
   const WorkFolder work;
   use_mesh(work, "none.stl", "");
@@ -101,7 +101,7 @@ TEST(BadMesh, MissingTruncatedCorruptOrEmpty) {
 }
 
 TEST(BadMesh, NotFiniteOrAMillionTimesTooLarge) {
-  VERIFIES("LASSO-MDT-007");
+  VERIFIES("LASSO-MDT-007~1");
   const WorkFolder work;
   std::string text = kTetrahedron;
   text.replace(text.find("v 1 0 0"), 7, "v nan 0 0");
@@ -112,7 +112,7 @@ TEST(BadMesh, NotFiniteOrAMillionTimesTooLarge) {
 }
 
 TEST(BadImage, MissingTruncatedOrCorrupt) {
-  VERIFIES("LASSO-MDT-007");
+  VERIFIES("LASSO-MDT-007~1");
   const WorkFolder work;
   ASSERT_EQ(work.mdat("mission compile missions/test.toml -o good.3dli").exit_code, 0);
   EXPECT_EQ(work.mdat("mission check good.3dli").exit_code, 0);
@@ -143,7 +143,7 @@ class BadReplay : public ::testing::Test {
 };
 
 TEST_F(BadReplay, Scans) {
-  VERIFIES("LASSO-MDT-007");
+  VERIFIES("LASSO-MDT-007~1");
   const std::string poses = std::string(kPoses) + "a,0,0,0,1,0,0,4\n";
   expect_bad(std::string(kScan) + "0.2,0.1,0.2\n", poses, "a.csv:4");  // ragged
   expect_bad(std::string(kScan) + "0.2,0.1,nan,4,1\n", poses, "a.csv:4");
@@ -153,7 +153,7 @@ TEST_F(BadReplay, Scans) {
 }
 
 TEST_F(BadReplay, InitialPoses) {
-  VERIFIES("LASSO-MDT-007");
+  VERIFIES("LASSO-MDT-007~1");
   expect_bad(kScan, std::string(kPoses) + "a,0,0,0.1,1,0,0,4\n", "poses.csv:2:3: qx,qy,qz,qw: length");
   expect_bad(kScan, std::string(kPoses) + "a,0,0,0,1,nan,0,4\n", "poses.csv:2:11: x_m");
   expect_bad(kScan, std::string(kPoses) + "a,0,0,zero,1,0,0,4\n", "poses.csv:2:7: qz");
@@ -167,7 +167,7 @@ TEST_F(BadReplay, InitialPoses) {
 }
 
 TEST(BadOutput, AFolderThatCannotBeWritten) {
-  VERIFIES("LASSO-MDT-007");
+  VERIFIES("LASSO-MDT-007~1");
   const WorkFolder work;
   work.write("file", "not a folder");
   expect_refused(work, "run missions/test.toml --out file/deeper", "file/deeper");
@@ -179,14 +179,14 @@ TEST(BadOutput, AFolderThatCannotBeWritten) {
 }
 
 TEST(BadOutput, NothingStaysOfAFolderMadeForARunThatIsRefused) {
-  VERIFIES("LASSO-MDT-007");
+  VERIFIES("LASSO-MDT-007~1");
   const WorkFolder work;
   work.write_mission({{"points = 1024", "points = 1"}});
   expect_refused(work, "run missions/test.toml --out one/two/three", "missions/test.toml:");
 }
 
 TEST(BadUsage, UnknownCommandsOptionsAndValues) {
-  VERIFIES("LASSO-MDT-007");
+  VERIFIES("LASSO-MDT-007~1");
   const WorkFolder work;
   expect_refused(work, "", "--help");
   expect_refused(work, "fly", "fly");
@@ -201,7 +201,7 @@ TEST(BadUsage, UnknownCommandsOptionsAndValues) {
 }
 
 TEST(Help, OnEachCommand) {
-  VERIFIES("LASSO-MDT-008");
+  VERIFIES("LASSO-MDT-008~1");
   const WorkFolder work;
   for (const char* command : {"", "mission ", "mission check ", "mission compile ", "mission info ", "mission new ", "run ", "replay "}) {
     const Answer answer = work.mdat(std::string(command) + "--help");

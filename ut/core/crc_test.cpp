@@ -43,7 +43,7 @@ std::uint32_t mirrored(std::uint32_t x) {
 }
 
 TEST(Crc, CheckValues) {
-  VERIFIES("LASSO-COR-002");
+  VERIFIES("LASSO-COR-002~1");
   EXPECT_EQ(crc16_ccitt(kCheck), 0x29B1);
   EXPECT_EQ(crc32c(kCheck), 0xE3069283U);
   EXPECT_EQ(crc16_ccitt({}), 0xFFFF);
@@ -52,7 +52,7 @@ TEST(Crc, CheckValues) {
 
 // RFC 3720, appendix B.4.
 TEST(Crc, IscsiExamplesOfCrc32c) {
-  VERIFIES("LASSO-COR-002");
+  VERIFIES("LASSO-COR-002~1");
   std::vector<std::uint8_t> bytes(32, 0);
   EXPECT_EQ(crc32c(view(bytes)), 0x8A9136AAU);
   bytes.assign(32, 0xFF);
@@ -62,7 +62,7 @@ TEST(Crc, IscsiExamplesOfCrc32c) {
 }
 
 TEST(Crc, TablesAgreeWithTheDefinition) {
-  VERIFIES("LASSO-COR-002");
+  VERIFIES("LASSO-COR-002~1");
   test::Generator generator(1);
   for (std::size_t n = 0; n < 300; ++n) {
     const auto bytes = random_bytes(generator, n);
@@ -72,7 +72,7 @@ TEST(Crc, TablesAgreeWithTheDefinition) {
 }
 
 TEST(Crc, CallsChainAtEveryCut) {
-  VERIFIES("LASSO-COR-002");
+  VERIFIES("LASSO-COR-002~1");
   test::Generator generator(2);
   const auto bytes = random_bytes(generator, 257);
   for (std::size_t cut = 0; cut <= bytes.size(); ++cut) {
@@ -84,7 +84,7 @@ TEST(Crc, CallsChainAtEveryCut) {
 }
 
 TEST(Crc, EverySingleAndDoubleFlipIsSeen) {
-  VERIFIES("LASSO-COR-003");
+  VERIFIES("LASSO-COR-003~1");
   test::Generator generator(3);
   auto bytes = random_bytes(generator, 24);
   const std::uint16_t good16 = crc16_ccitt(view(bytes));
@@ -106,7 +106,7 @@ TEST(Crc, EverySingleAndDoubleFlipIsSeen) {
 }
 
 TEST(Crc, EveryBurstUpToTheWidthIsSeen) {
-  VERIFIES("LASSO-COR-003");
+  VERIFIES("LASSO-COR-003~1");
   test::Generator generator(4);
   for (int trial = 0; trial < 20000; ++trial) {
     auto bytes = random_bytes(generator, 40);

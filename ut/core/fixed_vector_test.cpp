@@ -12,7 +12,7 @@ namespace lasso {
 namespace {
 
 TEST(FixedVector, RefusesWhatDoesNotFitAndChangesNothing) {
-  VERIFIES("LASSO-COR-006");
+  VERIFIES("LASSO-COR-006~1");
   FixedVector<int, 3> v;
   EXPECT_TRUE(v.empty());
   for (int i = 0; i < 3; ++i) EXPECT_TRUE(v.push_back(10 + i));
@@ -24,7 +24,7 @@ TEST(FixedVector, RefusesWhatDoesNotFitAndChangesNothing) {
 }
 
 TEST(FixedVector, BehavesAsAVectorAndKeepsItsPeak) {
-  VERIFIES("LASSO-COR-006 LASSO-COR-007");
+  VERIFIES("LASSO-COR-006~1 LASSO-COR-007~1");
   test::Generator generator(21);
   FixedVector<std::uint64_t, 17> v;
   std::vector<std::uint64_t> model;
@@ -47,7 +47,7 @@ TEST(FixedVector, BehavesAsAVectorAndKeepsItsPeak) {
 }
 
 TEST(FixedVector, PeakOutlivesClear) {
-  VERIFIES("LASSO-COR-007");
+  VERIFIES("LASSO-COR-007~1");
   FixedVector<int, 8> v;
   for (int i = 0; i < 5; ++i) ASSERT_TRUE(v.push_back(i));
   v.clear();
@@ -58,7 +58,7 @@ TEST(FixedVector, PeakOutlivesClear) {
 }
 
 TEST(FixedVector, SpanShowsTheHeldElements) {
-  VERIFIES("LASSO-COR-006");
+  VERIFIES("LASSO-COR-006~1");
   FixedVector<int, 8> v;
   for (int i = 0; i < 4; ++i) ASSERT_TRUE(v.push_back(i * i));
   const FixedVector<int, 8>& constant = v;
@@ -70,7 +70,7 @@ TEST(FixedVector, SpanShowsTheHeldElements) {
 }
 
 TEST(FixedVectorDeathTest, AnIndexPastTheHeldElementsIsAnInvariant) {
-  VERIFIES("LASSO-COR-008");
+  VERIFIES("LASSO-COR-008~1");
   FixedVector<int, 4> v;
   ASSERT_TRUE(v.push_back(1));
   const FixedVector<int, 4>& constant = v;

@@ -14,7 +14,7 @@ namespace {
 constexpr int kStatusCount = static_cast<int>(Status::kSingular) + 1;
 
 TEST(Status, EveryReasonHasAnOwnLowerCaseName) {
-  VERIFIES("LASSO-COR-001");
+  VERIFIES("LASSO-COR-001~1");
   std::set<std::string> names;
   for (int value = 0; value < kStatusCount; ++value) {
     const std::string name = to_string(static_cast<Status>(value));
@@ -28,7 +28,7 @@ TEST(Status, EveryReasonHasAnOwnLowerCaseName) {
 }
 
 TEST(Status, AnyOtherByteIsUnknown) {
-  VERIFIES("LASSO-COR-001");
+  VERIFIES("LASSO-COR-001~1");
   for (int value = kStatusCount; value < 256; ++value) EXPECT_STREQ(to_string(static_cast<Status>(value)), "unknown");
 }
 

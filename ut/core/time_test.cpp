@@ -8,7 +8,7 @@ namespace lasso {
 namespace {
 
 TEST(Time, MicrosecondsToSeconds) {
-  VERIFIES("LASSO-COR-009");
+  VERIFIES("LASSO-COR-009~1");
   EXPECT_DOUBLE_EQ(to_seconds(1), 1e-6);
   EXPECT_DOUBLE_EQ(to_seconds(-2500000), -2.5);
   EXPECT_EQ(to_seconds(0), 0.0);

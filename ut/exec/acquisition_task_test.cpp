@@ -27,7 +27,7 @@ class AcquisitionTaskTest : public ::testing::Test {
 };
 
 TEST_F(AcquisitionTaskTest, TakesTheLargestScanInOnePoll) {
-  VERIFIES("LASSO-EXE-005");
+  VERIFIES("LASSO-EXE-005~1 LASSO-SNS-032~1");
   start(3, 1000);
   EXPECT_EQ(plan_.scan_id, 3u);
   task_->poll(200000);
@@ -37,7 +37,7 @@ TEST_F(AcquisitionTaskTest, TakesTheLargestScanInOnePoll) {
 }
 
 TEST_F(AcquisitionTaskTest, FillsTheOtherImageAfterTheHandOver) {
-  VERIFIES("LASSO-EXE-002");
+  VERIFIES("LASSO-EXE-002~1");
   start(0, 0);
   task_->poll(200000);
   ASSERT_TRUE(task_->finish());
@@ -54,7 +54,7 @@ TEST_F(AcquisitionTaskTest, FillsTheOtherImageAfterTheHandOver) {
 }
 
 TEST_F(AcquisitionTaskTest, ScanThatFailsOrNeverStartsIsNotFit) {
-  VERIFIES("LASSO-EXE-005");
+  VERIFIES("LASSO-EXE-005~1");
   sensor_.refused = {0};
   sensor_.lost = {1};
   start(0, 0);

@@ -35,7 +35,7 @@ PoseTelemetry report_of(ComponentScene& scene, std::uint32_t scan_id) {
 }
 
 TEST(Component, ReportsEachScanTwoBoundariesLater) {
-  VERIFIES("LASSO-EXE-002");
+  VERIFIES("LASSO-EXE-002~1 LASSO-SYS-023~1 LASSO-SYS-027~1");
   ComponentScene scene(parameters());
   scene.begin();
   for (std::uint32_t frame = 0; frame < 40; ++frame) {
@@ -54,14 +54,14 @@ TEST(Component, ReportsEachScanTwoBoundariesLater) {
 }
 
 TEST(Component, PublishesWithinFourTenthsOfASecond) {
-  VERIFIES("LASSO-EXE-007");
+  VERIFIES("LASSO-EXE-007~1");
   ComponentScene scene(parameters());
   scene.begin();
   EXPECT_LE(report_of(scene, 5).age_us, 400000u);
 }
 
 TEST(Component, TracksTheTarget) {
-  VERIFIES("LASSO-EXE-005");
+  VERIFIES("LASSO-EXE-005~1 LASSO-SYS-001~1");
   ComponentScene scene(parameters());
   scene.begin();
   for (std::uint32_t frame = 0; frame < 40; ++frame) {
@@ -76,7 +76,7 @@ TEST(Component, TracksTheTarget) {
 }
 
 TEST(Component, PlansFromThePredictionOfTheLastPublishedScan) {
-  VERIFIES("LASSO-EXE-002");
+  VERIFIES("LASSO-EXE-002~1");
   ComponentScene scene(parameters());
   scene.begin();
   for (int frame = 0; frame < 30; ++frame) scene.run_frame();
@@ -101,7 +101,7 @@ TEST(Component, PlansFromThePredictionOfTheLastPublishedScan) {
 }
 
 TEST(Component, LostScansCoastAndAreCounted) {
-  VERIFIES("LASSO-EXE-005 LASSO-MOD-005");
+  VERIFIES("LASSO-EXE-005~1 LASSO-MOD-005~1 LASSO-HLT-011~1");
   ComponentScene scene(parameters());
   scene.sensor.lost = {10};
   scene.sensor.refused = {11};
@@ -122,7 +122,7 @@ TEST(Component, LostScansCoastAndAreCounted) {
 }
 
 TEST(Component, LateEstimateIsDroppedWholeAndTheTrackGoesOn) {
-  VERIFIES("LASSO-EXE-003");
+  VERIFIES("LASSO-EXE-003~1 LASSO-HLT-011~1");
   ComponentScene scene(parameters());
   scene.begin();
   for (int frame = 0; frame < 10; ++frame) scene.run_frame();
@@ -143,7 +143,7 @@ TEST(Component, LateEstimateIsDroppedWholeAndTheTrackGoesOn) {
 }
 
 TEST(Component, LostTrackStopsScanningAndSaysSo) {
-  VERIFIES("LASSO-MOD-005");
+  VERIFIES("LASSO-MOD-007~1");
   MissionParameters p = parameters();
   p.coast_frames = 2;
   ComponentScene scene(p);
@@ -160,7 +160,7 @@ TEST(Component, LostTrackStopsScanningAndSaysSo) {
 }
 
 TEST(Component, StartsAgainFromAGivenPose) {
-  VERIFIES("LASSO-MOD-006");
+  VERIFIES("LASSO-MOD-006~1");
   MissionParameters p = parameters();
   p.initial_present = 0;
   ComponentScene scene(p);
@@ -180,7 +180,7 @@ TEST(Component, StartsAgainFromAGivenPose) {
 }
 
 TEST(Component, RefusesAStartThatMeansNothing) {
-  VERIFIES("LASSO-MOD-006");
+  VERIFIES("LASSO-MOD-008~1 LASSO-SYS-011~1");
   ComponentScene scene(parameters());
   EXPECT_EQ(scene.component->start_tracking(Pose{}, Twist{}, 0), Status::kBadOrder);
   EXPECT_EQ(scene.component->stop_tracking(), Status::kBadOrder);
@@ -192,7 +192,7 @@ TEST(Component, RefusesAStartThatMeansNothing) {
 }
 
 TEST(Component, NeedsAnImageThatFitsItsFrames) {
-  VERIFIES("LASSO-EXE-008");
+  VERIFIES("LASSO-EXE-008~1");
   ComponentScene scene(parameters());
   EXPECT_EQ(scene.component->begin(0), Status::kMissing);
   scene.begin();
@@ -206,7 +206,7 @@ TEST(Component, NeedsAnImageThatFitsItsFrames) {
 }
 
 TEST(Component, SequenceCountWrapsThroughTheWholeChain) {
-  VERIFIES("LASSO-LNK-001");
+  VERIFIES("LASSO-LNK-001~1");
   MissionParameters p = parameters();
   p.coast_frames = 0;
   ComponentScene scene(p);
@@ -223,7 +223,7 @@ TEST(Component, SequenceCountWrapsThroughTheWholeChain) {
 }
 
 TEST(Component, FullQueueCountsWhatItDrops) {
-  VERIFIES("LASSO-LNK-006");
+  VERIFIES("LASSO-LNK-006~1 LASSO-HLT-011~1");
   ComponentScene scene(parameters());
   scene.begin();
   for (int slot = 0; slot < 25 * 20; ++slot) {
@@ -236,7 +236,7 @@ TEST(Component, FullQueueCountsWhatItDrops) {
 }
 
 TEST(Component, StaysWithinItsMemory) {
-  VERIFIES("LASSO-EXE-009");
+  VERIFIES("LASSO-EXE-009~1");
   std::printf("static memory of the component, image apart: %zu bytes\n", sizeof(Component));
   EXPECT_LE(sizeof(Component), 2u << 20);
 }

@@ -27,7 +27,7 @@ class EstimationTaskTest : public ::testing::Test {
 };
 
 TEST_F(EstimationTaskTest, GivesTheResultOfAJobThatIsDone) {
-  VERIFIES("LASSO-EXE-002");
+  VERIFIES("LASSO-EXE-012~1");
   EXPECT_TRUE(task_->idle());
   EXPECT_FALSE(task_->collect(step_));
   task_->submit(job_);
@@ -44,7 +44,7 @@ TEST_F(EstimationTaskTest, GivesTheResultOfAJobThatIsDone) {
 }
 
 TEST_F(EstimationTaskTest, RunsAJobOnce) {
-  VERIFIES("LASSO-EXE-002");
+  VERIFIES("LASSO-EXE-012~1");
   task_->submit(job_);
   task_->run(mission_);
   task_->run(mission_);
@@ -55,7 +55,7 @@ TEST_F(EstimationTaskTest, RunsAJobOnce) {
 }
 
 TEST_F(EstimationTaskTest, DropsALateResultWhole) {
-  VERIFIES("LASSO-EXE-003");
+  VERIFIES("LASSO-EXE-003~1");
   task_->submit(job_);
   EXPECT_FALSE(task_->collect(step_));  // the boundary comes first
   EXPECT_FALSE(task_->idle());
@@ -71,7 +71,7 @@ TEST_F(EstimationTaskTest, DropsALateResultWhole) {
 }
 
 TEST_F(EstimationTaskTest, TwoJobsAtOnceAreABug) {
-  VERIFIES("LASSO-EXE-002");
+  VERIFIES("LASSO-EXE-012~1");
   task_->submit(job_);
   EXPECT_DEATH(task_->submit(job_), "busy");
 }

@@ -8,7 +8,7 @@ namespace lasso {
 namespace {
 
 TEST(Executive, SlotsDivideTheFrameWithoutDrift) {
-  VERIFIES("LASSO-EXE-001");
+  VERIFIES("LASSO-EXE-001~1");
   Executive executive;
   ASSERT_EQ(executive.begin(1000, 200003), Status::kOk);
   for (std::int64_t n = 0; n < 1000; ++n) {
@@ -22,7 +22,7 @@ TEST(Executive, SlotsDivideTheFrameWithoutDrift) {
 }
 
 TEST(Executive, KnowsTheNextBoundary) {
-  VERIFIES("LASSO-EXE-001");
+  VERIFIES("LASSO-EXE-001~1");
   Executive executive;
   ASSERT_EQ(executive.begin(500, 20000), Status::kOk);
   EXPECT_EQ(executive.next_boundary_us(), 500);
@@ -31,7 +31,7 @@ TEST(Executive, KnowsTheNextBoundary) {
 }
 
 TEST(Executive, RefusesSlotsShorterThanItsClock) {
-  VERIFIES("LASSO-EXE-001");
+  VERIFIES("LASSO-EXE-001~1");
   Executive executive;
   EXPECT_EQ(executive.begin(0, 19), Status::kBadValue);
   EXPECT_FALSE(executive.begun());
@@ -40,7 +40,7 @@ TEST(Executive, RefusesSlotsShorterThanItsClock) {
 }
 
 TEST(Executive, PollsInEverySlotAndPassesTheBoundaryAfterItsPoll) {
-  VERIFIES("LASSO-EXE-001");
+  VERIFIES("LASSO-EXE-001~1");
   for (std::uint32_t slot = 0; slot < kSlotsPerFrame; ++slot) {
     std::vector<TaskId> order;
     for (const SlotRow& row : slot_table()) {
@@ -53,7 +53,7 @@ TEST(Executive, PollsInEverySlotAndPassesTheBoundaryAfterItsPoll) {
 }
 
 TEST(Executive, BudgetsOfASlotFitIntoIt) {
-  VERIFIES("LASSO-EXE-001");
+  VERIFIES("LASSO-EXE-001~1");
   constexpr DurationUs kNominalSlotUs = 10000;
   for (std::uint32_t slot = 0; slot < kSlotsPerFrame; ++slot) {
     DurationUs sum = 0;
@@ -63,7 +63,7 @@ TEST(Executive, BudgetsOfASlotFitIntoIt) {
 }
 
 TEST(Executive, CountsASlipWhenASlotBeginsLaterThanItsLength) {
-  VERIFIES("LASSO-EXE-004");
+  VERIFIES("LASSO-EXE-004~1");
   Executive executive;
   ASSERT_EQ(executive.begin(0, 200000), Status::kOk);
   executive.note_start(10000);

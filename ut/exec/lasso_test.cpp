@@ -12,7 +12,7 @@ struct alignas(64) Memory {
 };
 
 TEST(Lasso, LivesInMemoryOfTheCaller) {
-  VERIFIES("LASSO-EXE-010");
+  VERIFIES("LASSO-EXE-010~1");
   const auto memory = std::make_unique<Memory>();
   test::BoxSensor sensor(test::default_scene());
   ASSERT_LE(required_memory(), sizeof(Memory::bytes));
@@ -23,7 +23,7 @@ TEST(Lasso, LivesInMemoryOfTheCaller) {
 }
 
 TEST(Lasso, StepsGiveTheBytesOfTheComponentRunByItsSlots) {
-  VERIFIES("LASSO-EXE-002 LASSO-EXE-010");
+  VERIFIES("LASSO-EXE-012~1 LASSO-EXE-010~1");
   const MissionParameters parameters = test::box_parameters(test::default_scene());
   test::ComponentScene reference(parameters);
   reference.begin();
@@ -49,7 +49,7 @@ TEST(Lasso, StepsGiveTheBytesOfTheComponentRunByItsSlots) {
 }
 
 TEST(Lasso, DoesNothingBeforeItsTime) {
-  VERIFIES("LASSO-EXE-010");
+  VERIFIES("LASSO-EXE-010~1");
   const auto memory = std::make_unique<Memory>();
   test::BoxSensor sensor(test::default_scene());
   Component& component = *create(memory->bytes, sizeof(Memory::bytes), sensor);

@@ -12,7 +12,7 @@ namespace lasso {
 namespace {
 
 TEST(FloatNumber, LengthIsTheWordRoundedOnceAndScaledExactly) {
-  VERIFIES("LASSO-GEO-008");
+  VERIFIES("LASSO-GEO-008~1");
   test::Generator generator(41);
   for (int i = 0; i < 200000; ++i) {
     const auto word = static_cast<std::int32_t>(static_cast<std::uint32_t>(generator.bits() >> (32 + i % 31)));
@@ -25,7 +25,7 @@ TEST(FloatNumber, LengthIsTheWordRoundedOnceAndScaledExactly) {
 }
 
 TEST(FloatNumber, EndsOfTheRange) {
-  VERIFIES("LASSO-GEO-008");
+  VERIFIES("LASSO-GEO-008~1");
   EXPECT_EQ(FloatNumber::length(0, 20), 0.0F);
   EXPECT_EQ(FloatNumber::length(std::numeric_limits<std::int32_t>::min(), 31), -1.0F);
   EXPECT_EQ(FloatNumber::length(1, 0), 1.0F);
@@ -35,7 +35,7 @@ TEST(FloatNumber, EndsOfTheRange) {
 }
 
 TEST(FloatNumber, UnitIsWithinHalfAnUlp) {
-  VERIFIES("LASSO-GEO-008");
+  VERIFIES("LASSO-GEO-008~1");
   test::Generator generator(42);
   for (int i = 0; i < 100000; ++i) {
     const auto word = static_cast<std::int32_t>(generator.bits() >> 33) - (1 << 30);
@@ -45,7 +45,7 @@ TEST(FloatNumber, UnitIsWithinHalfAnUlp) {
 }
 
 TEST(FloatNumber, DoublesRoundToThePathAndReturnExactly) {
-  VERIFIES("LASSO-GEO-008");
+  VERIFIES("LASSO-GEO-008~1");
   test::Generator generator(43);
   for (int i = 0; i < 100000; ++i) {
     const double x = generator.uniform(-64, 64);
@@ -57,7 +57,7 @@ TEST(FloatNumber, DoublesRoundToThePathAndReturnExactly) {
 }
 
 TEST(Dot3, IsTheScalarProduct) {
-  VERIFIES("LASSO-GEO-008");
+  VERIFIES("LASSO-GEO-008~1");
   const float a[] = {1.5F, -2.0F, 0.25F};
   const float b[] = {4.0F, 0.5F, -8.0F};
   EXPECT_EQ(dot3<FloatNumber>(a, b), 3.0F);

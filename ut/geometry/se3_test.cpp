@@ -30,7 +30,7 @@ Mat4 matrix(const Pose& pose) {
 double distance(const Mat4& A, const Mat4& B) { return (A - B).cwiseAbs().maxCoeff(); }
 
 TEST(Pose, ComposesAsMatricesDo) {
-  VERIFIES("LASSO-GEO-013");
+  VERIFIES("LASSO-GEO-013~1");
   test::Generator generator(61);
   for (int i = 0; i < 10000; ++i) {
     const Pose T_a_b = random_pose(generator);
@@ -42,7 +42,7 @@ TEST(Pose, ComposesAsMatricesDo) {
 }
 
 TEST(Pose, InverseUndoes) {
-  VERIFIES("LASSO-GEO-013");
+  VERIFIES("LASSO-GEO-013~1");
   test::Generator generator(62);
   for (int i = 0; i < 10000; ++i) {
     const Pose T = random_pose(generator);
@@ -53,7 +53,7 @@ TEST(Pose, InverseUndoes) {
 
 // Many small steps of the differential equation, q' = omega x q in sensor axes, p' = v.
 TEST(Propagate, SolvesTheEquationOfMotion) {
-  VERIFIES("LASSO-GEO-014");
+  VERIFIES("LASSO-GEO-014~1");
   test::Generator generator(63);
   for (int i = 0; i < 20; ++i) {
     const Pose start = random_pose(generator);
@@ -70,7 +70,7 @@ TEST(Propagate, SolvesTheEquationOfMotion) {
 }
 
 TEST(Propagate, StepsAddUpAndRunBackwards) {
-  VERIFIES("LASSO-GEO-014");
+  VERIFIES("LASSO-GEO-014~1");
   test::Generator generator(64);
   for (int i = 0; i < 1000; ++i) {
     const Pose start = random_pose(generator);
@@ -83,7 +83,7 @@ TEST(Propagate, StepsAddUpAndRunBackwards) {
 }
 
 TEST(Propagate, UnitLengthLastsAMillionFrames) {
-  VERIFIES("LASSO-GEO-014");
+  VERIFIES("LASSO-GEO-021~1");
   Pose pose;
   const Twist rates{Vec3(0.03, -0.02, 0.05), Vec3::Zero()};
   for (int i = 0; i < 1000000; ++i) pose = propagate(pose, rates, 0.2);
@@ -91,7 +91,7 @@ TEST(Propagate, UnitLengthLastsAMillionFrames) {
 }
 
 TEST(PoseDifference, FindsTheRotationAndTranslationApplied) {
-  VERIFIES("LASSO-GEO-013");
+  VERIFIES("LASSO-GEO-013~1");
   test::Generator generator(65);
   for (int i = 0; i < 20000; ++i) {
     const Pose truth = random_pose(generator);
@@ -108,7 +108,7 @@ TEST(PoseDifference, FindsTheRotationAndTranslationApplied) {
 }
 
 TEST(IsValid, RefusesWhatIsNoPose) {
-  VERIFIES("LASSO-GEO-015");
+  VERIFIES("LASSO-GEO-015~1");
   test::Generator generator(66);
   for (int i = 0; i < 1000; ++i) {
     Pose pose = random_pose(generator);
@@ -124,7 +124,7 @@ TEST(IsValid, RefusesWhatIsNoPose) {
 }
 
 TEST(IsValid, RefusesEachComponentThatIsNotFinite) {
-  VERIFIES("LASSO-GEO-015");
+  VERIFIES("LASSO-GEO-015~1");
   constexpr double kBad[] = {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
                              -std::numeric_limits<double>::infinity()};
   for (const double bad : kBad) {

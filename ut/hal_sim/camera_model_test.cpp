@@ -13,12 +13,12 @@ namespace lasso::sim {
 namespace {
 
 TEST(CameraModel, PresetsAreValid) {
-  VERIFIES("LASSO-SIM-007");
+  VERIFIES("LASSO-SIM-007~1");
   EXPECT_NO_THROW(validate(CameraModel{}));
 }
 
 TEST(CameraModel, EachMemberOutsideItsRangeIsNamed) {
-  VERIFIES("LASSO-SIM-007");
+  VERIFIES("LASSO-SIM-007~1");
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinite = std::numeric_limits<double>::infinity();
   struct Case {
@@ -55,7 +55,7 @@ TEST(CameraModel, EachMemberOutsideItsRangeIsNamed) {
 }
 
 TEST(CameraModel, NoiseAlongTheRayFollowsTheTriangulationModel) {
-  VERIFIES("LASSO-SIM-013");
+  VERIFIES("LASSO-SIM-013~1");
   CameraModel model;
   model.sigma0_m = 3e-4;
   model.sigma_k_per_m = 1e-4;
@@ -65,7 +65,7 @@ TEST(CameraModel, NoiseAlongTheRayFollowsTheTriangulationModel) {
 
 // Two models with one seed share their noise: a study of one effect is not disturbed by another.
 TEST(CameraModel, DrawsDependOnSeedScanAndRayAlone) {
-  VERIFIES("LASSO-SIM-002");
+  VERIFIES("LASSO-SIM-002~1");
   const RayDraws a = draw(1, 2, 3);
   const RayDraws b = draw(1, 2, 3);
   EXPECT_EQ(a.range, b.range);

@@ -69,7 +69,7 @@ double wall_range(double incidence_rad, const Vec3& direction = kDirection) {
 double share_bound(double share) { return 4.5 * std::sqrt(share * (1 - share) / kRays); }
 
 TEST(CameraNoise, RangeNoiseIsUnbiasedAndOfTheModelsSize) {
-  VERIFIES("LASSO-SIM-013");
+  VERIFIES("LASSO-SIM-013~1");
   const Wall wall(0.5);
   CameraModel model;
   model.sigma0_m = 4e-4;
@@ -85,7 +85,7 @@ TEST(CameraNoise, RangeNoiseIsUnbiasedAndOfTheModelsSize) {
 }
 
 TEST(CameraNoise, WithoutNoiseEveryRayIsExact) {
-  VERIFIES("LASSO-SIM-009");
+  VERIFIES("LASSO-SIM-009~1");
   const Statistics s = measure(Wall(0.5).rays(CameraModel{}));
   EXPECT_EQ(s.hits, kRays);
   EXPECT_NEAR(s.mean, wall_range(0.5), 2e-7);
@@ -94,7 +94,7 @@ TEST(CameraNoise, WithoutNoiseEveryRayIsExact) {
 
 // On a wall at incidence i, a ray off by d in the plane of incidence meets it r tan(i) d farther: the reported direction stays nominal.
 TEST(CameraNoise, AngleNoiseMovesTheRayAndNotTheReport) {
-  VERIFIES("LASSO-SIM-014");
+  VERIFIES("LASSO-SIM-014~1");
   const double incidence = 0.6;
   const Wall wall(incidence);
   CameraModel model;
@@ -112,7 +112,7 @@ TEST(CameraNoise, AngleNoiseMovesTheRayAndNotTheReport) {
 }
 
 TEST(CameraNoise, DropoutsAreMissesOfTheStatedShare) {
-  VERIFIES("LASSO-SIM-015");
+  VERIFIES("LASSO-SIM-015~1");
   const Wall wall(0.3);
   for (const double share : {0.02, 0.2, 1.0}) {
     CameraModel model;
@@ -124,7 +124,7 @@ TEST(CameraNoise, DropoutsAreMissesOfTheStatedShare) {
 }
 
 TEST(CameraNoise, GrazingReturnsAreLost) {
-  VERIFIES("LASSO-SIM-015");
+  VERIFIES("LASSO-SIM-015~1");
   CameraModel model;
   model.dropout_incidence_rad = 1.2;
   const Vec3 boresight(0, 0, 1);
@@ -135,7 +135,7 @@ TEST(CameraNoise, GrazingReturnsAreLost) {
 }
 
 TEST(CameraNoise, OutliersAreUniformAlongHitAndMissedRays) {
-  VERIFIES("LASSO-SIM-016");
+  VERIFIES("LASSO-SIM-016~1");
   CameraModel model;
   model.outlier_probability = 0.3;
   model.range_min_m = 0.5;
@@ -164,7 +164,7 @@ TEST(CameraNoise, OutliersAreUniformAlongHitAndMissedRays) {
 
 // A near half wall (x < 0, sensor frame) 0.4 m before a far wall: only rays within the footprint of the edge mix, and only between the two.
 TEST(CameraNoise, RangesMixAtTheEdgeBetweenTwoSurfaces) {
-  VERIFIES("LASSO-SIM-017");
+  VERIFIES("LASSO-SIM-017~1");
   ShapeMesh mesh;
   mesh.quad(Vec3(-50, -50, -0.4), Vec3(0, -50, -0.4), Vec3(0, 50, -0.4), Vec3(-50, 50, -0.4));
   mesh.quad(Vec3(-50, -50, 0), Vec3(50, -50, 0), Vec3(50, 50, 0), Vec3(-50, 50, 0));
@@ -193,7 +193,7 @@ TEST(CameraNoise, RangesMixAtTheEdgeBetweenTwoSurfaces) {
 }
 
 TEST(CameraNoise, RangesAreQuantised) {
-  VERIFIES("LASSO-SIM-018");
+  VERIFIES("LASSO-SIM-018~1");
   CameraModel model;
   model.range_step_m = 0.01;
   model.sigma0_m = 0.05;
@@ -207,7 +207,7 @@ TEST(CameraNoise, RangesAreQuantised) {
 }
 
 TEST(CameraNoise, RangeLimitsDecideTheState) {
-  VERIFIES("LASSO-SIM-012");
+  VERIFIES("LASSO-SIM-012~1");
   const Wall wall(0.2);
   CameraModel model;
   model.range_max_m = wall_range(0.2) - 0.001;
@@ -219,7 +219,7 @@ TEST(CameraNoise, RangeLimitsDecideTheState) {
 }
 
 TEST(CameraNoise, AModelOutOfRangeIsRefused) {
-  VERIFIES("LASSO-SIM-007");
+  VERIFIES("LASSO-SIM-007~1");
   const Wall wall(0.2);
   CameraModel model;
   model.sigma0_m = -1;

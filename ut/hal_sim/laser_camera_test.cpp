@@ -76,7 +76,7 @@ bool at_silhouette(const Pose& pose, const Vec3& direction) {
 }
 
 TEST(SimulatedCamera, FollowsThePlanPointByPoint) {
-  VERIFIES("LASSO-SIM-008");
+  VERIFIES("LASSO-SIM-008~1");
   Scene scene;
   SimulatedCamera camera(*scene.target, scene.motion, CameraModel{}, 1);
   for (const PatternKind kind : {PatternKind::kRosette, PatternKind::kLissajous, PatternKind::kRaster}) {
@@ -94,7 +94,7 @@ TEST(SimulatedCamera, FollowsThePlanPointByPoint) {
 
 // Deskew truth: every sample is the closed-form range to the target where it is at that sample's own time. Misses are reported as misses.
 TEST(SimulatedCamera, EachRaySeesTheMovingTargetAtItsOwnTime) {
-  VERIFIES("LASSO-SIM-009 LASSO-SIM-010");
+  VERIFIES("LASSO-SIM-009~1 LASSO-SIM-010~1");
   for (const double rate : {0.0, 0.0873, 1.0}) {
     Scene scene(rate);
     SimulatedCamera camera(*scene.target, scene.motion, CameraModel{}, 1);
@@ -120,7 +120,7 @@ TEST(SimulatedCamera, EachRaySeesTheMovingTargetAtItsOwnTime) {
 }
 
 TEST(SimulatedCamera, RangesToASphereAndAPlaneAreClosedForm) {
-  VERIFIES("LASSO-SIM-009");
+  VERIFIES("LASSO-SIM-009~1");
   const double radius = 0.5;
   Scene scene(0.3, test::sphere_mesh(radius, 200));
   SimulatedCamera camera(*scene.target, scene.motion, CameraModel{}, 1);
@@ -154,7 +154,7 @@ TEST(SimulatedCamera, RangesToASphereAndAPlaneAreClosedForm) {
 // ---- The contract of the Sensor interface.
 
 TEST(SimulatedCamera, SamplesAppearWhenTheirTimeHasCome) {
-  VERIFIES("LASSO-SIM-011");
+  VERIFIES("LASSO-SIM-011~1");
   Scene scene;
   SimulatedCamera camera(*scene.target, scene.motion, CameraModel{}, 1);
   const ScanPlan plan = plan_of(100);
@@ -181,7 +181,7 @@ TEST(SimulatedCamera, SamplesAppearWhenTheirTimeHasCome) {
 }
 
 TEST(SimulatedCamera, KeepsToTheRoomThatItIsGiven) {
-  VERIFIES("LASSO-SIM-011");
+  VERIFIES("LASSO-SIM-011~1");
   Scene scene;
   SimulatedCamera camera(*scene.target, scene.motion, CameraModel{}, 1);
   ASSERT_EQ(camera.start(plan_of(64), 0), Status::kOk);
@@ -198,7 +198,7 @@ TEST(SimulatedCamera, KeepsToTheRoomThatItIsGiven) {
 }
 
 TEST(SimulatedCamera, ABusyCameraRefusesAndAnAbortFreesIt) {
-  VERIFIES("LASSO-SIM-011");
+  VERIFIES("LASSO-SIM-011~1");
   Scene scene;
   SimulatedCamera camera(*scene.target, scene.motion, CameraModel{}, 1);
   camera.abort();  // idle: no effect
@@ -213,7 +213,7 @@ TEST(SimulatedCamera, ABusyCameraRefusesAndAnAbortFreesIt) {
 }
 
 TEST(SimulatedCamera, RefusesPlansOutsideItsLimits) {
-  VERIFIES("LASSO-SIM-012");
+  VERIFIES("LASSO-SIM-012~1");
   Scene scene;
   CameraModel model;
   model.fov_half_x_rad = 0.2;
@@ -240,7 +240,7 @@ TEST(SimulatedCamera, RefusesPlansOutsideItsLimits) {
 }
 
 TEST(SimulatedCamera, TheSameSeedGivesTheSameScanHoweverItIsPolled) {
-  VERIFIES("LASSO-SIM-002");
+  VERIFIES("LASSO-SIM-002~1");
   Scene scene(0.1);
   CameraModel model;
   model.sigma0_m = 1e-3;

@@ -18,7 +18,7 @@ using test::Folder;
 const std::string kHeader = "t_s,x_m,y_m,z_m,valid\n";
 
 TEST(ScanCsv, ReadsHitsAndMissesWithTheirTimes) {
-  VERIFIES("LASSO-SIM-019");
+  VERIFIES("LASSO-SIM-019~1");
   const Folder folder;
   const auto file = folder.write("a.csv", kHeader + "-0.5,0.3,-0.4,1.2,1\n0.0,0.6,0,0.8,0\n 0.0 , +3e-1,-.4, 1.2 ,1\n12.3456789,0,0,2,1\n");
   const RangeImage image = read_scan_file(file);
@@ -39,7 +39,7 @@ TEST(ScanCsv, ReadsHitsAndMissesWithTheirTimes) {
 }
 
 TEST(ScanCsv, ReadsWhatSpreadsheetsWrite) {
-  VERIFIES("LASSO-SIM-019");
+  VERIFIES("LASSO-SIM-019~1");
   const Folder folder;
   const auto file = folder.write("a.csv", "\xEF\xBB\xBFt_s,x_m,y_m,z_m,valid\r\n0,0,0,1,1\r\n0,0,0,2,1\r\n\r\n");
   EXPECT_EQ(read_scan_file(file).samples.size(), 2u);
@@ -47,7 +47,7 @@ TEST(ScanCsv, ReadsWhatSpreadsheetsWrite) {
 }
 
 TEST(ScanCsv, EachErrorNamesItsPlaceAndItsRemedy) {
-  VERIFIES("LASSO-SIM-021");
+  VERIFIES("LASSO-SIM-021~1");
   const std::string good = "0.1,0,0,1,1\n";
   expect_refused("a.csv", "", ":1: ", "expected the header");
   expect_refused("a.csv", kHeader, ":1: ", "at least one");
@@ -77,7 +77,7 @@ TEST(ScanCsv, EachErrorNamesItsPlaceAndItsRemedy) {
 }
 
 TEST(ScanCsv, ReadsAsManyRowsAsFitAndRefusesOneMore) {
-  VERIFIES("LASSO-SIM-021");
+  VERIFIES("LASSO-SIM-021~1");
   std::string rows = kHeader;
   for (std::size_t i = 0; i < kMaxRays; ++i) rows += "0.1,0,0,1,1\n";
   const Folder folder;
@@ -103,7 +103,7 @@ RangeImage random_image() {
 }
 
 TEST(ScanCsv, WhatIsWrittenReadsBackTheSame) {
-  VERIFIES("LASSO-SIM-022");
+  VERIFIES("LASSO-SIM-022~1");
   const Folder folder;
   const RangeImage image = random_image();
   write_scan_csv(folder.path() / "scan.csv", image);
@@ -122,7 +122,7 @@ TEST(ScanCsv, WhatIsWrittenReadsBackTheSame) {
 }
 
 TEST(ScanCsv, AFailedWriteLeavesNothingBehind) {
-  VERIFIES("LASSO-SIM-022");
+  VERIFIES("LASSO-SIM-023~1");
   const Folder folder;
   EXPECT_THROW(write_scan_csv(folder.path() / "missing" / "scan.csv", random_image()), ScanFileError);
   EXPECT_THROW(write_scan_csv(folder.path() / "scan.csv", RangeImage{}), ScanFileError);

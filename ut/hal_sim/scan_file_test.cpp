@@ -26,7 +26,7 @@ void expect_error(Action action, const std::string& begin, const std::string& pa
 }
 
 TEST(RecordedScans, AreListedInNameOrder) {
-  VERIFIES("LASSO-SIM-019");
+  VERIFIES("LASSO-SIM-019~1");
   const Folder folder;
   for (const char* name : {"scan_010.csv", "scan_002.csv", "scan_001.csv"}) folder.write(name, kOnePoint);
   folder.write("scan_005.ply", kOnePly);
@@ -44,7 +44,7 @@ TEST(RecordedScans, AreListedInNameOrder) {
 }
 
 TEST(RecordedScans, AFolderThatHoldsNoSequenceIsRefused) {
-  VERIFIES("LASSO-SIM-021");
+  VERIFIES("LASSO-SIM-021~1");
   const Folder folder;
   const std::string place = folder.path().string();
   expect_error([&] { RecordedScans scans(folder.path() / "none"); }, place + "/none: ", "not a folder");
@@ -56,7 +56,7 @@ TEST(RecordedScans, AFolderThatHoldsNoSequenceIsRefused) {
 }
 
 TEST(ScanFile, WhatIsNoScanFileIsRefused) {
-  VERIFIES("LASSO-SIM-021");
+  VERIFIES("LASSO-SIM-021~1");
   const Folder folder;
   const std::string place = folder.path().string();
   expect_error([&] { (void)read_scan_file(folder.path() / "a.csv"); }, place + "/a.csv: ", "not a file");

@@ -29,7 +29,7 @@ SteppedSpin::Setup paper_setup() {
 
 // The geometry of the peers' benchmark, written out as matrices.
 TEST(SteppedSpin, FollowsThePaper) {
-  VERIFIES("LASSO-SIM-005");
+  VERIFIES("LASSO-SIM-005~1");
   const SteppedSpin spin(paper_setup());
   const Mat3 x_up = (Mat3() << 0, 1, 0, -1, 0, 0, 0, 0, 1).finished();
   for (int frame = -1; frame < 360; ++frame) {
@@ -42,7 +42,7 @@ TEST(SteppedSpin, FollowsThePaper) {
 }
 
 TEST(SteppedSpin, TheAftEndIsNearerAndTheApertureIsUp) {
-  VERIFIES("LASSO-SIM-005");
+  VERIFIES("LASSO-SIM-005~1");
   const SteppedSpin spin(paper_setup());
   const Pose pose = spin.at_frame(77).T_sensor_target;
   const Vec3 aft = pose * Vec3(-0.66, 0, 0);
@@ -52,7 +52,7 @@ TEST(SteppedSpin, TheAftEndIsNearerAndTheApertureIsUp) {
 }
 
 TEST(SteppedSpin, StandsStillDuringAFrame) {
-  VERIFIES("LASSO-SIM-005");
+  VERIFIES("LASSO-SIM-005~1");
   const SteppedSpin spin(paper_setup());
   const TruthState begin = spin.at(spin.frame_begin_us(5));
   const TruthState last = spin.at(spin.frame_begin_us(6) - 1);
@@ -65,7 +65,7 @@ TEST(SteppedSpin, StandsStillDuringAFrame) {
 }
 
 TEST(SteppedSpin, TurnsAboutAGeneralAxisOfTheTarget) {
-  VERIFIES("LASSO-SIM-005");
+  VERIFIES("LASSO-SIM-005~1");
   SteppedSpin::Setup setup = paper_setup();
   setup.axis_target = Vec3(0.36, -0.48, 0.8);
   setup.step_rad = 0.07;
@@ -78,7 +78,7 @@ TEST(SteppedSpin, TurnsAboutAGeneralAxisOfTheTarget) {
 }
 
 TEST(SteppedSpin, RefusesWhatHasNoMeaning) {
-  VERIFIES("LASSO-SIM-006");
+  VERIFIES("LASSO-SIM-006~1");
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const auto refused = [](auto change) {
     SteppedSpin::Setup setup = paper_setup();
@@ -93,7 +93,7 @@ TEST(SteppedSpin, RefusesWhatHasNoMeaning) {
 
 // Central differences of the pose give back the rates that the truth states.
 TEST(ConstantTwist, PosesAndRatesAgree) {
-  VERIFIES("LASSO-SIM-006");
+  VERIFIES("LASSO-SIM-006~1");
   test::Generator generator(5);
   for (int trial = 0; trial < 20; ++trial) {
     TruthState initial;
@@ -117,7 +117,7 @@ TEST(ConstantTwist, PosesAndRatesAgree) {
 }
 
 TEST(ConstantTwist, ASpinAboutATargetAxisLeavesThatAxisInPlace) {
-  VERIFIES("LASSO-SIM-006");
+  VERIFIES("LASSO-SIM-006~1");
   TruthState initial;
   initial.T_sensor_target = Pose{upright_attitude(0.3, -0.2), Vec3(0.1, 0.2, 4)};
   const Vec3 axis(0.6, 0, -0.8);
@@ -130,7 +130,7 @@ TEST(ConstantTwist, ASpinAboutATargetAxisLeavesThatAxisInPlace) {
 }
 
 TEST(ConstantTwist, RefusesWhatHasNoMeaning) {
-  VERIFIES("LASSO-SIM-006");
+  VERIFIES("LASSO-SIM-006~1");
   TruthState initial;
   initial.rates.v_mps.x() = std::numeric_limits<double>::infinity();
   EXPECT_THROW(ConstantTwist(initial, 0), std::invalid_argument);

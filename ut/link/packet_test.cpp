@@ -56,12 +56,12 @@ std::array<std::uint8_t, 24> with_byte(std::size_t index, std::uint8_t value) {
 }
 
 TEST(Packet, IsByteForByteAsPutTogetherByHand) {
-  VERIFIES("LASSO-LNK-001");
+  VERIFIES("LASSO-LNK-001~1");
   EXPECT_EQ(packet_by_code(), kByHand);
 }
 
 TEST(Packet, GivesBackItsHeaderAndData) {
-  VERIFIES("LASSO-LNK-001");
+  VERIFIES("LASSO-LNK-001~1");
   PacketHeader header;
   ConstBytes data;
   ASSERT_EQ(parse_packet(view(kByHand), header, data), Status::kOk);
@@ -79,7 +79,7 @@ TEST(Packet, GivesBackItsHeaderAndData) {
 }
 
 TEST(Packet, RefusesEveryTruncationAndEveryBitError) {
-  VERIFIES("LASSO-LNK-005");
+  VERIFIES("LASSO-LNK-005~1");
   for (std::size_t n = 0; n < kByHand.size(); ++n) EXPECT_EQ(status_of(ConstBytes(kByHand.data(), n)), Status::kTruncated);
   for (std::size_t bit = 0; bit < kByHand.size() * 8; ++bit) {
     auto damaged = kByHand;
@@ -89,7 +89,7 @@ TEST(Packet, RefusesEveryTruncationAndEveryBitError) {
 }
 
 TEST(Packet, NamesWhatItRefuses) {
-  VERIFIES("LASSO-LNK-005");
+  VERIFIES("LASSO-LNK-005~1");
   EXPECT_EQ(status_of(view(with_byte(0, 0x2B))), Status::kBadVersion);  // packet version 1
   EXPECT_EQ(status_of(view(with_byte(0, 0x1B))), Status::kBadVersion);  // telecommand
   EXPECT_EQ(status_of(view(with_byte(0, 0x03))), Status::kBadVersion);  // no secondary header
@@ -103,7 +103,7 @@ TEST(Packet, NamesWhatItRefuses) {
 }
 
 TEST(Packet, WhatDoesNotFitIsNotAPacket) {
-  VERIFIES("LASSO-LNK-001");
+  VERIFIES("LASSO-LNK-001~1");
   for (std::size_t room = 0; room < kByHand.size(); ++room) {
     std::array<std::uint8_t, 24> packet{};
     const Bytes out(packet.data(), room);
@@ -115,7 +115,7 @@ TEST(Packet, WhatDoesNotFitIsNotAPacket) {
 }
 
 TEST(Packet, SequenceCountWrapsAtFourteenBits) {
-  VERIFIES("LASSO-LNK-001");
+  VERIFIES("LASSO-LNK-001~1");
   PacketHeader header;
   header.sequence_count = 0x4001;  // one beyond 2^14
   std::array<std::uint8_t, 24> packet{};
@@ -128,7 +128,7 @@ TEST(Packet, SequenceCountWrapsAtFourteenBits) {
 }
 
 TEST(CucTime, CountsSecondsAndFractions) {
-  VERIFIES("LASSO-LNK-003");
+  VERIFIES("LASSO-LNK-003~1");
   EXPECT_EQ(to_cuc(0).seconds, 0u);
   EXPECT_EQ(to_cuc(1250000).seconds, 1u);
   EXPECT_EQ(to_cuc(1250000).fraction, 0x400000u);
@@ -139,7 +139,7 @@ TEST(CucTime, CountsSecondsAndFractions) {
 }
 
 TEST(CucTime, KeepsEveryMicrosecond) {
-  VERIFIES("LASSO-LNK-003");
+  VERIFIES("LASSO-LNK-003~1");
   test::Generator random(7);
   for (int i = 0; i < 100000; ++i) {
     const TimeUs t_us = static_cast<TimeUs>(random.below((1ULL << 32) * 1000000));

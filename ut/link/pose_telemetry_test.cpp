@@ -41,7 +41,7 @@ std::size_t row_named(const std::string& name) {
 std::size_t offset_of(const std::string& name) { return pose_row_offset(row_named(name)); }
 
 TEST(PoseTelemetry, LiesAtTheseBytes) {
-  VERIFIES("LASSO-LNK-002");
+  VERIFIES("LASSO-LNK-002~1");
   // Written down by hand: who changes the layout changes an interface.
   EXPECT_EQ(offset_of("scan_id"), 22u);
   EXPECT_EQ(offset_of("t_measurement_us"), 26u);
@@ -67,7 +67,7 @@ TEST(PoseTelemetry, LiesAtTheseBytes) {
 }
 
 TEST(PoseTelemetry, WritesEachValueWhereItsRowSays) {
-  VERIFIES("LASSO-LNK-002");
+  VERIFIES("LASSO-LNK-002~1 LASSO-SYS-024~1");
   PoseTelemetry pose;
   pose.scan_id = 0xA1B2C3D4;
   pose.q_sensor_target[3] = -2.0;
@@ -85,7 +85,7 @@ TEST(PoseTelemetry, WritesEachValueWhereItsRowSays) {
 }
 
 TEST(PoseTelemetry, CarriesServiceStructureAndCounts) {
-  VERIFIES("LASSO-LNK-001 LASSO-LNK-004");
+  VERIFIES("LASSO-LNK-001~1 LASSO-LNK-004~1");
   PacketHeader header;
   header.sequence_count = 77;
   header.t_us = 5000000;
@@ -102,7 +102,7 @@ TEST(PoseTelemetry, CarriesServiceStructureAndCounts) {
 }
 
 TEST(PoseTelemetry, EncodeDecodeEncodeIsByteIdentical) {
-  VERIFIES("LASSO-LNK-004");
+  VERIFIES("LASSO-LNK-032~1");
   test::Generator random(11);
   const Packet blank = encode(PoseTelemetry{});
   for (int i = 0; i < 1000; ++i) {
@@ -117,7 +117,7 @@ TEST(PoseTelemetry, EncodeDecodeEncodeIsByteIdentical) {
 }
 
 TEST(PoseTelemetry, RefusesOtherPacketsAndLeavesThePoseAlone) {
-  VERIFIES("LASSO-LNK-005");
+  VERIFIES("LASSO-LNK-005~1");
   const Packet good = encode(PoseTelemetry{});
   PacketHeader header;
   PoseTelemetry pose;
@@ -144,13 +144,13 @@ TEST(PoseTelemetry, RefusesOtherPacketsAndLeavesThePoseAlone) {
 }
 
 TEST(PoseTelemetry, TooSmallABufferGivesNoPacket) {
-  VERIFIES("LASSO-LNK-004");
+  VERIFIES("LASSO-LNK-004~1");
   Packet packet(482);
   EXPECT_EQ(encode_pose(PoseTelemetry{}, PacketHeader{}, Bytes(packet.data(), packet.size())), 0u);
 }
 
 TEST(PoseTelemetry, DictionaryIsCompleteAndUnambiguous) {
-  VERIFIES("LASSO-LNK-002");
+  VERIFIES("LASSO-LNK-002~1");
   std::set<std::string> names;
   std::set<std::uint16_t> ids;
   for (const auto& row : pose_rows()) {
@@ -162,7 +162,7 @@ TEST(PoseTelemetry, DictionaryIsCompleteAndUnambiguous) {
 }
 
 TEST(PoseTelemetry, FiveFramesASecondFitTheLink) {
-  VERIFIES("LASSO-LNK-007");
+  VERIFIES("LASSO-LNK-007~1");
   EXPECT_LE(encode(PoseTelemetry{}).size() * 8 * 5, 64000u);
 }
 

@@ -20,7 +20,7 @@ constexpr TelemetryRow<Sample> kRows[] = {
 };
 
 TEST(Row, TakesItsTypeAndCountFromTheMember) {
-  VERIFIES("LASSO-LNK-002");
+  VERIFIES("LASSO-LNK-002~1");
   EXPECT_EQ(kRows[0].type, WireType::kI64);
   EXPECT_EQ(kRows[0].count, 1);
   EXPECT_EQ(kRows[1].type, WireType::kU8);
@@ -31,7 +31,7 @@ TEST(Row, TakesItsTypeAndCountFromTheMember) {
 }
 
 TEST(Row, WritesBigEndianInTheOrderOfTheTable) {
-  VERIFIES("LASSO-LNK-002");
+  VERIFIES("LASSO-LNK-002~1");
   const Sample sample{0xAB, -2, {1.0f, -0.5f}};
   std::uint8_t bytes[17] = {};
   ByteWriter writer{Bytes(bytes)};
@@ -50,7 +50,7 @@ TEST(Row, WritesBigEndianInTheOrderOfTheTable) {
 }
 
 TEST(Row, NamesAndSizesOfTypes) {
-  VERIFIES("LASSO-LNK-002");
+  VERIFIES("LASSO-LNK-002~1");
   EXPECT_EQ(std::string(to_string(WireType::kU16)), "u16");
   EXPECT_EQ(std::string(to_string(WireType::kF64)), "f64");
   EXPECT_EQ(wire_size(WireType::kU8), 1u);

@@ -30,7 +30,7 @@ std::vector<std::uint8_t> take(TelemetryQueue& queue, std::size_t room) {
 }
 
 TEST(TelemetryQueue, GivesWholePacketsInOrder) {
-  VERIFIES("LASSO-LNK-006");
+  VERIFIES("LASSO-LNK-006~1");
   TelemetryQueue queue;
   const auto first = packet_of(10, 1);
   const auto second = packet_of(20, 2);
@@ -44,7 +44,7 @@ TEST(TelemetryQueue, GivesWholePacketsInOrder) {
 }
 
 TEST(TelemetryQueue, DropsAndCountsWhatDoesNotFit) {
-  VERIFIES("LASSO-LNK-006");
+  VERIFIES("LASSO-LNK-006~1");
   TelemetryQueue queue;
   const auto large = packet_of(kTelemetryQueueBytes - 30, 1);
   ASSERT_EQ(queue.push(view(large)), Status::kOk);
@@ -54,7 +54,7 @@ TEST(TelemetryQueue, DropsAndCountsWhatDoesNotFit) {
 }
 
 TEST(TelemetryQueue, RefusesWhatIsNotOnePacket) {
-  VERIFIES("LASSO-LNK-006");
+  VERIFIES("LASSO-LNK-006~1");
   TelemetryQueue queue;
   auto packet = packet_of(10, 1);
   packet.push_back(0);
@@ -65,7 +65,7 @@ TEST(TelemetryQueue, RefusesWhatIsNotOnePacket) {
 }
 
 TEST(TelemetryQueue, AgreesWithAListThroughManyTurnsOfTheRing) {
-  VERIFIES("LASSO-LNK-006");
+  VERIFIES("LASSO-LNK-006~1");
   TelemetryQueue queue;
   std::deque<std::vector<std::uint8_t>> model;
   test::Generator random(3);

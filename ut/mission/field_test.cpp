@@ -43,7 +43,7 @@ class FieldTest : public ::testing::Test {
 };
 
 TEST_F(FieldTest, WalkFindsWhatTheRayHits) {
-  VERIFIES("LASSO-IMG-007");
+  VERIFIES("LASSO-IMG-007~1");
   int hits = 0;
   for (int i = 0; i < 20000; ++i) {
     Vec3 origin;
@@ -62,7 +62,7 @@ TEST_F(FieldTest, WalkFindsWhatTheRayHits) {
 }
 
 TEST_F(FieldTest, WalksShorterThanACellSeeBothEnds) {
-  VERIFIES("LASSO-IMG-007");
+  VERIFIES("LASSO-IMG-007~1");
   for (int i = 0; i < 5000; ++i) {
     Vec3 origin;
     Vec3 u;
@@ -77,7 +77,7 @@ TEST_F(FieldTest, WalksShorterThanACellSeeBothEnds) {
 }
 
 TEST_F(FieldTest, WalkReportsNothingWhereNothingIs) {
-  VERIFIES("LASSO-IMG-007");
+  VERIFIES("LASSO-IMG-007~1");
   int misses = 0;
   for (int i = 0; i < 20000; ++i) {
     Vec3 origin;
@@ -91,14 +91,14 @@ TEST_F(FieldTest, WalkReportsNothingWhereNothingIs) {
 }
 
 TEST_F(FieldTest, BackFacesDoNotCount) {
-  VERIFIES("LASSO-IMG-007");
+  VERIFIES("LASSO-IMG-007~1");
   const Vec3 u = Vec3(0.2, -0.1, 1).normalized();
   // From inside the box outwards: only back faces lie ahead.
   EXPECT_FALSE(walk_field(mission_->field, ray(model_.center, u), 0.0F, 0.5F).found);
 }
 
 TEST_F(FieldTest, SamplesSeeHalfACellToEitherSide) {
-  VERIFIES("LASSO-IMG-007");
+  VERIFIES("LASSO-IMG-007~1");
   const Vec3 u(0, 0, 1);
   const Vec3 face = model_.center - Vec3(0, 0, model_.half[2]);
   const float half = mission_->field.cell / 2;
@@ -111,7 +111,7 @@ TEST_F(FieldTest, SamplesSeeHalfACellToEitherSide) {
 }
 
 TEST_F(FieldTest, AWalkFromFarAwayEnds) {
-  VERIFIES("LASSO-IMG-008");
+  VERIFIES("LASSO-IMG-008~1");
   const FieldRay<N> r = ray(Vec3(0, 0, -1000), Vec3(0, 0, 1));
   EXPECT_FALSE(walk_field(mission_->field, r, 0.0F, 1e6F).found);  // 1024 samples of 20 mm do not reach the box
   EXPECT_FALSE(near_grid(ray(Vec3(0, 0, -1e6), Vec3(0, 0, 1))));
@@ -119,7 +119,7 @@ TEST_F(FieldTest, AWalkFromFarAwayEnds) {
 }
 
 TEST_F(FieldTest, NearElementIsTheClosestThatFaces) {
-  VERIFIES("LASSO-IMG-007");
+  VERIFIES("LASSO-IMG-007~1");
   const float up[3] = {0, 0, 1};
   const float down[3] = {0, 0, -1};
   // Below the box's middle: its low z face (4) is closest and faces a ray upwards; for one downwards the opposing face is too far.
@@ -131,7 +131,7 @@ TEST_F(FieldTest, NearElementIsTheClosestThatFaces) {
 }
 
 TEST_F(FieldTest, PlacesOutsideTheGridAreItsBorder) {
-  VERIFIES("LASSO-IMG-007");
+  VERIFIES("LASSO-IMG-007~1");
   const Field<N>& field = mission_->field;
   const float low[3] = {-5, -1e5F, -1};
   const GridPlace<N> first = place_in_grid(field, low);
@@ -142,7 +142,7 @@ TEST_F(FieldTest, PlacesOutsideTheGridAreItsBorder) {
 }
 
 TEST_F(FieldTest, CurvedElementsTurnTheirNormal) {
-  VERIFIES("LASSO-IMG-007");
+  VERIFIES("LASSO-IMG-007~1");
   // A cylinder of radius 0.5 along y: n(p) = n + G (p - c), G = I/r across the axis.
   Element<N> e = mission_->field.elements[5];
   e.curvature = 1;

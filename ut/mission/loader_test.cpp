@@ -41,7 +41,7 @@ class LoaderTest : public ::testing::Test {
 };
 
 TEST_F(LoaderTest, LoadsAValidImage) {
-  VERIFIES("LASSO-IMG-001");
+  VERIFIES("LASSO-IMG-001~1");
   ASSERT_EQ(load().status, Status::kOk);
   EXPECT_EQ(mission_->id, 7u);
   EXPECT_EQ(mission_->version, 3u);
@@ -57,7 +57,7 @@ TEST_F(LoaderTest, LoadsAValidImage) {
 }
 
 TEST_F(LoaderTest, RefusesEveryTruncation) {
-  VERIFIES("LASSO-IMG-002");
+  VERIFIES("LASSO-IMG-002~1 LASSO-SYS-011~1");
   for (std::size_t size : {std::size_t{0}, std::size_t{3}, std::size_t{63}, std::size_t{287}, image_.size / 2, image_.size - 1}) {
     const LoadFailure result = load_image(Bytes(image_.data(), size), *mission_);
     EXPECT_NE(result.status, Status::kOk) << size;
@@ -65,7 +65,7 @@ TEST_F(LoaderTest, RefusesEveryTruncation) {
 }
 
 TEST_F(LoaderTest, RefusesAFlippedBitAnywhere) {
-  VERIFIES("LASSO-IMG-003");
+  VERIFIES("LASSO-IMG-003~1");
   std::uint32_t seed = 12345;
   for (int i = 0; i < 60; ++i) {
     seed = seed * 1664525u + 1013904223u;
@@ -79,12 +79,12 @@ TEST_F(LoaderTest, RefusesAFlippedBitAnywhere) {
 }
 
 TEST_F(LoaderTest, RefusesMisalignedMemory) {
-  VERIFIES("LASSO-IMG-002");
+  VERIFIES("LASSO-IMG-002~1");
   EXPECT_EQ(load_image(Bytes(image_.data() + 4, image_.size - 4), *mission_).status, Status::kBadValue);
 }
 
 TEST_F(LoaderTest, NamesTheHeadersFault) {
-  VERIFIES("LASSO-IMG-002");
+  VERIFIES("LASSO-IMG-002~1");
   struct Case {
     std::size_t word;
     std::uint32_t value;
@@ -99,7 +99,7 @@ TEST_F(LoaderTest, NamesTheHeadersFault) {
 }
 
 TEST_F(LoaderTest, RefusesParametersOutOfRange) {
-  VERIFIES("LASSO-IMG-004");
+  VERIFIES("LASSO-IMG-004~1");
   MissionParameters parameters = preset_parameters();
   parameters.kernel_width = 1000;
   image_ = test::make_box_image(parameters);
@@ -110,7 +110,7 @@ TEST_F(LoaderTest, RefusesParametersOutOfRange) {
 }
 
 TEST_F(LoaderTest, RefusesIndicesOutsideTheirTables) {
-  VERIFIES("LASSO-IMG-005");
+  VERIFIES("LASSO-IMG-005~1");
   struct Case {
     TableId id;
     std::size_t word;
@@ -147,7 +147,7 @@ TEST_F(LoaderTest, RefusesIndicesOutsideTheirTables) {
 }
 
 TEST_F(LoaderTest, RefusesADirectoryThatPointsAstray) {
-  VERIFIES("LASSO-IMG-005");
+  VERIFIES("LASSO-IMG-005~1");
   const std::size_t entry = 4 * (kImageHeaderWords + kDirectoryEntryWords * 2);  // elements
   struct Case {
     std::size_t word;

@@ -13,13 +13,13 @@ namespace lasso {
 namespace {
 
 TEST(Parameters, PresetsAreValid) {
-  VERIFIES("LASSO-IMG-004");
+  VERIFIES("LASSO-IMG-004~1");
   std::size_t row = 0;
   EXPECT_EQ(validate(preset_parameters(), row), Status::kOk);
 }
 
 TEST(Parameters, EveryRowIsOfItsOwnAndComplete) {
-  VERIFIES("LASSO-IMG-006");
+  VERIFIES("LASSO-IMG-006~1");
   std::set<std::string> keys;
   MissionParameters marks{};
   double mark = 0;
@@ -38,7 +38,7 @@ TEST(Parameters, EveryRowIsOfItsOwnAndComplete) {
 }
 
 TEST(Parameters, RefusesWhatIsOutsideARowsRange) {
-  VERIFIES("LASSO-IMG-004");
+  VERIFIES("LASSO-IMG-004~1");
   for (std::size_t i = 0; i < parameter_rows().size(); ++i) {
     const ParameterRow& row = parameter_rows()[i];
     const double step = 1e-3 * (row.maximum - row.minimum) + 1e-9;
@@ -59,7 +59,7 @@ TEST(Parameters, RefusesWhatIsOutsideARowsRange) {
 }
 
 TEST(Parameters, RefusesFractionsWhereNumbersAreWhole) {
-  VERIFIES("LASSO-IMG-004");
+  VERIFIES("LASSO-IMG-004~1");
   for (const ParameterRow& row : parameter_rows()) {
     if (row.kind == ParameterKind::kReal) continue;
     MissionParameters parameters = preset_parameters();

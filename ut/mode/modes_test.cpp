@@ -23,13 +23,13 @@ std::set<M> reachable_from(M start) {
 }
 
 TEST(Modes, EveryModeIsReachedAndLeadsBackToStandby) {
-  VERIFIES("LASSO-MOD-001");
+  VERIFIES("LASSO-MOD-001~1");
   EXPECT_EQ(reachable_from(M::kStandby).size(), mode_properties().size());
   for (const ModeProperties& row : mode_properties()) EXPECT_EQ(reachable_from(row.mode).count(M::kStandby), 1u) << row.name;
 }
 
 TEST(Modes, EveryModeHasAWayOut) {
-  VERIFIES("LASSO-MOD-001");
+  VERIFIES("LASSO-MOD-001~1");
   for (const ModeProperties& mode : mode_properties()) {
     bool leaves = false;
     for (const ModeTransition& row : mode_transitions()) leaves = leaves || (row.from == mode.mode && row.to != mode.mode);
@@ -38,7 +38,7 @@ TEST(Modes, EveryModeHasAWayOut) {
 }
 
 TEST(Modes, ScanningModesAnswerEveryResultOfAScan) {
-  VERIFIES("LASSO-MOD-001");
+  VERIFIES("LASSO-MOD-001~1");
   std::set<std::pair<M, E>> rows;
   for (const ModeTransition& row : mode_transitions()) {
     EXPECT_TRUE(rows.insert({row.from, row.event}).second) << "two rows for one event: " << row.meaning;
@@ -51,7 +51,7 @@ TEST(Modes, ScanningModesAnswerEveryResultOfAScan) {
 }
 
 TEST(Modes, FollowTheStoryOfATrack) {
-  VERIFIES("LASSO-MOD-002");
+  VERIFIES("LASSO-MOD-002~1");
   EXPECT_EQ(next_mode(M::kStandby, E::kStart), M::kStarting);
   EXPECT_EQ(next_mode(M::kStarting, E::kPoseInvalid), M::kStarting);
   EXPECT_EQ(next_mode(M::kStarting, E::kPoseValid), M::kTracking);
@@ -63,13 +63,13 @@ TEST(Modes, FollowTheStoryOfATrack) {
 }
 
 TEST(Modes, IgnoreWhatTheTableDoesNotKnow) {
-  VERIFIES("LASSO-MOD-001");
+  VERIFIES("LASSO-MOD-001~1");
   EXPECT_EQ(next_mode(M::kStandby, E::kPoseValid), M::kStandby);
   EXPECT_EQ(next_mode(M::kLost, E::kPoseValid), M::kLost);
 }
 
 TEST(Modes, PropertiesLieAtTheirModesPlace) {
-  VERIFIES("LASSO-MOD-001");
+  VERIFIES("LASSO-MOD-001~1");
   for (std::size_t i = 0; i < mode_properties().size(); ++i) EXPECT_EQ(static_cast<std::size_t>(mode_properties()[i].mode), i);
   EXPECT_EQ(std::string(to_string(M::kCoasting)), "coasting");
   EXPECT_TRUE(properties(M::kStarting).wide_start);

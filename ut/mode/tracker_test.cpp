@@ -72,7 +72,7 @@ Vec6 small_error() {
 }
 
 TEST_F(TrackerTest, FollowsTheTargetAndLearnsItsRates) {
-  VERIFIES("LASSO-MOD-003");
+  VERIFIES("LASSO-MOD-003~1");
   start(small_error());
   EXPECT_EQ(state_.mode, TrackingMode::kStarting);
   for (std::uint32_t k = 0; k < 30; ++k) {
@@ -90,7 +90,7 @@ TEST_F(TrackerTest, FollowsTheTargetAndLearnsItsRates) {
 }
 
 TEST_F(TrackerTest, FirstRegistrationStartsTheFilterAnew) {
-  VERIFIES("LASSO-MOD-003");
+  VERIFIES("LASSO-MOD-003~1");
   start(small_error());
   const TrackStep step = track(0);
   ASSERT_TRUE(step.registration.valid());
@@ -100,7 +100,7 @@ TEST_F(TrackerTest, FirstRegistrationStartsTheFilterAnew) {
 }
 
 TEST_F(TrackerTest, WideStartTakesWhatANarrowOneCannot) {
-  VERIFIES("LASSO-MOD-004");
+  VERIFIES("LASSO-MOD-004~1");
   Vec6 off;
   off << 0.12, -0.1, 0.08, 0.1, 0.08, 0.12;
   start(off);
@@ -116,7 +116,7 @@ TEST_F(TrackerTest, WideStartTakesWhatANarrowOneCannot) {
 }
 
 TEST_F(TrackerTest, CoastsOnThePredictionAndTakesUpTheTrackAgain) {
-  VERIFIES("LASSO-MOD-005");
+  VERIFIES("LASSO-MOD-005~1");
   start(small_error());
   for (std::uint32_t k = 0; k < 20; ++k) track(k);
   for (std::uint32_t k = 20; k < 25; ++k) {
@@ -134,7 +134,7 @@ TEST_F(TrackerTest, CoastsOnThePredictionAndTakesUpTheTrackAgain) {
 }
 
 TEST_F(TrackerTest, IsLostAfterTheFramesOfTheMission) {
-  VERIFIES("LASSO-MOD-005");
+  VERIFIES("LASSO-MOD-007~1");
   MissionParameters p = test::box_parameters(scene_);
   p.coast_frames = 3;
   load(p);
@@ -145,7 +145,7 @@ TEST_F(TrackerTest, IsLostAfterTheFramesOfTheMission) {
 }
 
 TEST_F(TrackerTest, EmptySpaceIsNoPose) {
-  VERIFIES("LASSO-MOD-005");
+  VERIFIES("LASSO-MOD-005~1");
   start(small_error());
   track(0);
   RangeImage& empty = scan(1);
@@ -159,7 +159,7 @@ TEST_F(TrackerTest, EmptySpaceIsNoPose) {
 }
 
 TEST_F(TrackerTest, MovesTheStartToItsFrame) {
-  VERIFIES("LASSO-MOD-003");
+  VERIFIES("LASSO-MOD-003~1");
   ASSERT_EQ(start_track(mission_, scene_.pose_at(300000), scene_.rates, 300000, 1000000, state_), Status::kOk);
   EXPECT_LT(error(state_.filter.T_sensor_target, 1000000).norm(), 1e-12);
   EXPECT_EQ(state_.filter.t_us, 1000000);
@@ -168,7 +168,7 @@ TEST_F(TrackerTest, MovesTheStartToItsFrame) {
 }
 
 TEST_F(TrackerTest, RefusesAStartThatMeansNothing) {
-  VERIFIES("LASSO-MOD-006");
+  VERIFIES("LASSO-MOD-008~1");
   const Pose good = scene_.at_zero;
   Pose bad = good;
   bad.q.w() += 0.1;
@@ -185,7 +185,7 @@ TEST_F(TrackerTest, RefusesAStartThatMeansNothing) {
 }
 
 TEST_F(TrackerTest, WithoutATrackTheLastPoseStandsWithItsOwnTime) {
-  VERIFIES("LASSO-MOD-005");
+  VERIFIES("LASSO-MOD-007~1");
   start(small_error());
   track(0);
   const TrackStep step = no_track(44, state_);

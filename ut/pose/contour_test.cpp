@@ -82,7 +82,7 @@ void ContourTest::expect_edges(const ScanRay<N>& ray, const RayEdges<N>& found, 
 }
 
 TEST_F(ContourTest, IsTheEdgesWithOneFaceTowardsTheSensor) {
-  VERIFIES("LASSO-REG-002");
+  VERIFIES("LASSO-REG-002~1");
   int hexagons = 0;
   for (int i = 0; i < 200; ++i) {
     scan_.T_sensor_target = test::random_box_pose(random_);
@@ -95,7 +95,7 @@ TEST_F(ContourTest, IsTheEdgesWithOneFaceTowardsTheSensor) {
 }
 
 TEST_F(ContourTest, EdgesAreProjectedToTheTangentPlane) {
-  VERIFIES("LASSO-REG-002");
+  VERIFIES("LASSO-REG-002~1");
   for (int i = 0; i < 20; ++i) {
     scan_.T_sensor_target = test::random_box_pose(random_);
     find();
@@ -115,7 +115,7 @@ TEST_F(ContourTest, EdgesAreProjectedToTheTangentPlane) {
 }
 
 TEST_F(ContourTest, EdgesBehindTheSensorAreLeftOut) {
-  VERIFIES("LASSO-REG-002");
+  VERIFIES("LASSO-REG-002~1");
   int left_out = 0;
   for (int i = 0; i < 100; ++i) {
     scan_.T_sensor_target = test::random_box_pose(random_);
@@ -129,7 +129,7 @@ TEST_F(ContourTest, EdgesBehindTheSensorAreLeftOut) {
 }
 
 TEST_F(ContourTest, EveryRayHasItsNearestEdges) {
-  VERIFIES("LASSO-REG-002");
+  VERIFIES("LASSO-REG-002~1");
   scan_.side = 14;
   for (const double band_m : {0.006, 0.03, 0.8}) {  // the last one holds all edges: only the nearest four are kept
     scan_.T_sensor_target = test::random_box_pose(random_);
@@ -146,7 +146,7 @@ TEST_F(ContourTest, EveryRayHasItsNearestEdges) {
 }
 
 TEST_F(ContourTest, EveryRayIsInItsBinOnce) {
-  VERIFIES("LASSO-REG-002");
+  VERIFIES("LASSO-REG-002~1");
   scan_.side = 20;
   scan();
   find();
@@ -171,7 +171,7 @@ TEST_F(ContourTest, EveryRayIsInItsBinOnce) {
 }
 
 TEST_F(ContourTest, RaysOnOneLineOrPointHaveTheirEdgesToo) {
-  VERIFIES("LASSO-REG-002");
+  VERIFIES("LASSO-REG-002~1");
   scan_.side = 12;
   scan();
   find();
@@ -187,7 +187,7 @@ TEST_F(ContourTest, RaysOnOneLineOrPointHaveTheirEdgesToo) {
 }
 
 TEST_F(ContourTest, NothingIsNearATargetBehindTheSensor) {
-  VERIFIES("LASSO-REG-002");
+  VERIFIES("LASSO-REG-002~1");
   scan();
   find();
   scan_.T_sensor_target.p = -scan_.T_sensor_target.p;
@@ -223,7 +223,7 @@ class ClipTest : public test::PoseFixture {
 };
 
 TEST_F(ClipTest, ARayIsInsideTheGridExactlyWithinItsSpan) {
-  VERIFIES("LASSO-REG-007");
+  VERIFIES("LASSO-REG-007~1");
   int met = 0;
   for (int i = 0; i < 100; ++i) {
     const FieldRay<N> ray = random_ray(i % 8);
@@ -243,7 +243,7 @@ TEST_F(ClipTest, ARayIsInsideTheGridExactlyWithinItsSpan) {
 }
 
 TEST_F(ClipTest, ARayWithoutDirectionIsNotBounded) {
-  VERIFIES("LASSO-REG-007");
+  VERIFIES("LASSO-REG-007~1");
   FieldRay<N> ray{};
   set_cells(mission_.field, ray);
   const FieldSpan<N> span = clip_to_grid(mission_.field, ray);

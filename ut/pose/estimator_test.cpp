@@ -39,7 +39,7 @@ class EstimatorTest : public ::testing::Test {
 };
 
 TEST_F(EstimatorTest, NoiseFreeScanGivesTheExactPose) {
-  VERIFIES("LASSO-REG-001");
+  VERIFIES("LASSO-REG-001~1");
   for (int i = 0; i < 20; ++i) {
     scan_.T_sensor_target = test::disturb(test::generic_box_pose(), 0.2, 0.1, random_);
     const Registration r = estimate_from(0.01, 0.005);
@@ -55,7 +55,7 @@ struct Spread {
 };
 
 TEST_F(EstimatorTest, CovarianceIsHonestAndSilhouettesAddInformation) {
-  VERIFIES("LASSO-REG-002 LASSO-REG-003");
+  VERIFIES("LASSO-REG-002~1 LASSO-REG-003~1");
   scan_.sigma_m = 1e-3;
   Spread spread[2];
   constexpr int kScans = 150;
@@ -84,7 +84,7 @@ TEST_F(EstimatorTest, CovarianceIsHonestAndSilhouettesAddInformation) {
 }
 
 TEST_F(EstimatorTest, EstimatesTheNoiseThatItWasNotTold) {
-  VERIFIES("LASSO-REG-003");
+  VERIFIES("LASSO-REG-003~1");
   scan_.sigma_m = 2e-3;
   const Registration r = estimate_from(0.005, 0.003);
   ASSERT_TRUE(r.valid());
@@ -93,7 +93,7 @@ TEST_F(EstimatorTest, EstimatesTheNoiseThatItWasNotTold) {
 }
 
 TEST_F(EstimatorTest, MovesPointsToTheReferenceTime) {
-  VERIFIES("LASSO-REG-004");
+  VERIFIES("LASSO-REG-004~1 LASSO-SYS-023~1");
   scan_.rates.omega_radps = Vec3(0.06, -0.05, 0.04);
   scan_.rates.v_mps = Vec3(0.03, -0.02, 0.05);
   const Registration deskewed = estimate_from(0.005, 0.003);
@@ -105,7 +105,7 @@ TEST_F(EstimatorTest, MovesPointsToTheReferenceTime) {
 }
 
 TEST_F(EstimatorTest, WideStartConverges) {
-  VERIFIES("LASSO-REG-005");
+  VERIFIES("LASSO-REG-005~1");
   for (int i = 0; i < 40; ++i) {
     StartPoint start;
     start.T_sensor_target = test::disturb(scan_.T_sensor_target, 0.2, 0.1, random_);
@@ -116,7 +116,7 @@ TEST_F(EstimatorTest, WideStartConverges) {
 }
 
 TEST_F(EstimatorTest, OutliersAndDropoutsAreTolerated) {
-  VERIFIES("LASSO-REG-006");
+  VERIFIES("LASSO-REG-006~1");
   scan_.sigma_m = 1e-3;
   scan_.outliers = 0.3;
   scan_.dropouts = 0.2;
@@ -132,7 +132,7 @@ TEST_F(EstimatorTest, OutliersAndDropoutsAreTolerated) {
 }
 
 TEST_F(EstimatorTest, SaysWhyAPoseCannotBeTrusted) {
-  VERIFIES("LASSO-REG-007");
+  VERIFIES("LASSO-REG-007~1");
   RangeImage empty;
   StartPoint start;
   start.T_sensor_target = scan_.T_sensor_target;
@@ -148,7 +148,7 @@ TEST_F(EstimatorTest, SaysWhyAPoseCannotBeTrusted) {
 }
 
 TEST_F(EstimatorTest, ReportsWeakDirections) {
-  VERIFIES("LASSO-REG-008");
+  VERIFIES("LASSO-REG-008~1");
   // One face alone, all other rays unknown: nothing holds the box in its plane.
   parameters().silhouettes = 0;
   scan_.T_sensor_target.q = Quat(1, 0, 0, 0);
@@ -160,7 +160,7 @@ TEST_F(EstimatorTest, ReportsWeakDirections) {
 }
 
 TEST_F(EstimatorTest, PointCloudsWithoutMissesAreRegistered) {
-  VERIFIES("LASSO-REG-009");
+  VERIFIES("LASSO-REG-009~1");
   scan_.sigma_m = 1e-3;
   const auto image = test::scan_box(scan_, random_);
   image->misses_known = false;
@@ -172,7 +172,7 @@ TEST_F(EstimatorTest, PointCloudsWithoutMissesAreRegistered) {
 }
 
 TEST_F(EstimatorTest, TheSameInputGivesTheSameBits) {
-  VERIFIES("LASSO-REG-010");
+  VERIFIES("LASSO-REG-010~1");
   scan_.sigma_m = 1e-3;
   const auto image = test::scan_box(scan_, random_);
   StartPoint start;

@@ -74,7 +74,7 @@ void expect_close(const PoseBelief& a, const PoseBelief& b, double share) {
 }
 
 TEST(Labels, OneLabelGivesTheExactMoments) {
-  VERIFIES("LASSO-REG-002");
+  VERIFIES("LASSO-REG-002~1");
   test::Generator random(3);
   const MissionParameters p = preset_parameters();
   for (int i = 0; i < 200; ++i) {
@@ -99,7 +99,7 @@ TEST(Labels, OneLabelGivesTheExactMoments) {
 }
 
 TEST(Labels, ManyLabelsAgreeWithSampling) {
-  VERIFIES("LASSO-REG-002");
+  VERIFIES("LASSO-REG-002~1");
   test::Generator random(5);
   const MissionParameters p = preset_parameters();
   for (int trial = 0; trial < 3; ++trial) {
@@ -117,7 +117,7 @@ TEST(Labels, ManyLabelsAgreeWithSampling) {
 }
 
 TEST(Labels, CovarianceShrinksAndStaysPositive) {
-  VERIFIES("LASSO-REG-002");
+  VERIFIES("LASSO-REG-002~1");
   test::Generator random(7);
   const MissionParameters p = preset_parameters();
   for (int trial = 0; trial < 50; ++trial) {
@@ -138,7 +138,7 @@ TEST(Labels, CovarianceShrinksAndStaysPositive) {
 }
 
 TEST(Labels, ADropOutWeighsLessThanAReturn) {
-  VERIFIES("LASSO-REG-006");
+  VERIFIES("LASSO-REG-006~1");
   test::Generator random(9);
   MissionParameters p = preset_parameters();
   p.dropout_probability = 0.3;
@@ -156,7 +156,7 @@ TEST(Labels, ADropOutWeighsLessThanAReturn) {
 }
 
 TEST(Labels, WithoutLabelsNothingChanges) {
-  VERIFIES("LASSO-REG-002");
+  VERIFIES("LASSO-REG-002~1");
   test::Generator random(11);
   PoseBelief belief = generic_belief(random);
   const Mat6 before = belief.covariance;

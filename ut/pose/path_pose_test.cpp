@@ -22,7 +22,7 @@ Pose exact_step(const Pose& pose, const Vec6& x) {
 }
 
 TEST(PathPose, StepsTurnByTwiceTheArcTangentOfHalf) {
-  VERIFIES("LASSO-REG-001");
+  VERIFIES("LASSO-REG-001~1");
   test::Generator random(1);
   for (int i = 0; i < 50; ++i) {
     const Pose pose = test::random_box_pose(random);
@@ -36,7 +36,7 @@ TEST(PathPose, StepsTurnByTwiceTheArcTangentOfHalf) {
 }
 
 TEST(PathPose, StepsAgreeWithTheExponentialMapToSecondOrder) {
-  VERIFIES("LASSO-REG-001");
+  VERIFIES("LASSO-REG-001~1");
   test::Generator random(2);
   for (int i = 0; i < 50; ++i) {
     const Pose pose = test::random_box_pose(random);
@@ -49,7 +49,7 @@ TEST(PathPose, StepsAgreeWithTheExponentialMapToSecondOrder) {
 
 // What the normal equations are linearised for.
 TEST(PathPose, PointsMoveByTheStepToFirstOrder) {
-  VERIFIES("LASSO-REG-001");
+  VERIFIES("LASSO-REG-001~1");
   test::Generator random(3);
   for (int i = 0; i < 50; ++i) {
     const Pose pose = test::random_box_pose(random);
@@ -62,7 +62,7 @@ TEST(PathPose, PointsMoveByTheStepToFirstOrder) {
 }
 
 TEST(PathPose, PathTransformsAsThePoseDoes) {
-  VERIFIES("LASSO-REG-001");
+  VERIFIES("LASSO-REG-001~1");
   test::Generator random(4);
   for (int i = 0; i < 50; ++i) {
     const Pose pose = test::random_box_pose(random);

@@ -27,7 +27,7 @@ class PrepareTest : public test::PoseFixture {
 };
 
 TEST_F(PrepareTest, MovesEachRayByTheMotionSinceItsOwnTime) {
-  VERIFIES("LASSO-REG-004");
+  VERIFIES("LASSO-REG-004~1");
   scan();
   ASSERT_EQ(workspace_->rays.size(), image_->samples.size());
   double farthest = 0;
@@ -44,7 +44,7 @@ TEST_F(PrepareTest, MovesEachRayByTheMotionSinceItsOwnTime) {
 }
 
 TEST_F(PrepareTest, PointsLieOnTheBoxAtTheReferenceTime) {
-  VERIFIES("LASSO-REG-004");
+  VERIFIES("LASSO-REG-004~1");
   scan_.rates.omega_radps = Vec3(0.1, -0.15, 0.12);
   scan();
   ASSERT_GT(workspace_->points.size(), 60u);
@@ -57,7 +57,7 @@ TEST_F(PrepareTest, PointsLieOnTheBoxAtTheReferenceTime) {
 }
 
 TEST_F(PrepareTest, RaysStayAsMeasuredWithoutMotionOrDeskewing) {
-  VERIFIES("LASSO-REG-004");
+  VERIFIES("LASSO-REG-004~1");
   for (const bool deskew : {false, true}) {
     parameters().deskew = deskew ? 1 : 0;
     if (deskew) scan_.rates = Twist{};
@@ -70,7 +70,7 @@ TEST_F(PrepareTest, RaysStayAsMeasuredWithoutMotionOrDeskewing) {
 }
 
 TEST_F(PrepareTest, ANoiseModelThatGrowsWithRange) {
-  VERIFIES("LASSO-REG-003");
+  VERIFIES("LASSO-REG-003~1");
   parameters().sigma_k_per_m = 1.3e-4;
   parameters().sigma_angle_rad = 4e-4;
   parameters().surface_sigma_m = 2e-4;
@@ -96,7 +96,7 @@ TEST_F(PrepareTest, ANoiseModelThatGrowsWithRange) {
 }
 
 TEST_F(PrepareTest, KeepsMissesAndLeavesInvalidSamplesOut) {
-  VERIFIES("LASSO-REG-006 LASSO-REG-009");
+  VERIFIES("LASSO-REG-006~1 LASSO-REG-009~1");
   const RayState states[] = {RayState::kMiss, RayState::kInvalid, RayState::kHit, RayState::kInvalid, RayState::kMiss, RayState::kHit};
   RangeImage image;
   for (const RayState state : states) {
@@ -122,7 +122,7 @@ TEST_F(PrepareTest, KeepsMissesAndLeavesInvalidSamplesOut) {
 }
 
 TEST_F(PrepareTest, TakesAsManyRaysAsAScanCanHave) {
-  VERIFIES("LASSO-REG-009");
+  VERIFIES("LASSO-REG-009~1 LASSO-SNS-032~1");
   RangeImage image;
   RangeSample sample;
   sample.range_m = 2;

@@ -40,7 +40,7 @@ class AgreementTest : public test::PoseFixture {
 };
 
 TEST_F(AgreementTest, IsTheShareOfRaysThatAreAsPredicted) {
-  VERIFIES("LASSO-REG-007");
+  VERIFIES("LASSO-REG-007~1");
   scan_.side = 9;
   scan_.rates.v_mps = Vec3(0.3, -0.2, 0.5);  // rays with an origin of their own
   int blamed = 0;
@@ -62,7 +62,7 @@ TEST_F(AgreementTest, IsTheShareOfRaysThatAreAsPredicted) {
 }
 
 TEST_F(AgreementTest, ManyMissesAreSampledEvenly) {
-  VERIFIES("LASSO-REG-007");
+  VERIFIES("LASSO-REG-007~1");
   scan();
   const Pose pose = inverse(test::disturb(scan_.T_sensor_target, 0.3, 0.15, random_));
   std::size_t misses = 0;
@@ -76,13 +76,13 @@ TEST_F(AgreementTest, ManyMissesAreSampledEvenly) {
 }
 
 TEST_F(AgreementTest, IsOneAtTheTruth) {
-  VERIFIES("LASSO-REG-007");
+  VERIFIES("LASSO-REG-007~1");
   scan();
   EXPECT_EQ(agreement(truth(), 400, 400), 1);
 }
 
 TEST_F(AgreementTest, UnknownMissesDoNotCount) {
-  VERIFIES("LASSO-REG-009");
+  VERIFIES("LASSO-REG-009~1");
   scan();
   EXPECT_EQ(agreement(truth(), 30, 40, false), 0.75);
   EXPECT_EQ(agreement(truth(), 0, 0, false), 0);
@@ -91,7 +91,7 @@ TEST_F(AgreementTest, UnknownMissesDoNotCount) {
 }
 
 TEST_F(AgreementTest, WhatLiesBehindTheSensorIsNotMet) {
-  VERIFIES("LASSO-REG-007");
+  VERIFIES("LASSO-REG-007~1");
   scan();
   for (ScanRay<FlightNumber>& ray : workspace_->rays) ray.state = RayState::kMiss;
   EXPECT_LT(agreement(truth(), 0, 0), 0.9);
@@ -117,7 +117,7 @@ class WeakDirectionsTest : public test::PoseFixture {
 };
 
 TEST_F(WeakDirectionsTest, AreThoseOfTheCovariance) {
-  VERIFIES("LASSO-REG-008");
+  VERIFIES("LASSO-REG-008~1");
   parameters().sigma_position_max_m = 0.05;
   parameters().sigma_attitude_max_rad = 3.0;
   for (int i = 0; i < 20; ++i) {
@@ -133,7 +133,7 @@ TEST_F(WeakDirectionsTest, AreThoseOfTheCovariance) {
 }
 
 TEST_F(WeakDirectionsTest, AreMeasuredByTheTighterLimit) {
-  VERIFIES("LASSO-REG-008");
+  VERIFIES("LASSO-REG-008~1");
   parameters().sigma_position_max_m = 0.05;
   parameters().sigma_attitude_max_rad = 0.01 / mission_.radius_m;
   Vec6 sigmas;
@@ -145,7 +145,7 @@ TEST_F(WeakDirectionsTest, AreMeasuredByTheTighterLimit) {
 }
 
 TEST_F(WeakDirectionsTest, ThereAreNoneInAGoodPose) {
-  VERIFIES("LASSO-REG-008");
+  VERIFIES("LASSO-REG-008~1");
   make_covariance(Vec6::Constant(1e-4));
   find_weak_directions(mission_, result_);
   EXPECT_EQ(result_.weak, 0);
@@ -171,7 +171,7 @@ PoseReason judge_with(void (*spoil)(const MissionParameters&, Registration&)) {
 }
 
 TEST(Judge, NamesTheCheckThatFails) {
-  VERIFIES("LASSO-REG-007");
+  VERIFIES("LASSO-REG-007~1");
   using P = const MissionParameters&;
   using R = Registration&;
   EXPECT_EQ(judge_with([](P, R) {}), PoseReason::kValid);
@@ -186,7 +186,7 @@ TEST(Judge, NamesTheCheckThatFails) {
 }
 
 TEST(Judge, LimitsThemselvesAreValid) {
-  VERIFIES("LASSO-REG-007");
+  VERIFIES("LASSO-REG-007~1");
   const MissionParameters p = preset_parameters();
   Registration r = good_result();
   r.returns = r.inliers = static_cast<std::uint16_t>(p.inliers_min);
@@ -197,7 +197,7 @@ TEST(Judge, LimitsThemselvesAreValid) {
 }
 
 TEST(Judge, NothingRunIsNotValid) {
-  VERIFIES("LASSO-REG-007");
+  VERIFIES("LASSO-REG-007~1");
   EXPECT_EQ(judge(preset_parameters(), Registration()), PoseReason::kTooFewReturns);
 }
 

@@ -16,7 +16,7 @@ const char* const kPoseReasons[] = {"valid",         "no_scan",       "too_few_r
 const char* const kStopReasons[] = {"converged", "iteration_limit", "too_few_points", "singular", "not_run"};
 
 TEST(Result, EveryPoseReasonHasItsName) {
-  VERIFIES("LASSO-REG-007");
+  VERIFIES("LASSO-REG-007~1");
   std::uint8_t code = 0;
   for (const char* name : kPoseReasons) EXPECT_EQ(std::string(to_string(static_cast<PoseReason>(code++))), name);
   EXPECT_EQ(static_cast<PoseReason>(code - 1), PoseReason::kOverrun);  // the last of them
@@ -24,7 +24,7 @@ TEST(Result, EveryPoseReasonHasItsName) {
 }
 
 TEST(Result, EveryStopReasonHasItsName) {
-  VERIFIES("LASSO-REG-007");
+  VERIFIES("LASSO-REG-007~1");
   std::uint8_t code = 0;
   for (const char* name : kStopReasons) EXPECT_EQ(std::string(to_string(static_cast<StopReason>(code++))), name);
   EXPECT_EQ(static_cast<StopReason>(code - 1), StopReason::kNotRun);
@@ -32,7 +32,7 @@ TEST(Result, EveryStopReasonHasItsName) {
 }
 
 TEST(Result, IsValidOnlyForTheReasonValid) {
-  VERIFIES("LASSO-REG-007");
+  VERIFIES("LASSO-REG-007~1");
   Registration result;
   EXPECT_FALSE(result.valid());  // nothing was estimated yet
   for (std::uint8_t code = 0; code < 11; ++code) {

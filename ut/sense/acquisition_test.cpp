@@ -81,7 +81,7 @@ class AcquisitionTest : public ::testing::Test {
 };
 
 TEST_F(AcquisitionTest, StoresAWholeScanAsTheSensorSawIt) {
-  VERIFIES("LASSO-SNS-020 LASSO-SNS-021");
+  VERIFIES("LASSO-SNS-020~1 LASSO-SNS-021~1 LASSO-SYS-023~1");
   const ScanVerdict verdict = run();
   EXPECT_TRUE(verdict.complete);
   EXPECT_TRUE(verdict.usable);
@@ -107,7 +107,7 @@ TEST_F(AcquisitionTest, StoresAWholeScanAsTheSensorSawIt) {
 }
 
 TEST_F(AcquisitionTest, PollsOncePerStepAndAtMostTheCapacity) {
-  VERIFIES("LASSO-SNS-021");
+  VERIFIES("LASSO-SNS-021~1");
   ASSERT_EQ(acquisition.start(sensor, plan, kStart, *image), Status::kOk);
   for (std::size_t step = 1; step <= 8; ++step) {
     acquisition.step(sensor, kStart + 200000, *image);
@@ -120,7 +120,7 @@ TEST_F(AcquisitionTest, PollsOncePerStepAndAtMostTheCapacity) {
 }
 
 TEST_F(AcquisitionTest, TakesOnlyWhatHasBeenAcquiredByNow) {
-  VERIFIES("LASSO-SNS-021");
+  VERIFIES("LASSO-SNS-021~1");
   ASSERT_EQ(acquisition.start(sensor, plan, kStart, *image), Status::kOk);
   acquisition.step(sensor, kStart - 1, *image);
   EXPECT_EQ(image->samples.size(), 0u);
@@ -129,7 +129,7 @@ TEST_F(AcquisitionTest, TakesOnlyWhatHasBeenAcquiredByNow) {
 }
 
 TEST_F(AcquisitionTest, BadSamplesBecomeInvalidAndAreCountedByReason) {
-  VERIFIES("LASSO-SNS-022");
+  VERIFIES("LASSO-SNS-022~1 LASSO-SYS-011~1");
   std::vector<RangeSample>& s = sensor.samples;
   for (const std::size_t i : {14u, 15u}) s[i].state = RayState::kHit;
   s[10].direction[1] = std::numeric_limits<float>::quiet_NaN();
@@ -163,7 +163,7 @@ TEST_F(AcquisitionTest, BadSamplesBecomeInvalidAndAreCountedByReason) {
 }
 
 TEST_F(AcquisitionTest, SamplesBeforeTheStartAreBad) {
-  VERIFIES("LASSO-SNS-022");
+  VERIFIES("LASSO-SNS-022~1");
   sensor.samples[0].t_us = kStart - 1;
   const ScanVerdict verdict = run();
   EXPECT_EQ(verdict.bad[static_cast<int>(BadSample::kTime)], 1u);
@@ -171,7 +171,7 @@ TEST_F(AcquisitionTest, SamplesBeforeTheStartAreBad) {
 }
 
 TEST_F(AcquisitionTest, SlightlyWrongDirectionsAreBroughtToUnitLength) {
-  VERIFIES("LASSO-SNS-023");
+  VERIFIES("LASSO-SNS-023~1");
   for (int i = 0; i < 100; ++i) {
     for (float& component : sensor.samples[static_cast<std::size_t>(i)].direction)
       component *= 1 + 9.9e-6F * static_cast<float>(2 * i - 100);
@@ -188,7 +188,7 @@ TEST_F(AcquisitionTest, SlightlyWrongDirectionsAreBroughtToUnitLength) {
 }
 
 TEST_F(AcquisitionTest, RaysTheSensorDeclaresInvalidAreNotBadAndMissesHaveNoRange) {
-  VERIFIES("LASSO-SNS-021");
+  VERIFIES("LASSO-SNS-021~1");
   sensor.samples[5].state = RayState::kInvalid;
   sensor.samples[5].direction[0] = std::numeric_limits<float>::quiet_NaN();
   sensor.samples[6].state = RayState::kMiss;
@@ -202,7 +202,7 @@ TEST_F(AcquisitionTest, RaysTheSensorDeclaresInvalidAreNotBadAndMissesHaveNoRang
 }
 
 TEST_F(AcquisitionTest, IncompleteScanIsUsableFromFourFifthsAndOtherwiseDiscarded) {
-  VERIFIES("LASSO-SNS-024");
+  VERIFIES("LASSO-SNS-024~1");
   const TimeUs enough = kStart + pattern_time_us(plan, 819);  // 820 of 1024 are the first to reach 80 %
   const ScanVerdict usable = run(100, enough);
   EXPECT_FALSE(usable.complete);
@@ -219,7 +219,7 @@ TEST_F(AcquisitionTest, IncompleteScanIsUsableFromFourFifthsAndOtherwiseDiscarde
 }
 
 TEST_F(AcquisitionTest, CompleteScanWithTooManyBadSamplesIsDiscarded) {
-  VERIFIES("LASSO-SNS-024");
+  VERIFIES("LASSO-SNS-024~1");
   for (std::size_t i = 0; i < 204; ++i) sensor.samples[i].direction[0] = 3;
   EXPECT_TRUE(run().usable);
   sensor.samples[204].direction[0] = 3;
@@ -232,7 +232,7 @@ TEST_F(AcquisitionTest, CompleteScanWithTooManyBadSamplesIsDiscarded) {
 }
 
 TEST_F(AcquisitionTest, LostScanIsDiscardedWithTheSensorsReason) {
-  VERIFIES("LASSO-SNS-025");
+  VERIFIES("LASSO-SNS-025~1");
   sensor.lost_at = 896;  // more than 80 % of the samples have been taken by then
   sensor.lose = Status::kBadCrc;
   const ScanVerdict verdict = run();
@@ -245,7 +245,7 @@ TEST_F(AcquisitionTest, LostScanIsDiscardedWithTheSensorsReason) {
 }
 
 TEST_F(AcquisitionTest, MoreSamplesThanAskedForIsALostScan) {
-  VERIFIES("LASSO-SNS-025");
+  VERIFIES("LASSO-SNS-025~1");
   sensor.overclaim = true;
   const ScanVerdict verdict = run();
   EXPECT_EQ(verdict.reason, Status::kBadLength);
@@ -254,7 +254,7 @@ TEST_F(AcquisitionTest, MoreSamplesThanAskedForIsALostScan) {
 }
 
 TEST_F(AcquisitionTest, WhatTheImageCannotHoldIsCounted) {
-  VERIFIES("LASSO-SNS-026");
+  VERIFIES("LASSO-SNS-026~1");
   const RangeSample last = sensor.samples.back();
   sensor.samples.resize(kMaxRays + 7, last);
   const ScanVerdict verdict = run();
@@ -264,7 +264,7 @@ TEST_F(AcquisitionTest, WhatTheImageCannotHoldIsCounted) {
 }
 
 TEST_F(AcquisitionTest, RefusedStartsSayWhyAndLeaveNothingUnderWay) {
-  VERIFIES("LASSO-SNS-020");
+  VERIFIES("LASSO-SNS-020~1");
   sensor.refuse = Status::kBusy;
   EXPECT_EQ(acquisition.start(sensor, plan, kStart, *image), Status::kBusy);
   EXPECT_FALSE(acquisition.under_way());
@@ -281,7 +281,7 @@ TEST_F(AcquisitionTest, RefusedStartsSayWhyAndLeaveNothingUnderWay) {
 }
 
 TEST_F(AcquisitionTest, ASecondStartIsRefusedAndDisturbsNothing) {
-  VERIFIES("LASSO-SNS-020");
+  VERIFIES("LASSO-SNS-020~1");
   ASSERT_EQ(acquisition.start(sensor, plan, kStart, *image), Status::kOk);
   acquisition.step(sensor, kStart + 200000, *image);
   ScanPlan other = plan;
@@ -295,7 +295,7 @@ TEST_F(AcquisitionTest, ASecondStartIsRefusedAndDisturbsNothing) {
 }
 
 TEST_F(AcquisitionTest, AScanAfterALostOneStartsAfresh) {
-  VERIFIES("LASSO-SNS-025");
+  VERIFIES("LASSO-SNS-025~1");
   sensor.lost_at = 500;
   sensor.lose = Status::kTimeout;
   EXPECT_FALSE(run().usable);

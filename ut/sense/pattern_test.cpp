@@ -43,7 +43,7 @@ double inner_share(PatternKind kind, double limit, bool round) {
 }
 
 TEST(Pattern, RosetteFollowsItsEquation) {
-  VERIFIES("LASSO-SNS-001");
+  VERIFIES("LASSO-SNS-001~1");
   const ScanPlan plan = generic_plan(PatternKind::kRosette);
   for (std::uint16_t i = 0; i < plan.points; ++i) {
     const double s = i / static_cast<double>(plan.points);
@@ -58,7 +58,7 @@ TEST(Pattern, RosetteFollowsItsEquation) {
 }
 
 TEST(Pattern, LissajousFollowsItsEquation) {
-  VERIFIES("LASSO-SNS-001");
+  VERIFIES("LASSO-SNS-001~1");
   const ScanPlan plan = generic_plan(PatternKind::kLissajous);
   for (std::uint16_t i = 0; i < plan.points; ++i) {
     const double s = i / static_cast<double>(plan.points);
@@ -69,13 +69,13 @@ TEST(Pattern, LissajousFollowsItsEquation) {
 }
 
 TEST(Pattern, RosetteLooksAtItsMiddleMoreThanLissajous) {
-  VERIFIES("LASSO-SNS-001");
+  VERIFIES("LASSO-SNS-001~1");
   EXPECT_NEAR(inner_share(PatternKind::kRosette, 0.5, true), 1.0 / 3, 0.01);     // arcsine law of the radius: 2 asin(1/2) / pi
   EXPECT_NEAR(inner_share(PatternKind::kLissajous, 0.5, false), 1.0 / 9, 0.01);  // the same law on each axis
 }
 
 TEST(Pattern, RasterIsSerpentineAndFillsTheSquareEvenly) {
-  VERIFIES("LASSO-SNS-002");
+  VERIFIES("LASSO-SNS-002~1");
   ScanPlan plan = generic_plan(PatternKind::kRaster);
   plan.cycles_a = 32;
   plan.phase_turns = 0.5;
@@ -88,7 +88,7 @@ TEST(Pattern, RasterIsSerpentineAndFillsTheSquareEvenly) {
 }
 
 TEST(Pattern, RasterStaysInsideForAnyPhaseAndUnevenLines) {
-  VERIFIES("LASSO-SNS-002");
+  VERIFIES("LASSO-SNS-002~1");
   ScanPlan plan = generic_plan(PatternKind::kRaster);
   plan.points = 1000;
   plan.cycles_a = 37;
@@ -107,7 +107,7 @@ TEST(Pattern, RasterStaysInsideForAnyPhaseAndUnevenLines) {
 }
 
 TEST(Pattern, PhaseTurnsTheRosette) {
-  VERIFIES("LASSO-SNS-003");
+  VERIFIES("LASSO-SNS-003~1");
   ScanPlan plan = generic_plan(PatternKind::kRosette);
   // With a phase of (a + b) / points turns, ray i - 1 is ray i of the figure without phase, turned by phase * b / (a + b) turns.
   plan.phase_turns = 0;
@@ -123,7 +123,7 @@ TEST(Pattern, PhaseTurnsTheRosette) {
 }
 
 TEST(Pattern, TimesAreEvenMonotoneAndEndAtTheDuration) {
-  VERIFIES("LASSO-SNS-004");
+  VERIFIES("LASSO-SNS-004~1");
   const ScanPlan plan = generic_plan(PatternKind::kRosette);
   EXPECT_EQ(pattern_time_us(plan, 0), 0);
   EXPECT_EQ(pattern_time_us(plan, static_cast<std::uint16_t>(plan.points - 1)), plan.duration_us);
@@ -135,7 +135,7 @@ TEST(Pattern, TimesAreEvenMonotoneAndEndAtTheDuration) {
 }
 
 TEST(Pattern, GeneratorAgreesWithTheClosedForm) {
-  VERIFIES("LASSO-SNS-005");
+  VERIFIES("LASSO-SNS-005~1");
   for (const PatternKind kind : {PatternKind::kRosette, PatternKind::kLissajous, PatternKind::kRaster}) {
     ScanPlan plan = generic_plan(kind);
     plan.points = kMaxRays;
@@ -152,7 +152,7 @@ TEST(Pattern, GeneratorAgreesWithTheClosedForm) {
 }
 
 TEST(PatternDeathTest, RaysBeyondThePlanAreABug) {
-  VERIFIES("LASSO-SNS-005");
+  VERIFIES("LASSO-SNS-005~1");
   const ScanPlan plan = generic_plan(PatternKind::kRosette);
   EXPECT_DEATH((void)pattern_direction(plan, plan.points), "pattern index");
   EXPECT_DEATH((void)pattern_time_us(plan, plan.points), "pattern index");
@@ -165,7 +165,7 @@ TEST(PatternDeathTest, RaysBeyondThePlanAreABug) {
 }
 
 TEST(PatternValidation, AcceptsExactlyTheCoprimeUnequalCycleCounts) {
-  VERIFIES("LASSO-SNS-006");
+  VERIFIES("LASSO-SNS-006~1");
   for (const PatternKind kind : {PatternKind::kRosette, PatternKind::kLissajous}) {
     ScanPlan plan = generic_plan(kind);
     plan.points = 64;
@@ -181,7 +181,7 @@ TEST(PatternValidation, AcceptsExactlyTheCoprimeUnequalCycleCounts) {
 }
 
 TEST(PatternValidation, RefusesEachNumberThatIsNotFinite) {
-  VERIFIES("LASSO-SNS-006");
+  VERIFIES("LASSO-SNS-006~1");
   for (double ScanPlan::*member :
        {&ScanPlan::phase_turns, &ScanPlan::center_x, &ScanPlan::center_y, &ScanPlan::half_x, &ScanPlan::half_y}) {
     for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
@@ -201,7 +201,7 @@ Status with(T ScanPlan::*member, T value, PatternKind kind = PatternKind::kRoset
 }
 
 TEST(PatternValidation, RefusesWhatIsOutOfRange) {
-  VERIFIES("LASSO-SNS-006");
+  VERIFIES("LASSO-SNS-006~1");
   EXPECT_EQ(with(&ScanPlan::points, static_cast<std::uint16_t>(kMinPatternPoints - 1)), Status::kBadValue);
   EXPECT_EQ(with(&ScanPlan::points, static_cast<std::uint16_t>(kMaxRays)), Status::kOk);
   EXPECT_EQ(with(&ScanPlan::points, static_cast<std::uint16_t>(kMaxRays + 1)), Status::kBadValue);

@@ -56,7 +56,7 @@ Status plan_box(const MissionParameters& parameters, const Pose& pose, ScanPlan&
 }
 
 TEST(Planner, FitsTheRectangleAroundTheTarget) {
-  VERIFIES("LASSO-SNS-010");
+  VERIFIES("LASSO-SNS-010~1");
   const Box box;
   const Pose pose = generic_pose({0.2, -0.3, 5});
   MissionParameters parameters = preset_parameters();
@@ -73,7 +73,7 @@ TEST(Planner, FitsTheRectangleAroundTheTarget) {
 }
 
 TEST(Planner, ReachesFartherForAnUncertainTarget) {
-  VERIFIES("LASSO-SNS-010");
+  VERIFIES("LASSO-SNS-010~1");
   const Box box;
   const Pose pose = generic_pose({0.1, -0.2, 6});
   ScanPlan sure;
@@ -89,7 +89,7 @@ TEST(Planner, ReachesFartherForAnUncertainTarget) {
 }
 
 TEST(Planner, AimsAtTheGeometricCentreUpToPerspective) {
-  VERIFIES("LASSO-SNS-010");
+  VERIFIES("LASSO-SNS-010~1");
   const Box box;
   const Pose pose = generic_pose({0.2, -0.3, 60});
   ScanPlan plan;
@@ -100,7 +100,7 @@ TEST(Planner, AimsAtTheGeometricCentreUpToPerspective) {
 }
 
 TEST(Planner, TakesThePatternFromTheMission) {
-  VERIFIES("LASSO-SNS-011");
+  VERIFIES("LASSO-SNS-011~1");
   MissionParameters parameters = preset_parameters();
   parameters.pattern = 1;
   parameters.points = 512;
@@ -118,7 +118,7 @@ TEST(Planner, TakesThePatternFromTheMission) {
 }
 
 TEST(Planner, PhaseMovesByTheGoldenSectionAndNeverLeavesItsRange) {
-  VERIFIES("LASSO-SNS-011");
+  VERIFIES("LASSO-SNS-011~1");
   const MissionParameters parameters = preset_parameters();
   for (const std::uint32_t id : {0u, 1u, 2u, 3u, 1000000u, 0xFFFFFFFFu}) {
     ScanPlan plan;
@@ -131,7 +131,7 @@ TEST(Planner, PhaseMovesByTheGoldenSectionAndNeverLeavesItsRange) {
 }
 
 TEST(Planner, CutsATargetLargerThanTheFieldOfViewAlikeOnBothSides) {
-  VERIFIES("LASSO-SNS-012");
+  VERIFIES("LASSO-SNS-012~1");
   MissionParameters parameters = preset_parameters();
   parameters.fov_half_x_rad = 0.1;
   parameters.fov_half_y_rad = 0.07;
@@ -144,7 +144,7 @@ TEST(Planner, CutsATargetLargerThanTheFieldOfViewAlikeOnBothSides) {
 }
 
 TEST(Planner, ScansThePartThatCanBeSeen) {
-  VERIFIES("LASSO-SNS-012");
+  VERIFIES("LASSO-SNS-012~1");
   const Box box;
   const MissionParameters parameters = preset_parameters();
   const Pose pose = generic_pose({1.3, 0.2, 5});
@@ -159,7 +159,7 @@ TEST(Planner, ScansThePartThatCanBeSeen) {
 }
 
 TEST(Planner, HullPointsBehindTheSensorAreLeftOut) {
-  VERIFIES("LASSO-SNS-012");
+  VERIFIES("LASSO-SNS-012~1");
   std::vector<HullPoint> hull = {{{0.1F, 0.2F, 0.0F}}, {{-0.1F, -0.1F, 0.0F}}, {{0.5F, 0.5F, -9.0F}}};
   const Pose pose{Quat(1, 0, 0, 0), Vec3(0, 0, 4)};
   ScanPlan plan;
@@ -169,7 +169,7 @@ TEST(Planner, HullPointsBehindTheSensorAreLeftOut) {
 }
 
 TEST(Planner, RefusesWhatCannotBeScannedAndLeavesThePlan) {
-  VERIFIES("LASSO-SNS-013");
+  VERIFIES("LASSO-SNS-013~1");
   const MissionParameters parameters = preset_parameters();
   const double nan = std::numeric_limits<double>::quiet_NaN();
   ScanPlan plan;
@@ -186,7 +186,7 @@ TEST(Planner, RefusesWhatCannotBeScannedAndLeavesThePlan) {
 }
 
 TEST(Planner, RefusesAHullThatHasNoExtentOrLiesBehind) {
-  VERIFIES("LASSO-SNS-013");
+  VERIFIES("LASSO-SNS-013~1");
   const Pose pose = generic_pose({0, 0, 5});
   const Pose ahead{Quat(1, 0, 0, 0), Vec3(0, 0, 5)};
   const HullPoint one[] = {{{0.1F, 0.1F, 0.1F}}};
@@ -199,7 +199,7 @@ TEST(Planner, RefusesAHullThatHasNoExtentOrLiesBehind) {
 }
 
 TEST(Planner, RefusesAMissionWhoseCurveDoesNotClose) {
-  VERIFIES("LASSO-SNS-013");
+  VERIFIES("LASSO-SNS-013~1");
   MissionParameters parameters = preset_parameters();
   parameters.cycles_a = 18;
   parameters.cycles_b = 12;

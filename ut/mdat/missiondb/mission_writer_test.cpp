@@ -28,7 +28,7 @@ double largest_angle(const MissionSource& source, double& nearest_m) {
 }
 
 TEST(MissionWriter, WritesAMissionThatLoadsWhateverTheTargetsSize) {
-  VERIFIES("LASSO-GND-012");
+  VERIFIES("LASSO-GND-012~1");
   const Folder folder;
   for (const double scale : {0.02, 0.3, 1.0, 10.0, 300.0}) {
     const auto file = folder.path() / "new.toml";
@@ -46,7 +46,7 @@ TEST(MissionWriter, WritesAMissionThatLoadsWhateverTheTargetsSize) {
 }
 
 TEST(MissionWriter, SizeDependentValuesGrowWithTheTarget) {
-  VERIFIES("LASSO-GND-012");
+  VERIFIES("LASSO-GND-012~1");
   const Folder folder;
   write_new_mission(kProbe, 1, folder.path() / "small.toml");
   write_new_mission(kProbe, 10, folder.path() / "large.toml");
@@ -63,13 +63,13 @@ TEST(MissionWriter, SizeDependentValuesGrowWithTheTarget) {
 }
 
 TEST(MissionWriter, ExplainsEveryFlightParameter) {
-  VERIFIES("LASSO-GND-012");
+  VERIFIES("LASSO-GND-012~1");
   const std::string text = new_mission_text(kProbe, 1, "probe.toml");
   for (const ValueRow& row : flight_rows()) EXPECT_NE(text.find(row.meaning), std::string::npos) << row.key;
 }
 
 TEST(MissionWriter, RefusesWhatItCannotReadOrWriteAndLeavesNothing) {
-  VERIFIES("LASSO-GND-012");
+  VERIFIES("LASSO-GND-012~1");
   const Folder folder;
   const auto attempt = [](const std::filesystem::path& model, double scale, const std::filesystem::path& out) {
     return mission_error_of([&] { write_new_mission(model, scale, out); });

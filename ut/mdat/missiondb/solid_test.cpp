@@ -15,14 +15,14 @@ constexpr double kPi = std::numbers::pi;
 double unit_area(double sweep_rad, int sides) { return 0.5 * sides * std::sin(sweep_rad / sides); }
 
 TEST(Solid, BoxIsClosedAndHasItsVolume) {
-  VERIFIES("LASSO-GND-006");
+  VERIFIES("LASSO-GND-006~1");
   const Mesh box = make_box({2, 3, 5});
   EXPECT_TRUE(is_closed(box));
   EXPECT_NEAR(signed_volume(box), 30, 1e-12);
 }
 
 TEST(Solid, RodAndConeHaveTheVolumeOfTheirPrismAndPyramid) {
-  VERIFIES("LASSO-GND-006");
+  VERIFIES("LASSO-GND-006~1");
   const Eigen::Vector3d from(0.3, -1, 2), to(1.5, 0.7, 0.4);
   const double length = (to - from).norm();
   const Mesh rod = make_rod(from, to, 0.2, 0.2, 17);
@@ -34,7 +34,7 @@ TEST(Solid, RodAndConeHaveTheVolumeOfTheirPrismAndPyramid) {
 }
 
 TEST(Solid, RodLiesAroundItsAxis) {
-  VERIFIES("LASSO-GND-006");
+  VERIFIES("LASSO-GND-006~1");
   const Eigen::Vector3d from(0.3, -1, 2), to(1.5, 0.7, 0.4);
   const Eigen::Vector3d axis = (to - from).normalized();
   const Mesh rod = make_rod(from, to, 0.2, 0.2, 12);
@@ -48,7 +48,7 @@ TEST(Solid, RodLiesAroundItsAxis) {
 }
 
 TEST(Solid, TubeWithAWallIsClosedWhicheverWayItsProfileRuns) {
-  VERIFIES("LASSO-GND-006");
+  VERIFIES("LASSO-GND-006~1");
   const double expected = unit_area(2 * kPi, 40) * (1.0 - 0.81) * 2;
   const Mesh forward = make_revolve({{0, 0.9}, {0, 1}, {2, 1}, {2, 0.9}}, {0.4, 2 * kPi, 40});
   const Mesh backward = make_revolve({{2, 0.9}, {2, 1}, {0, 1}, {0, 0.9}}, {0.4, 2 * kPi, 40});
@@ -59,7 +59,7 @@ TEST(Solid, TubeWithAWallIsClosedWhicheverWayItsProfileRuns) {
 }
 
 TEST(Solid, PartialTurnIsClosedByCapsEvenOfAConcaveProfile) {
-  VERIFIES("LASSO-GND-006");
+  VERIFIES("LASSO-GND-006~1");
   // An L: 1 x 3 and 2 x 1 in (x, r), its volume by Pappus with the polygon's chord factor.
   const std::vector<Eigen::Vector2d> profile{{0, 1}, {3, 1}, {3, 2}, {1, 2}, {1, 4}, {0, 4}};
   const double moment = 0.5 * (3 * (4 - 1) + 1 * (16 - 4));  // integral of r over the area
@@ -71,14 +71,14 @@ TEST(Solid, PartialTurnIsClosedByCapsEvenOfAConcaveProfile) {
 }
 
 TEST(Solid, PartialTurnOnTheAxisIsClosed) {
-  VERIFIES("LASSO-GND-006");
+  VERIFIES("LASSO-GND-006~1");
   const Mesh wedge = make_revolve({{0, 0}, {0, 1}, {2, 1}, {2, 0}}, {0, 1.0, 3});
   EXPECT_TRUE(is_closed(wedge));
   EXPECT_NEAR(signed_volume(wedge), 2 * unit_area(1.0, 3), 1e-12);
 }
 
 TEST(Solid, DishHasConstantThicknessAlongItsAxisAndFollowsTheParaboloid) {
-  VERIFIES("LASSO-GND-006");
+  VERIFIES("LASSO-GND-006~1");
   const DishShape shape{0.65, 0.24, 0.05, 6, 48};
   const Mesh dish = make_dish(shape);
   EXPECT_TRUE(is_closed(dish));
@@ -90,7 +90,7 @@ TEST(Solid, DishHasConstantThicknessAlongItsAxisAndFollowsTheParaboloid) {
 }
 
 TEST(Solid, AppendKeepsBothSurfaces) {
-  VERIFIES("LASSO-GND-006");
+  VERIFIES("LASSO-GND-006~1");
   Mesh mesh = make_box({1, 1, 1});
   append(mesh, make_box({2, 2, 2}));
   EXPECT_TRUE(is_closed(mesh));

@@ -9,7 +9,7 @@ namespace lasso::mdat {
 namespace {
 
 TEST(ValueRow, FollowsTheFlightRows) {
-  VERIFIES("LASSO-GND-001");
+  VERIFIES("LASSO-GND-001~1");
   ASSERT_EQ(flight_rows().size(), parameter_rows().size());
   const ValueRow& pattern = *find_row(flight_rows(), "scan.pattern");
   EXPECT_EQ(pattern.kind, ValueKind::kChoice);
@@ -18,7 +18,7 @@ TEST(ValueRow, FollowsTheFlightRows) {
 }
 
 TEST(ValueRow, NumbersReadBackToTheSameDouble) {
-  VERIFIES("LASSO-GND-002");
+  VERIFIES("LASSO-GND-002~1");
   for (const double value : {1.0 / 9000, 0.3819660112501051, -1e-7, 4294967295.0, 1e6, 1e300, 0.1}) {
     EXPECT_EQ(std::stod(number_text(value)), value);
   }
@@ -26,7 +26,7 @@ TEST(ValueRow, NumbersReadBackToTheSameDouble) {
 }
 
 TEST(ValueRow, FindsWhatAPersonMeant) {
-  VERIFIES("LASSO-GND-003");
+  VERIFIES("LASSO-GND-003~1");
   std::vector<std::string> keys;
   for (const ValueRow& row : flight_rows()) keys.push_back(row.key);
   EXPECT_EQ(nearest("scan.ponts", keys), "scan.points");
@@ -36,7 +36,7 @@ TEST(ValueRow, FindsWhatAPersonMeant) {
 }
 
 TEST(ValueRow, WritesToml) {
-  VERIFIES("LASSO-GND-002");
+  VERIFIES("LASSO-GND-002~1");
   EXPECT_EQ(toml_text(*find_row(flight_rows(), "scan.pattern"), {1}), "\"lissajous\"");
   EXPECT_EQ(toml_text(*find_row(flight_rows(), "estimation.deskew"), {1}), "true");
   EXPECT_EQ(toml_text(*find_row(flight_rows(), "scan.points"), {1024}), "1024");

@@ -64,7 +64,7 @@ void expect_samples_list_hits(const DecodedTables& tables, const TestRay& ray, d
 }
 
 TEST(CompileModel, CellsOfSamplesListEveryElementHitWithinHalfASpacing) {
-  VERIFIES("LASSO-MDL-001");
+  VERIFIES("LASSO-MDL-001~1");
   for (const Compiled& model : models()) {
     SCOPED_TRACE(model.name);
     const DecodedTables tables(model.tables);
@@ -98,7 +98,7 @@ double walk(const DecodedTables& tables, const TestRay& ray, double from, double
 }
 
 TEST(CompileModel, AWalkWithJumpsFindsTheFirstElementOfEveryRay) {
-  VERIFIES("LASSO-MDL-002");
+  VERIFIES("LASSO-MDL-002~1");
   for (const Compiled& model : models()) {
     SCOPED_TRACE(model.name);
     const DecodedTables tables(model.tables);
@@ -139,7 +139,7 @@ std::uint32_t chessboard(const std::array<std::uint32_t, 3>& a, const std::array
 }
 
 TEST(CompileModel, DistancesOfEmptyCellsAreExactAndOfEmptyBricksNeverTooLarge) {
-  VERIFIES("LASSO-MDL-002");
+  VERIFIES("LASSO-MDL-002~1");
   for (const Compiled& model : models()) {
     SCOPED_TRACE(model.name);
     const DecodedTables tables(model.tables);
@@ -191,7 +191,7 @@ double distance_to_mesh(const Mesh& mesh, const Vector3d& p) {
 }
 
 TEST(CompileModel, FootPointsAreTheClosestSurfacePointsOfAllBrickCentres) {
-  VERIFIES("LASSO-MDL-004");
+  VERIFIES("LASSO-MDL-004~1");
   for (const Compiled& model : models()) {
     SCOPED_TRACE(model.name);
     const DecodedTables tables(model.tables);
@@ -207,7 +207,7 @@ TEST(CompileModel, FootPointsAreTheClosestSurfacePointsOfAllBrickCentres) {
 }
 
 TEST(CompileModel, EveryPointWithinTheBandLiesInANearBrick) {
-  VERIFIES("LASSO-MDL-003");
+  VERIFIES("LASSO-MDL-003~1");
   for (const Compiled& model : models()) {
     SCOPED_TRACE(model.name);
     const DecodedTables tables(model.tables);
@@ -227,7 +227,7 @@ TEST(CompileModel, EveryPointWithinTheBandLiesInANearBrick) {
 }
 
 TEST(CompileModel, ElementsCoverTheMeshAndNothingElse) {
-  VERIFIES("LASSO-MDL-005");
+  VERIFIES("LASSO-MDL-005~1");
   for (const Compiled& model : models()) {
     SCOPED_TRACE(model.name);
     const DecodedTables tables(model.tables);
@@ -264,7 +264,7 @@ TEST(CompileModel, ElementsCoverTheMeshAndNothingElse) {
 }
 
 TEST(CompileModel, SameInputGivesTheSameWords) {
-  VERIFIES("LASSO-MDL-006");
+  VERIFIES("LASSO-MDL-006~1");
   for (const Compiled& model : models()) {
     ModelOptions options;
     options.cell_size_m = 0.013;
@@ -274,7 +274,7 @@ TEST(CompileModel, SameInputGivesTheSameWords) {
 }
 
 TEST(CompileModel, SaysTheGridItChose) {
-  VERIFIES("LASSO-MDL-007");
+  VERIFIES("LASSO-MDL-023~1");
   Mesh mesh = shapes::box({-0.1, -0.2, 0.3}, {0.2, 0.46, 0.4});
   CompileReport report;
   std::vector<double> fractions;
@@ -307,7 +307,7 @@ std::string message_of(const Mesh& mesh, const ModelOptions& options) {
 }
 
 TEST(CompileModel, RefusesOptionsOutOfRangeByName) {
-  VERIFIES("LASSO-MDL-008");
+  VERIFIES("LASSO-MDL-008~1");
   const Mesh mesh = shapes::box({0, 0, 0}, {1, 1, 1});
   ModelOptions options;
   options.crease_angle_deg = 120;
@@ -318,7 +318,7 @@ TEST(CompileModel, RefusesOptionsOutOfRangeByName) {
 }
 
 TEST(CompileModel, RefusesWhatExceedsTheFlightCapacityWithFigureAndLimit) {
-  VERIFIES("LASSO-MDL-008");
+  VERIFIES("LASSO-MDL-008~1");
   ModelOptions options;
   options.cell_size_m = 0.2;
   const std::string crowded = message_of(shapes::sphere(0.3, 40, 60), options);

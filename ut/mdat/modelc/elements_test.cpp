@@ -24,7 +24,7 @@ Made elements_of(const Mesh& mesh, const LengthScale& scale) {
 }
 
 TEST(LengthScale, IsTheFinestThatHoldsTwiceTheReach) {
-  VERIFIES("LASSO-MDL-013");
+  VERIFIES("LASSO-MDL-013~1");
   for (const double reach : {0.4, 0.5001, 1.0, 1.3, 700.0, 4e6}) {
     const LengthScale scale(reach);
     EXPECT_LT(std::ldexp(2 * reach, scale.bits()), 0x1p31);
@@ -53,7 +53,7 @@ Vec3d normal_at(const std::vector<std::uint32_t>& words, std::uint32_t record, c
 }
 
 TEST(Elements, CurvatureGivesTheCornerNormalsOfTriangles) {
-  VERIFIES("LASSO-MDL-012");
+  VERIFIES("LASSO-MDL-012~1");
   const LengthScale scale(1.0);
   Mesh mesh = shapes::sphere(0.5, 10, 14);
   Random random(4);
@@ -72,7 +72,7 @@ TEST(Elements, CurvatureGivesTheCornerNormalsOfTriangles) {
 }
 
 TEST(Elements, CurvatureOfCylinderFacetsIsRadialAlongTheFacet) {
-  VERIFIES("LASSO-MDL-012");
+  VERIFIES("LASSO-MDL-012~1");
   const LengthScale scale(1.0);
   const Made made = elements_of(shapes::cylinder(0.3, 0.5, 36), scale);
   EXPECT_EQ(made.report.curved_elements, 36u);
@@ -89,14 +89,14 @@ TEST(Elements, CurvatureOfCylinderFacetsIsRadialAlongTheFacet) {
 }
 
 TEST(Elements, FlatModelsHaveTheZeroRecordOnly) {
-  VERIFIES("LASSO-MDL-012");
+  VERIFIES("LASSO-MDL-012~1");
   const Made made = elements_of(shapes::box({0, 0, 0}, {0.4, 0.5, 0.6}), LengthScale(1.0));
   EXPECT_EQ(made.set.curvature_words, std::vector<std::uint32_t>(kCurvatureWords, 0));
   EXPECT_EQ(made.report.quads, 6u);
 }
 
 TEST(Elements, RegionsExceedTheirPolygonsByLessThanTheRelaxationAtRightAngles) {
-  VERIFIES("LASSO-MDL-005");
+  VERIFIES("LASSO-MDL-005~1");
   Mesh mesh = shapes::box({0, 0, 0}, {0.4, 0.5, 0.6});
   shapes::move(mesh, shapes::generic_turn(), {0.1, -0.2, 0.05});
   const Made made = elements_of(mesh, LengthScale(1.0));
@@ -110,7 +110,7 @@ TEST(Elements, RegionsExceedTheirPolygonsByLessThanTheRelaxationAtRightAngles) {
 }
 
 TEST(Elements, ClosestPointBeatsADenseSampleOfThePolygon) {
-  VERIFIES("LASSO-MDL-004");
+  VERIFIES("LASSO-MDL-004~1");
   const Made made = elements_of(shapes::soup(30, 0.8, 9), LengthScale(1.0));
   Random random(10);
   for (const Element& e : made.set.list) {

@@ -15,7 +15,7 @@ Surface surface_of(const Vec3d& low, const Vec3d& high) {
 }
 
 TEST(Grid, CoversTheBoxAndItsMarginWithWholeBricks) {
-  VERIFIES("LASSO-MDL-007");
+  VERIFIES("LASSO-MDL-007~1");
   const Surface surface = surface_of({-0.3, 0.1, 0}, {0.4, 0.2, 0.05});
   for (const double margin : {0.0, 0.02, 0.4}) {
     const LengthScale scale(image_reach_m(surface, margin, 0.01));
@@ -31,7 +31,7 @@ TEST(Grid, CoversTheBoxAndItsMarginWithWholeBricks) {
 }
 
 TEST(Grid, PlacesAndIndicesAgree) {
-  VERIFIES("LASSO-MDL-007");
+  VERIFIES("LASSO-MDL-007~1");
   Grid grid;
   grid.bricks = {3, 4, 5};
   grid.cell_m = 0.5;
@@ -43,7 +43,7 @@ TEST(Grid, PlacesAndIndicesAgree) {
 }
 
 TEST(Grid, RefusesTooManyBricks) {
-  VERIFIES("LASSO-MDL-008");
+  VERIFIES("LASSO-MDL-008~1");
   const Surface surface = surface_of({0, 0, 0}, {1, 1, 1});
   const LengthScale scale(2);
   EXPECT_THROW(make_grid(surface, 0.1, 1e-4, scale), CompileError);  // over 1023 along an axis

@@ -29,7 +29,7 @@ std::uint32_t word_at(const std::vector<std::uint8_t>& bytes, std::size_t offset
 }
 
 TEST(ImageWriter, DirectoryFindsEveryTableAndCheckSumsHold) {
-  VERIFIES("LASSO-MDL-016");
+  VERIFIES("LASSO-MDL-016~1");
   const ModelTables tables = compile(shapes::sphere(0.3, 10, 12));
   const auto bytes = write_image(7, 3, preset_parameters(), tables);
   EXPECT_EQ(word_at(bytes, 0), kImageMagic);
@@ -59,7 +59,7 @@ TEST(ImageWriter, DirectoryFindsEveryTableAndCheckSumsHold) {
 }
 
 TEST(ImageWriter, ParametersAreBinary64InTheOrderOfTheirRows) {
-  VERIFIES("LASSO-MDL-016");
+  VERIFIES("LASSO-MDL-016~1");
   MissionParameters parameters = preset_parameters();
   parameters.sigma0_m = 0.000123;
   parameters.initial_vz_mps = -0.25;
@@ -73,7 +73,7 @@ TEST(ImageWriter, ParametersAreBinary64InTheOrderOfTheirRows) {
 }
 
 TEST(ImageWriter, TheFlightLoaderAcceptsEveryShape) {
-  VERIFIES("LASSO-MDL-016");
+  VERIFIES("LASSO-MDL-016~1");
   auto meshes = shapes::property_meshes();
   Mesh triangle;
   triangle.vertices = {{0, 0, 0}, {0.3, 0, 0}, {0, 0.4, 0.1}};
@@ -95,7 +95,7 @@ TEST(ImageWriter, TheFlightLoaderAcceptsEveryShape) {
 
 // The flight component's own look-up, in its own number type, finds what brute force in double precision finds.
 TEST(ImageWriter, TheFlightLookUpHitsWhatBruteForceHits) {
-  VERIFIES("LASSO-MDL-002");
+  VERIFIES("LASSO-MDL-002~1");
   for (const auto& [name, mesh] : shapes::property_meshes()) {
     SCOPED_TRACE(name);
     const ModelTables tables = compile(mesh);
@@ -132,7 +132,7 @@ TEST(ImageWriter, TheFlightLookUpHitsWhatBruteForceHits) {
 }
 
 TEST(ImageWriter, RefusesWhatTheFlightComponentHasNoRoomFor) {
-  VERIFIES("LASSO-MDL-008");
+  VERIFIES("LASSO-MDL-008~1");
   ModelTables tables = compile(shapes::box({0, 0, 0}, {0.3, 0.2, 0.1}));
   tables[TableId::kFootPoints].resize(kMaxImageBytes / 4, 0);
   EXPECT_THROW(write_image(1, 1, preset_parameters(), tables), CompileError);

@@ -36,7 +36,7 @@ bool clipped_meets(const Element& e, const Vec3d& center, double half) {
 }
 
 TEST(RayField, TheBoxTestAgreesWithClipping) {
-  VERIFIES("LASSO-MDL-001");
+  VERIFIES("LASSO-MDL-001~1");
   Mesh mesh = shapes::soup(60, 1, 21);
   shapes::append(mesh, shapes::box({-0.4, -0.3, -0.2}, {0.1, 0.2, 0.3}));
   Random random(22);
@@ -59,7 +59,7 @@ TEST(RayField, TheBoxTestAgreesWithClipping) {
 }
 
 TEST(RayField, ListsAreExactlyTheElementsThatCrossTheWidenedCells) {
-  VERIFIES("LASSO-MDL-001");
+  VERIFIES("LASSO-MDL-001~1");
   const std::vector<Element> elements = elements_of(shapes::soup(40, 1, 23));
   Grid grid;
   grid.origin = Vec3d::Constant(-0.9);
@@ -92,7 +92,7 @@ TEST(RayField, ListsAreExactlyTheElementsThatCrossTheWidenedCells) {
 }
 
 TEST(RayField, EqualListsAreStoredOnceAndCounted) {
-  VERIFIES("LASSO-MDL-001");
+  VERIFIES("LASSO-MDL-001~1");
   const std::vector<Element> elements = elements_of(shapes::sheet(1, 1));
   Grid grid;
   grid.origin = Vec3d::Constant(-0.31);
@@ -107,7 +107,7 @@ TEST(RayField, EqualListsAreStoredOnceAndCounted) {
 }
 
 TEST(RayField, ATooLongListNamesItsPlace) {
-  VERIFIES("LASSO-MDL-008");
+  VERIFIES("LASSO-MDL-008~1");
   std::vector<Element> elements = elements_of(shapes::soup(kMaxElementsPerCell + 1, 0.01, 25));
   Grid grid;
   grid.origin = Vec3d::Constant(-1);

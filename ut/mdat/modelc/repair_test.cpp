@@ -21,7 +21,7 @@ std::string message_of(const Mesh& mesh) {
 }
 
 TEST(RepairMesh, WeldsTheVerticesOfAnStlBox) {
-  VERIFIES("LASSO-MDL-009");
+  VERIFIES("LASSO-MDL-009~1");
   Mesh mesh = shapes::unwelded(shapes::box({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}));
   Random random(1);
   for (Vec3d& v : mesh.vertices) v += 3e-7 * shapes::random_vector(random);
@@ -36,7 +36,7 @@ TEST(RepairMesh, WeldsTheVerticesOfAnStlBox) {
 }
 
 TEST(RepairMesh, DropsTrianglesWithoutAreaAndDoubles) {
-  VERIFIES("LASSO-MDL-009");
+  VERIFIES("LASSO-MDL-009~1");
   Mesh mesh = shapes::box({0, 0, 0}, {1, 1, 1});
   mesh.triangles.push_back({0, 0, 1});          // two corners are one
   mesh.vertices.emplace_back(0.5, 0, 0);        // in the middle of an edge
@@ -54,7 +54,7 @@ TEST(RepairMesh, DropsTrianglesWithoutAreaAndDoubles) {
 }
 
 TEST(RepairMesh, NamesTheVertexOrTriangleAtFault) {
-  VERIFIES("LASSO-MDL-008");
+  VERIFIES("LASSO-MDL-008~1");
   Mesh mesh = shapes::box({0, 0, 0}, {1, 1, 1});
   EXPECT_NE(message_of(Mesh{}).find("no triangles"), std::string::npos);
   mesh.triangles[7][2] = 99;
@@ -65,7 +65,7 @@ TEST(RepairMesh, NamesTheVertexOrTriangleAtFault) {
 }
 
 TEST(RepairMesh, DoubtsTheScaleOfAbsurdExtents) {
-  VERIFIES("LASSO-MDL-008");
+  VERIFIES("LASSO-MDL-008~1");
   for (const double size : {1e-4, 1e6, 1e300}) {
     const std::string message = message_of(shapes::box({0, 0, 0}, {size, size, size}));
     EXPECT_NE(message.find("is the scale right?"), std::string::npos) << size << ": " << message;
@@ -74,7 +74,7 @@ TEST(RepairMesh, DoubtsTheScaleOfAbsurdExtents) {
 }
 
 TEST(RepairMesh, RefusesAMeshOfSliversOnly) {
-  VERIFIES("LASSO-MDL-008");
+  VERIFIES("LASSO-MDL-008~1");
   Mesh mesh;
   mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0.5, 1e-9, 0}};
   mesh.triangles = {{0, 1, 2}};

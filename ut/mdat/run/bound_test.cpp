@@ -61,7 +61,7 @@ double incidence_cosine(const sim::RayCaster& target, const Pose& T_sensor_targe
 }
 
 TEST(Bound, IsTheInverseOfTheInformationOfFiniteDifferences) {
-  VERIFIES("LASSO-MDT-001");
+  VERIFIES("LASSO-MDT-001~1");
   const auto box = make_box({0.2, 0.3, 0.4});
   const Pose truth = generic_pose(3);
   const std::vector<RangeSample> scan = random_scan(7, 300, 0.08);
@@ -98,7 +98,7 @@ TEST(Bound, IsTheInverseOfTheInformationOfFiniteDifferences) {
 }
 
 TEST(Bound, GrowsWithTheSquareOfTheNoiseAndFallsWithTheNumberOfScans) {
-  VERIFIES("LASSO-MDT-001");
+  VERIFIES("LASSO-MDT-001~1");
   const auto box = make_box({0.2, 0.3, 0.4});
   const Pose truth = generic_pose(3);
   std::vector<RangeSample> scan = random_scan(8, 200, 0.08);
@@ -112,7 +112,7 @@ TEST(Bound, GrowsWithTheSquareOfTheNoiseAndFallsWithTheNumberOfScans) {
 }
 
 TEST(Bound, AsksTheNoiseAtTheDepthAlongTheBoresight) {
-  VERIFIES("LASSO-MDT-001");
+  VERIFIES("LASSO-MDT-001~1");
   const auto box = make_box({1, 1, 0.5});  // its face at 2.5 m fills the view
   Pose truth;
   truth.p = Vec3(0, 0, 3);
@@ -128,7 +128,7 @@ TEST(Bound, AsksTheNoiseAtTheDepthAlongTheBoresight) {
 }
 
 TEST(Bound, IsUndefinedWhereADirectionIsOpenOrNothingWasHit) {
-  VERIFIES("LASSO-MDT-001");
+  VERIFIES("LASSO-MDT-001~1");
   const auto box = make_box({1, 1, 0.5});
   Pose facing;
   facing.p = Vec3(0, 0, 3);  // only one face in view: three directions are open

@@ -1,0 +1,46 @@
+"""What the gates left: out/GATE/summary.json (cfg/quality/gate.py), and what it says of the items that rest on it."""
+import json
+import os
+
+NOT_RUN = 'not run'
+
+
+def read_summary(out, gate):
+    """The summary of a gate; None where the gate has not run. ValueError, with place and remedy: the file is not one."""
+    path = out / gate / 'summary.json'
+    if not path.exists():
+        return None
+    place = os.path.relpath(path)
+    try:
+        summary = json.loads(path.read_text(encoding='utf-8'))
+    except (ValueError, OSError) as error:
+        raise ValueError(f'{place}:{getattr(error, "lineno", 1)}: not readable ({error}): run make {gate} again') from error
+    good = isinstance(summary, dict) and isinstance(summary.get('passed'), bool) and isinstance(summary.get('figures'), dict)
+    if not good or summary.get('gate') != gate:
+        raise ValueError(f'{place}:1: not the summary of gate {gate} ("gate", "passed", "figures"): run make {gate} again')
+    return summary
+
+
+def result_of(out, gate):
+    """passed, failed or not run."""
+    summary = read_summary(out, gate)
+    return NOT_RUN if summary is None else 'passed' if summary['passed'] else 'failed'
+
+
+def check_gates(items, out):
+    """Results of the gates that items name, and the problems: a gate that failed speaks against the items that rest on it."""
+    results, problems = {}, []
+    for item in items:
+        if not item.gate:
+            continue
+        if item.gate == 'trace':
+            problems.append(f'{item.at("gate")}: {item.id} cannot rest on this check itself: name other evidence')
+            continue
+        try:
+            results.setdefault(item.gate, result_of(out, item.gate))
+        except ValueError as error:
+            problems.append(str(error))
+            results[item.gate] = 'failed'
+        if item.active and results[item.gate] == 'failed':
+            problems.append(f'{item.at("gate")}: {item.id} rests on make {item.gate}, which failed: correct the cause and run it again')
+    return results, list(dict.fromkeys(problems))

@@ -1,0 +1,237 @@
+"""The items of reqs/*.yaml: reads them with the line of each key, and checks all that can be known without test reports (reqs/README.md)."""
+import dataclasses
+import functools
+import pathlib
+import re
+import sys
+
+try:
+    import yaml
+except ImportError:
+    sys.exit('trace: PyYAML is missing: install the Debian package python3-yaml (cfg/packages/ensure trace)')
+
+METHODS = ('test', 'analysis', 'inspection', 'demonstration')
+STATUSES = ('active', 'planned')
+PLATFORMS = ('host', 'ppc603e')
+ID = re.compile(r'LASSO-[A-Z]{3,4}-\d{3}')
+NEED = 'LASSO-NEED-'
+# What cannot be measured. Words with a meaning of their own in the field (nominal, correctly rounded, best fit) are not listed.
+VAGUE = re.compile(
+    r'\b(adequate(ly)?|appropriate(ly)?|as (far|much|fast|soon|many) as (possible|practical)|as (needed|required|necessary|applicable)|'
+    r'(where|when|if) (possible|practical|needed|necessary|applicable)|acceptabl[ey]|and/or|be able to handle|comfortabl[ey]|convenient(ly)?|'
+    r'eas(y|ily)|efficient(ly)?|etc|fast(er|est)?|flexibl[ey]|generally|gracefully?|high[- ]performance|intuitive(ly)?|lightweight|'
+    r'maximi[sz]e|minimi[sz]e|minimal|modern|normally|optimal(ly)?|proper(ly)?|quick(ly)?|rapid(ly)?|reasonabl[ey]|reliabl[ey]|robust(ly)?|'
+    r'seamless(ly)?|(?<!most )(?<!least )significant(ly)?|simple|simply|slow(ly)?|state[- ]of[- ]the[- ]art|sufficient(ly)?|suitabl[ey]|tbc|tbd|tbr|timely|'
+    r'typical(ly)?|user[- ]friendly|usually|versatile|should|might)\b', re.IGNORECASE)
+SHALL = re.compile(r'\bshall\b', re.IGNORECASE)
+
+
+@dataclasses.dataclass
+class Item:
+    id: str = ''
+    rev: int = 0
+    text: str = ''
+    rationale: str = ''
+    parent: str = ''  # empty for needs alone
+    method: str = ''
+    safety: bool = False
+    status: str = ''
+    evidence: str = ''  # file in the repository
+    gate: str = ''  # make target whose last result speaks for the item
+    targets: tuple = ('host',)
+    area: str = ''
+    place: str = ''  # file:line of the item
+    lines: dict = dataclasses.field(default_factory=dict)  # key: file:line
+
+    def at(self, key):
+        return self.lines.get(key, self.place)
+
+    @property
+    def name(self):
+        return f'{self.id}~{self.rev}'
+
+    @property
+    def is_need(self):
+        return self.id.startswith(NEED)
+
+    @property
+    def active(self):
+        return self.status == 'active'
+
+
+def is_text(node):
+    return isinstance(node, yaml.ScalarNode) and node.tag == 'tag:yaml.org,2002:str' and node.value.strip() != ''
+
+
+def read_text(node):
+    return node.value.strip() if is_text(node) else None
+
+
+def read_word(words):
+    return lambda node: node.value if is_text(node) and node.value in words else None
+
+
+def read_count(node):
+    ok = isinstance(node, yaml.ScalarNode) and node.tag == 'tag:yaml.org,2002:int' and re.fullmatch(r'[1-9]\d*', node.value)
+    return int(node.value) if ok else None
+
+
+def read_flag(node):
+    return {'true': True, 'false': False}.get(node.value) if isinstance(node, yaml.ScalarNode) else None
+
+
+def read_targets(node):
+    words = tuple(child.value for child in node.value) if isinstance(node, yaml.SequenceNode) else ()
+    return words if words and all(word in PLATFORMS for word in words) and len(set(words)) == len(words) else None
+
+
+# Key: is it required, reader (None: wrong), what was expected.
+KEYS = {
+    'id': (True, lambda n: n.value if is_text(n) and ID.fullmatch(n.value) else None, 'LASSO-AREA-nnn'),
+    'rev': (True, read_count, 'a whole number from 1'),
+    'text': (True, read_text, 'a sentence'),
+    'rationale': (True, read_text, 'a sentence'),
+    'parent': (False, lambda n: n.value if is_text(n) and ID.fullmatch(n.value) else None, 'the id of an item, without its revision'),
+    'method': (True, read_word(METHODS), 'one of ' + ', '.join(METHODS)),
+    'safety': (True, read_flag, 'true or false'),
+    'status': (True, read_word(STATUSES), 'one of ' + ', '.join(STATUSES)),
+    'evidence': (False, read_text, 'a file of the repository'),
+    'gate': (False, read_text, 'the name of a make target'),
+    'targets': (False, read_targets, 'a list of ' + ', '.join(PLATFORMS)),
+}
+
+
+def read_item(node, file, problems):
+    """The item of one list entry; None, with the reasons in problems, where it is not one."""
+    place = f'{file}:{node.start_mark.line + 1}'
+    if not isinstance(node, yaml.MappingNode):
+        problems.append(f'{place}: not an item: write "- id: LASSO-AREA-nnn" and its keys below')
+        return None
+    item, before = Item(place=place, area=pathlib.Path(file).stem), len(problems)
+    for key, value in node.value:
+        at = f'{file}:{key.start_mark.line + 1}'
+        required_reader_expected = KEYS.get(key.value) if isinstance(key, yaml.ScalarNode) else None
+        if required_reader_expected is None:
+            problems.append(f'{at}: unknown key {getattr(key, "value", key.tag)!r}: the keys are {", ".join(KEYS)}')
+            continue
+        if key.value in item.lines:
+            problems.append(f'{at}: key {key.value!r} twice in one item: remove one')
+        _, read, expected = required_reader_expected
+        item.lines[key.value] = at
+        result = read(value)
+        if result is None:
+            shown = repr(value.value) if isinstance(value, yaml.ScalarNode) else 'of another type'
+            problems.append(f'{at}: {key.value} is {shown}: write {expected}')
+        else:
+            setattr(item, key.value, result)
+    for key, (required, _, expected) in KEYS.items():
+        if required and key not in item.lines:
+            problems.append(f'{place}: key {key!r} is missing: add it ({expected})')
+    return item if len(problems) == before else None
+
+
+def read_file(path, shown):
+    """The items of one file and the problems found in it."""
+    try:
+        root = yaml.compose(path.read_text(encoding='utf-8'), Loader=yaml.SafeLoader)
+    except yaml.MarkedYAMLError as error:
+        line = error.problem_mark.line + 1 if error.problem_mark else 1
+        return [], [f'{shown}:{line}: not valid YAML ({error.problem}): quote texts that hold ": ", and check the indentation']
+    except (yaml.YAMLError, UnicodeDecodeError) as error:
+        return [], [f'{shown}:1: not readable ({str(error).splitlines()[0]}): save the file as UTF-8 text']
+    except OSError as error:
+        return [], [f'{shown}:1: not readable ({error.strerror}): check the file and its permissions']
+    if not isinstance(root, yaml.SequenceNode):
+        return [], [f'{shown}:1: not a list of items: begin each item with "- id: LASSO-AREA-nnn"']
+    problems = []
+    items = [read_item(node, shown, problems) for node in root.value]
+    return [item for item in items if item is not None], problems
+
+
+def read_items(root):
+    """All items of ROOT/reqs/*.yaml in the files' order of names, needs first."""
+    files = sorted((root / 'reqs').glob('*.yaml'), key=lambda path: (path.stem != 'needs', path.stem))
+    if not files:
+        return [], [f'reqs: no requirements found below {root}: give the folder that holds reqs/']
+    items, problems = [], []
+    for path in files:
+        found, wrong = read_file(path, str(path.relative_to(root)))
+        items += found
+        problems += wrong
+    return items, problems
+
+
+def check_wording(item):
+    count = len(SHALL.findall(item.text))
+    if count != 1:
+        yield f'{item.at("text")}: {item.id} has {count} "shall": state one demand, or split the item'
+    vague = VAGUE.search(item.text)
+    if vague:
+        yield f'{item.at("text")}: {item.id} says "{vague.group()}", which cannot be measured: give the figure or the property'
+    if SHALL.search(item.rationale):
+        yield f'{item.at("rationale")}: {item.id} demands something in its rationale: make that an item of its own'
+
+
+def check_method(item, root):
+    by_test = item.method == 'test'
+    if by_test and (item.evidence or item.gate):
+        yield f'{item.place}: {item.id} is verified by test: remove its evidence and gate, or change its method'
+    if not by_test and 'targets' in item.lines:
+        yield f'{item.at("targets")}: {item.id} is verified by {item.method}: targets are for tests'
+    if by_test or not item.active:
+        return
+    if item.gate and item.gate not in make_targets(root):
+        yield f'{item.at("gate")}: {item.id}: there is no make {item.gate} yet: correct the name, or plan the item until there is'
+    if not item.evidence:
+        yield f'{item.at("method")}: {item.id} has no evidence of its {item.method}: add "evidence: FILE"'
+    elif not is_file_within(root, item.evidence):
+        yield f'{item.at("evidence")}: {item.id}: there is no file {item.evidence} in the repository, or it is empty: write it or correct the path'
+
+
+@functools.cache
+def make_targets(root):
+    makefile = root / 'Makefile'
+    return re.findall(r'^([a-z][a-z0-9-]*):', makefile.read_text(encoding='utf-8'), re.MULTILINE) if makefile.is_file() else []
+
+
+def is_file_within(root, name):
+    path = (root / name.split('#')[0]).resolve()
+    return path.is_relative_to(root.resolve()) and path.is_file() and path.stat().st_size > 0
+
+
+def check_parent(item, by_id):
+    if item.is_need:
+        if item.parent:
+            yield f'{item.at("parent")}: {item.id} is a mission need: needs have no parent'
+        return
+    if not item.parent:
+        yield f'{item.place}: {item.id} has no parent: name the need or requirement that it follows from'
+    elif item.parent not in by_id:
+        yield f'{item.at("parent")}: {item.id}: its parent {item.parent} does not exist: correct the id'
+    elif is_circular(item, by_id):
+        yield f'{item.at("parent")}: {item.id} is its own ancestor by its parent {item.parent}: parents lead to a mission need'
+
+
+def is_circular(item, by_id):
+    seen, at = set(), item.parent
+    while at in by_id and at not in seen:
+        if at == item.id:
+            return True
+        seen.add(at)
+        at = by_id[at].parent
+    return False
+
+
+def check_items(items, root):
+    """Problems of the items among each other, in the order of their places."""
+    by_id, problems = {}, []
+    for item in items:
+        if item.id in by_id:
+            problems.append(f'{item.at("id")}: {item.id} was used before ({by_id[item.id].place}): give one of them a new number')
+        by_id.setdefault(item.id, item)
+    parents = {item.parent for item in items}
+    for item in items:
+        problems += [*check_wording(item), *check_parent(item, by_id), *check_method(item, root)]
+        if item.is_need and item.id not in parents:
+            problems.append(f'{item.place}: {item.id} has no children: nothing would fulfil it')
+    return problems
