@@ -8,6 +8,8 @@ PPC := $(LASSO_OUT)/ppc
 BENCH := $(LASSO_OUT)/build-bench
 DEBUG := $(LASSO_OUT)/build-debug
 PROVE := $(LASSO_OUT)/build-prove
+COVERAGE := $(LASSO_OUT)/build-coverage
+MCDC := $(LASSO_OUT)/build-mcdc
 MISSION ?= cfg/missions/hubble_tenth.toml
 OUT ?= out/run
 PREFIX ?= /usr/local
@@ -20,16 +22,16 @@ export CCACHE_BASEDIR := $(CURDIR)
 NINJA_FLAGS := $(if $(MAKE_TERMOUT),,-- --quiet)
 export NINJA_STATUS := [%f/%t %es] 
 
-# $(call packages,LISTS), $(call configure,FOLDER,CMAKE OPTIONS), $(call compile,FOLDER[,TARGETS]), $(call ctest,FOLDER,REPORTS)
+# $(call packages,LISTS), $(call configure,FOLDER,CMAKE OPTIONS), $(call compile,FOLDER[,TARGETS]), $(call ctest,FOLDER,REPORTS[,OPTIONS])
 packages = @cfg/packages/ensure $(1)
 configure = @[ -e $(1)/build.ninja ] || { echo "configure $(1)"; mkdir -p $(1); \
   cmake -S $(SOURCE) -B $(1) -G Ninja -DCMAKE_BUILD_TYPE=Release $$(command -v ccache >/dev/null && echo -DCMAKE_CXX_COMPILER_LAUNCHER=ccache) $(2) \
     >$(1)/configure.log 2>&1 || { cat $(1)/configure.log; rm -f $(1)/build.ninja; false; }; }
 compile = @echo "build $(1)$(if $(2), ($(2)))"; cmake --build $(1) --parallel $(JOBS) $(if $(2),--target $(2)) $(NINJA_FLAGS)
 ctest = @rm -rf $(2); mkdir -p $(2); GTEST_OUTPUT=xml:$(abspath $(2))/ \
-  ctest --test-dir $(1) --parallel $(JOBS) --output-on-failure --no-tests=error --output-junit $(abspath $(2))/ctest.xml
+  ctest --test-dir $(1) --parallel $(JOBS) --output-on-failure --no-tests=error --output-junit $(abspath $(2))/ctest.xml $(3)
 
-.PHONY: help run test bench basin golden ppc-count prove ppc-test arrows trace evidence gates-selftest figures format lint install clean build
+.PHONY: help run test bench basin golden ppc-count prove ppc-test arrows coverage mcdc trace evidence gates-selftest figures format lint install clean build
 .DEFAULT_GOAL := help
 
 help: ## this list
@@ -88,6 +90,28 @@ arrows: ## the includes obey the arrows between rooms and stages (cfg/quality/ar
 	$(call packages,lint)
 	@cfg/quality/arrows
 
+# A test that ends in an invariant leaves its counts first (ut/support/main.cpp). The cache may not hand out files of another folder.
+coverage mcdc: export CCACHE_BASEDIR :=
+coverage: ## the unit tests take every line and branch of the flight component (reqs/waivers.csv); out/coverage
+	$(call packages,build coverage)
+	$(call configure,$(COVERAGE),-DCMAKE_BUILD_TYPE=Coverage -DLASSO_GROUND=OFF \
+	  -DCMAKE_CXX_FLAGS="-O0 --coverage -fprofile-abs-path -fno-exceptions -DLASSO_BEFORE_ABORT=__gcov_dump")
+	$(call compile,$(COVERAGE),flight_tests)
+	@find $(COVERAGE) -name '*.gcda' -delete; rm -rf $(LASSO_OUT)/coverage
+	$(call ctest,$(COVERAGE),$(LASSO_OUT)/coverage/test,-L flight)
+	@cfg/quality/coverage $(COVERAGE) $(SOURCE)
+
+mcdc: export LLVM_PROFILE_FILE := $(abspath $(MCDC))/profiles/%m.profraw
+mcdc: ## the unit tests show that each condition of the flight component decides by itself; out/mcdc
+	$(call packages,build coverage)
+	$(call configure,$(MCDC),-DCMAKE_BUILD_TYPE=Coverage -DLASSO_GROUND=OFF -DCMAKE_CXX_COMPILER=clang++-19 \
+	  -DCMAKE_CXX_FLAGS="-O1 -fprofile-instr-generate -fcoverage-mapping -fcoverage-mcdc -fprofile-list=$(abspath $(SOURCE))/cfg/quality/mcdc.list \
+	  -DLASSO_BEFORE_ABORT=__llvm_profile_write_file")
+	$(call compile,$(MCDC),flight_tests)
+	@rm -rf $(MCDC)/profiles $(LASSO_OUT)/mcdc
+	$(call ctest,$(MCDC),$(LASSO_OUT)/mcdc/test,-L flight)
+	@cfg/quality/mcdc $(MCDC) $(SOURCE)
+
 trace: ## every active requirement has a passing test or its evidence; after make test and make ppc-test; matrix in out/trace
 	$(call packages,trace)
 	@reqs/trace
@@ -97,7 +121,7 @@ evidence: ## collect what the gates left into out/evidence, for a reviewer, and 
 	@reqs/evidence
 
 gates-selftest: ## every gate fails on its planted violation (ut/gates)
-	$(call packages,build target lint trace)
+	$(call packages,build target lint trace coverage)
 	@cfg/quality/gates-selftest
 
 figures: ## write README.md's table from the results of run, bench, ppc-count and prove

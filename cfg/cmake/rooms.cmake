@@ -63,6 +63,8 @@ function(lasso_flight_tests ROOM)
       target_link_libraries(ut_${ROOM} PRIVATE ut_box_image)
     endif()
     add_test(NAME ut_${ROOM} COMMAND ut_${ROOM})
+    set_tests_properties(ut_${ROOM} PROPERTIES LABELS flight)
+    add_dependencies(flight_tests ut_${ROOM})
   endif()
 endfunction()
 
@@ -96,6 +98,7 @@ function(lasso_tests)
   add_library(ut_box_image STATIC ut/support/box_image.cpp)  # a flight image for the rooms' tests, made without the mission compiler
   target_link_libraries(ut_box_image PRIVATE lasso_warnings lasso_test_leave PUBLIC fsw_mission)
   target_compile_features(ut_box_image PUBLIC cxx_std_17)
+  add_custom_target(flight_tests)  # what coverage is measured by: ctest -L flight
   foreach(ROOM core geometry mission sense pose mode link exec)
     lasso_flight_tests(${ROOM})
   endforeach()

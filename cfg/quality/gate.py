@@ -20,6 +20,9 @@ TOOLS = {
     'clang-tidy-19': ('clang-tidy-19', 'lint'),
     'cppcheck': ('cppcheck', 'lint'),
     'ctest': ('cmake', 'build'),
+    'gcovr': ('gcovr', 'coverage'),
+    'llvm-cov-19': ('llvm-19', 'coverage'),
+    'llvm-profdata-19': ('llvm-19', 'coverage'),
 }
 
 
