@@ -40,7 +40,7 @@ void expect_sane(const Json& variant, bool noise, double rms_mm, double rms_deg)
 }
 
 TEST(PaperRun, LeavesResultsReportAndTelemetry) {
-  VERIFIES("LASSO-MDT-004~1 LASSO-GND-030~1 LASSO-SYS-001~1");
+  VERIFIES("LASSO-MDT-004~1 LASSO-GND-030~1 LASSO-SYS-001~1 LASSO-MDT-009~1 LASSO-MDT-010~1");
   const WorkFolder work;
   work.write_mission(kTwoRanges);
   const Answer answer = work.mdat("run missions/test.toml --frames 12 --seed 7 --out out/run");
@@ -77,7 +77,7 @@ std::size_t count_packets(const std::string& stream) {
 }
 
 TEST(PaperRun, IsTheSameForAnyNumberOfJobsAndChangesWithTheSeed) {
-  VERIFIES("LASSO-MDT-005~1");
+  VERIFIES("LASSO-MDT-005~1 LASSO-SYS-029~1");
   const WorkFolder work;
   work.write_mission(kTwoRanges);
   const std::string run = "run missions/test.toml --frames 5 --no-report ";
