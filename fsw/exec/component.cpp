@@ -26,8 +26,7 @@ Twist initial_rates(const MissionParameters& p) {
 
 // One sigma of the target's place on the least certain axis; what is less certain than the model's own size is not scanned wider.
 double place_sigma(const Mission& mission, const FilterState& filter) {
-  const double variance = filter.covariance.diagonal().segment<3>(3).maxCoeff();
-  const double sigma = square_root(variance > 0 ? variance : 0);
+  const double sigma = square_root(filter.covariance.diagonal().segment<3>(3).maxCoeff());
   return sigma < mission.radius_m ? sigma : mission.radius_m;
 }
 
@@ -66,8 +65,8 @@ Status Component::begin(TimeUs boundary_0_us) {
   if (!loaded_) return Status::kMissing;
   if (executive_.begun()) return Status::kBadOrder;
   const MissionParameters& p = mission_.parameters;
-  const Status status = executive_.begin(boundary_0_us, to_us(p.period_s));
-  if (status != Status::kOk || p.initial_present < 0.5) return status;
+  invariant(executive_.begin(boundary_0_us, to_us(p.period_s)) == Status::kOk, "slots of a valid period");
+  if (p.initial_present < 0.5) return Status::kOk;
   return start_tracking(initial_pose(p), initial_rates(p), boundary_0_us);
 }
 

@@ -61,7 +61,6 @@ class Component {
   std::size_t take_telemetry(Bytes out) { return queue_.take(out); }
 
   const Mission& mission() const { return mission_; }
-  DurationUs period_us() const { return executive_.period_us(); }
 
  private:
   enum class Request : std::uint8_t { kNone, kStart, kStop };

@@ -34,10 +34,8 @@ class Executive {
   // Slot j of frame k begins at boundary_0 + k * period + j * period / kSlotsPerFrame, rounded down.
   TimeUs next_slot_us() const;
   TimeUs next_boundary_us() const { return slot_ == 0 ? boundary_us_ : boundary_us_ + period_us_; }
-  std::uint32_t next_slot() const { return slot_; }    // 0: a boundary
-  std::uint32_t frame() const { return frame_; }       // of the next slot; wraps
-  TimeUs boundary_us() const { return boundary_us_; }  // of that frame
-  DurationUs period_us() const { return period_us_; }
+  std::uint32_t next_slot() const { return slot_; }  // 0: a boundary
+  std::uint32_t frame() const { return frame_; }     // of the next slot; wraps
 
   // The next slot runs at now_us: accounts for its lateness. A slot that begins later than its own length has slipped.
   void note_start(TimeUs now_us);

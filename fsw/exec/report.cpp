@@ -31,7 +31,7 @@ void copy_upper_triangle(const Mat6& covariance, float (&terms)[kPoseCovarianceT
   }
 }
 
-float sigma_of(double variance) { return static_cast<float>(variance > 0 ? square_root(variance) : 0); }
+float sigma_of(double variance) { return static_cast<float>(square_root(variance)); }
 
 void describe_registration(const Registration& r, PoseTelemetry& out) {
   out.scan_id = r.scan_id;

@@ -38,7 +38,8 @@ double polynomial(const double (&c)[N], double x) {
 
 // ---- square root ----
 
-// sqrt(m) for m in [1, 4) to a few units in the last place: Newton for 1/sqrt(m) from a guess by the exponent, then one step for the root.
+// sqrt(m) for m in [1, 4) to a few units in the last place, and in [1, 2) itself: Newton for 1/sqrt(m) from a guess by the exponent, then
+// one step for the root.
 double approximate_root(double m) {
   double y = of_bits(0x5FE6EB50C7B537A9 - (bits_of(m) >> 1));  // within 3.5 %
   for (int i = 0; i < 3; ++i) y = y * (1.5 - 0.5 * m * y * y);
@@ -47,17 +48,18 @@ double approximate_root(double m) {
 }
 
 // The integer nearest to sqrt(M), M = mantissa * 2^shift in [2^104, 2^106), from a near one. The remainder M - S^2 is small, so that
-// 64 bits hold it although M and S^2 wrap around: exact. At most two steps (the guess is within two units).
+// 64 bits hold it although M and S^2 wrap around: exact. The guess is within two units.
 std::uint64_t nearest_root(std::uint64_t mantissa, int shift, std::uint64_t guess) {
   std::uint64_t S = guess;
   auto remainder = static_cast<std::int64_t>((mantissa << shift) - S * S);
-  for (int i = 0; i < 3 && remainder > static_cast<std::int64_t>(S); ++i) {
-    remainder -= static_cast<std::int64_t>(2 * S + 1);
-    ++S;
-  }
-  for (int i = 0; i < 3 && remainder <= -static_cast<std::int64_t>(S); ++i) {
-    --S;
-    remainder += static_cast<std::int64_t>(2 * S + 1);
+  for (int i = 0; i < 2; ++i) {
+    if (remainder > static_cast<std::int64_t>(S)) {
+      remainder -= static_cast<std::int64_t>(2 * S + 1);
+      ++S;
+    } else if (remainder <= -static_cast<std::int64_t>(S)) {
+      --S;
+      remainder += static_cast<std::int64_t>(2 * S + 1);
+    }
   }
   return S;
 }
@@ -68,10 +70,7 @@ double root_of_normal(double x) {
   const int odd = exponent & 1;
   const std::uint64_t mantissa = (bits_of(x) & kMantissaMask) | kHiddenBit;
   const double m = of_bits((bits_of(x) & kMantissaMask) | (static_cast<std::uint64_t>(kExponentBias + odd) << kMantissaBits));
-  double root = approximate_root(m);
-  if (root < 1.0) root = 1.0;
-  const std::uint64_t below_two = kHiddenBit | kMantissaMask;
-  const std::uint64_t guess = root < 2.0 ? (bits_of(root) & kMantissaMask) | kHiddenBit : below_two;
+  const std::uint64_t guess = (bits_of(approximate_root(m)) & kMantissaMask) | kHiddenBit;
   const std::uint64_t S = nearest_root(mantissa, kMantissaBits + odd, guess);
   const int half = (exponent - odd) / 2;
   return of_bits((S & kMantissaMask) | (static_cast<std::uint64_t>(half + kExponentBias) << kMantissaBits));

@@ -40,7 +40,9 @@ Status join(const Mission& mission, TrackingMode mode, const Registration& regis
 
 // Where the prediction has no meaning any more (too long a step), pose and rates stay as they were and a valid scan starts anew.
 void predict_or_hold(const MissionParameters& p, TimeUs t_us, FilterState& filter) {
-  if (predict_filter(filter, t_us, filter_noise(p)) != Status::kOk) filter.t_us = t_us;
+  if (predict_filter(filter, t_us, filter_noise(p)) == Status::kOk) return;
+  filter.t_us = t_us;
+  filter.initialised = false;
 }
 
 ModeEvent event_of(const MissionParameters& p, bool valid, std::uint16_t missed) {

@@ -205,6 +205,47 @@ TEST(Component, NeedsAnImageThatFitsItsFrames) {
   EXPECT_EQ(slow.component->begin(0), Status::kMissing);
 }
 
+TEST(Component, ARefusedImageLeavesNothingToBeginWith) {
+  VERIFIES("LASSO-EXE-008~1");
+  ComponentScene scene(parameters());
+  ASSERT_EQ(scene.load().status, Status::kOk);
+  test::TestImage damaged = test::make_box_image(parameters());
+  damaged.data()[damaged.size / 2] ^= 1;
+  EXPECT_EQ(scene.component->load_image(Bytes(damaged.data(), damaged.size)).status, Status::kBadCrc);
+  EXPECT_EQ(scene.component->begin(0), Status::kMissing);
+}
+
+TEST(Component, ScansAtMostTheModelsRadiusFartherForARoughStart) {
+  VERIFIES("LASSO-EXE-002~1");
+  MissionParameters p = parameters();
+  p.start_sigma_m = 50;
+  p.fov_half_x_rad = 0.7;
+  p.fov_half_y_rad = 0.7;
+  ComponentScene scene(p);
+  scene.begin();
+  scene.run_frame();
+  const Mission& mission = scene.component->mission();
+  Pose start;
+  start.q = Quat(p.initial_qw, p.initial_qx, p.initial_qy, p.initial_qz);
+  start.p = Vec3(p.initial_x_m, p.initial_y_m, p.initial_z_m);
+  ScanPlan expected;
+  ASSERT_EQ(plan_scan(mission.parameters, {mission.hull, mission.center_m, mission.radius_m}, start, 0, expected), Status::kOk);
+  EXPECT_NEAR(scene.sensor.last_plan.half_x, expected.half_x, 1e-12);
+  EXPECT_NEAR(scene.sensor.last_plan.half_y, expected.half_y, 1e-12);
+}
+
+TEST(Component, AnEstimateIsPendingFromTheHandOverUntilItHasRun) {
+  VERIFIES("LASSO-EXE-002~1");
+  ComponentScene scene(parameters());
+  scene.begin();
+  scene.run_frame();
+  EXPECT_FALSE(scene.component->estimation_pending());
+  scene.component->run_slot(scene.component->next_slot_us());  // boundary 1: scan 0 is handed over
+  EXPECT_TRUE(scene.component->estimation_pending());
+  scene.component->run_estimation();
+  EXPECT_FALSE(scene.component->estimation_pending());
+}
+
 TEST(Component, SequenceCountWrapsThroughTheWholeChain) {
   VERIFIES("LASSO-LNK-001~1");
   MissionParameters p = parameters();

@@ -105,6 +105,17 @@ TEST(Report, CarriesQualityAndFilter) {
   }
 }
 
+TEST(Report, AFilterThatHasNotStartedHasNoSigmas) {
+  VERIFIES("LASSO-EXE-006~1");
+  TrackStep step = numbered_step();
+  step.after.filter = FilterState{};
+  const PoseTelemetry t = make_report(Mission{}, step, ScanPlan{}, 0);
+  for (std::size_t i = 0; i < 6; ++i) {
+    EXPECT_EQ(t.filter_sigma_pose[i], 0);
+    EXPECT_EQ(t.filter_sigma_rates[i], 0);
+  }
+}
+
 TEST(Report, CarriesPlanImageAndVersion) {
   VERIFIES("LASSO-EXE-006~1");
   const PoseTelemetry t = numbered_report();

@@ -65,6 +65,16 @@ TEST(SquareRoot, SquaresAndTheirNeighbours) {
   }
 }
 
+// Where the approximation could leave the binade of the root.
+TEST(SquareRoot, EndsOfTheBinades) {
+  VERIFIES("LASSO-GEO-001~1");
+  for (std::uint64_t step = 0; step < 100000; ++step) {
+    for (const double x : {same_bits<double>(bits(1.0) + step), same_bits<double>(bits(4.0) - 1 - step)}) {
+      ASSERT_EQ(bits(detail::square_root_in_software(x)), bits(std::sqrt(x))) << x;
+    }
+  }
+}
+
 TEST(SquareRoot, DomainErrorsAreOneQuietNan) {
   VERIFIES("LASSO-GEO-001~1 LASSO-GEO-006~1");
   for (const double x : {-1.0, -kSubnormal, -kInf, kNan, -kNan}) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <vector>
 
 #include "fsw/core/crc.hpp"
 #include "ut/support/generator.hpp"
@@ -112,6 +113,25 @@ TEST(Packet, WhatDoesNotFitIsNotAPacket) {
     writer.u16(0xCAFE);
     EXPECT_EQ(finish_packet(writer, out), 0u) << room;
   }
+}
+
+TEST(Packet, IsAtMostAsLongAsItsLengthFieldCanSay) {
+  VERIFIES("LASSO-LNK-001~1");
+  std::vector<std::uint8_t> packet(kPrimaryHeaderBytes + 0x10000 + 1);
+  const std::vector<std::uint8_t> data(packet.size() - kPacketHeaderBytes - kPacketTrailerBytes, 0xA5);
+  for (const std::size_t too_long : {0u, 1u}) {
+    const Bytes out(packet.data(), packet.size());
+    ByteWriter writer(out);
+    begin_packet(header_by_hand(), writer);
+    writer.bytes({data.data(), data.size() - 1 + too_long});
+    EXPECT_EQ(finish_packet(writer, out), too_long == 0 ? packet.size() - 1 : 0u);
+  }
+}
+
+TEST(Packet, SizeIsUnknownUntilThePrimaryHeaderIsWhole) {
+  VERIFIES("LASSO-LNK-001~1");
+  for (std::size_t bytes = 0; bytes < kPrimaryHeaderBytes; ++bytes) EXPECT_EQ(packet_size({kByHand.data(), bytes}), 0u) << bytes;
+  EXPECT_EQ(packet_size({kByHand.data(), kPrimaryHeaderBytes}), kByHand.size());
 }
 
 TEST(Packet, SequenceCountWrapsAtFourteenBits) {

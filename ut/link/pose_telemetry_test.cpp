@@ -127,6 +127,10 @@ TEST(PoseTelemetry, RefusesOtherPacketsAndLeavesThePoseAlone) {
   repair_crc(other);
   EXPECT_EQ(decode_pose(view(other), header, pose), Status::kBadMagic);
   other = good;
+  other[7] = 5;  // an event's service
+  repair_crc(other);
+  EXPECT_EQ(decode_pose(view(other), header, pose), Status::kBadMagic);
+  other = good;
   other[21] = 2;
   repair_crc(other);
   EXPECT_EQ(decode_pose(view(other), header, pose), Status::kBadMagic);

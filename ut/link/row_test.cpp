@@ -30,6 +30,17 @@ TEST(Row, TakesItsTypeAndCountFromTheMember) {
   EXPECT_EQ(rows_size(Span<const TelemetryRow<Sample>>(kRows), 3), 17u);
 }
 
+TEST(Row, IsTheSameWhenTheCompilerHasNotMadeIt) {
+  VERIFIES("LASSO-LNK-002~1");
+  const char* name = "large";
+  TelemetryRow<Sample> row = make_row<&Sample::large>(7, name, "us", "", "a signed number");
+  EXPECT_EQ(row.name, name);
+  EXPECT_EQ(row.type, kRows[0].type);
+  EXPECT_EQ(row.count, kRows[0].count);
+  const Sample sample{0, -5, {}};
+  EXPECT_EQ(row.value(sample, 0), kRows[0].value(sample, 0));
+}
+
 TEST(Row, WritesBigEndianInTheOrderOfTheTable) {
   VERIFIES("LASSO-LNK-002~1");
   const Sample sample{0xAB, -2, {1.0f, -0.5f}};

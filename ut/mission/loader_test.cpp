@@ -3,6 +3,7 @@
 #include <limits>
 #include <memory>
 
+#include "cfg/capacities.hpp"
 #include "fsw/core/crc.hpp"
 #include "fsw/mission/image_format.hpp"
 #include "fsw/mission/mission.hpp"
@@ -16,7 +17,12 @@ using test::TestImage;
 
 class LoaderTest : public ::testing::Test {
  protected:
-  TestImage image_ = test::make_box_image(preset_parameters());
+  static const TestImage& whole_image() {
+    static const TestImage image = test::make_box_image(preset_parameters());
+    return image;
+  }
+
+  TestImage image_ = whole_image();
   std::unique_ptr<Mission> mission_ = std::make_unique<Mission>();
 
   LoadFailure load() { return load_image(Bytes(image_.data(), image_.size), *mission_); }
@@ -26,6 +32,11 @@ class LoaderTest : public ::testing::Test {
   // Changes one word of a table, with check sums made good again: what is left is for the validation to find.
   void spoil(TableId id, std::size_t word, std::uint32_t value) {
     put(test::table_offset(image_, static_cast<std::uint32_t>(id)) + 4 * word, value);
+    test::repair_crcs(image_);
+  }
+  // The same with a word of the table's entry in the directory: 0 id, 1 words per record, 2 records, 3 offset.
+  void spoil_directory(TableId id, std::size_t word, std::uint32_t value) {
+    put(4 * (kImageHeaderWords + kDirectoryEntryWords * (static_cast<std::size_t>(id) - 1) + word), value);
     test::repair_crcs(image_);
   }
   // The load fails with `status`, and neither image nor mission has changed.
@@ -64,6 +75,25 @@ TEST_F(LoaderTest, RefusesEveryTruncation) {
   }
 }
 
+TEST_F(LoaderTest, RefusesMoreThanItsBufferHolds) {
+  VERIFIES("LASSO-IMG-005~1");
+  constexpr std::size_t kTooLarge = kMaxImageBytes + 8;
+  image_.storage.resize(kTooLarge / 8);
+  image_.size = kTooLarge;
+  put(8, static_cast<std::uint32_t>(kTooLarge));
+  put(kTooLarge - 4, crc32c(ConstBytes(image_.data(), kTooLarge - 4)));
+  expect_refused(Status::kOverCapacity);
+}
+
+TEST_F(LoaderTest, NamesTheTableThatWasDamagedBeforeTheImageWasSealed) {
+  VERIFIES("LASSO-IMG-003~1");
+  const std::size_t element = test::table_offset(image_, static_cast<std::uint32_t>(TableId::kElements));
+  image_.data()[element + 2] ^= 1;
+  put(image_.size - 4, crc32c(ConstBytes(image_.data(), image_.size - 4)));
+  EXPECT_EQ(load().table, static_cast<std::uint32_t>(TableId::kElements));
+  expect_refused(Status::kBadCrc);
+}
+
 TEST_F(LoaderTest, RefusesAFlippedBitAnywhere) {
   VERIFIES("LASSO-IMG-003~1");
   std::uint32_t seed = 12345;
@@ -92,7 +122,7 @@ TEST_F(LoaderTest, NamesTheHeadersFault) {
   };
   for (const Case& c : {Case{0, 1, Status::kBadMagic}, Case{1, 99, Status::kBadVersion}, Case{2, 12, Status::kBadLength},
                         Case{3, 10, Status::kBadLength}, Case{6, 1, Status::kBadVersion}}) {
-    image_ = test::make_box_image(preset_parameters());
+    image_ = whole_image();
     put(4 * c.word, c.value);
     expect_refused(c.status);
   }
@@ -118,30 +148,53 @@ TEST_F(LoaderTest, RefusesIndicesOutsideTheirTables) {
     Status status;
   };
   const Case cases[] = {
+      {TableId::kFieldGeometry, kLengthFractionBits, 7, Status::kBadValue},
       {TableId::kFieldGeometry, kLengthFractionBits, 31, Status::kBadValue},
       {TableId::kFieldGeometry, kBricksY, 0, Status::kBadValue},
       {TableId::kFieldGeometry, kBricksX, 1024, Status::kBadValue},
       {TableId::kFieldGeometry, kBricksX, 1, Status::kOverCapacity},
       {TableId::kFieldGeometry, kCellSize, 0x80000000u, Status::kBadValue},
       {TableId::kFieldGeometry, kModelRadius, 0, Status::kBadValue},
-      {TableId::kElements, 0, 0, Status::kBadValue},  // low x face without its normal
-      {TableId::kElements, 4, 1, Status::kBadValue},  // curvature that is not there
-      {TableId::kElements, 5, 2, Status::kBadValue},  // unknown flag
+      {TableId::kElements, 0, 0, Status::kBadValue},            // low x face without its normal
+      {TableId::kElements, 4, 1, Status::kBadValue},            // curvature that is not there
+      {TableId::kElements, 5, 2, Status::kBadValue},            // unknown flag
+      {TableId::kElements, 6, 0x20000000u, Status::kBadValue},  // a side's normal that is too long
+      {TableId::kElements, 8, 0x20000000u, Status::kBadValue},
       {TableId::kBricks, 0, 0x7FFFFFFFu, Status::kBadIndex},
       {TableId::kBricks, 0, kEmptyBit, Status::kBadIndex},  // no distance
       {TableId::kBricks, 1, 1u << 20, Status::kBadIndex},
       {TableId::kRayCells, 0, kEmptyBit | 251u, Status::kBadIndex},
       {TableId::kRayCells, 0, 5, Status::kBadIndex},  // a list of nothing
+      {TableId::kRayCells, 7, 501u << kListOffsetBits, Status::kBadIndex},
       {TableId::kRayCells, 7, 500u << kListOffsetBits | kListOffsetMask, Status::kBadIndex},
       {TableId::kRayLists, 0, 6, Status::kBadIndex},
       {TableId::kNearCells, 0, 7, Status::kBadIndex},
       {TableId::kEdges, 6, 0x10000000u, Status::kBadValue},
+      {TableId::kEdges, 10, 0x10000000u, Status::kBadValue},
       {TableId::kEdges, 14, 2, Status::kBadValue},
   };
   for (const Case& c : cases) {
-    image_ = test::make_box_image(preset_parameters());
+    image_ = whole_image();
     spoil(c.id, c.word, c.value);
     SCOPED_TRACE(static_cast<int>(c.id) * 1000 + static_cast<int>(c.word));
+    expect_refused(c.status);
+  }
+}
+
+TEST_F(LoaderTest, RefusesTablesOfAnotherLength) {
+  VERIFIES("LASSO-IMG-005~1");
+  struct Case {
+    TableId id;
+    std::uint32_t records;
+    Status status;
+  };
+  const auto parameters = static_cast<std::uint32_t>(parameter_rows().size());
+  for (const Case& c :
+       {Case{TableId::kParameters, parameters - 1, Status::kBadLength}, Case{TableId::kFieldGeometry, 0, Status::kBadLength},
+        Case{TableId::kFootPoints, 1, Status::kOverCapacity}, Case{TableId::kHull, 3, Status::kOverCapacity}}) {
+    image_ = whole_image();
+    spoil_directory(c.id, 2, c.records);
+    SCOPED_TRACE(static_cast<int>(c.id));
     expect_refused(c.status);
   }
 }
@@ -156,7 +209,7 @@ TEST_F(LoaderTest, RefusesADirectoryThatPointsAstray) {
   };
   for (const Case& c : {Case{0, 9, Status::kBadOrder}, Case{1, 20, Status::kBadLength}, Case{2, 1u << 30, Status::kTruncated},
                         Case{3, 0, Status::kBadIndex}, Case{3, 0xFFFFFFF8u, Status::kBadIndex}, Case{3, 289, Status::kBadIndex}}) {
-    image_ = test::make_box_image(preset_parameters());
+    image_ = whole_image();
     put(entry + 4 * c.word, c.value);
     put(image_.size - 4, crc32c(ConstBytes(image_.data(), image_.size - 4)));
     SCOPED_TRACE(c.word);

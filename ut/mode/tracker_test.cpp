@@ -179,9 +179,60 @@ TEST_F(TrackerTest, RefusesAStartThatMeansNothing) {
   Twist rates;
   rates.v_mps.z() = std::numeric_limits<double>::infinity();
   EXPECT_EQ(start_track(mission_, good, rates, 0, 0, state_), Status::kNotFinite);
+  rates = Twist{};
+  rates.omega_radps.y() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(start_track(mission_, good, rates, 0, 0, state_), Status::kNotFinite);
+  rates.omega_radps.y() = 1e7;  // more turns in 1 s than an angle can count
+  EXPECT_EQ(start_track(mission_, good, rates, 0, 1000000, state_), Status::kNotFinite);
   EXPECT_EQ(start_track(mission_, good, Twist{}, 0, kMaxPredictionUs + 1, state_), Status::kBadValue);
+  EXPECT_EQ(start_track(mission_, good, Twist{}, kMaxPredictionUs + 1, 0, state_), Status::kBadValue);
   EXPECT_EQ(state_.mode, TrackingMode::kStandby);
   EXPECT_FALSE(state_.filter.initialised);
+}
+
+// A covariance that says of two directions that they are one has no inverse with the scan's.
+TEST_F(TrackerTest, AScanThatTheFilterCannotJoinStartsItAnew) {
+  VERIFIES("LASSO-MOD-003~1");
+  start(small_error());
+  track(0);
+  state_.filter.covariance.topLeftCorner<6, 6>().setConstant(1e9);
+  const TrackStep step = track(1);
+  ASSERT_TRUE(step.registration.valid());
+  EXPECT_EQ(step.after.filter.accepted, 0u);
+  EXPECT_LT((step.after.filter.covariance.topLeftCorner<6, 6>() - step.registration.covariance).norm(), 1e-18);
+  EXPECT_EQ((step.after.filter.T_sensor_target.p - step.registration.T_sensor_target.p).norm(), 0);
+}
+
+TEST_F(TrackerTest, AfterTooLongAPauseAValidScanStartsTheFilterAnew) {
+  VERIFIES("LASSO-MOD-003~1");
+  start(small_error());
+  for (std::uint32_t k = 0; k < 5; ++k) track(k);
+  const Pose last = state_.filter.T_sensor_target;
+  const TimeUs resumed_us = 5 * kPeriodUs + kMaxPredictionUs;
+  const TrackStep pause = track_without_scan(mission_, PoseReason::kNoScan, 5, resumed_us, state_);
+  EXPECT_EQ(pause.registration.T_sensor_target.p, last.p);
+  EXPECT_EQ(pause.registration.t_us, resumed_us);
+  RangeImage& resumed = scan(5);  // the target has stood still since
+  for (RangeSample& sample : resumed.samples) sample.t_us += kMaxPredictionUs;
+  const TrackStep step = track_scan(mission_, *estimator_, resumed, pause.after);
+  ASSERT_TRUE(step.registration.valid());
+  EXPECT_EQ(step.after.filter.accepted, 0u);
+  EXPECT_LT((step.after.filter.covariance.topLeftCorner<6, 6>() - step.registration.covariance).norm(), 1e-18);
+}
+
+// Only memory that was hit can hold such a state: the scan may be good, but no filter stands behind it.
+TEST_F(TrackerTest, APoseWithoutAFilterIsNotValid) {
+  VERIFIES("LASSO-MOD-003~1");
+  MissionParameters p = test::box_parameters(scene_);
+  p.deskew = 0;
+  load(p);
+  start(small_error());
+  track(0);
+  state_.filter.rates.v_mps.x() = std::numeric_limits<double>::infinity();
+  const TrackStep step = track(1);
+  EXPECT_EQ(step.registration.reason, PoseReason::kSingular);
+  EXPECT_FALSE(step.registration.valid());
+  EXPECT_EQ(step.after.mode, TrackingMode::kCoasting);
 }
 
 TEST_F(TrackerTest, WithoutATrackTheLastPoseStandsWithItsOwnTime) {
