@@ -97,11 +97,10 @@ inline bool hit_element(const Element<N>& e, const FieldRay<N>& ray, typename N:
   if (!(front || (back && (e.flags & kElementTwoSided) != 0))) return false;
   const auto x = gap / tilt;
   const typename N::Length p[3] = {ray.m[0] + x * ray.u[0], ray.m[1] + x * ray.u[1], ray.m[2] + x * ray.u[2]};
-  int outside = 0;
-  for (int i = 0; i < 4; ++i) {
-    outside |= static_cast<int>(e.side[0][i] * p[0] + e.side[1][i] * p[1] + e.side[2][i] * p[2] < e.side_offset[i]);
-  }
-  if (outside != 0) return false;
+  typename N::Length inside[4];  // how far from each side
+  for (int i = 0; i < 4; ++i) inside[i] = e.side[0][i] * p[0] + e.side[1][i] * p[1] + e.side[2][i] * p[2] - e.side_offset[i];
+  const auto shorter = [](auto a, auto b) { return b < a ? b : a; };
+  if (shorter(shorter(inside[0], inside[1]), shorter(inside[2], inside[3])) < 0) return false;
   t = x;
   return true;
 }
@@ -129,10 +128,11 @@ inline FieldHit<N> sample_field(const Field<N>& field, const FieldRay<N>& ray, t
   const auto low = t - half;
   hit.t = t + half;
   for (std::uint32_t count = word >> kListOffsetBits; count > 0; --count, ++list) {
-    if (hit_element(field.elements[*list], ray, low, hit.t, hit.t)) {
-      hit.element = *list;
-      hit.found = true;
-    }
+    const std::uint32_t element = *list & ~kFinalEntry;
+    if (!hit_element(field.elements[element], ray, low, hit.t, hit.t)) continue;
+    hit.element = element;
+    hit.found = true;
+    if ((*list & kFinalEntry) != 0) break;
   }
   return hit;
 }

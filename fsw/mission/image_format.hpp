@@ -15,7 +15,7 @@
 namespace lasso {
 
 constexpr std::uint32_t kImageMagic = 0x33444C49;  // "3DLI"
-constexpr std::uint32_t kImageVersion = 1;
+constexpr std::uint32_t kImageVersion = 2;
 constexpr std::uint32_t kImageHeaderWords = 16;
 constexpr std::uint32_t kDirectoryEntryWords = 5;
 constexpr int kUnitFractionBits = 30;
@@ -31,7 +31,7 @@ enum class TableId : std::uint32_t {
   kCurvatures,      // kCurvatureWords a record; record 0 is all zero and means flat
   kBricks,          // kBrickWords a record, brick index = (iz * nby + iy) * nbx + ix
   kRayCells,        // 512 words a record (one occupied brick): cell = iz&7 << 6 | iy&7 << 3 | ix&7
-  kRayLists,        // 1 word a record: element index
+  kRayLists,        // 1 word a record: element index, and kFinalEntry
   kNearCells,       // 128 words a record (one near brick): 4x4x4 near cells of 2 words
   kFootPoints,      // kFootWords a record, one per brick of the grid
   kEdges,           // kEdgeWords a record
@@ -79,6 +79,10 @@ constexpr std::uint32_t kEmptyBit = 0x80000000u;
 constexpr std::uint32_t kRayCellsPerBrick = 512;
 constexpr std::uint32_t kListOffsetBits = 22;
 constexpr std::uint32_t kListOffsetMask = (1u << kListOffsetBits) - 1;
+
+// Entry of a cell's list: an element, largest in the cell first, and kFinalEntry where no ray that meets the element's front within half a
+// cell of the sample can have met another element of the list there before.
+constexpr std::uint32_t kFinalEntry = 0x80000000u;
 
 // Near cell = 2x2x2 ray cells; index in the brick = (iz&7)>>1 << 4 | (iy&7)>>1 << 2 | (ix&7)>>1. Word 0: 1 + the element closest to the
 // cell's centre; word 1: 1 + the closest element among those whose normal points against that one's (n.n' < 0), within the near band of

@@ -191,11 +191,11 @@ LoadFailure check_ray_cells(const Image& image) {
 }
 
 // Every word of the table is at most `maximum`.
-LoadFailure check_indices(const Image& image, TableId id, std::uint32_t maximum) {
+LoadFailure check_indices(const Image& image, TableId id, std::uint32_t flags, std::uint32_t maximum) {
   const Table& table = image[id];
   for (std::uint32_t i = 0; i < table.records; ++i) {
     for (std::uint32_t k = 0; k < table.words; ++k) {
-      if (table.word(i, k) > maximum) return failure(Status::kBadIndex, "element index", id, i);
+      if ((table.word(i, k) & ~flags) > maximum) return failure(Status::kBadIndex, "element index", id, i);
     }
   }
   return {};
@@ -236,8 +236,8 @@ LoadFailure check_tables(const Image& image) {
   if (!failed(result)) result = check_counts(image);
   if (!failed(result)) result = check_bricks(image);
   if (!failed(result)) result = check_ray_cells(image);
-  if (!failed(result)) result = check_indices(image, TableId::kRayLists, image[TableId::kElements].records - 1);
-  if (!failed(result)) result = check_indices(image, TableId::kNearCells, image[TableId::kElements].records);
+  if (!failed(result)) result = check_indices(image, TableId::kRayLists, kFinalEntry, image[TableId::kElements].records - 1);
+  if (!failed(result)) result = check_indices(image, TableId::kNearCells, 0, image[TableId::kElements].records);
   if (!failed(result)) result = check_elements(image);
   if (!failed(result)) result = check_edges(image);
   return result;

@@ -1,5 +1,7 @@
 #include "fsw/pose/register.hpp"
 
+#include <algorithm>
+
 #include "fsw/pose/gauss_newton.hpp"
 
 namespace lasso {
@@ -7,7 +9,8 @@ namespace {
 
 using N = FlightNumber;
 
-constexpr double kInsignificant = 0.03;  // squared step in sigmas^2
+constexpr double kInsignificant = 1;       // squared step in sigmas^2
+constexpr double kNarrowestKernel = 1e-4;  // of the kernel's squared width
 constexpr int kUndampedPasses = 6;
 
 bool is_small(const Vec6& x, const MissionParameters& p) {
@@ -15,10 +18,22 @@ bool is_small(const Vec6& x, const MissionParameters& p) {
          x.tail<3>().squaredNorm() < p.stop_translation_m * p.stop_translation_m;
 }
 
-// A step far below the pose's own uncertainty, by the noise that the residuals show: points at edges may change sides for ever.
+// Variance of the residuals over the assumed one.
+double noise_of(const Pass& pass, const MatchSettings<N>& s) {
+  return pass.sums.rows.chi_squared() / N::to_double(s.reference_variance) / pass.sums.rows.count();
+}
+
+// A step below the pose's own uncertainty, by the noise that the residuals show: points at edges may change sides for ever.
 bool is_insignificant(const Pass& pass, const MatchSettings<N>& s) {
-  const double noise = pass.sums.rows.chi_squared() / N::to_double(s.reference_variance) / pass.sums.rows.count();
-  return pass.x.dot(pass.H * pass.x) < kInsignificant * noise;
+  return pass.x.dot(pass.H * pass.x) < kInsignificant * noise_of(pass, s);
+}
+
+// Where the last pass shows less noise than the mission assumes, the kernel of the next one is narrower: a match with the wrong surface,
+// which the assumed noise would excuse, stands out.
+void narrow_kernel(const MissionParameters& p, const Pass& last, MatchSettings<N>& s) {
+  if (last.status != Status::kOk) return;
+  const double share = std::clamp(noise_of(last, s), kNarrowestKernel, 1.0);
+  s.kernel_squared = N::to_ratio(p.kernel_width * p.kernel_width * share);
 }
 
 StopReason reason_of(Status status) { return status == Status::kNoData ? StopReason::kTooFewPoints : StopReason::kSingular; }
@@ -33,7 +48,7 @@ void keep(const Pass& pass, const MatchSettings<N>& s, HitSolution& solution) {
 
 // Passes over all points, the first of them a walk along the whole gate: without one, surfaces in front go unnoticed. Points at edges can
 // change sides for ever, which the undamped steps would follow to and fro.
-void iterate_all(const Mission& mission, const MatchSettings<N>& s, Workspace& workspace, HitSolution& solution) {
+void iterate_all(const Mission& mission, MatchSettings<N>& s, Workspace& workspace, HitSolution& solution) {
   const int limit = static_cast<int>(mission.parameters.iterations_max);
   solution.stop = StopReason::kIterationLimit;
   PassKind kind{1, Lookup::kWalk, 1};
@@ -43,6 +58,7 @@ void iterate_all(const Mission& mission, const MatchSettings<N>& s, Workspace& w
     if (i + 1 >= kUndampedPasses) kind.damping *= 0.5;
     ++solution.iterations;
     keep(pass, s, solution);
+    narrow_kernel(mission.parameters, pass, s);
     if (pass.status != Status::kOk) {
       solution.stop = reason_of(pass.status);
       return;
@@ -71,7 +87,8 @@ HitSolution register_from(const Mission& mission, const Pose& start, const Openi
   double gate_m = opening.gate_first * mission.parameters.gate_first_m;
   for (int i = 0; i < opening.passes; ++i) {
     set_gate(gate_m, s);
-    (void)take_pass(mission, s, {opening.stride, Lookup::kWalk, 1}, workspace, solution.T_target_sensor);
+    const PassKind kind{opening.stride, i == 0 ? Lookup::kWalk : Lookup::kLast, 1};
+    narrow_kernel(mission.parameters, take_pass(mission, s, kind, workspace, solution.T_target_sensor), s);
     gate_m *= opening.gate_shrink;
     ++solution.iterations;
   }

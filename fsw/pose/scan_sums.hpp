@@ -2,7 +2,8 @@
 // say.
 //
 // Row of a point: J = (m x n, n), with m the measured point and n the surface normal, both in the target frame; residual r = n.(q - m), q
-// the surface point on the ray. Moving the scan by x changes n.m by J.x, so H = sum w J J^T, b = sum w J r.
+// the surface point on the ray. Moving the scan by x changes n.m by J.x, so H = sum w J J^T, b = sum w J r: the products of the columns of
+// (J, r), weighted.
 #pragma once
 
 #include <cstdint>
@@ -17,26 +18,29 @@ class ScanSums {
   // Adds a row of weight w; range_residual [m] is the same residual along the ray.
   void add(const typename N::Length* m, const typename N::Unit* n, typename N::Length r, typename N::Ratio w,
            typename N::Length range_residual) {
-    const typename N::Ratio J[6] = {m[1] * n[2] - m[2] * n[1], m[2] * n[0] - m[0] * n[2], m[0] * n[1] - m[1] * n[0], n[0], n[1], n[2]};
-    int k = 0;
-    for (int i = 0; i < 6; ++i) {
-      const typename N::Ratio wJ = w * J[i];
-      for (int j = 0; j <= i; ++j) block_[k++] += wJ * J[j];
-      block_[kRightSide + i] += wJ * r;
-    }
-    block_[kChiSquared] += w * r * r;
-    block_[kSquaredRange] += range_residual * range_residual;
-    ++count_;
-    if (++in_block_ == kBlock) flush();
+    const int row = rows_++;
+    column_[0][row] = m[1] * n[2] - m[2] * n[1];
+    column_[1][row] = m[2] * n[0] - m[0] * n[2];
+    column_[2][row] = m[0] * n[1] - m[1] * n[0];
+    for (int i = 0; i < 3; ++i) column_[3 + i][row] = n[i];
+    column_[kResidual][row] = r;
+    weight_[row] = w;
+    range_[row] = range_residual;
+    if (rows_ == kBlock) flush();
   }
 
   // To be called after the last add().
   void flush() {
-    for (int k = 0; k < kSums; ++k) {
-      total_[k] += static_cast<typename N::Sum>(block_[k]);
-      block_[k] = 0;
+    count_ += static_cast<std::uint32_t>(rows_);
+    for (; rows_ % kLanes != 0; ++rows_) weight_[rows_] = range_[rows_] = 0;
+    Column weighted;
+    int k = 0;
+    for (int i = 0; i < kColumns; ++i) {
+      for (int row = 0; row < rows_; ++row) weighted[row] = weight_[row] * column_[i][row];
+      for (int j = 0; j <= i; ++j) total_[k++] += product(weighted, column_[j]);
     }
-    in_block_ = 0;
+    total_[k] += product(range_, range_);
+    rows_ = 0;
   }
 
   // H (both triangles) and b.
@@ -47,25 +51,36 @@ class ScanSums {
         H(i, j) = static_cast<double>(total_[k]);
         H(j, i) = H(i, j);
       }
-      b[i] = static_cast<double>(total_[kRightSide + i]);
     }
+    for (int i = 0; i < 6; ++i) b[i] = static_cast<double>(total_[k + i]);
   }
   std::uint32_t count() const { return count_; }
-  double chi_squared() const { return static_cast<double>(total_[kChiSquared]); }      // sum w r^2
-  double squared_range() const { return static_cast<double>(total_[kSquaredRange]); }  // m^2, unweighted
+  double chi_squared() const { return static_cast<double>(total_[kSums - 2]); }    // sum w r^2
+  double squared_range() const { return static_cast<double>(total_[kSums - 1]); }  // m^2, unweighted
 
  private:
-  // Lower triangle of H by rows: (0,0) (1,0) (1,1) (2,0) ...; then b; then the residuals. Sums run in blocks in the path's type and go to
-  // N::Sum block by block: as fast as the one, as exact as the other.
-  static constexpr int kBlock = 32;
-  static constexpr int kRightSide = 21;
-  static constexpr int kChiSquared = 27;
-  static constexpr int kSquaredRange = 28;
-  static constexpr int kSums = 29;
+  // Rows are summed in blocks in the path's type, block by block in N::Sum: as fast as the one, as exact as the other. Within a block four
+  // sums run side by side, in an order that is written here: a processor with lanes uses them, one without gives the same bits.
+  static constexpr int kBlock = 64;
+  static constexpr int kLanes = 4;
+  static constexpr int kColumns = 7;  // J, r
+  static constexpr int kResidual = 6;
+  static constexpr int kSums = 29;  // lower triangle of the columns' products by rows: H, then b, then chi^2; and the squared ranges
+  using Column = typename N::Ratio[kBlock];
 
-  typename N::Ratio block_[kSums] = {};
+  typename N::Sum product(const Column& a, const Column& b) const {
+    typename N::Ratio lane[kLanes] = {};
+    for (int row = 0; row < rows_; row += kLanes) {
+      for (int l = 0; l < kLanes; ++l) lane[l] += a[row + l] * b[row + l];
+    }
+    return static_cast<typename N::Sum>((lane[0] + lane[1]) + (lane[2] + lane[3]));
+  }
+
+  Column column_[kColumns] = {};
+  Column weight_ = {};
+  Column range_ = {};
   typename N::Sum total_[kSums] = {};
-  int in_block_ = 0;
+  int rows_ = 0;
   std::uint32_t count_ = 0;
 };
 

@@ -8,6 +8,13 @@
 namespace lasso::bench {
 namespace {
 
+// What the bar shows: steps done.
+struct Progress {
+  mdat::ProgressBar& bar;
+  std::size_t done;
+  void advance(std::size_t steps) { bar.show(done += steps); }
+};
+
 struct Track {
   std::vector<mdat::FrameError> frames;
   double iterations = 0;
@@ -37,31 +44,43 @@ void run_once(Method& method, const Scan& scan, Track& track) {
 
 using Methods = std::vector<std::unique_ptr<Method>>;
 
-// `turn` scans each; another method begins each round.
-std::vector<Track> take_turns(const Methods& methods, const std::vector<Scan>& scans, std::size_t turn, std::size_t done,
-                              mdat::ProgressBar& bar) {
+// `turn` scans each; another method begins each round of turns.
+std::vector<Track> take_turns(const Methods& methods, const std::vector<Scan>& scans, std::size_t turn, std::size_t first,
+                              Progress& progress) {
   const std::size_t n = methods.size();
   std::vector<Track> tracks(n);
-  for (std::size_t begin = 0, round = 0; begin < scans.size(); begin += turn, ++round) {
+  for (std::size_t begin = 0, round = first; begin < scans.size(); begin += turn, ++round) {
     const std::size_t end = std::min(begin + turn, scans.size());
     for (std::size_t m = 0; m < n; ++m) {
       const std::size_t now = (round + m) % n;
       for (std::size_t i = begin; i < end; ++i) run_once(*methods[now], scans[i], tracks[now]);
     }
-    bar.show(done + end);
+    progress.advance(end - begin);
   }
   return tracks;
+}
+
+mdat::TimeStatistics times_of(const std::vector<std::vector<Track>>& rounds, std::size_t method) {
+  std::vector<double> times_us;
+  for (const std::vector<Track>& tracks : rounds) {
+    for (const mdat::FrameError& frame : tracks[method].frames) times_us.push_back(frame.estimate_us);
+  }
+  return mdat::time_statistics(std::move(times_us));
 }
 
 }  // namespace
 
 std::vector<MethodResult> compare(const Methods& methods, const std::vector<Scan>& scans, std::size_t done, mdat::ProgressBar& bar) {
-  const std::vector<Track> in_a_row = take_turns(methods, scans, kScansInARow, done, bar);
-  const std::vector<Track> by_turns = take_turns(methods, scans, 1, done + scans.size(), bar);
+  Progress progress{bar, done};
+  std::vector<std::vector<Track>> in_a_row;
+  for (std::size_t round = 0; round < kRounds; ++round) in_a_row.push_back(take_turns(methods, scans, scans.size(), round, progress));
+  const std::vector<Track> by_turns = take_turns(methods, scans, 1, 0, progress);
   std::vector<MethodResult> results;
   for (std::size_t m = 0; m < methods.size(); ++m) {
-    const double mean = in_a_row[m].iterations / static_cast<double>(scans.size());
-    const mdat::RunStatistics statistics = mdat::run_statistics(in_a_row[m].frames);
+    const Track& first = in_a_row[0][m];
+    mdat::RunStatistics statistics = mdat::run_statistics(first.frames);
+    statistics.time = times_of(in_a_row, m);
+    const double mean = first.iterations / static_cast<double>(scans.size());
     results.push_back({methods[m]->name(), methods[m]->is_peer(), statistics, mdat::run_statistics(by_turns[m].frames).time, mean});
   }
   return results;

@@ -1,4 +1,4 @@
-// One run of all methods over the same scans, a few scans each by turns, so that what disturbs the machine disturbs all of them.
+// One run of all methods over the same scans.
 #pragma once
 
 #include "ft/bench/methods.hpp"
@@ -15,9 +15,9 @@ struct MethodResult {
   double iterations = 0;           // mean
 };
 
-// Every method registers kScansInARow scans, then the next one does; and all over again with one scan each. Times are processor time of the
-// calling thread. Counts in `bar`: `done` steps were shown before, 2 * scans.size() are added.
-constexpr std::size_t kScansInARow = 20;
+// Every method registers all scans in a row, then the next one does, kRounds times over; and then all over again with one scan each. Times
+// are processor time of the calling thread. Counts in `bar`: `done` steps were shown before, (kRounds + 1) * scans.size() are added.
+constexpr std::size_t kRounds = 3;
 std::vector<MethodResult> compare(const std::vector<std::unique_ptr<Method>>& methods, const std::vector<Scan>& scans, std::size_t done,
                                   mdat::ProgressBar& bar);
 

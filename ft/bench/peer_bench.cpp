@@ -23,10 +23,10 @@ Comparison compare_all(const Options& options) {
   noise_free.noise = false;
   const std::vector<Scan> clean = make_scans(mission, noise_free), noisy = make_scans(mission, options.scans);
   const auto methods = make_methods(mission, options.scans.scenario);
-  mdat::ProgressBar bar("peers", 2 * (clean.size() + noisy.size()), "scans");
+  mdat::ProgressBar bar("peers", (kRounds + 1) * (clean.size() + noisy.size()), "scans");
   Comparison comparison{mission.source.name, options.scans.scenario, noisy.size(), {}, {}};
   comparison.noise_free = compare(methods, clean, 0, bar);
-  comparison.noisy = compare(methods, noisy, 2 * clean.size(), bar);
+  comparison.noisy = compare(methods, noisy, (kRounds + 1) * clean.size(), bar);
   bar.finish();
   return comparison;
 }

@@ -15,7 +15,7 @@
 namespace lasso::mdat {
 namespace {
 
-constexpr double kCellsPerExtent = 165;
+constexpr double kCellsPerExtent = 110;
 constexpr double kBandCells = 5;
 constexpr int kCellTries = 4;              // sizes of automatic cells after the first
 constexpr double kCellShrink = 0.75;       // from one to the next

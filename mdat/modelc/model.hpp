@@ -16,7 +16,7 @@
 namespace lasso::mdat {
 
 struct ModelOptions {
-  double cell_size_m = 0;        // edge of a cell; 0: largest extent / 165
+  double cell_size_m = 0;        // edge of a cell; 0: largest extent / 110
   double crease_angle_deg = 30;  // faces that meet at less than this are one smooth surface
   double weld_tolerance_m = 0;   // vertices closer than this are one; 0: 1e-6 of the largest extent
   double far_margin = 0.35;      // grid beyond the bounding box, as a share of the largest extent

@@ -8,7 +8,9 @@
 #include <tuple>
 
 #include "cfg/capacities.hpp"
+#include "mdat/modelc/cell_list.hpp"
 #include "mdat/modelc/chebyshev.hpp"
+#include "mdat/modelc/parallel.hpp"
 
 namespace lasso::mdat {
 namespace {
@@ -120,25 +122,44 @@ void check_list(const Grid& grid, const Entry& entry, std::size_t count) {
                          kMaxElementsPerCell, ": take smaller cells than ", grid.cell_m, " m or a mesh with less detail there");
 }
 
+// An occupied cell: its first entry, and the list as the image holds it.
+struct Cell {
+  const Entry* head;
+  std::vector<std::uint32_t> list;
+};
+
+// `entries` are sorted by cell, and by element within one.
+std::vector<Cell> gather_cells(const std::vector<Entry>& entries, const Grid& grid) {
+  std::vector<Cell> cells;
+  for (const Entry& entry : entries) {
+    const bool same = !cells.empty() && cells.back().head->brick == entry.brick && cells.back().head->cell == entry.cell;
+    if (!same) cells.push_back({&entry, {}});
+    cells.back().list.push_back(entry.element);
+  }
+  for (const Cell& cell : cells) check_list(grid, *cell.head, cell.list.size());
+  return cells;
+}
+
+void order_lists(const std::vector<Element>& elements, const Grid& grid, std::vector<Cell>& cells) {
+  const double half_m = (1 + kCellTolerance) * grid.cell_m;
+  const double tolerance_m = kFinalTolerance * grid.cell_m;
+  parallel_for(cells.size(), [&](std::size_t i) {
+    cells[i].list = make_cell_list(elements, cells[i].list, {cell_center(grid, *cells[i].head), half_m}, tolerance_m);
+  });
+}
+
 // One word for each occupied cell, in the records of the occupied bricks; other cells are zero yet.
-void place_lists(const std::vector<Entry>& entries, const Grid& grid, RayField& field, CompileReport& report) {
+void place_lists(std::vector<Cell> cells, RayField& field, CompileReport& report) {
   ListPool pool(field.lists);
   std::vector<std::size_t> lengths;
-  for (std::size_t begin = 0; begin < entries.size();) {
-    const Entry& head = entries[begin];
-    std::vector<std::uint32_t> list;
-    std::size_t end = begin;
-    for (; end < entries.size() && entries[end].brick == head.brick && entries[end].cell == head.cell; ++end) {
-      list.push_back(entries[end].element);
-    }
-    check_list(grid, head, list.size());
-    lengths.push_back(list.size());
-    if (field.brick_words[head.brick] == kEmptyBit) {
-      field.brick_words[head.brick] = static_cast<std::uint32_t>(field.cells.size()) / kRayCellsPerBrick;
+  for (Cell& cell : cells) {
+    std::uint32_t& record = field.brick_words[cell.head->brick];
+    lengths.push_back(cell.list.size());
+    if (record == kEmptyBit) {
+      record = static_cast<std::uint32_t>(field.cells.size()) / kRayCellsPerBrick;
       field.cells.resize(field.cells.size() + kRayCellsPerBrick, 0);
     }
-    field.cells[field.brick_words[head.brick] * kRayCellsPerBrick + head.cell] = pool.cell_word(std::move(list));
-    begin = end;
+    field.cells[record * kRayCellsPerBrick + cell.head->cell] = pool.cell_word(std::move(cell.list));
   }
   report.ray_lists = statistics(std::move(lengths));
   report.distinct_lists = pool.count();
@@ -223,7 +244,10 @@ bool PolygonBoxTest::meets(const Vec3d& center, double half_m) const {
 RayField make_ray_field(const std::vector<Element>& elements, const Grid& grid, CompileReport& report) {
   RayField field;
   field.brick_words.assign(grid.brick_count(), kEmptyBit);
-  place_lists(collect_entries(elements, grid), grid, field, report);
+  const std::vector<Entry> entries = collect_entries(elements, grid);
+  std::vector<Cell> cells = gather_cells(entries, grid);
+  order_lists(elements, grid, cells);
+  place_lists(std::move(cells), field, report);
   check_size(field);
   place_distances(grid, field);
   report.ray_bricks = field.cells.size() / kRayCellsPerBrick;

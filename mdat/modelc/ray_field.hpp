@@ -27,6 +27,8 @@ class PolygonBoxTest {
 
 // Cells are widened by half a cell and this share of one, which covers the rounding of the flight component's own arithmetic.
 constexpr double kCellTolerance = 1e-3;
+// Heights below this share of a cell above or below a plane count as in it.
+constexpr double kFinalTolerance = 1e-3;
 
 struct RayField {
   std::vector<std::uint32_t> brick_words;   // word 0 of each brick

@@ -168,6 +168,7 @@ TEST_F(LoaderTest, RefusesIndicesOutsideTheirTables) {
       {TableId::kRayCells, 7, 501u << kListOffsetBits, Status::kBadIndex},
       {TableId::kRayCells, 7, 500u << kListOffsetBits | kListOffsetMask, Status::kBadIndex},
       {TableId::kRayLists, 0, 6, Status::kBadIndex},
+      {TableId::kRayLists, 0, kFinalEntry | 6, Status::kBadIndex},
       {TableId::kNearCells, 0, 7, Status::kBadIndex},
       {TableId::kEdges, 6, 0x10000000u, Status::kBadValue},
       {TableId::kEdges, 10, 0x10000000u, Status::kBadValue},

@@ -47,6 +47,16 @@ TEST_F(RegisterTest, OnePassOverAllPointsIsEnoughAtTheTruth) {
   EXPECT_EQ(solution.iterations, kOpening + 1);
 }
 
+TEST_F(RegisterTest, AReturnThatTheAssumedNoiseWouldExcuseStandsOutWhereTheScanHasLess) {
+  VERIFIES("LASSO-REG-001~1");
+  scan();
+  MatchPoint<FlightNumber>& wrong = workspace_->points[workspace_->points.size() / 3];
+  for (int i = 0; i < 3; ++i) wrong.p[i] += 5e-3F * wrong.u[i];  // 5 assumed sigmas of a kernel of 10
+  const HitSolution solution = register_from(0.003, 0.002);
+  EXPECT_EQ(solution.inliers, workspace_->points.size() - 1);
+  EXPECT_LT(error_of(solution.T_target_sensor).norm(), 1e-5);
+}
+
 TEST_F(RegisterTest, SumsOfResidualsTellTheNoise) {
   VERIFIES("LASSO-REG-003~1");
   scan_.sigma_m = 2e-3;

@@ -138,10 +138,12 @@ Words element_words(const Boxes& boxes) {
   return words;
 }
 
+// One box is convex: whatever a ray hits first in the list is what it hits first.
 std::uint32_t ray_cell(const Boxes& boxes, const Grid& g, const Vec3& center, Words& lists) {
   const auto offset = static_cast<std::uint32_t>(lists.size());
   for (int f = 0; f < face_count(boxes); ++f) {
-    if (face_crosses(face_of(boxes, f), center, g.cell + 1e-6)) lists.push_back(static_cast<std::uint32_t>(f));
+    if (face_crosses(face_of(boxes, f), center, g.cell + 1e-6))
+      lists.push_back(static_cast<std::uint32_t>(f) | (boxes.size() == 1 ? kFinalEntry : 0));
   }
   const auto count = static_cast<std::uint32_t>(lists.size()) - offset;
   return count == 0 ? kEmptyBit | 1u : count << kListOffsetBits | offset;  // a distance of 1 is never too large

@@ -120,6 +120,40 @@ TEST(CompileModel, AWalkWithJumpsFindsTheFirstElementOfEveryRay) {
   }
 }
 
+TEST(CompileModel, ASearchThatEndsAtAFinalEntryFindsWhatAWholeListHolds) {
+  VERIFIES("LASSO-MDL-021~1");
+  for (const Compiled& model : models()) {
+    SCOPED_TRACE(model.name);
+    const DecodedTables tables(model.tables);
+    Random random(14);
+    int ended = 0;
+    for (int k = 0; k < 20000; ++k) {
+      const TestRay ray = random_ray(random);
+      const double t = 0.4 + 2 * random.uniform();
+      std::array<std::uint32_t, 3> cell{};
+      const std::uint32_t word = tables.locate(ray.from + t * ray.u, cell) ? tables.ray_word(cell) : kEmptyBit | 1;
+      if ((word & kEmptyBit) != 0) continue;
+      double truth = std::numeric_limits<double>::infinity(), found = truth, slope = 1;
+      bool final = false;
+      for (const std::uint32_t entry : tables.entries(word)) {
+        const DecodedElement& e = tables.elements()[entry & ~kFinalEntry];
+        const double tilt = e.n.dot(ray.u);
+        const double x = tables.crossing(entry & ~kFinalEntry, ray.from, ray.u);
+        if (std::abs(x - t) > tables.cell() / 2 || (tilt > 0 && (e.flags & kElementTwoSided) == 0)) continue;
+        truth = std::min(truth, x);
+        if (final) continue;
+        found = std::min(found, x);
+        slope = std::abs(tilt);
+        final = (entry & kFinalEntry) != 0;
+        ended += final ? 1 : 0;
+      }
+      if (std::isinf(truth)) continue;
+      ASSERT_LE((found - truth) * slope, 3e-3 * tables.cell());
+    }
+    EXPECT_GT(ended, 20);
+  }
+}
+
 std::vector<std::array<std::uint32_t, 3>> occupied_cells(const DecodedTables& tables) {
   std::vector<std::array<std::uint32_t, 3>> all;
   for (std::uint32_t z = 0; z < 8 * tables.geometry(kBricksZ); ++z) {
@@ -280,7 +314,7 @@ TEST(CompileModel, SaysTheGridItChose) {
   std::vector<double> fractions;
   const ModelTables compiled = compile_model(mesh, {}, report, [&](const std::string&, double f) { fractions.push_back(f); });
   const DecodedTables tables(compiled);
-  EXPECT_NEAR(report.cell_size_m, 0.66 / 165, 1e-8);
+  EXPECT_NEAR(report.cell_size_m, 0.66 / 110, 1e-8);
   EXPECT_EQ(tables.cell(), report.cell_size_m);
   EXPECT_NEAR(tables.length(tables.geometry(kNearBand)), 5 * report.cell_size_m, 1e-7);
   EXPECT_NEAR(tables.length(tables.geometry(kModelRadius)), Vector3d(0.2, 0.46, 0.4).norm(), 1e-8);

@@ -70,9 +70,16 @@ class DecodedTables {
     return tables_[TableId::kRayCells][kRayCellsPerBrick * record + ((at[2] & 7) << 6 | (at[1] & 7) << 3 | (at[0] & 7))];
   }
   bool occupied(const std::array<std::uint32_t, 3>& at) const { return (ray_word(at) & kEmptyBit) == 0; }
-  std::vector<std::uint32_t> list(std::uint32_t word) const {
+  std::vector<std::uint32_t> entries(std::uint32_t word) const {
     const auto first = tables_[TableId::kRayLists].begin() + static_cast<std::ptrdiff_t>(word & kListOffsetMask);
     return {first, first + static_cast<std::ptrdiff_t>(word >> kListOffsetBits)};
+  }
+  // The elements of the cell's entries, ascending.
+  std::vector<std::uint32_t> list(std::uint32_t word) const {
+    std::vector<std::uint32_t> elements = entries(word);
+    for (std::uint32_t& entry : elements) entry &= ~kFinalEntry;
+    std::sort(elements.begin(), elements.end());
+    return elements;
   }
 
   // Where the ray from `from` along `u` crosses an element's region, from either side; infinity: nowhere.
