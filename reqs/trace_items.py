@@ -1,4 +1,5 @@
 """The items of reqs/*.yaml: reads them with the line of each key, and checks all that can be known without test reports (reqs/README.md)."""
+import collections
 import dataclasses
 import functools
 import pathlib
@@ -67,6 +68,10 @@ def read_text(node):
     return node.value.strip() if is_text(node) else None
 
 
+def read_match(pattern):
+    return lambda node: node.value if is_text(node) and pattern.fullmatch(node.value) else None
+
+
 def read_word(words):
     return lambda node: node.value if is_text(node) and node.value in words else None
 
@@ -85,20 +90,36 @@ def read_targets(node):
     return words if words and all(word in PLATFORMS for word in words) and len(set(words)) == len(words) else None
 
 
-# Key: is it required, reader (None: wrong), what was expected.
+Key = collections.namedtuple('Key', 'required read expected')  # read(node) is None where the value is not as expected
 KEYS = {
-    'id': (True, lambda n: n.value if is_text(n) and ID.fullmatch(n.value) else None, 'LASSO-AREA-nnn'),
-    'rev': (True, read_count, 'a whole number from 1'),
-    'text': (True, read_text, 'a sentence'),
-    'rationale': (True, read_text, 'a sentence'),
-    'parent': (False, lambda n: n.value if is_text(n) and ID.fullmatch(n.value) else None, 'the id of an item, without its revision'),
-    'method': (True, read_word(METHODS), 'one of ' + ', '.join(METHODS)),
-    'safety': (True, read_flag, 'true or false'),
-    'status': (True, read_word(STATUSES), 'one of ' + ', '.join(STATUSES)),
-    'evidence': (False, read_text, 'a file of the repository'),
-    'gate': (False, read_text, 'the name of a make target'),
-    'targets': (False, read_targets, 'a list of ' + ', '.join(PLATFORMS)),
+    'id': Key(True, read_match(ID), 'LASSO-AREA-nnn'),
+    'rev': Key(True, read_count, 'a whole number from 1'),
+    'text': Key(True, read_text, 'a sentence'),
+    'rationale': Key(True, read_text, 'a sentence'),
+    'parent': Key(False, read_match(ID), 'the id of an item, without its revision'),
+    'method': Key(True, read_word(METHODS), 'one of ' + ', '.join(METHODS)),
+    'safety': Key(True, read_flag, 'true or false'),
+    'status': Key(True, read_word(STATUSES), 'one of ' + ', '.join(STATUSES)),
+    'evidence': Key(False, read_text, 'a file of the repository'),
+    'gate': Key(False, read_text, 'the name of a make target'),
+    'targets': Key(False, read_targets, 'a list of ' + ', '.join(PLATFORMS)),
 }
+
+
+def read_key(item, node, value, at, problems):
+    name = node.value if isinstance(node, yaml.ScalarNode) else 'of another type'
+    if name not in KEYS:
+        problems.append(f'{at}: unknown key {name!r}: the keys are {", ".join(KEYS)}')
+        return
+    if name in item.lines:
+        problems.append(f'{at}: key {name!r} twice in one item: remove one')
+    item.lines[name] = at
+    result = KEYS[name].read(value)
+    if result is None:
+        shown = repr(value.value) if isinstance(value, yaml.ScalarNode) else 'of another type'
+        problems.append(f'{at}: {name} is {shown}: write {KEYS[name].expected}')
+    else:
+        setattr(item, name, result)
 
 
 def read_item(node, file, problems):
@@ -109,24 +130,10 @@ def read_item(node, file, problems):
         return None
     item, before = Item(place=place, area=pathlib.Path(file).stem), len(problems)
     for key, value in node.value:
-        at = f'{file}:{key.start_mark.line + 1}'
-        required_reader_expected = KEYS.get(key.value) if isinstance(key, yaml.ScalarNode) else None
-        if required_reader_expected is None:
-            problems.append(f'{at}: unknown key {getattr(key, "value", key.tag)!r}: the keys are {", ".join(KEYS)}')
-            continue
-        if key.value in item.lines:
-            problems.append(f'{at}: key {key.value!r} twice in one item: remove one')
-        _, read, expected = required_reader_expected
-        item.lines[key.value] = at
-        result = read(value)
-        if result is None:
-            shown = repr(value.value) if isinstance(value, yaml.ScalarNode) else 'of another type'
-            problems.append(f'{at}: {key.value} is {shown}: write {expected}')
-        else:
-            setattr(item, key.value, result)
-    for key, (required, _, expected) in KEYS.items():
-        if required and key not in item.lines:
-            problems.append(f'{place}: key {key!r} is missing: add it ({expected})')
+        read_key(item, key, value, f'{file}:{key.start_mark.line + 1}', problems)
+    for name, key in KEYS.items():
+        if key.required and name not in item.lines:
+            problems.append(f'{place}: key {name!r} is missing: add it ({key.expected})')
     return item if len(problems) == before else None
 
 
