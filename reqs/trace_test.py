@@ -172,6 +172,10 @@ class TraceTest(unittest.TestCase):
         self.write('reqs/abc.yaml', b'- id: \xff\xfe\n')
         self.fails('reqs/abc.yaml:1: not readable', 'UTF-8')
 
+    def test_not_a_file(self):
+        (self.top / 'reqs/xyz.yaml').mkdir()
+        self.fails('reqs/xyz.yaml:1: not readable (Is a directory): check the file')
+
     def test_not_a_list(self):
         self.write('reqs/xyz.yaml', 'id: LASSO-XYZ-001\n')
         self.fails('reqs/xyz.yaml:1: not a list of items')
@@ -222,7 +226,8 @@ class TraceTest(unittest.TestCase):
     def test_what_does_not_count(self):
         case = '<testcase name="IsLong" status="{}" result="{}">' + NAMES.format('LASSO-ABC-001~2') + '{}</testcase>'
         for status, result, child, word in (('run', 'skipped', '<skipped message="not here"/>', 'skipped'), ('run', 'completed', '<skipped/>', 'skipped'),
-                                            ('notrun', 'suppressed', '', 'disabled'), ('run', 'completed', '<failure message="1 != 2"/>', 'failed')):
+                                            ('notrun', 'suppressed', '', 'disabled'), ('notrun', 'completed', '', 'disabled'),
+                                            ('run', 'suppressed', '', 'disabled'), ('run', 'completed', '<failure message="1 != 2"/>', 'failed')):
             with self.subTest(word):
                 self.report(case.format(status, result, child))
                 self.fails(f'LASSO-ABC-001 has no passing test on host ({word} does not count)')
