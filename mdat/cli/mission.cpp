@@ -14,6 +14,7 @@ namespace {
 struct MissionOptions {
   std::string file, scenario, out, model;
   double scale = 1;
+  bool replace = false;
 };
 
 void print(const std::string& text) { std::fputs(text.c_str(), stdout); }
@@ -83,6 +84,10 @@ void compile(const MissionOptions& options) {
 }
 
 void write_new(const MissionOptions& options) {
+  std::error_code ignored;
+  if (!options.replace && std::filesystem::exists(options.out, ignored)) {
+    throw InputError(options.out + ": is there already; --force replaces it");
+  }
   check_writable(options.out);
   write_new_mission(options.model, options.scale, options.out);
   print(options.out + ": written; `mdat mission compile` makes its flight image\n");
@@ -121,6 +126,7 @@ void add_mission_commands(CLI::App& app) {
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
   new_command->add_option("-o,--out", options->out, "mission to write")->required();
+  new_command->add_flag("--force", options->replace, "replace a file that is there");
 }
 
 }  // namespace lasso::mdat

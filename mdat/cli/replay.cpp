@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "mdat/cli/commands.hpp"
+#include "mdat/common/errors.hpp"
 #include "mdat/common/flight_image.hpp"
 #include "mdat/common/output.hpp"
 
@@ -22,6 +23,10 @@ LoadedImage load(const Options& options) {
 }
 
 void run(const Options& options) {
+  std::error_code ignored;
+  if (std::filesystem::equivalent(options.out, options.replay.initial, ignored)) {
+    throw InputError(options.out + ": is the file of initial poses; write to another one");
+  }
   check_writable(options.out);
   const LoadedImage image = load(options);
   const std::vector<ReplayedScan> scans = replay(image.mission(), options.replay);

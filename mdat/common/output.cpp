@@ -96,6 +96,7 @@ void write_file(const fs::path& file, std::string_view content) {
 void check_writable(const fs::path& file) {
   std::error_code ignored;
   if (fs::is_directory(file, ignored)) refuse(file, "it is a folder");
+  if (fs::exists(file, ignored) && !fs::is_regular_file(file, ignored)) refuse(file, "it is there and is not a file");
   write_partial(file, "");
   fs::remove(partial(file), ignored);
 }

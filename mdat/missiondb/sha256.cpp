@@ -28,6 +28,7 @@ std::string sha256_of(std::string_view bytes) {
 
 std::string read_file(const std::filesystem::path& file) {
   if (std::filesystem::is_directory(file)) throw std::runtime_error("is a folder, expected a file");
+  if (std::filesystem::exists(file) && !std::filesystem::is_regular_file(file)) throw std::runtime_error("is not a file");
   errno = 0;
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw std::runtime_error(std::string("cannot be read: ") + std::strerror(errno == 0 ? ENOENT : errno));

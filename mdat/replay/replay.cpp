@@ -5,8 +5,7 @@
 #include <map>
 #include <memory>
 
-#include "fsw/pose/estimator.hpp"
-#include "fsw/pose/filter.hpp"
+#include "fsw/mode/tracker.hpp"
 #include "hal_sim/scan_file.hpp"
 #include "mdat/common/cpu_clock.hpp"
 #include "mdat/common/errors.hpp"
@@ -17,50 +16,6 @@
 namespace lasso::mdat {
 namespace {
 
-// The track of a closed loop: the initial pose until a scan confirms it, then the filter.
-class Track {
- public:
-  Track(const Mission& mission, const Pose& initial) : parameters_(mission.parameters) { initial_.T_sensor_target = initial; }
-
-  // Moves to the next scan and gives its starting point.
-  StartPoint next(TimeUs reference_us) {
-    const auto period_us = static_cast<DurationUs>(std::llround(parameters_.period_s * 1e6));
-    if (begun_) now_us_ += reference_us > last_us_ ? reference_us - last_us_ : period_us;
-    begun_ = true;
-    last_us_ = reference_us;
-    if (!filter_.initialised) return {initial_.T_sensor_target, {}, parameters_.wide_start != 0};
-    const FilterNoise noise{parameters_.acceleration_mps2, parameters_.angular_acceleration_radps2};
-    expect(predict_filter(filter_, now_us_, noise));
-    return {filter_.T_sensor_target, filter_.rates, false};
-  }
-
-  void join(const Registration& result) {
-    invalid_ = result.valid() ? 0 : invalid_ + 1;
-    if (!result.valid()) return;
-    if (filter_.initialised) {
-      expect(update_filter(filter_, {now_us_, result.T_sensor_target, result.covariance}, kNoGate).status);
-    } else {
-      expect(start_filter(
-          filter_,
-          {now_us_, result.T_sensor_target, {}, result.covariance, parameters_.initial_angular_rate_radps, parameters_.initial_rate_mps}));
-    }
-  }
-
-  bool lost() const { return invalid_ > parameters_.coast_frames; }
-
- private:
-  static void expect(Status status) {
-    if (status != Status::kOk) throw RunError(std::string("the filter refused a step: ") + to_string(status));
-  }
-
-  const MissionParameters& parameters_;
-  StartPoint initial_;
-  FilterState filter_;
-  TimeUs now_us_ = 0, last_us_ = 0;
-  bool begun_ = false;
-  int invalid_ = 0;  // in a row
-};
-
 ReplayedScan register_scan(const Mission& mission, Estimator& estimator, const RangeImage& image, const StartPoint& start) {
   ReplayedScan result;
   const double begin_us = thread_cpu_us();
@@ -69,12 +24,52 @@ ReplayedScan register_scan(const Mission& mission, Estimator& estimator, const R
   return result;
 }
 
-ReplayedScan without_track(const RangeImage& image, const Pose& last) {
-  ReplayedScan result;
-  result.registration.T_sensor_target = last;
-  result.registration.t_us = image.reference_time_us();
-  return result;  // its reason is kNoTrack
-}
+// Tracks the scans as the flight component does, from a pose given for the first of them. Files without times, or with times that do not
+// rise, follow each other by the mission's period.
+class ClosedLoop {
+ public:
+  ClosedLoop(const Mission& mission, const Pose& initial, bool wide) : mission_(mission) {
+    if (wide) mission_.parameters.wide_start = 1;
+    const Status status = start_track(mission_, initial, Twist(), 0, 0, state_);
+    if (status != Status::kOk) throw RunError(std::string("the tracker refused the initial pose: ") + to_string(status));
+  }
+
+  ReplayedScan step(const RangeImage& recorded) {
+    const TimeUs recorded_us = recorded.reference_time_us();
+    move_clock(recorded_us);
+    ReplayedScan result;
+    const double begin_us = thread_cpu_us();
+    const TrackStep step =
+        properties(state_.mode).scans ? track_scan(mission_, *estimator_, at_clock(recorded), state_) : no_track(recorded.scan_id, state_);
+    result.estimate_us = thread_cpu_us() - begin_us;
+    state_ = step.after;
+    result.registration = step.registration;
+    result.registration.t_us = recorded_us;
+    return result;
+  }
+
+ private:
+  void move_clock(TimeUs recorded_us) {
+    const auto period_us = static_cast<DurationUs>(std::llround(mission_.parameters.period_s * 1e6));
+    if (begun_) clock_us_ += recorded_us > last_us_ ? recorded_us - last_us_ : period_us;
+    begun_ = true;
+    last_us_ = recorded_us;
+  }
+
+  const RangeImage& at_clock(const RangeImage& recorded) {
+    *image_ = recorded;
+    const DurationUs shift_us = clock_us_ - recorded.reference_time_us();
+    for (RangeSample& sample : image_->samples) sample.t_us += shift_us;
+    return *image_;
+  }
+
+  Mission mission_;
+  std::unique_ptr<Estimator> estimator_ = std::make_unique<Estimator>();
+  std::unique_ptr<RangeImage> image_ = std::make_unique<RangeImage>();
+  TrackState state_;
+  TimeUs clock_us_ = 0, last_us_ = 0;
+  bool begun_ = false;
+};
 
 using Register = std::function<ReplayedScan(const RangeImage&, const std::string& stem)>;
 
@@ -107,23 +102,14 @@ std::string row(const ReplayedScan& scan) {
 std::vector<ReplayedScan> replay(const Mission& mission, const ReplayOptions& options) {
   const std::vector<InitialPose> poses = read_initial_poses(options.initial);
   const sim::RecordedScans scans(options.scans);
-  const auto estimator = std::make_unique<Estimator>();
-  if (!options.closed_loop) {
-    for (std::size_t i = 0; i < scans.size(); ++i) (void)pose_of(poses, scans.stem(i), options.initial);  // before any work
-    return for_each_scan(scans, [&](const RangeImage& image, const std::string& stem) {
-      return register_scan(mission, *estimator, image, {pose_of(poses, stem, options.initial), {}, options.wide});
-    });
+  if (options.closed_loop) {
+    ClosedLoop loop(mission, poses.front().T_sensor_target, options.wide);
+    return for_each_scan(scans, [&](const RangeImage& image, const std::string&) { return loop.step(image); });
   }
-  Track track(mission, poses.front().T_sensor_target);
-  Pose last = poses.front().T_sensor_target;
-  return for_each_scan(scans, [&](const RangeImage& image, const std::string&) {
-    if (track.lost()) return without_track(image, last);
-    StartPoint start = track.next(image.reference_time_us());
-    start.wide = start.wide || options.wide;
-    const ReplayedScan result = register_scan(mission, *estimator, image, start);
-    track.join(result.registration);
-    last = result.registration.T_sensor_target;
-    return result;
+  for (std::size_t i = 0; i < scans.size(); ++i) (void)pose_of(poses, scans.stem(i), options.initial);  // before any work
+  const auto estimator = std::make_unique<Estimator>();
+  return for_each_scan(scans, [&](const RangeImage& image, const std::string& stem) {
+    return register_scan(mission, *estimator, image, {pose_of(poses, stem, options.initial), {}, options.wide});
   });
 }
 

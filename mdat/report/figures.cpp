@@ -42,6 +42,13 @@ std::string errors_text(const CaseResult& run, double abscissa_step) {
   return text;
 }
 
+bool is_tracked(const VariantResult& variant) { return variant.all.lost < variant.all.frames; }
+
+// gnuplot draws nothing of no point.
+std::string nothing_to_draw(const std::string& settings) {
+  return settings + "set yrange [-1:1]\nunset key\nset label 1 'every frame is lost' at graph 0.5,0.5 center\nplot -2 notitle\n";
+}
+
 // Far ranges first, so that near ones (with smaller errors) lie on top.
 std::string angle_panel(const std::vector<std::string>& files, const Scenario& scenario, std::size_t axis) {
   std::string text = format("set title '%s, %s'\nplot ", kErrorAxes[axis].name, kErrorAxes[axis].unit);
@@ -97,6 +104,7 @@ std::string histogram_text(const std::vector<double>& times, double bin_us) {
 }  // namespace
 
 std::string error_against_angle(Plotter& plotter, const TableResult& table, const VariantResult& variant) {
+  if (!is_tracked(variant)) return plotter.svg(1080, 120, nothing_to_draw(kStyle));
   const bool turns = table.scenario.scenario_kind() == ScenarioKind::kPaper && table.scenario.step_rad != 0;
   const double step = turns ? table.scenario.step_rad / kRadPerDeg : 1;
   std::vector<std::string> files;
@@ -115,6 +123,7 @@ std::string error_against_angle(Plotter& plotter, const TableResult& table, cons
 }
 
 std::string error_against_range(Plotter& plotter, const TableResult& table) {
+  if (std::none_of(table.variants.begin(), table.variants.end(), is_tracked)) return plotter.svg(1080, 120, nothing_to_draw(kStyle));
   std::vector<std::string> files;
   for (const VariantResult& variant : table.variants) files.push_back(plotter.data(ranges_text(variant, table.scenario)));
   const auto [nearest, farthest] = std::minmax_element(table.scenario.ranges_m.begin(), table.scenario.ranges_m.end());
