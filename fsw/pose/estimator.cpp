@@ -15,7 +15,8 @@ namespace {
 constexpr double kPoseDimensions = 6;
 constexpr double kSmallestNoiseScale = 1e-6;  // of the variance: a scan without any noise still has rounding
 
-std::uint16_t to_count(std::size_t n) { return static_cast<std::uint16_t>(n < 65535 ? n : 65535); }
+static_assert(kMaxRays <= 65535, "counts of rays fit into the result");
+std::uint16_t to_count(std::size_t n) { return static_cast<std::uint16_t>(n); }
 
 // Variance of the residuals over the assumed variance. Tukey's kernel trims the tails: for Gaussian noise its weighted sum of squares is
 // 1 - 6/k^2 + 15/k^4 of the whole.
@@ -102,10 +103,9 @@ Registration Estimator::estimate(const Mission& mission, const RangeImage& scan,
   const HitSolution hits = start.wide ? register_wide(mission, pose, workspace_) : register_hits(mission, pose, workspace_);
   const double scale = noise_scale(mission.parameters, hits);
   describe_hits(hits, scale, workspace_, result);
-  Mat6 covariance;
-  const bool known = has_information(hits) && invert6(hits.H, covariance) == Status::kOk;
-  if (has_information(hits) && !known) result.stop = StopReason::kSingular;
-  if (known) {
+  if (has_information(hits)) {
+    Mat6 covariance;
+    invariant(invert6(hits.H, covariance) == Status::kOk, "information that was solved for a step has an inverse");
     pose = hits.T_target_sensor;
     if (mission.parameters.noise_estimated > 0.5) covariance *= scale;
     if (mission.parameters.silhouettes > 0.5) use_silhouettes(mission, scan.misses_known, scale, workspace_, pose, covariance);

@@ -56,9 +56,9 @@ double update_site(const Label& label, const MissionParameters& p, Site& site, P
   const double cavity_mean = cavity_variance * (distance / variance - site.information);
   const double own = p.silhouette_sigma_m * p.silhouette_sigma_m + label.across_variance;
   const Moments moments = label_moments(cavity_mean, cavity_variance + own, wrong_label_probability(label, p));
-  const double rest = 1 - moments.curvature * cavity_variance;
   Site target;  // a negative precision would claim that a label takes knowledge away
-  if (moments.curvature > 0 && rest > 0) {
+  if (moments.curvature > 0) {
+    const double rest = 1 - moments.curvature * cavity_variance;  // above 0: Phi's curvature times its variance is below 1
     target.precision = moments.curvature / rest;
     target.information = (cavity_mean * moments.curvature + moments.slope) / rest;
   }

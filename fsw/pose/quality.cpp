@@ -74,7 +74,7 @@ void find_weak_directions(const Mission& mission, Registration& result) {
   const double limit_m = sigma_limit_m(mission);
   result.weak = 0;
   for (int i = 0; i < 6; ++i) result.weak = static_cast<std::uint16_t>(result.weak + (eigen.values[i] > limit_m * limit_m ? 1 : 0));
-  result.weakest_sigma_m = square_root(eigen.values[5] > 0 ? eigen.values[5] : 0);
+  result.weakest_sigma_m = square_root(eigen.values[5]);
   result.weakest_direction = eigen.vectors.col(5);
 }
 

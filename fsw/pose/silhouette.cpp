@@ -186,13 +186,14 @@ bool label_edge(const Search& s, const ScanRay<N>& ray, const Line& line, const 
   if (point.kind == ContourKind::kInner && point.far_range_m - point.range_m < s.probe.gap_min_m) return false;
   label.inside = static_cast<std::int8_t>(side_of(ray, point, s.search, s.mission.parameters.edge_depth_m));
   label.across_variance = s.across_variance;
-  return label.inside != 0 && measure(place, point, line, label);
+  if (label.inside == 0) return false;
+  return measure(place, point, line, label);
 }
 
 // Beyond its end an edge takes the corner for the contour, and the side from its own line. A ray outside a corner can be on that line's
 // inner side: then it passes the corner's other edge more closely, which says so if it gives a label. Inside beyond an end are only reflex
 // corners.
-bool misleads(bool nearer_without_label, double along, double d_m) { return nearer_without_label && !(along > 0 && along < 1) && d_m > 0; }
+bool misleads(bool nearer_without_label, double along, double d_m) { return nearer_without_label && (along <= 0 || along >= 1) && d_m > 0; }
 
 // The nearest contour labels the ray; a second one does where the ray passes inside a thin part, between two contours.
 void label_ray(const Search& s, std::size_t ray_index, Workspace& workspace) {

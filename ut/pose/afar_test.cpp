@@ -71,6 +71,15 @@ TEST_F(AfarTest, TooFewPointsLeaveTheStart) {
   }
 }
 
+TEST_F(AfarTest, PointsBeyondTheFieldsReachAreLeftOut) {
+  VERIFIES("LASSO-REG-007~1");
+  scan();
+  for (std::size_t k = 0; k < workspace_->points.size() / 2; ++k) workspace_->points[k].p[2] += 1e7F;
+  const Pose moved = approach_from_afar(mission_, truth(), *workspace_);
+  EXPECT_TRUE(is_valid(moved));
+  EXPECT_EQ(register_hits(mission_, moved, *workspace_).stop, StopReason::kTooFewPoints);
+}
+
 TEST_F(AfarTest, AScanOfSomethingElseStaysFinite) {
   VERIFIES("LASSO-REG-007~1");
   scan();

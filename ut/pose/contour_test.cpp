@@ -44,6 +44,12 @@ class ContourTest : public test::PoseFixture {
     return edges;
   }
   void find() { find_contour(mission_, make_view(mission_, truth()), *workspace_); }
+  // Leaves the model with copies of one of its contour edges alone.
+  ModelEdge<N>& keep_contour_edge(std::size_t copies) {
+    edges_.assign(copies, mission_.edges[brute_contour().at(0)]);
+    mission_.edges = {edges_.data(), edges_.size()};
+    return edges_.front();
+  }
 
   // Distances of all contour edges from a ray's point in the image, at the edges' own depth, nearest first.
   std::vector<double> brute_distances(const ScanRay<N>& ray) const {
@@ -63,6 +69,8 @@ class ContourTest : public test::PoseFixture {
     return distances;
   }
   void expect_edges(const ScanRay<N>& ray, const RayEdges<N>& found, double band_m) const;
+
+  std::vector<ModelEdge<N>> edges_;
 };
 
 // The path takes depths between an edge's ends as linear in the image: within 2 % for this box.
@@ -126,6 +134,40 @@ TEST_F(ContourTest, EdgesBehindTheSensorAreLeftOut) {
     left_out += workspace_->contour.size() < 4 ? 1 : 0;
   }
   EXPECT_GT(left_out, 20);
+}
+
+TEST_F(ContourTest, AnEdgeWithoutLengthIsAPoint) {
+  VERIFIES("LASSO-REG-002~1");
+  scan();
+  ModelEdge<N>& edge = keep_contour_edge(1);
+  for (int i = 0; i < 3; ++i) edge.b[i] = edge.a[i];
+  find();
+  ASSERT_EQ(workspace_->contour.size(), 1u);
+  find_ray_edges(make_view(mission_, truth()), 0.05, *workspace_);
+  const Vec3 a = to_sensor(Vec3(static_cast<double>(edge.a[0]), static_cast<double>(edge.a[1]), static_cast<double>(edge.a[2])));
+  int near = 0;
+  for (std::size_t i = 0; i < workspace_->rays.size(); ++i) {
+    const ScanRay<N>& ray = workspace_->rays[i];
+    const double x = static_cast<double>(ray.u[0] / ray.u[2]) - a[0] / a[2];
+    const double y = static_cast<double>(ray.u[1] / ray.u[2]) - a[1] / a[2];
+    const double distance = std::hypot(x, y) * a[2];
+    if (std::abs(distance - 0.05) < 1e-5) continue;
+    const RayEdges<N>& found = workspace_->ray_edges[i];
+    ASSERT_EQ(found.count, distance < 0.05 ? 1u : 0u);
+    if (found.count == 0) continue;
+    EXPECT_NEAR(std::sqrt(static_cast<double>(found.distance2[0])), distance, 3e-6);
+    EXPECT_EQ(found.along[0], 0.0F);
+    ++near;
+  }
+  EXPECT_GT(near, 4);
+}
+
+TEST_F(ContourTest, ALongerContourIsCutAtItsCapacity) {
+  VERIFIES("LASSO-REG-011~1");
+  keep_contour_edge(kMaxContourEdges + 5);
+  find();
+  ASSERT_EQ(workspace_->contour.size(), kMaxContourEdges);
+  EXPECT_EQ(workspace_->contour[kMaxContourEdges - 1].edge, kMaxContourEdges - 1);
 }
 
 TEST_F(ContourTest, EveryRayHasItsNearestEdges) {

@@ -147,6 +147,80 @@ TEST_F(EstimatorTest, SaysWhyAPoseCannotBeTrusted) {
   EXPECT_FALSE(estimate(*image, start).valid());
 }
 
+TEST_F(EstimatorTest, TheAssumedNoiseStandsWhereItIsNotEstimated) {
+  VERIFIES("LASSO-REG-003~1");
+  scan_.sigma_m = 2e-3;
+  parameters().silhouettes = 0;
+  const auto image = test::scan_box(scan_, random_);
+  StartPoint start;
+  start.T_sensor_target = scan_.T_sensor_target;
+  const Registration estimated = estimate(*image, start);
+  parameters().noise_estimated = 0;
+  const Registration assumed = estimate(*image, start);
+  EXPECT_EQ(assumed.T_sensor_target.p, estimated.T_sensor_target.p);
+  const double scale = estimated.normalized_residual * estimated.normalized_residual;
+  EXPECT_GT(scale, 3);
+  EXPECT_LT((scale * assumed.covariance - estimated.covariance).norm(), 1e-12 * estimated.covariance.norm());
+}
+
+TEST_F(EstimatorTest, SaysWhatItHasWhenTheIterationsEnd) {
+  VERIFIES("LASSO-REG-007~1 LASSO-REG-011~1");
+  scan_.sigma_m = 1e-3;
+  parameters().iterations_max = 2;
+  parameters().stop_translation_m = 1e-7;
+  parameters().stop_rotation_rad = 1e-8;
+  const Registration r = estimate_from(0.03, 0.01);
+  EXPECT_EQ(r.stop, StopReason::kIterationLimit);
+  EXPECT_EQ(r.reason, PoseReason::kNotConverged);
+  EXPECT_LT(error(r).tail<3>().norm(), 0.01);  // better than the start
+  EXPECT_GT(r.covariance.trace(), 0);
+}
+
+TEST_F(EstimatorTest, AWideStartOfFewReturnsIsANarrowOne) {
+  VERIFIES("LASSO-REG-005~1 LASSO-REG-007~1");
+  scan_.side = 9;  // too few for the far way
+  scan_.outliers = 0.2;
+  parameters().inliers_min = 12;
+  for (int i = 0; i < 5; ++i) {
+    const auto image = test::scan_box(scan_, random_);
+    StartPoint start;
+    start.T_sensor_target = test::disturb(scan_.T_sensor_target, 0.02, 0.01, random_);
+    const Registration narrow = estimate(*image, start);
+    start.wide = true;
+    const Registration wide = estimate(*image, start);
+    EXPECT_LT(narrow.inlier_share, 0.99);
+    EXPECT_EQ(wide.reason, narrow.reason);
+    EXPECT_EQ(wide.T_sensor_target.p, narrow.T_sensor_target.p);
+  }
+}
+
+// A face alone holds the box so loosely in its plane that labels ask for steps far beyond the band in which they were found.
+TEST_F(EstimatorTest, LabelsMoveThePoseWithinTheirBandOrNotAtAll) {
+  VERIFIES("LASSO-REG-002~1");
+  scan_.side = 48;
+  scan_.sigma_m = 1e-3;
+  int used = 0;
+  int dropped = 0;
+  for (int i = 0; i < 40; ++i) {
+    scan_.T_sensor_target.q = i % 2 == 0 ? Quat(1, 0, 0, 0) : test::generic_box_pose().q;
+    const auto image = test::scan_box(scan_, random_);
+    StartPoint start;
+    start.T_sensor_target = test::disturb(scan_.T_sensor_target, 0, 0.01, random_);
+    parameters().silhouettes = 0;
+    const Registration hits = estimate(*image, start);
+    parameters().silhouettes = 1;
+    const Registration r = estimate(*image, start);
+    const Vec3 step = r.T_sensor_target.p - hits.T_sensor_target.p;
+    if (r.labels == 0) {
+      EXPECT_EQ(step, Vec3(Vec3::Zero()));
+    }
+    EXPECT_LT(step.norm(), parameters().silhouette_band_m);
+    ++(r.labels == 0 ? dropped : used);
+  }
+  EXPECT_GT(used, 15);
+  EXPECT_GT(dropped, 15);
+}
+
 TEST_F(EstimatorTest, ReportsWeakDirections) {
   VERIFIES("LASSO-REG-008~1");
   // One face alone, all other rays unknown: nothing holds the box in its plane.

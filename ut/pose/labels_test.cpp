@@ -155,6 +155,40 @@ TEST(Labels, ADropOutWeighsLessThanAReturn) {
   EXPECT_LT(std::abs(a.dot(missed.mean)), 0.6 * std::abs(a.dot(returned.mean)));
 }
 
+TEST(Labels, WhatIsKnownExactlyStaysAsItIs) {
+  VERIFIES("LASSO-REG-002~1");
+  test::Generator random(13);
+  PoseBelief belief = generic_belief(random);
+  belief.covariance.row(2).setZero();
+  belief.covariance.col(2).setZero();
+  const Mat6 before = belief.covariance;
+  const Label label = make_label(Vec6::Unit(2), -1e-3, 1);
+  apply_labels(Span<const Label>(&label, 1), preset_parameters(), belief);
+  EXPECT_EQ(belief.covariance, before);
+  EXPECT_EQ(belief.mean, Vec6(Vec6::Zero()));
+}
+
+// Sharp labels on what is known to kilometres: rounding leaves less than nothing of what was known without one of them.
+TEST(Labels, BeliefsOfAllScalesStayFiniteAndPositive) {
+  VERIFIES("LASSO-REG-002~1");
+  test::Generator random(17);
+  MissionParameters p = preset_parameters();
+  p.silhouette_sigma_m = 1e-6;
+  p.label_error = 1e-6;
+  for (int trial = 0; trial < 200; ++trial) {
+    PoseBelief belief = generic_belief(random);
+    const Vec6 loose = generic_direction(random);
+    belief.covariance += std::pow(10.0, random.uniform(0, 8)) * loose * loose.transpose();
+    std::vector<Label> labels;
+    for (int i = 0; i < 40; ++i) labels.push_back(make_label(generic_direction(random), random.uniform(-1e-3, 1e-3), i % 2 == 0 ? 1 : -1));
+    const double before = belief.covariance.trace();
+    apply_labels(Span<const Label>(labels.data(), labels.size()), p, belief);
+    EXPECT_TRUE(belief.mean.allFinite());
+    EXPECT_TRUE(belief.covariance.allFinite());
+    EXPECT_LE(belief.covariance.trace(), before * (1 + 1e-9));
+  }
+}
+
 TEST(Labels, WithoutLabelsNothingChanges) {
   VERIFIES("LASSO-REG-002~1");
   test::Generator random(11);

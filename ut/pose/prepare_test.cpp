@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "ut/pose/pose_fixture.hpp"
 #include "ut/support/verifies.hpp"
@@ -119,6 +120,26 @@ TEST_F(PrepareTest, KeepsMissesAndLeavesInvalidSamplesOut) {
   }
   EXPECT_EQ(workspace_->points[1].u[0], 0.5F);
   EXPECT_EQ(workspace_->points[1].p[2], 2.0F);
+}
+
+TEST_F(PrepareTest, ReturnsFromWhereTheSensorDoesNotMeasureSayNothing) {
+  VERIFIES("LASSO-REG-006~1");
+  parameters().range_min_m = 0.5;
+  parameters().range_max_m = 20;
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  RangeImage image;
+  for (const float range : {0.5F, 0.49F, -2.0F, 20.0F, 20.1F, kNan, kInfinity, -kInfinity, 0.0F}) {
+    RangeSample sample;
+    sample.range_m = range;
+    sample.state = RayState::kHit;
+    ASSERT_TRUE(image.samples.push_back(sample));
+  }
+  prepare_rays(mission_, image, StartPoint(), *workspace_);
+  ASSERT_EQ(workspace_->rays.size(), 2u);
+  ASSERT_EQ(workspace_->points.size(), 2u);
+  EXPECT_EQ(workspace_->rays[0].range, 0.5F);
+  EXPECT_EQ(workspace_->rays[1].range, 20.0F);
 }
 
 TEST_F(PrepareTest, TakesAsManyRaysAsAScanCanHave) {

@@ -100,6 +100,14 @@ TEST_F(AgreementTest, WhatLiesBehindTheSensorIsNotMet) {
   EXPECT_EQ(agreement(inverse(behind), 0, 0), 1);
 }
 
+TEST_F(AgreementTest, WhatIsTooFarForTheFieldIsNotMet) {
+  VERIFIES("LASSO-REG-007~1");
+  scan();
+  Pose far = scan_.T_sensor_target;
+  far.p[2] = 3e6 * scan_.model.cell_m;
+  EXPECT_EQ(agreement(inverse(far), 0, 0), 1);
+}
+
 class WeakDirectionsTest : public test::PoseFixture {
  protected:
   // A covariance with the given sigmas [m] along orthogonal directions, rotation scaled by the radius.

@@ -39,6 +39,15 @@ TEST_F(RegisterTest, ConvergesInFewPasses) {
   }
 }
 
+TEST(ExplainedShare, IsThatOfTheUsablePointsAndNoneOfNone) {
+  VERIFIES("LASSO-REG-007~1");
+  HitSolution solution;
+  EXPECT_EQ(explained_share(solution), 0);
+  solution.usable = 8;
+  solution.inliers = 6;
+  EXPECT_EQ(explained_share(solution), 0.75);
+}
+
 TEST_F(RegisterTest, OnePassOverAllPointsIsEnoughAtTheTruth) {
   VERIFIES("LASSO-REG-001~1");
   scan();

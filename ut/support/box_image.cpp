@@ -11,6 +11,7 @@ namespace lasso::test {
 namespace {
 
 constexpr int kBits = 24;
+constexpr double kNearBandCells = 5;
 
 std::uint32_t length(double m) { return static_cast<std::uint32_t>(static_cast<std::int32_t>(m * (1 << kBits) + (m < 0 ? -0.5 : 0.5))); }
 std::uint32_t unit(double x) { return static_cast<std::uint32_t>(static_cast<std::int32_t>(x * (1 << 30))); }
@@ -101,8 +102,19 @@ Grid make_grid(const BoxModel& m) {
 Words geometry_words(const Boxes& boxes, const BoxModel& m, const Grid& g) {
   double radius = 0;
   for (const BoxModel& box : boxes) radius = std::max(radius, (box.center.cwiseAbs() + box.half).norm());
-  return {kBits,       length(g.origin[0]), length(g.origin[1]), length(g.origin[2]), length(g.cell),      g.bricks[0],       g.bricks[1],
-          g.bricks[2], length(radius),      length(m.center[0]), length(m.center[1]), length(m.center[2]), length(5 * g.cell)};
+  return {kBits,
+          length(g.origin[0]),
+          length(g.origin[1]),
+          length(g.origin[2]),
+          length(g.cell),
+          g.bricks[0],
+          g.bricks[1],
+          g.bricks[2],
+          length(radius),
+          length(m.center[0]),
+          length(m.center[1]),
+          length(m.center[2]),
+          length(kNearBandCells * g.cell)};
 }
 
 void push_plane(Words& words, int axis, double sign, double offset) {
@@ -149,20 +161,35 @@ std::uint32_t ray_cell(const Boxes& boxes, const Grid& g, const Vec3& center, Wo
   return count == 0 ? kEmptyBit | 1u : count << kListOffsetBits | offset;  // a distance of 1 is never too large
 }
 
-void push_ray_brick(const Boxes& boxes, const Grid& g, const Vec3& corner, Words& cells, Words& lists) {
+// The brick's word 0.
+std::uint32_t push_ray_brick(const Boxes& boxes, const Grid& g, const Vec3& corner, Words& cells, Words& lists) {
+  const std::size_t before = lists.size();
+  Words brick;
   for (std::uint32_t k = 0; k < kRayCellsPerBrick; ++k) {
     const Vec3 center = corner + g.cell * (Vec3(k & 7, k >> 3 & 7, k >> 6) + Vec3::Constant(0.5));
-    cells.push_back(ray_cell(boxes, g, center, lists));
+    brick.push_back(ray_cell(boxes, g, center, lists));
   }
+  if (lists.size() == before) return kEmptyBit | 1u;
+  cells.insert(cells.end(), brick.begin(), brick.end());
+  return static_cast<std::uint32_t>(cells.size() / kRayCellsPerBrick - 1);
 }
 
-void push_near_brick(const Boxes& boxes, const Grid& g, const Vec3& corner, Words& near) {
+// Its word 1.
+std::uint32_t push_near_brick(const Boxes& boxes, const Grid& g, const Vec3& corner, Words& near) {
+  const double half = 4 * g.cell;
+  const auto is_near = [&](int f) {
+    return face_crosses(face_of(boxes, f), corner + Vec3::Constant(half), half + kNearBandCells * g.cell);
+  };
+  int f = 0;
+  while (f < face_count(boxes) && !is_near(f)) ++f;
+  if (f == face_count(boxes)) return 0;
   for (std::uint32_t k = 0; k < 64; ++k) {
     const Vec3 center = corner + 2 * g.cell * (Vec3(k & 3, k >> 2 & 3, k >> 4) + Vec3::Constant(0.5));
     const int first = closest_face(boxes, center, -1, 1e9);
     near.push_back(static_cast<std::uint32_t>(first + 1));
-    near.push_back(static_cast<std::uint32_t>(closest_face(boxes, center, first, 5 * g.cell) + 1));
+    near.push_back(static_cast<std::uint32_t>(closest_face(boxes, center, first, kNearBandCells * g.cell) + 1));
   }
+  return static_cast<std::uint32_t>(near.size() / kNearWordsPerBrick);
 }
 
 void push_foot(const Boxes& boxes, const Vec3& center, Words& feet) {
@@ -239,15 +266,13 @@ BoxTables make_box_tables(const Boxes& boxes) {
   tables[1] = geometry_words(boxes, bounds, g);
   tables[2] = element_words(boxes);
   tables[3] = Words(kCurvatureWords, 0);
-  for (std::uint32_t z = 0, index = 0; z < g.bricks[2]; ++z) {
+  for (std::uint32_t z = 0; z < g.bricks[2]; ++z) {
     for (std::uint32_t y = 0; y < g.bricks[1]; ++y) {
-      for (std::uint32_t x = 0; x < g.bricks[0]; ++x, ++index) {
+      for (std::uint32_t x = 0; x < g.bricks[0]; ++x) {
         const Vec3 center = g.brick_center(x, y, z);
         const Vec3 corner = center - Vec3::Constant(4 * g.cell);
-        tables[4].push_back(index);
-        tables[4].push_back(index + 1);
-        push_ray_brick(boxes, g, corner, tables[5], tables[6]);
-        push_near_brick(boxes, g, corner, tables[7]);
+        tables[4].push_back(push_ray_brick(boxes, g, corner, tables[5], tables[6]));
+        tables[4].push_back(push_near_brick(boxes, g, corner, tables[7]));
         push_foot(boxes, center, tables[8]);
       }
     }
