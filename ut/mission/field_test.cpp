@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <vector>
 
 #include "fsw/geometry/so3.hpp"
 #include "fsw/mission/mission.hpp"
@@ -36,6 +37,16 @@ class FieldTest : public ::testing::Test {
     u = (aim - origin).normalized();
   }
 
+  // The box as sheets without thickness: its faces are seen from both sides.
+  Field<N> two_sided() {
+    sheets_.assign(mission_->field.elements, mission_->field.elements + mission_->field.element_count);
+    for (Element<N>& e : sheets_) e.flags = kElementTwoSided;
+    Field<N> field = mission_->field;
+    field.elements = sheets_.data();
+    return field;
+  }
+
+  std::vector<Element<N>> sheets_;
   test::BoxModel model_;
   test::TestImage image_ = test::make_box_image(preset_parameters(), model_);
   std::unique_ptr<Mission> mission_ = std::make_unique<Mission>();
@@ -97,6 +108,20 @@ TEST_F(FieldTest, BackFacesDoNotCount) {
   EXPECT_FALSE(walk_field(mission_->field, ray(model_.center, u), 0.0F, 0.5F).found);
 }
 
+TEST_F(FieldTest, FacesOfSheetsCountFromBothSides) {
+  VERIFIES("LASSO-IMG-007~1");
+  const Field<N> field = two_sided();
+  for (int i = 0; i < 5000; ++i) {
+    const Vec3 u = Vec3(random_.uniform(-1, 1), random_.uniform(-1, 1), random_.uniform(-1, 1)).normalized();
+    const double way_out = model_.half.cwiseQuotient(u.cwiseAbs()).minCoeff();  // from the middle
+    const FieldHit<N> out = walk_field(field, ray(model_.center, u), 0.0F, 0.5F);
+    ASSERT_TRUE(out.found);
+    ASSERT_NEAR(N::to_double(out.t), way_out, 3e-6);
+    const FieldHit<N> in = walk_field(field, ray(model_.center - u, u), 0.0F, 2.0F);  // still the first face
+    ASSERT_NEAR(N::to_double(in.t), 1 - way_out, 3e-6);
+  }
+}
+
 TEST_F(FieldTest, SamplesSeeHalfACellToEitherSide) {
   VERIFIES("LASSO-IMG-007~1");
   const Vec3 u(0, 0, 1);
@@ -114,7 +139,9 @@ TEST_F(FieldTest, AWalkFromFarAwayEnds) {
   VERIFIES("LASSO-IMG-008~1");
   const FieldRay<N> r = ray(Vec3(0, 0, -1000), Vec3(0, 0, 1));
   EXPECT_FALSE(walk_field(mission_->field, r, 0.0F, 1e6F).found);  // 1024 samples of 20 mm do not reach the box
+  EXPECT_FALSE(walk_field(mission_->field, ray(model_.center, Vec3(0, 0, 1)), -1e30F, 1e30F).found);  // nor from 20 km before it
   EXPECT_FALSE(near_grid(ray(Vec3(0, 0, -1e6), Vec3(0, 0, 1))));
+  EXPECT_FALSE(near_grid(ray(Vec3(0, 1e6, 0), Vec3(0, 0, 1))));
   EXPECT_TRUE(near_grid(r));
 }
 
@@ -128,6 +155,26 @@ TEST_F(FieldTest, NearElementIsTheClosestThatFaces) {
   EXPECT_EQ(near_element(mission_->field, place_in_grid(mission_->field, r.cell_m), down), kNoElement);
   const FieldRay<N> outside = ray(Vec3(9, 9, 9), Vec3(0, 0, 1));
   EXPECT_EQ(near_element(mission_->field, place_in_grid(mission_->field, outside.cell_m), up), kNoElement);
+}
+
+TEST_F(FieldTest, NearElementOfASheetIsTheClosestOnEitherSide) {
+  VERIFIES("LASSO-IMG-007~1");
+  const Field<N> field = two_sided();
+  const FieldRay<N> r = ray(model_.center - Vec3(0, 0, model_.half[2] + 0.013), Vec3(0, 0, 1));
+  for (const float u : {1.0F, -1.0F}) {
+    const float direction[3] = {0, 0, u};
+    EXPECT_EQ(near_element(field, place_in_grid(field, r.cell_m), direction), 4u);
+  }
+}
+
+TEST_F(FieldTest, NothingIsNearFarFromTheSurface) {
+  VERIFIES("LASSO-IMG-007~1");
+  const float up[3] = {0, 0, 1};
+  float corner[3];  // the grid's last cell, far beyond the near band of 0.1 m
+  for (int i = 0; i < 3; ++i) corner[i] = static_cast<float>(mission_->field.cells[i]) - 1.5F;
+  const GridPlace<N> place = place_in_grid(mission_->field, corner);
+  EXPECT_TRUE(place.inside);
+  EXPECT_EQ(near_element(mission_->field, place, up), kNoElement);
 }
 
 TEST_F(FieldTest, PlacesOutsideTheGridAreItsBorder) {

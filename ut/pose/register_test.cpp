@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
 #include "ut/pose/pose_fixture.hpp"
 #include "ut/support/verifies.hpp"
 
@@ -99,6 +101,31 @@ TEST_F(RegisterTest, TheInformationIsTheInverseOfTheErrorsCovariance) {
     nees += x.dot(solution.H * x) / kScans;
   }
   EXPECT_NEAR(nees, 6, 1.2);
+}
+
+// A box of sheets without thickness, open towards the sensor: returns come from the insides of its walls.
+TEST_F(RegisterTest, SheetsAreMatchedFromBehind) {
+  VERIFIES("LASSO-REG-001~1");
+  std::vector<Element<FlightNumber>> sheets(mission_.field.elements, mission_.field.elements + mission_.field.element_count);
+  for (Element<FlightNumber>& e : sheets) e.flags = kElementTwoSided;
+  mission_.field.elements = sheets.data();
+  for (int i = 0; i < 10; ++i) {
+    scan_.T_sensor_target = test::disturb(test::generic_box_pose(), 0.2, 0.1, random_);
+    scan();
+    for (MatchPoint<FlightNumber>& point : workspace_->points) {
+      const Vec3 u_sensor = Vec3(static_cast<double>(point.u[0]), static_cast<double>(point.u[1]), static_cast<double>(point.u[2]));
+      const Vec3 u = rotate(truth().q, u_sensor);
+      const Vec3 m = truth().p - scan_.model.center;
+      const Vec3 farther = scan_.model.half.cwiseProduct(u.cwiseSign()) - m;  // the farther of each axis' two faces
+      const double range = farther.cwiseQuotient(u).minCoeff();
+      for (int axis = 0; axis < 3; ++axis) point.p[axis] = static_cast<float>(range * u_sensor[axis]);
+    }
+    const HitSolution solution = register_from(0.01, 0.005);
+    EXPECT_EQ(solution.stop, StopReason::kConverged);
+    EXPECT_GT(explained_share(solution), 0.97);
+    EXPECT_LT(error_of(solution.T_target_sensor).head<3>().norm(), 2e-4);
+    EXPECT_LT(error_of(solution.T_target_sensor).tail<3>().norm(), 1e-4);
+  }
 }
 
 TEST_F(RegisterTest, StopsAtTheIterationLimit) {
