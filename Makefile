@@ -90,6 +90,8 @@ arrows: ## the includes obey the arrows between rooms and stages (cfg/quality/ar
 	$(call packages,lint)
 	@cfg/quality/arrows
 
+# $(call tidy,FOLDER): removes what sources that are gone left there, and would be counted.
+tidy = @ninja -C $(1) -t cleandead >/dev/null; find $(1) -name '*.gcno' | while read -r notes; do [ -e "$${notes%.gcno}.o" ] || rm "$$notes"; done
 # A test that ends in an invariant leaves its counts first (ut/support/main.cpp). The cache may not hand out files of another folder.
 coverage mcdc: export CCACHE_BASEDIR :=
 coverage: ## the unit tests take every line and branch of the flight component (reqs/waivers.csv); out/coverage
@@ -97,6 +99,7 @@ coverage: ## the unit tests take every line and branch of the flight component (
 	$(call configure,$(COVERAGE),-DCMAKE_BUILD_TYPE=Coverage -DLASSO_GROUND=OFF \
 	  -DCMAKE_CXX_FLAGS="-O0 --coverage -fprofile-abs-path -fno-exceptions -DLASSO_BEFORE_ABORT=__gcov_dump")
 	$(call compile,$(COVERAGE),flight_tests)
+	$(call tidy,$(COVERAGE))
 	@find $(COVERAGE) -name '*.gcda' -delete; rm -rf $(LASSO_OUT)/coverage
 	$(call ctest,$(COVERAGE),$(LASSO_OUT)/coverage/test,-L flight)
 	@cfg/quality/coverage $(COVERAGE) $(SOURCE)
@@ -108,6 +111,7 @@ mcdc: ## the unit tests show that each condition of the flight component decides
 	  -DCMAKE_CXX_FLAGS="-O1 -fprofile-instr-generate -fcoverage-mapping -fcoverage-mcdc -fprofile-list=$(abspath $(SOURCE))/cfg/quality/mcdc.list \
 	  -DLASSO_BEFORE_ABORT=__llvm_profile_write_file")
 	$(call compile,$(MCDC),flight_tests)
+	$(call tidy,$(MCDC))
 	@rm -rf $(MCDC)/profiles $(LASSO_OUT)/mcdc
 	$(call ctest,$(MCDC),$(LASSO_OUT)/mcdc/test,-L flight)
 	@cfg/quality/mcdc $(MCDC) $(SOURCE)
