@@ -6,6 +6,7 @@ export LASSO_OUT
 BUILD := $(LASSO_OUT)/build
 PPC := $(LASSO_OUT)/ppc
 BENCH := $(LASSO_OUT)/build-bench
+CLANG := $(LASSO_OUT)/build-clang
 DEBUG := $(LASSO_OUT)/build-debug
 PROVE := $(LASSO_OUT)/build-prove
 COVERAGE := $(LASSO_OUT)/build-coverage
@@ -13,8 +14,8 @@ MCDC := $(LASSO_OUT)/build-mcdc
 MISSION ?= cfg/missions/hubble_tenth.toml
 OUT ?= out/run
 PREFIX ?= /usr/local
-JOBS ?= $(shell nproc)
-CROSS = -DCMAKE_TOOLCHAIN_FILE=cfg/toolchains/ppc603e.cmake -DLASSO_GROUND=OFF
+export JOBS ?= $(shell nproc)
+CROSS = -DCMAKE_TOOLCHAIN_FILE=$(abspath cfg/toolchains/ppc603e.cmake) -DLASSO_GROUND=OFF
 SOURCES = git ls-files -z '*.cpp' '*.hpp'
 
 export CCACHE_BASEDIR := $(CURDIR)
@@ -22,7 +23,8 @@ export CCACHE_BASEDIR := $(CURDIR)
 NINJA_FLAGS := $(if $(MAKE_TERMOUT),,-- --quiet)
 export NINJA_STATUS := [%f/%t %es] 
 
-# $(call packages,LISTS), $(call configure,FOLDER,CMAKE OPTIONS), $(call compile,FOLDER[,TARGETS]), $(call ctest,FOLDER,REPORTS[,OPTIONS])
+# $(begin) of a gate (nothing old speaks for it), $(call packages,LISTS), $(call configure,FOLDER,CMAKE OPTIONS), $(call compile,FOLDER[,TARGETS]), $(call ctest,FOLDER,REPORTS[,OPTIONS])
+begin = @rm -f $(LASSO_OUT)/$@/summary.json
 packages = @cfg/packages/ensure $(1)
 configure = @[ -e $(1)/build.ninja ] || { echo "configure $(1)"; mkdir -p $(1); \
   cmake -S $(SOURCE) -B $(1) -G Ninja -DCMAKE_BUILD_TYPE=Release $$(command -v ccache >/dev/null && echo -DCMAKE_CXX_COMPILER_LAUNCHER=ccache) $(2) \
@@ -40,8 +42,14 @@ help: ## this list
 run: build ## track the tenth-scale Hubble and report into out/run; MISSION=, SCENARIO=, SEED=, OUT=
 	@$(BUILD)/mdat/mdat run $(MISSION) $(if $(SCENARIO),--scenario $(SCENARIO)) $(if $(SEED),--seed $(SEED)) --out $(OUT)
 
-test: build ## build and pass all tests of the host; reports in out/test
-	$(call ctest,$(BUILD),$(LASSO_OUT)/test)
+test: ## build with g++ and clang++ without a warning, and pass all tests of the host; reports in out/test
+	$(begin)
+	$(call packages,build clang)
+	$(call configure,$(BUILD),)
+	$(call compile,$(BUILD))
+	$(call configure,$(CLANG),-DCMAKE_CXX_COMPILER=clang++-19)
+	$(call compile,$(CLANG))
+	@cfg/quality/run-tests test g++=$(BUILD) clang++=$(CLANG)
 
 bench: ## time the estimate, its stages and its peers; table, and out/bench/results.json
 	$(call packages,build bench)
@@ -57,6 +65,7 @@ basin: ## 1000 rough starts (20 deg, 0.3 m) at 4 m: how many the component finds
 	@$(BUILD)/ft/basin/basin $(MISSION) $(or $(STARTS),1000) $(or $(SEED),1)
 
 golden: ## the same telemetry, bit for bit, from the host and from the emulated PowerPC 603e
+	$(begin)
 	$(call packages,build target)
 	$(call configure,$(BUILD),)
 	$(call compile,$(BUILD),golden_record golden_replay golden_compare)
@@ -75,18 +84,21 @@ ppc-count: ## instructions of one estimate on the PowerPC 603e, by function; tab
 	@ft/ppc603e/count $(BUILD) $(PPC)
 
 prove: ## what the archives for the 603e do not do: heap, exceptions, recursion, contraction, too much stack or memory; out/prove
+	$(begin)
 	$(call packages,build target)
 	$(call configure,$(PROVE),$(CROSS) -DLASSO_TESTS=OFF -DLASSO_CALL_GRAPH=ON -DCMAKE_CXX_COMPILER_LAUNCHER=)
 	$(call compile,$(PROVE))
 	@cfg/quality/prove $(PROVE)
 
 ppc-test: ## unit tests of the flight component on the emulated PowerPC 603e; reports in out/ppc-test
+	$(begin)
 	$(call packages,build target)
 	$(call configure,$(PPC),$(CROSS))
 	$(call compile,$(PPC))
-	$(call ctest,$(PPC),$(LASSO_OUT)/ppc-test)
+	@cfg/quality/run-tests ppc-test 603e=$(PPC)
 
 arrows: ## the includes obey the arrows between rooms and stages (cfg/quality/arrows.toml)
+	$(begin)
 	$(call packages,lint)
 	@cfg/quality/arrows
 
@@ -95,6 +107,7 @@ tidy = @ninja -C $(1) -t cleandead >/dev/null; find $(1) -name '*.gcno' | while 
 # A test that ends in an invariant leaves its counts first (ut/support/main.cpp). The cache may not hand out files of another folder.
 coverage mcdc: export CCACHE_BASEDIR :=
 coverage: ## the unit tests take every line and branch of the flight component (reqs/waivers.csv); out/coverage
+	$(begin)
 	$(call packages,build coverage)
 	$(call configure,$(COVERAGE),-DCMAKE_BUILD_TYPE=Coverage -DLASSO_GROUND=OFF \
 	  -DCMAKE_CXX_FLAGS="-O0 --coverage -fprofile-abs-path -fno-exceptions -DLASSO_BEFORE_ABORT=__gcov_dump")
@@ -106,6 +119,7 @@ coverage: ## the unit tests take every line and branch of the flight component (
 
 mcdc: export LLVM_PROFILE_FILE := $(abspath $(MCDC))/profiles/%m.profraw
 mcdc: ## the unit tests show that each condition of the flight component decides by itself; out/mcdc
+	$(begin)
 	$(call packages,build coverage)
 	$(call configure,$(MCDC),-DCMAKE_BUILD_TYPE=Coverage -DLASSO_GROUND=OFF -DCMAKE_CXX_COMPILER=clang++-19 \
 	  -DCMAKE_CXX_FLAGS="-O1 -fprofile-instr-generate -fcoverage-mapping -fcoverage-mcdc -fprofile-list=$(abspath $(SOURCE))/cfg/quality/mcdc.list \
@@ -117,6 +131,7 @@ mcdc: ## the unit tests show that each condition of the flight component decides
 	@cfg/quality/mcdc $(MCDC) $(SOURCE)
 
 trace: ## every active requirement has a passing test or its evidence; after make test and make ppc-test; matrix in out/trace
+	$(begin)
 	$(call packages,trace)
 	@reqs/trace
 
@@ -125,6 +140,7 @@ evidence: ## collect what the gates left into out/evidence, for a reviewer, and 
 	@reqs/evidence
 
 gates-selftest: ## every gate fails on its planted violation (ut/gates)
+	$(begin)
 	$(call packages,build target lint trace coverage)
 	@cfg/quality/gates-selftest
 
@@ -136,6 +152,7 @@ format: ## format all tracked sources
 	@$(SOURCES) | xargs -0 clang-format -i
 
 lint: ## check the formatting of all tracked sources
+	$(begin)
 	$(call packages,lint)
 	@$(SOURCES) | xargs -0 clang-format --dry-run -Werror
 	@echo "lint: $$($(SOURCES) | tr -cd '\0' | wc -c) files, no finding"

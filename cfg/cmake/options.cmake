@@ -10,6 +10,13 @@ if(CMAKE_CXX_FLAGS_RELEASE STREQUAL "-O3 -DNDEBUG")
   set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG")  # flight rooms are built with -O3, see lasso_flight
 endif()
 
+# For make sanitize: a finding ends the program.
+set(LASSO_SANITIZE "" CACHE STRING "Sanitizers to build with, as -fsanitize= names them")
+if(LASSO_SANITIZE)
+  add_compile_options(-fsanitize=${LASSO_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=${LASSO_SANITIZE})
+endif()
+
 add_library(lasso_warnings INTERFACE)
 target_compile_options(lasso_warnings INTERFACE -Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wdouble-promotion -Wold-style-cast
                                                 -Wshadow -Wnon-virtual-dtor)
@@ -18,9 +25,6 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_SIZEOF_VOID_P EQUAL 8)  # a ca
 endif()
 if(LASSO_WERROR)
   target_compile_options(lasso_warnings INTERFACE -Werror)
-endif()
-if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
-  target_compile_options(lasso_warnings INTERFACE -Wno-double-promotion)  # it finds them in plain assignments
 endif()
 
 # After lasso_warnings, for unit tests: sizes that are right on the host need no casts for the 32-bit target. Flight sources get no such leave.

@@ -55,6 +55,12 @@ class Gate:
             self.stop(f'{name} is missing: install the Debian package {package} (cfg/packages/ensure {where})')
         return name
 
+    def call(self, *command, **options):
+        """The exit code of a command that says what it does itself."""
+        self.tool(command[0]) if command[0] in TOOLS else None
+        sys.stdout.flush()
+        return subprocess.run([str(word) for word in command], check=False, **options).returncode
+
     def run(self, *command, **options):
         """What the command wrote; a finding if it fails."""
         self.tool(command[0]) if command[0] in TOOLS else None

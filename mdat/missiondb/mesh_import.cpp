@@ -29,7 +29,9 @@ class Joiner {
   std::uint32_t index_of(const aiVector3D& vertex) {
     const auto next = static_cast<std::uint32_t>(mesh.vertices.size());
     const auto [entry, added] = indices_.try_emplace(Point{vertex.x, vertex.y, vertex.z}, next);
-    if (added) mesh.vertices.push_back(scale_ * Eigen::Vector3d(double{vertex.x}, double{vertex.y}, double{vertex.z}));
+    if (added)
+      mesh.vertices.push_back(scale_ *
+                              Eigen::Vector3d(static_cast<double>(vertex.x), static_cast<double>(vertex.y), static_cast<double>(vertex.z)));
     return entry->second;
   }
   Mesh mesh;

@@ -13,9 +13,8 @@ std::string joined(const std::vector<Problem>& problems) {
 }
 
 std::vector<Problem> in_order(std::vector<Problem> problems) {
-  std::stable_sort(problems.begin(), problems.end(), [](const Problem& a, const Problem& b) {
-    return std::tie(a.file, a.line, a.column) < std::tie(b.file, b.line, b.column);
-  });
+  const auto place = [](const Problem& p) { return std::tie(p.file, p.line, p.column, p.key, p.value, p.expected); };
+  std::sort(problems.begin(), problems.end(), [&](const Problem& a, const Problem& b) { return place(a) < place(b); });
   return problems;
 }
 

@@ -70,7 +70,8 @@ std::vector<std::uint32_t> make_cell_list(const std::vector<Element>& elements, 
                                           const SampleCube& cube, double tolerance_m) {
   std::vector<Part> parts;
   for (const std::uint32_t index : indices) parts.push_back(part_of(elements, index, cube));
-  std::stable_sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.area_m2 > b.area_m2; });
+  std::sort(parts.begin(), parts.end(),
+            [](const Part& a, const Part& b) { return a.area_m2 > b.area_m2 || (a.area_m2 == b.area_m2 && a.index < b.index); });
   std::vector<std::uint32_t> entries;
   for (const Part& part : parts) entries.push_back(part.index | (is_final(parts, part, tolerance_m) ? kFinalEntry : 0));
   return entries;

@@ -111,7 +111,8 @@ std::vector<Joint> find_joints(const Surface& surface, const std::vector<EdgeUse
       joints.push_back({(surface.vertices[first->a] - surface.vertices[first->b]).norm(), first});
     }
   });
-  std::stable_sort(joints.begin(), joints.end(), [](const Joint& x, const Joint& y) { return x.length > y.length; });
+  const auto longer = [](const Joint& x, const Joint& y) { return x.length > y.length || (x.length == y.length && x.uses < y.uses); };
+  std::sort(joints.begin(), joints.end(), longer);
   return joints;
 }
 

@@ -72,7 +72,7 @@ std::string render(const sim::RayCaster& target, const Pose& T_sensor_target, co
 }
 
 Vec3 direction_of(const RangeSample& sample) {
-  return {double{sample.direction[0]}, double{sample.direction[1]}, double{sample.direction[2]}};
+  return {static_cast<double>(sample.direction[0]), static_cast<double>(sample.direction[1]), static_cast<double>(sample.direction[2])};
 }
 
 std::string points_text(const std::vector<RangeSample>& samples, RayState state, const sim::RayCaster& target, const Pose& pose) {
@@ -141,7 +141,7 @@ std::string place(std::size_t i, std::size_t count) {
 double residual_m(const sim::RayCaster& target, const Pose& T_sensor_target, const RangeSample& sample) {
   const Pose T_target_sensor = inverse(T_sensor_target);
   const sim::RayHit hit = target.cast(T_target_sensor.p, rotate(T_target_sensor.q, direction_of(sample)));
-  return hit.hit ? double{sample.range_m} - hit.range_m : std::numeric_limits<double>::quiet_NaN();
+  return hit.hit ? static_cast<double>(sample.range_m) - hit.range_m : std::numeric_limits<double>::quiet_NaN();
 }
 
 std::string scan_view_png(Plotter& plotter, const sim::RayCaster& target, const std::vector<KeptScan>& scans, double step_rad,

@@ -28,7 +28,8 @@ PoseBound pose_bound(const sim::RayCaster& target, const Pose& T_sensor_target, 
   Mat6 information = Mat6::Zero();
   for (const RangeSample& sample : scan) {
     if (sample.state != RayState::kHit) continue;
-    const Vec3 direction(double{sample.direction[0]}, double{sample.direction[1]}, double{sample.direction[2]});
+    const Vec3 direction(static_cast<double>(sample.direction[0]), static_cast<double>(sample.direction[1]),
+                         static_cast<double>(sample.direction[2]));
     Vec6 gradient;
     double range_m = 0;
     if (!information_of(target, T_target_sensor.p, rotate(T_target_sensor.q, direction), gradient, range_m)) continue;

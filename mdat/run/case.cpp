@@ -164,7 +164,7 @@ Mat6 registration_covariance(const PoseTelemetry& telemetry) {
   std::size_t term = 0;
   for (int row = 0; row < 6; ++row) {
     for (int column = row; column < 6; ++column, ++term) {
-      covariance(row, column) = double{telemetry.covariance[term]};
+      covariance(row, column) = static_cast<double>(telemetry.covariance[term]);
       covariance(column, row) = covariance(row, column);
     }
   }

@@ -197,7 +197,7 @@ double relative_error(double value, long double truth) { return error(value, tru
 
 double sin_cos_error(double x) {
   const SinCos value = sin_cos(x);
-  const long double wide = x;
+  const auto wide = static_cast<long double>(x);
   return std::max(error(value.sin, std::sin(wide)), error(value.cos, std::cos(wide)));
 }
 
@@ -272,7 +272,8 @@ TEST(NormalDensity, WithinTheBound) {
   const long double root_two_pi = std::sqrt(8 * std::atan(1.0L));
   for (int i = -370000; i <= 370000; ++i) {
     const double z = 1e-4 * i;
-    const long double truth = std::exp(-0.5L * z * z) / root_two_pi;
+    const auto wide = static_cast<long double>(z);
+    const long double truth = std::exp(-0.5L * wide * wide) / root_two_pi;
     ASSERT_LE(relative_error(normal_density(z), truth), 1e-14 * (1 + z * z / 20)) << z;
   }
 }

@@ -46,14 +46,16 @@ Pose generic_pose(double range_m) {
 
 // The range of a ray at a pose, by the caster alone.
 double range_at(const sim::RayCaster& target, const Pose& T_sensor_target, const RangeSample& sample) {
-  const Vec3 u(double{sample.direction[0]}, double{sample.direction[1]}, double{sample.direction[2]});
+  const Vec3 u(static_cast<double>(sample.direction[0]), static_cast<double>(sample.direction[1]),
+               static_cast<double>(sample.direction[2]));
   const Pose T_target_sensor = inverse(T_sensor_target);
   const sim::RayHit hit = target.cast(T_target_sensor.p, rotate(T_target_sensor.q, u));
   return hit.hit ? hit.range_m : 0;
 }
 
 double incidence_cosine(const sim::RayCaster& target, const Pose& T_sensor_target, const RangeSample& sample) {
-  const Vec3 u(double{sample.direction[0]}, double{sample.direction[1]}, double{sample.direction[2]});
+  const Vec3 u(static_cast<double>(sample.direction[0]), static_cast<double>(sample.direction[1]),
+               static_cast<double>(sample.direction[2]));
   const Pose T_target_sensor = inverse(T_sensor_target);
   const Vec3 v = rotate(T_target_sensor.q, u);
   const sim::RayHit hit = target.cast(T_target_sensor.p, v);

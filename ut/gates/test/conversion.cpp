@@ -1,0 +1,4 @@
+int main(int argc, char**) {
+  const unsigned char narrow = argc;
+  return narrow - 1;
+}
