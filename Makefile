@@ -7,7 +7,7 @@ BUILD := $(LASSO_OUT)/build
 PPC := $(LASSO_OUT)/ppc
 BENCH := $(LASSO_OUT)/build-bench
 CLANG := $(LASSO_OUT)/build-clang
-DEBUG := $(LASSO_OUT)/build-debug
+GOLDEN := $(LASSO_OUT)/build-golden
 PROVE := $(LASSO_OUT)/build-prove
 COVERAGE := $(LASSO_OUT)/build-coverage
 MCDC := $(LASSO_OUT)/build-mcdc
@@ -16,6 +16,8 @@ OUT ?= out/run
 PREFIX ?= /usr/local
 export JOBS ?= $(shell nproc)
 CROSS = -DCMAKE_TOOLCHAIN_FILE=$(abspath cfg/toolchains/ppc603e.cmake) -DLASSO_GROUND=OFF
+# $(call at_level,COMPILER,LEVEL): flight code and its tests at one level of optimisation, where the shipped build uses several
+at_level = -DCMAKE_CXX_COMPILER=$(1) -DCMAKE_BUILD_TYPE=Level -DCMAKE_CXX_FLAGS_LEVEL=-$(2) -DLASSO_GROUND=OFF
 SOURCES = git ls-files -z '*.cpp' '*.hpp'
 
 export CCACHE_BASEDIR := $(CURDIR)
@@ -64,16 +66,22 @@ basin: ## 1000 rough starts (20 deg, 0.3 m) at 4 m: how many the component finds
 	$(call compile,$(BUILD),basin)
 	@$(BUILD)/ft/basin/basin $(MISSION) $(or $(STARTS),1000) $(or $(SEED),1)
 
-golden: ## the same telemetry, bit for bit, from the host and from the emulated PowerPC 603e
+golden: ## the same telemetry, bit for bit: g++ and clang++, optimised or not, threads or none, host and emulated PowerPC 603e
 	$(begin)
-	$(call packages,build target)
+	$(call packages,build target clang)
 	$(call configure,$(BUILD),)
 	$(call compile,$(BUILD),golden_record golden_replay golden_compare)
 	$(call configure,$(PPC),$(CROSS))
 	$(call compile,$(PPC),golden_replay)
-	$(call configure,$(DEBUG),-DCMAKE_BUILD_TYPE=Debug -DLASSO_GROUND=OFF)
-	$(call compile,$(DEBUG),golden_replay)
-	@ft/golden/run $(BUILD) $(PPC) $(DEBUG)
+	$(call configure,$(GOLDEN)-g++-O0,$(call at_level,g++,O0))
+	$(call compile,$(GOLDEN)-g++-O0,golden_replay)
+	$(call configure,$(GOLDEN)-g++-O2,$(call at_level,g++,O2))
+	$(call compile,$(GOLDEN)-g++-O2,golden_replay)
+	$(call configure,$(GOLDEN)-clang++-O0,$(call at_level,clang++-19,O0))
+	$(call compile,$(GOLDEN)-clang++-O0,golden_replay)
+	$(call configure,$(GOLDEN)-clang++-O2,$(call at_level,clang++-19,O2))
+	$(call compile,$(GOLDEN)-clang++-O2,golden_replay)
+	@ft/golden/run $(BUILD) $(PPC) $(foreach build,g++-O0 g++-O2 clang++-O0 clang++-O2,$(build)=$(GOLDEN)-$(build))
 
 ppc-count: ## instructions of one estimate on the PowerPC 603e, by function; table, and out/ppc-count/results.json
 	$(call packages,build target)
