@@ -220,6 +220,8 @@ double normal_cumulative(double z) {
   return z < 0 ? tail : 1.0 - tail;
 }
 
+double clamp(double x, double low, double high) { return x < low ? low : x > high ? high : x; }
+
 bool is_finite(double x) { return absolute(x) < kInfinity; }
 
 }  // namespace lasso

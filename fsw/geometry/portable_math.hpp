@@ -16,6 +16,7 @@ double arc_sine(double x);                // |x| <= 1, error <= 2e-15 rad
 double exponential(double x);             // relative error <= 1e-14; saturates to infinity, and to 0 instead of a subnormal result
 double normal_density(double z);          // exp(-z^2/2)/sqrt(2 pi), relative error <= 1e-14 (1 + z^2/20) down to 1e-307
 double normal_cumulative(double z);       // Phi(z), absolute error <= 1e-14, relative error <= 1e-10 down to z = -30
+double clamp(double x, double low, double high);
 bool is_finite(double x);
 
 namespace detail {

@@ -1,7 +1,6 @@
 #include "fsw/pose/register.hpp"
 
-#include <algorithm>
-
+#include "fsw/geometry/portable_math.hpp"
 #include "fsw/pose/gauss_newton.hpp"
 
 namespace lasso {
@@ -32,7 +31,7 @@ bool is_insignificant(const Pass& pass, const MatchSettings<N>& s) {
 // which the assumed noise would excuse, stands out.
 void narrow_kernel(const MissionParameters& p, const Pass& last, MatchSettings<N>& s) {
   if (last.status != Status::kOk) return;
-  const double share = std::clamp(noise_of(last, s), kNarrowestKernel, 1.0);
+  const double share = clamp(noise_of(last, s), kNarrowestKernel, 1.0);
   s.kernel_squared = N::to_ratio(p.kernel_width * p.kernel_width * share);
 }
 

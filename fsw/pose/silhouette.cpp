@@ -107,8 +107,6 @@ double along_in_space(const ContourEdge<N>& edge, double along) {
   return near_end / (near_end + (1 - along) * N::to_double(edge.zb));
 }
 
-double clamp(double v, double low, double high) { return v < low ? low : v > high ? high : v; }
-
 EdgePlace place_on_edge(const ModelEdge<N>& model, const ContourEdge<N>& contour, double along, const Line& line) {
   EdgePlace place;
   const Vec3 a = to_vec3(model.a);

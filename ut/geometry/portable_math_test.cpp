@@ -161,6 +161,15 @@ TEST(NormalCumulative, EndsSymmetryAndOrder) {
   }
 }
 
+TEST(Clamp, StaysWithinItsEndsAndKeepsNan) {
+  VERIFIES("LASSO-GEO-006~1");
+  EXPECT_EQ(clamp(-0.1, 0.0, 2.0), 0.0);
+  EXPECT_EQ(clamp(0.7, 0.0, 2.0), 0.7);
+  EXPECT_EQ(clamp(2.1, 0.0, 2.0), 2.0);
+  EXPECT_EQ(clamp(kInf, 0.0, 2.0), 2.0);
+  EXPECT_TRUE(is_nan(clamp(kNan, 0.0, 2.0)));
+}
+
 TEST(IsFinite, KnowsNanAndInfinity) {
   VERIFIES("LASSO-GEO-006~1");
   for (const double x : {0.0, -0.0, kMax, -kMax, kSubnormal, 1.5}) EXPECT_TRUE(is_finite(x)) << x;
