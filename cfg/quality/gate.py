@@ -82,7 +82,7 @@ class Gate:
             json.dump({'gate': self.name, 'passed': passed, 'figures': self.figures}, file, indent=1, ensure_ascii=False)
         for finding in self.findings:
             print(f'{self.name}: {finding}', file=sys.stderr)
-        said = '; '.join(f'{label}: {text}' for label, text in self.figures.items())
+        said = ', '.join(f'{text} {label}' for label, text in self.figures.items())
         print(f'{self.name}: {"passed" if passed else f"FAILED, {len(self.findings)} findings"}{f" ({said})" if said else ""}')
         return 0 if passed else 1
 
