@@ -47,7 +47,7 @@ TEST_F(Missions, PresetsHoldWhereNothingIsWritten) {
   EXPECT_EQ(source.version, 2u);
   EXPECT_EQ(source.name, "test");
   EXPECT_EQ(source.target.scale, 1);
-  EXPECT_EQ(source.target.cell_size_m, 0.008);
+  EXPECT_EQ(source.target.cell_size_m, 0.012);
   const MissionParameters presets = preset_parameters();
   for (const ParameterRow& row : parameter_rows()) {
     EXPECT_EQ(source.parameters.*row.member, presets.*row.member) << row.key;
