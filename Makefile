@@ -9,6 +9,7 @@ BENCH := $(LASSO_OUT)/build-bench
 CLANG := $(LASSO_OUT)/build-clang
 GOLDEN := $(LASSO_OUT)/build-golden
 PROVE := $(LASSO_OUT)/build-prove
+SANITIZE := $(LASSO_OUT)/build-sanitize
 COVERAGE := $(LASSO_OUT)/build-coverage
 MCDC := $(LASSO_OUT)/build-mcdc
 MISSION ?= cfg/missions/hubble_tenth.toml
@@ -18,6 +19,10 @@ export JOBS ?= $(shell nproc)
 CROSS = -DCMAKE_TOOLCHAIN_FILE=$(abspath cfg/toolchains/ppc603e.cmake) -DLASSO_GROUND=OFF
 # $(call at_level,COMPILER,LEVEL): flight code and its tests at one level of optimisation, where the shipped build uses several
 at_level = -DCMAKE_CXX_COMPILER=$(1) -DCMAKE_BUILD_TYPE=Level -DCMAKE_CXX_FLAGS_LEVEL=-$(2) -DLASSO_GROUND=OFF
+# $(call sanitized,SANITIZERS), and the tests that start threads
+comma := ,
+sanitized = -DCMAKE_CXX_COMPILER=clang++-19 -DCMAKE_BUILD_TYPE=Level -DCMAKE_CXX_FLAGS_LEVEL="-O1 -g1" -DLASSO_SANITIZE=$(1)
+THREADED ?= ut_posix ut_exec
 SOURCES = git ls-files -z '*.cpp' '*.hpp'
 
 export CCACHE_BASEDIR := $(CURDIR)
@@ -35,7 +40,7 @@ compile = @echo "build $(1)$(if $(2), ($(2)))"; cmake --build $(1) --parallel $(
 ctest = @rm -rf $(2); mkdir -p $(2); GTEST_OUTPUT=xml:$(abspath $(2))/ \
   ctest --test-dir $(1) --parallel $(JOBS) --output-on-failure --no-tests=error --output-junit $(abspath $(2))/ctest.xml $(3)
 
-.PHONY: help run test bench basin golden ppc-count prove ppc-test arrows coverage mcdc trace evidence gates-selftest figures format lint install clean build
+.PHONY: help run test bench basin golden ppc-count prove ppc-test sanitize arrows coverage mcdc trace evidence gates-selftest figures format lint install clean build
 .DEFAULT_GOAL := help
 
 help: ## this list
@@ -104,6 +109,17 @@ ppc-test: ## unit tests of the flight component on the emulated PowerPC 603e; re
 	$(call configure,$(PPC),$(CROSS))
 	$(call compile,$(PPC))
 	@cfg/quality/run-tests ppc-test 603e=$(PPC)
+
+sanitize: export LSAN_OPTIONS := suppressions=$(abspath cfg/quality/leaks.txt):print_suppressions=0
+sanitize: export UBSAN_OPTIONS := print_stacktrace=1
+sanitize: ## all tests under the address and undefined-behaviour sanitizers, the threaded ones under the thread sanitizer
+	$(begin)
+	$(call packages,build clang)
+	$(call configure,$(SANITIZE)-address,$(call sanitized,address$(comma)undefined))
+	$(call compile,$(SANITIZE)-address)
+	$(call configure,$(SANITIZE)-thread,$(call sanitized,thread) -DLASSO_GROUND=OFF)
+	$(call compile,$(SANITIZE)-thread,$(THREADED))
+	@cfg/quality/run-tests sanitize address,undefined=$(SANITIZE)-address thread=$(SANITIZE)-thread $(THREADED)
 
 arrows: ## the includes obey the arrows between rooms and stages (cfg/quality/arrows.toml)
 	$(begin)
