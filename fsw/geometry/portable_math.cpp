@@ -161,7 +161,9 @@ double detail::square_root_in_software(double x) {
 
 double square_root(double x) {
 #if defined(__SSE2__) || defined(__aarch64__)
-  return x >= 0 ? __builtin_sqrt(x) : kNotANumber;  // one instruction; the NaN is the same one everywhere
+  // One instruction. To a compiler all NaNs are alike, and the instruction's own is negative: it may not know that this is one.
+  static const volatile double kDomainError = kNotANumber;
+  return x >= 0 ? __builtin_sqrt(x) : kDomainError;
 #else
   return detail::square_root_in_software(x);
 #endif
