@@ -175,11 +175,10 @@ format: ## format all tracked sources
 	$(call packages,lint)
 	@$(SOURCES) | xargs -0 clang-format -i
 
-lint: ## check the formatting of all tracked sources
-	$(begin)
-	$(call packages,lint)
-	@$(SOURCES) | xargs -0 clang-format --dry-run -Werror
-	@echo "lint: $$($(SOURCES) | tr -cd '\0' | wc -c) files, no finding"
+lint: ## clang-format, clang-tidy and cppcheck find nothing in the tracked sources; out/lint
+	$(call packages,build lint)
+	$(call configure,$(BUILD),)
+	@cfg/quality/lint $(BUILD)
 
 install: build ## install mdat, the flight component and its CMake package under PREFIX= (/usr/local)
 	@cmake --install $(BUILD) --prefix $(abspath $(PREFIX)) >out/install.log || { cat out/install.log; false; }

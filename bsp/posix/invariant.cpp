@@ -7,7 +7,7 @@
 namespace lasso {
 
 [[noreturn]] void on_invariant_failure(const char* what) {
-  std::fprintf(stderr, "3dlasso: invariant failed: %s\n", what);
+  (void)std::fprintf(stderr, "3dlasso: invariant failed: %s\n", what);
   std::abort();
 }
 

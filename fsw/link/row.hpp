@@ -87,7 +87,7 @@ struct Elements {
   using Type = T;
   static constexpr std::uint16_t kCount = 1;
   static T& at(T& member, std::size_t) { return member; }
-  static const T& at(const T& member, std::size_t) { return member; }
+  static const T& at(const T& member, std::size_t) { return member; }  // NOLINT(bugprone-return-const-ref-from-parameter): of a packet
 };
 template <class T, std::size_t N>
 struct Elements<T[N]> {

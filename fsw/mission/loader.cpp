@@ -11,10 +11,10 @@ namespace lasso {
 namespace {
 
 using N = FlightNumber;
-static_assert(sizeof(Element<N>) == 4 * kElementWords, "elements are converted in place");
-static_assert(sizeof(Curvature<N>) == 4 * kCurvatureWords, "curvatures are converted in place");
-static_assert(sizeof(ModelEdge<N>) == 4 * kEdgeWords, "edges are converted in place");
-static_assert(sizeof(HullPointOf<N>) == 4 * 3, "hull points are converted in place");
+static_assert(sizeof(Element<N>) == std::size_t{4} * kElementWords, "elements are converted in place");
+static_assert(sizeof(Curvature<N>) == std::size_t{4} * kCurvatureWords, "curvatures are converted in place");
+static_assert(sizeof(ModelEdge<N>) == std::size_t{4} * kEdgeWords, "edges are converted in place");
+static_assert(sizeof(HullPointOf<N>) == std::size_t{4} * 3, "hull points are converted in place");
 
 // Each letter is a word of a record: u plain, L length, U unit vector, K curvature.
 constexpr const char* kElementLayout = "UUULuuUUUUUUUUUUUULLLL";
@@ -85,7 +85,8 @@ LoadFailure check_header(const Image& image) {
 }
 
 LoadFailure read_directory(Image& image) {
-  ByteReader reader(ConstBytes(image.bytes).subspan(4 * kImageHeaderWords, 4 * kTableCount * kDirectoryEntryWords));
+  ByteReader reader(
+      ConstBytes(image.bytes).subspan(std::size_t{4} * kImageHeaderWords, std::size_t{4} * kTableCount * kDirectoryEntryWords));
   std::size_t free_from = kDirectoryBytes;
   const std::size_t end = image.bytes.size() - 4;
   for (std::uint32_t i = 0; i < kTableCount; ++i) {
@@ -98,7 +99,8 @@ LoadFailure read_directory(Image& image) {
     if (id != i + 1) return failure(Status::kBadOrder, "tables out of order", i + 1);
     if (table.words != kShapes[i].words) return failure(Status::kBadLength, "record length", i + 1);
     if (offset % 8 != 0 || offset < free_from || offset > end) return failure(Status::kBadIndex, "table offset", i + 1);
-    if (table.records > (end - offset) / (4 * table.words)) return failure(Status::kTruncated, "table ends past the image", i + 1);
+    if (table.records > (end - offset) / (std::size_t{4} * table.words))
+      return failure(Status::kTruncated, "table ends past the image", i + 1);
     table.data = image.bytes.data() + offset;
     free_from = offset + table.bytes();
     if (crc != crc32c(ConstBytes(table.data, table.bytes()))) return failure(Status::kBadCrc, "table check sum", i + 1);

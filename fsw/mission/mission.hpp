@@ -35,7 +35,7 @@ struct MissionOf {
   std::uint32_t version = 0;
   std::uint32_t image_crc = 0;  // CRC-32C of the image as received
   MissionParameters parameters{};
-  Field<N> field;
+  Field<N> field{};
   Span<const ModelEdge<N>> edges;
   Span<const HullPointOf<N>> hull;
   Vec3 center_m = Vec3::Zero();  // target frame: the geometric centre, where scans are aimed

@@ -49,7 +49,7 @@ Pose center_points(const Mission& mission, const Pose& T_target_sensor, const Wo
 
 // Pulls a point to the model's foot point of its brick: three rows, one per axis, Tukey-weighted by distance.
 void add_foot(const Field<N>& field, const GridPlace<N>& place, N::Length gate, const FieldRay<N>& ray, PassSums<N>& sums) {
-  const N::Length* foot = field.foot_points + 3 * place.brick;
+  const N::Length* foot = field.foot_points + std::size_t{3} * place.brick;
   const N::Length gap[3] = {foot[0] - ray.m[0], foot[1] - ray.m[1], foot[2] - ray.m[2]};
   const auto q = dot3<N>(gap, gap) / (gate * gate);
   if (!(q < 1)) return;
@@ -156,7 +156,7 @@ Pose approach_from_afar(const Mission& mission, const Pose& T_target_sensor, Wor
     gate_m = gate_m * kFarGateShrink > 2 * mission.parameters.gate_first_m ? gate_m * kFarGateShrink : 2 * mission.parameters.gate_first_m;
   }
   Candidate best = settled(mission, s, pose, workspace);
-  const double enough = kGoodShare * static_cast<double>(workspace.points.size() / kQuarter);
+  const double enough = kGoodShare * static_cast<double>(workspace.points.size()) / kQuarter;
   for (const double step : kSlideSteps) {
     for (int axis = 0; axis < 3 && best.score < enough; ++axis) {
       best = slide(mission, s, axis, step * mission.radius_m, best, workspace);

@@ -55,7 +55,7 @@ int clamp_bin(Ratio v) {
 std::size_t bin_of(const RayBins<N>& bins, std::size_t ray) {
   const int column = clamp_bin((bins.x[ray] - bins.x0) * bins.bins_per_x);
   const int row = clamp_bin((bins.y[ray] - bins.y0) * bins.bins_per_y);
-  return static_cast<std::size_t>(row * kRayBins + column);
+  return static_cast<std::size_t>(row) * kRayBins + static_cast<std::size_t>(column);
 }
 
 // Where the rays pass at the target's depth, and the rectangle that they fill.
@@ -79,7 +79,7 @@ void place_rays(const View<N>& view, const Workspace& workspace, RayBins<N>& bin
 
 // Counting sort of the rays by bin: start[b]..start[b+1] index ray[].
 void sort_rays(std::size_t count, RayBins<N>& bins) {
-  constexpr std::size_t kBins = kRayBins * kRayBins;
+  constexpr std::size_t kBins = std::size_t{kRayBins} * kRayBins;
   for (std::size_t b = 0; b <= kBins; ++b) bins.start[b] = 0;
   for (std::size_t i = 0; i < count; ++i) ++bins.start[bin_of(bins, i) + 1];
   for (std::size_t b = 0; b < kBins; ++b) bins.start[b + 1] = static_cast<std::uint16_t>(bins.start[b + 1] + bins.start[b]);
@@ -143,7 +143,7 @@ void test_edge(std::uint32_t contour, Ratio band, Workspace& workspace) {
 }  // namespace
 
 View<FlightNumber> make_view(const Mission& mission, const Pose& T_target_sensor) {
-  View<N> view;
+  View<N> view{};
   view.pose = to_path<N>(T_target_sensor);
   const Vec3 center_sensor = inverse(T_target_sensor) * mission.center_m;
   view.target_depth = N::to_length(center_sensor[2]);

@@ -83,7 +83,7 @@ void describe_hits(const HitSolution& hits, double scale, const Workspace& works
 
 // A start that may be rough: the far way is taken only where the near one does not explain the scan.
 HitSolution register_wide(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace) {
-  const HitSolution near = register_hits(mission, T_target_sensor, workspace);
+  HitSolution near = register_hits(mission, T_target_sensor, workspace);
   if (explained_share(near) >= kExplainedShare) return near;
   const HitSolution far = register_hits(mission, approach_from_afar(mission, T_target_sensor, workspace), workspace);
   return explained_share(far) > explained_share(near) ? far : near;

@@ -47,7 +47,7 @@ void solve_pass(const Mission& mission, const MatchSettings<N>& s, double dampin
 Pass take_pass(const Mission& mission, const MatchSettings<N>& s, const PassKind& kind, Workspace& workspace, Pose& T_target_sensor) {
   Pass pass;
   const Span<MatchPoint<N>> points(workspace.points.begin(), workspace.points.size());
-  match_points(mission.field, to_path<N>(T_target_sensor), s, points, kind.stride, kind.lookup, pass.sums);
+  match_points(mission.field, to_path<N>(T_target_sensor), s, points, kind, pass.sums);
   solve_pass(mission, s, kind.damping, pass, T_target_sensor);
   return pass;
 }

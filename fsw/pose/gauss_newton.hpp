@@ -9,13 +9,6 @@ namespace lasso {
 constexpr std::size_t kQuarter = 4;  // stride of the passes over a quarter of the points
 constexpr std::uint32_t kMinimumPoints = 12;
 
-// Which points a pass takes, how it looks for their surface, and how much of the solution it steps.
-struct PassKind {
-  std::size_t stride = 1;
-  Lookup lookup = Lookup::kWalk;
-  double damping = 1;
-};
-
 struct Pass {
   PassSums<FlightNumber> sums;
   Mat6 H = Mat6::Zero();

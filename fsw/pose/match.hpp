@@ -15,6 +15,13 @@ enum class Lookup : std::uint8_t {
   kLast,  // the element hit last time, if the ray still does; else as kWalk
 };
 
+// Which points a pass takes, how it looks for their surface, and how much of the solution it steps.
+struct PassKind {
+  std::size_t stride = 1;
+  Lookup lookup = Lookup::kWalk;
+  double damping = 1;
+};
+
 template <class N>
 struct MatchSettings {
   typename N::Ratio kernel_squared;    // k^2 of Tukey's kernel, in sigmas^2
@@ -36,7 +43,7 @@ struct PassSums {
 // The point's ray in the target frame, from the measured point on; cells are not set.
 template <class N>
 inline FieldRay<N> to_target(const PathPose<N>& T_target_sensor, const MatchPoint<N>& point) {
-  FieldRay<N> ray;
+  FieldRay<N> ray;  // NOLINT(cppcoreguidelines-pro-type-member-init): cells are set where a walk needs them, which most points do not
   transform(T_target_sensor, point.p, ray.m);
   rotate(T_target_sensor, point.u, ray.u);
   return ray;
@@ -93,14 +100,14 @@ inline void add_hit(const Field<N>& field, const MatchSettings<N>& s, const Matc
   sums.rows.add(ray.m, n, r, rest * rest * s.reference_variance / variance, hit.t);
 }
 
-// One pass over every stride-th point. Bound: the points, each kMaxWalkSteps cells at most.
+// One pass over the points of its kind. Bound: the points, each kMaxWalkSteps cells at most.
 template <class N>
 void match_points(const Field<N>& field, const PathPose<N>& T_target_sensor, const MatchSettings<N>& s, Span<MatchPoint<N>> points,
-                  std::size_t stride, Lookup lookup, PassSums<N>& sums) {
-  for (std::size_t i = 0; i < points.size(); i += stride) {
+                  const PassKind& kind, PassSums<N>& sums) {
+  for (std::size_t i = 0; i < points.size(); i += kind.stride) {
     MatchPoint<N>& point = points.data()[i];
     FieldRay<N> ray = to_target(T_target_sensor, point);
-    const FieldHit<N> hit = find_hit(field, s, point, lookup, ray);
+    const FieldHit<N> hit = find_hit(field, s, point, kind.lookup, ray);
     point.element = hit.found ? hit.element : kNoElement;
     if (hit.found) {
       add_hit(field, s, point, ray, hit, sums);

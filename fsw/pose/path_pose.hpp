@@ -14,7 +14,7 @@ struct PathPose {
 
 template <class N>
 PathPose<N> to_path(const Pose& T_target_sensor) {
-  PathPose<N> path;
+  PathPose<N> path{};
   const Mat3 R = to_matrix(T_target_sensor.q);
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) path.R[i][j] = N::to_unit(R(i, j));

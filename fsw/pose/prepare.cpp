@@ -69,9 +69,9 @@ class Deskew {
     for (int i = 0; i < 3; ++i) v[i] += scale * (first[i] + second[i]);
   }
 
-  N::Ratio half_rate_[3];
-  Length origin_[3];
-  Length velocity_[3];
+  N::Ratio half_rate_[3] = {};
+  Length origin_[3] = {};
+  Length velocity_[3] = {};
   bool on_;
 };
 

@@ -13,7 +13,7 @@ constexpr std::uint32_t kMissSamples = 64;
 
 // Does the ray meet the model anywhere?
 bool meets_model(const Mission& mission, const PathPose<N>& pose, const ScanRay<N>& ray) {
-  FieldRay<N> r;
+  FieldRay<N> r{};
   transform(pose, ray.o, r.m);
   rotate(pose, ray.u, r.u);
   set_cells(mission.field, r);

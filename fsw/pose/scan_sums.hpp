@@ -18,6 +18,7 @@ class ScanSums {
   // Adds a row of weight w; range_residual [m] is the same residual along the ray.
   void add(const typename N::Length* m, const typename N::Unit* n, typename N::Length r, typename N::Ratio w,
            typename N::Length range_residual) {
+    if (rows_ == kBlock) flush();
     const int row = rows_++;
     column_[0][row] = m[1] * n[2] - m[2] * n[1];
     column_[1][row] = m[2] * n[0] - m[0] * n[2];
@@ -26,7 +27,6 @@ class ScanSums {
     column_[kResidual][row] = r;
     weight_[row] = w;
     range_[row] = range_residual;
-    if (rows_ == kBlock) flush();
   }
 
   // To be called after the last add().

@@ -37,7 +37,7 @@ struct ProbeSettings {
 };
 
 struct Probe {
-  FieldRay<N> ray;
+  FieldRay<N> ray{};
   FieldSpan<N> span;  // the part of the ray inside the grid
 };
 
@@ -174,9 +174,16 @@ struct Search {
   double across_variance;
 };
 
+// A label and the contour that it was found at.
+struct FoundLabel {
+  Label label{};
+  ContourPoint point;
+};
+
 // A label of one ray at one contour edge; false where there is none.
-bool label_edge(const Search& s, const ScanRay<N>& ray, const Line& line, const ContourEdge<N>& contour, double along, Label& label,
-                ContourPoint& point) {
+bool label_edge(const Search& s, const ScanRay<N>& ray, const Line& line, const ContourEdge<N>& contour, double along, FoundLabel& found) {
+  Label& label = found.label;
+  ContourPoint& point = found.point;
   const EdgePlace place = place_on_edge(s.mission.edges.data()[contour.edge], contour, along, line);
   if (!place.usable) return false;
   ContourPoint guess;
@@ -209,9 +216,10 @@ void label_ray(const Search& s, std::size_t ray_index, Workspace& workspace) {
   int found = 0;
   for (std::uint32_t k = 0; k < edges.count && found < 2; ++k) {
     const double along = N::to_double(edges.along[k]);
-    Label label{};
-    ContourPoint point;
-    const bool labelled = label_edge(s, ray, line, workspace.contour[edges.contour[k]], along, label, point);
+    FoundLabel candidate;
+    Label& label = candidate.label;
+    const ContourPoint& point = candidate.point;
+    const bool labelled = label_edge(s, ray, line, workspace.contour[edges.contour[k]], along, candidate);
     passed_over = passed_over || !labelled;
     if (!labelled || misleads(passed_over, along, label.d_m)) continue;
     if (found == 1 && point.outward.dot(first_outward) > -0.5) continue;

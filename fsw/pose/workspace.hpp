@@ -75,8 +75,8 @@ struct Workspace {
   FixedVector<ScanRay<FlightNumber>, kMaxRays> rays;
   FixedVector<MatchPoint<FlightNumber>, kMaxRays> points;
   FixedVector<ContourEdge<FlightNumber>, kMaxContourEdges> contour;
-  RayEdges<FlightNumber> ray_edges[kMaxRays];
-  RayBins<FlightNumber> bins;
+  RayEdges<FlightNumber> ray_edges[kMaxRays] = {};
+  RayBins<FlightNumber> bins{};
   FixedVector<Label, kMaxSites> labels;
 };
 

@@ -146,7 +146,7 @@ class ModelReader {
     for (int i = 0; i < 3; ++i) value[i] = number(array->get(static_cast<std::size_t>(i)), owner, key, -1e9, 1e9);
     return value;
   }
-  Vector3d vector(const toml::table& table, const std::string& key, std::optional<Vector3d> preset = std::nullopt) {
+  Vector3d vector(const toml::table& table, const std::string& key, const std::optional<Vector3d>& preset = std::nullopt) {
     return vector(table.get(key), table, key, preset);
   }
   Vector3d direction(const toml::table& table, const std::string& key) {

@@ -13,7 +13,7 @@ namespace {
 std::string shortened(std::string text) {
   constexpr std::size_t kLongest = 60;
   std::replace(text.begin(), text.end(), '\n', ' ');
-  if (text.size() > kLongest) text = text.substr(0, kLongest) + "...";
+  if (text.size() > kLongest) text.replace(kLongest, std::string::npos, "...");
   return text;
 }
 

@@ -116,6 +116,28 @@ std::vector<Joint> find_joints(const Surface& surface, const std::vector<EdgeUse
   return joints;
 }
 
+// For each triangle the one that it makes a quadrilateral with, or kNone, and their edge, at the first of the two.
+struct Pairing {
+  std::vector<std::uint32_t> partner;
+  std::vector<const EdgeUse*> joint;
+};
+
+Pairing pair_triangles(const Surface& surface, const std::vector<EdgeUse>& uses, const std::vector<std::array<Vec3d, 3>>& normals) {
+  Pairing result{std::vector<std::uint32_t>(surface.triangles.size(), kNone),
+                 std::vector<const EdgeUse*>(surface.triangles.size(), nullptr)};
+  for (const Joint& candidate : find_joints(surface, uses)) {
+    const EdgeUse& one = candidate.uses[0];
+    const EdgeUse& two = candidate.uses[1];
+    if (result.partner[one.triangle] != kNone || result.partner[two.triangle] != kNone) continue;
+    const Polygon quad = quad_polygon(surface, one, two, normals);
+    if (!is_planar_and_convex(quad.corners, quad.normal, surface.extent)) continue;
+    result.partner[one.triangle] = two.triangle;
+    result.partner[two.triangle] = one.triangle;
+    result.joint[one.triangle] = candidate.uses;  // uses are sorted by triangle: `one` comes first
+  }
+  return result;
+}
+
 }  // namespace
 
 std::vector<std::array<Vec3d, 3>> smooth_normals(const Surface& surface, double crease_angle_rad) {
@@ -131,27 +153,16 @@ std::vector<std::array<Vec3d, 3>> smooth_normals(const Surface& surface, double 
 }
 
 Polygons make_polygons(const Surface& surface, const std::vector<EdgeUse>& uses, const std::vector<std::array<Vec3d, 3>>& normals) {
-  std::vector<std::uint32_t> partner(surface.triangles.size(), kNone);
-  std::vector<const EdgeUse*> joint(surface.triangles.size(), nullptr);
-  for (const Joint& candidate : find_joints(surface, uses)) {
-    const EdgeUse& one = candidate.uses[0];
-    const EdgeUse& two = candidate.uses[1];
-    if (partner[one.triangle] != kNone || partner[two.triangle] != kNone) continue;
-    const Polygon quad = quad_polygon(surface, one, two, normals);
-    if (!is_planar_and_convex(quad.corners, quad.normal, surface.extent)) continue;
-    partner[one.triangle] = two.triangle;
-    partner[two.triangle] = one.triangle;
-    joint[one.triangle] = candidate.uses;  // uses are sorted by triangle: `one` comes first
-  }
+  const Pairing pairing = pair_triangles(surface, uses, normals);
   Polygons polygons;
   polygons.of_triangle.assign(surface.triangles.size(), kNone);
   for (std::uint32_t t = 0; t < surface.triangles.size(); ++t) {
     if (surface.sliver[t] != 0 || polygons.of_triangle[t] != kNone) continue;
     const auto index = static_cast<std::uint32_t>(polygons.list.size());
     polygons.of_triangle[t] = index;
-    if (partner[t] != kNone) polygons.of_triangle[partner[t]] = index;
-    polygons.list.push_back(joint[t] != nullptr ? quad_polygon(surface, joint[t][0], joint[t][1], normals)
-                                                : triangle_polygon(surface, t, normals[t]));
+    if (pairing.partner[t] != kNone) polygons.of_triangle[pairing.partner[t]] = index;
+    polygons.list.push_back(pairing.joint[t] != nullptr ? quad_polygon(surface, pairing.joint[t][0], pairing.joint[t][1], normals)
+                                                        : triangle_polygon(surface, t, normals[t]));
   }
   const std::vector<std::uint32_t> flap_of = attach_slivers(surface, uses);
   for (std::uint32_t t = 0; t < surface.triangles.size(); ++t) {

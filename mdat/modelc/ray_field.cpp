@@ -204,9 +204,8 @@ void place_distances(const Grid& grid, RayField& field) {
 
 }  // namespace
 
-PolygonBoxTest::PolygonBoxTest(const Element& element) {
+PolygonBoxTest::PolygonBoxTest(const Element& element) : low_(element.outline[0]), high_(element.outline[0]) {
   const auto sides = static_cast<std::size_t>(element.sides);
-  low_ = high_ = element.outline[0];
   for (std::size_t i = 1; i < sides; ++i) {
     low_ = low_.cwiseMin(element.outline[i]);
     high_ = high_.cwiseMax(element.outline[i]);

@@ -51,8 +51,9 @@ std::string in_quotes(std::string_view text) { return "'" + std::string(text.sub
 
 double number(const Field& field, std::string_view name, const Place& place) {
   double value = 0;
-  const char* const end = field.text.data() + field.text.size();
-  const auto [stop, error] = std::from_chars(field.text.data(), end, value);
+  const char* const begin = field.text.data();  // NOLINT(bugprone-suspicious-stringview-data-usage): its end goes with it
+  const char* const end = begin + field.text.size();
+  const auto [stop, error] = std::from_chars(begin, end, value);
   if (error != std::errc() || stop != end || field.text.empty()) {
     place.refuse(field.column, std::string(name) + ": " + in_quotes(field.text) + " is not a number");
   }

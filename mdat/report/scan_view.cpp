@@ -52,7 +52,8 @@ Colour pixel(const sim::RayCaster& target, const Pose& T_target_sensor, const Vi
   Colour sum{};
   for (int i = 0; i < kSamplesPerAxis * kSamplesPerAxis; ++i) {
     const double x = column + (i % kSamplesPerAxis + 0.5) / kSamplesPerAxis;
-    const double y = row + (i / kSamplesPerAxis + 0.5) / kSamplesPerAxis;
+    const int down = i / kSamplesPerAxis;
+    const double y = row + (down + 0.5) / kSamplesPerAxis;
     const Colour colour = shade(target, T_target_sensor, direction_of(view, x, y));
     for (std::size_t c = 0; c < 3; ++c) sum[c] += colour[c] / (kSamplesPerAxis * kSamplesPerAxis);
   }

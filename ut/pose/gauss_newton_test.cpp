@@ -134,7 +134,7 @@ TEST_F(GaussNewtonTest, RowsAreTheDerivativesOfTheResiduals) {
   for (std::size_t i = 0; i < workspace_->points.size(); i += 7) {
     const Point& point = workspace_->points[i];
     PassSums<N> sums;
-    match_points(mission_.field, to_path<N>(pose), settings(0.02), points().subspan(i, 1), 1, Lookup::kWalk, sums);
+    match_points(mission_.field, to_path<N>(pose), settings(0.02), points().subspan(i, 1), {1, Lookup::kWalk, 1}, sums);
     if (sums.rows.count() == 0) continue;
     const double r = meet(scan_.model, pose, point).residual();
     if (std::abs(r) < 1e-4) continue;
@@ -165,7 +165,7 @@ TEST_F(GaussNewtonTest, SumsAreThoseOfABruteForcePass) {
     const PassKind kind{i % 4 == 0 ? kQuarter : 1, Lookup::kWalk, 1};
     const MatchSettings<N> s = settings(gate_m);
     PassSums<N> sums;
-    match_points(mission_.field, to_path<N>(pose), s, points(), kind.stride, kind.lookup, sums);
+    match_points(mission_.field, to_path<N>(pose), s, points(), kind, sums);
     ASSERT_GT(sums.rows.count(), 12u);
     expect_sums(sums, brute(pose, gate_m, kind.stride), N::to_double(s.reference_variance));
   }
