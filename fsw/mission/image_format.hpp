@@ -81,7 +81,7 @@ constexpr std::uint32_t kListOffsetBits = 22;
 constexpr std::uint32_t kListOffsetMask = (1u << kListOffsetBits) - 1;
 
 // Entry of a cell's list: an element, largest in the cell first, and kFinalEntry where no ray that meets the element's front within half a
-// cell of the sample can have met another element of the list there before.
+// cell of the sample can have met another element of the list there before, by more than 1/1000 of a cell across either one's plane.
 constexpr std::uint32_t kFinalEntry = 0x80000000u;
 
 // Near cell = 2x2x2 ray cells; index in the brick = (iz&7)>>1 << 4 | (iy&7)>>1 << 2 | (ix&7)>>1. Word 0: 1 + the element closest to the
