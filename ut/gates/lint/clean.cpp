@@ -1,0 +1,7 @@
+#include "fsw/core/clean.hpp"
+
+namespace lasso {
+
+int absolute(int value) { return value < 0 ? -value : value; }
+
+}  // namespace lasso

@@ -1,0 +1,7 @@
+#pragma once
+
+namespace lasso {
+
+int absolute(int value);
+
+}  // namespace lasso

@@ -1,0 +1,3 @@
+double half(int number);
+
+double half(int number) { return number / 2; }
