@@ -42,12 +42,11 @@ double range_sigma(const MissionParameters& p, double range_m, double scale) {
   return square_root((p.sigma0_m * p.sigma0_m + grown * grown) * scale);
 }
 
-// Labels were found, and are linear, within the band around the contour. A step that leaves it (the hits alone held the pose too loosely)
-// would be an extrapolation.
-bool stays_in_band(const Vec6& step, double band_m, Span<const Label> labels) {
+// Labels are linear within the band around the contour. Where the hits hold the pose more loosely than that, the contours nearest to the
+// rays may be other ones than those that they passed, and labels would confirm a wrong pose.
+bool are_held(const Mat6& covariance, double band_m, Span<const Label> labels) {
   for (const Label& label : labels) {
-    const double shift = label.a.dot(step);
-    if (!(shift < band_m && shift > -band_m)) return false;
+    if (!(label.a.dot(covariance * label.a) < band_m * band_m)) return false;
   }
   return true;
 }
@@ -59,13 +58,13 @@ void use_silhouettes(const Mission& mission, bool misses_known, double scale, Wo
   search.covariance = covariance;
   search.range_sigma_m = range_sigma(mission.parameters, square_root(pose.p.squaredNorm()), scale);
   find_labels(mission, pose, search, workspace);
-  PoseBelief belief;
-  belief.covariance = covariance;
-  apply_labels(workspace.labels.span(), mission.parameters, belief);
-  if (!stays_in_band(belief.mean, mission.parameters.silhouette_band_m, workspace.labels.span())) {
+  if (!are_held(covariance, mission.parameters.silhouette_band_m, workspace.labels.span())) {
     workspace.labels.clear();
     return;
   }
+  PoseBelief belief;
+  belief.covariance = covariance;
+  apply_labels(workspace.labels.span(), mission.parameters, belief);
   pose = step_pose(pose, belief.mean);
   covariance = belief.covariance;
 }

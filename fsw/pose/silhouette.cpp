@@ -12,7 +12,6 @@ using Length = N::Length;
 using Ratio = N::Ratio;
 
 constexpr double kCertain2 = 36;         // labels that the pose makes certain to six sigma carry nothing
-constexpr double kHeld2 = 0.25;          // of the squared band
 constexpr double kGapSigmas = 8;         // an inner contour's step is at least this many range sigmas
 constexpr double kConsistentDepths = 4;  // a return belongs to a contour's near or far side within this many edge depths
 constexpr double kConsistentSigmas = 6;
@@ -156,11 +155,9 @@ int side_of(const ScanRay<N>& ray, const ContourPoint& contour, const LabelSearc
   return range < contour.far_range_m + slack ? -1 : 0;
 }
 
-// Worth asking: the pose does not know the side yet, and holds the contour within the band in which labels are linear. Where it does not,
-// the contours nearest to the rays may be other ones than those that they passed, and labels would confirm a wrong pose.
-bool is_informative(const Label& label, const Mat6& covariance, double own_variance, double band_m) {
-  const double variance = label.a.dot(covariance * label.a);
-  return variance < kHeld2 * band_m * band_m && label.d_m * label.d_m < kCertain2 * (variance + own_variance);
+bool is_informative(const Label& label, const Mat6& covariance, double own_variance) {
+  const double variance = label.a.dot(covariance * label.a) + own_variance;
+  return label.d_m * label.d_m < kCertain2 * variance;
 }
 
 // Everything that stays the same from ray to ray.
@@ -188,10 +185,7 @@ bool label_edge(const Search& s, const ScanRay<N>& ray, const Line& line, const 
   if (!place.usable) return false;
   ContourPoint guess;
   guess.outward = place.across;  // the sign does not matter for whether a label is worth a probe
-  if (!measure(place, guess, line, label) ||
-      !is_informative(label, s.search.covariance, s.own_variance, s.mission.parameters.silhouette_band_m)) {
-    return false;
-  }
+  if (!measure(place, guess, line, label) || !is_informative(label, s.search.covariance, s.own_variance)) return false;
   point = probe_contour(s.mission.field, s.probe, s.origin, place.confirm, place.across);
   if (point.kind == ContourKind::kNone) return false;
   if (point.kind == ContourKind::kInner && point.far_range_m - point.range_m < s.probe.gap_min_m) return false;
