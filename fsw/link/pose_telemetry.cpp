@@ -7,7 +7,7 @@ using P = PoseTelemetry;
 constexpr char kYesNo[] = "0=no|1=yes";
 constexpr char kReasons[] =
     "0=valid|1=no_scan|2=too_few_returns|3=too_few_inliers|4=low_inlier_share|5=low_agreement|6=high_residual|7=not_converged|"
-    "8=singular|9=no_track|10=overrun";
+    "8=singular|9=no_track|10=overrun|11=implausible";
 constexpr char kStops[] = "0=converged|1=iteration_limit|2=too_few_points|3=singular|4=not_run";
 constexpr char kModes[] = "0=standby|1=starting|2=tracking|3=coasting|4=lost";
 constexpr char kPatterns[] = "0=rosette|1=lissajous|2=raster";

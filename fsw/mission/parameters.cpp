@@ -59,6 +59,7 @@ const ParameterRow kRows[] = {
   {"tracking.normalized_residual_max", "1", kReal, &P::normalized_residual_max, 1, 1, 1000, 5, "", "largest root mean square of residuals over their sigma"},
   {"tracking.sigma_position_max_m", "m", kReal, &P::sigma_position_max_m, 1, 1e-6, 100, 0.05, "", "a direction less certain than this is weak"},
   {"tracking.sigma_attitude_max_deg", "deg", kReal, &P::sigma_attitude_max_rad, kDeg, 1e-6, 180, 2, "", "an axis less certain than this is weak"},
+  {"tracking.innovation_max", "1", kReal, &P::innovation_max, 1, 3, 1000, 10, "", "a pose this many sigmas off the filter's prediction is implausible"},
   {"tracking.coast_frames", "1", kInteger, &P::coast_frames, 1, 0, 1000, 10, "", "frames without a valid pose before the track is lost"},
   {"tracking.initial.present", "1", kBoolean, &P::initial_present, 1, 0, 1, 0, "", "tracking starts from the pose below"},
   {"tracking.initial.qx", "1", kReal, &P::initial_qx, 1, -1, 1, 0, "", "quaternion of T_sensor_target"},

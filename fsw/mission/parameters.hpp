@@ -22,7 +22,7 @@ struct MissionParameters {
   double period_s, acceleration_mps2, angular_acceleration_radps2, initial_rate_mps, initial_angular_rate_radps;
   // [tracking] validity and loss
   double start_sigma_m, start_sigma_rad, inliers_min, inlier_share_min, agreement_min, normalized_residual_max, sigma_position_max_m,
-      sigma_attitude_max_rad, coast_frames;
+      sigma_attitude_max_rad, innovation_max, coast_frames;
   // [tracking.initial] T_sensor_target and rates at the start
   double initial_present, initial_qx, initial_qy, initial_qz, initial_qw, initial_x_m, initial_y_m, initial_z_m, initial_wx_radps,
       initial_wy_radps, initial_wz_radps, initial_vx_mps, initial_vy_mps, initial_vz_mps;

@@ -5,6 +5,8 @@
 namespace lasso {
 namespace {
 
+constexpr std::uint32_t kEstablished = 5;  // scans until the filter's word counts more than a scan's: a start may have been wrong
+
 FilterNoise filter_noise(const MissionParameters& p) { return {p.acceleration_mps2, p.angular_acceleration_radps2}; }
 
 FilterStart filter_start(const MissionParameters& p, const Pose& T_sensor_target, const Twist& rates, TimeUs t_us) {
@@ -31,11 +33,16 @@ Status restart_from(const MissionParameters& p, const Registration& registration
   return start_filter(filter, from);
 }
 
-// `filter` is predicted to the registration's time.
-Status join(const Mission& mission, TrackingMode mode, const Registration& registration, FilterState& filter) {
+// Joins a valid registration to `filter`, which is predicted to its time: kValid, or why the pose is not to be believed after all. A wrong
+// minimum explains its scan, sometimes as well as the right one does: only the motion since the scans before tells.
+PoseReason join(const MissionParameters& p, TrackingMode mode, const Registration& registration, FilterState& filter) {
   const PoseMeasurement measured{registration.t_us, registration.T_sensor_target, registration.covariance};
-  if (mode != TrackingMode::kStarting && update_filter(filter, measured, kNoGate).status == Status::kOk) return Status::kOk;
-  return restart_from(mission.parameters, registration, filter);
+  if (mode != TrackingMode::kStarting) {
+    const double gate_nis = filter.accepted < kEstablished ? kNoGate : p.innovation_max * p.innovation_max;
+    const FilterUpdate update = update_filter(filter, measured, gate_nis);
+    if (update.status == Status::kOk) return update.accepted ? PoseReason::kValid : PoseReason::kImplausible;
+  }
+  return restart_from(p, registration, filter) == Status::kOk ? PoseReason::kValid : PoseReason::kSingular;
 }
 
 // Where the prediction has no meaning any more (too long a step), pose and rates stay as they were and a valid scan starts anew.
@@ -65,6 +72,13 @@ Registration not_registered(PoseReason reason, std::uint32_t scan_id, const Filt
   return registration;
 }
 
+// A prediction less certain than the registration's gate (after weak views, or coasting) is a rough start.
+bool is_rough(const Mission& mission, const FilterState& filter) {
+  const double turn_m2 = mission.radius_m * mission.radius_m * filter.covariance.topLeftCorner<3, 3>().trace();
+  const double shift_m2 = filter.covariance.block<3, 3>(3, 3).trace();
+  return turn_m2 + shift_m2 > mission.parameters.gate_first_m * mission.parameters.gate_first_m;
+}
+
 bool finite(const Twist& rates) { return is_finite(rates.omega_radps.squaredNorm()) && is_finite(rates.v_mps.squaredNorm()); }
 
 }  // namespace
@@ -90,11 +104,9 @@ TrackStep track_scan(const Mission& mission, Estimator& estimator, const RangeIm
   step.after = before;
   FilterState& filter = step.after.filter;
   predict_or_hold(mission.parameters, scan.reference_time_us(), filter);
-  const bool wide = properties(before.mode).wide_start && mission.parameters.wide_start > 0.5;
+  const bool wide = (properties(before.mode).wide_start || is_rough(mission, filter)) && mission.parameters.wide_start > 0.5;
   step.registration = estimator.estimate(mission, scan, StartPoint{filter.T_sensor_target, filter.rates, wide});
-  if (step.registration.valid() && join(mission, before.mode, step.registration, filter) != Status::kOk) {
-    step.registration.reason = PoseReason::kSingular;
-  }
+  if (step.registration.valid()) step.registration.reason = join(mission.parameters, before.mode, step.registration, filter);
   change_mode(mission, step.registration.valid(), step.after);
   return step;
 }

@@ -34,7 +34,9 @@ Status start_track(const Mission& mission, const Pose& T_sensor_target, const Tw
                    TrackState& state);
 
 // One scan: predict, register, join to the filter, next mode. The first valid registration starts the filter anew, since the pose given
-// at the start may be far off; so does one that the filter cannot take. Bounds: as Estimator::estimate.
+// at the start may be far off; so does one that the filter cannot take. One that the prediction of a filter with 5 scans excludes
+// (tracking.innovation_max) is kImplausible and joins nothing. A prediction less certain than the registration's gate is a rough start.
+// Bounds: as Estimator::estimate.
 TrackStep track_scan(const Mission& mission, Estimator& estimator, const RangeImage& scan, const TrackState& before);
 
 // A frame without an estimate (kNoScan, kOverrun): the filter predicts to t_us, the mode coasts.

@@ -92,7 +92,7 @@ void take_plane_pass(const Mission& mission, const MatchSettings<N>& s, bool far
     }
   }
   pass.sums.rows.flush();
-  solve_pass(mission, s, 1, pass, pose);
+  solve_pass(mission, s, PassKind{}, pass, pose);
 }
 
 void settle(const Mission& mission, MatchSettings<N>& s, Workspace& workspace, Pose& pose) {
@@ -100,7 +100,7 @@ void settle(const Mission& mission, MatchSettings<N>& s, Workspace& workspace, P
   set_gate(2 * gate_m, s);
   for (int i = 0; i < kNearPasses; ++i) take_plane_pass(mission, s, false, workspace, pose);
   set_gate(gate_m, s);
-  for (int i = 0; i < kRayPasses; ++i) (void)take_pass(mission, s, {kQuarter, Lookup::kWalk, 1}, workspace, pose);
+  for (int i = 0; i < kRayPasses; ++i) (void)take_pass(mission, s, PassKind{kQuarter}, workspace, pose);
 }
 
 // How many of a quarter of the points lie on the model, to within their noise and a little more.

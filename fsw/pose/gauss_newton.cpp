@@ -18,6 +18,11 @@ void add_wide_prior(double radius_m, Mat6& H) {
   }
 }
 
+Vec6 cut_step(const Vec6& x, double radius_m, double longest_m) {
+  const double step_m = square_root(x.tail<3>().squaredNorm()) + radius_m * square_root(x.head<3>().squaredNorm());
+  return step_m > longest_m ? Vec6(longest_m / step_m * x) : x;
+}
+
 }  // namespace
 
 MatchSettings<N> make_settings(const MissionParameters& p, const Workspace& workspace) {
@@ -31,7 +36,7 @@ MatchSettings<N> make_settings(const MissionParameters& p, const Workspace& work
 
 void set_gate(double gate_m, MatchSettings<N>& s) { s.gate = N::to_length(gate_m); }
 
-void solve_pass(const Mission& mission, const MatchSettings<N>& s, double damping, Pass& pass, Pose& T_target_sensor) {
+void solve_pass(const Mission& mission, const MatchSettings<N>& s, const PassKind& kind, Pass& pass, Pose& T_target_sensor) {
   if (pass.sums.rows.count() < kMinimumPoints) return;
   Vec6 b;
   pass.sums.rows.unpack(pass.H, b);
@@ -40,15 +45,15 @@ void solve_pass(const Mission& mission, const MatchSettings<N>& s, double dampin
   b *= scale;
   add_wide_prior(mission.radius_m, pass.H);
   pass.status = solve6(pass.H, b, pass.x);
-  pass.x *= damping;
-  if (pass.status == Status::kOk) T_target_sensor = step_pose(T_target_sensor, pass.x);
+  pass.x *= kind.damping;
+  if (pass.status == Status::kOk) T_target_sensor = step_pose(T_target_sensor, cut_step(pass.x, mission.radius_m, kind.longest_step_m));
 }
 
 Pass take_pass(const Mission& mission, const MatchSettings<N>& s, const PassKind& kind, Workspace& workspace, Pose& T_target_sensor) {
   Pass pass;
   const Span<MatchPoint<N>> points(workspace.points.begin(), workspace.points.size());
   match_points(mission.field, to_path<N>(T_target_sensor), s, points, kind, pass.sums);
-  solve_pass(mission, s, kind.damping, pass, T_target_sensor);
+  solve_pass(mission, s, kind, pass, T_target_sensor);
   return pass;
 }
 

@@ -12,15 +12,16 @@ constexpr std::uint32_t kMinimumPoints = 12;
 struct Pass {
   PassSums<FlightNumber> sums;
   Mat6 H = Mat6::Zero();
-  Vec6 x = Vec6::Zero();            // the step taken
+  Vec6 x = Vec6::Zero();            // the damped solution; the step taken unless that was cut
   Status status = Status::kNoData;  // kOk, kNoData (too few points), kSingular, kNotFinite: no step
 };
 
 MatchSettings<FlightNumber> make_settings(const MissionParameters& parameters, const Workspace& workspace);
 void set_gate(double gate_m, MatchSettings<FlightNumber>& settings);
 
-// Solves the sums of `pass` and, where that succeeds, steps the pose by `damping` times the solution.
-void solve_pass(const Mission& mission, const MatchSettings<FlightNumber>& settings, double damping, Pass& pass, Pose& T_target_sensor);
+// Solves the sums of `pass` and, where that succeeds, steps the pose by the kind's damping times the solution, cut to its longest step.
+void solve_pass(const Mission& mission, const MatchSettings<FlightNumber>& settings, const PassKind& kind, Pass& pass,
+                Pose& T_target_sensor);
 
 // A pass from the pose, which takes the step.
 Pass take_pass(const Mission& mission, const MatchSettings<FlightNumber>& settings, const PassKind& kind, Workspace& workspace,

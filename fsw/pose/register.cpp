@@ -35,6 +35,13 @@ void narrow_kernel(const MissionParameters& p, const Pass& last, MatchSettings<N
   s.kernel_squared = N::to_ratio(p.kernel_width * p.kernel_width * share);
 }
 
+// Points that met the wrong surface can ask for steps along directions that hardly any other point holds, past the minimum that the start
+// lies in and on to another one. No step goes farther than the start is believed to be off, or than the noise reaches.
+double longest_step_m(const MissionParameters& p, const MatchSettings<N>& s) {
+  const double sigma_m = square_root(N::to_double(s.reference_variance));
+  return p.gate_first_m > sigma_m ? p.gate_first_m : sigma_m;
+}
+
 StopReason reason_of(Status status) { return status == Status::kNoData ? StopReason::kTooFewPoints : StopReason::kSingular; }
 
 void keep(const Pass& pass, const MatchSettings<N>& s, HitSolution& solution) {
@@ -47,10 +54,10 @@ void keep(const Pass& pass, const MatchSettings<N>& s, HitSolution& solution) {
 
 // Passes over all points, the first of them a walk along the whole gate: without one, surfaces in front go unnoticed. Points at edges can
 // change sides for ever, which the undamped steps would follow to and fro.
-void iterate_all(const Mission& mission, MatchSettings<N>& s, Workspace& workspace, HitSolution& solution) {
+void iterate_all(const Mission& mission, MatchSettings<N>& s, double longest_m, Workspace& workspace, HitSolution& solution) {
   const int limit = static_cast<int>(mission.parameters.iterations_max);
   solution.stop = StopReason::kIterationLimit;
-  PassKind kind{1, Lookup::kWalk, 1};
+  PassKind kind{1, Lookup::kWalk, 1, longest_m};
   for (int i = 0; i < limit; ++i) {
     const Pass pass = take_pass(mission, s, kind, workspace, solution.T_target_sensor);
     kind.lookup = Lookup::kLast;
@@ -83,16 +90,17 @@ HitSolution register_from(const Mission& mission, const Pose& start, const Openi
   HitSolution solution;
   solution.T_target_sensor = start;
   MatchSettings<N> s = make_settings(mission.parameters, workspace);
+  const double longest_m = longest_step_m(mission.parameters, s);
   double gate_m = opening.gate_first * mission.parameters.gate_first_m;
   for (int i = 0; i < opening.passes; ++i) {
     set_gate(gate_m, s);
-    const PassKind kind{opening.stride, i == 0 ? Lookup::kWalk : Lookup::kLast, 1};
+    const PassKind kind{opening.stride, i == 0 ? Lookup::kWalk : Lookup::kLast, 1, opening.gate_first * longest_m};
     narrow_kernel(mission.parameters, take_pass(mission, s, kind, workspace, solution.T_target_sensor), s);
     gate_m *= opening.gate_shrink;
     ++solution.iterations;
   }
   set_gate(0, s);
-  iterate_all(mission, s, workspace, solution);
+  iterate_all(mission, s, longest_m, workspace, solution);
   return solution;
 }
 

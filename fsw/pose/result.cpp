@@ -26,6 +26,8 @@ const char* to_string(PoseReason reason) {
       return "no_track";
     case PoseReason::kOverrun:
       return "overrun";
+    case PoseReason::kImplausible:
+      return "implausible";
   }
   return "unknown";
 }

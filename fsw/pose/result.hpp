@@ -25,6 +25,7 @@ enum class PoseReason : std::uint8_t {
   kSingular = 8,        // the normal equations had no solution
   kNoTrack = 9,         // nothing to start from
   kOverrun = 10,        // the estimate was not ready at its boundary: dropped whole
+  kImplausible = 11,    // the filter excludes a jump this large: a wrong minimum
 };
 const char* to_string(PoseReason reason);
 const char* to_string(StopReason reason);

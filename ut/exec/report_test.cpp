@@ -144,7 +144,7 @@ TEST(Report, DictionaryNamesTheEnumerationsAsTheCodeDoes) {
   for (const auto& row : pose_rows()) {
     const std::string name = row.name;
     std::string expected;
-    for (int i = 0; i <= 10 && name == "reason"; ++i) expected += std::to_string(i) + "=" + to_string(static_cast<PoseReason>(i)) + "|";
+    for (int i = 0; i <= 11 && name == "reason"; ++i) expected += std::to_string(i) + "=" + to_string(static_cast<PoseReason>(i)) + "|";
     for (int i = 0; i <= 4 && name == "stop"; ++i) expected += std::to_string(i) + "=" + to_string(static_cast<StopReason>(i)) + "|";
     for (int i = 0; i <= 4 && name == "mode"; ++i) expected += std::to_string(i) + "=" + to_string(static_cast<TrackingMode>(i)) + "|";
     if (!expected.empty()) {

@@ -190,6 +190,46 @@ TEST_F(TrackerTest, RefusesAStartThatMeansNothing) {
   EXPECT_FALSE(state_.filter.initialised);
 }
 
+// The target steps aside farther than the filter thinks possible: the registration finds it, yet nobody can tell it from a wrong minimum.
+TEST_F(TrackerTest, AJumpThatTheFilterExcludesIsImplausible) {
+  VERIFIES("LASSO-MOD-009~1");
+  start(small_error());
+  for (std::uint32_t k = 0; k < 20; ++k) track(k);
+  const TrackState before = state_;
+  scene_.at_zero.p += Vec3(0.006, -0.004, 0.007);
+  const TrackStep step = track(20);
+  EXPECT_EQ(step.registration.reason, PoseReason::kImplausible);
+  EXPECT_EQ(step.after.mode, TrackingMode::kCoasting);
+  PredictedPose predicted;
+  ASSERT_EQ(predict_pose(before.filter, step.registration.t_us, predicted), Status::kOk);
+  EXPECT_EQ(step.after.filter.T_sensor_target.p, predicted.T_sensor_target.p);
+  EXPECT_EQ(step.after.filter.rejected, before.filter.rejected + 1);
+  state_ = before;
+  state_.filter.accepted = 4;  // a young track may have begun wrongly: the scan corrects it
+  EXPECT_TRUE(track(20).registration.valid());
+  MissionParameters lenient = test::box_parameters(scene_);
+  lenient.innovation_max = 1000;
+  load(lenient);
+  state_ = before;
+  EXPECT_TRUE(track(20).registration.valid());
+}
+
+TEST_F(TrackerTest, AnUncertainPredictionIsARoughStart) {
+  VERIFIES("LASSO-MOD-010~1");
+  start(small_error());
+  for (std::uint32_t k = 0; k < 5; ++k) track(k);
+  state_.filter.T_sensor_target.q = normalized(exp_so3(Vec3(0.12, -0.1, 0.08)) * state_.filter.T_sensor_target.q);
+  state_.filter.T_sensor_target.p += Vec3(0.1, 0.08, 0.12);
+  TrackState sure = state_;
+  state_.filter.covariance.topLeftCorner<6, 6>() += 0.01 * Mat6::Identity();
+  const TrackStep wide = track(5);
+  ASSERT_TRUE(wide.registration.valid()) << to_string(wide.registration.reason);
+  EXPECT_LT(error(wide.registration.T_sensor_target, wide.registration.t_us).norm(), 5e-3);
+  state_ = sure;
+  const TrackStep narrow = track(5);
+  EXPECT_GT(error(narrow.registration.T_sensor_target, narrow.registration.t_us).norm(), 5e-3);
+}
+
 // A covariance that says of two directions that they are one has no inverse with the scan's.
 TEST_F(TrackerTest, AScanThatTheFilterCannotJoinStartsItAnew) {
   VERIFIES("LASSO-MOD-003~1");

@@ -162,7 +162,7 @@ TEST_F(GaussNewtonTest, SumsAreThoseOfABruteForcePass) {
     scan();
     const Pose pose = inverse(test::disturb(scan_.T_sensor_target, 0.005, 0.005, random_));
     keep_clear_points(pose);
-    const PassKind kind{i % 4 == 0 ? kQuarter : 1, Lookup::kWalk, 1};
+    const PassKind kind{i % 4 == 0 ? kQuarter : 1};
     const MatchSettings<N> s = settings(gate_m);
     PassSums<N> sums;
     match_points(mission_.field, to_path<N>(pose), s, points(), kind, sums);
@@ -252,13 +252,38 @@ TEST_F(GaussNewtonTest, DirectionsThatNoRaySeesStayWhereTheyAre) {
   const Vec3 n(0, 0, 1);
   Pass pass = equal_rows(Vec3(0.1, 0.2, -0.1), n, 2e-3, 1, 100);
   Pose pose = truth();
-  solve_pass(mission_, settings(), 1, pass, pose);
+  solve_pass(mission_, settings(), PassKind{}, pass, pose);
   ASSERT_EQ(pass.status, Status::kOk);
   Vec6 J;
   J << Vec3(0.1, 0.2, -0.1).cross(n), n;
   EXPECT_NEAR(J.dot(pass.x), 2e-3, 1e-6);                       // the one direction that is seen
   EXPECT_LT((pass.x.tail<3>() - pass.x[5] * n).norm(), 1e-12);  // and not a shift in the plane
   EXPECT_EQ(pass.x[2], 0);                                      // nor a turn about the normal
+}
+
+TEST_F(GaussNewtonTest, CutsAStepToTheLongestOneInItsDirection) {
+  VERIFIES("LASSO-REG-016~1");
+  scan();
+  const Pose start = truth();
+  const auto step_of = [&](double longest_m, Pose& pose) {
+    pose = start;
+    Pass pass = equal_rows(Vec3(0.1, 0.2, -0.1), Vec3(0.36, 0.48, 0.8), 0.05, 1, 100);
+    PassKind kind;
+    kind.longest_step_m = longest_m;
+    solve_pass(mission_, settings(), kind, pass, pose);
+    return pass.x;
+  };
+  Pose whole;
+  Pose cut;
+  const Vec6 x = step_of(kAnyStep, whole);
+  const double length_m = x.tail<3>().norm() + mission_.radius_m * x.head<3>().norm();
+  ASSERT_GT(length_m, 0.03);
+  EXPECT_EQ(step_of(1.01 * length_m, cut), x);
+  EXPECT_EQ(cut.p, whole.p);
+  EXPECT_EQ(step_of(0.25 * length_m, cut), x);  // the solution stays what it is: a cut step is not convergence
+  const Pose quarter = step_pose(start, 0.25 * x);
+  EXPECT_LT((cut.p - quarter.p).norm(), 1e-12);
+  EXPECT_LT((cut.q.coeffs() - quarter.q.coeffs()).norm(), 1e-12);
 }
 
 TEST_F(GaussNewtonTest, SaysWhenThereIsNoSolution) {
@@ -268,10 +293,10 @@ TEST_F(GaussNewtonTest, SaysWhenThereIsNoSolution) {
   Pose pose = start;
   // So far from the origin that the turns drown the shifts in rounding.
   Pass far = equal_rows(Vec3(2e6, -3e6, 1e6), Vec3(0.6, 0, 0.8), 1e-3, 1, 20);
-  solve_pass(mission_, settings(), 1, far, pose);
+  solve_pass(mission_, settings(), PassKind{}, far, pose);
   EXPECT_EQ(far.status, Status::kSingular);
   Pass infinite = equal_rows(Vec3(0.1, 0.2, -0.1), Vec3(0.6, 0, 0.8), 1e-3, std::numeric_limits<double>::infinity(), 20);
-  solve_pass(mission_, settings(), 1, infinite, pose);
+  solve_pass(mission_, settings(), PassKind{}, infinite, pose);
   EXPECT_EQ(infinite.status, Status::kNotFinite);
   EXPECT_EQ(pose.p, start.p);
   EXPECT_EQ(pose.q.coeffs(), start.q.coeffs());
