@@ -1,5 +1,5 @@
 // Tracks from rough starts: the target at a random angle of the paper's simulation at 4 m, the start off by up to 20 deg about a random
-// axis and up to 0.3 m on each axis, the camera's noise on. A start counts as found when the seventh reported pose is within 10 mm and 0.5
+// axis and up to 0.3 m on each axis, the scanner's noise on. A start counts as found when the seventh reported pose is within 10 mm and 0.5
 // deg.
 //
 // usage: basin MISSION [STARTS = 1000] [SEED = 1]
@@ -59,8 +59,8 @@ class Trial {
         image_(mdat::image_bytes(mission, with_rough_start(parameters_))),
         memory_(mdat::aligned_copy(image_)),
         target_(mdat::make_target(mission.mesh)),
-        camera_(*target_, still_, mdat::camera_model(scenario_, parameters_, true), seed),
-        component_(std::make_unique<Component>(camera_)) {
+        scanner_(*target_, still_, mdat::scanner_model(scenario_, parameters_, true), seed),
+        component_(std::make_unique<Component>(scanner_)) {
     const LoadFailure failure = component_->load_image(mdat::view(memory_, image_.size()));
     if (failure.status != Status::kOk) throw mdat::RunError(mdat::to_string(failure));
     if (component_->begin(mdat::kEpochUs) != Status::kOk) throw mdat::RunError("the component does not begin");
@@ -98,7 +98,7 @@ class Trial {
   std::vector<std::uint64_t> memory_;
   std::unique_ptr<sim::RayCaster> target_;
   StillTarget still_;
-  sim::SimulatedCamera camera_;
+  sim::SimulatedScanner scanner_;
   std::unique_ptr<Component> component_;
 };
 

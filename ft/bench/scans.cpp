@@ -1,8 +1,8 @@
 #include "ft/bench/scans.hpp"
 
 #include "fsw/sense/planner.hpp"
-#include "hal_sim/laser_camera.hpp"
 #include "hal_sim/random.hpp"
+#include "hal_sim/scanner.hpp"
 #include "mdat/common/errors.hpp"
 #include "mdat/run/case.hpp"
 #include "mdat/run/simulation.hpp"
@@ -14,21 +14,21 @@ namespace {
 struct Range {
   const Mission& mission;
   const sim::RayCaster& target;
-  sim::CameraModel noise_model;  // of the bound, whether or not the scans are noisy
+  sim::ScannerModel noise_model;  // of the bound, whether or not the scans are noisy
   std::unique_ptr<sim::Trajectory> trajectory;
   DurationUs period_us;
 };
 
-std::vector<RangeSample> run_scan(Sensor& camera, const ScanPlan& plan, TimeUs begin_us) {
-  if (camera.start(plan, begin_us) != Status::kOk) throw mdat::RunError("the simulated camera refuses a scan");
+std::vector<RangeSample> run_scan(Sensor& scanner, const ScanPlan& plan, TimeUs begin_us) {
+  if (scanner.start(plan, begin_us) != Status::kOk) throw mdat::RunError("the simulated scanner refuses a scan");
   std::vector<RangeSample> samples(plan.points);
-  const SensorPoll polled = camera.poll(begin_us + plan.duration_us, {samples.data(), samples.size()});
-  if (polled.status != Status::kOk || !polled.complete) throw mdat::RunError("the simulated camera does not finish a scan");
+  const SensorPoll polled = scanner.poll(begin_us + plan.duration_us, {samples.data(), samples.size()});
+  if (polled.status != Status::kOk || !polled.complete) throw mdat::RunError("the simulated scanner does not finish a scan");
   samples.resize(polled.count);
   return samples;
 }
 
-Scan make_scan(const Range& range, Sensor& camera, std::uint32_t frame) {
+Scan make_scan(const Range& range, Sensor& scanner, std::uint32_t frame) {
   const TimeUs begin_us = mdat::kEpochUs + frame * range.period_us;
   Scan scan;
   scan.frame = frame;
@@ -37,7 +37,7 @@ Scan make_scan(const Range& range, Sensor& camera, std::uint32_t frame) {
   ScanPlan plan;
   const TargetOutline outline{range.mission.hull, range.mission.center_m};
   if (plan_scan(range.mission.parameters, outline, scan.start, frame, plan) != Status::kOk) throw mdat::RunError("a scan has no plan");
-  scan.samples = run_scan(camera, plan, begin_us);
+  scan.samples = run_scan(scanner, plan, begin_us);
   scan.bound = mdat::pose_bound(range.target, scan.truth, scan.samples, [&](double z_m) { return range_sigma_m(range.noise_model, z_m); });
   return scan;
 }
@@ -66,12 +66,12 @@ std::vector<Scan> make_scans(const mdat::CompiledMission& mission, const ScanOpt
   std::vector<Scan> scans;
   for (std::size_t i = 0; i < scenario.ranges_m.size(); ++i) {
     const double range_m = scenario.ranges_m[i];
-    const Range range{image->mission(), *target, mdat::camera_model(scenario, parameters, true),
+    const Range range{image->mission(), *target, mdat::scanner_model(scenario, parameters, true),
                       mdat::make_trajectory(scenario, range_m, mdat::kEpochUs, period_us), period_us};
-    sim::SimulatedCamera camera(*target, *range.trajectory, mdat::camera_model(scenario, parameters, options.noise),
-                                range_seed(scenario, i));
+    sim::SimulatedScanner scanner(*target, *range.trajectory, mdat::scanner_model(scenario, parameters, options.noise),
+                                  range_seed(scenario, i));
     for (std::uint32_t frame = 0; frame < scenario.frames; frame += options.stride) {
-      scans.push_back(make_scan(range, camera, frame));
+      scans.push_back(make_scan(range, scanner, frame));
       scans.back().range_m = range_m;
     }
   }

@@ -1,4 +1,4 @@
-// The scans that every method of the benchmark registers: the simulated laser camera's view of a mission's target, with the truth.
+// The scans that every method of the benchmark registers: the simulated scanner's view of a mission's target, with the truth.
 #pragma once
 
 #include <memory>

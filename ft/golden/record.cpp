@@ -1,4 +1,4 @@
-// golden_record MISSION OUT SCENARIO RANGE_M FRAMES [KEY=VALUE...]: flies a scenario closed loop, with the simulated camera and the
+// golden_record MISSION OUT SCENARIO RANGE_M FRAMES [KEY=VALUE...]: flies a scenario closed loop, with the simulated scanner and the
 // component on its two Linux threads, and writes OUT/image.3dli, OUT/trace.bin and OUT/telemetry.bin. KEY=VALUE overrides flight
 // parameters, as the mission file names them. MISSION may also be followed by several runs in one call: OUT SCENARIO RANGE_M FRAMES
 // [KEY=VALUE...] -- OUT ... Exit codes: 0 done, 1 the run failed, 2 usage or bad input.
@@ -11,7 +11,7 @@
 
 #include "bsp/posix/runner.hpp"
 #include "ft/golden/trace_sensor.hpp"
-#include "hal_sim/laser_camera.hpp"
+#include "hal_sim/scanner.hpp"
 #include "mdat/common/errors.hpp"
 #include "mdat/common/flight_image.hpp"
 #include "mdat/common/output.hpp"
@@ -115,9 +115,9 @@ void record(const mdat::CompiledMission& mission, const sim::RayCaster& target, 
   const MissionParameters parameters = parameters_of(mission.source, flight);
   const DurationUs period_us = mdat::period_us(parameters);
   const auto trajectory = mdat::make_trajectory(scenario, flight.range_m, mdat::kEpochUs, period_us);
-  sim::SimulatedCamera camera(target, *trajectory, mdat::camera_model(scenario, parameters, scenario.noise != 0),
-                              static_cast<std::uint64_t>(scenario.seed));
-  TraceRecorder recorder(camera);
+  sim::SimulatedScanner scanner(target, *trajectory, mdat::scanner_model(scenario, parameters, scenario.noise != 0),
+                                static_cast<std::uint64_t>(scenario.seed));
+  TraceRecorder recorder(scanner);
   const TraceHeader header = make_header(*trajectory, flight.frames, period_us);
   const std::vector<std::uint8_t> image = mdat::image_bytes(mission, parameters);
   const std::string telemetry = fly(recorder, image, header);

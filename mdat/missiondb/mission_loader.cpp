@@ -64,8 +64,10 @@ class Loader {
     source_.origins[key] = value == found.end() ? Origin{} : value->second.origin;
   }
   void fill_mission() {
+    source_.sensor = static_cast<SensorKind>(static_cast<int>(mission_number("sensor.kind")));
     for (const ParameterRow& row : parameter_rows()) {
-      source_.parameters.*row.member = number_or(found_, value_row(row), row.preset) * row.to_si;
+      const double preset = preset_of(source_.sensor, row.key, row.preset);
+      source_.parameters.*row.member = number_or(found_, value_row(row), preset) * row.to_si;
     }
     source_.id = static_cast<std::uint32_t>(mission_number("mission.id"));
     source_.version = static_cast<std::uint32_t>(mission_number("mission.version"));
@@ -210,7 +212,7 @@ class Loader {
       source_.scenarios[name] = scenario;
     }
   }
-  static void fill_field(Scenario& scenario, const ScenarioField& field, const FoundValues& found, const MissionParameters& parameters) {
+  void fill_field(Scenario& scenario, const ScenarioField& field, const FoundValues& found, const MissionParameters& parameters) const {
     const auto value = found.find(field.row.key);
     if (value == found.end() && !field.row.preset_from.empty()) {
       for (const ParameterRow& row : parameter_rows()) {
@@ -223,7 +225,7 @@ class Loader {
     if (field.list != nullptr) {
       scenario.*field.list = numbers;
     } else {
-      scenario.*field.number = numbers.at(0);
+      scenario.*field.number = value == found.end() ? preset_of(source_.sensor, field.row.key, numbers.at(0)) : numbers.at(0);
     }
   }
 

@@ -32,6 +32,9 @@ struct TargetSource {
   std::map<std::string, double> parameters;  // of the parametric model, in the units that the model states; only those that were written
 };
 
+// How the sensor measures a range. Its presets in [sensor] and of its beam come from the kind (hal_sim/scanner_model.hpp).
+enum class SensorKind : std::uint8_t { kLaserCamera = 0, kTimeOfFlight = 1 };
+
 enum class ScenarioKind : std::uint8_t { kPaper = 0, kSpin = 1 };
 
 // What the simulation does. Attitude of frame 0: target's x axis vertical in the image (+x up, -y of the sensor), its z axis away from the
@@ -49,7 +52,7 @@ struct Scenario {
   double noise = 1;  // 0: perfect ranges and angles
   double sigma0_m = 0, sigma_k_per_m = 0, angle_noise_rad = 0, dropout_probability = 0;
   double dropout_incidence_rad = 0;  // rays that graze the surface more than this do not return
-  double outlier_probability = 0, edge_mixing_m = 0;
+  double outlier_probability = 0, edge_mixing_m = 0, beam_divergence_rad = 0;
   double seed = 0;
 
   ScenarioKind scenario_kind() const { return static_cast<ScenarioKind>(static_cast<int>(kind)); }
@@ -61,6 +64,7 @@ struct MissionSource {
   std::uint32_t id = 0, version = 0;
   std::string name;
   TargetSource target;
+  SensorKind sensor = SensorKind::kLaserCamera;
   MissionParameters parameters{};
   std::map<std::string, Scenario> scenarios;
   std::map<std::string, Origin> origins;  // by dotted key, all rows of parameter_rows() and of the ground sections

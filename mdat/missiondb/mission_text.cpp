@@ -45,6 +45,11 @@ std::string value_text(const ValueRow& row, std::vector<double> si) {
   return toml_text(row, si);
 }
 
+void write_sensor(std::ostream& out, const MissionSource& source) {
+  const ValueRow& row = *find_row(mission_rows(), "sensor.kind");
+  write_line(out, row.key, value_text(row, {static_cast<double>(source.sensor)}), row.unit, place_text(source, row.key), row.meaning);
+}
+
 void write_parameters(std::ostream& out, const MissionSource& source, const std::string& scenario) {
   const MissionParameters parameters = parameters_for(source, scenario);
   const std::string prefix = "scenario." + scenario + ".override.";
@@ -105,6 +110,7 @@ std::string info_text(const MissionSource& source, const std::string& scenario) 
   out << "mission " << source.id << " \"" << source.name << "\" version " << source.version << "\n\n";
   write_target(out, source);
   out << '\n';
+  write_sensor(out, source);
   write_parameters(out, source, scenario);
   out << '\n';
   for (const auto& entry : source.scenarios) {

@@ -1,6 +1,7 @@
 #include "mdat/missiondb/sections.hpp"
 
 #include "fsw/geometry/portable_math.hpp"
+#include "hal_sim/scanner_model.hpp"
 
 namespace lasso::mdat {
 namespace {
@@ -64,6 +65,14 @@ ValueRow kind_row() {
   return required(row);
 }
 
+ValueRow sensor_row() {
+  ValueRow row = number_row("sensor.kind", "1", ValueKind::kChoice, 1, 0, 1, 0,
+                            "laser_camera triangulates; time_of_flight is a LIDAR: its presets of sensor.sigma0_m, sensor.sigma_k_per_m, "
+                            "sensor.range_min_m, sensor.range_max_m and beam_divergence_rad differ from those shown");
+  row.choices = {"laser_camera", "time_of_flight"};
+  return row;
+}
+
 std::vector<ScenarioField> make_scenario_fields() {
   // clang-format off
   return {
@@ -84,6 +93,7 @@ std::vector<ScenarioField> make_scenario_fields() {
     field(&S::dropout_incidence_rad, number_row("dropout_incidence_deg", "deg", kReal, kDeg, 0, 90, 90, "simulated rays that graze the surface more than this do not return")),
     field(&S::outlier_probability, number_row("outlier_probability", "1", kReal, 1, 0, 0.9, 0, "share of the simulated returns with a wrong range")),
     field(&S::edge_mixing_m, number_row("edge_mixing_m", "m", kReal, 1, 0, 1, 0, "simulated rays this near an edge return a range between both sides")),
+    field(&S::beam_divergence_rad, number_row("beam_divergence_rad", "rad", kReal, 1, 0, 0.1, 0, "growth of that distance with the range")),
     field(&S::seed, number_row("seed", "1", kInteger, 1, 0, 4294967295.0, 1, "start of the random numbers")),
   };
   // clang-format on
@@ -103,9 +113,21 @@ const std::vector<ValueRow>& mission_rows() {
     number_row("target.scale", "1", kReal, 1, 1e-9, 1e9, 1, "the file's lengths times this are metres"),
     number_row("target.crease_angle_deg", "deg", kReal, kDeg, 0, 90, 30, "facets that meet at a smaller angle are one smooth surface"),
     number_row("target.cell_size_m", "m", kReal, 1, 1e-5, 10, 0.012, "cell of the look-up field: about 1/110 of the target is fastest; larger takes less memory"),
+    sensor_row(),
   };
   // clang-format on
   return rows;
+}
+
+double preset_of(SensorKind sensor, const std::string& key, double preset) {
+  if (sensor != SensorKind::kTimeOfFlight) return preset;
+  const sim::ScannerModel lidar = sim::time_of_flight_lidar();
+  if (key == "sensor.sigma0_m") return lidar.sigma0_m;
+  if (key == "sensor.sigma_k_per_m") return lidar.sigma_k_per_m;
+  if (key == "sensor.range_min_m") return lidar.range_min_m;
+  if (key == "sensor.range_max_m") return lidar.range_max_m;
+  if (key == "beam_divergence_rad") return lidar.beam_divergence_rad;
+  return preset;
 }
 
 const std::vector<ScenarioField>& scenario_fields() {

@@ -1,4 +1,5 @@
-// The ground sections of a mission ([mission], [target], [scenario.NAME]) as rows, with the members that they fill. Inside of missiondb.
+// The ground sections of a mission ([mission], [target], the kind of sensor, [scenario.NAME]) as rows, with the members that they fill.
+// Inside of missiondb.
 #pragma once
 
 #include <string>
@@ -11,6 +12,9 @@ namespace lasso::mdat {
 
 // Keys "mission.id", "target.scale", ... `target.parameters` is a table of numbers beside them.
 const std::vector<ValueRow>& mission_rows();
+
+// What holds where nobody wrote `key` (a flight parameter's, or of a scenario's field): `preset`, unless the kind of sensor has its own.
+double preset_of(SensorKind sensor, const std::string& key, double preset);
 
 struct ScenarioField {
   ValueRow row;                        // key without "scenario.NAME."

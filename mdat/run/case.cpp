@@ -23,10 +23,10 @@ class Case {
   explicit Case(const CaseSetup& setup)
       : setup_(setup),
         period_us_(mdat::period_us(setup.parameters)),
-        noisy_model_(camera_model(setup.scenario, setup.parameters, true)),
+        noisy_model_(scanner_model(setup.scenario, setup.parameters, true)),
         trajectory_(make_trajectory(setup.scenario, setup.range_m, kEpochUs, period_us_)),
-        camera_(*setup.target, *trajectory_, camera_model(setup.scenario, setup.parameters, setup.noise), setup.seed),
-        sensor_(camera_),
+        scanner_(*setup.target, *trajectory_, scanner_model(setup.scenario, setup.parameters, setup.noise), setup.seed),
+        sensor_(scanner_),
         component_(std::make_unique<Component>(sensor_)),
         image_(aligned_copy(*setup.image)) {
     result_.frames.resize(setup.frames);
@@ -106,9 +106,9 @@ class Case {
 
   const CaseSetup& setup_;
   DurationUs period_us_;
-  sim::CameraModel noisy_model_;
+  sim::ScannerModel noisy_model_;
   std::unique_ptr<sim::Trajectory> trajectory_;
-  sim::SimulatedCamera camera_;
+  sim::SimulatedScanner scanner_;
   RecordingSensor sensor_;
   std::unique_ptr<Component> component_;
   std::vector<std::uint64_t> image_;
@@ -119,12 +119,13 @@ class Case {
 
 DurationUs period_us(const MissionParameters& parameters) { return static_cast<DurationUs>(std::llround(parameters.period_s * 1e6)); }
 
-sim::CameraModel camera_model(const Scenario& scenario, const MissionParameters& parameters, bool noise) {
-  sim::CameraModel model;
+sim::ScannerModel scanner_model(const Scenario& scenario, const MissionParameters& parameters, bool noise) {
+  sim::ScannerModel model;
   if (noise) {
     model.sigma0_m = scenario.sigma0_m;
     model.sigma_k_per_m = scenario.sigma_k_per_m;
     model.sigma_angle_rad = scenario.angle_noise_rad;
+    model.beam_divergence_rad = scenario.beam_divergence_rad;
   }
   model.fov_half_x_rad = parameters.fov_half_x_rad;
   model.fov_half_y_rad = parameters.fov_half_y_rad;

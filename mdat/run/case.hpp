@@ -1,4 +1,4 @@
-// One closed-loop run: the simulated camera, the flight component on its Linux board, and what its telemetry says against the truth.
+// One closed-loop run: the simulated scanner, the flight component on its Linux board, and what its telemetry says against the truth.
 #pragma once
 
 #include <atomic>
@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "fsw/link/pose_telemetry.hpp"
-#include "hal_sim/laser_camera.hpp"
 #include "hal_sim/ray_caster.hpp"
+#include "hal_sim/scanner.hpp"
 #include "hal_sim/trajectory.hpp"
 #include "mdat/missiondb/mission_source.hpp"
 #include "mdat/run/statistics.hpp"
@@ -21,7 +21,7 @@ DurationUs period_us(const MissionParameters& parameters);
 struct CaseSetup {
   Scenario scenario;
   double range_m = 0;
-  bool noise = true;  // of the simulated camera
+  bool noise = true;  // of the simulated scanner
   std::uint64_t seed = 1;
   std::uint32_t frames = 0;
   MissionParameters parameters{};  // as compiled into the image
@@ -44,8 +44,8 @@ struct CaseResult {
   std::vector<KeptScan> scans;
 };
 
-// The camera of a scenario; without noise its ranges and directions are exact.
-sim::CameraModel camera_model(const Scenario& scenario, const MissionParameters& parameters, bool noise);
+// The scanner of a scenario; without noise its ranges and directions are exact.
+sim::ScannerModel scanner_model(const Scenario& scenario, const MissionParameters& parameters, bool noise);
 
 // The target's motion; frame 0 begins at `epoch_us`.
 std::unique_ptr<sim::Trajectory> make_trajectory(const Scenario& scenario, double range_m, TimeUs epoch_us, DurationUs period_us);

@@ -55,6 +55,29 @@ TEST_F(Missions, PresetsHoldWhereNothingIsWritten) {
   }
 }
 
+TEST_F(Missions, ALidarHasPresetsOfItsOwnWhereNothingIsWritten) {
+  VERIFIES("LASSO-GND-001~1 LASSO-SIM-033~1");
+  const std::string scenario = "[scenario.s]\nkind = 'spin'\nranges_m = [40]\n";
+  const MissionSource lidar = load(kHead + "[sensor]\nkind = 'time_of_flight'\nrange_max_m = 80\n" + scenario);
+  EXPECT_EQ(lidar.sensor, SensorKind::kTimeOfFlight);
+  EXPECT_EQ(lidar.parameters.sigma0_m, 0.02);
+  EXPECT_EQ(lidar.parameters.sigma_k_per_m, 5e-7);
+  EXPECT_EQ(lidar.parameters.range_min_m, 1);
+  EXPECT_EQ(lidar.parameters.range_max_m, 80);  // written
+  EXPECT_EQ(lidar.parameters.fov_half_x_rad, preset_parameters().fov_half_x_rad);
+  EXPECT_EQ(lidar.scenarios.at("s").sigma0_m, 0.02);  // as the estimator assumes
+  EXPECT_EQ(lidar.scenarios.at("s").beam_divergence_rad, 2.5e-4);
+  EXPECT_EQ(load(kHead + "[sensor]\nkind = 'time_of_flight'\n" + scenario + "beam_divergence_rad = 0.001\n")
+                .scenarios.at("s")
+                .beam_divergence_rad,
+            0.001);
+  const MissionSource camera = load(kHead + "[sensor]\nkind = 'laser_camera'\n[scenario.s]\nkind = 'spin'\nranges_m = [4]\n");
+  EXPECT_EQ(camera.sensor, SensorKind::kLaserCamera);
+  EXPECT_EQ(camera.parameters.sigma0_m, preset_parameters().sigma0_m);
+  EXPECT_EQ(camera.scenarios.at("s").beam_divergence_rad, 0);
+  expect_error(kHead + "[sensor]\nkind = 'sonar'\n", "sensor.kind");
+}
+
 TEST_F(Missions, EveryParameterIsReadConvertedAndItsLineKnown) {
   VERIFIES("LASSO-GND-001~1 LASSO-GND-002~1");
   for (const ParameterRow& row : parameter_rows()) {

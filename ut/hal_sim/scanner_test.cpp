@@ -1,4 +1,4 @@
-#include "hal_sim/laser_camera.hpp"
+#include "hal_sim/scanner.hpp"
 
 #include <gtest/gtest.h>
 
@@ -75,14 +75,14 @@ bool at_silhouette(const Pose& pose, const Vec3& direction) {
   return (true_box_range(pose, direction, kHalf * (1 - 1e-5)) == kNoHit) != (true_box_range(pose, direction, kHalf * (1 + 1e-5)) == kNoHit);
 }
 
-TEST(SimulatedCamera, FollowsThePlanPointByPoint) {
+TEST(SimulatedScanner, FollowsThePlanPointByPoint) {
   VERIFIES("LASSO-SIM-008~1");
   Scene scene;
-  SimulatedCamera camera(*scene.target, scene.motion, CameraModel{}, 1);
+  SimulatedScanner scanner(*scene.target, scene.motion, ScannerModel{}, 1);
   for (const PatternKind kind : {PatternKind::kRosette, PatternKind::kLissajous, PatternKind::kRaster}) {
     ScanPlan plan = plan_of(257);
     plan.kind = kind;
-    const auto samples = scan(camera, plan, 77000);
+    const auto samples = scan(scanner, plan, 77000);
     ASSERT_EQ(samples.size(), 257u);
     for (std::uint16_t i = 0; i < 257; ++i) {
       const Vec3 expected = pattern_direction(plan, i);
@@ -93,14 +93,14 @@ TEST(SimulatedCamera, FollowsThePlanPointByPoint) {
 }
 
 // Deskew truth: every sample is the closed-form range to the target where it is at that sample's own time. Misses are reported as misses.
-TEST(SimulatedCamera, EachRaySeesTheMovingTargetAtItsOwnTime) {
+TEST(SimulatedScanner, EachRaySeesTheMovingTargetAtItsOwnTime) {
   VERIFIES("LASSO-SIM-009~1 LASSO-SIM-010~1");
   for (const double rate : {0.0, 0.0873, 1.0}) {
     Scene scene(rate);
-    SimulatedCamera camera(*scene.target, scene.motion, CameraModel{}, 1);
+    SimulatedScanner scanner(*scene.target, scene.motion, ScannerModel{}, 1);
     std::size_t hits = 0, misses = 0, moved = 0;
     const Pose first = scene.motion.at(0).T_sensor_target;
-    for (const RangeSample& sample : scan(camera, plan_of())) {
+    for (const RangeSample& sample : scan(scanner, plan_of())) {
       const Vec3 direction = direction_of(sample);
       const Pose pose = scene.motion.at(sample.t_us).T_sensor_target;
       if (at_silhouette(pose, direction)) continue;
@@ -119,14 +119,14 @@ TEST(SimulatedCamera, EachRaySeesTheMovingTargetAtItsOwnTime) {
   }
 }
 
-TEST(SimulatedCamera, RangesToASphereAndAPlaneAreClosedForm) {
+TEST(SimulatedScanner, RangesToASphereAndAPlaneAreClosedForm) {
   VERIFIES("LASSO-SIM-009~1");
   const double radius = 0.5;
   Scene scene(0.3, test::sphere_mesh(radius, 200));
-  SimulatedCamera camera(*scene.target, scene.motion, CameraModel{}, 1);
+  SimulatedScanner scanner(*scene.target, scene.motion, ScannerModel{}, 1);
   const double inner = radius * std::pow(std::cos(M_PI / 400), 2);  // largest sphere within the facets
   std::size_t hits = 0;
-  for (const RangeSample& sample : scan(camera, plan_of())) {
+  for (const RangeSample& sample : scan(scanner, plan_of())) {
     const Vec3 direction = direction_of(sample);
     const Vec3 origin = -scene.motion.at(sample.t_us).T_sensor_target.p;
     const double near_m = test::sphere_range(radius, origin, direction);
@@ -142,8 +142,8 @@ TEST(SimulatedCamera, RangesToASphereAndAPlaneAreClosedForm) {
   ShapeMesh wall;
   wall.quad(Vec3(-9, -9, 0), Vec3(9, -9, 0), Vec3(9, 9, 0), Vec3(-9, 9, 0));
   Scene plane(0.2, wall);
-  SimulatedCamera plane_camera(*plane.target, plane.motion, CameraModel{}, 1);
-  for (const RangeSample& sample : scan(plane_camera, plan_of())) {
+  SimulatedScanner plane_scanner(*plane.target, plane.motion, ScannerModel{}, 1);
+  for (const RangeSample& sample : scan(plane_scanner, plan_of())) {
     const Pose pose = plane.motion.at(sample.t_us).T_sensor_target;
     const Vec3 normal = pose.q.toRotationMatrix().col(2);
     ASSERT_EQ(sample.state, RayState::kHit);
@@ -153,81 +153,81 @@ TEST(SimulatedCamera, RangesToASphereAndAPlaneAreClosedForm) {
 
 // ---- The contract of the Sensor interface.
 
-TEST(SimulatedCamera, SamplesAppearWhenTheirTimeHasCome) {
+TEST(SimulatedScanner, SamplesAppearWhenTheirTimeHasCome) {
   VERIFIES("LASSO-SIM-011~1");
   Scene scene;
-  SimulatedCamera camera(*scene.target, scene.motion, CameraModel{}, 1);
+  SimulatedScanner scanner(*scene.target, scene.motion, ScannerModel{}, 1);
   const ScanPlan plan = plan_of(100);
   std::vector<RangeSample> out(128);
   const Span<RangeSample> buffer(out.data(), out.size());
-  EXPECT_EQ(camera.poll(0, buffer).status, Status::kNoData);
-  ASSERT_EQ(camera.start(plan, 5000), Status::kOk);
-  const SensorPoll early = camera.poll(4999, buffer);
+  EXPECT_EQ(scanner.poll(0, buffer).status, Status::kNoData);
+  ASSERT_EQ(scanner.start(plan, 5000), Status::kOk);
+  const SensorPoll early = scanner.poll(4999, buffer);
   EXPECT_EQ(early.status, Status::kOk);
   EXPECT_EQ(early.count, 0u);
-  EXPECT_EQ(camera.poll(5000, buffer).count, 1u);
-  EXPECT_EQ(camera.poll(5000, buffer).count, 0u);  // none twice
+  EXPECT_EQ(scanner.poll(5000, buffer).count, 1u);
+  EXPECT_EQ(scanner.poll(5000, buffer).count, 0u);  // none twice
   const TimeUs half_us = 5000 + plan.duration_us / 2;
   std::size_t expected = 0;
   for (std::uint16_t i = 1; i < 100; ++i) expected += 5000 + pattern_time_us(plan, i) <= half_us ? 1u : 0u;
-  const SensorPoll middle = camera.poll(half_us, buffer);
+  const SensorPoll middle = scanner.poll(half_us, buffer);
   EXPECT_EQ(middle.count, expected);
   EXPECT_FALSE(middle.complete);
   EXPECT_LE(out[middle.count - 1].t_us, half_us);
-  const SensorPoll last = camera.poll(5000 + plan.duration_us, buffer);
+  const SensorPoll last = scanner.poll(5000 + plan.duration_us, buffer);
   EXPECT_EQ(last.count, 99 - expected);
   EXPECT_TRUE(last.complete);
-  EXPECT_EQ(camera.poll(9000000, buffer).status, Status::kNoData);
+  EXPECT_EQ(scanner.poll(9000000, buffer).status, Status::kNoData);
 }
 
-TEST(SimulatedCamera, KeepsToTheRoomThatItIsGiven) {
+TEST(SimulatedScanner, KeepsToTheRoomThatItIsGiven) {
   VERIFIES("LASSO-SIM-011~1");
   Scene scene;
-  SimulatedCamera camera(*scene.target, scene.motion, CameraModel{}, 1);
-  ASSERT_EQ(camera.start(plan_of(64), 0), Status::kOk);
+  SimulatedScanner scanner(*scene.target, scene.motion, ScannerModel{}, 1);
+  ASSERT_EQ(scanner.start(plan_of(64), 0), Status::kOk);
   std::vector<RangeSample> out(10);
-  EXPECT_EQ(camera.poll(1000000, {out.data(), 0}).count, 0u);
+  EXPECT_EQ(scanner.poll(1000000, {out.data(), 0}).count, 0u);
   for (int k = 0; k < 6; ++k) {
-    const SensorPoll poll = camera.poll(1000000, {out.data(), 10});
+    const SensorPoll poll = scanner.poll(1000000, {out.data(), 10});
     EXPECT_EQ(poll.count, 10u);
     EXPECT_FALSE(poll.complete);
   }
-  const SensorPoll last = camera.poll(1000000, {out.data(), 10});
+  const SensorPoll last = scanner.poll(1000000, {out.data(), 10});
   EXPECT_EQ(last.count, 4u);
   EXPECT_TRUE(last.complete);
 }
 
-TEST(SimulatedCamera, ABusyCameraRefusesAndAnAbortFreesIt) {
+TEST(SimulatedScanner, ABusyScannerRefusesAndAnAbortFreesIt) {
   VERIFIES("LASSO-SIM-011~1");
   Scene scene;
-  SimulatedCamera camera(*scene.target, scene.motion, CameraModel{}, 1);
-  camera.abort();  // idle: no effect
+  SimulatedScanner scanner(*scene.target, scene.motion, ScannerModel{}, 1);
+  scanner.abort();  // idle: no effect
   std::vector<RangeSample> out(4);
-  ASSERT_EQ(camera.start(plan_of(64), 0), Status::kOk);
-  camera.poll(1000000, {out.data(), 4});
-  EXPECT_EQ(camera.start(plan_of(48), 0), Status::kBusy);
-  EXPECT_EQ(camera.poll(1000000, {out.data(), 4}).count, 4u);  // the first scan goes on
-  camera.abort();
-  EXPECT_EQ(camera.poll(1000000, {out.data(), 4}).status, Status::kNoData);
-  EXPECT_EQ(scan(camera, plan_of(48)).size(), 48u);
+  ASSERT_EQ(scanner.start(plan_of(64), 0), Status::kOk);
+  scanner.poll(1000000, {out.data(), 4});
+  EXPECT_EQ(scanner.start(plan_of(48), 0), Status::kBusy);
+  EXPECT_EQ(scanner.poll(1000000, {out.data(), 4}).count, 4u);  // the first scan goes on
+  scanner.abort();
+  EXPECT_EQ(scanner.poll(1000000, {out.data(), 4}).status, Status::kNoData);
+  EXPECT_EQ(scan(scanner, plan_of(48)).size(), 48u);
 }
 
-TEST(SimulatedCamera, RefusesPlansOutsideItsLimits) {
+TEST(SimulatedScanner, RefusesPlansOutsideItsLimits) {
   VERIFIES("LASSO-SIM-012~1");
   Scene scene;
-  CameraModel model;
+  ScannerModel model;
   model.fov_half_x_rad = 0.2;
   model.fov_half_y_rad = 0.3;
-  SimulatedCamera camera(*scene.target, scene.motion, model, 1);
+  SimulatedScanner scanner(*scene.target, scene.motion, model, 1);
   const auto answer = [&](auto change) {
     ScanPlan plan = plan_of();
     change(plan);
-    const Status status = camera.start(plan, 0);
+    const Status status = scanner.start(plan, 0);
     if (status != Status::kOk) {
       std::vector<RangeSample> out(1);
-      EXPECT_EQ(camera.poll(1000000, {out.data(), 1}).status, Status::kNoData);  // as it was
+      EXPECT_EQ(scanner.poll(1000000, {out.data(), 1}).status, Status::kNoData);  // as it was
     }
-    camera.abort();
+    scanner.abort();
     return status;
   };
   EXPECT_EQ(answer([](ScanPlan& p) { p.half_x = std::tan(0.2) - p.center_x; }), Status::kOk);
@@ -239,10 +239,10 @@ TEST(SimulatedCamera, RefusesPlansOutsideItsLimits) {
   EXPECT_EQ(answer([](ScanPlan& p) { p.points = kMaxRays + 1; }), Status::kBadValue);
 }
 
-TEST(SimulatedCamera, TheSameSeedGivesTheSameScanHoweverItIsPolled) {
+TEST(SimulatedScanner, TheSameSeedGivesTheSameScanHoweverItIsPolled) {
   VERIFIES("LASSO-SIM-002~1");
   Scene scene(0.1);
-  CameraModel model;
+  ScannerModel model;
   model.sigma0_m = 1e-3;
   model.sigma_angle_rad = 1e-4;
   model.dropout_probability = 0.1;
@@ -252,9 +252,9 @@ TEST(SimulatedCamera, TheSameSeedGivesTheSameScanHoweverItIsPolled) {
     return a.range_m == b.range_m && a.t_us == b.t_us && a.state == b.state && std::equal(a.direction, a.direction + 3, b.direction);
   };
   const auto same = [&](const auto& a, const auto& b) { return std::equal(a.begin(), a.end(), b.begin(), b.end(), equal); };
-  SimulatedCamera first(*scene.target, scene.motion, model, 9);
-  SimulatedCamera second(*scene.target, scene.motion, model, 9);
-  SimulatedCamera other(*scene.target, scene.motion, model, 10);
+  SimulatedScanner first(*scene.target, scene.motion, model, 9);
+  SimulatedScanner second(*scene.target, scene.motion, model, 9);
+  SimulatedScanner other(*scene.target, scene.motion, model, 10);
   ScanPlan plan = plan_of();
   const auto samples = scan(first, plan);
   EXPECT_TRUE(same(samples, scan(first, plan, 0, 7)));

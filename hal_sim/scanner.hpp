@@ -1,9 +1,10 @@
-// A laser camera that scans a simulated target: behind the Sensor interface, point by point at each point's own time.
+// A scanner of a simulated target, laser camera or LIDAR by its model: behind the Sensor interface, point by point at each point's own
+// time.
 #pragma once
 
 #include "fsw/sense/sensor.hpp"
-#include "hal_sim/camera_model.hpp"
 #include "hal_sim/ray_caster.hpp"
+#include "hal_sim/scanner_model.hpp"
 #include "hal_sim/trajectory.hpp"
 
 namespace lasso::sim {
@@ -13,10 +14,10 @@ namespace lasso::sim {
 class RaySimulator {
  public:
   // Keeps references: target and trajectory outlive the simulator. Throws std::invalid_argument as validate(model).
-  RaySimulator(const RayCaster& target, const Trajectory& trajectory, const CameraModel& model, std::uint64_t seed);
+  RaySimulator(const RayCaster& target, const Trajectory& trajectory, const ScannerModel& model, std::uint64_t seed);
 
   RangeSample measure(std::uint32_t scan_id, std::uint32_t ray, const Vec3& direction, TimeUs t_us) const;
-  const CameraModel& model() const { return model_; }
+  const ScannerModel& model() const { return model_; }
 
  private:
   struct Beam;
@@ -27,15 +28,15 @@ class RaySimulator {
 
   const RayCaster& target_;
   const Trajectory& trajectory_;
-  CameraModel model_;
+  ScannerModel model_;
   std::uint64_t seed_;
   double cos_dropout_incidence_;
 };
 
-class SimulatedCamera final : public Sensor {
+class SimulatedScanner final : public Sensor {
  public:
   // References and exceptions as RaySimulator. What a scan returns depends on the plan, its start time and the seed alone.
-  SimulatedCamera(const RayCaster& target, const Trajectory& trajectory, const CameraModel& model, std::uint64_t seed);
+  SimulatedScanner(const RayCaster& target, const Trajectory& trajectory, const ScannerModel& model, std::uint64_t seed);
 
   // kBadValue: a plan that validate (pattern.hpp) refuses, or that leaves the field of view.
   Status start(const ScanPlan& plan, TimeUs t_start_us) override;

@@ -1,4 +1,4 @@
-#include "hal_sim/laser_camera.hpp"
+#include "hal_sim/scanner.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -41,11 +41,11 @@ double quantised_m(double range_m, double step_m) { return step_m > 0 ? std::flo
 
 struct RaySimulator::Beam {
   Pose T_sensor_target;
-  Vec3 direction;  // along which the camera truly looks
+  Vec3 direction;  // along which the scanner truly looks
   RayDraws draws;
 };
 
-RaySimulator::RaySimulator(const RayCaster& target, const Trajectory& trajectory, const CameraModel& model, std::uint64_t seed)
+RaySimulator::RaySimulator(const RayCaster& target, const Trajectory& trajectory, const ScannerModel& model, std::uint64_t seed)
     : target_(target), trajectory_(trajectory), model_(model), seed_(seed) {
   sim::validate(model);
   cos_dropout_incidence_ = model.dropout_incidence_rad < kPi / 2 ? sin_cos(model.dropout_incidence_rad).cos : -1;
@@ -89,34 +89,35 @@ double RaySimulator::mixed_range_m(const RayHit& hit, const Beam& beam) const {
   const Vec3 normal = rotate(beam.T_sensor_target.q, hit.normal);
   const Vec3 point = hit.range_m * beam.direction;
   const Across axes = across(beam.direction);
+  const double radius_m = footprint_m(model_, hit.range_m);
   double other_m = hit.range_m;
   for (const Vec3& offset : {axes.right, Vec3(-axes.right), axes.down, Vec3(-axes.down)}) {
-    const Vec3 direction = (point + model_.edge_mixing_m * offset).normalized();
+    const Vec3 direction = (point + radius_m * offset).normalized();
     const RayHit rim = cast(beam.T_sensor_target, direction);
-    if (!rim.hit || std::abs(normal.dot(rim.range_m * direction - point)) <= model_.edge_mixing_m) continue;
+    if (!rim.hit || std::abs(normal.dot(rim.range_m * direction - point)) <= radius_m) continue;
     if (std::abs(rim.range_m - hit.range_m) > std::abs(other_m - hit.range_m)) other_m = rim.range_m;
   }
   return hit.range_m + beam.draws.mixing_weight * (other_m - hit.range_m);
 }
 
 double RaySimulator::noisy_range_m(const RayHit& hit, const Beam& beam) const {
-  const bool mixing = model_.edge_mixing_m > 0 && beam.draws.mixing < model_.edge_mixing_probability;
+  const bool mixing = footprint_m(model_, hit.range_m) > 0 && beam.draws.mixing < model_.edge_mixing_probability;
   const double range_m = mixing ? mixed_range_m(hit, beam) : hit.range_m;
   const double sigma_m = range_sigma_m(model_, range_m * beam.direction.z());
   return quantised_m(range_m + sigma_m * beam.draws.range, model_.range_step_m);
 }
 
-SimulatedCamera::SimulatedCamera(const RayCaster& target, const Trajectory& trajectory, const CameraModel& model, std::uint64_t seed)
+SimulatedScanner::SimulatedScanner(const RayCaster& target, const Trajectory& trajectory, const ScannerModel& model, std::uint64_t seed)
     : rays_(target, trajectory, model, seed), tan_half_x_(tangent(model.fov_half_x_rad)), tan_half_y_(tangent(model.fov_half_y_rad)) {}
 
 // A plan that touches the limit is inside: the planner caps its extents at the same limit, and may differ in the last bits.
-bool SimulatedCamera::within_field_of_view(const ScanPlan& plan) const {
+bool SimulatedScanner::within_field_of_view(const ScanPlan& plan) const {
   constexpr double kRounding = 1e-6;
   return std::abs(plan.center_x) + plan.half_x <= tan_half_x_ + kRounding &&
          std::abs(plan.center_y) + plan.half_y <= tan_half_y_ + kRounding;
 }
 
-Status SimulatedCamera::start(const ScanPlan& plan, TimeUs t_start_us) {
+Status SimulatedScanner::start(const ScanPlan& plan, TimeUs t_start_us) {
   if (running_) return Status::kBusy;
   if (lasso::validate(plan) != Status::kOk || !within_field_of_view(plan)) return Status::kBadValue;
   plan_ = plan;
@@ -126,7 +127,7 @@ Status SimulatedCamera::start(const ScanPlan& plan, TimeUs t_start_us) {
   return Status::kOk;
 }
 
-SensorPoll SimulatedCamera::poll(TimeUs now_us, Span<RangeSample> out) {
+SensorPoll SimulatedScanner::poll(TimeUs now_us, Span<RangeSample> out) {
   SensorPoll result;
   if (!running_) {
     result.status = Status::kNoData;

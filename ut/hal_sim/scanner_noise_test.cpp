@@ -1,4 +1,4 @@
-// Statistics of what is imperfect about the simulated camera, against what its model promises.
+// Statistics of what is imperfect about the simulated scanner, against what its model promises.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "hal_sim/laser_camera.hpp"
+#include "hal_sim/scanner.hpp"
 #include "ut/hal_sim/shapes.hpp"
 #include "ut/support/verifies.hpp"
 
@@ -31,7 +31,7 @@ struct Wall {
     mesh.quad(Vec3(-50, -50, 0), Vec3(50, -50, 0), Vec3(50, 50, 0), Vec3(-50, 50, 0));
     return mesh;
   }
-  RaySimulator rays(const CameraModel& model, std::uint64_t seed = 17) const { return RaySimulator(*target, motion, model, seed); }
+  RaySimulator rays(const ScannerModel& model, std::uint64_t seed = 17) const { return RaySimulator(*target, motion, model, seed); }
 };
 
 const Vec3 kDirection = Vec3(0.02, 0.05, 1).normalized();
@@ -68,10 +68,10 @@ double wall_range(double incidence_rad, const Vec3& direction = kDirection) {
 
 double share_bound(double share) { return 4.5 * std::sqrt(share * (1 - share) / kRays); }
 
-TEST(CameraNoise, RangeNoiseIsUnbiasedAndOfTheModelsSize) {
+TEST(ScannerNoise, RangeNoiseIsUnbiasedAndOfTheModelsSize) {
   VERIFIES("LASSO-SIM-013~1");
   const Wall wall(0.5);
-  CameraModel model;
+  ScannerModel model;
   model.sigma0_m = 4e-4;
   model.sigma_k_per_m = 1e-4;
   const double truth = wall_range(0.5);
@@ -84,20 +84,46 @@ TEST(CameraNoise, RangeNoiseIsUnbiasedAndOfTheModelsSize) {
   }
 }
 
-TEST(CameraNoise, WithoutNoiseEveryRayIsExact) {
+// A wall across the boresight at each range: the spread of its returns, and none beyond the LIDAR's limits.
+TEST(ScannerNoise, ALidarMeasuresFromOneToAHundredMetresAlike) {
+  VERIFIES("LASSO-SIM-033~1 LASSO-SIM-012~1");
+  const ShapeMesh mesh = Wall::wall_mesh();
+  const std::unique_ptr<RayCaster> target = make_ray_caster(mesh.vertices, mesh.triangles);
+  const Vec3 boresight(0, 0, 1);
+  for (const double range_m : {1.1, 5.0, 20.0, 60.0, 99.5}) {
+    const ConstantTwist motion({Pose{Quat::Identity(), Vec3(0, 0, range_m)}, Twist{}}, 0);
+    double sum = 0;
+    double sum2 = 0;
+    for (std::uint32_t i = 0; i < kRays; ++i) {
+      const RangeSample sample = RaySimulator(*target, motion, time_of_flight_lidar(), 5).measure(0, i, boresight, 0);
+      ASSERT_EQ(sample.state, RayState::kHit) << range_m;
+      const double error = static_cast<double>(sample.range_m) - range_m;
+      sum += error;
+      sum2 += error * error;
+    }
+    EXPECT_NEAR(sum / kRays, 0, 4.5 * 0.021 / std::sqrt(double{kRays})) << range_m;
+    EXPECT_NEAR(std::sqrt(sum2 / kRays), 0.020, 0.001) << range_m;
+  }
+  for (const auto& [range_m, state] : {std::pair{0.9, RayState::kInvalid}, std::pair{100.1, RayState::kMiss}}) {
+    const ConstantTwist motion({Pose{Quat::Identity(), Vec3(0, 0, range_m)}, Twist{}}, 0);
+    EXPECT_EQ(RaySimulator(*target, motion, time_of_flight_lidar(), 5).measure(0, 0, boresight, 0).state, state);
+  }
+}
+
+TEST(ScannerNoise, WithoutNoiseEveryRayIsExact) {
   VERIFIES("LASSO-SIM-009~1");
-  const Statistics s = measure(Wall(0.5).rays(CameraModel{}));
+  const Statistics s = measure(Wall(0.5).rays(ScannerModel{}));
   EXPECT_EQ(s.hits, kRays);
   EXPECT_NEAR(s.mean, wall_range(0.5), 2e-7);
   EXPECT_LT(s.sigma, 1e-9);
 }
 
 // On a wall at incidence i, a ray off by d in the plane of incidence meets it r tan(i) d farther: the reported direction stays nominal.
-TEST(CameraNoise, AngleNoiseMovesTheRayAndNotTheReport) {
+TEST(ScannerNoise, AngleNoiseMovesTheRayAndNotTheReport) {
   VERIFIES("LASSO-SIM-014~1");
   const double incidence = 0.6;
   const Wall wall(incidence);
-  CameraModel model;
+  ScannerModel model;
   model.sigma_angle_rad = 2e-4;
   const Vec3 normal(0, -std::sin(incidence), std::cos(incidence));
   const double truth = wall_range(incidence);
@@ -111,11 +137,11 @@ TEST(CameraNoise, AngleNoiseMovesTheRayAndNotTheReport) {
   for (int axis = 0; axis < 3; ++axis) EXPECT_EQ(sample.direction[axis], static_cast<float>(kDirection[axis]));
 }
 
-TEST(CameraNoise, DropoutsAreMissesOfTheStatedShare) {
+TEST(ScannerNoise, DropoutsAreMissesOfTheStatedShare) {
   VERIFIES("LASSO-SIM-015~1");
   const Wall wall(0.3);
   for (const double share : {0.02, 0.2, 1.0}) {
-    CameraModel model;
+    ScannerModel model;
     model.dropout_probability = share;
     const Statistics s = measure(wall.rays(model));
     EXPECT_NEAR(double(s.misses) / kRays, share, share_bound(share));
@@ -123,20 +149,20 @@ TEST(CameraNoise, DropoutsAreMissesOfTheStatedShare) {
   }
 }
 
-TEST(CameraNoise, GrazingReturnsAreLost) {
+TEST(ScannerNoise, GrazingReturnsAreLost) {
   VERIFIES("LASSO-SIM-015~1");
-  CameraModel model;
+  ScannerModel model;
   model.dropout_incidence_rad = 1.2;
   const Vec3 boresight(0, 0, 1);
   EXPECT_EQ(measure(Wall(1.199).rays(model), boresight).hits, kRays);
   EXPECT_EQ(measure(Wall(1.201).rays(model), boresight).misses, kRays);
   EXPECT_EQ(measure(Wall(M_PI - 1.201).rays(model), boresight).misses, kRays);  // seen from its back
-  EXPECT_EQ(measure(Wall(1.201).rays(CameraModel{}), boresight).hits, kRays);
+  EXPECT_EQ(measure(Wall(1.201).rays(ScannerModel{}), boresight).hits, kRays);
 }
 
-TEST(CameraNoise, OutliersAreUniformAlongHitAndMissedRays) {
+TEST(ScannerNoise, OutliersAreUniformAlongHitAndMissedRays) {
   VERIFIES("LASSO-SIM-016~1");
-  CameraModel model;
+  ScannerModel model;
   model.outlier_probability = 0.3;
   model.range_min_m = 0.5;
   const Wall wall(0.1);
@@ -163,13 +189,13 @@ TEST(CameraNoise, OutliersAreUniformAlongHitAndMissedRays) {
 }
 
 // A near half wall (x < 0, sensor frame) 0.4 m before a far wall: only rays within the footprint of the edge mix, and only between the two.
-TEST(CameraNoise, RangesMixAtTheEdgeBetweenTwoSurfaces) {
+TEST(ScannerNoise, RangesMixAtTheEdgeBetweenTwoSurfaces) {
   VERIFIES("LASSO-SIM-017~1");
   ShapeMesh mesh;
   mesh.quad(Vec3(-50, -50, -0.4), Vec3(0, -50, -0.4), Vec3(0, 50, -0.4), Vec3(-50, 50, -0.4));
   mesh.quad(Vec3(-50, -50, 0), Vec3(50, -50, 0), Vec3(50, 50, 0), Vec3(-50, 50, 0));
   const Wall wall(0, mesh);
-  CameraModel model;
+  ScannerModel model;
   model.edge_mixing_m = 0.01;
   model.edge_mixing_probability = 0.6;
   const RaySimulator rays = wall.rays(model);
@@ -188,13 +214,26 @@ TEST(CameraNoise, RangesMixAtTheEdgeBetweenTwoSurfaces) {
   EXPECT_NEAR(mixed(+0.005), 0.6, 0.025);
   EXPECT_EQ(mixed(-0.012), 0);
   EXPECT_EQ(mixed(+0.012), 0);
+  // A beam that widens has the same footprint here (10 mm at 2.6 m).
+  ScannerModel widening = model;
+  widening.edge_mixing_m = 0;
+  widening.beam_divergence_rad = 0.01 / 2.6;
+  const RaySimulator widened = wall.rays(widening);
+  const Vec3 inside = Vec3(-0.005 / 2.6, 0.01, 1).normalized();
+  const Vec3 outside = Vec3(-0.012 / 2.6, 0.01, 1).normalized();
+  int mixed_inside = 0;
+  for (std::uint32_t i = 0; i < 1000; ++i) {
+    mixed_inside += static_cast<double>(widened.measure(1, i, inside, 0).range_m) * inside.z() > 2.6 + 1e-3 ? 1 : 0;
+    EXPECT_NEAR(static_cast<double>(widened.measure(1, i, outside, 0).range_m) * outside.z(), 2.6, 1e-5);
+  }
+  EXPECT_NEAR(mixed_inside / 1000.0, 0.6, 0.08);
   // An oblique wall alone has no edge: its footprint's ranges differ, and nothing mixes.
   EXPECT_LT(measure(Wall(1.2).rays(model)).sigma, 1e-9);
 }
 
-TEST(CameraNoise, RangesAreQuantised) {
+TEST(ScannerNoise, RangesAreQuantised) {
   VERIFIES("LASSO-SIM-018~1");
-  CameraModel model;
+  ScannerModel model;
   model.range_step_m = 0.01;
   model.sigma0_m = 0.05;
   const Wall wall(0.4);
@@ -206,10 +245,10 @@ TEST(CameraNoise, RangesAreQuantised) {
   EXPECT_NEAR(measure(stepped).mean, wall_range(0.4), 4.5 * 0.05 / std::sqrt(double{kRays}));
 }
 
-TEST(CameraNoise, RangeLimitsDecideTheState) {
+TEST(ScannerNoise, RangeLimitsDecideTheState) {
   VERIFIES("LASSO-SIM-012~1");
   const Wall wall(0.2);
-  CameraModel model;
+  ScannerModel model;
   model.range_max_m = wall_range(0.2) - 0.001;
   EXPECT_EQ(measure(wall.rays(model)).misses, kRays);
   model.range_max_m += 0.002;
@@ -218,13 +257,13 @@ TEST(CameraNoise, RangeLimitsDecideTheState) {
   EXPECT_EQ(measure(wall.rays(model)).invalid, kRays);
 }
 
-TEST(CameraNoise, AModelOutOfRangeIsRefused) {
+TEST(ScannerNoise, AModelOutOfRangeIsRefused) {
   VERIFIES("LASSO-SIM-007~1");
   const Wall wall(0.2);
-  CameraModel model;
+  ScannerModel model;
   model.sigma0_m = -1;
   EXPECT_THROW(wall.rays(model), std::invalid_argument);
-  EXPECT_THROW(SimulatedCamera(*wall.target, wall.motion, model, 1), std::invalid_argument);
+  EXPECT_THROW(SimulatedScanner(*wall.target, wall.motion, model, 1), std::invalid_argument);
 }
 
 }  // namespace
