@@ -20,6 +20,8 @@ struct MissionParameters {
       surface_sigma_m, wide_start;
   // [filter]
   double period_s, acceleration_mps2, angular_acceleration_radps2, initial_rate_mps, initial_angular_rate_radps;
+  // [bearing] the target's direction and range without its attitude
+  double bearing_returns_min, bearing_rate_mps, bearing_memory_s;
   // [tracking] validity and loss
   double start_sigma_m, start_sigma_rad, inliers_min, inlier_share_min, agreement_min, normalized_residual_max, sigma_position_max_m,
       sigma_attitude_max_rad, innovation_max, coast_frames;

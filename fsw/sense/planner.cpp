@@ -104,4 +104,14 @@ Status plan_scan(const MissionParameters& parameters, const TargetOutline& targe
   return status;
 }
 
+Status plan_full_field(const MissionParameters& parameters, std::uint32_t scan_id, ScanPlan& plan) {
+  const double half_x = tangent(parameters.fov_half_x_rad);
+  const double half_y = tangent(parameters.fov_half_y_rad);
+  ScanPlan candidate = pattern_of_mission(parameters, scan_id);
+  lay(candidate, {-half_x, half_x}, {-half_y, half_y});
+  const Status status = validate(candidate);
+  if (status == Status::kOk) plan = candidate;
+  return status;
+}
+
 }  // namespace lasso

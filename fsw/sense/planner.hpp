@@ -34,4 +34,7 @@ struct TargetOutline {
 Status plan_scan(const MissionParameters& parameters, const TargetOutline& target, const Pose& T_sensor_target, std::uint32_t scan_id,
                  ScanPlan& plan);
 
+// The plan of scan `scan_id` over the whole field of view, for a target of which nothing is known. kBadValue as above.
+Status plan_full_field(const MissionParameters& parameters, std::uint32_t scan_id, ScanPlan& plan);
+
 }  // namespace lasso

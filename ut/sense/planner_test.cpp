@@ -207,5 +207,24 @@ TEST(Planner, RefusesAMissionWhoseCurveDoesNotClose) {
   EXPECT_EQ(plan_box(parameters, generic_pose({0, 0, 5}), plan), Status::kBadValue);
 }
 
+TEST(Planner, AFullFieldScanFillsTheFieldOfView) {
+  VERIFIES("LASSO-MOD-101~1");
+  MissionParameters p = preset_parameters();
+  p.fov_half_x_rad = 0.3;
+  p.fov_half_y_rad = 0.2;
+  ScanPlan plan;
+  ASSERT_EQ(plan_full_field(p, 5, plan), Status::kOk);
+  EXPECT_NEAR(plan.center_x, 0, 1e-15);
+  EXPECT_NEAR(plan.center_y, 0, 1e-15);
+  EXPECT_NEAR(plan.half_x, std::tan(0.3), 1e-12);
+  EXPECT_NEAR(plan.half_y, std::tan(0.2), 1e-12);
+  EXPECT_EQ(plan.points, 1024);
+  EXPECT_EQ(plan.scan_id, 5u);
+  EXPECT_NEAR(plan.phase_turns, std::fmod(5 * p.phase_step_turns, 1), 1e-12);
+  p.cycles_a = p.cycles_b;
+  EXPECT_EQ(plan_full_field(p, 6, plan), Status::kBadValue);
+  EXPECT_EQ(plan.scan_id, 5u);
+}
+
 }  // namespace
 }  // namespace lasso
