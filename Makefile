@@ -176,6 +176,7 @@ format: ## format all tracked sources
 	@$(SOURCES) | xargs -0 clang-format -i
 
 lint: ## clang-format, clang-tidy and cppcheck find nothing in the tracked sources; out/lint
+	$(begin)
 	$(call packages,build lint)
 	$(call configure,$(BUILD),)
 	@cfg/quality/lint $(BUILD)
