@@ -13,8 +13,10 @@ GATES = ('coverage', 'mcdc')
 ROOMS = ('fsw', 'hal_lcs')  # where each line and decision is measured
 LIMIT_PERCENT = 1
 SOURCES = ('.cpp', '.hpp')
-# What would take code out of a measurement without a row.
-MARKER = re.compile(r'\b(?:GCOVR?|LCOV)_EXCL|no_profile_instrument_function|no_instrument_function|pragma\s+GCC\s+optimize')
+# What would take code out of a measurement without a row: a marker, an attribute, or another name for the file.
+MARKER = re.compile(r'[GL]COVR?_EXCL|no_profile_instrument_function|no_instrument_function|pragma\s+GCC\s+optimize|system_header|'
+                    r'^\s*(?:#|%:)\s*(?:line\b|\d)')
+NO_SOURCES = ('.clang-tidy', 'CMakeLists.txt', '.md')
 
 
 @dataclasses.dataclass(frozen=True)
@@ -33,10 +35,13 @@ def sources(top):
 
 
 def check_sources(gate, top, measured):
-    """Nothing hides from the measurement: no marker, and every source file that is compiled was measured."""
+    """Nothing hides from the measurement: no marker, no source by another name, and every one that is compiled was measured."""
+    for path in sorted(path for room in ROOMS for path in (top / room).rglob('*') if path.is_file()):
+        if not path.name.endswith(SOURCES + NO_SOURCES):
+            gate.find(f'{path.relative_to(top).as_posix()}: not measured: name sources {" or ".join(SOURCES)}')
     for path in sources(top):
         name = path.relative_to(top).as_posix()
-        for number, line in enumerate(path.read_text(encoding='utf-8').splitlines(), 1):
+        for number, line in enumerate(path.read_text(encoding='utf-8', errors='replace').splitlines(), 1):
             if MARKER.search(line):
                 gate.find(f'{name}:{number}: a marker takes code out of the measurement: remove it, and waive its line in {TABLE}')
         if path.suffix == '.cpp' and name not in measured:
