@@ -5,6 +5,7 @@ import pathlib
 import shutil
 import subprocess
 import sys
+import tomllib
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
 OUT = pathlib.Path(os.environ.get('LASSO_OUT', TOP / 'out')).resolve()
@@ -48,6 +49,13 @@ class Gate:
 
     def figure(self, label, text):
         self.figures[label] = str(text)
+
+    def table(self, path):
+        """The gate's table, a TOML file."""
+        try:
+            return tomllib.loads(pathlib.Path(path).read_text(encoding='utf-8'))
+        except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+            return self.stop(f'{path}: {error}: correct the file')
 
     def tool(self, name):
         if shutil.which(name) is None:

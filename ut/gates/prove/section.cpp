@@ -1,0 +1,1 @@
+[[gnu::section(".frames")]] char planted[65536] = {1};
