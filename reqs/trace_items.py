@@ -161,6 +161,9 @@ def read_items(root):
     if not files:
         return [], [f'reqs: no requirements found below {root}: give the folder that holds reqs/']
     items, problems = [], []
+    for path in sorted((root / 'reqs').rglob('*.y*ml')):
+        if path not in files:
+            problems.append(f'{path.relative_to(root)}:1: not read: move its items to a file reqs/AREA.yaml')
     for path in files:
         found, wrong = read_file(path, str(path.relative_to(root)))
         items += found
@@ -187,8 +190,8 @@ def check_method(item, root):
         yield f'{item.at("targets")}: {item.id} is verified by {item.method}: targets are for tests'
     if by_test or not item.active:
         return
-    if item.gate and item.gate not in make_targets(root):
-        yield f'{item.at("gate")}: {item.id}: there is no make {item.gate} yet: correct the name, or plan the item until there is'
+    if item.gate and item.gate not in make_gates(root):
+        yield f'{item.at("gate")}: {item.id}: there is no make {item.gate} yet that is a gate: correct the name, or plan the item until there is'
     if not item.evidence:
         yield f'{item.at("method")}: {item.id} has no evidence of its {item.method}: add "evidence: FILE"'
     elif not is_file_within(root, item.evidence):
@@ -196,14 +199,18 @@ def check_method(item, root):
 
 
 @functools.cache
-def make_targets(root):
+def make_gates(root):
+    """The targets that take away their old summary first, and so leave one."""
     makefile = root / 'Makefile'
-    return re.findall(r'^([a-z][a-z0-9-]*):', makefile.read_text(encoding='utf-8'), re.MULTILINE) if makefile.is_file() else []
+    return re.findall(r'^([a-z][a-z0-9-]*):.*\n\t\$\(begin\)$', makefile.read_text(encoding='utf-8'), re.MULTILINE) if makefile.is_file() else []
 
 
 def is_file_within(root, name):
-    path = (root / name.split('#')[0]).resolve()
-    return path.is_relative_to(root.resolve()) and path.is_file() and path.stat().st_size > 0
+    """A file with words in it, and none that is generated or hidden."""
+    root, path = root.resolve(), (root / name.split('#')[0]).resolve()
+    if not path.is_relative_to(root) or not path.is_file() or path.relative_to(root).parts[0].startswith(('out', '.')):
+        return False
+    return path.read_bytes().strip() != b''
 
 
 def check_parent(item, by_id):

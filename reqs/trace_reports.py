@@ -4,6 +4,8 @@ import os
 import re
 import xml.etree.ElementTree as ET
 
+import trace_gates
+
 NAME = re.compile(r'(LASSO-[A-Z]{3,4}-\d{3})~([1-9]\d*)')
 # The platforms whose reports are read: folder below out/, and the command that writes it.
 REPORTS = {'host': ('test', 'make test'), 'ppc603e': ('ppc-test', 'make ppc-test')}
@@ -48,6 +50,15 @@ def failed_programs(path, shown):
             yield f'{shown}: the test program {case.get("name")} did not pass ({case.get("status")}): correct it and run the tests again'
 
 
+def check_run(out, name, command):
+    """Reports stay where a later run stopped before its tests, or was of broken sources: the run has to have ended well."""
+    try:
+        result = trace_gates.result_of(out, name)
+    except ValueError as error:
+        return [str(error)]
+    return [] if result == 'passed' else [f'{os.path.relpath(out / name)}: {command} did not pass last time ({result}): run it again']
+
+
 def read_platform(out, platform):
     """The tests of one platform and the problems found in its reports."""
     name, command = REPORTS[platform]
@@ -55,7 +66,7 @@ def read_platform(out, platform):
     files = sorted(path for path in folder.glob('*.xml') if path.name != 'ctest.xml')
     if not files:
         return [], [f'{os.path.relpath(folder)}: no reports of {platform}: run {command} first']
-    tests, problems = [], []
+    tests, problems = [], check_run(out, name, command)
     for path in [*files, folder / 'ctest.xml']:
         shown = os.path.relpath(path)
         try:

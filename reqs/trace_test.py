@@ -148,9 +148,11 @@ class TraceTest(unittest.TestCase):
         self.fails('reqs/needs.yaml:5: LASSO-NEED-001 has no evidence of its inspection')
 
     def test_evidence_that_is_not_there(self):
-        for name in ('docs/other.md', 'docs', '../../etc/passwd', 'docs/empty.md'):
+        for name in ('docs/other.md', 'docs', '../../etc/passwd', 'docs/empty.md', 'docs/blank.md', 'out/test/ctest.xml', '.git/HEAD'):
             with self.subTest(name):
                 self.write('docs/empty.md', '')
+                self.write('docs/blank.md', ' \n\n')
+                self.write('.git/HEAD', 'ref: refs/heads/main\n')
                 self.write('reqs/needs.yaml', NEED.replace('docs/page.md', name))
                 self.fails(f'reqs/needs.yaml:8: LASSO-NEED-001: there is no file {name}')
 
@@ -175,6 +177,13 @@ class TraceTest(unittest.TestCase):
     def test_not_a_file(self):
         (self.top / 'reqs/xyz.yaml').mkdir()
         self.fails('reqs/xyz.yaml:1: not readable (Is a directory): check the file')
+
+    def test_a_file_that_nobody_reads(self):
+        for name in ('reqs/xyz.yml', 'reqs/more/xyz.yaml'):
+            with self.subTest(name):
+                self.write(name, ITEM.replace('ABC', 'XYZ'))
+                self.fails(f'{name}:1: not read: move its items')
+                (self.top / name).unlink()
 
     def test_not_a_list(self):
         self.write('reqs/xyz.yaml', 'id: LASSO-XYZ-001\n')
@@ -251,6 +260,14 @@ class TraceTest(unittest.TestCase):
         shutil.rmtree(self.top / 'out/ppc-test')
         self.fails('out/ppc-test: no reports of ppc603e: run make ppc-test first')
 
+    def test_reports_of_a_run_that_did_not_end(self):
+        (self.top / 'out/test/summary.json').unlink()
+        self.fails('out/test: make test did not pass last time (not run): run it again')
+
+    def test_reports_of_a_run_that_failed(self):
+        self.edit('out/ppc-test/summary.json', 'true', 'false')
+        self.fails('out/ppc-test: make ppc-test did not pass last time (failed): run it again')
+
     def test_absent_list_of_programs(self):
         (self.top / 'out/test/ctest.xml').unlink()
         self.fails('out/test/ctest.xml: not readable', 'run make test again')
@@ -290,6 +307,10 @@ class TraceTest(unittest.TestCase):
         self.edit('Makefile', 'golden', 'silver')
         self.rest_on_golden(None)
         self.fails('LASSO-NEED-001: there is no make golden yet')
+
+    def test_target_that_is_no_gate(self):
+        self.write('reqs/needs.yaml', NEED + '  gate: clean\n')
+        self.fails('LASSO-NEED-001: there is no make clean yet that is a gate')
 
     def test_gate_that_is_this_check(self):
         self.edit('Makefile', 'golden', 'trace')
