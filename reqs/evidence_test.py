@@ -3,6 +3,7 @@
 import json
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import tempfile
@@ -84,6 +85,16 @@ class EvidenceTest(unittest.TestCase):
         self.assertIn('2001-09-09 (before this commit)', self.page())
         self.collect()
         self.assertIn('with uncommitted changes', self.page())
+
+    def test_a_result_of_another_commit_or_of_changes_to_it(self):
+        for command in (['init', '-q'], ['add', 'docs'], ['-c', 'user.name=a', '-c', 'user.email=a@b', 'commit', '-qm', 'a']):
+            subprocess.run(['git', *command], cwd=self.top, check=True, capture_output=True)
+        head = subprocess.run(['git', 'rev-parse', '--short=10', 'HEAD'], cwd=self.top, check=True, capture_output=True, text=True).stdout.strip()
+        for commit, said in ((head, ''), (f'{head}-dirty', f' (at {head}-dirty, not this commit)'), ('0123456789', ' (at 0123456789, not this commit)')):
+            with self.subTest(commit):
+                self.write('out/prove/summary.json', json.dumps({'gate': 'prove', 'passed': True, 'commit': commit, 'figures': {}}))
+                self.collect()
+                self.assertRegex(self.page(), r'`make prove` \| [^|]* \| passed \|  \| \d{4}-\d\d-\d\d' + re.escape(said) + r' \|')
 
     def test_a_page_without_markers(self):
         self.write('docs/verification.md', '# Page\n')

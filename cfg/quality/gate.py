@@ -27,6 +27,15 @@ TOOLS = {
 }
 
 
+def commit(top=TOP):
+    """The commit that the sources are of, -dirty if tracked files differ from it; empty outside of a repository."""
+    command = ['git', '-C', str(top), 'describe', '--always', '--dirty', '--exclude=*', '--abbrev=10']
+    try:
+        return subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip()
+    except (OSError, subprocess.CalledProcessError):
+        return ''
+
+
 class Gate:
     """Collects what a gate finds and measures. `with Gate(name) as gate:` ends the program, at once if something cannot go on (stop())."""
 
@@ -86,8 +95,9 @@ class Gate:
 
     def conclude(self):
         passed = not self.findings
+        summary = {'gate': self.name, 'passed': passed, 'commit': commit(), 'figures': self.figures}
         with open(self.out / 'summary.json', 'w', encoding='utf-8') as file:
-            json.dump({'gate': self.name, 'passed': passed, 'figures': self.figures}, file, indent=1, ensure_ascii=False)
+            json.dump(summary, file, indent=1, ensure_ascii=False)
         for finding in self.findings:
             print(f'{self.name}: {finding}', file=sys.stderr)
         said = ', '.join(f'{text} {label}' for label, text in self.figures.items())
