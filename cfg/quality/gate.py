@@ -21,6 +21,7 @@ TOOLS = {
     'clang-tidy-19': ('clang-tidy-19', 'lint'),
     'cppcheck': ('cppcheck', 'lint'),
     'ctest': ('cmake', 'build'),
+    'git': ('git', 'lint'),
     'gcovr': ('gcovr', 'coverage'),
     'llvm-cov-19': ('llvm-19', 'coverage'),
     'llvm-profdata-19': ('llvm-19', 'coverage'),
@@ -87,7 +88,9 @@ class Gate:
         return done.stdout
 
     def __exit__(self, kind, error, trace):
-        if kind is not None and kind is not Stopped:
+        if isinstance(error, OSError) and error.filename:
+            self.find(f'{error.filename}: {error.strerror}: give the right folder, and build first what it holds (make {self.name})')
+        elif kind is not None and kind is not Stopped:
             self.find(f'{kind.__name__}: {error}')
             self.conclude()
             return False
