@@ -30,12 +30,14 @@ export CCACHE_BASEDIR := $(CURDIR)
 NINJA_FLAGS := $(if $(MAKE_TERMOUT),,-- --quiet)
 export NINJA_STATUS := [%f/%t %es] 
 
-# $(begin) of a gate (nothing old speaks for it), $(call packages,LISTS), $(call configure,FOLDER,CMAKE OPTIONS), $(call compile,FOLDER[,TARGETS]), $(call ctest,FOLDER,REPORTS[,OPTIONS])
+# $(begin) of a gate (nothing old speaks for it), $(call packages,LISTS), $(call configure,FOLDER,CMAKE OPTIONS) (again if they change),
+# $(call compile,FOLDER[,TARGETS]), $(call ctest,FOLDER,REPORTS[,OPTIONS])
 begin = @rm -f $(LASSO_OUT)/$@/summary.json
 packages = @cfg/packages/ensure $(1)
-configure = @[ -e $(1)/build.ninja ] || { echo "configure $(1)"; mkdir -p $(1); \
+configure = @options='$(subst ',,$(2))'; \
+  { [ -e $(1)/build.ninja ] && [ "$$(cat $(1)/options.txt 2>/dev/null)" = "$$options" ]; } || { echo "configure $(1)"; mkdir -p $(1); rm -f $(1)/CMakeCache.txt; \
   cmake -S $(SOURCE) -B $(1) -G Ninja -DCMAKE_BUILD_TYPE=Release $$(command -v ccache >/dev/null && echo -DCMAKE_CXX_COMPILER_LAUNCHER=ccache) $(2) \
-    >$(1)/configure.log 2>&1 || { cat $(1)/configure.log; rm -f $(1)/build.ninja; false; }; }
+    >$(1)/configure.log 2>&1 || { cat $(1)/configure.log; rm -f $(1)/build.ninja; false; }; } && echo "$$options" >$(1)/options.txt
 compile = @echo "build $(1)$(if $(2), ($(2)))"; cmake --build $(1) --parallel $(JOBS) $(if $(2),--target $(2)) $(NINJA_FLAGS)
 ctest = @rm -rf $(2); mkdir -p $(2); GTEST_OUTPUT=xml:$(abspath $(2))/ \
   ctest --test-dir $(1) --parallel $(JOBS) --output-on-failure --no-tests=error --output-junit $(abspath $(2))/ctest.xml $(3)
