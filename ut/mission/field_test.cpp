@@ -53,6 +53,43 @@ class FieldTest : public ::testing::Test {
   test::Generator random_{2005};
 };
 
+// The square of 2 m about the origin, which faces along z.
+Element<N> square(std::uint32_t flags) {
+  Element<N> e{};
+  e.n[2] = 1;
+  e.flags = flags;
+  for (int i = 0; i < 4; ++i) {
+    e.side[i / 2][i] = i % 2 == 0 ? 1 : -1;
+    e.side_offset[i] = -1;
+  }
+  return e;
+}
+
+// Does a ray along z from 2 m before (side 1) or behind the square hit it with t in [low, high)? It does at t = 2.
+bool hits_square(std::uint32_t flags, int side, float low, float high) {
+  FieldRay<N> ray{};
+  ray.m[2] = N::to_length(2 * side);
+  ray.u[2] = N::to_unit(-side);
+  typename N::Length t{};
+  const bool hit = hit_element<N>(square(flags), ray, low, high, t);
+  return hit && t == 2;
+}
+
+// Each condition of the window and of the face decides by itself: they are joined without branches, where make mcdc does not see them.
+TEST(HitElement, CountsInItsWindowAndOnItsFacesAlone) {
+  VERIFIES("LASSO-IMG-007~1");
+  for (const int side : {1, -1}) {
+    for (const std::uint32_t flags : {0U, kElementTwoSided}) {
+      const bool faces = side == 1 || flags == kElementTwoSided;
+      EXPECT_EQ(hits_square(flags, side, 1, 3), faces) << side << ' ' << flags;
+      EXPECT_EQ(hits_square(flags, side, 2, 3), faces) << side << ' ' << flags;
+      EXPECT_FALSE(hits_square(flags, side, 1, 2)) << side << ' ' << flags;
+      EXPECT_FALSE(hits_square(flags, side, 2.5F, 3)) << side << ' ' << flags;
+      EXPECT_FALSE(hits_square(flags, side, 3, 1)) << "no window, " << side << ' ' << flags;
+    }
+  }
+}
+
 TEST_F(FieldTest, WalkFindsWhatTheRayHits) {
   VERIFIES("LASSO-IMG-007~1");
   int hits = 0;
