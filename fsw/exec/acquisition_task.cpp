@@ -7,12 +7,17 @@ namespace {
 
 constexpr std::size_t kMaxPolls = kMaxRays / kMaxSamplesPerPoll;
 
+Status plan_aimed(const Mission& mission, const Aim& aim, ScanPlan& plan) {
+  const TargetOutline outline{mission.hull, mission.center_m, aim.uncertainty_m};
+  return plan_scan(mission.parameters, outline, aim.T_sensor_target, plan.scan_id, plan);
+}
+
 }  // namespace
 
 void AcquisitionTask::start(const Mission& mission, const Aim& aim, std::uint32_t scan_id, TimeUs t_start_us, ScanPlan& plan) {
   plan.scan_id = scan_id;
-  const TargetOutline outline{mission.hull, mission.center_m, aim.uncertainty_m};
-  if (plan_scan(mission.parameters, outline, aim.T_sensor_target, scan_id, plan) != Status::kOk) return;
+  const Status status = aim.full_field ? plan_full_field(mission.parameters, scan_id, plan) : plan_aimed(mission, aim, plan);
+  if (status != Status::kOk) return;
   // A refusal comes back as the verdict of finish().
   static_cast<void>(acquisition_.start(sensor_, plan, t_start_us, images_[filling_]));
 }

@@ -14,17 +14,18 @@
 
 namespace lasso {
 
-// Where the target is expected, and one sigma of how far off that may be.
+// Where the target is expected, and one sigma of how far off that may be; or anywhere in the field of view.
 struct Aim {
   Pose T_sensor_target;
   double uncertainty_m = 0;
+  bool full_field = false;
 };
 
 class AcquisitionTask {
  public:
   explicit AcquisitionTask(Sensor& sensor) : sensor_(sensor) {}
 
-  // Plans scan `scan_id` on the predicted pose and arms the sensor. A refusal is what finish() then says. `plan` is written even then, as
+  // Plans scan `scan_id` on the aim and arms the sensor. A refusal is what finish() then says. `plan` is written even then, as
   // far as it was made.
   void start(const Mission& mission, const Aim& aim, std::uint32_t scan_id, TimeUs t_start_us, ScanPlan& plan);
   // Takes what the sensor has. Loop bound: kMaxRays / kMaxSamplesPerPoll polls.

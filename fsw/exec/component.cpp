@@ -67,21 +67,62 @@ Status Component::begin(TimeUs boundary_0_us) {
   const MissionParameters& p = mission_.parameters;
   invariant(executive_.begin(boundary_0_us, to_us(p.period_s)) == Status::kOk, "slots of a valid period");
   if (p.initial_present < 0.5) return Status::kOk;
-  return start_tracking(initial_pose(p), initial_rates(p), boundary_0_us);
+  const StartOffer offer = rough_offer(p, initial_pose(p), initial_rates(p), boundary_0_us);
+  if (offer_start(StartWay::kApriori, offer) != StartRefusal::kNone) return Status::kBadValue;
+  request_start(StartWay::kApriori);
+  return Status::kOk;
+}
+
+StartRefusal Component::offer_start(StartWay way, const StartOffer& offer) {
+  if (!executive_.begun()) return StartRefusal::kNotBegun;
+  const auto index = static_cast<std::size_t>(way);
+  if (index == 0 || index >= kStartWays) return StartRefusal::kNoSuchWay;
+  FilterState tried;
+  const StartRefusal refusal = start_from(mission_, offer, executive_.next_boundary_us(), track_.bearing, tried);
+  if (refusal != StartRefusal::kNone) {
+    refuse_start(way, refusal);
+    return refusal;
+  }
+  desk_.put(way, offer);
+  if (way == StartWay::kHandover || way == StartWay::kUplink) request_start(way);
+  return StartRefusal::kNone;
+}
+
+// A command takes the place of one that no boundary has carried out yet.
+void Component::request_start(StartWay way) {
+  if (request_ == Request::kStart && requested_way_ != way) static_cast<void>(desk_.take(requested_way_));
+  request_ = Request::kStart;
+  requested_way_ = way;
 }
 
 Status Component::start_tracking(const Pose& T_sensor_target, const Twist& rates, TimeUs t_us) {
-  if (!executive_.begun()) return Status::kBadOrder;
-  const Status status = start_track(mission_, T_sensor_target, rates, t_us, executive_.next_boundary_us(), requested_);
-  if (status == Status::kOk) request_ = Request::kStart;
-  return status;
+  const StartRefusal refusal = offer_start(StartWay::kUplink, rough_offer(mission_.parameters, T_sensor_target, rates, t_us));
+  if (refusal == StartRefusal::kNone) return Status::kOk;
+  if (refusal == StartRefusal::kNotBegun) return Status::kBadOrder;
+  return refusal == StartRefusal::kNotFinite ? Status::kNotFinite : Status::kBadValue;
 }
 
-Status Component::stop_tracking() {
-  if (!executive_.begun()) return Status::kBadOrder;
-  request_ = Request::kStop;
-  return Status::kOk;
+ModeRefusal Component::command_mode(TrackingMode mode) {
+  if (!executive_.begun()) return ModeRefusal::kNotBegun;
+  ModeRefusal refusal = ModeRefusal::kNone;
+  ModeEvent event = ModeEvent::kStop;
+  if (!command_event(mode, event)) {
+    refusal = ModeRefusal::kNotByCommand;
+  } else if (event == ModeEvent::kReacquire && !track_.filter.initialised) {
+    refusal = ModeRefusal::kNoPrediction;
+  } else if (track_.mode != mode && !has_transition(track_.mode, event)) {
+    refusal = ModeRefusal::kNotFromHere;
+  }
+  if (refusal != ModeRefusal::kNone) {
+    ++counters_.refused_commands;
+    return refusal;
+  }
+  request_ = Request::kCommand;
+  requested_event_ = event;
+  return refusal;
 }
+
+Status Component::stop_tracking() { return command_mode(TrackingMode::kStandby) == ModeRefusal::kNone ? Status::kOk : Status::kBadOrder; }
 
 void Component::run_slot(TimeUs now_us) {
   invariant(executive_.begun(), "slot before begin");
@@ -106,11 +147,33 @@ void Component::publish_estimate(TimeUs now_us) {
   const bool in_time = estimation_.collect(step);
   if (estimated_.active) {
     if (!in_time) step = step_without_estimate();
-    track_ = step.after;
+    follow(step);
     send(step, now_us);
-  } else if (properties(track_.mode).says_lost) {
+  } else if (properties(track_.mode).says_lost || report_overdue()) {
     send(no_track(executive_.frame() - kPipelineFrames, track_), now_us);
   }
+}
+
+// Changes of the mode wait for the next packet, if one is on its way.
+bool Component::report_overdue() const { return changes_.size() >= kPoseChanges || (!changes_.empty() && !acquired_.active); }
+
+void Component::follow(const TrackStep& step) {
+  const bool given_up =
+      track_.mode == TrackingMode::kStarting && (step.event == ModeEvent::kExhausted || step.event == ModeEvent::kRecover);
+  if (given_up) refuse_start(track_.way, StartRefusal::kNotConfirmed);
+  if (step.after.mode != track_.mode) note_change(step.event, step.after.mode);
+  track_ = step.after;
+}
+
+void Component::refuse_start(StartWay way, StartRefusal refusal) {
+  ++counters_.refused_starts;
+  refused_way_ = way;
+  refusal_ = refusal;
+}
+
+// At most three at a boundary (a scan's, a command's, a start's), and a packet takes four: there is always room.
+void Component::note_change(ModeEvent event, TrackingMode to) {
+  invariant(changes_.push_back({track_.mode, event, to}), "more changes of the mode than can wait for a packet");
 }
 
 TrackStep Component::step_without_estimate() {
@@ -119,14 +182,40 @@ TrackStep Component::step_without_estimate() {
 }
 
 void Component::apply_request() {
-  if (request_ == Request::kNone) return;
-  track_.mode = next_mode(track_.mode, request_ == Request::kStart ? ModeEvent::kStart : ModeEvent::kStop);
-  if (request_ == Request::kStart) {
-    track_.missed = 0;
-    track_.filter = requested_.filter;
-  }
-  acquired_.active = false;  // it was aimed by the track that ends here
+  const Request request = request_;
   request_ = Request::kNone;
+  track_.held = held_;
+  if (request == Request::kStart) try_start(requested_way_);
+  if (request == Request::kCommand) apply_command();
+  try_ways();
+}
+
+void Component::apply_command() {
+  if (!has_transition(track_.mode, requested_event_)) return;  // the mode is there already, or has changed since
+  note_change(requested_event_, next_mode(track_.mode, requested_event_));
+  change_mode(requested_event_, track_);
+  acquired_.active = false;  // it was aimed by the track that ends here
+}
+
+void Component::try_start(StartWay way) {
+  const TrackingMode before = track_.mode;
+  const StartRefusal refusal = start_track(mission_, way, desk_.take(way), executive_.next_slot_us(), track_);
+  if (refusal != StartRefusal::kNone) {
+    refuse_start(way, refusal);
+    return;
+  }
+  invariant(changes_.push_back({before, ModeEvent::kStart, track_.mode}), "more changes of the mode than can wait for a packet");
+  acquired_.active = false;
+}
+
+// Loop bound: each try takes an offer, of which there is one a way.
+void Component::try_ways() {
+  if (track_.held) return;
+  StartWay way = desk_.next(mission_.parameters);
+  while (properties(track_.mode).awaits_start && way != StartWay::kNone) {
+    try_start(way);
+    way = desk_.next(mission_.parameters);
+  }
 }
 
 void Component::hand_over_scan() {
@@ -152,14 +241,15 @@ void Component::start_scan() {
   predicted.T_sensor_target = track_.filter.T_sensor_target;
   // Where the prediction has no meaning the scan is aimed where the target was last.
   static_cast<void>(predict_pose(track_.filter, acquired_.t_nominal_us, predicted));
-  acquisition_.start(mission_, {predicted.T_sensor_target, place_sigma(mission_, track_.filter)}, acquired_.scan_id, boundary_us,
-                     acquired_.plan);
+  const Aim aim{predicted.T_sensor_target, place_sigma(mission_, track_.filter), properties(track_.mode).full_field};
+  acquisition_.start(mission_, aim, acquired_.scan_id, boundary_us, acquired_.plan);
 }
 
 void Component::send(const TrackStep& step, TimeUs now_us) {
   PoseTelemetry report = make_report(mission_, step, estimated_.plan, now_us);
   if (!step.registration.valid()) ++counters_.invalid_frames;
   set_counters(report);
+  set_changes(report);
   PacketHeader header;
   header.sequence_count = counters_.packets & kSequenceCountMask;
   header.message_count = counters_.packets;
@@ -171,11 +261,28 @@ void Component::send(const TrackStep& step, TimeUs now_us) {
   static_cast<void>(queue_.push(ConstBytes(packet, size)));  // a full queue counts what it drops
 }
 
+void Component::set_changes(PoseTelemetry& report) {
+  const std::size_t told = changes_.size() < kPoseChanges ? changes_.size() : kPoseChanges;
+  report.changes = static_cast<std::uint8_t>(told);
+  for (std::size_t i = 0; i < told; ++i) {
+    report.change_from[i] = static_cast<std::uint8_t>(changes_[i].from);
+    report.change_event[i] = static_cast<std::uint8_t>(changes_[i].event);
+    report.change_to[i] = static_cast<std::uint8_t>(changes_[i].to);
+  }
+  const Span<const ModeChange> all = changes_.span();
+  changes_.clear();
+  for (std::size_t i = told; i < all.size(); ++i) invariant(changes_.push_back(all[i]), "fewer changes than before");
+}
+
 void Component::set_counters(PoseTelemetry& report) const {
   report.frames = executive_.frame() + 1;
   report.invalid_frames = counters_.invalid_frames;
   report.lost_scans = counters_.lost_scans;
   report.overruns = counters_.overruns;
+  report.refused_starts = counters_.refused_starts;
+  report.refused_commands = counters_.refused_commands;
+  report.refused_way = static_cast<std::uint8_t>(refused_way_);
+  report.refusal = static_cast<std::uint8_t>(refusal_);
   report.slot_slips = executive_.slips();
   report.dropped_packets = queue_.dropped();
 }

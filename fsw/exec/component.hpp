@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "fsw/core/fixed_vector.hpp"
 #include "fsw/core/span.hpp"
 #include "fsw/core/status.hpp"
 #include "fsw/core/time.hpp"
@@ -40,12 +41,18 @@ class Component {
   // begun already.
   Status begin(TimeUs boundary_0_us);
 
-  // Tracking starts from T_sensor_target and its rates at t_us, at the next boundary; a running track is left, its scan in
-  // flight is not reported. kBadOrder before begin(), kNotFinite, kBadValue (quaternion not of unit length, t_us more than
-  // kMaxPredictionUs from that boundary): nothing has then changed.
+  // A pose to start from. By hand-over and uplink the track starts from it at the next boundary; a running track is left, its scan in
+  // flight is not reported. From navigation and a priori it is kept, the last one of each, until a mode awaits a start and the mission's
+  // order (start.first, ...) comes to it. What is refused changes nothing, and telemetry says so, too.
+  StartRefusal offer_start(StartWay way, const StartOffer& offer);
+  // An uplink as uncertain as tracking.start_sigma_* say. kBadOrder before begin(), kNotFinite, kBadValue for every other refusal.
   Status start_tracking(const Pose& T_sensor_target, const Twist& rates, TimeUs t_us);
-  // To standby at the next boundary: no scans. kBadOrder before begin().
+  // Standby, bearing or reacquiring, at the next boundary. What is refused changes nothing.
+  ModeRefusal command_mode(TrackingMode mode);
+  // Standby. kBadOrder before begin().
   Status stop_tracking();
+  // From the next boundary on no mode ends because its frames are used up, and no start is taken but by command. Commands still work.
+  void hold_mode(bool held) { held_ = held; }
 
   // The nominal time of the next slot, and whether it is a boundary.
   TimeUs next_slot_us() const { return executive_.next_slot_us(); }
@@ -63,7 +70,7 @@ class Component {
   const Mission& mission() const { return mission_; }
 
  private:
-  enum class Request : std::uint8_t { kNone, kStart, kStop };
+  enum class Request : std::uint8_t { kNone, kStart, kCommand };
   // A scan on its way through the pipeline.
   struct ScanInFlight {
     bool active = false;  // it was wanted, and will be reported
@@ -75,6 +82,8 @@ class Component {
     std::uint32_t invalid_frames = 0;
     std::uint32_t lost_scans = 0;
     std::uint32_t overruns = 0;
+    std::uint32_t refused_starts = 0;
+    std::uint32_t refused_commands = 0;
     std::uint16_t packets = 0;  // PUS message type counter; its lower 14 bits are the sequence count while there is one kind of packet
   };
 
@@ -82,11 +91,20 @@ class Component {
   // A boundary, in this order.
   void publish_estimate(TimeUs now_us);
   void apply_request();
+  void try_ways();
   void hand_over_scan();
   void start_scan();
 
+  void request_start(StartWay way);
+  void try_start(StartWay way);
+  void apply_command();
+  void refuse_start(StartWay way, StartRefusal refusal);
+  void note_change(ModeEvent event, TrackingMode to);
+  void follow(const TrackStep& step);
+  bool report_overdue() const;
   TrackStep step_without_estimate();
   void send(const TrackStep& step, TimeUs now_us);
+  void set_changes(PoseTelemetry& report);
   void set_counters(PoseTelemetry& report) const;
 
   Mission mission_;
@@ -98,8 +116,14 @@ class Component {
   ScanInFlight acquired_;   // in this frame
   ScanInFlight estimated_;  // in this frame
   Counters counters_;
+  StartDesk desk_;
   Request request_ = Request::kNone;
-  TrackState requested_;  // kStart: the state to start from, stated at the time given
+  StartWay requested_way_ = StartWay::kNone;      // kStart
+  ModeEvent requested_event_ = ModeEvent::kStop;  // kCommand
+  bool held_ = false;
+  StartWay refused_way_ = StartWay::kNone;  // the last one
+  StartRefusal refusal_ = StartRefusal::kNone;
+  FixedVector<ModeChange, 2 * kPoseChanges> changes_;  // that no packet has told yet
   bool loaded_ = false;
 };
 

@@ -24,11 +24,16 @@ bool EstimationTask::collect(TrackStep& step) {
   return in_time;
 }
 
+TrackStep EstimationTask::step_of(const Mission& mission) {
+  if (job_.scan == nullptr) return track_without_scan(mission, PoseReason::kNoScan, job_.scan_id, job_.t_nominal_us, job_.before);
+  if (properties(job_.before.mode).full_field) return bearing_scan(mission, bearing_finder_, *job_.scan, job_.before);
+  return track_scan(mission, estimator_, *job_.scan, job_.before);
+}
+
 void EstimationTask::run(const Mission& mission) {
   if (!pending()) return;
   phase_.store(kRunning, std::memory_order_release);
-  step_ = job_.scan == nullptr ? track_without_scan(mission, PoseReason::kNoScan, job_.scan_id, job_.t_nominal_us, job_.before)
-                               : track_scan(mission, estimator_, *job_.scan, job_.before);
+  step_ = step_of(mission);
   phase_.store(kDone, std::memory_order_release);
 }
 

@@ -36,12 +36,15 @@ class EstimationTask {
   void run(const Mission& mission);
 
  private:
+  TrackStep step_of(const Mission& mission);
+
   enum Phase : std::uint32_t { kIdle = 0, kPending = 1, kRunning = 2, kDone = 3 };
   std::atomic<std::uint32_t> phase_{kIdle};
   bool dropped_ = false;  // acquisition thread only
   EstimationJob job_;
   TrackStep step_;
   Estimator estimator_;
+  BearingFinder bearing_finder_;
 };
 
 }  // namespace lasso

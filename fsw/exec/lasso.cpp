@@ -24,6 +24,12 @@ Status start_tracking(Component& component, const Pose& T_sensor_target, const T
 
 Status stop_tracking(Component& component) { return component.stop_tracking(); }
 
+StartRefusal offer_start(Component& component, StartWay way, const StartOffer& offer) { return component.offer_start(way, offer); }
+
+ModeRefusal command_mode(Component& component, TrackingMode mode) { return component.command_mode(mode); }
+
+void hold_mode(Component& component, bool held) { component.hold_mode(held); }
+
 std::size_t take_telemetry(Component& component, Bytes out) { return component.take_telemetry(out); }
 
 bool step(Component& component, TimeUs now_us) {

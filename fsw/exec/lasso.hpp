@@ -22,6 +22,9 @@ LoadFailure load_image(Component& component, Bytes image);
 Status begin(Component& component, TimeUs boundary_0_us);
 Status start_tracking(Component& component, const Pose& T_sensor_target, const Twist& rates, TimeUs t_us);
 Status stop_tracking(Component& component);
+StartRefusal offer_start(Component& component, StartWay way, const StartOffer& offer);
+ModeRefusal command_mode(Component& component, TrackingMode mode);
+void hold_mode(Component& component, bool held);
 std::size_t take_telemetry(Component& component, Bytes out);
 
 // Runs the next slot, and the estimate that it may leave pending, if the slot's time has come at now_us. False, and nothing has

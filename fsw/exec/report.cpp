@@ -81,6 +81,18 @@ void describe_plan(const ScanPlan& plan, PoseTelemetry& out) {
   out.plan_pattern = static_cast<std::uint8_t>(plan.kind);
 }
 
+void describe_bearing(const Bearing& bearing, PoseTelemetry& out) {
+  out.bearing_reason = static_cast<std::uint8_t>(bearing.reason);
+  out.bearing_returns = bearing.returns;
+  out.bearing_used = bearing.used;
+  out.bearing_scans = bearing.scans;
+  out.t_bearing_us = bearing.t_us;
+  for (int i = 0; i < 6; ++i) {
+    out.bearing[i] = bearing.value[i];
+    out.bearing_sigma[i] = sigma_of(bearing.covariance(i, i));
+  }
+}
+
 std::uint32_t bounded_age(DurationUs age_us) {
   if (age_us < 0) return 0;
   return static_cast<std::uint32_t>(age_us < kMaxAgeUs ? age_us : kMaxAgeUs);
@@ -98,9 +110,12 @@ PoseTelemetry make_report(const Mission& mission, const TrackStep& step, const S
   describe_quality(step.registration, out);
   describe_filter(step.after.filter, out);
   describe_plan(plan, out);
+  describe_bearing(step.bearing, out);
   out.t_publication_us = t_publication_us;
   out.age_us = bounded_age(t_publication_us - out.t_measurement_us);
   out.mode = static_cast<std::uint8_t>(step.after.mode);
+  out.held = step.after.held ? 1 : 0;
+  out.start_way = static_cast<std::uint8_t>(step.after.way);
   out.image_crc = mission.image_crc;
   out.software_version = software_version();
   out.software_build = LASSO_BUILD_ID;

@@ -13,7 +13,7 @@ namespace lasso {
 std::uint32_t software_version();
 const char* version();
 
-// Everything except the counters.
+// Everything except the counters, the changes of the mode and the refusals.
 PoseTelemetry make_report(const Mission& mission, const TrackStep& step, const ScanPlan& plan, TimeUs t_publication_us);
 
 }  // namespace lasso

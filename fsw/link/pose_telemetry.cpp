@@ -7,9 +7,18 @@ using P = PoseTelemetry;
 constexpr char kYesNo[] = "0=no|1=yes";
 constexpr char kReasons[] =
     "0=valid|1=no_scan|2=too_few_returns|3=too_few_inliers|4=low_inlier_share|5=low_agreement|6=high_residual|7=not_converged|"
-    "8=singular|9=no_track|10=overrun|11=implausible";
+    "8=singular|9=no_track|10=overrun|11=implausible|12=only_bearing|13=far_from_start";
 constexpr char kStops[] = "0=converged|1=iteration_limit|2=too_few_points|3=singular|4=not_run";
-constexpr char kModes[] = "0=standby|1=starting|2=tracking|3=coasting|4=lost";
+constexpr char kModes[] = "0=standby|1=starting|2=tracking|3=coasting|4=lost|5=bearing|6=reacquiring";
+constexpr char kEvents[] =
+    "0=start|1=stop|2=pose_valid|3=pose_invalid|4=exhausted|5=recover|6=seek|7=reacquire|8=bearing_known|9=bearing_unknown";
+constexpr char kWays[] = "0=none|1=handover|2=navigation|3=apriori|4=uplink";
+constexpr char kRefusals[] =
+    "0=none|1=not_begun|2=no_such_way|3=not_finite|4=not_unit|5=bad_covariance|6=from_future|7=too_old|8=too_fast|9=out_of_reach|"
+    "10=not_at_bearing|11=not_confirmed";
+constexpr char kBearingReasons[] =
+    "0=valid|1=no_scan|2=out_of_order|3=same_scan|4=nothing_seen|5=not_finite|6=outside_field|7=outside_range|8=too_few_returns|"
+    "9=one_direction|10=only_background|11=jump";
 constexpr char kPatterns[] = "0=rosette|1=lissajous|2=raster";
 
 // clang-format off
@@ -58,6 +67,23 @@ constexpr TelemetryRow<P> kRows[] = {
   make_row<&P::overruns>(42, "overruns", "1", "", "frames dropped because an estimate was late"),
   make_row<&P::slot_slips>(43, "slot_slips", "1", "", "slots that began later than their own length"),
   make_row<&P::dropped_packets>(44, "dropped_packets", "1", "", "packets that did not fit into the queue"),
+  make_row<&P::held>(45, "held", "1", kYesNo, "no mode ends because its frames are used up"),
+  make_row<&P::changes>(46, "changes", "1", "", "changes of the mode since the packet before, which follow"),
+  make_row<&P::change_from>(47, "change_from", "1", kModes, "mode before"),
+  make_row<&P::change_event>(48, "change_event", "1", kEvents, "why it changed"),
+  make_row<&P::change_to>(49, "change_to", "1", kModes, "mode after"),
+  make_row<&P::start_way>(50, "start_way", "1", kWays, "way by which the present track was started"),
+  make_row<&P::refused_way>(51, "refused_way", "1", kWays, "way of the last pose to start from that was refused"),
+  make_row<&P::refusal>(52, "refusal", "1", kRefusals, "why it was refused"),
+  make_row<&P::refused_starts>(53, "refused_starts", "1", "", "poses to start from that were refused"),
+  make_row<&P::refused_commands>(54, "refused_commands", "1", "", "commanded modes that were refused"),
+  make_row<&P::bearing_reason>(55, "bearing_reason", "1", kBearingReasons, "why the bearing can be trusted or not; no_scan unless in mode bearing"),
+  make_row<&P::bearing_returns>(56, "bearing_returns", "1", "", "rays of the full-field scan that hit"),
+  make_row<&P::bearing_used>(57, "bearing_used", "1", "", "of these, the target's"),
+  make_row<&P::bearing_scans>(58, "bearing_scans", "1", "", "scans that the bearing rests on"),
+  make_row<&P::t_bearing_us>(59, "t_bearing_us", "us", "", "time at which the bearing is stated"),
+  make_row<&P::bearing>(60, "bearing", "rad,m", "", "azimuth (right), elevation (up), range of the centroid; their rates per second"),
+  make_row<&P::bearing_sigma>(61, "bearing_sigma", "rad,m", "", "their sigmas"),
 };
 // clang-format on
 

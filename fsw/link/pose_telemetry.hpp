@@ -16,6 +16,8 @@ namespace lasso {
 constexpr std::uint16_t kPoseStructureId = 1;
 constexpr std::size_t kPoseSigmas = 6;
 constexpr std::size_t kPoseCovarianceTerms = 21;
+constexpr std::size_t kPoseChanges = 4;
+constexpr std::size_t kBearingValues = 6;
 
 struct PoseTelemetry {
   std::uint32_t scan_id = 0;
@@ -59,6 +61,25 @@ struct PoseTelemetry {
   std::uint16_t plan_points = 0;
   std::uint32_t plan_duration_us = 0;
   std::uint8_t plan_pattern = 0;  // PatternKind
+
+  std::uint8_t held = 0;                         // 1: no mode ends because its frames are used up
+  std::uint8_t changes = 0;                      // of the mode since the packet before: the first so many of these
+  std::uint8_t change_from[kPoseChanges] = {};   // TrackingMode
+  std::uint8_t change_event[kPoseChanges] = {};  // ModeEvent
+  std::uint8_t change_to[kPoseChanges] = {};     // TrackingMode
+  std::uint8_t start_way = 0;                    // StartWay of the present track
+  std::uint8_t refused_way = 0;                  // StartWay of the last pose to start from that was refused
+  std::uint8_t refusal = 0;                      // StartRefusal: why
+  std::uint32_t refused_starts = 0;
+  std::uint32_t refused_commands = 0;
+
+  std::uint8_t bearing_reason = 0;  // BearingReason
+  std::uint16_t bearing_returns = 0;
+  std::uint16_t bearing_used = 0;
+  std::uint32_t bearing_scans = 0;      // that it rests on
+  TimeUs t_bearing_us = 0;              // at which it is stated
+  double bearing[kBearingValues] = {};  // azimuth, elevation [rad], range [m], their rates
+  float bearing_sigma[kBearingValues] = {};
 
   std::uint32_t image_crc = 0;
   std::uint32_t software_version = 0;  // major << 24 | minor << 16 | patch

@@ -8,35 +8,79 @@ using E = ModeEvent;
 
 // clang-format off
 constexpr ModeTransition kTransitions[] = {
-  {M::kStandby,  E::kStart,       M::kStarting, "a pose to start from"},
-  {M::kStarting, E::kStart,       M::kStarting, "another pose to start from"},
-  {M::kStarting, E::kStop,        M::kStandby,  "commanded"},
-  {M::kStarting, E::kPoseValid,   M::kTracking, "a scan confirms the start"},
-  {M::kStarting, E::kPoseInvalid, M::kStarting, "the next scan tries again"},
-  {M::kStarting, E::kExhausted,   M::kLost,     "no scan confirmed the start"},
-  {M::kTracking, E::kStart,       M::kStarting, "another pose to start from"},
-  {M::kTracking, E::kStop,        M::kStandby,  "commanded"},
-  {M::kTracking, E::kPoseValid,   M::kTracking, "the track holds"},
-  {M::kTracking, E::kPoseInvalid, M::kCoasting, "the filter bridges a scan without a pose"},
-  {M::kTracking, E::kExhausted,   M::kLost,     "no coasting is allowed"},
-  {M::kCoasting, E::kStart,       M::kStarting, "another pose to start from"},
-  {M::kCoasting, E::kStop,        M::kStandby,  "commanded"},
-  {M::kCoasting, E::kPoseValid,   M::kTracking, "the track is taken up again"},
-  {M::kCoasting, E::kPoseInvalid, M::kCoasting, "the filter bridges another scan"},
-  {M::kCoasting, E::kExhausted,   M::kLost,     "too many scans without a pose"},
-  {M::kLost,     E::kStart,       M::kStarting, "a pose to start from"},
-  {M::kLost,     E::kStop,        M::kStandby,  "commanded"},
+  {M::kStandby,     E::kStart,          M::kStarting,    "a pose to start from"},
+  {M::kStandby,     E::kSeek,           M::kBearing,     "commanded"},
+  {M::kStarting,    E::kStart,          M::kStarting,    "another pose to start from"},
+  {M::kStarting,    E::kStop,           M::kStandby,     "commanded"},
+  {M::kStarting,    E::kSeek,           M::kBearing,     "commanded"},
+  {M::kStarting,    E::kPoseValid,      M::kTracking,    "a scan confirms the start"},
+  {M::kStarting,    E::kPoseInvalid,    M::kStarting,    "the next scan tries again"},
+  {M::kStarting,    E::kExhausted,      M::kLost,        "no scan confirmed the start"},
+  {M::kStarting,    E::kRecover,        M::kBearing,     "no scan confirmed the start: its direction at least"},
+  {M::kTracking,    E::kStart,          M::kStarting,    "another pose to start from"},
+  {M::kTracking,    E::kStop,           M::kStandby,     "commanded"},
+  {M::kTracking,    E::kSeek,           M::kBearing,     "commanded"},
+  {M::kTracking,    E::kReacquire,      M::kReacquiring, "commanded"},
+  {M::kTracking,    E::kPoseValid,      M::kTracking,    "the track holds"},
+  {M::kTracking,    E::kPoseInvalid,    M::kCoasting,    "the filter bridges a scan without a pose"},
+  {M::kTracking,    E::kExhausted,      M::kLost,        "no coasting is allowed"},
+  {M::kTracking,    E::kRecover,        M::kReacquiring, "no coasting is allowed: look near the prediction"},
+  {M::kCoasting,    E::kStart,          M::kStarting,    "another pose to start from"},
+  {M::kCoasting,    E::kStop,           M::kStandby,     "commanded"},
+  {M::kCoasting,    E::kSeek,           M::kBearing,     "commanded"},
+  {M::kCoasting,    E::kReacquire,      M::kReacquiring, "commanded"},
+  {M::kCoasting,    E::kPoseValid,      M::kTracking,    "the track is taken up again"},
+  {M::kCoasting,    E::kPoseInvalid,    M::kCoasting,    "the filter bridges another scan"},
+  {M::kCoasting,    E::kExhausted,      M::kLost,        "too many scans without a pose"},
+  {M::kCoasting,    E::kRecover,        M::kReacquiring, "too many scans without a pose: look near the prediction"},
+  {M::kLost,        E::kStart,          M::kStarting,    "a pose to start from"},
+  {M::kLost,        E::kStop,           M::kStandby,     "commanded"},
+  {M::kLost,        E::kSeek,           M::kBearing,     "commanded"},
+  {M::kLost,        E::kReacquire,      M::kReacquiring, "commanded"},
+  {M::kBearing,     E::kStart,          M::kStarting,    "a pose to start from"},
+  {M::kBearing,     E::kStop,           M::kStandby,     "commanded"},
+  {M::kBearing,     E::kBearingKnown,   M::kBearing,     "direction and range are known; a pose is awaited"},
+  {M::kBearing,     E::kBearingUnknown, M::kBearing,     "the next scan looks again"},
+  {M::kReacquiring, E::kStart,          M::kStarting,    "a pose to start from"},
+  {M::kReacquiring, E::kStop,           M::kStandby,     "commanded"},
+  {M::kReacquiring, E::kSeek,           M::kBearing,     "commanded"},
+  {M::kReacquiring, E::kPoseValid,      M::kTracking,    "found near the prediction"},
+  {M::kReacquiring, E::kPoseInvalid,    M::kReacquiring, "the next scan tries again"},
+  {M::kReacquiring, E::kExhausted,      M::kLost,        "not found near the prediction"},
+  {M::kReacquiring, E::kRecover,        M::kBearing,     "not found near the prediction: its direction at least"},
 };
 
 constexpr ModeProperties kProperties[] = {
-  //              scans  says_lost wide
-  {M::kStandby,  false, false,  false, "standby"},
-  {M::kStarting, true,  false,  true,  "starting"},
-  {M::kTracking, true,  false,  false, "tracking"},
-  {M::kCoasting, true,  false,  false, "coasting"},
-  {M::kLost,     false, true,   false, "lost"},
+  //                scans full   lost   wide   conf.  take   await
+  {M::kStandby,     false, false, false, false, false, false, false, "standby", "no scans, no poses"},
+  {M::kStarting,    true,  false, false, true,  true,  true,  false, "starting", "a pose was given; a scan has to confirm it"},
+  {M::kTracking,    true,  false, false, false, false, false, false, "tracking", "the last scan gave a valid pose"},
+  {M::kCoasting,    true,  false, false, false, false, true,  false, "coasting", "the last scan gave none: the filter predicts"},
+  {M::kLost,        false, false, true,  false, false, false, true,  "lost", "no scans; every frame says so"},
+  {M::kBearing,     true,  true,  false, false, false, false, true,  "bearing", "full-field scans for direction and range"},
+  {M::kReacquiring, true,  false, false, true,  true,  true,  false, "reacquiring", "wide starts near the prediction"},
+};
+
+constexpr ModeEventProperties kEvents[] = {
+  {E::kStart, true, "start"},
+  {E::kStop, true, "stop"},
+  {E::kPoseValid, false, "pose_valid"},
+  {E::kPoseInvalid, false, "pose_invalid"},
+  {E::kExhausted, false, "exhausted"},
+  {E::kRecover, false, "recover"},
+  {E::kSeek, true, "seek"},
+  {E::kReacquire, true, "reacquire"},
+  {E::kBearingKnown, false, "bearing_known"},
+  {E::kBearingUnknown, false, "bearing_unknown"},
 };
 // clang-format on
+
+const ModeTransition* find_row(TrackingMode from, ModeEvent event) {
+  for (const ModeTransition& row : kTransitions) {
+    if (row.from == from && row.event == event) return &row;
+  }
+  return nullptr;
+}
 
 }  // namespace
 
@@ -44,15 +88,38 @@ Span<const ModeTransition> mode_transitions() { return Span<const ModeTransition
 
 Span<const ModeProperties> mode_properties() { return Span<const ModeProperties>(kProperties); }
 
+Span<const ModeEventProperties> mode_events() { return Span<const ModeEventProperties>(kEvents); }
+
 TrackingMode next_mode(TrackingMode from, ModeEvent event) {
-  for (const ModeTransition& row : kTransitions) {
-    if (row.from == from && row.event == event) return row.to;
-  }
-  return from;
+  const ModeTransition* row = find_row(from, event);
+  return row != nullptr ? row->to : from;
 }
+
+bool has_transition(TrackingMode from, ModeEvent event) { return find_row(from, event) != nullptr; }
 
 const ModeProperties& properties(TrackingMode mode) { return mode_properties()[static_cast<std::size_t>(mode)]; }
 
+bool command_event(TrackingMode mode, ModeEvent& event) {
+  constexpr struct {
+    TrackingMode mode;
+    ModeEvent event;
+  } kCommands[] = {{M::kStandby, E::kStop}, {M::kBearing, E::kSeek}, {M::kReacquiring, E::kReacquire}};
+  for (const auto& command : kCommands) {
+    if (command.mode != mode) continue;
+    event = command.event;
+    return true;
+  }
+  return false;
+}
+
+const char* to_string(ModeRefusal refusal) {
+  static constexpr const char* kNames[] = {"none", "not_begun", "not_by_command", "not_from_here", "no_prediction"};
+  const auto index = static_cast<std::size_t>(refusal);
+  return index < sizeof(kNames) / sizeof(kNames[0]) ? kNames[index] : "unknown";
+}
+
 const char* to_string(TrackingMode mode) { return properties(mode).name; }
+
+const char* to_string(ModeEvent event) { return mode_events()[static_cast<std::size_t>(event)].name; }
 
 }  // namespace lasso

@@ -1,4 +1,4 @@
-// The modes of tracking as a table, executed as written: which mode, on which event, leads where. Later modes are more rows.
+// The modes as a table, executed as written: which mode, on which event, leads where. `mdat modes` prints it (docs/modes.md).
 #pragma once
 
 #include <cstdint>
@@ -8,19 +8,26 @@
 namespace lasso {
 
 enum class TrackingMode : std::uint8_t {
-  kStandby = 0,   // no scans, no poses
-  kStarting = 1,  // an initial pose was given, no scan has confirmed it yet
-  kTracking = 2,  // the last scan gave a valid pose
-  kCoasting = 3,  // the last scan gave none: the filter predicts
-  kLost = 4,      // too long without a valid pose: no scans, every frame says so
+  kStandby = 0,      // no scans, no poses
+  kStarting = 1,     // an initial pose was given, no scan has confirmed it yet
+  kTracking = 2,     // the last scan gave a valid pose
+  kCoasting = 3,     // the last scan gave none: the filter predicts
+  kLost = 4,         // too long without a valid pose: no scans, every frame says so
+  kBearing = 5,      // full-field scans for direction and range; a pose to start from is awaited
+  kReacquiring = 6,  // the target is looked for near the prediction, from wide starts
 };
 
 enum class ModeEvent : std::uint8_t {
-  kStart = 0,        // a pose to start from is given
-  kStop = 1,         // commanded to standby
-  kPoseValid = 2,    // a scan gave a valid pose
-  kPoseInvalid = 3,  // a scan gave none, and coasting goes on
-  kExhausted = 4,    // a scan gave none, and tracking.coast_frames are used up
+  kStart = 0,           // a pose to start from is given, or the next way's turn has come
+  kStop = 1,            // commanded to standby
+  kPoseValid = 2,       // a scan gave a valid pose
+  kPoseInvalid = 3,     // a scan gave none, and the mode's frames are not used up
+  kExhausted = 4,       // they are used up, and the mission asks for no recovery
+  kRecover = 5,         // they are used up, and the mission asks for recovery
+  kSeek = 6,            // commanded to look for the target in the whole field
+  kReacquire = 7,       // commanded to look near the prediction
+  kBearingKnown = 8,    // a full-field scan gave a bearing
+  kBearingUnknown = 9,  // a full-field scan gave none
 };
 
 struct ModeTransition {
@@ -33,18 +40,53 @@ struct ModeTransition {
 // What the component does while in a mode.
 struct ModeProperties {
   TrackingMode mode;
-  bool scans;       // a scan is planned and started in each frame; each scan is reported
-  bool says_lost;   // frames without a scan are reported too
-  bool wide_start;  // registration starts wide (where estimation.wide_start is set)
+  bool scans;         // a scan is planned and started in each frame; each scan is reported
+  bool full_field;    // scans of the whole field, for a bearing; otherwise aimed by the prediction, for a pose
+  bool says_lost;     // frames without a scan are reported too
+  bool wide_start;    // registration starts wide (where estimation.wide_start is set)
+  bool confirms;      // a valid pose has to agree with the prediction, and starts the filter anew
+  bool takes_up;      // a valid pose has to pass by tracking.hysteresis
+  bool awaits_start;  // the next way to a pose to start from is taken by itself, in the mission's order
+  const char* name;
+  const char* meaning;
+};
+
+struct ModeEventProperties {
+  ModeEvent event;
+  bool commanded;
   const char* name;
 };
 
+// One step along the table, for telemetry.
+struct ModeChange {
+  TrackingMode from = TrackingMode::kStandby;
+  ModeEvent event = ModeEvent::kStart;
+  TrackingMode to = TrackingMode::kStandby;
+};
+
+// Why a mode cannot be commanded.
+enum class ModeRefusal : std::uint8_t {
+  kNone = 0,
+  kNotBegun = 1,      // the component has not begun
+  kNotByCommand = 2,  // scans lead there; starting needs a pose (offer_start)
+  kNotFromHere = 3,   // the table has no such way out of the present mode
+  kNoPrediction = 4,  // nothing was tracked, so there is no place to look near
+};
+const char* to_string(ModeRefusal refusal);  // never null
+
+// The event by which a mode is commanded; false where it cannot be.
+bool command_event(TrackingMode mode, ModeEvent& event);
+
 Span<const ModeTransition> mode_transitions();
 Span<const ModeProperties> mode_properties();
+Span<const ModeEventProperties> mode_events();
 
 // The mode after `event`; `from` where the table has no row. Loop bound: the rows.
 TrackingMode next_mode(TrackingMode from, ModeEvent event);
+// Has the table a row for it?
+bool has_transition(TrackingMode from, ModeEvent event);
 const ModeProperties& properties(TrackingMode mode);
 const char* to_string(TrackingMode mode);  // never null
+const char* to_string(ModeEvent event);    // never null
 
 }  // namespace lasso

@@ -1,7 +1,5 @@
 #include "fsw/mode/tracker.hpp"
 
-#include "fsw/geometry/portable_math.hpp"
-
 namespace lasso {
 namespace {
 
@@ -9,37 +7,47 @@ constexpr std::uint32_t kEstablished = 5;  // scans until the filter's word coun
 
 FilterNoise filter_noise(const MissionParameters& p) { return {p.acceleration_mps2, p.angular_acceleration_radps2}; }
 
-FilterStart filter_start(const MissionParameters& p, const Pose& T_sensor_target, const Twist& rates, TimeUs t_us) {
+Status restart_from(const MissionParameters& p, const Registration& registration, FilterState& filter) {
   FilterStart from;
-  from.t_us = t_us;
-  from.T_sensor_target = T_sensor_target;
-  from.rates = rates;
+  from.t_us = registration.t_us;
+  from.T_sensor_target = registration.T_sensor_target;
+  from.rates = filter.rates;
+  from.pose_covariance = registration.covariance;
   from.sigma_omega_radps = p.initial_angular_rate_radps;
   from.sigma_v_mps = p.initial_rate_mps;
-  return from;
-}
-
-// A start is believed this well until a scan confirms it.
-Mat6 start_covariance(const MissionParameters& p) {
-  Vec6 variances;
-  variances.head<3>().setConstant(p.start_sigma_rad * p.start_sigma_rad);
-  variances.tail<3>().setConstant(p.start_sigma_m * p.start_sigma_m);
-  return variances.asDiagonal();
-}
-
-Status restart_from(const MissionParameters& p, const Registration& registration, FilterState& filter) {
-  FilterStart from = filter_start(p, registration.T_sensor_target, filter.rates, registration.t_us);
-  from.pose_covariance = registration.covariance;
   return start_filter(filter, from);
+}
+
+PoseMeasurement measurement_of(const Registration& registration) {
+  return {registration.t_us, registration.T_sensor_target, registration.covariance};
+}
+
+// `filter` is predicted to the registration's time. A filter that cannot be asked has nothing against the registration.
+bool far_from(const FilterState& filter, const Registration& registration, double gate) {
+  FilterState asked = filter;
+  const FilterUpdate update = update_filter(asked, measurement_of(registration), gate);
+  return update.status == Status::kOk && !update.accepted;
+}
+
+// A least share, raised; a scan without any fault always passes.
+double raised(double least, double by) { return least + by < 1 ? least + by : 1; }
+
+// A registration that is valid by itself: may this mode take it?
+PoseReason confirm(const MissionParameters& p, const ModeProperties& mode, const FilterState& filter, const Registration& registration) {
+  if (!mode.takes_up) return PoseReason::kValid;
+  if (!(registration.inlier_share >= raised(p.inlier_share_min, p.hysteresis))) return PoseReason::kLowInlierShare;
+  if (!(registration.agreement >= raised(p.agreement_min, p.hysteresis))) return PoseReason::kLowAgreement;
+  if (!mode.confirms) return PoseReason::kValid;
+  if (!(registration.inlier_share >= p.start_inlier_share_min)) return PoseReason::kLowInlierShare;
+  return far_from(filter, registration, p.start_gate) ? PoseReason::kFarFromStart : PoseReason::kValid;
 }
 
 // Joins a valid registration to `filter`, which is predicted to its time: kValid, or why the pose is not to be believed after all. A wrong
 // minimum explains its scan, sometimes as well as the right one does: only the motion since the scans before tells.
-PoseReason join(const MissionParameters& p, TrackingMode mode, const Registration& registration, FilterState& filter) {
-  const PoseMeasurement measured{registration.t_us, registration.T_sensor_target, registration.covariance};
-  if (mode != TrackingMode::kStarting) {
+PoseReason join(const MissionParameters& p, const ModeProperties& mode, const Registration& registration, FilterState& filter) {
+  if (!mode.confirms) {
     const double gate_nis = filter.accepted < kEstablished ? kNoGate : p.innovation_max * p.innovation_max;
-    const FilterUpdate update = update_filter(filter, measured, gate_nis);
+    const FilterUpdate update = update_filter(filter, measurement_of(registration), gate_nis);
     if (update.status == Status::kOk) return update.accepted ? PoseReason::kValid : PoseReason::kImplausible;
   }
   return restart_from(p, registration, filter) == Status::kOk ? PoseReason::kValid : PoseReason::kSingular;
@@ -52,15 +60,23 @@ void predict_or_hold(const MissionParameters& p, TimeUs t_us, FilterState& filte
   filter.initialised = false;
 }
 
-ModeEvent event_of(const MissionParameters& p, bool valid, std::uint16_t missed) {
-  if (valid) return ModeEvent::kPoseValid;
-  return missed > p.coast_frames ? ModeEvent::kExhausted : ModeEvent::kPoseInvalid;
+double frames_of(const MissionParameters& p, TrackingMode mode) {
+  if (mode == TrackingMode::kStarting) return p.start_frames;
+  return mode == TrackingMode::kReacquiring ? p.reacquire_frames : p.coast_frames;
 }
 
-// coast_frames is at most 1000, and exhausted counts end the scans: no overflow.
-void change_mode(const Mission& mission, bool valid, TrackState& state) {
-  state.missed = valid ? std::uint16_t{0} : static_cast<std::uint16_t>(state.missed + 1);
-  state.mode = next_mode(state.mode, event_of(mission.parameters, valid, state.missed));
+ModeEvent event_of(const MissionParameters& p, const TrackState& state, bool valid) {
+  if (valid) return ModeEvent::kPoseValid;
+  if (state.held || state.missed <= frames_of(p, state.mode)) return ModeEvent::kPoseInvalid;
+  return p.recover > 0.5 ? ModeEvent::kRecover : ModeEvent::kExhausted;
+}
+
+void count_and_change(const MissionParameters& p, bool valid, TrackStep& step) {
+  TrackState& state = step.after;
+  if (valid) state.missed = 0;
+  if (!valid && state.missed < UINT16_MAX) ++state.missed;
+  step.event = event_of(p, state, valid);
+  change_mode(step.event, state);
 }
 
 Registration not_registered(PoseReason reason, std::uint32_t scan_id, const FilterState& filter) {
@@ -79,49 +95,75 @@ bool is_rough(const Mission& mission, const FilterState& filter) {
   return turn_m2 + shift_m2 > mission.parameters.gate_first_m * mission.parameters.gate_first_m;
 }
 
-bool finite(const Twist& rates) { return is_finite(rates.omega_radps.squaredNorm()) && is_finite(rates.v_mps.squaredNorm()); }
-
 }  // namespace
 
-Status start_track(const Mission& mission, const Pose& T_sensor_target, const Twist& rates, TimeUs stated_us, TimeUs t_us,
-                   TrackState& state) {
-  if (!finite(rates)) return Status::kNotFinite;
-  if (stated_us < t_us - kMaxPredictionUs || stated_us > t_us + kMaxPredictionUs || !is_valid(T_sensor_target)) return Status::kBadValue;
-  const DurationUs dt_us = t_us - stated_us;
-  FilterStart from = filter_start(mission.parameters, propagate(T_sensor_target, rates, to_seconds(dt_us)), rates, t_us);
-  from.pose_covariance = start_covariance(mission.parameters);
-  FilterState filter;
-  const Status status = start_filter(filter, from);
-  if (status != Status::kOk) return status;
-  state.mode = next_mode(state.mode, ModeEvent::kStart);
+void change_mode(ModeEvent event, TrackState& state) {
+  const TrackingMode next = next_mode(state.mode, event);
+  if (next == state.mode) return;
+  state.mode = next;
+  if (next != TrackingMode::kCoasting) state.missed = 0;
+  if (!properties(next).full_field) return;
+  state.filter = FilterState{};
+  state.bearing = BearingState{};
+}
+
+StartRefusal start_track(const Mission& mission, StartWay way, const StartOffer& offer, TimeUs t_us, TrackState& state) {
+  const StartRefusal refusal = start_from(mission, offer, t_us, state.bearing, state.filter);
+  if (refusal != StartRefusal::kNone) return refusal;
+  change_mode(ModeEvent::kStart, state);
   state.missed = 0;
-  state.filter = filter;
-  return Status::kOk;
+  state.way = way;
+  return StartRefusal::kNone;
 }
 
 TrackStep track_scan(const Mission& mission, Estimator& estimator, const RangeImage& scan, const TrackState& before) {
   TrackStep step;
   step.after = before;
   FilterState& filter = step.after.filter;
-  predict_or_hold(mission.parameters, scan.reference_time_us(), filter);
-  const bool wide = (properties(before.mode).wide_start || is_rough(mission, filter)) && mission.parameters.wide_start > 0.5;
-  step.registration = estimator.estimate(mission, scan, StartPoint{filter.T_sensor_target, filter.rates, wide});
-  if (step.registration.valid()) step.registration.reason = join(mission.parameters, before.mode, step.registration, filter);
-  change_mode(mission, step.registration.valid(), step.after);
+  const MissionParameters& p = mission.parameters;
+  const ModeProperties& mode = properties(before.mode);
+  predict_or_hold(p, scan.reference_time_us(), filter);
+  Registration& registration = step.registration;
+  const bool wide = (mode.wide_start || is_rough(mission, filter)) && p.wide_start > 0.5;
+  registration = estimator.estimate(mission, scan, StartPoint{filter.T_sensor_target, filter.rates, wide});
+  if (registration.valid()) registration.reason = confirm(p, mode, filter, registration);
+  if (registration.valid()) registration.reason = join(p, mode, registration, filter);
+  count_and_change(p, registration.valid(), step);
+  return step;
+}
+
+TrackStep bearing_scan(const Mission& mission, BearingFinder& finder, const RangeImage& scan, const TrackState& before) {
+  TrackStep step;
+  step.after = before;
+  step.bearing = finder.find(mission, scan, step.after.bearing);
+  step.registration.scan_id = scan.scan_id;
+  step.registration.t_us = scan.reference_time_us();
+  step.registration.reason = PoseReason::kOnlyBearing;
+  step.event = step.bearing.valid() ? ModeEvent::kBearingKnown : ModeEvent::kBearingUnknown;
+  change_mode(step.event, step.after);
   return step;
 }
 
 TrackStep track_without_scan(const Mission& mission, PoseReason reason, std::uint32_t scan_id, TimeUs t_us, const TrackState& before) {
   TrackStep step;
   step.after = before;
+  step.bearing.scan_id = scan_id;
   predict_or_hold(mission.parameters, t_us, step.after.filter);
   step.registration = not_registered(reason, scan_id, step.after.filter);
-  change_mode(mission, false, step.after);
+  if (properties(before.mode).full_field) {
+    step.event = ModeEvent::kBearingUnknown;
+    change_mode(step.event, step.after);
+  } else {
+    count_and_change(mission.parameters, false, step);
+  }
   return step;
 }
 
 TrackStep no_track(std::uint32_t scan_id, const TrackState& before) {
-  return {before, not_registered(PoseReason::kNoTrack, scan_id, before.filter)};
+  TrackStep step;
+  step.after = before;
+  step.registration = not_registered(PoseReason::kNoTrack, scan_id, before.filter);
+  return step;
 }
 
 }  // namespace lasso

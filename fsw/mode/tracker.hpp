@@ -1,14 +1,16 @@
-// Tracking: one scan after another, from the prediction through registration and filter to the next mode. All state is the explicit
-// struct TrackState; a step takes one and gives the next, so that a step whose result comes too late can be forgotten whole.
+// Tracking: one scan after another, from the prediction through registration and filter to the next mode; or, where no attitude is known,
+// to a bearing. All state is the explicit struct TrackState; a step takes one and gives the next, so that a step whose result comes too
+// late can be forgotten whole.
 #pragma once
 
 #include <cstdint>
 
-#include "fsw/core/status.hpp"
 #include "fsw/core/time.hpp"
 #include "fsw/geometry/se3.hpp"
 #include "fsw/mission/mission.hpp"
 #include "fsw/mode/modes.hpp"
+#include "fsw/mode/starts.hpp"
+#include "fsw/pose/bearing.hpp"
 #include "fsw/pose/estimator.hpp"
 #include "fsw/pose/filter.hpp"
 #include "fsw/pose/result.hpp"
@@ -18,26 +20,36 @@ namespace lasso {
 
 struct TrackState {
   TrackingMode mode = TrackingMode::kStandby;
-  std::uint16_t missed = 0;  // scans without a valid pose since the last one
+  std::uint16_t missed = 0;        // scans without a valid pose since the last one, or since the mode began; at most 65535
+  bool held = false;               // no mode ends because its frames are used up
+  StartWay way = StartWay::kNone;  // by which the present track was started
   FilterState filter;
+  BearingState bearing;
 };
 
 // What one scan led to. `after.filter` is stated at the registration's time.
 struct TrackStep {
   TrackState after;
   Registration registration;
+  Bearing bearing;                      // of a full-field scan
+  ModeEvent event = ModeEvent::kStart;  // of the scan; says nothing of a frame without one
 };
 
-// Takes up a track at t_us from a pose and rates stated at stated_us, in whatever mode `state` is: kStarting. kNotFinite, kBadValue
-// (quaternion not of unit length, stated more than kMaxPredictionUs from t_us): `state` is then as it was.
-Status start_track(const Mission& mission, const Pose& T_sensor_target, const Twist& rates, TimeUs stated_us, TimeUs t_us,
-                   TrackState& state);
+// Takes the state along the table. What belongs to the mode that ends is forgotten: its count of frames; for a bearing, the filter and the
+// bearing before.
+void change_mode(ModeEvent event, TrackState& state);
 
-// One scan: predict, register, join to the filter, next mode. The first valid registration starts the filter anew, since the pose given
-// at the start may be far off; so does one that the filter cannot take. One that the prediction of a filter with 5 scans excludes
-// (tracking.innovation_max) is kImplausible and joins nothing. A prediction less certain than the registration's gate is a rough start.
-// Bounds: as Estimator::estimate.
+// Takes up a track at t_us, in whatever mode `state` is: kStarting. Refused as start_from says: `state` is then as it was.
+StartRefusal start_track(const Mission& mission, StartWay way, const StartOffer& offer, TimeUs t_us, TrackState& state);
+
+// One scan: predict, register, join to the filter, next mode. In a mode that confirms, a valid registration has to agree with the
+// prediction (start.gate, kFarFromStart), and starts the filter anew, since the prediction may be far off; so does one that the filter
+// cannot take. One that the prediction of a filter with 5 scans excludes (tracking.innovation_max) is kImplausible and joins nothing. A
+// prediction less certain than the registration's gate is a rough start. Bounds: as Estimator::estimate.
 TrackStep track_scan(const Mission& mission, Estimator& estimator, const RangeImage& scan, const TrackState& before);
+
+// One full-field scan. The registration says kOnlyBearing and no pose.
+TrackStep bearing_scan(const Mission& mission, BearingFinder& finder, const RangeImage& scan, const TrackState& before);
 
 // A frame without an estimate (kNoScan, kOverrun): the filter predicts to t_us, the mode coasts.
 TrackStep track_without_scan(const Mission& mission, PoseReason reason, std::uint32_t scan_id, TimeUs t_us, const TrackState& before);

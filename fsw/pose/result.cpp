@@ -28,6 +28,10 @@ const char* to_string(PoseReason reason) {
       return "overrun";
     case PoseReason::kImplausible:
       return "implausible";
+    case PoseReason::kOnlyBearing:
+      return "only_bearing";
+    case PoseReason::kFarFromStart:
+      return "far_from_start";
   }
   return "unknown";
 }

@@ -26,6 +26,8 @@ enum class PoseReason : std::uint8_t {
   kNoTrack = 9,         // nothing to start from
   kOverrun = 10,        // the estimate was not ready at its boundary: dropped whole
   kImplausible = 11,    // the filter excludes a jump this large: a wrong minimum
+  kOnlyBearing = 12,    // a full-field scan: no attitude is looked for
+  kFarFromStart = 13,   // farther from the prediction that it was to confirm than start.gate allows
 };
 const char* to_string(PoseReason reason);
 const char* to_string(StopReason reason);

@@ -8,5 +8,6 @@ namespace lasso::mdat {
 void add_mission_commands(CLI::App& app);
 void add_run_command(CLI::App& app);
 void add_replay_command(CLI::App& app);
+void add_modes_command(CLI::App& app);
 
 }  // namespace lasso::mdat

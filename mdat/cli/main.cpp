@@ -34,6 +34,7 @@ int run(int argc, char** argv) {
   add_mission_commands(app);
   add_run_command(app);
   add_replay_command(app);
+  add_modes_command(app);
   app.footer("Exit codes: 0 done, 1 the run failed, 2 usage or bad input.");
   try {
     app.parse(argc, argv);

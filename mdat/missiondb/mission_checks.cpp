@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "cfg/capacities.hpp"
 #include "fsw/sense/scan_plan.hpp"
@@ -69,6 +70,17 @@ void check_initial(const Parameters& p, const Complaint& complain) {
   }
 }
 
+void check_order(const Parameters& p, const Complaint& complain) {
+  const std::vector<std::pair<std::string, double>> order = {
+      {"start.first", p.start_first}, {"start.second", p.start_second}, {"start.third", p.start_third}, {"start.fourth", p.start_fourth}};
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      if (order[i].second == 0 || order[i].second != order[k].second) continue;
+      complain({order[i].first, order[k].first}, "", "expected another way than that of " + order[k].first + ", or none");
+    }
+  }
+}
+
 }  // namespace
 
 void check_parameters(const MissionParameters& parameters, const Complaint& complain) {
@@ -77,6 +89,7 @@ void check_parameters(const MissionParameters& parameters, const Complaint& comp
   check_pattern(parameters, complain);
   check_duration(parameters, complain);
   check_initial(parameters, complain);
+  check_order(parameters, complain);
 }
 
 void check_scenario(const Scenario& scenario, const MissionParameters& parameters, const Complaint& complain) {

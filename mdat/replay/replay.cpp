@@ -30,8 +30,8 @@ class ClosedLoop {
  public:
   ClosedLoop(const Mission& mission, const Pose& initial, bool wide) : mission_(mission) {
     if (wide) mission_.parameters.wide_start = 1;
-    const Status status = start_track(mission_, initial, Twist(), 0, 0, state_);
-    if (status != Status::kOk) throw RunError(std::string("the tracker refused the initial pose: ") + to_string(status));
+    const StartRefusal refusal = start_track(mission_, StartWay::kUplink, rough_offer(mission_.parameters, initial, Twist(), 0), 0, state_);
+    if (refusal != StartRefusal::kNone) throw RunError(std::string("the tracker refused the initial pose: ") + to_string(refusal));
   }
 
   ReplayedScan step(const RangeImage& recorded) {

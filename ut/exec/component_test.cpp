@@ -160,7 +160,7 @@ TEST(Component, LostTrackStopsScanningAndSaysSo) {
 }
 
 TEST(Component, StartsAgainFromAGivenPose) {
-  VERIFIES("LASSO-MOD-006~1");
+  VERIFIES("LASSO-MOD-006~2");
   MissionParameters p = parameters();
   p.initial_present = 0;
   ComponentScene scene(p);
@@ -175,6 +175,10 @@ TEST(Component, StartsAgainFromAGivenPose) {
   ASSERT_EQ(scene.component->stop_tracking(), Status::kOk);
   scene.run_frame();
   const int starts = scene.sensor.starts;
+  const auto told = scene.run_frame();
+  ASSERT_EQ(told.size(), 1u) << "the change of the mode";
+  EXPECT_EQ(told[0].pose.mode, static_cast<std::uint8_t>(TrackingMode::kStandby));
+  EXPECT_EQ(told[0].pose.valid, 0);
   for (int frame = 0; frame < 5; ++frame) EXPECT_TRUE(scene.run_frame().empty());
   EXPECT_EQ(scene.sensor.starts, starts);
 }
@@ -273,7 +277,7 @@ TEST(Component, FullQueueCountsWhatItDrops) {
   }
   scene.run_frame();  // empties the queue
   const auto reports = scene.run_frame();
-  EXPECT_EQ(reports.at(0).pose.dropped_packets, 24u - kTelemetryQueueBytes / 483);
+  EXPECT_EQ(reports.at(0).pose.dropped_packets, 24u - kTelemetryQueueBytes / 597);
 }
 
 TEST(Component, StaysWithinItsMemory) {

@@ -13,7 +13,8 @@ class EstimationTaskTest : public ::testing::Test {
   void SetUp() override {
     image_ = test::make_box_image(test::box_parameters(scene_), scene_.box);
     ASSERT_EQ(load_image(Bytes(image_.data(), image_.size), mission_).status, Status::kOk);
-    ASSERT_EQ(start_track(mission_, scene_.at_zero, scene_.rates, 0, 0, job_.before), Status::kOk);
+    const StartOffer offer = rough_offer(mission_.parameters, scene_.at_zero, scene_.rates, 0);
+    ASSERT_EQ(start_track(mission_, StartWay::kUplink, offer, 0, job_.before), StartRefusal::kNone);
     job_.scan_id = 7;
     job_.t_nominal_us = 90000;
   }

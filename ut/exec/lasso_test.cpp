@@ -45,7 +45,7 @@ TEST(Lasso, StepsGiveTheBytesOfTheComponentRunByItsSlots) {
     stream.insert(stream.end(), out, out + size);
   }
   EXPECT_EQ(stream, reference.stream);
-  EXPECT_EQ(stream.size(), 18u * 483);
+  EXPECT_EQ(stream.size(), 18u * 597);
 }
 
 TEST(Lasso, DoesNothingBeforeItsTime) {
@@ -61,6 +61,10 @@ TEST(Lasso, DoesNothingBeforeItsTime) {
   EXPECT_FALSE(step(component, 1000));
   EXPECT_EQ(stop_tracking(component), Status::kOk);
   EXPECT_EQ(start_tracking(component, Pose{Quat(2, 0, 0, 0), Vec3::Zero()}, Twist{}, 0), Status::kBadValue);
+  EXPECT_EQ(offer_start(component, StartWay::kNone, StartOffer{}), StartRefusal::kNoSuchWay);
+  EXPECT_EQ(command_mode(component, TrackingMode::kTracking), ModeRefusal::kNotByCommand);
+  EXPECT_EQ(command_mode(component, TrackingMode::kBearing), ModeRefusal::kNone);
+  hold_mode(component, true);
 }
 
 }  // namespace

@@ -116,6 +116,36 @@ TEST(Report, AFilterThatHasNotStartedHasNoSigmas) {
   }
 }
 
+TEST(Report, CarriesTheBearingAndTheTracksStart) {
+  VERIFIES("LASSO-EXE-006~1 LASSO-MOD-101~1");
+  TrackStep step = numbered_step();
+  step.after.held = true;
+  step.after.way = StartWay::kNavigation;
+  Bearing& b = step.bearing;
+  b.reason = BearingReason::kValid;
+  b.t_us = 1900000;
+  b.returns = 31;
+  b.used = 32;
+  b.scans = 33;
+  for (int i = 0; i < 6; ++i) {
+    b.value[i] = 40 + i;
+    b.covariance(i, i) = (i + 2) * (i + 2);
+  }
+  const PoseTelemetry t = make_report(Mission{}, step, ScanPlan{}, 0);
+  EXPECT_EQ(t.held, 1);
+  EXPECT_EQ(t.start_way, 2);
+  EXPECT_EQ(t.bearing_reason, 0);
+  EXPECT_EQ(t.t_bearing_us, 1900000);
+  EXPECT_EQ(t.bearing_returns, 31);
+  EXPECT_EQ(t.bearing_used, 32);
+  EXPECT_EQ(t.bearing_scans, 33u);
+  for (std::size_t i = 0; i < 6; ++i) {
+    EXPECT_EQ(t.bearing[i], 40.0 + static_cast<double>(i));
+    EXPECT_EQ(t.bearing_sigma[i], static_cast<float>(i + 2));
+  }
+  EXPECT_EQ(numbered_report().held, 0);
+}
+
 TEST(Report, CarriesPlanImageAndVersion) {
   VERIFIES("LASSO-EXE-006~1");
   const PoseTelemetry t = numbered_report();
@@ -144,9 +174,17 @@ TEST(Report, DictionaryNamesTheEnumerationsAsTheCodeDoes) {
   for (const auto& row : pose_rows()) {
     const std::string name = row.name;
     std::string expected;
-    for (int i = 0; i <= 11 && name == "reason"; ++i) expected += std::to_string(i) + "=" + to_string(static_cast<PoseReason>(i)) + "|";
+    for (int i = 0; i <= 13 && name == "reason"; ++i) expected += std::to_string(i) + "=" + to_string(static_cast<PoseReason>(i)) + "|";
     for (int i = 0; i <= 4 && name == "stop"; ++i) expected += std::to_string(i) + "=" + to_string(static_cast<StopReason>(i)) + "|";
-    for (int i = 0; i <= 4 && name == "mode"; ++i) expected += std::to_string(i) + "=" + to_string(static_cast<TrackingMode>(i)) + "|";
+    const bool is_mode = name == "mode" || name == "change_from" || name == "change_to";
+    for (int i = 0; i <= 6 && is_mode; ++i) expected += std::to_string(i) + "=" + to_string(static_cast<TrackingMode>(i)) + "|";
+    for (int i = 0; i <= 9 && name == "change_event"; ++i) expected += std::to_string(i) + "=" + to_string(static_cast<ModeEvent>(i)) + "|";
+    const bool is_way = name == "start_way" || name == "refused_way";
+    for (int i = 0; i <= 4 && is_way; ++i) expected += std::to_string(i) + "=" + to_string(static_cast<StartWay>(i)) + "|";
+    for (int i = 0; i <= 11 && name == "refusal"; ++i) expected += std::to_string(i) + "=" + to_string(static_cast<StartRefusal>(i)) + "|";
+    for (int i = 0; i <= 11 && name == "bearing_reason"; ++i) {
+      expected += std::to_string(i) + "=" + to_string(static_cast<BearingReason>(i)) + "|";
+    }
     if (!expected.empty()) {
       EXPECT_EQ(std::string(row.choices) + "|", expected) << name;
     }

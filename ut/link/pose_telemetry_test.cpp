@@ -63,7 +63,19 @@ TEST(PoseTelemetry, LiesAtTheseBytes) {
   EXPECT_EQ(offset_of("image_crc"), 445u);
   EXPECT_EQ(offset_of("frames"), 457u);
   EXPECT_EQ(offset_of("dropped_packets"), 477u);
-  EXPECT_EQ(encode(PoseTelemetry{}).size(), 483u);
+  EXPECT_EQ(offset_of("held"), 481u);
+  EXPECT_EQ(offset_of("changes"), 482u);
+  EXPECT_EQ(offset_of("change_from"), 483u);
+  EXPECT_EQ(offset_of("change_event"), 487u);
+  EXPECT_EQ(offset_of("change_to"), 491u);
+  EXPECT_EQ(offset_of("start_way"), 495u);
+  EXPECT_EQ(offset_of("refused_starts"), 498u);
+  EXPECT_EQ(offset_of("bearing_reason"), 506u);
+  EXPECT_EQ(offset_of("bearing_scans"), 511u);
+  EXPECT_EQ(offset_of("t_bearing_us"), 515u);
+  EXPECT_EQ(offset_of("bearing"), 523u);
+  EXPECT_EQ(offset_of("bearing_sigma"), 571u);
+  EXPECT_EQ(encode(PoseTelemetry{}).size(), 597u);
 }
 
 TEST(PoseTelemetry, WritesEachValueWhereItsRowSays) {
@@ -149,7 +161,7 @@ TEST(PoseTelemetry, RefusesOtherPacketsAndLeavesThePoseAlone) {
 
 TEST(PoseTelemetry, TooSmallABufferGivesNoPacket) {
   VERIFIES("LASSO-LNK-004~1");
-  Packet packet(482);
+  Packet packet(596);
   EXPECT_EQ(encode_pose(PoseTelemetry{}, PacketHeader{}, Bytes(packet.data(), packet.size())), 0u);
 }
 

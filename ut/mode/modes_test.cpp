@@ -12,6 +12,9 @@ namespace {
 using M = TrackingMode;
 using E = ModeEvent;
 
+const std::set<E> kPoseEvents = {E::kPoseValid, E::kPoseInvalid, E::kExhausted, E::kRecover};
+const std::set<E> kBearingEvents = {E::kBearingKnown, E::kBearingUnknown};
+
 std::set<M> reachable_from(M start) {
   std::set<M> seen{start};
   for (std::size_t round = 0; round < mode_transitions().size(); ++round) {
@@ -23,13 +26,13 @@ std::set<M> reachable_from(M start) {
 }
 
 TEST(Modes, EveryModeIsReachedAndLeadsBackToStandby) {
-  VERIFIES("LASSO-MOD-001~1");
+  VERIFIES("LASSO-MOD-001~2");
   EXPECT_EQ(reachable_from(M::kStandby).size(), mode_properties().size());
   for (const ModeProperties& row : mode_properties()) EXPECT_EQ(reachable_from(row.mode).count(M::kStandby), 1u) << row.name;
 }
 
 TEST(Modes, EveryModeHasAWayOut) {
-  VERIFIES("LASSO-MOD-001~1");
+  VERIFIES("LASSO-MOD-001~2");
   for (const ModeProperties& mode : mode_properties()) {
     bool leaves = false;
     for (const ModeTransition& row : mode_transitions()) leaves = leaves || (row.from == mode.mode && row.to != mode.mode);
@@ -37,16 +40,38 @@ TEST(Modes, EveryModeHasAWayOut) {
   }
 }
 
-TEST(Modes, ScanningModesAnswerEveryResultOfAScan) {
-  VERIFIES("LASSO-MOD-001~1");
+// From each mode tracking can be reached by commands and scans, and by scans alone where the mode scans.
+TEST(Modes, EveryModeLeadsToTracking) {
+  VERIFIES("LASSO-MOD-001~2");
+  for (const ModeProperties& row : mode_properties()) EXPECT_EQ(reachable_from(row.mode).count(M::kTracking), 1u) << row.name;
+}
+
+// A row can be taken if its mode is reached and its event can happen there: what scans give in the modes that make them, commands anywhere.
+TEST(Modes, NoTransitionIsUnreachable) {
+  VERIFIES("LASSO-MOD-001~2");
+  const std::set<M> reached = reachable_from(M::kStandby);
+  for (const ModeTransition& row : mode_transitions()) {
+    const ModeProperties& from = properties(row.from);
+    const std::set<E>& scans = from.full_field ? kBearingEvents : kPoseEvents;
+    const bool commanded = mode_events()[static_cast<std::size_t>(row.event)].commanded;
+    EXPECT_TRUE(commanded || (from.scans && scans.count(row.event) != 0)) << from.name << ": " << row.meaning;
+    EXPECT_EQ(reached.count(row.from), 1u) << from.name;
+    EXPECT_STRNE(row.meaning, "");
+  }
+}
+
+TEST(Modes, EachModeAnswersEveryResultOfItsScans) {
+  VERIFIES("LASSO-MOD-001~2");
   std::set<std::pair<M, E>> rows;
   for (const ModeTransition& row : mode_transitions()) {
     EXPECT_TRUE(rows.insert({row.from, row.event}).second) << "two rows for one event: " << row.meaning;
   }
   for (const ModeProperties& mode : mode_properties()) {
-    for (const E event : {E::kPoseValid, E::kPoseInvalid, E::kExhausted}) {
-      EXPECT_EQ(rows.count({mode.mode, event}) != 0, mode.scans) << mode.name;
-    }
+    for (const E event : kPoseEvents) EXPECT_EQ(rows.count({mode.mode, event}) != 0, mode.scans && !mode.full_field) << mode.name;
+    for (const E event : kBearingEvents) EXPECT_EQ(rows.count({mode.mode, event}) != 0, mode.scans && mode.full_field) << mode.name;
+    EXPECT_EQ(rows.count({mode.mode, E::kStop}) != 0, mode.mode != M::kStandby) << mode.name;
+    EXPECT_EQ(rows.count({mode.mode, E::kSeek}) != 0, mode.mode != M::kBearing) << mode.name;
+    EXPECT_EQ(rows.count({mode.mode, E::kStart}), 1u) << mode.name;
   }
 }
 
@@ -62,16 +87,54 @@ TEST(Modes, FollowTheStoryOfATrack) {
   EXPECT_EQ(next_mode(M::kLost, E::kStart), M::kStarting);
 }
 
+TEST(Modes, FollowTheStoryOfARecovery) {
+  VERIFIES("LASSO-MOD-138~1");
+  EXPECT_EQ(next_mode(M::kCoasting, E::kRecover), M::kReacquiring);
+  EXPECT_EQ(next_mode(M::kReacquiring, E::kPoseValid), M::kTracking);
+  EXPECT_EQ(next_mode(M::kReacquiring, E::kRecover), M::kBearing);
+  EXPECT_EQ(next_mode(M::kBearing, E::kBearingKnown), M::kBearing);
+  EXPECT_EQ(next_mode(M::kBearing, E::kStart), M::kStarting);
+  EXPECT_EQ(next_mode(M::kStarting, E::kRecover), M::kBearing);
+}
+
 TEST(Modes, IgnoreWhatTheTableDoesNotKnow) {
-  VERIFIES("LASSO-MOD-001~1");
+  VERIFIES("LASSO-MOD-001~2");
   EXPECT_EQ(next_mode(M::kStandby, E::kPoseValid), M::kStandby);
   EXPECT_EQ(next_mode(M::kLost, E::kPoseValid), M::kLost);
+  EXPECT_FALSE(has_transition(M::kStandby, E::kPoseValid));
+  EXPECT_TRUE(has_transition(M::kStandby, E::kSeek));
+}
+
+TEST(Modes, AreCommandedByTheirEvents) {
+  VERIFIES("LASSO-MOD-136~1");
+  for (const ModeProperties& mode : mode_properties()) {
+    E event = E::kPoseValid;
+    if (!command_event(mode.mode, event)) {
+      EXPECT_EQ(event, E::kPoseValid) << "untouched";
+      continue;
+    }
+    EXPECT_TRUE(mode_events()[static_cast<std::size_t>(event)].commanded) << mode.name;
+    for (const ModeTransition& row : mode_transitions()) {
+      if (row.event == event) {
+        EXPECT_EQ(row.to, mode.mode) << row.meaning;
+      }
+    }
+  }
+  E event = E::kStart;
+  EXPECT_TRUE(command_event(M::kStandby, event));
+  EXPECT_TRUE(command_event(M::kBearing, event));
+  EXPECT_TRUE(command_event(M::kReacquiring, event));
+  EXPECT_FALSE(command_event(M::kTracking, event));
 }
 
 TEST(Modes, PropertiesLieAtTheirModesPlace) {
-  VERIFIES("LASSO-MOD-001~1");
+  VERIFIES("LASSO-MOD-001~2");
   for (std::size_t i = 0; i < mode_properties().size(); ++i) EXPECT_EQ(static_cast<std::size_t>(mode_properties()[i].mode), i);
+  for (std::size_t i = 0; i < mode_events().size(); ++i) EXPECT_EQ(static_cast<std::size_t>(mode_events()[i].event), i);
   EXPECT_EQ(std::string(to_string(M::kCoasting)), "coasting");
+  EXPECT_EQ(std::string(to_string(E::kRecover)), "recover");
+  EXPECT_EQ(std::string(to_string(ModeRefusal::kNotFromHere)), "not_from_here");
+  EXPECT_EQ(std::string(to_string(static_cast<ModeRefusal>(77))), "unknown");
   EXPECT_TRUE(properties(M::kStarting).wide_start);
   EXPECT_FALSE(properties(M::kCoasting).wide_start);
   EXPECT_FALSE(properties(M::kLost).scans);

@@ -68,6 +68,7 @@ class BoxSensor final : public Sensor {
     if (poll.status != Status::kOk) return poll;
     while (next_ < plan_.points && poll.count < out.size() && time_of(next_) <= now_us) {
       out[poll.count] = cast_sample(scene_, plan_, next_, time_of(next_), random_);
+      if (hidden) out[poll.count].state = RayState::kMiss;
       ++poll.count;
       ++next_;
     }
@@ -80,6 +81,7 @@ class BoxSensor final : public Sensor {
 
   std::set<std::uint32_t> lost;     // scans that fail while they run
   std::set<std::uint32_t> refused;  // scans that cannot be started
+  bool hidden = false;              // the target is eclipsed: every ray misses
   int starts = 0;
   ScanPlan last_plan;
 

@@ -174,6 +174,12 @@ TEST_F(Missions, ContradictionsAreRefused) {
   expect_error(kHead + "[tracking.initial]\npresent = true\nz_m = -1\n", "the target is in front");
 }
 
+TEST_F(Missions, WaysToStartAreTriedOnceEach) {
+  VERIFIES("LASSO-GND-001~1 LASSO-MOD-133~1");
+  expect_error(kHead + "[start]\nthird = 'handover'\n", "expected another way than that of start.second, or none");
+  EXPECT_EQ(load(kHead + "[start]\nsecond = 'none'\nthird = 'none'\n").parameters.start_third, 0);
+}
+
 TEST_F(Missions, AlmostUnitQuaternionsAreNormalised) {
   VERIFIES("LASSO-GND-009~1");
   const MissionSource source = load(kHead + "[tracking.initial]\nqx = 0.5\nqy = 0.5\nqz = -0.5\nqw = 0.5005\n");

@@ -1,0 +1,119 @@
+#include "fsw/mode/starts.hpp"
+
+#include "fsw/geometry/portable_math.hpp"
+
+namespace lasso {
+namespace {
+
+constexpr double kBearingSigmas = 4;
+
+template <class M>
+bool all_finite(const M& m) {
+  bool finite = true;
+  for (int i = 0; i < m.size(); ++i) finite = finite && is_finite(m.data()[i]);
+  return finite;
+}
+
+bool all_finite(const StartOffer& offer) {
+  return all_finite(offer.T_sensor_target.q.coeffs()) && all_finite(offer.T_sensor_target.p) && all_finite(offer.rates.omega_radps) &&
+         all_finite(offer.rates.v_mps) && all_finite(offer.covariance);
+}
+
+StartRefusal check_values(const MissionParameters& p, const StartOffer& offer, TimeUs now_us) {
+  if (!all_finite(offer)) return StartRefusal::kNotFinite;
+  if (!is_valid(offer.T_sensor_target)) return StartRefusal::kNotUnit;
+  if (offer.t_us > now_us) return StartRefusal::kFromFuture;
+  const auto age_max_us = static_cast<DurationUs>(p.start_age_max_s * 1e6);
+  return offer.t_us < now_us - age_max_us ? StartRefusal::kTooOld : StartRefusal::kNone;
+}
+
+FilterStart filter_start(const MissionParameters& p, const StartOffer& offer) {
+  FilterStart from;
+  from.t_us = offer.t_us;
+  from.T_sensor_target = offer.T_sensor_target;
+  from.rates = offer.rates;
+  from.pose_covariance = offer.covariance;
+  from.sigma_omega_radps = p.initial_angular_rate_radps;
+  from.sigma_v_mps = p.initial_rate_mps;
+  return from;
+}
+
+bool in_reach(const Mission& mission, const Vec3& center_m) {
+  const double range_m = square_root(center_m.squaredNorm());
+  return center_m.z() > 0 && range_m + mission.radius_m >= mission.parameters.range_min_m &&
+         range_m - mission.radius_m <= mission.parameters.range_max_m;
+}
+
+bool at_bearing(const Mission& mission, const BearingState& bearing, const FilterState& filter, const Vec3& center_m) {
+  const double age_s = to_seconds(filter.t_us - bearing.t_us);
+  if (!bearing.started || age_s > mission.parameters.bearing_memory_s) return true;
+  const double rate_mps = mission.parameters.bearing_rate_mps;
+  const double variance = filter.covariance.diagonal().segment<3>(3).maxCoeff() + bearing.covariance.diagonal().head<3>().maxCoeff() +
+                          age_s * age_s * rate_mps * rate_mps;
+  const Vec3 apart_m = center_m - bearing.p_m - age_s * bearing.v_mps;
+  return square_root(apart_m.squaredNorm()) <= mission.radius_m + kBearingSigmas * square_root(variance);
+}
+
+std::size_t index_of(StartWay way) {
+  const auto index = static_cast<std::size_t>(way);
+  invariant(index < kStartWays, "no such way to start");
+  return index;
+}
+
+}  // namespace
+
+StartOffer rough_offer(const MissionParameters& p, const Pose& T_sensor_target, const Twist& rates, TimeUs t_us) {
+  StartOffer offer{t_us, T_sensor_target, rates, Mat6::Zero()};
+  offer.covariance.diagonal().head<3>().setConstant(p.start_sigma_rad * p.start_sigma_rad);
+  offer.covariance.diagonal().tail<3>().setConstant(p.start_sigma_m * p.start_sigma_m);
+  return offer;
+}
+
+StartRefusal start_from(const Mission& mission, const StartOffer& offer, TimeUs now_us, const BearingState& bearing, FilterState& filter) {
+  const MissionParameters& p = mission.parameters;
+  const StartRefusal refusal = check_values(p, offer, now_us);
+  if (refusal != StartRefusal::kNone) return refusal;
+  FilterState started;
+  if (start_filter(started, filter_start(p, offer)) != Status::kOk) return StartRefusal::kBadCovariance;
+  const FilterNoise noise{p.acceleration_mps2, p.angular_acceleration_radps2};
+  if (predict_filter(started, now_us, noise) != Status::kOk) return StartRefusal::kTooFast;
+  const Vec3 center_m = started.T_sensor_target * mission.center_m;
+  if (!in_reach(mission, center_m)) return StartRefusal::kOutOfReach;
+  if (!at_bearing(mission, bearing, started, center_m)) return StartRefusal::kNotAtBearing;
+  filter = started;
+  return StartRefusal::kNone;
+}
+
+void StartDesk::put(StartWay way, const StartOffer& offer) {
+  offers_[index_of(way)] = offer;
+  fresh_[index_of(way)] = true;
+}
+
+const StartOffer& StartDesk::take(StartWay way) {
+  fresh_[index_of(way)] = false;
+  return offers_[index_of(way)];
+}
+
+StartWay StartDesk::next(const MissionParameters& p) const {
+  const double order[] = {p.start_first, p.start_second, p.start_third, p.start_fourth};
+  for (const double choice : order) {
+    const auto way = static_cast<StartWay>(static_cast<std::uint8_t>(choice));
+    if (fresh_[index_of(way)]) return way;
+  }
+  return StartWay::kNone;
+}
+
+const char* to_string(StartWay way) {
+  static constexpr const char* kNames[] = {"none", "handover", "navigation", "apriori", "uplink"};
+  const auto index = static_cast<std::size_t>(way);
+  return index < kStartWays ? kNames[index] : "unknown";
+}
+
+const char* to_string(StartRefusal refusal) {
+  static constexpr const char* kNames[] = {"none",        "not_begun", "no_such_way", "not_finite",   "not_unit",       "bad_covariance",
+                                           "from_future", "too_old",   "too_fast",    "out_of_reach", "not_at_bearing", "not_confirmed"};
+  const auto index = static_cast<std::size_t>(refusal);
+  return index < sizeof(kNames) / sizeof(kNames[0]) ? kNames[index] : "unknown";
+}
+
+}  // namespace lasso

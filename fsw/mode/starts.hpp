@@ -1,0 +1,64 @@
+// The ways to a pose to start from that need no recognition: handed over by a long-range system, from a navigation system's stream, known
+// a priori (mission file), or sent by the ground. Each is validated, and moved to now; a scan has to confirm it before it is tracked.
+#pragma once
+
+#include <cstdint>
+
+#include "fsw/core/time.hpp"
+#include "fsw/geometry/se3.hpp"
+#include "fsw/mission/mission.hpp"
+#include "fsw/pose/bearing.hpp"
+#include "fsw/pose/filter.hpp"
+
+namespace lasso {
+
+enum class StartWay : std::uint8_t { kNone = 0, kHandover = 1, kNavigation = 2, kApriori = 3, kUplink = 4 };
+constexpr std::size_t kStartWays = 5;  // kNone included
+
+// T_sensor_target and its rates at t_us, with the covariance of (rotation in sensor axes [rad], translation of the origin [m]).
+struct StartOffer {
+  TimeUs t_us = 0;
+  Pose T_sensor_target;
+  Twist rates;
+  Mat6 covariance = Mat6::Zero();
+};
+
+enum class StartRefusal : std::uint8_t {
+  kNone = 0,
+  kNotBegun = 1,       // the component has not begun
+  kNoSuchWay = 2,      // kNone, or a number that is none
+  kNotFinite = 3,      // a value is not a number
+  kNotUnit = 4,        // the quaternion is not of unit length
+  kBadCovariance = 5,  // not symmetric, or not of variances and correlations
+  kFromFuture = 6,     // stated later than the frame in which it would start
+  kTooOld = 7,         // stated longer ago than start.age_max_s
+  kTooFast = 8,        // its rates since then have no meaning
+  kOutOfReach = 9,     // not in front of the sensor, or wholly outside the ranges that it measures
+  kNotAtBearing = 10,  // not where the bearing sees the target
+  kNotConfirmed = 11,  // no scan confirmed it within start.frames
+};
+const char* to_string(StartWay way);          // never null
+const char* to_string(StartRefusal refusal);  // never null
+
+// Believed as tracking.start_sigma_m and _deg say.
+StartOffer rough_offer(const MissionParameters& parameters, const Pose& T_sensor_target, const Twist& rates, TimeUs t_us);
+
+// kNone: `filter` is started from the offer and predicted to now_us. Otherwise why not, and `filter` is as it was. `bearing` counts unless
+// it is older than bearing.memory_s.
+StartRefusal start_from(const Mission& mission, const StartOffer& offer, TimeUs now_us, const BearingState& bearing, FilterState& filter);
+
+// The last offer of each way that has not been tried.
+class StartDesk {
+ public:
+  void put(StartWay way, const StartOffer& offer);
+  // The offer of the way; it counts as tried from now on.
+  const StartOffer& take(StartWay way);
+  // The first way in the mission's order with an offer that has not been tried; kNone if there is none.
+  StartWay next(const MissionParameters& parameters) const;
+
+ private:
+  StartOffer offers_[kStartWays];
+  bool fresh_[kStartWays] = {};
+};
+
+}  // namespace lasso

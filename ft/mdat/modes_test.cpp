@@ -1,0 +1,19 @@
+// The page of the modes is what the component's own table says.
+#include <gtest/gtest.h>
+
+#include "ft/mdat/command.hpp"
+#include "ut/support/verifies.hpp"
+
+namespace lasso::ft {
+namespace {
+
+TEST(Modes, TheDocumentedTableIsTheExecutedOne) {
+  VERIFIES("LASSO-MOD-139~1");
+  const WorkFolder work;
+  const Answer answer = work.mdat("modes");
+  EXPECT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_EQ(answer.out, read_text(std::filesystem::path(MDAT_SOURCES) / "docs/modes.md")) << "make it anew: mdat modes > docs/modes.md";
+}
+
+}  // namespace
+}  // namespace lasso::ft

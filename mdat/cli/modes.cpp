@@ -1,0 +1,50 @@
+#include "fsw/mode/modes.hpp"
+
+#include <iostream>
+
+#include "mdat/cli/commands.hpp"
+
+namespace lasso::mdat {
+namespace {
+
+const char* yes(bool value) { return value ? "yes" : ""; }
+
+void print_modes(std::ostream& out) {
+  out << "| mode | | scans | confirms | takes up | awaits a start |\n| --- | --- | --- | --- | --- | --- |\n";
+  for (const ModeProperties& mode : mode_properties()) {
+    const char* scans = !mode.scans ? "" : mode.full_field ? "full field" : mode.wide_start ? "aimed, wide start" : "aimed";
+    out << "| " << mode.name << " | " << mode.meaning << " | " << scans << " | " << yes(mode.confirms) << " | " << yes(mode.takes_up)
+        << " | " << yes(mode.awaits_start) << " |\n";
+  }
+}
+
+void print_transitions(std::ostream& out) {
+  out << "| from | event | to | |\n| --- | --- | --- | --- |\n";
+  for (const ModeTransition& row : mode_transitions()) {
+    out << "| " << to_string(row.from) << " | " << to_string(row.event) << " | " << to_string(row.to) << " | " << row.meaning << " |\n";
+  }
+}
+
+// docs/modes.md is this, written down.
+void print_page(std::ostream& out) {
+  out << "# The modes\n\nPrinted by `mdat modes` from the table that the component executes (`fsw/mode/modes.cpp`).\n\n"
+         "- **confirms**: a valid pose has to explain `start.inlier_share_min` of the returns and to agree with the prediction within "
+         "`start.gate`;\n  it starts the filter anew.\n"
+         "- **takes up**: the shares of a valid pose have to exceed the limits of tracking by `tracking.hysteresis`.\n"
+         "- **awaits a start**: the next untried pose to start from is taken, in the mission's order `start.first` to `start.fourth`.\n\n"
+         "`exhausted` and `recover` come when the mode's frames (`start.frames`, `tracking.coast_frames`, `tracking.reacquire_frames`) are "
+         "used up and\nthe mode is not held; which of the two, `tracking.recover` says. An event that a mode has no row for changes "
+         "nothing. Search, and tracking of\nseveral targets at short range, are not built yet.\n\n";
+  print_modes(out);
+  out << '\n';
+  print_transitions(out);
+}
+
+}  // namespace
+
+void add_modes_command(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("modes", "Print the modes and their transitions, as docs/modes.md shows them");
+  command->callback([] { print_page(std::cout); });
+}
+
+}  // namespace lasso::mdat

@@ -1,0 +1,159 @@
+#include "fsw/mode/starts.hpp"
+
+#include <limits>
+#include <string>
+
+#include "ut/support/box_scene.hpp"
+#include "ut/support/verifies.hpp"
+
+namespace lasso {
+namespace {
+
+constexpr TimeUs kNow = 50'000'000;
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+class StartsTest : public ::testing::Test {
+ protected:
+  StartsTest() {
+    mission_.parameters = test::box_parameters(scene_);
+    mission_.center_m = scene_.box.center;
+    mission_.radius_m = scene_.box.center.norm() + scene_.box.half.norm();
+    offer_ = rough_offer(mission_.parameters, scene_.pose_at(2000000), scene_.rates, kNow - 3000000);
+  }
+  StartRefusal try_offer() {
+    const FilterState before = filter_;
+    const StartRefusal refusal = start_from(mission_, offer_, kNow, bearing_, filter_);
+    if (refusal != StartRefusal::kNone) {
+      EXPECT_EQ(filter_.initialised, before.initialised) << "as it was";
+      EXPECT_EQ(filter_.t_us, before.t_us);
+    }
+    return refusal;
+  }
+  test::BoxScene scene_ = test::default_scene();
+  Mission mission_;
+  StartOffer offer_;
+  BearingState bearing_;
+  FilterState filter_;
+};
+
+TEST_F(StartsTest, AnOfferIsMovedToNow) {
+  VERIFIES("LASSO-MOD-132~1");
+  ASSERT_EQ(try_offer(), StartRefusal::kNone);
+  EXPECT_TRUE(filter_.initialised);
+  EXPECT_EQ(filter_.t_us, kNow);
+  EXPECT_LT(pose_difference(filter_.T_sensor_target, scene_.pose_at(5000000)).norm(), 1e-9);
+  const double sigma_m = mission_.parameters.start_sigma_m;
+  const double moved = 9 * mission_.parameters.initial_rate_mps * mission_.parameters.initial_rate_mps;
+  EXPECT_GT(filter_.covariance(5, 5), sigma_m * sigma_m + 0.99 * moved) << "and is less certain there";
+  EXPECT_DOUBLE_EQ(offer_.covariance(0, 0), mission_.parameters.start_sigma_rad * mission_.parameters.start_sigma_rad);
+}
+
+TEST_F(StartsTest, WhatIsNotANumberIsRefused) {
+  VERIFIES("LASSO-MOD-134~1 LASSO-MOD-008~1");
+  const StartOffer good = offer_;
+  offer_.T_sensor_target.q.x() = kNan;
+  EXPECT_EQ(try_offer(), StartRefusal::kNotFinite);
+  offer_ = good;
+  offer_.T_sensor_target.p.z() = kNan;
+  EXPECT_EQ(try_offer(), StartRefusal::kNotFinite);
+  offer_ = good;
+  offer_.rates.omega_radps.y() = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(try_offer(), StartRefusal::kNotFinite);
+  offer_ = good;
+  offer_.rates.v_mps.y() = kNan;
+  EXPECT_EQ(try_offer(), StartRefusal::kNotFinite);
+  offer_ = good;
+  offer_.covariance(3, 4) = kNan;
+  EXPECT_EQ(try_offer(), StartRefusal::kNotFinite);
+}
+
+TEST_F(StartsTest, WhatCannotBeIsRefusedByItsName) {
+  VERIFIES("LASSO-MOD-134~1");
+  const StartOffer good = offer_;
+  offer_.T_sensor_target.q.w() += 0.1;
+  EXPECT_EQ(try_offer(), StartRefusal::kNotUnit);
+  offer_ = good;
+  offer_.covariance(2, 2) = 0;
+  EXPECT_EQ(try_offer(), StartRefusal::kBadCovariance);
+  offer_ = good;
+  offer_.covariance(2, 3) = 1e-3;
+  EXPECT_EQ(try_offer(), StartRefusal::kBadCovariance);
+  offer_ = good;
+  offer_.t_us = kNow + 1;
+  EXPECT_EQ(try_offer(), StartRefusal::kFromFuture);
+  offer_.t_us = kNow;
+  EXPECT_EQ(try_offer(), StartRefusal::kNone);
+  offer_.t_us = kNow - static_cast<TimeUs>(1e6 * mission_.parameters.start_age_max_s) - 1;
+  EXPECT_EQ(try_offer(), StartRefusal::kTooOld);
+  offer_ = good;
+  offer_.rates.omega_radps.y() = 1e7;  // more turns in 3 s than an angle can count
+  EXPECT_EQ(try_offer(), StartRefusal::kTooFast);
+}
+
+TEST_F(StartsTest, WhatTheSensorCannotSeeIsRefused) {
+  VERIFIES("LASSO-MOD-134~1");
+  offer_.rates = Twist{};
+  mission_.parameters.range_min_m = 1;
+  for (const double z_m : {-2.5, 21.0, 0.2}) {
+    offer_.T_sensor_target.p = Vec3(0, 0, z_m);
+    EXPECT_EQ(try_offer(), StartRefusal::kOutOfReach) << z_m;
+  }
+  offer_.T_sensor_target.p.z() = 20.2;  // a part of it is within 20 m
+  EXPECT_EQ(try_offer(), StartRefusal::kNone);
+}
+
+TEST_F(StartsTest, WhatIsNotAtTheBearingIsRefused) {
+  VERIFIES("LASSO-MOD-134~1");
+  offer_.t_us = kNow;
+  bearing_.started = true;
+  bearing_.t_us = kNow - 1000000;
+  bearing_.v_mps = Vec3(0, 0, -0.5);
+  bearing_.covariance = 1e-4 * Mat6::Identity();
+  const Vec3 center = offer_.T_sensor_target * scene_.box.center;
+  mission_.parameters.bearing_rate_mps = 0.01;
+  bearing_.p_m = center + Vec3(0, 0, 0.5);  // and moving here
+  EXPECT_EQ(try_offer(), StartRefusal::kNone);
+  bearing_.p_m = center + Vec3(0, 3, 0.5);
+  EXPECT_EQ(try_offer(), StartRefusal::kNotAtBearing);
+  mission_.parameters.bearing_rate_mps = 5;  // who knows where it is after a second
+  EXPECT_EQ(try_offer(), StartRefusal::kNone);
+  mission_.parameters.bearing_rate_mps = 0.01;
+  bearing_.t_us = kNow - 6000000;  // older than bearing.memory_s
+  EXPECT_EQ(try_offer(), StartRefusal::kNone);
+  bearing_.t_us = kNow;
+  bearing_.started = false;
+  EXPECT_EQ(try_offer(), StartRefusal::kNone);
+}
+
+TEST_F(StartsTest, TheDeskFollowsTheMissionsOrder) {
+  VERIFIES("LASSO-MOD-131~1 LASSO-MOD-133~1");
+  StartDesk desk;
+  MissionParameters& p = mission_.parameters;
+  EXPECT_EQ(desk.next(p), StartWay::kNone);
+  desk.put(StartWay::kApriori, offer_);
+  desk.put(StartWay::kNavigation, offer_);
+  offer_.t_us = 77;
+  desk.put(StartWay::kNavigation, offer_);  // the last one counts
+  EXPECT_EQ(desk.next(p), StartWay::kNavigation);
+  EXPECT_EQ(desk.take(StartWay::kNavigation).t_us, 77);
+  EXPECT_EQ(desk.next(p), StartWay::kApriori);
+  desk.put(StartWay::kHandover, offer_);
+  EXPECT_EQ(desk.next(p), StartWay::kHandover);
+  p.start_first = static_cast<double>(StartWay::kApriori);
+  EXPECT_EQ(desk.next(p), StartWay::kApriori);
+  p.start_first = p.start_second = p.start_third = p.start_fourth = static_cast<double>(StartWay::kNone);
+  EXPECT_EQ(desk.next(p), StartWay::kNone);
+  EXPECT_DEATH(desk.put(static_cast<StartWay>(kStartWays), offer_), "no such way");
+}
+
+TEST(StartNames, AreThoseOfTheCode) {
+  VERIFIES("LASSO-MOD-134~1");
+  EXPECT_EQ(std::string(to_string(StartWay::kUplink)), "uplink");
+  EXPECT_EQ(std::string(to_string(static_cast<StartWay>(5))), "unknown");
+  EXPECT_EQ(std::string(to_string(StartRefusal::kNone)), "none");
+  EXPECT_EQ(std::string(to_string(StartRefusal::kNotConfirmed)), "not_confirmed");
+  EXPECT_EQ(std::string(to_string(static_cast<StartRefusal>(12))), "unknown");
+}
+
+}  // namespace
+}  // namespace lasso
