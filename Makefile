@@ -10,6 +10,7 @@ CLANG := $(LASSO_OUT)/build-clang
 GOLDEN := $(LASSO_OUT)/build-golden
 PROVE := $(LASSO_OUT)/build-prove
 SANITIZE := $(LASSO_OUT)/build-sanitize
+FUZZ := $(LASSO_OUT)/build-fuzz
 COVERAGE := $(LASSO_OUT)/build-coverage
 MCDC := $(LASSO_OUT)/build-mcdc
 MISSION ?= cfg/missions/hubble_tenth.toml
@@ -42,11 +43,11 @@ compile = @echo "build $(1)$(if $(2), ($(2)))"; cmake --build $(1) --parallel $(
 ctest = @rm -rf $(2); mkdir -p $(2); GTEST_OUTPUT=xml:$(abspath $(2))/ \
   ctest --test-dir $(1) --parallel $(JOBS) --output-on-failure --no-tests=error --output-junit $(abspath $(2))/ctest.xml $(3)
 
-.PHONY: help run test bench basin golden ppc-count prove ppc-test sanitize arrows coverage mcdc trace evidence gates-selftest figures format lint install clean build
+.PHONY: help run test bench basin montecarlo flips fuzz statistics campaigns-sample golden ppc-count prove ppc-test sanitize arrows coverage mcdc trace evidence gates-selftest figures format lint install clean build
 .DEFAULT_GOAL := help
 
 help: ## this list
-	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-14s %s\n", $$1, $$2 }' $(firstword $(MAKEFILE_LIST))
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-16s %s\n", $$1, $$2 }' $(firstword $(MAKEFILE_LIST))
 
 run: build ## track the tenth-scale Hubble and report into out/run; MISSION=, SCENARIO=, SEED=, OUT=
 	@$(BUILD)/mdat/mdat run $(MISSION) $(if $(SCENARIO),--scenario $(SCENARIO)) $(if $(SEED),--seed $(SEED)) --out $(OUT)
@@ -71,7 +72,44 @@ basin: ## 1000 rough starts (20 deg, 0.3 m) at 4 m: how many the component finds
 	$(call packages,build)
 	$(call configure,$(BUILD),)
 	$(call compile,$(BUILD),basin)
-	@$(BUILD)/ft/basin/basin $(MISSION) $(or $(STARTS),1000) $(or $(SEED),1)
+	@$(BUILD)/ft/campaign/basin $(MISSION) $(or $(STARTS),1000) $(or $(SEED),1)
+
+montecarlo: ## 2000 closed-loop flights drawn at random: lost, invalid, wrong; table, worst cases, and out/montecarlo; FLIGHTS=, SEED=
+	$(begin)
+	$(call packages,build)
+	$(call configure,$(BUILD),)
+	$(call compile,$(BUILD),montecarlo)
+	@ft/campaign/run montecarlo $(BUILD) $(or $(FLIGHTS),2000) $(or $(SEED),1)
+
+flips: ## 10000 flights with one bit flipped in each: masked, detected, silent; table, and out/flips; FLIPS=, SEED=
+	$(begin)
+	$(call packages,build)
+	$(call configure,$(BUILD),)
+	$(call compile,$(BUILD),flips)
+	@ft/campaign/run flips $(BUILD) $(or $(FLIPS),10000) $(or $(SEED),1)
+
+# $(fuzzers) builds them, with what they test, for coverage and sanitizers.
+define fuzzers
+$(call packages,build clang)
+$(call configure,$(FUZZ),$(call sanitized,fuzzer-no-link$(comma)address$(comma)undefined) -DLASSO_TESTS=OFF -DLASSO_FUZZ=ON)
+$(call compile,$(FUZZ),fuzzers)
+endef
+fuzz: ## a million inputs for each reader of outside bytes, and planted bugs to find; out/fuzz; EXECUTIONS= or SECONDS_EACH=, SEED=
+	$(begin)
+	$(fuzzers)
+	@ft/fuzz/run $(FUZZ) $(or $(EXECUTIONS),$(if $(SECONDS_EACH),$(SECONDS_EACH)s),1000000) $(or $(SEED),1)
+
+statistics: ## instructions of estimates on the emulated 603e: median, p99, worst of many frames; out/statistics; FRAMES=, SEED=
+	$(begin)
+	$(replays)
+	@ft/ppc603e/count $(BUILD) $(PPC) $(or $(FRAMES),1800) $(or $(SEED),1)
+
+campaigns-sample: ## 1 % of fuzz, flips, montecarlo, basin and statistics, seeded; out/campaigns-sample
+	$(begin)
+	$(fuzzers)
+	$(replays)
+	$(call compile,$(BUILD),basin flips montecarlo)
+	@ft/campaign/sample $(BUILD) $(PPC) $(FUZZ)
 
 golden: ## the same telemetry, bit for bit: g++ and clang++, optimised or not, threads or none, host and emulated PowerPC 603e
 	$(begin)
@@ -90,12 +128,17 @@ golden: ## the same telemetry, bit for bit: g++ and clang++, optimised or not, t
 	$(call compile,$(GOLDEN)-clang++-O2,golden_replay)
 	@ft/golden/run $(BUILD) $(PPC) $(foreach build,g++-O0 g++-O2 clang++-O0 clang++-O2,$(build)=$(GOLDEN)-$(build))
 
+# $(replays) builds what flies on the host and is replayed on the emulated 603e.
+define replays
+$(call packages,build target)
+$(call configure,$(BUILD),)
+$(call compile,$(BUILD),golden_record golden_replay golden_compare)
+$(call configure,$(PPC),$(CROSS))
+$(call compile,$(PPC),golden_replay)
+endef
 ppc-count: ## instructions of one estimate on the PowerPC 603e, by function; table, and out/ppc-count/results.json
-	$(call packages,build target)
-	$(call configure,$(BUILD),)
-	$(call compile,$(BUILD),golden_record golden_replay golden_compare)
-	$(call configure,$(PPC),$(CROSS))
-	$(call compile,$(PPC),golden_replay)
+	$(begin)
+	$(replays)
 	@ft/ppc603e/count $(BUILD) $(PPC)
 
 prove: ## what the archives for the 603e do not do: heap, exceptions, recursion, contraction, too much stack or memory; out/prove

@@ -1,11 +1,12 @@
 // golden_record MISSION OUT SCENARIO RANGE_M FRAMES [KEY=VALUE...]: flies a scenario closed loop, with the simulated scanner and the
 // component on its two Linux threads, and writes OUT/image.3dli, OUT/trace.bin and OUT/telemetry.bin. KEY=VALUE overrides flight
-// parameters, as the mission file names them. MISSION may also be followed by several runs in one call: OUT SCENARIO RANGE_M FRAMES
-// [KEY=VALUE...] -- OUT ... Exit codes: 0 done, 1 the run failed, 2 usage or bad input.
+// parameters, as the mission file names them, and seed=N the seed of the scanner's noise. MISSION may also be followed by several runs in
+// one call: OUT SCENARIO RANGE_M FRAMES [KEY=VALUE...] -- OUT ... Exit codes: 0 done, 1 the run failed, 2 usage or bad input.
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,12 +32,19 @@ struct Flight {
   double range_m = 0;
   std::uint32_t frames = 0;
   std::vector<std::string> overrides;
+  std::optional<std::uint64_t> seed;  // otherwise the scenario's
 };
 
 Flight parse(const std::vector<std::string>& words) {
   if (words.size() < 4) throw InputError("a run is OUT SCENARIO RANGE_M FRAMES [KEY=VALUE...]");
-  Flight flight{words[0], words[1], std::stod(words[2]), static_cast<std::uint32_t>(std::stoul(words[3])), {}};
-  flight.overrides.assign(words.begin() + 4, words.end());
+  Flight flight{words[0], words[1], std::stod(words[2]), static_cast<std::uint32_t>(std::stoul(words[3])), {}, {}};
+  for (std::size_t i = 4; i < words.size(); ++i) {
+    if (words[i].starts_with("seed=")) {
+      flight.seed = std::stoull(words[i].substr(5));
+    } else {
+      flight.overrides.push_back(words[i]);
+    }
+  }
   return flight;
 }
 
@@ -116,7 +124,7 @@ void record(const mdat::CompiledMission& mission, const sim::RayCaster& target, 
   const DurationUs period_us = mdat::period_us(parameters);
   const auto trajectory = mdat::make_trajectory(scenario, flight.range_m, mdat::kEpochUs, period_us);
   sim::SimulatedScanner scanner(target, *trajectory, mdat::scanner_model(scenario, parameters, scenario.noise != 0),
-                                static_cast<std::uint64_t>(scenario.seed));
+                                flight.seed.value_or(static_cast<std::uint64_t>(scenario.seed)));
   TraceRecorder recorder(scanner);
   const TraceHeader header = make_header(*trajectory, flight.frames, period_us);
   const std::vector<std::uint8_t> image = mdat::image_bytes(mission, parameters);

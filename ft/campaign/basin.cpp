@@ -4,13 +4,12 @@
 //
 // usage: basin MISSION [STARTS = 1000] [SEED = 1]
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
 
-#include "fsw/exec/lasso.hpp"
-#include "hal_sim/random.hpp"
+#include "ft/campaign/draws.hpp"
+#include "ft/campaign/verdict.hpp"
 #include "mdat/common/errors.hpp"
 #include "mdat/common/flight_image.hpp"
 #include "mdat/run/simulation.hpp"
@@ -34,23 +33,6 @@ class StillTarget final : public sim::Trajectory {
   Pose pose;
 };
 
-Vec3 draw_in_box(sim::Random& random) { return {random.uniform() * 2 - 1, random.uniform() * 2 - 1, random.uniform() * 2 - 1}; }
-
-Vec3 draw_direction(sim::Random& random) {
-  for (;;) {
-    const Vec3 v = draw_in_box(random);
-    if (v.norm() > 0.1 && v.norm() < 1) return v.normalized();
-  }
-}
-
-Pose disturbed(const Pose& truth, sim::Random& random) {
-  Pose start;
-  const double angle = (random.uniform() * 2 - 1) * kRotation_rad;
-  start.q = exp_so3(angle * draw_direction(random)) * truth.q;
-  start.p = truth.p + kShift_m * draw_in_box(random);
-  return start;
-}
-
 class Trial {
  public:
   explicit Trial(const mdat::CompiledMission& mission, std::uint64_t seed)
@@ -61,17 +43,19 @@ class Trial {
         target_(mdat::make_target(mission.mesh)),
         scanner_(*target_, still_, mdat::scanner_model(scenario_, parameters_, true), seed),
         component_(std::make_unique<Component>(scanner_)) {
-    const LoadFailure failure = component_->load_image(mdat::view(memory_, image_.size()));
-    if (failure.status != Status::kOk) throw mdat::RunError(mdat::to_string(failure));
-    if (component_->begin(mdat::kEpochUs) != Status::kOk) throw mdat::RunError("the component does not begin");
+    campaign::begin(*component_, mdat::view(memory_, image_.size()));
   }
 
   // The last pose that the component reports for this start.
   PoseTelemetry run(const Pose& truth, const Pose& start) {
     still_.pose = truth;
-    if (component_->start_tracking(start, {}, component_->next_slot_us()) != Status::kOk) throw mdat::RunError("a start is refused");
+    campaign::start_tracking(*component_, start);
     PoseTelemetry last;
-    for (int frame = 0; frame < kReports + kPipelineFrames; ++frame) run_frame(last);
+    for (int frame = 0; frame < kReports + kPipelineFrames; ++frame) {
+      const std::vector<std::uint8_t> telemetry = campaign::run_frame(*component_);
+      const campaign::Decoded decoded = campaign::decode(ConstBytes(telemetry.data(), telemetry.size()));
+      if (!decoded.poses.empty()) last = decoded.poses.back();
+    }
     return last;
   }
 
@@ -81,15 +65,6 @@ class Trial {
     parameters.start_sigma_rad = kRotation_rad;
     parameters.start_sigma_m = kShift_m;
     return parameters;
-  }
-  void run_frame(PoseTelemetry& last) {
-    for (int slot = 0; slot < 20; ++slot) static_cast<void>(step(*component_, component_->next_slot_us()));
-    std::uint8_t bytes[kTelemetryQueueBytes];
-    const std::size_t size = component_->take_telemetry(Bytes(bytes));
-    PacketHeader header;
-    for (std::size_t at = 0; at < size; at += packet_size(ConstBytes(bytes + at, size - at))) {
-      static_cast<void>(decode_pose(ConstBytes(bytes + at, packet_size(ConstBytes(bytes + at, size - at))), header, last));
-    }
   }
 
   const mdat::Scenario& scenario_;
@@ -104,10 +79,12 @@ class Trial {
 
 struct Tally {
   int found = 0;
+  int wrong = 0;  // though called valid
   double worst_m = 0, worst_rad = 0;
 };
 
 void judge(const PoseTelemetry& report, const Pose& truth, Tally& tally) {
+  if (campaign::judge_valid(report, truth) == campaign::PoseVerdict::kWrong) ++tally.wrong;
   const Vec6 error = pose_difference(mdat::registration_pose(report), truth);
   const double shift = error.tail<3>().norm();
   const double turn = error.head<3>().norm();
@@ -133,11 +110,11 @@ int run(int argc, char** argv) {
   for (int i = 0; i < starts; ++i) {
     const auto frame = static_cast<TimeUs>(random.uniform() * 360);
     const Pose truth = trajectory->at(mdat::kEpochUs + frame * 200000).T_sensor_target;
-    judge(trial.run(truth, disturbed(truth, random)), truth, tally);
+    judge(trial.run(truth, campaign::disturbed(truth, kRotation_rad, kShift_m, random)), truth, tally);
     if ((i + 1) % (starts / 10 + 1) == 0) std::fprintf(stderr, "%d of %d starts\n", i + 1, starts);
   }
-  std::printf("starts found: %d of %d (%.1f %%); of these the worst is %.2f mm, %.3f deg off\n", tally.found, starts,
-              100.0 * tally.found / starts, 1e3 * tally.worst_m, tally.worst_rad / kRadPerDeg);
+  std::printf("starts found: %d of %d (%.1f %%); of these the worst is %.2f mm, %.3f deg off; wrong but valid: %d\n", tally.found, starts,
+              100.0 * tally.found / starts, 1e3 * tally.worst_m, tally.worst_rad / kRadPerDeg, tally.wrong);
   return tally.found >= 0.99 * starts ? 0 : 1;
 }
 

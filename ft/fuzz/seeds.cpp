@@ -1,0 +1,130 @@
+// fuzz_seeds FOLDER: the inputs that the fuzzers start from, FOLDER/HARNESS/NAME: good ones of each kind, since from nothing a fuzzer finds
+// no way past magic numbers and check sums.
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "fsw/link/pose_telemetry.hpp"
+#include "fsw/mission/mission.hpp"
+#include "fsw/pose/estimator.hpp"
+#include "ft/fuzz/small_image.hpp"
+#include "hal_sim/scan_file.hpp"
+
+namespace lasso::fuzz {
+namespace {
+
+namespace fs = std::filesystem;
+
+void write(const fs::path& file, const std::string& bytes) {
+  fs::create_directories(file.parent_path());
+  std::ofstream out(file, std::ios::binary);
+  out << bytes;
+  if (!out.flush()) throw std::runtime_error("cannot write " + file.string());
+}
+
+// The option byte, then what it speaks of.
+std::string seed(char option, const void* bytes, std::size_t size) {
+  return std::string(1, option) + std::string(static_cast<const char*>(bytes), size);
+}
+std::string seed(char option, const std::string& text) { return seed(option, text.data(), text.size()); }
+
+// A seed that does not load, or gives no pose, leads nowhere.
+void check_seed(test::TestImage image) {
+  Mission mission;
+  const LoadFailure failure = load_image(Bytes(image.data(), image.size), mission);
+  if (failure.status != Status::kOk) throw std::runtime_error(std::string("the seed image is refused: ") + failure.what);
+  const Registration result = std::make_unique<Estimator>()->estimate(mission, *small_scan(), {small_start(), Twist{}, false});
+  if (!result.valid()) throw std::runtime_error(std::string("the seed image gives no valid pose: ") + to_string(result.reason));
+}
+
+void write_images(const fs::path& folder) {
+  MissionParameters parameters = preset_parameters();
+  parameters.inliers_min = 20;
+  for (const bool silhouettes : {false, true}) {
+    parameters.silhouettes = silhouettes ? 1 : 0;
+    test::TestImage image = test::make_box_image(parameters, small_box());
+    check_seed(image);
+    const std::string name = silhouettes ? "silhouettes" : "hits";
+    for (const char option : {'\0', '\1', '\2'}) write(folder / (name + std::to_string(option)), seed(option, image.data(), image.size));
+  }
+}
+
+void write_packets(const fs::path& folder) {
+  PoseTelemetry pose;
+  PacketHeader header;
+  std::uint8_t packet[kMaxPosePacketBytes];
+  write(folder / "empty", seed(0, packet, encode_pose(pose, header, Bytes(packet))));
+  pose.valid = 1;
+  pose.p_sensor_target_m[2] = 4;
+  pose.inliers = 700;
+  header.t_us = 1234567;
+  header.sequence_count = header.message_count = 5;
+  write(folder / "tracking", seed(1, packet, encode_pose(pose, header, Bytes(packet))));
+}
+
+std::string csv_text(const fs::path& folder) {
+  const fs::path file = folder / "made.csv";
+  const auto scan = small_scan();
+  RangeImage few;
+  for (std::size_t i = 0; i < scan->samples.size(); i += 9) static_cast<void>(few.samples.push_back(scan->samples[i]));
+  sim::write_scan_csv(file, few);
+  std::ifstream in(file);
+  std::string text((std::istreambuf_iterator<char>(in)), {});
+  fs::remove(file);
+  return text;
+}
+
+std::string binary(std::initializer_list<float> values, bool big_endian) {
+  std::string bytes;
+  for (const float value : values) {
+    std::uint32_t word = 0;
+    std::memcpy(&word, &value, 4);
+    for (int i = 0; i < 4; ++i) bytes += static_cast<char>(word >> (big_endian ? 24 - 8 * i : 8 * i));
+  }
+  return bytes;
+}
+
+std::string ply(const std::string& format) {
+  return "ply\nformat " + format +
+         " 1.0\ncomment made\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
+}
+
+std::string pcd(const std::string& data) {
+  return "# .PCD v0.7\nVERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 2\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS "
+         "2\nDATA " +
+         data + "\n";
+}
+
+void write_scans(const fs::path& folder) {
+  const std::string ascii = "0.1 0.2 3\n-0.1 0.2 3.5\n";
+  const std::initializer_list<float> points = {0.1F, 0.2F, 3, -0.1F, 0.2F, 3.5F};
+  fs::create_directories(folder);
+  write(folder / "csv", seed(0, csv_text(folder)));
+  write(folder / "ply_ascii", seed(1, ply("ascii") + ascii));
+  write(folder / "ply_little", seed(1, ply("binary_little_endian") + binary(points, false)));
+  write(folder / "ply_big", seed(1, ply("binary_big_endian") + binary(points, true)));
+  write(folder / "pcd_ascii", seed(2, pcd("ascii") + ascii));
+  write(folder / "pcd_binary", seed(2, pcd("binary") + binary(points, false)));
+}
+
+}  // namespace
+}  // namespace lasso::fuzz
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    (void)std::fprintf(stderr, "usage: fuzz_seeds FOLDER\n");
+    return 2;
+  }
+  try {
+    const std::filesystem::path folder = argv[1];
+    lasso::fuzz::write_images(folder / "image");
+    lasso::fuzz::write_packets(folder / "packet");
+    lasso::fuzz::write_scans(folder / "scan");
+  } catch (const std::exception& error) {
+    (void)std::fprintf(stderr, "fuzz_seeds: %s\n", error.what());
+    return 1;
+  }
+  return 0;
+}
