@@ -111,6 +111,7 @@ std::string fly_all(const char* mission_file, std::uint32_t flights, std::uint64
   const mdat::CompiledMission mission = mdat::compile_mission(mission_file);
   MissionParameters parameters = mdat::parameters_for(mission.source, kScenario);
   parameters.initial_present = 0;
+  parameters.start_inlier_share_min = 0.4;  // as the mission's scenario with outliers, which no pose explains
   const std::vector<std::uint8_t> image = mdat::image_bytes(mission, parameters);
   const auto target = mdat::make_target(mission.mesh);
   const sim::ScannerModel scanner = mdat::scanner_model(mdat::scenario_of(mission.source, kScenario), parameters, true);
