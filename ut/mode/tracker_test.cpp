@@ -309,6 +309,7 @@ TEST_F(TrackerTest, AStartHalfATurnOffIsNeverTracked) {
   view.half_angle = 0.25;
   MissionParameters p = test::box_parameters(scene_);
   p.start_frames = 4;
+  p.start_inlier_share_min = 0.9;
   image_ = test::make_image(p, test::make_box_tables(test::Boxes{scene_.box, mast}));
   ASSERT_EQ(load_image(Bytes(image_.data(), image_.size), mission_).status, Status::kOk);
   test::Generator random(5);
