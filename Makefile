@@ -43,7 +43,7 @@ compile = @echo "build $(1)$(if $(2), ($(2)))"; cmake --build $(1) --parallel $(
 ctest = @rm -rf $(2); mkdir -p $(2); GTEST_OUTPUT=xml:$(abspath $(2))/ \
   ctest --test-dir $(1) --parallel $(JOBS) --output-on-failure --no-tests=error --output-junit $(abspath $(2))/ctest.xml $(3)
 
-.PHONY: help run test bench basin montecarlo flips fuzz statistics campaigns-sample golden ppc-count prove ppc-test sanitize arrows coverage mcdc trace evidence gates-selftest figures format lint install clean build
+.PHONY: help run test accuracy bench basin montecarlo flips fuzz statistics campaigns-sample golden ppc-count prove ppc-test sanitize arrows coverage mcdc trace evidence gates-selftest figures format lint install clean build
 .DEFAULT_GOAL := help
 
 help: ## this list
@@ -60,6 +60,15 @@ test: ## build with g++ and clang++ without a warning, and pass all tests of the
 	$(call configure,$(CLANG),-DCMAKE_CXX_COMPILER=clang++-19)
 	$(call compile,$(CLANG))
 	@cfg/quality/run-tests test g++=$(BUILD) clang++=$(CLANG)
+
+accuracy: ## the errors of the reference simulation, of spin, outliers and dropouts, against the limits of their requirements; out/accuracy
+	$(begin)
+	$(call packages,build)
+	$(call configure,$(BUILD),)
+	$(call compile,$(BUILD),mdat)
+	@for scenario in paper spin outliers dropouts; do $(BUILD)/mdat/mdat run cfg/missions/hubble_tenth.toml --scenario $$scenario \
+	  --out $(LASSO_OUT)/accuracy/$$scenario || exit 1; done
+	@cfg/quality/accuracy $(LASSO_OUT)/accuracy
 
 bench: ## time the estimate, its stages and its peers; table, and out/bench/results.json
 	$(call packages,build bench)

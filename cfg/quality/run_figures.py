@@ -1,0 +1,21 @@
+"""Figures of one variant of a run (out/run/results.json), as README.md and the accuracy gate quote them."""
+
+LENGTHS, ANGLES = ('x_mm', 'y_mm', 'z_mm'), ('yaw_deg', 'pitch_deg', 'roll_deg')
+
+
+def worst(variant, axes, moment):
+    return max(abs(variant[axis][moment]) for axis in axes)
+
+
+FIGURES = {
+    'std_mm': lambda v: worst(v, LENGTHS, 'std'),
+    'std_deg': lambda v: worst(v, ANGLES, 'std'),
+    'mean_mm': lambda v: worst(v, LENGTHS, 'mean'),
+    'mean_deg': lambda v: worst(v, ANGLES, 'mean'),
+    'rms_mm': lambda v: v['rms_mm'],
+    'rms_deg': lambda v: v['rms_deg'],
+    'over_bound_mm': lambda v: v['rms_mm'] / v['crlb_mm'],
+    'over_bound_deg': lambda v: v['rms_deg'] / v['crlb_deg'],
+    'nees': lambda v: v['nees'],
+    'lost': lambda v: v['lost'],
+}
