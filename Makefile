@@ -23,7 +23,7 @@ at_level = -DCMAKE_CXX_COMPILER=$(1) -DCMAKE_BUILD_TYPE=Level -DCMAKE_CXX_FLAGS_
 # $(call sanitized,SANITIZERS), and the tests that start threads
 comma := ,
 sanitized = -DCMAKE_CXX_COMPILER=clang++-19 -DCMAKE_BUILD_TYPE=Level -DCMAKE_CXX_FLAGS_LEVEL="-O1 -g1" -DLASSO_SANITIZE=$(1)
-THREADED ?= ut_posix ut_exec
+THREADED = ut_posix ut_exec
 SOURCES = git ls-files -z '*.cpp' '*.hpp'
 
 export CCACHE_BASEDIR := $(CURDIR)
