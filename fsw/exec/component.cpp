@@ -161,7 +161,7 @@ void Component::follow(const TrackStep& step) {
   const bool given_up =
       track_.mode == TrackingMode::kStarting && (step.event == ModeEvent::kExhausted || step.event == ModeEvent::kRecover);
   if (given_up) refuse_start(track_.way, StartRefusal::kNotConfirmed);
-  if (step.after.mode != track_.mode) note_change(step.event, step.after.mode);
+  if (step.after.mode != track_.mode) note_change({track_.mode, step.event, step.after.mode});
   track_ = step.after;
 }
 
@@ -172,8 +172,8 @@ void Component::refuse_start(StartWay way, StartRefusal refusal) {
 }
 
 // At most three at a boundary (a scan's, a command's, a start's), and a packet takes four: there is always room.
-void Component::note_change(ModeEvent event, TrackingMode to) {
-  invariant(changes_.push_back({track_.mode, event, to}), "more changes of the mode than can wait for a packet");
+void Component::note_change(const ModeChange& change) {
+  invariant(changes_.push_back(change), "more changes of the mode than can wait for a packet");
 }
 
 TrackStep Component::step_without_estimate() {
@@ -192,7 +192,7 @@ void Component::apply_request() {
 
 void Component::apply_command() {
   if (!has_transition(track_.mode, requested_event_)) return;  // the mode is there already, or has changed since
-  note_change(requested_event_, next_mode(track_.mode, requested_event_));
+  note_change({track_.mode, requested_event_, next_mode(track_.mode, requested_event_)});
   change_mode(requested_event_, track_);
   acquired_.active = false;  // it was aimed by the track that ends here
 }
@@ -204,7 +204,7 @@ void Component::try_start(StartWay way) {
     refuse_start(way, refusal);
     return;
   }
-  invariant(changes_.push_back({before, ModeEvent::kStart, track_.mode}), "more changes of the mode than can wait for a packet");
+  note_change({before, ModeEvent::kStart, track_.mode});
   acquired_.active = false;
 }
 

@@ -99,7 +99,7 @@ class Component {
   void try_start(StartWay way);
   void apply_command();
   void refuse_start(StartWay way, StartRefusal refusal);
-  void note_change(ModeEvent event, TrackingMode to);
+  void note_change(const ModeChange& change);
   void follow(const TrackStep& step);
   bool report_overdue() const;
   TrackStep step_without_estimate();

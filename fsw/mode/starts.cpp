@@ -27,17 +27,6 @@ StartRefusal check_values(const MissionParameters& p, const StartOffer& offer, T
   return offer.t_us < now_us - age_max_us ? StartRefusal::kTooOld : StartRefusal::kNone;
 }
 
-FilterStart filter_start(const MissionParameters& p, const StartOffer& offer) {
-  FilterStart from;
-  from.t_us = offer.t_us;
-  from.T_sensor_target = offer.T_sensor_target;
-  from.rates = offer.rates;
-  from.pose_covariance = offer.covariance;
-  from.sigma_omega_radps = p.initial_angular_rate_radps;
-  from.sigma_v_mps = p.initial_rate_mps;
-  return from;
-}
-
 bool in_reach(const Mission& mission, const Vec3& center_m) {
   const double range_m = square_root(center_m.squaredNorm());
   return center_m.z() > 0 && range_m + mission.radius_m >= mission.parameters.range_min_m &&
@@ -62,6 +51,19 @@ std::size_t index_of(StartWay way) {
 
 }  // namespace
 
+FilterStart filter_start(const MissionParameters& p, const StartOffer& offer) {
+  FilterStart from;
+  from.t_us = offer.t_us;
+  from.T_sensor_target = offer.T_sensor_target;
+  from.rates = offer.rates;
+  from.pose_covariance = offer.covariance;
+  from.sigma_omega_radps = p.initial_angular_rate_radps;
+  from.sigma_v_mps = p.initial_rate_mps;
+  return from;
+}
+
+FilterNoise filter_noise(const MissionParameters& p) { return {p.acceleration_mps2, p.angular_acceleration_radps2}; }
+
 StartOffer rough_offer(const MissionParameters& p, const Pose& T_sensor_target, const Twist& rates, TimeUs t_us) {
   StartOffer offer{t_us, T_sensor_target, rates, Mat6::Zero()};
   offer.covariance.diagonal().head<3>().setConstant(p.start_sigma_rad * p.start_sigma_rad);
@@ -75,8 +77,7 @@ StartRefusal start_from(const Mission& mission, const StartOffer& offer, TimeUs 
   if (refusal != StartRefusal::kNone) return refusal;
   FilterState started;
   if (start_filter(started, filter_start(p, offer)) != Status::kOk) return StartRefusal::kBadCovariance;
-  const FilterNoise noise{p.acceleration_mps2, p.angular_acceleration_radps2};
-  if (predict_filter(started, now_us, noise) != Status::kOk) return StartRefusal::kTooFast;
+  if (predict_filter(started, now_us, filter_noise(p)) != Status::kOk) return StartRefusal::kTooFast;
   const Vec3 center_m = started.T_sensor_target * mission.center_m;
   if (!in_reach(mission, center_m)) return StartRefusal::kOutOfReach;
   if (!at_bearing(mission, bearing, started, center_m)) return StartRefusal::kNotAtBearing;

@@ -40,6 +40,10 @@ enum class StartRefusal : std::uint8_t {
 const char* to_string(StartWay way);          // never null
 const char* to_string(StartRefusal refusal);  // never null
 
+// What the filter starts from, and moves by, in this mission.
+FilterStart filter_start(const MissionParameters& parameters, const StartOffer& offer);
+FilterNoise filter_noise(const MissionParameters& parameters);
+
 // Believed as tracking.start_sigma_m and _deg say.
 StartOffer rough_offer(const MissionParameters& parameters, const Pose& T_sensor_target, const Twist& rates, TimeUs t_us);
 

@@ -5,17 +5,8 @@ namespace {
 
 constexpr std::uint32_t kEstablished = 5;  // scans until the filter's word counts more than a scan's: a start may have been wrong
 
-FilterNoise filter_noise(const MissionParameters& p) { return {p.acceleration_mps2, p.angular_acceleration_radps2}; }
-
 Status restart_from(const MissionParameters& p, const Registration& registration, FilterState& filter) {
-  FilterStart from;
-  from.t_us = registration.t_us;
-  from.T_sensor_target = registration.T_sensor_target;
-  from.rates = filter.rates;
-  from.pose_covariance = registration.covariance;
-  from.sigma_omega_radps = p.initial_angular_rate_radps;
-  from.sigma_v_mps = p.initial_rate_mps;
-  return start_filter(filter, from);
+  return start_filter(filter, filter_start(p, {registration.t_us, registration.T_sensor_target, filter.rates, registration.covariance}));
 }
 
 PoseMeasurement measurement_of(const Registration& registration) {
