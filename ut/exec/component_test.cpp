@@ -253,7 +253,7 @@ TEST(Component, AnEstimateIsPendingFromTheHandOverUntilItHasRun) {
 TEST(Component, SequenceCountWrapsThroughTheWholeChain) {
   VERIFIES("LASSO-LNK-001~1");
   MissionParameters p = parameters();
-  p.coast_frames = 0;
+  p.start_frames = 0;  // lost from the second report on: frames without a scan are short
   ComponentScene scene(p);
   scene.sensor.refused = {0};
   scene.begin();

@@ -1,82 +1,13 @@
-#include "fsw/mode/tracker.hpp"
-
 #include <limits>
-#include <memory>
 
-#include "fsw/sense/planner.hpp"
-#include "ut/support/box_scan.hpp"
-#include "ut/support/box_scene.hpp"
-#include "ut/support/verifies.hpp"
+#include "ut/mode/tracker_fixture.hpp"
 
 namespace lasso {
 namespace {
 
-constexpr TimeUs kPeriodUs = 200000;
-
-class TrackerTest : public ::testing::Test {
- protected:
-  void SetUp() override { load(test::box_parameters(scene_)); }
-
-  void load(const MissionParameters& parameters) {
-    image_ = test::make_box_image(parameters, scene_.box);
-    ASSERT_EQ(load_image(Bytes(image_.data(), image_.size), mission_).status, Status::kOk);
-  }
-
-  // Starts at t = 0 with an error of `off` (rotation, translation).
-  void start(const Vec6& off) {
-    Pose pose = scene_.at_zero;
-    pose.q = normalized(exp_so3(off.head<3>()) * pose.q);
-    pose.p += off.tail<3>();
-    ASSERT_EQ(start_at(pose, Twist{}, 0, 0), StartRefusal::kNone);
-  }
-
-  StartRefusal start_at(const Pose& pose, const Twist& rates, TimeUs stated_us, TimeUs t_us) {
-    return start_track(mission_, StartWay::kUplink, rough_offer(mission_.parameters, pose, rates, stated_us), t_us, state_);
-  }
-
-  RangeImage& scan(std::uint32_t scan_id) {
-    const TimeUs start_us = scan_id * kPeriodUs;
-    ScanPlan plan;
-    EXPECT_EQ(plan_scan(mission_.parameters, {mission_.hull, mission_.center_m}, scene_.pose_at(start_us), scan_id, plan), Status::kOk);
-    test::Generator random(scan_id + 1u);
-    image_of_scan_->scan_id = scan_id;
-    image_of_scan_->samples.clear();
-    for (std::uint16_t i = 0; i < plan.points; ++i) {
-      const TimeUs t_us = start_us + pattern_time_us(plan, i);
-      EXPECT_TRUE(image_of_scan_->samples.push_back(test::cast_sample(scene_, plan, i, t_us, random)));
-      if (spoiled_ && i % 25 == 0) image_of_scan_->samples[i].range_m += 0.4f;
-    }
-    return *image_of_scan_;
-  }
-
-  TrackStep track(std::uint32_t scan_id) {
-    const TrackStep step = track_scan(mission_, *estimator_, scan(scan_id), state_);
-    state_ = step.after;
-    return step;
-  }
-
-  TrackStep miss(std::uint32_t scan_id) {
-    const TrackStep step = track_without_scan(mission_, PoseReason::kNoScan, scan_id, scan_id * kPeriodUs + 90000, state_);
-    state_ = step.after;
-    return step;
-  }
-
-  Vec6 error(const Pose& estimate, TimeUs t_us) const { return pose_difference(estimate, scene_.pose_at(t_us)); }
-
-  test::BoxScene scene_ = test::default_scene();
-  test::TestImage image_;
-  Mission mission_;
-  TrackState state_;
-  bool spoiled_ = false;  // one return of 25 is wrong
-  std::unique_ptr<Estimator> estimator_ = std::make_unique<Estimator>();
-  std::unique_ptr<RangeImage> image_of_scan_ = std::make_unique<RangeImage>();
-};
-
-Vec6 small_error() {
-  Vec6 off;
-  off << 0.03, -0.02, 0.025, 0.01, -0.015, 0.02;
-  return off;
-}
+using test::kPeriodUs;
+using test::small_error;
+using test::TrackerTest;
 
 TEST_F(TrackerTest, FollowsTheTargetAndLearnsItsRates) {
   VERIFIES("LASSO-MOD-003~1");
@@ -94,32 +25,6 @@ TEST_F(TrackerTest, FollowsTheTargetAndLearnsItsRates) {
   }
   EXPECT_LT((state_.filter.rates.omega_radps - scene_.rates.omega_radps).norm(), 5e-3);
   EXPECT_LT((state_.filter.rates.v_mps - scene_.rates.v_mps).norm(), 2e-3);
-}
-
-TEST_F(TrackerTest, FirstRegistrationStartsTheFilterAnew) {
-  VERIFIES("LASSO-MOD-003~1");
-  start(small_error());
-  const TrackStep step = track(0);
-  ASSERT_TRUE(step.registration.valid());
-  EXPECT_EQ((step.after.filter.T_sensor_target.p - step.registration.T_sensor_target.p).norm(), 0);
-  EXPECT_LT((step.after.filter.covariance.topLeftCorner<6, 6>() - step.registration.covariance).norm(), 1e-18);
-  EXPECT_DOUBLE_EQ(step.after.filter.covariance(11, 11), mission_.parameters.initial_rate_mps * mission_.parameters.initial_rate_mps);
-}
-
-TEST_F(TrackerTest, WideStartTakesWhatANarrowOneCannot) {
-  VERIFIES("LASSO-MOD-004~1");
-  Vec6 off;
-  off << 0.12, -0.1, 0.08, 0.1, 0.08, 0.12;
-  start(off);
-  const TrackStep wide = track(0);
-  ASSERT_TRUE(wide.registration.valid()) << to_string(wide.registration.reason);
-  EXPECT_LT(error(wide.registration.T_sensor_target, wide.registration.t_us).norm(), 5e-3);
-  MissionParameters narrow = test::box_parameters(scene_);
-  narrow.wide_start = 0;
-  load(narrow);
-  start(off);
-  const TrackStep step = track(0);
-  EXPECT_GT(error(step.registration.T_sensor_target, step.registration.t_us).norm(), 5e-3);
 }
 
 TEST_F(TrackerTest, CoastsOnThePredictionAndTakesUpTheTrackAgain) {
@@ -163,27 +68,6 @@ TEST_F(TrackerTest, EmptySpaceIsNoPose) {
   const TrackStep step = track_scan(mission_, *estimator_, empty, state_);
   EXPECT_EQ(step.registration.reason, PoseReason::kTooFewReturns);
   EXPECT_EQ(step.after.mode, TrackingMode::kCoasting);
-}
-
-TEST_F(TrackerTest, MovesTheStartToItsFrame) {
-  VERIFIES("LASSO-MOD-003~1 LASSO-MOD-132~1");
-  ASSERT_EQ(start_at(scene_.pose_at(300000), scene_.rates, 300000, 1000000), StartRefusal::kNone);
-  EXPECT_LT(error(state_.filter.T_sensor_target, 1000000).norm(), 1e-12);
-  EXPECT_EQ(state_.filter.t_us, 1000000);
-  EXPECT_EQ(state_.mode, TrackingMode::kStarting);
-  EXPECT_EQ(state_.way, StartWay::kUplink);
-}
-
-TEST_F(TrackerTest, RefusesAStartThatMeansNothing) {
-  VERIFIES("LASSO-MOD-008~1");
-  Pose bad = scene_.at_zero;
-  bad.q.w() += 0.1;
-  EXPECT_EQ(start_at(bad, Twist{}, 0, 0), StartRefusal::kNotUnit);
-  bad = scene_.at_zero;
-  bad.p.x() = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(start_at(bad, Twist{}, 0, 0), StartRefusal::kNotFinite);
-  EXPECT_EQ(state_.mode, TrackingMode::kStandby);
-  EXPECT_FALSE(state_.filter.initialised);
 }
 
 // The target steps aside farther than the filter thinks possible: the registration finds it, yet nobody can tell it from a wrong minimum.
@@ -282,84 +166,6 @@ TEST_F(TrackerTest, WithoutATrackTheLastPoseStandsWithItsOwnTime) {
   EXPECT_EQ(step.registration.T_sensor_target.p, state_.filter.T_sensor_target.p);
 }
 
-// Twelve degrees off with a believed sigma of half a degree: the scan finds the target, but not where the start says.
-TEST_F(TrackerTest, AStartFartherOffThanItsCovarianceSaysIsNotConfirmed) {
-  VERIFIES("LASSO-MOD-132~1 LASSO-MOD-134~1");
-  MissionParameters p = test::box_parameters(scene_);
-  p.start_sigma_rad = 0.01;
-  p.start_sigma_m = 0.005;
-  load(p);
-  Vec6 off;
-  off << 0.12, -0.1, 0.08, 0.02, 0.01, 0.02;
-  start(off);
-  const TrackStep step = track(0);
-  EXPECT_EQ(step.registration.reason, PoseReason::kFarFromStart);
-  EXPECT_LT(error(step.registration.T_sensor_target, step.registration.t_us).norm(), 5e-3) << "though it found the target";
-  EXPECT_EQ(step.after.mode, TrackingMode::kStarting);
-  EXPECT_EQ(step.event, ModeEvent::kPoseInvalid);
-}
-
-// Two boxes, which no turn makes look alike.
-TEST_F(TrackerTest, AStartHalfATurnOffIsNeverTracked) {
-  VERIFIES("LASSO-MOD-132~1 LASSO-MOD-134~1");
-  test::BoxModel mast;
-  mast.center = Vec3(0.24, 0.15, -0.32);
-  mast.half = Vec3(0.05, 0.04, 0.20);
-  test::BoxScan view{scene_.box, {mast}, scene_.at_zero, {}, 1e-3};
-  view.half_angle = 0.25;
-  MissionParameters p = test::box_parameters(scene_);
-  p.start_frames = 4;
-  p.start_inlier_share_min = 0.9;
-  image_ = test::make_image(p, test::make_box_tables(test::Boxes{scene_.box, mast}));
-  ASSERT_EQ(load_image(Bytes(image_.data(), image_.size), mission_).status, Status::kOk);
-  test::Generator random(5);
-  const auto track_view = [&](std::uint32_t k) {
-    const auto image = test::scan_box(view, random);
-    for (RangeSample& sample : image->samples) sample.t_us += k * kPeriodUs;
-    state_ = track_scan(mission_, *estimator_, *image, state_).after;
-  };
-  start(small_error());
-  track_view(0);
-  ASSERT_EQ(state_.mode, TrackingMode::kTracking) << "the right start is taken";
-  for (const Vec3& axis : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1), Vec3(0.6, 0.64, 0.48)}) {
-    state_ = TrackState{};
-    Vec6 off = Vec6::Zero();
-    off.head<3>() = kPi * axis;
-    start(off);
-    for (std::uint32_t k = 1; k <= 4; ++k) {
-      track_view(k);
-      EXPECT_EQ(state_.mode, TrackingMode::kStarting) << axis.transpose();
-    }
-    track_view(5);
-    EXPECT_EQ(state_.mode, TrackingMode::kLost) << axis.transpose();
-  }
-}
-
-TEST_F(TrackerTest, BeginningATrackTakesMoreThanKeepingIt) {
-  VERIFIES("LASSO-MOD-135~1");
-  for (const PoseReason reason : {PoseReason::kLowInlierShare, PoseReason::kLowAgreement}) {
-    MissionParameters p = test::box_parameters(scene_);
-    (reason == PoseReason::kLowAgreement ? p.agreement_min : p.inlier_share_min) = 0.9;
-    p.start_inlier_share_min = 0;
-    load(p);
-    state_ = TrackState{};
-    start(small_error());
-    ASSERT_TRUE(track(0).registration.valid());
-    spoiled_ = true;
-    mission_.parameters.hysteresis = 0.2;  // raises the limit to 1, and no farther
-    EXPECT_TRUE(track(1).registration.valid()) << "the track holds";
-    miss(2);
-    EXPECT_EQ(track(3).registration.reason, reason) << "it is not taken up";
-    EXPECT_EQ(state_.mode, TrackingMode::kCoasting);
-    mission_.parameters.hysteresis = 0.05;
-    EXPECT_TRUE(track(4).registration.valid());
-    miss(5);
-    spoiled_ = false;
-    mission_.parameters.hysteresis = 0.2;
-    EXPECT_TRUE(track(6).registration.valid()) << "a scan without a fault always passes";
-  }
-}
-
 TEST_F(TrackerTest, LooksNearThePredictionThenForTheBearing) {
   VERIFIES("LASSO-MOD-138~1");
   MissionParameters p = test::box_parameters(scene_);
@@ -423,15 +229,6 @@ TEST_F(TrackerTest, ABearingScanSaysWhereAndNoPose) {
   EXPECT_TRUE(missed.bearing.value.isZero(0)) << "nothing stale";
   EXPECT_EQ(missed.event, ModeEvent::kBearingUnknown);
   EXPECT_EQ(missed.after.mode, TrackingMode::kBearing);
-}
-
-// A filter that nobody has heard of for too long has nothing against what a scan finds.
-TEST_F(TrackerTest, AStartThatCannotBePredictedIsConfirmedByTheScanAlone) {
-  VERIFIES("LASSO-MOD-003~1");
-  start(small_error());
-  state_.filter.initialised = false;
-  EXPECT_TRUE(track(0).registration.valid());
-  EXPECT_EQ(state_.mode, TrackingMode::kTracking);
 }
 
 }  // namespace

@@ -1,0 +1,147 @@
+#include <limits>
+
+#include "ut/mode/tracker_fixture.hpp"
+
+namespace lasso {
+namespace {
+
+using test::kPeriodUs;
+using test::small_error;
+using test::TrackerTest;
+
+TEST_F(TrackerTest, FirstRegistrationStartsTheFilterAnew) {
+  VERIFIES("LASSO-MOD-003~1");
+  start(small_error());
+  const TrackStep step = track(0);
+  ASSERT_TRUE(step.registration.valid());
+  EXPECT_EQ((step.after.filter.T_sensor_target.p - step.registration.T_sensor_target.p).norm(), 0);
+  EXPECT_LT((step.after.filter.covariance.topLeftCorner<6, 6>() - step.registration.covariance).norm(), 1e-18);
+  EXPECT_DOUBLE_EQ(step.after.filter.covariance(11, 11), mission_.parameters.initial_rate_mps * mission_.parameters.initial_rate_mps);
+}
+
+TEST_F(TrackerTest, WideStartTakesWhatANarrowOneCannot) {
+  VERIFIES("LASSO-MOD-004~1");
+  Vec6 off;
+  off << 0.12, -0.1, 0.08, 0.1, 0.08, 0.12;
+  start(off);
+  const TrackStep wide = track(0);
+  ASSERT_TRUE(wide.registration.valid()) << to_string(wide.registration.reason);
+  EXPECT_LT(error(wide.registration.T_sensor_target, wide.registration.t_us).norm(), 5e-3);
+  MissionParameters narrow = test::box_parameters(scene_);
+  narrow.wide_start = 0;
+  load(narrow);
+  start(off);
+  const TrackStep step = track(0);
+  EXPECT_GT(error(step.registration.T_sensor_target, step.registration.t_us).norm(), 5e-3);
+}
+
+TEST_F(TrackerTest, MovesTheStartToItsFrame) {
+  VERIFIES("LASSO-MOD-003~1 LASSO-MOD-132~1");
+  ASSERT_EQ(start_at(scene_.pose_at(300000), scene_.rates, 300000, 1000000), StartRefusal::kNone);
+  EXPECT_LT(error(state_.filter.T_sensor_target, 1000000).norm(), 1e-12);
+  EXPECT_EQ(state_.filter.t_us, 1000000);
+  EXPECT_EQ(state_.mode, TrackingMode::kStarting);
+  EXPECT_EQ(state_.way, StartWay::kUplink);
+}
+
+TEST_F(TrackerTest, RefusesAStartThatMeansNothing) {
+  VERIFIES("LASSO-MOD-008~1");
+  Pose bad = scene_.at_zero;
+  bad.q.w() += 0.1;
+  EXPECT_EQ(start_at(bad, Twist{}, 0, 0), StartRefusal::kNotUnit);
+  bad = scene_.at_zero;
+  bad.p.x() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(start_at(bad, Twist{}, 0, 0), StartRefusal::kNotFinite);
+  EXPECT_EQ(state_.mode, TrackingMode::kStandby);
+  EXPECT_FALSE(state_.filter.initialised);
+}
+
+// Twelve degrees off with a believed sigma of half a degree: the scan finds the target, but not where the start says.
+TEST_F(TrackerTest, AStartFartherOffThanItsCovarianceSaysIsNotConfirmed) {
+  VERIFIES("LASSO-MOD-132~1 LASSO-MOD-134~1");
+  MissionParameters p = test::box_parameters(scene_);
+  p.start_sigma_rad = 0.01;
+  p.start_sigma_m = 0.005;
+  load(p);
+  Vec6 off;
+  off << 0.12, -0.1, 0.08, 0.02, 0.01, 0.02;
+  start(off);
+  const TrackStep step = track(0);
+  EXPECT_EQ(step.registration.reason, PoseReason::kFarFromStart);
+  EXPECT_LT(error(step.registration.T_sensor_target, step.registration.t_us).norm(), 5e-3) << "though it found the target";
+  EXPECT_EQ(step.after.mode, TrackingMode::kStarting);
+  EXPECT_EQ(step.event, ModeEvent::kPoseInvalid);
+}
+
+// Two boxes, which no turn makes look alike.
+TEST_F(TrackerTest, AStartHalfATurnOffIsNeverTracked) {
+  VERIFIES("LASSO-MOD-132~1 LASSO-MOD-134~1");
+  test::BoxModel mast;
+  mast.center = Vec3(0.24, 0.15, -0.32);
+  mast.half = Vec3(0.05, 0.04, 0.20);
+  test::BoxScan view{scene_.box, {mast}, scene_.at_zero, {}, 1e-3};
+  view.half_angle = 0.25;
+  MissionParameters p = test::box_parameters(scene_);
+  p.start_frames = 4;
+  p.start_inlier_share_min = 0.9;
+  image_ = test::make_image(p, test::make_box_tables(test::Boxes{scene_.box, mast}));
+  ASSERT_EQ(load_image(Bytes(image_.data(), image_.size), mission_).status, Status::kOk);
+  test::Generator random(5);
+  const auto track_view = [&](std::uint32_t k) {
+    const auto image = test::scan_box(view, random);
+    for (RangeSample& sample : image->samples) sample.t_us += k * kPeriodUs;
+    state_ = track_scan(mission_, *estimator_, *image, state_).after;
+  };
+  start(small_error());
+  track_view(0);
+  ASSERT_EQ(state_.mode, TrackingMode::kTracking) << "the right start is taken";
+  for (const Vec3& axis : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1), Vec3(0.6, 0.64, 0.48)}) {
+    state_ = TrackState{};
+    Vec6 off = Vec6::Zero();
+    off.head<3>() = kPi * axis;
+    start(off);
+    for (std::uint32_t k = 1; k <= 4; ++k) {
+      track_view(k);
+      EXPECT_EQ(state_.mode, TrackingMode::kStarting) << axis.transpose();
+    }
+    track_view(5);
+    EXPECT_EQ(state_.mode, TrackingMode::kLost) << axis.transpose();
+  }
+}
+
+TEST_F(TrackerTest, BeginningATrackTakesMoreThanKeepingIt) {
+  VERIFIES("LASSO-MOD-135~1");
+  for (const PoseReason reason : {PoseReason::kLowInlierShare, PoseReason::kLowAgreement}) {
+    MissionParameters p = test::box_parameters(scene_);
+    (reason == PoseReason::kLowAgreement ? p.agreement_min : p.inlier_share_min) = 0.9;
+    p.start_inlier_share_min = 0;
+    load(p);
+    state_ = TrackState{};
+    start(small_error());
+    ASSERT_TRUE(track(0).registration.valid());
+    spoiled_ = true;
+    mission_.parameters.hysteresis = 0.2;  // raises the limit to 1, and no farther
+    EXPECT_TRUE(track(1).registration.valid()) << "the track holds";
+    miss(2);
+    EXPECT_EQ(track(3).registration.reason, reason) << "it is not taken up";
+    EXPECT_EQ(state_.mode, TrackingMode::kCoasting);
+    mission_.parameters.hysteresis = 0.05;
+    EXPECT_TRUE(track(4).registration.valid());
+    miss(5);
+    spoiled_ = false;
+    mission_.parameters.hysteresis = 0.2;
+    EXPECT_TRUE(track(6).registration.valid()) << "a scan without a fault always passes";
+  }
+}
+
+// A filter that nobody has heard of for too long has nothing against what a scan finds.
+TEST_F(TrackerTest, AStartThatCannotBePredictedIsConfirmedByTheScanAlone) {
+  VERIFIES("LASSO-MOD-003~1");
+  start(small_error());
+  state_.filter.initialised = false;
+  EXPECT_TRUE(track(0).registration.valid());
+  EXPECT_EQ(state_.mode, TrackingMode::kTracking);
+}
+
+}  // namespace
+}  // namespace lasso
