@@ -208,10 +208,10 @@ mcdc: ## the unit tests show that each condition of the flight component decides
 	$(call ctest,$(MCDC),$(LASSO_OUT)/mcdc/test,-L flight)
 	@cfg/quality/mcdc $(MCDC) $(SOURCE)
 
-trace: ## every active requirement has a passing test or its evidence; after make test and make ppc-test; matrix in out/trace
+trace: ## every active requirement has a passing test or its evidence; after make test and make ppc-test; matrix in out/trace; COMPLETE=1: its gates must have run
 	$(begin)
 	$(call packages,trace)
-	@reqs/trace
+	@reqs/trace $(if $(COMPLETE),--complete)
 
 evidence: ## collect what the gates left into out/evidence, for a reviewer, and into docs/verification.md
 	$(call packages,trace)

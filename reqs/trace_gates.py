@@ -27,8 +27,9 @@ def result_of(out, gate):
     return NOT_RUN if summary is None else 'passed' if summary['passed'] else 'failed'
 
 
-def check_gates(items, out):
-    """Results of the gates that items name, and the problems: a gate that failed speaks against the items that rest on it."""
+def check_gates(items, out, complete=False):
+    """Results of the gates that items name, and the problems: a gate that failed speaks against the items that rest on it; one that has not
+    run speaks against a complete check."""
     results, problems = {}, []
     for item in items:
         if not item.gate:
@@ -43,4 +44,6 @@ def check_gates(items, out):
             results[item.gate] = 'failed'
         if item.active and results[item.gate] == 'failed':
             problems.append(f'{item.at("gate")}: {item.id} rests on make {item.gate}, which failed: correct the cause and run it again')
+        if item.active and results[item.gate] == NOT_RUN and complete:
+            problems.append(f'{item.at("gate")}: {item.id} rests on make {item.gate}, which has not run: run it before')
     return results, list(dict.fromkeys(problems))
