@@ -10,6 +10,9 @@ if(CMAKE_CXX_FLAGS_RELEASE STREQUAL "-O3 -DNDEBUG")
   set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG")  # flight rooms are built with -O3, see lasso_flight
 endif()
 
+# Precompiled headers are the same whenever they are made, so that a compiler cache can tell.
+add_compile_options("$<$<CXX_COMPILER_ID:Clang>:SHELL:-Xclang -fno-pch-timestamp>")
+
 # For make sanitize: a finding ends the program.
 set(LASSO_SANITIZE "" CACHE STRING "Sanitizers to build with, as -fsanitize= names them")
 if(LASSO_SANITIZE)

@@ -57,8 +57,9 @@ function(lasso_flight_tests ROOM)
   endif()
   if(TESTS)
     add_executable(ut_${ROOM} ${TESTS} ${PROJECT_SOURCE_DIR}/ut/support/main.cpp)
-    target_link_libraries(ut_${ROOM} PRIVATE lasso_warnings lasso_test_leave fsw_${ROOM} GTest::gtest)
+    target_link_libraries(ut_${ROOM} PRIVATE lasso_warnings lasso_test_leave fsw_${ROOM} ut_dense GTest::gtest)
     target_compile_features(ut_${ROOM} PRIVATE cxx_std_17)
+    target_precompile_headers(ut_${ROOM} REUSE_FROM ut_dense)
     if(NOT ROOM STREQUAL core AND NOT ROOM STREQUAL geometry)
       target_link_libraries(ut_${ROOM} PRIVATE ut_box_image)
     endif()
@@ -95,6 +96,11 @@ endfunction()
 
 function(lasso_tests)
   lasso_find_gtest()
+  add_library(ut_dense STATIC ut/support/dense.cpp)  # decompositions as the tests' truth
+  target_link_libraries(ut_dense PRIVATE lasso_warnings lasso_test_leave GTest::gtest PUBLIC fsw_geometry)
+  target_compile_features(ut_dense PUBLIC cxx_std_17)
+  # What the flight tests include most is parsed once for all of them.
+  target_precompile_headers(ut_dense PRIVATE <gtest/gtest.h> <Eigen/Core> <Eigen/Geometry> <cmath> <memory> <string> <vector>)
   add_library(ut_box_image STATIC ut/support/box_image.cpp)  # a flight image for the rooms' tests, made without the mission compiler
   target_link_libraries(ut_box_image PRIVATE lasso_warnings lasso_test_leave PUBLIC fsw_mission)
   target_compile_features(ut_box_image PUBLIC cxx_std_17)

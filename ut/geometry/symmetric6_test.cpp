@@ -2,17 +2,15 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
 #include <cmath>
 #include <limits>
 
 #include "ut/geometry/random_inputs.hpp"
+#include "ut/support/dense.hpp"
 #include "ut/support/verifies.hpp"
 
 namespace lasso {
 namespace {
-
-using Wide6 = Eigen::Matrix<long double, 6, 6>;
 
 Mat6 random_matrix(test::Generator& generator) {
   Mat6 M;
@@ -57,7 +55,7 @@ TEST(Solve6, SolvesWhateverTheScales) {
     for (int k = 0; k < 6; ++k) b[k] = generator.uniform(-1, 1) * std::sqrt(A(k, k));
     Vec6 x;
     ASSERT_EQ(solve6(A, b, x), Status::kOk);
-    const Vec6 truth = A.cast<long double>().ldlt().solve(b.cast<long double>()).cast<double>();
+    const Vec6 truth = test::wide_solution_of(A, b);
     const Vec6 scale = A.diagonal().cwiseSqrt();
     ASSERT_LE(scale.cwiseProduct(x - truth).norm(), 1e-11 * scale.cwiseProduct(truth).norm());
     ASSERT_LE(backward_error(A, x, b), 1e-12);
@@ -143,7 +141,7 @@ TEST(Invert6, IsTheInverseAndExactlySymmetric) {
     const Mat6 A = random_spd(generator, i % 3);
     Mat6 inverse;
     ASSERT_EQ(invert6(A, inverse), Status::kOk);
-    const Mat6 truth = A.cast<long double>().fullPivLu().inverse().cast<double>();
+    const Mat6 truth = test::wide_inverse_of(A);
     const Vec6 scale = A.diagonal().cwiseSqrt();
     const Mat6 error = scale.asDiagonal() * (inverse - truth) * scale.asDiagonal();
     const Mat6 size = scale.asDiagonal() * truth * scale.asDiagonal();
@@ -169,10 +167,9 @@ TEST(Eigen6, AgreesWithAnotherSolver) {
     Mat6 A = random_spd(generator, 0.5 * (i % 4));
     if (i % 5 == 0) A -= 2 * Mat6::Identity();  // indefinite
     const Eigen6 e = eigen6(A);
-    const Eigen::SelfAdjointEigenSolver<Wide6> other(A.cast<long double>());
     expect_decomposition(A, e, 5e-15);
     if (!kHasExtendedPrecision) continue;
-    ASSERT_LE((e.values - other.eigenvalues().cast<double>()).norm(), 5e-15 * A.norm());
+    ASSERT_LE((e.values - test::wide_eigenvalues_of(A)).norm(), 5e-15 * A.norm());
   }
 }
 
@@ -184,11 +181,7 @@ TEST(Eigen6, SmallEigenvaluesOfBadlyScaledMatricesAreAccurate) {
   for (int i = 0; i < 3000; ++i) {
     const Mat6 A = random_spd(generator, 3);
     const Eigen6 e = eigen6(A);
-    // Their inverses are the largest eigenvalues of the inverse, which another solver in extended precision has accurately.
-    const Wide6 inverse = A.cast<long double>().ldlt().solve(Wide6::Identity());
-    const Eigen::SelfAdjointEigenSolver<Wide6> other(0.5L * (inverse + inverse.transpose()));
-    const double least = static_cast<double>(1.0L / other.eigenvalues()[5]);
-    ASSERT_NEAR(e.values[0] / least, 1.0, 1e-11);
+    ASSERT_NEAR(e.values[0] / test::wide_least_eigenvalue_of(A), 1.0, 1e-11);
     ASSERT_GT(e.values[0], 0.0);
   }
 }

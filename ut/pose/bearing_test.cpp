@@ -1,8 +1,8 @@
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
 #include "ut/pose/bearing_fixture.hpp"
+#include "ut/support/dense.hpp"
 
 namespace lasso {
 namespace {
@@ -111,15 +111,15 @@ TEST_F(BearingTest, ScansAreFusedAsLeastSquaresWould) {
     Eigen::Matrix<double, 3, 6> H = Eigen::Matrix<double, 3, 6>::Zero();
     H.leftCols<3>().setIdentity();
     H.rightCols<3>() = 1e-6 * static_cast<double>(alone.t_us - first_us) * Mat3::Identity();
-    const Mat3 W = alone.covariance.topLeftCorner<3, 3>().inverse();
+    const Mat3 W = test::inverse_of(alone.covariance.topLeftCorner<3, 3>());
     information += H.transpose() * W * H;
     sum += H.transpose() * W * alone.p_m;
   }
-  const Vec6 solution = information.ldlt().solve(sum);
+  const Vec6 solution = test::solution_of(information, sum);
   const double dt = 1e-6 * static_cast<double>(state_.t_us - first_us);
   EXPECT_LT((state_.v_mps - solution.tail<3>()).norm(), 1e-9);
   EXPECT_LT((state_.p_m - solution.head<3>() - dt * solution.tail<3>()).norm(), 1e-9);
-  EXPECT_LT((state_.covariance.bottomRightCorner<3, 3>() - Mat6(information.inverse()).bottomRightCorner<3, 3>()).norm(), 1e-9);
+  EXPECT_LT((state_.covariance.bottomRightCorner<3, 3>() - test::inverse_of(information).bottomRightCorner(3, 3)).norm(), 1e-9);
   EXPECT_EQ(state_.scans, 6u);
 }
 

@@ -3,11 +3,12 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <cmath>
 
 #include "fsw/geometry/portable_math.hpp"
 #include "fsw/pose/filter.hpp"
+#include "ut/support/dense.hpp"
 #include "ut/support/generator.hpp"
 
 namespace lasso::test {
@@ -69,7 +70,7 @@ inline Mat6 covariance_of(Generator& random, double sigma_rotation, double sigma
 inline Pose disturbed(const Pose& pose, const Vec6& error) { return {turn(error.head<3>()) * pose.q, pose.p + error.tail<3>()}; }
 
 inline PoseMeasurement measure(const Truth& truth, TimeUs t_us, const Mat6& covariance, Generator& random) {
-  const Vec6 error = covariance.llt().matrixL() * normals<Vec6>(random);
+  const Vec6 error = cholesky_of(covariance) * normals<Vec6>(random);
   return {t_us, disturbed(truth.pose, error), covariance};
 }
 
@@ -110,7 +111,7 @@ inline bool same(const FilterState& a, const FilterState& b) {
 
 inline void expect_symmetric_positive(const Mat12& P) {
   EXPECT_TRUE(P == P.transpose());
-  EXPECT_GT(Eigen::SelfAdjointEigenSolver<Mat12>(P).eigenvalues().minCoeff(), 0);
+  EXPECT_GT(eigenvalues_of(P).minCoeff(), 0);
 }
 
 }  // namespace lasso::test

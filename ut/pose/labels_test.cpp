@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fsw/geometry/portable_math.hpp"
+#include "ut/support/dense.hpp"
 #include "ut/support/generator.hpp"
 #include "ut/support/verifies.hpp"
 
@@ -45,7 +46,7 @@ double likelihood(const Label& label, const MissionParameters& p, const Vec6& x)
 // Moments of prior times likelihoods by brute force: weighted samples of the prior.
 PoseBelief sample_posterior(const PoseBelief& prior, const std::vector<Label>& labels, const MissionParameters& p,
                             test::Generator& random) {
-  const Mat6 L = Eigen::LLT<Mat6>(prior.covariance).matrixL();
+  const Mat6 L = test::cholesky_of(prior.covariance);
   Vec6 sum = Vec6::Zero();
   Mat6 square = Mat6::Zero();
   double weight = 0;

@@ -5,6 +5,7 @@
 #include <Eigen/QR>
 
 #include "ut/pose/pose_fixture.hpp"
+#include "ut/support/dense.hpp"
 #include "ut/support/verifies.hpp"
 
 namespace lasso {
@@ -114,7 +115,7 @@ class WeakDirectionsTest : public test::PoseFixture {
   void make_covariance(const Vec6& sigmas_m) {
     Mat6 A;
     for (int i = 0; i < 36; ++i) A.data()[i] = random_.uniform(-1, 1);
-    axes_ = Eigen::HouseholderQR<Mat6>(A).householderQ();
+    axes_ = test::orthogonal_of(A);
     Vec6 scale = Vec6::Ones();
     scale.head<3>().setConstant(1 / mission_.radius_m);
     const Mat6 scaled = axes_ * sigmas_m.cwiseAbs2().asDiagonal() * axes_.transpose();
