@@ -13,7 +13,7 @@ SANITIZE := $(LASSO_OUT)/build-sanitize
 FUZZ := $(LASSO_OUT)/build-fuzz
 COVERAGE := $(LASSO_OUT)/build-coverage
 MCDC := $(LASSO_OUT)/build-mcdc
-MISSION ?= cfg/missions/hubble_tenth.toml
+MISSION ?= cfg/missions/$(if $(filter approach,$(SCENARIO)),hubble,hubble_tenth).toml
 OUT ?= out/run
 PREFIX ?= /usr/local
 export JOBS ?= $(shell nproc)
@@ -50,7 +50,7 @@ ctest = @rm -rf $(2); mkdir -p $(2); GTEST_OUTPUT=xml:$(abspath $(2))/ \
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-16s %s\n", $$1, $$2 }' $(firstword $(MAKEFILE_LIST))
 
-run: build ## track the tenth-scale Hubble and report into out/run; MISSION=, SCENARIO=, SEED=, OUT=
+run: build ## track the tenth-scale Hubble and report into out/run; MISSION=, SCENARIO= (approach: the full-size one), SEED=, OUT=
 	@$(BUILD)/mdat/mdat run $(MISSION) $(if $(SCENARIO),--scenario $(SCENARIO)) $(if $(SEED),--seed $(SEED)) --out $(OUT)
 
 test: ## build with g++ and clang++ without a warning, and pass all tests of the host; reports in out/test

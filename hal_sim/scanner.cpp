@@ -70,7 +70,8 @@ RangeSample RaySimulator::measure(std::uint32_t scan_id, std::uint32_t ray, cons
     beam.direction = (nominal + sigma_rad * (beam.draws.tilt_x * axes.right + beam.draws.tilt_y * axes.down)).normalized();
   }
   const RayHit hit = cast(beam.T_sensor_target, beam.direction);
-  if (!hit.hit || lost(hit, beam)) return sample_of(direction, t_us, RayState::kMiss, 0);
+  const bool dark = t_us >= model_.dark_from_us && t_us < model_.dark_until_us;
+  if (!hit.hit || dark || lost(hit, beam)) return sample_of(direction, t_us, RayState::kMiss, 0);
   if (hit.range_m < model_.range_min_m) return sample_of(direction, t_us, RayState::kInvalid, 0);
   const double range_m = noisy_range_m(hit, beam);
   return sample_of(direction, t_us, range_m > 0 ? RayState::kHit : RayState::kInvalid, range_m);

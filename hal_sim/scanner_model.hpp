@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "fsw/core/time.hpp"
 #include "fsw/geometry/portable_math.hpp"
 #include "hal_sim/random.hpp"
 
@@ -26,6 +27,8 @@ struct ScannerModel {
   double beam_divergence_rad = 0;          // growth of that radius with the range, [0, 0.1]
   double edge_mixing_probability = 1;      // of a mixed range where the footprint covers two surfaces
   double range_step_m = 0;                 // quantisation of the range; 0: none
+  TimeUs dark_from_us = 0;                 // from here ...
+  TimeUs dark_until_us = 0;                // ... to before this nothing of the target is seen: kMiss
 };
 
 // A LIDAR that times its pulses: 20 mm (20.6 mm at 100 m) from 1 m to 100 m, a beam that widens to 50 mm there.

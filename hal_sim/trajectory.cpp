@@ -1,7 +1,10 @@
 #include "hal_sim/trajectory.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <stdexcept>
+#include <utility>
 
 #include "fsw/geometry/portable_math.hpp"
 
@@ -49,6 +52,36 @@ ConstantTwist::ConstantTwist(const TruthState& initial, TimeUs epoch_us) : initi
 
 TruthState ConstantTwist::at(TimeUs t_us) const {
   return {propagate(initial_.T_sensor_target, initial_.rates, to_seconds(t_us - epoch_us_)), initial_.rates};
+}
+
+RangeProfile::RangeProfile(Setup setup) : setup_(std::move(setup)) {
+  const auto finite = [](double value) { return std::isfinite(value); };
+  const std::vector<double>& times = setup_.times_s;
+  require(is_valid(setup_.T_sensor_target_at_epoch), "range profile: the pose is not valid");
+  require(setup_.omega_radps.allFinite(), "range profile: a rate is not finite");
+  require(!times.empty() && times.size() == setup_.ranges_m.size(), "range profile: expected a range for each time, and at least one");
+  require(std::all_of(times.begin(), times.end(), finite), "range profile: a time is not finite");
+  require(std::all_of(setup_.ranges_m.begin(), setup_.ranges_m.end(), finite), "range profile: a range is not finite");
+  require(std::adjacent_find(times.begin(), times.end(), std::greater_equal<>()) == times.end(), "range profile: the times do not ascend");
+}
+
+TruthState RangeProfile::at(TimeUs t_us) const {
+  const double t_s = to_seconds(t_us - setup_.epoch_us);
+  const Twist turn{setup_.omega_radps, Vec3::Zero()};
+  TruthState truth{propagate(setup_.T_sensor_target_at_epoch, turn, t_s), turn};
+  const std::vector<double>& times = setup_.times_s;
+  const std::vector<double>& ranges = setup_.ranges_m;
+  const auto after = static_cast<std::size_t>(std::upper_bound(times.begin(), times.end(), t_s) - times.begin());
+  if (after == 0 || after == times.size()) {
+    truth.T_sensor_target.p.z() = after == 0 ? ranges.front() : ranges.back();
+    return truth;
+  }
+  const double span_s = times[after] - times[after - 1];
+  const double way_m = ranges[after] - ranges[after - 1];
+  const double u = (t_s - times[after - 1]) / span_s;
+  truth.T_sensor_target.p.z() = ranges[after - 1] + way_m * u * u * (3 - 2 * u);
+  truth.rates.v_mps.z() = 6 * way_m / span_s * u * (1 - u);
+  return truth;
 }
 
 Vec3 spin_in_sensor_axes(const Pose& T_sensor_target, const Vec3& axis_target, double rate_radps) {

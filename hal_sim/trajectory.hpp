@@ -1,6 +1,8 @@
 // Where the target truly is: T_sensor_target and its rates at any time.
 #pragma once
 
+#include <vector>
+
 #include "fsw/core/time.hpp"
 #include "fsw/geometry/se3.hpp"
 
@@ -55,6 +57,26 @@ class ConstantTwist final : public Trajectory {
  private:
   TruthState initial_;
   TimeUs epoch_us_;
+};
+
+// An approach: the target's origin moves along the boresight, through given ranges at given times, at rest at each of them and smoothly
+// (cubic) between; before the first and after the last it stays. The attitude turns at a constant rate from the epoch on.
+class RangeProfile final : public Trajectory {
+ public:
+  struct Setup {
+    Pose T_sensor_target_at_epoch;  // its z is not used
+    Vec3 omega_radps = Vec3::Zero();
+    std::vector<double> times_s;   // since the epoch, ascending
+    std::vector<double> ranges_m;  // one for each time
+    TimeUs epoch_us = 0;
+  };
+  // Throws std::invalid_argument: pose not valid, a rate, time or range not finite, no time, as many ranges as times not given, or times
+  // that do not ascend.
+  explicit RangeProfile(Setup setup);
+  TruthState at(TimeUs t_us) const override;
+
+ private:
+  Setup setup_;
 };
 
 // Angular velocity in sensor axes of a target that turns by `rate_radps` about its own axis `axis_target` (unit).

@@ -64,8 +64,8 @@ std::vector<Scan> make_scans(const mdat::CompiledMission& mission, const ScanOpt
   const auto target = mdat::make_target(mission.mesh);
   const DurationUs period_us = mdat::period_us(parameters);
   std::vector<Scan> scans;
-  for (std::size_t i = 0; i < scenario.ranges_m.size(); ++i) {
-    const double range_m = scenario.ranges_m[i];
+  for (std::size_t i = 0; i < scenario.runs_m().size(); ++i) {
+    const double range_m = scenario.runs_m()[i];
     const Range range{image->mission(), *target, mdat::scanner_model(scenario, parameters, true),
                       mdat::make_trajectory(scenario, range_m, mdat::kEpochUs, period_us), period_us};
     sim::SimulatedScanner scanner(*target, *range.trajectory, mdat::scanner_model(scenario, parameters, options.noise),

@@ -1,26 +1,15 @@
-// What a campaign says of a pose, and of all that a flight with a fault sent. A pose is wrong as reqs/README.md says: off by more than 5 of
-// its own sigma, in the direction of the error, and by more than 20 mm or 1 deg.
+// What a campaign says of all that a flight with a fault sent.
 #pragma once
 
-#include "fsw/geometry/portable_math.hpp"
 #include "ft/campaign/flight.hpp"
 #include "hal_sim/trajectory.hpp"
+#include "mdat/run/verdict.hpp"
 
 namespace lasso::campaign {
 
-constexpr double kWrong_m = 0.020;
-constexpr double kWrong_rad = 1 * kRadPerDeg;
-constexpr double kWrongSigmas = 5;
-
-enum class PoseVerdict : std::uint8_t {
-  kRight = 0,
-  kCovered = 1,  // off by more than 20 mm or 1 deg, as its covariance admits
-  kWrong = 2,    // or not finite
-};
-// `covariance` of (rotation, translation) in sensor axes.
-PoseVerdict judge(const Pose& estimate, const Pose& truth, const Mat6& covariance);
-// The worse of registration and filter, where the packet says valid.
-PoseVerdict judge_valid(const PoseTelemetry& pose, const Pose& truth);
+using mdat::judge;
+using mdat::judge_valid;
+using mdat::PoseVerdict;
 
 // How the process of a flight ended.
 enum class End : std::uint8_t { kDone = 0, kInvariant = 1, kCrash = 2, kHang = 3 };

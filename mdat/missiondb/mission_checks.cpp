@@ -1,6 +1,8 @@
 #include "mdat/missiondb/mission_checks.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <utility>
 
@@ -81,6 +83,21 @@ void check_order(const Parameters& p, const Complaint& complain) {
   }
 }
 
+void check_times(const Scenario& scenario, const Complaint& complain) {
+  const std::vector<double>& times = scenario.times_s;
+  if (times.size() != scenario.ranges_m.size()) {
+    complain({"times_s", "ranges_m"}, std::to_string(times.size()) + " times",
+             "expected one for each of ranges_m, which are " + std::to_string(scenario.ranges_m.size()));
+  }
+  const auto back = std::adjacent_find(times.begin(), times.end(), std::greater_equal<>());
+  if (back != times.end())
+    complain({"times_s"}, number_text(back[1]), "expected more than the time before it, " + number_text(back[0]) + " s");
+  if (scenario.eclipse_s[1] < scenario.eclipse_s[0]) {
+    complain({"eclipse_s"}, number_text(scenario.eclipse_s[1]),
+             "expected an end that is not before the begin, " + number_text(scenario.eclipse_s[0]) + " s");
+  }
+}
+
 }  // namespace
 
 void check_parameters(const MissionParameters& parameters, const Complaint& complain) {
@@ -93,6 +110,7 @@ void check_parameters(const MissionParameters& parameters, const Complaint& comp
 }
 
 void check_scenario(const Scenario& scenario, const MissionParameters& parameters, const Complaint& complain) {
+  if (scenario.scenario_kind() == ScenarioKind::kApproach) check_times(scenario, complain);
   for (const double range_m : scenario.ranges_m) {
     if (range_m > parameters.range_min_m && range_m < parameters.range_max_m) continue;
     complain({"ranges_m"}, number_text(range_m),

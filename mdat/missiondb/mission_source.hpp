@@ -35,19 +35,24 @@ struct TargetSource {
 // How the sensor measures a range. Its presets in [sensor] and of its beam come from the kind (hal_sim/scanner_model.hpp).
 enum class SensorKind : std::uint8_t { kLaserCamera = 0, kTimeOfFlight = 1 };
 
-enum class ScenarioKind : std::uint8_t { kPaper = 0, kSpin = 1 };
+enum class ScenarioKind : std::uint8_t { kPaper = 0, kSpin = 1, kApproach = 2 };
 
 // What the simulation does. Attitude of frame 0: target's x axis vertical in the image (+x up, -y of the sensor), its z axis away from the
 // sensor, then tilted by `tilt_rad` about the sensor's x (the -x end towards the sensor), then by `boresight_rad` about the boresight.
 // kPaper: the target stands still in each scan and is turned by `step_rad` about its own x axis from frame to frame.
 // kSpin: it turns at `spin_radps` and drifts at `drift_mps`, during the scans as well.
+// kApproach: it turns at `spin_radps`, and `ranges_m` are the ranges of one run at `times_s`. The component starts by itself: it looks for
+// the bearing, and is offered poses by a simulated navigation system. Between the two times of `eclipse_s` nothing returns.
 struct Scenario {
   double kind = 0;               // a ScenarioKind
-  std::vector<double> ranges_m;  // along the boresight, one run of `frames` each
+  std::vector<double> ranges_m;  // along the boresight, one run of `frames` each; kApproach: one for each of `times_s`
   double frames = 0, step_rad = 0, tilt_rad = 0, boresight_rad = 0;
   std::vector<double> offset_m;    // x, y of the target's origin in the sensor frame
   std::vector<double> spin_radps;  // x, y, z in the target's axes
   std::vector<double> drift_mps;   // x, y, z in the sensor's axes
+  std::vector<double> times_s;     // since frame 0
+  std::vector<double> eclipse_s;   // begin and end; none where these are the same
+  double navigation_from_s = 0, navigation_period_s = 0, navigation_sigma_m = 0, navigation_sigma_rad = 0;
   // The simulated sensor, as against the noise that the estimator assumes ([sensor]), from which unwritten values are taken.
   double noise = 1;  // 0: perfect ranges and angles
   double sigma0_m = 0, sigma_k_per_m = 0, angle_noise_rad = 0, dropout_probability = 0;
@@ -55,6 +60,10 @@ struct Scenario {
   double outlier_probability = 0, edge_mixing_m = 0, beam_divergence_rad = 0;
   double seed = 0;
 
+  // The first range of each run.
+  std::vector<double> runs_m() const {
+    return scenario_kind() == ScenarioKind::kApproach ? std::vector<double>{ranges_m.front()} : ranges_m;
+  }
   ScenarioKind scenario_kind() const { return static_cast<ScenarioKind>(static_cast<int>(kind)); }
   std::map<std::string, double> overrides;  // key of a parameter row -> value in the row's TOML unit
 };

@@ -59,9 +59,10 @@ ScenarioField field(std::vector<double> S::*member, ValueRow row, std::size_t co
 }
 
 ValueRow kind_row() {
-  ValueRow row = number_row("kind", "1", ValueKind::kChoice, 1, 0, 1, 0,
-                            "paper: the target stands still in each scan and turns between them; spin: it moves all the time");
-  row.choices = {"paper", "spin"};
+  ValueRow row = number_row("kind", "1", ValueKind::kChoice, 1, 0, 2, 0,
+                            "paper: the target stands still in each scan and turns between them; spin: it moves all the time; approach: "
+                            "one run through all modes");
+  row.choices = {"paper", "spin", "approach"};
   return required(row);
 }
 
@@ -77,14 +78,20 @@ std::vector<ScenarioField> make_scenario_fields() {
   // clang-format off
   return {
     field(&S::kind, kind_row()),
-    field(&S::ranges_m, number_row("ranges_m", "m", kReal, 1, 0.01, 10000, 0, "ranges of the target's origin along the boresight, one run each"), 1, 100, {}),
+    field(&S::ranges_m, number_row("ranges_m", "m", kReal, 1, 0.01, 10000, 0, "ranges of the target's origin along the boresight, one run each; approach: at times_s"), 1, 100, {}),
     field(&S::frames, number_row("frames", "1", kInteger, 1, 1, 1000000, 360, "frames of a run")),
     field(&S::step_rad, number_row("step_deg", "deg", kReal, kDeg, -180, 180, 1, "paper: turn about the target's x axis from frame to frame")),
     field(&S::tilt_rad, number_row("tilt_deg", "deg", kReal, kDeg, -180, 180, 15, "tilt of the target's -x end towards the sensor; 0 is side-on")),
     field(&S::boresight_rad, number_row("boresight_deg", "deg", kReal, kDeg, -180, 180, 5, "turn of the target about the boresight")),
     field(&S::offset_m, number_row("offset_m", "m", kReal, 1, -10000, 10000, 0, "target's origin off the boresight: right, down"), 2, 2, {0.02, -0.01}),
-    field(&S::spin_radps, number_row("spin_degps", "deg/s", kReal, kDeg, -360, 360, 0, "spin: angular rate about the target's x, y, z"), 3, 3, {0, 0, 0}),
+    field(&S::spin_radps, number_row("spin_degps", "deg/s", kReal, kDeg, -360, 360, 0, "spin, approach: angular rate about the target's x, y, z"), 3, 3, {0, 0, 0}),
     field(&S::drift_mps, number_row("drift_mps", "m/s", kReal, 1, -100, 100, 0, "spin: velocity along the sensor's x, y, z"), 3, 3, {0, 0, 0}),
+    field(&S::times_s, number_row("times_s", "s", kReal, 1, 0, 1e6, 0, "approach: when the target is at each of ranges_m, at rest"), 1, 100, {0}),
+    field(&S::eclipse_s, number_row("eclipse_s", "s", kReal, 1, 0, 1e6, 0, "approach: nothing returns from the first of these times to the second"), 2, 2, {0, 0}),
+    field(&S::navigation_from_s, number_row("navigation_from_s", "s", kReal, 1, 0, 1e6, 0, "approach: from then on a navigation system offers poses to start from")),
+    field(&S::navigation_period_s, number_row("navigation_period_s", "s", kReal, 1, 0.001, 1e6, 1, "approach: how often")),
+    field(&S::navigation_sigma_m, number_row("navigation_sigma_m", "m", kReal, 1, 1e-6, 100, 0.1, "approach: their error, each axis (1 sigma)")),
+    field(&S::navigation_sigma_rad, number_row("navigation_sigma_deg", "deg", kReal, kDeg, 1e-4, 180, 2, "approach: error of their attitude, each axis (1 sigma)")),
     field(&S::noise, number_row("noise", "1", ValueKind::kBoolean, 1, 0, 1, 1, "false: the simulated sensor measures ranges and angles without noise")),
     field(&S::sigma0_m, number_row("sigma0_m", "m", kReal, 1, 0, 1, 0, "simulated range noise, constant part (1 sigma)"), "sensor.sigma0_m"),
     field(&S::sigma_k_per_m, number_row("sigma_k_per_m", "1/m", kReal, 1, 0, 0.01, 0, "simulated range noise that grows with the square of the range"), "sensor.sigma_k_per_m"),

@@ -5,14 +5,11 @@
 #include <map>
 
 #include "mdat/common/text.hpp"
+#include "mdat/report/plot_style.hpp"
 #include "mdat/run/results.hpp"
 
 namespace lasso::mdat {
 namespace {
-
-constexpr const char* kStyle =
-    "set border 3 lc rgb '#8a94a3'\nset tics nomirror out scale 0.5 textcolor '#46505f'\nset grid lc rgb '#e3e7ed' lt 1 lw 0.7\n"
-    "set key textcolor '#2b3440'\nset title textcolor '#2b3440'\n";
 
 // From near (dark blue) to far (orange): distinct on white, in print and for most colour-blind readers.
 constexpr const char* kRangeColours[] = {"#1b2a6b", "#2563b8", "#1e9aa8", "#5aaf4a", "#d9a300", "#d4571e", "#a3123a", "#6b2b86"};
@@ -54,7 +51,7 @@ std::string angle_panel(const std::vector<std::string>& files, const Scenario& s
   std::string text = format("set title '%s, %s'\nplot ", kErrorAxes[axis].name, kErrorAxes[axis].unit);
   for (std::size_t i = files.size(); i-- > 0;) {
     text += format("%s using 1:%zu with lines lw 0.8 lc rgb '%s' title '%g m'%s", files[i].c_str(), axis + 2,
-                   kRangeColours[i % kRangeColourCount], scenario.ranges_m[i], i > 0 ? ", " : "\n");
+                   kRangeColours[i % kRangeColourCount], scenario.runs_m()[i], i > 0 ? ", " : "\n");
   }
   return text;
 }
@@ -64,7 +61,7 @@ std::string ranges_text(const VariantResult& variant, const Scenario& scenario) 
   std::string text;
   for (std::size_t i = 0; i < variant.by_range.size(); ++i) {
     const RunStatistics& run = variant.by_range[i];
-    text += format("%g %.6g %.6g %.6g %.6g\n", scenario.ranges_m[i], run.registration.rms_mm, run.registration.rms_deg, run.crlb_mm,
+    text += format("%g %.6g %.6g %.6g %.6g\n", scenario.runs_m()[i], run.registration.rms_mm, run.registration.rms_deg, run.crlb_mm,
                    run.crlb_deg);
   }
   return text;
@@ -104,12 +101,12 @@ std::string histogram_text(const std::vector<double>& times, double bin_us) {
 }  // namespace
 
 std::string error_against_angle(Plotter& plotter, const TableResult& table, const VariantResult& variant) {
-  if (!is_tracked(variant)) return plotter.svg(1080, 120, nothing_to_draw(kStyle));
+  if (!is_tracked(variant)) return plotter.svg(1080, 120, nothing_to_draw(kPlotStyle));
   const bool turns = table.scenario.scenario_kind() == ScenarioKind::kPaper && table.scenario.step_rad != 0;
   const double step = turns ? table.scenario.step_rad / kRadPerDeg : 1;
   std::vector<std::string> files;
   for (const CaseResult& run : variant.cases) files.push_back(plotter.data(errors_text(run, step)));
-  std::string script = std::string(kStyle) +
+  std::string script = std::string(kPlotStyle) +
                        "set multiplot layout 2,3 margins 0.06,0.925,0.125,0.93 spacing 0.062,0.14\n"
                        "set key at screen 0.998,0.95 right top vertical samplen 1.2 spacing 1.2\n";
   script += format("set xrange [0:%g]\n", step * static_cast<double>(variant.cases[0].frames.size()));
@@ -123,12 +120,13 @@ std::string error_against_angle(Plotter& plotter, const TableResult& table, cons
 }
 
 std::string error_against_range(Plotter& plotter, const TableResult& table) {
-  if (std::none_of(table.variants.begin(), table.variants.end(), is_tracked)) return plotter.svg(1080, 120, nothing_to_draw(kStyle));
+  if (std::none_of(table.variants.begin(), table.variants.end(), is_tracked)) return plotter.svg(1080, 120, nothing_to_draw(kPlotStyle));
   std::vector<std::string> files;
   for (const VariantResult& variant : table.variants) files.push_back(plotter.data(ranges_text(variant, table.scenario)));
-  const auto [nearest, farthest] = std::minmax_element(table.scenario.ranges_m.begin(), table.scenario.ranges_m.end());
+  const std::vector<double> ranges_m = table.scenario.runs_m();
+  const auto [nearest, farthest] = std::minmax_element(ranges_m.begin(), ranges_m.end());
   std::string script =
-      std::string(kStyle) + "set multiplot layout 1,2 margins 0.06,0.79,0.18,0.91 spacing 0.07,0\nset logscale y\nset format y '%g'\n";
+      std::string(kPlotStyle) + "set multiplot layout 1,2 margins 0.06,0.79,0.18,0.91 spacing 0.07,0\nset logscale y\nset format y '%g'\n";
   script += format(
       "set xrange [%g:%g]\nset xlabel 'range, m' textcolor '#46505f'\n"
       "set key at screen 0.998,0.91 right top vertical samplen 1.5 spacing 1.3\n",
@@ -142,7 +140,7 @@ std::string time_histogram(Plotter& plotter, const TableResult& table) {
   for (const VariantResult& variant : table.variants) p99_us = std::max(p99_us, variant.all.time.p99_us);
   const double limit_us = 1.3 * p99_us, bin_us = limit_us / 130;
   std::string script =
-      std::string(kStyle) +
+      std::string(kPlotStyle) +
       "set xlabel 'processor time of an estimate, us' textcolor '#46505f'\nset ylabel 'share of frames, %' textcolor '#46505f'\n";
   script += format("set xrange [0:%g]\nset yrange [0:*]\nset key top right\nplot ", limit_us);
   for (std::size_t i = 0; i < table.variants.size(); ++i) {

@@ -1,5 +1,7 @@
 #include "mdat/report/report.hpp"
 
+#include <algorithm>
+
 #include "mdat/common/errors.hpp"
 #include "mdat/common/text.hpp"
 #include "mdat/common/version.hpp"
@@ -7,6 +9,7 @@
 #include "mdat/report/figures.hpp"
 #include "mdat/report/page.hpp"
 #include "mdat/report/scan_view.hpp"
+#include "mdat/report/timeline_view.hpp"
 #include "mdat/run/paper.hpp"
 #include "mdat/run/results.hpp"
 
@@ -63,7 +66,7 @@ std::string range_table(const TableResult& table) {
   HtmlTable html = quality_head("variant, range");
   for (const VariantResult& variant : table.variants) {
     for (std::size_t i = 0; i < variant.by_range.size(); ++i) {
-      const std::string name = format("%s, %g m", variant.variant.title, table.scenario.ranges_m[i]);
+      const std::string name = format("%s, %g m", variant.variant.title, table.scenario.runs_m()[i]);
       html.rows.push_back(quality_row(name, variant.by_range[i], variant.variant.noise, bound));
     }
   }
@@ -86,7 +89,7 @@ std::string scans_figure(Plotter& plotter, const sim::RayCaster& target, const T
   const std::string caption = format(
       "The scan on the target at %g m, as the sensor sees it. The model is drawn at the estimated pose. Colour: measured minus predicted "
       "range of each return; grey: rays that missed, which locate the outline.",
-      table.scenario.ranges_m[shown_range(table.scenario)]);
+      table.scenario.runs_m()[shown_range(table.scenario)]);
   return figure("<img alt='scans on the target' src='data:image/png;base64," + base64(png) + "'>", caption);
 }
 
@@ -118,14 +121,33 @@ std::string table_section(Plotter& plotter, const sim::RayCaster& target, const 
 
 constexpr double kPictureScale = 0.72;  // of the picture for the README
 
+std::string approach_html(const SimulationResult& result) {
+  Plotter plotter;
+  const Scenario& scenario = result.tables.front().scenario;
+  const auto [nearest, farthest] = std::minmax_element(scenario.ranges_m.begin(), scenario.ranges_m.end());
+  std::string body = "<h1>" + escape(result.mission) + "</h1>\n";
+  body += format(
+      "<p class='lead'>Scenario <b>%s</b>, seed %llu: an approach between %g m and %g m, %u frames, closed loop through the flight "
+      "component, "
+      "which begins by looking for the bearing. mdat %s, %.1f s.</p>\n",
+      escape(result.scenario).c_str(), static_cast<unsigned long long>(result.seed), *farthest, *nearest, result.frames, kVersion,
+      result.seconds);
+  body +=
+      "<p class='note'>Errors are those of the registration of each single scan against the truth at its reference time, as decoded from "
+      "telemetry. Wrong: valid, and off by more than 5 of its own σ and by more than 20 mm or 1°, the registration's or the filter's. "
+      "NEES: 6 "
+      "when the covariance is honest.</p>\n";
+  return page(result.mission + ", " + result.scenario, body + timeline_section(plotter, result.tables.front()));
+}
+
 std::string introduction(const SimulationResult& result) {
   const Scenario& scenario = result.tables.front().scenario;
   std::string text = format(
       "<p class='lead'>Scenario <b>%s</b>, seed %llu: %zu range%s from %g to %g m, %u frames each, closed loop through the flight "
       "component. mdat "
       "%s, %.1f s.</p>\n",
-      escape(result.scenario).c_str(), static_cast<unsigned long long>(result.seed), scenario.ranges_m.size(),
-      scenario.ranges_m.size() == 1 ? "" : "s", scenario.ranges_m.front(), scenario.ranges_m.back(), result.frames, kVersion,
+      escape(result.scenario).c_str(), static_cast<unsigned long long>(result.seed), scenario.runs_m().size(),
+      scenario.runs_m().size() == 1 ? "" : "s", scenario.runs_m().front(), scenario.runs_m().back(), result.frames, kVersion,
       result.seconds);
   return text +
          "<p class='note'>Errors are those of the registration of each single scan against the truth at its reference time, as decoded "
@@ -138,6 +160,7 @@ std::string introduction(const SimulationResult& result) {
 }  // namespace
 
 std::string report_html(const CompiledMission& mission, const SimulationResult& result) {
+  if (result.kind == ScenarioKind::kApproach) return approach_html(result);
   Plotter plotter;
   const std::unique_ptr<sim::RayCaster> target = make_target(mission.mesh);
   std::string body = "<h1>" + escape(result.mission) + "</h1>\n" + introduction(result);

@@ -8,10 +8,13 @@
 #include "fsw/exec/component.hpp"
 #include "mdat/common/errors.hpp"
 #include "mdat/common/flight_image.hpp"
+#include "mdat/run/navigation.hpp"
 #include "mdat/run/recording_sensor.hpp"
 
 namespace lasso::mdat {
 namespace {
+
+DurationUs to_us(double time_s) { return static_cast<DurationUs>(std::llround(time_s * 1e6)); }
 
 constexpr std::uint32_t kPipelineFrames = 2;  // scan k is reported at boundary k + 2
 
@@ -28,12 +31,16 @@ class Case {
         scanner_(*setup.target, *trajectory_, scanner_model(setup.scenario, setup.parameters, setup.noise), setup.seed),
         sensor_(scanner_),
         component_(std::make_unique<Component>(sensor_)),
-        image_(aligned_copy(*setup.image)) {
+        image_(aligned_copy(*setup.image)),
+        navigation_(setup.scenario, *trajectory_, setup.seed) {
     result_.frames.resize(setup.frames);
     const LoadFailure failure = component_->load_image(view(image_, setup.image->size()));
     if (failure.status != Status::kOk) throw RunError("the component refused the image: " + to_string(failure));
     expect(component_->begin(kEpochUs), "begin");
-    start(kEpochUs - period_us_);
+    if (!is_approach()) start(kEpochUs - period_us_);
+    if (is_approach() && component_->command_mode(TrackingMode::kBearing) != ModeRefusal::kNone) {
+      throw RunError("the component refused to look for a bearing");
+    }
   }
 
   CaseResult run(std::atomic<std::size_t>& done) {
@@ -42,6 +49,7 @@ class Case {
       const posix::FrameRecord record = runner.run_frame();
       result_.telemetry.insert(result_.telemetry.end(), record.telemetry.begin(), record.telemetry.end());
       read_packets(record);
+      if (is_approach()) navigation_.offer(record.boundary_us, *component_);
       if (frame >= kPipelineFrames) ++done;
     }
     return std::move(result_);
@@ -51,6 +59,8 @@ class Case {
   static void expect(Status status, const std::string& what) {
     if (status != Status::kOk) throw RunError("the component refused to " + what + ": " + to_string(status));
   }
+
+  bool is_approach() const { return setup_.scenario.scenario_kind() == ScenarioKind::kApproach; }
 
   void start(TimeUs truth_us) {
     expect(component_->start_tracking(trajectory_->at(truth_us).T_sensor_target, Twist{}, truth_us + period_us_), "start tracking");
@@ -70,7 +80,8 @@ class Case {
 
   void note(const PoseTelemetry& pose, const posix::FrameRecord& record) {
     const std::vector<RangeSample> scan = sensor_.take(pose.scan_id);
-    if (static_cast<TrackingMode>(pose.mode) == TrackingMode::kLost) start(record.boundary_us);
+    if (is_approach()) add_packet(pose, *trajectory_, kEpochUs, result_.timeline);
+    if (!is_approach() && static_cast<TrackingMode>(pose.mode) == TrackingMode::kLost) start(record.boundary_us);
     if (static_cast<StopReason>(pose.stop) == StopReason::kNotRun) return;
     const std::int64_t frame = (pose.t_measurement_us - kEpochUs) / period_us_;
     if (pose.t_measurement_us < kEpochUs || frame >= setup_.frames) return;
@@ -112,12 +123,13 @@ class Case {
   RecordingSensor sensor_;
   std::unique_ptr<Component> component_;
   std::vector<std::uint64_t> image_;
+  NavigationSystem navigation_;
   CaseResult result_;
 };
 
 }  // namespace
 
-DurationUs period_us(const MissionParameters& parameters) { return static_cast<DurationUs>(std::llround(parameters.period_s * 1e6)); }
+DurationUs period_us(const MissionParameters& parameters) { return to_us(parameters.period_s); }
 
 sim::ScannerModel scanner_model(const Scenario& scenario, const MissionParameters& parameters, bool noise) {
   sim::ScannerModel model;
@@ -135,6 +147,8 @@ sim::ScannerModel scanner_model(const Scenario& scenario, const MissionParameter
   model.dropout_incidence_rad = scenario.dropout_incidence_rad;
   model.outlier_probability = scenario.outlier_probability;
   model.edge_mixing_m = scenario.edge_mixing_m;
+  model.dark_from_us = kEpochUs + to_us(scenario.eclipse_s[0]);
+  model.dark_until_us = kEpochUs + to_us(scenario.eclipse_s[1]);
   return model;
 }
 
@@ -151,6 +165,10 @@ std::unique_ptr<sim::Trajectory> make_trajectory(const Scenario& scenario, doubl
     return std::make_unique<sim::SteppedSpin>(setup);
   }
   const Twist rates{rotate(start.q, Vec3(scenario.spin_radps.data())), Vec3(scenario.drift_mps.data())};
+  if (scenario.scenario_kind() == ScenarioKind::kApproach) {
+    return std::make_unique<sim::RangeProfile>(
+        sim::RangeProfile::Setup{start, rates.omega_radps, scenario.times_s, scenario.ranges_m, epoch_us});
+  }
   return std::make_unique<sim::ConstantTwist>(sim::TruthState{start, rates}, epoch_us);
 }
 

@@ -12,6 +12,7 @@
 #include "hal_sim/trajectory.hpp"
 #include "mdat/missiondb/mission_source.hpp"
 #include "mdat/run/statistics.hpp"
+#include "mdat/run/timeline.hpp"
 
 namespace lasso::mdat {
 
@@ -42,6 +43,7 @@ struct CaseResult {
   std::vector<FrameError> frames;
   std::vector<std::uint8_t> telemetry;  // all packets, in order
   std::vector<KeptScan> scans;
+  Timeline timeline;  // of an approach
 };
 
 // The scanner of a scenario; without noise its ranges and directions are exact.
@@ -50,8 +52,9 @@ sim::ScannerModel scanner_model(const Scenario& scenario, const MissionParameter
 // The target's motion; frame 0 begins at `epoch_us`.
 std::unique_ptr<sim::Trajectory> make_trajectory(const Scenario& scenario, double range_m, TimeUs epoch_us, DurationUs period_us);
 
-// Starts the track from the true pose of one frame before the first, at rest. All that the result says of the estimates was decoded from
-// telemetry packets. A track that the component gives up is started again from the true pose of the frame before (its frames count as
+// An approach begins in the mode `bearing`, with a navigation system's offers as the only help. Every other run starts the track from the
+// true pose of one frame before the first, at rest. All that the result says of the estimates was decoded from
+// telemetry packets. A track that the component gives up is then started again from the true pose of the frame before (its frames count as
 // lost). Counts each frame in `done`. Throws RunError where the component refuses its image or a start.
 CaseResult run_case(const CaseSetup& setup, std::atomic<std::size_t>& done);
 

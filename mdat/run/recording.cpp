@@ -53,7 +53,7 @@ void write_recording(const CompiledMission& mission, SimulationOptions options, 
   const VariantResult& variant = table.variants.front();
   const DurationUs period = period_us(variant.parameters);
   for (std::size_t i = 0; i < variant.cases.size(); ++i) {
-    const double range_m = table.scenario.ranges_m[i];
+    const double range_m = table.scenario.runs_m()[i];
     char name[32];
     std::snprintf(name, sizeof name, "%gm", range_m);
     write_range(folder / name, variant.cases[i], *make_trajectory(table.scenario, range_m, kEpochUs, period), period);

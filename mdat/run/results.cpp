@@ -47,7 +47,7 @@ Json variant_json(const VariantResult& variant, const Scenario& scenario) {
   Json json = statistics_json(variant.all, variant.variant.noise, scenario.scenario_kind());
   json["by_range"] = Json::array();
   for (std::size_t i = 0; i < variant.by_range.size(); ++i) {
-    Json range = {{"range_m", scenario.ranges_m[i]}};
+    Json range = {{"range_m", scenario.runs_m()[i]}};
     range.update(statistics_json(variant.by_range[i], variant.variant.noise, scenario.scenario_kind()));
     json["by_range"].push_back(range);
   }
@@ -101,11 +101,37 @@ std::string quality_table(const TableResult& table) {
   return text;
 }
 
+Json timeline_json(const Timeline& timeline) {
+  const TimelineStatistics run = timeline_statistics(timeline);
+  Json json = {{"frames", run.frames},   {"valid", run.valid},       {"wrong", run.wrong},         {"rms_mm", run.rms_mm},
+               {"rms_deg", run.rms_deg}, {"worst_mm", run.worst_mm}, {"worst_deg", run.worst_deg}, {"nees", run.nees}};
+  json["changes"] = Json::array();
+  for (const TimelineChange& change : timeline.changes) {
+    json["changes"].push_back(
+        {{"t_s", change.t_s}, {"from", to_string(change.from)}, {"event", to_string(change.event)}, {"to", to_string(change.to)}});
+  }
+  return json;
+}
+
+std::string timeline_text(const SimulationResult& result, const Timeline& timeline) {
+  const TimelineStatistics run = timeline_statistics(timeline);
+  std::string text =
+      format("%s, scenario %s: %zu frames\n\n  time, s  mode\n", result.mission.c_str(), result.scenario.c_str(), run.frames);
+  for (const TimelineChange& change : timeline.changes) {
+    text += format("  %7.1f  %-12s from %s: %s\n", change.t_s, to_string(change.to), to_string(change.from), meaning(change));
+  }
+  text += format("\n  valid poses %zu, of these wrong %zu; rms %.2f mm, %.4f deg; worst %.1f mm, %.3f deg; NEES %.2f of 6\n\n", run.valid,
+                 run.wrong, run.rms_mm, run.rms_deg, run.worst_mm, run.worst_deg, run.nees);
+  return text;
+}
+
+const Timeline& timeline_of(const SimulationResult& result) { return result.tables.front().variants.front().cases.front().timeline; }
+
 std::string table_text(const SimulationResult& result, const TableResult& table) {
   const Scenario& scenario = table.scenario;
   std::string text = format("%s, scenario %s%s: ", result.mission.c_str(), result.scenario.c_str(), table.name.empty() ? "" : ", no tilt");
-  text += format("%zu range%s (%g to %g m) x %u frames, tilt %g deg, registration of single scans\n", scenario.ranges_m.size(),
-                 scenario.ranges_m.size() == 1 ? "" : "s", scenario.ranges_m.front(), scenario.ranges_m.back(), result.frames,
+  text += format("%zu range%s (%g to %g m) x %u frames, tilt %g deg, registration of single scans\n", scenario.runs_m().size(),
+                 scenario.runs_m().size() == 1 ? "" : "s", scenario.runs_m().front(), scenario.runs_m().back(), result.frames,
                  scenario.tilt_rad / kRadPerDeg);
   text += axes_table(table, table.name.empty() && result.kind == ScenarioKind::kPaper);
   return text + quality_table(table) + "\n";
@@ -115,6 +141,10 @@ std::string table_text(const SimulationResult& result, const TableResult& table)
 
 std::string results_json(const SimulationResult& result) {
   Json json = {{"mission", result.mission}, {"scenario", result.scenario}, {"seed", result.seed}, {"version", kVersion}};
+  if (result.kind == ScenarioKind::kApproach) {
+    json["timeline"] = timeline_json(timeline_of(result));
+    return json.dump(2) + "\n";
+  }
   for (const TableResult& table : result.tables) {
     Json variants;
     for (const VariantResult& variant : table.variants) variants[variant.variant.name] = variant_json(variant, table.scenario);
@@ -130,6 +160,7 @@ std::string results_json(const SimulationResult& result) {
 
 std::string summary_text(const SimulationResult& result) {
   std::string text = "\n";
+  if (result.kind == ScenarioKind::kApproach) return text + timeline_text(result, timeline_of(result));
   for (const TableResult& table : result.tables) text += table_text(result, table);
   return text;
 }

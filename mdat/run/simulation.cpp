@@ -78,7 +78,7 @@ std::vector<std::uint32_t> all_frames(std::uint32_t frames) {
 CaseSetup make_case(const SimulationResult& result, const TableResult& table, const VariantResult& variant, std::size_t range) {
   CaseSetup setup;
   setup.scenario = table.scenario;
-  setup.range_m = table.scenario.ranges_m[range];
+  setup.range_m = table.scenario.runs_m()[range];
   setup.noise = variant.variant.noise;
   setup.frames = result.frames;
   setup.parameters = variant.parameters;
@@ -95,7 +95,7 @@ Plan make_plan(const CompiledMission& mission, const SimulationResult& result, c
     const TableResult& table = result.tables[t];
     for (const VariantResult& variant : table.variants) {
       plan.images.push_back(image_bytes(mission, variant.parameters));
-      for (std::size_t range = 0; range < table.scenario.ranges_m.size(); ++range) {
+      for (std::size_t range = 0; range < table.scenario.runs_m().size(); ++range) {
         plan.cases.push_back(make_case(result, table, variant, range));
         plan.cases.back().seed = case_seed(result.seed, t, range);
         plan.cases.back().image = &plan.images.back();
@@ -161,7 +161,7 @@ void collect(std::vector<CaseResult> cases, SimulationResult& result) {
   std::size_t next = 0;
   for (TableResult& table : result.tables) {
     for (VariantResult& variant : table.variants) {
-      for (std::size_t range = 0; range < table.scenario.ranges_m.size(); ++range) variant.cases.push_back(std::move(cases[next++]));
+      for (std::size_t range = 0; range < table.scenario.runs_m().size(); ++range) variant.cases.push_back(std::move(cases[next++]));
       evaluate(variant);
     }
   }
@@ -180,6 +180,7 @@ std::unique_ptr<sim::RayCaster> make_target(const Mesh& mesh) {
 
 std::vector<std::uint32_t> shown_frames(const Scenario& scenario, std::uint32_t frames) {
   std::vector<std::uint32_t> result;
+  if (scenario.scenario_kind() == ScenarioKind::kApproach) return result;
   if (scenario.scenario_kind() != ScenarioKind::kPaper || scenario.step_rad == 0)
     return frames > 0 ? std::vector<std::uint32_t>{0} : result;
   for (const double angle_deg : {0.0, 45.0, 90.0}) {

@@ -63,7 +63,7 @@ std::string telemetry_bytes(const SimulationResult& result);
 std::unique_ptr<sim::RayCaster> make_target(const Mesh& mesh);
 
 // Index of the range whose scans the report shows: the middle one.
-inline std::size_t shown_range(const Scenario& scenario) { return scenario.ranges_m.size() / 2; }
+inline std::size_t shown_range(const Scenario& scenario) { return scenario.runs_m().size() / 2; }
 // The frames whose scans are kept for the report: at 0, 45 and 90 degrees.
 std::vector<std::uint32_t> shown_frames(const Scenario& scenario, std::uint32_t frames);
 

@@ -139,5 +139,57 @@ TEST(ConstantTwist, RefusesWhatHasNoMeaning) {
   EXPECT_THROW(ConstantTwist(initial, 0), std::invalid_argument);
 }
 
+RangeProfile::Setup approach_setup() {
+  RangeProfile::Setup setup;
+  setup.T_sensor_target_at_epoch = Pose{upright_attitude(0.3, -0.2), Vec3(0.1, 0.2, 99)};
+  setup.omega_radps = Vec3(0.02, -0.01, 0.03);
+  setup.times_s = {1, 11, 31};
+  setup.ranges_m = {60, 20, 30};
+  setup.epoch_us = 5000000;
+  return setup;
+}
+
+TEST(RangeProfile, IsAtItsRangesAtItsTimesAndRestsThere) {
+  VERIFIES("LASSO-SIM-035~1");
+  const RangeProfile motion(approach_setup());
+  const double expected[][2] = {{-3, 60}, {0, 60}, {1, 60}, {6, 40}, {11, 20}, {21, 25}, {31, 30}, {500, 30}};
+  for (const auto& [t_s, range_m] : expected) {
+    const TruthState state = motion.at(5000000 + static_cast<TimeUs>(1e6 * t_s));
+    EXPECT_NEAR((state.T_sensor_target.p - Vec3(0.1, 0.2, range_m)).norm(), 0, 1e-12) << t_s;
+    const bool middle = t_s == 6 || t_s == 21;
+    EXPECT_NEAR(state.rates.v_mps.z(), middle ? (t_s == 6 ? -6.0 : 0.75) : 0.0, 1e-12) << "half as fast again as on average";
+  }
+}
+
+TEST(RangeProfile, PosesAndRatesAgree) {
+  VERIFIES("LASSO-SIM-035~1");
+  const RangeProfile motion(approach_setup());
+  test::Generator generator(6);
+  for (int trial = 0; trial < 50; ++trial) {
+    const TimeUs t_us = 5000000 + static_cast<TimeUs>(generator.uniform(-2e6, 40e6));
+    const TruthState now = motion.at(t_us);
+    const Vec6 step = pose_difference(motion.at(t_us + 1000).T_sensor_target, motion.at(t_us - 1000).T_sensor_target) / 0.002;
+    ASSERT_NEAR((step.head<3>() - now.rates.omega_radps).norm(), 0, 1e-9);
+    ASSERT_NEAR((step.tail<3>() - now.rates.v_mps).norm(), 0, 1e-5);
+  }
+}
+
+TEST(RangeProfile, RefusesWhatHasNoMeaning) {
+  VERIFIES("LASSO-SIM-035~1");
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto refused = [](const auto& change) {
+    RangeProfile::Setup setup = approach_setup();
+    change(setup);
+    EXPECT_THROW(RangeProfile{setup}, std::invalid_argument);
+  };
+  refused([](auto& s) { s.T_sensor_target_at_epoch.q.coeffs() *= 1.1; });
+  refused([nan](auto& s) { s.omega_radps.x() = nan; });
+  refused([nan](auto& s) { s.times_s[1] = nan; });
+  refused([nan](auto& s) { s.ranges_m[1] = nan; });
+  refused([](auto& s) { s.times_s[1] = s.times_s[0]; });
+  refused([](auto& s) { s.ranges_m.pop_back(); });
+  refused([](auto& s) { s.times_s.clear(), s.ranges_m.clear(); });
+}
+
 }  // namespace
 }  // namespace lasso::sim
