@@ -44,7 +44,7 @@ compile = @echo "build $(1)$(if $(2), ($(2)))"; cmake --build $(1) --parallel $(
 ctest = @rm -rf $(2); mkdir -p $(2); GTEST_OUTPUT=xml:$(abspath $(2))/ \
   ctest --test-dir $(1) --parallel $(JOBS) --output-on-failure --no-tests=error --output-junit $(abspath $(2))/ctest.xml $(3)
 
-.PHONY: help run test accuracy bench basin montecarlo flips fuzz statistics campaigns-sample golden ppc-count prove ppc-test sanitize arrows coverage mcdc trace evidence gates-selftest figures format lint install clean build
+.PHONY: help run test accuracy bench basin search montecarlo flips fuzz statistics campaigns-sample golden ppc-count prove ppc-test sanitize arrows coverage mcdc trace evidence gates-selftest figures format lint install clean build
 .DEFAULT_GOAL := help
 
 help: ## this list
@@ -120,6 +120,12 @@ campaigns-sample: ## 1 % of fuzz, flips, montecarlo, basin and statistics, seede
 	$(replays)
 	$(call compile,$(BUILD),basin flips montecarlo)
 	@ft/campaign/sample $(BUILD) $(PPC) $(FUZZ)
+
+search: ## find the target without any prior attitude from random views; CASE= (docs/search.md), STARTS=, SEED=, SCANS=, SCALE=
+	$(call packages,build)
+	$(call configure,$(BUILD),)
+	$(call compile,$(BUILD),search)
+	@$(BUILD)/ft/search/search $(MISSION) $(or $(CASE),all) $(or $(STARTS),1000) $(or $(SEED),1) $(or $(SCANS),3) $(or $(SCALE),1)
 
 golden: ## the same telemetry, bit for bit: g++ and clang++, optimised or not, threads or none, host and emulated PowerPC 603e
 	$(begin)

@@ -19,6 +19,11 @@ class FixedVector {
     return true;
   }
   void clear() { size_ = 0; }
+  // Keeps the first `size` elements.
+  void shrink(std::size_t size) {
+    invariant(size <= size_, "FixedVector shrink");
+    size_ = size;
+  }
 
   T& operator[](std::size_t i) {
     invariant(i < size_, "FixedVector index");

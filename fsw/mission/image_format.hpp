@@ -15,7 +15,7 @@
 namespace lasso {
 
 constexpr std::uint32_t kImageMagic = 0x33444C49;  // "3DLI"
-constexpr std::uint32_t kImageVersion = 2;
+constexpr std::uint32_t kImageVersion = 3;
 constexpr std::uint32_t kImageHeaderWords = 16;
 constexpr std::uint32_t kDirectoryEntryWords = 5;
 constexpr int kUnitFractionBits = 30;
@@ -36,8 +36,12 @@ enum class TableId : std::uint32_t {
   kFootPoints,      // kFootWords a record, one per brick of the grid
   kEdges,           // kEdgeWords a record
   kHull,            // 3 words a record: a point in Length, at most kMaxHullPoints
+  kSearchGrid,      // 1 record, see SearchGridWord
+  kDistances,       // 1 word a record: the distances of 4 neighbours along x, first one in the highest byte
+  kViews,           // kViewWords a record, kMinViews..kMaxViews
+  kSymmetries,      // kSymmetryWords a record, at most kMaxSymmetries
 };
-constexpr std::uint32_t kTableCount = 11;  // all of them, in the order of the ids
+constexpr std::uint32_t kTableCount = 15;  // all of them, in the order of the ids
 
 // Words of the one FieldGeometry record.
 enum FieldGeometryWord : std::uint32_t {
@@ -97,5 +101,34 @@ constexpr std::uint32_t kFootWords = 3;
 // two faces. A boundary edge has n1 = -n0, d1 = -d0. Word 14 flags.
 constexpr std::uint32_t kEdgeWords = 15;
 constexpr std::uint32_t kEdgeBoundary = 1;
+
+// What the search for a first pose needs (fsw/pose/search.hpp): distances to the surface on a coarse grid of their own, one byte a cell:
+// distance of the cell's centre as a share of the truncation, 255 at and beyond it. Cell index = (iz * ny + iy) * nx + ix, nx a multiple
+// of 4. Outside the grid the distance is the truncation.
+enum SearchGridWord : std::uint32_t {
+  kSearchOriginX = 0,
+  kSearchOriginY,
+  kSearchOriginZ,   // Length: the corner of cell (0, 0, 0)
+  kSearchCellSize,  // Length
+  kSearchCellsX,
+  kSearchCellsY,
+  kSearchCellsZ,      // each 1..kMaxSearchCells
+  kSearchTruncation,  // Length
+  kSearchSize,        // Length: the model's largest extent, which tolerances are shares of
+  kSearchGridWords
+};
+constexpr std::uint32_t kMaxSearchCells = 128;
+
+// View: words 0..2 the direction from the target to the sensor (Unit), 3..5 the centroid of what is seen from afar (Length), 6..8 the same
+// from kNearView sizes before the middle of the model. Each part is weighted by its area across the line of sight.
+constexpr std::uint32_t kViewWords = 9;
+constexpr float kNearView = 1.5F;
+constexpr std::uint32_t kMinViews = 6;
+constexpr std::uint32_t kMaxViews = 1024;
+
+// Near-symmetry: a motion of the model, other than none, that brings it nearly on itself. Words 0..3 quaternion x y z w (Unit), 4..6
+// translation (Length): q' = R q + t.
+constexpr std::uint32_t kSymmetryWords = 7;
+constexpr std::uint32_t kMaxSymmetries = 8;
 
 }  // namespace lasso

@@ -15,6 +15,8 @@ static_assert(sizeof(Element<N>) == std::size_t{4} * kElementWords, "elements ar
 static_assert(sizeof(Curvature<N>) == std::size_t{4} * kCurvatureWords, "curvatures are converted in place");
 static_assert(sizeof(ModelEdge<N>) == std::size_t{4} * kEdgeWords, "edges are converted in place");
 static_assert(sizeof(HullPointOf<N>) == std::size_t{4} * 3, "hull points are converted in place");
+static_assert(sizeof(ModelView<N>) == std::size_t{4} * kViewWords, "views are converted in place");
+static_assert(sizeof(NearSymmetry<N>) == std::size_t{4} * kSymmetryWords, "near-symmetries are converted in place");
 
 // Each letter is a word of a record: u plain, L length, U unit vector, K curvature.
 constexpr const char* kElementLayout = "UUULuuUUUUUUUUUUUULLLL";
@@ -38,7 +40,11 @@ constexpr TableShape kShapes[kTableCount] = {{2, ""},
                                              {kNearWordsPerBrick, ""},
                                              {kFootWords, "LLL"},
                                              {kEdgeWords, kEdgeLayout},
-                                             {3, "LLL"}};
+                                             {3, "LLL"},
+                                             {kSearchGridWords, "uuuuuuuuu"},
+                                             {1, "u"},
+                                             {kViewWords, "UUULLLLLL"},
+                                             {kSymmetryWords, "UUUULLL"}};
 
 struct Table {
   std::uint8_t* data = nullptr;
@@ -146,10 +152,11 @@ struct Limit {
 
 LoadFailure check_counts(const Image& image) {
   const std::uint32_t bricks = brick_count(image);
-  const Limit limits[] = {{TableId::kBricks, bricks, bricks},     {TableId::kFootPoints, bricks, bricks},
-                          {TableId::kElements, 1, kMaxElements},  {TableId::kCurvatures, 1, kMaxElements},
-                          {TableId::kEdges, 0, kMaxEdges},        {TableId::kHull, 4, kMaxHullPoints},
-                          {TableId::kRayCells, 1, kEmptyBit - 1}, {TableId::kRayLists, 1, kListOffsetMask}};
+  const Limit limits[] = {{TableId::kBricks, bricks, bricks},      {TableId::kFootPoints, bricks, bricks},
+                          {TableId::kElements, 1, kMaxElements},   {TableId::kCurvatures, 1, kMaxElements},
+                          {TableId::kEdges, 0, kMaxEdges},         {TableId::kHull, 4, kMaxHullPoints},
+                          {TableId::kRayCells, 1, kEmptyBit - 1},  {TableId::kRayLists, 1, kListOffsetMask},
+                          {TableId::kViews, kMinViews, kMaxViews}, {TableId::kSymmetries, 0, kMaxSymmetries}};
   for (const Limit& limit : limits) {
     const std::uint32_t n = image[limit.id].records;
     if (n < limit.minimum || n > limit.maximum) return failure(Status::kOverCapacity, "number of records", limit.id);
@@ -203,10 +210,10 @@ LoadFailure check_indices(const Image& image, TableId id, std::uint32_t flags, s
   return {};
 }
 
-// |v|^2 of the unit vector at words k, k + stride, k + 2 stride, in double: close to 1 where it is one.
-double squared_unit(const Table& table, std::uint32_t record, std::uint32_t k, std::uint32_t stride = 1) {
+// |v|^2 of the unit vector of `size` words k, k + stride, ..., in double: close to 1 where it is one.
+double squared_unit(const Table& table, std::uint32_t record, std::uint32_t k, std::uint32_t stride = 1, std::uint32_t size = 3) {
   double sum = 0;
-  for (std::uint32_t i = k; i < k + 3 * stride; i += stride) {
+  for (std::uint32_t i = k; i < k + size * stride; i += stride) {
     const double x = static_cast<double>(table.signed_word(record, i)) / static_cast<double>(1 << kUnitFractionBits);
     sum += x * x;
   }
@@ -233,6 +240,32 @@ LoadFailure check_edges(const Image& image) {
   return {};
 }
 
+LoadFailure check_search_grid(const Image& image) {
+  const Table& grid = image[TableId::kSearchGrid];
+  if (grid.records != 1) return failure(Status::kBadLength, "search grid records", TableId::kSearchGrid);
+  std::uint32_t cells = 1;
+  for (std::uint32_t i = kSearchCellsX; i <= kSearchCellsZ; ++i) {
+    const std::uint32_t n = grid.word(0, i);
+    if (n == 0 || n > kMaxSearchCells) return failure(Status::kBadValue, "search cells along an axis", TableId::kSearchGrid);
+    cells *= n;
+  }
+  if (grid.word(0, kSearchCellsX) % 4 != 0) return failure(Status::kBadValue, "search cells along x", TableId::kSearchGrid);
+  for (const std::uint32_t length : {kSearchCellSize, kSearchTruncation, kSearchSize}) {
+    if (grid.signed_word(0, length) <= 0) return failure(Status::kBadValue, "search grid length", TableId::kSearchGrid);
+  }
+  if (image[TableId::kDistances].records != cells / 4) return failure(Status::kBadLength, "number of distances", TableId::kDistances);
+  return {};
+}
+
+// Every record of the table begins with a unit vector of `size` components.
+LoadFailure check_units(const Image& image, TableId id, std::uint32_t size) {
+  const Table& table = image[id];
+  for (std::uint32_t i = 0; i < table.records; ++i) {
+    if (!is_unit(squared_unit(table, i, 0, 1, size))) return failure(Status::kBadValue, "not of unit length", id, i);
+  }
+  return {};
+}
+
 LoadFailure check_tables(const Image& image) {
   LoadFailure result = check_geometry(image);
   if (!failed(result)) result = check_counts(image);
@@ -242,6 +275,9 @@ LoadFailure check_tables(const Image& image) {
   if (!failed(result)) result = check_indices(image, TableId::kNearCells, 0, image[TableId::kElements].records);
   if (!failed(result)) result = check_elements(image);
   if (!failed(result)) result = check_edges(image);
+  if (!failed(result)) result = check_search_grid(image);
+  if (!failed(result)) result = check_units(image, TableId::kViews, 3);
+  if (!failed(result)) result = check_units(image, TableId::kSymmetries, 4);
   return result;
 }
 
@@ -308,6 +344,21 @@ void set_views(const Image& image, Mission& mission) {
   mission.hull = {records_of<HullPointOf<N>>(image, TableId::kHull), image[TableId::kHull].records};
 }
 
+void set_search(const Image& image, int bits, Mission& mission) {
+  const Table& grid = image[TableId::kSearchGrid];
+  SearchTables<N>& search = mission.search;
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    search.origin[i] = N::length(grid.signed_word(0, kSearchOriginX + i), bits);
+    search.cells[i] = grid.word(0, kSearchCellsX + i);
+  }
+  search.cells_per_m = 1 / N::length(grid.signed_word(0, kSearchCellSize), bits);
+  search.truncation = N::length(grid.signed_word(0, kSearchTruncation), bits);
+  search.size = N::length(grid.signed_word(0, kSearchSize), bits);
+  search.distances = records_of<std::uint32_t>(image, TableId::kDistances);
+  search.views = {records_of<ModelView<N>>(image, TableId::kViews), image[TableId::kViews].records};
+  search.symmetries = {records_of<NearSymmetry<N>>(image, TableId::kSymmetries), image[TableId::kSymmetries].records};
+}
+
 // From here on nothing can fail.
 void activate(const Image& image, const MissionParameters& parameters, Mission& mission) {
   const Table& geometry = image[TableId::kFieldGeometry];
@@ -320,6 +371,7 @@ void activate(const Image& image, const MissionParameters& parameters, Mission& 
   mission.image_crc = trailer.u32();
   mission.parameters = parameters;
   set_grid(geometry, bits, mission);
+  set_search(image, bits, mission);
   for (std::uint32_t i = 2; i < kTableCount; ++i) convert_table(image.tables[i], kShapes[i].layout, bits);
   set_views(image, mission);
 }

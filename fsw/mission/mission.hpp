@@ -9,6 +9,7 @@
 #include "fsw/geometry/types.hpp"
 #include "fsw/mission/field.hpp"
 #include "fsw/mission/parameters.hpp"
+#include "fsw/mission/search_tables.hpp"
 
 namespace lasso {
 
@@ -38,6 +39,7 @@ struct MissionOf {
   Field<N> field{};
   Span<const ModelEdge<N>> edges;
   Span<const HullPointOf<N>> hull;
+  SearchTables<N> search{};
   Vec3 center_m = Vec3::Zero();  // target frame: the geometric centre, where scans are aimed
   double radius_m = 0;           // largest distance of the model from the target's origin
 };

@@ -29,4 +29,12 @@ HitSolution register_hits(const Mission& mission, const Pose& T_target_sensor, W
 // quarter of the model's size. Bound: 20 passes and 73 short registrations of a quarter of the points.
 Pose approach_from_afar(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace);
 
+// A pose that is about right drawn to the model: 4 passes over all points on rays, with a gate that shrinks from 4 % of the model's size to
+// 1 %.
+Pose pull_on_rays(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace);
+
+// The hypothesis of a search drawn to the model: 8 passes on the truncated distance to it, then on rays as above. Converges from about
+// 20 deg and a tenth of the model's size.
+Pose pull_in(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace);
+
 }  // namespace lasso

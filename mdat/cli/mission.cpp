@@ -24,10 +24,13 @@ std::string image_text(const std::string& file) {
   const LoadedImage image(file, bytes);
   const Mission& mission = image.mission();
   char text[400];
-  std::snprintf(text, sizeof text,
-                "%s: flight image, mission %u version %u, %zu bytes, CRC-32C %08X, radius %.3f m, %zu edges, %zu hull points\n",
-                file.c_str(), mission.id, mission.version, bytes.size(), mission.image_crc, mission.radius_m, mission.edges.size(),
-                mission.hull.size());
+  std::snprintf(
+      text, sizeof text,
+      "%s: flight image, mission %u version %u, %zu bytes, CRC-32C %08X, radius %.3f m, %zu edges, %zu hull points; for the search: "
+      "%zu views, %zu near-symmetries, distances on %u x %u x %u cells\n",
+      file.c_str(), mission.id, mission.version, bytes.size(), mission.image_crc, mission.radius_m, mission.edges.size(),
+      mission.hull.size(), mission.search.views.size(), mission.search.symmetries.size(), mission.search.cells[0], mission.search.cells[1],
+      mission.search.cells[2]);
   return text;
 }
 
@@ -64,10 +67,11 @@ std::string report_text(const CompiledMission& mission, const std::string& out, 
       "repaired: %zu vertices welded, %zu degenerate and %zu double triangles dropped, %zu triangles turned outwards, %zu seen from both "
       "sides\n"
       "model: %zu elements (%zu curved), %zu edges, cells of %.4g m with %.1f elements on average, %zu at most\n"
+      "search: %zu views, %zu near-symmetries\n"
       "%s: %zu bytes, compiled in %.1f s\n",
       r.vertices, r.triangles, r.components, r.open_components, r.welded_vertices, r.dropped_degenerate, r.dropped_duplicates,
       r.flipped_triangles, r.two_sided_triangles, r.elements, r.curved_elements, r.edges, r.cell_size_m, r.ray_lists.mean, r.ray_lists.max,
-      out.c_str(), bytes, r.seconds);
+      r.views, r.symmetries, out.c_str(), bytes, r.seconds);
   return text;
 }
 

@@ -7,6 +7,7 @@
 #include "mdat/common/errors.hpp"
 #include "mdat/common/flight_image.hpp"
 #include "mdat/common/output.hpp"
+#include "mdat/replay/acquire.hpp"
 
 namespace lasso::mdat {
 namespace {
@@ -22,7 +23,19 @@ LoadedImage load(const Options& options) {
   return LoadedImage(options.mission, image_bytes(mission, parameters_for(mission.source, options.scenario)));
 }
 
+void search(const Options& options) {
+  if (options.replay.closed_loop || options.replay.wide) {
+    throw InputError("--initial search: each scan is searched on its own; leave --closed-loop and --wide out");
+  }
+  check_writable(options.out);
+  const LoadedImage image = load(options);
+  const std::vector<AcquiredScan> scans = acquire(image.mission(), options.replay.scans);
+  write_file(options.out, acquired_csv(scans));
+  std::fputs((acquired_summary(scans) + options.out + ": written\n").c_str(), stdout);
+}
+
 void run(const Options& options) {
+  if (options.replay.initial == "search") return search(options);
   std::error_code ignored;
   if (std::filesystem::equivalent(options.out, options.replay.initial, ignored)) {
     throw InputError(options.out + ": is the file of initial poses; write to another one");
@@ -41,7 +54,10 @@ void add_replay_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("replay", "register recorded scans (.csv, .ply, .pcd) from given initial poses");
   command->add_option("MISSION", options->mission, "mission file or flight image")->required();
   command->add_option("--scans", options->replay.scans, "folder of scans, taken in name order")->required();
-  command->add_option("--initial", options->replay.initial, "poses to start from: scan,qx,qy,qz,qw,x_m,y_m,z_m (T_sensor_target)")
+  command
+      ->add_option("--initial", options->replay.initial,
+                   "poses to start from: scan,qx,qy,qz,qw,x_m,y_m,z_m (T_sensor_target); or the word search: find each scan's "
+                   "without any")
       ->required();
   command->add_option("-o,--out", options->out, "file of poses to write")->required();
   command->add_flag("--closed-loop", options->replay.closed_loop,

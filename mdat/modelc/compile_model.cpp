@@ -7,10 +7,13 @@
 #include "mdat/modelc/hull.hpp"
 #include "mdat/modelc/model.hpp"
 #include "mdat/modelc/near_field.hpp"
+#include "mdat/modelc/near_symmetry.hpp"
 #include "mdat/modelc/outward.hpp"
 #include "mdat/modelc/ray_field.hpp"
 #include "mdat/modelc/repair.hpp"
+#include "mdat/modelc/search_grid.hpp"
 #include "mdat/modelc/silhouette_edges.hpp"
+#include "mdat/modelc/view_table.hpp"
 
 namespace lasso::mdat {
 namespace {
@@ -119,6 +122,20 @@ GriddedField make_gridded_field(const Surface& surface, const std::vector<Elemen
   }
 }
 
+void put_search(const Surface& surface, const std::vector<Element>& elements, const LengthScale& scale, ModelTables& tables,
+                CompileReport& report) {
+  const NearestSearch nearest(elements);
+  const SearchGrid grid = make_search_grid(surface, nearest, scale);
+  const std::vector<View> views = make_views(surface);
+  const std::vector<NearSymmetryMotion> symmetries = find_near_symmetries(views, grid, nearest);
+  tables[TableId::kSearchGrid] = geometry_words(grid, scale);
+  tables[TableId::kDistances] = distance_words(grid);
+  tables[TableId::kViews] = view_words(views, scale);
+  tables[TableId::kSymmetries] = symmetry_words(symmetries, scale);
+  report.views = views.size();
+  report.symmetries = symmetries.size();
+}
+
 ModelTables make_tables(const Surface& surface, const ModelOptions& options, CompileReport& report, const Progress& progress) {
   progress("make elements", 0.2);
   const std::vector<EdgeUse> uses = edge_uses(surface);
@@ -145,6 +162,8 @@ ModelTables make_tables(const Surface& surface, const ModelOptions& options, Com
   put_sizes(tables, report);
   progress("find closest elements", 0.6);
   put_near_field(make_near_field(elements.list, grid, scale, band_m, report), tables);
+  progress("look from all sides", 0.85);
+  put_search(surface, elements.list, scale, tables, report);
   tables[TableId::kFieldGeometry] = geometry_words(surface, grid, scale, band_m);
   tables[TableId::kHull] = hull_words(surface, scale, report);
   return tables;
@@ -189,6 +208,14 @@ std::uint32_t words_per_record(TableId id) {
       return kEdgeWords;
     case TableId::kHull:
       return 3;
+    case TableId::kSearchGrid:
+      return kSearchGridWords;
+    case TableId::kDistances:
+      return 1;
+    case TableId::kViews:
+      return kViewWords;
+    case TableId::kSymmetries:
+      return kSymmetryWords;
   }
   return 1;
 }

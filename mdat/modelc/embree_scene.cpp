@@ -54,9 +54,9 @@ void EmbreeScene::commit() {
   if (error != RTC_ERROR_NONE) fail("the search structure could not be built (Embree error ", static_cast<int>(error), ")");
 }
 
-bool EmbreeScene::escapes(const Vec3d& from, const Vec3d& direction) const {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
+namespace {
+
+RTCRay make_ray(const Vec3d& from, const Vec3d& direction) {
   RTCRay ray{};
   ray.org_x = static_cast<float>(from.x());
   ray.org_y = static_cast<float>(from.y());
@@ -66,8 +66,27 @@ bool EmbreeScene::escapes(const Vec3d& from, const Vec3d& direction) const {
   ray.dir_z = static_cast<float>(direction.z());
   ray.tfar = std::numeric_limits<float>::infinity();
   ray.mask = ~0u;
+  return ray;
+}
+
+}  // namespace
+
+bool EmbreeScene::escapes(const Vec3d& from, const Vec3d& direction) const {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  RTCRay ray = make_ray(from, direction);
   rtcOccluded1(scene_, &context, &ray);
   return ray.tfar >= 0;
+}
+
+double EmbreeScene::first_hit(const Vec3d& from, const Vec3d& direction) const {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  RTCRayHit ray{};
+  ray.ray = make_ray(from, direction);
+  ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  rtcIntersect1(scene_, &context, &ray);
+  return static_cast<double>(ray.ray.tfar);
 }
 
 }  // namespace lasso::mdat

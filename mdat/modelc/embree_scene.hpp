@@ -20,6 +20,8 @@ class EmbreeScene {
   void commit();  // throws CompileError
   // Does a ray from `from` meet nothing?
   bool escapes(const Vec3d& from, const Vec3d& direction) const;
+  // Range of the first triangle that a ray of unit direction meets, infinity where there is none.
+  double first_hit(const Vec3d& from, const Vec3d& direction) const;
   RTCScene scene() const { return scene_; }
 
  private:

@@ -59,6 +59,11 @@ TEST_F(LoaderTest, LoadsAValidImage) {
   EXPECT_EQ(mission_->field.element_count, 6u);
   EXPECT_EQ(mission_->edges.size(), 12u);
   EXPECT_EQ(mission_->hull.size(), 8u);
+  EXPECT_EQ(mission_->search.views.size(), 162u);
+  EXPECT_EQ(mission_->search.symmetries.size(), 3u);
+  EXPECT_NEAR(mission_->search.size, 0.6F, 1e-6F);
+  EXPECT_NEAR(mission_->search.truncation, 0.06F, 1e-6F);
+  EXPECT_FLOAT_EQ(mission_->search.symmetries[1].q[1], 1.0F);
   EXPECT_NEAR(mission_->center_m[1], -0.01, 1e-7);
   EXPECT_NEAR(mission_->radius_m, Vec3(0.32, 0.21, 0.15).norm(), 1e-6);
   EXPECT_DOUBLE_EQ(mission_->parameters.duration_s, preset_parameters().duration_s);
@@ -173,6 +178,15 @@ TEST_F(LoaderTest, RefusesIndicesOutsideTheirTables) {
       {TableId::kEdges, 6, 0x10000000u, Status::kBadValue},
       {TableId::kEdges, 10, 0x10000000u, Status::kBadValue},
       {TableId::kEdges, 14, 2, Status::kBadValue},
+      {TableId::kSearchGrid, kSearchCellSize, 0, Status::kBadValue},
+      {TableId::kSearchGrid, kSearchTruncation, 0x80000000u, Status::kBadValue},
+      {TableId::kSearchGrid, kSearchSize, 0, Status::kBadValue},
+      {TableId::kSearchGrid, kSearchCellsX, 27, Status::kBadValue},
+      {TableId::kSearchGrid, kSearchCellsX, 24, Status::kBadLength},  // fewer cells than distances
+      {TableId::kSearchGrid, kSearchCellsY, 0, Status::kBadValue},
+      {TableId::kSearchGrid, kSearchCellsZ, 129, Status::kBadValue},
+      {TableId::kViews, 2, 0, Status::kBadValue},
+      {TableId::kSymmetries, 0, 0, Status::kBadValue},
   };
   for (const Case& c : cases) {
     image_ = whole_image();
@@ -190,9 +204,10 @@ TEST_F(LoaderTest, RefusesTablesOfAnotherLength) {
     Status status;
   };
   const auto parameters = static_cast<std::uint32_t>(parameter_rows().size());
-  for (const Case& c :
-       {Case{TableId::kParameters, parameters - 1, Status::kBadLength}, Case{TableId::kFieldGeometry, 0, Status::kBadLength},
-        Case{TableId::kFootPoints, 1, Status::kOverCapacity}, Case{TableId::kHull, 3, Status::kOverCapacity}}) {
+  for (const Case& c : {Case{TableId::kParameters, parameters - 1, Status::kBadLength},
+                        Case{TableId::kFieldGeometry, 0, Status::kBadLength}, Case{TableId::kFootPoints, 1, Status::kOverCapacity},
+                        Case{TableId::kHull, 3, Status::kOverCapacity}, Case{TableId::kSearchGrid, 0, Status::kBadLength},
+                        Case{TableId::kDistances, 8, Status::kBadLength}, Case{TableId::kViews, 5, Status::kOverCapacity}}) {
     image_ = whole_image();
     spoil_directory(c.id, 2, c.records);
     SCOPED_TRACE(static_cast<int>(c.id));

@@ -232,7 +232,83 @@ Words hull_words(const Boxes& boxes) {
   return words;
 }
 
-constexpr std::uint32_t kRecordWords[11] = {2, 13, 22, 15, 2, 512, 1, 128, 3, 15, 3};
+constexpr std::uint32_t kSearchCells[3] = {28, 24, 20};  // fewer where the box is smaller would do, too
+constexpr int kViews = 162;
+constexpr int kViewRays = 20;  // each way
+
+double size_of(const BoxModel& bounds) { return 2 * bounds.half.maxCoeff(); }
+double search_cell(const BoxModel& bounds) { return size_of(bounds) / 20; }
+Vec3 search_origin(const BoxModel& bounds) {
+  return bounds.center - search_cell(bounds) / 2 * Vec3(kSearchCells[0], kSearchCells[1], kSearchCells[2]);
+}
+
+Words search_grid_words(const BoxModel& bounds) {
+  const Vec3 origin = search_origin(bounds);
+  const double size = size_of(bounds);
+  return {length(origin[0]), length(origin[1]), length(origin[2]), length(search_cell(bounds)), kSearchCells[0], kSearchCells[1],
+          kSearchCells[2],   length(size / 10), length(size)};
+}
+
+Words distance_words(const Boxes& boxes, const BoxModel& bounds) {
+  Words words;
+  std::uint32_t word = 0;
+  for (std::uint32_t i = 0; i < kSearchCells[0] * kSearchCells[1] * kSearchCells[2]; ++i) {
+    const Vec3 place(i % kSearchCells[0], i / kSearchCells[0] % kSearchCells[1], i / kSearchCells[0] / kSearchCells[1]);
+    const Vec3 center = search_origin(bounds) + search_cell(bounds) * (place + Vec3::Constant(0.5));
+    const double distance = (closest_on_face(face_of(boxes, closest_face(boxes, center, -1, 1e9)), center) - center).norm();
+    word = word << 8 | static_cast<std::uint32_t>(255 * std::min(distance / (size_of(bounds) / 10), 1.0) + 0.5);
+    if (i % 4 == 3) words.push_back(word);
+  }
+  return words;
+}
+
+// The middle of what rays in a square around the model meet: parallel ones, or from `eye` sizes before its middle.
+Vec3 seen_from(const Boxes& boxes, const BoxModel& bounds, const Vec3& direction, double eye) {
+  const Vec3 right = direction.unitOrthogonal();
+  const double radius = bounds.half.norm();
+  Vec3 sum = Vec3::Zero();
+  double weights = 1e-9;
+  for (int i = 0; i < kViewRays * kViewRays; ++i) {
+    const double x = (2.0 * (i % kViewRays) + 1) / kViewRays - 1;
+    const double y = (2.0 * (i / kViewRays) + 1) / kViewRays - 1;
+    const Vec3 across = bounds.center + 1.4 * radius * (x * right + y * direction.cross(right));
+    const Vec3 from = eye > 0 ? Vec3(bounds.center + eye * size_of(bounds) * direction) : Vec3(across + 2 * radius * direction);
+    const Vec3 u = (across - from).normalized();
+    const double range = cast_boxes(boxes, from, u);
+    if (range < 0) continue;
+    const double weight = eye > 0 ? range * range : 1;
+    sum += weight * (from + range * u);
+    weights += weight;
+  }
+  return sum / weights;
+}
+
+Words view_words(const Boxes& boxes, const BoxModel& bounds) {
+  Words words;
+  for (int k = 0; k < kViews; ++k) {
+    const double z = 1 - (2.0 * k + 1) / kViews;
+    const double turn = 2.399963229728653 * k;
+    const Vec3 direction(std::sqrt(1 - z * z) * std::cos(turn), std::sqrt(1 - z * z) * std::sin(turn), z);
+    for (int i = 0; i < 3; ++i) words.push_back(unit(direction[i]));
+    for (const double eye : {0.0, static_cast<double>(kNearView)}) {
+      const Vec3 middle = seen_from(boxes, bounds, direction, eye);
+      for (int i = 0; i < 3; ++i) words.push_back(length(middle[i]));
+    }
+  }
+  return words;
+}
+
+// Half turns about the first box's axes.
+Words symmetry_words(const BoxModel& box) {
+  Words words;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int i = 0; i < 4; ++i) words.push_back(unit(i == axis ? 1 : 0));
+    for (int i = 0; i < 3; ++i) words.push_back(length(i == axis ? 0 : 2 * box.center[i]));
+  }
+  return words;
+}
+
+constexpr std::uint32_t kRecordWords[kTableCount] = {2, 13, 22, 15, 2, 512, 1, 128, 3, 15, 3, 9, 1, 9, 7};
 
 void put_u32(std::uint8_t* p, std::uint32_t v) {
   for (int i = 0; i < 4; ++i) p[i] = static_cast<std::uint8_t>(v >> (24 - 8 * i));
@@ -279,15 +355,19 @@ BoxTables make_box_tables(const Boxes& boxes) {
   }
   tables[9] = edge_words(boxes);
   tables[10] = hull_words(boxes);
+  tables[11] = search_grid_words(bounds);
+  tables[12] = distance_words(boxes, bounds);
+  tables[13] = view_words(boxes, bounds);
+  tables[14] = symmetry_words(boxes[0]);
   return tables;
 }
 
 TestImage make_image(const MissionParameters& parameters, const BoxTables& given) {
   BoxTables tables = given;
   tables[0] = parameter_words(parameters);
-  std::size_t size = (4 * (kImageHeaderWords + 11 * kDirectoryEntryWords) + 7) / 8 * 8;
-  std::size_t offsets[11];
-  for (std::size_t i = 0; i < 11; ++i) {
+  std::size_t size = (4 * (kImageHeaderWords + kTableCount * kDirectoryEntryWords) + 7) / 8 * 8;
+  std::size_t offsets[kTableCount];
+  for (std::size_t i = 0; i < kTableCount; ++i) {
     offsets[i] = size;
     size = (size + 4 * tables[i].size() + 7) / 8 * 8;
   }
@@ -302,7 +382,7 @@ TestImage make_image(const MissionParameters& parameters, const BoxTables& given
                                    3,
                                    static_cast<std::uint32_t>(parameter_rows().size())};
   for (std::size_t i = 0; i < 7; ++i) put_u32(image.data() + 4 * i, header[i]);
-  for (std::uint32_t i = 0; i < 11; ++i) {
+  for (std::uint32_t i = 0; i < kTableCount; ++i) {
     std::uint8_t* entry = directory_entry(image, i + 1);
     put_u32(entry, i + 1);
     put_u32(entry + 4, kRecordWords[i]);
@@ -317,7 +397,7 @@ TestImage make_image(const MissionParameters& parameters, const BoxTables& given
 std::size_t table_offset(TestImage& image, std::uint32_t id) { return get_u32(directory_entry(image, id) + 12); }
 
 void repair_crcs(TestImage& image) {
-  for (std::uint32_t id = 1; id <= 11; ++id) {
+  for (std::uint32_t id = 1; id <= kTableCount; ++id) {
     std::uint8_t* entry = directory_entry(image, id);
     const std::size_t bytes = 4u * get_u32(entry + 4) * get_u32(entry + 8);
     if (table_offset(image, id) + bytes > image.size - 4) continue;  // a test made the table too long

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fsw/geometry/types.hpp"
+#include "fsw/mission/image_format.hpp"
 #include "fsw/mission/parameters.hpp"
 
 namespace lasso::test {
@@ -22,7 +23,7 @@ using Boxes = std::vector<BoxModel>;  // apart from each other; the first one sa
 using Words = std::vector<std::uint32_t>;
 
 // The tables in the order of TableId, without the parameters (table 1, index 0 stays empty).
-using BoxTables = std::array<Words, 11>;
+using BoxTables = std::array<Words, kTableCount>;
 BoxTables make_box_tables(const Boxes& boxes);
 inline BoxTables make_box_tables(const BoxModel& model) { return make_box_tables(Boxes{model}); }
 

@@ -1,0 +1,99 @@
+// What the search for a first pose knows of the reference model: distances on a coarse grid, views, near-symmetries. Built by the mission
+// compiler; see image_format.hpp. Positions are in the target's frame.
+#pragma once
+
+#include <cstdint>
+
+#include "fsw/core/span.hpp"
+#include "fsw/geometry/number.hpp"
+#include "fsw/mission/image_format.hpp"
+
+namespace lasso {
+
+// A direction to look from, and where the middle of what is seen lies.
+template <class N>
+struct ModelView {
+  typename N::Unit direction[3];        // from the target to the sensor
+  typename N::Length centroid[3];       // seen from afar
+  typename N::Length near_centroid[3];  // seen from kNearView model sizes
+};
+
+// A motion that brings the model nearly on itself: q' = R q + p.
+template <class N>
+struct NearSymmetry {
+  typename N::Unit q[4];  // x y z w
+  typename N::Length p[3];
+};
+
+template <class N>
+struct SearchTables {
+  typename N::Length origin[3];
+  typename N::Ratio cells_per_m;
+  std::uint32_t cells[3];
+  typename N::Length truncation;
+  typename N::Length size;  // the model's largest extent
+  const std::uint32_t* distances;
+  Span<const ModelView<N>> views;
+  Span<const NearSymmetry<N>> symmetries;
+};
+
+constexpr std::uint32_t kFarByte = 255;
+
+// The byte of a cell; indices of cells outside the grid (also negative ones, wrapped) give kFarByte.
+template <class N>
+inline std::uint32_t distance_byte(const SearchTables<N>& t, std::uint32_t ix, std::uint32_t iy, std::uint32_t iz) {
+  if (static_cast<int>(ix >= t.cells[0]) + static_cast<int>(iy >= t.cells[1]) + static_cast<int>(iz >= t.cells[2]) != 0) return kFarByte;
+  const std::uint32_t cell = (iz * t.cells[1] + iy) * t.cells[0] + ix;
+  return t.distances[cell >> 2] >> (8 * (3 - (cell & 3))) & 255;
+}
+
+// Distance to the surface and the direction away from it, interpolated between the centres of cells.
+template <class N>
+struct SurfaceDistance {
+  typename N::Length distance;
+  typename N::Unit away[3];  // gradient of the distance; about of unit length near the surface, zero where all is far
+};
+
+template <class N>
+inline SurfaceDistance<N> surface_distance(const SearchTables<N>& t, const typename N::Length* m) {
+  using Ratio = typename N::Ratio;
+  constexpr Ratio kOutside = 1000;  // cells
+  std::uint32_t index[3];
+  Ratio f[3];
+  for (int i = 0; i < 3; ++i) {
+    const Ratio x = (m[i] - t.origin[i]) * t.cells_per_m + static_cast<Ratio>(0.5F);  // never negative within the grid
+    const Ratio inside = x >= 0 && x < kOutside ? x : kOutside;
+    const auto whole = static_cast<std::int32_t>(inside);
+    f[i] = inside - static_cast<Ratio>(whole);
+    index[i] = static_cast<std::uint32_t>(whole) - 1;
+  }
+  Ratio d[2][2][2];  // z y x
+  for (std::uint32_t k = 0; k < 8; ++k) {
+    d[k >> 2][k >> 1 & 1][k & 1] =
+        static_cast<Ratio>(static_cast<std::int32_t>(distance_byte(t, index[0] + (k & 1), index[1] + (k >> 1 & 1), index[2] + (k >> 2))));
+  }
+  Ratio line[2][2];   // along x
+  Ratio slope[2][2];  // d/dx
+  for (int z = 0; z < 2; ++z) {
+    for (int y = 0; y < 2; ++y) {
+      slope[z][y] = d[z][y][1] - d[z][y][0];
+      line[z][y] = d[z][y][0] + f[0] * slope[z][y];
+    }
+  }
+  const Ratio low = line[0][0] + f[1] * (line[0][1] - line[0][0]);
+  const Ratio high = line[1][0] + f[1] * (line[1][1] - line[1][0]);
+  const Ratio unit = t.truncation / static_cast<Ratio>(static_cast<std::int32_t>(kFarByte));
+  const Ratio per_m = unit * t.cells_per_m;
+  SurfaceDistance<N> result;
+  result.distance = unit * (low + f[2] * (high - low));
+  const Ratio low_x = slope[0][0] + f[1] * (slope[0][1] - slope[0][0]);
+  const Ratio high_x = slope[1][0] + f[1] * (slope[1][1] - slope[1][0]);
+  const Ratio low_y = line[0][1] - line[0][0];
+  const Ratio high_y = line[1][1] - line[1][0];
+  result.away[0] = per_m * (low_x + f[2] * (high_x - low_x));
+  result.away[1] = per_m * (low_y + f[2] * (high_y - low_y));
+  result.away[2] = per_m * (high - low);
+  return result;
+}
+
+}  // namespace lasso

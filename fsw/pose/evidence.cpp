@@ -1,0 +1,166 @@
+#include "fsw/pose/evidence.hpp"
+
+#include "fsw/geometry/portable_math.hpp"
+
+namespace lasso {
+namespace {
+
+using N = FlightNumber;
+
+constexpr int kBins = 16;                      // across the scan, each way
+constexpr N::Ratio kNeighbourShare = 0.08F;    // of the model's size: a return has company this near
+constexpr N::Ratio kNeighbourSpacings = 2.2F;  // and within this many times the spacing of rays
+constexpr std::size_t kCompany = 2;            // or it is an outlier
+
+N::Ratio squared_distance(const N::Length* a, const N::Length* b) {
+  const N::Length d[3] = {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+  return dot3<N>(d, d);
+}
+
+// How many rays of the scan go into each part of the field of view: a pattern is denser here than there.
+class RayDensity {
+ public:
+  explicit RayDensity(const Workspace& workspace) {
+    for (const ScanRay<N>& ray : workspace.rays) widen(ray.u);
+    for (int i = 0; i < 2; ++i) bins_per_unit_[i] = high_[i] > low_[i] ? static_cast<N::Ratio>(kBins) / (high_[i] - low_[i]) : 0;
+    for (const ScanRay<N>& ray : workspace.rays) ++count_[bin_of(ray.u)];
+  }
+  std::uint16_t at(const N::Unit* u) const { return count_[bin_of(u)]; }
+  // Typical angle between neighbouring rays, were they spread evenly.
+  N::Ratio spacing(std::size_t rays) const {
+    const double area = N::to_double((high_[0] - low_[0]) * (high_[1] - low_[1]));
+    return N::to_ratio(square_root(area / static_cast<double>(rays)));
+  }
+
+ private:
+  // Sensors look along z: directions beside it are taken on the plane z = 1, those farther than 63 deg off at its rim.
+  static N::Ratio tangent(const N::Unit* u, int i) { return u[i] / (u[2] > 0.45F ? u[2] : 0.45F); }
+  void widen(const N::Unit* u) {
+    for (int i = 0; i < 2; ++i) {
+      const N::Ratio t = tangent(u, i);
+      if (t < low_[i]) low_[i] = t;
+      if (t > high_[i]) high_[i] = t;
+    }
+  }
+  std::size_t bin_of(const N::Unit* u) const {
+    std::size_t bin = 0;
+    for (int i = 0; i < 2; ++i) {
+      const auto place = static_cast<std::int32_t>((tangent(u, i) - low_[i]) * bins_per_unit_[i]);
+      bin = bin * kBins + static_cast<std::size_t>(place < kBins ? place : kBins - 1);
+    }
+    return bin;
+  }
+
+  N::Ratio low_[2] = {10, 10}, high_[2] = {-10, -10}, bins_per_unit_[2] = {};
+  std::uint16_t count_[kBins * kBins] = {};
+};
+
+}  // namespace
+
+void EvidenceMaker::begin(const Mission& mission, const Workspace& workspace) {
+  const RayDensity density(workspace);
+  const N::Ratio spacing = density.spacing(workspace.rays.size());
+  const N::Ratio largest = kNeighbourShare * mission.search.size;
+  const std::size_t misses = workspace.rays.size() - workspace.points.size();
+  hit_stride_ = (workspace.points.size() + kPoolRays - 1) / kPoolRays;
+  miss_stride_ = (misses + kPoolRays - 1) / kPoolRays;
+  hits_.clear();
+  misses_.clear();
+  judged_ = 0;
+  for (std::size_t i = 0; i < workspace.points.size(); i += hit_stride_) {
+    const MatchPoint<N>& point = workspace.points[i];
+    const N::Ratio area = dot3<N>(point.p, point.p) / static_cast<N::Ratio>(density.at(point.u));
+    const N::Ratio range = N::to_ratio(square_root(N::to_double(dot3<N>(point.p, point.p))));
+    const N::Ratio reach = kNeighbourSpacings * range * spacing;
+    invariant(hits_.push_back({point, area, 1e12F, reach < largest ? reach : largest, false}), "a pool of returns");
+  }
+  std::size_t index = 0;
+  for (const ScanRay<N>& ray : workspace.rays) {
+    if (ray.state == RayState::kMiss && index++ % miss_stride_ == 0) invariant(misses_.push_back(ray), "a pool of misses");
+  }
+}
+
+bool EvidenceMaker::step(const Mission& mission, Evidence& evidence) {
+  if (judged_ < hits_.size()) {
+    judge_isolation(judged_++);
+    if (judged_ == hits_.size()) drop_isolated();
+    return true;
+  }
+  if (evidence.hits.empty()) {
+    evidence.returns = static_cast<std::uint32_t>(hits_.size() * hit_stride_);
+    find_centroid(evidence);
+  }
+  if (evidence.hits.size() < hits_.size() && !evidence.hits.full()) {
+    choose(evidence);
+    return true;
+  }
+  choose_misses(mission, evidence);
+  return false;
+}
+
+void EvidenceMaker::judge_isolation(std::size_t index) {
+  const N::Ratio reach = hits_[index].reach;
+  std::size_t company = 0;
+  // Neighbours in time are near, mostly: the search begins with them.
+  for (std::size_t k = 1; k < hits_.size() && company < kCompany; ++k) {
+    const std::size_t other = index + k < hits_.size() ? index + k : index + k - hits_.size();
+    if (squared_distance(hits_[index].point.p, hits_[other].point.p) < reach * reach) ++company;
+  }
+  hits_[index].kept = company >= kCompany;
+}
+
+void EvidenceMaker::drop_isolated() {
+  static_assert(kPoolRays > 0, "the pool is compacted in place");
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < hits_.size(); ++i) {
+    if (hits_[i].kept) hits_[kept++] = hits_[i];
+  }
+  hits_.shrink(kept);
+  judged_ = kept;
+}
+
+void EvidenceMaker::find_centroid(Evidence& evidence) const {
+  Vec3 sum = Vec3::Zero();
+  double weights = 0;
+  for (const PoolHit& hit : hits_) {
+    const double weight = N::to_double(hit.weight);
+    for (int i = 0; i < 3; ++i) sum[i] += weight * N::to_double(hit.point.p[i]);
+    weights += weight;
+  }
+  if (weights > 0) evidence.centroid = sum / weights;
+}
+
+// The return that is farthest from all that were chosen; the pool's first one to begin with.
+void EvidenceMaker::choose(Evidence& evidence) {
+  std::size_t farthest = 0;
+  for (std::size_t i = 1; i < hits_.size(); ++i) {
+    if (hits_[i].distance2 > hits_[farthest].distance2) farthest = i;
+  }
+  const MatchPoint<N>& chosen = hits_[farthest].point;
+  invariant(evidence.hits.push_back(chosen), "room for a return");
+  for (PoolHit& hit : hits_) {
+    const N::Ratio distance2 = squared_distance(hit.point.p, chosen.p);
+    if (distance2 < hit.distance2) hit.distance2 = distance2;
+  }
+}
+
+// Misses that pass the target's middle within its radius; others say little.
+void EvidenceMaker::choose_misses(const Mission& mission, Evidence& evidence) const {
+  const double limit = mission.radius_m * mission.radius_m;
+  const auto passes_by = [&](const ScanRay<N>& ray) {
+    const Vec3 u(N::to_double(ray.u[0]), N::to_double(ray.u[1]), N::to_double(ray.u[2]));
+    return evidence.centroid.cross(u).squaredNorm() < limit;
+  };
+  std::size_t count = 0;
+  for (const ScanRay<N>& ray : misses_) count += passes_by(ray) ? 1u : 0u;
+  const std::size_t stride = count / kEvidenceMisses + 1;
+  std::size_t index = 0;
+  for (const ScanRay<N>& ray : misses_) {
+    if (passes_by(ray) && index++ % stride == 0) invariant(evidence.misses.push_back(ray), "room for a miss");
+  }
+  if (evidence.hits.empty()) return;
+  const double per_hit = static_cast<double>(hits_.size() * hit_stride_) / static_cast<double>(evidence.hits.size());
+  evidence.misses_per_hit = static_cast<double>(stride * miss_stride_) / per_hit;
+}
+
+}  // namespace lasso

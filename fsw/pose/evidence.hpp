@@ -1,0 +1,59 @@
+// What a search keeps of a scan: a few hundred returns, spread out, and some of the rays that returned nothing.
+#pragma once
+
+#include "fsw/pose/workspace.hpp"
+
+namespace lasso {
+
+constexpr std::size_t kPoolRays = 1024;       // returns and misses that the choice is made from
+constexpr std::size_t kEvidenceHits = 320;    // the first of them are as far apart as any as many
+constexpr std::size_t kEvidenceMisses = 192;  // that pass by the target
+
+struct Evidence {
+  std::uint32_t scan_id = 0;
+  TimeUs t_us = 0;
+  std::uint32_t returns = 0;     // of the scan, isolated ones left out
+  Vec3 centroid = Vec3::Zero();  // of the returns, each weighted by the area that it stands for; sensor frame
+  double misses_per_hit = 1;     // how many misses of the scan one of these stands for, over the same of the hits
+  FixedVector<MatchPoint<FlightNumber>, kEvidenceHits> hits;
+  FixedVector<ScanRay<FlightNumber>, kEvidenceMisses> misses;
+
+  void clear() {
+    returns = 0;
+    centroid = Vec3::Zero();
+    misses_per_hit = 1;
+    hits.clear();
+    misses.clear();
+  }
+};
+
+// Makes the evidence of a scan in small steps.
+class EvidenceMaker {
+ public:
+  // From the rays and points of `workspace` (prepare_rays). Of more than kPoolRays hits or misses every n-th is taken.
+  void begin(const Mission& mission, const Workspace& workspace);
+
+  // One step; false when `evidence` is complete. A step looks at each return of the pool once.
+  bool step(const Mission& mission, Evidence& evidence);
+
+ private:
+  struct PoolHit {
+    MatchPoint<FlightNumber> point;
+    FlightNumber::Ratio weight;     // area that the return stands for, of no unit
+    FlightNumber::Ratio distance2;  // m^2, to the closest return that was chosen
+    FlightNumber::Ratio reach;      // m, within which it has company
+    bool kept;
+  };
+  void judge_isolation(std::size_t index);
+  void drop_isolated();
+  void find_centroid(Evidence& evidence) const;
+  void choose(Evidence& evidence);
+  void choose_misses(const Mission& mission, Evidence& evidence) const;
+
+  FixedVector<PoolHit, kPoolRays> hits_;
+  FixedVector<ScanRay<FlightNumber>, kPoolRays> misses_;
+  std::size_t hit_stride_ = 1, miss_stride_ = 1;  // of the scan, for the pool
+  std::size_t judged_ = 0;
+};
+
+}  // namespace lasso

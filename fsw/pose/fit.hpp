@@ -1,0 +1,26 @@
+// How well a pose explains a scan's evidence: returns on the surface, nothing in front of them, and misses that pass by.
+#pragma once
+
+#include "fsw/geometry/se3.hpp"
+#include "fsw/pose/evidence.hpp"
+
+namespace lasso {
+
+struct Fit {
+  double hits = 0;      // returns looked at
+  double bad = 0;       // of them: off the surface, or behind it
+  double violated = 0;  // misses that the model would have returned, in terms of hits and weighted
+  double distance = 0;  // sum over the returns of the distance from the surface over the truncation, each at most 1
+
+  // Share of what was looked at that the pose does not explain, 0..1; 1 where nothing was.
+  double disagreement() const;
+  // What candidates are ranked by, smaller is better: disagreement and half the mean distance.
+  double score() const;
+};
+
+Fit operator+(const Fit& a, const Fit& b);
+
+// At most kEvidenceHits + kEvidenceMisses walks through the field.
+Fit measure_fit(const Mission& mission, const Pose& T_target_sensor, const Evidence& evidence);
+
+}  // namespace lasso

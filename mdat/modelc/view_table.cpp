@@ -1,0 +1,100 @@
+#include "mdat/modelc/view_table.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "mdat/modelc/embree_scene.hpp"
+#include "mdat/modelc/parallel.hpp"
+
+namespace lasso::mdat {
+namespace {
+
+constexpr int kRaysPerSide = 48;
+constexpr double kNearSpread = 1.5;  // parts of the model before the plane look larger
+constexpr double kFarthest = 8;      // radii: beyond all that a ray can meet
+
+// Rays through a square of the plane through the model's middle, across `direction`: parallel, or from one place before it.
+class Looker {
+ public:
+  Looker(const EmbreeScene& scene, const Surface& surface)
+      : scene_(scene),
+        middle_((surface.low + surface.high) / 2),
+        radius_((surface.high - surface.low).norm() / 2),
+        extent_(surface.extent) {}
+
+  View see(const Vec3d& direction) const {
+    View view{direction, middle_, middle_, {}};
+    Vec3d sum = Vec3d::Zero(), near_sum = Vec3d::Zero();
+    double weights = 0;
+    const Vec3d eye = middle_ + static_cast<double>(kNearView) * extent_ * direction;
+    for (int i = 0; i < kRaysPerSide * kRaysPerSide; ++i) {
+      const Vec3d across = place(direction, i);
+      if (const Vec3d from = middle_ + 2 * radius_ * direction + across; hits(from, -direction)) {
+        view.seen.push_back(point_);
+        sum += point_;
+      }
+      if (hits(eye, (middle_ + kNearSpread * across - eye).normalized())) {
+        const double weight = (point_ - eye).squaredNorm();
+        near_sum += weight * point_;
+        weights += weight;
+      }
+    }
+    if (!view.seen.empty()) view.centroid = view.near_centroid = sum / static_cast<double>(view.seen.size());
+    if (weights > 0) view.near_centroid = near_sum / weights;
+    return view;
+  }
+
+ private:
+  Vec3d place(const Vec3d& direction, int i) const {
+    const Vec3d right = direction.unitOrthogonal();
+    const double x = (2.0 * (i % kRaysPerSide) + 1) / kRaysPerSide - 1;
+    const double y = (2.0 * (i / kRaysPerSide) + 1) / kRaysPerSide - 1;
+    return radius_ * (x * right + y * direction.cross(right));
+  }
+  bool hits(const Vec3d& from, const Vec3d& direction) const {
+    const double range = scene_.first_hit(from, direction);
+    point_ = from + range * direction;
+    return range < kFarthest * radius_;
+  }
+
+  const EmbreeScene& scene_;
+  Vec3d middle_;
+  double radius_, extent_;
+  mutable Vec3d point_;
+};
+
+}  // namespace
+
+std::vector<Vec3d> spread_directions(std::size_t count) {
+  std::vector<Vec3d> directions;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double z = 1 - (2 * static_cast<double>(i) + 1) / static_cast<double>(count);
+    const double angle = 2 * std::numbers::pi * static_cast<double>(i) / std::numbers::phi;
+    const double r = std::sqrt(1 - z * z);
+    directions.emplace_back(r * std::cos(angle), r * std::sin(angle), z);
+  }
+  return directions;
+}
+
+std::vector<View> make_views(const Surface& surface) {
+  EmbreeScene scene;
+  scene.add_triangles(surface);
+  scene.commit();
+  const std::vector<Vec3d> directions = spread_directions(kViewCount);
+  std::vector<View> views(directions.size());
+  parallel_for(views.size(), [&](std::size_t i) { views[i] = Looker(scene, surface).see(directions[i]); });
+  return views;
+}
+
+std::vector<std::uint32_t> view_words(const std::vector<View>& views, const LengthScale& scale) {
+  std::vector<std::uint32_t> words;
+  for (const View& view : views) {
+    for (int i = 0; i < 3; ++i) words.push_back(static_cast<std::uint32_t>(unit_word(view.direction[i])));
+    for (const Vec3d* p : {&view.centroid, &view.near_centroid}) {
+      for (int i = 0; i < 3; ++i) words.push_back(static_cast<std::uint32_t>(scale.to_word((*p)[i])));
+    }
+  }
+  return words;
+}
+
+}  // namespace lasso::mdat

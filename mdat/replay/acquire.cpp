@@ -1,0 +1,80 @@
+#include "mdat/replay/acquire.hpp"
+
+#include <cstdio>
+#include <memory>
+
+#include "hal_sim/scan_file.hpp"
+#include "mdat/common/cpu_clock.hpp"
+#include "mdat/common/progress_bar.hpp"
+#include "mdat/run/statistics.hpp"
+
+namespace lasso::mdat {
+namespace {
+
+constexpr std::uint32_t kSlice = 100'000;  // look-ups; the result does not depend on it
+
+AcquiredScan acquire_scan(const Mission& mission, const RangeImage& image, Search& search, Workspace& workspace) {
+  AcquiredScan acquired;
+  const double begin_us = thread_cpu_us();
+  search.begin(SearchLimits());
+  acquired.status = search.add_scan(mission, image, workspace);
+  while (!search.advance(mission, workspace, kSlice)) {
+  }
+  acquired.search_us = thread_cpu_us() - begin_us;
+  acquired.result = search.result();
+  acquired.result.t_us = image.reference_time_us();
+  return acquired;
+}
+
+std::string row(const AcquiredScan& scan) {
+  const SearchResult& r = scan.result;
+  const Quat& q = r.T_sensor_target.q;
+  const Vec3& p = r.T_sensor_target.p;
+  char text[400];
+  std::snprintf(text, sizeof text, ",%s,%s,%.12g,%.12g,%.12g,%.12g,%.9g,%.9g,%.9g,%.6f,%.4f,%.4f,%zu,%u,%.1f\n",
+                scan.status == Status::kOk ? to_string(r.outcome) : to_string(SearchOutcome::kRejected),
+                scan.status == Status::kOk ? to_string(r.reason) : to_string(scan.status), q.x(), q.y(), q.z(), q.w(), p.x(), p.y(), p.z(),
+                to_seconds(r.t_us), r.ratio, r.disagreement, r.candidates.size(), r.returns, scan.search_us);
+  return scan.scan + text;
+}
+
+}  // namespace
+
+std::vector<AcquiredScan> acquire(const Mission& mission, const std::filesystem::path& folder) {
+  const sim::RecordedScans scans(folder);
+  const auto search = std::make_unique<Search>();
+  const auto workspace = std::make_unique<Workspace>();
+  std::vector<AcquiredScan> acquired;
+  ProgressBar bar("search", scans.size(), "scans");
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    acquired.push_back(acquire_scan(mission, scans.read(i), *search, *workspace));
+    acquired.back().scan = scans.stem(i);
+    bar.show(i + 1);
+  }
+  bar.finish();
+  return acquired;
+}
+
+std::string acquired_csv(const std::vector<AcquiredScan>& scans) {
+  std::string text = "scan,outcome,reason,qx,qy,qz,qw,x_m,y_m,z_m,t_s,ratio,disagreement,candidates,returns,search_us\n";
+  for (const AcquiredScan& scan : scans) text += row(scan);
+  return text;
+}
+
+std::string acquired_summary(const std::vector<AcquiredScan>& scans) {
+  std::size_t accepted = 0, ambiguous = 0;
+  std::vector<double> times_us;
+  for (const AcquiredScan& scan : scans) {
+    accepted += scan.result.outcome == SearchOutcome::kAccepted ? 1U : 0U;
+    ambiguous += scan.result.outcome == SearchOutcome::kAmbiguous ? 1U : 0U;
+    times_us.push_back(scan.search_us);
+  }
+  const TimeStatistics time = time_statistics(times_us);
+  char text[200];
+  std::snprintf(text, sizeof text,
+                "%zu scans: %zu poses accepted, %zu ambiguous, %zu rejected; time of a search: median %.0f ms, 99th percentile %.0f ms\n",
+                scans.size(), accepted, ambiguous, scans.size() - accepted - ambiguous, 1e-3 * time.median_us, 1e-3 * time.p99_us);
+  return text;
+}
+
+}  // namespace lasso::mdat

@@ -1,0 +1,29 @@
+// Searches each recorded scan for the target on its own, without any prior attitude.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "fsw/mission/mission.hpp"
+#include "fsw/pose/search.hpp"
+
+namespace lasso::mdat {
+
+struct AcquiredScan {
+  std::string scan;  // stem
+  SearchResult result;
+  Status status = Status::kOk;  // why the search did not take the scan
+  double search_us = 0;         // processor time of the whole search
+};
+
+// In name order. Throws InputError and sim::ScanFileError.
+std::vector<AcquiredScan> acquire(const Mission& mission, const std::filesystem::path& scans);
+
+// One row a scan: outcome, reason, pose, ratio, disagreement and the number of candidates.
+std::string acquired_csv(const std::vector<AcquiredScan>& scans);
+
+// How many were accepted, ambiguous and rejected, and the time of a search.
+std::string acquired_summary(const std::vector<AcquiredScan>& scans);
+
+}  // namespace lasso::mdat

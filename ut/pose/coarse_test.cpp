@@ -1,0 +1,116 @@
+#include "fsw/pose/coarse.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "ut/pose/search_fixture.hpp"
+#include "ut/support/verifies.hpp"
+
+namespace lasso {
+namespace {
+
+double angle_between(const Quat& a, const Quat& b) { return 2 * std::acos(std::min(1.0, std::abs(a.dot(b)))); }
+
+class CoarseTest : public test::SearchFixture {
+ protected:
+  // Angle of the hypothesis that is nearest to the truth, or to it turned by half a turn about an axis of the main box: three boxes leave
+  // little to tell them apart by distances alone.
+  double nearest(const ShortList& list) const {
+    double least = 10;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      for (const Quat& twin : {Quat(1, 0, 0, 0), Quat(0, 1, 0, 0), Quat(0, 0, 1, 0), Quat(0, 0, 0, 1)}) {
+        least = std::min(least, angle_between(list[i].T_target_sensor.q, twin * truth().q));
+      }
+    }
+    return least;
+  }
+};
+
+TEST_F(CoarseTest, HasAHypothesisNearTheTruth) {
+  VERIFIES("LASSO-MOD-111~1");
+  int near = 0;
+  for (int i = 0; i < 12; ++i) {
+    scan_.T_sensor_target = test::random_box_pose(random_);
+    scan_.T_sensor_target.p[2] = i % 2 == 0 ? 2.5 : 4.0;
+    scan();
+    const auto evidence = make_evidence();
+    CoarseSearch coarse;
+    coarse.begin(*evidence);
+    std::size_t views = 1;
+    while (coarse.step(mission_, *evidence)) ++views;
+    EXPECT_EQ(views, mission_.search.views.size());
+    EXPECT_EQ(coarse.short_list().size(), kShortList);
+    near += nearest(coarse.short_list()) < 25 * kRadPerDeg ? 1 : 0;
+  }
+  EXPECT_GE(near, 9);
+}
+
+TEST_F(CoarseTest, TakesVeryNearAndEmptyEvidence) {
+  VERIFIES("LASSO-MOD-111~1");
+  auto evidence = std::make_unique<Evidence>();
+  CoarseSearch coarse;
+  coarse.begin(*evidence);
+  EXPECT_TRUE(coarse.step(mission_, *evidence));
+  EXPECT_EQ(coarse.short_list()[0].score, 0u);
+}
+
+Hypothesis at(double angle, std::uint32_t score) {
+  Hypothesis h;
+  h.T_target_sensor.q = exp_so3(angle * Vec3(0.36, -0.48, 0.8));
+  h.score = score;
+  return h;
+}
+
+TEST(ShortList, KeepsTheBetterOfTwoThatAreNear) {
+  VERIFIES("LASSO-MOD-111~1");
+  ShortList list;
+  list.offer(at(0.0, 50));
+  list.offer(at(0.2, 60));
+  ASSERT_EQ(list.size(), 1u);
+  EXPECT_EQ(list[0].score, 50u);
+  list.offer(at(0.2, 40));
+  ASSERT_EQ(list.size(), 1u);
+  EXPECT_EQ(list[0].score, 40u);
+  list.offer(at(0.5, 70));
+  EXPECT_EQ(list.size(), 2u);
+  EXPECT_TRUE(list.wants(1000));
+  list.clear();
+  EXPECT_EQ(list.size(), 0u);
+}
+
+TEST(ShortList, LetsTheWorstGoWhenFull) {
+  VERIFIES("LASSO-MOD-111~1");
+  ShortList list;
+  test::Generator random(5);
+  std::uint32_t offered = 0;
+  while (list.size() < kShortList) {
+    Hypothesis h;
+    for (int i = 0; i < 4; ++i) h.T_target_sensor.q.coeffs()[i] = random.normal();
+    h.T_target_sensor.q = normalized(h.T_target_sensor.q);
+    h.score = 100 + offered++;
+    list.offer(h);
+  }
+  std::uint32_t worst = 0;
+  for (std::size_t i = 0; i < list.size(); ++i) worst = std::max(worst, list[i].score);
+  EXPECT_FALSE(list.wants(worst));
+  EXPECT_TRUE(list.wants(worst - 1));
+  Hypothesis far;
+  double apart = 0;
+  while (apart < 0.3) {  // from all
+    for (int i = 0; i < 4; ++i) far.T_target_sensor.q.coeffs()[i] = random.normal();
+    far.T_target_sensor.q = normalized(far.T_target_sensor.q);
+    apart = 10;
+    for (std::size_t i = 0; i < list.size(); ++i) apart = std::min(apart, angle_between(far.T_target_sensor.q, list[i].T_target_sensor.q));
+  }
+  far.score = worst + 1;
+  list.offer(far);
+  for (std::size_t i = 0; i < list.size(); ++i) EXPECT_LE(list[i].score, worst);
+  far.score = 1;
+  list.offer(far);
+  EXPECT_EQ(list.size(), kShortList);
+  for (std::size_t i = 0; i < list.size(); ++i) EXPECT_LT(list[i].score, worst);
+}
+
+}  // namespace
+}  // namespace lasso
