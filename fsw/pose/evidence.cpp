@@ -110,7 +110,6 @@ void EvidenceMaker::judge_isolation(std::size_t index) {
 }
 
 void EvidenceMaker::drop_isolated() {
-  static_assert(kPoolRays > 0, "the pool is compacted in place");
   std::size_t kept = 0;
   for (std::size_t i = 0; i < hits_.size(); ++i) {
     if (hits_[i].kept) hits_[kept++] = hits_[i];

@@ -130,6 +130,37 @@ TEST_F(Replay, RegistersPointClouds) {
   expect_near_truth(replay("image.3dli", "clouds", ""), 1.5e-3, 0.003);
 }
 
+TEST_F(Replay, FindsEachScansPoseWithoutAnyOrSaysWhyNot) {
+  VERIFIES("LASSO-MOD-111~1");
+  work.write("rec/4m/scans/f00009.csv", "t_s,x_m,y_m,z_m,valid\n9,0,0,1,0\n9.1,0,0,1,0\n");  // two misses
+  const Answer answer = work.mdat("replay image.3dli --scans rec/4m/scans --initial search --out found.csv");
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_NE(answer.out.find("9 scans"), std::string::npos) << answer.out;
+  const std::vector<Row> rows = table(work.read("found.csv"));
+  const std::vector<Row> truth = table(work.read("rec/4m/truth.csv"));
+  ASSERT_EQ(rows.size(), kFrames + 1);
+  std::size_t accepted = 0;
+  for (std::size_t i = 0; i < kFrames; ++i) {
+    EXPECT_EQ(rows[i].at("scan"), truth[i].at("scan"));
+    if (rows[i].at("outcome") != "accepted") continue;
+    ++accepted;
+    EXPECT_EQ(rows[i].at("reason"), "distinct");
+    EXPECT_LT(distance_m(rows[i], truth[i]), 0.02);
+    EXPECT_LT(angle_rad(rows[i], truth[i]), 2 * 0.0174533);
+    EXPECT_GE(value(rows[i], "ratio"), 1.3);
+  }
+  EXPECT_GE(accepted, kFrames - 1);
+  EXPECT_EQ(rows[kFrames].at("outcome"), "rejected");
+  EXPECT_EQ(rows[kFrames].at("reason"), "no data") << "by the name of the status";
+}
+
+TEST_F(Replay, ASearchIsOfEachScanAlone) {
+  VERIFIES("LASSO-MOD-111~1");
+  const Answer answer = work.mdat("replay image.3dli --scans rec/4m/scans --initial search --closed-loop --out found.csv");
+  EXPECT_NE(answer.exit_code, 0);
+  EXPECT_NE(answer.err.find("--closed-loop"), std::string::npos) << answer.err;
+}
+
 TEST_F(Replay, SaysWhyAScanHasNoValidPose) {
   VERIFIES("LASSO-MDT-006~1");
   std::string scan = "t_s,x_m,y_m,z_m,valid\n";

@@ -36,6 +36,11 @@ class SearchTest : public test::SearchFixture {
     return error.head<3>().norm() < 2 * kRadPerDeg && error.tail<3>().norm() < 0.02;
   }
   const SearchResult& result() const { return search_->result(); }
+  // Little work, where the pose that is found does not matter.
+  void look_from_few_sides() {
+    mission_.search.views = mission_.search.views.first(1);
+    mission_.search.symmetries = mission_.search.symmetries.first(1);
+  }
 
   SearchLimits limits_;
   std::unique_ptr<Search> search_ = std::make_unique<Search>();
@@ -44,7 +49,7 @@ class SearchTest : public test::SearchFixture {
 TEST_F(SearchTest, FindsTheTargetAtAnyAttitudeAndAcceptsNoWrongPose) {
   VERIFIES("LASSO-MOD-111~1 LASSO-MOD-122~1");
   int right = 0;
-  for (int i = 0; i < 12; ++i) {
+  for (int i = 0; i < 6; ++i) {
     scan_.T_sensor_target = test::random_box_pose(random_);
     search_->begin(limits_);
     ASSERT_EQ(search(), Status::kOk);
@@ -58,7 +63,7 @@ TEST_F(SearchTest, FindsTheTargetAtAnyAttitudeAndAcceptsNoWrongPose) {
     EXPECT_TRUE(result().rates.omega_radps.isZero());
     ++right;
   }
-  EXPECT_GE(right, 10);
+  EXPECT_GE(right, 5);
 }
 
 TEST_F(SearchTest, TheSizeOfTheSlicesChangesNothing) {
@@ -90,7 +95,7 @@ TEST_F(SearchTest, RejectsAnotherTarget) {
   VERIFIES("LASSO-MOD-122~1");
   scan_.model.half = Vec3(0.09, 0.42, 0.05);
   scan_.others.clear();
-  for (int i = 0; i < 4; ++i) {
+  for (int i = 0; i < 2; ++i) {
     scan_.T_sensor_target = test::random_box_pose(random_);
     search_->begin(limits_);
     ASSERT_EQ(search(), Status::kOk);
@@ -101,6 +106,7 @@ TEST_F(SearchTest, RejectsAnotherTarget) {
 
 TEST_F(SearchTest, RejectsAPoseThatLeavesTooMuchUnexplained) {
   VERIFIES("LASSO-MOD-122~1");
+  look_from_few_sides();
   limits_.disagreement_max = -1;
   search_->begin(limits_);
   ASSERT_EQ(search(), Status::kOk);
@@ -110,6 +116,7 @@ TEST_F(SearchTest, RejectsAPoseThatLeavesTooMuchUnexplained) {
 
 TEST_F(SearchTest, RejectsTooFewReturns) {
   VERIFIES("LASSO-MOD-122~1");
+  look_from_few_sides();
   limits_.hits_min = 1000;
   search_->begin(limits_);
   ASSERT_EQ(search(), Status::kOk);
@@ -119,6 +126,7 @@ TEST_F(SearchTest, RejectsTooFewReturns) {
 
 TEST_F(SearchTest, RejectsWhatCannotBeRegistered) {
   VERIFIES("LASSO-MOD-122~1");
+  look_from_few_sides();
   auto image = scan_at(0);
   int hits = 0;
   for (RangeSample& sample : image->samples) {
@@ -133,6 +141,8 @@ TEST_F(SearchTest, RejectsWhatCannotBeRegistered) {
 
 TEST_F(SearchTest, RefusesScansOutOfOrder) {
   VERIFIES("LASSO-MOD-111~1");
+  look_from_few_sides();
+  limits_.disagreement_max = 1;
   limits_.ratio_min = 1e9;
   limits_.scans_max = 2;
   search_->begin(limits_);
@@ -147,7 +157,6 @@ TEST_F(SearchTest, RefusesScansOutOfOrder) {
   EXPECT_EQ(search_->add_scan(mission_, *image, *workspace_), Status::kBadOrder);  // the same again
   EXPECT_EQ(search(1), Status::kOk);
   EXPECT_EQ(search(2), Status::kBadOrder);  // one more than allowed
-  limits_ = SearchLimits();
   limits_.ratio_min = 0;
   search_->begin(limits_);
   EXPECT_EQ(search(), Status::kOk);
@@ -185,7 +194,7 @@ class SymmetricTest : public SearchTest {
 
 TEST_F(SymmetricTest, ASymmetricTargetIsAmbiguousWithItsCandidates) {
   VERIFIES("LASSO-MOD-121~1 LASSO-MOD-120~1");
-  for (int i = 0; i < 3; ++i) {
+  for (int i = 0; i < 2; ++i) {
     scan_.T_sensor_target = test::random_box_pose(random_);
     search_->begin(limits_);
     for (int k = 0; k < 2; ++k) {
