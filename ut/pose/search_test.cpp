@@ -221,6 +221,17 @@ TEST_F(SymmetricTest, FewDistinctHypothesesAreEnough) {
   EXPECT_NE(result().outcome, SearchOutcome::kNone);
 }
 
+// Only memory that was hit can hold such a view: it has no axes, all its rolls are one hypothesis, and that is no pose.
+TEST_F(SearchTest, AViewWithoutADirectionLeadsToNoPose) {
+  VERIFIES("LASSO-MOD-111~1");
+  const ModelView<FlightNumber> none{};
+  mission_.search.views = {&none, 1};
+  mission_.search.symmetries = mission_.search.symmetries.first(0);
+  search_->begin(limits_);
+  ASSERT_EQ(search(), Status::kOk);
+  EXPECT_EQ(result().outcome, SearchOutcome::kRejected);
+}
+
 TEST(SearchText, NamesOutcomesAndReasons) {
   VERIFIES("LASSO-MOD-122~1");
   EXPECT_STREQ(to_string(SearchOutcome::kNone), "none");
