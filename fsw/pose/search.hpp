@@ -6,9 +6,9 @@
 // all scans are added, and candidates are carried from scan to scan with the rate that their own poses show. A target may turn by some
 // 15 deg between two scans. All state is in the object and is forgotten by begin(); the workspace holds nothing between two calls.
 //
-// Work is done in steps and counted in look-ups, meant to be some 50 PowerPC 603e instructions each (not measured there yet). advance() ends
-// with the step that uses the budget up; no step takes more than kLargestStep, few more than 60,000. A scan of 1024 rays takes some 3.4 million
-// look-ups in all.
+// Work is done in steps and counted in look-ups, meant to be some 50 PowerPC 603e instructions each (not measured there yet). advance()
+// ends with the step that uses the budget up; no step takes more than kLargestStep, few more than 60,000. A scan of 1024 rays takes
+// some 3.4 million look-ups in all.
 #pragma once
 
 #include "fsw/pose/coarse.hpp"
