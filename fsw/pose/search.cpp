@@ -19,7 +19,7 @@ constexpr int kExploreSteps = 12;       // each way
 constexpr double kExploreStep = 0.005;  // of the model's size, along the least certain direction
 // Look-ups of one point.
 constexpr std::size_t kWalkCost = 12;
-constexpr std::size_t kPullCost = 8 * 5 + 4 * kWalkCost;
+constexpr std::size_t kPullCost = 40 + 4 * kWalkCost;  // 8 distances, then walks
 
 std::uint32_t to_work(std::size_t lookups) { return static_cast<std::uint32_t>(lookups); }
 
@@ -178,20 +178,29 @@ std::uint32_t Search::pull(const Mission& mission, Workspace& workspace) {
   return to_work(kPullCost * workspace.points.size()) + fit_work(evidence);
 }
 
+// Is it as far as that from all of the scan's own finalists?
+bool Search::is_apart(const Pose& T_target_sensor, double cos_half_angle) const {
+  bool apart = true;
+  for (std::size_t i = first_; i < tracks_.size(); ++i) {
+    apart = apart && are_apart(T_target_sensor.q, tracks_[i].T_target_sensor[last()].q, cos_half_angle);
+  }
+  return apart;
+}
+
+const Search::Pulled* Search::best_pulled(double cos_half_angle) const {
+  const Pulled* best = nullptr;
+  for (const Pulled& pulled : pulled_) {
+    const bool better = best == nullptr || pulled.score < best->score;
+    if (better && is_apart(pulled.T_target_sensor, cos_half_angle)) best = &pulled;
+  }
+  return best;
+}
+
 // The best, at least 5 deg apart; and the last two at least 15 deg, so that there is a competitor to compare with.
 void Search::choose_finalists() {
   first_ = tracks_.size();
   for (std::size_t chosen = 0; chosen < kFinalists; ++chosen) {
-    const Pulled* best = nullptr;
-    for (const Pulled& pulled : pulled_) {
-      if (best != nullptr && !(pulled.score < best->score)) continue;
-      const double limit = chosen + 2 < kFinalists ? kCosHalfSame : kCosHalfDistinct;
-      bool apart = true;
-      for (std::size_t i = first_; i < tracks_.size(); ++i) {
-        apart = apart && are_apart(pulled.T_target_sensor.q, tracks_[i].T_target_sensor[last()].q, limit);
-      }
-      if (apart) best = &pulled;
-    }
+    const Pulled* best = best_pulled(chosen + 2 < kFinalists ? kCosHalfSame : kCosHalfDistinct);
     if (best == nullptr) break;
     add_track(best->T_target_sensor);
   }

@@ -102,6 +102,8 @@ class Search {
   std::uint32_t recall_next(const Mission& mission, Workspace& workspace);
   std::uint32_t settle(const Mission& mission, std::size_t scan, const Pose& start, Track& track, Workspace& workspace) const;
   std::uint32_t conclude();
+  bool is_apart(const Pose& T_target_sensor, double cos_half_angle) const;
+  const Pulled* best_pulled(double cos_half_angle) const;
   void choose_finalists();
   void add_twins(const Mission& mission);
   void add_track(const Pose& T_target_sensor);
