@@ -84,7 +84,7 @@ inline SurfaceDistance<N> surface_distance(const SearchTables<N>& t, const typen
   const Ratio high = line[1][0] + f[1] * (line[1][1] - line[1][0]);
   const Ratio unit = t.truncation / static_cast<Ratio>(static_cast<std::int32_t>(kFarByte));
   const Ratio per_m = unit * t.cells_per_m;
-  SurfaceDistance<N> result;
+  SurfaceDistance<N> result;  // NOLINT(cppcoreguidelines-pro-type-member-init): each member is set below; this runs per return and pass
   result.distance = unit * (low + f[2] * (high - low));
   const Ratio low_x = slope[0][0] + f[1] * (slope[0][1] - slope[0][0]);
   const Ratio high_x = slope[1][0] + f[1] * (slope[1][1] - slope[1][0]);

@@ -43,7 +43,7 @@ Pose pull_on_rays(const Mission& mission, const Pose& T_target_sensor, Workspace
 
 Pose pull_in(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace) {
   if (workspace.points.size() < kMinimumPoints) return T_target_sensor;
-  MatchSettings<N> s = make_settings(mission.parameters, workspace);
+  const MatchSettings<N> s = make_settings(mission.parameters, workspace);
   Pose pose = T_target_sensor;
   N::Length scale = N::to_length(kScaleFirst) * mission.search.truncation;
   for (int i = 0; i < kDistancePasses; ++i) {
