@@ -61,7 +61,7 @@ bool is_apart(const NearSymmetryMotion& motion, const std::vector<NearSymmetryMo
 
 // The best of them that are apart from each other and from no motion.
 std::vector<NearSymmetryMotion> best_apart(std::vector<NearSymmetryMotion> motions, std::size_t count) {
-  std::stable_sort(motions.begin(), motions.end(), [](const auto& a, const auto& b) { return a.mismatch < b.mismatch; });
+  std::sort(motions.begin(), motions.end(), [](const auto& a, const auto& b) { return a.mismatch < b.mismatch; });
   std::vector<NearSymmetryMotion> best;
   for (const NearSymmetryMotion& motion : motions) {
     if (best.size() < count && is_apart(motion, best)) best.push_back(motion);

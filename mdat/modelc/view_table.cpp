@@ -47,8 +47,10 @@ class Looker {
  private:
   Vec3d place(const Vec3d& direction, int i) const {
     const Vec3d right = direction.unitOrthogonal();
-    const double x = (2.0 * (i % kRaysPerSide) + 1) / kRaysPerSide - 1;
-    const double y = (2.0 * (i / kRaysPerSide) + 1) / kRaysPerSide - 1;
+    const int row = i / kRaysPerSide;
+    const int column = i % kRaysPerSide;
+    const double x = (2.0 * column + 1) / kRaysPerSide - 1;
+    const double y = (2.0 * row + 1) / kRaysPerSide - 1;
     return radius_ * (x * right + y * direction.cross(right));
   }
   bool hits(const Vec3d& from, const Vec3d& direction) const {
