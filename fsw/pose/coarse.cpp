@@ -7,6 +7,7 @@ namespace {
 
 using N = FlightNumber;
 
+constexpr N::Ratio kFarthestCell = 1000;               // no grid has as many along an axis
 constexpr double kCosHalfApart = 0.99144486137381038;  // cos(kShortListApart_rad / 2)
 
 Vec3 to_vec3(const N::Unit* v) { return {N::to_double(v[0]), N::to_double(v[1]), N::to_double(v[2])}; }
@@ -29,6 +30,12 @@ Mat3 axes_along(const Vec3& z) {
   axes.col(1) = z.cross(axes.col(0));
   axes.col(2) = z;
   return axes;
+}
+
+// The cell before the one that x lies in; for all that is outside the grid (also far off, or not a number) one that no grid has.
+std::uint32_t cell_of(N::Ratio x) {
+  const N::Ratio near = x < kFarthestCell ? x : 0;
+  return static_cast<std::uint32_t>(static_cast<std::int32_t>(near > 0 ? near : 0)) - 1;
 }
 
 }  // namespace
@@ -114,8 +121,7 @@ std::uint32_t CoarseSearch::score(const SearchTables<N>& tables, const RolledVie
   for (std::size_t i = 0; i < count_; ++i) {
     std::uint32_t cell[3];
     for (int k = 0; k < 3; ++k) {
-      const N::Ratio place = rolled.t[k] + dot3<N>(rolled.R[k], points_[i]) + 1;  // truncation puts (-1, 0) outside, too
-      cell[k] = static_cast<std::uint32_t>(static_cast<std::int32_t>(place)) - 1;
+      cell[k] = cell_of(rolled.t[k] + dot3<N>(rolled.R[k], points_[i]) + 1);
     }
     sum += distance_byte(tables, cell[0], cell[1], cell[2]);
   }
