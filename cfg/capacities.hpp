@@ -7,6 +7,7 @@
 namespace lasso {
 
 constexpr std::size_t kMaxRays = 4096;              // rays of one scan (nominal 1024)
+constexpr std::size_t kMaxAimedRays = 384;          // rays of one scan that leave its pattern
 constexpr std::size_t kMaxSamplesPerPoll = 128;     // samples a sensor hands over in one call
 constexpr std::size_t kMaxImageBytes = 32u << 20;   // flight image: 70,000 curved triangles
 constexpr std::uint32_t kMaxElementsPerCell = 500;  // elements in one ray cell's list
@@ -14,8 +15,9 @@ constexpr std::uint32_t kMaxCellDistance = 250;     // longest jump through empt
 constexpr std::size_t kMaxHullPoints = 256;         // extreme points of the target, for aiming
 constexpr std::uint32_t kMaxElements = 1u << 18;
 constexpr std::uint32_t kMaxEdges = 1u << 17;
-constexpr std::size_t kMaxSites = 256;              // silhouette measurements of one scan
+constexpr std::size_t kMaxSites = 512;              // silhouette measurements of one scan
 constexpr std::size_t kMaxContourEdges = 4096;      // model edges on the contour of one view
+constexpr std::size_t kMaxAimPlaces = 128;          // places on it among which those worth a look are chosen
 constexpr std::size_t kTelemetryQueueBytes = 8192;  // packets between two downlinks
 constexpr std::size_t kTaskStackBytes = 32u << 10;  // stack that a board gives each task; make prove: they need half of it at most
 

@@ -114,8 +114,10 @@ SimulatedScanner::SimulatedScanner(const RayCaster& target, const Trajectory& tr
 // A plan that touches the limit is inside: the planner caps its extents at the same limit, and may differ in the last bits.
 bool SimulatedScanner::within_field_of_view(const ScanPlan& plan) const {
   constexpr double kRounding = 1e-6;
-  return std::abs(plan.center_x) + plan.half_x <= tan_half_x_ + kRounding &&
-         std::abs(plan.center_y) + plan.half_y <= tan_half_y_ + kRounding;
+  const auto within = [&](double x, double y) { return std::abs(x) <= tan_half_x_ + kRounding && std::abs(y) <= tan_half_y_ + kRounding; };
+  return within(std::abs(plan.center_x) + plan.half_x, std::abs(plan.center_y) + plan.half_y) &&
+         std::all_of(plan.aimed.begin(), plan.aimed.end(),
+                     [&](const AimedRay& ray) { return within(static_cast<double>(ray.x), static_cast<double>(ray.y)); });
 }
 
 Status SimulatedScanner::start(const ScanPlan& plan, TimeUs t_start_us) {

@@ -17,5 +17,7 @@ FIGURES = {
     'over_bound_mm': lambda v: v['rms_mm'] / v['crlb_mm'],
     'over_bound_deg': lambda v: v['rms_deg'] / v['crlb_deg'],
     'nees': lambda v: v['nees'],
+    'edge_on_roll_deg': lambda v: v['edge_on']['roll_std_deg'],
+    'edge_on_axial_mm': lambda v: v['edge_on']['axial_std_mm'],
     'lost': lambda v: v['lost'],
 }

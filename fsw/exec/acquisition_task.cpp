@@ -18,8 +18,15 @@ void AcquisitionTask::start(const Mission& mission, const Aim& aim, std::uint32_
   plan.scan_id = scan_id;
   const Status status = aim.full_field ? plan_full_field(mission.parameters, scan_id, plan) : plan_aimed(mission, aim, plan);
   if (status != Status::kOk) return;
+  aimed_.clear();
+  if (!aim.full_field) keep(aim.rays);
+  plan.aimed = aimed_.span();
   // A refusal comes back as the verdict of finish().
   static_cast<void>(acquisition_.start(sensor_, plan, t_start_us, images_[filling_]));
+}
+
+void AcquisitionTask::keep(Span<const AimedRay> rays) {
+  for (const AimedRay& ray : rays) invariant(aimed_.push_back(ray), "more aimed rays than a scan can have");
 }
 
 void AcquisitionTask::poll(TimeUs now_us) {

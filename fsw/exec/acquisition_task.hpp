@@ -19,6 +19,7 @@ struct Aim {
   Pose T_sensor_target;
   double uncertainty_m = 0;
   bool full_field = false;
+  Span<const AimedRay> rays;  // that leave the pattern; not those of a full-field scan
 };
 
 class AcquisitionTask {
@@ -38,9 +39,12 @@ class AcquisitionTask {
   void swap_images() { filling_ = 1 - filling_; }
 
  private:
+  void keep(Span<const AimedRay> rays);
+
   Sensor& sensor_;
   Acquisition acquisition_;
   RangeImage images_[2];
+  AimedRays aimed_;  // of the scan under way
   std::uint32_t filling_ = 0;
 };
 

@@ -145,8 +145,10 @@ void Component::run_task(TaskId task, TimeUs now_us) {
 void Component::publish_estimate(TimeUs now_us) {
   TrackStep step;
   const bool in_time = estimation_.collect(step);
+  aimed_.clear();
   if (estimated_.active) {
     if (!in_time) step = step_without_estimate();
+    if (in_time) aimed_ = estimation_.aimed();
     follow(step);
     send(step, now_us);
   } else if (properties(track_.mode).says_lost || report_overdue()) {
@@ -194,7 +196,7 @@ void Component::apply_command() {
   if (!has_transition(track_.mode, requested_event_)) return;  // the mode is there already, or has changed since
   note_change({track_.mode, requested_event_, next_mode(track_.mode, requested_event_)});
   change_mode(requested_event_, track_);
-  acquired_.active = false;  // it was aimed by the track that ends here
+  leave_track();
 }
 
 void Component::try_start(StartWay way) {
@@ -205,7 +207,13 @@ void Component::try_start(StartWay way) {
     return;
   }
   note_change({before, ModeEvent::kStart, track_.mode});
+  leave_track();
+}
+
+// What was planned by the track that ends here counts no more.
+void Component::leave_track() {
   acquired_.active = false;
+  aimed_.clear();
 }
 
 // Loop bound: each try takes an offer, of which there is one a way.
@@ -227,7 +235,9 @@ void Component::hand_over_scan() {
   if (!estimated_.active) return;
   if (!usable) ++counters_.lost_scans;
   if (!estimation_.idle()) return;  // an estimate that overran still runs: this scan is dropped with it
-  estimation_.submit({estimated_.scan_id, usable ? &acquisition_.filling() : nullptr, estimated_.t_nominal_us, track_});
+  estimation_.submit({estimated_.scan_id, usable ? &acquisition_.filling() : nullptr, estimated_.t_nominal_us, track_,
+                      estimated_.scan_id + kPipelineFrames,
+                      estimated_.t_nominal_us + static_cast<DurationUs>(kPipelineFrames) * to_us(mission_.parameters.period_s)});
   if (usable) acquisition_.swap_images();
 }
 
@@ -241,7 +251,7 @@ void Component::start_scan() {
   predicted.T_sensor_target = track_.filter.T_sensor_target;
   // Where the prediction has no meaning the scan is aimed where the target was last.
   static_cast<void>(predict_pose(track_.filter, acquired_.t_nominal_us, predicted));
-  const Aim aim{predicted.T_sensor_target, place_sigma(mission_, track_.filter), properties(track_.mode).full_field};
+  const Aim aim{predicted.T_sensor_target, place_sigma(mission_, track_.filter), properties(track_.mode).full_field, aimed_.span()};
   acquisition_.start(mission_, aim, acquired_.scan_id, boundary_us, acquired_.plan);
 }
 

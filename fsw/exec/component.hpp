@@ -98,6 +98,7 @@ class Component {
   void request_start(StartWay way);
   void try_start(StartWay way);
   void apply_command();
+  void leave_track();
   void refuse_start(StartWay way, StartRefusal refusal);
   void note_change(const ModeChange& change);
   void follow(const TrackStep& step);
@@ -113,6 +114,7 @@ class Component {
   EstimationTask estimation_;
   TelemetryQueue queue_;
   TrackState track_;        // as of the last boundary
+  AimedRays aimed_;         // where its estimate would look next; empty when the track is another one now
   ScanInFlight acquired_;   // in this frame
   ScanInFlight estimated_;  // in this frame
   Counters counters_;

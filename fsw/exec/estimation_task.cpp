@@ -34,6 +34,7 @@ void EstimationTask::run(const Mission& mission) {
   if (!pending()) return;
   phase_.store(kRunning, std::memory_order_release);
   step_ = step_of(mission);
+  aim_next(mission, estimator_, step_, job_.next_scan_id, job_.t_next_us, aimed_);
   phase_.store(kDone, std::memory_order_release);
 }
 

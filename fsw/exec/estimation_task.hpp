@@ -19,6 +19,8 @@ struct EstimationJob {
   const RangeImage* scan = nullptr;  // null: the scan was lost, the filter coasts
   TimeUs t_nominal_us = 0;           // planned middle of the scan, for a lost one
   TrackState before;
+  std::uint32_t next_scan_id = 0;  // the first scan that is planned from this job's result
+  TimeUs t_next_us = 0;            // planned middle of that scan
 };
 
 class EstimationTask {
@@ -29,6 +31,8 @@ class EstimationTask {
   // True, with the step in `step`, when the job is done in time. False when there is none, or when it is late: its result is then
   // dropped whole whenever it comes, and the task stays busy until a later collect() finds it done.
   bool collect(TrackStep& step);
+  // Where the scan that is planned from the collected step is to look besides its pattern. Acquisition thread, until the next submit().
+  const AimedRays& aimed() const { return aimed_; }
 
   // Any thread: a job waits to be run.
   bool pending() const { return phase_.load(std::memory_order_acquire) == kPending; }
@@ -43,6 +47,7 @@ class EstimationTask {
   bool dropped_ = false;  // acquisition thread only
   EstimationJob job_;
   TrackStep step_;
+  AimedRays aimed_;
   Estimator estimator_;
   BearingFinder bearing_finder_;
 };

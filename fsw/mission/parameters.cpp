@@ -29,6 +29,7 @@ const ParameterRow kRows[] = {
   {"scan.cycles_b", "1", kInteger, &P::cycles_b, 1, 1, 500, 12, "", "rosette, Lissajous: second cycle count, coprime to the first"},
   {"scan.margin", "1", kReal, &P::margin, 1, 0.5, 3, 1, "", "scan extents over the target's predicted extents"},
   {"scan.phase_step_turns", "1", kReal, &P::phase_step_turns, 1, 0, 1, 0.3819660112501051, "", "turn of the pattern from scan to scan"},
+  {"scan.aimed_share", "1", kReal, &P::aimed_share, 1, 0, 0.5, 0, "", "most of the rays that leave the pattern for predicted contours (with estimation.silhouettes); 0.3 is a good share"},
   {"estimation.incidence_max_deg", "deg", kReal, &P::incidence_max_rad, kDeg, 45, 89, 86, "", "rays that graze the surface more than this do not count"},
   {"estimation.kernel_width", "1", kReal, &P::kernel_width, 1, 2, 50, 10, "", "Tukey kernel's width in sigmas (tight is dishonest, see docs)"},
   {"estimation.gate_first_m", "m", kReal, &P::gate_first_m, 1, 0, 10, 0.010, "", "added to the kernel's width in the first iteration"},

@@ -13,7 +13,7 @@ struct MissionParameters {
   // [sensor] the noise that the estimator assumes: sigma_r^2 = sigma0^2 + (k z^2)^2 along the ray, z*sigma_angle across it
   double sigma0_m, sigma_k_per_m, sigma_angle_rad, range_min_m, range_max_m, fov_half_x_rad, fov_half_y_rad, dropout_probability;
   // [scan]
-  double pattern, points, duration_s, cycles_a, cycles_b, margin, phase_step_turns;
+  double pattern, points, duration_s, cycles_a, cycles_b, margin, phase_step_turns, aimed_share;
   // [estimation]
   double incidence_max_rad, kernel_width, gate_first_m, iterations_max, stop_translation_m, stop_rotation_rad, silhouettes,
       silhouette_sigma_m, silhouette_band_m, edge_gap_min_m, edge_depth_m, probe_step_m, label_error, deskew, noise_estimated,

@@ -123,6 +123,15 @@ TrackStep track_scan(const Mission& mission, Estimator& estimator, const RangeIm
   return step;
 }
 
+void aim_next(const Mission& mission, Estimator& estimator, const TrackStep& step, std::uint32_t scan_id, TimeUs t_us, AimedRays& rays) {
+  rays.clear();
+  if (!step.registration.valid()) return;
+  FilterState predicted = step.after.filter;
+  if (predict_filter(predicted, t_us, filter_noise(mission.parameters)) != Status::kOk) return;
+  const AimRequest request{scan_id, predicted.T_sensor_target, predicted.rates, predicted.covariance.topLeftCorner<6, 6>()};
+  aim_rays(mission, request, estimator.workspace(), rays);
+}
+
 TrackStep bearing_scan(const Mission& mission, BearingFinder& finder, const RangeImage& scan, const TrackState& before) {
   TrackStep step;
   step.after = before;

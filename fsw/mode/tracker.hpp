@@ -10,6 +10,7 @@
 #include "fsw/mission/mission.hpp"
 #include "fsw/mode/modes.hpp"
 #include "fsw/mode/starts.hpp"
+#include "fsw/pose/aim.hpp"
 #include "fsw/pose/bearing.hpp"
 #include "fsw/pose/estimator.hpp"
 #include "fsw/pose/filter.hpp"
@@ -47,6 +48,10 @@ StartRefusal start_track(const Mission& mission, StartWay way, const StartOffer&
 // cannot take. One that the prediction of a filter with 5 scans excludes (tracking.innovation_max) is kImplausible and joins nothing. A
 // prediction less certain than the registration's gate is a rough start. Bounds: as Estimator::estimate.
 TrackStep track_scan(const Mission& mission, Estimator& estimator, const RangeImage& scan, const TrackState& before);
+
+// Where the rays of scan `scan_id`, whose middle is at t_us, are to leave its pattern, as this step sees it: nowhere unless the step gave a
+// valid pose. Bounds: as aim_rays.
+void aim_next(const Mission& mission, Estimator& estimator, const TrackStep& step, std::uint32_t scan_id, TimeUs t_us, AimedRays& rays);
 
 // One full-field scan. The registration says kOnlyBearing and no pose.
 TrackStep bearing_scan(const Mission& mission, BearingFinder& finder, const RangeImage& scan, const TrackState& before);

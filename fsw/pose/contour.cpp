@@ -10,20 +10,6 @@ using Ratio = N::Ratio;
 // Which side of the edge's face the sensor is on.
 bool faces(const Length* origin, const N::Unit* n, Length d) { return dot3<N>(n, origin) > d; }
 
-struct ImagePoint {
-  Ratio x, y;
-  Length z;
-};
-
-ImagePoint project(const PathPose<N>& pose, const Length* p_target) {
-  const Length q[3] = {p_target[0] - pose.t[0], p_target[1] - pose.t[1], p_target[2] - pose.t[2]};
-  Length s[3];
-  for (int i = 0; i < 3; ++i) s[i] = pose.R[0][i] * q[0] + pose.R[1][i] * q[1] + pose.R[2][i] * q[2];
-  if (!(s[2] > 0)) return {0, 0, 0};
-  const Ratio inverse = 1 / s[2];
-  return {s[0] * inverse, s[1] * inverse, s[2]};
-}
-
 bool project_edge(const PathPose<N>& pose, const ModelEdge<N>& edge, ContourEdge<N>& out) {
   const ImagePoint a = project(pose, edge.a);
   const ImagePoint b = project(pose, edge.b);
@@ -141,6 +127,15 @@ void test_edge(std::uint32_t contour, Ratio band, Workspace& workspace) {
 }
 
 }  // namespace
+
+ImagePoint project(const PathPose<N>& pose, const Length* p_target) {
+  const Length q[3] = {p_target[0] - pose.t[0], p_target[1] - pose.t[1], p_target[2] - pose.t[2]};
+  Length s[3];
+  for (int i = 0; i < 3; ++i) s[i] = pose.R[0][i] * q[0] + pose.R[1][i] * q[1] + pose.R[2][i] * q[2];
+  if (!(s[2] > 0)) return {0, 0, 0};
+  const Ratio inverse = 1 / s[2];
+  return {s[0] * inverse, s[1] * inverse, s[2]};
+}
 
 View<FlightNumber> make_view(const Mission& mission, const Pose& T_target_sensor) {
   View<N> view{};

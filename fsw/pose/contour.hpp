@@ -15,6 +15,13 @@ struct View {
 
 View<FlightNumber> make_view(const Mission& mission, const Pose& T_target_sensor);
 
+struct ImagePoint {
+  FlightNumber::Ratio x, y;  // tangent plane
+  FlightNumber::Length z;    // depth; 0 for a point that is not in front of the sensor
+};
+
+ImagePoint project(const PathPose<FlightNumber>& T_target_sensor, const FlightNumber::Length* p_target);
+
 // Fills workspace.contour with the edges that have one face towards the sensor and one away. Bound: the model's edges; past
 // kMaxContourEdges the rest is left out.
 void find_contour(const Mission& mission, const View<FlightNumber>& view, Workspace& workspace);

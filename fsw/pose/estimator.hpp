@@ -21,6 +21,9 @@ class Estimator {
   // Never fails silently: result.reason says whether and why the pose can(not) be trusted. With nothing to work on the pose is the start.
   Registration estimate(const Mission& mission, const RangeImage& scan, const StartPoint& start);
 
+  // Room for other stages to work in between two estimates.
+  Workspace& workspace() { return workspace_; }
+
  private:
   Workspace workspace_;
 };

@@ -13,6 +13,11 @@ struct Site {
   double precision = 0;
   double information = 0;
 };
+// As it is kept from sweep to sweep: rounding is far below what a label knows, and the stack is short.
+struct KeptSite {
+  float precision = 0;
+  float information = 0;
+};
 
 struct Moments {
   double slope = 0;      // d log Z / d mean
@@ -43,7 +48,8 @@ void move_belief(const Vec6& Ca, double variance, double distance, const Site& c
 }
 
 // One site's update; returns how much it changed relative to what was known.
-double update_site(const Label& label, const MissionParameters& p, Site& site, PoseBelief& belief) {
+double update_site(const Label& label, const MissionParameters& p, KeptSite& kept, PoseBelief& belief) {
+  const Site site{static_cast<double>(kept.precision), static_cast<double>(kept.information)};
   const double y = label.inside;
   const Vec6 a = y * label.a;
   const Vec6 Ca = belief.covariance * a;
@@ -65,8 +71,8 @@ double update_site(const Label& label, const MissionParameters& p, Site& site, P
   Site change;
   change.precision = kDamping * (target.precision - site.precision);
   change.information = kDamping * (target.information - site.information);
-  site.precision += change.precision;
-  site.information += change.information;
+  kept.precision = static_cast<float>(site.precision + change.precision);
+  kept.information = static_cast<float>(site.information + change.information);
   move_belief(Ca, variance, distance, change, belief);
   return (change.precision < 0 ? -change.precision : change.precision) * variance;
 }
@@ -74,7 +80,7 @@ double update_site(const Label& label, const MissionParameters& p, Site& site, P
 }  // namespace
 
 void apply_labels(Span<const Label> labels, const MissionParameters& parameters, PoseBelief& belief) {
-  Site sites[kMaxSites];
+  KeptSite sites[kMaxSites];
   invariant(labels.size() <= kMaxSites, "no more labels than sites");
   for (int sweep = 0; sweep < kMaxLabelSweeps; ++sweep) {
     double change = 0;

@@ -40,7 +40,7 @@ constexpr typename N::Ratio kFrontShare = static_cast<typename N::Ratio>(0.4F); 
 template <class N>
 struct PassSums {
   ScanSums<N> rows;
-  std::uint32_t usable = 0;  // points that met a surface within the incidence limit, or none at all
+  std::uint32_t usable = 0;  // points that met a surface within the incidence limit, or, if not aimed, none at all
 };
 
 // The point's ray in the target frame, from the measured point on; cells are not set.
@@ -114,7 +114,7 @@ void match_points(const Field<N>& field, const PathPose<N>& T_target_sensor, con
     point.element = hit.found ? hit.element : kNoElement;
     if (hit.found) {
       add_hit(field, s, point, ray, hit, sums);
-    } else {
+    } else if (!point.aimed) {
       ++sums.usable;
     }
   }

@@ -89,13 +89,14 @@ bool is_credible(const RangeSample& sample, const MissionParameters& p) {
   return sample.state != RayState::kHit || (range >= p.range_min_m && range <= p.range_max_m);
 }
 
-MatchPoint<N> make_point(const ScanRay<N>& ray, const NoiseModel& noise) {
+MatchPoint<N> make_point(const ScanRay<N>& ray, const NoiseModel& noise, bool aimed) {
   MatchPoint<N> point{};
   for (int i = 0; i < 3; ++i) {
     point.p[i] = ray.o[i] + ray.range * ray.u[i];
     point.u[i] = ray.u[i];
   }
   point.element = kNoElement;
+  point.aimed = aimed;
   noise.apply(ray.range, point);
   return point;
 }
@@ -109,12 +110,14 @@ void prepare_rays(const Mission& mission, const RangeImage& scan, const StartPoi
   const TimeUs reference_us = scan.reference_time_us();
   workspace.rays.clear();
   workspace.points.clear();
-  for (const RangeSample& sample : scan.samples) {
+  for (std::size_t i = 0; i < scan.samples.size(); ++i) {
+    const RangeSample& sample = scan.samples[i];
     if (sample.state == RayState::kInvalid || !is_credible(sample, mission.parameters)) continue;
     ScanRay<N> ray = make_ray(sample);
     deskew.apply(N::to_ratio(to_seconds(sample.t_us - reference_us)), ray);
     invariant(workspace.rays.push_back(ray), "as many rays as a scan can have");
-    if (ray.state == RayState::kHit) invariant(workspace.points.push_back(make_point(ray, noise)), "as many points as rays");
+    if (ray.state == RayState::kHit)
+      invariant(workspace.points.push_back(make_point(ray, noise, scan.is_aimed(i))), "as many points as rays");
   }
 }
 

@@ -1,8 +1,8 @@
 #include "fsw/pose/silhouette.hpp"
 
 #include "fsw/geometry/portable_math.hpp"
-#include "fsw/pose/clip.hpp"
 #include "fsw/pose/contour.hpp"
+#include "fsw/pose/contour_probe.hpp"
 
 namespace lasso {
 namespace {
@@ -12,73 +12,9 @@ using Length = N::Length;
 using Ratio = N::Ratio;
 
 constexpr double kCertain2 = 36;         // labels that the pose makes certain to six sigma carry nothing
-constexpr double kGapSigmas = 8;         // an inner contour's step is at least this many range sigmas
 constexpr double kConsistentDepths = 4;  // a return belongs to a contour's near or far side within this many edge depths
 constexpr double kConsistentSigmas = 6;
-constexpr double kNearestEdge2 = 1e-6;  // m^2: an edge at the sensor's very place has no contour
-constexpr double kCornerCosine = 0.3;   // beyond an edge's end the contour turns at most this sharply
-
-Vec3 to_vec3(const Length* p) { return {N::to_double(p[0]), N::to_double(p[1]), N::to_double(p[2])}; }
-
-enum class ContourKind : std::uint8_t { kNone, kOuter, kInner };
-
-// A confirmed place on the contour.
-struct ContourPoint {
-  ContourKind kind = ContourKind::kNone;
-  Vec3 outward = Vec3::Zero();  // unit, across the edge and the ray, away from the model
-  double range_m = 0;           // of the edge
-  double far_range_m = 0;       // of what is seen beside it (inner contours)
-};
-
-struct ProbeSettings {
-  Length depth, step;
-  double gap_min_m;
-};
-
-struct Probe {
-  FieldRay<N> ray{};
-  FieldSpan<N> span;  // the part of the ray inside the grid
-};
-
-// A ray from the sensor through `through`; t = 0 there.
-Probe make_probe(const Field<N>& field, const Vec3& origin, const Vec3& through) {
-  Probe probe;
-  const Vec3 line = through - origin;
-  const Vec3 u = line * (1 / square_root(line.squaredNorm()));
-  for (int i = 0; i < 3; ++i) {
-    probe.ray.m[i] = N::to_length(through[i]);
-    probe.ray.u[i] = N::to_unit(u[i]);
-  }
-  set_cells(field, probe.ray);
-  probe.span = clip_to_grid(field, probe.ray);
-  return probe;
-}
-
-bool meets_edge(const Field<N>& field, const Probe& probe, Length depth) { return walk_field(field, probe.ray, -depth, depth).found; }
-
-bool hidden(const Field<N>& field, const Probe& probe, Length depth) {
-  return walk_field(field, probe.ray, probe.span.enter, -depth).found;
-}
-
-// Probes a little to either side of the edge decide whether, and which, contour is there.
-ContourPoint probe_contour(const Field<N>& field, const ProbeSettings& s, const Vec3& origin, const Vec3& edge, const Vec3& across) {
-  ContourPoint point;
-  if (!((edge - origin).squaredNorm() > kNearestEdge2)) return point;
-  const double step = N::to_double(s.step);
-  const Probe plus = make_probe(field, origin, edge + step * across);
-  const Probe minus = make_probe(field, origin, edge - step * across);
-  const bool plus_meets = meets_edge(field, plus, s.depth);
-  if (plus_meets == meets_edge(field, minus, s.depth)) return point;
-  const Probe& inside = plus_meets ? plus : minus;
-  const Probe& outside = plus_meets ? minus : plus;
-  if (hidden(field, inside, s.depth) || hidden(field, outside, s.depth)) return point;
-  point.outward = plus_meets ? Vec3(-across) : across;
-  point.range_m = square_root((edge - origin).squaredNorm());
-  const FieldHit<N> beyond = walk_field(field, outside.ray, s.depth, outside.span.leave);
-  point.kind = beyond.found ? ContourKind::kInner : ContourKind::kOuter;
-  point.far_range_m = point.range_m + N::to_double(beyond.found ? beyond.t : 0);
-  return point;
-}
+constexpr double kCornerCosine = 0.3;  // beyond an edge's end the contour turns at most this sharply
 
 // A ray's line in the target frame.
 struct Line {
@@ -100,12 +36,6 @@ struct EdgePlace {
   bool interior = false;  // the closest point is not an end
   bool usable = false;
 };
-
-// The parameter in space of the point at parameter `along` of the projected edge.
-double along_in_space(const ContourEdge<N>& edge, double along) {
-  const double near_end = along * N::to_double(edge.za);
-  return near_end / (near_end + (1 - along) * N::to_double(edge.zb));
-}
 
 EdgePlace place_on_edge(const ModelEdge<N>& model, const ContourEdge<N>& contour, double along, const Line& line) {
   EdgePlace place;
@@ -160,6 +90,17 @@ bool is_informative(const Label& label, const Mat6& covariance, double own_varia
   return label.d_m * label.d_m < kCertain2 * variance;
 }
 
+// What was last found on some edges.
+constexpr std::size_t kProbedPlaces = 8;
+struct ProbedPlace {
+  std::uint32_t edge = kNoElement;
+  Vec3 confirm = Vec3::Zero();
+  ContourPoint point;
+};
+struct ProbedPlaces {
+  ProbedPlace of_edge[kProbedPlaces];
+};
+
 // Everything that stays the same from ray to ray.
 struct Search {
   const Mission& mission;
@@ -169,6 +110,7 @@ struct Search {
   Vec3 origin;
   double own_variance;
   double across_variance;
+  ProbedPlaces& probed;
 };
 
 // A label and the contour that it was found at.
@@ -176,6 +118,18 @@ struct FoundLabel {
   Label label{};
   ContourPoint point;
 };
+
+// Rays that are aimed at one place follow one another: what is there has been found out for the first.
+ContourPoint probe_or_recall(const Search& s, std::uint32_t edge, const EdgePlace& place) {
+  ProbedPlace& last = s.probed.of_edge[edge % kProbedPlaces];
+  const double step = N::to_double(s.probe.step);
+  if (last.edge != edge || !((place.confirm - last.confirm).squaredNorm() < step * step)) {
+    last = {edge, place.confirm, probe_contour(s.mission.field, s.probe, s.origin, place.confirm, place.across)};
+  }
+  ContourPoint point = last.point;
+  point.outward = place.across.dot(last.point.outward) < 0 ? Vec3(-place.across) : place.across;
+  return point;
+}
 
 // A label of one ray at one contour edge; false where there is none.
 bool label_edge(const Search& s, const ScanRay<N>& ray, const Line& line, const ContourEdge<N>& contour, double along, FoundLabel& found) {
@@ -186,9 +140,8 @@ bool label_edge(const Search& s, const ScanRay<N>& ray, const Line& line, const 
   ContourPoint guess;
   guess.outward = place.across;  // the sign does not matter for whether a label is worth a probe
   if (!measure(place, guess, line, label) || !is_informative(label, s.search.covariance, s.own_variance)) return false;
-  point = probe_contour(s.mission.field, s.probe, s.origin, place.confirm, place.across);
+  point = probe_or_recall(s, contour.edge, place);
   if (point.kind == ContourKind::kNone) return false;
-  if (point.kind == ContourKind::kInner && point.far_range_m - point.range_m < s.probe.gap_min_m) return false;
   label.inside = static_cast<std::int8_t>(side_of(ray, point, s.search, s.mission.parameters.edge_depth_m));
   label.across_variance = s.across_variance;
   if (label.inside == 0) return false;
@@ -225,7 +178,6 @@ void label_ray(const Search& s, std::size_t ray_index, Workspace& workspace) {
   }
 }
 
-double larger(double a, double b) { return a > b ? a : b; }
 double smaller(double a, double b) { return a < b ? a : b; }
 
 // Rays farther from a contour than six sigmas of the pose there carry nothing.
@@ -235,13 +187,13 @@ double search_band(const Mission& mission, const Mat6& covariance, double own_va
   return smaller(mission.parameters.silhouette_band_m, square_root(kCertain2 * (2 * (shift + turn) + own_variance)));
 }
 
-Search make_search(const Mission& mission, const View<N>& view, const LabelSearch& search, double range_m) {
+Search make_search(const Mission& mission, const View<N>& view, const LabelSearch& search, ProbedPlaces& probed) {
+  const double range_m = N::to_double(view.target_depth);
   const MissionParameters& p = mission.parameters;
   const double across = range_m * p.sigma_angle_rad;
-  const double gap = larger(p.edge_gap_min_m, kGapSigmas * search.range_sigma_m);
-  const ProbeSettings probe{N::to_length(p.edge_depth_m), N::to_length(p.probe_step_m), gap};
-  return {mission,        view, search, probe, to_vec3(view.pose.t), p.silhouette_sigma_m * p.silhouette_sigma_m + across * across,
-          across * across};
+  const ProbeSettings probe = probe_settings(p, search.range_sigma_m);
+  return {mission,         view,  search, probe, to_vec3(view.pose.t), p.silhouette_sigma_m * p.silhouette_sigma_m + across * across,
+          across * across, probed};
 }
 
 }  // namespace
@@ -249,7 +201,8 @@ Search make_search(const Mission& mission, const View<N>& view, const LabelSearc
 void find_labels(const Mission& mission, const Pose& T_target_sensor, const LabelSearch& search, Workspace& workspace) {
   workspace.labels.clear();
   const View<N> view = make_view(mission, T_target_sensor);
-  const Search s = make_search(mission, view, search, N::to_double(view.target_depth));
+  ProbedPlaces probed;
+  const Search s = make_search(mission, view, search, probed);
   find_contour(mission, view, workspace);
   find_ray_edges(view, search_band(mission, search.covariance, s.own_variance), workspace);
   for (std::size_t i = 0; i < workspace.rays.size() && !workspace.labels.full(); ++i) {

@@ -28,6 +28,7 @@ struct MatchPoint {
   typename N::Ratio across_variance;  // m^2, across the ray
   typename N::Length reach;           // m, kernel width times sigma: how far from the point its surface may lie along the ray
   std::uint32_t element;              // last element hit, or kNoElement
+  bool aimed;                         // at a contour: no surface where it was measured says nothing against a pose that is a little off
 };
 
 // An edge of the model that is on the contour of this view, projected on the sensor's tangent plane.
@@ -71,6 +72,19 @@ struct Label {
   Vec6 a;
 };
 
+// A place on a contour that rays of the next scan can be aimed at. Rows and steps as of a label.
+struct AimPlace {
+  enum class Fate : std::uint8_t { kOpen, kChosen, kNoContour };
+
+  Vec3 point = Vec3::Zero();   // on the edge, target frame
+  Vec3 across = Vec3::Zero();  // unit, across edge and ray
+  Vec6 a = Vec6::Zero();
+  double s_pred = 0;    // m, one sigma of where the prediction has the contour
+  double w = 0;         // 1/m^2, of what its rays will tell
+  double gain = 1e300;  // m^2, that they take off the variance of the target's points
+  Fate fate = Fate::kOpen;
+};
+
 struct Workspace {
   FixedVector<ScanRay<FlightNumber>, kMaxRays> rays;
   FixedVector<MatchPoint<FlightNumber>, kMaxRays> points;
@@ -78,6 +92,7 @@ struct Workspace {
   RayEdges<FlightNumber> ray_edges[kMaxRays] = {};
   RayBins<FlightNumber> bins{};
   FixedVector<Label, kMaxSites> labels;
+  FixedVector<AimPlace, kMaxAimPlaces> places;
 };
 
 }  // namespace lasso

@@ -60,6 +60,8 @@ Status Acquisition::start(Sensor& sensor, const ScanPlan& plan, TimeUs t_start_u
   verdict_.scan_id = plan.scan_id;
   image.scan_id = plan.scan_id;
   image.misses_known = true;
+  image.aimed_first = first_aimed(plan);
+  image.aimed_count = static_cast<std::uint16_t>(plan.aimed.size());
   image.samples.clear();
   points_ = plan.points;
   well_formed_ = 0;

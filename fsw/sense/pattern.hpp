@@ -1,5 +1,8 @@
 // Scan patterns: the direction and the time of each ray of a plan. Pure functions of the plan; nothing here touches a sensor.
 //
+// A plan's aimed rays come in the middle of the scan, where rates that are wrong move the target least; the pattern's rays before and after
+// them are those of a plan without. Below, index and points are counted without the aimed rays.
+//
 // A pattern lives in the square [-1, 1]^2 and is laid on the tangent plane z = 1: x = center_x + half_x px, y = center_y + half_y py.
 // With s = index / points, A = 2 pi (cycles_a s + phase_turns) and B = 2 pi cycles_b s:
 //   rosette    px = (cos A + cos B) / 2, py = (sin A - sin B) / 2; coprime cycle counts close the curve after `points`, and the phase turns
@@ -23,11 +26,16 @@ constexpr DurationUs kMaxScanDurationUs = 100'000'000;  // longest scan
 
 // kNotFinite: a real number of the plan is not finite. kBadValue: points not within kMinPatternPoints..kMaxRays, duration not within
 // 1..kMaxScanDurationUs, phase not within [0, 1), a half extent not above 0, the pattern reaching beyond kMaxTangent, an unknown kind,
-// cycle counts not within 1..points/2 (raster: lines), or, rosette and Lissajous, equal or not coprime. Bound: 24 steps of Euclid's.
+// more than kMaxAimedRays aimed rays or fewer than kMinPatternPoints beside them, one beyond kMaxTangent, cycle counts not
+// within 1..points/2 (raster: lines), or, rosette and Lissajous, equal or not coprime. Bound: 24 steps of Euclid's.
 Status validate(const ScanPlan& plan);
 
-// Unit vector of ray `index` (< points, an invariant), sensor frame. The plan must be valid.
-Vec3 pattern_direction(const ScanPlan& plan, std::uint16_t index);
+// How many rays follow the pattern, and the index of the first aimed one after half of them.
+std::uint16_t pattern_points(const ScanPlan& plan);
+std::uint16_t first_aimed(const ScanPlan& plan);
+
+// Unit vector of ray `ray` (< plan.points, an invariant), aimed or of the pattern, sensor frame. The plan must be valid.
+Vec3 pattern_direction(const ScanPlan& plan, std::uint16_t ray);
 
 // Time of ray `index` (< points, an invariant) after the first one: rays are evenly spaced, the last one is taken at duration_us.
 // Rounded down to whole microseconds.

@@ -24,8 +24,12 @@ struct RangeSample {
 
 struct RangeImage {
   std::uint32_t scan_id = 0;
-  bool misses_known = true;  // false: only hits were recorded (point clouds), a ray not listed says nothing
+  bool misses_known = true;       // false: only hits were recorded (point clouds), a ray not listed says nothing
+  std::uint16_t aimed_first = 0;  // samples of rays that left the pattern for contours
+  std::uint16_t aimed_count = 0;
   FixedVector<RangeSample, kMaxRays> samples;
+
+  bool is_aimed(std::size_t sample) const { return sample - aimed_first < aimed_count; }  // below the first, the difference wraps
 
   // The scan's reference time: the middle between its first and last sample. Samples are in time order. 0 when empty.
   TimeUs reference_time_us() const {

@@ -68,6 +68,11 @@ void put_start(ByteWriter& out, const ScanPlan& plan, TimeUs t_start_us) {
   out.u16(plan.cycles_b);
   for (const double value : {plan.phase_turns, plan.center_x, plan.center_y, plan.half_x, plan.half_y}) out.f64(value);
   out.i64(plan.duration_us);
+  out.u16(static_cast<std::uint16_t>(plan.aimed.size()));
+  for (const AimedRay& ray : plan.aimed) {
+    out.f32(ray.x);
+    out.f32(ray.y);
+  }
   out.i64(t_start_us);
 }
 

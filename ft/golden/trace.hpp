@@ -18,7 +18,7 @@
 
 namespace lasso::golden {
 
-constexpr std::uint32_t kTraceVersion = 1;
+constexpr std::uint32_t kTraceVersion = 2;
 constexpr std::size_t kTraceHeaderBytes = 132;
 
 struct TraceHeader {
@@ -44,6 +44,6 @@ void put_answer(ByteWriter& out, const SensorPoll& poll, Span<const RangeSample>
 bool get_answer(ByteReader& in, SensorPoll& poll, Span<RangeSample> out);
 
 // Enough for any call or answer.
-constexpr std::size_t kMaxCallBytes = 128 + 32 * kMaxSamplesPerPoll;
+constexpr std::size_t kMaxCallBytes = 128 + 32 * kMaxSamplesPerPoll + 8 * kMaxAimedRays;
 
 }  // namespace lasso::golden

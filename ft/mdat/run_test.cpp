@@ -15,7 +15,7 @@ using Json = nlohmann::json;
 const std::vector<std::pair<std::string, std::string>> kTwoRanges = {
     {"ranges_m = [2.0, 3.0, 4.0, 5.0, 6.0, 7.0]", "ranges_m = [3.0, 4.0]"}};
 constexpr int kFrames = 12;
-constexpr const char* kVariants[] = {"noise_free", "noisy", "noise_free_hits_only", "noisy_hits_only"};
+constexpr const char* kVariants[] = {"noise_free", "noisy", "noise_free_hits_only", "noisy_hits_only", "noisy_aimed"};
 
 void expect_sane(const Json& variant, bool noise, double rms_mm, double rms_deg) {
   for (const char* axis : {"x_mm", "y_mm", "z_mm", "yaw_deg", "pitch_deg", "roll_deg"}) {

@@ -88,7 +88,7 @@ std::string scans_figure(Plotter& plotter, const sim::RayCaster& target, const T
   const std::string png = scan_view_png(plotter, target, shown_scans(table), table.scenario.step_rad, 1);
   const std::string caption = format(
       "The scan on the target at %g m, as the sensor sees it. The model is drawn at the estimated pose. Colour: measured minus predicted "
-      "range of each return; grey: rays that missed, which locate the outline.",
+      "range of each return; grey: rays that missed, which locate the outline; violet: rays aimed at contours.",
       table.scenario.runs_m()[shown_range(table.scenario)]);
   return figure("<img alt='scans on the target' src='data:image/png;base64," + base64(png) + "'>", caption);
 }

@@ -76,9 +76,26 @@ Vec3 direction_of(const RangeSample& sample) {
   return {static_cast<double>(sample.direction[0]), static_cast<double>(sample.direction[1]), static_cast<double>(sample.direction[2])};
 }
 
-std::string points_text(const std::vector<RangeSample>& samples, RayState state, const sim::RayCaster& target, const Pose& pose) {
+// Aimed rays are in the middle of their scan.
+bool is_aimed(const KeptScan& scan, std::size_t index) {
+  const std::size_t first = (scan.samples.size() - scan.aimed) / 2;
+  return index >= first && index < first + scan.aimed;
+}
+
+std::string aimed_text(const KeptScan& scan) {
   std::string text;
-  for (const RangeSample& sample : samples) {
+  for (std::size_t i = 0; i < scan.samples.size(); ++i) {
+    const Vec3 u = direction_of(scan.samples[i]);
+    if (is_aimed(scan, i)) text += format("%.5f %.5f\n", u.x() / u.z(), u.y() / u.z());
+  }
+  return text;
+}
+
+std::string points_text(const KeptScan& scan, RayState state, const sim::RayCaster& target, const Pose& pose) {
+  std::string text;
+  for (std::size_t i = 0; i < scan.samples.size(); ++i) {
+    const RangeSample& sample = scan.samples[i];
+    if (is_aimed(scan, i)) continue;
     if (sample.state != state) continue;
     const Vec3 u = direction_of(sample);
     const double residual = state == RayState::kHit ? residual_m(target, pose, sample) : 0;
@@ -104,9 +121,10 @@ double residual_span_mm(const sim::RayCaster& target, const std::vector<KeptScan
 std::string panel(Plotter& plotter, const sim::RayCaster& target, const KeptScan& scan, double step_rad, const View& view) {
   const Pose pose = registration_pose(scan.telemetry);
   const std::string image = plotter.data(render(target, pose, view));
-  const std::string misses = plotter.data(points_text(scan.samples, RayState::kMiss, target, pose) + "\n");
-  const std::string hits = plotter.data(points_text(scan.samples, RayState::kHit, target, pose) + "\n");
+  const std::string misses = plotter.data(points_text(scan, RayState::kMiss, target, pose) + "\n");
+  const std::string hits = plotter.data(points_text(scan, RayState::kHit, target, pose) + "\n");
   const double z_m = pose.p.z();
+  const std::string aimed = plotter.data(aimed_text(scan) + "\n");
   std::string text = format("set title '%.0f°: %u of %u rays return'\n", scan.frame * step_rad / kRadPerDeg, scan.telemetry.returns,
                             scan.telemetry.plan_points);
   text += format("set xrange [%.4f:%.4f]\nset yrange [%.4f:%.4f]\n", z_m * (view.x - view.half_x), z_m * (view.x + view.half_x),
@@ -115,7 +133,8 @@ std::string panel(Plotter& plotter, const sim::RayCaster& target, const KeptScan
   text += format("plot %s binary array=(%d,%d) format='%%uchar' dx=%.7f dy=%.7f origin=(%.5f,%.5f) with rgbimage notitle, ", image.c_str(),
                  view.width, view.height, dx, dy, z_m * (view.x - view.half_x) + dx / 2, z_m * (view.y - view.half_y) + dy / 2);
   text += format("%s using ($1*%.5f):($2*%.5f) with points pt 7 ps 0.3 lc rgb '#b6bec9' notitle, ", misses.c_str(), z_m, z_m);
-  return text + format("%s using ($1*%.5f):($2*%.5f):3 with points pt 7 ps 0.5 lc palette notitle\n", hits.c_str(), z_m, z_m);
+  text += format("%s using ($1*%.5f):($2*%.5f):3 with points pt 7 ps 0.5 lc palette notitle, ", hits.c_str(), z_m, z_m);
+  return text + format("%s using ($1*%.5f):($2*%.5f) with points pt 7 ps 0.3 lc rgb '#7a2fb5' notitle\n", aimed.c_str(), z_m, z_m);
 }
 
 constexpr const char* kStyle =

@@ -11,7 +11,7 @@
 namespace lasso::mdat {
 
 // One panel a scan, side by side, 400 x 520 pixels times `scale` each: the target shaded at the estimated pose, the rays that missed as
-// grey points, the returns coloured by measured minus predicted range. A PNG file's bytes.
+// grey points, the returns coloured by measured minus predicted range, the rays aimed at contours violet. A PNG file's bytes.
 std::string scan_view_png(Plotter& plotter, const sim::RayCaster& target, const std::vector<KeptScan>& scans, double step_rad,
                           double scale);
 

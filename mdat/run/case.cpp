@@ -79,13 +79,13 @@ class Case {
   }
 
   void note(const PoseTelemetry& pose, const posix::FrameRecord& record) {
-    const std::vector<RangeSample> scan = sensor_.take(pose.scan_id);
+    const RecordedScan scan = sensor_.take(pose.scan_id);
     if (is_approach()) add_packet(pose, *trajectory_, kEpochUs, result_.timeline);
     if (!is_approach() && static_cast<TrackingMode>(pose.mode) == TrackingMode::kLost) start(record.boundary_us);
     if (static_cast<StopReason>(pose.stop) == StopReason::kNotRun) return;
     const std::int64_t frame = (pose.t_measurement_us - kEpochUs) / period_us_;
     if (pose.t_measurement_us < kEpochUs || frame >= setup_.frames) return;
-    result_.frames[static_cast<std::size_t>(frame)] = judged(pose, scan, record);
+    result_.frames[static_cast<std::size_t>(frame)] = judged(pose, scan.samples, record);
     keep(static_cast<std::uint32_t>(frame), pose, scan);
   }
 
@@ -110,9 +110,9 @@ class Case {
     return pose_bound(*setup_.target, truth, scan, [&](double z_m) { return sim::range_sigma_m(noisy_model_, z_m); });
   }
 
-  void keep(std::uint32_t frame, const PoseTelemetry& pose, const std::vector<RangeSample>& scan) {
+  void keep(std::uint32_t frame, const PoseTelemetry& pose, const RecordedScan& scan) {
     if (!std::binary_search(setup_.keep_frames.begin(), setup_.keep_frames.end(), frame)) return;
-    result_.scans.push_back({frame, trajectory_->at(pose.t_measurement_us).T_sensor_target, pose, scan});
+    result_.scans.push_back({frame, trajectory_->at(pose.t_measurement_us).T_sensor_target, pose, scan.samples, scan.aimed});
   }
 
   const CaseSetup& setup_;

@@ -37,6 +37,7 @@ struct KeptScan {
   Pose truth;
   PoseTelemetry telemetry;
   std::vector<RangeSample> samples;
+  std::size_t aimed = 0;  // samples in the middle whose rays left the pattern
 };
 
 struct CaseResult {

@@ -9,6 +9,11 @@
 
 namespace lasso::mdat {
 
+struct RecordedScan {
+  std::vector<RangeSample> samples;
+  std::size_t aimed = 0;  // of them, in the middle
+};
+
 class RecordingSensor final : public Sensor {
  public:
   explicit RecordingSensor(Sensor& sensor) : sensor_(sensor) {}
@@ -17,13 +22,13 @@ class RecordingSensor final : public Sensor {
   SensorPoll poll(TimeUs now_us, Span<RangeSample> out) override;
   void abort() override { sensor_.abort(); }
 
-  // The samples of a scan, which are then forgotten; empty for a scan that never was.
-  std::vector<RangeSample> take(std::uint32_t scan_id);
+  // A scan, which is then forgotten; empty for one that never was.
+  RecordedScan take(std::uint32_t scan_id);
 
  private:
   Sensor& sensor_;
   std::uint32_t scan_id_ = 0;
-  std::map<std::uint32_t, std::vector<RangeSample>> scans_;
+  std::map<std::uint32_t, RecordedScan> scans_;
 };
 
 }  // namespace lasso::mdat

@@ -45,6 +45,15 @@ Json statistics_json(const RunStatistics& run, bool noise, ScenarioKind kind) {
 
 Json variant_json(const VariantResult& variant, const Scenario& scenario) {
   Json json = statistics_json(variant.all, variant.variant.noise, scenario.scenario_kind());
+  if (scenario.scenario_kind() == ScenarioKind::kPaper) {
+    const ErrorStatistics& edge_on = variant.edge_on.registration;
+    json["edge_on"] = {{"frames", variant.edge_on.frames},
+                       {"axial_std_mm", edge_on.axial_mm.std},
+                       {"roll_std_deg", edge_on.roll_deg.std},
+                       {"rms_mm", edge_on.rms_mm},
+                       {"rms_deg", edge_on.rms_deg}};
+    json["edge_on"]["nees"] = variant.variant.noise ? Json(variant.edge_on.nees) : Json(nullptr);
+  }
   json["by_range"] = Json::array();
   for (std::size_t i = 0; i < variant.by_range.size(); ++i) {
     Json range = {{"range_m", scenario.runs_m()[i]}};

@@ -17,12 +17,16 @@
 namespace lasso::mdat {
 namespace {
 
-constexpr Variant kNoisy = {"noisy", "with noise", true, true};
-constexpr Variant kNoiseFree = {"noise_free", "no noise", false, true};
+constexpr double kAimedShare = 0.3;
+constexpr double kEdgeOn_rad = 10.001 * kRadPerDeg;
+
+constexpr Variant kNoisy = {"noisy", "with noise", true, true, false};
+constexpr Variant kNoiseFree = {"noise_free", "no noise", false, true, false};
 constexpr Variant kPaperVariants[] = {kNoiseFree,
                                       kNoisy,
-                                      {"noise_free_hits_only", "no noise, hits only", false, false},
-                                      {"noisy_hits_only", "with noise, hits only", true, false}};
+                                      {"noise_free_hits_only", "no noise, hits only", false, false, false},
+                                      {"noisy_hits_only", "with noise, hits only", true, false, false},
+                                      {"noisy_aimed", "with noise, aimed rays", true, true, true}};
 
 // One image for each set of parameters, and all cases in order.
 struct Plan {
@@ -39,6 +43,7 @@ std::vector<Variant> variants_of(const Scenario& scenario, const MissionParamete
 
 MissionParameters variant_parameters(const Scenario& scenario, MissionParameters parameters, const Variant& variant) {
   parameters.silhouettes = variant.silhouettes ? 1 : 0;
+  if (variant.aimed) parameters.aimed_share = std::max(parameters.aimed_share, kAimedShare);
   const bool still = scenario.scenario_kind() == ScenarioKind::kPaper && scenario.overrides.count("estimation.deskew") == 0;
   if (still) parameters.deskew = 0;
   return parameters;
@@ -148,13 +153,24 @@ class Pool {
   std::vector<std::jthread> threads_;
 };
 
-void evaluate(VariantResult& variant) {
-  std::vector<FrameError> all;
+// In the paper's scenarios the arrays face the sensor in frame 0 and turn by a step from frame to frame.
+bool is_edge_on(std::size_t frame, double step_rad) {
+  const double half_turns = static_cast<double>(frame) * step_rad / kPi;
+  const double off_rad = (half_turns - std::floor(half_turns) - 0.5) * kPi;
+  return std::abs(off_rad) < kEdgeOn_rad;
+}
+
+void evaluate(const Scenario& scenario, VariantResult& variant) {
+  std::vector<FrameError> all, edge_on;
   for (const CaseResult& result : variant.cases) {
     variant.by_range.push_back(run_statistics(result.frames));
     all.insert(all.end(), result.frames.begin(), result.frames.end());
+    for (std::size_t frame = 0; frame < result.frames.size(); ++frame) {
+      if (is_edge_on(frame, scenario.step_rad)) edge_on.push_back(result.frames[frame]);
+    }
   }
   variant.all = run_statistics(all);
+  variant.edge_on = run_statistics(edge_on);
 }
 
 void collect(std::vector<CaseResult> cases, SimulationResult& result) {
@@ -162,7 +178,7 @@ void collect(std::vector<CaseResult> cases, SimulationResult& result) {
   for (TableResult& table : result.tables) {
     for (VariantResult& variant : table.variants) {
       for (std::size_t range = 0; range < table.scenario.runs_m().size(); ++range) variant.cases.push_back(std::move(cases[next++]));
-      evaluate(variant);
+      evaluate(table.scenario, variant);
     }
   }
 }

@@ -26,6 +26,7 @@ struct Variant {
   const char* title;  // for people
   bool noise;
   bool silhouettes;
+  bool aimed;  // kAimedShare of the rays leave the pattern for contours, or more if the mission says so
 };
 
 struct VariantResult {
@@ -34,6 +35,7 @@ struct VariantResult {
   std::vector<CaseResult> cases;  // one a range
   std::vector<RunStatistics> by_range;
   RunStatistics all;
+  RunStatistics edge_on;  // of the views in which the arrays are within 10 degrees of being seen edge-on; the paper's scenarios only
 };
 
 struct TableResult {

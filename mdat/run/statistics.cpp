@@ -51,6 +51,7 @@ PoseError pose_error(const Pose& estimate, const Pose& truth) {
   PoseError error;
   error.translation_m = difference.tail<3>();
   error.rotation_rad = difference.head<3>().norm();
+  error.axial_m = rotate(truth.q, Vec3::UnitX()).dot(error.translation_m);
   error.yaw_pitch_roll = euler_zyx(to_matrix(truth.q).transpose() * to_matrix(estimate.q));
   return error;
 }
@@ -88,6 +89,7 @@ ErrorStatistics error_statistics(const std::vector<PoseError>& errors) {
     *lengths[i] = mean_std_of(errors, kMm, [i](const PoseError& e) { return e.translation_m[i]; });
     *angles[i] = mean_std_of(errors, kDeg, [i](const PoseError& e) { return e.yaw_pitch_roll[i]; });
   }
+  result.axial_mm = mean_std_of(errors, kMm, [](const PoseError& e) { return e.axial_m; });
   double squares_m2 = 0, squares_rad2 = 0;
   for (const PoseError& error : errors) {
     squares_m2 += error.translation_m.squaredNorm();

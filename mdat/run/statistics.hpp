@@ -17,6 +17,7 @@ struct PoseError {
   Vec3 translation_m = Vec3::Zero();   // estimate - truth, sensor axes
   Vec3 yaw_pitch_roll = Vec3::Zero();  // rad, ZYX Euler angles of R_true^T R_estimated: roll is about the target's x axis
   double rotation_rad = 0;             // the whole angle
+  double axial_m = 0;                  // of the translation, along the target's x axis
 
   bool lost() const { return translation_m.norm() > kLostTranslation_m || rotation_rad > kLostRotation_rad; }
 };
@@ -45,6 +46,7 @@ struct MeanStd {
 
 struct ErrorStatistics {
   MeanStd x_mm, y_mm, z_mm, yaw_deg, pitch_deg, roll_deg;
+  MeanStd axial_mm;                // along the target's x axis
   double rms_mm = 0, rms_deg = 0;  // of the norms
 };
 

@@ -16,7 +16,7 @@ class AcquisitionTaskTest : public ::testing::Test {
     image_ = test::make_box_image(p, scene_.box);
     ASSERT_EQ(load_image(Bytes(image_.data(), image_.size), mission_).status, Status::kOk);
   }
-  void start(std::uint32_t scan_id, TimeUs t_us) { task_->start(mission_, {scene_.pose_at(t_us), 0}, scan_id, t_us, plan_); }
+  void start(std::uint32_t scan_id, TimeUs t_us) { task_->start(mission_, {scene_.pose_at(t_us), 0, false, {}}, scan_id, t_us, plan_); }
 
   test::BoxScene scene_ = test::default_scene();
   test::TestImage image_;
@@ -65,13 +65,34 @@ TEST_F(AcquisitionTaskTest, ScanThatFailsOrNeverStartsIsNotFit) {
   EXPECT_FALSE(task_->finish());
   Pose behind = scene_.at_zero;
   behind.p.z() = -2;
-  task_->start(mission_, {behind, 0}, 2, 400000, plan_);  // nothing to aim at
+  task_->start(mission_, {behind, 0, false, {}}, 2, 400000, plan_);  // nothing to aim at
   task_->poll(600000);
   EXPECT_FALSE(task_->finish());
   EXPECT_TRUE(task_->filling().samples.empty());
   start(3, 600000);
   task_->poll(800000);
   EXPECT_TRUE(task_->finish());
+}
+
+TEST_F(AcquisitionTaskTest, AimedRaysArePlannedAndScannedButNotInTheWholeField) {
+  VERIFIES("LASSO-SNS-007~1");
+  AimedRay rays[] = {{0.01F, 0.02F}, {-0.03F, 0.04F}};
+  Aim aim{scene_.at_zero, 0, false, {}};
+  aim.rays = Span<const AimedRay>(rays);
+  task_->start(mission_, aim, 0, 0, plan_);
+  rays[0] = rays[1] = {};  // the task keeps its own
+  ASSERT_EQ(plan_.aimed.size(), 2u);
+  EXPECT_EQ(plan_.aimed[1].y, 0.04F);
+  EXPECT_EQ(sensor_.last_plan.aimed.data(), plan_.aimed.data());
+  task_->poll(200000);
+  EXPECT_TRUE(task_->finish());
+  EXPECT_EQ(task_->filling().samples.size(), 4096u);
+  const RangeSample& first = task_->filling().samples[2047];
+  EXPECT_NEAR(first.direction[0] / first.direction[2], 0.01F, 1e-6F);
+  aim.rays = Span<const AimedRay>(rays);
+  aim.full_field = true;
+  task_->start(mission_, aim, 1, 200000, plan_);
+  EXPECT_TRUE(plan_.aimed.empty());
 }
 
 }  // namespace

@@ -286,5 +286,41 @@ TEST(Component, StaysWithinItsMemory) {
   EXPECT_LE(sizeof(Component), 2u << 20);
 }
 
+MissionParameters aiming_parameters() {
+  MissionParameters p = parameters();
+  p.aimed_share = 0.3;
+  p.silhouette_band_m = 0.01;
+  return p;
+}
+
+TEST(Component, LooksWhereTheLastPublishedEstimateSays) {
+  VERIFIES("LASSO-SNS-014~1 LASSO-SNS-016~1");
+  ComponentScene scene(aiming_parameters());
+  scene.begin();
+  scene.run_frame();
+  EXPECT_TRUE(scene.sensor.last_plan.aimed.empty());  // nothing is known yet
+  for (int frame = 1; frame < 20; ++frame) scene.run_frame();
+  EXPECT_EQ(scene.sensor.last_plan.aimed.size(), 306u);
+  EXPECT_EQ(scene.sensor.last_plan.points, 1024);
+  EXPECT_EQ(report_of(scene, 19).plan_points, 1024);
+  EXPECT_EQ(report_of(scene, 20).valid, 1);
+}
+
+TEST(Component, ALateEstimateOrANewTrackAimsNothing) {
+  VERIFIES("LASSO-SNS-016~1");
+  ComponentScene scene(aiming_parameters());
+  scene.begin();
+  for (int frame = 0; frame < 20; ++frame) scene.run_frame();
+  ASSERT_FALSE(scene.sensor.last_plan.aimed.empty());
+  scene.run_frame(false);
+  scene.run_frame(true);  // its boundary found no estimate
+  EXPECT_TRUE(scene.sensor.last_plan.aimed.empty());
+  for (int frame = 0; frame < 10; ++frame) scene.run_frame();
+  ASSERT_FALSE(scene.sensor.last_plan.aimed.empty());
+  ASSERT_EQ(scene.component->start_tracking(test::default_scene().at_zero, test::default_scene().rates, 0), Status::kOk);
+  scene.run_frame();
+  EXPECT_TRUE(scene.sensor.last_plan.aimed.empty());
+}
+
 }  // namespace
 }  // namespace lasso

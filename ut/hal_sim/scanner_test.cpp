@@ -239,6 +239,26 @@ TEST(SimulatedScanner, RefusesPlansOutsideItsLimits) {
   EXPECT_EQ(answer([](ScanPlan& p) { p.points = kMaxRays + 1; }), Status::kBadValue);
 }
 
+TEST(SimulatedScanner, RefusesAimedRaysOutsideTheFieldOfView) {
+  VERIFIES("LASSO-SIM-012~1");
+  Scene scene;
+  ScannerModel model;
+  model.fov_half_x_rad = 0.2;
+  model.fov_half_y_rad = 0.3;
+  SimulatedScanner scanner(*scene.target, scene.motion, model, 1);
+  const auto answer = [&](float x, float y) {
+    const AimedRay rays[] = {{0, 0}, {x, y}};
+    ScanPlan plan = plan_of();
+    plan.aimed = Span<const AimedRay>(rays);
+    const Status status = scanner.start(plan, 0);
+    scanner.abort();
+    return status;
+  };
+  EXPECT_EQ(answer(0.2F, -0.3F), Status::kOk);
+  EXPECT_EQ(answer(0.21F, 0), Status::kBadValue);
+  EXPECT_EQ(answer(0, -0.32F), Status::kBadValue);
+}
+
 TEST(SimulatedScanner, TheSameSeedGivesTheSameScanHoweverItIsPolled) {
   VERIFIES("LASSO-SIM-002~1");
   Scene scene(0.1);

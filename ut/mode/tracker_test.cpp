@@ -231,5 +231,27 @@ TEST_F(TrackerTest, ABearingScanSaysWhereAndNoPose) {
   EXPECT_EQ(missed.after.mode, TrackingMode::kBearing);
 }
 
+TEST_F(TrackerTest, AValidStepSaysWhereToLookNext) {
+  VERIFIES("LASSO-SNS-014~1 LASSO-SNS-016~1");
+  mission_.parameters.aimed_share = 0.3;
+  mission_.parameters.silhouette_band_m = 0.01;
+  start(small_error());
+  AimedRays rays;
+  TrackStep step;
+  for (std::uint32_t k = 0; k < 12; ++k) step = track(k);
+  const TimeUs t_us = step.registration.t_us + 2 * kPeriodUs;
+  aim_next(mission_, *estimator_, step, 13, t_us, rays);
+  EXPECT_EQ(rays.size(), 306u);
+  // About the box as it will be seen then.
+  Vec3 middle = Vec3::Zero();
+  for (const AimedRay& ray : rays) middle += Vec3(static_cast<double>(ray.x), static_cast<double>(ray.y), 1) / 306;
+  const Vec3 expected = scene_.pose_at(t_us).p;
+  EXPECT_LT((middle - expected / expected.z()).norm(), 0.05);
+  aim_next(mission_, *estimator_, step, 13, step.registration.t_us - 1, rays);  // no prediction
+  EXPECT_TRUE(rays.empty());
+  aim_next(mission_, *estimator_, miss(13), 15, t_us + 2 * kPeriodUs, rays);
+  EXPECT_TRUE(rays.empty());
+}
+
 }  // namespace
 }  // namespace lasso

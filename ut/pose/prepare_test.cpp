@@ -107,6 +107,8 @@ TEST_F(PrepareTest, KeepsMissesAndLeavesInvalidSamplesOut) {
     sample.state = state;
     ASSERT_TRUE(image.samples.push_back(sample));
   }
+  image.aimed_first = 3;
+  image.aimed_count = 2;
   scan();  // what it left behind is cleared
   prepare_rays(mission_, image, StartPoint(), *workspace_);
   ASSERT_EQ(workspace_->rays.size(), 4u);
@@ -118,6 +120,12 @@ TEST_F(PrepareTest, KeepsMissesAndLeavesInvalidSamplesOut) {
     EXPECT_EQ(ray.u[0], 0.1F * static_cast<float>(kept[i]));
     EXPECT_EQ(ray.range, ray.state == RayState::kHit ? 2.0F : 0.0F);
   }
+  EXPECT_FALSE(workspace_->points[0].aimed);
+  EXPECT_FALSE(workspace_->points[1].aimed);
+  image.aimed_count = 3;
+  prepare_rays(mission_, image, StartPoint(), *workspace_);
+  EXPECT_FALSE(workspace_->points[0].aimed);
+  EXPECT_TRUE(workspace_->points[1].aimed);
   EXPECT_EQ(workspace_->points[1].u[0], 0.5F);
   EXPECT_EQ(workspace_->points[1].p[2], 2.0F);
 }

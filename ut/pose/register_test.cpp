@@ -151,6 +151,22 @@ TEST_F(RegisterTest, LooksASecondTimeWhereReturnsStayUnexplained) {
   EXPECT_LT(error_of(solution.T_target_sensor).tail<3>().norm(), 2e-3);
 }
 
+// A ray aimed at a contour may have met what a pose that is a little off has beside it.
+TEST_F(RegisterTest, AnAimedReturnThatMeetsNothingIsNotHeldAgainstThePose) {
+  VERIFIES("LASSO-REG-017~1");
+  scan();
+  for (std::size_t i = 0; i < workspace_->points.size(); i += 20) {
+    for (float& p : workspace_->points[i].p) p *= 0.8F;  // half a metre in front of the box
+  }
+  const HitSolution doubted = register_from(0.005, 0.003);
+  EXPECT_EQ(doubted.usable, workspace_->points.size());
+  EXPECT_LT(explained_share(doubted), 0.96);
+  for (std::size_t i = 0; i < workspace_->points.size(); i += 10) workspace_->points[i].aimed = true;
+  const HitSolution solution = register_from(0.005, 0.003);
+  EXPECT_EQ(solution.inliers, doubted.inliers);
+  EXPECT_EQ(explained_share(solution), 1);
+}
+
 TEST_F(RegisterTest, TheSecondLookReachesFarther) {
   VERIFIES("LASSO-REG-001~1");
   scan();

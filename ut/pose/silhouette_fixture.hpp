@@ -69,14 +69,19 @@ class SilhouetteTest : public PoseFixture {
   // Beside a corner the image's closest point is not quite the one in space: the difference is of second order.
   static double tolerance(double d_m) { return kRounding + 0.5 * d_m * d_m; }
 
-  // The visible contour edge that a label belongs to: the one at its distance.
+  // The visible contour edge that a label belongs to: the one that comes nearest to its distance.
   const BoxEdge* edge_of(const Label& label, const std::vector<BoxEdge>& edges) const {
     const RayLine line = line_of(label.ray);
+    const BoxEdge* best = nullptr;
+    double least = tolerance(label.d_m);
     for (const BoxEdge& edge : edges) {
       const LineDistance distance = line_to_edge(line, edge);
-      if (std::abs(distance.m - std::abs(label.d_m)) < tolerance(label.d_m) && is_visible(edge, distance.point)) return &edge;
+      const double off = std::abs(distance.m - std::abs(label.d_m));
+      if (off >= least || !is_visible(edge, distance.point)) continue;
+      least = off;
+      best = &edge;
     }
-    return nullptr;
+    return best;
   }
 
   double nearest(const RayLine& line, const std::vector<BoxEdge>& edges) const {

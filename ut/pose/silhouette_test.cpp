@@ -167,6 +167,8 @@ TEST_F(SilhouetteTest, ReturnsFarFromTheEdgeSayNothing) {
 TEST_F(SilhouetteTest, NoMoreLabelsThanSites) {
   VERIFIES("LASSO-REG-002~1");
   scan_.side = 64;
+  parameters().silhouette_band_m = 0.05;
+  search_.covariance = 1e-3 * Mat6::Identity();
   scan();
   find();
   EXPECT_TRUE(workspace_->labels.full());

@@ -106,6 +106,17 @@ TEST_F(AcquisitionTest, StoresAWholeScanAsTheSensorSawIt) {
   EXPECT_EQ(sensor.aborts, 0);
 }
 
+TEST_F(AcquisitionTest, TheImageKnowsItsAimedSamples) {
+  VERIFIES("LASSO-SNS-007~1");
+  const AimedRay rays[3] = {};
+  plan.aimed = Span<const AimedRay>(rays);
+  run();
+  for (std::size_t i = 0; i < 1024; ++i) EXPECT_EQ(image->is_aimed(i), i >= 510 && i < 513);
+  plan.aimed = {};
+  run();
+  for (std::size_t i = 0; i < 1024; ++i) EXPECT_FALSE(image->is_aimed(i));
+}
+
 TEST_F(AcquisitionTest, PollsOncePerStepAndAtMostTheCapacity) {
   VERIFIES("LASSO-SNS-021~1");
   ASSERT_EQ(acquisition.start(sensor, plan, kStart, *image), Status::kOk);

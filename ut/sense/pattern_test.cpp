@@ -219,5 +219,63 @@ TEST(PatternValidation, RefusesWhatIsOutOfRange) {
   EXPECT_EQ(with(&ScanPlan::cycles_a, std::uint16_t{513}, PatternKind::kRaster), Status::kBadValue);
 }
 
+constexpr AimedRay kAimed[] = {{0.125F, -0.25F}, {-0.5F, 0.375F}, {0, 0}};
+
+// Plans of each kind with aimed rays in the middle, and the same patterns by themselves.
+struct AimedPlan {
+  explicit AimedPlan(PatternKind kind) : with(generic_plan(kind)), pattern(with) {
+    with.aimed = Span<const AimedRay>(kAimed);
+    pattern.points = static_cast<std::uint16_t>(with.points - 3);
+  }
+  ScanPlan with, pattern;
+};
+
+TEST(Pattern, AimedRaysComeInTheMiddleAndThePatternAroundThem) {
+  VERIFIES("LASSO-SNS-007~1");
+  for (const PatternKind kind : {PatternKind::kRosette, PatternKind::kLissajous, PatternKind::kRaster}) {
+    const AimedPlan plan(kind);
+    ASSERT_EQ(validate(plan.with), Status::kOk);
+    EXPECT_EQ(pattern_points(plan.with), 1021);
+    PatternGenerator generator(plan.with);
+    for (std::uint16_t i = 0; i < 1024; ++i) {
+      const Vec3 ray = pattern_direction(plan.with, i);
+      ASSERT_LT((generator.next() - ray).norm(), 1e-11);
+      if (i < 510 || i > 512) {
+        EXPECT_EQ(ray, pattern_direction(plan.pattern, static_cast<std::uint16_t>(i < 510 ? i : i - 3)));
+        continue;
+      }
+      ASSERT_NEAR(ray.norm(), 1, 1e-15);
+      EXPECT_NEAR(ray.x() / ray.z(), static_cast<double>(kAimed[i - 510].x), 1e-15);
+      EXPECT_NEAR(ray.y() / ray.z(), static_cast<double>(kAimed[i - 510].y), 1e-15);
+    }
+    EXPECT_TRUE(generator.done());
+  }
+}
+
+TEST(Pattern, AimedRaysOutsideTheLimitsAreRefused) {
+  VERIFIES("LASSO-SNS-006~1");
+  ScanPlan plan = generic_plan(PatternKind::kRosette);
+  plan.cycles_a = 3;
+  plan.cycles_b = 2;
+  AimedRay rays[kMaxAimedRays + 1] = {};
+  plan.aimed = Span<const AimedRay>(rays, kMaxAimedRays);
+  EXPECT_EQ(validate(plan), Status::kOk);
+  plan.aimed = Span<const AimedRay>(rays, kMaxAimedRays + 1);
+  EXPECT_EQ(validate(plan), Status::kBadValue);
+  plan.aimed = Span<const AimedRay>(rays, 100);
+  plan.points = 100 + kMinPatternPoints;
+  EXPECT_EQ(validate(plan), Status::kOk);
+  plan.points = 100 + kMinPatternPoints - 1;
+  EXPECT_EQ(validate(plan), Status::kBadValue);
+  plan.points = 1024;
+  for (float AimedRay::*member : {&AimedRay::x, &AimedRay::y}) {
+    for (const float bad : {2.01F, -2.01F, std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+      rays[99] = AimedRay{};
+      rays[99].*member = bad;
+      EXPECT_EQ(validate(plan), Status::kBadValue);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace lasso
