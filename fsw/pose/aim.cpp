@@ -157,7 +157,10 @@ void find_places(const AimSearch& s, Workspace& workspace) {
   Ratio next = step * N::to_ratio(fraction(s.request.scan_id * kGoldenRatio));  // of the next place, from the edge's first end
   for (const ContourEdge<N>& edge : workspace.contour) {
     const Ratio length = length_in_image(edge);
-    for (; next < length; next += step) add_place(s, edge, N::to_double(next / length), workspace);
+    while (next < length) {
+      add_place(s, edge, N::to_double(next / length), workspace);
+      next += step;
+    }
     next -= length;
   }
 }
