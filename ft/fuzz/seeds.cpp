@@ -17,6 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::size_t kLargestInputBytes = 16384;
+
 void write(const fs::path& file, const std::string& bytes) {
   fs::create_directories(file.parent_path());
   std::ofstream out(file, std::ios::binary);
@@ -30,8 +32,9 @@ std::string seed(char option, const void* bytes, std::size_t size) {
 }
 std::string seed(char option, const std::string& text) { return seed(option, text.data(), text.size()); }
 
-// A seed that does not load, or gives no pose, leads nowhere.
+// A seed that does not load, gives no pose, or is cut to the fuzzer's largest input leads nowhere.
 void check_seed(test::TestImage image) {
+  if (image.size >= kLargestInputBytes) throw std::runtime_error("the seed image is larger than an input (LARGEST_BYTES in ft/fuzz/run)");
   Mission mission;
   const LoadFailure failure = load_image(Bytes(image.data(), image.size), mission);
   if (failure.status != Status::kOk) throw std::runtime_error(std::string("the seed image is refused: ") + failure.what);
@@ -44,7 +47,7 @@ void write_images(const fs::path& folder) {
   parameters.inliers_min = 20;
   for (const bool silhouettes : {false, true}) {
     parameters.silhouettes = silhouettes ? 1 : 0;
-    test::TestImage image = test::make_box_image(parameters, small_box());
+    test::TestImage image = small_image(parameters);
     check_seed(image);
     const std::string name = silhouettes ? "silhouettes" : "hits";
     for (const char option : {'\0', '\1', '\2'}) write(folder / (name + std::to_string(option)), seed(option, image.data(), image.size));

@@ -13,6 +13,16 @@ inline test::BoxModel small_box() {
   return box;
 }
 
+// The search tables of 64 cells and the fewest views: the whole has to fit into an input.
+inline test::TestImage small_image(const MissionParameters& parameters) {
+  test::BoxTables tables = test::make_box_tables(small_box());
+  const auto table = [&](TableId id) -> test::Words& { return tables[static_cast<std::size_t>(id) - 1]; };
+  for (const SearchGridWord axis : {kSearchCellsX, kSearchCellsY, kSearchCellsZ}) table(TableId::kSearchGrid)[axis] = 4;
+  table(TableId::kDistances).resize(16);
+  table(TableId::kViews).resize(kMinViews * kViewWords);
+  return test::make_image(parameters, tables);
+}
+
 inline Pose small_start() { return test::generic_box_pose(); }
 
 inline std::unique_ptr<RangeImage> small_scan() {
