@@ -7,7 +7,16 @@ namespace {
 
 constexpr std::size_t kMaxPolls = kMaxRays / kMaxSamplesPerPoll;
 
+// The ball that the model lies in at any attitude, by the ends of its axes.
+Status plan_around(const Mission& mission, const Aim& aim, ScanPlan& plan) {
+  HullPoint ends[6] = {};
+  for (std::size_t i = 0; i < 6; ++i) ends[i].p[i / 2] = FlightNumber::to_length(i % 2 == 0 ? mission.radius_m : -mission.radius_m);
+  const TargetOutline ball{Span<const HullPoint>(ends), Vec3::Zero(), aim.uncertainty_m};
+  return plan_scan(mission.parameters, ball, aim.T_sensor_target, plan.scan_id, plan);
+}
+
 Status plan_aimed(const Mission& mission, const Aim& aim, ScanPlan& plan) {
+  if (aim.any_attitude) return plan_around(mission, aim, plan);
   const TargetOutline outline{mission.hull, mission.center_m, aim.uncertainty_m};
   return plan_scan(mission.parameters, outline, aim.T_sensor_target, plan.scan_id, plan);
 }

@@ -14,10 +14,12 @@
 
 namespace lasso {
 
-// Where the target is expected, and one sigma of how far off that may be; or anywhere in the field of view.
+// Where the target is expected, and one sigma of how far off that may be; its attitude may be unknown, or it may be anywhere in the field
+// of view.
 struct Aim {
   Pose T_sensor_target;
   double uncertainty_m = 0;
+  bool any_attitude = false;  // T_sensor_target says where the model's centre is, no more
   bool full_field = false;
   Span<const AimedRay> rays;  // that leave the pattern; not those of a full-field scan
 };

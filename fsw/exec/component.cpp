@@ -7,6 +7,7 @@ namespace lasso {
 namespace {
 
 constexpr std::uint32_t kPipelineFrames = 2;  // from a scan's boundary to its publication
+constexpr double kBearingOffShare = 0.25;     // of the model's radius: the middle of what is seen is not the model's
 
 DurationUs to_us(double seconds) { return static_cast<DurationUs>(seconds * 1e6 + 0.5); }
 
@@ -76,7 +77,7 @@ Status Component::begin(TimeUs boundary_0_us) {
 StartRefusal Component::offer_start(StartWay way, const StartOffer& offer) {
   if (!executive_.begun()) return StartRefusal::kNotBegun;
   const auto index = static_cast<std::size_t>(way);
-  if (index == 0 || index >= kStartWays) return StartRefusal::kNoSuchWay;
+  if (index == 0 || way == StartWay::kSearch || index >= kStartWays) return StartRefusal::kNoSuchWay;
   FilterState tried;
   const StartRefusal refusal = start_from(mission_, offer, executive_.next_boundary_us(), track_.bearing, tried);
   if (refusal != StartRefusal::kNone) {
@@ -163,6 +164,8 @@ void Component::follow(const TrackStep& step) {
   const bool given_up =
       track_.mode == TrackingMode::kStarting && (step.event == ModeEvent::kExhausted || step.event == ModeEvent::kRecover);
   if (given_up) refuse_start(track_.way, StartRefusal::kNotConfirmed);
+  if (step.refusal != StartRefusal::kNone) refuse_start(StartWay::kSearch, step.refusal);
+  if (step.after.mode == TrackingMode::kTracking) desk_.put(StartWay::kSearch, StartOffer{});
   if (step.after.mode != track_.mode) note_change({track_.mode, step.event, step.after.mode});
   track_ = step.after;
 }
@@ -216,14 +219,26 @@ void Component::leave_track() {
   aimed_.clear();
 }
 
-// Loop bound: each try takes an offer, of which there is one a way.
+// Loop bound: each try takes an offer, of which there is one a way; a search awaits no other start.
 void Component::try_ways() {
   if (track_.held) return;
-  StartWay way = desk_.next(mission_.parameters);
+  StartWay way = next_way();
   while (properties(track_.mode).awaits_start && way != StartWay::kNone) {
-    try_start(way);
-    way = desk_.next(mission_.parameters);
+    take_way(way);
+    way = next_way();
   }
+}
+
+StartWay Component::next_way() const {
+  return desk_.next(mission_.parameters, properties(track_.mode).full_field && track_.bearing.started);
+}
+
+void Component::take_way(StartWay way) {
+  if (way != StartWay::kSearch) return try_start(way);
+  static_cast<void>(desk_.take(way));
+  note_change({track_.mode, ModeEvent::kSearch, next_mode(track_.mode, ModeEvent::kSearch)});
+  change_mode(ModeEvent::kSearch, track_);
+  leave_track();
 }
 
 void Component::hand_over_scan() {
@@ -241,18 +256,33 @@ void Component::hand_over_scan() {
   if (usable) acquisition_.swap_images();
 }
 
+Aim Component::aim_of_scan() const {
+  const ModeProperties& mode = properties(track_.mode);
+  Aim aim;
+  aim.full_field = mode.full_field || (mode.searches && !track_.bearing.started);
+  aim.any_attitude = mode.searches;
+  if (mode.searches) {
+    aim.T_sensor_target.p = track_.bearing.p_m + to_seconds(acquired_.t_nominal_us - track_.bearing.t_us) * track_.bearing.v_mps;
+    aim.uncertainty_m = kBearingOffShare * mission_.radius_m;
+    return aim;
+  }
+  PredictedPose predicted;
+  predicted.T_sensor_target = track_.filter.T_sensor_target;
+  // Where the prediction has no meaning the scan is aimed where the target was last.
+  static_cast<void>(predict_pose(track_.filter, acquired_.t_nominal_us, predicted));
+  aim.T_sensor_target = predicted.T_sensor_target;
+  aim.uncertainty_m = place_sigma(mission_, track_.filter);
+  aim.rays = aimed_.span();
+  return aim;
+}
+
 void Component::start_scan() {
   if (!properties(track_.mode).scans) return;
   const TimeUs boundary_us = executive_.next_slot_us();  // of this frame: its slot 0 is running
   acquired_.active = true;
   acquired_.scan_id = executive_.frame();
   acquired_.t_nominal_us = boundary_us + to_us(mission_.parameters.duration_s) / 2;
-  PredictedPose predicted;
-  predicted.T_sensor_target = track_.filter.T_sensor_target;
-  // Where the prediction has no meaning the scan is aimed where the target was last.
-  static_cast<void>(predict_pose(track_.filter, acquired_.t_nominal_us, predicted));
-  const Aim aim{predicted.T_sensor_target, place_sigma(mission_, track_.filter), properties(track_.mode).full_field, aimed_.span()};
-  acquisition_.start(mission_, aim, acquired_.scan_id, boundary_us, acquired_.plan);
+  acquisition_.start(mission_, aim_of_scan(), acquired_.scan_id, boundary_us, acquired_.plan);
 }
 
 void Component::send(const TrackStep& step, TimeUs now_us) {

@@ -47,7 +47,7 @@ class Component {
   StartRefusal offer_start(StartWay way, const StartOffer& offer);
   // An uplink as uncertain as tracking.start_sigma_* say. kBadOrder before begin(), kNotFinite, kBadValue for every other refusal.
   Status start_tracking(const Pose& T_sensor_target, const Twist& rates, TimeUs t_us);
-  // Standby, bearing or reacquiring, at the next boundary. What is refused changes nothing.
+  // Standby, bearing, searching or reacquiring, at the next boundary. What is refused changes nothing.
   ModeRefusal command_mode(TrackingMode mode);
   // Standby. kBadOrder before begin().
   Status stop_tracking();
@@ -94,6 +94,9 @@ class Component {
   void try_ways();
   void hand_over_scan();
   void start_scan();
+  Aim aim_of_scan() const;
+  StartWay next_way() const;
+  void take_way(StartWay way);
 
   void request_start(StartWay way);
   void try_start(StartWay way);

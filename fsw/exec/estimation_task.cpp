@@ -25,8 +25,15 @@ bool EstimationTask::collect(TrackStep& step) {
 }
 
 TrackStep EstimationTask::step_of(const Mission& mission) {
+  TrackStep step = tracked(mission);
+  if (properties(job_.before.mode).searches) searcher_.work(mission, job_.scan, estimator_.workspace(), step);
+  return step;
+}
+
+TrackStep EstimationTask::tracked(const Mission& mission) {
+  const ModeProperties& mode = properties(job_.before.mode);
   if (job_.scan == nullptr) return track_without_scan(mission, PoseReason::kNoScan, job_.scan_id, job_.t_nominal_us, job_.before);
-  if (properties(job_.before.mode).full_field) return bearing_scan(mission, bearing_finder_, *job_.scan, job_.before);
+  if (mode.full_field || mode.searches) return bearing_scan(mission, bearing_finder_, *job_.scan, job_.before);
   return track_scan(mission, estimator_, *job_.scan, job_.before);
 }
 

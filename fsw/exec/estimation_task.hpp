@@ -8,6 +8,7 @@
 
 #include "fsw/core/time.hpp"
 #include "fsw/mission/mission.hpp"
+#include "fsw/mode/searcher.hpp"
 #include "fsw/mode/tracker.hpp"
 #include "fsw/pose/estimator.hpp"
 #include "fsw/sense/range_image.hpp"
@@ -41,6 +42,7 @@ class EstimationTask {
 
  private:
   TrackStep step_of(const Mission& mission);
+  TrackStep tracked(const Mission& mission);
 
   enum Phase : std::uint32_t { kIdle = 0, kPending = 1, kRunning = 2, kDone = 3 };
   std::atomic<std::uint32_t> phase_{kIdle};
@@ -50,6 +52,7 @@ class EstimationTask {
   AimedRays aimed_;
   Estimator estimator_;
   BearingFinder bearing_finder_;
+  Searcher searcher_;
 };
 
 }  // namespace lasso

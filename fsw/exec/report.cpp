@@ -93,6 +93,26 @@ void describe_bearing(const Bearing& bearing, PoseTelemetry& out) {
   }
 }
 
+void describe_candidate(const SearchCandidate& candidate, std::size_t index, PoseTelemetry& out) {
+  double q[4], p[3];
+  copy_pose(candidate.T_sensor_target, q, p);
+  for (std::size_t i = 0; i < 4; ++i) out.candidate_q[4 * index + i] = static_cast<float>(q[i]);
+  for (std::size_t i = 0; i < 3; ++i) out.candidate_p_m[3 * index + i] = static_cast<float>(p[i]);
+}
+
+void describe_search(const SearchResult& search, PoseTelemetry& out) {
+  out.search_outcome = static_cast<std::uint8_t>(search.outcome);
+  out.search_reason = static_cast<std::uint8_t>(search.reason);
+  out.search_scans = static_cast<std::uint8_t>(search.scans);
+  out.search_ratio = static_cast<float>(search.ratio);
+  out.search_disagreement = static_cast<float>(search.disagreement);
+  out.search_work = search.work;
+  out.t_search_us = search.t_us;
+  for (const SearchCandidate& candidate : search.candidates) {
+    if (out.search_candidates < kTelemetryCandidates) describe_candidate(candidate, out.search_candidates++, out);
+  }
+}
+
 std::uint32_t bounded_age(DurationUs age_us) {
   if (age_us < 0) return 0;
   return static_cast<std::uint32_t>(age_us < kMaxAgeUs ? age_us : kMaxAgeUs);
@@ -111,6 +131,7 @@ PoseTelemetry make_report(const Mission& mission, const TrackStep& step, const S
   describe_filter(step.after.filter, out);
   describe_plan(plan, out);
   describe_bearing(step.bearing, out);
+  describe_search(step.search, out);
   out.t_publication_us = t_publication_us;
   out.age_us = bounded_age(t_publication_us - out.t_measurement_us);
   out.mode = static_cast<std::uint8_t>(step.after.mode);

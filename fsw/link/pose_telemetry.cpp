@@ -7,18 +7,20 @@ using P = PoseTelemetry;
 constexpr char kYesNo[] = "0=no|1=yes";
 constexpr char kReasons[] =
     "0=valid|1=no_scan|2=too_few_returns|3=too_few_inliers|4=low_inlier_share|5=low_agreement|6=high_residual|7=not_converged|"
-    "8=singular|9=no_track|10=overrun|11=implausible|12=only_bearing|13=far_from_start";
+    "8=singular|9=no_track|10=overrun|11=implausible|12=only_bearing|13=far_from_start|14=searching";
 constexpr char kStops[] = "0=converged|1=iteration_limit|2=too_few_points|3=singular|4=not_run";
-constexpr char kModes[] = "0=standby|1=starting|2=tracking|3=coasting|4=lost|5=bearing|6=reacquiring";
+constexpr char kModes[] = "0=standby|1=starting|2=tracking|3=coasting|4=lost|5=bearing|6=reacquiring|7=searching";
 constexpr char kEvents[] =
-    "0=start|1=stop|2=pose_valid|3=pose_invalid|4=exhausted|5=recover|6=seek|7=reacquire|8=bearing_known|9=bearing_unknown";
-constexpr char kWays[] = "0=none|1=handover|2=navigation|3=apriori|4=uplink";
+    "0=start|1=stop|2=pose_valid|3=pose_invalid|4=exhausted|5=recover|6=seek|7=reacquire|8=bearing_known|9=bearing_unknown|10=search";
+constexpr char kWays[] = "0=none|1=handover|2=navigation|3=apriori|4=uplink|5=search";
 constexpr char kRefusals[] =
     "0=none|1=not_begun|2=no_such_way|3=not_finite|4=not_unit|5=bad_covariance|6=from_future|7=too_old|8=too_fast|9=out_of_reach|"
     "10=not_at_bearing|11=not_confirmed";
 constexpr char kBearingReasons[] =
     "0=valid|1=no_scan|2=out_of_order|3=same_scan|4=nothing_seen|5=not_finite|6=outside_field|7=outside_range|8=too_few_returns|"
     "9=one_direction|10=only_background|11=jump";
+constexpr char kSearchOutcomes[] = "0=none|1=accepted|2=ambiguous|3=rejected";
+constexpr char kSearchReasons[] = "0=not_done|1=distinct|2=competitor|3=too_few_returns|4=unexplained|5=not_registered";
 constexpr char kPatterns[] = "0=rosette|1=lissajous|2=raster";
 
 // clang-format off
@@ -84,6 +86,16 @@ constexpr TelemetryRow<P> kRows[] = {
   make_row<&P::t_bearing_us>(59, "t_bearing_us", "us", "", "time at which the bearing is stated"),
   make_row<&P::bearing>(60, "bearing", "rad,m", "", "azimuth (right), elevation (up), range of the centroid; their rates per second"),
   make_row<&P::bearing_sigma>(61, "bearing_sigma", "rad,m", "", "their sigmas"),
+  make_row<&P::search_outcome>(62, "search_outcome", "1", kSearchOutcomes, "what the search says of the scans that it has joined; none unless in mode searching"),
+  make_row<&P::search_reason>(63, "search_reason", "1", kSearchReasons, "why"),
+  make_row<&P::search_scans>(64, "search_scans", "1", "", "scans that the search has joined"),
+  make_row<&P::search_candidates>(65, "search_candidates", "1", "", "poses that explain them, best first, which follow (at most 4)"),
+  make_row<&P::search_ratio>(66, "search_ratio", "1", "", "score of the best competitor over that of the best pose; 0: no competitor"),
+  make_row<&P::search_disagreement>(67, "search_disagreement", "1", "", "share of what was looked at that the best pose does not explain"),
+  make_row<&P::search_work>(68, "search_work", "1", "", "look-ups of the search so far"),
+  make_row<&P::t_search_us>(69, "t_search_us", "us", "", "time at which the candidates are stated"),
+  make_row<&P::candidate_q>(70, "candidate_q", "1", "", "candidates: quaternions x, y, z, w, one after the other"),
+  make_row<&P::candidate_p_m>(71, "candidate_p_m", "m", "", "candidates: target's origin in the sensor frame"),
 };
 // clang-format on
 

@@ -18,6 +18,7 @@ constexpr std::size_t kPoseSigmas = 6;
 constexpr std::size_t kPoseCovarianceTerms = 21;
 constexpr std::size_t kPoseChanges = 4;
 constexpr std::size_t kBearingValues = 6;
+constexpr std::size_t kTelemetryCandidates = 4;
 
 struct PoseTelemetry {
   std::uint32_t scan_id = 0;
@@ -81,6 +82,17 @@ struct PoseTelemetry {
   double bearing[kBearingValues] = {};  // azimuth, elevation [rad], range [m], their rates
   float bearing_sigma[kBearingValues] = {};
 
+  std::uint8_t search_outcome = 0;  // SearchOutcome of the scans that the search has joined
+  std::uint8_t search_reason = 0;   // SearchReason
+  std::uint8_t search_scans = 0;
+  std::uint8_t search_candidates = 0;  // the first so many of these
+  float search_ratio = 0;
+  float search_disagreement = 0;
+  std::uint32_t search_work = 0;
+  TimeUs t_search_us = 0;                            // at which the candidates are stated
+  float candidate_q[4 * kTelemetryCandidates] = {};  // as q_sensor_target, one after the other
+  float candidate_p_m[3 * kTelemetryCandidates] = {};
+
   std::uint32_t image_crc = 0;
   std::uint32_t software_version = 0;  // major << 24 | minor << 16 | patch
   std::uint32_t software_build = 0;    // given by the build, 0: development
@@ -96,7 +108,7 @@ struct PoseTelemetry {
 // The dictionary of the packet, in the order of the wire.
 Span<const TelemetryRow<PoseTelemetry>> pose_rows();
 
-constexpr std::size_t kMaxPosePacketBytes = 640;
+constexpr std::size_t kMaxPosePacketBytes = 768;
 
 // Writes the whole packet (headers, structure id, rows, CRC) to `out`. `header` says counts and time; its service fields are set here.
 // Returns the packet's size, 0 when `out` is too small.

@@ -26,7 +26,10 @@ struct MissionParameters {
   double start_sigma_m, start_sigma_rad, inliers_min, inlier_share_min, agreement_min, normalized_residual_max, sigma_position_max_m,
       sigma_attitude_max_rad, innovation_max, coast_frames, hysteresis, recover, reacquire_frames;
   // [start] the ways to a pose to start from
-  double start_frames, start_inlier_share_min, start_gate, start_age_max_s, start_first, start_second, start_third, start_fourth;
+  double start_frames, start_inlier_share_min, start_gate, start_age_max_s, start_first, start_second, start_third, start_fourth,
+      start_fifth;
+  // [search] the first pose without any prior attitude
+  double search_hits_min, search_disagreement_max, search_ratio_min, search_scans_max, search_slice, search_frames;
   // [tracking.initial] T_sensor_target and rates at the start
   double initial_present, initial_qx, initial_qy, initial_qz, initial_qw, initial_x_m, initial_y_m, initial_z_m, initial_wx_radps,
       initial_wy_radps, initial_wz_radps, initial_vx_mps, initial_vy_mps, initial_vz_mps;

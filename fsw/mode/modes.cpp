@@ -10,9 +10,11 @@ using E = ModeEvent;
 constexpr ModeTransition kTransitions[] = {
   {M::kStandby,     E::kStart,          M::kStarting,    "a pose to start from"},
   {M::kStandby,     E::kSeek,           M::kBearing,     "commanded"},
+  {M::kStandby,     E::kSearch,         M::kSearching,   "commanded"},
   {M::kStarting,    E::kStart,          M::kStarting,    "another pose to start from"},
   {M::kStarting,    E::kStop,           M::kStandby,     "commanded"},
   {M::kStarting,    E::kSeek,           M::kBearing,     "commanded"},
+  {M::kStarting,    E::kSearch,         M::kSearching,   "commanded"},
   {M::kStarting,    E::kPoseValid,      M::kTracking,    "a scan confirms the start"},
   {M::kStarting,    E::kPoseInvalid,    M::kStarting,    "the next scan tries again"},
   {M::kStarting,    E::kExhausted,      M::kLost,        "no scan confirmed the start"},
@@ -21,6 +23,7 @@ constexpr ModeTransition kTransitions[] = {
   {M::kTracking,    E::kStop,           M::kStandby,     "commanded"},
   {M::kTracking,    E::kSeek,           M::kBearing,     "commanded"},
   {M::kTracking,    E::kReacquire,      M::kReacquiring, "commanded"},
+  {M::kTracking,    E::kSearch,         M::kSearching,   "commanded"},
   {M::kTracking,    E::kPoseValid,      M::kTracking,    "the track holds"},
   {M::kTracking,    E::kPoseInvalid,    M::kCoasting,    "the filter bridges a scan without a pose"},
   {M::kTracking,    E::kExhausted,      M::kLost,        "no coasting is allowed"},
@@ -29,6 +32,7 @@ constexpr ModeTransition kTransitions[] = {
   {M::kCoasting,    E::kStop,           M::kStandby,     "commanded"},
   {M::kCoasting,    E::kSeek,           M::kBearing,     "commanded"},
   {M::kCoasting,    E::kReacquire,      M::kReacquiring, "commanded"},
+  {M::kCoasting,    E::kSearch,         M::kSearching,   "commanded"},
   {M::kCoasting,    E::kPoseValid,      M::kTracking,    "the track is taken up again"},
   {M::kCoasting,    E::kPoseInvalid,    M::kCoasting,    "the filter bridges another scan"},
   {M::kCoasting,    E::kExhausted,      M::kLost,        "too many scans without a pose"},
@@ -37,28 +41,39 @@ constexpr ModeTransition kTransitions[] = {
   {M::kLost,        E::kStop,           M::kStandby,     "commanded"},
   {M::kLost,        E::kSeek,           M::kBearing,     "commanded"},
   {M::kLost,        E::kReacquire,      M::kReacquiring, "commanded"},
+  {M::kLost,        E::kSearch,         M::kSearching,   "commanded"},
   {M::kBearing,     E::kStart,          M::kStarting,    "a pose to start from"},
   {M::kBearing,     E::kStop,           M::kStandby,     "commanded"},
+  {M::kBearing,     E::kSearch,         M::kSearching,   "commanded, or the turn of this way to start"},
   {M::kBearing,     E::kBearingKnown,   M::kBearing,     "direction and range are known; a pose is awaited"},
   {M::kBearing,     E::kBearingUnknown, M::kBearing,     "the next scan looks again"},
   {M::kReacquiring, E::kStart,          M::kStarting,    "a pose to start from"},
   {M::kReacquiring, E::kStop,           M::kStandby,     "commanded"},
   {M::kReacquiring, E::kSeek,           M::kBearing,     "commanded"},
+  {M::kReacquiring, E::kSearch,         M::kSearching,   "commanded"},
   {M::kReacquiring, E::kPoseValid,      M::kTracking,    "found near the prediction"},
   {M::kReacquiring, E::kPoseInvalid,    M::kReacquiring, "the next scan tries again"},
   {M::kReacquiring, E::kExhausted,      M::kLost,        "not found near the prediction"},
   {M::kReacquiring, E::kRecover,        M::kBearing,     "not found near the prediction: its direction at least"},
+  {M::kSearching,   E::kStart,          M::kStarting,    "a pose to start from"},
+  {M::kSearching,   E::kStop,           M::kStandby,     "commanded"},
+  {M::kSearching,   E::kSeek,           M::kBearing,     "commanded"},
+  {M::kSearching,   E::kPoseValid,      M::kStarting,    "a pose is recognised: a scan has to confirm it"},
+  {M::kSearching,   E::kPoseInvalid,    M::kSearching,   "still at work, or another scan is needed"},
+  {M::kSearching,   E::kExhausted,      M::kLost,        "no pose was recognised"},
+  {M::kSearching,   E::kRecover,        M::kBearing,     "no pose was recognised: the other ways to start, and again"},
 };
 
 constexpr ModeProperties kProperties[] = {
-  //                scans full   lost   wide   conf.  take   await
-  {M::kStandby,     false, false, false, false, false, false, false, "standby", "no scans, no poses"},
-  {M::kStarting,    true,  false, false, true,  true,  true,  false, "starting", "a pose was given; a scan has to confirm it"},
-  {M::kTracking,    true,  false, false, false, false, false, false, "tracking", "the last scan gave a valid pose"},
-  {M::kCoasting,    true,  false, false, false, false, true,  false, "coasting", "the last scan gave none: the filter predicts"},
-  {M::kLost,        false, false, true,  false, false, false, true,  "lost", "no scans; every frame says so"},
-  {M::kBearing,     true,  true,  false, false, false, false, true,  "bearing", "full-field scans for direction and range"},
-  {M::kReacquiring, true,  false, false, true,  true,  true,  false, "reacquiring", "wide starts near the prediction"},
+  //                scans full   search lost   wide   conf.  take   await
+  {M::kStandby,     false, false, false, false, false, false, false, false, "standby", "no scans, no poses"},
+  {M::kStarting,    true,  false, false, false, true,  true,  true,  false, "starting", "a pose was given; a scan has to confirm it"},
+  {M::kTracking,    true,  false, false, false, false, false, false, false, "tracking", "the last scan gave a valid pose"},
+  {M::kCoasting,    true,  false, false, false, false, false, true,  false, "coasting", "the last scan gave none: the filter predicts"},
+  {M::kLost,        false, false, false, true,  false, false, false, true,  "lost", "no scans; every frame says so"},
+  {M::kBearing,     true,  true,  false, false, false, false, false, true,  "bearing", "full-field scans for direction and range"},
+  {M::kReacquiring, true,  false, false, false, true,  true,  true,  false, "reacquiring", "wide starts near the prediction"},
+  {M::kSearching,   true,  false, true,  false, false, false, false, false, "searching", "the pose is looked for at any attitude"},
 };
 
 constexpr ModeEventProperties kEvents[] = {
@@ -72,6 +87,7 @@ constexpr ModeEventProperties kEvents[] = {
   {E::kReacquire, true, "reacquire"},
   {E::kBearingKnown, false, "bearing_known"},
   {E::kBearingUnknown, false, "bearing_unknown"},
+  {E::kSearch, true, "search"},
 };
 // clang-format on
 
@@ -103,7 +119,7 @@ bool command_event(TrackingMode mode, ModeEvent& event) {
   constexpr struct {
     TrackingMode mode;
     ModeEvent event;
-  } kCommands[] = {{M::kStandby, E::kStop}, {M::kBearing, E::kSeek}, {M::kReacquiring, E::kReacquire}};
+  } kCommands[] = {{M::kStandby, E::kStop}, {M::kBearing, E::kSeek}, {M::kReacquiring, E::kReacquire}, {M::kSearching, E::kSearch}};
   for (const auto& command : kCommands) {
     if (command.mode != mode) continue;
     event = command.event;

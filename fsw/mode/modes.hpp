@@ -15,6 +15,7 @@ enum class TrackingMode : std::uint8_t {
   kLost = 4,         // too long without a valid pose: no scans, every frame says so
   kBearing = 5,      // full-field scans for direction and range; a pose to start from is awaited
   kReacquiring = 6,  // the target is looked for near the prediction, from wide starts
+  kSearching = 7,    // its pose is looked for without any prior attitude
 };
 
 enum class ModeEvent : std::uint8_t {
@@ -28,6 +29,7 @@ enum class ModeEvent : std::uint8_t {
   kReacquire = 7,       // commanded to look near the prediction
   kBearingKnown = 8,    // a full-field scan gave a bearing
   kBearingUnknown = 9,  // a full-field scan gave none
+  kSearch = 10,         // commanded to look for the pose at any attitude, or the turn of that way to start
 };
 
 struct ModeTransition {
@@ -42,6 +44,7 @@ struct ModeProperties {
   TrackingMode mode;
   bool scans;         // a scan is planned and started in each frame; each scan is reported
   bool full_field;    // scans of the whole field, for a bearing; otherwise aimed by the prediction, for a pose
+  bool searches;      // aimed at the bearing, for the target at any attitude
   bool says_lost;     // frames without a scan are reported too
   bool wide_start;    // registration starts wide (where estimation.wide_start is set)
   bool confirms;      // a valid pose has to agree with the prediction, and starts the filter anew

@@ -95,17 +95,20 @@ const StartOffer& StartDesk::take(StartWay way) {
   return offers_[index_of(way)];
 }
 
-StartWay StartDesk::next(const MissionParameters& p) const {
-  const double order[] = {p.start_first, p.start_second, p.start_third, p.start_fourth};
+StartWay StartDesk::next(const MissionParameters& p, bool may_search) const {
+  StartWay again = StartWay::kNone;
+  const double order[] = {p.start_first, p.start_second, p.start_third, p.start_fourth, p.start_fifth};
   for (const double choice : order) {
     const auto way = static_cast<StartWay>(static_cast<std::uint8_t>(choice));
-    if (fresh_[index_of(way)]) return way;
+    const bool possible = may_search || way != StartWay::kSearch;
+    if (possible && fresh_[index_of(way)]) return way;
+    if (possible && way == StartWay::kSearch) again = way;
   }
-  return StartWay::kNone;
+  return again;
 }
 
 const char* to_string(StartWay way) {
-  static constexpr const char* kNames[] = {"none", "handover", "navigation", "apriori", "uplink"};
+  static constexpr const char* kNames[] = {"none", "handover", "navigation", "apriori", "uplink", "search"};
   const auto index = static_cast<std::size_t>(way);
   return index < kStartWays ? kNames[index] : "unknown";
 }

@@ -1,5 +1,6 @@
-// The ways to a pose to start from that need no recognition: handed over by a long-range system, from a navigation system's stream, known
-// a priori (mission file), or sent by the ground. Each is validated, and moved to now; a scan has to confirm it before it is tracked.
+// The ways to a pose to start from: handed over by a long-range system, from a navigation system's stream, known a priori (mission file),
+// sent by the ground, or recognised (fsw/mode/searcher.hpp). Each is validated, and moved to now; a scan has to confirm it before it is
+// tracked.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +13,8 @@
 
 namespace lasso {
 
-enum class StartWay : std::uint8_t { kNone = 0, kHandover = 1, kNavigation = 2, kApriori = 3, kUplink = 4 };
-constexpr std::size_t kStartWays = 5;  // kNone included
+enum class StartWay : std::uint8_t { kNone = 0, kHandover = 1, kNavigation = 2, kApriori = 3, kUplink = 4, kSearch = 5 };
+constexpr std::size_t kStartWays = 6;  // kNone included
 
 // T_sensor_target and its rates at t_us, with the covariance of (rotation in sensor axes [rad], translation of the origin [m]).
 struct StartOffer {
@@ -51,18 +52,19 @@ StartOffer rough_offer(const MissionParameters& parameters, const Pose& T_sensor
 // it is older than bearing.memory_s.
 StartRefusal start_from(const Mission& mission, const StartOffer& offer, TimeUs now_us, const BearingState& bearing, FilterState& filter);
 
-// The last offer of each way that has not been tried.
+// The last offer of each way that has not been tried. Search needs no offer: it is untried until its turn comes, and again once a track
+// holds; where all else has been tried, its turn comes again.
 class StartDesk {
  public:
   void put(StartWay way, const StartOffer& offer);
   // The offer of the way; it counts as tried from now on.
   const StartOffer& take(StartWay way);
-  // The first way in the mission's order with an offer that has not been tried; kNone if there is none.
-  StartWay next(const MissionParameters& parameters) const;
+  // The first way in the mission's order that has not been tried; kNone if there is none. Search only where `may_search`.
+  StartWay next(const MissionParameters& parameters, bool may_search) const;
 
  private:
   StartOffer offers_[kStartWays];
-  bool fresh_[kStartWays] = {};
+  bool fresh_[kStartWays] = {false, false, false, false, false, true};
 };
 
 }  // namespace lasso

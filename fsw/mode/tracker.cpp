@@ -53,6 +53,7 @@ void predict_or_hold(const MissionParameters& p, TimeUs t_us, FilterState& filte
 
 double frames_of(const MissionParameters& p, TrackingMode mode) {
   if (mode == TrackingMode::kStarting) return p.start_frames;
+  if (mode == TrackingMode::kSearching) return p.search_frames;
   return mode == TrackingMode::kReacquiring ? p.reacquire_frames : p.coast_frames;
 }
 
@@ -60,14 +61,6 @@ ModeEvent event_of(const MissionParameters& p, const TrackState& state, bool val
   if (valid) return ModeEvent::kPoseValid;
   if (state.held || state.missed <= frames_of(p, state.mode)) return ModeEvent::kPoseInvalid;
   return p.recover > 0.5 ? ModeEvent::kRecover : ModeEvent::kExhausted;
-}
-
-void count_and_change(const MissionParameters& p, bool valid, TrackStep& step) {
-  TrackState& state = step.after;
-  if (valid) state.missed = 0;
-  if (!valid && state.missed < UINT16_MAX) ++state.missed;
-  step.event = event_of(p, state, valid);
-  change_mode(step.event, state);
 }
 
 Registration not_registered(PoseReason reason, std::uint32_t scan_id, const FilterState& filter) {
@@ -93,9 +86,17 @@ void change_mode(ModeEvent event, TrackState& state) {
   if (next == state.mode) return;
   state.mode = next;
   if (next != TrackingMode::kCoasting) state.missed = 0;
-  if (!properties(next).full_field) return;
-  state.filter = FilterState{};
-  state.bearing = BearingState{};
+  if (properties(next).searches) ++state.searches;
+  if (properties(next).full_field || properties(next).searches) state.filter = FilterState{};
+  if (properties(next).full_field) state.bearing = BearingState{};
+}
+
+void count_and_change(const MissionParameters& p, bool valid, TrackStep& step) {
+  TrackState& state = step.after;
+  if (valid) state.missed = 0;
+  if (!valid && state.missed < UINT16_MAX) ++state.missed;
+  step.event = event_of(p, state, valid);
+  change_mode(step.event, state);
 }
 
 StartRefusal start_track(const Mission& mission, StartWay way, const StartOffer& offer, TimeUs t_us, TrackState& state) {
@@ -150,7 +151,7 @@ TrackStep track_without_scan(const Mission& mission, PoseReason reason, std::uin
   step.bearing.scan_id = scan_id;
   predict_or_hold(mission.parameters, t_us, step.after.filter);
   step.registration = not_registered(reason, scan_id, step.after.filter);
-  if (properties(before.mode).full_field) {
+  if (properties(before.mode).full_field || properties(before.mode).searches) {
     step.event = ModeEvent::kBearingUnknown;
     change_mode(step.event, step.after);
   } else {

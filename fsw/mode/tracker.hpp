@@ -15,6 +15,7 @@
 #include "fsw/pose/estimator.hpp"
 #include "fsw/pose/filter.hpp"
 #include "fsw/pose/result.hpp"
+#include "fsw/pose/search.hpp"
 #include "fsw/sense/range_image.hpp"
 
 namespace lasso {
@@ -26,18 +27,21 @@ struct TrackState {
   StartWay way = StartWay::kNone;  // by which the present track was started
   FilterState filter;
   BearingState bearing;
+  std::uint32_t searches = 0;  // that were begun
 };
 
 // What one scan led to. `after.filter` is stated at the registration's time.
 struct TrackStep {
   TrackState after;
   Registration registration;
-  Bearing bearing;                      // of a full-field scan
-  ModeEvent event = ModeEvent::kStart;  // of the scan; says nothing of a frame without one
+  Bearing bearing;                             // of a full-field scan, or one around the bearing
+  SearchResult search;                         // of the scans that it has joined so far; in mode searching
+  StartRefusal refusal = StartRefusal::kNone;  // of the pose that the search accepted
+  ModeEvent event = ModeEvent::kStart;         // of the scan; says nothing of a frame without one
 };
 
-// Takes the state along the table. What belongs to the mode that ends is forgotten: its count of frames; for a bearing, the filter and the
-// bearing before.
+// Takes the state along the table. What belongs to the mode that ends is forgotten: its count of frames; for a bearing or a search, the
+// filter; for a bearing, the bearing before.
 void change_mode(ModeEvent event, TrackState& state);
 
 // Takes up a track at t_us, in whatever mode `state` is: kStarting. Refused as start_from says: `state` is then as it was.
@@ -52,6 +56,9 @@ TrackStep track_scan(const Mission& mission, Estimator& estimator, const RangeIm
 // Where the rays of scan `scan_id`, whose middle is at t_us, are to leave its pattern, as this step sees it: nowhere unless the step gave a
 // valid pose. Bounds: as aim_rays.
 void aim_next(const Mission& mission, Estimator& estimator, const TrackStep& step, std::uint32_t scan_id, TimeUs t_us, AimedRays& rays);
+
+// Counts a frame with or without a valid pose, and takes the step along the table.
+void count_and_change(const MissionParameters& parameters, bool valid, TrackStep& step);
 
 // One full-field scan. The registration says kOnlyBearing and no pose.
 TrackStep bearing_scan(const Mission& mission, BearingFinder& finder, const RangeImage& scan, const TrackState& before);

@@ -32,6 +32,8 @@ const char* to_string(PoseReason reason) {
       return "only_bearing";
     case PoseReason::kFarFromStart:
       return "far_from_start";
+    case PoseReason::kSearching:
+      return "searching";
   }
   return "unknown";
 }

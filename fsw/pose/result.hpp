@@ -28,6 +28,7 @@ enum class PoseReason : std::uint8_t {
   kImplausible = 11,    // the filter excludes a jump this large: a wrong minimum
   kOnlyBearing = 12,    // a full-field scan: no attitude is looked for
   kFarFromStart = 13,   // farther from the prediction that it was to confirm than start.gate allows
+  kSearching = 14,      // no attitude is known: it is looked for
 };
 const char* to_string(PoseReason reason);
 const char* to_string(StopReason reason);

@@ -113,7 +113,7 @@ void Search::begin(const SearchLimits& limits) {
 
 Status Search::add_scan(const Mission& mission, const RangeImage& scan, Workspace& workspace) {
   if (busy()) return Status::kBusy;
-  if (scans_ == kMaxSearchScans || scans_ >= limits_.scans_max || result_.outcome == SearchOutcome::kAccepted) return Status::kBadOrder;
+  if (scans_ == kMaxSearchScans || scans_ >= limits_.scans_max) return Status::kBadOrder;
   if (scans_ > 0 && scan.reference_time_us() <= evidence_[last()].t_us) return Status::kBadOrder;
   prepare_rays(mission, scan, StartPoint(), workspace);
   if (workspace.points.empty()) return Status::kNoData;

@@ -2,9 +2,10 @@
 // done like this.
 //
 // begin(), then for each scan add_scan() and advance() until it answers true; result() then says whether the pose is accepted, ambiguous
-// (with its candidates) or rejected, and why. Where it is not accepted, a further scan may be added, up to limits.scans_max: the scores of
-// all scans are added, and candidates are carried from scan to scan with the rate that their own poses show. A target may turn by some
-// 15 deg between two scans. All state is in the object and is forgotten by begin(); the workspace holds nothing between two calls.
+// (with its candidates) or rejected, and why. A further scan may be added, up to limits.scans_max, where it is not accepted, or to see how
+// it turns: the scores of all scans are added, and candidates are carried from scan to scan with the rate that their own poses show. A
+// target may turn by some 15 deg between two scans. All state is in the object and is forgotten by begin(); the workspace holds nothing
+// between two calls.
 //
 // Work is done in steps and counted in look-ups, meant to be some 50 PowerPC 603e instructions each (not measured there yet). advance()
 // ends with the step that uses the budget up; no step takes more than kLargestStep, few more than 60,000. A scan of 1024 rays takes
@@ -66,8 +67,8 @@ class Search {
  public:
   void begin(const SearchLimits& limits);
 
-  // Takes what it needs of the scan. kBusy while the last one is being worked on; kBadOrder after acceptance, beyond limits.scans_max, or
-  // where the scan is not later than the last one; kNoData for a scan without returns. Where it is refused nothing changes.
+  // Takes what it needs of the scan. kBusy while the last one is being worked on; kBadOrder beyond limits.scans_max, or where the scan is
+  // not later than the last one; kNoData for a scan without returns. Where it is refused nothing changes.
   Status add_scan(const Mission& mission, const RangeImage& scan, Workspace& workspace);
 
   // Works until the budget is used up; true when the result for the scans so far stands.

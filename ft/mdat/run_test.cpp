@@ -115,5 +115,21 @@ TEST(SpinRun, TracksATargetThatMovesWithinItsScans) {
   EXPECT_LT(noisy.at("rates").at("rms_degps").get<double>(), 5);
 }
 
+TEST(SearchRun, FindsAndTracksTheTargetWithoutAnyPrior) {
+  VERIFIES("LASSO-MOD-111~1 LASSO-MDT-004~1");
+  const WorkFolder work;
+  const Answer answer = work.mdat("run missions/test.toml --scenario search --frames 60 --out out");
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_NE(answer.out.find("found after"), std::string::npos) << answer.out;
+  const Json noisy = Json::parse(work.read("out/results.json")).at("noisy");
+  for (const Json& range : noisy.at("by_range")) {
+    EXPECT_GT(range.at("found_frame").get<int>(), 5);
+    EXPECT_LT(range.at("found_frame").get<int>(), 50);
+    EXPECT_EQ(range.at("lost"), 0) << "tracked from then on";
+    EXPECT_EQ(range.at("frames").get<int>() + range.at("found_frame").get<int>(), 60);
+  }
+  EXPECT_LT(noisy.at("rms_mm").get<double>(), 2);
+}
+
 }  // namespace
 }  // namespace lasso::ft

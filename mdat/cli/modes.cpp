@@ -12,7 +12,11 @@ const char* yes(bool value) { return value ? "yes" : ""; }
 void print_modes(std::ostream& out) {
   out << "| mode | | scans | confirms | takes up | awaits a start |\n| --- | --- | --- | --- | --- | --- |\n";
   for (const ModeProperties& mode : mode_properties()) {
-    const char* scans = !mode.scans ? "" : mode.full_field ? "full field" : mode.wide_start ? "aimed, wide start" : "aimed";
+    const char* scans = !mode.scans       ? ""
+                        : mode.searches   ? "around the bearing"
+                        : mode.full_field ? "full field"
+                        : mode.wide_start ? "aimed, wide start"
+                                          : "aimed";
     out << "| " << mode.name << " | " << mode.meaning << " | " << scans << " | " << yes(mode.confirms) << " | " << yes(mode.takes_up)
         << " | " << yes(mode.awaits_start) << " |\n";
   }
@@ -31,10 +35,12 @@ void print_page(std::ostream& out) {
          "- **confirms**: a valid pose has to explain `start.inlier_share_min` of the returns and to agree with the prediction within "
          "`start.gate`;\n  it starts the filter anew.\n"
          "- **takes up**: the shares of a valid pose have to exceed the limits of tracking by `tracking.hysteresis`.\n"
-         "- **awaits a start**: the next untried pose to start from is taken, in the mission's order `start.first` to `start.fourth`.\n\n"
-         "`exhausted` and `recover` come when the mode's frames (`start.frames`, `tracking.coast_frames`, `tracking.reacquire_frames`) are "
-         "used up and\nthe mode is not held; which of the two, `tracking.recover` says. An event that a mode has no row for changes "
-         "nothing. Search, and tracking of\nseveral targets at short range, are not built yet.\n\n";
+         "- **awaits a start**: the next untried pose to start from is taken, in the mission's order `start.first` to `start.fifth`. "
+         "Search\n  has its turn in bearing, once the bearing is known.\n\n"
+         "`exhausted` and `recover` come when the mode's frames (`start.frames`, `tracking.coast_frames`, `tracking.reacquire_frames`,\n"
+         "`search.frames`) are used up and the mode is not held; which of the two, `tracking.recover` says. An event that a mode has no "
+         "row "
+         "for changes\nnothing. Tracking of several targets at short range is not built yet.\n\n";
   print_modes(out);
   out << '\n';
   print_transitions(out);

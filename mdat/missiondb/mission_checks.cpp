@@ -73,8 +73,11 @@ void check_initial(const Parameters& p, const Complaint& complain) {
 }
 
 void check_order(const Parameters& p, const Complaint& complain) {
-  const std::vector<std::pair<std::string, double>> order = {
-      {"start.first", p.start_first}, {"start.second", p.start_second}, {"start.third", p.start_third}, {"start.fourth", p.start_fourth}};
+  const std::vector<std::pair<std::string, double>> order = {{"start.first", p.start_first},
+                                                             {"start.second", p.start_second},
+                                                             {"start.third", p.start_third},
+                                                             {"start.fourth", p.start_fourth},
+                                                             {"start.fifth", p.start_fifth}};
   for (std::size_t i = 0; i < order.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
       if (order[i].second == 0 || order[i].second != order[k].second) continue;

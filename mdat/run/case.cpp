@@ -52,6 +52,8 @@ class Case {
       if (is_approach()) navigation_.offer(record.boundary_us, *component_);
       if (frame >= kPipelineFrames) ++done;
     }
+    if (setup_.scenario.prior == 0)
+      result_.frames.erase(result_.frames.begin(), result_.frames.begin() + result_.found_frame.value_or(setup_.frames));
     return std::move(result_);
   }
 
@@ -63,6 +65,11 @@ class Case {
   bool is_approach() const { return setup_.scenario.scenario_kind() == ScenarioKind::kApproach; }
 
   void start(TimeUs truth_us) {
+    if (setup_.scenario.prior == 0) {
+      if (component_->command_mode(TrackingMode::kBearing) != ModeRefusal::kNone)
+        throw RunError("the component refused to seek the bearing");
+      return;
+    }
     expect(component_->start_tracking(trajectory_->at(truth_us).T_sensor_target, Twist{}, truth_us + period_us_), "start tracking");
   }
 
@@ -85,6 +92,7 @@ class Case {
     if (static_cast<StopReason>(pose.stop) == StopReason::kNotRun) return;
     const std::int64_t frame = (pose.t_measurement_us - kEpochUs) / period_us_;
     if (pose.t_measurement_us < kEpochUs || frame >= setup_.frames) return;
+    if (pose.valid != 0 && !result_.found_frame) result_.found_frame = static_cast<std::uint32_t>(frame);
     result_.frames[static_cast<std::size_t>(frame)] = judged(pose, scan.samples, record);
     keep(static_cast<std::uint32_t>(frame), pose, scan);
   }

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "fsw/link/pose_telemetry.hpp"
@@ -44,7 +45,8 @@ struct CaseResult {
   std::vector<FrameError> frames;
   std::vector<std::uint8_t> telemetry;  // all packets, in order
   std::vector<KeptScan> scans;
-  Timeline timeline;  // of an approach
+  Timeline timeline;                         // of an approach
+  std::optional<std::uint32_t> found_frame;  // of the first valid pose
 };
 
 // The scanner of a scenario; without noise its ranges and directions are exact.
@@ -53,10 +55,11 @@ sim::ScannerModel scanner_model(const Scenario& scenario, const MissionParameter
 // The target's motion; frame 0 begins at `epoch_us`.
 std::unique_ptr<sim::Trajectory> make_trajectory(const Scenario& scenario, double range_m, TimeUs epoch_us, DurationUs period_us);
 
-// An approach begins in the mode `bearing`, with a navigation system's offers as the only help. Every other run starts the track from the
-// true pose of one frame before the first, at rest. All that the result says of the estimates was decoded from
-// telemetry packets. A track that the component gives up is then started again from the true pose of the frame before (its frames count as
-// lost). Counts each frame in `done`. Throws RunError where the component refuses its image or a start.
+// An approach begins in the mode `bearing`, with a navigation system's offers as the only help. A run without a prior begins there, too,
+// and leaves out the frames before the first valid pose. Every other run starts the track from the true pose of one frame before the first,
+// at rest. All that the result says of the estimates was decoded from telemetry packets. A track that the component gives up is then
+// started again from the true pose of the frame before (its frames count as lost). Counts each frame in `done`. Throws RunError where the
+// component refuses its image or a start.
 CaseResult run_case(const CaseSetup& setup, std::atomic<std::size_t>& done);
 
 Pose registration_pose(const PoseTelemetry& telemetry);

@@ -43,6 +43,8 @@ Json statistics_json(const RunStatistics& run, bool noise, ScenarioKind kind) {
   return json;
 }
 
+Json found_json(const CaseResult& run) { return run.found_frame ? Json(*run.found_frame) : Json(nullptr); }
+
 Json variant_json(const VariantResult& variant, const Scenario& scenario) {
   Json json = statistics_json(variant.all, variant.variant.noise, scenario.scenario_kind());
   if (scenario.scenario_kind() == ScenarioKind::kPaper) {
@@ -57,6 +59,7 @@ Json variant_json(const VariantResult& variant, const Scenario& scenario) {
   json["by_range"] = Json::array();
   for (std::size_t i = 0; i < variant.by_range.size(); ++i) {
     Json range = {{"range_m", scenario.runs_m()[i]}};
+    if (scenario.prior == 0) range["found_frame"] = found_json(variant.cases.at(i));
     range.update(statistics_json(variant.by_range[i], variant.variant.noise, scenario.scenario_kind()));
     json["by_range"].push_back(range);
   }
@@ -136,6 +139,19 @@ std::string timeline_text(const SimulationResult& result, const Timeline& timeli
 
 const Timeline& timeline_of(const SimulationResult& result) { return result.tables.front().variants.front().cases.front().timeline; }
 
+// When each run had its first valid pose.
+std::string found_text(const TableResult& table) {
+  std::string text;
+  for (const VariantResult& variant : table.variants) {
+    for (std::size_t i = 0; i < variant.cases.size(); ++i) {
+      const std::optional<std::uint32_t>& frame = variant.cases[i].found_frame;
+      text += format("  at %g m without a prior: ", table.scenario.ranges_m[i]);
+      text += frame ? format("found after %.1f s, tracked from frame %u\n", *frame * variant.parameters.period_s, *frame) : "not found\n";
+    }
+  }
+  return text;
+}
+
 std::string table_text(const SimulationResult& result, const TableResult& table) {
   const Scenario& scenario = table.scenario;
   std::string text = format("%s, scenario %s%s: ", result.mission.c_str(), result.scenario.c_str(), table.name.empty() ? "" : ", no tilt");
@@ -143,7 +159,9 @@ std::string table_text(const SimulationResult& result, const TableResult& table)
                  scenario.runs_m().size() == 1 ? "" : "s", scenario.runs_m().front(), scenario.runs_m().back(), result.frames,
                  scenario.tilt_rad / kRadPerDeg);
   text += axes_table(table, table.name.empty() && result.kind == ScenarioKind::kPaper);
-  return text + quality_table(table) + "\n";
+  text += quality_table(table);
+  if (scenario.prior == 0) text += found_text(table);
+  return text + "\n";
 }
 
 }  // namespace

@@ -46,6 +46,7 @@ MissionParameters variant_parameters(const Scenario& scenario, MissionParameters
   if (variant.aimed) parameters.aimed_share = std::max(parameters.aimed_share, kAimedShare);
   const bool still = scenario.scenario_kind() == ScenarioKind::kPaper && scenario.overrides.count("estimation.deskew") == 0;
   if (still) parameters.deskew = 0;
+  if (scenario.prior == 0) parameters.initial_present = 0;
   return parameters;
 }
 

@@ -1,5 +1,6 @@
 #include "fsw/exec/acquisition_task.hpp"
 
+#include <cmath>
 #include <memory>
 
 #include "ut/support/box_scene.hpp"
@@ -16,7 +17,9 @@ class AcquisitionTaskTest : public ::testing::Test {
     image_ = test::make_box_image(p, scene_.box);
     ASSERT_EQ(load_image(Bytes(image_.data(), image_.size), mission_).status, Status::kOk);
   }
-  void start(std::uint32_t scan_id, TimeUs t_us) { task_->start(mission_, {scene_.pose_at(t_us), 0, false, {}}, scan_id, t_us, plan_); }
+  void start(std::uint32_t scan_id, TimeUs t_us) {
+    task_->start(mission_, {scene_.pose_at(t_us), 0, false, false, {}}, scan_id, t_us, plan_);
+  }
 
   test::BoxScene scene_ = test::default_scene();
   test::TestImage image_;
@@ -53,6 +56,23 @@ TEST_F(AcquisitionTaskTest, FillsTheOtherImageAfterTheHandOver) {
   EXPECT_EQ(task_->filling().scan_id, 1u);
 }
 
+// Whatever the attitude, no part of the model is outside the scan.
+TEST_F(AcquisitionTaskTest, ATargetOfUnknownAttitudeIsScannedAllAround) {
+  VERIFIES("LASSO-MOD-123~1 LASSO-MOD-111~1");
+  Aim aim;
+  aim.T_sensor_target.p = Vec3(0.2, -0.1, 3.0);
+  aim.any_attitude = true;
+  aim.uncertainty_m = 0.25 * mission_.radius_m;
+  task_->start(mission_, aim, 4, 0, plan_);
+  const double least = std::tan(std::asin(mission_.radius_m / 3.0));  // of the ball around the model
+  EXPECT_GT(plan_.half_x, least);
+  EXPECT_GT(plan_.half_y, least);
+  EXPECT_LT(plan_.half_x, 1.3 * least);
+  EXPECT_LT(plan_.half_y, 1.3 * least);
+  EXPECT_NEAR(plan_.center_x, 0.2 / 3, 0.01);
+  EXPECT_NEAR(plan_.center_y, -0.1 / 3, 0.01);
+}
+
 TEST_F(AcquisitionTaskTest, ScanThatFailsOrNeverStartsIsNotFit) {
   VERIFIES("LASSO-EXE-005~1");
   sensor_.refused = {0};
@@ -65,7 +85,7 @@ TEST_F(AcquisitionTaskTest, ScanThatFailsOrNeverStartsIsNotFit) {
   EXPECT_FALSE(task_->finish());
   Pose behind = scene_.at_zero;
   behind.p.z() = -2;
-  task_->start(mission_, {behind, 0, false, {}}, 2, 400000, plan_);  // nothing to aim at
+  task_->start(mission_, {behind, 0, false, false, {}}, 2, 400000, plan_);  // nothing to aim at
   task_->poll(600000);
   EXPECT_FALSE(task_->finish());
   EXPECT_TRUE(task_->filling().samples.empty());
@@ -77,7 +97,7 @@ TEST_F(AcquisitionTaskTest, ScanThatFailsOrNeverStartsIsNotFit) {
 TEST_F(AcquisitionTaskTest, AimedRaysArePlannedAndScannedButNotInTheWholeField) {
   VERIFIES("LASSO-SNS-007~1");
   AimedRay rays[] = {{0.01F, 0.02F}, {-0.03F, 0.04F}};
-  Aim aim{scene_.at_zero, 0, false, {}};
+  Aim aim{scene_.at_zero, 0, false, false, {}};
   aim.rays = Span<const AimedRay>(rays);
   task_->start(mission_, aim, 0, 0, plan_);
   rays[0] = rays[1] = {};  // the task keeps its own

@@ -67,7 +67,7 @@ struct Story {
 };
 
 TEST(ComponentModes, ABearingIsSoughtOverTheWholeField) {
-  VERIFIES("LASSO-MOD-101~1 LASSO-MOD-136~1 LASSO-MOD-137~1");
+  VERIFIES("LASSO-MOD-101~1 LASSO-MOD-136~2 LASSO-MOD-137~1");
   ComponentScene scene(parameters());
   scene.begin();
   ASSERT_EQ(scene.component->command_mode(M::kBearing), ModeRefusal::kNone);
@@ -183,7 +183,7 @@ TEST(ComponentModes, ALongEclipseEndsInABearingAndANewStart) {
 }
 
 TEST(ComponentModes, CommandsThatCannotBeAreRefusedByTheirName) {
-  VERIFIES("LASSO-MOD-136~1");
+  VERIFIES("LASSO-MOD-136~2");
   ComponentScene scene(parameters());
   EXPECT_EQ(scene.component->command_mode(M::kStandby), ModeRefusal::kNotBegun);
   scene.begin();
@@ -201,7 +201,7 @@ TEST(ComponentModes, CommandsThatCannotBeAreRefusedByTheirName) {
 }
 
 TEST(ComponentModes, AnyModeCanBeCommanded) {
-  VERIFIES("LASSO-MOD-136~1 LASSO-MOD-137~1");
+  VERIFIES("LASSO-MOD-136~2 LASSO-MOD-137~1");
   ComponentScene scene(parameters());
   scene.begin();
   ASSERT_EQ(scene.component->offer_start(StartWay::kUplink, offer_at(scene, 0)), StartRefusal::kNone);
@@ -227,7 +227,7 @@ TEST(ComponentModes, AnyModeCanBeCommanded) {
 }
 
 TEST(ComponentModes, AHeldModeStaysUntilItIsReleased) {
-  VERIFIES("LASSO-MOD-136~1");
+  VERIFIES("LASSO-MOD-136~2");
   ComponentScene scene(parameters());
   scene.begin();
   ASSERT_EQ(scene.component->command_mode(M::kBearing), ModeRefusal::kNone);
@@ -260,6 +260,7 @@ TEST(ComponentModes, WrongOffersAreRefusedCountedAndTold) {
   scene.begin();
   EXPECT_EQ(scene.component->offer_start(StartWay::kNone, good), StartRefusal::kNoSuchWay);
   EXPECT_EQ(scene.component->offer_start(static_cast<StartWay>(kStartWays), good), StartRefusal::kNoSuchWay);
+  EXPECT_EQ(scene.component->offer_start(StartWay::kSearch, good), StartRefusal::kNoSuchWay) << "nobody offers it";
   StartOffer bad = good;
   bad.t_us = 1;  // the next boundary is at 0
   EXPECT_EQ(scene.component->offer_start(StartWay::kHandover, bad), StartRefusal::kFromFuture);
@@ -319,6 +320,96 @@ TEST(ComponentModes, ACommandTakesThePlaceOfTheOneBefore) {
   ASSERT_EQ(scene.component->command_mode(M::kBearing), ModeRefusal::kNone);
   story.run(scene, 4);
   EXPECT_EQ(story.last().mode, code(M::kBearing)) << "the hand-over is not left to be tried";
+}
+
+MissionParameters search_parameters() {
+  MissionParameters p = test::box_parameters(test::uneven_scene());
+  p.initial_present = 0;
+  p.recover = 1;
+  p.start_fifth = static_cast<double>(StartWay::kSearch);
+  p.search_slice = 700000;
+  return p;
+}
+
+TEST(ComponentModes, TheTargetIsFoundWithoutAnyPriorAndTracked) {
+  VERIFIES("LASSO-MOD-123~1 LASSO-MOD-111~1 LASSO-MOD-131~1 LASSO-MOD-137~1");
+  ComponentScene scene(search_parameters(), test::uneven_scene());
+  scene.begin();
+  ASSERT_EQ(scene.component->command_mode(M::kBearing), ModeRefusal::kNone);
+  Story story;
+  story.run(scene, 16);
+  story.expect({{M::kStandby, E::kSeek, M::kBearing},
+                {M::kBearing, E::kSearch, M::kSearching},
+                {M::kSearching, E::kPoseValid, M::kStarting},
+                {M::kStarting, E::kPoseValid, M::kTracking}});
+  EXPECT_EQ(story.last().mode, code(M::kTracking));
+  EXPECT_EQ(story.last().start_way, static_cast<std::uint8_t>(StartWay::kSearch));
+  EXPECT_LT(scene.error(story.last()).norm(), 1e-2);
+  for (const PoseTelemetry& t : story.reports) EXPECT_TRUE(t.valid == 0 || scene.error(t).norm() < 1e-2);
+}
+
+TEST(ComponentModes, ALostTargetIsLookedForNearItsPredictionThenSearched) {
+  VERIFIES("LASSO-MOD-142~1");
+  MissionParameters p = search_parameters();
+  p.coast_frames = 2;
+  p.reacquire_frames = 2;
+  ComponentScene scene(p, test::uneven_scene());
+  scene.begin();
+  const test::BoxScene truth = test::uneven_scene();
+  ASSERT_EQ(scene.component->start_tracking(truth.at_zero, truth.rates, 0), Status::kOk);
+  Story story;
+  story.run(scene, 6);
+  story.changes.clear();
+  scene.sensor.hidden = true;
+  story.run(scene, 10);
+  scene.sensor.hidden = false;
+  story.run(scene, 16);
+  story.expect({{M::kTracking, E::kPoseInvalid, M::kCoasting},
+                {M::kCoasting, E::kRecover, M::kReacquiring},
+                {M::kReacquiring, E::kRecover, M::kBearing},
+                {M::kBearing, E::kSearch, M::kSearching},
+                {M::kSearching, E::kPoseValid, M::kStarting},
+                {M::kStarting, E::kPoseValid, M::kTracking}});
+  EXPECT_LT(scene.error(story.last()).norm(), 1e-2);
+}
+
+// A box looks alike from several sides: never a guess, and the candidates are told.
+TEST(ComponentModes, AnAmbiguousTargetIsNeverTracked) {
+  VERIFIES("LASSO-MOD-124~1 LASSO-MOD-120~1 LASSO-MOD-136~2");
+  MissionParameters p = parameters();
+  p.search_slice = 1e7;
+  p.search_frames = 3;
+  ComponentScene scene(p);
+  scene.begin();
+  ASSERT_EQ(scene.component->command_mode(M::kSearching), ModeRefusal::kNone);
+  Story story;
+  story.run(scene, 3);
+  EXPECT_NEAR(story.last().plan_half_extents[0], std::tan(15 * kRadPerDeg), 1e-12) << "no bearing yet";
+  story.run(scene, 3);
+  EXPECT_LT(story.last().plan_half_extents[0], 0.9 * std::tan(15 * kRadPerDeg)) << "around the bearing";
+  EXPECT_EQ(story.last().reason, static_cast<std::uint8_t>(PoseReason::kSearching));
+  EXPECT_EQ(story.last().search_outcome, static_cast<std::uint8_t>(SearchOutcome::kAmbiguous));
+  EXPECT_GE(story.last().search_candidates, 2);
+  EXPECT_EQ(story.last().bearing_reason, 0) << "renewed by the same scans";
+  story.run(scene, 3);
+  story.expect({{M::kStandby, E::kSearch, M::kSearching}, {M::kSearching, E::kRecover, M::kBearing}});
+  EXPECT_EQ(story.last().search_outcome, 0) << "nothing stale";
+}
+
+TEST(ComponentModes, APoseThatWasFoundTooLateIsRefusedByItsName) {
+  VERIFIES("LASSO-MOD-134~1");
+  MissionParameters p = search_parameters();
+  p.start_age_max_s = 0;
+  p.search_scans_max = 1;
+  ComponentScene scene(p, test::uneven_scene());
+  scene.begin();
+  ASSERT_EQ(scene.component->command_mode(M::kBearing), ModeRefusal::kNone);
+  Story story;
+  story.run(scene, 12);
+  EXPECT_EQ(story.last().mode, code(M::kSearching));
+  EXPECT_GE(story.last().refused_starts, 1u);
+  EXPECT_EQ(story.last().refused_way, static_cast<std::uint8_t>(StartWay::kSearch));
+  EXPECT_EQ(story.last().refusal, static_cast<std::uint8_t>(StartRefusal::kTooOld));
 }
 
 // A command in each frame leaves no scan to be reported; the changes are told all the same, in order, by packets of their own.

@@ -31,7 +31,10 @@ inline std::vector<Report> decode_all(ConstBytes stream) {
 class ComponentScene {
  public:
   explicit ComponentScene(const MissionParameters& parameters, const BoxScene& scene = default_scene())
-      : scene_(scene), sensor(scene), component(std::make_unique<Component>(sensor)), image_(make_box_image(parameters, scene.box)) {}
+      : scene_(scene),
+        sensor(scene),
+        component(std::make_unique<Component>(sensor)),
+        image_(make_image(parameters, make_box_tables(scene.boxes()))) {}
 
   LoadFailure load() { return component->load_image(Bytes(image_.data(), image_.size)); }
   void begin() {

@@ -71,6 +71,18 @@ TEST_F(EstimationTaskTest, DropsALateResultWhole) {
   EXPECT_EQ(step_.registration.scan_id, 8u);
 }
 
+TEST_F(EstimationTaskTest, SearchesInTheModeSearching) {
+  VERIFIES("LASSO-MOD-111~1");
+  change_mode(ModeEvent::kSearch, job_.before);
+  task_->submit(job_);
+  task_->run(mission_);
+  ASSERT_TRUE(task_->collect(step_));
+  EXPECT_EQ(step_.after.mode, TrackingMode::kSearching);
+  EXPECT_EQ(step_.registration.reason, PoseReason::kNoScan);
+  EXPECT_EQ(step_.event, ModeEvent::kPoseInvalid);
+  EXPECT_EQ(step_.after.missed, 1);
+}
+
 TEST_F(EstimationTaskTest, TwoJobsAtOnceAreABug) {
   VERIFIES("LASSO-EXE-012~1");
   task_->submit(job_);

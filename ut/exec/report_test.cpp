@@ -146,6 +146,38 @@ TEST(Report, CarriesTheBearingAndTheTracksStart) {
   EXPECT_EQ(numbered_report().held, 0);
 }
 
+TEST(Report, CarriesTheSearchAndItsFirstCandidates) {
+  VERIFIES("LASSO-MOD-124~1 LASSO-EXE-006~1 LASSO-MOD-120~1");
+  TrackStep step;
+  SearchResult& search = step.search;
+  search.outcome = SearchOutcome::kAmbiguous;
+  search.reason = SearchReason::kCompetitor;
+  search.scans = 2;
+  search.t_us = 1234567;
+  search.ratio = 1.25;
+  search.disagreement = 0.125;
+  search.work = 3000000;
+  for (int i = 0; i < 5; ++i) {
+    SearchCandidate candidate;
+    candidate.T_sensor_target.q = Quat(0.5, 0.5, -0.5, 0.5);
+    candidate.T_sensor_target.p = Vec3(i, 10 + i, 20 + i);
+    ASSERT_TRUE(search.candidates.push_back(candidate));
+  }
+  const PoseTelemetry t = make_report(Mission{}, step, ScanPlan{}, 0);
+  EXPECT_EQ(t.search_outcome, 2);
+  EXPECT_EQ(t.search_reason, 2);
+  EXPECT_EQ(t.search_scans, 2);
+  EXPECT_EQ(t.t_search_us, 1234567);
+  EXPECT_EQ(t.search_ratio, 1.25F);
+  EXPECT_EQ(t.search_disagreement, 0.125F);
+  EXPECT_EQ(t.search_work, 3000000u);
+  ASSERT_EQ(t.search_candidates, kTelemetryCandidates);
+  EXPECT_EQ(t.candidate_q[4 * 3 + 1], -0.5F);
+  EXPECT_EQ(t.candidate_q[4 * 3 + 3], 0.5F);
+  EXPECT_EQ(t.candidate_p_m[3 * 2 + 1], 12.0F);
+  EXPECT_EQ(numbered_report().search_candidates, 0);
+}
+
 TEST(Report, CarriesPlanImageAndVersion) {
   VERIFIES("LASSO-EXE-006~1");
   const PoseTelemetry t = numbered_report();
@@ -174,16 +206,23 @@ TEST(Report, DictionaryNamesTheEnumerationsAsTheCodeDoes) {
   for (const auto& row : pose_rows()) {
     const std::string name = row.name;
     std::string expected;
-    for (int i = 0; i <= 13 && name == "reason"; ++i) expected += std::to_string(i) + "=" + to_string(static_cast<PoseReason>(i)) + "|";
+    for (int i = 0; i <= 14 && name == "reason"; ++i) expected += std::to_string(i) + "=" + to_string(static_cast<PoseReason>(i)) + "|";
     for (int i = 0; i <= 4 && name == "stop"; ++i) expected += std::to_string(i) + "=" + to_string(static_cast<StopReason>(i)) + "|";
     const bool is_mode = name == "mode" || name == "change_from" || name == "change_to";
-    for (int i = 0; i <= 6 && is_mode; ++i) expected += std::to_string(i) + "=" + to_string(static_cast<TrackingMode>(i)) + "|";
-    for (int i = 0; i <= 9 && name == "change_event"; ++i) expected += std::to_string(i) + "=" + to_string(static_cast<ModeEvent>(i)) + "|";
+    for (int i = 0; i <= 7 && is_mode; ++i) expected += std::to_string(i) + "=" + to_string(static_cast<TrackingMode>(i)) + "|";
+    for (int i = 0; i <= 10 && name == "change_event"; ++i)
+      expected += std::to_string(i) + "=" + to_string(static_cast<ModeEvent>(i)) + "|";
     const bool is_way = name == "start_way" || name == "refused_way";
-    for (int i = 0; i <= 4 && is_way; ++i) expected += std::to_string(i) + "=" + to_string(static_cast<StartWay>(i)) + "|";
+    for (int i = 0; i <= 5 && is_way; ++i) expected += std::to_string(i) + "=" + to_string(static_cast<StartWay>(i)) + "|";
     for (int i = 0; i <= 11 && name == "refusal"; ++i) expected += std::to_string(i) + "=" + to_string(static_cast<StartRefusal>(i)) + "|";
     for (int i = 0; i <= 11 && name == "bearing_reason"; ++i) {
       expected += std::to_string(i) + "=" + to_string(static_cast<BearingReason>(i)) + "|";
+    }
+    for (int i = 0; i <= 3 && name == "search_outcome"; ++i) {
+      expected += std::to_string(i) + "=" + to_string(static_cast<SearchOutcome>(i)) + "|";
+    }
+    for (int i = 0; i <= 5 && name == "search_reason"; ++i) {
+      expected += std::to_string(i) + "=" + to_string(static_cast<SearchReason>(i)) + "|";
     }
     if (!expected.empty()) {
       EXPECT_EQ(std::string(row.choices) + "|", expected) << name;

@@ -75,7 +75,12 @@ TEST(PoseTelemetry, LiesAtTheseBytes) {
   EXPECT_EQ(offset_of("t_bearing_us"), 515u);
   EXPECT_EQ(offset_of("bearing"), 523u);
   EXPECT_EQ(offset_of("bearing_sigma"), 571u);
-  EXPECT_EQ(encode(PoseTelemetry{}).size(), 597u);
+  EXPECT_EQ(offset_of("search_outcome"), 595u);
+  EXPECT_EQ(offset_of("search_ratio"), 599u);
+  EXPECT_EQ(offset_of("t_search_us"), 611u);
+  EXPECT_EQ(offset_of("candidate_q"), 619u);
+  EXPECT_EQ(offset_of("candidate_p_m"), 683u);
+  EXPECT_EQ(encode(PoseTelemetry{}).size(), 733u);
 }
 
 TEST(PoseTelemetry, WritesEachValueWhereItsRowSays) {

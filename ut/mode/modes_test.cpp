@@ -72,6 +72,7 @@ TEST(Modes, EachModeAnswersEveryResultOfItsScans) {
     EXPECT_EQ(rows.count({mode.mode, E::kStop}) != 0, mode.mode != M::kStandby) << mode.name;
     EXPECT_EQ(rows.count({mode.mode, E::kSeek}) != 0, mode.mode != M::kBearing) << mode.name;
     EXPECT_EQ(rows.count({mode.mode, E::kStart}), 1u) << mode.name;
+    EXPECT_EQ(rows.count({mode.mode, E::kSearch}) != 0, mode.mode != M::kSearching) << mode.name;
   }
 }
 
@@ -97,6 +98,15 @@ TEST(Modes, FollowTheStoryOfARecovery) {
   EXPECT_EQ(next_mode(M::kStarting, E::kRecover), M::kBearing);
 }
 
+TEST(Modes, FollowTheStoryOfASearch) {
+  VERIFIES("LASSO-MOD-142~1");
+  EXPECT_EQ(next_mode(M::kBearing, E::kSearch), M::kSearching);
+  EXPECT_EQ(next_mode(M::kSearching, E::kPoseInvalid), M::kSearching);
+  EXPECT_EQ(next_mode(M::kSearching, E::kPoseValid), M::kStarting);
+  EXPECT_EQ(next_mode(M::kSearching, E::kRecover), M::kBearing);
+  EXPECT_EQ(next_mode(M::kSearching, E::kExhausted), M::kLost);
+}
+
 TEST(Modes, IgnoreWhatTheTableDoesNotKnow) {
   VERIFIES("LASSO-MOD-001~2");
   EXPECT_EQ(next_mode(M::kStandby, E::kPoseValid), M::kStandby);
@@ -106,7 +116,7 @@ TEST(Modes, IgnoreWhatTheTableDoesNotKnow) {
 }
 
 TEST(Modes, AreCommandedByTheirEvents) {
-  VERIFIES("LASSO-MOD-136~1");
+  VERIFIES("LASSO-MOD-136~2");
   for (const ModeProperties& mode : mode_properties()) {
     E event = E::kPoseValid;
     if (!command_event(mode.mode, event)) {
@@ -124,6 +134,7 @@ TEST(Modes, AreCommandedByTheirEvents) {
   EXPECT_TRUE(command_event(M::kStandby, event));
   EXPECT_TRUE(command_event(M::kBearing, event));
   EXPECT_TRUE(command_event(M::kReacquiring, event));
+  EXPECT_TRUE(command_event(M::kSearching, event));
   EXPECT_FALSE(command_event(M::kTracking, event));
 }
 

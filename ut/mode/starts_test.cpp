@@ -129,27 +129,44 @@ TEST_F(StartsTest, TheDeskFollowsTheMissionsOrder) {
   VERIFIES("LASSO-MOD-131~1 LASSO-MOD-133~1");
   StartDesk desk;
   MissionParameters& p = mission_.parameters;
-  EXPECT_EQ(desk.next(p), StartWay::kNone);
+  EXPECT_EQ(desk.next(p, false), StartWay::kNone);
   desk.put(StartWay::kApriori, offer_);
   desk.put(StartWay::kNavigation, offer_);
   offer_.t_us = 77;
   desk.put(StartWay::kNavigation, offer_);  // the last one counts
-  EXPECT_EQ(desk.next(p), StartWay::kNavigation);
+  EXPECT_EQ(desk.next(p, false), StartWay::kNavigation);
   EXPECT_EQ(desk.take(StartWay::kNavigation).t_us, 77);
-  EXPECT_EQ(desk.next(p), StartWay::kApriori);
+  EXPECT_EQ(desk.next(p, false), StartWay::kApriori);
   desk.put(StartWay::kHandover, offer_);
-  EXPECT_EQ(desk.next(p), StartWay::kHandover);
+  EXPECT_EQ(desk.next(p, false), StartWay::kHandover);
   p.start_first = static_cast<double>(StartWay::kApriori);
-  EXPECT_EQ(desk.next(p), StartWay::kApriori);
+  EXPECT_EQ(desk.next(p, false), StartWay::kApriori);
   p.start_first = p.start_second = p.start_third = p.start_fourth = static_cast<double>(StartWay::kNone);
-  EXPECT_EQ(desk.next(p), StartWay::kNone);
+  EXPECT_EQ(desk.next(p, true), StartWay::kNone);
   EXPECT_DEATH(desk.put(static_cast<StartWay>(kStartWays), offer_), "no such way");
+}
+
+TEST_F(StartsTest, SearchHasItsTurnWhereItIsPossibleAndAgainWhenAllElseIsTried) {
+  VERIFIES("LASSO-MOD-131~1 LASSO-MOD-133~1");
+  StartDesk desk;
+  MissionParameters& p = mission_.parameters;
+  p.start_first = static_cast<double>(StartWay::kSearch);
+  p.start_second = static_cast<double>(StartWay::kApriori);
+  desk.put(StartWay::kApriori, offer_);
+  EXPECT_EQ(desk.next(p, false), StartWay::kApriori);
+  EXPECT_EQ(desk.next(p, true), StartWay::kSearch);
+  (void)desk.take(StartWay::kSearch);
+  EXPECT_EQ(desk.next(p, true), StartWay::kApriori) << "the others first";
+  (void)desk.take(StartWay::kApriori);
+  EXPECT_EQ(desk.next(p, true), StartWay::kSearch) << "again";
+  EXPECT_EQ(desk.next(p, false), StartWay::kNone);
 }
 
 TEST(StartNames, AreThoseOfTheCode) {
   VERIFIES("LASSO-MOD-134~1");
   EXPECT_EQ(std::string(to_string(StartWay::kUplink)), "uplink");
-  EXPECT_EQ(std::string(to_string(static_cast<StartWay>(5))), "unknown");
+  EXPECT_EQ(std::string(to_string(StartWay::kSearch)), "search");
+  EXPECT_EQ(std::string(to_string(static_cast<StartWay>(6))), "unknown");
   EXPECT_EQ(std::string(to_string(StartRefusal::kNone)), "none");
   EXPECT_EQ(std::string(to_string(StartRefusal::kNotConfirmed)), "not_confirmed");
   EXPECT_EQ(std::string(to_string(static_cast<StartRefusal>(12))), "unknown");

@@ -193,7 +193,7 @@ TEST_F(TrackerTest, LooksNearThePredictionThenForTheBearing) {
 }
 
 TEST_F(TrackerTest, AHeldModeDoesNotEndByItself) {
-  VERIFIES("LASSO-MOD-136~1");
+  VERIFIES("LASSO-MOD-136~2");
   MissionParameters p = test::box_parameters(scene_);
   p.coast_frames = 1;
   load(p);

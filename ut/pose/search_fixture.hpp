@@ -8,13 +8,6 @@
 
 namespace lasso::test {
 
-inline Boxes uneven_boxes() {
-  BoxModel main;
-  BoxModel tower{{0.20, 0.10, 0.25}, {0.06, 0.05, 0.08}, 0.02, 0.2};
-  BoxModel arm{{-0.45, -0.08, 0.05}, {0.10, 0.05, 0.04}, 0.02, 0.2};
-  return {main, tower, arm};
-}
-
 inline const Mission& uneven_mission() {
   static const LoadedImage loaded(uneven_boxes());
   return loaded.mission;

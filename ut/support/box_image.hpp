@@ -20,6 +20,13 @@ struct BoxModel {
 };
 
 using Boxes = std::vector<BoxModel>;  // apart from each other; the first one says cell and margin
+// A target without symmetry.
+inline Boxes uneven_boxes() {
+  BoxModel main;
+  BoxModel tower{{0.20, 0.10, 0.25}, {0.06, 0.05, 0.08}, 0.02, 0.2};
+  BoxModel arm{{-0.45, -0.08, 0.05}, {0.10, 0.05, 0.04}, 0.02, 0.2};
+  return {main, tower, arm};
+}
 using Words = std::vector<std::uint32_t>;
 
 // The tables in the order of TableId, without the parameters (table 1, index 0 stays empty).

@@ -15,10 +15,16 @@ namespace lasso::test {
 
 struct BoxScene {
   BoxModel box;
+  Boxes others;        // parts of the target, too
   Pose at_zero;        // T_sensor_target at t = 0
   Twist rates;         // constant
   double sigma_m = 0;  // noise along the ray
   Pose pose_at(TimeUs t_us) const { return propagate(at_zero, rates, to_seconds(t_us)); }
+  Boxes boxes() const {
+    Boxes all{box};
+    all.insert(all.end(), others.begin(), others.end());
+    return all;
+  }
 };
 
 inline BoxScene default_scene() {
@@ -31,10 +37,17 @@ inline BoxScene default_scene() {
   return scene;
 }
 
+// The same in motion, of a target without symmetry.
+inline BoxScene uneven_scene() {
+  BoxScene scene = default_scene();
+  scene.others = {uneven_boxes()[1], uneven_boxes()[2]};
+  return scene;
+}
+
 inline RangeSample cast_sample(const BoxScene& scene, const ScanPlan& plan, std::uint16_t index, TimeUs t_us, Generator& random) {
   const Vec3 u = pattern_direction(plan, index);
   const Pose T_target_sensor = inverse(scene.pose_at(t_us));
-  const double range = cast_box(scene.box, T_target_sensor.p, rotate(T_target_sensor.q, u));
+  const double range = cast_boxes(scene.boxes(), T_target_sensor.p, rotate(T_target_sensor.q, u));
   const double noise = scene.sigma_m * random.normal();
   RangeSample sample;
   for (int i = 0; i < 3; ++i) sample.direction[i] = static_cast<float>(u[i]);

@@ -1,0 +1,73 @@
+#include "fsw/mode/searcher.hpp"
+
+#include "fsw/geometry/portable_math.hpp"
+
+namespace lasso {
+namespace {
+
+constexpr double kOffset_rad = kRadPerDeg;
+constexpr double kOffsetShare = 0.0075;       // of the model's size
+constexpr double kTurn_rad = 5 * kRadPerDeg;  // since its only scan (1 sigma): more needs another scan
+constexpr std::uint32_t kAimedFrom = 2;       // bearing scans: the first one's own scan was aimed by none
+
+}  // namespace
+
+SearchLimits search_limits(const MissionParameters& p) {
+  SearchLimits limits;
+  limits.hits_min = p.search_hits_min;
+  limits.disagreement_max = p.search_disagreement_max;
+  limits.ratio_min = p.search_ratio_min;
+  limits.scans_max = static_cast<std::uint32_t>(p.search_scans_max);
+  return limits;
+}
+
+StartOffer offer_of(const Mission& mission, const SearchResult& result) {
+  const double offset_m = kOffsetShare * FlightNumber::to_double(mission.search.size);
+  StartOffer offer{result.t_us, result.T_sensor_target, result.rates, result.covariance};
+  offer.covariance.diagonal().head<3>().array() += kOffset_rad * kOffset_rad;
+  offer.covariance.diagonal().tail<3>().array() += offset_m * offset_m;
+  return offer;
+}
+
+void Searcher::begin(const MissionParameters& p, std::uint32_t number) {
+  number_ = number;
+  search_.begin(search_limits(p));
+}
+
+// A scan without returns is not taken; the next one may be.
+void Searcher::take(const Mission& mission, const RangeImage& scan, Workspace& workspace) {
+  if (search_.result().scans >= mission.parameters.search_scans_max) begin(mission.parameters, number_);
+  static_cast<void>(search_.add_scan(mission, scan, workspace));
+}
+
+// A single scan shows no rate.
+bool Searcher::stale(const MissionParameters& p, TimeUs now_us) const {
+  const double age_s = to_seconds(now_us - search_.result().t_us);
+  return search_.result().scans < 2 && p.search_scans_max > 1.5 && age_s * p.initial_angular_rate_radps > kTurn_rad;
+}
+
+bool Searcher::offer(const Mission& mission, TrackStep& step) {
+  TrackState& state = step.after;
+  step.refusal = start_from(mission, offer_of(mission, search_.result()), step.registration.t_us, state.bearing, state.filter);
+  if (step.refusal != StartRefusal::kNone) {
+    begin(mission.parameters, number_);
+    return false;
+  }
+  state.way = StartWay::kSearch;
+  return true;
+}
+
+void Searcher::work(const Mission& mission, const RangeImage* scan, Workspace& workspace, TrackStep& step) {
+  const MissionParameters& p = mission.parameters;
+  if (number_ != step.after.searches) begin(p, step.after.searches);
+  const TimeUs now_us = step.registration.t_us;
+  const bool wants_scan = !search_.busy() && !found(p, now_us) && step.after.bearing.scans >= kAimedFrom;
+  if (scan != nullptr && wants_scan) take(mission, *scan, workspace);
+  static_cast<void>(search_.advance(mission, workspace, static_cast<std::uint32_t>(p.search_slice)));
+  step.search = search_.result();
+  step.registration.reason = scan != nullptr ? PoseReason::kSearching : step.registration.reason;
+  const bool offered = found(p, now_us) && offer(mission, step);
+  count_and_change(p, offered, step);
+}
+
+}  // namespace lasso

@@ -1,0 +1,38 @@
+// The mode searching: the pose of a target whose bearing is known is looked for at any attitude, some work a frame.
+#pragma once
+
+#include "fsw/mode/tracker.hpp"
+#include "fsw/pose/search.hpp"
+
+namespace lasso {
+
+SearchLimits search_limits(const MissionParameters& parameters);
+
+// What an accepted search offers as a start: its covariance, and what it may be off besides (1 deg and 0.75 % of the model's size, 1
+// sigma).
+StartOffer offer_of(const Mission& mission, const SearchResult& result);
+
+class Searcher {
+ public:
+  // One frame in mode searching. `step` is the bearing's (bearing_scan, track_without_scan) and is completed: search, registration
+  // (kSearching), state and event. `scan` is null where it was lost; it is taken where none is being worked on and it was aimed by a
+  // bearing. A new search begins when step.after.searches says so, and when one has joined as many scans as it may. At most search.slice
+  // look-ups, and those of the step that uses them up (kLargestStep). A pose that is accepted is offered as a start: kStarting, or
+  // step.refusal says why not. One from a single scan since which the target may have turned by 5 deg waits for another scan, which shows
+  // its rate. It is offered again where the frame that said so came too late.
+  void work(const Mission& mission, const RangeImage* scan, Workspace& workspace, TrackStep& step);
+
+ private:
+  void begin(const MissionParameters& parameters, std::uint32_t number);
+  void take(const Mission& mission, const RangeImage& scan, Workspace& workspace);
+  bool offer(const Mission& mission, TrackStep& step);
+  bool stale(const MissionParameters& parameters, TimeUs now_us) const;
+  bool found(const MissionParameters& parameters, TimeUs now_us) const {
+    return !search_.busy() && search_.result().outcome == SearchOutcome::kAccepted && !stale(parameters, now_us);
+  }
+
+  Search search_;
+  std::uint32_t number_ = 0;  // of the search, in TrackState::searches
+};
+
+}  // namespace lasso
