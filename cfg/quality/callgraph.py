@@ -85,9 +85,13 @@ class CallGraph:
                 return sorted(targets - {POINTER}) + reached
         raise Unbounded(f'indirect call in {self.name(title)} ({self.place(title)}): no row says what it can reach')
 
-    def body(self, title):
+    @staticmethod
+    def base(title):
         """A complete constructor or destructor (C1, D1) shares the body of the base's (C2, D2) where no base is virtual."""
-        base = re.sub(r'([CD])1E', r'\g<1>2E', title)
+        return re.sub(r'([CD])1E', r'\g<1>2E', title)
+
+    def body(self, title):
+        base = self.base(title)
         return base if title not in self.frames and base in self.frames else title
 
     def allowance(self, target):
