@@ -81,7 +81,7 @@ const ParameterRow kRows[] = {
   {"search.disagreement_max", "1", kReal, &P::search_disagreement_max, 1, 0, 1, 0.20, "", "largest share of what was looked at that an accepted pose does not explain"},
   {"search.ratio_min", "1", kReal, &P::search_ratio_min, 1, 1, 100, 1.3, "", "least score of the best competitor over that of an accepted pose; less is ambiguous"},
   {"search.scans_max", "1", kInteger, &P::search_scans_max, 1, 1, 3, 3, "", "scans that one search joins before it begins anew"},
-  {"search.slice", "1", kInteger, &P::search_slice, 1, 1000, 10000000, 200000, "", "look-ups of one frame, some 50 instructions each; a whole search takes 4 million"},
+  {"search.slice", "1", kInteger, &P::search_slice, 1, 1000, 10000000, 200000, "", "look-ups of one frame, some 90 instructions of a 603e each; a search of one scan takes 4.5 million"},
   {"search.frames", "1", kInteger, &P::search_frames, 1, 1, 10000, 200, "", "frames in which a pose has to be recognised"},
   {"tracking.initial.present", "1", kBoolean, &P::initial_present, 1, 0, 1, 0, "", "tracking starts from the pose below"},
   {"tracking.initial.qx", "1", kReal, &P::initial_qx, 1, -1, 1, 0, "", "quaternion of T_sensor_target"},

@@ -14,16 +14,18 @@ constexpr std::size_t kPullPoints = 128;
 constexpr double kCosHalfSame = 0.99904822158185780;      // 5 deg
 constexpr double kCosHalfDistinct = 0.99144486137381038;  // 15 deg
 constexpr double kRatioFloor = 0.01;
-constexpr double kSettled = 0.02;       // disagreement below which nothing better is looked for
-constexpr int kExploreSteps = 12;       // each way
-constexpr double kExploreStep = 0.005;  // of the model's size, along the least certain direction
-// Look-ups of one point.
+constexpr double kSettled = 0.02;             // disagreement below which nothing better is looked for
+constexpr int kExploreSteps = 12;             // each way
+constexpr double kExploreStep = 0.005;        // of the model's size, along the least certain direction
+constexpr std::uint32_t kExploredAtOnce = 5;  // of these in a step of the work
+// Look-ups of one point, by what its instructions are worth on a 603e.
+constexpr std::size_t kFitCost = 18;
 constexpr std::size_t kWalkCost = 12;
 constexpr std::size_t kPullCost = 40 + 4 * kWalkCost;  // 8 distances, then walks
 
 std::uint32_t to_work(std::size_t lookups) { return static_cast<std::uint32_t>(lookups); }
 
-std::uint32_t fit_work(const Evidence& evidence) { return to_work(kWalkCost * (evidence.hits.size() + evidence.misses.size())); }
+std::uint32_t fit_work(const Evidence& evidence) { return to_work(kFitCost * (evidence.hits.size() + evidence.misses.size())); }
 
 // The registration works on the workspace's points: the first `count` of the evidence.
 void put_points(const Evidence& evidence, std::size_t count, Workspace& workspace) {
@@ -50,21 +52,6 @@ bool find_weakest(const Mission& mission, const Mat6& H, Vec6& direction) {
   direction = eigen6(scale.asDiagonal() * covariance * scale.asDiagonal()).vectors.col(5);
   direction.head<3>() /= mission.radius_m;
   return true;
-}
-
-// The pose with the best fit on a line through `pose`.
-Pose best_along(const Mission& mission, const Evidence& evidence, const Pose& pose, const Vec6& direction) {
-  const double step_m = kExploreStep * N::to_double(mission.search.size);
-  Pose best = pose;
-  double best_score = measure_fit(mission, pose, evidence).score();
-  for (int k = -kExploreSteps; k <= kExploreSteps; ++k) {
-    const Pose moved = step_pose(pose, k * step_m * direction);
-    const double score = measure_fit(mission, moved, evidence).score();
-    if (!(score < best_score)) continue;
-    best_score = score;
-    best = moved;
-  }
-  return best;
 }
 
 double ratio_of(double score, double best) { return (score + kRatioFloor) / (best + kRatioFloor); }
@@ -108,6 +95,7 @@ void Search::begin(const SearchLimits& limits) {
   stage_ = Stage::kIdle;
   scans_ = 0;
   tracks_.clear();
+  line_ = Line();
   result_ = SearchResult();
 }
 
@@ -259,23 +247,48 @@ std::uint32_t Search::settle_next(const Mission& mission, Workspace& workspace) 
 }
 
 // Where a view says little about a direction, the registration may end anywhere along it, and hits that pass an edge decide: the best
-// tracks move to the place along it that fits best.
+// tracks move to the place along it that fits best. A step looks at a few places of one track.
 std::uint32_t Search::explore_next(const Mission& mission) {
-  Track& track = tracks_[next_];
   const Evidence& evidence = evidence_[last()];
-  Vec6 direction;
-  if (find_weakest(mission, track.H, direction)) {
-    track.T_target_sensor[last()] = best_along(mission, evidence, track.T_target_sensor[last()], direction);
-    track.fits[last()] = measure_fit(mission, track.T_target_sensor[last()], evidence);
-    track.total = Fit();
-    for (std::size_t i = 0; i < scans_; ++i) track.total = track.total + track.fits[i];
+  if (!line_.begun) begin_line(mission);
+  std::uint32_t fits = 0;
+  for (; line_.next <= kExploreSteps && fits < kExploredAtOnce; ++line_.next) {
+    look_along(mission, evidence);
+    ++fits;
   }
+  if (line_.next > kExploreSteps) end_line();
+  return fits * fit_work(evidence) + 1;
+}
+
+// Without a direction there is no place to look at.
+void Search::begin_line(const Mission& mission) {
+  const Track& track = tracks_[next_];
+  line_.from = line_.best = track.T_target_sensor[last()];
+  line_.fit = track.fits[last()];
+  line_.next = find_weakest(mission, track.H, line_.direction) ? -kExploreSteps : kExploreSteps + 1;
+  line_.begun = true;
+}
+
+void Search::look_along(const Mission& mission, const Evidence& evidence) {
+  const double step_m = kExploreStep * N::to_double(mission.search.size);
+  const Pose moved = step_pose(line_.from, line_.next * step_m * line_.direction);
+  const Fit fit = measure_fit(mission, moved, evidence);
+  if (!(fit.score() < line_.fit.score())) return;
+  line_.fit = fit;
+  line_.best = moved;
+}
+
+void Search::end_line() {
+  Track& track = tracks_[next_];
+  track.T_target_sensor[last()] = line_.best;
+  track.fits[last()] = line_.fit;
+  track.total = Fit();
+  for (std::size_t i = 0; i < scans_; ++i) track.total = track.total + track.fits[i];
+  line_ = Line();
   ++next_;
-  if (next_ == tracks_.size() || next_ == kExplored) {
-    next_ = 0;
-    stage_ = Stage::kRecall;
-  }
-  return (2 * kExploreSteps + 3) * fit_work(evidence);
+  if (next_ < tracks_.size() && next_ < kExplored) return;
+  next_ = 0;
+  stage_ = Stage::kRecall;
 }
 
 // The last scan's finalists in the scans before, so that scores of as many scans are compared. A step settles one track in one scan.

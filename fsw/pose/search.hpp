@@ -7,9 +7,9 @@
 // target may turn by some 15 deg between two scans. All state is in the object and is forgotten by begin(); the workspace holds nothing
 // between two calls.
 //
-// Work is done in steps and counted in look-ups, meant to be some 50 PowerPC 603e instructions each (not measured there yet). advance()
-// ends with the step that uses the budget up; no step takes more than kLargestStep, few more than 60,000. A scan of 1024 rays takes
-// some 3.4 million look-ups in all.
+// Work is done in steps and counted in look-ups of some 90 PowerPC 603e instructions (60 to 125, by the stage). advance() ends with the
+// step that uses the budget up; no step takes more than kLargestStep, few more than 180,000. A scan of 1024 rays takes some 4.5 million
+// look-ups, 380 million instructions, in all (docs/search.md).
 #pragma once
 
 #include "fsw/pose/coarse.hpp"
@@ -91,6 +91,15 @@ class Search {
     Fit total;
     Mat6 H = Mat6::Zero();  // information of the registration in the last scan, target axes
   };
+  // The line on which a track is explored: from its pose along its least certain direction.
+  struct Line {
+    Pose from;
+    Vec6 direction = Vec6::Zero();
+    Pose best;
+    Fit fit;
+    int next = 0;  // place to look at, in steps
+    bool begun = false;
+  };
   static constexpr std::size_t kFinalists = 6;
   static constexpr std::size_t kCarried = 6;
   static constexpr std::size_t kExplored = 3;
@@ -100,6 +109,9 @@ class Search {
   std::uint32_t pull(const Mission& mission, Workspace& workspace);
   std::uint32_t settle_next(const Mission& mission, Workspace& workspace);
   std::uint32_t explore_next(const Mission& mission);
+  void begin_line(const Mission& mission);
+  void look_along(const Mission& mission, const Evidence& evidence);
+  void end_line();
   std::uint32_t recall_next(const Mission& mission, Workspace& workspace);
   std::uint32_t settle(const Mission& mission, std::size_t scan, const Pose& start, Track& track, Workspace& workspace) const;
   std::uint32_t conclude();
@@ -126,6 +138,7 @@ class Search {
   Evidence evidence_[kMaxSearchScans];
   FixedVector<Pulled, kShortList> pulled_;
   FixedVector<Track, kTracks> tracks_;
+  Line line_;
   SearchResult result_;
 };
 

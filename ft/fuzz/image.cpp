@@ -1,11 +1,13 @@
-// Bytes that claim to be a flight image. The loader refuses them and changes nothing, or makes a mission on which an estimate reads nothing
-// out of bounds and ends. The first byte: bit 0 leaves lengths and check sums as they are (else they are repaired, since no mutation gets
-// past them), bit 1 starts the estimate wide. Mutations of bytes seldom leave an image that loads, so most of them are of words in tables.
+// Bytes that claim to be a flight image. The loader refuses them and changes nothing, or makes a mission on which an estimate or a search
+// reads nothing out of bounds and ends. The first byte: bit 0 leaves lengths and check sums as they are (else they are repaired, since no
+// mutation gets past them), bit 1 starts the estimate wide, bit 2 searches instead. Mutations of bytes seldom leave an image that loads, so
+// most of them are of words in tables.
 #include "cfg/capacities.hpp"
 #include "fsw/core/crc.hpp"
 #include "fsw/mission/image_format.hpp"
 #include "fsw/mission/mission.hpp"
 #include "fsw/pose/estimator.hpp"
+#include "fsw/pose/search.hpp"
 #include "ft/fuzz/exact.hpp"
 #include "ft/fuzz/small_image.hpp"
 #include "ut/support/generator.hpp"
@@ -15,6 +17,8 @@ extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, st
 namespace lasso::fuzz {
 namespace {
 
+constexpr int kSearchSide = 13;  // rays each way: more would take milliseconds
+constexpr std::uint32_t kSlice = 10'000, kMaxSlices = 10'000;
 constexpr std::size_t kLengthAt = 8;
 constexpr std::size_t kDirectoryAt = std::size_t{4} * kImageHeaderWords;
 constexpr std::size_t kEntryBytes = std::size_t{4} * kDirectoryEntryWords;
@@ -71,13 +75,23 @@ void estimate(const Mission& mission, bool wide) {
   expect(result.inliers <= result.returns && result.returns <= scan->samples.size(), "no more inliers than returns than samples");
 }
 
+void search(const Mission& mission) {
+  static const auto scan = small_scan(kSearchSide);
+  static const auto workspace = std::make_unique<Workspace>();
+  static const auto search = std::make_unique<Search>();
+  search->begin(SearchLimits());
+  if (search->add_scan(mission, *scan, *workspace) != Status::kOk) return;
+  for (std::uint32_t slices = 0; !search->advance(mission, *workspace, kSlice); ++slices) expect(slices < kMaxSlices, "a search ends");
+  expect(search->result().outcome != SearchOutcome::kNone, "a search that ended has an outcome");
+}
+
 void load(ConstBytes input, std::uint8_t options) {
   ExactCopy image(input);
   if ((options & 1) == 0) repair(image.bytes());
   ExactCopy before(image.bytes());
   Mission mission;
   const LoadFailure failure = load_image(image.bytes(), mission);
-  if (failure.status == Status::kOk) return estimate(mission, (options & 2) != 0);
+  if (failure.status == Status::kOk) return (options & 4) != 0 ? search(mission) : estimate(mission, (options & 2) != 0);
   expect(image.equals(before.bytes()), "an image that is refused stays as it was");
   expect(mission.image_crc == 0 && mission.field.elements == nullptr, "a mission stays as it was when its image is refused");
 }

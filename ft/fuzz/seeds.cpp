@@ -50,7 +50,8 @@ void write_images(const fs::path& folder) {
     test::TestImage image = small_image(parameters);
     check_seed(image);
     const std::string name = silhouettes ? "silhouettes" : "hits";
-    for (const char option : {'\0', '\1', '\2'}) write(folder / (name + std::to_string(option)), seed(option, image.data(), image.size));
+    for (const char option : {'\0', '\1', '\2', '\4'})
+      write(folder / (name + std::to_string(option)), seed(option, image.data(), image.size));
   }
 }
 

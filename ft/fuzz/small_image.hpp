@@ -25,11 +25,11 @@ inline test::TestImage small_image(const MissionParameters& parameters) {
 
 inline Pose small_start() { return test::generic_box_pose(); }
 
-inline std::unique_ptr<RangeImage> small_scan() {
+inline std::unique_ptr<RangeImage> small_scan(int side = 10) {
   test::BoxScan scan;
   scan.model = small_box();
   scan.T_sensor_target = small_start();
-  scan.side = 10;
+  scan.side = side;
   scan.half_angle = 0.12;
   scan.sigma_m = 0.003;
   test::Generator random(1);

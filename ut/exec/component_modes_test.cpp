@@ -327,6 +327,7 @@ MissionParameters search_parameters() {
   p.initial_present = 0;
   p.recover = 1;
   p.start_fifth = static_cast<double>(StartWay::kSearch);
+  p.points = 400;
   p.search_slice = 700000;
   return p;
 }
@@ -377,6 +378,7 @@ TEST(ComponentModes, ALostTargetIsLookedForNearItsPredictionThenSearched) {
 TEST(ComponentModes, AnAmbiguousTargetIsNeverTracked) {
   VERIFIES("LASSO-MOD-124~1 LASSO-MOD-120~1 LASSO-MOD-136~2");
   MissionParameters p = parameters();
+  p.points = 400;
   p.search_slice = 1e7;
   p.search_frames = 3;
   ComponentScene scene(p);
