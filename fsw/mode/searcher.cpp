@@ -8,7 +8,8 @@ namespace {
 constexpr double kOffset_rad = kRadPerDeg;
 constexpr double kOffsetShare = 0.0075;       // of the model's size
 constexpr double kTurn_rad = 5 * kRadPerDeg;  // since its only scan (1 sigma): more needs another scan
-constexpr std::uint32_t kAimedFrom = 2;       // bearing scans: the first one's own scan was aimed by none
+constexpr DurationUs kBetweenScans_us = 2'000'000;
+constexpr std::uint32_t kAimedFrom = 2;  // bearing scans: the first one's own scan was aimed by none
 
 }  // namespace
 
@@ -31,6 +32,7 @@ StartOffer offer_of(const Mission& mission, const SearchResult& result) {
 
 void Searcher::begin(const MissionParameters& p, std::uint32_t number) {
   number_ = number;
+  waiting_ = false;
   search_.begin(search_limits(p));
 }
 
@@ -38,6 +40,20 @@ void Searcher::begin(const MissionParameters& p, std::uint32_t number) {
 void Searcher::take(const Mission& mission, const RangeImage& scan, Workspace& workspace) {
   if (search_.result().scans >= mission.parameters.search_scans_max) begin(mission.parameters, number_);
   static_cast<void>(search_.add_scan(mission, scan, workspace));
+  taken_us_ = scan.reference_time_us();
+  waiting_ = false;
+}
+
+// The farther a target turns between two scans, the less surely are the poses of one found again in the other.
+void Searcher::keep(const RangeImage& scan) {
+  if (waiting_ || scan.reference_time_us() - taken_us_ < kBetweenScans_us) return;
+  next_ = scan;
+  waiting_ = true;
+}
+
+void Searcher::receive(const Mission& mission, const RangeImage& scan, Workspace& workspace) {
+  if (search_.busy()) return keep(scan);
+  if (!found(mission.parameters, scan.reference_time_us())) take(mission, waiting_ ? next_ : scan, workspace);
 }
 
 // A single scan shows no rate.
@@ -61,8 +77,7 @@ void Searcher::work(const Mission& mission, const RangeImage* scan, Workspace& w
   const MissionParameters& p = mission.parameters;
   if (number_ != step.after.searches) begin(p, step.after.searches);
   const TimeUs now_us = step.registration.t_us;
-  const bool wants_scan = !search_.busy() && !found(p, now_us) && step.after.bearing.scans >= kAimedFrom;
-  if (scan != nullptr && wants_scan) take(mission, *scan, workspace);
+  if (scan != nullptr && step.after.bearing.scans >= kAimedFrom) receive(mission, *scan, workspace);
   static_cast<void>(search_.advance(mission, workspace, static_cast<std::uint32_t>(p.search_slice)));
   step.search = search_.result();
   step.registration.reason = scan != nullptr ? PoseReason::kSearching : step.registration.reason;

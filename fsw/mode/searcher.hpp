@@ -16,14 +16,16 @@ class Searcher {
  public:
   // One frame in mode searching. `step` is the bearing's (bearing_scan, track_without_scan) and is completed: search, registration
   // (kSearching), state and event. `scan` is null where it was lost; it is taken where none is being worked on and it was aimed by a
-  // bearing. A new search begins when step.after.searches says so, and when one has joined as many scans as it may. At most search.slice
-  // look-ups, and those of the step that uses them up (kLargestStep). A pose that is accepted is offered as a start: kStarting, or
-  // step.refusal says why not. One from a single scan since which the target may have turned by 5 deg waits for another scan, which shows
-  // its rate. It is offered again where the frame that said so came too late.
+  // bearing; while one is, the first scan 2 s later waits for its turn. A new search begins when step.after.searches says so, and when one
+  // has joined as many scans as it may. At most search.slice look-ups, and those of the step that uses them up (kLargestStep). A pose that
+  // is accepted is offered as a start: kStarting, or step.refusal says why not. One from a single scan since which the target may have
+  // turned by 5 deg waits for another scan, which shows its rate. It is offered again where the frame that said so came too late.
   void work(const Mission& mission, const RangeImage* scan, Workspace& workspace, TrackStep& step);
 
  private:
   void begin(const MissionParameters& parameters, std::uint32_t number);
+  void receive(const Mission& mission, const RangeImage& scan, Workspace& workspace);
+  void keep(const RangeImage& scan);
   void take(const Mission& mission, const RangeImage& scan, Workspace& workspace);
   bool offer(const Mission& mission, TrackStep& step);
   bool stale(const MissionParameters& parameters, TimeUs now_us) const;
@@ -32,6 +34,9 @@ class Searcher {
   }
 
   Search search_;
+  RangeImage next_;  // where one waits
+  bool waiting_ = false;
+  TimeUs taken_us_ = 0;       // time of the last scan that was taken
   std::uint32_t number_ = 0;  // of the search, in TrackState::searches
 };
 
