@@ -12,6 +12,7 @@ constexpr std::size_t kMaxSamplesPerPoll = 128;     // samples a sensor hands ov
 constexpr std::size_t kMaxImageBytes = 32u << 20;   // flight image: 70,000 curved triangles
 constexpr std::uint32_t kMaxElementsPerCell = 500;  // elements in one ray cell's list
 constexpr std::uint32_t kMaxCellDistance = 250;     // longest jump through empty cells, in cells
+constexpr std::size_t kMaxParts = 6;                // parts of the target with models of their own
 constexpr std::size_t kMaxHullPoints = 256;         // extreme points of the target, for aiming
 constexpr std::uint32_t kMaxElements = 1u << 18;
 constexpr std::uint32_t kMaxEdges = 1u << 17;

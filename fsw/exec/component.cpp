@@ -52,7 +52,7 @@ LoadFailure Component::load_image(Bytes image) {
     return failure;
   }
   loaded_ = false;  // whatever follows, the image that was loaded before may have been overwritten
-  failure = lasso::load_image(image, mission_);
+  failure = lasso::load_image(image, mission_, parts_);
   if (failure.status != Status::kOk) return failure;
   loaded_ = mission_.parameters.duration_s <= mission_.parameters.period_s;
   if (!loaded_) {
@@ -147,9 +147,11 @@ void Component::publish_estimate(TimeUs now_us) {
   TrackStep step;
   const bool in_time = estimation_.collect(step);
   aimed_.clear();
+  part_ = kWhole;
   if (estimated_.active) {
     if (!in_time) step = step_without_estimate();
     if (in_time) aimed_ = estimation_.aimed();
+    if (in_time) part_ = estimation_.part();
     follow(step);
     send(step, now_us);
   } else if (properties(track_.mode).says_lost || report_overdue()) {
@@ -166,6 +168,7 @@ void Component::follow(const TrackStep& step) {
   if (given_up) refuse_start(track_.way, StartRefusal::kNotConfirmed);
   if (step.refusal != StartRefusal::kNone) refuse_start(StartWay::kSearch, step.refusal);
   if (step.after.mode == TrackingMode::kTracking) desk_.put(StartWay::kSearch, StartOffer{});
+  if (step.parts.odd != kWhole) ++counters_.odd_parts;
   if (step.after.mode != track_.mode) note_change({track_.mode, step.event, step.after.mode});
   track_ = step.after;
 }
@@ -217,6 +220,7 @@ void Component::try_start(StartWay way) {
 void Component::leave_track() {
   acquired_.active = false;
   aimed_.clear();
+  part_ = kWhole;
 }
 
 // Loop bound: each try takes an offer, of which there is one a way; a search awaits no other start.
@@ -250,8 +254,8 @@ void Component::hand_over_scan() {
   if (!estimated_.active) return;
   if (!usable) ++counters_.lost_scans;
   if (!estimation_.idle()) return;  // an estimate that overran still runs: this scan is dropped with it
-  estimation_.submit({estimated_.scan_id, usable ? &acquisition_.filling() : nullptr, estimated_.t_nominal_us, track_,
-                      estimated_.scan_id + kPipelineFrames,
+  estimation_.submit({estimated_.scan_id, usable ? &acquisition_.filling() : nullptr, estimated_.t_nominal_us, track_, estimated_.part,
+                      part_, estimated_.scan_id + kPipelineFrames,
                       estimated_.t_nominal_us + static_cast<DurationUs>(kPipelineFrames) * to_us(mission_.parameters.period_s)});
   if (usable) acquisition_.swap_images();
 }
@@ -273,6 +277,7 @@ Aim Component::aim_of_scan() const {
   aim.T_sensor_target = predicted.T_sensor_target;
   aim.uncertainty_m = place_sigma(mission_, track_.filter);
   aim.rays = aimed_.span();
+  if (part_ != kWhole) aim.T_sensor_target = predicted.T_sensor_target * parts_[part_ - 1U].T_target_part;
   return aim;
 }
 
@@ -282,7 +287,9 @@ void Component::start_scan() {
   acquired_.active = true;
   acquired_.scan_id = executive_.frame();
   acquired_.t_nominal_us = boundary_us + to_us(mission_.parameters.duration_s) / 2;
-  acquisition_.start(mission_, aim_of_scan(), acquired_.scan_id, boundary_us, acquired_.plan);
+  acquired_.part = part_;
+  acquisition_.start(part_ != kWhole ? parts_[part_ - 1U].mission : mission_, aim_of_scan(), acquired_.scan_id, boundary_us,
+                     acquired_.plan);
 }
 
 void Component::send(const TrackStep& step, TimeUs now_us) {
@@ -321,6 +328,7 @@ void Component::set_counters(PoseTelemetry& report) const {
   report.overruns = counters_.overruns;
   report.refused_starts = counters_.refused_starts;
   report.refused_commands = counters_.refused_commands;
+  report.odd_parts = counters_.odd_parts;
   report.refused_way = static_cast<std::uint8_t>(refused_way_);
   report.refusal = static_cast<std::uint8_t>(refusal_);
   report.slot_slips = executive_.slips();

@@ -62,12 +62,13 @@ class Component {
 
   bool estimation_pending() const { return estimation_.pending(); }
   // Runs the pending estimate, if any. The result waits for the boundary.
-  void run_estimation() { estimation_.run(mission_); }
+  void run_estimation() { estimation_.run(mission_, parts_); }
 
   // Moves whole packets into `out` and returns their bytes, oldest first.
   std::size_t take_telemetry(Bytes out) { return queue_.take(out); }
 
   const Mission& mission() const { return mission_; }
+  const Parts& parts() const { return parts_; }
 
  private:
   enum class Request : std::uint8_t { kNone, kStart, kCommand };
@@ -77,6 +78,7 @@ class Component {
     std::uint32_t scan_id = 0;
     TimeUs t_nominal_us = 0;  // planned middle
     ScanPlan plan;
+    PartNumber part = kWhole;  // at which it looks
   };
   struct Counters {
     std::uint32_t invalid_frames = 0;
@@ -84,6 +86,7 @@ class Component {
     std::uint32_t overruns = 0;
     std::uint32_t refused_starts = 0;
     std::uint32_t refused_commands = 0;
+    std::uint32_t odd_parts = 0;
     std::uint16_t packets = 0;  // PUS message type counter; its lower 14 bits are the sequence count while there is one kind of packet
   };
 
@@ -112,14 +115,16 @@ class Component {
   void set_counters(PoseTelemetry& report) const;
 
   Mission mission_;
+  Parts parts_;
   Executive executive_;
   AcquisitionTask acquisition_;
   EstimationTask estimation_;
   TelemetryQueue queue_;
-  TrackState track_;        // as of the last boundary
-  AimedRays aimed_;         // where its estimate would look next; empty when the track is another one now
-  ScanInFlight acquired_;   // in this frame
-  ScanInFlight estimated_;  // in this frame
+  TrackState track_;          // as of the last boundary
+  AimedRays aimed_;           // where its estimate would look next; empty when the track is another one now
+  PartNumber part_ = kWhole;  // at which the next scan looks, by that estimate
+  ScanInFlight acquired_;     // in this frame
+  ScanInFlight estimated_;    // in this frame
   Counters counters_;
   StartDesk desk_;
   Request request_ = Request::kNone;

@@ -24,24 +24,27 @@ bool EstimationTask::collect(TrackStep& step) {
   return in_time;
 }
 
-TrackStep EstimationTask::step_of(const Mission& mission) {
-  TrackStep step = tracked(mission);
+TrackStep EstimationTask::step_of(const Mission& mission, const Parts& parts) {
+  TrackStep step = tracked(mission, parts);
   if (properties(job_.before.mode).searches) searcher_.work(mission, job_.scan, estimator_.workspace(), step);
   return step;
 }
 
-TrackStep EstimationTask::tracked(const Mission& mission) {
+TrackStep EstimationTask::tracked(const Mission& mission, const Parts& parts) {
   const ModeProperties& mode = properties(job_.before.mode);
   if (job_.scan == nullptr) return track_without_scan(mission, PoseReason::kNoScan, job_.scan_id, job_.t_nominal_us, job_.before);
   if (mode.full_field || mode.searches) return bearing_scan(mission, bearing_finder_, *job_.scan, job_.before);
+  if (job_.part != kWhole) return track_part(mission, parts, job_.part, estimator_, *job_.scan, job_.before);
   return track_scan(mission, estimator_, *job_.scan, job_.before);
 }
 
-void EstimationTask::run(const Mission& mission) {
+void EstimationTask::run(const Mission& mission, const Parts& parts) {
   if (!pending()) return;
   phase_.store(kRunning, std::memory_order_release);
-  step_ = step_of(mission);
-  aim_next(mission, estimator_, step_, job_.next_scan_id, job_.t_next_us, aimed_);
+  step_ = step_of(mission, parts);
+  part_ = next_part(mission, parts, job_.part_after, job_.next_scan_id, job_.t_next_us, step_);
+  aimed_.clear();
+  if (part_ == kWhole) aim_next(mission, estimator_, step_, job_.next_scan_id, job_.t_next_us, aimed_);
   phase_.store(kDone, std::memory_order_release);
 }
 

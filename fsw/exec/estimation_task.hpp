@@ -20,6 +20,8 @@ struct EstimationJob {
   const RangeImage* scan = nullptr;  // null: the scan was lost, the filter coasts
   TimeUs t_nominal_us = 0;           // planned middle of the scan, for a lost one
   TrackState before;
+  PartNumber part = kWhole;        // at which the scan looks
+  PartNumber part_after = kWhole;  // at which the scan after it looks, whose samples are being collected
   std::uint32_t next_scan_id = 0;  // the first scan that is planned from this job's result
   TimeUs t_next_us = 0;            // planned middle of that scan
 };
@@ -34,15 +36,17 @@ class EstimationTask {
   bool collect(TrackStep& step);
   // Where the scan that is planned from the collected step is to look besides its pattern. Acquisition thread, until the next submit().
   const AimedRays& aimed() const { return aimed_; }
+  // And at which part of the target. Likewise.
+  PartNumber part() const { return part_; }
 
   // Any thread: a job waits to be run.
   bool pending() const { return phase_.load(std::memory_order_acquire) == kPending; }
   // Estimation thread: runs the pending job, if there is one.
-  void run(const Mission& mission);
+  void run(const Mission& mission, const Parts& parts);
 
  private:
-  TrackStep step_of(const Mission& mission);
-  TrackStep tracked(const Mission& mission);
+  TrackStep step_of(const Mission& mission, const Parts& parts);
+  TrackStep tracked(const Mission& mission, const Parts& parts);
 
   enum Phase : std::uint32_t { kIdle = 0, kPending = 1, kRunning = 2, kDone = 3 };
   std::atomic<std::uint32_t> phase_{kIdle};
@@ -50,6 +54,7 @@ class EstimationTask {
   EstimationJob job_;
   TrackStep step_;
   AimedRays aimed_;
+  PartNumber part_ = kWhole;
   Estimator estimator_;
   BearingFinder bearing_finder_;
   Searcher searcher_;

@@ -113,6 +113,16 @@ void describe_search(const SearchResult& search, PoseTelemetry& out) {
   }
 }
 
+void describe_parts(const TrackStep& step, PoseTelemetry& out) {
+  out.part = step.parts.scanned;
+  out.odd_part = step.parts.odd;
+  out.odd_sigmas = static_cast<float>(step.parts.odd_sigmas);
+  for (std::size_t i = 0; i < kMaxParts; ++i) {
+    if (rests(step.after.parts.of[i], step.registration.scan_id))
+      out.parts_resting = static_cast<std::uint8_t>(out.parts_resting | 1U << i);
+  }
+}
+
 std::uint32_t bounded_age(DurationUs age_us) {
   if (age_us < 0) return 0;
   return static_cast<std::uint32_t>(age_us < kMaxAgeUs ? age_us : kMaxAgeUs);
@@ -132,6 +142,7 @@ PoseTelemetry make_report(const Mission& mission, const TrackStep& step, const S
   describe_plan(plan, out);
   describe_bearing(step.bearing, out);
   describe_search(step.search, out);
+  describe_parts(step, out);
   out.t_publication_us = t_publication_us;
   out.age_us = bounded_age(t_publication_us - out.t_measurement_us);
   out.mode = static_cast<std::uint8_t>(step.after.mode);

@@ -7,11 +7,12 @@ using P = PoseTelemetry;
 constexpr char kYesNo[] = "0=no|1=yes";
 constexpr char kReasons[] =
     "0=valid|1=no_scan|2=too_few_returns|3=too_few_inliers|4=low_inlier_share|5=low_agreement|6=high_residual|7=not_converged|"
-    "8=singular|9=no_track|10=overrun|11=implausible|12=only_bearing|13=far_from_start|14=searching";
+    "8=singular|9=no_track|10=overrun|11=implausible|12=only_bearing|13=far_from_start|14=searching|15=part_disagrees";
 constexpr char kStops[] = "0=converged|1=iteration_limit|2=too_few_points|3=singular|4=not_run";
-constexpr char kModes[] = "0=standby|1=starting|2=tracking|3=coasting|4=lost|5=bearing|6=reacquiring|7=searching";
+constexpr char kModes[] = "0=standby|1=starting|2=tracking|3=coasting|4=lost|5=bearing|6=reacquiring|7=searching|8=short_range";
 constexpr char kEvents[] =
-    "0=start|1=stop|2=pose_valid|3=pose_invalid|4=exhausted|5=recover|6=seek|7=reacquire|8=bearing_known|9=bearing_unknown|10=search";
+    "0=start|1=stop|2=pose_valid|3=pose_invalid|4=exhausted|5=recover|6=seek|7=reacquire|8=bearing_known|9=bearing_unknown|10=search|"
+    "11=near|12=far";
 constexpr char kWays[] = "0=none|1=handover|2=navigation|3=apriori|4=uplink|5=search";
 constexpr char kRefusals[] =
     "0=none|1=not_begun|2=no_such_way|3=not_finite|4=not_unit|5=bad_covariance|6=from_future|7=too_old|8=too_fast|9=out_of_reach|"
@@ -96,6 +97,11 @@ constexpr TelemetryRow<P> kRows[] = {
   make_row<&P::t_search_us>(69, "t_search_us", "us", "", "time at which the candidates are stated"),
   make_row<&P::candidate_q>(70, "candidate_q", "1", "", "candidates: quaternions x, y, z, w, one after the other"),
   make_row<&P::candidate_p_m>(71, "candidate_p_m", "m", "", "candidates: target's origin in the sensor frame"),
+  make_row<&P::part>(72, "part", "1", "", "part of the target that the scan looked at, 0: the whole"),
+  make_row<&P::parts_resting>(73, "parts_resting", "1", "", "bit i: part i + 1 is left out for some scans"),
+  make_row<&P::odd_part>(74, "odd_part", "1", "", "part that this scan showed to disagree with the others, 0: none"),
+  make_row<&P::odd_sigmas>(75, "odd_sigmas", "1", "", "how far it is from the one it is farthest from"),
+  make_row<&P::odd_parts>(76, "odd_parts", "1", "", "such disagreements so far"),
 };
 // clang-format on
 

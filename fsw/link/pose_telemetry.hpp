@@ -93,6 +93,12 @@ struct PoseTelemetry {
   float candidate_q[4 * kTelemetryCandidates] = {};  // as q_sensor_target, one after the other
   float candidate_p_m[3 * kTelemetryCandidates] = {};
 
+  std::uint8_t part = 0;           // that the scan looked at, from 1 in the image's order; 0: the target as a whole
+  std::uint8_t parts_resting = 0;  // bit i: part i + 1 is left out for some scans
+  std::uint8_t odd_part = 0;       // that this scan showed to disagree with the others; 0: none
+  float odd_sigmas = 0;            // how far
+  std::uint32_t odd_parts = 0;     // so far
+
   std::uint32_t image_crc = 0;
   std::uint32_t software_version = 0;  // major << 24 | minor << 16 | patch
   std::uint32_t software_build = 0;    // given by the build, 0: development

@@ -15,7 +15,7 @@
 namespace lasso {
 
 constexpr std::uint32_t kImageMagic = 0x33444C49;  // "3DLI"
-constexpr std::uint32_t kImageVersion = 3;
+constexpr std::uint32_t kImageVersion = 4;
 constexpr std::uint32_t kImageHeaderWords = 16;
 constexpr std::uint32_t kDirectoryEntryWords = 5;
 constexpr int kUnitFractionBits = 30;
@@ -40,8 +40,10 @@ enum class TableId : std::uint32_t {
   kDistances,       // 1 word a record: the distances of 4 neighbours along x, first one in the highest byte
   kViews,           // kViewWords a record, kMinViews..kMaxViews
   kSymmetries,      // kSymmetryWords a record, at most kMaxSymmetries
+  kParts,           // kPartWords a record, at most kMaxParts; none in a part's own image
+  kPartImages,      // 1 word a record: the parts' images one after the other, each a whole flight image
 };
-constexpr std::uint32_t kTableCount = 15;  // all of them, in the order of the ids
+constexpr std::uint32_t kTableCount = 17;  // all of them, in the order of the ids
 
 // Words of the one FieldGeometry record.
 enum FieldGeometryWord : std::uint32_t {
@@ -130,5 +132,29 @@ constexpr std::uint32_t kMaxViews = 1024;
 // translation (Length): q' = R q + t.
 constexpr std::uint32_t kSymmetryWords = 7;
 constexpr std::uint32_t kMaxSymmetries = 8;
+
+// Part of the target with a model of its own (fsw/mode/parts.hpp). Binary64 values, two words each, from PartValue k at word 2 k on; then
+// two words: where the part's image begins in kPartImages (bytes, a multiple of 8, not before the end of the part before), and its bytes.
+enum PartValue : std::uint32_t {
+  kPartQx = 0,
+  kPartQy,
+  kPartQz,
+  kPartQw,  // T_target_part: a unit quaternion
+  kPartX,
+  kPartY,
+  kPartZ,         // and the part's origin, m
+  kPartRangeMin,  // m, of the part's centre from the sensor: where the part serves
+  kPartRangeMax,
+  kPartViewX,
+  kPartViewY,
+  kPartViewZ,       // unit vector in part axes, towards the sensors that see the part
+  kPartConeCosine,  // of the largest angle between it and the direction to the sensor
+  kPartPriority,    // (0, 1000]: weighs what the part would tell
+  kPartValues
+};
+constexpr std::uint32_t kPartImageOffset = 2 * kPartValues;
+constexpr std::uint32_t kPartImageBytes = kPartImageOffset + 1;
+constexpr std::uint32_t kPartWords = kPartImageBytes + 1;
+constexpr double kMaxPartPriority = 1000;
 
 }  // namespace lasso

@@ -3,9 +3,12 @@
 
 #include <cstdint>
 
+#include "cfg/capacities.hpp"
+#include "fsw/core/fixed_vector.hpp"
 #include "fsw/core/span.hpp"
 #include "fsw/core/status.hpp"
 #include "fsw/geometry/number.hpp"
+#include "fsw/geometry/se3.hpp"
 #include "fsw/geometry/types.hpp"
 #include "fsw/mission/field.hpp"
 #include "fsw/mission/parameters.hpp"
@@ -47,16 +50,29 @@ struct MissionOf {
 using FlightNumber = FloatNumber;  // the number type of this build
 using Mission = MissionOf<FlightNumber>;
 
+// A part of the target with a model of its own, for scans from close by.
+struct Part {
+  Mission mission;  // its model in its own frame, and the parameters that hold for its scans
+  Pose T_target_part;
+  double range_min_m = 0, range_max_m = 0;  // of its centre from the sensor
+  Vec3 view = Vec3::UnitZ();                // unit vector in part axes, towards the sensors that see it
+  double cone_cosine = -1;
+  double priority = 1;
+};
+using Parts = FixedVector<Part, kMaxParts>;
+
 struct LoadFailure {
   Status status = Status::kOk;
-  std::uint32_t table = 0;   // TableId, 0: header or directory
+  std::uint32_t table = 0;   // TableId, 0: header or directory; in the image of part i (from 0): 100 (i + 1) more
   std::uint32_t record = 0;  // first offending record
   const char* what = "";     // a few words
 };
 
 // Validates the whole image (format, CRCs, every index, range and capacity) and only then converts its tables in place to this
 // build's number type, so that the image's memory becomes the mission's. `image` must be aligned to 8 bytes. On failure neither `image`
-// nor `mission` is changed. Loop bound: the image's words.
+// nor `mission` nor `parts` is changed. A part without a model is kMissing. Loop bound: the image's words.
+LoadFailure load_image(Bytes image, Mission& mission, Parts& parts);
+// The same for who has no use for the parts, which are validated only.
 LoadFailure load_image(Bytes image, Mission& mission);
 
 }  // namespace lasso

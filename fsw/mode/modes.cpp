@@ -25,6 +25,7 @@ constexpr ModeTransition kTransitions[] = {
   {M::kTracking,    E::kReacquire,      M::kReacquiring, "commanded"},
   {M::kTracking,    E::kSearch,         M::kSearching,   "commanded"},
   {M::kTracking,    E::kPoseValid,      M::kTracking,    "the track holds"},
+  {M::kTracking,    E::kNear,           M::kShortRange,  "close by: its parts in turn"},
   {M::kTracking,    E::kPoseInvalid,    M::kCoasting,    "the filter bridges a scan without a pose"},
   {M::kTracking,    E::kExhausted,      M::kLost,        "no coasting is allowed"},
   {M::kTracking,    E::kRecover,        M::kReacquiring, "no coasting is allowed: look near the prediction"},
@@ -62,18 +63,29 @@ constexpr ModeTransition kTransitions[] = {
   {M::kSearching,   E::kPoseInvalid,    M::kSearching,   "still at work, or another scan is needed"},
   {M::kSearching,   E::kExhausted,      M::kLost,        "no pose was recognised"},
   {M::kSearching,   E::kRecover,        M::kBearing,     "no pose was recognised: the other ways to start, and again"},
+  {M::kShortRange,  E::kStart,          M::kStarting,    "another pose to start from"},
+  {M::kShortRange,  E::kStop,           M::kStandby,     "commanded"},
+  {M::kShortRange,  E::kSeek,           M::kBearing,     "commanded"},
+  {M::kShortRange,  E::kReacquire,      M::kReacquiring, "commanded"},
+  {M::kShortRange,  E::kSearch,         M::kSearching,   "commanded"},
+  {M::kShortRange,  E::kPoseValid,      M::kShortRange,  "the track holds"},
+  {M::kShortRange,  E::kPoseInvalid,    M::kShortRange,  "the filter bridges a part without a pose"},
+  {M::kShortRange,  E::kFar,            M::kTracking,    "far enough to be scanned as a whole"},
+  {M::kShortRange,  E::kExhausted,      M::kLost,        "too many scans without a pose"},
+  {M::kShortRange,  E::kRecover,        M::kReacquiring, "too many scans without a pose: look near the prediction"},
 };
 
 constexpr ModeProperties kProperties[] = {
-  //                scans full   search lost   wide   conf.  take   await
-  {M::kStandby,     false, false, false, false, false, false, false, false, "standby", "no scans, no poses"},
-  {M::kStarting,    true,  false, false, false, true,  true,  true,  false, "starting", "a pose was given; a scan has to confirm it"},
-  {M::kTracking,    true,  false, false, false, false, false, false, false, "tracking", "the last scan gave a valid pose"},
-  {M::kCoasting,    true,  false, false, false, false, false, true,  false, "coasting", "the last scan gave none: the filter predicts"},
-  {M::kLost,        false, false, false, true,  false, false, false, true,  "lost", "no scans; every frame says so"},
-  {M::kBearing,     true,  true,  false, false, false, false, false, true,  "bearing", "full-field scans for direction and range"},
-  {M::kReacquiring, true,  false, false, false, true,  true,  true,  false, "reacquiring", "wide starts near the prediction"},
-  {M::kSearching,   true,  false, true,  false, false, false, false, false, "searching", "the pose is looked for at any attitude"},
+  //                scans full   search lost   wide   conf.  take   parts  await
+  {M::kStandby,     false, false, false, false, false, false, false, false, false, "standby", "no scans, no poses"},
+  {M::kStarting,    true,  false, false, false, true,  true,  true,  false, false, "starting", "a pose was given; a scan has to confirm it"},
+  {M::kTracking,    true,  false, false, false, false, false, false, false, false, "tracking", "the last scan gave a valid pose"},
+  {M::kCoasting,    true,  false, false, false, false, false, true,  false, false, "coasting", "the last scan gave none: the filter predicts"},
+  {M::kLost,        false, false, false, true,  false, false, false, false, true,  "lost", "no scans; every frame says so"},
+  {M::kBearing,     true,  true,  false, false, false, false, false, false, true,  "bearing", "full-field scans for direction and range"},
+  {M::kReacquiring, true,  false, false, false, true,  true,  true,  false, false, "reacquiring", "wide starts near the prediction"},
+  {M::kSearching,   true,  false, true,  false, false, false, false, false, false, "searching", "the pose is looked for at any attitude"},
+  {M::kShortRange,  true,  false, false, false, false, false, false, true,  false, "short_range", "close by: parts of the target in turn"},
 };
 
 constexpr ModeEventProperties kEvents[] = {
@@ -88,6 +100,8 @@ constexpr ModeEventProperties kEvents[] = {
   {E::kBearingKnown, false, "bearing_known"},
   {E::kBearingUnknown, false, "bearing_unknown"},
   {E::kSearch, true, "search"},
+  {E::kNear, false, "near"},
+  {E::kFar, false, "far"},
 };
 // clang-format on
 

@@ -16,6 +16,7 @@ enum class TrackingMode : std::uint8_t {
   kBearing = 5,      // full-field scans for direction and range; a pose to start from is awaited
   kReacquiring = 6,  // the target is looked for near the prediction, from wide starts
   kSearching = 7,    // its pose is looked for without any prior attitude
+  kShortRange = 8,   // close by: the last scan gave a valid pose, and the next ones look at parts of the target in turn
 };
 
 enum class ModeEvent : std::uint8_t {
@@ -30,6 +31,8 @@ enum class ModeEvent : std::uint8_t {
   kBearingKnown = 8,    // a full-field scan gave a bearing
   kBearingUnknown = 9,  // a full-field scan gave none
   kSearch = 10,         // commanded to look for the pose at any attitude, or the turn of that way to start
+  kNear = 11,           // a scan gave a valid pose, within short_range.enter_m
+  kFar = 12,            // a scan gave a valid pose, beyond short_range.leave_m
 };
 
 struct ModeTransition {
@@ -49,6 +52,7 @@ struct ModeProperties {
   bool wide_start;    // registration starts wide (where estimation.wide_start is set)
   bool confirms;      // a valid pose has to agree with the prediction, and starts the filter anew
   bool takes_up;      // a valid pose has to pass by tracking.hysteresis
+  bool by_parts;      // scans look at a part of the target each, where there is one to look at
   bool awaits_start;  // the next way to a pose to start from is taken by itself, in the mission's order
   const char* name;
   const char* meaning;

@@ -57,10 +57,27 @@ double frames_of(const MissionParameters& p, TrackingMode mode) {
   return mode == TrackingMode::kReacquiring ? p.reacquire_frames : p.coast_frames;
 }
 
+// A valid pose, and how far away the target is.
+ModeEvent event_of_valid(const MissionParameters& p, const TrackState& state) {
+  const double range2_m2 = state.filter.T_sensor_target.p.squaredNorm();
+  if (state.held) return ModeEvent::kPoseValid;
+  if (state.mode == TrackingMode::kTracking && range2_m2 < p.short_range_enter_m * p.short_range_enter_m) return ModeEvent::kNear;
+  if (state.mode == TrackingMode::kShortRange && range2_m2 > p.short_range_leave_m * p.short_range_leave_m) return ModeEvent::kFar;
+  return ModeEvent::kPoseValid;
+}
+
 ModeEvent event_of(const MissionParameters& p, const TrackState& state, bool valid) {
-  if (valid) return ModeEvent::kPoseValid;
+  if (valid) return event_of_valid(p, state);
   if (state.held || state.missed <= frames_of(p, state.mode)) return ModeEvent::kPoseInvalid;
   return p.recover > 0.5 ? ModeEvent::kRecover : ModeEvent::kExhausted;
+}
+
+// Joins the step's registration to its filter if the mode takes it, and changes the mode accordingly.
+void take(const MissionParameters& p, const ModeProperties& mode, TrackStep& step) {
+  Registration& registration = step.registration;
+  if (registration.valid()) registration.reason = confirm(p, mode, step.after.filter, registration);
+  if (registration.valid()) registration.reason = join(p, mode, registration, step.after.filter);
+  count_and_change(p, registration.valid(), step);
 }
 
 Registration not_registered(PoseReason reason, std::uint32_t scan_id, const FilterState& filter) {
@@ -86,6 +103,7 @@ void change_mode(ModeEvent event, TrackState& state) {
   if (next == state.mode) return;
   state.mode = next;
   if (next != TrackingMode::kCoasting) state.missed = 0;
+  if (properties(next).by_parts) state.parts = PartsState{};
   if (properties(next).searches) ++state.searches;
   if (properties(next).full_field || properties(next).searches) state.filter = FilterState{};
   if (properties(next).full_field) state.bearing = BearingState{};
@@ -115,13 +133,32 @@ TrackStep track_scan(const Mission& mission, Estimator& estimator, const RangeIm
   const MissionParameters& p = mission.parameters;
   const ModeProperties& mode = properties(before.mode);
   predict_or_hold(p, scan.reference_time_us(), filter);
-  Registration& registration = step.registration;
   const bool wide = (mode.wide_start || is_rough(mission, filter)) && p.wide_start > 0.5;
-  registration = estimator.estimate(mission, scan, StartPoint{filter.T_sensor_target, filter.rates, wide});
-  if (registration.valid()) registration.reason = confirm(p, mode, filter, registration);
-  if (registration.valid()) registration.reason = join(p, mode, registration, filter);
-  count_and_change(p, registration.valid(), step);
+  step.registration = estimator.estimate(mission, scan, StartPoint{filter.T_sensor_target, filter.rates, wide, false});
+  take(p, mode, step);
   return step;
+}
+
+TrackStep track_part(const Mission& mission, const Parts& parts, PartNumber part, Estimator& estimator, const RangeImage& scan,
+                     const TrackState& before) {
+  TrackStep step;
+  step.after = before;
+  step.parts.scanned = part;
+  FilterState& filter = step.after.filter;
+  predict_or_hold(mission.parameters, scan.reference_time_us(), filter);
+  Registration& registration = step.registration;
+  registration = register_part(mission, parts[part - 1U], estimator, scan, filter);
+  registration.reason = compare_parts(mission, parts, registration, filter, step.after.parts, step.parts);
+  take(mission.parameters, properties(before.mode), step);
+  return step;
+}
+
+PartNumber next_part(const Mission& mission, const Parts& parts, PartNumber in_flight, std::uint32_t scan_id, TimeUs t_us,
+                     TrackStep& step) {
+  if (!properties(step.after.mode).by_parts) return kWhole;
+  NextScan next{scan_id, step.after.filter, in_flight};
+  if (predict_filter(next.predicted, t_us, filter_noise(mission.parameters)) != Status::kOk) return kWhole;
+  return choose_part(mission, parts, next, step.after.parts);
 }
 
 void aim_next(const Mission& mission, Estimator& estimator, const TrackStep& step, std::uint32_t scan_id, TimeUs t_us, AimedRays& rays) {

@@ -9,6 +9,7 @@
 #include "fsw/geometry/se3.hpp"
 #include "fsw/mission/mission.hpp"
 #include "fsw/mode/modes.hpp"
+#include "fsw/mode/parts.hpp"
 #include "fsw/mode/starts.hpp"
 #include "fsw/pose/aim.hpp"
 #include "fsw/pose/bearing.hpp"
@@ -28,6 +29,7 @@ struct TrackState {
   FilterState filter;
   BearingState bearing;
   std::uint32_t searches = 0;  // that were begun
+  PartsState parts;            // of the mode that looks at parts
 };
 
 // What one scan led to. `after.filter` is stated at the registration's time.
@@ -37,11 +39,12 @@ struct TrackStep {
   Bearing bearing;                             // of a full-field scan, or one around the bearing
   SearchResult search;                         // of the scans that it has joined so far; in mode searching
   StartRefusal refusal = StartRefusal::kNone;  // of the pose that the search accepted
+  PartsReport parts;                           // of a scan of a part
   ModeEvent event = ModeEvent::kStart;         // of the scan; says nothing of a frame without one
 };
 
 // Takes the state along the table. What belongs to the mode that ends is forgotten: its count of frames; for a bearing or a search, the
-// filter; for a bearing, the bearing before.
+// filter; for a bearing, the bearing before; for parts, what was remembered of them.
 void change_mode(ModeEvent event, TrackState& state);
 
 // Takes up a track at t_us, in whatever mode `state` is: kStarting. Refused as start_from says: `state` is then as it was.
@@ -52,6 +55,14 @@ StartRefusal start_track(const Mission& mission, StartWay way, const StartOffer&
 // cannot take. One that the prediction of a filter with 5 scans excludes (tracking.innovation_max) is kImplausible and joins nothing. A
 // prediction less certain than the registration's gate is a rough start. Bounds: as Estimator::estimate.
 TrackStep track_scan(const Mission& mission, Estimator& estimator, const RangeImage& scan, const TrackState& before);
+
+// The same with a scan that was planned to look at a part (`part` != kWhole): it is compared with the other parts' before it joins.
+TrackStep track_part(const Mission& mission, const Parts& parts, PartNumber part, Estimator& estimator, const RangeImage& scan,
+                     const TrackState& before);
+
+// At which part scan `scan_id`, whose middle is at t_us, is to look, as this step sees it; noted in the step's state. kWhole unless the
+// mode looks at parts. `in_flight` is what the scan before it looks at. Bounds: as choose_part.
+PartNumber next_part(const Mission& mission, const Parts& parts, PartNumber in_flight, std::uint32_t scan_id, TimeUs t_us, TrackStep& step);
 
 // Where the rays of scan `scan_id`, whose middle is at t_us, are to leave its pattern, as this step sees it: nowhere unless the step gave a
 // valid pose. Bounds: as aim_rays.

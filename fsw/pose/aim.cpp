@@ -2,20 +2,17 @@
 
 #include "fsw/geometry/portable_math.hpp"
 #include "fsw/geometry/symmetric6.hpp"
-#include "fsw/pose/clip.hpp"
-#include "fsw/pose/contour.hpp"
 #include "fsw/pose/contour_probe.hpp"
+#include "fsw/pose/outlook.hpp"
 
 namespace lasso {
 namespace {
 
 using N = FlightNumber;
-using Length = N::Length;
 using Ratio = N::Ratio;
 
-constexpr double kOffsetSigmas = 2;      // rays reach this far to either side of the predicted contour
-constexpr double kLabelWorth = 0.6;      // how many labels make a measurement, measured: see docs/decisions/aimed-scans.md
-constexpr int kColumns = 8, kRows = 12;  // rays that stand for those of the scan's pattern
+constexpr double kOffsetSigmas = 2;  // rays reach this far to either side of the predicted contour
+constexpr double kLabelWorth = 0.6;  // how many labels make a measurement, measured: see docs/decisions/aimed-scans.md
 constexpr double kGoldenRatio = 0.6180339887498949;
 
 double square(double x) { return x * x; }
@@ -26,19 +23,6 @@ double tangent(double angle_rad) {
   const SinCos angle = sin_cos(angle_rad);
   return angle.sin / angle.cos;
 }
-
-struct Rectangle {
-  Ratio low[2] = {1e30F, 1e30F};
-  Ratio high[2] = {-1e30F, -1e30F};
-
-  void include(const ImagePoint& point) {
-    const Ratio at[2] = {point.x, point.y};
-    for (int i = 0; i < 2; ++i) {
-      if (at[i] < low[i]) low[i] = at[i];
-      if (at[i] > high[i]) high[i] = at[i];
-    }
-  }
-};
 
 // Everything that stays the same from place to place.
 struct AimSearch {
@@ -52,10 +36,6 @@ struct AimSearch {
   double own_variance;
   double limit_x, limit_y;  // of the field of view on the tangent plane
 };
-
-double range_variance(const MissionParameters& p, double range_m) {
-  return square(p.sigma0_m) + square(p.sigma_k_per_m * range_m * range_m);
-}
 
 AimSearch make_search(const Mission& mission, const AimRequest& request) {
   const MissionParameters& p = mission.parameters;
@@ -75,52 +55,6 @@ AimSearch make_search(const Mission& mission, const AimRequest& request) {
           square(p.silhouette_sigma_m) + square(range_m * p.sigma_angle_rad),
           tangent(p.fov_half_x_rad),
           tangent(p.fov_half_y_rad)};
-}
-
-// The information that a return along a ray will have; nothing where the ray meets no surface, or grazes it.
-void add_return(const AimSearch& s, FieldRay<N>& ray, Mat6& H) {
-  const Field<N>& field = s.mission.field;
-  set_cells(field, ray);
-  if (!near_grid(ray)) return;
-  const FieldSpan<N> span = clip_to_grid(field, ray);
-  const FieldHit<N> hit = walk_field(field, ray, span.enter, span.leave);
-  if (!hit.found) return;
-  const Length q[3] = {ray.m[0] + hit.t * ray.u[0], ray.m[1] + hit.t * ray.u[1], ray.m[2] + hit.t * ray.u[2]};
-  N::Unit normal[3];
-  surface_normal(field, field.elements[hit.element], q, normal);
-  const MissionParameters& p = s.mission.parameters;
-  const double tilt2 = square(N::to_double(dot3<N>(normal, ray.u)));
-  if (tilt2 < square(sin_cos(p.incidence_max_rad).cos)) return;
-  const double range_m = N::to_double(hit.t);
-  const double variance =
-      tilt2 * range_variance(p, range_m) + (1 - tilt2) * square(range_m * p.sigma_angle_rad) + square(p.surface_sigma_m);
-  const Vec3 n = to_vec3(normal);
-  Vec6 row;
-  row << to_vec3(q).cross(n), n;
-  H += (1 / variance) * row * row.transpose();
-}
-
-// What `returns` rays spread over the target will say of the pose, from a few that stand for them.
-Mat6 information_of_returns(const AimSearch& s, double rays) {
-  Rectangle outline;
-  for (const HullPointOf<N>& point : s.mission.hull) {
-    const ImagePoint seen = project(s.view.pose, point.p);
-    if (seen.z > 0) outline.include(seen);
-  }
-  Mat6 H = Mat6::Zero();
-  for (int row = 0; row < kRows; ++row) {
-    for (int column = 0; column < kColumns; ++column) {
-      const double x = N::to_double(outline.low[0]) + (column + 0.5) / kColumns * N::to_double(outline.high[0] - outline.low[0]);
-      const double y = N::to_double(outline.low[1]) + (row + 0.5) / kRows * N::to_double(outline.high[1] - outline.low[1]);
-      const double scale = 1 / square_root(x * x + y * y + 1);
-      const N::Unit u[3] = {N::to_unit(x * scale), N::to_unit(y * scale), N::to_unit(scale)};
-      FieldRay<N> ray{};
-      for (int i = 0; i < 3; ++i) ray.m[i] = s.view.pose.t[i];
-      rotate(s.view.pose, u, ray.u);
-      add_return(s, ray, H);
-    }
-  }
-  return (rays / (kRows * kColumns)) * H;
 }
 
 bool in_field_of_view(const AimSearch& s, const Vec3& point, double reach_m) {
@@ -258,7 +192,7 @@ void aim_rays(const Mission& mission, const AimRequest& request, Workspace& work
   Mat6 information;
   Mat6 C;
   if (invert6(s.P, information) != Status::kOk) return;
-  information += information_of_returns(s, (1 - p.aimed_share) * p.points);
+  information += look_over(mission, s.view, outline_of(mission, s.view), (1 - p.aimed_share) * p.points).information;
   if (invert6(information, C) != Status::kOk) return;
   find_contour(mission, s.view, workspace);
   find_places(s, workspace);

@@ -12,8 +12,9 @@ namespace lasso {
 // Where the registration starts: the prediction for the scan's reference time.
 struct StartPoint {
   Pose T_sensor_target;
-  Twist rates;        // for moving the points to the reference time (estimation.deskew)
-  bool wide = false;  // a rough start (20 deg, a quarter of the model's size): centroid, far field and slides come first
+  Twist rates;           // for moving the points to the reference time (estimation.deskew)
+  bool wide = false;     // a rough start (20 deg, a quarter of the model's size): centroid, far field and slides come first
+  bool partial = false;  // the model is a part of what is scanned: a return that meets none of it does not count against the pose
 };
 
 class Estimator {

@@ -117,7 +117,7 @@ void prepare_rays(const Mission& mission, const RangeImage& scan, const StartPoi
     deskew.apply(N::to_ratio(to_seconds(sample.t_us - reference_us)), ray);
     invariant(workspace.rays.push_back(ray), "as many rays as a scan can have");
     if (ray.state == RayState::kHit)
-      invariant(workspace.points.push_back(make_point(ray, noise, scan.is_aimed(i))), "as many points as rays");
+      invariant(workspace.points.push_back(make_point(ray, noise, start.partial || scan.is_aimed(i))), "as many points as rays");
   }
 }
 

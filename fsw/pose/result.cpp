@@ -34,6 +34,8 @@ const char* to_string(PoseReason reason) {
       return "far_from_start";
     case PoseReason::kSearching:
       return "searching";
+    case PoseReason::kPartDisagrees:
+      return "part_disagrees";
   }
   return "unknown";
 }

@@ -29,6 +29,7 @@ enum class PoseReason : std::uint8_t {
   kOnlyBearing = 12,    // a full-field scan: no attitude is looked for
   kFarFromStart = 13,   // farther from the prediction that it was to confirm than start.gate allows
   kSearching = 14,      // no attitude is known: it is looked for
+  kPartDisagrees = 15,  // of a part that is elsewhere than the others say
 };
 const char* to_string(PoseReason reason);
 const char* to_string(StopReason reason);

@@ -19,6 +19,18 @@ struct MissionOptions {
 
 void print(const std::string& text) { std::fputs(text.c_str(), stdout); }
 
+std::string parts_text(const LoadedImage& image) {
+  std::string text;
+  for (const Part& part : image.parts()) {
+    char line[240];
+    std::snprintf(line, sizeof line, "part %td: origin at %.4g, %.4g, %.4g m, serves from %.4g m to %.4g m, priority %.4g, radius %.3f m\n",
+                  &part - image.parts().begin() + 1, part.T_target_part.p.x(), part.T_target_part.p.y(), part.T_target_part.p.z(),
+                  part.range_min_m, part.range_max_m, part.priority, part.mission.radius_m);
+    text += line;
+  }
+  return text;
+}
+
 std::string image_text(const std::string& file) {
   const std::vector<std::uint8_t> bytes = read_bytes(file);
   const LoadedImage image(file, bytes);
@@ -31,7 +43,7 @@ std::string image_text(const std::string& file) {
       file.c_str(), mission.id, mission.version, bytes.size(), mission.image_crc, mission.radius_m, mission.edges.size(),
       mission.hull.size(), mission.search.views.size(), mission.search.symmetries.size(), mission.search.cells[0], mission.search.cells[1],
       mission.search.cells[2]);
-  return text;
+  return text + parts_text(image);
 }
 
 std::string parameters_text(const std::string& file) {
@@ -58,6 +70,15 @@ void info(const MissionOptions& options) {
   }
 }
 
+std::string parts_text(const CompiledMission& mission) {
+  std::string text;
+  for (std::size_t i = 0; i < mission.parts.size(); ++i) {
+    const CompileReport& r = mission.parts[i].report;
+    text += "part " + std::to_string(i + 1) + ", " + mission.source.parts[i].name + ": " + std::to_string(r.elements) + " elements\n";
+  }
+  return text;
+}
+
 std::string report_text(const CompiledMission& mission, const std::string& out, std::size_t bytes) {
   const CompileReport& r = mission.report;
   char text[900];
@@ -72,7 +93,7 @@ std::string report_text(const CompiledMission& mission, const std::string& out, 
       r.vertices, r.triangles, r.components, r.open_components, r.welded_vertices, r.dropped_degenerate, r.dropped_duplicates,
       r.flipped_triangles, r.two_sided_triangles, r.elements, r.curved_elements, r.edges, r.cell_size_m, r.ray_lists.mean, r.ray_lists.max,
       r.views, r.symmetries, out.c_str(), bytes, r.seconds);
-  return text;
+  return parts_text(mission) + text;
 }
 
 void compile(const MissionOptions& options) {

@@ -15,6 +15,7 @@ void print_modes(std::ostream& out) {
     const char* scans = !mode.scans       ? ""
                         : mode.searches   ? "around the bearing"
                         : mode.full_field ? "full field"
+                        : mode.by_parts   ? "aimed at a part each"
                         : mode.wide_start ? "aimed, wide start"
                                           : "aimed";
     out << "| " << mode.name << " | " << mode.meaning << " | " << scans << " | " << yes(mode.confirms) << " | " << yes(mode.takes_up)
@@ -40,7 +41,8 @@ void print_page(std::ostream& out) {
          "`exhausted` and `recover` come when the mode's frames (`start.frames`, `tracking.coast_frames`, `tracking.reacquire_frames`,\n"
          "`search.frames`) are used up and the mode is not held; which of the two, `tracking.recover` says. An event that a mode has no "
          "row "
-         "for changes\nnothing. Tracking of several targets at short range is not built yet.\n\n";
+         "for changes\nnothing. `near` and `far` are valid poses within `short_range.enter_m` of the target's origin in tracking, and "
+         "beyond `short_range.leave_m` in\nshort_range, if the mode is not held.\n\n";
   print_modes(out);
   out << '\n';
   print_transitions(out);

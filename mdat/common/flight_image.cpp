@@ -1,5 +1,7 @@
 #include "mdat/common/flight_image.hpp"
 
+#include <bit>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 
@@ -8,6 +10,84 @@
 #include "mdat/modelc/image_writer.hpp"
 
 namespace lasso::mdat {
+
+namespace {
+
+// Relative to the part, how far beyond it the far field reaches: the rest of the target lies there.
+constexpr double kPartMargin = 0.1;
+
+// A part is looked at from a track's prediction alone: its gate need not reach as far as that of a start, and must not, as the rest of the
+// target lies close by.
+constexpr double kPartGate = 0.2;
+
+// A part's surface ends where it was cut: that is no contour, and what lies beyond is the target's. Scans of a part speak by their hits.
+MissionParameters part_parameters(MissionParameters parameters) {
+  parameters.silhouettes = 0;
+  parameters.aimed_share = 0;
+  parameters.wide_start = 0;
+  parameters.gate_first_m *= kPartGate;
+  return parameters;
+}
+
+// A solid that is cut shows its inside, which no ray will ever see: what is cut from a mesh that faces outwards does so, too.
+bool is_oriented(const PartSource& part, const CompileReport& target) {
+  return part.file.empty() && target.flipped_triangles == 0 && target.two_sided_triangles == 0;
+}
+
+CompiledPart compile_part(const CompiledMission& mission, const PartSource& part) {
+  const MissionSource& source = mission.source;
+  ModelOptions options;
+  options.cell_size_m = part.cell_size_m;
+  options.crease_angle_deg = source.target.crease_angle_rad / kRadPerDeg;
+  options.far_margin = kPartMargin;
+  options.oriented = is_oriented(part, mission.report);
+  const Mesh mesh = load_part(source, part, mission.mesh);
+  CompiledPart result;
+  try {
+    result.tables = compile_model(mesh, options, result.report);
+  } catch (const CompileError& error) {
+    throw InputError(source.file.string() + ": part." + part.name + ": " + error.what());
+  }
+  return result;
+}
+
+void append_value(double value, std::vector<std::uint32_t>& words) {
+  const auto bits = std::bit_cast<std::uint64_t>(value);
+  words.push_back(static_cast<std::uint32_t>(bits >> 32));
+  words.push_back(static_cast<std::uint32_t>(bits));
+}
+
+void append_part(const PartSource& part, std::vector<std::uint32_t>& words) {
+  for (const auto* list : {&part.quaternion, &part.origin_m, &part.range_m, &part.view}) {
+    for (const double value : *list) append_value(value, words);
+  }
+  append_value(std::cos(part.cone_rad), words);
+  append_value(part.priority, words);
+}
+
+// Bytes as words of the image, filled up to a multiple of 8.
+void append_bytes(std::vector<std::uint8_t> bytes, std::vector<std::uint32_t>& words) {
+  bytes.resize((bytes.size() + 7) / 8 * 8);
+  for (std::size_t i = 0; i < bytes.size(); i += 4) {
+    words.push_back(static_cast<std::uint32_t>(bytes[i]) << 24 | static_cast<std::uint32_t>(bytes[i + 1]) << 16 |
+                    static_cast<std::uint32_t>(bytes[i + 2]) << 8 | bytes[i + 3]);
+  }
+}
+
+ModelTables with_parts(const CompiledMission& mission, const MissionParameters& parameters) {
+  ModelTables tables = mission.tables;
+  for (std::size_t i = 0; i < mission.parts.size(); ++i) {
+    const std::vector<std::uint8_t> bytes =
+        write_image(mission.source.id, mission.source.version, part_parameters(parameters), mission.parts[i].tables);
+    append_part(mission.source.parts[i], tables[TableId::kParts]);
+    tables[TableId::kParts].push_back(static_cast<std::uint32_t>(4 * tables[TableId::kPartImages].size()));
+    tables[TableId::kParts].push_back(static_cast<std::uint32_t>(bytes.size()));
+    append_bytes(bytes, tables[TableId::kPartImages]);
+  }
+  return tables;
+}
+
+}  // namespace
 
 CompiledMission compile_mission(const std::filesystem::path& file, const std::function<void(const std::string&, double)>& progress) {
   CompiledMission result;
@@ -21,12 +101,13 @@ CompiledMission compile_mission(const std::filesystem::path& file, const std::fu
   } catch (const CompileError& error) {
     throw InputError(result.source.target.file.string() + ": " + error.what());
   }
+  for (const PartSource& part : result.source.parts) result.parts.push_back(compile_part(result, part));
   return result;
 }
 
 std::vector<std::uint8_t> image_bytes(const CompiledMission& mission, const MissionParameters& parameters) {
   try {
-    return write_image(mission.source.id, mission.source.version, parameters, mission.tables);
+    return write_image(mission.source.id, mission.source.version, parameters, with_parts(mission, parameters));
   } catch (const CompileError& error) {
     throw InputError(mission.source.file.string() + ": " + error.what());
   }
@@ -47,7 +128,7 @@ std::string to_string(const LoadFailure& failure) {
 }
 
 LoadedImage::LoadedImage(const std::string& name, const std::vector<std::uint8_t>& bytes) : memory_(aligned_copy(bytes)) {
-  const LoadFailure failure = load_image(view(memory_, bytes.size()), mission_);
+  const LoadFailure failure = load_image(view(memory_, bytes.size()), mission_, parts_);
   if (failure.status != Status::kOk) throw InputError(name + ": not a valid flight image: " + to_string(failure));
 }
 

@@ -14,12 +14,18 @@
 
 namespace lasso::mdat {
 
+struct CompiledPart {
+  ModelTables tables;
+  CompileReport report;
+};
+
 // A mission whose target is compiled; images for different parameters follow from it in no time.
 struct CompiledMission {
   MissionSource source;
   Mesh mesh;
   ModelTables tables;
   CompileReport report;
+  std::vector<CompiledPart> parts;  // of source.parts
 };
 
 // Throws MissionError, or InputError where the target does not fit the flight component.
@@ -32,10 +38,12 @@ class LoadedImage {
   // Throws InputError that names `name` and what the loader refused.
   LoadedImage(const std::string& name, const std::vector<std::uint8_t>& bytes);
   const Mission& mission() const { return mission_; }
+  const Parts& parts() const { return parts_; }
 
  private:
   std::vector<std::uint64_t> memory_;
   Mission mission_;
+  Parts parts_;
 };
 
 // A copy of the image in 8-byte aligned memory, and a view of it.

@@ -86,6 +86,12 @@ void check_order(const Parameters& p, const Complaint& complain) {
   }
 }
 
+void check_short_range(const Parameters& p, const Complaint& complain) {
+  if (p.short_range_enter_m <= 0 || p.short_range_leave_m > p.short_range_enter_m) return;
+  complain({"short_range.leave_m", "short_range.enter_m"}, number_text(p.short_range_leave_m),
+           "expected more than short_range.enter_m, which is " + number_text(p.short_range_enter_m) + " m");
+}
+
 void check_times(const Scenario& scenario, const Complaint& complain) {
   const std::vector<double>& times = scenario.times_s;
   if (times.size() != scenario.ranges_m.size()) {
@@ -110,10 +116,11 @@ void check_parameters(const MissionParameters& parameters, const Complaint& comp
   check_duration(parameters, complain);
   check_initial(parameters, complain);
   check_order(parameters, complain);
+  check_short_range(parameters, complain);
 }
 
 void check_scenario(const Scenario& scenario, const MissionParameters& parameters, const Complaint& complain) {
-  if (scenario.scenario_kind() == ScenarioKind::kApproach) check_times(scenario, complain);
+  if (scenario.has_profile()) check_times(scenario, complain);
   for (const double range_m : scenario.ranges_m) {
     if (range_m > parameters.range_min_m && range_m < parameters.range_max_m) continue;
     complain({"ranges_m"}, number_text(range_m),

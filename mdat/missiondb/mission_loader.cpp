@@ -1,12 +1,15 @@
+#include <Eigen/Geometry>
 #include <algorithm>
 
 #include "mdat/missiondb/mesh_import.hpp"
 #include "mdat/missiondb/mission_checks.hpp"
 #include "mdat/missiondb/mission_source.hpp"
 #include "mdat/missiondb/model_file.hpp"
+#include "mdat/missiondb/part_reader.hpp"
 #include "mdat/missiondb/sections.hpp"
 #include "mdat/missiondb/sha256.hpp"
 #include "mdat/missiondb/toml_reader.hpp"
+#include "mdat/modelc/cut.hpp"
 
 namespace lasso::mdat {
 namespace {
@@ -53,9 +56,10 @@ class Loader {
   void read_values() {
     std::vector<ValueRow> rows = mission_rows();
     rows.insert(rows.end(), flight_rows().begin(), flight_rows().end());
-    found_ = read_table(root_, "", rows, {"scenario", "target.parameters"}, problems_);
+    found_ = read_table(root_, "", rows, {"part", "scenario", "target.parameters"}, problems_);
     for (const ValueRow& row : rows) note_origin(row.key, found_, row.key);
     read_scenario_values();
+    read_parts(root_, source_, problems_);
     read_model_parameters();
     fill_mission();
   }
@@ -235,6 +239,10 @@ class Loader {
       problems_.add(first_written({""}, keys), keys[0], value, expected);
       good = false;
     });
+    if (source_.parameters.short_range_enter_m > 0 && source_.parts.empty()) {
+      problems_.add(source_.origins["short_range.enter_m"], "short_range.enter_m", number_text(source_.parameters.short_range_enter_m),
+                    "the mission has no parts to look at: add them as [part.NAME], or set it to 0");
+    }
     if (!good) return;  // scenarios would repeat them
     for (const auto& [name, scenario] : source_.scenarios) check_contradictions(name, scenario);
   }
@@ -285,6 +293,31 @@ Mesh load_target(const MissionSource& source) {
   } catch (const MeshError& error) {
     throw MissionError({source.file.string(), origin.line, origin.column, target.file_key, target.file.string(), error.what()});
   }
+}
+
+Mesh load_part(const MissionSource& source, const PartSource& part, const Mesh& target) {
+  const Eigen::Quaterniond q(part.quaternion[3], part.quaternion[0], part.quaternion[1], part.quaternion[2]);
+  const std::string key = "part." + part.name + (part.file.empty() ? ".box_m" : part.parametric ? ".model" : ".mesh");
+  const auto fail = [&](const std::string& value, const std::string& why) {
+    const Origin origin = source.origins.at(key);
+    throw MissionError({source.file.string(), origin.line, origin.column, key, value, why});
+  };
+  if (part.file.empty()) {
+    Mesh mesh = cut_by_box(target, Eigen::Vector3d(part.box_m.data()), Eigen::Vector3d(part.box_m.data() + 3));
+    if (mesh.triangles.empty()) fail("", "nothing of the target lies in the box: the part has no model");
+    for (Eigen::Vector3d& vertex : mesh.vertices) vertex = q.conjugate() * (vertex - Eigen::Vector3d(part.origin_m.data()));
+    return mesh;
+  }
+  try {
+    if (!part.parametric) return import_mesh(part.file, part.scale);
+    Mesh mesh = build_model(part.file, {});
+    for (Eigen::Vector3d& vertex : mesh.vertices) vertex *= part.scale;
+    check_extent(mesh);
+    return mesh;
+  } catch (const MeshError& error) {
+    fail(part.file.string(), error.what());
+  }
+  return {};
 }
 
 const Scenario& scenario_of(const MissionSource& source, const std::string& name) {

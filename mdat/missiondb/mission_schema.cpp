@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "cfg/capacities.hpp"
 #include "mdat/missiondb/sections.hpp"
 
 namespace lasso::mdat {
@@ -101,6 +102,10 @@ std::string mission_schema_text() {
                                         {"additionalProperties", {{"type", "number"}, {"minimum", -1e9}, {"maximum", 1e9}}},
                                         {"description", "values of the parametric model's parameters"}};
   add_rows(schema, flight_rows(), true);
+  Json part = closed_object();
+  add_rows(part, part_rows(), true);
+  part["oneOf"] = {{{"required", {"box_m"}}}, {{"required", {"model"}}}, {{"required", {"mesh"}}}};
+  schema["properties"]["part"] = {{"type", "object"}, {"maxProperties", kMaxParts}, {"additionalProperties", part}};
   schema["properties"]["scenario"] = {{"type", "object"}, {"additionalProperties", scenario_schema()}};
   return schema.dump(2) + "\n";
 }

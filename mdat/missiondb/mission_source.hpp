@@ -32,10 +32,24 @@ struct TargetSource {
   std::map<std::string, double> parameters;  // of the parametric model, in the units that the model states; only those that were written
 };
 
+// A part of the target with a model of its own: cut from the target by a box, or a file like the target's.
+struct PartSource {
+  std::string name;
+  std::vector<double> box_m;                 // low x, y, z, high x, y, z, target frame; empty: a file
+  std::filesystem::path file;                // resolved; empty: a box
+  bool parametric = false;                   // file is a model (TOML), not a mesh
+  double scale = 1;                          // applied to the file's lengths to get metres
+  double cell_size_m = 0;                    // of the look-up field, 0: chosen by the compiler
+  std::vector<double> origin_m, quaternion;  // T_target_part: x, y, z; and x, y, z, w, of unit length
+  std::vector<double> range_m;               // nearest and farthest of its centre from the sensor
+  std::vector<double> view;                  // unit vector in part axes, towards the sensors that see it
+  double cone_rad = 0, priority = 1;
+};
+
 // How the sensor measures a range. Its presets in [sensor] and of its beam come from the kind (hal_sim/scanner_model.hpp).
 enum class SensorKind : std::uint8_t { kLaserCamera = 0, kTimeOfFlight = 1 };
 
-enum class ScenarioKind : std::uint8_t { kPaper = 0, kSpin = 1, kApproach = 2 };
+enum class ScenarioKind : std::uint8_t { kPaper = 0, kSpin = 1, kApproach = 2, kPass = 3 };
 
 // What the simulation does. Attitude of frame 0: target's x axis vertical in the image (+x up, -y of the sensor), its z axis away from the
 // sensor, then tilted by `tilt_rad` about the sensor's x (the -x end towards the sensor), then by `boresight_rad` about the boresight.
@@ -43,9 +57,10 @@ enum class ScenarioKind : std::uint8_t { kPaper = 0, kSpin = 1, kApproach = 2 };
 // kSpin: it turns at `spin_radps` and drifts at `drift_mps`, during the scans as well.
 // kApproach: it turns at `spin_radps`, and `ranges_m` are the ranges of one run at `times_s`. The component starts by itself: it looks for
 // the bearing, and is offered poses by a simulated navigation system. Between the two times of `eclipse_s` nothing returns.
+// kPass: it moves as in an approach, and the track starts from the true pose.
 struct Scenario {
   double kind = 0;               // a ScenarioKind
-  std::vector<double> ranges_m;  // along the boresight, one run of `frames` each; kApproach: one for each of `times_s`
+  std::vector<double> ranges_m;  // along the boresight, one run of `frames` each; kApproach, kPass: one for each of `times_s`
   double frames = 0, step_rad = 0, tilt_rad = 0, boresight_rad = 0;
   std::vector<double> offset_m;    // x, y of the target's origin in the sensor frame
   std::vector<double> spin_radps;  // x, y, z in the target's axes
@@ -62,9 +77,8 @@ struct Scenario {
   double seed = 0;
 
   // The first range of each run.
-  std::vector<double> runs_m() const {
-    return scenario_kind() == ScenarioKind::kApproach ? std::vector<double>{ranges_m.front()} : ranges_m;
-  }
+  std::vector<double> runs_m() const { return has_profile() ? std::vector<double>{ranges_m.front()} : ranges_m; }
+  bool has_profile() const { return scenario_kind() == ScenarioKind::kApproach || scenario_kind() == ScenarioKind::kPass; }
   ScenarioKind scenario_kind() const { return static_cast<ScenarioKind>(static_cast<int>(kind)); }
   std::map<std::string, double> overrides;  // key of a parameter row -> value in the row's TOML unit
 };
@@ -74,6 +88,7 @@ struct MissionSource {
   std::uint32_t id = 0, version = 0;
   std::string name;
   TargetSource target;
+  std::vector<PartSource> parts;  // in the order of their names, which is that of their numbers
   SensorKind sensor = SensorKind::kLaserCamera;
   MissionParameters parameters{};
   std::map<std::string, Scenario> scenarios;
@@ -86,6 +101,10 @@ MissionSource load_mission(const std::filesystem::path& file);
 
 // The target's surface in metres, in the target frame. Throws MissionError (missing, corrupt, empty, not finite, of absurd size).
 Mesh load_target(const MissionSource& source);
+
+// The surface of one of its parts in metres, in the part's frame; `target` is load_target's. Throws MissionError (as load_target; a box in
+// which nothing lies).
+Mesh load_part(const MissionSource& source, const PartSource& part, const Mesh& target);
 
 // The flight parameters that hold in a scenario: the mission's, with the scenario's overrides. An empty name: the mission's own.
 // Throws MissionError where there is no such scenario.

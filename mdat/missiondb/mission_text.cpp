@@ -61,6 +61,17 @@ void write_parameters(std::ostream& out, const MissionSource& source, const std:
   }
 }
 
+void write_part(std::ostream& out, const MissionSource& source, const PartSource& part) {
+  for (const PartField& field : part_fields()) {
+    const std::string key = "part." + part.name + "." + field.row.key;
+    const bool text = field.list == nullptr && field.number == nullptr;
+    if (text || (field.list != nullptr && (part.*field.list).empty())) continue;
+    const std::vector<double> values = field.list != nullptr ? part.*field.list : std::vector<double>{part.*field.number};
+    write_line(out, key, value_text(field.row, values), field.row.unit, place_text(source, key), field.row.meaning);
+  }
+  if (!part.file.empty()) out << "part." << part.name << ": model of " << part.file.string() << '\n';
+}
+
 void write_scenario(std::ostream& out, const MissionSource& source, const std::string& name) {
   const Scenario& scenario = scenario_of(source, name);
   for (const ScenarioField& field : scenario_fields()) {
@@ -113,6 +124,7 @@ std::string info_text(const MissionSource& source, const std::string& scenario) 
   write_sensor(out, source);
   write_parameters(out, source, scenario);
   out << '\n';
+  for (const PartSource& part : source.parts) write_part(out, source, part);
   for (const auto& entry : source.scenarios) {
     if (scenario.empty() || entry.first == scenario) write_scenario(out, source, entry.first);
   }

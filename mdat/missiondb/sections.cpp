@@ -59,10 +59,10 @@ ScenarioField field(std::vector<double> S::*member, ValueRow row, std::size_t co
 }
 
 ValueRow kind_row() {
-  ValueRow row = number_row("kind", "1", ValueKind::kChoice, 1, 0, 2, 0,
+  ValueRow row = number_row("kind", "1", ValueKind::kChoice, 1, 0, 3, 0,
                             "paper: the target stands still in each scan and turns between them; spin: it moves all the time; approach: "
-                            "one run through all modes");
-  row.choices = {"paper", "spin", "approach"};
+                            "one run through all modes; pass: one run that begins with a track");
+  row.choices = {"paper", "spin", "approach", "pass"};
   return required(row);
 }
 
@@ -74,19 +74,47 @@ ValueRow sensor_row() {
   return row;
 }
 
+using Q = PartSource;
+
+ValueRow list(ValueRow row, std::size_t count, std::vector<double> preset) {
+  row.kind = ValueKind::kReals;
+  row.count_min = count;
+  row.count_max = count;
+  row.preset = std::move(preset);
+  return row;
+}
+
+std::vector<PartField> make_part_fields() {
+  // clang-format off
+  return {
+    {list(number_row("box_m", "m", kReal, 1, -1000, 1000, 0, "the part is what of the target lies between x, y, z and x, y, z; this, model or mesh"), 6, {}), nullptr, &Q::box_m},
+    {text_row("model", "[^\\x00-\\x1f]+\\.toml", "parametric model (.toml) with its presets, from the mission's folder or the one above"), nullptr, nullptr},
+    {text_row("mesh", "[^\\x00-\\x1f]+", "mesh (STL, OBJ, PLY, glTF), from the mission's folder or the one above"), nullptr, nullptr},
+    {number_row("scale", "1", kReal, 1, 1e-9, 1e9, 1, "the file's lengths times this are metres"), &Q::scale, nullptr},
+    {number_row("cell_size_m", "m", kReal, 1, 0, 10, 0, "cell of the part's look-up field; 0: about 1/110 of the part"), &Q::cell_size_m, nullptr},
+    {list(number_row("origin_m", "m", kReal, 1, -1000, 1000, 0, "origin of the part's frame in the target's"), 3, {0, 0, 0}), nullptr, &Q::origin_m},
+    {list(number_row("quaternion", "1", kReal, 1, -1, 1, 0, "x, y, z, w: takes part axes to target axes"), 4, {0, 0, 0, 1}), nullptr, &Q::quaternion},
+    {required(list(number_row("range_m", "m", kReal, 1, 0, 10000, 0, "nearest and farthest distance of its centre from the sensor at which it serves"), 2, {})), nullptr, &Q::range_m},
+    {required(list(number_row("view", "1", kReal, 1, -1e6, 1e6, 0, "direction in part axes towards the sensors that see it, of any length"), 3, {})), nullptr, &Q::view},
+    {number_row("cone_deg", "deg", kReal, kDeg, 0, 180, 60, "largest angle between it and the direction to the sensor"), &Q::cone_rad, nullptr},
+    {number_row("priority", "1", kReal, 1, 0.001, 1000, 1, "weighs what a scan of the part would tell; the part of lower priority goes where two disagree"), &Q::priority, nullptr},
+  };
+  // clang-format on
+}
+
 std::vector<ScenarioField> make_scenario_fields() {
   // clang-format off
   return {
     field(&S::kind, kind_row()),
-    field(&S::ranges_m, number_row("ranges_m", "m", kReal, 1, 0.01, 10000, 0, "ranges of the target's origin along the boresight, one run each; approach: at times_s"), 1, 100, {}),
+    field(&S::ranges_m, number_row("ranges_m", "m", kReal, 1, 0.01, 10000, 0, "ranges of the target's origin along the boresight, one run each; approach, pass: at times_s"), 1, 100, {}),
     field(&S::frames, number_row("frames", "1", kInteger, 1, 1, 1000000, 360, "frames of a run")),
     field(&S::step_rad, number_row("step_deg", "deg", kReal, kDeg, -180, 180, 1, "paper: turn about the target's x axis from frame to frame")),
     field(&S::tilt_rad, number_row("tilt_deg", "deg", kReal, kDeg, -180, 180, 15, "tilt of the target's -x end towards the sensor; 0 is side-on")),
     field(&S::boresight_rad, number_row("boresight_deg", "deg", kReal, kDeg, -180, 180, 5, "turn of the target about the boresight")),
     field(&S::offset_m, number_row("offset_m", "m", kReal, 1, -10000, 10000, 0, "target's origin off the boresight: right, down"), 2, 2, {0.02, -0.01}),
-    field(&S::spin_radps, number_row("spin_degps", "deg/s", kReal, kDeg, -360, 360, 0, "spin, approach: angular rate about the target's x, y, z"), 3, 3, {0, 0, 0}),
+    field(&S::spin_radps, number_row("spin_degps", "deg/s", kReal, kDeg, -360, 360, 0, "spin, approach, pass: angular rate about the target's x, y, z"), 3, 3, {0, 0, 0}),
     field(&S::drift_mps, number_row("drift_mps", "m/s", kReal, 1, -100, 100, 0, "spin: velocity along the sensor's x, y, z"), 3, 3, {0, 0, 0}),
-    field(&S::times_s, number_row("times_s", "s", kReal, 1, 0, 1e6, 0, "approach: when the target is at each of ranges_m, at rest"), 1, 100, {0}),
+    field(&S::times_s, number_row("times_s", "s", kReal, 1, 0, 1e6, 0, "approach, pass: when the target is at each of ranges_m, at rest"), 1, 100, {0}),
     field(&S::eclipse_s, number_row("eclipse_s", "s", kReal, 1, 0, 1e6, 0, "approach: nothing returns from the first of these times to the second"), 2, 2, {0, 0}),
     field(&S::navigation_from_s, number_row("navigation_from_s", "s", kReal, 1, 0, 1e6, 0, "approach: from then on a navigation system offers poses to start from")),
     field(&S::navigation_period_s, number_row("navigation_period_s", "s", kReal, 1, 0.001, 1e6, 1, "approach: how often")),
@@ -136,6 +164,20 @@ double preset_of(SensorKind sensor, const std::string& key, double preset) {
   if (key == "sensor.range_max_m") return lidar.range_max_m;
   if (key == "beam_divergence_rad") return lidar.beam_divergence_rad;
   return preset;
+}
+
+const std::vector<PartField>& part_fields() {
+  static const std::vector<PartField> fields = make_part_fields();
+  return fields;
+}
+
+const std::vector<ValueRow>& part_rows() {
+  static const std::vector<ValueRow> rows = [] {
+    std::vector<ValueRow> result;
+    for (const PartField& entry : part_fields()) result.push_back(entry.row);
+    return result;
+  }();
+  return rows;
 }
 
 const std::vector<ScenarioField>& scenario_fields() {

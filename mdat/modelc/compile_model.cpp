@@ -39,6 +39,7 @@ void check_options(const ModelOptions& options) {
 Surface prepare_surface(const Mesh& mesh, const ModelOptions& options, CompileReport& report, const Progress& progress) {
   progress("repair the mesh", 0);
   Surface surface = repair_mesh(mesh, options.weld_tolerance_m, report);
+  if (options.oriented) return surface;
   const Components components = orient_consistently(surface, report);
   progress("find the outside", 0.05);
   turn_outward(surface, components, report);
@@ -216,6 +217,10 @@ std::uint32_t words_per_record(TableId id) {
       return kViewWords;
     case TableId::kSymmetries:
       return kSymmetryWords;
+    case TableId::kParts:
+      return kPartWords;
+    case TableId::kPartImages:
+      return 1;
   }
   return 1;
 }

@@ -21,6 +21,7 @@ struct ModelOptions {
   double weld_tolerance_m = 0;   // vertices closer than this are one; 0: 1e-6 of the largest extent
   double far_margin = 0.35;      // grid beyond the bounding box, as a share of the largest extent
   double near_band_m = 0;        // closest elements are known this far from the surface; 0: 5 cells
+  bool oriented = false;         // triangles face outwards as given: nothing is turned, and nothing seen from behind
 };
 
 // Sizes of a set of lists.

@@ -173,7 +173,7 @@ std::unique_ptr<sim::Trajectory> make_trajectory(const Scenario& scenario, doubl
     return std::make_unique<sim::SteppedSpin>(setup);
   }
   const Twist rates{rotate(start.q, Vec3(scenario.spin_radps.data())), Vec3(scenario.drift_mps.data())};
-  if (scenario.scenario_kind() == ScenarioKind::kApproach) {
+  if (scenario.has_profile()) {
     return std::make_unique<sim::RangeProfile>(
         sim::RangeProfile::Setup{start, rates.omega_radps, scenario.times_s, scenario.ranges_m, epoch_us});
   }

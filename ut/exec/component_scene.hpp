@@ -35,6 +35,8 @@ class ComponentScene {
         sensor(scene),
         component(std::make_unique<Component>(sensor)),
         image_(make_image(parameters, make_box_tables(scene.boxes()))) {}
+  ComponentScene(const BoxScene& scene, const TestImage& image)
+      : scene_(scene), sensor(scene), component(std::make_unique<Component>(sensor)), image_(image) {}
 
   LoadFailure load() { return component->load_image(Bytes(image_.data(), image_.size)); }
   void begin() {

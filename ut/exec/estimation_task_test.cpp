@@ -22,6 +22,7 @@ class EstimationTaskTest : public ::testing::Test {
   test::BoxScene scene_ = test::default_scene();
   test::TestImage image_;
   Mission mission_;
+  Parts parts_;
   EstimationJob job_;
   TrackStep step_;
   std::unique_ptr<EstimationTask> task_ = std::make_unique<EstimationTask>();
@@ -33,7 +34,7 @@ TEST_F(EstimationTaskTest, GivesTheResultOfAJobThatIsDone) {
   EXPECT_FALSE(task_->collect(step_));
   task_->submit(job_);
   EXPECT_TRUE(task_->pending());
-  task_->run(mission_);
+  task_->run(mission_, parts_);
   EXPECT_FALSE(task_->pending());
   EXPECT_FALSE(task_->idle());
   ASSERT_TRUE(task_->collect(step_));
@@ -47,11 +48,11 @@ TEST_F(EstimationTaskTest, GivesTheResultOfAJobThatIsDone) {
 TEST_F(EstimationTaskTest, RunsAJobOnce) {
   VERIFIES("LASSO-EXE-012~1");
   task_->submit(job_);
-  task_->run(mission_);
-  task_->run(mission_);
+  task_->run(mission_, parts_);
+  task_->run(mission_, parts_);
   EXPECT_TRUE(task_->collect(step_));
   EXPECT_FALSE(task_->collect(step_));
-  task_->run(mission_);
+  task_->run(mission_, parts_);
   EXPECT_TRUE(task_->idle());
 }
 
@@ -60,13 +61,13 @@ TEST_F(EstimationTaskTest, DropsALateResultWhole) {
   task_->submit(job_);
   EXPECT_FALSE(task_->collect(step_));  // the boundary comes first
   EXPECT_FALSE(task_->idle());
-  task_->run(mission_);
+  task_->run(mission_, parts_);
   EXPECT_FALSE(task_->collect(step_));  // done, but too late
   EXPECT_TRUE(task_->idle());
   EXPECT_EQ(step_.registration.scan_id, 0u);
   job_.scan_id = 8;
   task_->submit(job_);
-  task_->run(mission_);
+  task_->run(mission_, parts_);
   ASSERT_TRUE(task_->collect(step_));
   EXPECT_EQ(step_.registration.scan_id, 8u);
 }
@@ -75,7 +76,7 @@ TEST_F(EstimationTaskTest, SearchesInTheModeSearching) {
   VERIFIES("LASSO-MOD-111~1");
   change_mode(ModeEvent::kSearch, job_.before);
   task_->submit(job_);
-  task_->run(mission_);
+  task_->run(mission_, parts_);
   ASSERT_TRUE(task_->collect(step_));
   EXPECT_EQ(step_.after.mode, TrackingMode::kSearching);
   EXPECT_EQ(step_.registration.reason, PoseReason::kNoScan);

@@ -45,7 +45,7 @@ TEST(Lasso, StepsGiveTheBytesOfTheComponentRunByItsSlots) {
     stream.insert(stream.end(), out, out + size);
   }
   EXPECT_EQ(stream, reference.stream);
-  EXPECT_EQ(stream.size(), 18u * 733);
+  EXPECT_EQ(stream.size(), 18u * 744);
 }
 
 TEST(Lasso, DoesNothingBeforeItsTime) {

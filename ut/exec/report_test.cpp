@@ -116,6 +116,22 @@ TEST(Report, AFilterThatHasNotStartedHasNoSigmas) {
   }
 }
 
+TEST(Report, CarriesTheParts) {
+  VERIFIES("LASSO-MOD-162~1");
+  TrackStep step = numbered_step();
+  step.parts.scanned = 3;
+  step.parts.odd = 5;
+  step.parts.odd_sigmas = 7.5;
+  step.after.parts.of[1].rests_until = 2;  // the scan is number 1
+  step.after.parts.of[4].rests_until = 3;
+  step.after.parts.of[5].rests_until = 1;
+  const PoseTelemetry t = make_report(Mission{}, step, ScanPlan{}, 0);
+  EXPECT_EQ(t.part, 3);
+  EXPECT_EQ(t.odd_part, 5);
+  EXPECT_EQ(t.odd_sigmas, 7.5F);
+  EXPECT_EQ(t.parts_resting, 0b10010);
+}
+
 TEST(Report, CarriesTheBearingAndTheTracksStart) {
   VERIFIES("LASSO-EXE-006~1 LASSO-MOD-101~1");
   TrackStep step = numbered_step();
@@ -206,11 +222,11 @@ TEST(Report, DictionaryNamesTheEnumerationsAsTheCodeDoes) {
   for (const auto& row : pose_rows()) {
     const std::string name = row.name;
     std::string expected;
-    for (int i = 0; i <= 14 && name == "reason"; ++i) expected += std::to_string(i) + "=" + to_string(static_cast<PoseReason>(i)) + "|";
+    for (int i = 0; i <= 15 && name == "reason"; ++i) expected += std::to_string(i) + "=" + to_string(static_cast<PoseReason>(i)) + "|";
     for (int i = 0; i <= 4 && name == "stop"; ++i) expected += std::to_string(i) + "=" + to_string(static_cast<StopReason>(i)) + "|";
     const bool is_mode = name == "mode" || name == "change_from" || name == "change_to";
-    for (int i = 0; i <= 7 && is_mode; ++i) expected += std::to_string(i) + "=" + to_string(static_cast<TrackingMode>(i)) + "|";
-    for (int i = 0; i <= 10 && name == "change_event"; ++i)
+    for (int i = 0; i <= 8 && is_mode; ++i) expected += std::to_string(i) + "=" + to_string(static_cast<TrackingMode>(i)) + "|";
+    for (int i = 0; i <= 12 && name == "change_event"; ++i)
       expected += std::to_string(i) + "=" + to_string(static_cast<ModeEvent>(i)) + "|";
     const bool is_way = name == "start_way" || name == "refused_way";
     for (int i = 0; i <= 5 && is_way; ++i) expected += std::to_string(i) + "=" + to_string(static_cast<StartWay>(i)) + "|";

@@ -80,7 +80,9 @@ TEST(PoseTelemetry, LiesAtTheseBytes) {
   EXPECT_EQ(offset_of("t_search_us"), 611u);
   EXPECT_EQ(offset_of("candidate_q"), 619u);
   EXPECT_EQ(offset_of("candidate_p_m"), 683u);
-  EXPECT_EQ(encode(PoseTelemetry{}).size(), 733u);
+  EXPECT_EQ(offset_of("part"), 731u);
+  EXPECT_EQ(offset_of("odd_sigmas"), 734u);
+  EXPECT_EQ(encode(PoseTelemetry{}).size(), 744u);
 }
 
 TEST(PoseTelemetry, WritesEachValueWhereItsRowSays) {
@@ -166,7 +168,7 @@ TEST(PoseTelemetry, RefusesOtherPacketsAndLeavesThePoseAlone) {
 
 TEST(PoseTelemetry, TooSmallABufferGivesNoPacket) {
   VERIFIES("LASSO-LNK-004~1");
-  Packet packet(596);
+  Packet packet(743);
   EXPECT_EQ(encode_pose(PoseTelemetry{}, PacketHeader{}, Bytes(packet.data(), packet.size())), 0u);
 }
 

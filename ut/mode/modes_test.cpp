@@ -13,6 +13,7 @@ using M = TrackingMode;
 using E = ModeEvent;
 
 const std::set<E> kPoseEvents = {E::kPoseValid, E::kPoseInvalid, E::kExhausted, E::kRecover};
+const std::set<E> kRangeEvents = {E::kNear, E::kFar};  // of a valid pose, in the modes that they tell apart
 const std::set<E> kBearingEvents = {E::kBearingKnown, E::kBearingUnknown};
 
 std::set<M> reachable_from(M start) {
@@ -54,7 +55,8 @@ TEST(Modes, NoTransitionIsUnreachable) {
     const ModeProperties& from = properties(row.from);
     const std::set<E>& scans = from.full_field ? kBearingEvents : kPoseEvents;
     const bool commanded = mode_events()[static_cast<std::size_t>(row.event)].commanded;
-    EXPECT_TRUE(commanded || (from.scans && scans.count(row.event) != 0)) << from.name << ": " << row.meaning;
+    const bool by_range = !from.full_field && kRangeEvents.count(row.event) != 0;
+    EXPECT_TRUE(commanded || (from.scans && (by_range || scans.count(row.event) != 0))) << from.name << ": " << row.meaning;
     EXPECT_EQ(reached.count(row.from), 1u) << from.name;
     EXPECT_STRNE(row.meaning, "");
   }
@@ -105,6 +107,17 @@ TEST(Modes, FollowTheStoryOfASearch) {
   EXPECT_EQ(next_mode(M::kSearching, E::kPoseValid), M::kStarting);
   EXPECT_EQ(next_mode(M::kSearching, E::kRecover), M::kBearing);
   EXPECT_EQ(next_mode(M::kSearching, E::kExhausted), M::kLost);
+}
+
+TEST(Modes, FollowTheStoryOfAnApproachAndBack) {
+  VERIFIES("LASSO-MOD-164~1");
+  EXPECT_EQ(next_mode(M::kTracking, E::kNear), M::kShortRange);
+  EXPECT_EQ(next_mode(M::kShortRange, E::kPoseValid), M::kShortRange);
+  EXPECT_EQ(next_mode(M::kShortRange, E::kPoseInvalid), M::kShortRange);
+  EXPECT_EQ(next_mode(M::kShortRange, E::kRecover), M::kReacquiring);
+  EXPECT_EQ(next_mode(M::kShortRange, E::kFar), M::kTracking);
+  EXPECT_TRUE(properties(M::kShortRange).by_parts);
+  EXPECT_FALSE(properties(M::kTracking).by_parts);
 }
 
 TEST(Modes, IgnoreWhatTheTableDoesNotKnow) {

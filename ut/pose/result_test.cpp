@@ -10,16 +10,16 @@ namespace lasso {
 namespace {
 
 // Names by code, as telemetry and reports show them.
-const char* const kPoseReasons[] = {"valid",         "no_scan",       "too_few_returns", "too_few_inliers", "low_inlier_share",
-                                    "low_agreement", "high_residual", "not_converged",   "singular",        "no_track",
-                                    "overrun",       "implausible",   "only_bearing",    "far_from_start",  "searching"};
+const char* const kPoseReasons[] = {
+    "valid",    "no_scan",  "too_few_returns", "too_few_inliers", "low_inlier_share", "low_agreement",  "high_residual", "not_converged",
+    "singular", "no_track", "overrun",         "implausible",     "only_bearing",     "far_from_start", "searching",     "part_disagrees"};
 const char* const kStopReasons[] = {"converged", "iteration_limit", "too_few_points", "singular", "not_run"};
 
 TEST(Result, EveryPoseReasonHasItsName) {
   VERIFIES("LASSO-REG-007~1");
   std::uint8_t code = 0;
   for (const char* name : kPoseReasons) EXPECT_EQ(std::string(to_string(static_cast<PoseReason>(code++))), name);
-  EXPECT_EQ(static_cast<PoseReason>(code - 1), PoseReason::kSearching);  // the last of them
+  EXPECT_EQ(static_cast<PoseReason>(code - 1), PoseReason::kPartDisagrees);  // the last of them
   EXPECT_EQ(std::string(to_string(static_cast<PoseReason>(code))), "unknown");
 }
 
@@ -35,7 +35,7 @@ TEST(Result, IsValidOnlyForTheReasonValid) {
   VERIFIES("LASSO-REG-007~1");
   Registration result;
   EXPECT_FALSE(result.valid());  // nothing was estimated yet
-  for (std::uint8_t code = 0; code < 15; ++code) {
+  for (std::uint8_t code = 0; code < 16; ++code) {
     result.reason = static_cast<PoseReason>(code);
     EXPECT_EQ(result.valid(), code == 0);
   }

@@ -1,0 +1,97 @@
+#include "fsw/pose/outlook.hpp"
+
+#include "fsw/geometry/portable_math.hpp"
+#include "fsw/pose/clip.hpp"
+#include "fsw/pose/contour_probe.hpp"
+
+namespace lasso {
+namespace {
+
+using N = FlightNumber;
+using Length = N::Length;
+using Ratio = N::Ratio;
+
+double square(double x) { return x * x; }
+
+Ratio tangent(double angle_rad) {
+  const SinCos angle = sin_cos(angle_rad);
+  return N::to_ratio(angle.sin / angle.cos);
+}
+
+void include(const ImagePoint& point, ScanRectangle& rectangle) {
+  const Ratio at[2] = {point.x, point.y};
+  for (int i = 0; i < 2; ++i) {
+    if (at[i] < rectangle.low[i]) rectangle.low[i] = at[i];
+    if (at[i] > rectangle.high[i]) rectangle.high[i] = at[i];
+  }
+}
+
+// The information that a return along a ray will have; nothing where the ray meets no surface, or grazes it.
+bool add_return(const Mission& mission, FieldRay<N>& ray, Mat6& H) {
+  const Field<N>& field = mission.field;
+  set_cells(field, ray);
+  if (!near_grid(ray)) return false;
+  const FieldSpan<N> span = clip_to_grid(field, ray);
+  const FieldHit<N> hit = walk_field(field, ray, span.enter, span.leave);
+  if (!hit.found) return false;
+  const Length q[3] = {ray.m[0] + hit.t * ray.u[0], ray.m[1] + hit.t * ray.u[1], ray.m[2] + hit.t * ray.u[2]};
+  N::Unit normal[3];
+  surface_normal(field, field.elements[hit.element], q, normal);
+  const MissionParameters& p = mission.parameters;
+  const double tilt2 = square(N::to_double(dot3<N>(normal, ray.u)));
+  if (tilt2 < square(sin_cos(p.incidence_max_rad).cos)) return true;
+  const double range_m = N::to_double(hit.t);
+  const double variance =
+      tilt2 * range_variance(p, range_m) + (1 - tilt2) * square(range_m * p.sigma_angle_rad) + square(p.surface_sigma_m);
+  const Vec3 n = to_vec3(normal);
+  Vec6 row;
+  row << to_vec3(q).cross(n), n;
+  H += (1 / variance) * row * row.transpose();
+  return true;
+}
+
+}  // namespace
+
+double range_variance(const MissionParameters& parameters, double range_m) {
+  return square(parameters.sigma0_m) + square(parameters.sigma_k_per_m * range_m * range_m);
+}
+
+ScanRectangle outline_of(const Mission& mission, const View<N>& view) {
+  ScanRectangle outline;
+  for (const HullPointOf<N>& point : mission.hull) {
+    const ImagePoint seen = project(view.pose, point.p);
+    if (seen.z > 0) include(seen, outline);
+  }
+  return outline;
+}
+
+ScanRectangle visible_outline(const Mission& mission, const View<N>& view) {
+  ScanRectangle outline = outline_of(mission, view);
+  const Ratio limit[2] = {tangent(mission.parameters.fov_half_x_rad), tangent(mission.parameters.fov_half_y_rad)};
+  for (int i = 0; i < 2; ++i) {
+    if (outline.low[i] < -limit[i]) outline.low[i] = -limit[i];
+    if (outline.high[i] > limit[i]) outline.high[i] = limit[i];
+  }
+  return outline;
+}
+
+Outlook look_over(const Mission& mission, const View<N>& view, const ScanRectangle& rectangle, double rays) {
+  Outlook outlook;
+  for (int row = 0; row < kOutlookRows; ++row) {
+    for (int column = 0; column < kOutlookColumns; ++column) {
+      const double x =
+          N::to_double(rectangle.low[0]) + (column + 0.5) / kOutlookColumns * N::to_double(rectangle.high[0] - rectangle.low[0]);
+      const double y = N::to_double(rectangle.low[1]) + (row + 0.5) / kOutlookRows * N::to_double(rectangle.high[1] - rectangle.low[1]);
+      const double scale = 1 / square_root(x * x + y * y + 1);
+      const N::Unit u[3] = {N::to_unit(x * scale), N::to_unit(y * scale), N::to_unit(scale)};
+      FieldRay<N> ray{};
+      for (int i = 0; i < 3; ++i) ray.m[i] = view.pose.t[i];
+      rotate(view.pose, u, ray.u);
+      if (add_return(mission, ray, outlook.information)) ++outlook.met;
+    }
+  }
+  outlook.information = (rays / kOutlookRays) * outlook.information;
+  return outlook;
+}
+
+}  // namespace lasso

@@ -1,0 +1,32 @@
+// What a scan will tell, from a few rays that stand for those of its pattern.
+#pragma once
+
+#include "fsw/pose/contour.hpp"
+
+namespace lasso {
+
+// On the tangent plane z = 1: x, y.
+struct ScanRectangle {
+  FlightNumber::Ratio low[2] = {1e30F, 1e30F};
+  FlightNumber::Ratio high[2] = {-1e30F, -1e30F};
+};
+
+// Around the model's outline.
+ScanRectangle outline_of(const Mission& mission, const View<FlightNumber>& view);
+// The same within the sensor's field of view; low is not below high where nothing of it is.
+ScanRectangle visible_outline(const Mission& mission, const View<FlightNumber>& view);
+
+struct Outlook {
+  Mat6 information = Mat6::Zero();  // of the pose: rotation about the target's origin and translation, target axes
+  int met = 0;                      // of the kOutlookRays: how many meet the model
+};
+constexpr int kOutlookColumns = 8, kOutlookRows = 12;
+constexpr int kOutlookRays = kOutlookColumns * kOutlookRows;
+
+// The returns of `rays` rays spread over the rectangle. Rays that graze the surface tell nothing. Bound: kOutlookRays walks.
+Outlook look_over(const Mission& mission, const View<FlightNumber>& view, const ScanRectangle& rectangle, double rays);
+
+// The sensor's range noise, without its pointing.
+double range_variance(const MissionParameters& parameters, double range_m);
+
+}  // namespace lasso

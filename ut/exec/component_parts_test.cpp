@@ -1,0 +1,126 @@
+// The whole component close to a target that it scans part by part.
+#include <set>
+
+#include "ut/exec/component_scene.hpp"
+#include "ut/support/box_parts.hpp"
+
+namespace lasso {
+namespace {
+
+using test::ComponentScene;
+using test::Report;
+using M = TrackingMode;
+
+// Drifting away from 2.5 m: close until 2.7 m, for 20 frames.
+test::BoxScene leaving_scene() {
+  test::BoxScene scene = test::default_scene();
+  scene.rates.v_mps = Vec3(0.004, -0.003, 0.05);
+  return scene;
+}
+
+MissionParameters parameters() {
+  MissionParameters p = test::box_parameters(leaving_scene());
+  p.short_range_enter_m = 2.6;
+  p.short_range_leave_m = 2.7;
+  return p;
+}
+
+test::TestImage image_with_parts(const std::vector<test::BoxPart>& parts) {
+  static const test::BoxTables whole = test::make_box_tables(test::BoxModel{});
+  return test::make_image(parameters(), test::with_parts(whole, parts, parameters()));
+}
+
+std::vector<PoseTelemetry> run(ComponentScene& scene, int frames) {
+  std::vector<PoseTelemetry> reports;
+  for (int i = 0; i < frames; ++i) {
+    for (const Report& report : scene.run_frame()) reports.push_back(report.pose);
+  }
+  return reports;
+}
+
+TEST(ComponentParts, ScansThePartsInTurnAndHandsOverBothWays) {
+  VERIFIES("LASSO-MOD-161~1 LASSO-MOD-162~1 LASSO-MOD-164~1 LASSO-MOD-171~1");
+  ComponentScene scene(leaving_scene(), image_with_parts(test::two_halves()));
+  scene.begin();
+  ASSERT_EQ(scene.component->parts().size(), 2U);
+  std::vector<M> modes;
+  std::set<int> parts;
+  double wholes = 0;
+  for (const PoseTelemetry& t : run(scene, 40)) {
+    EXPECT_EQ(t.valid, 1) << t.scan_id << " " << to_string(static_cast<PoseReason>(t.reason));
+    EXPECT_EQ(t.odd_parts, 0U);
+    EXPECT_EQ(t.parts_resting, 0);
+    const Vec6 e = scene.error(t);
+    EXPECT_LT(e.head<3>().norm(), 5e-3) << t.scan_id;
+    EXPECT_LT(e.tail<3>().norm(), 3e-3) << t.scan_id;
+    const M mode = static_cast<M>(t.mode);
+    if (modes.empty() || modes.back() != mode) modes.push_back(mode);
+    if (mode == M::kShortRange) parts.insert(t.part);
+    if (t.part == 0) wholes += t.plan_half_extents[0];
+  }
+  EXPECT_EQ(modes, (std::vector<M>{M::kTracking, M::kShortRange, M::kTracking}));
+  EXPECT_EQ(parts, (std::set<int>{0, 1, 2})) << "0: scans that were on their way";
+  EXPECT_GT(wholes, 0);
+}
+
+TEST(ComponentParts, AScanOfAPartIsLaidOverThePart) {
+  VERIFIES("LASSO-MOD-161~1");
+  ComponentScene scene(leaving_scene(), image_with_parts(test::two_halves()));
+  scene.begin();
+  double whole = 0;
+  for (const PoseTelemetry& t : run(scene, 12)) {
+    const double area = t.plan_half_extents[0] * t.plan_half_extents[1];
+    if (t.part == 0) whole = area;
+    if (t.part == 0) continue;
+    EXPECT_LT(area, 0.8 * whole);
+  }
+}
+
+TEST(ComponentParts, APartThatIsNotWhereItsModelSaysIsDroppedAndTold) {
+  VERIFIES("LASSO-MOD-162~1");
+  std::vector<test::BoxPart> parts = test::two_halves();
+  parts.push_back(test::half_box(true));
+  parts[2].T_target_part.p += Vec3(0, 0.006, 0.004);
+  ComponentScene scene(leaving_scene(), image_with_parts(parts));
+  scene.begin();
+  std::uint32_t odd = 0;
+  for (const PoseTelemetry& t : run(scene, 22)) {
+    if (t.odd_part != 0) {
+      ++odd;
+      EXPECT_EQ(t.odd_part, 3);
+      EXPECT_EQ(t.parts_resting, 4);
+      EXPECT_GT(t.odd_sigmas, 6);
+    }
+    EXPECT_EQ(t.odd_parts, odd);
+    if (t.valid == 0) continue;
+    EXPECT_LT(scene.error(t).tail<3>().norm(), 3e-3) << t.scan_id;
+  }
+  EXPECT_GE(odd, 1U);
+}
+
+TEST(ComponentParts, ACommandEndsTheScansOfParts) {
+  VERIFIES("LASSO-MOD-136~1");
+  ComponentScene scene(leaving_scene(), image_with_parts(test::two_halves()));
+  scene.begin();
+  run(scene, 8);
+  ASSERT_EQ(scene.component->stop_tracking(), Status::kOk);
+  run(scene, 3);
+  EXPECT_TRUE(run(scene, 3).empty());
+  ASSERT_EQ(scene.component->command_mode(M::kReacquiring), ModeRefusal::kNotFromHere);
+}
+
+TEST(ComponentParts, AnEstimateThatIsLateAimsAtTheWhole) {
+  VERIFIES("LASSO-EXE-003~1");
+  ComponentScene scene(leaving_scene(), image_with_parts(test::two_halves()));
+  scene.begin();
+  run(scene, 8);
+  scene.run_frame(false);
+  std::vector<PoseTelemetry> reports = run(scene, 6);
+  bool whole = false;
+  for (const PoseTelemetry& t : reports) whole = whole || (t.part == 0 && static_cast<PoseReason>(t.reason) == PoseReason::kValid);
+  EXPECT_TRUE(whole);
+  EXPECT_EQ(static_cast<M>(reports.back().mode), M::kShortRange);
+}
+
+}  // namespace
+}  // namespace lasso
