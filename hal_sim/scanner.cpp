@@ -8,11 +8,6 @@
 namespace lasso::sim {
 namespace {
 
-double tangent(double angle_rad) {
-  const SinCos sc = sin_cos(angle_rad);
-  return sc.sin / sc.cos;
-}
-
 // Two unit vectors across `u` (unit, z > 0) and across each other: the image's right and down for a ray along the boresight.
 struct Across {
   Vec3 right;

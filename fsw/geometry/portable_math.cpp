@@ -196,6 +196,13 @@ double arc_tangent2(double y, double x) {
   return y < 0 ? -angle : angle;
 }
 
+double tangent(double angle_rad) {
+  const SinCos angle = sin_cos(angle_rad);
+  return angle.sin / angle.cos;
+}
+
+double fractional_part(double x) { return x - static_cast<double>(static_cast<std::int64_t>(x)); }
+
 double arc_sine(double x) {
   if (!(absolute(x) <= 1.0)) return kNotANumber;
   return arc_tangent2(x, square_root((1.0 - x) * (1.0 + x)));

@@ -17,12 +17,6 @@ constexpr double kGoldenRatio = 0.6180339887498949;
 
 double square(double x) { return x * x; }
 double larger(double a, double b) { return a > b ? a : b; }
-double fraction(double x) { return x - static_cast<double>(static_cast<std::int64_t>(x)); }
-
-double tangent(double angle_rad) {
-  const SinCos angle = sin_cos(angle_rad);
-  return angle.sin / angle.cos;
-}
 
 // Everything that stays the same from place to place.
 struct AimSearch {
@@ -88,7 +82,7 @@ void find_places(const AimSearch& s, Workspace& workspace) {
   for (const ContourEdge<N>& edge : workspace.contour) whole += length_in_image(edge);
   const Ratio step = whole / static_cast<Ratio>(kMaxAimPlaces);
   if (!(step > 0)) return;
-  Ratio next = step * N::to_ratio(fraction(s.request.scan_id * kGoldenRatio));  // of the next place, from the edge's first end
+  Ratio next = step * N::to_ratio(fractional_part(s.request.scan_id * kGoldenRatio));  // of the next place, from the edge's first end
   for (const ContourEdge<N>& edge : workspace.contour) {
     const Ratio length = length_in_image(edge);
     while (next < length) {
@@ -164,10 +158,10 @@ AimedRay ray_through(const AimSearch& s, const Vec3& point, std::size_t index, s
 void aim_at_places(const AimSearch& s, const Workspace& workspace, AimedRays& rays) {
   std::size_t count = 0;
   for (const AimPlace& place : workspace.places) count += place.fate == AimPlace::Fate::kChosen ? kRaysPerPlace : 0;
-  double phase = fraction(s.request.scan_id * kGoldenRatio);
+  double phase = fractional_part(s.request.scan_id * kGoldenRatio);
   for (const AimPlace& place : workspace.places) {
     if (place.fate != AimPlace::Fate::kChosen) continue;
-    phase = fraction(phase + kGoldenRatio);
+    phase = fractional_part(phase + kGoldenRatio);
     for (std::size_t i = 0; i < kRaysPerPlace; ++i) {
       const double share = 2 * (static_cast<double>(i) + phase) / kRaysPerPlace - 1;
       const Vec3 point = place.point + share * kOffsetSigmas * place.s_pred * place.across;

@@ -7,11 +7,6 @@ namespace {
 
 using N = FlightNumber;
 
-double tangent(double angle_rad) {
-  const SinCos angle = sin_cos(angle_rad);
-  return angle.sin / angle.cos;
-}
-
 // What a return of this sensor can look like.
 struct Limits {
   double tan_x, tan_y, range_min_m, range_max_m;

@@ -1,8 +1,7 @@
 #include "fsw/pose/fit.hpp"
 
 #include "fsw/geometry/portable_math.hpp"
-#include "fsw/pose/clip.hpp"
-#include "fsw/pose/path_pose.hpp"
+#include "fsw/pose/model_ray.hpp"
 
 namespace lasso {
 namespace {
@@ -47,16 +46,6 @@ void add_hit(const Mission& mission, const PathPose<N>& pose, const MatchPoint<N
   if (is_bad(met, distance, on_surface, in_front)) fit.bad += 1;
 }
 
-bool is_violated(const Mission& mission, const PathPose<N>& pose, const ScanRay<N>& miss) {
-  FieldRay<N> ray{};
-  transform(pose, miss.o, ray.m);
-  rotate(pose, miss.u, ray.u);
-  set_cells(mission.field, ray);
-  if (!near_grid(ray)) return false;
-  const FieldSpan<N> span = clip_to_grid(mission.field, ray);
-  return walk_field(mission.field, ray, larger(span.enter, 0), span.leave).found;
-}
-
 }  // namespace
 
 double Fit::disagreement() const { return hits > 0 ? (bad + violated) / (hits + violated) : 1; }
@@ -70,7 +59,7 @@ Fit measure_fit(const Mission& mission, const Pose& T_target_sensor, const Evide
   Fit fit;
   for (const MatchPoint<N>& point : evidence.hits) add_hit(mission, pose, point, fit);
   std::uint32_t violated = 0;
-  for (const ScanRay<N>& miss : evidence.misses) violated += is_violated(mission, pose, miss) ? 1u : 0u;
+  for (const ScanRay<N>& miss : evidence.misses) violated += meets_model(mission, pose, miss) ? 1u : 0u;
   fit.violated = kMissWeight * evidence.misses_per_hit * violated;
   return fit;
 }

@@ -13,11 +13,6 @@ using Ratio = N::Ratio;
 
 double square(double x) { return x * x; }
 
-Ratio tangent(double angle_rad) {
-  const SinCos angle = sin_cos(angle_rad);
-  return N::to_ratio(angle.sin / angle.cos);
-}
-
 void include(const ImagePoint& point, ScanRectangle& rectangle) {
   const Ratio at[2] = {point.x, point.y};
   for (int i = 0; i < 2; ++i) {
@@ -67,7 +62,7 @@ ScanRectangle outline_of(const Mission& mission, const View<N>& view) {
 
 ScanRectangle visible_outline(const Mission& mission, const View<N>& view) {
   ScanRectangle outline = outline_of(mission, view);
-  const Ratio limit[2] = {tangent(mission.parameters.fov_half_x_rad), tangent(mission.parameters.fov_half_y_rad)};
+  const Ratio limit[2] = {N::to_ratio(tangent(mission.parameters.fov_half_x_rad)), N::to_ratio(tangent(mission.parameters.fov_half_y_rad))};
   for (int i = 0; i < 2; ++i) {
     if (outline.low[i] < -limit[i]) outline.low[i] = -limit[i];
     if (outline.high[i] > limit[i]) outline.high[i] = limit[i];

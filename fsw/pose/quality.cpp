@@ -2,25 +2,13 @@
 
 #include "fsw/geometry/portable_math.hpp"
 #include "fsw/geometry/symmetric6.hpp"
-#include "fsw/pose/clip.hpp"
-#include "fsw/pose/path_pose.hpp"
+#include "fsw/pose/model_ray.hpp"
 
 namespace lasso {
 namespace {
 
 using N = FlightNumber;
 constexpr std::uint32_t kMissSamples = 64;
-
-// Does the ray meet the model anywhere?
-bool meets_model(const Mission& mission, const PathPose<N>& pose, const ScanRay<N>& ray) {
-  FieldRay<N> r{};
-  transform(pose, ray.o, r.m);
-  rotate(pose, ray.u, r.u);
-  set_cells(mission.field, r);
-  if (!near_grid(r)) return false;
-  const FieldSpan<N> span = clip_to_grid(mission.field, r);
-  return walk_field(mission.field, r, span.enter > 0 ? span.enter : 0, span.leave).found;
-}
 
 struct MissSample {
   std::uint32_t misses = 0;  // all of them

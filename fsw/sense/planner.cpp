@@ -37,11 +37,6 @@ Rectangle project(Span<const HullPoint> hull, const Pose& T_sensor_target) {
   return rectangle;
 }
 
-double tangent(double angle_rad) {
-  const SinCos angle = sin_cos(angle_rad);
-  return angle.sin / angle.cos;
-}
-
 Interval fit(const Interval& seen, double margin, double uncertainty, double fov_half_rad) {
   const double limit = tangent(fov_half_rad);
   const double half = margin * seen.half() + uncertainty;
@@ -51,8 +46,6 @@ Interval fit(const Interval& seen, double margin, double uncertainty, double fov
   return fitted;
 }
 
-double fraction(double x) { return x - static_cast<double>(static_cast<std::int64_t>(x)); }
-
 ScanPlan pattern_of_mission(const MissionParameters& parameters, std::uint32_t scan_id) {
   ScanPlan plan;
   plan.scan_id = scan_id;
@@ -60,7 +53,7 @@ ScanPlan pattern_of_mission(const MissionParameters& parameters, std::uint32_t s
   plan.points = static_cast<std::uint16_t>(parameters.points);
   plan.cycles_a = static_cast<std::uint16_t>(parameters.cycles_a);
   plan.cycles_b = static_cast<std::uint16_t>(parameters.cycles_b);
-  plan.phase_turns = fraction(scan_id * parameters.phase_step_turns);
+  plan.phase_turns = fractional_part(scan_id * parameters.phase_step_turns);
   plan.duration_us = static_cast<DurationUs>(parameters.duration_s * 1e6 + 0.5);
   return plan;
 }

@@ -45,7 +45,8 @@ double mismatch(const NearSymmetryMotion& motion, const Points& points, const Se
 std::vector<NearSymmetryMotion> all_turns(const Vec3d& middle) {
   std::vector<NearSymmetryMotion> motions;
   for (const Vec3d& direction : spread_directions(kAxes)) {
-    const Eigen::Quaterniond tilt = Eigen::Quaterniond::FromTwoVectors(Vec3d::UnitZ(), direction);
+    const Eigen::AngleAxisd azimuth(std::atan2(direction.y(), direction.x()), Vec3d::UnitZ());
+    const Eigen::Quaterniond tilt = azimuth * Eigen::AngleAxisd(std::acos(std::clamp(direction.z(), -1.0, 1.0)), Vec3d::UnitY());
     for (int k = 0; k < kTurns; ++k) {
       const double angle = 2 * std::numbers::pi * k / kTurns;
       motions.push_back(turn_about(middle, tilt * Eigen::AngleAxisd(angle, Vec3d::UnitZ())));

@@ -106,9 +106,10 @@ std::string error_against_angle(Plotter& plotter, const TableResult& table, cons
   const double step = turns ? table.scenario.step_rad / kRadPerDeg : 1;
   std::vector<std::string> files;
   for (const CaseResult& run : variant.cases) files.push_back(plotter.data(errors_text(run, step)));
-  std::string script = std::string(kPlotStyle) +
-                       "set multiplot layout 2,3 margins 0.06,0.925,0.125,0.93 spacing 0.062,0.14\n"
-                       "set key at screen 0.998,0.95 right top vertical samplen 1.2 spacing 1.2\n";
+  std::string script = kPlotStyle;
+  script +=
+      "set multiplot layout 2,3 margins 0.06,0.925,0.125,0.93 spacing 0.062,0.14\n"
+      "set key at screen 0.998,0.95 right top vertical samplen 1.2 spacing 1.2\n";
   script += format("set xrange [0:%g]\n", step * static_cast<double>(variant.cases[0].frames.size()));
   if (turns && variant.cases[0].frames.size() > 180) script += "set xtics 90\n";
   for (std::size_t axis = 0; axis < 6; ++axis) {
@@ -125,8 +126,8 @@ std::string error_against_range(Plotter& plotter, const TableResult& table) {
   for (const VariantResult& variant : table.variants) files.push_back(plotter.data(ranges_text(variant, table.scenario)));
   const std::vector<double> ranges_m = table.scenario.runs_m();
   const auto [nearest, farthest] = std::minmax_element(ranges_m.begin(), ranges_m.end());
-  std::string script =
-      std::string(kPlotStyle) + "set multiplot layout 1,2 margins 0.06,0.79,0.18,0.91 spacing 0.07,0\nset logscale y\nset format y '%g'\n";
+  std::string script = kPlotStyle;
+  script += "set multiplot layout 1,2 margins 0.06,0.79,0.18,0.91 spacing 0.07,0\nset logscale y\nset format y '%g'\n";
   script += format(
       "set xrange [%g:%g]\nset xlabel 'range, m' textcolor '#46505f'\n"
       "set key at screen 0.998,0.91 right top vertical samplen 1.5 spacing 1.3\n",
@@ -139,9 +140,8 @@ std::string time_histogram(Plotter& plotter, const TableResult& table) {
   double p99_us = 1;
   for (const VariantResult& variant : table.variants) p99_us = std::max(p99_us, variant.all.time.p99_us);
   const double limit_us = 1.3 * p99_us, bin_us = limit_us / 130;
-  std::string script =
-      std::string(kPlotStyle) +
-      "set xlabel 'processor time of an estimate, us' textcolor '#46505f'\nset ylabel 'share of frames, %' textcolor '#46505f'\n";
+  std::string script = kPlotStyle;
+  script += "set xlabel 'processor time of an estimate, us' textcolor '#46505f'\nset ylabel 'share of frames, %' textcolor '#46505f'\n";
   script += format("set xrange [0:%g]\nset yrange [0:*]\nset key top right\nplot ", limit_us);
   for (std::size_t i = 0; i < table.variants.size(); ++i) {
     const std::string file = plotter.data(histogram_text(all_times_us(table.variants[i]), bin_us));

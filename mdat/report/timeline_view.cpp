@@ -92,8 +92,8 @@ std::string statistics_table(const TimelineStatistics& run) {
 
 std::string timeline_figure(Plotter& plotter, const Scenario& scenario, const Timeline& timeline) {
   const std::string stretches = plotter.data(stretches_text(timeline)), points = plotter.data(points_text(timeline));
-  std::string script = std::string(kPlotStyle) + "set multiplot layout 4,1 margins 0.1,0.98,0.08,0.96 spacing 0,0.055\nset format x ''\n" +
-                       eclipse(scenario);
+  std::string script = kPlotStyle;
+  script += "set multiplot layout 4,1 margins 0.1,0.98,0.08,0.96 spacing 0,0.055\nset format x ''\n" + eclipse(scenario);
   script += format("set xrange [0:%g]\nset datafile missing 'NaN'\n", timeline.points.empty() ? 1 : timeline.points.back().t_s);
   script += mode_panel(stretches) + "set ytics autofreq\nset yrange [*:*]\nset logscale y\nset format y '%g'\n";
   script += format("set title 'true range, m'\nplot %s using 1:2 with lines lw 1.4 lc rgb '#1b2a6b' notitle\n", points.c_str());

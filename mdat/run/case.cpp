@@ -14,8 +14,6 @@
 namespace lasso::mdat {
 namespace {
 
-DurationUs to_us(double time_s) { return static_cast<DurationUs>(std::llround(time_s * 1e6)); }
-
 constexpr std::uint32_t kPipelineFrames = 2;  // scan k is reported at boundary k + 2
 
 Pose to_pose(const double (&q)[4], const double (&p_m)[3]) { return {Quat(q[3], q[0], q[1], q[2]), Vec3(p_m[0], p_m[1], p_m[2])}; }
@@ -136,6 +134,8 @@ class Case {
 };
 
 }  // namespace
+
+DurationUs to_us(double time_s) { return static_cast<DurationUs>(std::llround(time_s * 1e6)); }
 
 DurationUs period_us(const MissionParameters& parameters) { return to_us(parameters.period_s); }
 

@@ -18,6 +18,7 @@
 namespace lasso::mdat {
 
 constexpr TimeUs kEpochUs = 1'000'000;  // begin of frame 0 of every run
+DurationUs to_us(double time_s);        // to the nearest
 DurationUs period_us(const MissionParameters& parameters);
 
 struct CaseSetup {

@@ -1,15 +1,11 @@
 #include "mdat/run/navigation.hpp"
 
-#include <cmath>
-
 #include "mdat/run/case.hpp"
 
 namespace lasso::mdat {
 namespace {
 
 constexpr std::uint64_t kStream = 0x6e617669;  // other numbers than the scanner's
-
-DurationUs to_us(double time_s) { return static_cast<DurationUs>(std::llround(time_s * 1e6)); }
 
 }  // namespace
 

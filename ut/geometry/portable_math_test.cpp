@@ -97,6 +97,17 @@ TEST(SinCos, NanBeyondTheDomain) {
   EXPECT_EQ(sin_cos(0).cos, 1.0);
 }
 
+TEST(FractionalPart, IsWhatTruncationLeaves) {
+  VERIFIES("LASSO-SNS-011~1");
+  test::Generator random(77);
+  for (int i = 0; i < 1000; ++i) {
+    const double x = random.uniform(-1e6, 1e6);
+    ASSERT_EQ(fractional_part(x), x - std::trunc(x));
+  }
+  EXPECT_EQ(fractional_part(3), 0.0);
+  EXPECT_EQ(fractional_part(-2.25), -0.25);
+}
+
 TEST(ArcTangent2, QuadrantsAxesAndExtremes) {
   VERIFIES("LASSO-GEO-003~1 LASSO-GEO-006~1");
   EXPECT_EQ(arc_tangent2(0, 0), 0.0);
@@ -227,6 +238,16 @@ TEST(SinCos, WithinTheBound) {
 TEST(SinCos, TinyAnglesKeepTheirRelativeAccuracy) {
   VERIFIES("LASSO-GEO-002~1");
   for (double x = 1e-300; x < 0.7; x *= 3) EXPECT_LE(relative_error(sin_cos(x).sin, std::sin(static_cast<long double>(x))), 3e-16) << x;
+}
+
+TEST(Tangent, WithinTheBound) {
+  VERIFIES("LASSO-GEO-002~1");
+  test::Generator random(78);
+  for (int i = 0; i < 20000; ++i) {
+    const double x = random.uniform(-1.5, 1.5);
+    ASSERT_NEAR(tangent(x) / std::tan(x), 1, 2e-14) << x;
+  }
+  EXPECT_TRUE(is_nan(tangent(1e7)));
 }
 
 TEST(ArcTangent2, WithinTheBound) {

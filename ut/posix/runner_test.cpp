@@ -9,7 +9,7 @@
 namespace lasso::posix {
 namespace {
 
-constexpr int kFrames = 40;
+constexpr int kFrames = 25;
 
 std::vector<std::uint8_t> single_threaded() {
   test::ComponentScene scene(test::box_parameters(test::default_scene()));
@@ -24,7 +24,7 @@ TEST(Runner, TwoThreadsGiveTheBytesOfOne) {
   ASSERT_EQ(expected.size(), (kFrames - 2) * 744u);
   // The same on every processor: to be compared between host and target.
   std::printf("CRC-32C of the telemetry: %08lX\n", 0UL + crc32c(ConstBytes(expected.data(), expected.size())));
-  for (int repetition = 0; repetition < 5; ++repetition) {
+  for (int repetition = 0; repetition < 3; ++repetition) {
     test::ComponentScene scene(test::box_parameters(test::default_scene()));
     scene.begin();
     Runner runner(*scene.component);

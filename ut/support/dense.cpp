@@ -1,6 +1,7 @@
 #include "ut/support/dense.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 
 namespace lasso::test {
 namespace {
@@ -19,7 +20,7 @@ Dense cholesky_of(const Dense& A) { return A.llt().matrixL(); }
 
 DenseVector eigenvalues_of(const Dense& A) { return Eigen::SelfAdjointEigenSolver<Dense>(A).eigenvalues(); }
 
-Dense orthogonal_of(const Dense& A) { return Eigen::HouseholderQR<Dense>(A).householderQ(); }
+Dense orthogonal_of(const Dense& A) { return Eigen::SelfAdjointEigenSolver<Dense>(A + A.transpose()).eigenvectors(); }
 
 DenseVector wide_solution_of(const Dense& A, const DenseVector& b) {
   return A.cast<long double>().ldlt().solve(b.cast<long double>()).cast<double>();

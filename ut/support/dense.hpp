@@ -12,7 +12,7 @@ Dense inverse_of(const Dense& A);                               // A symmetric
 DenseVector solution_of(const Dense& A, const DenseVector& b);  // A symmetric
 Dense cholesky_of(const Dense& A);                              // the lower factor; A positive definite
 DenseVector eigenvalues_of(const Dense& A);                     // ascending; A symmetric
-Dense orthogonal_of(const Dense& A);                            // Q of A = Q R
+Dense orthogonal_of(const Dense& A);                            // of the unit eigenvectors of A's symmetric part
 
 // In extended precision, where the target has any (not in PowerPC's pairs of doubles). A symmetric.
 DenseVector wide_solution_of(const Dense& A, const DenseVector& b);
