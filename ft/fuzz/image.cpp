@@ -1,7 +1,7 @@
 // Bytes that claim to be a flight image. The loader refuses them and changes nothing, or makes a mission on which an estimate or a search
 // reads nothing out of bounds and ends. The first byte: bit 0 leaves lengths and check sums as they are (else they are repaired, since no
 // mutation gets past them), bit 1 starts the estimate wide, bit 2 searches instead. Mutations of bytes seldom leave an image that loads, so
-// most of them are of words in tables.
+// most of them are of words in tables, of the whole's or of a part's.
 #include "cfg/capacities.hpp"
 #include "fsw/core/crc.hpp"
 #include "fsw/mission/image_format.hpp"
@@ -21,6 +21,7 @@ constexpr int kSearchSide = 13;  // rays each way: more would take milliseconds
 constexpr std::uint32_t kSlice = 10'000, kMaxSlices = 10'000;
 constexpr std::size_t kLengthAt = 8;
 constexpr std::size_t kDirectoryAt = std::size_t{4} * kImageHeaderWords;
+constexpr std::size_t kPartBytes = std::size_t{4} * kPartWords;
 constexpr std::size_t kEntryBytes = std::size_t{4} * kDirectoryEntryWords;
 
 bool has_directory(ConstBytes image) { return image.size() >= kDirectoryAt + kTableCount * kEntryBytes + 4; }
@@ -35,11 +36,29 @@ Bytes table_of(Bytes image, std::size_t table) {
   return image.subspan(offset, bytes);
 }
 
-void repair(Bytes image) {
+// The image of a part; nothing where the tables of the whole say nonsense of it.
+Bytes part_of(Bytes image, std::size_t part) {
+  const Bytes parts = table_of(image, static_cast<std::size_t>(TableId::kParts) - 1);
+  const Bytes images = table_of(image, static_cast<std::size_t>(TableId::kPartImages) - 1);
+  if (parts.size() / kPartBytes <= part) return {};
+  const std::uint8_t* record = parts.data() + part * kPartBytes;
+  const std::size_t offset = get_u32(record + std::size_t{4} * kPartImageOffset);
+  const std::size_t bytes = get_u32(record + std::size_t{4} * kPartImageBytes);
+  if (offset > images.size() || bytes > images.size() - offset) return {};
+  return images.subspan(offset, bytes);
+}
+
+void repair_one(Bytes image) {
   if (!has_directory(image)) return;
   put_u32(image.data() + kLengthAt, static_cast<std::uint32_t>(image.size()));
   for (std::size_t i = 0; i < kTableCount; ++i) put_u32(entry_of(image, i) + 16, crc32c(table_of(image, i)));
   put_u32(image.data() + image.size() - 4, crc32c(image.first(image.size() - 4)));
+}
+
+void repair(Bytes image) {
+  if (!has_directory(image)) return;
+  for (std::size_t part = 0; part < kMaxParts; ++part) repair_one(part_of(image, part));
+  repair_one(image);
 }
 
 std::uint32_t mutated(std::uint32_t word, test::Generator& random) {
@@ -85,15 +104,24 @@ void search(const Mission& mission) {
   expect(search->result().outcome != SearchOutcome::kNone, "a search that ended has an outcome");
 }
 
+void use(const Mission& mission, const Parts& parts, std::uint8_t options) {
+  if ((options & 4) != 0) return search(mission);
+  estimate(mission, (options & 2) != 0);
+  for (const Part& part : parts) estimate(part.mission, (options & 2) != 0);
+}
+
 void load(ConstBytes input, std::uint8_t options) {
   ExactCopy image(input);
   if ((options & 1) == 0) repair(image.bytes());
   ExactCopy before(image.bytes());
   Mission mission;
-  const LoadFailure failure = load_image(image.bytes(), mission);
-  if (failure.status == Status::kOk) return (options & 4) != 0 ? search(mission) : estimate(mission, (options & 2) != 0);
+  static Parts parts;
+  parts.clear();
+  const LoadFailure failure = load_image(image.bytes(), mission, parts);
+  if (failure.status == Status::kOk) return use(mission, parts, options);
   expect(image.equals(before.bytes()), "an image that is refused stays as it was");
   expect(mission.image_crc == 0 && mission.field.elements == nullptr, "a mission stays as it was when its image is refused");
+  expect(parts.size() == 0, "the parts stay as they were when their image is refused");
 }
 
 }  // namespace
@@ -103,7 +131,8 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
   lasso::test::Generator random(seed);
   const lasso::Bytes image(data + 1, size == 0 ? 0 : size - 1);
   if (!lasso::fuzz::has_directory(image) || random.below(8) == 0) return LLVMFuzzerMutate(data, size, max_size);
-  lasso::fuzz::mutate_words(image, random);
+  const lasso::Bytes part = lasso::fuzz::part_of(image, random.below(2));
+  lasso::fuzz::mutate_words(lasso::fuzz::has_directory(part) && random.below(2) == 0 ? part : image, random);
   return size;
 }
 

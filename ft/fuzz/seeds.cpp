@@ -34,7 +34,9 @@ std::string seed(char option, const std::string& text) { return seed(option, tex
 
 // A seed that does not load, gives no pose, or is cut to the fuzzer's largest input leads nowhere.
 void check_seed(test::TestImage image) {
-  if (image.size >= kLargestInputBytes) throw std::runtime_error("the seed image is larger than an input (LARGEST_BYTES in ft/fuzz/run)");
+  if (image.size >= kLargestInputBytes)
+    throw std::runtime_error("the seed image of " + std::to_string(image.size) +
+                             " bytes is larger than an input (LARGEST_BYTES in ft/fuzz/run)");
   Mission mission;
   const LoadFailure failure = load_image(Bytes(image.data(), image.size), mission);
   if (failure.status != Status::kOk) throw std::runtime_error(std::string("the seed image is refused: ") + failure.what);
@@ -47,9 +49,9 @@ void write_images(const fs::path& folder) {
   parameters.inliers_min = 20;
   for (const bool silhouettes : {false, true}) {
     parameters.silhouettes = silhouettes ? 1 : 0;
-    test::TestImage image = small_image(parameters);
+    test::TestImage image = small_image(parameters, !silhouettes);
     check_seed(image);
-    const std::string name = silhouettes ? "silhouettes" : "hits";
+    const std::string name = silhouettes ? "silhouettes" : "hits_and_part";
     for (const char option : {'\0', '\1', '\2', '\4'})
       write(folder / (name + std::to_string(option)), seed(option, image.data(), image.size));
   }

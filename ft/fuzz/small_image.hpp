@@ -2,6 +2,7 @@
 #pragma once
 
 #include "ut/support/box_image.hpp"
+#include "ut/support/box_parts.hpp"
 #include "ut/support/box_scan.hpp"
 
 namespace lasso::fuzz {
@@ -14,13 +15,23 @@ inline test::BoxModel small_box() {
 }
 
 // The search tables of 64 cells and the fewest views: the whole has to fit into an input.
-inline test::TestImage small_image(const MissionParameters& parameters) {
+inline test::BoxTables small_tables() {
   test::BoxTables tables = test::make_box_tables(small_box());
   const auto table = [&](TableId id) -> test::Words& { return tables[static_cast<std::size_t>(id) - 1]; };
   for (const SearchGridWord axis : {kSearchCellsX, kSearchCellsY, kSearchCellsZ}) table(TableId::kSearchGrid)[axis] = 4;
   table(TableId::kDistances).resize(16);
   table(TableId::kViews).resize(kMinViews * kViewWords);
-  return test::make_image(parameters, tables);
+  return tables;
+}
+
+// With a part, if asked for: the box once more, in larger cells to fit in.
+inline test::TestImage small_image(const MissionParameters& parameters, bool with_part) {
+  test::BoxTables tables = small_tables();
+  if (!with_part) return test::make_image(parameters, tables);
+  test::BoxPart part;
+  part.box = small_box();
+  part.box.cell_m = 0.2;
+  return test::make_image(parameters, test::with_parts(tables, {part}, parameters));
 }
 
 inline Pose small_start() { return test::generic_box_pose(); }
