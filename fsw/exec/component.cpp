@@ -40,6 +40,24 @@ ScanPlan no_plan() {
   return plan;
 }
 
+// The whole's scans and each part's end within the period.
+bool scans_fit(const Mission& mission, const Parts& parts) {
+  const double period_s = mission.parameters.period_s;
+  bool fit = mission.parameters.duration_s <= period_s;
+  for (const Part& part : parts) fit = fit && part.mission.parameters.duration_s <= period_s;
+  return fit;
+}
+
+// Parameters that are right by themselves but not together; nullptr: none.
+const char* fault_of(const Mission& mission, const Parts& parts) {
+  const MissionParameters& p = mission.parameters;
+  if (!scans_fit(mission, parts)) return "scan.duration_s exceeds filter.period_s";
+  if (p.short_range_enter_m > 0 && !(p.short_range_leave_m > p.short_range_enter_m)) {
+    return "short_range.leave_m is not above short_range.enter_m";
+  }
+  return nullptr;
+}
+
 }  // namespace
 
 Component::Component(Sensor& sensor) : acquisition_(sensor) {}
@@ -54,10 +72,11 @@ LoadFailure Component::load_image(Bytes image) {
   loaded_ = false;  // whatever follows, the image that was loaded before may have been overwritten
   failure = lasso::load_image(image, mission_, parts_);
   if (failure.status != Status::kOk) return failure;
-  loaded_ = mission_.parameters.duration_s <= mission_.parameters.period_s;
+  const char* fault = fault_of(mission_, parts_);
+  loaded_ = fault == nullptr;
   if (!loaded_) {
     failure.status = Status::kBadValue;
-    failure.what = "scan.duration_s exceeds filter.period_s";
+    failure.what = fault;
   }
   return failure;
 }
@@ -186,7 +205,10 @@ void Component::note_change(const ModeChange& change) {
 
 TrackStep Component::step_without_estimate() {
   ++counters_.overruns;
-  return track_without_scan(mission_, PoseReason::kOverrun, estimated_.scan_id, estimated_.t_nominal_us, track_);
+  TrackStep step = track_without_scan(mission_, PoseReason::kOverrun, estimated_.scan_id, estimated_.t_nominal_us, track_);
+  step.parts.scanned = estimated_.part;
+  if (properties(track_.mode).searches) count_and_change(mission_.parameters, false, step);  // a search that is always late ends, too
+  return step;
 }
 
 void Component::apply_request() {
@@ -260,10 +282,16 @@ void Component::hand_over_scan() {
   if (usable) acquisition_.swap_images();
 }
 
+// An old bearing would be carried far off by its rates.
+bool Component::bearing_known() const {
+  const double age_s = to_seconds(acquired_.t_nominal_us - track_.bearing.t_us);
+  return track_.bearing.started && age_s <= mission_.parameters.bearing_memory_s;
+}
+
 Aim Component::aim_of_scan() const {
   const ModeProperties& mode = properties(track_.mode);
   Aim aim;
-  aim.full_field = mode.full_field || (mode.searches && !track_.bearing.started);
+  aim.full_field = mode.full_field || (mode.searches && !bearing_known());
   aim.any_attitude = mode.searches;
   if (mode.searches) {
     aim.T_sensor_target.p = track_.bearing.p_m + to_seconds(acquired_.t_nominal_us - track_.bearing.t_us) * track_.bearing.v_mps;

@@ -97,6 +97,7 @@ class Component {
   void try_ways();
   void hand_over_scan();
   void start_scan();
+  bool bearing_known() const;
   Aim aim_of_scan() const;
   StartWay next_way() const;
   void take_way(StartWay way);

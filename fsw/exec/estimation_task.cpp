@@ -26,13 +26,16 @@ bool EstimationTask::collect(TrackStep& step) {
 
 TrackStep EstimationTask::step_of(const Mission& mission, const Parts& parts) {
   TrackStep step = tracked(mission, parts);
+  step.parts.scanned = job_.part;
   if (properties(job_.before.mode).searches) searcher_.work(mission, job_.scan, estimator_.workspace(), step);
   return step;
 }
 
 TrackStep EstimationTask::tracked(const Mission& mission, const Parts& parts) {
   const ModeProperties& mode = properties(job_.before.mode);
-  if (job_.scan == nullptr) return track_without_scan(mission, PoseReason::kNoScan, job_.scan_id, job_.t_nominal_us, job_.before);
+  const bool says_too_little = job_.part != kWhole && mode.confirms;  // a part that was on its way confirms no pose of the whole
+  if (job_.scan == nullptr || says_too_little)
+    return track_without_scan(mission, PoseReason::kNoScan, job_.scan_id, job_.t_nominal_us, job_.before);
   if (mode.full_field || mode.searches) return bearing_scan(mission, bearing_finder_, *job_.scan, job_.before);
   if (job_.part != kWhole) return track_part(mission, parts, job_.part, estimator_, *job_.scan, job_.before);
   return track_scan(mission, estimator_, *job_.scan, job_.before);

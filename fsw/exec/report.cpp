@@ -113,6 +113,7 @@ void describe_search(const SearchResult& search, PoseTelemetry& out) {
   }
 }
 
+static_assert(kMaxParts <= 8, "a bit of parts_resting each");
 void describe_parts(const TrackStep& step, PoseTelemetry& out) {
   out.part = step.parts.scanned;
   out.odd_part = step.parts.odd;

@@ -80,7 +80,7 @@ constexpr TelemetryRow<P> kRows[] = {
   make_row<&P::refusal>(52, "refusal", "1", kRefusals, "why it was refused"),
   make_row<&P::refused_starts>(53, "refused_starts", "1", "", "poses to start from that were refused"),
   make_row<&P::refused_commands>(54, "refused_commands", "1", "", "commanded modes that were refused"),
-  make_row<&P::bearing_reason>(55, "bearing_reason", "1", kBearingReasons, "why the bearing can be trusted or not; no_scan unless in mode bearing"),
+  make_row<&P::bearing_reason>(55, "bearing_reason", "1", kBearingReasons, "why the bearing can be trusted or not; no_scan unless in mode bearing or searching"),
   make_row<&P::bearing_returns>(56, "bearing_returns", "1", "", "rays of the full-field scan that hit"),
   make_row<&P::bearing_used>(57, "bearing_used", "1", "", "of these, the target's"),
   make_row<&P::bearing_scans>(58, "bearing_scans", "1", "", "scans that the bearing rests on"),

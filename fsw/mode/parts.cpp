@@ -18,6 +18,10 @@ Mat6 moved_by(const Vec3& lever) {
 
 Vec3 lever_of(const Part& part, const Pose& T_sensor_target) { return rotate(T_sensor_target.q, part.T_target_part.p); }
 
+std::uint32_t end_of_rest(const MissionParameters& p, std::uint32_t scan_id) {
+  return scan_id + 1 + static_cast<std::uint32_t>(p.rest_frames);
+}
+
 bool is_fresh(const PartRecord& record, std::uint32_t scan_id) { return record.measured && scan_id - record.scan_id <= kFreshScans; }
 
 // Squared distance of the two parts' poses in sigmas; 0 where their covariance has no meaning.
@@ -71,7 +75,10 @@ std::size_t find_odd(const Parts& parts, const Comparison& comparison, std::size
 
 void pardon(const Parts& parts, const Comparison& comparison, std::size_t odd, PartsState& state) {
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    if (comparison.disagree[i][odd] && comparison.votes[i] == 1) state.of[i].rests_until = 0;
+    PartRecord& record = state.of[i];
+    if (!comparison.disagree[i][odd] || comparison.votes[i] != 1 || !record.told) continue;
+    record.told = false;
+    record.rests_until = 0;
   }
 }
 
@@ -187,17 +194,23 @@ Registration register_part(const Mission& mission, const Part& part, Estimator& 
   return result;
 }
 
+void refuse_part(const MissionParameters& p, std::uint32_t scan_id, PartRecord& record) {
+  record.measured = false;
+  record.rests_until = end_of_rest(p, scan_id);
+}
+
 PoseReason compare_parts(const Mission& mission, const Parts& parts, const Registration& registration, const FilterState& predicted,
                          PartsState& state, PartsReport& report) {
   const std::size_t scanned = report.scanned - 1U;
   const std::uint32_t scan_id = registration.scan_id;
-  const std::uint32_t rests_until = scan_id + 1 + static_cast<std::uint32_t>(mission.parameters.rest_frames);
+  const std::uint32_t rests_until = end_of_rest(mission.parameters, scan_id);
   PartRecord& record = state.of[scanned];
   if (!registration.valid()) {
     record.rests_until = rests_until;
     return registration.reason;
   }
   record.measured = true;
+  record.told = false;
   record.scan_id = scan_id;
   record.off = pose_difference(registration.T_sensor_target, predicted.T_sensor_target);
   record.covariance = pack(registration.covariance + predicted.covariance.topLeftCorner<6, 6>());
@@ -206,9 +219,10 @@ PoseReason compare_parts(const Mission& mission, const Parts& parts, const Regis
   const std::size_t odd = find_odd(parts, comparison, scanned);
   if (comparison.votes[odd] == 0) return PoseReason::kValid;
   pardon(parts, comparison, odd, state);
-  if (!rests(state.of[odd], scan_id) || odd == scanned) {
+  if (!state.of[odd].told) {
     report.odd = static_cast<PartNumber>(odd + 1);
     report.odd_sigmas = square_root(comparison.farthest2[odd]);
+    state.of[odd].told = true;
     state.of[odd].rests_until = rests_until;
   }
   return odd == scanned ? PoseReason::kPartDisagrees : PoseReason::kValid;

@@ -25,10 +25,11 @@ Mat6 unpack(const PackedCovariance& packed);
 
 // What is remembered of a part.
 struct PartRecord {
-  bool measured = false;            // the following three hold
+  bool measured = false;            // the following four hold
   std::uint32_t scan_id = 0;        // of its last valid pose
   Vec6 off = Vec6::Zero();          // of the target by that pose from the filter's prediction, as pose_difference()
   PackedCovariance covariance;      // of both
+  bool told = false;                // as the odd one: it rests for that
   std::uint32_t rests_until = 0;    // first scan that may look at it again
   std::uint32_t last_asked_id = 0;  // last scan that was planned to look at it
 };
@@ -60,6 +61,9 @@ Registration register_part(const Mission& mission, const Part& part, Estimator& 
 constexpr std::uint32_t kFreshScans = 25;
 PoseReason compare_parts(const Mission& mission, const Parts& parts, const Registration& registration, const FilterState& predicted,
                          PartsState& state, PartsReport& report);
+
+// The track refuses the pose that was compared last: it speaks of no other part, and the part rests.
+void refuse_part(const MissionParameters& p, std::uint32_t scan_id, PartRecord& record);
 
 // A scan that is to be planned.
 struct NextScan {

@@ -9,7 +9,7 @@ constexpr double kOffset_rad = kRadPerDeg;
 constexpr double kOffsetShare = 0.0075;       // of the model's size
 constexpr double kTurn_rad = 5 * kRadPerDeg;  // since its only scan (1 sigma): more needs another scan
 constexpr DurationUs kBetweenScans_us = 2'000'000;
-constexpr std::uint32_t kAimedFrom = 2;  // bearing scans: the first one's own scan was aimed by none
+constexpr std::uint32_t kAimedFrom = 3;  // bearing scans: the next but one after the first is the first that is aimed by it
 
 }  // namespace
 

@@ -148,8 +148,10 @@ TrackStep track_part(const Mission& mission, const Parts& parts, PartNumber part
   predict_or_hold(mission.parameters, scan.reference_time_us(), filter);
   Registration& registration = step.registration;
   registration = register_part(mission, parts[part - 1U], estimator, scan, filter);
-  registration.reason = compare_parts(mission, parts, registration, filter, step.after.parts, step.parts);
+  const PoseReason own = compare_parts(mission, parts, registration, filter, step.after.parts, step.parts);
+  registration.reason = own;
   take(mission.parameters, properties(before.mode), step);
+  if (registration.reason != own) refuse_part(mission.parameters, scan.scan_id, step.after.parts.of[part - 1U]);
   return step;
 }
 

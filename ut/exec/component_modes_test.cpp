@@ -44,15 +44,15 @@ struct Story {
   std::vector<PoseTelemetry> reports;
   std::vector<ModeChange> changes;
 
+  void take(const PoseTelemetry& t) {
+    reports.push_back(t);
+    for (std::size_t k = 0; k < t.changes; ++k) {
+      changes.push_back({static_cast<M>(t.change_from[k]), static_cast<E>(t.change_event[k]), static_cast<M>(t.change_to[k])});
+    }
+  }
   void run(ComponentScene& scene, int frames) {
     for (int i = 0; i < frames; ++i) {
-      for (const Report& report : scene.run_frame()) {
-        reports.push_back(report.pose);
-        for (std::size_t k = 0; k < report.pose.changes; ++k) {
-          changes.push_back({static_cast<M>(report.pose.change_from[k]), static_cast<E>(report.pose.change_event[k]),
-                             static_cast<M>(report.pose.change_to[k])});
-        }
-      }
+      for (const Report& report : scene.run_frame()) take(report.pose);
     }
   }
   void expect(const std::vector<ModeChange>& expected) const {
@@ -396,6 +396,37 @@ TEST(ComponentModes, AnAmbiguousTargetIsNeverTracked) {
   story.run(scene, 3);
   story.expect({{M::kStandby, E::kSearch, M::kSearching}, {M::kSearching, E::kRecover, M::kBearing}});
   EXPECT_EQ(story.last().search_outcome, 0) << "nothing stale";
+}
+
+TEST(ComponentModes, ASearchThatIsAlwaysLateEnds) {
+  VERIFIES("LASSO-MOD-136~2 LASSO-EXE-003~1");
+  MissionParameters p = parameters();
+  p.search_frames = 3;
+  ComponentScene scene(p);
+  scene.begin();
+  ASSERT_EQ(scene.component->command_mode(M::kSearching), ModeRefusal::kNone);
+  Story story;
+  for (int frame = 0; frame < 8; ++frame) {
+    for (const Report& report : scene.run_frame(frame % 2 == 1)) story.take(report.pose);
+  }
+  story.expect({{M::kStandby, E::kSearch, M::kSearching}, {M::kSearching, E::kRecover, M::kBearing}});
+}
+
+TEST(ComponentModes, ASearchTrustsNoOldBearing) {
+  VERIFIES("LASSO-MOD-136~2");
+  MissionParameters p = parameters();
+  p.bearing_memory_s = 1;
+  ComponentScene scene(p);
+  scene.begin();
+  ASSERT_EQ(scene.component->command_mode(M::kBearing), ModeRefusal::kNone);
+  Story story;
+  story.run(scene, 4);
+  const test::BoxScene truth = test::default_scene();
+  ASSERT_EQ(scene.component->start_tracking(truth.at_zero, truth.rates, 0), Status::kOk);
+  story.run(scene, 10);
+  ASSERT_EQ(scene.component->command_mode(M::kSearching), ModeRefusal::kNone);
+  story.run(scene, 3);
+  EXPECT_NEAR(story.last().plan_half_extents[0], std::tan(15 * kRadPerDeg), 1e-12);
 }
 
 TEST(ComponentModes, APoseThatWasFoundTooLateIsRefusedByItsName) {

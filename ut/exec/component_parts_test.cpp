@@ -63,6 +63,26 @@ TEST(ComponentParts, ScansThePartsInTurnAndHandsOverBothWays) {
   EXPECT_GT(wholes, 0);
 }
 
+TEST(ComponentParts, APartWhoseScansOutlastThePeriodIsRefused) {
+  VERIFIES("LASSO-MOD-161~1");
+  MissionParameters p = parameters();
+  p.duration_s = 2 * p.period_s;
+  const test::BoxTables whole = test::make_box_tables(test::BoxModel{});
+  ComponentScene scene(leaving_scene(), test::make_image(parameters(), test::with_parts(whole, test::two_halves(), p)));
+  EXPECT_EQ(scene.load().status, Status::kBadValue);
+  EXPECT_EQ(scene.component->begin(0), Status::kMissing);
+}
+
+TEST(ComponentParts, AModeThatIsLeftWhereItIsEnteredIsRefused) {
+  VERIFIES("LASSO-MOD-171~1");
+  MissionParameters p = parameters();
+  p.short_range_leave_m = p.short_range_enter_m;
+  ComponentScene scene(leaving_scene(), test::make_box_image(p));
+  const LoadFailure failure = scene.load();
+  EXPECT_EQ(failure.status, Status::kBadValue);
+  EXPECT_STREQ(failure.what, "short_range.leave_m is not above short_range.enter_m");
+}
+
 TEST(ComponentParts, AScanOfAPartIsLaidOverThePart) {
   VERIFIES("LASSO-MOD-161~1");
   ComponentScene scene(leaving_scene(), image_with_parts(test::two_halves()));
@@ -116,6 +136,8 @@ TEST(ComponentParts, AnEstimateThatIsLateAimsAtTheWhole) {
   run(scene, 8);
   scene.run_frame(false);
   std::vector<PoseTelemetry> reports = run(scene, 6);
+  EXPECT_EQ(static_cast<PoseReason>(reports[0].reason), PoseReason::kOverrun);
+  EXPECT_NE(reports[0].part, 0) << "the scan that is lost looked at a part";
   bool whole = false;
   for (const PoseTelemetry& t : reports) whole = whole || (t.part == 0 && static_cast<PoseReason>(t.reason) == PoseReason::kValid);
   EXPECT_TRUE(whole);

@@ -84,6 +84,19 @@ TEST_F(EstimationTaskTest, SearchesInTheModeSearching) {
   EXPECT_EQ(step_.after.missed, 1);
 }
 
+TEST_F(EstimationTaskTest, AScanOfAPartConfirmsNoStart) {
+  VERIFIES("LASSO-MOD-164~1");
+  const auto scan = std::make_unique<RangeImage>();
+  job_.scan = scan.get();
+  job_.part = 1;
+  task_->submit(job_);
+  task_->run(mission_, parts_);
+  ASSERT_TRUE(task_->collect(step_));
+  EXPECT_EQ(step_.registration.reason, PoseReason::kNoScan);
+  EXPECT_EQ(step_.parts.scanned, 1);
+  EXPECT_EQ(step_.after.mode, TrackingMode::kStarting);
+}
+
 TEST_F(EstimationTaskTest, TwoJobsAtOnceAreABug) {
   VERIFIES("LASSO-EXE-012~1");
   task_->submit(job_);

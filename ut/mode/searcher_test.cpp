@@ -46,7 +46,7 @@ class SearcherTest : public ::testing::Test {
     state_.bearing.started = true;
     state_.bearing.t_us = 1000000;
     state_.bearing.p_m = scene_.at_zero.p;
-    state_.bearing.scans = 2;
+    state_.bearing.scans = 3;
   }
 
   MissionParameters& parameters() { return mission_.parameters; }
@@ -191,9 +191,9 @@ TEST_F(SearcherTest, OffersAgainWhatNobodyHasTaken) {
 TEST_F(SearcherTest, WaitsForAScanThatABearingAimed) {
   VERIFIES("LASSO-MOD-123~1 LASSO-MOD-111~1");
   look_from_few_sides();
-  state_.bearing.scans = 1;
-  EXPECT_EQ(follow(0).search.work, 0u);
   state_.bearing.scans = 2;
+  EXPECT_EQ(follow(0).search.work, 0u);
+  state_.bearing.scans = 3;
   EXPECT_EQ(follow(1, true).search.work, 0u) << "lost";
   EXPECT_EQ(follow(2).search.scans, 1u);
 }

@@ -118,6 +118,20 @@ TEST_F(TrackerPartsTest, APartWithoutAPoseRests) {
   EXPECT_EQ(state_.filter.accepted, 1U);
 }
 
+TEST_F(TrackerPartsTest, APartWhosePoseTheTrackRefusesRests) {
+  VERIFIES("LASSO-MOD-162~1");
+  come_near();
+  for (std::uint32_t k = 2; k < 8; ++k) ASSERT_TRUE(see(k, 1).registration.valid());
+  parts_[1].T_target_part.p += Vec3(0, 0.006, 0.004);
+  state_.parts = PartsState{};  // nobody to compare with
+  parameters().innovation_max = 2;
+  const TrackStep step = see(8, 2);
+  EXPECT_EQ(step.registration.reason, PoseReason::kImplausible);
+  EXPECT_FALSE(state_.parts.of[1].measured);
+  EXPECT_TRUE(rests(state_.parts.of[1], 9));
+  EXPECT_FALSE(rests(state_.parts.of[0], 9));
+}
+
 // The model of the image has the right half where it is not.
 TEST_F(TrackerPartsTest, APartThatMovedAgainstTheTargetIsDropped) {
   VERIFIES("LASSO-MOD-162~1");
@@ -134,7 +148,7 @@ TEST_F(TrackerPartsTest, APartThatMovedAgainstTheTargetIsDropped) {
   EXPECT_LT(error(state_.filter.T_sensor_target, state_.filter.t_us).tail<3>().norm(), 2e-3);
 }
 
-TEST_F(TrackerPartsTest, WhatWasRememberedOfPartsEndsWithTheMode) {
+TEST_F(TrackerPartsTest, TheModeBeginsWithoutMemoriesOfParts) {
   VERIFIES("LASSO-MOD-164~1");
   come_near();
   see(2, 1);
