@@ -9,17 +9,19 @@ namespace {
 
 const char* yes(bool value) { return value ? "yes" : ""; }
 
+const char* scans_of(const ModeProperties& mode) {
+  if (!mode.scans) return "";
+  if (mode.searches) return "around the bearing";
+  if (mode.full_field) return "full field";
+  if (mode.by_parts) return "aimed at a part each";
+  return mode.wide_start ? "aimed, wide start" : "aimed";
+}
+
 void print_modes(std::ostream& out) {
   out << "| mode | | scans | confirms | takes up | awaits a start |\n| --- | --- | --- | --- | --- | --- |\n";
   for (const ModeProperties& mode : mode_properties()) {
-    const char* scans = !mode.scans       ? ""
-                        : mode.searches   ? "around the bearing"
-                        : mode.full_field ? "full field"
-                        : mode.by_parts   ? "aimed at a part each"
-                        : mode.wide_start ? "aimed, wide start"
-                                          : "aimed";
-    out << "| " << mode.name << " | " << mode.meaning << " | " << scans << " | " << yes(mode.confirms) << " | " << yes(mode.takes_up)
-        << " | " << yes(mode.awaits_start) << " |\n";
+    out << "| " << mode.name << " | " << mode.meaning << " | " << scans_of(mode) << " | " << yes(mode.confirms) << " | "
+        << yes(mode.takes_up) << " | " << yes(mode.awaits_start) << " |\n";
   }
 }
 
@@ -39,9 +41,9 @@ void print_page(std::ostream& out) {
          "- **awaits a start**: the next untried pose to start from is taken, in the mission's order `start.first` to `start.fifth`. "
          "Search\n  has its turn in bearing, once the bearing is known.\n\n"
          "`exhausted` and `recover` come when the mode's frames (`start.frames`, `tracking.coast_frames`, `tracking.reacquire_frames`,\n"
-         "`search.frames`) are used up and the mode is not held; which of the two, `tracking.recover` says. An event that a mode has no "
-         "row "
-         "for changes\nnothing. `near` and `far` are valid poses within `short_range.enter_m` of the target's origin in tracking, and "
+         "`search.frames`) are used up and the mode is not held; which of the two, `tracking.recover` says. An event that a mode has "
+         "no row for changes\nnothing. `near` and `far` are valid poses within `short_range.enter_m` of the target's origin in tracking, "
+         "and "
          "beyond `short_range.leave_m` in\nshort_range, if the mode is not held.\n\n";
   print_modes(out);
   out << '\n';
