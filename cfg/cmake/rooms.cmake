@@ -122,7 +122,9 @@ function(lasso_tests)
   target_compile_features(ut_main PUBLIC cxx_std_17)
   add_library(ut_dense STATIC ut/support/dense.cpp)  # decompositions as the tests' truth: not what sanitizers are for
   target_link_libraries(ut_dense PRIVATE lasso_warnings lasso_test_leave PUBLIC fsw_geometry)
-  target_compile_options(ut_dense PRIVATE $<$<BOOL:${LASSO_SANITIZE}>:-fno-sanitize=all>)
+  if(LASSO_SANITIZE)
+    target_compile_options(ut_dense PRIVATE -fno-sanitize=all)
+  endif()
   target_compile_features(ut_dense PUBLIC cxx_std_17)
   add_library(ut_box_image STATIC ut/support/box_image.cpp)  # a flight image for the rooms' tests, made without the mission compiler
   target_link_libraries(ut_box_image PRIVATE lasso_warnings lasso_test_leave PUBLIC fsw_mission)
