@@ -119,7 +119,7 @@ TEST(ComponentParts, APartThatIsNotWhereItsModelSaysIsDroppedAndTold) {
 }
 
 TEST(ComponentParts, ACommandEndsTheScansOfParts) {
-  VERIFIES("LASSO-MOD-136~1");
+  VERIFIES("LASSO-MOD-136~2");
   ComponentScene scene(leaving_scene(), image_with_parts(test::two_halves()));
   scene.begin();
   run(scene, 8);

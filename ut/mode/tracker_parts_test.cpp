@@ -72,7 +72,7 @@ TEST_F(TrackerPartsTest, LeavesAtALargerRangeThanItEnters) {
 }
 
 TEST_F(TrackerPartsTest, AModeThatIsHeldIsNotLeftForTheRange) {
-  VERIFIES("LASSO-MOD-136~1");
+  VERIFIES("LASSO-MOD-136~2");
   start(small_error());
   track(0);
   state_.held = true;
