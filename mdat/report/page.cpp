@@ -20,7 +20,8 @@ th:first-child, td:first-child { text-align: left; }
 td:first-child { font-weight: 600; }
 small { color: #8a94a3; }
 figure { margin: 26px 0 0; }
-figure svg, figure img { width: 100%; height: auto; display: block; }
+figure svg { width: 100%; height: auto; display: block; }
+figure img { max-width: 100%; height: auto; display: block; margin: 0 auto; }
 figcaption { color: #5c6675; font-size: 13.5px; margin-top: 6px; max-width: 900px; }
 details { margin: 0 0 18px; }
 summary { cursor: pointer; color: #2563b8; font-size: 14px; margin-bottom: 8px; }

@@ -12,8 +12,8 @@
 namespace lasso::mdat {
 namespace {
 
-constexpr int kPanelWidth = 400, kPanelHeight = 520;
-constexpr int kSamplesPerAxis = 3;  // rays of a pixel
+constexpr int kPanelWidth = 334, kPanelHeight = 520, kLeftMargin = 66, kRightMargin = 132;  // pixels
+constexpr int kSamplesPerAxis = 3;                                                          // rays of a pixel
 constexpr double kFrameMargin = 1.06;
 using Colour = std::array<double, 3>;
 constexpr Colour kBackground = {255, 255, 255}, kDark = {72, 84, 104}, kBright = {226, 231, 238};
@@ -118,6 +118,13 @@ double residual_span_mm(const sim::RayCaster& target, const std::vector<KeptScan
   return std::max(1e-3, sizes[sizes.size() * 97 / 100]);
 }
 
+// About three tics to a span: 1, 2 or 4 times a power of ten.
+double tic_step(double span_m) {
+  const double base = std::pow(10, std::floor(std::log10(span_m / 2.5)));
+  const double times = span_m / 2.5 / base;
+  return base * (times < 2 ? 1 : times < 4 ? 2 : 4);
+}
+
 std::string panel(Plotter& plotter, const sim::RayCaster& target, const KeptScan& scan, double step_rad, const View& view) {
   const Pose pose = registration_pose(scan.telemetry);
   const std::string image = plotter.data(render(target, pose, view));
@@ -127,6 +134,8 @@ std::string panel(Plotter& plotter, const sim::RayCaster& target, const KeptScan
   const std::string aimed = plotter.data(aimed_text(scan) + "\n");
   std::string text = format("set title '%.0f°: %u of %u rays return'\n", scan.frame * step_rad / kRadPerDeg, scan.telemetry.returns,
                             scan.telemetry.plan_points);
+  const double step_m = tic_step(2 * z_m * view.half_x);
+  text += format("set xtics %g\nset ytics %g\n", step_m, step_m);
   text += format("set xrange [%.4f:%.4f]\nset yrange [%.4f:%.4f]\n", z_m * (view.x - view.half_x), z_m * (view.x + view.half_x),
                  z_m * (view.y + view.half_y), z_m * (view.y - view.half_y));
   const double dx = 2 * view.half_x * z_m / view.width, dy = 2 * view.half_y * z_m / view.height;
@@ -140,20 +149,21 @@ std::string panel(Plotter& plotter, const sim::RayCaster& target, const KeptScan
 constexpr const char* kStyle =
     "set size ratio -1\nset border 0\nset tics nomirror out scale 0.4 textcolor '#46505f' font ',12'\nset title textcolor '#2b3440' offset "
     "0,-0.6\n"
-    "set xlabel 'right, m' textcolor '#46505f' font ',12' offset 0,0.4\nset xtics 0.4\nset ytics 0.4\n"
+    "set xlabel 'right, m' textcolor '#46505f' font ',12' offset 0,0.4\n"
     "set palette defined (-1 '#1257b0', -0.5 '#49a0e8', 0 '#f2d43d', 0.5 '#ef7d2b', 1 '#b3102a')\n"
     "set cblabel 'measured minus predicted range, mm' textcolor '#46505f' font ',12'\nset cbtics scale 0\n";
 
+int picture_width(std::size_t panels) { return kPanelWidth * static_cast<int>(panels) + kLeftMargin + kRightMargin; }
+
 // Equal panels from left to right; the last one has the colour scale at its right.
 std::string place(std::size_t i, std::size_t count) {
-  constexpr double kLeft = 0.055, kRight = 0.89;
-  const double width = (kRight - kLeft) / static_cast<double>(count);
-  std::string text = format("set lmargin at screen %.4f\nset rmargin at screen %.4f\n", kLeft + static_cast<double>(i) * width,
-                            kLeft + static_cast<double>(i + 1) * width);
+  const double pixel = 1.0 / picture_width(count);
+  const double left = pixel * (kLeftMargin + kPanelWidth * static_cast<double>(i));
+  std::string text = format("set lmargin at screen %.4f\nset rmargin at screen %.4f\n", left, left + pixel * kPanelWidth);
   text += "set bmargin at screen 0.13\nset tmargin at screen 0.92\n";
   text += i == 0 ? "set ylabel 'down, m' textcolor '#46505f' font ',12' offset 1\n" : "unset ylabel\nset format y ''\n";
-  text += i + 1 < count ? "unset colorbox\n" : "set colorbox user origin screen 0.915,0.2 size screen 0.012,0.64\n";
-  return text;
+  if (i + 1 < count) return text + "unset colorbox\n";
+  return text + format("set colorbox user origin screen %.4f,0.2 size screen %.4f,0.64\n", 1 - 102 * pixel, 14 * pixel);
 }
 
 }  // namespace
@@ -177,7 +187,7 @@ std::string scan_view_png(Plotter& plotter, const sim::RayCaster& target, const 
     script += place(i, scans.size());
     script += panel(plotter, target, scans[i], step_rad, make_view(scans[i].telemetry, half_x, half_y));
   }
-  return plotter.png(kPanelWidth * static_cast<int>(scans.size()), kPanelHeight, scale, script + "unset multiplot\n");
+  return plotter.png(picture_width(scans.size()), kPanelHeight, scale, script + "unset multiplot\n");
 }
 
 }  // namespace lasso::mdat
