@@ -1,28 +1,17 @@
 // The component's modes, starts and commands, as telemetry tells them.
 #include <cmath>
 
-#include "fsw/exec/component.hpp"
-#include "ut/exec/component_scene.hpp"
+#include "ut/exec/mode_story.hpp"
 
 namespace lasso {
 namespace {
 
+using test::code;
 using test::ComponentScene;
-using test::Report;
+using test::Story;
+using test::story_parameters;
 using M = TrackingMode;
 using E = ModeEvent;
-
-MissionParameters parameters() {
-  MissionParameters p = test::box_parameters(test::default_scene());
-  p.initial_present = 0;
-  p.recover = 1;
-  p.coast_frames = 2;
-  p.reacquire_frames = 3;
-  p.start_frames = 3;
-  return p;
-}
-
-std::uint8_t code(M mode) { return static_cast<std::uint8_t>(mode); }
 
 StartOffer offer_at(const ComponentScene& scene, TimeUs t_us, const Vec6& off = Vec6::Zero()) {
   const test::BoxScene truth = test::default_scene();
@@ -40,35 +29,9 @@ Vec6 wrong() {
   return off;
 }
 
-struct Story {
-  std::vector<PoseTelemetry> reports;
-  std::vector<ModeChange> changes;
-
-  void take(const PoseTelemetry& t) {
-    reports.push_back(t);
-    for (std::size_t k = 0; k < t.changes; ++k) {
-      changes.push_back({static_cast<M>(t.change_from[k]), static_cast<E>(t.change_event[k]), static_cast<M>(t.change_to[k])});
-    }
-  }
-  void run(ComponentScene& scene, int frames) {
-    for (int i = 0; i < frames; ++i) {
-      for (const Report& report : scene.run_frame()) take(report.pose);
-    }
-  }
-  void expect(const std::vector<ModeChange>& expected) const {
-    ASSERT_EQ(changes.size(), expected.size());
-    for (std::size_t i = 0; i < expected.size(); ++i) {
-      EXPECT_EQ(changes[i].from, expected[i].from) << i << " " << to_string(changes[i].from);
-      EXPECT_EQ(changes[i].event, expected[i].event) << i << " " << to_string(changes[i].event);
-      EXPECT_EQ(changes[i].to, expected[i].to) << i << " " << to_string(changes[i].to);
-    }
-  }
-  const PoseTelemetry& last() const { return reports.back(); }
-};
-
 TEST(ComponentModes, ABearingIsSoughtOverTheWholeField) {
   VERIFIES("LASSO-MOD-101~1 LASSO-MOD-136~2 LASSO-MOD-137~1");
-  ComponentScene scene(parameters());
+  ComponentScene scene(story_parameters());
   scene.begin();
   ASSERT_EQ(scene.component->command_mode(M::kBearing), ModeRefusal::kNone);
   Story story;
@@ -94,7 +57,7 @@ TEST(ComponentModes, ABearingIsSoughtOverTheWholeField) {
 
 TEST(ComponentModes, NavigationIsTakenWhereAStartIsAwaited) {
   VERIFIES("LASSO-MOD-131~1 LASSO-MOD-132~1");
-  ComponentScene scene(parameters());
+  ComponentScene scene(story_parameters());
   scene.begin();
   ASSERT_EQ(scene.component->offer_start(StartWay::kNavigation, offer_at(scene, 0)), StartRefusal::kNone);
   Story story;
@@ -111,7 +74,7 @@ TEST(ComponentModes, NavigationIsTakenWhereAStartIsAwaited) {
 TEST(ComponentModes, AWrongHandOverIsRefusedAndTheNextWayIsTried) {
   VERIFIES("LASSO-MOD-131~1 LASSO-MOD-132~1 LASSO-MOD-133~1 LASSO-MOD-137~1");
   for (const bool recover : {true, false}) {
-    MissionParameters p = parameters();
+    MissionParameters p = story_parameters();
     p.recover = recover ? 1 : 0;
     ComponentScene scene(p);
     scene.begin();
@@ -138,7 +101,7 @@ TEST(ComponentModes, AWrongHandOverIsRefusedAndTheNextWayIsTried) {
 
 TEST(ComponentModes, AShortEclipseIsCoastedALongerOneRecoveredNearThePrediction) {
   VERIFIES("LASSO-MOD-138~1 LASSO-MOD-137~1");
-  ComponentScene scene(parameters());
+  ComponentScene scene(story_parameters());
   scene.begin();
   ASSERT_EQ(scene.component->offer_start(StartWay::kUplink, offer_at(scene, 0)), StartRefusal::kNone);
   Story story;
@@ -156,7 +119,7 @@ TEST(ComponentModes, AShortEclipseIsCoastedALongerOneRecoveredNearThePrediction)
 
 TEST(ComponentModes, ALongEclipseEndsInABearingAndANewStart) {
   VERIFIES("LASSO-MOD-138~1 LASSO-MOD-131~1");
-  ComponentScene scene(parameters());
+  ComponentScene scene(story_parameters());
   scene.begin();
   ASSERT_EQ(scene.component->offer_start(StartWay::kUplink, offer_at(scene, 0)), StartRefusal::kNone);
   Story story;
@@ -184,7 +147,7 @@ TEST(ComponentModes, ALongEclipseEndsInABearingAndANewStart) {
 
 TEST(ComponentModes, CommandsThatCannotBeAreRefusedByTheirName) {
   VERIFIES("LASSO-MOD-136~2");
-  ComponentScene scene(parameters());
+  ComponentScene scene(story_parameters());
   EXPECT_EQ(scene.component->command_mode(M::kStandby), ModeRefusal::kNotBegun);
   scene.begin();
   EXPECT_EQ(scene.component->command_mode(M::kTracking), ModeRefusal::kNotByCommand);
@@ -202,7 +165,7 @@ TEST(ComponentModes, CommandsThatCannotBeAreRefusedByTheirName) {
 
 TEST(ComponentModes, AnyModeCanBeCommanded) {
   VERIFIES("LASSO-MOD-136~2 LASSO-MOD-137~1");
-  ComponentScene scene(parameters());
+  ComponentScene scene(story_parameters());
   scene.begin();
   ASSERT_EQ(scene.component->offer_start(StartWay::kUplink, offer_at(scene, 0)), StartRefusal::kNone);
   Story story;
@@ -228,7 +191,7 @@ TEST(ComponentModes, AnyModeCanBeCommanded) {
 
 TEST(ComponentModes, AHeldModeStaysUntilItIsReleased) {
   VERIFIES("LASSO-MOD-136~2");
-  ComponentScene scene(parameters());
+  ComponentScene scene(story_parameters());
   scene.begin();
   ASSERT_EQ(scene.component->command_mode(M::kBearing), ModeRefusal::kNone);
   scene.component->hold_mode(true);
@@ -254,8 +217,8 @@ TEST(ComponentModes, AHeldModeStaysUntilItIsReleased) {
 
 TEST(ComponentModes, WrongOffersAreRefusedCountedAndTold) {
   VERIFIES("LASSO-MOD-134~1 LASSO-MOD-008~1");
-  ComponentScene scene(parameters());
-  const StartOffer good = rough_offer(parameters(), test::default_scene().at_zero, {}, 0);
+  ComponentScene scene(story_parameters());
+  const StartOffer good = rough_offer(story_parameters(), test::default_scene().at_zero, {}, 0);
   EXPECT_EQ(scene.component->offer_start(StartWay::kUplink, good), StartRefusal::kNotBegun);
   scene.begin();
   EXPECT_EQ(scene.component->offer_start(StartWay::kNone, good), StartRefusal::kNoSuchWay);
@@ -279,7 +242,7 @@ TEST(ComponentModes, WrongOffersAreRefusedCountedAndTold) {
 
 TEST(ComponentModes, WhatHasGrownOldIsRefusedWhenItsTurnComes) {
   VERIFIES("LASSO-MOD-133~1 LASSO-MOD-134~1");
-  MissionParameters p = parameters();
+  MissionParameters p = story_parameters();
   p.start_age_max_s = 1;
   ComponentScene scene(p);
   scene.begin();
@@ -297,7 +260,7 @@ TEST(ComponentModes, WhatHasGrownOldIsRefusedWhenItsTurnComes) {
 
 TEST(ComponentModes, AMissionsOwnStartIsValidatedToo) {
   VERIFIES("LASSO-MOD-134~1");
-  MissionParameters p = parameters();
+  MissionParameters p = story_parameters();
   p.initial_present = 1;
   p.initial_z_m = -2.5;
   ComponentScene scene(p);
@@ -308,7 +271,7 @@ TEST(ComponentModes, AMissionsOwnStartIsValidatedToo) {
 // The last command counts, and the one before it is not tried later.
 TEST(ComponentModes, ACommandTakesThePlaceOfTheOneBefore) {
   VERIFIES("LASSO-MOD-131~1");
-  ComponentScene scene(parameters());
+  ComponentScene scene(story_parameters());
   scene.begin();
   ASSERT_EQ(scene.component->offer_start(StartWay::kHandover, offer_at(scene, 0)), StartRefusal::kNone);
   ASSERT_EQ(scene.component->offer_start(StartWay::kUplink, offer_at(scene, 0, wrong())), StartRefusal::kNone);
@@ -322,133 +285,10 @@ TEST(ComponentModes, ACommandTakesThePlaceOfTheOneBefore) {
   EXPECT_EQ(story.last().mode, code(M::kBearing)) << "the hand-over is not left to be tried";
 }
 
-MissionParameters search_parameters() {
-  MissionParameters p = test::box_parameters(test::uneven_scene());
-  p.initial_present = 0;
-  p.recover = 1;
-  p.start_fifth = static_cast<double>(StartWay::kSearch);
-  p.points = 400;
-  p.search_slice = 700000;
-  return p;
-}
-
-TEST(ComponentModes, TheTargetIsFoundWithoutAnyPriorAndTracked) {
-  VERIFIES("LASSO-MOD-123~1 LASSO-MOD-111~1 LASSO-MOD-131~1 LASSO-MOD-137~1");
-  ComponentScene scene(search_parameters(), test::uneven_scene());
-  scene.begin();
-  ASSERT_EQ(scene.component->command_mode(M::kBearing), ModeRefusal::kNone);
-  Story story;
-  story.run(scene, 16);
-  story.expect({{M::kStandby, E::kSeek, M::kBearing},
-                {M::kBearing, E::kSearch, M::kSearching},
-                {M::kSearching, E::kPoseValid, M::kStarting},
-                {M::kStarting, E::kPoseValid, M::kTracking}});
-  EXPECT_EQ(story.last().mode, code(M::kTracking));
-  EXPECT_EQ(story.last().start_way, static_cast<std::uint8_t>(StartWay::kSearch));
-  EXPECT_LT(scene.error(story.last()).norm(), 1e-2);
-  for (const PoseTelemetry& t : story.reports) EXPECT_TRUE(t.valid == 0 || scene.error(t).norm() < 1e-2);
-}
-
-TEST(ComponentModes, ALostTargetIsLookedForNearItsPredictionThenSearched) {
-  VERIFIES("LASSO-MOD-142~1");
-  MissionParameters p = search_parameters();
-  p.coast_frames = 2;
-  p.reacquire_frames = 2;
-  ComponentScene scene(p, test::uneven_scene());
-  scene.begin();
-  const test::BoxScene truth = test::uneven_scene();
-  ASSERT_EQ(scene.component->start_tracking(truth.at_zero, truth.rates, 0), Status::kOk);
-  Story story;
-  story.run(scene, 6);
-  story.changes.clear();
-  scene.sensor.hidden = true;
-  story.run(scene, 10);
-  scene.sensor.hidden = false;
-  story.run(scene, 16);
-  story.expect({{M::kTracking, E::kPoseInvalid, M::kCoasting},
-                {M::kCoasting, E::kRecover, M::kReacquiring},
-                {M::kReacquiring, E::kRecover, M::kBearing},
-                {M::kBearing, E::kSearch, M::kSearching},
-                {M::kSearching, E::kPoseValid, M::kStarting},
-                {M::kStarting, E::kPoseValid, M::kTracking}});
-  EXPECT_LT(scene.error(story.last()).norm(), 1e-2);
-}
-
-// A box looks alike from several sides: never a guess, and the candidates are told.
-TEST(ComponentModes, AnAmbiguousTargetIsNeverTracked) {
-  VERIFIES("LASSO-MOD-124~1 LASSO-MOD-120~1 LASSO-MOD-136~2");
-  MissionParameters p = parameters();
-  p.points = 400;
-  p.search_slice = 1e7;
-  p.search_frames = 3;
-  ComponentScene scene(p);
-  scene.begin();
-  ASSERT_EQ(scene.component->command_mode(M::kSearching), ModeRefusal::kNone);
-  Story story;
-  story.run(scene, 3);
-  EXPECT_NEAR(story.last().plan_half_extents[0], std::tan(15 * kRadPerDeg), 1e-12) << "no bearing yet";
-  story.run(scene, 3);
-  EXPECT_LT(story.last().plan_half_extents[0], 0.9 * std::tan(15 * kRadPerDeg)) << "around the bearing";
-  EXPECT_EQ(story.last().reason, static_cast<std::uint8_t>(PoseReason::kSearching));
-  EXPECT_EQ(story.last().search_outcome, static_cast<std::uint8_t>(SearchOutcome::kAmbiguous));
-  EXPECT_GE(story.last().search_candidates, 2);
-  EXPECT_EQ(story.last().bearing_reason, 0) << "renewed by the same scans";
-  story.run(scene, 3);
-  story.expect({{M::kStandby, E::kSearch, M::kSearching}, {M::kSearching, E::kRecover, M::kBearing}});
-  EXPECT_EQ(story.last().search_outcome, 0) << "nothing stale";
-}
-
-TEST(ComponentModes, ASearchThatIsAlwaysLateEnds) {
-  VERIFIES("LASSO-MOD-136~2 LASSO-EXE-003~1");
-  MissionParameters p = parameters();
-  p.search_frames = 3;
-  ComponentScene scene(p);
-  scene.begin();
-  ASSERT_EQ(scene.component->command_mode(M::kSearching), ModeRefusal::kNone);
-  Story story;
-  for (int frame = 0; frame < 8; ++frame) {
-    for (const Report& report : scene.run_frame(frame % 2 == 1)) story.take(report.pose);
-  }
-  story.expect({{M::kStandby, E::kSearch, M::kSearching}, {M::kSearching, E::kRecover, M::kBearing}});
-}
-
-TEST(ComponentModes, ASearchTrustsNoOldBearing) {
-  VERIFIES("LASSO-MOD-136~2");
-  MissionParameters p = parameters();
-  p.bearing_memory_s = 1;
-  ComponentScene scene(p);
-  scene.begin();
-  ASSERT_EQ(scene.component->command_mode(M::kBearing), ModeRefusal::kNone);
-  Story story;
-  story.run(scene, 4);
-  const test::BoxScene truth = test::default_scene();
-  ASSERT_EQ(scene.component->start_tracking(truth.at_zero, truth.rates, 0), Status::kOk);
-  story.run(scene, 10);
-  ASSERT_EQ(scene.component->command_mode(M::kSearching), ModeRefusal::kNone);
-  story.run(scene, 3);
-  EXPECT_NEAR(story.last().plan_half_extents[0], std::tan(15 * kRadPerDeg), 1e-12);
-}
-
-TEST(ComponentModes, APoseThatWasFoundTooLateIsRefusedByItsName) {
-  VERIFIES("LASSO-MOD-134~1");
-  MissionParameters p = search_parameters();
-  p.start_age_max_s = 0;
-  p.search_scans_max = 1;
-  ComponentScene scene(p, test::uneven_scene());
-  scene.begin();
-  ASSERT_EQ(scene.component->command_mode(M::kBearing), ModeRefusal::kNone);
-  Story story;
-  story.run(scene, 12);
-  EXPECT_EQ(story.last().mode, code(M::kSearching));
-  EXPECT_GE(story.last().refused_starts, 1u);
-  EXPECT_EQ(story.last().refused_way, static_cast<std::uint8_t>(StartWay::kSearch));
-  EXPECT_EQ(story.last().refusal, static_cast<std::uint8_t>(StartRefusal::kTooOld));
-}
-
 // A command in each frame leaves no scan to be reported; the changes are told all the same, in order, by packets of their own.
 TEST(ComponentModes, NoChangeOfTheModeGoesUntold) {
   VERIFIES("LASSO-MOD-137~1");
-  ComponentScene scene(parameters());
+  ComponentScene scene(story_parameters());
   scene.begin();
   Story story;
   for (int i = 0; i < 30; ++i) {

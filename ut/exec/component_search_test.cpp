@@ -1,0 +1,141 @@
+// The component's search for a target of which nothing is known, as telemetry tells it.
+#include <cmath>
+
+#include "ut/exec/mode_story.hpp"
+
+namespace lasso {
+namespace {
+
+using test::code;
+using test::ComponentScene;
+using test::Report;
+using test::Story;
+using test::story_parameters;
+using M = TrackingMode;
+using E = ModeEvent;
+
+MissionParameters search_parameters() {
+  MissionParameters p = test::box_parameters(test::uneven_scene());
+  p.initial_present = 0;
+  p.recover = 1;
+  p.start_fifth = static_cast<double>(StartWay::kSearch);
+  p.points = 400;
+  p.search_slice = 700000;
+  return p;
+}
+
+TEST(ComponentSearch, TheTargetIsFoundWithoutAnyPriorAndTracked) {
+  VERIFIES("LASSO-MOD-123~1 LASSO-MOD-111~1 LASSO-MOD-131~1 LASSO-MOD-137~1");
+  ComponentScene scene(search_parameters(), test::uneven_scene());
+  scene.begin();
+  ASSERT_EQ(scene.component->command_mode(M::kBearing), ModeRefusal::kNone);
+  Story story;
+  story.run(scene, 16);
+  story.expect({{M::kStandby, E::kSeek, M::kBearing},
+                {M::kBearing, E::kSearch, M::kSearching},
+                {M::kSearching, E::kPoseValid, M::kStarting},
+                {M::kStarting, E::kPoseValid, M::kTracking}});
+  EXPECT_EQ(story.last().mode, code(M::kTracking));
+  EXPECT_EQ(story.last().start_way, static_cast<std::uint8_t>(StartWay::kSearch));
+  EXPECT_LT(scene.error(story.last()).norm(), 1e-2);
+  for (const PoseTelemetry& t : story.reports) EXPECT_TRUE(t.valid == 0 || scene.error(t).norm() < 1e-2);
+}
+
+TEST(ComponentSearch, ALostTargetIsLookedForNearItsPredictionThenSearched) {
+  VERIFIES("LASSO-MOD-142~1");
+  MissionParameters p = search_parameters();
+  p.coast_frames = 2;
+  p.reacquire_frames = 2;
+  ComponentScene scene(p, test::uneven_scene());
+  scene.begin();
+  const test::BoxScene truth = test::uneven_scene();
+  ASSERT_EQ(scene.component->start_tracking(truth.at_zero, truth.rates, 0), Status::kOk);
+  Story story;
+  story.run(scene, 6);
+  story.changes.clear();
+  scene.sensor.hidden = true;
+  story.run(scene, 10);
+  scene.sensor.hidden = false;
+  story.run(scene, 16);
+  story.expect({{M::kTracking, E::kPoseInvalid, M::kCoasting},
+                {M::kCoasting, E::kRecover, M::kReacquiring},
+                {M::kReacquiring, E::kRecover, M::kBearing},
+                {M::kBearing, E::kSearch, M::kSearching},
+                {M::kSearching, E::kPoseValid, M::kStarting},
+                {M::kStarting, E::kPoseValid, M::kTracking}});
+  EXPECT_LT(scene.error(story.last()).norm(), 1e-2);
+}
+
+// A box looks alike from several sides: never a guess, and the candidates are told.
+TEST(ComponentSearch, AnAmbiguousTargetIsNeverTracked) {
+  VERIFIES("LASSO-MOD-124~1 LASSO-MOD-120~1 LASSO-MOD-136~2");
+  MissionParameters p = story_parameters();
+  p.points = 400;
+  p.search_slice = 1e7;
+  p.search_frames = 3;
+  ComponentScene scene(p);
+  scene.begin();
+  ASSERT_EQ(scene.component->command_mode(M::kSearching), ModeRefusal::kNone);
+  Story story;
+  story.run(scene, 3);
+  EXPECT_NEAR(story.last().plan_half_extents[0], std::tan(15 * kRadPerDeg), 1e-12) << "no bearing yet";
+  story.run(scene, 3);
+  EXPECT_LT(story.last().plan_half_extents[0], 0.9 * std::tan(15 * kRadPerDeg)) << "around the bearing";
+  EXPECT_EQ(story.last().reason, static_cast<std::uint8_t>(PoseReason::kSearching));
+  EXPECT_EQ(story.last().search_outcome, static_cast<std::uint8_t>(SearchOutcome::kAmbiguous));
+  EXPECT_GE(story.last().search_candidates, 2);
+  EXPECT_EQ(story.last().bearing_reason, 0) << "renewed by the same scans";
+  story.run(scene, 3);
+  story.expect({{M::kStandby, E::kSearch, M::kSearching}, {M::kSearching, E::kRecover, M::kBearing}});
+  EXPECT_EQ(story.last().search_outcome, 0) << "nothing stale";
+}
+
+TEST(ComponentSearch, ASearchThatIsAlwaysLateEnds) {
+  VERIFIES("LASSO-MOD-136~2 LASSO-EXE-003~1");
+  MissionParameters p = story_parameters();
+  p.search_frames = 3;
+  ComponentScene scene(p);
+  scene.begin();
+  ASSERT_EQ(scene.component->command_mode(M::kSearching), ModeRefusal::kNone);
+  Story story;
+  for (int frame = 0; frame < 8; ++frame) {
+    for (const Report& report : scene.run_frame(frame % 2 == 1)) story.take(report.pose);
+  }
+  story.expect({{M::kStandby, E::kSearch, M::kSearching}, {M::kSearching, E::kRecover, M::kBearing}});
+}
+
+TEST(ComponentSearch, ASearchTrustsNoOldBearing) {
+  VERIFIES("LASSO-MOD-136~2");
+  MissionParameters p = story_parameters();
+  p.bearing_memory_s = 1;
+  ComponentScene scene(p);
+  scene.begin();
+  ASSERT_EQ(scene.component->command_mode(M::kBearing), ModeRefusal::kNone);
+  Story story;
+  story.run(scene, 4);
+  const test::BoxScene truth = test::default_scene();
+  ASSERT_EQ(scene.component->start_tracking(truth.at_zero, truth.rates, 0), Status::kOk);
+  story.run(scene, 10);
+  ASSERT_EQ(scene.component->command_mode(M::kSearching), ModeRefusal::kNone);
+  story.run(scene, 3);
+  EXPECT_NEAR(story.last().plan_half_extents[0], std::tan(15 * kRadPerDeg), 1e-12);
+}
+
+TEST(ComponentSearch, APoseThatWasFoundTooLateIsRefusedByItsName) {
+  VERIFIES("LASSO-MOD-134~1");
+  MissionParameters p = search_parameters();
+  p.start_age_max_s = 0;
+  p.search_scans_max = 1;
+  ComponentScene scene(p, test::uneven_scene());
+  scene.begin();
+  ASSERT_EQ(scene.component->command_mode(M::kBearing), ModeRefusal::kNone);
+  Story story;
+  story.run(scene, 12);
+  EXPECT_EQ(story.last().mode, code(M::kSearching));
+  EXPECT_GE(story.last().refused_starts, 1u);
+  EXPECT_EQ(story.last().refused_way, static_cast<std::uint8_t>(StartWay::kSearch));
+  EXPECT_EQ(story.last().refusal, static_cast<std::uint8_t>(StartRefusal::kTooOld));
+}
+
+}  // namespace
+}  // namespace lasso
