@@ -18,7 +18,7 @@ TOOLS = {
     'powerpc-linux-gnu-size': ('g++-powerpc-linux-gnu', 'target'),
     'qemu-ppc': ('qemu-user', 'target'),
     'clang-format': ('clang-format', 'lint'),
-    'clang-tidy-19': ('clang-tidy-19', 'lint'),
+    'clang-tidy-22': ('clang-tidy-22', 'lint'),
     'cppcheck': ('cppcheck', 'lint'),
     'ctest': ('cmake', 'build'),
     'git': ('git', 'lint'),

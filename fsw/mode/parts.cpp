@@ -161,9 +161,9 @@ double gain_of(const Need& need, const Mat6& information) {
 
 PackedCovariance pack(const Mat6& covariance) {
   PackedCovariance packed;
-  float* term = packed.terms;
+  int term = 0;
   for (int row = 0; row < 6; ++row) {
-    for (int column = row; column < 6; ++column) *term++ = static_cast<float>(covariance(row, column));
+    for (int column = row; column < 6; ++column) packed.terms[term++] = static_cast<float>(covariance(row, column));
   }
   return packed;
 }

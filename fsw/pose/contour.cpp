@@ -122,6 +122,7 @@ void test_edge(std::uint32_t contour, Ratio band, Workspace& workspace) {
   for (int row = rows.low; row <= rows.high; ++row) {
     const int first = row * kRayBins + columns.low;
     const int end = row * kRayBins + columns.high + 1;
+    // NOLINTNEXTLINE(clang-analyzer-security.ArrayBound): clamp_bin ends at kRayBins - 1; the analyser does not see it
     for (std::uint32_t k = bins.start[first]; k < bins.start[end]; ++k) test_ray(edge, contour, bins.ray[k], band * band, workspace);
   }
 }

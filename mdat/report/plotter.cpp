@@ -59,12 +59,13 @@ std::string Plotter::draw(const std::string& terminal, const std::string& script
   std::ofstream(folder_ / "script") << "set encoding utf8\nset terminal " << terminal << "\nset output 'figure'\n"
                                     << script << "\nunset output\n";
   const std::string command = "cd " + quoted(folder_.string()) + " && gnuplot script >messages 2>&1";
-  const int code = std::system(command.c_str());
+  const int code = std::system(command.c_str());  // NOLINT(bugprone-command-processor): the folder, all that varies in it, is quoted
   if (code != 0) throw RunError("gnuplot failed (code " + std::to_string(code) + "): " + file_content(messages));
   return file_content(output);
 }
 
 void require_plotter() {
+  // NOLINTNEXTLINE(bugprone-command-processor): nothing varies in it
   if (std::system("gnuplot --version >/dev/null 2>&1") != 0) {
     throw RunError("gnuplot cannot be run; the report needs the package gnuplot-nox (or run with --no-report)");
   }
