@@ -89,7 +89,7 @@ int main(int argc, char** argv) {
     const std::size_t bytes = lasso::take_telemetry(*component, packet);  // here: your downlink
     lasso::PacketHeader header;
     lasso::PoseTelemetry pose;
-    if (lasso::decode_pose({packet, bytes}, header, pose) != lasso::Status::kOk) continue;
+    if (lasso::decode_pose({packet, bytes}, header, pose) != lasso::PacketFault::kNone) continue;
     const double* p = pose.p_sensor_target_m;
     std::printf("scan %u %s %.4f %.4f %.4f m\n", static_cast<unsigned>(pose.scan_id), pose.valid != 0 ? "valid" : "invalid", p[0], p[1],
                 p[2]);

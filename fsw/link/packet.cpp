@@ -1,16 +1,10 @@
 #include "fsw/link/packet.hpp"
 
-#include "fsw/core/crc.hpp"
-
 namespace lasso {
 namespace {
 
 constexpr std::int64_t kUsPerSecond = 1000000;
 constexpr std::int64_t kFractionsPerSecond = std::int64_t{1} << 24;
-constexpr std::uint16_t kTelemetryIdentification = 0x0800;  // version 0, telemetry, secondary header present
-constexpr std::uint16_t kApidMask = 0x07FF;
-constexpr std::uint16_t kUnsegmented = 0xC000;
-constexpr std::size_t kLengthOffset = 4;
 
 void write_time(TimeUs t_us, ByteWriter& out) {
   const CucTime t = to_cuc(t_us);
@@ -25,14 +19,6 @@ TimeUs read_time(ByteReader& in) {
   t.fraction = static_cast<std::uint32_t>(in.u8()) << 16;
   t.fraction |= in.u16();
   return from_cuc(t);
-}
-
-Status check_frame(ConstBytes packet) {
-  if (packet.size() < kPacketHeaderBytes + kPacketTrailerBytes) return Status::kTruncated;
-  if (packet_size(packet) > packet.size()) return Status::kTruncated;
-  if (packet_size(packet) != packet.size()) return Status::kBadLength;
-  // The check sum over data and its own check sum is zero.
-  return crc16_ccitt(packet) == 0 ? Status::kOk : Status::kBadCrc;
 }
 
 void read_secondary_header(ByteReader& in, PacketHeader& header) {
@@ -62,9 +48,10 @@ TimeUs from_cuc(CucTime t) {
 }
 
 void begin_packet(const PacketHeader& header, ByteWriter& writer) {
-  writer.u16(static_cast<std::uint16_t>(kTelemetryIdentification | (header.apid & kApidMask)));
-  writer.u16(static_cast<std::uint16_t>(kUnsegmented | (header.sequence_count & kSequenceCountMask)));
-  writer.u16(0);
+  PrimaryHeader primary;
+  primary.apid = header.apid;
+  primary.sequence_count = header.sequence_count;
+  write_primary_header(primary, writer);
   writer.u8(static_cast<std::uint8_t>(kPusVersion << 4 | (header.time_status & 0x0F)));
   writer.u8(header.service);
   writer.u8(header.subservice);
@@ -73,37 +60,19 @@ void begin_packet(const PacketHeader& header, ByteWriter& writer) {
   write_time(header.t_us, writer);
 }
 
-std::size_t finish_packet(ByteWriter& writer, Bytes out) {
-  const std::size_t size = writer.size() + kPacketTrailerBytes;
-  if (!writer.ok() || size > out.size() || size > kPrimaryHeaderBytes + 0x10000) return 0;
-  ByteWriter length(out.subspan(kLengthOffset, 2));
-  length.u16(static_cast<std::uint16_t>(size - kPrimaryHeaderBytes - 1));
-  writer.u16(crc16_ccitt(writer.written()));
-  return size;
-}
-
-std::size_t packet_size(ConstBytes stream) {
-  if (stream.size() < kPrimaryHeaderBytes) return 0;
-  ByteReader in(stream.subspan(kLengthOffset, 2));
-  return kPrimaryHeaderBytes + 1 + in.u16();
-}
-
-Status parse_packet(ConstBytes packet, PacketHeader& header, ConstBytes& data) {
-  const Status frame = check_frame(packet);
-  if (frame != Status::kOk) return frame;
-  ByteReader in(packet);
-  const std::uint16_t identification = in.u16();
-  const std::uint16_t sequence = in.u16();
-  in.u16();
+PacketFault parse_packet(ConstBytes packet, PacketHeader& header, ConstBytes& data) {
+  const PacketFault fault = check_packet(packet, PacketType::kTelemetry, kPacketHeaderBytes + kPacketTrailerBytes);
+  if (fault != PacketFault::kNone) return fault;
+  ByteReader in(packet.subspan(kPrimaryHeaderBytes, kPacketHeaderBytes - kPrimaryHeaderBytes));
   const std::uint8_t version = in.u8();
-  if ((identification & ~kApidMask) != kTelemetryIdentification) return Status::kBadVersion;
-  if ((sequence & ~kSequenceCountMask) != kUnsegmented || version >> 4 != kPusVersion) return Status::kBadVersion;
-  header.apid = identification & kApidMask;
-  header.sequence_count = sequence & kSequenceCountMask;
+  if (version >> 4 != kPusVersion) return PacketFault::kBadPusVersion;
+  const PrimaryHeader primary = read_primary_header(packet);
+  header.apid = primary.apid;
+  header.sequence_count = primary.sequence_count;
   header.time_status = version & 0x0F;
   read_secondary_header(in, header);
   data = packet.subspan(kPacketHeaderBytes, packet.size() - kPacketHeaderBytes - kPacketTrailerBytes);
-  return Status::kOk;
+  return PacketFault::kNone;
 }
 
 }  // namespace lasso

@@ -125,17 +125,17 @@ std::size_t encode_pose(const PoseTelemetry& pose, PacketHeader header, Bytes ou
   return finish_packet(writer, out);
 }
 
-Status decode_pose(ConstBytes packet, PacketHeader& header, PoseTelemetry& pose) {
+PacketFault decode_pose(ConstBytes packet, PacketHeader& header, PoseTelemetry& pose) {
   PacketHeader parsed;
   ConstBytes data;
-  const Status status = parse_packet(packet, parsed, data);
-  if (status != Status::kOk) return status;
+  const PacketFault fault = parse_packet(packet, parsed, data);
+  if (fault != PacketFault::kNone) return fault;
   ByteReader in(data);
-  if (!is_pose_report(parsed) || in.u16() != kPoseStructureId) return Status::kBadMagic;
-  if (in.remaining() != rows_size(pose_rows(), pose_rows().size())) return Status::kBadLength;
+  if (!is_pose_report(parsed) || in.u16() != kPoseStructureId) return PacketFault::kUnknown;
+  if (in.remaining() != rows_size(pose_rows(), pose_rows().size())) return PacketFault::kBadLength;
   for (const TelemetryRow<P>& row : kRows) row.read(in, pose);
   header = parsed;
-  return Status::kOk;
+  return PacketFault::kNone;
 }
 
 std::size_t pose_row_offset(std::size_t row) { return kPacketHeaderBytes + kStructureIdBytes + rows_size(pose_rows(), row); }

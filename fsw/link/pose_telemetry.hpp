@@ -6,7 +6,6 @@
 #include <cstdint>
 
 #include "fsw/core/span.hpp"
-#include "fsw/core/status.hpp"
 #include "fsw/core/time.hpp"
 #include "fsw/link/packet.hpp"
 #include "fsw/link/row.hpp"
@@ -120,8 +119,8 @@ constexpr std::size_t kMaxPosePacketBytes = 768;
 // Returns the packet's size, 0 when `out` is too small.
 std::size_t encode_pose(const PoseTelemetry& pose, PacketHeader header, Bytes out);
 
-// kTruncated, kBadLength, kBadCrc, kBadVersion or kBadMagic (not a pose packet); `header` and `pose` are then untouched.
-Status decode_pose(ConstBytes packet, PacketHeader& header, PoseTelemetry& pose);
+// kUnknown: not a pose packet. When it is refused, `header` and `pose` are untouched.
+PacketFault decode_pose(ConstBytes packet, PacketHeader& header, PoseTelemetry& pose);
 
 // Offset of a row's first byte from the packet's start. Loop bound: the rows.
 std::size_t pose_row_offset(std::size_t row);

@@ -46,7 +46,7 @@ Decoded decode(ConstBytes stream) {
     }
     PacketHeader header;
     PoseTelemetry pose;
-    if (decode_pose(stream.first(size), header, pose) == Status::kOk) {
+    if (decode_pose(stream.first(size), header, pose) == PacketFault::kNone) {
       decoded.poses.push_back(pose);
     } else {
       ++decoded.broken;

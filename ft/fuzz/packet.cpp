@@ -45,7 +45,7 @@ void decode(ConstBytes input, bool as_it_is) {
   if (!as_it_is) repair(packet.bytes());
   PacketHeader header;
   PoseTelemetry pose;
-  if (decode_pose(packet.bytes(), header, pose) == Status::kOk) check_again(packet.bytes(), header, pose);
+  if (decode_pose(packet.bytes(), header, pose) == PacketFault::kNone) check_again(packet.bytes(), header, pose);
   check_queue(packet.bytes());
 }
 

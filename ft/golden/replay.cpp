@@ -61,7 +61,7 @@ Tally tally(ConstBytes stream) {
     const ConstBytes packet = stream.first(packet_size(stream));
     PacketHeader header;
     PoseTelemetry pose;
-    invariant(decode_pose(packet, header, pose) == Status::kOk, "telemetry that cannot be decoded");
+    invariant(decode_pose(packet, header, pose) == PacketFault::kNone, "telemetry that cannot be decoded");
     ++result.poses;
     result.valid += pose.valid;
     result.returns += pose.returns;

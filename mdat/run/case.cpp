@@ -77,7 +77,8 @@ class Case {
       PacketHeader header;
       PoseTelemetry pose;
       const ConstBytes packet = stream.first(std::min(size, stream.size()));
-      expect(decode_pose(packet, header, pose), "give telemetry that can be decoded");
+      const PacketFault fault = decode_pose(packet, header, pose);
+      if (fault != PacketFault::kNone) throw RunError("the component's telemetry cannot be decoded: " + std::string(to_string(fault)));
       note(pose, record);
       stream = stream.subspan(packet.size(), stream.size() - packet.size());
     }

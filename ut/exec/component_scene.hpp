@@ -21,7 +21,7 @@ inline std::vector<Report> decode_all(ConstBytes stream) {
   while (at < stream.size()) {
     const std::size_t size = packet_size(stream.subspan(at, stream.size() - at));
     Report report;
-    EXPECT_EQ(decode_pose(stream.subspan(at, size), report.header, report.pose), Status::kOk);
+    EXPECT_EQ(decode_pose(stream.subspan(at, size), report.header, report.pose), PacketFault::kNone);
     reports.push_back(report);
     at += size;
   }

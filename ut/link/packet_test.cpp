@@ -41,7 +41,7 @@ std::array<std::uint8_t, 24> packet_by_code() {
 
 ConstBytes view(const std::array<std::uint8_t, 24>& packet) { return ConstBytes(packet.data(), packet.size()); }
 
-Status status_of(ConstBytes packet) {
+PacketFault fault_of(ConstBytes packet) {
   PacketHeader header;
   ConstBytes data;
   return parse_packet(packet, header, data);
@@ -65,7 +65,7 @@ TEST(Packet, GivesBackItsHeaderAndData) {
   VERIFIES("LASSO-LNK-001~1");
   PacketHeader header;
   ConstBytes data;
-  ASSERT_EQ(parse_packet(view(kByHand), header, data), Status::kOk);
+  ASSERT_EQ(parse_packet(view(kByHand), header, data), PacketFault::kNone);
   EXPECT_EQ(header.apid, kApid);
   EXPECT_EQ(header.sequence_count, 0x2567);
   EXPECT_EQ(header.time_status, 3);
@@ -81,26 +81,27 @@ TEST(Packet, GivesBackItsHeaderAndData) {
 
 TEST(Packet, RefusesEveryTruncationAndEveryBitError) {
   VERIFIES("LASSO-LNK-005~1");
-  for (std::size_t n = 0; n < kByHand.size(); ++n) EXPECT_EQ(status_of(ConstBytes(kByHand.data(), n)), Status::kTruncated);
+  for (std::size_t n = 0; n < kByHand.size(); ++n) EXPECT_EQ(fault_of(ConstBytes(kByHand.data(), n)), PacketFault::kTruncated);
   for (std::size_t bit = 0; bit < kByHand.size() * 8; ++bit) {
     auto damaged = kByHand;
     damaged[bit / 8] = static_cast<std::uint8_t>(damaged[bit / 8] ^ (1u << (bit % 8)));
-    EXPECT_NE(status_of(view(damaged)), Status::kOk) << "bit " << bit;
+    EXPECT_NE(fault_of(view(damaged)), PacketFault::kNone) << "bit " << bit;
   }
 }
 
 TEST(Packet, NamesWhatItRefuses) {
   VERIFIES("LASSO-LNK-005~1");
-  EXPECT_EQ(status_of(view(with_byte(0, 0x2B))), Status::kBadVersion);  // packet version 1
-  EXPECT_EQ(status_of(view(with_byte(0, 0x1B))), Status::kBadVersion);  // telecommand
-  EXPECT_EQ(status_of(view(with_byte(0, 0x03))), Status::kBadVersion);  // no secondary header
-  EXPECT_EQ(status_of(view(with_byte(2, 0x65))), Status::kBadVersion);  // segmented
-  EXPECT_EQ(status_of(view(with_byte(6, 0x13))), Status::kBadVersion);  // PUS-A
-  EXPECT_EQ(status_of(view(with_byte(5, 0x10))), Status::kBadLength);
-  EXPECT_EQ(status_of(view(with_byte(5, 0x12))), Status::kTruncated);
+  EXPECT_EQ(fault_of(view(with_byte(0, 0x2B))), PacketFault::kBadVersion);
+  EXPECT_EQ(fault_of(view(with_byte(0, 0x1B))), PacketFault::kBadType);
+  EXPECT_EQ(fault_of(view(with_byte(0, 0x03))), PacketFault::kNoSecondaryHeader);
+  EXPECT_EQ(fault_of(view(with_byte(1, 0xD0))), PacketFault::kOtherApid);
+  EXPECT_EQ(fault_of(view(with_byte(2, 0x65))), PacketFault::kSegmented);
+  EXPECT_EQ(fault_of(view(with_byte(6, 0x13))), PacketFault::kBadPusVersion);  // PUS-A
+  EXPECT_EQ(fault_of(view(with_byte(5, 0x10))), PacketFault::kBadLength);
+  EXPECT_EQ(fault_of(view(with_byte(5, 0x12))), PacketFault::kTruncated);
   auto damaged = kByHand;
   damaged[20] ^= 1;
-  EXPECT_EQ(status_of(view(damaged)), Status::kBadCrc);
+  EXPECT_EQ(fault_of(view(damaged)), PacketFault::kBadCrc);
 }
 
 TEST(Packet, WhatDoesNotFitIsNotAPacket) {

@@ -115,7 +115,7 @@ TEST(PoseTelemetry, CarriesServiceStructureAndCounts) {
   EXPECT_EQ(packet[21], kPoseStructureId);
   PacketHeader decoded;
   PoseTelemetry pose;
-  ASSERT_EQ(decode_pose(view(packet), decoded, pose), Status::kOk);
+  ASSERT_EQ(decode_pose(view(packet), decoded, pose), PacketFault::kNone);
   EXPECT_EQ(decoded.sequence_count, 77);
   EXPECT_EQ(decoded.t_us, 5000000);
 }
@@ -130,7 +130,7 @@ TEST(PoseTelemetry, EncodeDecodeEncodeIsByteIdentical) {
     repair_crc(packet);
     PacketHeader header;
     PoseTelemetry pose;
-    ASSERT_EQ(decode_pose(view(packet), header, pose), Status::kOk);
+    ASSERT_EQ(decode_pose(view(packet), header, pose), PacketFault::kNone);
     ASSERT_EQ(encode(pose, header), packet);
   }
 }
@@ -144,25 +144,25 @@ TEST(PoseTelemetry, RefusesOtherPacketsAndLeavesThePoseAlone) {
   Packet other = good;
   other[8] = 26;
   repair_crc(other);
-  EXPECT_EQ(decode_pose(view(other), header, pose), Status::kBadMagic);
+  EXPECT_EQ(decode_pose(view(other), header, pose), PacketFault::kUnknown);
   other = good;
   other[7] = 5;  // an event's service
   repair_crc(other);
-  EXPECT_EQ(decode_pose(view(other), header, pose), Status::kBadMagic);
+  EXPECT_EQ(decode_pose(view(other), header, pose), PacketFault::kUnknown);
   other = good;
   other[21] = 2;
   repair_crc(other);
-  EXPECT_EQ(decode_pose(view(other), header, pose), Status::kBadMagic);
+  EXPECT_EQ(decode_pose(view(other), header, pose), PacketFault::kUnknown);
   other = good;
   other.erase(other.begin() + 100);
   other[5] = static_cast<std::uint8_t>(other[5] - 1);
   repair_crc(other);
-  EXPECT_EQ(decode_pose(view(other), header, pose), Status::kBadLength);
+  EXPECT_EQ(decode_pose(view(other), header, pose), PacketFault::kBadLength);
   other = good;
   other[100] ^= 1;
-  EXPECT_EQ(decode_pose(view(other), header, pose), Status::kBadCrc);
+  EXPECT_EQ(decode_pose(view(other), header, pose), PacketFault::kBadCrc);
   other = Packet(good.begin(), good.end() - 1);
-  EXPECT_EQ(decode_pose(view(other), header, pose), Status::kTruncated);
+  EXPECT_EQ(decode_pose(view(other), header, pose), PacketFault::kTruncated);
   EXPECT_EQ(pose.scan_id, 99u);
 }
 
