@@ -47,7 +47,7 @@ compile = @echo "build $(1)$(if $(2), ($(2)))"; cmake --build $(1) --parallel $(
 ctest = @rm -rf $(2); mkdir -p $(2); GTEST_OUTPUT=xml:$(abspath $(2))/ \
   ctest --test-dir $(1) --parallel $(JOBS) --output-on-failure --no-tests=error --output-junit $(abspath $(2))/ctest.xml $(3)
 
-.PHONY: help run test accuracy bench basin search montecarlo flips fuzz statistics campaigns-sample golden ppc-count prove ppc-test sanitize arrows coverage mcdc trace evidence gates-selftest figures format lint install clean build
+.PHONY: help run test accuracy bench basin search montecarlo flips fuzz statistics campaigns-sample golden ppc-count prove ppc-test sanitize arrows coverage mcdc trace evidence gates-selftest figures icd format lint install clean build
 .DEFAULT_GOAL := help
 
 help: ## this list
@@ -58,7 +58,7 @@ run: build ## track the tenth-scale Hubble and report into out/run; MISSION=, SC
 
 test: ## build with g++ and clang++ without a warning, and pass all tests of the host; reports in out/test
 	$(begin)
-	$(call packages,build clang)
+	$(call packages,build clang test)
 	$(call configure,$(BUILD),)
 	$(call compile,$(BUILD))
 	$(call configure,$(CLANG),-DCMAKE_CXX_COMPILER=clang++-19)
@@ -178,7 +178,7 @@ sanitize: export LSAN_OPTIONS := suppressions=$(abspath cfg/quality/leaks.txt):p
 sanitize: export UBSAN_OPTIONS := print_stacktrace=1
 sanitize: ## all tests under the address and undefined-behaviour sanitizers, the threaded ones under the thread sanitizer
 	$(begin)
-	$(call packages,build clang)
+	$(call packages,build clang test)
 	$(call configure,$(SANITIZE)-address,$(call sanitized,address$(comma)undefined))
 	$(call compile,$(SANITIZE)-address)
 	$(call configure,$(SANITIZE)-thread,$(call sanitized,thread) -DLASSO_GROUND=OFF)
@@ -231,6 +231,12 @@ gates-selftest: ## every gate fails on its planted violation (ut/gates)
 	$(begin)
 	$(call packages,build target lint trace coverage)
 	@cfg/quality/gates-selftest
+
+icd: ## write the interface document, docs/icd/link.md, from the dictionary
+	$(call packages,build)
+	$(call configure,$(BUILD),)
+	$(call compile,$(BUILD),mdat)
+	@$(BUILD)/mdat/mdat dictionary >docs/icd/link.md
 
 figures: ## write README.md's table from the results of run, bench, ppc-count and prove
 	@docs/figures

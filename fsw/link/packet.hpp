@@ -19,6 +19,7 @@
 namespace lasso {
 
 constexpr std::size_t kPacketHeaderBytes = 20;
+constexpr std::size_t kPacketNumberBytes = 2;  // of the structure, first in the source data
 constexpr std::uint8_t kServiceHousekeeping = 3;
 constexpr std::uint8_t kSubserviceHousekeepingReport = 25;
 

@@ -29,6 +29,15 @@ std::size_t PacketFinder::take(ConstBytes input) {
   return taken;
 }
 
+bool PacketFinder::give_up() {
+  drop(found_);
+  found_ = 0;
+  if (size_ == 0) return false;
+  drop(1);
+  ++skipped_;
+  return true;
+}
+
 // Leaves at the buffer's start what is a packet, or may still become one; true when it is one. Loop bound: the buffer.
 bool PacketFinder::search() {
   std::size_t at = 0;

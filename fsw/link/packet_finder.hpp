@@ -2,9 +2,9 @@
 //
 // A packet may begin where version, type, secondary header flag, APID and sequence flags are those of the packets that are looked for, and
 // the data length is one that the buffer holds. It is a packet when its CRC is right. Where either fails, the search goes on with the next
-// byte: so no packet is lost after garbage of any length, and none within it. What looks like a header but is none delays the packets behind
-// it, until as many bytes have come as it states: at most the buffer's. Garbage passes for a packet as often as a CRC is right by chance,
-// 1 in 2^16, where it has a header. Nothing is allocated: the buffer is the caller's.
+// byte: so no packet is lost after garbage of any length, and none within it. What looks like a header but is none delays the packets
+// behind it, until as many bytes have come as it states (at most the buffer's) or the caller gives it up. Garbage passes for a packet as
+// often as a CRC is right by chance, 1 in 2^16, where it has a header. Nothing is allocated: the buffer is the caller's.
 #pragma once
 
 #include <cstddef>
@@ -23,6 +23,10 @@ class PacketFinder {
   // Takes bytes until a packet is whole or `input` has no more, and returns how many it took. Call it again with the others. Loop bound:
   // bytes of buffer and input; each costs at most one check sum over the buffer.
   std::size_t take(ConstBytes input);
+
+  // For where the rest of a packet will not come: drops the byte at which it seemed to begin, so that the next take() looks behind it.
+  // False: nothing waits.
+  bool give_up();
 
   // The packet that the last take() found, until the next one; empty: none.
   ConstBytes packet() const { return {buffer_.data(), found_}; }

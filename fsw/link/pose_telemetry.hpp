@@ -1,5 +1,5 @@
-// The navigation output of one frame, as plain values: what the packet `pose` says. The executive fills it, the rows of
-// pose_rows() carry it to the ground and back. Units and frames as in the design: SI, T_sensor_target, quaternions x, y, z, w.
+// The navigation output of one frame, as plain values: what the packet `pose` says. The executive fills it, its rows (pose_rows.hpp) carry
+// it to the ground and back. Units and frames as in the design: SI, T_sensor_target, quaternions x, y, z, w.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,6 @@
 #include "fsw/core/span.hpp"
 #include "fsw/core/time.hpp"
 #include "fsw/link/packet.hpp"
-#include "fsw/link/row.hpp"
 
 namespace lasso {
 
@@ -110,9 +109,6 @@ struct PoseTelemetry {
   std::uint32_t dropped_packets = 0;  // did not fit into the telemetry queue
 };
 
-// The dictionary of the packet, in the order of the wire.
-Span<const TelemetryRow<PoseTelemetry>> pose_rows();
-
 constexpr std::size_t kMaxPosePacketBytes = 768;
 
 // Writes the whole packet (headers, structure id, rows, CRC) to `out`. `header` says counts and time; its service fields are set here.
@@ -121,8 +117,5 @@ std::size_t encode_pose(const PoseTelemetry& pose, PacketHeader header, Bytes ou
 
 // kUnknown: not a pose packet. When it is refused, `header` and `pose` are untouched.
 PacketFault decode_pose(ConstBytes packet, PacketHeader& header, PoseTelemetry& pose);
-
-// Offset of a row's first byte from the packet's start. Loop bound: the rows.
-std::size_t pose_row_offset(std::size_t row);
 
 }  // namespace lasso

@@ -1,9 +1,14 @@
-// One typed row per telemetry item. The packer, the decoder, the interface document and the byte-offset test read the same rows;
-// the wire type of a row is the type of its member, so that it cannot be written down differently twice.
+// One typed row per item of a packet, telemetry or command. Packer, decoder and everything that the ground makes of the dictionary
+// (dictionary.hpp) read the same rows; the wire type of a row is the type of its member, so that it cannot be written down differently
+// twice.
+//
+// Flight code does not keep the rows: codec_of() takes from them, at compile time, what packing needs. Their texts serve the ground and are
+// linked by the ground alone.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 #include "fsw/core/byte_codec.hpp"
 #include "fsw/core/span.hpp"
@@ -12,31 +17,90 @@ namespace lasso {
 
 // Big-endian on the wire; two's complement; IEEE 754.
 enum class WireType : std::uint8_t { kU8 = 0, kU16, kU32, kI64, kF32, kF64 };
-const char* to_string(WireType type);  // "u8", ...; never null
-std::size_t wire_size(WireType type);  // bytes of one element
+const char* to_string(WireType type);             // "u8", ...; never null
+constexpr std::size_t wire_size(WireType type) {  // bytes of one element
+  constexpr std::size_t kSizes[] = {1, 2, 4, 8, 4, 8};
+  return kSizes[static_cast<std::size_t>(type)];
+}
 
-template <class Packet>
-struct TelemetryRow {
-  std::uint16_t id;
-  const char* name;
-  WireType type;
-  std::uint16_t count;  // elements
-  const char* unit;     // "m", "rad", "1", ...
-  const char* choices;  // enumerations: value=name pairs joined by '|'; otherwise ""
-  const char* meaning;  // one line
-  void (*write)(const Packet&, ByteWriter&);
-  void (*read)(ByteReader&, Packet&);
-  double (*value)(const Packet&, std::size_t element);  // for printing; exact below 2^53
-
-  std::size_t size() const { return wire_size(type) * count; }
+// One value of an enumeration.
+struct Choice {
+  const char* name = "";
+  const char* meaning = "";  // for a reason: its cause
+  const char* action = "";   // what an operator can do about it, if anything
+};
+struct Enumeration {
+  const char* name = "";
+  Span<const Choice> choices;  // value: position
 };
 
-// Sum of the rows' sizes before `row`.
+// Inclusive, in the item's unit.
+struct Range {
+  double minimum, maximum;
+};
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
+constexpr Range kAny{-kUnbounded, kUnbounded};
+constexpr Range kAtLeastZero{0, kUnbounded};
+constexpr Range kShare{0, 1};
+constexpr Range kUnitVector{-1, 1};
+
+struct ItemRow {
+  std::uint16_t id;  // unique in its packet
+  const char* name;
+  WireType type;
+  std::uint16_t count;             // elements
+  const char* unit;                // "m", "rad", "1", ...
+  Range range;                     // of what is valid; decoders let other values pass, and mark them
+  const Enumeration* enumeration;  // of what its values are; null: they are numbers
+  const char* meaning;             // one line
+
+  constexpr std::size_t size() const { return wire_size(type) * count; }
+};
+
 template <class Packet>
-std::size_t rows_size(Span<const TelemetryRow<Packet>> rows, std::size_t row) {
-  std::size_t size = 0;
-  for (std::size_t i = 0; i < row; ++i) size += rows[i].size();
-  return size;
+struct TypedRow : ItemRow {
+  void (*write)(const Packet&, ByteWriter&);
+  void (*read)(ByteReader&, Packet&);
+};
+
+// What flight code keeps of a packet's rows.
+template <class Packet, std::size_t kRows>
+struct Codec {
+  struct Row {
+    void (*write)(const Packet&, ByteWriter&);
+    void (*read)(ByteReader&, Packet&);
+  };
+  Row rows[kRows] = {};
+  std::size_t bytes = 0;
+
+  void write(const Packet& packet, ByteWriter& out) const {
+    for (const Row& row : rows) row.write(packet, out);
+  }
+  void read(ByteReader& in, Packet& packet) const {
+    for (const Row& row : rows) row.read(in, packet);
+  }
+};
+template <class Packet, std::size_t kRows>
+constexpr Codec<Packet, kRows> codec_of(const TypedRow<Packet> (&rows)[kRows]) {
+  Codec<Packet, kRows> codec;
+  for (std::size_t i = 0; i < kRows; ++i) {
+    codec.rows[i].write = rows[i].write;
+    codec.rows[i].read = rows[i].read;
+    codec.bytes += rows[i].size();
+  }
+  return codec;
+}
+
+// What the ground keeps of them: rows of any packet, as one type.
+template <std::size_t kRows>
+struct Items {
+  ItemRow rows[kRows] = {};
+};
+template <class Packet, std::size_t kRows>
+constexpr Items<kRows> items_of(const TypedRow<Packet> (&rows)[kRows]) {
+  Items<kRows> items;
+  for (std::size_t i = 0; i < kRows; ++i) items.rows[i] = rows[i];
+  return items;
 }
 
 namespace wire {
@@ -118,16 +182,23 @@ struct Field {
   static void read(ByteReader& in, Packet& packet) {
     for (std::size_t i = 0; i < Member::kCount; ++i) get(in, Member::at(packet.*kMember, i));
   }
-  static double value(const Packet& packet, std::size_t i) { return static_cast<double>(Member::at(packet.*kMember, i)); }
 };
 
 }  // namespace wire
 
 template <auto kMember>
-constexpr auto make_row(std::uint16_t id, const char* name, const char* unit, const char* choices, const char* meaning) {
+constexpr auto make_row(std::uint16_t id, const char* name, const char* unit, Range range, const char* meaning) {
   using F = wire::Field<kMember>;
-  return TelemetryRow<typename F::Packet>{
-      id, name, wire::TypeOf<typename F::Type>::kType, F::Member::kCount, unit, choices, meaning, &F::write, &F::read, &F::value};
+  constexpr WireType kType = wire::TypeOf<typename F::Type>::kType;
+  return TypedRow<typename F::Packet>{{id, name, kType, F::Member::kCount, unit, range, nullptr, meaning}, &F::write, &F::read};
+}
+
+template <auto kMember>
+constexpr auto make_row(std::uint16_t id, const char* name, const Enumeration& enumeration, const char* meaning) {
+  const Range range{0, static_cast<double>(enumeration.choices.size()) - 1};
+  auto row = make_row<kMember>(id, name, "1", range, meaning);
+  row.enumeration = &enumeration;
+  return row;
 }
 
 }  // namespace lasso

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "fsw/link/pose_telemetry.hpp"
+#include "fsw/link/telecommand.hpp"
 #include "fsw/mission/mission.hpp"
 #include "fsw/pose/estimator.hpp"
 #include "ft/fuzz/small_image.hpp"
@@ -70,6 +71,21 @@ void write_packets(const fs::path& folder) {
   write(folder / "tracking", seed(1, packet, encode_pose(pose, header, Bytes(packet))));
 }
 
+void write_commands(const fs::path& folder) {
+  std::uint8_t packet[256];
+  CommandHeader header;
+  header.service = 17;
+  header.subservice = 1;
+  for (const std::size_t bytes : {0U, 40U, 243U}) {
+    ByteWriter writer{Bytes(packet)};
+    begin_command(header, writer);
+    for (std::size_t i = 0; i < bytes; ++i) writer.u8(static_cast<std::uint8_t>(i));
+    const std::size_t size = finish_packet(writer, Bytes(packet));
+    write(folder / ("repaired" + std::to_string(bytes)), seed(14, packet, size));
+    write(folder / ("as_it_is" + std::to_string(bytes)), seed(31, packet, size));
+  }
+}
+
 std::string csv_text(const fs::path& folder) {
   const fs::path file = folder / "made.csv";
   const auto scan = small_scan();
@@ -125,6 +141,7 @@ int main(int argc, char** argv) {
   }
   try {
     const std::filesystem::path folder = argv[1];
+    lasso::fuzz::write_commands(folder / "command");
     lasso::fuzz::write_images(folder / "image");
     lasso::fuzz::write_packets(folder / "packet");
     lasso::fuzz::write_scans(folder / "scan");

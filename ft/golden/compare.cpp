@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <string>
 
+#include "fsw/link/dictionary.hpp"
 #include "fsw/link/packet.hpp"
-#include "fsw/link/pose_telemetry.hpp"
 #include "ft/golden/files.hpp"
 
 namespace lasso::golden {
@@ -30,9 +30,10 @@ Place place_of(ConstBytes stream, std::size_t at) {
 }
 
 std::string item_at(std::size_t byte) {
-  if (byte < pose_row_offset(0)) return "header";
-  for (std::size_t i = 0; i < pose_rows().size(); ++i) {
-    if (byte < pose_row_offset(i) + pose_rows()[i].size()) return pose_rows()[i].name;
+  const PacketRow& pose = kPackets[0];
+  if (byte < item_offset(pose, 0)) return "header";
+  for (std::size_t i = 0; i < pose.items.size(); ++i) {
+    if (byte < item_offset(pose, i + 1)) return pose.items[i].name;
   }
   return "check sum";
 }

@@ -9,5 +9,7 @@ void add_mission_commands(CLI::App& app);
 void add_run_command(CLI::App& app);
 void add_replay_command(CLI::App& app);
 void add_modes_command(CLI::App& app);
+void add_decode_command(CLI::App& app);
+void add_dictionary_command(CLI::App& app);
 
 }  // namespace lasso::mdat

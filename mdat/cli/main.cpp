@@ -35,6 +35,8 @@ int run(int argc, char** argv) {
   add_run_command(app);
   add_replay_command(app);
   add_modes_command(app);
+  add_decode_command(app);
+  add_dictionary_command(app);
   app.footer("Exit codes: 0 done, 1 the run failed, 2 usage or bad input.");
   try {
     app.parse(argc, argv);

@@ -1,8 +1,11 @@
 #include "fsw/exec/report.hpp"
 
 #include <cmath>
+#include <iterator>
 #include <string>
+#include <utility>
 
+#include "fsw/link/dictionary.hpp"
 #include "ut/support/verifies.hpp"
 
 namespace lasso {
@@ -217,33 +220,60 @@ TEST(Report, AgeIsNeverNegativeAndNeverWraps) {
   EXPECT_EQ(make_report(Mission{}, numbered_step(), ScanPlan{}, 2000000 + (1LL << 33)).age_us, 0xFFFFFFFFu);
 }
 
+// Of each value from 0 up, and no more.
+template <class E>
+void expect_names(const Enumeration& enumeration, E last) {
+  ASSERT_EQ(enumeration.choices.size(), static_cast<std::size_t>(last) + 1) << enumeration.name;
+  for (std::size_t i = 0; i < enumeration.choices.size(); ++i) {
+    EXPECT_STREQ(enumeration.choices[i].name, to_string(static_cast<E>(i))) << enumeration.name << " " << i;
+    EXPECT_STRNE(enumeration.choices[i].meaning, "") << enumeration.name << " " << i;
+  }
+}
+
 TEST(Report, DictionaryNamesTheEnumerationsAsTheCodeDoes) {
   VERIFIES("LASSO-LNK-002~1");
-  for (const auto& row : pose_rows()) {
-    const std::string name = row.name;
-    std::string expected;
-    for (int i = 0; i <= 15 && name == "reason"; ++i) expected += std::to_string(i) + "=" + to_string(static_cast<PoseReason>(i)) + "|";
-    for (int i = 0; i <= 4 && name == "stop"; ++i) expected += std::to_string(i) + "=" + to_string(static_cast<StopReason>(i)) + "|";
-    const bool is_mode = name == "mode" || name == "change_from" || name == "change_to";
-    for (int i = 0; i <= 8 && is_mode; ++i) expected += std::to_string(i) + "=" + to_string(static_cast<TrackingMode>(i)) + "|";
-    for (int i = 0; i <= 12 && name == "change_event"; ++i)
-      expected += std::to_string(i) + "=" + to_string(static_cast<ModeEvent>(i)) + "|";
-    const bool is_way = name == "start_way" || name == "refused_way";
-    for (int i = 0; i <= 5 && is_way; ++i) expected += std::to_string(i) + "=" + to_string(static_cast<StartWay>(i)) + "|";
-    for (int i = 0; i <= 11 && name == "refusal"; ++i) expected += std::to_string(i) + "=" + to_string(static_cast<StartRefusal>(i)) + "|";
-    for (int i = 0; i <= 11 && name == "bearing_reason"; ++i) {
-      expected += std::to_string(i) + "=" + to_string(static_cast<BearingReason>(i)) + "|";
-    }
-    for (int i = 0; i <= 3 && name == "search_outcome"; ++i) {
-      expected += std::to_string(i) + "=" + to_string(static_cast<SearchOutcome>(i)) + "|";
-    }
-    for (int i = 0; i <= 5 && name == "search_reason"; ++i) {
-      expected += std::to_string(i) + "=" + to_string(static_cast<SearchReason>(i)) + "|";
-    }
-    if (!expected.empty()) {
-      EXPECT_EQ(std::string(row.choices) + "|", expected) << name;
-    }
+  expect_names(kPoseReason, PoseReason::kPartDisagrees);
+  expect_names(kStopReason, StopReason::kNotRun);
+  expect_names(kTrackingMode, TrackingMode::kShortRange);
+  expect_names(kModeEvent, ModeEvent::kFar);
+  expect_names(kStartWay, StartWay::kSearch);
+  expect_names(kStartRefusal, StartRefusal::kNotConfirmed);
+  expect_names(kBearingReason, BearingReason::kJump);
+  expect_names(kSearchOutcome, SearchOutcome::kRejected);
+  expect_names(kSearchReason, SearchReason::kNotRegistered);
+  EXPECT_STREQ(kPattern.choices[static_cast<std::size_t>(PatternKind::kRaster)].name, "raster");
+  EXPECT_EQ(kTrackingMode.choices.size(), mode_properties().size());
+  for (const ModeProperties& mode : mode_properties()) {
+    EXPECT_STREQ(kTrackingMode.choices[static_cast<std::size_t>(mode.mode)].meaning, mode.meaning);
   }
+}
+
+TEST(Report, DictionaryHasTheEnumerationOfEachItem) {
+  VERIFIES("LASSO-LNK-002~1");
+  const std::pair<const char*, const Enumeration*> expected[] = {{"valid", &kYesNo},
+                                                                 {"reason", &kPoseReason},
+                                                                 {"stop", &kStopReason},
+                                                                 {"mode", &kTrackingMode},
+                                                                 {"plan_pattern", &kPattern},
+                                                                 {"held", &kYesNo},
+                                                                 {"change_from", &kTrackingMode},
+                                                                 {"change_event", &kModeEvent},
+                                                                 {"change_to", &kTrackingMode},
+                                                                 {"start_way", &kStartWay},
+                                                                 {"refused_way", &kStartWay},
+                                                                 {"refusal", &kStartRefusal},
+                                                                 {"bearing_reason", &kBearingReason},
+                                                                 {"search_outcome", &kSearchOutcome},
+                                                                 {"search_reason", &kSearchReason}};
+  std::size_t next = 0;
+  for (const ItemRow& row : kPackets[0].items) {
+    if (row.enumeration == nullptr) continue;
+    ASSERT_LT(next, std::size(expected));
+    EXPECT_STREQ(row.name, expected[next].first);
+    EXPECT_EQ(row.enumeration, expected[next].second) << row.name;
+    ++next;
+  }
+  EXPECT_EQ(next, std::size(expected));
 }
 
 }  // namespace

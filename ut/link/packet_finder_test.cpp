@@ -150,5 +150,24 @@ TEST(PacketFinder, WaitsForTheRestOfAPacket) {
   }
 }
 
+TEST(PacketFinder, LooksBehindWhatItGivesUp) {
+  VERIFIES("LASSO-LNK-028~1");
+  Stream stream = command(30, 1);
+  stream.resize(20);  // the rest never comes
+  append(stream, command(3, 2));
+  std::array<std::uint8_t, kRoom> buffer{};
+  PacketFinder finder(PacketType::kCommand, Bytes(buffer.data(), buffer.size()));
+  EXPECT_FALSE(finder.give_up());
+  EXPECT_EQ(finder.take({stream.data(), stream.size()}), stream.size());
+  EXPECT_TRUE(finder.packet().empty());
+  EXPECT_EQ(finder.waiting(), stream.size());
+  EXPECT_TRUE(finder.give_up());
+  finder.take({});
+  EXPECT_EQ(Stream(finder.packet().begin(), finder.packet().end()), command(3, 2));
+  EXPECT_EQ(finder.skipped(), 20u);
+  EXPECT_FALSE(finder.give_up()) << "what was found is no part of what waits";
+  EXPECT_TRUE(finder.packet().empty());
+}
+
 }  // namespace
 }  // namespace lasso

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fsw/core/crc.hpp"
+#include "fsw/link/dictionary.hpp"
 #include "ut/support/generator.hpp"
 #include "ut/support/verifies.hpp"
 
@@ -30,15 +31,13 @@ void repair_crc(Packet& packet) {
   packet[n + 1] = static_cast<std::uint8_t>(crc & 0xFF);
 }
 
-std::size_t row_named(const std::string& name) {
-  for (std::size_t i = 0; i < pose_rows().size(); ++i) {
-    if (name == pose_rows()[i].name) return i;
+std::size_t offset_of(const std::string& name) {
+  for (std::size_t i = 0; i < kPackets[0].items.size(); ++i) {
+    if (name == kPackets[0].items[i].name) return item_offset(kPackets[0], i);
   }
-  ADD_FAILURE() << "no row " << name;
+  ADD_FAILURE() << "no item " << name;
   return 0;
 }
-
-std::size_t offset_of(const std::string& name) { return pose_row_offset(row_named(name)); }
 
 TEST(PoseTelemetry, LiesAtTheseBytes) {
   VERIFIES("LASSO-LNK-002~1");
@@ -176,7 +175,7 @@ TEST(PoseTelemetry, DictionaryIsCompleteAndUnambiguous) {
   VERIFIES("LASSO-LNK-002~1");
   std::set<std::string> names;
   std::set<std::uint16_t> ids;
-  for (const auto& row : pose_rows()) {
+  for (const ItemRow& row : kPackets[0].items) {
     EXPECT_TRUE(names.insert(row.name).second) << row.name;
     EXPECT_TRUE(ids.insert(row.id).second) << row.name;
     EXPECT_STRNE(row.unit, "") << row.name;

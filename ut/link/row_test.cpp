@@ -1,5 +1,6 @@
 #include "fsw/link/row.hpp"
 
+#include <algorithm>
 #include <string>
 
 #include "ut/support/verifies.hpp"
@@ -13,11 +14,15 @@ struct Sample {
   float pair[2] = {};
 };
 
-constexpr TelemetryRow<Sample> kRows[] = {
-    make_row<&Sample::large>(7, "large", "us", "", "a signed number"),
-    make_row<&Sample::small>(3, "small", "1", "0=no|1=yes", "a flag"),
-    make_row<&Sample::pair>(4, "pair", "m", "", "two numbers"),
+constexpr Choice kFlags[] = {{"no", "it is not"}, {"yes", "it is", "be glad"}, {"maybe", "who knows"}};
+constexpr Enumeration kFlag{"flag", Span<const Choice>(kFlags)};
+constexpr TypedRow<Sample> kRows[] = {
+    make_row<&Sample::large>(7, "large", "us", kAny, "a signed number"),
+    make_row<&Sample::small>(3, "small", kFlag, "a flag"),
+    make_row<&Sample::pair>(4, "pair", "m", Range{-1, 2}, "two numbers"),
 };
+constexpr auto kCodec = codec_of(kRows);
+constexpr auto kItems = items_of(kRows);
 
 TEST(Row, TakesItsTypeAndCountFromTheMember) {
   VERIFIES("LASSO-LNK-002~1");
@@ -26,19 +31,30 @@ TEST(Row, TakesItsTypeAndCountFromTheMember) {
   EXPECT_EQ(kRows[1].type, WireType::kU8);
   EXPECT_EQ(kRows[2].type, WireType::kF32);
   EXPECT_EQ(kRows[2].count, 2);
-  EXPECT_EQ(rows_size(Span<const TelemetryRow<Sample>>(kRows), 2), 9u);
-  EXPECT_EQ(rows_size(Span<const TelemetryRow<Sample>>(kRows), 3), 17u);
+  EXPECT_EQ(kRows[2].size(), 8u);
+  EXPECT_EQ(kCodec.bytes, 17u);
+}
+
+TEST(Row, AnEnumerationSaysItsRange) {
+  VERIFIES("LASSO-LNK-002~1");
+  EXPECT_EQ(kItems.rows[0].enumeration, nullptr);
+  EXPECT_EQ(kItems.rows[1].enumeration, &kFlag);
+  EXPECT_EQ(kItems.rows[1].range.minimum, 0);
+  EXPECT_EQ(kItems.rows[1].range.maximum, 2);
+  EXPECT_STREQ(kItems.rows[1].unit, "1");
+  EXPECT_EQ(kItems.rows[2].range.minimum, -1);
+  EXPECT_STREQ(kItems.rows[2].meaning, "two numbers");
 }
 
 TEST(Row, IsTheSameWhenTheCompilerHasNotMadeIt) {
   VERIFIES("LASSO-LNK-002~1");
   const char* name = "large";
-  TelemetryRow<Sample> row = make_row<&Sample::large>(7, name, "us", "", "a signed number");
-  EXPECT_EQ(row.name, name);
-  EXPECT_EQ(row.type, kRows[0].type);
-  EXPECT_EQ(row.count, kRows[0].count);
-  const Sample sample{0, -5, {}};
-  EXPECT_EQ(row.value(sample, 0), kRows[0].value(sample, 0));
+  const TypedRow<Sample> rows[] = {make_row<&Sample::large>(7, name, "us", kAny, "a signed number"),
+                                   make_row<&Sample::small>(3, name, kFlag, ""), make_row<&Sample::pair>(4, name, "m", kAny, "")};
+  EXPECT_EQ(rows[0].name, name);
+  EXPECT_EQ(rows[0].write, kRows[0].write);
+  EXPECT_EQ(codec_of(rows).bytes, kCodec.bytes);
+  EXPECT_EQ(items_of(rows).rows[1].enumeration, &kFlag);
 }
 
 TEST(Row, WritesBigEndianInTheOrderOfTheTable) {
@@ -46,18 +62,17 @@ TEST(Row, WritesBigEndianInTheOrderOfTheTable) {
   const Sample sample{0xAB, -2, {1.0f, -0.5f}};
   std::uint8_t bytes[17] = {};
   ByteWriter writer{Bytes(bytes)};
-  for (const auto& row : kRows) row.write(sample, writer);
+  kCodec.write(sample, writer);
   const std::uint8_t expected[17] = {0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFE, 0xAB, 0x3F, 0x80, 0, 0, 0xBF, 0, 0, 0};
   ASSERT_TRUE(writer.ok());
   EXPECT_TRUE(std::equal(bytes, bytes + 17, expected));
 
   Sample back;
   ByteReader reader{ConstBytes(bytes, 17)};
-  for (const auto& row : kRows) row.read(reader, back);
+  kCodec.read(reader, back);
   EXPECT_EQ(back.small, sample.small);
   EXPECT_EQ(back.large, sample.large);
   EXPECT_EQ(back.pair[1], -0.5f);
-  EXPECT_EQ(kRows[2].value(back, 1), -0.5);
 }
 
 TEST(Row, NamesAndSizesOfTypes) {

@@ -1,7 +1,6 @@
 #include "fsw/link/space_packet.hpp"
 
-#include <string>
-
+#include "fsw/link/choices.hpp"
 #include "ut/support/verifies.hpp"
 
 namespace lasso {
@@ -33,12 +32,12 @@ TEST(SpacePacket, HeaderIsBitForBitAsTheStandardSays) {
   EXPECT_EQ(back.data_length, 0x1234);
 }
 
-TEST(SpacePacket, NamesItsFaults) {
-  VERIFIES("LASSO-LNK-005~1");
-  const std::string names[] = {"none",  "truncated", "bad_length", "bad_crc", "bad_version", "bad_type", "no_secondary_header", "other_apid",
-                               "segmented", "bad_pus_version", "unknown"};
-  std::uint8_t number = 0;
-  for (const std::string& name : names) EXPECT_EQ(to_string(static_cast<PacketFault>(number++)), name);
+TEST(SpacePacket, NamesItsFaultsAsTheDictionaryDoes) {
+  VERIFIES("LASSO-LNK-005~1 LASSO-LNK-002~1");
+  ASSERT_EQ(kPacketFault.choices.size(), static_cast<std::size_t>(PacketFault::kUnknown) + 1);
+  for (std::size_t i = 0; i < kPacketFault.choices.size(); ++i) {
+    EXPECT_STREQ(to_string(static_cast<PacketFault>(i)), kPacketFault.choices[i].name);
+  }
   EXPECT_STREQ(to_string(static_cast<PacketFault>(200)), "no fault");
 }
 

@@ -1,0 +1,148 @@
+// The enumerations of commands and telemetry: what the numbers mean. The numbers are those of the enumerators of the rooms that decide them
+// (fsw/pose, fsw/mode, fsw/sense), which this room does not see: ut/exec/report_test.cpp compares the names. For the ground: see row.hpp.
+#pragma once
+
+#include "fsw/link/row.hpp"
+
+namespace lasso {
+
+// clang-format off
+inline constexpr Choice kNoYes[] = {
+  {"no", "no"},
+  {"yes", "yes"},
+};
+inline constexpr Choice kPoseReasons[] = {
+  {"valid", "the registration can be trusted"},
+  {"no_scan", "the scan was lost or incomplete", "look at lost_scans and at the sensor"},
+  {"too_few_returns", "too few rays came back", "look for the target (mode bearing); compare its range with what the sensor measures"},
+  {"too_few_inliers", "too few returns lie on the model", "start anew from a better pose; check that the mission image is the target's"},
+  {"low_inlier_share", "the pose explains too small a share of the returns", "look for background, an object in between, or a wrong start"},
+  {"low_agreement", "hits and misses are not where the model says", "start anew from a better pose; check that the mission image is the target's"},
+  {"high_residual", "residuals are too large for their noise", "compare [sensor] of the mission with the sensor's real noise"},
+  {"not_converged", "the iterations reached their limit", "none if it is rare; otherwise raise estimation.iterations_max"},
+  {"singular", "the normal equations had no solution: the returns leave a direction open", "wait for another aspect, or widen the scan"},
+  {"no_track", "there is nothing to start from", "send a pose to start from, or command a search"},
+  {"overrun", "the estimate was not ready at its boundary, and was dropped whole", "look at overruns; a shorter scan or fewer iterations take less time"},
+  {"implausible", "the filter excludes a jump this large: a wrong minimum", "none if it is rare; otherwise command reacquiring"},
+  {"only_bearing", "a full-field scan: no attitude is looked for", "none: this is what mode bearing does"},
+  {"far_from_start", "farther from the prediction that it was to confirm than start.gate allows", "send a better pose to start from"},
+  {"searching", "no attitude is known: it is looked for", "none: this is what mode searching does"},
+  {"part_disagrees", "of a part that is elsewhere than the others say", "look at odd_part: it may have moved, or have a wrong model"},
+};
+inline constexpr Choice kStopReasons[] = {
+  {"converged", "the last step was smaller than estimation.stop_translation_m and _rotation_deg"},
+  {"iteration_limit", "estimation.iterations_max was reached"},
+  {"too_few_points", "too few returns lay on the model"},
+  {"singular", "the normal equations had no solution"},
+  {"not_run", "there was nothing to register"},
+};
+inline constexpr Choice kTrackingModes[] = {
+  {"standby", "no scans, no poses"},
+  {"starting", "a pose was given; a scan has to confirm it"},
+  {"tracking", "the last scan gave a valid pose"},
+  {"coasting", "the last scan gave none: the filter predicts"},
+  {"lost", "no scans; every frame says so", "send a pose to start from, or command bearing, searching or reacquiring"},
+  {"bearing", "full-field scans for direction and range"},
+  {"reacquiring", "wide starts near the prediction"},
+  {"searching", "the pose is looked for at any attitude"},
+  {"short_range", "close by: parts of the target in turn"},
+};
+inline constexpr Choice kModeEvents[] = {
+  {"start", "a pose to start from is given, or the next way's turn has come"},
+  {"stop", "commanded to standby"},
+  {"pose_valid", "a scan gave a valid pose"},
+  {"pose_invalid", "a scan gave none, and the mode's frames are not used up"},
+  {"exhausted", "the mode's frames are used up, and the mission asks for no recovery", "see mode lost; tracking.recover asks for recovery"},
+  {"recover", "the mode's frames are used up, and the mission asks for recovery"},
+  {"seek", "commanded to look for the target in the whole field"},
+  {"reacquire", "commanded to look near the prediction"},
+  {"bearing_known", "a full-field scan gave a bearing"},
+  {"bearing_unknown", "a full-field scan gave none"},
+  {"search", "commanded to look for the pose at any attitude, or the turn of that way to start"},
+  {"near", "a scan gave a valid pose, within short_range.enter_m"},
+  {"far", "a scan gave a valid pose, beyond short_range.leave_m"},
+};
+inline constexpr Choice kWays[] = {
+  {"none", "no way"},
+  {"handover", "handed over by a long-range system"},
+  {"navigation", "from a navigation system's stream"},
+  {"apriori", "known a priori, from the mission image"},
+  {"uplink", "sent by the ground"},
+  {"search", "recognised"},
+};
+inline constexpr Choice kStartRefusals[] = {
+  {"none", "it was not refused"},
+  {"not_begun", "the component has not begun", "begin, then send it again"},
+  {"no_such_way", "the number of the way is none by which poses are offered", "see start_way"},
+  {"not_finite", "a value is not a number", "correct it"},
+  {"not_unit", "the quaternion is not of unit length", "normalise it"},
+  {"bad_covariance", "not symmetric, or not of variances and correlations", "correct it"},
+  {"from_future", "stated later than the frame in which it would start", "compare the clocks"},
+  {"too_old", "stated longer ago than start.age_max_s", "send a fresh one"},
+  {"too_fast", "its rates since then have no meaning", "send a fresh one, or correct its rates"},
+  {"out_of_reach", "not in front of the sensor, or wholly outside the ranges that it measures", "compare frames and units with T_sensor_target in metres"},
+  {"not_at_bearing", "not where the bearing sees the target", "compare it with the item bearing"},
+  {"not_confirmed", "no scan confirmed it within start.frames", "send a better one, or command a search"},
+};
+inline constexpr Choice kBearingReasons[] = {
+  {"valid", "the bearing can be trusted"},
+  {"no_scan", "no samples: the scan was lost", "look at lost_scans and at the sensor"},
+  {"out_of_order", "samples, or the scan after its predecessor, go back in time", "look at the sensor's clock"},
+  {"same_scan", "this scan has been looked at already"},
+  {"nothing_seen", "no ray returned", "point the sensor at the target, or wait for it to come into its range"},
+  {"not_finite", "no return can be believed; the first is not a number", "look at the sensor"},
+  {"outside_field", "no return can be believed; the first is not from the field of view", "look at the sensor and its calibration"},
+  {"outside_range", "no return can be believed; the first is nearer or farther than the sensor measures", "compare sensor.range_min_m and _max_m with the target's range"},
+  {"too_few_returns", "fewer than bearing.returns_min, with or without background and strays", "wait for a nearer target, or lower bearing.returns_min"},
+  {"one_direction", "all returns along one ray: the mirrors stand still", "look at the sensor"},
+  {"only_background", "no group of the target's size stands alone", "point the sensor at the target"},
+  {"jump", "far from where the scans before say that it is", "none: it starts anew after bearing.memory_s"},
+};
+inline constexpr Choice kSearchOutcomes[] = {
+  {"none", "no search, or still at work"},
+  {"accepted", "a pose is recognised, and offered as a start"},
+  {"ambiguous", "more than one pose explains the scans", "choose among the candidates, and send the one that is right"},
+  {"rejected", "no pose explains them", "see search_reason"},
+};
+inline constexpr Choice kSearchReasons[] = {
+  {"not_done", "idle, or still at work"},
+  {"distinct", "the best pose explains the scans, and no other does"},
+  {"competitor", "another pose explains them nearly as well", "wait for another aspect, or choose among the candidates"},
+  {"too_few_returns", "fewer returns than search.hits_min", "wait for a nearer target, or lower search.hits_min"},
+  {"unexplained", "the best pose leaves too much unexplained", "check that the mission image is the target's; look for background"},
+  {"not_registered", "the registration of the best pose failed", "wait for another aspect"},
+};
+inline constexpr Choice kPacketFaults[] = {
+  {"none", "it is accepted"},
+  {"truncated", "fewer bytes than its headers need, or than its length field says", "look at the link"},
+  {"bad_length", "more bytes than its length field says, or not as many as its items need", "compare the sender's dictionary with this one"},
+  {"bad_crc", "the check sum does not match", "look at the link"},
+  {"bad_version", "the packet version number is not 0", "look at the sender"},
+  {"bad_type", "a command where telemetry is expected, or the reverse", "look at the routing"},
+  {"no_secondary_header", "the flag of the secondary header is 0", "look at the sender"},
+  {"other_apid", "for somebody else", "look at the routing"},
+  {"segmented", "the sequence flags are not 3", "send each packet whole"},
+  {"bad_pus_version", "the secondary header is not of PUS-C", "look at the sender"},
+  {"unknown", "nothing has this service, subservice and number", "compare the sender's dictionary with this one"},
+};
+inline constexpr Choice kPatterns[] = {
+  {"rosette", "two circles of coprime frequencies"},
+  {"lissajous", "a Lissajous figure"},
+  {"raster", "lines"},
+};
+
+inline constexpr Enumeration kYesNo{"yes_no", Span<const Choice>(kNoYes)};
+inline constexpr Enumeration kPoseReason{"pose_reason", Span<const Choice>(kPoseReasons)};
+inline constexpr Enumeration kStopReason{"stop_reason", Span<const Choice>(kStopReasons)};
+inline constexpr Enumeration kTrackingMode{"mode", Span<const Choice>(kTrackingModes)};
+inline constexpr Enumeration kModeEvent{"mode_event", Span<const Choice>(kModeEvents)};
+inline constexpr Enumeration kStartWay{"start_way", Span<const Choice>(kWays)};
+inline constexpr Enumeration kStartRefusal{"start_refusal", Span<const Choice>(kStartRefusals)};
+inline constexpr Enumeration kBearingReason{"bearing_reason", Span<const Choice>(kBearingReasons)};
+inline constexpr Enumeration kSearchOutcome{"search_outcome", Span<const Choice>(kSearchOutcomes)};
+inline constexpr Enumeration kSearchReason{"search_reason", Span<const Choice>(kSearchReasons)};
+inline constexpr Enumeration kPacketFault{"packet_fault", Span<const Choice>(kPacketFaults)};
+inline constexpr Enumeration kPattern{"pattern", Span<const Choice>(kPatterns)};
+// clang-format on
+
+}  // namespace lasso

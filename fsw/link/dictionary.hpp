@@ -1,0 +1,73 @@
+// The dictionary: every packet of the link, row by row. Encoders and decoders of the flight component are made from its rows, and so are
+// the ground's: `mdat decode`, and the documents of `mdat dictionary`. For the ground: see row.hpp.
+#pragma once
+
+#include <cstdint>
+
+#include "fsw/link/packet.hpp"
+#include "fsw/link/pose_rows.hpp"
+#include "fsw/link/row.hpp"
+#include "fsw/link/telecommand.hpp"
+
+namespace lasso {
+
+// A number of a header: most significant bit first, `bit` counted from the packet's start.
+struct HeaderField {
+  const char* name;
+  std::uint16_t bit;
+  std::uint16_t bits;
+  const char* meaning;
+};
+
+struct PacketRow {
+  const char* name;
+  PacketType type;
+  std::uint8_t service, subservice;
+  std::uint16_t number;  // 16 bits behind the headers: the structure
+  Span<const ItemRow> items;
+  const char* meaning;
+};
+
+// clang-format off
+inline constexpr HeaderField kPrimaryFields[] = {
+  {"version", 0, 3, "packet version number, 0"},
+  {"type", 3, 1, "0: telemetry, 1: command"},
+  {"secondary_header", 4, 1, "there is a secondary header, 1"},
+  {"apid", 5, 11, "application process: this component"},
+  {"sequence_flags", 16, 2, "unsegmented, 3"},
+  {"sequence_count", 18, 14, "counts the packets of the APID, modulo 16384"},
+  {"data_length", 32, 16, "octets after this field, minus one"},
+};
+inline constexpr HeaderField kTelemetryFields[] = {
+  {"pus_version", 48, 4, "PUS-C, 2"},
+  {"time_status", 52, 4, "quality of the time reference; 0: not stated"},
+  {"service", 56, 8, "service type"},
+  {"subservice", 64, 8, "message subtype"},
+  {"message_count", 72, 16, "counts the packets of this service and subservice, modulo 65536"},
+  {"destination", 88, 16, "whom it is for; 0: everybody"},
+  {"time_seconds", 104, 32, "CUC: seconds since the mission's epoch, modulo 2^32"},
+  {"time_fraction", 136, 24, "CUC: fraction of a second, in 2^-24 s"},
+};
+inline constexpr HeaderField kCommandFields[] = {
+  {"pus_version", 48, 4, "PUS-C, 2"},
+  {"acknowledge", 52, 4, "reports asked for: 8 acceptance, 4 start, 2 progress, 1 completion"},
+  {"service", 56, 8, "service type"},
+  {"subservice", 64, 8, "message subtype"},
+  {"source", 72, 16, "who sends it"},
+};
+
+inline constexpr auto kPoseItems = items_of(pose_rows::kRows);
+inline constexpr PacketRow kPackets[] = {
+  {"pose", PacketType::kTelemetry, kServiceHousekeeping, kSubserviceHousekeepingReport, kPoseStructureId, Span<const ItemRow>(kPoseItems.rows),
+   "the navigation output of one frame"},
+};
+// clang-format on
+
+// Offset of an item's first byte from the packet's start. Loop bound: the items.
+inline std::size_t item_offset(const PacketRow& packet, std::size_t item) {
+  std::size_t offset = kPacketHeaderBytes + kPacketNumberBytes;
+  for (std::size_t i = 0; i < item; ++i) offset += packet.items[i].size();
+  return offset;
+}
+
+}  // namespace lasso

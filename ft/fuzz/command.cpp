@@ -1,0 +1,104 @@
+// Bytes that claim to be commands, one packet and a stream of them. What the decoder accepts must encode to the same bytes again; what the
+// finder finds in a stream, in pieces, must be what looking at every place of it finds. The first byte: bit 0 leaves length and check sum
+// as they are, bit 1 puts the packet between two halves of itself; the others say how large the pieces are.
+#include <algorithm>
+#include <vector>
+
+#include "fsw/core/crc.hpp"
+#include "fsw/link/packet_finder.hpp"
+#include "fsw/link/telecommand.hpp"
+#include "ft/fuzz/exact.hpp"
+
+namespace lasso::fuzz {
+namespace {
+
+using Packets = std::vector<std::vector<std::uint8_t>>;
+constexpr std::size_t kRoom = 256;
+constexpr std::size_t kLargestBytes = 1024;  // more of the same would take longer
+
+void repair(Bytes packet) {
+  if (packet.size() < kPrimaryHeaderBytes + kPacketTrailerBytes) return;
+  const std::size_t length = packet.size() - kPrimaryHeaderBytes - 1;
+  packet[4] = static_cast<std::uint8_t>(length >> 8);
+  packet[5] = static_cast<std::uint8_t>(length);
+  const std::size_t end = packet.size() - kPacketTrailerBytes;
+  const std::uint16_t crc = crc16_ccitt(packet.first(end));
+  packet[end] = static_cast<std::uint8_t>(crc >> 8);
+  packet[end + 1] = static_cast<std::uint8_t>(crc);
+}
+
+void check_command(ConstBytes packet) {
+  CommandHeader header;
+  ConstBytes data;
+  if (parse_command(packet, header, data) != PacketFault::kNone) return expect(data.empty(), "a refused command gives no data");
+  std::vector<std::uint8_t> again(packet.size());
+  const Bytes out(again.data(), again.size());
+  ByteWriter writer(out);
+  begin_command(header, writer);
+  writer.bytes(data);
+  expect(finish_packet(writer, out) == packet.size(), "an accepted command encodes to its own size");
+  expect(std::equal(again.begin(), again.end(), packet.begin()), "and to its own bytes");
+}
+
+// The same rule, applied at every place.
+bool is_packet(ConstBytes rest, std::size_t& size) {
+  if (rest.size() < kPrimaryHeaderBytes) return false;
+  const PrimaryHeader header = read_primary_header(rest);
+  size = packet_size(rest);
+  return header.version == 0 && header.type == PacketType::kCommand && header.secondary_header && header.apid == kApid &&
+         header.sequence_flags == kUnsegmented && size >= kPrimaryHeaderBytes + kPacketTrailerBytes && size <= kRoom &&
+         size <= rest.size() && crc16_ccitt(rest.first(size)) == 0;
+}
+
+Packets packets_by_places(ConstBytes stream) {
+  Packets packets;
+  for (std::size_t at = 0; at < stream.size();) {
+    std::size_t size = 0;
+    const ConstBytes rest = stream.subspan(at, stream.size() - at);
+    const bool found = is_packet(rest, size);
+    if (found) packets.emplace_back(rest.begin(), rest.begin() + size);
+    at += found ? size : 1;
+  }
+  return packets;
+}
+
+Packets packets_by_finder(ConstBytes stream, std::size_t piece) {
+  const std::vector<std::uint8_t> zeros(kRoom);
+  ExactCopy buffer(ConstBytes(zeros.data(), zeros.size()));
+  PacketFinder finder(PacketType::kCommand, buffer.bytes());
+  Packets packets;
+  std::size_t at = 0, in_packets = 0;
+  while (true) {
+    at += finder.take(stream.subspan(at, std::min(piece, stream.size() - at)));
+    if (finder.packet().empty() && at < stream.size()) continue;
+    if (finder.packet().empty() && !finder.give_up()) break;
+    if (!finder.packet().empty()) packets.emplace_back(finder.packet().begin(), finder.packet().end());
+    in_packets += finder.packet().size();
+  }
+  expect(finder.skipped() == stream.size() - in_packets, "every byte is of a packet or skipped");
+  return packets;
+}
+
+void run(ConstBytes input, std::uint8_t options) {
+  ExactCopy packet(input);
+  if ((options & 1) == 0) repair(packet.bytes());
+  check_command(packet.bytes());
+  std::vector<std::uint8_t> stream(packet.bytes().begin(), packet.bytes().end());
+  if ((options & 2) != 0) {
+    const std::size_t half = stream.size() / 2;
+    const std::vector<std::uint8_t> whole = stream;
+    stream.insert(stream.begin(), whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(half));
+    stream.insert(stream.end(), whole.begin() + static_cast<std::ptrdiff_t>(half), whole.end());
+  }
+  ExactCopy exact(ConstBytes(stream.data(), stream.size()));
+  const std::size_t piece = std::size_t{1} + (options >> 2);
+  expect(packets_by_finder(exact.bytes(), piece) == packets_by_places(exact.bytes()), "the finder finds what is there");
+}
+
+}  // namespace
+}  // namespace lasso::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size > 0) lasso::fuzz::run({data + 1, std::min(size - 1, lasso::fuzz::kLargestBytes)}, data[0]);
+  return 0;
+}

@@ -1,0 +1,172 @@
+// Telemetry of a run: decoded, listed, and decoded again by tshark, which knows nothing of this project but the generated dissector.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "ft/mdat/command.hpp"
+#include "ut/support/verifies.hpp"
+
+namespace lasso::ft {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kRun = "run missions/test.toml --scenario spin --frames 12 --no-report --out run";
+
+bool have_tshark() { return std::system("tshark --version >/dev/null 2>&1") == 0; }
+
+// As tshark prints it: floats with the digits that they surely have.
+std::string printed(const Json& value, const Json& item, const Json& enumerations) {
+  if (item.contains("enumeration")) {
+    for (const Json& choice : enumerations.at(item.at("enumeration").get<std::string>())) {
+      if (choice.at("name") == value) return choice.at("value").dump();
+    }
+  }
+  const std::string type = item.at("type");
+  if (type[0] != 'f') return value.dump();
+  char text[40];
+  const double number = type == "f32" ? static_cast<double>(value.get<float>()) : value.get<double>();
+  (void)std::snprintf(text, sizeof text, type == "f32" ? "%.6g" : "%.15g", number);
+  return text;
+}
+
+std::string printed_all(const Json& value, const Json& item, const Json& enumerations) {
+  if (!value.is_array()) return printed(value, item, enumerations);
+  std::string text;
+  for (const Json& each : value) text += (text.empty() ? "" : ",") + printed(each, item, enumerations);
+  return text;
+}
+
+std::vector<std::string> split(const std::string& line) {
+  std::vector<std::string> fields(1);
+  for (const char c : line) {
+    if (c == '\t') fields.emplace_back();
+    if (c != '\t') fields.back() += c;
+  }
+  return fields;
+}
+
+TEST(Link, TsharkDecodesARunAsMdatDoes) {
+  VERIFIES("LASSO-LNK-024~1 LASSO-GND-022~1");
+  if (!have_tshark()) GTEST_SKIP() << "tshark is missing: install cfg/packages/test.txt";
+  const WorkFolder work;
+  ASSERT_EQ(work.mdat(kRun).exit_code, 0);
+  work.write("lasso.lua", work.mdat("dictionary --format lua").out);
+  work.write("run.pcap", work.mdat("decode run/telemetry.ccsds --format pcap").out);
+  const Json dictionary = Json::parse(work.mdat("dictionary --format json").out);
+  const Json decoded = Json::parse(work.mdat("decode run/telemetry.ccsds --format json").out);
+  const Json& items = dictionary.at("packets").at(0).at("items");
+
+  std::string fields = " -e lasso.crc_right -e lasso.structure";
+  std::vector<std::string> header;
+  for (const char* part : {"primary", "telemetry"}) {
+    for (const Json& field : dictionary.at("headers").at(part)) header.push_back(field.at("name"));
+  }
+  for (const std::string& name : header) fields += " -e lasso." + name;
+  for (const Json& item : items) fields += " -e lasso.pose." + item.at("name").get<std::string>();
+  const std::string command = "cd '" + (work / "").string() +
+                              "' && HOME=. tshark -X lua_script:lasso.lua -r run.pcap -T fields -E occurrence=a -E aggregator=," + fields +
+                              " >tshark.txt 2>tshark.err";
+  ASSERT_EQ(std::system(command.c_str()), 0) << work.read("tshark.err");
+  const std::vector<std::string> lines = lines_of(work.read("tshark.txt"));
+  ASSERT_EQ(lines.size(), decoded.at("packets").size());
+  ASSERT_GE(lines.size(), 12U);
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const Json& packet = decoded.at("packets").at(i);
+    const std::vector<std::string> found = split(lines[i]);
+    ASSERT_EQ(found.size(), 2 + header.size() + items.size());
+    EXPECT_EQ(found[0], "1") << "the check sum, by the dissector's own arithmetic";
+    EXPECT_EQ(found[1], "1");
+    for (std::size_t k = 0; k < header.size(); ++k) EXPECT_EQ(found[2 + k], packet.at("header").at(header[k]).dump()) << header[k];
+    for (std::size_t k = 0; k < items.size(); ++k) {
+      const Json& value = packet.at("items").at(items[k].at("name").get<std::string>());
+      EXPECT_EQ(found[2 + header.size() + k], printed_all(value, items[k], dictionary.at("enumerations"))) << items[k].at("name");
+    }
+  }
+}
+
+TEST(Link, DecodePrintsARunInEachFormat) {
+  VERIFIES("LASSO-GND-021~1");
+  const WorkFolder work;
+  ASSERT_EQ(work.mdat(kRun).exit_code, 0);
+  const Answer table = work.mdat("decode run/telemetry.ccsds");
+  EXPECT_EQ(table.exit_code, 0);
+  EXPECT_NE(table.out.find("  mode                       tracking\n"), std::string::npos);
+  EXPECT_NE(table.err.find("12 packets, 0 bytes"), std::string::npos) << table.err;
+  EXPECT_EQ(lines_of(work.mdat("decode run/telemetry.ccsds --format csv --items scan_id").out).size(), 13U);
+  EXPECT_EQ(Json::parse(work.mdat("decode run/telemetry.ccsds --format json").out).at("packets").size(), 12U);
+  const Answer headers = work.mdat("decode --headers run/telemetry.ccsds --format csv");
+  EXPECT_EQ(lines_of(headers.out).size(), 13U);
+  EXPECT_NE(headers.err.find("12 packets: CRC right in 12, wrong in 0; 0 gaps"), std::string::npos) << headers.err;
+}
+
+// Of somebody else: another APID, and a secondary header of another form.
+TEST(Link, HeadersOfAnyStreamAreListed) {
+  VERIFIES("LASSO-GND-021~1");
+  const WorkFolder work;
+  // Three packets of APID 1216, put together by hand; the second one is missing, the third is damaged.
+  const std::string first(
+      "\x0C\xC0\xE7\x35\x00\x05"
+      "abcd\xFA\x46",
+      12),
+      third(
+          "\x0C\xC0\xE7\x37\x00\x05"
+          "abcd\x00\x00",
+          12);
+  work.write("other.tlm", first + third + "\x0C");
+  const Answer answer = work.mdat("decode --headers other.tlm");
+  EXPECT_EQ(answer.exit_code, 0) << answer.err;
+  const std::vector<std::string> lines = lines_of(answer.out);
+  ASSERT_EQ(lines.size(), 3U);
+  EXPECT_EQ(lines[1], "       0  1216 telemetry     3 10037      12 right  ");
+  EXPECT_EQ(lines[2], "      12  1216 telemetry     3 10039      12 WRONG  1");
+  EXPECT_NE(answer.err.find("1 gaps in the sequence, 1 packets missing; 1 bytes left over"), std::string::npos) << answer.err;
+}
+
+TEST(Link, RefusedInputIsNamed) {
+  VERIFIES("LASSO-GND-021~1");
+  const WorkFolder work;
+  const Answer missing = work.mdat("decode nothing.ccsds");
+  EXPECT_EQ(missing.exit_code, 2);
+  EXPECT_NE(missing.err.find("nothing.ccsds: no such file"), std::string::npos) << missing.err;
+  work.write("empty", "");
+  const Answer item = work.mdat("decode empty --items colour");
+  EXPECT_EQ(item.exit_code, 2);
+  EXPECT_NE(item.err.find("--items colour: no packet has it"), std::string::npos) << item.err;
+  EXPECT_EQ(work.mdat("decode empty --headers --items mode").exit_code, 2);
+  EXPECT_EQ(work.mdat("decode empty").exit_code, 0);
+  EXPECT_EQ(work.mdat("dictionary --format pdf").exit_code, 2);
+}
+
+TEST(Link, InterfaceDocumentIsUpToDate) {
+  VERIFIES("LASSO-GND-022~1");
+  const WorkFolder work;
+  const Answer answer = work.mdat("dictionary");
+  ASSERT_EQ(answer.exit_code, 0);
+  EXPECT_TRUE(answer.out == read_text(std::filesystem::path(MDAT_SOURCES) / "docs/icd/link.md"))
+      << "docs/icd/link.md is not what mdat dictionary says: make icd writes it";
+}
+
+// The texts of the dictionary are for the ground.
+TEST(Link, FlightCodeHasNoTextOfTheDictionary) {
+  VERIFIES("LASSO-LNK-035~1");
+  const WorkFolder work;
+  const Json dictionary = Json::parse(work.mdat("dictionary --format json").out);
+  const std::string archive = read_text(LINK_ARCHIVE);
+  ASSERT_NE(archive.find("encode_pose"), std::string::npos) << "the right archive";
+  for (const Json& item : dictionary.at("packets").at(0).at("items")) {
+    const std::string meaning = item.at("meaning");
+    if (meaning.size() > 8) {
+      EXPECT_EQ(archive.find(meaning), std::string::npos) << meaning;
+    }
+  }
+  for (const Json& choices : dictionary.at("enumerations")) {
+    for (const Json& choice : choices) EXPECT_EQ(archive.find(choice.at("meaning").get<std::string>() + '\0'), std::string::npos) << choice;
+  }
+}
+
+}  // namespace
+}  // namespace lasso::ft

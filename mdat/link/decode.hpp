@@ -1,0 +1,58 @@
+// Streams of packets, by the dictionary.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "fsw/link/dictionary.hpp"
+#include "fsw/link/space_packet.hpp"
+#include "mdat/link/number.hpp"
+
+namespace lasso::mdat {
+
+struct DecodedItem {
+  const ItemRow* row = nullptr;
+  std::vector<Number> values;  // row->count of them
+};
+
+struct DecodedPacket {
+  std::size_t offset = 0;             // in the stream
+  ConstBytes bytes;                   // of the stream
+  std::vector<std::uint64_t> header;  // of the fields of header_fields()
+  const PacketRow* row = nullptr;     // null: not in the dictionary, or not as long as its items
+  std::vector<DecodedItem> items;
+  const char* name() const { return row != nullptr ? row->name : "unknown"; }
+};
+
+struct DecodedStream {
+  std::vector<DecodedPacket> packets;
+  std::size_t other_bytes = 0;  // that belong to no packet
+};
+
+// Of the primary and the secondary header, in the order of the wire.
+std::vector<HeaderField> header_fields(PacketType type);
+
+// The packets of this component in `stream`, which outlives them: found by their headers and CRC, whatever lies between them.
+DecodedStream decode_stream(ConstBytes stream, PacketType type);
+
+// The packet at the start of `bytes`, which has to be whole and its CRC right.
+DecodedPacket decode_packet(ConstBytes bytes, PacketType type);
+
+// One packet of any stream of space packets.
+struct HeaderLine {
+  std::size_t offset = 0;
+  std::size_t size = 0;
+  PrimaryHeader header;
+  bool crc_right = false;
+  std::uint32_t missing = 0;  // packets of its type and APID between it and the one before, by their counts
+};
+struct HeaderList {
+  std::vector<HeaderLine> lines;
+  std::size_t left_over = 0;  // bytes at the end that are no whole packet
+};
+
+// Packet after packet by their length fields, whoever's they are. Ends before a packet that is not whole, or whose version is not 0.
+HeaderList list_headers(ConstBytes stream);
+
+}  // namespace lasso::mdat

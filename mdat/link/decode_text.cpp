@@ -1,0 +1,233 @@
+#include "mdat/link/decode_text.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "mdat/common/errors.hpp"
+#include "mdat/common/text.hpp"
+
+namespace lasso::mdat {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+bool shows(const Selection& selection, const DecodedPacket& packet) {
+  return selection.packet.empty() || selection.packet == packet.name();
+}
+
+bool shows(const Selection& selection, const ItemRow& row) {
+  return selection.items.empty() || std::find(selection.items.begin(), selection.items.end(), row.name) != selection.items.end();
+}
+
+// The name of an enumeration's value, or the number.
+std::string shown(const ItemRow& row, const Number& number) {
+  const Choice* choice = choice_of(row, number);
+  return choice != nullptr ? choice->name : text_of(number);
+}
+
+std::string shown(const DecodedItem& item) {
+  std::string text;
+  bool valid = true;
+  for (const Number& number : item.values) {
+    text += (text.empty() ? "" : " ") + shown(*item.row, number);
+    valid = valid && in_range(*item.row, number);
+  }
+  return valid ? text : text + " (!)";
+}
+
+std::uint64_t header_value(const DecodedPacket& packet, const char* name, PacketType type = PacketType::kTelemetry) {
+  const std::vector<HeaderField> fields = header_fields(type);
+  for (std::size_t i = 0; i < packet.header.size(); ++i) {
+    if (std::string(fields[i].name) == name) return packet.header[i];
+  }
+  return 0;
+}
+
+PacketType type_of(const DecodedPacket& packet) { return read_primary_header(packet.bytes).type; }
+
+double time_s(const DecodedPacket& packet) {
+  return static_cast<double>(header_value(packet, "time_seconds")) + static_cast<double>(header_value(packet, "time_fraction")) * 0x1p-24;
+}
+
+std::string title(const DecodedPacket& packet) {
+  const unsigned long long count = header_value(packet, "sequence_count");
+  if (type_of(packet) == PacketType::kCommand) return format("%-10s #%llu", packet.name(), count);
+  return format("%-10s #%llu %.6f s", packet.name(), count, time_s(packet));
+}
+
+std::string block(const DecodedPacket& packet) {
+  std::string text = title(packet) + format(" (%zu bytes at %zu)\n", packet.bytes.size(), packet.offset);
+  for (const DecodedItem& item : packet.items) {
+    const std::string unit = std::string(item.row->unit) == "1" ? "" : std::string(" ") + item.row->unit;
+    text += format("  %-26s %s%s\n", item.row->name, shown(item).c_str(), unit.c_str());
+  }
+  return text;
+}
+
+std::string line(const DecodedPacket& packet, const Selection& selection) {
+  std::string text = title(packet);
+  for (const DecodedItem& item : packet.items) {
+    if (shows(selection, *item.row)) text += "  " + shown(item);
+  }
+  return text + "\n";
+}
+
+Json json_of(const ItemRow& row, const Number& number) {
+  const Choice* choice = choice_of(row, number);
+  if (choice != nullptr) return choice->name;
+  if (const auto* whole = std::get_if<std::int64_t>(&number)) return *whole;
+  const std::string text = text_of(number);
+  // The double that is written as the shortest text of a float.
+  return text.find_first_of("ni") == std::string::npos ? Json(std::stod(text)) : Json(text);
+}
+
+Json json_of(const DecodedItem& item) {
+  if (item.row->count == 1) return json_of(*item.row, item.values.front());
+  Json list = Json::array();
+  for (const Number& number : item.values) list.push_back(json_of(*item.row, number));
+  return list;
+}
+
+Json json_of(const DecodedPacket& packet, const Selection& selection) {
+  Json json = {{"packet", packet.name()}, {"offset", packet.offset}, {"size", packet.bytes.size()}, {"header", Json::object()}};
+  const std::vector<HeaderField> fields = header_fields(type_of(packet));
+  for (std::size_t i = 0; i < packet.header.size(); ++i) json["header"][fields[i].name] = packet.header[i];
+  json["items"] = Json::object();
+  for (const DecodedItem& item : packet.items) {
+    if (shows(selection, *item.row)) json["items"][item.row->name] = json_of(item);
+  }
+  return json;
+}
+
+std::string csv_head(const PacketRow& packet, const Selection& selection) {
+  std::string text = "offset,sequence_count,time_s";
+  for (const ItemRow& row : packet.items) {
+    if (!shows(selection, row)) continue;
+    for (std::size_t i = 0; i < row.count; ++i) text += std::string(",") + row.name + (row.count > 1 ? format("_%zu", i) : "");
+  }
+  return text + "\n";
+}
+
+std::string csv_line(const DecodedPacket& packet, const Selection& selection) {
+  std::string text =
+      format("%zu,%llu,%.7f", packet.offset, static_cast<unsigned long long>(header_value(packet, "sequence_count")), time_s(packet));
+  for (const DecodedItem& item : packet.items) {
+    if (!shows(selection, *item.row)) continue;
+    for (const Number& number : item.values) text += "," + shown(*item.row, number);
+  }
+  return text + "\n";
+}
+
+void put_u32(std::string& out, std::uint64_t value) {  // little-endian, as the magic number says
+  for (int shift = 0; shift < 32; shift += 8) out += static_cast<char>(value >> shift & 0xFF);
+}
+
+const char* type_name(PacketType type) { return type == PacketType::kCommand ? "command" : "telemetry"; }
+
+}  // namespace
+
+void check_selection(const Selection& selection) {
+  bool packet_known = selection.packet.empty();
+  for (const PacketRow& packet : kPackets) packet_known = packet_known || selection.packet == packet.name;
+  if (!packet_known) throw InputError("--packet " + selection.packet + ": not in the dictionary; mdat dictionary lists the packets");
+  for (const std::string& name : selection.items) {
+    bool known = false;
+    for (const PacketRow& packet : kPackets) {
+      for (const ItemRow& row : packet.items) known = known || name == row.name;
+    }
+    if (!known) throw InputError("--items " + name + ": no packet has it; mdat dictionary lists the items");
+  }
+}
+
+std::string table_text(const DecodedStream& stream, const Selection& selection) {
+  std::string text;
+  for (const DecodedPacket& packet : stream.packets) {
+    if (shows(selection, packet)) text += selection.items.empty() ? block(packet) : line(packet, selection);
+  }
+  return text;
+}
+
+std::string csv_text(const DecodedStream& stream, const Selection& selection) {
+  std::string text;
+  const PacketRow* kind = nullptr;
+  for (const DecodedPacket& packet : stream.packets) {
+    if (packet.row == nullptr || !shows(selection, packet)) continue;
+    if (kind == nullptr) text = csv_head(*packet.row, selection);
+    if (kind == nullptr) kind = packet.row;
+    if (packet.row == kind) text += csv_line(packet, selection);
+  }
+  return text;
+}
+
+std::string json_text(const DecodedStream& stream, const Selection& selection) {
+  Json json = {{"other_bytes", stream.other_bytes}, {"packets", Json::array()}};
+  for (const DecodedPacket& packet : stream.packets) {
+    if (shows(selection, packet)) json["packets"].push_back(json_of(packet, selection));
+  }
+  return json.dump(1) + "\n";
+}
+
+std::string pcap_bytes(const DecodedStream& stream) {
+  std::string out;
+  // Microseconds, version 2.4, UTC, no accuracy, 256 kB a record, USER0.
+  for (const std::uint64_t word : {0xA1B2C3D4U, 0x00040002U, 0U, 0U, 0x40000U, 147U}) put_u32(out, word);
+  for (const DecodedPacket& packet : stream.packets) {
+    const TimeUs t_us = from_cuc({static_cast<std::uint32_t>(header_value(packet, "time_seconds")),
+                                  static_cast<std::uint32_t>(header_value(packet, "time_fraction"))});
+    put_u32(out, static_cast<std::uint64_t>(t_us / 1000000));
+    put_u32(out, static_cast<std::uint64_t>(t_us % 1000000));
+    put_u32(out, packet.bytes.size());
+    put_u32(out, packet.bytes.size());
+    out.append(reinterpret_cast<const char*>(packet.bytes.data()), packet.bytes.size());
+  }
+  return out;
+}
+
+std::string headers_table(const HeaderList& list) {
+  std::string text = "  offset  APID type      flags count   bytes CRC    missing before\n";
+  for (const HeaderLine& line : list.lines) {
+    text += format("%8zu  %4u %-9s %5u %5u %7zu %-6s %s\n", line.offset, line.header.apid, type_name(line.header.type),
+                   line.header.sequence_flags, line.header.sequence_count, line.size, line.crc_right ? "right" : "WRONG",
+                   line.missing != 0 ? std::to_string(line.missing).c_str() : "");
+  }
+  return text;
+}
+
+std::string headers_csv(const HeaderList& list) {
+  std::string text = "offset,apid,type,secondary_header,sequence_flags,sequence_count,size,crc_right,missing\n";
+  for (const HeaderLine& line : list.lines) {
+    text += format("%zu,%u,%s,%d,%u,%u,%zu,%d,%u\n", line.offset, line.header.apid, type_name(line.header.type),
+                   line.header.secondary_header ? 1 : 0, line.header.sequence_flags, line.header.sequence_count, line.size,
+                   line.crc_right ? 1 : 0, line.missing);
+  }
+  return text;
+}
+
+std::string headers_json(const HeaderList& list) {
+  Json json = {{"left_over_bytes", list.left_over}, {"packets", Json::array()}};
+  for (const HeaderLine& line : list.lines) {
+    json["packets"].push_back({{"offset", line.offset},
+                               {"apid", line.header.apid},
+                               {"type", type_name(line.header.type)},
+                               {"secondary_header", line.header.secondary_header},
+                               {"sequence_flags", line.header.sequence_flags},
+                               {"sequence_count", line.header.sequence_count},
+                               {"size", line.size},
+                               {"crc_right", line.crc_right},
+                               {"missing", line.missing}});
+  }
+  return json.dump(1) + "\n";
+}
+
+std::string headers_summary(const HeaderList& list) {
+  std::size_t right = 0, gaps = 0, missing = 0;
+  for (const HeaderLine& line : list.lines) {
+    right += line.crc_right ? 1 : 0;
+    gaps += line.missing != 0 ? 1 : 0;
+    missing += line.missing;
+  }
+  return format("%zu packets: CRC right in %zu, wrong in %zu; %zu gaps in the sequence, %zu packets missing; %zu bytes left over\n",
+                list.lines.size(), right, list.lines.size() - right, gaps, missing, list.left_over);
+}
+
+}  // namespace lasso::mdat

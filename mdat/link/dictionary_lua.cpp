@@ -1,0 +1,167 @@
+// A dissector that is a table of the dictionary and a short program that walks it. It reads one packet a frame: link type USER0 (`mdat
+// decode
+// --format pcap`), or UDP by "Decode As".
+#include "fsw/link/dictionary.hpp"
+#include "mdat/common/text.hpp"
+#include "mdat/link/dictionary_text.hpp"
+
+namespace lasso::mdat {
+namespace {
+
+constexpr char kProgram[] = R"(
+local lasso = Proto("lasso", "3DLASSO")
+local kinds = {u8 = "uint8", u16 = "uint16", u32 = "uint32", i64 = "int64", f32 = "float", f64 = "double"}
+local readers = {u8 = "uint", u16 = "uint", u32 = "uint", i64 = "int64", f32 = "float", f64 = "float"}
+local sizes = {u8 = 1, u16 = 2, u32 = 4, i64 = 8, f32 = 4, f64 = 8}
+local fields = {}
+
+local function add_header(list)
+  for _, f in ipairs(list) do
+    f.field = ProtoField.uint32("lasso." .. f.name, f.name, base.DEC, nil, nil, f.meaning)
+    fields[#fields + 1] = f.field
+  end
+end
+add_header(primary)
+add_header(telemetry)
+for _, packet in ipairs(packets) do
+  for _, item in ipairs(packet.items) do
+    local abbreviation = "lasso." .. packet.name .. "." .. item.name
+    if item.values then
+      item.field = ProtoField[kinds[item.type]](abbreviation, item.name, base.DEC, item.values, nil, item.meaning)
+    elseif item.type == "f32" or item.type == "f64" then
+      item.field = ProtoField[kinds[item.type]](abbreviation, item.name, item.meaning)
+    else
+      item.field = ProtoField[kinds[item.type]](abbreviation, item.name, base.DEC, nil, nil, item.meaning)
+    end
+    fields[#fields + 1] = item.field
+  end
+end
+local f_structure = ProtoField.uint16("lasso.structure", "structure", base.DEC)
+local f_crc = ProtoField.uint16("lasso.crc", "crc", base.HEX)
+local f_crc_right = ProtoField.bool("lasso.crc_right", "crc right")
+fields[#fields + 1] = f_structure
+fields[#fields + 1] = f_crc
+fields[#fields + 1] = f_crc_right
+lasso.fields = fields
+
+-- CRC-16, polynomial 0x1021, initial 0xFFFF.
+local function crc16(buffer)
+  local bytes, crc = buffer:bytes(), 0xFFFF
+  for i = 0, bytes:len() - 1 do
+    crc = bit.bxor(crc, bit.lshift(bytes:get_index(i), 8))
+    for _ = 1, 8 do
+      if bit.band(crc, 0x8000) ~= 0 then crc = bit.bxor(bit.lshift(crc, 1), 0x1021) else crc = bit.lshift(crc, 1) end
+      crc = bit.band(crc, 0xFFFF)
+    end
+  end
+  return crc
+end
+
+local function bits_of(buffer, f)
+  local first, last = math.floor(f.bit / 8), math.floor((f.bit + f.bits - 1) / 8)
+  local range = buffer(first, last - first + 1)
+  return range, range:bitfield(f.bit % 8, f.bits)
+end
+
+local function show_header(list, buffer, tree)
+  local values = {}
+  for _, f in ipairs(list) do
+    local range, value = bits_of(buffer, f)
+    tree:add(f.field, range, value)
+    values[f.name] = value
+  end
+  return values
+end
+
+local function show_items(packet, buffer, tree)
+  local at = data_offset + 2
+  for _, item in ipairs(packet.items) do
+    for _ = 1, item.count do
+      local range = buffer(at, sizes[item.type])
+      tree:add(item.field, range, range[readers[item.type]](range))
+      at = at + sizes[item.type]
+    end
+  end
+end
+
+function lasso.dissector(buffer, pinfo, root)
+  if buffer:len() < data_offset + 4 then return 0 end
+  pinfo.cols.protocol = "3DLASSO"
+  local tree = root:add(lasso, buffer())
+  local header = show_header(primary, buffer, tree)
+  if header.apid ~= apid or header.type ~= 0 then return buffer:len() end
+  local secondary = show_header(telemetry, buffer, tree)
+  local number = buffer(data_offset, 2):uint()
+  tree:add(f_structure, buffer(data_offset, 2))
+  for _, packet in ipairs(packets) do
+    local same = packet.service == secondary.service and packet.subservice == secondary.subservice and packet.number == number
+    if same and packet.size == buffer:len() then
+      pinfo.cols.info = packet.name .. " #" .. header.sequence_count
+      show_items(packet, buffer, tree)
+    end
+  end
+  tree:add(f_crc, buffer(buffer:len() - 2, 2))
+  tree:add(f_crc_right, buffer(buffer:len() - 2, 2), crc16(buffer()) == 0)
+  return buffer:len()
+end
+
+DissectorTable.get("wtap_encap"):add(wtap.USER0, lasso)
+DissectorTable.get("udp.port"):add_for_decode_as(lasso)
+)";
+
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') result += '\\';
+    result += c;
+  }
+  return result + "\"";
+}
+
+std::string header_list(const char* name, Span<const HeaderField> header) {
+  std::string text = format("local %s = {\n", name);
+  for (const HeaderField& field : header) {
+    text +=
+        format("  {name = \"%s\", bit = %u, bits = %u, meaning = %s},\n", field.name, field.bit, field.bits, quoted(field.meaning).c_str());
+  }
+  return text + "}\n";
+}
+
+std::string values(const Enumeration& enumeration) {
+  std::string text = ", values = {";
+  std::size_t value = 0;
+  for (const Choice& choice : enumeration.choices) text += format("[%zu] = %s, ", value++, quoted(choice.name).c_str());
+  return text + "}";
+}
+
+std::string item(const ItemRow& row) {
+  const std::string unit = std::string(row.unit) == "1" ? "" : std::string(" [") + row.unit + "]";
+  return format("    {name = \"%s\", type = \"%s\", count = %u, meaning = %s", row.name, to_string(row.type), row.count,
+                quoted(row.meaning + unit).c_str()) +
+         (row.enumeration != nullptr ? values(*row.enumeration) : "") + "},\n";
+}
+
+std::string packet(const PacketRow& row) {
+  std::string text = format("  {name = \"%s\", service = %u, subservice = %u, number = %u, size = %zu, items = {\n", row.name, row.service,
+                            row.subservice, row.number, item_offset(row, row.items.size()) + kPacketTrailerBytes);
+  for (const ItemRow& each : row.items) text += item(each);
+  return text + "  }},\n";
+}
+
+}  // namespace
+
+std::string dictionary_lua() {
+  std::string text =
+      "-- Wireshark dissector of 3DLASSO's telemetry, written by `mdat dictionary --format lua`.\n"
+      "-- tshark -X lua_script:THIS -r FILE.pcap -V, where `mdat decode --format pcap` writes FILE.pcap.\n";
+  text += format("local apid, data_offset = %u, %zu\n", kApid, kPacketHeaderBytes);
+  text +=
+      header_list("primary", Span<const HeaderField>(kPrimaryFields)) + header_list("telemetry", Span<const HeaderField>(kTelemetryFields));
+  text += "local packets = {\n";
+  for (const PacketRow& row : kPackets) {
+    if (row.type == PacketType::kTelemetry) text += packet(row);
+  }
+  return text + "}\n" + kProgram;
+}
+
+}  // namespace lasso::mdat

@@ -1,0 +1,14 @@
+// The dictionary as documents for people (the interface document) and for programs.
+#pragma once
+
+#include <string>
+
+namespace lasso::mdat {
+
+std::string dictionary_markdown();  // docs/icd/link.md is this, written down
+std::string dictionary_html();      // the same page, one file that opens offline
+std::string dictionary_json();
+std::string dictionary_xtce();  // XTCE 1.2 (OMG formal/18-10-04, CCSDS 660.0-B-2)
+std::string dictionary_lua();   // a dissector for Wireshark and tshark
+
+}  // namespace lasso::mdat

@@ -1,0 +1,28 @@
+// The interface document, before it is Markdown or HTML.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "fsw/link/row.hpp"
+
+namespace lasso::mdat {
+
+struct DocumentTable {
+  std::vector<std::string> head;
+  std::vector<std::vector<std::string>> rows;
+};
+
+struct DocumentSection {
+  int level = 2;
+  std::string title;
+  std::vector<std::string> paragraphs;  // `code` in backticks, nothing else
+  DocumentTable table;                  // none if it has no head
+};
+
+std::vector<DocumentSection> interface_document();
+
+// "0 to 1", "at least 0", "any"; of an enumeration, its name.
+std::string range_text(const ItemRow& row);
+
+}  // namespace lasso::mdat

@@ -1,0 +1,147 @@
+#include "fsw/link/dictionary.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "mdat/link/dictionary_text.hpp"
+#include "ut/support/verifies.hpp"
+
+namespace lasso::mdat {
+namespace {
+
+// All values of an attribute of elements with this tag.
+std::vector<std::string> attributes(const std::string& xml, const std::string& tag, const std::string& name) {
+  std::vector<std::string> values;
+  for (std::size_t at = xml.find("<" + tag + " "); at != std::string::npos; at = xml.find("<" + tag + " ", at + 1)) {
+    const std::string element = xml.substr(at, xml.find('>', at) - at);
+    const std::size_t begin = element.find(" " + name + "=\"");
+    if (begin == std::string::npos) continue;
+    const std::size_t value = begin + name.size() + 3;
+    values.push_back(element.substr(value, element.find('"', value) - value));
+  }
+  return values;
+}
+
+std::set<std::string> names(const std::string& xml, const std::string& tag) {
+  const std::vector<std::string> values = attributes(xml, tag, "name");
+  return {values.begin(), values.end()};
+}
+
+// Every element is closed by its own tag; returns how many there are.
+std::size_t count_elements(const std::string& xml) {
+  std::vector<std::string> open;
+  std::size_t count = 0;
+  for (std::size_t at = xml.find('<'); at != std::string::npos; at = xml.find('<', at + 1)) {
+    const std::size_t end = xml.find('>', at);
+    const std::string element = xml.substr(at + 1, end - at - 1);
+    if (element[0] == '?') continue;
+    const std::string tag = element.substr(element[0] == '/' ? 1 : 0, element.find_first_of(" /", 1) - (element[0] == '/' ? 1 : 0));
+    if (element[0] == '/') {
+      EXPECT_TRUE(!open.empty() && element == "/" + open.back()) << element;
+      if (!open.empty()) open.pop_back();
+      continue;
+    }
+    ++count;
+    if (element.back() != '/') open.push_back(tag);
+  }
+  EXPECT_TRUE(open.empty());
+  return count;
+}
+
+TEST(Xtce, RefersOnlyToWhatItDefines) {
+  VERIFIES("LASSO-GND-022~1");
+  const std::string xml = dictionary_xtce();
+  EXPECT_GT(count_elements(xml), 500U);
+  std::set<std::string> types;
+  for (const char* tag : {"IntegerParameterType", "FloatParameterType", "EnumeratedParameterType", "ArrayParameterType"})
+    types.merge(names(xml, tag));
+  const std::set<std::string> parameters = names(xml, "Parameter"), containers = names(xml, "SequenceContainer");
+  for (const std::string& name : attributes(xml, "Parameter", "parameterTypeRef")) EXPECT_TRUE(types.contains(name)) << name;
+  for (const std::string& name : attributes(xml, "ArrayParameterType", "arrayTypeRef")) EXPECT_TRUE(types.contains(name)) << name;
+  for (const char* tag : {"ParameterRefEntry", "ArrayParameterRefEntry", "Comparison"}) {
+    for (const std::string& name : attributes(xml, tag, "parameterRef")) EXPECT_TRUE(parameters.contains(name)) << name;
+  }
+  for (const std::string& name : attributes(xml, "BaseContainer", "containerRef")) EXPECT_TRUE(containers.contains(name)) << name;
+}
+
+TEST(Xtce, HasEveryItemOnceAndInOrder) {
+  VERIFIES("LASSO-GND-022~1");
+  const std::string xml = dictionary_xtce();
+  for (const PacketRow& packet : kPackets) {
+    std::size_t at = xml.find("<SequenceContainer name=\"" + std::string(packet.name) + "\"");
+    ASSERT_NE(at, std::string::npos);
+    for (const ItemRow& row : packet.items) {
+      const std::string entry = "RefEntry parameterRef=\"" + std::string(packet.name) + "_" + row.name + "\"";
+      const std::size_t next = xml.find(entry, at);
+      ASSERT_NE(next, std::string::npos) << row.name;
+      EXPECT_EQ(xml.find(entry, next + 1), std::string::npos) << row.name;
+      at = next;
+    }
+  }
+}
+
+TEST(Xtce, SizesAreThoseOfThePackets) {
+  VERIFIES("LASSO-GND-022~1");
+  const std::string xml = dictionary_xtce();
+  const auto bits_of = [&](const std::string& type) {
+    const std::size_t at = xml.find("ParameterType name=\"" + type + "\"");
+    const std::string before = "DataEncoding sizeInBits=\"";
+    return std::stoul(xml.substr(xml.find(before, at) + before.size(), 4));
+  };
+  std::size_t bits = 0;
+  for (const HeaderField& field : kPrimaryFields) bits += bits_of(std::string(field.name) + "_t");
+  for (const HeaderField& field : kTelemetryFields) bits += bits_of(std::string(field.name) + "_t");
+  bits += bits_of("structure_t") + bits_of("crc_t");
+  for (const ItemRow& row : kPackets[0].items) {
+    bits += row.count * bits_of("pose_" + std::string(row.name) + (row.count > 1 ? "_element_t" : "_t"));
+  }
+  EXPECT_EQ(bits, 744U * 8);
+}
+
+TEST(DictionaryJson, HasEveryPacketItemAndChoice) {
+  VERIFIES("LASSO-GND-022~1");
+  const auto json = nlohmann::json::parse(dictionary_json());
+  EXPECT_EQ(json.at("apid"), kApid);
+  ASSERT_EQ(json.at("packets").size(), std::size(kPackets));
+  const auto& pose = json.at("packets").at(0);
+  EXPECT_EQ(pose.at("size"), 744);
+  ASSERT_EQ(pose.at("items").size(), kPackets[0].items.size());
+  EXPECT_EQ(pose.at("items").at(0).at("byte"), 22);
+  EXPECT_TRUE(pose.at("items").at(0).at("maximum").is_null()) << "unbounded";
+  EXPECT_EQ(pose.at("items").at(5).at("enumeration"), "pose_reason");
+  EXPECT_EQ(json.at("enumerations").at("pose_reason").at(11).at("name"), "implausible");
+  EXPECT_GT(json.at("parameters").size(), 70U);
+}
+
+TEST(Documents, HaveEveryItem) {
+  VERIFIES("LASSO-GND-022~1");
+  const std::string markdown = dictionary_markdown(), html = dictionary_html(), lua = dictionary_lua();
+  for (const PacketRow& packet : kPackets) {
+    for (const ItemRow& row : packet.items) {
+      EXPECT_NE(markdown.find("| " + std::string(row.name) + " |"), std::string::npos) << row.name;
+      EXPECT_NE(html.find("<td>" + std::string(row.name) + "</td>"), std::string::npos) << row.name;
+      EXPECT_NE(lua.find("{name = \"" + std::string(row.name) + "\""), std::string::npos) << row.name;
+    }
+  }
+  EXPECT_EQ(html.find("http"), std::string::npos) << "it opens offline";
+  EXPECT_EQ(html.find('`'), std::string::npos);
+  EXPECT_NE(markdown.find("rosette\\|lissajous\\|raster"), std::string::npos) << "a bar within a cell";
+}
+
+TEST(Dictionary, IdsAndNamesAreUniqueAndEverythingIsExplained) {
+  VERIFIES("LASSO-LNK-002~1");
+  for (const PacketRow& packet : kPackets) {
+    std::set<std::string> names;
+    std::set<std::uint16_t> ids;
+    for (const ItemRow& row : packet.items) {
+      EXPECT_TRUE(names.insert(row.name).second) << row.name;
+      EXPECT_TRUE(ids.insert(row.id).second) << row.name;
+      EXPECT_STRNE(row.meaning, "") << row.name;
+      EXPECT_LE(row.range.minimum, row.range.maximum) << row.name;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace lasso::mdat
