@@ -17,7 +17,7 @@ configure_package_config_file(cfg/cmake/3dlassoConfig.cmake.in ${PROJECT_BINARY_
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/3dlassoConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/3dlassoConfig.cmake ${PROJECT_BINARY_DIR}/3dlassoConfigVersion.cmake DESTINATION ${LASSO_PACKAGE})
 
-install(DIRECTORY fsw bsp DESTINATION ${LASSO_HEADERS} FILES_MATCHING PATTERN *.hpp)
+install(DIRECTORY fsw bsp hal_lcs DESTINATION ${LASSO_HEADERS} FILES_MATCHING PATTERN *.hpp)
 install(FILES cfg/capacities.hpp DESTINATION ${LASSO_HEADERS}/cfg)
 install(FILES LICENSE CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 if(TARGET mdat)

@@ -8,7 +8,9 @@ namespace {
 
 constexpr double kDirectionTolerance = 2e-3;  // of the squared length
 
-bool known_state(RayState state) { return state == RayState::kHit || state == RayState::kMiss || state == RayState::kInvalid; }
+bool known_state(RayState state) {
+  return state == RayState::kHit || state == RayState::kMiss || state == RayState::kInvalid;
+}  // not kLost
 
 bool finite(const RangeSample& sample) {
   bool ok = is_finite(static_cast<double>(sample.range_m));
@@ -102,6 +104,11 @@ bool Acquisition::check(const RangeSample& sample, TimeUs now_us, BadSample& rea
 }
 
 void Acquisition::take(const RangeSample& sample, TimeUs now_us, RangeImage& image) {
+  if (sample.state == RayState::kLost) {
+    ++verdict_.lost;
+    store(invalid_sample(last_t_us_), image);
+    return;
+  }
   BadSample reason{};
   if (!check(sample, now_us, reason)) {
     ++verdict_.bad[static_cast<std::size_t>(reason)];

@@ -34,7 +34,8 @@ struct ScanVerdict {
   std::uint16_t count = 0;          // samples taken into the image: hits + misses + invalid
   std::uint16_t hits = 0;
   std::uint16_t misses = 0;
-  std::uint16_t invalid = 0;                // declared so by the sensor, or bad
+  std::uint16_t invalid = 0;                // declared so by the sensor, lost or bad
+  std::uint16_t lost = 0;                   // on the way from the sensor: not well formed
   std::uint32_t bad[kBadSampleKinds] = {};  // by BadSample; each bad sample counts once, under its first reason
   std::uint32_t overflow = 0;               // samples for which the image had no room
 };

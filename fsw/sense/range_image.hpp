@@ -13,6 +13,7 @@ enum class RayState : std::uint8_t {
   kHit = 0,      // range_m is a measurement
   kMiss = 1,     // the sensor looked and nothing returned
   kInvalid = 2,  // no statement (saturated, damaged, outside the sensor's limits)
+  kLost = 3,     // from a sensor only: measured, but it never arrived. An image holds it as kInvalid
 };
 
 struct RangeSample {

@@ -212,6 +212,19 @@ TEST_F(AcquisitionTest, RaysTheSensorDeclaresInvalidAreNotBadAndMissesHaveNoRang
   EXPECT_EQ(image->samples[6].range_m, 0);
 }
 
+TEST_F(AcquisitionTest, SamplesLostOnTheWayAreNotThere) {
+  VERIFIES("LASSO-SNS-024~1 LASSO-LCS-002~1");
+  for (std::size_t i = 0; i < 204; ++i) sensor.samples[i].state = RayState::kLost;
+  const ScanVerdict usable = run();
+  EXPECT_TRUE(usable.usable);
+  EXPECT_EQ(usable.lost, 204);
+  EXPECT_EQ(usable.invalid, 204);
+  EXPECT_EQ(image->samples[203].state, RayState::kInvalid);
+  for (const std::uint32_t bad : usable.bad) EXPECT_EQ(bad, 0u);
+  sensor.samples[204].state = RayState::kLost;
+  EXPECT_FALSE(run().usable);
+}
+
 TEST_F(AcquisitionTest, IncompleteScanIsUsableFromFourFifthsAndOtherwiseDiscarded) {
   VERIFIES("LASSO-SNS-024~1");
   const TimeUs enough = kStart + pattern_time_us(plan, 819);  // 820 of 1024 are the first to reach 80 %

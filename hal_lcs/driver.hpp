@@ -1,0 +1,137 @@
+// The laser camera behind the Sensor interface: plans become commands on the line, frames become samples, and every loss has its cause and
+// its counter. It never waits: an interrupt (or a pump) fills and empties the line's rings, and each call works on what is there.
+//
+// A scan is started by one command. The answer to it ties the camera's clock to the component's: the camera had the command's last byte one
+// transmission time after it was handed over, at the scan's start. Samples that a damaged frame took along come as kInvalid and `lost`, so
+// that a sample's index stays that of its ray.
+#pragma once
+
+#include <cstdint>
+
+#include "fsw/sense/sensor.hpp"
+#include "hal_lcs/byte_ring.hpp"
+#include "hal_lcs/frame.hpp"
+#include "hal_lcs/messages.hpp"
+#include "hal_lcs/triangulation.hpp"
+
+namespace lasso::lcs {
+
+constexpr std::size_t kLineBytes = 8192;         // each way: 20 ms of the fastest line
+constexpr DurationUs kAnswerTimeoutUs = 50'000;  // the answer to a start
+constexpr DurationUs kClockToleranceUs = 5'000;  // of the camera's clock from scan to scan, and of a sample from its plan
+constexpr double kMirrorTolerance = 0.01;        // of a mirror from its plan, on the tangent plane
+constexpr std::uint32_t kOffPlanFrames = 16;     // as many make a scan of another pattern
+
+struct Line {
+  ByteRing<kLineBytes> from_camera;
+  ByteRing<kLineBytes> to_camera;
+  double bits_per_s = 4e6;  // ten for each byte
+};
+
+// Why a scan was lost.
+enum class Loss : std::uint8_t {
+  kInhibited = 0,   // the laser is: nobody has permitted it, or the camera says so; kMissing
+  kLineFull = 1,    // commands do not leave; kOverCapacity
+  kSilent = 2,      // no answer to the start; kTimeout
+  kRefused = 3,     // by the camera (Health::refused); kBusy, or kBadValue
+  kBooted = 4,      // the camera has started anew; kBadOrder
+  kForeign = 5,     // the calibration is another camera's; kBadVersion
+  kStopped = 6,     // the camera ended it early; kTruncated
+  kOffPlan = 7,     // the mirrors do not follow the plan; kBadValue
+  kUnfinished = 8,  // aborted before its last sample; no reason of the driver's
+};
+constexpr std::size_t kLosses = 9;
+constexpr std::size_t kResults = 8;
+constexpr std::size_t kFates = 6;
+
+struct Health {
+  std::uint32_t sequence_gaps = 0;  // frames that never came, or came damaged
+  std::uint32_t bad_messages = 0;   // frames that are right, and say nothing that is defined
+  std::uint32_t strayed = 0;        // samples of another scan, answers to no question, repeated samples
+  std::uint32_t samples_lost = 0;   // that no frame brought
+  std::uint32_t bad_times = 0;      // samples before their predecessor, or far from their plan
+  std::uint32_t off_plan = 0;       // frames whose first sample's mirrors are
+  std::uint32_t clock_jumps = 0;
+  std::uint32_t boots = 0;               // seen by the driver
+  std::uint32_t fates[kFates] = {};      // samples, by Triangulation::Fate
+  std::uint32_t refused[kResults] = {};  // starts, by Result
+  std::uint32_t scans_lost[kLosses] = {};
+};
+
+class Driver final : public Sensor {
+ public:
+  // `calibration` is valid (an invariant); the line outlives the driver.
+  Driver(Line& line, const Calibration& calibration);
+
+  // The laser's permission, which an armed command gives and any safe mode takes. Inhibiting is sent at once.
+  void permit_laser(bool permitted);
+
+  // kBusy while a scan runs; validate(plan)'s reason; kMissing without permission; kOverCapacity when the line takes no more. t_start_us
+  // is also now: the camera begins as soon as it has the command.
+  Status start(const ScanPlan& plan, TimeUs t_start_us) override;
+  // Bound: kLineBytes bytes, out.size() samples.
+  SensorPoll poll(TimeUs now_us, Span<RangeSample> out) override;
+  void abort() override;
+
+  const Health& health() const { return health_; }
+  const FrameDecoder::Counters& line_counters() const { return decoder_.counters(); }
+  const CameraStatus& camera() const { return camera_; }  // as it last said; serial 0: never
+
+ private:
+  enum class State : std::uint8_t { kIdle, kStarting, kScanning, kEnded };
+
+  bool under_way() const { return state_ == State::kStarting || state_ == State::kScanning; }
+  bool has_room(std::size_t bytes) const;
+  void send(const FrameBytes& frame);
+  void inhibit();
+  void send_start(const ScanPlan& plan);
+  void send_aim(Span<const AimedRay> aimed);
+  Status refuse(Loss loss, Status reason);
+  void lose(Loss loss, Status reason);
+  void take_refusal(Result result);
+  bool read_frame(Frame& frame);
+  void receive(const Frame& frame);
+  void take(const Answer& answer);
+  void take(const CameraStatus& status);
+  void take(const Samples& samples);
+  void take(const ScanEnd& end);
+  void check_plan(const Samples& samples);
+  RangeSample next_sample();
+  RangeSample sample_of(const RawSample& raw);
+  TimeUs time_of(std::uint32_t clock_us) const;
+
+  Line& line_;
+  Calibration calibration_;
+  Triangulation triangulation_;
+  FrameDecoder decoder_;
+  Health health_;
+  CameraStatus camera_;
+  bool laser_permitted_ = false;
+  bool inhibit_due_ = false;
+  std::uint8_t sent_ = 0;      // frames, modulo 256
+  std::uint8_t expected_ = 0;  // sequence of the next frame
+  bool heard_ = false;         // any frame
+  bool clock_known_ = false;
+  TimeUs clock_at_us_ = 0;  // when the camera's clock showed clock_us_
+  std::uint32_t clock_us_ = 0;
+
+  // Of the scan.
+  State state_ = State::kIdle;
+  Status loss_ = Status::kOk;
+  ScanPlan plan_;
+  std::uint8_t tag_ = 0;
+  std::uint8_t start_sequence_ = 0;
+  TimeUs t_start_us_ = 0;
+  DurationUs command_us_ = 0;  // from t_start_us to the start command's last byte
+  TimeUs last_us_ = 0;         // of the last sample
+  std::uint32_t next_ = 0;     // sample to hand over
+  std::uint32_t off_plan_ = 0;
+  bool end_seen_ = false;
+  Samples pending_;  // received, from `taken_` on not handed over
+  std::size_t taken_ = 0;
+  std::size_t budget_ = 0;              // bytes that this call may still read
+  std::uint8_t chunk_[kMaxFrame] = {};  // read from the line, from chunk_at_ on not decoded
+  std::size_t chunk_at_ = 0, chunk_size_ = 0;
+};
+
+}  // namespace lasso::lcs

@@ -1,0 +1,84 @@
+#include "hal_lcs/triangulation.hpp"
+
+#include "fsw/geometry/portable_math.hpp"
+
+namespace lasso::lcs {
+namespace {
+
+double magnitude(double x) { return x < 0 ? -x : x; }
+
+bool all_finite(const Calibration& c) {
+  bool finite = true;
+  for (const double term : c.residual) finite = finite && is_finite(term);
+  for (const double real :
+       {c.focal_length_m, c.baseline_m, c.half_width_m, c.angle_x_offset_rad, c.angle_y_offset_rad, c.focal_length_per_K, c.baseline_per_K,
+        c.peak_per_K, c.reference_degC, c.angle_max_rad, c.depth_min_m, c.depth_max_m, c.temperature_min_degC, c.temperature_max_degC}) {
+    finite = finite && is_finite(real);
+  }
+  return finite;
+}
+
+// A length that stays above 0 over the calibrated temperatures.
+bool stays_positive(double length_m, double per_K, const Calibration& c) {
+  const double cold = 1 + per_K * (c.temperature_min_degC - c.reference_degC);
+  const double warm = 1 + per_K * (c.temperature_max_degC - c.reference_degC);
+  return length_m > 0 && cold > 0 && warm > 0;
+}
+
+bool has_content(const Calibration& c) {
+  return c.angle_max_rad > 0 && c.depth_min_m > 0 && c.depth_min_m < c.depth_max_m && c.temperature_min_degC < c.temperature_max_degC;
+}
+
+bool within_wire(const Calibration& c) {
+  return c.angle_max_rad + magnitude(c.angle_x_offset_rad) < 1 && c.angle_max_rad + magnitude(c.angle_y_offset_rad) < 1;
+}
+
+}  // namespace
+
+Status validate(const Calibration& calibration) {
+  if (!all_finite(calibration)) return Status::kNotFinite;
+  if (!has_content(calibration) || !within_wire(calibration)) return Status::kBadValue;
+  const bool lengths = stays_positive(calibration.focal_length_m, calibration.focal_length_per_K, calibration) &&
+                       stays_positive(calibration.baseline_m, calibration.baseline_per_K, calibration);
+  return lengths && calibration.half_width_m > 0 ? Status::kOk : Status::kSingular;
+}
+
+Triangulation::Triangulation(const Calibration& calibration, double temperature_degC)
+    : c_(calibration),
+      warmer_K_(temperature_degC - calibration.reference_degC),
+      focal_length_m_(calibration.focal_length_m * (1 + calibration.focal_length_per_K * warmer_K_)),
+      baseline_m_(calibration.baseline_m * (1 + calibration.baseline_per_K * warmer_K_)),
+      temperature_known_(temperature_degC >= calibration.temperature_min_degC && temperature_degC <= calibration.temperature_max_degC) {}
+
+double Triangulation::spot_m(double x, double y, double peak) const {
+  const double phi[kResidualTerms] = {1, x, y, peak, x * x, x * y, y * y, x * peak, y * peak, peak * peak};
+  double sum = peak + c_.peak_per_K * warmer_K_;
+  for (std::size_t k = 0; k < kResidualTerms; ++k) sum += c_.residual[k] * phi[k];
+  return c_.half_width_m * sum;
+}
+
+Triangulation::Fate Triangulation::convert(const RawSample& raw, TimeUs t_us, RangeSample& sample) const {
+  sample = RangeSample{};
+  sample.t_us = t_us;
+  const double x = raw.angle_x_rad + c_.angle_x_offset_rad;
+  const double y = raw.angle_y_rad + c_.angle_y_offset_rad;
+  if (magnitude(x) > c_.angle_max_rad || magnitude(y) > c_.angle_max_rad) return Fate::kBadAngle;
+  if (raw.kind == SampleKind::kSaturated || raw.kind == SampleKind::kNotAimed) return Fate::kNoStatement;
+  const double tan_x = tangent(x), tan_y = tangent(y);
+  const double length = square_root(tan_x * tan_x + tan_y * tan_y + 1);
+  const double unit[3] = {tan_x / length, tan_y / length, 1 / length};
+  for (int k = 0; k < 3; ++k) sample.direction[k] = static_cast<float>(unit[k]);
+  if (raw.kind == SampleKind::kNothing) {
+    sample.state = RayState::kMiss;
+    return Fate::kNothing;
+  }
+  const double disparity_m = spot_m(x, y, raw.peak) + focal_length_m_ * tan_x;
+  if (!(disparity_m > 0)) return Fate::kBadPeak;
+  const double depth_m = focal_length_m_ * baseline_m_ / disparity_m;
+  if (depth_m < c_.depth_min_m || depth_m > c_.depth_max_m) return Fate::kOutside;
+  sample.range_m = static_cast<float>(depth_m * length);
+  sample.state = RayState::kHit;
+  return Fate::kPoint;
+}
+
+}  // namespace lasso::lcs

@@ -1,0 +1,290 @@
+#include "hal_sim/lcs_device.hpp"
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "fsw/sense/pattern.hpp"
+
+namespace lasso::sim {
+namespace {
+
+constexpr DurationUs kBootUs = 300'000;  // from a reset to the first answer
+constexpr int kPeakIterations = 30;
+constexpr std::uint64_t kChanceOfTheLine = 0x4C43'5346'6175'6C74;  // other than what the rays draw
+
+double corrected(const lcs::Calibration& c, double x, double y, double peak) {
+  const double phi[lcs::kResidualTerms] = {1, x, y, peak, x * x, x * y, y * y, x * peak, y * peak, peak * peak};
+  double sum = 0;
+  for (std::size_t k = 0; k < lcs::kResidualTerms; ++k) sum += c.residual[k] * phi[k];
+  return sum;
+}
+
+const lcs::Calibration& checked(const lcs::Calibration& truth) {
+  const Status status = lcs::validate(truth);
+  if (status != Status::kOk) throw std::invalid_argument(std::string("the camera's optics: ") + to_string(status));
+  return truth;
+}
+
+}  // namespace
+
+lcs::RawSample raw_sample(const lcs::Calibration& truth, double temperature_degC, const Vec3& direction, double range_m) {
+  const double warmer_K = temperature_degC - truth.reference_degC;
+  const double f_m = truth.focal_length_m * (1 + truth.focal_length_per_K * warmer_K);
+  const double d_m = truth.baseline_m * (1 + truth.baseline_per_K * warmer_K);
+  const double x = std::atan2(direction.x(), direction.z()), y = std::atan2(direction.y(), direction.z());
+  const double spot = (f_m * d_m / (range_m * direction.z()) - f_m * direction.x() / direction.z()) / truth.half_width_m;
+  double peak = spot;
+  for (int i = 0; i < kPeakIterations; ++i) peak = spot - truth.peak_per_K * warmer_K - corrected(truth, x, y, peak);
+  lcs::RawSample raw;
+  raw.angle_x_rad = x - truth.angle_x_offset_rad;
+  raw.angle_y_rad = y - truth.angle_y_offset_rad;
+  raw.peak = peak;
+  raw.kind = lcs::SampleKind::kReturn;
+  return raw;
+}
+
+LcsDevice::LcsDevice(const RayCaster& target, const Trajectory& trajectory, const ScannerModel& model, std::uint64_t seed,
+                     const LcsCamera& camera)
+    : rays_(target, trajectory, model, seed), camera_(camera), chance_(seed ^ kChanceOfTheLine) {
+  static_cast<void>(checked(camera.truth));
+}
+
+std::uint32_t LcsDevice::clock_us(TimeUs t_us) const {
+  const LcsFaults& faults = camera_.faults;
+  const bool jumped = faults.clock_jump_at_us > 0 && t_us >= faults.clock_jump_at_us;
+  const auto shown = static_cast<std::int64_t>(std::floor(static_cast<double>(t_us) * (1 + faults.clock_rate_error))) +
+                     (jumped ? faults.clock_jump_us : 0);
+  return camera_.clock_us + static_cast<std::uint32_t>(static_cast<std::uint64_t>(shown));
+}
+
+// --- the line
+
+std::uint8_t LcsDevice::noisy(std::uint8_t byte) {
+  if (camera_.faults.bit_error_rate <= 0) return byte;
+  unsigned noisy = byte;
+  for (unsigned bit = 0; bit < 8; ++bit) noisy ^= chance_.uniform() < camera_.faults.bit_error_rate ? 1U << bit : 0U;
+  return static_cast<std::uint8_t>(noisy);
+}
+
+void LcsDevice::listen(TimeUs t_us, lcs::Line& line) {
+  std::uint8_t byte = 0;
+  while (line.to_camera.read(Bytes(&byte, 1)) == 1) {
+    inbox_free_us_ = std::max(inbox_free_us_, static_cast<double>(t_us)) + byte_us();
+    inbox_.push_back({static_cast<TimeUs>(std::llround(inbox_free_us_)), noisy(byte)});
+  }
+}
+
+void LcsDevice::send(const lcs::FrameBytes& frame, TimeUs t_us) {
+  const LcsFaults& faults = camera_.faults;
+  ++sent_;
+  if (within(t_us, faults.silent_from_us, faults.silent_until_us) || chance_.uniform() < faults.drop_probability) return;
+  lcs::FrameBytes bytes = frame;
+  if (chance_.uniform() < faults.corrupt_probability) {
+    const std::uint64_t bit = chance_.bits() % (8 * frame.size);
+    bytes.bytes[bit / 8] = static_cast<std::uint8_t>(bytes.bytes[bit / 8] ^ (1U << (bit % 8)));
+  }
+  const int times = chance_.uniform() < faults.repeat_probability ? 2 : 1;
+  for (int i = 0; i < times; ++i) {
+    for (const std::uint8_t byte : bytes.span()) {
+      outbox_free_us_ = std::max(outbox_free_us_, static_cast<double>(t_us + faults.late_us)) + byte_us();
+      outbox_.push_back({static_cast<TimeUs>(std::llround(outbox_free_us_)), noisy(byte)});
+    }
+  }
+}
+
+void LcsDevice::run(TimeUs now_us, lcs::Line& line) {
+  if (!booted_ && camera_.faults.boot_at_us > 0 && now_us >= camera_.faults.boot_at_us) boot(camera_.faults.boot_at_us);
+  while (!inbox_.empty() && inbox_.front().t_us <= now_us) {
+    const Byte byte = inbox_.front();
+    inbox_.pop_front();
+    scan_until(byte.t_us);
+    lcs::Frame frame;
+    if (decoder_.step(ConstBytes(&byte.value, 1), frame).found) carry_out(frame, byte.t_us);
+  }
+  scan_until(now_us);
+  while (!outbox_.empty() && outbox_.front().t_us <= now_us) {
+    static_cast<void>(line.from_camera.write(ConstBytes(&outbox_.front().value, 1)));  // what nobody takes is gone
+    outbox_.pop_front();
+  }
+}
+
+// --- commands
+
+void LcsDevice::answer(const lcs::Frame& to, lcs::Result result, TimeUs t_us) {
+  send(lcs::encode(sent_, lcs::Answer{static_cast<lcs::Type>(to.type), to.sequence, result, clock_us(t_us)}), t_us);
+}
+
+void LcsDevice::send_status(TimeUs t_us) {
+  lcs::CameraStatus status;
+  status.serial = camera_.truth.serial;
+  status.boots = boots_;
+  status.clock_us = clock_us(t_us);
+  status.temperature_degC = camera_.temperature_degC;
+  status.laser_lit = laser_lit_;
+  status.scanning = scan_.running;
+  send(lcs::encode(sent_, status), t_us);
+}
+
+void LcsDevice::boot(TimeUs t_us) {
+  booted_ = true;
+  ++boots_;
+  laser_lit_ = false;
+  armed_us_ = -1;
+  scan_.running = false;
+  inbox_.clear();
+  outbox_.clear();
+  decoder_.clear();
+  sent_ = 0;
+  inbox_free_us_ = outbox_free_us_ = static_cast<double>(t_us + kBootUs);
+  send_status(t_us + kBootUs);
+}
+
+void LcsDevice::carry_out(const lcs::Frame& frame, TimeUs t_us) {
+  using lcs::Result;
+  using lcs::Type;
+  switch (static_cast<Type>(frame.type)) {
+    case Type::kSelfTest:
+      return answer(frame, Result::kDone, t_us);
+    case Type::kAskStatus:
+      return send_status(t_us);
+    case Type::kLaser: {
+      lcs::LaserCommand command{};
+      return answer(frame, decode(frame, command) == Status::kOk ? carry_out(command, t_us) : Result::kUnknown, t_us);
+    }
+    case Type::kStart: {
+      lcs::StartCommand command;
+      return answer(frame, decode(frame, command) == Status::kOk ? carry_out(command, t_us) : Result::kUnknown, t_us);
+    }
+    case Type::kAim: {
+      lcs::AimCommand command;
+      if (decode(frame, command) == Status::kOk) carry_out(command);
+      return;
+    }
+    case Type::kAbort:
+      scan_.running = false;
+      return answer(frame, Result::kDone, t_us);
+    case Type::kAnswer:
+    case Type::kStatus:
+    case Type::kSamples:
+    case Type::kScanEnd:
+      break;
+  }
+  answer(frame, Result::kUnknown, t_us);
+}
+
+lcs::Result LcsDevice::carry_out(lcs::LaserCommand command, TimeUs t_us) {
+  const bool armed = armed_us_ >= 0 && t_us - armed_us_ <= lcs::kArmedUs;
+  armed_us_ = command == lcs::LaserCommand::kArm ? t_us : -1;
+  if (command == lcs::LaserCommand::kInhibit) laser_lit_ = scan_.running = false;
+  if (command != lcs::LaserCommand::kFire) return lcs::Result::kDone;
+  laser_lit_ = laser_lit_ || armed;
+  return armed ? lcs::Result::kDone : lcs::Result::kNotArmed;
+}
+
+bool LcsDevice::within_mirrors(const ScanPlan& plan) const {
+  const double limit = std::tan(camera_.truth.angle_max_rad);
+  return std::abs(plan.center_x) + plan.half_x <= limit && std::abs(plan.center_y) + plan.half_y <= limit;
+}
+
+lcs::Result LcsDevice::carry_out(const lcs::StartCommand& command, TimeUs t_us) {
+  if (scan_.running) return lcs::Result::kBusy;
+  if (!laser_lit_) return lcs::Result::kInhibited;
+  Scan scan;
+  scan.command = command;
+  scan.aimed.resize(std::min<std::size_t>(command.aimed, kMaxAimedRays));
+  scan.aimed_there.resize(scan.aimed.size());
+  scan.command.plan.aimed = Span<const AimedRay>(scan.aimed.data(), scan.aimed.size());
+  if (scan.aimed.size() != command.aimed || validate(scan.command.plan) != Status::kOk || !within_mirrors(scan.command.plan)) {
+    return lcs::Result::kBadPlan;
+  }
+  scan.t_first_us = t_us + command.delay_us;
+  scan.running = true;
+  scan_ = std::move(scan);
+  scan_.command.plan.aimed = Span<const AimedRay>(scan_.aimed.data(), scan_.aimed.size());
+  return lcs::Result::kDone;
+}
+
+void LcsDevice::carry_out(const lcs::AimCommand& command) {
+  for (std::size_t i = 0; i < command.count && command.first + i < scan_.aimed.size(); ++i) {
+    scan_.aimed[command.first + i] = command.rays[i];
+    scan_.aimed_there[command.first + i] = true;
+  }
+}
+
+// --- scans
+
+TimeUs LcsDevice::sample_time_us(std::uint16_t ray) const { return scan_.t_first_us + pattern_time_us(scan_.command.plan, ray); }
+
+bool LcsDevice::aimed_in_time(std::uint16_t ray) const {
+  const std::size_t aimed = static_cast<std::size_t>(ray) - first_aimed(scan_.command.plan);  // wraps below the first
+  return aimed >= scan_.aimed.size() || scan_.aimed_there[aimed];
+}
+
+Vec3 LcsDevice::direction_of(std::uint16_t ray) const { return pattern_direction(scan_.command.plan, ray); }
+
+lcs::RawSample LcsDevice::measure(std::uint16_t ray) {
+  const LcsFaults& faults = camera_.faults;
+  const TimeUs t_us = sample_time_us(ray);
+  Vec3 direction = direction_of(ray);
+  if (within(t_us, faults.stuck_from_us, faults.stuck_until_us))
+    direction = Vec3(stuck_x_ * direction.z(), direction.y(), direction.z()).normalized();
+  stuck_x_ = direction.x() / direction.z();
+  const RangeSample seen = rays_.measure(scan_.command.plan.scan_id, ray, direction, t_us);
+  const bool bright = within(t_us, faults.saturated_from_us, faults.saturated_until_us) || seen.state == RayState::kInvalid;
+  const bool spot = seen.state == RayState::kHit;
+  lcs::RawSample raw =
+      raw_sample(camera_.truth, static_cast<double>(camera_.temperature_degC), direction, spot ? static_cast<double>(seen.range_m) : 1e9);
+  raw.intensity = spot ? 128 : 0;
+  if (!spot) raw.kind = lcs::SampleKind::kNothing;
+  if (bright && seen.state != RayState::kMiss) raw.kind = lcs::SampleKind::kSaturated;
+  if (!aimed_in_time(ray)) raw.kind = lcs::SampleKind::kNotAimed;
+  raw.clock_us = clock_us(t_us);
+  return raw;
+}
+
+// The next up to four samples, when the last of them has been taken.
+void LcsDevice::send_samples() {
+  lcs::Samples samples;
+  samples.tag = lcs::tag_of(scan_.command.plan.scan_id);
+  samples.first = scan_.next;
+  while (samples.count < lcs::kSamplesPerFrame && scan_.next < scan_.command.plan.points)
+    samples.samples[samples.count++] = measure(scan_.next++);
+  send(lcs::encode(sent_, samples), sample_time_us(static_cast<std::uint16_t>(scan_.next - 1)));
+}
+
+void LcsDevice::scan_until(TimeUs now_us) {
+  while (scan_.running) {
+    const std::uint16_t points = scan_.command.plan.points;
+    const auto last = static_cast<std::uint16_t>(std::min<std::size_t>(scan_.next + lcs::kSamplesPerFrame, points) - 1);
+    if (sample_time_us(last) > now_us) return;
+    send_samples();
+    if (scan_.next < points) continue;
+    scan_.running = false;
+    send(lcs::encode(sent_, lcs::ScanEnd{lcs::tag_of(scan_.command.plan.scan_id), points, true}), sample_time_us(last));
+  }
+}
+
+// --- camera, line and driver
+
+LcsOverLine::LcsOverLine(LcsDevice& device, const lcs::Calibration& calibration, double bits_per_s)
+    : device_(device), driver_(line_, calibration) {
+  line_.bits_per_s = bits_per_s;
+  driver_.permit_laser(true);
+}
+
+Status LcsOverLine::start(const ScanPlan& plan, TimeUs t_start_us) {
+  device_.run(t_start_us, line_);
+  const Status status = driver_.start(plan, t_start_us);
+  device_.listen(t_start_us, line_);
+  return status;
+}
+
+SensorPoll LcsOverLine::poll(TimeUs now_us, Span<RangeSample> out) {
+  device_.run(now_us, line_);
+  const SensorPoll poll = driver_.poll(now_us, out);
+  device_.listen(now_us, line_);
+  return poll;
+}
+
+}  // namespace lasso::sim

@@ -1,0 +1,122 @@
+// The laser camera at the other end of the line: it understands docs/icd/lcs.md byte for byte, scans the simulated target with mirrors and
+// a detector of its own, and fails as told. Time is what it is given: nothing here waits.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <vector>
+
+#include "hal_lcs/driver.hpp"
+#include "hal_lcs/frame.hpp"
+#include "hal_lcs/messages.hpp"
+#include "hal_lcs/triangulation.hpp"
+#include "hal_sim/random.hpp"
+#include "hal_sim/scanner.hpp"
+
+namespace lasso::sim {
+
+// What goes wrong. Probabilities are of each frame that the camera sends; times are the component's.
+struct LcsFaults {
+  double drop_probability = 0;
+  double repeat_probability = 0;
+  double corrupt_probability = 0;  // one bit
+  double bit_error_rate = 0;       // of every bit on the line, both ways
+  DurationUs late_us = 0;          // every frame
+  TimeUs silent_from_us = 0, silent_until_us = 0;
+  TimeUs stuck_from_us = 0, stuck_until_us = 0;          // mirror x stays where it is
+  TimeUs saturated_from_us = 0, saturated_until_us = 0;  // each spot is too bright
+  TimeUs boot_at_us = 0;                                 // 0: never
+  TimeUs clock_jump_at_us = 0;                           // 0: never
+  std::int32_t clock_jump_us = 0;
+  double clock_rate_error = 0;
+};
+
+struct LcsCamera {
+  lcs::Calibration truth;  // of its optics; what the component calibrates it to be may differ
+  float temperature_degC = 20;
+  std::uint32_t clock_us = 0xFFFF0000;  // at time 0: it soon wraps
+  double bits_per_s = 4e6;
+  LcsFaults faults;
+};
+
+// The raw sample by which a camera tells a point at `range_m` along `direction` (any range for kNothing).
+lcs::RawSample raw_sample(const lcs::Calibration& truth, double temperature_degC, const Vec3& direction, double range_m);
+
+class LcsDevice {
+ public:
+  // Keeps references: target and trajectory outlive it. Throws std::invalid_argument as validate(model), and for a calibration that
+  // lcs::validate refuses.
+  LcsDevice(const RayCaster& target, const Trajectory& trajectory, const ScannerModel& model, std::uint64_t seed, const LcsCamera& camera);
+
+  // Takes the bytes that the line has for the camera, as sent at t_us, ...
+  void listen(TimeUs t_us, lcs::Line& line);
+  // ... and lives until now_us: commands are carried out as their last byte arrives, what the camera says arrives as the line lets it.
+  void run(TimeUs now_us, lcs::Line& line);
+
+ private:
+  struct Byte {
+    TimeUs t_us;
+    std::uint8_t value;
+  };
+  struct Scan {
+    lcs::StartCommand command;
+    TimeUs t_first_us = 0;
+    std::vector<AimedRay> aimed;
+    std::vector<bool> aimed_there;
+    std::uint16_t next = 0;
+    bool running = false;
+  };
+
+  double byte_us() const { return 1e7 / camera_.bits_per_s; }
+  std::uint32_t clock_us(TimeUs t_us) const;
+  std::uint8_t noisy(std::uint8_t byte);
+  void carry_out(const lcs::Frame& frame, TimeUs t_us);
+  lcs::Result carry_out(lcs::LaserCommand command, TimeUs t_us);
+  lcs::Result carry_out(const lcs::StartCommand& command, TimeUs t_us);
+  void carry_out(const lcs::AimCommand& command);
+  bool within_mirrors(const ScanPlan& plan) const;
+  void answer(const lcs::Frame& to, lcs::Result result, TimeUs t_us);
+  void send_status(TimeUs t_us);
+  void boot(TimeUs t_us);
+  void scan_until(TimeUs now_us);
+  TimeUs sample_time_us(std::uint16_t ray) const;
+  Vec3 direction_of(std::uint16_t ray) const;
+  bool aimed_in_time(std::uint16_t ray) const;
+  lcs::RawSample measure(std::uint16_t ray);
+  void send_samples();
+  void send(const lcs::FrameBytes& frame, TimeUs t_us);
+  bool within(TimeUs t_us, TimeUs from_us, TimeUs until_us) const { return t_us >= from_us && t_us < until_us; }
+
+  RaySimulator rays_;
+  LcsCamera camera_;
+  Random chance_;
+  lcs::FrameDecoder decoder_;
+  std::deque<Byte> inbox_, outbox_;
+  double inbox_free_us_ = 0, outbox_free_us_ = 0;  // when the line has carried what it was given
+  Scan scan_;
+  double stuck_x_ = 0;  // tan of the mirror's last angle
+  TimeUs armed_us_ = -1;
+  bool laser_lit_ = false;
+  bool booted_ = false;
+  std::uint32_t boots_ = 1;
+  std::uint8_t sent_ = 0;
+};
+
+// The camera, its line and its driver in one sensor, for what runs in simulated time.
+class LcsOverLine final : public Sensor {
+ public:
+  LcsOverLine(LcsDevice& device, const lcs::Calibration& calibration, double bits_per_s);
+
+  Status start(const ScanPlan& plan, TimeUs t_start_us) override;
+  SensorPoll poll(TimeUs now_us, Span<RangeSample> out) override;
+  void abort() override { driver_.abort(); }
+
+  lcs::Driver& driver() { return driver_; }
+
+ private:
+  LcsDevice& device_;
+  lcs::Line line_;
+  lcs::Driver driver_;
+};
+
+}  // namespace lasso::sim

@@ -1,0 +1,204 @@
+#include "hal_lcs/messages.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "fsw/sense/pattern.hpp"
+#include "ut/support/generator.hpp"
+#include "ut/support/verifies.hpp"
+
+namespace lasso::lcs {
+namespace {
+
+Frame received(const FrameBytes& bytes) {
+  FrameDecoder decoder;
+  Frame frame;
+  EXPECT_TRUE(decoder.step(bytes.span(), frame).found);
+  return frame;
+}
+
+// The same bytes again from what was understood.
+template <class Message>
+void expect_same_again(const FrameBytes& bytes) {
+  const Frame frame = received(bytes);
+  Message message{};
+  ASSERT_EQ(decode(frame, message), Status::kOk);
+  const FrameBytes again = encode(frame.sequence, message);
+  EXPECT_EQ(std::vector<std::uint8_t>(bytes.bytes, bytes.bytes + bytes.size),
+            std::vector<std::uint8_t>(again.bytes, again.bytes + again.size));
+}
+
+// A payload of each other length is refused.
+template <class Message>
+void expect_other_lengths_refused(const FrameBytes& bytes) {
+  for (std::uint8_t length = 0; length <= kMaxPayload; ++length) {
+    Frame frame = received(bytes);
+    if (length == frame.length) continue;
+    frame.length = length;
+    Message message{};
+    EXPECT_EQ(decode(frame, message), Status::kBadLength) << int{length};
+  }
+}
+
+RawSample random_sample(test::Generator& chance, std::uint32_t base_us) {
+  RawSample sample;
+  sample.clock_us = base_us + static_cast<std::uint32_t>(chance.bits() % 65536);
+  sample.angle_x_rad = chance.uniform(-1, 1);
+  sample.angle_y_rad = chance.uniform(-1, 1);
+  sample.peak = chance.uniform(-1, 1);
+  sample.intensity = static_cast<std::uint8_t>(chance.bits());
+  sample.kind = static_cast<SampleKind>(chance.bits() % 4);
+  return sample;
+}
+
+Samples random_samples(test::Generator& chance, std::size_t count) {
+  Samples samples;
+  samples.tag = static_cast<std::uint8_t>(chance.bits());
+  samples.first = static_cast<std::uint16_t>(chance.bits());
+  samples.count = count;
+  const auto base_us = static_cast<std::uint32_t>(chance.bits());
+  for (std::size_t i = 0; i < count; ++i) samples.samples[i] = random_sample(chance, base_us);
+  samples.samples[0].clock_us = base_us;
+  return samples;
+}
+
+ScanPlan random_plan(test::Generator& chance) {
+  ScanPlan plan;
+  plan.scan_id = static_cast<std::uint32_t>(chance.bits());
+  plan.kind = static_cast<PatternKind>(chance.bits() % 3);
+  plan.points = static_cast<std::uint16_t>(chance.bits() % kMaxRays);
+  plan.cycles_a = static_cast<std::uint16_t>(chance.bits());
+  plan.cycles_b = static_cast<std::uint16_t>(chance.bits());
+  plan.phase_turns = chance.uniform(0, 1);
+  plan.center_x = chance.uniform(-1, 1);
+  plan.center_y = chance.uniform(-1, 1);
+  plan.half_x = chance.uniform(0, 1);
+  plan.half_y = chance.uniform(0, 1);
+  plan.duration_us = static_cast<DurationUs>(chance.bits() % static_cast<std::uint64_t>(kMaxScanDurationUs));
+  return plan;
+}
+
+TEST(LcsMessages, ComeBackToTheByte) {
+  VERIFIES("LASSO-LCS-001~1");
+  test::Generator chance(99);
+  for (int round = 0; round < 100; ++round) {
+    const auto sequence = static_cast<std::uint8_t>(chance.bits());
+    for (const LaserCommand laser : {LaserCommand::kInhibit, LaserCommand::kArm, LaserCommand::kFire})
+      expect_same_again<LaserCommand>(encode(sequence, laser));
+    AimCommand aim{static_cast<std::uint16_t>(chance.bits()), 1 + chance.bits() % kAimedPerFrame, {}};
+    for (AimedRay& ray : aim.rays) ray = {static_cast<float>(chance.uniform(-1, 1)), static_cast<float>(chance.uniform(-1, 1))};
+    expect_same_again<AimCommand>(encode(sequence, aim));
+    expect_same_again<StartCommand>(encode(
+        sequence, StartCommand{static_cast<std::uint32_t>(chance.bits()), static_cast<std::uint16_t>(chance.bits()), random_plan(chance)}));
+    expect_same_again<Answer>(encode(sequence, Answer{static_cast<Type>(chance.bits() & 0xFF), static_cast<std::uint8_t>(chance.bits()),
+                                                      static_cast<Result>(chance.bits() % 7), static_cast<std::uint32_t>(chance.bits())}));
+    expect_same_again<CameraStatus>(
+        encode(sequence, CameraStatus{static_cast<std::uint32_t>(chance.bits()), static_cast<std::uint32_t>(chance.bits()),
+                                      static_cast<std::uint32_t>(chance.bits()), static_cast<float>(chance.uniform(-300, 300)),
+                                      chance.bits() % 2 == 0, chance.bits() % 2 == 0, static_cast<std::uint8_t>(chance.bits())}));
+    expect_same_again<Samples>(encode(sequence, random_samples(chance, 1 + chance.bits() % kSamplesPerFrame)));
+    expect_same_again<ScanEnd>(encode(
+        sequence, ScanEnd{static_cast<std::uint8_t>(chance.bits()), static_cast<std::uint16_t>(chance.bits()), chance.bits() % 2 == 0}));
+  }
+}
+
+TEST(LcsMessages, SamplesKeepTheirValuesToHalfAStep) {
+  VERIFIES("LASSO-LCS-001~1");
+  test::Generator chance(7);
+  for (int round = 0; round < 200; ++round) {
+    const Samples sent = random_samples(chance, kSamplesPerFrame);
+    Samples got;
+    ASSERT_EQ(decode(received(encode(0, sent)), got), Status::kOk);
+    EXPECT_EQ(got.tag, sent.tag);
+    EXPECT_EQ(got.first, sent.first);
+    ASSERT_EQ(got.count, sent.count);
+    for (std::size_t i = 0; i < sent.count; ++i) {
+      EXPECT_EQ(got.samples[i].clock_us, sent.samples[i].clock_us);
+      EXPECT_NEAR(got.samples[i].angle_x_rad, sent.samples[i].angle_x_rad, 1.01 * std::ldexp(1, -24));
+      EXPECT_NEAR(got.samples[i].angle_y_rad, sent.samples[i].angle_y_rad, 1.01 * std::ldexp(1, -24));
+      EXPECT_NEAR(got.samples[i].peak, sent.samples[i].peak, 1.01 * std::ldexp(1, -19));
+      EXPECT_EQ(got.samples[i].intensity, sent.samples[i].intensity);
+      EXPECT_EQ(got.samples[i].kind, sent.samples[i].kind);
+    }
+  }
+}
+
+TEST(LcsMessages, WhatIsOffTheScaleStaysAtItsEnd) {
+  VERIFIES("LASSO-LCS-014~1");
+  Samples sent = {};
+  sent.count = 2;
+  sent.samples[0].angle_x_rad = 3;
+  sent.samples[0].peak = -3;
+  sent.samples[1].angle_x_rad = -3;
+  sent.samples[1].angle_y_rad = std::nan("");
+  sent.samples[1].peak = 3;
+  Samples got;
+  ASSERT_EQ(decode(received(encode(0, sent)), got), Status::kOk);
+  EXPECT_NEAR(got.samples[0].angle_x_rad, 1, 2e-7);
+  EXPECT_EQ(got.samples[0].peak, -1);
+  EXPECT_EQ(got.samples[1].angle_x_rad, -1);
+  EXPECT_EQ(got.samples[1].angle_y_rad, -1);
+  EXPECT_NEAR(got.samples[1].peak, 1, 4e-6);
+}
+
+TEST(LcsMessages, APhaseBelowOneTurnStaysBelow) {
+  StartCommand sent;
+  sent.plan.phase_turns = std::nextafter(1.0, 0.0);
+  StartCommand got;
+  ASSERT_EQ(decode(received(encode(0, sent)), got), Status::kOk);
+  EXPECT_LT(got.plan.phase_turns, 1);
+  EXPECT_EQ(validate(got.plan), Status::kOk);
+}
+
+TEST(LcsMessages, OtherLengthsAreRefused) {
+  VERIFIES("LASSO-LCS-014~1");
+  expect_other_lengths_refused<LaserCommand>(encode(0, LaserCommand::kArm));
+  expect_other_lengths_refused<StartCommand>(encode(0, StartCommand{}));
+  expect_other_lengths_refused<Answer>(encode(0, Answer{}));
+  expect_other_lengths_refused<CameraStatus>(encode(0, CameraStatus{}));
+  expect_other_lengths_refused<ScanEnd>(encode(0, ScanEnd{}));
+  for (std::uint8_t length = 0; length <= kMaxPayload; ++length) {
+    Frame frame;
+    frame.length = length;
+    Samples samples;
+    AimCommand aim;
+    EXPECT_EQ(decode(frame, samples) == Status::kOk, length > 7 && length <= 7 + 4 * 12 && (length - 7) % 12 == 0) << int{length};
+    EXPECT_EQ(decode(frame, aim) == Status::kOk, length > 2 && length <= 2 + 6 * 8 && (length - 2) % 8 == 0) << int{length};
+  }
+}
+
+TEST(LcsMessages, CodesThatAreNotDefinedAreRefused) {
+  VERIFIES("LASSO-LCS-014~1");
+  const auto refuses = [](Frame frame, std::size_t place, std::uint8_t code, auto message) {
+    frame.payload[place] = code;
+    return decode(frame, message) == Status::kBadValue;
+  };
+  EXPECT_TRUE(refuses(received(encode(0, LaserCommand::kArm)), 0, 1, LaserCommand{}));
+  EXPECT_TRUE(refuses(received(encode(0, Answer{})), 2, 8, Answer{}));
+  EXPECT_TRUE(refuses(received(encode(0, ScanEnd{})), 3, 2, ScanEnd{}));
+  Samples samples;
+  samples.count = 2;
+  EXPECT_TRUE(refuses(received(encode(0, samples)), 7 + 10, 4, Samples{}));  // the last 4 bits of the first sample's peak
+}
+
+TEST(LcsMessages, CommandsWithoutPayloadAreHeadersAlone) {
+  const Frame frame = received(encode(9, Type::kAbort));
+  EXPECT_EQ(frame.type, 0x12);
+  EXPECT_EQ(frame.sequence, 9);
+  EXPECT_EQ(frame.length, 0);
+}
+
+TEST(LcsMessagesDeath, CountsThatNoFrameHolds) {
+  Samples samples;
+  EXPECT_DEATH(encode(0, samples), "lcs samples");
+  samples.count = kSamplesPerFrame + 1;
+  EXPECT_DEATH(encode(0, samples), "lcs samples");
+  AimCommand aim;
+  aim.count = kAimedPerFrame + 1;
+  EXPECT_DEATH(encode(0, aim), "lcs aimed rays");
+}
+
+}  // namespace
+}  // namespace lasso::lcs
