@@ -251,18 +251,24 @@ RangeSample Driver::next_sample() {
   return sample;
 }
 
+// What is known of the scan's next samples, into `out` from `count` on.
+std::size_t Driver::hand_over(Span<RangeSample> out, std::size_t count) {
+  while (count < out.size() && state_ == State::kScanning && (taken_ < pending_.count || (end_seen_ && next_ < plan_.points))) {
+    out[count++] = next_sample();
+    ++next_;
+  }
+  return count;
+}
+
 SensorPoll Driver::poll(TimeUs now_us, Span<RangeSample> out) {
   inhibit();
   SensorPoll answer;
   budget_ = kLineBytes;
   Frame frame;
-  for (;;) {  // ends with the budget, or with `out`
-    while (answer.count < out.size() && (taken_ < pending_.count || (end_seen_ && next_ < plan_.points)) && state_ == State::kScanning) {
-      out[answer.count++] = next_sample();
-      ++next_;
-    }
-    if (answer.count == out.size() || !read_frame(frame)) break;
+  answer.count = hand_over(out, 0);
+  while (answer.count < out.size() && read_frame(frame)) {  // ends with the budget
     receive(frame);
+    answer.count = hand_over(out, answer.count);
   }
   if (state_ == State::kStarting && now_us - t_start_us_ > kAnswerTimeoutUs) lose(Loss::kSilent, Status::kTimeout);
   answer.complete = state_ == State::kScanning && next_ == plan_.points;

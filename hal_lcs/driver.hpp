@@ -98,6 +98,7 @@ class Driver final : public Sensor {
   void check_plan(const Samples& samples);
   RangeSample next_sample();
   RangeSample sample_of(const RawSample& raw);
+  std::size_t hand_over(Span<RangeSample> out, std::size_t count);
   TimeUs time_of(std::uint32_t clock_us) const;
 
   Line& line_;

@@ -20,10 +20,9 @@ double corrected(const lcs::Calibration& c, double x, double y, double peak) {
   return sum;
 }
 
-const lcs::Calibration& checked(const lcs::Calibration& truth) {
+void check(const lcs::Calibration& truth) {
   const Status status = lcs::validate(truth);
   if (status != Status::kOk) throw std::invalid_argument(std::string("the camera's optics: ") + to_string(status));
-  return truth;
 }
 
 }  // namespace
@@ -47,7 +46,7 @@ lcs::RawSample raw_sample(const lcs::Calibration& truth, double temperature_degC
 LcsDevice::LcsDevice(const RayCaster& target, const Trajectory& trajectory, const ScannerModel& model, std::uint64_t seed,
                      const LcsCamera& camera)
     : rays_(target, trajectory, model, seed), camera_(camera), chance_(seed ^ kChanceOfTheLine) {
-  static_cast<void>(checked(camera.truth));
+  check(camera.truth);
 }
 
 std::uint32_t LcsDevice::clock_us(TimeUs t_us) const {
