@@ -151,7 +151,7 @@ TEST_F(AcquisitionTest, BadSamplesBecomeInvalidAndAreCountedByReason) {
   s[15].range_m = 1.01e5F;
   s[16].t_us = s[15].t_us - 2000;
   s[17].t_us = kStart + 200001;
-  s[18].state = static_cast<RayState>(3);
+  s[18].state = static_cast<RayState>(4);
   s[1023].t_us = kStart;
   sensor.ignores_time = true;
   const ScanVerdict verdict = run();
