@@ -87,7 +87,9 @@ TEST(LcsMessages, ComeBackToTheByte) {
     const auto sequence = static_cast<std::uint8_t>(chance.bits());
     for (const LaserCommand laser : {LaserCommand::kInhibit, LaserCommand::kArm, LaserCommand::kFire})
       expect_same_again<LaserCommand>(encode(sequence, laser));
-    AimCommand aim{static_cast<std::uint16_t>(chance.bits()), 1 + chance.bits() % kAimedPerFrame, {}};
+    AimCommand aim;
+    aim.first = static_cast<std::uint16_t>(chance.bits());
+    aim.count = 1 + chance.below(kAimedPerFrame);
     for (AimedRay& ray : aim.rays) ray = {static_cast<float>(chance.uniform(-1, 1)), static_cast<float>(chance.uniform(-1, 1))};
     expect_same_again<AimCommand>(encode(sequence, aim));
     expect_same_again<StartCommand>(encode(
