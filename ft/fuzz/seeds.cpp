@@ -11,6 +11,7 @@
 #include "fsw/mission/mission.hpp"
 #include "fsw/pose/estimator.hpp"
 #include "ft/fuzz/small_image.hpp"
+#include "hal_lcs/messages.hpp"
 #include "hal_sim/scan_file.hpp"
 
 namespace lasso::fuzz {
@@ -86,6 +87,38 @@ void write_commands(const fs::path& folder) {
   }
 }
 
+// A scan of 64 points as it should come: answer, samples, end.
+void write_lines(const fs::path& folder) {
+  std::string frames;
+  std::string stream;
+  const auto say = [&](const auto& message) {
+    const lcs::FrameBytes bytes = lcs::encode(static_cast<std::uint8_t>(stream.size()), message);
+    const auto* const begin = reinterpret_cast<const char*>(bytes.bytes);
+    stream.append(begin, bytes.size);
+    frames += begin[3];  // type, length, payload: the fuzzer makes frames of them again
+    frames += begin[2];
+    frames.append(begin + 5, bytes.size - lcs::kFrameOverhead);
+  };
+  say(lcs::CameraStatus{});
+  say(lcs::Answer{lcs::Type::kStart, 4, lcs::Result::kDone, 0});
+  for (std::uint16_t first = 0; first < 64; first = static_cast<std::uint16_t>(first + lcs::kSamplesPerFrame)) {
+    lcs::Samples samples;
+    samples.tag = 0x55;
+    samples.first = first;
+    samples.count = lcs::kSamplesPerFrame;
+    for (std::size_t i = 0; i < samples.count; ++i) {
+      samples.samples[i].clock_us = static_cast<std::uint32_t>((first + i) * 2857);
+      samples.samples[i].peak = 0.05;
+      samples.samples[i].kind = lcs::SampleKind::kReturn;
+    }
+    say(samples);
+  }
+  say(lcs::ScanEnd{0x55, 64, true});
+  write(folder / "frames", seed(static_cast<char>(0xFE), frames));
+  write(folder / "bytes", seed(static_cast<char>(0xFF), stream));
+  write(folder / "few_at_a_time", seed(6, frames));
+}
+
 std::string csv_text(const fs::path& folder) {
   const fs::path file = folder / "made.csv";
   const auto scan = small_scan();
@@ -143,6 +176,7 @@ int main(int argc, char** argv) {
     const std::filesystem::path folder = argv[1];
     lasso::fuzz::write_commands(folder / "command");
     lasso::fuzz::write_images(folder / "image");
+    lasso::fuzz::write_lines(folder / "line");
     lasso::fuzz::write_packets(folder / "packet");
     lasso::fuzz::write_scans(folder / "scan");
   } catch (const std::exception& error) {
