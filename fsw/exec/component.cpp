@@ -25,9 +25,9 @@ Twist initial_rates(const MissionParameters& p) {
   return rates;
 }
 
-// One sigma of the target's place on the least certain axis; what is less certain than the model's own size is not scanned wider.
-double place_sigma(const Mission& mission, const FilterState& filter) {
-  const double sigma = square_root(filter.covariance.diagonal().segment<3>(3).maxCoeff());
+// One sigma of a model's place on the least certain axis; what is less certain than the model's own size is not scanned wider.
+double place_sigma(const Mission& mission, const Mat6& covariance) {
+  const double sigma = square_root(covariance.diagonal().tail<3>().maxCoeff());
   return sigma < mission.radius_m ? sigma : mission.radius_m;
 }
 
@@ -303,9 +303,12 @@ Aim Component::aim_of_scan() const {
   // Where the prediction has no meaning the scan is aimed where the target was last.
   static_cast<void>(predict_pose(track_.filter, acquired_.t_nominal_us, predicted));
   aim.T_sensor_target = predicted.T_sensor_target;
-  aim.uncertainty_m = place_sigma(mission_, track_.filter);
+  aim.uncertainty_m = place_sigma(mission_, track_.filter.covariance.topLeftCorner<6, 6>());
   aim.rays = aimed_.span();
-  if (part_ != kWhole) aim.T_sensor_target = predicted.T_sensor_target * parts_[part_ - 1U].T_target_part;
+  if (part_ == kWhole) return aim;
+  const Part& part = parts_[part_ - 1U];
+  aim.T_sensor_target = predicted.T_sensor_target * part.T_target_part;
+  aim.uncertainty_m = place_sigma(part.mission, part_covariance(part, track_.filter));
   return aim;
 }
 

@@ -118,6 +118,7 @@ void describe_parts(const TrackStep& step, PoseTelemetry& out) {
   out.part = step.parts.scanned;
   out.odd_part = step.parts.odd;
   out.odd_sigmas = static_cast<float>(step.parts.odd_sigmas);
+  if (!properties(step.after.mode).by_parts) return;
   for (std::size_t i = 0; i < kMaxParts; ++i) {
     if (rests(step.after.parts.of[i], step.registration.scan_id))
       out.parts_resting = static_cast<std::uint8_t>(out.parts_resting | 1U << i);

@@ -90,8 +90,7 @@ bool sees(const Part& part, const Pose& T_sensor_part) {
 
 // Is the prediction so certain that the part lies within its registration's gate?
 bool is_placed(const Part& part, const FilterState& predicted) {
-  const Mat6 M = moved_by(lever_of(part, predicted.T_sensor_target));
-  const Mat6 C = M * predicted.covariance.topLeftCorner<6, 6>() * M.transpose();
+  const Mat6 C = part_covariance(part, predicted);
   const double radius_m = part.mission.radius_m;
   const double gate_m = part.mission.parameters.gate_first_m;
   return radius_m * radius_m * C.topLeftCorner<3, 3>().trace() + C.bottomRightCorner<3, 3>().trace() < gate_m * gate_m;
@@ -177,6 +176,11 @@ Mat6 unpack(const PackedCovariance& packed) {
   return covariance;
 }
 
+Mat6 part_covariance(const Part& part, const FilterState& filter) {
+  const Mat6 M = moved_by(lever_of(part, filter.T_sensor_target));
+  return M * filter.covariance.topLeftCorner<6, 6>() * M.transpose();
+}
+
 bool rests(const PartRecord& record, std::uint32_t scan_id) { return scan_id < record.rests_until; }
 
 Registration register_part(const Mission& mission, const Part& part, Estimator& estimator, const RangeImage& scan,
@@ -190,7 +194,7 @@ Registration register_part(const Mission& mission, const Part& part, Estimator& 
   result.T_sensor_target = result.T_sensor_target * inverse(part.T_target_part);
   const Mat6 back = moved_by(-lever_of(part, result.T_sensor_target));
   result.covariance = back * result.covariance * back.transpose();
-  if (result.valid()) find_weak_directions(mission, result);
+  if (result.weakest_sigma_m > 0) find_weak_directions(mission, result);  // they were found in the part's frame
   return result;
 }
 

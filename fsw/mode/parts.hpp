@@ -48,6 +48,9 @@ struct PartsReport {
 // Does the part rest when scan `scan_id` is planned?
 bool rests(const PartRecord& record, std::uint32_t scan_id);
 
+// Covariance of the part's pose by the filter's: rotation in sensor axes, translation of the part's origin.
+Mat6 part_covariance(const Part& part, const FilterState& filter);
+
 // Registers a scan of the part from the filter's prediction for its reference time; the result is that of the target's frame. Bounds: as
 // Estimator::estimate.
 Registration register_part(const Mission& mission, const Part& part, Estimator& estimator, const RangeImage& scan,

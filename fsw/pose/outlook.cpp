@@ -27,7 +27,7 @@ bool add_return(const Mission& mission, FieldRay<N>& ray, Mat6& H) {
   set_cells(field, ray);
   if (!near_grid(ray)) return false;
   const FieldSpan<N> span = clip_to_grid(field, ray);
-  const FieldHit<N> hit = walk_field(field, ray, span.enter, span.leave);
+  const FieldHit<N> hit = walk_field(field, ray, span.enter > 0 ? span.enter : 0, span.leave);  // what lies behind is not seen
   if (!hit.found) return false;
   const Length q[3] = {ray.m[0] + hit.t * ray.u[0], ray.m[1] + hit.t * ray.u[1], ray.m[2] + hit.t * ray.u[2]};
   N::Unit normal[3];

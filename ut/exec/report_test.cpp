@@ -128,6 +128,8 @@ TEST(Report, CarriesTheParts) {
   step.after.parts.of[1].rests_until = 2;  // the scan is number 1
   step.after.parts.of[4].rests_until = 3;
   step.after.parts.of[5].rests_until = 1;
+  EXPECT_EQ(make_report(Mission{}, step, ScanPlan{}, 0).parts_resting, 0) << "in a mode that looks at the whole nobody rests";
+  step.after.mode = TrackingMode::kShortRange;
   const PoseTelemetry t = make_report(Mission{}, step, ScanPlan{}, 0);
   EXPECT_EQ(t.part, 3);
   EXPECT_EQ(t.odd_part, 5);

@@ -89,6 +89,18 @@ TEST_F(RegisterPartTest, TheCovarianceIsThatOfThePartSeenFromTheTargetsOrigin) {
   EXPECT_LT(pose_difference(r.T_sensor_target * T_target_part, direct.T_sensor_target).norm(), 1e-9);
 }
 
+TEST_F(RegisterPartTest, WeakDirectionsAreTheTargetsWhetherThePoseIsValidOrNot) {
+  VERIFIES("LASSO-MOD-162~1");
+  const Registration valid = measure(noisy_scan(), 1, Vec6::Zero());
+  parts_[1].mission.parameters.agreement_min = 1.5;  // no scan reaches it
+  const Registration refused = measure(noisy_scan(), 1, Vec6::Zero());
+  ASSERT_TRUE(valid.valid());
+  EXPECT_EQ(refused.reason, PoseReason::kLowAgreement);
+  EXPECT_EQ(refused.weak, valid.weak);
+  EXPECT_EQ(refused.weakest_sigma_m, valid.weakest_sigma_m);
+  EXPECT_EQ(refused.weakest_direction, valid.weakest_direction);
+}
+
 TEST_F(RegisterPartTest, WhatGivesNoPoseSaysWhy) {
   VERIFIES("LASSO-MOD-162~1");
   test::BoxScan scan = noisy_scan();

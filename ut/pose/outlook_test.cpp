@@ -85,6 +85,18 @@ TEST_F(OutlookTest, IsCutAtTheFieldOfView) {
   EXPECT_GT(outside.low[0], outside.high[0]);
 }
 
+// The sensor stands within the box's grid, which reaches beyond the box.
+TEST_F(OutlookTest, WhatLiesBehindTheSensorIsNotMet) {
+  ScanRectangle ahead;
+  ahead.low[0] = ahead.low[1] = -0.05F;
+  ahead.high[0] = ahead.high[1] = 0.05F;
+  scan_.T_sensor_target.q = Quat::Identity();
+  scan_.T_sensor_target.p = Vec3(0, 0, -0.25);  // all of it 0.1 m or more behind the sensor
+  EXPECT_EQ(look_over(mission_, view(), ahead, 96).met, 0);
+  scan_.T_sensor_target.p = Vec3(0, 0, 0.25);
+  EXPECT_EQ(look_over(mission_, view(), ahead, 96).met, kOutlookRays);
+}
+
 TEST_F(OutlookTest, PointsBehindTheSensorHaveNoPlace) {
   scan_.T_sensor_target.p = Vec3(0, 0, -3);
   const ScanRectangle nowhere = outline_of(mission_, view());
