@@ -23,15 +23,18 @@ Status plan_aimed(const Mission& mission, const Aim& aim, ScanPlan& plan) {
 
 }  // namespace
 
-void AcquisitionTask::start(const Mission& mission, const Aim& aim, std::uint32_t scan_id, TimeUs t_start_us, ScanPlan& plan) {
+void AcquisitionTask::start(SensorNumber sensor, const Mission& mission, const Aim& aim, std::uint32_t scan_id, TimeUs t_start_us,
+                            ScanPlan& plan) {
   plan.scan_id = scan_id;
+  sensor_ = sensor;
   const Status status = aim.full_field ? plan_full_field(mission.parameters, scan_id, plan) : plan_aimed(mission, aim, plan);
   if (status != Status::kOk) return;
   aimed_.clear();
   if (!aim.full_field) keep(aim.rays);
   plan.aimed = aimed_.span();
+  asked_ = true;
   // A refusal comes back as the verdict of finish().
-  static_cast<void>(acquisition_.start(sensor_, plan, t_start_us, images_[filling_]));
+  static_cast<void>(acquisition_.start(*sensors_[sensor_], plan, t_start_us, images_[filling_]));
 }
 
 void AcquisitionTask::keep(Span<const AimedRay> rays) {
@@ -42,11 +45,15 @@ void AcquisitionTask::poll(TimeUs now_us) {
   RangeImage& image = images_[filling_];
   for (std::size_t i = 0; i < kMaxPolls && acquisition_.under_way(); ++i) {
     const std::size_t before = image.samples.size();
-    acquisition_.step(sensor_, now_us, image);
+    acquisition_.step(*sensors_[sensor_], now_us, image);
     if (image.samples.size() < before + kMaxSamplesPerPoll) return;  // the sensor has no more
   }
 }
 
-bool AcquisitionTask::finish() { return acquisition_.finish(sensor_, images_[filling_]).usable; }
+ScanEnd AcquisitionTask::finish() {
+  const ScanEnd end{asked_, acquisition_.finish(*sensors_[sensor_], images_[filling_]).usable};
+  asked_ = false;
+  return end;
+}
 
 }  // namespace lasso

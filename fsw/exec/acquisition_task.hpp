@@ -24,26 +24,35 @@ struct Aim {
   Span<const AimedRay> rays;  // that leave the pattern; not those of a full-field scan
 };
 
+struct ScanEnd {
+  bool asked = false;   // a sensor was asked for the scan
+  bool usable = false;  // its image is fit for an estimate
+};
+
 class AcquisitionTask {
  public:
-  explicit AcquisitionTask(Sensor& sensor) : sensor_(sensor) {}
+  // The sensors outlive the task; there is one at least.
+  explicit AcquisitionTask(const SensorBank& sensors) : sensors_(sensors) {}
 
-  // Plans scan `scan_id` on the aim and arms the sensor. A refusal is what finish() then says. `plan` is written even then, as
-  // far as it was made.
-  void start(const Mission& mission, const Aim& aim, std::uint32_t scan_id, TimeUs t_start_us, ScanPlan& plan);
+  // Plans scan `scan_id` on the aim and arms the sensor. A refusal is what finish() then says. `mission` is as this sensor's scans see it.
+  // `plan` is written even then, as far as it was made.
+  void start(SensorNumber sensor, const Mission& mission, const Aim& aim, std::uint32_t scan_id, TimeUs t_start_us, ScanPlan& plan);
   // Takes what the sensor has. Loop bound: kMaxRays / kMaxSamplesPerPoll polls.
   void poll(TimeUs now_us);
-  // Ends the scan: true when its image is fit for an estimate. The image is filling(), until the next start().
-  bool finish();
+  // Ends the scan. Its image is filling(), until the next start().
+  ScanEnd finish();
 
   const RangeImage& filling() const { return images_[filling_]; }
+  std::size_t sensors() const { return sensors_.size(); }
   // The next scan fills the other image: the present one has been handed over.
   void swap_images() { filling_ = 1 - filling_; }
 
  private:
   void keep(Span<const AimedRay> rays);
 
-  Sensor& sensor_;
+  SensorBank sensors_;
+  SensorNumber sensor_ = 0;  // of the scan under way
+  bool asked_ = false;       // for it
   Acquisition acquisition_;
   RangeImage images_[2];
   AimedRays aimed_;  // of the scan under way

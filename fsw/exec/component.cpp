@@ -6,11 +6,6 @@
 namespace lasso {
 namespace {
 
-constexpr std::uint32_t kPipelineFrames = 2;  // from a scan's boundary to its publication
-constexpr double kBearingOffShare = 0.25;     // of the model's radius: the middle of what is seen is not the model's
-
-DurationUs to_us(double seconds) { return static_cast<DurationUs>(seconds * 1e6 + 0.5); }
-
 Pose initial_pose(const MissionParameters& p) {
   Pose pose;
   pose.q = Quat(p.initial_qw, p.initial_qx, p.initial_qy, p.initial_qz);
@@ -25,21 +20,6 @@ Twist initial_rates(const MissionParameters& p) {
   return rates;
 }
 
-// One sigma of a model's place on the least certain axis; what is less certain than the model's own size is not scanned wider.
-double place_sigma(const Mission& mission, const Mat6& covariance) {
-  const double sigma = square_root(covariance.diagonal().tail<3>().maxCoeff());
-  return sigma < mission.radius_m ? sigma : mission.radius_m;
-}
-
-ScanPlan no_plan() {
-  ScanPlan plan;
-  plan.points = 0;
-  plan.half_x = 0;
-  plan.half_y = 0;
-  plan.duration_us = 0;
-  return plan;
-}
-
 // The whole's scans and each part's end within the period.
 bool scans_fit(const Mission& mission, const Parts& parts) {
   const double period_s = mission.parameters.period_s;
@@ -48,9 +28,19 @@ bool scans_fit(const Mission& mission, const Parts& parts) {
   return fit;
 }
 
-// Parameters that are right by themselves but not together; nullptr: none.
-const char* fault_of(const Mission& mission, const Parts& parts) {
+const char* fault_of(const SensorParameters& sensor) {
+  if (!(sensor.range_min_m < sensor.range_max_m)) return "sensor.range_min_m is not below sensor.range_max_m";
+  return sensor.use_from_m < sensor.use_to_m ? nullptr : "sensor.use_from_m is not below sensor.use_to_m";
+}
+
+// Parameters that are right by themselves but not together, or not on this board; nullptr: none.
+const char* fault_of(const Mission& mission, const Parts& parts, std::size_t sensors) {
   const MissionParameters& p = mission.parameters;
+  if (mission.sensors.size() > sensors) return "the mission has more sensors than are connected";
+  for (const SensorParameters& sensor : mission.sensors) {
+    const char* fault = fault_of(sensor);
+    if (fault != nullptr) return fault;
+  }
   if (!scans_fit(mission, parts)) return "scan.duration_s exceeds filter.period_s";
   if (p.short_range_enter_m > 0 && !(p.short_range_leave_m > p.short_range_enter_m)) {
     return "short_range.leave_m is not above short_range.enter_m";
@@ -60,7 +50,9 @@ const char* fault_of(const Mission& mission, const Parts& parts) {
 
 }  // namespace
 
-Component::Component(Sensor& sensor) : acquisition_(sensor) {}
+Component::Component(const SensorBank& sensors) : acquisition_(sensors) {}
+
+Component::Component(Sensor& sensor) : Component(only(sensor)) {}
 
 LoadFailure Component::load_image(Bytes image) {
   LoadFailure failure;
@@ -70,10 +62,11 @@ LoadFailure Component::load_image(Bytes image) {
     return failure;
   }
   loaded_ = false;  // whatever follows, the image that was loaded before may have been overwritten
-  failure = lasso::load_image(image, mission_, parts_);
+  failure = lasso::load_image(image, views_[0].mission, views_[0].parts);
   if (failure.status != Status::kOk) return failure;
-  const char* fault = fault_of(mission_, parts_);
+  const char* fault = fault_of(mission(), parts(), acquisition_.sensors());
   loaded_ = fault == nullptr;
+  if (loaded_) make_views();
   if (!loaded_) {
     failure.status = Status::kBadValue;
     failure.what = fault;
@@ -81,10 +74,17 @@ LoadFailure Component::load_image(Bytes image) {
   return failure;
 }
 
+void Component::make_views() {
+  for (std::size_t i = 1; i < mission().sensors.size(); ++i) {
+    views_[i] = views_[0];
+    use_sensor(static_cast<SensorNumber>(i), views_[i].mission, views_[i].parts);
+  }
+}
+
 Status Component::begin(TimeUs boundary_0_us) {
   if (!loaded_) return Status::kMissing;
   if (executive_.begun()) return Status::kBadOrder;
-  const MissionParameters& p = mission_.parameters;
+  const MissionParameters& p = mission().parameters;
   invariant(executive_.begin(boundary_0_us, to_us(p.period_s)) == Status::kOk, "slots of a valid period");
   if (p.initial_present < 0.5) return Status::kOk;
   const StartOffer offer = rough_offer(p, initial_pose(p), initial_rates(p), boundary_0_us);
@@ -98,7 +98,7 @@ StartRefusal Component::offer_start(StartWay way, const StartOffer& offer) {
   const auto index = static_cast<std::size_t>(way);
   if (index == 0 || way == StartWay::kSearch || index >= kStartWays) return StartRefusal::kNoSuchWay;
   FilterState tried;
-  const StartRefusal refusal = start_from(mission_, offer, executive_.next_boundary_us(), track_.bearing, tried);
+  const StartRefusal refusal = start_from(mission(), offer, executive_.next_boundary_us(), track_.bearing, tried);
   if (refusal != StartRefusal::kNone) {
     refuse_start(way, refusal);
     return refusal;
@@ -116,7 +116,7 @@ void Component::request_start(StartWay way) {
 }
 
 Status Component::start_tracking(const Pose& T_sensor_target, const Twist& rates, TimeUs t_us) {
-  const StartRefusal refusal = offer_start(StartWay::kUplink, rough_offer(mission_.parameters, T_sensor_target, rates, t_us));
+  const StartRefusal refusal = offer_start(StartWay::kUplink, rough_offer(mission().parameters, T_sensor_target, rates, t_us));
   if (refusal == StartRefusal::kNone) return Status::kOk;
   if (refusal == StartRefusal::kNotBegun) return Status::kBadOrder;
   return refusal == StartRefusal::kNotFinite ? Status::kNotFinite : Status::kBadValue;
@@ -158,6 +158,7 @@ void Component::run_task(TaskId task, TimeUs now_us) {
   if (task == TaskId::kPollSensor) return acquisition_.poll(now_us);
   publish_estimate(now_us);
   apply_request();
+  choose_sensor();
   hand_over_scan();
   start_scan();
 }
@@ -198,6 +199,12 @@ void Component::refuse_start(StartWay way, StartRefusal refusal) {
   refusal_ = refusal;
 }
 
+void Component::run_estimation() {
+  if (!estimation_.pending()) return;
+  const View& view = views_[estimation_.sensor()];
+  estimation_.run(view.mission, view.parts);
+}
+
 // At most three at a boundary (a scan's, a command's, a start's), and a packet takes four: there is always room.
 void Component::note_change(const ModeChange& change) {
   invariant(changes_.push_back(change), "more changes of the mode than can wait for a packet");
@@ -205,9 +212,9 @@ void Component::note_change(const ModeChange& change) {
 
 TrackStep Component::step_without_estimate() {
   ++counters_.overruns;
-  TrackStep step = track_without_scan(mission_, PoseReason::kOverrun, estimated_.scan_id, estimated_.t_nominal_us, track_);
+  TrackStep step = track_without_scan(mission(), PoseReason::kOverrun, estimated_.scan_id, estimated_.t_nominal_us, track_);
   step.parts.scanned = estimated_.part;
-  if (properties(track_.mode).searches) count_and_change(mission_.parameters, false, step);  // a search that is always late ends, too
+  if (properties(track_.mode).searches) count_and_change(mission().parameters, false, step);  // a search that is always late ends, too
   return step;
 }
 
@@ -229,7 +236,7 @@ void Component::apply_command() {
 
 void Component::try_start(StartWay way) {
   const TrackingMode before = track_.mode;
-  const StartRefusal refusal = start_track(mission_, way, desk_.take(way), executive_.next_slot_us(), track_);
+  const StartRefusal refusal = start_track(mission(), way, desk_.take(way), executive_.next_slot_us(), track_);
   if (refusal != StartRefusal::kNone) {
     refuse_start(way, refusal);
     return;
@@ -256,7 +263,7 @@ void Component::try_ways() {
 }
 
 StartWay Component::next_way() const {
-  return desk_.next(mission_.parameters, properties(track_.mode).full_field && track_.bearing.started);
+  return desk_.next(mission().parameters, properties(track_.mode).full_field && track_.bearing.started);
 }
 
 void Component::take_way(StartWay way) {
@@ -267,64 +274,11 @@ void Component::take_way(StartWay way) {
   leave_track();
 }
 
-void Component::hand_over_scan() {
-  const bool usable = acquisition_.finish();
-  estimated_ = acquired_;
-  acquired_ = ScanInFlight{};
-  acquired_.plan = no_plan();
-  estimated_.active = estimated_.active && properties(track_.mode).scans;
-  if (!estimated_.active) return;
-  if (!usable) ++counters_.lost_scans;
-  if (!estimation_.idle()) return;  // an estimate that overran still runs: this scan is dropped with it
-  estimation_.submit({estimated_.scan_id, usable ? &acquisition_.filling() : nullptr, estimated_.t_nominal_us, track_, estimated_.part,
-                      part_, estimated_.scan_id + kPipelineFrames,
-                      estimated_.t_nominal_us + static_cast<DurationUs>(kPipelineFrames) * to_us(mission_.parameters.period_s)});
-  if (usable) acquisition_.swap_images();
-}
-
-// An old bearing would be carried far off by its rates.
-bool Component::bearing_known() const {
-  const double age_s = to_seconds(acquired_.t_nominal_us - track_.bearing.t_us);
-  return track_.bearing.started && age_s <= mission_.parameters.bearing_memory_s;
-}
-
-Aim Component::aim_of_scan() const {
-  const ModeProperties& mode = properties(track_.mode);
-  Aim aim;
-  aim.full_field = mode.full_field || (mode.searches && !bearing_known());
-  aim.any_attitude = mode.searches;
-  if (mode.searches) {
-    aim.T_sensor_target.p = track_.bearing.p_m + to_seconds(acquired_.t_nominal_us - track_.bearing.t_us) * track_.bearing.v_mps;
-    aim.uncertainty_m = kBearingOffShare * mission_.radius_m;
-    return aim;
-  }
-  PredictedPose predicted;
-  predicted.T_sensor_target = track_.filter.T_sensor_target;
-  // Where the prediction has no meaning the scan is aimed where the target was last.
-  static_cast<void>(predict_pose(track_.filter, acquired_.t_nominal_us, predicted));
-  aim.T_sensor_target = predicted.T_sensor_target;
-  aim.uncertainty_m = place_sigma(mission_, track_.filter.covariance.topLeftCorner<6, 6>());
-  aim.rays = aimed_.span();
-  if (part_ == kWhole) return aim;
-  const Part& part = parts_[part_ - 1U];
-  aim.T_sensor_target = predicted.T_sensor_target * part.T_target_part;
-  aim.uncertainty_m = place_sigma(part.mission, part_covariance(part, track_.filter));
-  return aim;
-}
-
-void Component::start_scan() {
-  if (!properties(track_.mode).scans) return;
-  const TimeUs boundary_us = executive_.next_slot_us();  // of this frame: its slot 0 is running
-  acquired_.active = true;
-  acquired_.scan_id = executive_.frame();
-  acquired_.t_nominal_us = boundary_us + to_us(mission_.parameters.duration_s) / 2;
-  acquired_.part = part_;
-  acquisition_.start(part_ != kWhole ? parts_[part_ - 1U].mission : mission_, aim_of_scan(), acquired_.scan_id, boundary_us,
-                     acquired_.plan);
-}
-
 void Component::send(const TrackStep& step, TimeUs now_us) {
-  PoseTelemetry report = make_report(mission_, step, estimated_.plan, now_us);
+  PoseTelemetry report = make_report(mission(), step, estimated_.plan, now_us);
+  report.sensor = estimated_.sensor.sensor;
+  report.sensor_reason = static_cast<std::uint8_t>(estimated_.sensor.reason);
+  report.sensors_failed = chooser_.failed(estimated_.scan_id);
   if (!step.registration.valid()) ++counters_.invalid_frames;
   set_counters(report);
   set_changes(report);
@@ -360,6 +314,7 @@ void Component::set_counters(PoseTelemetry& report) const {
   report.refused_starts = counters_.refused_starts;
   report.refused_commands = counters_.refused_commands;
   report.odd_parts = counters_.odd_parts;
+  report.sensor_changes = chooser_.changes();
   report.refused_way = static_cast<std::uint8_t>(refused_way_);
   report.refusal = static_cast<std::uint8_t>(refusal_);
   report.slot_slips = executive_.slips();

@@ -1,4 +1,6 @@
-// The whole flight component, wired: acquisition and estimation as two parallel tasks, a cyclic executive, the telemetry queue.
+// The whole flight component, wired: acquisition and estimation as two parallel tasks, a cyclic executive, the telemetry queue. Of several
+// sensors the one whose turn it is takes a scan (fsw/sense/sensor_chooser.hpp), and the scan is planned and estimated by that one's
+// parameters.
 //
 // Frame k lasts from boundary k to boundary k + 1 (filter.period_s). Scan k is acquired in frame k, estimated in frame k + 1, and
 // published at boundary k + 2, where it also serves to plan scan k + 2. Between boundaries the two tasks share nothing; results pass at
@@ -25,16 +27,18 @@
 #include "fsw/mission/mission.hpp"
 #include "fsw/mode/tracker.hpp"
 #include "fsw/sense/sensor.hpp"
+#include "fsw/sense/sensor_chooser.hpp"
 
 namespace lasso {
 
 class Component {
  public:
-  // `sensor` outlives the component. Nothing moves before begin().
+  // The sensors, in the order of the mission's, outlive the component; there is one at least. Nothing moves before begin().
+  explicit Component(const SensorBank& sensors);
   explicit Component(Sensor& sensor);
 
   // Validates and takes over `image`, which stays the component's memory (8-byte aligned, at most kMaxImageBytes). Before begin() only:
-  // kBadOrder afterwards. kBadValue when a scan does not fit into a frame.
+  // kBadOrder afterwards. kBadValue when a scan does not fit into a frame, or a sensor of the mission's is not there.
   LoadFailure load_image(Bytes image);
 
   // Sets the time of boundary 0. Tracking starts from tracking.initial if the mission has one. kMissing without an image, kBadOrder when
@@ -62,15 +66,22 @@ class Component {
 
   bool estimation_pending() const { return estimation_.pending(); }
   // Runs the pending estimate, if any. The result waits for the boundary.
-  void run_estimation() { estimation_.run(mission_, parts_); }
+  void run_estimation();
 
   // Moves whole packets into `out` and returns their bytes, oldest first.
   std::size_t take_telemetry(Bytes out) { return queue_.take(out); }
 
-  const Mission& mission() const { return mission_; }
-  const Parts& parts() const { return parts_; }
+  // As the scans of the first sensor see it.
+  const Mission& mission() const { return views_[0].mission; }
+  const Parts& parts() const { return views_[0].parts; }
 
  private:
+  // The mission as the scans of one sensor see it.
+  struct View {
+    Mission mission;
+    Parts parts;
+  };
+  static constexpr std::uint32_t kPipelineFrames = 2;  // from a scan's boundary to its publication
   enum class Request : std::uint8_t { kNone, kStart, kCommand };
   // A scan on its way through the pipeline.
   struct ScanInFlight {
@@ -79,6 +90,7 @@ class Component {
     TimeUs t_nominal_us = 0;  // planned middle
     ScanPlan plan;
     PartNumber part = kWhole;  // at which it looks
+    SensorChoice sensor;       // that takes it
   };
   struct Counters {
     std::uint32_t invalid_frames = 0;
@@ -90,15 +102,22 @@ class Component {
     std::uint16_t packets = 0;  // PUS message type counter; its lower 14 bits are the sequence count while there is one kind of packet
   };
 
+  static DurationUs to_us(double seconds) { return static_cast<DurationUs>(seconds * 1e6 + 0.5); }
   void run_task(TaskId task, TimeUs now_us);
   // A boundary, in this order.
   void publish_estimate(TimeUs now_us);
   void apply_request();
   void try_ways();
+  void choose_sensor();
   void hand_over_scan();
   void start_scan();
+  TimeUs next_scan_us() const;
   bool bearing_known() const;
+  Vec3 bearing_place_m() const;
+  Pose predicted_pose() const;
   Aim aim_of_scan() const;
+  Aim aim_at_bearing() const;
+  void make_views();
   StartWay next_way() const;
   void take_way(StartWay way);
 
@@ -115,14 +134,15 @@ class Component {
   void set_changes(PoseTelemetry& report);
   void set_counters(PoseTelemetry& report) const;
 
-  Mission mission_;
-  Parts parts_;
+  View views_[kMaxSensors];  // the first so many as the mission has sensors
   Executive executive_;
   AcquisitionTask acquisition_;
   EstimationTask estimation_;
   TelemetryQueue queue_;
+  SensorChooser chooser_;
+  SensorChoice sensor_;       // of the next scan
   TrackState track_;          // as of the last boundary
-  AimedRays aimed_;           // where its estimate would look next; empty when the track is another one now
+  AimedRays aimed_;           // where its estimate would look next; empty when track or sensor are other ones now
   PartNumber part_ = kWhole;  // at which the next scan looks, by that estimate
   ScanInFlight acquired_;     // in this frame
   ScanInFlight estimated_;    // in this frame

@@ -8,11 +8,13 @@ std::size_t required_memory() { return sizeof(Component); }
 
 std::size_t required_alignment() { return alignof(Component); }
 
-Component* create(void* memory, std::size_t size, Sensor& sensor) {
-  if (memory == nullptr || size < required_memory()) return nullptr;
+Component* create(void* memory, std::size_t size, const SensorBank& sensors) {
+  if (memory == nullptr || size < required_memory() || sensors.empty()) return nullptr;
   if (reinterpret_cast<std::uintptr_t>(memory) % required_alignment() != 0) return nullptr;
-  return new (memory) Component(sensor);
+  return new (memory) Component(sensors);
 }
+
+Component* create(void* memory, std::size_t size, Sensor& sensor) { return create(memory, size, only(sensor)); }
 
 LoadFailure load_image(Component& component, Bytes image) { return component.load_image(image); }
 

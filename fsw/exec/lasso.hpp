@@ -13,8 +13,9 @@ namespace lasso {
 std::size_t required_memory();
 std::size_t required_alignment();
 
-// A component in `memory`; null when it is too small or not aligned. There is nothing to destroy: the memory may be reused at any time.
-// `sensor` and `memory` outlive it.
+// A component in `memory`; null when it is too small or not aligned, or there is no sensor. There is nothing to destroy: the memory may be
+// reused at any time. The sensors, in the order of the mission's, and `memory` outlive it.
+Component* create(void* memory, std::size_t size, const SensorBank& sensors);
 Component* create(void* memory, std::size_t size, Sensor& sensor);
 
 // See the functions of the same name of Component.

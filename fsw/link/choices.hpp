@@ -112,6 +112,15 @@ inline constexpr Choice kSearchReasons[] = {
   {"unexplained", "the best pose leaves too much unexplained", "check that the mission image is the target's; look for background"},
   {"not_registered", "the registration of the best pose failed", "wait for another aspect"},
 };
+inline constexpr Choice kSensorReasons[] = {
+  {"in_band", "the target's range is within the sensor's band (use_from_m, use_to_m)"},
+  {"range_unknown", "nobody knows the range: the sensors that work look in turn"},
+  {"outside_bands", "the range is within nobody's band; this sensor measures it", "let the bands of the mission's sensors overlap"},
+  {"substitute", "the sensor whose band it is has failed; this one measures the range", "look at the one that has failed (sensors_failed)"},
+  {"out_of_range", "no sensor that works measures the range", "look at sensors_failed, or wait for the target to come into range"},
+  {"all_failed", "all sensors lose their scans; the one in use goes on", "look at the sensors"},
+  {"busy", "a search is at work on the sensor's scans: it stays"},
+};
 inline constexpr Choice kPacketFaults[] = {
   {"none", "it is accepted"},
   {"truncated", "fewer bytes than its headers need, or than its length field says", "look at the link"},
@@ -141,6 +150,7 @@ inline constexpr Enumeration kStartRefusal{"start_refusal", Span<const Choice>(k
 inline constexpr Enumeration kBearingReason{"bearing_reason", Span<const Choice>(kBearingReasons)};
 inline constexpr Enumeration kSearchOutcome{"search_outcome", Span<const Choice>(kSearchOutcomes)};
 inline constexpr Enumeration kSearchReason{"search_reason", Span<const Choice>(kSearchReasons)};
+inline constexpr Enumeration kSensorReason{"sensor_reason", Span<const Choice>(kSensorReasons)};
 inline constexpr Enumeration kPacketFault{"packet_fault", Span<const Choice>(kPacketFaults)};
 inline constexpr Enumeration kPattern{"pattern", Span<const Choice>(kPatterns)};
 // clang-format on

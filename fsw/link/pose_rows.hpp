@@ -88,6 +88,10 @@ inline constexpr TypedRow<P> kRows[] = {
   make_row<&P::odd_part>(74, "odd_part", "1", kAny, "part that this scan showed to disagree with the others, 0: none"),
   make_row<&P::odd_sigmas>(75, "odd_sigmas", "1", kAtLeastZero, "how far it is from the one it is farthest from"),
   make_row<&P::odd_parts>(76, "odd_parts", "1", kAny, "such disagreements so far"),
+  make_row<&P::sensor>(77, "sensor", "1", kAny, "sensor that took the scan, 0: the mission's [sensor], then the further ones"),
+  make_row<&P::sensor_reason>(78, "sensor_reason", kSensorReason, "why it was chosen"),
+  make_row<&P::sensors_failed>(79, "sensors_failed", "1", kAny, "bit i: sensor i loses its scans, and is left out for some frames"),
+  make_row<&P::sensor_changes>(80, "sensor_changes", "1", kAny, "changes of the sensor so far"),
 };
 // clang-format on
 

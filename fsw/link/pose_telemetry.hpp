@@ -97,6 +97,11 @@ struct PoseTelemetry {
   float odd_sigmas = 0;            // how far
   std::uint32_t odd_parts = 0;     // so far
 
+  std::uint8_t sensor = 0;           // that took the scan: 0 the mission's [sensor], then the further ones in the image's order
+  std::uint8_t sensor_reason = 0;    // SensorReason: why it was chosen
+  std::uint8_t sensors_failed = 0;   // bit i: sensor i loses its scans, and is left out for some frames
+  std::uint32_t sensor_changes = 0;  // so far
+
   std::uint32_t image_crc = 0;
   std::uint32_t software_version = 0;  // major << 24 | minor << 16 | patch
   std::uint32_t software_build = 0;    // given by the build, 0: development

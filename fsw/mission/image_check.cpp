@@ -12,23 +12,11 @@ using N = FlightNumber;
 constexpr std::uint32_t kDirectoryBytes = 4 * (kImageHeaderWords + kTableCount * kDirectoryEntryWords);
 constexpr std::uint32_t kMaxBricksPerAxis = 1023;
 constexpr N::Length kSmallestCell_m = 1e-6F;
-constexpr std::uint32_t kRecordWords[kTableCount] = {2,
-                                                     kFieldGeometryWords,
-                                                     kElementWords,
-                                                     kCurvatureWords,
-                                                     kBrickWords,
-                                                     kRayCellsPerBrick,
-                                                     1,
-                                                     kNearWordsPerBrick,
-                                                     kFootWords,
-                                                     kEdgeWords,
-                                                     3,
-                                                     kSearchGridWords,
-                                                     1,
-                                                     kViewWords,
-                                                     kSymmetryWords,
-                                                     kPartWords,
-                                                     1};
+constexpr std::uint32_t kRecordWords[kTableCount] = {
+    2, kFieldGeometryWords, kElementWords,  kCurvatureWords, kBrickWords, kRayCellsPerBrick,
+    1, kNearWordsPerBrick,  kFootWords,     kEdgeWords,      3,           kSearchGridWords,
+    1, kViewWords,          kSymmetryWords, kPartWords,      1,           kSensorWords};
+static_assert(kSensorWords == 2 * kSensorValues, "two words a value");
 
 // Header, sizes and whole CRC.
 LoadFailure check_header(const FlightImage& image) {
@@ -112,7 +100,7 @@ LoadFailure check_counts(const FlightImage& image) {
       {TableId::kBricks, bricks, bricks},        {TableId::kFootPoints, bricks, bricks},   {TableId::kElements, 1, kMaxElements},
       {TableId::kCurvatures, 1, kMaxElements},   {TableId::kEdges, 0, kMaxEdges},          {TableId::kHull, 4, kMaxHullPoints},
       {TableId::kRayCells, 1, kEmptyBit - 1},    {TableId::kRayLists, 1, kListOffsetMask}, {TableId::kViews, kMinViews, kMaxViews},
-      {TableId::kSymmetries, 0, kMaxSymmetries}, {TableId::kParts, 0, kMaxParts}};
+      {TableId::kSymmetries, 0, kMaxSymmetries}, {TableId::kParts, 0, kMaxParts},          {TableId::kSensors, 0, kMaxSensors - 1}};
   for (const Limit& limit : limits) {
     const std::uint32_t n = image[limit.id].records;
     if (n < limit.minimum || n > limit.maximum) return failure(Status::kOverCapacity, "number of records", limit.id);
@@ -221,6 +209,16 @@ LoadFailure check_units(const FlightImage& image, TableId id, std::uint32_t size
   return {};
 }
 
+LoadFailure check_sensors(const FlightImage& image) {
+  const ImageTable& table = image[TableId::kSensors];
+  for (std::uint32_t i = 0; i < table.records; ++i) {
+    std::size_t bad_row = 0;
+    const Status status = validate(sensor_of(table, i), bad_row);
+    if (status != Status::kOk) return failure(status, sensor_rows()[bad_row].key, TableId::kSensors, i);
+  }
+  return {};
+}
+
 LoadFailure check_tables(const FlightImage& image) {
   LoadFailure result = check_geometry(image);
   if (!failed(result)) result = check_counts(image);
@@ -233,6 +231,7 @@ LoadFailure check_tables(const FlightImage& image) {
   if (!failed(result)) result = check_search_grid(image);
   if (!failed(result)) result = check_units(image, TableId::kViews, 3);
   if (!failed(result)) result = check_units(image, TableId::kSymmetries, 4);
+  if (!failed(result)) result = check_sensors(image);
   return result;
 }
 
@@ -244,6 +243,13 @@ LoadFailure check_image(FlightImage& image, MissionParameters& parameters) {
   if (!failed(result)) result = check_parameters(image[TableId::kParameters], parameters);
   if (!failed(result)) result = check_tables(image);
   return result;
+}
+
+SensorParameters sensor_of(const ImageTable& table, std::uint32_t record) {
+  SensorParameters sensor{};
+  ByteReader reader(ConstBytes(table.data + std::size_t{4} * kSensorWords * record, std::size_t{4} * kSensorWords));
+  for (const ParameterRow& row : sensor_rows()) sensor.*sensor_member(row) = reader.f64();
+  return sensor;
 }
 
 MissionParameters parameters_of(const ImageTable& table) {

@@ -40,5 +40,6 @@ LoadFailure check_image(FlightImage& image, MissionParameters& parameters);
 
 // The parameters of a table that has been checked.
 MissionParameters parameters_of(const ImageTable& table);
+SensorParameters sensor_of(const ImageTable& table, std::uint32_t record);
 
 }  // namespace lasso

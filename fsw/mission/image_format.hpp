@@ -15,7 +15,7 @@
 namespace lasso {
 
 constexpr std::uint32_t kImageMagic = 0x33444C49;  // "3DLI"
-constexpr std::uint32_t kImageVersion = 4;
+constexpr std::uint32_t kImageVersion = 5;
 constexpr std::uint32_t kImageHeaderWords = 16;
 constexpr std::uint32_t kDirectoryEntryWords = 5;
 constexpr int kUnitFractionBits = 30;
@@ -42,8 +42,9 @@ enum class TableId : std::uint32_t {
   kSymmetries,      // kSymmetryWords a record, at most kMaxSymmetries
   kParts,           // kPartWords a record, at most kMaxParts; none in a part's own image
   kPartImages,      // 1 word a record: the parts' images one after the other, each a whole flight image
+  kSensors,  // kSensorWords a record, at most kMaxSensors - 1: the sensors besides that of the parameters; of no meaning in a part's image
 };
-constexpr std::uint32_t kTableCount = 17;  // all of them, in the order of the ids
+constexpr std::uint32_t kTableCount = 18;  // all of them, in the order of the ids
 
 // Words of the one FieldGeometry record.
 enum FieldGeometryWord : std::uint32_t {
@@ -156,5 +157,8 @@ constexpr std::uint32_t kPartImageOffset = 2 * kPartValues;
 constexpr std::uint32_t kPartImageBytes = kPartImageOffset + 1;
 constexpr std::uint32_t kPartWords = kPartImageBytes + 1;
 constexpr double kMaxPartPriority = 1000;
+
+// A further sensor: binary64 values in the order of sensor_rows(), two words each.
+constexpr std::uint32_t kSensorWords = 20;
 
 }  // namespace lasso

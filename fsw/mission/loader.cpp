@@ -102,6 +102,14 @@ void set_search(const FlightImage& image, int bits, Mission& mission) {
   search.symmetries = {records_of<NearSymmetry<N>>(image, TableId::kSymmetries), image[TableId::kSymmetries].records};
 }
 
+void set_sensors(const ImageTable& further, Mission& mission) {
+  mission.sensors.clear();
+  static_cast<void>(mission.sensors.push_back(mission.parameters));
+  for (std::uint32_t i = 0; i < further.records; ++i) {
+    invariant(mission.sensors.push_back(sensor_of(further, i)), "more sensors than were checked");
+  }
+}
+
 // From here on nothing can fail.
 void activate(const FlightImage& image, Mission& mission) {
   const ImageTable& geometry = image[TableId::kFieldGeometry];
@@ -113,6 +121,7 @@ void activate(const FlightImage& image, Mission& mission) {
   ByteReader trailer(image.bytes.subspan(image.bytes.size() - 4, 4));
   mission.image_crc = trailer.u32();
   mission.parameters = parameters_of(image[TableId::kParameters]);
+  set_sensors(image[TableId::kSensors], mission);
   set_grid(geometry, bits, mission);
   set_search(image, bits, mission);
   for (std::uint32_t i = 2; i < sizeof(kLayouts) / sizeof(kLayouts[0]); ++i) convert_table(image.tables[i], kLayouts[i], bits);
@@ -213,6 +222,11 @@ void activate_parts(const Images& images, Parts& parts) {
 }
 
 }  // namespace
+
+void use_sensor(SensorNumber sensor, Mission& mission, Parts& parts) {
+  static_cast<SensorParameters&>(mission.parameters) = mission.sensors[sensor];
+  for (Part& part : parts) static_cast<SensorParameters&>(part.mission.parameters) = mission.sensors[sensor];
+}
 
 LoadFailure load_image(Bytes bytes, Mission& mission, Parts& parts) {
   Images images;

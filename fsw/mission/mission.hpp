@@ -39,6 +39,7 @@ struct MissionOf {
   std::uint32_t version = 0;
   std::uint32_t image_crc = 0;  // CRC-32C of the image as received
   MissionParameters parameters{};
+  FixedVector<SensorParameters, kMaxSensors> sensors;  // [sensor], then the further ones
   Field<N> field{};
   Span<const ModelEdge<N>> edges;
   Span<const HullPointOf<N>> hull;
@@ -60,6 +61,13 @@ struct Part {
   double priority = 1;
 };
 using Parts = FixedVector<Part, kMaxParts>;
+
+// The number of a sensor: 0 is [sensor], then the further ones in the image's order.
+using SensorNumber = std::uint8_t;
+
+// Mission and parts as the scans of one of the sensors see them: with its noise, field of view and ranges. `sensor` is one of
+// mission.sensors.
+void use_sensor(SensorNumber sensor, Mission& mission, Parts& parts);
 
 struct LoadFailure {
   Status status = Status::kOk;

@@ -22,6 +22,11 @@ const ParameterRow kRows[] = {
   {"sensor.fov_half_x_deg", "deg", kReal, &P::fov_half_x_rad, kDeg, 0.1, 60, 15, "", "half field of view, right and left"},
   {"sensor.fov_half_y_deg", "deg", kReal, &P::fov_half_y_rad, kDeg, 0.1, 60, 15, "", "half field of view, up and down"},
   {"sensor.dropout_probability", "1", kReal, &P::dropout_probability, 1, 0, 0.9, 0, "", "share of rays on the target that do not return"},
+  {"sensor.use_from_m", "m", kReal, &P::use_from_m, 1, 0, 10000, 0, "", "of several sensors, this one is used for a target's origin from here ..."},
+  {"sensor.use_to_m", "m", kReal, &P::use_to_m, 1, 0, 10000, 10000, "", "... to here; where two sensors' bands overlap the one in use stays"},
+  {"sensing.fault_scans", "1", kInteger, &P::fault_scans, 1, 1, 1000, 3, "", "a sensor that loses so many scans in a row has failed: another one that measures the target's range takes its place"},
+  {"sensing.rest_frames", "1", kInteger, &P::sensor_rest_frames, 1, 0, 10000, 50, "", "frames after which it is tried again"},
+  {"sensing.look_scans", "1", kInteger, &P::look_scans, 1, 1, 10000, 10, "", "scans for which a sensor looks for a target of unknown range before the next one does"},
   {"scan.pattern", "1", kChoice, &P::pattern, 1, 0, 2, 0, "rosette|lissajous|raster", "scan pattern"},
   {"scan.points", "1", kInteger, &P::points, 1, 64, 4096, 1024, "", "rays of one scan"},
   {"scan.duration_s", "s", kReal, &P::duration_s, 1, 0.001, 10, 0.18, "", "first to last sample of a scan"},
@@ -110,11 +115,23 @@ bool in_range(const ParameterRow& row, double si) {
   return value >= row.minimum - slack && value <= row.maximum + slack;
 }
 
+static_assert(sizeof(SensorParameters) == kSensorValues * sizeof(double), "a row for each value of a sensor");
+
 bool is_whole(double value) { return static_cast<double>(static_cast<std::int64_t>(value)) == value; }
+
+Status validate(const ParameterRow& row, double value) {
+  if (!is_finite(value)) return Status::kNotFinite;
+  if (!in_range(row, value)) return Status::kBadValue;
+  return row.kind != ParameterKind::kReal && !is_whole(value) ? Status::kBadValue : Status::kOk;
+}
 
 }  // namespace
 
 Span<const ParameterRow> parameter_rows() { return Span<const ParameterRow>(kRows); }
+
+Span<const ParameterRow> sensor_rows() { return parameter_rows().first(kSensorValues); }
+
+double SensorParameters::*sensor_member(const ParameterRow& row) { return static_cast<double SensorParameters::*>(row.member); }
 
 MissionParameters preset_parameters() {
   MissionParameters parameters{};
@@ -124,11 +141,16 @@ MissionParameters preset_parameters() {
 
 Status validate(const MissionParameters& parameters, std::size_t& bad_row) {
   for (bad_row = 0; bad_row < parameter_rows().size(); ++bad_row) {
-    const ParameterRow& row = kRows[bad_row];
-    const double value = parameters.*row.member;
-    if (!is_finite(value)) return Status::kNotFinite;
-    if (!in_range(row, value)) return Status::kBadValue;
-    if (row.kind != ParameterKind::kReal && !is_whole(value)) return Status::kBadValue;
+    const Status status = validate(kRows[bad_row], parameters.*kRows[bad_row].member);
+    if (status != Status::kOk) return status;
+  }
+  return Status::kOk;
+}
+
+Status validate(const SensorParameters& sensor, std::size_t& bad_row) {
+  for (bad_row = 0; bad_row < kSensorValues; ++bad_row) {
+    const Status status = validate(kRows[bad_row], sensor.*sensor_member(kRows[bad_row]));
+    if (status != Status::kOk) return status;
   }
   return Status::kOk;
 }

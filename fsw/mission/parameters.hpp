@@ -9,9 +9,18 @@
 
 namespace lasso {
 
-struct MissionParameters {
-  // [sensor] the noise that the estimator assumes: sigma_r^2 = sigma0^2 + (k z^2)^2 along the ray, z*sigma_angle across it
+// What the component knows of a sensor: [sensor], or a further one.
+struct SensorParameters {
+  // The noise that the estimator assumes: sigma_r^2 = sigma0^2 + (k z^2)^2 along the ray, z*sigma_angle across it.
   double sigma0_m, sigma_k_per_m, sigma_angle_rad, range_min_m, range_max_m, fov_half_x_rad, fov_half_y_rad, dropout_probability;
+  double use_from_m, use_to_m;  // its turn: ranges of the target's origin
+};
+constexpr std::size_t kSensorValues = 10;
+
+// The members of the base are those of the sensor whose scans these parameters are for.
+struct MissionParameters : SensorParameters {
+  // [sensing] which of several sensors takes a scan
+  double fault_scans, sensor_rest_frames, look_scans;
   // [scan]
   double pattern, points, duration_s, cycles_a, cycles_b, margin, phase_step_turns, aimed_share;
   // [estimation]
@@ -51,10 +60,14 @@ struct ParameterRow {
 };
 
 Span<const ParameterRow> parameter_rows();
+// The first kSensorValues of them: those of a sensor.
+Span<const ParameterRow> sensor_rows();
+double SensorParameters::*sensor_member(const ParameterRow& row);
 
 MissionParameters preset_parameters();
 
 // kNotFinite or kBadValue, with the row's index in `bad_row`, unless every value is within its row's range (and integers are whole).
 Status validate(const MissionParameters& parameters, std::size_t& bad_row);
+Status validate(const SensorParameters& sensor, std::size_t& bad_row);
 
 }  // namespace lasso

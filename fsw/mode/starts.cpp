@@ -27,10 +27,18 @@ StartRefusal check_values(const MissionParameters& p, const StartOffer& offer, T
   return offer.t_us < now_us - age_max_us ? StartRefusal::kTooOld : StartRefusal::kNone;
 }
 
+bool reaches(const SensorParameters& sensor, double nearest_m, double farthest_m) {
+  return farthest_m >= sensor.range_min_m && nearest_m <= sensor.range_max_m;
+}
+
+// Of this sensor, or of another one.
 bool in_reach(const Mission& mission, const Vec3& center_m) {
   const double range_m = square_root(center_m.squaredNorm());
-  return center_m.z() > 0 && range_m + mission.radius_m >= mission.parameters.range_min_m &&
-         range_m - mission.radius_m <= mission.parameters.range_max_m;
+  const double nearest_m = range_m - mission.radius_m;
+  const double farthest_m = range_m + mission.radius_m;
+  bool reached = reaches(mission.parameters, nearest_m, farthest_m);
+  for (const SensorParameters& sensor : mission.sensors) reached = reached || reaches(sensor, nearest_m, farthest_m);
+  return center_m.z() > 0 && reached;
 }
 
 bool at_bearing(const Mission& mission, const BearingState& bearing, const FilterState& filter, const Vec3& center_m) {

@@ -1,7 +1,9 @@
-// The sensor as the flight component sees it: whatever scans a plan and hands over samples. Every call returns at once and does bounded
+// A sensor as the flight component sees it: whatever scans a plan and hands over samples. Every call returns at once and does bounded
 // work. Only the acquisition task calls it, from one thread.
 #pragma once
 
+#include "cfg/capacities.hpp"
+#include "fsw/core/fixed_vector.hpp"
 #include "fsw/core/span.hpp"
 #include "fsw/core/status.hpp"
 #include "fsw/core/time.hpp"
@@ -29,5 +31,13 @@ class Sensor {
  protected:
   ~Sensor() = default;  // never deleted through this interface: no operator delete in flight code
 };
+
+// The sensors of a board, in the order of their numbers (fsw/mission/mission.hpp). All of them state their samples in one sensor frame.
+using SensorBank = FixedVector<Sensor*, kMaxSensors>;
+inline SensorBank only(Sensor& sensor) {
+  SensorBank bank;
+  static_cast<void>(bank.push_back(&sensor));
+  return bank;
+}
 
 }  // namespace lasso

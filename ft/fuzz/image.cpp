@@ -104,7 +104,9 @@ void search(const Mission& mission) {
   expect(search->result().outcome != SearchOutcome::kNone, "a search that ended has an outcome");
 }
 
-void use(const Mission& mission, const Parts& parts, std::uint8_t options) {
+// As the scans of the last sensor see it, if asked for.
+void use(Mission& mission, Parts& parts, std::uint8_t options) {
+  if ((options & 8) != 0) use_sensor(static_cast<SensorNumber>(mission.sensors.size() - 1), mission, parts);
   if ((options & 4) != 0) return search(mission);
   estimate(mission, (options & 2) != 0);
   for (const Part& part : parts) estimate(part.mission, (options & 2) != 0);

@@ -4,6 +4,7 @@
 #include "ut/support/box_image.hpp"
 #include "ut/support/box_parts.hpp"
 #include "ut/support/box_scan.hpp"
+#include "ut/support/box_sensors.hpp"
 
 namespace lasso::fuzz {
 
@@ -24,10 +25,11 @@ inline test::BoxTables small_tables() {
   return tables;
 }
 
-// With a part, if asked for: the box once more, in larger cells to fit in.
+// With a part, if asked for: the box once more, in larger cells to fit in; and with a further sensor.
 inline test::TestImage small_image(const MissionParameters& parameters, bool with_part) {
   test::BoxTables tables = small_tables();
   if (!with_part) return test::make_image(parameters, tables);
+  test::append_sensor(test::sensor_of(parameters, 0, 5), tables[test::kSensorsTable]);
   test::BoxPart part;
   part.box = small_box();
   part.box.cell_m = 0.2;

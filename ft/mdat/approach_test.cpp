@@ -20,33 +20,59 @@ std::vector<std::string> modes_of(const Json& timeline) {
   return modes;
 }
 
-double time_of(const Json& timeline, const std::string& mode) {
-  double t_s = -1;
+// Of the first change to the mode after `from_s`; -1: none.
+double time_of(const Json& timeline, const std::string& mode, double from_s = 0) {
   for (const Json& change : timeline.at("changes")) {
-    if (change.at("to") == mode) t_s = change.at("t_s");
+    const double t_s = change.at("t_s");
+    if (change.at("to") == mode && t_s > from_s) return t_s;
   }
-  return t_s;
+  return -1;
 }
 
-TEST(Approach, BeginsWithTheBearingAndRecoversFromAnEclipse) {
-  VERIFIES("LASSO-SIM-034~1 LASSO-SIM-035~1 LASSO-MDT-004~1");
+// The whole flight: bearing, search, tracking by the LIDAR, a loss and its recovery, the laser camera, the parts, and all the way back.
+TEST(Approach, RunsThroughAllModesWithTwoSensorsAndRecoversFromAnEclipse) {
+  VERIFIES("LASSO-MOD-174~1 LASSO-GND-026~1 LASSO-SIM-034~1 LASSO-SIM-035~1 LASSO-MDT-004~1 LASSO-SNS-041~1 LASSO-SNS-046~1");
   const WorkFolder work;
-  const Answer answer = work.mdat("run " + kMission + " --scenario approach --frames 280 --out out");
+  const Answer answer = work.mdat("run " + kMission + " --scenario approach --out out");
   ASSERT_EQ(answer.exit_code, 0) << answer.err;
   const Json timeline = Json::parse(work.read("out/results.json")).at("timeline");
-  const std::vector<std::string> expected = {"bearing", "starting", "tracking", "coasting", "reacquiring", "tracking"};
+  const std::vector<std::string> expected = {"bearing",     "searching", "starting",    "tracking", "coasting",
+                                             "reacquiring", "tracking",  "short_range", "tracking"};
   EXPECT_EQ(modes_of(timeline), expected);
-  EXPECT_GT(time_of(timeline, "starting"), 4) << "no pose is offered before";
-  EXPECT_NEAR(time_of(timeline, "coasting"), 45.2, 0.4) << "the eclipse begins at 45 s";
-  EXPECT_NEAR(time_of(timeline, "tracking"), 50.2, 0.6) << "and ends at 50 s";
-  EXPECT_EQ(timeline.at("wrong"), 0);
-  EXPECT_GT(timeline.at("valid"), 220);
-  EXPECT_LT(timeline.at("rms_mm").get<double>(), 10);
+  EXPECT_LT(time_of(timeline, "tracking"), 15) << "found without help";
+  EXPECT_NEAR(time_of(timeline, "coasting"), 60.2, 0.4) << "the eclipse begins at 60 s";
+  EXPECT_NEAR(time_of(timeline, "tracking", 60), 65.2, 0.6) << "and ends at 65 s";
+  EXPECT_LE(timeline.at("wrong"), 1);
+  EXPECT_GT(timeline.at("valid"), 1340);
+  const Json& tracking = timeline.at("by_mode").at("tracking");
+  EXPECT_EQ(tracking.at("valid"), tracking.at("frames")) << "no frame is lost at a change of the sensor";
+  EXPECT_LT(tracking.at("filtered").at("rms_mm").get<double>(), 2.5);
+  EXPECT_LT(tracking.at("filtered").at("rms_deg").get<double>(), 0.04);
+  const Json& near = timeline.at("by_mode").at("short_range").at("filtered");
+  EXPECT_LT(near.at("rms_mm").get<double>(), 5);
+  EXPECT_LT(near.at("rms_deg").get<double>(), 0.1);
+  for (const char* part : {"whole", "aft_bulkhead", "array_boom", "equipment_bay"})
+    EXPECT_TRUE(timeline.at("by_part").contains(part)) << part;
+}
+
+TEST(Approach, TheRangeChangesTheSensorInBothDirectionsAndTheReportShowsIt) {
+  VERIFIES("LASSO-MOD-174~1 LASSO-GND-026~1 LASSO-SNS-042~1");
+  const WorkFolder work;
+  const Answer answer = work.mdat("run " + kMission + " --scenario approach --seed 2 --out out");
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  const Json changes = Json::parse(work.read("out/results.json")).at("timeline").at("sensor_changes");
+  ASSERT_EQ(changes.size(), 2U) << "once each way: the bands overlap";
+  EXPECT_EQ(changes[0].at("to"), "laser_camera");
+  EXPECT_NEAR(changes[0].at("range_m").get<double>(), 16, 0.2);
+  EXPECT_EQ(changes[1].at("to"), "time_of_flight");
+  EXPECT_NEAR(changes[1].at("range_m").get<double>(), 18, 0.2);
+  EXPECT_EQ(changes[1].at("reason"), "in_band");
   const std::string report = work.read("out/report.html");
-  EXPECT_NE(report.find("Through the modes"), std::string::npos);
-  EXPECT_NE(report.find("<svg"), std::string::npos);
-  EXPECT_NE(report.find("found near the prediction"), std::string::npos) << "each change with its meaning";
-  EXPECT_NE(answer.out.find("found near the prediction"), std::string::npos);
+  for (const char* shown : {"Through the modes", "<svg", "found near the prediction", "close by: its parts in turn", "equipment bay",
+                            "another sensor takes the scans, at 16.0 m", "<img"}) {
+    EXPECT_NE(report.find(shown), std::string::npos) << shown;
+  }
+  EXPECT_NE(answer.out.find("sensor laser_camera after time_of_flight"), std::string::npos) << answer.out;
 }
 
 TEST(Approach, TimesThatContradictTheRangesAreRefused) {
@@ -54,8 +80,8 @@ TEST(Approach, TimesThatContradictTheRangesAreRefused) {
   const struct {
     const char *before, *after, *said;
   } cases[] = {{"times_s = [0.0, ", "times_s = [", "expected one for each of ranges_m"},
-               {"times_s = [0.0, 60.0, ", "times_s = [60.0, 60.0, ", "expected more than the time before it"},
-               {"eclipse_s = [45.0, 50.0]", "eclipse_s = [50.0, 45.0]", "expected an end that is not before the begin"},
+               {"times_s = [0.0, 15.0, ", "times_s = [15.0, 15.0, ", "expected more than the time before it"},
+               {"eclipse_s = [60.0, 65.0]", "eclipse_s = [65.0, 60.0]", "expected an end that is not before the begin"},
                {"ranges_m = [60.0", "ranges_m = [600.0", "expected between sensor.range_min_m and sensor.range_max_m"}};
   for (const auto& c : cases) {
     const WorkFolder work;

@@ -16,7 +16,7 @@ const std::string kMission = std::string(MDAT_SOURCES) + "/cfg/missions/hubble_n
 TEST(CloseBy, TheFilterHoldsAFullSizeTargetOfWhichNoScanSeesTheWhole) {
   VERIFIES("LASSO-MOD-161~1 LASSO-MOD-164~1 LASSO-SIM-035~1");
   const WorkFolder work;
-  const Answer answer = work.mdat("run " + kMission + " --scenario close_by --no-report --out out");
+  const Answer answer = work.mdat("run " + kMission + " --scenario close_by --out out");
   ASSERT_EQ(answer.exit_code, 0) << answer.err;
   const Json noisy = Json::parse(work.read("out/results.json")).at("noisy");
   EXPECT_EQ(noisy.at("lost"), 0);
@@ -24,6 +24,9 @@ TEST(CloseBy, TheFilterHoldsAFullSizeTargetOfWhichNoScanSeesTheWhole) {
   EXPECT_LT(noisy.at("invalid"), 40) << "poses of parts that the others contradict";
   EXPECT_LT(noisy.at("filtered").at("rms_mm").get<double>(), 2.5);
   EXPECT_LT(noisy.at("filtered").at("rms_deg").get<double>(), 0.05);
+  const std::string report = work.read("out/report.html");
+  EXPECT_NE(report.find("looks at"), std::string::npos) << "which part, over time";
+  EXPECT_NE(report.find("array boom"), std::string::npos);
 }
 
 TEST(CloseBy, AMissionSaysItsParts) {

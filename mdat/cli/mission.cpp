@@ -31,6 +31,19 @@ std::string parts_text(const LoadedImage& image) {
   return text;
 }
 
+std::string sensors_text(const LoadedImage& image) {
+  std::string text;
+  const auto& sensors = image.mission().sensors;
+  for (std::size_t i = 0; i < sensors.size() && sensors.size() > 1; ++i) {
+    const SensorParameters& s = sensors[i];
+    char line[240];
+    std::snprintf(line, sizeof line, "sensor %zu: used from %.4g m to %.4g m, measures %.4g m to %.4g m, field of +-%.4g x %.4g deg\n", i,
+                  s.use_from_m, s.use_to_m, s.range_min_m, s.range_max_m, s.fov_half_x_rad / kRadPerDeg, s.fov_half_y_rad / kRadPerDeg);
+    text += line;
+  }
+  return text;
+}
+
 std::string image_text(const std::string& file) {
   const std::vector<std::uint8_t> bytes = read_bytes(file);
   const LoadedImage image(file, bytes);
@@ -43,7 +56,7 @@ std::string image_text(const std::string& file) {
       file.c_str(), mission.id, mission.version, bytes.size(), mission.image_crc, mission.radius_m, mission.edges.size(),
       mission.hull.size(), mission.search.views.size(), mission.search.symmetries.size(), mission.search.cells[0], mission.search.cells[1],
       mission.search.cells[2]);
-  return text + parts_text(image);
+  return text + sensors_text(image) + parts_text(image);
 }
 
 std::string parameters_text(const std::string& file) {

@@ -65,6 +65,10 @@ void append_part(const PartSource& part, std::vector<std::uint32_t>& words) {
   append_value(part.priority, words);
 }
 
+void append_sensor(const SensorParameters& sensor, std::vector<std::uint32_t>& words) {
+  for (const ParameterRow& row : sensor_rows()) append_value(sensor.*sensor_member(row), words);
+}
+
 // Bytes as words of the image, filled up to a multiple of 8.
 void append_bytes(std::vector<std::uint8_t> bytes, std::vector<std::uint32_t>& words) {
   bytes.resize((bytes.size() + 7) / 8 * 8);
@@ -74,8 +78,9 @@ void append_bytes(std::vector<std::uint8_t> bytes, std::vector<std::uint32_t>& w
   }
 }
 
-ModelTables with_parts(const CompiledMission& mission, const MissionParameters& parameters) {
+ModelTables with_parts_and_sensors(const CompiledMission& mission, const MissionParameters& parameters) {
   ModelTables tables = mission.tables;
+  for (const FurtherSensor& sensor : mission.source.further_sensors) append_sensor(sensor.parameters, tables[TableId::kSensors]);
   for (std::size_t i = 0; i < mission.parts.size(); ++i) {
     const std::vector<std::uint8_t> bytes =
         write_image(mission.source.id, mission.source.version, part_parameters(parameters), mission.parts[i].tables);
@@ -107,7 +112,7 @@ CompiledMission compile_mission(const std::filesystem::path& file, const std::fu
 
 std::vector<std::uint8_t> image_bytes(const CompiledMission& mission, const MissionParameters& parameters) {
   try {
-    return write_image(mission.source.id, mission.source.version, parameters, with_parts(mission, parameters));
+    return write_image(mission.source.id, mission.source.version, parameters, with_parts_and_sensors(mission, parameters));
   } catch (const CompileError& error) {
     throw InputError(mission.source.file.string() + ": " + error.what());
   }

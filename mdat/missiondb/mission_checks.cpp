@@ -15,10 +15,14 @@ namespace {
 
 using Parameters = MissionParameters;
 
-void check_range(const Parameters& p, const Complaint& complain) {
-  if (p.range_min_m < p.range_max_m) return;
-  complain({"sensor.range_min_m", "sensor.range_max_m"}, number_text(p.range_min_m),
-           "expected less than sensor.range_max_m, which is " + number_text(p.range_max_m) + " m");
+void check_band(const std::string& from_key, double from_m, const std::string& to_key, double to_m, const Complaint& complain) {
+  if (from_m < to_m) return;
+  complain({from_key, to_key}, number_text(from_m), "expected less than " + to_key + ", which is " + number_text(to_m) + " m");
+}
+
+void check_sensor(const std::string& prefix, const SensorParameters& sensor, const Complaint& complain) {
+  check_band(prefix + "range_min_m", sensor.range_min_m, prefix + "range_max_m", sensor.range_max_m, complain);
+  check_band(prefix + "use_from_m", sensor.use_from_m, prefix + "use_to_m", sensor.use_to_m, complain);
 }
 
 void check_points(const Parameters& p, const Complaint& complain) {
@@ -110,7 +114,7 @@ void check_times(const Scenario& scenario, const Complaint& complain) {
 }  // namespace
 
 void check_parameters(const MissionParameters& parameters, const Complaint& complain) {
-  check_range(parameters, complain);
+  check_sensor("sensor.", parameters, complain);
   check_points(parameters, complain);
   check_pattern(parameters, complain);
   check_duration(parameters, complain);
@@ -119,13 +123,17 @@ void check_parameters(const MissionParameters& parameters, const Complaint& comp
   check_short_range(parameters, complain);
 }
 
-void check_scenario(const Scenario& scenario, const MissionParameters& parameters, const Complaint& complain) {
+void check_sensor(const SensorParameters& sensor, const Complaint& complain) { check_sensor("", sensor, complain); }
+
+void check_scenario(const Scenario& scenario, const MeasuredRanges& measured, const Complaint& complain) {
   if (scenario.has_profile()) check_times(scenario, complain);
+  std::string known;
+  for (const auto& [from_m, to_m] : measured)
+    known += (known.empty() ? "" : ", or ") + number_text(from_m) + " m and " + number_text(to_m) + " m";
   for (const double range_m : scenario.ranges_m) {
-    if (range_m > parameters.range_min_m && range_m < parameters.range_max_m) continue;
-    complain({"ranges_m"}, number_text(range_m),
-             "expected between sensor.range_min_m and sensor.range_max_m, which are " + number_text(parameters.range_min_m) + " m and " +
-                 number_text(parameters.range_max_m) + " m");
+    const bool good = std::any_of(measured.begin(), measured.end(), [&](const auto& m) { return range_m > m.first && range_m < m.second; });
+    if (good) continue;
+    complain({"ranges_m"}, number_text(range_m), "expected between sensor.range_min_m and sensor.range_max_m, which are " + known);
   }
 }
 

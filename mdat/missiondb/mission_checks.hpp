@@ -3,6 +3,8 @@
 
 #include <functional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "mdat/missiondb/mission_source.hpp"
 
@@ -13,8 +15,12 @@ using Complaint = std::function<void(const std::vector<std::string>& keys, const
 
 void check_parameters(const MissionParameters& parameters, const Complaint& complain);
 
-// `parameters` are those that hold in the scenario; the keys are without "scenario.NAME.".
-void check_scenario(const Scenario& scenario, const MissionParameters& parameters, const Complaint& complain);
+// Of a further sensor; the keys are without "further_sensor.NAME.".
+void check_sensor(const SensorParameters& sensor, const Complaint& complain);
+
+// What each sensor measures in the scenario, [sensor] first: from, to. The keys are without "scenario.NAME.".
+using MeasuredRanges = std::vector<std::pair<double, double>>;
+void check_scenario(const Scenario& scenario, const MeasuredRanges& measured, const Complaint& complain);
 
 // Makes the initial quaternion exactly of unit length (it is checked to be within kQuaternionTolerance).
 constexpr double kQuaternionTolerance = 1e-3;

@@ -7,6 +7,7 @@
 #include "mdat/missiondb/model_file.hpp"
 #include "mdat/missiondb/part_reader.hpp"
 #include "mdat/missiondb/sections.hpp"
+#include "mdat/missiondb/sensor_reader.hpp"
 #include "mdat/missiondb/sha256.hpp"
 #include "mdat/missiondb/toml_reader.hpp"
 #include "mdat/modelc/cut.hpp"
@@ -56,9 +57,10 @@ class Loader {
   void read_values() {
     std::vector<ValueRow> rows = mission_rows();
     rows.insert(rows.end(), flight_rows().begin(), flight_rows().end());
-    found_ = read_table(root_, "", rows, {"part", "scenario", "target.parameters"}, problems_);
+    found_ = read_table(root_, "", rows, {"further_sensor", "part", "scenario", "target.parameters"}, problems_);
     for (const ValueRow& row : rows) note_origin(row.key, found_, row.key);
     read_scenario_values();
+    read_further_sensors(root_, source_, problems_);
     read_parts(root_, source_, problems_);
     read_model_parameters();
     fill_mission();
@@ -239,6 +241,13 @@ class Loader {
       problems_.add(first_written({""}, keys), keys[0], value, expected);
       good = false;
     });
+    for (const FurtherSensor& sensor : source_.further_sensors) {
+      const std::string prefix = "further_sensor." + sensor.name + ".";
+      check_sensor(sensor.parameters, [&](const auto& keys, const std::string& value, const std::string& expected) {
+        problems_.add(first_written({prefix}, keys), prefix + keys[0], value, expected);
+        good = false;
+      });
+    }
     if (source_.parameters.short_range_enter_m > 0 && source_.parts.empty()) {
       problems_.add(source_.origins["short_range.enter_m"], "short_range.enter_m", number_text(source_.parameters.short_range_enter_m),
                     "the mission has no parts to look at: add them as [part.NAME], or set it to 0");
@@ -256,9 +265,16 @@ class Loader {
     check_parameters(parameters, [&](const auto& keys, const std::string& value, const std::string& expected) {
       problems_.add(first_written({prefix + "override.", ""}, keys), prefix + "override: " + keys[0], value, expected);
     });
-    check_scenario(scenario, parameters, [&](const auto& keys, const std::string& value, const std::string& expected) {
+    check_scenario(scenario, measured_ranges(parameters), [&](const auto& keys, const std::string& value, const std::string& expected) {
       problems_.add(first_written({prefix}, keys), prefix + keys[0], value, expected);
     });
+  }
+  MeasuredRanges measured_ranges(const MissionParameters& parameters) const {
+    MeasuredRanges ranges{{parameters.range_min_m, parameters.range_max_m}};
+    for (const FurtherSensor& sensor : source_.further_sensors) {
+      ranges.emplace_back(sensor.parameters.range_min_m, sensor.parameters.range_max_m);
+    }
+    return ranges;
   }
   Origin first_written(const std::vector<std::string>& prefixes, const std::vector<std::string>& keys) const {
     for (const std::string& prefix : prefixes) {

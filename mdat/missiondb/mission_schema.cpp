@@ -5,6 +5,7 @@
 
 #include "cfg/capacities.hpp"
 #include "mdat/missiondb/sections.hpp"
+#include "mdat/missiondb/sensor_reader.hpp"
 
 namespace lasso::mdat {
 namespace {
@@ -102,6 +103,9 @@ std::string mission_schema_text() {
                                         {"additionalProperties", {{"type", "number"}, {"minimum", -1e9}, {"maximum", 1e9}}},
                                         {"description", "values of the parametric model's parameters"}};
   add_rows(schema, flight_rows(), true);
+  Json sensor = closed_object();
+  add_rows(sensor, further_sensor_rows(), true);
+  schema["properties"]["further_sensor"] = {{"type", "object"}, {"maxProperties", kMaxSensors - 1}, {"additionalProperties", sensor}};
   Json part = closed_object();
   add_rows(part, part_rows(), true);
   part["oneOf"] = {{{"required", {"box_m"}}}, {{"required", {"model"}}}, {{"required", {"mesh"}}}};

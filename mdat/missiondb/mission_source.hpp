@@ -49,6 +49,14 @@ struct PartSource {
 // How the sensor measures a range. Its presets in [sensor] and of its beam come from the kind (hal_sim/scanner_model.hpp).
 enum class SensorKind : std::uint8_t { kLaserCamera = 0, kTimeOfFlight = 1 };
 
+// A sensor besides [sensor]. The simulated one is as the mission says, with its kind's beam; what a scenario says of dropouts, outliers,
+// grazing rays and edges holds for it, too.
+struct FurtherSensor {
+  std::string name;
+  SensorKind kind = SensorKind::kLaserCamera;
+  SensorParameters parameters{};
+};
+
 enum class ScenarioKind : std::uint8_t { kPaper = 0, kSpin = 1, kApproach = 2, kPass = 3 };
 
 // What the simulation does. Attitude of frame 0: target's x axis vertical in the image (+x up, -y of the sensor), its z axis away from the
@@ -90,6 +98,7 @@ struct MissionSource {
   TargetSource target;
   std::vector<PartSource> parts;  // in the order of their names, which is that of their numbers
   SensorKind sensor = SensorKind::kLaserCamera;
+  std::vector<FurtherSensor> further_sensors;  // in the order of their names: numbers 1, 2, ... ; [sensor] is number 0
   MissionParameters parameters{};
   std::map<std::string, Scenario> scenarios;
   std::map<std::string, Origin> origins;  // by dotted key, all rows of parameter_rows() and of the ground sections

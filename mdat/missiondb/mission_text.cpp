@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "mdat/missiondb/sections.hpp"
+#include "mdat/missiondb/sensor_reader.hpp"
 
 namespace lasso::mdat {
 namespace {
@@ -48,6 +49,18 @@ std::string value_text(const ValueRow& row, std::vector<double> si) {
 void write_sensor(std::ostream& out, const MissionSource& source) {
   const ValueRow& row = *find_row(mission_rows(), "sensor.kind");
   write_line(out, row.key, value_text(row, {static_cast<double>(source.sensor)}), row.unit, place_text(source, row.key), row.meaning);
+}
+
+void write_further_sensor(std::ostream& out, const MissionSource& source, const FurtherSensor& sensor) {
+  const std::string prefix = "further_sensor." + sensor.name + ".";
+  const ValueRow& kind = further_sensor_rows().front();
+  write_line(out, prefix + kind.key, value_text(kind, {static_cast<double>(sensor.kind)}), kind.unit, place_text(source, prefix + kind.key),
+             kind.meaning);
+  for (std::size_t i = 0; i < sensor_rows().size(); ++i) {
+    const ValueRow& row = further_sensor_rows()[i + 1];
+    write_line(out, prefix + row.key, value_text(row, {sensor.parameters.*sensor_member(sensor_rows()[i])}), row.unit,
+               place_text(source, prefix + row.key), row.meaning);
+  }
 }
 
 void write_parameters(std::ostream& out, const MissionSource& source, const std::string& scenario) {
@@ -124,6 +137,7 @@ std::string info_text(const MissionSource& source, const std::string& scenario) 
   write_sensor(out, source);
   write_parameters(out, source, scenario);
   out << '\n';
+  for (const FurtherSensor& sensor : source.further_sensors) write_further_sensor(out, source, sensor);
   for (const PartSource& part : source.parts) write_part(out, source, part);
   for (const auto& entry : source.scenarios) {
     if (scenario.empty() || entry.first == scenario) write_scenario(out, source, entry.first);

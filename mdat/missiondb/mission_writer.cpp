@@ -144,6 +144,30 @@ void write_scenario(std::ostream& out, double range_m) {
   out << "override.tracking.start_sigma_deg = 2\n";
 }
 
+// The half of the target at low x.
+std::string half_box(const Size& size) {
+  std::string text;
+  for (const double side : {-1.0, 1.0}) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const double reach = axis == 0 && side > 0 ? 0 : 0.55 * side * size.largest;
+      text += (text.empty() ? "[" : ", ") + number_text(rounded(size.center[axis] + reach));
+    }
+  }
+  return text + "]";
+}
+
+// What most missions have no need of, as comments that need but be uncommented.
+void write_examples(std::ostream& out, const Size& size, double range_m) {
+  const std::string turn_m = number_text(rounded(range_m / 2));
+  out << "\n# A further sensor takes the scans while the target's origin is within its band. [sensor] then has one, too; where bands "
+         "overlap the\n"
+      << "# sensor in use stays.\n# [further_sensor.near]\n# kind = \"laser_camera\"\n# use_from_m = 0\n# use_to_m = " << turn_m
+      << "\n\n# A part of the target, looked at from close by; [short_range] says from where on (enter_m, leave_m).\n# [part.front]\n# "
+         "box_m = "
+      << half_box(size) << "  # what of the target lies in it\n# range_m = [0.01, " << turn_m
+      << "]  # of the part's centre from the sensor\n# view = [-1, 0, 0]  # towards the sensors that see it\n# cone_deg = 75\n";
+}
+
 [[noreturn]] void fail(const std::filesystem::path& file, const std::string& reason) {
   throw MissionError({file.string(), 0, 0, "", "", reason});
 }
@@ -175,6 +199,7 @@ std::string new_mission_text(const std::filesystem::path& model, double scale, c
   out << "\n# [sensor] describes your sensor; the noise written here grows with the target's size: replace it by your sensor's.\n";
   write_flight_parameters(out, sized_values(size));
   write_scenario(out, initial_range(size));
+  write_examples(out, size, initial_range(size));
   return out.str();
 }
 

@@ -221,6 +221,8 @@ std::uint32_t words_per_record(TableId id) {
       return kPartWords;
     case TableId::kPartImages:
       return 1;
+    case TableId::kSensors:
+      return kSensorWords;
   }
   return 1;
 }

@@ -83,9 +83,18 @@ const VariantResult& main_variant(const TableResult& table) {
 
 const std::vector<KeptScan>& shown_scans(const TableResult& table) { return main_variant(table).cases[shown_range(table.scenario)].scans; }
 
+std::vector<ScanPanel> shown_panels(const TableResult& table) {
+  std::vector<ScanPanel> panels;
+  for (const KeptScan& scan : shown_scans(table)) {
+    panels.push_back({&scan, format("%.0f°: %u of %u rays return", scan.frame * table.scenario.step_rad / kRadPerDeg,
+                                    scan.telemetry.returns, scan.telemetry.plan_points)});
+  }
+  return panels;
+}
+
 std::string scans_figure(Plotter& plotter, const sim::RayCaster& target, const TableResult& table) {
-  if (shown_scans(table).empty()) return "";
-  const std::string png = scan_view_png(plotter, target, shown_scans(table), table.scenario.step_rad, 1);
+  if (shown_scans(table).empty() || table.scenario.has_profile()) return "";
+  const std::string png = scan_view_png(plotter, target, shown_panels(table), true, 1);
   const std::string caption = format(
       "The scan on the target at %g m, as the sensor sees it. The model is drawn at the estimated pose. Colour: measured minus predicted "
       "range of each return; grey: rays that missed, which locate the outline; violet: rays aimed at contours.",
@@ -106,14 +115,18 @@ std::string angle_figures(Plotter& plotter, const TableResult& table) {
   return html;
 }
 
+std::string range_figure(Plotter& plotter, const TableResult& table) {
+  return figure(error_against_range(plotter, table),
+                "Root mean square error against range (the paper's figure 13), and the Cramér-Rao bound of the hits of the same scans.");
+}
+
 std::string table_section(Plotter& plotter, const sim::RayCaster& target, const TableResult& table, bool paper) {
   const std::string title =
       format("Tilt %g°%s", table.scenario.tilt_rad / kRadPerDeg, table.name.empty() ? "" : ": truly side-on, the hardest case");
   std::string html = "<section>\n<h2>" + title + "</h2>\n";
   html += accuracy_table(table, paper && table.name.empty()) + quality_table(table) + range_table(table);
   html += scans_figure(plotter, target, table) + angle_figures(plotter, table);
-  html += figure(error_against_range(plotter, table),
-                 "Root mean square error against range (the paper's figure 13), and the Cramér-Rao bound of the hits of the same scans.");
+  if (table.scenario.runs_m().size() > 1) html += range_figure(plotter, table);
   html +=
       figure(time_histogram(plotter, table), "Processor time of whole estimates (range image in, pose and covariance out) on one thread.");
   return html + "</section>\n";
@@ -121,13 +134,15 @@ std::string table_section(Plotter& plotter, const sim::RayCaster& target, const 
 
 constexpr double kPictureScale = 0.72;  // of the picture for the README
 
-std::string approach_html(const SimulationResult& result) {
+std::string approach_html(const CompiledMission& mission, const SimulationResult& result) {
   Plotter plotter;
+  const std::unique_ptr<sim::RayCaster> target = make_target(mission.mesh);
   const Scenario& scenario = result.tables.front().scenario;
   const auto [nearest, farthest] = std::minmax_element(scenario.ranges_m.begin(), scenario.ranges_m.end());
   std::string body = "<h1>" + escape(result.mission) + "</h1>\n";
   body += format(
-      "<p class='lead'>Scenario <b>%s</b>, seed %llu: an approach between %g m and %g m, %u frames, closed loop through the flight "
+      "<p class='lead'>Scenario <b>%s</b>, seed %llu: an approach between %g m and %g m of its origin, %u frames, closed loop through the "
+      "flight "
       "component, "
       "which begins by looking for the bearing. mdat %s, %.1f s.</p>\n",
       escape(result.scenario).c_str(), static_cast<unsigned long long>(result.seed), *farthest, *nearest, result.frames, kVersion,
@@ -137,7 +152,7 @@ std::string approach_html(const SimulationResult& result) {
       "telemetry. Wrong: valid, and off by more than 5 of its own σ and by more than 20 mm or 1°, the registration's or the filter's. "
       "NEES: 6 "
       "when the covariance is honest.</p>\n";
-  return page(result.mission + ", " + result.scenario, body + timeline_section(plotter, result.tables.front()));
+  return page(result.mission + ", " + result.scenario, body + timeline_section(plotter, *target, result));
 }
 
 std::string introduction(const SimulationResult& result) {
@@ -160,19 +175,21 @@ std::string introduction(const SimulationResult& result) {
 }  // namespace
 
 std::string report_html(const CompiledMission& mission, const SimulationResult& result) {
-  if (result.kind == ScenarioKind::kApproach) return approach_html(result);
+  if (result.kind == ScenarioKind::kApproach) return approach_html(mission, result);
   Plotter plotter;
   const std::unique_ptr<sim::RayCaster> target = make_target(mission.mesh);
   std::string body = "<h1>" + escape(result.mission) + "</h1>\n" + introduction(result);
+  if (result.kind == ScenarioKind::kPass) body += timeline_section(plotter, *target, result);
   for (const TableResult& table : result.tables) body += table_section(plotter, *target, table, result.kind == ScenarioKind::kPaper);
   return page(result.mission + ", " + result.scenario, body);
 }
 
 std::string picture_png(const CompiledMission& mission, const SimulationResult& result) {
   const TableResult& table = result.tables.front();
-  if (shown_scans(table).empty()) throw RunError("no scan to show: the run has no frame at the angles of the picture");
+  if (shown_scans(table).empty() || table.scenario.has_profile())
+    throw RunError("no scan to show: the run has no frame at the angles of the picture");
   Plotter plotter;
-  return scan_view_png(plotter, *make_target(mission.mesh), shown_scans(table), table.scenario.step_rad, kPictureScale);
+  return scan_view_png(plotter, *make_target(mission.mesh), shown_panels(table), true, kPictureScale);
 }
 
 }  // namespace lasso::mdat

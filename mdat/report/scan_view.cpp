@@ -12,9 +12,10 @@
 namespace lasso::mdat {
 namespace {
 
-constexpr int kPanelWidth = 334, kPanelHeight = 520, kLeftMargin = 66, kRightMargin = 132;  // pixels
-constexpr int kSamplesPerAxis = 3;                                                          // rays of a pixel
+constexpr int kPanelWidth = 334, kPanelHeight = 520, kLeftMargin = 66, kRightMargin = 132, kAxisWidth = 48;  // pixels
+constexpr int kSamplesPerAxis = 3;                                                                           // rays of a pixel
 constexpr double kFrameMargin = 1.06;
+constexpr double kPanelShape = 0.8;  // width over height of a panel that shows a view of its own
 using Colour = std::array<double, 3>;
 constexpr Colour kBackground = {255, 255, 255}, kDark = {72, 84, 104}, kBright = {226, 231, 238};
 
@@ -105,11 +106,11 @@ std::string points_text(const KeptScan& scan, RayState state, const sim::RayCast
 }
 
 // The largest residual that is not exceptional, so that the colours show the bulk.
-double residual_span_mm(const sim::RayCaster& target, const std::vector<KeptScan>& scans) {
+double residual_span_mm(const sim::RayCaster& target, const std::vector<ScanPanel>& panels) {
   std::vector<double> sizes;
-  for (const KeptScan& scan : scans) {
-    for (const RangeSample& sample : scan.samples) {
-      const double residual = sample.state == RayState::kHit ? residual_m(target, registration_pose(scan.telemetry), sample) : 0;
+  for (const ScanPanel& panel : panels) {
+    for (const RangeSample& sample : panel.scan->samples) {
+      const double residual = sample.state == RayState::kHit ? residual_m(target, registration_pose(panel.scan->telemetry), sample) : 0;
       if (sample.state == RayState::kHit && !std::isnan(residual)) sizes.push_back(1e3 * std::fabs(residual));
     }
   }
@@ -125,15 +126,15 @@ double tic_step(double span_m) {
   return base * (times < 2 ? 1 : times < 4 ? 2 : 4);
 }
 
-std::string panel(Plotter& plotter, const sim::RayCaster& target, const KeptScan& scan, double step_rad, const View& view) {
+std::string draw(Plotter& plotter, const sim::RayCaster& target, const ScanPanel& panel, const View& view) {
+  const KeptScan& scan = *panel.scan;
   const Pose pose = registration_pose(scan.telemetry);
   const std::string image = plotter.data(render(target, pose, view));
   const std::string misses = plotter.data(points_text(scan, RayState::kMiss, target, pose) + "\n");
   const std::string hits = plotter.data(points_text(scan, RayState::kHit, target, pose) + "\n");
   const double z_m = pose.p.z();
   const std::string aimed = plotter.data(aimed_text(scan) + "\n");
-  std::string text = format("set title '%.0f°: %u of %u rays return'\n", scan.frame * step_rad / kRadPerDeg, scan.telemetry.returns,
-                            scan.telemetry.plan_points);
+  std::string text = "set title \"" + panel.title + "\"\n";
   const double step_m = tic_step(2 * z_m * view.half_x);
   text += format("set xtics %g\nset ytics %g\n", step_m, step_m);
   text += format("set xrange [%.4f:%.4f]\nset yrange [%.4f:%.4f]\n", z_m * (view.x - view.half_x), z_m * (view.x + view.half_x),
@@ -153,15 +154,21 @@ constexpr const char* kStyle =
     "set palette defined (-1 '#1257b0', -0.5 '#49a0e8', 0 '#f2d43d', 0.5 '#ef7d2b', 1 '#b3102a')\n"
     "set cblabel 'measured minus predicted range, mm' textcolor '#46505f' font ',12'\nset cbtics scale 0\n";
 
-int picture_width(std::size_t panels) { return kPanelWidth * static_cast<int>(panels) + kLeftMargin + kRightMargin; }
+// Panels of one size share the axis at their left; others have axes of their own.
+int panel_pitch(bool one_size) { return kPanelWidth + (one_size ? 0 : kAxisWidth); }
+
+int picture_width(std::size_t panels, bool one_size) {
+  return panel_pitch(one_size) * static_cast<int>(panels) + kLeftMargin + kRightMargin;
+}
 
 // Equal panels from left to right; the last one has the colour scale at its right.
-std::string place(std::size_t i, std::size_t count) {
-  const double pixel = 1.0 / picture_width(count);
-  const double left = pixel * (kLeftMargin + kPanelWidth * static_cast<double>(i));
+std::string place(std::size_t i, std::size_t count, bool one_size) {
+  const double pixel = 1.0 / picture_width(count, one_size);
+  const double left = pixel * (kLeftMargin + panel_pitch(one_size) * static_cast<double>(i));
   std::string text = format("set lmargin at screen %.4f\nset rmargin at screen %.4f\n", left, left + pixel * kPanelWidth);
-  text += "set bmargin at screen 0.13\nset tmargin at screen 0.92\n";
-  text += i == 0 ? "set ylabel 'down, m' textcolor '#46505f' font ',12' offset 1\n" : "unset ylabel\nset format y ''\n";
+  text += format("set bmargin at screen 0.13\nset tmargin at screen %g\n", one_size ? 0.92 : 0.89);
+  text += i == 0 ? "set ylabel 'down, m' textcolor '#46505f' font ',12' offset 1\n" : "unset ylabel\n";
+  if (one_size && i > 0) text += "set format y ''\n";
   if (i + 1 < count) return text + "unset colorbox\n";
   return text + format("set colorbox user origin screen %.4f,0.2 size screen %.4f,0.64\n", 1 - 102 * pixel, 14 * pixel);
 }
@@ -174,20 +181,22 @@ double residual_m(const sim::RayCaster& target, const Pose& T_sensor_target, con
   return hit.hit ? static_cast<double>(sample.range_m) - hit.range_m : std::numeric_limits<double>::quiet_NaN();
 }
 
-std::string scan_view_png(Plotter& plotter, const sim::RayCaster& target, const std::vector<KeptScan>& scans, double step_rad,
+std::string scan_view_png(Plotter& plotter, const sim::RayCaster& target, const std::vector<ScanPanel>& panels, bool one_size,
                           double scale) {
-  const double span_mm = residual_span_mm(target, scans);
+  const double span_mm = residual_span_mm(target, panels);
   double half_x = 1e-3, half_y = 1e-3;
-  for (const KeptScan& scan : scans) {
-    half_x = std::max(half_x, kFrameMargin * scan.telemetry.plan_half_extents[0]);
-    half_y = std::max(half_y, kFrameMargin * scan.telemetry.plan_half_extents[1]);
+  for (const ScanPanel& panel : panels) {
+    half_x = std::max(half_x, kFrameMargin * panel.scan->telemetry.plan_half_extents[0]);
+    half_y = std::max(half_y, kFrameMargin * panel.scan->telemetry.plan_half_extents[1]);
   }
   std::string script = kStyle + format("set cbrange [%g:%g]\nset multiplot\n", -span_mm, span_mm);
-  for (std::size_t i = 0; i < scans.size(); ++i) {
-    script += place(i, scans.size());
-    script += panel(plotter, target, scans[i], step_rad, make_view(scans[i].telemetry, half_x, half_y));
+  for (std::size_t i = 0; i < panels.size(); ++i) {
+    const PoseTelemetry& telemetry = panels[i].scan->telemetry;
+    const double own = kFrameMargin * std::max(telemetry.plan_half_extents[0], telemetry.plan_half_extents[1] * kPanelShape);
+    const View view = one_size ? make_view(telemetry, half_x, half_y) : make_view(telemetry, own, own / kPanelShape);
+    script += place(i, panels.size(), one_size) + draw(plotter, target, panels[i], view);
   }
-  return plotter.png(picture_width(scans.size()), kPanelHeight, scale, script + "unset multiplot\n");
+  return plotter.png(picture_width(panels.size(), one_size), kPanelHeight, scale, script + "unset multiplot\n");
 }
 
 }  // namespace lasso::mdat

@@ -10,9 +10,16 @@
 
 namespace lasso::mdat {
 
+// A scan and what stands above it, \\n between two lines.
+struct ScanPanel {
+  const KeptScan* scan = nullptr;
+  std::string title;
+};
+
 // One panel a scan, side by side, 400 x 520 pixels times `scale` each: the target shaded at the estimated pose, the rays that missed as
-// grey points, the returns coloured by measured minus predicted range, the rays aimed at contours violet. A PNG file's bytes.
-std::string scan_view_png(Plotter& plotter, const sim::RayCaster& target, const std::vector<KeptScan>& scans, double step_rad,
+// grey points, the returns coloured by measured minus predicted range, the rays aimed at contours violet. Panels of one size are parts of
+// the sensor's view of equal size; otherwise each shows its own scan's. A PNG file's bytes.
+std::string scan_view_png(Plotter& plotter, const sim::RayCaster& target, const std::vector<ScanPanel>& panels, bool one_size,
                           double scale);
 
 // Measured minus predicted range of a return at a pose; NaN where the ray does not meet the model there.

@@ -1,67 +1,101 @@
 #include "mdat/report/timeline_view.hpp"
 
 #include <algorithm>
+#include <map>
 
 #include "mdat/common/text.hpp"
+#include "mdat/report/base64.hpp"
 #include "mdat/report/page.hpp"
 #include "mdat/report/plot_style.hpp"
+#include "mdat/report/scan_view.hpp"
 
 namespace lasso::mdat {
 namespace {
 
-constexpr const char* kModeColours[] = {"#8a94a3", "#d9a300", "#1e9aa8", "#2563b8", "#a3123a", "#d4571e", "#6b2b86", "#5aaf4a"};
+constexpr const char* kColours[] = {"#8a94a3", "#d9a300", "#1e9aa8", "#2563b8", "#a3123a", "#d4571e", "#6b2b86", "#5aaf4a", "#1b2a6b"};
+constexpr double kLabelGap = 0.025;  // of the picture's width: events closer than this share a label
 
-std::size_t mode_index(TrackingMode mode) { return static_cast<std::size_t>(mode); }
+const Scenario& scenario_of(const SimulationResult& result) { return result.tables.front().scenario; }
+const CaseResult& run_of(const SimulationResult& result) { return result.tables.front().variants.front().cases.front(); }
 
-// One line a stretch of time in one mode: begin, end, mode.
-std::string stretches_text(const Timeline& timeline) {
+double end_of(const Timeline& timeline) { return timeline.points.empty() ? 1 : timeline.points.back().t_s; }
+
+// A panel of bars: what the rows are called, and which one each point is in.
+struct Bars {
+  const char* title;
+  std::vector<std::string> rows;
+  std::size_t (*row_of)(const TimelinePoint&);
+};
+
+std::vector<std::string> mode_names() {
+  std::vector<std::string> names;
+  for (const ModeProperties& mode : mode_properties()) names.emplace_back(mode.name);
+  return names;
+}
+
+// One line a stretch of time in one row: begin, end, row.
+std::string stretches_text(const Timeline& timeline, const Bars& bars) {
   const std::vector<TimelinePoint>& points = timeline.points;
   std::string text;
   for (std::size_t i = 0, begin = 0; i < points.size(); ++i) {
-    if (i + 1 < points.size() && points[i + 1].mode == points[begin].mode) continue;
-    const double end_s = points[std::min(i + 1, points.size() - 1)].t_s;
-    text += format("%.3f %.3f %zu\n", points[begin].t_s, end_s, mode_index(points[begin].mode));
+    if (i + 1 < points.size() && bars.row_of(points[i + 1]) == bars.row_of(points[begin])) continue;
+    text += format("%.3f %.3f %zu\n", points[begin].t_s, points[std::min(i + 1, points.size() - 1)].t_s, bars.row_of(points[begin]));
     begin = i + 1;
-  }
-  return text;
-}
-
-// Time, true range, then the errors of a valid pose in mm and degrees, apart for right (or covered) and wrong ones.
-std::string points_text(const Timeline& timeline) {
-  std::string text;
-  for (const TimelinePoint& point : timeline.points) {
-    text += format("%.3f %.4f ", point.t_s, point.range_m);
-    const std::string errors = format("%.4g %.4g", std::max(1e-3, 1e3 * point.registration.translation_m.norm()),
-                                      std::max(1e-5, point.registration.rotation_rad / kRadPerDeg));
-    const bool wrong = point.verdict == PoseVerdict::kWrong;
-    text += (point.valid && !wrong ? errors : "NaN NaN") + " " + (point.valid && wrong ? errors : "NaN NaN") + "\n";
-  }
-  return text;
-}
-
-std::string mode_tics() {
-  std::string text = "set ytics (";
-  for (const ModeProperties& mode : mode_properties()) {
-    text += format("%s'%s' %zu", mode_index(mode.mode) > 0 ? ", " : "", mode.name, mode_index(mode.mode));
-  }
-  return text + ")\n";
-}
-
-std::string mode_panel(const std::string& stretches) {
-  std::string text =
-      mode_tics() + format("set yrange [-0.7:%g]\nset title 'mode'\nplot ", static_cast<double>(mode_properties().size()) - 0.3);
-  for (std::size_t i = 0; i < mode_properties().size(); ++i) {
-    text += format("%s%s using 1:($3==%zu?$3:1/0):1:2:($3-0.32):($3+0.32) with boxxyerror fs solid noborder lc rgb '%s' notitle",
-                   i > 0 ? ", " : "", stretches.c_str(), i, kModeColours[i % std::size(kModeColours)]);
   }
   return text + "\n";
 }
 
+// gnuplot reads _ as an index.
+std::string plain(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
+// The first row stands at the top.
+std::string bars_panel(Plotter& plotter, const Timeline& timeline, const Bars& bars) {
+  const std::string stretches = plotter.data(stretches_text(timeline, bars));
+  std::string text = "set ytics (";
+  for (std::size_t i = 0; i < bars.rows.size(); ++i) text += format("%s'%s' %zu", i > 0 ? ", " : "", plain(bars.rows[i]).c_str(), i);
+  text += format(")\nset yrange [%g:-0.7]\nset title '%s'\nplot ", static_cast<double>(bars.rows.size()) - 0.3, bars.title);
+  for (std::size_t i = 0; i < bars.rows.size(); ++i) {
+    text += format("%s%s using 1:($3==%zu?$3:1/0):1:2:($3-0.34):($3+0.34) with boxxyerror fs solid noborder lc rgb '%s' notitle",
+                   i > 0 ? ", " : "", stretches.c_str(), i, kColours[i % std::size(kColours)]);
+  }
+  return text + "\n";
+}
+
+// Time, true range, then the errors of valid poses in mm and degrees: of single scans that are right (or covered), of those that are
+// wrong, and of the filter.
+std::string points_text(const Timeline& timeline) {
+  const auto errors = [](const PoseError& error, bool shown) {
+    if (!shown) return std::string(" NaN NaN");
+    return format(" %.4g %.4g", std::max(1e-3, 1e3 * error.translation_m.norm()), std::max(1e-5, error.rotation_rad / kRadPerDeg));
+  };
+  std::string text;
+  for (const TimelinePoint& point : timeline.points) {
+    const bool wrong = point.verdict == PoseVerdict::kWrong;
+    text += format("%.3f %.4f", point.t_s, point.range_m) + errors(point.registration, point.valid && !wrong) +
+            errors(point.registration, point.valid && wrong) + errors(point.filtered, point.valid) + "\n";
+  }
+  return text;
+}
+
 std::string error_panel(const std::string& points, const char* title, int column) {
   return format(
-      "set title '%s'\nplot %s using 1:%d with points pt 7 ps 0.22 lc rgb '#2563b8' notitle, "
-      "%s using 1:%d with points pt 7 ps 0.5 lc rgb '#d4001a' notitle\n",
-      title, points.c_str(), column, points.c_str(), column + 2);
+      "set title '%s'\nplot %s using 1:%d with points pt 7 ps 0.2 lc rgb '#8fb3ea' notitle, "
+      "%s using 1:%d with points pt 7 ps 0.16 lc rgb '#1b2a6b' notitle, %s using 1:%d with points pt 7 ps 0.5 lc rgb '#d4001a' notitle\n",
+      title, points.c_str(), column, points.c_str(), column + 4, points.c_str(), column + 2);
+}
+
+std::string range_panel(const Timeline& timeline, const std::string& points) {
+  double nearest_m = 1e9, farthest_m = 1e-9;
+  for (const TimelinePoint& point : timeline.points) {
+    nearest_m = std::min(nearest_m, point.range_m);
+    farthest_m = std::max(farthest_m, point.range_m);
+  }
+  return format("set yrange [%g:%g]\nset ytics (0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500)\nset title 'true range of the origin, m'\n",
+                0.8 * nearest_m, 1.25 * farthest_m) +
+         "plot " + points + " using 1:2 with lines lw 1.4 lc rgb '#1b2a6b' notitle\n";
 }
 
 std::string eclipse(const Scenario& scenario) {
@@ -70,45 +104,184 @@ std::string eclipse(const Scenario& scenario) {
                 scenario.eclipse_s[0], scenario.eclipse_s[1]);
 }
 
-std::string changes_table(const Timeline& timeline) {
-  HtmlTable html;
-  html.head = {"time, s", "from", "event", "to", "meaning"};
+// What happened on the way, by its time: cells of the table (from, event, to, meaning).
+using Events = std::multimap<double, std::vector<std::string>>;
+
+Events events_of(const SimulationResult& result) {
+  const Timeline& timeline = run_of(result).timeline;
+  Events events;
   for (const TimelineChange& change : timeline.changes) {
-    html.rows.push_back(
-        {format("%.1f", change.t_s), to_string(change.from), to_string(change.event), to_string(change.to), meaning(change)});
+    events.insert({change.t_s, {to_string(change.from), to_string(change.event), to_string(change.to), meaning(change)}});
+  }
+  for (const SensorChange& change : sensor_changes(timeline)) {
+    events.insert({change.t_s,
+                   {escape(result.sensors.at(change.from)), std::string("sensor: ") + to_string(change.reason),
+                    escape(result.sensors.at(change.to)), format("another sensor takes the scans, at %.1f m", change.range_m)}});
+  }
+  return events;
+}
+
+std::vector<double> times_of(const Events& events) {
+  std::vector<double> times;
+  for (const auto& event : events) times.push_back(event.first);
+  return times;
+}
+
+// A line at each event through the panel; the numbers above it stand in the topmost one.
+std::string event_lines(const std::vector<double>& times, double end_s) {
+  std::string text;
+  for (std::size_t first = 0, last = 0; first < times.size(); first = last + 1) {
+    last = first;
+    while (last + 1 < times.size() && times[last + 1] - times[last] < kLabelGap * end_s) ++last;
+    const std::string label = first == last ? format("%zu", first + 1) : format("%zu–%zu", first + 1, last + 1);
+    text += format("set label %zu '%s' at first %g, graph 1.05 center textcolor '#d4571e' font ',11'\n", first + 1, label.c_str(),
+                   0.5 * (times[first] + times[last]));
+  }
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    text += format("set arrow %zu from first %g, graph 0 to first %g, graph 1 nohead lw 0.6 dt 3 lc rgb '#d4571e' front\n", i + 1, times[i],
+                   times[i]);
+  }
+  return text;
+}
+
+std::string events_table(const Events& events) {
+  HtmlTable html;
+  html.head = {"", "time, s", "from", "event", "to", "meaning"};
+  for (const auto& [t_s, cells] : events) {
+    std::vector<std::string> row = {format("%zu", html.rows.size() + 1), format("%.1f", t_s)};
+    row.insert(row.end(), cells.begin(), cells.end());
+    html.rows.push_back(row);
   }
   return to_html(html);
 }
 
-std::string statistics_table(const TimelineStatistics& run) {
+std::vector<std::string> statistics_row(const std::string& name, const TimelineStatistics& run) {
+  std::vector<std::string> row = {name, format("%zu", run.frames), format("%zu", run.valid)};
+  if (run.valid == 0) {
+    row.resize(13, "–");
+    return row;
+  }
+  row.push_back(format("%zu", run.wrong));
+  for (const double mm : {run.filtered_rms_mm, run.filtered_worst_mm}) row.push_back(format("%.2f", mm));
+  for (const double deg : {run.filtered_rms_deg, run.filtered_worst_deg}) row.push_back(format("%.4f", deg));
+  for (const double mm : {run.rms_mm, run.worst_mm}) row.push_back(format("%.2f", mm));
+  for (const double deg : {run.rms_deg, run.worst_deg}) row.push_back(format("%.4f", deg));
+  row.push_back(format("%.2f", run.nees));
+  return row;
+}
+
+std::string statistics_table(const SimulationResult& result) {
+  const Timeline& timeline = run_of(result).timeline;
   HtmlTable html;
-  html.head = {"frames", "with a valid pose", "of these wrong", "rms, mm", "rms, deg", "worst, mm", "worst, deg", "NEES"};
-  html.rows.push_back({format("%zu", run.frames), format("%zu", run.valid), format("%zu", run.wrong), format("%.2f", run.rms_mm),
-                       format("%.4f", run.rms_deg), format("%.1f", run.worst_mm), format("%.3f", run.worst_deg), format("%.2f", run.nees)});
+  html.head = {"",      "frames",          "valid", "wrong", "filtered rms, mm", "worst", "filtered rms, deg", "worst", "single rms, mm",
+               "worst", "single rms, deg", "worst", "NEES"};
+  html.rows.push_back(statistics_row("all", timeline_statistics(timeline)));
+  for (const auto& groups : {by_mode(timeline), by_sensor(timeline, result.sensors), by_part(timeline, result.parts)}) {
+    for (const TimelineGroup& group : groups) html.rows.push_back(statistics_row(escape(plain(group.name)), group.statistics));
+  }
   return to_html(html);
 }
 
-}  // namespace
-
-std::string timeline_figure(Plotter& plotter, const Scenario& scenario, const Timeline& timeline) {
-  const std::string stretches = plotter.data(stretches_text(timeline)), points = plotter.data(points_text(timeline));
-  std::string script = kPlotStyle;
-  script += "set multiplot layout 4,1 margins 0.1,0.98,0.08,0.96 spacing 0,0.055\nset format x ''\n" + eclipse(scenario);
-  script += format("set xrange [0:%g]\nset datafile missing 'NaN'\n", timeline.points.empty() ? 1 : timeline.points.back().t_s);
-  script += mode_panel(stretches) + "set ytics autofreq\nset yrange [*:*]\nset logscale y\nset format y '%g'\n";
-  script += format("set title 'true range, m'\nplot %s using 1:2 with lines lw 1.4 lc rgb '#1b2a6b' notitle\n", points.c_str());
-  script += error_panel(points, "error of valid poses, mm", 3) + "set format x '%g'\nset xlabel 'time, s' textcolor '#46505f'\n";
-  return plotter.svg(1080, 860, script + error_panel(points, "error of valid poses, deg", 4) + "unset multiplot\n");
+// The valid scan of one sensor and part that is farthest, or nearest; null where there is none.
+const KeptScan* extreme_scan(const CaseResult& run, std::size_t sensor, std::size_t part, bool farthest) {
+  const KeptScan* best = nullptr;
+  for (const KeptScan& scan : run.scans) {
+    const PoseTelemetry& t = scan.telemetry;
+    if (t.valid == 0 || t.sensor != sensor || t.part != part) continue;
+    const bool better = best == nullptr || (scan.truth.p.norm() > best->truth.p.norm()) == farthest;
+    if (better) best = &scan;
+  }
+  return best;
 }
 
-std::string timeline_section(Plotter& plotter, const TableResult& table) {
-  const Timeline& timeline = table.variants.front().cases.front().timeline;
+// Of one sensor: the whole from far and from near, then each part from near; at most four.
+std::vector<ScanPanel> panels_of(const SimulationResult& result, std::size_t sensor) {
+  const CaseResult& run = run_of(result);
+  std::vector<ScanPanel> panels;
+  const auto add = [&](const KeptScan* scan) {
+    const bool there = std::any_of(panels.begin(), panels.end(), [&](const ScanPanel& panel) { return panel.scan == scan; });
+    if (scan == nullptr || there || panels.size() == 4) return;
+    panels.push_back({scan, format("%s, %.1f m\\n%u of %u rays return", plain(result.parts.at(scan->telemetry.part)).c_str(),
+                                   scan->truth.p.norm(), scan->telemetry.returns, scan->telemetry.plan_points)});
+  };
+  for (std::size_t part = 1; part < result.parts.size(); ++part) add(extreme_scan(run, sensor, part, false));
+  if (panels.size() == 4) panels.pop_back();
+  add(extreme_scan(run, sensor, 0, true));
+  add(extreme_scan(run, sensor, 0, false));
+  return panels;
+}
+
+std::string scan_figures(Plotter& plotter, const sim::RayCaster& target, const SimulationResult& result) {
+  std::string html;
+  for (std::size_t sensor = 0; sensor < result.sensors.size(); ++sensor) {
+    const std::vector<ScanPanel> panels = panels_of(result, sensor);
+    if (panels.empty()) continue;
+    const std::string png = scan_view_png(plotter, target, panels, false, 1);
+    html += figure("<img alt='scans on the target' src='data:image/png;base64," + base64(png) + "'>",
+                   "Scans by the sensor " + escape(plain(result.sensors[sensor])) +
+                       ", at the ranges of the target's origin. The model is drawn at the estimated pose. Colour: measured minus predicted "
+                       "range of each return; grey: rays that missed.");
+  }
+  return html.empty() ? html : "<h2>Scans</h2>\n" + html;
+}
+
+// Panels from top to bottom, each as high as it has rows.
+class Panels {
+ public:
+  explicit Panels(int height) : height_(height) {}
+  std::string next(int height) {
+    const int top = used_ + kGap;
+    used_ = top + height;
+    return format("set tmargin at screen %.4f\nset bmargin at screen %.4f\n", 1 - static_cast<double>(top) / height_,
+                  1 - static_cast<double>(used_) / height_);
+  }
+  static constexpr int kGap = 34;
+
+ private:
+  int height_;
+  int used_ = 0;
+};
+
+constexpr int kRow = 19, kCurve = 150, kBottom = 60;  // pixels
+
+}  // namespace
+
+std::string timeline_figure(Plotter& plotter, const SimulationResult& result) {
+  const Timeline& timeline = run_of(result).timeline;
+  const std::vector<Bars> bars = {
+      {"mode", mode_names(), [](const TimelinePoint& point) { return static_cast<std::size_t>(point.mode); }},
+      {"sensor", result.sensors, [](const TimelinePoint& point) { return static_cast<std::size_t>(point.sensor); }},
+      {"looks at", result.parts, [](const TimelinePoint& point) { return static_cast<std::size_t>(point.part); }}};
+  int height = 3 * (kCurve + Panels::kGap) + kBottom;
+  for (const Bars& panel : bars) height += static_cast<int>(panel.rows.size() + 1) * kRow + Panels::kGap;
+  Panels place(height);
+  const std::string points = plotter.data(points_text(timeline));
+  std::string script = kPlotStyle;
+  script += "set multiplot\nset lmargin at screen 0.115\nset rmargin at screen 0.985\nset format x ''\n" + eclipse(scenario_of(result));
+  script += format("set xrange [0:%g]\nset datafile missing 'NaN'\n", end_of(timeline)) +
+            event_lines(times_of(events_of(result)), end_of(timeline));
+  script += "set title offset 0,-0.4\n";
+  for (const Bars& panel : bars) {
+    script += place.next(static_cast<int>(panel.rows.size() + 1) * kRow);
+    script += bars_panel(plotter, timeline, panel) + "unset label\n";
+  }
+  script += "set logscale y\nset format y '%g'\n" + place.next(kCurve) + range_panel(timeline, points);
+  script += "set ytics autofreq\nset yrange [*:*]\n";
+  script += place.next(kCurve);
+  script += error_panel(points, "error of valid poses, mm", 3);
+  script += place.next(kCurve);
+  script += "set format x '%g'\nset xlabel 'time, s' textcolor '#46505f' offset 0,0.4\n";
+  return plotter.svg(1080, height, script + error_panel(points, "error of valid poses, deg", 4) + "unset multiplot\n");
+}
+
+std::string timeline_section(Plotter& plotter, const sim::RayCaster& target, const SimulationResult& result) {
   return "<section>\n<h2>Through the modes</h2>\n" +
-         figure(timeline_figure(plotter, table.scenario, timeline),
-                "The component's mode, the target's true range, and the errors of all poses that it called valid (red: wrong). Grey: the "
-                "target is hidden.") +
-         "<h2>Poses</h2>\n" + statistics_table(timeline_statistics(timeline)) + "<h2>Changes of the mode</h2>\n" + changes_table(timeline) +
-         "</section>\n";
+         figure(timeline_figure(plotter, result),
+                "Mode, sensor in use, the part of the target that each scan looks at, the true range, and the errors of all poses that the "
+                "component called valid: light, of single scans; dark, of the filter; red, wrong. Grey: the target is hidden. The numbers "
+                "are those of the table of changes.") +
+         "<h2>Changes of mode and sensor</h2>\n" + events_table(events_of(result)) + "<h2>Poses</h2>\n" + statistics_table(result) +
+         scan_figures(plotter, target, result) + "</section>\n";
 }
 
 }  // namespace lasso::mdat

@@ -6,6 +6,7 @@
 
 #include "bsp/posix/runner.hpp"
 #include "fsw/exec/component.hpp"
+#include "hal_sim/random.hpp"
 #include "mdat/common/errors.hpp"
 #include "mdat/common/flight_image.hpp"
 #include "mdat/run/navigation.hpp"
@@ -18,6 +19,50 @@ constexpr std::uint32_t kPipelineFrames = 2;  // scan k is reported at boundary 
 
 Pose to_pose(const double (&q)[4], const double (&p_m)[3]) { return {Quat(q[3], q[0], q[1], q[2]), Vec3(p_m[0], p_m[1], p_m[2])}; }
 
+// What does not depend on noise.
+sim::ScannerModel model_of(const Scenario& scenario, const SensorParameters& sensor) {
+  sim::ScannerModel model;
+  model.fov_half_x_rad = sensor.fov_half_x_rad;
+  model.fov_half_y_rad = sensor.fov_half_y_rad;
+  model.range_min_m = sensor.range_min_m;
+  model.range_max_m = sensor.range_max_m;
+  model.dropout_incidence_rad = scenario.dropout_incidence_rad;
+  model.outlier_probability = scenario.outlier_probability;
+  model.edge_mixing_m = scenario.edge_mixing_m;
+  model.dark_from_us = kEpochUs + to_us(scenario.eclipse_s[0]);
+  model.dark_until_us = kEpochUs + to_us(scenario.eclipse_s[1]);
+  return model;
+}
+
+// A simulated sensor that remembers its scans.
+struct Scanner {
+  Scanner(const CaseSetup& setup, const sim::Trajectory& trajectory, const sim::ScannerModel& model, std::uint64_t seed)
+      : simulated(*setup.target, trajectory, model, seed), recorded(simulated) {}
+  sim::SimulatedScanner simulated;
+  RecordingSensor recorded;
+};
+
+// In the order of their numbers; each with noise of its own.
+std::vector<std::unique_ptr<Scanner>> make_scanners(const CaseSetup& setup, const sim::Trajectory& trajectory) {
+  std::vector<std::unique_ptr<Scanner>> scanners;
+  const sim::ScannerModel own = scanner_model(setup.scenario, setup.parameters, setup.noise);
+  scanners.push_back(std::make_unique<Scanner>(setup, trajectory, own, setup.seed));
+  for (const FurtherSensor& sensor : setup.further_sensors) {
+    std::uint64_t seed = setup.seed + scanners.size();
+    scanners.push_back(
+        std::make_unique<Scanner>(setup, trajectory, scanner_model(setup.scenario, sensor, setup.noise), sim::split_mix64(seed)));
+  }
+  return scanners;
+}
+
+SensorBank bank_of(const std::vector<std::unique_ptr<Scanner>>& scanners) {
+  SensorBank bank;
+  for (const auto& scanner : scanners) {
+    if (!bank.push_back(&scanner->recorded)) throw RunError("more sensors than the component has room for");
+  }
+  return bank;
+}
+
 // Everything of one case that lives as long as it runs.
 class Case {
  public:
@@ -26,9 +71,8 @@ class Case {
         period_us_(mdat::period_us(setup.parameters)),
         noisy_model_(scanner_model(setup.scenario, setup.parameters, true)),
         trajectory_(make_trajectory(setup.scenario, setup.range_m, kEpochUs, period_us_)),
-        scanner_(*setup.target, *trajectory_, scanner_model(setup.scenario, setup.parameters, setup.noise), setup.seed),
-        sensor_(scanner_),
-        component_(std::make_unique<Component>(sensor_)),
+        scanners_(make_scanners(setup, *trajectory_)),
+        component_(std::make_unique<Component>(bank_of(scanners_))),
         image_(aligned_copy(*setup.image)),
         navigation_(setup.scenario, *trajectory_, setup.seed) {
     result_.frames.resize(setup.frames);
@@ -85,8 +129,12 @@ class Case {
   }
 
   void note(const PoseTelemetry& pose, const posix::FrameRecord& record) {
-    const RecordedScan scan = sensor_.take(pose.scan_id);
-    if (is_approach()) add_packet(pose, *trajectory_, kEpochUs, result_.timeline);
+    RecordedScan scan;
+    for (const auto& scanner : scanners_) {
+      RecordedScan taken = scanner->recorded.take(pose.scan_id);
+      if (!taken.samples.empty()) scan = std::move(taken);  // of one of them
+    }
+    if (setup_.scenario.has_profile()) add_packet(pose, *trajectory_, kEpochUs, result_.timeline);
     if (!is_approach() && static_cast<TrackingMode>(pose.mode) == TrackingMode::kLost) start(record.boundary_us);
     if (static_cast<StopReason>(pose.stop) == StopReason::kNotRun) return;
     const std::int64_t frame = (pose.t_measurement_us - kEpochUs) / period_us_;
@@ -126,8 +174,7 @@ class Case {
   DurationUs period_us_;
   sim::ScannerModel noisy_model_;
   std::unique_ptr<sim::Trajectory> trajectory_;
-  sim::SimulatedScanner scanner_;
-  RecordingSensor sensor_;
+  std::vector<std::unique_ptr<Scanner>> scanners_;
   std::unique_ptr<Component> component_;
   std::vector<std::uint64_t> image_;
   NavigationSystem navigation_;
@@ -141,23 +188,24 @@ DurationUs to_us(double time_s) { return static_cast<DurationUs>(std::llround(ti
 DurationUs period_us(const MissionParameters& parameters) { return to_us(parameters.period_s); }
 
 sim::ScannerModel scanner_model(const Scenario& scenario, const MissionParameters& parameters, bool noise) {
-  sim::ScannerModel model;
-  if (noise) {
-    model.sigma0_m = scenario.sigma0_m;
-    model.sigma_k_per_m = scenario.sigma_k_per_m;
-    model.sigma_angle_rad = scenario.angle_noise_rad;
-    model.beam_divergence_rad = scenario.beam_divergence_rad;
-  }
-  model.fov_half_x_rad = parameters.fov_half_x_rad;
-  model.fov_half_y_rad = parameters.fov_half_y_rad;
-  model.range_min_m = parameters.range_min_m;
-  model.range_max_m = parameters.range_max_m;
+  sim::ScannerModel model = model_of(scenario, parameters);
   model.dropout_probability = scenario.dropout_probability;
-  model.dropout_incidence_rad = scenario.dropout_incidence_rad;
-  model.outlier_probability = scenario.outlier_probability;
-  model.edge_mixing_m = scenario.edge_mixing_m;
-  model.dark_from_us = kEpochUs + to_us(scenario.eclipse_s[0]);
-  model.dark_until_us = kEpochUs + to_us(scenario.eclipse_s[1]);
+  if (!noise) return model;
+  model.sigma0_m = scenario.sigma0_m;
+  model.sigma_k_per_m = scenario.sigma_k_per_m;
+  model.sigma_angle_rad = scenario.angle_noise_rad;
+  model.beam_divergence_rad = scenario.beam_divergence_rad;
+  return model;
+}
+
+sim::ScannerModel scanner_model(const Scenario& scenario, const FurtherSensor& sensor, bool noise) {
+  sim::ScannerModel model = model_of(scenario, sensor.parameters);
+  model.dropout_probability = sensor.parameters.dropout_probability;
+  if (!noise) return model;
+  model.sigma0_m = sensor.parameters.sigma0_m;
+  model.sigma_k_per_m = sensor.parameters.sigma_k_per_m;
+  model.sigma_angle_rad = sensor.parameters.sigma_angle_rad;
+  if (sensor.kind == SensorKind::kTimeOfFlight) model.beam_divergence_rad = sim::time_of_flight_lidar().beam_divergence_rad;
   return model;
 }
 

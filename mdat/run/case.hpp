@@ -28,6 +28,7 @@ struct CaseSetup {
   std::uint64_t seed = 1;
   std::uint32_t frames = 0;
   MissionParameters parameters{};  // as compiled into the image
+  std::vector<FurtherSensor> further_sensors;
   const std::vector<std::uint8_t>* image = nullptr;
   const sim::RayCaster* target = nullptr;
   std::vector<std::uint32_t> keep_frames;  // whose scans the result holds; ascending
@@ -46,12 +47,14 @@ struct CaseResult {
   std::vector<FrameError> frames;
   std::vector<std::uint8_t> telemetry;  // all packets, in order
   std::vector<KeptScan> scans;
-  Timeline timeline;                         // of an approach
+  Timeline timeline;                         // of an approach, or a pass
   std::optional<std::uint32_t> found_frame;  // of the first valid pose
 };
 
-// The scanner of a scenario; without noise its ranges and directions are exact.
+// The scanner of a scenario, [sensor]; without noise its ranges and directions are exact.
 sim::ScannerModel scanner_model(const Scenario& scenario, const MissionParameters& parameters, bool noise);
+// Another one of the mission's.
+sim::ScannerModel scanner_model(const Scenario& scenario, const FurtherSensor& sensor, bool noise);
 
 // The target's motion; frame 0 begins at `epoch_us`.
 std::unique_ptr<sim::Trajectory> make_trajectory(const Scenario& scenario, double range_m, TimeUs epoch_us, DurationUs period_us);

@@ -113,16 +113,62 @@ std::string quality_table(const TableResult& table) {
   return text;
 }
 
-Json timeline_json(const Timeline& timeline) {
-  const TimelineStatistics run = timeline_statistics(timeline);
-  Json json = {{"frames", run.frames},   {"valid", run.valid},       {"wrong", run.wrong},         {"rms_mm", run.rms_mm},
-               {"rms_deg", run.rms_deg}, {"worst_mm", run.worst_mm}, {"worst_deg", run.worst_deg}, {"nees", run.nees}};
+Json run_json(const TimelineStatistics& run) {
+  return {{"frames", run.frames},
+          {"valid", run.valid},
+          {"wrong", run.wrong},
+          {"rms_mm", run.rms_mm},
+          {"rms_deg", run.rms_deg},
+          {"worst_mm", run.worst_mm},
+          {"worst_deg", run.worst_deg},
+          {"nees", run.nees},
+          {"filtered",
+           {{"rms_mm", run.filtered_rms_mm},
+            {"rms_deg", run.filtered_rms_deg},
+            {"worst_mm", run.filtered_worst_mm},
+            {"worst_deg", run.filtered_worst_deg}}}};
+}
+
+Json groups_json(const std::vector<TimelineGroup>& groups) {
+  Json json = Json::object();
+  for (const TimelineGroup& group : groups) json[group.name] = run_json(group.statistics);
+  return json;
+}
+
+Json timeline_json(const SimulationResult& result, const Timeline& timeline) {
+  Json json = run_json(timeline_statistics(timeline));
+  json["by_mode"] = groups_json(by_mode(timeline));
+  json["by_sensor"] = groups_json(by_sensor(timeline, result.sensors));
+  json["by_part"] = groups_json(by_part(timeline, result.parts));
   json["changes"] = Json::array();
   for (const TimelineChange& change : timeline.changes) {
     json["changes"].push_back(
         {{"t_s", change.t_s}, {"from", to_string(change.from)}, {"event", to_string(change.event)}, {"to", to_string(change.to)}});
   }
+  json["sensor_changes"] = Json::array();
+  for (const SensorChange& change : sensor_changes(timeline)) {
+    json["sensor_changes"].push_back({{"t_s", change.t_s},
+                                      {"range_m", change.range_m},
+                                      {"from", result.sensors.at(change.from)},
+                                      {"to", result.sensors.at(change.to)},
+                                      {"reason", to_string(change.reason)}});
+  }
   return json;
+}
+
+std::string groups_text(const char* title, const std::vector<TimelineGroup>& groups) {
+  std::string text =
+      format("\n  %-18s frames  valid  wrong     rms, mm  worst     rms, deg  worst     NEES   filtered, mm  worst     deg\n", title);
+  for (const auto& [name, run] : groups) {
+    if (run.valid == 0) {
+      text += format("  %-18s %6zu %6zu\n", name.c_str(), run.frames, run.valid);
+      continue;
+    }
+    text += format("  %-18s %6zu %6zu %6zu  %9.2f %8.1f  %8.4f %8.3f  %5.1f  %9.2f %8.1f  %8.4f\n", name.c_str(), run.frames, run.valid,
+                   run.wrong, run.rms_mm, run.worst_mm, run.rms_deg, run.worst_deg, run.nees, run.filtered_rms_mm, run.filtered_worst_mm,
+                   run.filtered_rms_deg);
+  }
+  return text;
 }
 
 std::string timeline_text(const SimulationResult& result, const Timeline& timeline) {
@@ -132,6 +178,12 @@ std::string timeline_text(const SimulationResult& result, const Timeline& timeli
   for (const TimelineChange& change : timeline.changes) {
     text += format("  %7.1f  %-12s from %s: %s\n", change.t_s, to_string(change.to), to_string(change.from), meaning(change));
   }
+  for (const SensorChange& change : sensor_changes(timeline)) {
+    text += format("  %7.1f  sensor %s after %s, at %.1f m: %s\n", change.t_s, result.sensors.at(change.to).c_str(),
+                   result.sensors.at(change.from).c_str(), change.range_m, to_string(change.reason));
+  }
+  text += groups_text("by mode", by_mode(timeline)) + groups_text("by sensor", by_sensor(timeline, result.sensors)) +
+          groups_text("by part", by_part(timeline, result.parts));
   text += format("\n  valid poses %zu, of these wrong %zu; rms %.2f mm, %.4f deg; worst %.1f mm, %.3f deg; NEES %.2f of 6\n\n", run.valid,
                  run.wrong, run.rms_mm, run.rms_deg, run.worst_mm, run.worst_deg, run.nees);
   return text;
@@ -169,7 +221,7 @@ std::string table_text(const SimulationResult& result, const TableResult& table)
 std::string results_json(const SimulationResult& result) {
   Json json = {{"mission", result.mission}, {"scenario", result.scenario}, {"seed", result.seed}, {"version", kVersion}};
   if (result.kind == ScenarioKind::kApproach) {
-    json["timeline"] = timeline_json(timeline_of(result));
+    json["timeline"] = timeline_json(result, timeline_of(result));
     return json.dump(2) + "\n";
   }
   for (const TableResult& table : result.tables) {
@@ -181,6 +233,7 @@ std::string results_json(const SimulationResult& result) {
       json[table.name] = variants;
     }
   }
+  if (result.kind == ScenarioKind::kPass) json["timeline"] = timeline_json(result, timeline_of(result));
   if (result.kind == ScenarioKind::kPaper) json["paper_2005"] = axes_json(paper_table_1());
   return json.dump(2) + "\n";
 }

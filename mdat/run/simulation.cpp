@@ -28,6 +28,18 @@ constexpr Variant kPaperVariants[] = {kNoiseFree,
                                       {"noisy_hits_only", "with noise, hits only", true, false, false},
                                       {"noisy_aimed", "with noise, aimed rays", true, true, true}};
 
+std::vector<std::string> sensor_names(const MissionSource& source) {
+  std::vector<std::string> names{source.sensor == SensorKind::kTimeOfFlight ? "time_of_flight" : "laser_camera"};
+  for (const FurtherSensor& sensor : source.further_sensors) names.push_back(sensor.name);
+  return names;
+}
+
+std::vector<std::string> part_names(const MissionSource& source) {
+  std::vector<std::string> names{"whole"};
+  for (const PartSource& part : source.parts) names.push_back(part.name);
+  return names;
+}
+
 // One image for each set of parameters, and all cases in order.
 struct Plan {
   std::vector<std::vector<std::uint8_t>> images;
@@ -106,6 +118,7 @@ Plan make_plan(const CompiledMission& mission, const SimulationResult& result, c
         plan.cases.back().seed = case_seed(result.seed, t, range);
         plan.cases.back().image = &plan.images.back();
         plan.cases.back().target = &target;
+        plan.cases.back().further_sensors = mission.source.further_sensors;
       }
     }
   }
@@ -197,7 +210,7 @@ std::unique_ptr<sim::RayCaster> make_target(const Mesh& mesh) {
 
 std::vector<std::uint32_t> shown_frames(const Scenario& scenario, std::uint32_t frames) {
   std::vector<std::uint32_t> result;
-  if (scenario.scenario_kind() == ScenarioKind::kApproach) return result;
+  if (scenario.has_profile()) return all_frames(frames);  // which of them, the run itself will tell
   if (scenario.scenario_kind() != ScenarioKind::kPaper || scenario.step_rad == 0)
     return frames > 0 ? std::vector<std::uint32_t>{0} : result;
   for (const double angle_deg : {0.0, 45.0, 90.0}) {
@@ -216,6 +229,8 @@ SimulationResult simulate(const CompiledMission& mission, const SimulationOption
   result.kind = scenario.scenario_kind();
   result.seed = options.seed.value_or(static_cast<std::uint64_t>(scenario.seed));
   result.frames = options.frames.value_or(static_cast<std::uint32_t>(scenario.frames));
+  result.sensors = sensor_names(mission.source);
+  result.parts = part_names(mission.source);
   result.tables = make_tables(scenario, parameters, options.plain);
 
   const auto begin = std::chrono::steady_clock::now();

@@ -49,6 +49,7 @@ struct SimulationResult {
   ScenarioKind kind = ScenarioKind::kPaper;
   std::uint64_t seed = 0;
   std::uint32_t frames = 0;
+  std::vector<std::string> sensors, parts;  // names by their numbers; part 0 is the whole
   std::vector<TableResult> tables;
   double seconds = 0;
 };
@@ -66,7 +67,7 @@ std::unique_ptr<sim::RayCaster> make_target(const Mesh& mesh);
 
 // Index of the range whose scans the report shows: the middle one.
 inline std::size_t shown_range(const Scenario& scenario) { return scenario.runs_m().size() / 2; }
-// The frames whose scans are kept for the report: at 0, 45 and 90 degrees.
+// The frames whose scans are kept for the report: at 0, 45 and 90 degrees; all where the target moves through a profile of ranges.
 std::vector<std::uint32_t> shown_frames(const Scenario& scenario, std::uint32_t frames);
 
 }  // namespace lasso::mdat

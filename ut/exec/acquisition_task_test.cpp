@@ -18,7 +18,7 @@ class AcquisitionTaskTest : public ::testing::Test {
     ASSERT_EQ(load_image(Bytes(image_.data(), image_.size), mission_).status, Status::kOk);
   }
   void start(std::uint32_t scan_id, TimeUs t_us) {
-    task_->start(mission_, {scene_.pose_at(t_us), 0, false, false, {}}, scan_id, t_us, plan_);
+    task_->start(0, mission_, {scene_.pose_at(t_us), 0, false, false, {}}, scan_id, t_us, plan_);
   }
 
   test::BoxScene scene_ = test::default_scene();
@@ -26,7 +26,7 @@ class AcquisitionTaskTest : public ::testing::Test {
   Mission mission_;
   ScanPlan plan_;
   test::BoxSensor sensor_{scene_};
-  std::unique_ptr<AcquisitionTask> task_ = std::make_unique<AcquisitionTask>(sensor_);
+  std::unique_ptr<AcquisitionTask> task_ = std::make_unique<AcquisitionTask>(only(sensor_));
 };
 
 TEST_F(AcquisitionTaskTest, TakesTheLargestScanInOnePoll) {
@@ -34,7 +34,7 @@ TEST_F(AcquisitionTaskTest, TakesTheLargestScanInOnePoll) {
   start(3, 1000);
   EXPECT_EQ(plan_.scan_id, 3u);
   task_->poll(200000);
-  EXPECT_TRUE(task_->finish());
+  EXPECT_TRUE(task_->finish().usable);
   EXPECT_EQ(task_->filling().samples.size(), 4096u);
   EXPECT_EQ(task_->filling().scan_id, 3u);
 }
@@ -43,13 +43,13 @@ TEST_F(AcquisitionTaskTest, FillsTheOtherImageAfterTheHandOver) {
   VERIFIES("LASSO-EXE-002~1");
   start(0, 0);
   task_->poll(200000);
-  ASSERT_TRUE(task_->finish());
+  ASSERT_TRUE(task_->finish().usable);
   const RangeImage& handed_over = task_->filling();
   const TimeUs t_us = handed_over.reference_time_us();
   task_->swap_images();
   start(1, 200000);
   task_->poll(400000);
-  ASSERT_TRUE(task_->finish());
+  ASSERT_TRUE(task_->finish().usable);
   EXPECT_NE(&task_->filling(), &handed_over);
   EXPECT_EQ(handed_over.scan_id, 0u);
   EXPECT_EQ(handed_over.reference_time_us(), t_us);
@@ -63,7 +63,7 @@ TEST_F(AcquisitionTaskTest, ATargetOfUnknownAttitudeIsScannedAllAround) {
   aim.T_sensor_target.p = Vec3(0.2, -0.1, 3.0);
   aim.any_attitude = true;
   aim.uncertainty_m = 0.25 * mission_.radius_m;
-  task_->start(mission_, aim, 4, 0, plan_);
+  task_->start(0, mission_, aim, 4, 0, plan_);
   const double least = std::tan(std::asin(mission_.radius_m / 3.0));  // of the ball around the model
   EXPECT_GT(plan_.half_x, least);
   EXPECT_GT(plan_.half_y, least);
@@ -79,19 +79,19 @@ TEST_F(AcquisitionTaskTest, ScanThatFailsOrNeverStartsIsNotFit) {
   sensor_.lost = {1};
   start(0, 0);
   task_->poll(200000);
-  EXPECT_FALSE(task_->finish());
+  EXPECT_FALSE(task_->finish().usable);
   start(1, 200000);
   task_->poll(400000);
-  EXPECT_FALSE(task_->finish());
+  EXPECT_FALSE(task_->finish().usable);
   Pose behind = scene_.at_zero;
   behind.p.z() = -2;
-  task_->start(mission_, {behind, 0, false, false, {}}, 2, 400000, plan_);  // nothing to aim at
+  task_->start(0, mission_, {behind, 0, false, false, {}}, 2, 400000, plan_);  // nothing to aim at
   task_->poll(600000);
-  EXPECT_FALSE(task_->finish());
+  EXPECT_FALSE(task_->finish().usable);
   EXPECT_TRUE(task_->filling().samples.empty());
   start(3, 600000);
   task_->poll(800000);
-  EXPECT_TRUE(task_->finish());
+  EXPECT_TRUE(task_->finish().usable);
 }
 
 TEST_F(AcquisitionTaskTest, AimedRaysArePlannedAndScannedButNotInTheWholeField) {
@@ -99,20 +99,47 @@ TEST_F(AcquisitionTaskTest, AimedRaysArePlannedAndScannedButNotInTheWholeField) 
   AimedRay rays[] = {{0.01F, 0.02F}, {-0.03F, 0.04F}};
   Aim aim{scene_.at_zero, 0, false, false, {}};
   aim.rays = Span<const AimedRay>(rays);
-  task_->start(mission_, aim, 0, 0, plan_);
+  task_->start(0, mission_, aim, 0, 0, plan_);
   rays[0] = rays[1] = {};  // the task keeps its own
   ASSERT_EQ(plan_.aimed.size(), 2u);
   EXPECT_EQ(plan_.aimed[1].y, 0.04F);
   EXPECT_EQ(sensor_.last_plan.aimed.data(), plan_.aimed.data());
   task_->poll(200000);
-  EXPECT_TRUE(task_->finish());
+  EXPECT_TRUE(task_->finish().usable);
   EXPECT_EQ(task_->filling().samples.size(), 4096u);
   const RangeSample& first = task_->filling().samples[2047];
   EXPECT_NEAR(first.direction[0] / first.direction[2], 0.01F, 1e-6F);
   aim.rays = Span<const AimedRay>(rays);
   aim.full_field = true;
-  task_->start(mission_, aim, 1, 200000, plan_);
+  task_->start(0, mission_, aim, 1, 200000, plan_);
   EXPECT_TRUE(plan_.aimed.empty());
+}
+
+TEST_F(AcquisitionTaskTest, AsksTheSensorThatItIsTold) {
+  VERIFIES("LASSO-SNS-041~1");
+  test::BoxSensor other(scene_);
+  SensorBank bank = only(sensor_);
+  ASSERT_TRUE(bank.push_back(&other));
+  task_ = std::make_unique<AcquisitionTask>(bank);
+  EXPECT_EQ(task_->sensors(), 2U);
+  EXPECT_FALSE(task_->finish().asked);
+  task_->start(1, mission_, {scene_.pose_at(0), 0, false, false, {}}, 1, 0, plan_);
+  task_->poll(200000);
+  const ScanEnd end = task_->finish();
+  EXPECT_TRUE(end.asked);
+  EXPECT_TRUE(end.usable);
+  EXPECT_EQ(other.starts, 1);
+  EXPECT_EQ(sensor_.starts, 0);
+  EXPECT_FALSE(task_->finish().asked) << "that scan has ended";
+}
+
+TEST_F(AcquisitionTaskTest, NoSensorIsAskedForAScanThatCannotBePlanned) {
+  VERIFIES("LASSO-SNS-044~1");
+  Pose behind = scene_.pose_at(0);
+  behind.p.z() = -3;
+  task_->start(0, mission_, {behind, 0, false, false, {}}, 1, 0, plan_);
+  EXPECT_FALSE(task_->finish().asked);
+  EXPECT_EQ(sensor_.starts, 0);
 }
 
 }  // namespace

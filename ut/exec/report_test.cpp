@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "fsw/link/dictionary.hpp"
+#include "fsw/sense/sensor_chooser.hpp"
 #include "ut/support/verifies.hpp"
 
 namespace lasso {
@@ -243,6 +244,7 @@ TEST(Report, DictionaryNamesTheEnumerationsAsTheCodeDoes) {
   expect_names(kBearingReason, BearingReason::kJump);
   expect_names(kSearchOutcome, SearchOutcome::kRejected);
   expect_names(kSearchReason, SearchReason::kNotRegistered);
+  expect_names(kSensorReason, SensorReason::kBusy);
   EXPECT_STREQ(kPattern.choices[static_cast<std::size_t>(PatternKind::kRaster)].name, "raster");
   EXPECT_EQ(kTrackingMode.choices.size(), mode_properties().size());
   for (const ModeProperties& mode : mode_properties()) {
@@ -266,7 +268,8 @@ TEST(Report, DictionaryHasTheEnumerationOfEachItem) {
                                                                  {"refusal", &kStartRefusal},
                                                                  {"bearing_reason", &kBearingReason},
                                                                  {"search_outcome", &kSearchOutcome},
-                                                                 {"search_reason", &kSearchReason}};
+                                                                 {"search_reason", &kSearchReason},
+                                                                 {"sensor_reason", &kSensorReason}};
   std::size_t next = 0;
   for (const ItemRow& row : kPackets[0].items) {
     if (row.enumeration == nullptr) continue;

@@ -81,7 +81,7 @@ TEST(PoseTelemetry, LiesAtTheseBytes) {
   EXPECT_EQ(offset_of("candidate_p_m"), 683u);
   EXPECT_EQ(offset_of("part"), 731u);
   EXPECT_EQ(offset_of("odd_sigmas"), 734u);
-  EXPECT_EQ(encode(PoseTelemetry{}).size(), 744u);
+  EXPECT_EQ(encode(PoseTelemetry{}).size(), 751u);
 }
 
 TEST(PoseTelemetry, WritesEachValueWhereItsRowSays) {

@@ -37,6 +37,22 @@ TEST(Parameters, EveryRowIsOfItsOwnAndComplete) {
   for (const ParameterRow& row : parameter_rows()) EXPECT_EQ(marks.*row.member, ++mark) << row.key;
 }
 
+TEST(Parameters, TheFirstRowsAreThoseOfASensor) {
+  VERIFIES("LASSO-IMG-006~1 LASSO-SNS-047~1");
+  SensorParameters sensor = preset_parameters();
+  std::size_t bad_row = 0;
+  EXPECT_EQ(validate(sensor, bad_row), Status::kOk);
+  ASSERT_EQ(sensor_rows().size(), kSensorValues);
+  for (std::size_t i = 0; i < kSensorValues; ++i) {
+    const ParameterRow& row = sensor_rows()[i];
+    EXPECT_EQ(std::string(row.key).substr(0, 7), "sensor.");
+    sensor = preset_parameters();
+    sensor.*sensor_member(row) = (row.maximum + 1) * row.to_si;
+    EXPECT_EQ(validate(sensor, bad_row), Status::kBadValue);
+    EXPECT_EQ(bad_row, i);
+  }
+}
+
 TEST(Parameters, RefusesWhatIsOutsideARowsRange) {
   VERIFIES("LASSO-IMG-004~1");
   for (std::size_t i = 0; i < parameter_rows().size(); ++i) {

@@ -102,6 +102,23 @@ TEST_F(StartsTest, WhatTheSensorCannotSeeIsRefused) {
   EXPECT_EQ(try_offer(), StartRefusal::kNone);
 }
 
+TEST_F(StartsTest, WhatAnotherSensorReachesIsTaken) {
+  VERIFIES("LASSO-MOD-134~1 LASSO-SNS-041~1");
+  offer_.rates = Twist{};
+  SensorParameters far = mission_.parameters;
+  far.range_min_m = 30;
+  far.range_max_m = 100;
+  ASSERT_TRUE(mission_.sensors.push_back(far));
+  for (const double z_m : {2.5, 60.0, 100.2}) {
+    offer_.T_sensor_target.p = Vec3(0, 0, z_m);
+    EXPECT_EQ(try_offer(), StartRefusal::kNone) << z_m;
+  }
+  for (const double z_m : {25.0, 101.0, -60.0}) {
+    offer_.T_sensor_target.p = Vec3(0, 0, z_m);
+    EXPECT_EQ(try_offer(), StartRefusal::kOutOfReach) << z_m;
+  }
+}
+
 TEST_F(StartsTest, WhatIsNotAtTheBearingIsRefused) {
   VERIFIES("LASSO-MOD-134~1");
   offer_.t_us = kNow;

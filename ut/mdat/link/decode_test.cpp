@@ -93,10 +93,10 @@ TEST(Decode, FindsPacketsBetweenGarbageAndBehindABrokenOne) {
   const DecodedStream decoded = decode_stream(view(stream), PacketType::kTelemetry);
   ASSERT_EQ(decoded.packets.size(), 2U);
   EXPECT_EQ(decoded.packets[0].header.at(5), 2U);
-  EXPECT_EQ(decoded.packets[0].offset, 4U + 644U);
+  EXPECT_EQ(decoded.packets[0].offset, 4U + 651U);
   EXPECT_EQ(decoded.packets[1].header.at(5), 3U);
-  EXPECT_EQ(decoded.packets[1].offset, stream.size() - 744);
-  EXPECT_EQ(decoded.other_bytes, stream.size() - std::size_t{2} * 744);
+  EXPECT_EQ(decoded.packets[1].offset, stream.size() - 751);
+  EXPECT_EQ(decoded.other_bytes, stream.size() - std::size_t{2} * 751);
 }
 
 TEST(Decode, SaysWhatTheDictionaryDoesNotHave) {
@@ -179,7 +179,7 @@ TEST(DecodeText, ShowsTheSelectedItems) {
   const DecodedStream decoded = decode_stream(view(stream), PacketType::kTelemetry);
   const Selection selection{"pose", {"mode", "plan_center"}};
   EXPECT_EQ(csv_text(decoded, selection),
-            "offset,sequence_count,time_s,mode,plan_center_0,plan_center_1\n0,3,1.5000000,standby,0,0\n744,4,1.5000000,standby,0,0\n");
+            "offset,sequence_count,time_s,mode,plan_center_0,plan_center_1\n0,3,1.5000000,standby,0,0\n751,4,1.5000000,standby,0,0\n");
   EXPECT_EQ(table_text(decoded, selection), "pose       #3 1.500000 s  standby  0 0\npose       #4 1.500000 s  standby  0 0\n");
   EXPECT_THROW(check_selection({"pos", {}}), InputError);
   EXPECT_THROW(check_selection({"", {"mode", "colour"}}), InputError);

@@ -96,7 +96,7 @@ TEST(Xtce, SizesAreThoseOfThePackets) {
   for (const ItemRow& row : kPackets[0].items) {
     bits += row.count * bits_of("pose_" + std::string(row.name) + (row.count > 1 ? "_element_t" : "_t"));
   }
-  EXPECT_EQ(bits, 744U * 8);
+  EXPECT_EQ(bits, 751U * 8);
 }
 
 TEST(DictionaryJson, HasEveryPacketItemAndChoice) {
@@ -105,7 +105,7 @@ TEST(DictionaryJson, HasEveryPacketItemAndChoice) {
   EXPECT_EQ(json.at("apid"), kApid);
   ASSERT_EQ(json.at("packets").size(), std::size(kPackets));
   const auto& pose = json.at("packets").at(0);
-  EXPECT_EQ(pose.at("size"), 744);
+  EXPECT_EQ(pose.at("size"), 751);
   ASSERT_EQ(pose.at("items").size(), kPackets[0].items.size());
   EXPECT_EQ(pose.at("items").at(0).at("byte"), 22);
   EXPECT_TRUE(pose.at("items").at(0).at("maximum").is_null()) << "unbounded";

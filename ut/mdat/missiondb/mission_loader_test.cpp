@@ -84,7 +84,7 @@ TEST_F(Missions, EveryParameterIsReadConvertedAndItsLineKnown) {
     const std::string key = row.key;
     if (key.rfind("tracking.initial.q", 0) == 0 || key == "scan.cycles_b" || key == "scan.cycles_a") continue;  // not free of each other
     if (key == "sensor.range_min_m" || key == "scan.duration_s" || key == "filter.period_s") continue;
-    const double value = key == "scan.points" || key == "sensor.range_max_m" ? row.maximum : row.minimum;
+    const double value = key == "scan.points" || key == "sensor.range_max_m" || key == "sensor.use_to_m" ? row.maximum : row.minimum;
     const bool is_inliers = key == "tracking.inliers_min";
     const MissionSource source = load(kHead + assignment(key, toml_text(value_row(row), {is_inliers ? 12 : value})));
     EXPECT_NEAR(source.parameters.*row.member, value * row.to_si, 1e-12 * std::fabs(value)) << key;

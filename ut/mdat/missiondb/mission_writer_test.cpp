@@ -62,6 +62,29 @@ TEST(MissionWriter, SizeDependentValuesGrowWithTheTarget) {
   EXPECT_EQ(large.parameters.kernel_width, small.parameters.kernel_width);
 }
 
+TEST(MissionWriter, ItsExamplesOfASensorAndAPartAreGoodOnceUncommented) {
+  VERIFIES("LASSO-GND-012~1");
+  const Folder folder;
+  for (const double scale : {0.3, 10.0}) {
+    const auto file = folder.path() / "new.toml";
+    write_new_mission(kProbe, scale, file);
+    std::string text = read_file(file);
+    for (const char* start : {"[further", "kind", "use_", "[part", "box", "range_m =", "view", "cone"}) {
+      for (std::size_t at = text.find("\n# " + std::string(start)); at != std::string::npos; at = text.find("\n# " + std::string(start))) {
+        text.erase(at + 1, 2);
+      }
+    }
+    const MissionSource source = load_mission(folder.write("uncommented.toml", text));
+    ASSERT_EQ(source.further_sensors.size(), 1U);
+    EXPECT_EQ(source.further_sensors[0].name, "near");
+    ASSERT_EQ(source.parts.size(), 1U);
+    const Mesh target = load_target(source);
+    const Mesh part = load_part(source, source.parts[0], target);
+    EXPECT_GT(part.triangles.size(), 0U);
+    EXPECT_LT(part.triangles.size(), 2 * target.triangles.size());
+  }
+}
+
 TEST(MissionWriter, ExplainsEveryFlightParameter) {
   VERIFIES("LASSO-GND-012~1");
   const std::string text = new_mission_text(kProbe, 1, "probe.toml");

@@ -1,0 +1,64 @@
+#include "mdat/missiondb/sensor_reader.hpp"
+
+#include "cfg/capacities.hpp"
+#include "mdat/missiondb/sections.hpp"
+
+namespace lasso::mdat {
+namespace {
+
+constexpr std::size_t kPrefix = sizeof("sensor.") - 1;
+
+ValueRow without_prefix(ValueRow row) {
+  row.key = row.key.substr(kPrefix);
+  return row;
+}
+
+void read_sensor(const std::string& name, const toml::table& table, MissionSource& source, ProblemList& problems) {
+  const std::string prefix = "further_sensor." + name + ".";
+  const FoundValues found = read_table(table, prefix, further_sensor_rows(), {}, problems);
+  for (const ValueRow& row : further_sensor_rows()) {
+    const auto value = found.find(row.key);
+    source.origins[prefix + row.key] = value == found.end() ? Origin{} : value->second.origin;
+  }
+  FurtherSensor sensor;
+  sensor.name = name;
+  const auto kind = found.find("kind");
+  if (kind != found.end()) sensor.kind = static_cast<SensorKind>(static_cast<int>(kind->second.numbers.at(0)));
+  for (const ParameterRow& row : sensor_rows()) {
+    const auto value = found.find(row.key + kPrefix);
+    const double number = value == found.end() ? preset_of(sensor.kind, row.key, row.preset) : value->second.numbers.at(0);
+    sensor.parameters.*sensor_member(row) = number * row.to_si;
+  }
+  source.further_sensors.push_back(sensor);
+}
+
+}  // namespace
+
+const std::vector<ValueRow>& further_sensor_rows() {
+  static const std::vector<ValueRow> rows = [] {
+    std::vector<ValueRow> result{without_prefix(*find_row(mission_rows(), "sensor.kind"))};
+    for (const ParameterRow& row : sensor_rows()) result.push_back(without_prefix(value_row(row)));
+    return result;
+  }();
+  return rows;
+}
+
+void read_further_sensors(const toml::table& root, MissionSource& source, ProblemList& problems) {
+  const toml::node* node = root.get("further_sensor");
+  if (node == nullptr) return;
+  if (!node->is_table()) return problems.add(*node, "further_sensor", "wrong type: expected tables [further_sensor.NAME]");
+  if (node->as_table()->size() >= kMaxSensors) {
+    return problems.add(*node, "further_sensor",
+                        "expected at most " + std::to_string(kMaxSensors - 1) + ": the flight component has room for no more");
+  }
+  for (const auto& [name, entry] : *node->as_table()) {
+    const std::string key = "further_sensor." + std::string(name.str());
+    if (const toml::table* table = entry.as_table()) {
+      read_sensor(std::string(name.str()), *table, source, problems);
+    } else {
+      problems.add(entry, key, "wrong type: expected a table [" + key + "]");
+    }
+  }
+}
+
+}  // namespace lasso::mdat

@@ -1,0 +1,14 @@
+// The sensors besides [sensor], [further_sensor.NAME], from a mission's file. Inside of missiondb.
+#pragma once
+
+#include "mdat/missiondb/toml_reader.hpp"
+
+namespace lasso::mdat {
+
+// Keys as in [sensor]: its kind, and the values of sensor_rows().
+const std::vector<ValueRow>& further_sensor_rows();
+
+// Fills source.further_sensors, and the origins of their keys, from the mission's whole table. What is wrong goes to the list.
+void read_further_sensors(const toml::table& root, MissionSource& source, ProblemList& problems);
+
+}  // namespace lasso::mdat

@@ -1,0 +1,228 @@
+// The whole component with two sensors, of which one takes each scan.
+#include <algorithm>
+#include <cmath>
+
+#include "ut/exec/component_scene.hpp"
+#include "ut/support/box_sensors.hpp"
+
+namespace lasso {
+namespace {
+
+using test::Report;
+using M = TrackingMode;
+using R = SensorReason;
+
+constexpr double kFarSigma_m = 4e-3;
+constexpr double kNearSigma_m = 1e-3;
+
+// Moving away from 2.4 m at 0.1 m/s, or as the test says.
+test::BoxScene scene_at(double range_m, double away_mps) {
+  test::BoxScene scene = test::default_scene();
+  scene.at_zero.p.z() = range_m;
+  scene.rates.v_mps = Vec3(0.004, -0.003, away_mps);
+  return scene;
+}
+
+// The first sensor is for far: rough, used from 2.6 m. The second one is fine, has a narrow field, and is used up to 3 m.
+class ComponentScansTest : public ::testing::Test {
+ protected:
+  static MissionParameters parameters(const test::BoxScene& scene) {
+    MissionParameters p = test::box_parameters(scene);
+    p.sigma0_m = kFarSigma_m;
+    p.use_from_m = 2.6;
+    p.range_min_m = 1;
+    p.range_max_m = 50;
+    p.fault_scans = 2;
+    p.look_scans = 3;
+    p.coast_frames = 40;
+    return p;
+  }
+  static SensorParameters near_sensor(const MissionParameters& p) {
+    SensorParameters near = test::sensor_of(p, 0, 3);
+    near.sigma0_m = kNearSigma_m;
+    near.fov_half_x_rad = near.fov_half_y_rad = 0.1;
+    near.range_max_m = 4;
+    return near;
+  }
+  void begin(const test::BoxScene& scene, MissionParameters p) {
+    static const test::BoxTables whole = test::make_box_tables(test::BoxModel{});
+    test::BoxTables tables = p.short_range_enter_m > 0 ? test::with_parts(whole, test::two_halves(), p) : whole;
+    test::append_sensor(near_sensor(p), tables[test::kSensorsTable]);
+    image_ = test::make_image(p, tables);
+    test::BoxScene rough = scene;
+    rough.sigma_m = kFarSigma_m;
+    far_ = std::make_unique<test::BoxSensor>(rough);
+    near_ = std::make_unique<test::BoxSensor>(scene);
+    SensorBank bank = only(*far_);
+    ASSERT_TRUE(bank.push_back(near_.get()));
+    component_ = std::make_unique<Component>(bank);
+    ASSERT_EQ(component_->load_image(Bytes(image_.data(), image_.size)).status, Status::kOk);
+    ASSERT_EQ(component_->begin(0), Status::kOk);
+  }
+  void begin(const test::BoxScene& scene) { begin(scene, parameters(scene)); }
+
+  std::vector<PoseTelemetry> run(int frames) {
+    std::vector<PoseTelemetry> reports;
+    std::vector<std::uint8_t> bytes(kTelemetryQueueBytes);
+    for (int i = 0; i < frames; ++i) {
+      do {
+        component_->run_slot(component_->next_slot_us());
+        component_->run_estimation();
+      } while (!component_->next_slot_is_boundary());
+      const std::size_t size = component_->take_telemetry(Bytes(bytes.data(), bytes.size()));
+      for (const Report& report : test::decode_all(ConstBytes(bytes.data(), size))) reports.push_back(report.pose);
+    }
+    return reports;
+  }
+
+  test::TestImage image_;
+  std::unique_ptr<test::BoxSensor> far_, near_;
+  std::unique_ptr<Component> component_;
+};
+
+TEST_F(ComponentScansTest, TheTargetsRangeSaysWhichSensorTakesAScan) {
+  VERIFIES("LASSO-SNS-041~1 LASSO-SNS-042~1 LASSO-SNS-046~1 LASSO-SNS-048~1");
+  begin(scene_at(2.4, 0.1));
+  std::vector<int> sensors;
+  for (const PoseTelemetry& t : run(45)) {
+    EXPECT_EQ(t.valid, 1) << t.scan_id;
+    EXPECT_EQ(static_cast<M>(t.mode), M::kTracking);
+    EXPECT_EQ(static_cast<R>(t.sensor_reason), R::kInBand);
+    EXPECT_GE(t.sensor_changes, t.sensor == 1 ? 1U : 2U) << "of scans that were planned since, too";
+    if (sensors.empty() || sensors.back() != t.sensor) sensors.push_back(t.sensor);
+  }
+  EXPECT_EQ(sensors, (std::vector<int>{1, 0})) << "from 2.4 m to 3.3 m";
+  EXPECT_EQ(far_->starts + near_->starts, 45);
+}
+
+// What a scan is worth is what its own sensor's noise says: the covariance is that of 4 mm, and of 1 mm.
+TEST_F(ComponentScansTest, EachScanIsPlannedAndEstimatedByItsOwnSensorsParameters) {
+  VERIFIES("LASSO-SNS-046~1");
+  MissionParameters p = parameters(scene_at(2.4, 0.1));
+  p.noise_estimated = 0;
+  begin(scene_at(2.4, 0.1), p);
+  double sigma[2] = {};
+  double widest[2] = {};
+  for (const PoseTelemetry& t : run(45)) {
+    if (t.scan_id < 2) continue;  // its rates are not known yet
+    sigma[t.sensor] = std::sqrt(static_cast<double>(t.covariance[20]));
+    widest[t.sensor] = std::max(widest[t.sensor], t.plan_half_extents[0]);
+    EXPECT_NEAR(t.normalized_residual, 1, 0.25) << t.scan_id << " by sensor " << int{t.sensor} << ": its residuals are those of its sensor";
+  }
+  EXPECT_NEAR(sigma[0] / sigma[1], kFarSigma_m / kNearSigma_m, 1.5);
+  EXPECT_LE(widest[1], std::tan(0.1) * 1.0001);
+  EXPECT_GT(widest[0], std::tan(0.1));
+}
+
+TEST_F(ComponentScansTest, ASensorThatFailsIsReplacedAndTold) {
+  VERIFIES("LASSO-SNS-044~1 LASSO-SNS-048~1");
+  begin(scene_at(2.4, 0));
+  run(6);
+  for (std::uint32_t scan = 6; scan < 30; ++scan) near_->lost.insert(scan);
+  bool substituted = false;
+  for (const PoseTelemetry& t : run(12)) {
+    if (t.sensor == 1) continue;
+    substituted = true;
+    EXPECT_EQ(static_cast<R>(t.sensor_reason), R::kSubstitute);
+    EXPECT_EQ(t.sensors_failed, 2);
+    EXPECT_EQ(t.valid, 1) << t.scan_id;
+    EXPECT_EQ(t.sensor_changes, 2U) << "to the one for near, and back";
+  }
+  EXPECT_TRUE(substituted);
+}
+
+TEST_F(ComponentScansTest, AScanThatCannotBePlannedIsNoFaultOfTheSensor) {
+  VERIFIES("LASSO-SNS-044~1");
+  test::BoxScene scene = scene_at(1.5, 0);
+  scene.at_zero.p.x() = 2;  // beside both fields
+  begin(scene);
+  for (const PoseTelemetry& t : run(12)) {
+    EXPECT_EQ(t.sensors_failed, 0);
+    EXPECT_EQ(t.sensor, 1);
+    EXPECT_EQ(t.valid, 0);
+  }
+  EXPECT_EQ(near_->starts, 0);
+}
+
+TEST_F(ComponentScansTest, WithoutABearingTheSensorsLookInTurn) {
+  VERIFIES("LASSO-SNS-045~1");
+  begin(scene_at(2.4, 0));
+  run(3);
+  far_->hidden = near_->hidden = true;
+  ASSERT_EQ(component_->command_mode(M::kBearing), ModeRefusal::kNone);
+  std::vector<int> sensors;
+  for (const PoseTelemetry& t : run(14)) {
+    if (static_cast<R>(t.sensor_reason) == R::kRangeUnknown) sensors.push_back(t.sensor);
+  }
+  EXPECT_EQ(std::vector<int>(sensors.begin(), sensors.begin() + 7), (std::vector<int>{1, 1, 1, 0, 0, 0, 1}));
+  near_->hidden = far_->hidden = false;
+  const std::vector<PoseTelemetry> found = run(8);
+  EXPECT_EQ(found.back().sensor, 1);
+  EXPECT_EQ(static_cast<R>(found.back().sensor_reason), R::kInBand) << "the bearing's range says whose turn it is";
+  EXPECT_EQ(static_cast<BearingReason>(found.back().bearing_reason), BearingReason::kValid);
+}
+
+TEST_F(ComponentScansTest, ASearchKeepsItsSensor) {
+  VERIFIES("LASSO-SNS-042~1");
+  begin(scene_at(2.4, 0));
+  run(3);
+  ASSERT_EQ(component_->command_mode(M::kSearching), ModeRefusal::kNone);
+  run(3);
+  for (const PoseTelemetry& t : run(6)) {
+    EXPECT_EQ(static_cast<R>(t.sensor_reason), R::kBusy);
+    EXPECT_EQ(t.sensor, 1);
+  }
+}
+
+// A part that was chosen for the scans of one sensor is not scanned by another one: its first scans are of the whole.
+TEST_F(ComponentScansTest, WhatWasPlannedForAnotherSensorCountsNoMore) {
+  VERIFIES("LASSO-SNS-046~1 LASSO-MOD-164~1");
+  const test::BoxScene scene = scene_at(2.5, 0.1);
+  MissionParameters p = parameters(scene);
+  p.short_range_enter_m = 5;
+  p.short_range_leave_m = 6;
+  begin(scene, p);
+  int before = -1;
+  bool switched = false;
+  for (const PoseTelemetry& t : run(45)) {
+    if (before >= 0 && t.sensor != before) {
+      switched = true;
+      EXPECT_EQ(t.part, 0);
+    }
+    EXPECT_TRUE(t.frames <= 10 || switched || t.part != 0) << t.scan_id;
+    before = t.sensor;
+  }
+  EXPECT_TRUE(switched);
+}
+
+TEST_F(ComponentScansTest, AMissionWithMoreSensorsThanThereAreIsRefused) {
+  VERIFIES("LASSO-SNS-047~1");
+  const test::BoxScene scene = scene_at(2.4, 0);
+  test::BoxSensor sensor(scene);
+  const auto one = std::make_unique<Component>(sensor);
+  test::BoxTables tables = test::make_box_tables(test::BoxModel{});
+  test::append_sensor(near_sensor(parameters(scene)), tables[test::kSensorsTable]);
+  test::TestImage image = test::make_image(parameters(scene), tables);
+  const LoadFailure refused = one->load_image(Bytes(image.data(), image.size));
+  EXPECT_EQ(refused.status, Status::kBadValue);
+  EXPECT_STREQ(refused.what, "the mission has more sensors than are connected");
+  EXPECT_EQ(one->begin(0), Status::kMissing);
+}
+
+TEST_F(ComponentScansTest, ASensorWithoutARangeOrATurnIsRefused) {
+  VERIFIES("LASSO-SNS-047~1");
+  const test::BoxScene scene = scene_at(2.4, 0);
+  test::BoxSensor sensor(scene);
+  const auto component = std::make_unique<Component>(sensor);
+  MissionParameters p = parameters(scene);
+  p.range_min_m = p.range_max_m;
+  test::TestImage no_range = test::make_box_image(p);
+  EXPECT_STREQ(component->load_image(Bytes(no_range.data(), no_range.size)).what, "sensor.range_min_m is not below sensor.range_max_m");
+  p = parameters(scene);
+  p.use_to_m = p.use_from_m;
+  test::TestImage no_turn = test::make_box_image(p);
+  EXPECT_STREQ(component->load_image(Bytes(no_turn.data(), no_turn.size)).what, "sensor.use_from_m is not below sensor.use_to_m");
+}
+
+}  // namespace
+}  // namespace lasso

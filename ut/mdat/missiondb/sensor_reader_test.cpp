@@ -1,0 +1,72 @@
+#include "mdat/missiondb/sensor_reader.hpp"
+
+#include "cfg/capacities.hpp"
+#include "fsw/geometry/portable_math.hpp"
+#include "ut/mdat/missiondb/support.hpp"
+#include "ut/support/verifies.hpp"
+
+namespace lasso::mdat {
+namespace {
+
+const std::string kHead = "[mission]\nid = 7\nversion = 2\nname = 'test'\n[target]\nmodel = 'box.toml'\n";  // what follows begins on line 7
+
+class SensorReaderTest : public ::testing::Test {
+ protected:
+  SensorReaderTest() { folder_.write("box.toml", "[[part]]\nkind = 'box'\nsize = [1, 1, 1]\n"); }
+  MissionSource load(const std::string& text) { return load_mission(folder_.write("m.toml", kHead + text)); }
+  void expect_error(const std::string& text, const std::string& expected) {
+    const std::string message = mission_error_of([&] { static_cast<void>(load(text)); });
+    EXPECT_NE(message.find(expected), std::string::npos) << "got: " << message << "\nexpected: " << expected;
+  }
+  Folder folder_;
+};
+
+TEST_F(SensorReaderTest, ReadsEachSensorWithThePresetsOfItsKind) {
+  VERIFIES("LASSO-GND-001~1 LASSO-SNS-041~1");
+  const MissionSource source = load(
+      "[further_sensor.near]\nfov_half_x_deg = 25\nuse_to_m = 18\n[further_sensor.far]\nkind = 'time_of_flight'\nrange_min_m = 2\n"
+      "use_from_m = 16\n");
+  ASSERT_EQ(source.further_sensors.size(), 2U);
+  const FurtherSensor& far = source.further_sensors[0];
+  EXPECT_EQ(far.name, "far");
+  EXPECT_EQ(far.kind, SensorKind::kTimeOfFlight);
+  EXPECT_EQ(far.parameters.sigma0_m, 0.02);
+  EXPECT_EQ(far.parameters.range_min_m, 2);
+  EXPECT_EQ(far.parameters.range_max_m, 100);
+  EXPECT_EQ(far.parameters.use_from_m, 16);
+  const FurtherSensor& near = source.further_sensors[1];
+  EXPECT_EQ(near.kind, SensorKind::kLaserCamera);
+  EXPECT_NEAR(near.parameters.fov_half_x_rad, 25 * kRadPerDeg, 1e-15);
+  EXPECT_EQ(near.parameters.sigma0_m, preset_parameters().sigma0_m);
+  EXPECT_EQ(near.parameters.use_to_m, 18);
+  EXPECT_EQ(source.origins.at("further_sensor.near.use_to_m").line, 9);
+  EXPECT_TRUE(source.origins.at("further_sensor.near.use_from_m").preset());
+}
+
+TEST_F(SensorReaderTest, WrongValuesAreNamedWithTheirPlace) {
+  VERIFIES("LASSO-GND-001~1 LASSO-SNS-047~1");
+  expect_error("[further_sensor.near]\nfov_half_x_deg = 80\n", "m.toml:8:18: further_sensor.near.fov_half_x_deg");
+  expect_error("[further_sensor.near]\nsigma = 1\n", "further_sensor.near.sigma");
+  const std::string message =
+      mission_error_of([&] { static_cast<void>(load_mission(folder_.write("n.toml", "further_sensor = 3\n" + kHead))); });
+  EXPECT_NE(message.find("expected tables [further_sensor.NAME]"), std::string::npos) << message;
+  expect_error("[further_sensor]\nnear = 3\n", "expected a table [further_sensor.near]");
+}
+
+TEST_F(SensorReaderTest, ASensorWithoutARangeOrATurnIsRefused) {
+  VERIFIES("LASSO-SNS-047~1");
+  expect_error("[further_sensor.near]\nrange_min_m = 30\n", "expected less than range_max_m, which is 20 m");
+  expect_error("[further_sensor.near]\nuse_from_m = 30\nuse_to_m = 20\n", "m.toml:8:14: further_sensor.near.use_from_m");
+  expect_error("[sensor]\nuse_from_m = 30\nuse_to_m = 20\n", "expected less than sensor.use_to_m, which is 20 m");
+}
+
+TEST_F(SensorReaderTest, MoreThanTheComponentHasRoomForAreRefused) {
+  VERIFIES("LASSO-SNS-047~1");
+  std::string text;
+  for (std::size_t i = 0; i < kMaxSensors - 1; ++i) text += "[further_sensor.s" + std::to_string(i) + "]\n";
+  EXPECT_EQ(load(text).further_sensors.size(), kMaxSensors - 1);
+  expect_error(text + "[further_sensor.one_more]\n", "expected at most 3");
+}
+
+}  // namespace
+}  // namespace lasso::mdat
