@@ -54,7 +54,7 @@ void write_images(const fs::path& folder) {
     test::TestImage image = small_image(parameters, !silhouettes);
     check_seed(image);
     const std::string name = silhouettes ? "silhouettes" : "hits_and_part";
-    for (const char option : {'\0', '\1', '\2', '\4'})
+    for (const char option : {'\0', '\1', '\2', '\4', '\10'})
       write(folder / (name + std::to_string(option)), seed(option, image.data(), image.size));
   }
 }
