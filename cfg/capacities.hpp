@@ -21,6 +21,7 @@ constexpr std::size_t kMaxSites = 512;              // silhouette measurements o
 constexpr std::size_t kMaxContourEdges = 4096;      // model edges on the contour of one view
 constexpr std::size_t kMaxAimPlaces = 128;          // places on it among which those worth a look are chosen
 constexpr std::size_t kTelemetryQueueBytes = 8192;  // packets between two downlinks
+constexpr std::uint32_t kMaxCommandsPerFrame = 8;   // commands and refusals that are answered in a frame
 constexpr std::size_t kTaskStackBytes = 32u << 10;  // stack that a board gives each task; make prove: they need half of it at most
 
 }  // namespace lasso

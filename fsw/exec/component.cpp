@@ -157,6 +157,7 @@ void Component::run_slot(TimeUs now_us) {
 void Component::run_task(TaskId task, TimeUs now_us) {
   if (task == TaskId::kPollSensor) return acquisition_.poll(now_us);
   publish_estimate(now_us);
+  pass_link_boundary(now_us);
   apply_request();
   choose_sensor();
   hand_over_scan();
@@ -282,15 +283,8 @@ void Component::send(const TrackStep& step, TimeUs now_us) {
   if (!step.registration.valid()) ++counters_.invalid_frames;
   set_counters(report);
   set_changes(report);
-  PacketHeader header;
-  header.sequence_count = counters_.packets & kSequenceCountMask;
-  header.message_count = counters_.packets;
-  header.t_us = now_us;
-  ++counters_.packets;
   std::uint8_t packet[kMaxPosePacketBytes];
-  const std::size_t size = encode_pose(report, header, Bytes(packet));
-  invariant(size > 0, "pose packet larger than its buffer");
-  static_cast<void>(queue_.push(ConstBytes(packet, size)));  // a full queue counts what it drops
+  enqueue({packet, encode_pose(report, next_header(Message::kHousekeeping, now_us), Bytes(packet))});
 }
 
 void Component::set_changes(PoseTelemetry& report) {

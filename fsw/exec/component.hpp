@@ -22,6 +22,8 @@
 #include "fsw/exec/estimation_task.hpp"
 #include "fsw/exec/executive.hpp"
 #include "fsw/geometry/se3.hpp"
+#include "fsw/link/command_receiver.hpp"
+#include "fsw/link/link_report.hpp"
 #include "fsw/link/pose_telemetry.hpp"
 #include "fsw/link/telemetry_queue.hpp"
 #include "fsw/mission/mission.hpp"
@@ -57,6 +59,13 @@ class Component {
   Status stop_tracking();
   // From the next boundary on no mode ends because its frames are used up, and no start is taken but by command. Commands still work.
   void hold_mode(bool held) { held_ = held; }
+
+  // Bytes from the ground, in pieces of any size: their commands are carried out as they come, and answered in telemetry
+  // (docs/icd/link.md). Returns how many bytes were taken: kMaxCommandsPerFrame commands and refusals are answered in a frame, the rest
+  // waits for the next.
+  std::size_t receive(ConstBytes bytes, TimeUs now_us);
+  // A datagram: one command, whole. False, and it was not looked at, when the frame's commands are used up.
+  bool receive_packet(ConstBytes packet, TimeUs now_us);
 
   // The nominal time of the next slot, and whether it is a boundary.
   TimeUs next_slot_us() const { return executive_.next_slot_us(); }
@@ -99,10 +108,12 @@ class Component {
     std::uint32_t refused_starts = 0;
     std::uint32_t refused_commands = 0;
     std::uint32_t odd_parts = 0;
-    std::uint16_t packets = 0;  // PUS message type counter; its lower 14 bits are the sequence count while there is one kind of packet
   };
 
   static DurationUs to_us(double seconds) { return static_cast<DurationUs>(seconds * 1e6 + 0.5); }
+  enum class Message : std::uint8_t { kHousekeeping = 0, kAccepted, kRefused, kCompleted, kFailed, kPong };
+  static constexpr std::size_t kMessages = 6;
+
   void run_task(TaskId task, TimeUs now_us);
   // A boundary, in this order.
   void publish_estimate(TimeUs now_us);
@@ -131,6 +142,14 @@ class Component {
   bool report_overdue() const;
   TrackStep step_without_estimate();
   void send(const TrackStep& step, TimeUs now_us);
+  void answer(ConstBytes packet, TimeUs now_us);
+  void carry_out(const Command& command, Verification& verification, TimeUs now_us);
+  void pass_link_boundary(TimeUs now_us);
+  PacketHeader next_header(Message message, TimeUs now_us);
+  void enqueue(ConstBytes packet);
+  void verify(Message message, const Verification& verification, TimeUs now_us);
+  void send_pong(TimeUs now_us);
+  void send_link(TimeUs now_us);
   void set_changes(PoseTelemetry& report);
   void set_counters(PoseTelemetry& report) const;
 
@@ -156,6 +175,14 @@ class Component {
   StartRefusal refusal_ = StartRefusal::kNone;
   FixedVector<ModeChange, 2 * kPoseChanges> changes_;  // that no packet has told yet
   bool loaded_ = false;
+
+  CommandReceiver receiver_;
+  bool bytes_came_ = false;    // since the last boundary
+  bool link_changed_ = false;  // since the link's counters were told
+  std::uint32_t commands_left_ = kMaxCommandsPerFrame;
+  std::uint32_t skipped_told_ = 0;
+  std::uint16_t packets_ = 0;               // sent; the lower 14 bits are the sequence count
+  std::uint16_t messages_[kMessages] = {};  // PUS message type counters
 };
 
 }  // namespace lasso

@@ -32,6 +32,10 @@ ModeRefusal command_mode(Component& component, TrackingMode mode) { return compo
 
 void hold_mode(Component& component, bool held) { component.hold_mode(held); }
 
+std::size_t receive(Component& component, ConstBytes bytes, TimeUs now_us) { return component.receive(bytes, now_us); }
+
+bool receive_packet(Component& component, ConstBytes packet, TimeUs now_us) { return component.receive_packet(packet, now_us); }
+
 std::size_t take_telemetry(Component& component, Bytes out) { return component.take_telemetry(out); }
 
 bool step(Component& component, TimeUs now_us) {

@@ -26,6 +26,9 @@ Status stop_tracking(Component& component);
 StartRefusal offer_start(Component& component, StartWay way, const StartOffer& offer);
 ModeRefusal command_mode(Component& component, TrackingMode mode);
 void hold_mode(Component& component, bool held);
+// Bytes from the ground; see Component::receive and receive_packet.
+std::size_t receive(Component& component, ConstBytes bytes, TimeUs now_us);
+bool receive_packet(Component& component, ConstBytes packet, TimeUs now_us);
 std::size_t take_telemetry(Component& component, Bytes out);
 
 // Runs the next slot, and the estimate that it may leave pending, if the slot's time has come at now_us. False, and nothing has

@@ -133,6 +133,15 @@ inline constexpr Choice kPacketFaults[] = {
   {"segmented", "the sequence flags are not 3", "send each packet whole"},
   {"bad_pus_version", "the secondary header is not of PUS-C", "look at the sender"},
   {"unknown", "nothing has this service, subservice and number", "compare the sender's dictionary with this one"},
+  {"bad_argument", "a value is outside of its item's range", "correct it"},
+  {"repeated", "the sequence count is not after the one of the last accepted command", "count on, and send it again"},
+};
+inline constexpr Choice kModeRefusals[] = {
+  {"none", "it was not refused"},
+  {"not_begun", "the component has not begun", "begin, then send it again"},
+  {"not_by_command", "scans lead there; starting needs a pose", "send a pose to start from"},
+  {"not_from_here", "the present mode has no such way out", "command standby first; see the table of modes"},
+  {"no_prediction", "nothing was tracked, so there is no place to look near", "send a pose to start from, or command a search"},
 };
 inline constexpr Choice kPatterns[] = {
   {"rosette", "two circles of coprime frequencies"},
@@ -152,6 +161,7 @@ inline constexpr Enumeration kSearchOutcome{"search_outcome", Span<const Choice>
 inline constexpr Enumeration kSearchReason{"search_reason", Span<const Choice>(kSearchReasons)};
 inline constexpr Enumeration kSensorReason{"sensor_reason", Span<const Choice>(kSensorReasons)};
 inline constexpr Enumeration kPacketFault{"packet_fault", Span<const Choice>(kPacketFaults)};
+inline constexpr Enumeration kModeRefusal{"mode_refusal", Span<const Choice>(kModeRefusals)};
 inline constexpr Enumeration kPattern{"pattern", Span<const Choice>(kPatterns)};
 // clang-format on
 

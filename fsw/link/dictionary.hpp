@@ -4,6 +4,8 @@
 
 #include <cstdint>
 
+#include "fsw/link/command_rows.hpp"
+#include "fsw/link/link_report_rows.hpp"
 #include "fsw/link/packet.hpp"
 #include "fsw/link/pose_rows.hpp"
 #include "fsw/link/row.hpp"
@@ -23,7 +25,8 @@ struct PacketRow {
   const char* name;
   PacketType type;
   std::uint8_t service, subservice;
-  std::uint16_t number;  // 16 bits behind the headers: the structure
+  bool numbered;         // the number is in the packet,
+  std::uint16_t number;  // 16 bits behind the headers: the structure, the function
   Span<const ItemRow> items;
   const char* meaning;
 };
@@ -57,15 +60,46 @@ inline constexpr HeaderField kCommandFields[] = {
 };
 
 inline constexpr auto kPoseItems = items_of(pose_rows::kRows);
+inline constexpr auto kLinkItems = items_of(link_report_rows::kLink);
+inline constexpr auto kDoneItems = items_of(link_report_rows::kDone);
+inline constexpr auto kRefusedItems = items_of(link_report_rows::kRefused);
+inline constexpr auto kFailedItems = items_of(link_report_rows::kFailed);
+inline constexpr auto kModeItems = items_of(command_rows::kMode);
+inline constexpr auto kHoldItems = items_of(command_rows::kHold);
+inline constexpr auto kStartItems = items_of(command_rows::kStart);
 inline constexpr PacketRow kPackets[] = {
-  {"pose", PacketType::kTelemetry, kServiceHousekeeping, kSubserviceHousekeepingReport, kPoseStructureId, Span<const ItemRow>(kPoseItems.rows),
+  {"pose", PacketType::kTelemetry, kServiceHousekeeping, kSubserviceHousekeepingReport, true, kPoseStructureId, Span<const ItemRow>(kPoseItems.rows),
    "the navigation output of one frame"},
+  {"link", PacketType::kTelemetry, kServiceHousekeeping, kSubserviceHousekeepingReport, true, kLinkStructureId, Span<const ItemRow>(kLinkItems.rows),
+   "counters of the link, at the end of a frame in which one of the first four has changed"},
+  {"accepted", PacketType::kTelemetry, kServiceVerification, kSubserviceAccepted, false, 0, Span<const ItemRow>(kDoneItems.rows),
+   "a command is accepted, if it asks for this report"},
+  {"refused", PacketType::kTelemetry, kServiceVerification, kSubserviceRefused, false, 0, Span<const ItemRow>(kRefusedItems.rows),
+   "a command is refused: it changes nothing"},
+  {"completed", PacketType::kTelemetry, kServiceVerification, kSubserviceCompleted, false, 0, Span<const ItemRow>(kDoneItems.rows),
+   "a command is carried out, if it asks for this report; what concerns modes takes effect at the next boundary"},
+  {"failed", PacketType::kTelemetry, kServiceVerification, kSubserviceFailed, false, 0, Span<const ItemRow>(kFailedItems.rows),
+   "a command was accepted, but the present state does not allow it: it changes nothing"},
+  {"pong", PacketType::kTelemetry, kServiceTest, kSubservicePong, false, 0, Span<const ItemRow>(), "the answer to ping"},
+  {"ping", PacketType::kCommand, kServiceTest, kSubservicePing, false, 0, Span<const ItemRow>(), "asks for the packet pong"},
+  {"set_mode", PacketType::kCommand, kServiceFunction, kSubservicePerform, true, static_cast<std::uint16_t>(CommandKind::kMode), Span<const ItemRow>(kModeItems.rows),
+   "the mode, from the next boundary on"},
+  {"set_hold", PacketType::kCommand, kServiceFunction, kSubservicePerform, true, static_cast<std::uint16_t>(CommandKind::kHold), Span<const ItemRow>(kHoldItems.rows),
+   "holds the mode, from the next boundary on"},
+  {"offer_start", PacketType::kCommand, kServiceFunction, kSubservicePerform, true, static_cast<std::uint16_t>(CommandKind::kStart), Span<const ItemRow>(kStartItems.rows),
+   "a pose to start from"},
 };
 // clang-format on
 
-// Offset of an item's first byte from the packet's start. Loop bound: the items.
+// Offset of the source or application data, behind the number where there is one.
+inline std::size_t data_offset(const PacketRow& packet) {
+  const std::size_t header = packet.type == PacketType::kTelemetry ? kPacketHeaderBytes : kCommandHeaderBytes;
+  return packet.numbered ? header + kPacketNumberBytes : header;
+}
+
+// Offset of an item's first byte from the packet's start; with as many as there are, that of the CRC. Loop bound: the items.
 inline std::size_t item_offset(const PacketRow& packet, std::size_t item) {
-  std::size_t offset = kPacketHeaderBytes + kPacketNumberBytes;
+  std::size_t offset = data_offset(packet);
   for (std::size_t i = 0; i < item; ++i) offset += packet.items[i].size();
   return offset;
 }

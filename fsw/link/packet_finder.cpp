@@ -48,8 +48,8 @@ bool PacketFinder::search() {
   }
   drop(at);
   skipped_ += static_cast<std::uint32_t>(at);
-  if (here == Candidate::kWhole) found_ = packet_size({buffer_.data(), size_});
-  return here == Candidate::kWhole;
+  if (here == Candidate::kPacket) found_ = packet_size({buffer_.data(), size_});
+  return here == Candidate::kPacket;
 }
 
 PacketFinder::Candidate PacketFinder::candidate(std::size_t at) const {
@@ -57,7 +57,7 @@ PacketFinder::Candidate PacketFinder::candidate(std::size_t at) const {
   if (!may_begin(bytes)) return Candidate::kNone;
   const std::size_t stated = packet_size(bytes);
   if (stated == 0 || stated > bytes.size()) return Candidate::kOpen;
-  return crc16_ccitt(bytes.first(stated)) == 0 ? Candidate::kWhole : Candidate::kNone;
+  return crc16_ccitt(bytes.first(stated)) == 0 ? Candidate::kPacket : Candidate::kNone;
 }
 
 // As far as the bytes go that are there.

@@ -36,7 +36,7 @@ class PacketFinder {
   std::size_t waiting() const { return size_ - found_; }
 
  private:
-  enum class Candidate : std::uint8_t { kNone, kOpen, kWhole };
+  enum class Candidate : std::uint8_t { kNone, kOpen, kPacket };
   bool search();
   Candidate candidate(std::size_t at) const;
   bool may_begin(ConstBytes bytes) const;

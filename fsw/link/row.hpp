@@ -61,6 +61,7 @@ template <class Packet>
 struct TypedRow : ItemRow {
   void (*write)(const Packet&, ByteWriter&);
   void (*read)(ByteReader&, Packet&);
+  bool (*within)(const Packet&, const Range&);  // every element
 };
 
 // What flight code keeps of a packet's rows.
@@ -89,6 +90,28 @@ constexpr Codec<Packet, kRows> codec_of(const TypedRow<Packet> (&rows)[kRows]) {
     codec.bytes += rows[i].size();
   }
   return codec;
+}
+
+// What it keeps of a command's rows besides: what arguments are valid.
+template <class Packet, std::size_t kRows>
+struct Limits {
+  struct Row {
+    bool (*within)(const Packet&, const Range&);
+    Range range;
+  };
+  Row rows[kRows] = {};
+
+  bool hold(const Packet& packet) const {
+    bool all = true;
+    for (const Row& row : rows) all = row.within(packet, row.range) && all;
+    return all;
+  }
+};
+template <class Packet, std::size_t kRows>
+constexpr Limits<Packet, kRows> limits_of(const TypedRow<Packet> (&rows)[kRows]) {
+  Limits<Packet, kRows> limits;
+  for (std::size_t i = 0; i < kRows; ++i) limits.rows[i] = {rows[i].within, rows[i].range};
+  return limits;
 }
 
 // What the ground keeps of them: rows of any packet, as one type.
@@ -182,6 +205,14 @@ struct Field {
   static void read(ByteReader& in, Packet& packet) {
     for (std::size_t i = 0; i < Member::kCount; ++i) get(in, Member::at(packet.*kMember, i));
   }
+  static bool within(const Packet& packet, const Range& range) {
+    bool all = true;
+    for (std::size_t i = 0; i < Member::kCount; ++i) {
+      const auto value = static_cast<double>(Member::at(packet.*kMember, i));
+      if (!(value >= range.minimum && value <= range.maximum)) all = false;  // also what is not a number
+    }
+    return all;
+  }
 };
 
 }  // namespace wire
@@ -190,7 +221,7 @@ template <auto kMember>
 constexpr auto make_row(std::uint16_t id, const char* name, const char* unit, Range range, const char* meaning) {
   using F = wire::Field<kMember>;
   constexpr WireType kType = wire::TypeOf<typename F::Type>::kType;
-  return TypedRow<typename F::Packet>{{id, name, kType, F::Member::kCount, unit, range, nullptr, meaning}, &F::write, &F::read};
+  return TypedRow<typename F::Packet>{{id, name, kType, F::Member::kCount, unit, range, nullptr, meaning}, &F::write, &F::read, &F::within};
 }
 
 template <auto kMember>

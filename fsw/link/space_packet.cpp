@@ -50,6 +50,10 @@ const char* to_string(PacketFault fault) {
       return "bad_pus_version";
     case PacketFault::kUnknown:
       return "unknown";
+    case PacketFault::kBadArgument:
+      return "bad_argument";
+    case PacketFault::kRepeated:
+      return "repeated";
   }
   return "no fault";  // a value that no enumerator has
 }

@@ -47,6 +47,8 @@ enum class [[nodiscard]] PacketFault : std::uint8_t{
     kSegmented = 8,          // the sequence flags are not 11
     kBadPusVersion = 9,      // the secondary header is not of PUS-C
     kUnknown = 10,           // nothing has this service, subservice and number
+    kBadArgument = 11,       // a value is outside of its item's range
+    kRepeated = 12,          // the sequence count is not after the one of the last accepted command
 };
 const char* to_string(PacketFault fault);  // never null
 

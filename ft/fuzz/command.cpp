@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "fsw/core/crc.hpp"
+#include "fsw/link/command_rows.hpp"
+#include "fsw/link/packet.hpp"
 #include "fsw/link/packet_finder.hpp"
 #include "fsw/link/telecommand.hpp"
 #include "ft/fuzz/exact.hpp"
@@ -38,6 +40,25 @@ void check_command(ConstBytes packet) {
   writer.bytes(data);
   expect(finish_packet(writer, out) == packet.size(), "an accepted command encodes to its own size");
   expect(std::equal(again.begin(), again.end(), packet.begin()), "and to its own bytes");
+}
+
+template <class Arguments, std::size_t kRows>
+void expect_same(ConstBytes packet, const TypedRow<Arguments> (&rows)[kRows], const Arguments& arguments) {
+  const auto codec = codec_of(rows);
+  std::vector<std::uint8_t> again(codec.bytes);
+  ByteWriter writer{Bytes(again.data(), again.size())};
+  codec.write(arguments, writer);
+  const std::size_t begin = kCommandHeaderBytes + kPacketNumberBytes;
+  expect(begin + codec.bytes + kPacketTrailerBytes == packet.size(), "the arguments of a command fill it");
+  expect(std::equal(again.begin(), again.end(), packet.begin() + begin), "and encode to their own bytes");
+}
+
+void check_arguments(ConstBytes packet) {
+  Command command;
+  if (decode_command(packet, command) != PacketFault::kNone) return;
+  if (command.kind == CommandKind::kMode) expect_same(packet, command_rows::kMode, command.mode);
+  if (command.kind == CommandKind::kHold) expect_same(packet, command_rows::kHold, command.hold);
+  if (command.kind == CommandKind::kStart) expect_same(packet, command_rows::kStart, command.start);
 }
 
 // The same rule, applied at every place.
@@ -83,6 +104,7 @@ void run(ConstBytes input, std::uint8_t options) {
   ExactCopy packet(input);
   if ((options & 1) == 0) repair(packet.bytes());
   check_command(packet.bytes());
+  check_arguments(packet.bytes());
   std::vector<std::uint8_t> stream(packet.bytes().begin(), packet.bytes().end());
   if ((options & 2) != 0) {
     const std::size_t half = stream.size() / 2;

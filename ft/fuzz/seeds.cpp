@@ -6,8 +6,8 @@
 #include <fstream>
 #include <string>
 
+#include "fsw/link/commands.hpp"
 #include "fsw/link/pose_telemetry.hpp"
-#include "fsw/link/telecommand.hpp"
 #include "fsw/mission/mission.hpp"
 #include "fsw/pose/estimator.hpp"
 #include "ft/fuzz/small_image.hpp"
@@ -77,6 +77,18 @@ void write_commands(const fs::path& folder) {
   CommandHeader header;
   header.service = 17;
   header.subservice = 1;
+  const auto put = [&](std::uint16_t function, std::size_t bytes) {
+    header.service = kServiceFunction;
+    ByteWriter writer{Bytes(packet)};
+    begin_command(header, writer);
+    writer.u16(function);
+    for (std::size_t i = 0; i < bytes; ++i) writer.u8(0);
+    write(folder / ("function" + std::to_string(function)), seed(14, packet, finish_packet(writer, Bytes(packet))));
+  };
+  put(1, 1);
+  put(2, 1);
+  put(3, 197);
+  header.service = kServiceTest;
   for (const std::size_t bytes : {0U, 40U, 243U}) {
     ByteWriter writer{Bytes(packet)};
     begin_command(header, writer);

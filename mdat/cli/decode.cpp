@@ -10,7 +10,7 @@ namespace {
 
 struct Options {
   std::string file, format = "table";
-  bool headers = false;
+  bool headers = false, commands = false;
   Selection selection;
 };
 
@@ -38,7 +38,7 @@ void decode(const Options& options) {
   check_selection(options.selection);
   const std::string content = file_content(options.file);
   if (options.headers) return list(options, content);
-  const DecodedStream stream = decode_stream(view(content), PacketType::kTelemetry);
+  const DecodedStream stream = decode_stream(view(content), options.commands ? PacketType::kCommand : PacketType::kTelemetry);
   print(text_of(stream, options));
   std::fprintf(stderr, "%zu packets, %zu bytes that belong to none\n", stream.packets.size(), stream.other_bytes);
 }
@@ -47,13 +47,14 @@ void decode(const Options& options) {
 
 void add_decode_command(CLI::App& app) {
   const auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("decode", "print a recorded stream of telemetry packets");
+  CLI::App* command = app.add_subcommand("decode", "print a recorded stream of packets");
   command->add_option("FILE", options->file, "packets, as they come from the component (telemetry.ccsds of a run)")->required();
   command->add_option("--format", options->format, "table, json, csv, or pcap for Wireshark")
       ->capture_default_str()
       ->check(CLI::IsMember({"table", "json", "csv", "pcap"}));
   command->add_option("--packet", options->selection.packet, "packets of this name alone");
   command->add_option("--items", options->selection.items, "these items alone, separated by commas")->delimiter(',');
+  command->add_flag("--commands", options->commands, "the stream is one of commands, not of telemetry");
   command->add_flag("--headers", options->headers, "list headers, sequence gaps and check sums of any stream of space packets");
   command->callback([options] { decode(*options); });
 }

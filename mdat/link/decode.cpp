@@ -11,22 +11,17 @@ namespace {
 
 constexpr std::size_t kLargestPacket = kPrimaryHeaderBytes + 0x10000;
 
-std::size_t header_bytes(PacketType type) { return type == PacketType::kTelemetry ? kPacketHeaderBytes : kCommandHeaderBytes; }
-
-std::size_t items_size(const PacketRow& packet) {
-  std::size_t size = 0;
-  for (const ItemRow& item : packet.items) size += item.size();
-  return size;
+// Service, subservice and, where there is one, number.
+bool is_of(const PacketRow& row, ConstBytes packet, PacketType type) {
+  if (row.type != type || packet.size() < data_offset(row) + kPacketTrailerBytes) return false;
+  if (row.service != packet[7] || row.subservice != packet[8]) return false;
+  return !row.numbered || row.number == read_bits(packet, 8 * (data_offset(row) - kPacketNumberBytes), 8 * kPacketNumberBytes);
 }
 
 // The row of a packet with these headers; null: none, or another length.
 const PacketRow* row_of(ConstBytes packet, PacketType type) {
-  const std::size_t data = header_bytes(type);
-  if (packet.size() < data + kPacketNumberBytes + kPacketTrailerBytes) return nullptr;
   for (const PacketRow& row : kPackets) {
-    const bool same = row.type == type && row.service == packet[7] && row.subservice == packet[8] &&
-                      row.number == read_bits(packet, 8 * data, 8 * kPacketNumberBytes);
-    if (same) return packet.size() == data + kPacketNumberBytes + items_size(row) + kPacketTrailerBytes ? &row : nullptr;
+    if (is_of(row, packet, type)) return packet.size() == item_offset(row, row.items.size()) + kPacketTrailerBytes ? &row : nullptr;
   }
   return nullptr;
 }
@@ -56,7 +51,7 @@ DecodedPacket decode_packet(ConstBytes bytes, PacketType type) {
   }
   packet.row = row_of(bytes, type);
   if (packet.row == nullptr) return packet;
-  std::size_t at = header_bytes(type) + kPacketNumberBytes;
+  std::size_t at = data_offset(*packet.row);
   for (const ItemRow& row : packet.row->items) {
     packet.items.push_back(decode_item(row, bytes.subspan(at, row.size())));
     at += row.size();

@@ -35,15 +35,15 @@ std::string shown(const DecodedItem& item) {
   return valid ? text : text + " (!)";
 }
 
-std::uint64_t header_value(const DecodedPacket& packet, const char* name, PacketType type = PacketType::kTelemetry) {
-  const std::vector<HeaderField> fields = header_fields(type);
+PacketType type_of(const DecodedPacket& packet) { return read_primary_header(packet.bytes).type; }
+
+std::uint64_t header_value(const DecodedPacket& packet, const char* name) {
+  const std::vector<HeaderField> fields = header_fields(type_of(packet));
   for (std::size_t i = 0; i < packet.header.size(); ++i) {
     if (std::string(fields[i].name) == name) return packet.header[i];
   }
   return 0;
 }
-
-PacketType type_of(const DecodedPacket& packet) { return read_primary_header(packet.bytes).type; }
 
 double time_s(const DecodedPacket& packet) {
   return static_cast<double>(header_value(packet, "time_seconds")) + static_cast<double>(header_value(packet, "time_fraction")) * 0x1p-24;

@@ -37,10 +37,14 @@ Json fields(Span<const HeaderField> header) {
 }
 
 Json packet(const PacketRow& row) {
-  Json json = {{"name", row.name},        {"type", row.type == PacketType::kTelemetry ? "telemetry" : "command"},
-               {"service", row.service},  {"subservice", row.subservice},
-               {"structure", row.number}, {"size", item_offset(row, row.items.size()) + kPacketTrailerBytes},
-               {"meaning", row.meaning},  {"items", Json::array()}};
+  Json json = {{"name", row.name},
+               {"type", row.type == PacketType::kTelemetry ? "telemetry" : "command"},
+               {"service", row.service},
+               {"subservice", row.subservice},
+               {"number", row.numbered ? Json(row.number) : Json(nullptr)},
+               {"size", item_offset(row, row.items.size()) + kPacketTrailerBytes},
+               {"meaning", row.meaning},
+               {"items", Json::array()}};
   for (std::size_t i = 0; i < row.items.size(); ++i) json["items"].push_back(item(row, i));
   return json;
 }

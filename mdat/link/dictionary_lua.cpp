@@ -74,7 +74,7 @@ local function show_header(list, buffer, tree)
 end
 
 local function show_items(packet, buffer, tree)
-  local at = data_offset + 2
+  local at = packet.first
   for _, item in ipairs(packet.items) do
     for _ = 1, item.count do
       local range = buffer(at, sizes[item.type])
@@ -85,17 +85,19 @@ local function show_items(packet, buffer, tree)
 end
 
 function lasso.dissector(buffer, pinfo, root)
-  if buffer:len() < data_offset + 4 then return 0 end
+  if buffer:len() < data_offset + 2 then return 0 end
   pinfo.cols.protocol = "3DLASSO"
   local tree = root:add(lasso, buffer())
   local header = show_header(primary, buffer, tree)
   if header.apid ~= apid or header.type ~= 0 then return buffer:len() end
   local secondary = show_header(telemetry, buffer, tree)
-  local number = buffer(data_offset, 2):uint()
-  tree:add(f_structure, buffer(data_offset, 2))
   for _, packet in ipairs(packets) do
-    local same = packet.service == secondary.service and packet.subservice == secondary.subservice and packet.number == number
-    if same and packet.size == buffer:len() then
+    local same = packet.service == secondary.service and packet.subservice == secondary.subservice and packet.size == buffer:len()
+    if same and packet.number then
+      same = packet.number == buffer(data_offset, 2):uint()
+      if same then tree:add(f_structure, buffer(data_offset, 2)) end
+    end
+    if same then
       pinfo.cols.info = packet.name .. " #" .. header.sequence_count
       show_items(packet, buffer, tree)
     end
@@ -142,8 +144,10 @@ std::string item(const ItemRow& row) {
 }
 
 std::string packet(const PacketRow& row) {
-  std::string text = format("  {name = \"%s\", service = %u, subservice = %u, number = %u, size = %zu, items = {\n", row.name, row.service,
-                            row.subservice, row.number, item_offset(row, row.items.size()) + kPacketTrailerBytes);
+  const std::string number = row.numbered ? std::to_string(row.number) : "nil";
+  std::string text =
+      format("  {name = \"%s\", service = %u, subservice = %u, number = %s, first = %zu, size = %zu, items = {\n", row.name, row.service,
+             row.subservice, number.c_str(), data_offset(row), item_offset(row, row.items.size()) + kPacketTrailerBytes);
   for (const ItemRow& each : row.items) text += item(each);
   return text + "  }},\n";
 }

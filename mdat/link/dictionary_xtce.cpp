@@ -1,5 +1,5 @@
-// XTCE 1.2: header fields and items are parameters; each packet is a container that extends the one of the headers, told by its service,
-// subservice and structure.
+// XTCE 1.2 of the telemetry: header fields and items are parameters; each packet is a container that extends the one of the headers, told
+// by its service, subservice and structure.
 #include <cmath>
 
 #include "fsw/link/dictionary.hpp"
@@ -106,16 +106,32 @@ std::string base_container() {
       "common\">\n<EntryList>\n";
   for (const HeaderField& field : kPrimaryFields) text += entry(field.name);
   for (const HeaderField& field : kTelemetryFields) text += entry(field.name);
-  return text + entry(kStructure.name) + "</EntryList>\n</SequenceContainer>\n";
+  return text + "</EntryList>\n</SequenceContainer>\n";
+}
+
+std::string extending(const char* base, const std::string& comparisons) {
+  return format("<BaseContainer containerRef=\"%s\"><RestrictionCriteria><ComparisonList>", base) + comparisons +
+         "</ComparisonList></RestrictionCriteria></BaseContainer>\n</SequenceContainer>\n";
+}
+
+std::string type_comparisons(unsigned service, unsigned subservice) {
+  return comparison("apid", kApid) + comparison("service", service) + comparison("subservice", subservice);
+}
+
+// Of service 3, told apart by the number of the structure.
+std::string housekeeping_container() {
+  return "<SequenceContainer name=\"housekeeping\" abstract=\"true\" shortDescription=\"structures of service 3\">\n<EntryList>\n" +
+         entry(kStructure.name) + "</EntryList>\n" +
+         extending("telemetry", type_comparisons(kServiceHousekeeping, kSubserviceHousekeepingReport));
 }
 
 std::string container(const PacketRow& packet) {
   std::string text =
       "<SequenceContainer" + attribute("name", packet.name) + attribute("shortDescription", packet.meaning) + ">\n<EntryList>\n";
   for (const ItemRow& row : packet.items) text += item_entry(packet, row);
-  return text + entry("crc") + "</EntryList>\n<BaseContainer containerRef=\"telemetry\"><RestrictionCriteria><ComparisonList>" +
-         comparison("apid", kApid) + comparison("service", packet.service) + comparison("subservice", packet.subservice) +
-         comparison("structure", packet.number) + "</ComparisonList></RestrictionCriteria></BaseContainer>\n</SequenceContainer>\n";
+  text += entry("crc") + "</EntryList>\n";
+  if (packet.numbered) return text + extending("housekeeping", comparison("structure", packet.number));
+  return text + extending("telemetry", type_comparisons(packet.service, packet.subservice));
 }
 
 constexpr HeaderField kCrc{"crc", 0, 16, "CRC-16 over all bytes before it"};
@@ -123,7 +139,7 @@ constexpr HeaderField kCrc{"crc", 0, 16, "CRC-16 over all bytes before it"};
 }  // namespace
 
 std::string dictionary_xtce() {
-  std::string types, parameters, containers = base_container();
+  std::string types, parameters, containers = base_container() + housekeeping_container();
   const auto add_field = [&](const HeaderField& field) {
     types += header_type(field);
     parameters += parameter(field.name, field.meaning);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cfg/capacities.hpp"
 #include "fsw/link/dictionary.hpp"
 #include "fsw/mission/parameters.hpp"
 #include "mdat/common/text.hpp"
@@ -43,9 +44,11 @@ DocumentTable choice_table(const Enumeration& enumeration) {
 DocumentSection packet_section(const PacketRow& packet) {
   DocumentSection section;
   section.title = std::string("Packet ") + packet.name;
-  section.paragraphs = {std::string(packet.meaning) + format(". Service %u, subservice %u, structure %u; %zu bytes.", packet.service,
-                                                             packet.subservice, packet.number,
-                                                             item_offset(packet, packet.items.size()) + kPacketTrailerBytes)};
+  const std::string number = packet.numbered ? format(", number %u", packet.number) : "";
+  section.paragraphs = {format("%s: %s. Service %u, subservice %u%s; %zu bytes.",
+                               packet.type == PacketType::kTelemetry ? "Telemetry" : "Command", packet.meaning, packet.service,
+                               packet.subservice, number.c_str(), item_offset(packet, packet.items.size()) + kPacketTrailerBytes)};
+  if (packet.items.empty()) return section;
   section.table.head = {"id", "byte", "name", "type", "unit", "range", "meaning"};
   for (std::size_t i = 0; i < packet.items.size(); ++i) {
     const ItemRow& row = packet.items[i];
@@ -54,6 +57,24 @@ DocumentSection packet_section(const PacketRow& packet) {
         {std::to_string(row.id), std::to_string(item_offset(packet, i)), row.name, type, row.unit, range_text(row), row.meaning});
   }
   return section;
+}
+
+DocumentSection service_section() {
+  return {2,
+          "Commands and their answers",
+          {"Service 1 answers each command: `refused`, with the reason and always; or `accepted`, if asked for, and then `completed`, if "
+           "asked for, or "
+           "`failed`, always. Progress and start are not reported: what a command does is done at once, or at the next boundary.",
+           "A command is accepted once: its sequence count has to be 1 to 8191 after the one of the last accepted command, modulo 16384; "
+           "the first may "
+           "have any. This stops what is sent again by mistake; against intent, authenticate below this link.",
+           format("In a frame %u commands are answered, the refused ones too; the rest waits for the next. A command takes effect at the "
+                  "next boundary, at "
+                  "most one frame later. In a byte stream what has no right CRC belongs to no packet: it is counted as skipped bytes "
+                  "(packet `link`), and not "
+                  "answered. A datagram is a packet whatever it holds, and is answered.",
+                  kMaxCommandsPerFrame)},
+          {}};
 }
 
 std::string kind_text(const ParameterRow& row) {
@@ -95,13 +116,12 @@ std::vector<DocumentSection> interface_document() {
        "The link",
        {"Written by `mdat dictionary --format md` from the rows that the flight component packs its telemetry by "
         "(`fsw/link/dictionary.hpp`); `--format "
-        "html`, `json`, `xtce` and `lua` write the same for browsers, programs, mission control systems and Wireshark. Why it is so: "
+        "html`, `json`, `xtce` and `lua` write the same for browsers, programs, mission control systems and Wireshark (the last two of "
+        "telemetry alone). Why it is so: "
         "[packets and dictionary](../decisions/packets.md).",
-        "**Not there yet**: the component carries out no commands that come over the link. Command packets are defined, encoded, decoded "
-        "and framed; "
-        "no service acts on them, and nothing sends verification (service 1), events (5) or parameter reports (20). What changes, and why, "
-        "the "
-        "pose packet tells. Commands come through the embedding interface (`fsw/exec/lasso.hpp`)."},
+        "**Not there yet**: of service 3 the commands (structures are not enabled, disabled or given a period), and services 5 (events: "
+        "the pose packet "
+        "tells what changes, and why), 6 (memory), 9 (time) and 20 (parameters); hazardous commands and their arming; authentication."},
        {}},
       {2,
        "Packets",
@@ -117,9 +137,12 @@ std::vector<DocumentSection> interface_document() {
       {3, "Primary header", {}, header_table(Span<const HeaderField>(kPrimaryFields))},
       {3,
        "Secondary header of telemetry",
-       {"The source data begin with the number of the structure, 2 bytes."},
+       {"The source data of service 3 begin with the number of the structure, 2 bytes."},
        header_table(Span<const HeaderField>(kTelemetryFields))},
-      {3, "Secondary header of commands", {}, header_table(Span<const HeaderField>(kCommandFields))},
+      {3,
+       "Secondary header of commands",
+       {"The application data of service 8 begin with the number of the function, 2 bytes."},
+       header_table(Span<const HeaderField>(kCommandFields))},
       {3,
        "Why a packet is refused",
        {"Checked in this order; the first that fails is the reason. What is refused changes nothing."},
@@ -137,6 +160,7 @@ std::vector<DocumentSection> interface_document() {
         "have come as it states, or the reader gives it up (`fsw/link/packet_finder.hpp`)."},
        {}},
       {2, "Types", {}, type_table()}};
+  document.push_back(service_section());
   for (const PacketRow& packet : kPackets) document.push_back(packet_section(packet));
   document.push_back({2, "Enumerations", {"Values that are not listed here are of a later version, or damage."}, {}});
   add_enumerations(document);

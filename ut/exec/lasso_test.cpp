@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "ut/exec/component_scene.hpp"
+#include "ut/link/command_packets.hpp"
 
 namespace lasso {
 namespace {
@@ -47,6 +48,18 @@ TEST(Lasso, StepsGiveTheBytesOfTheComponentRunByItsSlots) {
   }
   EXPECT_EQ(stream, reference.stream);
   EXPECT_EQ(stream.size(), 18u * 751);
+}
+
+TEST(Lasso, AnswersCommands) {
+  VERIFIES("LASSO-LNK-011~2");
+  const auto memory = std::make_unique<Memory>();
+  test::BoxSensor sensor(test::default_scene());
+  Component& component = *create(memory->bytes, sizeof(Memory::bytes), sensor);
+  std::uint8_t out[200];
+  EXPECT_EQ(receive(component, test::view(test::ping(1)), 0), test::ping(1).size());
+  EXPECT_EQ(take_telemetry(component, Bytes(out)), 26u + 22u + 26u);
+  EXPECT_TRUE(receive_packet(component, test::view(test::ping(2)), 0));
+  EXPECT_EQ(take_telemetry(component, Bytes(out)), 26u + 22u + 26u);
 }
 
 TEST(Lasso, DoesNothingBeforeItsTime) {

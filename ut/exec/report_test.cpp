@@ -241,6 +241,7 @@ TEST(Report, DictionaryNamesTheEnumerationsAsTheCodeDoes) {
   expect_names(kModeEvent, ModeEvent::kFar);
   expect_names(kStartWay, StartWay::kSearch);
   expect_names(kStartRefusal, StartRefusal::kNotConfirmed);
+  expect_names(kModeRefusal, ModeRefusal::kNoPrediction);
   expect_names(kBearingReason, BearingReason::kJump);
   expect_names(kSearchOutcome, SearchOutcome::kRejected);
   expect_names(kSearchReason, SearchReason::kNotRegistered);

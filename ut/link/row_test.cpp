@@ -57,6 +57,18 @@ TEST(Row, IsTheSameWhenTheCompilerHasNotMadeIt) {
   EXPECT_EQ(items_of(rows).rows[1].enumeration, &kFlag);
 }
 
+TEST(Row, KnowsWhatIsWithinItsRange) {
+  VERIFIES("LASSO-LNK-002~1");
+  constexpr auto kLimits = limits_of(kRows);
+  EXPECT_TRUE(kLimits.hold(Sample{2, -5, {-1, 2}}));
+  EXPECT_FALSE(kLimits.hold(Sample{3, -5, {0, 0}}));
+  EXPECT_FALSE(kLimits.hold(Sample{0, 0, {0, 2.5f}}));
+  EXPECT_FALSE(kLimits.hold(Sample{0, 0, {-1.5f, 0}}));
+  EXPECT_FALSE(kLimits.hold(Sample{0, 0, {0, std::numeric_limits<float>::quiet_NaN()}}));
+  const TypedRow<Sample> rows[] = {make_row<&Sample::small>(3, "small", kFlag, "")};
+  EXPECT_FALSE(limits_of(rows).hold(Sample{3, 0, {}})) << "and when the compiler has not made it";
+}
+
 TEST(Row, WritesBigEndianInTheOrderOfTheTable) {
   VERIFIES("LASSO-LNK-002~1");
   const Sample sample{0xAB, -2, {1.0f, -0.5f}};

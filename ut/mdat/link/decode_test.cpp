@@ -122,6 +122,32 @@ TEST(Decode, SaysWhatTheDictionaryDoesNotHave) {
   }
 }
 
+TEST(Decode, ReadsCommandsAndTheirAnswers) {
+  VERIFIES("LASSO-GND-021~1");
+  CommandHeader command;
+  command.sequence_count = 9;
+  command.service = kServiceFunction;
+  command.subservice = kSubservicePerform;
+  Stream packet(kMaxCommandBytes);
+  ByteWriter writer{Bytes(packet.data(), packet.size())};
+  begin_command(command, writer);
+  writer.u16(1);
+  writer.u8(5);
+  packet.resize(finish_packet(writer, Bytes(packet.data(), packet.size())));
+  const std::string text = table_text(decode_stream(view(packet), PacketType::kCommand), {});
+  EXPECT_EQ(text, "set_mode   #9 (16 bytes at 0)\n  mode                       bearing\n");
+
+  PacketHeader header;
+  header.service = kServiceVerification;
+  header.subservice = kSubserviceRefused;
+  Stream answer(kMaxLinkReportBytes);
+  answer.resize(encode_verification({0x1BD1, 0xC009, 3, 0, 0}, header, Bytes(answer.data(), answer.size())));
+  const DecodedStream decoded = decode_stream(view(answer), PacketType::kTelemetry);
+  ASSERT_EQ(decoded.packets.size(), 1U);
+  EXPECT_STREQ(decoded.packets.front().name(), "refused");
+  EXPECT_NE(table_text(decoded, {}).find("fault                      bad_crc\n"), std::string::npos);
+}
+
 TEST(Headers, ListsAnyPacketsGapsAndCheckSums) {
   VERIFIES("LASSO-GND-021~1");
   // Two applications, one with the type of commands; a count that wraps; a gap of 2; a wrong check sum.

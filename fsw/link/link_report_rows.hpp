@@ -1,0 +1,38 @@
+// The rows of what the link says of commands. For the ground: see row.hpp.
+#pragma once
+
+#include "fsw/link/choices.hpp"
+#include "fsw/link/link_report.hpp"
+#include "fsw/link/row.hpp"
+
+namespace lasso::link_report_rows {
+
+using V = Verification;
+using L = LinkTelemetry;
+
+// clang-format off
+inline constexpr TypedRow<V> kDone[] = {
+  make_row<&V::packet_id>(1, "packet_id", "1", kAny, "first two bytes of the command"),
+  make_row<&V::sequence_control>(2, "sequence_control", "1", kAny, "the two bytes behind them: sequence flags and count"),
+};
+inline constexpr TypedRow<V> kRefused[] = {
+  make_row<&V::packet_id>(1, "packet_id", "1", kAny, "first two bytes of the command, 0 where they are not there"),
+  make_row<&V::sequence_control>(2, "sequence_control", "1", kAny, "the two bytes behind them: sequence flags and count"),
+  make_row<&V::fault>(3, "fault", kPacketFault, "why it is refused"),
+};
+inline constexpr TypedRow<V> kFailed[] = {
+  make_row<&V::packet_id>(1, "packet_id", "1", kAny, "first two bytes of the command"),
+  make_row<&V::sequence_control>(2, "sequence_control", "1", kAny, "the two bytes behind them: sequence flags and count"),
+  make_row<&V::mode_refusal>(4, "mode_refusal", kModeRefusal, "why a mode cannot be commanded"),
+  make_row<&V::start_refusal>(5, "start_refusal", kStartRefusal, "why a pose to start from is refused"),
+};
+inline constexpr TypedRow<L> kLink[] = {
+  make_row<&L::accepted_commands>(1, "accepted_commands", "1", kAny, "commands that were accepted"),
+  make_row<&L::refused_commands>(2, "refused_commands", "1", kAny, "commands that were refused"),
+  make_row<&L::last_fault>(3, "last_fault", kPacketFault, "why the last of them was"),
+  make_row<&L::skipped_bytes>(4, "skipped_bytes", "1", kAny, "bytes from the ground that belonged to no packet"),
+  make_row<&L::queue_peak>(5, "queue_peak", "1", kAny, "most bytes of telemetry that waited at a time"),
+};
+// clang-format on
+
+}  // namespace lasso::link_report_rows

@@ -1,0 +1,96 @@
+#include "fsw/link/command_receiver.hpp"
+
+#include "ut/link/command_packets.hpp"
+
+namespace lasso {
+namespace {
+
+using test::Stream;
+using test::view;
+
+PacketFault accept(CommandReceiver& receiver, const Stream& packet) {
+  Command command;
+  return receiver.accept(view(packet), command);
+}
+
+TEST(CommandReceiver, FindsAcceptsAndCounts) {
+  VERIFIES("LASSO-LNK-019~1");
+  CommandReceiver receiver;
+  Stream stream = {1, 2, 3};
+  test::append(stream, test::set_mode(5, 1));
+  EXPECT_EQ(receiver.take(view(stream)), stream.size());
+  Command command;
+  ASSERT_EQ(receiver.accept(receiver.packet(), command), PacketFault::kNone);
+  EXPECT_EQ(command.mode.mode, 5);
+  EXPECT_EQ(receiver.accepted(), 1u);
+  EXPECT_EQ(receiver.refused(), 0u);
+  EXPECT_EQ(receiver.skipped(), 3u);
+  EXPECT_EQ(accept(receiver, test::set_mode(99, 2)), PacketFault::kBadArgument);
+  EXPECT_EQ(receiver.accepted(), 1u);
+  EXPECT_EQ(receiver.refused(), 1u);
+  EXPECT_EQ(receiver.last_fault(), PacketFault::kBadArgument);
+}
+
+TEST(CommandReceiver, EveryTruncationAndEveryBitErrorIsRefusedAndCounted) {
+  VERIFIES("LASSO-LNK-019~1");
+  const Stream commands[] = {test::ping(5), test::set_mode(5, 5), test::set_hold(1, 5), test::offer_start(StartCommand{}, 5)};
+  for (const Stream& good : commands) {
+    CommandReceiver receiver;
+    Command command;
+    command.header.source = 99;
+    std::uint32_t refused = 0;
+    for (std::size_t n = 0; n < good.size(); ++n) {
+      ASSERT_NE(receiver.accept(ConstBytes(good.data(), n), command), PacketFault::kNone);
+      ASSERT_EQ(receiver.refused(), ++refused);
+    }
+    for (std::size_t bit = 0; bit < good.size() * 8; ++bit) {
+      Stream damaged = good;
+      damaged[bit / 8] = static_cast<std::uint8_t>(damaged[bit / 8] ^ (1u << (bit % 8)));
+      ASSERT_NE(receiver.accept(view(damaged), command), PacketFault::kNone) << bit;
+      ASSERT_EQ(receiver.refused(), ++refused);
+    }
+    EXPECT_EQ(receiver.accepted(), 0u);
+    EXPECT_EQ(command.header.source, 99) << "untouched";
+    EXPECT_EQ(receiver.accept(view(good), command), PacketFault::kNone) << "the sequence is untouched";
+  }
+}
+
+TEST(CommandReceiver, ACommandIsAcceptedOnce) {
+  VERIFIES("LASSO-LNK-018~1");
+  CommandReceiver receiver;
+  EXPECT_EQ(accept(receiver, test::ping(0)), PacketFault::kNone) << "the first may have any count";
+  EXPECT_EQ(accept(receiver, test::ping(0)), PacketFault::kRepeated);
+  EXPECT_EQ(accept(receiver, test::ping(5)), PacketFault::kNone);
+  EXPECT_EQ(accept(receiver, test::ping(4)), PacketFault::kRepeated);
+  EXPECT_EQ(accept(receiver, test::ping(5)), PacketFault::kRepeated);
+  EXPECT_EQ(accept(receiver, test::ping(5 + 8192)), PacketFault::kRepeated) << "half of all counts ahead is behind";
+  EXPECT_EQ(accept(receiver, test::ping(5 + 8191)), PacketFault::kNone);
+  EXPECT_EQ(accept(receiver, test::ping(16383)), PacketFault::kNone);
+  EXPECT_EQ(accept(receiver, test::ping(0)), PacketFault::kNone) << "counts wrap";
+  EXPECT_EQ(receiver.accepted(), 5u);
+  EXPECT_EQ(receiver.refused(), 4u);
+}
+
+TEST(CommandReceiver, ARefusedCommandDoesNotMoveTheWindow) {
+  VERIFIES("LASSO-LNK-018~1");
+  CommandReceiver receiver;
+  EXPECT_EQ(accept(receiver, test::ping(1)), PacketFault::kNone);
+  EXPECT_EQ(accept(receiver, test::set_mode(99, 100)), PacketFault::kBadArgument);
+  EXPECT_EQ(accept(receiver, test::ping(2)), PacketFault::kNone);
+}
+
+TEST(CommandReceiver, LooksBehindWhatItGivesUp) {
+  VERIFIES("LASSO-LNK-028~1");
+  CommandReceiver receiver;
+  EXPECT_FALSE(receiver.give_up());
+  Stream stream = test::offer_start(StartCommand{});
+  stream.resize(50);
+  test::append(stream, test::ping());
+  receiver.take(view(stream));
+  ASSERT_TRUE(receiver.packet().empty());
+  ASSERT_TRUE(receiver.give_up());
+  EXPECT_EQ(accept(receiver, Stream(receiver.packet().begin(), receiver.packet().end())), PacketFault::kNone);
+}
+
+}  // namespace
+}  // namespace lasso

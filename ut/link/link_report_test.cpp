@@ -1,0 +1,105 @@
+#include "fsw/link/link_report.hpp"
+
+#include "fsw/link/dictionary.hpp"
+#include "ut/link/command_packets.hpp"
+#include "ut/support/generator.hpp"
+
+namespace lasso {
+namespace {
+
+using test::Stream;
+
+Stream encode(std::uint8_t subservice, const Verification& verification, std::size_t room = kMaxLinkReportBytes) {
+  PacketHeader header;
+  header.service = kServiceVerification;
+  header.subservice = subservice;
+  header.message_count = 5;
+  Stream packet(room);
+  packet.resize(encode_verification(verification, header, Bytes(packet.data(), packet.size())));
+  return packet;
+}
+
+constexpr Verification kSample{0x1BD1, 0xC007, 3, 4, 5};
+
+Stream data_of(const Stream& packet) {
+  PacketHeader header;
+  ConstBytes data;
+  EXPECT_EQ(parse_packet(test::view(packet), header, data), PacketFault::kNone);
+  return Stream(data.begin(), data.end());
+}
+
+TEST(LinkReport, VerificationSaysWhichCommandAndWhy) {
+  VERIFIES("LASSO-LNK-013~1");
+  EXPECT_EQ(data_of(encode(kSubserviceAccepted, kSample)), (Stream{0x1B, 0xD1, 0xC0, 0x07}));
+  EXPECT_EQ(data_of(encode(kSubserviceRefused, kSample)), (Stream{0x1B, 0xD1, 0xC0, 0x07, 3}));
+  EXPECT_EQ(data_of(encode(kSubserviceCompleted, kSample)), (Stream{0x1B, 0xD1, 0xC0, 0x07}));
+  EXPECT_EQ(data_of(encode(kSubserviceFailed, kSample)), (Stream{0x1B, 0xD1, 0xC0, 0x07, 4, 5}));
+  EXPECT_EQ(encode(kSubserviceFailed, kSample)[7], kServiceVerification);
+  EXPECT_EQ(encode(kSubserviceFailed, kSample)[10], 5);
+  EXPECT_TRUE(encode(kSubserviceFailed, kSample, 27).empty());
+}
+
+TEST(LinkReport, CountersAreAStructureOfTheirOwn) {
+  VERIFIES("LASSO-LNK-002~1");
+  const LinkTelemetry link{0x01020304, 5, 6, 0x0A0B0C0D, 0x0E0F};
+  Stream packet(kMaxLinkReportBytes);
+  packet.resize(encode_link(link, PacketHeader{}, Bytes(packet.data(), packet.size())));
+  EXPECT_EQ(packet[7], kServiceHousekeeping);
+  EXPECT_EQ(packet[8], kSubserviceHousekeepingReport);
+  EXPECT_EQ(data_of(packet), (Stream{0, 2, 1, 2, 3, 4, 0, 0, 0, 5, 6, 0x0A, 0x0B, 0x0C, 0x0D, 0x0E, 0x0F}));
+}
+
+TEST(LinkReport, PongHasNoData) {
+  VERIFIES("LASSO-LNK-002~1");
+  Stream packet(kMaxLinkReportBytes);
+  packet.resize(encode_pong(PacketHeader{}, Bytes(packet.data(), packet.size())));
+  EXPECT_EQ(packet[7], kServiceTest);
+  EXPECT_EQ(packet[8], kSubservicePong);
+  EXPECT_TRUE(data_of(packet).empty());
+}
+
+// Any bytes, through the values that they stand for.
+template <class Packet, std::size_t kRows>
+void expect_round_trip(const TypedRow<Packet> (&rows)[kRows], test::Generator& random) {
+  const auto codec = codec_of(rows);
+  for (int i = 0; i < 100; ++i) {
+    Stream bytes(codec.bytes), again(codec.bytes);
+    for (std::uint8_t& byte : bytes) byte = static_cast<std::uint8_t>(random.bits());
+    Packet packet;
+    ByteReader in(test::view(bytes));
+    codec.read(in, packet);
+    ByteWriter out{Bytes(again.data(), again.size())};
+    codec.write(packet, out);
+    ASSERT_TRUE(in.ok() && in.remaining() == 0 && out.ok());
+    ASSERT_EQ(again, bytes);
+  }
+}
+
+TEST(LinkReport, EncodeDecodeEncodeIsByteIdenticalForEveryRow) {
+  VERIFIES("LASSO-LNK-023~1");
+  test::Generator random(23);
+  expect_round_trip(pose_rows::kRows, random);
+  expect_round_trip(link_report_rows::kLink, random);
+  expect_round_trip(link_report_rows::kDone, random);
+  expect_round_trip(link_report_rows::kRefused, random);
+  expect_round_trip(link_report_rows::kFailed, random);
+  expect_round_trip(command_rows::kMode, random);
+  expect_round_trip(command_rows::kHold, random);
+  expect_round_trip(command_rows::kStart, random);
+}
+
+TEST(LinkReport, EveryPacketOfTheDictionaryIsAsLongAsItSays) {
+  VERIFIES("LASSO-LNK-002~1");
+  const std::size_t sizes[] = {751, 39, 26, 27, 26, 28, 22, 13, 16, 16, 212};
+  std::size_t next = 0;
+  for (const PacketRow& packet : kPackets) {
+    ASSERT_LT(next, std::size(sizes));
+    EXPECT_EQ(item_offset(packet, packet.items.size()) + kPacketTrailerBytes, sizes[next++]) << packet.name;
+  }
+  EXPECT_EQ(encode(kSubserviceAccepted, kSample).size(), 26u);
+  EXPECT_EQ(encode(kSubserviceRefused, kSample).size(), 27u);
+  EXPECT_EQ(encode(kSubserviceFailed, kSample).size(), 28u);
+}
+
+}  // namespace
+}  // namespace lasso
