@@ -28,6 +28,7 @@ class ComponentScansTest : public ::testing::Test {
  protected:
   static MissionParameters parameters(const test::BoxScene& scene) {
     MissionParameters p = test::box_parameters(scene);
+    p.points = 400;
     p.sigma0_m = kFarSigma_m;
     p.use_from_m = 2.6;
     p.range_min_m = 1;
