@@ -53,8 +53,8 @@ ctest = @rm -rf $(2); mkdir -p $(2); GTEST_OUTPUT=xml:$(abspath $(2))/ \
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-16s %s\n", $$1, $$2 }' $(firstword $(MAKEFILE_LIST))
 
-run: build ## track the tenth-scale Hubble and report into out/run; MISSION=, SCENARIO= (approach: the full-size one), SEED=, OUT=
-	@$(BUILD)/mdat/mdat run $(MISSION) $(if $(SCENARIO),--scenario $(SCENARIO)) $(if $(SEED),--seed $(SEED)) --out $(OUT)
+run: build ## track the tenth-scale Hubble and report into out/run; MISSION=, SCENARIO= (approach: the full-size one), SENSOR=lcs-wire (the camera over its line), SEED=, OUT=
+	@$(BUILD)/mdat/mdat run $(MISSION) $(if $(SCENARIO),--scenario $(SCENARIO)) $(if $(SEED),--seed $(SEED)) $(if $(SENSOR),--sensor $(SENSOR)) --out $(OUT)
 
 test: ## build with g++ and clang++ without a warning, and pass all tests of the host; reports in out/test
 	$(begin)

@@ -7,11 +7,9 @@
 namespace lasso::lcs {
 namespace {
 
-constexpr double kAngleSteps = 8388608;     // 2^23 a radian
-constexpr double kPeakSteps = 524288;       // 2^19 a half width
+constexpr double kSteps = 8388608;          // 2^23 a radian, or a half width
 constexpr double kPhaseSteps = 4294967296;  // 2^32 a turn: what is below one turn stays below it
-constexpr std::int32_t kAngleEnd = 1 << 23;
-constexpr std::int32_t kPeakEnd = 1 << 19;
+constexpr std::int32_t kEnd24 = 1 << 23;
 constexpr std::size_t kSampleBytes = 12;
 constexpr std::size_t kSamplesHead = 7;
 constexpr std::size_t kAimHead = 2;
@@ -53,41 +51,34 @@ std::uint32_t get24(ByteReader& in) {
   return (high << 16) | in.u16();
 }
 
-// Two's complement of `bits` bits.
-std::int32_t signed_of(std::uint32_t value, unsigned bits) {
-  const std::uint32_t sign = std::uint32_t{1} << (bits - 1);
-  return static_cast<std::int32_t>((value ^ sign)) - static_cast<std::int32_t>(sign);
+// Two's complement of 24 bits.
+std::int32_t signed24(std::uint32_t value) {
+  constexpr std::uint32_t kSign = 1U << 23;
+  return static_cast<std::int32_t>(value ^ kSign) - static_cast<std::int32_t>(kSign);
 }
 
-void put_angle(ByteWriter& out, double angle_rad) {
-  put24(out, static_cast<std::uint32_t>(steps(angle_rad, kAngleSteps, kAngleEnd)) & 0xFFFFFFU);
-}
-double get_angle(ByteReader& in) { return signed_of(get24(in), 24) / kAngleSteps; }
+void put_fraction(ByteWriter& out, double fraction) { put24(out, static_cast<std::uint32_t>(steps(fraction, kSteps, kEnd24)) & 0xFFFFFFU); }
+double get_fraction(ByteReader& in) { return signed24(get24(in)) / kSteps; }
 
 void put_phase(ByteWriter& out, double turns) { out.u32(static_cast<std::uint32_t>(clamp(turns, 0, 1 - 1 / kPhaseSteps) * kPhaseSteps)); }
 
-// The peak in 20 bits, then what the sample is in 4.
-void put_peak(ByteWriter& out, double peak, SampleKind kind) {
-  put24(out, ((static_cast<std::uint32_t>(steps(peak, kPeakSteps, kPeakEnd)) & 0xFFFFFU) << 4) | static_cast<std::uint32_t>(kind));
-}
-
 void put(ByteWriter& out, const RawSample& sample, std::uint32_t base_us) {
   out.u16(static_cast<std::uint16_t>(sample.clock_us - base_us));
-  put_angle(out, sample.angle_x_rad);
-  put_angle(out, sample.angle_y_rad);
-  put_peak(out, sample.peak, sample.kind);
-  out.u8(sample.intensity);
+  put_fraction(out, sample.angle_x_rad);
+  put_fraction(out, sample.angle_y_rad);
+  put_fraction(out, sample.peak);
+  out.u8(static_cast<std::uint8_t>((static_cast<unsigned>(sample.kind) << 4) | (sample.intensity & kMaxIntensity)));
 }
 
 Status get(ByteReader& in, std::uint32_t base_us, RawSample& sample) {
   sample.clock_us = base_us + in.u16();
-  sample.angle_x_rad = get_angle(in);
-  sample.angle_y_rad = get_angle(in);
-  const std::uint32_t peak = get24(in);
-  sample.peak = signed_of(peak >> 4, 20) / kPeakSteps;
-  sample.intensity = in.u8();
-  const std::uint32_t kind = peak & 0xFU;
-  if (kind > static_cast<std::uint32_t>(SampleKind::kNotAimed)) return Status::kBadValue;
+  sample.angle_x_rad = get_fraction(in);
+  sample.angle_y_rad = get_fraction(in);
+  sample.peak = get_fraction(in);
+  const std::uint8_t last = in.u8();
+  sample.intensity = last & kMaxIntensity;
+  const unsigned kind = last >> 4;
+  if (kind > static_cast<unsigned>(SampleKind::kNotAimed)) return Status::kBadValue;
   sample.kind = static_cast<SampleKind>(kind);
   return Status::kOk;
 }

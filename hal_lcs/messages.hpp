@@ -79,13 +79,15 @@ enum class SampleKind : std::uint8_t {
   kNotAimed = 3,   // the ray's direction had not come in time
 };
 
+constexpr std::uint8_t kMaxIntensity = 15;
+
 // One sample as the camera measures it.
 struct RawSample {
   std::uint32_t clock_us = 0;  // the camera's; wraps
   double angle_x_rad = 0;      // of the mirrors; [-1, 1), steps of 2^-23
   double angle_y_rad = 0;
-  double peak = 0;             // of the spot on the detector, half widths from its middle; [-1, 1), steps of 2^-19
-  std::uint8_t intensity = 0;  // of 255
+  double peak = 0;             // of the spot on the detector, half widths from its middle; [-1, 1), steps of 2^-23
+  std::uint8_t intensity = 0;  // of kMaxIntensity
   SampleKind kind = SampleKind::kNothing;
 };
 

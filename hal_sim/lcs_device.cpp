@@ -234,7 +234,7 @@ lcs::RawSample LcsDevice::measure(std::uint16_t ray) {
   const bool spot = seen.state == RayState::kHit;
   lcs::RawSample raw =
       raw_sample(camera_.truth, static_cast<double>(camera_.temperature_degC), direction, spot ? static_cast<double>(seen.range_m) : 1e9);
-  raw.intensity = spot ? 128 : 0;
+  raw.intensity = spot ? 8 : 0;
   if (!spot) raw.kind = lcs::SampleKind::kNothing;
   if (bright && seen.state != RayState::kMiss) raw.kind = lcs::SampleKind::kSaturated;
   if (!aimed_in_time(ray)) raw.kind = lcs::SampleKind::kNotAimed;

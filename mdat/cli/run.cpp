@@ -14,7 +14,7 @@ namespace lasso::mdat {
 namespace {
 
 struct Options {
-  std::string mission, out = "out/run", picture, record;
+  std::string mission, sensor = "simulated", out = "out/run", picture, record;
   SimulationOptions simulation;
   bool report = true;
 };
@@ -56,6 +56,11 @@ void add_run_command(CLI::App& app) {
   command->add_option("--scenario", options->simulation.scenario, "scenario of the mission")->capture_default_str();
   command->add_option("--seed", options->simulation.seed, "start of the random numbers (the scenario's)")
       ->check(CLI::Range(std::int64_t{0}, std::int64_t{4294967295}));
+  command
+      ->add_option("--sensor", options->sensor,
+                   "simulated, or lcs-wire: laser cameras are reached over their serial line, byte by byte (docs/icd/lcs.md)")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"simulated", "lcs-wire"}));
   command->add_option("-o,--out", options->out, "folder to write")->capture_default_str();
   command->add_option("--frames", options->simulation.frames, "frames of each range (the scenario's)")->check(CLI::Range(1, 1000000));
   command->add_option("-j,--jobs", options->simulation.jobs, "ranges and variants at a time; no effect on the results")
@@ -65,7 +70,10 @@ void add_run_command(CLI::App& app) {
   command->add_option("--picture", options->picture, "also write the scan on the target as a PNG picture");
   CLI::Option* recording = command->add_option("--record", options->record,
                                                "instead of a run: write its scans (.csv) and true poses into this folder, for replay");
-  command->callback([options, recording] { recording->count() > 0 ? record(*options) : run(*options); });
+  command->callback([options, recording] {
+    options->simulation.laser_camera_line = options->sensor == "lcs-wire";
+    recording->count() > 0 ? record(*options) : run(*options);
+  });
 }
 
 }  // namespace lasso::mdat

@@ -6,6 +6,7 @@
 
 #include "bsp/posix/runner.hpp"
 #include "fsw/exec/component.hpp"
+#include "hal_sim/lcs_device.hpp"
 #include "hal_sim/random.hpp"
 #include "mdat/common/errors.hpp"
 #include "mdat/common/flight_image.hpp"
@@ -34,11 +35,32 @@ sim::ScannerModel model_of(const Scenario& scenario, const SensorParameters& sen
   return model;
 }
 
+// A laser camera that sees what its scanner model does, at the end of its line.
+struct CameraOnLine {
+  CameraOnLine(const CaseSetup& setup, const sim::Trajectory& trajectory, const sim::ScannerModel& model, std::uint64_t seed)
+      : camera(camera_for(model)), device(*setup.target, trajectory, model, seed, camera), line(device, camera.truth, camera.bits_per_s) {}
+
+  static sim::LcsCamera camera_for(const sim::ScannerModel& model) {
+    sim::LcsCamera camera;
+    camera.truth.serial = 1;
+    camera.truth.angle_max_rad = std::max({camera.truth.angle_max_rad, model.fov_half_x_rad, model.fov_half_y_rad});
+    return camera;
+  }
+
+  sim::LcsCamera camera;
+  sim::LcsDevice device;
+  sim::LcsOverLine line;
+};
+
 // A simulated sensor that remembers its scans.
 struct Scanner {
-  Scanner(const CaseSetup& setup, const sim::Trajectory& trajectory, const sim::ScannerModel& model, std::uint64_t seed)
-      : simulated(*setup.target, trajectory, model, seed), recorded(simulated) {}
+  Scanner(const CaseSetup& setup, const sim::Trajectory& trajectory, const sim::ScannerModel& model, std::uint64_t seed, SensorKind kind)
+      : simulated(*setup.target, trajectory, model, seed),
+        camera(setup.laser_camera_line && kind == SensorKind::kLaserCamera ? std::make_unique<CameraOnLine>(setup, trajectory, model, seed)
+                                                                           : nullptr),
+        recorded(camera ? static_cast<Sensor&>(camera->line) : simulated) {}
   sim::SimulatedScanner simulated;
+  std::unique_ptr<CameraOnLine> camera;
   RecordingSensor recorded;
 };
 
@@ -46,11 +68,11 @@ struct Scanner {
 std::vector<std::unique_ptr<Scanner>> make_scanners(const CaseSetup& setup, const sim::Trajectory& trajectory) {
   std::vector<std::unique_ptr<Scanner>> scanners;
   const sim::ScannerModel own = scanner_model(setup.scenario, setup.parameters, setup.noise);
-  scanners.push_back(std::make_unique<Scanner>(setup, trajectory, own, setup.seed));
+  scanners.push_back(std::make_unique<Scanner>(setup, trajectory, own, setup.seed, setup.sensor));
   for (const FurtherSensor& sensor : setup.further_sensors) {
     std::uint64_t seed = setup.seed + scanners.size();
-    scanners.push_back(
-        std::make_unique<Scanner>(setup, trajectory, scanner_model(setup.scenario, sensor, setup.noise), sim::split_mix64(seed)));
+    scanners.push_back(std::make_unique<Scanner>(setup, trajectory, scanner_model(setup.scenario, sensor, setup.noise),
+                                                 sim::split_mix64(seed), sensor.kind));
   }
   return scanners;
 }

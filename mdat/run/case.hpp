@@ -29,6 +29,8 @@ struct CaseSetup {
   std::uint32_t frames = 0;
   MissionParameters parameters{};  // as compiled into the image
   std::vector<FurtherSensor> further_sensors;
+  bool laser_camera_line = false;  // a laser camera is reached over its line
+  SensorKind sensor = SensorKind::kLaserCamera;
   const std::vector<std::uint8_t>* image = nullptr;
   const sim::RayCaster* target = nullptr;
   std::vector<std::uint32_t> keep_frames;  // whose scans the result holds; ascending

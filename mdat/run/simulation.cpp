@@ -119,6 +119,8 @@ Plan make_plan(const CompiledMission& mission, const SimulationResult& result, c
         plan.cases.back().image = &plan.images.back();
         plan.cases.back().target = &target;
         plan.cases.back().further_sensors = mission.source.further_sensors;
+        plan.cases.back().sensor = mission.source.sensor;
+        plan.cases.back().laser_camera_line = result.laser_camera_line;
       }
     }
   }
@@ -230,6 +232,7 @@ SimulationResult simulate(const CompiledMission& mission, const SimulationOption
   result.seed = options.seed.value_or(static_cast<std::uint64_t>(scenario.seed));
   result.frames = options.frames.value_or(static_cast<std::uint32_t>(scenario.frames));
   result.sensors = sensor_names(mission.source);
+  result.laser_camera_line = options.laser_camera_line;
   result.parts = part_names(mission.source);
   result.tables = make_tables(scenario, parameters, options.plain);
 

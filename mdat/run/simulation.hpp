@@ -16,6 +16,7 @@ struct SimulationOptions {
   std::optional<std::uint64_t> seed;    // otherwise the scenario's
   std::optional<std::uint32_t> frames;  // otherwise the scenario's
   unsigned jobs = 1;                    // cases at a time; the results do not depend on it
+  bool laser_camera_line = false;       // laser cameras are reached over their lines
   bool plain = false;                   // the scenario as it stands: one table, one variant
   bool keep_scans = false;              // of all frames; otherwise of those that the report shows
 };
@@ -49,6 +50,7 @@ struct SimulationResult {
   ScenarioKind kind = ScenarioKind::kPaper;
   std::uint64_t seed = 0;
   std::uint32_t frames = 0;
+  bool laser_camera_line = false;
   std::vector<std::string> sensors, parts;  // names by their numbers; part 0 is the whole
   std::vector<TableResult> tables;
   double seconds = 0;

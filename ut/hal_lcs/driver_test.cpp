@@ -134,7 +134,7 @@ TEST_F(LcsDriver, BringsAScanFromPlanToPoints) {
   for (std::uint16_t ray = 0; ray < plan.points; ++ray) {
     const RangeSample& sample = samples[ray];
     EXPECT_EQ(sample.state, RayState::kHit);
-    EXPECT_NEAR(static_cast<double>(sample.range_m * sample.direction[2]), kDepthM, 2e-4);  // steps of the wire
+    EXPECT_NEAR(static_cast<double>(sample.range_m * sample.direction[2]), kDepthM, 2e-5);  // steps of the wire
     const Vec3 u = pattern_direction(plan, ray);
     for (int k = 0; k < 3; ++k) EXPECT_NEAR(static_cast<double>(sample.direction[k]), u[k], 3e-7);
     // The command's bytes take half a microsecond a bit... of a line of 4 Mbit/s: well below a millisecond.

@@ -48,7 +48,7 @@ RawSample random_sample(test::Generator& chance, std::uint32_t base_us) {
   sample.angle_x_rad = chance.uniform(-1, 1);
   sample.angle_y_rad = chance.uniform(-1, 1);
   sample.peak = chance.uniform(-1, 1);
-  sample.intensity = static_cast<std::uint8_t>(chance.bits());
+  sample.intensity = static_cast<std::uint8_t>(chance.below(16));
   sample.kind = static_cast<SampleKind>(chance.bits() % 4);
   return sample;
 }
@@ -120,7 +120,7 @@ TEST(LcsMessages, SamplesKeepTheirValuesToHalfAStep) {
       EXPECT_EQ(got.samples[i].clock_us, sent.samples[i].clock_us);
       EXPECT_NEAR(got.samples[i].angle_x_rad, sent.samples[i].angle_x_rad, 1.01 * std::ldexp(1, -24));
       EXPECT_NEAR(got.samples[i].angle_y_rad, sent.samples[i].angle_y_rad, 1.01 * std::ldexp(1, -24));
-      EXPECT_NEAR(got.samples[i].peak, sent.samples[i].peak, 1.01 * std::ldexp(1, -19));
+      EXPECT_NEAR(got.samples[i].peak, sent.samples[i].peak, 1.01 * std::ldexp(1, -24));
       EXPECT_EQ(got.samples[i].intensity, sent.samples[i].intensity);
       EXPECT_EQ(got.samples[i].kind, sent.samples[i].kind);
     }
@@ -142,7 +142,7 @@ TEST(LcsMessages, WhatIsOffTheScaleStaysAtItsEnd) {
   EXPECT_EQ(got.samples[0].peak, -1);
   EXPECT_EQ(got.samples[1].angle_x_rad, -1);
   EXPECT_EQ(got.samples[1].angle_y_rad, -1);
-  EXPECT_NEAR(got.samples[1].peak, 1, 4e-6);
+  EXPECT_NEAR(got.samples[1].peak, 1, 2e-7);
 }
 
 TEST(LcsMessages, APhaseBelowOneTurnStaysBelow) {
@@ -182,7 +182,7 @@ TEST(LcsMessages, CodesThatAreNotDefinedAreRefused) {
   EXPECT_TRUE(refuses(received(encode(0, ScanEnd{})), 3, 2, ScanEnd{}));
   Samples samples;
   samples.count = 2;
-  EXPECT_TRUE(refuses(received(encode(0, samples)), 7 + 10, 4, Samples{}));  // the last 4 bits of the first sample's peak
+  EXPECT_TRUE(refuses(received(encode(0, samples)), 7 + 11, 0x40, Samples{}));  // the first 4 bits of the first sample's last byte
 }
 
 TEST(LcsMessages, CommandsWithoutPayloadAreHeadersAlone) {

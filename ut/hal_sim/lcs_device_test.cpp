@@ -86,7 +86,7 @@ class Flight {
       const Pose T_target_sensor = inverse(motion_.at(0).T_sensor_target);
       const double truth_m = test::box_range(kHalf, T_target_sensor.p, rotate(T_target_sensor.q, u.normalized()));
       ++tally_.hits;
-      if (!(std::abs(static_cast<double>(sample.range_m) - truth_m) < 5e-4)) ++tally_.wrong_points;
+      if (!(std::abs(static_cast<double>(sample.range_m) - truth_m) < 5e-5)) ++tally_.wrong_points;
     }
     return sample.state == RayState::kLost ? 0 : 1;
   }

@@ -111,7 +111,7 @@ class SensorContract : public ::testing::TestWithParam<Kind> {
       const double range_m = target.range_m(u);
       ASSERT_EQ(sample.state, range_m < test::kNoHit ? RayState::kHit : RayState::kMiss) << ray;
       if (sample.state != RayState::kHit) continue;
-      ASSERT_NEAR(static_cast<double>(sample.range_m), range_m, 3e-4) << ray;
+      ASSERT_NEAR(static_cast<double>(sample.range_m), range_m, 3e-5) << ray;
     }
   }
 

@@ -1,0 +1,73 @@
+// mdat run with the laser camera over its line, as a user sees it.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "ft/mdat/command.hpp"
+#include "ut/support/verifies.hpp"
+
+namespace lasso::ft {
+namespace {
+
+constexpr std::size_t kNoiseFreeFrames = 2 * 3;  // the first variant: two ranges, three frames each
+constexpr double kPi = 3.14159265358979323846;
+
+struct Reported {
+  bool valid;
+  std::array<double, 3> p_m;
+  std::array<double, 4> q;
+};
+
+// The columns of `mdat decode --format csv` in the order asked for.
+std::vector<Reported> decoded(const WorkFolder& folder, const std::string& file) {
+  const Answer answer = folder.mdat("decode " + file + " --format csv --items valid,p_sensor_target_m,q_sensor_target");
+  EXPECT_EQ(answer.exit_code, 0) << answer.err;
+  std::istringstream lines(answer.out);
+  std::string line;
+  std::getline(lines, line);
+  EXPECT_EQ(line.find("offset,sequence_count,time_s,valid,q_sensor_target_0"), 0U) << line;
+  std::vector<Reported> all;
+  while (std::getline(lines, line)) {
+    std::vector<std::string> fields;
+    std::istringstream words(line);
+    for (std::string word; std::getline(words, word, ',');) fields.push_back(word);
+    const auto real = [&](std::size_t k) { return std::stod(fields.at(k)); };
+    all.push_back({fields.at(3) == "yes", {real(8), real(9), real(10)}, {real(4), real(5), real(6), real(7)}});
+  }
+  return all;
+}
+
+TEST(LaserCameraLine, GivesThePosesOfTheSimulatedSensor) {
+  VERIFIES("LASSO-LCS-010~2");
+  const WorkFolder folder;
+  folder.write_mission({{"ranges_m = [2.0, 3.0, 4.0, 5.0, 6.0, 7.0]", "ranges_m = [3.0, 7.0]"}});
+  for (const std::string sensor : {"simulated", "lcs-wire"}) {
+    const Answer answer = folder.mdat("run missions/test.toml --frames 3 --no-report --sensor " + sensor + " --out " + sensor);
+    ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  }
+  const std::vector<Reported> straight = decoded(folder, "simulated/telemetry.ccsds"), line = decoded(folder, "lcs-wire/telemetry.ccsds");
+  ASSERT_EQ(straight.size(), line.size());
+  ASSERT_GE(straight.size(), kNoiseFreeFrames);
+  for (std::size_t i = 0; i < straight.size(); ++i) EXPECT_EQ(straight[i].valid, line[i].valid) << i;
+  for (std::size_t i = 0; i < kNoiseFreeFrames; ++i) {
+    const Reported &a = straight[i], &b = line[i];
+    EXPECT_LT(std::hypot(a.p_m[0] - b.p_m[0], a.p_m[1] - b.p_m[1], a.p_m[2] - b.p_m[2]), 2e-5) << i;
+    const double cosine = std::fabs(a.q[0] * b.q[0] + a.q[1] * b.q[1] + a.q[2] * b.q[2] + a.q[3] * b.q[3]);
+    EXPECT_LT(2 * std::acos(std::fmin(1.0, cosine)) * 180 / kPi, 0.002) << i;
+    EXPECT_TRUE(a.p_m != b.p_m) << "the line was not used";
+  }
+}
+
+TEST(LaserCameraLine, ASensorThatThereIsNotIsRefused) {
+  const WorkFolder folder;
+  const Answer answer = folder.mdat("run missions/test.toml --sensor radar");
+  EXPECT_NE(answer.exit_code, 0);
+  EXPECT_NE(answer.err.find("--sensor"), std::string::npos) << answer.err;
+}
+
+}  // namespace
+}  // namespace lasso::ft
