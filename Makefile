@@ -47,7 +47,7 @@ compile = @echo "build $(1)$(if $(2), ($(2)))"; cmake --build $(1) --parallel $(
 ctest = @rm -rf $(2); mkdir -p $(2); GTEST_OUTPUT=xml:$(abspath $(2))/ \
   ctest --test-dir $(1) --parallel $(JOBS) --output-on-failure --no-tests=error --output-junit $(abspath $(2))/ctest.xml $(3)
 
-.PHONY: help run test accuracy bench basin search montecarlo flips fuzz statistics campaigns-sample golden ppc-count prove ppc-test sanitize arrows coverage mcdc trace evidence gates-selftest figures icd format lint install clean build
+.PHONY: help run test accuracy bench basin search montecarlo flips fuzz statistics campaigns-sample golden ppc-count search-count prove ppc-test sanitize arrows coverage mcdc trace evidence gates-selftest figures icd format lint install clean build
 .DEFAULT_GOAL := help
 
 help: ## this list
@@ -159,6 +159,15 @@ ppc-count: ## instructions of one estimate on the PowerPC 603e, by function; tab
 	$(begin)
 	$(replays)
 	@ft/ppc603e/count $(BUILD) $(PPC)
+
+search-count: ## instructions of a search on the PowerPC 603e, and its largest step; the same bits as on the host; out/search-count; STARTS=, SEED=
+	$(begin)
+	$(call packages,build target)
+	$(call configure,$(BUILD),)
+	$(call compile,$(BUILD),search search_replay)
+	$(call configure,$(PPC),$(CROSS))
+	$(call compile,$(PPC),search_replay)
+	@ft/ppc603e/count-search $(BUILD) $(PPC) $(or $(STARTS),24) $(or $(SEED),11)
 
 prove: ## what the archives for the 603e do not do: heap, exceptions, recursion, contraction, too much stack or memory; out/prove
 	$(begin)

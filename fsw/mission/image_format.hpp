@@ -15,7 +15,7 @@
 namespace lasso {
 
 constexpr std::uint32_t kImageMagic = 0x33444C49;  // "3DLI"
-constexpr std::uint32_t kImageVersion = 5;
+constexpr std::uint32_t kImageVersion = 6;
 constexpr std::uint32_t kImageHeaderWords = 16;
 constexpr std::uint32_t kDirectoryEntryWords = 5;
 constexpr int kUnitFractionBits = 30;
@@ -123,8 +123,9 @@ enum SearchGridWord : std::uint32_t {
 constexpr std::uint32_t kMaxSearchCells = 128;
 
 // View: words 0..2 the direction from the target to the sensor (Unit), 3..5 the centroid of what is seen from afar (Length), 6..8 the same
-// from kNearView sizes before the middle of the model. Each part is weighted by its area across the line of sight.
-constexpr std::uint32_t kViewWords = 9;
+// from kNearView sizes before the middle of the model, 9 and 10 how much farther from the sensor than these the median depth of what is
+// seen is (Length). Each part is weighted by its area across the line of sight.
+constexpr std::uint32_t kViewWords = 11;
 constexpr float kNearView = 1.5F;
 constexpr std::uint32_t kMinViews = 6;
 constexpr std::uint32_t kMaxViews = 1024;

@@ -20,8 +20,9 @@ static_assert(sizeof(NearSymmetry<N>) == std::size_t{4} * kSymmetryWords, "near-
 constexpr const char* kElementLayout = "UUULuuUUUUUUUUUUUULLLL";
 constexpr const char* kCurvatureLayout = "UUULLLKKKKKKKKK";
 constexpr const char* kEdgeLayout = "LLLLLLUUULUUULu";
-constexpr const char* kLayouts[] = {"",    "uuuuuuuuuuuuu", kElementLayout, kCurvatureLayout, "uu", "",          "u",      "",
-                                    "LLL", kEdgeLayout,     "LLL",          "uuuuuuuuu",      "u",  "UUULLLLLL", "UUUULLL"};
+constexpr const char* kLayouts[] = {
+    "",  "uuuuuuuuuuuuu", kElementLayout, kCurvatureLayout, "uu", "", "u", "", "LLL", kEdgeLayout, "LLL", "uuuuuuuuu",
+    "u", "UUULLLLLLLL",   "UUUULLL"};
 constexpr std::uint32_t kPartsTables = 100;  // added to the numbers of the first part's tables, and again for each next one
 
 template <class T>
@@ -97,7 +98,7 @@ void set_search(const FlightImage& image, int bits, Mission& mission) {
   search.cells_per_m = 1 / N::length(grid.signed_word(0, kSearchCellSize), bits);
   search.truncation = N::length(grid.signed_word(0, kSearchTruncation), bits);
   search.size = N::length(grid.signed_word(0, kSearchSize), bits);
-  search.distances = records_of<std::uint32_t>(image, TableId::kDistances);
+  search.distances = records_of<std::uint8_t>(image, TableId::kDistances);
   search.views = {records_of<ModelView<N>>(image, TableId::kViews), image[TableId::kViews].records};
   search.symmetries = {records_of<NearSymmetry<N>>(image, TableId::kSymmetries), image[TableId::kSymmetries].records};
 }

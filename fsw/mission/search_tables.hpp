@@ -16,6 +16,8 @@ struct ModelView {
   typename N::Unit direction[3];        // from the target to the sensor
   typename N::Length centroid[3];       // seen from afar
   typename N::Length near_centroid[3];  // seen from kNearView model sizes
+  typename N::Length median;            // how much farther from the sensor than the centroid the median depth is
+  typename N::Length near_median;
 };
 
 // A motion that brings the model nearly on itself: q' = R q + p.
@@ -31,20 +33,28 @@ struct SearchTables {
   typename N::Ratio cells_per_m;
   std::uint32_t cells[3];
   typename N::Length truncation;
-  typename N::Length size;  // the model's largest extent
-  const std::uint32_t* distances;
+  typename N::Length size;        // the model's largest extent
+  const std::uint8_t* distances;  // in words of four, the first cell in the highest byte
   Span<const ModelView<N>> views;
   Span<const NearSymmetry<N>> symmetries;
 };
 
 constexpr std::uint32_t kFarByte = 255;
 
+// Where the byte of cell 0 lies in a word of four.
+constexpr std::uint32_t kFirstByte = __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__ ? 0 : 3;
+
+template <class N>
+inline std::uint32_t byte_of(const SearchTables<N>& t, std::uint32_t cell) {
+  return t.distances[cell ^ kFirstByte];
+}
+
 // The byte of a cell; indices of cells outside the grid (also negative ones, wrapped) give kFarByte.
 template <class N>
 inline std::uint32_t distance_byte(const SearchTables<N>& t, std::uint32_t ix, std::uint32_t iy, std::uint32_t iz) {
-  if (static_cast<int>(ix >= t.cells[0]) + static_cast<int>(iy >= t.cells[1]) + static_cast<int>(iz >= t.cells[2]) != 0) return kFarByte;
+  if (ix >= t.cells[0] || iy >= t.cells[1] || iz >= t.cells[2]) return kFarByte;
   const std::uint32_t cell = (iz * t.cells[1] + iy) * t.cells[0] + ix;
-  return t.distances[cell >> 2] >> (8 * (3 - (cell & 3))) & 255;
+  return byte_of(t, cell);
 }
 
 // Distance to the surface and the direction away from it, interpolated between the centres of cells.
@@ -60,17 +70,23 @@ inline SurfaceDistance<N> surface_distance(const SearchTables<N>& t, const typen
   constexpr Ratio kOutside = 1000;  // cells
   std::uint32_t index[3];
   Ratio f[3];
+  bool inside = true;  // all eight cells are
   for (int i = 0; i < 3; ++i) {
-    const Ratio x = (m[i] - t.origin[i]) * t.cells_per_m + static_cast<Ratio>(0.5F);  // never negative within the grid
-    const Ratio inside = x >= 0 && x < kOutside ? x : kOutside;
-    const auto whole = static_cast<std::int32_t>(inside);
-    f[i] = inside - static_cast<Ratio>(whole);
-    index[i] = static_cast<std::uint32_t>(whole) - 1;
+    const Ratio x = (m[i] - t.origin[i]) * t.cells_per_m - static_cast<Ratio>(0.5F);
+    const Ratio place = x >= 0 && x < kOutside ? x : kOutside;
+    const auto whole = static_cast<std::int32_t>(place);
+    f[i] = place - static_cast<Ratio>(whole);
+    index[i] = static_cast<std::uint32_t>(whole);
+    inside = inside && index[i] + 1 < t.cells[i];
   }
+  if (!inside) return {t.truncation, {0, 0, 0}};
+  const std::uint32_t row = t.cells[0];
+  const std::uint32_t layer = row * t.cells[1];
+  const std::uint32_t first = index[2] * layer + index[1] * row + index[0];
   Ratio d[2][2][2];  // z y x
   for (std::uint32_t k = 0; k < 8; ++k) {
-    d[k >> 2][k >> 1 & 1][k & 1] =
-        static_cast<Ratio>(static_cast<std::int32_t>(distance_byte(t, index[0] + (k & 1), index[1] + (k >> 1 & 1), index[2] + (k >> 2))));
+    const std::uint32_t byte = byte_of(t, first + (k >> 2) * layer + (k >> 1 & 1) * row + (k & 1));
+    d[k >> 2][k >> 1 & 1][k & 1] = static_cast<Ratio>(static_cast<std::int32_t>(byte));
   }
   Ratio line[2][2];   // along x
   Ratio slope[2][2];  // d/dx

@@ -7,8 +7,12 @@ namespace {
 
 using N = FlightNumber;
 
-constexpr N::Ratio kFarthestCell = 1000;               // no grid has as many along an axis
-constexpr double kCosHalfApart = 0.99144486137381038;  // cos(kShortListApart_rad / 2)
+constexpr double kFarthestCell = 127;  // from the middle of what is seen: beyond any grid, or clipped
+constexpr int kPlaceBits = 10;         // fractions of a cell
+constexpr int kTurnBits = 12;          // of sines and cosines
+constexpr std::uint32_t kCellShift = kPlaceBits + kTurnBits;
+constexpr double kMedianApart = 0.5;      // of the truncation: less than that any place serves
+constexpr std::size_t kLookedAtOnce = 8;  // points between two looks whether the score is too large already
 
 Vec3 to_vec3(const N::Unit* v) { return {N::to_double(v[0]), N::to_double(v[1]), N::to_double(v[2])}; }
 
@@ -32,10 +36,15 @@ Mat3 axes_along(const Vec3& z) {
   return axes;
 }
 
-// The cell before the one that x lies in; for all that is outside the grid (also far off, or not a number) one that no grid has.
-std::uint32_t cell_of(N::Ratio x) {
-  const N::Ratio near = x < kFarthestCell ? x : 0;
-  return static_cast<std::uint32_t>(static_cast<std::int32_t>(near > 0 ? near : 0)) - 1;
+// In units of 2^-bits, within `limit`; 0 for what is not a number.
+std::int32_t to_fixed(double x, double limit, int bits) {
+  const double scale = static_cast<double>(1 << bits);
+  return is_finite(x) ? static_cast<std::int32_t>(scale * clamp(x, -limit, limit)) : 0;
+}
+
+std::uint32_t byte_at(const SearchTables<N>& tables, std::int32_t x, std::int32_t y, std::int32_t z) {
+  const auto cell_of = [](std::int32_t place) { return static_cast<std::uint32_t>(place) >> kCellShift; };
+  return distance_byte(tables, cell_of(x), cell_of(y), cell_of(z));
 }
 
 }  // namespace
@@ -56,76 +65,112 @@ std::size_t ShortList::worst() const {
 void ShortList::offer(const Hypothesis& hypothesis) {
   std::size_t kept = 0;
   for (const Hypothesis& other : list_) {
-    if (are_apart(hypothesis.T_target_sensor.q, other.T_target_sensor.q, kCosHalfApart)) continue;
+    if (are_apart(hypothesis.T_target_sensor.q, other.T_target_sensor.q, kCosHalfDistinct)) continue;
     if (other.score <= hypothesis.score) return;
   }
   for (std::size_t i = 0; i < list_.size(); ++i) {
-    if (are_apart(hypothesis.T_target_sensor.q, list_[i].T_target_sensor.q, kCosHalfApart)) list_[kept++] = list_[i];
+    if (are_apart(hypothesis.T_target_sensor.q, list_[i].T_target_sensor.q, kCosHalfDistinct)) list_[kept++] = list_[i];
   }
   list_.shrink(kept);
+  put_in(hypothesis);
+  limit_ = list_.full() ? list_[worst()].score : kNoLimit;
+}
+
+void ShortList::put_in(const Hypothesis& hypothesis) {
   if (list_.push_back(hypothesis)) return;
   Hypothesis& last = list_[worst()];
   if (hypothesis.score < last.score) last = hypothesis;
 }
 
-// A hypothesis as the scores use it: cell coordinates = R y + t for a point y in the axes of the line of sight.
-struct CoarseSearch::RolledView {
-  N::Ratio R[3][3];
-  N::Ratio t[3];
-};
-
-void CoarseSearch::begin(const Evidence& evidence) {
+void CoarseSearch::begin(const Mission& mission, const Evidence& evidence) {
   short_list_.clear();
   next_view_ = 0;
+  by_median_ = false;
   count_ = evidence.hits.size() < kCoarsePoints ? evidence.hits.size() : kCoarsePoints;
   const double range2 = evidence.centroid.squaredNorm();
   sight_ = axes_along(range2 > 0 ? Vec3(-evidence.centroid / square_root(range2)) : Vec3(-Vec3::UnitZ()));
+  const double cells_per_m = N::to_double(mission.search.cells_per_m);
   for (std::size_t i = 0; i < count_; ++i) {
-    const Vec3 y = sight_.transpose() * (to_vec3(evidence.hits[i].p) - evidence.centroid);
-    for (int k = 0; k < 3; ++k) points_[i][k] = N::to_length(y[k]);
+    const Vec3 y = cells_per_m * (sight_.transpose() * (to_vec3(evidence.hits[i].p) - evidence.centroid));
+    for (int k = 0; k < 3; ++k) points_[i][k] = to_fixed(y[k], kFarthestCell, kPlaceBits);
+  }
+  for (std::uint32_t roll = 0; roll < kRolls / 2; ++roll) {
+    const SinCos turn = sin_cos(2 * kPi / kRolls * roll);
+    turns_[roll][0] = to_fixed(turn.cos, 1, kTurnBits);
+    turns_[roll][1] = to_fixed(turn.sin, 1, kTurnBits);
   }
 }
 
 bool CoarseSearch::step(const Mission& mission, const Evidence& evidence) {
-  const ModelView<N>& view = mission.search.views[next_view_];
-  const Vec3 afar = to_vec3(view.centroid);
-  centroid_ = afar + nearness(mission, evidence) * (to_vec3(view.near_centroid) - afar);
   const Mat3 axes = axes_along(to_vec3(mission.search.views[next_view_].direction));
-  for (std::uint32_t roll = 0; roll < kRolls; ++roll) try_roll(mission, evidence, axes, roll);
-  return ++next_view_ < mission.search.views.size();
+  const bool again = choose_place(mission, evidence);
+  turn_points(mission.search, axes);
+  for (std::uint32_t roll = 0; roll < kRolls / 2; ++roll) {
+    const RollScore both = score(mission.search, roll);
+    offer(evidence, axes, roll, both.here);
+    offer(evidence, axes, roll + kRolls / 2, both.opposite);
+  }
+  by_median_ = again;
+  if (!again) ++next_view_;
+  return next_view_ < mission.search.views.size();
 }
 
-void CoarseSearch::try_roll(const Mission& mission, const Evidence& evidence, const Mat3& view_axes, std::uint32_t roll) {
-  const SearchTables<N>& tables = mission.search;
+// Where the returns' centroid is in the view. True where the view is to be laid once more.
+bool CoarseSearch::choose_place(const Mission& mission, const Evidence& evidence) {
+  const ModelView<N>& view = mission.search.views[next_view_];
+  const double near = nearness(mission, evidence);
+  const auto between = [&](double afar, double nearby) { return afar + near * (nearby - afar); };
+  for (int i = 0; i < 3; ++i) centroid_[i] = between(N::to_double(view.centroid[i]), N::to_double(view.near_centroid[i]));
+  const double farther = between(N::to_double(view.median), N::to_double(view.near_median)) - evidence.median;
+  const double apart = kMedianApart * N::to_double(mission.search.truncation);
+  if (by_median_) centroid_ -= farther * to_vec3(view.direction);
+  return !by_median_ && (farther > apart || farther < -apart);
+}
+
+void CoarseSearch::turn_points(const SearchTables<N>& tables, const Mat3& view_axes) {
+  std::int32_t V[3][3];
+  std::int32_t t[3];
+  for (int k = 0; k < 3; ++k) {
+    for (int j = 0; j < 3; ++j) V[k][j] = to_fixed(view_axes(k, j), 1, kTurnBits);
+    t[k] = to_fixed(N::to_double(tables.cells_per_m) * (centroid_[k] - N::to_double(tables.origin[k])), kFarthestCell, kCellShift);
+  }
+  for (std::size_t i = 0; i < count_; ++i) {
+    const std::int32_t* p = points_[i];
+    for (int k = 0; k < 3; ++k) {
+      turned_[i].base[k] = V[k][2] * p[2] + t[k];
+      turned_[i].a[k] = (V[k][0] * p[0] + V[k][1] * p[1]) / (1 << kTurnBits);
+      turned_[i].b[k] = (V[k][1] * p[0] - V[k][0] * p[1]) / (1 << kTurnBits);
+    }
+  }
+}
+
+// The sum over the points, of both the roll and the one half a turn on; less of it where neither is wanted.
+CoarseSearch::RollScore CoarseSearch::score(const SearchTables<N>& tables, std::uint32_t roll) const {
+  const std::int32_t cos = turns_[roll][0];
+  const std::int32_t sin = turns_[roll][1];
+  const std::uint32_t limit = short_list_.limit();
+  RollScore sum;
+  for (std::size_t i = 0; i < count_; ++i) {
+    const Turned& p = turned_[i];
+    if (i % kLookedAtOnce == 0 && sum.here >= limit && sum.opposite >= limit) break;
+    const std::int32_t c[3] = {cos * p.a[0] + sin * p.b[0], cos * p.a[1] + sin * p.b[1], cos * p.a[2] + sin * p.b[2]};
+    sum.here += byte_at(tables, p.base[0] + c[0], p.base[1] + c[1], p.base[2] + c[2]);
+    sum.opposite += byte_at(tables, p.base[0] - c[0], p.base[1] - c[1], p.base[2] - c[2]);
+  }
+  return sum;
+}
+
+void CoarseSearch::offer(const Evidence& evidence, const Mat3& view_axes, std::uint32_t roll, std::uint32_t score) {
+  if (score >= short_list_.limit()) return;
   const SinCos turn = sin_cos(2 * kPi / kRolls * roll);
   Mat3 roll_axes;
   roll_axes << turn.cos, -turn.sin, 0, turn.sin, turn.cos, 0, 0, 0, 1;
-  const Mat3 R = view_axes * roll_axes;  // line of sight to target
-  RolledView rolled{};
-  const double scale = N::to_double(tables.cells_per_m);
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) rolled.R[i][j] = N::to_ratio(scale * R(i, j));
-    rolled.t[i] = N::to_ratio(scale * (centroid_[i] - N::to_double(tables.origin[i])));
-  }
+  const Mat3 R_target_sensor = view_axes * roll_axes * sight_.transpose();
   Hypothesis hypothesis;
-  hypothesis.score = score(tables, rolled);
-  if (!short_list_.wants(hypothesis.score)) return;
-  const Mat3 R_target_sensor = R * sight_.transpose();
+  hypothesis.score = score;
   hypothesis.T_target_sensor.q = to_quaternion(R_target_sensor);
   hypothesis.T_target_sensor.p = centroid_ - R_target_sensor * evidence.centroid;
   short_list_.offer(hypothesis);
-}
-
-std::uint32_t CoarseSearch::score(const SearchTables<N>& tables, const RolledView& rolled) const {
-  std::uint32_t sum = 0;
-  for (std::size_t i = 0; i < count_; ++i) {
-    std::uint32_t cell[3];
-    for (int k = 0; k < 3; ++k) {
-      cell[k] = cell_of(rolled.t[k] + dot3<N>(rolled.R[k], points_[i]) + 1);
-    }
-    sum += distance_byte(tables, cell[0], cell[1], cell[2]);
-  }
-  return sum;
 }
 
 }  // namespace lasso

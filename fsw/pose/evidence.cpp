@@ -11,11 +11,15 @@ constexpr int kBins = 16;                      // across the scan, each way
 constexpr N::Ratio kNeighbourShare = 0.08F;    // of the model's size: a return has company this near
 constexpr N::Ratio kNeighbourSpacings = 2.2F;  // and within this many times the spacing of rays
 constexpr std::size_t kCompany = 2;            // or it is an outlier
+constexpr N::Ratio kNoiseReach = 3;            // sigmas
+constexpr int kHalvings = 12;                  // of the depths that the median may have
 
 N::Ratio squared_distance(const N::Length* a, const N::Length* b) {
   const N::Length d[3] = {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
   return dot3<N>(d, d);
 }
+
+N::Length root(N::Ratio x) { return N::to_length(square_root(N::to_double(x))); }
 
 // How many rays of the scan go into each part of the field of view: a pattern is denser here than there.
 class RayDensity {
@@ -57,6 +61,13 @@ class RayDensity {
 
 }  // namespace
 
+void put_points(const Evidence& evidence, std::size_t count, Workspace& workspace) {
+  workspace.points.clear();
+  for (std::size_t i = 0; i < evidence.hits.size() && i < count; ++i) {
+    invariant(workspace.points.push_back(evidence.hits[i]), "as many points as rays");
+  }
+}
+
 void EvidenceMaker::begin(const Mission& mission, const Workspace& workspace) {
   const RayDensity density(workspace);
   const N::Ratio spacing = density.spacing(workspace.rays.size());
@@ -70,7 +81,7 @@ void EvidenceMaker::begin(const Mission& mission, const Workspace& workspace) {
   for (std::size_t i = 0; i < workspace.points.size(); i += hit_stride_) {
     const MatchPoint<N>& point = workspace.points[i];
     const N::Ratio area = dot3<N>(point.p, point.p) / static_cast<N::Ratio>(density.at(point.u));
-    const N::Ratio range = N::to_ratio(square_root(N::to_double(dot3<N>(point.p, point.p))));
+    const N::Length range = root(dot3<N>(point.p, point.p));
     const N::Ratio reach = kNeighbourSpacings * range * spacing;
     invariant(hits_.push_back({point, area, 1e12F, reach < largest ? reach : largest, false}), "a pool of returns");
   }
@@ -126,7 +137,27 @@ void EvidenceMaker::find_centroid(Evidence& evidence) const {
     for (int i = 0; i < 3; ++i) sum[i] += weight * N::to_double(hit.point.p[i]);
     weights += weight;
   }
-  if (weights > 0) evidence.centroid = sum / weights;
+  if (!(weights > 0)) return;
+  evidence.centroid = sum / weights;
+  find_median(weights, evidence);
+}
+
+// By halving the depths that it may have.
+void EvidenceMaker::find_median(double weights, Evidence& evidence) const {
+  const double range = square_root(evidence.centroid.squaredNorm());
+  double low = 0;
+  double high = 2 * range;
+  for (int k = 0; k < kHalvings; ++k) {
+    const double depth = 0.5 * (low + high);
+    double below = 0;
+    for (const PoolHit& hit : hits_) {
+      double along = 0;
+      for (int i = 0; i < 3; ++i) along += evidence.centroid[i] * N::to_double(hit.point.p[i]);
+      if (along < depth * range) below += N::to_double(hit.weight);
+    }
+    (2 * below < weights ? low : high) = depth;
+  }
+  evidence.median = 0.5 * (low + high) - range;
 }
 
 // The return that is farthest from all that were chosen; the pool's first one to begin with.
@@ -136,7 +167,9 @@ void EvidenceMaker::choose(Evidence& evidence) {
     if (hits_[i].distance2 > hits_[farthest].distance2) farthest = i;
   }
   const MatchPoint<N>& chosen = hits_[farthest].point;
+  const ReturnReach reach{root(dot3<N>(chosen.p, chosen.p)), kNoiseReach * root(chosen.range_variance)};
   invariant(evidence.hits.push_back(chosen), "room for a return");
+  invariant(evidence.reaches.push_back(reach), "as many as returns");
   for (PoolHit& hit : hits_) {
     const N::Ratio distance2 = squared_distance(hit.point.p, chosen.p);
     if (distance2 < hit.distance2) hit.distance2 = distance2;

@@ -9,23 +9,36 @@ constexpr std::size_t kPoolRays = 1024;       // returns and misses that the cho
 constexpr std::size_t kEvidenceHits = 320;    // the first of them are as far apart as any as many
 constexpr std::size_t kEvidenceMisses = 192;  // that pass by the target
 
+// What measuring a fit needs to know of a return, once.
+struct ReturnReach {
+  FlightNumber::Length range;  // m, from the sensor
+  FlightNumber::Length noise;  // m, 3 sigma along the ray
+};
+
 struct Evidence {
   std::uint32_t scan_id = 0;
   TimeUs t_us = 0;
   std::uint32_t returns = 0;     // of the scan, isolated ones left out
   Vec3 centroid = Vec3::Zero();  // of the returns, each weighted by the area that it stands for; sensor frame
+  double median = 0;             // m, how much farther than the centroid, along the line of sight to it, their median depth is
   double misses_per_hit = 1;     // how many misses of the scan one of these stands for, over the same of the hits
   FixedVector<MatchPoint<FlightNumber>, kEvidenceHits> hits;
+  FixedVector<ReturnReach, kEvidenceHits> reaches;  // of the hits
   FixedVector<ScanRay<FlightNumber>, kEvidenceMisses> misses;
 
   void clear() {
     returns = 0;
     centroid = Vec3::Zero();
+    median = 0;
     misses_per_hit = 1;
     hits.clear();
+    reaches.clear();
     misses.clear();
   }
 };
+
+// The registration works on the workspace's points: the first `count` of the evidence.
+void put_points(const Evidence& evidence, std::size_t count, Workspace& workspace);
 
 // Makes the evidence of a scan in small steps.
 class EvidenceMaker {
@@ -47,6 +60,7 @@ class EvidenceMaker {
   void judge_isolation(std::size_t index);
   void drop_isolated();
   void find_centroid(Evidence& evidence) const;
+  void find_median(double weights, Evidence& evidence) const;
   void choose(Evidence& evidence);
   void choose_misses(const Mission& mission, Evidence& evidence) const;
 

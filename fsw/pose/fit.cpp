@@ -10,9 +10,9 @@ using N = FlightNumber;
 
 constexpr N::Ratio kOnSurface = 0.02F;  // of the model's size: farther off is bad
 constexpr N::Ratio kInFront = 0.03F;    // of the model's size: a surface this far in front would have been measured itself
-constexpr N::Ratio kNoiseReach = 3;     // sigmas that widen both where the noise is larger
 constexpr double kMissWeight = 0.3;     // returns are lost for many reasons
 constexpr double kDistanceWeight = 0.5;
+constexpr std::size_t kLookedAtOnce = 16;  // rays between two looks at the limit
 
 N::Length larger(N::Length a, N::Length b) { return a < b ? b : a; }
 N::Length smaller(N::Length a, N::Length b) { return a < b ? a : b; }
@@ -31,20 +31,20 @@ bool is_bad(const FieldHit<N>& met, N::Length distance, N::Length on_surface, N:
   return met.t < -on_surface && distance > on_surface;
 }
 
-void add_hit(const Mission& mission, const PathPose<N>& pose, const MatchPoint<N>& point, Fit& fit) {
+void add_hit(const Mission& mission, const PathPose<N>& pose, const MatchPoint<N>& point, const ReturnReach& reach, Fit& fit) {
   FieldRay<N> ray{};
   transform(pose, point.p, ray.m);
   rotate(pose, point.u, ray.u);
   const N::Length distance = surface_distance(mission.search, ray.m).distance;
-  const N::Length noise = kNoiseReach * N::to_length(square_root(N::to_double(point.range_variance)));
-  const N::Length on_surface = larger(kOnSurface * mission.search.size, noise);
-  const N::Length in_front = larger(kInFront * mission.search.size, noise);
-  const N::Length range = N::to_length(square_root(N::to_double(dot3<N>(point.p, point.p))));
-  fit.hits += 1;
-  const FieldHit<N> met = first_met(mission, ray, -range, on_surface);
+  // Both tolerances are wider where the noise is larger.
+  const N::Length on_surface = larger(kOnSurface * mission.search.size, reach.noise);
+  const N::Length in_front = larger(kInFront * mission.search.size, reach.noise);
+  const FieldHit<N> met = first_met(mission, ray, -reach.range, on_surface);
   fit.distance += N::to_double(smaller(distance, met.found ? larger(met.t, -met.t) : distance) / mission.search.truncation);
   if (is_bad(met, distance, on_surface, in_front)) fit.bad += 1;
 }
+
+bool exceeds(const Fit& fit, std::size_t ray, double limit) { return ray % kLookedAtOnce == 0 && fit.score() > limit; }
 
 }  // namespace
 
@@ -52,15 +52,26 @@ double Fit::disagreement() const { return hits > 0 ? (bad + violated) / (hits + 
 
 double Fit::score() const { return disagreement() + kDistanceWeight * (hits > 0 ? distance / hits : 1); }
 
-Fit operator+(const Fit& a, const Fit& b) { return {a.hits + b.hits, a.bad + b.bad, a.violated + b.violated, a.distance + b.distance}; }
+Fit operator+(const Fit& a, const Fit& b) {
+  return {a.hits + b.hits, a.bad + b.bad, a.violated + b.violated, a.distance + b.distance, a.walks + b.walks};
+}
 
-Fit measure_fit(const Mission& mission, const Pose& T_target_sensor, const Evidence& evidence) {
+Fit measure_fit(const Mission& mission, const Pose& T_target_sensor, const Evidence& evidence, double limit) {
   const PathPose<N> pose = to_path<N>(T_target_sensor);
+  const double per_miss = kMissWeight * evidence.misses_per_hit;
   Fit fit;
-  for (const MatchPoint<N>& point : evidence.hits) add_hit(mission, pose, point, fit);
+  fit.hits = static_cast<double>(evidence.hits.size());
+  for (std::size_t i = 0; i < evidence.hits.size(); ++i, ++fit.walks) {
+    if (exceeds(fit, i, limit)) return fit;
+    add_hit(mission, pose, evidence.hits[i], evidence.reaches[i], fit);
+  }
   std::uint32_t violated = 0;
-  for (const ScanRay<N>& miss : evidence.misses) violated += meets_model(mission, pose, miss) ? 1u : 0u;
-  fit.violated = kMissWeight * evidence.misses_per_hit * violated;
+  for (std::size_t i = 0; i < evidence.misses.size(); ++i, ++fit.walks) {
+    fit.violated = per_miss * violated;
+    if (exceeds(fit, i, limit)) return fit;
+    violated += meets_model(mission, pose, evidence.misses[i]) ? 1u : 0u;
+  }
+  fit.violated = per_miss * violated;
   return fit;
 }
 

@@ -7,10 +7,11 @@
 namespace lasso {
 
 struct Fit {
-  double hits = 0;      // returns looked at
-  double bad = 0;       // of them: off the surface, or behind it
-  double violated = 0;  // misses that the model would have returned, in terms of hits and weighted
-  double distance = 0;  // sum over the returns of the distance from the surface over the truncation, each at most 1
+  double hits = 0;          // returns looked at
+  double bad = 0;           // of them: off the surface, or behind it
+  double violated = 0;      // misses that the model would have returned, in terms of hits and weighted
+  double distance = 0;      // sum over the returns of the distance from the surface over the truncation, each at most 1
+  std::uint32_t walks = 0;  // rays that were looked at
 
   // Share of what was looked at that the pose does not explain, 0..1; 1 where nothing was.
   double disagreement() const;
@@ -20,7 +21,10 @@ struct Fit {
 
 Fit operator+(const Fit& a, const Fit& b);
 
-// At most kEvidenceHits + kEvidenceMisses walks through the field.
-Fit measure_fit(const Mission& mission, const Pose& T_target_sensor, const Evidence& evidence);
+constexpr double kAnyScore = 1e9;
+
+// At most kEvidenceHits + kEvidenceMisses walks through the field. Where the score is sure to exceed `limit`, no more are looked at: it is
+// then less than it would be, and still more than that.
+Fit measure_fit(const Mission& mission, const Pose& T_target_sensor, const Evidence& evidence, double limit = kAnyScore);
 
 }  // namespace lasso

@@ -110,16 +110,35 @@ double explained_share(const HitSolution& solution) {
   return solution.usable > 0 ? static_cast<double>(solution.inliers) / solution.usable : 0;
 }
 
-HitSolution register_hits(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace) {
+double mean_cost(const HitSolution& solution) {
+  const double left_out = static_cast<double>(solution.usable) - static_cast<double>(solution.inliers);
+  return solution.usable > 0 ? (solution.chi_squared + kUnexplainedCost * left_out) / solution.usable : 1e300;
+}
+
+HitSolution weigh_hits(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace) {
+  HitSolution solution;
+  solution.T_target_sensor = T_target_sensor;
+  if (workspace.points.empty()) return solution;
+  const MatchSettings<N> s = make_settings(mission.parameters, workspace);
+  Pose stepped = T_target_sensor;
+  keep(take_pass(mission, s, PassKind{}, workspace, stepped), s, solution);
+  return solution;
+}
+
+HitSolution register_look(const Mission& mission, RegisterLook look, const Pose& T_target_sensor, Workspace& workspace) {
   if (workspace.points.size() < kMinimumPoints) {
     HitSolution nothing;
     nothing.T_target_sensor = T_target_sensor;
     nothing.stop = StopReason::kTooFewPoints;
     return nothing;
   }
-  HitSolution first = register_from(mission, T_target_sensor, kUsual, workspace);
-  if (explained_share(first) >= kExplainedShare) return first;
-  HitSolution second = register_from(mission, T_target_sensor, kSecondLook, workspace);
+  return register_from(mission, T_target_sensor, look == RegisterLook::kFirst ? kUsual : kSecondLook, workspace);
+}
+
+HitSolution register_hits(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace) {
+  HitSolution first = register_look(mission, RegisterLook::kFirst, T_target_sensor, workspace);
+  if (workspace.points.size() < kMinimumPoints || explained_share(first) >= kExplainedShare) return first;
+  HitSolution second = register_look(mission, RegisterLook::kSecond, T_target_sensor, workspace);
   second.iterations = static_cast<std::uint16_t>(second.iterations + first.iterations);
   first.iterations = second.iterations;
   return explained_share(second) > explained_share(first) ? second : first;

@@ -25,6 +25,18 @@ constexpr double kExplainedShare = 0.99;
 // passes over all points.
 HitSolution register_hits(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace);
 
+// One look of register_hits, as a step of a longer work: at most estimation.iterations_max + 3 passes over all points.
+enum class RegisterLook : std::uint8_t { kFirst, kSecond };
+HitSolution register_look(const Mission& mission, RegisterLook look, const Pose& T_target_sensor, Workspace& workspace);
+
+// What the pose explains of the points as it stands: one pass, no step.
+HitSolution weigh_hits(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace);
+
+// How badly the solution explains the returns that it could explain: their mean squared residual in sigmas, kUnexplainedCost for one that
+// it leaves out. Infinite without any.
+double mean_cost(const HitSolution& solution);
+constexpr double kUnexplainedCost = 16;  // what a kernel of 10 sigma makes of it
+
 // A rough start made good enough for register_hits: centroid, far field, slides along the target's axes. Converges from about 20 deg and a
 // quarter of the model's size. Bound: 20 passes and 73 short registrations of a quarter of the points.
 Pose approach_from_afar(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace);
@@ -33,8 +45,15 @@ Pose approach_from_afar(const Mission& mission, const Pose& T_target_sensor, Wor
 // 1 %.
 Pose pull_on_rays(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace);
 
-// The hypothesis of a search drawn to the model: 8 passes on the truncated distance to it, then on rays as above. Converges from about
-// 20 deg and a tenth of the model's size.
+// The hypothesis of a search drawn to the model: 8 passes on the truncated distance to it. Converges from about 20 deg and a tenth of the
+// model's size, to within pull_on_rays' reach.
+struct Pulled {
+  Pose T_target_sensor;
+  double distance = 1;  // mean over the points before the last pass, in truncations
+};
+Pulled pull_on_distances(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace);
+
+// Both, one after the other.
 Pose pull_in(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace);
 
 }  // namespace lasso

@@ -1,9 +1,9 @@
 #include "fsw/pose/search.hpp"
 
+#include "fsw/geometry/portable_math.hpp"
 #include "fsw/geometry/symmetric6.hpp"
 #include "fsw/pose/path_pose.hpp"
 #include "fsw/pose/prepare.hpp"
-#include "fsw/pose/register.hpp"
 
 namespace lasso {
 namespace {
@@ -11,29 +11,14 @@ namespace {
 using N = FlightNumber;
 
 constexpr std::size_t kPullPoints = 128;
-constexpr double kCosHalfSame = 0.99904822158185780;      // 5 deg
-constexpr double kCosHalfDistinct = 0.99144486137381038;  // 15 deg
-constexpr double kRatioFloor = 0.01;
-constexpr double kSettled = 0.02;             // disagreement below which nothing better is looked for
+constexpr double kHopeless = 2.5;             // times the best score, and
+constexpr double kHopelessFloor = 0.05;       // this: what fits as badly is not worked on
 constexpr int kExploreSteps = 12;             // each way
 constexpr double kExploreStep = 0.005;        // of the model's size, along the least certain direction
-constexpr std::uint32_t kExploredAtOnce = 5;  // of these in a step of the work
-// Look-ups of one point, by what its instructions are worth on a 603e.
-constexpr std::size_t kFitCost = 18;
-constexpr std::size_t kWalkCost = 12;
-constexpr std::size_t kPullCost = 40 + 4 * kWalkCost;  // 8 distances, then walks
+constexpr std::uint32_t kExploredAtOnce = 4;  // of these in a step of the work
+constexpr std::uint32_t kViewWork = kRolls * kCoarsePoints / 2;
 
-std::uint32_t to_work(std::size_t lookups) { return static_cast<std::uint32_t>(lookups); }
-
-std::uint32_t fit_work(const Evidence& evidence) { return to_work(kFitCost * (evidence.hits.size() + evidence.misses.size())); }
-
-// The registration works on the workspace's points: the first `count` of the evidence.
-void put_points(const Evidence& evidence, std::size_t count, Workspace& workspace) {
-  workspace.points.clear();
-  for (std::size_t i = 0; i < evidence.hits.size() && i < count; ++i) {
-    invariant(workspace.points.push_back(evidence.hits[i]), "as many points as rays");
-  }
-}
+double hopeless_beyond(double score) { return kHopeless * score + kHopelessFloor; }
 
 Pose moved_by(const NearSymmetry<N>& symmetry) {
   Pose pose;
@@ -54,41 +39,7 @@ bool find_weakest(const Mission& mission, const Mat6& H, Vec6& direction) {
   return true;
 }
 
-double ratio_of(double score, double best) { return (score + kRatioFloor) / (best + kRatioFloor); }
-
 }  // namespace
-
-const char* to_string(SearchOutcome outcome) {
-  switch (outcome) {
-    case SearchOutcome::kNone:
-      return "none";
-    case SearchOutcome::kAccepted:
-      return "accepted";
-    case SearchOutcome::kAmbiguous:
-      return "ambiguous";
-    case SearchOutcome::kRejected:
-      return "rejected";
-  }
-  return "unknown";
-}
-
-const char* to_string(SearchReason reason) {
-  switch (reason) {
-    case SearchReason::kNotDone:
-      return "not_done";
-    case SearchReason::kDistinct:
-      return "distinct";
-    case SearchReason::kCompetitor:
-      return "competitor";
-    case SearchReason::kTooFewReturns:
-      return "too_few_returns";
-    case SearchReason::kUnexplained:
-      return "unexplained";
-    case SearchReason::kNotRegistered:
-      return "not_registered";
-  }
-  return "unknown";
-}
 
 void Search::begin(const SearchLimits& limits) {
   limits_ = limits;
@@ -96,6 +47,7 @@ void Search::begin(const SearchLimits& limits) {
   scans_ = 0;
   tracks_.clear();
   line_ = Line();
+  working_ = false;
   result_ = SearchResult();
 }
 
@@ -122,48 +74,60 @@ bool Search::advance(const Mission& mission, Workspace& workspace, std::uint32_t
 }
 
 std::uint32_t Search::step(const Mission& mission, Workspace& workspace) {
-  Evidence& evidence = evidence_[last()];
   switch (stage_) {
     case Stage::kEvidence:
-      if (!maker_.step(mission, evidence)) {
-        coarse_.begin(evidence);
+      if (!maker_.step(mission, evidence_[last()])) {
+        coarse_.begin(mission, evidence_[last()]);
         stage_ = Stage::kCoarse;
       }
       return kPoolRays / 4;
     case Stage::kCoarse:
-      if (!coarse_.step(mission, evidence)) {
-        pulled_.clear();
+      if (!coarse_.step(mission, evidence_[last()])) {
+        drawn_.clear();
         next_ = 0;
         stage_ = Stage::kPull;
       }
-      return kRolls * kCoarsePoints;
+      return kViewWork;
     case Stage::kPull:
-      return pull(mission, workspace);
+      return pull_next(mission, workspace);
+    case Stage::kDraw:
+      return draw_next(mission, workspace);
+    case Stage::kSketch:
+      return sketch_next(mission, workspace);
     case Stage::kSettle:
-    case Stage::kTwins:
       return settle_next(mission, workspace);
     case Stage::kExplore:
       return explore_next(mission);
     case Stage::kRecall:
       return recall_next(mission, workspace);
+    case Stage::kSway:
+      return sway_next(mission, workspace);
     default:
       return conclude();
   }
 }
 
-std::uint32_t Search::pull(const Mission& mission, Workspace& workspace) {
+std::uint32_t Search::pull_next(const Mission& mission, Workspace& workspace) {
+  put_points(evidence_[last()], kPullPoints, workspace);
+  const Pulled pulled = pull_on_distances(mission, coarse_.short_list()[next_].T_target_sensor, workspace);
+  drawn_.add(pulled.T_target_sensor, pulled.distance);
+  if (++next_ == coarse_.short_list().size()) {
+    drawn_.keep_best();
+    next_ = 0;
+    stage_ = Stage::kDraw;
+  }
+  return pull_work(workspace);
+}
+
+std::uint32_t Search::draw_next(const Mission& mission, Workspace& workspace) {
   const Evidence& evidence = evidence_[last()];
   put_points(evidence, kPullPoints, workspace);
-  Pulled pulled;
-  pulled.T_target_sensor = pull_in(mission, coarse_.short_list()[next_].T_target_sensor, workspace);
-  pulled.score = measure_fit(mission, pulled.T_target_sensor, evidence).score();
-  invariant(pulled_.push_back(pulled), "as many as the short list");
-  if (++next_ == coarse_.short_list().size()) {
-    choose_finalists();
-    next_ = 0;
-    stage_ = Stage::kSettle;
-  }
-  return to_work(kPullCost * workspace.points.size()) + fit_work(evidence);
+  Drawn& drawn = drawn_[next_];
+  drawn.T_target_sensor = pull_on_rays(mission, drawn.T_target_sensor, workspace);
+  const Fit fit = measure_fit(mission, drawn.T_target_sensor, evidence, hopeless_beyond(drawn_.best_score(next_)));
+  drawn.score = fit.score();
+  if (++next_ == drawn_.size()) choose_finalists();
+  return draw_work(workspace) + fit_work(fit);
 }
 
 // Is it as far as that from all of the scan's own finalists?
@@ -175,11 +139,11 @@ bool Search::is_apart(const Pose& T_target_sensor, double cos_half_angle) const 
   return apart;
 }
 
-const Search::Pulled* Search::best_pulled(double cos_half_angle) const {
-  const Pulled* best = nullptr;
-  for (const Pulled& pulled : pulled_) {
-    const bool better = best == nullptr || pulled.score < best->score;
-    if (better && is_apart(pulled.T_target_sensor, cos_half_angle)) best = &pulled;
+const Drawn* Search::best_drawn(double cos_half_angle) const {
+  const Drawn* best = nullptr;
+  for (std::size_t i = 0; i < drawn_.size(); ++i) {
+    const bool better = best == nullptr || drawn_[i].score < best->score;
+    if (better && is_apart(drawn_[i].T_target_sensor, cos_half_angle)) best = &drawn_[i];
   }
   return best;
 }
@@ -188,10 +152,13 @@ const Search::Pulled* Search::best_pulled(double cos_half_angle) const {
 void Search::choose_finalists() {
   first_ = tracks_.size();
   for (std::size_t chosen = 0; chosen < kFinalists; ++chosen) {
-    const Pulled* best = best_pulled(chosen + 2 < kFinalists ? kCosHalfSame : kCosHalfDistinct);
+    const Drawn* best = best_drawn(chosen + 2 < kFinalists ? kCosHalfSame : kCosHalfDistinct);
     if (best == nullptr) break;
     add_track(best->T_target_sensor);
   }
+  twins_ = false;
+  next_ = 0;
+  stage_ = Stage::kSketch;
 }
 
 // The poses that the best one is most easily confused with: its near-symmetries.
@@ -199,6 +166,8 @@ void Search::add_twins(const Mission& mission) {
   first_ = tracks_.size();
   const Pose best = tracks_[0].T_target_sensor[last()];
   for (const NearSymmetry<N>& symmetry : mission.search.symmetries) add_track(moved_by(symmetry) * best);
+  twins_ = true;
+  next_ = first_;
 }
 
 void Search::add_track(const Pose& T_target_sensor) {
@@ -207,43 +176,90 @@ void Search::add_track(const Pose& T_target_sensor) {
   invariant(tracks_.push_back(track), "room for a track");
 }
 
-// Registers the scan's evidence from the start and measures the fit.
-std::uint32_t Search::settle(const Mission& mission, std::size_t scan, const Pose& start, Track& track, Workspace& workspace) const {
-  const Evidence& evidence = evidence_[scan];
-  put_points(evidence, kEvidenceHits, workspace);
-  HitSolution solution = register_hits(mission, pull_on_rays(mission, start, workspace), workspace);
-  Fit fit = measure_fit(mission, solution.T_target_sensor, evidence);
-  std::uint32_t work = to_work(kWalkCost * (4 + solution.iterations) * evidence.hits.size()) + fit_work(evidence);
-  if (fit.disagreement() > kSettled) {
-    put_points(evidence, kEvidenceHits, workspace);
-    const HitSolution other = register_hits(mission, pull_in(mission, start, workspace), workspace);
-    const Fit other_fit = measure_fit(mission, other.T_target_sensor, evidence);
-    work += to_work((kPullCost + kWalkCost * other.iterations) * evidence.hits.size()) + fit_work(evidence);
-    if (other_fit.score() < fit.score()) {
-      fit = other_fit;
-      solution = other;
-    }
-  }
-  track.T_target_sensor[scan] = solution.T_target_sensor;
-  track.fits[scan] = fit;
+void Search::take(const Settled& settled, std::size_t scan, Track& track) const {
+  track.T_target_sensor[scan] = settled.solution.T_target_sensor;
+  track.fits[scan] = settled.fit;
   track.known[scan] = true;
-  track.total = track.total + track.fits[scan];
-  if (scan == last()) track.H = solution.H;
+  if (scan == last()) track.H = settled.solution.H;
+  sum_up(track);
+}
+
+void Search::sum_up(Track& track) const {
+  track.total = Fit();
+  for (std::size_t i = 0; i < scans_; ++i) track.total = track.total + track.fits[i];
+}
+
+double Search::best_score() const {
+  double best = kAnyScore;
+  for (const Track& track : tracks_) {
+    if (track.known[last()]) best = clamp(track.total.score(), 0, best);
+  }
+  return best;
+}
+
+bool Search::is_hopeless(const Track& track) const { return track.total.score() > hopeless_beyond(best_score()); }
+
+// All tracks in the last scan: its own finalists from where they were drawn to, the others from where they should be; and once more from
+// there, pulled from farther, where that leads to nothing.
+std::uint32_t Search::sketch_next(const Mission& mission, Workspace& workspace) {
+  const Evidence& evidence = evidence_[last()];
+  Track& track = tracks_[next_];
+  const bool own = next_ >= first_;
+  const bool drawn = own && !twins_;
+  const double limit = hopeless_beyond(best_score());
+  std::uint32_t work = 0;
+  put_points(evidence, kPullPoints, workspace);
+  if (working_) {
+    const Pose start = pull_in(mission, track.start, workspace);
+    const Settled settled = sketch(mission, evidence, start, limit, workspace, work);
+    if (settled.fit.score() < track.fits[last()].score()) take(settled, last(), track);
+    work += pull_work(workspace) + draw_work(workspace);
+    working_ = false;
+  } else {
+    track.start = own ? track.T_target_sensor[last()] : carry(track, last() - 1, last(), rates_of(track, last() - 1));
+    track.settled = track.swayed = false;
+    const Pose start = drawn ? track.start : pull_on_rays(mission, track.start, workspace);
+    take(sketch(mission, evidence, start, limit, workspace, work), last(), track);
+    work += drawn ? 0 : draw_work(workspace);
+    working_ = !drawn && is_hopeless(track);
+  }
+  if (working_ || ++next_ < tracks_.size()) return work;
+  prune();
+  next_ = 0;
+  stage_ = Stage::kSettle;
   return work;
 }
 
-// All tracks in the last scan: its own finalists from where they were found, the others from where they should be now.
-std::uint32_t Search::settle_next(const Mission& mission, Workspace& workspace) {
-  Track& track = tracks_[next_];
-  const bool own = next_ >= first_;
-  const Pose start = own ? track.T_target_sensor[last()] : carry(track, last() - 1, last(), rates_of(track, last() - 1));
-  const std::uint32_t work = settle(mission, last(), start, track, workspace);
-  if (++next_ < tracks_.size()) return work;
-  prune();
-  if (stage_ == Stage::kSettle) add_twins(mission);
-  stage_ = stage_ == Stage::kSettle && first_ < tracks_.size() ? Stage::kTwins : Stage::kExplore;
-  next_ = stage_ == Stage::kTwins ? first_ : 0;
+// One attempt at a track in a scan.
+std::uint32_t Search::settle(const Mission& mission, std::size_t scan, Track& track, Workspace& workspace) {
+  std::uint32_t work = 0;
+  working_ = settler_.step(mission, evidence_[scan], workspace, work);
+  if (!working_) take(settler_.best(), scan, track);
   return work;
+}
+
+std::uint32_t Search::settle_next(const Mission& mission, Workspace& workspace) {
+  for (; next_ < tracks_.size(); ++next_) {
+    Track& track = tracks_[next_];
+    if (!working_ && (track.settled || is_hopeless(track))) continue;
+    if (!working_) settler_.begin(track.T_target_sensor[last()], track.start);
+    track.settled = true;
+    return settle(mission, last(), track, workspace);
+  }
+  end_settling(mission);
+  return 1;
+}
+
+void Search::end_settling(const Mission& mission) {
+  prune();
+  next_ = 0;
+  if (!twins_) {
+    add_twins(mission);
+    stage_ = Stage::kSketch;
+    if (first_ < tracks_.size()) return;
+  }
+  next_ = 0;
+  stage_ = Stage::kExplore;
 }
 
 // Where a view says little about a direction, the registration may end anywhere along it, and hits that pass an edge decide: the best
@@ -251,39 +267,38 @@ std::uint32_t Search::settle_next(const Mission& mission, Workspace& workspace) 
 std::uint32_t Search::explore_next(const Mission& mission) {
   const Evidence& evidence = evidence_[last()];
   if (!line_.begun) begin_line(mission);
-  std::uint32_t fits = 0;
-  for (; line_.next <= kExploreSteps && fits < kExploredAtOnce; ++line_.next) {
-    look_along(mission, evidence);
-    ++fits;
-  }
+  std::uint32_t work = 1;
+  for (std::uint32_t k = 0; line_.next <= kExploreSteps && k < kExploredAtOnce; ++line_.next, ++k) work += look_along(mission, evidence);
   if (line_.next > kExploreSteps) end_line();
-  return fits * fit_work(evidence) + 1;
+  return work;
 }
 
-// Without a direction there is no place to look at.
+// Without a direction, or hope, there is no place to look at.
 void Search::begin_line(const Mission& mission) {
   const Track& track = tracks_[next_];
   line_.from = line_.best = track.T_target_sensor[last()];
   line_.fit = track.fits[last()];
-  line_.next = find_weakest(mission, track.H, line_.direction) ? -kExploreSteps : kExploreSteps + 1;
+  const bool worth = !is_hopeless(track) && find_weakest(mission, track.H, line_.direction);
+  line_.next = worth ? -kExploreSteps : kExploreSteps + 1;
   line_.begun = true;
 }
 
-void Search::look_along(const Mission& mission, const Evidence& evidence) {
+std::uint32_t Search::look_along(const Mission& mission, const Evidence& evidence) {
   const double step_m = kExploreStep * N::to_double(mission.search.size);
   const Pose moved = step_pose(line_.from, line_.next * step_m * line_.direction);
-  const Fit fit = measure_fit(mission, moved, evidence);
-  if (!(fit.score() < line_.fit.score())) return;
-  line_.fit = fit;
-  line_.best = moved;
+  const Fit fit = measure_fit(mission, moved, evidence, line_.fit.score());
+  if (fit.score() < line_.fit.score()) {
+    line_.fit = fit;
+    line_.best = moved;
+  }
+  return fit_work(fit);
 }
 
 void Search::end_line() {
   Track& track = tracks_[next_];
   track.T_target_sensor[last()] = line_.best;
   track.fits[last()] = line_.fit;
-  track.total = Fit();
-  for (std::size_t i = 0; i < scans_; ++i) track.total = track.total + track.fits[i];
+  sum_up(track);
   line_ = Line();
   ++next_;
   if (next_ < tracks_.size() && next_ < kExplored) return;
@@ -291,17 +306,49 @@ void Search::end_line() {
   stage_ = Stage::kRecall;
 }
 
-// The last scan's finalists in the scans before, so that scores of as many scans are compared. A step settles one track in one scan.
+// The last scan's finalists in the scans before, so that scores of as many scans are compared. A step is one attempt.
 std::uint32_t Search::recall_next(const Mission& mission, Workspace& workspace) {
   for (; next_ < tracks_.size(); ++next_) {
     for (std::size_t scan = last(); scan-- > 0;) {
       Track& track = tracks_[next_];
       if (track.known[scan]) continue;
-      return settle(mission, scan, carry(track, scan + 1, scan, rates_of(track, scan + 2)), track, workspace);
+      const Pose start = carry(track, scan + 1, scan, rates_of(track, scan + 2));
+      if (!working_) settler_.begin(start, start);
+      return settle(mission, scan, track, workspace);
     }
   }
+  prune();
+  next_ = 0;
+  stage_ = Stage::kSway;
+  return 1;
+}
+
+std::uint32_t Search::sway_next(const Mission& mission, Workspace& workspace) {
+  for (; next_ < tracks_.size() && next_ < kExplored; ++next_) {
+    Track& track = tracks_[next_];
+    if (!working_ && (track.swayed || (next_ > 0 && !is_rival(track)))) continue;
+    if (!working_) sway_.begin(track.T_target_sensor[last()], track.H);
+    std::uint32_t work = 0;
+    working_ = sway_.step(mission, evidence_[last()], workspace, work);
+    track.swayed = true;
+    if (!working_) work += take_swayed(mission, track);
+    return work;
+  }
+  prune();
   stage_ = Stage::kVerdict;
   return 1;
+}
+
+// A score that is better there is taken, too: the track had not reached its best place.
+std::uint32_t Search::take_swayed(const Mission& mission, Track& track) const {
+  const double before = track.fits[last()].score();
+  const Fit fit = measure_fit(mission, sway_.T_target_sensor(), evidence_[last()], before);
+  track.T_target_sensor[last()] = sway_.T_target_sensor();
+  track.H = sway_.H();
+  track.cost = sway_.cost();
+  if (fit.score() < before) track.fits[last()] = fit;
+  sum_up(track);
+  return fit_work(fit);
 }
 
 // Keeps the best few that are at least 5 deg apart, best first.
@@ -338,65 +385,6 @@ Twist Search::rates_of(const Track& track, std::size_t scan) const {
 Pose Search::carry(const Track& track, std::size_t from, std::size_t to, const Twist& rates) const {
   const double dt_s = to_seconds(evidence_[to].t_us - evidence_[from].t_us);
   return inverse(propagate(inverse(track.T_target_sensor[from]), rates, dt_s));
-}
-
-std::uint32_t Search::conclude() {
-  prune();
-  const Track& best = tracks_[0];
-  result_.scan_id = evidence_[last()].scan_id;
-  result_.t_us = evidence_[last()].t_us;
-  result_.scans = static_cast<std::uint32_t>(scans_);
-  result_.T_sensor_target = inverse(best.T_target_sensor[last()]);
-  result_.rates = rates_of(best, last());
-  result_.disagreement = best.total.disagreement();
-  result_.returns = static_cast<std::uint32_t>(best.total.hits);
-  describe_candidates();
-  judge(describe_covariance(best));
-  stage_ = Stage::kIdle;
-  return 1;
-}
-
-// A step x of T_target_sensor in target axes is a step -R x of T_sensor_target in sensor axes. False where the pose has no covariance.
-bool Search::describe_covariance(const Track& best) {
-  Mat6 covariance;
-  if (invert6(best.H, covariance) != Status::kOk) return false;
-  const Mat3 R = to_matrix(best.T_target_sensor[last()].q).transpose();
-  Mat6 J = Mat6::Zero();
-  J.topLeftCorner<3, 3>() = R;
-  J.bottomRightCorner<3, 3>() = R;
-  result_.covariance = J * covariance * J.transpose();
-  return true;
-}
-
-void Search::describe_candidates() {
-  const double best = tracks_[0].total.score();
-  result_.ratio = 0;
-  result_.candidates.clear();
-  for (const Track& track : tracks_) {
-    const double ratio = ratio_of(track.total.score(), best);
-    const bool distinct = are_apart(track.T_target_sensor[last()].q, tracks_[0].T_target_sensor[last()].q, kCosHalfDistinct);
-    if (distinct && !(result_.ratio > 0)) result_.ratio = ratio;
-    if (ratio < limits_.ratio_min) {
-      (void)result_.candidates.push_back({inverse(track.T_target_sensor[last()]), track.total.disagreement(), track.total.score()});
-    }
-  }
-}
-
-void Search::judge(bool registered) {
-  result_.outcome = SearchOutcome::kRejected;
-  if (!registered) {
-    result_.reason = SearchReason::kNotRegistered;
-  } else if (result_.returns < limits_.hits_min) {
-    result_.reason = SearchReason::kTooFewReturns;
-  } else if (result_.disagreement > limits_.disagreement_max) {
-    result_.reason = SearchReason::kUnexplained;
-  } else if (result_.ratio < limits_.ratio_min) {
-    result_.outcome = SearchOutcome::kAmbiguous;
-    result_.reason = SearchReason::kCompetitor;
-  } else {
-    result_.outcome = SearchOutcome::kAccepted;
-    result_.reason = SearchReason::kDistinct;
-  }
 }
 
 }  // namespace lasso

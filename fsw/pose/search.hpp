@@ -7,60 +7,26 @@
 // target may turn by some 15 deg between two scans. All state is in the object and is forgotten by begin(); the workspace holds nothing
 // between two calls.
 //
-// Work is done in steps and counted in look-ups of some 90 PowerPC 603e instructions (60 to 125, by the stage). advance() ends with the
-// step that uses the budget up; no step takes more than kLargestStep, few more than 180,000. A scan of 1024 rays takes some 4.5 million
-// look-ups, 380 million instructions, in all (docs/search.md).
+// Work is done in steps and counted in look-ups of some 65 PowerPC 603e instructions. advance() ends with the step that uses the budget up;
+// no step takes more than kLargestStep. A scan of 1024 rays takes some 1.7 million look-ups, 110 million instructions, in all
+// (docs/search.md): most hypotheses are looked at no longer than until they are sure to be worse than others.
 #pragma once
 
-#include "fsw/pose/coarse.hpp"
-#include "fsw/pose/fit.hpp"
+#include "fsw/pose/drawn_list.hpp"
+#include "fsw/pose/search_result.hpp"
+#include "fsw/pose/settle.hpp"
+#include "fsw/pose/sway.hpp"
 
 namespace lasso {
 
 constexpr std::size_t kMaxSearchScans = 3;
-constexpr std::size_t kMaxSearchCandidates = 6;  // in the result
-constexpr std::uint32_t kLargestStep = 300'000;  // look-ups, at estimation.iterations_max 12
+constexpr std::uint32_t kLargestStep = 80'000;  // look-ups, at estimation.iterations_max 12
 
 struct SearchLimits {
   double hits_min = 80;  // returns looked at
   double disagreement_max = 0.20;
-  double ratio_min = 1.3;  // score of the best distinct competitor over that of the pose
+  double ratio_min = 1.3;  // score of the best distinct competitor over that of the pose; or what the returns make of both by their noise
   std::uint32_t scans_max = kMaxSearchScans;
-};
-
-enum class SearchOutcome : std::uint8_t { kNone, kAccepted, kAmbiguous, kRejected };
-
-enum class SearchReason : std::uint8_t {
-  kNotDone,        // idle, or still at work
-  kDistinct,       // accepted: the best pose explains the scans, and no other does
-  kCompetitor,     // ambiguous: another pose explains them nearly as well
-  kTooFewReturns,  // rejected
-  kUnexplained,    // rejected: the best pose leaves too much unexplained
-  kNotRegistered,  // rejected: the registration of the best pose failed
-};
-const char* to_string(SearchOutcome outcome);
-const char* to_string(SearchReason reason);
-
-struct SearchCandidate {
-  Pose T_sensor_target;
-  double disagreement = 1;
-  double score = 0;  // smaller is better
-};
-
-struct SearchResult {
-  SearchOutcome outcome = SearchOutcome::kNone;
-  SearchReason reason = SearchReason::kNotDone;
-  std::uint32_t scan_id = 0;       // the last scan's
-  TimeUs t_us = 0;                 // its reference time, at which all poses are stated
-  Pose T_sensor_target;            // the best candidate's, whatever the outcome
-  Twist rates;                     // from its poses in the last two scans; zero from a single one
-  Mat6 covariance = Mat6::Zero();  // of the pose: (rotation in sensor axes [rad], translation [m])
-  double disagreement = 1;
-  double ratio = 0;  // (score of the best candidate more than 15 deg off + 0.01) / (score of the best + 0.01); 0 without one
-  std::uint32_t scans = 0;
-  std::uint32_t returns = 0;                                      // of all scans that were looked at
-  std::uint32_t work = 0;                                         // look-ups, all scans
-  FixedVector<SearchCandidate, kMaxSearchCandidates> candidates;  // the best, and those that the ratio does not exclude
 };
 
 class Search {
@@ -78,17 +44,17 @@ class Search {
   const SearchResult& result() const { return result_; }
 
  private:
-  enum class Stage : std::uint8_t { kIdle, kEvidence, kCoarse, kPull, kSettle, kTwins, kExplore, kRecall, kVerdict };
-  struct Pulled {
-    Pose T_target_sensor;
-    double score = 0;
-  };
+  enum class Stage : std::uint8_t { kIdle, kEvidence, kCoarse, kPull, kDraw, kSketch, kSettle, kExplore, kRecall, kSway, kVerdict };
   // A pose in each scan, as far as known.
   struct Track {
     Pose T_target_sensor[kMaxSearchScans];
     Fit fits[kMaxSearchScans];
     bool known[kMaxSearchScans] = {};
     Fit total;
+    Pose start;             // in the last scan
+    bool settled = false;   // in the last scan, or sketched only
+    bool swayed = false;    // in the last scan
+    double cost = 0;        // of the pose in the last scan, once it is
     Mat6 H = Mat6::Zero();  // information of the registration in the last scan, target axes
   };
   // The line on which a track is explored: from its pose along its least certain direction.
@@ -106,20 +72,32 @@ class Search {
   static constexpr std::size_t kTracks = kCarried + (kMaxSymmetries > kFinalists ? kMaxSymmetries : kFinalists);
 
   std::uint32_t step(const Mission& mission, Workspace& workspace);
-  std::uint32_t pull(const Mission& mission, Workspace& workspace);
+  std::uint32_t pull_next(const Mission& mission, Workspace& workspace);
+  std::uint32_t draw_next(const Mission& mission, Workspace& workspace);
+  std::uint32_t sketch_next(const Mission& mission, Workspace& workspace);
   std::uint32_t settle_next(const Mission& mission, Workspace& workspace);
   std::uint32_t explore_next(const Mission& mission);
-  void begin_line(const Mission& mission);
-  void look_along(const Mission& mission, const Evidence& evidence);
-  void end_line();
   std::uint32_t recall_next(const Mission& mission, Workspace& workspace);
-  std::uint32_t settle(const Mission& mission, std::size_t scan, const Pose& start, Track& track, Workspace& workspace) const;
+  std::uint32_t sway_next(const Mission& mission, Workspace& workspace);
   std::uint32_t conclude();
+  std::uint32_t settle(const Mission& mission, std::size_t scan, Track& track, Workspace& workspace);
+  void end_settling(const Mission& mission);
+  void begin_line(const Mission& mission);
+  std::uint32_t look_along(const Mission& mission, const Evidence& evidence);
+  void end_line();
   bool is_apart(const Pose& T_target_sensor, double cos_half_angle) const;
-  const Pulled* best_pulled(double cos_half_angle) const;
+  const Drawn* best_drawn(double cos_half_angle) const;
   void choose_finalists();
   void add_twins(const Mission& mission);
   void add_track(const Pose& T_target_sensor);
+  void take(const Settled& settled, std::size_t scan, Track& track) const;
+  std::uint32_t take_swayed(const Mission& mission, Track& track) const;
+  void sum_up(Track& track) const;
+  double best_score() const;
+  bool is_hopeless(const Track& track) const;
+  bool is_rival(const Track& track) const;
+  bool is_distinct(const Track& track) const;
+  bool stands_alone() const;
   void prune();
   Pose carry(const Track& track, std::size_t from, std::size_t to, const Twist& rates) const;
   Twist rates_of(const Track& track, std::size_t scan) const;
@@ -132,13 +110,17 @@ class Search {
   Stage stage_ = Stage::kIdle;
   std::size_t scans_ = 0;
   std::size_t next_ = 0;   // of the stage's items
-  std::size_t first_ = 0;  // track of the last scan's own finalists
+  std::size_t first_ = 0;  // track of the last scan's own finalists, or of the twins
+  bool twins_ = false;     // are there
+  bool working_ = false;   // on the next track
   EvidenceMaker maker_;
   CoarseSearch coarse_;
   Evidence evidence_[kMaxSearchScans];
-  FixedVector<Pulled, kShortList> pulled_;
+  DrawnList drawn_;
   FixedVector<Track, kTracks> tracks_;
+  Settler settler_;
   Line line_;
+  Sway sway_;
   SearchResult result_;
 };
 

@@ -1,7 +1,8 @@
 // Searches for the target without any prior attitude: random attitudes and ranges, the laser camera's scans, and what the search makes of
 // them. A pose is right within 2 deg and 1.5 % of the model's size (2 cm for the tenth-scale Hubble).
 //
-// usage: search MISSION [CASE = all] [STARTS = 1000] [SEED = 1] [SCANS = 3] [SCALE = 1]
+// usage: search MISSION [CASE = all] [STARTS = 1000] [SEED = 1] [SCANS = 3] [SCALE = 1] [FOLDER]
+// With a FOLDER nothing is searched: image.3dli and scans.bin, each start's first scan, are written there for search_replay.
 #include "fsw/pose/search.hpp"
 
 #include <algorithm>
@@ -14,111 +15,26 @@
 
 #include "fsw/pose/estimator.hpp"
 #include "fsw/sense/pattern.hpp"
-#include "ft/search/shapes.hpp"
+#include "ft/search/cases.hpp"
+#include "ft/search/recording.hpp"
 #include "hal_sim/scanner.hpp"
 #include "mdat/common/cpu_clock.hpp"
 #include "mdat/common/errors.hpp"
 #include "mdat/common/flight_image.hpp"
-#include "mdat/modelc/image_writer.hpp"
 #include "mdat/run/simulation.hpp"
 
 namespace {
 
 using namespace lasso;
+using search::Case;
+using search::Setting;
+using Target = Case::Target;
 
 constexpr double kRight_rad = 2 * kRadPerDeg;
 constexpr double kRightShare = 0.015;         // of the model's size
 constexpr double kNear_rad = 7 * kRadPerDeg;  // the right one of all poses, but not within what is asked
 constexpr DurationUs kBetweenScans_us = 2'000'000;
 constexpr std::uint32_t kSlice = 150'000;  // look-ups
-
-// What is asked of the search.
-struct Case {
-  std::string name;
-  double range_low_m = 2, range_high_m = 7;
-  double outliers = 0, dropouts = 0, array_deg = 0, spin_radps = 0;
-  bool noise = true;
-  bool hits_only = false;  // the first 512 returns, as of a point cloud
-  std::uint16_t rays = 1024;
-  enum class Target { kModel, kAbsent, kCylinder, kSphere, kPanels, kTwofold } target = Target::kModel;
-  bool may_accept() const { return target == Target::kModel; }
-};
-
-using Target = Case::Target;
-
-std::vector<Case> all_cases() {
-  std::vector<Case> cases;
-  const auto next = [&](const char* name) -> Case& {
-    cases.emplace_back().name = name;
-    return cases.back();
-  };
-  next("clean");
-  next("outliers").outliers = 0.1;
-  next("dropouts").dropouts = 0.1;
-  next("clip").range_high_m = 2.001;
-  next("arrays").array_deg = 5;
-  next("spin").spin_radps = 3 * kRadPerDeg;
-  next("twofold").target = Target::kTwofold;
-  next("cylinder").target = Target::kCylinder;
-  next("sphere").target = Target::kSphere;
-  next("panels").target = Target::kPanels;
-  Case& absent = next("absent");
-  absent.target = Target::kAbsent;
-  absent.outliers = 0.3;
-  Case& exact = next("exact512");
-  exact.noise = false;
-  exact.rays = 2048;
-  exact.hits_only = true;
-  return cases;
-}
-
-double extent(const mdat::Mesh& mesh) {
-  Vec3 low = mesh.vertices[0], high = low;
-  for (const auto& v : mesh.vertices) {
-    low = low.cwiseMin(v);
-    high = high.cwiseMax(v);
-  }
-  return (high - low).maxCoeff();
-}
-
-struct Setting {
-  MissionParameters parameters{};
-  std::vector<std::uint8_t> image;
-  mdat::Mesh in_view;
-};
-
-// Is this a model whose arrays can be turned?
-bool has_arrays(const std::string& file) {
-  const mdat::MissionSource source = mdat::load_mission(file);
-  return source.target.parameters.count("array_angle_deg") != 0;
-}
-
-Setting make_setting(const std::string& file, const Case& c, double scale) {
-  mdat::MissionSource source = mdat::load_mission(file);
-  mdat::Mesh model = mdat::load_target(source);
-  if (c.array_deg != 0) source.target.parameters["array_angle_deg"] += c.array_deg;
-  mdat::Mesh in_view = mdat::load_target(source);
-  for (mdat::Mesh* mesh : {&model, &in_view}) {
-    for (auto& v : mesh->vertices) v *= scale;
-  }
-  const double size = extent(model);
-  if (c.target == Target::kCylinder) in_view = cylinder(0.45 * size, 0.16 * size);
-  if (c.target == Target::kSphere) in_view = sphere(0.3 * size);
-  if (c.target == Target::kPanels) in_view = panels(size);
-  if (c.target == Target::kTwofold) model = in_view = twofold(model);
-  mdat::ModelOptions options;
-  options.cell_size_m = scale * source.target.cell_size_m;
-  options.crease_angle_deg = source.target.crease_angle_rad / kRadPerDeg;
-  mdat::CompileReport report;
-  const mdat::ModelTables tables = mdat::compile_model(model, options, report);
-  std::fprintf(stderr, "model: %zu elements, %zu views, %zu near-symmetries, search tables %zu bytes, compiled in %.1f s\n",
-               report.elements, report.views, report.symmetries,
-               4 * (tables[TableId::kDistances].size() + tables[TableId::kViews].size() + tables[TableId::kSymmetries].size()),
-               report.seconds);
-  MissionParameters parameters = source.parameters;
-  parameters.initial_present = 0;
-  return {parameters, mdat::write_image(1, 1, parameters, tables), in_view};
-}
 
 double normal(sim::Random& random) { return random.gaussian(); }
 
@@ -159,14 +75,22 @@ class Campaign {
         scans_(scans),
         random_(seed) {}
 
-  void run(int starts) {
+  // Scans are recorded instead of searched where there is a recording.
+  void run(int starts, search::Recording* recording) {
+    recording_ = recording;
     for (int i = 0; i < starts; ++i) {
       draw(i);
-      one(i);
+      if (recording_ != nullptr) {
+        scan(0);
+        recording_->add(*image_scan_);
+      } else {
+        one(i);
+      }
       if ((i + 1) % (starts / 10 + 1) == 0) std::fprintf(stderr, "%d of %d starts\n", i + 1, starts);
     }
   }
   const Tally& tally() const { return tally_; }
+  const std::vector<std::uint8_t>& image() const { return setting_.image; }
   double size() const { return static_cast<double>(image_.mission().search.size); }
 
  private:
@@ -307,6 +231,7 @@ class Campaign {
   std::unique_ptr<Workspace> workspace_ = std::make_unique<Workspace>();
   std::unique_ptr<Estimator> estimator_ = std::make_unique<Estimator>();
   std::unique_ptr<RangeImage> image_scan_ = std::make_unique<RangeImage>();
+  search::Recording* recording_ = nullptr;
   Tally tally_;
 };
 
@@ -333,16 +258,22 @@ int run(int argc, char** argv) {
   const std::uint64_t seed = argc > 4 ? std::strtoull(argv[4], nullptr, 10) : 1;
   const int scans = argc > 5 ? std::atoi(argv[5]) : 3;
   const double scale = argc > 6 ? std::atof(argv[6]) : 1;
+  const std::string folder = argc > 7 ? argv[7] : "";
   if (argc < 2 || starts < 1 || scans < 1 || scans > static_cast<int>(kMaxSearchScans) || !(scale > 0)) {
-    std::fprintf(stderr, "usage: search MISSION [CASE = all] [STARTS = 1000] [SEED = 1] [SCANS = 3, 1 to 3] [SCALE = 1]\n");
+    std::fprintf(stderr, "usage: search MISSION [CASE = all] [STARTS = 1000] [SEED = 1] [SCANS = 3, 1 to 3] [SCALE = 1] [FOLDER]\n");
     return 2;
   }
   int wrong = 0, ran = 0;
-  for (const Case& c : all_cases()) {
+  for (const Case& c : search::all_cases()) {
     if (name != "all" && name != c.name) continue;
-    if (name == "all" && (c.name == "exact512" || (c.array_deg != 0 && !has_arrays(argv[1])))) continue;
-    Campaign campaign(c, make_setting(argv[1], c, scale), scale, seed, static_cast<std::uint32_t>(scans));
-    campaign.run(starts);
+    if (name == "all" && (c.name == "exact512" || (c.array_deg != 0 && !search::has_arrays(argv[1])))) continue;
+    Campaign campaign(c, search::make_setting(argv[1], c, scale), scale, seed, static_cast<std::uint32_t>(scans));
+    search::Recording recording;
+    campaign.run(starts, folder.empty() ? nullptr : &recording);
+    if (!folder.empty()) {
+      recording.write(folder, campaign.image());
+      return 0;
+    }
     if (ran++ == 0) print_head();
     print_row(c, starts, campaign.tally());
     wrong += campaign.tally().wrong;

@@ -1,5 +1,6 @@
 #include "mdat/modelc/view_table.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -9,9 +10,38 @@
 namespace lasso::mdat {
 namespace {
 
-constexpr int kRaysPerSide = 48;
+constexpr int kRays = 2304;
 constexpr double kNearSpread = 1.5;  // parts of the model before the plane look larger
 constexpr double kFarthest = 8;      // radii: beyond all that a ray can meet
+
+// What is seen, each place with the area that it stands for.
+class Seen {
+ public:
+  explicit Seen(const Vec3d& direction) : direction_(direction) {}
+  void add(const Vec3d& point, double weight) {
+    places_.emplace_back(-direction_.dot(point), weight);
+    sum_ += weight * point;
+    weight_ += weight;
+  }
+  bool nothing() const { return places_.empty(); }
+  Vec3d centroid() const { return sum_ / weight_; }
+  // Of the depth, from the centroid.
+  double median() {
+    std::sort(places_.begin(), places_.end());
+    double below = 0;
+    for (const auto& [depth, weight] : places_) {
+      below += weight;
+      if (2 * below >= weight_) return depth + direction_.dot(centroid());
+    }
+    return 0;
+  }
+
+ private:
+  Vec3d direction_;
+  std::vector<std::pair<double, double>> places_;  // depth, weight
+  Vec3d sum_ = Vec3d::Zero();
+  double weight_ = 0;
+};
 
 // Rays through a square of the plane through the model's middle, across `direction`: parallel, or from one place before it.
 class Looker {
@@ -23,34 +53,35 @@ class Looker {
         extent_(surface.extent) {}
 
   View see(const Vec3d& direction) const {
-    View view{direction, middle_, middle_, {}};
-    Vec3d sum = Vec3d::Zero(), near_sum = Vec3d::Zero();
-    double weights = 0;
+    View view{direction, middle_, middle_, 0, 0, {}};
+    Seen seen(direction), near_seen(direction);
     const Vec3d eye = middle_ + static_cast<double>(kNearView) * extent_ * direction;
-    for (int i = 0; i < kRaysPerSide * kRaysPerSide; ++i) {
+    for (int i = 0; i < kRays; ++i) {
       const Vec3d across = place(direction, i);
       if (const Vec3d from = middle_ + 2 * radius_ * direction + across; hits(from, -direction)) {
         view.seen.push_back(point_);
-        sum += point_;
+        seen.add(point_, 1);
       }
-      if (hits(eye, (middle_ + kNearSpread * across - eye).normalized())) {
-        const double weight = (point_ - eye).squaredNorm();
-        near_sum += weight * point_;
-        weights += weight;
-      }
+      if (hits(eye, (middle_ + kNearSpread * across - eye).normalized())) near_seen.add(point_, (point_ - eye).squaredNorm());
     }
-    if (!view.seen.empty()) view.centroid = view.near_centroid = sum / static_cast<double>(view.seen.size());
-    if (weights > 0) view.near_centroid = near_sum / weights;
+    if (!seen.nothing()) {
+      view.centroid = view.near_centroid = seen.centroid();
+      view.median = view.near_median = seen.median();
+    }
+    if (!near_seen.nothing()) {
+      view.near_centroid = near_seen.centroid();
+      view.near_median = near_seen.median();
+    }
     return view;
   }
 
  private:
+  // Rows and columns would meet a thin part seen edge-on along all its length, or not at all: the places lie on a Fibonacci lattice.
   Vec3d place(const Vec3d& direction, int i) const {
     const Vec3d right = direction.unitOrthogonal();
-    const int row = i / kRaysPerSide;
-    const int column = i % kRaysPerSide;
-    const double x = (2.0 * column + 1) / kRaysPerSide - 1;
-    const double y = (2.0 * row + 1) / kRaysPerSide - 1;
+    const double x = (2.0 * i + 1) / kRays - 1;
+    const double turns = i * std::numbers::phi;
+    const double y = 2 * (turns - std::floor(turns)) - 1;
     return radius_ * (x * right + y * direction.cross(right));
   }
   bool hits(const Vec3d& from, const Vec3d& direction) const {
@@ -95,6 +126,7 @@ std::vector<std::uint32_t> view_words(const std::vector<View>& views, const Leng
     for (const Vec3d* p : {&view.centroid, &view.near_centroid}) {
       for (int i = 0; i < 3; ++i) words.push_back(static_cast<std::uint32_t>(scale.to_word((*p)[i])));
     }
+    for (const double median : {view.median, view.near_median}) words.push_back(static_cast<std::uint32_t>(scale.to_word(median)));
   }
   return words;
 }

@@ -9,10 +9,11 @@ namespace lasso::mdat {
 constexpr std::size_t kViewCount = 642;  // about 8 deg apart
 
 struct View {
-  Vec3d direction;          // unit, from the target to the sensor
-  Vec3d centroid;           // of what is seen from afar, each part weighted by its area across the line of sight
-  Vec3d near_centroid;      // the same from kNearView extents before the middle of the model
-  std::vector<Vec3d> seen;  // from afar: points spread evenly
+  Vec3d direction;             // unit, from the target to the sensor
+  Vec3d centroid;              // of what is seen from afar, each part weighted by its area across the line of sight
+  Vec3d near_centroid;         // the same from kNearView extents before the middle of the model
+  double median, near_median;  // how much farther from the eye than these the median depth is
+  std::vector<Vec3d> seen;     // from afar: points spread evenly
 };
 
 // Directions spread evenly over the sphere (Fibonacci). Deterministic.

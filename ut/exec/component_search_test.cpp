@@ -125,6 +125,7 @@ TEST(ComponentSearch, APoseThatWasFoundTooLateIsRefusedByItsName) {
   VERIFIES("LASSO-MOD-134~1");
   MissionParameters p = search_parameters();
   p.start_age_max_s = 0;
+  p.search_slice = 300000;  // several frames' work
   p.search_scans_max = 1;
   ComponentScene scene(p, test::uneven_scene());
   scene.begin();

@@ -60,6 +60,34 @@ TEST_F(EvidenceTest, BeginsWithReturnsThatAreFarApart) {
   EXPECT_GT(closest(12), 2 * closest(96));
 }
 
+TEST_F(EvidenceTest, KnowsTheMedianOfTheDepths) {
+  VERIFIES("LASSO-MOD-111~1");
+  scan();
+  const auto evidence = make_evidence();
+  ASSERT_EQ(evidence->reaches.size(), evidence->hits.size());
+  const Vec3 sight = evidence->centroid.normalized();
+  int nearer = 0;
+  for (std::size_t i = 0; i < evidence->hits.size(); ++i) {
+    const Vec3 p = to_vec3(evidence->hits[i].p);
+    nearer += sight.dot(p) < evidence->centroid.norm() + evidence->median ? 1 : -1;
+    EXPECT_NEAR(evidence->reaches[i].range, p.norm(), 1e-6);
+    EXPECT_NEAR(evidence->reaches[i].noise, 3e-3, 1e-6);
+  }
+  EXPECT_LT(std::abs(nearer), static_cast<int>(evidence->hits.size() / 4));
+  EXPECT_NE(evidence->median, 0);
+}
+
+TEST_F(EvidenceTest, PutsAsManyPointsIntoTheWorkspaceAsAreAskedFor) {
+  VERIFIES("LASSO-MOD-111~1");
+  scan();
+  const auto evidence = make_evidence();
+  put_points(*evidence, 20, *workspace_);
+  ASSERT_EQ(workspace_->points.size(), 20u);
+  EXPECT_EQ(workspace_->points[19].p[2], evidence->hits[19].p[2]);
+  put_points(*evidence, 1000, *workspace_);
+  EXPECT_EQ(workspace_->points.size(), evidence->hits.size());
+}
+
 TEST_F(EvidenceTest, CentroidIsTheMiddleOfWhatIsSeenAndNotOfThePattern) {
   VERIFIES("LASSO-MOD-111~1");
   scan();

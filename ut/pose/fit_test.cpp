@@ -55,6 +55,32 @@ TEST_F(FitTest, TheNoiseWidensWhatCountsAsOnTheSurface) {
   EXPECT_LT(measure_fit(mission_, truth(), *make_evidence()).disagreement(), 0.06);
 }
 
+TEST_F(FitTest, EndsOnceTheScoreExceedsTheLimit) {
+  VERIFIES("LASSO-MOD-117~1");
+  scan();
+  const auto evidence = make_evidence();
+  const std::size_t all = evidence->hits.size() + evidence->misses.size();
+  Pose moved = scan_.T_sensor_target;
+  moved.p[2] += 0.15;
+  const Fit whole = measure_fit(mission_, inverse(moved), *evidence);
+  const Fit part = measure_fit(mission_, inverse(moved), *evidence, 0.2);
+  EXPECT_EQ(whole.walks, all);
+  EXPECT_LT(part.walks, all / 2);
+  EXPECT_GT(part.score(), 0.2);
+  EXPECT_LE(part.score(), whole.score());
+  EXPECT_EQ(measure_fit(mission_, inverse(moved), *evidence, whole.score()).score(), whole.score());
+  // Hits that all agree, and misses that do not.
+  const Fit right = measure_fit(mission_, truth(), *evidence);
+  evidence->misses.clear();
+  for (const ScanRay<FlightNumber>& ray : workspace_->rays) {
+    if (ray.state == RayState::kHit && !evidence->misses.full()) (void)evidence->misses.push_back(ray);
+  }
+  const Fit violated = measure_fit(mission_, truth(), *evidence, right.score() + 0.02);
+  EXPECT_GT(violated.walks, evidence->hits.size());
+  EXPECT_LT(violated.walks, evidence->hits.size() + evidence->misses.size());
+  EXPECT_GT(violated.score(), right.score() + 0.02);
+}
+
 TEST_F(FitTest, AModelOutOfSightExplainsNothing) {
   VERIFIES("LASSO-MOD-122~1");
   scan();

@@ -180,6 +180,29 @@ TEST_F(RegisterTest, TheSecondLookReachesFarther) {
   }
 }
 
+TEST_F(RegisterTest, TheCostIsTheMeanSquaredResidualAndMoreOfWhatIsLeftOut) {
+  VERIFIES("LASSO-MOD-115~1");
+  EXPECT_GT(mean_cost(HitSolution()), 1e9);
+  HitSolution half;
+  half.usable = 4;
+  half.inliers = 2;
+  half.chi_squared = 3;
+  EXPECT_DOUBLE_EQ(mean_cost(half), (3 + 2 * kUnexplainedCost) / 4);
+}
+
+TEST_F(RegisterTest, WeighingAPoseLeavesItWhereItIs) {
+  VERIFIES("LASSO-MOD-115~1");
+  scan_.sigma_m = 1e-3;
+  scan();
+  const HitSolution truly = weigh_hits(mission_, truth(), *workspace_);
+  EXPECT_EQ(truly.T_target_sensor.p, truth().p);
+  EXPECT_NEAR(mean_cost(truly), 1, 0.25);
+  const Pose start = inverse(test::disturb(scan_.T_sensor_target, 0.02, 0.01, random_));
+  EXPECT_GT(mean_cost(weigh_hits(mission_, start, *workspace_)), 3);
+  workspace_->points.clear();
+  EXPECT_EQ(weigh_hits(mission_, truth(), *workspace_).usable, 0u);
+}
+
 TEST_F(RegisterTest, TooFewPointsLeaveTheStart) {
   VERIFIES("LASSO-REG-007~1");
   scan();

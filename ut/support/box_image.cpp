@@ -262,11 +262,17 @@ Words distance_words(const Boxes& boxes, const BoxModel& bounds) {
   return words;
 }
 
-// The middle of what rays in a square around the model meet: parallel ones, or from `eye` sizes before its middle.
-Vec3 seen_from(const Boxes& boxes, const BoxModel& bounds, const Vec3& direction, double eye) {
+struct SeenBoxes {
+  Vec3 middle = Vec3::Zero();
+  double median = 0;  // of the depth, from the middle
+};
+
+// What rays in a square around the model meet: parallel ones, or from `eye` sizes before its middle.
+SeenBoxes seen_from(const Boxes& boxes, const BoxModel& bounds, const Vec3& direction, double eye) {
   const Vec3 right = direction.unitOrthogonal();
   const double radius = bounds.half.norm();
-  Vec3 sum = Vec3::Zero();
+  SeenBoxes seen;
+  std::vector<std::pair<double, double>> depths;
   double weights = 1e-9;
   for (int i = 0; i < kViewRays * kViewRays; ++i) {
     const double x = (2.0 * (i % kViewRays) + 1) / kViewRays - 1;
@@ -277,10 +283,19 @@ Vec3 seen_from(const Boxes& boxes, const BoxModel& bounds, const Vec3& direction
     const double range = cast_boxes(boxes, from, u);
     if (range < 0) continue;
     const double weight = eye > 0 ? range * range : 1;
-    sum += weight * (from + range * u);
+    const Vec3 point = from + range * u;
+    seen.middle += weight * point;
+    depths.emplace_back(-direction.dot(point), weight);
     weights += weight;
   }
-  return sum / weights;
+  seen.middle /= weights;
+  std::sort(depths.begin(), depths.end());
+  double below = 0;
+  for (const auto& [depth, weight] : depths) {
+    if (2 * below < weights) seen.median = depth + direction.dot(seen.middle);
+    below += weight;
+  }
+  return seen;
 }
 
 Words view_words(const Boxes& boxes, const BoxModel& bounds) {
@@ -290,10 +305,12 @@ Words view_words(const Boxes& boxes, const BoxModel& bounds) {
     const double turn = 2.399963229728653 * k;
     const Vec3 direction(std::sqrt(1 - z * z) * std::cos(turn), std::sqrt(1 - z * z) * std::sin(turn), z);
     for (int i = 0; i < 3; ++i) words.push_back(unit(direction[i]));
-    for (const double eye : {0.0, static_cast<double>(kNearView)}) {
-      const Vec3 middle = seen_from(boxes, bounds, direction, eye);
-      for (int i = 0; i < 3; ++i) words.push_back(length(middle[i]));
+    const SeenBoxes afar = seen_from(boxes, bounds, direction, 0);
+    const SeenBoxes near = seen_from(boxes, bounds, direction, static_cast<double>(kNearView));
+    for (const SeenBoxes* seen : {&afar, &near}) {
+      for (int i = 0; i < 3; ++i) words.push_back(length(seen->middle[i]));
     }
+    for (const SeenBoxes* seen : {&afar, &near}) words.push_back(length(seen->median));
   }
   return words;
 }
@@ -308,7 +325,7 @@ Words symmetry_words(const BoxModel& box) {
   return words;
 }
 
-constexpr std::uint32_t kRecordWords[kTableCount] = {2, 13, 22, 15, 2, 512, 1, 128, 3, 15, 3, 9, 1, 9, 7, 30, 1, 20};
+constexpr std::uint32_t kRecordWords[kTableCount] = {2, 13, 22, 15, 2, 512, 1, 128, 3, 15, 3, 9, 1, 11, 7, 30, 1, 20};
 
 void put_u32(std::uint8_t* p, std::uint32_t v) {
   for (int i = 0; i < 4; ++i) p[i] = static_cast<std::uint8_t>(v >> (24 - 8 * i));

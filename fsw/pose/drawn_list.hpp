@@ -1,0 +1,33 @@
+// The hypotheses of a search's short list on their way to the model.
+#pragma once
+
+#include "fsw/core/fixed_vector.hpp"
+#include "fsw/geometry/se3.hpp"
+#include "fsw/pose/coarse.hpp"
+
+namespace lasso {
+
+constexpr std::size_t kDrawn = 16;  // of the short list: so many are worth more than a pull
+
+struct Drawn {
+  Pose T_target_sensor;
+  double score = 0;  // smaller is better: the mean distance when pulled, the fit's score when drawn on rays
+};
+
+class DrawnList {
+ public:
+  void clear() { list_.clear(); }
+  void add(const Pose& T_target_sensor, double score);
+  // Leaves the best, at most kDrawn, best first; of those that came to the same attitude within 5 deg, one.
+  void keep_best();
+  std::size_t size() const { return list_.size(); }
+  Drawn& operator[](std::size_t i) { return list_[i]; }
+  const Drawn& operator[](std::size_t i) const { return list_[i]; }
+  // The best score of the first `count`.
+  double best_score(std::size_t count) const;
+
+ private:
+  FixedVector<Drawn, kShortList> list_;
+};
+
+}  // namespace lasso

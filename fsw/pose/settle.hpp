@@ -1,0 +1,44 @@
+// A start of a search made a pose: drawn to the model, registered on a scan's evidence, and measured. In attempts of bounded work.
+#pragma once
+
+#include "fsw/pose/fit.hpp"
+#include "fsw/pose/register.hpp"
+
+namespace lasso {
+
+struct Settled {
+  HitSolution solution;
+  Fit fit;
+};
+
+// Work is counted in look-ups of some 90 PowerPC 603e instructions; `work` is added to.
+
+// The start registered on some of the returns, which tells whether it is worth more. The measuring ends beyond `limit`.
+Settled sketch(const Mission& mission, const Evidence& evidence, const Pose& start, double limit, Workspace& workspace,
+               std::uint32_t& work);
+
+// Settles one start in one scan, attempt by attempt, until one explains the scan.
+class Settler {
+ public:
+  // `rough`: where to register from; `start`: where to draw it from, should that not do.
+  void begin(const Pose& rough, const Pose& start);
+  // One attempt. False when it was the last one.
+  bool step(const Mission& mission, const Evidence& evidence, Workspace& workspace, std::uint32_t& work);
+  const Settled& best() const { return best_; }
+
+ private:
+  enum class Attempt : std::uint8_t { kFirst, kSecondLook, kDraw, kLast };
+  // One registration on all returns, kept if it is the first or the best.
+  void look(const Mission& mission, const Evidence& evidence, RegisterLook which, Workspace& workspace, std::uint32_t& work);
+
+  Attempt attempt_ = Attempt::kFirst;
+  Pose rough_, start_;
+  Settled best_;
+};
+
+std::uint32_t fit_work(const Fit& fit);
+std::uint32_t pull_work(const Workspace& workspace);   // of pull_on_distances
+std::uint32_t draw_work(const Workspace& workspace);   // of pull_on_rays
+std::uint32_t weigh_work(const Workspace& workspace);  // of a pass of the registration
+
+}  // namespace lasso

@@ -1,0 +1,107 @@
+#include "fsw/pose/verdict.hpp"
+
+#include "fsw/geometry/symmetric6.hpp"
+#include "fsw/pose/search.hpp"
+
+namespace lasso {
+namespace {
+
+constexpr double kRatioFloor = 0.01;
+constexpr double kAlone = 1.5;  // times the ratio asked for: the score alone tells
+constexpr double kAloneInDoubt = 3;
+constexpr double kAgrees = 1.2;  // ratio of costs that are not alike
+
+double ratio_of(double score, double best) { return (score + kRatioFloor) / (best + kRatioFloor); }
+
+}  // namespace
+
+bool is_near(double score_ratio, double best_cost, double ratio_min) {
+  return score_ratio < (best_cost > kCleanCost ? kAloneInDoubt : kAlone) * ratio_min;
+}
+
+bool is_left_behind(const Rival& rival, double ratio_min) {
+  const bool by_score = rival.score_ratio >= ratio_min;
+  if (!rival.weighed || !is_near(rival.score_ratio, rival.best_cost, ratio_min)) return by_score;
+  if (!by_score) return rival.cost > ratio_min * rival.best_cost;
+  return rival.cost > kCleanCost && rival.cost > kAgrees * rival.best_cost;
+}
+
+// Another pose whose score alone does not leave it behind. Both are swayed, and what they cost is compared. Poses are moved by that; the
+// scores, which tell far poses apart, stay as they are.
+bool Search::is_rival(const Track& track) const {
+  return is_near(ratio_of(track.total.score(), tracks_[0].total.score()), tracks_[0].cost, limits_.ratio_min);
+}
+
+bool Search::is_distinct(const Track& track) const {
+  return are_apart(track.T_target_sensor[last()].q, tracks_[0].T_target_sensor[last()].q, kCosHalfDistinct);
+}
+
+std::uint32_t Search::conclude() {
+  const Track& best = tracks_[0];
+  result_.scan_id = evidence_[last()].scan_id;
+  result_.t_us = evidence_[last()].t_us;
+  result_.scans = static_cast<std::uint32_t>(scans_);
+  result_.T_sensor_target = inverse(best.T_target_sensor[last()]);
+  result_.rates = rates_of(best, last());
+  result_.disagreement = best.total.disagreement();
+  result_.returns = static_cast<std::uint32_t>(best.total.hits);
+  describe_candidates();
+  judge(describe_covariance(best));
+  stage_ = Stage::kIdle;
+  return 1;
+}
+
+// A step x of T_target_sensor in target axes is a step -R x of T_sensor_target in sensor axes. False where the pose has no covariance.
+bool Search::describe_covariance(const Track& best) {
+  Mat6 covariance;
+  if (invert6(best.H, covariance) != Status::kOk) return false;
+  const Mat3 R = to_matrix(best.T_target_sensor[last()].q).transpose();
+  Mat6 J = Mat6::Zero();
+  J.topLeftCorner<3, 3>() = R;
+  J.bottomRightCorner<3, 3>() = R;
+  result_.covariance = J * covariance * J.transpose();
+  return true;
+}
+
+void Search::describe_candidates() {
+  const double best = tracks_[0].total.score();
+  result_.ratio = 0;
+  result_.candidates.clear();
+  for (const Track& track : tracks_) {
+    const double ratio = ratio_of(track.total.score(), best);
+    if (is_distinct(track) && !(result_.ratio > 0)) result_.ratio = ratio;
+    if (ratio < limits_.ratio_min) {
+      (void)result_.candidates.push_back({inverse(track.T_target_sensor[last()]), track.total.disagreement(), track.total.score()});
+    }
+  }
+}
+
+// Is every other pose left behind?
+bool Search::stands_alone() const {
+  bool alone = true;
+  for (const Track& track : tracks_) {
+    if (!is_distinct(track)) continue;
+    const Rival rival{ratio_of(track.total.score(), tracks_[0].total.score()), track.swayed, track.cost, tracks_[0].cost};
+    alone = alone && is_left_behind(rival, limits_.ratio_min);
+  }
+  return alone;
+}
+
+void Search::judge(bool registered) {
+  result_.outcome = SearchOutcome::kRejected;
+  if (!registered) {
+    result_.reason = SearchReason::kNotRegistered;
+  } else if (result_.returns < limits_.hits_min) {
+    result_.reason = SearchReason::kTooFewReturns;
+  } else if (result_.disagreement > limits_.disagreement_max) {
+    result_.reason = SearchReason::kUnexplained;
+  } else if (!stands_alone()) {
+    result_.outcome = SearchOutcome::kAmbiguous;
+    result_.reason = SearchReason::kCompetitor;
+  } else {
+    result_.outcome = SearchOutcome::kAccepted;
+    result_.reason = SearchReason::kDistinct;
+  }
+}
+
+}  // namespace lasso

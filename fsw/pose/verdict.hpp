@@ -1,0 +1,21 @@
+// Whether a search's best pose leaves another one behind.
+#pragma once
+
+namespace lasso {
+
+// A pose more than 15 deg from the best one.
+struct Rival {
+  double score_ratio = 0;  // its score over the best one's (SearchResult::ratio)
+  bool weighed = false;    // costs are known
+  double cost = 0;         // mean_cost of its returns
+  double best_cost = 0;    // of the best pose's
+};
+
+// Its score alone does not tell: costs are asked for, and sooner where the best pose itself leaves returns unexplained.
+bool is_near(double score_ratio, double best_cost, double ratio_min);
+
+// By its score, and not against what the returns' noise says; or by that alone, which tells near-symmetric poses apart that look alike
+// within the score's tolerance.
+bool is_left_behind(const Rival& rival, double ratio_min);
+
+}  // namespace lasso

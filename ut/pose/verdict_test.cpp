@@ -1,0 +1,111 @@
+#include "fsw/pose/verdict.hpp"
+
+#include <gtest/gtest.h>
+
+#include "ut/pose/whole_search.hpp"
+#include "ut/support/verifies.hpp"
+
+namespace lasso {
+namespace {
+
+using VerdictTest = test::WholeSearch;
+
+TEST(Verdict, AFarScoreLeavesARivalBehind) {
+  VERIFIES("LASSO-MOD-122~1");
+  EXPECT_TRUE(is_left_behind({2.0, false, 0, 0}, 1.3));
+  EXPECT_TRUE(is_left_behind({2.0, true, 1.0, 1.0}, 1.3));
+  EXPECT_TRUE(is_left_behind({1.4, false, 0, 0}, 1.3)) << "nothing else is known";
+  EXPECT_FALSE(is_left_behind({2.3, true, 1.0, 1.9}, 1.3)) << "the best pose leaves returns unexplained";
+  EXPECT_TRUE(is_left_behind({4.0, true, 1.0, 1.9}, 1.3));
+  EXPECT_FALSE(is_left_behind({1.2, false, 0, 0}, 1.3));
+}
+
+TEST(Verdict, ANearScoreDoesNotWhereTheNoiseSaysOtherwise) {
+  VERIFIES("LASSO-MOD-122~1 LASSO-MOD-121~1");
+  EXPECT_TRUE(is_left_behind({1.4, true, 1.5, 1.0}, 1.3));
+  EXPECT_FALSE(is_left_behind({1.4, true, 1.1, 0.8}, 1.3)) << "explained as the noise allows";
+  EXPECT_FALSE(is_left_behind({1.4, true, 3.0, 2.9}, 1.3)) << "as badly as the best";
+}
+
+TEST(Verdict, TheNoiseAloneTellsWhatLooksAlike) {
+  VERIFIES("LASSO-MOD-120~1");
+  EXPECT_TRUE(is_left_behind({1.05, true, 1.4, 1.0}, 1.3));
+  EXPECT_FALSE(is_left_behind({1.05, true, 1.2, 1.0}, 1.3));
+  EXPECT_FALSE(is_left_behind({1.05, true, 0.5, 1.0}, 1.3));
+}
+
+TEST_F(VerdictTest, RejectsAnotherTarget) {
+  VERIFIES("LASSO-MOD-122~1");
+  scan_.model.half = Vec3(0.09, 0.42, 0.05);
+  scan_.others.clear();
+  for (int i = 0; i < 2; ++i) {
+    scan_.T_sensor_target = test::random_box_pose(random_);
+    search_->begin(limits_);
+    ASSERT_EQ(search(), Status::kOk);
+    EXPECT_NE(result().outcome, SearchOutcome::kAccepted);
+    EXPECT_GT(result().disagreement, limits_.disagreement_max);
+  }
+}
+
+TEST_F(VerdictTest, RejectsAPoseThatLeavesTooMuchUnexplained) {
+  VERIFIES("LASSO-MOD-122~1");
+  look_from_few_sides();
+  limits_.disagreement_max = -1;
+  search_->begin(limits_);
+  ASSERT_EQ(search(), Status::kOk);
+  EXPECT_EQ(result().outcome, SearchOutcome::kRejected);
+  EXPECT_EQ(result().reason, SearchReason::kUnexplained);
+}
+
+TEST_F(VerdictTest, RejectsTooFewReturns) {
+  VERIFIES("LASSO-MOD-122~1");
+  look_from_few_sides();
+  limits_.hits_min = 1000;
+  search_->begin(limits_);
+  ASSERT_EQ(search(), Status::kOk);
+  EXPECT_EQ(result().outcome, SearchOutcome::kRejected);
+  EXPECT_EQ(result().reason, SearchReason::kTooFewReturns);
+}
+
+TEST_F(VerdictTest, RejectsWhatCannotBeRegistered) {
+  VERIFIES("LASSO-MOD-122~1");
+  look_from_few_sides();
+  auto image = scan_at(0);
+  int hits = 0;
+  for (RangeSample& sample : image->samples) {
+    if (sample.state == RayState::kHit && ++hits > 9) sample.state = RayState::kInvalid;
+  }
+  search_->begin(limits_);
+  ASSERT_EQ(search_->add_scan(mission_, *image, *workspace_), Status::kOk);
+  work();
+  EXPECT_EQ(result().outcome, SearchOutcome::kRejected);
+  EXPECT_EQ(result().reason, SearchReason::kNotRegistered);
+}
+
+class SymmetricVerdictTest : public VerdictTest {
+ protected:
+  SymmetricVerdictTest() : VerdictTest(test::box_mission()) { scan_.others.clear(); }
+};
+
+TEST_F(SymmetricVerdictTest, ASymmetricTargetIsAmbiguousWithItsCandidates) {
+  VERIFIES("LASSO-MOD-121~1 LASSO-MOD-120~1");
+  for (int i = 0; i < 2; ++i) {
+    scan_.T_sensor_target = test::random_box_pose(random_);
+    search_->begin(limits_);
+    for (int k = 0; k < 2; ++k) {
+      ASSERT_EQ(search(k), Status::kOk);
+      EXPECT_EQ(result().outcome, SearchOutcome::kAmbiguous);
+      EXPECT_LT(result().ratio, 1.3);
+      ASSERT_GE(result().candidates.size(), 2u);
+    }
+    bool found = false;
+    for (const SearchCandidate& candidate : result().candidates) {
+      const Vec6 error = pose_difference(candidate.T_sensor_target, scan_.T_sensor_target);
+      found = found || (error.head<3>().norm() < 2 * kRadPerDeg && error.tail<3>().norm() < 0.02);
+    }
+    EXPECT_TRUE(found);
+  }
+}
+
+}  // namespace
+}  // namespace lasso
