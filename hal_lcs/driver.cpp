@@ -27,6 +27,7 @@ std::size_t aim_bytes(const ScanPlan& plan) { return (plan.aimed.size() + kAimed
 Driver::Driver(Line& line, const Calibration& calibration)
     : line_(line), calibration_(calibration), triangulation_(calibration, calibration.reference_degC) {
   invariant(validate(calibration) == Status::kOk, "lcs calibration");
+  inhibit();  // whatever was before
 }
 
 // --- commands
@@ -40,17 +41,17 @@ void Driver::send(const FrameBytes& frame) {
 
 void Driver::permit_laser(bool permitted) {
   laser_permitted_ = permitted;
-  inhibit_due_ = !permitted;
-  if (!permitted && under_way()) lose(Loss::kInhibited, Status::kMissing);
+  if (permitted) return;
+  inhibit_due_ = true;
+  if (under_way()) lose(Loss::kInhibited, Status::kMissing);
   inhibit();
 }
 
-// Until the line takes it.
+// With each call, until the camera has confirmed it.
 void Driver::inhibit() {
-  if (!inhibit_due_ || !has_room(kMaxFrame)) return;
+  if (laser_permitted_ || !inhibit_due_ || !has_room(kMaxFrame)) return;
+  inhibit_sequence_ = sent_;
   send(encode(sent_, LaserCommand::kInhibit));
-  camera_.laser_lit = false;
-  inhibit_due_ = false;
 }
 
 // All that comes before the samples; there is room for it. The camera gets the command when the line has carried what it holds.
@@ -85,20 +86,29 @@ Status Driver::refuse(Loss loss, Status reason) {
   return reason;
 }
 
-// The next poll says why.
+// The next poll says why; the camera stops at once.
 void Driver::lose(Loss loss, Status reason) {
   ++health_.scans_lost[static_cast<std::size_t>(loss)];
   state_ = State::kEnded;
   loss_ = reason;
+  stop_camera();
+}
+
+// There is always room left for an inhibit.
+void Driver::stop_camera() {
+  if (has_room(2 * kMaxFrame)) send(encode(sent_, Type::kAbort));
 }
 
 Status Driver::start(const ScanPlan& plan, TimeUs t_start_us) {
   if (under_way()) return Status::kBusy;
   const Status status = validate(plan);
   if (status != Status::kOk) return status;
+  state_ = State::kIdle;
+  listen();
+  inhibit();
   if (!laser_permitted_) return refuse(Loss::kInhibited, Status::kMissing);
   tag_ = tag_of(plan.scan_id);
-  if (!has_room(kCommandBytes + aim_bytes(plan))) return refuse(Loss::kLineFull, Status::kOverCapacity);
+  if (!has_room(kCommandBytes + aim_bytes(plan) + kMaxFrame)) return refuse(Loss::kLineFull, Status::kOverCapacity);
   send_start(plan);
   state_ = State::kStarting;
   loss_ = Status::kOk;
@@ -112,11 +122,9 @@ Status Driver::start(const ScanPlan& plan, TimeUs t_start_us) {
 }
 
 void Driver::abort() {
-  if (under_way()) {
-    ++health_.scans_lost[static_cast<std::size_t>(Loss::kUnfinished)];
-    if (has_room(kMaxFrame)) send(encode(sent_, Type::kAbort));  // else the camera is busy at the next start
-  }
+  if (under_way()) lose(Loss::kUnfinished, Status::kOk);
   state_ = State::kIdle;
+  inhibit();
 }
 
 // --- what the camera says
@@ -132,6 +140,13 @@ bool Driver::read_frame(Frame& frame) {
     if (chunk_size_ == 0) return false;
     budget_ -= chunk_size_;
   }
+}
+
+// What came while no scan ran.
+void Driver::listen() {
+  budget_ = kLineBytes;
+  Frame frame;
+  while (read_frame(frame)) receive(frame);  // ends with the budget
 }
 
 void Driver::receive(const Frame& frame) {
@@ -159,6 +174,7 @@ void Driver::take_refusal(Result result) {
 }
 
 void Driver::take(const Answer& answer) {
+  if (answer.to == Type::kLaser && answer.sequence == inhibit_sequence_) inhibit_due_ = inhibit_due_ && answer.result != Result::kDone;
   if (answer.to != Type::kStart) return;
   if (state_ != State::kStarting || answer.sequence != start_sequence_) {
     ++health_.strayed;
@@ -166,31 +182,42 @@ void Driver::take(const Answer& answer) {
   }
   if (answer.result != Result::kDone) return take_refusal(answer.result);
   const TimeUs t_command_us = t_start_us_ + command_us_;
-  const DurationUs jump_us = clock_known_ ? time_of(answer.clock_us) - t_command_us : 0;
-  if (jump_us > kClockToleranceUs || jump_us < -kClockToleranceUs) ++health_.clock_jumps;
+  if (clock_known_ && jumped(answer.clock_us, t_command_us)) ++health_.clock_jumps;
   clock_known_ = true;
   clock_at_us_ = t_command_us;
   clock_us_ = answer.clock_us;
+  begin();
+}
+
+// Whether the camera's clock has gone otherwise than ours since they were tied; modulo its wrap, and with a thousandth of drift.
+bool Driver::jumped(std::uint32_t clock_us, TimeUs t_us) const {
+  const DurationUs elapsed_us = t_us - clock_at_us_;
+  const std::int64_t off_us = static_cast<std::int32_t>(clock_us - clock_us_ - static_cast<std::uint32_t>(elapsed_us));
+  const DurationUs tolerance_us = kClockToleranceUs + elapsed_us / 1000;
+  return off_us > tolerance_us || off_us < -tolerance_us;
+}
+
+// The camera scans. Of another one than the calibration's nothing is believed.
+void Driver::begin() {
+  if (camera_.serial != calibration_.serial) return lose(Loss::kForeign, Status::kBadVersion);
+  triangulation_ = Triangulation(calibration_, static_cast<double>(camera_.temperature_degC));
   state_ = State::kScanning;
 }
 
 void Driver::take(const CameraStatus& status) {
   const bool booted = camera_.serial != 0 && status.boots != camera_.boots;
-  const bool warmer = status.temperature_degC != camera_.temperature_degC;
   camera_ = status;
-  if (warmer) triangulation_ = Triangulation(calibration_, static_cast<double>(status.temperature_degC));
-  if (booted) {
-    ++health_.boots;
-    clock_known_ = false;
-  }
-  if (!under_way()) return;
-  if (booted) return lose(Loss::kBooted, Status::kBadOrder);
-  if (status.serial != calibration_.serial) lose(Loss::kForeign, Status::kBadVersion);
+  inhibit_due_ = inhibit_due_ || status.laser_lit;  // counts without permission only
+  if (!booted) return;
+  ++health_.boots;
+  clock_known_ = false;
+  if (under_way()) lose(Loss::kBooted, Status::kBadOrder);
 }
 
-// Samples whose answer to the start was damaged are timed by the clock as it was tied before.
+// Samples whose answer to the start was damaged are timed by the clock as it was tied before, unless that is long ago.
 void Driver::take(const Samples& samples) {
-  if (state_ == State::kStarting && clock_known_ && samples.tag == tag_) state_ = State::kScanning;
+  const bool timed = clock_known_ && t_start_us_ - clock_at_us_ < kTieUs;
+  if (state_ == State::kStarting && timed && samples.tag == tag_) begin();
   const bool ours =
       state_ == State::kScanning && samples.tag == tag_ && samples.first >= next_ && samples.first + samples.count <= plan_.points;
   if (!ours) {
@@ -214,10 +241,8 @@ void Driver::check_plan(const Samples& samples) {
 }
 
 void Driver::take(const ScanEnd& end) {
-  if (state_ != State::kScanning || end.tag != tag_) {
-    ++health_.strayed;
-    return;
-  }
+  if (end.tag != tag_) ++health_.strayed;
+  if (state_ != State::kScanning || end.tag != tag_) return;  // the one of a scan that is complete tells nothing new
   end_seen_ = true;
   if (!end.whole) lose(Loss::kStopped, Status::kTruncated);
 }
@@ -261,7 +286,6 @@ std::size_t Driver::hand_over(Span<RangeSample> out, std::size_t count) {
 }
 
 SensorPoll Driver::poll(TimeUs now_us, Span<RangeSample> out) {
-  inhibit();
   SensorPoll answer;
   budget_ = kLineBytes;
   Frame frame;
@@ -270,6 +294,7 @@ SensorPoll Driver::poll(TimeUs now_us, Span<RangeSample> out) {
     receive(frame);
     answer.count = hand_over(out, answer.count);
   }
+  inhibit();
   if (state_ == State::kStarting && now_us - t_start_us_ > kAnswerTimeoutUs) lose(Loss::kSilent, Status::kTimeout);
   answer.complete = state_ == State::kScanning && next_ == plan_.points;
   if (state_ == State::kEnded) answer.status = loss_;

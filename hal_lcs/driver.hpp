@@ -19,6 +19,7 @@ namespace lasso::lcs {
 constexpr std::size_t kLineBytes = 8192;         // each way: 20 ms of the fastest line
 constexpr DurationUs kAnswerTimeoutUs = 50'000;  // the answer to a start
 constexpr DurationUs kClockToleranceUs = 5'000;  // of the camera's clock from scan to scan, and of a sample from its plan
+constexpr DurationUs kTieUs = 10'000'000;        // as long a tie of the clocks serves scans whose answer was damaged
 constexpr double kMirrorTolerance = 0.01;        // of a mirror from its plan, on the tangent plane
 constexpr std::uint32_t kOffPlanFrames = 16;     // as many make a scan of another pattern
 
@@ -35,10 +36,10 @@ enum class Loss : std::uint8_t {
   kSilent = 2,      // no answer to the start; kTimeout
   kRefused = 3,     // by the camera (Health::refused); kBusy, or kBadValue
   kBooted = 4,      // the camera has started anew; kBadOrder
-  kForeign = 5,     // the calibration is another camera's; kBadVersion
+  kForeign = 5,     // the calibration is another camera's, or it has never said which it is; kBadVersion
   kStopped = 6,     // the camera ended it early; kTruncated
   kOffPlan = 7,     // the mirrors do not follow the plan; kBadValue
-  kUnfinished = 8,  // aborted before its last sample; no reason of the driver's
+  kUnfinished = 8,  // ended before its last sample; the acquisition may use what is there
 };
 constexpr std::size_t kLosses = 9;
 constexpr std::size_t kResults = 8;
@@ -63,7 +64,9 @@ class Driver final : public Sensor {
   // `calibration` is valid (an invariant); the line outlives the driver.
   Driver(Line& line, const Calibration& calibration);
 
-  // The laser's permission, which an armed command gives and any safe mode takes. Inhibiting is sent at once.
+  // The laser's permission, which an armed command gives and any safe mode takes; there is none at first. Without it an inhibit is put on
+  // the line with each call (of any function) until the camera confirms it, and again when it says that it is lit; on a line that holds
+  // other bytes it follows them, at most kLineBytes.
   void permit_laser(bool permitted);
 
   // kBusy while a scan runs; validate(plan)'s reason; kMissing without permission; kOverCapacity when the line takes no more. t_start_us
@@ -88,6 +91,10 @@ class Driver final : public Sensor {
   void send_aim(Span<const AimedRay> aimed);
   Status refuse(Loss loss, Status reason);
   void lose(Loss loss, Status reason);
+  void stop_camera();
+  void listen();
+  bool jumped(std::uint32_t clock_us, TimeUs t_us) const;
+  void begin();
   void take_refusal(Result result);
   bool read_frame(Frame& frame);
   void receive(const Frame& frame);
@@ -108,7 +115,8 @@ class Driver final : public Sensor {
   Health health_;
   CameraStatus camera_;
   bool laser_permitted_ = false;
-  bool inhibit_due_ = false;
+  bool inhibit_due_ = true;  // the camera has not confirmed that it is dark
+  std::uint8_t inhibit_sequence_ = 0;
   std::uint8_t sent_ = 0;      // frames, modulo 256
   std::uint8_t expected_ = 0;  // sequence of the next frame
   bool heard_ = false;         // any frame

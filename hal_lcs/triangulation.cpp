@@ -29,6 +29,12 @@ bool has_content(const Calibration& c) {
   return c.angle_max_rad > 0 && c.depth_min_m > 0 && c.depth_min_m < c.depth_max_m && c.temperature_min_degC < c.temperature_max_degC;
 }
 
+// The spot tells the peaks apart, over the whole detector: d(spot)/d(peak) > 0.
+bool spot_grows_with_peak(const Calibration& c) {
+  const double mixed = c.angle_max_rad * (magnitude(c.residual[7]) + magnitude(c.residual[8]));
+  return 1 + c.residual[3] - mixed - 2 * magnitude(c.residual[9]) > 0;
+}
+
 bool within_wire(const Calibration& c) {
   return c.angle_max_rad + magnitude(c.angle_x_offset_rad) < 1 && c.angle_max_rad + magnitude(c.angle_y_offset_rad) < 1;
 }
@@ -37,10 +43,10 @@ bool within_wire(const Calibration& c) {
 
 Status validate(const Calibration& calibration) {
   if (!all_finite(calibration)) return Status::kNotFinite;
-  if (!has_content(calibration) || !within_wire(calibration)) return Status::kBadValue;
+  if (calibration.serial == 0 || !has_content(calibration) || !within_wire(calibration)) return Status::kBadValue;
   const bool lengths = stays_positive(calibration.focal_length_m, calibration.focal_length_per_K, calibration) &&
                        stays_positive(calibration.baseline_m, calibration.baseline_per_K, calibration);
-  return lengths && calibration.half_width_m > 0 ? Status::kOk : Status::kSingular;
+  return lengths && calibration.half_width_m > 0 && spot_grows_with_peak(calibration) ? Status::kOk : Status::kSingular;
 }
 
 Triangulation::Triangulation(const Calibration& calibration, double temperature_degC)
@@ -72,6 +78,7 @@ Triangulation::Fate Triangulation::convert(const RawSample& raw, TimeUs t_us, Ra
     sample.state = RayState::kMiss;
     return Fate::kNothing;
   }
+  if (!temperature_known_) return Fate::kOutside;
   const double disparity_m = spot_m(x, y, raw.peak) + focal_length_m_ * tan_x;
   if (!(disparity_m > 0)) return Fate::kBadPeak;
   const double depth_m = focal_length_m_ * baseline_m_ / disparity_m;

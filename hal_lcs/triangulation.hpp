@@ -22,7 +22,7 @@ namespace lasso::lcs {
 constexpr std::size_t kResidualTerms = 10;
 
 struct Calibration {
-  std::uint32_t serial = 0;  // of the camera that it is for
+  std::uint32_t serial = 0;  // of the camera that it is for; not 0
   double focal_length_m = 0.08;
   double baseline_m = 0.2;
   double half_width_m = 0.08;     // of the detector
@@ -41,8 +41,8 @@ struct Calibration {
   double temperature_max_degC = 50;
 };
 
-// kNotFinite; kSingular: focal length, baseline or half width not above 0 (at any temperature of the range); kBadValue: a volume without
-// content, or angles beyond the wire's.
+// kNotFinite; kSingular: focal length, baseline or half width not above 0 (at any temperature of the range), or a spot that does not grow
+// with the peak; kBadValue: a volume without content, or angles beyond the wire's.
 Status validate(const Calibration& calibration);
 
 // What the temperature leaves of a calibration: made once a scan.
@@ -57,7 +57,7 @@ class Triangulation {
     kNoStatement = 2,  // saturated, or not aimed in time
     kBadAngle = 3,     // a mirror outside its range
     kBadPeak = 4,      // a spot where no point in front of the camera can be
-    kOutside = 5,      // a point outside the calibrated volume: no statement
+    kOutside = 5,      // outside the calibrated volume or temperatures: no statement
   };
 
   // The sample of the ray that the raw one is, at time t_us. Its state is kHit for kPoint, kMiss for kNothing, else kInvalid.

@@ -53,7 +53,7 @@ inline constexpr HeaderField kTelemetryFields[] = {
 };
 inline constexpr HeaderField kCommandFields[] = {
   {"pus_version", 48, 4, "PUS-C, 2"},
-  {"acknowledge", 52, 4, "reports asked for: 8 acceptance, 4 start, 2 progress, 1 completion"},
+  {"acknowledge", 52, 4, "reports asked for: 1 acceptance, 2 start, 4 progress, 8 completion"},
   {"service", 56, 8, "service type"},
   {"subservice", 64, 8, "message subtype"},
   {"source", 72, 16, "who sends it"},

@@ -17,8 +17,8 @@
 namespace lasso {
 
 constexpr std::size_t kCommandHeaderBytes = 11;
-constexpr std::uint8_t kAcknowledgeAcceptance = 8;
-constexpr std::uint8_t kAcknowledgeCompletion = 1;
+constexpr std::uint8_t kAcknowledgeAcceptance = 1;
+constexpr std::uint8_t kAcknowledgeCompletion = 8;
 
 struct CommandHeader {
   std::uint16_t apid = kApid;

@@ -45,7 +45,9 @@ void check_sample(const RangeSample& sample, TimeUs& last_us) {
 
 void run(ConstBytes input, std::uint8_t options) {
   lcs::Line line;
-  lcs::Driver driver(line, lcs::Calibration{});
+  lcs::Calibration calibration;
+  calibration.serial = 1;
+  lcs::Driver driver(line, calibration);
   driver.permit_laser(true);
   const ScanPlan plan = plan_of();
   expect(driver.start(plan, 0) == Status::kOk, "a scan starts");

@@ -111,8 +111,10 @@ void write_lines(const fs::path& folder) {
     frames += begin[2];
     frames.append(begin + 5, bytes.size - lcs::kFrameOverhead);
   };
-  say(lcs::CameraStatus{});
-  say(lcs::Answer{lcs::Type::kStart, 4, lcs::Result::kDone, 0});
+  lcs::CameraStatus status;
+  status.serial = 1;
+  say(status);
+  say(lcs::Answer{lcs::Type::kStart, 5, lcs::Result::kDone, 0});
   for (std::uint16_t first = 0; first < 64; first = static_cast<std::uint16_t>(first + lcs::kSamplesPerFrame)) {
     lcs::Samples samples;
     samples.tag = 0x55;

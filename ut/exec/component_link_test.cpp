@@ -116,10 +116,10 @@ TEST(ComponentLink, ReportsAreSentAsAskedFor) {
     link.send(packet);
     const std::vector<Packet> answers = link.answers();
     ASSERT_EQ(answers.size(), (asked & 1u) + (asked >> 3));
-    if ((asked & 8) != 0) {
+    if ((asked & 1) != 0) {
       EXPECT_TRUE(answers.front().is(1, 1));
     }
-    if ((asked & 1) != 0) {
+    if ((asked & 8) != 0) {
       EXPECT_TRUE(answers.back().is(1, 7));
     }
   }

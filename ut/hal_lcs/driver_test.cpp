@@ -54,12 +54,12 @@ class Camera {
     const FrameBytes bytes = encode(sequence++, message);
     line_.from_camera.write(bytes.span());
   }
-  void status(std::uint32_t boots = 1, std::uint32_t serial = kSerial) {
+  void status(std::uint32_t boots = 1, std::uint32_t serial = kSerial, bool lit = true) {
     CameraStatus status;
     status.serial = serial;
     status.boots = boots;
     status.temperature_degC = 22;
-    status.laser_lit = true;
+    status.laser_lit = lit;
     say(status);
   }
   // Answers the start among the frames.
@@ -137,8 +137,7 @@ TEST_F(LcsDriver, BringsAScanFromPlanToPoints) {
     EXPECT_NEAR(static_cast<double>(sample.range_m * sample.direction[2]), kDepthM, 2e-5);  // steps of the wire
     const Vec3 u = pattern_direction(plan, ray);
     for (int k = 0; k < 3; ++k) EXPECT_NEAR(static_cast<double>(sample.direction[k]), u[k], 3e-7);
-    // The command's bytes take half a microsecond a bit... of a line of 4 Mbit/s: well below a millisecond.
-    EXPECT_NEAR(static_cast<double>(sample.t_us - kStartUs - pattern_time_us(plan, ray)), 200, 200);
+    EXPECT_EQ(sample.t_us - kStartUs - pattern_time_us(plan, ray), 195);  // the command's 78 bytes at 4 Mbit/s
   }
   EXPECT_EQ(driver.camera().serial, kSerial);
   EXPECT_EQ(driver.poll(kStartUs + 46'000, Span<RangeSample>(out)).status, Status::kNoData);
@@ -169,17 +168,72 @@ TEST_F(LcsDriver, TellsTheCameraThePlan) {
   EXPECT_EQ(second.rays[1].x, aimed[7].x);
 }
 
-TEST_F(LcsDriver, LaserIsLitOnlyWithPermission) {
+// Commands to the laser among the frames.
+std::vector<LaserCommand> laser_commands(const std::vector<Frame>& frames) {
+  std::vector<LaserCommand> commands;
+  for (const Frame& frame : frames) {
+    LaserCommand command{};
+    if (frame.type == static_cast<std::uint8_t>(Type::kLaser) && decode(frame, command) == Status::kOk) commands.push_back(command);
+  }
+  return commands;
+}
+const std::vector<LaserCommand> kNone, kInhibit = {LaserCommand::kInhibit}, kLight = {LaserCommand::kArm, LaserCommand::kFire};
+
+class DarkDriver : public LcsDriver {
+ protected:
+  DarkDriver() { driver.permit_laser(false); }
+  std::vector<LaserCommand> heard() {
+    frames = camera.heard();
+    return laser_commands(frames);
+  }
+  std::vector<Frame> frames;
+};
+
+TEST_F(DarkDriver, LightsTheLaserOnlyWithPermission) {
   VERIFIES("LASSO-LCS-006~1");
-  Line dark_line;
-  Driver dark(dark_line, calibration());
-  Camera watcher(dark_line);
-  EXPECT_EQ(dark.start(small_plan(), kStartUs), Status::kMissing);
-  EXPECT_TRUE(watcher.heard().empty());
-  EXPECT_EQ(dark.health().scans_lost[static_cast<std::size_t>(Loss::kInhibited)], 1U);
-  dark.permit_laser(true);
-  EXPECT_EQ(dark.start(small_plan(), kStartUs), Status::kOk);
-  EXPECT_FALSE(watcher.heard().empty());
+  EXPECT_EQ(driver.start(small_plan(), kStartUs), Status::kMissing);
+  for (const LaserCommand command : heard()) EXPECT_EQ(command, LaserCommand::kInhibit);
+  EXPECT_EQ(lost(Loss::kInhibited), 1U);
+  driver.permit_laser(true);
+  EXPECT_EQ(heard(), kNone);
+  EXPECT_EQ(driver.start(small_plan(), kStartUs), Status::kOk);
+  EXPECT_EQ(heard(), kLight);
+}
+
+TEST_F(DarkDriver, InhibitsWithEachCallUntilTheCameraConfirmsIt) {
+  VERIFIES("LASSO-LCS-006~1");
+  heard();
+  poll();
+  EXPECT_EQ(heard(), kInhibit);
+  driver.abort();
+  EXPECT_EQ(heard(), kInhibit);
+  EXPECT_EQ(driver.start(small_plan(), kStartUs), Status::kMissing);
+  EXPECT_EQ(heard(), kInhibit);
+  const std::uint8_t sequence = frames.back().sequence;
+  camera.say(Answer{Type::kLaser, static_cast<std::uint8_t>(sequence - 1), Result::kDone, 0});  // to another one
+  camera.say(Answer{Type::kLaser, sequence, Result::kUnknown, 0});
+  poll();
+  EXPECT_EQ(heard(), kInhibit);
+  const Answer confirmed{Type::kLaser, frames.back().sequence, Result::kDone, 0};
+  for (int said = 0; said < 2; ++said) {
+    camera.say(confirmed);
+    poll();
+    EXPECT_EQ(heard(), kNone);
+  }
+  camera.status(1, kSerial, false);
+  poll();
+  EXPECT_EQ(heard(), kNone);
+  camera.status();  // and yet it is lit
+  poll();
+  EXPECT_EQ(heard(), kInhibit);
+}
+
+TEST(LcsDriverAnew, InhibitsACameraThatMayBeLit) {
+  VERIFIES("LASSO-LCS-006~1");
+  Line line;
+  Camera camera(line);
+  const Driver driver(line, calibration());
+  EXPECT_EQ(laser_commands(camera.heard()), kInhibit);
 }
 
 TEST_F(LcsDriver, IsNotLitTwice) {
@@ -195,9 +249,7 @@ TEST_F(LcsDriver, InhibitingEndsTheScanAndReachesTheCamera) {
   begin(small_plan());
   poll();
   driver.permit_laser(false);
-  LaserCommand command{};
-  ASSERT_EQ(decode(camera.heard().back(), command), Status::kOk);
-  EXPECT_EQ(command, LaserCommand::kInhibit);
+  EXPECT_EQ(laser_commands(camera.heard()), kInhibit);
   EXPECT_EQ(poll().status, Status::kMissing);
   EXPECT_EQ(lost(Loss::kInhibited), 1U);
   EXPECT_EQ(driver.start(small_plan(2), kStartUs), Status::kMissing);
@@ -210,12 +262,22 @@ TEST_F(LcsDriver, InhibitingWaitsForALineThatIsFull) {
   EXPECT_EQ(driver.start(small_plan(), kStartUs), Status::kOverCapacity);
   EXPECT_EQ(lost(Loss::kLineFull), 1U);
   driver.permit_laser(false);
-  poll();
+  driver.abort();
   EXPECT_TRUE(camera.heard().empty());
+  driver.abort();
+  EXPECT_EQ(laser_commands(camera.heard()), kInhibit);
+}
+
+TEST_F(LcsDriver, ALineThatIsNearlyFullKeepsRoomForAnInhibit) {
+  VERIFIES("LASSO-LCS-006~1");
+  begin(small_plan());
   poll();
-  ASSERT_EQ(camera.heard().size(), 1U);
-  poll();
-  EXPECT_TRUE(camera.heard().empty());
+  const std::vector<std::uint8_t> block(kLineBytes - 2 * kMaxFrame + 1, 0);
+  line.to_camera.write(ConstBytes(block.data(), block.size()));
+  driver.permit_laser(false);
+  const std::vector<Frame> frames = camera.heard();
+  ASSERT_EQ(frames.size(), 1U);
+  EXPECT_EQ(laser_commands(frames), kInhibit);
 }
 
 TEST_F(LcsDriver, RefusesWhatItCannotDo) {
@@ -224,6 +286,7 @@ TEST_F(LcsDriver, RefusesWhatItCannotDo) {
   EXPECT_EQ(driver.start(bad, kStartUs), Status::kBadValue);
   ASSERT_EQ(driver.start(small_plan(), kStartUs), Status::kOk);
   EXPECT_EQ(driver.start(small_plan(2), kStartUs), Status::kBusy);
+  camera.status();
   camera.answer(camera.heard());
   poll();
   EXPECT_EQ(driver.start(small_plan(2), kStartUs), Status::kBusy);
@@ -267,7 +330,7 @@ TEST_F(LcsDriver, HandsOverNoMoreThanIsAskedFor) {
 }
 
 TEST_F(LcsDriver, RepeatedStrayAndForeignSamplesAreDropped) {
-  VERIFIES("LASSO-LCS-014~1");
+  VERIFIES("LASSO-LCS-014~2");
   const ScanPlan plan = small_plan();
   camera.say(camera.wall(plan, 0));  // before any scan
   camera.say(ScanEnd{tag_of(plan.scan_id), 40, true});
@@ -285,7 +348,7 @@ TEST_F(LcsDriver, RepeatedStrayAndForeignSamplesAreDropped) {
 }
 
 TEST_F(LcsDriver, MessagesThatSayNothingDefinedAreCounted) {
-  VERIFIES("LASSO-LCS-014~1");
+  VERIFIES("LASSO-LCS-014~2");
   begin(small_plan());
   camera.say(Type::kAbort);    // no word of a camera's
   camera.say(Type::kSamples);  // without samples
@@ -351,8 +414,33 @@ TEST_F(LcsDriver, AnotherCamerasCalibrationIsNotUsed) {
   VERIFIES("LASSO-LCS-015~1");
   ASSERT_EQ(driver.start(small_plan(), kStartUs), Status::kOk);
   camera.status(1, kSerial + 1);
+  camera.answer(camera.heard());
   EXPECT_EQ(poll().status, Status::kBadVersion);
   EXPECT_EQ(lost(Loss::kForeign), 1U);
+}
+
+TEST_F(LcsDriver, ACameraThatHasNotSaidWhichItIsGivesNoPoint) {
+  VERIFIES("LASSO-LCS-015~1");
+  ASSERT_EQ(driver.start(small_plan(), kStartUs), Status::kOk);
+  camera.answer(camera.heard());
+  EXPECT_EQ(poll().status, Status::kBadVersion);
+  camera.status(1, kSerial + 1);  // between scans
+  ASSERT_EQ(driver.start(small_plan(), kStartUs), Status::kOk);
+  camera.answer(camera.heard());
+  camera.say(camera.wall(small_plan(), 0));
+  EXPECT_EQ(poll().status, Status::kBadVersion);
+  EXPECT_TRUE(samples.empty());
+  EXPECT_EQ(lost(Loss::kForeign), 2U);
+}
+
+TEST_F(LcsDriver, TheEndOfACompleteScanIsNoNews) {
+  const ScanPlan plan = small_plan();
+  begin(plan);
+  for (std::uint16_t first = 0; first < plan.points; first += 4) camera.say(camera.wall(plan, first));
+  EXPECT_TRUE(poll().complete);
+  camera.say(ScanEnd{tag_of(plan.scan_id), plan.points, true});
+  poll();
+  EXPECT_EQ(driver.health().strayed, 0U);
 }
 
 TEST_F(LcsDriver, AScanThatTheCameraEndsIsLost) {
@@ -363,7 +451,7 @@ TEST_F(LcsDriver, AScanThatTheCameraEndsIsLost) {
 }
 
 TEST_F(LcsDriver, MirrorsThatDoNotFollowThePlanLoseTheScan) {
-  VERIFIES("LASSO-LCS-011~1 LASSO-LCS-014~1");
+  VERIFIES("LASSO-LCS-011~1 LASSO-LCS-014~2");
   const ScanPlan plan = small_plan(0x301, 100);
   for (const bool vertical : {false, true}) {
     begin(plan);
@@ -373,6 +461,7 @@ TEST_F(LcsDriver, MirrorsThatDoNotFollowThePlanLoseTheScan) {
       camera.say(samples_off);
     }
     EXPECT_EQ(poll().status, Status::kBadValue);
+    EXPECT_EQ(camera.heard().back().type, static_cast<std::uint8_t>(Type::kAbort));  // it does not dwell there
   }
   EXPECT_EQ(lost(Loss::kOffPlan), 2U);
   EXPECT_EQ(driver.health().off_plan, 2 * kOffPlanFrames);
@@ -393,7 +482,7 @@ TEST_F(LcsDriver, RaysThatWereNotAimedAreNotOffPlan) {
 }
 
 TEST_F(LcsDriver, TimesThatGoBackOrStrayFromThePlanMakeNoPoint) {
-  VERIFIES("LASSO-LCS-011~1 LASSO-LCS-014~1");
+  VERIFIES("LASSO-LCS-011~1 LASSO-LCS-014~2");
   const ScanPlan plan = small_plan();
   begin(plan);
   Samples first = camera.wall(plan, 0);
@@ -431,9 +520,35 @@ TEST_F(LcsDriver, AClockThatJumpsIsTiedAnew) {
   EXPECT_EQ(driver.health().clock_jumps, 2U);
 }
 
+TEST_F(LcsDriver, AClockThatWrapsBetweenScansHasNotJumped) {
+  VERIFIES("LASSO-LCS-011~1");
+  begin(small_plan());
+  poll();
+  driver.abort();
+  constexpr DurationUs kLaterUs = 3'000'000'000;  // 50 minutes: more than half of the clock
+  ASSERT_EQ(driver.start(small_plan(), kStartUs + kLaterUs), Status::kOk);
+  const std::vector<Frame> frames = camera.heard();
+  camera.clock_at_start_us += static_cast<std::uint32_t>(kLaterUs);
+  camera.answer(frames);
+  poll(kStartUs + kLaterUs + 1000);
+  EXPECT_EQ(driver.health().clock_jumps, 0U);
+}
+
+TEST_F(LcsDriver, ATieOfLongAgoTimesNoSamples) {
+  begin(small_plan());
+  poll();
+  driver.abort();
+  ASSERT_EQ(driver.start(small_plan(), kStartUs + kTieUs + 1'000'000), Status::kOk);
+  camera.say(camera.wall(small_plan(), 0));
+  poll(kStartUs + kTieUs + 1'001'000);
+  EXPECT_TRUE(samples.empty());
+  EXPECT_EQ(driver.health().strayed, 4U);
+}
+
 TEST_F(LcsDriver, ADamagedAnswerCostsNoScanOnceTheClockIsKnown) {
   const ScanPlan plan = small_plan();
   ASSERT_EQ(driver.start(plan, kStartUs), Status::kOk);
+  camera.status();
   camera.say(camera.wall(plan, 0));  // the clock is not known yet
   poll(kStartUs + 1000);
   EXPECT_TRUE(samples.empty());

@@ -128,7 +128,7 @@ TEST(LcsMessages, SamplesKeepTheirValuesToHalfAStep) {
 }
 
 TEST(LcsMessages, WhatIsOffTheScaleStaysAtItsEnd) {
-  VERIFIES("LASSO-LCS-014~1");
+  VERIFIES("LASSO-LCS-014~2");
   Samples sent = {};
   sent.count = 2;
   sent.samples[0].angle_x_rad = 3;
@@ -155,7 +155,7 @@ TEST(LcsMessages, APhaseBelowOneTurnStaysBelow) {
 }
 
 TEST(LcsMessages, OtherLengthsAreRefused) {
-  VERIFIES("LASSO-LCS-014~1");
+  VERIFIES("LASSO-LCS-014~2");
   expect_other_lengths_refused<LaserCommand>(encode(0, LaserCommand::kArm));
   expect_other_lengths_refused<StartCommand>(encode(0, StartCommand{}));
   expect_other_lengths_refused<Answer>(encode(0, Answer{}));
@@ -172,7 +172,7 @@ TEST(LcsMessages, OtherLengthsAreRefused) {
 }
 
 TEST(LcsMessages, CodesThatAreNotDefinedAreRefused) {
-  VERIFIES("LASSO-LCS-014~1");
+  VERIFIES("LASSO-LCS-014~2");
   const auto refuses = [](Frame frame, std::size_t place, std::uint8_t code, auto message) {
     frame.payload[place] = code;
     return decode(frame, message) == Status::kBadValue;

@@ -70,7 +70,7 @@ TEST(Triangulation, FindsThePointThatWasMeasured) {
 }
 
 TEST(Triangulation, WhatIsNoPointSaysWhy) {
-  VERIFIES("LASSO-LCS-014~1");
+  VERIFIES("LASSO-LCS-014~2");
   const Calibration c = bent_camera();
   const Triangulation triangulation(c, 20);
   const RawSample good = measured(c, 20, 0.1, -0.2, 3);
@@ -102,6 +102,8 @@ TEST(Triangulation, KnowsWhereItWasCalibrated) {
   EXPECT_TRUE(Triangulation(bent_camera(), -20).temperature_known());
   EXPECT_FALSE(Triangulation(bent_camera(), -20.5).temperature_known());
   EXPECT_FALSE(Triangulation(bent_camera(), 50.5).temperature_known());
+  RangeSample sample;
+  EXPECT_EQ(Triangulation(bent_camera(), 50.5).convert(measured(bent_camera(), 20, 0.1, -0.2, 3), 0, sample), Fate::kOutside);
 }
 
 TEST(Triangulation, RefusesCalibrationsThatBendSpace) {
@@ -122,6 +124,9 @@ TEST(Triangulation, RefusesCalibrationsThatBendSpace) {
   EXPECT_EQ(verdict([](Calibration& c) { c.half_width_m = 0; }), Status::kSingular);
   EXPECT_EQ(verdict([](Calibration& c) { c.focal_length_per_K = 0.03; }), Status::kSingular);   // 0 at -13 degrees
   EXPECT_EQ(verdict([](Calibration& c) { c.focal_length_per_K = -0.04; }), Status::kSingular);  // 0 at 45 degrees
+  EXPECT_EQ(verdict([](Calibration& c) { c.residual[3] = -1; }), Status::kSingular);            // each peak is the same spot
+  EXPECT_EQ(verdict([](Calibration& c) { c.residual[9] = 0.6; }), Status::kSingular);
+  EXPECT_EQ(verdict([](Calibration& c) { c.serial = 0; }), Status::kBadValue);
   EXPECT_EQ(verdict([](Calibration& c) { c.angle_max_rad = 0; }), Status::kBadValue);
   EXPECT_EQ(verdict([](Calibration& c) { c.depth_min_m = 0; }), Status::kBadValue);
   EXPECT_EQ(verdict([](Calibration& c) { c.depth_max_m = c.depth_min_m; }), Status::kBadValue);

@@ -34,7 +34,7 @@ struct Target {
 struct LcsSensor {
   LcsDevice device;
   LcsOverLine line;
-  explicit LcsSensor(const Target& target, const LcsCamera& camera = {})
+  LcsSensor(const Target& target, const LcsCamera& camera)
       : device(*target.caster, target.motion, ScannerModel{}, 5, camera), line(device, camera.truth, camera.bits_per_s) {}
 };
 
