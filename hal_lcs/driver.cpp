@@ -52,6 +52,7 @@ void Driver::inhibit() {
   if (laser_permitted_ || !inhibit_due_ || !has_room(kMaxFrame)) return;
   inhibit_sequence_ = sent_;
   send(encode(sent_, LaserCommand::kInhibit));
+  camera_.laser_lit = false;  // so that the next start lights it
 }
 
 // All that comes before the samples; there is room for it. The camera gets the command when the line has carried what it holds.

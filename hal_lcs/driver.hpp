@@ -78,7 +78,7 @@ class Driver final : public Sensor {
 
   const Health& health() const { return health_; }
   const FrameDecoder::Counters& line_counters() const { return decoder_.counters(); }
-  const CameraStatus& camera() const { return camera_; }  // as it last said; serial 0: never
+  const CameraStatus& camera() const { return camera_; }  // as it last said, dark after an inhibit; serial 0: never
 
  private:
   enum class State : std::uint8_t { kIdle, kStarting, kScanning, kEnded };

@@ -1,0 +1,136 @@
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "hal_lcs/driver.hpp"
+#include "ut/hal_lcs/driver_fixture.hpp"
+#include "ut/support/verifies.hpp"
+
+namespace lasso::lcs {
+namespace {
+
+// Commands to the laser among the frames.
+std::vector<LaserCommand> laser_commands(const std::vector<Frame>& frames) {
+  std::vector<LaserCommand> commands;
+  for (const Frame& frame : frames) {
+    LaserCommand command{};
+    if (frame.type == static_cast<std::uint8_t>(Type::kLaser) && decode(frame, command) == Status::kOk) commands.push_back(command);
+  }
+  return commands;
+}
+const std::vector<LaserCommand> kNone, kInhibit = {LaserCommand::kInhibit}, kLight = {LaserCommand::kArm, LaserCommand::kFire};
+
+class DarkDriver : public LcsDriver {
+ protected:
+  DarkDriver() { driver.permit_laser(false); }
+  std::vector<LaserCommand> heard() {
+    frames = camera.heard();
+    return laser_commands(frames);
+  }
+  std::vector<Frame> frames;
+};
+
+TEST_F(DarkDriver, LightsTheLaserOnlyWithPermission) {
+  VERIFIES("LASSO-LCS-006~1");
+  EXPECT_EQ(driver.start(small_plan(), kStartUs), Status::kMissing);
+  for (const LaserCommand command : heard()) EXPECT_EQ(command, LaserCommand::kInhibit);
+  EXPECT_EQ(lost(Loss::kInhibited), 1U);
+  driver.permit_laser(true);
+  EXPECT_EQ(heard(), kNone);
+  EXPECT_EQ(driver.start(small_plan(), kStartUs), Status::kOk);
+  EXPECT_EQ(heard(), kLight);
+}
+
+TEST_F(DarkDriver, InhibitsWithEachCallUntilTheCameraConfirmsIt) {
+  VERIFIES("LASSO-LCS-006~1");
+  heard();
+  poll();
+  EXPECT_EQ(heard(), kInhibit);
+  driver.abort();
+  EXPECT_EQ(heard(), kInhibit);
+  EXPECT_EQ(driver.start(small_plan(), kStartUs), Status::kMissing);
+  EXPECT_EQ(heard(), kInhibit);
+  const std::uint8_t sequence = frames.back().sequence;
+  camera.say(Answer{Type::kLaser, static_cast<std::uint8_t>(sequence - 1), Result::kDone, 0});  // to another one
+  camera.say(Answer{Type::kLaser, sequence, Result::kUnknown, 0});
+  poll();
+  EXPECT_EQ(heard(), kInhibit);
+  const Answer confirmed{Type::kLaser, frames.back().sequence, Result::kDone, 0};
+  for (int said = 0; said < 2; ++said) {
+    camera.say(confirmed);
+    poll();
+    EXPECT_EQ(heard(), kNone);
+  }
+  camera.status(1, kSerial, false);
+  poll();
+  EXPECT_EQ(heard(), kNone);
+  camera.status();  // and yet it is lit
+  poll();
+  EXPECT_EQ(heard(), kInhibit);
+}
+
+TEST_F(DarkDriver, IsLitAnewByTheFirstStartThatIsPermitted) {
+  driver.permit_laser(true);
+  begin(small_plan());
+  poll();
+  driver.permit_laser(false);
+  driver.permit_laser(true);
+  heard();
+  ASSERT_EQ(driver.start(small_plan(2), kStartUs + 200'000), Status::kOk);
+  EXPECT_EQ(heard(), kLight);
+}
+
+TEST(LcsDriverAnew, InhibitsACameraThatMayBeLit) {
+  VERIFIES("LASSO-LCS-006~1");
+  Line line;
+  Camera camera(line);
+  const Driver driver(line, calibration());
+  EXPECT_EQ(laser_commands(camera.heard()), kInhibit);
+}
+
+TEST_F(LcsDriver, IsNotLitTwice) {
+  begin(small_plan());
+  poll();
+  driver.abort();
+  ASSERT_EQ(driver.start(small_plan(2), kStartUs), Status::kOk);
+  for (const Frame& frame : camera.heard()) EXPECT_NE(frame.type, static_cast<std::uint8_t>(Type::kLaser));
+}
+
+TEST_F(LcsDriver, InhibitingEndsTheScanAndReachesTheCamera) {
+  VERIFIES("LASSO-LCS-006~1");
+  begin(small_plan());
+  poll();
+  driver.permit_laser(false);
+  EXPECT_EQ(laser_commands(camera.heard()), kInhibit);
+  EXPECT_EQ(poll().status, Status::kMissing);
+  EXPECT_EQ(lost(Loss::kInhibited), 1U);
+  EXPECT_EQ(driver.start(small_plan(2), kStartUs), Status::kMissing);
+}
+
+TEST_F(LcsDriver, InhibitingWaitsForALineThatIsFull) {
+  VERIFIES("LASSO-LCS-004~1 LASSO-LCS-006~1");
+  const std::vector<std::uint8_t> block(kLineBytes, 0);
+  line.to_camera.write(ConstBytes(block.data(), block.size()));
+  EXPECT_EQ(driver.start(small_plan(), kStartUs), Status::kOverCapacity);
+  EXPECT_EQ(lost(Loss::kLineFull), 1U);
+  driver.permit_laser(false);
+  driver.abort();
+  EXPECT_TRUE(camera.heard().empty());
+  driver.abort();
+  EXPECT_EQ(laser_commands(camera.heard()), kInhibit);
+}
+
+TEST_F(LcsDriver, ALineThatIsNearlyFullKeepsRoomForAnInhibit) {
+  VERIFIES("LASSO-LCS-006~1");
+  begin(small_plan());
+  poll();
+  const std::vector<std::uint8_t> block(kLineBytes - 2 * kMaxFrame + 1, 0);
+  line.to_camera.write(ConstBytes(block.data(), block.size()));
+  driver.permit_laser(false);
+  const std::vector<Frame> frames = camera.heard();
+  ASSERT_EQ(frames.size(), 1U);
+  EXPECT_EQ(laser_commands(frames), kInhibit);
+}
+
+}  // namespace
+}  // namespace lasso::lcs
