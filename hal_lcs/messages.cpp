@@ -63,7 +63,9 @@ double get_fraction(ByteReader& in) { return signed24(get24(in)) / kSteps; }
 void put_phase(ByteWriter& out, double turns) { out.u32(static_cast<std::uint32_t>(clamp(turns, 0, 1 - 1 / kPhaseSteps) * kPhaseSteps)); }
 
 void put(ByteWriter& out, const RawSample& sample, std::uint32_t base_us) {
-  out.u16(static_cast<std::uint16_t>(sample.clock_us - base_us));
+  const std::uint32_t offset_us = sample.clock_us - base_us;
+  invariant(offset_us <= kMaxSampleOffsetUs, "lcs sample time");
+  out.u16(static_cast<std::uint16_t>(offset_us));
   put_fraction(out, sample.angle_x_rad);
   put_fraction(out, sample.angle_y_rad);
   put_fraction(out, sample.peak);

@@ -92,10 +92,11 @@ struct RawSample {
 };
 
 constexpr std::size_t kSamplesPerFrame = 4;
+constexpr DurationUs kMaxSampleOffsetUs = 65'535;  // of a sample from the first one of its frame
 struct Samples {
   std::uint8_t tag = 0;
   std::uint16_t first = 0;  // index of the first one in its scan
-  std::size_t count = 0;    // 1..kSamplesPerFrame, within 65 ms
+  std::size_t count = 0;    // 1..kSamplesPerFrame, within kMaxSampleOffsetUs
   RawSample samples[kSamplesPerFrame];
 };
 

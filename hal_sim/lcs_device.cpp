@@ -242,25 +242,34 @@ lcs::RawSample LcsDevice::measure(std::uint16_t ray) {
   return raw;
 }
 
-// The next up to four samples, when the last of them has been taken.
-void LcsDevice::send_samples() {
+// The ray after the last one of the next frame: four of them, or as many as its 16 bits of time reach.
+std::uint16_t LcsDevice::frame_end() const {
+  const std::uint32_t first_us = clock_us(sample_time_us(scan_.next));
+  const std::size_t most = std::min<std::size_t>(scan_.next + lcs::kSamplesPerFrame, scan_.command.plan.points);
+  std::uint16_t end = scan_.next;
+  while (end < most && clock_us(sample_time_us(end)) - first_us <= lcs::kMaxSampleOffsetUs) ++end;
+  return end;
+}
+
+void LcsDevice::send_samples(std::uint16_t end) {
   lcs::Samples samples;
   samples.tag = lcs::tag_of(scan_.command.plan.scan_id);
   samples.first = scan_.next;
-  while (samples.count < lcs::kSamplesPerFrame && scan_.next < scan_.command.plan.points)
-    samples.samples[samples.count++] = measure(scan_.next++);
-  send(lcs::encode(sent_, samples), sample_time_us(static_cast<std::uint16_t>(scan_.next - 1)));
+  while (scan_.next < end) samples.samples[samples.count++] = measure(scan_.next++);
+  send(lcs::encode(sent_, samples), sample_time_us(static_cast<std::uint16_t>(end - 1)));
 }
 
+// Each frame when its last sample has been taken.
 void LcsDevice::scan_until(TimeUs now_us) {
   while (scan_.running) {
     const std::uint16_t points = scan_.command.plan.points;
-    const auto last = static_cast<std::uint16_t>(std::min<std::size_t>(scan_.next + lcs::kSamplesPerFrame, points) - 1);
-    if (sample_time_us(last) > now_us) return;
-    send_samples();
-    if (scan_.next < points) continue;
+    const std::uint16_t end = frame_end();
+    const TimeUs t_last_us = sample_time_us(static_cast<std::uint16_t>(end - 1));
+    if (t_last_us > now_us) return;
+    send_samples(end);
+    if (end < points) continue;
     scan_.running = false;
-    send(lcs::encode(sent_, lcs::ScanEnd{lcs::tag_of(scan_.command.plan.scan_id), points, true}), sample_time_us(last));
+    send(lcs::encode(sent_, lcs::ScanEnd{lcs::tag_of(scan_.command.plan.scan_id), points, true}), t_last_us);
   }
 }
 

@@ -83,7 +83,8 @@ class LcsDevice {
   Vec3 direction_of(std::uint16_t ray) const;
   bool aimed_in_time(std::uint16_t ray) const;
   lcs::RawSample measure(std::uint16_t ray);
-  void send_samples();
+  std::uint16_t frame_end() const;
+  void send_samples(std::uint16_t end);
   void send(const lcs::FrameBytes& frame, TimeUs t_us);
   bool within(TimeUs t_us, TimeUs from_us, TimeUs until_us) const { return t_us >= from_us && t_us < until_us; }
 

@@ -197,6 +197,9 @@ TEST(LcsMessagesDeath, CountsThatNoFrameHolds) {
   EXPECT_DEATH(encode(0, samples), "lcs samples");
   samples.count = kSamplesPerFrame + 1;
   EXPECT_DEATH(encode(0, samples), "lcs samples");
+  samples.count = 2;
+  samples.samples[1].clock_us = 65'536;
+  EXPECT_DEATH(encode(0, samples), "lcs sample time");
   AimCommand aim;
   aim.count = kAimedPerFrame + 1;
   EXPECT_DEATH(encode(0, aim), "lcs aimed rays");

@@ -127,6 +127,15 @@ TEST_P(SensorContract, ScansThePlanRayByRay) {
   expect_the_box(plan, collect(plan, kStartUs), kStartUs);
 }
 
+TEST_P(SensorContract, ScansSlowly) {
+  ScanPlan plan = plan_of(16);
+  plan.duration_us = 1'000'000;  // 67 ms from ray to ray
+  plan.cycles_a = 5;
+  plan.cycles_b = 3;
+  ASSERT_EQ(sensor.start(plan, kStartUs), Status::kOk);
+  expect_the_box(plan, collect(plan, kStartUs), kStartUs);
+}
+
 TEST_P(SensorContract, KeepsWhatIsNotTaken) {
   const ScanPlan plan = plan_of(200);
   ASSERT_EQ(sensor.start(plan, kStartUs), Status::kOk);
