@@ -47,7 +47,7 @@ compile = @echo "build $(1)$(if $(2), ($(2)))"; cmake --build $(1) --parallel $(
 ctest = @rm -rf $(2); mkdir -p $(2); GTEST_OUTPUT=xml:$(abspath $(2))/ \
   ctest --test-dir $(1) --parallel $(JOBS) --output-on-failure --no-tests=error --output-junit $(abspath $(2))/ctest.xml $(3)
 
-.PHONY: help run test accuracy bench basin search montecarlo flips fuzz statistics campaigns-sample golden ppc-count search-count prove ppc-test sanitize arrows coverage mcdc trace evidence gates-selftest figures icd format lint install clean build
+.PHONY: help run test accuracy bench basin search montecarlo endurance flips fuzz statistics campaigns-sample golden ppc-count search-count prove ppc-test sanitize arrows coverage mcdc trace evidence gates-selftest figures icd format lint install clean build
 .DEFAULT_GOAL := help
 
 help: ## this list
@@ -117,11 +117,18 @@ statistics: ## instructions of estimates on the emulated 603e: median, p99, wors
 	$(replays)
 	@ft/ppc603e/count $(BUILD) $(PPC) $(or $(FRAMES),1800) $(or $(SEED),1)
 
-campaigns-sample: ## 1 % of fuzz, flips, montecarlo, basin and statistics, seeded; out/campaigns-sample
+endurance: ## a day of simulated time at 5 Hz: nothing drifts, grows, slips or is wrong; out/endurance; HOURS=, SEED=
+	$(begin)
+	$(call packages,build)
+	$(call configure,$(BUILD),)
+	$(call compile,$(BUILD),endurance)
+	@ft/campaign/run endurance $(BUILD) $(or $(HOURS),24) $(or $(SEED),1)
+
+campaigns-sample: ## 1 % of fuzz, flips, montecarlo, basin and statistics, an hour of endurance, seeded; out/campaigns-sample
 	$(begin)
 	$(fuzzers)
 	$(replays)
-	$(call compile,$(BUILD),basin flips montecarlo)
+	$(call compile,$(BUILD),basin endurance flips montecarlo)
 	@ft/campaign/sample $(BUILD) $(PPC) $(FUZZ)
 
 search: ## find the target without any prior attitude from random views; CASE= (docs/search.md), STARTS=, SEED=, SCANS=, SCALE=

@@ -22,6 +22,7 @@ constexpr std::size_t kMaxContourEdges = 4096;      // model edges on the contou
 constexpr std::size_t kMaxAimPlaces = 128;          // places on it among which those worth a look are chosen
 constexpr std::size_t kTelemetryQueueBytes = 8192;  // packets between two downlinks
 constexpr std::uint32_t kMaxCommandsPerFrame = 8;   // commands and refusals that are answered in a frame
+constexpr std::size_t kMaxEventsPerFrame = 32;      // events that wait for the frame's end
 constexpr std::size_t kTaskStackBytes = 32u << 10;  // stack that a board gives each task; make prove: they need half of it at most
 
 }  // namespace lasso

@@ -56,10 +56,10 @@ void Driver::inhibit() {
 }
 
 // All that comes before the samples; there is room for it. The camera gets the command when the line has carried what it holds.
-void Driver::send_start(const ScanPlan& plan) {
+void Driver::send_start(const ScanPlan& plan, TimeUs t_start_us) {
   if (!heard_) send(encode(sent_, Type::kSelfTest));
   send(encode(sent_, Type::kAskStatus));
-  if (!camera_.laser_lit) {
+  if (!camera_.laser_lit || may_be_dark(t_start_us)) {
     send(encode(sent_, LaserCommand::kArm));
     send(encode(sent_, LaserCommand::kFire));
   }
@@ -67,7 +67,15 @@ void Driver::send_start(const ScanPlan& plan) {
   send(encode(sent_, start_command(plan)));
   const auto bytes = static_cast<double>(kLineBytes - line_.to_camera.room());
   command_us_ = static_cast<DurationUs>(bytes * kBitsPerByte * 1e6 / line_.bits_per_s);
+  spoken_us_ = t_start_us;
   send_aim(plan.aimed);
+}
+
+// A camera that hears nothing puts its laser out, in a long scan, too.
+void Driver::keep_lit(TimeUs now_us) {
+  if (!under_way() || !may_be_dark(now_us) || !has_room(2 * kMaxFrame)) return;
+  send(encode(sent_, Type::kAskStatus));
+  spoken_us_ = now_us;
 }
 
 void Driver::send_aim(Span<const AimedRay> aimed) {
@@ -110,7 +118,7 @@ Status Driver::start(const ScanPlan& plan, TimeUs t_start_us) {
   if (!laser_permitted_) return refuse(Loss::kInhibited, Status::kMissing);
   tag_ = tag_of(plan.scan_id);
   if (!has_room(kCommandBytes + aim_bytes(plan) + kMaxFrame)) return refuse(Loss::kLineFull, Status::kOverCapacity);
-  send_start(plan);
+  send_start(plan, t_start_us);
   state_ = State::kStarting;
   loss_ = Status::kOk;
   plan_ = plan;
@@ -123,9 +131,29 @@ Status Driver::start(const ScanPlan& plan, TimeUs t_start_us) {
 }
 
 void Driver::abort() {
-  if (under_way()) lose(Loss::kUnfinished, Status::kOk);
+  if (under_way()) stop_camera();
   state_ = State::kIdle;
   inhibit();
+}
+
+SensorCounters Driver::counters() const {
+  using Fate = Triangulation::Fate;
+  const FrameDecoder::Counters& line = decoder_.counters();
+  SensorCounters counters;
+  counters.frames = line.frames;
+  counters.damaged_frames = line.bad_crc + line.bad_length;
+  counters.missing_frames = health_.sequence_gaps;
+  counters.repeated_frames = health_.repeated;
+  counters.unknown_frames = health_.bad_messages;
+  counters.strayed = health_.strayed;
+  counters.samples_lost = health_.samples_lost;
+  for (const Fate fate : {Fate::kNoStatement, Fate::kBadAngle, Fate::kBadPeak, Fate::kOutside})
+    counters.samples_refused += health_.fates[static_cast<std::size_t>(fate)];
+  counters.bad_times = health_.bad_times;
+  counters.off_plan = health_.off_plan;
+  counters.clock_jumps = health_.clock_jumps;
+  counters.restarts = health_.boots;
+  return counters;
 }
 
 // --- what the camera says
@@ -151,7 +179,9 @@ void Driver::listen() {
 }
 
 void Driver::receive(const Frame& frame) {
-  if (heard_ && frame.sequence != expected_) ++health_.sequence_gaps;
+  const bool again = static_cast<std::uint8_t>(frame.sequence + 1) == expected_;
+  if (heard_ && again) ++health_.repeated;
+  if (heard_ && !again && frame.sequence != expected_) ++health_.sequence_gaps;
   heard_ = true;
   expected_ = static_cast<std::uint8_t>(frame.sequence + 1);
   const auto decoded = [&](auto message) {
@@ -200,7 +230,7 @@ bool Driver::jumped(std::uint32_t clock_us, TimeUs t_us) const {
 
 // The camera scans. Of another one than the calibration's nothing is believed.
 void Driver::begin() {
-  if (camera_.serial != calibration_.serial) return lose(Loss::kForeign, Status::kBadVersion);
+  if (camera_.serial != calibration_.serial || camera_.version != kProtocolVersion) return lose(Loss::kForeign, Status::kBadVersion);
   triangulation_ = Triangulation(calibration_, static_cast<double>(camera_.temperature_degC));
   state_ = State::kScanning;
 }
@@ -238,7 +268,7 @@ void Driver::check_plan(const Samples& samples) {
   const double off_y = tangent(raw.angle_y_rad + calibration_.angle_y_offset_rad) - planned.y() / planned.z();
   if (magnitude(off_x) < kMirrorTolerance && magnitude(off_y) < kMirrorTolerance) return;
   ++health_.off_plan;
-  if (++off_plan_ == kOffPlanFrames) lose(Loss::kOffPlan, Status::kBadValue);
+  if (++off_plan_ == kOffPlanFrames) lose(Loss::kOffPlan, Status::kOffPlan);
 }
 
 void Driver::take(const ScanEnd& end) {
@@ -296,6 +326,7 @@ SensorPoll Driver::poll(TimeUs now_us, Span<RangeSample> out) {
     answer.count = hand_over(out, answer.count);
   }
   inhibit();
+  keep_lit(now_us);
   if (state_ == State::kStarting && now_us - t_start_us_ > kAnswerTimeoutUs) lose(Loss::kSilent, Status::kTimeout);
   answer.complete = state_ == State::kScanning && next_ == plan_.points;
   if (state_ == State::kEnded) answer.status = loss_;

@@ -31,22 +31,22 @@ struct Line {
 
 // Why a scan was lost.
 enum class Loss : std::uint8_t {
-  kInhibited = 0,   // the laser is: nobody has permitted it, or the camera says so; kMissing
-  kLineFull = 1,    // commands do not leave; kOverCapacity
-  kSilent = 2,      // no answer to the start; kTimeout
-  kRefused = 3,     // by the camera (Health::refused); kBusy, or kBadValue
-  kBooted = 4,      // the camera has started anew; kBadOrder
-  kForeign = 5,     // the calibration is another camera's, or it has never said which it is; kBadVersion
-  kStopped = 6,     // the camera ended it early; kTruncated
-  kOffPlan = 7,     // the mirrors do not follow the plan; kBadValue
-  kUnfinished = 8,  // ended before its last sample; the acquisition may use what is there
+  kInhibited = 0,  // the laser is: nobody has permitted it, or the camera says so; kMissing
+  kLineFull = 1,   // commands do not leave; kOverCapacity
+  kSilent = 2,     // no answer to the start; kTimeout
+  kRefused = 3,    // by the camera (Health::refused); kBusy, or kBadValue
+  kBooted = 4,     // the camera has started anew; kBadOrder
+  kForeign = 5,    // another camera than the calibration's, another protocol, or it has never said which; kBadVersion
+  kStopped = 6,    // the camera ended it early; kTruncated
+  kOffPlan = 7,    // the mirrors do not follow the plan; kOffPlan
 };
-constexpr std::size_t kLosses = 9;
+constexpr std::size_t kLosses = 8;
 constexpr std::size_t kResults = 8;
 constexpr std::size_t kFates = 6;
 
 struct Health {
-  std::uint32_t sequence_gaps = 0;  // frames that never came, or came damaged
+  std::uint32_t sequence_gaps = 0;  // before a frame: others never came, or came damaged
+  std::uint32_t repeated = 0;       // frames with the sequence of the one before
   std::uint32_t bad_messages = 0;   // frames that are right, and say nothing that is defined
   std::uint32_t strayed = 0;        // samples of another scan, answers to no question, repeated samples
   std::uint32_t samples_lost = 0;   // that no frame brought
@@ -67,14 +67,15 @@ class Driver final : public Sensor {
   // The laser's permission, which an armed command gives and any safe mode takes; there is none at first. Without it an inhibit is put on
   // the line with each call (of any function) until the camera confirms it, and again when it says that it is lit; on a line that holds
   // other bytes it follows them, at most kLineBytes.
-  void permit_laser(bool permitted);
+  void permit_laser(bool permitted) override;
 
   // kBusy while a scan runs; validate(plan)'s reason; kMissing without permission; kOverCapacity when the line takes no more. t_start_us
-  // is also now: the camera begins as soon as it has the command.
+  // is now: the camera begins as soon as it has the command.
   Status start(const ScanPlan& plan, TimeUs t_start_us) override;
   // Bound: kLineBytes bytes, out.size() samples.
   SensorPoll poll(TimeUs now_us, Span<RangeSample> out) override;
   void abort() override;
+  SensorCounters counters() const override;
 
   const Health& health() const { return health_; }
   const FrameDecoder::Counters& line_counters() const { return decoder_.counters(); }
@@ -83,11 +84,13 @@ class Driver final : public Sensor {
  private:
   enum class State : std::uint8_t { kIdle, kStarting, kScanning, kEnded };
 
+  bool may_be_dark(TimeUs now_us) const { return now_us - spoken_us_ > kUnheardUs / 2; }
   bool under_way() const { return state_ == State::kStarting || state_ == State::kScanning; }
   bool has_room(std::size_t bytes) const;
   void send(const FrameBytes& frame);
   void inhibit();
-  void send_start(const ScanPlan& plan);
+  void send_start(const ScanPlan& plan, TimeUs t_start_us);
+  void keep_lit(TimeUs now_us);
   void send_aim(Span<const AimedRay> aimed);
   Status refuse(Loss loss, Status reason);
   void lose(Loss loss, Status reason);
@@ -118,6 +121,7 @@ class Driver final : public Sensor {
   bool inhibit_due_ = true;  // the camera has not confirmed that it is dark
   std::uint8_t inhibit_sequence_ = 0;
   std::uint8_t sent_ = 0;      // frames, modulo 256
+  TimeUs spoken_us_ = 0;       // when the camera was last told something that keeps its laser lit
   std::uint8_t expected_ = 0;  // sequence of the next frame
   bool heard_ = false;         // any frame
   bool clock_known_ = false;

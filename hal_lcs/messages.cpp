@@ -16,7 +16,7 @@ constexpr std::size_t kAimHead = 2;
 constexpr std::size_t kAimedBytes = 8;
 constexpr std::size_t kStartBytes = 41;
 constexpr std::size_t kAnswerBytes = 7;
-constexpr std::size_t kStatusBytes = 16;
+constexpr std::size_t kStatusBytes = 17;
 constexpr std::size_t kEndBytes = 4;
 constexpr std::uint8_t kLaserLit = 1, kScanning = 2;
 
@@ -149,6 +149,7 @@ FrameBytes encode(std::uint8_t sequence, const CameraStatus& message) {
   out.i16(static_cast<std::int16_t>(steps(static_cast<double>(message.temperature_degC), 100, 1 << 15)));
   out.u8(static_cast<std::uint8_t>((message.laser_lit ? kLaserLit : 0U) | (message.scanning ? kScanning : 0U)));
   out.u8(message.faults);
+  out.u8(message.version);
   return writer.frame(sequence, Type::kStatus);
 }
 
@@ -236,6 +237,7 @@ Status decode(const Frame& frame, CameraStatus& message) {
   message.laser_lit = (state & kLaserLit) != 0;
   message.scanning = (state & kScanning) != 0;
   message.faults = in.u8();
+  message.version = in.u8();
   return Status::kOk;
 }
 

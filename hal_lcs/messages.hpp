@@ -28,6 +28,7 @@ enum class Type : std::uint8_t {
 // The laser is lit by two commands, arm and fire, within kArmedUs; one is enough to put it out.
 enum class LaserCommand : std::uint8_t { kInhibit = 0, kArm = 0x5A, kFire = 0xA5 };
 constexpr DurationUs kArmedUs = 1'000'000;
+constexpr DurationUs kUnheardUs = 2'000'000;  // without a right frame for so long, the camera puts its laser out by itself
 
 enum class Result : std::uint8_t {
   kDone = 0,
@@ -62,6 +63,8 @@ struct AimCommand {
   AimedRay rays[kAimedPerFrame];
 };
 
+constexpr std::uint8_t kProtocolVersion = 1;  // docs/icd/lcs.md; no other is spoken
+
 struct CameraStatus {
   std::uint32_t serial = 0;  // of the camera: its calibration is for no other
   std::uint32_t boots = 0;
@@ -70,6 +73,7 @@ struct CameraStatus {
   bool laser_lit = false;
   bool scanning = false;
   std::uint8_t faults = 0;  // bit 0 mirror x, 1 mirror y, 2 detector, 3 laser, 4 memory
+  std::uint8_t version = kProtocolVersion;
 };
 
 enum class SampleKind : std::uint8_t {

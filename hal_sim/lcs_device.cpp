@@ -1,5 +1,6 @@
 #include "hal_sim/lcs_device.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -47,59 +48,99 @@ LcsDevice::LcsDevice(const RayCaster& target, const Trajectory& trajectory, cons
                      const LcsCamera& camera)
     : rays_(target, trajectory, model, seed), camera_(camera), chance_(seed ^ kChanceOfTheLine) {
   check(camera.truth);
+  for (const LcsFault& one : camera.faults) {
+    if (one.kind == LcsFaultKind::kReset) reset_at_us_.push_back(one.from_us);
+  }
+  std::sort(reset_at_us_.begin(), reset_at_us_.end());
+}
+
+// The strongest of its kind at that time, 0: none. What has no value counts as 1.
+double LcsDevice::fault(LcsFaultKind kind, TimeUs t_us) const {
+  double strongest = 0;
+  for (const LcsFault& one : camera_.faults) {
+    const bool valued = kind != LcsFaultKind::kSilent && kind != LcsFaultKind::kStuckMirror && kind != LcsFaultKind::kSaturated;
+    if (one.kind == kind && t_us >= one.from_us && t_us < one.until_us) strongest = std::max(strongest, valued ? one.value : 1.0);
+  }
+  return strongest;
 }
 
 std::uint32_t LcsDevice::clock_us(TimeUs t_us) const {
-  const LcsFaults& faults = camera_.faults;
-  const bool jumped = faults.clock_jump_at_us > 0 && t_us >= faults.clock_jump_at_us;
-  const auto shown = static_cast<std::int64_t>(std::floor(static_cast<double>(t_us) * (1 + faults.clock_rate_error))) +
-                     (jumped ? faults.clock_jump_us : 0);
-  return camera_.clock_us + static_cast<std::uint32_t>(static_cast<std::uint64_t>(shown));
+  double off_us = 0;
+  for (const LcsFault& one : camera_.faults) {
+    if (t_us < one.from_us) continue;
+    if (one.kind == LcsFaultKind::kClockJump) off_us += 1e6 * one.value;
+    if (one.kind == LcsFaultKind::kClockRate) off_us += one.value * static_cast<double>(std::min(t_us, one.until_us) - one.from_us);
+  }
+  const std::int64_t shown_us = t_us + static_cast<std::int64_t>(std::floor(off_us));
+  return camera_.clock_us + static_cast<std::uint32_t>(static_cast<std::uint64_t>(shown_us));
 }
 
 // --- the line
 
-std::uint8_t LcsDevice::noisy(std::uint8_t byte) {
-  if (camera_.faults.bit_error_rate <= 0) return byte;
+std::uint8_t LcsDevice::noisy(std::uint8_t byte, TimeUs t_us) {
+  const double rate = fault(LcsFaultKind::kBitErrors, t_us);
+  if (rate <= 0) return byte;
   unsigned noisy = byte;
-  for (unsigned bit = 0; bit < 8; ++bit) noisy ^= chance_.uniform() < camera_.faults.bit_error_rate ? 1U << bit : 0U;
+  for (unsigned bit = 0; bit < 8; ++bit) noisy ^= chance_.uniform() < rate ? 1U << bit : 0U;
   return static_cast<std::uint8_t>(noisy);
 }
 
-void LcsDevice::listen(TimeUs t_us, lcs::Line& line) {
+// Nobody hears what comes while the camera boots.
+void LcsDevice::take_byte(lcs::Line& line) {
   std::uint8_t byte = 0;
-  while (line.to_camera.read(Bytes(&byte, 1)) == 1) {
-    inbox_free_us_ = std::max(inbox_free_us_, static_cast<double>(t_us)) + byte_us();
-    inbox_.push_back({static_cast<TimeUs>(std::llround(inbox_free_us_)), noisy(byte)});
-  }
+  if (line.to_camera.read(Bytes(&byte, 1)) == 0) return;
+  inbox_free_us_ += byte_us();
+  const auto t_us = static_cast<TimeUs>(std::llround(inbox_free_us_));
+  if (!booting(t_us)) inbox_.push_back({t_us, noisy(byte, t_us)});
+}
+
+// An idle line begins now; one that is not has carried, by the last run(), what came before.
+void LcsDevice::listen(TimeUs t_us, const lcs::Line& line) {
+  if (line.to_camera.room() < lcs::kLineBytes) inbox_free_us_ = std::max(inbox_free_us_, static_cast<double>(t_us));
+}
+
+// The bytes that the line begins to carry until now_us, one after the other.
+void LcsDevice::pull(TimeUs now_us, lcs::Line& line) {
+  while (inbox_free_us_ < static_cast<double>(now_us) && line.to_camera.room() < lcs::kLineBytes) take_byte(line);
 }
 
 void LcsDevice::send(const lcs::FrameBytes& frame, TimeUs t_us) {
-  const LcsFaults& faults = camera_.faults;
   ++sent_;
-  if (within(t_us, faults.silent_from_us, faults.silent_until_us) || chance_.uniform() < faults.drop_probability) return;
+  if (failing(LcsFaultKind::kSilent, t_us) || chance_.uniform() < fault(LcsFaultKind::kDrop, t_us)) return;
   lcs::FrameBytes bytes = frame;
-  if (chance_.uniform() < faults.corrupt_probability) {
+  if (chance_.uniform() < fault(LcsFaultKind::kCorrupt, t_us)) {
     const std::uint64_t bit = chance_.bits() % (8 * frame.size);
     bytes.bytes[bit / 8] = static_cast<std::uint8_t>(bytes.bytes[bit / 8] ^ (1U << (bit % 8)));
   }
-  const int times = chance_.uniform() < faults.repeat_probability ? 2 : 1;
+  const int times = chance_.uniform() < fault(LcsFaultKind::kRepeat, t_us) ? 2 : 1;
+  const double begin_us = static_cast<double>(t_us) + 1e6 * fault(LcsFaultKind::kLate, t_us);
   for (int i = 0; i < times; ++i) {
     for (const std::uint8_t byte : bytes.span()) {
-      outbox_free_us_ = std::max(outbox_free_us_, static_cast<double>(t_us + faults.late_us)) + byte_us();
-      outbox_.push_back({static_cast<TimeUs>(std::llround(outbox_free_us_)), noisy(byte)});
+      outbox_free_us_ = std::max(outbox_free_us_, begin_us) + byte_us();
+      outbox_.push_back({static_cast<TimeUs>(std::llround(outbox_free_us_)), noisy(byte, t_us)});
     }
   }
 }
 
+// Loop bound: the resets that the script asks for.
 void LcsDevice::run(TimeUs now_us, lcs::Line& line) {
-  if (!booted_ && camera_.faults.boot_at_us > 0 && now_us >= camera_.faults.boot_at_us) boot(camera_.faults.boot_at_us);
+  for (; resets_ < reset_at_us_.size() && reset_at_us_[resets_] <= now_us; ++resets_) {
+    live_until(reset_at_us_[resets_], line);
+    boot(reset_at_us_[resets_]);
+  }
+  live_until(now_us, line);
+}
+
+void LcsDevice::live_until(TimeUs now_us, lcs::Line& line) {
+  pull(now_us, line);
   while (!inbox_.empty() && inbox_.front().t_us <= now_us) {
     const Byte byte = inbox_.front();
     inbox_.pop_front();
-    scan_until(byte.t_us);
     lcs::Frame frame;
-    if (decoder_.step(ConstBytes(&byte.value, 1), frame).found) carry_out(frame, byte.t_us);
+    if (!decoder_.step(ConstBytes(&byte.value, 1), frame).found) continue;
+    scan_until(byte.t_us);
+    heard_us_ = byte.t_us;
+    carry_out(frame, byte.t_us);
   }
   scan_until(now_us);
   while (!outbox_.empty() && outbox_.front().t_us <= now_us) {
@@ -125,8 +166,9 @@ void LcsDevice::send_status(TimeUs t_us) {
   send(lcs::encode(sent_, status), t_us);
 }
 
+void LcsDevice::put_out_laser() { laser_lit_ = scan_.running = false; }
+
 void LcsDevice::boot(TimeUs t_us) {
-  booted_ = true;
   ++boots_;
   laser_lit_ = false;
   armed_us_ = -1;
@@ -135,8 +177,9 @@ void LcsDevice::boot(TimeUs t_us) {
   outbox_.clear();
   decoder_.clear();
   sent_ = 0;
-  inbox_free_us_ = outbox_free_us_ = static_cast<double>(t_us + kBootUs);
-  send_status(t_us + kBootUs);
+  up_us_ = heard_us_ = t_us + kBootUs;
+  outbox_free_us_ = static_cast<double>(up_us_);
+  send_status(up_us_);
 }
 
 void LcsDevice::carry_out(const lcs::Frame& frame, TimeUs t_us) {
@@ -175,7 +218,7 @@ void LcsDevice::carry_out(const lcs::Frame& frame, TimeUs t_us) {
 lcs::Result LcsDevice::carry_out(lcs::LaserCommand command, TimeUs t_us) {
   const bool armed = armed_us_ >= 0 && t_us - armed_us_ <= lcs::kArmedUs;
   armed_us_ = command == lcs::LaserCommand::kArm ? t_us : -1;
-  if (command == lcs::LaserCommand::kInhibit) laser_lit_ = scan_.running = false;
+  if (command == lcs::LaserCommand::kInhibit) put_out_laser();
   if (command != lcs::LaserCommand::kFire) return lcs::Result::kDone;
   laser_lit_ = laser_lit_ || armed;
   return armed ? lcs::Result::kDone : lcs::Result::kNotArmed;
@@ -223,14 +266,12 @@ bool LcsDevice::aimed_in_time(std::uint16_t ray) const {
 Vec3 LcsDevice::direction_of(std::uint16_t ray) const { return pattern_direction(scan_.command.plan, ray); }
 
 lcs::RawSample LcsDevice::measure(std::uint16_t ray) {
-  const LcsFaults& faults = camera_.faults;
   const TimeUs t_us = sample_time_us(ray);
   Vec3 direction = direction_of(ray);
-  if (within(t_us, faults.stuck_from_us, faults.stuck_until_us))
-    direction = Vec3(stuck_x_ * direction.z(), direction.y(), direction.z()).normalized();
+  if (failing(LcsFaultKind::kStuckMirror, t_us)) direction = Vec3(stuck_x_ * direction.z(), direction.y(), direction.z()).normalized();
   stuck_x_ = direction.x() / direction.z();
   const RangeSample seen = rays_.measure(scan_.command.plan.scan_id, ray, direction, t_us);
-  const bool bright = within(t_us, faults.saturated_from_us, faults.saturated_until_us) || seen.state == RayState::kInvalid;
+  const bool bright = failing(LcsFaultKind::kSaturated, t_us) || seen.state == RayState::kInvalid;
   const bool spot = seen.state == RayState::kHit;
   lcs::RawSample raw =
       raw_sample(camera_.truth, static_cast<double>(camera_.temperature_degC), direction, spot ? static_cast<double>(seen.range_m) : 1e9);
@@ -259,8 +300,14 @@ void LcsDevice::send_samples(std::uint16_t end) {
   send(lcs::encode(sent_, samples), sample_time_us(static_cast<std::uint16_t>(end - 1)));
 }
 
-// Each frame when its last sample has been taken.
+// Each frame when its last sample has been taken; until the dead man's switch puts the laser out.
 void LcsDevice::scan_until(TimeUs now_us) {
+  const TimeUs dark_us = heard_us_ + lcs::kUnheardUs;
+  send_frames_until(std::min(now_us, dark_us));
+  if (now_us > dark_us) put_out_laser();
+}
+
+void LcsDevice::send_frames_until(TimeUs now_us) {
   while (scan_.running) {
     const std::uint16_t points = scan_.command.plan.points;
     const std::uint16_t end = frame_end();
@@ -278,18 +325,24 @@ void LcsDevice::scan_until(TimeUs now_us) {
 LcsOverLine::LcsOverLine(LcsDevice& device, const lcs::Calibration& calibration, double bits_per_s)
     : device_(device), driver_(line_, calibration) {
   line_.bits_per_s = bits_per_s;
-  driver_.permit_laser(true);
 }
 
 Status LcsOverLine::start(const ScanPlan& plan, TimeUs t_start_us) {
   device_.run(t_start_us, line_);
+  now_us_ = t_start_us;
   const Status status = driver_.start(plan, t_start_us);
   device_.listen(t_start_us, line_);
   return status;
 }
 
+void LcsOverLine::abort() {
+  driver_.abort();
+  device_.listen(now_us_, line_);
+}
+
 SensorPoll LcsOverLine::poll(TimeUs now_us, Span<RangeSample> out) {
   device_.run(now_us, line_);
+  now_us_ = now_us;
   const SensorPoll poll = driver_.poll(now_us, out);
   device_.listen(now_us, line_);
   return poll;

@@ -10,26 +10,11 @@
 #include "hal_lcs/frame.hpp"
 #include "hal_lcs/messages.hpp"
 #include "hal_lcs/triangulation.hpp"
+#include "hal_sim/lcs_faults.hpp"
 #include "hal_sim/random.hpp"
 #include "hal_sim/scanner.hpp"
 
 namespace lasso::sim {
-
-// What goes wrong. Probabilities are of each frame that the camera sends; times are the component's.
-struct LcsFaults {
-  double drop_probability = 0;
-  double repeat_probability = 0;
-  double corrupt_probability = 0;  // one bit
-  double bit_error_rate = 0;       // of every bit on the line, both ways
-  DurationUs late_us = 0;          // every frame
-  TimeUs silent_from_us = 0, silent_until_us = 0;
-  TimeUs stuck_from_us = 0, stuck_until_us = 0;          // mirror x stays where it is
-  TimeUs saturated_from_us = 0, saturated_until_us = 0;  // each spot is too bright
-  TimeUs boot_at_us = 0;                                 // 0: never
-  TimeUs clock_jump_at_us = 0;                           // 0: never
-  std::int32_t clock_jump_us = 0;
-  double clock_rate_error = 0;
-};
 
 struct LcsCamera {
   lcs::Calibration truth;  // of its optics; what the component calibrates it to be may differ
@@ -48,9 +33,10 @@ class LcsDevice {
   // lcs::validate refuses.
   LcsDevice(const RayCaster& target, const Trajectory& trajectory, const ScannerModel& model, std::uint64_t seed, const LcsCamera& camera);
 
-  // Takes the bytes that the line has for the camera, as sent at t_us, ...
-  void listen(TimeUs t_us, lcs::Line& line);
-  // ... and lives until now_us: commands are carried out as their last byte arrives, what the camera says arrives as the line lets it.
+  // The line has bytes for the camera since t_us, if it had none before, ...
+  void listen(TimeUs t_us, const lcs::Line& line);
+  // ... which it carries one after the other. The camera lives until now_us: commands are carried out as their last byte arrives, what the
+  // camera says arrives as the line lets it.
   void run(TimeUs now_us, lcs::Line& line);
 
  private:
@@ -69,7 +55,14 @@ class LcsDevice {
 
   double byte_us() const { return 1e7 / camera_.bits_per_s; }
   std::uint32_t clock_us(TimeUs t_us) const;
-  std::uint8_t noisy(std::uint8_t byte);
+  double fault(LcsFaultKind kind, TimeUs t_us) const;
+  bool failing(LcsFaultKind kind, TimeUs t_us) const { return fault(kind, t_us) > 0; }
+  std::uint8_t noisy(std::uint8_t byte, TimeUs t_us);
+  void take_byte(lcs::Line& line);
+  void live_until(TimeUs now_us, lcs::Line& line);
+  void pull(TimeUs now_us, lcs::Line& line);
+  bool booting(TimeUs t_us) const { return t_us < up_us_; }
+  void put_out_laser();
   void carry_out(const lcs::Frame& frame, TimeUs t_us);
   lcs::Result carry_out(lcs::LaserCommand command, TimeUs t_us);
   lcs::Result carry_out(const lcs::StartCommand& command, TimeUs t_us);
@@ -79,6 +72,7 @@ class LcsDevice {
   void send_status(TimeUs t_us);
   void boot(TimeUs t_us);
   void scan_until(TimeUs now_us);
+  void send_frames_until(TimeUs now_us);
   TimeUs sample_time_us(std::uint16_t ray) const;
   Vec3 direction_of(std::uint16_t ray) const;
   bool aimed_in_time(std::uint16_t ray) const;
@@ -86,7 +80,6 @@ class LcsDevice {
   std::uint16_t frame_end() const;
   void send_samples(std::uint16_t end);
   void send(const lcs::FrameBytes& frame, TimeUs t_us);
-  bool within(TimeUs t_us, TimeUs from_us, TimeUs until_us) const { return t_us >= from_us && t_us < until_us; }
 
   RaySimulator rays_;
   LcsCamera camera_;
@@ -98,7 +91,10 @@ class LcsDevice {
   double stuck_x_ = 0;  // tan of the mirror's last angle
   TimeUs armed_us_ = -1;
   bool laser_lit_ = false;
-  bool booted_ = false;
+  TimeUs up_us_ = 0;                 // from then on it hears; before, it boots
+  TimeUs heard_us_ = 0;              // the last right frame
+  std::vector<TimeUs> reset_at_us_;  // that the script asks for, in order
+  std::size_t resets_ = 0;           // of these, carried out
   std::uint32_t boots_ = 1;
   std::uint8_t sent_ = 0;
 };
@@ -110,7 +106,9 @@ class LcsOverLine final : public Sensor {
 
   Status start(const ScanPlan& plan, TimeUs t_start_us) override;
   SensorPoll poll(TimeUs now_us, Span<RangeSample> out) override;
-  void abort() override { driver_.abort(); }
+  void abort() override;
+  SensorCounters counters() const override { return driver_.counters(); }
+  void permit_laser(bool permitted) override { driver_.permit_laser(permitted); }
 
   lcs::Driver& driver() { return driver_; }
 
@@ -118,6 +116,7 @@ class LcsOverLine final : public Sensor {
   LcsDevice& device_;
   lcs::Line line_;
   lcs::Driver driver_;
+  TimeUs now_us_ = 0;  // as of the last call that said it
 };
 
 }  // namespace lasso::sim

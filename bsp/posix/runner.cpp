@@ -44,6 +44,7 @@ FrameRecord Runner::run_frame() {
     run_slot();
   } while (!component_.next_slot_is_boundary());
   record.telemetry = ConstBytes(telemetry_, component_.take_telemetry(Bytes(telemetry_)));
+  send(record.telemetry);
   record.estimated = measured.ran;
   record.estimate_cpu_ns = measured.cpu_ns;
   record.estimate_wall_ns = measured.wall_ns;
@@ -51,8 +52,24 @@ FrameRecord Runner::run_frame() {
   return record;
 }
 
+void Runner::connect(ByteLink& link) {
+  link_ = &link;
+  pump_.emplace(component_, link);
+}
+
+// What the link does not take is lost: a ground station that does not keep up must not stop the run.
+void Runner::send(ConstBytes telemetry) {
+  while (link_ != nullptr && !telemetry.empty()) {
+    const std::size_t size = packet_size(telemetry);
+    static_cast<void>(link_->write(telemetry.first(size)));
+    telemetry = telemetry.subspan(size, telemetry.size() - size);
+  }
+}
+
 void Runner::run_slot() {
-  component_.run_slot(wait_until(component_.next_slot_us()));
+  const TimeUs now_us = wait_until(component_.next_slot_us());
+  if (pump_) pump_->receive(now_us);
+  component_.run_slot(now_us);
   if (!component_.estimation_pending()) return;
   {
     const std::lock_guard<std::mutex> lock(mutex_);

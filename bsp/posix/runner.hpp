@@ -6,11 +6,14 @@
 #include <condition_variable>
 #include <cstdint>
 #include <mutex>
+#include <optional>
 #include <thread>
 
 #include "fsw/core/span.hpp"
 #include "fsw/core/time.hpp"
 #include "fsw/exec/component.hpp"
+#include "fsw/exec/link_pump.hpp"
+#include "fsw/link/byte_link.hpp"
 
 namespace lasso::posix {
 
@@ -34,6 +37,9 @@ class Runner {
   Runner(const Runner&) = delete;
   Runner& operator=(const Runner&) = delete;
 
+  // From now on commands come by the link, looked at before each slot, and telemetry goes there, too. It outlives the runner.
+  void connect(ByteLink& link);
+
   // Passes the boundary of the next frame and runs all its slots. Scan k is reported by the call for frame k + 2.
   FrameRecord run_frame();
 
@@ -50,8 +56,12 @@ class Runner {
   void wait_for_worker();
   TimeUs wait_until(TimeUs slot_us);
 
+  void send(ConstBytes telemetry);
+
   Component& component_;
   Pace pace_;
+  ByteLink* link_ = nullptr;
+  std::optional<LinkPump> pump_;
   std::int64_t clock_offset_ns_ = 0;  // monotonic clock at component time 0
   bool clock_set_ = false;
   std::uint32_t frame_ = 0;

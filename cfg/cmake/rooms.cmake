@@ -58,7 +58,7 @@ function(lasso_board NAME)
     find_package(Threads REQUIRED)
     add_library(bsp_${NAME} STATIC ${SOURCES})
     target_compile_features(bsp_${NAME} PUBLIC cxx_std_17)
-    target_link_libraries(bsp_${NAME} PRIVATE $<BUILD_INTERFACE:lasso_warnings> PUBLIC fsw_exec Threads::Threads)
+    target_link_libraries(bsp_${NAME} PRIVATE $<BUILD_INTERFACE:lasso_warnings> PUBLIC fsw_exec hal_lcs Threads::Threads)
     # The rooms call the board's answer to a bug, but come after it on the linker's line.
     target_link_options(bsp_${NAME} INTERFACE LINKER:--undefined=_ZN5lasso20on_invariant_failureEPKc)
     set_target_properties(bsp_${NAME} PROPERTIES EXPORT_NAME ${NAME} OUTPUT_NAME 3dlasso_${NAME})

@@ -36,6 +36,8 @@ const char* to_string(Status status) {
       return "no data";
     case Status::kSingular:
       return "singular";
+    case Status::kOffPlan:
+      return "off plan";
   }
   return "unknown";  // a value that no enumerator has, for example from a corrupt byte
 }

@@ -22,6 +22,7 @@ enum class [[nodiscard]] Status : std::uint8_t{
     kTimeout,       // no answer within the configured time
     kNoData,        // nothing to work on
     kSingular,      // a factorisation or division has no meaning
+    kOffPlan,       // a device does something else than it was told
 };
 
 // A short lower-case name for messages; never null.

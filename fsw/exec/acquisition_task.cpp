@@ -1,5 +1,6 @@
 #include "fsw/exec/acquisition_task.hpp"
 
+#include "fsw/exec/scan_faults.hpp"
 #include "fsw/sense/planner.hpp"
 
 namespace lasso {
@@ -50,10 +51,28 @@ void AcquisitionTask::poll(TimeUs now_us) {
   }
 }
 
-ScanEnd AcquisitionTask::finish() {
-  const ScanEnd end{asked_, acquisition_.finish(*sensors_[sensor_], images_[filling_]).usable};
+void AcquisitionTask::permit_laser(bool permitted) {
+  for (Sensor* sensor : sensors_) sensor->permit_laser(permitted);
+}
+
+// Mirrors that stand still leave an image that a pose could be read into.
+ScanEnd AcquisitionTask::finish(const ScanPlan& plan) {
+  ScanEnd end{asked_, acquisition_.finish(*sensors_[sensor_], images_[filling_])};
+  if (mirrors_stuck(plan, images_[filling_])) {
+    end.verdict.usable = false;
+    end.verdict.loss = ScanLoss::kStuck;
+  }
+  if (asked_) note(end.verdict.loss);
   asked_ = false;
   return end;
+}
+
+void AcquisitionTask::note(ScanLoss loss) {
+  ScanTally& tally = Span<ScanTally>(tallies_)[sensor_];
+  ++tally.scans;
+  if (loss == ScanLoss::kNone) return;
+  ++Span<std::uint32_t>(tally.lost)[static_cast<std::size_t>(loss)];
+  tally.last_loss = loss;
 }
 
 }  // namespace lasso

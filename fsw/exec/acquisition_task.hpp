@@ -26,7 +26,14 @@ struct Aim {
 
 struct ScanEnd {
   bool asked = false;   // a sensor was asked for the scan
-  bool usable = false;  // its image is fit for an estimate
+  ScanVerdict verdict;  // of what it gave
+};
+
+// The scans of one sensor since the component was made.
+struct ScanTally {
+  std::uint32_t scans = 0;               // that it was asked for
+  std::uint32_t lost[kScanLosses] = {};  // of them, by ScanLoss; none under kNone
+  ScanLoss last_loss = ScanLoss::kNone;
 };
 
 class AcquisitionTask {
@@ -39,16 +46,23 @@ class AcquisitionTask {
   void start(SensorNumber sensor, const Mission& mission, const Aim& aim, std::uint32_t scan_id, TimeUs t_start_us, ScanPlan& plan);
   // Takes what the sensor has. Loop bound: kMaxRays / kMaxSamplesPerPoll polls.
   void poll(TimeUs now_us);
-  // Ends the scan. Its image is filling(), until the next start().
-  ScanEnd finish();
+  // Ends the scan, which was planned so. Its image is filling(), until the next start().
+  ScanEnd finish(const ScanPlan& plan);
+
+  // To all sensors.
+  void permit_laser(bool permitted);
 
   const RangeImage& filling() const { return images_[filling_]; }
   std::size_t sensors() const { return sensors_.size(); }
+  // Of one of the sensors.
+  const ScanTally& tally(SensorNumber sensor) const { return Span<const ScanTally>(tallies_)[sensor]; }
+  SensorCounters counters(SensorNumber sensor) const { return sensors_[sensor]->counters(); }
   // The next scan fills the other image: the present one has been handed over.
   void swap_images() { filling_ = 1 - filling_; }
 
  private:
   void keep(Span<const AimedRay> rays);
+  void note(ScanLoss loss);
 
   SensorBank sensors_;
   SensorNumber sensor_ = 0;  // of the scan under way
@@ -56,6 +70,7 @@ class AcquisitionTask {
   Acquisition acquisition_;
   RangeImage images_[2];
   AimedRays aimed_;  // of the scan under way
+  ScanTally tallies_[kMaxSensors];
   std::uint32_t filling_ = 0;
 };
 

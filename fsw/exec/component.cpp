@@ -1,6 +1,7 @@
 #include "fsw/exec/component.hpp"
 
 #include "fsw/exec/report.hpp"
+#include "fsw/exec/self_test.hpp"
 #include "fsw/geometry/portable_math.hpp"
 
 namespace lasso {
@@ -20,72 +21,21 @@ Twist initial_rates(const MissionParameters& p) {
   return rates;
 }
 
-// The whole's scans and each part's end within the period.
-bool scans_fit(const Mission& mission, const Parts& parts) {
-  const double period_s = mission.parameters.period_s;
-  bool fit = mission.parameters.duration_s <= period_s;
-  for (const Part& part : parts) fit = fit && part.mission.parameters.duration_s <= period_s;
-  return fit;
-}
-
-const char* fault_of(const SensorParameters& sensor) {
-  if (!(sensor.range_min_m < sensor.range_max_m)) return "sensor.range_min_m is not below sensor.range_max_m";
-  return sensor.use_from_m < sensor.use_to_m ? nullptr : "sensor.use_from_m is not below sensor.use_to_m";
-}
-
-// Parameters that are right by themselves but not together, or not on this board; nullptr: none.
-const char* fault_of(const Mission& mission, const Parts& parts, std::size_t sensors) {
-  const MissionParameters& p = mission.parameters;
-  if (mission.sensors.size() > sensors) return "the mission has more sensors than are connected";
-  for (const SensorParameters& sensor : mission.sensors) {
-    const char* fault = fault_of(sensor);
-    if (fault != nullptr) return fault;
-  }
-  if (!scans_fit(mission, parts)) return "scan.duration_s exceeds filter.period_s";
-  if (p.short_range_enter_m > 0 && !(p.short_range_leave_m > p.short_range_enter_m)) {
-    return "short_range.leave_m is not above short_range.enter_m";
-  }
-  return nullptr;
-}
-
 }  // namespace
 
-Component::Component(const SensorBank& sensors) : acquisition_(sensors) {}
+Component::Component(const SensorBank& sensors) : acquisition_(sensors) { images_.use_parameters(parameter_area_); }
 
 Component::Component(Sensor& sensor) : Component(only(sensor)) {}
 
-LoadFailure Component::load_image(Bytes image) {
-  LoadFailure failure;
-  if (executive_.begun()) {
-    failure.status = Status::kBadOrder;
-    failure.what = "the component has begun";
-    return failure;
-  }
-  loaded_ = false;  // whatever follows, the image that was loaded before may have been overwritten
-  failure = lasso::load_image(image, views_[0].mission, views_[0].parts);
-  if (failure.status != Status::kOk) return failure;
-  const char* fault = fault_of(mission(), parts(), acquisition_.sensors());
-  loaded_ = fault == nullptr;
-  if (loaded_) make_views();
-  if (!loaded_) {
-    failure.status = Status::kBadValue;
-    failure.what = fault;
-  }
-  return failure;
-}
-
-void Component::make_views() {
-  for (std::size_t i = 1; i < mission().sensors.size(); ++i) {
-    views_[i] = views_[0];
-    use_sensor(static_cast<SensorNumber>(i), views_[i].mission, views_[i].parts);
-  }
-}
-
 Status Component::begin(TimeUs boundary_0_us) {
-  if (!loaded_) return Status::kMissing;
+  if (!images_.started()) return Status::kMissing;
   if (executive_.begun()) return Status::kBadOrder;
   const MissionParameters& p = mission().parameters;
   invariant(executive_.begin(boundary_0_us, to_us(p.period_s)) == Status::kOk, "slots of a valid period");
+  events_.set_time(boundary_0_us);
+  inhibit_laser();
+  events_.raise<EventId::kBegun>(software_version(), software_build(), mission().image_crc);
+  health_.failed_tests = static_cast<std::uint8_t>(failed_self_tests());
   if (p.initial_present < 0.5) return Status::kOk;
   const StartOffer offer = rough_offer(p, initial_pose(p), initial_rates(p), boundary_0_us);
   if (offer_start(StartWay::kApriori, offer) != StartRefusal::kNone) return Status::kBadValue;
@@ -97,8 +47,9 @@ StartRefusal Component::offer_start(StartWay way, const StartOffer& offer) {
   if (!executive_.begun()) return StartRefusal::kNotBegun;
   const auto index = static_cast<std::size_t>(way);
   if (index == 0 || way == StartWay::kSearch || index >= kStartWays) return StartRefusal::kNoSuchWay;
-  FilterState tried;
-  const StartRefusal refusal = start_from(mission(), offer, executive_.next_boundary_us(), track_.bearing, tried);
+  TrackState tried = track_;
+  StartRefusal refusal = start_track(mission(), way, offer, executive_.next_boundary_us(), tried);
+  if (safe_requested()) refusal = StartRefusal::kNotFromHere;
   if (refusal != StartRefusal::kNone) {
     refuse_start(way, refusal);
     return refusal;
@@ -106,6 +57,12 @@ StartRefusal Component::offer_start(StartWay way, const StartOffer& offer) {
   desk_.put(way, offer);
   if (way == StartWay::kHandover || way == StartWay::kUplink) request_start(way);
   return StartRefusal::kNone;
+}
+
+// What was asked for does not come later.
+void Component::drop_request() {
+  if (request_ == Request::kStart) static_cast<void>(desk_.take(requested_way_));
+  request_ = Request::kNone;
 }
 
 // A command takes the place of one that no boundary has carried out yet.
@@ -130,13 +87,14 @@ ModeRefusal Component::command_mode(TrackingMode mode) {
     refusal = ModeRefusal::kNotByCommand;
   } else if (event == ModeEvent::kReacquire && !track_.filter.initialised) {
     refusal = ModeRefusal::kNoPrediction;
-  } else if (track_.mode != mode && !has_transition(track_.mode, event)) {
+  } else if (safe_requested() || (track_.mode != mode && !has_transition(track_.mode, event))) {
     refusal = ModeRefusal::kNotFromHere;
   }
   if (refusal != ModeRefusal::kNone) {
     ++counters_.refused_commands;
     return refusal;
   }
+  drop_request();
   request_ = Request::kCommand;
   requested_event_ = event;
   return refusal;
@@ -146,22 +104,36 @@ Status Component::stop_tracking() { return command_mode(TrackingMode::kStandby) 
 
 void Component::run_slot(TimeUs now_us) {
   invariant(executive_.begun(), "slot before begin");
+  if (executive_.jumped(now_us)) follow_jump(now_us);
   executive_.note_start(now_us);
+  events_.set_time(now_us);
   const std::uint32_t slot = executive_.next_slot();
   for (const SlotRow& row : slot_table()) {
     if (is_due(row, slot)) run_task(row.task, now_us);
   }
+  check_in_.slot(slot);
   executive_.advance();
 }
 
 void Component::run_task(TaskId task, TimeUs now_us) {
   if (task == TaskId::kPollSensor) return acquisition_.poll(now_us);
+  if (task == TaskId::kTendMemory) return tend_memory();
+  check_mode();
   publish_estimate(now_us);
+  feed_watchdog();
   pass_link_boundary(now_us);
+  check_area();
+  pass_memory_boundary();
+  apply_parameters();
+  answer_faults(now_us);
   apply_request();
   choose_sensor();
   hand_over_scan();
-  start_scan();
+  start_scan(now_us);
+  mode_.set(track_.mode);
+  send_sensors(now_us);
+  send_image(now_us);
+  send_events();
 }
 
 void Component::publish_estimate(TimeUs now_us) {
@@ -175,8 +147,9 @@ void Component::publish_estimate(TimeUs now_us) {
     if (in_time) part_ = estimation_.part();
     follow(step);
     send(step, now_us);
-  } else if (properties(track_.mode).says_lost || report_overdue()) {
-    send(no_track(executive_.frame() - kPipelineFrames, track_), now_us);
+  } else if (properties(track_.mode).says_lost || report_overdue() || housekeeping_.asked(kPoseStructureId)) {
+    const std::uint32_t frame = executive_.frame();
+    send(no_track(frame > kPipelineFrames ? frame - kPipelineFrames : 0, track_), now_us);
   }
 }
 
@@ -184,35 +157,47 @@ void Component::publish_estimate(TimeUs now_us) {
 bool Component::report_overdue() const { return changes_.size() >= kPoseChanges || (!changes_.empty() && !acquired_.active); }
 
 void Component::follow(const TrackStep& step) {
+  trial_.note(step.registration, track_.mode);
   const bool given_up =
       track_.mode == TrackingMode::kStarting && (step.event == ModeEvent::kExhausted || step.event == ModeEvent::kRecover);
   if (given_up) refuse_start(track_.way, StartRefusal::kNotConfirmed);
   if (step.refusal != StartRefusal::kNone) refuse_start(StartWay::kSearch, step.refusal);
   if (step.after.mode == TrackingMode::kTracking) desk_.put(StartWay::kSearch, StartOffer{});
-  if (step.parts.odd != kWhole) ++counters_.odd_parts;
-  if (step.after.mode != track_.mode) note_change({track_.mode, step.event, step.after.mode});
+  if (step.parts.odd != kWhole) {
+    ++counters_.odd_parts;
+    events_.raise<EventId::kPartOdd>(step.parts.odd, step.parts.odd_sigmas);
+  }
+  const TrackingMode next = next_mode(track_.mode, step.event);
+  if (next != track_.mode) note_change({track_.mode, step.event, next});
+  seen_.add(Fault::kModeCorrupt, step.after.mode != next);
+  watch_filter(step);
   track_ = step.after;
+  track_.mode = next;
 }
 
 void Component::refuse_start(StartWay way, StartRefusal refusal) {
   ++counters_.refused_starts;
   refused_way_ = way;
   refusal_ = refusal;
+  events_.raise<EventId::kStartRefused>(way, refusal);
 }
 
 void Component::run_estimation() {
   if (!estimation_.pending()) return;
-  const View& view = views_[estimation_.sensor()];
+  const MissionView& view = images_.view(estimation_.sensor());
   estimation_.run(view.mission, view.parts);
 }
 
-// At most three at a boundary (a scan's, a command's, a start's), and a packet takes four: there is always room.
+// At most four at a boundary (a scan's, a fault's, a command's, a start's), and a packet takes four: there is always room.
 void Component::note_change(const ModeChange& change) {
+  events_.raise<EventId::kModeChanged>(change.from, change.event, change.to);
   invariant(changes_.push_back(change), "more changes of the mode than can wait for a packet");
 }
 
 TrackStep Component::step_without_estimate() {
   ++counters_.overruns;
+  events_.raise<EventId::kEstimateLate>(estimated_.scan_id);
+  seen_.add(Fault::kEstimateOverrun);
   TrackStep step = track_without_scan(mission(), PoseReason::kOverrun, estimated_.scan_id, estimated_.t_nominal_us, track_);
   step.parts.scanned = estimated_.part;
   if (properties(track_.mode).searches) count_and_change(mission().parameters, false, step);  // a search that is always late ends, too
@@ -224,15 +209,18 @@ void Component::apply_request() {
   request_ = Request::kNone;
   track_.held = held_;
   if (request == Request::kStart) try_start(requested_way_);
-  if (request == Request::kCommand) apply_command();
+  if (request == Request::kCommand) take(requested_event_);
   try_ways();
 }
 
-void Component::apply_command() {
-  if (!has_transition(track_.mode, requested_event_)) return;  // the mode is there already, or has changed since
-  note_change({track_.mode, requested_event_, next_mode(track_.mode, requested_event_)});
-  change_mode(requested_event_, track_);
+// Nothing where the mode is there already, or has changed since the event was asked for.
+void Component::take(ModeEvent event) {
+  if (event == ModeEvent::kMakeSafe) inhibit_laser();
+  if (!has_transition(track_.mode, event)) return;
+  note_change({track_.mode, event, next_mode(track_.mode, event)});
+  change_mode(event, track_);
   leave_track();
+  before_trial_ = TrackState{};
 }
 
 void Component::try_start(StartWay way) {
@@ -244,6 +232,7 @@ void Component::try_start(StartWay way) {
   }
   note_change({before, ModeEvent::kStart, track_.mode});
   leave_track();
+  before_trial_ = TrackState{};
 }
 
 // What was planned by the track that ends here counts no more.
@@ -270,21 +259,22 @@ StartWay Component::next_way() const {
 void Component::take_way(StartWay way) {
   if (way != StartWay::kSearch) return try_start(way);
   static_cast<void>(desk_.take(way));
-  note_change({track_.mode, ModeEvent::kSearch, next_mode(track_.mode, ModeEvent::kSearch)});
-  change_mode(ModeEvent::kSearch, track_);
-  leave_track();
+  take(ModeEvent::kSearch);
 }
 
+// What no packet tells of a change, its event has told.
 void Component::send(const TrackStep& step, TimeUs now_us) {
   PoseTelemetry report = make_report(mission(), step, estimated_.plan, now_us);
   report.sensor = estimated_.sensor.sensor;
   report.sensor_reason = static_cast<std::uint8_t>(estimated_.sensor.reason);
   report.sensors_failed = chooser_.failed(estimated_.scan_id);
   if (!step.registration.valid()) ++counters_.invalid_frames;
+  if (!housekeeping_.due(kPoseStructureId, true)) return changes_.clear();
   set_counters(report);
   set_changes(report);
   std::uint8_t packet[kMaxPosePacketBytes];
-  enqueue({packet, encode_pose(report, next_header(Message::kHousekeeping, now_us), Bytes(packet))});
+  const PacketHeader header = downlink_.next_header({kServiceHousekeeping, kSubserviceHousekeepingReport}, now_us);
+  downlink_.send({packet, encode_pose(report, header, Bytes(packet))});
 }
 
 void Component::set_changes(PoseTelemetry& report) {
@@ -312,7 +302,7 @@ void Component::set_counters(PoseTelemetry& report) const {
   report.refused_way = static_cast<std::uint8_t>(refused_way_);
   report.refusal = static_cast<std::uint8_t>(refusal_);
   report.slot_slips = executive_.slips();
-  report.dropped_packets = queue_.dropped();
+  report.dropped_packets = downlink_.queue().dropped();
 }
 
 }  // namespace lasso

@@ -18,20 +18,43 @@
 #include "fsw/core/span.hpp"
 #include "fsw/core/status.hpp"
 #include "fsw/core/time.hpp"
+#include "fsw/core/voted.hpp"
 #include "fsw/exec/acquisition_task.hpp"
 #include "fsw/exec/estimation_task.hpp"
 #include "fsw/exec/executive.hpp"
+#include "fsw/exec/faults.hpp"
+#include "fsw/exec/image_trial.hpp"
+#include "fsw/exec/watchdog.hpp"
 #include "fsw/geometry/se3.hpp"
+#include "fsw/link/arming.hpp"
 #include "fsw/link/command_receiver.hpp"
+#include "fsw/link/downlink.hpp"
+#include "fsw/link/event_log.hpp"
+#include "fsw/link/health_report.hpp"
+#include "fsw/link/housekeeping.hpp"
 #include "fsw/link/link_report.hpp"
 #include "fsw/link/pose_telemetry.hpp"
-#include "fsw/link/telemetry_queue.hpp"
-#include "fsw/mission/mission.hpp"
+#include "fsw/mission/image_keeper.hpp"
+#include "fsw/mission/parameter_area.hpp"
 #include "fsw/mode/tracker.hpp"
 #include "fsw/sense/sensor.hpp"
 #include "fsw/sense/sensor_chooser.hpp"
 
 namespace lasso {
+
+// What the packet image counts; it is sent when one of them changes.
+struct MemoryCounts {
+  std::uint8_t other_state = 0;
+  std::uint32_t activations = 0, roll_backs = 0, confirmed = 1;
+  std::uint32_t findings = 0, repairs = 0;
+};
+
+// What a board gives besides sensors; empty, or null, where it does not.
+struct BoardMemory {
+  Bytes image_buffers[2];  // of one size, aligned to 8 bytes
+  Store* store = nullptr;
+  ConstBytes code;  // that must not change
+};
 
 class Component {
  public:
@@ -43,6 +66,21 @@ class Component {
   // kBadOrder afterwards. kBadValue when a scan does not fit into a frame, or a sensor of the mission's is not there.
   LoadFailure load_image(Bytes image);
 
+  // What the board gives for images that are loaded in flight. Before the first image; kBadValue when the buffers are not of one size and
+  // aligned to 8 bytes, kOverCapacity when there is more code than can be watched, kBadOrder after begin(). It outlives the component.
+  Status use_memory(const BoardMemory& memory);
+  // The image of the board's store that was selected last, or the one before where that one is not right. kNoData: neither is.
+  LoadFailure load_stored_image();
+  const ImageKeeper& images() const { return images_; }
+
+  // An image for the other buffer: begun, loaded in parts in any order, checked. It takes the place of the active one at the next boundary.
+  // See ImageKeeper; what is refused changes nothing.
+  ImageRefusal open_image(std::uint32_t bytes, std::uint32_t crc) { return images_.open(bytes, crc); }
+  ImageRefusal put_image(std::uint32_t offset, ConstBytes part) { return images_.put(offset, part); }
+  ImageRefusal check_image() { return images_.begin_check(); }
+  ImageRefusal activate_image(std::uint32_t crc);
+  ImageRefusal roll_back_image();
+
   // Sets the time of boundary 0. Tracking starts from tracking.initial if the mission has one. kMissing without an image, kBadOrder when
   // begun already.
   Status begin(TimeUs boundary_0_us);
@@ -53,7 +91,8 @@ class Component {
   StartRefusal offer_start(StartWay way, const StartOffer& offer);
   // An uplink as uncertain as tracking.start_sigma_* say. kBadOrder before begin(), kNotFinite, kBadValue for every other refusal.
   Status start_tracking(const Pose& T_sensor_target, const Twist& rates, TimeUs t_us);
-  // Standby, bearing, searching or reacquiring, at the next boundary. What is refused changes nothing.
+  // Standby, bearing, searching, reacquiring or safe, at the next boundary; until then nothing takes the place of safe. What is refused
+  // changes nothing.
   ModeRefusal command_mode(TrackingMode mode);
   // Standby. kBadOrder before begin().
   Status stop_tracking();
@@ -67,10 +106,18 @@ class Component {
   // A datagram: one command, whole. False, and it was not looked at, when the frame's commands are used up.
   bool receive_packet(ConstBytes packet, TimeUs now_us);
 
+  // The board's watchdog, which outlives the component: fed at a boundary once every slot of the frame and the estimation thread have
+  // checked in.
+  void set_watchdog(Watchdog& watchdog) { watchdog_ = &watchdog; }
+  // Why the component starts, as the board knows it. After its watchdog it begins in mode safe. Before begin().
+  void set_reset_cause(ResetCause cause) { health_.reset_cause = static_cast<std::uint8_t>(cause); }
+
   // The nominal time of the next slot, and whether it is a boundary.
   TimeUs next_slot_us() const { return executive_.next_slot_us(); }
   bool next_slot_is_boundary() const { return executive_.next_slot() == 0; }
-  // Runs the next slot at now_us (not before its nominal time; later is a slip, which is counted). Never waits.
+  // Is it time for it? It is, too, when the clock has jumped back.
+  bool slot_is_due(TimeUs now_us) const { return now_us >= next_slot_us() || executive_.jumped(now_us); }
+  // Runs the next slot at now_us (when it is due; later is a slip, which is counted). A clock that has jumped is followed. Never waits.
   void run_slot(TimeUs now_us);
 
   bool estimation_pending() const { return estimation_.pending(); }
@@ -78,20 +125,18 @@ class Component {
   void run_estimation();
 
   // Moves whole packets into `out` and returns their bytes, oldest first.
-  std::size_t take_telemetry(Bytes out) { return queue_.take(out); }
+  std::size_t take_telemetry(Bytes out) { return downlink_.take(out); }
 
+  // Of the last boundary.
+  const FaultMonitor& faults() const { return faults_; }
   // As the scans of the first sensor see it.
-  const Mission& mission() const { return views_[0].mission; }
-  const Parts& parts() const { return views_[0].parts; }
+  const Mission& mission() const { return images_.view(0).mission; }
+  const Parts& parts() const { return images_.view(0).parts; }
 
  private:
-  // The mission as the scans of one sensor see it.
-  struct View {
-    Mission mission;
-    Parts parts;
-  };
   static constexpr std::uint32_t kPipelineFrames = 2;  // from a scan's boundary to its publication
   enum class Request : std::uint8_t { kNone, kStart, kCommand };
+  enum class ImageRequest : std::uint8_t { kNone, kActivate, kRollBack };
   // A scan on its way through the pipeline.
   struct ScanInFlight {
     bool active = false;  // it was wanted, and will be reported
@@ -109,11 +154,14 @@ class Component {
     std::uint32_t refused_commands = 0;
     std::uint32_t odd_parts = 0;
   };
+  // What was last seen of counters whose changes are events.
+  struct Watched {
+    std::uint32_t dropped_packets = 0;
+    std::uint32_t slot_slips = 0;
+    std::uint8_t sensors_failed = 0;
+  };
 
   static DurationUs to_us(double seconds) { return static_cast<DurationUs>(seconds * 1e6 + 0.5); }
-  enum class Message : std::uint8_t { kHousekeeping = 0, kAccepted, kRefused, kCompleted, kFailed, kPong };
-  static constexpr std::size_t kMessages = 6;
-
   void run_task(TaskId task, TimeUs now_us);
   // A boundary, in this order.
   void publish_estimate(TimeUs now_us);
@@ -121,20 +169,29 @@ class Component {
   void try_ways();
   void choose_sensor();
   void hand_over_scan();
-  void start_scan();
+  void start_scan(TimeUs now_us);
   TimeUs next_scan_us() const;
   bool bearing_known() const;
   Vec3 bearing_place_m() const;
   Pose predicted_pose() const;
   Aim aim_of_scan() const;
   Aim aim_at_bearing() const;
-  void make_views();
   StartWay next_way() const;
   void take_way(StartWay way);
 
+  bool safe_requested() const { return request_ == Request::kCommand && requested_event_ == ModeEvent::kMakeSafe; }
+  void drop_request();
   void request_start(StartWay way);
   void try_start(StartWay way);
-  void apply_command();
+  void take(ModeEvent event);
+  void feed_watchdog();
+  void check_mode();
+  void follow_jump(TimeUs now_us);
+  void watch_filter(const TrackStep& step);
+  void see_faults();
+  void answer_faults(TimeUs now_us);
+  void doubt_track();
+  void tell_faults(const FaultChanges& changes, TimeUs now_us);
   void leave_track();
   void refuse_start(StartWay way, StartRefusal refusal);
   void note_change(const ModeChange& change);
@@ -145,19 +202,50 @@ class Component {
   void answer(ConstBytes packet, TimeUs now_us);
   void carry_out(const Command& command, Verification& verification, TimeUs now_us);
   void pass_link_boundary(TimeUs now_us);
-  PacketHeader next_header(Message message, TimeUs now_us);
-  void enqueue(ConstBytes packet);
-  void verify(Message message, const Verification& verification, TimeUs now_us);
+  void verify(std::uint8_t subservice, const Verification& verification, TimeUs now_us);
+  void refuse(const Verification& verification, TimeUs now_us);
+  void fail(const Command& command, const Verification& verification, TimeUs now_us);
+  ServiceRefusal serve(const Command& command, TimeUs now_us);
+  ServiceRefusal serve_structure(CommandKind kind, const StructureCommand& command);
+  ServiceRefusal enable_event(std::uint16_t event, bool enabled);
+  ServiceRefusal arm(const CommandName& name);
+  ServiceRefusal enable_laser();
+  void inhibit_laser();
+  void correlate_time(const TimeCommand& time);
+  ServiceRefusal set_parameter(const ParameterCommand& command);
+  ServiceRefusal report_parameter(std::uint16_t parameter, TimeUs now_us);
+  void revert_parameters();
+  void check_area();
+  void apply_parameters();
+  bool may_fire(const Command& command);
   void send_pong(TimeUs now_us);
   void send_link(TimeUs now_us);
+  void send_events();
+  void watch_counters();
+  void send_sensors(TimeUs now_us);
   void set_changes(PoseTelemetry& report);
   void set_counters(PoseTelemetry& report) const;
 
-  View views_[kMaxSensors];  // the first so many as the mission has sensors
+  void tend_memory();
+  void pass_memory_boundary();
+  ServiceRefusal serve_memory(const Command& command, TimeUs now_us);
+  ServiceRefusal load_memory(const LoadCommand& load);
+  ServiceRefusal dump_memory(const MemoryCommand& range, TimeUs now_us);
+  ServiceRefusal check_memory(const MemoryCommand& range, TimeUs now_us);
+  ConstBytes memory_of(std::uint8_t area) const;
+  ServiceRefusal find_memory(const MemoryCommand& range, std::size_t most, ConstBytes& bytes) const;
+  void send_image(TimeUs now_us);
+  void judge_image();
+  void change_image(bool back);
+  void leave_target();
+  void take_up_again();
+
+  ImageKeeper images_;
   Executive executive_;
   AcquisitionTask acquisition_;
   EstimationTask estimation_;
-  TelemetryQueue queue_;
+  Downlink downlink_;
+  EventLog events_;
   SensorChooser chooser_;
   SensorChoice sensor_;       // of the next scan
   TrackState track_;          // as of the last boundary
@@ -171,18 +259,34 @@ class Component {
   StartWay requested_way_ = StartWay::kNone;      // kStart
   ModeEvent requested_event_ = ModeEvent::kStop;  // kCommand
   bool held_ = false;
+  Voted<TrackingMode> mode_{TrackingMode::kStandby};  // as of the end of the last boundary
+  FaultMonitor faults_;
+  FaultSet seen_;  // since the last boundary
+  Watchdog* watchdog_ = nullptr;
+  CheckIn check_in_;
+  HealthTelemetry health_;                  // what only grows is kept in it
   StartWay refused_way_ = StartWay::kNone;  // the last one
   StartRefusal refusal_ = StartRefusal::kNone;
   FixedVector<ModeChange, 2 * kPoseChanges> changes_;  // that no packet has told yet
-  bool loaded_ = false;
+
+  ImageRequest image_request_ = ImageRequest::kNone;
+  ImageTrial trial_;
+  MemoryCounts memory_;       // of now,
+  MemoryCounts memory_told_;  // and as they were told last
+  TrackState before_trial_;   // the track that the active image took over
 
   CommandReceiver receiver_;
   bool bytes_came_ = false;    // since the last boundary
   bool link_changed_ = false;  // since the link's counters were told
   std::uint32_t commands_left_ = kMaxCommandsPerFrame;
   std::uint32_t skipped_told_ = 0;
-  std::uint16_t packets_ = 0;               // sent; the lower 14 bits are the sequence count
-  std::uint16_t messages_[kMessages] = {};  // PUS message type counters
+  Housekeeping housekeeping_;
+  ParameterArea parameter_area_;
+  bool parameters_due_ = false;  // for the next boundary
+  Arming arming_;
+  bool laser_enabled_ = false;
+  Watched watched_;
+  std::uint32_t troubles_told_[kMaxSensors] = {};
 };
 
 }  // namespace lasso

@@ -1,18 +1,11 @@
 // What the component does with bytes from the ground, and how it answers.
 #include "fsw/exec/component.hpp"
+#include "fsw/exec/sensor_report.hpp"
 
 namespace lasso {
 namespace {
 
-struct MessageType {
-  std::uint8_t service, subservice;
-};
-constexpr MessageType kMessageTypes[] = {{kServiceHousekeeping, kSubserviceHousekeepingReport},
-                                         {kServiceVerification, kSubserviceAccepted},
-                                         {kServiceVerification, kSubserviceRefused},
-                                         {kServiceVerification, kSubserviceCompleted},
-                                         {kServiceVerification, kSubserviceFailed},
-                                         {kServiceTest, kSubservicePong}};
+constexpr MessageType kHousekeeping{kServiceHousekeeping, kSubserviceHousekeepingReport};
 
 StartOffer offer_of(const StartCommand& command) {
   StartOffer offer;
@@ -65,27 +58,30 @@ bool Component::receive_packet(ConstBytes packet, TimeUs now_us) {
 void Component::answer(ConstBytes packet, TimeUs now_us) {
   --commands_left_;
   link_changed_ = true;
+  events_.set_time(now_us);
   Verification verification = verification_of(packet);
   Command command;
   const PacketFault fault = receiver_.accept(packet, command);
   verification.fault = static_cast<std::uint8_t>(fault);
-  if (fault != PacketFault::kNone) return verify(Message::kRefused, verification, now_us);
-  if ((command.header.acknowledge & kAcknowledgeAcceptance) != 0) verify(Message::kAccepted, verification, now_us);
+  if (fault != PacketFault::kNone) return refuse(verification, now_us);
+  if ((command.header.acknowledge & kAcknowledgeAcceptance) != 0) verify(kSubserviceAccepted, verification, now_us);
   carry_out(command, verification, now_us);
-  const bool failed = verification.mode_refusal != 0 || verification.start_refusal != 0;
-  if (failed) return verify(Message::kFailed, verification, now_us);
-  if ((command.header.acknowledge & kAcknowledgeCompletion) != 0) verify(Message::kCompleted, verification, now_us);
+  const bool failed = verification.mode_refusal != 0 || verification.start_refusal != 0 || verification.service_refusal != 0;
+  if (failed) return fail(command, verification, now_us);
+  if ((command.header.acknowledge & kAcknowledgeCompletion) != 0) verify(kSubserviceCompleted, verification, now_us);
 }
 
 void Component::carry_out(const Command& command, Verification& verification, TimeUs now_us) {
-  if (command.kind == CommandKind::kPing) return send_pong(now_us);
-  if (command.kind == CommandKind::kHold) return hold_mode(command.hold.held != 0);
-  if (command.kind == CommandKind::kMode) {
+  if (!may_fire(command)) {
+    verification.service_refusal = static_cast<std::uint8_t>(ServiceRefusal::kNotArmed);
+  } else if (command.kind == CommandKind::kMode) {
     verification.mode_refusal = static_cast<std::uint8_t>(command_mode(static_cast<TrackingMode>(command.mode.mode)));
-    return;
+  } else if (command.kind == CommandKind::kStart) {
+    const auto way = static_cast<StartWay>(command.start.way);
+    verification.start_refusal = static_cast<std::uint8_t>(offer_start(way, offer_of(command.start)));
+  } else {
+    verification.service_refusal = static_cast<std::uint8_t>(serve(command, now_us));
   }
-  const auto way = static_cast<StartWay>(command.start.way);
-  verification.start_refusal = static_cast<std::uint8_t>(offer_start(way, offer_of(command.start)));
 }
 
 // What a false start held back is looked at when nothing has come for a frame.
@@ -95,37 +91,35 @@ void Component::pass_link_boundary(TimeUs now_us) {
     if (!receiver_.packet().empty()) answer(receiver_.packet(), now_us);
   }
   bytes_came_ = false;
-  if (link_changed_ || receiver_.skipped() != skipped_told_) send_link(now_us);
+  const bool skipped = receiver_.skipped() != skipped_told_;
+  if (skipped) events_.raise<EventId::kBytesSkipped>(receiver_.skipped());
+  if (arming_.pass_boundary()) {
+    link_changed_ = true;
+    events_.raise<EventId::kArmExpired>(arming_.name().service, arming_.name().subservice, arming_.name().number);
+  }
+  if (housekeeping_.due(kLinkStructureId, link_changed_ || skipped)) send_link(now_us);
 }
 
-PacketHeader Component::next_header(Message message, TimeUs now_us) {
-  const auto index = static_cast<std::size_t>(message);
-  const MessageType& type = Span<const MessageType>(kMessageTypes)[index];
-  PacketHeader header;
-  header.sequence_count = packets_ & kSequenceCountMask;
-  header.service = type.service;
-  header.subservice = type.subservice;
-  header.message_count = messages_[index];
-  header.t_us = now_us;
-  ++packets_;
-  ++messages_[index];
-  return header;
-}
-
-// A full queue counts what it drops.
-void Component::enqueue(ConstBytes packet) {
-  invariant(!packet.empty(), "packet larger than its buffer");
-  static_cast<void>(queue_.push(packet));
-}
-
-void Component::verify(Message message, const Verification& verification, TimeUs now_us) {
+void Component::verify(std::uint8_t subservice, const Verification& verification, TimeUs now_us) {
   std::uint8_t packet[kMaxLinkReportBytes];
-  enqueue({packet, encode_verification(verification, next_header(message, now_us), Bytes(packet))});
+  const PacketHeader header = downlink_.next_header({kServiceVerification, subservice}, now_us);
+  downlink_.send({packet, encode_verification(verification, header, Bytes(packet))});
+}
+
+void Component::refuse(const Verification& verification, TimeUs now_us) {
+  events_.raise<EventId::kCommandRefused>(verification.packet_id, verification.sequence_control, verification.fault);
+  verify(kSubserviceRefused, verification, now_us);
+}
+
+void Component::fail(const Command& command, const Verification& verification, TimeUs now_us) {
+  events_.raise<EventId::kCommandFailed>(command.header.service, command.header.subservice, verification.sequence_control,
+                                         verification.mode_refusal, verification.start_refusal, verification.service_refusal);
+  verify(kSubserviceFailed, verification, now_us);
 }
 
 void Component::send_pong(TimeUs now_us) {
   std::uint8_t packet[kMaxLinkReportBytes];
-  enqueue({packet, encode_pong(next_header(Message::kPong, now_us), Bytes(packet))});
+  downlink_.send({packet, encode_pong(downlink_.next_header({kServiceTest, kSubservicePong}, now_us), Bytes(packet))});
 }
 
 void Component::send_link(TimeUs now_us) {
@@ -136,9 +130,61 @@ void Component::send_link(TimeUs now_us) {
   link.refused_commands = receiver_.refused();
   link.last_fault = static_cast<std::uint8_t>(receiver_.last_fault());
   link.skipped_bytes = receiver_.skipped();
-  link.queue_peak = static_cast<std::uint16_t>(queue_.peak());
+  link.queue_peak = static_cast<std::uint16_t>(downlink_.queue().peak());
+  link.armed = arming_.armed() ? 1 : 0;
+  link.laser_enabled = laser_enabled_ ? 1 : 0;
+  link.time_offset_us = downlink_.time_offset_us();
   std::uint8_t packet[kMaxLinkReportBytes];
-  enqueue({packet, encode_link(link, next_header(Message::kHousekeeping, now_us), Bytes(packet))});
+  downlink_.send({packet, encode_link(link, downlink_.next_header(kHousekeeping, now_us), Bytes(packet))});
+}
+
+// Counters of what knows no events.
+void Component::watch_counters() {
+  const Watched before = watched_;
+  watched_.dropped_packets = downlink_.queue().dropped();
+  watched_.slot_slips = executive_.slips();
+  watched_.sensors_failed = chooser_.failed(executive_.frame());
+  if (watched_.dropped_packets != before.dropped_packets) events_.raise<EventId::kPacketsDropped>(watched_.dropped_packets);
+  if (watched_.slot_slips != before.slot_slips) events_.raise<EventId::kSlotLate>(watched_.slot_slips);
+  for (std::uint32_t i = 0; i < kMaxSensors; ++i) {
+    const bool failed = (watched_.sensors_failed >> i & 1U) != 0;
+    if (failed == ((before.sensors_failed >> i & 1U) != 0)) continue;
+    if (failed) events_.raise<EventId::kSensorFailed>(i);
+    if (!failed) events_.raise<EventId::kSensorBack>(i);
+  }
+}
+
+// The last of a boundary's work: what happened at it is told by it.
+void Component::send_events() {
+  watch_counters();
+  for (const EventRecord& event : events_.records()) {
+    std::uint8_t packet[kMaxEventPacketBytes];
+    const PacketHeader header = downlink_.next_header({kServiceEvent, static_cast<std::uint8_t>(event.severity)}, event.t_us);
+    downlink_.send({packet, encode_event(event, header, Bytes(packet))});
+  }
+  events_.pass_boundary();
+  housekeeping_.pass_boundary();
+}
+
+// Of each sensor that something went wrong with since it was told last; of all, where none is news. Loop bound: kMaxSensors.
+void Component::send_sensors(TimeUs now_us) {
+  bool news[kMaxSensors] = {};
+  bool any = false;
+  SensorTelemetry reports[kMaxSensors];
+  const std::size_t sensors = mission().sensors.size();
+  for (std::size_t i = 0; i < sensors; ++i) {
+    const auto sensor = static_cast<SensorNumber>(i);
+    reports[i] = make_sensor_report(sensor, acquisition_.tally(sensor), acquisition_.counters(sensor));
+    news[i] = troubles(reports[i]) != troubles_told_[i];
+    any = any || news[i];
+  }
+  if (!housekeeping_.due(kSensorStructureId, any)) return;
+  for (std::size_t i = 0; i < sensors; ++i) {
+    if (any && !news[i]) continue;
+    troubles_told_[i] = troubles(reports[i]);
+    std::uint8_t packet[kMaxSensorPacketBytes];
+    downlink_.send({packet, encode_sensor(reports[i], downlink_.next_header(kHousekeeping, now_us), Bytes(packet))});
+  }
 }
 
 }  // namespace lasso

@@ -1,5 +1,6 @@
 // The component's scans: which sensor takes one, where it looks, and its way to the estimate.
 #include "fsw/exec/component.hpp"
+#include "fsw/exec/scan_faults.hpp"
 #include "fsw/geometry/portable_math.hpp"
 
 namespace lasso {
@@ -51,26 +52,35 @@ void Component::choose_sensor() {
   const bool by_bearing = mode.full_field || mode.searches;
   const Vec3 place_m = by_bearing ? bearing_place_m() : predicted_pose().p;
   const SensorNeed need{executive_.frame(), mode.searches, !by_bearing || bearing_known(), square_root(place_m.squaredNorm())};
+  const SensorNumber before = sensor_.sensor;
   sensor_ = chooser_.choose(mission(), need);
+  if (sensor_.sensor != before) events_.raise<EventId::kSensorChanged>(before, sensor_.sensor, sensor_.reason);
   if (sensor_.sensor == estimated_.sensor.sensor) return;
   aimed_.clear();
   part_ = kWhole;
 }
 
 void Component::hand_over_scan() {
-  const ScanEnd end = acquisition_.finish();
+  const ScanEnd end = acquisition_.finish(acquired_.plan);
   estimated_ = acquired_;
   acquired_ = ScanInFlight{};
   acquired_.plan = no_plan();
-  if (end.asked) chooser_.note(mission().parameters, estimated_.sensor.sensor, estimated_.scan_id, end.usable);
+  const bool usable = end.verdict.usable;
+  if (end.asked) {
+    seen_.add(scan_faults(end.verdict));
+    chooser_.note(mission().parameters, estimated_.sensor.sensor, estimated_.scan_id, usable);
+  }
   estimated_.active = estimated_.active && properties(track_.mode).scans;
   if (!estimated_.active) return;
-  if (!end.usable) ++counters_.lost_scans;
+  if (!usable) {
+    ++counters_.lost_scans;
+    events_.raise<EventId::kScanLost>(estimated_.sensor.sensor, estimated_.scan_id, end.verdict.loss);
+  }
   if (!estimation_.idle()) return;  // an estimate that overran still runs: this scan is dropped with it
-  estimation_.submit({estimated_.scan_id, end.usable ? &acquisition_.filling() : nullptr, estimated_.t_nominal_us, track_,
+  estimation_.submit({estimated_.scan_id, usable ? &acquisition_.filling() : nullptr, estimated_.t_nominal_us, track_,
                       estimated_.sensor.sensor, estimated_.part, part_, estimated_.scan_id + kPipelineFrames,
                       estimated_.t_nominal_us + static_cast<DurationUs>(kPipelineFrames) * to_us(mission().parameters.period_s)});
-  if (end.usable) acquisition_.swap_images();
+  if (usable) acquisition_.swap_images();
 }
 
 Aim Component::aim_at_bearing() const {
@@ -97,16 +107,17 @@ Aim Component::aim_of_scan() const {
   return aim;
 }
 
-void Component::start_scan() {
+// As the executive's slot may be late, it is the present time that the sensor is told.
+void Component::start_scan(TimeUs now_us) {
   if (!properties(track_.mode).scans) return;
   acquired_.active = true;
   acquired_.scan_id = executive_.frame();
   acquired_.t_nominal_us = next_scan_us();
   acquired_.part = part_;
   acquired_.sensor = sensor_;
-  const View& view = views_[sensor_.sensor];
+  const MissionView& view = images_.view(sensor_.sensor);
   acquisition_.start(sensor_.sensor, part_ != kWhole ? view.parts[part_ - 1U].mission : view.mission, aim_of_scan(), acquired_.scan_id,
-                     executive_.next_slot_us(), acquired_.plan);
+                     now_us, acquired_.plan);
 }
 
 }  // namespace lasso

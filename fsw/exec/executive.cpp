@@ -8,6 +8,7 @@ constexpr SlotRow kSlotTable[] = {
   // A boundary's poll comes before its hand-over: the last samples of the scan that ends belong to it.
   {TaskId::kPollSensor,   1,              0, 1500, "poll sensor"},
   {TaskId::kPassBoundary, kSlotsPerFrame, 0, 4000, "publish, hand over, plan"},
+  {TaskId::kTendMemory,   1,              0, 2500, "scrub, take in an image"},
 };
 // clang-format on
 
@@ -26,6 +27,18 @@ Status Executive::begin(TimeUs boundary_0_us, DurationUs period_us) {
 
 TimeUs Executive::next_slot_us() const {
   return boundary_us_ + period_us_ * static_cast<DurationUs>(slot_) / static_cast<DurationUs>(kSlotsPerFrame);
+}
+
+bool Executive::jumped(TimeUs now_us) const {
+  const DurationUs off_us = now_us - next_slot_us();
+  const bool first = frame_ == 0 && slot_ == 0;
+  return off_us > kJumpUs || (off_us < -kJumpUs && !first);
+}
+
+DurationUs Executive::follow_jump(TimeUs now_us) {
+  const DurationUs moved_us = now_us - next_slot_us();
+  boundary_us_ += moved_us;
+  return moved_us;
 }
 
 void Executive::note_start(TimeUs now_us) {

@@ -11,8 +11,9 @@
 namespace lasso {
 
 constexpr std::uint32_t kSlotsPerFrame = 20;
+constexpr DurationUs kJumpUs = 10'000'000;  // less is lateness, which frames make up for
 
-enum class TaskId : std::uint8_t { kPollSensor = 0, kPassBoundary = 1 };
+enum class TaskId : std::uint8_t { kPollSensor = 0, kPassBoundary = 1, kTendMemory = 2 };
 
 // A row runs in the slots of a frame for which slot % period_slots == offset_slot. Rows of one slot run in the order of the table.
 struct SlotRow {
@@ -37,6 +38,10 @@ class Executive {
   std::uint32_t next_slot() const { return slot_; }  // 0: a boundary
   std::uint32_t frame() const { return frame_; }     // of the next slot; wraps
 
+  // Has the clock jumped? It has when it is more than kJumpUs away from the next slot's time, before the first slot but ahead.
+  bool jumped(TimeUs now_us) const;
+  // The next slot is now, and the frames go on from there. Returns by how much they have been moved.
+  DurationUs follow_jump(TimeUs now_us);
   // The next slot runs at now_us: accounts for its lateness. A slot that begins later than its own length has slipped.
   void note_start(TimeUs now_us);
   // The slot has run: on to the next one.

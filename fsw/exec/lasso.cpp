@@ -39,7 +39,7 @@ bool receive_packet(Component& component, ConstBytes packet, TimeUs now_us) { re
 std::size_t take_telemetry(Component& component, Bytes out) { return component.take_telemetry(out); }
 
 bool step(Component& component, TimeUs now_us) {
-  if (now_us < component.next_slot_us()) return false;
+  if (!component.slot_is_due(now_us)) return false;
   component.run_slot(now_us);
   component.run_estimation();
   return true;

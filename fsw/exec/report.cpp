@@ -134,6 +134,8 @@ std::uint32_t bounded_age(DurationUs age_us) {
 
 std::uint32_t software_version() { return kMajor << 24 | kMinor << 16 | kPatch; }
 
+std::uint32_t software_build() { return LASSO_BUILD_ID; }
+
 const char* version() { return kVersion; }
 
 PoseTelemetry make_report(const Mission& mission, const TrackStep& step, const ScanPlan& plan, TimeUs t_publication_us) {
@@ -152,7 +154,7 @@ PoseTelemetry make_report(const Mission& mission, const TrackStep& step, const S
   out.start_way = static_cast<std::uint8_t>(step.after.way);
   out.image_crc = mission.image_crc;
   out.software_version = software_version();
-  out.software_build = LASSO_BUILD_ID;
+  out.software_build = software_build();
   return out;
 }
 

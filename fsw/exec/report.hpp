@@ -11,6 +11,7 @@ namespace lasso {
 
 // major << 24 | minor << 16 | patch, and the same as text.
 std::uint32_t software_version();
+std::uint32_t software_build();  // identifier given by the build, 0: development
 const char* version();
 
 // Everything except the counters, the changes of the mode and the refusals.

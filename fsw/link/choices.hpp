@@ -46,6 +46,7 @@ inline constexpr Choice kTrackingModes[] = {
   {"reacquiring", "wide starts near the prediction"},
   {"searching", "the pose is looked for at any attitude"},
   {"short_range", "close by: parts of the target in turn"},
+  {"safe", "no scans, the laser inhibited; left by command alone", "look at the faults in telemetry; then command standby"},
 };
 inline constexpr Choice kModeEvents[] = {
   {"start", "a pose to start from is given, or the next way's turn has come"},
@@ -61,6 +62,7 @@ inline constexpr Choice kModeEvents[] = {
   {"search", "commanded to look for the pose at any attitude, or the turn of that way to start"},
   {"near", "a scan gave a valid pose, within short_range.enter_m"},
   {"far", "a scan gave a valid pose, beyond short_range.leave_m"},
+  {"make_safe", "commanded, or the answer to a fault", "look at the faults in telemetry"},
 };
 inline constexpr Choice kWays[] = {
   {"none", "no way"},
@@ -83,6 +85,7 @@ inline constexpr Choice kStartRefusals[] = {
   {"out_of_reach", "not in front of the sensor, or wholly outside the ranges that it measures", "compare frames and units with T_sensor_target in metres"},
   {"not_at_bearing", "not where the bearing sees the target", "compare it with the item bearing"},
   {"not_confirmed", "no scan confirmed it within start.frames", "send a better one, or command a search"},
+  {"not_from_here", "the present mode takes no start: safe", "command standby first"},
 };
 inline constexpr Choice kBearingReasons[] = {
   {"valid", "the bearing can be trusted"},
@@ -121,6 +124,22 @@ inline constexpr Choice kSensorReasons[] = {
   {"all_failed", "all sensors lose their scans; the one in use goes on", "look at the sensors"},
   {"busy", "a search is at work on the sensor's scans: it stays"},
 };
+inline constexpr Choice kLossReasons[] = {
+  {"none", "no scan was lost"},
+  {"inhibited", "the sensor's light is inhibited", "permit it"},
+  {"no_room", "the sensor takes no more commands: they do not leave", "look at the line"},
+  {"silent", "the sensor does not answer", "look at its power and at the line"},
+  {"busy", "an earlier scan ran", "none, unless it repeats: reset the sensor"},
+  {"refused", "the plan is outside the sensor's limits", "compare the mission's field of view with the sensor's"},
+  {"restarted", "the sensor started anew", "none, unless it repeats: look at its power"},
+  {"foreign", "another sensor than the calibration's, of another protocol, or it has not said which", "load its calibration"},
+  {"stopped", "the sensor ended the scan early", "look at its faults"},
+  {"off_plan", "the sensor scanned something else", "look at its mirrors"},
+  {"other", "the sensor gave another reason", "look at the sensor"},
+  {"unfinished", "too few samples were there at the frame's end", "look at the line; compare its rate with the scan's duration"},
+  {"thin", "complete, but too few samples were well formed", "look at damaged_frames and samples_lost: a noisy line"},
+  {"stuck", "the rays went nearly one way: the mirrors stand still", "look at the mirrors; reset the sensor"},
+};
 inline constexpr Choice kPacketFaults[] = {
   {"none", "it is accepted"},
   {"truncated", "fewer bytes than its headers need, or than its length field says", "look at the link"},
@@ -143,6 +162,77 @@ inline constexpr Choice kModeRefusals[] = {
   {"not_from_here", "the present mode has no such way out", "command standby first; see the table of modes"},
   {"no_prediction", "nothing was tracked, so there is no place to look near", "send a pose to start from, or command a search"},
 };
+inline constexpr Choice kServiceRefusals[] = {
+  {"none", "it was not refused"},
+  {"no_such_event", "no event has this number", "compare the sender's dictionary with this one"},
+  {"not_armed", "a hazardous command that the last arm did not name, or too long ago", "arm it, then send it again"},
+  {"not_hazardous", "arm names no hazardous command", "see which commands are hazardous"},
+  {"no_such_structure", "no structure has this number", "compare the sender's dictionary with this one"},
+  {"no_such_parameter", "no parameter has this number", "compare the sender's dictionary with this one"},
+  {"fixed_parameter", "it is the mission image's alone", "upload an image that has it"},
+  {"out_of_limits", "the value is outside of the parameter's limits, or not whole", "see the parameter's limits"},
+  {"inconsistent", "the value contradicts another parameter", "change the other one first (short_range.leave_m stays above enter_m)"},
+  {"no_image_buffer", "the board has no second image buffer", "load the image at a start"},
+  {"too_long", "longer than the image buffer, than a dump (128 bytes) or a check (16384 bytes) may be; or no image at all", "send less"},
+  {"not_open", "no image is being loaded", "send begin_image"},
+  {"outside", "it ends behind its area, or the area is empty", "correct offset and length"},
+  {"not_whole", "a part that does not begin, or end, where a block of 128 bytes does", "send whole blocks"},
+  {"incomplete", "parts of the image are missing", "send those that the packet image names"},
+  {"image_busy", "the other image is being checked or converted, or may still be wanted back", "wait for the event image_ready, or image_confirmed"},
+  {"image_not_ready", "the other buffer has no image that could be active", "load one, and send check_image"},
+  {"other_image", "the image is not the one that is named", "compare the check sums"},
+  {"does_not_fit", "its filter.period_s is not that of the active image", "load it at a start"},
+  {"not_allowed", "the area is not written to", "load into other_image"},
+  {"mode_safe", "the laser stays dark in mode safe", "command standby first"},
+};
+inline constexpr Choice kStructureNames[] = {
+  {"none", "no structure"},
+  {"pose", "the navigation output"},
+  {"link", "counters of the link"},
+  {"sensor", "counters of a sensor, a packet each"},
+  {"health", "faults and what led to them"},
+  {"image", "the two mission images, and the scrub of memory"},
+};
+inline constexpr Choice kMemoryAreas[] = {
+  {"other_image", "the image that is not active: the one that is loaded"},
+  {"active_image", "the active image as it lies in memory"},
+  {"code", "the code of the component, where the board names it"},
+};
+inline constexpr Choice kImageStates[] = {
+  {"empty", "there is none"},
+  {"loading", "parts are awaited"},
+  {"checking", "it has come, and is being checked"},
+  {"refused", "it is wrong, or has decayed"},
+  {"storing", "it is right, and is being written to the store"},
+  {"converting", "its numbers become those of the processor"},
+  {"sealing", "check sums are taken of it as it lies in memory"},
+  {"ready", "it can be made active"},
+};
+inline constexpr Choice kScrubbedAreas[] = {
+  {"image_0", "the image in buffer 0"},
+  {"views_0", "what was made of it: its parameters, and where its tables are"},
+  {"image_1", "the image in buffer 1"},
+  {"views_1", "what was made of it"},
+  {"code", "the code of the component"},
+};
+inline constexpr Choice kStatuses[] = {
+  {"ok", "nothing"},
+  {"truncated", "fewer bytes than the format needs"},
+  {"bad_magic", "not this format at all"},
+  {"bad_version", "this format, another version"},
+  {"bad_length", "a length contradicts the data"},
+  {"bad_crc", "a check sum does not match"},
+  {"bad_index", "an index points outside its table"},
+  {"bad_value", "a value is outside its range, or does not fit this board"},
+  {"not_finite", "a value is not a number"},
+  {"over_capacity", "more than the component has room for"},
+  {"missing", "a required part is not there"},
+  {"bad_order", "out of order"},
+  {"busy", "an earlier request still runs"},
+  {"timeout", "no answer in time"},
+  {"no_data", "nothing to work on"},
+  {"singular", "a division has no meaning"},
+};
 inline constexpr Choice kPatterns[] = {
   {"rosette", "two circles of coprime frequencies"},
   {"lissajous", "a Lissajous figure"},
@@ -160,8 +250,15 @@ inline constexpr Enumeration kBearingReason{"bearing_reason", Span<const Choice>
 inline constexpr Enumeration kSearchOutcome{"search_outcome", Span<const Choice>(kSearchOutcomes)};
 inline constexpr Enumeration kSearchReason{"search_reason", Span<const Choice>(kSearchReasons)};
 inline constexpr Enumeration kSensorReason{"sensor_reason", Span<const Choice>(kSensorReasons)};
+inline constexpr Enumeration kScanLoss{"scan_loss", Span<const Choice>(kLossReasons)};
 inline constexpr Enumeration kPacketFault{"packet_fault", Span<const Choice>(kPacketFaults)};
 inline constexpr Enumeration kModeRefusal{"mode_refusal", Span<const Choice>(kModeRefusals)};
+inline constexpr Enumeration kServiceRefusal{"service_refusal", Span<const Choice>(kServiceRefusals)};
+inline constexpr Enumeration kStructure{"structure", Span<const Choice>(kStructureNames)};
+inline constexpr Enumeration kMemoryArea{"memory_area", Span<const Choice>(kMemoryAreas)};
+inline constexpr Enumeration kImageState{"image_state", Span<const Choice>(kImageStates)};
+inline constexpr Enumeration kScrubArea{"scrub_area", Span<const Choice>(kScrubbedAreas)};
+inline constexpr Enumeration kStatus{"status", Span<const Choice>(kStatuses)};
 inline constexpr Enumeration kPattern{"pattern", Span<const Choice>(kPatterns)};
 // clang-format on
 

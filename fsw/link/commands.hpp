@@ -6,6 +6,8 @@
 
 #include "fsw/core/span.hpp"
 #include "fsw/core/time.hpp"
+#include "fsw/link/arming.hpp"
+#include "fsw/link/memory_report.hpp"
 #include "fsw/link/telecommand.hpp"
 
 namespace lasso {
@@ -16,7 +18,70 @@ constexpr std::uint8_t kServiceTest = 17;
 constexpr std::uint8_t kSubservicePing = 1;
 constexpr std::uint8_t kSubservicePong = 2;
 
-enum class CommandKind : std::uint8_t { kPing = 0, kMode = 1, kHold = 2, kStart = 3 };  // the number of the function
+constexpr std::uint8_t kSubserviceEnableStructure = 5;
+constexpr std::uint8_t kSubserviceDisableStructure = 6;
+constexpr std::uint8_t kSubserviceReportStructure = 27;
+constexpr std::uint8_t kSubserviceStructurePeriod = 31;
+constexpr std::uint8_t kServiceTime = 9;
+constexpr std::uint8_t kSubserviceCorrelate = 128;
+constexpr std::uint8_t kServiceParameter = 20;
+constexpr std::uint8_t kSubserviceReportParameter = 1;
+constexpr std::uint8_t kSubserviceParameterValue = 2;
+constexpr std::uint8_t kSubserviceSetParameter = 3;
+constexpr std::uint8_t kSubserviceRevertParameters = 128;
+
+enum class CommandKind : std::uint8_t {
+  kPing,
+  kMode,
+  kHold,
+  kStart,
+  kEnableEvent,
+  kDisableEvent,
+  kReportDisabled,
+  kArm,
+  kEnableLaser,
+  kInhibitLaser,
+  kEnableStructure,
+  kDisableStructure,
+  kReportStructure,
+  kStructurePeriod,
+  kCorrelateTime,
+  kReportParameter,
+  kSetParameter,
+  kRevertParameters,
+  kBeginImage,
+  kCheckImage,
+  kActivateImage,
+  kRollBackImage,
+  kLoadMemory,
+  kDumpMemory,
+  kCheckMemory,
+};
+
+// Why a command that is right by itself cannot be carried out. Modes and starts have reasons of their own.
+enum class ServiceRefusal : std::uint8_t {
+  kNone = 0,
+  kNoSuchEvent = 1,
+  kNotArmed = 2,
+  kNotHazardous = 3,
+  kNoSuchStructure = 4,
+  kNoSuchParameter = 5,
+  kFixedParameter = 6,
+  kOutOfLimits = 7,
+  kInconsistent = 8,
+  kNoImageBuffer = 9,
+  kTooLong = 10,
+  kNotOpen = 11,
+  kOutside = 12,
+  kNotWhole = 13,
+  kIncomplete = 14,
+  kImageBusy = 15,
+  kImageNotReady = 16,
+  kOtherImage = 17,
+  kDoesNotFit = 18,
+  kNotAllowed = 19,
+  kModeSafe = 20,
+};
 
 struct ModeCommand {
   std::uint8_t mode = 0;  // TrackingMode
@@ -33,18 +98,46 @@ struct StartCommand {
   double v_mps[3] = {};
   float covariance[21] = {};  // upper triangle, row by row: rotation [rad], translation [m]; sensor axes
 };
+struct EventCommand {
+  std::uint16_t event = 0;  // EventId
+};
+struct StructureCommand {
+  std::uint16_t structure = 0;
+  std::uint16_t period_frames = 0;  // kStructurePeriod
+};
+struct ParameterCommand {
+  std::uint16_t parameter = 0;  // row of parameter_rows()
+  double value = 0;             // kSetParameter: in the row's unit
+};
+struct TimeCommand {  // the same moment
+  TimeUs component_us = 0;
+  TimeUs spacecraft_us = 0;
+};
 
 struct Command {
   CommandHeader header;
   CommandKind kind = CommandKind::kPing;
+  CommandName name;
+  Hazard hazard = Hazard::kNone;
   ModeCommand mode;  // the one of `kind` holds
   HoldCommand hold;
   StartCommand start;
+  EventCommand event;
+  CommandName armed;  // kArm
+  StructureCommand structure;
+  TimeCommand time;
+  ParameterCommand parameter;
+  ImageCommand image;
+  LoadCommand load;
+  MemoryCommand memory;
 };
 
 constexpr std::size_t kMaxCommandBytes = 256;
 
 // Checks packet and arguments. `command` is untouched when it is refused.
 PacketFault decode_command(ConstBytes packet, Command& command);
+
+// Is there a command of this name that has to be armed? Loop bound: the commands.
+bool is_hazardous(const CommandName& name);
 
 }  // namespace lasso

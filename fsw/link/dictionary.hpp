@@ -5,10 +5,14 @@
 #include <cstdint>
 
 #include "fsw/link/command_rows.hpp"
+#include "fsw/link/event_rows.hpp"
+#include "fsw/link/health_rows.hpp"
 #include "fsw/link/link_report_rows.hpp"
 #include "fsw/link/packet.hpp"
+#include "fsw/link/packet_row.hpp"
 #include "fsw/link/pose_rows.hpp"
 #include "fsw/link/row.hpp"
+#include "fsw/link/sensor_rows.hpp"
 #include "fsw/link/telecommand.hpp"
 
 namespace lasso {
@@ -18,16 +22,6 @@ struct HeaderField {
   const char* name;
   std::uint16_t bit;
   std::uint16_t bits;
-  const char* meaning;
-};
-
-struct PacketRow {
-  const char* name;
-  PacketType type;
-  std::uint8_t service, subservice;
-  bool numbered;         // the number is in the packet,
-  std::uint16_t number;  // 16 bits behind the headers: the structure, the function
-  Span<const ItemRow> items;
   const char* meaning;
 };
 
@@ -43,7 +37,7 @@ inline constexpr HeaderField kPrimaryFields[] = {
 };
 inline constexpr HeaderField kTelemetryFields[] = {
   {"pus_version", 48, 4, "PUS-C, 2"},
-  {"time_status", 52, 4, "quality of the time reference; 0: not stated"},
+  {"time_status", 52, 4, "quality of the time reference; 0: the component's own clock, 1: spacecraft time, by the last correlate_time"},
   {"service", 56, 8, "service type"},
   {"subservice", 64, 8, "message subtype"},
   {"message_count", 72, 16, "counts the packets of this service and subservice, modulo 65536"},
@@ -60,18 +54,32 @@ inline constexpr HeaderField kCommandFields[] = {
 };
 
 inline constexpr auto kPoseItems = items_of(pose_rows::kRows);
+inline constexpr auto kSensorItems = items_of(sensor_report_rows::kRows);
+inline constexpr auto kHealthItems = items_of(health_rows::kRows);
+inline constexpr auto kImageItems = items_of(memory_rows::kImage);
+inline constexpr auto kDumpedItems = items_of(memory_rows::kDumped);
+inline constexpr auto kCheckedItems = items_of(memory_rows::kChecked);
 inline constexpr auto kLinkItems = items_of(link_report_rows::kLink);
 inline constexpr auto kDoneItems = items_of(link_report_rows::kDone);
 inline constexpr auto kRefusedItems = items_of(link_report_rows::kRefused);
 inline constexpr auto kFailedItems = items_of(link_report_rows::kFailed);
-inline constexpr auto kModeItems = items_of(command_rows::kMode);
-inline constexpr auto kHoldItems = items_of(command_rows::kHold);
-inline constexpr auto kStartItems = items_of(command_rows::kStart);
-inline constexpr PacketRow kPackets[] = {
+inline constexpr auto kParameterValueItems = items_of(link_report_rows::kParameter);
+inline constexpr auto kDisabledItems = items_of(link_report_rows::kDisabled);
+inline constexpr PacketRow kTelemetry[] = {
   {"pose", PacketType::kTelemetry, kServiceHousekeeping, kSubserviceHousekeepingReport, true, kPoseStructureId, Span<const ItemRow>(kPoseItems.rows),
    "the navigation output of one frame"},
   {"link", PacketType::kTelemetry, kServiceHousekeeping, kSubserviceHousekeepingReport, true, kLinkStructureId, Span<const ItemRow>(kLinkItems.rows),
    "counters of the link, at the end of a frame in which one of the first four has changed"},
+  {"sensor", PacketType::kTelemetry, kServiceHousekeeping, kSubserviceHousekeepingReport, true, kSensorStructureId, Span<const ItemRow>(kSensorItems.rows),
+   "how a sensor fares, at the end of a frame in which it lost a scan, or one of its counters of what goes wrong has changed"},
+  {"health", PacketType::kTelemetry, kServiceHousekeeping, kSubserviceHousekeepingReport, true, kHealthStructureId, Span<const ItemRow>(kHealthItems.rows),
+   "faults and what led to them, at the end of a frame in which one is confirmed or cleared, and of the first"},
+  {"image", PacketType::kTelemetry, kServiceHousekeeping, kSubserviceHousekeepingReport, true, kImageStructureId, Span<const ItemRow>(kImageItems.rows),
+   "the two mission images and the scrub, at the end of a frame in which an image's state has changed, or something was found"},
+  {"dumped", PacketType::kTelemetry, kServiceMemory, kSubserviceDumped, false, 0, Span<const ItemRow>(kDumpedItems.rows),
+   "the answer to dump_memory"},
+  {"checked", PacketType::kTelemetry, kServiceMemory, kSubserviceChecked, false, 0, Span<const ItemRow>(kCheckedItems.rows),
+   "the answer to check_memory"},
   {"accepted", PacketType::kTelemetry, kServiceVerification, kSubserviceAccepted, false, 0, Span<const ItemRow>(kDoneItems.rows),
    "a command is accepted, if it asks for this report"},
   {"refused", PacketType::kTelemetry, kServiceVerification, kSubserviceRefused, false, 0, Span<const ItemRow>(kRefusedItems.rows),
@@ -81,15 +89,13 @@ inline constexpr PacketRow kPackets[] = {
   {"failed", PacketType::kTelemetry, kServiceVerification, kSubserviceFailed, false, 0, Span<const ItemRow>(kFailedItems.rows),
    "a command was accepted, but the present state does not allow it: it changes nothing"},
   {"pong", PacketType::kTelemetry, kServiceTest, kSubservicePong, false, 0, Span<const ItemRow>(), "the answer to ping"},
-  {"ping", PacketType::kCommand, kServiceTest, kSubservicePing, false, 0, Span<const ItemRow>(), "asks for the packet pong"},
-  {"set_mode", PacketType::kCommand, kServiceFunction, kSubservicePerform, true, static_cast<std::uint16_t>(CommandKind::kMode), Span<const ItemRow>(kModeItems.rows),
-   "the mode, from the next boundary on"},
-  {"set_hold", PacketType::kCommand, kServiceFunction, kSubservicePerform, true, static_cast<std::uint16_t>(CommandKind::kHold), Span<const ItemRow>(kHoldItems.rows),
-   "holds the mode, from the next boundary on"},
-  {"offer_start", PacketType::kCommand, kServiceFunction, kSubservicePerform, true, static_cast<std::uint16_t>(CommandKind::kStart), Span<const ItemRow>(kStartItems.rows),
-   "a pose to start from"},
+  {"disabled_events", PacketType::kTelemetry, kServiceEvent, kSubserviceDisabledEvents, false, 0, Span<const ItemRow>(kDisabledItems.rows),
+   "the answer to report_disabled_events"},
+  {"parameter", PacketType::kTelemetry, kServiceParameter, kSubserviceParameterValue, false, 0, Span<const ItemRow>(kParameterValueItems.rows),
+   "the answer to report_parameter"},
 };
 // clang-format on
+inline constexpr auto kPackets = joined(kTelemetry, command_rows::kCommands, event_rows::packets());
 
 // Offset of the source or application data, behind the number where there is one.
 inline std::size_t data_offset(const PacketRow& packet) {

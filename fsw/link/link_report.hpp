@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "fsw/core/span.hpp"
+#include "fsw/link/housekeeping.hpp"
 #include "fsw/link/packet.hpp"
 
 namespace lasso {
@@ -14,7 +15,6 @@ constexpr std::uint8_t kSubserviceAccepted = 1;
 constexpr std::uint8_t kSubserviceRefused = 2;
 constexpr std::uint8_t kSubserviceCompleted = 7;
 constexpr std::uint8_t kSubserviceFailed = 8;
-constexpr std::uint16_t kLinkStructureId = 2;
 
 // Of which command, and what became of it.
 struct Verification {
@@ -23,6 +23,15 @@ struct Verification {
   std::uint8_t fault = 0;              // PacketFault
   std::uint8_t mode_refusal = 0;       // ModeRefusal
   std::uint8_t start_refusal = 0;      // StartRefusal
+  std::uint8_t service_refusal = 0;    // ServiceRefusal
+};
+
+// The packet `parameter`.
+struct ParameterTelemetry {
+  std::uint16_t parameter = 0;
+  double value = 0;        // in the parameter's unit
+  double image_value = 0;  // the mission image's
+  std::uint8_t changed = 0;
 };
 
 struct LinkTelemetry {
@@ -31,6 +40,9 @@ struct LinkTelemetry {
   std::uint8_t last_fault = 0;      // PacketFault of the last one that was refused
   std::uint32_t skipped_bytes = 0;  // that belonged to no packet
   std::uint16_t queue_peak = 0;     // most bytes of telemetry that ever waited
+  std::uint8_t armed = 0;           // 1: a hazardous command may be fired
+  std::uint8_t laser_enabled = 0;   // 1: a command has enabled the laser
+  TimeUs time_offset_us = 0;        // spacecraft time minus the component's
 };
 
 constexpr std::size_t kMaxLinkReportBytes = 64;

@@ -23,10 +23,14 @@ constexpr std::size_t kPacketNumberBytes = 2;  // of the structure, first in the
 constexpr std::uint8_t kServiceHousekeeping = 3;
 constexpr std::uint8_t kSubserviceHousekeepingReport = 25;
 
+// Quality of the time reference.
+constexpr std::uint8_t kTimeStatusFree = 0;        // the component's own clock
+constexpr std::uint8_t kTimeStatusCorrelated = 1;  // spacecraft time, by command
+
 struct PacketHeader {
   std::uint16_t apid = kApid;
   std::uint16_t sequence_count = 0;  // modulo 2^14
-  std::uint8_t time_status = 0;
+  std::uint8_t time_status = kTimeStatusFree;
   std::uint8_t service = 0;
   std::uint8_t subservice = 0;
   std::uint16_t message_count = 0;  // modulo 2^16, per service and subservice

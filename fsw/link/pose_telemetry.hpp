@@ -7,11 +7,11 @@
 
 #include "fsw/core/span.hpp"
 #include "fsw/core/time.hpp"
+#include "fsw/link/housekeeping.hpp"
 #include "fsw/link/packet.hpp"
 
 namespace lasso {
 
-constexpr std::uint16_t kPoseStructureId = 1;
 constexpr std::size_t kPoseSigmas = 6;
 constexpr std::size_t kPoseCovarianceTerms = 21;
 constexpr std::size_t kPoseChanges = 4;

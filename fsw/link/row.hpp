@@ -23,6 +23,8 @@ constexpr std::size_t wire_size(WireType type) {  // bytes of one element
   return kSizes[static_cast<std::size_t>(type)];
 }
 
+constexpr bool is_real(WireType type) { return type == WireType::kF32 || type == WireType::kF64; }
+
 // One value of an enumeration.
 struct Choice {
   const char* name = "";
@@ -56,6 +58,15 @@ struct ItemRow {
 
   constexpr std::size_t size() const { return wire_size(type) * count; }
 };
+
+// Rows of items that no struct has: a number, one of an enumeration.
+constexpr ItemRow number_item(std::uint16_t id, const char* name, WireType type, const char* unit, const char* meaning) {
+  return {id, name, type, 1, unit, kAny, nullptr, meaning};
+}
+constexpr ItemRow choice_item(std::uint16_t id, const char* name, const Enumeration& enumeration, const char* meaning) {
+  const Range range{0, static_cast<double>(enumeration.choices.size()) - 1};
+  return {id, name, WireType::kU8, 1, "1", range, &enumeration, meaning};
+}
 
 template <class Packet>
 struct TypedRow : ItemRow {
@@ -122,7 +133,7 @@ struct Items {
 template <class Packet, std::size_t kRows>
 constexpr Items<kRows> items_of(const TypedRow<Packet> (&rows)[kRows]) {
   Items<kRows> items;
-  for (std::size_t i = 0; i < kRows; ++i) items.rows[i] = rows[i];
+  for (std::size_t i = 0; i < kRows; ++i) items.rows[i] = static_cast<const ItemRow&>(rows[i]);
   return items;
 }
 

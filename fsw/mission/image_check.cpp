@@ -18,7 +18,7 @@ constexpr std::uint32_t kRecordWords[kTableCount] = {
     1, kViewWords,          kSymmetryWords, kPartWords,      1,           kSensorWords};
 static_assert(kSensorWords == 2 * kSensorValues, "two words a value");
 
-// Header, sizes and whole CRC.
+// Header and sizes.
 LoadFailure check_header(const FlightImage& image) {
   if (image.bytes.size() < kDirectoryBytes + 4) return failure(Status::kTruncated, "shorter than header and directory");
   ByteReader reader(image.bytes);
@@ -31,40 +31,13 @@ LoadFailure check_header(const FlightImage& image) {
   (void)reader.u32();  // mission id and version say nothing about validity
   (void)reader.u32();
   if (reader.u32() != parameter_rows().size()) return failure(Status::kBadVersion, "parameter count of another build");
-  ByteReader trailer(image.bytes.subspan(image.bytes.size() - 4, 4));
-  if (trailer.u32() != crc32c(image.bytes.first(image.bytes.size() - 4))) return failure(Status::kBadCrc, "image check sum");
   return {};
 }
 
-LoadFailure read_directory(FlightImage& image) {
-  ByteReader reader(
-      ConstBytes(image.bytes).subspan(std::size_t{4} * kImageHeaderWords, std::size_t{4} * kTableCount * kDirectoryEntryWords));
-  std::size_t free_from = kDirectoryBytes;
-  const std::size_t end = image.bytes.size() - 4;
-  for (std::uint32_t i = 0; i < kTableCount; ++i) {
-    const std::uint32_t id = reader.u32();
-    ImageTable& table = image.tables[i];
-    table.words = reader.u32();
-    table.records = reader.u32();
-    const std::size_t offset = reader.u32();
-    const std::uint32_t crc = reader.u32();
-    if (id != i + 1) return failure(Status::kBadOrder, "tables out of order", i + 1);
-    if (table.words != kRecordWords[i]) return failure(Status::kBadLength, "record length", i + 1);
-    if (offset % 8 != 0 || offset < free_from || offset > end) return failure(Status::kBadIndex, "table offset", i + 1);
-    if (table.records > (end - offset) / (std::size_t{4} * table.words))
-      return failure(Status::kTruncated, "table ends past the image", i + 1);
-    table.data = image.bytes.data() + offset;
-    free_from = offset + table.bytes();
-    if (crc != crc32c(ConstBytes(table.data, table.bytes()))) return failure(Status::kBadCrc, "table check sum", i + 1);
-  }
-  return {};
-}
-
-LoadFailure check_parameters(const ImageTable& table, MissionParameters& parameters) {
+LoadFailure check_parameters(const ImageTable& table) {
   if (table.records != parameter_rows().size()) return failure(Status::kBadLength, "number of parameters", TableId::kParameters);
-  parameters = parameters_of(table);
   std::size_t bad_row = 0;
-  const Status status = validate(parameters, bad_row);
+  const Status status = validate(parameters_of(table), bad_row);
   if (status == Status::kOk) return {};
   return failure(status, parameter_rows()[bad_row].key, TableId::kParameters, static_cast<std::uint32_t>(bad_row));
 }
@@ -113,16 +86,12 @@ bool is_distance(std::uint32_t word) {
   return distance >= 1 && distance <= kMaxCellDistance;
 }
 
-LoadFailure check_bricks(const FlightImage& image) {
+LoadFailure check_brick(const FlightImage& image, std::uint32_t i) {
   const ImageTable& bricks = image[TableId::kBricks];
-  const std::uint32_t occupied = image[TableId::kRayCells].records;
-  const std::uint32_t near = image[TableId::kNearCells].records;
-  for (std::uint32_t i = 0; i < bricks.records; ++i) {
-    const std::uint32_t word = bricks.word(i, 0);
-    const bool ok = (word & kEmptyBit) != 0 ? is_distance(word) : word < occupied;
-    if (!ok || bricks.word(i, 1) > near) return failure(Status::kBadIndex, "brick", TableId::kBricks, i);
-  }
-  return {};
+  const std::uint32_t word = bricks.word(i, 0);
+  const bool ok = (word & kEmptyBit) != 0 ? is_distance(word) : word < image[TableId::kRayCells].records;
+  if (ok && bricks.word(i, 1) <= image[TableId::kNearCells].records) return {};
+  return failure(Status::kBadIndex, "brick", TableId::kBricks, i);
 }
 
 bool is_ray_cell(std::uint32_t word, std::uint32_t list_words) {
@@ -131,25 +100,20 @@ bool is_ray_cell(std::uint32_t word, std::uint32_t list_words) {
   return count >= 1 && count <= kMaxElementsPerCell && (word & kListOffsetMask) + count <= list_words;
 }
 
-LoadFailure check_ray_cells(const FlightImage& image) {
+LoadFailure check_ray_cells(const FlightImage& image, std::uint32_t i) {
   const ImageTable& cells = image[TableId::kRayCells];
-  for (std::uint32_t i = 0; i < cells.records; ++i) {
-    for (std::uint32_t k = 0; k < kRayCellsPerBrick; ++k) {
-      if (!is_ray_cell(cells.word(i, k), image[TableId::kRayLists].records)) {
-        return failure(Status::kBadIndex, "ray cell", TableId::kRayCells, i);
-      }
-    }
+  const std::uint32_t list_words = image[TableId::kRayLists].records;
+  for (std::uint32_t k = 0; k < kRayCellsPerBrick; ++k) {
+    if (!is_ray_cell(cells.word(i, k), list_words)) return failure(Status::kBadIndex, "ray cell", TableId::kRayCells, i);
   }
   return {};
 }
 
-// Every word of the table is at most `maximum`.
-LoadFailure check_indices(const FlightImage& image, TableId id, std::uint32_t flags, std::uint32_t maximum) {
+// Every word of the record is at most `maximum`.
+LoadFailure check_indices(const FlightImage& image, TableId id, std::uint32_t i, std::uint32_t flags, std::uint32_t maximum) {
   const ImageTable& table = image[id];
-  for (std::uint32_t i = 0; i < table.records; ++i) {
-    for (std::uint32_t k = 0; k < table.words; ++k) {
-      if ((table.word(i, k) & ~flags) > maximum) return failure(Status::kBadIndex, "element index", id, i);
-    }
+  for (std::uint32_t k = 0; k < table.words; ++k) {
+    if ((table.word(i, k) & ~flags) > maximum) return failure(Status::kBadIndex, "element index", id, i);
   }
   return {};
 }
@@ -164,23 +128,19 @@ double squared_unit(const ImageTable& table, std::uint32_t record, std::uint32_t
   return sum;
 }
 
-LoadFailure check_elements(const FlightImage& image) {
+LoadFailure check_element(const FlightImage& image, std::uint32_t i) {
   const ImageTable& elements = image[TableId::kElements];
-  for (std::uint32_t i = 0; i < elements.records; ++i) {
-    bool ok = is_unit(squared_unit(elements, i, 0)) && elements.word(i, 4) < image[TableId::kCurvatures].records;
-    for (std::uint32_t side = 0; side < 3; ++side) ok = ok && is_unit(squared_unit(elements, i, 6 + side, 4));
-    if (!ok || elements.word(i, 5) > kElementTwoSided) return failure(Status::kBadValue, "element", TableId::kElements, i);
-  }
-  return {};
+  bool ok = is_unit(squared_unit(elements, i, 0)) && elements.word(i, 4) < image[TableId::kCurvatures].records;
+  for (std::uint32_t side = 0; side < 3; ++side) ok = ok && is_unit(squared_unit(elements, i, 6 + side, 4));
+  if (ok && elements.word(i, 5) <= kElementTwoSided) return {};
+  return failure(Status::kBadValue, "element", TableId::kElements, i);
 }
 
-LoadFailure check_edges(const FlightImage& image) {
+LoadFailure check_edge(const FlightImage& image, std::uint32_t i) {
   const ImageTable& edges = image[TableId::kEdges];
-  for (std::uint32_t i = 0; i < edges.records; ++i) {
-    const bool ok = is_unit(squared_unit(edges, i, 6)) && is_unit(squared_unit(edges, i, 10));
-    if (!ok || edges.word(i, 14) > kEdgeBoundary) return failure(Status::kBadValue, "edge", TableId::kEdges, i);
-  }
-  return {};
+  const bool ok = is_unit(squared_unit(edges, i, 6)) && is_unit(squared_unit(edges, i, 10));
+  if (ok && edges.word(i, 14) <= kEdgeBoundary) return {};
+  return failure(Status::kBadValue, "edge", TableId::kEdges, i);
 }
 
 LoadFailure check_search_grid(const FlightImage& image) {
@@ -200,49 +160,163 @@ LoadFailure check_search_grid(const FlightImage& image) {
   return {};
 }
 
-// Every record of the table begins with a unit vector of `size` components.
-LoadFailure check_units(const FlightImage& image, TableId id, std::uint32_t size) {
-  const ImageTable& table = image[id];
-  for (std::uint32_t i = 0; i < table.records; ++i) {
-    if (!is_unit(squared_unit(table, i, 0, 1, size))) return failure(Status::kBadValue, "not of unit length", id, i);
-  }
-  return {};
+// The record begins with a unit vector of `size` components.
+LoadFailure check_unit(const FlightImage& image, TableId id, std::uint32_t i, std::uint32_t size) {
+  return is_unit(squared_unit(image[id], i, 0, 1, size)) ? LoadFailure{} : failure(Status::kBadValue, "not of unit length", id, i);
 }
 
-LoadFailure check_sensors(const FlightImage& image) {
-  const ImageTable& table = image[TableId::kSensors];
-  for (std::uint32_t i = 0; i < table.records; ++i) {
-    std::size_t bad_row = 0;
-    const Status status = validate(sensor_of(table, i), bad_row);
-    if (status != Status::kOk) return failure(status, sensor_rows()[bad_row].key, TableId::kSensors, i);
-  }
-  return {};
+LoadFailure check_sensor(const FlightImage& image, std::uint32_t i) {
+  std::size_t bad_row = 0;
+  const Status status = validate(sensor_of(image[TableId::kSensors], i), bad_row);
+  return status == Status::kOk ? LoadFailure{} : failure(status, sensor_rows()[bad_row].key, TableId::kSensors, i);
 }
 
-LoadFailure check_tables(const FlightImage& image) {
-  LoadFailure result = check_geometry(image);
+// Parameters, and what tables say of each other's sizes.
+LoadFailure check_numbers(const FlightImage& image) {
+  LoadFailure result = check_parameters(image[TableId::kParameters]);
+  if (!failed(result)) result = check_geometry(image);
   if (!failed(result)) result = check_counts(image);
-  if (!failed(result)) result = check_bricks(image);
-  if (!failed(result)) result = check_ray_cells(image);
-  if (!failed(result)) result = check_indices(image, TableId::kRayLists, kFinalEntry, image[TableId::kElements].records - 1);
-  if (!failed(result)) result = check_indices(image, TableId::kNearCells, 0, image[TableId::kElements].records);
-  if (!failed(result)) result = check_elements(image);
-  if (!failed(result)) result = check_edges(image);
   if (!failed(result)) result = check_search_grid(image);
-  if (!failed(result)) result = check_units(image, TableId::kViews, 3);
-  if (!failed(result)) result = check_units(image, TableId::kSymmetries, 4);
-  if (!failed(result)) result = check_sensors(image);
   return result;
+}
+
+// Tables whose records are checked one by one, in this order.
+constexpr TableId kChecked[] = {TableId::kBricks, TableId::kRayCells, TableId::kRayLists,   TableId::kNearCells, TableId::kElements,
+                                TableId::kEdges,  TableId::kViews,    TableId::kSymmetries, TableId::kSensors};
+constexpr std::uint32_t kCheckedTables = sizeof(kChecked) / sizeof(kChecked[0]);
+
+LoadFailure check_record(const FlightImage& image, TableId id, std::uint32_t record) {
+  if (id == TableId::kBricks) return check_brick(image, record);
+  if (id == TableId::kRayCells) return check_ray_cells(image, record);
+  if (id == TableId::kRayLists) return check_indices(image, id, record, kFinalEntry, image[TableId::kElements].records - 1);
+  if (id == TableId::kNearCells) return check_indices(image, id, record, 0, image[TableId::kElements].records);
+  if (id == TableId::kElements) return check_element(image, record);
+  if (id == TableId::kEdges) return check_edge(image, record);
+  if (id == TableId::kViews) return check_unit(image, id, record, 3);
+  if (id == TableId::kSymmetries) return check_unit(image, id, record, 4);
+  return check_sensor(image, record);
 }
 
 }  // namespace
 
-LoadFailure check_image(FlightImage& image, MissionParameters& parameters) {
-  LoadFailure result = check_header(image);
-  if (!failed(result)) result = read_directory(image);
-  if (!failed(result)) result = check_parameters(image[TableId::kParameters], parameters);
-  if (!failed(result)) result = check_tables(image);
-  return result;
+void ImageCheck::begin(Bytes bytes) {
+  *this = ImageCheck{};
+  image_.bytes = bytes;
+  stage_ = Stage::kHeader;
+}
+
+bool ImageCheck::step(std::uint32_t words) {
+  std::uint32_t left = words;
+  while (!done() && left > 0) {
+    const std::uint32_t used = advance(left);
+    left -= used < left ? used : left;
+  }
+  return done();
+}
+
+// The words that it took; at least one.
+std::uint32_t ImageCheck::advance(std::uint32_t words) {
+  switch (stage_) {
+    case Stage::kSum:
+      return check_whole_sum(words);
+    case Stage::kTableSum:
+      return check_table_sum(words);
+    case Stage::kRecords:
+      return check_records(words);
+    case Stage::kHeader:
+      enter(Stage::kSum, check_header(image_));
+      return kImageHeaderWords;
+    case Stage::kDirectory:
+      read_entry();
+      return kDirectoryEntryWords;
+    default:
+      table_ = 0;
+      enter(Stage::kRecords, check_numbers(image_));
+      if (!done()) image_.length_bits = static_cast<int>(image_[TableId::kFieldGeometry].word(0, kLengthFractionBits));
+      return image_[TableId::kParameters].bytes() / 4;
+  }
+}
+
+void ImageCheck::enter(Stage next, const LoadFailure& found) {
+  result_ = found;
+  stage_ = failed(found) ? Stage::kDone : next;
+  record_ = 0;
+  summed_ = 0;
+  sum_ = 0;
+}
+
+std::uint32_t ImageCheck::check_sum(ConstBytes bytes, std::uint32_t words) {
+  const std::size_t left = bytes.size() - summed_;
+  const std::size_t size = left < std::size_t{4} * words ? left : std::size_t{4} * words;
+  sum_ = crc32c(bytes.subspan(summed_, size), sum_);
+  summed_ += size;
+  return static_cast<std::uint32_t>(size / 4 + 1);
+}
+
+std::uint32_t ImageCheck::check_whole_sum(std::uint32_t words) {
+  const ConstBytes summed = ConstBytes(image_.bytes).first(image_.bytes.size() - 4);
+  const std::uint32_t used = check_sum(summed, words);
+  if (summed_ < summed.size()) return used;
+  ByteReader trailer(image_.bytes.subspan(image_.bytes.size() - 4, 4));
+  free_from_ = kDirectoryBytes;
+  enter(Stage::kDirectory, trailer.u32() == sum_ ? LoadFailure{} : failure(Status::kBadCrc, "image check sum"));
+  return used;
+}
+
+// The entry of the next table.
+void ImageCheck::read_entry() {
+  const std::size_t at = std::size_t{4} * (kImageHeaderWords + std::size_t{kDirectoryEntryWords} * table_);
+  ByteReader reader(image_.bytes.subspan(at, std::size_t{4} * kDirectoryEntryWords));
+  const std::size_t end = image_.bytes.size() - 4;
+  ImageTable& table = image_.tables[table_];
+  const std::uint32_t number = table_ + 1;
+  const std::uint32_t id = reader.u32();
+  table.words = reader.u32();
+  table.records = reader.u32();
+  const std::size_t offset = reader.u32();
+  stated_sum_ = reader.u32();
+  LoadFailure found;
+  if (id != number) {
+    found = failure(Status::kBadOrder, "tables out of order", number);
+  } else if (table.words != kRecordWords[table_]) {
+    found = failure(Status::kBadLength, "record length", number);
+  } else if (offset % 8 != 0 || offset < free_from_ || offset > end) {
+    found = failure(Status::kBadIndex, "table offset", number);
+  } else if (table.records > (end - offset) / (std::size_t{4} * table.words)) {
+    found = failure(Status::kTruncated, "table ends past the image", number);
+  } else {
+    table.data = image_.bytes.data() + offset;
+    free_from_ = offset + table.bytes();
+  }
+  enter(Stage::kTableSum, found);
+}
+
+std::uint32_t ImageCheck::check_table_sum(std::uint32_t words) {
+  const ImageTable& table = image_.tables[table_];
+  const std::uint32_t used = check_sum(ConstBytes(table.data, table.bytes()), words);
+  if (summed_ < table.bytes()) return used;
+  ++table_;
+  const LoadFailure found = sum_ == stated_sum_ ? LoadFailure{} : failure(Status::kBadCrc, "table check sum", table_);
+  enter(table_ < kTableCount ? Stage::kDirectory : Stage::kNumbers, found);
+  return used;
+}
+
+std::uint32_t ImageCheck::check_records(std::uint32_t words) {
+  const TableId id = kChecked[table_];
+  const ImageTable& table = image_[id];
+  std::uint32_t used = 0;
+  LoadFailure found;
+  for (; record_ < table.records && used < words && !failed(found); ++record_) {
+    found = check_record(image_, id, record_);
+    used += table.words;
+  }
+  if (failed(found)) {
+    enter(Stage::kDone, found);
+  } else if (record_ == table.records) {
+    record_ = 0;
+    if (++table_ == kCheckedTables) stage_ = Stage::kDone;
+  }
+  return used + 1;
 }
 
 SensorParameters sensor_of(const ImageTable& table, std::uint32_t record) {

@@ -1,9 +1,10 @@
+#include "fsw/mission/loader.hpp"
+
 #include <cstring>
 
 #include "cfg/capacities.hpp"
 #include "fsw/core/byte_codec.hpp"
 #include "fsw/geometry/portable_math.hpp"
-#include "fsw/mission/image_check.hpp"
 
 namespace lasso {
 namespace {
@@ -16,13 +17,14 @@ static_assert(sizeof(HullPointOf<N>) == std::size_t{4} * 3, "hull points are con
 static_assert(sizeof(ModelView<N>) == std::size_t{4} * kViewWords, "views are converted in place");
 static_assert(sizeof(NearSymmetry<N>) == std::size_t{4} * kSymmetryWords, "near-symmetries are converted in place");
 
-// Each letter is a word of a record: u plain, L length, U unit vector, K curvature.
+// Each letter is a word of a record: u plain, L length, U unit vector, K curvature; one letter holds for all words. Tables that are read
+// through the format stay as they were received: nullptr.
 constexpr const char* kElementLayout = "UUULuuUUUUUUUUUUUULLLL";
 constexpr const char* kCurvatureLayout = "UUULLLKKKKKKKKK";
 constexpr const char* kEdgeLayout = "LLLLLLUUULUUULu";
-constexpr const char* kLayouts[] = {
-    "",  "uuuuuuuuuuuuu", kElementLayout, kCurvatureLayout, "uu", "", "u", "", "LLL", kEdgeLayout, "LLL", "uuuuuuuuu",
-    "u", "UUULLLLLLLL",   "UUUULLL"};
+constexpr const char* kLayouts[kTableCount] = {
+    nullptr, nullptr, kElementLayout, kCurvatureLayout, "u", "u", "u", "u", "L", kEdgeLayout, "L", nullptr, "u", "UUULLLLLLLL", "UUUULLL"};
+
 constexpr std::uint32_t kPartsTables = 100;  // added to the numbers of the first part's tables, and again for each next one
 
 template <class T>
@@ -31,8 +33,9 @@ void store(std::uint8_t* place, T value) {
   std::memcpy(place, &value, 4);
 }
 
-void convert_word(std::uint8_t* place, std::uint32_t word, char kind, int length_bits) {
-  const auto value = static_cast<std::int32_t>(word);
+void convert_word(std::uint8_t* place, char kind, int length_bits) {
+  const ImageTable one{place, 1, 1};
+  const std::int32_t value = one.signed_word(0, 0);
   switch (kind) {
     case 'L':
       return store(place, N::length(value, length_bits));
@@ -41,18 +44,25 @@ void convert_word(std::uint8_t* place, std::uint32_t word, char kind, int length
     case 'K':
       return store(place, N::ratio(value, kCurvatureFractionBits));
     default:
-      return store(place, word);
+      return store(place, one.word(0, 0));
   }
 }
 
-// An empty layout means plain words throughout.
-void convert_table(const ImageTable& table, const char* layout, int length_bits) {
-  const bool plain = layout[0] == '\0';
-  for (std::uint32_t i = 0; i < table.records; ++i) {
-    for (std::uint32_t k = 0; k < table.words; ++k) {
-      std::uint8_t* place = table.data + 4 * (static_cast<std::size_t>(i) * table.words + k);
-      convert_word(place, table.word(i, k), plain ? 'u' : layout[k], length_bits);
-    }
+// What of a table lies in `piece`, which is `offset` bytes behind the beginning of `base`.
+void convert_table(const ImageTable& table, const char* layout, int length_bits, const std::uint8_t* base, std::size_t offset,
+                   Bytes piece) {
+  const auto begin = static_cast<std::size_t>(table.data - base);
+  const std::size_t end = begin + table.bytes();
+  const std::size_t last = end < offset + piece.size() ? end : offset + piece.size();
+  const std::uint32_t period = layout[1] == '\0' ? 1 : table.words;
+  for (std::size_t at = begin > offset ? begin : offset; at < last; at += 4) {
+    convert_word(piece.data() + (at - offset), layout[(at - begin) / 4 % period], length_bits);
+  }
+}
+
+void convert_image(const FlightImage& image, const std::uint8_t* base, std::size_t offset, Bytes piece) {
+  for (std::uint32_t i = 0; i < kTableCount; ++i) {
+    if (kLayouts[i] != nullptr) convert_table(image.tables[i], kLayouts[i], image.length_bits, base, offset, piece);
   }
 }
 
@@ -111,10 +121,9 @@ void set_sensors(const ImageTable& further, Mission& mission) {
   }
 }
 
-// From here on nothing can fail.
-void activate(const FlightImage& image, Mission& mission) {
+void set_mission(const FlightImage& image, Mission& mission) {
   const ImageTable& geometry = image[TableId::kFieldGeometry];
-  const int bits = static_cast<int>(geometry.word(0, kLengthFractionBits));
+  const int bits = image.length_bits;
   ByteReader header(image.bytes);
   (void)header.bytes(16);
   mission.id = header.u32();
@@ -125,7 +134,6 @@ void activate(const FlightImage& image, Mission& mission) {
   set_sensors(image[TableId::kSensors], mission);
   set_grid(geometry, bits, mission);
   set_search(image, bits, mission);
-  for (std::uint32_t i = 2; i < sizeof(kLayouts) / sizeof(kLayouts[0]); ++i) convert_table(image.tables[i], kLayouts[i], bits);
   set_views(image, mission);
 }
 
@@ -161,65 +169,16 @@ const char* fault_of(const Part& part) {
   return nullptr;
 }
 
-// An image and its parts' images.
-struct Images {
-  FlightImage whole;
-  FlightImage parts[kMaxParts];
-};
-
 LoadFailure find_part_image(const ImageTable& parts, const ImageTable& images, std::uint32_t record, std::uint32_t free_from,
-                            FlightImage& image) {
+                            Bytes& bytes) {
   const std::uint32_t offset = parts.word(record, kPartImageOffset);
   const std::uint32_t size = parts.word(record, kPartImageBytes);
   if (size == 0) return failure(Status::kMissing, "a part without a model", TableId::kParts, record);
   if (offset % 8 != 0 || offset < free_from || offset > images.bytes() || size > images.bytes() - offset) {
     return failure(Status::kBadIndex, "image of a part", TableId::kParts, record);
   }
-  image.bytes = Bytes(images.data + offset, size);
+  bytes = Bytes(images.data + offset, size);
   return {};
-}
-
-LoadFailure check_part(std::uint32_t record, std::uint32_t free_from, Images& images) {
-  const ImageTable& table = images.whole[TableId::kParts];
-  const char* fault = fault_of(read_part(table, record));
-  if (fault != nullptr) return failure(Status::kBadValue, fault, TableId::kParts, record);
-  FlightImage& image = images.parts[record];
-  LoadFailure result = find_part_image(table, images.whole[TableId::kPartImages], record, free_from, image);
-  if (failed(result)) return result;
-  MissionParameters parameters{};
-  result = check_image(image, parameters);
-  if (!failed(result) && image[TableId::kParts].records != 0) result = failure(Status::kBadValue, "a part with parts", TableId::kParts);
-  if (failed(result)) result.table += kPartsTables * (record + 1);
-  return result;
-}
-
-LoadFailure check_parts(Images& images) {
-  const std::uint32_t count = images.whole[TableId::kParts].records;
-  std::uint32_t free_from = 0;
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const LoadFailure result = check_part(i, free_from, images);
-    if (failed(result)) return result;
-    free_from =
-        static_cast<std::uint32_t>(images.parts[i].bytes.data() + images.parts[i].bytes.size() - images.whole[TableId::kPartImages].data);
-  }
-  return {};
-}
-
-LoadFailure check_all(Bytes bytes, Images& images) {
-  images.whole.bytes = bytes;
-  if (reinterpret_cast<std::uintptr_t>(bytes.data()) % 8 != 0) return failure(Status::kBadValue, "image buffer is not aligned to 8");
-  MissionParameters parameters{};
-  const LoadFailure result = check_image(images.whole, parameters);
-  return failed(result) ? result : check_parts(images);
-}
-
-void activate_parts(const Images& images, Parts& parts) {
-  parts.clear();
-  const ImageTable& table = images.whole[TableId::kParts];
-  for (std::uint32_t i = 0; i < table.records; ++i) {
-    invariant(parts.push_back(read_part(table, i)), "more parts than were checked");
-    activate(images.parts[i], parts[i].mission);
-  }
 }
 
 }  // namespace
@@ -229,19 +188,96 @@ void use_sensor(SensorNumber sensor, Mission& mission, Parts& parts) {
   for (Part& part : parts) static_cast<SensorParameters&>(part.mission.parameters) = mission.sensors[sensor];
 }
 
+void ImageLoad::begin(Bytes bytes) {
+  *this = ImageLoad{};
+  checked_ = false;
+  if (reinterpret_cast<std::uintptr_t>(bytes.data()) % 8 != 0)
+    return finish(failure(Status::kBadValue, "image buffer is not aligned to 8"));
+  check_.begin(bytes);
+}
+
+void ImageLoad::finish(const LoadFailure& found) {
+  result_ = found;
+  checked_ = true;
+}
+
+bool ImageLoad::check(std::uint32_t words) {
+  if (!checked_ && check_.step(words)) take_checked();
+  return checked_;
+}
+
+// Of the whole first, then of one part after the other.
+void ImageLoad::take_checked() {
+  LoadFailure found = check_.result();
+  if (checking_ == kWholeImage) {
+    whole_ = check_.image();
+    part_count_ = whole_[TableId::kParts].records;
+  } else {
+    parts_[checking_ - 1] = check_.image();
+    free_from_ = static_cast<std::uint32_t>(check_.image().bytes.end() - whole_[TableId::kPartImages].data);
+    if (!failed(found) && check_.image()[TableId::kParts].records != 0) {
+      found = failure(Status::kBadValue, "a part with parts", TableId::kParts);
+    }
+    if (failed(found)) found.table += kPartsTables * checking_;
+  }
+  if (!failed(found) && checking_ < part_count_) found = begin_part(checking_);
+  if (failed(found) || checking_ == part_count_) return finish(found);
+  ++checking_;
+}
+
+LoadFailure ImageLoad::begin_part(std::uint32_t record) {
+  const ImageTable& table = whole_[TableId::kParts];
+  const char* fault = fault_of(read_part(table, record));
+  if (fault != nullptr) return failure(Status::kBadValue, fault, TableId::kParts, record);
+  Bytes bytes;
+  const LoadFailure found = find_part_image(table, whole_[TableId::kPartImages], record, free_from_, bytes);
+  if (!failed(found)) check_.begin(bytes);
+  return found;
+}
+
+bool ImageLoad::convert(std::uint32_t words) {
+  const std::size_t left = whole_.bytes.size() - converted_;
+  const std::size_t size = left < std::size_t{4} * words ? left : std::size_t{4} * words;
+  convert_piece(converted_, whole_.bytes.subspan(converted_, size));
+  converted_ += size;
+  return converted_ == whole_.bytes.size();
+}
+
+void ImageLoad::convert_piece(std::size_t offset, Bytes piece) const {
+  convert_image(whole_, whole_.bytes.data(), offset, piece);
+  for (std::uint32_t i = 0; i < part_count_; ++i) convert_image(parts_[i], whole_.bytes.data(), offset, piece);
+}
+
+void ImageLoad::make(Mission& mission) const { set_mission(whole_, mission); }
+
+void ImageLoad::make(Mission& mission, Parts& parts) const {
+  parts.clear();
+  for (std::uint32_t i = 0; i < part_count_; ++i) {
+    invariant(parts.push_back(read_part(whole_[TableId::kParts], i)), "more parts than were checked");
+    set_mission(parts_[i], parts[i].mission);
+  }
+  make(mission);
+}
+
+LoadFailure ImageLoad::run(Bytes bytes) {
+  begin(bytes);
+  while (!check(kAllWords)) {
+  }
+  if (!failed(result_)) static_cast<void>(convert(kAllWords));
+  return result_;
+}
+
 LoadFailure load_image(Bytes bytes, Mission& mission, Parts& parts) {
-  Images images;
-  const LoadFailure result = check_all(bytes, images);
-  if (failed(result)) return result;
-  activate_parts(images, parts);
-  activate(images.whole, mission);
-  return {};
+  ImageLoad load;
+  const LoadFailure result = load.run(bytes);
+  if (!failed(result)) load.make(mission, parts);
+  return result;
 }
 
 LoadFailure load_image(Bytes bytes, Mission& mission) {
-  Images images;
-  const LoadFailure result = check_all(bytes, images);
-  if (!failed(result)) activate(images.whole, mission);
+  ImageLoad load;
+  const LoadFailure result = load.run(bytes);
+  if (!failed(result)) load.make(mission);
   return result;
 }
 

@@ -41,6 +41,8 @@ struct MissionParameters : SensorParameters {
   double search_hits_min, search_disagreement_max, search_ratio_min, search_scans_max, search_slice, search_frames;
   // [short_range] a large target close by, scanned part by part
   double short_range_enter_m, short_range_leave_m, disagreement_max, rest_frames;
+  // [image] what an image that is loaded in flight has to show
+  double image_trial_scans, image_trial_valid_min;
   // [tracking.initial] T_sensor_target and rates at the start
   double initial_present, initial_qx, initial_qy, initial_qz, initial_qw, initial_x_m, initial_y_m, initial_z_m, initial_wx_radps,
       initial_wy_radps, initial_wz_radps, initial_vx_mps, initial_vy_mps, initial_vz_mps;

@@ -11,6 +11,7 @@ constexpr ModeTransition kTransitions[] = {
   {M::kStandby,     E::kStart,          M::kStarting,    "a pose to start from"},
   {M::kStandby,     E::kSeek,           M::kBearing,     "commanded"},
   {M::kStandby,     E::kSearch,         M::kSearching,   "commanded"},
+  {M::kStandby,     E::kMakeSafe,      M::kSafe,        "commanded, or the answer to a fault"},
   {M::kStarting,    E::kStart,          M::kStarting,    "another pose to start from"},
   {M::kStarting,    E::kStop,           M::kStandby,     "commanded"},
   {M::kStarting,    E::kSeek,           M::kBearing,     "commanded"},
@@ -19,6 +20,7 @@ constexpr ModeTransition kTransitions[] = {
   {M::kStarting,    E::kPoseInvalid,    M::kStarting,    "the next scan tries again"},
   {M::kStarting,    E::kExhausted,      M::kLost,        "no scan confirmed the start"},
   {M::kStarting,    E::kRecover,        M::kBearing,     "no scan confirmed the start: its direction at least"},
+  {M::kStarting,    E::kMakeSafe,      M::kSafe,        "commanded, or the answer to a fault"},
   {M::kTracking,    E::kStart,          M::kStarting,    "another pose to start from"},
   {M::kTracking,    E::kStop,           M::kStandby,     "commanded"},
   {M::kTracking,    E::kSeek,           M::kBearing,     "commanded"},
@@ -29,6 +31,7 @@ constexpr ModeTransition kTransitions[] = {
   {M::kTracking,    E::kPoseInvalid,    M::kCoasting,    "the filter bridges a scan without a pose"},
   {M::kTracking,    E::kExhausted,      M::kLost,        "no coasting is allowed"},
   {M::kTracking,    E::kRecover,        M::kReacquiring, "no coasting is allowed: look near the prediction"},
+  {M::kTracking,    E::kMakeSafe,      M::kSafe,        "commanded, or the answer to a fault"},
   {M::kCoasting,    E::kStart,          M::kStarting,    "another pose to start from"},
   {M::kCoasting,    E::kStop,           M::kStandby,     "commanded"},
   {M::kCoasting,    E::kSeek,           M::kBearing,     "commanded"},
@@ -38,16 +41,19 @@ constexpr ModeTransition kTransitions[] = {
   {M::kCoasting,    E::kPoseInvalid,    M::kCoasting,    "the filter bridges another scan"},
   {M::kCoasting,    E::kExhausted,      M::kLost,        "too many scans without a pose"},
   {M::kCoasting,    E::kRecover,        M::kReacquiring, "too many scans without a pose: look near the prediction"},
+  {M::kCoasting,    E::kMakeSafe,      M::kSafe,        "commanded, or the answer to a fault"},
   {M::kLost,        E::kStart,          M::kStarting,    "a pose to start from"},
   {M::kLost,        E::kStop,           M::kStandby,     "commanded"},
   {M::kLost,        E::kSeek,           M::kBearing,     "commanded"},
   {M::kLost,        E::kReacquire,      M::kReacquiring, "commanded"},
   {M::kLost,        E::kSearch,         M::kSearching,   "commanded"},
+  {M::kLost,        E::kMakeSafe,      M::kSafe,        "commanded, or the answer to a fault"},
   {M::kBearing,     E::kStart,          M::kStarting,    "a pose to start from"},
   {M::kBearing,     E::kStop,           M::kStandby,     "commanded"},
   {M::kBearing,     E::kSearch,         M::kSearching,   "commanded, or the turn of this way to start"},
   {M::kBearing,     E::kBearingKnown,   M::kBearing,     "direction and range are known; a pose is awaited"},
   {M::kBearing,     E::kBearingUnknown, M::kBearing,     "the next scan looks again"},
+  {M::kBearing,     E::kMakeSafe,      M::kSafe,        "commanded, or the answer to a fault"},
   {M::kReacquiring, E::kStart,          M::kStarting,    "a pose to start from"},
   {M::kReacquiring, E::kStop,           M::kStandby,     "commanded"},
   {M::kReacquiring, E::kSeek,           M::kBearing,     "commanded"},
@@ -56,6 +62,7 @@ constexpr ModeTransition kTransitions[] = {
   {M::kReacquiring, E::kPoseInvalid,    M::kReacquiring, "the next scan tries again"},
   {M::kReacquiring, E::kExhausted,      M::kLost,        "not found near the prediction"},
   {M::kReacquiring, E::kRecover,        M::kBearing,     "not found near the prediction: its direction at least"},
+  {M::kReacquiring, E::kMakeSafe,      M::kSafe,        "commanded, or the answer to a fault"},
   {M::kSearching,   E::kStart,          M::kStarting,    "a pose to start from"},
   {M::kSearching,   E::kStop,           M::kStandby,     "commanded"},
   {M::kSearching,   E::kSeek,           M::kBearing,     "commanded"},
@@ -63,6 +70,7 @@ constexpr ModeTransition kTransitions[] = {
   {M::kSearching,   E::kPoseInvalid,    M::kSearching,   "still at work, or another scan is needed"},
   {M::kSearching,   E::kExhausted,      M::kLost,        "no pose was recognised"},
   {M::kSearching,   E::kRecover,        M::kBearing,     "no pose was recognised: the other ways to start, and again"},
+  {M::kSearching,   E::kMakeSafe,      M::kSafe,        "commanded, or the answer to a fault"},
   {M::kShortRange,  E::kStart,          M::kStarting,    "another pose to start from"},
   {M::kShortRange,  E::kStop,           M::kStandby,     "commanded"},
   {M::kShortRange,  E::kSeek,           M::kBearing,     "commanded"},
@@ -73,6 +81,8 @@ constexpr ModeTransition kTransitions[] = {
   {M::kShortRange,  E::kFar,            M::kTracking,    "far enough to be scanned as a whole"},
   {M::kShortRange,  E::kExhausted,      M::kLost,        "too many scans without a pose"},
   {M::kShortRange,  E::kRecover,        M::kReacquiring, "too many scans without a pose: look near the prediction"},
+  {M::kShortRange,  E::kMakeSafe,      M::kSafe,        "commanded, or the answer to a fault"},
+  {M::kSafe,        E::kStop,          M::kStandby,     "commanded"},
 };
 
 constexpr ModeProperties kProperties[] = {
@@ -86,6 +96,7 @@ constexpr ModeProperties kProperties[] = {
   {M::kReacquiring, true,  false, false, false, true,  true,  true,  false, false, "reacquiring", "wide starts near the prediction"},
   {M::kSearching,   true,  false, true,  false, false, false, false, false, false, "searching", "the pose is looked for at any attitude"},
   {M::kShortRange,  true,  false, false, false, false, false, false, true,  false, "short_range", "close by: parts of the target in turn"},
+  {M::kSafe,        false, false, false, true,  false, false, false, false, false, "safe", "no scans, the laser inhibited; left by command alone"},
 };
 
 constexpr ModeEventProperties kEvents[] = {
@@ -102,6 +113,7 @@ constexpr ModeEventProperties kEvents[] = {
   {E::kSearch, true, "search"},
   {E::kNear, false, "near"},
   {E::kFar, false, "far"},
+  {E::kMakeSafe, true, "make_safe"},
 };
 // clang-format on
 
@@ -133,7 +145,11 @@ bool command_event(TrackingMode mode, ModeEvent& event) {
   constexpr struct {
     TrackingMode mode;
     ModeEvent event;
-  } kCommands[] = {{M::kStandby, E::kStop}, {M::kBearing, E::kSeek}, {M::kReacquiring, E::kReacquire}, {M::kSearching, E::kSearch}};
+  } kCommands[] = {{M::kStandby, E::kStop},
+                   {M::kBearing, E::kSeek},
+                   {M::kReacquiring, E::kReacquire},
+                   {M::kSearching, E::kSearch},
+                   {M::kSafe, E::kMakeSafe}};
   for (const auto& command : kCommands) {
     if (command.mode != mode) continue;
     event = command.event;

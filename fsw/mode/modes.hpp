@@ -17,6 +17,7 @@ enum class TrackingMode : std::uint8_t {
   kReacquiring = 6,  // the target is looked for near the prediction, from wide starts
   kSearching = 7,    // its pose is looked for without any prior attitude
   kShortRange = 8,   // close by: the last scan gave a valid pose, and the next ones look at parts of the target in turn
+  kSafe = 9,         // after a fault, or commanded: no scans, no start is taken; every frame says what was known last
 };
 
 enum class ModeEvent : std::uint8_t {
@@ -33,6 +34,7 @@ enum class ModeEvent : std::uint8_t {
   kSearch = 10,         // commanded to look for the pose at any attitude, or the turn of that way to start
   kNear = 11,           // a scan gave a valid pose, within short_range.enter_m
   kFar = 12,            // a scan gave a valid pose, beyond short_range.leave_m
+  kMakeSafe = 13,       // commanded, or the answer to a fault
 };
 
 struct ModeTransition {

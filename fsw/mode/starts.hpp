@@ -37,6 +37,7 @@ enum class StartRefusal : std::uint8_t {
   kOutOfReach = 9,     // not in front of the sensor, or wholly outside the ranges that it measures
   kNotAtBearing = 10,  // not where the bearing sees the target
   kNotConfirmed = 11,  // no scan confirmed it within start.frames
+  kNotFromHere = 12,   // the table of modes has no start from the present one
 };
 const char* to_string(StartWay way);          // never null
 const char* to_string(StartRefusal refusal);  // never null

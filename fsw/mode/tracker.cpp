@@ -118,6 +118,7 @@ void count_and_change(const MissionParameters& p, bool valid, TrackStep& step) {
 }
 
 StartRefusal start_track(const Mission& mission, StartWay way, const StartOffer& offer, TimeUs t_us, TrackState& state) {
+  if (!has_transition(state.mode, ModeEvent::kStart)) return StartRefusal::kNotFromHere;
   const StartRefusal refusal = start_from(mission, offer, t_us, state.bearing, state.filter);
   if (refusal != StartRefusal::kNone) return refusal;
   change_mode(ModeEvent::kStart, state);

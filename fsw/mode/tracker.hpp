@@ -47,7 +47,8 @@ struct TrackStep {
 // filter; for a bearing, the bearing before; for parts, what was remembered of them.
 void change_mode(ModeEvent event, TrackState& state);
 
-// Takes up a track at t_us, in whatever mode `state` is: kStarting. Refused as start_from says: `state` is then as it was.
+// Takes up a track at t_us: kStarting. Refused as start_from says, and kNotFromHere where the mode takes no start: `state` is then as it
+// was.
 StartRefusal start_track(const Mission& mission, StartWay way, const StartOffer& offer, TimeUs t_us, TrackState& state);
 
 // One scan: predict, register, join to the filter, next mode. In a mode that confirms, a valid registration has to agree with the

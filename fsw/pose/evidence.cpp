@@ -83,7 +83,7 @@ void EvidenceMaker::begin(const Mission& mission, const Workspace& workspace) {
     const N::Ratio area = dot3<N>(point.p, point.p) / static_cast<N::Ratio>(density.at(point.u));
     const N::Length range = root(dot3<N>(point.p, point.p));
     const N::Ratio reach = kNeighbourSpacings * range * spacing;
-    invariant(hits_.push_back({point, area, 1e12F, reach < largest ? reach : largest, false}), "a pool of returns");
+    invariant(hits_.push_back({point, area, 1e12F, reach < largest ? reach : largest, 0, false}), "a pool of returns");
   }
   std::size_t index = 0;
   for (const ScanRay<N>& ray : workspace.rays) {
@@ -170,10 +170,14 @@ void EvidenceMaker::choose(Evidence& evidence) {
   const ReturnReach reach{root(dot3<N>(chosen.p, chosen.p)), kNoiseReach * root(chosen.range_variance)};
   invariant(evidence.hits.push_back(chosen), "room for a return");
   invariant(evidence.reaches.push_back(reach), "as many as returns");
+  const std::size_t region = evidence.hits.size() - 1;
   for (PoolHit& hit : hits_) {
     const N::Ratio distance2 = squared_distance(hit.point.p, chosen.p);
-    if (distance2 < hit.distance2) hit.distance2 = distance2;
+    if (!(distance2 < hit.distance2)) continue;
+    hit.distance2 = distance2;
+    if (region < kRegions) hit.region = static_cast<std::uint8_t>(region);
   }
+  invariant(evidence.regions.push_back(hits_[farthest].region), "as many as returns");
 }
 
 // Misses that pass the target's middle within its radius; others say little.

@@ -8,6 +8,7 @@ namespace lasso {
 constexpr std::size_t kPoolRays = 1024;       // returns and misses that the choice is made from
 constexpr std::size_t kEvidenceHits = 320;    // the first of them are as far apart as any as many
 constexpr std::size_t kEvidenceMisses = 192;  // that pass by the target
+constexpr std::size_t kRegions = 32;          // of the target, as the scan shows it: around the first returns of the evidence
 
 // What measuring a fit needs to know of a return, once.
 struct ReturnReach {
@@ -23,7 +24,8 @@ struct Evidence {
   double median = 0;             // m, how much farther than the centroid, along the line of sight to it, their median depth is
   double misses_per_hit = 1;     // how many misses of the scan one of these stands for, over the same of the hits
   FixedVector<MatchPoint<FlightNumber>, kEvidenceHits> hits;
-  FixedVector<ReturnReach, kEvidenceHits> reaches;  // of the hits
+  FixedVector<ReturnReach, kEvidenceHits> reaches;   // of the hits
+  FixedVector<std::uint8_t, kEvidenceHits> regions;  // of the hits: which of the first kRegions is closest
   FixedVector<ScanRay<FlightNumber>, kEvidenceMisses> misses;
 
   void clear() {
@@ -33,6 +35,7 @@ struct Evidence {
     misses_per_hit = 1;
     hits.clear();
     reaches.clear();
+    regions.clear();
     misses.clear();
   }
 };
@@ -55,6 +58,7 @@ class EvidenceMaker {
     FlightNumber::Ratio weight;     // area that the return stands for, of no unit
     FlightNumber::Ratio distance2;  // m^2, to the closest return that was chosen
     FlightNumber::Ratio reach;      // m, within which it has company
+    std::uint8_t region;            // the chosen return that is closest, of the first kRegions
     bool kept;
   };
   void judge_isolation(std::size_t index);

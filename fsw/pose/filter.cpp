@@ -263,4 +263,9 @@ Mat12 error_transition(const Vec3& omega_radps, double dt_s) {
   return full;
 }
 
+bool is_sound(const FilterState& state) {
+  if (!is_finite(state.T_sensor_target.p.squaredNorm()) || !is_finite(state.T_sensor_target.q.squaredNorm())) return false;
+  return (state.covariance.diagonal().array() >= 0).all();
+}
+
 }  // namespace lasso

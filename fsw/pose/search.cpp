@@ -11,11 +11,14 @@ namespace {
 using N = FlightNumber;
 
 constexpr std::size_t kPullPoints = 128;
-constexpr double kHopeless = 2.5;             // times the best score, and
-constexpr double kHopelessFloor = 0.05;       // this: what fits as badly is not worked on
-constexpr int kExploreSteps = 12;             // each way
-constexpr double kExploreStep = 0.005;        // of the model's size, along the least certain direction
-constexpr std::uint32_t kExploredAtOnce = 4;  // of these in a step of the work
+constexpr double kHopeless = 2.5;               // times the best score, and
+constexpr double kHopelessFloor = 0.05;         // this: what fits as badly is not worked on
+constexpr double kPoor = 1.25;                  // times the best score, and
+constexpr double kPoorFloor = 0.02;             // this: what fits as badly is tried once
+constexpr int kExploreSteps = 12;               // each way, even
+constexpr int kExploreEnd = kExploreSteps + 4;  // with the places beside the best
+constexpr double kExploreStep = 0.005;          // of the model's size, along the least certain direction
+constexpr std::uint32_t kExploredAtOnce = 4;    // of these in a step of the work
 constexpr std::uint32_t kViewWork = kRolls * kCoarsePoints / 2;
 
 double hopeless_beyond(double score) { return kHopeless * score + kHopelessFloor; }
@@ -218,6 +221,7 @@ std::uint32_t Search::sketch_next(const Mission& mission, Workspace& workspace) 
   } else {
     track.start = own ? track.T_target_sensor[last()] : carry(track, last() - 1, last(), rates_of(track, last() - 1));
     track.settled = track.swayed = false;
+    track.cost = track.whole_cost = track.explained_cost = kAnyScore;
     const Pose start = drawn ? track.start : pull_on_rays(mission, track.start, workspace);
     take(sketch(mission, evidence, start, limit, workspace, work), last(), track);
     work += drawn ? 0 : draw_work(workspace);
@@ -233,7 +237,8 @@ std::uint32_t Search::sketch_next(const Mission& mission, Workspace& workspace) 
 // One attempt at a track in a scan.
 std::uint32_t Search::settle(const Mission& mission, std::size_t scan, Track& track, Workspace& workspace) {
   std::uint32_t work = 0;
-  working_ = settler_.step(mission, evidence_[scan], workspace, work);
+  const double limit = scan == last() ? kPoor * best_score() + kPoorFloor : kAnyScore;
+  working_ = settler_.step(mission, evidence_[scan], limit, workspace, work);
   if (!working_) take(settler_.best(), scan, track);
   return work;
 }
@@ -268,8 +273,8 @@ std::uint32_t Search::explore_next(const Mission& mission) {
   const Evidence& evidence = evidence_[last()];
   if (!line_.begun) begin_line(mission);
   std::uint32_t work = 1;
-  for (std::uint32_t k = 0; line_.next <= kExploreSteps && k < kExploredAtOnce; ++line_.next, ++k) work += look_along(mission, evidence);
-  if (line_.next > kExploreSteps) end_line();
+  for (std::uint32_t k = 0; line_.next <= kExploreEnd && k < kExploredAtOnce; line_.next += 2, ++k) work += look_along(mission, evidence);
+  if (line_.next > kExploreEnd) end_line();
   return work;
 }
 
@@ -279,17 +284,21 @@ void Search::begin_line(const Mission& mission) {
   line_.from = line_.best = track.T_target_sensor[last()];
   line_.fit = track.fits[last()];
   const bool worth = !is_hopeless(track) && find_weakest(mission, track.H, line_.direction);
-  line_.next = worth ? -kExploreSteps : kExploreSteps + 1;
+  line_.next = worth ? -kExploreSteps : kExploreEnd + 2;
   line_.begun = true;
 }
 
 std::uint32_t Search::look_along(const Mission& mission, const Evidence& evidence) {
   const double step_m = kExploreStep * N::to_double(mission.search.size);
-  const Pose moved = step_pose(line_.from, line_.next * step_m * line_.direction);
+  // Every other place, then the two beside the best of them.
+  const bool beside = line_.next > kExploreSteps;
+  const int place = beside ? line_.middle + line_.next - kExploreEnd + 1 : line_.next;
+  const Pose moved = step_pose(line_.from, place * step_m * line_.direction);
   const Fit fit = measure_fit(mission, moved, evidence, line_.fit.score());
   if (fit.score() < line_.fit.score()) {
     line_.fit = fit;
     line_.best = moved;
+    if (!beside) line_.middle = place;
   }
   return fit_work(fit);
 }
@@ -301,7 +310,7 @@ void Search::end_line() {
   sum_up(track);
   line_ = Line();
   ++next_;
-  if (next_ < tracks_.size() && next_ < kExplored) return;
+  if (explores_next()) return;
   next_ = 0;
   stage_ = Stage::kRecall;
 }
@@ -321,34 +330,6 @@ std::uint32_t Search::recall_next(const Mission& mission, Workspace& workspace) 
   next_ = 0;
   stage_ = Stage::kSway;
   return 1;
-}
-
-std::uint32_t Search::sway_next(const Mission& mission, Workspace& workspace) {
-  for (; next_ < tracks_.size() && next_ < kExplored; ++next_) {
-    Track& track = tracks_[next_];
-    if (!working_ && (track.swayed || (next_ > 0 && !is_rival(track)))) continue;
-    if (!working_) sway_.begin(track.T_target_sensor[last()], track.H);
-    std::uint32_t work = 0;
-    working_ = sway_.step(mission, evidence_[last()], workspace, work);
-    track.swayed = true;
-    if (!working_) work += take_swayed(mission, track);
-    return work;
-  }
-  prune();
-  stage_ = Stage::kVerdict;
-  return 1;
-}
-
-// A score that is better there is taken, too: the track had not reached its best place.
-std::uint32_t Search::take_swayed(const Mission& mission, Track& track) const {
-  const double before = track.fits[last()].score();
-  const Fit fit = measure_fit(mission, sway_.T_target_sensor(), evidence_[last()], before);
-  track.T_target_sensor[last()] = sway_.T_target_sensor();
-  track.H = sway_.H();
-  track.cost = sway_.cost();
-  if (fit.score() < before) track.fits[last()] = fit;
-  sum_up(track);
-  return fit_work(fit);
 }
 
 // Keeps the best few that are at least 5 deg apart, best first.

@@ -51,11 +51,13 @@ class Search {
     Fit fits[kMaxSearchScans];
     bool known[kMaxSearchScans] = {};
     Fit total;
-    Pose start;             // in the last scan
-    bool settled = false;   // in the last scan, or sketched only
-    bool swayed = false;    // in the last scan
-    double cost = 0;        // of the pose in the last scan, once it is
-    Mat6 H = Mat6::Zero();  // information of the registration in the last scan, target axes
+    Pose start;               // in the last scan
+    bool settled = false;     // in the last scan, or sketched only
+    bool swayed = false;      // in the last scan
+    double cost = kAnyScore;  // of the pose in the last scan, once it is: of its Standing
+    double whole_cost = kAnyScore;
+    double explained_cost = kAnyScore;  // the same
+    Mat6 H = Mat6::Zero();              // information of the registration in the last scan, target axes
   };
   // The line on which a track is explored: from its pose along its least certain direction.
   struct Line {
@@ -63,7 +65,8 @@ class Search {
     Vec6 direction = Vec6::Zero();
     Pose best;
     Fit fit;
-    int next = 0;  // place to look at, in steps
+    int next = 0;    // place to look at, in steps
+    int middle = 0;  // the best of every other one
     bool begun = false;
   };
   static constexpr std::size_t kFinalists = 6;
@@ -91,11 +94,13 @@ class Search {
   void add_twins(const Mission& mission);
   void add_track(const Pose& T_target_sensor);
   void take(const Settled& settled, std::size_t scan, Track& track) const;
+  const SwayCare& care_of(std::size_t track) const;
   std::uint32_t take_swayed(const Mission& mission, Track& track) const;
   void sum_up(Track& track) const;
   double best_score() const;
   bool is_hopeless(const Track& track) const;
   bool is_rival(const Track& track) const;
+  bool explores_next() const { return next_ < tracks_.size() && next_ < kExplored; }
   bool is_distinct(const Track& track) const;
   bool stands_alone() const;
   void prune();

@@ -48,7 +48,7 @@ void Settler::look(const Mission& mission, const Evidence& evidence, RegisterLoo
   if (first || settled.fit.score() < limit) best_ = settled;
 }
 
-bool Settler::step(const Mission& mission, const Evidence& evidence, Workspace& workspace, std::uint32_t& work) {
+bool Settler::step(const Mission& mission, const Evidence& evidence, double limit, Workspace& workspace, std::uint32_t& work) {
   switch (attempt_) {
     case Attempt::kFirst:
       look(mission, evidence, RegisterLook::kFirst, workspace, work);
@@ -68,7 +68,7 @@ bool Settler::step(const Mission& mission, const Evidence& evidence, Workspace& 
       look(mission, evidence, RegisterLook::kFirst, workspace, work);
       return false;
   }
-  return best_.fit.disagreement() > kSettled;
+  return best_.fit.disagreement() > kSettled && best_.fit.score() < limit;
 }
 
 }  // namespace lasso

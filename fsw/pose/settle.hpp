@@ -22,8 +22,8 @@ class Settler {
  public:
   // `rough`: where to register from; `start`: where to draw it from, should that not do.
   void begin(const Pose& rough, const Pose& start);
-  // One attempt. False when it was the last one.
-  bool step(const Mission& mission, const Evidence& evidence, Workspace& workspace, std::uint32_t& work);
+  // One attempt. False when it was the last one, or led to a score beyond `limit`.
+  bool step(const Mission& mission, const Evidence& evidence, double limit, Workspace& workspace, std::uint32_t& work);
   const Settled& best() const { return best_; }
 
  private:

@@ -9,8 +9,7 @@ namespace {
 
 constexpr double kBetterCost = 0.97;  // of the cost so far: less is no other place
 constexpr double kTurn_rad = 4 * kRadPerDeg;
-constexpr int kTurns = 6;  // both ways about three axes
-constexpr int kRounds = 2;
+constexpr std::uint32_t kWeighCost = 16;  // look-ups of a return
 
 // Turned about a place in the target's frame.
 Pose turned(const Pose& T_target_sensor, int turn, const Vec3& middle) {
@@ -20,50 +19,90 @@ Pose turned(const Pose& T_target_sensor, int turn, const Vec3& middle) {
   return step_pose(T_target_sensor, x);
 }
 
+// The returns of these regions.
+void put_regions(const Evidence& evidence, const bool (&wanted)[kRegions], Workspace& workspace) {
+  workspace.points.clear();
+  for (std::size_t i = 0; i < evidence.hits.size(); ++i) {
+    if (wanted[evidence.regions[i]]) invariant(workspace.points.push_back(evidence.hits[i]), "as many points as rays");
+  }
+}
+
 }  // namespace
 
-void Sway::begin(const Pose& T_target_sensor, const Mat6& H) {
+Standing weigh_regions(const Mission& mission, const Pose& T_target_sensor, const Evidence& evidence, Workspace& workspace) {
+  Standing standing;
+  double cost = 0, explained_cost = 0, explained = 0, whole_cost = 0;
+  for (std::size_t region = 0; region < kRegions; ++region) {
+    bool wanted[kRegions] = {};
+    wanted[region] = true;
+    put_regions(evidence, wanted, workspace);
+    const auto returns = static_cast<double>(workspace.points.size());
+    const double whole = clamp(mean_cost(weigh_hits(mission, T_target_sensor, workspace)), 0, kUnexplainedCost);
+    const double each = clamp(whole, 0, kLostCost);
+    whole_cost += returns * whole;
+    cost += returns * each;
+    standing.explained[region] = each < kLostCost;
+    if (!standing.explained[region]) continue;
+    explained_cost += returns * each;
+    explained += returns;
+  }
+  if (!evidence.hits.empty()) {
+    standing.cost = cost / static_cast<double>(evidence.hits.size());
+    standing.whole_cost = whole_cost / static_cast<double>(evidence.hits.size());
+  }
+  if (explained > 0) standing.explained_cost = explained_cost / explained;
+  return standing;
+}
+
+void Sway::begin(const Pose& T_target_sensor, const Mat6& H, const SwayCare& care) {
   *this = Sway();
+  care_ = care;
   middle_ = best_ = T_target_sensor;
   H_ = H;
 }
 
 bool Sway::step(const Mission& mission, const Evidence& evidence, Workspace& workspace, std::uint32_t& work) {
-  if (round_ == 0 && next_ == 0) {
-    weigh(mission, evidence, workspace, work);
-    if (cost_ < kCleanCost) return false;
-    try_from(mission, middle_, evidence, workspace, work);
-  } else {
-    try_from(mission, turned(middle_, next_ - 1, middle_ * evidence.centroid), evidence, workspace, work);
+  if (!begun_) {
+    weigh(mission, best_, evidence, workspace, work);
+    standing_ = tried_standing_;
+    begun_ = true;
   }
-  if (++next_ > kTurns) end_round();
-  return round_ < kRounds;
+  if (standing_.cost < kCleanCost) return false;
+  if (again_) {
+    put_regions(evidence, tried_standing_.explained, workspace);
+    keep_if_better(try_from(mission, tried_, evidence, workspace, work));
+    again_ = false;
+  } else if (next_ == 0) {
+    put_points(evidence, kEvidenceHits, workspace);
+    keep_if_better(try_from(mission, middle_, evidence, workspace, work));
+    again_ = care_.turns > 0;
+  } else {
+    put_points(evidence, care_.turn_points, workspace);
+    (void)try_from(mission, turned(middle_, next_ - 1, middle_ * evidence.centroid), evidence, workspace, work);
+    again_ = tried_standing_.cost < care_.promising * standing_.cost;
+  }
+  if (!again_) ++next_;
+  return next_ <= care_.turns;
 }
 
-void Sway::weigh(const Mission& mission, const Evidence& evidence, Workspace& workspace, std::uint32_t& work) {
-  put_points(evidence, kEvidenceHits, workspace);
-  cost_ = mean_cost(weigh_hits(mission, best_, workspace));
-  work += weigh_work(workspace);
+void Sway::weigh(const Mission& mission, const Pose& T_target_sensor, const Evidence& evidence, Workspace& workspace, std::uint32_t& work) {
+  tried_standing_ = weigh_regions(mission, T_target_sensor, evidence, workspace);
+  work += kWeighCost * static_cast<std::uint32_t>(evidence.hits.size());
 }
 
-void Sway::try_from(const Mission& mission, const Pose& start, const Evidence& evidence, Workspace& workspace, std::uint32_t& work) {
-  put_points(evidence, kEvidenceHits, workspace);
+Mat6 Sway::try_from(const Mission& mission, const Pose& start, const Evidence& evidence, Workspace& workspace, std::uint32_t& work) {
   const HitSolution solution = register_look(mission, RegisterLook::kFirst, start, workspace);
-  const double cost = mean_cost(weigh_hits(mission, solution.T_target_sensor, workspace));
-  work += (1u + solution.iterations) * weigh_work(workspace);
-  if (!(cost < kBetterCost * cost_)) return;
-  best_ = solution.T_target_sensor;
-  H_ = solution.H;
-  cost_ = cost;
-  moved_ = true;
+  work += solution.iterations * weigh_work(workspace);
+  tried_ = solution.T_target_sensor;
+  weigh(mission, tried_, evidence, workspace, work);
+  return solution.H;
 }
 
-// Another round only where this one has found another place.
-void Sway::end_round() {
-  round_ = moved_ ? round_ + 1 : kRounds;
-  next_ = 1;
-  moved_ = false;
-  middle_ = best_;
+void Sway::keep_if_better(const Mat6& H) {
+  if (!(tried_standing_.cost < kBetterCost * standing_.cost)) return;
+  best_ = tried_;
+  H_ = H;
+  standing_ = tried_standing_;
 }
 
 }  // namespace lasso

@@ -10,6 +10,13 @@ constexpr double kRatioFloor = 0.01;
 constexpr double kAlone = 1.5;  // times the ratio asked for: the score alone tells
 constexpr double kAloneInDoubt = 3;
 constexpr double kAgrees = 1.2;  // ratio of costs that are not alike
+constexpr double kFair = 1.8;    // cost of what is explained, where something else is not
+constexpr double kEven = 0.02;   // disagreement below which nothing is off but by the noise, or by the target's motion
+
+// A part of the target may be off, but what looks a little like the target is something else.
+bool seems_else(const Rival& rival) {
+  return rival.best_cost > kCleanCost && rival.best_explained_cost > kFair && rival.best_disagreement > kEven;
+}
 
 double ratio_of(double score, double best) { return (score + kRatioFloor) / (best + kRatioFloor); }
 
@@ -21,7 +28,9 @@ bool is_near(double score_ratio, double best_cost, double ratio_min) {
 
 bool is_left_behind(const Rival& rival, double ratio_min) {
   const bool by_score = rival.score_ratio >= ratio_min;
-  if (!rival.weighed || !is_near(rival.score_ratio, rival.best_cost, ratio_min)) return by_score;
+  if (!is_near(rival.score_ratio, rival.best_cost, ratio_min)) return by_score;
+  if (seems_else(rival)) return false;
+  if (!rival.weighed) return by_score;
   if (!by_score) return rival.cost > ratio_min * rival.best_cost;
   return rival.cost > kCleanCost && rival.cost > kAgrees * rival.best_cost;
 }
@@ -30,6 +39,45 @@ bool is_left_behind(const Rival& rival, double ratio_min) {
 // scores, which tell far poses apart, stay as they are.
 bool Search::is_rival(const Track& track) const {
   return is_near(ratio_of(track.total.score(), tracks_[0].total.score()), tracks_[0].cost, limits_.ratio_min);
+}
+
+// What a clean pose is compared with must not seem worse for want of care. Beside one that leaves returns unexplained a rival that is
+// swayed would only be drawn to what is off, too.
+const SwayCare& Search::care_of(std::size_t track) const {
+  if (track == 0) return kUsualSway;
+  return tracks_[0].cost < kCleanCost ? kThoroughSway : kGlanceSway;
+}
+
+std::uint32_t Search::sway_next(const Mission& mission, Workspace& workspace) {
+  // What leaves too much unexplained is rejected, wherever it is swayed to.
+  const bool worth = tracks_[0].total.disagreement() <= limits_.disagreement_max;
+  for (; worth && explores_next(); ++next_) {
+    Track& track = tracks_[next_];
+    if (!working_ && (track.swayed || (next_ > 0 && !is_rival(track)))) continue;
+    if (!working_) sway_.begin(track.T_target_sensor[last()], track.H, care_of(next_));
+    std::uint32_t work = 0;
+    working_ = sway_.step(mission, evidence_[last()], workspace, work);
+    track.swayed = true;
+    if (!working_) work += take_swayed(mission, track);
+    return work;
+  }
+  prune();
+  stage_ = Stage::kVerdict;
+  return 1;
+}
+
+// A score that is better there is taken, too: the track had not reached its best place.
+std::uint32_t Search::take_swayed(const Mission& mission, Track& track) const {
+  const double before = track.fits[last()].score();
+  const Fit fit = measure_fit(mission, sway_.T_target_sensor(), evidence_[last()], before);
+  track.T_target_sensor[last()] = sway_.T_target_sensor();
+  track.H = sway_.H();
+  track.cost = sway_.standing().cost;
+  track.whole_cost = sway_.standing().whole_cost;
+  track.explained_cost = sway_.standing().explained_cost;
+  if (fit.score() < before) track.fits[last()] = fit;
+  sum_up(track);
+  return fit_work(fit);
 }
 
 bool Search::is_distinct(const Track& track) const {
@@ -76,12 +124,21 @@ void Search::describe_candidates() {
   }
 }
 
-// Is every other pose left behind?
+// Is every other pose left behind? Where nothing is off but by noise and motion, a part is not what costs: no region's cost is bounded
+// then.
 bool Search::stands_alone() const {
+  const Track& best = tracks_[0];
+  const double disagreement = best.total.disagreement();
+  const bool even = disagreement <= kEven;
   bool alone = true;
   for (const Track& track : tracks_) {
     if (!is_distinct(track)) continue;
-    const Rival rival{ratio_of(track.total.score(), tracks_[0].total.score()), track.swayed, track.cost, tracks_[0].cost};
+    const Rival rival{ratio_of(track.total.score(), best.total.score()),
+                      track.swayed,
+                      even ? track.whole_cost : track.cost,
+                      even ? best.whole_cost : best.cost,
+                      best.explained_cost,
+                      disagreement};
     alone = alone && is_left_behind(rival, limits_.ratio_min);
   }
   return alone;

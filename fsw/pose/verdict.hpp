@@ -7,15 +7,18 @@ namespace lasso {
 struct Rival {
   double score_ratio = 0;  // its score over the best one's (SearchResult::ratio)
   bool weighed = false;    // costs are known
-  double cost = 0;         // mean_cost of its returns
+  double cost = 0;         // of its Standing; the same of both poses
   double best_cost = 0;    // of the best pose's
+  double best_explained_cost = 0;
+  double best_disagreement = 0;
 };
 
 // Its score alone does not tell: costs are asked for, and sooner where the best pose itself leaves returns unexplained.
 bool is_near(double score_ratio, double best_cost, double ratio_min);
 
 // By its score, and not against what the returns' noise says; or by that alone, which tells near-symmetric poses apart that look alike
-// within the score's tolerance.
+// within the score's tolerance. Never where the best pose leaves returns unexplained and does not explain the others as the noise allows,
+// unless its score is far ahead.
 bool is_left_behind(const Rival& rival, double ratio_min);
 
 }  // namespace lasso

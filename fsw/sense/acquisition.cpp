@@ -6,6 +6,16 @@
 namespace lasso {
 namespace {
 
+struct Cause {
+  Status reason;
+  ScanLoss loss;
+};
+constexpr Cause kCauses[] = {
+    {Status::kMissing, ScanLoss::kInhibited},  {Status::kOverCapacity, ScanLoss::kNoRoom}, {Status::kTimeout, ScanLoss::kSilent},
+    {Status::kBusy, ScanLoss::kBusy},          {Status::kBadValue, ScanLoss::kRefused},    {Status::kBadOrder, ScanLoss::kRestarted},
+    {Status::kBadVersion, ScanLoss::kForeign}, {Status::kTruncated, ScanLoss::kStopped},   {Status::kOffPlan, ScanLoss::kOffPlan},
+};
+
 constexpr double kDirectionTolerance = 2e-3;  // of the squared length
 
 bool known_state(RayState state) {
@@ -56,6 +66,13 @@ bool range_valid(const RangeSample& sample) {
 
 }  // namespace
 
+ScanLoss loss_of(Status reason) {
+  for (const Cause& cause : kCauses) {
+    if (cause.reason == reason) return cause.loss;
+  }
+  return ScanLoss::kOther;
+}
+
 Status Acquisition::start(Sensor& sensor, const ScanPlan& plan, TimeUs t_start_us, RangeImage& image) {
   if (state_ != State::kIdle) return Status::kBusy;
   verdict_ = ScanVerdict{};
@@ -71,6 +88,7 @@ Status Acquisition::start(Sensor& sensor, const ScanPlan& plan, TimeUs t_start_u
   const Status plan_status = validate(plan);
   verdict_.reason = plan_status == Status::kOk ? sensor.start(plan, t_start_us) : plan_status;
   if (verdict_.reason == Status::kOk) state_ = State::kRunning;
+  if (verdict_.reason != Status::kOk) verdict_.loss = loss_of(verdict_.reason);
   return verdict_.reason;
 }
 
@@ -86,6 +104,7 @@ void Acquisition::step(Sensor& sensor, TimeUs now_us, RangeImage& image) {
 void Acquisition::lose(Sensor& sensor, Status reason) {
   sensor.abort();
   verdict_.reason = reason;
+  verdict_.loss = loss_of(reason);
   state_ = State::kLost;
 }
 
@@ -138,6 +157,8 @@ void Acquisition::judge() {
   verdict_.usable = enough && state_ != State::kLost;
   if (state_ == State::kRunning) verdict_.reason = Status::kTimeout;
   if (state_ == State::kComplete && !enough) verdict_.reason = Status::kBadValue;
+  if (!enough && state_ == State::kRunning) verdict_.loss = ScanLoss::kUnfinished;
+  if (!enough && state_ == State::kComplete) verdict_.loss = ScanLoss::kThin;
 }
 
 ScanVerdict Acquisition::finish(Sensor& sensor, RangeImage& image) {

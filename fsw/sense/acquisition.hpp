@@ -26,11 +26,32 @@ constexpr std::size_t kBadSampleKinds = 5;
 constexpr double kMaxRangeM = 1e5;
 constexpr std::uint32_t kUsablePercent = 80;  // of the plan's points
 
+// Why a scan cannot be estimated from: what an operator looks for first.
+enum class ScanLoss : std::uint8_t {
+  kNone = 0,         // it was not lost
+  kInhibited = 1,    // the sensor's light is: kMissing
+  kNoRoom = 2,       // the sensor takes no more commands: kOverCapacity
+  kSilent = 3,       // the sensor does not answer: kTimeout
+  kBusy = 4,         // an earlier scan runs
+  kRefused = 5,      // the plan is outside the sensor's limits: kBadValue
+  kRestarted = 6,    // the sensor has started anew: kBadOrder
+  kForeign = 7,      // another sensor than the calibration's, or of another protocol: kBadVersion
+  kStopped = 8,      // the sensor ended it early: kTruncated
+  kOffPlan = 9,      // the sensor scans something else
+  kOther = 10,       // the sensor gave another reason
+  kUnfinished = 11,  // the frame's boundary came first, and too few samples are there
+  kThin = 12,        // complete, but too few of its samples are well formed
+  kStuck = 13,       // its rays went nearly one way: the mirrors stand still (fsw/exec/scan_faults.hpp)
+};
+constexpr std::size_t kScanLosses = 14;
+ScanLoss loss_of(Status reason);  // that a sensor gave
+
 struct ScanVerdict {
   std::uint32_t scan_id = 0;
   bool complete = false;            // the sensor handed over the scan's last sample
   bool usable = false;              // may be estimated from; otherwise the image is empty
   Status reason = Status::kNoData;  // kOk: complete and usable. Otherwise why not (see finish)
+  ScanLoss loss = ScanLoss::kNone;  // of a scan that was started, or refused, and is not usable
   std::uint16_t count = 0;          // samples taken into the image: hits + misses + invalid
   std::uint16_t hits = 0;
   std::uint16_t misses = 0;
@@ -63,7 +84,7 @@ class Acquisition {
   bool under_way() const { return state_ == State::kRunning; }  // more steps are needed
 
  private:
-  enum class State : std::uint8_t { kIdle, kRunning, kComplete, kLost };
+  enum class State : std::uint8_t { kIdle, kRunning, kComplete, kLost };  // lost: for the verdict's reason
 
   void take(const RangeSample& sample, TimeUs now_us, RangeImage& image);
   bool check(const RangeSample& sample, TimeUs now_us, BadSample& reason) const;

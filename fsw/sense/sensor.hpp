@@ -13,20 +13,40 @@
 namespace lasso {
 
 struct SensorPoll {
-  Status status = Status::kOk;  // kOk; kNoData: idle; kTimeout, kBadCrc, kBadValue, ...: the scan is lost, reason given
+  Status status = Status::kOk;  // kOk; kNoData: idle; kTimeout, kBadCrc, kBadValue, ...: the scan is lost (loss_of, acquisition.hpp)
   std::size_t count = 0;        // samples written, in time order, none twice
   bool complete = false;        // the scan's last sample has been handed over
 };
 
+// What a sensor has seen go wrong between its optics and the component, since it was made. Modulo 2^32.
+struct SensorCounters {
+  std::uint32_t frames = 0;           // that came whole and right
+  std::uint32_t damaged_frames = 0;   // that came, but not right
+  std::uint32_t missing_frames = 0;   // that never came right, by the sequence of those that did
+  std::uint32_t repeated_frames = 0;  // that came again
+  std::uint32_t unknown_frames = 0;   // right, and say nothing that is defined
+  std::uint32_t strayed = 0;          // samples and answers that belong to no scan under way
+  std::uint32_t samples_lost = 0;     // that no frame brought
+  std::uint32_t samples_refused = 0;  // that make no statement: out of range, outside the calibrated volume, saturated, not aimed
+  std::uint32_t bad_times = 0;        // samples whose time cannot be
+  std::uint32_t off_plan = 0;         // frames whose rays are not those of the plan
+  std::uint32_t clock_jumps = 0;
+  std::uint32_t restarts = 0;  // of the sensor
+};
+
 class Sensor {
  public:
-  // Arms the scan: its first sample is taken at t_start_us or as soon after as the hardware can. kBusy while a scan runs, kBadValue when
-  // the plan is outside the sensor's limits; the sensor is then as it was.
+  // Arms the scan: its first sample is taken at t_start_us, which is the present time, or as soon after as the hardware can. kBusy while a
+  // scan runs, kBadValue when the plan is outside the sensor's limits; the sensor is then as it was.
   virtual Status start(const ScanPlan& plan, TimeUs t_start_us) = 0;
   // Takes the samples acquired by `now_us`, at most out.size(). Samples not taken stay for the next call.
   virtual SensorPoll poll(TimeUs now_us, Span<RangeSample> out) = 0;
   // Ends a scan and discards its samples. No effect when idle.
   virtual void abort() = 0;
+  // Zeros where a sensor has no line on which anything could go wrong.
+  virtual SensorCounters counters() const { return {}; }
+  // Whether it may light its laser: never before the first permission. Sensors without one, or with one that others look after, ignore it.
+  virtual void permit_laser(bool /*permitted*/) {}
 
  protected:
   ~Sensor() = default;  // never deleted through this interface: no operator delete in flight code

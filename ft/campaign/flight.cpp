@@ -46,11 +46,9 @@ Decoded decode(ConstBytes stream) {
     }
     PacketHeader header;
     PoseTelemetry pose;
-    if (decode_pose(stream.first(size), header, pose) == PacketFault::kNone) {
-      decoded.poses.push_back(pose);
-    } else {
-      ++decoded.broken;
-    }
+    const PacketFault fault = decode_pose(stream.first(size), header, pose);
+    if (fault == PacketFault::kNone) decoded.poses.push_back(pose);
+    if (fault != PacketFault::kNone && fault != PacketFault::kUnknown) ++decoded.broken;  // unknown: an event, an answer
     stream = stream.subspan(size, stream.size() - size);
   }
   return decoded;

@@ -43,12 +43,12 @@ void check_command(ConstBytes packet) {
 }
 
 template <class Arguments, std::size_t kRows>
-void expect_same(ConstBytes packet, const TypedRow<Arguments> (&rows)[kRows], const Arguments& arguments) {
+void expect_same(ConstBytes packet, CommandKind kind, const TypedRow<Arguments> (&rows)[kRows], const Arguments& arguments) {
   const auto codec = codec_of(rows);
   std::vector<std::uint8_t> again(codec.bytes);
   ByteWriter writer{Bytes(again.data(), again.size())};
   codec.write(arguments, writer);
-  const std::size_t begin = kCommandHeaderBytes + kPacketNumberBytes;
+  const std::size_t begin = kCommandHeaderBytes + (command_rows::row_of(kind).numbered ? kPacketNumberBytes : 0);
   expect(begin + codec.bytes + kPacketTrailerBytes == packet.size(), "the arguments of a command fill it");
   expect(std::equal(again.begin(), again.end(), packet.begin() + begin), "and encode to their own bytes");
 }
@@ -56,9 +56,15 @@ void expect_same(ConstBytes packet, const TypedRow<Arguments> (&rows)[kRows], co
 void check_arguments(ConstBytes packet) {
   Command command;
   if (decode_command(packet, command) != PacketFault::kNone) return;
-  if (command.kind == CommandKind::kMode) expect_same(packet, command_rows::kMode, command.mode);
-  if (command.kind == CommandKind::kHold) expect_same(packet, command_rows::kHold, command.hold);
-  if (command.kind == CommandKind::kStart) expect_same(packet, command_rows::kStart, command.start);
+  if (command.kind == CommandKind::kMode) expect_same(packet, command.kind, command_rows::kMode, command.mode);
+  if (command.kind == CommandKind::kHold) expect_same(packet, command.kind, command_rows::kHold, command.hold);
+  if (command.kind == CommandKind::kStart) expect_same(packet, command.kind, command_rows::kStart, command.start);
+  const bool of_event = command.kind == CommandKind::kEnableEvent || command.kind == CommandKind::kDisableEvent;
+  const bool of_memory = command.kind == CommandKind::kDumpMemory || command.kind == CommandKind::kCheckMemory;
+  if (of_memory) expect_same(packet, command.kind, memory_rows::kRange, command.memory);
+  if (command.kind == CommandKind::kLoadMemory) expect_same(packet, command.kind, memory_rows::kLoad, command.load);
+  if (command.kind == CommandKind::kBeginImage) expect_same(packet, command.kind, memory_rows::kBegin, command.image);
+  if (of_event) expect_same(packet, command.kind, command_rows::kEvent, command.event);
 }
 
 // The same rule, applied at every place.

@@ -99,6 +99,30 @@ void write_commands(const fs::path& folder) {
   }
 }
 
+// One of each message: as bytes, and as a frame that the fuzzer makes.
+void write_frames(const fs::path& folder) {
+  int number = 0;
+  const auto say = [&](const auto&... message) {
+    const lcs::FrameBytes bytes = lcs::encode(1, message...);
+    const std::string text(reinterpret_cast<const char*>(bytes.bytes), bytes.size);
+    const std::string name = std::to_string(number++);
+    write(folder / ("bytes" + name), seed(41, text));
+    write(folder / ("frame" + name), seed(40, std::string{text[3], text[2]} + text.substr(5, bytes.size - lcs::kFrameOverhead)));
+  };
+  lcs::AimCommand aim;
+  aim.count = lcs::kAimedPerFrame;
+  lcs::Samples samples;
+  samples.count = lcs::kSamplesPerFrame;
+  say(lcs::Type::kAbort);
+  say(lcs::LaserCommand::kArm);
+  say(aim);
+  say(lcs::StartCommand{});
+  say(lcs::Answer{});
+  say(lcs::CameraStatus{});
+  say(samples);
+  say(lcs::ScanEnd{});
+}
+
 // A scan of 64 points as it should come: answer, samples, end.
 void write_lines(const fs::path& folder) {
   std::string frames;
@@ -190,6 +214,7 @@ int main(int argc, char** argv) {
     const std::filesystem::path folder = argv[1];
     lasso::fuzz::write_commands(folder / "command");
     lasso::fuzz::write_images(folder / "image");
+    lasso::fuzz::write_frames(folder / "frame");
     lasso::fuzz::write_lines(folder / "line");
     lasso::fuzz::write_packets(folder / "packet");
     lasso::fuzz::write_scans(folder / "scan");

@@ -61,11 +61,13 @@ Tally tally(ConstBytes stream) {
     const ConstBytes packet = stream.first(packet_size(stream));
     PacketHeader header;
     PoseTelemetry pose;
-    invariant(decode_pose(packet, header, pose) == PacketFault::kNone, "telemetry that cannot be decoded");
+    stream = stream.subspan(packet.size(), stream.size() - packet.size());
+    const PacketFault fault = decode_pose(packet, header, pose);
+    invariant(fault == PacketFault::kNone || fault == PacketFault::kUnknown, "telemetry that cannot be decoded");
+    if (fault == PacketFault::kUnknown) continue;  // another structure
     ++result.poses;
     result.valid += pose.valid;
     result.returns += pose.returns;
-    stream = stream.subspan(packet.size(), stream.size() - packet.size());
   }
   return result;
 }

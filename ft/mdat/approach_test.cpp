@@ -31,7 +31,8 @@ double time_of(const Json& timeline, const std::string& mode, double from_s = 0)
 
 // The whole flight: bearing, search, tracking by the LIDAR, a loss and its recovery, the laser camera, the parts, and all the way back.
 TEST(Approach, RunsThroughAllModesWithTwoSensorsAndRecoversFromAnEclipse) {
-  VERIFIES("LASSO-MOD-174~1 LASSO-GND-026~1 LASSO-SIM-034~1 LASSO-SIM-035~1 LASSO-MDT-004~1 LASSO-SNS-041~1 LASSO-SNS-046~1");
+  VERIFIES(
+      "LASSO-MOD-174~1 LASSO-SYS-014~1 LASSO-GND-026~1 LASSO-SIM-034~1 LASSO-SIM-035~1 LASSO-MDT-004~1 LASSO-SNS-041~1 LASSO-SNS-046~1");
   const WorkFolder work;
   const Answer answer = work.mdat("run " + kMission + " --scenario approach --out out");
   ASSERT_EQ(answer.exit_code, 0) << answer.err;

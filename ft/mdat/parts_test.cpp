@@ -30,7 +30,7 @@ TEST(CloseBy, TheFilterHoldsAFullSizeTargetOfWhichNoScanSeesTheWhole) {
 }
 
 TEST(CloseBy, AMissionSaysItsParts) {
-  VERIFIES("LASSO-GND-001~1 LASSO-GND-002~1");
+  VERIFIES("LASSO-GND-001~1 LASSO-GND-002~1 LASSO-MDL-024~1");
   const WorkFolder work;
   const Answer compiled = work.mdat("mission compile " + kMission + " --out near.3dli");
   ASSERT_EQ(compiled.exit_code, 0) << compiled.err;

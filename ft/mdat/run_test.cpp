@@ -86,7 +86,8 @@ TEST(PaperRun, IsTheSameForAnyNumberOfJobsAndChangesWithTheSeed) {
   ASSERT_EQ(work.mdat(run + "--seed 3 --jobs 3 --out three").exit_code, 0);
   ASSERT_EQ(work.mdat(run + "--seed 4 --out other").exit_code, 0);
   const std::string stream = work.read("one/telemetry.ccsds");
-  EXPECT_EQ(count_packets(stream), 2U * std::size(kVariants) * 2U * 5U);  // tables, variants, ranges, frames
+  EXPECT_EQ(count_packets(stream),
+            2U * std::size(kVariants) * 2U * (5U + 4U));  // tables, variants, ranges; poses, and begun, starting, tracking, health
   EXPECT_TRUE(stream == work.read("three/telemetry.ccsds"));
   EXPECT_FALSE(stream == work.read("other/telemetry.ccsds"));
 }

@@ -7,9 +7,13 @@ namespace lasso::mdat {
 
 void add_mission_commands(CLI::App& app);
 void add_run_command(CLI::App& app);
+void add_lcs_sim_command(CLI::App& app);
+void add_calibrate_command(CLI::App& app);
 void add_replay_command(CLI::App& app);
 void add_modes_command(CLI::App& app);
+void add_faults_command(CLI::App& app);
 void add_decode_command(CLI::App& app);
+void add_command_command(CLI::App& app);
 void add_dictionary_command(CLI::App& app);
 
 }  // namespace lasso::mdat

@@ -33,9 +33,13 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   add_mission_commands(app);
   add_run_command(app);
+  add_lcs_sim_command(app);
+  add_calibrate_command(app);
   add_replay_command(app);
   add_modes_command(app);
+  add_faults_command(app);
   add_decode_command(app);
+  add_command_command(app);
   add_dictionary_command(app);
   app.footer("Exit codes: 0 done, 1 the run failed, 2 usage or bad input.");
   try {

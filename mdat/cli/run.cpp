@@ -2,9 +2,12 @@
 #include <memory>
 #include <thread>
 
+#include "bsp/posix/links.hpp"
 #include "mdat/cli/commands.hpp"
 #include "mdat/common/errors.hpp"
 #include "mdat/common/output.hpp"
+#include "mdat/missiondb/calibration_file.hpp"
+#include "mdat/missiondb/camera_faults.hpp"
 #include "mdat/report/report.hpp"
 #include "mdat/run/recording.hpp"
 #include "mdat/run/results.hpp"
@@ -14,7 +17,7 @@ namespace lasso::mdat {
 namespace {
 
 struct Options {
-  std::string mission, sensor = "simulated", out = "out/run", picture, record;
+  std::string mission, sensor = "simulated", camera_faults, optics, calibration, out = "out/run", picture, record, link;
   SimulationOptions simulation;
   bool report = true;
 };
@@ -27,13 +30,29 @@ void write_outputs(const Options& options, const CompiledMission& mission, const
   folder.commit();
 }
 
+// An operator's link; none if there is no URL.
+std::unique_ptr<posix::PosixLink> open_link(const std::string& url) {
+  if (url.empty()) return nullptr;
+  try {
+    std::unique_ptr<posix::PosixLink> link = posix::open_link(url);
+    std::printf("commands and telemetry by %s\n", link->address().c_str());
+    (void)std::fflush(stdout);
+    return link;
+  } catch (const posix::LinkError& error) {
+    throw InputError("--link " + std::string(error.what()));
+  }
+}
+
 void run(const Options& options) {
   OutputFolder folder(options.out);
   if (!options.picture.empty()) check_writable(options.picture);
   if (options.report || !options.picture.empty()) require_plotter();
   const CompiledMission mission = compile_mission(options.mission);
   for (const std::string& warning : mission.source.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
-  const SimulationResult result = simulate(mission, options.simulation);
+  SimulationOptions simulation = options.simulation;
+  const std::unique_ptr<posix::PosixLink> link = open_link(options.link);
+  simulation.link = link.get();
+  const SimulationResult result = simulate(mission, simulation);
   write_outputs(options, mission, result, folder);
   std::fputs(summary_text(result).c_str(), stdout);
   std::printf("written to %s: results.json, telemetry.ccsds%s\n", options.out.c_str(), options.report ? ", report.html" : "");
@@ -44,6 +63,31 @@ void record(const Options& options) {
   write_recording(compile_mission(options.mission), options.simulation, options.record);
   writable.commit();
   std::printf("written to %s: for each range scans/, poses.csv (of the frame before) and truth.csv\n", options.record.c_str());
+}
+
+constexpr char kLine[] = "lcs-wire:";
+
+std::string check_sensor(const std::string& name) {
+  const bool known = name == "simulated" || name == "lcs-wire" || (name.rfind(kLine, 0) == 0 && name.size() > sizeof kLine - 1);
+  return known ? "" : "expected simulated, lcs-wire or lcs-wire:LINE";
+}
+
+// What the words about cameras ask for. Throws where they do not fit together.
+void set_cameras(Options& options) {
+  SimulationOptions& simulation = options.simulation;
+  simulation.laser_camera_line = options.sensor == "lcs-wire";
+  if (options.sensor.rfind(kLine, 0) == 0) {
+    simulation.camera_line = options.sensor.substr(sizeof kLine - 1);
+    simulation.plain = true;
+  }
+  const bool calibrated = !options.optics.empty() || !options.calibration.empty();
+  if (calibrated && !simulation.laser_camera_line && simulation.camera_line.empty())
+    throw InputError("--camera-optics, --calibration: only a camera on its line has them: add --sensor lcs-wire");
+  if (!options.camera_faults.empty() && !simulation.laser_camera_line)
+    throw InputError("--camera-faults: only a camera on its line fails by a script: add --sensor lcs-wire");
+  if (!options.optics.empty()) simulation.camera_optics = load_calibration(options.optics);
+  if (!options.calibration.empty()) simulation.calibration = load_calibration(options.calibration);
+  if (!options.camera_faults.empty()) simulation.camera_faults = load_camera_faults(options.camera_faults);
 }
 
 }  // namespace
@@ -57,21 +101,35 @@ void add_run_command(CLI::App& app) {
   command->add_option("--seed", options->simulation.seed, "start of the random numbers (the scenario's)")
       ->check(CLI::Range(std::int64_t{0}, std::int64_t{4294967295}));
   command
-      ->add_option("--sensor", options->sensor,
-                   "simulated, or lcs-wire: laser cameras are reached over their serial line, byte by byte (docs/icd/lcs.md)")
+      ->add_option(
+          "--sensor", options->sensor,
+          "simulated, or lcs-wire: laser cameras are reached over their serial line, byte by byte (docs/icd/lcs.md), or "
+          "lcs-wire:LINE: the one at the end of a line of this machine, in real time (tcp://127.0.0.1:PORT, unix:PATH, or a device)")
       ->capture_default_str()
-      ->check(CLI::IsMember({"simulated", "lcs-wire"}));
+      ->check(CLI::Validator(check_sensor, ""));
+  command->add_flag("--remote", options->simulation.remote_line, "the line may lead to other machines");
+  command->add_option("--camera-faults", options->camera_faults,
+                      "script of what goes wrong with laser cameras and their lines (docs/user-guide.md); with --sensor lcs-wire");
+  command->add_option("--camera-optics", options->optics,
+                      "what the simulated laser camera's optics are (a calibration file); with --sensor lcs-wire");
+  command->add_option("--calibration", options->calibration, "what its driver takes them to be: what mdat calibrate wrote (the optics)");
+  command->add_option("--camera-temperature", options->simulation.camera_degC, "of the simulated camera, degC")
+      ->capture_default_str()
+      ->check(CLI::Range(-50.0, 100.0));
   command->add_option("-o,--out", options->out, "folder to write")->capture_default_str();
   command->add_option("--frames", options->simulation.frames, "frames of each range (the scenario's)")->check(CLI::Range(1, 1000000));
   command->add_option("-j,--jobs", options->simulation.jobs, "ranges and variants at a time; no effect on the results")
       ->capture_default_str()
       ->check(CLI::Range(1, 256));
+  command->add_option("--link", options->link,
+                      "udp://[HOST]:PORT, tcp://[HOST]:PORT or file://PATH: run the first range in real time, commanded over this link "
+                      "(mdat command --to); without a host by the loopback address");
   command->add_flag("!--no-report", options->report, "leave report.html out");
   command->add_option("--picture", options->picture, "also write the scan on the target as a PNG picture");
   CLI::Option* recording = command->add_option("--record", options->record,
                                                "instead of a run: write its scans (.csv) and true poses into this folder, for replay");
   command->callback([options, recording] {
-    options->simulation.laser_camera_line = options->sensor == "lcs-wire";
+    set_cameras(*options);
     recording->count() > 0 ? record(*options) : run(*options);
   });
 }

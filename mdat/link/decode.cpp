@@ -90,9 +90,10 @@ HeaderList list_headers(ConstBytes stream) {
     HeaderLine line{at, size, read_primary_header(rest), crc16_ccitt(rest.first(size)) == 0, 0};
     const std::pair key(line.header.type, line.header.apid);
     const auto before = last.find(key);
-    if (before != last.end())
-      line.missing = static_cast<std::uint32_t>(line.header.sequence_count - before->second - 1) & kSequenceCountMask;
-    last[key] = line.header.sequence_count;
+    const std::uint32_t ahead = before == last.end() ? 1U : (line.header.sequence_count - before->second + 0U) & kSequenceCountMask;
+    line.behind = ahead == 0 || ahead > kSequenceCountMask / 2;
+    line.missing = line.behind ? 0 : ahead - 1;
+    if (!line.behind) last[key] = line.header.sequence_count;
     list.lines.push_back(line);
     at += size;
   }

@@ -45,7 +45,8 @@ struct HeaderLine {
   std::size_t size = 0;
   PrimaryHeader header;
   bool crc_right = false;
-  std::uint32_t missing = 0;  // packets of its type and APID between it and the one before, by their counts
+  std::uint32_t missing = 0;  // packets of its type and APID between it and those before, by their counts
+  bool behind = false;        // repeated, or out of order: its count is not after the latest one by less than half of all counts
 };
 struct HeaderList {
   std::vector<HeaderLine> lines;

@@ -1,6 +1,8 @@
 #include "mdat/link/decode_text.hpp"
 
 #include <algorithm>
+#include <charconv>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "mdat/common/errors.hpp"
@@ -11,12 +13,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-bool shows(const Selection& selection, const DecodedPacket& packet) {
-  return selection.packet.empty() || selection.packet == packet.name();
-}
-
 bool shows(const Selection& selection, const ItemRow& row) {
   return selection.items.empty() || std::find(selection.items.begin(), selection.items.end(), row.name) != selection.items.end();
+}
+
+bool shows(const Selection& selection, const DecodedPacket& packet) {
+  if (!selection.packet.empty() && selection.packet != packet.name()) return false;
+  if (selection.items.empty()) return true;
+  return std::any_of(packet.items.begin(), packet.items.end(), [&](const DecodedItem& item) { return shows(selection, *item.row); });
 }
 
 // The name of an enumeration's value, or the number.
@@ -76,9 +80,11 @@ Json json_of(const ItemRow& row, const Number& number) {
   const Choice* choice = choice_of(row, number);
   if (choice != nullptr) return choice->name;
   if (const auto* whole = std::get_if<std::int64_t>(&number)) return *whole;
-  const std::string text = text_of(number);
-  // The double that is written as the shortest text of a float.
-  return text.find_first_of("ni") == std::string::npos ? Json(std::stod(text)) : Json(text);
+  std::string text = text_of(number);
+  if (text.find_first_of("ni") != std::string::npos) return text;
+  double value = 0;  // that is written as the shortest text of a float
+  std::from_chars(text.data(), text.data() + text.size(), value);
+  return value;
 }
 
 Json json_of(const DecodedItem& item) {
@@ -118,6 +124,17 @@ std::string csv_line(const DecodedPacket& packet, const Selection& selection) {
   return text + "\n";
 }
 
+// Of the packets that are shown; of equally many, the first in the dictionary. Null: there is none.
+const PacketRow* commonest(const DecodedStream& stream, const Selection& selection) {
+  std::map<const PacketRow*, std::size_t> counts;
+  for (const DecodedPacket& packet : stream.packets) {
+    if (packet.row != nullptr && shows(selection, packet)) ++counts[packet.row];
+  }
+  const auto fewer = [](const auto& a, const auto& b) { return a.second < b.second; };
+  const auto most = std::max_element(counts.begin(), counts.end(), fewer);
+  return most == counts.end() ? nullptr : most->first;
+}
+
 void put_u32(std::string& out, std::uint64_t value) {  // little-endian, as the magic number says
   for (int shift = 0; shift < 32; shift += 8) out += static_cast<char>(value >> shift & 0xFF);
 }
@@ -148,12 +165,10 @@ std::string table_text(const DecodedStream& stream, const Selection& selection) 
 }
 
 std::string csv_text(const DecodedStream& stream, const Selection& selection) {
-  std::string text;
-  const PacketRow* kind = nullptr;
+  const PacketRow* kind = commonest(stream, selection);
+  if (kind == nullptr) return "";
+  std::string text = csv_head(*kind, selection);
   for (const DecodedPacket& packet : stream.packets) {
-    if (packet.row == nullptr || !shows(selection, packet)) continue;
-    if (kind == nullptr) text = csv_head(*packet.row, selection);
-    if (kind == nullptr) kind = packet.row;
     if (packet.row == kind) text += csv_line(packet, selection);
   }
   return text;
@@ -188,17 +203,17 @@ std::string headers_table(const HeaderList& list) {
   for (const HeaderLine& line : list.lines) {
     text += format("%8zu  %4u %-9s %5u %5u %7zu %-6s %s\n", line.offset, line.header.apid, type_name(line.header.type),
                    line.header.sequence_flags, line.header.sequence_count, line.size, line.crc_right ? "right" : "WRONG",
-                   line.missing != 0 ? std::to_string(line.missing).c_str() : "");
+                   line.behind ? "(behind)" : (line.missing != 0 ? std::to_string(line.missing).c_str() : ""));
   }
   return text;
 }
 
 std::string headers_csv(const HeaderList& list) {
-  std::string text = "offset,apid,type,secondary_header,sequence_flags,sequence_count,size,crc_right,missing\n";
+  std::string text = "offset,apid,type,secondary_header,sequence_flags,sequence_count,size,crc_right,missing,behind\n";
   for (const HeaderLine& line : list.lines) {
-    text += format("%zu,%u,%s,%d,%u,%u,%zu,%d,%u\n", line.offset, line.header.apid, type_name(line.header.type),
+    text += format("%zu,%u,%s,%d,%u,%u,%zu,%d,%u,%d\n", line.offset, line.header.apid, type_name(line.header.type),
                    line.header.secondary_header ? 1 : 0, line.header.sequence_flags, line.header.sequence_count, line.size,
-                   line.crc_right ? 1 : 0, line.missing);
+                   line.crc_right ? 1 : 0, line.missing, line.behind ? 1 : 0);
   }
   return text;
 }
@@ -214,20 +229,24 @@ std::string headers_json(const HeaderList& list) {
                                {"sequence_count", line.header.sequence_count},
                                {"size", line.size},
                                {"crc_right", line.crc_right},
-                               {"missing", line.missing}});
+                               {"missing", line.missing},
+                               {"behind", line.behind}});
   }
   return json.dump(1) + "\n";
 }
 
 std::string headers_summary(const HeaderList& list) {
-  std::size_t right = 0, gaps = 0, missing = 0;
+  std::size_t right = 0, gaps = 0, missing = 0, behind = 0;
   for (const HeaderLine& line : list.lines) {
     right += line.crc_right ? 1 : 0;
     gaps += line.missing != 0 ? 1 : 0;
     missing += line.missing;
+    behind += line.behind ? 1 : 0;
   }
-  return format("%zu packets: CRC right in %zu, wrong in %zu; %zu gaps in the sequence, %zu packets missing; %zu bytes left over\n",
-                list.lines.size(), right, list.lines.size() - right, gaps, missing, list.left_over);
+  return format(
+      "%zu packets: CRC right in %zu, wrong in %zu; %zu gaps in the sequence, %zu packets missing, %zu repeated or out of order; %zu "
+      "bytes left over\n",
+      list.lines.size(), right, list.lines.size() - right, gaps, missing, behind, list.left_over);
 }
 
 }  // namespace lasso::mdat

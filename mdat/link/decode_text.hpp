@@ -19,7 +19,8 @@ void check_selection(const Selection& selection);
 
 // A block for each packet; with items selected, a line for each.
 std::string table_text(const DecodedStream& stream, const Selection& selection);
-// A line for each packet of one kind: the selected one, or that of the first packet. Elements of an item are columns of their own.
+// A line for each packet of one kind: the selected one, or the commonest of those that have a selected item. Elements of an item are
+// columns of their own.
 std::string csv_text(const DecodedStream& stream, const Selection& selection);
 // Values of enumerations by name; other numbers exactly, "nan", "inf" and "-inf" as text.
 std::string json_text(const DecodedStream& stream, const Selection& selection);

@@ -4,6 +4,7 @@
 #include "fsw/link/dictionary.hpp"
 #include "fsw/mission/parameters.hpp"
 #include "mdat/link/dictionary_text.hpp"
+#include "mdat/link/page.hpp"
 
 namespace lasso::mdat {
 namespace {
@@ -46,6 +47,10 @@ Json packet(const PacketRow& row) {
                {"meaning", row.meaning},
                {"items", Json::array()}};
   for (std::size_t i = 0; i < row.items.size(); ++i) json["items"].push_back(item(row, i));
+  if (row.service != kServiceEvent || !row.numbered) return json;
+  json["severity"] = severity_text(row);
+  json["cause"] = row.cause;
+  json["action"] = row.action;
   return json;
 }
 

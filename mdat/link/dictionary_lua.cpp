@@ -36,10 +36,10 @@ for _, packet in ipairs(packets) do
     fields[#fields + 1] = item.field
   end
 end
-local f_structure = ProtoField.uint16("lasso.structure", "structure", base.DEC)
+local f_number = ProtoField.uint16("lasso.number", "number", base.DEC)
 local f_crc = ProtoField.uint16("lasso.crc", "crc", base.HEX)
 local f_crc_right = ProtoField.bool("lasso.crc_right", "crc right")
-fields[#fields + 1] = f_structure
+fields[#fields + 1] = f_number
 fields[#fields + 1] = f_crc
 fields[#fields + 1] = f_crc_right
 lasso.fields = fields
@@ -95,7 +95,7 @@ function lasso.dissector(buffer, pinfo, root)
     local same = packet.service == secondary.service and packet.subservice == secondary.subservice and packet.size == buffer:len()
     if same and packet.number then
       same = packet.number == buffer(data_offset, 2):uint()
-      if same then tree:add(f_structure, buffer(data_offset, 2)) end
+      if same then tree:add(f_number, buffer(data_offset, 2)) end
     end
     if same then
       pinfo.cols.info = packet.name .. " #" .. header.sequence_count

@@ -1,6 +1,7 @@
 // XTCE 1.2 of the telemetry: header fields and items are parameters; each packet is a container that extends the one of the headers, told
 // by its service, subservice and structure.
 #include <cmath>
+#include <set>
 
 #include "fsw/link/dictionary.hpp"
 #include "mdat/common/text.hpp"
@@ -22,8 +23,6 @@ std::string escaped(const std::string& text) {
 std::string attribute(const char* name, const std::string& value) { return format(" %s=\"%s\"", name, escaped(value).c_str()); }
 
 std::string number(double value) { return text_of(Number(value)); }
-
-bool is_real(const ItemRow& row) { return row.type == WireType::kF32 || row.type == WireType::kF64; }
 
 std::string integer_encoding(std::size_t bits, bool is_signed) {
   return format("<IntegerDataEncoding sizeInBits=\"%zu\" encoding=\"%s\"/>", bits, is_signed ? "twosComplement" : "unsigned");
@@ -58,7 +57,7 @@ std::string element_type(const ItemRow& row, const std::string& name) {
     return "<EnumeratedParameterType" + begin + "><UnitSet/>" + integer_encoding(bits, false) + enumeration_list(*row.enumeration) +
            "</EnumeratedParameterType>\n";
   }
-  if (is_real(row)) {
+  if (is_real(row.type)) {
     return "<FloatParameterType" + begin + format(" sizeInBits=\"%zu\">", bits) + unit_set(row) +
            format("<FloatDataEncoding sizeInBits=\"%zu\"/>", bits) + valid_range(row) + "</FloatParameterType>\n";
   }
@@ -98,7 +97,7 @@ std::string item_entry(const PacketRow& packet, const ItemRow& row) {
 
 std::string comparison(const char* name, unsigned value) { return format("<Comparison parameterRef=\"%s\" value=\"%u\"/>", name, value); }
 
-constexpr HeaderField kStructure{"structure", 160, 16, "number of the structure"};
+constexpr HeaderField kNumber{"number", 160, 16, "number of the structure or event"};
 
 std::string base_container() {
   std::string text =
@@ -118,11 +117,13 @@ std::string type_comparisons(unsigned service, unsigned subservice) {
   return comparison("apid", kApid) + comparison("service", service) + comparison("subservice", subservice);
 }
 
-// Of service 3, told apart by the number of the structure.
-std::string housekeeping_container() {
-  return "<SequenceContainer name=\"housekeeping\" abstract=\"true\" shortDescription=\"structures of service 3\">\n<EntryList>\n" +
-         entry(kStructure.name) + "</EntryList>\n" +
-         extending("telemetry", type_comparisons(kServiceHousekeeping, kSubserviceHousekeepingReport));
+// Of packets that their number tells apart.
+std::string family(const PacketRow& packet) { return format("numbered_%u_%u", packet.service, packet.subservice); }
+
+std::string family_container(const PacketRow& packet) {
+  return format("<SequenceContainer name=\"%s\" abstract=\"true\" shortDescription=\"service %u, subservice %u\">\n<EntryList>\n",
+                family(packet).c_str(), packet.service, packet.subservice) +
+         entry(kNumber.name) + "</EntryList>\n" + extending("telemetry", type_comparisons(packet.service, packet.subservice));
 }
 
 std::string container(const PacketRow& packet) {
@@ -130,7 +131,7 @@ std::string container(const PacketRow& packet) {
       "<SequenceContainer" + attribute("name", packet.name) + attribute("shortDescription", packet.meaning) + ">\n<EntryList>\n";
   for (const ItemRow& row : packet.items) text += item_entry(packet, row);
   text += entry("crc") + "</EntryList>\n";
-  if (packet.numbered) return text + extending("housekeeping", comparison("structure", packet.number));
+  if (packet.numbered) return text + extending(family(packet).c_str(), comparison(kNumber.name, packet.number));
   return text + extending("telemetry", type_comparisons(packet.service, packet.subservice));
 }
 
@@ -139,19 +140,21 @@ constexpr HeaderField kCrc{"crc", 0, 16, "CRC-16 over all bytes before it"};
 }  // namespace
 
 std::string dictionary_xtce() {
-  std::string types, parameters, containers = base_container() + housekeeping_container();
+  std::string types, parameters, containers = base_container();
+  std::set<std::string> families;
   const auto add_field = [&](const HeaderField& field) {
     types += header_type(field);
     parameters += parameter(field.name, field.meaning);
   };
   for (const HeaderField& field : kPrimaryFields) add_field(field);
   for (const HeaderField& field : kTelemetryFields) add_field(field);
-  add_field(kStructure);
+  add_field(kNumber);
   add_field(kCrc);
   for (const PacketRow& packet : kPackets) {
     if (packet.type != PacketType::kTelemetry) continue;
     for (const ItemRow& row : packet.items) types += item_types(packet, row);
     for (const ItemRow& row : packet.items) parameters += parameter(full_name(packet, row), row.meaning);
+    if (packet.numbered && families.insert(family(packet)).second) containers += family_container(packet);
     containers += container(packet);
   }
   return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<SpaceSystem xmlns=\"http://www.omg.org/spec/XTCE/20180204\" name=\"lasso\" "

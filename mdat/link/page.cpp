@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "cfg/capacities.hpp"
 #include "fsw/link/dictionary.hpp"
+#include "fsw/mission/parameter_area.hpp"
 #include "fsw/mission/parameters.hpp"
 #include "mdat/common/text.hpp"
 #include "mdat/link/number.hpp"
@@ -59,6 +61,62 @@ DocumentSection packet_section(const PacketRow& packet) {
   return section;
 }
 
+DocumentSection hazard_section() {
+  DocumentSection section{
+      2,
+      "Hazardous commands",
+      {format(
+          "A hazardous command is carried out only if the last `arm` has named it, at most %u frames ago; otherwise it fails "
+          "(`not_armed`). It uses the arm up, whatever comes of it, but where a row of commands is renewed by each. Any other hazardous "
+          "command ends it, and so does time (event `arm_expired`). The laser is inhibited at start; `inhibit_laser` needs no arm and "
+          "works at once.",
+          kArmFrames)},
+      {{"command", "service", "subservice", "number", "armed"}, {}}};
+  for (const PacketRow& row : command_rows::kCommands) {
+    if (row.hazard == Hazard::kNone) continue;
+    section.table.rows.push_back({row.name, std::to_string(row.service), std::to_string(row.subservice), std::to_string(row.number),
+                                  row.hazard == Hazard::kOnce ? "each time" : "once for a row"});
+  }
+  return section;
+}
+
+DocumentSection housekeeping_section() {
+  return {
+      2,
+      "Housekeeping and time",
+      {"Service 3 sends structures at the end of a frame. Each can be disabled and enabled, be given a period in frames (0: when there is "
+       "news), and be asked for once, disabled or not. At first `pose` comes with each scan and `link` and `sensor` when there is news. "
+       "The changes of "
+       "the mode that a pose which is not sent would have told are told by events alone.",
+       "Service 9: the headers of telemetry state the component's own time (time_status 0) until `correlate_time` names a moment in both "
+       "times; from then on they state spacecraft time (time_status 1). Items always state the component's time, and commands too; `link` "
+       "says the difference. The subservice is one of those that PUS-C leaves to missions."},
+      {}};
+}
+
+std::string throttle_text(const Throttle& throttle) {
+  return throttle.most == 0 ? "each" : format("%u in %u frames", throttle.most, throttle.frames);
+}
+
+DocumentSection event_section() {
+  DocumentSection section{
+      2,
+      "Events",
+      {"Service 5 tells what happened: at the end of its frame, with the time at which it happened. The subservice is the severity: 1 "
+       "informative, 2 low (the component deals with it), 3 medium (it costs poses), 4 high (somebody is needed). The source data begin "
+       "with the number of the event, 2 bytes.",
+       format("Each event can be disabled and enabled. One that would fill the link is told so many times in so many frames; how often it "
+              "was not told follows as `events_suppressed`. A frame holds %zu events; `events_dropped` counts the others.",
+              kMaxEventsPerFrame)},
+      {{"number", "name", "severity", "told", "meaning", "cause", "action"}, {}}};
+  for (const EventRow& row : event_rows::kRows) {
+    section.table.rows.push_back({std::to_string(static_cast<unsigned>(row.id)), row.name,
+                                  severity_text(kPackets[kPackets.size() - kEvents + static_cast<std::size_t>(row.id)]),
+                                  throttle_text(row.throttle), row.meaning, row.cause, row.action});
+  }
+  return section;
+}
+
 DocumentSection service_section() {
   return {2,
           "Commands and their answers",
@@ -83,9 +141,12 @@ std::string kind_text(const ParameterRow& row) {
 }
 
 DocumentTable parameter_table() {
-  DocumentTable table{{"name", "unit", "type", "least", "most", "preset", "meaning"}, {}};
+  DocumentTable table{{"number", "name", "unit", "type", "least", "most", "preset", "set in flight", "meaning"}, {}};
+  std::size_t number_in_list = 0;
   for (const ParameterRow& row : parameter_rows()) {
-    table.rows.push_back({row.key, row.unit, kind_text(row), number(row.minimum), number(row.maximum), number(row.preset), row.meaning});
+    const std::size_t i = number_in_list++;
+    table.rows.push_back({std::to_string(i), row.key, row.unit, kind_text(row), number(row.minimum), number(row.maximum),
+                          number(row.preset), is_changeable(i) ? "yes" : "no", row.meaning});
   }
   return table;
 }
@@ -103,6 +164,11 @@ void add_enumerations(std::vector<DocumentSection>& document) {
 
 }  // namespace
 
+std::string severity_text(const PacketRow& event) {
+  const char* names[] = {"informative", "low", "medium", "high"};
+  return names[event.subservice - 1];
+}
+
 std::string range_text(const ItemRow& row) {
   if (row.enumeration != nullptr) return row.enumeration->name;
   const bool low = !std::isinf(row.range.minimum), high = !std::isinf(row.range.maximum);
@@ -110,8 +176,9 @@ std::string range_text(const ItemRow& row) {
   return low ? "at least " + number(row.range.minimum) : "any";
 }
 
-std::vector<DocumentSection> interface_document() {
-  std::vector<DocumentSection> document = {
+// What every packet has.
+std::vector<DocumentSection> packet_sections() {
+  return {
       {1,
        "The link",
        {"Written by `mdat dictionary --format md` from the rows that the flight component packs its telemetry by "
@@ -119,9 +186,8 @@ std::vector<DocumentSection> interface_document() {
         "html`, `json`, `xtce` and `lua` write the same for browsers, programs, mission control systems and Wireshark (the last two of "
         "telemetry alone). Why it is so: "
         "[packets and dictionary](../decisions/packets.md).",
-        "**Not there yet**: of service 3 the commands (structures are not enabled, disabled or given a period), and services 5 (events: "
-        "the pose packet "
-        "tells what changes, and why), 6 (memory), 9 (time) and 20 (parameters); hazardous commands and their arming; authentication."},
+        "**Not there yet**: reset by command, saving parameters (service 20), and authentication. No board of this project gives the "
+        "component a second image buffer and a store yet but the tests; without them a command of service 6 fails, and says why."},
        {}},
       {2,
        "Packets",
@@ -137,7 +203,7 @@ std::vector<DocumentSection> interface_document() {
       {3, "Primary header", {}, header_table(Span<const HeaderField>(kPrimaryFields))},
       {3,
        "Secondary header of telemetry",
-       {"The source data of service 3 begin with the number of the structure, 2 bytes."},
+       {"The source data of service 3 begin with the number of the structure, those of an event with its number, 2 bytes."},
        header_table(Span<const HeaderField>(kTelemetryFields))},
       {3,
        "Secondary header of commands",
@@ -146,7 +212,12 @@ std::vector<DocumentSection> interface_document() {
       {3,
        "Why a packet is refused",
        {"Checked in this order; the first that fails is the reason. What is refused changes nothing."},
-       choice_table(kPacketFault)},
+       choice_table(kPacketFault)}};
+}
+
+// How packets travel.
+std::vector<DocumentSection> transport_sections() {
+  return {
       {2,
        "Framing",
        {"Packets follow each other without anything between them, in files, datagrams and byte streams alike: a recorded stream is what "
@@ -159,15 +230,38 @@ std::vector<DocumentSection> interface_document() {
         "bytes "
         "have come as it states, or the reader gives it up (`fsw/link/packet_finder.hpp`)."},
        {}},
+      {2,
+       "Links",
+       {"A board gives the component a link (`fsw/link/byte_link.hpp`): a stream of bytes, or datagrams of one packet each. On Linux these "
+        "are "
+        "`udp://[HOST]:PORT` (telemetry goes to whom the last datagram came from), `tcp://[HOST]:PORT` (one ground station at a time) and "
+        "`file://PATH` (commands from `PATH.commands`, telemetry to `PATH`); without a host they are bound to the loopback address. `mdat "
+        "run "
+        "--link` runs a component in real time behind one of them, and `mdat command NAME ITEM=VALUE ... --to` commands it."},
+       {}},
       {2, "Types", {}, type_table()}};
+}
+
+std::vector<DocumentSection> interface_document() {
+  std::vector<DocumentSection> document = packet_sections();
+  for (DocumentSection& section : transport_sections()) document.push_back(std::move(section));
   document.push_back(service_section());
+  document.push_back(event_section());
+  document.push_back(hazard_section());
+  document.push_back(housekeeping_section());
   for (const PacketRow& packet : kPackets) document.push_back(packet_section(packet));
   document.push_back({2, "Enumerations", {"Values that are not listed here are of a later version, or damage."}, {}});
   add_enumerations(document);
   document.push_back(
       {2,
        "Parameters",
-       {"Of the mission image, in the units of the mission file; the image carries them in SI. They cannot be changed over the link yet."},
+       {"Of the mission image, in the units of the mission file; the image carries them in SI. Service 20 changes those that may be "
+        "changed: "
+        "`set_parameter` within the limits below, from the next boundary on; `report_parameter` tells value and image's value; "
+        "`revert_parameters` takes all changes back. Changes are kept apart from the image, in two copies with check sums that are "
+        "compared in "
+        "each frame (events `parameters_repaired` and `parameters_lost`), and hold for the next image, too. They end with a restart. `mdat "
+        "command` takes a parameter by its name."},
        parameter_table()});
   return document;
 }

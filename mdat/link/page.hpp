@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "fsw/link/row.hpp"
+#include "fsw/link/packet_row.hpp"
 
 namespace lasso::mdat {
 
@@ -24,5 +24,8 @@ std::vector<DocumentSection> interface_document();
 
 // "0 to 1", "at least 0", "any"; of an enumeration, its name.
 std::string range_text(const ItemRow& row);
+
+// Of an event's packet: "informative", "low", "medium", "high".
+std::string severity_text(const PacketRow& event);
 
 }  // namespace lasso::mdat

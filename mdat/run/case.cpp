@@ -6,12 +6,14 @@
 
 #include "bsp/posix/runner.hpp"
 #include "fsw/exec/component.hpp"
-#include "hal_sim/lcs_device.hpp"
+#include "fsw/link/command_rows.hpp"
 #include "hal_sim/random.hpp"
 #include "mdat/common/errors.hpp"
 #include "mdat/common/flight_image.hpp"
+#include "mdat/run/camera.hpp"
 #include "mdat/run/navigation.hpp"
 #include "mdat/run/recording_sensor.hpp"
+#include "mdat/run/verdict.hpp"
 
 namespace lasso::mdat {
 namespace {
@@ -35,32 +37,19 @@ sim::ScannerModel model_of(const Scenario& scenario, const SensorParameters& sen
   return model;
 }
 
-// A laser camera that sees what its scanner model does, at the end of its line.
-struct CameraOnLine {
-  CameraOnLine(const CaseSetup& setup, const sim::Trajectory& trajectory, const sim::ScannerModel& model, std::uint64_t seed)
-      : camera(camera_for(model)), device(*setup.target, trajectory, model, seed, camera), line(device, camera.truth, camera.bits_per_s) {}
-
-  static sim::LcsCamera camera_for(const sim::ScannerModel& model) {
-    sim::LcsCamera camera;
-    camera.truth.serial = 1;
-    camera.truth.angle_max_rad = std::max({camera.truth.angle_max_rad, model.fov_half_x_rad, model.fov_half_y_rad});
-    return camera;
-  }
-
-  sim::LcsCamera camera;
-  sim::LcsDevice device;
-  sim::LcsOverLine line;
-};
-
 // A simulated sensor that remembers its scans.
 struct Scanner {
   Scanner(const CaseSetup& setup, const sim::Trajectory& trajectory, const sim::ScannerModel& model, std::uint64_t seed, SensorKind kind)
       : simulated(*setup.target, trajectory, model, seed),
         camera(setup.laser_camera_line && kind == SensorKind::kLaserCamera ? std::make_unique<CameraOnLine>(setup, trajectory, model, seed)
                                                                            : nullptr),
-        recorded(camera ? static_cast<Sensor&>(camera->line) : simulated) {}
+        live(setup.camera_line.empty() ? nullptr : std::make_unique<LiveCamera>(setup, model)),
+        recorded(live     ? static_cast<Sensor&>(live->driver)
+                 : camera ? static_cast<Sensor&>(camera->line)
+                          : simulated) {}
   sim::SimulatedScanner simulated;
   std::unique_ptr<CameraOnLine> camera;
+  std::unique_ptr<LiveCamera> live;
   RecordingSensor recorded;
 };
 
@@ -101,6 +90,7 @@ class Case {
     const LoadFailure failure = component_->load_image(view(image_, setup.image->size()));
     if (failure.status != Status::kOk) throw RunError("the component refused the image: " + to_string(failure));
     expect(component_->begin(kEpochUs), "begin");
+    if (setup.laser_camera_line || !setup.camera_line.empty()) enable_laser();
     if (!is_approach()) start(kEpochUs - period_us_);
     if (is_approach() && component_->command_mode(TrackingMode::kBearing) != ModeRefusal::kNone) {
       throw RunError("the component refused to look for a bearing");
@@ -108,7 +98,9 @@ class Case {
   }
 
   CaseResult run(std::atomic<std::size_t>& done) {
-    posix::Runner runner(*component_);
+    const bool real_time = setup_.link != nullptr || !setup_.camera_line.empty();
+    posix::Runner runner(*component_, real_time ? posix::Pace::kRealTime : posix::Pace::kLockstep);
+    if (setup_.link != nullptr) runner.connect(*setup_.link);
     for (std::uint32_t frame = 0; frame < setup_.frames + kPipelineFrames; ++frame) {
       const posix::FrameRecord record = runner.run_frame();
       result_.telemetry.insert(result_.telemetry.end(), record.telemetry.begin(), record.telemetry.end());
@@ -122,6 +114,22 @@ class Case {
   }
 
  private:
+  // As an operator does: the command is hazardous, and armed first.
+  void enable_laser() {
+    const PacketRow& enable = command_rows::row_of(CommandKind::kEnableLaser);
+    std::uint16_t count = 0;
+    for (const CommandKind kind : {CommandKind::kArm, CommandKind::kEnableLaser}) {
+      const PacketRow& row = command_rows::row_of(kind);
+      std::uint8_t packet[kMaxCommandBytes];
+      ByteWriter writer{Bytes(packet)};
+      begin_command({kApid, count++, 0, row.service, row.subservice, 0}, writer);
+      writer.u16(row.number);
+      if (kind == CommandKind::kArm) codec_of(command_rows::kArm).write({enable.service, enable.subservice, enable.number}, writer);
+      const ConstBytes bytes(packet, finish_packet(writer, Bytes(packet)));
+      if (!component_->receive_packet(bytes, kEpochUs)) throw RunError("the component took no command");
+    }
+  }
+
   static void expect(Status status, const std::string& what) {
     if (status != Status::kOk) throw RunError("the component refused to " + what + ": " + to_string(status));
   }
@@ -144,8 +152,10 @@ class Case {
       PoseTelemetry pose;
       const ConstBytes packet = stream.first(std::min(size, stream.size()));
       const PacketFault fault = decode_pose(packet, header, pose);
-      if (fault != PacketFault::kNone) throw RunError("the component's telemetry cannot be decoded: " + std::string(to_string(fault)));
-      note(pose, record);
+      const bool other = fault == PacketFault::kUnknown;  // an event, an answer
+      if (fault != PacketFault::kNone && !other)
+        throw RunError("the component's telemetry cannot be decoded: " + std::string(to_string(fault)));
+      if (!other) note(pose, record);
       stream = stream.subspan(packet.size(), stream.size() - packet.size());
     }
   }
@@ -157,7 +167,8 @@ class Case {
       if (!taken.samples.empty()) scan = std::move(taken);  // of one of them
     }
     if (setup_.scenario.has_profile()) add_packet(pose, *trajectory_, kEpochUs, result_.timeline);
-    if (!is_approach() && static_cast<TrackingMode>(pose.mode) == TrackingMode::kLost) start(record.boundary_us);
+    const bool restarts = !is_approach() && setup_.link == nullptr;
+    if (restarts && static_cast<TrackingMode>(pose.mode) == TrackingMode::kLost) start(record.boundary_us);
     if (static_cast<StopReason>(pose.stop) == StopReason::kNotRun) return;
     const std::int64_t frame = (pose.t_measurement_us - kEpochUs) / period_us_;
     if (pose.t_measurement_us < kEpochUs || frame >= setup_.frames) return;
@@ -171,6 +182,7 @@ class Case {
     FrameError error;
     error.reported = true;
     error.valid = pose.valid != 0;
+    error.wrong = judge_valid(pose, truth.T_sensor_target) == PoseVerdict::kWrong;
     error.registration = pose_error(registration_pose(pose), truth.T_sensor_target);
     error.filtered = pose_error(filtered_pose(pose), truth.T_sensor_target);
     error.nees = nees(registration_pose(pose), truth.T_sensor_target, registration_covariance(pose));

@@ -5,9 +5,13 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
+#include "fsw/link/byte_link.hpp"
 #include "fsw/link/pose_telemetry.hpp"
+#include "hal_lcs/triangulation.hpp"
+#include "hal_sim/lcs_faults.hpp"
 #include "hal_sim/ray_caster.hpp"
 #include "hal_sim/scanner.hpp"
 #include "hal_sim/trajectory.hpp"
@@ -29,8 +33,15 @@ struct CaseSetup {
   std::uint32_t frames = 0;
   MissionParameters parameters{};  // as compiled into the image
   std::vector<FurtherSensor> further_sensors;
-  bool laser_camera_line = false;  // a laser camera is reached over its line
+  bool laser_camera_line = false;                 // a laser camera is reached over its line
+  std::string camera_line;                        // of this machine, over which it is reached, in real time; empty: simulated
+  bool remote_line = false;                       // which may lead to other machines
+  std::optional<lcs::Calibration> camera_optics;  // of the simulated camera; otherwise the design's
+  std::optional<lcs::Calibration> calibration;    // that its driver has; otherwise the optics
+  double camera_degC = 20;
+  sim::LcsFaults camera_faults;  // of each that is; times since frame 0
   SensorKind sensor = SensorKind::kLaserCamera;
+  ByteLink* link = nullptr;  // an operator's; the run then keeps real time, and nobody else starts a track that is lost
   const std::vector<std::uint8_t>* image = nullptr;
   const sim::RayCaster* target = nullptr;
   std::vector<std::uint32_t> keep_frames;  // whose scans the result holds; ascending

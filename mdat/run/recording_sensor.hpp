@@ -21,6 +21,8 @@ class RecordingSensor final : public Sensor {
   Status start(const ScanPlan& plan, TimeUs t_start_us) override;
   SensorPoll poll(TimeUs now_us, Span<RangeSample> out) override;
   void abort() override { sensor_.abort(); }
+  SensorCounters counters() const override { return sensor_.counters(); }
+  void permit_laser(bool permitted) override { sensor_.permit_laser(permitted); }
 
   // A scan, which is then forgotten; empty for one that never was.
   RecordedScan take(std::uint32_t scan_id);

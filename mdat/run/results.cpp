@@ -29,6 +29,7 @@ Json statistics_json(const RunStatistics& run, bool noise, ScenarioKind kind) {
   json["frames"] = run.frames;
   json["lost"] = run.lost;
   json["invalid"] = run.invalid;
+  json["wrong"] = run.wrong;
   json["rms_mm"] = run.registration.rms_mm;
   json["rms_deg"] = run.registration.rms_deg;
   if (kind == ScenarioKind::kPaper) {

@@ -40,6 +40,12 @@ std::vector<std::string> part_names(const MissionSource& source) {
   return names;
 }
 
+void set_camera(const SimulationOptions& options, CaseSetup& setup) {
+  setup.camera_optics = options.camera_optics;
+  setup.calibration = options.calibration;
+  setup.camera_degC = options.camera_degC;
+}
+
 // One image for each set of parameters, and all cases in order.
 struct Plan {
   std::vector<std::vector<std::uint8_t>> images;
@@ -121,6 +127,7 @@ Plan make_plan(const CompiledMission& mission, const SimulationResult& result, c
         plan.cases.back().further_sensors = mission.source.further_sensors;
         plan.cases.back().sensor = mission.source.sensor;
         plan.cases.back().laser_camera_line = result.laser_camera_line;
+        plan.cases.back().camera_faults = result.camera_faults;
       }
     }
   }
@@ -222,6 +229,19 @@ std::vector<std::uint32_t> shown_frames(const Scenario& scenario, std::uint32_t 
   return result;
 }
 
+CaseSetup camera_case(const CompiledMission& mission, const SimulationOptions& options, const sim::RayCaster& target) {
+  CaseSetup setup;
+  setup.scenario = scenario_of(mission.source, options.scenario);
+  setup.range_m = setup.scenario.runs_m().front();
+  setup.noise = setup.scenario.noise != 0;
+  setup.seed = options.seed.value_or(static_cast<std::uint64_t>(setup.scenario.seed));
+  setup.parameters = parameters_for(mission.source, options.scenario);
+  setup.target = &target;
+  setup.camera_faults = options.camera_faults;
+  set_camera(options, setup);
+  return setup;
+}
+
 SimulationResult simulate(const CompiledMission& mission, const SimulationOptions& options) {
   const Scenario& scenario = scenario_of(mission.source, options.scenario);
   const MissionParameters parameters = parameters_for(mission.source, options.scenario);
@@ -233,13 +253,23 @@ SimulationResult simulate(const CompiledMission& mission, const SimulationOption
   result.frames = options.frames.value_or(static_cast<std::uint32_t>(scenario.frames));
   result.sensors = sensor_names(mission.source);
   result.laser_camera_line = options.laser_camera_line;
+  result.camera_faults = options.camera_faults;
   result.parts = part_names(mission.source);
-  result.tables = make_tables(scenario, parameters, options.plain);
+  result.tables = make_tables(scenario, parameters, options.plain || options.link != nullptr);
+  if (options.link != nullptr && !scenario.has_profile()) result.tables[0].scenario.ranges_m.resize(1);
 
   const auto begin = std::chrono::steady_clock::now();
   const std::unique_ptr<sim::RayCaster> target = make_target(mission.mesh);
   Plan plan = make_plan(mission, result, *target);
+  if (!options.camera_line.empty() && plan.cases.size() != 1) {
+    throw InputError("--sensor lcs-wire:" + options.camera_line +
+                     ": one camera takes the scans of one run: choose a scenario of one range, such as spin");
+  }
   for (CaseSetup& setup : plan.cases) {
+    setup.link = options.link;
+    setup.camera_line = options.camera_line;
+    setup.remote_line = options.remote_line;
+    set_camera(options, setup);
     if (options.keep_scans) setup.keep_frames = all_frames(result.frames);
   }
   ProgressBar bar("track", plan.cases.size() * result.frames, "frames");

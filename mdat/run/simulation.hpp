@@ -13,12 +13,18 @@ namespace lasso::mdat {
 
 struct SimulationOptions {
   std::string scenario = "paper";
-  std::optional<std::uint64_t> seed;    // otherwise the scenario's
-  std::optional<std::uint32_t> frames;  // otherwise the scenario's
-  unsigned jobs = 1;                    // cases at a time; the results do not depend on it
-  bool laser_camera_line = false;       // laser cameras are reached over their lines
-  bool plain = false;                   // the scenario as it stands: one table, one variant
-  bool keep_scans = false;              // of all frames; otherwise of those that the report shows
+  std::optional<std::uint64_t> seed;                           // otherwise the scenario's
+  std::optional<std::uint32_t> frames;                         // otherwise the scenario's
+  unsigned jobs = 1;                                           // cases at a time; the results do not depend on it
+  bool laser_camera_line = false;                              // laser cameras are reached over their lines
+  sim::LcsFaults camera_faults;                                // of those cameras
+  std::optional<lcs::Calibration> camera_optics, calibration;  // as CaseSetup's
+  double camera_degC = 20;
+  ByteLink* link = nullptr;  // an operator's: one case, the scenario's first range, in real time
+  std::string camera_line;   // of this machine, over which the camera is reached, in real time: one case
+  bool remote_line = false;  // which may lead to other machines
+  bool plain = false;        // the scenario as it stands: one table, one variant
+  bool keep_scans = false;   // of all frames; otherwise of those that the report shows
 };
 
 // What a table compares. In the noise-free variants the estimator keeps the mission's noise model.
@@ -51,10 +57,15 @@ struct SimulationResult {
   std::uint64_t seed = 0;
   std::uint32_t frames = 0;
   bool laser_camera_line = false;
+  sim::LcsFaults camera_faults;
   std::vector<std::string> sensors, parts;  // names by their numbers; part 0 is the whole
   std::vector<TableResult> tables;
   double seconds = 0;
 };
+
+// The case that a scenario's camera is in, for whoever runs it alone: its first range, with noise as the scenario says. `target` outlives
+// it.
+CaseSetup camera_case(const CompiledMission& mission, const SimulationOptions& options, const sim::RayCaster& target);
 
 // The paper's kind of scenario has four variants (noise x silhouettes), and a second table without tilt where it has one; deskewing is off,
 // as its target stands still in each scan, unless the scenario overrides estimation.deskew. Other kinds have the one variant they state.

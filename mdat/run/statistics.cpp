@@ -114,6 +114,7 @@ RunStatistics run_statistics(const std::vector<FrameError>& frames) {
     ++result.frames;
     result.lost += frame.lost() ? 1U : 0U;
     result.invalid += frame.valid ? 0U : 1U;
+    result.wrong += frame.wrong ? 1U : 0U;
     if (frame.reported && !frame.filtered.lost()) filtered.push_back(frame.filtered);
     if (frame.reported) times_us.push_back(frame.estimate_us);
     if (frame.lost()) continue;

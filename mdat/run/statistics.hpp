@@ -31,6 +31,7 @@ double nees(const Pose& estimate, const Pose& truth, const Mat6& covariance);
 struct FrameError {
   bool reported = false;  // a registration of this frame's scan is in the telemetry
   bool valid = false;     // and it says that it can be trusted
+  bool wrong = false;     // and it, or the filter, cannot (verdict.hpp)
   PoseError registration, filtered;
   double nees = 0;
   PoseBound bound;
@@ -55,7 +56,7 @@ struct TimeStatistics {
 };
 
 struct RunStatistics {
-  std::size_t frames = 0, lost = 0, invalid = 0;
+  std::size_t frames = 0, lost = 0, invalid = 0, wrong = 0;
   ErrorStatistics registration, filtered;  // lost frames left out (each by its own error)
   double crlb_mm = 0, crlb_deg = 0;        // root of the mean trace, over frames that are not lost
   double nees = 0;                         // mean

@@ -34,7 +34,7 @@ TEST_F(AcquisitionTaskTest, TakesTheLargestScanInOnePoll) {
   start(3, 1000);
   EXPECT_EQ(plan_.scan_id, 3u);
   task_->poll(200000);
-  EXPECT_TRUE(task_->finish().usable);
+  EXPECT_TRUE(task_->finish(plan_).verdict.usable);
   EXPECT_EQ(task_->filling().samples.size(), 4096u);
   EXPECT_EQ(task_->filling().scan_id, 3u);
 }
@@ -43,13 +43,13 @@ TEST_F(AcquisitionTaskTest, FillsTheOtherImageAfterTheHandOver) {
   VERIFIES("LASSO-EXE-002~1");
   start(0, 0);
   task_->poll(200000);
-  ASSERT_TRUE(task_->finish().usable);
+  ASSERT_TRUE(task_->finish(plan_).verdict.usable);
   const RangeImage& handed_over = task_->filling();
   const TimeUs t_us = handed_over.reference_time_us();
   task_->swap_images();
   start(1, 200000);
   task_->poll(400000);
-  ASSERT_TRUE(task_->finish().usable);
+  ASSERT_TRUE(task_->finish(plan_).verdict.usable);
   EXPECT_NE(&task_->filling(), &handed_over);
   EXPECT_EQ(handed_over.scan_id, 0u);
   EXPECT_EQ(handed_over.reference_time_us(), t_us);
@@ -79,19 +79,43 @@ TEST_F(AcquisitionTaskTest, ScanThatFailsOrNeverStartsIsNotFit) {
   sensor_.lost = {1};
   start(0, 0);
   task_->poll(200000);
-  EXPECT_FALSE(task_->finish().usable);
+  EXPECT_FALSE(task_->finish(plan_).verdict.usable);
   start(1, 200000);
   task_->poll(400000);
-  EXPECT_FALSE(task_->finish().usable);
+  EXPECT_FALSE(task_->finish(plan_).verdict.usable);
   Pose behind = scene_.at_zero;
   behind.p.z() = -2;
   task_->start(0, mission_, {behind, 0, false, false, {}}, 2, 400000, plan_);  // nothing to aim at
   task_->poll(600000);
-  EXPECT_FALSE(task_->finish().usable);
+  EXPECT_FALSE(task_->finish(plan_).verdict.usable);
   EXPECT_TRUE(task_->filling().samples.empty());
   start(3, 600000);
   task_->poll(800000);
-  EXPECT_TRUE(task_->finish().usable);
+  EXPECT_TRUE(task_->finish(plan_).verdict.usable);
+}
+
+TEST_F(AcquisitionTaskTest, LostScansAreCountedByTheirCause) {
+  VERIFIES("LASSO-LCS-012~1");
+  sensor_.refused = {0};
+  sensor_.lost = {1, 2};
+  for (std::uint32_t scan = 0; scan < 5; ++scan) {
+    const TimeUs t_us = scan * 200000;
+    start(scan, t_us);
+    task_->poll(scan == 3 ? t_us + 50000 : t_us + 200000);  // of scan 3 a quarter is there
+    static_cast<void>(task_->finish(plan_));
+  }
+  const ScanTally& tally = task_->tally(0);
+  EXPECT_EQ(tally.scans, 5u);
+  EXPECT_EQ(tally.lost[static_cast<std::size_t>(ScanLoss::kRefused)], 1u);
+  EXPECT_EQ(tally.lost[static_cast<std::size_t>(ScanLoss::kOther)], 2u);
+  EXPECT_EQ(tally.lost[static_cast<std::size_t>(ScanLoss::kUnfinished)], 1u);
+  EXPECT_EQ(tally.last_loss, ScanLoss::kUnfinished);
+  std::uint32_t sum = 0;
+  for (const std::uint32_t count : tally.lost) sum += count;
+  EXPECT_EQ(sum, 4u);
+  EXPECT_EQ(task_->counters(0).frames, 0u) << "a sensor without a line";
+  static_cast<void>(task_->finish(plan_));
+  EXPECT_EQ(tally.scans, 5u) << "no scan was asked for";
 }
 
 TEST_F(AcquisitionTaskTest, AimedRaysArePlannedAndScannedButNotInTheWholeField) {
@@ -105,7 +129,7 @@ TEST_F(AcquisitionTaskTest, AimedRaysArePlannedAndScannedButNotInTheWholeField) 
   EXPECT_EQ(plan_.aimed[1].y, 0.04F);
   EXPECT_EQ(sensor_.last_plan.aimed.data(), plan_.aimed.data());
   task_->poll(200000);
-  EXPECT_TRUE(task_->finish().usable);
+  EXPECT_TRUE(task_->finish(plan_).verdict.usable);
   EXPECT_EQ(task_->filling().samples.size(), 4096u);
   const RangeSample& first = task_->filling().samples[2047];
   EXPECT_NEAR(first.direction[0] / first.direction[2], 0.01F, 1e-6F);
@@ -122,15 +146,15 @@ TEST_F(AcquisitionTaskTest, AsksTheSensorThatItIsTold) {
   ASSERT_TRUE(bank.push_back(&other));
   task_ = std::make_unique<AcquisitionTask>(bank);
   EXPECT_EQ(task_->sensors(), 2U);
-  EXPECT_FALSE(task_->finish().asked);
+  EXPECT_FALSE(task_->finish(plan_).asked);
   task_->start(1, mission_, {scene_.pose_at(0), 0, false, false, {}}, 1, 0, plan_);
   task_->poll(200000);
-  const ScanEnd end = task_->finish();
+  const ScanEnd end = task_->finish(plan_);
   EXPECT_TRUE(end.asked);
-  EXPECT_TRUE(end.usable);
+  EXPECT_TRUE(end.verdict.usable);
   EXPECT_EQ(other.starts, 1);
   EXPECT_EQ(sensor_.starts, 0);
-  EXPECT_FALSE(task_->finish().asked) << "that scan has ended";
+  EXPECT_FALSE(task_->finish(plan_).asked) << "that scan has ended";
 }
 
 TEST_F(AcquisitionTaskTest, NoSensorIsAskedForAScanThatCannotBePlanned) {
@@ -138,7 +162,7 @@ TEST_F(AcquisitionTaskTest, NoSensorIsAskedForAScanThatCannotBePlanned) {
   Pose behind = scene_.pose_at(0);
   behind.p.z() = -3;
   task_->start(0, mission_, {behind, 0, false, false, {}}, 1, 0, plan_);
-  EXPECT_FALSE(task_->finish().asked);
+  EXPECT_FALSE(task_->finish(plan_).asked);
   EXPECT_EQ(sensor_.starts, 0);
 }
 

@@ -1,94 +1,19 @@
 // Commands by the link alone, and what telemetry answers.
-#include "fsw/link/dictionary.hpp"
-#include "ut/exec/component_scene.hpp"
-#include "ut/link/command_packets.hpp"
+#include <algorithm>
+
+#include "ut/exec/component_operator.hpp"
 #include "ut/support/generator.hpp"
 
 namespace lasso {
 namespace {
 
-using test::ComponentScene;
+using test::events_of;
+using test::Link;
+using test::Packet;
 using test::Stream;
+using test::true_start;
 using test::view;
-
-struct Packet {
-  PacketHeader header;
-  Stream data;
-  bool is(std::uint8_t service, std::uint8_t subservice) const { return header.service == service && header.subservice == subservice; }
-};
-
-std::vector<Packet> packets_of(const Stream& stream) {
-  std::vector<Packet> packets;
-  for (std::size_t at = 0; at < stream.size();) {
-    const std::size_t size = packet_size({stream.data() + at, stream.size() - at});
-    Packet packet;
-    ConstBytes data;
-    EXPECT_EQ(parse_packet({stream.data() + at, size}, packet.header, data), PacketFault::kNone);
-    packet.data.assign(data.begin(), data.end());
-    packets.push_back(packet);
-    at += size;
-  }
-  return packets;
-}
-
-class Link {
- public:
-  Link() : scene(test::box_parameters(test::default_scene())) { scene.begin(); }
-
-  Component& component() { return *scene.component; }
-  std::size_t send(const Stream& bytes) { return component().receive(view(bytes), component().next_slot_us()); }
-  std::vector<Packet> answers() {
-    Stream bytes(kTelemetryQueueBytes);
-    bytes.resize(component().take_telemetry(Bytes(bytes.data(), bytes.size())));
-    return packets_of(bytes);
-  }
-  // What it told but for poses.
-  std::vector<Packet> run_link_frame() {
-    std::vector<Packet> others;
-    for (const Packet& packet : run_frame()) {
-      if (!packet.is(3, 25) || packet.data[1] != kPoseStructureId) others.push_back(packet);
-    }
-    return others;
-  }
-  // The slots of one frame; what was told at its boundary.
-  std::vector<Packet> run_frame() {
-    do {
-      component().run_slot(component().next_slot_us());
-      component().run_estimation();
-    } while (!component().next_slot_is_boundary());
-    return answers();
-  }
-  PoseTelemetry pose_of(const std::vector<Packet>& packets) {
-    PoseTelemetry pose;
-    for (const Packet& packet : packets) {
-      if (packet.is(3, 25) && packet.data[1] == kPoseStructureId) {
-        ByteReader in(view(packet.data));
-        in.u16();
-        codec_of(pose_rows::kRows).read(in, pose);
-      }
-    }
-    return pose;
-  }
-  ComponentScene scene;
-};
-
-StartCommand true_start(TimeUs t_us) {
-  const test::BoxScene truth = test::default_scene();
-  const Pose pose = truth.pose_at(t_us);
-  StartCommand start;
-  start.way = static_cast<std::uint8_t>(StartWay::kUplink);
-  start.t_us = t_us;
-  const double q[4] = {pose.q.x(), pose.q.y(), pose.q.z(), pose.q.w()};
-  for (std::size_t i = 0; i < 4; ++i) start.q_sensor_target[i] = q[i];
-  for (int i = 0; i < 3; ++i) {
-    start.p_sensor_target_m[i] = pose.p[i];
-    start.omega_radps[i] = truth.rates.omega_radps[i];
-    start.v_mps[i] = truth.rates.v_mps[i];
-  }
-  const std::size_t diagonal[] = {0, 6, 11, 15, 18, 20};
-  for (const std::size_t term : diagonal) start.covariance[term] = term < 12 ? 1e-2F : 1e-3F;
-  return start;
-}
+using test::without_events;
 
 TEST(ComponentLink, PingIsAnswered) {
   VERIFIES("LASSO-LNK-013~1 LASSO-LNK-011~2");
@@ -213,6 +138,31 @@ TEST(ComponentLink, CountersAreToldWhenTheyChange) {
   EXPECT_EQ(told[0].data[14], 3);
 }
 
+TEST(ComponentLink, ALostScanIsToldWithItsSensor) {
+  VERIFIES("LASSO-LCS-012~1");
+  Link link;
+  ASSERT_EQ(link.component().start_tracking(test::default_scene().pose_at(0), test::default_scene().rates, 0), Status::kOk);
+  link.scene.sensor.lost = {4, 5};
+  link.scene.sensor.refused = {7};
+  std::vector<Stream> told;
+  for (int frame = 0; frame < 12; ++frame) {
+    for (const Packet& packet : link.run_link_frame()) told.push_back(packet.data);
+  }
+  ASSERT_EQ(told.size(), 3u) << "at the ends of frames 4, 5 and 7";
+  const std::uint8_t scans[] = {5, 6, 8}, lost[] = {1, 2, 3};
+  for (std::size_t i = 0; i < told.size(); ++i) {
+    SensorTelemetry report;
+    ByteReader in(view(told[i]));
+    EXPECT_EQ(in.u16(), kSensorStructureId);
+    codec_of(sensor_report_rows::kRows).read(in, report);
+    EXPECT_EQ(report.sensor, 0);
+    EXPECT_EQ(report.scans, scans[i]);
+    EXPECT_EQ(report.lost, lost[i]);
+    EXPECT_EQ(report.lost_other, i == 0 ? 1u : 2u);
+    EXPECT_EQ(report.lost_refused, i == 2 ? 1u : 0u);
+  }
+}
+
 TEST(ComponentLink, AFloodIsAnsweredByTheFrame) {
   VERIFIES("LASSO-LNK-011~2");
   Link link;
@@ -265,6 +215,130 @@ TEST(ComponentLink, CommandsDoNotDisturbTheTrack) {
     ASSERT_EQ(a.valid, b.valid);
     for (int i = 0; i < 3; ++i) ASSERT_EQ(a.filter_p_sensor_target_m[i], b.filter_p_sensor_target_m[i]);
   }
+}
+
+TEST(ComponentLink, BeginIsAnEvent) {
+  VERIFIES("LASSO-LNK-015~1");
+  Link link;
+  const std::vector<Packet> packets = link.run_frame();
+  const std::vector<Stream> events = events_of(packets);
+  ASSERT_EQ(events.size(), 2u) << "and the start that the mission asks for";
+  ASSERT_EQ(events[0].size(), 14u);
+  EXPECT_EQ(Stream(events[0].begin(), events[0].begin() + 6), (Stream{0, 1, 0, 1, 0, 0})) << "version 0.1.0";
+  const std::uint32_t crc = link.component().mission().image_crc;
+  EXPECT_EQ(events[0][10], crc >> 24);
+  EXPECT_EQ(events[0][13], crc & 0xFF);
+}
+
+TEST(ComponentLink, EachRefusalIsAnEventWithItsReason) {
+  VERIFIES("LASSO-LNK-020~1 LASSO-LNK-015~1");
+  Link link;
+  link.run_frame();
+  link.send(test::set_mode(99, 2));
+  link.send(test::ping(3));
+  link.send(test::ping(3));
+  link.send(test::set_mode(static_cast<std::uint8_t>(TrackingMode::kReacquiring), 4));
+  StartCommand start = true_start(0);
+  start.q_sensor_target[0] = 3;
+  link.send(test::offer_start(start, 5));
+  const std::vector<Packet> packets = link.run_frame();
+  const std::vector<Stream> events = events_of(packets);
+  ASSERT_EQ(events.size(), 5u);
+  EXPECT_EQ(events[0], (Stream{0, 4, 0x1B, 0xD1, 0xC0, 2, static_cast<std::uint8_t>(PacketFault::kBadArgument)}));
+  EXPECT_EQ(events[1], (Stream{0, 4, 0x1B, 0xD1, 0xC0, 3, static_cast<std::uint8_t>(PacketFault::kRepeated)}));
+  EXPECT_EQ(events[2], (Stream{0, 5, 8, 1, 0xC0, 4, static_cast<std::uint8_t>(ModeRefusal::kNotFromHere), 0, 0}));
+  EXPECT_EQ(events[3], (Stream{0, 3, static_cast<std::uint8_t>(StartWay::kUplink), static_cast<std::uint8_t>(StartRefusal::kNotUnit)}));
+  EXPECT_EQ(events[4], (Stream{0, 5, 8, 1, 0xC0, 5, 0, static_cast<std::uint8_t>(StartRefusal::kNotUnit), 0}));
+  EXPECT_EQ(packets.back().header.subservice, 2);
+}
+
+TEST(ComponentLink, EventsAreDisabledAndEnabledByCommand) {
+  VERIFIES("LASSO-LNK-015~1 LASSO-LNK-022~1");
+  Link link;
+  link.send(test::disable_event(1, 0));
+  link.send(test::disable_event(4, 1));
+  link.send(test::report_disabled(2));
+  std::vector<Packet> answers = link.answers();
+  ASSERT_EQ(answers.size(), 7u);
+  EXPECT_TRUE(answers[5].is(5, 8));
+  EXPECT_EQ(answers[5].data[0], 0x12);
+  link.send(test::set_mode(99, 3));
+  EXPECT_EQ(events_of(link.run_frame()).size(), 2u) << "begun was raised before it was disabled; the mode changed";
+  link.send(test::enable_event(4, 4));
+  link.send(test::set_mode(99, 5));
+  EXPECT_EQ(events_of(link.run_frame()).size(), 1u);
+  link.answers();
+  link.send(test::disable_event(0, 6));
+  answers = without_events(link.answers());
+  ASSERT_EQ(answers.size(), 2u);
+  EXPECT_TRUE(answers[1].is(1, 8));
+  EXPECT_EQ(answers[1].data, (Stream{0x1B, 0xD1, 0xC0, 6, 0, 0, static_cast<std::uint8_t>(ServiceRefusal::kNoSuchEvent)}));
+}
+
+// The story of modes is told twice: in the pose packets, and as events.
+TEST(ComponentLink, EveryTransitionIsAnEventWithItsReason) {
+  VERIFIES("LASSO-MOD-172~1");
+  Link link;
+  std::vector<Stream> events, changes;
+  std::uint16_t count = 0;
+  for (int frame = 0; frame < 60; ++frame) {
+    if (frame == 2) link.send(test::set_mode(static_cast<std::uint8_t>(TrackingMode::kBearing), count++));
+    if (frame == 6) link.send(test::offer_start(true_start(link.component().next_slot_us()), count++));
+    link.scene.sensor.hidden = frame >= 12;
+    if (frame == 40) link.send(test::set_mode(static_cast<std::uint8_t>(TrackingMode::kStandby), count++));
+    const std::vector<Packet> packets = link.run_frame();
+    for (const Stream& event : events_of(packets)) {
+      if (event[1] == 2) events.push_back({event[2], event[3], event[4]});
+    }
+    for (const Packet& packet : packets) {
+      if (!packet.is(3, 25) || packet.data[1] != kPoseStructureId) continue;
+      const PoseTelemetry pose = link.pose_of({packet});
+      for (std::size_t i = 0; i < pose.changes; ++i) changes.push_back({pose.change_from[i], pose.change_event[i], pose.change_to[i]});
+    }
+  }
+  EXPECT_GE(events.size(), 5u);
+  EXPECT_EQ(events, changes);
+}
+
+TEST(ComponentLink, LostScansAndSensorsAreEvents) {
+  VERIFIES("LASSO-LNK-015~1");
+  Link link;
+  link.send(test::set_mode(static_cast<std::uint8_t>(TrackingMode::kBearing)));
+  for (std::uint32_t scan = 0; scan < 8; ++scan) link.scene.sensor.refused.insert(scan);
+  std::vector<Stream> events;
+  for (int frame = 0; frame < 8; ++frame) {
+    for (const Stream& event : events_of(link.run_frame())) {
+      if (event[1] > 2) events.push_back(event);
+    }
+  }
+  ASSERT_GE(events.size(), 4u);
+  EXPECT_EQ(events[0], (Stream{0, 11, 0, 0, 0, 0, 0, 5}));
+  EXPECT_EQ(events[1], (Stream{0, 11, 0, 0, 0, 0, 1, 5}));
+  EXPECT_NE(std::find(events.begin(), events.end(), Stream({0, 9, 0})), events.end()) << "the sensor has failed";
+  bool back = false;
+  for (int frame = 0; frame < 80; ++frame) {
+    for (const Stream& event : events_of(link.run_frame())) back = back || event == Stream({0, 10, 0});
+  }
+  EXPECT_TRUE(back) << "it has rested";
+}
+
+TEST(ComponentLink, LateSlotsLateEstimatesAndLostTelemetryAreEvents) {
+  VERIFIES("LASSO-LNK-015~1");
+  Link link;
+  link.send(test::set_mode(static_cast<std::uint8_t>(TrackingMode::kBearing)));
+  std::vector<std::uint8_t> numbers;
+  Component& component = link.component();
+  for (int frame = 0; frame < 40; ++frame) {
+    do {
+      component.run_slot(component.next_slot_us() + (frame == 3 ? 60000 : 0));  // later than any slot is long
+    } while (!component.next_slot_is_boundary());
+    if (frame % 15 != 14) continue;
+    for (const Stream& event : events_of(link.answers())) numbers.push_back(event[1]);
+  }
+  const auto told = [&](std::uint8_t number) { return std::find(numbers.begin(), numbers.end(), number) != numbers.end(); };
+  EXPECT_TRUE(told(13)) << "a slot was late";
+  EXPECT_TRUE(told(12)) << "nobody estimated";
+  EXPECT_TRUE(told(7)) << "nobody took telemetry for 15 frames";
 }
 
 }  // namespace

@@ -146,7 +146,7 @@ TEST(ComponentModes, ALongEclipseEndsInABearingAndANewStart) {
 }
 
 TEST(ComponentModes, CommandsThatCannotBeAreRefusedByTheirName) {
-  VERIFIES("LASSO-MOD-136~2");
+  VERIFIES("LASSO-MOD-136~2 LASSO-MOD-173~1");
   ComponentScene scene(story_parameters());
   EXPECT_EQ(scene.component->command_mode(M::kStandby), ModeRefusal::kNotBegun);
   scene.begin();
@@ -164,7 +164,7 @@ TEST(ComponentModes, CommandsThatCannotBeAreRefusedByTheirName) {
 }
 
 TEST(ComponentModes, AnyModeCanBeCommanded) {
-  VERIFIES("LASSO-MOD-136~2 LASSO-MOD-137~1");
+  VERIFIES("LASSO-MOD-136~2 LASSO-MOD-137~1 LASSO-MOD-173~1");
   ComponentScene scene(story_parameters());
   scene.begin();
   ASSERT_EQ(scene.component->offer_start(StartWay::kUplink, offer_at(scene, 0)), StartRefusal::kNone);
@@ -190,7 +190,7 @@ TEST(ComponentModes, AnyModeCanBeCommanded) {
 }
 
 TEST(ComponentModes, AHeldModeStaysUntilItIsReleased) {
-  VERIFIES("LASSO-MOD-136~2");
+  VERIFIES("LASSO-MOD-136~2 LASSO-MOD-173~1");
   ComponentScene scene(story_parameters());
   scene.begin();
   ASSERT_EQ(scene.component->command_mode(M::kBearing), ModeRefusal::kNone);

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ut/exec/component_scene.hpp"
+#include "ut/exec/component_operator.hpp"
 #include "ut/support/box_sensors.hpp"
 
 namespace lasso {
@@ -76,6 +76,23 @@ class ComponentScansTest : public ::testing::Test {
     return reports;
   }
 
+  // The sensors that the packets of these frames tell of.
+  std::vector<std::uint8_t> sensors_told(int frames) {
+    std::vector<std::uint8_t> told;
+    for (int i = 0; i < frames; ++i) {
+      do {
+        component_->run_slot(component_->next_slot_us());
+        component_->run_estimation();
+      } while (!component_->next_slot_is_boundary());
+      test::Stream bytes(kTelemetryQueueBytes);
+      bytes.resize(component_->take_telemetry(Bytes(bytes.data(), bytes.size())));
+      for (const test::Packet& packet : test::packets_of(bytes)) {
+        if (packet.is(3, 25) && packet.data[1] == kSensorStructureId) told.push_back(packet.data[2]);
+      }
+    }
+    return told;
+  }
+
   test::TestImage image_;
   std::unique_ptr<test::BoxSensor> far_, near_;
   std::unique_ptr<Component> component_;
@@ -130,6 +147,21 @@ TEST_F(ComponentScansTest, ASensorThatFailsIsReplacedAndTold) {
     EXPECT_EQ(t.sensor_changes, 2U) << "to the one for near, and back";
   }
   EXPECT_TRUE(substituted);
+}
+
+TEST_F(ComponentScansTest, TheSensorWithTroubleIsToldAndAllWhenAskedFor) {
+  VERIFIES("LASSO-LCS-012~1 LASSO-LNK-014~1");
+  for (const std::uint8_t troubled : {std::uint8_t{0}, std::uint8_t{1}}) {
+    begin(scene_at(troubled == 0 ? 4 : 2.4, 0));
+    test::BoxSensor& sensor = troubled == 0 ? *far_ : *near_;
+    for (std::uint32_t scan = 0; scan < 20; ++scan) sensor.lost.insert(scan);
+    const std::vector<std::uint8_t> told = sensors_told(24);
+    ASSERT_FALSE(told.empty());
+    for (const std::uint8_t each : told) EXPECT_EQ(each, troubled);
+    const test::Stream ask = test::of_structure(CommandKind::kReportStructure, kSensorStructureId, 0);
+    component_->receive(test::view(ask), component_->next_slot_us());
+    EXPECT_EQ(sensors_told(1), (std::vector<std::uint8_t>{0, 1})) << "no news: all";
+  }
 }
 
 TEST_F(ComponentScansTest, AScanThatCannotBePlannedIsNoFaultOfTheSensor) {

@@ -48,6 +48,7 @@ TEST(Executive, PollsInEverySlotAndPassesTheBoundaryAfterItsPoll) {
     }
     std::vector<TaskId> expected{TaskId::kPollSensor};
     if (slot == 0) expected.push_back(TaskId::kPassBoundary);
+    expected.push_back(TaskId::kTendMemory);
     EXPECT_EQ(order, expected) << slot;
   }
 }
@@ -72,6 +73,23 @@ TEST(Executive, CountsASlipWhenASlotBeginsLaterThanItsLength) {
   executive.note_start(20001);
   EXPECT_EQ(executive.slips(), 1u);
   EXPECT_EQ(executive.worst_lateness_us(), 10001);
+}
+
+TEST(Executive, AClockFarFromTheNextSlotHasJumped) {
+  VERIFIES("LASSO-HLT-006~1");
+  Executive executive;
+  ASSERT_EQ(executive.begin(60'000'000, 200'000), Status::kOk);
+  EXPECT_FALSE(executive.jumped(0)) << "the first slot may be far ahead";
+  EXPECT_FALSE(executive.jumped(70'000'000));
+  EXPECT_TRUE(executive.jumped(70'000'001)) << "later than ten seconds";
+  executive.advance();
+  EXPECT_FALSE(executive.jumped(50'010'000));
+  EXPECT_TRUE(executive.jumped(50'009'999)) << "earlier than ten seconds";
+  EXPECT_EQ(executive.follow_jump(70'000'000), 9'990'000);
+  EXPECT_EQ(executive.next_slot_us(), 70'000'000);
+  EXPECT_EQ(executive.next_slot(), 1u) << "the same slot of the same frame";
+  executive.advance();
+  EXPECT_EQ(executive.next_slot_us(), 70'010'000);
 }
 
 }  // namespace

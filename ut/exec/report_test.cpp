@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "fsw/exec/faults.hpp"
 #include "fsw/link/dictionary.hpp"
 #include "fsw/sense/sensor_chooser.hpp"
 #include "ut/support/verifies.hpp"
@@ -237,10 +238,12 @@ TEST(Report, DictionaryNamesTheEnumerationsAsTheCodeDoes) {
   VERIFIES("LASSO-LNK-002~1");
   expect_names(kPoseReason, PoseReason::kPartDisagrees);
   expect_names(kStopReason, StopReason::kNotRun);
-  expect_names(kTrackingMode, TrackingMode::kShortRange);
-  expect_names(kModeEvent, ModeEvent::kFar);
+  EXPECT_EQ(kFault.choices.size(), kFaults);
+  expect_names(kFaultReaction, FaultReaction::kMakeSafe);
+  expect_names(kTrackingMode, TrackingMode::kSafe);
+  expect_names(kModeEvent, ModeEvent::kMakeSafe);
   expect_names(kStartWay, StartWay::kSearch);
-  expect_names(kStartRefusal, StartRefusal::kNotConfirmed);
+  expect_names(kStartRefusal, StartRefusal::kNotFromHere);
   expect_names(kModeRefusal, ModeRefusal::kNoPrediction);
   expect_names(kBearingReason, BearingReason::kJump);
   expect_names(kSearchOutcome, SearchOutcome::kRejected);

@@ -151,7 +151,7 @@ TEST_F(LcsDriver, MirrorsThatDoNotFollowThePlanLoseTheScan) {
       (vertical ? samples_off.samples[0].angle_y_rad : samples_off.samples[0].angle_x_rad) += first % 8 == 0 ? 0.02 : -0.02;
       camera.say(samples_off);
     }
-    EXPECT_EQ(poll().status, Status::kBadValue);
+    EXPECT_EQ(poll().status, Status::kOffPlan);
     EXPECT_EQ(camera.heard().back().type, static_cast<std::uint8_t>(Type::kAbort));  // it does not dwell there
   }
   EXPECT_EQ(lost(Loss::kOffPlan), 2U);
@@ -256,22 +256,90 @@ TEST_F(LcsDriver, ADamagedAnswerCostsNoScanOnceTheClockIsKnown) {
   EXPECT_EQ(samples.size(), 4U);
 }
 
-TEST_F(LcsDriver, AnAbortedScanIsCountedAndTold) {
+// Whether it is lost is for the acquisition to say, which may use what is there.
+TEST_F(LcsDriver, AnAbortedScanIsToldTheCamera) {
   VERIFIES("LASSO-LCS-012~1");
   begin(small_plan());
   poll();
   driver.abort();
-  EXPECT_EQ(lost(Loss::kUnfinished), 1U);
   EXPECT_EQ(camera.heard().back().type, static_cast<std::uint8_t>(Type::kAbort));
   driver.abort();
-  EXPECT_EQ(lost(Loss::kUnfinished), 1U);
+  EXPECT_TRUE(camera.heard().empty());
   camera.status();  // in no scan: heard, no more
   EXPECT_EQ(poll().status, Status::kNoData);
   begin(small_plan());
   const std::vector<std::uint8_t> block(kLineBytes, 0);
   line.to_camera.write(ConstBytes(block.data(), block.size()));
   driver.abort();
-  EXPECT_EQ(lost(Loss::kUnfinished), 2U);
+  for (const std::uint32_t count : driver.health().scans_lost) EXPECT_EQ(count, 0U);
+}
+
+TEST_F(LcsDriver, AFrameThatComesAgainIsNoGap) {
+  VERIFIES("LASSO-LCS-014~2");
+  const ScanPlan plan = small_plan();
+  begin(plan);
+  camera.say(camera.wall(plan, 0));
+  --camera.sequence;
+  camera.say(camera.wall(plan, 0));
+  camera.say(camera.wall(plan, 4));
+  poll();
+  EXPECT_EQ(driver.health().repeated, 1U);
+  EXPECT_EQ(driver.health().sequence_gaps, 0U);
+  EXPECT_EQ(samples.size(), 8U);
+  EXPECT_EQ(driver.health().strayed, 4U);
+}
+
+TEST_F(LcsDriver, AnotherProtocolIsNotBelieved) {
+  VERIFIES("LASSO-LCS-015~1");
+  ASSERT_EQ(driver.start(small_plan(), kStartUs), Status::kOk);
+  CameraStatus status;
+  status.serial = kSerial;
+  status.version = kProtocolVersion + 1;
+  camera.say(status);
+  camera.answer(camera.heard());
+  EXPECT_EQ(poll().status, Status::kBadVersion);
+  EXPECT_EQ(lost(Loss::kForeign), 1U);
+}
+
+TEST_F(LcsDriver, ItsCountersAreWhatTelemetrySays) {
+  VERIFIES("LASSO-LCS-012~1");
+  const ScanPlan plan = small_plan();
+  begin(plan);
+  Samples bad = camera.wall(plan, 0);
+  bad.samples[0].kind = SampleKind::kSaturated;
+  bad.samples[1].angle_y_rad = 0.5;
+  bad.samples[2].peak = -1;
+  bad.samples[3].peak = 0.9;
+  camera.say(bad);
+  ++camera.sequence;
+  Samples late = camera.wall(plan, 8);
+  late.samples[3].clock_us += 60'000;
+  late.samples[0].angle_x_rad += 0.05;
+  camera.say(late);
+  camera.say(late);
+  --camera.sequence;
+  camera.say(Type::kAbort);
+  const std::uint8_t garbage[] = {0x5A, 0xC3, 200, 1, 2, 3};
+  line.from_camera.write(ConstBytes(garbage));
+  FrameBytes damaged = encode(camera.sequence++, ScanEnd{tag_of(plan.scan_id), 40, true});
+  damaged.bytes[6] ^= 1;
+  line.from_camera.write(damaged.span());
+  camera.status();
+  poll();
+  const SensorCounters counters = driver.counters();
+  EXPECT_EQ(counters.frames, 7U) << "status, answer, three of samples, what is not defined, status";
+  EXPECT_EQ(counters.damaged_frames, driver.line_counters().bad_crc + driver.line_counters().bad_length);
+  EXPECT_GE(counters.damaged_frames, 2U);
+  EXPECT_EQ(counters.missing_frames, 2U);
+  EXPECT_EQ(counters.repeated_frames, 1U);
+  EXPECT_EQ(counters.unknown_frames, 1U);
+  EXPECT_EQ(counters.strayed, 4U);
+  EXPECT_EQ(counters.samples_lost, 4U);
+  EXPECT_EQ(counters.samples_refused, 4U);
+  EXPECT_EQ(counters.bad_times, 1U);
+  EXPECT_EQ(counters.off_plan, 1U);
+  EXPECT_EQ(counters.clock_jumps, 0U);
+  EXPECT_EQ(counters.restarts, 0U);
 }
 
 TEST_F(LcsDriver, BabbleIsReadWithinTheBound) {
@@ -281,11 +349,17 @@ TEST_F(LcsDriver, BabbleIsReadWithinTheBound) {
   poll();
   test::Generator chance(77);
   std::vector<std::uint8_t> babble(kLineBytes);
-  for (std::uint8_t& byte : babble) byte = static_cast<std::uint8_t>(chance.below(3) == 0 ? 0x5A : 0xC3);
+  // Syncs, right and wrong lengths, types, anything: so that all ways through the decoder are taken.
+  for (std::uint8_t& byte : babble) {
+    const std::uint8_t usual[] = {0x5A, 0xC3, 4, 57, 58, 0x91, static_cast<std::uint8_t>(chance.bits())};
+    byte = usual[chance.below(7)];
+  }
   line.from_camera.write(ConstBytes(babble.data(), babble.size()));
   EXPECT_EQ(poll().status, Status::kOk);
   EXPECT_EQ(line.from_camera.room(), kLineBytes);
   EXPECT_GT(driver.line_counters().skipped, kLineBytes - 2 * kMaxFrame);
+  EXPECT_GT(driver.line_counters().bad_crc, 10U);
+  EXPECT_GT(driver.line_counters().bad_length, 10U);
   for (int i = 0; i < 3; ++i) camera.say(Type::kAbort);  // fills what a false beginning waits for
   camera.say(camera.wall(plan, 0));
   poll();

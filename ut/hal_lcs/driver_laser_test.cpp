@@ -96,6 +96,35 @@ TEST_F(LcsDriver, IsNotLitTwice) {
   for (const Frame& frame : camera.heard()) EXPECT_NE(frame.type, static_cast<std::uint8_t>(Type::kLaser));
 }
 
+TEST_F(LcsDriver, ACameraThatHasHeardNothingForASecondIsLitAnew) {
+  VERIFIES("LASSO-LCS-018~1");
+  begin(small_plan());
+  poll();
+  driver.abort();
+  camera.heard();
+  ASSERT_EQ(driver.start(small_plan(2), kStartUs + kUnheardUs / 2 + 1), Status::kOk);
+  EXPECT_EQ(laser_commands(camera.heard()), kLight);
+}
+
+TEST_F(LcsDriver, ALongScanIsKeptLitBySpeaking) {
+  VERIFIES("LASSO-LCS-018~1");
+  ScanPlan plan = small_plan();
+  plan.duration_us = 10'000'000;
+  begin(plan);
+  for (DurationUs after_us = 0; after_us < 10'000'000; after_us += 200'000) {
+    poll(kStartUs + after_us);
+    const std::vector<Frame> frames = camera.heard();
+    const bool due = after_us > 0 && after_us % 1'200'000 == 0;  // the first poll after a second
+    ASSERT_EQ(frames.size(), due ? 1U : 0U) << after_us;
+    if (due) {
+      EXPECT_EQ(frames[0].type, static_cast<std::uint8_t>(Type::kAskStatus));
+    }
+  }
+  const std::vector<std::uint8_t> block(kLineBytes, 0);
+  line.to_camera.write(ConstBytes(block.data(), block.size()));
+  EXPECT_EQ(poll(kStartUs + 20'000'000).status, Status::kOk);  // a line that is full is left to what it holds
+}
+
 TEST_F(LcsDriver, InhibitingEndsTheScanAndReachesTheCamera) {
   VERIFIES("LASSO-LCS-006~1");
   begin(small_plan());

@@ -80,6 +80,76 @@ ScanPlan random_plan(test::Generator& chance) {
   return plan;
 }
 
+using Wire = std::vector<std::uint8_t>;
+Wire payload(const FrameBytes& bytes) {
+  const Frame frame = received(bytes);
+  return Wire(frame.payload, frame.payload + frame.length);
+}
+
+// Worked out by hand from docs/icd/lcs.md; 0.5 is 3F000000, -2 is C0000000 in binary32.
+TEST(LcsMessages, CommandsAreTheBytesOfTheInterfaceDocument) {
+  VERIFIES("LASSO-LCS-001~1");
+  EXPECT_EQ(encode(0, Type::kSelfTest).bytes[3], 0x01);
+  EXPECT_EQ(encode(0, Type::kAskStatus).bytes[3], 0x02);
+  EXPECT_EQ(encode(0, LaserCommand::kArm).bytes[3], 0x03);
+  EXPECT_EQ(payload(encode(0, LaserCommand::kInhibit)), Wire{0x00});
+  EXPECT_EQ(payload(encode(0, LaserCommand::kArm)), Wire{0x5A});
+  EXPECT_EQ(payload(encode(0, LaserCommand::kFire)), Wire{0xA5});
+  AimCommand aim;
+  aim.first = 0x0102;
+  aim.count = 2;
+  aim.rays[0] = {0.5F, -2.0F};
+  aim.rays[1] = {-2.0F, 0.5F};
+  EXPECT_EQ(encode(0, aim).bytes[3], 0x10);
+  EXPECT_EQ(payload(encode(0, aim)), (Wire{1, 2, 0x3F, 0, 0, 0, 0xC0, 0, 0, 0, 0xC0, 0, 0, 0, 0x3F, 0, 0, 0}));
+  StartCommand start;
+  start.plan.scan_id = 0x01020304;
+  start.plan.kind = PatternKind::kLissajous;
+  start.plan.points = 0x0506;
+  start.plan.cycles_a = 0x0708;
+  start.plan.cycles_b = 0x090A;
+  start.plan.phase_turns = 0.75;
+  start.plan.center_x = 0.5;
+  start.plan.center_y = -2;
+  start.plan.half_x = 0.25;
+  start.plan.half_y = 1;
+  start.plan.duration_us = 0x0B0C0D;
+  start.delay_us = 0x0E0F;
+  start.aimed = 0x1011;
+  EXPECT_EQ(encode(0, start).bytes[3], 0x11);
+  EXPECT_EQ(payload(encode(0, start)), (Wire{1, 2, 3,    4,    1, 5, 6,    7,    8, 9, 10, 0xC0, 0,  0,  0, 0x3F, 0,  0,  0,  0xC0, 0,
+                                             0, 0, 0x3E, 0x80, 0, 0, 0x3F, 0x80, 0, 0, 0,  11,   12, 13, 0, 0,    14, 15, 16, 17}));
+}
+
+TEST(LcsMessages, WhatTheCameraSaysIsTheBytesOfTheInterfaceDocument) {
+  VERIFIES("LASSO-LCS-001~1");
+  const Answer answer{Type::kStart, 0x42, Result::kBadPlan, 0x01020304};
+  EXPECT_EQ(encode(0, answer).bytes[3], 0x81);
+  EXPECT_EQ(payload(encode(0, answer)), (Wire{0x11, 0x42, 5, 1, 2, 3, 4}));
+  CameraStatus status;
+  status.serial = 0x01020304;
+  status.boots = 0x05060708;
+  status.clock_us = 0x090A0B0C;
+  status.temperature_degC = -1.5F;  // -150 = FF6A
+  status.laser_lit = true;
+  status.scanning = true;
+  status.faults = 0x14;
+  EXPECT_EQ(encode(0, status).bytes[3], 0x82);
+  EXPECT_EQ(payload(encode(0, status)), (Wire{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 0xFF, 0x6A, 3, 0x14, 1}));
+  Samples samples;
+  samples.tag = 0x77;
+  samples.first = 0x0102;
+  samples.count = 2;
+  samples.samples[0] = {0xFFFFFFFE, 0.5, -0.5, 1.0 / 8388608, 15, SampleKind::kReturn};
+  samples.samples[1] = {0x00000001, -1.0 / 8388608, 0, -1, 3, SampleKind::kSaturated};  // 3 us later
+  EXPECT_EQ(encode(0, samples).bytes[3], 0x91);
+  EXPECT_EQ(payload(encode(0, samples)), (Wire{0x77, 1, 2,    0xFF, 0xFF, 0xFF, 0xFE, 0,    0, 0x40, 0, 0,    0xC0, 0, 0,   0,
+                                               0,    1, 0x0F, 0,    3,    0xFF, 0xFF, 0xFF, 0, 0,    0, 0x80, 0,    0, 0x23}));
+  const ScanEnd end{0x77, 0x0102, true};
+  EXPECT_EQ(encode(0, end).bytes[3], 0x92);
+  EXPECT_EQ(payload(encode(0, end)), (Wire{0x77, 1, 2, 1}));
+}
+
 TEST(LcsMessages, ComeBackToTheByte) {
   VERIFIES("LASSO-LCS-001~1");
   test::Generator chance(99);

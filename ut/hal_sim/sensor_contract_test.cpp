@@ -35,7 +35,9 @@ struct LcsSensor {
   LcsDevice device;
   LcsOverLine line;
   LcsSensor(const Target& target, const LcsCamera& camera)
-      : device(*target.caster, target.motion, ScannerModel{}, 5, camera), line(device, camera.truth, camera.bits_per_s) {}
+      : device(*target.caster, target.motion, ScannerModel{}, 5, camera), line(device, camera.truth, camera.bits_per_s) {
+    line.permit_laser(true);
+  }
 };
 
 // A sensor in front of the target, and what keeps it alive.

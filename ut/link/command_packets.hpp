@@ -27,39 +27,87 @@ inline Stream finished(ByteWriter& writer, Stream& packet) {
   return packet;
 }
 
-inline Stream ping(std::uint16_t count = 0) {
+// Begins a packet of this kind.
+inline void begin(CommandKind kind, std::uint16_t count, ByteWriter& writer) {
+  const PacketRow& row = command_rows::row_of(kind);
   CommandHeader header;
   header.sequence_count = count;
-  header.service = kServiceTest;
-  header.subservice = kSubservicePing;
+  header.service = row.service;
+  header.subservice = row.subservice;
+  begin_command(header, writer);
+  if (row.numbered) writer.u16(row.number);
+}
+
+inline Stream plain_packet(CommandKind kind, std::uint16_t count = 0) {
   Stream packet(kMaxCommandBytes);
   ByteWriter writer{Bytes(packet.data(), packet.size())};
-  begin_command(header, writer);
+  begin(kind, count, writer);
   return finished(writer, packet);
 }
 
 template <class Arguments, std::size_t kRows>
-Stream function_packet(CommandKind kind, const TypedRow<Arguments> (&rows)[kRows], const Arguments& arguments, std::uint16_t count = 0) {
-  CommandHeader header;
-  header.sequence_count = count;
-  header.service = kServiceFunction;
-  header.subservice = kSubservicePerform;
+Stream command_packet(CommandKind kind, const TypedRow<Arguments> (&rows)[kRows], const Arguments& arguments, std::uint16_t count = 0) {
   Stream packet(kMaxCommandBytes);
   ByteWriter writer{Bytes(packet.data(), packet.size())};
-  begin_command(header, writer);
-  writer.u16(static_cast<std::uint16_t>(kind));
+  begin(kind, count, writer);
   codec_of(rows).write(arguments, writer);
   return finished(writer, packet);
 }
 
+inline Stream ping(std::uint16_t count = 0) { return plain_packet(CommandKind::kPing, count); }
 inline Stream set_mode(std::uint8_t mode, std::uint16_t count = 0) {
-  return function_packet(CommandKind::kMode, command_rows::kMode, ModeCommand{mode}, count);
+  return command_packet(CommandKind::kMode, command_rows::kMode, ModeCommand{mode}, count);
 }
 inline Stream set_hold(std::uint8_t held, std::uint16_t count = 0) {
-  return function_packet(CommandKind::kHold, command_rows::kHold, HoldCommand{held}, count);
+  return command_packet(CommandKind::kHold, command_rows::kHold, HoldCommand{held}, count);
 }
 inline Stream offer_start(const StartCommand& start, std::uint16_t count = 0) {
-  return function_packet(CommandKind::kStart, command_rows::kStart, start, count);
+  return command_packet(CommandKind::kStart, command_rows::kStart, start, count);
+}
+inline Stream enable_event(std::uint16_t event, std::uint16_t count = 0) {
+  return command_packet(CommandKind::kEnableEvent, command_rows::kEvent, EventCommand{event}, count);
+}
+inline Stream disable_event(std::uint16_t event, std::uint16_t count = 0) {
+  return command_packet(CommandKind::kDisableEvent, command_rows::kEvent, EventCommand{event}, count);
+}
+inline Stream report_disabled(std::uint16_t count = 0) { return plain_packet(CommandKind::kReportDisabled, count); }
+
+inline Stream arm(const CommandName& name, std::uint16_t count = 0) {
+  return command_packet(CommandKind::kArm, command_rows::kArm, name, count);
+}
+inline Stream arm(CommandKind kind, std::uint16_t count = 0) {
+  const PacketRow& row = command_rows::row_of(kind);
+  return arm({row.service, row.subservice, row.number}, count);
+}
+inline Stream of_structure(CommandKind kind, std::uint16_t structure, std::uint16_t count = 0) {
+  return command_packet(kind, command_rows::kStructure, StructureCommand{structure, 0}, count);
+}
+inline Stream set_period(std::uint16_t structure, std::uint16_t frames, std::uint16_t count = 0) {
+  return command_packet(CommandKind::kStructurePeriod, command_rows::kPeriod, StructureCommand{structure, frames}, count);
+}
+inline Stream set_parameter(std::size_t parameter, double value, std::uint16_t count = 0) {
+  return command_packet(CommandKind::kSetParameter, command_rows::kSetParameter,
+                        ParameterCommand{static_cast<std::uint16_t>(parameter), value}, count);
+}
+inline Stream report_parameter(std::size_t parameter, std::uint16_t count = 0) {
+  return command_packet(CommandKind::kReportParameter, command_rows::kParameter, ParameterCommand{static_cast<std::uint16_t>(parameter), 0},
+                        count);
+}
+inline Stream correlate_time(TimeUs component_us, TimeUs spacecraft_us, std::uint16_t count = 0) {
+  return command_packet(CommandKind::kCorrelateTime, command_rows::kTime, TimeCommand{component_us, spacecraft_us}, count);
+}
+
+inline Stream begin_image(std::uint32_t bytes, std::uint32_t crc, std::uint16_t count = 0) {
+  return command_packet(CommandKind::kBeginImage, memory_rows::kBegin, ImageCommand{bytes, crc}, count);
+}
+inline Stream activate_image(std::uint32_t crc, std::uint16_t count = 0) {
+  return command_packet(CommandKind::kActivateImage, memory_rows::kActivate, ImageCommand{0, crc}, count);
+}
+inline Stream load_memory(const LoadCommand& load, std::uint16_t count = 0) {
+  return command_packet(CommandKind::kLoadMemory, memory_rows::kLoad, load, count);
+}
+inline Stream of_memory(CommandKind kind, const MemoryCommand& range, std::uint16_t count = 0) {
+  return command_packet(kind, memory_rows::kRange, range, count);
 }
 
 }  // namespace lasso::test

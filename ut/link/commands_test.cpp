@@ -34,7 +34,33 @@ Stream with_byte(Stream packet, std::size_t index, std::uint8_t value) {
   return packet;
 }
 
-std::vector<Stream> every_command() { return {test::ping(), test::set_mode(5), test::set_hold(1), test::offer_start(StartCommand{})}; }
+std::vector<Stream> every_command() {
+  return {test::ping(),
+          test::set_mode(5),
+          test::set_hold(1),
+          test::offer_start(StartCommand{}),
+          test::enable_event(2),
+          test::disable_event(3),
+          test::report_disabled(),
+          test::arm(CommandKind::kEnableLaser),
+          test::plain_packet(CommandKind::kEnableLaser),
+          test::plain_packet(CommandKind::kInhibitLaser),
+          test::of_structure(CommandKind::kEnableStructure, 1),
+          test::of_structure(CommandKind::kDisableStructure, 1),
+          test::of_structure(CommandKind::kReportStructure, 2),
+          test::set_period(1, 5),
+          test::correlate_time(1, 2),
+          test::report_parameter(3),
+          test::set_parameter(3, 0.5),
+          test::plain_packet(CommandKind::kRevertParameters),
+          test::begin_image(1000, 0x12345678),
+          test::plain_packet(CommandKind::kCheckImage),
+          test::activate_image(0x12345678),
+          test::plain_packet(CommandKind::kRollBackImage),
+          test::load_memory({0, 256, 3, {1, 2, 3}}),
+          test::of_memory(CommandKind::kDumpMemory, {1, 4096, 100}),
+          test::of_memory(CommandKind::kCheckMemory, {2, 0, 16384})};
+}
 
 TEST(Commands, ArriveAsTheyWereSent) {
   VERIFIES("LASSO-LNK-023~1");
@@ -57,6 +83,13 @@ TEST(Commands, ArriveAsTheyWereSent) {
   EXPECT_EQ(command.start.way, 4);
   EXPECT_EQ(command.start.t_us, 123456789);
   EXPECT_EQ(command.start.covariance[20], 0.5F);
+  ASSERT_EQ(decode(test::disable_event(3), command), PacketFault::kNone);
+  EXPECT_EQ(command.kind, CommandKind::kDisableEvent);
+  EXPECT_EQ(command.event.event, 3);
+  ASSERT_EQ(decode(test::enable_event(2), command), PacketFault::kNone);
+  EXPECT_EQ(command.kind, CommandKind::kEnableEvent);
+  ASSERT_EQ(decode(test::report_disabled(), command), PacketFault::kNone);
+  EXPECT_EQ(command.kind, CommandKind::kReportDisabled);
 }
 
 TEST(Commands, LieAtTheseBytes) {
@@ -69,6 +102,16 @@ TEST(Commands, LieAtTheseBytes) {
   EXPECT_EQ(test::set_hold(1)[12], 2);
   EXPECT_EQ(test::offer_start(StartCommand{}).size(), 212u);
   EXPECT_EQ(test::offer_start(StartCommand{})[12], 3);
+  const Stream disable = test::disable_event(0x0102);
+  EXPECT_EQ(Stream(disable.begin() + 7, disable.begin() + 13), (Stream{5, 6, 0, 0, 1, 2}));
+  EXPECT_EQ(test::enable_event(1)[8], 5);
+  EXPECT_EQ(test::report_disabled()[8], 7);
+  const Stream arm = test::arm({1, 2, 0x0304});
+  EXPECT_EQ(Stream(arm.begin() + 7, arm.begin() + 17), (Stream{8, 1, 0, 0, 0, 4, 1, 2, 3, 4}));
+  const Stream period = test::set_period(2, 0x0506);
+  EXPECT_EQ(Stream(period.begin() + 7, period.begin() + 15), (Stream{3, 31, 0, 0, 0, 2, 5, 6}));
+  const Stream time = test::correlate_time(1, 0x0102030405);
+  EXPECT_EQ(Stream(time.begin() + 7, time.begin() + 27), (Stream{9, 128, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 1, 2, 3, 4, 5}));
   for (const PacketRow& packet : kPackets) {
     if (packet.type == PacketType::kCommand) {
       EXPECT_LE(item_offset(packet, packet.items.size()) + kPacketTrailerBytes, kMaxCommandBytes);
@@ -118,7 +161,7 @@ TEST(Commands, WhatIsNoneIsNamed) {
   EXPECT_EQ(fault_of(with_byte(test::ping(), 8, 2)), PacketFault::kUnknown);
   EXPECT_EQ(fault_of(with_byte(test::set_mode(1), 7, 9)), PacketFault::kUnknown);
   EXPECT_EQ(fault_of(with_byte(test::set_mode(1), 8, 2)), PacketFault::kUnknown);
-  EXPECT_EQ(fault_of(with_byte(test::set_mode(1), 12, 9)), PacketFault::kUnknown);
+  EXPECT_EQ(fault_of(with_byte(test::set_mode(1), 12, 99)), PacketFault::kUnknown);
   EXPECT_EQ(fault_of(with_byte(test::set_mode(1), 12, 3)), PacketFault::kBadLength);
   EXPECT_EQ(fault_of(with_byte(test::set_mode(1), 12, 0)), PacketFault::kUnknown) << "ping is no function";
   Stream longer = test::ping();
@@ -127,9 +170,43 @@ TEST(Commands, WhatIsNoneIsNamed) {
   EXPECT_EQ(fault_of(with_byte(longer, 11, 0)), PacketFault::kBadLength);
 }
 
+TEST(Commands, HazardousOnesAreThese) {
+  VERIFIES("LASSO-LNK-017~1");
+  EXPECT_TRUE(is_hazardous({8, 1, 5})) << "enable_laser";
+  EXPECT_FALSE(is_hazardous({8, 1, 6})) << "the laser is inhibited at once";
+  EXPECT_FALSE(is_hazardous({8, 1, 4}));
+  EXPECT_FALSE(is_hazardous({8, 2, 5}));
+  EXPECT_FALSE(is_hazardous({9, 1, 5}));
+  Command command;
+  ASSERT_EQ(decode(test::plain_packet(CommandKind::kEnableLaser), command), PacketFault::kNone);
+  EXPECT_EQ(command.hazard, Hazard::kOnce);
+  EXPECT_TRUE((command.name == CommandName{8, 1, 5}));
+  ASSERT_EQ(decode(test::ping(), command), PacketFault::kNone);
+  EXPECT_EQ(command.hazard, Hazard::kNone);
+}
+
+TEST(Commands, RowsStandInTheOrderOfTheirKinds) {
+  VERIFIES("LASSO-LNK-002~1");
+  std::size_t commands = 0;
+  for (const PacketRow& packet : kPackets) commands += packet.type == PacketType::kCommand ? 1 : 0;
+  EXPECT_EQ(every_command().size(), commands);
+  for (const Stream& packet : every_command()) {
+    Command command;
+    ASSERT_EQ(decode(packet, command), PacketFault::kNone);
+    const PacketRow& row = command_rows::row_of(command.kind);
+    EXPECT_EQ(row.service, command.header.service);
+    EXPECT_EQ(row.subservice, command.header.subservice);
+    EXPECT_EQ(item_offset(row, row.items.size()) + kPacketTrailerBytes, packet.size()) << row.name;
+  }
+}
+
 TEST(Commands, ArgumentsOutOfRangeAreRefused) {
   VERIFIES("LASSO-LNK-034~1");
-  EXPECT_EQ(fault_of(test::set_mode(9)), PacketFault::kBadArgument);
+  EXPECT_EQ(fault_of(test::enable_event(kEvents)), PacketFault::kBadArgument);
+  EXPECT_EQ(fault_of(test::set_period(kStructures, 1)), PacketFault::kBadArgument);
+  EXPECT_EQ(fault_of(test::correlate_time(0, -1)), PacketFault::kBadArgument);
+  EXPECT_EQ(fault_of(test::correlate_time(4294967296000001, 0)), PacketFault::kBadArgument);
+  EXPECT_EQ(fault_of(test::set_mode(10)), PacketFault::kBadArgument);
   EXPECT_EQ(fault_of(test::set_hold(2)), PacketFault::kBadArgument);
   StartCommand start;
   start.way = 6;

@@ -19,7 +19,7 @@ Stream encode(std::uint8_t subservice, const Verification& verification, std::si
   return packet;
 }
 
-constexpr Verification kSample{0x1BD1, 0xC007, 3, 4, 5};
+constexpr Verification kSample{0x1BD1, 0xC007, 3, 4, 5, 6};
 
 Stream data_of(const Stream& packet) {
   PacketHeader header;
@@ -33,20 +33,21 @@ TEST(LinkReport, VerificationSaysWhichCommandAndWhy) {
   EXPECT_EQ(data_of(encode(kSubserviceAccepted, kSample)), (Stream{0x1B, 0xD1, 0xC0, 0x07}));
   EXPECT_EQ(data_of(encode(kSubserviceRefused, kSample)), (Stream{0x1B, 0xD1, 0xC0, 0x07, 3}));
   EXPECT_EQ(data_of(encode(kSubserviceCompleted, kSample)), (Stream{0x1B, 0xD1, 0xC0, 0x07}));
-  EXPECT_EQ(data_of(encode(kSubserviceFailed, kSample)), (Stream{0x1B, 0xD1, 0xC0, 0x07, 4, 5}));
+  EXPECT_EQ(data_of(encode(kSubserviceFailed, kSample)), (Stream{0x1B, 0xD1, 0xC0, 0x07, 4, 5, 6}));
   EXPECT_EQ(encode(kSubserviceFailed, kSample)[7], kServiceVerification);
   EXPECT_EQ(encode(kSubserviceFailed, kSample)[10], 5);
-  EXPECT_TRUE(encode(kSubserviceFailed, kSample, 27).empty());
+  EXPECT_TRUE(encode(kSubserviceFailed, kSample, 28).empty());
 }
 
 TEST(LinkReport, CountersAreAStructureOfTheirOwn) {
   VERIFIES("LASSO-LNK-002~1");
-  const LinkTelemetry link{0x01020304, 5, 6, 0x0A0B0C0D, 0x0E0F};
+  const LinkTelemetry link{0x01020304, 5, 6, 0x0A0B0C0D, 0x0E0F, 1, 0, -2};
   Stream packet(kMaxLinkReportBytes);
   packet.resize(encode_link(link, PacketHeader{}, Bytes(packet.data(), packet.size())));
   EXPECT_EQ(packet[7], kServiceHousekeeping);
   EXPECT_EQ(packet[8], kSubserviceHousekeepingReport);
-  EXPECT_EQ(data_of(packet), (Stream{0, 2, 1, 2, 3, 4, 0, 0, 0, 5, 6, 0x0A, 0x0B, 0x0C, 0x0D, 0x0E, 0x0F}));
+  EXPECT_EQ(data_of(packet), (Stream{0,    2,    1,    2, 3, 4,    0,    0,    0,    5,    6,    0x0A, 0x0B, 0x0C,
+                                     0x0D, 0x0E, 0x0F, 1, 0, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFE}));
 }
 
 TEST(LinkReport, PongHasNoData) {
@@ -79,26 +80,43 @@ TEST(LinkReport, EncodeDecodeEncodeIsByteIdenticalForEveryRow) {
   VERIFIES("LASSO-LNK-023~1");
   test::Generator random(23);
   expect_round_trip(pose_rows::kRows, random);
+  expect_round_trip(health_rows::kRows, random);
   expect_round_trip(link_report_rows::kLink, random);
+  expect_round_trip(sensor_report_rows::kRows, random);
   expect_round_trip(link_report_rows::kDone, random);
   expect_round_trip(link_report_rows::kRefused, random);
   expect_round_trip(link_report_rows::kFailed, random);
   expect_round_trip(command_rows::kMode, random);
   expect_round_trip(command_rows::kHold, random);
   expect_round_trip(command_rows::kStart, random);
+  expect_round_trip(command_rows::kEvent, random);
+  expect_round_trip(link_report_rows::kDisabled, random);
+  expect_round_trip(command_rows::kArm, random);
+  expect_round_trip(command_rows::kPeriod, random);
+  expect_round_trip(command_rows::kTime, random);
+  expect_round_trip(command_rows::kParameter, random);
+  expect_round_trip(command_rows::kSetParameter, random);
+  expect_round_trip(link_report_rows::kParameter, random);
 }
 
 TEST(LinkReport, EveryPacketOfTheDictionaryIsAsLongAsItSays) {
   VERIFIES("LASSO-LNK-002~1");
-  const std::size_t sizes[] = {751, 39, 26, 27, 26, 28, 22, 13, 16, 16, 212};
+  const std::size_t sizes[] = {751, 49, 134, 58, 146, 156, 35, 26, 27, 26, 29, 22, 38, 41, 13, 16, 16,  212, 15, 15,
+                               13,  19, 15,  15, 15,  15,  15, 17, 29, 15, 23, 13, 23, 15, 19, 15, 147, 22,  22};
   std::size_t next = 0;
   for (const PacketRow& packet : kPackets) {
-    ASSERT_LT(next, std::size(sizes));
+    if (next == std::size(sizes)) break;
     EXPECT_EQ(item_offset(packet, packet.items.size()) + kPacketTrailerBytes, sizes[next++]) << packet.name;
   }
   EXPECT_EQ(encode(kSubserviceAccepted, kSample).size(), 26u);
   EXPECT_EQ(encode(kSubserviceRefused, kSample).size(), 27u);
-  EXPECT_EQ(encode(kSubserviceFailed, kSample).size(), 28u);
+  EXPECT_EQ(encode(kSubserviceFailed, kSample).size(), 29u);
+  std::size_t event = kPackets.size() - kEvents;
+  for (const std::size_t items : std::initializer_list<std::size_t>{12, 3, 2, 5, 7, 4, 4, 3, 1, 1, 6, 4, 4,  5, 6, 4,
+                                                                    4,  4, 0, 0, 8, 5, 9, 6, 4, 6, 2, 1, 10, 0, 0, 0}) {
+    const PacketRow& packet = kPackets[++event];
+    EXPECT_EQ(item_offset(packet, packet.items.size()), 22 + items) << packet.name;
+  }
 }
 
 }  // namespace

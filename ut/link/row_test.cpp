@@ -99,5 +99,31 @@ TEST(Row, NamesAndSizesOfTypes) {
   EXPECT_EQ(wire_size(WireType::kF64), 8u);
 }
 
+TEST(Rows, SayWhetherTheirNumbersAreReal) {
+  VERIFIES("LASSO-LNK-002~1");
+  const WireType real[] = {WireType::kF32, WireType::kF64};
+  const WireType whole[] = {WireType::kU8, WireType::kU16, WireType::kU32, WireType::kI64};
+  for (const WireType type : real) EXPECT_TRUE(is_real(type)) << to_string(type);
+  for (const WireType type : whole) EXPECT_FALSE(is_real(type)) << to_string(type);
+}
+
+TEST(Rows, OfNoStructAreNumbersOrChoices) {
+  VERIFIES("LASSO-LNK-002~1");
+  const Choice kColours[] = {{"red", "stop"}, {"green", "go"}};
+  const Enumeration colour{"colour", Span<const Choice>(kColours)};
+  for (std::uint16_t id = 1; id < 4; ++id) {
+    const ItemRow number = number_item(id, "depth", WireType::kF32, "m", "how deep");
+    EXPECT_EQ(number.id, id);
+    EXPECT_EQ(number.type, WireType::kF32);
+    EXPECT_EQ(number.size(), 4u);
+    EXPECT_EQ(number.enumeration, nullptr);
+    const ItemRow choice = choice_item(id, "light", colour, "what it shows");
+    EXPECT_EQ(choice.id, id);
+    EXPECT_EQ(choice.size(), 1u);
+    EXPECT_EQ(choice.range.maximum, 1);
+    EXPECT_EQ(choice.enumeration, &colour);
+  }
+}
+
 }  // namespace
 }  // namespace lasso

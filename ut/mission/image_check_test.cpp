@@ -11,13 +11,16 @@ namespace lasso {
 namespace {
 
 struct Checked {
-  explicit Checked(test::TestImage& bytes) {
-    image.bytes = Bytes(bytes.data(), bytes.size);
-    result = check_image(image, parameters);
+  explicit Checked(test::TestImage& bytes, std::uint32_t words = 1U << 28) {
+    ImageCheck check;
+    check.begin(Bytes(bytes.data(), bytes.size));
+    while (!check.step(words)) ++steps;
+    image = check.image();
+    result = check.result();
   }
   FlightImage image;
-  MissionParameters parameters{};
   LoadFailure result;
+  std::uint32_t steps = 0;
 };
 
 TEST(ImageCheck, FindsTheTablesAndChangesNoByte) {
@@ -29,7 +32,6 @@ TEST(ImageCheck, FindsTheTablesAndChangesNoByte) {
   const Checked checked(bytes);
   EXPECT_EQ(checked.result.status, Status::kOk) << checked.result.what;
   EXPECT_EQ(bytes.storage, before);
-  EXPECT_EQ(checked.parameters.points, 512);
   EXPECT_EQ(parameters_of(checked.image[TableId::kParameters]).points, 512);
   EXPECT_EQ(checked.image[TableId::kElements].records, 6U);
   EXPECT_EQ(checked.image[TableId::kHull].bytes(), 8U * 3U * 4U);
@@ -43,6 +45,33 @@ TEST(ImageCheck, RefusesTheFormatBeforeThisOne) {
   const Checked checked(bytes);
   EXPECT_EQ(checked.result.status, Status::kBadVersion);
   EXPECT_NE(std::string(checked.result.what).find("compile the mission again"), std::string::npos);
+}
+
+// In steps of any size it comes to the same end; a step goes no farther than its words and a record.
+TEST(ImageCheck, GoesOnStepByStep) {
+  VERIFIES("LASSO-IMG-005~1");
+  test::TestImage bytes = test::make_box_image(preset_parameters());
+  const auto all_words = static_cast<std::uint32_t>(bytes.size / 4);
+  for (const std::uint32_t words : {1U, 7U, 1000U}) {
+    const Checked checked(bytes, words);
+    EXPECT_EQ(checked.result.status, Status::kOk) << checked.result.what;
+    EXPECT_GE(checked.steps * (words + kLargestRecord_words), 2 * all_words);  // check sums of the whole and of the tables, and records
+    EXPECT_LE(checked.steps, 4 * all_words / words + 200);
+  }
+  bytes.data()[test::table_offset(bytes, static_cast<std::uint32_t>(TableId::kElements))] ^= 0x40;
+  test::repair_crcs(bytes);
+  const Checked spoiled(bytes, 13);
+  EXPECT_EQ(spoiled.result.status, Status::kBadValue);
+  EXPECT_EQ(spoiled.result.table, static_cast<std::uint32_t>(TableId::kElements));
+  EXPECT_EQ(spoiled.result.record, 0U);
+}
+
+// Nothing is checked before it is told what.
+TEST(ImageCheck, IsDoneBeforeItBegins) {
+  VERIFIES("LASSO-IMG-005~1");
+  ImageCheck check;
+  EXPECT_TRUE(check.step(10));
+  EXPECT_EQ(check.result().status, Status::kOk);
 }
 
 }  // namespace

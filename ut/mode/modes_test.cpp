@@ -27,13 +27,13 @@ std::set<M> reachable_from(M start) {
 }
 
 TEST(Modes, EveryModeIsReachedAndLeadsBackToStandby) {
-  VERIFIES("LASSO-MOD-001~2");
+  VERIFIES("LASSO-MOD-001~2 LASSO-MOD-175~1");
   EXPECT_EQ(reachable_from(M::kStandby).size(), mode_properties().size());
   for (const ModeProperties& row : mode_properties()) EXPECT_EQ(reachable_from(row.mode).count(M::kStandby), 1u) << row.name;
 }
 
 TEST(Modes, EveryModeHasAWayOut) {
-  VERIFIES("LASSO-MOD-001~2");
+  VERIFIES("LASSO-MOD-001~2 LASSO-MOD-175~1");
   for (const ModeProperties& mode : mode_properties()) {
     bool leaves = false;
     for (const ModeTransition& row : mode_transitions()) leaves = leaves || (row.from == mode.mode && row.to != mode.mode);
@@ -49,7 +49,7 @@ TEST(Modes, EveryModeLeadsToTracking) {
 
 // A row can be taken if its mode is reached and its event can happen there: what scans give in the modes that make them, commands anywhere.
 TEST(Modes, NoTransitionIsUnreachable) {
-  VERIFIES("LASSO-MOD-001~2");
+  VERIFIES("LASSO-MOD-001~2 LASSO-MOD-175~1");
   const std::set<M> reached = reachable_from(M::kStandby);
   for (const ModeTransition& row : mode_transitions()) {
     const ModeProperties& from = properties(row.from);
@@ -72,9 +72,11 @@ TEST(Modes, EachModeAnswersEveryResultOfItsScans) {
     for (const E event : kPoseEvents) EXPECT_EQ(rows.count({mode.mode, event}) != 0, mode.scans && !mode.full_field) << mode.name;
     for (const E event : kBearingEvents) EXPECT_EQ(rows.count({mode.mode, event}) != 0, mode.scans && mode.full_field) << mode.name;
     EXPECT_EQ(rows.count({mode.mode, E::kStop}) != 0, mode.mode != M::kStandby) << mode.name;
-    EXPECT_EQ(rows.count({mode.mode, E::kSeek}) != 0, mode.mode != M::kBearing) << mode.name;
-    EXPECT_EQ(rows.count({mode.mode, E::kStart}), 1u) << mode.name;
-    EXPECT_EQ(rows.count({mode.mode, E::kSearch}) != 0, mode.mode != M::kSearching) << mode.name;
+    const bool safe = mode.mode == M::kSafe;
+    EXPECT_EQ(rows.count({mode.mode, E::kMakeSafe}) != 0, !safe) << mode.name;
+    EXPECT_EQ(rows.count({mode.mode, E::kSeek}) != 0, mode.mode != M::kBearing && !safe) << mode.name;
+    EXPECT_EQ(rows.count({mode.mode, E::kStart}) != 0, !safe) << mode.name;
+    EXPECT_EQ(rows.count({mode.mode, E::kSearch}) != 0, mode.mode != M::kSearching && !safe) << mode.name;
   }
 }
 
@@ -120,6 +122,17 @@ TEST(Modes, FollowTheStoryOfAnApproachAndBack) {
   EXPECT_FALSE(properties(M::kTracking).by_parts);
 }
 
+TEST(Modes, SafeIsReachedFromEverywhereAndLeftByCommandAlone) {
+  VERIFIES("LASSO-HLT-002~1");
+  for (const ModeProperties& mode : mode_properties()) EXPECT_EQ(next_mode(mode.mode, E::kMakeSafe), M::kSafe) << mode.name;
+  for (const ModeEventProperties& event : mode_events()) {
+    EXPECT_EQ(next_mode(M::kSafe, event.event), event.event == E::kStop ? M::kStandby : M::kSafe) << event.name;
+  }
+  EXPECT_FALSE(properties(M::kSafe).scans);
+  EXPECT_FALSE(properties(M::kSafe).awaits_start);
+  EXPECT_TRUE(properties(M::kSafe).says_lost);
+}
+
 TEST(Modes, IgnoreWhatTheTableDoesNotKnow) {
   VERIFIES("LASSO-MOD-001~2");
   EXPECT_EQ(next_mode(M::kStandby, E::kPoseValid), M::kStandby);
@@ -148,6 +161,7 @@ TEST(Modes, AreCommandedByTheirEvents) {
   EXPECT_TRUE(command_event(M::kBearing, event));
   EXPECT_TRUE(command_event(M::kReacquiring, event));
   EXPECT_TRUE(command_event(M::kSearching, event));
+  EXPECT_TRUE(command_event(M::kSafe, event));
   EXPECT_FALSE(command_event(M::kTracking, event));
 }
 

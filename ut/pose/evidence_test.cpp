@@ -42,6 +42,21 @@ TEST_F(EvidenceTest, LeavesOutReturnsWithoutCompany) {
   EXPECT_GT(evidence->hits.size(), 120u);
 }
 
+// By trying all of them.
+TEST_F(EvidenceTest, EachReturnBelongsToTheClosestOfTheFirst) {
+  VERIFIES("LASSO-MOD-115~1");
+  scan_.side = 40;
+  scan();
+  const auto evidence = make_evidence();
+  ASSERT_GT(evidence->hits.size(), 4 * kRegions);
+  ASSERT_EQ(evidence->regions.size(), evidence->hits.size());
+  for (std::size_t i = 0; i < evidence->hits.size(); ++i) {
+    const auto distance = [&](std::size_t k) { return (to_vec3(evidence->hits[i].p) - to_vec3(evidence->hits[k].p)).norm(); };
+    ASSERT_LT(evidence->regions[i], kRegions);
+    for (std::size_t k = 0; k < kRegions; ++k) EXPECT_LE(distance(evidence->regions[i]), distance(k) + 1e-6) << i;
+  }
+}
+
 TEST_F(EvidenceTest, BeginsWithReturnsThatAreFarApart) {
   VERIFIES("LASSO-MOD-111~1");
   scan_.side = 48;

@@ -255,5 +255,25 @@ TEST(Filter, PredictedPoseIsTheFiltersOwnAndChangesNothing) {
   EXPECT_TRUE(predicted.rates.v_mps == state.rates.v_mps);
 }
 
+TEST(Filter, IsSoundWhileItsNumbersAreSome) {
+  VERIFIES("LASSO-FLT-011~1");
+  FilterState state;
+  EXPECT_TRUE(is_sound(state));
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (int i = 0; i < 12; ++i) {
+    for (const double bad : {-1e-12, nan}) {
+      FilterState spoilt = state;
+      spoilt.covariance(i, i) = bad;
+      EXPECT_FALSE(is_sound(spoilt)) << i << " " << bad;
+    }
+  }
+  FilterState moved = state;
+  moved.T_sensor_target.p.y() = nan;
+  EXPECT_FALSE(is_sound(moved));
+  FilterState turned = state;
+  turned.T_sensor_target.q.z() = std::numeric_limits<double>::infinity();
+  EXPECT_FALSE(is_sound(turned));
+}
+
 }  // namespace
 }  // namespace lasso::test

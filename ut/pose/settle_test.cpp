@@ -15,7 +15,7 @@ class SettleTest : public test::SearchFixture {
     Settler settler;
     settler.begin(start, start);
     attempts_ = 1;
-    while (settler.step(mission_, evidence, *workspace_, work_)) ++attempts_;
+    while (settler.step(mission_, evidence, kAnyScore, *workspace_, work_)) ++attempts_;
     return settler.best();
   }
   Pose off(double rotation_rad, double shift_m) { return inverse(test::disturb(scan_.T_sensor_target, rotation_rad, shift_m, random_)); }
@@ -61,12 +61,15 @@ TEST_F(SettleTest, WhatCannotBeExplainedTakesAllAttemptsAndKeepsTheBest) {
   Settler once;
   once.begin(inverse(turned), inverse(turned));
   std::uint32_t work = 0;
-  EXPECT_TRUE(once.step(mission_, *evidence, *workspace_, work));
+  EXPECT_TRUE(once.step(mission_, *evidence, kAnyScore, *workspace_, work));
   const Settled settled = settle(inverse(turned), *evidence);
   EXPECT_EQ(attempts_, 4);
   EXPECT_LE(settled.fit.score(), once.best().fit.score());
   EXPECT_GT(settled.fit.disagreement(), 0.02);
   EXPECT_LT(work, work_);
+  Settler hopeless;
+  hopeless.begin(inverse(turned), inverse(turned));
+  EXPECT_FALSE(hopeless.step(mission_, *evidence, once.best().fit.score(), *workspace_, work)) << "no better than that";
 }
 
 TEST_F(SettleTest, ASketchTellsRightFromWrongByLessWork) {

@@ -27,6 +27,17 @@ TEST(Verdict, ANearScoreDoesNotWhereTheNoiseSaysOtherwise) {
   EXPECT_FALSE(is_left_behind({1.4, true, 3.0, 2.9}, 1.3)) << "as badly as the best";
 }
 
+TEST(Verdict, WhatIsExplainedHasToBeExplainedAsTheNoiseAllowsWhereSomethingIsNot) {
+  VERIFIES("LASSO-MOD-122~1 LASSO-MOD-119~1");
+  EXPECT_TRUE(is_left_behind({1.4, false, 0, 2.5, 1.5, 0.05}, 1.3)) << "a part is off";
+  EXPECT_FALSE(is_left_behind({1.4, false, 0, 2.5, 2.0, 0.05}, 1.3)) << "everything is a little off";
+  EXPECT_FALSE(is_left_behind({1.4, true, 6.0, 2.5, 2.0, 0.05}, 1.3));
+  EXPECT_TRUE(is_left_behind({1.4, true, 6.0, 2.5, 1.5, 0.05}, 1.3));
+  EXPECT_TRUE(is_left_behind({1.4, false, 0, 2.5, 2.0, 0.01}, 1.3)) << "within the score's tolerance: it moves";
+  EXPECT_TRUE(is_left_behind({1.4, false, 0, 1.1, 2.0, 0.05}, 1.3)) << "nothing is unexplained";
+  EXPECT_TRUE(is_left_behind({4.0, false, 0, 2.5, 2.0, 0.05}, 1.3)) << "far by its score";
+}
+
 TEST(Verdict, TheNoiseAloneTellsWhatLooksAlike) {
   VERIFIES("LASSO-MOD-120~1");
   EXPECT_TRUE(is_left_behind({1.05, true, 1.4, 1.0}, 1.3));

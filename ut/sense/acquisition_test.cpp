@@ -80,6 +80,14 @@ class AcquisitionTest : public ::testing::Test {
   }
 };
 
+TEST_F(AcquisitionTest, ASensorWithoutALaserScansWhateverIsPermitted) {
+  VERIFIES("LASSO-SNS-020~1");
+  Sensor& without_laser = sensor;
+  without_laser.permit_laser(false);
+  EXPECT_EQ(acquisition.start(sensor, plan, kStart, *image), Status::kOk);
+  EXPECT_EQ(without_laser.counters().frames, 0u) << "nor has it a line";
+}
+
 TEST_F(AcquisitionTest, StoresAWholeScanAsTheSensorSawIt) {
   VERIFIES("LASSO-SNS-020~1 LASSO-SNS-021~1 LASSO-SYS-023~1");
   const ScanVerdict verdict = run();
@@ -266,6 +274,35 @@ TEST_F(AcquisitionTest, LostScanIsDiscardedWithTheSensorsReason) {
   EXPECT_EQ(verdict.count, 896);
   EXPECT_TRUE(image->samples.empty());
   EXPECT_EQ(sensor.aborts, 1);
+}
+
+TEST_F(AcquisitionTest, EachReasonOfASensorIsACauseOfTheLoss) {
+  VERIFIES("LASSO-LCS-012~1");
+  const std::pair<Status, ScanLoss> causes[] = {{Status::kMissing, ScanLoss::kInhibited},  {Status::kOverCapacity, ScanLoss::kNoRoom},
+                                                {Status::kTimeout, ScanLoss::kSilent},     {Status::kBusy, ScanLoss::kBusy},
+                                                {Status::kBadValue, ScanLoss::kRefused},   {Status::kBadOrder, ScanLoss::kRestarted},
+                                                {Status::kBadVersion, ScanLoss::kForeign}, {Status::kTruncated, ScanLoss::kStopped},
+                                                {Status::kOffPlan, ScanLoss::kOffPlan},    {Status::kBadCrc, ScanLoss::kOther}};
+  for (const auto& [reason, loss] : causes) {
+    sensor.lost_at = 500;
+    sensor.lose = reason;
+    EXPECT_EQ(run().loss, loss);
+    sensor.lost_at = 1u << 20;
+    sensor.refuse = reason;
+    static_cast<void>(acquisition.start(sensor, plan, kStart, *image));
+    EXPECT_EQ(acquisition.finish(sensor, *image).loss, loss);
+    sensor.refuse = Status::kOk;
+    EXPECT_EQ(run().loss, ScanLoss::kNone);
+  }
+}
+
+TEST_F(AcquisitionTest, AScanThatIsUsedIsNoneThatIsLost) {
+  VERIFIES("LASSO-LCS-012~1");
+  const TimeUs enough = kStart + pattern_time_us(plan, 819);
+  EXPECT_EQ(run(100, enough).loss, ScanLoss::kNone) << "ended early, and used";
+  EXPECT_EQ(run(100, enough - 1).loss, ScanLoss::kUnfinished);
+  for (std::size_t i = 0; i < 205; ++i) sensor.samples[i].direction[0] = 3;
+  EXPECT_EQ(run().loss, ScanLoss::kThin);
 }
 
 TEST_F(AcquisitionTest, MoreSamplesThanAskedForIsALostScan) {

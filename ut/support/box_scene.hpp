@@ -80,7 +80,9 @@ class BoxSensor final : public Sensor {
     if (running_ && lost.count(plan_.scan_id) != 0) poll.status = Status::kBadCrc;
     if (poll.status != Status::kOk) return poll;
     while (next_ < plan_.points && poll.count < out.size() && time_of(next_) <= now_us) {
-      out[poll.count] = cast_sample(scene_, plan_, next_, time_of(next_), random_);
+      const std::uint16_t looked_at = stuck ? std::uint16_t{0} : next_;
+      out[poll.count] = cast_sample(scene_, plan_, looked_at, time_of(next_) + scene_ahead_us, random_);
+      out[poll.count].t_us = time_of(next_);
       if (hidden) out[poll.count].state = RayState::kMiss;
       ++poll.count;
       ++next_;
@@ -91,11 +93,15 @@ class BoxSensor final : public Sensor {
   }
 
   void abort() override { running_ = false; }
+  void permit_laser(bool permitted) override { laser_permitted = permitted; }
 
   std::set<std::uint32_t> lost;     // scans that fail while they run
   std::set<std::uint32_t> refused;  // scans that cannot be started
   bool hidden = false;              // the target is eclipsed: every ray misses
+  DurationUs scene_ahead_us = 0;    // of the sensor's clock
+  bool stuck = false;               // the mirrors stand still
   int starts = 0;
+  bool laser_permitted = true;  // as it was last told
   ScanPlan last_plan;
 
  private:

@@ -174,7 +174,25 @@ TEST(Headers, ListsAnyPacketsGapsAndCheckSums) {
   EXPECT_EQ(list.lines[4].missing, 0U);
   EXPECT_TRUE(list.lines[3].crc_right);
   EXPECT_FALSE(list.lines[4].crc_right);
-  EXPECT_EQ(headers_summary(list), "5 packets: CRC right in 4, wrong in 1; 1 gaps in the sequence, 2 packets missing; 3 bytes left over\n");
+  EXPECT_EQ(
+      headers_summary(list),
+      "5 packets: CRC right in 4, wrong in 1; 1 gaps in the sequence, 2 packets missing, 0 repeated or out of order; 3 bytes left over\n");
+}
+
+TEST(Headers, ARepeatedPacketIsNoGap) {
+  VERIFIES("LASSO-GND-021~1");
+  Stream stream;
+  for (const std::uint16_t count : std::initializer_list<std::uint16_t>{0x3FFE, 0x3FFF, 0x3FFF, 0, 0x3FFF, 1, 3, 2, 4})
+    append(stream, pose_packet(count));
+  const HeaderList list = list_headers(view(stream));
+  std::string behind, missing;
+  for (const HeaderLine& line : list.lines) {
+    behind += line.behind ? '1' : '0';
+    missing += std::to_string(line.missing);
+  }
+  EXPECT_EQ(behind, "001010010");
+  EXPECT_EQ(missing, "000000100");
+  EXPECT_NE(headers_summary(list).find("1 gaps in the sequence, 1 packets missing, 3 repeated or out of order"), std::string::npos);
 }
 
 TEST(Headers, EndsWhereNoPacketCanBe) {
@@ -196,6 +214,19 @@ TEST(DecodeText, MarksWhatIsOutOfRange) {
   EXPECT_NE(text.find("inlier_share               1.5 (!)\n"), std::string::npos) << text;
   EXPECT_NE(text.find("mode                       77 (!)\n"), std::string::npos);
   EXPECT_NE(text.find("reason                     valid\n"), std::string::npos);
+}
+
+TEST(DecodeText, WritesTheSmallestAndLargestNumbersAsTheyAre) {
+  VERIFIES("LASSO-GND-021~1");
+  PoseTelemetry pose;
+  pose.p_sensor_target_m[0] = 5e-324;
+  pose.p_sensor_target_m[1] = -1.7976931348623157e308;
+  pose.rms_m = 1e-45F;
+  const Stream stream = pose_packet(0, pose);
+  const std::string text = json_text(decode_stream(view(stream), PacketType::kTelemetry), {});
+  EXPECT_NE(text.find("5e-324"), std::string::npos);
+  EXPECT_NE(text.find("-1.7976931348623157e+308"), std::string::npos);
+  EXPECT_NE(text.find("\"rms_m\": 1e-45"), std::string::npos);
 }
 
 TEST(DecodeText, ShowsTheSelectedItems) {

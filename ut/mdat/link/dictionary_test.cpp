@@ -93,7 +93,7 @@ TEST(Xtce, SizesAreThoseOfThePackets) {
   std::size_t bits = 0;
   for (const HeaderField& field : kPrimaryFields) bits += bits_of(std::string(field.name) + "_t");
   for (const HeaderField& field : kTelemetryFields) bits += bits_of(std::string(field.name) + "_t");
-  bits += bits_of("structure_t") + bits_of("crc_t");
+  bits += bits_of("number_t") + bits_of("crc_t");
   for (const ItemRow& row : kPackets[0].items) {
     bits += row.count * bits_of("pose_" + std::string(row.name) + (row.count > 1 ? "_element_t" : "_t"));
   }

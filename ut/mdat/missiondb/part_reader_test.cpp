@@ -26,7 +26,7 @@ class PartReaderTest : public ::testing::Test {
 };
 
 TEST_F(PartReaderTest, ReadsWhatAPartIsAndWhereItServes) {
-  VERIFIES("LASSO-GND-001~1");
+  VERIFIES("LASSO-GND-001~1 LASSO-MDL-024~1");
   const MissionSource source =
       load("[part.wing]\n" + kBox + kPlace + "[part.bay]\nmodel = 'box.toml'\nscale = 0.5\n" + kPlace +
            "origin_m = [1, 2, 3]\nquaternion = [0, 0, 0.6, 0.8]\ncone_deg = 30\npriority = 2\ncell_size_m = 0.01\n");
@@ -50,7 +50,7 @@ TEST_F(PartReaderTest, ReadsWhatAPartIsAndWhereItServes) {
 }
 
 TEST_F(PartReaderTest, TheModelIsCutOrReadAndPutIntoThePartsFrame) {
-  VERIFIES("LASSO-GND-001~1");
+  VERIFIES("LASSO-GND-001~1 LASSO-MDL-024~1");
   const MissionSource source =
       load("[part.a]\n" + kBox + kPlace + "origin_m = [0.25, 0, 0]\nquaternion = [0, 0, 0.70710678, 0.70710678]\n" +
            "[part.b]\nmodel = 'box.toml'\nscale = 0.5\n" + kPlace);

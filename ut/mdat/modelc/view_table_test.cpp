@@ -16,7 +16,7 @@ Surface surface_of(const Mesh& mesh) {
 }
 
 TEST(ViewTable, DirectionsAreSpreadOverTheSphere) {
-  VERIFIES("LASSO-MOD-111~1");
+  VERIFIES("LASSO-MOD-111~1 LASSO-MDL-019~1");
   const auto directions = spread_directions(kViewCount);
   ASSERT_EQ(directions.size(), kViewCount);
   double worst = 0;
@@ -31,7 +31,7 @@ TEST(ViewTable, DirectionsAreSpreadOverTheSphere) {
 }
 
 TEST(ViewTable, ASpheresCentroidLiesTowardsTheEye) {
-  VERIFIES("LASSO-MOD-111~1");
+  VERIFIES("LASSO-MOD-111~1 LASSO-MDL-019~1");
   const Vec3d shift(0.11, -0.07, 0.05);
   Mesh mesh = shapes::sphere(0.4, 60, 90);
   shapes::move(mesh, shapes::generic_turn(), shift);

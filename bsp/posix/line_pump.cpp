@@ -1,0 +1,49 @@
+#include "bsp/posix/line_pump.hpp"
+
+#include <poll.h>
+
+namespace lasso::posix {
+namespace {
+
+constexpr int kWaitMs = 1;
+
+}  // namespace
+
+LinePump::LinePump(SerialLine& line, lcs::Line& rings) : line_(line), rings_(rings), thread_(&LinePump::work, this) {}
+
+LinePump::~LinePump() {
+  ending_ = true;
+  thread_.join();
+}
+
+void LinePump::work() {
+  while (!ending_ && line_.is_open()) {
+    pollfd state{line_.descriptor(), POLLIN, 0};
+    (void)poll(&state, 1, kWaitMs);
+    receive();
+    send();
+  }
+  send();  // an inhibit that was given last
+  broken_ = !line_.is_open();
+}
+
+void LinePump::receive() {
+  std::uint8_t bytes[1024];
+  const std::size_t room = rings_.from_camera.room() < sizeof bytes ? rings_.from_camera.room() : sizeof bytes;
+  const std::size_t count = line_.read(Bytes(bytes, room));
+  (void)rings_.from_camera.write(ConstBytes(bytes, count));  // there is room: nobody else writes
+}
+
+void LinePump::send() {
+  do {
+    if (unsent_at_ == unsent_size_) {
+      unsent_at_ = 0;
+      unsent_size_ = rings_.to_camera.read(Bytes(unsent_));
+    }
+    const std::size_t taken = line_.write(ConstBytes(unsent_ + unsent_at_, unsent_size_ - unsent_at_));
+    if (taken == 0) return;
+    unsent_at_ += taken;
+  } while (true);
+}
+
+}  // namespace lasso::posix

@@ -1,0 +1,220 @@
+#include "bsp/posix/links.hpp"
+
+#include <arpa/inet.h>
+#include <fcntl.h>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <system_error>
+
+namespace lasso::posix {
+namespace {
+
+struct Place {
+  std::string scheme, host, port;
+};
+
+[[noreturn]] void refuse(const std::string& url, const std::string& why) { throw LinkError(url + ": " + why); }
+
+[[noreturn]] void refuse_errno(const std::string& url, const char* what) {
+  const int error = errno;
+  refuse(url, std::string(what) + ": " + std::generic_category().message(error));
+}
+
+Place place_of(const std::string& url) {
+  const std::size_t scheme = url.find("://");
+  if (scheme == std::string::npos) refuse(url, "no link; one of udp://[HOST]:PORT, tcp://[HOST]:PORT, file://PATH");
+  Place place{url.substr(0, scheme), "", ""};
+  const std::string rest = url.substr(scheme + 3);
+  if (place.scheme == "file") {
+    place.host = rest;
+    return place;
+  }
+  if (place.scheme != "udp" && place.scheme != "tcp") refuse(url, "no link of kind " + place.scheme + "; there are udp, tcp and file");
+  const std::size_t colon = rest.rfind(':');
+  if (colon == std::string::npos) refuse(url, "a port is missing: " + place.scheme + "://[HOST]:PORT");
+  place.host = rest.substr(0, colon);
+  place.port = rest.substr(colon + 1);
+  return place;
+}
+
+sockaddr_in address_of(const std::string& url, const Place& place) {
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  const std::string host = place.host.empty() ? "127.0.0.1" : place.host;
+  if (inet_pton(AF_INET, host.c_str(), &address.sin_addr) != 1) refuse(url, host + " is no numeric IPv4 address");
+  const bool digits = !place.port.empty() && place.port.size() <= 5 && place.port.find_first_not_of("0123456789") == std::string::npos;
+  if (!digits || std::stoul(place.port) > 0xFFFF) refuse(url, "'" + place.port + "' is no port: 0 to 65535");
+  address.sin_port = htons(static_cast<std::uint16_t>(std::stoul(place.port)));
+  return address;
+}
+
+const sockaddr* generic(const sockaddr_in& address) { return reinterpret_cast<const sockaddr*>(&address); }
+sockaddr* generic(sockaddr_in& address) { return reinterpret_cast<sockaddr*>(&address); }
+
+// A descriptor that closes.
+class Descriptor {
+ public:
+  Descriptor() = default;
+  explicit Descriptor(int fd) : fd_(fd) {}
+  ~Descriptor() { close(); }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  void reset(int fd) {
+    close();
+    fd_ = fd;
+  }
+  int get() const { return fd_; }
+  bool open() const { return fd_ >= 0; }
+
+ private:
+  void close() {
+    if (fd_ >= 0) (void)::close(fd_);
+    fd_ = -1;
+  }
+  int fd_ = -1;
+};
+
+void make_socket(const std::string& url, int type, Descriptor& socket) {
+  socket.reset(::socket(AF_INET, type | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+  if (!socket.open()) refuse_errno(url, "no socket");
+}
+
+void bind_to(const std::string& url, const Descriptor& socket, const sockaddr_in& address) {
+  const int yes = 1;
+  (void)setsockopt(socket.get(), SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+  if (::bind(socket.get(), generic(address), sizeof address) != 0) refuse_errno(url, "cannot be bound");
+}
+
+std::string bound_address(const std::string& scheme, const Descriptor& socket) {
+  sockaddr_in address{};
+  socklen_t size = sizeof address;
+  (void)getsockname(socket.get(), generic(address), &size);
+  char host[INET_ADDRSTRLEN] = {};
+  (void)inet_ntop(AF_INET, &address.sin_addr, host, sizeof host);
+  return scheme + "://" + host + ":" + std::to_string(ntohs(address.sin_port));
+}
+
+std::size_t counted(ssize_t result) { return result > 0 ? static_cast<std::size_t>(result) : 0; }
+
+class Udp final : public PosixLink {
+ public:
+  // The component's end listens at the place, the ground's sends to it.
+  Udp(const std::string& url, const sockaddr_in& place, bool listens) : peer_(place), known_(!listens) {
+    make_socket(url, SOCK_DGRAM, socket_);
+    if (listens) bind_to(url, socket_, place);
+  }
+  bool datagrams() const override { return true; }
+  std::size_t read(Bytes out) override {
+    sockaddr_in from{};
+    socklen_t size = sizeof from;
+    const std::size_t taken = counted(recvfrom(socket_.get(), out.data(), out.size(), 0, generic(from), &size));
+    if (taken > 0) peer_ = from;
+    known_ = known_ || taken > 0;
+    return taken;
+  }
+  // While nobody has sent anything, or nobody listens any more, telemetry is lost, as it is on a radio link.
+  std::size_t write(ConstBytes packet) override {
+    if (known_ && sendto(socket_.get(), packet.data(), packet.size(), 0, generic(peer_), sizeof peer_) < 0 && errno == EAGAIN) return 0;
+    return packet.size();
+  }
+  std::string address() const override { return bound_address("udp", socket_); }
+
+ private:
+  Descriptor socket_;
+  sockaddr_in peer_;
+  bool known_;
+};
+
+class Tcp final : public PosixLink {
+ public:
+  Tcp(const std::string& url, const sockaddr_in& place, bool listens) : ever_(!listens) {
+    Descriptor& socket = listens ? listener_ : peer_;
+    make_socket(url, SOCK_STREAM, socket);
+    if (listens) {
+      bind_to(url, socket, place);
+      if (::listen(socket.get(), 1) != 0) refuse_errno(url, "cannot listen");
+      return;
+    }
+    (void)fcntl(socket.get(), F_SETFL, fcntl(socket.get(), F_GETFL) & ~O_NONBLOCK);  // connecting may wait
+    if (::connect(socket.get(), generic(place), sizeof place) != 0) refuse_errno(url, "nobody answers");
+    (void)fcntl(socket.get(), F_SETFL, fcntl(socket.get(), F_GETFL) | O_NONBLOCK);
+  }
+  bool datagrams() const override { return false; }
+  std::size_t read(Bytes out) override {
+    accept_peer();
+    if (!peer_.open()) return 0;
+    const ssize_t result = recv(peer_.get(), out.data(), out.size(), 0);
+    if (result == 0 || (result < 0 && errno != EAGAIN)) peer_.reset(-1);
+    return counted(result);
+  }
+  // As with UDP, what nobody listens to is lost. A peer that has gone takes its packet's rest with it: the next one starts within a packet,
+  // which framing allows for.
+  std::size_t write(ConstBytes packets) override {
+    accept_peer();
+    if (!peer_.open()) return packets.size();
+    const ssize_t result = ::send(peer_.get(), packets.data(), packets.size(), MSG_NOSIGNAL);
+    if (result >= 0 || errno == EAGAIN) return counted(result);
+    peer_.reset(-1);
+    return packets.size();
+  }
+  std::string address() const override { return bound_address("tcp", ever_ ? peer_ : listener_); }
+
+ private:
+  void accept_peer() {
+    if (peer_.open() || !listener_.open()) return;
+    peer_.reset(accept4(listener_.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
+    const int yes = 1;
+    if (peer_.open()) (void)setsockopt(peer_.get(), IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
+  }
+  Descriptor listener_, peer_;
+  bool ever_;  // the ground's end
+};
+
+class File final : public PosixLink {
+ public:
+  explicit File(const std::string& path)
+      : path_(path), commands_(path + ".commands", std::ios::binary), telemetry_(path, std::ios::binary) {
+    if (!telemetry_) refuse("file://" + path, "cannot be written");
+  }
+  bool datagrams() const override { return false; }
+  std::size_t read(Bytes out) override {
+    commands_.read(reinterpret_cast<char*>(out.data()), static_cast<std::streamsize>(out.size()));
+    return static_cast<std::size_t>(commands_.gcount());
+  }
+  std::size_t write(ConstBytes packets) override {
+    telemetry_.write(reinterpret_cast<const char*>(packets.data()), static_cast<std::streamsize>(packets.size())).flush();
+    return packets.size();
+  }
+  std::string address() const override { return "file://" + path_; }
+
+ private:
+  std::string path_;
+  std::ifstream commands_;
+  std::ofstream telemetry_;
+};
+
+std::unique_ptr<PosixLink> open_socket(const std::string& url, bool listens) {
+  const Place place = place_of(url);
+  if (place.scheme == "file") refuse(url, "commands are sent by udp or tcp; a file is written by --out");
+  const sockaddr_in address = address_of(url, place);
+  if (place.scheme == "udp") return std::make_unique<Udp>(url, address, listens);
+  return std::make_unique<Tcp>(url, address, listens);
+}
+
+}  // namespace
+
+std::unique_ptr<PosixLink> open_link(const std::string& url) {
+  const Place place = place_of(url);
+  if (place.scheme == "file") return std::make_unique<File>(place.host);
+  return open_socket(url, true);
+}
+
+std::unique_ptr<PosixLink> connect_link(const std::string& url) { return open_socket(url, false); }
+
+}  // namespace lasso::posix

@@ -1,0 +1,37 @@
+// The link on Linux: UDP, TCP and files.
+#pragma once
+
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+#include "fsw/link/byte_link.hpp"
+
+namespace lasso::posix {
+
+// The link cannot be opened: names it and says why.
+class LinkError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+class PosixLink : public ByteLink {
+ public:
+  PosixLink() = default;
+  virtual ~PosixLink() = default;
+  PosixLink(const PosixLink&) = delete;
+  PosixLink& operator=(const PosixLink&) = delete;
+  // Where it is bound, as an URL that the other end can use.
+  virtual std::string address() const = 0;
+};
+
+// A component's end of a link:
+//   udp://[HOST]:PORT   bound there; telemetry goes to whom the last datagram came from
+//   tcp://[HOST]:PORT   listens there; one ground station at a time, the next one when it has gone
+//   file://PATH         reads commands from PATH.commands, if there is one, and appends telemetry to PATH
+// Without a host the loopback address; a host is a numeric IPv4 address. Port 0: a free one, which address() says. Throws LinkError.
+std::unique_ptr<PosixLink> open_link(const std::string& url);
+// The ground's end of the first two: reads telemetry, writes commands. Throws LinkError.
+std::unique_ptr<PosixLink> connect_link(const std::string& url);
+
+}  // namespace lasso::posix

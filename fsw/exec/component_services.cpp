@@ -1,0 +1,103 @@
+// The commands that are neither of modes nor of starts.
+#include "fsw/exec/component.hpp"
+#include "fsw/link/link_report_rows.hpp"
+
+namespace lasso {
+namespace {
+
+constexpr auto kDisabled = codec_of(link_report_rows::kDisabled);
+
+ServiceRefusal unless(bool done, ServiceRefusal refusal) { return done ? ServiceRefusal::kNone : refusal; }
+
+}  // namespace
+
+bool Component::may_fire(const Command& command) { return command.hazard == Hazard::kNone || arming_.fire(command.name, command.hazard); }
+
+ServiceRefusal Component::serve(const Command& command, TimeUs now_us) {
+  switch (command.kind) {
+    case CommandKind::kPing:
+      send_pong(now_us);
+      break;
+    case CommandKind::kHold:
+      hold_mode(command.hold.held != 0);
+      break;
+    case CommandKind::kEnableEvent:
+      return enable_event(command.event.event, true);
+    case CommandKind::kDisableEvent:
+      return enable_event(command.event.event, false);
+    case CommandKind::kReportDisabled:
+      downlink_.send({kServiceEvent, kSubserviceDisabledEvents}, kDisabled, events_.disabled(), now_us);
+      break;
+    case CommandKind::kArm:
+      return arm(command.armed);
+    case CommandKind::kEnableLaser:
+      return enable_laser();
+    case CommandKind::kInhibitLaser:
+      inhibit_laser();
+      break;
+    case CommandKind::kCorrelateTime:
+      correlate_time(command.time);
+      break;
+    case CommandKind::kReportParameter:
+      return report_parameter(command.parameter.parameter, now_us);
+    case CommandKind::kSetParameter:
+      return set_parameter(command.parameter);
+    case CommandKind::kRevertParameters:
+      revert_parameters();
+      break;
+    case CommandKind::kBeginImage:
+    case CommandKind::kCheckImage:
+    case CommandKind::kActivateImage:
+    case CommandKind::kRollBackImage:
+    case CommandKind::kLoadMemory:
+    case CommandKind::kDumpMemory:
+    case CommandKind::kCheckMemory:
+      return serve_memory(command, now_us);
+    default:
+      return serve_structure(command.kind, command.structure);
+  }
+  return ServiceRefusal::kNone;
+}
+
+ServiceRefusal Component::serve_structure(CommandKind kind, const StructureCommand& command) {
+  bool exists = true;
+  if (kind == CommandKind::kReportStructure) exists = housekeeping_.ask(command.structure);
+  if (kind == CommandKind::kStructurePeriod) exists = housekeeping_.set_period(command.structure, command.period_frames);
+  if (kind == CommandKind::kEnableStructure) exists = housekeeping_.set_enabled(command.structure, true);
+  if (kind == CommandKind::kDisableStructure) exists = housekeeping_.set_enabled(command.structure, false);
+  return unless(exists, ServiceRefusal::kNoSuchStructure);
+}
+
+ServiceRefusal Component::enable_event(std::uint16_t event, bool enabled) {
+  return unless(events_.set_enabled(event, enabled), ServiceRefusal::kNoSuchEvent);
+}
+
+ServiceRefusal Component::arm(const CommandName& name) {
+  if (!is_hazardous(name)) return ServiceRefusal::kNotHazardous;
+  arming_.arm(name);
+  events_.raise<EventId::kCommandArmed>(name.service, name.subservice, name.number);
+  return ServiceRefusal::kNone;
+}
+
+ServiceRefusal Component::enable_laser() {
+  if (track_.mode == TrackingMode::kSafe || safe_requested()) return ServiceRefusal::kModeSafe;
+  acquisition_.permit_laser(true);
+  laser_enabled_ = true;
+  events_.raise<EventId::kLaserEnabled>();
+  return ServiceRefusal::kNone;
+}
+
+// What is armed may be the laser.
+void Component::inhibit_laser() {
+  arming_.disarm();
+  acquisition_.permit_laser(false);
+  if (laser_enabled_) events_.raise<EventId::kLaserInhibited>();
+  laser_enabled_ = false;
+}
+
+void Component::correlate_time(const TimeCommand& time) {
+  downlink_.correlate_time(time.spacecraft_us - time.component_us);
+  events_.raise<EventId::kTimeCorrelated>(downlink_.time_offset_us());
+}
+
+}  // namespace lasso

@@ -1,0 +1,62 @@
+// The camera in a program of its own: mdat lcs-sim, and mdat run over a line of this machine, in real time.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "ft/mdat/command.hpp"
+#include "ut/support/verifies.hpp"
+
+namespace lasso::ft {
+namespace {
+
+// A shell that keeps the camera running, waits until it listens, runs `run` against $line, and ends the camera by its own number.
+std::string with_camera(const std::string& listen, const std::string& run) {
+  return "--version; '" MDAT_PROGRAM "' lcs-sim missions/test.toml --listen " + listen +
+         " >camera.txt 2>&1 & camera=$!; "
+         "for i in $(seq 300); do grep -qs 'listens on' camera.txt && break; sleep 0.1; done; "
+         "line=$(sed -n 's/^the camera listens on //p' camera.txt); " +
+         run + " >run.txt 2>&1; code=$?; kill $camera; wait $camera; exit $code";
+}
+
+class LcsSim : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(LcsSim, IsTrackedOverALineOfThisMachine) {
+  VERIFIES("LASSO-SIM-031~1 LASSO-GND-024~1 LASSO-LCS-017~1");
+  const WorkFolder folder;
+  const std::string run =
+      "'" MDAT_PROGRAM "' run missions/test.toml --scenario spin --frames 12 --no-report --out run --sensor lcs-wire:$line";
+  const Answer answer = folder.mdat(with_camera(GetParam(), run));
+  ASSERT_EQ(answer.exit_code, 0) << folder.read("run.txt") << folder.read("camera.txt");
+  const nlohmann::json results = nlohmann::json::parse(folder.read("run/results.json")).at("noisy");
+  EXPECT_EQ(results.at("frames"), 12);
+  EXPECT_EQ(results.at("wrong"), 0);
+  EXPECT_LE(results.at("lost").get<int>(), 6) << "a machine with other work may be late at times";
+  EXPECT_LT(results.at("rms_mm").get<double>(), 2);
+  EXPECT_NE(folder.read("camera.txt").find("the client has gone"), std::string::npos);
+}
+INSTANTIATE_TEST_SUITE_P(All, LcsSim, ::testing::Values("tcp://127.0.0.1:0", "unix:line", "pty"),
+                         [](const auto& one) { return std::string(one.param).substr(0, 3); });
+
+TEST(LcsSimRefusals, SayWhichLineAndWhy) {
+  VERIFIES("LASSO-LCS-017~1");
+  const WorkFolder folder;
+  const std::pair<const char*, const char*> cases[] = {
+      {"run missions/test.toml --scenario spin --sensor lcs-wire:./none", "./none: not there"},
+      {"run missions/test.toml --scenario spin --sensor lcs-wire:unix:none", "unix:none: not there"},
+      {"run missions/test.toml --scenario spin --sensor lcs-wire:tcp://192.0.2.1:9", "--remote"},
+      {"run missions/test.toml --scenario spin --sensor lcs-wire:", "--sensor"},
+      {"run missions/test.toml --sensor lcs-wire:unix:none", "a scenario of one range"},
+      {"lcs-sim missions/test.toml --listen tcp://0.0.0.0:0", "--remote"},
+      {"lcs-sim missions/test.toml --listen somewhere", "expected pty, tcp://127.0.0.1:PORT or unix:PATH"},
+      {"lcs-sim missions/none.toml", "none.toml"},
+  };
+  for (const auto& [command, why] : cases) {
+    const Answer answer = folder.mdat(command);
+    EXPECT_EQ(answer.exit_code, 2) << command;
+    EXPECT_NE(answer.err.find(why), std::string::npos) << answer.err;
+  }
+}
+
+}  // namespace
+}  // namespace lasso::ft

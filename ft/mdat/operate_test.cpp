@@ -1,0 +1,122 @@
+// A component in a real-time run, commanded from outside by mdat command, over UDP and TCP, and by a file.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "ft/mdat/command.hpp"
+#include "ut/support/verifies.hpp"
+
+namespace lasso::ft {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// A run in the background, until it says where it can be reached.
+class LiveRun {
+ public:
+  LiveRun(const WorkFolder& work, const std::string& link, const std::string& frames) : work_(work) {
+    thread_ = std::thread([this, link, frames] {
+      answer_ = work_.mdat("run missions/test.toml --scenario spin --no-report --out run --frames " + frames + " --link " + link);
+    });
+  }
+  ~LiveRun() {
+    if (thread_.joinable()) thread_.join();
+  }
+  LiveRun(const LiveRun&) = delete;
+  LiveRun& operator=(const LiveRun&) = delete;
+  Answer wait() {
+    thread_.join();
+    return answer_;
+  }
+
+ private:
+  const WorkFolder& work_;
+  Answer answer_;
+  std::thread thread_;
+};
+
+int free_port(int seed) { return 20000 + seed % 20000; }
+
+// Until the run listens.
+Answer first_answer(const WorkFolder& work, const std::string& command) {
+  Answer answer;
+  for (int i = 0; i < 100; ++i) {
+    answer = work.mdat(command);
+    if (answer.exit_code == 0) break;
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+  return answer;
+}
+
+TEST(Operate, AnOperatorCommandsARunningComponent) {
+  VERIFIES("LASSO-LNK-026~2 LASSO-GND-021~1 LASSO-LNK-017~1 LASSO-LNK-022~1");
+  const WorkFolder work;
+  int seed = static_cast<int>(std::chrono::system_clock::now().time_since_epoch().count() / 1000 % 20000);
+  for (const std::string scheme : {"udp", "tcp"}) {
+    const std::string url = scheme + "://127.0.0.1:" + std::to_string(free_port(seed += 37));
+    LiveRun run(work, url, "40");
+    const Answer ping = first_answer(work, "command ping --to " + url);
+    ASSERT_EQ(ping.exit_code, 0) << ping.err;
+    EXPECT_NE(ping.out.find("pong"), std::string::npos);
+    const Answer unarmed = work.mdat("command enable_laser --to " + url);
+    EXPECT_EQ(unarmed.exit_code, 1);
+    EXPECT_NE(unarmed.out.find("not_armed"), std::string::npos) << unarmed.out;
+    const Answer armed = work.mdat("command enable_laser --arm --to " + url);
+    EXPECT_EQ(armed.exit_code, 0) << armed.out << armed.err;
+    const Answer standby = work.mdat("command set_mode mode=standby --wait 3 --to " + url);
+    EXPECT_EQ(standby.exit_code, 0) << standby.err;
+    const Answer over = run.wait();
+    EXPECT_EQ(over.exit_code, 0) << over.err;
+    const Json packets = Json::parse(work.mdat("decode run/telemetry.ccsds --format json").out).at("packets");
+    std::string story;
+    for (const Json& packet : packets) {
+      const std::string name = packet.at("packet");
+      if (name == "mode_changed") story += packet.at("items").at("to").get<std::string>() + " ";
+      if (name == "pong" || name == "command_failed" || name == "laser_enabled") story += name + " ";
+    }
+    const std::size_t failed = story.find("command_failed"), enabled = story.find("laser_enabled"), standby_at = story.find("standby");
+    EXPECT_TRUE(failed < enabled && enabled < standby_at && standby_at != std::string::npos) << story;
+  }
+}
+
+TEST(Operate, CommandsGoToAFileAndARunReadsThem) {
+  VERIFIES("LASSO-LNK-026~2 LASSO-GND-021~1");
+  const WorkFolder work;
+  EXPECT_EQ(work.mdat("command set_mode mode=standby --count 3 --out tm.commands").exit_code, 0);
+  const std::string decoded = work.mdat("decode --commands tm.commands").out;
+  EXPECT_NE(decoded.find("set_mode   #3"), std::string::npos) << decoded;
+  const Answer run =
+      work.mdat("run missions/test.toml --scenario spin --no-report --out run --frames 3 --link file://" + (work / "tm").string());
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(work.read("tm"), work.read("run/telemetry.ccsds"));
+  EXPECT_NE(work.mdat("decode tm").out.find("completed"), std::string::npos);
+}
+
+TEST(Operate, WhatIsWrongIsNamed) {
+  VERIFIES("LASSO-GND-021~1");
+  const WorkFolder work;
+  for (const auto& [arguments, said] : std::vector<std::pair<std::string, std::string>>{
+           {"command set_mod --to udp://:1", "set_mod: no command of the dictionary; there is set_mode"},
+           {"command set_mode mode=standby --to udp://x:1", "x is no numeric IPv4 address"},
+           {"command set_mode --out x", "set_mode: mode is missing"},
+           {"command set_mode mode --out x", "'mode': an item and its value are written NAME=VALUE"},
+           {"command ping --arm --out x", "ping: is not hazardous"},
+           {"command ping --out x --to udp://:1", "--to or --out, not both"},
+           {"command", "which one? mdat command --list shows all"},
+           {"run missions/test.toml --link udp://:x", "--link udp://:x: 'x' is no port"}}) {
+    const Answer answer = work.mdat(arguments);
+    EXPECT_EQ(answer.exit_code, 2) << arguments;
+    EXPECT_NE(answer.err.find(said), std::string::npos) << answer.err;
+  }
+  const Answer silent = work.mdat("command ping --wait 0.2 --to udp://127.0.0.1:9");
+  EXPECT_EQ(silent.exit_code, 1);
+  EXPECT_NE(silent.err.find("no answer within"), std::string::npos) << silent.err;
+  EXPECT_NE(work.mdat("command --list").out.find("offer_start"), std::string::npos);
+  EXPECT_NE(work.mdat("command set_hold").out.find("held"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace lasso::ft

@@ -1,0 +1,65 @@
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <memory>
+
+#include "mdat/cli/commands.hpp"
+#include "mdat/common/errors.hpp"
+#include "mdat/missiondb/calibration_file.hpp"
+#include "mdat/missiondb/camera_faults.hpp"
+#include "mdat/run/camera.hpp"
+#include "mdat/run/simulation.hpp"
+
+namespace lasso::mdat {
+namespace {
+
+struct Options {
+  std::string mission, listen = "tcp://127.0.0.1:0", camera_faults, optics;
+  bool remote = false;
+  SimulationOptions simulation;
+};
+
+std::atomic<bool> ending{false};
+static_assert(std::atomic<bool>::is_always_lock_free, "set by a signal");
+void end(int) { ending = true; }
+
+void say(const std::string& text) {
+  std::printf("%s\n", text.c_str());
+  std::fflush(stdout);
+}
+
+void serve(Options options) {
+  posix::LineServer server;
+  const std::string wrong = server.listen(options.listen, options.remote);
+  if (!wrong.empty()) throw InputError("--listen: " + wrong);
+  const CompiledMission mission = compile_mission(options.mission);
+  const std::unique_ptr<sim::RayCaster> target = make_target(mission.mesh);
+  if (!options.camera_faults.empty()) options.simulation.camera_faults = load_camera_faults(options.camera_faults);
+  if (!options.optics.empty()) options.simulation.camera_optics = load_calibration(options.optics);
+  const CaseSetup setup = camera_case(mission, options.simulation, *target);
+  std::signal(SIGINT, end);
+  std::signal(SIGTERM, end);
+  say("the camera listens on " + server.address());
+  serve_camera(setup, server, ending, say);
+}
+
+}  // namespace
+
+void add_lcs_sim_command(CLI::App& app) {
+  const auto options = std::make_shared<Options>();
+  options->simulation.scenario = "spin";
+  CLI::App* command = app.add_subcommand(
+      "lcs-sim", "run the simulated laser camera alone, in real time, for whoever speaks its protocol (docs/icd/lcs.md)");
+  command->add_option("MISSION", options->mission, "mission file")->required();
+  command->add_option("--listen", options->listen, "pty, tcp://127.0.0.1:PORT (0: any that is free) or unix:PATH")->capture_default_str();
+  command->add_flag("--remote", options->remote, "others than this machine may connect");
+  command->add_option("--scenario", options->simulation.scenario, "scenario of the mission: what moves in front of the camera")
+      ->capture_default_str();
+  command->add_option("--seed", options->simulation.seed, "start of the random numbers (the scenario's)")
+      ->check(CLI::Range(std::int64_t{0}, std::int64_t{4294967295}));
+  command->add_option("--camera-optics", options->optics, "what its optics are (a calibration file)");
+  command->add_option("--camera-faults", options->camera_faults, "script of what goes wrong (docs/user-guide.md)");
+  command->callback([options] { serve(*options); });
+}
+
+}  // namespace lasso::mdat

@@ -1,0 +1,18 @@
+// A laser camera's calibration as a file (TOML): what `mdat calibrate` writes, and runs read. Every key is that of lcs::Calibration.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "hal_lcs/triangulation.hpp"
+
+namespace lasso::mdat {
+
+// Throws MissionError with all problems: a key that is missing or unknown, a value out of its range; a table that is singular, or that
+// describes no volume (lcs::validate).
+lcs::Calibration load_calibration(const std::filesystem::path& file);
+
+// The file's text; numbers read back to the same bits.
+std::string calibration_text(const lcs::Calibration& calibration);
+
+}  // namespace lasso::mdat

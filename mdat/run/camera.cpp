@@ -1,0 +1,127 @@
+#include "mdat/run/camera.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+
+#include "mdat/common/errors.hpp"
+
+namespace lasso::mdat {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr std::chrono::microseconds kStep(500);
+
+posix::SerialLine opened(const CaseSetup& setup, double bits_per_s) {
+  posix::SerialLine line;
+  const std::string wrong = line.open(setup.camera_line, static_cast<unsigned>(bits_per_s), setup.remote_line);
+  if (!wrong.empty()) throw InputError("--sensor lcs-wire: " + wrong);
+  return line;
+}
+
+// The scenario's motion, which waits for its beginning.
+class AwaitedTrajectory final : public sim::Trajectory {
+ public:
+  explicit AwaitedTrajectory(std::unique_ptr<sim::Trajectory> motion) : motion_(std::move(motion)) {}
+  sim::TruthState at(TimeUs t_us) const override { return motion_->at(begun_ ? t_us - begin_us_ + kEpochUs : kEpochUs); }
+  void begin(TimeUs now_us) {
+    if (!begun_) begin_us_ = now_us;
+    begun_ = true;
+  }
+
+ private:
+  std::unique_ptr<sim::Trajectory> motion_;
+  TimeUs begin_us_ = 0;
+  bool begun_ = false;
+};
+
+// A camera and its client, from the client's first byte until it goes.
+class Session {
+ public:
+  Session(const CaseSetup& setup, posix::SerialLine line)
+      : line_(std::move(line)),
+        motion_(make_trajectory(setup.scenario, setup.range_m, kEpochUs, period_us(setup.parameters))),
+        device_(*setup.target, motion_, scanner_model(setup.scenario, setup.parameters, setup.noise), setup.seed,
+                camera_for(setup, scanner_model(setup.scenario, setup.parameters, setup.noise))) {}
+
+  void run(const std::atomic<bool>& ending) {
+    const Clock::time_point begin = Clock::now();
+    while (line_.is_open() && !ending) {
+      step(kEpochUs + std::chrono::duration_cast<std::chrono::microseconds>(Clock::now() - begin).count());
+      std::this_thread::sleep_for(kStep);
+    }
+  }
+
+ private:
+  void look_for_a_start(ConstBytes bytes, TimeUs now_us) {
+    lcs::Frame frame;
+    for (lcs::FrameDecoder::Step step = decoder_.step(bytes, frame); step.found; step = decoder_.step(bytes, frame)) {
+      bytes = bytes.subspan(step.taken, bytes.size() - step.taken);
+      if (frame.type == static_cast<std::uint8_t>(lcs::Type::kStart)) motion_.begin(now_us);
+    }
+  }
+
+  void step(TimeUs now_us) {
+    std::uint8_t bytes[1024];
+    const std::size_t room = std::min(rings_.to_camera.room(), sizeof bytes);
+    device_.run(now_us, rings_);
+    const ConstBytes heard(bytes, line_.read(Bytes(bytes, room)));
+    static_cast<void>(rings_.to_camera.write(heard));
+    look_for_a_start(heard, now_us);
+    device_.listen(now_us, rings_);
+    for (std::size_t taken = 1; taken > 0;) {
+      if (at_ == size_) {
+        at_ = 0;
+        size_ = rings_.from_camera.read(Bytes(unsent_));
+      }
+      taken = line_.write(ConstBytes(unsent_ + at_, size_ - at_));
+      at_ += taken;
+    }
+  }
+
+  posix::SerialLine line_;
+  AwaitedTrajectory motion_;
+  lcs::FrameDecoder decoder_;
+  sim::LcsDevice device_;
+  lcs::Line rings_;
+  std::uint8_t unsent_[1024] = {};
+  std::size_t at_ = 0, size_ = 0;
+};
+
+}  // namespace
+
+sim::LcsCamera camera_for(const CaseSetup& setup, const sim::ScannerModel& model) {
+  sim::LcsCamera camera;
+  camera.truth.serial = 1;
+  if (setup.camera_optics) camera.truth = *setup.camera_optics;
+  camera.temperature_degC = static_cast<float>(setup.camera_degC);
+  camera.truth.angle_max_rad = std::max({camera.truth.angle_max_rad, model.fov_half_x_rad, model.fov_half_y_rad});
+  camera.faults = setup.camera_faults;
+  for (sim::LcsFault& fault : camera.faults) {
+    fault.from_us += kEpochUs;
+    fault.until_us += kEpochUs;
+  }
+  return camera;
+}
+
+LiveCamera::LiveCamera(const CaseSetup& setup, const sim::ScannerModel& model)
+    : driver(rings, setup.calibration.value_or(camera_for(setup, model).truth)), line(opened(setup, rings.bits_per_s)), pump(line, rings) {}
+
+LiveCamera::~LiveCamera() { driver.permit_laser(false); }
+
+void serve_camera(const CaseSetup& setup, posix::LineServer& server, const std::atomic<bool>& ending,
+                  const std::function<void(const std::string&)>& told) {
+  while (!ending) {
+    posix::SerialLine line;
+    if (!server.accept(line)) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      continue;
+    }
+    told("a client has come");
+    Session session(setup, std::move(line));
+    session.run(ending);
+    told("the client has gone");
+  }
+}
+
+}  // namespace lasso::mdat

@@ -1,0 +1,46 @@
+// The laser camera of a run: simulated at the other end of a line in simulated time, or reached over a line of this machine in real time.
+#pragma once
+
+#include <string>
+
+#include "bsp/posix/line_pump.hpp"
+#include "bsp/posix/serial_line.hpp"
+#include "hal_lcs/driver.hpp"
+#include "hal_sim/lcs_device.hpp"
+#include "mdat/run/case.hpp"
+
+namespace lasso::mdat {
+
+// The camera of a case; its optics are those that its driver takes them to be.
+sim::LcsCamera camera_for(const CaseSetup& setup, const sim::ScannerModel& model);
+
+// A laser camera that sees what its scanner model does, at the end of its line.
+struct CameraOnLine {
+  CameraOnLine(const CaseSetup& setup, const sim::Trajectory& trajectory, const sim::ScannerModel& model, std::uint64_t seed)
+      : camera(camera_for(setup, model)),
+        device(*setup.target, trajectory, model, seed, camera),
+        line(device, setup.calibration.value_or(camera.truth), camera.bits_per_s) {}
+
+  sim::LcsCamera camera;
+  sim::LcsDevice device;
+  sim::LcsOverLine line;
+};
+
+// The driver of a camera that is reached over a line of this machine (bsp/posix/serial_line.hpp).
+struct LiveCamera {
+  // Throws InputError with the line's reason.
+  LiveCamera(const CaseSetup& setup, const sim::ScannerModel& model);
+  ~LiveCamera();
+
+  lcs::Line rings;
+  lcs::Driver driver;
+  posix::SerialLine line;
+  posix::LinePump pump;
+};
+
+// Runs the case's camera alone, in real time, for one client of `server` after the other, until `ending`. Frame 0 of the scenario begins
+// with a client's first start of a scan; each client finds the camera as after a boot. Says in `told` who comes and goes.
+void serve_camera(const CaseSetup& setup, posix::LineServer& server, const std::atomic<bool>& ending,
+                  const std::function<void(const std::string&)>& told);
+
+}  // namespace lasso::mdat

@@ -1,0 +1,201 @@
+// Services by the link alone: hazardous commands, housekeeping, time.
+#include <algorithm>
+#include <utility>
+
+#include "ut/exec/component_operator.hpp"
+
+namespace lasso {
+namespace {
+
+using test::events_of;
+using test::Link;
+using test::Packet;
+using test::refusal_of;
+using test::Stream;
+using test::told;
+
+std::uint8_t number(ServiceRefusal refusal) { return static_cast<std::uint8_t>(refusal); }
+
+std::size_t poses(const std::vector<Packet>& packets) {
+  return static_cast<std::size_t>(std::count_if(
+      packets.begin(), packets.end(), [](const Packet& packet) { return packet.is(3, 25) && packet.data[1] == kPoseStructureId; }));
+}
+
+TEST(ComponentServices, TheLaserIsInhibitedUntilItIsArmedAndEnabled) {
+  VERIFIES("LASSO-LNK-017~1 LASSO-LCS-006~1");
+  Link link;
+  EXPECT_FALSE(link.scene.sensor.laser_permitted) << "from the start";
+  link.send(test::plain_packet(CommandKind::kEnableLaser, 1));
+  EXPECT_EQ(refusal_of(link.answers()), number(ServiceRefusal::kNotArmed));
+  EXPECT_FALSE(link.scene.sensor.laser_permitted);
+  link.send(test::arm(CommandKind::kEnableLaser, 2));
+  EXPECT_EQ(refusal_of(link.answers()), 0);
+  EXPECT_FALSE(link.scene.sensor.laser_permitted) << "armed, not fired";
+  const std::vector<Packet> frame = link.run_frame();
+  EXPECT_TRUE(told(frame, EventId::kCommandArmed));
+  EXPECT_EQ(link.pose_of(frame).scan_id, 0u);
+  link.send(test::plain_packet(CommandKind::kEnableLaser, 3));
+  EXPECT_EQ(refusal_of(link.answers()), 0);
+  EXPECT_TRUE(link.scene.sensor.laser_permitted);
+  EXPECT_TRUE(told(link.run_frame(), EventId::kLaserEnabled));
+  link.send(test::plain_packet(CommandKind::kInhibitLaser, 4));
+  EXPECT_FALSE(link.scene.sensor.laser_permitted) << "at once, and unarmed";
+  EXPECT_TRUE(told(link.run_frame(), EventId::kLaserInhibited));
+  link.send(test::plain_packet(CommandKind::kInhibitLaser, 5));
+  EXPECT_FALSE(told(link.run_frame(), EventId::kLaserInhibited)) << "it was";
+  link.send(test::plain_packet(CommandKind::kEnableLaser, 6));
+  EXPECT_EQ(refusal_of(link.answers()), number(ServiceRefusal::kNotArmed)) << "an arm serves once";
+}
+
+TEST(ComponentServices, ModeSafeKeepsTheLaserDark) {
+  VERIFIES("LASSO-HLT-002~1 LASSO-LNK-017~1");
+  Link link;
+  link.send(test::arm(CommandKind::kEnableLaser, 0));
+  link.send(test::set_mode(static_cast<std::uint8_t>(TrackingMode::kSafe), 1));
+  link.send(test::arm(CommandKind::kEnableLaser, 2));
+  link.answers();
+  link.send(test::plain_packet(CommandKind::kEnableLaser, 3));
+  EXPECT_EQ(refusal_of(link.answers()), number(ServiceRefusal::kModeSafe)) << "asked for in this frame";
+  link.send(test::arm(CommandKind::kEnableLaser, 4));
+  link.run_frame();
+  link.answers();
+  link.send(test::plain_packet(CommandKind::kEnableLaser, 5));
+  EXPECT_EQ(refusal_of(link.answers()), number(ServiceRefusal::kNotArmed)) << "making safe disarms";
+  link.send(test::arm(CommandKind::kEnableLaser, 6));
+  link.answers();
+  link.send(test::plain_packet(CommandKind::kEnableLaser, 7));
+  EXPECT_EQ(refusal_of(link.answers()), number(ServiceRefusal::kModeSafe));
+  EXPECT_FALSE(link.scene.sensor.laser_permitted);
+}
+
+TEST(ComponentServices, AnArmThatIsNotUsedExpiresAndSaysSo) {
+  VERIFIES("LASSO-LNK-017~1");
+  Link link;
+  link.send(test::arm(CommandKind::kEnableLaser, 0));
+  int expired_at = -1;
+  for (int frame = 0; frame < 60; ++frame) {
+    if (told(link.run_frame(), EventId::kArmExpired)) expired_at = frame;
+  }
+  EXPECT_EQ(expired_at, static_cast<int>(kArmFrames) - 1);
+  link.send(test::plain_packet(CommandKind::kEnableLaser, 1));
+  EXPECT_EQ(refusal_of(link.answers()), number(ServiceRefusal::kNotArmed));
+  link.send(test::arm(CommandKind::kPing, 2));
+  EXPECT_EQ(refusal_of(link.answers()), number(ServiceRefusal::kNotHazardous));
+}
+
+TEST(ComponentServices, TheLinkStructureSaysWhatIsArmedAndEnabled) {
+  VERIFIES("LASSO-LNK-017~1");
+  Link link;
+  const auto link_of = [&] {
+    LinkTelemetry telemetry;
+    for (const Packet& packet : link.run_frame()) {
+      if (!packet.is(3, 25) || packet.data[1] != kLinkStructureId) continue;
+      ByteReader in(test::view(packet.data));
+      in.u16();
+      codec_of(link_report_rows::kLink).read(in, telemetry);
+    }
+    return telemetry;
+  };
+  link.send(test::arm(CommandKind::kEnableLaser, 0));
+  EXPECT_EQ(link_of().armed, 1);
+  link.send(test::plain_packet(CommandKind::kEnableLaser, 1));
+  const LinkTelemetry after = link_of();
+  EXPECT_EQ(after.armed, 0);
+  EXPECT_EQ(after.laser_enabled, 1);
+  EXPECT_EQ(after.accepted_commands, 2u);
+}
+
+TEST(ComponentServices, StructuresAreDisabledEnabledGivenAPeriodAndAskedForOnce) {
+  VERIFIES("LASSO-LNK-014~1");
+  Link link;
+  const auto frames_with_poses = [&](int frames) {
+    std::string sent;
+    for (int frame = 0; frame < frames; ++frame) sent += poses(link.run_frame()) == 1 ? '1' : '0';
+    return sent;
+  };
+  EXPECT_EQ(frames_with_poses(6), "001111");
+  link.send(test::set_period(kPoseStructureId, 5, 0));
+  EXPECT_EQ(frames_with_poses(12), "000010000100");
+  link.send(test::of_structure(CommandKind::kDisableStructure, kPoseStructureId, 1));
+  EXPECT_EQ(frames_with_poses(6), "000000");
+  link.send(test::of_structure(CommandKind::kReportStructure, kPoseStructureId, 2));
+  EXPECT_EQ(frames_with_poses(3), "100");
+  link.send(test::set_period(kPoseStructureId, 1, 3));
+  link.send(test::of_structure(CommandKind::kEnableStructure, kPoseStructureId, 4));
+  EXPECT_EQ(frames_with_poses(3), "111");
+  link.send(test::of_structure(CommandKind::kReportStructure, 0, 5));
+  link.answers();
+  link.send(test::set_period(0, 5, 6));
+  EXPECT_EQ(refusal_of(link.answers()), number(ServiceRefusal::kNoSuchStructure));
+}
+
+// Everything at its presets, an event and an answer in each frame.
+TEST(ComponentServices, TheWholeStreamFits64KilobitsASecond) {
+  VERIFIES("LASSO-LNK-031~1");
+  Link link;
+  std::size_t bytes = 0, fewer = 0;
+  for (std::uint16_t frame = 0; frame < 50; ++frame) {
+    link.send(test::set_mode(99, frame));
+    for (const Packet& packet : link.run_frame()) bytes += packet.data.size() + 22;
+  }
+  EXPECT_GT(bytes, 48U * 751);
+  EXPECT_LE(bytes * 8, 64000U * 10) << "50 frames of 0.2 s";
+  link.send(test::set_period(kPoseStructureId, 5, 100));
+  for (int frame = 0; frame < 50; ++frame) {
+    for (const Packet& packet : link.run_frame()) fewer += packet.data.size() + 22;
+  }
+  EXPECT_LT(fewer * 4, bytes) << "the rate is selectable";
+}
+
+TEST(ComponentServices, APoseIsReportedInStandbyWhenAskedFor) {
+  VERIFIES("LASSO-LNK-014~1");
+  Link link;
+  link.send(test::set_mode(static_cast<std::uint8_t>(TrackingMode::kStandby), 0));
+  link.send(test::of_structure(CommandKind::kReportStructure, kPoseStructureId, 1));
+  EXPECT_EQ(poses(link.run_frame()), 1u) << "before any scan";
+  for (int frame = 0; frame < 3; ++frame) link.run_frame();
+  EXPECT_EQ(poses(link.run_frame()), 0u);
+  link.send(test::of_structure(CommandKind::kReportStructure, kPoseStructureId, 2));
+  const std::vector<Packet> frame = link.run_frame();
+  ASSERT_EQ(poses(frame), 1u);
+  EXPECT_EQ(link.pose_of(frame).scan_id, 3u) << "the number of the scan that would be due";
+}
+
+TEST(ComponentServices, PosesThatAreNotSentCountAndTheirChangesAreEvents) {
+  VERIFIES("LASSO-LNK-014~1 LASSO-MOD-172~1");
+  Link link;
+  link.send(test::of_structure(CommandKind::kDisableStructure, kPoseStructureId, 0));
+  std::size_t changes = 0;
+  std::uint16_t count = 1;
+  for (int frame = 0; frame < 40; ++frame) {  // more changes than a packet could tell
+    const TrackingMode mode = frame % 2 == 0 ? TrackingMode::kBearing : TrackingMode::kStandby;
+    link.send(test::set_mode(static_cast<std::uint8_t>(mode), count++));
+    const std::vector<Packet> packets = link.run_frame();
+    EXPECT_EQ(poses(packets), 0u);
+    for (const Stream& event : events_of(packets)) changes += event[1] == 2 ? 1U : 0U;
+  }
+  EXPECT_GE(changes, 39u);
+}
+
+TEST(ComponentServices, HeadersStateSpacecraftTimeOnceItIsCorrelated) {
+  VERIFIES("LASSO-LNK-037~1");
+  Link link;
+  link.run_frame();
+  link.send(test::correlate_time(0, 86400000000, 0));
+  link.answers();
+  const std::vector<Packet> packets = link.run_frame();
+  ASSERT_TRUE(told(packets, EventId::kTimeCorrelated));
+  for (const Packet& packet : packets) {
+    EXPECT_EQ(packet.header.t_us, 86400000000 + 200000);
+    EXPECT_EQ(packet.header.time_status, kTimeStatusCorrelated);
+  }
+  const TimeUs jumped_us = link.component().next_slot_us() + 60'000'000;
+  link.component().run_slot(jumped_us);
+  for (const Packet& packet : link.answers()) {
+    EXPECT_EQ(packet.header.t_us, jumped_us) << "a clock that jumped is correlated with nothing";
+    EXPECT_EQ(packet.header.time_status, 0);
+  }
+}
+
+}  // namespace
+}  // namespace lasso

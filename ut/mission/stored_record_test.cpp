@@ -1,0 +1,134 @@
+#include "fsw/mission/stored_record.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "fsw/core/crc.hpp"
+#include "ut/support/ram_store.hpp"
+#include "ut/support/verifies.hpp"
+
+namespace lasso {
+namespace {
+
+constexpr StoreArea kA = StoreArea::kParameters0, kB = StoreArea::kParameters1;
+
+std::vector<std::uint8_t> record(std::uint8_t seed) {
+  std::vector<std::uint8_t> bytes(300);
+  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<std::uint8_t>(seed + 7 * i);
+  return bytes;
+}
+ConstBytes view(const std::vector<std::uint8_t>& bytes) { return {bytes.data(), bytes.size()}; }
+Status save(Store& store, std::uint8_t seed) { return save_record(store, kA, kB, view(record(seed))); }
+std::vector<std::uint8_t> load(Store& store) {
+  std::vector<std::uint8_t> bytes(300);
+  if (load_record(store, kA, kB, Bytes(bytes.data(), bytes.size())) != Status::kOk) bytes.clear();
+  return bytes;
+}
+
+TEST(StoredRecord, TheNewerOneCounts) {
+  VERIFIES("LASSO-IMG-015~1");
+  test::RamStore store(64);
+  EXPECT_EQ(newer_of(store, kA, kB), Newer::kNone);
+  EXPECT_TRUE(load(store).empty());
+  for (std::uint8_t seed = 1; seed < 6; ++seed) {
+    ASSERT_EQ(save(store, seed), Status::kOk);
+    EXPECT_EQ(load(store), record(seed));
+  }
+  EXPECT_NE(newer_of(store, kA, kB), Newer::kNone);
+}
+
+// The header byte by byte.
+TEST(StoredRecord, IsHeadedAsDescribed) {
+  VERIFIES("LASSO-IMG-015~1");
+  test::RamStore store(64);
+  ASSERT_EQ(write_header(store, kA, {0x01020304, 300, 0x0A0B0C0D}), Status::kOk);
+  const std::uint8_t expected[] = {0x33, 0x4C, 0x53, 0x54, 1, 2, 3, 4, 0, 0, 1, 0x2C, 0x0A, 0x0B, 0x0C, 0x0D};
+  for (std::size_t i = 0; i < sizeof expected; ++i) EXPECT_EQ(store.of(kA)[i], expected[i]) << i;
+  const std::uint32_t sum = crc32c(ConstBytes(expected));
+  EXPECT_EQ(store.of(kA)[16], sum >> 24);
+  EXPECT_EQ(store.of(kA)[19], sum & 0xFF);
+  StoredHeader header;
+  ASSERT_EQ(read_header(store, kA, header), Status::kOk);
+  EXPECT_EQ(header.sequence, 0x01020304U);
+  EXPECT_EQ(header.crc, 0x0A0B0C0DU);
+  ASSERT_EQ(clear_header(store, kA), Status::kOk);
+  EXPECT_EQ(read_header(store, kA, header), Status::kNoData);
+}
+
+// Power fails behind each byte of the writing: what is loaded then is the old record or the new one, and the old one until the last byte.
+TEST(StoredRecord, APowerLossAnywhereLeavesTheOldOneOrTheNewOne) {
+  VERIFIES("LASSO-IMG-015~1");
+  test::RamStore before(64);
+  ASSERT_EQ(save(before, 1), Status::kOk);
+  ASSERT_EQ(save(before, 2), Status::kOk);
+  test::RamStore whole = before;
+  whole.written = 0;
+  ASSERT_EQ(save(whole, 3), Status::kOk);
+  for (std::size_t cut = 1; cut <= whole.written; ++cut) {
+    test::RamStore store = before;
+    store.bytes_left = cut;
+    static_cast<void>(save(store, 3));
+    store.bytes_left = test::RamStore::kForEver;
+    const std::vector<std::uint8_t> loaded = load(store);
+    const bool header_whole = cut > whole.written - (kStoredHeaderBytes - 20);  // its last bytes say nothing
+    EXPECT_EQ(loaded, record(header_whole ? 3 : 2)) << cut;
+    ASSERT_EQ(save(store, 4), Status::kOk);  // and the next one is taken
+    EXPECT_EQ(load(store), record(4)) << cut;
+  }
+}
+
+TEST(StoredRecord, AnyFlippedBitLeavesTheOneBefore) {
+  VERIFIES("LASSO-IMG-015~1");
+  test::RamStore before(64);
+  ASSERT_EQ(save(before, 1), Status::kOk);
+  ASSERT_EQ(save(before, 2), Status::kOk);
+  const StoreArea newer = newer_of(before, kA, kB) == Newer::kFirst ? kA : kB;
+  for (std::size_t bit = 0; bit < 8 * (kStoredHeaderBytes + 300); ++bit) {
+    if (bit / 8 >= 20 && bit / 8 < kStoredHeaderBytes) continue;  // of no meaning
+    test::RamStore store = before;
+    store.of(newer)[bit / 8] ^= static_cast<std::uint8_t>(1U << bit % 8);
+    EXPECT_EQ(load(store), record(1)) << bit;
+  }
+}
+
+TEST(StoredRecord, NumbersWrap) {
+  VERIFIES("LASSO-IMG-015~1");
+  test::RamStore store(64);
+  const std::uint32_t sum = crc32c(view(record(9)));
+  ASSERT_EQ(write_header(store, kA, {0xFFFFFFFFU, 300, sum}), Status::kOk);
+  ASSERT_EQ(write_record(store, kA, 0, view(record(9))), Status::kOk);
+  EXPECT_EQ(next_sequence(store, kA, kB), 1U);  // 0 says: never selected
+  ASSERT_EQ(save(store, 10), Status::kOk);
+  EXPECT_EQ(newer_of(store, kA, kB), Newer::kSecond);
+  EXPECT_EQ(load(store), record(10));
+  ASSERT_EQ(write_header(store, kA, {2, 300, sum}), Status::kOk);
+  EXPECT_EQ(load(store), record(9));
+  ASSERT_EQ(write_header(store, kA, {0, 300, sum}), Status::kOk);
+  EXPECT_EQ(load(store), record(10));
+  ASSERT_EQ(clear_header(store, kB), Status::kOk);
+  EXPECT_TRUE(load(store).empty());
+}
+
+TEST(StoredRecord, WhatCannotBeReadOrWrittenIsSaid) {
+  VERIFIES("LASSO-IMG-015~1");
+  test::RamStore store(16);
+  StoredHeader header;
+  EXPECT_EQ(read_header(store, StoreArea::kImage0, header), Status::kNoData);  // smaller than a header
+  ASSERT_EQ(write_header(store, kA, {1, 100000, 0}), Status::kOk);
+  EXPECT_EQ(read_header(store, kA, header), Status::kNoData);  // longer than the area
+  ASSERT_EQ(write_header(store, kA, {1, 10, 0}), Status::kOk);
+  EXPECT_TRUE(load(store).empty());  // of another length
+  ASSERT_EQ(save(store, 1), Status::kOk);
+  store.broken = true;
+  EXPECT_EQ(save(store, 2), Status::kNoData);
+  EXPECT_TRUE(load(store).empty());
+  store.broken = false;
+  EXPECT_EQ(load(store), record(1));
+  const std::vector<std::uint8_t> long_one(5000);
+  EXPECT_EQ(save_record(store, kA, kB, view(long_one)), Status::kBadIndex);
+  EXPECT_EQ(load(store), record(1));
+}
+
+}  // namespace
+}  // namespace lasso
