@@ -156,7 +156,7 @@ void Component::publish_estimate(TimeUs now_us) {
 // Changes of the mode wait for the next packet, if one is on its way.
 bool Component::report_overdue() const { return changes_.size() >= kPoseChanges || (!changes_.empty() && !acquired_.active); }
 
-void Component::follow(const TrackStep& step) {
+void Component::follow(TrackStep& step) {
   trial_.note(step.registration, track_.mode);
   const bool given_up =
       track_.mode == TrackingMode::kStarting && (step.event == ModeEvent::kExhausted || step.event == ModeEvent::kRecover);
@@ -171,8 +171,8 @@ void Component::follow(const TrackStep& step) {
   if (next != track_.mode) note_change({track_.mode, step.event, next});
   seen_.add(Fault::kModeCorrupt, step.after.mode != next);
   watch_filter(step);
+  step.after.mode = next;  // what is sent of this step tells the table's mode
   track_ = step.after;
-  track_.mode = next;
 }
 
 void Component::refuse_start(StartWay way, StartRefusal refusal) {
@@ -273,7 +273,7 @@ void Component::send(const TrackStep& step, TimeUs now_us) {
   set_counters(report);
   set_changes(report);
   std::uint8_t packet[kMaxPosePacketBytes];
-  const PacketHeader header = downlink_.next_header({kServiceHousekeeping, kSubserviceHousekeepingReport}, now_us);
+  const PacketHeader header = downlink_.next_header(kHousekeepingReport, now_us);
   downlink_.send({packet, encode_pose(report, header, Bytes(packet))});
 }
 

@@ -195,7 +195,7 @@ class Component {
   void leave_track();
   void refuse_start(StartWay way, StartRefusal refusal);
   void note_change(const ModeChange& change);
-  void follow(const TrackStep& step);
+  void follow(TrackStep& step);
   bool report_overdue() const;
   TrackStep step_without_estimate();
   void send(const TrackStep& step, TimeUs now_us);

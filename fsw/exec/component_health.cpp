@@ -6,8 +6,6 @@ namespace {
 
 constexpr std::size_t kQueueHighBytes = kTelemetryQueueBytes / 10 * 9;
 
-constexpr MessageType kHousekeeping{kServiceHousekeeping, kSubserviceHousekeepingReport};
-
 }  // namespace
 
 void Component::feed_watchdog() {
@@ -91,7 +89,7 @@ void Component::tell_faults(const FaultChanges& changes, TimeUs now_us) {
   health_.confirmations = faults_.confirmations();
   health_.worst_lateness_us = executive_.worst_lateness_us();
   std::uint8_t packet[kMaxHealthBytes];
-  downlink_.send({packet, encode_health(health_, downlink_.next_header(kHousekeeping, now_us), Bytes(packet))});
+  downlink_.send({packet, encode_health(health_, downlink_.next_header(kHousekeepingReport, now_us), Bytes(packet))});
 }
 
 }  // namespace lasso

@@ -5,8 +5,6 @@
 namespace lasso {
 namespace {
 
-constexpr MessageType kHousekeeping{kServiceHousekeeping, kSubserviceHousekeepingReport};
-
 StartOffer offer_of(const StartCommand& command) {
   StartOffer offer;
   offer.t_us = command.t_us;
@@ -135,7 +133,7 @@ void Component::send_link(TimeUs now_us) {
   link.laser_enabled = laser_enabled_ ? 1 : 0;
   link.time_offset_us = downlink_.time_offset_us();
   std::uint8_t packet[kMaxLinkReportBytes];
-  downlink_.send({packet, encode_link(link, downlink_.next_header(kHousekeeping, now_us), Bytes(packet))});
+  downlink_.send({packet, encode_link(link, downlink_.next_header(kHousekeepingReport, now_us), Bytes(packet))});
 }
 
 // Counters of what knows no events.
@@ -183,7 +181,7 @@ void Component::send_sensors(TimeUs now_us) {
     if (any && !news[i]) continue;
     troubles_told_[i] = troubles(reports[i]);
     std::uint8_t packet[kMaxSensorPacketBytes];
-    downlink_.send({packet, encode_sensor(reports[i], downlink_.next_header(kHousekeeping, now_us), Bytes(packet))});
+    downlink_.send({packet, encode_sensor(reports[i], downlink_.next_header(kHousekeepingReport, now_us), Bytes(packet))});
   }
 }
 

@@ -248,7 +248,7 @@ void Component::send_image(TimeUs now_us) {
   report.roll_backs = memory_.roll_backs;
   report.repairs = memory_.repairs;
   std::uint8_t packet[kMaxImagePacketBytes];
-  const PacketHeader header = downlink_.next_header({kServiceHousekeeping, kSubserviceHousekeepingReport}, now_us);
+  const PacketHeader header = downlink_.next_header(kHousekeepingReport, now_us);
   downlink_.send({packet, encode_image(report, header, Bytes(packet))});
 }
 

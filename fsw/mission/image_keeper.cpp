@@ -158,7 +158,8 @@ void ImageKeeper::step(std::size_t sensors) {
 // Whether the image may take the place of what its area holds: not of the only one that the next start could take.
 bool ImageKeeper::may_store(std::size_t number) const {
   if (store_ == nullptr || store_->size(area_of(number)) < kStoredHeaderBytes + slots_[number].bytes()) return false;
-  return !started_ || stored_[1 - number] || newer_of(*store_, area_of(0), area_of(1)) != static_cast<Newer>(number);
+  if (!started_ || (confirmed_ && stored_[1 - number])) return true;
+  return newer_of(*store_, area_of(0), area_of(1)) != static_cast<Newer>(number);  // what a start would take stays
 }
 
 // A write: of the cleared header, of a piece, of the new header.

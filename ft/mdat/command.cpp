@@ -1,8 +1,11 @@
 #include "ft/mdat/command.hpp"
 
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
+#include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
@@ -12,6 +15,27 @@
 namespace lasso::ft {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+// Beside the folder; of its own for each program.
+std::string next_file(const fs::path& folder) {
+  static std::atomic<int> number{0};
+  return folder.string() + "." + std::to_string(++number);
+}
+
+std::string command_line(const fs::path& folder, const std::string& command, const std::string& out, const std::string& err) {
+  return "cd '" + folder.string() + "' && " + command + " >'" + out + "' 2>'" + err + "'";
+}
+
+Answer answer_of(int status, const std::string& out, const std::string& err) {
+  Answer answer{WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text(out), read_text(err)};
+  fs::remove(out);
+  fs::remove(err);
+  return answer;
+}
+
+}  // namespace
 
 WorkFolder::WorkFolder() {
   std::string name = (fs::temp_directory_path() / "mdat-ft-XXXXXX").string();
@@ -28,14 +52,30 @@ WorkFolder::~WorkFolder() {
 }
 
 Answer WorkFolder::mdat(const std::string& arguments) const {
-  const fs::path out = folder_.string() + ".out", err = folder_.string() + ".err";
-  const std::string command =
-      "cd '" + folder_.string() + "' && '" MDAT_PROGRAM "' " + arguments + " >'" + out.string() + "' 2>'" + err.string() + "'";
-  const int status = std::system(command.c_str());
-  Answer answer{WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text(out), read_text(err)};
-  fs::remove(out);
-  fs::remove(err);
-  return answer;
+  const std::string out = next_file(folder_), err = next_file(folder_);
+  const int status = std::system(command_line(folder_, "'" MDAT_PROGRAM "' " + arguments, out, err).c_str());
+  return answer_of(status, out, err);
+}
+
+Program::Program(const WorkFolder& work, const std::string& arguments) : out_(next_file(work.folder_)), err_(next_file(work.folder_)) {
+  const std::string command = command_line(work.folder_, "exec '" MDAT_PROGRAM "' " + arguments, out_, err_);
+  process_ = fork();
+  if (process_ < 0) throw std::runtime_error("no process");
+  if (process_ > 0) return;
+  execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
+  _exit(127);
+}
+
+Program::~Program() {
+  if (process_ > 0) interrupt();
+}
+
+Answer Program::interrupt() {
+  int status = 0;
+  kill(process_, SIGINT);
+  waitpid(process_, &status, 0);
+  process_ = 0;
+  return answer_of(status, out_, err_);
 }
 
 void WorkFolder::write(const std::string& name, const std::string& content) const {

@@ -1,6 +1,8 @@
 // mdat as its user sees it: a command line, what it prints, its exit code, and the files it leaves.
 #pragma once
 
+#include <sys/types.h>
+
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -32,7 +34,24 @@ class WorkFolder {
   std::vector<std::string> contents() const;
 
  private:
+  friend class Program;
   std::filesystem::path folder_;
+};
+
+// `mdat ARGUMENTS` in a folder, in the background.
+class Program {
+ public:
+  Program(const WorkFolder& work, const std::string& arguments);
+  ~Program();
+  Program(const Program&) = delete;
+  Program& operator=(const Program&) = delete;
+
+  // As Ctrl-C does, and waits until it has ended.
+  Answer interrupt();
+
+ private:
+  std::string out_, err_;
+  pid_t process_;
 };
 
 std::string read_text(const std::filesystem::path& file);

@@ -14,30 +14,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// A run in the background, until it says where it can be reached.
-class LiveRun {
- public:
-  LiveRun(const WorkFolder& work, const std::string& link, const std::string& frames) : work_(work) {
-    thread_ = std::thread([this, link, frames] {
-      answer_ = work_.mdat("run missions/test.toml --scenario spin --no-report --out run --frames " + frames + " --link " + link);
-    });
-  }
-  ~LiveRun() {
-    if (thread_.joinable()) thread_.join();
-  }
-  LiveRun(const LiveRun&) = delete;
-  LiveRun& operator=(const LiveRun&) = delete;
-  Answer wait() {
-    thread_.join();
-    return answer_;
-  }
-
- private:
-  const WorkFolder& work_;
-  Answer answer_;
-  std::thread thread_;
-};
-
 int free_port(int seed) { return 20000 + seed % 20000; }
 
 // Until the run listens.
@@ -57,18 +33,19 @@ TEST(Operate, AnOperatorCommandsARunningComponent) {
   int seed = static_cast<int>(std::chrono::system_clock::now().time_since_epoch().count() / 1000 % 20000);
   for (const std::string scheme : {"udp", "tcp"}) {
     const std::string url = scheme + "://127.0.0.1:" + std::to_string(free_port(seed += 37));
-    LiveRun run(work, url, "40");
+    Program run(work, "run missions/test.toml --scenario spin --no-report --out run --frames 100000 --link " + url);
     const Answer ping = first_answer(work, "command ping --to " + url);
     ASSERT_EQ(ping.exit_code, 0) << ping.err;
     EXPECT_NE(ping.out.find("pong"), std::string::npos);
-    const Answer unarmed = work.mdat("command enable_laser --to " + url);
+    const Answer unarmed = work.mdat("command enable_laser --wait 30 --to " + url);
     EXPECT_EQ(unarmed.exit_code, 1);
     EXPECT_NE(unarmed.out.find("not_armed"), std::string::npos) << unarmed.out;
-    const Answer armed = work.mdat("command enable_laser --arm --to " + url);
+    const Answer armed = work.mdat("command enable_laser --arm --wait 30 --to " + url);
     EXPECT_EQ(armed.exit_code, 0) << armed.out << armed.err;
-    const Answer standby = work.mdat("command set_mode mode=standby --wait 3 --to " + url);
+    const Answer standby = work.mdat("command set_mode mode=standby --wait 30 --to " + url);
     EXPECT_EQ(standby.exit_code, 0) << standby.err;
-    const Answer over = run.wait();
+    for (int i = 0; i < 3; ++i) work.mdat("command ping --wait 30 --to " + url);  // a frame each: the last events are told
+    const Answer over = run.interrupt();
     EXPECT_EQ(over.exit_code, 0) << over.err;
     const Json packets = Json::parse(work.mdat("decode run/telemetry.ccsds --format json").out).at("packets");
     std::string story;

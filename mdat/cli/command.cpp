@@ -27,7 +27,8 @@ struct Options {
 
 enum class Outcome { kOpen, kDone, kFailed, kRepeated };
 
-// Who sends one command at a time knows of no counts before. Any count is after the last one or, moved by half of all, is.
+// Who sends one command at a time knows of no counts before: the clock's is after the last one, or one of two about half of all
+// counts further on is, since half of them are after any last one.
 constexpr std::uint16_t kHalf = 1U << 13;
 std::uint16_t first_count() {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
@@ -99,7 +100,7 @@ void send(const Options& options, const PacketRow& row, const std::map<std::stri
   };
   Outcome outcome = send_next(options.arm);
   for (int tries = 0; tries < 2 && outcome == Outcome::kRepeated && !options.count; ++tries) {
-    count = static_cast<std::uint16_t>(count - 1 + (tries == 0 ? kHalf : 1U));
+    count = static_cast<std::uint16_t>(count + (tries == 0 ? kHalf - 2 : 1U));
     outcome = send_next(options.arm);
   }
   if (options.arm && outcome == Outcome::kDone) outcome = send_next(false);

@@ -1,10 +1,10 @@
 #include <atomic>
-#include <csignal>
 #include <cstdio>
 #include <memory>
 
 #include "mdat/cli/commands.hpp"
 #include "mdat/common/errors.hpp"
+#include "mdat/common/interruption.hpp"
 #include "mdat/missiondb/calibration_file.hpp"
 #include "mdat/missiondb/camera_faults.hpp"
 #include "mdat/run/camera.hpp"
@@ -18,10 +18,6 @@ struct Options {
   bool remote = false;
   SimulationOptions simulation;
 };
-
-std::atomic<bool> ending{false};
-static_assert(std::atomic<bool>::is_always_lock_free, "set by a signal");
-void end(int) { ending = true; }
 
 void say(const std::string& text) {
   std::printf("%s\n", text.c_str());
@@ -37,8 +33,7 @@ void serve(Options options) {
   if (!options.camera_faults.empty()) options.simulation.camera_faults = load_camera_faults(options.camera_faults);
   if (!options.optics.empty()) options.simulation.camera_optics = load_calibration(options.optics);
   const CaseSetup setup = camera_case(mission, options.simulation, *target);
-  std::signal(SIGINT, end);
-  std::signal(SIGTERM, end);
+  const std::atomic<bool>& ending = interruption();
   say("the camera listens on " + server.address());
   serve_camera(setup, server, ending, say);
 }

@@ -10,6 +10,7 @@
 #include "hal_sim/random.hpp"
 #include "mdat/common/errors.hpp"
 #include "mdat/common/flight_image.hpp"
+#include "mdat/common/interruption.hpp"
 #include "mdat/run/camera.hpp"
 #include "mdat/run/navigation.hpp"
 #include "mdat/run/recording_sensor.hpp"
@@ -101,15 +102,22 @@ class Case {
     const bool real_time = setup_.link != nullptr || !setup_.camera_line.empty();
     posix::Runner runner(*component_, real_time ? posix::Pace::kRealTime : posix::Pace::kLockstep);
     if (setup_.link != nullptr) runner.connect(*setup_.link);
-    for (std::uint32_t frame = 0; frame < setup_.frames + kPipelineFrames; ++frame) {
+    const auto interrupted = [&] { return real_time && interruption(); };
+    std::size_t flown = 0;
+    for (std::uint32_t frame = 0; frame < setup_.frames + kPipelineFrames && !interrupted(); ++frame) {
       const posix::FrameRecord record = runner.run_frame();
       result_.telemetry.insert(result_.telemetry.end(), record.telemetry.begin(), record.telemetry.end());
       read_packets(record);
       if (is_approach()) navigation_.offer(record.boundary_us, *component_);
-      if (frame >= kPipelineFrames) ++done;
+      if (frame < kPipelineFrames) continue;
+      ++flown;
+      ++done;
     }
-    if (setup_.scenario.prior == 0)
-      result_.frames.erase(result_.frames.begin(), result_.frames.begin() + result_.found_frame.value_or(setup_.frames));
+    result_.frames.resize(flown);
+    if (setup_.scenario.prior == 0) {
+      const auto found = static_cast<std::ptrdiff_t>(std::min(std::size_t{result_.found_frame.value_or(setup_.frames)}, flown));
+      result_.frames.erase(result_.frames.begin(), result_.frames.begin() + found);
+    }
     return std::move(result_);
   }
 

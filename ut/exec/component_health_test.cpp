@@ -219,6 +219,7 @@ TEST(ComponentHealth, AModeThatNobodyKnowsMakesSafe) {
   story.run(scene, 1);
   EXPECT_TRUE(scene.component->faults().ever().has(Fault::kModeLost));
   EXPECT_FALSE(scene.sensor.laser_permitted);
+  EXPECT_EQ(story.last().mode, code(M::kSafe)) << "the packet of that very frame";
   copies[0] ^= 1;  // and again, before the fault is cleared
   copies[1] ^= 4;
   story.run(scene, 3);
