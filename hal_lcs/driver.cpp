@@ -24,9 +24,8 @@ std::size_t aim_bytes(const ScanPlan& plan) { return (plan.aimed.size() + kAimed
 
 }  // namespace
 
-Driver::Driver(Line& line, const Calibration& calibration)
-    : line_(line), calibration_(calibration), triangulation_(calibration, calibration.reference_degC) {
-  invariant(validate(calibration) == Status::kOk, "lcs calibration");
+Driver::Driver(Line& line, const Optics& optics) : line_(line), optics_(optics) {
+  invariant(optics.validate() == Status::kOk, "lcs calibration");
   inhibit();  // whatever was before
 }
 
@@ -137,7 +136,6 @@ void Driver::abort() {
 }
 
 SensorCounters Driver::counters() const {
-  using Fate = Triangulation::Fate;
   const FrameDecoder::Counters& line = decoder_.counters();
   SensorCounters counters;
   counters.frames = line.frames;
@@ -228,10 +226,14 @@ bool Driver::jumped(std::uint32_t clock_us, TimeUs t_us) const {
   return off_us > tolerance_us || off_us < -tolerance_us;
 }
 
+bool Driver::known_head() const {
+  return camera_.serial == optics_.serial() && camera_.device == optics_.device() && camera_.version == kProtocolVersion;
+}
+
 // The camera scans. Of another one than the calibration's nothing is believed.
 void Driver::begin() {
-  if (camera_.serial != calibration_.serial || camera_.version != kProtocolVersion) return lose(Loss::kForeign, Status::kBadVersion);
-  triangulation_ = Triangulation(calibration_, static_cast<double>(camera_.temperature_degC));
+  if (!known_head()) return lose(Loss::kForeign, Status::kBadVersion);
+  optics_.set_temperature(static_cast<double>(camera_.temperature_degC));
   state_ = State::kScanning;
 }
 
@@ -264,8 +266,9 @@ void Driver::check_plan(const Samples& samples) {
   const RawSample& raw = samples.samples[0];
   if (raw.kind == SampleKind::kNotAimed) return;
   const Vec3 planned = pattern_direction(plan_, samples.first);
-  const double off_x = tangent(raw.angle_x_rad + calibration_.angle_x_offset_rad) - planned.x() / planned.z();
-  const double off_y = tangent(raw.angle_y_rad + calibration_.angle_y_offset_rad) - planned.y() / planned.z();
+  const Mirrors mirrors = optics_.mirrors();
+  const double off_x = tangent(raw.angle_x_rad + mirrors.x_offset_rad) - planned.x() / planned.z();
+  const double off_y = tangent(raw.angle_y_rad + mirrors.y_offset_rad) - planned.y() / planned.z();
   if (magnitude(off_x) < kMirrorTolerance && magnitude(off_y) < kMirrorTolerance) return;
   ++health_.off_plan;
   if (++off_plan_ == kOffPlanFrames) lose(Loss::kOffPlan, Status::kOffPlan);
@@ -286,7 +289,7 @@ RangeSample Driver::sample_of(const RawSample& raw) {
   const TimeUs t_us = time_of(raw.clock_us);
   const DurationUs late_us = t_us - (t_start_us_ + command_us_ + pattern_time_us(plan_, static_cast<std::uint16_t>(next_)));
   RangeSample sample;
-  ++health_.fates[static_cast<std::size_t>(triangulation_.convert(raw, t_us, sample))];
+  ++health_.fates[static_cast<std::size_t>(optics_.convert(raw, t_us, sample))];
   if (t_us >= last_us_ && late_us <= kClockToleranceUs && late_us >= -kClockToleranceUs) {
     last_us_ = t_us;
     return sample;

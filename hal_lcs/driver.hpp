@@ -1,5 +1,6 @@
-// The laser camera behind the Sensor interface: plans become commands on the line, frames become samples, and every loss has its cause and
-// its counter. It never waits: an interrupt (or a pump) fills and empties the line's rings, and each call works on what is there.
+// A head on a line, laser camera, LIDAR or TriDAR, behind the Sensor interface: plans become commands on the line, frames become samples,
+// and every loss has its cause and its counter. It never waits: an interrupt (or a pump) fills and empties the line's rings, and each call
+// works on what is there.
 //
 // A scan is started by one command. The answer to it ties the camera's clock to the component's: the camera had the command's last byte one
 // transmission time after it was handed over, at the scan's start. Samples that a damaged frame took along come as kInvalid and `lost`, so
@@ -12,7 +13,7 @@
 #include "hal_lcs/byte_ring.hpp"
 #include "hal_lcs/frame.hpp"
 #include "hal_lcs/messages.hpp"
-#include "hal_lcs/triangulation.hpp"
+#include "hal_lcs/optics.hpp"
 
 namespace lasso::lcs {
 
@@ -36,7 +37,7 @@ enum class Loss : std::uint8_t {
   kSilent = 2,     // no answer to the start; kTimeout
   kRefused = 3,    // by the camera (Health::refused); kBusy, or kBadValue
   kBooted = 4,     // the camera has started anew; kBadOrder
-  kForeign = 5,    // another camera than the calibration's, another protocol, or it has never said which; kBadVersion
+  kForeign = 5,    // another head than the calibration's, another kind or protocol, or it has never said which; kBadVersion
   kStopped = 6,    // the camera ended it early; kTruncated
   kOffPlan = 7,    // the mirrors do not follow the plan; kOffPlan
 };
@@ -54,15 +55,15 @@ struct Health {
   std::uint32_t off_plan = 0;       // frames whose first sample's mirrors are
   std::uint32_t clock_jumps = 0;
   std::uint32_t boots = 0;               // seen by the driver
-  std::uint32_t fates[kFates] = {};      // samples, by Triangulation::Fate
+  std::uint32_t fates[kFates] = {};      // samples, by Fate
   std::uint32_t refused[kResults] = {};  // starts, by Result
   std::uint32_t scans_lost[kLosses] = {};
 };
 
 class Driver final : public Sensor {
  public:
-  // `calibration` is valid (an invariant); the line outlives the driver.
-  Driver(Line& line, const Calibration& calibration);
+  // `optics` are valid (an invariant); the line outlives the driver.
+  Driver(Line& line, const Optics& optics);
 
   // The laser's permission, which an armed command gives and any safe mode takes; there is none at first. Without it an inhibit is put on
   // the line with each call (of any function) until the camera confirms it, and again when it says that it is lit; on a line that holds
@@ -97,6 +98,7 @@ class Driver final : public Sensor {
   void stop_camera();
   void listen();
   bool jumped(std::uint32_t clock_us, TimeUs t_us) const;
+  bool known_head() const;
   void begin();
   void take_refusal(Result result);
   bool read_frame(Frame& frame);
@@ -112,8 +114,7 @@ class Driver final : public Sensor {
   TimeUs time_of(std::uint32_t clock_us) const;
 
   Line& line_;
-  Calibration calibration_;
-  Triangulation triangulation_;
+  Optics optics_;
   FrameDecoder decoder_;
   Health health_;
   CameraStatus camera_;

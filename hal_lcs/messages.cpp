@@ -16,7 +16,7 @@ constexpr std::size_t kAimHead = 2;
 constexpr std::size_t kAimedBytes = 8;
 constexpr std::size_t kStartBytes = 41;
 constexpr std::size_t kAnswerBytes = 7;
-constexpr std::size_t kStatusBytes = 17;
+constexpr std::size_t kStatusBytes = 18;
 constexpr std::size_t kEndBytes = 4;
 constexpr std::uint8_t kLaserLit = 1, kScanning = 2;
 
@@ -60,6 +60,18 @@ std::int32_t signed24(std::uint32_t value) {
 void put_fraction(ByteWriter& out, double fraction) { put24(out, static_cast<std::uint32_t>(steps(fraction, kSteps, kEnd24)) & 0xFFFFFFU); }
 double get_fraction(ByteReader& in) { return signed24(get24(in)) / kSteps; }
 
+// The field after the angles: an echo's time, or where the spot is.
+void put_measured(ByteWriter& out, const RawSample& sample) {
+  if (sample.kind != SampleKind::kEcho) return put_fraction(out, sample.peak);
+  put24(out, static_cast<std::uint32_t>(clamp(sample.flight_us, 0, kMaxFlightUs) / kFlightStepUs + 0.5));
+}
+
+void get_measured(std::uint32_t word, RawSample& sample) {
+  sample.peak = sample.flight_us = 0;
+  if (sample.kind == SampleKind::kEcho) sample.flight_us = word * kFlightStepUs;
+  if (sample.kind != SampleKind::kEcho) sample.peak = signed24(word) / kSteps;
+}
+
 void put_phase(ByteWriter& out, double turns) { out.u32(static_cast<std::uint32_t>(clamp(turns, 0, 1 - 1 / kPhaseSteps) * kPhaseSteps)); }
 
 void put(ByteWriter& out, const RawSample& sample, std::uint32_t base_us) {
@@ -68,7 +80,7 @@ void put(ByteWriter& out, const RawSample& sample, std::uint32_t base_us) {
   out.u16(static_cast<std::uint16_t>(offset_us));
   put_fraction(out, sample.angle_x_rad);
   put_fraction(out, sample.angle_y_rad);
-  put_fraction(out, sample.peak);
+  put_measured(out, sample);
   out.u8(static_cast<std::uint8_t>((static_cast<unsigned>(sample.kind) << 4) | (sample.intensity & kMaxIntensity)));
 }
 
@@ -76,12 +88,13 @@ Status get(ByteReader& in, std::uint32_t base_us, RawSample& sample) {
   sample.clock_us = base_us + in.u16();
   sample.angle_x_rad = get_fraction(in);
   sample.angle_y_rad = get_fraction(in);
-  sample.peak = get_fraction(in);
+  const std::uint32_t measured = get24(in);
   const std::uint8_t last = in.u8();
   sample.intensity = last & kMaxIntensity;
   const unsigned kind = last >> 4;
-  if (kind > static_cast<unsigned>(SampleKind::kNotAimed)) return Status::kBadValue;
+  if (kind > static_cast<unsigned>(SampleKind::kEcho)) return Status::kBadValue;
   sample.kind = static_cast<SampleKind>(kind);
+  get_measured(measured, sample);
   return Status::kOk;
 }
 
@@ -150,6 +163,7 @@ FrameBytes encode(std::uint8_t sequence, const CameraStatus& message) {
   out.u8(static_cast<std::uint8_t>((message.laser_lit ? kLaserLit : 0U) | (message.scanning ? kScanning : 0U)));
   out.u8(message.faults);
   out.u8(message.version);
+  out.u8(static_cast<std::uint8_t>(message.device));
   return writer.frame(sequence, Type::kStatus);
 }
 
@@ -238,6 +252,9 @@ Status decode(const Frame& frame, CameraStatus& message) {
   message.scanning = (state & kScanning) != 0;
   message.faults = in.u8();
   message.version = in.u8();
+  const std::uint8_t device = in.u8();
+  if (device > static_cast<std::uint8_t>(Device::kTridar)) return Status::kBadValue;
+  message.device = static_cast<Device>(device);
   return Status::kOk;
 }
 

@@ -1,5 +1,6 @@
-// What the frames of the laser camera's line say: docs/icd/lcs.md. The driver and the simulated camera share these functions. A decoder
-// answers kBadLength (payload too short or too long) or kBadValue (a code that is not defined), and leaves its message as it may be then.
+// What the frames of a scanner's line say: docs/icd/lcs.md, lidar.md and tridar.md. The driver and the simulated heads share these
+// functions. A decoder answers kBadLength (payload too short or too long) or kBadValue (a code that is not defined), and leaves its message
+// as it may be then.
 #pragma once
 
 #include <cstddef>
@@ -63,7 +64,14 @@ struct AimCommand {
   AimedRay rays[kAimedPerFrame];
 };
 
-constexpr std::uint8_t kProtocolVersion = 1;  // docs/icd/lcs.md; no other is spoken
+constexpr std::uint8_t kProtocolVersion = 2;  // docs/icd/lcs.md; no other is spoken
+
+// What kind of head is at the other end.
+enum class Device : std::uint8_t {
+  kLaserCamera = 0,  // triangulates
+  kLidar = 1,        // times its light
+  kTridar = 2,       // both, each sample by one of them
+};
 
 struct CameraStatus {
   std::uint32_t serial = 0;  // of the camera: its calibration is for no other
@@ -74,23 +82,29 @@ struct CameraStatus {
   bool scanning = false;
   std::uint8_t faults = 0;  // bit 0 mirror x, 1 mirror y, 2 detector, 3 laser, 4 memory
   std::uint8_t version = kProtocolVersion;
+  Device device = Device::kLaserCamera;
 };
 
 enum class SampleKind : std::uint8_t {
-  kReturn = 0,
+  kReturn = 0,     // a spot, to be triangulated
   kNothing = 1,    // the detector saw no spot
   kSaturated = 2,  // the spot was too bright to be placed
   kNotAimed = 3,   // the ray's direction had not come in time
+  kEcho = 4,       // a pulse that came back, timed
 };
 
 constexpr std::uint8_t kMaxIntensity = 15;
 
-// One sample as the camera measures it.
+constexpr double kFlightStepUs = 1.0 / 2097152;     // 2^-21 us: 0.07 mm of range
+constexpr double kMaxFlightUs = 8 - kFlightStepUs;  // 24 bits: 1199 m
+
+// One sample as the head measures it.
 struct RawSample {
   std::uint32_t clock_us = 0;  // the camera's; wraps
   double angle_x_rad = 0;      // of the mirrors; [-1, 1), steps of 2^-23
   double angle_y_rad = 0;
   double peak = 0;             // of the spot on the detector, half widths from its middle; [-1, 1), steps of 2^-23
+  double flight_us = 0;        // of an echo, which has no peak: from pulse to return; [0, 8), steps of kFlightStepUs
   std::uint8_t intensity = 0;  // of kMaxIntensity
   SampleKind kind = SampleKind::kNothing;
 };

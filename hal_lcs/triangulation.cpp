@@ -63,27 +63,38 @@ double Triangulation::spot_m(double x, double y, double peak) const {
   return c_.half_width_m * sum;
 }
 
-Triangulation::Fate Triangulation::convert(const RawSample& raw, TimeUs t_us, RangeSample& sample) const {
+MirrorRay look(const RawSample& raw, const Mirrors& mirrors, SampleKind measured, TimeUs t_us, RangeSample& sample) {
   sample = RangeSample{};
   sample.t_us = t_us;
-  const double x = raw.angle_x_rad + c_.angle_x_offset_rad;
-  const double y = raw.angle_y_rad + c_.angle_y_offset_rad;
-  if (magnitude(x) > c_.angle_max_rad || magnitude(y) > c_.angle_max_rad) return Fate::kBadAngle;
-  if (raw.kind == SampleKind::kSaturated || raw.kind == SampleKind::kNotAimed) return Fate::kNoStatement;
-  const double tan_x = tangent(x), tan_y = tangent(y);
-  const double length = square_root(tan_x * tan_x + tan_y * tan_y + 1);
-  const double unit[3] = {tan_x / length, tan_y / length, 1 / length};
+  MirrorRay ray;
+  ray.x_rad = raw.angle_x_rad + mirrors.x_offset_rad;
+  ray.y_rad = raw.angle_y_rad + mirrors.y_offset_rad;
+  ray.fate = Fate::kBadAngle;
+  if (magnitude(ray.x_rad) > mirrors.max_rad || magnitude(ray.y_rad) > mirrors.max_rad) return ray;
+  ray.fate = Fate::kNoStatement;
+  if (raw.kind != measured && raw.kind != SampleKind::kNothing) return ray;
+  ray.tan_x = tangent(ray.x_rad);
+  const double tan_y = tangent(ray.y_rad);
+  ray.length = square_root(ray.tan_x * ray.tan_x + tan_y * tan_y + 1);
+  const double unit[3] = {ray.tan_x / ray.length, tan_y / ray.length, 1 / ray.length};
   for (int k = 0; k < 3; ++k) sample.direction[k] = static_cast<float>(unit[k]);
-  if (raw.kind == SampleKind::kNothing) {
-    sample.state = RayState::kMiss;
-    return Fate::kNothing;
-  }
+  ray.fate = Fate::kPoint;
+  if (raw.kind != SampleKind::kNothing) return ray;
+  sample.state = RayState::kMiss;
+  ray.fate = Fate::kNothing;
+  return ray;
+}
+
+Fate Triangulation::convert(const RawSample& raw, TimeUs t_us, RangeSample& sample) const {
+  const Mirrors mirrors{c_.angle_x_offset_rad, c_.angle_y_offset_rad, c_.angle_max_rad};
+  const MirrorRay ray = look(raw, mirrors, SampleKind::kReturn, t_us, sample);
+  if (ray.fate != Fate::kPoint) return ray.fate;
   if (!temperature_known_) return Fate::kOutside;
-  const double disparity_m = spot_m(x, y, raw.peak) + focal_length_m_ * tan_x;
+  const double disparity_m = spot_m(ray.x_rad, ray.y_rad, raw.peak) + focal_length_m_ * ray.tan_x;
   if (!(disparity_m > 0)) return Fate::kBadPeak;
   const double depth_m = focal_length_m_ * baseline_m_ / disparity_m;
   if (depth_m < c_.depth_min_m || depth_m > c_.depth_max_m) return Fate::kOutside;
-  sample.range_m = static_cast<float>(depth_m * length);
+  sample.range_m = static_cast<float>(depth_m * ray.length);
   sample.state = RayState::kHit;
   return Fate::kPoint;
 }

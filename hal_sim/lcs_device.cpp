@@ -12,6 +12,7 @@ namespace {
 
 constexpr DurationUs kBootUs = 300'000;  // from a reset to the first answer
 constexpr int kPeakIterations = 30;
+constexpr double kNowhereM = 1e9;                                  // a range for rays that met nothing
 constexpr std::uint64_t kChanceOfTheLine = 0x4C43'5346'6175'6C74;  // other than what the rays draw
 
 double corrected(const lcs::Calibration& c, double x, double y, double peak) {
@@ -21,8 +22,8 @@ double corrected(const lcs::Calibration& c, double x, double y, double peak) {
   return sum;
 }
 
-void check(const lcs::Calibration& truth) {
-  const Status status = lcs::validate(truth);
+void check(const lcs::Optics& truth) {
+  const Status status = truth.validate();
   if (status != Status::kOk) throw std::invalid_argument(std::string("the camera's optics: ") + to_string(status));
 }
 
@@ -44,10 +45,26 @@ lcs::RawSample raw_sample(const lcs::Calibration& truth, double temperature_degC
   return raw;
 }
 
+lcs::RawSample raw_echo(const lcs::EchoCalibration& truth, double temperature_degC, const Vec3& direction, double range_m) {
+  lcs::RawSample raw;
+  raw.angle_x_rad = std::atan2(direction.x(), direction.z()) - truth.angle_x_offset_rad;
+  raw.angle_y_rad = std::atan2(direction.y(), direction.z()) - truth.angle_y_offset_rad;
+  const double delay_us = truth.delay_us + truth.delay_us_per_K * (temperature_degC - truth.reference_degC);
+  raw.flight_us = range_m / lcs::kHalfLightMPerUs / (1 + truth.clock_error) + delay_us;
+  raw.kind = lcs::SampleKind::kEcho;
+  return raw;
+}
+
+lcs::Optics optics_of(const LcsCamera& camera) {
+  if (camera.device == lcs::Device::kLaserCamera) return lcs::Optics(camera.truth);
+  if (camera.device == lcs::Device::kLidar) return lcs::Optics(camera.clock);
+  return {camera.truth, camera.clock};
+}
+
 LcsDevice::LcsDevice(const RayCaster& target, const Trajectory& trajectory, const ScannerModel& model, std::uint64_t seed,
                      const LcsCamera& camera)
     : rays_(target, trajectory, model, seed), camera_(camera), chance_(seed ^ kChanceOfTheLine) {
-  check(camera.truth);
+  check(optics_of(camera));
   for (const LcsFault& one : camera.faults) {
     if (one.kind == LcsFaultKind::kReset) reset_at_us_.push_back(one.from_us);
   }
@@ -157,7 +174,8 @@ void LcsDevice::answer(const lcs::Frame& to, lcs::Result result, TimeUs t_us) {
 
 void LcsDevice::send_status(TimeUs t_us) {
   lcs::CameraStatus status;
-  status.serial = camera_.truth.serial;
+  status.serial = optics_of(camera_).serial();
+  status.device = camera_.device;
   status.boots = boots_;
   status.clock_us = clock_us(t_us);
   status.temperature_degC = camera_.temperature_degC;
@@ -225,7 +243,7 @@ lcs::Result LcsDevice::carry_out(lcs::LaserCommand command, TimeUs t_us) {
 }
 
 bool LcsDevice::within_mirrors(const ScanPlan& plan) const {
-  const double limit = std::tan(camera_.truth.angle_max_rad);
+  const double limit = std::tan(optics_of(camera_).mirrors().max_rad);
   return std::abs(plan.center_x) + plan.half_x <= limit && std::abs(plan.center_y) + plan.half_y <= limit;
 }
 
@@ -265,6 +283,18 @@ bool LcsDevice::aimed_in_time(std::uint16_t ray) const {
 
 Vec3 LcsDevice::direction_of(std::uint16_t ray) const { return pattern_direction(scan_.command.plan, ray); }
 
+// A hit as the head's kind measures it; a miss or a saturated return has mirror angles alone.
+lcs::RawSample LcsDevice::told(const Vec3& direction, const RangeSample& seen) const {
+  const auto temperature_degC = static_cast<double>(camera_.temperature_degC), range_m = static_cast<double>(seen.range_m);
+  const bool spot = seen.state == RayState::kHit;
+  const bool far = camera_.device == lcs::Device::kTridar && range_m > camera_.hand_over_m;
+  lcs::RawSample raw = far || camera_.device == lcs::Device::kLidar
+                           ? raw_echo(camera_.clock, temperature_degC, direction, range_m)
+                           : raw_sample(camera_.truth, temperature_degC, direction, spot ? range_m : kNowhereM);
+  if (!spot) raw.kind = lcs::SampleKind::kNothing;
+  return raw;
+}
+
 lcs::RawSample LcsDevice::measure(std::uint16_t ray) {
   const TimeUs t_us = sample_time_us(ray);
   Vec3 direction = direction_of(ray);
@@ -273,10 +303,8 @@ lcs::RawSample LcsDevice::measure(std::uint16_t ray) {
   const RangeSample seen = rays_.measure(scan_.command.plan.scan_id, ray, direction, t_us);
   const bool bright = failing(LcsFaultKind::kSaturated, t_us) || seen.state == RayState::kInvalid;
   const bool spot = seen.state == RayState::kHit;
-  lcs::RawSample raw =
-      raw_sample(camera_.truth, static_cast<double>(camera_.temperature_degC), direction, spot ? static_cast<double>(seen.range_m) : 1e9);
+  lcs::RawSample raw = told(direction, seen);
   raw.intensity = spot ? 8 : 0;
-  if (!spot) raw.kind = lcs::SampleKind::kNothing;
   if (bright && seen.state != RayState::kMiss) raw.kind = lcs::SampleKind::kSaturated;
   if (!aimed_in_time(ray)) raw.kind = lcs::SampleKind::kNotAimed;
   raw.clock_us = clock_us(t_us);
@@ -322,8 +350,7 @@ void LcsDevice::send_frames_until(TimeUs now_us) {
 
 // --- camera, line and driver
 
-LcsOverLine::LcsOverLine(LcsDevice& device, const lcs::Calibration& calibration, double bits_per_s)
-    : device_(device), driver_(line_, calibration) {
+LcsOverLine::LcsOverLine(LcsDevice& device, const lcs::Optics& optics, double bits_per_s) : device_(device), driver_(line_, optics) {
   line_.bits_per_s = bits_per_s;
 }
 

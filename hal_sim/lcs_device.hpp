@@ -1,5 +1,5 @@
-// The laser camera at the other end of the line: it understands docs/icd/lcs.md byte for byte, scans the simulated target with mirrors and
-// a detector of its own, and fails as told. Time is what it is given: nothing here waits.
+// The head at the other end of the line, laser camera, LIDAR or TriDAR: it understands docs/icd/lcs.md (lidar.md, tridar.md) byte for byte,
+// scans the simulated target with mirrors and a detector of its own, and fails as told. Time is what it is given: nothing here waits.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 #include "hal_lcs/driver.hpp"
 #include "hal_lcs/frame.hpp"
 #include "hal_lcs/messages.hpp"
-#include "hal_lcs/triangulation.hpp"
+#include "hal_lcs/optics.hpp"
 #include "hal_sim/lcs_faults.hpp"
 #include "hal_sim/random.hpp"
 #include "hal_sim/scanner.hpp"
@@ -17,20 +17,27 @@
 namespace lasso::sim {
 
 struct LcsCamera {
-  lcs::Calibration truth;  // of its optics; what the component calibrates it to be may differ
+  lcs::Device device = lcs::Device::kLaserCamera;
+  lcs::Calibration truth;      // of its optics; what the component calibrates it to be may differ
+  lcs::EchoCalibration clock;  // the same of a LIDAR's or TriDAR's timing
+  double hand_over_m = 10;     // range from which on a TriDAR times its light
   float temperature_degC = 20;
   std::uint32_t clock_us = 0xFFFF0000;  // at time 0: it soon wraps
   double bits_per_s = 4e6;
   LcsFaults faults;
 };
 
+// Of those of the camera's members that its kind has.
+lcs::Optics optics_of(const LcsCamera& camera);
+
 // The raw sample by which a camera tells a point at `range_m` along `direction` (any range for kNothing).
 lcs::RawSample raw_sample(const lcs::Calibration& truth, double temperature_degC, const Vec3& direction, double range_m);
+// The same of a head that times its light.
+lcs::RawSample raw_echo(const lcs::EchoCalibration& truth, double temperature_degC, const Vec3& direction, double range_m);
 
 class LcsDevice {
  public:
-  // Keeps references: target and trajectory outlive it. Throws std::invalid_argument as validate(model), and for a calibration that
-  // lcs::validate refuses.
+  // Keeps references: target and trajectory outlive it. Throws std::invalid_argument as validate(model), and for optics that are not valid.
   LcsDevice(const RayCaster& target, const Trajectory& trajectory, const ScannerModel& model, std::uint64_t seed, const LcsCamera& camera);
 
   // The line has bytes for the camera since t_us, if it had none before, ...
@@ -76,6 +83,7 @@ class LcsDevice {
   TimeUs sample_time_us(std::uint16_t ray) const;
   Vec3 direction_of(std::uint16_t ray) const;
   bool aimed_in_time(std::uint16_t ray) const;
+  lcs::RawSample told(const Vec3& direction, const RangeSample& seen) const;
   lcs::RawSample measure(std::uint16_t ray);
   std::uint16_t frame_end() const;
   void send_samples(std::uint16_t end);
@@ -99,10 +107,10 @@ class LcsDevice {
   std::uint8_t sent_ = 0;
 };
 
-// The camera, its line and its driver in one sensor, for what runs in simulated time.
+// The head, its line and its driver in one sensor, for what runs in simulated time.
 class LcsOverLine final : public Sensor {
  public:
-  LcsOverLine(LcsDevice& device, const lcs::Calibration& calibration, double bits_per_s);
+  LcsOverLine(LcsDevice& device, const lcs::Optics& optics, double bits_per_s);
 
   Status start(const ScanPlan& plan, TimeUs t_start_us) override;
   SensorPoll poll(TimeUs now_us, Span<RangeSample> out) override;

@@ -66,6 +66,17 @@ function(lasso_board NAME)
   endif()
 endfunction()
 
+# hal_sim's sensors, which need nothing but the standard library: the sensors' contract is tested on the target too.
+function(lasso_simulated_sensors)
+  foreach(STEM lcs_device random scanner scanner_model trajectory)
+    list(APPEND SOURCES ${PROJECT_SOURCE_DIR}/hal_sim/${STEM}.cpp)
+  endforeach()
+  add_library(hal_sim_sensors STATIC ${SOURCES})
+  target_compile_features(hal_sim_sensors PUBLIC cxx_std_20)
+  target_link_libraries(hal_sim_sensors PUBLIC hal_lcs PRIVATE lasso_warnings lasso_test_leave)
+  lasso_precompile(ground hal_sim_sensors)
+endfunction()
+
 # Ground rooms keep a CMakeLists.txt of their own: they know third-party libraries.
 function(lasso_ground_room NAME)
   if(EXISTS ${PROJECT_SOURCE_DIR}/${NAME}/CMakeLists.txt)
@@ -118,6 +129,15 @@ function(lasso_board_tests BOARD)
   endif()
 endfunction()
 
+# ut/sensors: the contract of the sensor interface, asked of every implementation, on host and target.
+function(lasso_sensor_tests)
+  file(GLOB TESTS CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/ut/sensors/*_test.cpp)
+  add_executable(ut_sensors ${TESTS})
+  target_link_libraries(ut_sensors PRIVATE lasso_warnings lasso_test_leave hal_sim_sensors ut_main)
+  lasso_precompile(ground_test ut_sensors)
+  add_test(NAME ut_sensors COMMAND ut_sensors)
+endfunction()
+
 # GTest::gtest of the system, or built from Debian's sources where there is none for the processor (cross builds).
 function(lasso_find_gtest)
   if(NOT CMAKE_CROSSCOMPILING)
@@ -151,6 +171,7 @@ function(lasso_tests)
     lasso_flight_tests(${ROOM})
   endforeach()
   lasso_board_tests(posix)
+  lasso_sensor_tests()
   add_executable(ut_support ut/support/verifies_test.cpp)
   target_link_libraries(ut_support PRIVATE lasso_warnings lasso_test_leave fsw_core ut_main)
   target_compile_features(ut_support PRIVATE cxx_std_17)

@@ -69,6 +69,7 @@ void check_messages(const lcs::Frame& frame) {
     const lcs::RawSample& raw = samples.samples[i];
     expect(raw.angle_x_rad >= -1 && raw.angle_x_rad < 1 && raw.angle_y_rad >= -1 && raw.angle_y_rad < 1 && raw.peak >= -1 && raw.peak < 1,
            "angles and peaks are within the wire's");
+    expect(raw.flight_us >= 0 && raw.flight_us <= lcs::kMaxFlightUs, "flights are within the wire's");
   }
 }
 

@@ -120,6 +120,8 @@ void write_frames(const fs::path& folder) {
   say(lcs::Answer{});
   say(lcs::CameraStatus{});
   say(samples);
+  for (lcs::RawSample& sample : samples.samples) sample.kind = lcs::SampleKind::kEcho;
+  say(samples);
   say(lcs::ScanEnd{});
 }
 
@@ -137,6 +139,7 @@ void write_lines(const fs::path& folder) {
   };
   lcs::CameraStatus status;
   status.serial = 1;
+  status.device = lcs::Device::kTridar;
   say(status);
   say(lcs::Answer{lcs::Type::kStart, 5, lcs::Result::kDone, 0});
   for (std::uint16_t first = 0; first < 64; first = static_cast<std::uint16_t>(first + lcs::kSamplesPerFrame)) {
@@ -147,7 +150,8 @@ void write_lines(const fs::path& folder) {
     for (std::size_t i = 0; i < samples.count; ++i) {
       samples.samples[i].clock_us = static_cast<std::uint32_t>((first + i) * 2857);
       samples.samples[i].peak = 0.05;
-      samples.samples[i].kind = lcs::SampleKind::kReturn;
+      samples.samples[i].flight_us = 0.5;
+      samples.samples[i].kind = first < 32 ? lcs::SampleKind::kReturn : lcs::SampleKind::kEcho;
     }
     say(samples);
   }

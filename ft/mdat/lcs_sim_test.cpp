@@ -11,22 +11,25 @@ namespace lasso::ft {
 namespace {
 
 // A shell that keeps the camera running, waits until it listens, runs `run` against $line, and ends the camera by its own number.
-std::string with_camera(const std::string& listen, const std::string& run) {
-  return "--version; '" MDAT_PROGRAM "' lcs-sim missions/test.toml --listen " + listen +
+std::string with_camera(const std::string& listen, const std::string& device, const std::string& run) {
+  return "--version; '" MDAT_PROGRAM "' lcs-sim missions/test.toml --device " + device + " --listen " + listen +
          " >camera.txt 2>&1 & camera=$!; "
          "for i in $(seq 300); do grep -qs 'listens on' camera.txt && break; sleep 0.1; done; "
          "line=$(sed -n 's/^the camera listens on //p' camera.txt); " +
          run + " >run.txt 2>&1; code=$?; kill $camera; wait $camera; exit $code";
 }
 
-class LcsSim : public ::testing::TestWithParam<const char*> {};
+struct Head {
+  const char *listen, *device, *sensor;
+};
+class LcsSim : public ::testing::TestWithParam<Head> {};
 
 TEST_P(LcsSim, IsTrackedOverALineOfThisMachine) {
   VERIFIES("LASSO-SIM-031~1 LASSO-GND-024~1 LASSO-LCS-017~1");
   const WorkFolder folder;
-  const std::string run =
-      "'" MDAT_PROGRAM "' run missions/test.toml --scenario spin --frames 12 --no-report --out run --sensor lcs-wire:$line";
-  const Answer answer = folder.mdat(with_camera(GetParam(), run));
+  const std::string run = "'" MDAT_PROGRAM "' run missions/test.toml --scenario spin --frames 12 --no-report --out run --sensor " +
+                          std::string(GetParam().sensor) + ":$line";
+  const Answer answer = folder.mdat(with_camera(GetParam().listen, GetParam().device, run));
   ASSERT_EQ(answer.exit_code, 0) << folder.read("run.txt") << folder.read("camera.txt");
   const nlohmann::json results = nlohmann::json::parse(folder.read("run/results.json")).at("noisy");
   EXPECT_EQ(results.at("frames"), 12);
@@ -35,8 +38,10 @@ TEST_P(LcsSim, IsTrackedOverALineOfThisMachine) {
   EXPECT_LT(results.at("rms_mm").get<double>(), 2);
   EXPECT_NE(folder.read("camera.txt").find("the client has gone"), std::string::npos);
 }
-INSTANTIATE_TEST_SUITE_P(All, LcsSim, ::testing::Values("tcp://127.0.0.1:0", "unix:line", "pty"),
-                         [](const auto& one) { return std::string(one.param).substr(0, 3); });
+INSTANTIATE_TEST_SUITE_P(All, LcsSim,
+                         ::testing::Values(Head{"tcp://127.0.0.1:0", "laser-camera", "lcs-wire"},
+                                           Head{"unix:line", "tridar", "tridar-wire"}, Head{"pty", "laser-camera", "lcs-wire"}),
+                         [](const auto& one) { return std::string(one.param.listen).substr(0, 3); });
 
 TEST(LcsSimRefusals, SayWhichLineAndWhy) {
   VERIFIES("LASSO-LCS-017~1");
@@ -49,6 +54,7 @@ TEST(LcsSimRefusals, SayWhichLineAndWhy) {
       {"run missions/test.toml --sensor lcs-wire:unix:none", "a scenario of one range"},
       {"lcs-sim missions/test.toml --listen tcp://0.0.0.0:0", "--remote"},
       {"lcs-sim missions/test.toml --listen somewhere", "expected pty, tcp://127.0.0.1:PORT or unix:PATH"},
+      {"lcs-sim missions/test.toml --device radar", "--device"},
       {"lcs-sim missions/none.toml", "none.toml"},
   };
   for (const auto& [command, why] : cases) {

@@ -41,15 +41,22 @@ std::vector<Reported> decoded(const WorkFolder& folder, const std::string& file)
   return all;
 }
 
-TEST(LaserCameraLine, GivesThePosesOfTheSimulatedSensor) {
-  VERIFIES("LASSO-LCS-010~2");
+struct Head {
+  const char *sensor, *kind;
+};
+class Line : public ::testing::TestWithParam<Head> {};
+
+TEST_P(Line, GivesThePosesOfTheSimulatedSensor) {
+  VERIFIES("LASSO-LCS-010~2 LASSO-LCS-016~1");
   const WorkFolder folder;
-  folder.write_mission({{"ranges_m = [2.0, 3.0, 4.0, 5.0, 6.0, 7.0]", "ranges_m = [3.0, 7.0]"}});
-  for (const std::string sensor : {"simulated", "lcs-wire"}) {
+  folder.write_mission({{"ranges_m = [2.0, 3.0, 4.0, 5.0, 6.0, 7.0]", "ranges_m = [3.0, 7.0]"},
+                        {"sigma0_m = 1e-5\n", "sigma0_m = 1e-5\nkind = \"" + std::string(GetParam().kind) + "\"\n"}});
+  for (const std::string sensor : {"simulated", GetParam().sensor}) {
     const Answer answer = folder.mdat("run missions/test.toml --frames 3 --no-report --sensor " + sensor + " --out " + sensor);
     ASSERT_EQ(answer.exit_code, 0) << answer.err;
   }
-  const std::vector<Reported> straight = decoded(folder, "simulated/telemetry.ccsds"), line = decoded(folder, "lcs-wire/telemetry.ccsds");
+  const std::vector<Reported> straight = decoded(folder, "simulated/telemetry.ccsds"),
+                              line = decoded(folder, std::string(GetParam().sensor) + "/telemetry.ccsds");
   ASSERT_EQ(straight.size(), line.size());
   ASSERT_GE(straight.size(), kNoiseFreeFrames);
   for (std::size_t i = 0; i < straight.size(); ++i) EXPECT_EQ(straight[i].valid, line[i].valid) << i;
@@ -62,7 +69,27 @@ TEST(LaserCameraLine, GivesThePosesOfTheSimulatedSensor) {
   }
 }
 
-TEST(LaserCameraLine, ASensorThatThereIsNotIsRefused) {
+INSTANTIATE_TEST_SUITE_P(All, Line,
+                         ::testing::Values(Head{"lcs-wire", "laser_camera"}, Head{"lidar-wire", "time_of_flight"},
+                                           Head{"tridar-wire", "laser_camera"}),
+                         [](const auto& one) { return std::string(one.param.sensor).substr(0, 3); });
+
+TEST(LineRefusals, NameWhatTheMissionLacks) {
+  VERIFIES("LASSO-LCS-016~1");
+  const WorkFolder folder;
+  const std::pair<const char*, const char*> cases[] = {
+      {"--sensor lidar-wire", "--sensor lidar-wire: none of the mission's sensors is a LIDAR"},
+      {"--sensor lidar-wire --calibration missions/test.toml", "--sensor lcs-wire or tridar-wire"},
+      {"--sensor tridar", "expected simulated, or lcs-wire, lidar-wire or tridar-wire"},
+  };
+  for (const auto& [words, why] : cases) {
+    const Answer answer = folder.mdat("run missions/test.toml " + std::string(words));
+    EXPECT_EQ(answer.exit_code, 2) << words;
+    EXPECT_NE(answer.err.find(why), std::string::npos) << answer.err;
+  }
+}
+
+TEST(LineRefusals, ASensorThatThereIsNotIsRefused) {
   const WorkFolder folder;
   const Answer answer = folder.mdat("run missions/test.toml --sensor radar");
   EXPECT_NE(answer.exit_code, 0);

@@ -87,7 +87,7 @@ Residual residual_of(const C& calibration, const RawPoint& point) {
   raw.peak = point.peak;
   RangeSample sample;
   const lcs::Triangulation triangulation(calibration, point.temperature_degC);
-  const bool made = triangulation.convert(raw, 0, sample) == lcs::Triangulation::Fate::kPoint;
+  const bool made = triangulation.convert(raw, 0, sample) == lcs::Fate::kPoint;
   const Vec3 ray = Eigen::Map<const Eigen::Vector3f>(sample.direction).cast<double>().normalized();
   const double range_m = point.distance_m / point.normal.dot(ray);
   const double nothing = std::numeric_limits<double>::quiet_NaN();

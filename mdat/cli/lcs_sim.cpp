@@ -1,5 +1,6 @@
 #include <atomic>
 #include <cstdio>
+#include <map>
 #include <memory>
 
 #include "mdat/cli/commands.hpp"
@@ -14,10 +15,13 @@ namespace lasso::mdat {
 namespace {
 
 struct Options {
-  std::string mission, listen = "tcp://127.0.0.1:0", camera_faults, optics;
+  std::string mission, listen = "tcp://127.0.0.1:0", device = "laser-camera", camera_faults, optics;
   bool remote = false;
   SimulationOptions simulation;
 };
+
+const std::map<std::string, lcs::Device> kDevices = {
+    {"laser-camera", lcs::Device::kLaserCamera}, {"lidar", lcs::Device::kLidar}, {"tridar", lcs::Device::kTridar}};
 
 void say(const std::string& text) {
   std::printf("%s\n", text.c_str());
@@ -32,6 +36,7 @@ void serve(Options options) {
   const std::unique_ptr<sim::RayCaster> target = make_target(mission.mesh);
   if (!options.camera_faults.empty()) options.simulation.camera_faults = load_camera_faults(options.camera_faults);
   if (!options.optics.empty()) options.simulation.camera_optics = load_calibration(options.optics);
+  options.simulation.wire = kDevices.at(options.device);
   const CaseSetup setup = camera_case(mission, options.simulation, *target);
   const std::atomic<bool>& ending = interruption();
   say("the camera listens on " + server.address());
@@ -44,9 +49,12 @@ void add_lcs_sim_command(CLI::App& app) {
   const auto options = std::make_shared<Options>();
   options->simulation.scenario = "spin";
   CLI::App* command = app.add_subcommand(
-      "lcs-sim", "run the simulated laser camera alone, in real time, for whoever speaks its protocol (docs/icd/lcs.md)");
+      "lcs-sim", "run the simulated laser camera, LIDAR or TriDAR alone, in real time, for whoever speaks its protocol (docs/icd/lcs.md)");
   command->add_option("MISSION", options->mission, "mission file")->required();
   command->add_option("--listen", options->listen, "pty, tcp://127.0.0.1:PORT (0: any that is free) or unix:PATH")->capture_default_str();
+  command->add_option("--device", options->device, "what to be: laser-camera, lidar or tridar")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"laser-camera", "lidar", "tridar"}));
   command->add_flag("--remote", options->remote, "others than this machine may connect");
   command->add_option("--scenario", options->simulation.scenario, "scenario of the mission: what moves in front of the camera")
       ->capture_default_str();

@@ -9,6 +9,7 @@
 #include "mdat/missiondb/calibration_file.hpp"
 #include "mdat/missiondb/camera_faults.hpp"
 #include "mdat/report/report.hpp"
+#include "mdat/run/camera.hpp"
 #include "mdat/run/recording.hpp"
 #include "mdat/run/results.hpp"
 #include "mdat/run/simulation.hpp"
@@ -65,25 +66,36 @@ void record(const Options& options) {
   std::printf("written to %s: for each range scans/, poses.csv (of the frame before) and truth.csv\n", options.record.c_str());
 }
 
-constexpr char kLine[] = "lcs-wire:";
+// The head and the line that --sensor names; no head: simulated.
+struct Wire {
+  std::optional<lcs::Device> head;
+  std::string line;
+};
+std::optional<Wire> wire_of(const std::string& sensor) {
+  if (sensor == "simulated") return Wire{};
+  for (const lcs::Device device : {lcs::Device::kLaserCamera, lcs::Device::kLidar, lcs::Device::kTridar}) {
+    const std::string name = wire_name(device);
+    if (sensor == name) return Wire{device, ""};
+    if (sensor.rfind(name + ":", 0) == 0 && sensor.size() > name.size() + 1) return Wire{device, sensor.substr(name.size() + 1)};
+  }
+  return std::nullopt;
+}
 
 std::string check_sensor(const std::string& name) {
-  const bool known = name == "simulated" || name == "lcs-wire" || (name.rfind(kLine, 0) == 0 && name.size() > sizeof kLine - 1);
-  return known ? "" : "expected simulated, lcs-wire or lcs-wire:LINE";
+  return wire_of(name) ? "" : "expected simulated, or lcs-wire, lidar-wire or tridar-wire, or one of these with :LINE";
 }
 
 // What the words about cameras ask for. Throws where they do not fit together.
 void set_cameras(Options& options) {
   SimulationOptions& simulation = options.simulation;
-  simulation.laser_camera_line = options.sensor == "lcs-wire";
-  if (options.sensor.rfind(kLine, 0) == 0) {
-    simulation.camera_line = options.sensor.substr(sizeof kLine - 1);
-    simulation.plain = true;
-  }
+  const Wire wire = wire_of(options.sensor).value();
+  simulation.wire = wire.head;
+  simulation.camera_line = wire.line;
+  simulation.plain = !wire.line.empty();
   const bool calibrated = !options.optics.empty() || !options.calibration.empty();
-  if (calibrated && !simulation.laser_camera_line && simulation.camera_line.empty())
-    throw InputError("--camera-optics, --calibration: only a camera on its line has them: add --sensor lcs-wire");
-  if (!options.camera_faults.empty() && !simulation.laser_camera_line)
+  if (calibrated && (!wire.head || wire.head == lcs::Device::kLidar))
+    throw InputError("--camera-optics, --calibration: only a camera on its line has them: add --sensor lcs-wire or tridar-wire");
+  if (!options.camera_faults.empty() && (!wire.head || !wire.line.empty()))
     throw InputError("--camera-faults: only a camera on its line fails by a script: add --sensor lcs-wire");
   if (!options.optics.empty()) simulation.camera_optics = load_calibration(options.optics);
   if (!options.calibration.empty()) simulation.calibration = load_calibration(options.calibration);
@@ -101,10 +113,12 @@ void add_run_command(CLI::App& app) {
   command->add_option("--seed", options->simulation.seed, "start of the random numbers (the scenario's)")
       ->check(CLI::Range(std::int64_t{0}, std::int64_t{4294967295}));
   command
-      ->add_option(
-          "--sensor", options->sensor,
-          "simulated, or lcs-wire: laser cameras are reached over their serial line, byte by byte (docs/icd/lcs.md), or "
-          "lcs-wire:LINE: the one at the end of a line of this machine, in real time (tcp://127.0.0.1:PORT, unix:PATH, or a device)")
+      ->add_option("--sensor", options->sensor,
+                   "simulated, or lcs-wire: laser cameras are reached over their serial line, byte by byte (docs/icd/lcs.md); lidar-wire: "
+                   "LIDARs are; "
+                   "tridar-wire: each sensor is a TriDAR on its line. With :LINE after it the one at the end of a line of this machine, in "
+                   "real time "
+                   "(tcp://127.0.0.1:PORT, unix:PATH, or a device)")
       ->capture_default_str()
       ->check(CLI::Validator(check_sensor, ""));
   command->add_flag("--remote", options->simulation.remote_line, "the line may lead to other machines");

@@ -15,7 +15,7 @@ constexpr std::chrono::microseconds kStep(500);
 posix::SerialLine opened(const CaseSetup& setup, double bits_per_s) {
   posix::SerialLine line;
   const std::string wrong = line.open(setup.camera_line, static_cast<unsigned>(bits_per_s), setup.remote_line);
-  if (!wrong.empty()) throw InputError("--sensor lcs-wire: " + wrong);
+  if (!wrong.empty()) throw InputError("--sensor " + std::string(wire_name(setup.wire.value_or(lcs::Device::kLaserCamera))) + ": " + wrong);
   return line;
 }
 
@@ -34,6 +34,14 @@ class AwaitedTrajectory final : public sim::Trajectory {
   TimeUs begin_us_ = 0;
   bool begun_ = false;
 };
+
+// The clock of a head is behind the mirrors of its camera.
+void share_mirrors(sim::LcsCamera& camera) {
+  camera.clock.serial = camera.truth.serial;
+  camera.clock.angle_x_offset_rad = camera.truth.angle_x_offset_rad;
+  camera.clock.angle_y_offset_rad = camera.truth.angle_y_offset_rad;
+  camera.clock.angle_max_rad = camera.truth.angle_max_rad;
+}
 
 // A camera and its client, from the client's first byte until it goes.
 class Session {
@@ -90,12 +98,24 @@ class Session {
 
 }  // namespace
 
+const char* wire_name(lcs::Device device) {
+  if (device == lcs::Device::kLidar) return "lidar-wire";
+  return device == lcs::Device::kTridar ? "tridar-wire" : "lcs-wire";
+}
+
+bool wired(lcs::Device device, SensorKind kind) {
+  return device == lcs::Device::kTridar || (device == lcs::Device::kLidar) == (kind == SensorKind::kTimeOfFlight);
+}
+
 sim::LcsCamera camera_for(const CaseSetup& setup, const sim::ScannerModel& model) {
   sim::LcsCamera camera;
+  camera.device = setup.wire.value_or(lcs::Device::kLaserCamera);
   camera.truth.serial = 1;
   if (setup.camera_optics) camera.truth = *setup.camera_optics;
   camera.temperature_degC = static_cast<float>(setup.camera_degC);
   camera.truth.angle_max_rad = std::max({camera.truth.angle_max_rad, model.fov_half_x_rad, model.fov_half_y_rad});
+  camera.clock.range_min_m = std::min(camera.clock.range_min_m, model.range_min_m);
+  share_mirrors(camera);
   camera.faults = setup.camera_faults;
   for (sim::LcsFault& fault : camera.faults) {
     fault.from_us += kEpochUs;
@@ -104,8 +124,15 @@ sim::LcsCamera camera_for(const CaseSetup& setup, const sim::ScannerModel& model
   return camera;
 }
 
+lcs::Optics optics_for(const CaseSetup& setup, const sim::LcsCamera& camera) {
+  sim::LcsCamera believed = camera;
+  believed.truth = setup.calibration.value_or(camera.truth);
+  share_mirrors(believed);
+  return sim::optics_of(believed);
+}
+
 LiveCamera::LiveCamera(const CaseSetup& setup, const sim::ScannerModel& model)
-    : driver(rings, setup.calibration.value_or(camera_for(setup, model).truth)), line(opened(setup, rings.bits_per_s)), pump(line, rings) {}
+    : driver(rings, optics_for(setup, camera_for(setup, model))), line(opened(setup, rings.bits_per_s)), pump(line, rings) {}
 
 LiveCamera::~LiveCamera() { driver.permit_laser(false); }
 

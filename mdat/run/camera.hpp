@@ -1,4 +1,5 @@
-// The laser camera of a run: simulated at the other end of a line in simulated time, or reached over a line of this machine in real time.
+// The laser camera, LIDAR or TriDAR of a run: simulated at the other end of a line in simulated time, or reached over a line of this
+// machine in real time.
 #pragma once
 
 #include <string>
@@ -11,22 +12,30 @@
 
 namespace lasso::mdat {
 
-// The camera of a case; its optics are those that its driver takes them to be.
+// As --sensor names it.
+const char* wire_name(lcs::Device device);
+// Whether a mission's sensor of this kind is the head that is on a line: a laser camera, a LIDAR, or, as a TriDAR, any.
+bool wired(lcs::Device device, SensorKind kind);
+
+// The camera, or other head, of a case; its optics are those that its driver takes them to be.
 sim::LcsCamera camera_for(const CaseSetup& setup, const sim::ScannerModel& model);
 
-// A laser camera that sees what its scanner model does, at the end of its line.
+// What the driver of that camera takes its optics to be.
+lcs::Optics optics_for(const CaseSetup& setup, const sim::LcsCamera& camera);
+
+// A head that sees what its scanner model does, at the end of its line.
 struct CameraOnLine {
   CameraOnLine(const CaseSetup& setup, const sim::Trajectory& trajectory, const sim::ScannerModel& model, std::uint64_t seed)
       : camera(camera_for(setup, model)),
         device(*setup.target, trajectory, model, seed, camera),
-        line(device, setup.calibration.value_or(camera.truth), camera.bits_per_s) {}
+        line(device, optics_for(setup, camera), camera.bits_per_s) {}
 
   sim::LcsCamera camera;
   sim::LcsDevice device;
   sim::LcsOverLine line;
 };
 
-// The driver of a camera that is reached over a line of this machine (bsp/posix/serial_line.hpp).
+// The driver of a head that is reached over a line of this machine (bsp/posix/serial_line.hpp).
 struct LiveCamera {
   // Throws InputError with the line's reason.
   LiveCamera(const CaseSetup& setup, const sim::ScannerModel& model);

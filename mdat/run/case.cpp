@@ -42,8 +42,9 @@ sim::ScannerModel model_of(const Scenario& scenario, const SensorParameters& sen
 struct Scanner {
   Scanner(const CaseSetup& setup, const sim::Trajectory& trajectory, const sim::ScannerModel& model, std::uint64_t seed, SensorKind kind)
       : simulated(*setup.target, trajectory, model, seed),
-        camera(setup.laser_camera_line && kind == SensorKind::kLaserCamera ? std::make_unique<CameraOnLine>(setup, trajectory, model, seed)
-                                                                           : nullptr),
+        camera(setup.wire && setup.camera_line.empty() && wired(*setup.wire, kind)
+                   ? std::make_unique<CameraOnLine>(setup, trajectory, model, seed)
+                   : nullptr),
         live(setup.camera_line.empty() ? nullptr : std::make_unique<LiveCamera>(setup, model)),
         recorded(live     ? static_cast<Sensor&>(live->driver)
                  : camera ? static_cast<Sensor&>(camera->line)
@@ -91,7 +92,7 @@ class Case {
     const LoadFailure failure = component_->load_image(view(image_, setup.image->size()));
     if (failure.status != Status::kOk) throw RunError("the component refused the image: " + to_string(failure));
     expect(component_->begin(kEpochUs), "begin");
-    if (setup.laser_camera_line || !setup.camera_line.empty()) enable_laser();
+    if (setup.wire) enable_laser();
     if (!is_approach()) start(kEpochUs - period_us_);
     if (is_approach() && component_->command_mode(TrackingMode::kBearing) != ModeRefusal::kNone) {
       throw RunError("the component refused to look for a bearing");

@@ -10,6 +10,7 @@
 
 #include "fsw/link/byte_link.hpp"
 #include "fsw/link/pose_telemetry.hpp"
+#include "hal_lcs/messages.hpp"
 #include "hal_lcs/triangulation.hpp"
 #include "hal_sim/lcs_faults.hpp"
 #include "hal_sim/ray_caster.hpp"
@@ -33,7 +34,7 @@ struct CaseSetup {
   std::uint32_t frames = 0;
   MissionParameters parameters{};  // as compiled into the image
   std::vector<FurtherSensor> further_sensors;
-  bool laser_camera_line = false;                 // a laser camera is reached over its line
+  std::optional<lcs::Device> wire;                // the heads that are reached over their lines (wired)
   std::string camera_line;                        // of this machine, over which it is reached, in real time; empty: simulated
   bool remote_line = false;                       // which may lead to other machines
   std::optional<lcs::Calibration> camera_optics;  // of the simulated camera; otherwise the design's

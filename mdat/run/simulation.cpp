@@ -13,6 +13,7 @@
 #include "mdat/common/errors.hpp"
 #include "mdat/common/progress_bar.hpp"
 #include "mdat/modelc/image_writer.hpp"
+#include "mdat/run/camera.hpp"
 
 namespace lasso::mdat {
 namespace {
@@ -41,9 +42,21 @@ std::vector<std::string> part_names(const MissionSource& source) {
 }
 
 void set_camera(const SimulationOptions& options, CaseSetup& setup) {
+  setup.wire = options.wire;
   setup.camera_optics = options.camera_optics;
   setup.calibration = options.calibration;
   setup.camera_degC = options.camera_degC;
+}
+
+// What is to be on a line has to be in the mission.
+void require_wired(const MissionSource& source, const SimulationOptions& options) {
+  if (!options.wire || wired(*options.wire, source.sensor)) return;
+  for (const FurtherSensor& sensor : source.further_sensors) {
+    if (wired(*options.wire, sensor.kind)) return;
+  }
+  throw InputError("--sensor " + std::string(wire_name(*options.wire)) + ": none of the mission's sensors is a " +
+                   (*options.wire == lcs::Device::kLidar ? "LIDAR (kind = \"time_of_flight\")" : "laser camera (kind = \"laser_camera\")") +
+                   "; tridar-wire takes any");
 }
 
 // One image for each set of parameters, and all cases in order.
@@ -126,7 +139,6 @@ Plan make_plan(const CompiledMission& mission, const SimulationResult& result, c
         plan.cases.back().target = &target;
         plan.cases.back().further_sensors = mission.source.further_sensors;
         plan.cases.back().sensor = mission.source.sensor;
-        plan.cases.back().laser_camera_line = result.laser_camera_line;
         plan.cases.back().camera_faults = result.camera_faults;
       }
     }
@@ -252,7 +264,6 @@ SimulationResult simulate(const CompiledMission& mission, const SimulationOption
   result.seed = options.seed.value_or(static_cast<std::uint64_t>(scenario.seed));
   result.frames = options.frames.value_or(static_cast<std::uint32_t>(scenario.frames));
   result.sensors = sensor_names(mission.source);
-  result.laser_camera_line = options.laser_camera_line;
   result.camera_faults = options.camera_faults;
   result.parts = part_names(mission.source);
   result.tables = make_tables(scenario, parameters, options.plain || options.link != nullptr);
@@ -261,8 +272,9 @@ SimulationResult simulate(const CompiledMission& mission, const SimulationOption
   const auto begin = std::chrono::steady_clock::now();
   const std::unique_ptr<sim::RayCaster> target = make_target(mission.mesh);
   Plan plan = make_plan(mission, result, *target);
+  require_wired(mission.source, options);
   if (!options.camera_line.empty() && plan.cases.size() != 1) {
-    throw InputError("--sensor lcs-wire:" + options.camera_line +
+    throw InputError("--sensor " + std::string(wire_name(*options.wire)) + ":" + options.camera_line +
                      ": one camera takes the scans of one run: choose a scenario of one range, such as spin");
   }
   for (CaseSetup& setup : plan.cases) {

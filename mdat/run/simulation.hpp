@@ -16,7 +16,7 @@ struct SimulationOptions {
   std::optional<std::uint64_t> seed;                           // otherwise the scenario's
   std::optional<std::uint32_t> frames;                         // otherwise the scenario's
   unsigned jobs = 1;                                           // cases at a time; the results do not depend on it
-  bool laser_camera_line = false;                              // laser cameras are reached over their lines
+  std::optional<lcs::Device> wire;                             // as CaseSetup's
   sim::LcsFaults camera_faults;                                // of those cameras
   std::optional<lcs::Calibration> camera_optics, calibration;  // as CaseSetup's
   double camera_degC = 20;
@@ -56,7 +56,6 @@ struct SimulationResult {
   ScenarioKind kind = ScenarioKind::kPaper;
   std::uint64_t seed = 0;
   std::uint32_t frames = 0;
-  bool laser_camera_line = false;
   sim::LcsFaults camera_faults;
   std::vector<std::string> sensors, parts;  // names by their numbers; part 0 is the whole
   std::vector<TableResult> tables;

@@ -169,7 +169,7 @@ TEST_F(LcsDriver, RaysThatWereNotAimedAreNotOffPlan) {
   EXPECT_EQ(driver.health().off_plan, 0U);
   ASSERT_EQ(samples.size(), 1U);
   EXPECT_EQ(samples[0].state, RayState::kInvalid);
-  EXPECT_EQ(fate(Triangulation::Fate::kNoStatement), 1U);
+  EXPECT_EQ(fate(Fate::kNoStatement), 1U);
 }
 
 TEST_F(LcsDriver, TimesThatGoBackOrStrayFromThePlanMakeNoPoint) {
@@ -287,6 +287,18 @@ TEST_F(LcsDriver, AFrameThatComesAgainIsNoGap) {
   EXPECT_EQ(driver.health().sequence_gaps, 0U);
   EXPECT_EQ(samples.size(), 8U);
   EXPECT_EQ(driver.health().strayed, 4U);
+}
+
+TEST_F(LcsDriver, AnotherKindOfHeadIsNotBelieved) {
+  VERIFIES("LASSO-LCS-015~1 LASSO-LCS-016~1");
+  ASSERT_EQ(driver.start(small_plan(), kStartUs), Status::kOk);
+  CameraStatus status;
+  status.serial = kSerial;
+  status.device = Device::kTridar;
+  camera.say(status);
+  camera.answer(camera.heard());
+  EXPECT_EQ(poll().status, Status::kBadVersion);
+  EXPECT_EQ(lost(Loss::kForeign), 1U);
 }
 
 TEST_F(LcsDriver, AnotherProtocolIsNotBelieved) {

@@ -111,10 +111,10 @@ class LcsDriver : public ::testing::Test {
     return result;
   }
   std::uint32_t lost(Loss loss) const { return driver.health().scans_lost[static_cast<std::size_t>(loss)]; }
-  std::uint32_t fate(Triangulation::Fate fate) const { return driver.health().fates[static_cast<std::size_t>(fate)]; }
+  std::uint32_t fate(Fate fate) const { return driver.health().fates[static_cast<std::size_t>(fate)]; }
 
   Line line;
-  Driver driver{line, calibration()};
+  Driver driver{line, Optics(calibration())};
   Camera camera{line};
   RangeSample out[kMaxSamplesPerPoll];
   std::vector<RangeSample> samples;

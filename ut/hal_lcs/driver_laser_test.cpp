@@ -84,7 +84,7 @@ TEST(LcsDriverAnew, InhibitsACameraThatMayBeLit) {
   VERIFIES("LASSO-LCS-006~1");
   Line line;
   Camera camera(line);
-  const Driver driver(line, calibration());
+  const Driver driver(line, Optics(calibration()));
   EXPECT_EQ(laser_commands(camera.heard()), kInhibit);
 }
 

@@ -101,7 +101,7 @@ TEST(LcsDriverDeath, CalibrationThatIsNotValid) {
   Line line;
   Calibration bad;
   bad.baseline_m = 0;
-  EXPECT_DEATH(Driver(line, bad), "lcs calibration");
+  EXPECT_DEATH(Driver(line, Optics(bad)), "lcs calibration");
 }
 
 }  // namespace

@@ -49,7 +49,8 @@ RawSample random_sample(test::Generator& chance, std::uint32_t base_us) {
   sample.angle_y_rad = chance.uniform(-1, 1);
   sample.peak = chance.uniform(-1, 1);
   sample.intensity = static_cast<std::uint8_t>(chance.below(16));
-  sample.kind = static_cast<SampleKind>(chance.bits() % 4);
+  sample.flight_us = chance.uniform(0, kMaxFlightUs);
+  sample.kind = static_cast<SampleKind>(chance.bits() % 5);
   return sample;
 }
 
@@ -134,17 +135,21 @@ TEST(LcsMessages, WhatTheCameraSaysIsTheBytesOfTheInterfaceDocument) {
   status.laser_lit = true;
   status.scanning = true;
   status.faults = 0x14;
+  status.device = Device::kTridar;
   EXPECT_EQ(encode(0, status).bytes[3], 0x82);
-  EXPECT_EQ(payload(encode(0, status)), (Wire{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 0xFF, 0x6A, 3, 0x14, 1}));
+  EXPECT_EQ(payload(encode(0, status)), (Wire{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 0xFF, 0x6A, 3, 0x14, 2, 2}));
   Samples samples;
   samples.tag = 0x77;
   samples.first = 0x0102;
   samples.count = 2;
-  samples.samples[0] = {0xFFFFFFFE, 0.5, -0.5, 1.0 / 8388608, 15, SampleKind::kReturn};
-  samples.samples[1] = {0x00000001, -1.0 / 8388608, 0, -1, 3, SampleKind::kSaturated};  // 3 us later
+  samples.samples[0] = {0xFFFFFFFE, 0.5, -0.5, 1.0 / 8388608, 0, 15, SampleKind::kReturn};
+  samples.samples[1] = {0x00000001, -1.0 / 8388608, 0, -1, 0, 3, SampleKind::kSaturated};  // 3 us later
   EXPECT_EQ(encode(0, samples).bytes[3], 0x91);
   EXPECT_EQ(payload(encode(0, samples)), (Wire{0x77, 1, 2,    0xFF, 0xFF, 0xFF, 0xFE, 0,    0, 0x40, 0, 0,    0xC0, 0, 0,   0,
                                                0,    1, 0x0F, 0,    3,    0xFF, 0xFF, 0xFF, 0, 0,    0, 0x80, 0,    0, 0x23}));
+  samples.count = 1;
+  samples.samples[0] = {0xFFFFFFFE, 0.5, -0.5, 0, 4 + 3.0 / 2097152, 15, SampleKind::kEcho};
+  EXPECT_EQ(payload(encode(0, samples)), (Wire{0x77, 1, 2, 0xFF, 0xFF, 0xFF, 0xFE, 0, 0, 0x40, 0, 0, 0xC0, 0, 0, 0x80, 0, 3, 0x4F}));
   const ScanEnd end{0x77, 0x0102, true};
   EXPECT_EQ(encode(0, end).bytes[3], 0x92);
   EXPECT_EQ(payload(encode(0, end)), (Wire{0x77, 1, 2, 1}));
@@ -169,7 +174,8 @@ TEST(LcsMessages, ComeBackToTheByte) {
     expect_same_again<CameraStatus>(
         encode(sequence, CameraStatus{static_cast<std::uint32_t>(chance.bits()), static_cast<std::uint32_t>(chance.bits()),
                                       static_cast<std::uint32_t>(chance.bits()), static_cast<float>(chance.uniform(-300, 300)),
-                                      chance.bits() % 2 == 0, chance.bits() % 2 == 0, static_cast<std::uint8_t>(chance.bits())}));
+                                      chance.bits() % 2 == 0, chance.bits() % 2 == 0, static_cast<std::uint8_t>(chance.bits()),
+                                      static_cast<std::uint8_t>(chance.bits()), static_cast<Device>(chance.bits() % 3)}));
     expect_same_again<Samples>(encode(sequence, random_samples(chance, 1 + chance.bits() % kSamplesPerFrame)));
     expect_same_again<ScanEnd>(encode(
         sequence, ScanEnd{static_cast<std::uint8_t>(chance.bits()), static_cast<std::uint16_t>(chance.bits()), chance.bits() % 2 == 0}));
@@ -190,7 +196,9 @@ TEST(LcsMessages, SamplesKeepTheirValuesToHalfAStep) {
       EXPECT_EQ(got.samples[i].clock_us, sent.samples[i].clock_us);
       EXPECT_NEAR(got.samples[i].angle_x_rad, sent.samples[i].angle_x_rad, 1.01 * std::ldexp(1, -24));
       EXPECT_NEAR(got.samples[i].angle_y_rad, sent.samples[i].angle_y_rad, 1.01 * std::ldexp(1, -24));
-      EXPECT_NEAR(got.samples[i].peak, sent.samples[i].peak, 1.01 * std::ldexp(1, -24));
+      const bool echo = sent.samples[i].kind == SampleKind::kEcho;
+      EXPECT_NEAR(got.samples[i].peak, echo ? 0 : sent.samples[i].peak, 1.01 * std::ldexp(1, -24));
+      EXPECT_NEAR(got.samples[i].flight_us, echo ? sent.samples[i].flight_us : 0, 1.01 * std::ldexp(1, -22));
       EXPECT_EQ(got.samples[i].intensity, sent.samples[i].intensity);
       EXPECT_EQ(got.samples[i].kind, sent.samples[i].kind);
     }
@@ -213,6 +221,12 @@ TEST(LcsMessages, WhatIsOffTheScaleStaysAtItsEnd) {
   EXPECT_EQ(got.samples[1].angle_x_rad, -1);
   EXPECT_EQ(got.samples[1].angle_y_rad, -1);
   EXPECT_NEAR(got.samples[1].peak, 1, 2e-7);
+  for (RawSample& sample : sent.samples) sample.kind = SampleKind::kEcho;
+  sent.samples[0].flight_us = -1;
+  sent.samples[1].flight_us = 9;
+  ASSERT_EQ(decode(received(encode(0, sent)), got), Status::kOk);
+  EXPECT_EQ(got.samples[0].flight_us, 0);
+  EXPECT_EQ(got.samples[1].flight_us, kMaxFlightUs);
 }
 
 TEST(LcsMessages, APhaseBelowOneTurnStaysBelow) {
@@ -250,9 +264,10 @@ TEST(LcsMessages, CodesThatAreNotDefinedAreRefused) {
   EXPECT_TRUE(refuses(received(encode(0, LaserCommand::kArm)), 0, 1, LaserCommand{}));
   EXPECT_TRUE(refuses(received(encode(0, Answer{})), 2, 8, Answer{}));
   EXPECT_TRUE(refuses(received(encode(0, ScanEnd{})), 3, 2, ScanEnd{}));
+  EXPECT_TRUE(refuses(received(encode(0, CameraStatus{})), 17, 3, CameraStatus{}));
   Samples samples;
   samples.count = 2;
-  EXPECT_TRUE(refuses(received(encode(0, samples)), 7 + 11, 0x40, Samples{}));  // the first 4 bits of the first sample's last byte
+  EXPECT_TRUE(refuses(received(encode(0, samples)), 7 + 11, 0x50, Samples{}));  // the first 4 bits of the first sample's last byte
 }
 
 TEST(LcsMessages, CommandsWithoutPayloadAreHeadersAlone) {

@@ -11,8 +11,6 @@
 namespace lasso::lcs {
 namespace {
 
-using Fate = Triangulation::Fate;
-
 Calibration bent_camera() {
   Calibration c;
   c.serial = 7;

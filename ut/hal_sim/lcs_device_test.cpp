@@ -46,7 +46,9 @@ struct Tally {
 class Flight {
  public:
   explicit Flight(const LcsFaults& faults)
-      : camera_(with(faults)), device_(*caster_, motion_, ScannerModel{}, 5, camera_), line_(device_, camera_.truth, camera_.bits_per_s) {
+      : camera_(with(faults)),
+        device_(*caster_, motion_, ScannerModel{}, 5, camera_),
+        line_(device_, optics_of(camera_), camera_.bits_per_s) {
     line_.permit_laser(true);
   }
 
@@ -176,7 +178,7 @@ TEST(LcsDevice, ASaturatedDetectorMakesNoPoints) {
   VERIFIES("LASSO-LCS-011~1");
   const Tally tally = fly({always(LcsFaultKind::kSaturated, 0)});
   EXPECT_EQ(tally.hits, 0U);
-  EXPECT_GT(tally.health.fates[static_cast<std::size_t>(lcs::Triangulation::Fate::kNoStatement)], 300U * kScans);
+  EXPECT_GT(tally.health.fates[static_cast<std::size_t>(lcs::Fate::kNoStatement)], 300U * kScans);
 }
 
 TEST(LcsDevice, ABootCostsTheScanAndTheNextOnes) {
