@@ -74,6 +74,34 @@ INSTANTIATE_TEST_SUITE_P(All, Line,
                                            Head{"tridar-wire", "laser_camera"}),
                          [](const auto& one) { return std::string(one.param.sensor).substr(0, 3); });
 
+TEST(Replay, GivesThePosesOfTheRunThatWasRecorded) {
+  VERIFIES("LASSO-SNS-031~1");
+  const WorkFolder folder;
+  const std::string run = "run missions/test.toml --scenario spin --frames 6 --no-report ";
+  ASSERT_EQ(folder.mdat(run + "--out first --record-sensor scans.3dlr").exit_code, 0);
+  ASSERT_EQ(folder.mdat(run + "--out again --seed 77 --sensor replay:scans.3dlr").exit_code, 0);
+  const std::string telemetry = folder.read("first/telemetry.ccsds");
+  EXPECT_FALSE(telemetry.empty());
+  EXPECT_TRUE(telemetry == folder.read("again/telemetry.ccsds")) << "another seed draws other noise: it was not the recording that played";
+}
+
+TEST(Replay, SaysWhatIsWrongWithARecording) {
+  VERIFIES("LASSO-SNS-031~1");
+  const WorkFolder folder;
+  folder.write("scans.3dlr", "no recording");
+  const std::pair<const char*, const char*> cases[] = {
+      {"--scenario spin --sensor replay:none", "none: cannot be read"},
+      {"--scenario spin --sensor replay:scans.3dlr", "scans.3dlr: scan 0, byte 4: not a recording of a sensor"},
+      {"--scenario spin --sensor replay:", "replay:FILE"},
+      {"--record-sensor made.3dlr", "choose a scenario of one range"},
+  };
+  for (const auto& [words, why] : cases) {
+    const Answer answer = folder.mdat("run missions/test.toml --frames 2 --no-report " + std::string(words));
+    EXPECT_EQ(answer.exit_code, 2) << words;
+    EXPECT_NE(answer.err.find(why), std::string::npos) << answer.err;
+  }
+}
+
 TEST(LineRefusals, NameWhatTheMissionLacks) {
   VERIFIES("LASSO-LCS-016~1");
   const WorkFolder folder;

@@ -18,7 +18,7 @@ namespace lasso::mdat {
 namespace {
 
 struct Options {
-  std::string mission, sensor = "simulated", camera_faults, optics, calibration, out = "out/run", picture, record, link;
+  std::string mission, sensor = "simulated", camera_faults, optics, calibration, out = "out/run", picture, record, record_sensor, link;
   SimulationOptions simulation;
   bool report = true;
 };
@@ -47,6 +47,7 @@ std::unique_ptr<posix::PosixLink> open_link(const std::string& url) {
 void run(const Options& options) {
   OutputFolder folder(options.out);
   if (!options.picture.empty()) check_writable(options.picture);
+  if (!options.record_sensor.empty()) check_writable(options.record_sensor);
   if (options.report || !options.picture.empty()) require_plotter();
   const CompiledMission mission = compile_mission(options.mission);
   for (const std::string& warning : mission.source.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
@@ -55,6 +56,7 @@ void run(const Options& options) {
   simulation.link = link.get();
   const SimulationResult result = simulate(mission, simulation);
   write_outputs(options, mission, result, folder);
+  if (simulation.record) write_file(options.record_sensor, recording_text(*simulation.record));
   std::fputs(summary_text(result).c_str(), stdout);
   std::printf("written to %s: results.json, telemetry.ccsds%s\n", options.out.c_str(), options.report ? ", report.html" : "");
 }
@@ -66,32 +68,38 @@ void record(const Options& options) {
   std::printf("written to %s: for each range scans/, poses.csv (of the frame before) and truth.csv\n", options.record.c_str());
 }
 
-// The head and the line that --sensor names; no head: simulated.
+// The head and the line, or the recording, that --sensor names; none: simulated.
 struct Wire {
   std::optional<lcs::Device> head;
   std::string line;
+  std::string recording;
 };
+constexpr char kReplay[] = "replay:";
+
 std::optional<Wire> wire_of(const std::string& sensor) {
   if (sensor == "simulated") return Wire{};
+  if (sensor.rfind(kReplay, 0) == 0 && sensor.size() > sizeof kReplay - 1) return Wire{std::nullopt, "", sensor.substr(sizeof kReplay - 1)};
   for (const lcs::Device device : {lcs::Device::kLaserCamera, lcs::Device::kLidar, lcs::Device::kTridar}) {
     const std::string name = wire_name(device);
-    if (sensor == name) return Wire{device, ""};
-    if (sensor.rfind(name + ":", 0) == 0 && sensor.size() > name.size() + 1) return Wire{device, sensor.substr(name.size() + 1)};
+    if (sensor == name) return Wire{device, "", ""};
+    if (sensor.rfind(name + ":", 0) == 0 && sensor.size() > name.size() + 1) return Wire{device, sensor.substr(name.size() + 1), ""};
   }
   return std::nullopt;
 }
 
 std::string check_sensor(const std::string& name) {
-  return wire_of(name) ? "" : "expected simulated, or lcs-wire, lidar-wire or tridar-wire, or one of these with :LINE";
+  return wire_of(name) ? "" : "expected simulated, or lcs-wire, lidar-wire or tridar-wire, or one of these with :LINE, or replay:FILE";
 }
 
 // What the words about cameras ask for. Throws where they do not fit together.
 void set_cameras(Options& options) {
   SimulationOptions& simulation = options.simulation;
-  const Wire wire = wire_of(options.sensor).value();
+  const Wire wire = wire_of(options.sensor).value_or(Wire{});
   simulation.wire = wire.head;
   simulation.camera_line = wire.line;
-  simulation.plain = !wire.line.empty();
+  if (!wire.recording.empty()) simulation.replay = load_sensor_recording(wire.recording);
+  if (!options.record_sensor.empty()) simulation.record = std::make_shared<sim::SensorRecording>();
+  simulation.plain = !wire.line.empty() || simulation.replay || simulation.record;
   const bool calibrated = !options.optics.empty() || !options.calibration.empty();
   if (calibrated && (!wire.head || wire.head == lcs::Device::kLidar))
     throw InputError("--camera-optics, --calibration: only a camera on its line has them: add --sensor lcs-wire or tridar-wire");
@@ -118,9 +126,11 @@ void add_run_command(CLI::App& app) {
                    "LIDARs are; "
                    "tridar-wire: each sensor is a TriDAR on its line. With :LINE after it the one at the end of a line of this machine, in "
                    "real time "
-                   "(tcp://127.0.0.1:PORT, unix:PATH, or a device)")
+                   "(tcp://127.0.0.1:PORT, unix:PATH, or a device). replay:FILE: the sensors play what --record-sensor has written")
       ->capture_default_str()
       ->check(CLI::Validator(check_sensor, ""));
+  command->add_option("--record-sensor", options->record_sensor,
+                      "file to write: what the sensors of the run gave, for --sensor replay:FILE");
   command->add_flag("--remote", options->simulation.remote_line, "the line may lead to other machines");
   command->add_option("--camera-faults", options->camera_faults,
                       "script of what goes wrong with laser cameras and their lines (docs/user-guide.md); with --sensor lcs-wire");

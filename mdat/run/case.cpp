@@ -38,20 +38,31 @@ sim::ScannerModel model_of(const Scenario& scenario, const SensorParameters& sen
   return model;
 }
 
-// A simulated sensor that remembers its scans.
+// The sensor of that number, which remembers its scans: simulated, at the end of a line, or out of a recording.
 struct Scanner {
-  Scanner(const CaseSetup& setup, const sim::Trajectory& trajectory, const sim::ScannerModel& model, std::uint64_t seed, SensorKind kind)
+  Scanner(const CaseSetup& setup, const sim::Trajectory& trajectory, const sim::ScannerModel& model, std::uint64_t seed, SensorKind kind,
+          std::uint8_t number)
       : simulated(*setup.target, trajectory, model, seed),
         camera(setup.wire && setup.camera_line.empty() && wired(*setup.wire, kind)
                    ? std::make_unique<CameraOnLine>(setup, trajectory, model, seed)
                    : nullptr),
         live(setup.camera_line.empty() ? nullptr : std::make_unique<LiveCamera>(setup, model)),
-        recorded(live     ? static_cast<Sensor&>(live->driver)
-                 : camera ? static_cast<Sensor&>(camera->line)
-                          : simulated) {}
+        replay(setup.replay ? std::make_unique<sim::ReplaySensor>(*setup.replay, number) : nullptr),
+        recorder(setup.record ? std::make_unique<sim::SensorRecorder>(source(), number, *setup.record) : nullptr),
+        recorded(recorder ? static_cast<Sensor&>(*recorder) : source()) {}
+
+  Sensor& source() {
+    if (replay) return *replay;
+    if (live) return live->driver;
+    if (camera) return camera->line;
+    return simulated;
+  }
+
   sim::SimulatedScanner simulated;
   std::unique_ptr<CameraOnLine> camera;
   std::unique_ptr<LiveCamera> live;
+  std::unique_ptr<sim::ReplaySensor> replay;
+  std::unique_ptr<sim::SensorRecorder> recorder;
   RecordingSensor recorded;
 };
 
@@ -59,11 +70,12 @@ struct Scanner {
 std::vector<std::unique_ptr<Scanner>> make_scanners(const CaseSetup& setup, const sim::Trajectory& trajectory) {
   std::vector<std::unique_ptr<Scanner>> scanners;
   const sim::ScannerModel own = scanner_model(setup.scenario, setup.parameters, setup.noise);
-  scanners.push_back(std::make_unique<Scanner>(setup, trajectory, own, setup.seed, setup.sensor));
+  scanners.push_back(std::make_unique<Scanner>(setup, trajectory, own, setup.seed, setup.sensor, std::uint8_t{0}));
   for (const FurtherSensor& sensor : setup.further_sensors) {
-    std::uint64_t seed = setup.seed + scanners.size();
+    const auto number = static_cast<std::uint8_t>(scanners.size());
+    std::uint64_t seed = setup.seed + number;
     scanners.push_back(std::make_unique<Scanner>(setup, trajectory, scanner_model(setup.scenario, sensor, setup.noise),
-                                                 sim::split_mix64(seed), sensor.kind));
+                                                 sim::split_mix64(seed), sensor.kind, number));
   }
   return scanners;
 }

@@ -14,6 +14,7 @@
 #include "hal_lcs/triangulation.hpp"
 #include "hal_sim/lcs_faults.hpp"
 #include "hal_sim/ray_caster.hpp"
+#include "hal_sim/replay_sensor.hpp"
 #include "hal_sim/scanner.hpp"
 #include "hal_sim/trajectory.hpp"
 #include "mdat/missiondb/mission_source.hpp"
@@ -34,11 +35,13 @@ struct CaseSetup {
   std::uint32_t frames = 0;
   MissionParameters parameters{};  // as compiled into the image
   std::vector<FurtherSensor> further_sensors;
-  std::optional<lcs::Device> wire;                // the heads that are reached over their lines (wired)
-  std::string camera_line;                        // of this machine, over which it is reached, in real time; empty: simulated
-  bool remote_line = false;                       // which may lead to other machines
-  std::optional<lcs::Calibration> camera_optics;  // of the simulated camera; otherwise the design's
-  std::optional<lcs::Calibration> calibration;    // that its driver has; otherwise the optics
+  std::optional<lcs::Device> wire;                     // the heads that are reached over their lines (wired)
+  std::shared_ptr<const sim::SensorRecording> replay;  // which the sensors play, instead of looking at the target
+  std::shared_ptr<sim::SensorRecording> record;        // gets what the sensors give
+  std::string camera_line;                             // of this machine, over which it is reached, in real time; empty: simulated
+  bool remote_line = false;                            // which may lead to other machines
+  std::optional<lcs::Calibration> camera_optics;       // of the simulated camera; otherwise the design's
+  std::optional<lcs::Calibration> calibration;         // that its driver has; otherwise the optics
   double camera_degC = 20;
   sim::LcsFaults camera_faults;  // of each that is; times since frame 0
   SensorKind sensor = SensorKind::kLaserCamera;

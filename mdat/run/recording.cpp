@@ -1,6 +1,10 @@
 #include "mdat/run/recording.hpp"
 
 #include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <vector>
 
 #include "hal_sim/scan_file.hpp"
 #include "mdat/common/errors.hpp"
@@ -57,6 +61,22 @@ void write_recording(const CompiledMission& mission, SimulationOptions options, 
     char name[32];
     std::snprintf(name, sizeof name, "%gm", range_m);
     write_range(folder / name, variant.cases[i], *make_trajectory(table.scenario, range_m, kEpochUs, period), period);
+  }
+}
+
+std::string recording_text(const sim::SensorRecording& recording) {
+  const std::vector<std::uint8_t> bytes = sim::to_bytes(recording);
+  return {bytes.begin(), bytes.end()};
+}
+
+std::shared_ptr<const sim::SensorRecording> load_sensor_recording(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  const std::vector<std::uint8_t> bytes((std::istreambuf_iterator<char>(in)), {});
+  if (!in) throw InputError("--sensor replay: " + file.string() + ": cannot be read");
+  try {
+    return std::make_shared<const sim::SensorRecording>(sim::recording_of(ConstBytes(bytes.data(), bytes.size())));
+  } catch (const std::invalid_argument& error) {
+    throw InputError("--sensor replay: " + file.string() + ": " + error.what());
   }
 }
 

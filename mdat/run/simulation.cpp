@@ -43,9 +43,21 @@ std::vector<std::string> part_names(const MissionSource& source) {
 
 void set_camera(const SimulationOptions& options, CaseSetup& setup) {
   setup.wire = options.wire;
+  setup.replay = options.replay;
+  setup.record = options.record;
   setup.camera_optics = options.camera_optics;
   setup.calibration = options.calibration;
   setup.camera_degC = options.camera_degC;
+}
+
+// More runs than one are asked for.
+void refuse_what_serves_one(const SimulationOptions& options) {
+  const std::string way_out = ": choose a scenario of one range, such as spin";
+  if (!options.camera_line.empty())
+    throw InputError("--sensor " + std::string(wire_name(*options.wire)) + ":" + options.camera_line +
+                     ": one camera takes the scans of one run" + way_out);
+  if (options.replay) throw InputError("--sensor replay: a recording has the scans of one run" + way_out);
+  if (options.record) throw InputError("--record-sensor: a recording takes the scans of one run" + way_out);
 }
 
 // What is to be on a line has to be in the mission.
@@ -273,10 +285,7 @@ SimulationResult simulate(const CompiledMission& mission, const SimulationOption
   const std::unique_ptr<sim::RayCaster> target = make_target(mission.mesh);
   Plan plan = make_plan(mission, result, *target);
   require_wired(mission.source, options);
-  if (!options.camera_line.empty() && plan.cases.size() != 1) {
-    throw InputError("--sensor " + std::string(wire_name(*options.wire)) + ":" + options.camera_line +
-                     ": one camera takes the scans of one run: choose a scenario of one range, such as spin");
-  }
+  if (plan.cases.size() != 1) refuse_what_serves_one(options);
   for (CaseSetup& setup : plan.cases) {
     setup.link = options.link;
     setup.camera_line = options.camera_line;

@@ -18,6 +18,8 @@ struct SimulationOptions {
   unsigned jobs = 1;                                           // cases at a time; the results do not depend on it
   std::optional<lcs::Device> wire;                             // as CaseSetup's
   sim::LcsFaults camera_faults;                                // of those cameras
+  std::shared_ptr<const sim::SensorRecording> replay;          // as CaseSetup's: of one case
+  std::shared_ptr<sim::SensorRecording> record;                // the same
   std::optional<lcs::Calibration> camera_optics, calibration;  // as CaseSetup's
   double camera_degC = 20;
   ByteLink* link = nullptr;  // an operator's: one case, the scenario's first range, in real time

@@ -10,6 +10,7 @@
 #include "fsw/sense/pattern.hpp"
 #include "hal_sim/lcs_device.hpp"
 #include "hal_sim/ray_caster.hpp"
+#include "hal_sim/replay_sensor.hpp"
 #include "hal_sim/scanner.hpp"
 #include "ut/hal_sim/shapes.hpp"
 #include "ut/support/verifies.hpp"
@@ -56,6 +57,17 @@ struct LcsSensor {
   }
 };
 
+ScanPlan plan_of(std::uint16_t points = 1024) {
+  ScanPlan plan;
+  plan.scan_id = 41;
+  plan.points = points;
+  plan.phase_turns = 0.381966;
+  plan.center_x = 0.01;
+  plan.half_x = 0.15;
+  plan.half_y = 0.2;
+  return plan;
+}
+
 // A sensor in front of the target, and what keeps it alive.
 struct Rig {
   std::shared_ptr<void> owner;
@@ -85,15 +97,46 @@ Rig over_the_line(const Target& target, double bits_per_s, lcs::Device device = 
   return {lcs, &lcs->line};
 }
 
-ScanPlan plan_of(std::uint16_t points = 1024) {
-  ScanPlan plan;
-  plan.scan_id = 41;
-  plan.points = points;
-  plan.phase_turns = 0.381966;
-  plan.center_x = 0.01;
-  plan.half_x = 0.15;
-  plan.half_y = 0.2;
+AimedRays aimed_rays() {
+  AimedRays rays;
+  for (int i = 0; i < 300; ++i) static_cast<void>(rays.push_back({0.0004F * static_cast<float>(i) - 0.06F, 0.02F}));
+  return rays;
+}
+
+ScanPlan slow_plan() {
+  ScanPlan plan = plan_of(16);
+  plan.duration_us = 1'000'000;  // 67 ms from ray to ray
+  plan.cycles_a = 5;
+  plan.cycles_b = 3;
   return plan;
+}
+
+// What the suite asks for, recorded from the simulated scanner and played back.
+struct Replay {
+  SensorRecording recording;
+  ReplaySensor sensor{recording, 0};
+  explicit Replay(const Target& target) {
+    const AimedRays rays = aimed_rays();
+    ScanPlan aimed = plan_of();
+    aimed.aimed = rays.span();
+    SimulatedScanner scanner(*target.caster, target.motion, ScannerModel{}, 5);
+    SensorRecorder recorder(scanner, 0, recording);
+    for (const ScanPlan& plan : {plan_of(), slow_plan(), plan_of(200), aimed, plan_of(100), plan_of(300)}) record(recorder, plan);
+    const std::vector<std::uint8_t> bytes = to_bytes(recording);
+    recording = recording_of(ConstBytes(bytes.data(), bytes.size()));
+  }
+
+ private:
+  static void record(Sensor& recorder, const ScanPlan& plan) {
+    std::vector<RangeSample> out(plan.points);
+    EXPECT_EQ(recorder.start(plan, 5), Status::kOk);
+    EXPECT_TRUE(recorder.poll(plan.duration_us + 5, {out.data(), out.size()}).complete);
+  }
+};
+
+Rig replayed(const Target& target) {
+  const auto replay = std::make_shared<Replay>(target);
+  return {replay, &replay->sensor};
 }
 
 class SensorContract : public ::testing::TestWithParam<Kind> {
@@ -151,10 +194,7 @@ TEST_P(SensorContract, ScansThePlanRayByRay) {
 }
 
 TEST_P(SensorContract, ScansSlowly) {
-  ScanPlan plan = plan_of(16);
-  plan.duration_us = 1'000'000;  // 67 ms from ray to ray
-  plan.cycles_a = 5;
-  plan.cycles_b = 3;
+  const ScanPlan plan = slow_plan();
   ASSERT_EQ(sensor.start(plan, kStartUs), Status::kOk);
   expect_the_box(plan, collect(plan, kStartUs), kStartUs);
 }
@@ -166,8 +206,7 @@ TEST_P(SensorContract, KeepsWhatIsNotTaken) {
 }
 
 TEST_P(SensorContract, AimsTheRaysThatLeaveThePattern) {
-  AimedRays aimed;
-  for (int i = 0; i < 300; ++i) ASSERT_TRUE(aimed.push_back({0.0004F * static_cast<float>(i) - 0.06F, 0.02F}));
+  const AimedRays aimed = aimed_rays();
   ScanPlan plan = plan_of();
   plan.aimed = aimed.span();
   ASSERT_EQ(sensor.start(plan, kStartUs), Status::kOk);
@@ -249,7 +288,8 @@ INSTANTIATE_TEST_SUITE_P(
                       Kind{"lcs_4Mbit", kSpotStepM, [](const Target& target) { return over_the_line(target, 4e6); }},
                       Kind{"lcs_1Mbit", kSpotStepM, [](const Target& target) { return over_the_line(target, 1e6); }},
                       Kind{"lidar", kFlightStepM, [](const Target& target) { return over_the_line(target, 4e6, lcs::Device::kLidar); }},
-                      Kind{"tridar", kFlightStepM, [](const Target& target) { return over_the_line(target, 4e6, lcs::Device::kTridar); }}),
+                      Kind{"tridar", kFlightStepM, [](const Target& target) { return over_the_line(target, 4e6, lcs::Device::kTridar); }},
+                      Kind{"replay", kSpotStepM, replayed}),
     [](const auto& kind) { return std::string(kind.param.name); });
 
 }  // namespace
