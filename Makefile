@@ -9,6 +9,7 @@ BENCH := $(LASSO_OUT)/build-bench
 CLANG := $(LASSO_OUT)/build-clang
 GOLDEN := $(LASSO_OUT)/build-golden
 PROVE := $(LASSO_OUT)/build-prove
+BOARD := $(LASSO_OUT)/board
 SANITIZE := $(LASSO_OUT)/build-sanitize
 FUZZ := $(LASSO_OUT)/build-fuzz
 COVERAGE := $(LASSO_OUT)/build-coverage
@@ -19,6 +20,8 @@ OUT ?= out/run
 PREFIX ?= /usr/local
 export JOBS ?= $(shell nproc)
 CROSS = -DCMAKE_TOOLCHAIN_FILE=$(abspath cfg/toolchains/ppc603e.cmake) -DLASSO_GROUND=OFF
+# the flight image of the bare board (docs/boards/ppc603e.md)
+BARE_BOARD = -DCMAKE_TOOLCHAIN_FILE=$(abspath cfg/toolchains/ppc603e-bare.cmake) -DLASSO_GROUND=OFF -DLASSO_TESTS=OFF
 # $(call at_level,COMPILER,LEVEL): flight code and its tests at one level of optimisation, where the shipped build uses several
 at_level = -DCMAKE_CXX_COMPILER=$(1) -DCMAKE_BUILD_TYPE=Level -DCMAKE_CXX_FLAGS_LEVEL=-$(2) -DLASSO_GROUND=OFF
 # $(call sanitized,SANITIZERS), and the tests that start threads
@@ -47,7 +50,7 @@ compile = @echo "build $(1)$(if $(2), ($(2)))"; cmake --build $(1) --parallel $(
 ctest = @rm -rf $(2); mkdir -p $(2); GTEST_OUTPUT=xml:$(abspath $(2))/ \
   ctest --test-dir $(1) --parallel $(JOBS) --output-on-failure --no-tests=error --output-junit $(abspath $(2))/ctest.xml $(3)
 
-.PHONY: help run test accuracy bench basin search montecarlo endurance flips fuzz statistics campaigns-sample golden ppc-count search-count prove ppc-test sanitize arrows coverage mcdc trace evidence gates-selftest figures icd format lint install clean build
+.PHONY: help run test accuracy bench basin search montecarlo endurance flips fuzz statistics campaigns-sample golden ppc-count search-count pil pil-sample prove ppc-test sanitize arrows coverage mcdc trace evidence gates-selftest figures icd format lint install clean build
 .DEFAULT_GOAL := help
 
 help: ## this list
@@ -176,6 +179,24 @@ search-count: ## instructions of a search on the PowerPC 603e, and its largest s
 	$(call compile,$(PPC),search_replay)
 	@ft/ppc603e/count-search $(BUILD) $(PPC) $(or $(STARTS),24) $(or $(SEED),11)
 
+# $(on_board) builds the bare board's images, and the rig around them.
+define on_board
+$(call packages,build target)
+$(call configure,$(BUILD),)
+$(call compile,$(BUILD),pil_rig)
+$(call configure,$(BOARD),$(BARE_BOARD))
+$(call compile,$(BOARD),flight_603e planted_603e)
+endef
+pil: ## the component on the bare, emulated PowerPC 603e with camera and ground at its lines: the host's telemetry bit for bit; out/pil; FRAMES=
+	$(begin)
+	$(on_board)
+	@ft/pil/run.py $(BUILD) $(BOARD) $(or $(FRAMES),360)
+
+pil-sample: ## the same for a few frames, and the board's answers to faults: null, stray, hung, cut lines, wrong images; out/pil-sample
+	$(begin)
+	$(on_board)
+	@ft/pil/faults $(BUILD) $(BOARD)
+
 prove: ## what the archives for the 603e do not do: heap, exceptions, recursion, contraction, too much stack or memory; out/prove
 	$(begin)
 	$(call packages,build target)
@@ -263,9 +284,10 @@ format: ## format all tracked sources
 
 lint: ## clang-format, clang-tidy and cppcheck find nothing in the tracked sources; out/lint
 	$(begin)
-	$(call packages,build clang lint)
+	$(call packages,build clang lint target)
 	$(call configure,$(LINT),-DCMAKE_CXX_COMPILER=clang++-19 $(own_includes))
-	@cfg/quality/lint $(LINT)
+	$(call configure,$(LINT)-board,$(BARE_BOARD) -DLASSO_LINT=ON $(own_includes))
+	@cfg/quality/lint $(LINT) . $(LINT)-board
 
 install: build ## install mdat, the flight component and its CMake package under PREFIX= (/usr/local)
 	@cmake --install $(BUILD) --prefix $(abspath $(PREFIX)) >out/install.log || { cat out/install.log; false; }

@@ -51,8 +51,12 @@ function(lasso_sensor_driver NAME)
   set_property(GLOBAL APPEND PROPERTY LASSO_ROOMS hal_${NAME})
 endfunction()
 
-# Board support bsp/NAME for the platform that is being built.
+# Board support bsp/NAME for the platform that is being built. A board with a CMakeLists.txt of its own says there how its image is made.
 function(lasso_board NAME)
+  if(EXISTS ${PROJECT_SOURCE_DIR}/bsp/${NAME}/CMakeLists.txt)
+    add_subdirectory(bsp/${NAME})
+    return()
+  endif()
   file(GLOB SOURCES CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/bsp/${NAME}/*.cpp)
   if(SOURCES)
     find_package(Threads REQUIRED)

@@ -17,6 +17,7 @@ TOOLS = {
     'powerpc-linux-gnu-objdump': ('g++-powerpc-linux-gnu', 'target'),
     'powerpc-linux-gnu-size': ('g++-powerpc-linux-gnu', 'target'),
     'qemu-ppc': ('qemu-user', 'target'),
+    'qemu-system-ppc': ('qemu-system-ppc', 'target'),
     'clang-format': ('clang-format', 'lint'),
     'clang-tidy-22': ('clang-tidy-22', 'lint'),
     'cppcheck': ('cppcheck', 'lint'),

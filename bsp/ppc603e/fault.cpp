@@ -1,0 +1,95 @@
+#include "bsp/ppc603e/fault.hpp"
+
+#include "bsp/ppc603e/console.hpp"
+#include "bsp/ppc603e/cpu.hpp"
+#include "fsw/core/invariant.hpp"
+
+extern "C" {
+[[noreturn]] void _start();
+[[noreturn]] void board_fault();
+// vectors.S fills the registers before it has a stack.
+lasso::ppc603e::FaultRegisters board_fault_registers;
+alignas(16) std::uint8_t board_fault_stack[4096];
+extern const std::uint8_t board_fault_stack_end[];
+}
+__asm__(".globl board_fault_stack_end\n.set board_fault_stack_end, board_fault_stack + 4096");
+
+namespace lasso::ppc603e {
+namespace {
+
+constexpr std::uint32_t kMagic = 0x4C46524D;
+[[gnu::section(".kept")]] FaultRecord record;
+
+std::uint32_t sum_of(const FaultRecord& of) {
+  const auto* byte = reinterpret_cast<const std::uint8_t*>(&of);
+  std::uint32_t sum = 1;
+  for (std::uint32_t i = 0; i < offsetof(FaultRecord, sum); ++i) sum = sum * 31 + byte[i];
+  return sum;
+}
+
+[[noreturn]] void stay_down() {
+  set_machine_state(machine_state() & ~kExternalInterrupts);
+  say("board: too many restarts: stays down until power is switched\n");
+  set_decrementer(0x7FFFFFFF);
+  for (;;) set_machine_state(machine_state() | kRest);
+}
+
+void copy_text(const char* text) {
+  std::uint32_t i = 0;
+  for (; i + 1 < kTextBytes && text[i] != '\0'; ++i) record.text[i] = text[i];
+  record.text[i] = '\0';
+}
+
+}  // namespace
+
+const FaultRecord& open_record() {
+  if (record.magic != kMagic || record.sum != sum_of(record)) record = FaultRecord{};
+  record.magic = kMagic;
+  record.sum = sum_of(record);
+  return record;
+}
+
+const FaultRecord& fault_record() { return record; }
+
+std::uint32_t fault_address(const FaultRegisters& r) {
+  switch (r.vector) {
+    case 0x300:
+    case 0x600:
+      return r.dar;
+    case 0x1100:
+    case 0x1200:
+      return r.data_miss;
+    case 0x1000:
+      return r.code_miss;
+    default:
+      return r.srr0;
+  }
+}
+
+void restart(ResetCause cause, const char* text) {
+  set_machine_state(machine_state() & ~kExternalInterrupts);
+  record.magic = kMagic;
+  record.cause = static_cast<std::uint32_t>(cause);
+  ++record.restarts;
+  record.registers = cause == ResetCause::kException ? board_fault_registers : FaultRegisters{};
+  copy_text(text);
+  record.sum = sum_of(record);
+  say("board: ");
+  say(text);
+  if (cause == ResetCause::kException) {
+    say_hex(", vector ", record.registers.vector);
+    say_hex(", instruction ", record.registers.srr0);
+    say_hex(", address ", fault_address(record.registers));
+  }
+  say(record.restarts > kMaxRestarts ? "\n" : ": restart into safe mode\n");
+  if (record.restarts > kMaxRestarts) stay_down();
+  _start();
+}
+
+}  // namespace lasso::ppc603e
+
+void board_fault() { lasso::ppc603e::restart(lasso::ResetCause::kException, "exception"); }
+
+namespace lasso {
+[[noreturn]] void on_invariant_failure(const char* what) { ppc603e::restart(ResetCause::kInvariant, what); }
+}  // namespace lasso

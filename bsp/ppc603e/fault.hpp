@@ -1,0 +1,44 @@
+// What survives a restart: why the board starts, and what it last failed of. The record lies in memory that start-up leaves alone.
+#pragma once
+
+#include <cstdint>
+
+#include "fsw/exec/watchdog.hpp"
+
+namespace lasso::ppc603e {
+
+// As vectors.S writes it.
+struct FaultRegisters {
+  std::uint32_t vector = 0;     // 0x200 machine check, 0x300 data access, ..., 0x1100 load without translation, 0x1200 store
+  std::uint32_t srr0 = 0;       // the instruction
+  std::uint32_t srr1 = 0;       // the machine's state before
+  std::uint32_t dar = 0;        // address of a data access
+  std::uint32_t dsisr = 0;      // what was wrong with it
+  std::uint32_t link = 0;       // where its function returns to
+  std::uint32_t data_miss = 0;  // addresses without translation
+  std::uint32_t code_miss = 0;
+  std::uint32_t stack = 0;
+};
+
+constexpr std::uint32_t kMaxRestarts = 8;  // in a row; the next fault is the last
+constexpr std::uint32_t kTextBytes = 48;
+
+struct FaultRecord {
+  std::uint32_t magic = 0;
+  std::uint32_t restarts = 0;  // since power-on
+  std::uint32_t cause = 0;     // ResetCause of the present start
+  FaultRegisters registers;    // of the last exception
+  char text[kTextBytes] = {};  // of the last failed invariant
+  std::uint32_t sum = 0;       // of all words before; what memory held at power-on has another
+};
+
+// Before anything else: the record of the last life, or a new one after power-on.
+const FaultRecord& open_record();
+const FaultRecord& fault_record();
+// The address that an exception is about: of the instruction, or of the data that it could not reach.
+std::uint32_t fault_address(const FaultRegisters& registers);
+
+// Records, says it on the console, and starts the board anew; after kMaxRestarts it stays down.
+[[noreturn]] void restart(ResetCause cause, const char* text);
+
+}  // namespace lasso::ppc603e

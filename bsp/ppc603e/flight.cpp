@@ -1,0 +1,170 @@
+#include "bsp/ppc603e/flight.hpp"
+
+#include "bsp/ppc603e/cpu.hpp"
+#include "bsp/ppc603e/fault.hpp"
+
+extern "C" {
+extern std::uint32_t board_estimation_stack_begin[], board_estimation_stack_end[];
+extern std::uint32_t board_acquisition_stack_begin[], board_acquisition_stack_end[];
+// For tests of the board's answers to faults, which link it (ft/pil/planted.cpp). The flight image has none.
+[[gnu::weak]] void board_probe(std::uint32_t slots);
+}
+
+namespace lasso::ppc603e {
+namespace {
+
+constexpr std::uint32_t kNever = 0x7FFFFFFF, kLookTicks = 1 << 20;  // of the decrementer
+constexpr std::uint32_t kPaint = 0xA5C3965A;                        // of start.S
+
+std::uint32_t used(const std::uint32_t* begin, const std::uint32_t* end) {
+  const std::uint32_t* at = begin;
+  while (at < end && *at == kPaint) ++at;
+  return static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(end) - reinterpret_cast<std::uintptr_t>(at));
+}
+
+}  // namespace
+
+Flight::Flight(Component& component, Clock& clock, const Lines& lines, Rig* rig)
+    : component_(component),
+      clock_(clock),
+      lines_(lines),
+      rig_(rig),
+      pump_(component, lines.ground_line),
+      slot_us_(static_cast<DurationUs>(component.mission().parameters.period_s * 1e6 + 0.5) / kSlotsPerFrame) {
+  component.set_watchdog(*this);
+}
+
+// --- foreground
+
+// By the board's ticks: a slot that begins within its own length begins at its time.
+TimeUs Flight::time_of_slot() const {
+  const TimeUs now_us = clock_.now_us(), slot_us = component_.next_slot_us();
+  return now_us >= slot_us && now_us - slot_us < slot_us_ ? slot_us : now_us;
+}
+
+void Flight::tick() {
+  if (in_slot_) restart(ResetCause::kWatchdog, "a slot hangs");
+  if (++unfed_slots_ > kUnfedSlots) restart(ResetCause::kWatchdog, "the watchdog was not fed");
+  in_slot_ = true;
+  set_decrementer(static_cast<std::uint32_t>(clock_.ticks_in(kHungUs)));
+  const std::uint64_t begun = clock_.ticks();
+  late_ticks_ = begun - clock_.ticks_at(component_.next_slot_us());
+  allow_interrupts(true);
+  const TimeUs now_us = time_of_slot();
+  run_slot(now_us);
+  slot_ticks_ = clock_.ticks() - begun;
+  foreground_ticks_ = foreground_ticks_ + slot_ticks_;
+  let_world_move(RigKind::kSlot, now_us);
+  allow_interrupts(false);
+  in_slot_ = false;
+  clock_.wake_at(component_.next_slot_us());
+}
+
+void Flight::run_slot(TimeUs now_us) {
+  slot_ = component_.next_slot_is_boundary() ? 0 : slot_ + 1;
+  pump_.receive(now_us);
+  component_.run_slot(now_us);
+  if (board_probe != nullptr) board_probe(slot_);
+  if (component_.next_slot_is_boundary()) send_telemetry();
+}
+
+// What the line does not take is lost: a ground station that does not listen must not stop the flight.
+void Flight::send_telemetry() {
+  ConstBytes rest(telemetry_, component_.take_telemetry(Bytes(telemetry_)));
+  while (!rest.empty() && lines_.ground_line.out.room() >= packet_size(rest)) {
+    const std::size_t size = packet_size(rest);
+    static_cast<void>(lines_.ground_line.write(rest.first(size)));
+    rest = rest.subspan(size, rest.size() - size);
+  }
+}
+
+void Flight::let_world_move(RigKind kind, TimeUs t_us) {
+  if (rig_ == nullptr) {
+    lines_.camera.send();
+    lines_.ground.send();
+    return;
+  }
+  clock_.stop();
+  waiting_ = true;
+  wait_on();
+  lines_.camera.send();
+  lines_.ground.send();
+  rest_until([&] { return lines_.camera.all_sent() && lines_.ground.all_sent(); });
+  const FaultRecord& fault = fault_record();
+  std::uint32_t words[kRigWords] = {};
+  words[kRigMagic] = kRigReport;
+  words[kRigKind] = static_cast<std::uint32_t>(kind);
+  words[kRigTimeHigh] = static_cast<std::uint32_t>(t_us >> 32);
+  words[kRigTimeLow] = static_cast<std::uint32_t>(t_us);
+  words[kRigCameraSent] = lines_.camera.sent();
+  words[kRigGroundSent] = lines_.ground.sent();
+  words[kRigSlot] = slot_;
+  words[kRigSlotTicks] = static_cast<std::uint32_t>(slot_ticks_);
+  words[kRigEstimateTicks] = estimate_ticks_;
+  words[kRigLateTicks] = static_cast<std::uint32_t>(late_ticks_);
+  words[kRigIdleTicks] = idle_ticks_;
+  words[kRigRestarts] = fault.restarts;
+  words[kRigCause] = fault.cause;
+  words[kRigVector] = fault.registers.vector;
+  words[kRigAddress] = fault_address(fault.registers);
+  if (slot_ == 0) {
+    words[kRigEstimateStack] = used(board_estimation_stack_begin, board_estimation_stack_end);
+    words[kRigAcquireStack] = used(board_acquisition_stack_begin, board_acquisition_stack_end);
+  }
+  words[kRigLostBytes] = lines_.camera.lost() + lines_.ground.lost();
+  words[kRigMemory] = sizeof(Component);
+  words[kRigLineTicks] = static_cast<std::uint32_t>(line_ticks_);
+  estimate_ticks_ = idle_ticks_ = 0;
+  line_ticks_ = 0;
+  const RigAnswer answer = rig_->report(words);
+  stopped_ = answer.stop();
+  rest_until(
+      [&] { return stopped_ || (lines_.camera.received() == answer.camera_bytes && lines_.ground.received() == answer.ground_bytes); });
+  set_decrementer(kNever);
+  waiting_ = false;
+  clock_.go_on();
+}
+
+void Flight::wait_on() { set_decrementer(kLookTicks); }
+
+// --- background
+
+void Flight::run() {
+  allow_interrupts(true);
+  let_world_move(RigKind::kBegun, component_.next_slot_us());
+  allow_interrupts(false);
+  clock_.wake_at(component_.next_slot_us());
+  allow_interrupts(true);
+  while (!stopped_) {
+    if (component_.estimation_pending()) estimate();
+    rest();
+  }
+  allow_interrupts(false);
+}
+
+void Flight::estimate() {
+  allow_interrupts(false);
+  const std::uint64_t begun = clock_.ticks(), elsewhere = foreground_ticks_;
+  allow_interrupts(true);
+  component_.run_estimation();
+  allow_interrupts(false);
+  const std::uint64_t taken = clock_.ticks() - begun - (foreground_ticks_ - elsewhere);
+  estimate_ticks_ = static_cast<std::uint32_t>(taken);
+  allow_interrupts(true);
+}
+
+// An interrupt that comes between the question and the rest ends the rest at once. With a rig, which moves the world from slot to slot,
+// rest takes no time of the emulator's: the clock skips it.
+void Flight::rest() {
+  allow_interrupts(false);
+  if (component_.estimation_pending() || stopped_) return allow_interrupts(true);
+  if (rig_ != nullptr) {
+    idle_ticks_ = idle_ticks_ + static_cast<std::uint32_t>(clock_.skip_to(component_.next_slot_us()));
+    clock_.wake_at(component_.next_slot_us());
+    return allow_interrupts(true);
+  }
+  set_machine_state(machine_state() | kExternalInterrupts | kRest);
+  allow_interrupts(true);
+}
+
+}  // namespace lasso::ppc603e

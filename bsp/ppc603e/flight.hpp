@@ -1,0 +1,75 @@
+// The executive of this board: two contexts on one processor. The foreground is the acquisition: the decrementer's interrupt at each slot,
+// on a stack of its own, run to its end. The background is the estimation, and rest; the foreground interrupts it. (docs/decisions/
+// bare-metal.md)
+#pragma once
+
+#include <cstdint>
+
+#include "bsp/ppc603e/clock.hpp"
+#include "bsp/ppc603e/rig.hpp"
+#include "bsp/ppc603e/serial_port.hpp"
+#include "fsw/exec/component.hpp"
+#include "fsw/exec/link_pump.hpp"
+#include "hal_lcs/driver.hpp"
+
+namespace lasso::ppc603e {
+
+// The ground's line, as the component's link: a stream.
+class GroundLine final : public ByteLink {
+ public:
+  bool datagrams() const override { return false; }
+  std::size_t read(Bytes bytes) override { return in.read(bytes); }
+  std::size_t write(ConstBytes packets) override { return out.write(packets); }
+  Ring in, out;
+};
+
+struct Lines {
+  SerialPort &camera, &ground;
+  GroundLine& ground_line;
+};
+
+class Flight final : public Watchdog {
+ public:
+  // The component has begun; boundary 0 is at `boundary_0_us`. `rig` may be null. All outlive this.
+  Flight(Component& component, Clock& clock, const Lines& lines, Rig* rig);
+
+  // The background; the first slot comes by itself. Only stop() of the rig ends it.
+  void run();
+  // The foreground, from the decrementer's interrupt. A second one before the first has ended: the slot hangs, the board restarts.
+  void tick();
+  // While the rig is awaited the decrementer has the lines looked at, should an interrupt of theirs have gone astray.
+  bool waiting() const { return waiting_; }
+  static void wait_on();
+  // Of the serial card's interrupt.
+  void note_line_ticks(std::uint64_t ticks) { line_ticks_ += ticks; }
+
+  void feed() override { unfed_slots_ = 0; }
+
+ private:
+  static constexpr DurationUs kHungUs = 2'000'000;       // a slot that takes longer hangs
+  static constexpr std::uint32_t kUnfedSlots = 20 * 15;  // slots without feed(): estimation hangs
+
+  TimeUs time_of_slot() const;
+  void run_slot(TimeUs now_us);
+  void send_telemetry();
+  void let_world_move(RigKind kind, TimeUs t_us);
+  void estimate();
+  void rest();
+
+  Component& component_;
+  Clock& clock_;
+  Lines lines_;
+  Rig* rig_;
+  LinkPump pump_;
+  DurationUs slot_us_;
+  volatile bool in_slot_ = false, stopped_ = false, waiting_ = false;
+  std::uint32_t unfed_slots_ = 0;
+  std::uint8_t telemetry_[kTelemetryQueueBytes] = {};
+  // Of the report.
+  std::uint32_t slot_ = 0;
+  std::uint64_t late_ticks_ = 0, slot_ticks_ = 0, line_ticks_ = 0;
+  volatile std::uint64_t foreground_ticks_ = 0;
+  volatile std::uint32_t estimate_ticks_ = 0, idle_ticks_ = 0;
+};
+
+}  // namespace lasso::ppc603e

@@ -1,0 +1,174 @@
+// The flight image of this board: start-up has made memory and registers ready, and comes here after each restart.
+#include <cstring>
+#include <new>
+
+#include "bsp/ppc603e/board_bus.hpp"
+#include "bsp/ppc603e/console.hpp"
+#include "bsp/ppc603e/cpu.hpp"
+#include "bsp/ppc603e/fault.hpp"
+#include "bsp/ppc603e/flight.hpp"
+#include "fsw/core/byte_codec.hpp"
+#include "fsw/exec/report.hpp"
+#include "fsw/mission/image_format.hpp"
+
+namespace lasso::ppc603e {
+
+// What is soldered, or loaded beside the image: where it is not, the values here hold.
+struct Straps {  // NOLINT(misc-use-internal-linkage): of what the linker script places
+  std::uint32_t magic;
+  std::uint32_t ticks_per_s;  // of the time base
+  std::uint32_t rig;          // 1: at the third port
+};
+
+}  // namespace lasso::ppc603e
+
+extern "C" {
+extern void (*board_constructors_begin[])();
+extern void (*board_constructors_end[])();
+extern const volatile lasso::ppc603e::Straps board_straps;
+extern const std::uint8_t board_mission[];
+extern std::uint8_t board_mission_work[];
+[[noreturn]] void board_main();
+void board_interrupt(std::uint32_t vector);
+}
+
+namespace lasso::ppc603e {
+namespace {
+
+constexpr std::uint32_t kStrapsMagic = 0x53545250;
+constexpr std::uint32_t kTicksPerSecond = 16600000;
+
+// The mission's image as the loader puts it there, and the component's copy, which it changes: each start begins with the former.
+constexpr std::size_t kMissionBytes = 31u << 20;
+
+constexpr TimeUs kBoundary0Us = 1'000'000;
+constexpr DurationUs kLeadUs = 10'000;  // from the clock's setting to boundary 0
+
+// Of which board this image is (ft/pil/run asks before it is started).
+[[gnu::section(".board_id"), gnu::used]] const char board_id[32] = "3dlasso board ppc603e-grackle";
+
+enum Port : std::uint32_t { kCamera = 0, kGround = 1, kRig = 2, kConsole = 3 };
+
+struct Board {
+  lcs::Line camera_line;
+  GroundLine ground_line;
+  Ring rig_in, rig_out;
+  SerialPort camera{port_registers(kCamera), camera_line.from_camera, camera_line.to_camera};
+  SerialPort ground{port_registers(kGround), ground_line.in, ground_line.out};
+  SerialPort rig_port{port_registers(kRig), rig_in, rig_out};
+  Rig rig{rig_port, rig_in, rig_out};
+};
+alignas(Board) std::uint8_t board_memory[sizeof(Board)];
+alignas(Component) std::uint8_t component_memory[sizeof(Component)];
+alignas(lcs::Driver) std::uint8_t driver_memory[sizeof(lcs::Driver)];
+alignas(Flight) std::uint8_t flight_memory[sizeof(Flight)];
+alignas(Clock) std::uint8_t clock_memory[sizeof(Clock)];
+Board* board = nullptr;
+Flight* flight = nullptr;
+
+[[noreturn]] void stop(const char* why) {
+  allow_interrupts(false);
+  say("board: ");
+  say(why);
+  say(": stopped\n");
+  for (;;) set_machine_state(machine_state() | kRest);
+}
+
+// Its length is in its header; what it holds the component checks.
+Bytes mission_bytes() {
+  ByteReader header(ConstBytes(board_mission, 12));
+  const std::uint32_t magic = header.u32();
+  static_cast<void>(header.u32());
+  const std::uint32_t bytes = header.u32();
+  if (magic != kImageMagic) stop("no mission image at its place (load it at 0x04100000)");
+  if (bytes > kMissionBytes) {
+    say_number("board: the mission image needs ", bytes);
+    say_number(" bytes, and its buffer has ", kMissionBytes);
+    say("; coarser cells make it smaller (target.cell_size_m)\n");
+    stop("the mission image is too large");
+  }
+  std::memcpy(board_mission_work, board_mission, bytes);
+  return Bytes(board_mission_work, bytes);
+}
+
+lcs::Calibration calibration() {
+  lcs::Calibration design;
+  design.serial = 1;
+  return design;
+}
+
+void check_board() {
+  const std::uint32_t version = processor_version() >> 16;
+  if (version != kProcessor603e && version != kProcessor603eV) stop("the image is for another board: the processor is not a 603e");
+  if (!open_bus()) stop("the image is for another board: no Grackle bridge, Heathrow chip and serial card of four ports");
+}
+
+void open_lines(Board& b) {
+  if (!b.camera.open() || !b.ground.open() || !b.rig_port.open()) stop("a serial port does not give back what is sent in its loop");
+  unmask_serial_interrupt();
+}
+
+void tell_start(const FaultRecord& record) {
+  say("board: 3dlasso ");
+  say(version());
+  say(" on ppc603e-grackle");
+  say_number(", restarts ", record.restarts);
+  say_number(", cause ", record.cause);
+  say("\n");
+}
+
+Component& make_component(Board& b, ResetCause cause) {
+  auto* driver = new (driver_memory) lcs::Driver(b.camera_line, lcs::Optics(calibration()));
+  auto* component = new (component_memory) Component(*driver);
+  component->set_reset_cause(cause);
+  const LoadFailure failure = component->load_image(mission_bytes());
+  if (failure.status != Status::kOk) {
+    say("board: the mission image is refused: ");
+    say(to_string(failure.status));
+    say("\n");
+    stop("no mission");
+  }
+  return *component;
+}
+
+}  // namespace
+}  // namespace lasso::ppc603e
+
+void board_interrupt(std::uint32_t vector) {
+  using namespace lasso::ppc603e;
+  if (vector == 0x900) {
+    if (flight == nullptr) return;
+    if (!flight->waiting()) return flight->tick();
+    board->camera.look();
+    board->ground.look();
+    board->rig_port.look();
+    return flight->wait_on();
+  }
+  if (board == nullptr) return;
+  const std::uint64_t begun = time_base();
+  board->camera.service();
+  board->ground.service();
+  board->rig_port.service();
+  if (flight != nullptr) flight->note_line_ticks(time_base() - begun);
+}
+
+void board_main() {
+  using namespace lasso;
+  using namespace lasso::ppc603e;
+  for (auto make = board_constructors_begin; make != board_constructors_end; ++make) (*make)();
+  const FaultRecord& record = open_record();
+  check_board();
+  open_console(port_registers(kConsole));
+  tell_start(record);
+  board = new (board_memory) Board;
+  open_lines(*board);
+  Component& component = make_component(*board, static_cast<ResetCause>(record.cause));
+  const bool strapped = board_straps.magic == kStrapsMagic;
+  auto* clock = new (clock_memory) Clock(strapped ? board_straps.ticks_per_s : kTicksPerSecond);
+  clock->set(kBoundary0Us - kLeadUs);
+  if (component.begin(kBoundary0Us) != Status::kOk) stop("the component does not begin");
+  flight = new (flight_memory) Flight(component, *clock, {board->camera, board->ground, board->ground_line},
+                                      strapped && board_straps.rig == 1 ? &board->rig : nullptr);
+  flight->run();
+  stop("the rig has ended the run");
+}

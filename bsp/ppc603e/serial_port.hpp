@@ -1,0 +1,48 @@
+// A 16550 between a line and two rings. Its interrupt moves the bytes: at 4 Mbit/s sixteen bytes come in 40 us, while a slot lasts 10 ms.
+#pragma once
+
+#include <cstdint>
+
+#include "hal_lcs/byte_ring.hpp"
+#include "hal_lcs/driver.hpp"
+
+namespace lasso::ppc603e {
+
+using Ring = lcs::ByteRing<lcs::kLineBytes>;
+
+class SerialPort {
+ public:
+  // The rings outlive the port.
+  SerialPort(std::uint32_t registers, Ring& in, Ring& out) : registers_(registers), in_(in), out_(out) {}
+
+  // Resets it; 8 data bits, no parity, 1 stop bit. False: bytes sent in its loop do not come back.
+  bool open();
+  // Whatever waits in its ring leaves from now on.
+  void send();
+  // Of the interrupt, which is off meanwhile. Loop bound: the bytes that have come, and kFifo to send.
+  void service();
+  // Takes what is there without being asked to.
+  void look();
+
+  bool all_sent() const;
+  std::uint32_t sent() const { return sent_; }          // bytes since open(), modulo 2^32
+  std::uint32_t received() const { return received_; }  // likewise
+  std::uint32_t lost() const { return lost_; }          // that found no room in the ring, or came too fast
+
+ private:
+  static constexpr std::uint32_t kFifo = 16;
+  std::uint8_t status() const;
+  void interrupt_when(bool sending);
+  bool loop();
+  void take(std::uint32_t count);
+  void take_rest(std::uint8_t now);
+  void fill();
+
+  std::uint32_t registers_;
+  Ring& in_;
+  Ring& out_;
+  volatile std::uint32_t sent_ = 0, received_ = 0, lost_ = 0;
+  volatile bool sending_ = false;
+};
+
+}  // namespace lasso::ppc603e

@@ -1,0 +1,19 @@
+# The flight image for the bare board with a PowerPC 603e: no operating system, no library but libgcc (Debian: g++-powerpc-linux-gnu).
+set(CMAKE_SYSTEM_NAME Generic)
+set(CMAKE_SYSTEM_PROCESSOR ppc)
+set(CMAKE_CXX_COMPILER powerpc-linux-gnu-g++)
+set(CMAKE_ASM_COMPILER powerpc-linux-gnu-g++)
+set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)
+if(NOT LASSO_LINT)  # clang reads the sources for make lint, and does not know it
+  set(NO_SMALL_DATA -msdata=none)
+endif()
+set(CMAKE_CXX_FLAGS_INIT
+    "-mcpu=603e -fno-pic -fno-pie ${NO_SMALL_DATA} -fno-asynchronous-unwind-tables -fno-stack-protector -ffunction-sections -fdata-sections")
+set(CMAKE_ASM_FLAGS_INIT "-mcpu=603e -x assembler-with-cpp")
+set(CMAKE_EXE_LINKER_FLAGS_INIT "-nostdlib -static -no-pie -Wl,--gc-sections")
+set(CMAKE_FIND_ROOT_PATH /usr/powerpc-linux-gnu)
+set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
+set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
+set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)
+set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE BOTH)
+set(LASSO_BOARD ppc603e CACHE STRING "Board to build for" FORCE)

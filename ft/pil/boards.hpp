@@ -1,0 +1,35 @@
+// One flight on each board: the host, and the emulated PowerPC 603e. Both see the same world.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "bsp/ppc603e/rig_words.hpp"
+#include "ft/pil/world.hpp"
+
+namespace lasso::pil {
+
+using Told = std::function<void(std::uint32_t frames)>;  // frames that are done
+
+// The telemetry of `frames` frames. Throws mdat::RunError.
+Packet fly_on_host(const WorldSetup& setup, const std::vector<std::uint8_t>& image, std::uint32_t frames, const Told& told);
+
+struct Report {
+  std::uint32_t words[ppc603e::kRigWords] = {};
+  std::uint32_t operator[](ppc603e::RigWord word) const { return words[word]; }
+};
+
+struct TargetFlight {
+  std::vector<Report> starts;     // one for each start of the board
+  std::vector<Packet> telemetry;  // of each
+  std::vector<Report> slots;      // since the last
+};
+
+// `folder`: where camera.sock, ground.sock and rig.sock are made, at which the emulator is awaited. Ends after `frames` frames, or after
+// that many since the last start when `starts` are awaited. Throws mdat::RunError: nobody comes, or the other end has gone, or says
+// nothing.
+TargetFlight fly_on_target(const WorldSetup& setup, const std::string& folder, std::uint32_t frames, std::uint32_t starts,
+                           const std::function<void()>& ready, const Told& told);
+
+}  // namespace lasso::pil

@@ -1,0 +1,166 @@
+"""The emulated board: QEMU's g3beige with a 603e, 256 MB and a card of four serial ports; counts instructions, and never waits for the host's clock."""
+import os
+import pathlib
+import re
+import shutil
+import signal
+import socket
+import subprocess
+import threading
+import time
+
+TOP = pathlib.Path(__file__).resolve().parents[2]
+QEMU, PACKAGE = 'qemu-system-ppc', 'qemu-system-ppc'
+SHIFT = 7  # an instruction is 2^7 ns of the emulator's time
+MIPS = 100  # and 10 ns of the board's
+TIME_BASE_HZ = 16600000  # of the emulator's time
+TICKS_PER_S = int(TIME_BASE_HZ * (2 ** SHIFT) * MIPS / 1000)  # of the board's
+TICKS_PER_INSTRUCTION = TIME_BASE_HZ * 2 ** SHIFT / 1e9
+STRAPS, STRAPS_MAGIC, MISSION = 0x04010000, 0x53545250, 0x04100000
+BOARD_ID = b'3dlasso board ppc603e-grackle'
+
+
+class Failure(Exception):
+    """A reason for a person."""
+
+
+def require():
+    if shutil.which(QEMU) is None:
+        raise Failure(f'{QEMU} is missing: install the Debian package {PACKAGE} (cfg/packages/ensure target)')
+    done = subprocess.run([QEMU, '--version'], capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        raise Failure(f'{QEMU} does not start: {done.stderr.strip() or done.returncode}: install the Debian package {PACKAGE} anew')
+    return re.search(r'version (\S+)', done.stdout).group(1)
+
+
+def check_image(elf):
+    """The image is for this board."""
+    try:
+        content = pathlib.Path(elf).read_bytes()
+    except OSError as error:
+        raise Failure(f'{elf}: {error.strerror}: build it first (make pil)') from error
+    if content[:4] != b'\x7fELF' or content[4:6] != b'\x01\x02' or content[18:20] != b'\x00\x14':
+        raise Failure(f'{elf}: not an image for a 32-bit PowerPC: build the board ppc603e (cfg/toolchains/ppc603e-bare.cmake)')
+    if BOARD_ID not in content:
+        raise Failure(f'{elf}: an image for another board, not {BOARD_ID.decode()}: build the board ppc603e')
+
+
+class Emulator:
+    """Running until the end of the with block. What the board's console says is kept, and said when something fails."""
+
+    def __init__(self, elf, image, folder, rig=True):
+        require()
+        check_image(elf)
+        self.folder = pathlib.Path(folder)
+        self.console_file = self.folder / 'console.txt'
+        reset = self.folder / 'reset.bin'  # the machine wants some content for its read-only memory
+        reset.write_bytes(bytes(64))
+        words = [STRAPS_MAGIC, TICKS_PER_S, 1 if rig else 0, 0]
+        self.command = [QEMU, '-M', 'g3beige', '-cpu', '603e', '-m', '256', '-bios', str(reset), '-vga', 'none', '-net', 'none', '-display', 'none',
+                        '-serial', 'null', '-parallel', 'none', '-monitor', f'unix:{self.folder}/monitor.sock,server=on,wait=off', '-no-reboot', '-icount', f'shift={SHIFT},align=off,sleep=on']
+        for name in ('camera', 'ground', 'rig'):
+            self.command += ['-chardev', f'socket,id={name},path={self.folder}/{name}.sock' if rig else f'null,id={name}']
+        self.command += ['-chardev', f'file,id=console,path={self.console_file}',
+                         '-device', 'pci-serial-4x,chardev1=camera,chardev2=ground,chardev3=rig,chardev4=console',
+                         '-device', f'loader,file={elf},cpu-num=0']
+        if image:
+            self.command += ['-device', f'loader,file={image},addr={MISSION:#x},force-raw=on']
+        for i in range(0, len(words), 2):  # eight bytes: of four the emulator would write the upper half
+            self.command += ['-device', f'loader,addr={STRAPS + 4 * i:#x},data={words[i] << 32 | words[i + 1]:#x},data-len=8,data-be=on']
+
+    def __enter__(self):
+        self.console_file.write_text('')
+        with open(self.folder / 'emulator.txt', 'w', encoding='utf-8') as log:
+            self.process = subprocess.Popen(self.command, stdin=subprocess.DEVNULL, stdout=log, stderr=log)
+        threading.Thread(target=self.poke, daemon=True).start()
+        return self
+
+    def poke(self):
+        """A halted processor's clock can miss its start (QEMU 7.2 with -icount); whatever its main loop does starts it. No result depends on it."""
+        while self.process.poll() is None:
+            try:
+                with socket.socket(socket.AF_UNIX) as monitor:
+                    monitor.connect(f'{self.folder}/monitor.sock')
+                    monitor.settimeout(1)
+                    while self.process.poll() is None:
+                        monitor.sendall(b'\n')
+                        monitor.recv(4096)
+                        time.sleep(0.02)
+            except OSError:  # not there yet, or no more
+                time.sleep(0.02)
+
+    def __exit__(self, *_):
+        self.process.kill()
+        self.process.wait()
+
+    def console(self):
+        return self.console_file.read_text(encoding='utf-8', errors='replace')
+
+    def said(self):
+        """What the emulator and the console said, in a sentence."""
+        text = (self.folder / 'emulator.txt').read_text(encoding='utf-8').strip()
+        lines = self.console().strip().splitlines()
+        return '; '.join(filter(None, [text, f'the console: {lines[-1]}' if lines else 'the console is silent']))
+
+    def await_console(self, text, seconds=60):
+        """Until the console says it, the emulator ends, or the time is over."""
+        end = time.monotonic() + seconds
+        while time.monotonic() < end and self.process.poll() is None:
+            if text in self.console():
+                return True
+            time.sleep(0.05)
+        return text in self.console()
+
+
+class Rig:
+    """pil_rig with a board at its lines; nothing outlives the block, and nothing takes longer than `seconds`."""
+
+    def __init__(self, program, arguments, seconds):
+        self.process = subprocess.Popen([str(program), *map(str, arguments)], stdout=subprocess.PIPE, text=True, stdin=subprocess.DEVNULL)
+        self.late = False
+        self.timer = threading.Timer(seconds, self.end)
+        self.seconds = seconds
+
+    def end(self):
+        self.late = True
+        self.process.send_signal(signal.SIGKILL)
+
+    def __enter__(self):
+        self.timer.start()
+        return self
+
+    def __exit__(self, *_):
+        self.timer.cancel()
+        if self.process.poll() is None:
+            self.process.kill()
+        self.process.wait()
+
+    def await_ready(self):
+        for line in self.process.stdout:
+            if line.strip() == 'ready':
+                return
+        self.check(self.process.wait())
+
+    def finish(self):
+        """Exit code, and what it said."""
+        said = self.process.stdout.read().strip()
+        code = self.process.wait()
+        self.check(0 if code == 1 else code)
+        return code, said
+
+    def check(self, code):
+        if self.late:
+            raise Failure(f'not done after {self.seconds} s: ended')
+        if code != 0:
+            raise Failure(f'the rig has ended with exit code {code}')
+
+
+def fly(program, elf, arguments, folder, seconds, **board):
+    """One run of the rig with an emulated board; exit code, words, console."""
+    os.makedirs(folder, exist_ok=True)
+    emulator = Emulator(elf, f'{folder}/image.3dli', folder, **board)
+    with Rig(program, arguments, seconds) as rig:
+        rig.await_ready()
+        with emulator:
+            code, said = rig.finish()
+            return code, said, emulator

@@ -1,0 +1,88 @@
+#include <memory>
+
+#include "fsw/exec/component.hpp"
+#include "fsw/exec/link_pump.hpp"
+#include "ft/pil/boards.hpp"
+#include "mdat/common/errors.hpp"
+#include "mdat/common/flight_image.hpp"
+
+namespace lasso::pil {
+namespace {
+
+void expect(Status status, const char* what) {
+  if (status != Status::kOk) throw mdat::RunError(std::string("the component refused to ") + what + ": " + to_string(status));
+}
+
+class MemoryLink final : public ByteLink {
+ public:
+  bool datagrams() const override { return false; }
+  std::size_t read(Bytes out) override {
+    const std::size_t count = std::min(out.size(), waiting.size());
+    std::copy_n(waiting.begin(), count, out.begin());
+    waiting.erase(waiting.begin(), waiting.begin() + static_cast<std::ptrdiff_t>(count));
+    return count;
+  }
+  std::size_t write(ConstBytes packets) override {
+    said.insert(said.end(), packets.begin(), packets.end());
+    return packets.size();
+  }
+  Packet waiting, said;
+};
+
+// The component, wired as on the target.
+struct Host {
+  explicit Host(const std::vector<std::uint8_t>& bytes)
+      : image(mdat::aligned_copy(bytes)), driver(line, lcs::Optics(calibration())), component(std::make_unique<Component>(driver)) {
+    expect(component->load_image(mdat::view(image, bytes.size())).status, "load its image");
+    expect(component->begin(mdat::kEpochUs), "begin");
+  }
+
+  static lcs::Calibration calibration() {
+    lcs::Calibration design;
+    design.serial = 1;
+    return design;
+  }
+
+  void meet(World& world, std::uint32_t slot) {
+    Packet bytes(lcs::kLineBytes);
+    bytes.resize(line.to_camera.read(Bytes(bytes.data(), bytes.size())));
+    world.move_to(slot, {bytes.data(), bytes.size()});
+    const Packet camera = world.from_camera(), ground = world.from_ground();
+    static_cast<void>(line.from_camera.write({camera.data(), camera.size()}));
+    link.waiting.insert(link.waiting.end(), ground.begin(), ground.end());
+  }
+
+  void run_slot() {
+    const TimeUs now_us = component->next_slot_us();
+    pump.receive(now_us);
+    component->run_slot(now_us);
+    component->run_estimation();
+    if (component->next_slot_is_boundary()) {
+      Packet packets(kTelemetryQueueBytes);
+      packets.resize(component->take_telemetry(Bytes(packets.data(), packets.size())));
+      static_cast<void>(link.write({packets.data(), packets.size()}));
+    }
+  }
+
+  std::vector<std::uint64_t> image;
+  lcs::Line line;
+  lcs::Driver driver;
+  std::unique_ptr<Component> component;
+  MemoryLink link;
+  LinkPump pump{*component, link};
+};
+
+}  // namespace
+
+Packet fly_on_host(const WorldSetup& setup, const std::vector<std::uint8_t>& image, std::uint32_t frames, const Told& told) {
+  World world(setup);
+  Host host(image);
+  for (std::uint32_t slot = 0; slot < frames * kSlotsPerFrame; ++slot) {
+    host.meet(world, slot);
+    host.run_slot();
+    told(slot / kSlotsPerFrame);
+  }
+  return host.link.said;
+}
+
+}  // namespace lasso::pil

@@ -1,0 +1,58 @@
+"""The report of a processor-in-the-loop run: one page with its picture, the time of each stage against the frame."""
+import html as text
+
+STAGES = [('estimate', 'estimate'), ('boundary', 'boundary: publish, hand over, plan'), ('polls', 'polls of the camera, 19 slots'),
+          ('largest_poll', 'the largest of them')]
+COLOURS = {'estimate': '#3465a4', 'polls': '#73b66b', 'boundary': '#c17d11'}
+WIDTH, HEIGHT, LEFT, BOTTOM = 960, 320, 60, 30
+
+
+def scale_y(instructions, most):
+    return HEIGHT - BOTTOM - (HEIGHT - BOTTOM - 20) * instructions / most
+
+
+def bars(frames, most):
+    """A bar for each frame, its stages one on the other."""
+    step = (WIDTH - LEFT - 10) / len(frames)
+    for n, frame in enumerate(frames):
+        below = 0
+        for stage, colour in COLOURS.items():
+            top, base = scale_y(below + frame[stage], most), scale_y(below, most)
+            yield f'<rect x="{LEFT + n * step:.2f}" y="{top:.2f}" width="{step:.2f}" height="{base - top:.2f}" fill="{colour}"/>'
+            below += frame[stage]
+
+
+def picture(frames, budget, mips, period_ms):
+    lines = []
+    for share in range(0, 6):
+        y, ms = scale_y(budget * share / 5, budget), period_ms * share / 5
+        lines.append(f'<line x1="{LEFT}" x2="{WIDTH - 10}" y1="{y:.1f}" y2="{y:.1f}" stroke="{"#c00" if share == 5 else "#ddd"}"/>'
+                     f'<text x="{LEFT - 6}" y="{y + 4:.1f}" text-anchor="end">{ms:.0f} ms</text>')
+    legend = ''.join(f'<rect x="{LEFT + 240 * n}" y="{HEIGHT - 16}" width="12" height="12" fill="{colour}"/>'
+                     f'<text x="{LEFT + 240 * n + 18}" y="{HEIGHT - 6}">{dict(STAGES)[stage]}</text>' for n, (stage, colour) in enumerate(COLOURS.items()))
+    return (f'<svg viewBox="0 0 {WIDTH} {HEIGHT}" xmlns="http://www.w3.org/2000/svg" font-family="sans-serif" font-size="11">{"".join(lines)}'
+            f'{"".join(bars(frames, budget))}{legend}<text x="{WIDTH - 12}" y="14" text-anchor="end" fill="#c00">the frame: {period_ms} ms, {budget / 1e6:.0f} '
+            f'million instructions at {mips} MIPS</text></svg>')
+
+
+def rows(r):
+    for stage, title in STAGES:
+        i = r['instructions'][stage]
+        yield f'instructions: {title}', f'{i["median"]:,.0f} median, {i["p99"]:,} at 99 %, {i["worst"]:,} worst'
+    latency = r['interrupt_latency_instructions']
+    yield 'from a slot’s time to its first instruction', f'{latency["median"]:.0f} instructions (median), {latency["worst"]} at worst'
+    yield 'processor idle', f'{100 * r["idle_share"]["median"]:.1f} % (median), {100 * r["idle_share"]["worst"]:.1f} % at worst'
+    yield 'margin of the fullest slot', f'{100 * r["slot_margin_share"]:.1f} %'
+    yield 'margin of the fullest frame', f'{100 * r["estimate_margin_share"]:.1f} %'
+    yield 'stack: most that was used', f'estimation {r["stack_bytes"]["estimation"]:,} bytes, acquisition {r["stack_bytes"]["acquisition"]:,} bytes, of 32,768 each'
+    yield 'code and constants', f'{r["image_bytes"]:,} bytes'
+    yield 'memory without mission images', f'{r["memory_bytes"]:,} bytes, of which the component {r["component_bytes"]:,}'
+    yield 'telemetry', text.escape(r['telemetry'])
+    yield 'run', text.escape(f'{r["frames"]} frames of {r["scenario"]}, {r["emulator"]}, {r["commit"]}')
+
+
+def html(r, frames, budget):
+    table = ''.join(f'<tr><td>{name}</td><td>{value}</td></tr>' for name, value in rows(r))
+    return (f'<!doctype html><meta charset="utf-8"><title>3DLASSO on the PowerPC 603e</title><style>body{{font-family:sans-serif;max-width:{WIDTH}px;margin:2em auto}}'
+            f'td{{padding:.2em 1em .2em 0;vertical-align:top}}</style><h1>3DLASSO on the PowerPC 603e</h1><p>Time of each stage in each frame, against the frame.</p>'
+            f'{picture(frames, budget, r["mips"], r["period_ms"])}<table>{table}</table><p>Counts of instructions: the emulator knows neither caches nor a pipeline.</p>\n')

@@ -1,0 +1,159 @@
+// pil_rig MISSION SCENARIO FRAMES OUT [cut=BYTES] [starts=N]: flies a scenario on the host, then on the board behind OUT/camera.sock,
+// OUT/ground.sock and OUT/rig.sock, and compares their telemetry bit by bit. Says `ready` when the board may be started: the mission's
+// image is then in OUT/image.3dli. Leaves OUT/host.ccsds, OUT/target.ccsds, OUT/starts.csv and OUT/slots.csv (the board's reports, words by
+// name). cut: the camera's line ends after so many bytes. starts: so many starts of the board are awaited, and the flight on the host left
+// out. Exit codes: 0 the same bits, 1 not, or the board failed, 2 usage or bad input.
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <string>
+
+#include "ft/pil/boards.hpp"
+#include "mdat/common/errors.hpp"
+#include "mdat/common/flight_image.hpp"
+#include "mdat/common/output.hpp"
+#include "mdat/common/progress_bar.hpp"
+#include "mdat/link/decode.hpp"
+#include "mdat/link/number.hpp"
+#include "mdat/run/simulation.hpp"
+
+namespace lasso::pil {
+namespace {
+
+constexpr std::uint32_t kPipelineFrames = 2;  // scan k is reported at boundary k + 2
+constexpr const char* kWordNames =
+    "magic,kind,time_high,time_low,camera_sent,ground_sent,slot,slot_ticks,estimate_ticks,late_ticks,idle_ticks,restarts,cause,vector,"
+    "address,estimate_stack,acquire_stack,lost_bytes,memory,line_ticks\n";
+
+struct Options {
+  std::string mission, scenario, out;
+  std::uint32_t frames = 0, starts = 1;
+  std::optional<std::uint64_t> cut;
+};
+
+Options parse(int argc, char** argv) {
+  if (argc < 5) throw mdat::InputError("usage: pil_rig MISSION SCENARIO FRAMES OUT [cut=BYTES] [starts=N]");
+  Options options{argv[1], argv[2], argv[4], static_cast<std::uint32_t>(std::stoul(argv[3])), 1, {}};
+  for (int i = 5; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (word.starts_with("cut=")) {
+      options.cut = std::stoull(word.substr(4));
+    } else if (word.starts_with("starts=")) {
+      options.starts = static_cast<std::uint32_t>(std::stoul(word.substr(7)));
+    } else {
+      throw mdat::InputError(word + ": neither cut=BYTES nor starts=N");
+    }
+  }
+  return options;
+}
+
+std::string csv(const std::vector<Report>& reports) {
+  std::string text = kWordNames;
+  for (const Report& report : reports) {
+    for (const std::uint32_t word : report.words) text += std::to_string(word) + ",";
+    text.back() = '\n';
+  }
+  return text;
+}
+
+void write(const std::string& file, const Packet& bytes) {
+  mdat::write_file(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+// What differs first, as a person can look for it; empty: nothing.
+std::string difference(const Packet& host, const Packet& target) {
+  const std::size_t both = std::min(host.size(), target.size());
+  const auto at = static_cast<std::size_t>(
+      std::mismatch(host.begin(), host.begin() + static_cast<std::ptrdiff_t>(both), target.begin()).first - host.begin());
+  if (at == host.size() && at == target.size()) return {};
+  const mdat::DecodedStream packets = mdat::decode_stream({host.data(), host.size()}, PacketType::kTelemetry);
+  std::size_t number = 0;
+  const char* name = "none";
+  for (const mdat::DecodedPacket& packet : packets.packets) {
+    if (packet.offset > at) break;
+    name = packet.name();
+    ++number;
+  }
+  return "byte " + std::to_string(at) + ", in packet " + std::to_string(number) + " of the host's (" + name + "); host " +
+         std::to_string(host.size()) + " bytes, target " + std::to_string(target.size());
+}
+
+void tell_ready() {
+  std::puts("ready");
+  (void)std::fflush(stdout);
+}
+
+// The last value of an item in all packets of a name; none.
+std::optional<std::int64_t> last_of(const mdat::DecodedStream& stream, const std::string& packet, const std::string& item) {
+  std::optional<std::int64_t> last;
+  for (const mdat::DecodedPacket& one : stream.packets) {
+    if (one.name() != packet) continue;
+    for (const mdat::DecodedItem& decoded : one.items) {
+      if (decoded.row->name == item) last = static_cast<std::int64_t>(mdat::value_of(decoded.values.at(0)));
+    }
+  }
+  return last;
+}
+
+// What telemetry says of a start: in its own words, for ft/pil/faults.
+void tell(const Packet& telemetry) {
+  const mdat::DecodedStream stream = mdat::decode_stream({telemetry.data(), telemetry.size()}, PacketType::kTelemetry);
+  const auto poses =
+      std::count_if(stream.packets.begin(), stream.packets.end(), [](const auto& packet) { return packet.name() == std::string("pose"); });
+  std::printf("telemetry: mode %lld, reset_cause %lld, %lld poses, last valid %lld, other bytes %zu\n",
+              static_cast<long long>(last_of(stream, "pose", "mode").value_or(-1)),
+              static_cast<long long>(last_of(stream, "health", "reset_cause").value_or(-1)), static_cast<long long>(poses),
+              static_cast<long long>(last_of(stream, "pose", "valid").value_or(-1)), stream.other_bytes);
+}
+
+int compare(const Options& options, const Packet& host, const TargetFlight& flight) {
+  for (const Packet& telemetry : flight.telemetry) tell(telemetry);
+  if (options.starts > 1) return mdat::kExitDone;
+  const std::string wrong = difference(host, flight.telemetry.back());
+  if (wrong.empty()) std::printf("same: %zu bytes of telemetry\n", host.size());
+  if (!wrong.empty()) std::printf("differs: %s\n", wrong.c_str());
+  return wrong.empty() ? mdat::kExitDone : mdat::kExitFailed;
+}
+
+int run(const Options& options) {
+  const mdat::CompiledMission mission = mdat::compile_mission(options.mission);
+  const auto target = mdat::make_target(mission.mesh);
+  mdat::SimulationOptions simulation;
+  simulation.scenario = options.scenario;
+  const WorldSetup setup{mdat::camera_case(mission, simulation, *target), options.cut};
+  const std::vector<std::uint8_t> image = mdat::image_bytes(mission, setup.flight.parameters);
+  std::filesystem::create_directories(options.out);
+  write(options.out + "/image.3dli", image);
+  const std::uint32_t frames = options.frames + kPipelineFrames;
+  Packet host;
+  if (options.starts == 1) {
+    mdat::ProgressBar bar("fly on the host", frames, "frames");
+    host = fly_on_host(setup, image, frames, [&](std::uint32_t done) { bar.show(done); });
+    bar.finish();
+  }
+  write(options.out + "/host.ccsds", host);
+  mdat::ProgressBar bar("fly on the 603e", frames, "frames");
+  const TargetFlight flight =
+      fly_on_target(setup, options.out, frames, options.starts, tell_ready, [&](std::uint32_t done) { bar.show(done); });
+  bar.finish();
+  write(options.out + "/target.ccsds", flight.telemetry.back());
+  mdat::write_file(options.out + "/starts.csv", csv(flight.starts));
+  mdat::write_file(options.out + "/slots.csv", csv(flight.slots));
+  return compare(options, host, flight);
+}
+
+}  // namespace
+}  // namespace lasso::pil
+
+int main(int argc, char** argv) {
+  try {
+    return lasso::pil::run(lasso::pil::parse(argc, argv));
+  } catch (const lasso::mdat::RunError& error) {
+    std::fprintf(stderr, "pil: %s\n", error.what());
+    return lasso::mdat::kExitFailed;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "pil: %s\n", error.what());
+    return lasso::mdat::kExitBadInput;
+  }
+}

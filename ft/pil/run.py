@@ -1,0 +1,144 @@
+#!/usr/bin/env python3
+"""run.py HOST BOARD [FRAMES [SCENARIO [NAME]]]: the component on the emulated PowerPC 603e, with the simulated camera and the ground at its lines (docs/pil.md).
+
+HOST and BOARD are build folders. Flies FRAMES frames (360) on host and board, compares the telemetry bit by bit, and leaves instructions, margins
+and stacks in out/NAME (pil): results.json, report.html, summary.json. Exit codes: 0 the same bits, within the limits; 1 not.
+"""
+import csv
+import json
+import pathlib
+import re
+import statistics
+import subprocess
+import sys
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / 'cfg/quality'))
+import gate as gates  # noqa: E402
+import emulator  # noqa: E402
+import page  # noqa: E402
+
+MISSION, SLOTS, PERIOD_MS = 'cfg/missions/hubble_tenth.toml', 20, 200
+SECONDS = 280  # of the host; the run ends by itself
+FRAME_INSTRUCTIONS = PERIOD_MS * 1000 * emulator.MIPS
+LIMITS = {'estimate': 3.5e6, 'idle': 0.65,  # the aim of LASSO-PLT-016 is 0.70
+           'image': 512 << 10, 'memory': 3 << 20, 'stack': 32 << 10}
+
+
+def instructions(ticks):
+    return round(ticks / emulator.TICKS_PER_INSTRUCTION)
+
+
+def read_reports(path):
+    with open(path, encoding='utf-8') as file:
+        return [{name: int(word) for name, word in row.items()} for row in csv.DictReader(file)]
+
+
+def frames_of(slots):
+    """Instructions of each whole frame, by stage. The estimate of a frame is the one that ended in it."""
+    frames = []
+    for first in range(0, len(slots) - SLOTS + 1, SLOTS):
+        rows = slots[first:first + SLOTS]
+        polls = [instructions(row['slot_ticks']) for row in rows[1:]]
+        frames.append({'boundary': instructions(rows[0]['slot_ticks']), 'polls': sum(polls), 'largest_poll': max(polls),
+                       'estimate': sum(instructions(row['estimate_ticks']) for row in rows),
+                       'idle': sum(instructions(row['idle_ticks']) for row in rows),
+                       'late': max(instructions(row['late_ticks']) for row in rows)})
+    return frames
+
+
+def spread(values):
+    values = sorted(values)
+    return {'median': statistics.median(values), 'p99': values[int(0.99 * (len(values) - 1))], 'worst': values[-1]}
+
+
+def sizes(gate, elf):
+    """Bytes of code and constants, and of memory for the component, its stacks included, without mission images."""
+    total = {}
+    for line in gate.run('powerpc-linux-gnu-size', '-A', elf).splitlines():
+        words = line.split()
+        if len(words) == 3 and words[0].startswith('.'):
+            total[words[0]] = int(words[1])
+    image = sum(total.get(name, 0) for name in ('.vectors', '.text', '.rodata', '.init_array', '.board_id', '.data'))
+    memory = sum(total.get(name, 0) for name in ('.estimation_stack', '.kept', '.data', '.bss', '.acquisition_stack'))
+    return image, memory
+
+
+def measure(gate, elf, slots):
+    frames = frames_of(slots)
+    flown = [frame for frame in frames if frame['estimate'] > 0]
+    if not flown:
+        gate.stop('no estimate has ended on the board')
+    boundaries = slots[::SLOTS]
+    image, memory = sizes(gate, elf)
+    # The processor rests when neither task has work: what idle_ticks say, less the interrupts' entries that they hold.
+    idle = [1 - (frame['boundary'] + frame['polls'] + frame['estimate']) / FRAME_INSTRUCTIONS for frame in flown]
+    return {
+        'frames': len(frames), 'mips': emulator.MIPS, 'period_ms': PERIOD_MS,
+        'instructions': {stage: spread([frame[stage] for frame in flown]) for stage in ('boundary', 'polls', 'largest_poll', 'estimate')},
+        'interrupt_latency_instructions': spread([frame['late'] for frame in flown]),
+        'idle_share': {'median': statistics.median(idle), 'worst': min(idle)},
+        'slot_margin_share': 1 - max(max(frame['boundary'], frame['largest_poll']) for frame in flown) / (FRAME_INSTRUCTIONS / SLOTS),
+        'estimate_margin_share': 1 - max(frame['estimate'] + frame['polls'] + frame['boundary'] for frame in flown) / FRAME_INSTRUCTIONS,
+        'stack_bytes': {'estimation': max(row['estimate_stack'] for row in boundaries), 'acquisition': max(row['acquire_stack'] for row in boundaries)},
+        'image_bytes': image, 'memory_bytes': memory, 'component_bytes': slots[0]['memory'], 'lost_bytes': slots[-1]['lost_bytes'],
+    }, flown
+
+
+def judge(gate, r):
+    checks = [('median of an estimate, instructions', r['instructions']['estimate']['median'], LIMITS['estimate'], False),
+              ('idle share', r['idle_share']['median'], LIMITS['idle'], True),
+              ('code and constants, bytes', r['image_bytes'], LIMITS['image'], False),
+              ('memory without mission images, bytes', r['memory_bytes'], LIMITS['memory'], False),
+              ('stack of the estimation, bytes', r['stack_bytes']['estimation'], LIMITS['stack'], False),
+              ('stack of the acquisition, bytes', r['stack_bytes']['acquisition'], LIMITS['stack'], False),
+              ('bytes lost on the lines', r['lost_bytes'], 0, False)]
+    for what, value, limit, least in checks:
+        if value < limit if least else value > limit:
+            gate.find(f'{what}: {value}, {"at least" if least else "at most"} {limit} allowed')
+
+
+def million(value):
+    return f'{value / 1e6:.2f}'
+
+
+def tell(gate, r):
+    i = r['instructions']
+    print(f'instructions in a frame of {PERIOD_MS} ms at {emulator.MIPS} MIPS ({FRAME_INSTRUCTIONS / 1e6:.0f} million), millions: median, 99 %, worst')
+    for stage, title in page.STAGES:
+        print(f'  {title:36s} {million(i[stage]["median"])} {million(i[stage]["p99"])} {million(i[stage]["worst"])}')
+    gate.figure('frames', r['frames'])
+    gate.figure('million instructions an estimate (median)', million(i['estimate']['median']))
+    gate.figure('million at worst', million(i['estimate']['worst']))
+    gate.figure('% idle (median)', f'{100 * r["idle_share"]["median"]:.0f}')
+    gate.figure('% idle at worst', f'{100 * r["idle_share"]["worst"]:.0f}')
+    gate.figure('% of the fullest slot free', f'{100 * r["slot_margin_share"]:.0f}')
+    gate.figure('instructions of interrupt latency at worst', r['interrupt_latency_instructions']['worst'])
+    gate.figure('bytes of stack, estimation', r['stack_bytes']['estimation'])
+    gate.figure('bytes of stack, acquisition', r['stack_bytes']['acquisition'])
+    gate.figure('kB of code and constants', round(r['image_bytes'] / 1024))
+    gate.figure('MB of memory', f'{r["memory_bytes"] / (1 << 20):.2f}')
+
+
+def main(host, board, frames='360', scenario='spin', name='pil'):
+    with gates.Gate(name) as gate:
+        elf = f'{board}/flight_603e.elf'
+        try:
+            version = emulator.require()
+            code, said, machine = emulator.fly(f'{host}/ft/pil/pil_rig', elf, [MISSION, scenario, frames, gate.out], gate.out, SECONDS)
+        except emulator.Failure as failure:
+            gate.stop(str(failure))
+        print(said)
+        if code != 0:
+            gate.stop(f'{said or "the board failed"} ({machine.said()})')
+        results, flown = measure(gate, elf, read_reports(gate.out / 'slots.csv'))
+        results |= {'scenario': scenario, 'emulator': f'QEMU {version}', 'commit': gates.commit(), 'telemetry': said}
+        (gate.out / 'results.json').write_text(json.dumps(results, indent=1) + '\n', encoding='utf-8')
+        (gate.out / 'report.html').write_text(page.html(results, flown, FRAME_INSTRUCTIONS), encoding='utf-8')
+        tell(gate, results)
+        judge(gate, results)
+
+
+if __name__ == '__main__':
+    main(*sys.argv[1:])
