@@ -45,6 +45,7 @@ FrameRecord Runner::run_frame() {
   } while (!component_.next_slot_is_boundary());
   record.telemetry = ConstBytes(telemetry_, component_.take_telemetry(Bytes(telemetry_)));
   send(record.telemetry);
+  record.reset_due = component_.reset_due();
   record.estimated = measured.ran;
   record.estimate_cpu_ns = measured.cpu_ns;
   record.estimate_wall_ns = measured.wall_ns;

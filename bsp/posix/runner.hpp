@@ -27,6 +27,7 @@ struct FrameRecord {
   bool estimated = false;            // an estimate ran between the previous boundary and this one: the one that `telemetry` reports
   std::int64_t estimate_cpu_ns = 0;  // processor time of that estimate's thread
   std::int64_t estimate_wall_ns = 0;
+  bool reset_due = false;  // the component is to be started anew: by whoever made it, with a runner of its own
 };
 
 class Runner {

@@ -34,7 +34,8 @@ Status Component::begin(TimeUs boundary_0_us) {
   invariant(executive_.begin(boundary_0_us, to_us(p.period_s)) == Status::kOk, "slots of a valid period");
   events_.set_time(boundary_0_us);
   inhibit_laser();
-  events_.raise<EventId::kBegun>(software_version(), software_build(), mission().image_crc);
+  events_.raise<EventId::kBegun>(software_version(), software_build(), mission().image_crc, health_.reset_cause);
+  static_cast<void>(restore_parameters());
   health_.failed_tests = static_cast<std::uint8_t>(failed_self_tests());
   if (p.initial_present < 0.5) return Status::kOk;
   const StartOffer offer = rough_offer(p, initial_pose(p), initial_rates(p), boundary_0_us);

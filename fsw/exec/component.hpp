@@ -24,6 +24,7 @@
 #include "fsw/exec/executive.hpp"
 #include "fsw/exec/faults.hpp"
 #include "fsw/exec/image_trial.hpp"
+#include "fsw/exec/stored_log.hpp"
 #include "fsw/exec/watchdog.hpp"
 #include "fsw/geometry/se3.hpp"
 #include "fsw/link/arming.hpp"
@@ -111,6 +112,10 @@ class Component {
   void set_watchdog(Watchdog& watchdog) { watchdog_ = &watchdog; }
   // Why the component starts, as the board knows it. After its watchdog it begins in mode safe. Before begin().
   void set_reset_cause(ResetCause cause) { health_.reset_cause = static_cast<std::uint8_t>(cause); }
+
+  // A command has asked for it, and its frame is over: the board takes the telemetry and starts the component anew, with
+  // ResetCause::kCommanded.
+  bool reset_due() const { return reset_due_; }
 
   // The nominal time of the next slot, and whether it is a boundary.
   TimeUs next_slot_us() const { return executive_.next_slot_us(); }
@@ -215,6 +220,10 @@ class Component {
   ServiceRefusal set_parameter(const ParameterCommand& command);
   ServiceRefusal report_parameter(std::uint16_t parameter, TimeUs now_us);
   void revert_parameters();
+  ServiceRefusal save_parameters();
+  ServiceRefusal restore_parameters();
+  ServiceRefusal report_stored(const StoredCommand& command, TimeUs now_us);
+  void reset();
   void check_area();
   void apply_parameters();
   bool may_fire(const Command& command);
@@ -283,6 +292,9 @@ class Component {
   Housekeeping housekeeping_;
   ParameterArea parameter_area_;
   bool parameters_due_ = false;  // for the next boundary
+  Store* store_ = nullptr;       // the board's, if it has one
+  StoredLog log_;
+  bool reset_asked_ = false, reset_due_ = false;
   Arming arming_;
   bool laser_enabled_ = false;
   Watched watched_;

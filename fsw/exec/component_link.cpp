@@ -159,7 +159,9 @@ void Component::watch_counters() {
 // The last of a boundary's work: what happened at it is told by it.
 void Component::send_events() {
   watch_counters();
+  reset_due_ = reset_asked_;
   for (const EventRecord& event : events_.records()) {
+    log_.note(event);
     std::uint8_t packet[kMaxEventPacketBytes];
     const PacketHeader header = downlink_.next_header({kServiceEvent, static_cast<std::uint8_t>(event.severity)}, event.t_us);
     downlink_.send({packet, encode_event(event, header, Bytes(packet))});

@@ -82,7 +82,10 @@ Status Component::use_memory(const BoardMemory& memory) {
   if (executive_.begun()) return Status::kBadOrder;
   Status status = images_.use_buffers(memory.image_buffers[0], memory.image_buffers[1]);
   if (status == Status::kOk) status = images_.watch_code(memory.code);
-  if (status == Status::kOk && memory.store != nullptr) images_.use_store(*memory.store);
+  if (status != Status::kOk || memory.store == nullptr) return status;
+  store_ = memory.store;
+  images_.use_store(*memory.store);
+  log_.use(*memory.store);
   return status;
 }
 
@@ -99,6 +102,7 @@ ImageRefusal Component::roll_back_image() {
 }
 
 void Component::tend_memory() {
+  log_.step();
   const ImageState before = images_.other().state();
   images_.step(acquisition_.sensors());
   const ImageSlot& other = images_.other();

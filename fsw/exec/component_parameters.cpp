@@ -1,6 +1,7 @@
 // Parameters that are changed in flight.
 #include "fsw/exec/component.hpp"
 #include "fsw/link/link_report_rows.hpp"
+#include "fsw/mission/stored_record.hpp"
 
 namespace lasso {
 namespace {
@@ -8,8 +9,8 @@ namespace {
 constexpr auto kParameter = codec_of(link_report_rows::kParameter);
 
 ServiceRefusal refusal_of(ParameterRefusal refusal) {
-  constexpr ServiceRefusal kRefusals[] = {ServiceRefusal::kNone, ServiceRefusal::kNoSuchParameter, ServiceRefusal::kFixedParameter,
-                                          ServiceRefusal::kOutOfLimits, ServiceRefusal::kInconsistent};
+  constexpr ServiceRefusal kRefusals[] = {ServiceRefusal::kNone,        ServiceRefusal::kNoSuchParameter, ServiceRefusal::kFixedParameter,
+                                          ServiceRefusal::kOutOfLimits, ServiceRefusal::kInconsistent,    ServiceRefusal::kOtherTable};
   return Span<const ServiceRefusal>(kRefusals)[static_cast<std::size_t>(refusal)];
 }
 
@@ -46,6 +47,29 @@ void Component::revert_parameters() {
   parameter_area_.revert();
   parameters_due_ = true;
   events_.raise<EventId::kParametersReverted>();
+}
+
+ServiceRefusal Component::save_parameters() {
+  if (store_ == nullptr) return ServiceRefusal::kNoStore;
+  check_area();
+  std::uint8_t bytes[kSavedParameterBytes] = {};
+  parameter_area_.save(Bytes(bytes));
+  const Status saved = save_record(*store_, StoreArea::kParameters0, StoreArea::kParameters1, ConstBytes(bytes));
+  if (saved != Status::kOk) return ServiceRefusal::kStoreFailed;
+  events_.raise<EventId::kParametersSaved>();
+  return ServiceRefusal::kNone;
+}
+
+// Told where something was saved, whether it holds or not.
+ServiceRefusal Component::restore_parameters() {
+  if (store_ == nullptr) return ServiceRefusal::kNoStore;
+  std::uint8_t bytes[kSavedParameterBytes] = {};
+  const Status loaded = load_record(*store_, StoreArea::kParameters0, StoreArea::kParameters1, Bytes(bytes));
+  if (loaded != Status::kOk) return ServiceRefusal::kNothingStored;
+  const ServiceRefusal refusal = refusal_of(parameter_area_.restore(ConstBytes(bytes), images_.active().image_parameters()));
+  if (refusal == ServiceRefusal::kNone) parameters_due_ = true;
+  events_.raise<EventId::kParametersRestored>(parameter_area_.changes(), refusal);
+  return refusal;
 }
 
 // Before anybody uses the area. What was made of a copy that was wrong is made again.

@@ -6,6 +6,7 @@ namespace lasso {
 namespace {
 
 constexpr auto kDisabled = codec_of(link_report_rows::kDisabled);
+constexpr auto kStoredEvent = codec_of(link_report_rows::kStoredEvent);
 
 ServiceRefusal unless(bool done, ServiceRefusal refusal) { return done ? ServiceRefusal::kNone : refusal; }
 
@@ -45,6 +46,15 @@ ServiceRefusal Component::serve(const Command& command, TimeUs now_us) {
     case CommandKind::kRevertParameters:
       revert_parameters();
       break;
+    case CommandKind::kSaveParameters:
+      return save_parameters();
+    case CommandKind::kRestoreParameters:
+      return restore_parameters();
+    case CommandKind::kReset:
+      reset();
+      break;
+    case CommandKind::kReportStored:
+      return report_stored(command.stored, now_us);
     case CommandKind::kBeginImage:
     case CommandKind::kCheckImage:
     case CommandKind::kActivateImage:
@@ -93,6 +103,35 @@ void Component::inhibit_laser() {
   acquisition_.permit_laser(false);
   if (laser_enabled_) events_.raise<EventId::kLaserInhibited>();
   laser_enabled_ = false;
+}
+
+// The laser goes out now, and whatever the board takes to restart.
+void Component::reset() {
+  inhibit_laser();
+  reset_asked_ = true;
+  events_.raise<EventId::kResetCommanded>();
+}
+
+// Loop bound: kMaxStoredReports.
+ServiceRefusal Component::report_stored(const StoredCommand& command, TimeUs now_us) {
+  if (!log_.in_use()) return ServiceRefusal::kNoStore;
+  const std::uint32_t last = command.last == 0 ? log_.sequence() : command.last;
+  std::uint32_t told = 0;
+  for (std::uint32_t back = command.count; back > 0; --back) {
+    StoredEvent stored;
+    if (!log_.read(last - (back - 1), stored)) continue;
+    StoredEventTelemetry report;
+    report.sequence = stored.sequence;
+    report.start = stored.start;
+    report.t_us = stored.event.t_us;
+    report.event = static_cast<std::uint16_t>(stored.event.id);
+    report.severity = static_cast<std::uint8_t>(stored.event.severity);
+    report.size = stored.event.size;
+    for (std::size_t i = 0; i < kMaxEventBytes; ++i) report.items[i] = stored.event.items[i];
+    downlink_.send({kServiceEvent, kSubserviceStoredEvent}, kStoredEvent, report, now_us);
+    ++told;
+  }
+  return unless(told > 0, ServiceRefusal::kNothingStored);
 }
 
 void Component::correlate_time(const TimeCommand& time) {

@@ -184,6 +184,10 @@ inline constexpr Choice kServiceRefusals[] = {
   {"does_not_fit", "its filter.period_s is not that of the active image", "load it at a start"},
   {"not_allowed", "the area is not written to", "load into other_image"},
   {"mode_safe", "the laser stays dark in mode safe", "command standby first"},
+  {"no_store", "the board has no non-volatile store", ""},
+  {"store_failed", "the store does not take it", "look at the board's store; try again"},
+  {"nothing_stored", "the store has no such record that is right", "save it first; ask for an event that was told"},
+  {"other_table", "it was saved by software with other parameters", "set the parameters again, and save them"},
 };
 inline constexpr Choice kStructureNames[] = {
   {"none", "no structure"},

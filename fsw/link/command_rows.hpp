@@ -51,6 +51,10 @@ inline constexpr TypedRow<ParameterCommand> kSetParameter[] = {
   make_row<&ParameterCommand::parameter>(1, "parameter", "1", kAny, "its number"),
   make_row<&ParameterCommand::value>(2, "value", "as it says", kAny, "new value, in the parameter's unit"),
 };
+inline constexpr TypedRow<StoredCommand> kStored[] = {
+  make_row<&StoredCommand::last>(1, "last", "1", kAny, "sequence number of the last one that is wanted, 0: the newest"),
+  make_row<&StoredCommand::count>(2, "count", "1", Range{1, static_cast<double>(kMaxStoredReports)}, "how many that end with it"),
+};
 inline constexpr TypedRow<TimeCommand> kTime[] = {
   make_row<&TimeCommand::component_us>(1, "component_us", "us", kCucRange, "a moment in the component's time, that of the items ..."),
   make_row<&TimeCommand::spacecraft_us>(2, "spacecraft_us", "us", kCucRange, "... and the same moment in spacecraft time"),
@@ -66,6 +70,7 @@ inline constexpr auto kPeriodItems = items_of(kPeriod);
 inline constexpr auto kTimeItems = items_of(kTime);
 inline constexpr auto kParameterItems = items_of(kParameter);
 inline constexpr auto kSetParameterItems = items_of(kSetParameter);
+inline constexpr auto kStoredItems = items_of(kStored);
 inline constexpr auto kBeginImageItems = items_of(memory_rows::kBegin);
 inline constexpr auto kActivateItems = items_of(memory_rows::kActivate);
 inline constexpr auto kLoadItems = items_of(memory_rows::kLoad);
@@ -121,6 +126,14 @@ inline constexpr PacketRow kCommands[] = {
    "asks for the packet dumped"},
   {"check_memory", PacketType::kCommand, kServiceMemory, kSubserviceCheck, false, 0, Span<const ItemRow>(kRangeItems.rows),
    "asks for the packet checked"},
+  {"reset", PacketType::kCommand, kServiceFunction, kSubservicePerform, true, 7, Span<const ItemRow>(),
+   "the laser is inhibited, and the board restarts the component at the end of the next frame", "", "", Hazard::kOnce},
+  {"save_parameters", PacketType::kCommand, kServiceParameter, kSubserviceSaveParameters, false, 0, Span<const ItemRow>(),
+   "the changed parameters go to the store, and hold again after a restart"},
+  {"restore_parameters", PacketType::kCommand, kServiceParameter, kSubserviceRestoreParameters, false, 0, Span<const ItemRow>(),
+   "the saved parameters take the place of the changed ones, from the next boundary on"},
+  {"report_stored_events", PacketType::kCommand, kServiceEvent, kSubserviceReportStored, false, 0, Span<const ItemRow>(kStoredItems.rows),
+   "asks for packets stored_event, of this start or of those before"},
 };
 // clang-format on
 

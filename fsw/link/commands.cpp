@@ -61,6 +61,10 @@ constexpr CommandForm kForms[] = {
     form(CommandKind::kLoadMemory, read<&Command::load, memory_rows::kLoad>),
     form(CommandKind::kDumpMemory, read<&Command::memory, memory_rows::kRange>),
     form(CommandKind::kCheckMemory, read<&Command::memory, memory_rows::kRange>),
+    form(CommandKind::kReset, read_nothing),
+    form(CommandKind::kSaveParameters, read_nothing),
+    form(CommandKind::kRestoreParameters, read_nothing),
+    form(CommandKind::kReportStored, read<&Command::stored, command_rows::kStored>),
 };
 static_assert(sizeof(kForms) / sizeof(kForms[0]) == sizeof(command_rows::kCommands) / sizeof(PacketRow), "a form for each command");
 

@@ -29,6 +29,8 @@ constexpr std::uint8_t kSubserviceReportParameter = 1;
 constexpr std::uint8_t kSubserviceParameterValue = 2;
 constexpr std::uint8_t kSubserviceSetParameter = 3;
 constexpr std::uint8_t kSubserviceRevertParameters = 128;
+constexpr std::uint8_t kSubserviceSaveParameters = 129;
+constexpr std::uint8_t kSubserviceRestoreParameters = 130;
 
 enum class CommandKind : std::uint8_t {
   kPing,
@@ -56,6 +58,10 @@ enum class CommandKind : std::uint8_t {
   kLoadMemory,
   kDumpMemory,
   kCheckMemory,
+  kReset,
+  kSaveParameters,
+  kRestoreParameters,
+  kReportStored,
 };
 
 // Why a command that is right by itself cannot be carried out. Modes and starts have reasons of their own.
@@ -81,6 +87,10 @@ enum class ServiceRefusal : std::uint8_t {
   kDoesNotFit = 18,
   kNotAllowed = 19,
   kModeSafe = 20,
+  kNoStore = 21,
+  kStoreFailed = 22,
+  kNothingStored = 23,
+  kOtherTable = 24,
 };
 
 struct ModeCommand {
@@ -104,6 +114,10 @@ struct EventCommand {
 struct StructureCommand {
   std::uint16_t structure = 0;
   std::uint16_t period_frames = 0;  // kStructurePeriod
+};
+struct StoredCommand {
+  std::uint32_t last = 0;  // sequence number; 0: the last one that was kept
+  std::uint8_t count = 0;  // of those that end with it
 };
 struct ParameterCommand {
   std::uint16_t parameter = 0;  // row of parameter_rows()
@@ -130,8 +144,10 @@ struct Command {
   ImageCommand image;
   LoadCommand load;
   MemoryCommand memory;
+  StoredCommand stored;
 };
 
+constexpr std::uint8_t kMaxStoredReports = 8;
 constexpr std::size_t kMaxCommandBytes = 256;
 
 // Checks packet and arguments. `command` is untouched when it is refused.

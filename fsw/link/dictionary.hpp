@@ -65,6 +65,7 @@ inline constexpr auto kRefusedItems = items_of(link_report_rows::kRefused);
 inline constexpr auto kFailedItems = items_of(link_report_rows::kFailed);
 inline constexpr auto kParameterValueItems = items_of(link_report_rows::kParameter);
 inline constexpr auto kDisabledItems = items_of(link_report_rows::kDisabled);
+inline constexpr auto kStoredEventItems = items_of(link_report_rows::kStoredEvent);
 inline constexpr PacketRow kTelemetry[] = {
   {"pose", PacketType::kTelemetry, kServiceHousekeeping, kSubserviceHousekeepingReport, true, kPoseStructureId, Span<const ItemRow>(kPoseItems.rows),
    "the navigation output of one frame"},
@@ -93,6 +94,8 @@ inline constexpr PacketRow kTelemetry[] = {
    "the answer to report_disabled_events"},
   {"parameter", PacketType::kTelemetry, kServiceParameter, kSubserviceParameterValue, false, 0, Span<const ItemRow>(kParameterValueItems.rows),
    "the answer to report_parameter"},
+  {"stored_event", PacketType::kTelemetry, kServiceEvent, kSubserviceStoredEvent, false, 0, Span<const ItemRow>(kStoredEventItems.rows),
+   "an event of the store's log, one of those that report_stored_events asks for"},
 };
 // clang-format on
 inline constexpr auto kPackets = joined(kTelemetry, command_rows::kCommands, event_rows::packets());

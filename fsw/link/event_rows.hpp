@@ -37,6 +37,7 @@ inline constexpr ItemRow kBegun[] = {
   number_item(1, "software_version", WireType::kU32, "1", "major (8 bits), minor (8), patch (16)"),
   number_item(2, "software_build", WireType::kU32, "1", "identifier given by the build, 0: development"),
   number_item(3, "image_crc", WireType::kU32, "1", "CRC-32C of the mission image"),
+  choice_item(4, "reset_cause", kResetCause, "why it began"),
 };
 inline constexpr ItemRow kModeChanged[] = {
   choice_item(1, "from", kTrackingMode, "mode before"),
@@ -137,6 +138,10 @@ inline constexpr ItemRow kParameterChanged[] = {
   number_item(1, "parameter", WireType::kU16, "1", "its number"),
   number_item(2, "value", WireType::kF64, "as it says", "in the parameter's unit"),
 };
+inline constexpr ItemRow kParametersRestored[] = {
+  number_item(1, "parameters", WireType::kU16, "1", "that are changed now"),
+  choice_item(2, "refusal", kServiceRefusal, "none, or why what was saved does not hold"),
+};
 
 inline constexpr EventRow kRows[] = {
   {EventId::kBegun, "begun", Severity::kInformative, kEach, Span<const ItemRow>(kBegun),
@@ -203,6 +208,12 @@ inline constexpr EventRow kRows[] = {
    "one of the two copies of the changed parameters was damaged, and is repaired", "a bit flip in memory", ""},
   {EventId::kParametersLost, "parameters_lost", Severity::kHigh, {4, 25}, Span<const ItemRow>(),
    "both copies of the changed parameters were damaged: every parameter is the mission image's again", "bit flips in memory", "set the parameters again"},
+  {EventId::kParametersSaved, "parameters_saved", Severity::kInformative, kEach, Span<const ItemRow>(),
+   "the changed parameters are in the store: they hold again after a restart", "the command save_parameters", ""},
+  {EventId::kParametersRestored, "parameters_restored", Severity::kInformative, kEach, Span<const ItemRow>(kParametersRestored),
+   "the saved parameters took the place of the changed ones, or could not", "a start, or the command restore_parameters", "where they are refused: set them again, and save them"},
+  {EventId::kResetCommanded, "reset_commanded", Severity::kInformative, kEach, Span<const ItemRow>(),
+   "the board restarts the component at the end of this frame", "the command reset", ""},
 };
 // clang-format on
 

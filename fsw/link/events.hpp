@@ -60,7 +60,10 @@ enum class EventId : std::uint16_t {
   kParametersReverted = 30,
   kParametersRepaired = 31,
   kParametersLost = 32,
-  kEnd = 33  // behind the last one
+  kParametersSaved = 33,
+  kParametersRestored = 34,
+  kResetCommanded = 35,
+  kEnd = 36  // behind the last one
 };
 constexpr std::size_t kEvents = static_cast<std::size_t>(EventId::kEnd);  // with kNone
 constexpr std::size_t kMaxEventItems = 6;
@@ -80,6 +83,19 @@ constexpr std::size_t kMaxEventPacketBytes = kPacketHeaderBytes + kPacketNumberB
 
 // A whole packet; `header` says counts and time. The size, 0 when `out` is too small.
 std::size_t encode_event(const EventRecord& event, PacketHeader header, Bytes out);
+
+// One that was told before, as the board's store has kept it.
+constexpr std::uint8_t kSubserviceReportStored = 128;
+constexpr std::uint8_t kSubserviceStoredEvent = 129;
+struct StoredEventTelemetry {
+  std::uint32_t sequence = 0;
+  std::uint32_t start = 0;
+  TimeUs t_us = 0;
+  std::uint16_t event = 0;
+  std::uint8_t severity = 0;
+  std::uint8_t size = 0;
+  std::uint8_t items[kMaxEventBytes] = {};
+};
 
 // Bit i % 8 of byte i / 8: event i is disabled.
 struct DisabledEvents {

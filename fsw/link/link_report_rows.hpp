@@ -2,6 +2,7 @@
 #pragma once
 
 #include "fsw/link/choices.hpp"
+#include "fsw/link/event_rows.hpp"
 #include "fsw/link/events.hpp"
 #include "fsw/link/link_report.hpp"
 #include "fsw/link/row.hpp"
@@ -40,6 +41,15 @@ inline constexpr TypedRow<L> kLink[] = {
 };
 inline constexpr TypedRow<DisabledEvents> kDisabled[] = {
   make_row<&DisabledEvents::mask>(1, "mask", "1", kAny, "bit i % 8 of byte i / 8: event i is disabled"),
+};
+inline constexpr TypedRow<StoredEventTelemetry> kStoredEvent[] = {
+  make_row<&StoredEventTelemetry::sequence>(1, "sequence", "1", kAny, "counts the events that were kept, over all starts"),
+  make_row<&StoredEventTelemetry::start>(2, "start", "1", kAny, "counts the starts: the one that it belongs to"),
+  make_row<&StoredEventTelemetry::t_us>(3, "t_us", "us", kAny, "when, by the component's time of that start"),
+  make_row<&StoredEventTelemetry::event>(4, "event", event_rows::Names::kEvent, "the event"),
+  make_row<&StoredEventTelemetry::severity>(5, "severity", "1", Range{1, 4}, "1 informative, 2 low, 3 medium, 4 high"),
+  make_row<&StoredEventTelemetry::size>(6, "size", "1", Range{0, static_cast<double>(kMaxEventBytes)}, "that count of data"),
+  make_row<&StoredEventTelemetry::items>(7, "items", "1", kAny, "the bytes of the event's items, then zeros"),
 };
 inline constexpr TypedRow<ParameterTelemetry> kParameter[] = {
   make_row<&ParameterTelemetry::parameter>(1, "parameter", "1", kAny, "its number"),

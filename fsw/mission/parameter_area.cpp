@@ -2,6 +2,7 @@
 
 #include <cstddef>
 
+#include "fsw/core/byte_codec.hpp"
 #include "fsw/core/crc.hpp"
 
 namespace lasso {
@@ -12,6 +13,19 @@ constexpr double P::*kFixed[] = {&P::pattern,          &P::points,           &P:
                                  &P::period_s,         &P::initial_present,  &P::initial_qx,     &P::initial_qy,     &P::initial_qz,
                                  &P::initial_qw,       &P::initial_x_m,      &P::initial_y_m,    &P::initial_z_m,    &P::initial_wx_radps,
                                  &P::initial_wy_radps, &P::initial_wz_radps, &P::initial_vx_mps, &P::initial_vy_mps, &P::initial_vz_mps};
+
+bool is_marked(const std::uint32_t (&marks)[kMaxParameters / 32], std::size_t row) {
+  return (Span<const std::uint32_t>(marks)[row / 32] >> row % 32 & 1U) != 0;
+}
+
+// Of the keys in their order: numbers of rows mean the same where it is the same.
+std::uint32_t table_sum() {
+  std::uint32_t sum = 0;
+  for (const ParameterRow& row : parameter_rows()) {
+    for (const char* letter = row.key; *letter != 0; ++letter) sum = crc32c({reinterpret_cast<const std::uint8_t*>(letter), 1}, sum);
+  }
+  return sum;
+}
 
 bool is_consistent(const MissionParameters& p) { return !(p.short_range_enter_m > 0) || p.short_range_leave_m > p.short_range_enter_m; }
 
@@ -48,7 +62,7 @@ ParameterRefusal ParameterArea::set(std::size_t row, double value, const Mission
 
 void ParameterArea::revert() { keep(Copy{}); }
 
-bool ParameterArea::changed(std::size_t row) const { return row < kMaxParameters && (copies_[0].changed[row / 32] >> row % 32 & 1U) != 0; }
+bool ParameterArea::changed(std::size_t row) const { return row < kMaxParameters && is_marked(copies_[0].changed, row); }
 
 std::size_t ParameterArea::changes() const {
   std::size_t count = 0;
@@ -60,6 +74,32 @@ void ParameterArea::apply(MissionParameters& parameters) const {
   for (std::size_t row = 0; row < parameter_rows().size(); ++row) {
     if (changed(row)) parameters.*parameter_rows()[row].member = copies_[0].values[row];
   }
+}
+
+void ParameterArea::save(Bytes out) const {
+  ByteWriter writer(out);
+  writer.u32(table_sum());
+  for (const std::uint32_t word : copies_[0].changed) writer.u32(word);
+  for (const double value : copies_[0].values) writer.f64(value);
+}
+
+ParameterRefusal ParameterArea::restore(ConstBytes saved, const MissionParameters& image) {
+  ByteReader reader(saved);
+  Copy restored;
+  if (reader.u32() != table_sum()) return ParameterRefusal::kOtherTable;
+  for (std::uint32_t& word : restored.changed) word = reader.u32();
+  for (double& value : restored.values) value = reader.f64();
+  MissionParameters wanted = image;
+  for (std::size_t row = 0; row < kMaxParameters; ++row) {
+    if (!is_marked(restored.changed, row)) continue;
+    if (!is_changeable(row)) return ParameterRefusal::kFixed;
+    wanted.*parameter_rows()[row].member = restored.values[row];
+  }
+  std::size_t bad_row = 0;
+  if (validate(wanted, bad_row) != Status::kOk) return ParameterRefusal::kOutOfLimits;
+  if (!is_consistent(wanted)) return ParameterRefusal::kInconsistent;
+  keep(restored);
+  return ParameterRefusal::kNone;
 }
 
 AreaState ParameterArea::check() {

@@ -11,6 +11,7 @@
 namespace lasso {
 
 constexpr std::size_t kMaxParameters = 128;  // rows of parameter_rows()
+constexpr std::size_t kSavedParameterBytes = 4 + kMaxParameters / 8 + 8 * kMaxParameters;
 
 // Why a parameter is not changed.
 enum class ParameterRefusal : std::uint8_t {
@@ -19,6 +20,7 @@ enum class ParameterRefusal : std::uint8_t {
   kFixed = 2,         // it is the image's alone: of a sensor, of the scan's pattern and times, the frame's period, a track's start
   kOutOfLimits = 3,   // of its row; not a number; not whole where it has to be
   kInconsistent = 4,  // with the others: short_range.leave_m is not above short_range.enter_m
+  kOtherTable = 5,    // of a saved set: the parameters of the software that saved it are others
 };
 
 enum class AreaState : std::uint8_t {
@@ -37,6 +39,11 @@ class ParameterArea {
   void revert();
   bool changed(std::size_t row) const;
   std::size_t changes() const;  // how many are
+
+  // What is changed, as bytes to keep. restore() takes them back, all of them or none, with `image` being the image's own parameters: each
+  // is checked as set() does. Loop bound: kMaxParameters.
+  void save(Bytes out) const;
+  ParameterRefusal restore(ConstBytes saved, const MissionParameters& image);
 
   // Writes what was changed over the image's values.
   void apply(MissionParameters& parameters) const;

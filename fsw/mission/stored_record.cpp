@@ -8,6 +8,7 @@ namespace {
 
 constexpr std::uint32_t kMagic = 0x334C5354;  // "3LST"
 constexpr std::size_t kSummedBytes = 16;
+constexpr std::size_t kPieceBytes = 256;
 
 // Numbers wrap: the later of two is less than half of all before.
 bool is_later(std::uint32_t a, std::uint32_t b) { return a - b < 1U << 31; }
@@ -15,6 +16,20 @@ bool is_later(std::uint32_t a, std::uint32_t b) { return a - b < 1U << 31; }
 std::uint32_t sequence_of(Store& store, StoreArea area) {
   StoredHeader header;
   return read_header(store, area, header) == Status::kOk ? header.sequence : 0;
+}
+
+// Whether the area holds a record that is right: its bytes are read in pieces.
+bool is_right(Store& store, StoreArea area) {
+  StoredHeader header;
+  if (read_header(store, area, header) != Status::kOk || header.sequence == 0) return false;
+  std::uint8_t piece[kPieceBytes] = {};
+  std::uint32_t sum = 0;
+  for (std::size_t at = 0; at < header.bytes; at += kPieceBytes) {
+    const Bytes bytes = Bytes(piece).first(header.bytes - at < kPieceBytes ? header.bytes - at : kPieceBytes);
+    if (read_record(store, area, at, bytes) != Status::kOk) return false;
+    sum = crc32c(bytes, sum);
+  }
+  return sum == header.crc;
 }
 
 Status load_from(Store& store, StoreArea area, Bytes out) {
@@ -87,7 +102,9 @@ Status load_record(Store& store, StoreArea first, StoreArea second, Bytes out) {
 }
 
 Status save_record(Store& store, StoreArea first, StoreArea second, ConstBytes data) {
-  const StoreArea area = newer_of(store, first, second) == Newer::kFirst ? second : first;
+  const bool first_newer = newer_of(store, first, second) == Newer::kFirst;
+  const bool newer_right = is_right(store, first_newer ? first : second);
+  const StoreArea area = first_newer == newer_right ? second : first;
   const StoredHeader header{next_sequence(store, first, second), static_cast<std::uint32_t>(data.size()), crc32c(data)};
   Status status = clear_header(store, area);
   if (status == Status::kOk) status = write_record(store, area, 0, data);

@@ -14,6 +14,7 @@ void add_modes_command(CLI::App& app);
 void add_faults_command(CLI::App& app);
 void add_decode_command(CLI::App& app);
 void add_command_command(CLI::App& app);
+void add_upload_command(CLI::App& app);
 void add_dictionary_command(CLI::App& app);
 
 }  // namespace lasso::mdat

@@ -40,6 +40,7 @@ int run(int argc, char** argv) {
   add_faults_command(app);
   add_decode_command(app);
   add_command_command(app);
+  add_upload_command(app);
   add_dictionary_command(app);
   app.footer("Exit codes: 0 done, 1 the run failed, 2 usage or bad input.");
   try {

@@ -148,6 +148,12 @@ void add_run_command(CLI::App& app) {
   command->add_option("--link", options->link,
                       "udp://[HOST]:PORT, tcp://[HOST]:PORT or file://PATH: run the first range in real time, commanded over this link "
                       "(mdat command --to), until its frames are flown or Ctrl-C ends it; without a host by the loopback address");
+  command
+      ->add_option(
+          "--store", options->simulation.store,
+          "with --link: folder of the component's non-volatile store (made where it is missing); an image that was confirmed there "
+          "is what the run starts with")
+      ->needs("--link");
   command->add_flag("!--no-report", options->report, "leave report.html out");
   command->add_option("--picture", options->picture, "also write the scan on the target as a PNG picture");
   CLI::Option* recording = command->add_option("--record", options->record,

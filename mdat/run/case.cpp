@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <string>
 
+#include "bsp/posix/image_memory.hpp"
+#include "bsp/posix/reset_note.hpp"
 #include "bsp/posix/runner.hpp"
 #include "fsw/exec/component.hpp"
 #include "fsw/link/command_rows.hpp"
@@ -98,11 +101,13 @@ class Case {
         trajectory_(make_trajectory(setup.scenario, setup.range_m, kEpochUs, period_us_)),
         scanners_(make_scanners(setup, *trajectory_)),
         component_(std::make_unique<Component>(bank_of(scanners_))),
-        image_(aligned_copy(*setup.image)),
+        memory_(setup.link != nullptr ? std::make_unique<posix::ImageMemory>(setup.store) : nullptr),
+        image_(memory_ ? std::vector<std::uint64_t>() : aligned_copy(*setup.image)),
         navigation_(setup.scenario, *trajectory_, setup.seed) {
     result_.frames.resize(setup.frames);
-    const LoadFailure failure = component_->load_image(view(image_, setup.image->size()));
-    if (failure.status != Status::kOk) throw RunError("the component refused the image: " + to_string(failure));
+    if (!setup.store.empty()) reset_note_ = std::make_unique<posix::ResetNote>(setup.store);
+    if (reset_note_) component_->set_reset_cause(reset_note_->cause());
+    load();
     expect(component_->begin(kEpochUs), "begin");
     if (setup.wire) enable_laser();
     if (!is_approach()) start(kEpochUs - period_us_);
@@ -113,15 +118,15 @@ class Case {
 
   CaseResult run(std::atomic<std::size_t>& done) {
     const bool real_time = setup_.link != nullptr || !setup_.camera_line.empty();
-    posix::Runner runner(*component_, real_time ? posix::Pace::kRealTime : posix::Pace::kLockstep);
-    if (setup_.link != nullptr) runner.connect(*setup_.link);
+    connect();
     const auto interrupted = [&] { return real_time && interruption(); };
     std::size_t flown = 0;
     for (std::uint32_t frame = 0; frame < setup_.frames + kPipelineFrames && !interrupted(); ++frame) {
-      const posix::FrameRecord record = runner.run_frame();
+      const posix::FrameRecord record = runner_->run_frame();
       result_.telemetry.insert(result_.telemetry.end(), record.telemetry.begin(), record.telemetry.end());
       read_packets(record);
       if (is_approach()) navigation_.offer(record.boundary_us, *component_);
+      if (record.reset_due) restart(record.boundary_us + period_us_);
       if (frame < kPipelineFrames) continue;
       ++flown;
       ++done;
@@ -135,6 +140,33 @@ class Case {
   }
 
  private:
+  void connect() {
+    const bool real_time = setup_.link != nullptr || !setup_.camera_line.empty();
+    runner_ = std::make_unique<posix::Runner>(*component_, real_time ? posix::Pace::kRealTime : posix::Pace::kLockstep);
+    if (setup_.link != nullptr) runner_->connect(*setup_.link);
+  }
+
+  // What a board does on the command reset: everything begins anew but the world, and what the store has.
+  void restart(TimeUs boundary_us) {
+    runner_.reset();
+    for (const auto& scanner : scanners_) scanner->recorded.abort();
+    component_ = std::make_unique<Component>(bank_of(scanners_));
+    component_->set_reset_cause(ResetCause::kCommanded);
+    load();
+    expect(component_->begin(boundary_us), "begin");
+    connect();
+  }
+
+  // A commanded run has all that a board has for images in flight; every other one has its image, and that is all.
+  void load() {
+    const LoadFailure failure = memory_ ? memory_->start(*component_, {setup_.image->data(), setup_.image->size()})
+                                        : component_->load_image(view(image_, setup_.image->size()));
+    if (failure.status != Status::kOk) throw RunError("the component refused the image: " + to_string(failure));
+    if (setup_.store.empty()) return;
+    std::printf("image %08x of %s\n", component_->mission().image_crc, memory_->from_store() ? setup_.store.c_str() : "the mission");
+    (void)std::fflush(stdout);
+  }
+
   // As an operator does: the command is hazardous, and armed first.
   void enable_laser() {
     const PacketRow& enable = command_rows::row_of(CommandKind::kEnableLaser);
@@ -231,9 +263,12 @@ class Case {
   std::unique_ptr<sim::Trajectory> trajectory_;
   std::vector<std::unique_ptr<Scanner>> scanners_;
   std::unique_ptr<Component> component_;
+  std::unique_ptr<posix::ImageMemory> memory_;
+  std::unique_ptr<posix::ResetNote> reset_note_;
   std::vector<std::uint64_t> image_;
   NavigationSystem navigation_;
   CaseResult result_;
+  std::unique_ptr<posix::Runner> runner_;  // last: it uses the component
 };
 
 }  // namespace

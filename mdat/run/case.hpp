@@ -46,6 +46,7 @@ struct CaseSetup {
   sim::LcsFaults camera_faults;  // of each that is; times since frame 0
   SensorKind sensor = SensorKind::kLaserCamera;
   ByteLink* link = nullptr;  // an operator's; the run then keeps real time, and nobody else starts a track that is lost
+  std::string store;         // folder of the board's store, whose image takes the place of `image` if there is one; empty: none
   const std::vector<std::uint8_t>* image = nullptr;
   const sim::RayCaster* target = nullptr;
   std::vector<std::uint32_t> keep_frames;  // whose scans the result holds; ascending

@@ -23,6 +23,7 @@ struct SimulationOptions {
   std::optional<lcs::Calibration> camera_optics, calibration;  // as CaseSetup's
   double camera_degC = 20;
   ByteLink* link = nullptr;  // an operator's: one case, the scenario's first range, in real time
+  std::string store;         // of the run with a link: a folder, see CaseSetup
   std::string camera_line;   // of this machine, over which the camera is reached, in real time: one case
   bool remote_line = false;  // which may lead to other machines
   bool plain = false;        // the scenario as it stands: one table, one variant

@@ -97,6 +97,9 @@ inline Stream correlate_time(TimeUs component_us, TimeUs spacecraft_us, std::uin
   return command_packet(CommandKind::kCorrelateTime, command_rows::kTime, TimeCommand{component_us, spacecraft_us}, count);
 }
 
+inline Stream report_stored(std::uint32_t last, std::uint8_t count_of_events, std::uint16_t count = 0) {
+  return command_packet(CommandKind::kReportStored, command_rows::kStored, StoredCommand{last, count_of_events}, count);
+}
 inline Stream begin_image(std::uint32_t bytes, std::uint32_t crc, std::uint16_t count = 0) {
   return command_packet(CommandKind::kBeginImage, memory_rows::kBegin, ImageCommand{bytes, crc}, count);
 }

@@ -59,7 +59,11 @@ std::vector<Stream> every_command() {
           test::plain_packet(CommandKind::kRollBackImage),
           test::load_memory({0, 256, 3, {1, 2, 3}}),
           test::of_memory(CommandKind::kDumpMemory, {1, 4096, 100}),
-          test::of_memory(CommandKind::kCheckMemory, {2, 0, 16384})};
+          test::of_memory(CommandKind::kCheckMemory, {2, 0, 16384}),
+          test::plain_packet(CommandKind::kReset),
+          test::plain_packet(CommandKind::kSaveParameters),
+          test::plain_packet(CommandKind::kRestoreParameters),
+          test::report_stored(9, 3)};
 }
 
 TEST(Commands, ArriveAsTheyWereSent) {

@@ -17,14 +17,14 @@ TEST(EventLog, KeepsWhatIsRaisedInOrderWithTimeAndItems) {
   VERIFIES("LASSO-LNK-015~1");
   EventLog log;
   log.set_time(7);
-  log.raise<EventId::kBegun>(0x01020304U, 5U, 0xFFFFFFFFU);
+  log.raise<EventId::kBegun>(0x01020304U, 5U, 0xFFFFFFFFU, 2);
   log.set_time(8);
   log.raise<EventId::kPartOdd>(3, -2.5);
   ASSERT_EQ(log.records().size(), 2u);
   EXPECT_EQ(log.records()[0].id, EventId::kBegun);
   EXPECT_EQ(log.records()[0].severity, Severity::kInformative);
   EXPECT_EQ(log.records()[0].t_us, 7);
-  EXPECT_EQ(items_of(log.records()[0]), (Stream{1, 2, 3, 4, 0, 0, 0, 5, 0xFF, 0xFF, 0xFF, 0xFF}));
+  EXPECT_EQ(items_of(log.records()[0]), (Stream{1, 2, 3, 4, 0, 0, 0, 5, 0xFF, 0xFF, 0xFF, 0xFF, 2}));
   EXPECT_EQ(log.records()[1].t_us, 8);
   EXPECT_EQ(items_of(log.records()[1]), (Stream{3, 0xC0, 0x20, 0, 0}));
   log.pass_boundary();

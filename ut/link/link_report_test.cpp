@@ -97,12 +97,14 @@ TEST(LinkReport, EncodeDecodeEncodeIsByteIdenticalForEveryRow) {
   expect_round_trip(command_rows::kParameter, random);
   expect_round_trip(command_rows::kSetParameter, random);
   expect_round_trip(link_report_rows::kParameter, random);
+  expect_round_trip(link_report_rows::kStoredEvent, random);
+  expect_round_trip(command_rows::kStored, random);
 }
 
 TEST(LinkReport, EveryPacketOfTheDictionaryIsAsLongAsItSays) {
   VERIFIES("LASSO-LNK-002~1");
-  const std::size_t sizes[] = {751, 49, 134, 58, 146, 156, 35, 26, 27, 26, 29, 22, 38, 41, 13, 16, 16,  212, 15, 15,
-                               13,  19, 15,  15, 15,  15,  15, 17, 29, 15, 23, 13, 23, 15, 19, 15, 147, 22,  22};
+  const std::size_t sizes[] = {751, 49, 134, 58, 146, 156, 35, 26, 27, 26, 29, 22, 38, 41, 74, 13,  16, 16, 212, 15, 15, 13,
+                               19,  15, 15,  15, 15,  15,  17, 29, 15, 23, 13, 23, 15, 19, 15, 147, 22, 22, 15,  13, 13, 18};
   std::size_t next = 0;
   for (const PacketRow& packet : kPackets) {
     if (next == std::size(sizes)) break;
@@ -112,8 +114,8 @@ TEST(LinkReport, EveryPacketOfTheDictionaryIsAsLongAsItSays) {
   EXPECT_EQ(encode(kSubserviceRefused, kSample).size(), 27u);
   EXPECT_EQ(encode(kSubserviceFailed, kSample).size(), 29u);
   std::size_t event = kPackets.size() - kEvents;
-  for (const std::size_t items : std::initializer_list<std::size_t>{12, 3, 2, 5, 7, 4, 4, 3, 1, 1, 6, 4, 4,  5, 6, 4,
-                                                                    4,  4, 0, 0, 8, 5, 9, 6, 4, 6, 2, 1, 10, 0, 0, 0}) {
+  for (const std::size_t items : std::initializer_list<std::size_t>{13, 3, 2, 5, 7, 4, 4, 3, 1, 1, 6,  4, 4, 5, 6, 4, 4, 4,
+                                                                    0,  0, 8, 5, 9, 6, 4, 6, 2, 1, 10, 0, 0, 0, 0, 3, 0}) {
     const PacketRow& packet = kPackets[++event];
     EXPECT_EQ(item_offset(packet, packet.items.size()), 22 + items) << packet.name;
   }

@@ -1,9 +1,12 @@
 #include "fsw/mission/parameter_area.hpp"
 
+#include <algorithm>
 #include <cstring>
+#include <iterator>
 #include <limits>
 #include <string>
 
+#include "fsw/core/byte_codec.hpp"
 #include "ut/support/generator.hpp"
 #include "ut/support/verifies.hpp"
 
@@ -77,6 +80,36 @@ TEST(ParameterArea, LimitsOfEveryRowAreKept) {
   }
   EXPECT_GT(changeable, 40u);
   EXPECT_FALSE(is_changeable(parameter_rows().size()));
+}
+
+TEST(ParameterArea, WhatIsSavedIsTakenBackWholeOrNotAtAll) {
+  VERIFIES("LASSO-IMG-019~1");
+  const MissionParameters image = preset_parameters();
+  ParameterArea area;
+  ASSERT_EQ(area.set(row_of("tracking.coast_frames"), 33, image), ParameterRefusal::kNone);
+  std::uint8_t saved[kSavedParameterBytes] = {};
+  area.save(Bytes(saved));
+  ParameterArea other;
+  ASSERT_EQ(other.restore(ConstBytes(saved), image), ParameterRefusal::kNone);
+  EXPECT_EQ(other.changes(), 1u);
+  MissionParameters applied = image;
+  other.apply(applied);
+  EXPECT_EQ(applied.coast_frames, 33);
+  const auto restored = [&](std::size_t row, double value) {
+    std::uint8_t changed[kSavedParameterBytes] = {};
+    std::copy(std::begin(saved), std::end(saved), changed);
+    changed[4 + row / 32 * 4 + 3 - row % 32 / 8] |= static_cast<std::uint8_t>(1U << row % 8);
+    ByteWriter writer(Bytes(changed).subspan(4 + kMaxParameters / 8 + 8 * row, 8));
+    writer.f64(value);
+    return other.restore(ConstBytes(changed), image);
+  };
+  EXPECT_EQ(restored(0, 1), ParameterRefusal::kFixed);
+  EXPECT_EQ(restored(kMaxParameters - 1, 1), ParameterRefusal::kFixed);
+  EXPECT_EQ(restored(row_of("tracking.coast_frames"), -7), ParameterRefusal::kOutOfLimits);
+  EXPECT_EQ(restored(row_of("short_range.enter_m"), 5), ParameterRefusal::kInconsistent);
+  saved[2] ^= 1U;
+  EXPECT_EQ(other.restore(ConstBytes(saved), image), ParameterRefusal::kOtherTable);
+  EXPECT_EQ(other.changes(), 1u) << "what was refused changes nothing";
 }
 
 // Every single bit of one copy; then one of each.

@@ -1,0 +1,70 @@
+#include "mdat/link/upload.hpp"
+
+#include <cstdio>
+#include <memory>
+
+#include "bsp/posix/links.hpp"
+#include "mdat/cli/commands.hpp"
+#include "mdat/common/errors.hpp"
+#include "mdat/common/flight_image.hpp"
+
+namespace lasso::mdat {
+namespace {
+
+struct Options {
+  std::string image, to;
+  UploadOptions upload;
+  bool unchecked = false;
+};
+
+// A flight image, or a mission that is compiled to one.
+std::vector<std::uint8_t> image_of(const Options& options) {
+  if (!is_image_file(options.image)) {
+    const CompiledMission mission = compile_mission(options.image);
+    return image_bytes(mission, mission.source.parameters);
+  }
+  std::vector<std::uint8_t> bytes = read_bytes(options.image);
+  if (!options.unchecked) static_cast<void>(LoadedImage(options.image, bytes));
+  return bytes;
+}
+
+void run(const Options& options) {
+  const std::vector<std::uint8_t> image = image_of(options);
+  const std::unique_ptr<posix::PosixLink> link = posix::connect_link(options.to);
+  const UploadEnd end = upload(*link, options.to, image, options.upload);
+  const unsigned crc = image_crc(image);
+  if (end == UploadEnd::kReady)
+    std::printf("%s: image %08x is ready: mdat command activate_image crc=%u --arm --to %s\n", options.to.c_str(), crc, crc,
+                options.to.c_str());
+  if (end == UploadEnd::kOnTrial)
+    std::printf("%s: image %08x is active, and not confirmed yet: it has had too few scans\n", options.to.c_str(), crc);
+  if (end == UploadEnd::kConfirmed) std::printf("%s: image %08x is active and confirmed\n", options.to.c_str(), crc);
+}
+
+}  // namespace
+
+void add_upload_command(CLI::App& app) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* subcommand = app.add_subcommand("upload", "load a mission image into a running component, check it there, and make it active");
+  subcommand->add_option("IMAGE", options->image, "flight image (mdat mission compile), or a mission file")->required();
+  subcommand
+      ->add_option("--to", options->to, "udp://HOST:PORT or tcp://HOST:PORT; what was loaded of the same image before is not sent again")
+      ->required();
+  subcommand->add_flag("--activate", options->upload.activate, "arm and activate it, and wait until its first scans confirm it");
+  subcommand->add_flag("--unchecked", options->unchecked, "send a flight image even if it is wrong: the component refuses it");
+  subcommand->add_option("--wait", options->upload.answer_s, "seconds to wait for an answer")
+      ->capture_default_str()
+      ->check(CLI::Range(0.1, 3600.0));
+  subcommand->add_option("--trial-wait", options->upload.trial_s, "seconds to wait for its first scans")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 3600.0));
+  subcommand->callback([options] {
+    try {
+      run(*options);
+    } catch (const posix::LinkError& error) {
+      throw InputError(error.what());
+    }
+  });
+}
+
+}  // namespace lasso::mdat

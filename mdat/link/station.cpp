@@ -1,0 +1,161 @@
+#include "mdat/link/station.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+
+#include "fsw/link/link_report.hpp"
+#include "mdat/common/errors.hpp"
+
+namespace lasso::mdat {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Packet = std::vector<std::uint8_t>;
+
+constexpr double kTakenWithin_s = 5;  // by a link that is full
+constexpr auto kPause = std::chrono::milliseconds(2);
+// Who does not know the counts before: any count is after the last one or, moved by half of all, is.
+constexpr std::uint16_t kHalf = 1U << 13;
+
+std::uint16_t some_count() {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  return static_cast<std::uint16_t>(std::chrono::duration_cast<std::chrono::milliseconds>(now).count() / 100 & kSequenceCountMask);
+}
+
+std::uint32_t key_of(ConstBytes packet) { return ByteReader(packet).u32(); }
+
+const DecodedItem* find_item(const DecodedPacket& packet, const std::string& item) {
+  const auto found = std::find_if(packet.items.begin(), packet.items.end(), [&](const DecodedItem& it) { return item == it.row->name; });
+  return found == packet.items.end() ? nullptr : &*found;
+}
+
+const Choice* choice_in(const DecodedPacket& packet, const std::string& item) {
+  const DecodedItem* found = find_item(packet, item);
+  return found != nullptr ? choice_of(*found->row, found->values.front()) : nullptr;
+}
+
+// Of an answer: the first of its reasons that is one.
+std::string reason_of(const DecodedPacket& packet) {
+  for (const char* item : {"fault", "mode_refusal", "start_refusal", "service_refusal"}) {
+    const Choice* reason = choice_in(packet, item);
+    if (reason == nullptr || !(item_value(packet, item) > 0)) continue;
+    const std::string action = reason->action;
+    return std::string(reason->name) + " (" + reason->meaning + ")" + (action.empty() ? "" : "; " + action);
+  }
+  return "no reason was given";
+}
+
+}  // namespace
+
+double item_value(const DecodedPacket& packet, const std::string& item, std::size_t element) {
+  const DecodedItem* found = find_item(packet, item);
+  return found != nullptr && element < found->values.size() ? value_of(found->values[element]) : 0;
+}
+
+std::string item_name(const DecodedPacket& packet, const std::string& item) {
+  const Choice* choice = choice_in(packet, item);
+  return choice != nullptr ? choice->name : "unknown";
+}
+
+Station::Station(ByteLink& link, std::string name, Listener listener)
+    : link_(link), name_(std::move(name)), listener_(std::move(listener)), count_(some_count()) {}
+
+void Station::set_count(std::uint16_t count) {
+  count_ = count;
+  agreed_ = true;
+}
+
+CommandAnswer Station::command(const PacketRow& row, const Values& values, bool arm, double wait_s) {
+  if (arm) {
+    const CommandAnswer armed = ask([&](std::uint16_t count) { return arm_for(row, count); }, wait_s);
+    if (armed.outcome != Outcome::kDone) return armed;
+  }
+  return ask([&](std::uint16_t count) { return encode_command(row, values, count); }, wait_s);
+}
+
+// Of a count that the component does not take, the one half of all counts further on is taken, but where the last one was either of the
+// two: then the one behind it is.
+CommandAnswer Station::ask(const std::function<Packet(std::uint16_t)>& encode, double wait_s) {
+  const std::uint16_t first = count_;
+  CommandAnswer answer = wait_for(encode(count_++), wait_s);
+  for (const unsigned further : {kHalf + 0U, kHalf + 1U, 1U}) {
+    if (answer.outcome != Outcome::kRepeated || agreed_) break;
+    count_ = static_cast<std::uint16_t>((first + further) & kSequenceCountMask);
+    answer = wait_for(encode(count_++), wait_s);
+  }
+  agreed_ = agreed_ || answer.outcome == Outcome::kDone;
+  return answer;
+}
+
+CommandAnswer Station::wait_for(const Packet& packet, double wait_s) {
+  const std::uint32_t key = key_of({packet.data(), packet.size()});
+  transmit(packet);
+  static_cast<void>(listen(wait_s, [&] { return sent_[key].outcome != Outcome::kOpen; }));
+  const CommandAnswer answer = sent_[key];
+  sent_.erase(key);
+  return answer;
+}
+
+void Station::send(const PacketRow& row, const Values& values) { transmit(encode_command(row, values, count_++)); }
+
+void Station::transmit(const Packet& packet) {
+  ConstBytes rest(packet.data(), packet.size());
+  const auto end = Clock::now() + std::chrono::duration<double>(kTakenWithin_s);
+  while (!rest.empty()) {
+    const std::size_t written = link_.write(rest);
+    rest = rest.subspan(written, rest.size() - written);
+    if (rest.empty()) break;
+    if (Clock::now() > end) throw RunError(name_ + ": does not take the command");
+    std::this_thread::sleep_for(kPause);
+  }
+  sent_[key_of({packet.data(), packet.size()})] = {};
+}
+
+std::size_t Station::unanswered() const {
+  return static_cast<std::size_t>(
+      std::count_if(sent_.begin(), sent_.end(), [](const auto& sent) { return sent.second.outcome == Outcome::kOpen; }));
+}
+
+std::string Station::failure() const {
+  for (const auto& [key, answer] : sent_) {
+    if (answer.outcome == Outcome::kFailed || answer.outcome == Outcome::kRepeated) return answer.why;
+  }
+  return "";
+}
+
+bool Station::listen(double seconds, const std::function<bool()>& done) {
+  const auto end = Clock::now() + std::chrono::duration<double>(seconds);
+  while (!done()) {
+    if (Clock::now() > end) return false;
+    Packet bytes(65536);
+    bytes.resize(link_.read(Bytes(bytes.data(), bytes.size())));
+    if (bytes.empty()) std::this_thread::sleep_for(kPause);
+    stream_.insert(stream_.end(), bytes.begin(), bytes.end());
+    if (!bytes.empty()) take_packets();
+  }
+  return true;
+}
+
+void Station::take_packets() {
+  const DecodedStream decoded = decode_stream({stream_.data(), stream_.size()}, PacketType::kTelemetry);
+  if (decoded.packets.empty()) return;
+  for (const DecodedPacket& packet : decoded.packets) note(packet);
+  const DecodedPacket& last = decoded.packets.back();
+  stream_.erase(stream_.begin(), stream_.begin() + static_cast<std::ptrdiff_t>(last.offset + last.bytes.size()));
+}
+
+void Station::note(const DecodedPacket& packet) {
+  listener_(packet);
+  if (packet.bytes[7] != kServiceVerification) return;
+  const auto sent = sent_.find(key_of(packet.bytes.subspan(kPacketHeaderBytes, 4)));
+  if (sent == sent_.end()) return;
+  CommandAnswer& answer = sent->second;
+  const std::uint8_t subservice = packet.bytes[8];
+  if (subservice == kSubserviceCompleted) answer.outcome = Outcome::kDone;
+  if (subservice != kSubserviceFailed && subservice != kSubserviceRefused) return;
+  const bool repeated = item_value(packet, "fault") == static_cast<double>(PacketFault::kRepeated);
+  answer = {repeated ? Outcome::kRepeated : Outcome::kFailed, reason_of(packet)};
+}
+
+}  // namespace lasso::mdat

@@ -1,0 +1,73 @@
+// The ground's end of a link: numbers commands, sends them, and learns from telemetry what became of each.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "fsw/link/byte_link.hpp"
+#include "fsw/link/commands.hpp"
+#include "mdat/link/command_encoder.hpp"
+#include "mdat/link/decode.hpp"
+
+namespace lasso::mdat {
+
+enum class Outcome { kOpen, kDone, kFailed, kRepeated };
+
+// What became of a command; where it failed, the reason: its name, meaning and remedy.
+struct CommandAnswer {
+  Outcome outcome = Outcome::kOpen;
+  std::string why;
+};
+
+class Station {
+ public:
+  using Values = std::map<std::string, std::string>;
+  using Listener = std::function<void(const DecodedPacket&)>;
+
+  // `name` stands in errors. The listener gets each packet that comes, before anything else is done with it. The link outlives the station.
+  Station(ByteLink& link, std::string name, Listener listener);
+
+  // From now on counts go on from here; otherwise one is found that the component takes.
+  void set_count(std::uint16_t count);
+
+  // Sends a command, and waits until it is answered, at most so long: kOpen then. Armed first, if asked for. Throws RunError where the
+  // link takes nothing.
+  CommandAnswer command(const PacketRow& row, const Values& values, bool arm, double wait_s);
+
+  // Sends a command and does not wait. Throws RunError.
+  void send(const PacketRow& row, const Values& values);
+  // Commands that were sent and neither answered nor forgotten.
+  std::size_t unanswered() const;
+  // Why one of those that were sent and not waited for failed; empty where none did.
+  std::string failure() const;
+  // Of all that were sent: their answers are of no interest any more.
+  void forget() { sent_.clear(); }
+
+  // Takes telemetry until `done` holds, at most so long. Whether it does.
+  bool listen(double seconds, const std::function<bool()>& done);
+
+ private:
+  CommandAnswer ask(const std::function<std::vector<std::uint8_t>(std::uint16_t)>& encode, double wait_s);
+  CommandAnswer wait_for(const std::vector<std::uint8_t>& packet, double wait_s);
+  void transmit(const std::vector<std::uint8_t>& packet);
+  void take_packets();
+  void note(const DecodedPacket& packet);
+
+  ByteLink& link_;
+  std::string name_;
+  Listener listener_;
+  std::uint16_t count_;
+  bool agreed_ = false;                          // the component has taken a count, or somebody has set it
+  std::map<std::uint32_t, CommandAnswer> sent_;  // by the first four bytes
+  std::vector<std::uint8_t> stream_;
+};
+
+// The first value of an item; 0 where the packet does not have it.
+double item_value(const DecodedPacket& packet, const std::string& item, std::size_t element = 0);
+// Its name, where it has names.
+std::string item_name(const DecodedPacket& packet, const std::string& item);
+
+}  // namespace lasso::mdat

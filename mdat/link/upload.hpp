@@ -1,0 +1,32 @@
+// A mission image on its way into a running component: loaded in parts, those that are missing only, checked there, and made active.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "fsw/link/byte_link.hpp"
+
+namespace lasso::mdat {
+
+struct UploadOptions {
+  bool activate = false;
+  double answer_s = 5;  // to wait for the answer of a command
+  double trial_s = 30;  // to wait until an image that is active is confirmed, or taken back
+};
+
+enum class UploadEnd {
+  kReady,      // checked, and ready to be made active
+  kOnTrial,    // active; it has not had the scans yet that confirm it
+  kConfirmed,  // active, and has given valid poses
+};
+
+// The check sum by which a component names an image: its last four bytes.
+std::uint32_t image_crc(const std::vector<std::uint8_t>& image);
+
+// What was loaded of the same image before, by whomever, is not sent again. Says on standard error how far it is. Throws RunError, which
+// names the link and says what went wrong: nobody answers, a command or the image is refused, or it is taken back. The link is the ground's
+// end of it.
+UploadEnd upload(ByteLink& link, const std::string& name, const std::vector<std::uint8_t>& image, const UploadOptions& options);
+
+}  // namespace lasso::mdat
