@@ -50,7 +50,7 @@ compile = @echo "build $(1)$(if $(2), ($(2)))"; cmake --build $(1) --parallel $(
 ctest = @rm -rf $(2); mkdir -p $(2); GTEST_OUTPUT=xml:$(abspath $(2))/ \
   ctest --test-dir $(1) --parallel $(JOBS) --output-on-failure --no-tests=error --output-junit $(abspath $(2))/ctest.xml $(3)
 
-.PHONY: help run test accuracy bench basin search montecarlo endurance flips fuzz statistics campaigns-sample golden ppc-count search-count pil pil-sample prove ppc-test sanitize arrows coverage mcdc trace evidence gates-selftest figures icd format lint install clean build
+.PHONY: help run test accuracy bench basin search montecarlo endurance flips scrub fuzz statistics campaigns-sample golden ppc-count search-count pil pil-sample prove ppc-test sanitize arrows coverage mcdc trace evidence gates-selftest figures icd format lint install clean build
 .DEFAULT_GOAL := help
 
 help: ## this list
@@ -104,6 +104,13 @@ flips: ## 10000 flights with one bit flipped in each: masked, detected, silent; 
 	$(call compile,$(BUILD),flips)
 	@ft/campaign/run flips $(BUILD) $(or $(FLIPS),10000) $(or $(SEED),1)
 
+scrub: ## 100000 flights with one bit flipped in what the scrub protects, while tracking: told in time or not; table, and out/scrub; FLIPS=, SEED=
+	$(begin)
+	$(call packages,build)
+	$(call configure,$(BUILD),)
+	$(call compile,$(BUILD),scrub)
+	@ft/campaign/run scrub $(BUILD) $(or $(FLIPS),100000) $(or $(SEED),1)
+
 # $(fuzzers) builds them, with what they test, for coverage and sanitizers.
 define fuzzers
 $(call packages,build clang)
@@ -131,7 +138,7 @@ campaigns-sample: ## 1 % of fuzz, flips, montecarlo, basin and statistics, an ho
 	$(begin)
 	$(fuzzers)
 	$(replays)
-	$(call compile,$(BUILD),basin endurance flips montecarlo)
+	$(call compile,$(BUILD),basin endurance flips montecarlo scrub)
 	@ft/campaign/sample $(BUILD) $(PPC) $(FUZZ)
 
 search: ## find the target without any prior attitude from random views; CASE= (docs/search.md), STARTS=, SEED=, SCANS=, SCALE=
