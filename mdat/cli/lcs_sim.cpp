@@ -1,6 +1,5 @@
 #include <atomic>
 #include <cstdio>
-#include <map>
 #include <memory>
 
 #include "mdat/cli/commands.hpp"
@@ -20,8 +19,11 @@ struct Options {
   SimulationOptions simulation;
 };
 
-const std::map<std::string, lcs::Device> kDevices = {
-    {"laser-camera", lcs::Device::kLaserCamera}, {"lidar", lcs::Device::kLidar}, {"tridar", lcs::Device::kTridar}};
+// As --device names it, which the command line has checked.
+lcs::Device device_of(const std::string& name) {
+  if (name == "lidar") return lcs::Device::kLidar;
+  return name == "tridar" ? lcs::Device::kTridar : lcs::Device::kLaserCamera;
+}
 
 void say(const std::string& text) {
   std::printf("%s\n", text.c_str());
@@ -36,7 +38,7 @@ void serve(Options options) {
   const std::unique_ptr<sim::RayCaster> target = make_target(mission.mesh);
   if (!options.camera_faults.empty()) options.simulation.camera_faults = load_camera_faults(options.camera_faults);
   if (!options.optics.empty()) options.simulation.camera_optics = load_calibration(options.optics);
-  options.simulation.wire = kDevices.at(options.device);
+  options.simulation.wire = device_of(options.device);
   const CaseSetup setup = camera_case(mission, options.simulation, *target);
   const std::atomic<bool>& ending = interruption();
   say("the camera listens on " + server.address());

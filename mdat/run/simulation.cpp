@@ -54,7 +54,7 @@ void set_camera(const SimulationOptions& options, CaseSetup& setup) {
 void refuse_what_serves_one(const SimulationOptions& options) {
   const std::string way_out = ": choose a scenario of one range, such as spin";
   if (!options.camera_line.empty())
-    throw InputError("--sensor " + std::string(wire_name(*options.wire)) + ":" + options.camera_line +
+    throw InputError("--sensor " + std::string(wire_name(options.wire.value_or(lcs::Device::kLaserCamera))) + ":" + options.camera_line +
                      ": one camera takes the scans of one run" + way_out);
   if (options.replay) throw InputError("--sensor replay: a recording has the scans of one run" + way_out);
   if (options.record) throw InputError("--record-sensor: a recording takes the scans of one run" + way_out);
