@@ -316,7 +316,8 @@ std::string run(const char* mission_file, std::uint32_t flips, std::uint64_t see
   for (std::uint32_t i = 0; i < kAreas; ++i) sizes[i] = subject.area(static_cast<Area>(i)).size();
   std::vector<Flip> plan;
   for (std::uint32_t i = 0; i < flips; ++i) plan.push_back(draw_flip(seed, first + i, sizes));
-  std::stable_sort(plan.begin(), plan.end(), [](const Flip& a, const Flip& b) { return a.slots() < b.slots(); });
+  std::sort(plan.begin(), plan.end(),
+            [](const Flip& a, const Flip& b) { return a.slots() != b.slots() ? a.slots() < b.slots() : a.trial < b.trial; });
   std::vector<std::string> rows(flips);
   for (const Flip& flip : plan) {
     fly_to(flip.slots());

@@ -1,7 +1,6 @@
 #include "mdat/link/upload.hpp"
 
 #include <algorithm>
-#include <optional>
 
 #include "fsw/core/byte_codec.hpp"
 #include "fsw/link/choices.hpp"
@@ -58,26 +57,26 @@ class Upload {
   bool is_ready(const Report& report) const { return report.state == "ready" && report.crc == image_crc(image_); }
 
   const Report& ask_for_report() {
-    report_.reset();
+    reported_ = false;
     command("report_structure", {{"structure", "image"}});
-    if (!station_.listen(options_.answer_s, [this] { return report_.has_value(); })) fail("the packet image does not come");
-    return *report_;
+    if (!station_.listen(options_.answer_s, [this] { return reported_; })) fail("the packet image does not come");
+    return report_;
   }
 
   // The component says which blocks it lacks, as long as there are any. What is lost on the way is sent with the next round.
   void load() {
     ProgressBar bar("upload", (image_.size() + kMemoryBlockBytes - 1) / kMemoryBlockBytes, "blocks");
     int idle = 0;
-    for (std::uint32_t before = ask_for_report().loaded; report_->loaded < report_->blocks; before = report_->loaded) {
+    for (std::uint32_t before = ask_for_report().loaded; report_.loaded < report_.blocks; before = report_.loaded) {
       arm_loading();
-      const std::vector<Gap> gaps = report_->gaps;
+      const std::vector<Gap> gaps = report_.gaps;
       for (const Gap& gap : gaps) send(gap, bar);
       static_cast<void>(station_.listen(options_.answer_s, [this] { return station_.unanswered() == 0; }));
       check_answers();
       idle = ask_for_report().loaded > before ? 0 : idle + 1;
       if (idle >= kIdleRounds)
-        fail(format("no block arrives any more, %u of %u have: the same command goes on from there", report_->loaded, report_->blocks));
-      bar.show(report_->loaded);
+        fail(format("no block arrives any more, %u of %u have: the same command goes on from there", report_.loaded, report_.blocks));
+      bar.show(report_.loaded);
     }
     bar.finish();
   }
@@ -93,7 +92,7 @@ class Upload {
         return;  // many are lost: ask what is missing
       check_answers();
       send_block(gap.first + i);
-      bar.show(report_->loaded + ++sent_);
+      bar.show(report_.loaded + ++sent_);
     }
   }
 
@@ -163,6 +162,7 @@ class Upload {
                              static_cast<std::uint32_t>(item_value(packet, "missing_blocks", i))});
     }
     report_ = report;
+    reported_ = true;
     sent_ = 0;
   }
 
@@ -171,7 +171,8 @@ class Upload {
   std::string name_;
   const std::vector<std::uint8_t>& image_;
   const UploadOptions& options_;
-  std::optional<Report> report_;
+  Report report_;
+  bool reported_ = false;
   std::size_t sent_ = 0;  // blocks since the last report
   bool ready_ = false, active_ = false, confirmed_ = false, taken_back_ = false;
   std::string refused_;
