@@ -38,7 +38,7 @@ struct MissionParameters : SensorParameters {
   double start_frames, start_inlier_share_min, start_gate, start_age_max_s, start_first, start_second, start_third, start_fourth,
       start_fifth;
   // [search] the first pose without any prior attitude
-  double search_hits_min, search_disagreement_max, search_ratio_min, search_scans_max, search_slice, search_frames;
+  double search_hits_min, search_disagreement_max, search_ratio_min, search_scans_max, search_work_max, search_slice, search_frames;
   // [short_range] a large target close by, scanned part by part
   double short_range_enter_m, short_range_leave_m, disagreement_max, rest_frames;
   // [image] what an image that is loaded in flight has to show

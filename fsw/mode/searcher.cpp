@@ -19,6 +19,7 @@ SearchLimits search_limits(const MissionParameters& p) {
   limits.disagreement_max = p.search_disagreement_max;
   limits.ratio_min = p.search_ratio_min;
   limits.scans_max = static_cast<std::uint32_t>(p.search_scans_max);
+  limits.work_max = static_cast<std::uint32_t>(p.search_work_max);
   return limits;
 }
 

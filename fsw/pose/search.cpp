@@ -65,15 +65,28 @@ Status Search::add_scan(const Mission& mission, const RangeImage& scan, Workspac
   evidence.scan_id = scan.scan_id;
   evidence.t_us = scan.reference_time_us();
   maker_.begin(mission, workspace);
+  scan_work_ = 0;
+  unfinished_ = false;
   stage_ = Stage::kEvidence;
   return Status::kOk;
 }
 
 bool Search::advance(const Mission& mission, Workspace& workspace, std::uint32_t budget) {
   std::uint32_t used = 0;
-  while (busy() && used < budget) used += step(mission, workspace);
+  while (busy() && used < budget) {
+    const std::uint32_t work = step(mission, workspace);
+    used += work;
+    scan_work_ += work;
+  }
   result_.work += used;
   return !busy();
+}
+
+// Asked for what is worth working on, and only then.
+bool Search::may_work() {
+  const bool may = scan_work_ < limits_.work_max;
+  unfinished_ = unfinished_ || !may;
+  return may;
 }
 
 std::uint32_t Search::step(const Mission& mission, Workspace& workspace) {
@@ -246,7 +259,7 @@ std::uint32_t Search::settle(const Mission& mission, std::size_t scan, Track& tr
 std::uint32_t Search::settle_next(const Mission& mission, Workspace& workspace) {
   for (; next_ < tracks_.size(); ++next_) {
     Track& track = tracks_[next_];
-    if (!working_ && (track.settled || is_hopeless(track))) continue;
+    if (!working_ && (track.settled || is_hopeless(track) || !may_work())) continue;
     if (!working_) settler_.begin(track.T_target_sensor[last()], track.start);
     track.settled = true;
     return settle(mission, last(), track, workspace);
@@ -283,7 +296,7 @@ void Search::begin_line(const Mission& mission) {
   const Track& track = tracks_[next_];
   line_.from = line_.best = track.T_target_sensor[last()];
   line_.fit = track.fits[last()];
-  const bool worth = !is_hopeless(track) && find_weakest(mission, track.H, line_.direction);
+  const bool worth = !is_hopeless(track) && may_work() && find_weakest(mission, track.H, line_.direction);
   line_.next = worth ? -kExploreSteps : kExploreEnd + 2;
   line_.begun = true;
 }

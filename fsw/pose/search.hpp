@@ -9,7 +9,9 @@
 //
 // Work is done in steps and counted in look-ups of some 65 PowerPC 603e instructions. advance() ends with the step that uses the budget up;
 // no step takes more than kLargestStep. A scan of 1024 rays takes some 1.7 million look-ups, 110 million instructions, in all
-// (docs/search.md): most hypotheses are looked at no longer than until they are sure to be worse than others.
+// (docs/search.md): most hypotheses are looked at no longer than until they are sure to be worse than others. Once limits.work_max of them
+// are used on a scan, nothing more is settled, explored or swayed: what was found so far stands, as ambiguous, and the next scan goes on
+// from it.
 #pragma once
 
 #include "fsw/pose/drawn_list.hpp"
@@ -27,6 +29,7 @@ struct SearchLimits {
   double disagreement_max = 0.20;
   double ratio_min = 1.3;  // score of the best distinct competitor over that of the pose; or what the returns make of both by their noise
   std::uint32_t scans_max = kMaxSearchScans;
+  std::uint32_t work_max = 2'750'000;  // look-ups of one scan; what they leave open makes the result ambiguous
 };
 
 class Search {
@@ -100,6 +103,7 @@ class Search {
   double best_score() const;
   bool is_hopeless(const Track& track) const;
   bool is_rival(const Track& track) const;
+  bool may_work();
   bool explores_next() const { return next_ < tracks_.size() && next_ < kExplored; }
   bool is_distinct(const Track& track) const;
   bool stands_alone() const;
@@ -114,10 +118,12 @@ class Search {
   SearchLimits limits_;
   Stage stage_ = Stage::kIdle;
   std::size_t scans_ = 0;
-  std::size_t next_ = 0;   // of the stage's items
-  std::size_t first_ = 0;  // track of the last scan's own finalists, or of the twins
-  bool twins_ = false;     // are there
-  bool working_ = false;   // on the next track
+  std::size_t next_ = 0;         // of the stage's items
+  std::size_t first_ = 0;        // track of the last scan's own finalists, or of the twins
+  bool twins_ = false;           // are there
+  bool working_ = false;         // on the next track
+  bool unfinished_ = false;      // something that was worth it was not worked on
+  std::uint32_t scan_work_ = 0;  // look-ups of the last scan
   EvidenceMaker maker_;
   CoarseSearch coarse_;
   Evidence evidence_[kMaxSearchScans];

@@ -30,6 +30,8 @@ const char* to_string(SearchReason reason) {
       return "unexplained";
     case SearchReason::kNotRegistered:
       return "not_registered";
+    case SearchReason::kUnfinished:
+      return "unfinished";
   }
   return "unknown";
 }

@@ -18,6 +18,7 @@ enum class SearchReason : std::uint8_t {
   kTooFewReturns,  // rejected
   kUnexplained,    // rejected: the best pose leaves too much unexplained
   kNotRegistered,  // rejected: the registration of the best pose failed
+  kUnfinished,     // ambiguous: the scan's work was used up before every other pose was excluded
 };
 const char* to_string(SearchOutcome outcome);
 const char* to_string(SearchReason reason);

@@ -53,7 +53,7 @@ std::uint32_t Search::sway_next(const Mission& mission, Workspace& workspace) {
   const bool worth = tracks_[0].total.disagreement() <= limits_.disagreement_max;
   for (; worth && explores_next(); ++next_) {
     Track& track = tracks_[next_];
-    if (!working_ && (track.swayed || (next_ > 0 && !is_rival(track)))) continue;
+    if (!working_ && (track.swayed || (next_ > 0 && !is_rival(track)) || !may_work())) continue;
     if (!working_) sway_.begin(track.T_target_sensor[last()], track.H, care_of(next_));
     std::uint32_t work = 0;
     working_ = sway_.step(mission, evidence_[last()], workspace, work);
@@ -155,6 +155,9 @@ void Search::judge(bool registered) {
   } else if (!stands_alone()) {
     result_.outcome = SearchOutcome::kAmbiguous;
     result_.reason = SearchReason::kCompetitor;
+  } else if (unfinished_) {
+    result_.outcome = SearchOutcome::kAmbiguous;
+    result_.reason = SearchReason::kUnfinished;
   } else {
     result_.outcome = SearchOutcome::kAccepted;
     result_.reason = SearchReason::kDistinct;

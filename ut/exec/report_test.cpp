@@ -247,7 +247,7 @@ TEST(Report, DictionaryNamesTheEnumerationsAsTheCodeDoes) {
   expect_names(kModeRefusal, ModeRefusal::kNoPrediction);
   expect_names(kBearingReason, BearingReason::kJump);
   expect_names(kSearchOutcome, SearchOutcome::kRejected);
-  expect_names(kSearchReason, SearchReason::kNotRegistered);
+  expect_names(kSearchReason, SearchReason::kUnfinished);
   expect_names(kSensorReason, SensorReason::kBusy);
   EXPECT_STREQ(kPattern.choices[static_cast<std::size_t>(PatternKind::kRaster)].name, "raster");
   EXPECT_EQ(kTrackingMode.choices.size(), mode_properties().size());

@@ -263,15 +263,18 @@ TEST(SearchLimitsOfAMission, AreItsParameters) {
   EXPECT_EQ(presets.disagreement_max, SearchLimits().disagreement_max);
   EXPECT_EQ(presets.ratio_min, SearchLimits().ratio_min);
   EXPECT_EQ(presets.scans_max, SearchLimits().scans_max);
+  EXPECT_EQ(presets.work_max, SearchLimits().work_max);
   p.search_hits_min = 99;
   p.search_disagreement_max = 0.3;
   p.search_ratio_min = 2;
   p.search_scans_max = 1;
+  p.search_work_max = 1234567;
   const SearchLimits limits = search_limits(p);
   EXPECT_EQ(limits.hits_min, 99);
   EXPECT_EQ(limits.disagreement_max, 0.3);
   EXPECT_EQ(limits.ratio_min, 2);
   EXPECT_EQ(limits.scans_max, 1u);
+  EXPECT_EQ(limits.work_max, 1234567u);
 }
 
 }  // namespace

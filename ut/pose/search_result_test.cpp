@@ -20,6 +20,7 @@ TEST(SearchText, NamesOutcomesAndReasons) {
   EXPECT_STREQ(to_string(SearchReason::kTooFewReturns), "too_few_returns");
   EXPECT_STREQ(to_string(SearchReason::kUnexplained), "unexplained");
   EXPECT_STREQ(to_string(SearchReason::kNotRegistered), "not_registered");
+  EXPECT_STREQ(to_string(SearchReason::kUnfinished), "unfinished");
   EXPECT_STREQ(to_string(static_cast<SearchReason>(99)), "unknown");
 }
 

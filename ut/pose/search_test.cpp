@@ -56,6 +56,43 @@ TEST_F(SearchTest, TheSizeOfTheSlicesChangesNothing) {
   EXPECT_EQ(result().ratio, whole.ratio);
 }
 
+// Whatever the work may be, it is not exceeded by more than what is always done, and no pose is accepted that more work would not accept.
+TEST_F(SearchTest, WhatTheWorkDoesNotAllowIsLeftOpenAndAnswersToTheNextScan) {
+  VERIFIES("LASSO-MOD-117~1 LASSO-MOD-120~1");
+  scan_.T_sensor_target = test::random_box_pose(random_);
+  const auto image = scan_at(0);
+  const auto search_within = [&](std::uint32_t work_max) {
+    limits_.work_max = work_max;
+    search_->begin(limits_);
+    EXPECT_EQ(search_->add_scan(mission_, *image, *workspace_), Status::kOk);
+    work();
+    return result();
+  };
+  const SearchResult whole = search_within(100'000'000);
+  ASSERT_EQ(whole.outcome, SearchOutcome::kAccepted);
+  const SearchResult least = search_within(0);
+  EXPECT_LT(least.work, whole.work);
+  EXPECT_NE(least.outcome, SearchOutcome::kAccepted);
+  int unfinished = 0;
+  for (std::uint32_t work_max = least.work; work_max < whole.work; work_max += (whole.work - least.work) / 16 + 1) {
+    const SearchResult some = search_within(work_max);
+    EXPECT_LE(some.work, whole.work);
+    EXPECT_NE(some.outcome, SearchOutcome::kNone);
+    if (some.reason == SearchReason::kUnfinished) {
+      EXPECT_EQ(some.outcome, SearchOutcome::kAmbiguous);
+      ++unfinished;
+    }
+    if (some.outcome != SearchOutcome::kAccepted) continue;
+    EXPECT_TRUE(is_right(some.T_sensor_target)) << work_max;
+  }
+  EXPECT_GT(unfinished, 0);
+  limits_.work_max = least.work;  // and the next scan begins with as much again
+  search_within(least.work);
+  EXPECT_EQ(search(2), Status::kOk);
+  EXPECT_EQ(result().scans, 2u);
+  EXPECT_NE(result().reason, SearchReason::kNotDone);
+}
+
 TEST_F(SearchTest, RefusesScansOutOfOrder) {
   VERIFIES("LASSO-MOD-111~1");
   look_from_few_sides();
