@@ -1,6 +1,8 @@
 // The whole component with two sensors, of which one takes each scan.
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "ut/exec/component_operator.hpp"
 #include "ut/support/box_sensors.hpp"
@@ -93,6 +95,24 @@ class ComponentScansTest : public ::testing::Test {
     return told;
   }
 
+  // What is told of sensors' failing, in order: the event, and the sensor.
+  std::vector<std::pair<EventId, int>> failures_told(int frames) {
+    std::vector<std::pair<EventId, int>> failures;
+    for (int i = 0; i < frames; ++i) {
+      do {
+        component_->run_slot(component_->next_slot_us());
+        component_->run_estimation();
+      } while (!component_->next_slot_is_boundary());
+      test::Stream bytes(kTelemetryQueueBytes);
+      bytes.resize(component_->take_telemetry(Bytes(bytes.data(), bytes.size())));
+      for (const test::Stream& event : test::events_of(test::packets_of(bytes))) {
+        const auto id = static_cast<EventId>(event[1]);
+        if (id == EventId::kSensorFailed || id == EventId::kSensorBack) failures.emplace_back(id, event.back());
+      }
+    }
+    return failures;
+  }
+
   test::TestImage image_;
   std::unique_ptr<test::BoxSensor> far_, near_;
   std::unique_ptr<Component> component_;
@@ -130,6 +150,16 @@ TEST_F(ComponentScansTest, EachScanIsPlannedAndEstimatedByItsOwnSensorsParameter
   EXPECT_NEAR(sigma[0] / sigma[1], kFarSigma_m / kNearSigma_m, 1.5);
   EXPECT_LE(widest[1], std::tan(0.1) * 1.0001);
   EXPECT_GT(widest[0], std::tan(0.1));
+}
+
+// Once, however long it lasts; so is the end of it.
+TEST_F(ComponentScansTest, AFailureIsToldOnceAndSoIsItsEnd) {
+  VERIFIES("LASSO-SNS-044~1");
+  begin(scene_at(2.4, 0));
+  EXPECT_TRUE(failures_told(6).empty());
+  for (std::uint32_t scan = 6; scan < 9; ++scan) near_->lost.insert(scan);
+  const std::vector<std::pair<EventId, int>> expected{{EventId::kSensorFailed, 1}, {EventId::kSensorBack, 1}};
+  EXPECT_EQ(failures_told(60), expected);
 }
 
 TEST_F(ComponentScansTest, ASensorThatFailsIsReplacedAndTold) {
