@@ -241,7 +241,10 @@ void Driver::take(const CameraStatus& status) {
   const bool booted = camera_.serial != 0 && status.boots != camera_.boots;
   camera_ = status;
   inhibit_due_ = inhibit_due_ || status.laser_lit;  // counts without permission only
-  if (!booted) return;
+  if (!booted) {
+    if (state_ == State::kScanning && !known_head()) lose(Loss::kForeign, Status::kBadVersion);
+    return;
+  }
   ++health_.boots;
   clock_known_ = false;
   if (under_way()) lose(Loss::kBooted, Status::kBadOrder);

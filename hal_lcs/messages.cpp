@@ -253,8 +253,8 @@ Status decode(const Frame& frame, CameraStatus& message) {
   message.faults = in.u8();
   message.version = in.u8();
   const std::uint8_t device = in.u8();
-  if (device > static_cast<std::uint8_t>(Device::kTridar)) return Status::kBadValue;
-  message.device = static_cast<Device>(device);
+  const bool known = device <= static_cast<std::uint8_t>(Device::kTridar);
+  message.device = known ? static_cast<Device>(device) : Device::kUnknown;
   return Status::kOk;
 }
 

@@ -71,6 +71,7 @@ enum class Device : std::uint8_t {
   kLaserCamera = 0,  // triangulates
   kLidar = 1,        // times its light
   kTridar = 2,       // both, each sample by one of them
+  kUnknown = 0xFF,   // any other: a status that says so is of a foreign head, and not of none
 };
 
 struct CameraStatus {

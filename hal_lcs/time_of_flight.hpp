@@ -33,7 +33,7 @@ struct EchoCalibration {
 };
 
 // kNotFinite; kSingular: a clock that stands still (clock_error not above -1); kBadValue: no serial number, ranges or temperatures without
-// content, or angles or ranges beyond the wire's.
+// content, or angles, or the flight of the farthest range at any of the temperatures, beyond the wire's.
 Status validate(const EchoCalibration& calibration);
 
 // What the temperature leaves of a calibration: made once a scan.
@@ -42,7 +42,8 @@ class TimeOfFlight {
   // `calibration` is valid.
   TimeOfFlight(const EchoCalibration& calibration, double temperature_degC);
 
-  // The sample of the ray that the raw one is, at time t_us. Its state is kHit for kPoint, kMiss for kNothing, else kInvalid.
+  // The sample of the ray that the raw one is, at time t_us. Its state is kHit for kPoint, kMiss for kNothing, else kInvalid. A flight
+  // at the wire's end is kNoStatement, one of 0 kBadPeak: they stand for all beyond.
   Fate convert(const RawSample& raw, TimeUs t_us, RangeSample& sample) const;
 
  private:

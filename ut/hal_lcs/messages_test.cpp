@@ -264,10 +264,20 @@ TEST(LcsMessages, CodesThatAreNotDefinedAreRefused) {
   EXPECT_TRUE(refuses(received(encode(0, LaserCommand::kArm)), 0, 1, LaserCommand{}));
   EXPECT_TRUE(refuses(received(encode(0, Answer{})), 2, 8, Answer{}));
   EXPECT_TRUE(refuses(received(encode(0, ScanEnd{})), 3, 2, ScanEnd{}));
-  EXPECT_TRUE(refuses(received(encode(0, CameraStatus{})), 17, 3, CameraStatus{}));
   Samples samples;
   samples.count = 2;
   EXPECT_TRUE(refuses(received(encode(0, samples)), 7 + 11, 0x50, Samples{}));  // the first 4 bits of the first sample's last byte
+}
+
+TEST(LcsMessages, AKindOfHeadThatIsNotDefinedIsUnknown) {
+  VERIFIES("LASSO-LCS-014~2");
+  for (const std::uint8_t device : {std::uint8_t{3}, std::uint8_t{0xFE}, std::uint8_t{0xFF}}) {
+    Frame frame = received(encode(0, CameraStatus{}));
+    frame.payload[17] = device;
+    CameraStatus status;
+    EXPECT_EQ(decode(frame, status), Status::kOk);
+    EXPECT_EQ(status.device, Device::kUnknown);
+  }
 }
 
 TEST(LcsMessages, CommandsWithoutPayloadAreHeadersAlone) {

@@ -65,7 +65,10 @@ TEST(TimeOfFlight, WhatIsNoPointSaysWhy) {
   EXPECT_EQ(fate([](RawSample& r) { r.kind = SampleKind::kSaturated; }), Fate::kNoStatement);
   EXPECT_EQ(fate([](RawSample& r) { r.kind = SampleKind::kReturn; }), Fate::kNoStatement);  // a LIDAR does not triangulate
   EXPECT_EQ(fate([](RawSample& r) { r.flight_us = 0; }), Fate::kBadPeak);                   // before the electronics can have told it
+  EXPECT_EQ(fate([](RawSample& r) { r.flight_us = 0.01; }), Fate::kBadPeak);
   EXPECT_EQ(fate([](RawSample& r) { r.flight_us = std::nan(""); }), Fate::kBadPeak);
+  EXPECT_EQ(fate([](RawSample& r) { r.flight_us = kMaxFlightUs; }), Fate::kNoStatement);  // that, or any time beyond it
+  EXPECT_EQ(fate([](RawSample& r) { r.flight_us = kMaxFlightUs - kFlightStepUs; }), Fate::kOutside);
   EXPECT_EQ(fate([&](RawSample& r) { r = measured(c, 20, 0.1, -0.2, 0.4); }), Fate::kOutside);
   EXPECT_EQ(fate([&](RawSample& r) { r = measured(c, 20, 0.1, -0.2, 1001); }), Fate::kOutside);
   EXPECT_EQ(sample.state, RayState::kInvalid);
@@ -75,6 +78,11 @@ TEST(TimeOfFlight, WhatIsNoPointSaysWhy) {
   EXPECT_EQ(TimeOfFlight(c, -20.5).convert(good, 0, sample), Fate::kOutside);
   EXPECT_EQ(TimeOfFlight(c, 50.5).convert(good, 0, sample), Fate::kOutside);
   EXPECT_EQ(sample.state, RayState::kInvalid);
+  EchoCalibration early = c;  // the clock begins after the pulse: 0 is all that is before it
+  early.delay_us = -0.1;
+  RawSample at_once = good;
+  at_once.flight_us = 0;
+  EXPECT_EQ(TimeOfFlight(early, 20).convert(at_once, 0, sample), Fate::kBadPeak);
 }
 
 TEST(TimeOfFlight, RefusesCalibrationsThatBendSpace) {
@@ -96,6 +104,28 @@ TEST(TimeOfFlight, RefusesCalibrationsThatBendSpace) {
   EXPECT_EQ(verdict([](EchoCalibration& c) { c.temperature_max_degC = c.temperature_min_degC; }), Status::kBadValue);
   EXPECT_EQ(verdict([](EchoCalibration& c) { c.angle_x_offset_rad = -0.71; }), Status::kBadValue);
   EXPECT_EQ(verdict([](EchoCalibration& c) { c.angle_y_offset_rad = 0.71; }), Status::kBadValue);
+}
+
+// The flight that a calibration's farthest range takes, with the delay and by the head's clock, is one that the wire can say.
+TEST(TimeOfFlight, RefusesRangesWhoseFlightIsBeyondTheWiresEnd) {
+  VERIFIES("LASSO-LCS-015~1");
+  EchoCalibration c;
+  c.serial = 7;
+  c.range_max_m = 1190;  // 7.94 us
+  const auto with = [&](double delay_us, double delay_us_per_K, double clock_error) {
+    EchoCalibration changed = c;
+    changed.delay_us = delay_us;
+    changed.delay_us_per_K = delay_us_per_K;
+    changed.clock_error = clock_error;
+    return validate(changed);
+  };
+  EXPECT_EQ(with(0, 0, 0), Status::kOk);
+  EXPECT_EQ(with(0.05, 0, 0), Status::kOk);
+  EXPECT_EQ(with(0.07, 0, 0), Status::kBadValue);
+  EXPECT_EQ(with(0, 0.003, 0), Status::kBadValue);   // warm
+  EXPECT_EQ(with(0, -0.003, 0), Status::kBadValue);  // cold
+  EXPECT_EQ(with(0, 0, -0.01), Status::kBadValue);   // a clock that runs fast says more
+  EXPECT_EQ(with(0.07, 0, 0.01), Status::kOk);
 }
 
 }  // namespace
