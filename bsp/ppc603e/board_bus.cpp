@@ -65,4 +65,6 @@ std::uint32_t port_registers(std::uint32_t port) { return kBusIo + kSerialIo + 8
 
 void unmask_serial_interrupt() { write_device_word(kLow + kMask, kBusInterrupts); }
 
+void mask_serial_interrupt() { write_device_word(kLow + kMask, 0); }
+
 }  // namespace lasso::ppc603e

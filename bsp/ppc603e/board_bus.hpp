@@ -13,5 +13,6 @@ bool open_bus();
 std::uint32_t port_registers(std::uint32_t port);
 // The serial card's interrupt, from now on.
 void unmask_serial_interrupt();
+void mask_serial_interrupt();
 
 }  // namespace lasso::ppc603e

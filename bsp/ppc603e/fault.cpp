@@ -51,6 +51,11 @@ const FaultRecord& open_record() {
 
 const FaultRecord& fault_record() { return record; }
 
+void end_row_of_restarts() {
+  record.in_a_row = 0;
+  record.sum = sum_of(record);
+}
+
 std::uint32_t fault_address(const FaultRegisters& r) {
   switch (r.vector) {
     case 0x300:
@@ -71,6 +76,7 @@ void restart(ResetCause cause, const char* text) {
   record.magic = kMagic;
   record.cause = static_cast<std::uint32_t>(cause);
   ++record.restarts;
+  ++record.in_a_row;
   record.registers = cause == ResetCause::kException ? board_fault_registers : FaultRegisters{};
   copy_text(text);
   record.sum = sum_of(record);
@@ -81,8 +87,8 @@ void restart(ResetCause cause, const char* text) {
     say_hex(", instruction ", record.registers.srr0);
     say_hex(", address ", fault_address(record.registers));
   }
-  say(record.restarts > kMaxRestarts ? "\n" : ": restart into safe mode\n");
-  if (record.restarts > kMaxRestarts) stay_down();
+  say(record.in_a_row > kMaxRestarts ? "\n" : ": restart into safe mode\n");
+  if (record.in_a_row > kMaxRestarts) stay_down();
   _start();
 }
 

@@ -26,6 +26,7 @@ constexpr std::uint32_t kTextBytes = 48;
 struct FaultRecord {
   std::uint32_t magic = 0;
   std::uint32_t restarts = 0;  // since power-on
+  std::uint32_t in_a_row = 0;  // of them, since the last end_row_of_restarts()
   std::uint32_t cause = 0;     // ResetCause of the present start
   FaultRegisters registers;    // of the last exception
   char text[kTextBytes] = {};  // of the last failed invariant
@@ -38,7 +39,10 @@ const FaultRecord& fault_record();
 // The address that an exception is about: of the instruction, or of the data that it could not reach.
 std::uint32_t fault_address(const FaultRegisters& registers);
 
-// Records, says it on the console, and starts the board anew; after kMaxRestarts it stays down.
+// The board has done well for a while: restarts count from 0 again.
+void end_row_of_restarts();
+
+// Records, says it on the console, and starts the board anew; after kMaxRestarts in a row it stays down.
 [[noreturn]] void restart(ResetCause cause, const char* text);
 
 }  // namespace lasso::ppc603e

@@ -49,6 +49,8 @@ void Flight::tick() {
   set_decrementer(static_cast<std::uint32_t>(clock_.ticks_in(kHungUs)));
   const std::uint64_t begun = clock_.ticks();
   late_ticks_ = begun - clock_.ticks_at(component_.next_slot_us());
+  lines_.camera.look();  // an interrupt of theirs that went astray costs a slot, not the line
+  lines_.ground.look();
   allow_interrupts(true);
   const TimeUs now_us = time_of_slot();
   run_slot(now_us);
@@ -68,12 +70,13 @@ void Flight::run_slot(TimeUs now_us) {
   if (component_.next_slot_is_boundary()) send_telemetry();
 }
 
-// What the line does not take is lost: a ground station that does not listen must not stop the flight.
+// What the line does not take is lost, and counted: a ground station that does not listen must not stop the flight.
 void Flight::send_telemetry() {
   ConstBytes rest(telemetry_, component_.take_telemetry(Bytes(telemetry_)));
-  while (!rest.empty() && lines_.ground_line.out.room() >= packet_size(rest)) {
-    const std::size_t size = packet_size(rest);
-    static_cast<void>(lines_.ground_line.write(rest.first(size)));
+  for (std::size_t size = packet_size(rest); size > 0; size = packet_size(rest)) {
+    const bool fits = lines_.ground_line.out.room() >= size;
+    if (fits) static_cast<void>(lines_.ground_line.write(rest.first(size)));
+    if (!fits) ++packets_dropped_;
     rest = rest.subspan(size, rest.size() - size);
   }
 }
@@ -114,6 +117,9 @@ void Flight::let_world_move(RigKind kind, TimeUs t_us) {
   words[kRigLostBytes] = lines_.camera.lost() + lines_.ground.lost();
   words[kRigMemory] = sizeof(Component);
   words[kRigLineTicks] = static_cast<std::uint32_t>(line_ticks_);
+  words[kRigServicesCut] = lines_.camera.cut() + lines_.ground.cut();
+  words[kRigLinesMasked] = lines_masked_;
+  words[kRigDropped] = packets_dropped_;
   estimate_ticks_ = idle_ticks_ = 0;
   line_ticks_ = 0;
   const RigAnswer answer = rig_->report(words);

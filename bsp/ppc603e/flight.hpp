@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "bsp/ppc603e/clock.hpp"
+#include "bsp/ppc603e/fault.hpp"
 #include "bsp/ppc603e/rig.hpp"
 #include "bsp/ppc603e/serial_port.hpp"
 #include "fsw/exec/component.hpp"
@@ -40,14 +41,21 @@ class Flight final : public Watchdog {
   // While the rig is awaited the decrementer has the lines looked at, should an interrupt of theirs have gone astray.
   bool waiting() const { return waiting_; }
   static void wait_on();
-  // Of the serial card's interrupt.
-  void note_line_ticks(std::uint64_t ticks) { line_ticks_ += ticks; }
+  // Of the serial card's interrupt: what camera and ground took of it; whether it does not end, and is masked until the next slot.
+  void note_lines(std::uint64_t ticks, bool masked) {
+    line_ticks_ += ticks;
+    if (masked) lines_masked_ = lines_masked_ + 1;
+  }
 
-  void feed() override { unfed_slots_ = 0; }
+  void feed() override {
+    unfed_slots_ = 0;
+    if (++fed_frames_ == kSettledFrames) end_row_of_restarts();
+  }
 
  private:
   static constexpr DurationUs kHungUs = 2'000'000;       // a slot that takes longer hangs
   static constexpr std::uint32_t kUnfedSlots = 20 * 15;  // slots without feed(): estimation hangs
+  static constexpr std::uint32_t kSettledFrames = 900;   // frames with feed(): the board does well, three minutes of 200 ms
 
   TimeUs time_of_slot() const;
   void run_slot(TimeUs now_us);
@@ -63,13 +71,14 @@ class Flight final : public Watchdog {
   LinkPump pump_;
   DurationUs slot_us_;
   volatile bool in_slot_ = false, stopped_ = false, waiting_ = false;
-  std::uint32_t unfed_slots_ = 0;
+  std::uint32_t unfed_slots_ = 0, fed_frames_ = 0;
   std::uint8_t telemetry_[kTelemetryQueueBytes] = {};
   // Of the report.
   std::uint32_t slot_ = 0;
   std::uint64_t late_ticks_ = 0, slot_ticks_ = 0, line_ticks_ = 0;
   volatile std::uint64_t foreground_ticks_ = 0;
-  volatile std::uint32_t estimate_ticks_ = 0, idle_ticks_ = 0;
+  volatile std::uint32_t estimate_ticks_ = 0, idle_ticks_ = 0, lines_masked_ = 0;
+  std::uint32_t packets_dropped_ = 0;
 };
 
 }  // namespace lasso::ppc603e

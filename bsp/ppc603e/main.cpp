@@ -37,6 +37,11 @@ namespace {
 
 constexpr std::uint32_t kStrapsMagic = 0x53545250;
 constexpr std::uint32_t kTicksPerSecond = 16600000;
+constexpr std::uint32_t kLeastTicksPerSecond = 1000000, kMostTicksPerSecond = 1000000000;  // the decrementer holds 2 s of them
+
+// Serial interrupts between two of the decrementer; more are those of a line that is stuck, and would keep the processor for ever. Three
+// full rings each way are below half of it.
+constexpr std::uint32_t kMostServices = 8192;
 
 // The mission's image as the loader puts it there, and the component's copy, which it changes: each start begins with the former.
 constexpr std::size_t kMissionBytes = 31u << 20;
@@ -65,6 +70,7 @@ alignas(Flight) std::uint8_t flight_memory[sizeof(Flight)];
 alignas(Clock) std::uint8_t clock_memory[sizeof(Clock)];
 Board* board = nullptr;
 Flight* flight = nullptr;
+std::uint32_t services = 0;  // since the decrementer's last interrupt
 
 [[noreturn]] void stop(const char* why) {
   allow_interrupts(false);
@@ -97,10 +103,24 @@ lcs::Calibration calibration() {
   return design;
 }
 
+// The console first: a refusal is for reading.
 void check_board() {
+  const bool bus = open_bus();
+  if (bus) open_console(port_registers(kConsole));
   const std::uint32_t version = processor_version() >> 16;
   if (version != kProcessor603e && version != kProcessor603eV) stop("the image is for another board: the processor is not a 603e");
-  if (!open_bus()) stop("the image is for another board: no Grackle bridge, Heathrow chip and serial card of four ports");
+  if (!bus) stop("the image is for another board: no Grackle bridge, Heathrow chip and serial card of four ports");
+}
+
+bool strapped() { return board_straps.magic == kStrapsMagic; }
+
+std::uint32_t ticks_per_s() {
+  const std::uint32_t ticks = strapped() ? board_straps.ticks_per_s : kTicksPerSecond;
+  if (ticks >= kLeastTicksPerSecond && ticks <= kMostTicksPerSecond) return ticks;
+  say_number("board: the straps at 0x04010000 say ", ticks);
+  say_number(" ticks of the time base a second, not 1000000 to 1000000000: taken are ", kTicksPerSecond);
+  say("\n");
+  return kTicksPerSecond;
 }
 
 void open_lines(Board& b) {
@@ -138,6 +158,8 @@ void board_interrupt(std::uint32_t vector) {
   using namespace lasso::ppc603e;
   if (vector == 0x900) {
     if (flight == nullptr) return;
+    if (services > kMostServices) unmask_serial_interrupt();
+    services = 0;
     if (!flight->waiting()) return flight->tick();
     board->camera.look();
     board->ground.look();
@@ -145,11 +167,13 @@ void board_interrupt(std::uint32_t vector) {
     return flight->wait_on();
   }
   if (board == nullptr) return;
+  if (++services > kMostServices) mask_serial_interrupt();
   const std::uint64_t begun = time_base();
   board->camera.service();
   board->ground.service();
+  const std::uint64_t taken = time_base() - begun;
   board->rig_port.service();
-  if (flight != nullptr) flight->note_line_ticks(time_base() - begun);
+  if (flight != nullptr) flight->note_lines(taken, services > kMostServices);
 }
 
 void board_main() {
@@ -158,17 +182,15 @@ void board_main() {
   for (auto make = board_constructors_begin; make != board_constructors_end; ++make) (*make)();
   const FaultRecord& record = open_record();
   check_board();
-  open_console(port_registers(kConsole));
   tell_start(record);
   board = new (board_memory) Board;
   open_lines(*board);
   Component& component = make_component(*board, static_cast<ResetCause>(record.cause));
-  const bool strapped = board_straps.magic == kStrapsMagic;
-  auto* clock = new (clock_memory) Clock(strapped ? board_straps.ticks_per_s : kTicksPerSecond);
+  auto* clock = new (clock_memory) Clock(ticks_per_s());
   clock->set(kBoundary0Us - kLeadUs);
   if (component.begin(kBoundary0Us) != Status::kOk) stop("the component does not begin");
   flight = new (flight_memory) Flight(component, *clock, {board->camera, board->ground, board->ground_line},
-                                      strapped && board_straps.rig == 1 ? &board->rig : nullptr);
+                                      strapped() && board_straps.rig == 1 ? &board->rig : nullptr);
   flight->run();
   stop("the rig has ended the run");
 }

@@ -29,7 +29,10 @@ enum RigWord : std::uint32_t {
   kRigAcquireStack,   //
   kRigLostBytes,      // of both lines
   kRigMemory,         // of the component, bytes
-  kRigLineTicks,      // taken by the lines' interrupts since the last report
+  kRigLineTicks,      // taken by interrupts of camera's and ground's line since the last report
+  kRigServicesCut,    // of both lines, which have left bytes for their bound
+  kRigLinesMasked,    // interrupts of the serial card that did not end, and were masked until the next slot
+  kRigDropped,        // of telemetry, for which the ground's line had no room
   kRigWords
 };
 enum class RigKind : std::uint32_t { kBegun = 0, kSlot = 1 };

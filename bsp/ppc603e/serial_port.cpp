@@ -19,7 +19,12 @@ constexpr std::uint32_t kPatience = 10000;                                      
 
 }  // namespace
 
-std::uint8_t SerialPort::status() const { return read_device(registers_ + kLineStatus); }
+// Reading it clears the overrun.
+std::uint8_t SerialPort::status() {
+  const std::uint8_t now = read_device(registers_ + kLineStatus);
+  if ((now & kOverrun) != 0) lost_ = lost_ + 1;
+  return now;
+}
 
 void SerialPort::interrupt_when(bool sending) {
   sending_ = sending;
@@ -36,7 +41,7 @@ bool SerialPort::open() {
   const bool good = loop();
   write_device(registers_ + kModem, kReady);
   write_device(registers_ + kFifoControl, kFifoOn);
-  sent_ = received_ = lost_ = 0;
+  sent_ = received_ = lost_ = cut_ = 0;
   interrupt_when(false);
   return good;
 }
@@ -78,9 +83,12 @@ void SerialPort::take(std::uint32_t count) {
 // As many bytes as the interrupt says are there, without a look at each; what is less, when no more has come for a while.
 void SerialPort::service() {
   std::uint8_t cause = read_device(registers_ + kCause) & kCauses;
-  for (; cause == kFilled; cause = read_device(registers_ + kCause) & kCauses) take(kTrigger);
+  for (std::uint32_t taken = 0; cause == kFilled && taken + kTrigger <= kMost; taken += kTrigger) {
+    take(kTrigger);
+    cause = read_device(registers_ + kCause) & kCauses;
+  }
+  if (cause == kFilled) cut_ = cut_ + 1;
   const std::uint8_t now = status();
-  if ((now & kOverrun) != 0) lost_ = lost_ + 1;
   if (cause == kPaused) take_rest(now);
   if (sending_ && (now & kEmpty) != 0) fill();
 }
@@ -92,7 +100,9 @@ void SerialPort::look() {
 }
 
 void SerialPort::take_rest(std::uint8_t now) {
-  for (; (now & kReceived) != 0; now = status()) take(1);
+  std::uint32_t taken = 0;
+  for (; (now & kReceived) != 0 && taken < kMost; now = status(), ++taken) take(1);
+  if ((now & kReceived) != 0) cut_ = cut_ + 1;
 }
 
 }  // namespace lasso::ppc603e

@@ -19,19 +19,21 @@ class SerialPort {
   bool open();
   // Whatever waits in its ring leaves from now on.
   void send();
-  // Of the interrupt, which is off meanwhile. Loop bound: the bytes that have come, and kFifo to send.
+  // Of the interrupt, which is off meanwhile. Loop bound: kMost bytes taken, and kFifo to send. What is left comes with the next one.
   void service();
-  // Takes what is there without being asked to.
+  // Takes what is there without being asked to; the same bound. The interrupt is off.
   void look();
 
   bool all_sent() const;
   std::uint32_t sent() const { return sent_; }          // bytes since open(), modulo 2^32
   std::uint32_t received() const { return received_; }  // likewise
-  std::uint32_t lost() const { return lost_; }          // that found no room in the ring, or came too fast
+  std::uint32_t lost() const { return lost_; }  // that found no room in the ring; and one for each overrun seen, of one byte or more
+  std::uint32_t cut() const { return cut_; }    // services and looks that have left something, for their bound
 
  private:
   static constexpr std::uint32_t kFifo = 16;
-  std::uint8_t status() const;
+  static constexpr std::uint32_t kMost = 64;  // four times what a port holds
+  std::uint8_t status();
   void interrupt_when(bool sending);
   bool loop();
   void take(std::uint32_t count);
@@ -41,7 +43,7 @@ class SerialPort {
   std::uint32_t registers_;
   Ring& in_;
   Ring& out_;
-  volatile std::uint32_t sent_ = 0, received_ = 0, lost_ = 0;
+  volatile std::uint32_t sent_ = 0, received_ = 0, lost_ = 0, cut_ = 0;
   volatile bool sending_ = false;
 };
 

@@ -4,6 +4,21 @@
 _start: li    3,0x1000                          /* ME; no interrupts, no translation; vectors at 0 */
         mtmsr 3
         isync
+        mfspr 3,1008                            /* HID0: the data cache is on after a restart, or as a loader leaves it: */
+        andi. 4,3,0x4000
+        beq   9f
+        li    4,1024                            /* what is only in its 512 lines goes to memory, as other lines come: constants, twice as many */
+        mtctr 4
+        lis   4,0x0010
+8:      lwz   5,0(4)
+        addi  4,4,32
+        bdnz  8b
+        rlwinm 3,3,0,18,16                      /* and it is off before the first store */
+        sync
+        mtspr 1008,3
+        sync
+        isync
+9:      li    3,0x1000
         ori   3,3,0x2002                        /* FP, RI */
         mtmsr 3
         isync
@@ -44,11 +59,15 @@ _start: li    3,0x1000                          /* ME; no interrupts, no transla
         mtdec 4
         mfspr 3,1008                            /* HID0: both caches on, doze when told to rest */
         oris  3,3,0x0080
-        ori   4,3,0xCC00                        /* ... emptied first */
+        ori   4,3,0xCC00                        /* ... emptied first: nothing in them is newer than memory, but older */
         ori   3,3,0xC000
+        sync
         isync
         mtspr 1008,4
+        sync
         mtspr 1008,3
+        sync
+        isync
         lis   3,board_estimation_stack_begin@ha /* paint, by which the most that was used is seen */
         addi  3,3,board_estimation_stack_begin@l
         addi  4,1,-64

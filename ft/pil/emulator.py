@@ -48,15 +48,15 @@ def check_image(elf):
 class Emulator:
     """Running until the end of the with block. What the board's console says is kept, and said when something fails."""
 
-    def __init__(self, elf, image, folder, rig=True):
+    def __init__(self, elf, image, folder, rig=True, processor='603e', ticks_per_s=TICKS_PER_S):
         require()
         check_image(elf)
         self.folder = pathlib.Path(folder)
         self.console_file = self.folder / 'console.txt'
         reset = self.folder / 'reset.bin'  # the machine wants some content for its read-only memory
         reset.write_bytes(bytes(64))
-        words = [STRAPS_MAGIC, TICKS_PER_S, 1 if rig else 0, 0]
-        self.command = [QEMU, '-M', 'g3beige', '-cpu', '603e', '-m', '256', '-bios', str(reset), '-vga', 'none', '-net', 'none', '-display', 'none',
+        words = [STRAPS_MAGIC, ticks_per_s, 1 if rig else 0, 0]
+        self.command = [QEMU, '-M', 'g3beige', '-cpu', processor, '-m', '256', '-bios', str(reset), '-vga', 'none', '-net', 'none', '-display', 'none',
                         '-serial', 'null', '-parallel', 'none', '-monitor', f'unix:{self.folder}/monitor.sock,server=on,wait=off', '-no-reboot', '-icount', f'shift={SHIFT},align=off,sleep=on']
         for name in ('camera', 'ground', 'rig'):
             self.command += ['-chardev', f'socket,id={name},path={self.folder}/{name}.sock' if rig else f'null,id={name}']

@@ -2,7 +2,8 @@
 import html as text
 
 STAGES = [('estimate', 'estimate'), ('boundary', 'boundary: publish, hand over, plan'), ('polls', 'polls of the camera, 19 slots'),
-          ('largest_poll', 'the largest of them')]
+          ('largest_poll', 'the largest of them'), ('lines', 'interrupts of the lines, in no slot')]
+IDLE_ASKED = 0.70  # by LASSO-PLT-016, which is planned: a figure, no limit
 COLOURS = {'estimate': '#3465a4', 'polls': '#73b66b', 'boundary': '#c17d11'}
 WIDTH, HEIGHT, LEFT, BOTTOM = 960, 320, 60, 30
 
@@ -35,18 +36,29 @@ def picture(frames, budget, mips, period_ms):
             f'million instructions at {mips} MIPS</text></svg>')
 
 
+def verdict(r):
+    return 'reached' if r['idle_share']['median'] >= IDLE_ASKED else 'missed'
+
+
+def idle(r):
+    share, without = r['idle_share'], r['idle_share_without_line_interrupts']
+    return (f'{100 * share["median"]:.1f} % (median), {100 * share["worst"]:.1f} % at worst; without the line interrupts {100 * without["median"]:.1f} % and '
+            f'{100 * without["worst"]:.1f} %; asked {100 * IDLE_ASKED:.0f} %: {verdict(r)}')
+
+
 def rows(r):
     for stage, title in STAGES:
         i = r['instructions'][stage]
         yield f'instructions: {title}', f'{i["median"]:,.0f} median, {i["p99"]:,} at 99 %, {i["worst"]:,} worst'
-    latency = r['interrupt_latency_instructions']
-    yield 'from a slot’s time to its first instruction', f'{latency["median"]:.0f} instructions (median), {latency["worst"]} at worst'
-    yield 'processor idle', f'{100 * r["idle_share"]["median"]:.1f} % (median), {100 * r["idle_share"]["worst"]:.1f} % at worst'
+    latency = r['interrupt_latency_instructions_without_line_traffic']
+    yield 'from a slot’s time to its first instruction, without line traffic', f'{latency["median"]:.0f} instructions (median), {latency["worst"]} at worst'
+    yield 'processor idle', idle(r)
     yield 'margin of the fullest slot', f'{100 * r["slot_margin_share"]:.1f} %'
     yield 'margin of the fullest frame', f'{100 * r["estimate_margin_share"]:.1f} %'
     yield 'stack: most that was used', f'estimation {r["stack_bytes"]["estimation"]:,} bytes, acquisition {r["stack_bytes"]["acquisition"]:,} bytes, of 32,768 each'
     yield 'code and constants', f'{r["image_bytes"]:,} bytes'
     yield 'memory without mission images', f'{r["memory_bytes"]:,} bytes, of which the component {r["component_bytes"]:,}'
+    yield 'lines', f'{r["lost_bytes"]} bytes lost, {r["packets_dropped"]} packets dropped, {r["services_cut"]} services cut short, {r["lines_masked"]} times masked'
     yield 'telemetry', text.escape(r['telemetry'])
     yield 'run', text.escape(f'{r["frames"]} frames of {r["scenario"]}, {r["emulator"]}, {r["commit"]}')
 

@@ -24,7 +24,7 @@ namespace {
 constexpr std::uint32_t kPipelineFrames = 2;  // scan k is reported at boundary k + 2
 constexpr const char* kWordNames =
     "magic,kind,time_high,time_low,camera_sent,ground_sent,slot,slot_ticks,estimate_ticks,late_ticks,idle_ticks,restarts,cause,vector,"
-    "address,estimate_stack,acquire_stack,lost_bytes,memory,line_ticks\n";
+    "address,estimate_stack,acquire_stack,lost_bytes,memory,line_ticks,services_cut,lines_masked,packets_dropped\n";
 
 struct Options {
   std::string mission, scenario, out;
@@ -101,10 +101,12 @@ void tell(const Packet& telemetry) {
   const mdat::DecodedStream stream = mdat::decode_stream({telemetry.data(), telemetry.size()}, PacketType::kTelemetry);
   const auto poses =
       std::count_if(stream.packets.begin(), stream.packets.end(), [](const auto& packet) { return packet.name() == std::string("pose"); });
-  std::printf("telemetry: mode %lld, reset_cause %lld, %lld poses, last valid %lld, other bytes %zu\n",
+  std::printf("telemetry: mode %lld, reset_cause %lld, %lld poses, last valid %lld, other bytes %zu, lost scans %lld, last loss %lld\n",
               static_cast<long long>(last_of(stream, "pose", "mode").value_or(-1)),
               static_cast<long long>(last_of(stream, "health", "reset_cause").value_or(-1)), static_cast<long long>(poses),
-              static_cast<long long>(last_of(stream, "pose", "valid").value_or(-1)), stream.other_bytes);
+              static_cast<long long>(last_of(stream, "pose", "valid").value_or(-1)), stream.other_bytes,
+              static_cast<long long>(last_of(stream, "sensor", "lost").value_or(0)),
+              static_cast<long long>(last_of(stream, "sensor", "last_loss").value_or(0)));
 }
 
 int compare(const Options& options, const Packet& host, const TargetFlight& flight) {
