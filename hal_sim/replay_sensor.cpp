@@ -57,6 +57,7 @@ const SensorScan* ReplaySensor::find(const ScanPlan& plan) {
   for (std::size_t i = 0; i < recording_.size(); ++i) {
     const std::size_t place = (at_ + i) % recording_.size();
     if (recording_[place].sensor != number_ || !serves(recording_[place], plan)) continue;
+    if (place < at_) ++rounds_;
     at_ = place + 1;
     return &recording_[place];
   }

@@ -26,9 +26,9 @@ class SensorRecorder final : public Sensor {
 };
 
 // Plays the scans of one sensor in the recording's order, and from the front again after the last one: what it found then, at the same
-// times after the start. It cannot aim: a scan serves a plan of the same pattern, points, number of aimed rays and duration whose rays go
-// within kReplayTolerance of the recorded ones; others are left out until one serves. A scan that was lost is lost again, for the same
-// reason.
+// times after the start. It cannot aim: a scan serves a plan of the same pattern, points, number of aimed rays and duration whose centre
+// and extents are within kReplayTolerance of the recorded ones, wherever its aimed rays are to go: each sample says where its ray went.
+// Others are left out until one serves. A scan that was lost is lost again, for the same reason.
 constexpr double kReplayTolerance = 0.02;  // of the pattern's centre and extents, on the tangent plane
 class ReplaySensor final : public Sensor {
  public:
@@ -40,12 +40,15 @@ class ReplaySensor final : public Sensor {
   SensorPoll poll(TimeUs now_us, Span<RangeSample> out) override;
   void abort() override { scan_ = nullptr; }
 
+  std::uint32_t rounds() const { return rounds_; }  // how often it has begun anew, as the recording was at its end
+
  private:
   const SensorScan* find(const ScanPlan& plan);
 
   const SensorRecording& recording_;
   std::uint8_t number_;
-  std::size_t at_ = 0;                // the scan after the last one that was played
+  std::size_t at_ = 0;  // the scan after the last one that was played
+  std::uint32_t rounds_ = 0;
   const SensorScan* scan_ = nullptr;  // that is played
   std::size_t next_ = 0;              // its sample
   DurationUs later_us_ = 0;           // than recorded

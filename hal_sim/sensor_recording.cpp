@@ -4,12 +4,14 @@
 #include <string>
 
 #include "fsw/core/byte_codec.hpp"
+#include "fsw/geometry/portable_math.hpp"
 #include "fsw/sense/pattern.hpp"
 
 namespace lasso::sim {
 namespace {
 
-constexpr std::uint32_t kMagic = 0x33444C52;  // "3DLR"
+constexpr std::uint32_t kMagic = 0x33444C52;   // "3DLR"
+constexpr TimeUs kLatestUs = TimeUs{1} << 61;  // before and after 0: sums and differences of such times stay times
 constexpr std::size_t kHeadBytes = 8, kScanBytes = 73, kAimedBytes = 8, kSampleBytes = 25;
 
 std::size_t bytes_of(const SensorScan& scan) { return kScanBytes + kAimedBytes * scan.aimed.size() + kSampleBytes * scan.samples.size(); }
@@ -77,11 +79,20 @@ class Reader {
     return plan;
   }
 
-  RangeSample sample() {
+  // Of `scan`, after those that it has.
+  RangeSample sample(const SensorScan& scan) {
     RangeSample sample;
+    bool finite = true;
     for (float& component : sample.direction) component = in_.f32();
     sample.range_m = in_.f32();
+    for (const float component : sample.direction) finite = finite && is_finite(static_cast<double>(component));
+    expect(finite && is_finite(static_cast<double>(sample.range_m)), "a sample's direction or range is not finite");
     sample.t_us = in_.i64();
+    const TimeUs first_us = scan.samples.empty() ? scan.t_start_us - kRecordingToleranceUs : scan.samples.back().t_us;
+    const TimeUs last_us = scan.t_start_us + scan.plan.duration_us + kRecordingToleranceUs;
+    expect(sample.t_us >= first_us && sample.t_us <= last_us, "a sample's time is " + std::to_string(sample.t_us) + ", expected " +
+                                                                  std::to_string(first_us) + " to " + std::to_string(last_us) +
+                                                                  " us: not before its predecessor, and within the scan");
     const std::uint8_t state = in_.u8();
     expect(state <= static_cast<std::uint8_t>(RayState::kLost), "a sample's state is " + std::to_string(state) + ", expected 0 to 3");
     sample.state = static_cast<RayState>(state);
@@ -104,11 +115,16 @@ class Reader {
     whole.aimed = Span<const AimedRay>(scan.aimed.data(), scan.aimed.size());
     expect(validate(whole) == Status::kOk, std::string("a plan that no scan can have: ") + to_string(validate(whole)));
     scan.t_start_us = in_.i64();
-    scan.end = static_cast<Status>(in_.u8());
+    expect(scan.t_start_us >= -kLatestUs && scan.t_start_us <= kLatestUs,
+           "a start at " + std::to_string(scan.t_start_us) + " us, expected a time less than 2^61 us from 0");
+    const std::uint8_t end = in_.u8();
+    constexpr auto kLast = static_cast<unsigned>(Status::kOffPlan);
+    expect(end <= kLast, "a scan's end is " + std::to_string(end) + ", expected 0 to " + std::to_string(kLast));
+    scan.end = static_cast<Status>(end);
     const std::uint16_t samples = in_.u16();
     expect(samples <= scan.plan.points,
            std::to_string(samples) + " samples, expected at most the plan's " + std::to_string(scan.plan.points));
-    for (std::uint16_t i = 0; i < samples; ++i) scan.samples.push_back(sample());
+    for (std::uint16_t i = 0; i < samples; ++i) scan.samples.push_back(sample(scan));
     return scan;
   }
 

@@ -15,6 +15,7 @@
 namespace lasso::sim {
 
 constexpr std::uint32_t kRecordingVersion = 1;
+constexpr DurationUs kRecordingToleranceUs = 100'000;  // a line's commands and a head's clock move samples by less
 
 struct SensorScan {
   std::uint8_t sensor = 0;  // its number
@@ -29,7 +30,8 @@ using SensorRecording = std::vector<SensorScan>;
 std::vector<std::uint8_t> to_bytes(const SensorRecording& recording);
 
 // Throws std::invalid_argument that says at which byte, and in which scan, what is wrong: another kind or version of file, an end in the
-// middle of a scan, a plan or a state that none is, more rays than the component takes.
+// middle of a scan, a plan, an end or a state that none is, more rays than the component takes, a number that is not finite, a start beyond
+// 2^61 us, samples whose times go back or are more than kRecordingToleranceUs outside of their scan.
 SensorRecording recording_of(ConstBytes bytes);
 
 }  // namespace lasso::sim

@@ -57,6 +57,7 @@ TEST(ReplaySensor, PlaysItsScansInTurnAtTheTimesAfterTheStart) {
   VERIFIES("LASSO-SNS-031~1");
   const SensorRecording recording{scan_of(2), scan_of(9, Status::kOk, 1), scan_of(3)};
   ReplaySensor replay(recording, 0);
+  bool first = true;
   for (const float range_m : {2.0F, 3.0F, 2.0F}) {
     ASSERT_EQ(replay.start(plan_of(), kNowUs), Status::kOk);
     EXPECT_EQ(replay.start(plan_of(), kNowUs), Status::kBusy);
@@ -67,6 +68,8 @@ TEST(ReplaySensor, PlaysItsScansInTurnAtTheTimesAfterTheStart) {
     EXPECT_EQ(rest.samples[0].t_us, kNowUs + 4'000);
     EXPECT_EQ(rest.samples[0].range_m, range_m + 0.04F);
     EXPECT_EQ(play(replay, kNowUs + 30'000).last.status, Status::kNoData);
+    EXPECT_EQ(replay.rounds(), range_m > 2 || first ? 0U : 1U);
+    first = false;
   }
 }
 
@@ -81,7 +84,15 @@ TEST(ReplaySensor, ServesOnlyPlansLikeTheRecorded) {
     replay.abort();
     return status;
   };
-  const AimedRay aimed[1] = {};
+  const AimedRay aimed[1] = {}, elsewhere[1] = {{0.1F, -0.1F}};
+  SensorRecording of_aimed{scan_of(2)};
+  of_aimed[0].aimed.assign(1, AimedRay{});
+  of_aimed[0].plan.points = 17;
+  ScanPlan aimed_elsewhere = plan_of();
+  aimed_elsewhere.points = 17;
+  EXPECT_EQ(ReplaySensor(of_aimed, 0).start(aimed_elsewhere, kNowUs), Status::kBadValue);
+  aimed_elsewhere.aimed = Span<const AimedRay>(elsewhere);
+  EXPECT_EQ(ReplaySensor(of_aimed, 0).start(aimed_elsewhere, kNowUs), Status::kOk) << "their number counts";
   EXPECT_EQ(answer([](ScanPlan& plan) { plan.scan_id = 77; }), Status::kOk);
   EXPECT_EQ(answer([](ScanPlan& plan) { plan.center_x += 0.019; }), Status::kOk);
   EXPECT_EQ(answer([](ScanPlan& plan) { plan.center_x += 0.021; }), Status::kBadValue);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -90,6 +91,47 @@ TEST(SensorRecording, SaysWhatIsWrongAndWhere) {
     const std::string said = refusal({good.begin(), good.begin() + static_cast<std::ptrdiff_t>(size)});
     const bool between_scans = size == 8 || size == 8 + 73 + 2 * 8 + 3 * 25;
     EXPECT_EQ(said.empty(), between_scans) << size << said;
+  }
+}
+
+TEST(SensorRecording, RefusesScansThatNoSensorGives) {
+  VERIFIES("LASSO-SNS-031~1");
+  const auto changed = [](auto change) {
+    SensorRecording recording = two_scans();
+    change(recording[1]);
+    return refusal(to_bytes(recording));
+  };
+  const auto says = [](const std::string& said, const std::string& words) {
+    return said.rfind("scan 1, byte ", 0) == 0 && said.find(words) != said.npos;
+  };
+  EXPECT_TRUE(says(changed([](SensorScan& s) { s.end = static_cast<Status>(17); }), "end is 17, expected 0 to 16"));
+  EXPECT_EQ(changed([](SensorScan& s) { s.end = Status::kOffPlan; }), "");
+  for (const float odd : {std::numeric_limits<float>::quiet_NaN(), -std::numeric_limits<float>::infinity()}) {
+    EXPECT_TRUE(says(changed([&](SensorScan& s) { s.samples[1].range_m = odd; }), "not finite"));
+    EXPECT_TRUE(says(changed([&](SensorScan& s) { s.samples[3].direction[1] = odd; }), "not finite"));
+    EXPECT_TRUE(says(changed([&](SensorScan& s) { s.aimed[0].x = odd; }), "a plan that no scan can have"));
+    EXPECT_TRUE(says(changed([&](SensorScan& s) { s.plan.center_y = static_cast<double>(odd); }), "a plan that no scan can have"));
+  }
+}
+
+TEST(SensorRecording, RefusesTimesThatAreNotOfTheScan) {
+  VERIFIES("LASSO-SNS-031~1");
+  const auto with_time = [](std::size_t sample, TimeUs t_us) {
+    SensorRecording recording = two_scans();
+    recording[1].samples[sample].t_us = t_us;
+    return refusal(to_bytes(recording));
+  };
+  constexpr TimeUs kStart = 5'000'000, kEnd = kStart + 17'000 + kRecordingToleranceUs;
+  EXPECT_EQ(with_time(0, kStart - kRecordingToleranceUs), "");
+  EXPECT_NE(with_time(0, kStart - kRecordingToleranceUs - 1), "");
+  EXPECT_EQ(with_time(3, kEnd), "");
+  EXPECT_NE(with_time(3, kEnd + 1).find("5117001, expected 5000123 to 5117000 us"), std::string::npos) << with_time(3, kEnd + 1);
+  EXPECT_NE(with_time(2, 5'000'122), "") << "before its predecessor";
+  for (const TimeUs extreme : {std::numeric_limits<TimeUs>::min(), std::numeric_limits<TimeUs>::max()}) {
+    EXPECT_NE(with_time(1, extreme), "");
+    SensorRecording recording = two_scans();
+    recording[1].t_start_us = extreme;
+    EXPECT_NE(refusal(to_bytes(recording)).find("a start at " + std::to_string(extreme)), std::string::npos);
   }
 }
 
