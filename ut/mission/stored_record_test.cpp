@@ -43,6 +43,30 @@ TEST(StoredRecord, TheOneThatIsRightIsNotReplaced) {
   EXPECT_EQ(load(store), record(4));
 }
 
+// Whichever area the newer record is in: when it is spoiled, the one before it is loaded.
+TEST(StoredRecord, ASpoiledOneGivesWayToTheOneBefore) {
+  VERIFIES("LASSO-IMG-015~1");
+  for (const std::uint8_t saved : {std::uint8_t{2}, std::uint8_t{3}}) {
+    test::RamStore store(64);
+    for (std::uint8_t seed = 1; seed <= saved; ++seed) ASSERT_EQ(save(store, seed), Status::kOk);
+    const StoreArea newer = newer_of(store, kA, kB) == Newer::kFirst ? kA : kB;
+    store.of(newer)[kStoredHeaderBytes + 100] ^= 1U;
+    EXPECT_EQ(load(store), record(static_cast<std::uint8_t>(saved - 1)));
+  }
+}
+
+// A header without a number is one of which the record was never finished, whatever its sum.
+TEST(StoredRecord, OneWithoutANumberIsReplaced) {
+  VERIFIES("LASSO-IMG-015~1");
+  for (const StoreArea area : {kA, kB}) {
+    test::RamStore store(64);
+    ASSERT_EQ(write_header(store, area, StoredHeader{}), Status::kOk);
+    ASSERT_EQ(save(store, 1), Status::kOk);
+    EXPECT_EQ(newer_of(store, kA, kB), Newer::kSecond) << "as in an empty store";
+    EXPECT_EQ(load(store), record(1));
+  }
+}
+
 // A medium that fails in the middle of a look at what is there: then nothing there is known to be right.
 TEST(StoredRecord, WhatCannotBeReadIsReplaced) {
   VERIFIES("LASSO-IMG-015~1");
