@@ -74,7 +74,7 @@ TEST_F(SearchTest, WhatTheWorkDoesNotAllowIsLeftOpenAndAnswersToTheNextScan) {
   EXPECT_LT(least.work, whole.work);
   EXPECT_NE(least.outcome, SearchOutcome::kAccepted);
   int unfinished = 0;
-  for (std::uint32_t work_max = least.work; work_max < whole.work; work_max += (whole.work - least.work) / 16 + 1) {
+  for (std::uint32_t work_max = least.work; work_max < whole.work; work_max += (whole.work - least.work) / 6 + 1) {
     const SearchResult some = search_within(work_max);
     EXPECT_LE(some.work, whole.work);
     EXPECT_NE(some.outcome, SearchOutcome::kNone);
