@@ -68,7 +68,10 @@ Status ReplaySensor::start(const ScanPlan& plan, TimeUs t_start_us) {
   if (scan_ != nullptr) return Status::kBusy;
   if (lasso::validate(plan) != Status::kOk) return Status::kBadValue;
   scan_ = find(plan);
-  if (scan_ == nullptr) return Status::kBadValue;
+  if (scan_ == nullptr) {
+    ++unserved_;
+    return Status::kBadValue;
+  }
   next_ = 0;
   later_us_ = t_start_us - scan_->t_start_us;
   return Status::kOk;

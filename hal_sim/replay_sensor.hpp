@@ -40,7 +40,8 @@ class ReplaySensor final : public Sensor {
   SensorPoll poll(TimeUs now_us, Span<RangeSample> out) override;
   void abort() override { scan_ = nullptr; }
 
-  std::uint32_t rounds() const { return rounds_; }  // how often it has begun anew, as the recording was at its end
+  std::uint32_t unserved() const { return unserved_; }  // plans that are right, for which it has no scan
+  std::uint32_t rounds() const { return rounds_; }      // how often it has begun anew, as the recording was at its end
 
  private:
   const SensorScan* find(const ScanPlan& plan);
@@ -48,7 +49,7 @@ class ReplaySensor final : public Sensor {
   const SensorRecording& recording_;
   std::uint8_t number_;
   std::size_t at_ = 0;  // the scan after the last one that was played
-  std::uint32_t rounds_ = 0;
+  std::uint32_t rounds_ = 0, unserved_ = 0;
   const SensorScan* scan_ = nullptr;  // that is played
   std::size_t next_ = 0;              // its sample
   DurationUs later_us_ = 0;           // than recorded

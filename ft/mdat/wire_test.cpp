@@ -85,6 +85,17 @@ TEST(Replay, GivesThePosesOfTheRunThatWasRecorded) {
   EXPECT_TRUE(telemetry == folder.read("again/telemetry.ccsds")) << "another seed draws other noise: it was not the recording that played";
 }
 
+TEST(Replay, WarnsOfARunThatIsLongerThanItsRecording) {
+  VERIFIES("LASSO-SNS-031~1");
+  const WorkFolder folder;
+  const std::string run = "run missions/test.toml --scenario spin --no-report ";
+  ASSERT_EQ(folder.mdat(run + "--frames 3 --out first --record-sensor scans.3dlr").exit_code, 0);
+  const Answer fits = folder.mdat(run + "--frames 3 --out again --sensor replay:scans.3dlr"),
+               longer = folder.mdat(run + "--frames 8 --out longer --sensor replay:scans.3dlr");
+  EXPECT_EQ(fits.err.find("warning: --sensor replay"), std::string::npos) << fits.err;
+  EXPECT_NE(longer.err.find("scans are not in the recording, and were lost: it is shorter than the run"), std::string::npos) << longer.err;
+}
+
 TEST(Replay, SaysWhatIsWrongWithARecording) {
   VERIFIES("LASSO-SNS-031~1");
   const WorkFolder folder;
@@ -115,6 +126,23 @@ TEST(LineRefusals, NameWhatTheMissionLacks) {
     EXPECT_EQ(answer.exit_code, 2) << words;
     EXPECT_NE(answer.err.find(why), std::string::npos) << answer.err;
   }
+}
+
+TEST(LineRefusals, OneLineHasOneHead) {
+  VERIFIES("LASSO-LCS-016~1");
+  const WorkFolder folder;
+  const auto refusal = [&](const char* second_kind, const char* sensor) {
+    folder.write_mission({{"[scan]\n", "[further_sensor.second]\nkind = \"" + std::string(second_kind) +
+                                           "\"\nuse_from_m = 0.0\nuse_to_m = 10.0\n\n[scan]\n"},
+                          {"fov_half_y_deg = 15.0\n", "fov_half_y_deg = 15.0\nuse_from_m = 5.0\nuse_to_m = 12.0\n"}});
+    const Answer answer = folder.mdat("run missions/test.toml --scenario spin --frames 2 --no-report --sensor " + std::string(sensor));
+    EXPECT_EQ(answer.exit_code, 2) << answer.err;
+    return answer.err;
+  };
+  EXPECT_NE(refusal("laser_camera", "lcs-wire:unix:none").find("2 of the mission's sensors would be at the end of one line"),
+            std::string::npos);
+  EXPECT_NE(refusal("time_of_flight", "tridar-wire:unix:none").find("--sensor tridar-wire:unix:none: 2 of"), std::string::npos);
+  EXPECT_NE(refusal("time_of_flight", "lcs-wire:unix:none").find("unix:none: not there"), std::string::npos) << "one of each kind";
 }
 
 TEST(LineRefusals, ASensorThatThereIsNotIsRefused) {

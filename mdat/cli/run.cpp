@@ -44,6 +44,23 @@ std::unique_ptr<posix::PosixLink> open_link(const std::string& url) {
   }
 }
 
+void warn_of_replay(const SimulationResult& result) {
+  const CaseResult& run = result.tables[0].variants[0].cases[0];  // a recording plays in one case alone
+  if (run.replay_rounds > 0) {
+    std::fprintf(
+        stderr,
+        "warning: --sensor replay: the recording was at its end, and began anew (%u times): the target jumps there; fewer --frames "
+        "end before it\n",
+        run.replay_rounds);
+  }
+  if (run.replay_unserved == 0) return;
+  std::fprintf(
+      stderr,
+      "warning: --sensor replay: %u scans are not in the recording, and were lost: it is shorter than the run (fewer --frames), or "
+      "the scans were planned otherwise\n",
+      run.replay_unserved);
+}
+
 void run(const Options& options) {
   OutputFolder folder(options.out);
   if (!options.picture.empty()) check_writable(options.picture);
@@ -57,6 +74,7 @@ void run(const Options& options) {
   const SimulationResult result = simulate(mission, simulation);
   write_outputs(options, mission, result, folder);
   if (simulation.record) write_file(options.record_sensor, recording_text(*simulation.record));
+  if (simulation.replay) warn_of_replay(result);
   std::fputs(summary_text(result).c_str(), stdout);
   std::printf("written to %s: results.json, telemetry.ccsds%s\n", options.out.c_str(), options.report ? ", report.html" : "");
 }

@@ -49,7 +49,9 @@ struct Scanner {
         camera(setup.wire && setup.camera_line.empty() && wired(*setup.wire, kind)
                    ? std::make_unique<CameraOnLine>(setup, trajectory, model, seed)
                    : nullptr),
-        live(setup.camera_line.empty() ? nullptr : std::make_unique<LiveCamera>(setup, model)),
+        live(!setup.camera_line.empty() && wired(setup.wire.value_or(lcs::Device::kLaserCamera), kind)
+                 ? std::make_unique<LiveCamera>(setup, model)
+                 : nullptr),
         replay(setup.replay ? std::make_unique<sim::ReplaySensor>(*setup.replay, number) : nullptr),
         recorder(setup.record ? std::make_unique<sim::SensorRecorder>(source(), number, *setup.record) : nullptr),
         recorded(recorder ? static_cast<Sensor&>(*recorder) : source()) {}
@@ -117,6 +119,17 @@ class Case {
   }
 
   CaseResult run(std::atomic<std::size_t>& done) {
+    CaseResult result = fly(done);
+    for (const auto& scanner : scanners_) {
+      if (!scanner->replay) continue;
+      result.replay_rounds = std::max(result.replay_rounds, scanner->replay->rounds());
+      result.replay_unserved += scanner->replay->unserved();
+    }
+    return result;
+  }
+
+ private:
+  CaseResult fly(std::atomic<std::size_t>& done) {
     const bool real_time = setup_.link != nullptr || !setup_.camera_line.empty();
     connect();
     const auto interrupted = [&] { return real_time && interruption(); };
@@ -139,7 +152,6 @@ class Case {
     return std::move(result_);
   }
 
- private:
   void connect() {
     const bool real_time = setup_.link != nullptr || !setup_.camera_line.empty();
     runner_ = std::make_unique<posix::Runner>(*component_, real_time ? posix::Pace::kRealTime : posix::Pace::kLockstep);

@@ -67,6 +67,8 @@ struct CaseResult {
   std::vector<KeptScan> scans;
   Timeline timeline;                         // of an approach, or a pass
   std::optional<std::uint32_t> found_frame;  // of the first valid pose
+  std::uint32_t replay_rounds = 0;           // how often a recording that was at its end began anew, at most
+  std::uint32_t replay_unserved = 0;         // scans that were asked for, and are not in it
 };
 
 // The scanner of a scenario, [sensor]; without noise its ranges and directions are exact.

@@ -62,10 +62,18 @@ void refuse_what_serves_one(const SimulationOptions& options) {
 
 // What is to be on a line has to be in the mission.
 void require_wired(const MissionSource& source, const SimulationOptions& options) {
-  if (!options.wire || wired(*options.wire, source.sensor)) return;
+  if (!options.wire) return;
+  std::size_t heads = wired(*options.wire, source.sensor) ? 1 : 0;
   for (const FurtherSensor& sensor : source.further_sensors) {
-    if (wired(*options.wire, sensor.kind)) return;
+    if (wired(*options.wire, sensor.kind)) ++heads;
   }
+  if (heads > 1 && !options.camera_line.empty()) {
+    throw InputError(
+        "--sensor " + std::string(wire_name(*options.wire)) + ":" + options.camera_line + ": " + std::to_string(heads) +
+        " of the mission's sensors would be at the end of one line: name a kind of which the mission has one (lcs-wire: a laser "
+        "camera, lidar-wire: a LIDAR), or leave out the line");
+  }
+  if (heads > 0) return;
   throw InputError("--sensor " + std::string(wire_name(*options.wire)) + ": none of the mission's sensors is a " +
                    (*options.wire == lcs::Device::kLidar ? "LIDAR (kind = \"time_of_flight\")" : "laser camera (kind = \"laser_camera\")") +
                    "; tridar-wire takes any");

@@ -106,6 +106,7 @@ TEST(ReplaySensor, ServesOnlyPlansLikeTheRecorded) {
   EXPECT_EQ(answer([](ScanPlan& plan) { plan.cycles_b = 4; }), Status::kBadValue);
   EXPECT_EQ(answer([](ScanPlan& plan) { plan.duration_us = 16'000; }), Status::kBadValue);
   EXPECT_EQ(answer([&](ScanPlan& plan) { plan.aimed = Span<const AimedRay>(aimed); }), Status::kBadValue);
+  EXPECT_EQ(replay.unserved(), 10U) << "what is no plan, of one aimed ray among 16, does not count";
   EXPECT_EQ(ReplaySensor(recording, 1).start(plan_of(), kNowUs), Status::kBadValue);
   const SensorRecording nothing;
   EXPECT_EQ(ReplaySensor(nothing, 0).start(plan_of(), kNowUs), Status::kBadValue);
