@@ -104,5 +104,28 @@ TEST(LcsDriverDeath, CalibrationThatIsNotValid) {
   EXPECT_DEATH(Driver(line, Optics(bad)), "lcs calibration");
 }
 
+TEST_F(LcsDriver, AKindOfHeadThatIsNotDefinedIsForeign) {
+  VERIFIES("LASSO-LCS-015~1");
+  begin(small_plan());
+  camera.say(camera.wall(small_plan(), 0));
+  camera.status();  // as before: nothing ends by it
+  EXPECT_EQ(poll().status, Status::kOk);
+  EXPECT_EQ(samples.size(), 4U);
+  CameraStatus status;
+  status.serial = kSerial;
+  status.boots = 1;
+  status.device = static_cast<Device>(3);
+  camera.say(status);
+  camera.say(camera.wall(small_plan(), 4));
+  EXPECT_EQ(poll().status, Status::kBadVersion);
+  EXPECT_EQ(samples.size(), 4U) << "what comes after it is not believed";
+  EXPECT_EQ(lost(Loss::kForeign), 1U);
+  EXPECT_EQ(driver.health().bad_messages, 0U);
+  ASSERT_EQ(driver.start(small_plan(2), kStartUs), Status::kOk);
+  camera.answer(camera.heard());
+  EXPECT_EQ(poll().status, Status::kBadVersion) << "nor is it at the next start";
+  EXPECT_EQ(lost(Loss::kForeign), 2U);
+}
+
 }  // namespace
 }  // namespace lasso::lcs
