@@ -1,5 +1,6 @@
 #include "bsp/posix/runner.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <ctime>
 
@@ -8,6 +9,7 @@ namespace {
 
 constexpr std::int64_t kNsPerSecond = 1000000000;
 constexpr std::int64_t kNsPerUs = 1000;
+constexpr std::int64_t kMakeUpLag_ns = 20000000;  // a lag that a paced run makes up for; more of it stretches its time
 
 std::int64_t clock_ns(clockid_t clock) {
   timespec t{};
@@ -35,7 +37,7 @@ Runner::~Runner() {
 }
 
 FrameRecord Runner::run_frame() {
-  if (pace_ == Pace::kLockstep) wait_for_worker();
+  if (pace_ != Pace::kRealTime) wait_for_worker();
   FrameRecord record;
   record.frame = frame_;
   record.boundary_us = component_.next_slot_us();
@@ -86,8 +88,10 @@ TimeUs Runner::wait_until(TimeUs slot_us) {
     clock_set_ = true;
   }
   sleep_until(slot_us * kNsPerUs + clock_offset_ns_);
-  const TimeUs now_us = (clock_ns(CLOCK_MONOTONIC) - clock_offset_ns_) / kNsPerUs;
-  return now_us > slot_us ? now_us : slot_us;
+  const std::int64_t lag_ns = clock_ns(CLOCK_MONOTONIC) - clock_offset_ns_ - slot_us * kNsPerUs;
+  if (pace_ == Pace::kRealTime) return slot_us + std::max(lag_ns, std::int64_t{0}) / kNsPerUs;
+  clock_offset_ns_ += std::max(lag_ns - kMakeUpLag_ns, std::int64_t{0});
+  return slot_us;
 }
 
 void Runner::wait_for_worker() {

@@ -1,6 +1,5 @@
-// Runs the flight component on Linux: the caller is the acquisition thread, a worker thread estimates. Time is either simulated
-// (lockstep: as fast as possible, the worker is waited for at each boundary, never an overrun) or real (absolute sleeps, overruns are
-// real). Estimates are timed here, outside the flight code.
+// Runs the flight component on Linux: the caller is the acquisition thread, a worker thread estimates. Estimates are timed here, outside
+// the flight code.
 #pragma once
 
 #include <condition_variable>
@@ -17,7 +16,11 @@
 
 namespace lasso::posix {
 
-enum class Pace : std::uint8_t { kLockstep, kRealTime };
+enum class Pace : std::uint8_t {
+  kLockstep,  // simulated time, as fast as possible; the worker is waited for at each boundary: never an overrun
+  kPaced,  // the same, but no faster than the clock: for a simulated world with an operator. A late machine stretches time, loses nothing
+  kRealTime,  // absolute sleeps, overruns are real: for a world with a clock of its own
+};
 
 // What one call of run_frame() saw.
 struct FrameRecord {
@@ -32,7 +35,7 @@ struct FrameRecord {
 
 class Runner {
  public:
-  // `component` has its image and has begun. In real time boundary 0 is the moment of the first run_frame().
+  // `component` has its image and has begun. By the clock, boundary 0 is the moment of the first run_frame().
   explicit Runner(Component& component, Pace pace = Pace::kLockstep);
   ~Runner();  // waits for a running estimate
   Runner(const Runner&) = delete;

@@ -163,9 +163,10 @@ void add_run_command(CLI::App& app) {
   command->add_option("-j,--jobs", options->simulation.jobs, "ranges and variants at a time; no effect on the results")
       ->capture_default_str()
       ->check(CLI::Range(1, 256));
-  command->add_option("--link", options->link,
-                      "udp://[HOST]:PORT, tcp://[HOST]:PORT or file://PATH: run the first range in real time, commanded over this link "
-                      "(mdat command --to), until its frames are flown or Ctrl-C ends it; without a host by the loopback address");
+  command->add_option(
+      "--link", options->link,
+      "udp://[HOST]:PORT, tcp://[HOST]:PORT or file://PATH: run the first range at the clock's pace, commanded over this link "
+      "(mdat command --to), until its frames are flown or Ctrl-C ends it; without a host by the loopback address");
   command
       ->add_option(
           "--store", options->simulation.store,

@@ -130,9 +130,8 @@ class Case {
 
  private:
   CaseResult fly(std::atomic<std::size_t>& done) {
-    const bool real_time = setup_.link != nullptr || !setup_.camera_line.empty();
     connect();
-    const auto interrupted = [&] { return real_time && interruption(); };
+    const auto interrupted = [&] { return pace() != posix::Pace::kLockstep && interruption(); };
     std::size_t flown = 0;
     for (std::uint32_t frame = 0; frame < setup_.frames + kPipelineFrames && !interrupted(); ++frame) {
       const posix::FrameRecord record = runner_->run_frame();
@@ -152,9 +151,14 @@ class Case {
     return std::move(result_);
   }
 
+  // A camera of its own has its own clock; an operator has patience.
+  posix::Pace pace() const {
+    if (!setup_.camera_line.empty()) return posix::Pace::kRealTime;
+    return setup_.link != nullptr ? posix::Pace::kPaced : posix::Pace::kLockstep;
+  }
+
   void connect() {
-    const bool real_time = setup_.link != nullptr || !setup_.camera_line.empty();
-    runner_ = std::make_unique<posix::Runner>(*component_, real_time ? posix::Pace::kRealTime : posix::Pace::kLockstep);
+    runner_ = std::make_unique<posix::Runner>(*component_, pace());
     if (setup_.link != nullptr) runner_->connect(*setup_.link);
   }
 

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdio>
+#include <thread>
 
 #include "fsw/core/crc.hpp"
 #include "ut/exec/component_scene.hpp"
@@ -70,6 +71,24 @@ TEST(Runner, RealTimeKeepsItsPace) {
   EXPECT_GE(elapsed_s, 0.995);  // from boundary 0 to the last slot of frame 9
   EXPECT_LT(elapsed_s, 5.0);    // a busy machine may be late, and catches up
   EXPECT_EQ(packets, 8u);
+}
+
+// A machine that stands still for a second stretches the time of the run. It makes up for 20 ms of that, and loses no scan.
+TEST(Runner, APacedRunGivesTheBytesOfLockstepHoweverLateTheMachineIs) {
+  VERIFIES("LASSO-EXE-012~1");
+  const std::vector<std::uint8_t> expected = single_threaded();
+  test::ComponentScene scene(test::box_parameters(test::default_scene()));
+  scene.begin();
+  Runner runner(*scene.component, Pace::kPaced);
+  const auto start = std::chrono::steady_clock::now();
+  std::vector<std::uint8_t> stream;
+  for (int frame = 0; frame < kFrames; ++frame) {
+    const FrameRecord record = runner.run_frame();
+    stream.insert(stream.end(), record.telemetry.begin(), record.telemetry.end());
+    if (frame == 7) std::this_thread::sleep_for(std::chrono::seconds(1));
+  }
+  EXPECT_EQ(stream, expected);
+  EXPECT_GE(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 0.2 * kFrames - 0.02 + 0.98 - 0.02);
 }
 
 // At the shortest period and the largest scan, whether an estimate is late is up to the machine. Either way each scan is reported once, a
