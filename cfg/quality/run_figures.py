@@ -20,4 +20,9 @@ FIGURES = {
     'edge_on_roll_deg': lambda v: v['edge_on']['roll_std_deg'],
     'edge_on_axial_mm': lambda v: v['edge_on']['axial_std_mm'],
     'lost': lambda v: v['lost'],
+    'wrong': lambda v: v['wrong'],
+    'settled_lost': lambda v: v['settled']['lost'],
+    'settled_invalid': lambda v: v['settled']['invalid'],
+    'settled_degps': lambda v: v['settled']['rms_degps'],
+    'settled_mmps': lambda v: v['settled']['rms_mmps'],
 }

@@ -116,6 +116,39 @@ TEST(SpinRun, TracksATargetThatMovesWithinItsScans) {
   EXPECT_LT(noisy.at("rates").at("rms_degps").get<double>(), 5);
 }
 
+// Quaternions of all attitudes in a recording's table of poses.
+std::vector<std::string> attitudes(const std::string& csv) {
+  std::vector<std::string> result;
+  for (const std::string& line : lines_of(csv)) {
+    const std::vector<std::string> fields = fields_of(line);
+    if (fields.at(0) != "scan") result.push_back(fields.at(1) + " " + fields.at(2) + " " + fields.at(3) + " " + fields.at(4));
+  }
+  return result;
+}
+
+TEST(SpinRun, AMotionThatIsDrawnIsAnotherOneForEachRun) {
+  VERIFIES("LASSO-MDT-004~1");
+  const WorkFolder work;
+  const std::string twelve = "ranges_m = [4.0, 4.0, 4.0, 4.0, 4.0, 4.0, 4.0, 4.0, 4.0, 4.0, 4.0, 4.0]";
+  work.write_mission({{twelve + "\nframes = 60", "ranges_m = [4.0, 4.0]\nframes = 60"}});
+  const Answer answer = work.mdat("run missions/test.toml --scenario rates --frames 24 --out out");
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_NE(answer.out.find("after 20 frames of each run, with noise: lost 0/8, invalid 0"), std::string::npos) << answer.out;
+  EXPECT_NE(answer.out.find("attitudes drawn"), std::string::npos) << answer.out;
+  const Json noisy = Json::parse(work.read("out/results.json")).at("noisy");
+  EXPECT_EQ(noisy.at("settled").at("frames"), 8);
+  EXPECT_LT(noisy.at("settled").at("rms_degps").get<double>(), 0.1);
+  EXPECT_LT(noisy.at("settled").at("worst_mmps").get<double>(), 10);
+
+  ASSERT_EQ(work.mdat("run missions/test.toml --scenario rates --frames 3 --record one").exit_code, 0);
+  ASSERT_EQ(work.mdat("run missions/test.toml --scenario rates --frames 3 --seed 9 --record other").exit_code, 0);
+  const std::vector<std::string> first = attitudes(work.read("one/4m/truth.csv")), second = attitudes(work.read("one/4m_2/truth.csv"));
+  ASSERT_EQ(first.size(), 3U);
+  ASSERT_EQ(second.size(), 3U);
+  EXPECT_NE(first, second);
+  EXPECT_NE(first, attitudes(work.read("other/4m/truth.csv"))) << "the seed tells";
+}
+
 TEST(SearchRun, FindsAndTracksTheTargetWithoutAnyPrior) {
   VERIFIES("LASSO-MOD-111~1 LASSO-MDT-004~1");
   const WorkFolder work;

@@ -62,14 +62,17 @@ enum class ScenarioKind : std::uint8_t { kPaper = 0, kSpin = 1, kApproach = 2, k
 // What the simulation does. Attitude of frame 0: target's x axis vertical in the image (+x up, -y of the sensor), its z axis away from the
 // sensor, then tilted by `tilt_rad` about the sensor's x (the -x end towards the sensor), then by `boresight_rad` about the boresight.
 // kPaper: the target stands still in each scan and is turned by `step_rad` about its own x axis from frame to frame.
-// kSpin: it turns at `spin_radps` and drifts at `drift_mps`, during the scans as well.
-// kApproach: it turns at `spin_radps`, and `ranges_m` are the ranges of one run at `times_s`. The component starts by itself: it looks for
-// the bearing, and is offered poses by a simulated navigation system. Between the two times of `eclipse_s` nothing returns.
-// kPass: it moves as in an approach, and the track starts from the true pose.
+// kSpin: it turns at `spin_radps` and drifts at `drift_mps`, during the scans as well. Where the motion is `drawn`, each run has an
+// attitude of frame 0, and axes of spin and drift, of its own; their magnitudes are those given. kApproach: it turns at `spin_radps`, and
+// `ranges_m` are the ranges of one run at `times_s`. The component starts by itself: it looks for the bearing, and is offered poses by a
+// simulated navigation system. Between the two times of `eclipse_s` nothing returns. kPass: it moves as in an approach, and the track
+// starts from the true pose.
 struct Scenario {
   double kind = 0;               // a ScenarioKind
   std::vector<double> ranges_m;  // along the boresight, one run of `frames` each; kApproach, kPass: one for each of `times_s`
   double frames = 0, step_rad = 0, tilt_rad = 0, boresight_rad = 0;
+  double roll_rad = 0;             // of the target about its own x axis, before all else
+  double drawn = 0;                // 1: at random, by the run's seed
   std::vector<double> offset_m;    // x, y of the target's origin in the sensor frame
   std::vector<double> spin_radps;  // x, y, z in the target's axes
   std::vector<double> drift_mps;   // x, y, z in the sensor's axes

@@ -111,6 +111,8 @@ std::vector<ScenarioField> make_scenario_fields() {
     field(&S::step_rad, number_row("step_deg", "deg", kReal, kDeg, -180, 180, 1, "paper: turn about the target's x axis from frame to frame")),
     field(&S::tilt_rad, number_row("tilt_deg", "deg", kReal, kDeg, -180, 180, 15, "tilt of the target's -x end towards the sensor; 0 is side-on")),
     field(&S::boresight_rad, number_row("boresight_deg", "deg", kReal, kDeg, -180, 180, 5, "turn of the target about the boresight")),
+    field(&S::roll_rad, number_row("roll_deg", "deg", kReal, kDeg, -180, 180, 0, "turn of the target about its own x axis, before tilt and boresight")),
+    field(&S::drawn, number_row("drawn", "1", ValueKind::kBoolean, 1, 0, 1, 0, "spin: attitude of frame 0, and axes of spin and drift, are drawn at random for each run; rates as large as given")),
     field(&S::offset_m, number_row("offset_m", "m", kReal, 1, -10000, 10000, 0, "target's origin off the boresight: right, down"), 2, 2, {0.02, -0.01}),
     field(&S::spin_radps, number_row("spin_degps", "deg/s", kReal, kDeg, -360, 360, 0, "spin, approach, pass: angular rate about the target's x, y, z"), 3, 3, {0, 0, 0}),
     field(&S::drift_mps, number_row("drift_mps", "m/s", kReal, 1, -100, 100, 0, "spin: velocity along the sensor's x, y, z"), 3, 3, {0, 0, 0}),

@@ -121,8 +121,9 @@ std::string range_figure(Plotter& plotter, const TableResult& table) {
 }
 
 std::string table_section(Plotter& plotter, const sim::RayCaster& target, const TableResult& table, bool paper) {
-  const std::string title =
-      format("Tilt %g°%s", table.scenario.tilt_rad / kRadPerDeg, table.name.empty() ? "" : ": truly side-on, the hardest case");
+  const std::string tilt =
+      table.scenario.drawn != 0 ? "Attitudes drawn at random" : format("Tilt %g°", table.scenario.tilt_rad / kRadPerDeg);
+  const std::string title = tilt + (table.name.empty() ? "" : ": truly side-on, the hardest case");
   std::string html = "<section>\n<h2>" + title + "</h2>\n";
   html += accuracy_table(table, paper && table.name.empty()) + quality_table(table) + range_table(table);
   html += scans_figure(plotter, target, table) + angle_figures(plotter, table);

@@ -26,6 +26,14 @@ constexpr std::uint32_t kPipelineFrames = 2;  // scan k is reported at boundary 
 
 Pose to_pose(const double (&q)[4], const double (&p_m)[3]) { return {Quat(q[3], q[0], q[1], q[2]), Vec3(p_m[0], p_m[1], p_m[2])}; }
 
+// As long as it is, into any direction.
+void turn(std::vector<double>& vector, sim::Random& random) {
+  const double length = Vec3(vector.data()).norm();
+  const double x = random.gaussian(), y = random.gaussian();
+  const Vec3 turned = length * Vec3(x, y, random.gaussian()).normalized();
+  vector.assign(turned.data(), turned.data() + 3);
+}
+
 // What does not depend on noise.
 sim::ScannerModel model_of(const Scenario& scenario, const SensorParameters& sensor) {
   sim::ScannerModel model;
@@ -270,7 +278,9 @@ class Case {
 
   void keep(std::uint32_t frame, const PoseTelemetry& pose, const RecordedScan& scan) {
     if (!std::binary_search(setup_.keep_frames.begin(), setup_.keep_frames.end(), frame)) return;
-    result_.scans.push_back({frame, trajectory_->at(pose.t_measurement_us).T_sensor_target, pose, scan.samples, scan.aimed});
+    const TimeUs t_us = pose.t_measurement_us;
+    result_.scans.push_back(
+        {frame, trajectory_->at(t_us).T_sensor_target, trajectory_->at(t_us - period_us_).T_sensor_target, pose, scan.samples, scan.aimed});
   }
 
   const CaseSetup& setup_;
@@ -315,9 +325,22 @@ sim::ScannerModel scanner_model(const Scenario& scenario, const FurtherSensor& s
   return model;
 }
 
+Scenario drawn_scenario(Scenario scenario, std::uint64_t seed) {
+  if (scenario.drawn == 0) return scenario;
+  constexpr std::uint64_t kStream = 0x6d6f74696f6eU;  // not that of the noise
+  sim::Random random(seed ^ kStream);
+  scenario.roll_rad = random.uniform(-kPi, kPi);
+  scenario.boresight_rad = random.uniform(-kPi, kPi);
+  scenario.tilt_rad = std::asin(random.uniform(-1, 1));  // the long axis in any direction, all alike
+  turn(scenario.spin_radps, random);
+  turn(scenario.drift_mps, random);
+  return scenario;
+}
+
 std::unique_ptr<sim::Trajectory> make_trajectory(const Scenario& scenario, double range_m, TimeUs epoch_us, DurationUs period) {
   Pose start;
   start.q = sim::upright_attitude(scenario.tilt_rad, scenario.boresight_rad);
+  if (scenario.roll_rad != 0) start.q = normalized(start.q * exp_so3(scenario.roll_rad * Vec3::UnitX()));
   start.p = Vec3(scenario.offset_m.at(0), scenario.offset_m.at(1), range_m);
   if (scenario.scenario_kind() == ScenarioKind::kPaper) {
     sim::SteppedSpin::Setup setup;

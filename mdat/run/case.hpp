@@ -55,7 +55,7 @@ struct CaseSetup {
 // A scan with all that a picture of it needs.
 struct KeptScan {
   std::uint32_t frame = 0;
-  Pose truth;
+  Pose truth, truth_before;  // at the scan's time, and a period before
   PoseTelemetry telemetry;
   std::vector<RangeSample> samples;
   std::size_t aimed = 0;  // samples in the middle whose rays left the pattern
@@ -75,6 +75,9 @@ struct CaseResult {
 sim::ScannerModel scanner_model(const Scenario& scenario, const MissionParameters& parameters, bool noise);
 // Another one of the mission's.
 sim::ScannerModel scanner_model(const Scenario& scenario, const FurtherSensor& sensor, bool noise);
+
+// The scenario of a run whose noise is that of `seed`: where its motion is drawn, with that motion; otherwise as it is.
+Scenario drawn_scenario(Scenario scenario, std::uint64_t seed);
 
 // The target's motion; frame 0 begins at `epoch_us`.
 std::unique_ptr<sim::Trajectory> make_trajectory(const Scenario& scenario, double range_m, TimeUs epoch_us, DurationUs period_us);

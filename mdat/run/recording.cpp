@@ -1,5 +1,6 @@
 #include "mdat/run/recording.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <fstream>
 #include <iterator>
@@ -28,19 +29,28 @@ std::string pose_row(std::uint32_t frame, const Pose& pose) {
   return row;
 }
 
+// "4m"; where several runs have this range, "4m_2" is the second of them.
+std::string run_name(const std::vector<double>& ranges_m, std::size_t run) {
+  const auto here = ranges_m.begin() + static_cast<std::ptrdiff_t>(run);
+  const auto before = std::count(ranges_m.begin(), here, *here);
+  char name[48];
+  std::snprintf(name, sizeof name, before > 0 ? "%gm_%td" : "%gm", *here, before + 1);
+  return name;
+}
+
 void write_scan(const std::filesystem::path& folder, const KeptScan& scan) {
   const auto image = std::make_unique<RangeImage>();
   for (const RangeSample& sample : scan.samples) (void)image->samples.push_back(sample);  // a scan has at most kMaxRays
   sim::write_scan_csv(folder / (scan_name(scan.frame) + ".csv"), *image);
 }
 
-void write_range(const std::filesystem::path& folder, const CaseResult& run, const sim::Trajectory& truth, DurationUs period_us) {
+void write_range(const std::filesystem::path& folder, const CaseResult& run) {
   OutputFolder scans(folder / "scans");
   std::string truth_rows = kHeader, start_rows = kHeader;
   for (const KeptScan& scan : run.scans) {
     write_scan(scans.path(), scan);
     truth_rows += pose_row(scan.frame, scan.truth);
-    start_rows += pose_row(scan.frame, truth.at(scan.telemetry.t_measurement_us - period_us).T_sensor_target);
+    start_rows += pose_row(scan.frame, scan.truth_before);
   }
   scans.commit();
   write_file(folder / "truth.csv", truth_rows);
@@ -55,13 +65,7 @@ void write_recording(const CompiledMission& mission, SimulationOptions options, 
   const SimulationResult result = simulate(mission, options);
   const TableResult& table = result.tables.front();
   const VariantResult& variant = table.variants.front();
-  const DurationUs period = period_us(variant.parameters);
-  for (std::size_t i = 0; i < variant.cases.size(); ++i) {
-    const double range_m = table.scenario.runs_m()[i];
-    char name[32];
-    std::snprintf(name, sizeof name, "%gm", range_m);
-    write_range(folder / name, variant.cases[i], *make_trajectory(table.scenario, range_m, kEpochUs, period), period);
-  }
+  for (std::size_t i = 0; i < variant.cases.size(); ++i) write_range(folder / run_name(table.scenario.runs_m(), i), variant.cases[i]);
 }
 
 std::string recording_text(const sim::SensorRecording& recording) {

@@ -24,6 +24,12 @@ Json with_rms(const ErrorStatistics& errors) {
   return json;
 }
 
+Json settled_json(const SettledStatistics& rates) {
+  return {{"frames", rates.frames},        {"lost", rates.lost},         {"invalid", rates.invalid},
+          {"rms_degps", rates.rms_degps},  {"rms_mmps", rates.rms_mmps}, {"worst_degps", rates.worst_degps},
+          {"worst_mmps", rates.worst_mmps}};
+}
+
 Json statistics_json(const RunStatistics& run, bool noise, ScenarioKind kind) {
   Json json = axes_json(run.registration);
   json["frames"] = run.frames;
@@ -37,6 +43,7 @@ Json statistics_json(const RunStatistics& run, bool noise, ScenarioKind kind) {
     json["crlb_deg"] = run.crlb_deg;
   } else {
     json["rates"] = {{"rms_degps", run.omega_rms_degps}, {"rms_mmps", run.v_rms_mmps}};
+    json["settled"] = settled_json(run.settled);
   }
   json["nees"] = noise ? Json(run.nees) : Json(nullptr);
   json["estimate_us"] = {{"median", run.time.median_us}, {"p99", run.time.p99_us}, {"max", run.time.max_us}};
@@ -192,6 +199,18 @@ std::string timeline_text(const SimulationResult& result, const Timeline& timeli
 
 const Timeline& timeline_of(const SimulationResult& result) { return result.tables.front().variants.front().cases.front().timeline; }
 
+std::string settled_text(const TableResult& table) {
+  std::string text;
+  for (const VariantResult& variant : table.variants) {
+    const SettledStatistics& settled = variant.all.settled;
+    text += format(
+        "  after %zu frames of each run, %s: lost %zu/%zu, invalid %zu; error of the rates rms %.3f deg/s, %.2f mm/s, worst %.3f, %.2f\n",
+        kSettlingFrames, variant.variant.title, settled.lost, settled.frames, settled.invalid, settled.rms_degps, settled.rms_mmps,
+        settled.worst_degps, settled.worst_mmps);
+  }
+  return text;
+}
+
 // When each run had its first valid pose.
 std::string found_text(const TableResult& table) {
   std::string text;
@@ -208,16 +227,21 @@ std::string found_text(const TableResult& table) {
 std::string table_text(const SimulationResult& result, const TableResult& table) {
   const Scenario& scenario = table.scenario;
   std::string text = format("%s, scenario %s%s: ", result.mission.c_str(), result.scenario.c_str(), table.name.empty() ? "" : ", no tilt");
-  text += format("%zu range%s (%g to %g m) x %u frames, tilt %g deg, registration of single scans\n", scenario.runs_m().size(),
+  text += format("%zu range%s (%g to %g m) x %u frames, %s, registration of single scans\n", scenario.runs_m().size(),
                  scenario.runs_m().size() == 1 ? "" : "s", scenario.runs_m().front(), scenario.runs_m().back(), result.frames,
-                 scenario.tilt_rad / kRadPerDeg);
+                 attitude_text(scenario).c_str());
   text += axes_table(table, table.name.empty() && result.kind == ScenarioKind::kPaper);
   text += quality_table(table);
+  if (result.kind != ScenarioKind::kPaper) text += settled_text(table);
   if (scenario.prior == 0) text += found_text(table);
   return text + "\n";
 }
 
 }  // namespace
+
+std::string attitude_text(const Scenario& scenario) {
+  return scenario.drawn != 0 ? "attitudes drawn" : format("tilt %g deg", scenario.tilt_rad / kRadPerDeg);
+}
 
 std::string results_json(const SimulationResult& result) {
   Json json = {{"mission", result.mission}, {"scenario", result.scenario}, {"seed", result.seed}, {"version", kVersion}};

@@ -13,6 +13,9 @@ std::string results_json(const SimulationResult& result);
 // The tables for a person: the paper's beside this run's, then accuracy over the bound, honesty, losses and time.
 std::string summary_text(const SimulationResult& result);
 
+// "tilt 15 deg", or that each run has one of its own.
+std::string attitude_text(const Scenario& scenario);
+
 // The six error axes with their names and units.
 struct ErrorAxis {
   const char* key;   // "x_mm"

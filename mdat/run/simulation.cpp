@@ -155,6 +155,7 @@ Plan make_plan(const CompiledMission& mission, const SimulationResult& result, c
       for (std::size_t range = 0; range < table.scenario.runs_m().size(); ++range) {
         plan.cases.push_back(make_case(result, table, variant, range));
         plan.cases.back().seed = case_seed(result.seed, t, range);
+        plan.cases.back().scenario = drawn_scenario(plan.cases.back().scenario, plan.cases.back().seed);
         plan.cases.back().image = &plan.images.back();
         plan.cases.back().target = &target;
         plan.cases.back().further_sensors = mission.source.further_sensors;
@@ -216,15 +217,19 @@ bool is_edge_on(std::size_t frame, double step_rad) {
 }
 
 void evaluate(const Scenario& scenario, VariantResult& variant) {
-  std::vector<FrameError> all, edge_on;
+  std::vector<FrameError> all, edge_on, all_settled;
   for (const CaseResult& result : variant.cases) {
+    const std::vector<FrameError> settled = settled_frames(result.frames);
     variant.by_range.push_back(run_statistics(result.frames));
+    variant.by_range.back().settled = settled_statistics(settled);
+    all_settled.insert(all_settled.end(), settled.begin(), settled.end());
     all.insert(all.end(), result.frames.begin(), result.frames.end());
     for (std::size_t frame = 0; frame < result.frames.size(); ++frame) {
       if (is_edge_on(frame, scenario.step_rad)) edge_on.push_back(result.frames[frame]);
     }
   }
   variant.all = run_statistics(all);
+  variant.all.settled = settled_statistics(all_settled);
   variant.edge_on = run_statistics(edge_on);
 }
 
@@ -267,6 +272,7 @@ CaseSetup camera_case(const CompiledMission& mission, const SimulationOptions& o
   setup.range_m = setup.scenario.runs_m().front();
   setup.noise = setup.scenario.noise != 0;
   setup.seed = options.seed.value_or(static_cast<std::uint64_t>(setup.scenario.seed));
+  setup.scenario = drawn_scenario(setup.scenario, case_seed(setup.seed, 0, 0));
   setup.parameters = parameters_for(mission.source, options.scenario);
   setup.target = &target;
   setup.camera_faults = options.camera_faults;

@@ -105,6 +105,30 @@ TimeStatistics time_statistics(std::vector<double> times_us) {
   return {nearest_rank(times_us, 0.5), nearest_rank(times_us, 0.99), nearest_rank(times_us, 1)};
 }
 
+SettledStatistics settled_statistics(const std::vector<FrameError>& frames) {
+  SettledStatistics result;
+  double omega2 = 0, v2 = 0;
+  std::size_t reported = 0;
+  for (const FrameError& frame : frames) {
+    ++result.frames;
+    result.lost += frame.lost() ? 1U : 0U;
+    result.invalid += frame.valid ? 0U : 1U;
+    if (!frame.reported) continue;
+    ++reported;
+    omega2 += frame.omega_error_radps * frame.omega_error_radps;
+    v2 += frame.v_error_mps * frame.v_error_mps;
+    result.worst_degps = std::max(result.worst_degps, frame.omega_error_radps / kRadPerDeg);
+    result.worst_mmps = std::max(result.worst_mmps, 1e3 * frame.v_error_mps);
+  }
+  result.rms_degps = root_mean(omega2, reported) / kRadPerDeg;
+  result.rms_mmps = 1e3 * root_mean(v2, reported);
+  return result;
+}
+
+std::vector<FrameError> settled_frames(const std::vector<FrameError>& run) {
+  return {run.begin() + static_cast<std::ptrdiff_t>(std::min(kSettlingFrames, run.size())), run.end()};
+}
+
 RunStatistics run_statistics(const std::vector<FrameError>& frames) {
   RunStatistics result;
   Sums sums;

@@ -55,18 +55,31 @@ struct TimeStatistics {
   double median_us = 0, p99_us = 0, max_us = 0;
 };
 
+// A run once its filter has settled, and how well it then knows the rates: over all frames that are reported, tracked or not.
+struct SettledStatistics {
+  std::size_t frames = 0, lost = 0, invalid = 0;  // as RunStatistics'
+  double rms_degps = 0, rms_mmps = 0, worst_degps = 0, worst_mmps = 0;
+};
+
+constexpr std::size_t kSettlingFrames = 20;  // of a run, from its start on
+
 struct RunStatistics {
   std::size_t frames = 0, lost = 0, invalid = 0, wrong = 0;
   ErrorStatistics registration, filtered;  // lost frames left out (each by its own error)
   double crlb_mm = 0, crlb_deg = 0;        // root of the mean trace, over frames that are not lost
   double nees = 0;                         // mean
   double omega_rms_degps = 0, v_rms_mmps = 0;
+  SettledStatistics settled;  // of one run, or of several
   TimeStatistics time;
 };
 
 MeanStd mean_std(const std::vector<double>& values);  // of the whole population (division by n); 0 of nothing
 ErrorStatistics error_statistics(const std::vector<PoseError>& errors);
 TimeStatistics time_statistics(std::vector<double> times_us);  // percentiles by nearest rank; the lower median
-RunStatistics run_statistics(const std::vector<FrameError>& frames);
+SettledStatistics settled_statistics(const std::vector<FrameError>& frames);
+RunStatistics run_statistics(const std::vector<FrameError>& frames);  // `settled` is left out: where a run began, the caller knows
+
+// The frames of a run after the first kSettlingFrames.
+std::vector<FrameError> settled_frames(const std::vector<FrameError>& run);
 
 }  // namespace lasso::mdat

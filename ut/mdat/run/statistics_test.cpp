@@ -158,5 +158,31 @@ TEST(Statistics, LostFramesAreCountedAndLeftOutOfErrors) {
   EXPECT_EQ(run.time.max_us, 300);
 }
 
+TEST(Statistics, OnceSettledAllThatIsReportedCountsForTheRates) {
+  VERIFIES("LASSO-MDT-002~1");
+  std::vector<FrameError> run(23);
+  for (FrameError& frame : run) {
+    frame.reported = frame.valid = true;
+    frame.omega_error_radps = 9;  // not settled
+    frame.v_error_mps = 9;
+  }
+  run[20].omega_error_radps = 0.03 * kRadPerDeg;
+  run[20].v_error_mps = 0.004;
+  run[21].omega_error_radps = 0.04 * kRadPerDeg;
+  run[21].v_error_mps = 0.003;
+  run[21].registration.rotation_rad = 0.2;  // lost
+  run[22] = {};                             // no telemetry of it
+  const SettledStatistics settled = settled_statistics(settled_frames(run));
+  EXPECT_EQ(settled.frames, 3U);
+  EXPECT_EQ(settled.lost, 2U);
+  EXPECT_EQ(settled.invalid, 1U);
+  EXPECT_NEAR(settled.rms_degps, 0.05 / std::sqrt(2), 1e-12);
+  EXPECT_NEAR(settled.rms_mmps, 5 / std::sqrt(2), 1e-12);
+  EXPECT_NEAR(settled.worst_degps, 0.04, 1e-12);
+  EXPECT_NEAR(settled.worst_mmps, 4, 1e-12);
+  EXPECT_TRUE(settled_frames({run.begin(), run.begin() + 5}).empty());
+  EXPECT_TRUE(std::isnan(settled_statistics({}).rms_mmps)) << "of nothing, nothing is known";
+}
+
 }  // namespace
 }  // namespace lasso::mdat
