@@ -15,6 +15,8 @@
 namespace lasso::posix {
 namespace {
 
+constexpr int kVanished_s = 10;  // without a sign of life: a TCP client that is gone
+
 struct Place {
   std::string scheme, host, port;
 };
@@ -169,9 +171,16 @@ class Tcp final : public PosixLink {
   void accept_peer() {
     if (peer_.open() || !listener_.open()) return;
     peer_.reset(accept4(listener_.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
-    const int yes = 1;
-    if (peer_.open()) (void)setsockopt(peer_.get(), IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
+    if (!peer_.open()) return;
+    set(IPPROTO_TCP, TCP_NODELAY, 1);
+    // One that vanishes without a word (its cable, its power) would keep the link from everybody else.
+    set(IPPROTO_TCP, TCP_USER_TIMEOUT, kVanished_s * 1000);
+    set(IPPROTO_TCP, TCP_KEEPIDLE, kVanished_s / 2);
+    set(IPPROTO_TCP, TCP_KEEPINTVL, 1);
+    set(IPPROTO_TCP, TCP_KEEPCNT, kVanished_s / 2);
+    set(SOL_SOCKET, SO_KEEPALIVE, 1);
   }
+  void set(int level, int option, int value) { (void)setsockopt(peer_.get(), level, option, &value, sizeof value); }
   Descriptor listener_, peer_;
   bool ever_;  // the ground's end
 };

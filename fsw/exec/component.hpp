@@ -107,6 +107,9 @@ class Component {
   // A datagram: one command, whole. False, and it was not looked at, when the frame's commands are used up.
   bool receive_packet(ConstBytes packet, TimeUs now_us);
 
+  // From now on commands need its trailer (fsw/link/authenticator.hpp); others are refused. It outlives the component.
+  void use_authenticator(Authenticator& authenticator) { receiver_.use_authenticator(authenticator); }
+
   // The board's watchdog, which outlives the component: fed at a boundary once every slot of the frame and the estimation thread have
   // checked in.
   void set_watchdog(Watchdog& watchdog) { watchdog_ = &watchdog; }
@@ -244,6 +247,7 @@ class Component {
   ConstBytes memory_of(std::uint8_t area) const;
   ServiceRefusal find_memory(const MemoryCommand& range, std::size_t most, ConstBytes& bytes) const;
   void send_image(TimeUs now_us);
+  bool may_change(ImageRequest request) const;
   void judge_image();
   void change_image(bool back);
   void leave_target();
@@ -279,6 +283,7 @@ class Component {
   FixedVector<ModeChange, 2 * kPoseChanges> changes_;  // that no packet has told yet
 
   ImageRequest image_request_ = ImageRequest::kNone;
+  std::uint32_t requested_crc_ = 0;  // kActivate: of the image that was named
   ImageTrial trial_;
   MemoryCounts memory_;       // of now,
   MemoryCounts memory_told_;  // and as they were told last
@@ -289,6 +294,7 @@ class Component {
   bool link_changed_ = false;  // since the link's counters were told
   std::uint32_t commands_left_ = kMaxCommandsPerFrame;
   std::uint32_t skipped_told_ = 0;
+  std::uint32_t silent_frames_ = 0;  // since the last valid command
   Housekeeping housekeeping_;
   ParameterArea parameter_area_;
   bool parameters_due_ = false;  // for the next boundary

@@ -52,6 +52,9 @@ void Component::watch_filter(const TrackStep& step) {
 void Component::see_faults() {
   seen_.add(Fault::kSlotSlip, executive_.slips() != watched_.slot_slips);
   seen_.add(Fault::kMemoryHigh, downlink_.queue().size() > kQueueHighBytes);
+  const MissionParameters& p = mission().parameters;
+  seen_.add(Fault::kLinkSilent, p.link_silence_max_s > 0 && silent_frames_ * p.period_s > p.link_silence_max_s);
+  ++silent_frames_;
   seen_.add(Fault::kWatchdogReset, health_.reset_cause > static_cast<std::uint8_t>(ResetCause::kCommanded));
   seen_.add(Fault::kSelfTestFailed, health_.failed_tests != 0);
 }

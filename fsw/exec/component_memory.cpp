@@ -91,7 +91,9 @@ Status Component::use_memory(const BoardMemory& memory) {
 
 ImageRefusal Component::activate_image(std::uint32_t crc) {
   const ImageRefusal refusal = images_.can_activate(crc);
-  if (refusal == ImageRefusal::kNone) image_request_ = ImageRequest::kActivate;
+  if (refusal != ImageRefusal::kNone) return refusal;
+  image_request_ = ImageRequest::kActivate;
+  requested_crc_ = crc;
   return refusal;
 }
 
@@ -130,9 +132,13 @@ void Component::pass_memory_boundary() {
   judge_image();
   const ImageRequest request = image_request_;
   image_request_ = ImageRequest::kNone;
-  // What was ready when the command came may have decayed since.
-  const bool ready = images_.other().state() == ImageState::kReady;
-  if (request != ImageRequest::kNone && ready) change_image(request == ImageRequest::kRollBack);
+  if (request != ImageRequest::kNone && may_change(request)) change_image(request == ImageRequest::kRollBack);
+}
+
+// What was ready when the command came may have decayed since, or given place to another image.
+bool Component::may_change(ImageRequest request) const {
+  const bool back = request == ImageRequest::kRollBack;
+  return (back ? images_.can_roll_back() : images_.can_activate(requested_crc_)) == ImageRefusal::kNone;
 }
 
 // A track that is lost shows no more scans.

@@ -155,6 +155,7 @@ inline constexpr Choice kPacketFaults[] = {
   {"unknown", "nothing has this service, subservice and number", "compare the sender's dictionary with this one"},
   {"bad_argument", "a value is outside of its item's range", "correct it"},
   {"repeated", "the sequence count is not after the one of the last accepted command", "count on, and send it again"},
+  {"not_authentic", "its authentication trailer is missing, not right, or was used before", "send it with the key that the board has"},
 };
 inline constexpr Choice kModeRefusals[] = {
   {"none", "it was not refused"},

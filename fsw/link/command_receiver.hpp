@@ -17,6 +17,9 @@ class CommandReceiver {
   CommandReceiver(const CommandReceiver&) = delete;
   CommandReceiver& operator=(const CommandReceiver&) = delete;
 
+  // From now on commands are authenticated. It outlives the receiver.
+  void use_authenticator(Authenticator& authenticator) { authenticator_ = &authenticator; }
+
   // Takes bytes until a packet is whole; how many. Loop bound: the bytes, each at most one check sum over kMaxCommandBytes.
   std::size_t take(ConstBytes input);
   // No more bytes will come of what seems to have begun: looks behind it. False: nothing waits. Loop bound as of take().
@@ -37,6 +40,7 @@ class CommandReceiver {
 
   std::uint8_t buffer_[kMaxCommandBytes] = {};
   PacketFinder finder_;
+  Authenticator* authenticator_ = nullptr;
   bool heard_ = false;  // the count below is that of a command
   std::uint16_t last_count_ = 0;
   std::uint32_t accepted_ = 0;

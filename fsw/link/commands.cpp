@@ -88,10 +88,11 @@ PacketFault decode_data(ConstBytes data, Command& command) {
 
 }  // namespace
 
-PacketFault decode_command(ConstBytes packet, Command& command) {
+PacketFault decode_command(ConstBytes packet, Command& command, Authenticator* authenticator) {
   Command decoded;
   ConstBytes data;
   PacketFault fault = parse_command(packet, decoded.header, data);
+  if (fault == PacketFault::kNone && authenticator != nullptr) fault = authenticate(packet, *authenticator, data);
   if (fault == PacketFault::kNone) fault = decode_data(data, decoded);
   if (fault == PacketFault::kNone) command = decoded;
   return fault;

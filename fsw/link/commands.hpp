@@ -7,6 +7,7 @@
 #include "fsw/core/span.hpp"
 #include "fsw/core/time.hpp"
 #include "fsw/link/arming.hpp"
+#include "fsw/link/authenticator.hpp"
 #include "fsw/link/memory_report.hpp"
 #include "fsw/link/telecommand.hpp"
 
@@ -148,10 +149,10 @@ struct Command {
 };
 
 constexpr std::uint8_t kMaxStoredReports = 8;
-constexpr std::size_t kMaxCommandBytes = 256;
+constexpr std::size_t kMaxCommandBytes = 256 + kMaxAuthenticationBytes;
 
-// Checks packet and arguments. `command` is untouched when it is refused.
-PacketFault decode_command(ConstBytes packet, Command& command);
+// Checks packet, trailer (where there is an authenticator) and arguments, in this order. `command` is untouched when it is refused.
+PacketFault decode_command(ConstBytes packet, Command& command, Authenticator* authenticator = nullptr);
 
 // Is there a command of this name that has to be armed? Loop bound: the commands.
 bool is_hazardous(const CommandName& name);

@@ -26,7 +26,7 @@ inline constexpr Choice kFaultTexts[] = {
   {"parameters_corrupt", "a copy of the parameters differed from its check sum; repaired from the other one", "none if it is rare: a flipped bit"},
   {"parameters_lost", "both copies of the parameters are corrupt; the mission image's hold", "set them again"},
   {"code_corrupt", "the code in memory differs from its check sum", "reset the component"},
-  {"link_silent", "no valid command came for long; not watched for yet", "look at the link"},
+  {"link_silent", "no valid command came for longer than link.silence_max_s", "look at the link"},
   {"memory_high", "more than nine tenths of the telemetry queue were full at a boundary", "look at the link; raise its rate or ask for less"},
   {"watchdog_reset", "the component starts after its watchdog", "look at the events before the reset; then command standby"},
   {"self_test_failed", "a self-test at the start failed", "see failed_tests; do not trust its poses"},

@@ -54,6 +54,8 @@ const char* to_string(PacketFault fault) {
       return "bad_argument";
     case PacketFault::kRepeated:
       return "repeated";
+    case PacketFault::kNotAuthentic:
+      return "not_authentic";
   }
   return "no fault";  // a value that no enumerator has
 }

@@ -49,6 +49,7 @@ enum class [[nodiscard]] PacketFault : std::uint8_t{
     kUnknown = 10,           // nothing has this service, subservice and number
     kBadArgument = 11,       // a value is outside of its item's range
     kRepeated = 12,          // the sequence count is not after the one of the last accepted command
+    kNotAuthentic = 13,      // its trailer does not show who sent it
 };
 const char* to_string(PacketFault fault);  // never null
 

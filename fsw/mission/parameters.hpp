@@ -43,6 +43,8 @@ struct MissionParameters : SensorParameters {
   double short_range_enter_m, short_range_leave_m, disagreement_max, rest_frames;
   // [image] what an image that is loaded in flight has to show
   double image_trial_scans, image_trial_valid_min;
+  // [link]
+  double link_silence_max_s;
   // [tracking.initial] T_sensor_target and rates at the start
   double initial_present, initial_qx, initial_qy, initial_qz, initial_qw, initial_x_m, initial_y_m, initial_z_m, initial_wx_radps,
       initial_wy_radps, initial_wz_radps, initial_vx_mps, initial_vy_mps, initial_vz_mps;

@@ -15,7 +15,7 @@ namespace lasso::fuzz {
 namespace {
 
 using Packets = std::vector<std::vector<std::uint8_t>>;
-constexpr std::size_t kRoom = 256;
+constexpr std::size_t kRoom = kMaxCommandBytes;
 constexpr std::size_t kLargestBytes = 1024;  // more of the same would take longer
 
 void repair(Bytes packet) {

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
+#include <random>
 #include <thread>
 
 #include "ft/mdat/command.hpp"
@@ -59,12 +60,34 @@ TEST(Operate, AnOperatorCommandsARunningComponent) {
   }
 }
 
+TEST(Operate, AComponentWithAKeyTakesSignedCommandsAlone) {
+  VERIFIES("LASSO-LNK-021~1");
+  const WorkFolder work;
+  work.write("key", std::string(64, 'a') + "\n");
+  work.write("other", std::string(64, 'b') + "\n");
+  const std::string url = "udp://127.0.0.1:" + std::to_string(free_port(static_cast<int>(std::random_device{}() % 20000)));
+  Program run(work, "run missions/test.toml --scenario spin --no-report --out run --frames 100000 --key key --link " + url);
+  const Answer signed_one = first_answer(work, "command set_mode mode=standby --key key --to " + url);
+  EXPECT_EQ(signed_one.exit_code, 0) << signed_one.err;
+  for (const char* key : {"", "--key other "}) {
+    const Answer refused = work.mdat(std::string("command ping --wait 30 ") + key + "--to " + url);
+    EXPECT_EQ(refused.exit_code, 1);
+    EXPECT_NE(refused.err.find("not_authentic"), std::string::npos) << refused.err;
+  }
+  EXPECT_EQ(work.mdat("command enable_laser --arm --wait 30 --key key --to " + url).exit_code, 0) << "two, each with a number of its own";
+  EXPECT_EQ(run.interrupt().exit_code, 0);
+}
+
 TEST(Operate, CommandsGoToAFileAndARunReadsThem) {
   VERIFIES("LASSO-LNK-026~2 LASSO-GND-021~1");
   const WorkFolder work;
   EXPECT_EQ(work.mdat("command set_mode mode=standby --count 3 --out tm.commands").exit_code, 0);
   const std::string decoded = work.mdat("decode --commands tm.commands").out;
   EXPECT_NE(decoded.find("set_mode   #3"), std::string::npos) << decoded;
+  work.write("key", std::string(64, 'a'));
+  EXPECT_EQ(work.mdat("command set_mode mode=standby --key key --out signed").exit_code, 0);
+  EXPECT_EQ(work.read("signed").size(), work.read("tm.commands").size() + 24);
+  EXPECT_NE(work.mdat("decode --commands signed").out.find("set_mode   #0"), std::string::npos);
   const Answer run =
       work.mdat("run missions/test.toml --scenario spin --no-report --out run --frames 3 --link file://" + (work / "tm").string());
   EXPECT_EQ(run.exit_code, 0) << run.err;
@@ -83,6 +106,7 @@ TEST(Operate, WhatIsWrongIsNamed) {
            {"command ping --arm --out x", "ping: is not hazardous"},
            {"command ping --out x --to udp://:1", "--to or --out, not both"},
            {"command", "which one? mdat command --list shows all"},
+           {"command ping --out x --key none", "none: no such file"},
            {"run missions/test.toml --link udp://:x", "--link udp://:x: 'x' is no port"}}) {
     const Answer answer = work.mdat(arguments);
     EXPECT_EQ(answer.exit_code, 2) << arguments;

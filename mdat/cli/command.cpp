@@ -16,7 +16,7 @@ namespace {
 using Packet = std::vector<std::uint8_t>;
 
 struct Options {
-  std::string name, to, out;
+  std::string name, to, out, key;
   std::vector<std::string> arguments;
   std::optional<std::uint16_t> count;
   double wait_s = 2, listen_s = 0;
@@ -37,6 +37,7 @@ void send(const Options& options, const PacketRow& row, const std::map<std::stri
   const std::unique_ptr<posix::PosixLink> link = posix::connect_link(options.to);
   Station station(*link, options.to, printer(options.poses));
   if (options.count) station.set_count(*options.count);
+  if (!options.key.empty()) station.sign_with(load_key(options.key));
   const CommandAnswer answer = station.command(row, values, options.arm, options.wait_s);
   static_cast<void>(station.listen(options.listen_s, [] { return false; }));
   if (answer.outcome == Outcome::kOpen) throw RunError(options.to + ": no answer within " + text_of(options.wait_s) + " s");
@@ -45,10 +46,16 @@ void send(const Options& options, const PacketRow& row, const std::map<std::stri
 
 void write(const Options& options, const PacketRow& row, const std::map<std::string, std::string>& values) {
   std::uint16_t count = options.count.value_or(0);
+  std::vector<Packet> packets;
+  if (options.arm) packets.push_back(arm_for(row, count++));
+  packets.push_back(encode_command(row, values, count));
+  std::optional<Signer> signer;
+  if (!options.key.empty()) signer.emplace(load_key(options.key));
   Packet bytes;
-  if (options.arm) bytes = arm_for(row, count++);
-  const Packet packet = encode_command(row, values, count);
-  bytes.insert(bytes.end(), packet.begin(), packet.end());
+  for (const Packet& packet : packets) {
+    const Packet sent = signer ? signer->sign(packet) : packet;
+    bytes.insert(bytes.end(), sent.begin(), sent.end());
+  }
   write_file(options.out, std::string(bytes.begin(), bytes.end()));
 }
 
@@ -77,6 +84,8 @@ void add_command_command(CLI::App& app) {
   subcommand->add_flag("--list", options->list, "list the commands");
   subcommand->add_option("--to", options->to, "udp://HOST:PORT or tcp://HOST:PORT: send it, and print what is answered");
   subcommand->add_option("--out", options->out, "file for the packet");
+  subcommand->add_option("--key", options->key,
+                         "file with the key that the component asks commands to be signed with (64 hexadecimal digits)");
   subcommand->add_flag("--arm", options->arm, "arm a hazardous command before it");
   subcommand->add_option("--count", options->count, "sequence count (with --to: one that the component takes; with --out: 0)")
       ->check(CLI::Range(0, 16383));

@@ -6,6 +6,7 @@
 #include "mdat/cli/commands.hpp"
 #include "mdat/common/errors.hpp"
 #include "mdat/common/output.hpp"
+#include "mdat/link/signature.hpp"
 #include "mdat/missiondb/calibration_file.hpp"
 #include "mdat/missiondb/camera_faults.hpp"
 #include "mdat/report/report.hpp"
@@ -18,7 +19,7 @@ namespace lasso::mdat {
 namespace {
 
 struct Options {
-  std::string mission, sensor = "simulated", camera_faults, optics, calibration, out = "out/run", picture, record, record_sensor, link;
+  std::string mission, sensor = "simulated", camera_faults, optics, calibration, out = "out/run", picture, record, record_sensor, link, key;
   SimulationOptions simulation;
   bool report = true;
 };
@@ -71,6 +72,9 @@ void run(const Options& options) {
   SimulationOptions simulation = options.simulation;
   const std::unique_ptr<posix::PosixLink> link = open_link(options.link);
   simulation.link = link.get();
+  const std::unique_ptr<SignatureCheck> signatures =
+      options.key.empty() ? nullptr : std::make_unique<SignatureCheck>(load_key(options.key));
+  simulation.authenticator = signatures.get();
   const SimulationResult result = simulate(mission, simulation);
   write_outputs(options, mission, result, folder);
   if (simulation.record) write_file(options.record_sensor, recording_text(*simulation.record));
@@ -167,6 +171,11 @@ void add_run_command(CLI::App& app) {
       "--link", options->link,
       "udp://[HOST]:PORT, tcp://[HOST]:PORT or file://PATH: run the first range at the clock's pace, commanded over this link "
       "(mdat command --to), until its frames are flown or Ctrl-C ends it; without a host by the loopback address");
+  command
+      ->add_option(
+          "--key", options->key,
+          "with --link: file with a key (64 hexadecimal digits); commands that are not signed with it are refused (mdat command --key)")
+      ->needs("--link");
   command
       ->add_option(
           "--store", options->simulation.store,

@@ -12,7 +12,7 @@ namespace lasso::mdat {
 namespace {
 
 struct Options {
-  std::string image, to;
+  std::string image, to, key;
   UploadOptions upload;
   bool unchecked = false;
 };
@@ -31,7 +31,9 @@ std::vector<std::uint8_t> image_of(const Options& options) {
 void run(const Options& options) {
   const std::vector<std::uint8_t> image = image_of(options);
   const std::unique_ptr<posix::PosixLink> link = posix::connect_link(options.to);
-  const UploadEnd end = upload(*link, options.to, image, options.upload);
+  UploadOptions how = options.upload;
+  if (!options.key.empty()) how.key = load_key(options.key);
+  const UploadEnd end = upload(*link, options.to, image, how);
   const unsigned crc = image_crc(image);
   if (end == UploadEnd::kReady)
     std::printf("%s: image %08x is ready: mdat command activate_image crc=%u --arm --to %s\n", options.to.c_str(), crc, crc,
@@ -50,6 +52,8 @@ void add_upload_command(CLI::App& app) {
   subcommand
       ->add_option("--to", options->to, "udp://HOST:PORT or tcp://HOST:PORT; what was loaded of the same image before is not sent again")
       ->required();
+  subcommand->add_option("--key", options->key,
+                         "file with the key that the component asks commands to be signed with (64 hexadecimal digits)");
   subcommand->add_flag("--activate", options->upload.activate, "arm and activate it, and wait until its first scans confirm it");
   subcommand->add_flag("--unchecked", options->unchecked, "send a flight image even if it is wrong: the component refuses it");
   subcommand->add_option("--wait", options->upload.answer_s, "seconds to wait for an answer")

@@ -18,10 +18,16 @@ bool is_of(const PacketRow& row, ConstBytes packet, PacketType type) {
   return !row.numbered || row.number == read_bits(packet, 8 * (data_offset(row) - kPacketNumberBytes), 8 * kPacketNumberBytes);
 }
 
+// A command may have an authentication trailer behind its items.
+bool has_size_of(const PacketRow& row, std::size_t size) {
+  const std::size_t own = item_offset(row, row.items.size()) + kPacketTrailerBytes;
+  return row.type == PacketType::kCommand ? size >= own && size <= own + kMaxAuthenticationBytes : size == own;
+}
+
 // The row of a packet with these headers; null: none, or another length.
 const PacketRow* row_of(ConstBytes packet, PacketType type) {
   for (const PacketRow& row : kPackets) {
-    if (is_of(row, packet, type)) return packet.size() == item_offset(row, row.items.size()) + kPacketTrailerBytes ? &row : nullptr;
+    if (is_of(row, packet, type)) return has_size_of(row, packet.size()) ? &row : nullptr;
   }
   return nullptr;
 }

@@ -13,16 +13,21 @@ local lasso = Proto("lasso", "3DLASSO")
 local kinds = {u8 = "uint8", u16 = "uint16", u32 = "uint32", i64 = "int64", f32 = "float", f64 = "double"}
 local readers = {u8 = "uint", u16 = "uint", u32 = "uint", i64 = "int64", f32 = "float", f64 = "float"}
 local sizes = {u8 = 1, u16 = 2, u32 = 4, i64 = 8, f32 = 4, f64 = 8}
-local fields = {}
+local fields, headers = {}, {}
 
+-- What headers of telemetry and commands have in common is one field.
 local function add_header(list)
   for _, f in ipairs(list) do
-    f.field = ProtoField.uint32("lasso." .. f.name, f.name, base.DEC, nil, nil, f.meaning)
-    fields[#fields + 1] = f.field
+    if not headers[f.name] then
+      headers[f.name] = ProtoField.uint32("lasso." .. f.name, f.name, base.DEC, nil, nil, f.meaning)
+      fields[#fields + 1] = headers[f.name]
+    end
+    f.field = headers[f.name]
   end
 end
 add_header(primary)
 add_header(telemetry)
+add_header(command)
 for _, packet in ipairs(packets) do
   for _, item in ipairs(packet.items) do
     local abbreviation = "lasso." .. packet.name .. "." .. item.name
@@ -39,7 +44,9 @@ end
 local f_number = ProtoField.uint16("lasso.number", "number", base.DEC)
 local f_crc = ProtoField.uint16("lasso.crc", "crc", base.HEX)
 local f_crc_right = ProtoField.bool("lasso.crc_right", "crc right")
+local f_trailer = ProtoField.bytes("lasso.trailer", "authentication trailer")
 fields[#fields + 1] = f_number
+fields[#fields + 1] = f_trailer
 fields[#fields + 1] = f_crc
 fields[#fields + 1] = f_crc_right
 lasso.fields = fields
@@ -85,21 +92,24 @@ local function show_items(packet, buffer, tree)
 end
 
 function lasso.dissector(buffer, pinfo, root)
-  if buffer:len() < data_offset + 2 then return 0 end
+  if buffer:len() < least_bytes[1] then return 0 end
   pinfo.cols.protocol = "3DLASSO"
   local tree = root:add(lasso, buffer())
   local header = show_header(primary, buffer, tree)
-  if header.apid ~= apid or header.type ~= 0 then return buffer:len() end
-  local secondary = show_header(telemetry, buffer, tree)
+  if header.apid ~= apid or buffer:len() < least_bytes[header.type] then return buffer:len() end
+  local secondary = show_header(header.type == 0 and telemetry or command, buffer, tree)
   for _, packet in ipairs(packets) do
-    local same = packet.service == secondary.service and packet.subservice == secondary.subservice and packet.size == buffer:len()
+    local more = buffer:len() - packet.size
+    local same = packet.type == header.type and packet.service == secondary.service and packet.subservice == secondary.subservice
+    same = same and (more == 0 or (more > 0 and header.type == 1))
     if same and packet.number then
-      same = packet.number == buffer(data_offset, 2):uint()
-      if same then tree:add(f_number, buffer(data_offset, 2)) end
+      same = packet.number == buffer(packet.first - 2, 2):uint()
+      if same then tree:add(f_number, buffer(packet.first - 2, 2)) end
     end
     if same then
       pinfo.cols.info = packet.name .. " #" .. header.sequence_count
       show_items(packet, buffer, tree)
+      if more > 0 then tree:add(f_trailer, buffer(packet.size - 2, more)) end
     end
   end
   tree:add(f_crc, buffer(buffer:len() - 2, 2))
@@ -145,9 +155,9 @@ std::string item(const ItemRow& row) {
 
 std::string packet(const PacketRow& row) {
   const std::string number = row.numbered ? std::to_string(row.number) : "nil";
-  std::string text =
-      format("  {name = \"%s\", service = %u, subservice = %u, number = %s, first = %zu, size = %zu, items = {\n", row.name, row.service,
-             row.subservice, number.c_str(), data_offset(row), item_offset(row, row.items.size()) + kPacketTrailerBytes);
+  std::string text = format("  {name = \"%s\", type = %u, service = %u, subservice = %u, number = %s, first = %zu, size = %zu, items = {\n",
+                            row.name, static_cast<unsigned>(row.type), row.service, row.subservice, number.c_str(), data_offset(row),
+                            item_offset(row, row.items.size()) + kPacketTrailerBytes);
   for (const ItemRow& each : row.items) text += item(each);
   return text + "  }},\n";
 }
@@ -156,15 +166,15 @@ std::string packet(const PacketRow& row) {
 
 std::string dictionary_lua() {
   std::string text =
-      "-- Wireshark dissector of 3DLASSO's telemetry, written by `mdat dictionary --format lua`.\n"
+      "-- Wireshark dissector of 3DLASSO's telemetry and commands, written by `mdat dictionary --format lua`.\n"
       "-- tshark -X lua_script:THIS -r FILE.pcap -V, where `mdat decode --format pcap` writes FILE.pcap.\n";
-  text += format("local apid, data_offset = %u, %zu\n", kApid, kPacketHeaderBytes);
-  text +=
-      header_list("primary", Span<const HeaderField>(kPrimaryFields)) + header_list("telemetry", Span<const HeaderField>(kTelemetryFields));
+  text += format("local apid, least_bytes = %u, {[0] = %zu, [1] = %zu}\n", kApid, kPacketHeaderBytes + kPacketTrailerBytes,
+                 kCommandHeaderBytes + kPacketTrailerBytes);
+  text += header_list("primary", Span<const HeaderField>(kPrimaryFields));
+  text += header_list("telemetry", Span<const HeaderField>(kTelemetryFields));
+  text += header_list("command", Span<const HeaderField>(kCommandFields));
   text += "local packets = {\n";
-  for (const PacketRow& row : kPackets) {
-    if (row.type == PacketType::kTelemetry) text += packet(row);
-  }
+  for (const PacketRow& row : kPackets) text += packet(row);
   return text + "}\n" + kProgram;
 }
 

@@ -1,5 +1,6 @@
-// XTCE 1.2 of the telemetry: header fields and items are parameters; each packet is a container that extends the one of the headers, told
-// by its service, subservice and structure.
+// XTCE 1.2. Telemetry: header fields and items are parameters; each packet is a container that extends the one of the headers, told by its
+// service, subservice and structure. Commands: items are arguments; each command extends the abstract one of the headers, and says their
+// values. Sequence count and check sum are for whoever sends it to fill in.
 #include <cmath>
 #include <set>
 
@@ -32,11 +33,17 @@ std::string unit_set(const ItemRow& row) {
   return std::string(row.unit) == "1" ? "<UnitSet/>" : format("<UnitSet><Unit>%s</Unit></UnitSet>", escaped(row.unit).c_str());
 }
 
-std::string valid_range(const ItemRow& row) {
+// What is written alike for parameters of telemetry and arguments of commands.
+enum class Kind { kParameter, kArgument };
+const char* word(Kind kind) { return kind == Kind::kParameter ? "Parameter" : "Argument"; }
+
+std::string valid_range(const ItemRow& row, Kind kind) {
   std::string bounds;
   if (!std::isinf(row.range.minimum)) bounds += attribute("minInclusive", number(row.range.minimum));
   if (!std::isinf(row.range.maximum)) bounds += attribute("maxInclusive", number(row.range.maximum));
-  return bounds.empty() ? "" : "<ValidRange" + bounds + "/>";
+  if (bounds.empty()) return "";
+  const std::string range = "<ValidRange" + bounds + "/>";
+  return kind == Kind::kParameter ? range : "<ValidRangeSet>" + range + "</ValidRangeSet>";
 }
 
 std::string enumeration_list(const Enumeration& enumeration) {
@@ -50,37 +57,42 @@ std::string enumeration_list(const Enumeration& enumeration) {
 }
 
 // The type of one element.
-std::string element_type(const ItemRow& row, const std::string& name) {
+std::string element_type(const ItemRow& row, const std::string& name, Kind kind) {
   const std::size_t bits = 8 * wire_size(row.type);
-  const std::string begin = attribute("name", name);
+  const auto element = [&](const char* type, const std::string& attributes, const std::string& content) {
+    const std::string tag = std::string(type) + word(kind) + "Type";
+    return "<" + tag + attribute("name", name) + attributes + ">" + content + "</" + tag + ">\n";
+  };
   if (row.enumeration != nullptr) {
-    return "<EnumeratedParameterType" + begin + "><UnitSet/>" + integer_encoding(bits, false) + enumeration_list(*row.enumeration) +
-           "</EnumeratedParameterType>\n";
+    return element("Enumerated", "", "<UnitSet/>" + integer_encoding(bits, false) + enumeration_list(*row.enumeration));
   }
-  if (is_real(row.type)) {
-    return "<FloatParameterType" + begin + format(" sizeInBits=\"%zu\">", bits) + unit_set(row) +
-           format("<FloatDataEncoding sizeInBits=\"%zu\"/>", bits) + valid_range(row) + "</FloatParameterType>\n";
-  }
+  const std::string size = format(" sizeInBits=\"%zu\"", bits);
+  if (is_real(row.type)) return element("Float", size, unit_set(row) + "<FloatDataEncoding" + size + "/>" + valid_range(row, kind));
   const bool is_signed = row.type == WireType::kI64;
-  return "<IntegerParameterType" + begin + format(" sizeInBits=\"%zu\" signed=\"%s\">", bits, is_signed ? "true" : "false") +
-         unit_set(row) + integer_encoding(bits, is_signed) + valid_range(row) + "</IntegerParameterType>\n";
+  return element("Integer", size + attribute("signed", is_signed ? "true" : "false"),
+                 unit_set(row) + integer_encoding(bits, is_signed) + valid_range(row, kind));
 }
 
 std::string full_name(const PacketRow& packet, const ItemRow& row) { return std::string(packet.name) + "_" + row.name; }
 
-std::string item_types(const PacketRow& packet, const ItemRow& row) {
-  const std::string name = full_name(packet, row);
-  if (row.count == 1) return element_type(row, name + "_t");
-  const std::string last = std::to_string(row.count - 1);
-  return element_type(row, name + "_element_t") + "<ArrayParameterType" + attribute("name", name + "_t") +
-         attribute("arrayTypeRef", name + "_element_t") +
-         "><DimensionList><Dimension><StartingIndex><FixedValue>0</FixedValue></StartingIndex><EndingIndex><FixedValue>" + last +
-         "</FixedValue></EndingIndex></Dimension></DimensionList></ArrayParameterType>\n";
+std::string dimensions(const ItemRow& row) {
+  return format(
+      "<DimensionList><Dimension><StartingIndex><FixedValue>0</FixedValue></StartingIndex><EndingIndex><FixedValue>%u</FixedValue>"
+      "</EndingIndex></Dimension></DimensionList>",
+      row.count - 1U);
 }
 
-std::string header_type(const HeaderField& field) {
-  return format("<IntegerParameterType name=\"%s_t\" sizeInBits=\"32\" signed=\"false\"><UnitSet/>", field.name) +
-         integer_encoding(field.bits, false) + "</IntegerParameterType>\n";
+std::string item_types(const PacketRow& packet, const ItemRow& row, Kind kind) {
+  const std::string name = full_name(packet, row);
+  if (row.count == 1) return element_type(row, name + "_t", kind);
+  const std::string tag = std::string("Array") + word(kind) + "Type";
+  return element_type(row, name + "_element_t", kind) + "<" + tag + attribute("name", name + "_t") +
+         attribute("arrayTypeRef", name + "_element_t") + ">" + dimensions(row) + "</" + tag + ">\n";
+}
+
+std::string header_type(const HeaderField& field, Kind kind) {
+  return format("<Integer%sType name=\"%s_t\" sizeInBits=\"32\" signed=\"false\"><UnitSet/>", word(kind), field.name) +
+         integer_encoding(field.bits, false) + format("</Integer%sType>\n", word(kind));
 }
 
 std::string parameter(const std::string& name, const std::string& meaning) {
@@ -137,13 +149,107 @@ std::string container(const PacketRow& packet) {
 
 constexpr HeaderField kCrc{"crc", 0, 16, "CRC-16 over all bytes before it"};
 
+// Of the fields of a command's headers: who says its value.
+enum class Filled { kFixed, kByCommand, kBySender };
+struct CommandField {
+  const HeaderField* field;
+  Filled filled;
+  unsigned value;  // kFixed
+};
+const CommandField kCommandFieldValues[] = {
+    {&kPrimaryFields[0], Filled::kFixed, 0},
+    {&kPrimaryFields[1], Filled::kFixed, static_cast<unsigned>(PacketType::kCommand)},
+    {&kPrimaryFields[2], Filled::kFixed, 1},
+    {&kPrimaryFields[3], Filled::kFixed, kApid},
+    {&kPrimaryFields[4], Filled::kFixed, kUnsegmented},
+    {&kPrimaryFields[5], Filled::kBySender, 0},
+    {&kPrimaryFields[6], Filled::kByCommand, 0},
+    {&kCommandFields[0], Filled::kFixed, kPusVersion},
+    {&kCommandFields[1], Filled::kBySender, 0},
+    {&kCommandFields[2], Filled::kByCommand, 0},
+    {&kCommandFields[3], Filled::kByCommand, 0},
+    {&kCommandFields[4], Filled::kBySender, 0},
+};
+
+std::string fixed_value(const char* name, unsigned value, unsigned bits) {
+  return format("<FixedValueEntry name=\"%s\" binaryValue=\"%0*X\" sizeInBits=\"%u\"/>\n", name, static_cast<int>((bits + 7) / 8 * 2),
+                value, bits);
+}
+
+std::string argument(const std::string& name, const std::string& meaning) {
+  return "<Argument" + attribute("name", name) + attribute("argumentTypeRef", name + "_t") + attribute("shortDescription", meaning) +
+         "/>\n";
+}
+
+std::string argument_entry(const std::string& name) { return "<ArgumentRefEntry" + attribute("argumentRef", name) + "/>\n"; }
+
+std::string command_types() {
+  std::string text;
+  for (const CommandField& header : kCommandFieldValues) {
+    if (header.filled != Filled::kFixed) text += header_type(*header.field, Kind::kArgument);
+  }
+  for (const PacketRow& packet : command_rows::kCommands) {
+    for (const ItemRow& row : packet.items) text += item_types(packet, row, Kind::kArgument);
+  }
+  return text;
+}
+
+std::string base_command() {
+  std::string arguments, entries;
+  for (const CommandField& header : kCommandFieldValues) {
+    const HeaderField& field = *header.field;
+    const bool fixed = header.filled == Filled::kFixed;
+    if (!fixed) arguments += argument(field.name, field.meaning);
+    entries += fixed ? fixed_value(field.name, header.value, field.bits) : argument_entry(field.name);
+  }
+  return "<MetaCommand name=\"command\" abstract=\"true\" shortDescription=\"what all commands have in common\">\n<ArgumentList>\n" +
+         arguments + "</ArgumentList>\n<CommandContainer name=\"command\">\n<EntryList>\n" + entries +
+         "</EntryList>\n</CommandContainer>\n</MetaCommand>\n";
+}
+
+std::string assignment(const char* name, std::size_t value) {
+  return format("<ArgumentAssignment argumentName=\"%s\" argumentValue=\"%zu\"/>", name, value);
+}
+
+std::string command_entries(const PacketRow& packet) {
+  std::string text = packet.numbered ? fixed_value("number", packet.number, 16) : "";
+  for (const ItemRow& row : packet.items) {
+    const std::string name = full_name(packet, row);
+    text += row.count == 1
+                ? argument_entry(name)
+                : "<ArrayArgumentRefEntry" + attribute("argumentRef", name) + ">" + dimensions(row) + "</ArrayArgumentRefEntry>\n";
+  }
+  return text + fixed_value("crc", 0, 16);
+}
+
+std::string meta_command(const PacketRow& packet) {
+  const std::size_t length = item_offset(packet, packet.items.size()) + kPacketTrailerBytes - kPrimaryHeaderBytes - 1;
+  std::string arguments;
+  for (const ItemRow& row : packet.items) arguments += argument(full_name(packet, row), row.meaning);
+  return "<MetaCommand" + attribute("name", packet.name) + attribute("shortDescription", packet.meaning) +
+         ">\n<BaseMetaCommand metaCommandRef=\"command\"><ArgumentAssignmentList>" + assignment("data_length", length) +
+         assignment("service", packet.service) + assignment("subservice", packet.subservice) +
+         "</ArgumentAssignmentList></BaseMetaCommand>\n" + (arguments.empty() ? "" : "<ArgumentList>\n" + arguments + "</ArgumentList>\n") +
+         "<CommandContainer" + attribute("name", packet.name) + ">\n<EntryList>\n" + command_entries(packet) +
+         "</EntryList>\n<BaseContainer containerRef=\"command\"/>\n</CommandContainer>\n" +
+         (packet.hazard == Hazard::kNone ? "" : "<DefaultSignificance consequenceLevel=\"critical\" reasonForWarning=\"armed first\"/>\n") +
+         "</MetaCommand>\n";
+}
+
+std::string command_meta_data() {
+  std::string commands = base_command();
+  for (const PacketRow& packet : command_rows::kCommands) commands += meta_command(packet);
+  return "<CommandMetaData>\n<ArgumentTypeSet>\n" + command_types() + "</ArgumentTypeSet>\n<MetaCommandSet>\n" + commands +
+         "</MetaCommandSet>\n</CommandMetaData>\n";
+}
+
 }  // namespace
 
 std::string dictionary_xtce() {
   std::string types, parameters, containers = base_container();
   std::set<std::string> families;
   const auto add_field = [&](const HeaderField& field) {
-    types += header_type(field);
+    types += header_type(field, Kind::kParameter);
     parameters += parameter(field.name, field.meaning);
   };
   for (const HeaderField& field : kPrimaryFields) add_field(field);
@@ -152,7 +258,7 @@ std::string dictionary_xtce() {
   add_field(kCrc);
   for (const PacketRow& packet : kPackets) {
     if (packet.type != PacketType::kTelemetry) continue;
-    for (const ItemRow& row : packet.items) types += item_types(packet, row);
+    for (const ItemRow& row : packet.items) types += item_types(packet, row, Kind::kParameter);
     for (const ItemRow& row : packet.items) parameters += parameter(full_name(packet, row), row.meaning);
     if (packet.numbered && families.insert(family(packet)).second) containers += family_container(packet);
     containers += container(packet);
@@ -160,7 +266,7 @@ std::string dictionary_xtce() {
   return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<SpaceSystem xmlns=\"http://www.omg.org/spec/XTCE/20180204\" name=\"lasso\" "
          "shortDescription=\"pose estimation by 3D scans\">\n<TelemetryMetaData>\n<ParameterTypeSet>\n" +
          types + "</ParameterTypeSet>\n<ParameterSet>\n" + parameters + "</ParameterSet>\n<ContainerSet>\n" + containers +
-         "</ContainerSet>\n</TelemetryMetaData>\n</SpaceSystem>\n";
+         "</ContainerSet>\n</TelemetryMetaData>\n" + command_meta_data() + "</SpaceSystem>\n";
 }
 
 }  // namespace lasso::mdat

@@ -118,21 +118,27 @@ DocumentSection event_section() {
 }
 
 DocumentSection service_section() {
-  return {2,
-          "Commands and their answers",
-          {"Service 1 answers each command: `refused`, with the reason and always; or `accepted`, if asked for, and then `completed`, if "
-           "asked for, or "
-           "`failed`, always. Progress and start are not reported: what a command does is done at once, or at the next boundary.",
-           "A command is accepted once: its sequence count has to be 1 to 8191 after the one of the last accepted command, modulo 16384; "
-           "the first may "
-           "have any. This stops what is sent again by mistake; against intent, authenticate below this link.",
-           format("In a frame %u commands are answered, the refused ones too; the rest waits for the next. A command takes effect at the "
-                  "next boundary, at "
-                  "most one frame later. In a byte stream what has no right CRC belongs to no packet: it is counted as skipped bytes "
-                  "(packet `link`), and not "
-                  "answered. A datagram is a packet whatever it holds, and is answered.",
-                  kMaxCommandsPerFrame)},
-          {}};
+  return {
+      2,
+      "Commands and their answers",
+      {"Service 1 answers each command: `refused`, with the reason and always; or `accepted`, if asked for, and then `completed`, if "
+       "asked for, or "
+       "`failed`, always. Progress and start are not reported: what a command does is done at once, or at the next boundary.",
+       "A command is accepted once: its sequence count has to be 1 to 8191 after the one of the last accepted command, modulo 16384; "
+       "the first may "
+       "have any. This stops what is sent again by mistake; against intent, commands are authenticated: most spacecraft do that below this "
+       "link (CCSDS 355.0-B, space data link security). For those that do not, a board gives the component an authenticator "
+       "(`fsw/link/authenticator.hpp`). Each command then has a trailer between its application data and its CRC, counted in its length; "
+       "without a right one it is refused as `not_authentic`, before its arguments are looked at. What the trailer is, the board says. "
+       "That of `mdat run --link URL --key FILE`: a number that grows from command to command (8 bytes), and the first 16 bytes of the "
+       "HMAC-SHA-256 over all bytes of the packet before them.",
+       format("In a frame %u commands are answered, the refused ones too; the rest waits for the next. A command takes effect at the "
+              "next boundary, at "
+              "most one frame later. In a byte stream what has no right CRC belongs to no packet: it is counted as skipped bytes "
+              "(packet `link`), and not "
+              "answered. A datagram is a packet whatever it holds, and is answered.",
+              kMaxCommandsPerFrame)},
+      {}};
 }
 
 std::string kind_text(const ParameterRow& row) {
@@ -183,11 +189,9 @@ std::vector<DocumentSection> packet_sections() {
        "The link",
        {"Written by `mdat dictionary --format md` from the rows that the flight component packs its telemetry by "
         "(`fsw/link/dictionary.hpp`); `--format "
-        "html`, `json`, `xtce` and `lua` write the same for browsers, programs, mission control systems and Wireshark (the last two of "
-        "telemetry alone). Why it is so: "
+        "html`, `json`, `xtce` and `lua` write the same for browsers, programs, mission control systems and Wireshark. Why it is so: "
         "[packets and dictionary](../decisions/packets.md).",
-        "**Not there yet**: reset by command, saving parameters (service 20), and authentication. No board of this project gives the "
-        "component a second image buffer and a store yet but the tests; without them a command of service 6 fails, and says why."},
+        "A board without image buffers or a store says so: a command of service 6 that needs them fails, with that reason."},
        {}},
       {2,
        "Packets",

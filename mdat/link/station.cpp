@@ -100,7 +100,8 @@ CommandAnswer Station::wait_for(const Packet& packet, double wait_s) {
 void Station::send(const PacketRow& row, const Values& values) { transmit(encode_command(row, values, count_++)); }
 
 void Station::transmit(const Packet& packet) {
-  ConstBytes rest(packet.data(), packet.size());
+  const Packet sent = signer_ ? signer_->sign(packet) : packet;
+  ConstBytes rest(sent.data(), sent.size());
   const auto end = Clock::now() + std::chrono::duration<double>(kTakenWithin_s);
   while (!rest.empty()) {
     const std::size_t written = link_.write(rest);

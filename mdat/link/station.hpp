@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "fsw/link/commands.hpp"
 #include "mdat/link/command_encoder.hpp"
 #include "mdat/link/decode.hpp"
+#include "mdat/link/signature.hpp"
 
 namespace lasso::mdat {
 
@@ -29,6 +31,9 @@ class Station {
 
   // `name` stands in errors. The listener gets each packet that comes, before anything else is done with it. The link outlives the station.
   Station(ByteLink& link, std::string name, Listener listener);
+
+  // From now on commands are signed.
+  void sign_with(const Key& key) { signer_.emplace(key); }
 
   // From now on counts go on from here; otherwise one is found that the component takes.
   void set_count(std::uint16_t count);
@@ -59,6 +64,7 @@ class Station {
   ByteLink& link_;
   std::string name_;
   Listener listener_;
+  std::optional<Signer> signer_;
   std::uint16_t count_;
   bool agreed_ = false;                          // the component has taken a count, or somebody has set it
   std::map<std::uint32_t, CommandAnswer> sent_;  // by the first four bytes

@@ -22,7 +22,9 @@ std::string number(std::uint64_t value) { return std::to_string(value); }
 class Upload {
  public:
   Upload(ByteLink& link, const std::string& name, const std::vector<std::uint8_t>& image, const UploadOptions& options)
-      : name_(name), image_(image), options_(options), station_(link, name, [this](const DecodedPacket& packet) { note(packet); }) {}
+      : name_(name), image_(image), options_(options), station_(link, name, [this](const DecodedPacket& packet) { note(packet); }) {
+    if (options.key) station_.sign_with(*options.key);
+  }
 
   UploadEnd run() {
     if (is_ready(ask_for_report())) return options_.activate ? activate() : UploadEnd::kReady;

@@ -2,17 +2,20 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "fsw/link/byte_link.hpp"
+#include "mdat/link/signature.hpp"
 
 namespace lasso::mdat {
 
 struct UploadOptions {
   bool activate = false;
-  double answer_s = 5;  // to wait for the answer of a command
-  double trial_s = 30;  // to wait until an image that is active is confirmed, or taken back
+  std::optional<Key> key;  // that commands are signed with
+  double answer_s = 5;     // to wait for the answer of a command
+  double trial_s = 30;     // to wait until an image that is active is confirmed, or taken back
 };
 
 enum class UploadEnd {

@@ -168,6 +168,7 @@ class Case {
   void connect() {
     runner_ = std::make_unique<posix::Runner>(*component_, pace());
     if (setup_.link != nullptr) runner_->connect(*setup_.link);
+    if (setup_.authenticator != nullptr) component_->use_authenticator(*setup_.authenticator);
   }
 
   // What a board does on the command reset: everything begins anew but the world, and what the store has.

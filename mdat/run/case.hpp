@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "fsw/link/authenticator.hpp"
 #include "fsw/link/byte_link.hpp"
 #include "fsw/link/pose_telemetry.hpp"
 #include "hal_lcs/messages.hpp"
@@ -45,8 +46,9 @@ struct CaseSetup {
   double camera_degC = 20;
   sim::LcsFaults camera_faults;  // of each that is; times since frame 0
   SensorKind sensor = SensorKind::kLaserCamera;
-  ByteLink* link = nullptr;  // an operator's; the run then keeps real time, and nobody else starts a track that is lost
-  std::string store;         // folder of the board's store, whose image takes the place of `image` if there is one; empty: none
+  ByteLink* link = nullptr;  // an operator's; the run then keeps the clock's pace, and nobody else starts a track that is lost
+  Authenticator* authenticator = nullptr;  // of the link's commands; null: they need none
+  std::string store;  // folder of the board's store, whose image takes the place of `image` if there is one; empty: none
   const std::vector<std::uint8_t>* image = nullptr;
   const sim::RayCaster* target = nullptr;
   std::vector<std::uint32_t> keep_frames;  // whose scans the result holds; ascending

@@ -302,6 +302,7 @@ SimulationResult simulate(const CompiledMission& mission, const SimulationOption
   if (plan.cases.size() != 1) refuse_what_serves_one(options);
   for (CaseSetup& setup : plan.cases) {
     setup.link = options.link;
+    setup.authenticator = options.authenticator;
     setup.store = options.store;
     setup.camera_line = options.camera_line;
     setup.remote_line = options.remote_line;

@@ -22,12 +22,13 @@ struct SimulationOptions {
   std::shared_ptr<sim::SensorRecording> record;                // the same
   std::optional<lcs::Calibration> camera_optics, calibration;  // as CaseSetup's
   double camera_degC = 20;
-  ByteLink* link = nullptr;  // an operator's: one case, the scenario's first range, in real time
-  std::string store;         // of the run with a link: a folder, see CaseSetup
-  std::string camera_line;   // of this machine, over which the camera is reached, in real time: one case
-  bool remote_line = false;  // which may lead to other machines
-  bool plain = false;        // the scenario as it stands: one table, one variant
-  bool keep_scans = false;   // of all frames; otherwise of those that the report shows
+  ByteLink* link = nullptr;                // an operator's: one case, the scenario's first range, at the clock's pace
+  Authenticator* authenticator = nullptr;  // of the link's commands; null: they need none
+  std::string store;                       // of the run with a link: a folder, see CaseSetup
+  std::string camera_line;                 // of this machine, over which the camera is reached, in real time: one case
+  bool remote_line = false;                // which may lead to other machines
+  bool plain = false;                      // the scenario as it stands: one table, one variant
+  bool keep_scans = false;                 // of all frames; otherwise of those that the report shows
 };
 
 // What a table compares. In the noise-free variants the estimator keeps the mission's noise model.

@@ -15,7 +15,16 @@ using test::Story;
 using M = TrackingMode;
 using E = ModeEvent;
 
-ComponentScene tracking_scene() { return ComponentScene(test::box_parameters(test::default_scene())); }
+// Before a box that is there and tracked, with nothing wrong.
+class TrackedComponent : public ::testing::Test {
+ protected:
+  void fly(int frames) {
+    scene.begin();
+    story.run(scene, frames);
+  }
+  ComponentScene scene{test::box_parameters(test::default_scene())};
+  Story story;
+};
 
 // Where in the component's memory the mode lies in its copies: the one place with a word, its inverse and the word again.
 std::uint32_t* copies_of_mode(Component& component, TrackingMode mode) {
@@ -31,22 +40,16 @@ std::uint32_t* copies_of_mode(Component& component, TrackingMode mode) {
   return found;
 }
 
-TEST(ComponentHealth, AnUndisturbedFlightHasNoFault) {
+TEST_F(TrackedComponent, AnUndisturbedFlightHasNoFault) {
   VERIFIES("LASSO-HLT-001~1");
-  ComponentScene scene = tracking_scene();
-  scene.begin();
-  Story story;
-  story.run(scene, 30);
+  fly(30);
   EXPECT_EQ(scene.component->faults().confirmations(), 0u);
   EXPECT_EQ(story.last().mode, code(M::kTracking));
 }
 
-TEST(ComponentHealth, SafeIsCommandedTakesNoStartAndIsLeftByCommand) {
+TEST_F(TrackedComponent, SafeIsCommandedTakesNoStartAndIsLeftByCommand) {
   VERIFIES("LASSO-HLT-002~1");
-  ComponentScene scene = tracking_scene();
-  scene.begin();
-  Story story;
-  story.run(scene, 8);
+  fly(8);
   const PoseTelemetry trusted = story.last();
   ASSERT_EQ(trusted.mode, code(M::kTracking));
   scene.sensor.laser_permitted = true;
@@ -95,12 +98,9 @@ TEST(ComponentHealth, AStartThatIsDisplacedStaysAway) {
   EXPECT_EQ(story.last().mode, code(M::kBearing));
 }
 
-TEST(ComponentHealth, AFlippedBitOfTheModeIsOutvotedToldAndRepaired) {
+TEST_F(TrackedComponent, AFlippedBitOfTheModeIsOutvotedToldAndRepaired) {
   VERIFIES("LASSO-HLT-004~1");
-  ComponentScene scene = tracking_scene();
-  scene.begin();
-  Story story;
-  story.run(scene, 6);
+  fly(6);
   std::uint32_t* const copies = copies_of_mode(*scene.component, M::kTracking);
   std::uint32_t told = 0;
   for (std::size_t bit = 0; bit < 96; bit += 5) {
@@ -118,12 +118,9 @@ TEST(ComponentHealth, AFlippedBitOfTheModeIsOutvotedToldAndRepaired) {
   }
 }
 
-TEST(ComponentHealth, CopiesThatAgreeOnAnotherModeAreBelieved) {
+TEST_F(TrackedComponent, CopiesThatAgreeOnAnotherModeAreBelieved) {
   VERIFIES("LASSO-HLT-004~1");
-  ComponentScene scene = tracking_scene();
-  scene.begin();
-  Story story;
-  story.run(scene, 6);
+  fly(6);
   std::uint32_t* const copies = copies_of_mode(*scene.component, M::kTracking);
   copies[0] = copies[2] = static_cast<std::uint32_t>(M::kCoasting);
   copies[1] = ~copies[0];
@@ -133,12 +130,9 @@ TEST(ComponentHealth, CopiesThatAgreeOnAnotherModeAreBelieved) {
   EXPECT_EQ(story.last().mode, code(M::kTracking)) << "the next pose takes the track up again";
 }
 
-TEST(ComponentHealth, MirrorsThatStandStillLoseTheScan) {
+TEST_F(TrackedComponent, MirrorsThatStandStillLoseTheScan) {
   VERIFIES("LASSO-HLT-001~1");
-  ComponentScene scene = tracking_scene();
-  scene.begin();
-  Story story;
-  story.run(scene, 6);
+  fly(6);
   scene.sensor.stuck = true;
   story.run(scene, 4);
   EXPECT_TRUE(scene.component->faults().active().has(Fault::kSensorStuck));
@@ -206,12 +200,9 @@ TEST(ComponentHealth, AFilterWithoutNumbersIsLeftForABearing) {
   EXPECT_EQ(story.last().mode, code(M::kBearing));
 }
 
-TEST(ComponentHealth, AModeThatNobodyKnowsMakesSafe) {
+TEST_F(TrackedComponent, AModeThatNobodyKnowsMakesSafe) {
   VERIFIES("LASSO-HLT-002~1 LASSO-HLT-004~1");
-  ComponentScene scene = tracking_scene();
-  scene.begin();
-  Story story;
-  story.run(scene, 6);
+  fly(6);
   std::uint32_t* const copies = copies_of_mode(*scene.component, M::kTracking);
   copies[0] ^= 1;
   copies[1] ^= 4;
@@ -232,9 +223,8 @@ class CountingWatchdog final : public Watchdog {
   int fed = 0;
 };
 
-TEST(ComponentHealth, TheWatchdogIsFedByWholeFramesAlone) {
+TEST_F(TrackedComponent, TheWatchdogIsFedByWholeFramesAlone) {
   VERIFIES("LASSO-HLT-003~1");
-  ComponentScene scene = tracking_scene();
   CountingWatchdog watchdog;
   scene.component->set_watchdog(watchdog);
   scene.begin();
@@ -248,27 +238,22 @@ TEST(ComponentHealth, TheWatchdogIsFedByWholeFramesAlone) {
   EXPECT_EQ(watchdog.fed, fed + 1) << "and lives again";
 }
 
-TEST(ComponentHealth, AfterTheWatchdogItBeginsInSafe) {
+TEST_F(TrackedComponent, AfterTheWatchdogItBeginsInSafe) {
   VERIFIES("LASSO-HLT-002~1 LASSO-HLT-009~1");
-  ComponentScene scene = tracking_scene();
   scene.component->set_reset_cause(ResetCause::kWatchdog);
-  scene.begin();
-  Story story;
-  story.run(scene, 4);
+  fly(4);
   story.expect({{M::kStandby, E::kMakeSafe, M::kSafe}});
   EXPECT_TRUE(scene.component->faults().active().has(Fault::kWatchdogReset));
 }
 
 // A processor that rounds otherwise than the component was verified with.
-TEST(ComponentHealth, AProcessorThatComputesOtherwiseBeginsInSafe) {
+TEST_F(TrackedComponent, AProcessorThatComputesOtherwiseBeginsInSafe) {
   VERIFIES("LASSO-HLT-009~1 LASSO-HLT-002~1");
-  ComponentScene scene = tracking_scene();
   ASSERT_EQ(scene.load().status, Status::kOk);
   ASSERT_EQ(std::fesetround(FE_UPWARD), 0);
   const Status begun = scene.component->begin(0);
   ASSERT_EQ(std::fesetround(FE_TONEAREST), 0);
   ASSERT_EQ(begun, Status::kOk);
-  Story story;
   story.run(scene, 3);
   story.expect({{M::kStandby, E::kMakeSafe, M::kSafe}});
   EXPECT_TRUE(scene.component->faults().active().has(Fault::kSelfTestFailed));
@@ -315,12 +300,9 @@ TEST(ComponentHealth, AJumpStartsNothingWhereNothingIsTracked) {
   }
 }
 
-TEST(ComponentHealth, ALateSlotIsNoJump) {
+TEST_F(TrackedComponent, ALateSlotIsNoJump) {
   VERIFIES("LASSO-HLT-006~1");
-  ComponentScene scene = tracking_scene();
-  scene.begin();
-  Story story;
-  story.run(scene, 4);
+  fly(4);
   const TimeUs slot_us = scene.component->next_slot_us();
   EXPECT_FALSE(scene.component->slot_is_due(slot_us - 1));
   scene.component->run_slot(slot_us + 30'000);
@@ -329,12 +311,9 @@ TEST(ComponentHealth, ALateSlotIsNoJump) {
   EXPECT_FALSE(scene.component->faults().ever().has(Fault::kTimeJump));
 }
 
-TEST(ComponentHealth, OverrunsAndAFullQueueAreFaults) {
+TEST_F(TrackedComponent, OverrunsAndAFullQueueAreFaults) {
   VERIFIES("LASSO-HLT-001~1");
-  ComponentScene scene = tracking_scene();
-  scene.begin();
-  Story story;
-  story.run(scene, 5);
+  fly(5);
   for (int frame = 0; frame < 40; ++frame) {
     do {
       scene.component->run_slot(scene.component->next_slot_us());
@@ -345,9 +324,8 @@ TEST(ComponentHealth, OverrunsAndAFullQueueAreFaults) {
 }
 
 // A message's own count is of 16 bits (the sequence count, of 14: component_test.cpp).
-TEST(ComponentHealth, MessageCountsWrapWithoutAGap) {
+TEST_F(TrackedComponent, MessageCountsWrapWithoutAGap) {
   VERIFIES("LASSO-HLT-007~1");
-  ComponentScene scene = tracking_scene();
   scene.begin();
   ASSERT_EQ(scene.component->command_mode(M::kSafe), ModeRefusal::kNone);
   for (int i = 0; i < 4; ++i) scene.run_frame();
@@ -365,11 +343,10 @@ TEST(ComponentHealth, MessageCountsWrapWithoutAGap) {
 }
 
 // CUC time begins anew after 2^32 s; what is computed with goes on.
-TEST(ComponentHealth, TimeWrapsOnTheWireAlone) {
+TEST_F(TrackedComponent, TimeWrapsOnTheWireAlone) {
   VERIFIES("LASSO-HLT-007~1");
   constexpr TimeUs kWrap_us = (TimeUs{1} << 32) * 1'000'000;
   constexpr TimeUs kBegin_us = kWrap_us - 2'000'000;
-  ComponentScene scene = tracking_scene();
   scene.sensor.scene_ahead_us = -kBegin_us;
   ASSERT_EQ(scene.load().status, Status::kOk);
   ASSERT_EQ(scene.component->begin(kBegin_us), Status::kOk);

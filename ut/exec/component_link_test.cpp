@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "ut/exec/component_operator.hpp"
+#include "ut/link/keyed_sum.hpp"
 #include "ut/support/generator.hpp"
 
 namespace lasso {
@@ -28,6 +29,43 @@ TEST(ComponentLink, PingIsAnswered) {
   for (std::uint16_t i = 0; i < 3; ++i) {
     EXPECT_EQ(answers[i].header.sequence_count, i);
     EXPECT_EQ(answers[i].header.message_count, 0) << "of its own kind";
+  }
+}
+
+TEST(ComponentLink, WithAnAuthenticatorOnlyItsCommandsAreCarriedOut) {
+  VERIFIES("LASSO-LNK-021~1");
+  Link link;
+  test::KeyedSum authenticator;
+  link.component().use_authenticator(authenticator);
+  link.send(test::ping(7));
+  const std::vector<Packet> refused = link.answers();
+  ASSERT_EQ(refused.size(), 1u);
+  EXPECT_TRUE(refused[0].is(1, 2));
+  EXPECT_EQ(refused[0].data.back(), static_cast<std::uint8_t>(PacketFault::kNotAuthentic));
+  link.send(test::with_sum(test::ping(7)));
+  const std::vector<Packet> answers = link.answers();
+  ASSERT_EQ(answers.size(), 3u);
+  EXPECT_TRUE(answers[1].is(17, 2));
+}
+
+TEST(ComponentLink, ALinkThatIsSilentForLongIsAFaultWhereTheMissionSaysSo) {
+  VERIFIES("LASSO-HLT-001~1");
+  for (const double silence_max_s : {0.0, 1.1}) {
+    MissionParameters p = test::box_parameters(test::default_scene());
+    p.link_silence_max_s = silence_max_s;
+    test::ComponentScene scene(p);
+    scene.begin();
+    std::string silent;
+    for (std::uint16_t frame = 0; frame < 20; ++frame) {
+      const Stream command = frame == 9 ? test::set_mode(99, 1) : test::ping(1);
+      if (frame == 9 || frame == 11) {
+        EXPECT_TRUE(scene.component->receive_packet(view(command), scene.component->next_slot_us()));
+      }
+      scene.run_frame();
+      silent += scene.component->faults().active().has(Fault::kLinkSilent) ? '!' : '.';
+    }
+    EXPECT_EQ(silent, silence_max_s > 0 ? "......!!!!!......!!!" : "....................")
+        << "a command that is refused is no sign of life";
   }
 }
 

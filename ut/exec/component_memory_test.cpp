@@ -238,6 +238,24 @@ TEST_F(ComponentMemory, AnEstimateUnderWayKeepsItsImage) {
   EXPECT_EQ(component().mission().image_crc, crc_of(better_image()));
 }
 
+// What was commanded holds for the image that was named then, not for the one that has been loaded over it meanwhile.
+TEST_F(ComponentMemory, AnotherImageThanTheOneThatWasNamedStaysOut) {
+  VERIFIES("LASSO-IMG-013~1");
+  scene_->begin(first_image());
+  scene_->run_frames(5);
+  scene_->upload(better_image());
+  scene_->run_frame(false);
+  ASSERT_EQ(component().activate_image(crc_of(better_image())), ImageRefusal::kNone);
+  const TestImage other = test::of_mission(better_image(), 77);
+  scene_->upload(other, false);
+  ASSERT_EQ(component().images().other().view(0).mission.image_crc, crc_of(other)) << "ready";
+  scene_->run_frames(3);
+  EXPECT_EQ(component().mission().image_crc, crc_of(first_image()));
+  ASSERT_EQ(component().activate_image(crc_of(other)), ImageRefusal::kNone);
+  scene_->run_frames(2);
+  EXPECT_EQ(component().mission().image_crc, crc_of(other));
+}
+
 // What was ready when the command came may have decayed at the boundary.
 TEST_F(ComponentMemory, AnImageThatIsNotReadyAtTheBoundaryStaysOut) {
   VERIFIES("LASSO-IMG-013~1");

@@ -178,7 +178,7 @@ TEST(ComponentServices, PosesThatAreNotSentCountAndTheirChangesAreEvents) {
 }
 
 TEST(ComponentServices, HeadersStateSpacecraftTimeOnceItIsCorrelated) {
-  VERIFIES("LASSO-LNK-037~1");
+  VERIFIES("LASSO-LNK-037~1 LASSO-HLT-006~1");
   Link link;
   link.run_frame();
   link.send(test::correlate_time(0, 86400000000, 0));

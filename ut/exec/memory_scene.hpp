@@ -80,14 +80,14 @@ class MemoryScene {
     return poses;
   }
 
-  void upload(const TestImage& image) {
+  void upload(const TestImage& image, bool estimate = true) {
     ASSERT_EQ(component->open_image(static_cast<std::uint32_t>(image.size), crc_of(image)), ImageRefusal::kNone);
     const ConstBytes bytes(reinterpret_cast<const std::uint8_t*>(image.storage.data()), image.size);
     ASSERT_EQ(component->put_image(0, bytes), ImageRefusal::kNone);
     ASSERT_EQ(component->check_image(), ImageRefusal::kNone);
     for (int i = 0; i < 200 && component->images().other().state() != ImageState::kReady; ++i) {
       ASSERT_NE(component->images().other().state(), ImageState::kRefused);
-      run_frame();
+      run_frame(estimate);
     }
   }
 

@@ -66,7 +66,7 @@ PoseTelemetry numbered_report() {
 }
 
 TEST(Report, CarriesTheRegistration) {
-  VERIFIES("LASSO-EXE-006~1");
+  VERIFIES("LASSO-EXE-006~1 LASSO-LNK-025~1");
   const PoseTelemetry t = numbered_report();
   const Quat q = numbered_step().registration.T_sensor_target.q;
   EXPECT_EQ(t.scan_id, 1u);
@@ -87,7 +87,7 @@ TEST(Report, CarriesTheRegistration) {
 }
 
 TEST(Report, CarriesQualityAndFilter) {
-  VERIFIES("LASSO-EXE-006~1");
+  VERIFIES("LASSO-EXE-006~1 LASSO-LNK-025~1");
   const PoseTelemetry t = numbered_report();
   EXPECT_EQ(t.iterations, 5);
   EXPECT_EQ(t.rays, 6);
@@ -202,7 +202,7 @@ TEST(Report, CarriesTheSearchAndItsFirstCandidates) {
 }
 
 TEST(Report, CarriesPlanImageAndVersion) {
-  VERIFIES("LASSO-EXE-006~1");
+  VERIFIES("LASSO-EXE-006~1 LASSO-LNK-025~1");
   const PoseTelemetry t = numbered_report();
   EXPECT_EQ(t.plan_center[0], 0.01);
   EXPECT_EQ(t.plan_center[1], 0.02);
@@ -219,7 +219,7 @@ TEST(Report, CarriesPlanImageAndVersion) {
 }
 
 TEST(Report, AgeIsNeverNegativeAndNeverWraps) {
-  VERIFIES("LASSO-EXE-006~1");
+  VERIFIES("LASSO-EXE-006~1 LASSO-LNK-025~1");
   EXPECT_EQ(make_report(Mission{}, numbered_step(), ScanPlan{}, 1999999).age_us, 0u);
   EXPECT_EQ(make_report(Mission{}, numbered_step(), ScanPlan{}, 2000000 + (1LL << 33)).age_us, 0xFFFFFFFFu);
 }

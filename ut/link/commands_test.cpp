@@ -118,7 +118,7 @@ TEST(Commands, LieAtTheseBytes) {
   EXPECT_EQ(Stream(time.begin() + 7, time.begin() + 27), (Stream{9, 128, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 1, 2, 3, 4, 5}));
   for (const PacketRow& packet : kPackets) {
     if (packet.type == PacketType::kCommand) {
-      EXPECT_LE(item_offset(packet, packet.items.size()) + kPacketTrailerBytes, kMaxCommandBytes);
+      EXPECT_LE(item_offset(packet, packet.items.size()) + kPacketTrailerBytes, kMaxCommandBytes - kMaxAuthenticationBytes);
     }
   }
 }

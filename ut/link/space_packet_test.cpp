@@ -34,7 +34,7 @@ TEST(SpacePacket, HeaderIsBitForBitAsTheStandardSays) {
 
 TEST(SpacePacket, NamesItsFaultsAsTheDictionaryDoes) {
   VERIFIES("LASSO-LNK-005~1 LASSO-LNK-002~1");
-  ASSERT_EQ(kPacketFault.choices.size(), static_cast<std::size_t>(PacketFault::kRepeated) + 1);
+  ASSERT_EQ(kPacketFault.choices.size(), static_cast<std::size_t>(PacketFault::kNotAuthentic) + 1);
   for (std::size_t i = 0; i < kPacketFault.choices.size(); ++i) {
     EXPECT_STREQ(to_string(static_cast<PacketFault>(i)), kPacketFault.choices[i].name);
   }
