@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 
 #include "fsw/core/span.hpp"
 
@@ -20,7 +21,9 @@ class ByteRing {
     const std::uint32_t head = head_.load(std::memory_order_relaxed);
     const std::size_t room = kSize - (head - tail_.load(std::memory_order_acquire));
     const std::size_t count = bytes.size() < room ? bytes.size() : room;
-    for (std::size_t i = 0; i < count; ++i) bytes_[(head + i) % kSize] = bytes.data()[i];
+    const std::size_t at = head % kSize, straight = until_wrap(at, count);
+    copy(bytes_ + at, bytes.data(), straight);
+    copy(bytes_, bytes.data() + straight, count - straight);
     head_.store(head + static_cast<std::uint32_t>(count), std::memory_order_release);
     return count;
   }
@@ -30,7 +33,9 @@ class ByteRing {
     const std::uint32_t tail = tail_.load(std::memory_order_relaxed);
     const std::size_t there = head_.load(std::memory_order_acquire) - tail;
     const std::size_t count = out.size() < there ? out.size() : there;
-    for (std::size_t i = 0; i < count; ++i) out.data()[i] = bytes_[(tail + i) % kSize];
+    const std::size_t at = tail % kSize, straight = until_wrap(at, count);
+    copy(out.data(), bytes_ + at, straight);
+    copy(out.data() + straight, bytes_, count - straight);
     tail_.store(tail + static_cast<std::uint32_t>(count), std::memory_order_release);
     return count;
   }
@@ -38,6 +43,11 @@ class ByteRing {
   std::size_t room() const { return kSize - (head_.load(std::memory_order_relaxed) - tail_.load(std::memory_order_acquire)); }
 
  private:
+  static std::size_t until_wrap(std::size_t at, std::size_t count) { return count < kSize - at ? count : kSize - at; }
+  static void copy(std::uint8_t* to, const std::uint8_t* from, std::size_t count) {
+    if (count > 0) std::memcpy(to, from, count);  // of nothing, pointers may be null
+  }
+
   std::uint8_t bytes_[kSize] = {};
   std::atomic<std::uint32_t> head_{0};  // bytes ever written, modulo 2^32
   std::atomic<std::uint32_t> tail_{0};  // bytes ever read

@@ -288,35 +288,32 @@ void Driver::take(const ScanEnd& end) {
 
 TimeUs Driver::time_of(std::uint32_t clock_us) const { return clock_at_us_ + static_cast<std::int32_t>(clock_us - clock_us_); }
 
-RangeSample Driver::sample_of(const RawSample& raw) {
+void Driver::convert(const RawSample& raw, RangeSample& sample) {
   const TimeUs t_us = time_of(raw.clock_us);
   const DurationUs late_us = t_us - (t_start_us_ + command_us_ + pattern_time_us(plan_, static_cast<std::uint16_t>(next_)));
-  RangeSample sample;
   ++health_.fates[static_cast<std::size_t>(optics_.convert(raw, t_us, sample))];
   if (t_us >= last_us_ && late_us <= kClockToleranceUs && late_us >= -kClockToleranceUs) {
     last_us_ = t_us;
-    return sample;
+    return;
   }
   ++health_.bad_times;
   sample = RangeSample{};
   sample.t_us = last_us_;
-  return sample;
 }
 
 // Of the ray next_: as it came, or lost, if a later one is there or the scan has ended.
-RangeSample Driver::next_sample() {
-  if (taken_ < pending_.count && pending_.first + taken_ == next_) return sample_of(pending_.samples[taken_++]);
+void Driver::next_sample(RangeSample& sample) {
+  if (taken_ < pending_.count && pending_.first + taken_ == next_) return convert(pending_.samples[taken_++], sample);
   ++health_.samples_lost;
-  RangeSample sample;
+  sample = RangeSample{};
   sample.state = RayState::kLost;
   sample.t_us = last_us_;
-  return sample;
 }
 
 // What is known of the scan's next samples, into `out` from `count` on.
 std::size_t Driver::hand_over(Span<RangeSample> out, std::size_t count) {
   while (count < out.size() && state_ == State::kScanning && (taken_ < pending_.count || (end_seen_ && next_ < plan_.points))) {
-    out[count++] = next_sample();
+    next_sample(out[count++]);
     ++next_;
   }
   return count;

@@ -108,8 +108,8 @@ class Driver final : public Sensor {
   void take(const Samples& samples);
   void take(const ScanEnd& end);
   void check_plan(const Samples& samples);
-  RangeSample next_sample();
-  RangeSample sample_of(const RawSample& raw);
+  void next_sample(RangeSample& sample);
+  void convert(const RawSample& raw, RangeSample& sample);
   std::size_t hand_over(Span<RangeSample> out, std::size_t count);
   TimeUs time_of(std::uint32_t clock_us) const;
 

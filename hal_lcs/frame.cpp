@@ -1,5 +1,7 @@
 #include "hal_lcs/frame.hpp"
 
+#include <cstring>
+
 #include "fsw/core/byte_codec.hpp"
 #include "fsw/core/crc.hpp"
 #include "fsw/core/invariant.hpp"
@@ -50,6 +52,11 @@ FrameDecoder::Verdict FrameDecoder::judge() {
   return Verdict::kSkip;
 }
 
+// How many bytes from held_[0] on can be a frame, as far as those that are there tell; more than are held while judge() waits.
+std::size_t FrameDecoder::awaited() const {
+  return size_ < kFrameOverhead ? kFrameOverhead : std::size_t{held_[kSyncBytes]} + kFrameOverhead;
+}
+
 void FrameDecoder::drop(std::size_t count) {
   size_ -= count;
   for (std::size_t i = 0; i < size_; ++i) held_[i] = held_[i + count];
@@ -68,7 +75,7 @@ bool FrameDecoder::take_frame(Frame& frame) {
   frame.length = in.u8();
   frame.type = in.u8();
   frame.sequence = in.u8();
-  for (std::size_t i = 0; i < frame.length; ++i) frame.payload[i] = held_[kHeaderBytes + i];
+  std::memcpy(frame.payload, held_ + kHeaderBytes, frame.length);
   drop(frame.length + kFrameOverhead);
   ++counters_.frames;
   return true;
@@ -78,7 +85,11 @@ FrameDecoder::Step FrameDecoder::step(ConstBytes bytes, Frame& frame) {
   Step step;
   step.found = take_frame(frame);
   while (!step.found && step.taken < bytes.size()) {
-    held_[size_++] = bytes.data()[step.taken++];
+    const std::size_t left = bytes.size() - step.taken, missing = awaited() - size_;
+    const std::size_t count = missing < left ? missing : left;
+    std::memcpy(held_ + size_, bytes.data() + step.taken, count);
+    size_ += count;
+    step.taken += count;
     step.found = take_frame(frame);
   }
   return step;

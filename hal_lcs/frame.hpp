@@ -63,6 +63,7 @@ class FrameDecoder {
  private:
   enum class Verdict : std::uint8_t { kWait, kSkip, kFrame };
   Verdict judge();
+  std::size_t awaited() const;
   void drop(std::size_t count);
   bool take_frame(Frame& frame);
 

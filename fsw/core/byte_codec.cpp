@@ -13,13 +13,6 @@ void store(std::uint8_t* to, U value) {
   for (std::size_t i = 0; i < sizeof(U); ++i) to[i] = static_cast<std::uint8_t>((value >> (8 * (sizeof(U) - 1 - i))) & 0xFFU);
 }
 
-template <class U>
-U load(const std::uint8_t* from) {
-  std::uint64_t value = 0;
-  for (std::size_t i = 0; i < sizeof(U); ++i) value = (value << 8) | from[i];
-  return static_cast<U>(value);
-}
-
 }  // namespace
 
 bool ByteWriter::reserve(std::size_t n) {
@@ -52,24 +45,10 @@ void ByteWriter::bytes(ConstBytes value) {
   if (!value.empty() && reserve(value.size())) std::memmove(buffer_.data() + size_ - value.size(), value.data(), value.size());
 }
 
-bool ByteReader::take(std::size_t n) {
-  ok_ = ok_ && n <= remaining();
-  if (ok_) position_ += n;
-  return ok_;
-}
-
-std::uint8_t ByteReader::u8() { return take(1) ? buffer_.data()[position_ - 1] : std::uint8_t{0}; }
-
-std::uint16_t ByteReader::u16() {
-  return take(sizeof(std::uint16_t)) ? load<std::uint16_t>(buffer_.data() + position_ - sizeof(std::uint16_t)) : std::uint16_t{0};
-}
-
-std::uint32_t ByteReader::u32() {
-  return take(sizeof(std::uint32_t)) ? load<std::uint32_t>(buffer_.data() + position_ - sizeof(std::uint32_t)) : std::uint32_t{0};
-}
-
 std::uint64_t ByteReader::u64() {
-  return take(sizeof(std::uint64_t)) ? load<std::uint64_t>(buffer_.data() + position_ - sizeof(std::uint64_t)) : std::uint64_t{0};
+  if (!take(sizeof(std::uint64_t))) return 0;
+  const std::uint8_t* const from = buffer_.data() + position_ - sizeof(std::uint64_t);
+  return std::uint64_t{load<sizeof(std::uint32_t)>(from)} << 32 | load<sizeof(std::uint32_t)>(from + sizeof(std::uint32_t));
 }
 
 float ByteReader::f32() { return same_bits<float>(u32()); }

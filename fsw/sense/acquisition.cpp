@@ -97,7 +97,10 @@ void Acquisition::step(Sensor& sensor, TimeUs now_us, RangeImage& image) {
   const SensorPoll poll = sensor.poll(now_us, Span<RangeSample>(polled_));
   if (poll.status != Status::kOk) return lose(sensor, poll.status);
   if (poll.count > kMaxSamplesPerPoll) return lose(sensor, Status::kBadLength);
-  for (std::size_t i = 0; i < poll.count; ++i) take(polled_[i], now_us, image);
+  for (std::size_t i = 0; i < poll.count; ++i) {
+    const RangeSample sample = polled_[i];  // the compiler may keep it in registers, whatever is written meanwhile
+    take(sample, now_us, image);
+  }
   if (poll.complete) state_ = State::kComplete;
 }
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "ut/support/generator.hpp"
@@ -68,6 +69,27 @@ TEST(Crc, TablesAgreeWithTheDefinition) {
     const auto bytes = random_bytes(generator, n);
     ASSERT_EQ(crc16_ccitt(view(bytes)), crc_by_bits(bytes, 16, 0x1021, 0xFFFF, false)) << n;
     ASSERT_EQ(crc32c(view(bytes)), ~mirrored(crc_by_bits(bytes, 32, 0x1EDC6F41, 0xFFFFFFFF, true))) << n;
+  }
+}
+
+TEST(Crc, IsTheDefinitionsAtAnyAddressAndInAnyPieces) {
+  VERIFIES("LASSO-COR-002~1");
+  test::Generator generator(5);
+  const auto bytes = random_bytes(generator, 4096);
+  for (int round = 0; round < 500; ++round) {
+    const std::size_t from = generator.below(bytes.size()), end = from + generator.below(bytes.size() - from + 1);
+    const std::vector<std::uint8_t> part(bytes.begin() + static_cast<std::ptrdiff_t>(from),
+                                         bytes.begin() + static_cast<std::ptrdiff_t>(end));
+    std::uint16_t crc16 = 0xFFFF;
+    std::uint32_t crc32 = 0;
+    for (std::size_t at = from; at < end;) {
+      const std::size_t piece = std::min<std::size_t>(1 + generator.below(40), end - at);
+      crc16 = crc16_ccitt(view(bytes).subspan(at, piece), crc16);
+      crc32 = crc32c(view(bytes).subspan(at, piece), crc32);
+      at += piece;
+    }
+    ASSERT_EQ(crc16, crc_by_bits(part, 16, 0x1021, 0xFFFF, false)) << from << ' ' << end;
+    ASSERT_EQ(crc32, ~mirrored(crc_by_bits(part, 32, 0x1EDC6F41, 0xFFFFFFFF, true))) << from << ' ' << end;
   }
 }
 

@@ -38,12 +38,12 @@ Octets bytes_of(const Sent& sent) {
 }
 
 // All frames in the stream, which comes in pieces of any size.
-std::vector<Sent> decode_all(FrameDecoder& decoder, const Octets& stream, test::Generator& chance) {
+std::vector<Sent> decode_all(FrameDecoder& decoder, const Octets& stream, test::Generator& chance, std::size_t most = 100) {
   std::vector<Sent> found;
   std::size_t at = 0;
   Frame frame;
   while (at < stream.size()) {
-    const std::size_t piece = std::min<std::size_t>(1 + chance.bits() % 100, stream.size() - at);
+    const std::size_t piece = std::min<std::size_t>(1 + chance.bits() % most, stream.size() - at);
     std::size_t end = at + piece;
     for (;;) {
       const FrameDecoder::Step step = decoder.step(ConstBytes(stream.data() + at, end - at), frame);
@@ -82,6 +82,28 @@ TEST(LcsFrame, ComesBackWhateverThePieces) {
   for (std::size_t i = 0; i < sent.size(); ++i) EXPECT_TRUE(same(found[i], sent[i])) << i;
   EXPECT_EQ(decoder.counters().frames, sent.size());
   EXPECT_EQ(decoder.counters().skipped + decoder.counters().bad_crc + decoder.counters().bad_length, 0U);
+}
+
+// Frames, parts of frames and garbage: byte by byte as in any pieces.
+TEST(LcsFrame, DoesNotDependOnThePieces) {
+  VERIFIES("LASSO-LCS-002~1 LASSO-LCS-014~2");
+  test::Generator chance(99);
+  for (int round = 0; round < 300; ++round) {
+    Octets stream;
+    for (int i = 0; i < 12; ++i) {
+      Octets next = chance.bits() % 4 == 0 ? random_octets(chance, chance.bits() % 20) : bytes_of(random_frame(chance));
+      if (chance.bits() % 3 == 0) next.resize(chance.bits() % (next.size() + 1));
+      append(stream, next);
+    }
+    FrameDecoder in_pieces, in_bytes;
+    const std::vector<Sent> found = decode_all(in_pieces, stream, chance);
+    const std::vector<Sent> expected = decode_all(in_bytes, stream, chance, 1);
+    ASSERT_EQ(found.size(), expected.size()) << round;
+    for (std::size_t i = 0; i < found.size(); ++i) ASSERT_TRUE(same(found[i], expected[i])) << round << ' ' << i;
+    ASSERT_EQ(in_pieces.counters().skipped, in_bytes.counters().skipped) << round;
+    ASSERT_EQ(in_pieces.counters().bad_crc, in_bytes.counters().bad_crc) << round;
+    ASSERT_EQ(in_pieces.counters().bad_length, in_bytes.counters().bad_length) << round;
+  }
 }
 
 TEST(LcsFrame, IsFoundBehindGarbage) {

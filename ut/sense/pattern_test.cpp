@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "cfg/capacities.hpp"
+#include "ut/support/generator.hpp"
 #include "ut/support/verifies.hpp"
 
 namespace lasso {
@@ -131,6 +132,19 @@ TEST(Pattern, TimesAreEvenMonotoneAndEndAtTheDuration) {
     const double exact_us = static_cast<double>(plan.duration_us) * i / (plan.points - 1.0);
     ASSERT_EQ(pattern_time_us(plan, i), static_cast<DurationUs>(std::floor(exact_us + 1e-9)));
     ASSERT_GT(pattern_time_us(plan, i), pattern_time_us(plan, static_cast<std::uint16_t>(i - 1)));
+  }
+}
+
+TEST(Pattern, TimesAreExactForAnyDurationAndAnyNumberOfPoints) {
+  VERIFIES("LASSO-SNS-004~1");
+  test::Generator generator(17);
+  ScanPlan plan;
+  for (int round = 0; round < 20000; ++round) {
+    plan.points = static_cast<std::uint16_t>(2 + generator.below(0xFFFE));
+    plan.duration_us =
+        round == 0 ? kMaxScanDurationUs : static_cast<DurationUs>(1 + generator.below(static_cast<std::uint64_t>(kMaxScanDurationUs)));
+    const auto index = static_cast<std::uint16_t>(round == 0 ? plan.points - 1 : generator.below(plan.points));
+    ASSERT_EQ(pattern_time_us(plan, index), plan.duration_us * index / (plan.points - 1)) << plan.points << ' ' << plan.duration_us;
   }
 }
 
