@@ -1,7 +1,8 @@
-// search_replay IMAGE SCANS: searches each recorded scan (ft/search/recording.hpp) step by step, and says what came of it. On the emulated
-// 603e an instruction counter (ft/ppc603e) counts each step.
-// Exit codes: 0 done, 2 usage or unreadable files.
+// search_replay IMAGE SCANS [NUMBER...]: searches each recorded scan (ft/search/recording.hpp), or those of these numbers in ascending
+// order, from 0, step by step, and says what came of it. On the emulated 603e an instruction counter (ft/ppc603e) counts each step. Exit
+// codes: 0 done, 2 usage or unreadable files.
 #include <cstdio>
+#include <cstdlib>
 #include <memory>
 
 #include "fsw/pose/search.hpp"
@@ -56,7 +57,23 @@ void search_scan(const Mission& mission, const RangeImage& scan, Search& search,
               r.T_sensor_target.q.w(), r.T_sensor_target.p[0], r.T_sensor_target.p[1], r.T_sensor_target.p[2]);
 }
 
-int replay(const char* image_name, const char* scans_name) {
+// The scans that are asked for: all, or those of the numbers, ascending.
+class Choice {
+ public:
+  Choice(int count, char** numbers) : count_(count), numbers_(numbers) {}
+  bool has(unsigned long scan) {
+    if (count_ == 0) return true;
+    if (next_ >= count_ || std::strtoul(numbers_[next_], nullptr, 10) != scan) return false;
+    ++next_;
+    return true;
+  }
+
+ private:
+  int count_, next_ = 0;
+  char** numbers_;
+};
+
+int replay(const char* image_name, const char* scans_name, Choice choice) {
   golden::File image, scans;
   if (!golden::read_file(image_name, image)) return fail("the image cannot be read");
   if (!golden::read_file(scans_name, scans)) return fail("the scans cannot be read");
@@ -66,9 +83,9 @@ int replay(const char* image_name, const char* scans_name) {
   const auto workspace = std::make_unique<Workspace>();
   const auto scan = std::make_unique<RangeImage>();
   ByteReader in(scans.bytes());
-  while (in.remaining() > 0) {
+  for (unsigned long number = 0; in.remaining() > 0; ++number) {
     if (!read_scan(in, *scan)) return fail("the scans end early");
-    search_scan(*mission, *scan, *search, *workspace);
+    if (choice.has(number)) search_scan(*mission, *scan, *search, *workspace);
   }
   return 0;
 }
@@ -77,6 +94,6 @@ int replay(const char* image_name, const char* scans_name) {
 }  // namespace lasso::search
 
 int main(int argc, char** argv) {
-  if (argc != 3) return lasso::search::fail("usage: search_replay IMAGE SCANS");
-  return lasso::search::replay(argv[1], argv[2]);
+  if (argc < 3) return lasso::search::fail("usage: search_replay IMAGE SCANS [NUMBER...]");
+  return lasso::search::replay(argv[1], argv[2], {argc - 3, argv + 3});
 }
