@@ -131,7 +131,7 @@ TEST_F(Replay, RegistersPointClouds) {
 }
 
 TEST_F(Replay, FindsEachScansPoseWithoutAnyOrSaysWhyNot) {
-  VERIFIES("LASSO-MOD-111~1");
+  VERIFIES("LASSO-MOD-111~1 LASSO-GND-025~1");
   work.write("rec/4m/scans/f00009.csv", "t_s,x_m,y_m,z_m,valid\n9,0,0,1,0\n9.1,0,0,1,0\n");  // two misses
   const Answer answer = work.mdat("replay image.3dli --scans rec/4m/scans --initial search --out found.csv");
   ASSERT_EQ(answer.exit_code, 0) << answer.err;
@@ -152,6 +152,22 @@ TEST_F(Replay, FindsEachScansPoseWithoutAnyOrSaysWhyNot) {
   EXPECT_GE(accepted, kFrames - 1);
   EXPECT_EQ(rows[kFrames].at("outcome"), "rejected");
   EXPECT_EQ(rows[kFrames].at("reason"), "no data") << "by the name of the status";
+  EXPECT_EQ(rows[kFrames].at("candidates"), "0");
+  const std::vector<Row> candidates = table(work.read("found_candidates.csv"));
+  std::size_t next = 0;
+  for (const Row& row : rows) {
+    for (std::size_t i = 0; i < std::stoul(row.at("candidates")); ++i, ++next) {
+      ASSERT_LT(next, candidates.size());
+      EXPECT_EQ(candidates[next].at("scan"), row.at("scan"));
+      EXPECT_EQ(candidates[next].at("candidate"), std::to_string(i + 1));
+      EXPECT_LT(value(candidates[next], "disagreement"), 1);
+      if (i > 0 || row.at("outcome") != "accepted") continue;
+      EXPECT_LT(distance_m(candidates[next], row), 1e-9) << "the best one is the pose";
+      EXPECT_LT(angle_rad(candidates[next], row), 1e-5);
+    }
+  }
+  EXPECT_EQ(next, candidates.size());
+  EXPECT_GE(next, accepted);
 }
 
 TEST_F(Replay, ASearchIsOfEachScanAlone) {

@@ -1,6 +1,7 @@
 #include "mdat/replay/replay.hpp"
 
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 
 #include "mdat/cli/commands.hpp"
@@ -23,15 +24,24 @@ LoadedImage load(const Options& options) {
   return LoadedImage(options.mission, image_bytes(mission, parameters_for(mission.source, options.scenario)));
 }
 
+// "out.csv": "out_candidates.csv".
+std::filesystem::path candidates_file(std::filesystem::path out) {
+  const std::string name = out.stem().string() + "_candidates" + out.extension().string();
+  return out.replace_filename(name);
+}
+
 void search(const Options& options) {
   if (options.replay.closed_loop || options.replay.wide) {
     throw InputError("--initial search: each scan is searched on its own; leave --closed-loop and --wide out");
   }
+  const std::filesystem::path candidates = candidates_file(options.out);
   check_writable(options.out);
+  check_writable(candidates);
   const LoadedImage image = load(options);
   const std::vector<AcquiredScan> scans = acquire(image.mission(), options.replay.scans);
   write_file(options.out, acquired_csv(scans));
-  std::fputs((acquired_summary(scans) + options.out + ": written\n").c_str(), stdout);
+  write_file(candidates, candidates_csv(scans));
+  std::fputs((acquired_summary(scans) + options.out + ", " + candidates.string() + ": written\n").c_str(), stdout);
 }
 
 void run(const Options& options) {

@@ -38,6 +38,21 @@ std::string row(const AcquiredScan& scan) {
   return scan.scan + text;
 }
 
+// Of each of a scan's candidates, the best first.
+std::string candidate_rows(const AcquiredScan& scan) {
+  std::string rows;
+  for (std::size_t i = 0; i < scan.result.candidates.size(); ++i) {
+    const SearchCandidate& candidate = scan.result.candidates[i];
+    const Quat& q = candidate.T_sensor_target.q;
+    const Vec3& p = candidate.T_sensor_target.p;
+    char text[300];
+    std::snprintf(text, sizeof text, ",%zu,%.12g,%.12g,%.12g,%.12g,%.9g,%.9g,%.9g,%.4f,%.6g\n", i + 1, q.x(), q.y(), q.z(), q.w(), p.x(),
+                  p.y(), p.z(), candidate.disagreement, candidate.score);
+    rows += scan.scan + text;
+  }
+  return rows;
+}
+
 }  // namespace
 
 std::vector<AcquiredScan> acquire(const Mission& mission, const std::filesystem::path& folder) {
@@ -58,6 +73,12 @@ std::vector<AcquiredScan> acquire(const Mission& mission, const std::filesystem:
 std::string acquired_csv(const std::vector<AcquiredScan>& scans) {
   std::string text = "scan,outcome,reason,qx,qy,qz,qw,x_m,y_m,z_m,t_s,ratio,disagreement,candidates,returns,search_us\n";
   for (const AcquiredScan& scan : scans) text += row(scan);
+  return text;
+}
+
+std::string candidates_csv(const std::vector<AcquiredScan>& scans) {
+  std::string text = "scan,candidate,qx,qy,qz,qw,x_m,y_m,z_m,disagreement,score\n";
+  for (const AcquiredScan& scan : scans) text += candidate_rows(scan);
   return text;
 }
 

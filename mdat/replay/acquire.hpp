@@ -23,6 +23,9 @@ std::vector<AcquiredScan> acquire(const Mission& mission, const std::filesystem:
 // One row a scan: outcome, reason, pose, ratio, disagreement and the number of candidates.
 std::string acquired_csv(const std::vector<AcquiredScan>& scans);
 
+// One row a candidate of each scan: pose, disagreement and score (smaller is better), the best first.
+std::string candidates_csv(const std::vector<AcquiredScan>& scans);
+
 // How many were accepted, ambiguous and rejected, and the time of a search.
 std::string acquired_summary(const std::vector<AcquiredScan>& scans);
 
