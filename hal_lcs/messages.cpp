@@ -231,7 +231,7 @@ Status decode(const Frame& frame, StartCommand& message) {
 Status decode(const Frame& frame, Answer& message) {
   if (frame.length != kAnswerBytes) return Status::kBadLength;
   ByteReader in(frame.bytes());
-  message.to = static_cast<Type>(in.u8());
+  message.to = static_cast<Type>(in.u8());  // NOLINT(clang-analyzer-optin.core.EnumCastOutOfRange): what is no type matches none
   message.sequence = in.u8();
   const std::uint8_t result = in.u8();
   message.clock_us = in.u32();

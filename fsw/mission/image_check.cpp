@@ -282,7 +282,7 @@ void ImageCheck::read_entry() {
     found = failure(Status::kBadLength, "record length", number);
   } else if (offset % 8 != 0 || offset < free_from_ || offset > end) {
     found = failure(Status::kBadIndex, "table offset", number);
-  } else if (table.records > (end - offset) / (std::size_t{4} * table.words)) {
+  } else if (std::uint64_t{4} * table.words * table.records > end - offset) {
     found = failure(Status::kTruncated, "table ends past the image", number);
   } else {
     table.data = image_.bytes.data() + offset;
