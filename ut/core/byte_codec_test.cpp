@@ -231,6 +231,20 @@ TEST(ByteCodec, ALaterShorterFieldDoesNotHideAFailure) {
   EXPECT_EQ(buffer[0], 1);
 }
 
+TEST(ByteCodec, EachKindEndsWithTheBuffer) {
+  VERIFIES("LASSO-COR-005~1");
+  const std::uint8_t buffer[8] = {1, 2, 3, 4, 5, 6, 7, 8};
+  const auto of = [&](std::size_t bytes) { return ByteReader(ConstBytes(buffer, bytes)); };
+  EXPECT_EQ(of(1).u8(), 1U);
+  EXPECT_EQ(of(0).u8(), 0U);
+  EXPECT_EQ(of(2).u16(), 0x0102U);
+  EXPECT_EQ(of(1).u16(), 0U);
+  EXPECT_EQ(of(4).u32(), 0x01020304U);
+  EXPECT_EQ(of(3).u32(), 0U);
+  EXPECT_EQ(of(8).u64(), 0x0102030405060708U);
+  EXPECT_EQ(of(7).u64(), 0U);
+}
+
 TEST(ByteCodec, HugeLengthsDoNotWrapAround) {
   VERIFIES("LASSO-COR-005~1");
   const std::uint8_t buffer[4] = {1, 2, 3, 4};
