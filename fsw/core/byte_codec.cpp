@@ -48,7 +48,7 @@ void ByteWriter::bytes(ConstBytes value) {
 std::uint64_t ByteReader::u64() {
   if (!take(sizeof(std::uint64_t))) return 0;
   const std::uint8_t* const from = buffer_.data() + position_ - sizeof(std::uint64_t);
-  return std::uint64_t{load<sizeof(std::uint32_t)>(from)} << 32 | load<sizeof(std::uint32_t)>(from + sizeof(std::uint32_t));
+  return std::uint64_t{word(from)} << 32 | word(from + sizeof(std::uint32_t));
 }
 
 float ByteReader::f32() { return same_bits<float>(u32()); }
