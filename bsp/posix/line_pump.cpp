@@ -2,6 +2,8 @@
 
 #include <poll.h>
 
+#include <algorithm>
+
 namespace lasso::posix {
 namespace {
 
@@ -29,8 +31,8 @@ void LinePump::work() {
 
 void LinePump::receive() {
   std::uint8_t bytes[1024];
-  const std::size_t room = rings_.from_camera.room() < sizeof bytes ? rings_.from_camera.room() : sizeof bytes;
-  const std::size_t count = line_.read(Bytes(bytes, room));
+  const std::size_t room = rings_.from_camera.room();  // asked once: it grows while the driver reads
+  const std::size_t count = line_.read(Bytes(bytes, std::min(room, sizeof bytes)));
   (void)rings_.from_camera.write(ConstBytes(bytes, count));  // there is room: nobody else writes
 }
 
