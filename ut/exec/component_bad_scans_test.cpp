@@ -109,12 +109,7 @@ class BadScanTest : public ::testing::Test {
 
   // One frame: its poses, and what scans were lost for.
   std::vector<PoseTelemetry> run_frame(std::vector<L>& losses) {
-    do {
-      component_->run_slot(component_->next_slot_us());
-      component_->run_estimation();
-    } while (!component_->next_slot_is_boundary());
-    test::Stream bytes(kTelemetryQueueBytes);
-    bytes.resize(component_->take_telemetry(Bytes(bytes.data(), bytes.size())));
+    const test::Stream bytes = test::run_frame(*component_);
     for (const test::Stream& event : test::events_of(test::packets_of(bytes))) {
       if (static_cast<EventId>(event[1]) == EventId::kScanLost) losses.push_back(static_cast<L>(event.back()));
     }

@@ -29,17 +29,28 @@ inline std::vector<Packet> packets_of(const Stream& stream) {
   return packets;
 }
 
+inline Stream telemetry_of(Component& component) {
+  Stream bytes(kTelemetryQueueBytes);
+  bytes.resize(component.take_telemetry(Bytes(bytes.data(), bytes.size())));
+  return bytes;
+}
+
+// The slots of one frame; the bytes that were told at its boundary.
+inline Stream run_frame(Component& component) {
+  do {
+    component.run_slot(component.next_slot_us());
+    component.run_estimation();
+  } while (!component.next_slot_is_boundary());
+  return telemetry_of(component);
+}
+
 class Link {
  public:
   Link() : scene(box_parameters(default_scene())) { scene.begin(); }
 
   Component& component() { return *scene.component; }
   std::size_t send(const Stream& bytes) { return component().receive(view(bytes), component().next_slot_us()); }
-  std::vector<Packet> answers() {
-    Stream bytes(kTelemetryQueueBytes);
-    bytes.resize(component().take_telemetry(Bytes(bytes.data(), bytes.size())));
-    return packets_of(bytes);
-  }
+  std::vector<Packet> answers() { return packets_of(telemetry_of(component())); }
   // What it told but for poses, health and events.
   std::vector<Packet> run_link_frame() {
     std::vector<Packet> others;
@@ -51,13 +62,7 @@ class Link {
     return others;
   }
   // The slots of one frame; what was told at its boundary.
-  std::vector<Packet> run_frame() {
-    do {
-      component().run_slot(component().next_slot_us());
-      component().run_estimation();
-    } while (!component().next_slot_is_boundary());
-    return answers();
-  }
+  std::vector<Packet> run_frame() { return packets_of(test::run_frame(component())); }
   PoseTelemetry pose_of(const std::vector<Packet>& packets) {
     PoseTelemetry pose;
     for (const Packet& packet : packets) {

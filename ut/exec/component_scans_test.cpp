@@ -66,14 +66,9 @@ class ComponentScansTest : public ::testing::Test {
 
   std::vector<PoseTelemetry> run(int frames) {
     std::vector<PoseTelemetry> reports;
-    std::vector<std::uint8_t> bytes(kTelemetryQueueBytes);
     for (int i = 0; i < frames; ++i) {
-      do {
-        component_->run_slot(component_->next_slot_us());
-        component_->run_estimation();
-      } while (!component_->next_slot_is_boundary());
-      const std::size_t size = component_->take_telemetry(Bytes(bytes.data(), bytes.size()));
-      for (const Report& report : test::decode_all(ConstBytes(bytes.data(), size))) reports.push_back(report.pose);
+      const test::Stream bytes = test::run_frame(*component_);
+      for (const Report& report : test::decode_all(test::view(bytes))) reports.push_back(report.pose);
     }
     return reports;
   }
@@ -82,13 +77,7 @@ class ComponentScansTest : public ::testing::Test {
   std::vector<std::uint8_t> sensors_told(int frames) {
     std::vector<std::uint8_t> told;
     for (int i = 0; i < frames; ++i) {
-      do {
-        component_->run_slot(component_->next_slot_us());
-        component_->run_estimation();
-      } while (!component_->next_slot_is_boundary());
-      test::Stream bytes(kTelemetryQueueBytes);
-      bytes.resize(component_->take_telemetry(Bytes(bytes.data(), bytes.size())));
-      for (const test::Packet& packet : test::packets_of(bytes)) {
+      for (const test::Packet& packet : test::packets_of(test::run_frame(*component_))) {
         if (packet.is(3, 25) && packet.data[1] == kSensorStructureId) told.push_back(packet.data[2]);
       }
     }
@@ -99,12 +88,7 @@ class ComponentScansTest : public ::testing::Test {
   std::vector<std::pair<EventId, int>> failures_told(int frames) {
     std::vector<std::pair<EventId, int>> failures;
     for (int i = 0; i < frames; ++i) {
-      do {
-        component_->run_slot(component_->next_slot_us());
-        component_->run_estimation();
-      } while (!component_->next_slot_is_boundary());
-      test::Stream bytes(kTelemetryQueueBytes);
-      bytes.resize(component_->take_telemetry(Bytes(bytes.data(), bytes.size())));
+      const test::Stream bytes = test::run_frame(*component_);
       for (const test::Stream& event : test::events_of(test::packets_of(bytes))) {
         const auto id = static_cast<EventId>(event[1]);
         if (id == EventId::kSensorFailed || id == EventId::kSensorBack) failures.emplace_back(id, event.back());
