@@ -115,7 +115,12 @@ class Subject {
     load_other(bytes);
     start_tracking(*component_, trajectory_->at(component_->next_slot_us()).T_sensor_target);
     change_parameter();
-    begun_us_ = component_->next_slot_us();
+  }
+
+  // Once the track is settled, before the first area(): where the component keeps the copies.
+  void locate_copies() {
+    parameter_copies_ = parameter_copies();
+    mode_copies_ = mode_copies();
   }
 
   Component& component() { return *component_; }
@@ -127,7 +132,7 @@ class Subject {
     if (area == Area::kOther) return writable(images.other().sealed_image());
     if (area == Area::kViews) return writable(images.active().sealed_views());
     if (area == Area::kCode) return writable(images.code());
-    return area == Area::kParameters ? parameter_copies() : mode_copies();
+    return area == Area::kParameters ? parameter_copies_ : mode_copies_;
   }
 
  private:
@@ -193,7 +198,7 @@ class Subject {
   sim::SimulatedScanner scanner_;
   Bytes memory_;
   Component* component_ = nullptr;
-  TimeUs begun_us_ = 0;
+  Bytes parameter_copies_, mode_copies_;
 };
 
 Flip draw_flip(std::uint64_t seed, std::uint32_t trial, const std::size_t (&sizes)[kAreas]) {
@@ -312,6 +317,7 @@ std::string run(const char* mission_file, std::uint32_t flips, std::uint64_t see
   const bool sound = golden.end == End::kDone && golden.finding.frames == 0 && golden.finding.poses == kLongest;
   if (!sound || golden.finding.wrong + golden.finding.invalid > 0)
     throw mdat::RunError("the flight without a flip has poses that are missing, invalid or wrong, or tells of a fault");
+  subject.locate_copies();
   std::size_t sizes[kAreas];
   for (std::uint32_t i = 0; i < kAreas; ++i) sizes[i] = subject.area(static_cast<Area>(i)).size();
   std::vector<Flip> plan;
