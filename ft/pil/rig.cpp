@@ -1,8 +1,9 @@
-// pil_rig MISSION SCENARIO FRAMES OUT [cut=BYTES] [starts=N]: flies a scenario on the host, then on the board behind OUT/camera.sock,
-// OUT/ground.sock and OUT/rig.sock, and compares their telemetry bit by bit. Says `ready` when the board may be started: the mission's
-// image is then in OUT/image.3dli. Leaves OUT/host.ccsds, OUT/target.ccsds, OUT/starts.csv and OUT/slots.csv (the board's reports, words by
-// name). cut: the camera's line ends after so many bytes. starts: so many starts of the board are awaited, and the flight on the host left
-// out. Exit codes: 0 the same bits, 1 not, or the board failed, 2 usage or bad input.
+// pil_rig MISSION SCENARIO FRAMES OUT [cut=BYTES] [noise] [starts=N]: flies a scenario on the host, then on the board behind
+// OUT/camera.sock, OUT/ground.sock and OUT/rig.sock, and compares their telemetry bit by bit. Says `ready` when the board may be started:
+// the mission's image is then in OUT/image.3dli. Leaves OUT/host.ccsds, OUT/target.ccsds, OUT/starts.csv and OUT/slots.csv (the board's
+// reports, words by name). cut: the camera's line ends after so many bytes. noise: the ground's begins with some. starts: so many starts of
+// the board are awaited, and the flight on the host left out. Exit codes: 0 the same bits, 1 not, or the board failed, 2 usage or bad
+// input.
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -30,19 +31,22 @@ struct Options {
   std::string mission, scenario, out;
   std::uint32_t frames = 0, starts = 1;
   std::optional<std::uint64_t> cut;
+  bool noise = false;
 };
 
 Options parse(int argc, char** argv) {
-  if (argc < 5) throw mdat::InputError("usage: pil_rig MISSION SCENARIO FRAMES OUT [cut=BYTES] [starts=N]");
-  Options options{argv[1], argv[2], argv[4], static_cast<std::uint32_t>(std::stoul(argv[3])), 1, {}};
+  if (argc < 5) throw mdat::InputError("usage: pil_rig MISSION SCENARIO FRAMES OUT [cut=BYTES] [noise] [starts=N]");
+  Options options{argv[1], argv[2], argv[4], static_cast<std::uint32_t>(std::stoul(argv[3])), 1, {}, false};
   for (int i = 5; i < argc; ++i) {
     const std::string word = argv[i];
     if (word.starts_with("cut=")) {
       options.cut = std::stoull(word.substr(4));
     } else if (word.starts_with("starts=")) {
       options.starts = static_cast<std::uint32_t>(std::stoul(word.substr(7)));
+    } else if (word == "noise") {
+      options.noise = true;
     } else {
-      throw mdat::InputError(word + ": neither cut=BYTES nor starts=N");
+      throw mdat::InputError(word + ": none of cut=BYTES, noise and starts=N");
     }
   }
   return options;
@@ -99,14 +103,18 @@ std::optional<std::int64_t> last_of(const mdat::DecodedStream& stream, const std
 // What telemetry says of a start: in its own words, for ft/pil/faults.
 void tell(const Packet& telemetry) {
   const mdat::DecodedStream stream = mdat::decode_stream({telemetry.data(), telemetry.size()}, PacketType::kTelemetry);
-  const auto poses =
-      std::count_if(stream.packets.begin(), stream.packets.end(), [](const auto& packet) { return packet.name() == std::string("pose"); });
+  const auto count_of = [&](const std::string& name) {
+    return static_cast<long long>(
+        std::count_if(stream.packets.begin(), stream.packets.end(), [&](const auto& packet) { return packet.name() == name; }));
+  };
+  const auto last = [&](const char* packet, const char* item, std::int64_t none) {
+    return static_cast<long long>(last_of(stream, packet, item).value_or(none));
+  };
   std::printf("telemetry: mode %lld, reset_cause %lld, %lld poses, last valid %lld, other bytes %zu, lost scans %lld, last loss %lld\n",
-              static_cast<long long>(last_of(stream, "pose", "mode").value_or(-1)),
-              static_cast<long long>(last_of(stream, "health", "reset_cause").value_or(-1)), static_cast<long long>(poses),
-              static_cast<long long>(last_of(stream, "pose", "valid").value_or(-1)), stream.other_bytes,
-              static_cast<long long>(last_of(stream, "sensor", "lost").value_or(0)),
-              static_cast<long long>(last_of(stream, "sensor", "last_loss").value_or(0)));
+              last("pose", "mode", -1), last("health", "reset_cause", -1), count_of("pose"), last("pose", "valid", -1), stream.other_bytes,
+              last("sensor", "lost", 0), last("sensor", "last_loss", 0));
+  std::printf("ground: %lld completed, %lld refused, %lld pongs, laser %lld, skipped bytes %lld\n", count_of("completed"),
+              count_of("refused"), count_of("pong"), last("link", "laser_enabled", -1), last("link", "skipped_bytes", -1));
 }
 
 int compare(const Options& options, const Packet& host, const TargetFlight& flight) {
@@ -123,7 +131,7 @@ int run(const Options& options) {
   const auto target = mdat::make_target(mission.mesh);
   mdat::SimulationOptions simulation;
   simulation.scenario = options.scenario;
-  const WorldSetup setup{mdat::camera_case(mission, simulation, *target), options.cut};
+  const WorldSetup setup{mdat::camera_case(mission, simulation, *target), options.cut, options.noise};
   const std::vector<std::uint8_t> image = mdat::image_bytes(mission, setup.flight.parameters);
   std::filesystem::create_directories(options.out);
   write(options.out + "/image.3dli", image);

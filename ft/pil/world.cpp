@@ -16,6 +16,15 @@ sim::ScannerModel model_of(const mdat::CaseSetup& setup) { return mdat::scanner_
 
 void append(Packet& to, const Packet& packet) { to.insert(to.end(), packet.begin(), packet.end()); }
 
+// The end of a packet, and one of whose bits one is wrong.
+Packet noise() {
+  Packet ping = mdat::encode_command(mdat::command_row("ping"), {}, 0);
+  Packet bytes(ping.begin() + kPrimaryHeaderBytes, ping.end());
+  ping.back() ^= 1;
+  append(bytes, ping);
+  return bytes;
+}
+
 }  // namespace
 
 World::World(const WorldSetup& setup)
@@ -35,6 +44,7 @@ void World::move_to(std::uint32_t slot, ConstBytes to_camera) {
   if (slot > 0) device_.listen(slot_us(slot - 1), line_);
   device_.run(slot_us(slot), line_);
   if (slot == 0) {
+    if (setup_.ground_noise) append(ground_, noise());
     append(ground_, mdat::arm_for(mdat::command_row("enable_laser"), commands_++));
     append(ground_, mdat::encode_command(mdat::command_row("enable_laser"), {}, commands_++));
   } else if (slot % (kPingFrames * kSlotsPerFrame) == 7) {

@@ -19,6 +19,7 @@ using Packet = std::vector<std::uint8_t>;
 struct WorldSetup {
   mdat::CaseSetup flight;
   std::optional<std::uint64_t> camera_bytes;  // after as many its line is cut, be it in the middle of a frame
+  bool ground_noise = false;                  // the ground's line begins in the middle of a packet, and brings a damaged one
 };
 
 class World {

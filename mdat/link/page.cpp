@@ -241,7 +241,8 @@ std::vector<DocumentSection> transport_sections() {
         "`udp://[HOST]:PORT` (telemetry goes to whom the last datagram came from), `tcp://[HOST]:PORT` (one ground station at a time) and "
         "`file://PATH` (commands from `PATH.commands`, telemetry to `PATH`); without a host they are bound to the loopback address. `mdat "
         "run "
-        "--link` runs a component in real time behind one of them, and `mdat command NAME ITEM=VALUE ... --to` commands it."},
+        "--link` runs a component in real time behind one of them, and `mdat command NAME ITEM=VALUE ... --to` commands it. On the "
+        "PowerPC 603e board it is a serial port (`docs/boards/ppc603e.md`)."},
        {}},
       {2, "Types", {}, type_table()}};
 }
