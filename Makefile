@@ -117,10 +117,10 @@ $(call packages,build clang)
 $(call configure,$(FUZZ),$(call sanitized,fuzzer-no-link$(comma)address$(comma)undefined) -DLASSO_TESTS=OFF -DLASSO_FUZZ=ON)
 $(call compile,$(FUZZ),fuzzers)
 endef
-fuzz: ## a million inputs for each reader of outside bytes, and planted bugs to find; out/fuzz; EXECUTIONS= or SECONDS_EACH=, SEED=
+fuzz: ## a million inputs for each reader of outside bytes, and planted bugs to find; out/fuzz; FUZZERS="frame ...", EXECUTIONS= or SECONDS_EACH=, SEED=, LARGEST= bytes
 	$(begin)
 	$(fuzzers)
-	@ft/fuzz/run $(FUZZ) $(or $(EXECUTIONS),$(if $(SECONDS_EACH),$(SECONDS_EACH)s),1000000) $(or $(SEED),1)
+	@ft/fuzz/run $(FUZZ) $(or $(EXECUTIONS),$(if $(SECONDS_EACH),$(SECONDS_EACH)s),1000000) $(or $(SEED),1) $(or $(LARGEST),16384) $(FUZZERS)
 
 statistics: ## instructions of estimates on the emulated 603e: median, p99, worst of many frames; out/statistics; FRAMES=, SEED=
 	$(begin)
