@@ -39,16 +39,22 @@ void Driver::send(const FrameBytes& frame) {
 }
 
 void Driver::permit_laser(bool permitted) {
-  laser_permitted_ = permitted;
+  laser_.set(permitted ? 1 : 0);
   if (permitted) return;
   inhibit_due_ = true;
   if (under_way()) lose(Loss::kInhibited, Status::kMissing);
   inhibit();
 }
 
+// What no two copies say is no permission.
+bool Driver::laser_permitted() const {
+  std::uint8_t permitted = 0;
+  return laser_.get(permitted) && permitted != 0;
+}
+
 // With each call, until the camera has confirmed it.
 void Driver::inhibit() {
-  if (laser_permitted_ || !inhibit_due_ || !has_room(kMaxFrame)) return;
+  if (laser_permitted() || !inhibit_due_ || !has_room(kMaxFrame)) return;
   inhibit_sequence_ = sent_;
   send(encode(sent_, LaserCommand::kInhibit));
   camera_.laser_lit = false;  // so that the next start lights it
@@ -114,7 +120,8 @@ Status Driver::start(const ScanPlan& plan, TimeUs t_start_us) {
   state_ = State::kIdle;
   listen();
   inhibit();
-  if (!laser_permitted_) return refuse(Loss::kInhibited, Status::kMissing);
+  laser_.set(laser_permitted() ? 1 : 0);
+  if (!laser_permitted()) return refuse(Loss::kInhibited, Status::kMissing);
   tag_ = tag_of(plan.scan_id);
   if (!has_room(kCommandBytes + aim_bytes(plan) + kMaxFrame)) return refuse(Loss::kLineFull, Status::kOverCapacity);
   send_start(plan, t_start_us);

@@ -9,6 +9,7 @@
 
 #include <cstdint>
 
+#include "fsw/core/voted.hpp"
 #include "fsw/sense/sensor.hpp"
 #include "hal_lcs/byte_ring.hpp"
 #include "hal_lcs/frame.hpp"
@@ -67,7 +68,7 @@ class Driver final : public Sensor {
 
   // The laser's permission, which an armed command gives and any safe mode takes; there is none at first. Without it an inhibit is put on
   // the line with each call (of any function) until the camera confirms it, and again when it says that it is lit; on a line that holds
-  // other bytes it follows them, at most kLineBytes.
+  // other bytes it follows them, at most kLineBytes. It is kept in three copies, voted and repaired at each start.
   void permit_laser(bool permitted) override;
 
   // kBusy while a scan runs; validate(plan)'s reason; kMissing without permission; kOverCapacity when the line takes no more. t_start_us
@@ -89,6 +90,7 @@ class Driver final : public Sensor {
   bool under_way() const { return state_ == State::kStarting || state_ == State::kScanning; }
   bool has_room(std::size_t bytes) const;
   void send(const FrameBytes& frame);
+  bool laser_permitted() const;
   void inhibit();
   void send_start(const ScanPlan& plan, TimeUs t_start_us);
   void keep_lit(TimeUs now_us);
@@ -118,8 +120,8 @@ class Driver final : public Sensor {
   FrameDecoder decoder_;
   Health health_;
   CameraStatus camera_;
-  bool laser_permitted_ = false;
-  bool inhibit_due_ = true;  // the camera has not confirmed that it is dark
+  Voted<std::uint8_t> laser_{0};  // 1: permitted
+  bool inhibit_due_ = true;       // the camera has not confirmed that it is dark
   std::uint8_t inhibit_sequence_ = 0;
   std::uint8_t sent_ = 0;      // frames, modulo 256
   TimeUs spoken_us_ = 0;       // when the camera was last told something that keeps its laser lit

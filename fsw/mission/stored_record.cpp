@@ -32,6 +32,11 @@ bool is_right(Store& store, StoreArea area) {
   return sum == header.crc;
 }
 
+bool is_readable(Store& store, StoreArea area) {
+  std::uint8_t byte = 0;
+  return store.read(area, 0, Bytes(&byte, 1)) == Status::kOk;
+}
+
 Status load_from(Store& store, StoreArea area, Bytes out) {
   StoredHeader header;
   Status status = read_header(store, area, header);
@@ -102,13 +107,17 @@ Status load_record(Store& store, StoreArea first, StoreArea second, Bytes out) {
 }
 
 Status save_record(Store& store, StoreArea first, StoreArea second, ConstBytes data) {
+  if (!is_readable(store, first) || !is_readable(store, second)) return Status::kNoData;
   const bool first_newer = newer_of(store, first, second) == Newer::kFirst;
   const bool newer_right = is_right(store, first_newer ? first : second);
   const StoreArea area = first_newer == newer_right ? second : first;
   const StoredHeader header{next_sequence(store, first, second), static_cast<std::uint32_t>(data.size()), crc32c(data)};
   Status status = clear_header(store, area);
   if (status == Status::kOk) status = write_record(store, area, 0, data);
-  return status == Status::kOk ? write_header(store, area, header) : status;
+  if (status == Status::kOk) status = write_header(store, area, header);
+  if (status != Status::kOk) return status;
+  const Newer saved = area == first ? Newer::kFirst : Newer::kSecond;
+  return newer_of(store, first, second) == saved && is_right(store, area) ? Status::kOk : Status::kNoData;
 }
 
 }  // namespace lasso

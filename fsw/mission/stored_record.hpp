@@ -38,8 +38,8 @@ std::uint32_t next_sequence(Store& store, StoreArea first, StoreArea second);
 // A small record of a pair (parameters, causes of resets), whole: the newer one that is right goes to `out`, which it fills.
 // kNoData: there is none. Loop bound: out.size().
 Status load_record(Store& store, StoreArea first, StoreArea second, Bytes out);
-// The older one is replaced by `data` (at most kMaxStoreWriteBytes), or the newer one where that is damaged. Loop bound: the newer one's
-// bytes.
+// The older one is replaced by `data` (at most kMaxStoreWriteBytes), or the newer one where that is damaged, and read back. kNoData: the
+// store could not be read, and nothing is replaced; or it has not kept the new one. Loop bound: the bytes of both.
 Status save_record(Store& store, StoreArea first, StoreArea second, ConstBytes data);
 
 }  // namespace lasso

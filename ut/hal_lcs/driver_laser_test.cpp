@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "hal_lcs/driver.hpp"
@@ -39,6 +40,36 @@ TEST_F(DarkDriver, LightsTheLaserOnlyWithPermission) {
   EXPECT_EQ(heard(), kNone);
   EXPECT_EQ(driver.start(small_plan(), kStartUs), Status::kOk);
   EXPECT_EQ(heard(), kLight);
+}
+
+// Where in the driver's memory the permission lies in its copies.
+std::uint32_t* copies_of_permission(Driver& driver, std::uint32_t permitted) {
+  const std::uint32_t copies[] = {permitted, ~permitted, permitted};
+  auto* words = reinterpret_cast<std::uint32_t*>(&driver);
+  auto* end = words + sizeof(Driver) / sizeof(std::uint32_t);
+  auto* found = std::search(words, end, copies, copies + 3);
+  EXPECT_NE(found, end);
+  return found;
+}
+
+TEST_F(DarkDriver, AFlippedBitPermitsNothingAndForbidsNothing) {
+  VERIFIES("LASSO-HLT-012~1");
+  std::uint32_t* const copies = copies_of_permission(driver, 0);
+  for (std::size_t word = 0; word < 3; ++word) {
+    copies[word] ^= 1u;
+    EXPECT_EQ(driver.start(small_plan(), kStartUs), Status::kMissing) << word;
+    EXPECT_EQ(copies[word], word == 1 ? ~0u : 0u) << "repaired";
+  }
+  driver.permit_laser(true);
+  for (std::size_t word = 0; word < 3; ++word) {
+    copies[word] ^= 1u;
+    EXPECT_EQ(driver.start(small_plan(), kStartUs), Status::kOk) << word;
+    EXPECT_EQ(copies[word], word == 1 ? ~1u : 1u) << "repaired";
+    driver.abort();
+  }
+  copies[0] = 7;
+  copies[1] = 7;
+  EXPECT_EQ(driver.start(small_plan(), kStartUs), Status::kMissing) << "no two agree";
 }
 
 TEST_F(DarkDriver, InhibitsWithEachCallUntilTheCameraConfirmsIt) {
