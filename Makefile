@@ -47,6 +47,8 @@ configure = @options='$(subst ',,$(2))'; \
   cmake -S $(SOURCE) -B $(1) -G Ninja -DCMAKE_BUILD_TYPE=Release $$(command -v ccache >/dev/null && echo -DCMAKE_CXX_COMPILER_LAUNCHER=ccache) $(2) \
     >$(1)/configure.log 2>&1 || { cat $(1)/configure.log; rm -f $(1)/build.ninja; false; }; } && echo "$$options" >$(1)/options.txt
 compile = @echo "build $(1)$(if $(2), ($(2)))"; cmake --build $(1) --parallel $(JOBS) $(if $(2),--target $(2)) $(NINJA_FLAGS)
+# $(call tidy,FOLDER,ENDING): removes what sources that are gone left there, and would be counted: beside each object is its file of that ENDING.
+tidy = @ninja -C $(1) -t cleandead >/dev/null; find $(1) -name '*.$(2)' | while read -r notes; do [ -e "$${notes%.$(2)}.o" ] || [ -e "$${notes%.$(2)}.obj" ] || rm "$$notes"; done
 ctest = @rm -rf $(2); mkdir -p $(2); GTEST_OUTPUT=xml:$(abspath $(2))/ \
   ctest --test-dir $(1) --parallel $(JOBS) --output-on-failure --no-tests=error --output-junit $(abspath $(2))/ctest.xml $(3)
 
@@ -186,7 +188,7 @@ search-count: ## instructions of a search on the PowerPC 603e, and its largest s
 	$(call compile,$(PPC),search_replay)
 	@ft/ppc603e/count-search $(BUILD) $(PPC) $(or $(STARTS),24) $(or $(SEED),11)
 
-# $(on_board) builds the bare board's images, and the rig around them.
+# $(on_board) builds the bare board's images, and the rig around them. What its stacks may hold make prove knows.
 define on_board
 $(call packages,build target)
 $(call configure,$(BUILD),)
@@ -194,21 +196,22 @@ $(call compile,$(BUILD),pil_rig)
 $(call configure,$(BOARD),$(BARE_BOARD))
 $(call compile,$(BOARD),flight_603e planted_603e)
 endef
-pil: ## the component on the bare, emulated PowerPC 603e with camera and ground at its lines: the host's telemetry bit for bit; out/pil; FRAMES=
+pil: prove ## the component on the bare, emulated PowerPC 603e with camera and ground at its lines: the host's telemetry bit for bit; out/pil; FRAMES=
 	$(begin)
 	$(on_board)
 	@ft/pil/run.py $(BUILD) $(BOARD) $(or $(FRAMES),360)
 
-pil-sample: ## the same for a few frames, and the board's answers to faults: null, stray, hung, cut lines, wrong images; out/pil-sample
+pil-sample: prove ## the same for a few frames, and the board's answers to faults: null, stray, hung, cut lines, wrong images; out/pil-sample
 	$(begin)
 	$(on_board)
 	@ft/pil/faults $(BUILD) $(BOARD)
 
-prove: ## what the archives for the 603e do not do: heap, exceptions, recursion, contraction, too much stack or memory; out/prove
+prove: ## what the flight image's archives for the 603e do not do: heap, exceptions, recursion, contraction, too much stack or memory; out/prove
 	$(begin)
 	$(call packages,build target)
-	$(call configure,$(PROVE),$(CROSS) $(own_includes) -DLASSO_TESTS=OFF -DLASSO_CALL_GRAPH=ON -DCMAKE_CXX_COMPILER_LAUNCHER=)
-	$(call compile,$(PROVE))
+	$(call configure,$(PROVE),$(BARE_BOARD) $(own_includes) -DLASSO_CALL_GRAPH=ON -DCMAKE_CXX_COMPILER_LAUNCHER=)
+	$(call compile,$(PROVE),flight_603e)
+	$(call tidy,$(PROVE),ci)
 	@cfg/quality/prove $(PROVE)
 
 ppc-test: ## unit tests of the flight component on the emulated PowerPC 603e; reports in out/ppc-test
@@ -234,8 +237,6 @@ arrows: ## the includes obey the arrows between rooms and stages (cfg/quality/ar
 	$(call packages,lint)
 	@cfg/quality/arrows
 
-# $(call tidy,FOLDER): removes what sources that are gone left there, and would be counted.
-tidy = @ninja -C $(1) -t cleandead >/dev/null; find $(1) -name '*.gcno' | while read -r notes; do [ -e "$${notes%.gcno}.o" ] || rm "$$notes"; done
 # Only fsw and hal_lcs are counted (a pattern that no shell takes apart). A test that ends in an invariant leaves its counts first (ut/support/main.cpp). The cache may not hand out files of another folder.
 coverage mcdc: export CCACHE_BASEDIR :=
 coverage: ## the unit tests take every line and branch of the flight component (reqs/waivers.csv); out/coverage
@@ -244,7 +245,7 @@ coverage: ## the unit tests take every line and branch of the flight component (
 	$(call configure,$(COVERAGE),-DCMAKE_BUILD_TYPE=Coverage -DLASSO_GROUND=OFF \
 	  -DCMAKE_CXX_FLAGS="-O0 --coverage -fprofile-filter-files=/[fh][sa][wl] -fprofile-abs-path -fno-exceptions -DLASSO_BEFORE_ABORT=__gcov_dump")
 	$(call compile,$(COVERAGE),flight_tests)
-	$(call tidy,$(COVERAGE))
+	$(call tidy,$(COVERAGE),gcno)
 	@find $(COVERAGE) -name '*.gcda' -delete; rm -rf $(LASSO_OUT)/coverage
 	$(call ctest,$(COVERAGE),$(LASSO_OUT)/coverage/test,-L flight)
 	@cfg/quality/coverage $(COVERAGE) $(SOURCE)
@@ -257,7 +258,7 @@ mcdc: ## the unit tests show that each condition of the flight component decides
 	  -DCMAKE_CXX_FLAGS="-O1 -fprofile-instr-generate -fcoverage-mapping -fcoverage-mcdc -fprofile-list=$(abspath $(SOURCE))/cfg/quality/mcdc.list \
 	  -DLASSO_BEFORE_ABORT=__llvm_profile_write_file")
 	$(call compile,$(MCDC),flight_tests)
-	$(call tidy,$(MCDC))
+	$(call tidy,$(MCDC),gcno)
 	@rm -rf $(MCDC)/profiles $(LASSO_OUT)/mcdc
 	$(call ctest,$(MCDC),$(LASSO_OUT)/mcdc/test,-L flight)
 	@cfg/quality/mcdc $(MCDC) $(SOURCE)

@@ -22,6 +22,12 @@ std::uint32_t used(const std::uint32_t* begin, const std::uint32_t* end) {
   return static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(end) - reinterpret_cast<std::uintptr_t>(at));
 }
 
+// What start-up has used counts no more. Nothing lives below the caller's frame: interrupts have a stack of their own.
+void paint_estimation_stack() {
+  const volatile std::uint32_t* const end = static_cast<std::uint32_t*>(__builtin_frame_address(0));
+  for (volatile std::uint32_t* at = board_estimation_stack_begin; at < end; ++at) *at = kPaint;
+}
+
 }  // namespace
 
 Flight::Flight(Component& component, Clock& clock, const Lines& lines, Rig* rig)
@@ -136,6 +142,7 @@ void Flight::wait_on() { set_decrementer(kLookTicks); }
 // --- background
 
 void Flight::run() {
+  paint_estimation_stack();
   allow_interrupts(true);
   let_world_move(RigKind::kBegun, component_.next_slot_us());
   allow_interrupts(false);

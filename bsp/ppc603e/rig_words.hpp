@@ -25,8 +25,8 @@ enum RigWord : std::uint32_t {
   kRigCause,          // ResetCause of this start
   kRigVector,         // of the last exception
   kRigAddress,        // it was about
-  kRigEstimateStack,  // most bytes that were ever used
-  kRigAcquireStack,   //
+  kRigEstimateStack,  // most bytes that were ever used, since start-up was done
+  kRigAcquireStack,   // ..., since the start
   kRigLostBytes,      // of both lines
   kRigMemory,         // of the component, bytes
   kRigLineTicks,      // taken by interrupts of camera's and ground's line since the last report

@@ -3,9 +3,6 @@ set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_SYSTEM_PROCESSOR ppc)
 set(CMAKE_CXX_COMPILER powerpc-linux-gnu-g++)
 set(CMAKE_CXX_FLAGS_INIT "-mcpu=603e")
-if(LASSO_CALL_GRAPH)  # for make prove, beside each object; not together with ccache, which forgets them
-  string(APPEND CMAKE_CXX_FLAGS_INIT " -fcallgraph-info=su")
-endif()
 set(CMAKE_EXE_LINKER_FLAGS_INIT "-static")
 set(CMAKE_CXX_STANDARD_LIBRARIES_INIT "-latomic")  # 64-bit atomics are calls on a 32-bit processor
 set(CMAKE_CROSSCOMPILING_EMULATOR qemu-ppc -cpu 603e)

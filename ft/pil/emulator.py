@@ -102,13 +102,16 @@ class Emulator:
         lines = self.console().strip().splitlines()
         return '; '.join(filter(None, [text, f'the console: {lines[-1]}' if lines else 'the console is silent']))
 
-    def await_console(self, text, seconds=60):
-        """Until the console says it, the emulator ends, or the time is over."""
-        end = time.monotonic() + seconds
-        while time.monotonic() < end and self.process.poll() is None:
-            if text in self.console():
-                return True
+    def await_console(self, text, seconds=60, longest=240):
+        """Until the console says it, the emulator ends, nothing more has been said for `seconds`, or the longest time is over."""
+        last = heard = self.console()
+        end = time.monotonic() + longest
+        quiet = time.monotonic() + seconds
+        while time.monotonic() < min(end, quiet) and self.process.poll() is None and text not in heard:
             time.sleep(0.05)
+            heard = self.console()
+            if heard != last:
+                last, quiet = heard, time.monotonic() + seconds
         return text in self.console()
 
 

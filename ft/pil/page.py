@@ -55,7 +55,8 @@ def rows(r):
     yield 'processor idle', idle(r)
     yield 'margin of the fullest slot', f'{100 * r["slot_margin_share"]:.1f} %'
     yield 'margin of the fullest frame', f'{100 * r["estimate_margin_share"]:.1f} %'
-    yield 'stack: most that was used', f'estimation {r["stack_bytes"]["estimation"]:,} bytes, acquisition {r["stack_bytes"]["acquisition"]:,} bytes, of 32,768 each'
+    for name, used in r['stack_bytes'].items():
+        yield f'stack of the {name}: most that was used', f'{used:,} bytes; proven bound {r["proven_stack_bytes"][name]:,} bytes, of 32,768'
     yield 'code and constants', f'{r["image_bytes"]:,} bytes'
     yield 'memory without mission images', f'{r["memory_bytes"]:,} bytes, of which the component {r["component_bytes"]:,}'
     yield 'lines', f'{r["lost_bytes"]} bytes lost, {r["packets_dropped"]} packets dropped, {r["services_cut"]} services cut short, {r["lines_masked"]} times masked'
