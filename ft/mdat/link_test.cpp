@@ -2,13 +2,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <thread>
 
-#include "ft/mdat/command.hpp"
+#include "ft/mdat/live_run.hpp"
 #include "ut/support/verifies.hpp"
 
 namespace lasso::ft {
@@ -165,6 +168,27 @@ TEST(Link, DecodePrintsARunInEachFormat) {
   const Answer headers = work.mdat("decode --headers run/telemetry.ccsds --format csv");
   EXPECT_EQ(lines_of(headers.out).size(), 17U);
   EXPECT_NE(headers.err.find("16 packets: CRC right in 16, wrong in 0; 0 gaps"), std::string::npos) << headers.err;
+}
+
+// A run that goes on while somebody watches: each packet is printed once, when its last byte has come.
+TEST(Link, AFileThatGrowsIsFollowed) {
+  VERIFIES("LASSO-GND-021~1");
+  const WorkFolder work;
+  ASSERT_EQ(work.mdat(kRun).exit_code, 0);
+  const std::string recorded = work.read("run/telemetry.ccsds");
+  work.write("growing", "");
+  LiveRun watch(work, "watch", {"decode", "growing", "--follow", "--items", "scan_id"});
+  std::size_t written = 0;
+  for (const std::size_t end : {std::size_t{10}, recorded.size() / 2, recorded.size() - 1, recorded.size()}) {
+    std::ofstream(work / "growing", std::ios::binary | std::ios::app) << recorded.substr(written, end - written);
+    written = end;
+    std::this_thread::sleep_for(std::chrono::milliseconds(150));
+  }
+  EXPECT_TRUE(watch.says("  11\n")) << watch.out();
+  const std::string whole = work.mdat("decode growing --items scan_id").out;
+  EXPECT_EQ(lines_of(watch.out()).size(), lines_of(whole).size());
+  EXPECT_EQ(work.mdat("decode growing --follow --format json").exit_code, 2);
+  EXPECT_EQ(work.mdat("decode nothing --follow").exit_code, 2);
 }
 
 // Of somebody else: another APID, and a secondary header of another form.

@@ -1,7 +1,14 @@
+#include <algorithm>
+#include <chrono>
 #include <cstdio>
+#include <filesystem>
+#include <fstream>
 #include <memory>
+#include <thread>
 
 #include "mdat/cli/commands.hpp"
+#include "mdat/common/errors.hpp"
+#include "mdat/common/interruption.hpp"
 #include "mdat/common/output.hpp"
 #include "mdat/link/decode_text.hpp"
 
@@ -10,7 +17,7 @@ namespace {
 
 struct Options {
   std::string file, format = "table";
-  bool headers = false, commands = false;
+  bool headers = false, commands = false, follow = false;
   Selection selection;
 };
 
@@ -34,8 +41,57 @@ std::string text_of(const DecodedStream& stream, const Options& options) {
   return options.format == "pcap" ? pcap_bytes(stream) : table_text(stream, options.selection);
 }
 
+// A file that grows, from where it was read to.
+class Tail {
+ public:
+  explicit Tail(const std::string& file) : name_(file), file_(file, std::ios::binary) {
+    if (!file_) throw InputError(file + ": no such file");
+  }
+  // What has come since. One that has become shorter was begun anew.
+  std::string take() {
+    std::error_code gone;
+    const auto size = static_cast<std::streamoff>(std::filesystem::file_size(name_, gone));
+    if (gone) return {};
+    if (size < read_) read_ = 0;
+    file_.clear();
+    file_.seekg(read_);
+    std::string bytes(static_cast<std::size_t>(size - read_), '\0');
+    file_.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    bytes.resize(static_cast<std::size_t>(file_.gcount()));
+    read_ += file_.gcount();
+    return bytes;
+  }
+
+ private:
+  std::string name_;
+  std::ifstream file_;
+  std::streamoff read_ = 0;
+};
+
+// Packets as they come, until Ctrl-C. The last bytes wait for the rest of their packet.
+void follow(const Options& options) {
+  constexpr std::chrono::milliseconds kLook(100);
+  constexpr std::size_t kLargestPacket = 65542;
+  if (options.format != "table" || options.headers) throw CLI::ValidationError("--follow", "goes with --format table alone");
+  Tail tail(options.file);
+  const std::atomic<bool>& interrupted = interruption();
+  std::size_t begun = 0;  // of the file, where `waiting` begins
+  for (std::string waiting; !interrupted; std::this_thread::sleep_for(kLook)) {
+    waiting += tail.take();
+    DecodedStream stream = decode_stream(view(waiting), options.commands ? PacketType::kCommand : PacketType::kTelemetry);
+    std::size_t done = waiting.size() > kLargestPacket ? waiting.size() - kLargestPacket : 0;
+    if (!stream.packets.empty()) done = std::max(done, stream.packets.back().offset + stream.packets.back().bytes.size());
+    for (DecodedPacket& packet : stream.packets) packet.offset += begun;
+    print(table_text(stream, options.selection));
+    std::fflush(stdout);
+    waiting.erase(0, done);
+    begun += done;
+  }
+}
+
 void decode(const Options& options) {
   check_selection(options.selection);
+  if (options.follow) return follow(options);
   const std::string content = file_content(options.file);
   if (options.headers) return list(options, content);
   const DecodedStream stream = decode_stream(view(content), options.commands ? PacketType::kCommand : PacketType::kTelemetry);
@@ -56,6 +112,7 @@ void add_decode_command(CLI::App& app) {
   command->add_option("--items", options->selection.items, "these items alone, separated by commas")->delimiter(',');
   command->add_flag("--commands", options->commands, "the stream is one of commands, not of telemetry");
   command->add_flag("--headers", options->headers, "list headers, sequence gaps and check sums of any stream of space packets");
+  command->add_flag("--follow", options->follow, "go on with what is added to the file, until Ctrl-C");
   command->callback([options] { decode(*options); });
 }
 

@@ -7,6 +7,7 @@
 #include "mdat/common/errors.hpp"
 #include "mdat/common/progress_bar.hpp"
 #include "mdat/common/text.hpp"
+#include "mdat/link/decode.hpp"
 #include "mdat/link/station.hpp"
 
 namespace lasso::mdat {
@@ -181,6 +182,19 @@ class Upload {
   Station station_;  // last: its listener uses all of the above
 };
 
+// A load that is damaged on a stream of bytes is looked through for packets: a command that it carries would be carried out.
+void check_blocks(const std::vector<std::uint8_t>& image) {
+  for (std::size_t offset = 0; offset < image.size(); offset += kMemoryBlockBytes) {
+    const ConstBytes block(image.data() + offset, std::min(kMemoryBlockBytes, image.size() - offset));
+    const DecodedStream found = decode_stream(block, PacketType::kCommand);
+    if (found.packets.empty()) continue;
+    throw InputError(
+        format("the image holds a command (%s) at byte %zu: were that block damaged on its way, the component would carry it "
+               "out. A mission with another version or cell size has other bytes there",
+               found.packets.front().name(), offset + found.packets.front().offset));
+  }
+}
+
 }  // namespace
 
 std::uint32_t image_crc(const std::vector<std::uint8_t>& image) { return ByteReader(ConstBytes(image.data() + image.size() - 4, 4)).u32(); }
@@ -188,6 +202,7 @@ std::uint32_t image_crc(const std::vector<std::uint8_t>& image) { return ByteRea
 UploadEnd upload(ByteLink& link, const std::string& name, const std::vector<std::uint8_t>& image, const UploadOptions& options) {
   if (image.size() < kMemoryBlockBytes)
     throw InputError(format("%zu bytes are no flight image; mdat mission compile makes one", image.size()));
+  check_blocks(image);
   return Upload(link, name, image, options).run();
 }
 

@@ -29,7 +29,7 @@ std::uint32_t image_crc(const std::vector<std::uint8_t>& image);
 
 // What was loaded of the same image before, by whomever, is not sent again. Says on standard error how far it is. Throws RunError, which
 // names the link and says what went wrong: nobody answers, a command or the image is refused, or it is taken back. The link is the ground's
-// end of it.
+// end of it. Throws InputError where a block of the image holds a whole command (docs/decisions/packets.md).
 UploadEnd upload(ByteLink& link, const std::string& name, const std::vector<std::uint8_t>& image, const UploadOptions& options);
 
 }  // namespace lasso::mdat

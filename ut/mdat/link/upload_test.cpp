@@ -1,0 +1,48 @@
+#include "mdat/link/upload.hpp"
+
+#include <gtest/gtest.h>
+
+#include "mdat/common/errors.hpp"
+#include "mdat/link/command_encoder.hpp"
+#include "ut/support/verifies.hpp"
+
+namespace lasso::mdat {
+namespace {
+
+class SilentLink final : public ByteLink {
+ public:
+  bool datagrams() const override { return true; }
+  std::size_t read(Bytes) override { return 0; }
+  std::size_t write(ConstBytes packets) override { return packets.size(); }
+};
+
+// What is said of an image of some blocks, with a command at a place.
+std::string said_of_command_at(std::size_t place) {
+  std::vector<std::uint8_t> image(2000, 0x18);
+  const std::vector<std::uint8_t> ping = encode_command(command_row("ping"), {}, 3);
+  std::copy(ping.begin(), ping.end(), image.begin() + static_cast<std::ptrdiff_t>(place));
+  UploadOptions options;
+  options.answer_s = 0.01;
+  SilentLink link;
+  try {
+    static_cast<void>(upload(link, "link", image, options));
+  } catch (const InputError& error) {
+    return error.what();
+  } catch (const RunError&) {
+    return "sent";
+  }
+  return "done";
+}
+
+TEST(Upload, RefusesAnImageOfWhichABlockHoldsACommand) {
+  VERIFIES("LASSO-LNK-038~1");
+  const std::size_t block = kMemoryBlockBytes;
+  for (const std::size_t place : {std::size_t{0}, block - 13, block, 3 * block + 7}) {
+    const std::string said = said_of_command_at(place);
+    EXPECT_NE(said.find("holds a command (ping) at byte " + std::to_string(place) + ":"), std::string::npos) << said;
+  }
+  for (const std::size_t between : {block - 12, block - 1, 3 * block - 6}) EXPECT_EQ(said_of_command_at(between), "sent") << between;
+}
+
+}  // namespace
+}  // namespace lasso::mdat
