@@ -39,8 +39,6 @@ std::string errors_text(const CaseResult& run, double abscissa_step) {
   return text;
 }
 
-bool is_tracked(const VariantResult& variant) { return variant.all.lost < variant.all.frames; }
-
 // gnuplot draws nothing of no point.
 std::string nothing_to_draw(const std::string& settings) {
   return settings + "set yrange [-1:1]\nunset key\nset label 1 'every frame is lost' at graph 0.5,0.5 center\nplot -2 notitle\n";
@@ -50,8 +48,8 @@ std::string nothing_to_draw(const std::string& settings) {
 std::string angle_panel(const std::vector<std::string>& files, const Scenario& scenario, std::size_t axis) {
   std::string text = format("set title '%s, %s'\nplot ", kErrorAxes[axis].name, kErrorAxes[axis].unit);
   for (std::size_t i = files.size(); i-- > 0;) {
-    text += format("%s using 1:%zu with lines lw 0.8 lc rgb '%s' title '%g m'%s", files[i].c_str(), axis + 2,
-                   kRangeColours[i % kRangeColourCount], scenario.runs_m()[i], i > 0 ? ", " : "\n");
+    text += format("%s using 1:%zu with lines lw 0.8 lc rgb '%s' title '%s'%s", files[i].c_str(), axis + 2,
+                   kRangeColours[i % kRangeColourCount], run_text(scenario, i).c_str(), i > 0 ? ", " : "\n");
   }
   return text;
 }
@@ -100,6 +98,8 @@ std::string histogram_text(const std::vector<double>& times, double bin_us) {
 
 }  // namespace
 
+bool is_tracked(const VariantResult& variant) { return variant.all.lost < variant.all.frames; }
+
 std::string error_against_angle(Plotter& plotter, const TableResult& table, const VariantResult& variant) {
   if (!is_tracked(variant)) return plotter.svg(1080, 120, nothing_to_draw(kPlotStyle));
   const bool turns = table.scenario.scenario_kind() == ScenarioKind::kPaper && table.scenario.step_rad != 0;
@@ -110,6 +110,7 @@ std::string error_against_angle(Plotter& plotter, const TableResult& table, cons
   script +=
       "set multiplot layout 2,3 margins 0.06,0.925,0.125,0.93 spacing 0.062,0.14\n"
       "set key at screen 0.998,0.95 right top vertical samplen 1.2 spacing 1.2\n";
+  if (table.scenario.drawn != 0) script += "unset key\n";  // flights have no order
   script += format("set xrange [0:%g]\n", step * static_cast<double>(variant.cases[0].frames.size()));
   if (turns && variant.cases[0].frames.size() > 180) script += "set xtics 90\n";
   for (std::size_t axis = 0; axis < 6; ++axis) {

@@ -8,6 +8,9 @@
 
 namespace lasso::mdat {
 
+// In at least one frame: there is something to draw.
+bool is_tracked(const VariantResult& variant);
+
 // Error of each axis against the target's angle, a line a range (the paper's figure 11).
 std::string error_against_angle(Plotter& plotter, const TableResult& table, const VariantResult& variant);
 

@@ -7,6 +7,7 @@
 #include "mdat/common/version.hpp"
 #include "mdat/report/base64.hpp"
 #include "mdat/report/figures.hpp"
+#include "mdat/report/flights_view.hpp"
 #include "mdat/report/page.hpp"
 #include "mdat/report/scan_view.hpp"
 #include "mdat/report/timeline_view.hpp"
@@ -63,14 +64,15 @@ std::string quality_table(const TableResult& table) {
 
 std::string range_table(const TableResult& table) {
   const bool bound = table.scenario.scenario_kind() == ScenarioKind::kPaper;
-  HtmlTable html = quality_head("variant, range");
+  const char* run = table.scenario.drawn != 0 ? "flight" : "range";
+  HtmlTable html = quality_head(format("variant, %s", run));
   for (const VariantResult& variant : table.variants) {
     for (std::size_t i = 0; i < variant.by_range.size(); ++i) {
-      const std::string name = format("%s, %g m", variant.variant.title, table.scenario.runs_m()[i]);
+      const std::string name = std::string(variant.variant.title) + ", " + run_text(table.scenario, i);
       html.rows.push_back(quality_row(name, variant.by_range[i], variant.variant.noise, bound));
     }
   }
-  return "<details><summary>The same by range</summary>" + to_html(html) + "</details>\n";
+  return format("<details><summary>The same by %s</summary>", run) + to_html(html) + "</details>\n";
 }
 
 // The variant that a person looks at first: with noise and silhouettes where there is one.
@@ -86,8 +88,9 @@ const std::vector<KeptScan>& shown_scans(const TableResult& table) { return main
 std::vector<ScanPanel> shown_panels(const TableResult& table) {
   std::vector<ScanPanel> panels;
   for (const KeptScan& scan : shown_scans(table)) {
-    panels.push_back({&scan, format("%.0f°: %u of %u rays return", scan.frame * table.scenario.step_rad / kRadPerDeg,
-                                    scan.telemetry.returns, scan.telemetry.plan_points)});
+    const std::string when = table.scenario.drawn != 0 ? format("flight %zu", shown_range(table.scenario) + 1)
+                                                       : format("%.0f°", scan.frame * table.scenario.step_rad / kRadPerDeg);
+    panels.push_back({&scan, when + format(": %u of %u rays return", scan.telemetry.returns, scan.telemetry.plan_points)});
   }
   return panels;
 }
@@ -102,15 +105,20 @@ std::string scans_figure(Plotter& plotter, const sim::RayCaster& target, const T
   return figure("<img alt='scans on the target' src='data:image/png;base64," + base64(png) + "'>", caption);
 }
 
+std::string angle_text(const TableResult& table, const VariantResult& variant) {
+  if (table.scenario.drawn != 0) return format("frame, %s: a line a flight", variant.variant.title);
+  return format("target's angle, %s (the paper's figure 11)", variant.variant.title);
+}
+
 std::string angle_figures(Plotter& plotter, const TableResult& table) {
   std::string html;
   for (const VariantResult& variant : table.variants) {
     if (!variant.variant.silhouettes && table.variants.size() > 1) continue;
     html += figure(
         error_against_angle(plotter, table, variant),
-        format("Error of the registration of each single scan against the target's angle, %s (the paper's figure 11). X, Y, Z in sensor "
-               "axes; yaw, pitch, roll about the target's z, y, x.",
-               variant.variant.title));
+        format("Error of the registration of each single scan against the %s. X, Y, Z in sensor axes; yaw, pitch, roll about the target's "
+               "z, y, x.",
+               angle_text(table, variant).c_str()));
   }
   return html;
 }
@@ -120,14 +128,41 @@ std::string range_figure(Plotter& plotter, const TableResult& table) {
                 "Root mean square error against range (the paper's figure 13), and the Cramér-Rao bound of the hits of the same scans.");
 }
 
+// How well the rates are known, which is what flights are flown for.
+std::string rates_part(Plotter& plotter, const TableResult& table) {
+  const std::string settled = settled_section(table);
+  if (!is_tracked(main_variant(table))) return settled;
+  return settled +
+         figure(
+             rates_figure(plotter, main_variant(table)),
+             format(
+                 "Error of the filter's rates against the frame, %s: a line a flight, gaps where nothing is reported; dark, the root mean "
+                 "square of all flights. The start knows no rate.",
+                 main_variant(table).variant.title));
+}
+
+std::string flights_part(Plotter& plotter, const TableResult& table) {
+  if (!is_tracked(main_variant(table))) return "";
+  return figure(
+      flights_figure(plotter, main_variant(table)),
+      format("Root mean square errors of each flight, %s: of the registrations of single scans, and of the filter's rates after %zu "
+             "frames.",
+             main_variant(table).variant.title, kSettlingFrames));
+}
+
+std::string section_title(const TableResult& table) {
+  const Scenario& scenario = table.scenario;
+  if (scenario.drawn != 0) return runs_text(scenario) + ", attitude and axes of each drawn at random";
+  return format("Tilt %g°", scenario.tilt_rad / kRadPerDeg) + (table.name.empty() ? "" : ": truly side-on, the hardest case");
+}
+
 std::string table_section(Plotter& plotter, const sim::RayCaster& target, const TableResult& table, bool paper) {
-  const std::string tilt =
-      table.scenario.drawn != 0 ? "Attitudes drawn at random" : format("Tilt %g°", table.scenario.tilt_rad / kRadPerDeg);
-  const std::string title = tilt + (table.name.empty() ? "" : ": truly side-on, the hardest case");
-  std::string html = "<section>\n<h2>" + title + "</h2>\n";
+  const bool flights = table.scenario.drawn != 0;
+  std::string html = "<section>\n<h2>" + section_title(table) + "</h2>\n";
+  if (flights) html += rates_part(plotter, table) + "</section>\n<section>\n<h2>Poses</h2>\n";
   html += accuracy_table(table, paper && table.name.empty()) + quality_table(table) + range_table(table);
   html += scans_figure(plotter, target, table) + angle_figures(plotter, table);
-  if (table.scenario.runs_m().size() > 1) html += range_figure(plotter, table);
+  if (table.scenario.runs_m().size() > 1) html += flights ? flights_part(plotter, table) : range_figure(plotter, table);
   html +=
       figure(time_histogram(plotter, table), "Processor time of whole estimates (range image in, pose and covariance out) on one thread.");
   return html + "</section>\n";
@@ -159,11 +194,8 @@ std::string approach_html(const CompiledMission& mission, const SimulationResult
 std::string introduction(const SimulationResult& result) {
   const Scenario& scenario = result.tables.front().scenario;
   std::string text = format(
-      "<p class='lead'>Scenario <b>%s</b>, seed %llu: %zu range%s from %g to %g m, %u frames each, closed loop through the flight "
-      "component. mdat "
-      "%s, %.1f s.</p>\n",
-      escape(result.scenario).c_str(), static_cast<unsigned long long>(result.seed), scenario.runs_m().size(),
-      scenario.runs_m().size() == 1 ? "" : "s", scenario.runs_m().front(), scenario.runs_m().back(), result.frames, kVersion,
+      "<p class='lead'>Scenario <b>%s</b>, seed %llu: %s, %u frames each, closed loop through the flight component. mdat %s, %.1f s.</p>\n",
+      escape(result.scenario).c_str(), static_cast<unsigned long long>(result.seed), runs_text(scenario).c_str(), result.frames, kVersion,
       result.seconds);
   return text +
          "<p class='note'>Errors are those of the registration of each single scan against the truth at its reference time, as decoded "

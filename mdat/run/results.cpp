@@ -1,5 +1,6 @@
 #include "mdat/run/results.hpp"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "mdat/common/text.hpp"
@@ -227,8 +228,7 @@ std::string found_text(const TableResult& table) {
 std::string table_text(const SimulationResult& result, const TableResult& table) {
   const Scenario& scenario = table.scenario;
   std::string text = format("%s, scenario %s%s: ", result.mission.c_str(), result.scenario.c_str(), table.name.empty() ? "" : ", no tilt");
-  text += format("%zu range%s (%g to %g m) x %u frames, %s, registration of single scans\n", scenario.runs_m().size(),
-                 scenario.runs_m().size() == 1 ? "" : "s", scenario.runs_m().front(), scenario.runs_m().back(), result.frames,
+  text += format("%s x %u frames, %s, registration of single scans\n", runs_text(scenario).c_str(), result.frames,
                  attitude_text(scenario).c_str());
   text += axes_table(table, table.name.empty() && result.kind == ScenarioKind::kPaper);
   text += quality_table(table);
@@ -241,6 +241,19 @@ std::string table_text(const SimulationResult& result, const TableResult& table)
 
 std::string attitude_text(const Scenario& scenario) {
   return scenario.drawn != 0 ? "attitudes drawn" : format("tilt %g deg", scenario.tilt_rad / kRadPerDeg);
+}
+
+std::string runs_text(const Scenario& scenario) {
+  const std::vector<double> runs_m = scenario.runs_m();
+  const auto [nearest, farthest] = std::minmax_element(runs_m.begin(), runs_m.end());
+  const std::string runs = format("%zu %s%s", runs_m.size(), scenario.drawn != 0 ? "flight" : "range", runs_m.size() == 1 ? "" : "s");
+  if (scenario.drawn != 0 && *nearest == *farthest) return runs + format(" at %g m", *nearest);
+  return runs + format(" from %g to %g m", runs_m.front(), runs_m.back());
+}
+
+std::string run_text(const Scenario& scenario, std::size_t run) {
+  const std::string range = format("%g m", scenario.runs_m()[run]);
+  return scenario.drawn != 0 ? format("flight %zu, ", run + 1) + range : range;
 }
 
 std::string results_json(const SimulationResult& result) {

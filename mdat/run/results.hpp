@@ -16,6 +16,12 @@ std::string summary_text(const SimulationResult& result);
 // "tilt 15 deg", or that each run has one of its own.
 std::string attitude_text(const Scenario& scenario);
 
+// "6 ranges from 2 to 7 m"; where the motion is drawn, runs are flights: "12 flights at 4 m".
+std::string runs_text(const Scenario& scenario);
+
+// One of them: "4 m"; "flight 3, 4 m".
+std::string run_text(const Scenario& scenario, std::size_t run);
+
 // The six error axes with their names and units.
 struct ErrorAxis {
   const char* key;   // "x_mm"
