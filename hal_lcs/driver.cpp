@@ -24,7 +24,7 @@ std::size_t aim_bytes(const ScanPlan& plan) { return (plan.aimed.size() + kAimed
 
 }  // namespace
 
-Driver::Driver(Line& line, const Optics& optics) : line_(line), optics_(optics) {
+Driver::Driver(Line& line, const Optics& optics) : line_(line), made_(optics), optics_(optics) {
   invariant(optics.validate() == Status::kOk, "lcs calibration");
   inhibit();  // whatever was before
 }
@@ -108,6 +108,11 @@ void Driver::lose(Loss loss, Status reason) {
   stop_camera();
 }
 
+// Each scan sets its temperature.
+void Driver::use_calibration(const TriangulationCalibration* calibration) {
+  optics_ = calibration == nullptr ? made_ : made_.calibrated(*calibration);
+}
+
 // There is always room left for an inhibit.
 void Driver::stop_camera() {
   if (has_room(2 * kMaxFrame)) send(encode(sent_, Type::kAbort));
@@ -154,6 +159,7 @@ SensorCounters Driver::counters() const {
   counters.samples_lost = health_.samples_lost;
   for (const Fate fate : {Fate::kNoStatement, Fate::kBadAngle, Fate::kBadPeak, Fate::kOutside})
     counters.samples_refused += health_.fates[static_cast<std::size_t>(fate)];
+  counters.samples_outside = health_.fates[static_cast<std::size_t>(Fate::kBeside)];
   counters.bad_times = health_.bad_times;
   counters.off_plan = health_.off_plan;
   counters.clock_jumps = health_.clock_jumps;

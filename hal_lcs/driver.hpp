@@ -44,7 +44,7 @@ enum class Loss : std::uint8_t {
 };
 constexpr std::size_t kLosses = 8;
 constexpr std::size_t kResults = 8;
-constexpr std::size_t kFates = 6;
+constexpr std::size_t kFates = 7;
 
 struct Health {
   std::uint32_t sequence_gaps = 0;  // before a frame: others never came, or came damaged
@@ -70,6 +70,8 @@ class Driver final : public Sensor {
   // the line with each call (of any function) until the camera confirms it, and again when it says that it is lit; on a line that holds
   // other bytes it follows them, at most kLineBytes. It is kept in three copies, voted and repaired at each start.
   void permit_laser(bool permitted) override;
+
+  void use_calibration(const TriangulationCalibration* calibration) override;
 
   // kBusy while a scan runs; validate(plan)'s reason; kMissing without permission; kOverCapacity when the line takes no more. t_start_us
   // is now: the camera begins as soon as it has the command.
@@ -116,7 +118,8 @@ class Driver final : public Sensor {
   TimeUs time_of(std::uint32_t clock_us) const;
 
   Line& line_;
-  Optics optics_;
+  Optics made_;    // as it was made
+  Optics optics_;  // as they are believed
   FrameDecoder decoder_;
   Health health_;
   CameraStatus camera_;

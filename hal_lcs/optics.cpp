@@ -14,11 +14,20 @@ bool Optics::one_head() const {
 }
 
 Status Optics::validate() const {
-  const Status near = triangulates() ? lcs::validate(near_) : Status::kOk;
+  const Status near = triangulates() ? lasso::validate(near_) : Status::kOk;
   if (near != Status::kOk) return near;
   const Status far = times() ? lcs::validate(far_) : Status::kOk;
   if (far != Status::kOk) return far;
   return device_ != Device::kTridar || one_head() ? Status::kOk : Status::kBadValue;
+}
+
+Optics Optics::calibrated(const Calibration& calibration) const {
+  EchoCalibration clock = far_;
+  clock.serial = calibration.serial;
+  clock.angle_x_offset_rad = calibration.angle_x_offset_rad;
+  clock.angle_y_offset_rad = calibration.angle_y_offset_rad;
+  clock.angle_max_rad = calibration.angle_max_rad;
+  return {triangulates() ? device_ : Device::kLaserCamera, calibration, clock};
 }
 
 Mirrors Optics::mirrors() const {

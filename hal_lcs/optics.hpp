@@ -21,6 +21,10 @@ class Optics {
   // The reason of the calibration that is not valid; kBadValue: a TriDAR's two are of different heads or mirrors.
   Status validate() const;
 
+  // The same head with this calibration of its triangulation, which is valid: a TriDAR's clock keeps its own, behind the same mirrors. A
+  // LIDAR, which has none, is then a head that nobody knows.
+  Optics calibrated(const Calibration& calibration) const;
+
   Device device() const { return device_; }
   std::uint32_t serial() const { return triangulates() ? near_.serial : far_.serial; }
   Mirrors mirrors() const;

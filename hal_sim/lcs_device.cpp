@@ -16,9 +16,9 @@ constexpr double kNowhereM = 1e9;                                  // a range fo
 constexpr std::uint64_t kChanceOfTheLine = 0x4C43'5346'6175'6C74;  // other than what the rays draw
 
 double corrected(const lcs::Calibration& c, double x, double y, double peak) {
-  const double phi[lcs::kResidualTerms] = {1, x, y, peak, x * x, x * y, y * y, x * peak, y * peak, peak * peak};
+  const double phi[kResidualTerms] = {1, x, y, peak, x * x, x * y, y * y, x * peak, y * peak, peak * peak};
   double sum = 0;
-  for (std::size_t k = 0; k < lcs::kResidualTerms; ++k) sum += c.residual[k] * phi[k];
+  for (std::size_t k = 0; k < kResidualTerms; ++k) sum += c.residual[k] * phi[k];
   return sum;
 }
 

@@ -117,6 +117,7 @@ class LcsOverLine final : public Sensor {
   void abort() override;
   SensorCounters counters() const override { return driver_.counters(); }
   void permit_laser(bool permitted) override { driver_.permit_laser(permitted); }
+  void use_calibration(const TriangulationCalibration* calibration) override { driver_.use_calibration(calibration); }
 
   lcs::Driver& driver() { return driver_; }
 

@@ -16,6 +16,7 @@ class SensorRecorder final : public Sensor {
   void abort() override;
   SensorCounters counters() const override { return sensor_.counters(); }
   void permit_laser(bool permitted) override { sensor_.permit_laser(permitted); }
+  void use_calibration(const TriangulationCalibration* calibration) override { sensor_.use_calibration(calibration); }
 
  private:
   Sensor& sensor_;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint32_t kMagic = 0x33444C52;   // "3DLR"
 constexpr TimeUs kLatestUs = TimeUs{1} << 61;  // before and after 0: sums and differences of such times stay times
-constexpr std::size_t kHeadBytes = 8, kScanBytes = 73, kAimedBytes = 8, kSampleBytes = 25;
+constexpr std::size_t kHeadBytes = 8, kScanBytes = 73, kAimedBytes = 8, kSampleBytes = 29;
 
 std::size_t bytes_of(const SensorScan& scan) { return kScanBytes + kAimedBytes * scan.aimed.size() + kSampleBytes * scan.samples.size(); }
 
@@ -21,6 +21,7 @@ void put(ByteWriter& out, const RangeSample& sample) {
   out.f32(sample.range_m);
   out.i64(sample.t_us);
   out.u8(static_cast<std::uint8_t>(sample.state));
+  out.f32(sample.sigma_factor);
 }
 
 void put(ByteWriter& out, const SensorScan& scan) {
@@ -96,6 +97,9 @@ class Reader {
     const std::uint8_t state = in_.u8();
     expect(state <= static_cast<std::uint8_t>(RayState::kLost), "a sample's state is " + std::to_string(state) + ", expected 0 to 3");
     sample.state = static_cast<RayState>(state);
+    sample.sigma_factor = in_.f32();
+    expect(sample.sigma_factor >= 1 && sample.sigma_factor <= 1000,
+           "a sample's sigma factor is " + std::to_string(sample.sigma_factor) + ", expected 1 to 1000");
     return sample;
   }
 

@@ -14,7 +14,7 @@
 
 namespace lasso::sim {
 
-constexpr std::uint32_t kRecordingVersion = 1;
+constexpr std::uint32_t kRecordingVersion = 2;
 constexpr DurationUs kRecordingToleranceUs = 100'000;  // a line's commands and a head's clock move samples by less
 
 struct SensorScan {

@@ -55,6 +55,14 @@ void AcquisitionTask::permit_laser(bool permitted) {
   for (Sensor* sensor : sensors_) sensor->permit_laser(permitted);
 }
 
+void AcquisitionTask::calibrate(const ImageSlot& image) {
+  TriangulationCalibration calibration;
+  for (std::size_t i = 0; i < sensors_.size(); ++i) {
+    const bool found = image.find_calibration(static_cast<SensorNumber>(i), calibration);
+    sensors_[i]->use_calibration(found ? &calibration : nullptr);
+  }
+}
+
 // Mirrors that stand still leave an image that a pose could be read into.
 ScanEnd AcquisitionTask::finish(const ScanPlan& plan) {
   ScanEnd end{asked_, acquisition_.finish(*sensors_[sensor_], images_[filling_])};

@@ -6,6 +6,7 @@
 
 #include "fsw/core/time.hpp"
 #include "fsw/geometry/se3.hpp"
+#include "fsw/mission/image_slot.hpp"
 #include "fsw/mission/mission.hpp"
 #include "fsw/sense/acquisition.hpp"
 #include "fsw/sense/range_image.hpp"
@@ -51,6 +52,8 @@ class AcquisitionTask {
 
   // To all sensors.
   void permit_laser(bool permitted);
+  // What the image in this slot says of each one's optics.
+  void calibrate(const ImageSlot& image);
 
   const RangeImage& filling() const { return images_[filling_]; }
   std::size_t sensors() const { return sensors_.size(); }

@@ -35,6 +35,7 @@ void describe_counters(const SensorCounters& counters, SensorTelemetry& out) {
   out.off_plan = counters.off_plan;
   out.clock_jumps = counters.clock_jumps;
   out.restarts = counters.restarts;
+  out.samples_outside = counters.samples_outside;
 }
 
 }  // namespace
@@ -50,7 +51,8 @@ SensorTelemetry make_sensor_report(SensorNumber sensor, const ScanTally& tally, 
 
 std::uint32_t troubles(const SensorTelemetry& report) {
   return report.lost + report.damaged_frames + report.missing_frames + report.repeated_frames + report.unknown_frames + report.strayed +
-         report.samples_lost + report.samples_refused + report.bad_times + report.off_plan + report.clock_jumps + report.restarts;
+         report.samples_lost + report.samples_refused + report.bad_times + report.off_plan + report.clock_jumps + report.restarts +
+         report.samples_outside;
 }
 
 }  // namespace lasso

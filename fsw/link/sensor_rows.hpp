@@ -35,11 +35,12 @@ inline constexpr TypedRow<S> kRows[] = {
   make_row<&S::unknown_frames>(22, "unknown_frames", "1", kAny, "frames that are right, and say nothing that is defined"),
   make_row<&S::strayed>(23, "strayed", "1", kAny, "samples and answers that belong to no scan under way"),
   make_row<&S::samples_lost>(24, "samples_lost", "1", kAny, "samples that no frame brought"),
-  make_row<&S::samples_refused>(25, "samples_refused", "1", kAny, "samples that make no statement: out of range, outside the calibrated volume, saturated, not aimed"),
+  make_row<&S::samples_refused>(25, "samples_refused", "1", kAny, "samples that make no statement: out of range, far outside the calibrated volume, saturated, not aimed"),
   make_row<&S::bad_times>(26, "bad_times", "1", kAny, "samples before their predecessor, or far from their planned time"),
   make_row<&S::off_plan>(27, "off_plan", "1", kAny, "frames whose rays are not those of the plan"),
   make_row<&S::clock_jumps>(28, "clock_jumps", "1", kAny, "jumps of the sensor's clock between scans"),
   make_row<&S::restarts>(29, "restarts", "1", kAny, "times that the sensor started anew"),
+  make_row<&S::samples_outside>(30, "samples_outside", "1", kAny, "points from beside the calibrated volume or temperatures, which count for less"),
 };
 // clang-format on
 

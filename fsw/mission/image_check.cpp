@@ -12,11 +12,27 @@ using N = FlightNumber;
 constexpr std::uint32_t kDirectoryBytes = 4 * (kImageHeaderWords + kTableCount * kDirectoryEntryWords);
 constexpr std::uint32_t kMaxBricksPerAxis = 1023;
 constexpr N::Length kSmallestCell_m = 1e-6F;
-constexpr std::uint32_t kRecordWords[kTableCount] = {
-    2, kFieldGeometryWords, kElementWords,  kCurvatureWords, kBrickWords, kRayCellsPerBrick,
-    1, kNearWordsPerBrick,  kFootWords,     kEdgeWords,      3,           kSearchGridWords,
-    1, kViewWords,          kSymmetryWords, kPartWords,      1,           kSensorWords};
+constexpr std::uint32_t kRecordWords[kTableCount] = {2,
+                                                     kFieldGeometryWords,
+                                                     kElementWords,
+                                                     kCurvatureWords,
+                                                     kBrickWords,
+                                                     kRayCellsPerBrick,
+                                                     1,
+                                                     kNearWordsPerBrick,
+                                                     kFootWords,
+                                                     kEdgeWords,
+                                                     3,
+                                                     kSearchGridWords,
+                                                     1,
+                                                     kViewWords,
+                                                     kSymmetryWords,
+                                                     kPartWords,
+                                                     1,
+                                                     kSensorWords,
+                                                     kCalibrationWords};
 static_assert(kSensorWords == 2 * kSensorValues, "two words a value");
+static_assert(kCalibrationWords == 2 + 2 * (kCalibrationRealCount + kResidualTerms), "two words a value");
 
 // Header and sizes.
 LoadFailure check_header(const FlightImage& image) {
@@ -73,7 +89,8 @@ LoadFailure check_counts(const FlightImage& image) {
       {TableId::kBricks, bricks, bricks},        {TableId::kFootPoints, bricks, bricks},   {TableId::kElements, 1, kMaxElements},
       {TableId::kCurvatures, 1, kMaxElements},   {TableId::kEdges, 0, kMaxEdges},          {TableId::kHull, 4, kMaxHullPoints},
       {TableId::kRayCells, 1, kEmptyBit - 1},    {TableId::kRayLists, 1, kListOffsetMask}, {TableId::kViews, kMinViews, kMaxViews},
-      {TableId::kSymmetries, 0, kMaxSymmetries}, {TableId::kParts, 0, kMaxParts},          {TableId::kSensors, 0, kMaxSensors - 1}};
+      {TableId::kSymmetries, 0, kMaxSymmetries}, {TableId::kParts, 0, kMaxParts},          {TableId::kSensors, 0, kMaxSensors - 1},
+      {TableId::kCalibrations, 0, kMaxSensors}};
   for (const Limit& limit : limits) {
     const std::uint32_t n = image[limit.id].records;
     if (n < limit.minimum || n > limit.maximum) return failure(Status::kOverCapacity, "number of records", limit.id);
@@ -171,6 +188,17 @@ LoadFailure check_sensor(const FlightImage& image, std::uint32_t i) {
   return status == Status::kOk ? LoadFailure{} : failure(status, sensor_rows()[bad_row].key, TableId::kSensors, i);
 }
 
+// Of one of the sensors, and after the one before.
+LoadFailure check_calibration(const FlightImage& image, std::uint32_t i) {
+  const ImageTable& table = image[TableId::kCalibrations];
+  const std::uint32_t sensor = table.word(i, 0);
+  const bool after = i == 0 || sensor > table.word(i - 1, 0);
+  if (sensor > image[TableId::kSensors].records || !after)
+    return failure(Status::kBadIndex, "sensor of a calibration", TableId::kCalibrations, i);
+  const Status status = validate(calibration_of(table, i));
+  return status == Status::kOk ? LoadFailure{} : failure(status, "calibration", TableId::kCalibrations, i);
+}
+
 // Parameters, and what tables say of each other's sizes.
 LoadFailure check_numbers(const FlightImage& image) {
   LoadFailure result = check_parameters(image[TableId::kParameters]);
@@ -182,7 +210,7 @@ LoadFailure check_numbers(const FlightImage& image) {
 
 // Tables whose records are checked one by one, in this order.
 constexpr TableId kChecked[] = {TableId::kBricks, TableId::kRayCells, TableId::kRayLists,   TableId::kNearCells, TableId::kElements,
-                                TableId::kEdges,  TableId::kViews,    TableId::kSymmetries, TableId::kSensors};
+                                TableId::kEdges,  TableId::kViews,    TableId::kSymmetries, TableId::kSensors,   TableId::kCalibrations};
 constexpr std::uint32_t kCheckedTables = sizeof(kChecked) / sizeof(kChecked[0]);
 
 LoadFailure check_record(const FlightImage& image, TableId id, std::uint32_t record) {
@@ -194,7 +222,7 @@ LoadFailure check_record(const FlightImage& image, TableId id, std::uint32_t rec
   if (id == TableId::kEdges) return check_edge(image, record);
   if (id == TableId::kViews) return check_unit(image, id, record, 3);
   if (id == TableId::kSymmetries) return check_unit(image, id, record, 4);
-  return check_sensor(image, record);
+  return id == TableId::kSensors ? check_sensor(image, record) : check_calibration(image, record);
 }
 
 }  // namespace
@@ -324,6 +352,16 @@ SensorParameters sensor_of(const ImageTable& table, std::uint32_t record) {
   ByteReader reader(ConstBytes(table.data + std::size_t{4} * kSensorWords * record, std::size_t{4} * kSensorWords));
   for (const ParameterRow& row : sensor_rows()) sensor.*sensor_member(row) = reader.f64();
   return sensor;
+}
+
+TriangulationCalibration calibration_of(const ImageTable& table, std::uint32_t record) {
+  TriangulationCalibration calibration;
+  ByteReader reader(ConstBytes(table.data + std::size_t{4} * kCalibrationWords * record, std::size_t{4} * kCalibrationWords));
+  static_cast<void>(reader.u32());  // the sensor's number
+  calibration.serial = reader.u32();
+  for (const auto real : kCalibrationReals) calibration.*real = reader.f64();
+  for (double& term : calibration.residual) term = reader.f64();
+  return calibration;
 }
 
 MissionParameters parameters_of(const ImageTable& table) {

@@ -1,6 +1,7 @@
 // A flight image as its check sees it: tables in the format's words, and what each may say. Inside of fsw/mission.
 #pragma once
 
+#include "fsw/mission/calibration.hpp"
 #include "fsw/mission/mission.hpp"
 
 namespace lasso {
@@ -75,5 +76,6 @@ constexpr std::uint32_t kAllWords = 0xFFFFFFFFU / 4;  // more than an image has;
 // The parameters of a table that has been checked.
 MissionParameters parameters_of(const ImageTable& table);
 SensorParameters sensor_of(const ImageTable& table, std::uint32_t record);
+TriangulationCalibration calibration_of(const ImageTable& table, std::uint32_t record);
 
 }  // namespace lasso

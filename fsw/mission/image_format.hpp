@@ -15,7 +15,7 @@
 namespace lasso {
 
 constexpr std::uint32_t kImageMagic = 0x33444C49;  // "3DLI"
-constexpr std::uint32_t kImageVersion = 6;
+constexpr std::uint32_t kImageVersion = 7;
 constexpr std::uint32_t kImageHeaderWords = 16;
 constexpr std::uint32_t kDirectoryEntryWords = 5;
 constexpr int kUnitFractionBits = 30;
@@ -43,8 +43,9 @@ enum class TableId : std::uint32_t {
   kParts,           // kPartWords a record, at most kMaxParts; none in a part's own image
   kPartImages,      // 1 word a record: the parts' images one after the other, each a whole flight image
   kSensors,  // kSensorWords a record, at most kMaxSensors - 1: the sensors besides that of the parameters; of no meaning in a part's image
+  kCalibrations,  // kCalibrationWords a record, at most one for each sensor, in the order of their numbers; likewise
 };
-constexpr std::uint32_t kTableCount = 18;  // all of them, in the order of the ids
+constexpr std::uint32_t kTableCount = 19;  // all of them, in the order of the ids
 
 // Words of the one FieldGeometry record.
 enum FieldGeometryWord : std::uint32_t {
@@ -161,5 +162,9 @@ constexpr double kMaxPartPriority = 1000;
 
 // A further sensor: binary64 values in the order of sensor_rows(), two words each.
 constexpr std::uint32_t kSensorWords = 20;
+
+// The calibration of a laser camera: word 0 the sensor's number, 1 the camera's serial number, then binary64 values, two words each: those
+// of kCalibrationReals, and the terms of the residual (fsw/mission/calibration.hpp).
+constexpr std::uint32_t kCalibrationWords = 52;
 
 }  // namespace lasso

@@ -55,6 +55,11 @@ class ImageSlot {
   // The image's own, whatever was changed; of a ready one.
   const MissionParameters& image_parameters() const { return image_parameters_; }
 
+  // Of a ready image, see ImageLoad.
+  bool find_calibration(SensorNumber sensor, TriangulationCalibration& calibration) const {
+    return load_.find_calibration(sensor, calibration);
+  }
+
   // What is sealed; empty while nothing is.
   ConstBytes sealed_image() const { return state_ == ImageState::kReady ? ConstBytes(image()) : ConstBytes(); }
   Span<const std::uint32_t> image_sums() const { return {sums_, kMaxImageChunks}; }

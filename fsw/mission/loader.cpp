@@ -259,6 +259,16 @@ void ImageLoad::make(Mission& mission, Parts& parts) const {
   make(mission);
 }
 
+bool ImageLoad::find_calibration(SensorNumber sensor, TriangulationCalibration& calibration) const {
+  const ImageTable& table = whole_[TableId::kCalibrations];
+  for (std::uint32_t i = 0; i < table.records; ++i) {
+    if (table.word(i, 0) != sensor) continue;
+    calibration = calibration_of(table, i);
+    return true;
+  }
+  return false;
+}
+
 LoadFailure ImageLoad::run(Bytes bytes) {
   begin(bytes);
   while (!check(kAllWords)) {

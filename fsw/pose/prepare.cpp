@@ -7,7 +7,8 @@ using N = FlightNumber;
 using Length = N::Length;
 using Unit = N::Unit;
 
-// Noise of a return at its range: sigma_r^2 = sigma0^2 + (k z^2)^2 along the ray, z sigma_angle across it.
+// Noise of a return at its range: sigma_r^2 = sigma0^2 + (k z^2)^2 along the ray, z sigma_angle across it; the former times the sample's
+// own factor.
 struct NoiseModel {
   Length sigma0, k, angle, surface, width;
 
@@ -18,13 +19,14 @@ struct NoiseModel {
         surface(N::to_length(p.surface_sigma_m)),
         width(N::to_ratio(p.kernel_width)) {}
 
-  void apply(Length range, MatchPoint<N>& point) const {
-    const Length grown = k * range * range;
+  void apply(Length range, N::Ratio factor, MatchPoint<N>& point) const {
+    const Length constant = factor * sigma0;
+    const Length grown = factor * (k * range * range);
     const Length across = range * angle;
-    point.range_variance = sigma0 * sigma0 + grown * grown;
+    point.range_variance = constant * constant + grown * grown;
     point.across_variance = across * across;
     // A bound of k sigma without a square root; 4 = tan 76 deg: what lies farther off for pointing noise at grazing incidence is let go.
-    point.reach = width * (sigma0 + grown + 4 * across + surface);
+    point.reach = width * (constant + grown + 4 * across + surface);
   }
 };
 
@@ -89,7 +91,7 @@ bool is_credible(const RangeSample& sample, const MissionParameters& p) {
   return sample.state != RayState::kHit || (range >= p.range_min_m && range <= p.range_max_m);
 }
 
-MatchPoint<N> make_point(const ScanRay<N>& ray, const NoiseModel& noise, bool aimed) {
+MatchPoint<N> make_point(const ScanRay<N>& ray, N::Ratio factor, const NoiseModel& noise, bool aimed) {
   MatchPoint<N> point{};
   for (int i = 0; i < 3; ++i) {
     point.p[i] = ray.o[i] + ray.range * ray.u[i];
@@ -97,7 +99,7 @@ MatchPoint<N> make_point(const ScanRay<N>& ray, const NoiseModel& noise, bool ai
   }
   point.element = kNoElement;
   point.aimed = aimed;
-  noise.apply(ray.range, point);
+  noise.apply(ray.range, factor, point);
   return point;
 }
 
@@ -117,7 +119,8 @@ void prepare_rays(const Mission& mission, const RangeImage& scan, const StartPoi
     deskew.apply(N::to_ratio(to_seconds(sample.t_us - reference_us)), ray);
     invariant(workspace.rays.push_back(ray), "as many rays as a scan can have");
     if (ray.state == RayState::kHit)
-      invariant(workspace.points.push_back(make_point(ray, noise, start.partial || scan.is_aimed(i))), "as many points as rays");
+      invariant(workspace.points.push_back(make_point(ray, sample.sigma_factor, noise, start.partial || scan.is_aimed(i))),
+                "as many points as rays");
   }
 }
 

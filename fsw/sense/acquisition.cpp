@@ -61,7 +61,8 @@ RangeSample cleaned(const RangeSample& sample) {
 }
 
 bool range_valid(const RangeSample& sample) {
-  return sample.state != RayState::kHit || (sample.range_m >= 0 && static_cast<double>(sample.range_m) <= kMaxRangeM);
+  const bool factor = sample.sigma_factor >= 1 && sample.sigma_factor <= kMaxSigmaFactor;
+  return sample.state != RayState::kHit || (factor && sample.range_m >= 0 && static_cast<double>(sample.range_m) <= kMaxRangeM);
 }
 
 }  // namespace

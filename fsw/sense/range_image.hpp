@@ -21,6 +21,7 @@ struct RangeSample {
   float range_m = 0;               // along the ray; 0 unless a hit
   TimeUs t_us = 0;                 // time of this sample
   RayState state = RayState::kInvalid;
+  float sigma_factor = 1;  // >= 1: by how much the noise of this range is larger than the sensor's
 };
 
 struct RangeImage {

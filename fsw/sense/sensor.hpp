@@ -12,6 +12,8 @@
 
 namespace lasso {
 
+struct TriangulationCalibration;
+
 struct SensorPoll {
   Status status = Status::kOk;  // kOk; kNoData: idle; kTimeout, kBadCrc, kBadValue, ...: the scan is lost (loss_of, acquisition.hpp)
   std::size_t count = 0;        // samples written, in time order, none twice
@@ -27,11 +29,12 @@ struct SensorCounters {
   std::uint32_t unknown_frames = 0;   // right, and say nothing that is defined
   std::uint32_t strayed = 0;          // samples and answers that belong to no scan under way
   std::uint32_t samples_lost = 0;     // that no frame brought
-  std::uint32_t samples_refused = 0;  // that make no statement: out of range, outside the calibrated volume, saturated, not aimed
+  std::uint32_t samples_refused = 0;  // that make no statement: out of range, far outside the calibrated volume, saturated, not aimed
   std::uint32_t bad_times = 0;        // samples whose time cannot be
   std::uint32_t off_plan = 0;         // frames whose rays are not those of the plan
   std::uint32_t clock_jumps = 0;
-  std::uint32_t restarts = 0;  // of the sensor
+  std::uint32_t restarts = 0;         // of the sensor
+  std::uint32_t samples_outside = 0;  // points from beside the calibrated volume, of larger sigma
 };
 
 class Sensor {
@@ -47,6 +50,9 @@ class Sensor {
   virtual SensorCounters counters() const { return {}; }
   // Whether it may light its laser: never before the first permission. Sensors without one, or with one that others look after, ignore it.
   virtual void permit_laser(bool /*permitted*/) {}
+  // What the mission says of this one's optics, which is copied; nullptr: as it was made. Samples of a scan that runs become points by
+  // either. Sensors that state points ignore it.
+  virtual void use_calibration(const TriangulationCalibration* /*calibration*/) {}
 
  protected:
   ~Sensor() = default;  // never deleted through this interface: no operator delete in flight code

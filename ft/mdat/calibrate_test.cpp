@@ -87,6 +87,28 @@ TEST_F(Calibrate, WhatIsFittedTracksAsThePerfectCalibrationDoes) {
   EXPECT_LE(fitted_deg, 1.05 * perfect_deg);
 }
 
+// The mission names its calibration, and its image brings it to the driver: the same flight as with --calibration, and not the design's.
+TEST_F(Calibrate, TheMissionsImageCarriesIt) {
+  VERIFIES("LASSO-LCS-007~2");
+  folder.write_mission({{"[sensor] ", "[sensor]\ncalibration = 'other.toml' "}});
+  folder.write("other.toml", replaced(replaced(kDevice, "0.0817", "0.0818"), "0.004", "0.0045"));
+  const std::string run =
+      "run missions/test.toml --scenario spin --frames 40 --no-report --out run --sensor lcs-wire --camera-optics device.toml";
+  const auto poses = [&](const std::string& more) {
+    const Answer answer = folder.mdat(run + more);
+    EXPECT_EQ(answer.exit_code, 0) << answer.err;
+    return folder.mdat("decode run/telemetry.ccsds --packet pose --items p_sensor_target_m --format csv").out;
+  };
+  const std::string named = poses("");
+  EXPECT_TRUE(named != poses(" --calibration device.toml"));
+  EXPECT_EQ(nlohmann::json::parse(folder.read("run/results.json")).at("noisy").at("lost"), 0);
+  folder.write("other.toml", kDevice);
+  const std::string right = poses("");
+  EXPECT_TRUE(named != right);
+  EXPECT_TRUE(right == poses(" --calibration device.toml"));
+  EXPECT_GT(lines_of(right).size(), 30U);
+}
+
 // Uncalibrated it is far off, and says so: what would be wrong poses are not valid.
 TEST_F(Calibrate, TheDesignsTableGivesNoWrongPoseThatIsValid) {
   VERIFIES("LASSO-LCS-009~1");

@@ -24,7 +24,7 @@ constexpr Parameter kParameters[] = {{&C::focal_length_m, 0.005},    {&C::baseli
                                      {&C::peak_per_K, 1e-3}};
 constexpr double kResidualSigma = 0.05;
 constexpr int kLengths = static_cast<int>(std::size(kParameters));
-constexpr int kUnknowns = kLengths + static_cast<int>(lcs::kResidualTerms);
+constexpr int kUnknowns = kLengths + static_cast<int>(kResidualTerms);
 constexpr std::size_t kFewestPoints = 1000;
 constexpr double kShareUsed = 0.95;  // of the points, that the fitted table has to make points of
 constexpr std::size_t kDepthCells = 8, kAngleCells = 8, kCells = kDepthCells * kAngleCells;
@@ -34,7 +34,7 @@ constexpr std::size_t kFewestInCell = 50;
 C calibration_at(const C& start, const Vector& x) {
   C c = start;
   for (int i = 0; i < kLengths; ++i) c.*kParameters[i].member += kParameters[i].sigma * x[i];
-  for (int k = 0; k < static_cast<int>(lcs::kResidualTerms); ++k) c.residual[k] += kResidualSigma * x[kLengths + k];
+  for (int k = 0; k < static_cast<int>(kResidualTerms); ++k) c.residual[k] += kResidualSigma * x[kLengths + k];
   return c;
 }
 
@@ -45,9 +45,9 @@ double inverse_depth_error(const C& c, const RawPoint& point) {
   const double f_m = c.focal_length_m * (1 + c.focal_length_per_K * warmer_K);
   const double d_m = c.baseline_m * (1 + c.baseline_per_K * warmer_K);
   const double x = point.angle_x_rad + c.angle_x_offset_rad, y = point.angle_y_rad + c.angle_y_offset_rad, q = point.peak;
-  const double phi[lcs::kResidualTerms] = {1, x, y, q, x * x, x * y, y * y, x * q, y * q, q * q};
+  const double phi[kResidualTerms] = {1, x, y, q, x * x, x * y, y * y, x * q, y * q, q * q};
   double peak = q + c.peak_per_K * warmer_K;
-  for (std::size_t k = 0; k < lcs::kResidualTerms; ++k) peak += c.residual[k] * phi[k];
+  for (std::size_t k = 0; k < kResidualTerms; ++k) peak += c.residual[k] * phi[k];
   const Vec3 ray(std::tan(x), std::tan(y), 1);
   const double depth_m = point.distance_m / point.normal.dot(ray);
   return (c.half_width_m * peak + f_m * ray.x()) / (f_m * d_m) - 1 / depth_m;
@@ -180,7 +180,7 @@ CalibrationFit fit_calibration(const lcs::Calibration& start, const std::vector<
   CalibrationFit fit;
   fit.calibration = calibration_at(start, x);
   set_volume(points, fit.calibration);
-  const Status status = lcs::validate(fit.calibration);
+  const Status status = lasso::validate(fit.calibration);
   if (status != Status::kOk) {
     throw InputError(std::string("the fit is no calibration (") + to_string(status) +
                      "): compare the planes with the points, and begin from a better table");

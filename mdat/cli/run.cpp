@@ -157,8 +157,10 @@ void add_run_command(CLI::App& app) {
   command->add_option("--camera-faults", options->camera_faults,
                       "script of what goes wrong with laser cameras and their lines (docs/user-guide.md); with --sensor lcs-wire");
   command->add_option("--camera-optics", options->optics,
-                      "what the simulated laser camera's optics are (a calibration file); with --sensor lcs-wire");
-  command->add_option("--calibration", options->calibration, "what its driver takes them to be: what mdat calibrate wrote (the optics)");
+                      "what the simulated laser camera's optics are (a calibration file; otherwise as the mission's calibration says); "
+                      "with --sensor lcs-wire");
+  command->add_option("--calibration", options->calibration,
+                      "in the mission image: what mdat calibrate wrote (the mission's sensor.calibration)");
   command->add_option("--camera-temperature", options->simulation.camera_degC, "of the simulated camera, degC")
       ->capture_default_str()
       ->check(CLI::Range(-50.0, 100.0));

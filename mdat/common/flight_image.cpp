@@ -69,6 +69,13 @@ void append_sensor(const SensorParameters& sensor, std::vector<std::uint32_t>& w
   for (const ParameterRow& row : sensor_rows()) append_value(sensor.*sensor_member(row), words);
 }
 
+void append_calibration(std::uint8_t sensor, const TriangulationCalibration& calibration, std::vector<std::uint32_t>& words) {
+  words.push_back(sensor);
+  words.push_back(calibration.serial);
+  for (const auto real : kCalibrationReals) append_value(calibration.*real, words);
+  for (const double term : calibration.residual) append_value(term, words);
+}
+
 // Bytes as words of the image, filled up to a multiple of 8.
 void append_bytes(std::vector<std::uint8_t> bytes, std::vector<std::uint32_t>& words) {
   bytes.resize((bytes.size() + 7) / 8 * 8);
@@ -81,6 +88,8 @@ void append_bytes(std::vector<std::uint8_t> bytes, std::vector<std::uint32_t>& w
 ModelTables with_parts_and_sensors(const CompiledMission& mission, const MissionParameters& parameters) {
   ModelTables tables = mission.tables;
   for (const FurtherSensor& sensor : mission.source.further_sensors) append_sensor(sensor.parameters, tables[TableId::kSensors]);
+  for (const auto& [sensor, calibration] : mission.source.calibrations)
+    append_calibration(sensor, calibration, tables[TableId::kCalibrations]);
   for (std::size_t i = 0; i < mission.parts.size(); ++i) {
     const std::vector<std::uint8_t> bytes =
         write_image(mission.source.id, mission.source.version, part_parameters(parameters), mission.parts[i].tables);

@@ -7,7 +7,7 @@
 namespace lasso::mdat {
 namespace {
 
-using C = lcs::Calibration;
+using C = TriangulationCalibration;
 
 struct RealRow {
   const char* key;
@@ -30,6 +30,7 @@ constexpr RealRow kReals[] = {
     {"depth_max_m", &C::depth_max_m, 0, 1000, ""},
     {"temperature_min_degC", &C::temperature_min_degC, -100, 100, ""},
     {"temperature_max_degC", &C::temperature_max_degC, -100, 100, ""},
+    {"outside_sigma_factor", &C::outside_sigma_factor, 1, 1000, "of a point a little outside of that volume"},
 };
 constexpr double kMaxSerial = 4294967295.0;
 
@@ -47,8 +48,11 @@ ValueRow row_of(const char* key, ValueKind kind, double minimum, double maximum,
 const std::vector<ValueRow>& rows() {
   static const std::vector<ValueRow> all = [] {
     std::vector<ValueRow> rows{row_of("serial", ValueKind::kInteger, 1, kMaxSerial, 1)};
-    for (const RealRow& real : kReals) rows.push_back(row_of(real.key, ValueKind::kReal, real.minimum, real.maximum, 1));
-    rows.push_back(row_of("residual", ValueKind::kReals, -10, 10, lcs::kResidualTerms));
+    for (const RealRow& real : kReals) {
+      rows.push_back(row_of(real.key, ValueKind::kReal, real.minimum, real.maximum, 1));
+      rows.back().required = real.member != &C::outside_sigma_factor;  // which not every table has to say
+    }
+    rows.push_back(row_of("residual", ValueKind::kReals, -10, 10, kResidualTerms));
     return rows;
   }();
   return all;
@@ -62,30 +66,34 @@ const char* remedy(Status status) {
 
 }  // namespace
 
-lcs::Calibration load_calibration(const std::filesystem::path& file) {
+TriangulationCalibration load_calibration(const std::filesystem::path& file) {
   ProblemList problems(file);
   const FoundValues found = read_table(parse_toml(file), "", rows(), {}, problems);
   problems.throw_if_any();
-  lcs::Calibration calibration;
+  TriangulationCalibration calibration;
   calibration.serial = static_cast<std::uint32_t>(found.at("serial").numbers.at(0));
-  for (const RealRow& real : kReals) calibration.*real.member = found.at(real.key).numbers.at(0);
+  for (const RealRow& real : kReals) {
+    const auto value = found.find(real.key);
+    if (value != found.end()) calibration.*real.member = value->second.numbers.at(0);
+  }
   const std::vector<double>& residual = found.at("residual").numbers;
   std::copy(residual.begin(), residual.end(), std::begin(calibration.residual));
-  const Status status = lcs::validate(calibration);
+  const Status status = validate(calibration);
   if (status != Status::kOk) problems.add(Origin{}, "", std::string(to_string(status)), remedy(status));
   problems.throw_if_any();
   return calibration;
 }
 
-std::string calibration_text(const lcs::Calibration& calibration) {
+std::string calibration_text(const TriangulationCalibration& calibration) {
   std::string text =
-      "# Calibration of a laser camera: docs/icd/lcs.md, hal_lcs/triangulation.hpp.\nserial = " + std::to_string(calibration.serial) + "\n";
+      "# Calibration of a laser camera: docs/icd/lcs.md, fsw/mission/calibration.hpp.\nserial = " + std::to_string(calibration.serial) +
+      "\n";
   for (const RealRow& real : kReals) {
     text += std::string(real.key) + " = " + number_text(calibration.*real.member);
     text += *real.meaning != 0 ? std::string("  # ") + real.meaning + "\n" : "\n";
   }
   text += "# of 1, x, y, q, x^2, x y, y^2, x q, y q, q^2: x, y the angles, q the peak\nresidual = [";
-  for (std::size_t k = 0; k < lcs::kResidualTerms; ++k) text += (k > 0 ? ", " : "") + number_text(calibration.residual[k]);
+  for (std::size_t k = 0; k < kResidualTerms; ++k) text += (k > 0 ? ", " : "") + number_text(calibration.residual[k]);
   return text + "]\n";
 }
 

@@ -50,6 +50,7 @@ class Loader {
   void check_whole() {
     read_target();
     if (problems_.empty()) check_model();
+    read_calibrations(source_, problems_);
     read_scenarios();
     check_contradictions();
   }
@@ -78,6 +79,7 @@ class Loader {
     source_.id = static_cast<std::uint32_t>(mission_number("mission.id"));
     source_.version = static_cast<std::uint32_t>(mission_number("mission.version"));
     source_.name = text_or_empty(found_, "mission.name");
+    source_.calibration = text_or_empty(found_, "sensor.calibration");
     source_.target.scale = mission_number("target.scale");
     source_.target.crease_angle_rad = mission_number("target.crease_angle_deg");
     source_.target.cell_size_m = mission_number("target.cell_size_m");

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "fsw/mission/calibration.hpp"
 #include "fsw/mission/parameters.hpp"
 #include "mdat/missiondb/mission_error.hpp"
 #include "mdat/modelc/mesh.hpp"
@@ -55,7 +56,11 @@ struct FurtherSensor {
   std::string name;
   SensorKind kind = SensorKind::kLaserCamera;
   SensorParameters parameters{};
+  std::string calibration;  // file as it was written; empty: none
 };
+
+// Of laser cameras, by the number of the sensor.
+using Calibrations = std::map<std::uint8_t, TriangulationCalibration>;
 
 enum class ScenarioKind : std::uint8_t { kPaper = 0, kSpin = 1, kApproach = 2, kPass = 3 };
 
@@ -101,7 +106,9 @@ struct MissionSource {
   TargetSource target;
   std::vector<PartSource> parts;  // in the order of their names, which is that of their numbers
   SensorKind sensor = SensorKind::kLaserCamera;
+  std::string calibration;                     // as a further sensor's
   std::vector<FurtherSensor> further_sensors;  // in the order of their names: numbers 1, 2, ... ; [sensor] is number 0
+  Calibrations calibrations;
   MissionParameters parameters{};
   std::map<std::string, Scenario> scenarios;
   std::map<std::string, Origin> origins;  // by dotted key, all rows of parameter_rows() and of the ground sections

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "cfg/capacities.hpp"
+#include "mdat/missiondb/beside.hpp"
 #include "mdat/missiondb/mission_checks.hpp"
 #include "mdat/missiondb/sections.hpp"
 
@@ -88,12 +89,9 @@ class PartReader {
   }
   void find_file(const std::string& key) {
     const std::string& written = found_[key].text;
-    const std::filesystem::path folder = std::filesystem::absolute(source_.file).parent_path();
-    for (const auto& candidate : {folder / written, folder.parent_path() / written}) {
-      part_.file = candidate.lexically_normal();
-      if (std::filesystem::exists(candidate)) return;
-    }
-    complain(key, '"' + written + '"', "no such file in " + folder.string() + " or the folder above it: restore it, or delete the part");
+    if (find_beside(source_.file, written, part_.file)) return;
+    const std::string folder = std::filesystem::absolute(source_.file).parent_path().string();
+    complain(key, '"' + written + '"', "no such file in " + folder + " or the folder above it: restore it, or delete the part");
   }
 
   const toml::table& table_;

@@ -152,6 +152,7 @@ const std::vector<ValueRow>& mission_rows() {
     number_row("target.crease_angle_deg", "deg", kReal, kDeg, 0, 90, 30, "facets that meet at a smaller angle are one smooth surface"),
     number_row("target.cell_size_m", "m", kReal, 1, 1e-5, 10, 0.012, "cell of the look-up field: about 1/110 of the target is fastest; larger takes less memory"),
     sensor_row(),
+    text_row("sensor.calibration", "[^\\x00-\\x1f]+\\.toml", "laser_camera: what mdat calibrate found, from the mission's folder or the one above; none: the sensor has its own"),
   };
   // clang-format on
   return rows;

@@ -1,6 +1,8 @@
 #include "mdat/missiondb/sensor_reader.hpp"
 
 #include "cfg/capacities.hpp"
+#include "mdat/missiondb/beside.hpp"
+#include "mdat/missiondb/calibration_file.hpp"
 #include "mdat/missiondb/sections.hpp"
 
 namespace lasso::mdat {
@@ -29,7 +31,24 @@ void read_sensor(const std::string& name, const toml::table& table, MissionSourc
     const double number = value == found.end() ? preset_of(sensor.kind, row.key, row.preset) : value->second.numbers.at(0);
     sensor.parameters.*sensor_member(row) = number * row.to_si;
   }
+  const auto calibration = found.find("calibration");
+  if (calibration != found.end()) sensor.calibration = calibration->second.text;
   source.further_sensors.push_back(sensor);
+}
+
+void read_calibration(const std::string& key, const std::string& written, SensorKind kind, std::uint8_t number, MissionSource& source,
+                      ProblemList& problems) {
+  if (written.empty()) return;
+  const Origin& origin = source.origins[key];
+  if (kind != SensorKind::kLaserCamera) return problems.add(origin, key, '"' + written + '"', "expected none: only laser cameras have one");
+  std::filesystem::path file;
+  if (find_beside(source.file, written, file)) {
+    source.calibrations[number] = load_calibration(file);
+    return;
+  }
+  problems.add(origin, key, '"' + written + '"',
+               "no such file in " + std::filesystem::absolute(source.file).parent_path().string() +
+                   " or the folder above it: mdat calibrate writes one");
 }
 
 }  // namespace
@@ -38,6 +57,7 @@ const std::vector<ValueRow>& further_sensor_rows() {
   static const std::vector<ValueRow> rows = [] {
     std::vector<ValueRow> result{without_prefix(*find_row(mission_rows(), "sensor.kind"))};
     for (const ParameterRow& row : sensor_rows()) result.push_back(without_prefix(value_row(row)));
+    result.push_back(without_prefix(*find_row(mission_rows(), "sensor.calibration")));
     return result;
   }();
   return rows;
@@ -58,6 +78,14 @@ void read_further_sensors(const toml::table& root, MissionSource& source, Proble
     } else {
       problems.add(entry, key, "wrong type: expected a table [" + key + "]");
     }
+  }
+}
+
+void read_calibrations(MissionSource& source, ProblemList& problems) {
+  read_calibration("sensor.calibration", source.calibration, source.sensor, 0, source, problems);
+  std::uint8_t number = 0;
+  for (const FurtherSensor& sensor : source.further_sensors) {
+    read_calibration("further_sensor." + sensor.name + ".calibration", sensor.calibration, sensor.kind, ++number, source, problems);
   }
 }
 

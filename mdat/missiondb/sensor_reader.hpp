@@ -5,10 +5,13 @@
 
 namespace lasso::mdat {
 
-// Keys as in [sensor]: its kind, and the values of sensor_rows().
+// Keys as in [sensor]: its kind, the values of sensor_rows(), and the file of its calibration.
 const std::vector<ValueRow>& further_sensor_rows();
 
 // Fills source.further_sensors, and the origins of their keys, from the mission's whole table. What is wrong goes to the list.
 void read_further_sensors(const toml::table& root, MissionSource& source, ProblemList& problems);
+
+// Fills source.calibrations from the files that the sensors name. Throws MissionError where one of them is not right.
+void read_calibrations(MissionSource& source, ProblemList& problems);
 
 }  // namespace lasso::mdat

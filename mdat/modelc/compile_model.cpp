@@ -223,6 +223,8 @@ std::uint32_t words_per_record(TableId id) {
       return 1;
     case TableId::kSensors:
       return kSensorWords;
+    case TableId::kCalibrations:
+      return kCalibrationWords;
   }
   return 1;
 }

@@ -50,7 +50,7 @@ class Session {
       : line_(std::move(line)),
         motion_(make_trajectory(setup.scenario, setup.range_m, kEpochUs, period_us(setup.parameters))),
         device_(*setup.target, motion_, scanner_model(setup.scenario, setup.parameters, setup.noise), setup.seed,
-                camera_for(setup, scanner_model(setup.scenario, setup.parameters, setup.noise))) {}
+                camera_for(setup, scanner_model(setup.scenario, setup.parameters, setup.noise), 0)) {}
 
   void run(const std::atomic<bool>& ending) {
     const Clock::time_point begin = Clock::now();
@@ -107,10 +107,12 @@ bool wired(lcs::Device device, SensorKind kind) {
   return device == lcs::Device::kTridar || (device == lcs::Device::kLidar) == (kind == SensorKind::kTimeOfFlight);
 }
 
-sim::LcsCamera camera_for(const CaseSetup& setup, const sim::ScannerModel& model) {
+sim::LcsCamera camera_for(const CaseSetup& setup, const sim::ScannerModel& model, std::uint8_t number) {
   sim::LcsCamera camera;
   camera.device = setup.wire.value_or(lcs::Device::kLaserCamera);
   camera.truth.serial = 1;
+  const auto calibrated = setup.calibrations.find(number);
+  if (calibrated != setup.calibrations.end()) camera.truth = calibrated->second;
   if (setup.camera_optics) camera.truth = *setup.camera_optics;
   camera.temperature_degC = static_cast<float>(setup.camera_degC);
   camera.truth.angle_max_rad = std::max({camera.truth.angle_max_rad, model.fov_half_x_rad, model.fov_half_y_rad});
@@ -124,15 +126,8 @@ sim::LcsCamera camera_for(const CaseSetup& setup, const sim::ScannerModel& model
   return camera;
 }
 
-lcs::Optics optics_for(const CaseSetup& setup, const sim::LcsCamera& camera) {
-  sim::LcsCamera believed = camera;
-  believed.truth = setup.calibration.value_or(camera.truth);
-  share_mirrors(believed);
-  return sim::optics_of(believed);
-}
-
-LiveCamera::LiveCamera(const CaseSetup& setup, const sim::ScannerModel& model)
-    : driver(rings, optics_for(setup, camera_for(setup, model))), line(opened(setup, rings.bits_per_s)), pump(line, rings) {}
+LiveCamera::LiveCamera(const CaseSetup& setup, const sim::ScannerModel& model, std::uint8_t number)
+    : driver(rings, sim::optics_of(camera_for(setup, model, number))), line(opened(setup, rings.bits_per_s)), pump(line, rings) {}
 
 LiveCamera::~LiveCamera() { driver.permit_laser(false); }
 

@@ -17,18 +17,17 @@ const char* wire_name(lcs::Device device);
 // Whether a mission's sensor of this kind is the head that is on a line: a laser camera, a LIDAR, or, as a TriDAR, any.
 bool wired(lcs::Device device, SensorKind kind);
 
-// The camera, or other head, of a case; its optics are those that its driver takes them to be.
-sim::LcsCamera camera_for(const CaseSetup& setup, const sim::ScannerModel& model);
+// The camera, or other head, of a case, which is the mission's sensor of that number.
+sim::LcsCamera camera_for(const CaseSetup& setup, const sim::ScannerModel& model, std::uint8_t number);
 
-// What the driver of that camera takes its optics to be.
-lcs::Optics optics_for(const CaseSetup& setup, const sim::LcsCamera& camera);
-
-// A head that sees what its scanner model does, at the end of its line.
+// A head that sees what its scanner model does, at the end of its line. Its driver takes its optics to be what they are, unless the image
+// says otherwise.
 struct CameraOnLine {
-  CameraOnLine(const CaseSetup& setup, const sim::Trajectory& trajectory, const sim::ScannerModel& model, std::uint64_t seed)
-      : camera(camera_for(setup, model)),
+  CameraOnLine(const CaseSetup& setup, const sim::Trajectory& trajectory, const sim::ScannerModel& model, std::uint64_t seed,
+               std::uint8_t number)
+      : camera(camera_for(setup, model, number)),
         device(*setup.target, trajectory, model, seed, camera),
-        line(device, optics_for(setup, camera), camera.bits_per_s) {}
+        line(device, sim::optics_of(camera), camera.bits_per_s) {}
 
   sim::LcsCamera camera;
   sim::LcsDevice device;
@@ -38,7 +37,7 @@ struct CameraOnLine {
 // The driver of a head that is reached over a line of this machine (bsp/posix/serial_line.hpp).
 struct LiveCamera {
   // Throws InputError with the line's reason.
-  LiveCamera(const CaseSetup& setup, const sim::ScannerModel& model);
+  LiveCamera(const CaseSetup& setup, const sim::ScannerModel& model, std::uint8_t number);
   ~LiveCamera();
 
   lcs::Line rings;

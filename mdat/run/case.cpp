@@ -55,10 +55,10 @@ struct Scanner {
           std::uint8_t number)
       : simulated(*setup.target, trajectory, model, seed),
         camera(setup.wire && setup.camera_line.empty() && wired(*setup.wire, kind)
-                   ? std::make_unique<CameraOnLine>(setup, trajectory, model, seed)
+                   ? std::make_unique<CameraOnLine>(setup, trajectory, model, seed, number)
                    : nullptr),
         live(!setup.camera_line.empty() && wired(setup.wire.value_or(lcs::Device::kLaserCamera), kind)
-                 ? std::make_unique<LiveCamera>(setup, model)
+                 ? std::make_unique<LiveCamera>(setup, model, number)
                  : nullptr),
         replay(setup.replay ? std::make_unique<sim::ReplaySensor>(*setup.replay, number) : nullptr),
         recorder(setup.record ? std::make_unique<sim::SensorRecorder>(source(), number, *setup.record) : nullptr),

@@ -41,8 +41,9 @@ struct CaseSetup {
   std::shared_ptr<sim::SensorRecording> record;        // gets what the sensors give
   std::string camera_line;                             // of this machine, over which it is reached, in real time; empty: simulated
   bool remote_line = false;                            // which may lead to other machines
-  std::optional<lcs::Calibration> camera_optics;       // of the simulated camera; otherwise the design's
-  std::optional<lcs::Calibration> calibration;         // that its driver has; otherwise the optics
+  std::optional<TriangulationCalibration>
+      camera_optics;          // of the simulated camera; otherwise those that `calibrations` say, or the design's
+  Calibrations calibrations;  // of the mission
   double camera_degC = 20;
   sim::LcsFaults camera_faults;  // of each that is; times since frame 0
   SensorKind sensor = SensorKind::kLaserCamera;

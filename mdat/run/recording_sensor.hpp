@@ -23,6 +23,7 @@ class RecordingSensor final : public Sensor {
   void abort() override { sensor_.abort(); }
   SensorCounters counters() const override { return sensor_.counters(); }
   void permit_laser(bool permitted) override { sensor_.permit_laser(permitted); }
+  void use_calibration(const TriangulationCalibration* calibration) override { sensor_.use_calibration(calibration); }
 
   // A scan, which is then forgotten; empty for one that never was.
   RecordedScan take(std::uint32_t scan_id);

@@ -41,13 +41,25 @@ std::vector<std::string> part_names(const MissionSource& source) {
   return names;
 }
 
-void set_camera(const SimulationOptions& options, CaseSetup& setup) {
+void set_camera(const CompiledMission& mission, const SimulationOptions& options, CaseSetup& setup) {
+  setup.calibrations = mission.source.calibrations;
   setup.wire = options.wire;
   setup.replay = options.replay;
   setup.record = options.record;
   setup.camera_optics = options.camera_optics;
-  setup.calibration = options.calibration;
   setup.camera_degC = options.camera_degC;
+}
+
+// The mission with another calibration of each head that is on a line.
+CompiledMission recalibrated(CompiledMission mission, lcs::Device wire, const TriangulationCalibration& calibration) {
+  MissionSource& source = mission.source;
+  if (wired(wire, source.sensor)) source.calibrations[0] = calibration;
+  std::uint8_t number = 0;
+  for (const FurtherSensor& sensor : source.further_sensors) {
+    ++number;
+    if (wired(wire, sensor.kind)) source.calibrations[number] = calibration;
+  }
+  return mission;
 }
 
 // More runs than one are asked for.
@@ -276,7 +288,7 @@ CaseSetup camera_case(const CompiledMission& mission, const SimulationOptions& o
   setup.parameters = parameters_for(mission.source, options.scenario);
   setup.target = &target;
   setup.camera_faults = options.camera_faults;
-  set_camera(options, setup);
+  set_camera(mission, options, setup);
   return setup;
 }
 
@@ -297,8 +309,9 @@ SimulationResult simulate(const CompiledMission& mission, const SimulationOption
 
   const auto begin = std::chrono::steady_clock::now();
   const std::unique_ptr<sim::RayCaster> target = make_target(mission.mesh);
-  Plan plan = make_plan(mission, result, *target);
   require_wired(mission.source, options);
+  const bool other = options.calibration && options.wire;
+  Plan plan = make_plan(other ? recalibrated(mission, *options.wire, *options.calibration) : mission, result, *target);
   if (plan.cases.size() != 1) refuse_what_serves_one(options);
   for (CaseSetup& setup : plan.cases) {
     setup.link = options.link;
@@ -306,7 +319,7 @@ SimulationResult simulate(const CompiledMission& mission, const SimulationOption
     setup.store = options.store;
     setup.camera_line = options.camera_line;
     setup.remote_line = options.remote_line;
-    set_camera(options, setup);
+    set_camera(mission, options, setup);
     if (options.keep_scans) setup.keep_frames = all_frames(result.frames);
   }
   ProgressBar bar("track", plan.cases.size() * result.frames, "frames");

@@ -13,14 +13,15 @@ namespace lasso::mdat {
 
 struct SimulationOptions {
   std::string scenario = "paper";
-  std::optional<std::uint64_t> seed;                           // otherwise the scenario's
-  std::optional<std::uint32_t> frames;                         // otherwise the scenario's
-  unsigned jobs = 1;                                           // cases at a time; the results do not depend on it
-  std::optional<lcs::Device> wire;                             // as CaseSetup's
-  sim::LcsFaults camera_faults;                                // of those cameras
-  std::shared_ptr<const sim::SensorRecording> replay;          // as CaseSetup's: of one case
-  std::shared_ptr<sim::SensorRecording> record;                // the same
-  std::optional<lcs::Calibration> camera_optics, calibration;  // as CaseSetup's
+  std::optional<std::uint64_t> seed;                      // otherwise the scenario's
+  std::optional<std::uint32_t> frames;                    // otherwise the scenario's
+  unsigned jobs = 1;                                      // cases at a time; the results do not depend on it
+  std::optional<lcs::Device> wire;                        // as CaseSetup's
+  sim::LcsFaults camera_faults;                           // of those cameras
+  std::shared_ptr<const sim::SensorRecording> replay;     // as CaseSetup's: of one case
+  std::shared_ptr<sim::SensorRecording> record;           // the same
+  std::optional<TriangulationCalibration> camera_optics;  // as CaseSetup's
+  std::optional<TriangulationCalibration> calibration;    // in the image, instead of the mission's
   double camera_degC = 20;
   ByteLink* link = nullptr;                // an operator's: one case, the scenario's first range, at the clock's pace
   Authenticator* authenticator = nullptr;  // of the link's commands; null: they need none

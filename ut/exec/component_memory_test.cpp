@@ -1,4 +1,5 @@
 #include "ut/exec/memory_scene.hpp"
+#include "ut/support/box_calibrations.hpp"
 
 namespace lasso {
 namespace {
@@ -32,6 +33,12 @@ const TestImage& wrong_image() {
     return image_of(MemoryScene::parameters(), {box});
   }();
   return image;
+}
+// For a camera of this serial number.
+TestImage calibrated_image(std::uint32_t serial) {
+  test::BoxTables tables = test::make_box_tables({test::BoxModel{}});
+  test::append_calibration(0, test::bent_calibration(serial), tables[test::kCalibrationsTable]);
+  return test::make_image(MemoryScene::parameters(), tables);
 }
 bool all_valid(const std::vector<PoseTelemetry>& poses) {
   return std::all_of(poses.begin(), poses.end(), [](const PoseTelemetry& pose) { return pose.valid != 0; });
@@ -102,6 +109,27 @@ TEST_F(ComponentMemory, TheImageBeforeIsActiveAgainByCommand) {
   scene_->restart();  // it is what the next start begins with
   ASSERT_EQ(component().load_stored_image().status, Status::kOk);
   EXPECT_EQ(component().mission().image_crc, crc_of(first_image()));
+}
+
+// From the start, with a new image, and back again to what the sensor was made with.
+TEST_F(ComponentMemory, SensorsAreCalibratedAsTheActiveImageSays) {
+  VERIFIES("LASSO-LCS-007~2");
+  scene_->sensor.serial = 99;
+  scene_->begin(first_image());
+  EXPECT_EQ(scene_->sensor.serial, 0U) << "the image has none";
+  scene_->run_frames(3);
+  const TestImage calibrated = calibrated_image(31);
+  scene_->upload(calibrated);
+  EXPECT_EQ(scene_->sensor.serial, 0U) << "not active yet";
+  ASSERT_EQ(component().activate_image(crc_of(calibrated)), ImageRefusal::kNone);
+  scene_->run_frames(20);
+  EXPECT_EQ(scene_->sensor.serial, 31U);
+  ASSERT_EQ(component().roll_back_image(), ImageRefusal::kNone);
+  scene_->run_frames(1);
+  EXPECT_EQ(scene_->sensor.serial, 0U);
+  scene_->restart();
+  scene_->begin(calibrated_image(32));
+  EXPECT_EQ(scene_->sensor.serial, 32U);
 }
 
 // By itself, within the scans of the trial; the track is that of before.

@@ -57,7 +57,8 @@ TEST(SensorReport, EachCounterHasItsItemAndIsATrouble) {
                                                                            {&SensorCounters::bad_times, "bad_times"},
                                                                            {&SensorCounters::off_plan, "off_plan"},
                                                                            {&SensorCounters::clock_jumps, "clock_jumps"},
-                                                                           {&SensorCounters::restarts, "restarts"}};
+                                                                           {&SensorCounters::restarts, "restarts"},
+                                                                           {&SensorCounters::samples_outside, "samples_outside"}};
   for (const auto& [member, name] : items) {
     SensorCounters counters;
     counters.*member = 77;

@@ -11,7 +11,7 @@ namespace lasso::lcs {
 namespace {
 
 TEST_F(LcsDriver, BringsAScanFromPlanToPoints) {
-  VERIFIES("LASSO-LCS-007~1");
+  VERIFIES("LASSO-LCS-007~2");
   const ScanPlan plan = small_plan();
   begin(plan);
   EXPECT_FALSE(poll(kStartUs + 1000).complete);
@@ -30,6 +30,40 @@ TEST_F(LcsDriver, BringsAScanFromPlanToPoints) {
   }
   EXPECT_EQ(driver.camera().serial, kSerial);
   EXPECT_EQ(driver.poll(kStartUs + 46'000, Span<RangeSample>(out)).status, Status::kNoData);
+}
+
+// Its wall is at 3 m by the calibration that the driver was made with; half the baseline halves the depths.
+TEST_F(LcsDriver, BelievesTheCalibrationThatItIsGiven) {
+  VERIFIES("LASSO-LCS-007~2 LASSO-LCS-008~2");
+  Calibration other = calibration();
+  other.baseline_m /= 2;
+  other.depth_max_m = kDepthM / 2.1;  // the wall is a little beyond
+  const auto scanned = [&](const Calibration* given) {
+    driver.use_calibration(given);
+    samples.clear();
+    const ScanPlan plan = small_plan();
+    begin(plan);
+    for (std::uint16_t first = 0; first < plan.points; first += 4) camera.say(camera.wall(plan, first));
+    EXPECT_TRUE(poll().complete);
+    return static_cast<double>(samples.at(7).range_m * samples.at(7).direction[2]);
+  };
+  EXPECT_NEAR(scanned(&other), kDepthM / 2, 2e-5);
+  EXPECT_EQ(samples.at(7).sigma_factor, static_cast<float>(other.outside_sigma_factor));
+  EXPECT_EQ(driver.counters().samples_outside, small_plan().points);
+  EXPECT_EQ(driver.counters().samples_refused, 0U);
+  EXPECT_NEAR(scanned(nullptr), kDepthM, 2e-5) << "as it was made";
+  EXPECT_EQ(samples.at(7).sigma_factor, 1);
+  EXPECT_EQ(driver.counters().samples_outside, small_plan().points);
+}
+
+TEST_F(LcsDriver, ACalibrationOfAnotherCameraIsNotBelieved) {
+  VERIFIES("LASSO-LCS-015~1");
+  Calibration other = calibration();
+  other.serial = kSerial + 1;
+  driver.use_calibration(&other);
+  begin(small_plan());
+  EXPECT_EQ(poll().status, Status::kBadVersion);
+  EXPECT_EQ(lost(Loss::kForeign), 1U);
 }
 
 TEST_F(LcsDriver, TellsTheCameraThePlan) {

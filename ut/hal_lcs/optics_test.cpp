@@ -75,6 +75,26 @@ TEST(Optics, KnowTheirHeadAndItsMirrors) {
   EXPECT_EQ(Optics(of_a_camera).mirrors().max_rad, 0.3);
 }
 
+// Its triangulation is another, behind the same mirrors; a LIDAR has none, and is then no head that the driver knows.
+TEST(Optics, AreCalibratedAnew) {
+  VERIFIES("LASSO-LCS-007~2 LASSO-LCS-015~1");
+  Calibration other = near();
+  other.serial = 11;
+  other.angle_x_offset_rad = 0.004;
+  other.baseline_m = 0.3;
+  const Optics tridar = Optics(near(), far()).calibrated(other);
+  EXPECT_EQ(tridar.validate(), Status::kOk);
+  EXPECT_EQ(tridar.device(), Device::kTridar);
+  EXPECT_EQ(tridar.serial(), 11U);
+  RangeSample sample, straight;
+  ASSERT_EQ(Triangulation(other, 20).convert(spot(), 0, straight), Fate::kPoint);
+  EXPECT_EQ(tridar.convert(spot(), 0, sample), Fate::kPoint);
+  EXPECT_EQ(sample.range_m, straight.range_m);
+  EXPECT_EQ(tridar.convert(echo(), 0, sample), Fate::kPoint);
+  EXPECT_EQ(Optics(near()).calibrated(other).device(), Device::kLaserCamera);
+  EXPECT_EQ(Optics(far()).calibrated(other).device(), Device::kLaserCamera) << "the LIDAR on the line is not one";
+}
+
 TEST(Optics, AreRefusedForTheReasonOfTheirCalibration) {
   VERIFIES("LASSO-LCS-015~1");
   EXPECT_EQ(Optics(near()).validate(), Status::kOk);

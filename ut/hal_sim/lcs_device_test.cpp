@@ -115,7 +115,7 @@ std::uint32_t all_lost(const lcs::Health& health) {
 }
 
 TEST(LcsDevice, WithoutFaultsEachScanIsWhole) {
-  VERIFIES("LASSO-LCS-003~1 LASSO-LCS-007~1");
+  VERIFIES("LASSO-LCS-003~1 LASSO-LCS-007~2");
   const Tally tally = fly({});
   EXPECT_EQ(tally.whole, kScans);
   EXPECT_EQ(tally.wrong_points, 0U);

@@ -96,6 +96,27 @@ TEST_F(PrepareTest, ANoiseModelThatGrowsWithRange) {
   }
 }
 
+// What the sensor says of itself is not what it says of a range that it trusts less.
+TEST_F(PrepareTest, ASampleOfLargerSigmaWeighsLess) {
+  VERIFIES("LASSO-LCS-008~2");
+  parameters().sigma_k_per_m = 1.3e-4;
+  parameters().sigma_angle_rad = 4e-4;
+  RangeImage image;
+  for (const float factor : {1.0F, 5.0F}) {
+    RangeSample sample;
+    sample.range_m = 4;
+    sample.state = RayState::kHit;
+    sample.sigma_factor = factor;
+    ASSERT_TRUE(image.samples.push_back(sample));
+  }
+  prepare_rays(mission_, image, StartPoint(), *workspace_);
+  const auto& points = workspace_->points;
+  EXPECT_NEAR(static_cast<double>(points[1].range_variance), 25 * static_cast<double>(points[0].range_variance), 1e-10);
+  EXPECT_EQ(points[1].across_variance, points[0].across_variance);
+  const double sigma_m = 1e-3 + 1.3e-4 * 16;
+  EXPECT_NEAR(static_cast<double>(points[1].reach - points[0].reach), parameters().kernel_width * 4 * sigma_m, 1e-6);
+}
+
 TEST_F(PrepareTest, KeepsMissesAndLeavesInvalidSamplesOut) {
   VERIFIES("LASSO-REG-006~1 LASSO-REG-009~1");
   const RayState states[] = {RayState::kMiss, RayState::kInvalid, RayState::kHit, RayState::kInvalid, RayState::kMiss, RayState::kHit};

@@ -150,7 +150,7 @@ TEST_F(AcquisitionTest, TakesOnlyWhatHasBeenAcquiredByNow) {
 TEST_F(AcquisitionTest, BadSamplesBecomeInvalidAndAreCountedByReason) {
   VERIFIES("LASSO-SNS-022~1 LASSO-SYS-011~1");
   std::vector<RangeSample>& s = sensor.samples;
-  for (const std::size_t i : {14u, 15u}) s[i].state = RayState::kHit;
+  for (const std::size_t i : {14u, 15u, 20u, 21u, 22u}) s[i].state = RayState::kHit;
   s[10].direction[1] = std::numeric_limits<float>::quiet_NaN();
   s[11].range_m = std::numeric_limits<float>::infinity();
   s[12].direction[2] *= 1.003F;
@@ -160,18 +160,21 @@ TEST_F(AcquisitionTest, BadSamplesBecomeInvalidAndAreCountedByReason) {
   s[16].t_us = s[15].t_us - 2000;
   s[17].t_us = kStart + 200001;
   s[18].state = static_cast<RayState>(4);
+  s[20].sigma_factor = 0.99F;
+  s[21].sigma_factor = std::numeric_limits<float>::quiet_NaN();
+  s[22].sigma_factor = 1000.1F;
   s[1023].t_us = kStart;
   sensor.ignores_time = true;
   const ScanVerdict verdict = run();
   EXPECT_EQ(verdict.bad[static_cast<int>(BadSample::kNotFinite)], 2u);
   EXPECT_EQ(verdict.bad[static_cast<int>(BadSample::kDirection)], 2u);
-  EXPECT_EQ(verdict.bad[static_cast<int>(BadSample::kRange)], 2u);
+  EXPECT_EQ(verdict.bad[static_cast<int>(BadSample::kRange)], 5u);
   EXPECT_EQ(verdict.bad[static_cast<int>(BadSample::kTime)], 3u);
   EXPECT_EQ(verdict.bad[static_cast<int>(BadSample::kState)], 1u);
-  EXPECT_EQ(verdict.invalid, 10);
+  EXPECT_EQ(verdict.invalid, 13);
   EXPECT_EQ(verdict.count, 1024);
   EXPECT_TRUE(verdict.usable);
-  for (const std::size_t i : {10u, 11u, 12u, 13u, 14u, 15u, 16u, 17u, 18u, 1023u}) {
+  for (const std::size_t i : {10u, 11u, 12u, 13u, 14u, 15u, 16u, 17u, 18u, 20u, 21u, 22u, 1023u}) {
     EXPECT_EQ(image->samples[i].state, RayState::kInvalid) << i;
     EXPECT_EQ(image->samples[i].range_m, 0) << i;
     EXPECT_EQ(image->samples[i].direction[2], 1) << i;

@@ -33,6 +33,7 @@ SensorRecording two_scans() {
     sample.range_m = 3.25F;
     sample.t_us = 5'000'123;
     sample.state = RayState::kHit;
+    sample.sigma_factor = 5;
     scan.samples.assign(3 + i, sample);
   }
   return recording;
@@ -69,6 +70,7 @@ TEST(SensorRecording, ComesBackFromItsBytes) {
     EXPECT_EQ(got[i].samples[2].direction[0], 0.6F);
     EXPECT_EQ(got[i].samples[2].t_us, 5'000'123);
     EXPECT_EQ(got[i].samples[2].state, RayState::kHit);
+    EXPECT_EQ(got[i].samples[2].sigma_factor, 5);
   }
   EXPECT_EQ(to_bytes(got), to_bytes(sent));
 }
@@ -81,15 +83,16 @@ TEST(SensorRecording, SaysWhatIsWrongAndWhere) {
     return refusal(bytes);
   };
   EXPECT_NE(changed(0, 'X').find("not a recording of a sensor"), std::string::npos);
-  EXPECT_NE(changed(7, 9).find("version 9, expected 1"), std::string::npos);
+  EXPECT_NE(changed(7, 9).find("version 9, expected 2"), std::string::npos);
   EXPECT_NE(changed(8, 200).find("sensor 200"), std::string::npos);
   EXPECT_NE(changed(8 + 6, 0xFF).find("a plan that no scan can have"), std::string::npos);
   EXPECT_NE(changed(8 + 60, 0xFF).find("aimed rays, expected at most"), std::string::npos);
-  EXPECT_NE(changed(good.size() - 1, 9).find("scan 1, byte"), std::string::npos);
-  EXPECT_NE(changed(good.size() - 1, 9).find("state is 9"), std::string::npos);
+  EXPECT_NE(changed(good.size() - 5, 9).find("scan 1, byte"), std::string::npos);
+  EXPECT_NE(changed(good.size() - 5, 9).find("state is 9"), std::string::npos);
+  EXPECT_NE(changed(good.size() - 4, 0xC0).find("sigma factor is -5"), std::string::npos);
   for (std::size_t size = 0; size < good.size(); ++size) {
     const std::string said = refusal({good.begin(), good.begin() + static_cast<std::ptrdiff_t>(size)});
-    const bool between_scans = size == 8 || size == 8 + 73 + 2 * 8 + 3 * 25;
+    const bool between_scans = size == 8 || size == 8 + 73 + 2 * 8 + 3 * 29;
     EXPECT_EQ(said.empty(), between_scans) << size << said;
   }
 }

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "fsw/geometry/se3.hpp"
+#include "fsw/mission/calibration.hpp"
 #include "fsw/sense/pattern.hpp"
 #include "fsw/sense/sensor.hpp"
 #include "ut/support/box_image.hpp"
@@ -94,6 +95,7 @@ class BoxSensor final : public Sensor {
 
   void abort() override { running_ = false; }
   void permit_laser(bool permitted) override { laser_permitted = permitted; }
+  void use_calibration(const TriangulationCalibration* calibration) override { serial = calibration == nullptr ? 0 : calibration->serial; }
 
   std::set<std::uint32_t> lost;     // scans that fail while they run
   std::set<std::uint32_t> refused;  // scans that cannot be started
@@ -102,6 +104,7 @@ class BoxSensor final : public Sensor {
   bool stuck = false;               // the mirrors stand still
   int starts = 0;
   bool laser_permitted = true;  // as it was last told
+  std::uint32_t serial = 0;     // of the calibration that it was given; 0: none
   ScanPlan last_plan;
 
  private:

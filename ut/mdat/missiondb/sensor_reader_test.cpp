@@ -2,6 +2,8 @@
 
 #include "cfg/capacities.hpp"
 #include "fsw/geometry/portable_math.hpp"
+#include "mdat/missiondb/calibration_file.hpp"
+#include "mdat/missiondb/mission_text.hpp"
 #include "ut/mdat/missiondb/support.hpp"
 #include "ut/support/verifies.hpp"
 
@@ -58,6 +60,40 @@ TEST_F(SensorReaderTest, ASensorWithoutARangeOrATurnIsRefused) {
   expect_error("[further_sensor.near]\nrange_min_m = 30\n", "expected less than range_max_m, which is 20 m");
   expect_error("[further_sensor.near]\nuse_from_m = 30\nuse_to_m = 20\n", "m.toml:8:14: further_sensor.near.use_from_m");
   expect_error("[sensor]\nuse_from_m = 30\nuse_to_m = 20\n", "expected less than sensor.use_to_m, which is 20 m");
+}
+
+TEST_F(SensorReaderTest, ReadsTheCalibrationsThatSensorsName) {
+  VERIFIES("LASSO-LCS-007~2 LASSO-GND-001~1");
+  TriangulationCalibration camera;
+  camera.serial = 31;
+  camera.residual[4] = 0.25;
+  folder_.write("a.toml", calibration_text(camera));
+  camera.serial = 32;
+  folder_.write("b.toml", calibration_text(camera));
+  const MissionSource source =
+      load("[sensor]\ncalibration = 'a.toml'\n[further_sensor.near]\ncalibration = 'b.toml'\n[further_sensor.far]\n");
+  ASSERT_EQ(source.calibrations.size(), 2U);
+  EXPECT_EQ(source.calibrations.at(0).serial, 31U);
+  EXPECT_EQ(source.calibrations.at(0).residual[4], 0.25);
+  EXPECT_EQ(source.calibrations.at(2).serial, 32U) << "after far";
+  EXPECT_TRUE(load("").calibrations.empty());
+  const std::string text = info_text(source, "");
+  EXPECT_NE(text.find("further_sensor.near.calibration"), std::string::npos);
+  EXPECT_NE(text.find("a.toml"), std::string::npos);
+}
+
+TEST_F(SensorReaderTest, CalibrationsThatAreNotRightAreNamed) {
+  VERIFIES("LASSO-LCS-015~1 LASSO-GND-001~1");
+  expect_error("[sensor]\ncalibration = 'none.toml'\n", "m.toml:8:15: sensor.calibration");
+  expect_error("[sensor]\ncalibration = 'none.toml'\n", "mdat calibrate writes one");
+  folder_.write("flat.toml", "serial = 3\n");
+  expect_error("[sensor]\ncalibration = 'flat.toml'\n", "flat.toml");
+  folder_.write("a.toml", calibration_text([] {
+                  TriangulationCalibration camera;
+                  camera.serial = 31;
+                  return camera;
+                }()));
+  expect_error("[further_sensor.far]\nkind = 'time_of_flight'\ncalibration = 'a.toml'\n", "only laser cameras have one");
 }
 
 TEST_F(SensorReaderTest, MoreThanTheComponentHasRoomForAreRefused) {
