@@ -304,9 +304,10 @@ TimeUs Driver::time_of(std::uint32_t clock_us) const { return clock_at_us_ + sta
 void Driver::convert(const RawSample& raw, RangeSample& sample) {
   const TimeUs t_us = time_of(raw.clock_us);
   const DurationUs late_us = t_us - (t_start_us_ + command_us_ + pattern_time_us(plan_, static_cast<std::uint16_t>(next_)));
-  ++health_.fates[static_cast<std::size_t>(optics_.convert(raw, t_us, sample))];
+  const Fate fate = optics_.convert(raw, t_us, sample);
   if (t_us >= last_us_ && late_us <= kClockToleranceUs && late_us >= -kClockToleranceUs) {
     last_us_ = t_us;
+    ++health_.fates[static_cast<std::size_t>(fate)];
     return;
   }
   ++health_.bad_times;

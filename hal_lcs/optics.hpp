@@ -31,7 +31,8 @@ class Optics {
 
   // The head's temperature holds for the samples to come; the reference temperature at first. The calibrations are valid.
   void set_temperature(double temperature_degC);
-  // The sample of the ray that the raw one is, at time t_us. Its state is kHit for kPoint, kMiss for kNothing, else kInvalid.
+  // The sample of the ray that the raw one is, at time t_us. Its state is kHit for kPoint and kBeside, kMiss for
+  // kNothing, else kInvalid.
   Fate convert(const RawSample& raw, TimeUs t_us, RangeSample& sample) const;
 
  private:

@@ -52,8 +52,8 @@ MirrorRay look(const RawSample& raw, const Mirrors& mirrors, SampleKind measured
 }
 
 Fate Triangulation::fate_at(double depth_m) const {
-  const bool far_outside = depth_m * (1 + kOutsideMargin) < c_.depth_min_m || depth_m > c_.depth_max_m * (1 + kOutsideMargin);
-  if (far_outside || temperature_beyond_ > kOutsideMargin) return Fate::kOutside;
+  const bool near = depth_m * (1 + kOutsideMargin) >= c_.depth_min_m && depth_m <= c_.depth_max_m * (1 + kOutsideMargin);
+  if (!near || temperature_beyond_ > kOutsideMargin) return Fate::kOutside;
   return temperature_beyond_ > 0 || depth_m < c_.depth_min_m || depth_m > c_.depth_max_m ? Fate::kBeside : Fate::kPoint;
 }
 

@@ -1,6 +1,5 @@
 // From what the laser camera measures to a ray and a range: synchronised triangulation, and what its calibration found to be different in
-// this one camera
-// (fsw/mission/calibration.hpp).
+// this one camera (fsw/mission/calibration.hpp).
 // Frame: sensor, metres (fsw/sense/range_image.hpp).
 #pragma once
 

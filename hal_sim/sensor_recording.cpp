@@ -98,8 +98,8 @@ class Reader {
     expect(state <= static_cast<std::uint8_t>(RayState::kLost), "a sample's state is " + std::to_string(state) + ", expected 0 to 3");
     sample.state = static_cast<RayState>(state);
     sample.sigma_factor = in_.f32();
-    expect(sample.sigma_factor >= 1 && sample.sigma_factor <= 1000,
-           "a sample's sigma factor is " + std::to_string(sample.sigma_factor) + ", expected 1 to 1000");
+    expect(sample.sigma_factor >= 1 && sample.sigma_factor <= static_cast<float>(kMaxSigmaFactor),
+           "a sample's sigma factor is " + std::to_string(sample.sigma_factor) + ", expected 1 to 10");
     return sample;
   }
 

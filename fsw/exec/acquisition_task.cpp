@@ -55,12 +55,11 @@ void AcquisitionTask::permit_laser(bool permitted) {
   for (Sensor* sensor : sensors_) sensor->permit_laser(permitted);
 }
 
-void AcquisitionTask::calibrate(const ImageSlot& image) {
+void AcquisitionTask::calibrate(SensorNumber sensor, const ImageSlot& image) {
   TriangulationCalibration calibration;
-  for (std::size_t i = 0; i < sensors_.size(); ++i) {
-    const bool found = image.find_calibration(static_cast<SensorNumber>(i), calibration);
-    sensors_[i]->use_calibration(found ? &calibration : nullptr);
-  }
+  const bool found = image.find_calibration(sensor, calibration);
+  if (found && validate(calibration) != Status::kOk) return;
+  sensors_[sensor]->use_calibration(found ? &calibration : nullptr);
 }
 
 // Mirrors that stand still leave an image that a pose could be read into.

@@ -52,8 +52,9 @@ class AcquisitionTask {
 
   // To all sensors.
   void permit_laser(bool permitted);
-  // What the image in this slot says of each one's optics.
-  void calibrate(const ImageSlot& image);
+  // Before a scan of this sensor: what the image in this slot says of its optics, read anew each time, as the image is scrubbed and
+  // repaired. A record that has decayed since it was checked is left until it is repaired: the sensor keeps what it has.
+  void calibrate(SensorNumber sensor, const ImageSlot& image);
 
   const RangeImage& filling() const { return images_[filling_]; }
   std::size_t sensors() const { return sensors_.size(); }

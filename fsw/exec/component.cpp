@@ -36,7 +36,6 @@ Status Component::begin(TimeUs boundary_0_us) {
   inhibit_laser();
   events_.raise<EventId::kBegun>(software_version(), software_build(), mission().image_crc, health_.reset_cause);
   static_cast<void>(restore_parameters());
-  acquisition_.calibrate(images_.active());
   health_.failed_tests = static_cast<std::uint8_t>(failed_self_tests());
   if (p.initial_present < 0.5) return Status::kOk;
   const StartOffer offer = rough_offer(p, initial_pose(p), initial_rates(p), boundary_0_us);

@@ -114,7 +114,7 @@ void Component::tend_memory() {
   if (other.state() != before && other.state() == ImageState::kRefused) {
     events_.raise<EventId::kImageRefused>(other.result().status, other.result().table, other.result().record);
   }
-  static_cast<void>(images_.scrub(to_us(mission().parameters.period_s) / static_cast<DurationUs>(kSlotsPerFrame)));
+  static_cast<void>(images_.scrub(executive_.slot_us()));  // not by the mission's parameters, which it looks after
 }
 
 // An estimate that overran still reads the active image: what would change it waits.
@@ -165,7 +165,6 @@ void Component::change_image(bool back) {
   const auto scans = static_cast<std::uint32_t>(present.mission.parameters.image_trial_scans);
   const auto valid_min = static_cast<std::uint32_t>(present.mission.parameters.image_trial_valid_min);
   images_.swap();
-  acquisition_.calibrate(images_.active());
   parameters_due_ = true;  // what was changed since it was converted
   ++memory_.activations;
   if (back) ++memory_.roll_backs;

@@ -75,6 +75,7 @@ void Component::hand_over_scan() {
   if (!usable) {
     ++counters_.lost_scans;
     events_.raise<EventId::kScanLost>(estimated_.sensor.sensor, estimated_.scan_id, end.verdict.loss);
+    if (end.verdict.loss == ScanLoss::kForeign) trial_.note_foreign();
   }
   if (!estimation_.idle()) return;  // an estimate that overran still runs: this scan is dropped with it
   estimation_.submit({estimated_.scan_id, usable ? &acquisition_.filling() : nullptr, estimated_.t_nominal_us, track_,
@@ -116,6 +117,7 @@ void Component::start_scan(TimeUs now_us) {
   acquired_.part = part_;
   acquired_.sensor = sensor_;
   const MissionView& view = images_.view(sensor_.sensor);
+  acquisition_.calibrate(sensor_.sensor, images_.active());
   acquisition_.start(sensor_.sensor, part_ != kWhole ? view.parts[part_ - 1U].mission : view.mission, aim_of_scan(), acquired_.scan_id,
                      now_us, acquired_.plan);
 }

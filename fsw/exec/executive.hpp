@@ -31,6 +31,7 @@ class Executive {
   // kBadValue unless every slot lasts at least 1 us.
   Status begin(TimeUs boundary_0_us, DurationUs period_us);
   bool begun() const { return period_us_ > 0; }
+  DurationUs slot_us() const { return period_us_ / static_cast<DurationUs>(kSlotsPerFrame); }
 
   // Slot j of frame k begins at boundary_0 + k * period + j * period / kSlotsPerFrame, rounded down.
   TimeUs next_slot_us() const;

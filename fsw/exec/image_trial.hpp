@@ -28,6 +28,8 @@ class ImageTrial {
     ++seen_;
     if (registration.valid()) ++valid_;
   }
+  // The image has the calibration of another sensor.
+  void note_foreign() { ++seen_; }
   // The track is lost: of a target that was seen with this image, it is the image that lost it.
   void note_lost() { lost_ = lost_ || seen_ > 0; }
   TrialVerdict verdict() const {

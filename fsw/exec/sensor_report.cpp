@@ -51,8 +51,7 @@ SensorTelemetry make_sensor_report(SensorNumber sensor, const ScanTally& tally, 
 
 std::uint32_t troubles(const SensorTelemetry& report) {
   return report.lost + report.damaged_frames + report.missing_frames + report.repeated_frames + report.unknown_frames + report.strayed +
-         report.samples_lost + report.samples_refused + report.bad_times + report.off_plan + report.clock_jumps + report.restarts +
-         report.samples_outside;
+         report.samples_lost + report.samples_refused + report.bad_times + report.off_plan + report.clock_jumps + report.restarts;
 }
 
 }  // namespace lasso

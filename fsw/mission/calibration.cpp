@@ -6,14 +6,13 @@ namespace lasso {
 namespace {
 
 using C = TriangulationCalibration;
-constexpr double kMaxSigmaFactor = 1000;
 
 double magnitude(double x) { return x < 0 ? -x : x; }
 
 bool all_finite(const C& c) {
   bool finite = true;
   for (const double term : c.residual) finite = finite && is_finite(term);
-  for (const auto real : kCalibrationReals) finite = finite && is_finite(c.*real);
+  for (const CalibrationReal& real : kCalibrationReals) finite = finite && is_finite(c.*real.member);
   return finite;
 }
 
@@ -39,14 +38,18 @@ bool within_wire(const C& c) {
   return c.angle_max_rad + magnitude(c.angle_x_offset_rad) < 1 && c.angle_max_rad + magnitude(c.angle_y_offset_rad) < 1;
 }
 
-bool factor_known(const C& c) { return c.outside_sigma_factor >= 1 && c.outside_sigma_factor <= kMaxSigmaFactor; }
+bool in_range(const C& c) {
+  bool in = true;
+  for (const double term : c.residual) in = in && magnitude(term) <= kMaxResidual;
+  for (const CalibrationReal& real : kCalibrationReals) in = in && c.*real.member >= real.minimum && c.*real.member <= real.maximum;
+  return in;
+}
 
 }  // namespace
 
 Status validate(const TriangulationCalibration& calibration) {
   if (!all_finite(calibration)) return Status::kNotFinite;
-  if (calibration.serial == 0 || !has_content(calibration) || !within_wire(calibration) || !factor_known(calibration))
-    return Status::kBadValue;
+  if (calibration.serial == 0 || !has_content(calibration) || !within_wire(calibration) || !in_range(calibration)) return Status::kBadValue;
   const bool lengths = stays_positive(calibration.focal_length_m, calibration.focal_length_per_K, calibration) &&
                        stays_positive(calibration.baseline_m, calibration.baseline_per_K, calibration);
   return lengths && calibration.half_width_m > 0 && spot_grows_with_peak(calibration) ? Status::kOk : Status::kSingular;

@@ -35,7 +35,7 @@ struct TriangulationCalibration {
   double depth_max_m = 12;
   double temperature_min_degC = -20;
   double temperature_max_degC = 50;
-  // Within kOutsideMargin beyond these depths and temperatures, by how much the noise of a point is taken to be larger; [1, 1000].
+  // Within kOutsideMargin beyond these depths and temperatures, by how much the noise of a point is taken to be larger.
   double outside_sigma_factor = 5;
   double residual[kResidualTerms] = {};
 };
@@ -43,20 +43,34 @@ struct TriangulationCalibration {
 // Of the temperatures' range on either side; depths from depth_min / (1 + margin) to depth_max (1 + margin).
 constexpr double kOutsideMargin = 0.25;
 
-// Its real numbers but the residual's, in the order of the image.
-constexpr double TriangulationCalibration::*kCalibrationReals[] = {
-    &TriangulationCalibration::focal_length_m,       &TriangulationCalibration::baseline_m,
-    &TriangulationCalibration::half_width_m,         &TriangulationCalibration::angle_x_offset_rad,
-    &TriangulationCalibration::angle_y_offset_rad,   &TriangulationCalibration::focal_length_per_K,
-    &TriangulationCalibration::baseline_per_K,       &TriangulationCalibration::peak_per_K,
-    &TriangulationCalibration::reference_degC,       &TriangulationCalibration::angle_max_rad,
-    &TriangulationCalibration::depth_min_m,          &TriangulationCalibration::depth_max_m,
-    &TriangulationCalibration::temperature_min_degC, &TriangulationCalibration::temperature_max_degC,
-    &TriangulationCalibration::outside_sigma_factor};
-constexpr std::size_t kCalibrationRealCount = sizeof(kCalibrationReals) / sizeof(kCalibrationReals[0]);
+// A real number of a calibration, and the range that any camera's lies in, inclusive.
+struct CalibrationReal {
+  double TriangulationCalibration::*member;
+  double minimum, maximum;
+};
 
-// kNotFinite; kSingular: focal length, baseline or half width not above 0 (at any temperature that it serves), or a spot that does not grow
-// with the peak; kBadValue: no serial number, a volume without content, angles beyond the wire's, or a factor outside its range.
+// All but the residual's terms, in the order of the image.
+constexpr double kMaxSigmaFactor = 10;  // more would let a ray reach through the target
+constexpr CalibrationReal kCalibrationReals[] = {{&TriangulationCalibration::focal_length_m, 0, 10},
+                                                 {&TriangulationCalibration::baseline_m, 0, 10},
+                                                 {&TriangulationCalibration::half_width_m, 0, 10},
+                                                 {&TriangulationCalibration::angle_x_offset_rad, -0.5, 0.5},
+                                                 {&TriangulationCalibration::angle_y_offset_rad, -0.5, 0.5},
+                                                 {&TriangulationCalibration::focal_length_per_K, -0.01, 0.01},
+                                                 {&TriangulationCalibration::baseline_per_K, -0.01, 0.01},
+                                                 {&TriangulationCalibration::peak_per_K, -0.01, 0.01},
+                                                 {&TriangulationCalibration::reference_degC, -100, 100},
+                                                 {&TriangulationCalibration::angle_max_rad, 0, 1},
+                                                 {&TriangulationCalibration::depth_min_m, 0, 1000},
+                                                 {&TriangulationCalibration::depth_max_m, 0, 1000},
+                                                 {&TriangulationCalibration::temperature_min_degC, -100, 100},
+                                                 {&TriangulationCalibration::temperature_max_degC, -100, 100},
+                                                 {&TriangulationCalibration::outside_sigma_factor, 1, kMaxSigmaFactor}};
+constexpr std::size_t kCalibrationRealCount = sizeof(kCalibrationReals) / sizeof(kCalibrationReals[0]);
+constexpr double kMaxResidual = 10;  // either sign
+
+// kNotFinite; kBadValue: a number outside its range, no serial number, a volume without content, or angles beyond the wire's; kSingular:
+// focal length, baseline or half width not above 0 (at any temperature that it serves), or a spot that does not grow with the peak.
 Status validate(const TriangulationCalibration& calibration);
 
 }  // namespace lasso

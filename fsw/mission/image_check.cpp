@@ -359,7 +359,7 @@ TriangulationCalibration calibration_of(const ImageTable& table, std::uint32_t r
   ByteReader reader(ConstBytes(table.data + std::size_t{4} * kCalibrationWords * record, std::size_t{4} * kCalibrationWords));
   static_cast<void>(reader.u32());  // the sensor's number
   calibration.serial = reader.u32();
-  for (const auto real : kCalibrationReals) calibration.*real = reader.f64();
+  for (const CalibrationReal& real : kCalibrationReals) calibration.*real.member = reader.f64();
   for (double& term : calibration.residual) term = reader.f64();
   return calibration;
 }

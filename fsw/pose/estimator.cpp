@@ -19,13 +19,14 @@ static_assert(kMaxRays <= 65535, "counts of rays fit into the result");
 std::uint16_t to_count(std::size_t n) { return static_cast<std::uint16_t>(n); }
 
 // Variance of the residuals over the assumed variance. Tukey's kernel trims the tails: for Gaussian noise its weighted sum of squares is
-// 1 - 6/k^2 + 15/k^4 of the whole.
-double noise_scale(const MissionParameters& p, const HitSolution& hits) {
+// 1 - 6/k^2 + 15/k^4 of the whole. Ranges that the sensor itself trusts less may be wrong all alike, which residuals do not show.
+double noise_scale(const MissionParameters& p, const HitSolution& hits, bool trusted) {
   const double k2 = p.kernel_width * p.kernel_width;
   const double trimmed = 1 - 6 / k2 + 15 / (k2 * k2);
   const double freedom = static_cast<double>(hits.inliers) - kPoseDimensions;
   const double scale = freedom > 0 ? hits.chi_squared / (freedom * trimmed) : 1;
-  return scale > kSmallestNoiseScale ? scale : kSmallestNoiseScale;
+  const double smallest = trusted ? kSmallestNoiseScale : 1;
+  return scale > smallest ? scale : smallest;
 }
 
 // A step x of T_target_sensor in target axes is a step -R x of T_sensor_target in sensor axes, for rotation and translation alike.
@@ -100,7 +101,7 @@ Registration Estimator::estimate(const Mission& mission, const RangeImage& scan,
   prepare_rays(mission, scan, start, workspace_);
   Pose pose = inverse(start.T_sensor_target);
   const HitSolution hits = start.wide ? register_wide(mission, pose, workspace_) : register_hits(mission, pose, workspace_);
-  const double scale = noise_scale(mission.parameters, hits);
+  const double scale = noise_scale(mission.parameters, hits, !(workspace_.sigma_factor > 1));
   describe_hits(hits, scale, workspace_, result);
   if (has_information(hits)) {
     Mat6 covariance;

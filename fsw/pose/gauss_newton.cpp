@@ -30,7 +30,8 @@ MatchSettings<N> make_settings(const MissionParameters& p, const Workspace& work
   s.kernel_squared = N::to_ratio(p.kernel_width * p.kernel_width);
   s.surface_variance = N::to_ratio(p.surface_sigma_m * p.surface_sigma_m);
   s.cos_incidence_max = N::to_ratio(sin_cos(p.incidence_max_rad).cos);
-  s.reference_variance = workspace.points[workspace.points.size() / 2].range_variance + s.surface_variance;
+  const N::Length worst = workspace.points[workspace.points.size() / 2].range_variance;
+  s.reference_variance = worst / (workspace.sigma_factor * workspace.sigma_factor) + s.surface_variance;
   return s;
 }
 

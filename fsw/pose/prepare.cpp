@@ -112,15 +112,17 @@ void prepare_rays(const Mission& mission, const RangeImage& scan, const StartPoi
   const TimeUs reference_us = scan.reference_time_us();
   workspace.rays.clear();
   workspace.points.clear();
+  workspace.sigma_factor = 1;
   for (std::size_t i = 0; i < scan.samples.size(); ++i) {
     const RangeSample& sample = scan.samples[i];
     if (sample.state == RayState::kInvalid || !is_credible(sample, mission.parameters)) continue;
     ScanRay<N> ray = make_ray(sample);
     deskew.apply(N::to_ratio(to_seconds(sample.t_us - reference_us)), ray);
     invariant(workspace.rays.push_back(ray), "as many rays as a scan can have");
-    if (ray.state == RayState::kHit)
-      invariant(workspace.points.push_back(make_point(ray, sample.sigma_factor, noise, start.partial || scan.is_aimed(i))),
-                "as many points as rays");
+    if (ray.state != RayState::kHit) continue;
+    invariant(workspace.points.push_back(make_point(ray, sample.sigma_factor, noise, start.partial || scan.is_aimed(i))),
+              "as many points as rays");
+    if (sample.sigma_factor > workspace.sigma_factor) workspace.sigma_factor = sample.sigma_factor;
   }
 }
 

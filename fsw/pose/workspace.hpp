@@ -88,6 +88,7 @@ struct AimPlace {
 struct Workspace {
   FixedVector<ScanRay<FlightNumber>, kMaxRays> rays;
   FixedVector<MatchPoint<FlightNumber>, kMaxRays> points;
+  FlightNumber::Ratio sigma_factor = 1;  // the largest of a point: above 1, the scan's own residuals do not say how good it is
   FixedVector<ContourEdge<FlightNumber>, kMaxContourEdges> contour;
   RayEdges<FlightNumber> ray_edges[kMaxRays] = {};
   RayBins<FlightNumber> bins{};

@@ -23,7 +23,7 @@ bool known_state(RayState state) {
 }  // not kLost
 
 bool finite(const RangeSample& sample) {
-  bool ok = is_finite(static_cast<double>(sample.range_m));
+  bool ok = is_finite(static_cast<double>(sample.range_m)) && is_finite(static_cast<double>(sample.sigma_factor));
   for (const float component : sample.direction) ok = ok && is_finite(static_cast<double>(component));
   return ok;
 }
@@ -56,12 +56,14 @@ RangeSample cleaned(const RangeSample& sample) {
   if (sample.state == RayState::kInvalid) return invalid_sample(sample.t_us);
   RangeSample kept = sample;
   make_unit(kept);
-  if (kept.state == RayState::kMiss) kept.range_m = 0;
+  if (kept.state != RayState::kMiss) return kept;
+  kept.range_m = 0;
+  kept.sigma_factor = 1;
   return kept;
 }
 
 bool range_valid(const RangeSample& sample) {
-  const bool factor = sample.sigma_factor >= 1 && sample.sigma_factor <= kMaxSigmaFactor;
+  const bool factor = sample.sigma_factor >= 1 && static_cast<double>(sample.sigma_factor) <= kMaxSigmaFactor;
   return sample.state != RayState::kHit || (factor && sample.range_m >= 0 && static_cast<double>(sample.range_m) <= kMaxRangeM);
 }
 

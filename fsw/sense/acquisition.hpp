@@ -17,14 +17,13 @@ namespace lasso {
 // Why a sample was not believed. It is kept as an invalid ray, so that the count of rays stays true.
 enum class BadSample : std::uint8_t {
   kState = 0,      // no such state
-  kNotFinite = 1,  // NaN or infinity
+  kNotFinite = 1,  // NaN or infinity, of a hit's sigma factor, too
   kDirection = 2,  // length not within about 1e-3 of 1 (its square within 2e-3)
   kRange = 3,      // hit: range not within [0, kMaxRangeM], or its sigma factor not within [1, kMaxSigmaFactor]
   kTime = 4,       // before its predecessor or the scan's start, or later than now
 };
 constexpr std::size_t kBadSampleKinds = 5;
 constexpr double kMaxRangeM = 1e5;
-constexpr float kMaxSigmaFactor = 1000;
 constexpr std::uint32_t kUsablePercent = 80;  // of the plan's points
 
 // Why a scan cannot be estimated from: what an operator looks for first.

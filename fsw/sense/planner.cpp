@@ -37,10 +37,32 @@ Rectangle project(Span<const HullPoint> hull, const Pose& T_sensor_target) {
   return rectangle;
 }
 
+// Of the grid that an interval's ends are rounded to: the largest power of two that is at most this share of its half.
+constexpr double kGridShare = 1.0 / 32;
+constexpr double kFinestGrid = 1.0 / (1 << 24);
+
+// Loop bound: the powers of two from 1 to kFinestGrid.
+double grid_of(double half) {
+  double step = 1;
+  while (step > kFinestGrid && step > kGridShare * half) step *= 0.5;
+  return step;
+}
+
+double rounded(double x, double step) {
+  const double steps = (x < 0 ? -x : x) / step + 0.5;
+  const double whole = step * (steps - fractional_part(steps));
+  return x < 0 ? -whole : whole;
+}
+
+Interval on_grid(const Interval& exact) {
+  const double step = grid_of(exact.half());
+  return {rounded(exact.low, step), rounded(exact.high, step)};
+}
+
 Interval fit(const Interval& seen, double margin, double uncertainty, double fov_half_rad) {
   const double limit = tangent(fov_half_rad);
   const double half = margin * seen.half() + uncertainty;
-  Interval fitted{seen.middle() - half, seen.middle() + half};
+  Interval fitted = on_grid({seen.middle() - half, seen.middle() + half});
   if (fitted.low < -limit) fitted.low = -limit;
   if (fitted.high > limit) fitted.high = limit;
   return fitted;

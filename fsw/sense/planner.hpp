@@ -25,8 +25,10 @@ struct TargetOutline {
 // On the tangent plane z = 1 the scan is the rectangle around the projected hull points (those in front of the sensor), widened about its
 // middle by scan.margin and by the prediction's uncertainty, and cut at the field of view; its middle is the plan's centre. For a target
 // seen whole this is the paper's aim at the geometric centre, up to perspective; a target larger than the field of view on both sides is
-// cut alike on both, and one that is partly outside is scanned where it can be seen. The phase is the fraction of scan_id *
-// scan.phase_step_turns.
+// cut alike on both, and one that is partly outside is scanned where it can be seen. The rectangle's ends are rounded to a grid, the
+// largest power of two that is at most 1/32 of its half extent: so two predictions that differ by far less than they are uncertain (those
+// of a simulated sensor, and of the same at the end of a line) mostly have the same rays, and their estimates stay together. The phase is
+// the fraction of scan_id * scan.phase_step_turns.
 //
 // `parameters` as the loader validates them. Refused, with `plan` as it was: kNotFinite or kBadValue for a pose that is not finite or not
 // of unit length, kNoData without hull points, kBadValue for a centre that is not in front of the sensor, a target wholly outside the

@@ -6,6 +6,7 @@
 #include "cfg/capacities.hpp"
 #include "fsw/core/fixed_vector.hpp"
 #include "fsw/core/time.hpp"
+#include "fsw/mission/calibration.hpp"
 
 namespace lasso {
 
@@ -20,8 +21,8 @@ struct RangeSample {
   float direction[3] = {0, 0, 1};  // unit vector of the ray at its own time
   float range_m = 0;               // along the ray; 0 unless a hit
   TimeUs t_us = 0;                 // time of this sample
+  float sigma_factor = 1;          // [1, kMaxSigmaFactor]: by how much the noise of this range is larger than the sensor's
   RayState state = RayState::kInvalid;
-  float sigma_factor = 1;  // >= 1: by how much the noise of this range is larger than the sensor's
 };
 
 struct RangeImage {

@@ -12,8 +12,6 @@
 
 namespace lasso {
 
-struct TriangulationCalibration;
-
 struct SensorPoll {
   Status status = Status::kOk;  // kOk; kNoData: idle; kTimeout, kBadCrc, kBadValue, ...: the scan is lost (loss_of, acquisition.hpp)
   std::size_t count = 0;        // samples written, in time order, none twice
@@ -50,8 +48,8 @@ class Sensor {
   virtual SensorCounters counters() const { return {}; }
   // Whether it may light its laser: never before the first permission. Sensors without one, or with one that others look after, ignore it.
   virtual void permit_laser(bool /*permitted*/) {}
-  // What the mission says of this one's optics, which is copied; nullptr: as it was made. Samples of a scan that runs become points by
-  // either. Sensors that state points ignore it.
+  // Between scans: what the mission says of this one's optics, which is valid and copied; nullptr: as it was made. Sensors that state
+  // points ignore it.
   virtual void use_calibration(const TriangulationCalibration* /*calibration*/) {}
 
  protected:

@@ -31,7 +31,7 @@ constexpr std::uint32_t kFrames = 24;       // of the flight
 constexpr std::uint32_t kFirst = 6;         // frame in which the first flips happen, the track being settled
 constexpr std::uint32_t kFlipFrames = 10;   // and the frames after it in which they do
 constexpr rlim_t kChildSeconds = 10;        // of processor time: a flight takes less than a tenth of a second
-constexpr std::size_t kSampleBytes = 25;    // of a sample, without padding
+constexpr std::size_t kSampleBytes = 29;    // of a sample, without padding
 constexpr std::size_t kTrackBytes = 24576;  // the end of the component: its track, plans, counters and requests (fsw/exec/component.hpp)
 
 enum class Region : std::uint8_t { kImage = 0, kMission = 1, kTrack = 2, kBuffers = 3, kSamples = 4 };

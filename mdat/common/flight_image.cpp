@@ -72,7 +72,7 @@ void append_sensor(const SensorParameters& sensor, std::vector<std::uint32_t>& w
 void append_calibration(std::uint8_t sensor, const TriangulationCalibration& calibration, std::vector<std::uint32_t>& words) {
   words.push_back(sensor);
   words.push_back(calibration.serial);
-  for (const auto real : kCalibrationReals) append_value(calibration.*real, words);
+  for (const CalibrationReal& real : kCalibrationReals) append_value(calibration.*real.member, words);
   for (const double term : calibration.residual) append_value(term, words);
 }
 

@@ -289,6 +289,9 @@ CaseSetup camera_case(const CompiledMission& mission, const SimulationOptions& o
   setup.target = &target;
   setup.camera_faults = options.camera_faults;
   set_camera(mission, options, setup);
+  // The camera that runs alone is the mission's first of its kind.
+  const auto first = mission.source.calibrations.begin();
+  if (first != mission.source.calibrations.end()) setup.calibrations = {{0, first->second}};
   return setup;
 }
 
@@ -310,8 +313,9 @@ SimulationResult simulate(const CompiledMission& mission, const SimulationOption
   const auto begin = std::chrono::steady_clock::now();
   const std::unique_ptr<sim::RayCaster> target = make_target(mission.mesh);
   require_wired(mission.source, options);
-  const bool other = options.calibration && options.wire;
-  Plan plan = make_plan(other ? recalibrated(mission, *options.wire, *options.calibration) : mission, result, *target);
+  std::optional<CompiledMission> changed;
+  if (options.calibration && options.wire) changed = recalibrated(mission, *options.wire, *options.calibration);
+  Plan plan = make_plan(changed ? *changed : mission, result, *target);
   if (plan.cases.size() != 1) refuse_what_serves_one(options);
   for (CaseSetup& setup : plan.cases) {
     setup.link = options.link;

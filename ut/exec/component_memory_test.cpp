@@ -111,13 +111,13 @@ TEST_F(ComponentMemory, TheImageBeforeIsActiveAgainByCommand) {
   EXPECT_EQ(component().mission().image_crc, crc_of(first_image()));
 }
 
-// From the start, with a new image, and back again to what the sensor was made with.
+// From the first scan, with a new image, and back again to what the sensor was made with.
 TEST_F(ComponentMemory, SensorsAreCalibratedAsTheActiveImageSays) {
   VERIFIES("LASSO-LCS-007~2");
   scene_->sensor.serial = 99;
   scene_->begin(first_image());
-  EXPECT_EQ(scene_->sensor.serial, 0U) << "the image has none";
   scene_->run_frames(3);
+  EXPECT_EQ(scene_->sensor.serial, 0U) << "the image has none";
   const TestImage calibrated = calibrated_image(31);
   scene_->upload(calibrated);
   EXPECT_EQ(scene_->sensor.serial, 0U) << "not active yet";
@@ -125,11 +125,62 @@ TEST_F(ComponentMemory, SensorsAreCalibratedAsTheActiveImageSays) {
   scene_->run_frames(20);
   EXPECT_EQ(scene_->sensor.serial, 31U);
   ASSERT_EQ(component().roll_back_image(), ImageRefusal::kNone);
-  scene_->run_frames(1);
+  scene_->run_frames(2);
   EXPECT_EQ(scene_->sensor.serial, 0U);
+}
+
+TEST_F(ComponentMemory, ACalibrationComesBackWithTheStoredImage) {
+  VERIFIES("LASSO-LCS-007~2");
+  scene_->begin(first_image());
+  scene_->run_frames(3);
+  const TestImage calibrated = calibrated_image(31);
+  scene_->upload(calibrated);
+  ASSERT_EQ(component().activate_image(crc_of(calibrated)), ImageRefusal::kNone);
+  scene_->run_frames(20);
+  EXPECT_TRUE(scene_->told(EventId::kImageConfirmed));
   scene_->restart();
-  scene_->begin(calibrated_image(32));
-  EXPECT_EQ(scene_->sensor.serial, 32U);
+  scene_->sensor.serial = 0;
+  ASSERT_EQ(component().load_stored_image().status, Status::kOk);
+  ASSERT_EQ(component().begin(0), Status::kOk);
+  scene_->run_frames(1);
+  EXPECT_EQ(scene_->sensor.serial, 31U);
+}
+
+// A flip in a record that is in use is told and repaired; until then the sensor has what was right.
+TEST_F(ComponentMemory, ACalibrationThatDecaysIsNotBelieved) {
+  VERIFIES("LASSO-LCS-007~2 LASSO-LCS-015~1");
+  scene_->begin(calibrated_image(31));
+  scene_->run_frames(3);
+  ASSERT_EQ(scene_->sensor.serial, 31U);
+  test::TestImage as_sent = calibrated_image(31);
+  auto* const bytes = const_cast<std::uint8_t*>(component().images().active().sealed_image().data());
+  const std::size_t offset = test::table_offset(as_sent, static_cast<std::uint32_t>(TableId::kCalibrations));
+  ASSERT_EQ(bytes[offset + 7], 31);
+  bytes[offset + 8] = 0x7F;  // a focal length of 1e308 m
+  bytes[offset + 7] = 32;
+  scene_->run_frames(1);
+  EXPECT_EQ(scene_->sensor.serial, 31U);
+  bytes[offset + 8] = as_sent.data()[offset + 8];
+  scene_->run_frames(1);
+  EXPECT_EQ(scene_->sensor.serial, 32U) << "what is valid is believed until the scrub finds it";
+  scene_->run_frames(60);
+  EXPECT_TRUE(scene_->told(EventId::kMemoryCorrupt));
+}
+
+// Its scans are lost as another sensor's: it has failed its trial.
+TEST_F(ComponentMemory, AnImageForAnotherCameraIsTakenBack) {
+  VERIFIES("LASSO-IMG-014~1 LASSO-LCS-015~1");
+  scene_->sensor.own_serial = 31;
+  scene_->begin(calibrated_image(31));
+  EXPECT_TRUE(all_valid(scene_->run_frames(10)));
+  const TestImage foreign = calibrated_image(32);
+  scene_->upload(foreign);
+  ASSERT_EQ(component().activate_image(crc_of(foreign)), ImageRefusal::kNone);
+  scene_->run_frames(12);
+  EXPECT_EQ(scene_->last(EventId::kImageActive).items[4], 1) << "rolled back";
+  EXPECT_EQ(scene_->sensor.serial, 31U);
+  scene_->run_frames(8);
+  EXPECT_EQ(scene_->run_frames(1).back().valid, 1);
 }
 
 // By itself, within the scans of the trial; the track is that of before.
@@ -342,6 +393,19 @@ TEST_F(ComponentMemory, FlipsAreToldAndRepairedWhileTracking) {
 }
 
 // Without the store nothing can be repaired: what is in use makes safe, what is not is refused.
+// The period is a parameter, too: a scrub that went by it would stand still.
+TEST_F(ComponentMemory, AFlipOfThePeriodDoesNotStopTheScrub) {
+  VERIFIES("LASSO-IMG-017~1");
+  scene_->begin(first_image());
+  scene_->run_frames(5);
+  auto* const period = const_cast<double*>(&component().mission().parameters.period_s);
+  auto* const bytes = reinterpret_cast<std::uint8_t*>(period);
+  for (std::size_t i = 0; i < sizeof(double); ++i) bytes[i] = 0;
+  scene_->run_frames(50);
+  EXPECT_TRUE(scene_->told(EventId::kMemoryCorrupt));
+  EXPECT_EQ(*period, MemoryScene::parameters().period_s);
+}
+
 TEST_F(ComponentMemory, AnImageThatCannotBeRepairedMakesSafe) {
   VERIFIES("LASSO-IMG-016~1 LASSO-HLT-002~1");
   scene_->begin(first_image());

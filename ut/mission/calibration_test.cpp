@@ -30,23 +30,32 @@ TEST(Calibration, RefusesCalibrationsThatBendSpace) {
   EXPECT_EQ(verdict([](C& c) { c.residual[9] = kNan; }), Status::kNotFinite);
   EXPECT_EQ(verdict([](C& c) { c.focal_length_m = kNan; }), Status::kNotFinite);
   EXPECT_EQ(verdict([](C& c) { c.temperature_max_degC = std::numeric_limits<double>::infinity(); }), Status::kNotFinite);
+  EXPECT_EQ(verdict([](C& c) { c.focal_length_m = 11; }), Status::kBadValue);
+  EXPECT_EQ(verdict([](C& c) { c.depth_max_m = 1e300; }), Status::kBadValue);
+  EXPECT_EQ(verdict([](C& c) { c.residual[5] = -10.5; }), Status::kBadValue);
   EXPECT_EQ(verdict([](C& c) { c.focal_length_m = 0; }), Status::kSingular);
-  EXPECT_EQ(verdict([](C& c) { c.baseline_m = -0.2; }), Status::kSingular);
+  EXPECT_EQ(verdict([](C& c) { c.baseline_m = 0; }), Status::kSingular);
+  EXPECT_EQ(verdict([](C& c) { c.baseline_m = -0.2; }), Status::kBadValue);
   EXPECT_EQ(verdict([](C& c) { c.half_width_m = 0; }), Status::kSingular);
-  EXPECT_EQ(verdict([](C& c) { c.focal_length_per_K = 0.03; }), Status::kSingular);   // 0 at -13 degrees
-  EXPECT_EQ(verdict([](C& c) { c.focal_length_per_K = -0.04; }), Status::kSingular);  // 0 at 45 degrees
-  EXPECT_EQ(verdict([](C& c) { c.residual[3] = -1; }), Status::kSingular);            // each peak is the same spot
+  for (double C::*const growth : {&C::focal_length_per_K, &C::baseline_per_K}) {  // above 0 within -20 to 50 degrees, not a quarter beyond
+    EXPECT_EQ(verdict([&](C& c) { c.*growth = 0.01, c.reference_degC = 70; }), Status::kSingular);
+    EXPECT_EQ(verdict([&](C& c) { c.*growth = -0.01, c.reference_degC = -42; }), Status::kSingular);
+    EXPECT_EQ(verdict([&](C& c) { c.*growth = 0.011; }), Status::kBadValue);
+  }
+  EXPECT_EQ(verdict([](C& c) { c.residual[3] = -1; }), Status::kSingular);  // each peak is the same spot
   EXPECT_EQ(verdict([](C& c) { c.residual[9] = 0.6; }), Status::kSingular);
   EXPECT_EQ(verdict([](C& c) { c.serial = 0; }), Status::kBadValue);
   EXPECT_EQ(verdict([](C& c) { c.angle_max_rad = 0; }), Status::kBadValue);
   EXPECT_EQ(verdict([](C& c) { c.depth_min_m = 0; }), Status::kBadValue);
   EXPECT_EQ(verdict([](C& c) { c.depth_max_m = c.depth_min_m; }), Status::kBadValue);
   EXPECT_EQ(verdict([](C& c) { c.temperature_max_degC = c.temperature_min_degC; }), Status::kBadValue);
-  EXPECT_EQ(verdict([](C& c) { c.angle_x_offset_rad = -0.71; }), Status::kBadValue);
-  EXPECT_EQ(verdict([](C& c) { c.angle_y_offset_rad = 0.71; }), Status::kBadValue);
+  EXPECT_EQ(verdict([](C& c) { c.angle_max_rad = 0.7, c.angle_x_offset_rad = -0.31; }), Status::kBadValue) << "beyond the wire's";
+  EXPECT_EQ(verdict([](C& c) { c.angle_max_rad = 0.7, c.angle_y_offset_rad = 0.31; }), Status::kBadValue);
+  EXPECT_EQ(verdict([](C& c) { c.angle_max_rad = 0.7; }), Status::kOk);
+  EXPECT_EQ(verdict([](C& c) { c.angle_y_offset_rad = 0.51; }), Status::kBadValue);
   EXPECT_EQ(verdict([](C& c) { c.outside_sigma_factor = kNan; }), Status::kNotFinite);
   EXPECT_EQ(verdict([](C& c) { c.outside_sigma_factor = 0.9; }), Status::kBadValue);
-  EXPECT_EQ(verdict([](C& c) { c.outside_sigma_factor = 1001; }), Status::kBadValue);
+  EXPECT_EQ(verdict([](C& c) { c.outside_sigma_factor = 10.1; }), Status::kBadValue);
 }
 
 constexpr auto kTable = static_cast<std::uint32_t>(TableId::kCalibrations);
@@ -81,7 +90,7 @@ TEST_F(ImageCalibrationsTest, EachSensorFindsItsOwn) {
     const C put = test::bent_calibration(7U + sensor);
     ASSERT_TRUE(slot_->find_calibration(sensor, found));
     EXPECT_EQ(found.serial, put.serial);
-    for (const auto real : kCalibrationReals) EXPECT_EQ(found.*real, put.*real);
+    for (const CalibrationReal& real : kCalibrationReals) EXPECT_EQ(found.*real.member, put.*real.member);
     for (std::size_t k = 0; k < kResidualTerms; ++k) EXPECT_EQ(found.residual[k], put.residual[k]);
   }
   ASSERT_EQ(load(with({{1, test::bent_calibration(8)}})).status, Status::kOk);

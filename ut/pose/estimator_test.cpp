@@ -92,6 +92,23 @@ TEST_F(EstimatorTest, EstimatesTheNoiseThatItWasNotTold) {
   EXPECT_NEAR(r.rms_m, 2e-3, 6e-4);
 }
 
+// Ranges that the sensor trusts less may be wrong all alike.
+TEST_F(EstimatorTest, RangesOfLargerSigmaAreNotTrustedForTheirSmallResiduals) {
+  VERIFIES("LASSO-LCS-008~2");
+  const auto image = test::scan_box(scan_, random_);
+  StartPoint start;
+  start.T_sensor_target = scan_.T_sensor_target;
+  parameters().silhouettes = 0;
+  parameters().noise_estimated = 0;
+  const double assumed = estimate(*image, start).covariance.trace();
+  parameters().noise_estimated = 1;
+  EXPECT_LT(estimate(*image, start).covariance.trace(), 0.1 * assumed) << "a scan without noise shows none";
+  for (RangeSample& sample : image->samples) sample.sigma_factor = 5;
+  const double doubted = estimate(*image, start).covariance.trace();
+  EXPECT_GT(doubted, 15 * assumed);
+  EXPECT_LT(doubted, 30 * assumed);
+}
+
 TEST_F(EstimatorTest, MovesPointsToTheReferenceTime) {
   VERIFIES("LASSO-REG-004~1 LASSO-SYS-023~1");
   scan_.rates.omega_radps = Vec3(0.06, -0.05, 0.04);

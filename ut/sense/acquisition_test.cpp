@@ -162,13 +162,13 @@ TEST_F(AcquisitionTest, BadSamplesBecomeInvalidAndAreCountedByReason) {
   s[18].state = static_cast<RayState>(4);
   s[20].sigma_factor = 0.99F;
   s[21].sigma_factor = std::numeric_limits<float>::quiet_NaN();
-  s[22].sigma_factor = 1000.1F;
+  s[22].sigma_factor = 10.1F;
   s[1023].t_us = kStart;
   sensor.ignores_time = true;
   const ScanVerdict verdict = run();
-  EXPECT_EQ(verdict.bad[static_cast<int>(BadSample::kNotFinite)], 2u);
+  EXPECT_EQ(verdict.bad[static_cast<int>(BadSample::kNotFinite)], 3u);
   EXPECT_EQ(verdict.bad[static_cast<int>(BadSample::kDirection)], 2u);
-  EXPECT_EQ(verdict.bad[static_cast<int>(BadSample::kRange)], 5u);
+  EXPECT_EQ(verdict.bad[static_cast<int>(BadSample::kRange)], 4u);
   EXPECT_EQ(verdict.bad[static_cast<int>(BadSample::kTime)], 3u);
   EXPECT_EQ(verdict.bad[static_cast<int>(BadSample::kState)], 1u);
   EXPECT_EQ(verdict.invalid, 13);

@@ -27,7 +27,7 @@ constexpr std::size_t kCalibrationsTable = 18;  // in BoxTables
 inline void append_calibration(std::uint32_t sensor, const TriangulationCalibration& calibration, Words& words) {
   words.push_back(sensor);
   words.push_back(calibration.serial);
-  for (const auto real : kCalibrationReals) append_value(calibration.*real, words);
+  for (const CalibrationReal& real : kCalibrationReals) append_value(calibration.*real.member, words);
   for (const double term : calibration.residual) append_value(term, words);
 }
 

@@ -79,6 +79,7 @@ class BoxSensor final : public Sensor {
     SensorPoll poll;
     poll.status = running_ ? Status::kOk : Status::kNoData;
     if (running_ && lost.count(plan_.scan_id) != 0) poll.status = Status::kBadCrc;
+    if (running_ && own_serial != 0 && serial != own_serial) poll.status = Status::kBadVersion;
     if (poll.status != Status::kOk) return poll;
     while (next_ < plan_.points && poll.count < out.size() && time_of(next_) <= now_us) {
       const std::uint16_t looked_at = stuck ? std::uint16_t{0} : next_;
@@ -103,8 +104,9 @@ class BoxSensor final : public Sensor {
   DurationUs scene_ahead_us = 0;    // of the sensor's clock
   bool stuck = false;               // the mirrors stand still
   int starts = 0;
-  bool laser_permitted = true;  // as it was last told
-  std::uint32_t serial = 0;     // of the calibration that it was given; 0: none
+  bool laser_permitted = true;   // as it was last told
+  std::uint32_t serial = 0;      // of the calibration that it was given; 0: none
+  std::uint32_t own_serial = 0;  // no other is believed; 0: any
   ScanPlan last_plan;
 
  private:
