@@ -50,7 +50,7 @@ target_link_libraries(lasso_same_bits INTERFACE Eigen3::Eigen)
 add_library(lasso_flight INTERFACE)
 target_compile_features(lasso_flight INTERFACE cxx_std_17)
 # Unrolled sums are worth a fifth of the estimate; no value changes, as nothing is reassociated.
-target_compile_options(lasso_flight INTERFACE $<$<CONFIG:Release>:-O3>)
+target_compile_options(lasso_flight INTERFACE $<$<CONFIG:Release>:$<IF:$<BOOL:$<TARGET_PROPERTY:LASSO_SMALL>>,-O2,-O3>>)
 target_compile_options(lasso_flight INTERFACE -fno-math-errno -fno-exceptions -fno-rtti -fno-threadsafe-statics)
 target_compile_definitions(lasso_flight INTERFACE EIGEN_NO_DEBUG)
 target_include_directories(lasso_flight INTERFACE ${PROJECT_SOURCE_DIR})

@@ -20,6 +20,9 @@ function(lasso_precompile KIND)
   endforeach()
 endfunction()
 
+# Rooms that add up no points gain nothing from -O3 but size, and the flight image has to fit its 512 kB. They have no use for Eigen either.
+set(LASSO_SMALL_ROOMS link)
+
 # Flight room fsw/NAME, seeing the rooms in ARGN (and what they see).
 function(lasso_flight_room NAME)
   file(GLOB SOURCES CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/fsw/${NAME}/*.cpp)
@@ -30,7 +33,11 @@ function(lasso_flight_room NAME)
     add_library(fsw_${NAME} STATIC ${SOURCES})
     set(VISIBILITY PUBLIC)
     target_link_libraries(fsw_${NAME} PRIVATE $<BUILD_INTERFACE:lasso_warnings> $<BUILD_INTERFACE:lasso_flight>)
-    lasso_precompile(flight fsw_${NAME})
+    if(NAME IN_LIST LASSO_SMALL_ROOMS)
+      set_target_properties(fsw_${NAME} PROPERTIES LASSO_SMALL ON)
+    else()
+      lasso_precompile(flight fsw_${NAME})
+    endif()
   endif()
   target_include_directories(fsw_${NAME} ${VISIBILITY} $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:${LASSO_HEADERS}>)
   target_link_libraries(fsw_${NAME} ${VISIBILITY} lasso_same_bits)
