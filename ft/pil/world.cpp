@@ -31,7 +31,7 @@ World::World(const WorldSetup& setup)
     : setup_(setup),
       period_us_(mdat::period_us(setup.flight.parameters)),
       motion_(mdat::make_trajectory(setup.flight.scenario, setup.flight.range_m, mdat::kEpochUs, period_us_)),
-      camera_(mdat::camera_for(setup.flight, model_of(setup.flight))),
+      camera_(mdat::camera_for(setup.flight, model_of(setup.flight), 0)),
       device_(*setup.flight.target, *motion_, model_of(setup.flight), setup.flight.seed, camera_) {}
 
 TimeUs World::slot_us(std::uint32_t slot) const {
