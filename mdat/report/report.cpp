@@ -130,7 +130,7 @@ std::string range_figure(Plotter& plotter, const TableResult& table) {
 
 // How well the rates are known, which is what flights are flown for.
 std::string rates_part(Plotter& plotter, const TableResult& table) {
-  const std::string settled = settled_section(table);
+  std::string settled = settled_section(table);
   if (!is_tracked(main_variant(table))) return settled;
   return settled +
          figure(
