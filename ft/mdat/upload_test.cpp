@@ -34,8 +34,8 @@ size = [0.2, 0.7, 0.15]
 place = [{move = [-0.3, 0.4, 0.0]}]
 )";
 
-// 20 frames a second and a small image: it is loaded in some seconds. A busy machine loses scans: a trial waits for few valid
-// poses, and no track is lost meanwhile.
+// 20 frames a second and a small image: it is loaded in some seconds. All of the mission's rays, as with a quarter of them this target is
+// lost with some seeds. A busy machine loses scans: a trial waits for few valid poses, and no track is lost meanwhile.
 class UploadTest : public ::testing::Test {
  protected:
   UploadTest() : url_("udp://127.0.0.1:" + free_port()) {
@@ -51,7 +51,6 @@ class UploadTest : public ::testing::Test {
                          {"models/hubble_tenth.toml", "models/" + name + ".toml"},
                          {"[target.parameters]\narray_angle_deg = 0.0\ndoor_angle_deg = 105.0\n", ""},
                          {"cell_size_m = 0.012", "cell_size_m = 0.1"},
-                         {"points = 1024", "points = 256"},
                          {"duration_s = 0.18", "duration_s = 0.045"},
                          {"period_s = 0.2", "period_s = 0.05"},
                          {"[start]", "[image]\ntrial_scans = 40\ntrial_valid_min = 3\n\n[tracking]\ncoast_frames = 1000\n\n[start]"}});
