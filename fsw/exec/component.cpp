@@ -120,6 +120,7 @@ void Component::run_task(TaskId task, TimeUs now_us) {
   if (task == TaskId::kPollSensor) return acquisition_.poll(now_us);
   if (task == TaskId::kTendMemory) return tend_memory();
   check_mode();
+  check_laser();
   publish_estimate(now_us);
   feed_watchdog();
   pass_link_boundary(now_us);

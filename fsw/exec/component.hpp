@@ -219,6 +219,8 @@ class Component {
   ServiceRefusal arm(const CommandName& name);
   ServiceRefusal enable_laser();
   void inhibit_laser();
+  bool laser_enabled() const;
+  void check_laser();
   void correlate_time(const TimeCommand& time);
   ServiceRefusal set_parameter(const ParameterCommand& command);
   ServiceRefusal report_parameter(std::uint16_t parameter, TimeUs now_us);
@@ -302,7 +304,7 @@ class Component {
   StoredLog log_;
   bool reset_asked_ = false, reset_due_ = false;
   Arming arming_;
-  bool laser_enabled_ = false;
+  Voted<std::uint8_t> laser_{0};  // 1: a command has enabled it, and none has inhibited it since
   Watched watched_;
   std::uint32_t troubles_told_[kMaxSensors] = {};
 };

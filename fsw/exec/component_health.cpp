@@ -28,6 +28,15 @@ void Component::check_mode() {
   mode_.set(voted);
 }
 
+// Before anybody asks for it. Where no two copies agree the laser goes out.
+void Component::check_laser() {
+  if (laser_.agreed()) return;
+  seen_.add(Fault::kLaserCorrupt);
+  link_changed_ = true;
+  if (laser_enabled()) return laser_.set(1);
+  inhibit_laser();
+}
+
 // The clock was set, or nobody ran the slots for long: states keep their age, and what is on its way is of another time.
 void Component::follow_jump(TimeUs now_us) {
   const DurationUs moved_us = executive_.follow_jump(now_us);

@@ -131,7 +131,7 @@ void Component::send_link(TimeUs now_us) {
   link.skipped_bytes = receiver_.skipped();
   link.queue_peak = static_cast<std::uint16_t>(downlink_.queue().peak());
   link.armed = arming_.armed() ? 1 : 0;
-  link.laser_enabled = laser_enabled_ ? 1 : 0;
+  link.laser_enabled = laser_enabled() ? 1 : 0;
   link.time_offset_us = downlink_.time_offset_us();
   std::uint8_t packet[kMaxLinkReportBytes];
   downlink_.send({packet, encode_link(link, downlink_.next_header(kHousekeepingReport, now_us), Bytes(packet))});
@@ -164,6 +164,7 @@ void Component::send_events() {
   reset_due_ = reset_asked_;
   for (const EventRecord& event : events_.records()) {
     log_.note(event);
+    if (!event.told) continue;
     std::uint8_t packet[kMaxEventPacketBytes];
     const PacketHeader header = downlink_.next_header({kServiceEvent, static_cast<std::uint8_t>(event.severity)}, event.t_us);
     downlink_.send({packet, encode_event(event, header, Bytes(packet))});

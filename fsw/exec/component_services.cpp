@@ -92,7 +92,7 @@ ServiceRefusal Component::arm(const CommandName& name) {
 ServiceRefusal Component::enable_laser() {
   if (track_.mode == TrackingMode::kSafe || safe_requested()) return ServiceRefusal::kModeSafe;
   acquisition_.permit_laser(true);
-  laser_enabled_ = true;
+  laser_.set(1);
   events_.raise<EventId::kLaserEnabled>();
   return ServiceRefusal::kNone;
 }
@@ -101,8 +101,14 @@ ServiceRefusal Component::enable_laser() {
 void Component::inhibit_laser() {
   arming_.disarm();
   acquisition_.permit_laser(false);
-  if (laser_enabled_) events_.raise<EventId::kLaserInhibited>();
-  laser_enabled_ = false;
+  if (laser_enabled()) events_.raise<EventId::kLaserInhibited>();
+  laser_.set(0);
+}
+
+// What no two copies say is no permission.
+bool Component::laser_enabled() const {
+  std::uint8_t enabled = 0;
+  return laser_.get(enabled) && enabled != 0;
 }
 
 // The laser goes out now, and whatever the board takes to restart.

@@ -16,7 +16,7 @@ constexpr FaultRow kTable[] = {
   {F::kSensorSaturated,   2,  5, R::kReport},
   {F::kScanIncomplete,    1,  5, R::kReport},
   {F::kEstimateOverrun,   1,  5, R::kReport},
-  {F::kSlotSlip,          1,  5, R::kReport},
+  {F::kSlotSlip,          1, 250, R::kReport},  // a processor that is now and then late is told once
   {F::kTimeJump,          1,  1, R::kReacquire},
   {F::kImplausiblePose,   1,  5, R::kReport},
   {F::kFilterDivergence,  3,  5, R::kReacquire},
@@ -31,6 +31,7 @@ constexpr FaultRow kTable[] = {
   {F::kMemoryHigh,        1, 25, R::kReport},
   {F::kWatchdogReset,     1,  0, R::kMakeSafe},
   {F::kSelfTestFailed,    1,  0, R::kMakeSafe},
+  {F::kLaserCorrupt,      1,  1, R::kReport},
 };
 // clang-format on
 static_assert(sizeof(kTable) / sizeof(kTable[0]) == kFaults, "a row a fault");

@@ -31,8 +31,9 @@ enum class Fault : std::uint8_t {
   kMemoryHigh = 19,
   kWatchdogReset = 20,
   kSelfTestFailed = 21,
+  kLaserCorrupt = 22,
 };
-constexpr std::size_t kFaults = 22;
+constexpr std::size_t kFaults = 23;
 
 // In the order of their weight: of several, the heaviest is carried out.
 enum class FaultReaction : std::uint8_t {

@@ -58,11 +58,12 @@ void write_value(WireType type, const EventValue& value, ByteWriter& out) {
 
 void EventLog::record(EventId id, Span<const EventValue> values) {
   State& state = Span<State>(states_)[static_cast<std::size_t>(id)];
-  if (state.disabled || !admit(id, state)) return;
+  if (!admit(id, state)) return;
   const FlightRow& row = flight_row(id);
   EventRecord event;
   event.id = id;
   event.severity = row.severity;
+  event.told = !state.disabled;
   event.t_us = now_us_;
   ByteWriter writer{Bytes(event.items)};
   for (std::size_t i = 0; i < values.size(); ++i) write_value(Span<const WireType>(row.types)[i], values[i], writer);
@@ -106,7 +107,7 @@ void EventLog::pass_boundary() {
     if (state.frames_left == 0) continue;
     --state.frames_left;
     if (state.frames_left > 0 || state.suppressed == 0) continue;
-    raise<EventId::kEventsSuppressed>(i, state.suppressed);
+    if (!state.disabled) raise<EventId::kEventsSuppressed>(i, state.suppressed);
     state.suppressed = 0;
   }
   if (dropped_ != dropped_told_) raise<EventId::kEventsDropped>(dropped_);

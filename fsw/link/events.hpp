@@ -76,6 +76,7 @@ struct EventRecord {
   EventId id = EventId::kNone;
   Severity severity = Severity::kNone;
   std::uint8_t size = 0;  // of `items`
+  bool told = true;       // false: it is disabled, and for the stored log alone
   TimeUs t_us = 0;
   std::uint8_t items[kMaxEventBytes] = {};
 };

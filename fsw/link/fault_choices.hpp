@@ -30,6 +30,7 @@ inline constexpr Choice kFaultTexts[] = {
   {"memory_high", "more than nine tenths of the telemetry queue were full at a boundary", "look at the link; raise its rate or ask for less"},
   {"watchdog_reset", "the component starts after its watchdog", "look at the events before the reset; then command standby"},
   {"self_test_failed", "a self-test at the start failed", "see failed_tests; do not trust its poses"},
+  {"laser_corrupt", "a copy of the laser's permission differed from two others, and is repaired; where all differ the laser is inhibited", "none if it is rare: a flipped bit"},
 };
 inline constexpr Choice kFaultReactions[] = {
   {"report", "it is told; what belongs to it was done where it was seen"},

@@ -105,7 +105,8 @@ DocumentSection event_section() {
       {"Service 5 tells what happened: at the end of its frame, with the time at which it happened. The subservice is the severity: 1 "
        "informative, 2 low (the component deals with it), 3 medium (it costs poses), 4 high (somebody is needed). The source data begin "
        "with the number of the event, 2 bytes.",
-       format("Each event can be disabled and enabled. One that would fill the link is told so many times in so many frames; how often it "
+       format("Each event can be disabled and enabled; the log that survives a restart keeps it all the same. One that would fill the link "
+              "is told so many times in so many frames; how often it "
               "was not told follows as `events_suppressed`. A frame holds %zu events; `events_dropped` counts the others.",
               kMaxEventsPerFrame)},
       {{"number", "name", "severity", "told", "meaning", "cause", "action"}, {}}};

@@ -308,6 +308,12 @@ TEST_F(TrackedComponent, ALateSlotIsNoJump) {
   scene.component->run_slot(slot_us + 30'000);
   story.run(scene, 2);
   EXPECT_TRUE(scene.component->faults().ever().has(Fault::kSlotSlip));
+  const std::uint32_t confirmations = scene.component->faults().confirmations();
+  for (int late = 0; late < 5; ++late) {
+    story.run(scene, 20);
+    scene.component->run_slot(scene.component->next_slot_us() + 30'000);
+  }
+  EXPECT_EQ(scene.component->faults().confirmations(), confirmations) << "a processor that is late now and then is told once";
   EXPECT_FALSE(scene.component->faults().ever().has(Fault::kTimeJump));
 }
 

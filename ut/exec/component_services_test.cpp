@@ -47,6 +47,44 @@ TEST(ComponentServices, TheLaserIsInhibitedUntilItIsArmedAndEnabled) {
   EXPECT_EQ(refusal_of(link.answers()), number(ServiceRefusal::kNotArmed)) << "an arm serves once";
 }
 
+// Where in a component's memory the permission lies in its copies: the last place that says so, behind the mode, which may be 1, too.
+std::uint32_t* copies_of_permission(Component& component) {
+  constexpr std::uint32_t kCopies[] = {1, ~1u, 1};
+  auto* words = reinterpret_cast<std::uint32_t*>(&component);
+  auto* end = words + sizeof(Component) / sizeof(std::uint32_t);
+  auto* found = std::find_end(words, end, kCopies, kCopies + 3);
+  EXPECT_NE(found, end);
+  return found;
+}
+
+TEST(ComponentServices, AFlippedBitOfTheLasersPermissionIsOutvotedToldAndRepaired) {
+  VERIFIES("LASSO-HLT-013~1");
+  Link link;
+  link.send(test::arm(CommandKind::kEnableLaser, 1));
+  link.send(test::plain_packet(CommandKind::kEnableLaser, 2));
+  link.run_frame();
+  std::uint32_t* const copies = copies_of_permission(*link.scene.component);
+  for (std::size_t bit = 0; bit < 96; bit += 13) {  // as many as a window of the event tells
+    copies[bit / 32] ^= 1u << bit % 32;
+    EXPECT_TRUE(told(link.run_frame(), EventId::kFaultConfirmed)) << bit;
+    EXPECT_TRUE(link.scene.component->faults().active().has(Fault::kLaserCorrupt));
+    EXPECT_EQ(copies[0], 1u);
+    EXPECT_EQ(copies[1], ~1u);
+    EXPECT_EQ(copies[2], 1u);
+    EXPECT_TRUE(link.scene.sensor.laser_permitted);
+    link.run_frame();
+    EXPECT_TRUE(link.scene.component->faults().active().empty()) << "repaired";
+  }
+  copies[0] = 0;
+  copies[1] = 5;
+  link.run_frame();
+  EXPECT_FALSE(link.scene.sensor.laser_permitted) << "no two agree";
+  EXPECT_EQ(copies[0], 0u);
+  link.send(test::arm(CommandKind::kEnableLaser, 3));
+  link.send(test::plain_packet(CommandKind::kEnableLaser, 4));
+  EXPECT_TRUE(told(link.run_frame(), EventId::kLaserEnabled)) << "an operator has to permit it again";
+}
+
 TEST(ComponentServices, ModeSafeKeepsTheLaserDark) {
   VERIFIES("LASSO-HLT-002~1 LASSO-LNK-017~1");
   Link link;

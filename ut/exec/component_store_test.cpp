@@ -80,6 +80,17 @@ class ComponentStore : public ::testing::Test {
   std::vector<StoredEventTelemetry> stored_;
 };
 
+TEST_F(ComponentStore, WhatAnOperatorDoesNotWantToBeToldIsKeptAllTheSame) {
+  VERIFIES("LASSO-HLT-005~1");
+  const auto event = static_cast<std::uint16_t>(EventId::kParameterChanged);
+  ASSERT_EQ(send(test::disable_event(event, next())), ServiceRefusal::kNone);
+  ASSERT_EQ(send(test::set_parameter(coast_, 33, next())), ServiceRefusal::kNone);
+  run(2);
+  EXPECT_FALSE(told(EventId::kParameterChanged));
+  ASSERT_EQ(report_stored(0, 8), ServiceRefusal::kNone);
+  EXPECT_TRUE(std::any_of(stored_.begin(), stored_.end(), [&](const auto& stored) { return stored.event == event; }));
+}
+
 TEST_F(ComponentStore, ParametersAreSavedAndHoldAgainAfterARestart) {
   VERIFIES("LASSO-IMG-019~1 LASSO-IMG-015~1");
   const double before = coast_frames();
