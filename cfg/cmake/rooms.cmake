@@ -174,7 +174,7 @@ function(lasso_tests)
     target_compile_options(ut_dense PRIVATE -fno-sanitize=all)
   endif()
   target_compile_features(ut_dense PUBLIC cxx_std_17)
-  add_library(ut_box_image STATIC ut/support/box_image.cpp)  # a flight image for the rooms' tests, made without the mission compiler
+  add_library(ut_box_image STATIC ut/support/box_image.cpp ut/support/box_search_tables.cpp)  # a flight image for the rooms' tests, made without the mission compiler
   target_link_libraries(ut_box_image PRIVATE lasso_warnings lasso_test_leave PUBLIC fsw_mission)
   target_compile_features(ut_box_image PUBLIC cxx_std_17)
   add_custom_target(flight_tests)  # what coverage is measured by: ctest -L flight

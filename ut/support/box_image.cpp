@@ -6,15 +6,12 @@
 #include "fsw/core/byte_codec.hpp"
 #include "fsw/core/crc.hpp"
 #include "fsw/mission/image_format.hpp"
+#include "ut/support/box_tables.hpp"
 
 namespace lasso::test {
 namespace {
 
-constexpr int kBits = 24;
 constexpr double kNearBandCells = 5;
-
-std::uint32_t length(double m) { return static_cast<std::uint32_t>(static_cast<std::int32_t>(m * (1 << kBits) + (m < 0 ? -0.5 : 0.5))); }
-std::uint32_t unit(double x) { return static_cast<std::uint32_t>(static_cast<std::int32_t>(x * (1 << 30))); }
 
 struct Grid {
   Vec3 origin;
@@ -24,61 +21,6 @@ struct Grid {
     return origin + 8 * cell * (Vec3(x, y, z) + Vec3::Constant(0.5));
   }
 };
-
-// Face f of all: box f / 6, axis f % 6 / 2, side f % 2 (0 low, 1 high).
-struct Face {
-  const BoxModel& box;
-  int axis;
-  double sign;
-  double place;
-};
-int face_count(const Boxes& boxes) { return 6 * static_cast<int>(boxes.size()); }
-Face face_of(const Boxes& boxes, int f) {
-  const BoxModel& box = boxes[static_cast<std::size_t>(f / 6)];
-  const int axis = f % 6 / 2;
-  const double sign = f % 2 == 0 ? -1 : 1;
-  return {box, axis, sign, box.center[axis] + sign * box.half[axis]};
-}
-double low(const BoxModel& m, int axis) { return m.center[axis] - m.half[axis]; }
-double high(const BoxModel& m, int axis) { return m.center[axis] + m.half[axis]; }
-
-// The smallest box around all of them, with the first one's cells.
-BoxModel bounds_of(const Boxes& boxes) {
-  BoxModel bounds = boxes[0];
-  if (boxes.size() == 1) return bounds;
-  for (int i = 0; i < 3; ++i) {
-    double from = low(bounds, i);
-    double to = high(bounds, i);
-    for (const BoxModel& box : boxes) {
-      from = std::min(from, low(box, i));
-      to = std::max(to, high(box, i));
-    }
-    bounds.center[i] = (from + to) / 2;
-    bounds.half[i] = (to - from) / 2;
-  }
-  return bounds;
-}
-
-Vec3 closest_on_face(const Face& face, const Vec3& p) {
-  Vec3 q;
-  for (int i = 0; i < 3; ++i) q[i] = i == face.axis ? face.place : std::clamp(p[i], low(face.box, i), high(face.box, i));
-  return q;
-}
-
-bool opposed(const Face& a, const Face& b) { return a.axis == b.axis && a.sign != b.sign; }
-
-int closest_face(const Boxes& boxes, const Vec3& p, int opposing_to, double limit) {
-  int best = -1;
-  for (int f = 0; f < face_count(boxes); ++f) {
-    if (opposing_to >= 0 && !opposed(face_of(boxes, f), face_of(boxes, opposing_to))) continue;
-    const double distance = (closest_on_face(face_of(boxes, f), p) - p).norm();
-    if (distance < limit) {
-      limit = distance;
-      best = f;
-    }
-  }
-  return best;
-}
 
 bool face_crosses(const Face& face, const Vec3& center, double reach) {
   for (int i = 0; i < 3; ++i) {
@@ -228,99 +170,6 @@ Words hull_words(const Boxes& boxes) {
     for (int k = 0; k < 8; ++k) {
       for (int i = 0; i < 3; ++i) words.push_back(length((k >> i & 1) == 0 ? low(box, i) : high(box, i)));
     }
-  }
-  return words;
-}
-
-constexpr std::uint32_t kSearchCells[3] = {28, 24, 20};  // fewer where the box is smaller would do, too
-constexpr int kViews = 162;
-constexpr int kViewRays = 8;  // each way: every test that loads an image pays for them
-
-double size_of(const BoxModel& bounds) { return 2 * bounds.half.maxCoeff(); }
-double search_cell(const BoxModel& bounds) { return size_of(bounds) / 20; }
-Vec3 search_origin(const BoxModel& bounds) {
-  return bounds.center - search_cell(bounds) / 2 * Vec3(kSearchCells[0], kSearchCells[1], kSearchCells[2]);
-}
-
-Words search_grid_words(const BoxModel& bounds) {
-  const Vec3 origin = search_origin(bounds);
-  const double size = size_of(bounds);
-  return {length(origin[0]), length(origin[1]), length(origin[2]), length(search_cell(bounds)), kSearchCells[0], kSearchCells[1],
-          kSearchCells[2],   length(size / 10), length(size)};
-}
-
-Words distance_words(const Boxes& boxes, const BoxModel& bounds) {
-  Words words;
-  std::uint32_t word = 0;
-  for (std::uint32_t i = 0; i < kSearchCells[0] * kSearchCells[1] * kSearchCells[2]; ++i) {
-    const Vec3 place(i % kSearchCells[0], i / kSearchCells[0] % kSearchCells[1], i / kSearchCells[0] / kSearchCells[1]);
-    const Vec3 center = search_origin(bounds) + search_cell(bounds) * (place + Vec3::Constant(0.5));
-    const double distance = (closest_on_face(face_of(boxes, closest_face(boxes, center, -1, 1e9)), center) - center).norm();
-    word = word << 8 | static_cast<std::uint32_t>(255 * std::min(distance / (size_of(bounds) / 10), 1.0) + 0.5);
-    if (i % 4 == 3) words.push_back(word);
-  }
-  return words;
-}
-
-struct SeenBoxes {
-  Vec3 middle = Vec3::Zero();
-  double median = 0;  // of the depth, from the middle
-};
-
-// What rays in a square around the model meet: parallel ones, or from `eye` sizes before its middle.
-SeenBoxes seen_from(const Boxes& boxes, const BoxModel& bounds, const Vec3& direction, double eye) {
-  const Vec3 right = direction.unitOrthogonal();
-  const double radius = bounds.half.norm();
-  SeenBoxes seen;
-  std::vector<std::pair<double, double>> depths;
-  double weights = 1e-9;
-  for (int i = 0; i < kViewRays * kViewRays; ++i) {
-    const double x = (2.0 * (i % kViewRays) + 1) / kViewRays - 1;
-    const double y = (2.0 * (i / kViewRays) + 1) / kViewRays - 1;
-    const Vec3 across = bounds.center + 1.4 * radius * (x * right + y * direction.cross(right));
-    const Vec3 from = eye > 0 ? Vec3(bounds.center + eye * size_of(bounds) * direction) : Vec3(across + 2 * radius * direction);
-    const Vec3 u = (across - from).normalized();
-    const double range = cast_boxes(boxes, from, u);
-    if (range < 0) continue;
-    const double weight = eye > 0 ? range * range : 1;
-    const Vec3 point = from + range * u;
-    seen.middle += weight * point;
-    depths.emplace_back(-direction.dot(point), weight);
-    weights += weight;
-  }
-  seen.middle /= weights;
-  std::sort(depths.begin(), depths.end());
-  double below = 0;
-  for (const auto& [depth, weight] : depths) {
-    if (2 * below < weights) seen.median = depth + direction.dot(seen.middle);
-    below += weight;
-  }
-  return seen;
-}
-
-Words view_words(const Boxes& boxes, const BoxModel& bounds) {
-  Words words;
-  for (int k = 0; k < kViews; ++k) {
-    const double z = 1 - (2.0 * k + 1) / kViews;
-    const double turn = 2.399963229728653 * k;
-    const Vec3 direction(std::sqrt(1 - z * z) * std::cos(turn), std::sqrt(1 - z * z) * std::sin(turn), z);
-    for (int i = 0; i < 3; ++i) words.push_back(unit(direction[i]));
-    const SeenBoxes afar = seen_from(boxes, bounds, direction, 0);
-    const SeenBoxes near = seen_from(boxes, bounds, direction, static_cast<double>(kNearView));
-    for (const SeenBoxes* seen : {&afar, &near}) {
-      for (int i = 0; i < 3; ++i) words.push_back(length(seen->middle[i]));
-    }
-    for (const SeenBoxes* seen : {&afar, &near}) words.push_back(length(seen->median));
-  }
-  return words;
-}
-
-// Half turns about the first box's axes.
-Words symmetry_words(const BoxModel& box) {
-  Words words;
-  for (int axis = 0; axis < 3; ++axis) {
-    for (int i = 0; i < 4; ++i) words.push_back(unit(i == axis ? 1 : 0));
-    for (int i = 0; i < 3; ++i) words.push_back(length(i == axis ? 0 : 2 * box.center[i]));
   }
   return words;
 }
