@@ -37,10 +37,13 @@ std::string unit_set(const ItemRow& row) {
 enum class Kind { kParameter, kArgument };
 const char* word(Kind kind) { return kind == Kind::kParameter ? "Parameter" : "Argument"; }
 
+// A range of integers has bounds without an exponent.
+std::string bound(const ItemRow& row, double value) { return is_real(row.type) ? number(value) : format("%.0f", value); }
+
 std::string valid_range(const ItemRow& row, Kind kind) {
   std::string bounds;
-  if (!std::isinf(row.range.minimum)) bounds += attribute("minInclusive", number(row.range.minimum));
-  if (!std::isinf(row.range.maximum)) bounds += attribute("maxInclusive", number(row.range.maximum));
+  if (!std::isinf(row.range.minimum)) bounds += attribute("minInclusive", bound(row, row.range.minimum));
+  if (!std::isinf(row.range.maximum)) bounds += attribute("maxInclusive", bound(row, row.range.maximum));
   if (bounds.empty()) return "";
   const std::string range = "<ValidRange" + bounds + "/>";
   return kind == Kind::kParameter ? range : "<ValidRangeSet>" + range + "</ValidRangeSet>";
@@ -215,9 +218,7 @@ std::string command_entries(const PacketRow& packet) {
   std::string text = packet.numbered ? fixed_value("number", packet.number, 16) : "";
   for (const ItemRow& row : packet.items) {
     const std::string name = full_name(packet, row);
-    text += row.count == 1
-                ? argument_entry(name)
-                : "<ArrayArgumentRefEntry" + attribute("argumentRef", name) + ">" + dimensions(row) + "</ArrayArgumentRefEntry>\n";
+    text += row.count == 1 ? argument_entry(name) : "<ArrayArgumentRefEntry" + attribute("argumentRef", name) + "/>\n";
   }
   return text + fixed_value("crc", 0, 16);
 }
