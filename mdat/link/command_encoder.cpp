@@ -7,6 +7,7 @@
 #include "fsw/mission/parameters.hpp"
 #include "mdat/common/errors.hpp"
 #include "mdat/common/text.hpp"
+#include "mdat/link/decode.hpp"
 #include "mdat/link/number.hpp"
 #include "mdat/link/page.hpp"
 
@@ -102,9 +103,17 @@ void begin(const PacketRow& row, std::uint16_t count, ByteWriter& writer) {
   if (row.numbered) writer.u16(row.number);
 }
 
-std::vector<std::uint8_t> finish(ByteWriter& writer, std::vector<std::uint8_t>& packet) {
+void finish(ByteWriter& writer, std::vector<std::uint8_t>& packet) {
   packet.resize(finish_packet(writer, Bytes(packet.data(), packet.size())));
-  return packet;
+}
+
+void check_alone(const PacketRow& row, const std::vector<std::uint8_t>& packet) {
+  const HeldCommand held = held_command(ConstBytes(packet.data() + 1, packet.size() - 1));
+  if (held.name == nullptr) return;
+  throw InputError(
+      format("%s: holds another command (%s) at its byte %zu: were it damaged on its way, the component would carry that out. "
+             "Send the data in other parts",
+             row.name, held.name, held.offset + 1));
 }
 
 }  // namespace
@@ -127,6 +136,12 @@ std::pair<std::string, std::string> split_argument(const std::string& argument) 
   return {argument.substr(0, equals), argument.substr(equals + 1)};
 }
 
+HeldCommand held_command(ConstBytes bytes) {
+  const DecodedStream found = decode_stream(bytes, PacketType::kCommand);
+  if (found.packets.empty()) return {};
+  return {found.packets.front().name(), found.packets.front().offset};
+}
+
 std::vector<std::uint8_t> encode_command(const PacketRow& row, const std::map<std::string, std::string>& values, std::uint16_t count) {
   for (const auto& [name, value] : values) {
     const auto is_it = [&](const ItemRow& item) { return name == item.name; };
@@ -141,7 +156,9 @@ std::vector<std::uint8_t> encode_command(const PacketRow& row, const std::map<st
     if (value == values.end()) throw InputError(of(row, item) + " is missing\n" + command_help(row));
     write_item(row, item, value->second, writer);
   }
-  return finish(writer, packet);
+  finish(writer, packet);
+  check_alone(row, packet);
+  return packet;
 }
 
 std::vector<std::uint8_t> arm_for(const PacketRow& row, std::uint16_t count) {

@@ -182,16 +182,15 @@ class Upload {
   Station station_;  // last: its listener uses all of the above
 };
 
-// A load that is damaged on a stream of bytes is looked through for packets: a command that it carries would be carried out.
+// Before anything is sent.
 void check_blocks(const std::vector<std::uint8_t>& image) {
   for (std::size_t offset = 0; offset < image.size(); offset += kMemoryBlockBytes) {
-    const ConstBytes block(image.data() + offset, std::min(kMemoryBlockBytes, image.size() - offset));
-    const DecodedStream found = decode_stream(block, PacketType::kCommand);
-    if (found.packets.empty()) continue;
+    const HeldCommand held = held_command({image.data() + offset, std::min(kMemoryBlockBytes, image.size() - offset)});
+    if (held.name == nullptr) continue;
     throw InputError(
         format("the image holds a command (%s) at byte %zu: were that block damaged on its way, the component would carry it "
                "out. A mission with another version or cell size has other bytes there",
-               found.packets.front().name(), offset + found.packets.front().offset));
+               held.name, offset + held.offset));
   }
 }
 

@@ -107,5 +107,25 @@ TEST(CommandEncoder, HelpNamesEveryItemAndChoice) {
   EXPECT_NE(help.find("reacquiring"), std::string::npos);
 }
 
+// A load with a command at a place of its data; one of its bits is wrong, or none.
+std::map<std::string, std::string> load_with_command_at(std::size_t place, std::uint8_t wrong = 0) {
+  Bytes8 data(kMemoryBlockBytes, 0x18);
+  Bytes8 held = encode_command(command_row("enable_laser"), {}, 3);
+  held.back() ^= wrong;
+  std::copy(held.begin(), held.end(), data.begin() + static_cast<std::ptrdiff_t>(place));
+  std::string text;
+  for (const std::uint8_t byte : data) text += (text.empty() ? "" : ",") + std::to_string(byte);
+  return {{"area", "other_image"}, {"offset", "0"}, {"bytes", std::to_string(kMemoryBlockBytes)}, {"data", text}};
+}
+
+TEST(CommandEncoder, ACommandThatHoldsAnotherIsRefused) {
+  VERIFIES("LASSO-LNK-038~2");
+  for (const std::size_t place : {0U, 1U, 50U, 113U}) {
+    const std::string said = refusal_of("load_memory", load_with_command_at(place));
+    EXPECT_NE(said.find("load_memory: holds another command (enable_laser)"), std::string::npos) << place << said;
+  }
+  EXPECT_EQ(refusal_of("load_memory", load_with_command_at(50, 1)), "");
+}
+
 }  // namespace
 }  // namespace lasso::mdat

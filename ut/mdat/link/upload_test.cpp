@@ -35,7 +35,7 @@ std::string said_of_command_at(std::size_t place) {
 }
 
 TEST(Upload, RefusesAnImageOfWhichABlockHoldsACommand) {
-  VERIFIES("LASSO-LNK-038~1");
+  VERIFIES("LASSO-LNK-038~2");
   const std::size_t block = kMemoryBlockBytes;
   for (const std::size_t place : {std::size_t{0}, block - 13, block, 3 * block + 7}) {
     const std::string said = said_of_command_at(place);
