@@ -121,6 +121,7 @@ void Component::run_task(TaskId task, TimeUs now_us) {
   if (task == TaskId::kTendMemory) return tend_memory();
   check_mode();
   check_laser();
+  seen_.add(Fault::kImageCorrupt, !images_.keep_selection());
   publish_estimate(now_us);
   feed_watchdog();
   pass_link_boundary(now_us);

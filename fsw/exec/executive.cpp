@@ -19,14 +19,14 @@ Span<const SlotRow> slot_table() { return Span<const SlotRow>(kSlotTable); }
 bool is_due(const SlotRow& row, std::uint32_t slot) { return slot % row.period_slots == row.offset_slot; }
 
 Status Executive::begin(TimeUs boundary_0_us, DurationUs period_us) {
-  if (period_us < static_cast<DurationUs>(kSlotsPerFrame)) return Status::kBadValue;
+  if (period_us < static_cast<DurationUs>(kSlotsPerFrame) || period_us > kLongestFrame_us) return Status::kBadValue;
   boundary_us_ = boundary_0_us;
-  period_us_ = period_us;
+  period_us_.set(static_cast<std::uint32_t>(period_us));
   return Status::kOk;
 }
 
 TimeUs Executive::next_slot_us() const {
-  return boundary_us_ + period_us_ * static_cast<DurationUs>(slot_) / static_cast<DurationUs>(kSlotsPerFrame);
+  return boundary_us_ + period_us() * static_cast<DurationUs>(slot_) / static_cast<DurationUs>(kSlotsPerFrame);
 }
 
 bool Executive::jumped(TimeUs now_us) const {
@@ -44,14 +44,15 @@ DurationUs Executive::follow_jump(TimeUs now_us) {
 void Executive::note_start(TimeUs now_us) {
   const DurationUs late_us = now_us - next_slot_us();
   if (late_us > worst_lateness_us_) worst_lateness_us_ = late_us;
-  if (late_us > period_us_ / static_cast<DurationUs>(kSlotsPerFrame)) ++slips_;
+  if (late_us > slot_us()) ++slips_;
 }
 
 void Executive::advance() {
   if (++slot_ < kSlotsPerFrame) return;
   slot_ = 0;
   ++frame_;
-  boundary_us_ += period_us_;
+  boundary_us_ += period_us();
+  period_us_.set(static_cast<std::uint32_t>(period_us()));  // a copy that differed
 }
 
 }  // namespace lasso

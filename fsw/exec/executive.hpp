@@ -7,10 +7,12 @@
 #include "fsw/core/span.hpp"
 #include "fsw/core/status.hpp"
 #include "fsw/core/time.hpp"
+#include "fsw/core/voted.hpp"
 
 namespace lasso {
 
 constexpr std::uint32_t kSlotsPerFrame = 20;
+constexpr DurationUs kLongestFrame_us = 4'000'000'000;
 constexpr DurationUs kJumpUs = 10'000'000;  // less is lateness, which frames make up for
 
 enum class TaskId : std::uint8_t { kPollSensor = 0, kPassBoundary = 1, kTendMemory = 2 };
@@ -28,14 +30,14 @@ bool is_due(const SlotRow& row, std::uint32_t slot);
 
 class Executive {
  public:
-  // kBadValue unless every slot lasts at least 1 us.
+  // kBadValue unless every slot lasts at least 1 us, and the frame at most kLongestFrame_us.
   Status begin(TimeUs boundary_0_us, DurationUs period_us);
-  bool begun() const { return period_us_ > 0; }
-  DurationUs slot_us() const { return period_us_ / static_cast<DurationUs>(kSlotsPerFrame); }
+  bool begun() const { return period_us() > 0; }
+  DurationUs slot_us() const { return period_us() / static_cast<DurationUs>(kSlotsPerFrame); }
 
   // Slot j of frame k begins at boundary_0 + k * period + j * period / kSlotsPerFrame, rounded down.
   TimeUs next_slot_us() const;
-  TimeUs next_boundary_us() const { return slot_ == 0 ? boundary_us_ : boundary_us_ + period_us_; }
+  TimeUs next_boundary_us() const { return slot_ == 0 ? boundary_us_ : boundary_us_ + period_us(); }
   std::uint32_t next_slot() const { return slot_; }  // 0: a boundary
   std::uint32_t frame() const { return frame_; }     // of the next slot; wraps
 
@@ -52,8 +54,15 @@ class Executive {
   DurationUs worst_lateness_us() const { return worst_lateness_us_; }
 
  private:
+  // 0, and nothing runs any more, where no two copies agree.
+  DurationUs period_us() const {
+    std::uint32_t period_us = 0;
+    static_cast<void>(period_us_.get(period_us));
+    return period_us;
+  }
+
   TimeUs boundary_us_ = 0;
-  DurationUs period_us_ = 0;
+  Voted<std::uint32_t> period_us_{0};  // slots, scrub and watchdog go by it
   std::uint32_t frame_ = 0;
   std::uint32_t slot_ = 0;
   std::uint32_t slips_ = 0;

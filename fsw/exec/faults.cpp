@@ -53,7 +53,7 @@ FaultChanges FaultMonitor::step(const FaultSet& seen) {
     const bool active = active_.has(row.fault);
     frames = seen.has(row.fault) != active ? static_cast<std::uint8_t>(frames + 1) : std::uint8_t{0};
     const std::uint8_t enough = active ? row.clear_frames : row.confirm_frames;
-    if (frames == 0 || frames != enough) continue;
+    if (enough == 0 || frames < enough) continue;  // a flipped bit of the count does not put the fault off
     frames = 0;
     if (active) clear(row, changes);
     if (!active) confirm(row, changes);

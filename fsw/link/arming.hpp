@@ -34,8 +34,8 @@ class Arming {
   // A frame ends. True: what was armed has just expired.
   bool pass_boundary();
 
-  bool armed() const { return frames_left_ > 0; }
-  const CommandName& name() const { return name_; }  // of what was armed last
+  bool armed() const { return frames_left_ - 1U < kArmFrames; }  // more are a flipped bit, and arm nothing
+  const CommandName& name() const { return name_; }              // of what was armed last
 
  private:
   CommandName name_;

@@ -74,7 +74,7 @@ void EventLog::record(EventId id, Span<const EventValue> values) {
 bool EventLog::admit(EventId id, State& state) {
   const Throttle throttle = flight_row(id).throttle;
   if (throttle.most == 0) return true;
-  if (state.frames_left == 0) {
+  if (state.frames_left == 0 || state.frames_left > throttle.frames) {  // more are a flipped bit
     state.frames_left = throttle.frames;
     state.told = 0;
   }

@@ -21,7 +21,7 @@ inline constexpr Choice kFaultTexts[] = {
   {"filter_divergence", "the filter excludes what scan after scan says, or has numbers that are none", "none: the track starts anew near the prediction"},
   {"mode_corrupt", "a copy of the mode differed from two others, or from the step that led to it; repaired", "none if it is rare: a flipped bit"},
   {"mode_lost", "no two copies of the mode agreed", "command standby, then start again"},
-  {"image_corrupt", "the mission image in memory differed from its check sum; repaired", "none if it is rare: a flipped bit"},
+  {"image_corrupt", "the mission image in memory differed from its check sum, or which one is active from its copies; repaired", "none if it is rare: a flipped bit"},
   {"image_lost", "the mission image in memory is corrupt and cannot be repaired", "load it again"},
   {"parameters_corrupt", "a copy of the parameters differed from its check sum; repaired from the other one", "none if it is rare: a flipped bit"},
   {"parameters_lost", "both copies of the parameters are corrupt; the mission image's hold", "set them again"},

@@ -36,7 +36,7 @@ void ImageKeeper::use_parameters(const ParameterArea& changed) {
 
 LoadFailure ImageKeeper::start(Bytes image, std::size_t sensors) {
   started_ = false;  // whatever follows, the image that was loaded before may have been overwritten
-  active_ = image.data() == slots_[1].buffer().data() ? 1 : 0;
+  select(image.data() == slots_[1].buffer().data() ? 1 : 0);
   ImageSlot& slot = slots_[active_];
   if (image.data() != slot.buffer().data() || image.size() > slot.buffer().size()) slot.use(image);
   slot.open(static_cast<std::uint32_t>(image.size()));
@@ -58,7 +58,7 @@ LoadFailure ImageKeeper::start_stored(std::size_t sensors) {
   if (newer == Newer::kNone) return failure(Status::kNoData, "no image in the store");
   const auto first = static_cast<std::size_t>(newer);
   const bool first_right = start_from(first, sensors), second_right = start_from(1 - first, sensors);
-  active_ = first_right ? first : 1 - first;
+  select(first_right ? first : 1 - first);
   started_ = first_right || second_right;
   before_ = first_right && second_right;
   confirmed_ = true;
@@ -125,18 +125,35 @@ ImageRefusal ImageKeeper::begin_check() {
 
 ImageRefusal ImageKeeper::can_activate(std::uint32_t crc) const {
   if (other().state() != ImageState::kReady) return ImageRefusal::kNotReady;
-  const Mission& next = other().view(0).mission;
-  if (next.image_crc != crc) return ImageRefusal::kOtherImage;
-  return fault_of_change(view(0).mission, next) == nullptr ? ImageRefusal::kNone : ImageRefusal::kDoesNotFit;
+  if (other().view(0).mission.image_crc != crc) return ImageRefusal::kOtherImage;
+  return other_fits() ? ImageRefusal::kNone : ImageRefusal::kDoesNotFit;
 }
 
+// The store may hold two images that were never active one after the other.
 ImageRefusal ImageKeeper::can_roll_back() const {
-  return before_ && other().state() == ImageState::kReady ? ImageRefusal::kNone : ImageRefusal::kNotReady;
+  if (!before_ || other().state() != ImageState::kReady) return ImageRefusal::kNotReady;
+  return other_fits() ? ImageRefusal::kNone : ImageRefusal::kDoesNotFit;
+}
+
+bool ImageKeeper::other_fits() const { return fault_of_change(view(0).mission, other().view(0).mission) == nullptr; }
+
+void ImageKeeper::select(std::size_t number) {
+  active_ = number;
+  selected_.set(static_cast<std::uint32_t>(number));
+}
+
+bool ImageKeeper::keep_selection() {
+  auto number = static_cast<std::uint32_t>(active_ % 2);  // where no two copies agree
+  static_cast<void>(selected_.get(number));
+  const bool right = selected_.agreed() && number == active_ && slots_[number].state() == ImageState::kReady;
+  select(number);
+  slots_[number].keep_ready();
+  return right;
 }
 
 void ImageKeeper::swap() {
   invariant(other().state() == ImageState::kReady, "an image that is not ready becomes active");
-  active_ = 1 - active_;
+  select(1 - active_);
   before_ = true;
   confirmed_ = false;
 }

@@ -7,6 +7,7 @@
 #pragma once
 
 #include "fsw/core/time.hpp"
+#include "fsw/core/voted.hpp"
 #include "fsw/mission/image_slot.hpp"
 #include "fsw/mission/load_map.hpp"
 #include "fsw/mission/scrub.hpp"
@@ -79,6 +80,9 @@ class ImageKeeper {
   void swap();
   // The active image has shown its worth: it is the one to start with from now on.
   void confirm();
+  // At a boundary, before anybody uses the active one: which one it is lies in copies, and that it is ready is known. False: a bit of that
+  // was flipped, and is put right.
+  bool keep_selection();
 
   // One slot's share of the work on the other image.
   void step(std::size_t sensors);
@@ -99,6 +103,8 @@ class ImageKeeper {
 
  private:
   static constexpr std::size_t kMaxCodeChunks = 256;
+  void select(std::size_t number);
+  bool other_fits() const;
   ImageSlot& spare() { return slots_[1 - active_]; }
   bool start_from(std::size_t number, std::size_t sensors);
   bool may_store(std::size_t number) const;
@@ -111,6 +117,7 @@ class ImageKeeper {
 
   ImageSlot slots_[2];
   std::size_t active_ = 0;
+  Voted<std::uint32_t> selected_{0};  // the same: a flip must not make the other image the active one, nor keep the scrub off this one
   bool started_ = false;
   bool before_ = false;    // the other image was active before
   bool confirmed_ = true;  // the active image

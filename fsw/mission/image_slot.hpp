@@ -45,6 +45,8 @@ class ImageSlot {
   // All of that at once. Loop bound: the image's words.
   void run(std::size_t sensors);
   void refuse(Status status, const char* what);
+  // It is active, and therefore ready, whatever state() says.
+  void keep_ready() { state_ = ImageState::kReady; }
 
   ImageState state() const { return state_; }
   const LoadFailure& result() const { return result_; }

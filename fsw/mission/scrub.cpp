@@ -8,7 +8,7 @@ namespace lasso {
 bool Scrub::step(const ScrubPlace (&places)[kScrubAreas], std::size_t bytes) {
   std::size_t left = bytes, areas = 0;
   while (left > 0 && areas <= kScrubAreas && !found_) {
-    const ScrubPlace& place = places[area_];
+    const ScrubPlace& place = Span<const ScrubPlace>(places)[area_];
     if (std::size_t{chunk_} * kChunkBytes >= place.bytes.size()) {
       next_area();
       ++areas;

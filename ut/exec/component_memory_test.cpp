@@ -406,6 +406,23 @@ TEST_F(ComponentMemory, AFlipOfThePeriodDoesNotStopTheScrub) {
   EXPECT_EQ(*period, MemoryScene::parameters().period_s);
 }
 
+// The other buffer holds no image that could be flown with.
+TEST_F(ComponentMemory, AFlipOfWhichImageIsActiveIsToldAndPosesGoOn) {
+  VERIFIES("LASSO-HLT-014~1");
+  scene_->begin(first_image());
+  scene_->run_frames(5);
+  constexpr std::uint32_t kCopies[] = {0, ~0u, 0};
+  auto* const words = reinterpret_cast<std::uint32_t*>(const_cast<ImageKeeper*>(&component().images()));
+  auto* const copies = std::search(words, words + sizeof(ImageKeeper) / 4, kCopies, kCopies + 3);
+  ASSERT_NE(copies, words + sizeof(ImageKeeper) / 4);
+  reinterpret_cast<std::size_t*>(copies)[-1] = 1;
+  const std::uint32_t before = component().faults().confirmations();
+  EXPECT_TRUE(all_valid(scene_->run_frames(5)));
+  EXPECT_EQ(component().faults().confirmations(), before + 1);
+  EXPECT_TRUE(component().faults().ever().has(Fault::kImageCorrupt));
+  EXPECT_EQ(component().images().active_number(), 0);
+}
+
 TEST_F(ComponentMemory, AnImageThatCannotBeRepairedMakesSafe) {
   VERIFIES("LASSO-IMG-016~1 LASSO-HLT-002~1");
   scene_->begin(first_image());

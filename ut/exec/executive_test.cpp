@@ -1,5 +1,6 @@
 #include "fsw/exec/executive.hpp"
 
+#include <algorithm>
 #include <vector>
 
 #include "ut/support/verifies.hpp"
@@ -35,8 +36,29 @@ TEST(Executive, RefusesSlotsShorterThanItsClock) {
   Executive executive;
   EXPECT_EQ(executive.begin(0, 19), Status::kBadValue);
   EXPECT_FALSE(executive.begun());
+  EXPECT_EQ(executive.begin(0, kLongestFrame_us + 1), Status::kBadValue);
   EXPECT_EQ(executive.begin(0, 20), Status::kOk);
   EXPECT_TRUE(executive.begun());
+}
+
+TEST(Executive, ItsPeriodSurvivesAFlip) {
+  VERIFIES("LASSO-HLT-014~1");
+  constexpr std::uint32_t kCopies[] = {200003, ~200003u, 200003};
+  Executive executive;
+  ASSERT_EQ(executive.begin(1000, 200003), Status::kOk);
+  auto* const words = reinterpret_cast<std::uint32_t*>(&executive);
+  auto* const copies = std::search(words, words + sizeof executive / 4, kCopies, kCopies + 3);
+  ASSERT_NE(copies, words + sizeof executive / 4);
+  for (std::uint32_t bit = 0; bit < 96; ++bit) {
+    copies[bit / 32] ^= 1u << bit % 32;
+    EXPECT_EQ(executive.slot_us(), 10000) << bit;
+    for (std::uint32_t slot = 0; slot < kSlotsPerFrame; ++slot) executive.advance();
+    EXPECT_EQ(executive.next_slot_us(), 1000 + (bit + 1) * 200003) << bit;
+    EXPECT_TRUE(std::equal(kCopies, kCopies + 3, copies)) << "repaired";
+  }
+  copies[0] = 7;
+  copies[2] = 9;
+  EXPECT_FALSE(executive.begun()) << "no two agree: nothing runs, and the watchdog bites";
 }
 
 TEST(Executive, PollsInEverySlotAndPassesTheBoundaryAfterItsPoll) {

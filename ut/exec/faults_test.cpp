@@ -69,6 +69,20 @@ TEST(FaultMonitor, ExecutesEachRowAsWritten) {
   }
 }
 
+TEST(FaultMonitor, AFlippedBitOfACountDoesNotPutAFaultOff) {
+  VERIFIES("LASSO-HLT-014~1");
+  for (const FaultRow& row : fault_table()) {
+    for (unsigned bit = 0; bit < 8; ++bit) {
+      FaultMonitor monitor;
+      auto* const counts = reinterpret_cast<std::uint8_t*>(&monitor);
+      counts[static_cast<std::size_t>(row.fault)] = static_cast<std::uint8_t>(1u << bit);
+      int frames = 1;
+      while (frames < 10 && monitor.step(only(row.fault)).confirmed.empty()) ++frames;
+      EXPECT_LE(frames, row.confirm_frames) << static_cast<int>(row.fault) << " " << bit;
+    }
+  }
+}
+
 TEST(FaultMonitor, AFrameWithoutTheFaultBeginsTheCountAnew) {
   VERIFIES("LASSO-HLT-001~1");
   FaultMonitor monitor;

@@ -1,5 +1,7 @@
 #include "fsw/link/arming.hpp"
 
+#include <cstring>
+
 #include "ut/support/verifies.hpp"
 
 namespace lasso {
@@ -45,6 +47,20 @@ TEST(Arming, ExpiresAfterItsFrames) {
   EXPECT_FALSE(arming.fire(kLaser, Hazard::kOnce));
   EXPECT_TRUE(arming.name() == kLaser);
   EXPECT_FALSE(arming.pass_boundary());
+}
+
+TEST(Arming, ATimeThatNobodyGaveArmsNothing) {
+  VERIFIES("LASSO-HLT-014~1");
+  Arming arming;
+  arming.arm(kLaser);
+  std::uint32_t left = kArmFrames;
+  auto* const bytes = reinterpret_cast<std::uint8_t*>(&arming) + sizeof(CommandName);
+  ASSERT_EQ(std::memcmp(bytes, &left, sizeof left), 0);
+  left |= 1u << 20;
+  std::memcpy(bytes, &left, sizeof left);
+  EXPECT_FALSE(arming.fire(kLaser, Hazard::kOnce));
+  arming.arm(kLaser);
+  EXPECT_TRUE(arming.fire(kLaser, Hazard::kOnce));
 }
 
 TEST(Arming, ARowOfCommandsRenewsIt) {

@@ -1,5 +1,6 @@
 #include "fsw/link/event_log.hpp"
 
+#include <algorithm>
 #include <map>
 #include <vector>
 
@@ -118,6 +119,26 @@ TEST(EventLog, CountsWhatAFrameDoesNotHold) {
   EXPECT_EQ(items_of(log.records()[0]), (Stream{0, 0, 0, 5}));
   log.pass_boundary();
   EXPECT_TRUE(log.records().empty());
+}
+
+// A window of a length that no row has would keep an event back for hours.
+TEST(EventLog, AFlippedBitOfAWindowSuppressesNothing) {
+  VERIFIES("LASSO-HLT-014~1");
+  EventLog log;
+  auto* const words = reinterpret_cast<std::uint16_t*>(&log);
+  const auto storm = [&] {
+    for (int i = 0; i < 100; ++i) log.raise<EventId::kEstimateLate>(i);
+  };
+  storm();
+  log.pass_boundary();
+  log.pass_boundary();
+  const std::vector<std::uint16_t> before(words, words + sizeof log / 2);
+  log.pass_boundary();
+  const auto window = std::mismatch(before.begin(), before.end(), words).first - before.begin();
+  ASSERT_EQ(words[window], before[static_cast<std::size_t>(window)] - 1) << "the frames that are left";
+  words[window] ^= 0x8000;
+  storm();
+  EXPECT_FALSE(log.records().empty()) << "a new window";
 }
 
 // Nothing is lost without being counted: told, suppressed and dropped make up all that was raised.

@@ -210,6 +210,22 @@ TEST_F(KeeperTest, AnImageBeforeThatHasDecayedIsNotRolledBackTo) {
   EXPECT_EQ(keeper_->can_roll_back(), ImageRefusal::kNotReady);
 }
 
+// The store holds two that were never active one after the other.
+TEST_F(KeeperTest, AnImageOfAnotherPeriodIsNotRolledBackTo) {
+  VERIFIES("LASSO-IMG-016~1");
+  ASSERT_EQ(start().status, Status::kOk);
+  make_ready(new_image());
+  keeper_->swap();
+  keeper_->confirm();
+  restart();
+  ASSERT_EQ(start(image_of(512, 0.4)).status, Status::kOk);
+  restart();
+  ASSERT_EQ(keeper_->start_stored(1).status, Status::kOk);
+  EXPECT_EQ(keeper_->view(0).mission.parameters.period_s, 0.4);
+  EXPECT_EQ(keeper_->other().view(0).mission.parameters.period_s, 0.2);
+  EXPECT_EQ(keeper_->can_roll_back(), ImageRefusal::kDoesNotFit);
+}
+
 TEST_F(KeeperTest, StartsWhereTheImageLies) {
   VERIFIES("LASSO-IMG-011~1");
   TestImage image = old_image();

@@ -1,4 +1,6 @@
 // Loading, checking and changing of images.
+#include <algorithm>
+
 #include "ut/mission/keeper_fixture.hpp"
 
 namespace lasso {
@@ -47,6 +49,52 @@ TEST_F(KeeperTest, TheImageThatIsLoadedIsNotUsedAndTheActiveOneNotTouched) {
   keeper_->swap();
   EXPECT_EQ(points(), 512);
   EXPECT_EQ(active_bytes(), before);
+}
+
+// Where in a keeper's memory lie the copies of which image is active, of which it is the second one; before them, the number itself.
+std::uint32_t* copies_of_selection(ImageKeeper& keeper) {
+  constexpr std::uint32_t kCopies[] = {1, ~1u, 1};
+  auto* words = reinterpret_cast<std::uint32_t*>(&keeper);
+  auto* end = words + sizeof(ImageKeeper) / sizeof(std::uint32_t);
+  auto* found = std::search(words, end, kCopies, kCopies + 3);
+  EXPECT_NE(found, end);
+  return found;
+}
+
+TEST_F(KeeperTest, WhichImageIsActiveSurvivesAFlip) {
+  VERIFIES("LASSO-HLT-014~1");
+  ASSERT_EQ(start().status, Status::kOk);
+  make_ready(new_image());
+  keeper_->swap();
+  EXPECT_TRUE(keeper_->keep_selection());
+  std::uint32_t* const copies = copies_of_selection(*keeper_);
+  auto* const number = reinterpret_cast<std::size_t*>(copies) - 1;
+  for (std::size_t bit = 0; bit < 96; ++bit) {
+    copies[bit / 32] ^= 1u << bit % 32;
+    EXPECT_FALSE(keeper_->keep_selection()) << bit;
+    EXPECT_TRUE(keeper_->keep_selection()) << bit;
+    EXPECT_EQ(points(), 600);
+  }
+  for (std::size_t bit = 0; bit < 8 * sizeof(std::size_t); ++bit) {
+    *number ^= std::size_t{1} << bit;
+    EXPECT_FALSE(keeper_->keep_selection()) << bit;
+    EXPECT_EQ(points(), 600);
+  }
+  copies[0] = 7;
+  copies[2] = 9;
+  EXPECT_FALSE(keeper_->keep_selection()) << "no two agree";
+  EXPECT_EQ(keeper_->active_number(), 1) << "the number itself";
+}
+
+// An image whose state is another one would not be scrubbed any more.
+TEST_F(KeeperTest, TheActiveImageStaysReady) {
+  VERIFIES("LASSO-HLT-014~1");
+  ASSERT_EQ(start().status, Status::kOk);
+  const_cast<ImageSlot&>(keeper_->active()).refuse(Status::kBadCrc, "a flip");
+  EXPECT_TRUE(keeper_->active().sealed_image().empty());
+  EXPECT_FALSE(keeper_->keep_selection());
+  EXPECT_EQ(keeper_->active().sealed_image().size(), old_image().size);
+  EXPECT_TRUE(keeper_->keep_selection());
 }
 
 // Backwards, with a break, some twice.
