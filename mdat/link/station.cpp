@@ -120,7 +120,7 @@ std::size_t Station::unanswered() const {
 
 std::string Station::failure() const {
   for (const auto& [key, answer] : sent_) {
-    if (answer.outcome == Outcome::kFailed || answer.outcome == Outcome::kRepeated) return answer.why;
+    if (answer.outcome == Outcome::kFailed) return answer.why;
   }
   return "";
 }
@@ -156,7 +156,8 @@ void Station::note(const DecodedPacket& packet) {
   if (subservice == kSubserviceCompleted) answer.outcome = Outcome::kDone;
   if (subservice != kSubserviceFailed && subservice != kSubserviceRefused) return;
   const bool repeated = item_value(packet, "fault") == static_cast<double>(PacketFault::kRepeated);
-  answer = {repeated ? Outcome::kRepeated : Outcome::kFailed, reason_of(packet)};
+  const Outcome refused = repeated ? Outcome::kRepeated : Outcome::kRefused;
+  answer = {subservice == kSubserviceFailed ? Outcome::kFailed : refused, reason_of(packet)};
 }
 
 }  // namespace lasso::mdat

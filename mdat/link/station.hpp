@@ -16,7 +16,8 @@
 
 namespace lasso::mdat {
 
-enum class Outcome { kOpen, kDone, kFailed, kRepeated };
+// Refused: it was not looked at, as if it had been lost on the way; repeated: so, for its sequence count.
+enum class Outcome { kOpen, kDone, kFailed, kRefused, kRepeated };
 
 // What became of a command; where it failed, the reason: its name, meaning and remedy.
 struct CommandAnswer {
@@ -46,7 +47,7 @@ class Station {
   void send(const PacketRow& row, const Values& values);
   // Commands that were sent and neither answered nor forgotten.
   std::size_t unanswered() const;
-  // Why one of those that were sent and not waited for failed; empty where none did.
+  // Why one of those that were sent and not waited for failed; empty where none did. One that was refused did not: others overtook it.
   std::string failure() const;
   // Of all that were sent: their answers are of no interest any more.
   void forget() { sent_.clear(); }

@@ -1,0 +1,68 @@
+#include "mdat/link/station.hpp"
+
+#include <gtest/gtest.h>
+
+#include "fsw/core/byte_codec.hpp"
+#include "fsw/link/downlink.hpp"
+#include "fsw/link/link_report.hpp"
+#include "ut/support/verifies.hpp"
+
+namespace lasso::mdat {
+namespace {
+
+// A component that answers each command alike.
+class AlikeLink final : public ByteLink {
+ public:
+  AlikeLink(std::uint8_t subservice, PacketFault fault, std::uint8_t service_refusal)
+      : subservice_(subservice), fault_(fault), service_refusal_(service_refusal) {}
+  bool datagrams() const override { return true; }
+  std::size_t read(Bytes out) override { return downlink_.take(out); }
+  std::size_t write(ConstBytes command) override {
+    ByteReader reader(command);
+    Verification verification;
+    verification.packet_id = reader.u16();
+    verification.sequence_control = reader.u16();
+    verification.fault = static_cast<std::uint8_t>(fault_);
+    verification.service_refusal = service_refusal_;
+    std::uint8_t packet[kMaxLinkReportBytes];
+    const PacketHeader header = downlink_.next_header({kServiceVerification, subservice_}, 0);
+    downlink_.send({packet, encode_verification(verification, header, Bytes(packet))});
+    return command.size();
+  }
+
+ private:
+  std::uint8_t subservice_;
+  PacketFault fault_;
+  std::uint8_t service_refusal_;
+  Downlink downlink_;
+};
+
+// Why sending without waiting failed, by an answer of each kind.
+std::string failure_after(std::uint8_t subservice, PacketFault fault, std::uint8_t service_refusal) {
+  AlikeLink link(subservice, fault, service_refusal);
+  Station station(link, "link", [](const DecodedPacket&) {});
+  station.send(command_row("ping"), {});
+  EXPECT_EQ(station.unanswered(), 1U);
+  EXPECT_TRUE(station.listen(5, [&] { return station.unanswered() == 0; }));
+  return station.failure();
+}
+
+TEST(Station, WhatOthersOvertookIsLostAndHasNotFailed) {
+  VERIFIES("LASSO-IMG-012~1");
+  EXPECT_EQ(failure_after(kSubserviceCompleted, PacketFault::kNone, 0), "");
+  EXPECT_EQ(failure_after(kSubserviceRefused, PacketFault::kRepeated, 0), "");
+  EXPECT_EQ(failure_after(kSubserviceRefused, PacketFault::kNotAuthentic, 0), "");
+  EXPECT_NE(failure_after(kSubserviceFailed, PacketFault::kNone, 1), "");
+}
+
+TEST(Station, ACommandThatIsRefusedIsNotDoneAndSaysWhy) {
+  VERIFIES("LASSO-IMG-012~1");
+  AlikeLink link(kSubserviceRefused, PacketFault::kNotAuthentic, 0);
+  Station station(link, "link", [](const DecodedPacket&) {});
+  const CommandAnswer answer = station.command(command_row("ping"), {}, false, 5);
+  EXPECT_EQ(answer.outcome, Outcome::kRefused);
+  EXPECT_NE(answer.why.find("not_authentic"), std::string::npos) << answer.why;
+}
+
+}  // namespace
+}  // namespace lasso::mdat
