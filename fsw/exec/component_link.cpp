@@ -64,6 +64,7 @@ void Component::answer(ConstBytes packet, TimeUs now_us) {
   if (fault != PacketFault::kNone) return refuse(verification, now_us);
   silent_frames_ = 0;
   if ((command.header.acknowledge & kAcknowledgeAcceptance) != 0) verify(kSubserviceAccepted, verification, now_us);
+  if ((command.header.acknowledge & kAcknowledgeStart) != 0) verify(kSubserviceStarted, verification, now_us);
   carry_out(command, verification, now_us);
   const bool failed = verification.mode_refusal != 0 || verification.start_refusal != 0 || verification.service_refusal != 0;
   if (failed) return fail(command, verification, now_us);

@@ -85,6 +85,8 @@ inline constexpr PacketRow kTelemetry[] = {
    "a command is accepted, if it asks for this report"},
   {"refused", PacketType::kTelemetry, kServiceVerification, kSubserviceRefused, false, 0, Span<const ItemRow>(kRefusedItems.rows),
    "a command is refused: it changes nothing"},
+  {"started", PacketType::kTelemetry, kServiceVerification, kSubserviceStarted, false, 0, Span<const ItemRow>(kDoneItems.rows),
+   "a command that was accepted is begun, if it asks for this report: what it needs is looked at, and it is carried out"},
   {"completed", PacketType::kTelemetry, kServiceVerification, kSubserviceCompleted, false, 0, Span<const ItemRow>(kDoneItems.rows),
    "a command is carried out, if it asks for this report; what concerns modes takes effect at the next boundary"},
   {"failed", PacketType::kTelemetry, kServiceVerification, kSubserviceFailed, false, 0, Span<const ItemRow>(kFailedItems.rows),

@@ -17,8 +17,8 @@ struct MessageType {
 };
 inline constexpr MessageType kHousekeepingReport{kServiceHousekeeping, kSubserviceHousekeepingReport};
 // Every kind of telemetry; the rows of the dictionary are of these.
-inline constexpr MessageType kMessageTypes[] = {{1, 1}, {1, 2}, {1, 7},   {1, 8}, {3, 25}, {5, 1},  {5, 2}, {5, 3},
-                                                {5, 4}, {5, 8}, {5, 129}, {6, 6}, {6, 10}, {17, 2}, {20, 2}};
+inline constexpr MessageType kMessageTypes[] = {{1, 1}, {1, 2}, {1, 3}, {1, 7},   {1, 8}, {3, 25}, {5, 1},  {5, 2},
+                                                {5, 3}, {5, 4}, {5, 8}, {5, 129}, {6, 6}, {6, 10}, {17, 2}, {20, 2}};
 constexpr std::size_t kMessageTypeCount = sizeof(kMessageTypes) / sizeof(kMessageTypes[0]);
 
 class Downlink {

@@ -13,6 +13,7 @@ namespace lasso {
 constexpr std::uint8_t kServiceVerification = 1;
 constexpr std::uint8_t kSubserviceAccepted = 1;
 constexpr std::uint8_t kSubserviceRefused = 2;
+constexpr std::uint8_t kSubserviceStarted = 3;
 constexpr std::uint8_t kSubserviceCompleted = 7;
 constexpr std::uint8_t kSubserviceFailed = 8;
 

@@ -18,6 +18,7 @@ namespace lasso {
 
 constexpr std::size_t kCommandHeaderBytes = 11;
 constexpr std::uint8_t kAcknowledgeAcceptance = 1;
+constexpr std::uint8_t kAcknowledgeStart = 2;
 constexpr std::uint8_t kAcknowledgeCompletion = 8;
 
 struct CommandHeader {

@@ -32,6 +32,7 @@ TEST(LinkReport, VerificationSaysWhichCommandAndWhy) {
   VERIFIES("LASSO-LNK-013~1");
   EXPECT_EQ(data_of(encode(kSubserviceAccepted, kSample)), (Stream{0x1B, 0xD1, 0xC0, 0x07}));
   EXPECT_EQ(data_of(encode(kSubserviceRefused, kSample)), (Stream{0x1B, 0xD1, 0xC0, 0x07, 3}));
+  EXPECT_EQ(data_of(encode(kSubserviceStarted, kSample)), (Stream{0x1B, 0xD1, 0xC0, 0x07}));
   EXPECT_EQ(data_of(encode(kSubserviceCompleted, kSample)), (Stream{0x1B, 0xD1, 0xC0, 0x07}));
   EXPECT_EQ(data_of(encode(kSubserviceFailed, kSample)), (Stream{0x1B, 0xD1, 0xC0, 0x07, 4, 5, 6}));
   EXPECT_EQ(encode(kSubserviceFailed, kSample)[7], kServiceVerification);
@@ -103,7 +104,7 @@ TEST(LinkReport, EncodeDecodeEncodeIsByteIdenticalForEveryRow) {
 
 TEST(LinkReport, EveryPacketOfTheDictionaryIsAsLongAsItSays) {
   VERIFIES("LASSO-LNK-002~1");
-  const std::size_t sizes[] = {751, 49, 138, 58, 146, 156, 35, 26, 27, 26, 29, 22, 38, 41, 74, 13,  16, 16, 212, 15, 15, 13,
+  const std::size_t sizes[] = {751, 49, 138, 58, 146, 156, 35, 26, 27, 26, 26, 29, 22, 38, 41, 74, 13,  16, 16, 212, 15, 15, 13,
                                19,  15, 15,  15, 15,  15,  17, 29, 15, 23, 13, 23, 15, 19, 15, 147, 22, 22, 15,  13, 13, 18};
   std::size_t next = 0;
   for (const PacketRow& packet : kPackets) {
