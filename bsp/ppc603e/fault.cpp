@@ -76,7 +76,7 @@ void restart(ResetCause cause, const char* text) {
   record.magic = kMagic;
   record.cause = static_cast<std::uint32_t>(cause);
   ++record.restarts;
-  ++record.in_a_row;
+  if (cause != ResetCause::kCommanded) ++record.in_a_row;
   record.registers = cause == ResetCause::kException ? board_fault_registers : FaultRegisters{};
   copy_text(text);
   record.sum = sum_of(record);
@@ -87,7 +87,8 @@ void restart(ResetCause cause, const char* text) {
     say_hex(", instruction ", record.registers.srr0);
     say_hex(", address ", fault_address(record.registers));
   }
-  say(record.in_a_row > kMaxRestarts ? "\n" : ": restart into safe mode\n");
+  const char* const next = cause == ResetCause::kCommanded ? ": restart\n" : ": restart into safe mode\n";
+  say(record.in_a_row > kMaxRestarts ? "\n" : next);
   if (record.in_a_row > kMaxRestarts) stay_down();
   _start();
 }

@@ -58,6 +58,7 @@ class Flight final : public Watchdog {
   static constexpr std::uint32_t kSettledFrames = 900;   // frames with feed(): the board does well, three minutes of 200 ms
 
   TimeUs time_of_slot() const;
+  bool told_of_reset() const;
   void run_slot(TimeUs now_us);
   void send_telemetry();
   void let_world_move(RigKind kind, TimeUs t_us);

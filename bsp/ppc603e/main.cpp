@@ -28,6 +28,7 @@ extern void (*board_constructors_end[])();
 extern const volatile lasso::ppc603e::Straps board_straps;
 extern const std::uint8_t board_mission[];
 extern std::uint8_t board_mission_work[];
+extern const std::uint8_t board_code_begin[], board_code_end[];
 [[noreturn]] void board_main();
 void board_interrupt(std::uint32_t vector);
 }
@@ -141,6 +142,10 @@ Component& make_component(Board& b, ResetCause cause) {
   auto* driver = new (driver_memory) lcs::Driver(b.camera_line, lcs::Optics(calibration()));
   auto* component = new (component_memory) Component(*driver);
   component->set_reset_cause(cause);
+  // No second image buffer and no store yet: the scrub has the image, which a restart loads anew, and the code to watch.
+  const auto code_bytes = static_cast<std::size_t>(board_code_end - board_code_begin);
+  if (component->use_memory({{}, nullptr, ConstBytes(board_code_begin, code_bytes)}) != Status::kOk)
+    stop("there is more code than can be watched");
   const LoadFailure failure = component->load_image(mission_bytes());
   if (failure.status != Status::kOk) {
     say("board: the mission image is refused: ");

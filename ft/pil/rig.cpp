@@ -1,9 +1,9 @@
-// pil_rig MISSION SCENARIO FRAMES OUT [cut=BYTES] [noise] [starts=N]: flies a scenario on the host, then on the board behind
+// pil_rig MISSION SCENARIO FRAMES OUT [cut=BYTES] [noise] [reset] [starts=N]: flies a scenario on the host, then on the board behind
 // OUT/camera.sock, OUT/ground.sock and OUT/rig.sock, and compares their telemetry bit by bit. Says `ready` when the board may be started:
 // the mission's image is then in OUT/image.3dli. Leaves OUT/host.ccsds, OUT/target.ccsds, OUT/starts.csv and OUT/slots.csv (the board's
-// reports, words by name). cut: the camera's line ends after so many bytes. noise: the ground's begins with some. starts: so many starts of
-// the board are awaited, and the flight on the host left out. Exit codes: 0 the same bits, 1 not, or the board failed, 2 usage or bad
-// input.
+// reports, words by name). cut: the camera's line ends after so many bytes. noise: the ground's begins with some. reset: the ground resets
+// the component after five frames. starts: so many starts of the board are awaited, and the flight on the host left out. Exit codes: 0 the
+// same bits, 1 not, or the board failed, 2 usage or bad input.
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -31,12 +31,12 @@ struct Options {
   std::string mission, scenario, out;
   std::uint32_t frames = 0, starts = 1;
   std::optional<std::uint64_t> cut;
-  bool noise = false;
+  bool noise = false, reset = false;
 };
 
 Options parse(int argc, char** argv) {
-  if (argc < 5) throw mdat::InputError("usage: pil_rig MISSION SCENARIO FRAMES OUT [cut=BYTES] [noise] [starts=N]");
-  Options options{argv[1], argv[2], argv[4], static_cast<std::uint32_t>(std::stoul(argv[3])), 1, {}, false};
+  if (argc < 5) throw mdat::InputError("usage: pil_rig MISSION SCENARIO FRAMES OUT [cut=BYTES] [noise] [reset] [starts=N]");
+  Options options{argv[1], argv[2], argv[4], static_cast<std::uint32_t>(std::stoul(argv[3])), 1, {}, false, false};
   for (int i = 5; i < argc; ++i) {
     const std::string word = argv[i];
     if (word.starts_with("cut=")) {
@@ -45,8 +45,10 @@ Options parse(int argc, char** argv) {
       options.starts = static_cast<std::uint32_t>(std::stoul(word.substr(7)));
     } else if (word == "noise") {
       options.noise = true;
+    } else if (word == "reset") {
+      options.reset = true;
     } else {
-      throw mdat::InputError(word + ": none of cut=BYTES, noise and starts=N");
+      throw mdat::InputError(word + ": none of cut=BYTES, noise, reset and starts=N");
     }
   }
   return options;
@@ -131,7 +133,7 @@ int run(const Options& options) {
   const auto target = mdat::make_target(mission.mesh);
   mdat::SimulationOptions simulation;
   simulation.scenario = options.scenario;
-  const WorldSetup setup{mdat::camera_case(mission, simulation, *target), options.cut, options.noise};
+  const WorldSetup setup{mdat::camera_case(mission, simulation, *target), options.cut, options.noise, options.reset};
   const std::vector<std::uint8_t> image = mdat::image_bytes(mission, setup.flight.parameters);
   std::filesystem::create_directories(options.out);
   write(options.out + "/image.3dli", image);

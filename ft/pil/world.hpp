@@ -20,6 +20,7 @@ struct WorldSetup {
   mdat::CaseSetup flight;
   std::optional<std::uint64_t> camera_bytes;  // after as many its line is cut, be it in the middle of a frame
   bool ground_noise = false;                  // the ground's line begins in the middle of a packet, and brings a damaged one
+  bool ground_resets = false;                 // the ground resets the component after five frames
 };
 
 class World {

@@ -47,8 +47,8 @@ TEST(Executive, ItsPeriodSurvivesAFlip) {
   Executive executive;
   ASSERT_EQ(executive.begin(1000, 200003), Status::kOk);
   auto* const words = reinterpret_cast<std::uint32_t*>(&executive);
-  auto* const copies = std::search(words, words + sizeof executive / 4, kCopies, kCopies + 3);
-  ASSERT_NE(copies, words + sizeof executive / 4);
+  auto* const copies = std::search(words, words + sizeof(Executive) / sizeof(std::uint32_t), kCopies, kCopies + 3);
+  ASSERT_NE(copies, words + sizeof(Executive) / sizeof(std::uint32_t));
   for (std::uint32_t bit = 0; bit < 96; ++bit) {
     copies[bit / 32] ^= 1u << bit % 32;
     EXPECT_EQ(executive.slot_us(), 10000) << bit;

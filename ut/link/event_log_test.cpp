@@ -132,7 +132,7 @@ TEST(EventLog, AFlippedBitOfAWindowSuppressesNothing) {
   storm();
   log.pass_boundary();
   log.pass_boundary();
-  const std::vector<std::uint16_t> before(words, words + sizeof log / 2);
+  const std::vector<std::uint16_t> before(words, words + sizeof(EventLog) / sizeof(std::uint16_t));
   log.pass_boundary();
   const auto window = std::mismatch(before.begin(), before.end(), words).first - before.begin();
   ASSERT_EQ(words[window], before[static_cast<std::size_t>(window)] - 1) << "the frames that are left";

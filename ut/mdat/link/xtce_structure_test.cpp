@@ -31,10 +31,9 @@ struct Rule {
   std::string text = "none";  // kind of the element's own text
 };
 
-const std::string kNamed = "name=name! shortDescription=text ";
-const std::string kType = "UnitSet? ", kInteger = "sizeInBits=positive signed=boolean", kFloat = "sizeInBits=float_size";
-
 const std::map<std::string, Rule>& rules() {
+  static const std::string kNamed = "name=name! shortDescription=text ";
+  static const std::string kType = "UnitSet? ", kInteger = "sizeInBits=positive signed=boolean", kFloat = "sizeInBits=float_size";
   static const std::map<std::string, Rule> kRules = {
       {"SpaceSystem", {"TelemetryMetaData? CommandMetaData?", kNamed + "xmlns=text!"}},
       {"TelemetryMetaData", {"ParameterTypeSet? ParameterSet? ContainerSet?", ""}},
@@ -88,10 +87,6 @@ const std::map<std::string, Rule>& rules() {
   };
   return kRules;
 }
-
-// Names are unique within each of these.
-const std::set<std::string> kNameSpaces = {"ParameterTypeSet", "ArgumentTypeSet", "ParameterSet",
-                                           "ContainerSet",     "MetaCommandSet",  "ArgumentList"};
 
 bool has_kind(const std::string& value, const std::string& kind) {
   static const std::map<std::string, std::regex> kKinds = {
@@ -207,7 +202,10 @@ class Structure {
     if (at < element.children.size()) fault(element, "has " + element.children[at].tag + " where it does not belong");
   }
 
+  // Names are unique within each of these.
   void check_names(const Element& element) {
+    static const std::set<std::string> kNameSpaces = {"ParameterTypeSet", "ArgumentTypeSet", "ParameterSet",
+                                                      "ContainerSet",     "MetaCommandSet",  "ArgumentList"};
     if (!kNameSpaces.contains(element.tag)) return;
     std::set<std::string> names;
     for (const Element& child : element.children) {
