@@ -32,30 +32,6 @@ TEST(ComponentLink, PingIsAnswered) {
   }
 }
 
-// Each report by its bit, in the order of what happens.
-TEST(ComponentLink, ReportsOfACommandAreThoseThatItAsksFor) {
-  VERIFIES("LASSO-LNK-013~1");
-  constexpr std::uint8_t kBits[] = {kAcknowledgeAcceptance, kAcknowledgeStart, kAcknowledgeCompletion};
-  constexpr std::uint8_t kReports[] = {kSubserviceAccepted, kSubserviceStarted, kSubserviceCompleted};
-  for (std::uint8_t asked = 0; asked < 16; ++asked) {
-    Link link;
-    Stream packet = test::ping(7);
-    packet[6] = static_cast<std::uint8_t>((packet[6] & 0xF0) | asked);
-    ByteWriter writer{Bytes(packet.data(), packet.size())};
-    for (std::size_t i = 0; i + kPacketTrailerBytes < packet.size(); ++i) writer.u8(packet[i]);
-    finish_packet(writer, Bytes(packet.data(), packet.size()));
-    link.send(packet);
-    Stream told, expected;
-    for (const Packet& answer : link.answers()) {
-      if (!answer.is(17, 2)) told.push_back(answer.header.subservice);
-    }
-    for (std::size_t i = 0; i < 3; ++i) {
-      if ((asked & kBits[i]) != 0) expected.push_back(kReports[i]);
-    }
-    EXPECT_EQ(told, expected) << static_cast<int>(asked);
-  }
-}
-
 TEST(ComponentLink, WithAnAuthenticatorOnlyItsCommandsAreCarriedOut) {
   VERIFIES("LASSO-LNK-021~1");
   Link link;
