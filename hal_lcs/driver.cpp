@@ -68,12 +68,20 @@ void Driver::send_start(const ScanPlan& plan, TimeUs t_start_us) {
     send(encode(sent_, LaserCommand::kArm));
     send(encode(sent_, LaserCommand::kFire));
   }
-  start_sequence_ = sent_;
-  send(encode(sent_, start_command(plan)));
-  const auto bytes = static_cast<double>(kLineBytes - line_.to_camera.room());
-  command_us_ = static_cast<DurationUs>(bytes * kBitsPerByte * 1e6 / line_.bits_per_s);
+  send_start_command(plan);
   spoken_us_ = t_start_us;
   send_aim(plan.aimed);
+}
+
+// The first sample is to be taken kStartDelayUs after the start, whatever else the line has to carry before.
+void Driver::send_start_command(const ScanPlan& plan) {
+  StartCommand command = start_command(plan);
+  const std::size_t bytes = kLineBytes - line_.to_camera.room() + encode(sent_, command).size;
+  command_us_ = static_cast<DurationUs>(static_cast<double>(bytes) * kBitsPerByte * 1e6 / line_.bits_per_s + 0.5);
+  first_us_ = command_us_ < kStartDelayUs ? kStartDelayUs : command_us_;
+  command.delay_us = static_cast<std::uint32_t>(first_us_ - command_us_);
+  start_sequence_ = sent_;
+  send(encode(sent_, command));
 }
 
 // A camera that hears nothing puts its laser out, in a long scan, too.
@@ -303,7 +311,7 @@ TimeUs Driver::time_of(std::uint32_t clock_us) const { return clock_at_us_ + sta
 
 void Driver::convert(const RawSample& raw, RangeSample& sample) {
   const TimeUs t_us = time_of(raw.clock_us);
-  const DurationUs late_us = t_us - (t_start_us_ + command_us_ + pattern_time_us(plan_, static_cast<std::uint16_t>(next_)));
+  const DurationUs late_us = t_us - (t_start_us_ + first_us_ + pattern_time_us(plan_, static_cast<std::uint16_t>(next_)));
   const Fate fate = optics_.convert(raw, t_us, sample);
   if (t_us >= last_us_ && late_us <= kClockToleranceUs && late_us >= -kClockToleranceUs) {
     last_us_ = t_us;

@@ -3,7 +3,7 @@
 // works on what is there.
 //
 // A scan is started by one command. The answer to it ties the camera's clock to the component's: the camera had the command's last byte one
-// transmission time after it was handed over, at the scan's start. Samples that a damaged frame took along come as kInvalid and `lost`, so
+// transmission time after it was handed over. Samples that a damaged frame took along come as kInvalid and `lost`, so
 // that a sample's index stays that of its ray.
 #pragma once
 
@@ -19,6 +19,7 @@
 namespace lasso::lcs {
 
 constexpr std::size_t kLineBytes = 8192;         // each way: 20 ms of the fastest line
+constexpr DurationUs kStartDelayUs = 1'000;      // from a start to the first sample; what is sent before it takes less at 1 Mbit/s
 constexpr DurationUs kAnswerTimeoutUs = 50'000;  // the answer to a start
 constexpr DurationUs kClockToleranceUs = 5'000;  // of the camera's clock from scan to scan, and of a sample from its plan
 constexpr DurationUs kTieUs = 10'000'000;        // as long a tie of the clocks serves scans whose answer was damaged
@@ -74,7 +75,7 @@ class Driver final : public Sensor {
   void use_calibration(const TriangulationCalibration* calibration) override;
 
   // kBusy while a scan runs; validate(plan)'s reason; kMissing without permission; kOverCapacity when the line takes no more. t_start_us
-  // is now: the camera begins as soon as it has the command.
+  // is now: the first sample is taken kStartDelayUs later, or as soon as the camera has the command if the line holds it up for longer.
   Status start(const ScanPlan& plan, TimeUs t_start_us) override;
   // Bound: kLineBytes bytes, out.size() samples.
   SensorPoll poll(TimeUs now_us, Span<RangeSample> out) override;
@@ -95,6 +96,7 @@ class Driver final : public Sensor {
   bool laser_permitted() const;
   void inhibit();
   void send_start(const ScanPlan& plan, TimeUs t_start_us);
+  void send_start_command(const ScanPlan& plan);
   void keep_lit(TimeUs now_us);
   void send_aim(Span<const AimedRay> aimed);
   Status refuse(Loss loss, Status reason);
@@ -141,7 +143,8 @@ class Driver final : public Sensor {
   std::uint8_t tag_ = 0;
   std::uint8_t start_sequence_ = 0;
   TimeUs t_start_us_ = 0;
-  DurationUs command_us_ = 0;  // from t_start_us to the start command's last byte
+  DurationUs command_us_ = 0;  // from t_start_us to the start command's last byte ...
+  DurationUs first_us_ = 0;    // ... and to the first sample
   TimeUs last_us_ = 0;         // of the last sample
   std::uint32_t next_ = 0;     // sample to hand over
   std::uint32_t off_plan_ = 0;

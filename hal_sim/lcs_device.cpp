@@ -2,69 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
-#include <string>
 
 #include "fsw/sense/pattern.hpp"
 
 namespace lasso::sim {
 namespace {
 
-constexpr DurationUs kBootUs = 300'000;  // from a reset to the first answer
-constexpr int kPeakIterations = 30;
-constexpr double kNowhereM = 1e9;                                  // a range for rays that met nothing
+constexpr DurationUs kBootUs = 300'000;                            // from a reset to the first answer
 constexpr std::uint64_t kChanceOfTheLine = 0x4C43'5346'6175'6C74;  // other than what the rays draw
 
-double corrected(const lcs::Calibration& c, double x, double y, double peak) {
-  const double phi[kResidualTerms] = {1, x, y, peak, x * x, x * y, y * y, x * peak, y * peak, peak * peak};
-  double sum = 0;
-  for (std::size_t k = 0; k < kResidualTerms; ++k) sum += c.residual[k] * phi[k];
-  return sum;
-}
-
-void check(const lcs::Optics& truth) {
-  const Status status = truth.validate();
-  if (status != Status::kOk) throw std::invalid_argument(std::string("the camera's optics: ") + to_string(status));
-}
-
 }  // namespace
-
-lcs::RawSample raw_sample(const lcs::Calibration& truth, double temperature_degC, const Vec3& direction, double range_m) {
-  const double warmer_K = temperature_degC - truth.reference_degC;
-  const double f_m = truth.focal_length_m * (1 + truth.focal_length_per_K * warmer_K);
-  const double d_m = truth.baseline_m * (1 + truth.baseline_per_K * warmer_K);
-  const double x = std::atan2(direction.x(), direction.z()), y = std::atan2(direction.y(), direction.z());
-  const double spot = (f_m * d_m / (range_m * direction.z()) - f_m * direction.x() / direction.z()) / truth.half_width_m;
-  double peak = spot;
-  for (int i = 0; i < kPeakIterations; ++i) peak = spot - truth.peak_per_K * warmer_K - corrected(truth, x, y, peak);
-  lcs::RawSample raw;
-  raw.angle_x_rad = x - truth.angle_x_offset_rad;
-  raw.angle_y_rad = y - truth.angle_y_offset_rad;
-  raw.peak = peak;
-  raw.kind = lcs::SampleKind::kReturn;
-  return raw;
-}
-
-lcs::RawSample raw_echo(const lcs::EchoCalibration& truth, double temperature_degC, const Vec3& direction, double range_m) {
-  lcs::RawSample raw;
-  raw.angle_x_rad = std::atan2(direction.x(), direction.z()) - truth.angle_x_offset_rad;
-  raw.angle_y_rad = std::atan2(direction.y(), direction.z()) - truth.angle_y_offset_rad;
-  const double delay_us = truth.delay_us + truth.delay_us_per_K * (temperature_degC - truth.reference_degC);
-  raw.flight_us = range_m / lcs::kHalfLightMPerUs / (1 + truth.clock_error) + delay_us;
-  raw.kind = lcs::SampleKind::kEcho;
-  return raw;
-}
-
-lcs::Optics optics_of(const LcsCamera& camera) {
-  if (camera.device == lcs::Device::kLaserCamera) return lcs::Optics(camera.truth);
-  if (camera.device == lcs::Device::kLidar) return lcs::Optics(camera.clock);
-  return {camera.truth, camera.clock};
-}
 
 LcsDevice::LcsDevice(const RayCaster& target, const Trajectory& trajectory, const ScannerModel& model, std::uint64_t seed,
                      const LcsCamera& camera)
     : rays_(target, trajectory, model, seed), camera_(camera), chance_(seed ^ kChanceOfTheLine) {
-  check(optics_of(camera));
+  static_cast<void>(optics_of(camera));
   for (const LcsFault& one : camera.faults) {
     if (one.kind == LcsFaultKind::kReset) reset_at_us_.push_back(one.from_us);
   }
@@ -283,29 +235,14 @@ bool LcsDevice::aimed_in_time(std::uint16_t ray) const {
 
 Vec3 LcsDevice::direction_of(std::uint16_t ray) const { return pattern_direction(scan_.command.plan, ray); }
 
-// A hit as the head's kind measures it; a miss or a saturated return has mirror angles alone.
-lcs::RawSample LcsDevice::told(const Vec3& direction, const RangeSample& seen) const {
-  const auto temperature_degC = static_cast<double>(camera_.temperature_degC), range_m = static_cast<double>(seen.range_m);
-  const bool spot = seen.state == RayState::kHit;
-  const bool far = camera_.device == lcs::Device::kTridar && range_m > camera_.hand_over_m;
-  lcs::RawSample raw = far || camera_.device == lcs::Device::kLidar
-                           ? raw_echo(camera_.clock, temperature_degC, direction, range_m)
-                           : raw_sample(camera_.truth, temperature_degC, direction, spot ? range_m : kNowhereM);
-  if (!spot) raw.kind = lcs::SampleKind::kNothing;
-  return raw;
-}
-
 lcs::RawSample LcsDevice::measure(std::uint16_t ray) {
   const TimeUs t_us = sample_time_us(ray);
   Vec3 direction = direction_of(ray);
   if (failing(LcsFaultKind::kStuckMirror, t_us)) direction = Vec3(stuck_x_ * direction.z(), direction.y(), direction.z()).normalized();
   stuck_x_ = direction.x() / direction.z();
   const RangeSample seen = rays_.measure(scan_.command.plan.scan_id, ray, direction, t_us);
-  const bool bright = failing(LcsFaultKind::kSaturated, t_us) || seen.state == RayState::kInvalid;
-  const bool spot = seen.state == RayState::kHit;
-  lcs::RawSample raw = told(direction, seen);
-  raw.intensity = spot ? 8 : 0;
-  if (bright && seen.state != RayState::kMiss) raw.kind = lcs::SampleKind::kSaturated;
+  lcs::RawSample raw = raw_of(camera_, direction, seen);
+  if (failing(LcsFaultKind::kSaturated, t_us) && seen.state != RayState::kMiss) raw.kind = lcs::SampleKind::kSaturated;
   if (!aimed_in_time(ray)) raw.kind = lcs::SampleKind::kNotAimed;
   raw.clock_us = clock_us(t_us);
   return raw;

@@ -9,31 +9,11 @@
 #include "hal_lcs/driver.hpp"
 #include "hal_lcs/frame.hpp"
 #include "hal_lcs/messages.hpp"
-#include "hal_lcs/optics.hpp"
-#include "hal_sim/lcs_faults.hpp"
+#include "hal_sim/lcs_head.hpp"
 #include "hal_sim/random.hpp"
 #include "hal_sim/scanner.hpp"
 
 namespace lasso::sim {
-
-struct LcsCamera {
-  lcs::Device device = lcs::Device::kLaserCamera;
-  lcs::Calibration truth;      // of its optics; what the component calibrates it to be may differ
-  lcs::EchoCalibration clock;  // the same of a LIDAR's or TriDAR's timing
-  double hand_over_m = 10;     // range from which on a TriDAR times its light
-  float temperature_degC = 20;
-  std::uint32_t clock_us = 0xFFFF0000;  // at time 0: it soon wraps
-  double bits_per_s = 4e6;
-  LcsFaults faults;
-};
-
-// Of those of the camera's members that its kind has.
-lcs::Optics optics_of(const LcsCamera& camera);
-
-// The raw sample by which a camera tells a point at `range_m` along `direction` (any range for kNothing).
-lcs::RawSample raw_sample(const lcs::Calibration& truth, double temperature_degC, const Vec3& direction, double range_m);
-// The same of a head that times its light.
-lcs::RawSample raw_echo(const lcs::EchoCalibration& truth, double temperature_degC, const Vec3& direction, double range_m);
 
 class LcsDevice {
  public:
@@ -83,7 +63,6 @@ class LcsDevice {
   TimeUs sample_time_us(std::uint16_t ray) const;
   Vec3 direction_of(std::uint16_t ray) const;
   bool aimed_in_time(std::uint16_t ray) const;
-  lcs::RawSample told(const Vec3& direction, const RangeSample& seen) const;
   lcs::RawSample measure(std::uint16_t ray);
   std::uint16_t frame_end() const;
   void send_samples(std::uint16_t end);

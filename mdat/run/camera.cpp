@@ -11,6 +11,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::microseconds kStep(500);
+constexpr double kMaxDepthM = 1000;  // that a calibration can have
 
 posix::SerialLine opened(const CaseSetup& setup, double bits_per_s) {
   posix::SerialLine line;
@@ -41,6 +42,12 @@ void share_mirrors(sim::LcsCamera& camera) {
   camera.clock.angle_x_offset_rad = camera.truth.angle_x_offset_rad;
   camera.clock.angle_y_offset_rad = camera.truth.angle_y_offset_rad;
   camera.clock.angle_max_rad = camera.truth.angle_max_rad;
+}
+
+// A camera that nobody has calibrated sees as far as the mission says.
+lcs::Calibration reaching(lcs::Calibration truth, const sim::ScannerModel& model) {
+  truth.depth_max_m = std::clamp(model.range_max_m, truth.depth_max_m, kMaxDepthM);
+  return truth;
 }
 
 // A camera and its client, from the client's first byte until it goes.
@@ -110,6 +117,7 @@ bool wired(lcs::Device device, SensorKind kind) {
 sim::LcsCamera camera_for(const CaseSetup& setup, const sim::ScannerModel& model, std::uint8_t number) {
   sim::LcsCamera camera;
   camera.device = setup.wire.value_or(lcs::Device::kLaserCamera);
+  camera.truth = reaching(camera.truth, model);
   camera.truth.serial = 1;
   const auto calibrated = setup.calibrations.find(number);
   if (calibrated != setup.calibrations.end()) camera.truth = calibrated->second;
@@ -123,6 +131,12 @@ sim::LcsCamera camera_for(const CaseSetup& setup, const sim::ScannerModel& model
     fault.from_us += kEpochUs;
     fault.until_us += kEpochUs;
   }
+  return camera;
+}
+
+sim::LcsCamera head_for(const CaseSetup& setup, const sim::ScannerModel& model, SensorKind kind, std::uint8_t number) {
+  sim::LcsCamera camera = camera_for(setup, model, number);
+  camera.device = kind == SensorKind::kTimeOfFlight ? lcs::Device::kLidar : lcs::Device::kLaserCamera;
   return camera;
 }
 

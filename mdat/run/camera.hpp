@@ -19,6 +19,8 @@ bool wired(lcs::Device device, SensorKind kind);
 
 // The camera, or other head, of a case, which is the mission's sensor of that number.
 sim::LcsCamera camera_for(const CaseSetup& setup, const sim::ScannerModel& model, std::uint8_t number);
+// The same where there is no line: of the kind that the mission has it be.
+sim::LcsCamera head_for(const CaseSetup& setup, const sim::ScannerModel& model, SensorKind kind, std::uint8_t number);
 
 // A head that sees what its scanner model does, at the end of its line. Its driver takes its optics to be what they are, unless the image
 // says otherwise.

@@ -10,6 +10,7 @@
 #include "bsp/posix/runner.hpp"
 #include "fsw/exec/component.hpp"
 #include "fsw/link/command_rows.hpp"
+#include "hal_sim/lcs_direct.hpp"
 #include "hal_sim/random.hpp"
 #include "mdat/common/errors.hpp"
 #include "mdat/common/flight_image.hpp"
@@ -53,7 +54,9 @@ sim::ScannerModel model_of(const Scenario& scenario, const SensorParameters& sen
 struct Scanner {
   Scanner(const CaseSetup& setup, const sim::Trajectory& trajectory, const sim::ScannerModel& model, std::uint64_t seed, SensorKind kind,
           std::uint8_t number)
-      : simulated(*setup.target, trajectory, model, seed),
+      : ideal(*setup.target, trajectory, model, seed),
+        head(setup.noise ? std::make_unique<sim::LcsDirect>(*setup.target, trajectory, model, seed, head_for(setup, model, kind, number))
+                         : nullptr),
         camera(setup.wire && setup.camera_line.empty() && wired(*setup.wire, kind)
                    ? std::make_unique<CameraOnLine>(setup, trajectory, model, seed, number)
                    : nullptr),
@@ -68,10 +71,12 @@ struct Scanner {
     if (replay) return *replay;
     if (live) return live->driver;
     if (camera) return camera->line;
-    return simulated;
+    if (head) return *head;
+    return ideal;
   }
 
-  sim::SimulatedScanner simulated;
+  sim::SimulatedScanner ideal;
+  std::unique_ptr<sim::LcsDirect> head;  // noise ends with the counts of mirrors and detector
   std::unique_ptr<CameraOnLine> camera;
   std::unique_ptr<LiveCamera> live;
   std::unique_ptr<sim::ReplaySensor> replay;

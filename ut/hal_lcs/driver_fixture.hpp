@@ -43,7 +43,10 @@ class Camera {
     std::uint8_t byte = 0;
     Frame frame;
     while (line_.to_camera.read(Bytes(&byte, 1)) == 1) {
-      if (decoder_.step(ConstBytes(&byte, 1), frame).found) frames.push_back(frame);
+      if (!decoder_.step(ConstBytes(&byte, 1), frame).found) continue;
+      frames.push_back(frame);
+      StartCommand start;
+      if (frame.type == static_cast<std::uint8_t>(Type::kStart) && decode(frame, start) == Status::kOk) delay_us = start.delay_us;
     }
     return frames;
   }
@@ -82,13 +85,14 @@ class Camera {
       raw.angle_x_rad = std::atan(u.x() / u.z());
       raw.angle_y_rad = std::atan(u.y() / u.z());
       raw.peak = (c.focal_length_m * c.baseline_m / kDepthM - c.focal_length_m * u.x() / u.z()) / c.half_width_m;
-      raw.clock_us = clock_at_start_us + static_cast<std::uint32_t>(pattern_time_us(plan, ray));
+      raw.clock_us = clock_at_start_us + delay_us + static_cast<std::uint32_t>(pattern_time_us(plan, ray));
     }
     return samples;
   }
 
   std::uint8_t sequence = 0;
   std::uint32_t clock_at_start_us = 0xFFFFF000;  // wraps within the scan
+  std::uint32_t delay_us = 0;                    // of the last start that was heard
 
  private:
   Line& line_;

@@ -10,6 +10,8 @@
 namespace lasso::lcs {
 namespace {
 
+constexpr std::uint8_t kNoise[200] = {};
+
 TEST_F(LcsDriver, BringsAScanFromPlanToPoints) {
   VERIFIES("LASSO-LCS-007~2");
   const ScanPlan plan = small_plan();
@@ -26,10 +28,27 @@ TEST_F(LcsDriver, BringsAScanFromPlanToPoints) {
     EXPECT_NEAR(static_cast<double>(sample.range_m * sample.direction[2]), kDepthM, 2e-5);  // steps of the wire
     const Vec3 u = pattern_direction(plan, ray);
     for (int k = 0; k < 3; ++k) EXPECT_NEAR(static_cast<double>(sample.direction[k]), u[k], 3e-7);
-    EXPECT_EQ(sample.t_us - kStartUs - pattern_time_us(plan, ray), 195);  // the command's 78 bytes at 4 Mbit/s
+    EXPECT_EQ(sample.t_us - kStartUs - pattern_time_us(plan, ray), kStartDelayUs);
   }
+  EXPECT_EQ(camera.delay_us, kStartDelayUs - 195);  // the command's 78 bytes at 4 Mbit/s
   EXPECT_EQ(driver.camera().serial, kSerial);
   EXPECT_EQ(driver.poll(kStartUs + 46'000, Span<RangeSample>(out)).status, Status::kNoData);
+}
+
+TEST_F(LcsDriver, TheFirstSampleWaitsForNothingButALineThatIsFull) {
+  VERIFIES("LASSO-LCS-003~1");
+  line.bits_per_s = 1e6;
+  begin(small_plan());
+  EXPECT_EQ(camera.delay_us, kStartDelayUs - 780) << "78 bytes";
+  driver.abort();
+  camera.heard();
+  line.to_camera.write(ConstBytes(kNoise, sizeof kNoise));
+  begin(small_plan());
+  EXPECT_EQ(camera.delay_us, 0U);
+  camera.say(camera.wall(small_plan(), 0));
+  poll();
+  ASSERT_EQ(samples.size(), 4U);
+  EXPECT_GT(samples[0].t_us, kStartUs + 2'000) << "200 bytes before the command";
 }
 
 // Its wall is at 3 m by the calibration that the driver was made with; half the baseline halves the depths.

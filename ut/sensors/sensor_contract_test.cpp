@@ -9,6 +9,7 @@
 
 #include "fsw/sense/pattern.hpp"
 #include "hal_sim/lcs_device.hpp"
+#include "hal_sim/lcs_direct.hpp"
 #include "hal_sim/ray_caster.hpp"
 #include "hal_sim/replay_sensor.hpp"
 #include "hal_sim/scanner.hpp"
@@ -84,7 +85,7 @@ Rig simulated(const Target& target) {
   return {scanner, scanner.get()};
 }
 
-Rig over_the_line(const Target& target, double bits_per_s, lcs::Device device = lcs::Device::kLaserCamera) {
+LcsCamera head(lcs::Device device) {
   LcsCamera camera;
   camera.device = device;
   camera.truth.serial = camera.clock.serial = 3;
@@ -92,9 +93,19 @@ Rig over_the_line(const Target& target, double bits_per_s, lcs::Device device = 
   camera.clock.delay_us = 0.01;
   camera.clock.clock_error = 1e-5;
   camera.hand_over_m = 3.8;  // the box has both sides of it
+  return camera;
+}
+
+Rig over_the_line(const Target& target, double bits_per_s, lcs::Device device = lcs::Device::kLaserCamera) {
+  LcsCamera camera = head(device);
   camera.bits_per_s = bits_per_s;
   const auto lcs = std::make_shared<LcsSensor>(target, camera);
   return {lcs, &lcs->line};
+}
+
+Rig direct(const Target& target) {
+  const auto lcs = std::make_shared<LcsDirect>(*target.caster, target.motion, ScannerModel{}, 5, head(lcs::Device::kTridar));
+  return {lcs, lcs.get()};
 }
 
 AimedRays aimed_rays() {
@@ -289,7 +300,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Kind{"lcs_1Mbit", kSpotStepM, [](const Target& target) { return over_the_line(target, 1e6); }},
                       Kind{"lidar", kFlightStepM, [](const Target& target) { return over_the_line(target, 4e6, lcs::Device::kLidar); }},
                       Kind{"tridar", kFlightStepM, [](const Target& target) { return over_the_line(target, 4e6, lcs::Device::kTridar); }},
-                      Kind{"replay", kSpotStepM, replayed}),
+                      Kind{"direct", kFlightStepM, direct}, Kind{"replay", kSpotStepM, replayed}),
     [](const auto& kind) { return std::string(kind.param.name); });
 
 }  // namespace
