@@ -26,6 +26,7 @@ extern "C" {
 extern void (*board_constructors_begin[])();
 extern void (*board_constructors_end[])();
 extern const volatile lasso::ppc603e::Straps board_straps;
+extern const std::uint8_t board_code_begin[], board_code_end[];
 extern const std::uint8_t board_mission[];
 extern std::uint8_t board_mission_work[];
 [[noreturn]] void board_main();
@@ -137,10 +138,18 @@ void tell_start(const FaultRecord& record) {
   say("\n");
 }
 
+// What the scrub watches: code and constants. The vectors below them are mapped for nobody.
+BoardMemory watched_memory() {
+  BoardMemory memory;
+  memory.code = ConstBytes(board_code_begin, static_cast<std::size_t>(board_code_end - board_code_begin));
+  return memory;
+}
+
 Component& make_component(Board& b, ResetCause cause) {
   auto* driver = new (driver_memory) lcs::Driver(b.camera_line, lcs::Optics(calibration()));
   auto* component = new (component_memory) Component(*driver);
   component->set_reset_cause(cause);
+  if (component->use_memory(watched_memory()) != Status::kOk) stop("there is more code than the scrub can watch");
   const LoadFailure failure = component->load_image(mission_bytes());
   if (failure.status != Status::kOk) {
     say("board: the mission image is refused: ");

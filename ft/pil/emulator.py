@@ -45,6 +45,13 @@ def check_image(elf):
         raise Failure(f'{elf}: an image for another board, not {BOARD_ID.decode()}: build the board ppc603e')
 
 
+def code_bytes(elf):
+    """That the board's scrub watches."""
+    said = subprocess.run(['powerpc-linux-gnu-nm', str(elf)], capture_output=True, text=True, check=True).stdout
+    places = {name: int(value, 16) for value, _, name in (line.split() for line in said.splitlines() if len(line.split()) == 3)}
+    return places['board_code_end'] - places['board_code_begin']
+
+
 class Emulator:
     """Running until the end of the with block. What the board's console says is kept, and said when something fails."""
 
@@ -162,7 +169,7 @@ def fly(program, elf, arguments, folder, seconds, **board):
     """One run of the rig with an emulated board; exit code, words, console."""
     os.makedirs(folder, exist_ok=True)
     emulator = Emulator(elf, f'{folder}/image.3dli', folder, **board)
-    with Rig(program, arguments, seconds) as rig:
+    with Rig(program, [*arguments, f'code={code_bytes(elf)}'], seconds) as rig:
         rig.await_ready()
         with emulator:
             code, said = rig.finish()
