@@ -55,7 +55,7 @@ def code_bytes(elf):
 class Emulator:
     """Running until the end of the with block. What the board's console says is kept, and said when something fails."""
 
-    def __init__(self, elf, image, folder, rig=True, processor='603e', ticks_per_s=TICKS_PER_S):
+    def __init__(self, elf, image, folder, rig=True, processor='603e', ticks_per_s=TICKS_PER_S, shared=False):
         require()
         check_image(elf)
         self.folder = pathlib.Path(folder)
@@ -63,13 +63,15 @@ class Emulator:
         reset = self.folder / 'reset.bin'  # the machine wants some content for its read-only memory
         reset.write_bytes(bytes(64))
         words = [STRAPS_MAGIC, ticks_per_s, 1 if rig else 0, 0]
-        self.command = [QEMU, '-M', 'g3beige', '-cpu', processor, '-m', '256', '-bios', str(reset), '-vga', 'none', '-net', 'none', '-display', 'none',
+        self.command = [QEMU, '-M', f'g3beige{",memory-backend=ram" if shared else ""}', '-cpu', processor, '-m', '256', '-bios', str(reset), '-vga', 'none', '-net', 'none', '-display', 'none',
                         '-serial', 'null', '-parallel', 'none', '-monitor', f'unix:{self.folder}/monitor.sock,server=on,wait=off', '-no-reboot', '-icount', f'shift={SHIFT},align=off,sleep=on']
         for name in ('camera', 'ground', 'rig'):
             self.command += ['-chardev', f'socket,id={name},path={self.folder}/{name}.sock' if rig else f'null,id={name}']
         self.command += ['-chardev', f'file,id=console,path={self.console_file}',
                          '-device', 'pci-serial-4x,chardev1=camera,chardev2=ground,chardev3=rig,chardev4=console',
                          '-device', f'loader,file={elf},cpu-num=0']
+        if shared:  # memory as a file, and a debug port (ft/pil/seu_board.hpp)
+            self.command += ['-object', f'memory-backend-file,id=ram,size=256M,mem-path={self.folder}/ram.bin,share=on', '-gdb', f'unix:{self.folder}/gdb.sock,server=on,wait=off']
         if image:
             self.command += ['-device', f'loader,file={image},addr={MISSION:#x},force-raw=on']
         for i in range(0, len(words), 2):  # eight bytes: of four the emulator would write the upper half
