@@ -66,6 +66,8 @@ def places(elf, layout):
         'views': views, 'mode': mode, 'data': list(without(at['board_estimation_stack_end'], at['board_bss_end'], views + mode)),
         'estimation_stack': [(at['board_estimation_stack_begin'], stack)],
         'acquisition_stack': [(at['board_acquisition_stack_begin'], at['board_acquisition_stack_end'] - at['board_acquisition_stack_begin'])],
+        'lines': [(at['board_memory'], at['board_bss_end'] - at['board_memory'])],
+        'clock': [(at['clock_memory'], at['driver_memory'] - at['clock_memory'])],  # and the flight's
         'all_data': [(at['board_estimation_stack_begin'], at['board_bss_end'] - at['board_estimation_stack_begin'])],
     }
     return ''.join(f'{name} {begin} {size}\n' for name, pieces in ranges.items() for begin, size in pieces)

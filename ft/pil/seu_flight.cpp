@@ -75,7 +75,14 @@ void SeuFlight::fly_golden() {
   board_.begin();
   record();
   unsteady_.assign(board_.memory().size(), false);
+  for (const char* name : {"estimation_stack", "lines"}) ignore(places_.at(name).at(0));
   for (std::uint32_t i = 0; i < kRepeats; ++i) find_unsteady();
+}
+
+// Between two frames nobody is on the estimation's stack, and the lines' rings hold what has been said, ticks of the rig's reports too.
+void SeuFlight::ignore(const Range& range) {
+  const std::uint32_t begin = range.address - places_.at("all_data").at(0).address;
+  std::fill_n(unsteady_.begin() + begin, range.bytes, true);
 }
 
 void SeuFlight::record() {
@@ -279,14 +286,15 @@ void SeuFlight::end_frame(Course& course, Trial& trial) {
   course.telemetry.clear();
 }
 
-// Memory is as without the flip, and the flip was not in what differs anyway.
+// Memory is as without the flip, but for what differs in each flight, where the flip may not have been: clock, flight and lines of the
+// board.
 bool SeuFlight::steady_again(std::uint32_t boundary, const Trial& trial) const {
   const auto found = memories_.find(boundary);
   if (found == memories_.end() || trial.where.empty()) return false;
-  const std::uint32_t place = trial.address - places_.at("all_data").at(0).address;
-  if (place < unsteady_.size() && unsteady_[place]) return false;
+  const Range lines = places_.at("lines").at(0), clock = places_.at("clock").at(0);
+  if (trial.address - lines.address < lines.bytes || trial.address - clock.address < clock.bytes) return false;
   const ConstBytes now = board_.memory();
-  for (std::size_t i = places_.at("estimation_stack").at(0).bytes; i < now.size(); ++i)  // it comes first, and nobody is on it
+  for (std::size_t i = 0; i < now.size(); ++i)
     if (now[i] != found->second[i] && !unsteady_[i]) return false;
   return true;
 }

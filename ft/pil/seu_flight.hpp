@@ -56,6 +56,7 @@ class SeuFlight {
   };
 
   void record();
+  void ignore(const Range& range);
   void find_unsteady();
   void check_board();
   void ready_board();
