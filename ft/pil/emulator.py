@@ -45,10 +45,19 @@ def check_image(elf):
         raise Failure(f'{elf}: an image for another board, not {BOARD_ID.decode()}: build the board ppc603e')
 
 
+def symbols(path):
+    """The addresses of an image's or object's symbols by their last names."""
+    try:
+        said = subprocess.run(['powerpc-linux-gnu-nm', '-C', str(path)], capture_output=True, text=True, check=True).stdout
+    except (OSError, subprocess.CalledProcessError) as error:
+        raise Failure(f'{path}: its symbols cannot be read ({error}): build it first, and install the Debian package g++-powerpc-linux-gnu') from error
+    words = (line.split(maxsplit=2) for line in said.splitlines())
+    return {word[2].rsplit('::', 1)[-1]: int(word[0], 16) for word in words if len(word) == 3}
+
+
 def code_bytes(elf):
     """That the board's scrub watches."""
-    said = subprocess.run(['powerpc-linux-gnu-nm', str(elf)], capture_output=True, text=True, check=True).stdout
-    places = {name: int(value, 16) for value, _, name in (line.split() for line in said.splitlines() if len(line.split()) == 3)}
+    places = symbols(elf)
     return places['board_code_end'] - places['board_code_begin']
 
 

@@ -40,12 +40,6 @@ OUTCOMES = {
 COLUMNS = ('number', 'region', 'frame', 'slot', 'where', 'bit', 'instruction', 'outcome', 'told_after', 'wrong', 'invalid', 'frames')
 
 
-def symbols(path):
-    said = subprocess.run(['powerpc-linux-gnu-nm', '-C', str(path)], capture_output=True, text=True, check=True).stdout
-    words = (line.split(maxsplit=2) for line in said.splitlines())
-    return {word[2].rsplit('::', 1)[-1]: int(word[0], 16) for word in words if len(word) == 3}
-
-
 def without(begin, end, holes):
     """The ranges of [begin, end) that are in none of the holes."""
     for at, size in sorted(holes):
@@ -56,7 +50,7 @@ def without(begin, end, holes):
 
 def places(elf, layout):
     """Regions of the board: name, address, bytes. The image's bytes are known when it is compiled."""
-    at, of = symbols(elf), symbols(layout)
+    at, of = emulator.symbols(elf), emulator.symbols(layout)
     component, driver = at['component_memory'], at['driver_memory']
     mode = [(component + of['mode_at'], of['mode_bytes']), (component + of['parameters_at'], of['parameters_bytes']), (driver + of['laser_at'], of['laser_bytes'])]
     views = [(component + of['views_at'], of['views_bytes'])]
@@ -174,11 +168,22 @@ def page(rows, results):
 
 
 def judge(gate, rows):
+    numbers = [int(row['number']) for row in rows]
+    if numbers != list(range(len(rows))):
+        gate.find(f'the flips are not numbered from 0 to {len(rows) - 1}: remove {gate.out}/flips.csv and start anew')
+    if not any(row['region'] in PROTECTED and int(row['told_after']) > 0 for row in rows):
+        gate.find('no flip in protected memory was told: is anything flipped, or is the scrub off?')
     for row in rows:
         if row['outcome'] not in OUTCOMES or row['region'] not in REGIONS:
             gate.find(f'flip {row["number"]}: outcome {row["outcome"]} in {row["region"]} is none of those known: mend ft/pil/seu.py')
         if row['outcome'] == 'silent_wrong' and row['region'] in PROTECTED:
             gate.find(f'flip {row["number"]}: bit {row["bit"]} of {row["where"]} ({row["region"]}) in frame {row["frame"]}, slot {row["slot"]}: a wrong pose was published and nothing told')
+
+
+def missed(rows):
+    """In what is protected, and not a word of it."""
+    quiet = ('masked', 'latent', 'harmless', 'invalid', 'silent_wrong')
+    return sum(row['region'] in PROTECTED and row['outcome'] in quiet for row in rows)
 
 
 def conclude(gate, rows, seed, version, seconds, started):
@@ -192,6 +197,7 @@ def conclude(gate, rows, seed, version, seconds, started):
     counts = count(rows)
     gate.figure('flips', len(rows))
     gate.figure('silent wrong in protected memory', sum(counts[region]['silent_wrong'] for region in PROTECTED))
+    gate.figure('not told in protected memory', missed(rows))
     gate.figure('silent wrong elsewhere', sum(counts[region]['silent_wrong'] for region in REGIONS if region not in PROTECTED))
 
 
@@ -208,7 +214,7 @@ def main(host, board, flips='2000', seed='1', name='seu'):
             gate.stop(str(failure))
         rows = rows_of(gate.out / 'flips.csv')[:int(flips)]
         if len(rows) != int(flips):
-            gate.find(f'{len(rows)} flips of {flips} have an outcome')
+            gate.find(f'{len(rows)} flips of {flips} have an outcome: start again, it goes on where it was')
         conclude(gate, rows, seed, version, time.monotonic() - begun, started)
 
 
