@@ -25,7 +25,10 @@ struct Heard {
   bool told = false;
 };
 
-bool tells(ConstBytes packet) { return packet[7] == kServiceEvent && packet[8] >= static_cast<std::uint8_t>(Severity::kLow); }
+// The board may send anything.
+bool tells(ConstBytes packet) {
+  return packet.size() > kPacketHeaderBytes && packet[7] == kServiceEvent && packet[8] >= static_cast<std::uint8_t>(Severity::kLow);
+}
 
 Heard hear(const Packet& telemetry, const sim::Trajectory& truth) {
   Heard heard;
@@ -200,7 +203,7 @@ SeuFlight::Step SeuFlight::step(Course& course, const Flip& flip, Trial& trial) 
 void SeuFlight::answer(Course& course) {
   if (!course.world && course.boundary >= kLast) diverge(course);
   if (!course.world) return board_.give(moments_[course.boundary].camera, moments_[course.boundary].ground);
-  course.world->move_to(course.boundary, {course.to_camera.data(), course.to_camera.size()});
+  course.world->move_to(course.boundary, {course.to_camera.data(), std::min(course.to_camera.size(), lcs::kLineBytes)});
   const Packet camera = course.world->from_camera(), ground = course.world->from_ground();
   board_.give(camera, ground);
 }
