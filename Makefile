@@ -52,7 +52,7 @@ tidy = @ninja -C $(1) -t cleandead >/dev/null; find $(1) -name '*.$(2)' | while 
 ctest = @rm -rf $(2); mkdir -p $(2); GTEST_OUTPUT=xml:$(abspath $(2))/ \
   ctest --test-dir $(1) --parallel $(JOBS) --output-on-failure --no-tests=error --output-junit $(abspath $(2))/ctest.xml $(3)
 
-.PHONY: help run test accuracy bench basin search montecarlo endurance flips scrub fuzz statistics campaigns-sample golden ppc-count search-count pil pil-sample prove ppc-test sanitize arrows coverage mcdc trace evidence gates-selftest figures icd format lint install clean build
+.PHONY: help run test accuracy bench basin search montecarlo endurance flips scrub fuzz statistics campaigns-sample golden ppc-count search-count pil pil-sample seu seu-sample prove ppc-test sanitize arrows coverage mcdc trace evidence gates-selftest figures icd format lint install clean build
 .DEFAULT_GOAL := help
 
 help: ## this list
@@ -205,6 +205,24 @@ pil-sample: prove ## the same for a few frames, and the board's answers to fault
 	$(begin)
 	$(on_board)
 	@ft/pil/faults $(BUILD) $(BOARD)
+
+# $(call seu,FLIPS,SEED,NAME) flips bits in the running board.
+define seu
+$(call packages,build target)
+$(call configure,$(BUILD),)
+$(call compile,$(BUILD),pil_seu)
+$(call configure,$(BOARD),$(BARE_BOARD))
+$(call compile,$(BOARD),flight_603e layout_603e)
+@ft/pil/seu.py $(BUILD) $(BOARD) $(1) $(2) $(3)
+endef
+seu: ## 2000 bits flipped in the running, emulated 603e: code, image, parameters, mode, data, stack, registers; table, and out/seu; goes on where it was; FLIPS=, SEED=
+	$(begin)
+	$(call seu,$(or $(FLIPS),2000),$(or $(SEED),1),seu)
+
+seu-sample: ## eight of them, one in each region; out/seu-sample
+	$(begin)
+	@rm -rf $(LASSO_OUT)/seu-sample
+	$(call seu,8,2,seu-sample)
 
 prove: ## what the flight image's archives for the 603e do not do: heap, exceptions, recursion, contraction, too much stack or memory; out/prove
 	$(begin)

@@ -26,9 +26,9 @@ extern "C" {
 extern void (*board_constructors_begin[])();
 extern void (*board_constructors_end[])();
 extern const volatile lasso::ppc603e::Straps board_straps;
+extern const std::uint8_t board_code_begin[], board_code_end[];
 extern const std::uint8_t board_mission[];
 extern std::uint8_t board_mission_work[];
-extern const std::uint8_t board_code_begin[], board_code_end[];
 [[noreturn]] void board_main();
 void board_interrupt(std::uint32_t vector);
 }
@@ -138,14 +138,19 @@ void tell_start(const FaultRecord& record) {
   say("\n");
 }
 
+// What the scrub watches beside the image: code and constants. The vectors below them are mapped for nobody. There is no second image
+// buffer and no store yet; a restart loads the image anew.
+BoardMemory watched_memory() {
+  BoardMemory memory;
+  memory.code = ConstBytes(board_code_begin, static_cast<std::size_t>(board_code_end - board_code_begin));
+  return memory;
+}
+
 Component& make_component(Board& b, ResetCause cause) {
   auto* driver = new (driver_memory) lcs::Driver(b.camera_line, lcs::Optics(calibration()));
   auto* component = new (component_memory) Component(*driver);
   component->set_reset_cause(cause);
-  // No second image buffer and no store yet: the scrub has the image, which a restart loads anew, and the code to watch.
-  const auto code_bytes = static_cast<std::size_t>(board_code_end - board_code_begin);
-  if (component->use_memory({{}, nullptr, ConstBytes(board_code_begin, code_bytes)}) != Status::kOk)
-    stop("there is more code than can be watched");
+  if (component->use_memory(watched_memory()) != Status::kOk) stop("there is more code than the scrub can watch");
   const LoadFailure failure = component->load_image(mission_bytes());
   if (failure.status != Status::kOk) {
     say("board: the mission image is refused: ");

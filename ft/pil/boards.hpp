@@ -12,8 +12,13 @@ namespace lasso::pil {
 
 using Told = std::function<void(std::uint32_t frames)>;  // frames that are done
 
+struct HostMemory {
+  std::vector<std::uint8_t> image;
+  std::size_t code_bytes = 0;  // that the target's scrub watches beside the image
+};
+
 // The telemetry of `frames` frames. Throws mdat::RunError.
-Packet fly_on_host(const WorldSetup& setup, const std::vector<std::uint8_t>& image, std::uint32_t frames, const Told& told);
+Packet fly_on_host(const WorldSetup& setup, const HostMemory& memory, std::uint32_t frames, const Told& told);
 
 struct Report {
   std::uint32_t words[ppc603e::kRigWords] = {};

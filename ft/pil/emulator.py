@@ -45,10 +45,26 @@ def check_image(elf):
         raise Failure(f'{elf}: an image for another board, not {BOARD_ID.decode()}: build the board ppc603e')
 
 
+def symbols(path):
+    """The addresses of an image's or object's symbols by their last names."""
+    try:
+        said = subprocess.run(['powerpc-linux-gnu-nm', '-C', str(path)], capture_output=True, text=True, check=True).stdout
+    except (OSError, subprocess.CalledProcessError) as error:
+        raise Failure(f'{path}: its symbols cannot be read ({error}): build it first, and install the Debian package g++-powerpc-linux-gnu') from error
+    words = (line.split(maxsplit=2) for line in said.splitlines())
+    return {word[2].rsplit('::', 1)[-1]: int(word[0], 16) for word in words if len(word) == 3}
+
+
+def code_bytes(elf):
+    """That the board's scrub watches."""
+    places = symbols(elf)
+    return places['board_code_end'] - places['board_code_begin']
+
+
 class Emulator:
     """Running until the end of the with block. What the board's console says is kept, and said when something fails."""
 
-    def __init__(self, elf, image, folder, rig=True, processor='603e', ticks_per_s=TICKS_PER_S):
+    def __init__(self, elf, image, folder, rig=True, processor='603e', ticks_per_s=TICKS_PER_S, shared=False):
         require()
         check_image(elf)
         self.folder = pathlib.Path(folder)
@@ -56,13 +72,15 @@ class Emulator:
         reset = self.folder / 'reset.bin'  # the machine wants some content for its read-only memory
         reset.write_bytes(bytes(64))
         words = [STRAPS_MAGIC, ticks_per_s, 1 if rig else 0, 0]
-        self.command = [QEMU, '-M', 'g3beige', '-cpu', processor, '-m', '256', '-bios', str(reset), '-vga', 'none', '-net', 'none', '-display', 'none',
+        self.command = [QEMU, '-M', f'g3beige{",memory-backend=ram" if shared else ""}', '-cpu', processor, '-m', '256', '-bios', str(reset), '-vga', 'none', '-net', 'none', '-display', 'none',
                         '-serial', 'null', '-parallel', 'none', '-monitor', f'unix:{self.folder}/monitor.sock,server=on,wait=off', '-no-reboot', '-icount', f'shift={SHIFT},align=off,sleep=on']
         for name in ('camera', 'ground', 'rig'):
             self.command += ['-chardev', f'socket,id={name},path={self.folder}/{name}.sock' if rig else f'null,id={name}']
         self.command += ['-chardev', f'file,id=console,path={self.console_file}',
                          '-device', 'pci-serial-4x,chardev1=camera,chardev2=ground,chardev3=rig,chardev4=console',
                          '-device', f'loader,file={elf},cpu-num=0']
+        if shared:  # memory as a file, and a debug port (ft/pil/seu_board.hpp)
+            self.command += ['-object', f'memory-backend-file,id=ram,size=256M,mem-path={self.folder}/ram.bin,share=on', '-gdb', f'unix:{self.folder}/gdb.sock,server=on,wait=off']
         if image:
             self.command += ['-device', f'loader,file={image},addr={MISSION:#x},force-raw=on']
         for i in range(0, len(words), 2):  # eight bytes: of four the emulator would write the upper half
@@ -162,7 +180,7 @@ def fly(program, elf, arguments, folder, seconds, **board):
     """One run of the rig with an emulated board; exit code, words, console."""
     os.makedirs(folder, exist_ok=True)
     emulator = Emulator(elf, f'{folder}/image.3dli', folder, **board)
-    with Rig(program, arguments, seconds) as rig:
+    with Rig(program, [*arguments, f'code={code_bytes(elf)}'], seconds) as rig:
         rig.await_ready()
         with emulator:
             code, said = rig.finish()

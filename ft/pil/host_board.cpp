@@ -31,8 +31,14 @@ class MemoryLink final : public ByteLink {
 
 // The component, wired as on the target.
 struct Host {
-  explicit Host(const std::vector<std::uint8_t>& bytes)
-      : image(mdat::aligned_copy(bytes)), driver(line, lcs::Optics(calibration())), component(std::make_unique<Component>(driver)) {
+  Host(const std::vector<std::uint8_t>& bytes, std::size_t code_bytes)
+      : image(mdat::aligned_copy(bytes)),
+        code(code_bytes),
+        driver(line, lcs::Optics(calibration())),
+        component(std::make_unique<Component>(driver)) {
+    BoardMemory memory;
+    memory.code = ConstBytes(code.data(), code.size());
+    expect(component->use_memory(memory), "watch its code");
     expect(component->load_image(mdat::view(image, bytes.size())).status, "load its image");
     expect(component->begin(mdat::kEpochUs), "begin");
   }
@@ -65,6 +71,7 @@ struct Host {
   }
 
   std::vector<std::uint64_t> image;
+  std::vector<std::uint8_t> code;  // as much as the target has: the scrub's pass takes as long
   lcs::Line line;
   lcs::Driver driver;
   std::unique_ptr<Component> component;
@@ -74,9 +81,9 @@ struct Host {
 
 }  // namespace
 
-Packet fly_on_host(const WorldSetup& setup, const std::vector<std::uint8_t>& image, std::uint32_t frames, const Told& told) {
+Packet fly_on_host(const WorldSetup& setup, const HostMemory& memory, std::uint32_t frames, const Told& told) {
   World world(setup);
-  Host host(image);
+  Host host(memory.image, memory.code_bytes);
   for (std::uint32_t slot = 0; slot < frames * kSlotsPerFrame; ++slot) {
     host.meet(world, slot);
     host.run_slot();

@@ -1,9 +1,9 @@
-// pil_rig MISSION SCENARIO FRAMES OUT [cut=BYTES] [noise] [reset] [starts=N]: flies a scenario on the host, then on the board behind
-// OUT/camera.sock, OUT/ground.sock and OUT/rig.sock, and compares their telemetry bit by bit. Says `ready` when the board may be started:
-// the mission's image is then in OUT/image.3dli. Leaves OUT/host.ccsds, OUT/target.ccsds, OUT/starts.csv and OUT/slots.csv (the board's
-// reports, words by name). cut: the camera's line ends after so many bytes. noise: the ground's begins with some. reset: the ground resets
-// the component after five frames. starts: so many starts of the board are awaited, and the flight on the host left out. Exit codes: 0 the
-// same bits, 1 not, or the board failed, 2 usage or bad input.
+// pil_rig MISSION SCENARIO FRAMES OUT [cut=BYTES] [noise] [reset] [starts=N] [code=BYTES]: flies a scenario on the host, then on the board
+// behind OUT/camera.sock, OUT/ground.sock and OUT/rig.sock, and compares their telemetry bit by bit. Says `ready` when the board may be
+// started: the mission's image is then in OUT/image.3dli. Leaves OUT/host.ccsds, OUT/target.ccsds, OUT/starts.csv and OUT/slots.csv (the
+// board's reports, words by name). cut: the camera's line ends after so many bytes. noise: the ground's begins with some. reset: the ground
+// resets the component after five frames. starts: so many starts of the board are awaited, and the flight on the host left out. code: so
+// much code the board watches, and the host beside it. Exit codes: 0 the same bits, 1 not, or the board failed, 2 usage or bad input.
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -30,25 +30,28 @@ constexpr const char* kWordNames =
 struct Options {
   std::string mission, scenario, out;
   std::uint32_t frames = 0, starts = 1;
+  std::size_t code_bytes = 0;
   std::optional<std::uint64_t> cut;
   bool noise = false, reset = false;
 };
 
 Options parse(int argc, char** argv) {
-  if (argc < 5) throw mdat::InputError("usage: pil_rig MISSION SCENARIO FRAMES OUT [cut=BYTES] [noise] [reset] [starts=N]");
-  Options options{argv[1], argv[2], argv[4], static_cast<std::uint32_t>(std::stoul(argv[3])), 1, {}, false, false};
+  if (argc < 5) throw mdat::InputError("usage: pil_rig MISSION SCENARIO FRAMES OUT [cut=BYTES] [noise] [reset] [starts=N] [code=BYTES]");
+  Options options{argv[1], argv[2], argv[4], static_cast<std::uint32_t>(std::stoul(argv[3])), 1, 0, {}, false, false};
   for (int i = 5; i < argc; ++i) {
     const std::string word = argv[i];
     if (word.starts_with("cut=")) {
       options.cut = std::stoull(word.substr(4));
     } else if (word.starts_with("starts=")) {
       options.starts = static_cast<std::uint32_t>(std::stoul(word.substr(7)));
+    } else if (word.starts_with("code=")) {
+      options.code_bytes = std::stoul(word.substr(5));
     } else if (word == "noise") {
       options.noise = true;
     } else if (word == "reset") {
       options.reset = true;
     } else {
-      throw mdat::InputError(word + ": none of cut=BYTES, noise, reset and starts=N");
+      throw mdat::InputError(word + ": none of cut=BYTES, noise, reset, starts=N and code=BYTES");
     }
   }
   return options;
@@ -141,7 +144,7 @@ int run(const Options& options) {
   Packet host;
   if (options.starts == 1) {
     mdat::ProgressBar bar("fly on the host", frames, "frames");
-    host = fly_on_host(setup, image, frames, [&](std::uint32_t done) { bar.show(done); });
+    host = fly_on_host(setup, {image, options.code_bytes}, frames, [&](std::uint32_t done) { bar.show(done); });
     bar.finish();
   }
   write(options.out + "/host.ccsds", host);

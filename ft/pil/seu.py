@@ -1,0 +1,225 @@
+#!/usr/bin/env python3
+"""seu.py HOST BOARD [FLIPS [SEED [NAME]]]: single bits flipped in the running board: code, image, parameters, mode, data, stack, registers (docs/pil.md).
+
+HOST and BOARD are build folders. FLIPS (2000) flips, an eighth in each region, each in a flight of its own from a state of one flight; where and when depends
+on SEED (1) and the flip's number. Leaves out/NAME (seu): flips.csv, results.json, report.html, summary.json. Interrupted, it goes on where it was, if
+image and seed are the same. Exit codes: 0 no wrong pose was published unsaid by a flip in what is protected; 1 one was, or the board fails without a flip.
+"""
+import collections
+import csv
+import hashlib
+import html as text
+import json
+import pathlib
+import subprocess
+import sys
+import time
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / 'cfg/quality'))
+import gate as gates  # noqa: E402
+import emulator  # noqa: E402
+
+MISSION = 'cfg/missions/hubble_tenth.toml'
+IMAGE_AT = 0x06000000  # board_mission_work of bsp/ppc603e/link.ld
+REGIONS = ('code', 'image', 'views', 'mode', 'vectors', 'data', 'stack', 'registers')
+PROTECTED = REGIONS[:4]
+OUTCOMES = {
+    'masked': 'telemetry as without the flip, to the bit, and memory again, too',
+    'latent': 'the same telemetry for 10 s; memory still differs',
+    'harmless': 'other bytes; all poses valid and right; nothing told',
+    'invalid': 'poses invalid or missing; no other word of it',
+    'recovered': 'told, and poses valid at the end',
+    'stopped': 'told, and no more poses: safe, or lost',
+    'reset': 'the board restarted',
+    'hang': 'no more word of the board for 20 s of the host: it hangs, or damaged code has made it restart nine times in a row',
+    'told_wrong': 'a wrong pose as valid, told within 10 s, or a reset',
+    'silent_wrong': 'a wrong pose as valid, and not a word',
+}
+COLUMNS = ('number', 'region', 'frame', 'slot', 'where', 'bit', 'instruction', 'outcome', 'told_after', 'wrong', 'invalid', 'frames')
+
+
+def without(begin, end, holes):
+    """The ranges of [begin, end) that are in none of the holes."""
+    for at, size in sorted(holes):
+        yield begin, at - begin
+        begin = at + size
+    yield begin, end - begin
+
+
+def places(elf, layout):
+    """Regions of the board: name, address, bytes. The image's bytes are known when it is compiled."""
+    at, of = emulator.symbols(elf), emulator.symbols(layout)
+    component, driver = at['component_memory'], at['driver_memory']
+    mode = [(component + of['mode_at'], of['mode_bytes']), (component + of['parameters_at'], of['parameters_bytes']), (driver + of['laser_at'], of['laser_bytes'])]
+    views = [(component + of['views_at'], of['views_bytes'])]
+    stack = at['board_estimation_stack_end'] - at['board_estimation_stack_begin']
+    ranges = {
+        'code': [(at['board_code_begin'], at['board_code_end'] - at['board_code_begin'])], 'vectors': [(0, 0x1800)], 'image': [(IMAGE_AT, 0)],
+        'views': views, 'mode': mode, 'data': list(without(at['board_estimation_stack_end'], at['board_bss_end'], views + mode)),
+        'estimation_stack': [(at['board_estimation_stack_begin'], stack)],
+        'acquisition_stack': [(at['board_acquisition_stack_begin'], at['board_acquisition_stack_end'] - at['board_acquisition_stack_begin'])],
+        'lines': [(at['board_memory'], at['board_bss_end'] - at['board_memory'])],
+        'clock': [(at['clock_memory'], at['driver_memory'] - at['clock_memory'])],  # and the flight's
+        'all_data': [(at['board_estimation_stack_begin'], at['board_bss_end'] - at['board_estimation_stack_begin'])],
+    }
+    return ''.join(f'{name} {begin} {size}\n' for name, pieces in ranges.items() for begin, size in pieces)
+
+
+def rows_of(path):
+    with open(path, encoding='utf-8') as file:
+        return list(csv.DictReader(file))
+
+
+def resume(gate, elf, seed):
+    """How many flips of the same campaign are there."""
+    campaign = json.dumps({'seed': seed, 'image': hashlib.sha256(pathlib.Path(elf).read_bytes()).hexdigest()})
+    known, table = gate.out / 'campaign.json', gate.out / 'flips.csv'
+    if known.exists() and table.exists() and known.read_text(encoding='utf-8') == campaign:
+        return len(rows_of(table))
+    known.write_text(campaign, encoding='utf-8')
+    table.write_text(','.join(COLUMNS) + '\n', encoding='utf-8')
+    return 0
+
+
+class Machines:
+    """One emulator at a time, started anew whenever the rig wants one."""
+
+    def __init__(self, elf, folder):
+        self.elf, self.folder, self.now, self.started = elf, folder, None, 0
+
+    def start(self):
+        self.end()
+        self.now = emulator.Emulator(self.elf, self.folder / 'image.3dli', self.folder, shared=True).__enter__()
+        self.started += 1
+
+    def end(self):
+        if self.now is not None:
+            self.now.__exit__()
+        self.now = None
+
+
+class Progress:
+    def __init__(self, first, flips):
+        self.first, self.done, self.flips, self.begun, self.told = first, first, flips, time.monotonic(), 0.0
+
+    def row(self):
+        self.done += 1
+        now = time.monotonic()
+        if now - self.told < (1 if sys.stderr.isatty() else 60) and self.done < self.flips:
+            return
+        self.told = now
+        each = (now - self.begun) / (self.done - self.first)
+        left = round(each * (self.flips - self.done))
+        print(f'flips: {self.done}/{self.flips}, {each:.1f} s each, {left // 3600}:{left // 60 % 60:02d}:{left % 60:02d} left', file=sys.stderr, flush=True)
+
+
+def fly(gate, host, elf, flips, seed, first):
+    machines, progress = Machines(elf, gate.out), Progress(first, flips)
+    command = [f'{host}/ft/pil/pil_seu', MISSION, gate.out, gate.out / 'places.txt', flips - first, seed, first]
+    with subprocess.Popen([str(word) for word in command], stdout=subprocess.PIPE, text=True) as rig, open(gate.out / 'flips.csv', 'a', encoding='utf-8') as table:
+        try:
+            for line in rig.stdout:
+                kind, _, rest = line.strip().partition(' ')
+                if kind == 'start':
+                    machines.start()
+                elif kind == 'row':
+                    table.write(rest + '\n')
+                    table.flush()
+                    progress.row()
+                else:
+                    print(line.strip(), flush=True)
+            said = machines.now.said() if machines.now else 'no emulator'
+        finally:
+            rig.kill()
+            machines.end()
+            (gate.out / 'ram.bin').unlink(missing_ok=True)
+    if rig.returncode != 0:
+        gate.stop(f'the board has failed without a flip, or cannot be put back: {said}: see above')
+    return machines.started
+
+
+def count(rows):
+    return {region: collections.Counter(row['outcome'] for row in rows if row['region'] == region) for region in REGIONS}
+
+
+def told_frames(rows, region):
+    """Median and longest, in seconds, of the flips that were told."""
+    frames = sorted(int(row['told_after']) for row in rows if row['region'] == region and int(row['told_after']) > 0)
+    return f'{frames[len(frames) // 2] * 0.2:.1f} s, {frames[-1] * 0.2:.1f} s' if frames else ''
+
+
+def table_of(rows):
+    counts = count(rows)
+    yield ['flipped bits in', *OUTCOMES, 'all', 'told after (median, longest)']
+    for region in REGIONS:
+        yield [region, *(counts[region][outcome] for outcome in OUTCOMES), sum(counts[region].values()), told_frames(rows, region)]
+    yield ['all', *(sum(counts[region][outcome] for region in REGIONS) for outcome in OUTCOMES), len(rows), '']
+
+
+def page(rows, results):
+    lines = ''.join('<tr>' + ''.join(f'<td>{text.escape(str(word))}</td>' for word in line) + '</tr>' for line in table_of(rows))
+    meanings = ''.join(f'<tr><td>{name}</td><td>{meaning}</td></tr>' for name, meaning in OUTCOMES.items())
+    return ('<!doctype html><meta charset="utf-8"><title>Flips on the PowerPC 603e</title><style>body{font-family:sans-serif;max-width:1100px;margin:2em auto}'
+            'td{padding:.2em 1em .2em 0;vertical-align:top}tr:first-child{font-weight:bold}</style><h1>Flips on the PowerPC 603e</h1>'
+            f'<p>{results["flips"]} bits flipped in the running board, seed {results["seed"]}, {results["emulator"]}, {results["commit"]}. Protected: {", ".join(PROTECTED)}.</p>'
+            f'<table>{lines}</table><h2>Outcomes</h2><table>{meanings}</table>\n')
+
+
+def judge(gate, rows):
+    numbers = [int(row['number']) for row in rows]
+    if numbers != list(range(len(rows))):
+        gate.find(f'the flips are not numbered from 0 to {len(rows) - 1}: remove {gate.out}/flips.csv and start anew')
+    if not any(row['region'] in PROTECTED and int(row['told_after']) > 0 for row in rows):
+        gate.find('no flip in protected memory was told: is anything flipped, or is the scrub off?')
+    for row in rows:
+        if row['outcome'] not in OUTCOMES or row['region'] not in REGIONS:
+            gate.find(f'flip {row["number"]}: outcome {row["outcome"]} in {row["region"]} is none of those known: mend ft/pil/seu.py')
+        if row['outcome'] == 'silent_wrong' and row['region'] in PROTECTED:
+            gate.find(f'flip {row["number"]}: bit {row["bit"]} of {row["where"]} ({row["region"]}) in frame {row["frame"]}, slot {row["slot"]}: a wrong pose was published and nothing told')
+
+
+def missed(rows):
+    """In what is protected, and not a word of it."""
+    quiet = ('masked', 'latent', 'harmless', 'invalid', 'silent_wrong')
+    return sum(row['region'] in PROTECTED and row['outcome'] in quiet for row in rows)
+
+
+def conclude(gate, rows, seed, version, seconds, started):
+    results = {'flips': len(rows), 'seed': seed, 'emulator': f'QEMU {version}', 'commit': gates.commit(), 'seconds': round(seconds), 'emulators': started,
+               'protected': PROTECTED, 'regions': {region: dict(counts) for region, counts in count(rows).items()}}
+    (gate.out / 'results.json').write_text(json.dumps(results, indent=1) + '\n', encoding='utf-8')
+    (gate.out / 'report.html').write_text(page(rows, results), encoding='utf-8')
+    for line in table_of(rows):
+        print(''.join(f'{word!s:>13}' for word in line))
+    judge(gate, rows)
+    counts = count(rows)
+    gate.figure('flips', len(rows))
+    gate.figure('silent wrong in protected memory', sum(counts[region]['silent_wrong'] for region in PROTECTED))
+    gate.figure('not told in protected memory', missed(rows))
+    gate.figure('silent wrong elsewhere', sum(counts[region]['silent_wrong'] for region in REGIONS if region not in PROTECTED))
+
+
+def main(host, board, flips='2000', seed='1', name='seu'):
+    with gates.Gate(name) as gate:
+        elf, begun = f'{board}/flight_603e.elf', time.monotonic()
+        try:
+            version = emulator.require()
+            emulator.check_image(elf)
+            first = resume(gate, elf, seed)
+            (gate.out / 'places.txt').write_text(places(elf, f'{board}/bsp/ppc603e/CMakeFiles/layout_603e.dir/__/__/ft/pil/layout.cpp.obj'), encoding='utf-8')
+            started = fly(gate, host, elf, int(flips), seed, first) if first < int(flips) else 0
+        except emulator.Failure as failure:
+            gate.stop(str(failure))
+        rows = rows_of(gate.out / 'flips.csv')[:int(flips)]
+        if len(rows) != int(flips):
+            gate.find(f'{len(rows)} flips of {flips} have an outcome: start again, it goes on where it was')
+        conclude(gate, rows, seed, version, time.monotonic() - begun, started)
+
+
+if __name__ == '__main__':
+    if {'-h', '--help'} & set(sys.argv) or not 3 <= len(sys.argv) <= 6:
+        print(__doc__)
+        sys.exit(0 if {'-h', '--help'} & set(sys.argv) else 2)
+    main(*sys.argv[1:])

@@ -1,0 +1,144 @@
+#include "ft/pil/seu_board.hpp"
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+#include "mdat/common/errors.hpp"
+
+namespace lasso::pil {
+namespace {
+
+constexpr std::size_t kRamBytes = 256U << 20;
+constexpr int kStartPatience_s = 60;
+
+Range only(const Places& places, const std::string& name) {
+  const auto found = places.find(name);
+  if (found == places.end() || found->second.size() != 1) throw mdat::RunError("places of the board: one range of " + name + " is needed");
+  return found->second.front();
+}
+
+bool is_start(const Report& report) { return report[ppc603e::kRigKind] == static_cast<std::uint32_t>(ppc603e::RigKind::kBegun); }
+
+}  // namespace
+
+Places read_places(const std::string& file) {
+  std::ifstream stream(file);
+  Places places;
+  std::string name;
+  Range range;
+  while (stream >> name >> range.address >> range.bytes) places[name].push_back(range);
+  if (places.empty() || !stream.eof()) throw mdat::RunError(file + ": lines of a name, an address and bytes are needed");
+  return places;
+}
+
+SeuBoard::SeuBoard(std::string folder, const Places& places, std::function<void()> start_emulator)
+    : folder_(std::move(folder)),
+      start_emulator_(std::move(start_emulator)),
+      memory_(only(places, "all_data")),
+      stack_(only(places, "acquisition_stack")),
+      constants_{only(places, "code"), only(places, "vectors"), only(places, "image")} {}
+
+SeuBoard::~SeuBoard() {
+  if (ram_ != nullptr) (void)munmap(ram_, kRamBytes);
+}
+
+void SeuBoard::begin() {
+  for (std::optional<Line>* line : {&camera_, &ground_, &rig_}) line->emplace();
+  camera_->listen(folder_, "camera");
+  ground_->listen(folder_, "ground");
+  rig_->listen(folder_, "rig");
+  start_emulator_();
+  for (std::optional<Line>* line : {&camera_, &ground_, &rig_}) (*line)->await();
+  gdb_.connect(folder_ + "/gdb.sock");
+  map_memory();
+  gdb_.go_on();
+  const std::optional<Said> said = await(kStartPatience_s);
+  if (!said || !said->begun) throw mdat::RunError("the board does not begin");
+}
+
+void SeuBoard::map_memory() {
+  if (ram_ != nullptr) (void)munmap(ram_, kRamBytes);
+  const int fd = open((folder_ + "/ram.bin").c_str(), O_RDWR | O_CLOEXEC);
+  void* mapped = fd < 0 ? MAP_FAILED : mmap(nullptr, kRamBytes, PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0);
+  if (fd >= 0) (void)close(fd);
+  if (mapped == MAP_FAILED) throw mdat::RunError(folder_ + "/ram.bin: the board's memory cannot be mapped");
+  ram_ = static_cast<std::uint8_t*>(mapped);
+}
+
+void SeuBoard::keep_constants() {
+  kept_constants_.clear();
+  for (const Range& range : constants_) kept_constants_.emplace_back(bytes_of(range).begin(), bytes_of(range).end());
+}
+
+void SeuBoard::give(const Packet& from_camera, const Packet& from_ground) {
+  camera_->give(from_camera);
+  ground_->give(from_ground);
+  rig_->give(words({camera_->given(), ground_->given()}));
+}
+
+std::optional<Said> SeuBoard::await(int patience_s, const std::function<void()>& stopped) {
+  std::optional<Report> report;
+  for (;;) {
+    for (std::optional<Line>* line : {&camera_, &ground_, &rig_}) (*line)->move();
+    if (gdb_.hit() && stopped) stopped();
+    if (!report && rig_->has(4 * ppc603e::kRigWords)) {
+      report = report_of(rig_->take(4 * ppc603e::kRigWords));
+      if (is_start(*report)) camera_->count_anew(), ground_->count_anew();
+    }
+    if (report && camera_->has_all((*report)[ppc603e::kRigCameraSent]) && ground_->has_all((*report)[ppc603e::kRigGroundSent])) break;
+    std::array<pollfd, 4> states{camera_->awaited(), ground_->awaited(), rig_->awaited(), pollfd{gdb_.descriptor(), POLLIN, 0}};
+    if (poll(states.data(), states.size(), patience_s * 1000) <= 0) return {};
+  }
+  return Said{is_start(*report), camera_->take_until((*report)[ppc603e::kRigCameraSent]),
+              ground_->take_until((*report)[ppc603e::kRigGroundSent])};
+}
+
+Snapshot SeuBoard::keep() {
+  gdb_.stop();
+  Snapshot snapshot;
+  snapshot.memory.assign(bytes_of(memory_).begin(), bytes_of(memory_).end());
+  snapshot.stack.assign(bytes_of(stack_).begin(), bytes_of(stack_).end());
+  snapshot.registers = gdb_.registers();
+  snapshot.counts = {camera_->taken(), camera_->given(), ground_->taken(), ground_->given()};
+  gdb_.go_on();
+  return snapshot;
+}
+
+// The processor is stopped then.
+void SeuBoard::put_back(const Snapshot& snapshot) {
+  gdb_.stop();
+  for (std::optional<Line>* line : {&camera_, &ground_, &rig_}) (*line)->move();
+  std::copy(snapshot.memory.begin(), snapshot.memory.end(), bytes_of(memory_).begin());
+  std::copy(snapshot.stack.begin(), snapshot.stack.end(), bytes_of(stack_).begin());
+  restore_constants();
+  gdb_.set_registers(snapshot.registers);
+  camera_->go_back(snapshot.counts.camera_taken, snapshot.counts.camera_given);
+  ground_->go_back(snapshot.counts.ground_taken, snapshot.counts.ground_given);
+  rig_->go_back(0, 0);
+}
+
+bool SeuBoard::constants_right() const {
+  for (std::size_t i = 0; i < constants_.size(); ++i)
+    if (!std::equal(kept_constants_[i].begin(), kept_constants_[i].end(), bytes_of(constants_[i]).begin())) return false;
+  return true;
+}
+
+void SeuBoard::restore_constants() {
+  for (std::size_t i = 0; i < constants_.size(); ++i) {
+    const Packet& kept = kept_constants_[i];
+    const Bytes now = bytes_of(constants_[i]);
+    for (std::size_t n = 0; n < kept.size(); ++n)
+      if (now[n] != kept[n]) gdb_.write(constants_[i].address + static_cast<std::uint32_t>(n), kept[n]);
+  }
+}
+
+void SeuBoard::flip(std::uint32_t address, std::uint8_t bit) { gdb_.write(address, static_cast<std::uint8_t>(*at(address) ^ (1U << bit))); }
+
+}  // namespace lasso::pil
