@@ -17,11 +17,13 @@ enum class Type : std::uint8_t {
   kSelfTest = 0x01,   // to the camera, without payload; what it finds is in its status
   kAskStatus = 0x02,  // without payload
   kLaser = 0x03,      // LaserCommand
+  kAskTable = 0x04,   // without payload; answered, then told in parts
   kAim = 0x10,        // AimCommand: directions for the scan that runs
   kStart = 0x11,      // StartCommand
   kAbort = 0x12,      // without payload: ends a scan, and forgets aimed rays
   kAnswer = 0x81,     // from the camera: Answer, one for each command but kAim
   kStatus = 0x82,     // CameraStatus: asked for, and unasked after a boot
+  kTable = 0x83,      // TablePart (table.hpp) of its calibration
   kSamples = 0x91,    // Samples
   kScanEnd = 0x92,    // ScanEnd
 };
@@ -33,7 +35,7 @@ constexpr DurationUs kUnheardUs = 2'000'000;  // without a right frame for so lo
 
 enum class Result : std::uint8_t {
   kDone = 0,
-  kUnknown = 1,    // no such command, or its payload has another length
+  kUnknown = 1,    // no such command, or its payload has another length; a table that the head does not have
   kBusy = 2,       // a scan runs
   kInhibited = 3,  // the laser is
   kNotArmed = 4,   // fired without, or too late

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "fsw/sense/pattern.hpp"
+#include "hal_lcs/table.hpp"
 
 namespace lasso::sim {
 namespace {
@@ -136,6 +137,14 @@ void LcsDevice::send_status(TimeUs t_us) {
   send(lcs::encode(sent_, status), t_us);
 }
 
+// What it was made with; a LIDAR does not triangulate.
+void LcsDevice::send_table(const lcs::Frame& asked, TimeUs t_us) {
+  if (camera_.device == lcs::Device::kLidar) return answer(asked, lcs::Result::kUnknown, t_us);
+  answer(asked, lcs::Result::kDone, t_us);
+  for (std::size_t first = 0; first < lcs::kTableNumbers; first += lcs::kNumbersPerPart)
+    send(lcs::encode(sent_, lcs::part_of(camera_.truth, first)), t_us);
+}
+
 void LcsDevice::put_out_laser() { laser_lit_ = scan_.running = false; }
 
 void LcsDevice::boot(TimeUs t_us) {
@@ -173,11 +182,14 @@ void LcsDevice::carry_out(const lcs::Frame& frame, TimeUs t_us) {
       if (decode(frame, command) == Status::kOk) carry_out(command);
       return;
     }
+    case Type::kAskTable:
+      return send_table(frame, t_us);
     case Type::kAbort:
       scan_.running = false;
       return answer(frame, Result::kDone, t_us);
     case Type::kAnswer:
     case Type::kStatus:
+    case Type::kTable:
     case Type::kSamples:
     case Type::kScanEnd:
       break;

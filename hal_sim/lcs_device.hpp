@@ -57,6 +57,7 @@ class LcsDevice {
   bool within_mirrors(const ScanPlan& plan) const;
   void answer(const lcs::Frame& to, lcs::Result result, TimeUs t_us);
   void send_status(TimeUs t_us);
+  void send_table(const lcs::Frame& asked, TimeUs t_us);
   void boot(TimeUs t_us);
   void scan_until(TimeUs now_us);
   void send_frames_until(TimeUs now_us);

@@ -7,6 +7,7 @@
 
 #include "ft/fuzz/exact.hpp"
 #include "hal_lcs/messages.hpp"
+#include "hal_lcs/table.hpp"
 
 namespace lasso::fuzz {
 namespace {
@@ -53,6 +54,7 @@ void check_messages(const lcs::Frame& frame) {
   lcs::CameraStatus status;
   lcs::Samples samples;
   lcs::ScanEnd end;
+  lcs::TablePart part;
   const auto type = static_cast<lcs::Type>(frame.type);
   if (accepted(frame, laser) && type == lcs::Type::kLaser)
     expect(same(lcs::encode(frame.sequence, laser), frame), "a laser command says itself");
@@ -63,6 +65,11 @@ void check_messages(const lcs::Frame& frame) {
   if (accepted(frame, status)) expect(status.temperature_degC >= -328 && status.temperature_degC <= 328, "a temperature is one");
   if (accepted(frame, end) && type == lcs::Type::kScanEnd)
     expect(same(lcs::encode(frame.sequence, end), frame), "a scan's end says itself");
+  if (accepted(frame, part) && type == lcs::Type::kTable) {
+    TriangulationCalibration table;
+    expect(same(lcs::encode(frame.sequence, part), frame), "a part of a table says itself");
+    expect((take(part, table) == Status::kOk) == (part.all == lcs::kTableNumbers), "a table of its kind is taken");
+  }
   if (!accepted(frame, samples)) return;
   expect(samples.count > 0 && samples.count <= lcs::kSamplesPerFrame, "samples fit");
   for (std::size_t i = 0; i < samples.count; ++i) {

@@ -44,6 +44,39 @@ INSTANTIATE_TEST_SUITE_P(All, LcsSim,
                                            Head{"unix:line", "tridar", "tridar-wire"}, Head{"pty", "laser-camera", "lcs-wire"}),
                          [](const auto& one) { return std::string(one.param.listen).substr(0, 3); });
 
+// Every number is another one.
+constexpr char kOptics[] =
+    "serial = 7\nfocal_length_m = 0.0817\nbaseline_m = 0.2031\nhalf_width_m = 0.08125\nangle_x_offset_rad = 0.004\n"
+    "angle_y_offset_rad = -0.003\nfocal_length_per_K = 3e-5\nbaseline_per_K = 2e-5\npeak_per_K = 1e-5\nreference_degC = 21\n"
+    "angle_max_rad = 0.31\ndepth_min_m = 0.6\ndepth_max_m = 11\ntemperature_min_degC = -15\ntemperature_max_degC = 45\n"
+    "outside_sigma_factor = 4\nresidual = [0.001, -0.002, 0.0011, 0.003, 0.0021, -0.001, 0.0015, 0.0012, -0.0023, 0.0016]\n";
+
+// Read, served again and read again: the same file.
+TEST(CameraTable, IsReadFromTheCamera) {
+  VERIFIES("LASSO-LCS-019~1");
+  const WorkFolder folder;
+  folder.write("optics.toml", kOptics);
+  for (const auto& [optics, out] : {std::pair{"optics.toml", "first.toml"}, std::pair{"first.toml", "second.toml"}}) {
+    const std::string read = "'" MDAT_PROGRAM "' calibrate --read $line -o " + std::string(out);
+    const Answer answer = folder.mdat(with_camera("tcp://127.0.0.1:0", "tridar --camera-optics " + std::string(optics), read));
+    ASSERT_EQ(answer.exit_code, 0) << folder.read("run.txt") << folder.read("camera.txt");
+    EXPECT_NE(folder.read("run.txt").find("calibration of camera 7 written to"), std::string::npos) << folder.read("run.txt");
+  }
+  const std::string table = folder.read("first.toml");
+  EXPECT_EQ(table, folder.read("second.toml"));
+  for (const char* number : {"0.0817", "0.2031", "0.08125", "-0.003", "21", "0.31", "0.6", "11", "-15", "45", "-0.0023", "0.0016"})
+    EXPECT_NE(table.find(number), std::string::npos) << number << " in\n" << table;
+}
+
+TEST(CameraTable, AHeadWithoutOneIsNamed) {
+  VERIFIES("LASSO-LCS-019~1");
+  const WorkFolder folder;
+  const Answer answer = folder.mdat(with_camera("unix:line", "lidar", "'" MDAT_PROGRAM "' calibrate --read $line -o none.toml"));
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_NE(folder.read("run.txt").find("unix:line: the head has no table of a laser camera"), std::string::npos) << folder.read("run.txt");
+  EXPECT_EQ(folder.read("none.toml"), "");
+}
+
 TEST(LcsSimRefusals, SayWhichLineAndWhy) {
   VERIFIES("LASSO-LCS-017~1");
   const WorkFolder folder;
@@ -57,6 +90,8 @@ TEST(LcsSimRefusals, SayWhichLineAndWhy) {
       {"lcs-sim missions/test.toml --listen somewhere", "expected pty, tcp://127.0.0.1:PORT or unix:PATH"},
       {"lcs-sim missions/test.toml --device radar", "--device"},
       {"lcs-sim missions/none.toml", "none.toml"},
+      {"calibrate --read unix:none -o camera.toml", "unix:none: not there"},
+      {"calibrate --read tcp://192.0.2.1:9 -o camera.toml", "--remote"},
   };
   for (const auto& [command, why] : cases) {
     const Answer answer = folder.mdat(command);

@@ -1,6 +1,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "mdat/calibrate/camera_table.hpp"
 #include "mdat/calibrate/fit.hpp"
 #include "mdat/calibrate/picture.hpp"
 #include "mdat/cli/commands.hpp"
@@ -16,7 +17,8 @@ constexpr double kMmAt3m = 1e-3 / 9;  // k of a noise of 1 mm at 3 m
 
 struct Options {
   std::vector<std::string> recordings;
-  std::string start, out, picture, simulate;
+  std::string start, out, picture, simulate, read;
+  bool remote = false;
   double noise_mm = 1;
   PlaneRun run;
 };
@@ -27,6 +29,13 @@ void record(const Options& options) {
   const std::vector<RawPoint> points = simulate_planes(load_calibration(options.simulate), run);
   write_file(options.out, raw_points_text(points));
   std::printf("%zu raw points written to %s\n", points.size(), options.out.c_str());
+}
+
+void read(const Options& options) {
+  check_writable(options.out);
+  const lcs::Calibration table = read_camera_table(options.read, options.remote);
+  write_file(options.out, calibration_text(table));
+  std::printf("calibration of camera %u written to %s\n", static_cast<unsigned>(table.serial), options.out.c_str());
 }
 
 void print(const char* what, const CalibrationReport& report) {
@@ -68,9 +77,16 @@ void add_calibrate_command(CLI::App& app) {
       ->check(CLI::Range(1e-3, 1e3));
   CLI::Option* simulate = command->add_option("--simulate", options->simulate,
                                               "instead of a fit: write the raw points that a camera of this calibration measures");
+  CLI::Option* read_option = command
+                                 ->add_option("--read", options->read,
+                                              "instead of a fit: write the table that the camera at the end of this line was made with (a "
+                                              "serial device, tcp://127.0.0.1:PORT or unix:PATH)")
+                                 ->excludes(simulate);
+  command->add_flag("--remote", options->remote, "the line may lead to another machine")->needs(read_option);
   command->add_option("--seed", options->run.seed, "start of its random numbers")->capture_default_str();
-  command->callback([options, simulate] {
+  command->callback([options, simulate, read_option] {
     if (simulate->count() > 0) return record(*options);
+    if (read_option->count() > 0) return read(*options);
     if (options->recordings.empty()) throw InputError("RECORDING: expected at least one file of raw points");
     if (options->start.empty()) throw InputError("--start: expected a calibration to begin from");
     calibrate(*options);
