@@ -142,7 +142,8 @@ void tell_start(const FaultRecord& record) {
 // buffer and no store yet; a restart loads the image anew.
 BoardMemory watched_memory() {
   BoardMemory memory;
-  memory.code = ConstBytes(board_code_begin, static_cast<std::size_t>(board_code_end - board_code_begin));
+  const auto begin = reinterpret_cast<std::uintptr_t>(board_code_begin), end = reinterpret_cast<std::uintptr_t>(board_code_end);
+  memory.code = ConstBytes(board_code_begin, end - begin);
   return memory;
 }
 
