@@ -8,6 +8,7 @@ namespace {
 
 constexpr std::size_t kPartHead = 2;
 constexpr std::size_t kNumberBytes = 8;
+static_assert((kMaxPayload - kPartHead) / kNumberBytes == kNumbersPerPart, "no frame has more");
 
 double& number(TriangulationCalibration& calibration, std::size_t index) {
   if (index < kCalibrationRealCount) return calibration.*Span<const CalibrationReal>(kCalibrationReals)[index].member;
@@ -22,18 +23,18 @@ FrameBytes encode(std::uint8_t sequence, const TablePart& message) {
   out.u8(message.first);
   out.u8(message.all);
   for (std::size_t i = 0; i < message.count; ++i) out.f64(Span<const double>(message.numbers)[i]);
-  invariant(out.ok() && message.count > 0, "lcs table");
+  invariant(out.ok(), "lcs table");
   return encode_frame(static_cast<std::uint8_t>(Type::kTable), sequence, out.written());
 }
 
 Status decode(const Frame& frame, TablePart& message) {
   const std::size_t numbers = frame.length < kPartHead ? 0 : (frame.length - kPartHead) / kNumberBytes;
-  if (numbers == 0 || numbers > kNumbersPerPart || frame.length != kPartHead + numbers * kNumberBytes) return Status::kBadLength;
+  if (numbers == 0 || frame.length != kPartHead + numbers * kNumberBytes) return Status::kBadLength;
   ByteReader in(frame.bytes());
   message.first = in.u8();
   message.all = in.u8();
   message.count = numbers;
-  for (std::size_t i = 0; i < numbers; ++i) message.numbers[i] = in.f64();
+  for (std::size_t i = 0; i < numbers; ++i) Span<double>(message.numbers)[i] = in.f64();
   return message.first + numbers <= message.all ? Status::kOk : Status::kBadValue;
 }
 

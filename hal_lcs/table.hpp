@@ -21,6 +21,7 @@ struct TablePart {
   double numbers[kNumbersPerPart] = {};
 };
 
+// More than kNumbersPerPart are an invariant's failure.
 FrameBytes encode(std::uint8_t sequence, const TablePart& message);
 // kBadLength; kBadValue: numbers beyond those that the table has.
 Status decode(const Frame& frame, TablePart& message);
