@@ -164,7 +164,7 @@ def page(rows, results):
     return ('<!doctype html><meta charset="utf-8"><title>Flips on the PowerPC 603e</title><style>body{font-family:sans-serif;max-width:1100px;margin:2em auto}'
             'td{padding:.2em 1em .2em 0;vertical-align:top}tr:first-child{font-weight:bold}</style><h1>Flips on the PowerPC 603e</h1>'
             f'<p>{results["flips"]} bits flipped in the running board, seed {results["seed"]}, {results["emulator"]}, {results["commit"]}. Protected: {", ".join(PROTECTED)}.</p>'
-            f'<table>{lines}</table><h2>Outcomes</h2><table>{meanings}</table>\n')
+            f'<table>{lines}</table><h2>Outcomes</h2><table><tr><td>outcome</td><td>meaning</td></tr>{meanings}</table>\n')
 
 
 def judge(gate, rows):
