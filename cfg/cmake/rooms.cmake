@@ -20,8 +20,24 @@ function(lasso_precompile KIND)
   endforeach()
 endfunction()
 
-# Rooms that add up no points gain nothing from -O3 but size, and the flight image has to fit its 512 kB. They have no use for Eigen either.
-set(LASSO_SMALL_ROOMS link)
+# What works once a frame, not once a ray, gains nothing from -O3 but size, and the flight image has to fit its 512 kB: whole rooms, and
+# sources of the others, which unrolled products of 6 x 6 matrices make four times as large.
+set(LASSO_SMALL_ROOMS mission mode link exec)
+set(LASSO_SMALL_SOURCES pose/bearing.cpp pose/filter.cpp)
+set(LASSO_ROOMS_WITHOUT_EIGEN link)
+
+# lasso_make_small(ROOM SOURCE...): -O2 where it is said above.
+function(lasso_make_small NAME)
+  if(NAME IN_LIST LASSO_SMALL_ROOMS)
+    set_target_properties(fsw_${NAME} PROPERTIES LASSO_SMALL ON)
+  endif()
+  foreach(SOURCE ${ARGN})
+    file(RELATIVE_PATH FILE ${PROJECT_SOURCE_DIR}/fsw ${SOURCE})
+    if(FILE IN_LIST LASSO_SMALL_SOURCES)
+      set_source_files_properties(${SOURCE} PROPERTIES COMPILE_OPTIONS $<$<CONFIG:Release>:-O2>)
+    endif()
+  endforeach()
+endfunction()
 
 # Flight room fsw/NAME, seeing the rooms in ARGN (and what they see).
 function(lasso_flight_room NAME)
@@ -33,9 +49,8 @@ function(lasso_flight_room NAME)
     add_library(fsw_${NAME} STATIC ${SOURCES})
     set(VISIBILITY PUBLIC)
     target_link_libraries(fsw_${NAME} PRIVATE $<BUILD_INTERFACE:lasso_warnings> $<BUILD_INTERFACE:lasso_flight>)
-    if(NAME IN_LIST LASSO_SMALL_ROOMS)
-      set_target_properties(fsw_${NAME} PROPERTIES LASSO_SMALL ON)
-    else()
+    lasso_make_small(${NAME} ${SOURCES})
+    if(NOT NAME IN_LIST LASSO_ROOMS_WITHOUT_EIGEN)
       lasso_precompile(flight fsw_${NAME})
     endif()
   endif()
