@@ -19,7 +19,7 @@ MISSION ?= cfg/missions/$(if $(filter approach,$(SCENARIO)),hubble,hubble_tenth)
 OUT ?= out/run
 PREFIX ?= /usr/local
 export JOBS ?= $(shell nproc)
-CROSS = -DCMAKE_TOOLCHAIN_FILE=$(abspath cfg/toolchains/ppc603e.cmake) -DLASSO_GROUND=OFF
+CROSS = -DCMAKE_TOOLCHAIN_FILE=$(abspath cfg/toolchains/ppc603e.cmake) -DLASSO_GROUND=OFF -DLASSO_BARE_KERNEL=$(abspath $(BOARD))/bare_kernel.elf
 # the flight image of the bare board (docs/boards/ppc603e.md)
 BARE_BOARD = -DCMAKE_TOOLCHAIN_FILE=$(abspath cfg/toolchains/ppc603e-bare.cmake) -DLASSO_GROUND=OFF -DLASSO_TESTS=OFF
 # $(call at_level,COMPILER,LEVEL): flight code and its tests at one level of optimisation, where the shipped build uses several
@@ -232,9 +232,11 @@ prove: ## what the flight image's archives for the 603e do not do: heap, excepti
 	$(call tidy,$(PROVE),ci)
 	@cfg/quality/prove $(PROVE)
 
-ppc-test: ## unit tests of the flight component on the emulated PowerPC 603e; reports in out/ppc-test
+ppc-test: ## unit tests of the flight component on the emulated PowerPC 603e, a part of them without an operating system too; reports in out/ppc-test
 	$(begin)
 	$(call packages,build target)
+	$(call configure,$(BOARD),$(BARE_BOARD))
+	$(call compile,$(BOARD),bare_kernel)
 	$(call configure,$(PPC),$(CROSS))
 	$(call compile,$(PPC))
 	@cfg/quality/run-tests ppc-test 603e=$(PPC)

@@ -55,11 +55,25 @@ void AcquisitionTask::permit_laser(bool permitted) {
   for (Sensor* sensor : sensors_) sensor->permit_laser(permitted);
 }
 
+void AcquisitionTask::choose_calibration(SensorNumber sensor, std::uint8_t index) {
+  const std::uint32_t place = 8U * sensor;
+  choices_.set((choices() & ~(0xFFU << place)) | std::uint32_t{index} << place);
+}
+
+// Where no two copies agree: the first ones.
+std::uint32_t AcquisitionTask::choices() const {
+  std::uint32_t choices = 0;
+  static_cast<void>(choices_.get(choices));
+  return choices;
+}
+
 void AcquisitionTask::calibrate(SensorNumber sensor, const ImageSlot& image) {
   TriangulationCalibration calibration;
-  const bool found = image.find_calibration(sensor, calibration);
+  const std::uint8_t index = choice(sensor);
+  const bool found = image.find_calibration(sensor, index, calibration);
   if (found && validate(calibration) != Status::kOk) return;
   sensors_[sensor]->use_calibration(found ? &calibration : nullptr);
+  Span<ScanTally>(tallies_)[sensor].calibration = index;
 }
 
 // Mirrors that stand still leave an image that a pose could be read into.

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "fsw/core/time.hpp"
+#include "fsw/core/voted.hpp"
 #include "fsw/geometry/se3.hpp"
 #include "fsw/mission/image_slot.hpp"
 #include "fsw/mission/mission.hpp"
@@ -35,6 +36,7 @@ struct ScanTally {
   std::uint32_t scans = 0;               // that it was asked for
   std::uint32_t lost[kScanLosses] = {};  // of them, by ScanLoss; none under kNone
   ScanLoss last_loss = ScanLoss::kNone;
+  std::uint8_t calibration = 0;  // that the last one went by
 };
 
 class AcquisitionTask {
@@ -52,6 +54,10 @@ class AcquisitionTask {
 
   // To all sensors.
   void permit_laser(bool permitted);
+  // Which of the image's calibrations of the sensor its scans go by from the next one on. Until this says otherwise: the first.
+  void choose_calibration(SensorNumber sensor, std::uint8_t index);
+  // With another image each sensor goes by its first one again.
+  void forget_choices() { choices_.set(0); }
   // Before a scan of this sensor: what the image in this slot says of its optics, read anew each time, as the image is scrubbed and
   // repaired. A record that has decayed since it was checked is left until it is repaired: the sensor keeps what it has.
   void calibrate(SensorNumber sensor, const ImageSlot& image);
@@ -66,6 +72,8 @@ class AcquisitionTask {
 
  private:
   void keep(Span<const AimedRay> rays);
+  std::uint32_t choices() const;
+  std::uint8_t choice(SensorNumber sensor) const { return static_cast<std::uint8_t>(choices() >> 8U * sensor); }
   void note(ScanLoss loss);
 
   SensorBank sensors_;
@@ -75,6 +83,7 @@ class AcquisitionTask {
   RangeImage images_[2];
   AimedRays aimed_;  // of the scan under way
   ScanTally tallies_[kMaxSensors];
+  Voted<std::uint32_t> choices_{0};  // of calibrations, a byte a sensor
   std::uint32_t filling_ = 0;
 };
 

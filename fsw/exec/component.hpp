@@ -227,6 +227,7 @@ class Component {
   void revert_parameters();
   ServiceRefusal save_parameters();
   ServiceRefusal restore_parameters();
+  ServiceRefusal select_calibration(const CalibrationCommand& choice);
   ServiceRefusal report_stored(const StoredCommand& command, TimeUs now_us);
   void reset();
   void check_area();

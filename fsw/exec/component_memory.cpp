@@ -165,6 +165,7 @@ void Component::change_image(bool back) {
   const auto scans = static_cast<std::uint32_t>(present.mission.parameters.image_trial_scans);
   const auto valid_min = static_cast<std::uint32_t>(present.mission.parameters.image_trial_valid_min);
   images_.swap();
+  acquisition_.forget_choices();
   parameters_due_ = true;  // what was changed since it was converted
   ++memory_.activations;
   if (back) ++memory_.roll_backs;

@@ -55,6 +55,8 @@ ServiceRefusal Component::serve(const Command& command, TimeUs now_us) {
       break;
     case CommandKind::kReportStored:
       return report_stored(command.stored, now_us);
+    case CommandKind::kSelectCalibration:
+      return select_calibration(command.calibration);
     case CommandKind::kBeginImage:
     case CommandKind::kCheckImage:
     case CommandKind::kActivateImage:
@@ -138,6 +140,15 @@ ServiceRefusal Component::report_stored(const StoredCommand& command, TimeUs now
     ++told;
   }
   return unless(told > 0, ServiceRefusal::kNothingStored);
+}
+
+// The sensor takes it with its next scan.
+ServiceRefusal Component::select_calibration(const CalibrationCommand& choice) {
+  TriangulationCalibration calibration;
+  if (!images_.active().find_calibration(choice.sensor, choice.calibration, calibration)) return ServiceRefusal::kNoCalibration;
+  acquisition_.choose_calibration(choice.sensor, choice.calibration);
+  events_.raise<EventId::kCalibrationSelected>(choice.sensor, choice.calibration, calibration.serial);
+  return ServiceRefusal::kNone;
 }
 
 void Component::correlate_time(const TimeCommand& time) {

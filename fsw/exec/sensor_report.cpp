@@ -44,6 +44,7 @@ SensorTelemetry make_sensor_report(SensorNumber sensor, const ScanTally& tally, 
   SensorTelemetry out;
   out.sensor = sensor;
   out.scans = tally.scans;
+  out.calibration = tally.calibration;
   describe_losses(tally, out);
   describe_counters(counters, out);
   return out;

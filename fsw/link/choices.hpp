@@ -190,6 +190,7 @@ inline constexpr Choice kServiceRefusals[] = {
   {"store_failed", "the store does not take it", "look at the board's store; try again"},
   {"nothing_stored", "the store has no such record that is right", "save it first; ask for an event that was told"},
   {"other_table", "it was saved by software with other parameters", "set the parameters again, and save them"},
+  {"no_calibration", "the active image has no such calibration", "name a sensor and a calibration of the mission; see its calibration lists"},
 };
 inline constexpr Choice kStructureNames[] = {
   {"none", "no structure"},

@@ -55,6 +55,10 @@ inline constexpr TypedRow<StoredCommand> kStored[] = {
   make_row<&StoredCommand::last>(1, "last", "1", kAny, "sequence number of the last one that is wanted, 0: the newest"),
   make_row<&StoredCommand::count>(2, "count", "1", Range{1, static_cast<double>(kMaxStoredReports)}, "how many that end with it"),
 };
+inline constexpr TypedRow<CalibrationCommand> kCalibration[] = {
+  make_row<&CalibrationCommand::sensor>(1, "sensor", "1", kAny, "0: the mission's [sensor], then the further ones"),
+  make_row<&CalibrationCommand::calibration>(2, "calibration", "1", kAny, "of those that the active image has for it, from 0 in the mission's order"),
+};
 inline constexpr TypedRow<TimeCommand> kTime[] = {
   make_row<&TimeCommand::component_us>(1, "component_us", "us", kCucRange, "a moment in the component's time, that of the items ..."),
   make_row<&TimeCommand::spacecraft_us>(2, "spacecraft_us", "us", kCucRange, "... and the same moment in spacecraft time"),
@@ -71,6 +75,7 @@ inline constexpr auto kTimeItems = items_of(kTime);
 inline constexpr auto kParameterItems = items_of(kParameter);
 inline constexpr auto kSetParameterItems = items_of(kSetParameter);
 inline constexpr auto kStoredItems = items_of(kStored);
+inline constexpr auto kCalibrationItems = items_of(kCalibration);
 inline constexpr auto kBeginImageItems = items_of(memory_rows::kBegin);
 inline constexpr auto kActivateItems = items_of(memory_rows::kActivate);
 inline constexpr auto kLoadItems = items_of(memory_rows::kLoad);
@@ -134,6 +139,8 @@ inline constexpr PacketRow kCommands[] = {
    "the saved parameters take the place of the changed ones, from the next boundary on"},
   {"report_stored_events", PacketType::kCommand, kServiceEvent, kSubserviceReportStored, false, 0, Span<const ItemRow>(kStoredItems.rows),
    "asks for packets stored_event, of this start or of those before"},
+  {"select_calibration", PacketType::kCommand, kServiceFunction, kSubservicePerform, true, 8, Span<const ItemRow>(kCalibrationItems.rows),
+   "the sensor's scans go by this calibration, from the next one on; with another image, and after a start, they go by the first"},
 };
 // clang-format on
 

@@ -65,6 +65,7 @@ constexpr CommandForm kForms[] = {
     form(CommandKind::kSaveParameters, read_nothing),
     form(CommandKind::kRestoreParameters, read_nothing),
     form(CommandKind::kReportStored, read<&Command::stored, command_rows::kStored>),
+    form(CommandKind::kSelectCalibration, read<&Command::calibration, command_rows::kCalibration>),
 };
 static_assert(sizeof(kForms) / sizeof(kForms[0]) == sizeof(command_rows::kCommands) / sizeof(PacketRow), "a form for each command");
 

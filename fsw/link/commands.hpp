@@ -63,6 +63,7 @@ enum class CommandKind : std::uint8_t {
   kSaveParameters,
   kRestoreParameters,
   kReportStored,
+  kSelectCalibration,
 };
 
 // Why a command that is right by itself cannot be carried out. Modes and starts have reasons of their own.
@@ -92,6 +93,7 @@ enum class ServiceRefusal : std::uint8_t {
   kStoreFailed = 22,
   kNothingStored = 23,
   kOtherTable = 24,
+  kNoCalibration = 25,
 };
 
 struct ModeCommand {
@@ -124,6 +126,10 @@ struct ParameterCommand {
   std::uint16_t parameter = 0;  // row of parameter_rows()
   double value = 0;             // kSetParameter: in the row's unit
 };
+struct CalibrationCommand {
+  std::uint8_t sensor = 0;
+  std::uint8_t calibration = 0;  // of those that the image has for it, from 0
+};
 struct TimeCommand {  // the same moment
   TimeUs component_us = 0;
   TimeUs spacecraft_us = 0;
@@ -146,6 +152,7 @@ struct Command {
   LoadCommand load;
   MemoryCommand memory;
   StoredCommand stored;
+  CalibrationCommand calibration;
 };
 
 constexpr std::uint8_t kMaxStoredReports = 8;

@@ -143,6 +143,12 @@ inline constexpr ItemRow kParametersRestored[] = {
   choice_item(2, "refusal", kServiceRefusal, "none, or why what was saved does not hold"),
 };
 
+inline constexpr ItemRow kCalibrationSelected[] = {
+  number_item(1, "sensor", WireType::kU8, "1", "0: the mission's [sensor], then the further ones"),
+  number_item(2, "calibration", WireType::kU8, "1", "of those that the image has for it, from 0"),
+  number_item(3, "serial", WireType::kU32, "1", "of the camera that it is for"),
+};
+
 inline constexpr EventRow kRows[] = {
   {EventId::kBegun, "begun", Severity::kInformative, kEach, Span<const ItemRow>(kBegun),
    "the component runs", "it was switched on, or reset", ""},
@@ -214,6 +220,8 @@ inline constexpr EventRow kRows[] = {
    "the saved parameters took the place of the changed ones, or could not", "a start, or the command restore_parameters", "where they are refused: set them again, and save them"},
   {EventId::kResetCommanded, "reset_commanded", Severity::kInformative, kEach, Span<const ItemRow>(),
    "the board restarts the component at the end of this frame", "the command reset", ""},
+  {EventId::kCalibrationSelected, "calibration_selected", Severity::kInformative, kEach, Span<const ItemRow>(kCalibrationSelected),
+   "the sensor's scans go by this calibration from the next one on", "the command select_calibration", ""},
 };
 // clang-format on
 

@@ -63,7 +63,8 @@ enum class EventId : std::uint16_t {
   kParametersSaved = 33,
   kParametersRestored = 34,
   kResetCommanded = 35,
-  kEnd = 36  // behind the last one
+  kCalibrationSelected = 36,
+  kEnd = 37  // behind the last one
 };
 constexpr std::size_t kEvents = static_cast<std::size_t>(EventId::kEnd);  // with kNone
 constexpr std::size_t kMaxEventItems = 6;

@@ -42,6 +42,7 @@ struct SensorTelemetry {
   std::uint32_t clock_jumps = 0;
   std::uint32_t restarts = 0;
   std::uint32_t samples_outside = 0;
+  std::uint8_t calibration = 0;
 };
 
 constexpr std::size_t kMaxSensorPacketBytes = 160;

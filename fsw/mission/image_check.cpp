@@ -85,12 +85,19 @@ struct Limit {
 
 LoadFailure check_counts(const FlightImage& image) {
   const std::uint32_t bricks = brick_count(image);
-  const Limit limits[] = {
-      {TableId::kBricks, bricks, bricks},        {TableId::kFootPoints, bricks, bricks},   {TableId::kElements, 1, kMaxElements},
-      {TableId::kCurvatures, 1, kMaxElements},   {TableId::kEdges, 0, kMaxEdges},          {TableId::kHull, 4, kMaxHullPoints},
-      {TableId::kRayCells, 1, kEmptyBit - 1},    {TableId::kRayLists, 1, kListOffsetMask}, {TableId::kViews, kMinViews, kMaxViews},
-      {TableId::kSymmetries, 0, kMaxSymmetries}, {TableId::kParts, 0, kMaxParts},          {TableId::kSensors, 0, kMaxSensors - 1},
-      {TableId::kCalibrations, 0, kMaxSensors}};
+  const Limit limits[] = {{TableId::kBricks, bricks, bricks},
+                          {TableId::kFootPoints, bricks, bricks},
+                          {TableId::kElements, 1, kMaxElements},
+                          {TableId::kCurvatures, 1, kMaxElements},
+                          {TableId::kEdges, 0, kMaxEdges},
+                          {TableId::kHull, 4, kMaxHullPoints},
+                          {TableId::kRayCells, 1, kEmptyBit - 1},
+                          {TableId::kRayLists, 1, kListOffsetMask},
+                          {TableId::kViews, kMinViews, kMaxViews},
+                          {TableId::kSymmetries, 0, kMaxSymmetries},
+                          {TableId::kParts, 0, kMaxParts},
+                          {TableId::kSensors, 0, kMaxSensors - 1},
+                          {TableId::kCalibrations, 0, kMaxSensors * kMaxCalibrations}};
   for (const Limit& limit : limits) {
     const std::uint32_t n = image[limit.id].records;
     if (n < limit.minimum || n > limit.maximum) return failure(Status::kOverCapacity, "number of records", limit.id);
@@ -188,12 +195,14 @@ LoadFailure check_sensor(const FlightImage& image, std::uint32_t i) {
   return status == Status::kOk ? LoadFailure{} : failure(status, sensor_rows()[bad_row].key, TableId::kSensors, i);
 }
 
-// Of one of the sensors, and after the one before.
+// Of one of the sensors, not before the one before, and no more of one than fit.
 LoadFailure check_calibration(const FlightImage& image, std::uint32_t i) {
   const ImageTable& table = image[TableId::kCalibrations];
   const std::uint32_t sensor = table.word(i, 0);
-  const bool after = i == 0 || sensor > table.word(i - 1, 0);
-  if (sensor > image[TableId::kSensors].records || !after)
+  const bool in_order = i == 0 || sensor >= table.word(i - 1, 0);
+  constexpr std::uint32_t kMost = kMaxCalibrations;
+  const bool fits = i < kMost || sensor != table.word(i - kMost, 0);
+  if (sensor > image[TableId::kSensors].records || !in_order || !fits)
     return failure(Status::kBadIndex, "sensor of a calibration", TableId::kCalibrations, i);
   const Status status = validate(calibration_of(table, i));
   return status == Status::kOk ? LoadFailure{} : failure(status, "calibration", TableId::kCalibrations, i);

@@ -43,7 +43,7 @@ enum class TableId : std::uint32_t {
   kParts,           // kPartWords a record, at most kMaxParts; none in a part's own image
   kPartImages,      // 1 word a record: the parts' images one after the other, each a whole flight image
   kSensors,  // kSensorWords a record, at most kMaxSensors - 1: the sensors besides that of the parameters; of no meaning in a part's image
-  kCalibrations,  // kCalibrationWords a record, at most one for each sensor, in the order of their numbers; likewise
+  kCalibrations,  // kCalibrationWords a record, at most kMaxCalibrations a sensor, in the order of the sensors' numbers; likewise
 };
 constexpr std::uint32_t kTableCount = 19;  // all of them, in the order of the ids
 

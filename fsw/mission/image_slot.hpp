@@ -58,8 +58,8 @@ class ImageSlot {
   const MissionParameters& image_parameters() const { return image_parameters_; }
 
   // Of a ready image, see ImageLoad.
-  bool find_calibration(SensorNumber sensor, TriangulationCalibration& calibration) const {
-    return load_.find_calibration(sensor, calibration);
+  bool find_calibration(SensorNumber sensor, std::uint8_t index, TriangulationCalibration& calibration) const {
+    return load_.find_calibration(sensor, index, calibration);
   }
 
   // What is sealed; empty while nothing is.

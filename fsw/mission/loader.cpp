@@ -259,14 +259,14 @@ void ImageLoad::make(Mission& mission, Parts& parts) const {
   make(mission);
 }
 
-bool ImageLoad::find_calibration(SensorNumber sensor, TriangulationCalibration& calibration) const {
+bool ImageLoad::find_calibration(SensorNumber sensor, std::uint8_t index, TriangulationCalibration& calibration) const {
   const ImageTable& table = whole_[TableId::kCalibrations];
-  for (std::uint32_t i = 0; i < table.records; ++i) {
-    if (table.word(i, 0) != sensor) continue;
-    calibration = calibration_of(table, i);
-    return true;
-  }
-  return false;
+  std::uint32_t first = 0;
+  while (first < table.records && table.word(first, 0) != sensor) ++first;
+  const std::uint32_t record = first + index;
+  if (record >= table.records || table.word(record, 0) != sensor) return false;
+  calibration = calibration_of(table, record);
+  return true;
 }
 
 LoadFailure ImageLoad::run(Bytes bytes) {

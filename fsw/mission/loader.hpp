@@ -21,8 +21,8 @@ class ImageLoad {
   // The mission of the converted image, as often as it is wanted: the image is not changed.
   void make(Mission& mission, Parts& parts) const;
   void make(Mission& mission) const;
-  // The calibration that the image has for a sensor. False: none.
-  bool find_calibration(SensorNumber sensor, TriangulationCalibration& calibration) const;
+  // The calibration that the image has for a sensor; of several the one of this index. False: none.
+  bool find_calibration(SensorNumber sensor, std::uint8_t index, TriangulationCalibration& calibration) const;
 
   // All of it at once: begin, check, and conversion of what is right. Loop bound: the image's words.
   LoadFailure run(Bytes bytes);

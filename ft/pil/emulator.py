@@ -61,6 +61,14 @@ def code_bytes(elf):
     return places['board_code_end'] - places['board_code_begin']
 
 
+def machine(folder, processor='603e', options=''):
+    """The command that starts it, but for what is on its card and in its memory."""
+    reset = pathlib.Path(folder) / 'reset.bin'  # it wants some content for its read-only memory
+    reset.write_bytes(bytes(64))
+    return [QEMU, '-M', f'g3beige{options}', '-cpu', processor, '-m', '256', '-bios', str(reset), '-vga', 'none', '-net', 'none', '-display', 'none',
+            '-serial', 'null', '-parallel', 'none', '-no-reboot']
+
+
 class Emulator:
     """Running until the end of the with block. What the board's console says is kept, and said when something fails."""
 
@@ -69,11 +77,9 @@ class Emulator:
         check_image(elf)
         self.folder = pathlib.Path(folder)
         self.console_file = self.folder / 'console.txt'
-        reset = self.folder / 'reset.bin'  # the machine wants some content for its read-only memory
-        reset.write_bytes(bytes(64))
         words = [STRAPS_MAGIC, ticks_per_s, 1 if rig else 0, 0]
-        self.command = [QEMU, '-M', f'g3beige{",memory-backend=ram" if shared else ""}', '-cpu', processor, '-m', '256', '-bios', str(reset), '-vga', 'none', '-net', 'none', '-display', 'none',
-                        '-serial', 'null', '-parallel', 'none', '-monitor', f'unix:{self.folder}/monitor.sock,server=on,wait=off', '-no-reboot', '-icount', f'shift={SHIFT},align=off,sleep=on']
+        self.command = [*machine(self.folder, processor, ',memory-backend=ram' if shared else ''),
+                        '-monitor', f'unix:{self.folder}/monitor.sock,server=on,wait=off', '-icount', f'shift={SHIFT},align=off,sleep=on']
         for name in ('camera', 'ground', 'rig'):
             self.command += ['-chardev', f'socket,id={name},path={self.folder}/{name}.sock' if rig else f'null,id={name}']
         self.command += ['-chardev', f'file,id=console,path={self.console_file}',

@@ -88,8 +88,10 @@ void append_bytes(std::vector<std::uint8_t> bytes, std::vector<std::uint32_t>& w
 ModelTables with_parts_and_sensors(const CompiledMission& mission, const MissionParameters& parameters) {
   ModelTables tables = mission.tables;
   for (const FurtherSensor& sensor : mission.source.further_sensors) append_sensor(sensor.parameters, tables[TableId::kSensors]);
-  for (const auto& [sensor, calibration] : mission.source.calibrations)
-    append_calibration(sensor, calibration, tables[TableId::kCalibrations]);
+  for (const auto& [sensor, calibrations] : mission.source.calibrations) {
+    for (const TriangulationCalibration& calibration : calibrations)
+      append_calibration(sensor, calibration, tables[TableId::kCalibrations]);
+  }
   for (std::size_t i = 0; i < mission.parts.size(); ++i) {
     const std::vector<std::uint8_t> bytes =
         write_image(mission.source.id, mission.source.version, part_parameters(parameters), mission.parts[i].tables);

@@ -124,9 +124,7 @@ DocumentSection service_section() {
       "Commands and their answers",
       {"Service 1 answers each command: `refused`, with the reason and always; or `accepted` and `started`, each if asked for, and then "
        "`completed`, if asked for, or "
-       "`failed`, always. Progress is not reported: what a command does is done at once, or at the next boundary. A calibration is no "
-       "function "
-       "of its own: the mission image carries those of its sensors, and is loaded, activated and rolled back with them.",
+       "`failed`, always. Progress is not reported: what a command does is done at once, or at the next boundary.",
        "A command is accepted once: its sequence count has to be 1 to 8191 after the one of the last accepted command, modulo 16384; "
        "the first may "
        "have any. This stops what is sent again by mistake; against intent, commands are authenticated: most spacecraft do that below this "

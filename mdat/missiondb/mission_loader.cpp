@@ -21,8 +21,8 @@ double number_or(const FoundValues& found, const ValueRow& row, double preset) {
 }
 
 std::string text_or_empty(const FoundValues& found, const std::string& key) {
-  const auto value = found.find(key);
-  return value == found.end() ? "" : value->second.text;
+  const std::vector<std::string> texts = texts_of(found, key);
+  return texts.empty() ? "" : texts.front();
 }
 
 void override_parameters(MissionParameters& parameters, const std::map<std::string, double>& overrides) {
@@ -79,7 +79,7 @@ class Loader {
     source_.id = static_cast<std::uint32_t>(mission_number("mission.id"));
     source_.version = static_cast<std::uint32_t>(mission_number("mission.version"));
     source_.name = text_or_empty(found_, "mission.name");
-    source_.calibration = text_or_empty(found_, "sensor.calibration");
+    source_.calibration_files = texts_of(found_, "sensor.calibration");
     source_.target.scale = mission_number("target.scale");
     source_.target.crease_angle_rad = mission_number("target.crease_angle_deg");
     source_.target.cell_size_m = mission_number("target.cell_size_m");
@@ -144,18 +144,18 @@ class Loader {
   void find_target_file() {
     const FoundValue& written = found_[source_.target.file_key];
     const std::filesystem::path folder = std::filesystem::absolute(source_.file).parent_path();
-    for (const auto& candidate : {folder / written.text, folder.parent_path() / written.text}) {
+    for (const auto& candidate : {folder / written.texts.at(0), folder.parent_path() / written.texts.at(0)}) {
       source_.target.file = candidate.lexically_normal();
       if (std::filesystem::exists(candidate)) return check_digest(written);
     }
-    problems_.add(written.origin, source_.target.file_key, '"' + written.text + '"',
+    problems_.add(written.origin, source_.target.file_key, '"' + written.texts.at(0) + '"',
                   "no such file in " + folder.string() + " or the folder above it");
   }
   void check_digest(const FoundValue& written) {
     try {
       source_.target.sha256 = sha256_of(read_file(source_.target.file));
     } catch (const std::runtime_error& error) {
-      return problems_.add(written.origin, source_.target.file_key, '"' + written.text + '"', error.what());
+      return problems_.add(written.origin, source_.target.file_key, '"' + written.texts.at(0) + '"', error.what());
     }
     std::string expected = text_or_empty(found_, "target.sha256");
     std::transform(expected.begin(), expected.end(), expected.begin(), [](char c) { return static_cast<char>(std::tolower(c)); });

@@ -31,6 +31,13 @@ Json number_schema(const ValueRow& row) {
       {"type", row.kind == ValueKind::kInteger ? "integer" : "number"}, {"minimum", number(row.minimum)}, {"maximum", number(row.maximum)}};
 }
 
+Json text_schema(const ValueRow& row) {
+  const Json one = {{"type", "string"}, {"pattern", "^(" + row.pattern + ")$"}};
+  if (row.count_max == 1) return one;
+  const Json list = {{"type", "array"}, {"minItems", 1}, {"maxItems", row.count_max}, {"items", one}};
+  return {{"anyOf", {one, list}}};
+}
+
 Json value_schema(const ValueRow& row) {
   switch (row.kind) {
     case ValueKind::kBoolean:
@@ -38,7 +45,7 @@ Json value_schema(const ValueRow& row) {
     case ValueKind::kChoice:
       return {{"type", "string"}, {"enum", row.choices}};
     case ValueKind::kText:
-      return {{"type", "string"}, {"pattern", "^(" + row.pattern + ")$"}};
+      return text_schema(row);
     case ValueKind::kReals:
       return {{"type", "array"}, {"minItems", row.count_min}, {"maxItems", row.count_max}, {"items", number_schema(row)}};
     case ValueKind::kReal:

@@ -56,11 +56,11 @@ struct FurtherSensor {
   std::string name;
   SensorKind kind = SensorKind::kLaserCamera;
   SensorParameters parameters{};
-  std::string calibration;  // file as it was written; empty: none
+  std::vector<std::string> calibration_files;  // as they were written
 };
 
-// Of laser cameras, by the number of the sensor.
-using Calibrations = std::map<std::uint8_t, TriangulationCalibration>;
+// Of laser cameras, by the number of the sensor; of several of one camera the first holds until a command says otherwise.
+using Calibrations = std::map<std::uint8_t, std::vector<TriangulationCalibration>>;
 
 enum class ScenarioKind : std::uint8_t { kPaper = 0, kSpin = 1, kApproach = 2, kPass = 3 };
 
@@ -106,7 +106,7 @@ struct MissionSource {
   TargetSource target;
   std::vector<PartSource> parts;  // in the order of their names, which is that of their numbers
   SensorKind sensor = SensorKind::kLaserCamera;
-  std::string calibration;                     // as a further sensor's
+  std::vector<std::string> calibration_files;  // as a further sensor's
   std::vector<FurtherSensor> further_sensors;  // in the order of their names: numbers 1, 2, ... ; [sensor] is number 0
   Calibrations calibrations;
   MissionParameters parameters{};

@@ -46,15 +46,16 @@ std::string value_text(const ValueRow& row, std::vector<double> si) {
   return toml_text(row, si);
 }
 
-void write_calibration(std::ostream& out, const MissionSource& source, const std::string& key, const std::string& file) {
-  if (file.empty()) return;
-  write_line(out, key, file, "", place_text(source, key), find_row(mission_rows(), "sensor.calibration")->meaning);
+void write_calibration(std::ostream& out, const MissionSource& source, const std::string& key, const std::vector<std::string>& files) {
+  std::string text;
+  for (const std::string& file : files) text += (text.empty() ? "" : ", ") + file;
+  if (!files.empty()) write_line(out, key, text, "", place_text(source, key), find_row(mission_rows(), "sensor.calibration")->meaning);
 }
 
 void write_sensor(std::ostream& out, const MissionSource& source) {
   const ValueRow& row = *find_row(mission_rows(), "sensor.kind");
   write_line(out, row.key, value_text(row, {static_cast<double>(source.sensor)}), row.unit, place_text(source, row.key), row.meaning);
-  write_calibration(out, source, "sensor.calibration", source.calibration);
+  write_calibration(out, source, "sensor.calibration", source.calibration_files);
 }
 
 void write_further_sensor(std::ostream& out, const MissionSource& source, const FurtherSensor& sensor) {
@@ -67,7 +68,7 @@ void write_further_sensor(std::ostream& out, const MissionSource& source, const 
     write_line(out, prefix + row.key, value_text(row, {sensor.parameters.*sensor_member(sensor_rows()[i])}), row.unit,
                place_text(source, prefix + row.key), row.meaning);
   }
-  write_calibration(out, source, prefix + "calibration", sensor.calibration);
+  write_calibration(out, source, prefix + "calibration", sensor.calibration_files);
 }
 
 void write_parameters(std::ostream& out, const MissionSource& source, const std::string& scenario) {

@@ -87,7 +87,8 @@ class ModelReader {
   void add_parameter(const std::string& name, const FoundValues& found) {
     if (found.size() != parameter_table_rows().size()) return;  // said already
     const auto number = [&](const char* key) { return found.at(key).numbers[0]; };
-    parameters_.push_back({name, found.at("unit").text, found.at("meaning").text, number("preset"), number("minimum"), number("maximum")});
+    parameters_.push_back(
+        {name, found.at("unit").texts.at(0), found.at("meaning").texts.at(0), number("preset"), number("minimum"), number("maximum")});
     if (number("preset") < number("minimum") || number("preset") > number("maximum")) {
       problems_.add(found.at("preset").origin, "parameters." + name + ".preset", number_text(number("preset")),
                     "expected within minimum and maximum");

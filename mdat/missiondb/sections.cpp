@@ -1,5 +1,6 @@
 #include "mdat/missiondb/sections.hpp"
 
+#include "cfg/capacities.hpp"
 #include "fsw/geometry/portable_math.hpp"
 #include "hal_sim/scanner_model.hpp"
 
@@ -31,6 +32,15 @@ ValueRow text_row(const char* key, const char* pattern, const char* meaning) {
   row.kind = ValueKind::kText;
   row.pattern = pattern;
   row.meaning = meaning;
+  return row;
+}
+
+ValueRow calibration_row() {
+  ValueRow row =
+      text_row("sensor.calibration", "[^\\x00-\\x1f]+\\.toml",
+               "laser_camera: what mdat calibrate found, from the mission's folder or the one above; of several the first holds until "
+               "the command select_calibration; none: the sensor has its own");
+  row.count_max = kMaxCalibrations;
   return row;
 }
 
@@ -152,7 +162,7 @@ const std::vector<ValueRow>& mission_rows() {
     number_row("target.crease_angle_deg", "deg", kReal, kDeg, 0, 90, 30, "facets that meet at a smaller angle are one smooth surface"),
     number_row("target.cell_size_m", "m", kReal, 1, 1e-5, 10, 0.012, "cell of the look-up field: about 1/110 of the target is fastest; larger takes less memory"),
     sensor_row(),
-    text_row("sensor.calibration", "[^\\x00-\\x1f]+\\.toml", "laser_camera: what mdat calibrate found, from the mission's folder or the one above; none: the sensor has its own"),
+    calibration_row(),
   };
   // clang-format on
   return rows;

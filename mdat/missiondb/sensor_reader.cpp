@@ -31,19 +31,17 @@ void read_sensor(const std::string& name, const toml::table& table, MissionSourc
     const double number = value == found.end() ? preset_of(sensor.kind, row.key, row.preset) : value->second.numbers.at(0);
     sensor.parameters.*sensor_member(row) = number * row.to_si;
   }
-  const auto calibration = found.find("calibration");
-  if (calibration != found.end()) sensor.calibration = calibration->second.text;
+  sensor.calibration_files = texts_of(found, "calibration");
   source.further_sensors.push_back(sensor);
 }
 
 void read_calibration(const std::string& key, const std::string& written, SensorKind kind, std::uint8_t number, MissionSource& source,
                       ProblemList& problems) {
-  if (written.empty()) return;
   const Origin& origin = source.origins[key];
   if (kind != SensorKind::kLaserCamera) return problems.add(origin, key, '"' + written + '"', "expected none: only laser cameras have one");
   std::filesystem::path file;
   if (find_beside(source.file, written, file)) {
-    source.calibrations[number] = load_calibration(file);
+    source.calibrations[number].push_back(load_calibration(file));
     return;
   }
   problems.add(origin, key, '"' + written + '"',
@@ -82,10 +80,12 @@ void read_further_sensors(const toml::table& root, MissionSource& source, Proble
 }
 
 void read_calibrations(MissionSource& source, ProblemList& problems) {
-  read_calibration("sensor.calibration", source.calibration, source.sensor, 0, source, problems);
+  for (const std::string& file : source.calibration_files) read_calibration("sensor.calibration", file, source.sensor, 0, source, problems);
   std::uint8_t number = 0;
   for (const FurtherSensor& sensor : source.further_sensors) {
-    read_calibration("further_sensor." + sensor.name + ".calibration", sensor.calibration, sensor.kind, ++number, source, problems);
+    ++number;
+    const std::string key = "further_sensor." + sensor.name + ".calibration";
+    for (const std::string& file : sensor.calibration_files) read_calibration(key, file, sensor.kind, number, source, problems);
   }
 }
 

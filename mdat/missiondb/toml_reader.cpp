@@ -48,7 +48,7 @@ std::optional<FoundValue> read_number(const toml::node& node, const ValueRow& ro
   } else if (!in_range(row, *value)) {
     problems.add(node, key, "out of range: " + expectation(row) + " (" + row.meaning + ")");
   } else {
-    return FoundValue{{*value}, "", origin_of(node.source())};
+    return FoundValue{{*value}, {}, origin_of(node.source())};
   }
   return std::nullopt;
 }
@@ -59,7 +59,7 @@ std::optional<FoundValue> read_list(const toml::node& node, const ValueRow& row,
     problems.add(node, key, expectation(row));
     return std::nullopt;
   }
-  FoundValue found{{}, "", origin_of(node.source())};
+  FoundValue found{{}, {}, origin_of(node.source())};
   for (std::size_t i = 0; i < array->size(); ++i) {
     const auto item = read_number((*array)[i], row, key + "[" + std::to_string(i) + "]", problems);
     if (!item) return std::nullopt;
@@ -74,7 +74,24 @@ std::optional<FoundValue> read_text(const toml::node& node, const ValueRow& row,
     problems.add(node, key, expectation(row) + " (" + row.meaning + ")");
     return std::nullopt;
   }
-  return FoundValue{{}, *text, origin_of(node.source())};
+  return FoundValue{{}, {*text}, origin_of(node.source())};
+}
+
+// One text, or a list of them where the row takes several.
+std::optional<FoundValue> read_texts(const toml::node& node, const ValueRow& row, const std::string& key, ProblemList& problems) {
+  const toml::array* array = row.count_max > 1 ? node.as_array() : nullptr;
+  if (array == nullptr) return read_text(node, row, key, problems);
+  if (array->empty() || array->size() > row.count_max) {
+    problems.add(node, key, expectation(row) + " (" + row.meaning + ")");
+    return std::nullopt;
+  }
+  FoundValue found{{}, {}, origin_of(node.source())};
+  for (std::size_t i = 0; i < array->size(); ++i) {
+    const auto item = read_text((*array)[i], row, key + "[" + std::to_string(i) + "]", problems);
+    if (!item) return std::nullopt;
+    found.texts.push_back(item->texts[0]);
+  }
+  return found;
 }
 
 std::optional<FoundValue> read_choice(const toml::node& node, const ValueRow& row, const std::string& key, ProblemList& problems) {
@@ -85,7 +102,7 @@ std::optional<FoundValue> read_choice(const toml::node& node, const ValueRow& ro
     problems.add(node, key, expectation(row) + (meant.empty() ? "" : "; did you mean \"" + meant + "\"?"));
     return std::nullopt;
   }
-  return FoundValue{{static_cast<double>(found - row.choices.begin())}, "", origin_of(node.source())};
+  return FoundValue{{static_cast<double>(found - row.choices.begin())}, {}, origin_of(node.source())};
 }
 
 std::optional<FoundValue> read_boolean(const toml::node& node, const ValueRow& row, const std::string& key, ProblemList& problems) {
@@ -94,7 +111,7 @@ std::optional<FoundValue> read_boolean(const toml::node& node, const ValueRow& r
     problems.add(node, key, "wrong type: " + expectation(row));
     return std::nullopt;
   }
-  return FoundValue{{*value ? 1.0 : 0.0}, "", origin_of(node.source())};
+  return FoundValue{{*value ? 1.0 : 0.0}, {}, origin_of(node.source())};
 }
 
 bool contains(const std::vector<std::string>& keys, const std::string& key) {
@@ -192,6 +209,11 @@ toml::table parse_toml(const std::filesystem::path& file) {
   return {};
 }
 
+std::vector<std::string> texts_of(const FoundValues& found, const std::string& key) {
+  const auto value = found.find(key);
+  return value == found.end() ? std::vector<std::string>{} : value->second.texts;
+}
+
 std::optional<FoundValue> read_value(const toml::node& node, const ValueRow& row, const std::string& key, ProblemList& problems) {
   switch (row.kind) {
     case ValueKind::kBoolean:
@@ -199,7 +221,7 @@ std::optional<FoundValue> read_value(const toml::node& node, const ValueRow& row
     case ValueKind::kChoice:
       return read_choice(node, row, key, problems);
     case ValueKind::kText:
-      return read_text(node, row, key, problems);
+      return read_texts(node, row, key, problems);
     case ValueKind::kReals:
       return read_list(node, row, key, problems);
     case ValueKind::kReal:

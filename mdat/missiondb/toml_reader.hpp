@@ -33,13 +33,16 @@ class ProblemList {
   std::vector<Problem> problems_;
 };
 
-// A value in the row's unit: numbers, 0/1, position of the choice; or a text.
+// A value in the row's unit: numbers, 0/1, position of the choice; or texts.
 struct FoundValue {
   std::vector<double> numbers;
-  std::string text;
+  std::vector<std::string> texts;
   Origin origin;
 };
 using FoundValues = std::map<std::string, FoundValue>;
+
+// Of a text's row; none where it is not written.
+std::vector<std::string> texts_of(const FoundValues& found, const std::string& key);
 
 // Throws MissionError: the file cannot be read, is larger than kMaxTomlBytes, or is not TOML.
 constexpr std::size_t kMaxTomlBytes = 1u << 20;

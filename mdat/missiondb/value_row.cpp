@@ -107,7 +107,8 @@ std::string expectation(const ValueRow& row) {
     case ValueKind::kBoolean:
       return "expected true or false, without quotes";
     case ValueKind::kText:
-      return "expected a text in quotes";
+      return std::string("expected a text in quotes") +
+             (row.count_max > 1 ? ", or a list of at most " + std::to_string(row.count_max) : std::string());
     case ValueKind::kChoice:
       break;
     case ValueKind::kReals: {

@@ -19,7 +19,7 @@ struct ValueRow {
   std::vector<double> preset;                // one number, or the list; empty: see `required`
   std::string preset_from;                   // the preset is the effective value of this key
   std::vector<std::string> choices;          // kChoice: value = position
-  std::size_t count_min = 1, count_max = 1;  // numbers in a list
+  std::size_t count_min = 1, count_max = 1;  // numbers in a list; texts: more than 1 may be a list
   std::string pattern;                       // kText: ECMA regular expression of the whole
   bool required = false;
   std::string meaning;

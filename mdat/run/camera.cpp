@@ -120,7 +120,7 @@ sim::LcsCamera camera_for(const CaseSetup& setup, const sim::ScannerModel& model
   camera.truth = reaching(camera.truth, model);
   camera.truth.serial = 1;
   const auto calibrated = setup.calibrations.find(number);
-  if (calibrated != setup.calibrations.end()) camera.truth = calibrated->second;
+  if (calibrated != setup.calibrations.end()) camera.truth = calibrated->second.front();
   if (setup.camera_optics) camera.truth = *setup.camera_optics;
   camera.temperature_degC = static_cast<float>(setup.camera_degC);
   camera.truth.angle_max_rad = std::max({camera.truth.angle_max_rad, model.fov_half_x_rad, model.fov_half_y_rad});

@@ -53,11 +53,11 @@ void set_camera(const CompiledMission& mission, const SimulationOptions& options
 // The mission with another calibration of each head that is on a line.
 CompiledMission recalibrated(CompiledMission mission, lcs::Device wire, const TriangulationCalibration& calibration) {
   MissionSource& source = mission.source;
-  if (wired(wire, source.sensor)) source.calibrations[0] = calibration;
+  if (wired(wire, source.sensor)) source.calibrations[0] = {calibration};
   std::uint8_t number = 0;
   for (const FurtherSensor& sensor : source.further_sensors) {
     ++number;
-    if (wired(wire, sensor.kind)) source.calibrations[number] = calibration;
+    if (wired(wire, sensor.kind)) source.calibrations[number] = {calibration};
   }
   return mission;
 }

@@ -29,13 +29,7 @@ class MemoryLink : public ::testing::Test {
   ServiceRefusal send(const test::Stream& packet) {
     if (++in_frame_ > kMaxCommandsPerFrame) run(1);
     EXPECT_TRUE(component().receive_packet(test::view(packet), component().next_slot_us()));
-    for (const Packet& answer : take()) {
-      if (answer.is(1, 8)) return static_cast<ServiceRefusal>(answer.data.back());
-      EXPECT_FALSE(answer.is(1, 2)) << "refused as a packet: " << int{answer.data.back()};
-      if (answer.is(1, 7)) return ServiceRefusal::kNone;
-    }
-    ADD_FAILURE() << "no answer";
-    return ServiceRefusal::kNone;
+    return test::answer_in(take());
   }
   ServiceRefusal activate(const TestImage& image) {
     EXPECT_EQ(send(test::arm(CommandKind::kActivateImage, next())), ServiceRefusal::kNone);

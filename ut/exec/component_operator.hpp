@@ -29,6 +29,17 @@ inline std::vector<Packet> packets_of(const Stream& stream) {
   return packets;
 }
 
+// The reason of a command's refusal, by what was told since it was sent. It asks for its completion.
+inline ServiceRefusal answer_in(const std::vector<Packet>& packets) {
+  for (const Packet& packet : packets) {
+    if (packet.is(1, 8)) return static_cast<ServiceRefusal>(packet.data.back());
+    EXPECT_FALSE(packet.is(1, 2)) << "refused as a packet: " << int{packet.data.back()};
+    if (packet.is(1, 7)) return ServiceRefusal::kNone;
+  }
+  ADD_FAILURE() << "no answer";
+  return ServiceRefusal::kNone;
+}
+
 inline Stream telemetry_of(Component& component) {
   Stream bytes(kTelemetryQueueBytes);
   bytes.resize(component.take_telemetry(Bytes(bytes.data(), bytes.size())));

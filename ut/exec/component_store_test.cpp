@@ -24,12 +24,7 @@ class ComponentStore : public ::testing::Test {
 
   ServiceRefusal send(const test::Stream& packet) {
     EXPECT_TRUE(component().receive_packet(test::view(packet), component().next_slot_us()));
-    for (const Packet& answer : take()) {
-      if (answer.is(1, 8)) return static_cast<ServiceRefusal>(answer.data.back());
-      if (answer.is(1, 7)) return ServiceRefusal::kNone;
-    }
-    ADD_FAILURE() << "no answer";
-    return ServiceRefusal::kNone;
+    return test::answer_in(take());
   }
   std::vector<Packet> take() {
     test::Stream bytes(kTelemetryQueueBytes);

@@ -125,4 +125,32 @@ class MemoryScene {
   }
 };
 
+// --- images of one target, and the component before it
+
+inline TestImage image_of(const MissionParameters& parameters, const Boxes& boxes = {BoxModel{}}) {
+  return make_image(parameters, make_box_tables(boxes));
+}
+inline const TestImage& first_image() {
+  static const TestImage image = image_of(MemoryScene::parameters());
+  return image;
+}
+// The same target, with other numbers.
+inline const TestImage& better_image() {
+  static const TestImage image = [] {
+    MissionParameters p = MemoryScene::parameters();
+    p.inliers_min = 50;
+    return image_of(p);
+  }();
+  return image;
+}
+inline bool all_valid(const std::vector<PoseTelemetry>& poses) {
+  return std::all_of(poses.begin(), poses.end(), [](const PoseTelemetry& pose) { return pose.valid != 0; });
+}
+
+class MemoryFixture : public ::testing::Test {
+ protected:
+  std::unique_ptr<MemoryScene> scene_ = std::make_unique<MemoryScene>();
+  Component& component() { return *scene_->component; }
+};
+
 }  // namespace lasso::test

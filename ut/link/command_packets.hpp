@@ -85,6 +85,9 @@ inline Stream of_structure(CommandKind kind, std::uint16_t structure, std::uint1
 inline Stream set_period(std::uint16_t structure, std::uint16_t frames, std::uint16_t count = 0) {
   return command_packet(CommandKind::kStructurePeriod, command_rows::kPeriod, StructureCommand{structure, frames}, count);
 }
+inline Stream select_calibration(const CalibrationCommand& choice, std::uint16_t count = 0) {
+  return command_packet(CommandKind::kSelectCalibration, command_rows::kCalibration, choice, count);
+}
 inline Stream set_parameter(std::size_t parameter, double value, std::uint16_t count = 0) {
   return command_packet(CommandKind::kSetParameter, command_rows::kSetParameter,
                         ParameterCommand{static_cast<std::uint16_t>(parameter), value}, count);

@@ -63,7 +63,8 @@ std::vector<Stream> every_command() {
           test::plain_packet(CommandKind::kReset),
           test::plain_packet(CommandKind::kSaveParameters),
           test::plain_packet(CommandKind::kRestoreParameters),
-          test::report_stored(9, 3)};
+          test::report_stored(9, 3),
+          test::select_calibration({1, 3})};
 }
 
 TEST(Commands, ArriveAsTheyWereSent) {

@@ -31,6 +31,11 @@ TEST(Downlink, KnowsEveryKindOfTheDictionary) {
       EXPECT_EQ(downlink.next_header({packet.service, packet.subservice}, 0).service, packet.service);
     }
   }
+}
+
+TEST(DownlinkDeath, AKindThatTheDictionaryDoesNotHave) {
+  VERIFIES("LASSO-LNK-001~1");
+  Downlink downlink;
   EXPECT_DEATH(downlink.next_header({5, 9}, 0), "not counted");
 }
 

@@ -23,7 +23,8 @@ TEST(SensorTelemetry, IsAStructureOfItsOwn) {
   EXPECT_EQ(report.sensor, 1);
   EXPECT_EQ(report.scans, 0x02030405u);
   EXPECT_EQ(report.last_loss, 10);
-  EXPECT_EQ(report.samples_outside, 0x6F707172u) << "the last of 30 items";
+  EXPECT_EQ(report.samples_outside, 0x6F707172u);
+  EXPECT_EQ(report.calibration, 0x73) << "the last of 31 items";
   Stream packet(kMaxSensorPacketBytes);
   packet.resize(encode_sensor(report, PacketHeader{}, Bytes(packet.data(), packet.size())));
   EXPECT_EQ(packet[7], kServiceHousekeeping);
@@ -31,7 +32,7 @@ TEST(SensorTelemetry, IsAStructureOfItsOwn) {
   PacketHeader header;
   ConstBytes data;
   ASSERT_EQ(parse_packet(test::view(packet), header, data), PacketFault::kNone);
-  ASSERT_EQ(data.size(), 2u + 2 * 1 + 28 * 4);
+  ASSERT_EQ(data.size(), 2u + 3 * 1 + 28 * 4);
   EXPECT_EQ(data[0], 0);
   EXPECT_EQ(data[1], 3);
   for (std::size_t i = 2; i < data.size(); ++i) ASSERT_EQ(data[i], i - 1) << i;

@@ -88,16 +88,36 @@ TEST_F(ImageCalibrationsTest, EachSensorFindsItsOwn) {
   ASSERT_EQ(load(with({{0, test::bent_calibration(7)}, {1, test::bent_calibration(8)}})).status, Status::kOk);
   for (const SensorNumber sensor : {SensorNumber{0}, SensorNumber{1}}) {
     const C put = test::bent_calibration(7U + sensor);
-    ASSERT_TRUE(slot_->find_calibration(sensor, found));
+    ASSERT_TRUE(slot_->find_calibration(sensor, 0, found));
     EXPECT_EQ(found.serial, put.serial);
     for (const CalibrationReal& real : kCalibrationReals) EXPECT_EQ(found.*real.member, put.*real.member);
     for (std::size_t k = 0; k < kResidualTerms; ++k) EXPECT_EQ(found.residual[k], put.residual[k]);
   }
   ASSERT_EQ(load(with({{1, test::bent_calibration(8)}})).status, Status::kOk);
-  EXPECT_FALSE(slot_->find_calibration(0, found));
-  EXPECT_TRUE(slot_->find_calibration(1, found));
+  EXPECT_FALSE(slot_->find_calibration(0, 0, found));
+  EXPECT_TRUE(slot_->find_calibration(1, 0, found));
   ASSERT_EQ(load(with({})).status, Status::kOk);
-  EXPECT_FALSE(slot_->find_calibration(0, found));
+  EXPECT_FALSE(slot_->find_calibration(0, 0, found));
+}
+
+TEST_F(ImageCalibrationsTest, ASensorMayHaveSeveral) {
+  VERIFIES("LASSO-LCS-020~1");
+  static_assert(kMaxCalibrations == 4, "as many as sensor 1 has here");
+  const auto camera = [](std::uint32_t serial) { return test::bent_calibration(serial); };
+  ASSERT_EQ(load(with({{0, camera(7)}, {0, camera(8)}, {1, camera(9)}, {1, camera(10)}, {1, camera(11)}, {1, camera(12)}})).status,
+            Status::kOk);
+  C found;
+  for (std::uint8_t i = 0; i < 2; ++i) {
+    ASSERT_TRUE(slot_->find_calibration(0, i, found));
+    EXPECT_EQ(found.serial, 7U + i);
+  }
+  EXPECT_FALSE(slot_->find_calibration(0, 2, found)) << "that is the next sensor's";
+  for (std::uint8_t i = 0; i < 4; ++i) {
+    ASSERT_TRUE(slot_->find_calibration(1, i, found));
+    EXPECT_EQ(found.serial, 9U + i);
+  }
+  EXPECT_FALSE(slot_->find_calibration(1, 4, found));
+  EXPECT_FALSE(slot_->find_calibration(2, 0, found));
 }
 
 TEST_F(ImageCalibrationsTest, WhatIsWrongIsRefusedWithItsPlace) {
@@ -109,16 +129,16 @@ TEST_F(ImageCalibrationsTest, WhatIsWrongIsRefusedWithItsPlace) {
     EXPECT_EQ(failure.record, record);
   };
   const C good = bent_camera();
-  refused({{2, good}}, Status::kBadIndex, 0);             // there are sensors 0 and 1
-  refused({{1, good}, {0, good}}, Status::kBadIndex, 1);  // out of order
-  refused({{1, good}, {1, good}}, Status::kBadIndex, 1);
+  refused({{2, good}}, Status::kBadIndex, 0);                                                         // there are sensors 0 and 1
+  refused({{1, good}, {0, good}}, Status::kBadIndex, 1);                                              // out of order
+  refused({{0, good}, {1, good}, {1, good}, {1, good}, {1, good}, {1, good}}, Status::kBadIndex, 5);  // one more than fit
   C bad = good;
   bad.baseline_m = 0;
   refused({{0, good}, {1, bad}}, Status::kSingular, 1);
   bad = good;
   bad.residual[4] = std::numeric_limits<double>::quiet_NaN();
   refused({{0, bad}}, Status::kNotFinite, 0);
-  refused(std::vector<std::pair<std::uint32_t, C>>(kMaxSensors + 1, {0, good}), Status::kOverCapacity, 0);
+  refused(std::vector<std::pair<std::uint32_t, C>>(kMaxSensors * kMaxCalibrations + 1, {0, good}), Status::kOverCapacity, 0);
 }
 
 }  // namespace

@@ -73,13 +73,33 @@ TEST_F(SensorReaderTest, ReadsTheCalibrationsThatSensorsName) {
   const MissionSource source =
       load("[sensor]\ncalibration = 'a.toml'\n[further_sensor.near]\ncalibration = 'b.toml'\n[further_sensor.far]\n");
   ASSERT_EQ(source.calibrations.size(), 2U);
-  EXPECT_EQ(source.calibrations.at(0).serial, 31U);
-  EXPECT_EQ(source.calibrations.at(0).residual[4], 0.25);
-  EXPECT_EQ(source.calibrations.at(2).serial, 32U) << "after far";
+  EXPECT_EQ(source.calibrations.at(0).at(0).serial, 31U);
+  EXPECT_EQ(source.calibrations.at(0).at(0).residual[4], 0.25);
+  EXPECT_EQ(source.calibrations.at(2).at(0).serial, 32U) << "after far";
   EXPECT_TRUE(load("").calibrations.empty());
   const std::string text = info_text(source, "");
   EXPECT_NE(text.find("further_sensor.near.calibration"), std::string::npos);
   EXPECT_NE(text.find("a.toml"), std::string::npos);
+}
+
+TEST_F(SensorReaderTest, ASensorMayNameSeveralCalibrations) {
+  VERIFIES("LASSO-LCS-020~1 LASSO-GND-001~1");
+  TriangulationCalibration camera;
+  for (const char* name : {"a.toml", "b.toml"}) {
+    ++camera.serial;
+    folder_.write(name, calibration_text(camera));
+  }
+  const MissionSource source =
+      load("[sensor]\ncalibration = ['b.toml', 'a.toml', 'b.toml', 'b.toml']\n[further_sensor.near]\ncalibration = ['a.toml', 'b.toml']\n");
+  ASSERT_EQ(source.calibrations.at(0).size(), 4U);
+  EXPECT_EQ(source.calibrations.at(0)[0].serial, 2U) << "in the order of the list";
+  EXPECT_EQ(source.calibrations.at(0)[1].serial, 1U);
+  EXPECT_EQ(source.calibrations.at(1)[1].serial, 2U);
+  EXPECT_NE(info_text(source, "").find("b.toml, a.toml"), std::string::npos);
+  expect_error("[sensor]\ncalibration = []\n", "m.toml:8:15: sensor.calibration");
+  expect_error("[sensor]\ncalibration = ['a.toml', 'a.toml', 'a.toml', 'a.toml', 'a.toml']\n", "or a list of at most 4");
+  expect_error("[sensor]\ncalibration = ['a.toml', 3]\n", "sensor.calibration[1]");
+  expect_error("[sensor]\ncalibration = ['a.toml', 'none.toml']\n", "none.toml");
 }
 
 TEST_F(SensorReaderTest, CalibrationsThatAreNotRightAreNamed) {
