@@ -235,8 +235,8 @@ prove: ## what the flight image's archives for the 603e do not do: heap, excepti
 ppc-test: ## unit tests of the flight component on the emulated PowerPC 603e, a part of them without an operating system too; reports in out/ppc-test
 	$(begin)
 	$(call packages,build target)
-	$(call configure,$(BOARD),$(BARE_BOARD))
-	$(call compile,$(BOARD),bare_kernel)
+	$(if $(filter .,$(SOURCE)),$(call configure,$(BOARD),$(BARE_BOARD)))
+	$(if $(filter .,$(SOURCE)),$(call compile,$(BOARD),bare_kernel))
 	$(call configure,$(PPC),$(CROSS))
 	$(call compile,$(PPC))
 	@cfg/quality/run-tests ppc-test 603e=$(PPC)
