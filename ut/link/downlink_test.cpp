@@ -65,6 +65,11 @@ TEST(Downlink, QueuesPacketsOfRows) {
   ASSERT_EQ(data.size(), 16u);
   EXPECT_EQ(data[15], 7);
   EXPECT_EQ(downlink.queue().peak(), packet.size());
+}
+
+TEST(DownlinkDeath, APacketLargerThanItsBuffer) {
+  VERIFIES("LASSO-LNK-002~1");
+  Downlink downlink;
   EXPECT_DEATH(downlink.send({}), "larger than its buffer");
 }
 
