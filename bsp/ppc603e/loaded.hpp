@@ -6,11 +6,10 @@
 #include <cstdint>
 
 #include "bsp/ppc603e/cpu.hpp"
+#include "bsp/ppc603e/ram_store.hpp"
 #include "fsw/core/span.hpp"
 
 namespace lasso::ppc603e {
-
-constexpr std::size_t kMissionBytes = 31U << 20;  // of an image, loaded or in a buffer or in the store (link.ld)
 
 // What is soldered, or loaded: where it is not, the values of main.cpp hold.
 struct Straps {

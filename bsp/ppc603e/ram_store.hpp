@@ -9,6 +9,8 @@
 
 namespace lasso::ppc603e {
 
+constexpr std::size_t kMissionBytes = 31U << 20;  // of an image: as loaded, in a buffer, in the store (link.ld)
+
 class RamStore final : public Store {
  public:
   // What was written last is in memory, and not only in the cache, before it returns: a hardware reset forgets the cache.
