@@ -42,13 +42,14 @@ std::string row_of(const Flip& flip, const Trial& trial) {
 }
 
 // What is in use of the store: the parameters and the log, which change; the image's area, and the header of the other one.
-void add_store(Places& places, std::uint32_t image_bytes) {
-  using ppc603e::RamStore;
-  const std::uint32_t begin = places.at("store").at(0).address, small = RamStore::region_bytes(0) - 2 * kStoredHeaderBytes;
-  const std::uint32_t other = begin + small + stored_area_bytes(StoreArea::kImage0, ppc603e::kMissionBytes);
-  places["log"] = {{begin, small}};
-  places["stored_image"] = {{begin + small, stored_area_bytes(StoreArea::kImage0, image_bytes)}};
-  places["stored_header"] = {{other, kStoredHeaderBytes}};
+void add_store(Places& places, std::size_t image_bytes) {
+  const auto place = [&](std::size_t offset, std::size_t bytes) {
+    return std::vector<Range>{{places.at("store").at(0).address + static_cast<std::uint32_t>(offset), static_cast<std::uint32_t>(bytes)}};
+  };
+  const std::size_t small = ppc603e::RamStore::region_bytes(0) - 2 * kStoredHeaderBytes;
+  places["log"] = place(0, small);
+  places["stored_image"] = place(small, stored_area_bytes(StoreArea::kImage0, image_bytes));
+  places["stored_header"] = place(small + stored_area_bytes(StoreArea::kImage0, ppc603e::kMissionBytes), kStoredHeaderBytes);
 }
 
 void run(const std::string& mission_file, const std::string& folder, const Places& places, std::uint32_t flips, std::uint64_t seed,
@@ -60,7 +61,7 @@ void run(const std::string& mission_file, const std::string& folder, const Place
   mdat::write_file(folder + "/image.3dli", {reinterpret_cast<const char*>(image.data()), image.size()});
   Places with_image = places;
   with_image["image"] = {{places.at("image").at(0).address, static_cast<std::uint32_t>(image.size())}};
-  add_store(with_image, static_cast<std::uint32_t>(image.size()));
+  add_store(with_image, image.size());
   SeuFlight flight(setup, folder, with_image, [] { say("start"); });
   flight.fly_golden();
   say("golden " + std::to_string(kGoldenFrames) + " frames, " + std::to_string(flight.unsteady_bytes()) +
