@@ -12,14 +12,7 @@ namespace lasso::posix {
 namespace {
 
 constexpr const char* kNames[kStoreAreas] = {"image0", "image1", "parameters0", "parameters1", "events"};
-constexpr std::size_t kParameterBytes = 16384;
-constexpr std::size_t kEventBytes = 65536;
 constexpr mode_t kFolderMode = 0755, kFileMode = 0644;
-
-std::size_t size_of(StoreArea area, std::size_t image_bytes) {
-  if (area == StoreArea::kImage0 || area == StoreArea::kImage1) return kStoredHeaderBytes + image_bytes;
-  return area == StoreArea::kEventLog ? kEventBytes : kParameterBytes;
-}
 
 // A file of that size at least: what was never written is zero.
 int open_area(const std::string& path, std::size_t bytes) {
@@ -38,7 +31,7 @@ int open_area(const std::string& path, std::size_t bytes) {
 FileStore::FileStore(const std::string& folder, std::size_t image_bytes) {
   (void)mkdir(folder.c_str(), kFolderMode);  // it may be there
   for (std::size_t i = 0; i < kStoreAreas; ++i) {
-    sizes_[i] = size_of(static_cast<StoreArea>(i), image_bytes);
+    sizes_[i] = stored_area_bytes(static_cast<StoreArea>(i), image_bytes);
     files_[i] = open_area(folder + "/" + kNames[i], sizes_[i]);
     failed_[i] = files_[i] < 0;
   }

@@ -7,7 +7,7 @@
 #include <system_error>
 
 #include "fsw/exec/lasso.hpp"
-#include "fsw/mission/stored_record.hpp"
+#include "fsw/exec/start_image.hpp"
 
 namespace lasso::posix {
 namespace {
@@ -59,16 +59,9 @@ BoardMemory ImageMemory::board() {
 }
 
 LoadFailure ImageMemory::start(Component& component, ConstBytes image) {
-  const BoardMemory memory = board();
-  const Status given = component.use_memory(memory);
-  if (given != Status::kOk) return {given, 0, 0, "the component refuses its memory"};
-  from_store_ = store_ != nullptr && !failed(component.load_stored_image());
-  if (from_store_) return {};
-  if (image.size() > image_bytes_) return {Status::kOverCapacity, 0, 0, "the image is longer than its buffer"};
-  const bool first_counts = store_ != nullptr && newer_of(*store_, StoreArea::kImage0, StoreArea::kImage1) == Newer::kFirst;
-  const Bytes buffer = memory.image_buffers[first_counts ? 1 : 0].first(image.size());
-  std::copy(image.begin(), image.end(), buffer.begin());
-  return component.load_image(buffer);
+  const ImageStart started = start_image(component, board(), image);
+  from_store_ = started.from_store;
+  return started.failure;
 }
 
 }  // namespace lasso::posix

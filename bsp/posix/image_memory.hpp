@@ -21,8 +21,7 @@ class ImageMemory {
   // What Component::use_memory takes. It must live as long as the component.
   BoardMemory board();
 
-  // Gives the component its memory, and starts it with the store's image, or with `image` where the store has none that it takes. Before
-  // begin(). An area of the store that counts is not overwritten by `image`.
+  // start_image() with all of it. Before begin().
   LoadFailure start(Component& component, ConstBytes image);
   bool from_store() const { return from_store_; }  // of the last start
 

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include "fsw/core/span.hpp"
+
 namespace lasso::ppc603e {
 
 constexpr std::uint32_t kExternalInterrupts = 0x8000;  // MSR[EE]
@@ -51,6 +53,21 @@ template <class Done>
 void rest_until(const Done& done) {
   for (allow_interrupts(false); !done(); allow_interrupts(false)) set_machine_state(machine_state() | kExternalInterrupts | kRest);
   allow_interrupts(true);
+}
+
+// Of the four blocks of data that are mapped (start.S), the last one: no interrupts meanwhile.
+inline void set_last_data_block(std::uint32_t upper, std::uint32_t lower) {
+  __asm__ volatile("sync\n\tmtdbatu 3,%2\n\tisync\n\tmtdbatl 3,%1\n\tmtdbatu 3,%0\n\tisync" ::"r"(upper), "r"(lower), "r"(0) : "memory");
+}
+
+// From the data cache to memory.
+inline void write_back(ConstBytes written) {
+  constexpr std::uint32_t kLineBytes = 32;
+  const std::uint8_t* const at = written.data();
+  const std::size_t bytes = written.size();
+  for (std::size_t i = 0; i < bytes; i += kLineBytes) __asm__ volatile("dcbst 0,%0" ::"r"(at + i) : "memory");
+  if (bytes > 0) __asm__ volatile("dcbst 0,%0" ::"r"(at + bytes - 1) : "memory");
+  __asm__ volatile("sync" ::: "memory");
 }
 
 // Registers of devices: bytes, and words whose lowest byte comes first (PCI).

@@ -2,6 +2,7 @@
 
 #include "bsp/ppc603e/console.hpp"
 #include "bsp/ppc603e/cpu.hpp"
+#include "bsp/ppc603e/loaded.hpp"
 #include "fsw/core/invariant.hpp"
 
 extern "C" {
@@ -73,6 +74,7 @@ std::uint32_t fault_address(const FaultRegisters& r) {
 
 void restart(ResetCause cause, const char* text) {
   set_machine_state(machine_state() & ~kExternalInterrupts);
+  map_devices();  // a start may have failed while it read what was loaded
   record.magic = kMagic;
   record.cause = static_cast<std::uint32_t>(cause);
   ++record.restarts;

@@ -64,13 +64,15 @@ void Flight::tick() {
   foreground_ticks_ = foreground_ticks_ + slot_ticks_;
   let_world_move(RigKind::kSlot, now_us);
   allow_interrupts(false);
-  if (told_of_reset()) restart(ResetCause::kCommanded, "the command reset");
+  if (is_reset_now()) restart(ResetCause::kCommanded, "the command reset");
   in_slot_ = false;
   clock_.wake_at(component_.next_slot_us());
 }
 
-// The frame's telemetry, which tells of it, is on its way to the ground as far as the line takes it.
-bool Flight::told_of_reset() const { return component_.reset_due() && component_.next_slot_is_boundary() && lines_.ground.all_sent(); }
+// The frame's telemetry, which tells of it, goes to the ground first, as far as the line takes it in time.
+bool Flight::is_reset_now() {
+  return component_.next_slot_is_boundary() && reset_wait_.over(component_.reset_due(), lines_.ground.all_sent());
+}
 
 void Flight::run_slot(TimeUs now_us) {
   slot_ = component_.next_slot_is_boundary() ? 0 : slot_ + 1;

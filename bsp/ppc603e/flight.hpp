@@ -7,6 +7,7 @@
 
 #include "bsp/ppc603e/clock.hpp"
 #include "bsp/ppc603e/fault.hpp"
+#include "bsp/ppc603e/reset_wait.hpp"
 #include "bsp/ppc603e/rig.hpp"
 #include "bsp/ppc603e/serial_port.hpp"
 #include "fsw/exec/component.hpp"
@@ -58,7 +59,7 @@ class Flight final : public Watchdog {
   static constexpr std::uint32_t kSettledFrames = 900;   // frames with feed(): the board does well, three minutes of 200 ms
 
   TimeUs time_of_slot() const;
-  bool told_of_reset() const;
+  bool is_reset_now();
   void run_slot(TimeUs now_us);
   void send_telemetry();
   void let_world_move(RigKind kind, TimeUs t_us);
@@ -72,6 +73,7 @@ class Flight final : public Watchdog {
   LinkPump pump_;
   DurationUs slot_us_;
   volatile bool in_slot_ = false, stopped_ = false, waiting_ = false;
+  ResetWait reset_wait_;
   std::uint32_t unfed_slots_ = 0, fed_frames_ = 0;
   std::uint8_t telemetry_[kTelemetryQueueBytes] = {};
   // Of the report.

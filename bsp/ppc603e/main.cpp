@@ -1,5 +1,4 @@
 // The flight image of this board: start-up has made memory and registers ready, and comes here after each restart.
-#include <cstring>
 #include <new>
 
 #include "bsp/ppc603e/board_bus.hpp"
@@ -7,28 +6,17 @@
 #include "bsp/ppc603e/cpu.hpp"
 #include "bsp/ppc603e/fault.hpp"
 #include "bsp/ppc603e/flight.hpp"
-#include "fsw/core/byte_codec.hpp"
+#include "bsp/ppc603e/loaded.hpp"
+#include "bsp/ppc603e/ram_store.hpp"
 #include "fsw/exec/report.hpp"
+#include "fsw/exec/start_image.hpp"
 #include "fsw/mission/image_format.hpp"
-
-namespace lasso::ppc603e {
-
-// What is soldered, or loaded beside the image: where it is not, the values here hold.
-struct Straps {  // NOLINT(misc-use-internal-linkage): of what the linker script places
-  std::uint32_t magic;
-  std::uint32_t ticks_per_s;  // of the time base
-  std::uint32_t rig;          // 1: at the third port
-};
-
-}  // namespace lasso::ppc603e
 
 extern "C" {
 extern void (*board_constructors_begin[])();
 extern void (*board_constructors_end[])();
-extern const volatile lasso::ppc603e::Straps board_straps;
 extern const std::uint8_t board_code_begin[], board_code_end[];
-extern const std::uint8_t board_mission[];
-extern std::uint8_t board_mission_work[];
+extern std::uint8_t board_image_buffer0[], board_image_buffer1[], board_store[], board_store_end[];
 [[noreturn]] void board_main();
 void board_interrupt(std::uint32_t vector);
 }
@@ -43,9 +31,6 @@ constexpr std::uint32_t kLeastTicksPerSecond = 1000000, kMostTicksPerSecond = 10
 // Serial interrupts between two of the decrementer; more are those of a line that is stuck, and would keep the processor for ever. Three
 // full rings each way are below half of it.
 constexpr std::uint32_t kMostServices = 8192;
-
-// The mission's image as the loader puts it there, and the component's copy, which it changes: each start begins with the former.
-constexpr std::size_t kMissionBytes = 31u << 20;
 
 constexpr TimeUs kBoundary0Us = 1'000'000;
 constexpr DurationUs kLeadUs = 10'000;  // from the clock's setting to boundary 0
@@ -64,6 +49,8 @@ struct Board {
   SerialPort rig_port{port_registers(kRig), rig_in, rig_out};
   Rig rig{rig_port, rig_in, rig_out};
 };
+Straps straps{};
+alignas(RamStore) std::uint8_t store_memory[sizeof(RamStore)];
 alignas(Board) std::uint8_t board_memory[sizeof(Board)];
 alignas(Component) std::uint8_t component_memory[sizeof(Component)];
 alignas(lcs::Driver) std::uint8_t driver_memory[sizeof(lcs::Driver)];
@@ -81,23 +68,6 @@ std::uint32_t services = 0;  // since the decrementer's last interrupt
   for (;;) set_machine_state(machine_state() | kRest);
 }
 
-// Its length is in its header; what it holds the component checks.
-Bytes mission_bytes() {
-  ByteReader header(ConstBytes(board_mission, 12));
-  const std::uint32_t magic = header.u32();
-  static_cast<void>(header.u32());
-  const std::uint32_t bytes = header.u32();
-  if (magic != kImageMagic) stop("no mission image at its place (load it at 0x04100000)");
-  if (bytes > kMissionBytes) {
-    say_number("board: the mission image needs ", bytes);
-    say_number(" bytes, and its buffer has ", kMissionBytes);
-    say("; coarser cells make it smaller (target.cell_size_m)\n");
-    stop("the mission image is too large");
-  }
-  std::memcpy(board_mission_work, board_mission, bytes);
-  return Bytes(board_mission_work, bytes);
-}
-
 lcs::Calibration calibration() {
   lcs::Calibration design;
   design.serial = 1;
@@ -113,10 +83,10 @@ void check_board() {
   if (!bus) stop("the image is for another board: no Grackle bridge, Heathrow chip and serial card of four ports");
 }
 
-bool strapped() { return board_straps.magic == kStrapsMagic; }
+bool strapped() { return straps.magic == kStrapsMagic; }
 
 std::uint32_t ticks_per_s() {
-  const std::uint32_t ticks = strapped() ? board_straps.ticks_per_s : kTicksPerSecond;
+  const std::uint32_t ticks = strapped() ? straps.ticks_per_s : kTicksPerSecond;
   if (ticks >= kLeastTicksPerSecond && ticks <= kMostTicksPerSecond) return ticks;
   say_number("board: the straps at 0x04010000 say ", ticks);
   say_number(" ticks of the time base a second, not 1000000 to 1000000000: taken are ", kTicksPerSecond);
@@ -138,27 +108,50 @@ void tell_start(const FaultRecord& record) {
   say("\n");
 }
 
-// What the scrub watches beside the image: code and constants. The vectors below them are mapped for nobody. There is no second image
-// buffer and no store yet; a restart loads the image anew.
-BoardMemory watched_memory() {
+std::size_t bytes_between(const std::uint8_t* begin, const std::uint8_t* end) {
+  return reinterpret_cast<std::uintptr_t>(end) - reinterpret_cast<std::uintptr_t>(begin);
+}
+
+// What the scrub watches beside the images: code and constants. The vectors below them are mapped for nobody.
+BoardMemory board_memory_of(RamStore& store) {
   BoardMemory memory;
-  const auto begin = reinterpret_cast<std::uintptr_t>(board_code_begin), end = reinterpret_cast<std::uintptr_t>(board_code_end);
-  memory.code = ConstBytes(board_code_begin, end - begin);
+  memory.image_buffers[0] = Bytes(board_image_buffer0, kMissionBytes);
+  memory.image_buffers[1] = Bytes(board_image_buffer1, kMissionBytes);
+  memory.store = &store;
+  memory.code = ConstBytes(board_code_begin, bytes_between(board_code_begin, board_code_end));
   return memory;
+}
+
+// Why there is no mission: the store has no image that is right, and what was loaded is none.
+[[noreturn]] void refuse_mission(const LoadFailure& failure, std::uint32_t magic, std::uint32_t bytes) {
+  if (magic != kImageMagic) stop("no mission image in the store, and no mission image at its place (load it at 0x04100000)");
+  if (bytes > kMissionBytes) {
+    say_number("board: the mission image needs ", bytes);
+    say_number(" bytes, and its buffer has ", kMissionBytes);
+    say("; coarser cells make it smaller (target.cell_size_m)\n");
+    stop("the mission image is too large");
+  }
+  say("board: the mission image is refused: ");
+  say(to_string(failure.status));
+  say("\n");
+  stop("no mission");
 }
 
 Component& make_component(Board& b, ResetCause cause) {
   auto* driver = new (driver_memory) lcs::Driver(b.camera_line, lcs::Optics(calibration()));
   auto* component = new (component_memory) Component(*driver);
   component->set_reset_cause(cause);
-  if (component->use_memory(watched_memory()) != Status::kOk) stop("there is more code than the scrub can watch");
-  const LoadFailure failure = component->load_image(mission_bytes());
-  if (failure.status != Status::kOk) {
-    say("board: the mission image is refused: ");
-    say(to_string(failure.status));
-    say("\n");
-    stop("no mission");
+  auto* store = new (store_memory) RamStore(Bytes(board_store, bytes_between(board_store, board_store_end)), kMissionBytes, write_back);
+  ImageStart started;
+  std::uint32_t magic = 0, bytes = 0;
+  {
+    const LoadedMemory loaded;
+    magic = LoadedMemory::image_magic();
+    bytes = LoadedMemory::image_bytes();
+    started = start_image(*component, board_memory_of(*store), LoadedMemory::image());
   }
+  if (failed(started.failure)) refuse_mission(started.failure, magic, bytes);
+  say(started.from_store ? "board: the image of the store\n" : "board: the image as loaded\n");
   return *component;
 }
 
@@ -194,14 +187,18 @@ void board_main() {
   const FaultRecord& record = open_record();
   check_board();
   tell_start(record);
+  {
+    const LoadedMemory loaded;
+    straps = LoadedMemory::straps();
+  }
   board = new (board_memory) Board;
   open_lines(*board);
   Component& component = make_component(*board, static_cast<ResetCause>(record.cause));
   auto* clock = new (clock_memory) Clock(ticks_per_s());
   clock->set(kBoundary0Us - kLeadUs);
   if (component.begin(kBoundary0Us) != Status::kOk) stop("the component does not begin");
-  flight = new (flight_memory) Flight(component, *clock, {board->camera, board->ground, board->ground_line},
-                                      strapped() && board_straps.rig == 1 ? &board->rig : nullptr);
+  flight = new (flight_memory)
+      Flight(component, *clock, {board->camera, board->ground, board->ground_line}, strapped() && straps.rig == 1 ? &board->rig : nullptr);
   flight->run();
   stop("the rig has ended the run");
 }

@@ -14,6 +14,13 @@ namespace lasso {
 
 constexpr std::size_t kStoredHeaderBytes = 32;
 
+// What a board gives an area, for images of up to `image_bytes`.
+constexpr std::size_t stored_area_bytes(StoreArea area, std::size_t image_bytes) {
+  constexpr std::size_t kParameterBytes = 16384, kEventBytes = 65536;
+  if (area == StoreArea::kImage0 || area == StoreArea::kImage1) return kStoredHeaderBytes + image_bytes;
+  return area == StoreArea::kEventLog ? kEventBytes : kParameterBytes;
+}
+
 struct StoredHeader {
   std::uint32_t sequence = 0;
   std::uint32_t bytes = 0;

@@ -31,10 +31,14 @@ struct TargetFlight {
   std::vector<Report> slots;      // since the last
 };
 
+// What the ground sends beside the world's commands, before a slot of a start; both are counted from 0. `count` is that of the next
+// command.
+using Ground = std::function<Packet(std::uint32_t start, std::uint32_t slot, std::uint16_t& count)>;
+
 // `folder`: where camera.sock, ground.sock and rig.sock are made, at which the emulator is awaited. Ends after `frames` frames, or after
 // that many since the last start when `starts` are awaited. Throws mdat::RunError: nobody comes, or the other end has gone, or says
 // nothing.
 TargetFlight fly_on_target(const WorldSetup& setup, const std::string& folder, std::uint32_t frames, std::uint32_t starts,
-                           const std::function<void()>& ready, const Told& told);
+                           const std::function<void()>& ready, const Told& told, const Ground& ground = {});
 
 }  // namespace lasso::pil

@@ -85,7 +85,8 @@ class Emulator:
         self.command += ['-chardev', f'file,id=console,path={self.console_file}',
                          '-device', 'pci-serial-4x,chardev1=camera,chardev2=ground,chardev3=rig,chardev4=console',
                          '-device', f'loader,file={elf},cpu-num=0']
-        if shared:  # memory as a file, and a debug port (ft/pil/seu_board.hpp)
+        if shared:  # memory as a file, whose content is that of fresh memory, and a debug port (ft/pil/seu_board.hpp)
+            (self.folder / 'ram.bin').unlink(missing_ok=True)
             self.command += ['-object', f'memory-backend-file,id=ram,size=256M,mem-path={self.folder}/ram.bin,share=on', '-gdb', f'unix:{self.folder}/gdb.sock,server=on,wait=off']
         if image:
             self.command += ['-device', f'loader,file={image},addr={MISSION:#x},force-raw=on']

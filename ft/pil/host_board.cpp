@@ -1,7 +1,9 @@
+#include <array>
 #include <memory>
 
-#include "fsw/exec/component.hpp"
+#include "bsp/ppc603e/ram_store.hpp"
 #include "fsw/exec/link_pump.hpp"
+#include "fsw/exec/start_image.hpp"
 #include "ft/pil/boards.hpp"
 #include "mdat/common/errors.hpp"
 #include "mdat/common/flight_image.hpp"
@@ -32,14 +34,17 @@ class MemoryLink final : public ByteLink {
 // The component, wired as on the target.
 struct Host {
   Host(const std::vector<std::uint8_t>& bytes, std::size_t code_bytes)
-      : image(mdat::aligned_copy(bytes)),
+      : buffers{std::vector<std::uint64_t>(bytes.size() / 8 + 1), std::vector<std::uint64_t>(bytes.size() / 8 + 1)},
+        region(ppc603e::RamStore::region_bytes(bytes.size())),
+        store({region.data(), region.size()}, bytes.size(), [](ConstBytes) {}),
         code(code_bytes),
         driver(line, lcs::Optics(calibration())),
         component(std::make_unique<Component>(driver)) {
     BoardMemory memory;
+    for (std::size_t i = 0; i < 2; ++i) memory.image_buffers[i] = mdat::view(buffers[i], bytes.size());
+    memory.store = &store;
     memory.code = ConstBytes(code.data(), code.size());
-    expect(component->use_memory(memory), "watch its code");
-    expect(component->load_image(mdat::view(image, bytes.size())).status, "load its image");
+    expect(start_image(*component, memory, {bytes.data(), bytes.size()}).failure.status, "load its image");
     expect(component->begin(mdat::kEpochUs), "begin");
   }
 
@@ -70,7 +75,9 @@ struct Host {
     }
   }
 
-  std::vector<std::uint64_t> image;
+  std::array<std::vector<std::uint64_t>, 2> buffers;
+  std::vector<std::uint8_t> region;
+  ppc603e::RamStore store;
   std::vector<std::uint8_t> code;  // as much as the target has: the scrub's pass takes as long
   lcs::Line line;
   lcs::Driver driver;

@@ -1,9 +1,10 @@
-// pil_rig MISSION SCENARIO FRAMES OUT [cut=BYTES] [noise] [reset] [starts=N] [code=BYTES]: flies a scenario on the host, then on the board
-// behind OUT/camera.sock, OUT/ground.sock and OUT/rig.sock, and compares their telemetry bit by bit. Says `ready` when the board may be
-// started: the mission's image is then in OUT/image.3dli. Leaves OUT/host.ccsds, OUT/target.ccsds, OUT/starts.csv and OUT/slots.csv (the
-// board's reports, words by name). cut: the camera's line ends after so many bytes. noise: the ground's begins with some. reset: the ground
-// resets the component after five frames. starts: so many starts of the board are awaited, and the flight on the host left out. code: so
-// much code the board watches, and the host beside it. Exit codes: 0 the same bits, 1 not, or the board failed, 2 usage or bad input.
+// pil_rig MISSION SCENARIO FRAMES OUT [cut=BYTES] [noise] [store=ADDRESS] [whole] [starts=N] [code=BYTES]: flies a scenario on the host,
+// then on the board behind OUT/camera.sock, OUT/ground.sock and OUT/rig.sock, and compares their telemetry bit by bit. Says `ready` when
+// the board may be started: the mission's image is then in OUT/image.3dli. Leaves OUT/host.ccsds, OUT/target.ccsds, OUT/starts.csv and
+// OUT/slots.csv (the board's reports, words by name). cut: the camera's line ends after so many bytes. noise: the ground's begins with
+// some. store: three starts try the store (store_story.hpp), the first image buffer being at ADDRESS; whole: with an image as large as the
+// mission's. starts: so many starts of the board are awaited, and the flight on the host left out. code: so much code the board watches,
+// and the host beside it. Exit codes: 0 the same bits, 1 not, or the board failed, 2 usage or bad input.
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -11,6 +12,7 @@
 #include <string>
 
 #include "ft/pil/boards.hpp"
+#include "ft/pil/store_story.hpp"
 #include "mdat/common/errors.hpp"
 #include "mdat/common/flight_image.hpp"
 #include "mdat/common/output.hpp"
@@ -18,11 +20,15 @@
 #include "mdat/link/decode.hpp"
 #include "mdat/link/number.hpp"
 #include "mdat/run/simulation.hpp"
+#include "ut/support/box_image.hpp"
 
 namespace lasso::pil {
 namespace {
 
 constexpr std::uint32_t kPipelineFrames = 2;  // scan k is reported at boundary k + 2
+constexpr double kStoryPoints = 256;
+constexpr std::size_t kMissionIdAt = 19;  // the low byte of the header's mission id
+constexpr std::uint8_t kOtherMission = 99;
 constexpr const char* kWordNames =
     "magic,kind,time_high,time_low,camera_sent,ground_sent,slot,slot_ticks,estimate_ticks,late_ticks,idle_ticks,restarts,cause,vector,"
     "address,estimate_stack,acquire_stack,lost_bytes,memory,line_ticks,services_cut,lines_masked,packets_dropped\n";
@@ -32,12 +38,15 @@ struct Options {
   std::uint32_t frames = 0, starts = 1;
   std::size_t code_bytes = 0;
   std::optional<std::uint64_t> cut;
-  bool noise = false, reset = false;
+  bool noise = false, whole = false;
+  std::uint32_t store = 0;  // where the first image buffer is; 0: it is not tried
 };
 
 Options parse(int argc, char** argv) {
-  if (argc < 5) throw mdat::InputError("usage: pil_rig MISSION SCENARIO FRAMES OUT [cut=BYTES] [noise] [reset] [starts=N] [code=BYTES]");
-  Options options{argv[1], argv[2], argv[4], static_cast<std::uint32_t>(std::stoul(argv[3])), 1, 0, {}, false, false};
+  if (argc < 5)
+    throw mdat::InputError(
+        "usage: pil_rig MISSION SCENARIO FRAMES OUT [cut=BYTES] [noise] [store=ADDRESS] [whole] [starts=N] [code=BYTES]");
+  Options options{argv[1], argv[2], argv[4], static_cast<std::uint32_t>(std::stoul(argv[3])), 1, 0, {}, false, false, 0};
   for (int i = 5; i < argc; ++i) {
     const std::string word = argv[i];
     if (word.starts_with("cut=")) {
@@ -48,10 +57,14 @@ Options parse(int argc, char** argv) {
       options.code_bytes = std::stoul(word.substr(5));
     } else if (word == "noise") {
       options.noise = true;
-    } else if (word == "reset") {
-      options.reset = true;
+    } else if (word.starts_with("store=")) {
+      options.store = static_cast<std::uint32_t>(std::stoul(word.substr(6)));
+      options.starts = kStoryStarts;
+      options.frames = StoreStory::kLastFrames;
+    } else if (word == "whole") {
+      options.whole = true;
     } else {
-      throw mdat::InputError(word + ": none of cut=BYTES, noise, reset, starts=N and code=BYTES");
+      throw mdat::InputError(word + ": none of cut=BYTES, noise, store=ADDRESS, whole, starts=N and code=BYTES");
     }
   }
   return options;
@@ -123,7 +136,10 @@ void tell(const Packet& telemetry) {
 }
 
 int compare(const Options& options, const Packet& host, const TargetFlight& flight) {
-  for (const Packet& telemetry : flight.telemetry) tell(telemetry);
+  for (const Packet& telemetry : flight.telemetry) {
+    tell(telemetry);
+    if (options.store != 0) std::printf("%s\n", told_of_store(telemetry).c_str());
+  }
   if (options.starts > 1) return mdat::kExitDone;
   const std::string wrong = difference(host, flight.telemetry.back());
   if (wrong.empty()) std::printf("same: %zu bytes of telemetry\n", host.size());
@@ -131,16 +147,39 @@ int compare(const Options& options, const Packet& host, const TargetFlight& flig
   return wrong.empty() ? mdat::kExitDone : mdat::kExitFailed;
 }
 
+// The image that the ground loads: of a box, small, and of another mission; or the mission's own, with one parameter changed.
+std::vector<std::uint8_t> image_to_load(const Options& options, const mdat::CompiledMission& mission, MissionParameters parameters) {
+  parameters.coast_frames += 1;
+  if (options.whole) return mdat::image_bytes(mission, parameters);
+  test::TestImage box = test::make_box_image(parameters, {{0, 0, 0}, {0.3, 0.2, 0.1}, 0.1, 0.2});
+  box.data()[kMissionIdAt] = kOtherMission;
+  test::repair_crcs(box);
+  return {box.data(), box.data() + box.size};
+}
+
+// What the rig flies: fewer rays where the store is tried, which takes many frames, and images that are trusted at once.
+WorldSetup setup_of(const Options& options, const mdat::CompiledMission& mission, const sim::RayCaster& target) {
+  mdat::SimulationOptions simulation;
+  simulation.scenario = options.scenario;
+  WorldSetup setup{mdat::camera_case(mission, simulation, target), options.cut, options.noise};
+  if (options.store != 0) setup.flight.parameters.points = kStoryPoints;
+  if (options.store != 0) setup.flight.parameters.image_trial_scans = 0;
+  return setup;
+}
+
 int run(const Options& options) {
   const mdat::CompiledMission mission = mdat::compile_mission(options.mission);
   const auto target = mdat::make_target(mission.mesh);
-  mdat::SimulationOptions simulation;
-  simulation.scenario = options.scenario;
-  const WorldSetup setup{mdat::camera_case(mission, simulation, *target), options.cut, options.noise, options.reset};
+  const WorldSetup setup = setup_of(options, mission, *target);
   const std::vector<std::uint8_t> image = mdat::image_bytes(mission, setup.flight.parameters);
   std::filesystem::create_directories(options.out);
   write(options.out + "/image.3dli", image);
   const std::uint32_t frames = options.frames + kPipelineFrames;
+  std::optional<StoreStory> story;
+  if (options.store != 0) story.emplace(image_to_load(options, mission, setup.flight.parameters), options.store, options.out);
+  const Ground ground = [&](std::uint32_t start, std::uint32_t slot, std::uint16_t& count) {
+    return story ? story->commands(start, slot, count) : Packet{};
+  };
   Packet host;
   if (options.starts == 1) {
     mdat::ProgressBar bar("fly on the host", frames, "frames");
@@ -149,9 +188,10 @@ int run(const Options& options) {
   }
   write(options.out + "/host.ccsds", host);
   mdat::ProgressBar bar("fly on the 603e", frames, "frames");
-  const TargetFlight flight =
-      fly_on_target(setup, options.out, frames, options.starts, tell_ready, [&](std::uint32_t done) { bar.show(done); });
+  const TargetFlight flight = fly_on_target(
+      setup, options.out, frames, options.starts, tell_ready, [&](std::uint32_t done) { bar.show(done); }, ground);
   bar.finish();
+  if (story) std::printf("damaged word: %s\n", story->repaired() ? "repaired" : "as it was damaged");
   write(options.out + "/target.ccsds", flight.telemetry.back());
   mdat::write_file(options.out + "/starts.csv", csv(flight.starts));
   mdat::write_file(options.out + "/slots.csv", csv(flight.slots));

@@ -7,6 +7,7 @@
 #include <exception>
 #include <filesystem>
 
+#include "bsp/ppc603e/ram_store.hpp"
 #include "ft/pil/seu_flight.hpp"
 #include "mdat/common/errors.hpp"
 #include "mdat/common/flight_image.hpp"
@@ -40,6 +41,17 @@ std::string row_of(const Flip& flip, const Trial& trial) {
   return text;
 }
 
+// What is in use of the store: the parameters and the log, which change; the image's area, and the header of the other one.
+void add_store(Places& places, std::size_t image_bytes) {
+  const auto place = [&](std::size_t offset, std::size_t bytes) {
+    return std::vector<Range>{{places.at("store").at(0).address + static_cast<std::uint32_t>(offset), static_cast<std::uint32_t>(bytes)}};
+  };
+  const std::size_t small = ppc603e::RamStore::region_bytes(0) - 2 * kStoredHeaderBytes;
+  places["log"] = place(0, small);
+  places["stored_image"] = place(small, stored_area_bytes(StoreArea::kImage0, image_bytes));
+  places["stored_header"] = place(small + stored_area_bytes(StoreArea::kImage0, ppc603e::kMissionBytes), kStoredHeaderBytes);
+}
+
 void run(const std::string& mission_file, const std::string& folder, const Places& places, std::uint32_t flips, std::uint64_t seed,
          std::uint32_t first) {
   const mdat::CompiledMission mission = mdat::compile_mission(mission_file);
@@ -49,6 +61,7 @@ void run(const std::string& mission_file, const std::string& folder, const Place
   mdat::write_file(folder + "/image.3dli", {reinterpret_cast<const char*>(image.data()), image.size()});
   Places with_image = places;
   with_image["image"] = {{places.at("image").at(0).address, static_cast<std::uint32_t>(image.size())}};
+  add_store(with_image, image.size());
   SeuFlight flight(setup, folder, with_image, [] { say("start"); });
   flight.fly_golden();
   say("golden " + std::to_string(kGoldenFrames) + " frames, " + std::to_string(flight.unsteady_bytes()) +

@@ -22,7 +22,6 @@ import gate as gates  # noqa: E402
 import emulator  # noqa: E402
 
 MISSION = 'cfg/missions/hubble_tenth.toml'
-IMAGE_AT = 0x06000000  # board_mission_work of bsp/ppc603e/link.ld
 REGIONS = ('code', 'image', 'views', 'mode', 'vectors', 'data', 'stack', 'registers')
 PROTECTED = REGIONS[:4]
 OUTCOMES = {
@@ -49,14 +48,14 @@ def without(begin, end, holes):
 
 
 def places(elf, layout):
-    """Regions of the board: name, address, bytes. The image's bytes are known when it is compiled."""
+    """Regions of the board: name, address, bytes. The bytes of image and store are known when the image is compiled."""
     at, of = emulator.symbols(elf), emulator.symbols(layout)
     component, driver = at['component_memory'], at['driver_memory']
     mode = [(component + of['mode_at'], of['mode_bytes']), (component + of['parameters_at'], of['parameters_bytes']), (driver + of['laser_at'], of['laser_bytes'])]
     views = [(component + of['views_at'], of['views_bytes'])]
     stack = at['board_estimation_stack_end'] - at['board_estimation_stack_begin']
     ranges = {
-        'code': [(at['board_code_begin'], at['board_code_end'] - at['board_code_begin'])], 'vectors': [(0, 0x1800)], 'image': [(IMAGE_AT, 0)],
+        'code': [(at['board_code_begin'], at['board_code_end'] - at['board_code_begin'])], 'vectors': [(0, 0x1800)], 'image': [(at['board_image_buffer0'], 0)], 'store': [(at['board_store'], 0)],
         'views': views, 'mode': mode, 'data': list(without(at['board_estimation_stack_end'], at['board_bss_end'], views + mode)),
         'estimation_stack': [(at['board_estimation_stack_begin'], stack)],
         'acquisition_stack': [(at['board_acquisition_stack_begin'], at['board_acquisition_stack_end'] - at['board_acquisition_stack_begin'])],

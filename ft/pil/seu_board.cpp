@@ -43,7 +43,9 @@ SeuBoard::SeuBoard(std::string folder, const Places& places, std::function<void(
       start_emulator_(std::move(start_emulator)),
       memory_(only(places, "all_data")),
       stack_(only(places, "acquisition_stack")),
-      constants_{only(places, "code"), only(places, "vectors"), only(places, "image")} {}
+      log_(only(places, "log")),
+      constants_{only(places, "code"), only(places, "vectors"), only(places, "image"), only(places, "stored_image"),
+                 only(places, "stored_header")} {}
 
 SeuBoard::~SeuBoard() {
   if (ram_ != nullptr) (void)munmap(ram_, kRamBytes);
@@ -105,6 +107,7 @@ Snapshot SeuBoard::keep() {
   Snapshot snapshot;
   snapshot.memory.assign(bytes_of(memory_).begin(), bytes_of(memory_).end());
   snapshot.stack.assign(bytes_of(stack_).begin(), bytes_of(stack_).end());
+  snapshot.log.assign(bytes_of(log_).begin(), bytes_of(log_).end());
   snapshot.registers = gdb_.registers();
   snapshot.counts = {camera_->taken(), camera_->given(), ground_->taken(), ground_->given()};
   gdb_.go_on();
@@ -117,6 +120,7 @@ void SeuBoard::put_back(const Snapshot& snapshot) {
   for (std::optional<Line>* line : {&camera_, &ground_, &rig_}) (*line)->move();
   std::copy(snapshot.memory.begin(), snapshot.memory.end(), bytes_of(memory_).begin());
   std::copy(snapshot.stack.begin(), snapshot.stack.end(), bytes_of(stack_).begin());
+  std::copy(snapshot.log.begin(), snapshot.log.end(), bytes_of(log_).begin());
   restore_constants();
   gdb_.set_registers(snapshot.registers);
   camera_->go_back(snapshot.counts.camera_taken, snapshot.counts.camera_given);

@@ -23,9 +23,10 @@ struct LineCounts {
   std::uint32_t camera_taken = 0, camera_given = 0, ground_taken = 0, ground_given = 0;
 };
 
-// What can be put back. Code, constants and the mission's image are not in it: nothing but a flip changes them.
+// What can be put back. Code, constants and the mission's image, in its buffer and in the store, are not in it: nothing but a flip changes
+// them.
 struct Snapshot {
-  Packet memory, stack;
+  Packet memory, stack, log;
   std::string registers;
   LineCounts counts;
 };
@@ -70,7 +71,7 @@ class SeuBoard {
 
   std::string folder_;
   std::function<void()> start_emulator_;
-  Range memory_, stack_;
+  Range memory_, stack_, log_;
   std::vector<Range> constants_;
   std::vector<Packet> kept_constants_;
   std::uint8_t* ram_ = nullptr;

@@ -46,10 +46,12 @@ class Target {
     return begun;
   }
 
-  void answer() {
-    world_->move_to(slot_++, {to_camera_.data(), to_camera_.size()});
+  void answer(std::uint32_t start, const Ground& ground) {
+    world_->move_to(slot_, {to_camera_.data(), to_camera_.size()});
     camera_.give(world_->from_camera());
     ground_.give(world_->from_ground());
+    if (ground) ground_.give(ground(start, slot_, world_->next_command()));
+    ++slot_;
     rig_.give(words({camera_.given(), ground_.given()}));
   }
 
@@ -88,12 +90,12 @@ class Target {
 }  // namespace
 
 TargetFlight fly_on_target(const WorldSetup& setup, const std::string& folder, std::uint32_t frames, std::uint32_t starts,
-                           const std::function<void()>& ready, const Told& told) {
+                           const std::function<void()>& ready, const Told& told, const Ground& ground) {
   Target target(setup);
   TargetFlight flight;
   target.open(folder, ready);
   while (flight.starts.size() < starts || flight.slots.size() < std::size_t{frames} * kSlotsPerFrame) {
-    if (!flight.starts.empty()) target.answer();
+    if (!flight.starts.empty()) target.answer(static_cast<std::uint32_t>(flight.starts.size() - 1), ground);
     target.take(target.read_report(), flight);
     told(static_cast<std::uint32_t>(flight.slots.size() / kSlotsPerFrame));
     if (flight.starts.size() > starts) throw mdat::RunError("the board has started anew, for a reason that its console says");

@@ -11,7 +11,6 @@ namespace lasso::pil {
 namespace {
 
 constexpr std::uint32_t kPingFrames = 50;
-constexpr std::uint32_t kResetSlot = 5 * kSlotsPerFrame + 3;
 
 sim::ScannerModel model_of(const mdat::CaseSetup& setup) { return mdat::scanner_model(setup.scenario, setup.parameters, setup.noise); }
 
@@ -48,9 +47,6 @@ void World::move_to(std::uint32_t slot, ConstBytes to_camera) {
     if (setup_.ground_noise) append(ground_, noise());
     append(ground_, mdat::arm_for(mdat::command_row("enable_laser"), commands_++));
     append(ground_, mdat::encode_command(mdat::command_row("enable_laser"), {}, commands_++));
-  } else if (setup_.ground_resets && slot == kResetSlot) {
-    append(ground_, mdat::arm_for(mdat::command_row("reset"), commands_++));
-    append(ground_, mdat::encode_command(mdat::command_row("reset"), {}, commands_++));
   } else if (slot % (kPingFrames * kSlotsPerFrame) == 7) {
     append(ground_, mdat::encode_command(mdat::command_row("ping"), {}, commands_++));
   }

@@ -20,7 +20,6 @@ struct WorldSetup {
   mdat::CaseSetup flight;
   std::optional<std::uint64_t> camera_bytes;  // after as many its line is cut, be it in the middle of a frame
   bool ground_noise = false;                  // the ground's line begins in the middle of a packet, and brings a damaged one
-  bool ground_resets = false;                 // the ground resets the component after five frames
 };
 
 class World {
@@ -32,6 +31,7 @@ class World {
   void move_to(std::uint32_t slot, ConstBytes to_camera);
   Packet from_camera();
   Packet from_ground();
+  std::uint16_t& next_command() { return commands_; }  // its sequence count
 
  private:
   WorldSetup setup_;
