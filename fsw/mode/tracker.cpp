@@ -1,5 +1,7 @@
 #include "fsw/mode/tracker.hpp"
 
+#include "fsw/geometry/portable_math.hpp"
+
 namespace lasso {
 namespace {
 
@@ -96,6 +98,13 @@ bool is_rough(const Mission& mission, const FilterState& filter) {
   return turn_m2 + shift_m2 > mission.parameters.gate_first_m * mission.parameters.gate_first_m;
 }
 
+// Where predictions have been better than they claim, so is this one: a target need not accelerate as much as the mission allows it to.
+Mat6 likely_covariance(const FilterState& predicted) {
+  Vec6 share;
+  for (int i = 0; i < 6; ++i) share[i] = square_root(clamp(predicted.surprise[i], kLeastSurprise, 1.0));
+  return share.asDiagonal() * predicted.covariance.topLeftCorner<6, 6>() * share.asDiagonal();
+}
+
 }  // namespace
 
 void change_mode(ModeEvent event, TrackState& state) {
@@ -169,7 +178,7 @@ void aim_next(const Mission& mission, Estimator& estimator, const TrackStep& ste
   if (!step.registration.valid()) return;
   FilterState predicted = step.after.filter;
   if (predict_filter(predicted, t_us, filter_noise(mission.parameters)) != Status::kOk) return;
-  const AimRequest request{scan_id, predicted.T_sensor_target, predicted.rates, predicted.covariance.topLeftCorner<6, 6>()};
+  const AimRequest request{scan_id, predicted.T_sensor_target, predicted.rates, likely_covariance(predicted)};
   aim_rays(mission, request, estimator.workspace(), rays);
 }
 

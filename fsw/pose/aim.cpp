@@ -11,8 +11,10 @@ namespace {
 using N = FlightNumber;
 using Ratio = N::Ratio;
 
-constexpr double kOffsetSigmas = 2;  // rays reach this far to either side of the predicted contour
-constexpr double kLabelWorth = 0.6;  // how many labels make a measurement, measured: see docs/decisions/aimed-scans.md
+constexpr double kOffsetSigmas = 2;      // rays reach this far to either side of the predicted contour
+constexpr double kLabelWorth = 0.6;      // how many labels make a measurement, measured: see docs/decisions/aimed-scans.md
+constexpr double kSurfaceSpread = 5e-4;  // of the range: rays at a surface stay beside one another
+static_assert(kMaxAimSurfaces == kOutlookRays, "each can be a place");
 constexpr double kGoldenRatio = 0.6180339887498949;
 
 double square(double x) { return x * x; }
@@ -93,12 +95,38 @@ void find_places(const AimSearch& s, Workspace& workspace) {
   }
 }
 
-// How much the place's rays, of the weight w of a measurement, will take off trace(D C D).
+// A place whose rays return, as far around it as they go.
+void add_surface(const AimSearch& s, const SeenPoint& seen, Workspace& workspace) {
+  AimPlace place;
+  place.surface = true;
+  place.point = seen.point;
+  place.across = s.R_sensor_target.row(0).transpose();
+  place.a = seen.row;
+  place.w = kRaysPerPlace * seen.weight;
+  place.s_pred = kSurfaceSpread * s.range_m;
+  if (!in_field_of_view(s, place.point, kOffsetSigmas * place.s_pred)) return;
+  static_cast<void>(workspace.places.push_back(place));  // as many as fit
+}
+
+// What the pattern's `rays` rays will tell, as kOutlookRays of them show. Where one of these returns is a place, too.
+Mat6 look_around(const AimSearch& s, double rays, Workspace& workspace) {
+  const ScanRectangle rectangle = outline_of(s.mission, s.view);
+  Mat6 information = Mat6::Zero();
+  for (int i = 0; i < kOutlookRays; ++i) {
+    const SeenPoint seen = look_at(s.mission, s.view, rectangle, i);
+    if (!(seen.weight > 0)) continue;
+    information += seen.weight * seen.row * seen.row.transpose();
+    add_surface(s, seen, workspace);
+  }
+  return (rays / kOutlookRays) * information;
+}
+
+// How much the place's rays, of the weight w of one measurement, will take off trace(D C D).
 void find_gain(const AimSearch& s, const Mat6& C, AimPlace& place) {
   const Vec6 Ca = C * place.a;
   const double variance = place.a.dot(Ca);
   const double sigma = square_root(variance + s.own_variance);
-  place.w = kRaysPerPlace / (kLabelWorth * sigma * larger(sigma, place.s_pred));
+  if (!place.surface) place.w = kRaysPerPlace / (kLabelWorth * sigma * larger(sigma, place.s_pred));
   const double moved = square(s.mission.radius_m) * Ca.head<3>().squaredNorm() + Ca.tail<3>().squaredNorm();
   place.gain = place.w * moved / (1 + place.w * variance);
 }
@@ -135,7 +163,8 @@ void choose_places(const AimSearch& s, std::size_t count, Mat6& C, Workspace& wo
   std::size_t hopeful = 0;
   for (std::size_t tried = 0; tried < workspace.places.size() && chosen < count; ++tried) {
     AimPlace& place = workspace.places[best_place(s, C, workspace, hopeful)];
-    const bool confirmed = probe_contour(s.mission.field, probe, s.origin, place.point, place.across).kind != ContourKind::kNone;
+    const bool confirmed =
+        place.surface || probe_contour(s.mission.field, probe, s.origin, place.point, place.across).kind != ContourKind::kNone;
     place.fate = confirmed ? AimPlace::Fate::kChosen : AimPlace::Fate::kNoContour;
     if (!confirmed) continue;
     learn(place, C);
@@ -186,10 +215,11 @@ void aim_rays(const Mission& mission, const AimRequest& request, Workspace& work
   Mat6 information;
   Mat6 C;
   if (invert6(s.P, information) != Status::kOk) return;
-  information += look_over(mission, s.view, outline_of(mission, s.view), (1 - p.aimed_share) * p.points).information;
-  if (invert6(information, C) != Status::kOk) return;
   find_contour(mission, s.view, workspace);
   find_places(s, workspace);
+  const bool contour_known = !workspace.places.empty();
+  information += look_around(s, (1 - p.aimed_share) * p.points, workspace);
+  if (invert6(information, C) != Status::kOk || !contour_known) return;
   choose_places(s, wanted, C, workspace);
   aim_at_places(s, workspace, rays);
 }

@@ -7,6 +7,8 @@ namespace lasso {
 namespace {
 
 constexpr double kSymmetryTolerance = 1e-9;  // of the geometric mean of the two variances
+constexpr double kSurpriseFades = 1.0 / 8;   // by each measurement
+constexpr double kAlarm2 = 9;                // three sigmas
 constexpr double kSmallAngle2 = 1e-4;        // rad^2: below, series to three terms are exact to 1e-17
 
 // The covariance in 6x6 blocks of pose and rates. Products stay at this size: Eigen writes them out, whereas 12x12 ones would bring in its
@@ -172,10 +174,21 @@ Status check_measurement(const FilterState& state, const PoseMeasurement& measur
   return status == Status::kOk ? check_covariance(measured.covariance) : status;
 }
 
+// The innovation's square is on average the prediction's variance and the measurement's own.
+void note_surprise(const Vec6& innovation, const Mat6& predicted, const Mat6& measured, Vec6& surprise) {
+  for (int i = 0; i < 6; ++i) {
+    const double square = innovation[i] * innovation[i];
+    const bool alarming = square > kAlarm2 * (surprise[i] * predicted(i, i) + measured(i, i));
+    const double seen = (square - measured(i, i)) / predicted(i, i);
+    surprise[i] = clamp(surprise[i] + (alarming ? 1 : kSurpriseFades) * (seen - surprise[i]), kLeastSurprise, 1.0);
+  }
+}
+
 void join_measurement(FilterState& state, const PoseMeasurement& measured, const Vec6& innovation, const Mat6& S_inverse) {
   const Blocks P = split(state.covariance);
   const Mat6 pose_gain = P.pose * S_inverse;
   const Mat6 rates_gain = P.cross.transpose() * S_inverse;
+  note_surprise(innovation, P.pose, measured.covariance, state.surprise);
   correct(state, pose_gain * innovation, rates_gain * innovation);
   state.covariance = joseph(P, measured.covariance, pose_gain, rates_gain);
   ++state.accepted;

@@ -28,12 +28,16 @@ using Mat12 = Eigen::Matrix<double, 12, 12>;
 constexpr DurationUs kMaxPredictionUs = 1'000'000'000;  // longest step of the filter
 constexpr double kMaxStepRotationRad = 1e4;             // most rotation of one step: far beyond any use, inside sin_cos's domain
 constexpr double kNoGate = 0;
+constexpr double kLeastSurprise = 1.0 / 64;  // of a variance: an eighth of the claimed sigma
 
 struct FilterState {
   TimeUs t_us = 0;  // at which pose, rates and covariance are stated
   Pose T_sensor_target;
   Twist rates;
   Mat12 covariance = Mat12::Zero();  // order: rotation, translation, angular velocity, velocity
+  // How far predictions were off, over the variance that they claimed: rotation and translation, axis by axis, [kLeastSurprise, 1]. It
+  // rises at once and falls slowly. The filter does not use it.
+  Vec6 surprise = Vec6::Ones();
   bool initialised = false;
   std::uint32_t accepted = 0;  // measurements since the start
   std::uint32_t rejected = 0;  // by the gate

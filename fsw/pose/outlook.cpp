@@ -21,28 +21,29 @@ void include(const ImagePoint& point, ScanRectangle& rectangle) {
   }
 }
 
-// The information that a return along a ray will have; nothing where the ray meets no surface, or grazes it.
-bool add_return(const Mission& mission, FieldRay<N>& ray, Mat6& H) {
+SeenPoint see(const Mission& mission, FieldRay<N>& ray) {
+  SeenPoint seen;
   const Field<N>& field = mission.field;
   set_cells(field, ray);
-  if (!near_grid(ray)) return false;
+  if (!near_grid(ray)) return seen;
   const FieldSpan<N> span = clip_to_grid(field, ray);
   const FieldHit<N> hit = walk_field(field, ray, span.enter > 0 ? span.enter : 0, span.leave);  // what lies behind is not seen
-  if (!hit.found) return false;
+  if (!hit.found) return seen;
+  seen.met = true;
   const Length q[3] = {ray.m[0] + hit.t * ray.u[0], ray.m[1] + hit.t * ray.u[1], ray.m[2] + hit.t * ray.u[2]};
   N::Unit normal[3];
   surface_normal(field, field.elements[hit.element], q, normal);
   const MissionParameters& p = mission.parameters;
   const double tilt2 = square(N::to_double(dot3<N>(normal, ray.u)));
-  if (tilt2 < square(sin_cos(p.incidence_max_rad).cos)) return true;
+  if (tilt2 < square(sin_cos(p.incidence_max_rad).cos)) return seen;
   const double range_m = N::to_double(hit.t);
   const double variance =
       tilt2 * range_variance(p, range_m) + (1 - tilt2) * square(range_m * p.sigma_angle_rad) + square(p.surface_sigma_m);
   const Vec3 n = to_vec3(normal);
-  Vec6 row;
-  row << to_vec3(q).cross(n), n;
-  H += (1 / variance) * row * row.transpose();
-  return true;
+  seen.point = to_vec3(q);
+  seen.row << seen.point.cross(n), n;
+  seen.weight = 1 / variance;
+  return seen;
 }
 
 }  // namespace
@@ -70,20 +71,25 @@ ScanRectangle visible_outline(const Mission& mission, const View<N>& view) {
   return outline;
 }
 
+SeenPoint look_at(const Mission& mission, const View<N>& view, const ScanRectangle& r, int index) {
+  const int row = index / kOutlookColumns;
+  const int column = index % kOutlookColumns;
+  const double x = N::to_double(r.low[0]) + (column + 0.5) / kOutlookColumns * N::to_double(r.high[0] - r.low[0]);
+  const double y = N::to_double(r.low[1]) + (row + 0.5) / kOutlookRows * N::to_double(r.high[1] - r.low[1]);
+  const double scale = 1 / square_root(x * x + y * y + 1);
+  const N::Unit u[3] = {N::to_unit(x * scale), N::to_unit(y * scale), N::to_unit(scale)};
+  FieldRay<N> ray{};
+  for (int i = 0; i < 3; ++i) ray.m[i] = view.pose.t[i];
+  rotate(view.pose, u, ray.u);
+  return see(mission, ray);
+}
+
 Outlook look_over(const Mission& mission, const View<N>& view, const ScanRectangle& rectangle, double rays) {
   Outlook outlook;
-  for (int row = 0; row < kOutlookRows; ++row) {
-    for (int column = 0; column < kOutlookColumns; ++column) {
-      const double x =
-          N::to_double(rectangle.low[0]) + (column + 0.5) / kOutlookColumns * N::to_double(rectangle.high[0] - rectangle.low[0]);
-      const double y = N::to_double(rectangle.low[1]) + (row + 0.5) / kOutlookRows * N::to_double(rectangle.high[1] - rectangle.low[1]);
-      const double scale = 1 / square_root(x * x + y * y + 1);
-      const N::Unit u[3] = {N::to_unit(x * scale), N::to_unit(y * scale), N::to_unit(scale)};
-      FieldRay<N> ray{};
-      for (int i = 0; i < 3; ++i) ray.m[i] = view.pose.t[i];
-      rotate(view.pose, u, ray.u);
-      if (add_return(mission, ray, outlook.information)) ++outlook.met;
-    }
+  for (int i = 0; i < kOutlookRays; ++i) {
+    const SeenPoint seen = look_at(mission, view, rectangle, i);
+    outlook.met += seen.met ? 1 : 0;
+    outlook.information += seen.weight * seen.row * seen.row.transpose();
   }
   outlook.information = (rays / kOutlookRays) * outlook.information;
   return outlook;

@@ -23,6 +23,16 @@ struct Outlook {
 constexpr int kOutlookColumns = 8, kOutlookRows = 12;
 constexpr int kOutlookRays = kOutlookColumns * kOutlookRows;
 
+// What a return along one ray will tell: the residual's row, and its variance.
+struct SeenPoint {
+  bool met = false;           // the ray meets the model
+  Vec3 point = Vec3::Zero();  // where, target frame
+  Vec6 row = Vec6::Zero();
+  double weight = 0;  // 1/m^2; 0: nothing met, or grazed
+};
+// The ray in the middle of field `index` of the kOutlookRays that the rectangle is divided into. Bound: a walk.
+SeenPoint look_at(const Mission& mission, const View<FlightNumber>& view, const ScanRectangle& rectangle, int index);
+
 // The returns of `rays` rays spread over the rectangle. Rays that graze the surface tell nothing. Bound: kOutlookRays walks.
 Outlook look_over(const Mission& mission, const View<FlightNumber>& view, const ScanRectangle& rectangle, double rays);
 

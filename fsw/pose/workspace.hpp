@@ -72,18 +72,21 @@ struct Label {
   Vec6 a;
 };
 
-// A place on a contour that rays of the next scan can be aimed at. Rows and steps as of a label.
+// A place on a contour, or on a surface, that rays of the next scan can be aimed at. Rows and steps as of a label, or of a return.
 struct AimPlace {
   enum class Fate : std::uint8_t { kOpen, kChosen, kNoContour };
 
-  Vec3 point = Vec3::Zero();   // on the edge, target frame
-  Vec3 across = Vec3::Zero();  // unit, across edge and ray
+  Vec3 point = Vec3::Zero();   // on the edge or the surface, target frame
+  Vec3 across = Vec3::Zero();  // unit, across edge and ray; of a surface across the ray
   Vec6 a = Vec6::Zero();
-  double s_pred = 0;    // m, one sigma of where the prediction has the contour
+  double s_pred = 0;    // m, one sigma of where the prediction has the contour; of a surface half of how far its rays spread
   double w = 0;         // 1/m^2, of what its rays will tell
   double gain = 1e300;  // m^2, that they take off the variance of the target's points
   Fate fate = Fate::kOpen;
+  bool surface = false;  // or else on a contour
 };
+
+constexpr std::size_t kMaxAimSurfaces = 96;
 
 struct Workspace {
   FixedVector<ScanRay<FlightNumber>, kMaxRays> rays;
@@ -93,7 +96,7 @@ struct Workspace {
   RayEdges<FlightNumber> ray_edges[kMaxRays] = {};
   RayBins<FlightNumber> bins{};
   FixedVector<Label, kMaxSites> labels;
-  FixedVector<AimPlace, kMaxAimPlaces> places;
+  FixedVector<AimPlace, kMaxAimPlaces + kMaxAimSurfaces> places;
 };
 
 }  // namespace lasso

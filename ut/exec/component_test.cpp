@@ -299,7 +299,7 @@ MissionParameters aiming_parameters() {
 }
 
 TEST(Component, LooksWhereTheLastPublishedEstimateSays) {
-  VERIFIES("LASSO-SNS-014~1 LASSO-SNS-016~1");
+  VERIFIES("LASSO-SNS-014~2 LASSO-SNS-016~1");
   ComponentScene scene(aiming_parameters());
   scene.begin();
   scene.run_frame();

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <limits>
 
 #include "ut/mode/tracker_fixture.hpp"
@@ -232,7 +233,7 @@ TEST_F(TrackerTest, ABearingScanSaysWhereAndNoPose) {
 }
 
 TEST_F(TrackerTest, AValidStepSaysWhereToLookNext) {
-  VERIFIES("LASSO-SNS-014~1 LASSO-SNS-016~1");
+  VERIFIES("LASSO-SNS-014~2 LASSO-SNS-016~1");
   mission_.parameters.aimed_share = 0.3;
   mission_.parameters.silhouette_band_m = 0.01;
   start(small_error());
@@ -251,6 +252,38 @@ TEST_F(TrackerTest, AValidStepSaysWhereToLookNext) {
   EXPECT_TRUE(rays.empty());
   aim_next(mission_, *estimator_, miss(13), 15, t_us + 2 * kPeriodUs, rays);
   EXPECT_TRUE(rays.empty());
+}
+
+// Mean distance between neighbouring rays of one place, on the tangent plane.
+double mean_spacing(const AimedRays& rays) {
+  double sum = 0;
+  for (std::size_t i = 1; i < rays.size(); ++i) {
+    const double dx = static_cast<double>(rays[i].x - rays[i - 1].x), dy = static_cast<double>(rays[i].y - rays[i - 1].y);
+    if (i % kRaysPerPlace != 0) sum += std::sqrt(dx * dx + dy * dy);
+  }
+  return sum * kRaysPerPlace / (kRaysPerPlace - 1) / static_cast<double>(rays.size());
+}
+
+TEST_F(TrackerTest, RaysAreSpreadAsFarAsPredictionsHaveBeenOff) {
+  VERIFIES("LASSO-SNS-017~1");
+  mission_.parameters.aimed_share = 0.3;
+  mission_.parameters.silhouette_band_m = 0.1;
+  mission_.parameters.silhouette_sigma_m = 1e-6;
+  start(small_error());
+  TrackStep step;
+  for (std::uint32_t k = 0; k < 6; ++k) step = track(k);
+  const auto spacing = [&](double surprise) {
+    AimedRays rays;
+    step.after.filter.surprise.setConstant(surprise);
+    aim_next(mission_, *estimator_, step, 13, step.registration.t_us + 2 * kPeriodUs, rays);
+    EXPECT_GT(rays.size(), 200u);
+    return mean_spacing(rays);
+  };
+  const double whole = spacing(1);
+  EXPECT_NEAR(spacing(0.25) / whole, 0.5, 0.1);
+  EXPECT_NEAR(spacing(kLeastSurprise) / whole, 0.125, 0.04);
+  EXPECT_EQ(spacing(0), spacing(kLeastSurprise)) << "never less";
+  EXPECT_EQ(spacing(5), whole) << "never more";
 }
 
 }  // namespace

@@ -255,6 +255,50 @@ TEST(Filter, PredictedPoseIsTheFiltersOwnAndChangesNothing) {
   EXPECT_TRUE(predicted.rates.v_mps == state.rates.v_mps);
 }
 
+// Predictions of a motion whose accelerations are `share` of those that the filter allows for, each by an exact measurement.
+FilterState follow(double share, Generator& random) {
+  FilterState state = started(random);
+  Truth truth{state.T_sensor_target, state.rates};
+  for (int frame = 0; frame < 100; ++frame) {
+    truth.move(0.2, share * kNoise.angular_acceleration_radps2 * normals<Vec3>(random),
+               share * kNoise.acceleration_mps2 * normals<Vec3>(random));
+    EXPECT_EQ(predict_filter(state, state.t_us + 200'000, kNoise), Status::kOk);
+    EXPECT_TRUE(update_filter(state, {state.t_us, truth.pose, 1e-12 * Mat6::Identity()}, kNoGate).accepted);
+  }
+  return state;
+}
+
+TEST(Filter, TellsHowFarItsPredictionsWereOff) {
+  VERIFIES("LASSO-FLT-013~1");
+  Generator random(12);
+  EXPECT_TRUE(started(random).surprise == Vec6::Ones()) << "nothing is known at the start";
+  for (const double share : {1.0, 0.25}) {
+    double mean = 0;
+    for (int run = 0; run < 30; ++run) mean += follow(share, random).surprise.mean() / 30;
+    // The mean of 6 x 30 averages over some 15 squares of normal numbers, cut at 1 and raised by the few beyond three sigmas.
+    EXPECT_GT(mean, 0.5 * share * share);
+    EXPECT_LT(mean, 1.5 * share * share);
+  }
+  EXPECT_LT((follow(0, random).surprise - Vec6::Constant(kLeastSurprise)).norm(), 1e-4) << "never less";
+}
+
+TEST(Filter, AWrongPredictionIsToldAtOnceOfItsAxisAlone) {
+  VERIFIES("LASSO-FLT-013~1");
+  Generator random(13);
+  const FilterState quiet = follow(0, random);
+  for (const int axis : {0, 4}) {
+    FilterState state = quiet;
+    ASSERT_EQ(predict_filter(state, state.t_us + 200'000, kNoise), Status::kOk);
+    Vec6 off = Vec6::Zero();
+    off[axis] = 2 * std::sqrt(state.covariance(axis, axis));
+    const PoseMeasurement measured{state.t_us, disturbed(state.T_sensor_target, off), 1e-12 * Mat6::Identity()};
+    ASSERT_FALSE(update_filter(state, measured, 1e-9).accepted);
+    EXPECT_LT(state.surprise.maxCoeff(), 0.02) << "what is kept out tells nothing";
+    ASSERT_TRUE(update_filter(state, measured, kNoGate).accepted);
+    for (int i = 0; i < 6; ++i) EXPECT_NEAR(state.surprise[i], i == axis ? 1 : kLeastSurprise, 1e-3);
+  }
+}
+
 TEST(Filter, IsSoundWhileItsNumbersAreSome) {
   VERIFIES("LASSO-FLT-011~1");
   FilterState state;
