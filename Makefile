@@ -70,12 +70,12 @@ test: ## build with g++ and clang++ without a warning, and pass all tests of the
 	$(call compile,$(CLANG))
 	@cfg/quality/run-tests test g++=$(BUILD) clang++=$(CLANG)
 
-accuracy: ## the errors of the reference simulation, of spin, rates, tumble, outliers and dropouts, against the limits of their requirements; out/accuracy
+accuracy: ## the errors of the reference simulation, of pointing noise, spin, rates, tumble, outliers and dropouts, against the limits of their requirements; out/accuracy
 	$(begin)
 	$(call packages,build)
 	$(call configure,$(BUILD),)
 	$(call compile,$(BUILD),mdat)
-	@for scenario in paper spin rates tumble outliers dropouts; do $(BUILD)/mdat/mdat run cfg/missions/hubble_tenth.toml --scenario $$scenario \
+	@for scenario in paper pointing spin rates tumble outliers dropouts; do $(BUILD)/mdat/mdat run cfg/missions/hubble_tenth.toml --scenario $$scenario \
 	  --out $(LASSO_OUT)/accuracy/$$scenario || exit 1; done
 	@cfg/quality/accuracy $(LASSO_OUT)/accuracy
 
