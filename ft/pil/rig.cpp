@@ -1,10 +1,10 @@
-// pil_rig MISSION SCENARIO FRAMES OUT [cut=BYTES] [noise] [store=ADDRESS] [whole] [starts=N] [code=BYTES]: flies a scenario on the host,
+// pil_rig MISSION SCENARIO FRAMES OUT [cut=BYTES] [noise] [store=ADDRESS] [starts=N] [code=BYTES]: flies a scenario on the host,
 // then on the board behind OUT/camera.sock, OUT/ground.sock and OUT/rig.sock, and compares their telemetry bit by bit. Says `ready` when
 // the board may be started: the mission's image is then in OUT/image.3dli. Leaves OUT/host.ccsds, OUT/target.ccsds, OUT/starts.csv and
 // OUT/slots.csv (the board's reports, words by name). cut: the camera's line ends after so many bytes. noise: the ground's begins with
-// some. store: three starts try the store (store_story.hpp), the first image buffer being at ADDRESS; whole: with an image as large as the
-// mission's. starts: so many starts of the board are awaited, and the flight on the host left out. code: so much code the board watches,
-// and the host beside it. Exit codes: 0 the same bits, 1 not, or the board failed, 2 usage or bad input.
+// some. store: three starts try the store (store_story.hpp), the first image buffer being at ADDRESS. starts: so many starts of the board
+// are awaited, and the flight on the host left out. code: so much code the board watches, and the host beside it. Exit codes: 0 the same
+// bits, 1 not, or the board failed, 2 usage or bad input.
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -38,15 +38,14 @@ struct Options {
   std::uint32_t frames = 0, starts = 1;
   std::size_t code_bytes = 0;
   std::optional<std::uint64_t> cut;
-  bool noise = false, whole = false;
+  bool noise = false;
   std::uint32_t store = 0;  // where the first image buffer is; 0: it is not tried
 };
 
 Options parse(int argc, char** argv) {
   if (argc < 5)
-    throw mdat::InputError(
-        "usage: pil_rig MISSION SCENARIO FRAMES OUT [cut=BYTES] [noise] [store=ADDRESS] [whole] [starts=N] [code=BYTES]");
-  Options options{argv[1], argv[2], argv[4], static_cast<std::uint32_t>(std::stoul(argv[3])), 1, 0, {}, false, false, 0};
+    throw mdat::InputError("usage: pil_rig MISSION SCENARIO FRAMES OUT [cut=BYTES] [noise] [store=ADDRESS] [starts=N] [code=BYTES]");
+  Options options{argv[1], argv[2], argv[4], static_cast<std::uint32_t>(std::stoul(argv[3])), 1, 0, {}, false, 0};
   for (int i = 5; i < argc; ++i) {
     const std::string word = argv[i];
     if (word.starts_with("cut=")) {
@@ -61,10 +60,8 @@ Options parse(int argc, char** argv) {
       options.store = static_cast<std::uint32_t>(std::stoul(word.substr(6)));
       options.starts = kStoryStarts;
       options.frames = StoreStory::kLastFrames;
-    } else if (word == "whole") {
-      options.whole = true;
     } else {
-      throw mdat::InputError(word + ": none of cut=BYTES, noise, store=ADDRESS, whole, starts=N and code=BYTES");
+      throw mdat::InputError(word + ": none of cut=BYTES, noise, store=ADDRESS, starts=N and code=BYTES");
     }
   }
   return options;
@@ -147,10 +144,8 @@ int compare(const Options& options, const Packet& host, const TargetFlight& flig
   return wrong.empty() ? mdat::kExitDone : mdat::kExitFailed;
 }
 
-// The image that the ground loads: of a box, small, and of another mission; or the mission's own, with one parameter changed.
-std::vector<std::uint8_t> image_to_load(const Options& options, const mdat::CompiledMission& mission, MissionParameters parameters) {
-  parameters.coast_frames += 1;
-  if (options.whole) return mdat::image_bytes(mission, parameters);
+// The image that the ground loads: of a box, small, and of another mission.
+std::vector<std::uint8_t> image_to_load(const MissionParameters& parameters) {
   test::TestImage box = test::make_box_image(parameters, {{0, 0, 0}, {0.3, 0.2, 0.1}, 0.1, 0.2});
   box.data()[kMissionIdAt] = kOtherMission;
   test::repair_crcs(box);
@@ -176,7 +171,7 @@ int run(const Options& options) {
   write(options.out + "/image.3dli", image);
   const std::uint32_t frames = options.frames + kPipelineFrames;
   std::optional<StoreStory> story;
-  if (options.store != 0) story.emplace(image_to_load(options, mission, setup.flight.parameters), options.store, options.out);
+  if (options.store != 0) story.emplace(image_to_load(setup.flight.parameters), options.store, options.out);
   const Ground ground = [&](std::uint32_t start, std::uint32_t slot, std::uint16_t& count) {
     return story ? story->commands(start, slot, count) : Packet{};
   };
