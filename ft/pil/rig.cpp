@@ -38,7 +38,7 @@ struct Options {
   std::uint32_t frames = 0, starts = 1;
   std::size_t code_bytes = 0;
   std::optional<std::uint64_t> cut;
-  bool noise = false = false;
+  bool noise = false;
   std::uint32_t store = 0;  // where the first image buffer is; 0: it is not tried
 };
 
