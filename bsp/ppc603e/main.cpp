@@ -133,6 +133,8 @@ BoardMemory board_memory_of(RamStore& store) {
   }
   say("board: the mission image is refused: ");
   say(to_string(failure.status));
+  say(", ");
+  say(failure.what);
   say("\n");
   stop("no mission");
 }

@@ -68,12 +68,13 @@ std::uint32_t AcquisitionTask::choices() const {
 }
 
 void AcquisitionTask::calibrate(SensorNumber sensor, const ImageSlot& image) {
+  choices_.set(choices());  // all copies say again what two of them do
   TriangulationCalibration calibration;
   const std::uint8_t index = choice(sensor);
   const bool found = image.find_calibration(sensor, index, calibration);
   if (found && validate(calibration) != Status::kOk) return;
   sensors_[sensor]->use_calibration(found ? &calibration : nullptr);
-  Span<ScanTally>(tallies_)[sensor].calibration = index;
+  Span<ScanTally>(tallies_)[sensor].calibration = found ? index : kOwnCalibration;
 }
 
 // Mirrors that stand still leave an image that a pose could be read into.

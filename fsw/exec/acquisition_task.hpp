@@ -31,12 +31,14 @@ struct ScanEnd {
   ScanVerdict verdict;  // of what it gave
 };
 
+constexpr std::uint8_t kOwnCalibration = 0xFF;
+
 // The scans of one sensor since the component was made.
 struct ScanTally {
   std::uint32_t scans = 0;               // that it was asked for
   std::uint32_t lost[kScanLosses] = {};  // of them, by ScanLoss; none under kNone
   ScanLoss last_loss = ScanLoss::kNone;
-  std::uint8_t calibration = 0;  // that the last one went by
+  std::uint8_t calibration = kOwnCalibration;  // of the image's, that the last one went by
 };
 
 class AcquisitionTask {
@@ -54,10 +56,12 @@ class AcquisitionTask {
 
   // To all sensors.
   void permit_laser(bool permitted);
-  // Which of the image's calibrations of the sensor its scans go by from the next one on. Until this says otherwise: the first.
+  // Which of the image's calibrations of the sensor, below kMaxSensors, its scans go by from the next one on. Until this says otherwise:
+  // the first.
   void choose_calibration(SensorNumber sensor, std::uint8_t index);
-  // With another image each sensor goes by its first one again.
-  void forget_choices() { choices_.set(0); }
+  // Of all sensors, for an image that comes back; 0: the first each.
+  std::uint32_t choices() const;
+  void set_choices(std::uint32_t choices) { choices_.set(choices); }
   // Before a scan of this sensor: what the image in this slot says of its optics, read anew each time, as the image is scrubbed and
   // repaired. A record that has decayed since it was checked is left until it is repaired: the sensor keeps what it has.
   void calibrate(SensorNumber sensor, const ImageSlot& image);
@@ -72,7 +76,6 @@ class AcquisitionTask {
 
  private:
   void keep(Span<const AimedRay> rays);
-  std::uint32_t choices() const;
   std::uint8_t choice(SensorNumber sensor) const { return static_cast<std::uint8_t>(choices() >> 8U * sensor); }
   void note(ScanLoss loss);
 

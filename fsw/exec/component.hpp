@@ -288,9 +288,10 @@ class Component {
   ImageRequest image_request_ = ImageRequest::kNone;
   std::uint32_t requested_crc_ = 0;  // kActivate: of the image that was named
   ImageTrial trial_;
-  MemoryCounts memory_;       // of now,
-  MemoryCounts memory_told_;  // and as they were told last
-  TrackState before_trial_;   // the track that the active image took over
+  MemoryCounts memory_;               // of now,
+  MemoryCounts memory_told_;          // and as they were told last
+  TrackState before_trial_;           // the track that the active image took over
+  std::uint32_t choices_before_ = 0;  // of calibrations, with the image before
 
   CommandReceiver receiver_;
   bool bytes_came_ = false;    // since the last boundary

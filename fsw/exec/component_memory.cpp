@@ -165,7 +165,9 @@ void Component::change_image(bool back) {
   const auto scans = static_cast<std::uint32_t>(present.mission.parameters.image_trial_scans);
   const auto valid_min = static_cast<std::uint32_t>(present.mission.parameters.image_trial_valid_min);
   images_.swap();
-  acquisition_.forget_choices();
+  const std::uint32_t choices = acquisition_.choices();
+  acquisition_.set_choices(back ? choices_before_ : 0);  // an image that comes back has what was selected with it
+  choices_before_ = choices;
   parameters_due_ = true;  // what was changed since it was converted
   ++memory_.activations;
   if (back) ++memory_.roll_backs;

@@ -2,6 +2,7 @@
 // rows and its line in kCommands here, and its line in commands.cpp. For the ground: see row.hpp.
 #pragma once
 
+#include "cfg/capacities.hpp"
 #include "fsw/link/choices.hpp"
 #include "fsw/link/commands.hpp"
 #include "fsw/link/event_rows.hpp"
@@ -56,8 +57,8 @@ inline constexpr TypedRow<StoredCommand> kStored[] = {
   make_row<&StoredCommand::count>(2, "count", "1", Range{1, static_cast<double>(kMaxStoredReports)}, "how many that end with it"),
 };
 inline constexpr TypedRow<CalibrationCommand> kCalibration[] = {
-  make_row<&CalibrationCommand::sensor>(1, "sensor", "1", kAny, "0: the mission's [sensor], then the further ones"),
-  make_row<&CalibrationCommand::calibration>(2, "calibration", "1", kAny, "of those that the active image has for it, from 0 in the mission's order"),
+  make_row<&CalibrationCommand::sensor>(1, "sensor", "1", Range{0, kMaxSensors - 1.0}, "0: the mission's [sensor], then the further ones"),
+  make_row<&CalibrationCommand::calibration>(2, "calibration", "1", Range{0, kMaxCalibrations - 1.0}, "of those that the active image has for it, from 0 in the mission's order"),
 };
 inline constexpr TypedRow<TimeCommand> kTime[] = {
   make_row<&TimeCommand::component_us>(1, "component_us", "us", kCucRange, "a moment in the component's time, that of the items ..."),
@@ -140,7 +141,7 @@ inline constexpr PacketRow kCommands[] = {
   {"report_stored_events", PacketType::kCommand, kServiceEvent, kSubserviceReportStored, false, 0, Span<const ItemRow>(kStoredItems.rows),
    "asks for packets stored_event, of this start or of those before"},
   {"select_calibration", PacketType::kCommand, kServiceFunction, kSubservicePerform, true, 8, Span<const ItemRow>(kCalibrationItems.rows),
-   "the sensor's scans go by this calibration, from the next one on; with another image, and after a start, they go by the first"},
+   "the sensor's scans go by this calibration, from the next one on; with an image that is activated, and after a start, they go by the first"},
 };
 // clang-format on
 

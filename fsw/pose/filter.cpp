@@ -180,7 +180,8 @@ void note_surprise(const Vec6& innovation, const Mat6& predicted, const Mat6& me
     const double square = innovation[i] * innovation[i];
     const bool alarming = square > kAlarm2 * (surprise[i] * predicted(i, i) + measured(i, i));
     const double seen = (square - measured(i, i)) / predicted(i, i);
-    surprise[i] = clamp(surprise[i] + (alarming ? 1 : kSurpriseFades) * (seen - surprise[i]), kLeastSurprise, 1.0);
+    const double next = surprise[i] + (alarming ? 1 : kSurpriseFades) * (seen - surprise[i]);
+    surprise[i] = is_finite(next) ? clamp(next, kLeastSurprise, 1.0) : 1.0;  // a flipped bit is over with the next measurement
   }
 }
 

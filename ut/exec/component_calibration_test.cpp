@@ -125,14 +125,58 @@ TEST_F(ComponentCalibration, ACommandSelectsTheCalibration) {
   ASSERT_EQ(component().activate_image(crc_of(other)), ImageRefusal::kNone);
   scene_->run_frames(2);
   EXPECT_EQ(scene_->sensor.serial, 41U);
+  EXPECT_EQ(select(0, 1), ServiceRefusal::kNone);
+  ASSERT_EQ(component().roll_back_image(), ImageRefusal::kNone);
+  scene_->run_frames(2);
+  EXPECT_EQ(scene_->sensor.serial, 32U) << "as it was with that image";
+  ASSERT_EQ(component().activate_image(crc_of(other)), ImageRefusal::kNone);
+  scene_->run_frames(2);
+  EXPECT_EQ(scene_->sensor.serial, 41U) << "activated anew";
+}
+
+// Told in telemetry; what the sensor was made with is none of the image's.
+TEST_F(ComponentCalibration, TelemetrySaysWhichOneScansGoBy) {
+  VERIFIES("LASSO-LCS-020~1");
+  const auto made = std::make_unique<AcquisitionTask>(only(scene_->sensor));
+  AcquisitionTask& task = *made;
+  EXPECT_EQ(task.tally(0).calibration, kOwnCalibration) << "no scan yet";
+  scene_->begin(calibrated_image({31, 32}));
+  task.calibrate(0, component().images().active());
+  EXPECT_EQ(task.tally(0).calibration, 0);
+  task.choose_calibration(0, 1);
+  task.calibrate(0, component().images().active());
+  EXPECT_EQ(task.tally(0).calibration, 1);
+  EXPECT_EQ(scene_->sensor.serial, 32U);
+  task.choose_calibration(0, 3);
+  task.calibrate(0, component().images().active());
+  EXPECT_EQ(task.tally(0).calibration, kOwnCalibration);
+}
+
+// Of three copies of the choices two hold, and the third is set right before the next scan.
+TEST_F(ComponentCalibration, AFlippedChoiceIsOutvoted) {
+  VERIFIES("LASSO-LCS-020~1");
+  scene_->begin(calibrated_image({31, 32, 33}));
+  EXPECT_EQ(select(0, 2), ServiceRefusal::kNone);
+  constexpr std::uint32_t kCopies[] = {2, ~2U, 2};
+  auto* const words = reinterpret_cast<std::uint32_t*>(&component());
+  auto* const end = words + sizeof(Component) / sizeof(std::uint32_t);
+  auto* const copies = std::search(words, end, kCopies, kCopies + 3);
+  ASSERT_NE(copies, end);
+  ASSERT_EQ(std::search(copies + 3, end, kCopies, kCopies + 3), end) << "no other three words say that";
+  for (const int flipped : {0, 1, 2}) {
+    copies[flipped] ^= 3U;
+    scene_->run_frames(2);
+    EXPECT_EQ(scene_->sensor.serial, 33U);
+    EXPECT_TRUE(std::equal(kCopies, kCopies + 3, copies)) << "all three";
+  }
 }
 
 TEST_F(ComponentCalibration, WhatTheImageDoesNotHaveIsRefused) {
   VERIFIES("LASSO-LCS-020~1");
   scene_->begin(calibrated_image({31, 32}));
   EXPECT_EQ(select(0, 1), ServiceRefusal::kNone);
-  for (const int calibration : {2, 3, 255}) EXPECT_EQ(select(0, calibration), ServiceRefusal::kNoCalibration) << calibration;
-  for (const int sensor : {1, 3, 4, 255}) EXPECT_EQ(select(sensor, 0), ServiceRefusal::kNoCalibration) << sensor;
+  for (const int calibration : {2, 3}) EXPECT_EQ(select(0, calibration), ServiceRefusal::kNoCalibration) << calibration;
+  for (const int sensor : {1, 3}) EXPECT_EQ(select(sensor, 0), ServiceRefusal::kNoCalibration) << sensor;
   scene_->run_frames(2);
   EXPECT_EQ(scene_->sensor.serial, 32U) << "as it was";
 }

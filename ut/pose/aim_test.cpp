@@ -283,6 +283,14 @@ TEST_F(AimTest, RaysStayInTheFieldOfView) {
   }
 }
 
+TEST_F(AimTest, WhereFewPlacesAreInTheFieldOfViewAllAreTaken) {
+  VERIFIES("LASSO-SNS-014~2");
+  parameters().fov_half_x_rad = parameters().fov_half_y_rad = 0.07;
+  aim();
+  EXPECT_GT(rays_.size(), 0u);
+  EXPECT_LT(rays_.size(), 306u);
+}
+
 TEST_F(AimTest, AScanHasRoomForSoMany) {
   VERIFIES("LASSO-SNS-014~2");
   parameters().points = 4096;

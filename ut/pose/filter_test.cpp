@@ -299,6 +299,31 @@ TEST(Filter, AWrongPredictionIsToldAtOnceOfItsAxisAlone) {
   }
 }
 
+TEST(Filter, WhatWasToldFadesByAnEighthAMeasurement) {
+  VERIFIES("LASSO-FLT-013~1");
+  Generator random(14);
+  FilterState state = started(random);
+  double expected = 1;
+  for (int frame = 0; frame < 5; ++frame) {
+    ASSERT_EQ(predict_filter(state, state.t_us + 200'000, kNoise), Status::kOk);
+    ASSERT_TRUE(update_filter(state, {state.t_us, state.T_sensor_target, 1e-12 * Mat6::Identity()}, kNoGate).accepted);
+    expected *= 7.0 / 8;
+    for (int i = 0; i < 6; ++i) EXPECT_NEAR(state.surprise[i], expected, 1e-3) << frame;
+  }
+}
+
+TEST(Filter, WhatItToldAndCannotBeIsForgotten) {
+  VERIFIES("LASSO-FLT-013~1");
+  Generator random(15);
+  for (const double bad : {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
+    FilterState state = started(random);
+    state.surprise[2] = bad;
+    ASSERT_EQ(predict_filter(state, state.t_us + 200'000, kNoise), Status::kOk);
+    ASSERT_TRUE(update_filter(state, {state.t_us, state.T_sensor_target, 1e-12 * Mat6::Identity()}, kNoGate).accepted);
+    EXPECT_EQ(state.surprise[2], 1);
+  }
+}
+
 TEST(Filter, IsSoundWhileItsNumbersAreSome) {
   VERIFIES("LASSO-FLT-011~1");
   FilterState state;
