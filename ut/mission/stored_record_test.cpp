@@ -200,5 +200,19 @@ TEST(StoredRecord, WhatCannotBeReadOrWrittenIsSaid) {
   EXPECT_EQ(load(store), record(1));
 }
 
+// Both images with their headers, parameter sets of 1,000 values with theirs, a thousand events of 64 bytes.
+TEST(StoredRecord, EachAreaHasRoomForWhatItHolds) {
+  VERIFIES("LASSO-IMG-015~1");
+  for (const std::size_t image_bytes : {std::size_t{4096}, std::size_t{31} << 20}) {
+    for (const StoreArea area : {StoreArea::kImage0, StoreArea::kImage1}) {
+      EXPECT_EQ(stored_area_bytes(area, image_bytes), image_bytes + kStoredHeaderBytes);
+    }
+    for (const StoreArea area : {StoreArea::kParameters0, StoreArea::kParameters1}) {
+      EXPECT_GE(stored_area_bytes(area, image_bytes), kStoredHeaderBytes + 1000 * sizeof(double));
+    }
+    EXPECT_GE(stored_area_bytes(StoreArea::kEventLog, image_bytes), 1000U * 64);
+  }
+}
+
 }  // namespace
 }  // namespace lasso
