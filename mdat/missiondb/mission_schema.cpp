@@ -31,11 +31,12 @@ Json number_schema(const ValueRow& row) {
       {"type", row.kind == ValueKind::kInteger ? "integer" : "number"}, {"minimum", number(row.minimum)}, {"maximum", number(row.maximum)}};
 }
 
+Json one_text(const ValueRow& row) { return {{"type", "string"}, {"pattern", "^(" + row.pattern + ")$"}}; }
+
 Json text_schema(const ValueRow& row) {
-  const Json one = {{"type", "string"}, {"pattern", "^(" + row.pattern + ")$"}};
-  if (row.count_max == 1) return one;
-  const Json list = {{"type", "array"}, {"minItems", 1}, {"maxItems", row.count_max}, {"items", one}};
-  return {{"anyOf", {one, list}}};
+  if (row.count_max == 1) return one_text(row);
+  const Json list = {{"type", "array"}, {"minItems", 1}, {"maxItems", row.count_max}, {"items", one_text(row)}};
+  return {{"anyOf", {one_text(row), list}}};
 }
 
 Json value_schema(const ValueRow& row) {

@@ -172,8 +172,8 @@ void tell_fault(std::uint32_t vector, std::uint32_t place, std::uint32_t address
   end("\nbare: fault ", vector);
 }
 
-// As Linux leaves the stack: the number of arguments, where they are, the environment, and what is said of the program's headers. Arguments and
-// environment are texts one after the other, an empty one behind each of the two lists.
+// As Linux leaves the stack: the number of arguments, where they are, the environment, and what is said of the program's headers. Arguments
+// and environment are texts one after the other, an empty one behind each of the two lists.
 std::uint64_t prepare_program() {
   using namespace lasso::bare;
   if (!open_bus()) {
@@ -198,8 +198,8 @@ std::uint64_t prepare_program() {
     std::uint16_t bytes, program_bytes, program_count;
   };
   const auto* header = at<const Header>(kProgram);
-  const std::uint32_t auxiliary[] = {3,  kProgram + header->programs, 4, header->program_bytes, 5, header->program_count, 6, 4096,
-                                     25, kProgram,                    9, header->entry,         0, 0};
+  const std::uint32_t auxiliary[] = {
+      3, kProgram + header->programs, 4, header->program_bytes, 5, header->program_count, 6, 4096, 25, kProgram, 9, header->entry, 0, 0};
   for (const std::uint32_t word : auxiliary) words[count++] = word;
   auto* stack = at<std::uint32_t>(kStackEnd - 4 * kMostWords);
   for (std::uint32_t i = 0; i < kMostWords; ++i) stack[i] = words[i];
