@@ -89,14 +89,7 @@ paint:  lis   5,0xA5C3
         b     6b
 
 /* Blocks: code and constants (read only), data, the mission's memory, input and output. No page tables: all else is a miss, which traps. */
-        .macro BAT number,upper_high,upper_low,lower_high,lower_low
-        lis   3,\upper_high
-        ori   3,3,\upper_low
-        lis   4,\lower_high
-        ori   4,4,\lower_low
-        mtspr \number+1,4
-        mtspr \number,3
-        .endm
+#include "bsp/ppc603e/block.inc"
 map_memory:
         li    3,0
         .irp  n,528,530,532,534,536,538,540,542

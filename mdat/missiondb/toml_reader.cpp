@@ -53,19 +53,28 @@ std::optional<FoundValue> read_number(const toml::node& node, const ValueRow& ro
   return std::nullopt;
 }
 
+using ReadItem = std::optional<FoundValue> (*)(const toml::node&, const ValueRow&, const std::string&, ProblemList&);
+
+// Each item of the list by itself: its numbers and texts one behind the other.
+std::optional<FoundValue> read_items(const toml::array& array, const ValueRow& row, const std::string& key, ReadItem read,
+                                     ProblemList& problems) {
+  FoundValue found{{}, {}, origin_of(array.source())};
+  for (std::size_t i = 0; i < array.size(); ++i) {
+    const auto item = read(array[i], row, key + "[" + std::to_string(i) + "]", problems);
+    if (!item) return std::nullopt;
+    found.numbers.insert(found.numbers.end(), item->numbers.begin(), item->numbers.end());
+    found.texts.insert(found.texts.end(), item->texts.begin(), item->texts.end());
+  }
+  return found;
+}
+
 std::optional<FoundValue> read_list(const toml::node& node, const ValueRow& row, const std::string& key, ProblemList& problems) {
   const toml::array* array = node.as_array();
   if (array == nullptr || array->size() < row.count_min || array->size() > row.count_max) {
     problems.add(node, key, expectation(row));
     return std::nullopt;
   }
-  FoundValue found{{}, {}, origin_of(node.source())};
-  for (std::size_t i = 0; i < array->size(); ++i) {
-    const auto item = read_number((*array)[i], row, key + "[" + std::to_string(i) + "]", problems);
-    if (!item) return std::nullopt;
-    found.numbers.push_back(item->numbers[0]);
-  }
-  return found;
+  return read_items(*array, row, key, read_number, problems);
 }
 
 std::optional<FoundValue> read_text(const toml::node& node, const ValueRow& row, const std::string& key, ProblemList& problems) {
@@ -85,13 +94,7 @@ std::optional<FoundValue> read_texts(const toml::node& node, const ValueRow& row
     problems.add(node, key, expectation(row) + " (" + row.meaning + ")");
     return std::nullopt;
   }
-  FoundValue found{{}, {}, origin_of(node.source())};
-  for (std::size_t i = 0; i < array->size(); ++i) {
-    const auto item = read_text((*array)[i], row, key + "[" + std::to_string(i) + "]", problems);
-    if (!item) return std::nullopt;
-    found.texts.push_back(item->texts[0]);
-  }
-  return found;
+  return read_items(*array, row, key, read_text, problems);
 }
 
 std::optional<FoundValue> read_choice(const toml::node& node, const ValueRow& row, const std::string& key, ProblemList& problems) {

@@ -1,13 +1,6 @@
 /* A 603e without an operating system under a program that was made for one: from the loader to the program's entry, and the program's calls
    to the system (calls.cpp). Blocks only, as on the board (bsp/ppc603e/start.S); all else traps, and is told. */
-        .macro BAT number,upper_high,upper_low,lower_high,lower_low
-        lis   3,\upper_high
-        ori   3,3,\upper_low
-        lis   4,\lower_high
-        ori   4,4,\lower_low
-        mtspr \number+1,4
-        mtspr \number,3
-        .endm
+#include "bsp/ppc603e/block.inc"
 
         .section .text.start,"ax",@progbits
         .globl _start
