@@ -12,4 +12,10 @@ using Vec6 = Eigen::Matrix<double, 6, 1>;
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 using Quat = Eigen::Quaternion<double>;  // Hamilton, scalar last in memory
 
+// Three numbers of any type.
+template <class V>
+inline Vec3 to_vec3(const V* v) {
+  return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
+}
+
 }  // namespace lasso

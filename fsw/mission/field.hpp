@@ -27,14 +27,14 @@ template <class N>
 struct Curvature {
   typename N::Unit n[3];
   typename N::Length c[3];
-  typename N::Ratio g[9];
+  typename N::Gradient g[9];
 };
 
 template <class N>
 struct Field {
   typename N::Length origin[3];
   typename N::Length cell;
-  typename N::Ratio cells_per_m;
+  typename N::CellRate cells_per_m;
   std::uint32_t bricks[3];
   std::uint32_t cells[3];
   std::uint32_t element_count;
@@ -52,8 +52,8 @@ template <class N>
 struct FieldRay {
   typename N::Length m[3];
   typename N::Unit u[3];
-  typename N::Ratio cell_m[3];
-  typename N::Ratio cell_u[3];
+  typename N::Cells cell_m[3];
+  typename N::CellRate cell_u[3];
 };
 
 template <class N>
@@ -64,13 +64,12 @@ struct FieldHit {
 };
 
 constexpr std::uint32_t kNoElement = 0xFFFFFFFFu;
-constexpr int kMaxWalkSteps = 1024;         // bound of one walk
-constexpr float kMaxCellCoordinate = 1e6f;  // rays that start farther out are not looked up
+constexpr int kMaxWalkSteps = 1024;  // bound of one walk
 
 template <class N>
 inline void set_cells(const Field<N>& field, FieldRay<N>& ray) {
   for (int i = 0; i < 3; ++i) {
-    ray.cell_m[i] = (ray.m[i] - field.origin[i]) * field.cells_per_m;
+    ray.cell_m[i] = bounded<typename N::Cells>((ray.m[i] - field.origin[i]) * field.cells_per_m);
     ray.cell_u[i] = ray.u[i] * field.cells_per_m;
   }
 }
@@ -78,7 +77,7 @@ inline void set_cells(const Field<N>& field, FieldRay<N>& ray) {
 template <class N>
 inline bool near_grid(const FieldRay<N>& ray) {
   for (int i = 0; i < 3; ++i) {
-    if (!(ray.cell_m[i] > -kMaxCellCoordinate && ray.cell_m[i] < kMaxCellCoordinate)) return false;
+    if (!(ray.cell_m[i] > -N::kFarthestCell && ray.cell_m[i] < N::kFarthestCell)) return false;
   }
   return true;
 }
@@ -88,19 +87,21 @@ inline bool near_grid(const FieldRay<N>& ray) {
 template <class N>
 inline bool hit_element(const Element<N>& e, const FieldRay<N>& ray, typename N::Length low, typename N::Length high,
                         typename N::Length& t) {
-  const auto tilt = dot3<N>(e.n, ray.u);
-  const auto gap = e.d - dot3<N>(e.n, ray.m);
-  const auto first = low * tilt;
-  const auto last = high * tilt;
-  const bool front = (static_cast<int>(tilt < 0) & static_cast<int>(gap <= first) & static_cast<int>(gap > last)) != 0;
-  const bool back = (static_cast<int>(tilt > 0) & static_cast<int>(gap >= first) & static_cast<int>(gap < last)) != 0;
+  using Length = typename N::Length;
+  constexpr typename N::Unit kLevel{0};
+  const typename N::Unit tilt = dot3<N>(e.n, ray.u);
+  const Length gap = e.d - dot3<N>(e.n, ray.m);
+  const Length first = low * tilt;
+  const Length last = high * tilt;
+  const bool front = (static_cast<int>(tilt < kLevel) & static_cast<int>(gap <= first) & static_cast<int>(gap > last)) != 0;
+  const bool back = (static_cast<int>(tilt > kLevel) & static_cast<int>(gap >= first) & static_cast<int>(gap < last)) != 0;
   if (!(front || (back && (e.flags & kElementTwoSided) != 0))) return false;
-  const auto x = gap / tilt;
-  const typename N::Length p[3] = {ray.m[0] + x * ray.u[0], ray.m[1] + x * ray.u[1], ray.m[2] + x * ray.u[2]};
-  typename N::Length inside[4];  // how far from each side
+  const Length x = quotient<Length>(gap, tilt);
+  const Length p[3] = {ray.m[0] + x * ray.u[0], ray.m[1] + x * ray.u[1], ray.m[2] + x * ray.u[2]};
+  Length inside[4];  // how far from each side
   for (int i = 0; i < 4; ++i) inside[i] = e.side[0][i] * p[0] + e.side[1][i] * p[1] + e.side[2][i] * p[2] - e.side_offset[i];
   const auto shorter = [](auto a, auto b) { return b < a ? b : a; };
-  if (shorter(shorter(inside[0], inside[1]), shorter(inside[2], inside[3])) < 0) return false;
+  if (shorter(shorter(inside[0], inside[1]), shorter(inside[2], inside[3])) < Length{0}) return false;
   t = x;
   return true;
 }
@@ -111,21 +112,22 @@ template <class N>
 inline FieldHit<N> sample_field(const Field<N>& field, const FieldRay<N>& ray, typename N::Length t, typename N::Length& next) {
   FieldHit<N> hit;
   next = t + field.cell;
-  // Truncation puts (-1, 0) into cell 0, which is empty by construction (the grid has a margin).
-  const auto ix = static_cast<std::uint32_t>(static_cast<std::int32_t>(ray.cell_m[0] + t * ray.cell_u[0]));
-  const auto iy = static_cast<std::uint32_t>(static_cast<std::int32_t>(ray.cell_m[1] + t * ray.cell_u[1]));
-  const auto iz = static_cast<std::uint32_t>(static_cast<std::int32_t>(ray.cell_m[2] + t * ray.cell_u[2]));
+  // Where truncation puts (-1, 0) into cell 0, that is empty by construction (the grid has a margin).
+  const auto ix = static_cast<std::uint32_t>(whole_part(ray.cell_m[0] + t * ray.cell_u[0]));
+  const auto iy = static_cast<std::uint32_t>(whole_part(ray.cell_m[1] + t * ray.cell_u[1]));
+  const auto iz = static_cast<std::uint32_t>(whole_part(ray.cell_m[2] + t * ray.cell_u[2]));
   if (ix >= field.cells[0] || iy >= field.cells[1] || iz >= field.cells[2]) return hit;
   const std::uint32_t brick = ((iz >> 3) * field.bricks[1] + (iy >> 3)) * field.bricks[0] + (ix >> 3);
   std::uint32_t word = field.brick_words[kBrickWords * brick];
   if ((word & kEmptyBit) == 0) word = field.ray_cells[kRayCellsPerBrick * word + ((iz & 7) << 6 | (iy & 7) << 3 | (ix & 7))];
   if ((word & kEmptyBit) != 0) {
-    next = t + static_cast<typename N::Ratio>(static_cast<std::int32_t>(word & ~kEmptyBit)) * field.cell;
+    next = t + bounded<typename N::Length>(times(static_cast<std::int32_t>(word & ~kEmptyBit), field.cell));
     return hit;
   }
   const std::uint32_t* list = field.ray_lists + (word & kListOffsetMask);
-  const auto half = field.cell * static_cast<typename N::Ratio>(0.500001f);
-  const auto low = t - half;
+  constexpr auto kHalf = N::template to<typename N::Unit>(0.500001);
+  const typename N::Length half = field.cell * kHalf;
+  const typename N::Length low = t - half;
   hit.t = t + half;
   for (std::uint32_t count = word >> kListOffsetBits; count > 0; --count, ++list) {
     const std::uint32_t element = *list & ~kFinalEntry;
@@ -140,10 +142,10 @@ inline FieldHit<N> sample_field(const Field<N>& field, const FieldRay<N>& ray, t
 // The first element that the ray hits with t in [from, to]. Bound: kMaxWalkSteps samples.
 template <class N>
 inline FieldHit<N> walk_field(const Field<N>& field, const FieldRay<N>& ray, typename N::Length from, typename N::Length to) {
-  const auto half = field.cell / 2;                       // a sample sees half a cell to either side
-  const auto farthest = kMaxCellCoordinate * field.cell;  // keeps cell coordinates within integers
+  const typename N::Length half = half_of(field.cell);  // a sample sees half a cell to either side
+  const auto farthest = N::farthest_walk(field.cell);   // keeps cell coordinates within integers
   typename N::Length t = (from > -farthest ? from : -farthest) + half;
-  const auto end = (to < farthest ? to : farthest) + half;
+  const typename N::Length end = (to < farthest ? to : farthest) + half;
   for (int step = 0; step < kMaxWalkSteps && t < end; ++step) {
     typename N::Length next;
     const FieldHit<N> hit = sample_field(field, ray, t, next);
@@ -174,15 +176,15 @@ struct GridPlace {
 };
 
 template <class N>
-inline GridPlace<N> place_in_grid(const Field<N>& field, const typename N::Ratio* cell_m) {
+inline GridPlace<N> place_in_grid(const Field<N>& field, const typename N::Cells* cell_m) {
   GridPlace<N> place;
   std::uint32_t index[3];
   for (int i = 0; i < 3; ++i) {
-    const auto last = static_cast<typename N::Ratio>(static_cast<std::int32_t>(field.cells[i] - 1));
-    const bool below = !(cell_m[i] >= 0);
-    const bool above = cell_m[i] > last;
+    const auto last = static_cast<std::int32_t>(field.cells[i] - 1);
+    const bool below = !(cell_m[i] >= typename N::Cells{0});
+    const bool above = cell_m[i] > N::cells(last);
     place.inside = place.inside && !below && !above;
-    index[i] = below ? 0 : above ? field.cells[i] - 1 : static_cast<std::uint32_t>(static_cast<std::int32_t>(cell_m[i]));
+    index[i] = static_cast<std::uint32_t>(below ? 0 : above ? last : whole_part(cell_m[i]));
   }
   place.brick = ((index[2] >> 3) * field.bricks[1] + (index[1] >> 3)) * field.bricks[0] + (index[0] >> 3);
   place.near_cell = (index[2] & 7) >> 1 << 4 | (index[1] & 7) >> 1 << 2 | (index[0] & 7) >> 1;
@@ -199,7 +201,7 @@ inline std::uint32_t near_element(const Field<N>& field, const GridPlace<N>& pla
   for (int i = 0; i < 2; ++i) {
     if (words[i] == 0) continue;
     const Element<N>& e = field.elements[words[i] - 1];
-    if (dot3<N>(e.n, u) < 0 || (e.flags & kElementTwoSided) != 0) return words[i] - 1;
+    if (typename N::Unit(dot3<N>(e.n, u)) < typename N::Unit{0} || (e.flags & kElementTwoSided) != 0) return words[i] - 1;
   }
   return kNoElement;
 }

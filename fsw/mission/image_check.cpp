@@ -11,7 +11,6 @@ namespace {
 using N = FlightNumber;
 constexpr std::uint32_t kDirectoryBytes = 4 * (kImageHeaderWords + kTableCount * kDirectoryEntryWords);
 constexpr std::uint32_t kMaxBricksPerAxis = 1023;
-constexpr N::Length kSmallestCell_m = 1e-6F;
 constexpr std::uint32_t kRecordWords[kTableCount] = {2,
                                                      kFieldGeometryWords,
                                                      kElementWords,
@@ -63,6 +62,19 @@ std::uint32_t brick_count(const FlightImage& image) {
   return geometry.word(0, kBricksX) * geometry.word(0, kBricksY) * geometry.word(0, kBricksZ);
 }
 
+// What of the grid this build's number type cannot hold, or nullptr.
+const char* misfit_of(const ImageTable& geometry, std::uint32_t bits) {
+  const double unit_m = 1.0 / (1u << bits);
+  const double cell_m = geometry.signed_word(0, kCellSize) * unit_m;
+  if (!(cell_m > N::kSmallestCell_m)) return "cell size";
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    const double low_m = geometry.signed_word(0, kOriginX + i) * unit_m;
+    const double high_m = low_m + 8 * geometry.word(0, kBricksX + i) * cell_m;
+    if (low_m < -N::kFarthest_m || high_m > N::kFarthest_m) return "grid is larger than the number type holds";
+  }
+  return nullptr;
+}
+
 LoadFailure check_geometry(const FlightImage& image) {
   const ImageTable& geometry = image[TableId::kFieldGeometry];
   if (geometry.records != 1) return failure(Status::kBadLength, "field geometry records", TableId::kFieldGeometry);
@@ -72,8 +84,7 @@ LoadFailure check_geometry(const FlightImage& image) {
     const std::uint32_t n = geometry.word(0, i);
     if (n == 0 || n > kMaxBricksPerAxis) return failure(Status::kBadValue, "bricks along an axis", TableId::kFieldGeometry);
   }
-  if (!(N::length(geometry.signed_word(0, kCellSize), static_cast<int>(bits)) > kSmallestCell_m))
-    return failure(Status::kBadValue, "cell size", TableId::kFieldGeometry);
+  if (const char* wrong = misfit_of(geometry, bits)) return failure(Status::kBadValue, wrong, TableId::kFieldGeometry);
   if (geometry.signed_word(0, kModelRadius) <= 0) return failure(Status::kBadValue, "model radius", TableId::kFieldGeometry);
   return {};
 }

@@ -42,7 +42,7 @@ void convert_word(std::uint8_t* place, char kind, int length_bits) {
     case 'U':
       return store(place, N::unit(value));
     case 'K':
-      return store(place, N::ratio(value, kCurvatureFractionBits));
+      return store(place, N::gradient(value, kCurvatureFractionBits));
     default:
       return store(place, one.word(0, 0));
   }
@@ -74,7 +74,7 @@ const T* records_of(const FlightImage& image, TableId id) {
 void set_grid(const ImageTable& geometry, int bits, Mission& mission) {
   Field<N>& field = mission.field;
   field.cell = N::length(geometry.signed_word(0, kCellSize), bits);
-  field.cells_per_m = 1 / field.cell;
+  field.cells_per_m = N::cells_per_m(geometry.signed_word(0, kCellSize), bits);
   for (std::uint32_t i = 0; i < 3; ++i) {
     field.origin[i] = N::length(geometry.signed_word(0, kOriginX + i), bits);
     field.bricks[i] = geometry.word(0, kBricksX + i);
@@ -102,12 +102,12 @@ void set_search(const FlightImage& image, int bits, Mission& mission) {
   const ImageTable& grid = image[TableId::kSearchGrid];
   SearchTables<N>& search = mission.search;
   for (std::uint32_t i = 0; i < 3; ++i) {
-    search.origin[i] = N::length(grid.signed_word(0, kSearchOriginX + i), bits);
+    search.origin_m[i] = FloatNumber::length(grid.signed_word(0, kSearchOriginX + i), bits);
     search.cells[i] = grid.word(0, kSearchCellsX + i);
   }
-  search.cells_per_m = 1 / N::length(grid.signed_word(0, kSearchCellSize), bits);
-  search.truncation = N::length(grid.signed_word(0, kSearchTruncation), bits);
-  search.size = N::length(grid.signed_word(0, kSearchSize), bits);
+  search.cells_per_m = 1 / FloatNumber::length(grid.signed_word(0, kSearchCellSize), bits);
+  search.truncation_m = FloatNumber::length(grid.signed_word(0, kSearchTruncation), bits);
+  search.size_m = FloatNumber::length(grid.signed_word(0, kSearchSize), bits);
   search.distances = records_of<std::uint8_t>(image, TableId::kDistances);
   search.views = {records_of<ModelView<N>>(image, TableId::kViews), image[TableId::kViews].records};
   search.symmetries = {records_of<NearSymmetry<N>>(image, TableId::kSymmetries), image[TableId::kSymmetries].records};

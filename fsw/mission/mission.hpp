@@ -7,6 +7,7 @@
 #include "fsw/core/fixed_vector.hpp"
 #include "fsw/core/span.hpp"
 #include "fsw/core/status.hpp"
+#include "fsw/geometry/fixed_number.hpp"
 #include "fsw/geometry/number.hpp"
 #include "fsw/geometry/se3.hpp"
 #include "fsw/geometry/types.hpp"
@@ -48,7 +49,12 @@ struct MissionOf {
   double radius_m = 0;           // largest distance of the model from the target's origin
 };
 
-using FlightNumber = FloatNumber;  // the number type of this build
+// The number type of this build.
+#if defined(LASSO_FIXED_POINT)
+using FlightNumber = FixedNumber;
+#else
+using FlightNumber = FloatNumber;
+#endif
 using Mission = MissionOf<FlightNumber>;
 
 // A part of the target with a model of its own, for scans from close by.

@@ -29,11 +29,11 @@ struct NearSymmetry {
 
 template <class N>
 struct SearchTables {
-  typename N::Length origin[3];
-  typename N::Ratio cells_per_m;
+  float origin_m[3];
+  float cells_per_m;
   std::uint32_t cells[3];
-  typename N::Length truncation;
-  typename N::Length size;        // the model's largest extent
+  float truncation_m;
+  float size_m;                   // the model's largest extent
   const std::uint8_t* distances;  // in words of four, the first cell in the highest byte
   Span<const ModelView<N>> views;
   Span<const NearSymmetry<N>> symmetries;
@@ -57,55 +57,54 @@ inline std::uint32_t distance_byte(const SearchTables<N>& t, std::uint32_t ix, s
   return byte_of(t, cell);
 }
 
-// Distance to the surface and the direction away from it, interpolated between the centres of cells.
-template <class N>
+// Distance to the surface and the direction away from it, interpolated between the centres of cells. The search is no part of the path
+// that each scan takes: it has floating point in every build.
 struct SurfaceDistance {
-  typename N::Length distance;
-  typename N::Unit away[3];  // gradient of the distance; about of unit length near the surface, zero where all is far
+  float distance_m;
+  float away[3];  // gradient of the distance; about of unit length near the surface, zero where all is far
 };
 
 template <class N>
-inline SurfaceDistance<N> surface_distance(const SearchTables<N>& t, const typename N::Length* m) {
-  using Ratio = typename N::Ratio;
-  constexpr Ratio kOutside = 1000;  // cells
+inline SurfaceDistance surface_distance(const SearchTables<N>& t, const float* m) {
+  constexpr float kOutside = 1000;  // cells
   std::uint32_t index[3];
-  Ratio f[3];
+  float f[3];
   bool inside = true;  // all eight cells are
   for (int i = 0; i < 3; ++i) {
-    const Ratio x = (m[i] - t.origin[i]) * t.cells_per_m - static_cast<Ratio>(0.5F);
-    const Ratio place = x >= 0 && x < kOutside ? x : kOutside;
+    const float x = (m[i] - t.origin_m[i]) * t.cells_per_m - 0.5F;
+    const float place = x >= 0 && x < kOutside ? x : kOutside;
     const auto whole = static_cast<std::int32_t>(place);
-    f[i] = place - static_cast<Ratio>(whole);
+    f[i] = place - static_cast<float>(whole);
     index[i] = static_cast<std::uint32_t>(whole);
     inside = inside && index[i] + 1 < t.cells[i];
   }
-  if (!inside) return {t.truncation, {0, 0, 0}};
+  if (!inside) return {t.truncation_m, {0, 0, 0}};
   const std::uint32_t row = t.cells[0];
   const std::uint32_t layer = row * t.cells[1];
   const std::uint32_t first = index[2] * layer + index[1] * row + index[0];
-  Ratio d[2][2][2];  // z y x
+  float d[2][2][2];  // z y x
   for (std::uint32_t k = 0; k < 8; ++k) {
     const std::uint32_t byte = byte_of(t, first + (k >> 2) * layer + (k >> 1 & 1) * row + (k & 1));
-    d[k >> 2][k >> 1 & 1][k & 1] = static_cast<Ratio>(static_cast<std::int32_t>(byte));
+    d[k >> 2][k >> 1 & 1][k & 1] = static_cast<float>(static_cast<std::int32_t>(byte));
   }
-  Ratio line[2][2];   // along x
-  Ratio slope[2][2];  // d/dx
+  float line[2][2];   // along x
+  float slope[2][2];  // d/dx
   for (int z = 0; z < 2; ++z) {
     for (int y = 0; y < 2; ++y) {
       slope[z][y] = d[z][y][1] - d[z][y][0];
       line[z][y] = d[z][y][0] + f[0] * slope[z][y];
     }
   }
-  const Ratio low = line[0][0] + f[1] * (line[0][1] - line[0][0]);
-  const Ratio high = line[1][0] + f[1] * (line[1][1] - line[1][0]);
-  const Ratio unit = t.truncation / static_cast<Ratio>(static_cast<std::int32_t>(kFarByte));
-  const Ratio per_m = unit * t.cells_per_m;
-  SurfaceDistance<N> result;  // NOLINT(cppcoreguidelines-pro-type-member-init): each member is set below; this runs per return and pass
-  result.distance = unit * (low + f[2] * (high - low));
-  const Ratio low_x = slope[0][0] + f[1] * (slope[0][1] - slope[0][0]);
-  const Ratio high_x = slope[1][0] + f[1] * (slope[1][1] - slope[1][0]);
-  const Ratio low_y = line[0][1] - line[0][0];
-  const Ratio high_y = line[1][1] - line[1][0];
+  const float low = line[0][0] + f[1] * (line[0][1] - line[0][0]);
+  const float high = line[1][0] + f[1] * (line[1][1] - line[1][0]);
+  const float unit = t.truncation_m / static_cast<float>(static_cast<std::int32_t>(kFarByte));
+  const float per_m = unit * t.cells_per_m;
+  SurfaceDistance result;  // NOLINT(cppcoreguidelines-pro-type-member-init): each member is set below; this runs per return and pass
+  result.distance_m = unit * (low + f[2] * (high - low));
+  const float low_x = slope[0][0] + f[1] * (slope[0][1] - slope[0][0]);
+  const float high_x = slope[1][0] + f[1] * (slope[1][1] - slope[1][0]);
+  const float low_y = line[0][1] - line[0][0];
+  const float high_y = line[1][1] - line[1][0];
   result.away[0] = per_m * (low_x + f[2] * (high_x - low_x));
   result.away[1] = per_m * (low_y + f[2] * (high_y - low_y));
   result.away[2] = per_m * (high - low);

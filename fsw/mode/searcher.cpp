@@ -24,7 +24,7 @@ SearchLimits search_limits(const MissionParameters& p) {
 }
 
 StartOffer offer_of(const Mission& mission, const SearchResult& result) {
-  const double offset_m = kOffsetShare * FlightNumber::to_double(mission.search.size);
+  const double offset_m = kOffsetShare * static_cast<double>(mission.search.size_m);
   StartOffer offer{result.t_us, result.T_sensor_target, result.rates, result.covariance};
   offer.covariance.diagonal().head<3>().array() += kOffset_rad * kOffset_rad;
   offer.covariance.diagonal().tail<3>().array() += offset_m * offset_m;

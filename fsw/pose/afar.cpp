@@ -48,27 +48,28 @@ Pose center_points(const Mission& mission, const Pose& T_target_sensor, const Wo
 }
 
 // Pulls a point to the model's foot point of its brick: three rows, one per axis, Tukey-weighted by distance.
-void add_foot(const Field<N>& field, const GridPlace<N>& place, N::Length gate, const FieldRay<N>& ray, PassSums<N>& sums) {
+void add_foot(const Field<N>& field, const GridPlace<N>& place, float gate_m, const FieldRay<N>& ray, PassSums<N>& sums) {
   const N::Length* foot = field.foot_points + std::size_t{3} * place.brick;
   const N::Length gap[3] = {foot[0] - ray.m[0], foot[1] - ray.m[1], foot[2] - ray.m[2]};
-  const auto q = dot3<N>(gap, gap) / (gate * gate);
+  const float distance[3] = {N::to_float(gap[0]), N::to_float(gap[1]), N::to_float(gap[2])};
+  const float q = dot3<FloatNumber>(distance, distance) / (gate_m * gate_m);
   if (!(q < 1)) return;
   for (int axis = 0; axis < 3; ++axis) {
-    N::Unit n[3] = {0, 0, 0};
-    n[axis] = 1;
-    sums.rows.add(ray.m, n, gap[axis], (1 - q) * (1 - q), gap[axis]);
+    N::Unit n[3] = {N::Unit{0}, N::Unit{0}, N::Unit{0}};
+    n[axis] = N::Unit{1};
+    sums.rows.add(ray.m, n, gap[axis], N::from_float<N::Weight>((1 - q) * (1 - q)), gap[axis]);
   }
 }
 
 // The plane of the closest element that faces the ray: cheap and wide, exact only near the near cell's centre.
-void add_near_plane(const Field<N>& field, const GridPlace<N>& place, N::Length gate, const FieldRay<N>& ray, PassSums<N>& sums) {
+void add_near_plane(const Field<N>& field, const GridPlace<N>& place, float gate_m, const FieldRay<N>& ray, PassSums<N>& sums) {
   const std::uint32_t index = near_element(field, place, ray.u);
   if (index == kNoElement) return;
   const Element<N>& e = field.elements[index];
   const N::Length distance = e.d - dot3<N>(e.n, ray.m);
-  const auto q = distance / gate;
+  const float q = N::to_float(distance) / gate_m;
   if (!(q < 1 && q > -1)) return;
-  sums.rows.add(ray.m, e.n, distance, (1 - q * q) * (1 - q * q), distance);
+  sums.rows.add(ray.m, e.n, distance, N::from_float<N::Weight>((1 - q * q) * (1 - q * q)), distance);
 }
 
 bool is_near(const Field<N>& field, const GridPlace<N>& place) {
@@ -79,16 +80,17 @@ bool is_near(const Field<N>& field, const GridPlace<N>& place) {
 void take_plane_pass(const Mission& mission, const MatchSettings<N>& s, bool far, const Workspace& workspace, Pose& pose) {
   const Field<N>& field = mission.field;
   const PathPose<N> path = to_path<N>(pose);
-  Pass pass;
+  const float gate_m = N::to_float(s.gate);
+  Pass pass(mission);
   for (std::size_t i = 0; i < workspace.points.size(); i += kQuarter) {
     FieldRay<N> ray = to_target(path, workspace.points[i]);
     set_cells(field, ray);
     if (!near_grid(ray)) continue;
     const GridPlace<N> place = place_in_grid(field, ray.cell_m);
     if (is_near(field, place)) {
-      add_near_plane(field, place, s.gate, ray, pass.sums);
+      add_near_plane(field, place, gate_m, ray, pass.sums);
     } else if (far) {
-      add_foot(field, place, s.gate, ray, pass.sums);
+      add_foot(field, place, gate_m, ray, pass.sums);
     }
   }
   pass.sums.rows.flush();
@@ -113,7 +115,7 @@ std::uint32_t explained(const Mission& mission, MatchSettings<N> s, const Pose& 
     FieldRay<N> ray = to_target(path, point);
     set_cells(mission.field, ray);
     if (!near_grid(ray)) continue;
-    const N::Length reach = N::to_length(0.4) * point.reach + s.gate;
+    const N::Length reach = N::to<N::Unit>(0.4) * point.reach + s.gate;
     if (walk_field(mission.field, ray, -reach, reach).found) ++count;
   }
   return count;

@@ -9,7 +9,6 @@ namespace lasso {
 namespace {
 
 using N = FlightNumber;
-using Ratio = N::Ratio;
 
 constexpr double kOffsetSigmas = 2;      // rays reach this far to either side of the predicted contour
 constexpr double kLabelWorth = 0.6;      // how many labels make a measurement, measured: see docs/decisions/aimed-scans.md
@@ -75,20 +74,25 @@ void add_place(const AimSearch& s, const ContourEdge<N>& contour, double along, 
   static_cast<void>(workspace.places.push_back(place));  // as many as fit
 }
 
-Ratio length_in_image(const ContourEdge<N>& edge) { return (edge.dx < 0 ? -edge.dx : edge.dx) + (edge.dy < 0 ? -edge.dy : edge.dy); }
+float length_in_image(const ContourEdge<N>& edge) {
+  const float dx = N::to_float(edge.dx);
+  const float dy = N::to_float(edge.dy);
+  return (dx < 0 ? -dx : dx) + (dy < 0 ? -dy : dy);
+}
 
 // Evenly along all contour edges, one after the other.
 void find_places(const AimSearch& s, Workspace& workspace) {
   workspace.places.clear();
-  Ratio whole = 0;
+  float whole = 0;
   for (const ContourEdge<N>& edge : workspace.contour) whole += length_in_image(edge);
-  const Ratio step = whole / static_cast<Ratio>(kMaxAimPlaces);
+  const float step = whole / static_cast<float>(kMaxAimPlaces);
   if (!(step > 0)) return;
-  Ratio next = step * N::to_ratio(fractional_part(s.request.scan_id * kGoldenRatio));  // of the next place, from the edge's first end
+  float next =
+      step * static_cast<float>(fractional_part(s.request.scan_id * kGoldenRatio));  // of the next place, from the edge's first end
   for (const ContourEdge<N>& edge : workspace.contour) {
-    const Ratio length = length_in_image(edge);
+    const float length = length_in_image(edge);
     while (next < length) {
-      add_place(s, edge, N::to_double(next / length), workspace);
+      add_place(s, edge, static_cast<double>(next / length), workspace);
       next += step;
     }
     next -= length;

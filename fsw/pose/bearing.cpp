@@ -5,8 +5,6 @@
 namespace lasso {
 namespace {
 
-using N = FlightNumber;
-
 // What a return of this sensor can look like.
 struct Limits {
   double tan_x, tan_y, range_min_m, range_max_m;
@@ -65,7 +63,7 @@ bool one_direction(const FieldReturns& returns) {
   const FieldReturn& first = returns[0];
   for (const FieldReturn& other : returns) {
     for (int i = 0; i < 2; ++i) {
-      const double apart = N::to_double(other.p[i] / other.p[2]) - N::to_double(first.p[i] / first.p[2]);
+      const double apart = static_cast<double>(other.p[i] / other.p[2]) - static_cast<double>(first.p[i] / first.p[2]);
       if (apart > kOneDirection || apart < -kOneDirection) return false;
     }
   }
@@ -81,7 +79,9 @@ BearingReason choose(const Mission& mission, FieldReturns& returns, Bearing& bea
   return returns.size() < least ? BearingReason::kTooFewReturns : BearingReason::kValid;
 }
 
-Vec3 place_of(const FieldReturn& found) { return {N::to_double(found.p[0]), N::to_double(found.p[1]), N::to_double(found.p[2])}; }
+Vec3 place_of(const FieldReturn& found) {
+  return {static_cast<double>(found.p[0]), static_cast<double>(found.p[1]), static_cast<double>(found.p[2])};
+}
 
 struct Centroid {
   TimeUs t_us = 0;

@@ -14,12 +14,10 @@ constexpr std::uint32_t kCellShift = kPlaceBits + kTurnBits;
 constexpr double kMedianApart = 0.5;      // of the truncation: less than that any place serves
 constexpr std::size_t kLookedAtOnce = 8;  // points between two looks whether the score is too large already
 
-Vec3 to_vec3(const N::Unit* v) { return {N::to_double(v[0]), N::to_double(v[1]), N::to_double(v[2])}; }
-
 // 0 from afar, 1 from as near as the near views, between them by the inverse of the range; larger when nearer still.
 double nearness(const Mission& mission, const Evidence& evidence) {
   const double range = square_root(evidence.centroid.squaredNorm());
-  const double near = static_cast<double>(kNearView) * N::to_double(mission.search.size);
+  const double near = static_cast<double>(kNearView) * static_cast<double>(mission.search.size_m);
   return range > 0.5 * near ? near / range : 2;
 }
 
@@ -89,7 +87,7 @@ void CoarseSearch::begin(const Mission& mission, const Evidence& evidence) {
   count_ = evidence.hits.size() < kCoarsePoints ? evidence.hits.size() : kCoarsePoints;
   const double range2 = evidence.centroid.squaredNorm();
   sight_ = axes_along(range2 > 0 ? Vec3(-evidence.centroid / square_root(range2)) : Vec3(-Vec3::UnitZ()));
-  const double cells_per_m = N::to_double(mission.search.cells_per_m);
+  const double cells_per_m = static_cast<double>(mission.search.cells_per_m);
   for (std::size_t i = 0; i < count_; ++i) {
     const Vec3 y = cells_per_m * (sight_.transpose() * (to_vec3(evidence.hits[i].p) - evidence.centroid));
     for (int k = 0; k < 3; ++k) points_[i][k] = to_fixed(y[k], kFarthestCell, kPlaceBits);
@@ -122,7 +120,7 @@ bool CoarseSearch::choose_place(const Mission& mission, const Evidence& evidence
   const auto between = [&](double afar, double nearby) { return afar + near * (nearby - afar); };
   for (int i = 0; i < 3; ++i) centroid_[i] = between(N::to_double(view.centroid[i]), N::to_double(view.near_centroid[i]));
   const double farther = between(N::to_double(view.median), N::to_double(view.near_median)) - evidence.median;
-  const double apart = kMedianApart * N::to_double(mission.search.truncation);
+  const double apart = kMedianApart * static_cast<double>(mission.search.truncation_m);
   if (by_median_) centroid_ -= farther * to_vec3(view.direction);
   return !by_median_ && (farther > apart || farther < -apart);
 }
@@ -132,7 +130,8 @@ void CoarseSearch::turn_points(const SearchTables<N>& tables, const Mat3& view_a
   std::int32_t t[3];
   for (int k = 0; k < 3; ++k) {
     for (int j = 0; j < 3; ++j) V[k][j] = to_fixed(view_axes(k, j), 1, kTurnBits);
-    t[k] = to_fixed(N::to_double(tables.cells_per_m) * (centroid_[k] - N::to_double(tables.origin[k])), kFarthestCell, kCellShift);
+    t[k] = to_fixed(static_cast<double>(tables.cells_per_m) * (centroid_[k] - static_cast<double>(tables.origin_m[k])), kFarthestCell,
+                    kCellShift);
   }
   for (std::size_t i = 0; i < count_; ++i) {
     const std::int32_t* p = points_[i];

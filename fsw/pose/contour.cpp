@@ -5,62 +5,68 @@ namespace {
 
 using N = FlightNumber;
 using Length = N::Length;
-using Ratio = N::Ratio;
+using Tangent = N::Tangent;
 
 // Which side of the edge's face the sensor is on.
-bool faces(const Length* origin, const N::Unit* n, Length d) { return dot3<N>(n, origin) > d; }
+bool faces(const Length* origin, const N::Unit* n, Length d) { return d < dot3<N>(n, origin); }
 
 bool project_edge(const PathPose<N>& pose, const ModelEdge<N>& edge, ContourEdge<N>& out) {
   const ImagePoint a = project(pose, edge.a);
   const ImagePoint b = project(pose, edge.b);
-  if (!(a.z > 0) || !(b.z > 0)) return false;
+  if (!(a.z > Length{0}) || !(b.z > Length{0})) return false;
   out.x = a.x;
   out.y = a.y;
   out.dx = b.x - a.x;
   out.dy = b.y - a.y;
-  const Ratio length2 = out.dx * out.dx + out.dy * out.dy;
-  out.inverse_length2 = length2 > 0 ? 1 / length2 : 0;
+  out.length = inverse_length2(out.dx * out.dx + out.dy * out.dy);
   out.za = a.z;
   out.zb = b.z;
   return true;
 }
 
 struct Extent {
-  Ratio low, high;
-  void include(Ratio v) {
+  Tangent low, high;
+  void include(Tangent v) {
     if (v < low) low = v;
     if (v > high) high = v;
   }
 };
 
-int clamp_bin(Ratio v) {
-  if (!(v > 0)) return 0;
-  return v < static_cast<Ratio>(kRayBins) ? static_cast<int>(v) : kRayBins - 1;
+// The bin of a place that is this far from the first one's beginning; those beyond belong to the outermost.
+int bin_at(Tangent offset, N::BinRate bins_per_unit) {
+  if (!(offset > Tangent{0})) return 0;
+  return N::index_below(kRayBins, offset * bins_per_unit);
 }
 
 std::size_t bin_of(const RayBins<N>& bins, std::size_t ray) {
-  const int column = clamp_bin((bins.x[ray] - bins.x0) * bins.bins_per_x);
-  const int row = clamp_bin((bins.y[ray] - bins.y0) * bins.bins_per_y);
+  const int column = bin_at(bins.x[ray] - bins.x0, bins.bins_per_x);
+  const int row = bin_at(bins.y[ray] - bins.y0, bins.bins_per_y);
   return static_cast<std::size_t>(row) * kRayBins + static_cast<std::size_t>(column);
 }
 
 // Where the rays pass at the target's depth, and the rectangle that they fill.
 void place_rays(const View<N>& view, const Workspace& workspace, RayBins<N>& bins) {
-  Extent x{1e30F, -1e30F};
-  Extent y{1e30F, -1e30F};
+  constexpr auto kEndless = N::to<Tangent>(1e30);
+  Extent x{kEndless, -kEndless};
+  Extent y = x;
   for (std::size_t i = 0; i < workspace.rays.size(); ++i) {
     const ScanRay<N>& ray = workspace.rays.begin()[i];
-    const Ratio inverse = 1 / (ray.o[2] + view.target_depth * ray.u[2]);
-    bins.x[i] = (ray.o[0] + view.target_depth * ray.u[0]) * inverse;
-    bins.y[i] = (ray.o[1] + view.target_depth * ray.u[1]) * inverse;
+    Length p[3];
+    for (int k = 0; k < 3; ++k) p[k] = ray.o[k] + view.target_depth * ray.u[k];
+    const auto inverse = inverse_of(p[2]);
+    bins.x[i] = bounded<Tangent>(over<Tangent>(p[0], inverse));
+    bins.y[i] = bounded<Tangent>(over<Tangent>(p[1], inverse));
     x.include(bins.x[i]);
     y.include(bins.y[i]);
   }
-  const auto across = static_cast<Ratio>(kRayBins);
+  const auto rate = [](const Extent& e) {
+    constexpr auto kBins = N::to<Tangent>(kRayBins);
+    return e.high > e.low ? quotient<N::BinRate>(kBins, e.high - e.low) : N::BinRate{0};
+  };
   bins.x0 = x.low;
   bins.y0 = y.low;
-  bins.bins_per_x = x.high > x.low ? across / (x.high - x.low) : 0;
-  bins.bins_per_y = y.high > y.low ? across / (y.high - y.low) : 0;
+  bins.bins_per_x = rate(x);
+  bins.bins_per_y = rate(y);
 }
 
 // Counting sort of the rays by bin: start[b]..start[b+1] index ray[].
@@ -77,10 +83,10 @@ void sort_rays(std::size_t count, RayBins<N>& bins) {
   bins.start[kBins] = static_cast<std::uint16_t>(count);
 }
 
-void insert_edge(std::uint32_t contour, Ratio distance2, Ratio along, RayEdges<N>& edges) {
-  if (edges.count == kEdgesPerRay && distance2 >= edges.distance2[kEdgesPerRay - 1]) return;
+void insert_edge(std::uint32_t contour, N::Area distance2, N::Unit along, RayEdges<N>& edges) {
+  if (edges.count == kEdgesPerRay && !(distance2 < edges.distance2[kEdgesPerRay - 1])) return;
   std::uint32_t place = edges.count < kEdgesPerRay ? edges.count++ : static_cast<std::uint32_t>(kEdgesPerRay - 1);
-  for (; place > 0 && edges.distance2[place - 1] > distance2; --place) {
+  for (; place > 0 && distance2 < edges.distance2[place - 1]; --place) {
     edges.contour[place] = edges.contour[place - 1];
     edges.distance2[place] = edges.distance2[place - 1];
     edges.along[place] = edges.along[place - 1];
@@ -90,16 +96,14 @@ void insert_edge(std::uint32_t contour, Ratio distance2, Ratio along, RayEdges<N
   edges.along[place] = along;
 }
 
-Ratio clamp_unit(Ratio t) { return !(t > 0) ? 0 : t < 1 ? t : 1; }
-
-void test_ray(const ContourEdge<N>& edge, std::uint32_t contour, std::size_t ray, Ratio band2, Workspace& workspace) {
-  const Ratio rx = workspace.bins.x[ray] - edge.x;
-  const Ratio ry = workspace.bins.y[ray] - edge.y;
-  const Ratio along = clamp_unit((rx * edge.dx + ry * edge.dy) * edge.inverse_length2);
-  const Ratio ex = rx - along * edge.dx;
-  const Ratio ey = ry - along * edge.dy;
+void test_ray(const ContourEdge<N>& edge, std::uint32_t contour, std::size_t ray, N::Area band2, Workspace& workspace) {
+  const Tangent rx = workspace.bins.x[ray] - edge.x;
+  const Tangent ry = workspace.bins.y[ray] - edge.y;
+  const N::Unit along = share_along(rx * edge.dx + ry * edge.dy, edge.length);
+  const Tangent ex = rx - along * edge.dx;
+  const Tangent ey = ry - along * edge.dy;
   const Length z = edge.za + along * (edge.zb - edge.za);
-  const Ratio distance2 = (ex * ex + ey * ey) * z * z;
+  const N::Area distance2 = N::area_at(ex, ey, z);
   if (distance2 < band2) insert_edge(contour, distance2, along, workspace.ray_edges[ray]);
 }
 
@@ -107,16 +111,16 @@ struct BinRange {
   int low, high;
 };
 
-BinRange bins_between(Ratio a, Ratio b, Ratio band, Ratio origin, Ratio per_unit) {
-  const Ratio low = (a < b ? a : b) - band;
-  const Ratio high = (a < b ? b : a) + band;
-  return {clamp_bin((low - origin) * per_unit), clamp_bin((high - origin) * per_unit)};
+BinRange bins_between(Tangent a, Tangent b, Tangent band, Tangent origin, N::BinRate per_unit) {
+  const Tangent low = (a < b ? a : b) - band;
+  const Tangent high = (a < b ? b : a) + band;
+  return {bin_at(low - origin, per_unit), bin_at(high - origin, per_unit)};
 }
 
-void test_edge(std::uint32_t contour, Ratio band, Workspace& workspace) {
+void test_edge(std::uint32_t contour, Length band, Workspace& workspace) {
   const ContourEdge<N>& edge = workspace.contour.begin()[contour];
   const RayBins<N>& bins = workspace.bins;
-  const Ratio image_band = band / (edge.za < edge.zb ? edge.za : edge.zb);
+  const auto image_band = bounded<Tangent>(quotient<Tangent>(band, edge.za < edge.zb ? edge.za : edge.zb));
   const BinRange columns = bins_between(edge.x, edge.x + edge.dx, image_band, bins.x0, bins.bins_per_x);
   const BinRange rows = bins_between(edge.y, edge.y + edge.dy, image_band, bins.y0, bins.bins_per_y);
   for (int row = rows.low; row <= rows.high; ++row) {
@@ -133,17 +137,9 @@ ImagePoint project(const PathPose<N>& pose, const Length* p_target) {
   const Length q[3] = {p_target[0] - pose.t[0], p_target[1] - pose.t[1], p_target[2] - pose.t[2]};
   Length s[3];
   for (int i = 0; i < 3; ++i) s[i] = pose.R[0][i] * q[0] + pose.R[1][i] * q[1] + pose.R[2][i] * q[2];
-  if (!(s[2] > 0)) return {0, 0, 0};
-  const Ratio inverse = 1 / s[2];
-  return {s[0] * inverse, s[1] * inverse, s[2]};
-}
-
-View<FlightNumber> make_view(const Mission& mission, const Pose& T_target_sensor) {
-  View<N> view{};
-  view.pose = to_path<N>(T_target_sensor);
-  const Vec3 center_sensor = inverse(T_target_sensor) * mission.center_m;
-  view.target_depth = N::to_length(center_sensor[2]);
-  return view;
+  if (!(s[2] > Length{0})) return {Tangent{0}, Tangent{0}, Length{0}};
+  const auto inverse = inverse_of(s[2]);
+  return {bounded<Tangent>(over<Tangent>(s[0], inverse)), bounded<Tangent>(over<Tangent>(s[1], inverse)), s[2]};
 }
 
 void find_contour(const Mission& mission, const View<FlightNumber>& view, Workspace& workspace) {
@@ -157,12 +153,11 @@ void find_contour(const Mission& mission, const View<FlightNumber>& view, Worksp
   }
 }
 
-void find_ray_edges(const View<FlightNumber>& view, double band_m, Workspace& workspace) {
+void find_ray_edges(const View<FlightNumber>& view, Length band, Workspace& workspace) {
   for (std::size_t i = 0; i < workspace.rays.size(); ++i) workspace.ray_edges[i].count = 0;
-  if (!(view.target_depth > 0)) return;
+  if (!(view.target_depth > Length{0})) return;
   place_rays(view, workspace, workspace.bins);
   sort_rays(workspace.rays.size(), workspace.bins);
-  const Ratio band = N::to_length(band_m);
   for (std::size_t i = 0; i < workspace.contour.size(); ++i) test_edge(static_cast<std::uint32_t>(i), band, workspace);
 }
 

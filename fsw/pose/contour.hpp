@@ -13,11 +13,17 @@ struct View {
   typename N::Length target_depth;  // of the target's centre along the boresight
 };
 
-View<FlightNumber> make_view(const Mission& mission, const Pose& T_target_sensor);
+inline View<FlightNumber> make_view(const Mission& mission, const Pose& T_target_sensor) {
+  View<FlightNumber> view{};
+  view.pose = to_path<FlightNumber>(T_target_sensor);
+  const Vec3 center_sensor = inverse(T_target_sensor) * mission.center_m;
+  view.target_depth = FlightNumber::to_length(center_sensor[2]);
+  return view;
+}
 
 struct ImagePoint {
-  FlightNumber::Ratio x, y;  // tangent plane
-  FlightNumber::Length z;    // depth; 0 for a point that is not in front of the sensor
+  FlightNumber::Tangent x, y;  // tangent plane
+  FlightNumber::Length z;      // depth; 0 for a point that is not in front of the sensor
 };
 
 ImagePoint project(const PathPose<FlightNumber>& T_target_sensor, const FlightNumber::Length* p_target);
@@ -26,8 +32,8 @@ ImagePoint project(const PathPose<FlightNumber>& T_target_sensor, const FlightNu
 // kMaxContourEdges the rest is left out.
 void find_contour(const Mission& mission, const View<FlightNumber>& view, Workspace& workspace);
 
-// Fills workspace.ray_edges with the contour edges within band_m (at the edge's depth) of each ray, at most kEdgesPerRay, nearest first.
+// Fills workspace.ray_edges with the contour edges within `band` (at the edge's depth) of each ray, at most kEdgesPerRay, nearest first.
 // Bound: edges times the rays in the bins that their bands touch.
-void find_ray_edges(const View<FlightNumber>& view, double band_m, Workspace& workspace);
+void find_ray_edges(const View<FlightNumber>& view, FlightNumber::Length band, Workspace& workspace);
 
 }  // namespace lasso

@@ -24,7 +24,7 @@ Probe make_probe(const Field<N>& field, const Vec3& origin, const Vec3& through)
   const Vec3 u = line * (1 / square_root(line.squaredNorm()));
   for (int i = 0; i < 3; ++i) {
     probe.ray.m[i] = N::to_length(through[i]);
-    probe.ray.u[i] = N::to_unit(u[i]);
+    probe.ray.u[i] = N::to<N::Unit>(u[i]);
   }
   set_cells(field, probe.ray);
   probe.span = clip_to_grid(field, probe.ray);
@@ -58,7 +58,7 @@ ContourPoint probe_contour(const Field<N>& field, const ProbeSettings& s, const 
   point.outward = plus_meets ? Vec3(-across) : across;
   point.range_m = square_root((edge - origin).squaredNorm());
   const FieldHit<N> beyond = walk_field(field, outside.ray, s.depth, outside.span.leave);
-  const double gap = N::to_double(beyond.found ? beyond.t : 0);
+  const double gap = beyond.found ? N::to_double(beyond.t) : 0;
   if (beyond.found && gap < s.gap_min_m) return point;
   point.kind = beyond.found ? ContourKind::kInner : ContourKind::kOuter;
   point.far_range_m = point.range_m + gap;

@@ -3,6 +3,7 @@
 
 #include "fsw/geometry/types.hpp"
 #include "fsw/mission/mission.hpp"
+#include "fsw/pose/path_pose.hpp"
 #include "fsw/pose/workspace.hpp"
 
 namespace lasso {
@@ -33,9 +34,5 @@ ContourPoint probe_contour(const Field<FlightNumber>& field, const ProbeSettings
 
 // The parameter in space of the point at parameter `along` of the projected edge.
 double along_in_space(const ContourEdge<FlightNumber>& edge, double along);
-
-inline Vec3 to_vec3(const FlightNumber::Length* p) {
-  return {FlightNumber::to_double(p[0]), FlightNumber::to_double(p[1]), FlightNumber::to_double(p[2])};
-}
 
 }  // namespace lasso

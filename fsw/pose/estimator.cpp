@@ -101,7 +101,7 @@ Registration Estimator::estimate(const Mission& mission, const RangeImage& scan,
   prepare_rays(mission, scan, start, workspace_);
   Pose pose = inverse(start.T_sensor_target);
   const HitSolution hits = start.wide ? register_wide(mission, pose, workspace_) : register_hits(mission, pose, workspace_);
-  const double scale = noise_scale(mission.parameters, hits, !(workspace_.sigma_factor > 1));
+  const double scale = noise_scale(mission.parameters, hits, !(workspace_.sigma_factor > FlightNumber::Factor{1}));
   describe_hits(hits, scale, workspace_, result);
   if (has_information(hits)) {
     Mat6 covariance;

@@ -7,41 +7,50 @@ namespace {
 
 using N = FlightNumber;
 
-constexpr int kBins = 16;                      // across the scan, each way
-constexpr N::Ratio kNeighbourShare = 0.08F;    // of the model's size: a return has company this near
-constexpr N::Ratio kNeighbourSpacings = 2.2F;  // and within this many times the spacing of rays
-constexpr std::size_t kCompany = 2;            // or it is an outlier
-constexpr N::Ratio kNoiseReach = 3;            // sigmas
-constexpr int kHalvings = 12;                  // of the depths that the median may have
+constexpr int kBins = 16;                   // across the scan, each way
+constexpr float kNeighbourShare = 0.08F;    // of the model's size: a return has company this near
+constexpr float kNeighbourSpacings = 2.2F;  // and within this many times the spacing of rays
+constexpr std::size_t kCompany = 2;         // or it is an outlier
+constexpr float kNoiseReach = 3;            // sigmas
+constexpr int kHalvings = 12;               // of the depths that the median may have
 
-N::Ratio squared_distance(const N::Length* a, const N::Length* b) {
-  const N::Length d[3] = {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-  return dot3<N>(d, d);
+// The search is no part of the path that each scan takes: it has floating point in every build.
+float squared_distance(const N::Length* a, const N::Length* b) {
+  const float d[3] = {N::to_float(a[0] - b[0]), N::to_float(a[1] - b[1]), N::to_float(a[2] - b[2])};
+  return dot3<FloatNumber>(d, d);
 }
 
-N::Length root(N::Ratio x) { return N::to_length(square_root(N::to_double(x))); }
+float squared_range(const N::Length* p) {
+  const float d[3] = {N::to_float(p[0]), N::to_float(p[1]), N::to_float(p[2])};
+  return dot3<FloatNumber>(d, d);
+}
+
+float root(float x) { return static_cast<float>(square_root(static_cast<double>(x))); }
 
 // How many rays of the scan go into each part of the field of view: a pattern is denser here than there.
 class RayDensity {
  public:
   explicit RayDensity(const Workspace& workspace) {
     for (const ScanRay<N>& ray : workspace.rays) widen(ray.u);
-    for (int i = 0; i < 2; ++i) bins_per_unit_[i] = high_[i] > low_[i] ? static_cast<N::Ratio>(kBins) / (high_[i] - low_[i]) : 0;
+    for (int i = 0; i < 2; ++i) bins_per_unit_[i] = high_[i] > low_[i] ? static_cast<float>(kBins) / (high_[i] - low_[i]) : 0;
     for (const ScanRay<N>& ray : workspace.rays) ++count_[bin_of(ray.u)];
   }
   std::uint16_t at(const N::Unit* u) const { return count_[bin_of(u)]; }
   // Typical angle between neighbouring rays, were they spread evenly.
-  N::Ratio spacing(std::size_t rays) const {
-    const double area = N::to_double((high_[0] - low_[0]) * (high_[1] - low_[1]));
-    return N::to_ratio(square_root(area / static_cast<double>(rays)));
+  float spacing(std::size_t rays) const {
+    const double area = static_cast<double>((high_[0] - low_[0]) * (high_[1] - low_[1]));
+    return static_cast<float>(square_root(area / static_cast<double>(rays)));
   }
 
  private:
   // Sensors look along z: directions beside it are taken on the plane z = 1, those farther than 63 deg off at its rim.
-  static N::Ratio tangent(const N::Unit* u, int i) { return u[i] / (u[2] > 0.45F ? u[2] : 0.45F); }
+  static float tangent(const N::Unit* u, int i) {
+    const float z = N::to_float(u[2]);
+    return N::to_float(u[i]) / (z > 0.45F ? z : 0.45F);
+  }
   void widen(const N::Unit* u) {
     for (int i = 0; i < 2; ++i) {
-      const N::Ratio t = tangent(u, i);
+      const float t = tangent(u, i);
       if (t < low_[i]) low_[i] = t;
       if (t > high_[i]) high_[i] = t;
     }
@@ -55,7 +64,7 @@ class RayDensity {
     return bin;
   }
 
-  N::Ratio low_[2] = {10, 10}, high_[2] = {-10, -10}, bins_per_unit_[2] = {};
+  float low_[2] = {10, 10}, high_[2] = {-10, -10}, bins_per_unit_[2] = {};
   std::uint16_t count_[kBins * kBins] = {};
 };
 
@@ -70,8 +79,8 @@ void put_points(const Evidence& evidence, std::size_t count, Workspace& workspac
 
 void EvidenceMaker::begin(const Mission& mission, const Workspace& workspace) {
   const RayDensity density(workspace);
-  const N::Ratio spacing = density.spacing(workspace.rays.size());
-  const N::Ratio largest = kNeighbourShare * mission.search.size;
+  const float spacing = density.spacing(workspace.rays.size());
+  const float largest = kNeighbourShare * mission.search.size_m;
   const std::size_t misses = workspace.rays.size() - workspace.points.size();
   hit_stride_ = (workspace.points.size() + kPoolRays - 1) / kPoolRays;
   miss_stride_ = (misses + kPoolRays - 1) / kPoolRays;
@@ -80,9 +89,9 @@ void EvidenceMaker::begin(const Mission& mission, const Workspace& workspace) {
   judged_ = 0;
   for (std::size_t i = 0; i < workspace.points.size(); i += hit_stride_) {
     const MatchPoint<N>& point = workspace.points[i];
-    const N::Ratio area = dot3<N>(point.p, point.p) / static_cast<N::Ratio>(density.at(point.u));
-    const N::Length range = root(dot3<N>(point.p, point.p));
-    const N::Ratio reach = kNeighbourSpacings * range * spacing;
+    const float area = squared_range(point.p) / static_cast<float>(density.at(point.u));
+    const float range = root(squared_range(point.p));
+    const float reach = kNeighbourSpacings * range * spacing;
     invariant(hits_.push_back({point, area, 1e12F, reach < largest ? reach : largest, 0, false}), "a pool of returns");
   }
   std::size_t index = 0;
@@ -110,7 +119,7 @@ bool EvidenceMaker::step(const Mission& mission, Evidence& evidence) {
 }
 
 void EvidenceMaker::judge_isolation(std::size_t index) {
-  const N::Ratio reach = hits_[index].reach;
+  const float reach = hits_[index].reach;
   std::size_t company = 0;
   // Neighbours in time are near, mostly: the search begins with them.
   for (std::size_t k = 1; k < hits_.size() && company < kCompany; ++k) {
@@ -133,7 +142,7 @@ void EvidenceMaker::find_centroid(Evidence& evidence) const {
   Vec3 sum = Vec3::Zero();
   double weights = 0;
   for (const PoolHit& hit : hits_) {
-    const double weight = N::to_double(hit.weight);
+    const double weight = static_cast<double>(hit.weight);
     for (int i = 0; i < 3; ++i) sum[i] += weight * N::to_double(hit.point.p[i]);
     weights += weight;
   }
@@ -153,7 +162,7 @@ void EvidenceMaker::find_median(double weights, Evidence& evidence) const {
     for (const PoolHit& hit : hits_) {
       double along = 0;
       for (int i = 0; i < 3; ++i) along += evidence.centroid[i] * N::to_double(hit.point.p[i]);
-      if (along < depth * range) below += N::to_double(hit.weight);
+      if (along < depth * range) below += static_cast<double>(hit.weight);
     }
     (2 * below < weights ? low : high) = depth;
   }
@@ -167,12 +176,12 @@ void EvidenceMaker::choose(Evidence& evidence) {
     if (hits_[i].distance2 > hits_[farthest].distance2) farthest = i;
   }
   const MatchPoint<N>& chosen = hits_[farthest].point;
-  const ReturnReach reach{root(dot3<N>(chosen.p, chosen.p)), kNoiseReach * root(chosen.range_variance)};
+  const ReturnReach reach{N::from_float<N::Length>(root(squared_range(chosen.p))), kNoiseReach * root(N::to_float(chosen.range_variance))};
   invariant(evidence.hits.push_back(chosen), "room for a return");
   invariant(evidence.reaches.push_back(reach), "as many as returns");
   const std::size_t region = evidence.hits.size() - 1;
   for (PoolHit& hit : hits_) {
-    const N::Ratio distance2 = squared_distance(hit.point.p, chosen.p);
+    const float distance2 = squared_distance(hit.point.p, chosen.p);
     if (!(distance2 < hit.distance2)) continue;
     hit.distance2 = distance2;
     if (region < kRegions) hit.region = static_cast<std::uint8_t>(region);

@@ -13,7 +13,7 @@ constexpr std::size_t kRegions = 32;          // of the target, as the scan show
 // What measuring a fit needs to know of a return, once.
 struct ReturnReach {
   FlightNumber::Length range;  // m, from the sensor
-  FlightNumber::Length noise;  // m, 3 sigma along the ray
+  float noise_m;               // 3 sigma along the ray
 };
 
 struct Evidence {
@@ -55,10 +55,10 @@ class EvidenceMaker {
  private:
   struct PoolHit {
     MatchPoint<FlightNumber> point;
-    FlightNumber::Ratio weight;     // area that the return stands for, of no unit
-    FlightNumber::Ratio distance2;  // m^2, to the closest return that was chosen
-    FlightNumber::Ratio reach;      // m, within which it has company
-    std::uint8_t region;            // the chosen return that is closest, of the first kRegions
+    float weight;         // area that the return stands for, of no unit
+    float distance2;      // m^2, to the closest return that was chosen
+    float reach;          // m, within which it has company
+    std::uint8_t region;  // the chosen return that is closest, of the first kRegions
     bool kept;
   };
   void judge_isolation(std::size_t index);

@@ -8,14 +8,17 @@ namespace {
 
 using N = FlightNumber;
 
-constexpr N::Ratio kOnSurface = 0.02F;  // of the model's size: farther off is bad
-constexpr N::Ratio kInFront = 0.03F;    // of the model's size: a surface this far in front would have been measured itself
-constexpr double kMissWeight = 0.3;     // returns are lost for many reasons
+constexpr float kOnSurface = 0.02F;  // of the model's size: farther off is bad
+constexpr float kInFront = 0.03F;    // of the model's size: a surface this far in front would have been measured itself
+constexpr double kMissWeight = 0.3;  // returns are lost for many reasons
 constexpr double kDistanceWeight = 0.5;
 constexpr std::size_t kLookedAtOnce = 16;  // rays between two looks at the limit
 
-N::Length larger(N::Length a, N::Length b) { return a < b ? b : a; }
-N::Length smaller(N::Length a, N::Length b) { return a < b ? a : b; }
+template <class T>
+T larger(T a, T b) {
+  return a < b ? b : a;
+}
+float smaller(float a, float b) { return a < b ? a : b; }
 
 // What the ray meets from where it enters the grid up to `behind` its measured point.
 FieldHit<N> first_met(const Mission& mission, FieldRay<N>& ray, N::Length sensor, N::Length behind) {
@@ -25,22 +28,25 @@ FieldHit<N> first_met(const Mission& mission, FieldRay<N>& ray, N::Length sensor
   return walk_field(mission.field, ray, larger(enter, sensor), behind);
 }
 
-bool is_bad(const FieldHit<N>& met, N::Length distance, N::Length on_surface, N::Length in_front) {
+bool is_bad(const FieldHit<N>& met, float distance, float on_surface, float in_front) {
   if (!met.found) return distance > on_surface;
-  if (met.t < -in_front) return true;
-  return met.t < -on_surface && distance > on_surface;
+  const float t = N::to_float(met.t);
+  if (t < -in_front) return true;
+  return t < -on_surface && distance > on_surface;
 }
 
 void add_hit(const Mission& mission, const PathPose<N>& pose, const MatchPoint<N>& point, const ReturnReach& reach, Fit& fit) {
   FieldRay<N> ray{};
   transform(pose, point.p, ray.m);
   rotate(pose, point.u, ray.u);
-  const N::Length distance = surface_distance(mission.search, ray.m).distance;
+  const float m[3] = {N::to_float(ray.m[0]), N::to_float(ray.m[1]), N::to_float(ray.m[2])};
+  const float distance = surface_distance(mission.search, m).distance_m;
   // Both tolerances are wider where the noise is larger.
-  const N::Length on_surface = larger(kOnSurface * mission.search.size, reach.noise);
-  const N::Length in_front = larger(kInFront * mission.search.size, reach.noise);
-  const FieldHit<N> met = first_met(mission, ray, -reach.range, on_surface);
-  fit.distance += N::to_double(smaller(distance, met.found ? larger(met.t, -met.t) : distance) / mission.search.truncation);
+  const float on_surface = larger(kOnSurface * mission.search.size_m, reach.noise_m);
+  const float in_front = larger(kInFront * mission.search.size_m, reach.noise_m);
+  const FieldHit<N> met = first_met(mission, ray, -reach.range, N::to_length(static_cast<double>(on_surface)));
+  const float gap = met.found ? N::to_float(larger(met.t, -met.t)) : distance;
+  fit.distance += static_cast<double>(smaller(distance, gap) / mission.search.truncation_m);
   if (is_bad(met, distance, on_surface, in_front)) fit.bad += 1;
 }
 

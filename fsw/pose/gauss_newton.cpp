@@ -27,11 +27,13 @@ Vec6 cut_step(const Vec6& x, double radius_m, double longest_m) {
 
 MatchSettings<N> make_settings(const MissionParameters& p, const Workspace& workspace) {
   MatchSettings<N> s{};
-  s.kernel_squared = N::to_ratio(p.kernel_width * p.kernel_width);
-  s.surface_variance = N::to_ratio(p.surface_sigma_m * p.surface_sigma_m);
-  s.cos_incidence_max = N::to_ratio(sin_cos(p.incidence_max_rad).cos);
-  const N::Length worst = workspace.points[workspace.points.size() / 2].range_variance;
-  s.reference_variance = worst / (workspace.sigma_factor * workspace.sigma_factor) + s.surface_variance;
+  s.kernel_squared = N::to<N::Kernel>(p.kernel_width * p.kernel_width);
+  const auto surface_variance = bounded<N::Variance>(N::to<N::Variance>(p.surface_sigma_m * p.surface_sigma_m));
+  s.surface_variance = surface_variance + N::kLeastVariance;
+  s.cos_incidence_max = N::to<N::Unit>(sin_cos(p.incidence_max_rad).cos);
+  const float factor = N::to_float(workspace.sigma_factor);
+  const float worst = N::to_float(workspace.points[workspace.points.size() / 2].range_variance);
+  s.reference_variance = N::from_float<N::Variance>(worst / (factor * factor)) + s.surface_variance;
   return s;
 }
 
@@ -51,7 +53,7 @@ void solve_pass(const Mission& mission, const MatchSettings<N>& s, const PassKin
 }
 
 Pass take_pass(const Mission& mission, const MatchSettings<N>& s, const PassKind& kind, Workspace& workspace, Pose& T_target_sensor) {
-  Pass pass;
+  Pass pass(mission);
   const Span<MatchPoint<N>> points(workspace.points.begin(), workspace.points.size());
   match_points(mission.field, to_path<N>(T_target_sensor), s, points, kind, pass.sums);
   solve_pass(mission, s, kind, pass, T_target_sensor);

@@ -10,6 +10,8 @@ constexpr std::size_t kQuarter = 4;  // stride of the passes over a quarter of t
 constexpr std::uint32_t kMinimumPoints = 12;
 
 struct Pass {
+  explicit Pass(const Mission& mission) : sums(mission.radius_m) {}
+
   PassSums<FlightNumber> sums;
   Mat6 H = Mat6::Zero();
   Vec6 x = Vec6::Zero();            // the damped solution; the step taken unless that was cut

@@ -6,17 +6,14 @@
 
 #include "cfg/capacities.hpp"
 #include "fsw/core/fixed_vector.hpp"
-#include "fsw/mission/mission.hpp"
 
 namespace lasso {
 
-template <class N>
-struct FieldReturnOf {
-  typename N::Length p[3];  // sensor frame
-  std::int32_t after_us;    // the scan's reference time
-  bool stray;               // inside of keep_lone_group
+struct FieldReturn {
+  float p[3];             // m, sensor frame
+  std::int32_t after_us;  // the scan's reference time
+  bool stray;             // inside of keep_lone_group
 };
-using FieldReturn = FieldReturnOf<FlightNumber>;
 using FieldReturns = FixedVector<FieldReturn, kMaxRays>;
 
 constexpr std::size_t kGroupLooks = 128;   // returns that are tried as a place of the target, or asked for neighbours

@@ -27,18 +27,20 @@ struct PassKind {
 
 template <class N>
 struct MatchSettings {
-  typename N::Ratio kernel_squared;    // k^2 of Tukey's kernel, in sigmas^2
-  typename N::Ratio surface_variance;  // m^2
-  typename N::Ratio cos_incidence_max;
-  typename N::Ratio reference_variance;  // m^2: weights are relative to it, so that sums stay of order one
-  typename N::Length gate;               // m, added to k sigma while the start is uncertain
+  typename N::Kernel kernel_squared;      // k^2 of Tukey's kernel, in sigmas^2
+  typename N::Variance surface_variance;  // m^2
+  typename N::Unit cos_incidence_max;
+  typename N::Variance reference_variance;  // m^2: weights are relative to it, so that sums stay of order one
+  typename N::Length gate;                  // m, added to k sigma while the start is uncertain
 };
 
 template <class N>
-constexpr typename N::Ratio kFrontShare = static_cast<typename N::Ratio>(0.4F);  // of k sigma
+constexpr typename N::Unit kFrontShare = N::template to<typename N::Unit>(0.4);  // of k sigma
 
 template <class N>
 struct PassSums {
+  explicit PassSums(double size_m) : rows(size_m) {}
+
   ScanSums<N> rows;
   std::uint32_t usable = 0;  // points that met a surface within the incidence limit, or, if not aimed, none at all
 };
@@ -67,7 +69,7 @@ inline typename N::Length front_of(const MatchSettings<N>& s, const MatchPoint<N
 
 template <class N>
 inline FieldHit<N> find_hit(const Field<N>& field, const MatchSettings<N>& s, const MatchPoint<N>& point, Lookup lookup, FieldRay<N>& ray) {
-  const auto reach = reach_of(s, point);
+  const typename N::Length reach = reach_of(s, point);
   FieldHit<N> hit;
   if (lookup == Lookup::kLast && point.element != kNoElement) {
     hit.element = point.element;
@@ -76,7 +78,7 @@ inline FieldHit<N> find_hit(const Field<N>& field, const MatchSettings<N>& s, co
   }
   set_cells(field, ray);
   if (!near_grid(ray)) return {};
-  const auto front = front_of(s, point);
+  const typename N::Length front = front_of(s, point);
   hit = walk_field(field, ray, -front, reach);
   return hit.found ? hit : walk_field(field, ray, -reach, -front);
 }
@@ -90,35 +92,24 @@ inline void add_hit(const Field<N>& field, const MatchSettings<N>& s, const Matc
   const typename N::Length p[3] = {ray.m[0] + hit.t * ray.u[0], ray.m[1] + hit.t * ray.u[1], ray.m[2] + hit.t * ray.u[2]};
   typename N::Unit n[3];
   surface_normal(field, field.elements[hit.element], p, n);
-  const auto facing = dot3<N>(n, ray.u);  // positive only for two-sided elements seen from behind
+  const typename N::Unit facing = dot3<N>(n, ray.u);  // positive only for two-sided elements seen from behind
   if (facing > -s.cos_incidence_max && facing < s.cos_incidence_max) return;
   ++sums.usable;
-  const auto tilt2 = facing * facing;
+  const typename N::Unit tilt2 = facing * facing;
   const auto variance = tilt2 * point.range_variance + (1 - tilt2) * point.across_variance + s.surface_variance;
-  const auto r = hit.t * facing;
-  const auto r2 = r * r;
-  const auto limit = s.kernel_squared * variance + s.gate * s.gate;
+  const typename N::Variance rounded = variance;
+  const typename N::Length r = hit.t * facing;
+  const typename N::Area r2 = r * r;
+  const typename N::Area limit = N::area(s.kernel_squared * rounded) + s.gate * s.gate;
   if (!(r2 < limit)) return;
-  const auto rest = 1 - r2 / limit;
-  sums.rows.add(ray.m, n, r, rest * rest * s.reference_variance / variance, hit.t);
+  const typename N::Unit rest = 1 - share_of(r2, limit);
+  const typename N::Unit tukey = rest * rest;
+  sums.rows.add(ray.m, n, r, quotient<typename N::Weight>(tukey * s.reference_variance, variance), hit.t);
 }
 
 // One pass over the points of its kind. Bound: the points, each kMaxWalkSteps cells at most.
-template <class N>
-void match_points(const Field<N>& field, const PathPose<N>& T_target_sensor, const MatchSettings<N>& s, Span<MatchPoint<N>> points,
-                  const PassKind& kind, PassSums<N>& sums) {
-  for (std::size_t i = 0; i < points.size(); i += kind.stride) {
-    MatchPoint<N>& point = points.data()[i];
-    FieldRay<N> ray = to_target(T_target_sensor, point);
-    const FieldHit<N> hit = find_hit(field, s, point, kind.lookup, ray);
-    point.element = hit.found ? hit.element : kNoElement;
-    if (hit.found) {
-      add_hit(field, s, point, ray, hit, sums);
-    } else if (!point.aimed) {
-      ++sums.usable;
-    }
-  }
-  sums.rows.flush();
-}
+void match_points(const Field<FlightNumber>& field, const PathPose<FlightNumber>& T_target_sensor,
+                  const MatchSettings<FlightNumber>& settings, Span<MatchPoint<FlightNumber>> points, const PassKind& kind,
+                  PassSums<FlightNumber>& sums);
 
 }  // namespace lasso

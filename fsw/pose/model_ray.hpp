@@ -16,7 +16,7 @@ inline bool meets_model(const Mission& mission, const PathPose<FlightNumber>& po
   set_cells(mission.field, r);
   if (!near_grid(r)) return false;
   const FieldSpan<FlightNumber> span = clip_to_grid(mission.field, r);
-  return walk_field(mission.field, r, span.enter > 0 ? span.enter : 0, span.leave).found;
+  return walk_field(mission.field, r, span.enter > FlightNumber::Length{0} ? span.enter : FlightNumber::Length{0}, span.leave).found;
 }
 
 }  // namespace lasso

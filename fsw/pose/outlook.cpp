@@ -9,12 +9,11 @@ namespace {
 
 using N = FlightNumber;
 using Length = N::Length;
-using Ratio = N::Ratio;
 
 double square(double x) { return x * x; }
 
 void include(const ImagePoint& point, ScanRectangle& rectangle) {
-  const Ratio at[2] = {point.x, point.y};
+  const float at[2] = {N::to_float(point.x), N::to_float(point.y)};
   for (int i = 0; i < 2; ++i) {
     if (at[i] < rectangle.low[i]) rectangle.low[i] = at[i];
     if (at[i] > rectangle.high[i]) rectangle.high[i] = at[i];
@@ -27,14 +26,16 @@ SeenPoint see(const Mission& mission, FieldRay<N>& ray) {
   set_cells(field, ray);
   if (!near_grid(ray)) return seen;
   const FieldSpan<N> span = clip_to_grid(field, ray);
-  const FieldHit<N> hit = walk_field(field, ray, span.enter > 0 ? span.enter : 0, span.leave);  // what lies behind is not seen
+  const FieldHit<N> hit =
+      walk_field(field, ray, span.enter > Length{0} ? span.enter : Length{0}, span.leave);  // what lies behind is not seen
   if (!hit.found) return seen;
   seen.met = true;
   const Length q[3] = {ray.m[0] + hit.t * ray.u[0], ray.m[1] + hit.t * ray.u[1], ray.m[2] + hit.t * ray.u[2]};
   N::Unit normal[3];
   surface_normal(field, field.elements[hit.element], q, normal);
+  const N::Unit facing = dot3<N>(normal, ray.u);
   const MissionParameters& p = mission.parameters;
-  const double tilt2 = square(N::to_double(dot3<N>(normal, ray.u)));
+  const double tilt2 = square(N::to_double(facing));
   if (tilt2 < square(sin_cos(p.incidence_max_rad).cos)) return seen;
   const double range_m = N::to_double(hit.t);
   const double variance =
@@ -56,14 +57,15 @@ ScanRectangle outline_of(const Mission& mission, const View<N>& view) {
   ScanRectangle outline;
   for (const HullPointOf<N>& point : mission.hull) {
     const ImagePoint seen = project(view.pose, point.p);
-    if (seen.z > 0) include(seen, outline);
+    if (seen.z > Length{0}) include(seen, outline);
   }
   return outline;
 }
 
 ScanRectangle visible_outline(const Mission& mission, const View<N>& view) {
   ScanRectangle outline = outline_of(mission, view);
-  const Ratio limit[2] = {N::to_ratio(tangent(mission.parameters.fov_half_x_rad)), N::to_ratio(tangent(mission.parameters.fov_half_y_rad))};
+  const float limit[2] = {static_cast<float>(tangent(mission.parameters.fov_half_x_rad)),
+                          static_cast<float>(tangent(mission.parameters.fov_half_y_rad))};
   for (int i = 0; i < 2; ++i) {
     if (outline.low[i] < -limit[i]) outline.low[i] = -limit[i];
     if (outline.high[i] > limit[i]) outline.high[i] = limit[i];
@@ -74,10 +76,10 @@ ScanRectangle visible_outline(const Mission& mission, const View<N>& view) {
 SeenPoint look_at(const Mission& mission, const View<N>& view, const ScanRectangle& r, int index) {
   const int row = index / kOutlookColumns;
   const int column = index % kOutlookColumns;
-  const double x = N::to_double(r.low[0]) + (column + 0.5) / kOutlookColumns * N::to_double(r.high[0] - r.low[0]);
-  const double y = N::to_double(r.low[1]) + (row + 0.5) / kOutlookRows * N::to_double(r.high[1] - r.low[1]);
+  const double x = static_cast<double>(r.low[0]) + (column + 0.5) / kOutlookColumns * static_cast<double>(r.high[0] - r.low[0]);
+  const double y = static_cast<double>(r.low[1]) + (row + 0.5) / kOutlookRows * static_cast<double>(r.high[1] - r.low[1]);
   const double scale = 1 / square_root(x * x + y * y + 1);
-  const N::Unit u[3] = {N::to_unit(x * scale), N::to_unit(y * scale), N::to_unit(scale)};
+  const N::Unit u[3] = {N::to<N::Unit>(x * scale), N::to<N::Unit>(y * scale), N::to<N::Unit>(scale)};
   FieldRay<N> ray{};
   for (int i = 0; i < 3; ++i) ray.m[i] = view.pose.t[i];
   rotate(view.pose, u, ray.u);

@@ -7,8 +7,8 @@ namespace lasso {
 
 // On the tangent plane z = 1: x, y.
 struct ScanRectangle {
-  FlightNumber::Ratio low[2] = {1e30F, 1e30F};
-  FlightNumber::Ratio high[2] = {-1e30F, -1e30F};
+  float low[2] = {1e30F, 1e30F};
+  float high[2] = {-1e30F, -1e30F};
 };
 
 // Around the model's outline.

@@ -17,7 +17,7 @@ PathPose<N> to_path(const Pose& T_target_sensor) {
   PathPose<N> path{};
   const Mat3 R = to_matrix(T_target_sensor.q);
   for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) path.R[i][j] = N::to_unit(R(i, j));
+    for (int j = 0; j < 3; ++j) path.R[i][j] = N::template to<typename N::Unit>(R(i, j));
     path.t[i] = N::to_length(T_target_sensor.p[i]);
   }
   return path;
@@ -30,7 +30,7 @@ inline void rotate(const PathPose<N>& path, const V* v, V* out) {
 
 template <class N>
 inline void transform(const PathPose<N>& path, const typename N::Length* p, typename N::Length* out) {
-  for (int i = 0; i < 3; ++i) out[i] = path.t[i] + dot3<N>(path.R[i], p);
+  for (int i = 0; i < 3; ++i) out[i] = bounded<typename N::Length>(path.t[i] + dot3<N>(path.R[i], p));
 }
 
 // Left step of a pose in target axes, x = (rotation, translation): p' = R(x) p + x_translation. Cayley's map for the rotation: no sine.

@@ -7,28 +7,31 @@ namespace {
 using N = FlightNumber;
 
 constexpr int kDistancePasses = 8;
-constexpr double kScaleFirst = 1.0;                       // of the truncation
-constexpr double kScaleShrink = 0.84;                     // per pass
+constexpr float kScaleFirst = 1.0F;                       // of the truncation
+constexpr float kScaleShrink = 0.84F;                     // per pass
 constexpr double kRayGates[] = {0.04, 0.02, 0.01, 0.01};  // of the model's size
 
 // Points within `scale` of the surface are pulled on to it along the distance's gradient. Returns the mean distance over the truncation.
-double take_distance_pass(const Mission& mission, const MatchSettings<N>& s, N::Length scale, const Workspace& workspace, Pose& pose) {
+double take_distance_pass(const Mission& mission, const MatchSettings<N>& s, float scale_m, const Workspace& workspace, Pose& pose) {
   const PathPose<N> path = to_path<N>(pose);
-  Pass pass;
-  N::Sum sum = 0;
+  Pass pass(mission);
+  double sum = 0;
   for (const MatchPoint<N>& point : workspace.points) {
     N::Length m[3];
     transform(path, point.p, m);
-    const SurfaceDistance<N> d = surface_distance(mission.search, m);
-    sum += N::to_double(d.distance);
-    if (!(d.distance < scale)) continue;
-    const N::Ratio share = d.distance / scale;
-    const N::Ratio rest = 1 - share * share;
-    pass.sums.rows.add(m, d.away, -d.distance, rest * rest, d.distance);
+    const float m_float[3] = {N::to_float(m[0]), N::to_float(m[1]), N::to_float(m[2])};
+    const SurfaceDistance d = surface_distance(mission.search, m_float);
+    sum += static_cast<double>(d.distance_m);
+    if (!(d.distance_m < scale_m)) continue;
+    const float share = d.distance_m / scale_m;
+    const float rest = 1 - share * share;
+    const N::Unit away[3] = {N::from_float<N::Unit>(d.away[0]), N::from_float<N::Unit>(d.away[1]), N::from_float<N::Unit>(d.away[2])};
+    const auto distance = N::from_float<N::Length>(d.distance_m);
+    pass.sums.rows.add(m, away, -distance, N::from_float<N::Weight>(rest * rest), distance);
   }
   pass.sums.rows.flush();
   solve_pass(mission, s, PassKind{}, pass, pose);
-  return sum / (N::to_double(mission.search.truncation) * static_cast<double>(workspace.points.size()));
+  return sum / (static_cast<double>(mission.search.truncation_m) * static_cast<double>(workspace.points.size()));
 }
 
 }  // namespace
@@ -38,7 +41,7 @@ Pose pull_on_rays(const Mission& mission, const Pose& T_target_sensor, Workspace
   MatchSettings<N> s = make_settings(mission.parameters, workspace);
   Pose pose = T_target_sensor;
   for (const double gate : kRayGates) {
-    set_gate(gate * N::to_double(mission.search.size), s);
+    set_gate(gate * static_cast<double>(mission.search.size_m), s);
     (void)take_pass(mission, s, PassKind{}, workspace, pose);
   }
   return pose;
@@ -49,10 +52,10 @@ Pulled pull_on_distances(const Mission& mission, const Pose& T_target_sensor, Wo
   pulled.T_target_sensor = T_target_sensor;
   if (workspace.points.size() < kMinimumPoints) return pulled;
   const MatchSettings<N> s = make_settings(mission.parameters, workspace);
-  N::Length scale = N::to_length(kScaleFirst) * mission.search.truncation;
+  float scale_m = kScaleFirst * mission.search.truncation_m;
   for (int i = 0; i < kDistancePasses; ++i) {
-    pulled.distance = take_distance_pass(mission, s, scale, workspace, pulled.T_target_sensor);
-    scale *= N::to_ratio(kScaleShrink);
+    pulled.distance = take_distance_pass(mission, s, scale_m, workspace, pulled.T_target_sensor);
+    scale_m *= kScaleShrink;
   }
   return pulled;
 }

@@ -32,7 +32,7 @@ bool is_insignificant(const Pass& pass, const MatchSettings<N>& s) {
 void narrow_kernel(const MissionParameters& p, const Pass& last, MatchSettings<N>& s) {
   if (last.status != Status::kOk) return;
   const double share = clamp(noise_of(last, s), kNarrowestKernel, 1.0);
-  s.kernel_squared = N::to_ratio(p.kernel_width * p.kernel_width * share);
+  s.kernel_squared = N::to<N::Kernel>(p.kernel_width * p.kernel_width * share);
 }
 
 // Points that met the wrong surface can ask for steps along directions that hardly any other point holds, past the minimum that the start

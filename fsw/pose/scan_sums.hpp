@@ -8,6 +8,7 @@
 
 #include <cstdint>
 
+#include "fsw/geometry/number.hpp"
 #include "fsw/geometry/types.hpp"
 
 namespace lasso {
@@ -15,31 +16,38 @@ namespace lasso {
 template <class N>
 class ScanSums {
  public:
+  // size_m: how far the model reaches from the target's origin, the scale of levers and residuals.
+  explicit ScanSums(double size_m) : scale_(N::row_scale(size_m)) {}
+
   // Adds a row of weight w; range_residual [m] is the same residual along the ray.
-  void add(const typename N::Length* m, const typename N::Unit* n, typename N::Length r, typename N::Ratio w,
+  void add(const typename N::Length* m, const typename N::Unit* n, typename N::Length r, typename N::Weight w,
            typename N::Length range_residual) {
     if (rows_ == kBlock) flush();
     const int row = rows_++;
-    column_[0][row] = m[1] * n[2] - m[2] * n[1];
-    column_[1][row] = m[2] * n[0] - m[0] * n[2];
-    column_[2][row] = m[0] * n[1] - m[1] * n[0];
-    for (int i = 0; i < 3; ++i) column_[3 + i][row] = n[i];
-    column_[kResidual][row] = r;
-    weight_[row] = w;
-    range_[row] = range_residual;
+    const bool heavy = scale_.is_heavy(w);
+    column_[0][row] = scale_.length(m[1] * n[2] - m[2] * n[1], heavy);
+    column_[1][row] = scale_.length(m[2] * n[0] - m[0] * n[2], heavy);
+    column_[2][row] = scale_.length(m[0] * n[1] - m[1] * n[0], heavy);
+    for (int i = 0; i < 3; ++i) column_[3 + i][row] = scale_.direction(n[i], heavy);
+    column_[kResidual][row] = scale_.length(r, heavy);
+    weight_[row] = scale_.weight(w);
+    range_[row] = scale_.length(range_residual, false);
   }
 
   // To be called after the last add().
   void flush() {
     count_ += static_cast<std::uint32_t>(rows_);
-    for (; rows_ % kLanes != 0; ++rows_) weight_[rows_] = range_[rows_] = 0;
-    Column weighted;
+    for (; rows_ % kLanes != 0; ++rows_) {
+      weight_[rows_] = typename N::RowWeight{0};
+      range_[rows_] = typename N::Column{0};
+    }
+    typename N::Weighted weighted[kBlock];
     int k = 0;
     for (int i = 0; i < kColumns; ++i) {
       for (int row = 0; row < rows_; ++row) weighted[row] = weight_[row] * column_[i][row];
-      for (int j = 0; j <= i; ++j) total_[k++] += product(weighted, column_[j]);
+      for (int j = 0; j <= i; ++j) total_[k++] += N::sum(product(weighted, column_[j]));
     }
-    total_[k] += product(range_, range_);
+    squared_range_ += N::sum(product(range_, range_));
     rows_ = 0;
   }
 
@@ -48,15 +56,17 @@ class ScanSums {
     int k = 0;
     for (int i = 0; i < 6; ++i) {
       for (int j = 0; j <= i; ++j, ++k) {
-        H(i, j) = static_cast<double>(total_[k]);
+        H(i, j) = static_cast<double>(total_[k]) * scale_of(i) * scale_of(j);
         H(j, i) = H(i, j);
       }
     }
-    for (int i = 0; i < 6; ++i) b[i] = static_cast<double>(total_[k + i]);
+    for (int i = 0; i < 6; ++i) b[i] = static_cast<double>(total_[k + i]) * scale_of(i) * scale_of(kResidual);
   }
   std::uint32_t count() const { return count_; }
-  double chi_squared() const { return static_cast<double>(total_[kSums - 2]); }    // sum w r^2
-  double squared_range() const { return static_cast<double>(total_[kSums - 1]); }  // m^2, unweighted
+  double chi_squared() const { return static_cast<double>(total_[kSums - 1]) * scale_of(kResidual) * scale_of(kResidual); }  // sum w r^2
+  double squared_range() const {
+    return static_cast<double>(squared_range_) * scale_of(kResidual) * scale_of(kResidual);
+  }  // m^2, unweighted
 
  private:
   // Rows are summed in blocks in the path's type, block by block in N::Sum: as fast as the one, as exact as the other. Within a block four
@@ -65,21 +75,27 @@ class ScanSums {
   static constexpr int kLanes = 4;
   static constexpr int kColumns = 7;  // J, r
   static constexpr int kResidual = 6;
-  static constexpr int kSums = 29;  // lower triangle of the columns' products by rows: H, then b, then chi^2; and the squared ranges
-  using Column = typename N::Ratio[kBlock];
+  static constexpr int kSums = 28;  // lower triangle of the columns' products by rows: H, then b, then chi^2
+  using Column = typename N::Column[kBlock];
 
-  typename N::Sum product(const Column& a, const Column& b) const {
-    typename N::Ratio lane[kLanes] = {};
+  template <class A, class B>
+  auto product(const A& a, const B& b) const {
+    decltype(a[0] * b[0]) lane[kLanes] = {};
     for (int row = 0; row < rows_; row += kLanes) {
       for (int l = 0; l < kLanes; ++l) lane[l] += a[row + l] * b[row + l];
     }
-    return static_cast<typename N::Sum>((lane[0] + lane[1]) + (lane[2] + lane[3]));
+    return (lane[0] + lane[1]) + (lane[2] + lane[3]);
   }
 
+  // In metres, or of no unit, of a column's 1.
+  double scale_of(int column) const { return column < 3 || column == kResidual ? scale_.of_one() : 1; }
+
+  typename N::RowScale scale_;
   Column column_[kColumns] = {};
-  Column weight_ = {};
+  typename N::RowWeight weight_[kBlock] = {};
   Column range_ = {};
   typename N::Sum total_[kSums] = {};
+  typename N::Sum squared_range_{};
   int rows_ = 0;
   std::uint32_t count_ = 0;
 };

@@ -302,7 +302,7 @@ void Search::begin_line(const Mission& mission) {
 }
 
 std::uint32_t Search::look_along(const Mission& mission, const Evidence& evidence) {
-  const double step_m = kExploreStep * N::to_double(mission.search.size);
+  const double step_m = kExploreStep * static_cast<double>(mission.search.size_m);
   // Every other place, then the two beside the best of them.
   const bool beside = line_.next > kExploreSteps;
   const int place = beside ? line_.middle + line_.next - kExploreEnd + 1 : line_.next;

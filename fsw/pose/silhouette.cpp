@@ -9,7 +9,6 @@ namespace {
 
 using N = FlightNumber;
 using Length = N::Length;
-using Ratio = N::Ratio;
 
 constexpr double kCertain2 = 36;         // labels that the pose makes certain to six sigma carry nothing
 constexpr double kConsistentDepths = 4;  // a return belongs to a contour's near or far side within this many edge depths
@@ -204,7 +203,7 @@ void find_labels(const Mission& mission, const Pose& T_target_sensor, const Labe
   ProbedPlaces probed;
   const Search s = make_search(mission, view, search, probed);
   find_contour(mission, view, workspace);
-  find_ray_edges(view, search_band(mission, search.covariance, s.own_variance), workspace);
+  find_ray_edges(view, N::to_length(search_band(mission, search.covariance, s.own_variance)), workspace);
   for (std::size_t i = 0; i < workspace.rays.size() && !workspace.labels.full(); ++i) {
     if (workspace.ray_edges[i].count > 0) label_ray(s, i, workspace);
   }

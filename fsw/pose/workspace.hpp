@@ -22,23 +22,23 @@ struct ScanRay {
 // A return that the registration matches.
 template <class N>
 struct MatchPoint {
-  typename N::Length p[3];            // measured point, sensor frame at the reference time
-  typename N::Unit u[3];              // direction of its ray
-  typename N::Ratio range_variance;   // m^2, along the ray
-  typename N::Ratio across_variance;  // m^2, across the ray
-  typename N::Length reach;           // m, kernel width times sigma: how far from the point its surface may lie along the ray
-  std::uint32_t element;              // last element hit, or kNoElement
-  bool aimed;                         // at a contour: no surface where it was measured says nothing against a pose that is a little off
+  typename N::Length p[3];               // measured point, sensor frame at the reference time
+  typename N::Unit u[3];                 // direction of its ray
+  typename N::Variance range_variance;   // m^2, along the ray
+  typename N::Variance across_variance;  // m^2, across the ray
+  typename N::Length reach;              // m, kernel width times sigma: how far from the point its surface may lie along the ray
+  std::uint32_t element;                 // last element hit, or kNoElement
+  bool aimed;                            // at a contour: no surface where it was measured says nothing against a pose that is a little off
 };
 
 // An edge of the model that is on the contour of this view, projected on the sensor's tangent plane.
 template <class N>
 struct ContourEdge {
-  std::uint32_t edge;                 // index into Mission::edges
-  typename N::Ratio x, y;             // of its first end
-  typename N::Ratio dx, dy;           // to its second end
-  typename N::Ratio inverse_length2;  // 1 / (dx^2 + dy^2)
-  typename N::Length za, zb;          // depths of its ends
+  std::uint32_t edge;           // index into Mission::edges
+  typename N::Tangent x, y;     // of its first end
+  typename N::Tangent dx, dy;   // to its second end
+  typename N::Inverse2 length;  // of (dx, dy), to find places along it
+  typename N::Length za, zb;    // depths of its ends
 };
 
 constexpr std::size_t kEdgesPerRay = 4;
@@ -47,9 +47,9 @@ constexpr std::size_t kEdgesPerRay = 4;
 template <class N>
 struct RayEdges {
   std::uint32_t count;
-  std::uint32_t contour[kEdgesPerRay];        // index into the view's contour
-  typename N::Ratio distance2[kEdgesPerRay];  // m^2 at the edge's depth
-  typename N::Ratio along[kEdgesPerRay];      // of the closest point, 0..1 in the image
+  std::uint32_t contour[kEdgesPerRay];       // index into the view's contour
+  typename N::Area distance2[kEdgesPerRay];  // m^2 at the edge's depth
+  typename N::Unit along[kEdgesPerRay];      // of the closest point, 0..1 in the image
 };
 
 constexpr int kRayBins = 32;  // bins across the scan, each way
@@ -57,8 +57,9 @@ constexpr int kRayBins = 32;  // bins across the scan, each way
 // Rays sorted into bins of the tangent plane.
 template <class N>
 struct RayBins {
-  typename N::Ratio x[kMaxRays], y[kMaxRays];  // where each ray meets the tangent plane, seen from the target's depth
-  typename N::Ratio x0, y0, bins_per_x, bins_per_y;
+  typename N::Tangent x[kMaxRays], y[kMaxRays];  // where each ray meets the tangent plane, seen from the target's depth
+  typename N::Tangent x0, y0;
+  typename N::BinRate bins_per_x, bins_per_y;
   std::uint16_t start[kRayBins * kRayBins + 1];
   std::uint16_t ray[kMaxRays];
 };
@@ -91,7 +92,7 @@ constexpr std::size_t kMaxAimSurfaces = 96;
 struct Workspace {
   FixedVector<ScanRay<FlightNumber>, kMaxRays> rays;
   FixedVector<MatchPoint<FlightNumber>, kMaxRays> points;
-  FlightNumber::Ratio sigma_factor = 1;  // the largest of a point: above 1, the scan's own residuals do not say how good it is
+  FlightNumber::Factor sigma_factor{1};  // the largest of a point: above 1, the scan's own residuals do not say how good it is
   FixedVector<ContourEdge<FlightNumber>, kMaxContourEdges> contour;
   RayEdges<FlightNumber> ray_edges[kMaxRays] = {};
   RayBins<FlightNumber> bins{};

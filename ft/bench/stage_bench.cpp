@@ -92,7 +92,7 @@ void walk_stage(Bench& b) {
   const MatchSettings<FlightNumber> settings = make_settings(b.mission().parameters, b.workspace);
   PassSums<FlightNumber> sums;
   Span<MatchPoint<FlightNumber>> points(b.workspace.points.begin(), b.workspace.points.size());
-  match_points(b.mission().field, to_path<FlightNumber>(b.hits.T_target_sensor), settings, points, {1, Lookup::kWalk, 1}, sums);
+  match_points(b.mission().field, to_path<FlightNumber>(b.hits.T_target_sensor), settings, points, {1, Lookup::kWalk}, sums);
   benchmark::DoNotOptimize(sums);
 }
 

@@ -91,7 +91,7 @@ class Campaign {
   }
   const Tally& tally() const { return tally_; }
   const std::vector<std::uint8_t>& image() const { return setting_.image; }
-  double size() const { return static_cast<double>(image_.mission().search.size); }
+  double size() const { return static_cast<double>(image_.mission().search.size_m); }
 
  private:
   void draw(int i) {

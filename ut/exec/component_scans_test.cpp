@@ -104,11 +104,14 @@ class ComponentScansTest : public ::testing::Test {
 
 TEST_F(ComponentScansTest, TheTargetsRangeSaysWhichSensorTakesAScan) {
   VERIFIES("LASSO-SNS-041~1 LASSO-SNS-042~1 LASSO-SNS-046~1 LASSO-SNS-048~1");
+  constexpr std::uint32_t kSettled = 10;
   begin(scene_at(2.4, 0.1));
   std::vector<int> sensors;
   for (const PoseTelemetry& t : run(45)) {
-    EXPECT_EQ(t.valid, 1) << t.scan_id;
-    EXPECT_EQ(static_cast<M>(t.mode), M::kTracking);
+    if (t.scan_id >= kSettled) {  // before, the box is seen face-on, and its rates are hardly known
+      EXPECT_EQ(t.valid, 1) << t.scan_id;
+      EXPECT_EQ(static_cast<M>(t.mode), M::kTracking);
+    }
     EXPECT_EQ(static_cast<R>(t.sensor_reason), R::kInBand);
     EXPECT_GE(t.sensor_changes, t.sensor == 1 ? 1U : 2U) << "of scans that were planned since, too";
     if (sensors.empty() || sensors.back() != t.sensor) sensors.push_back(t.sensor);

@@ -53,7 +53,7 @@ TEST_F(ComponentScrub, AFlipOfWhichImageIsActiveIsToldAndPosesGoOn) {
   scene_->run_frames(5);
   constexpr std::uint32_t kCopies[] = {0, ~0u, 0};
   auto* const words = reinterpret_cast<std::uint32_t*>(const_cast<ImageKeeper*>(&component().images()));
-  auto* const copies = std::search(words, words + sizeof(ImageKeeper) / sizeof(std::uint32_t), kCopies, kCopies + 3);
+  auto* const copies = std::find_end(words, words + sizeof(ImageKeeper) / sizeof(std::uint32_t), kCopies, kCopies + 3);
   ASSERT_NE(copies, words + sizeof(ImageKeeper) / sizeof(std::uint32_t));
   reinterpret_cast<std::size_t*>(copies)[-1] = 1;
   const std::uint32_t before = component().faults().confirmations();

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <memory>
 #include <vector>
 
@@ -9,12 +10,17 @@
 #include "fsw/mission/mission.hpp"
 #include "ut/support/box_image.hpp"
 #include "ut/support/generator.hpp"
+#include "ut/support/path_numbers.hpp"
 #include "ut/support/verifies.hpp"
 
 namespace lasso {
 namespace {
 
 using N = FlightNumber;
+
+constexpr N::Length kHere{0};
+constexpr N::Unit kUp[3] = {N::Unit{0}, N::Unit{0}, N::Unit{1}};
+constexpr N::Unit kDown[3] = {N::Unit{0}, N::Unit{0}, N::Unit{-1}};
 
 class FieldTest : public ::testing::Test {
  protected:
@@ -24,7 +30,7 @@ class FieldTest : public ::testing::Test {
     FieldRay<N> r;
     for (int i = 0; i < 3; ++i) {
       r.m[i] = N::to_length(m[i]);
-      r.u[i] = N::to_unit(u[i]);
+      r.u[i] = N::to<N::Unit>(u[i]);
     }
     set_cells(mission_->field, r);
     return r;
@@ -46,6 +52,18 @@ class FieldTest : public ::testing::Test {
     return field;
   }
 
+  FieldHit<N> walk(const FieldRay<N>& ray, double from_m, double to_m) const { return walk(mission_->field, ray, from_m, to_m); }
+  static FieldHit<N> walk(const Field<N>& field, const FieldRay<N>& ray, double from_m, double to_m) {
+    return walk_field(field, ray, N::to_length(from_m), N::to_length(to_m));
+  }
+
+  // How far off the place of a hit at p may be: by rounding of what it is computed of, the farther the more the ray grazes the face.
+  double place_error_m(const Vec3& p, const Vec3& u) const {
+    int axis = 0;
+    (void)((p - model_.center).cwiseAbs() - model_.half).cwiseAbs().minCoeff(&axis);
+    return 16 * test::rounding_of<N::Length>(1) / std::abs(u[axis]);
+  }
+
   std::vector<Element<N>> sheets_;
   test::BoxModel model_;
   test::TestImage image_ = test::make_box_image(preset_parameters(), model_);
@@ -56,23 +74,23 @@ class FieldTest : public ::testing::Test {
 // The square of 2 m about the origin, which faces along z.
 Element<N> square(std::uint32_t flags) {
   Element<N> e{};
-  e.n[2] = 1;
+  e.n[2] = N::Unit{1};
   e.flags = flags;
   for (int i = 0; i < 4; ++i) {
-    e.side[i / 2][i] = i % 2 == 0 ? 1 : -1;
-    e.side_offset[i] = -1;
+    e.side[i / 2][i] = i % 2 == 0 ? N::Unit{1} : N::Unit{-1};
+    e.side_offset[i] = N::Length{-1};
   }
   return e;
 }
 
 // Does a ray along z from 2 m before (side 1) or behind the square hit it with t in [low, high)? It does at t = 2.
-bool hits_square(std::uint32_t flags, int side, float low, float high) {
+bool hits_square(std::uint32_t flags, int side, double low, double high) {
   FieldRay<N> ray{};
   ray.m[2] = N::to_length(2 * side);
-  ray.u[2] = N::to_unit(-side);
+  ray.u[2] = N::to<N::Unit>(-side);
   typename N::Length t{};
-  const bool hit = hit_element<N>(square(flags), ray, low, high, t);
-  return hit && t == 2;
+  const bool hit = hit_element<N>(square(flags), ray, N::to_length(low), N::to_length(high), t);
+  return hit && t == N::Length{2};
 }
 
 // Each condition of the window and of the face decides by itself: they are joined without branches, where make mcdc does not see them.
@@ -84,7 +102,7 @@ TEST(HitElement, CountsInItsWindowAndOnItsFacesAlone) {
       EXPECT_EQ(hits_square(flags, side, 1, 3), faces) << side << ' ' << flags;
       EXPECT_EQ(hits_square(flags, side, 2, 3), faces) << side << ' ' << flags;
       EXPECT_FALSE(hits_square(flags, side, 1, 2)) << side << ' ' << flags;
-      EXPECT_FALSE(hits_square(flags, side, 2.5F, 3)) << side << ' ' << flags;
+      EXPECT_FALSE(hits_square(flags, side, 2.5, 3)) << side << ' ' << flags;
       EXPECT_FALSE(hits_square(flags, side, 3, 1)) << "no window, " << side << ' ' << flags;
     }
   }
@@ -99,12 +117,12 @@ TEST_F(FieldTest, WalkFindsWhatTheRayHits) {
     draw(origin, u);
     const double range = test::cast_box(model_, origin, u);
     const double start = range > 0 ? range + random_.uniform(-0.05, 0.05) : (model_.center - origin).norm();
-    const float reach = static_cast<float>(random_.uniform(0.0501, 0.1));
-    const FieldHit<N> hit = walk_field(mission_->field, ray(origin + start * u, u), -reach, reach);
+    const double reach = random_.uniform(0.0501, 0.1);
+    const FieldHit<N> hit = walk(ray(origin + start * u, u), -reach, reach);
     if (range < 0) continue;
     ++hits;
     ASSERT_TRUE(hit.found) << i;
-    ASSERT_NEAR(N::to_double(hit.t), range - start, 3e-6) << i;
+    ASSERT_NEAR(N::to_double(hit.t), range - start, place_error_m(origin + range * u, u)) << i;
   }
   EXPECT_GT(hits, 5000);
 }
@@ -118,9 +136,9 @@ TEST_F(FieldTest, WalksShorterThanACellSeeBothEnds) {
     const double range = test::cast_box(model_, origin, u);
     if (range < 0) continue;
     const double offset = random_.uniform(-0.004, 0.004);  // a fifth of a cell
-    const FieldHit<N> hit = walk_field(mission_->field, ray(origin + (range + offset) * u, u), -0.0041F, 0.0041F);
+    const FieldHit<N> hit = walk(ray(origin + (range + offset) * u, u), -0.0041, 0.0041);
     ASSERT_TRUE(hit.found) << i;
-    ASSERT_NEAR(N::to_double(hit.t), -offset, 3e-6) << i;
+    ASSERT_NEAR(N::to_double(hit.t), -offset, place_error_m(origin + range * u, u)) << i;
   }
 }
 
@@ -133,7 +151,7 @@ TEST_F(FieldTest, WalkReportsNothingWhereNothingIs) {
     draw(origin, u);
     if (test::cast_box(model_, origin, u) >= 0) continue;
     ++misses;
-    ASSERT_FALSE(walk_field(mission_->field, ray(origin + (model_.center - origin).norm() * u, u), -0.6F, 0.6F).found) << i;
+    ASSERT_FALSE(walk(ray(origin + (model_.center - origin).norm() * u, u), -0.6, 0.6).found) << i;
   }
   EXPECT_GT(misses, 500);
 }
@@ -142,7 +160,7 @@ TEST_F(FieldTest, BackFacesDoNotCount) {
   VERIFIES("LASSO-IMG-007~1");
   const Vec3 u = Vec3(0.2, -0.1, 1).normalized();
   // From inside the box outwards: only back faces lie ahead.
-  EXPECT_FALSE(walk_field(mission_->field, ray(model_.center, u), 0.0F, 0.5F).found);
+  EXPECT_FALSE(walk(ray(model_.center, u), 0, 0.5).found);
 }
 
 TEST_F(FieldTest, FacesOfSheetsCountFromBothSides) {
@@ -151,11 +169,11 @@ TEST_F(FieldTest, FacesOfSheetsCountFromBothSides) {
   for (int i = 0; i < 5000; ++i) {
     const Vec3 u = Vec3(random_.uniform(-1, 1), random_.uniform(-1, 1), random_.uniform(-1, 1)).normalized();
     const double way_out = model_.half.cwiseQuotient(u.cwiseAbs()).minCoeff();  // from the middle
-    const FieldHit<N> out = walk_field(field, ray(model_.center, u), 0.0F, 0.5F);
+    const FieldHit<N> out = walk(field, ray(model_.center, u), 0, 0.5);
     ASSERT_TRUE(out.found);
-    ASSERT_NEAR(N::to_double(out.t), way_out, 3e-6);
-    const FieldHit<N> in = walk_field(field, ray(model_.center - u, u), 0.0F, 2.0F);  // still the first face
-    ASSERT_NEAR(N::to_double(in.t), 1 - way_out, 3e-6);
+    ASSERT_NEAR(N::to_double(out.t), way_out, place_error_m(model_.center + way_out * u, u));
+    const FieldHit<N> in = walk(field, ray(model_.center - u, u), 0, 2);  // still the first face
+    ASSERT_NEAR(N::to_double(in.t), 1 - way_out, place_error_m(model_.center + way_out * u, u));
   }
 }
 
@@ -163,65 +181,70 @@ TEST_F(FieldTest, SamplesSeeHalfACellToEitherSide) {
   VERIFIES("LASSO-IMG-007~1");
   const Vec3 u(0, 0, 1);
   const Vec3 face = model_.center - Vec3(0, 0, model_.half[2]);
-  const float half = mission_->field.cell / 2;
-  float next = 0;
+  const double half = static_cast<double>(mission_->field.cell) / 2;
+  N::Length next = kHere;
   for (const double offset : {-0.99, -0.5, 0.0, 0.5, 0.99}) {
-    const FieldRay<N> r = ray(face + Vec3(0.013, 0.007, offset * static_cast<double>(half)), u);
-    EXPECT_TRUE(sample_field(mission_->field, r, 0.0F, next).found) << offset;
+    const FieldRay<N> r = ray(face + Vec3(0.013, 0.007, offset * half), u);
+    EXPECT_TRUE(sample_field(mission_->field, r, kHere, next).found) << offset;
   }
-  EXPECT_FALSE(sample_field(mission_->field, ray(face - Vec3(0, 0, 1.01 * static_cast<double>(half)), u), 0.0F, next).found);
+  EXPECT_FALSE(sample_field(mission_->field, ray(face - Vec3(0, 0, 1.01 * half), u), kHere, next).found);
 }
 
 TEST_F(FieldTest, AWalkFromFarAwayEnds) {
   VERIFIES("LASSO-IMG-008~1");
   const FieldRay<N> r = ray(Vec3(0, 0, -1000), Vec3(0, 0, 1));
-  EXPECT_FALSE(walk_field(mission_->field, r, 0.0F, 1e6F).found);  // 1024 samples of 20 mm do not reach the box
-  EXPECT_FALSE(walk_field(mission_->field, ray(model_.center, Vec3(0, 0, 1)), -1e30F, 1e30F).found);  // nor from 20 km before it
-  EXPECT_FALSE(near_grid(ray(Vec3(0, 0, -1e6), Vec3(0, 0, 1))));
-  EXPECT_FALSE(near_grid(ray(Vec3(0, 1e6, 0), Vec3(0, 0, 1))));
-  EXPECT_TRUE(near_grid(r));
+  EXPECT_FALSE(walk(r, 0, 1e6).found);                                       // 1024 samples of 20 mm do not reach the box
+  EXPECT_FALSE(walk(ray(model_.center, Vec3(0, 0, 1)), -1e30, 1e30).found);  // nor from 20 km before it
+}
+
+TEST_F(FieldTest, RaysThatStartTooManyCellsAwayAreNotLookedUp) {
+  VERIFIES("LASSO-IMG-008~1");
+  constexpr double kCellsPerM = 1000;
+  mission_->field.cells_per_m = N::to<N::CellRate>(kCellsPerM);
+  const double limit_m = static_cast<double>(N::kFarthestCell) / kCellsPerM;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double side : {-1.0, 1.0}) {
+      EXPECT_FALSE(near_grid(ray(1.1 * side * limit_m * Vec3::Unit(axis), Vec3(0, 0, 1))));
+      EXPECT_FALSE(near_grid(ray(2 * side * limit_m * Vec3::Unit(axis), Vec3(0, 0, 1))));
+      EXPECT_TRUE(near_grid(ray(0.9 * side * limit_m * Vec3::Unit(axis), Vec3(0, 0, 1))));
+    }
+  }
 }
 
 TEST_F(FieldTest, NearElementIsTheClosestThatFaces) {
   VERIFIES("LASSO-IMG-007~1");
-  const float up[3] = {0, 0, 1};
-  const float down[3] = {0, 0, -1};
   // Below the box's middle: its low z face (4) is closest and faces a ray upwards; for one downwards the opposing face is too far.
   const FieldRay<N> r = ray(model_.center - Vec3(0, 0, model_.half[2] + 0.013), Vec3(0, 0, 1));
-  EXPECT_EQ(near_element(mission_->field, place_in_grid(mission_->field, r.cell_m), up), 4u);
-  EXPECT_EQ(near_element(mission_->field, place_in_grid(mission_->field, r.cell_m), down), kNoElement);
+  EXPECT_EQ(near_element(mission_->field, place_in_grid(mission_->field, r.cell_m), kUp), 4u);
+  EXPECT_EQ(near_element(mission_->field, place_in_grid(mission_->field, r.cell_m), kDown), kNoElement);
   const FieldRay<N> outside = ray(Vec3(9, 9, 9), Vec3(0, 0, 1));
-  EXPECT_EQ(near_element(mission_->field, place_in_grid(mission_->field, outside.cell_m), up), kNoElement);
+  EXPECT_EQ(near_element(mission_->field, place_in_grid(mission_->field, outside.cell_m), kUp), kNoElement);
 }
 
 TEST_F(FieldTest, NearElementOfASheetIsTheClosestOnEitherSide) {
   VERIFIES("LASSO-IMG-007~1");
   const Field<N> field = two_sided();
   const FieldRay<N> r = ray(model_.center - Vec3(0, 0, model_.half[2] + 0.013), Vec3(0, 0, 1));
-  for (const float u : {1.0F, -1.0F}) {
-    const float direction[3] = {0, 0, u};
-    EXPECT_EQ(near_element(field, place_in_grid(field, r.cell_m), direction), 4u);
-  }
+  for (const N::Unit* direction : {kUp, kDown}) EXPECT_EQ(near_element(field, place_in_grid(field, r.cell_m), direction), 4u);
 }
 
 TEST_F(FieldTest, NothingIsNearFarFromTheSurface) {
   VERIFIES("LASSO-IMG-007~1");
-  const float up[3] = {0, 0, 1};
-  float corner[3];  // the grid's last cell, far beyond the near band of 0.1 m
-  for (int i = 0; i < 3; ++i) corner[i] = static_cast<float>(mission_->field.cells[i]) - 1.5F;
+  N::Cells corner[3];  // the grid's last cell, far beyond the near band of 0.1 m
+  for (int i = 0; i < 3; ++i) corner[i] = N::to<N::Cells>(mission_->field.cells[i] - 1.5);
   const GridPlace<N> place = place_in_grid(mission_->field, corner);
   EXPECT_TRUE(place.inside);
-  EXPECT_EQ(near_element(mission_->field, place, up), kNoElement);
+  EXPECT_EQ(near_element(mission_->field, place, kUp), kNoElement);
 }
 
 TEST_F(FieldTest, PlacesOutsideTheGridAreItsBorder) {
   VERIFIES("LASSO-IMG-007~1");
   const Field<N>& field = mission_->field;
-  const float low[3] = {-5, -1e5F, -1};
+  const N::Cells low[3] = {N::Cells{-5}, -N::kFarthestCell, N::Cells{-1}};
   const GridPlace<N> first = place_in_grid(field, low);
   EXPECT_FALSE(first.inside);
   EXPECT_EQ(first.brick, 0u);
-  const float high[3] = {1e5F, 1e5F, 1e5F};
+  const N::Cells high[3] = {N::kFarthestCell, N::kFarthestCell, N::kFarthestCell};
   EXPECT_EQ(place_in_grid(field, high).brick, field.bricks[0] * field.bricks[1] * field.bricks[2] - 1);
 }
 
@@ -231,16 +254,16 @@ TEST_F(FieldTest, CurvedElementsTurnTheirNormal) {
   Element<N> e = mission_->field.elements[5];
   e.curvature = 1;
   Curvature<N> curved[2] = {};
-  curved[1].n[2] = 1;
-  curved[1].g[0] = 2;  // dn_x/dx
+  curved[1].n[2] = N::Unit{1};
+  curved[1].g[0] = N::Gradient{2};  // dn_x/dx
   Field<N> field = mission_->field;
   field.curvatures = curved;
-  const float p[3] = {0.1F, 0.3F, 0.5F};
-  float n[3];
-  surface_normal(field, e, p, n);
-  EXPECT_FLOAT_EQ(n[0], 0.2F);
-  EXPECT_FLOAT_EQ(n[1], 0.0F);
-  EXPECT_FLOAT_EQ(n[2], 1.0F);
+  const auto p = test::path_vector<N::Length>(Vec3(0.1, 0.3, 0.5));
+  N::Unit n[3];
+  surface_normal(field, e, p.data(), n);
+  EXPECT_NEAR(static_cast<double>(n[0]), 0.2, 2 * test::rounding_of<N::Length>(0.1));  // as exact as the place
+  EXPECT_TRUE(test::is_path_number(n[1], 0));
+  EXPECT_TRUE(test::is_path_number(n[2], 1));
 }
 
 }  // namespace

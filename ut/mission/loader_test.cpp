@@ -8,6 +8,7 @@
 #include "fsw/mission/image_format.hpp"
 #include "fsw/mission/mission.hpp"
 #include "ut/support/box_image.hpp"
+#include "ut/support/path_numbers.hpp"
 #include "ut/support/verifies.hpp"
 
 namespace lasso {
@@ -61,15 +62,15 @@ TEST_F(LoaderTest, LoadsAValidImage) {
   EXPECT_EQ(mission_->hull.size(), 8u);
   EXPECT_EQ(mission_->search.views.size(), 162u);
   EXPECT_EQ(mission_->search.symmetries.size(), 3u);
-  EXPECT_NEAR(mission_->search.size, 0.6F, 1e-6F);
-  EXPECT_NEAR(mission_->search.truncation, 0.06F, 1e-6F);
-  EXPECT_FLOAT_EQ(mission_->search.symmetries[1].q[1], 1.0F);
+  EXPECT_NEAR(mission_->search.size_m, 0.6F, 1e-6F);
+  EXPECT_NEAR(mission_->search.truncation_m, 0.06F, 1e-6F);
+  EXPECT_TRUE(test::is_path_number(mission_->search.symmetries[1].q[1], 1));
   EXPECT_NEAR(mission_->center_m[1], -0.01, 1e-7);
   EXPECT_NEAR(mission_->radius_m, Vec3(0.32, 0.21, 0.15).norm(), 1e-6);
   EXPECT_DOUBLE_EQ(mission_->parameters.duration_s, preset_parameters().duration_s);
   const Element<FlightNumber>& top = mission_->field.elements[1];  // high x face
-  EXPECT_FLOAT_EQ(top.n[0], 1.0F);
-  EXPECT_FLOAT_EQ(top.d, 0.32F);
+  EXPECT_TRUE(test::is_path_number(top.n[0], 1));
+  EXPECT_TRUE(test::is_path_number(top.d, 0.32));
 }
 
 TEST_F(LoaderTest, RefusesEveryTruncation) {

@@ -9,6 +9,8 @@
 namespace lasso {
 namespace {
 
+using N = FlightNumber;
+
 class AfarTest : public test::PoseFixture {
  protected:
   AfarTest() { scan_.sigma_m = 1e-3; }
@@ -40,7 +42,7 @@ TEST_F(AfarTest, PartOfTheTargetIsEnough) {
   constexpr int kStarts = 60;
   for (int i = 0; i < kStarts; ++i) {
     scan();
-    keep_points([](std::size_t, const MatchPoint<FlightNumber>& point) { return point.p[0] > 0.0F || point.p[1] > 0.1F; });
+    keep_points([](std::size_t, const MatchPoint<N>& point) { return point.p[0] > N::Length{0} || point.p[1] > N::to_length(0.1); });
     const Pose start = inverse(test::disturb(scan_.T_sensor_target, 0.25, 0.2 * mission_.radius_m, random_));
     const HitSolution solution = register_hits(mission_, approach_from_afar(mission_, start, *workspace_), *workspace_);
     if (error_of(solution.T_target_sensor).tail<3>().norm() > 3e-3) ++lost;
@@ -74,7 +76,7 @@ TEST_F(AfarTest, TooFewPointsLeaveTheStart) {
 TEST_F(AfarTest, PointsBeyondTheFieldsReachAreLeftOut) {
   VERIFIES("LASSO-REG-007~1");
   scan();
-  for (std::size_t k = 0; k < workspace_->points.size() / 2; ++k) workspace_->points[k].p[2] += 1e7F;
+  for (std::size_t k = 0; k < workspace_->points.size() / 2; ++k) workspace_->points[k].p[2] = N::to_length(1e7);
   const Pose moved = approach_from_afar(mission_, truth(), *workspace_);
   EXPECT_TRUE(is_valid(moved));
   EXPECT_EQ(register_hits(mission_, moved, *workspace_).stop, StopReason::kTooFewPoints);
@@ -83,8 +85,8 @@ TEST_F(AfarTest, PointsBeyondTheFieldsReachAreLeftOut) {
 TEST_F(AfarTest, AScanOfSomethingElseStaysFinite) {
   VERIFIES("LASSO-REG-007~1");
   scan();
-  for (MatchPoint<FlightNumber>& point : workspace_->points) {
-    for (float& p : point.p) p *= static_cast<float>(random_.uniform(0.2, 300));
+  for (MatchPoint<N>& point : workspace_->points) {
+    for (N::Length& p : point.p) p = N::to_length(random_.uniform(0.2, 300) * static_cast<double>(p));
   }
   EXPECT_TRUE(is_valid(approach_from_afar(mission_, truth(), *workspace_)));
 }

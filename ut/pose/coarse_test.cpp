@@ -61,11 +61,11 @@ TEST_F(CoarseTest, TakesVeryNearAndEmptyEvidence) {
 TEST_F(CoarseTest, LaysAViewByTheMedianOfTheDepthsToo) {
   VERIFIES("LASSO-MOD-111~1");
   ModelView<FlightNumber> view{};
-  view.direction[2] = 1;
+  view.direction[2] = FlightNumber::Unit{1};
   mission_.search.views = {&view, 1};
   auto evidence = std::make_unique<Evidence>();
   evidence->centroid = Vec3(0, 0, 3);
-  const double truncation = static_cast<double>(mission_.search.truncation);
+  const double truncation = static_cast<double>(mission_.search.truncation_m);
   for (const double median : {-0.6 * truncation, 0.4 * truncation, 0.6 * truncation}) {
     evidence->median = median;
     CoarseSearch coarse;
@@ -81,8 +81,8 @@ TEST_F(CoarseTest, LaysAViewByTheMedianOfTheDepthsToo) {
 TEST_F(CoarseTest, TheSecondPlaceOfAViewHasTheMediansAlike) {
   VERIFIES("LASSO-MOD-111~1");
   ModelView<FlightNumber> view{};
-  view.direction[2] = 1;
-  view.median = view.near_median = 0.2F;
+  view.direction[2] = FlightNumber::Unit{1};
+  view.median = view.near_median = FlightNumber::to_length(0.2);
   mission_.search.views = {&view, 1};
   scan();
   auto evidence = make_evidence();

@@ -77,8 +77,8 @@ TEST_F(ContourProbeTest, AStepThatNoiseHidesIsNoContour) {
 TEST(ContourProbe, ThePointInSpaceProjectsToThePointInTheImage) {
   VERIFIES("LASSO-REG-002~1");
   ContourEdge<FlightNumber> edge{};
-  edge.za = 2;
-  edge.zb = 5;
+  edge.za = FlightNumber::Length{2};
+  edge.zb = FlightNumber::Length{5};
   const double t = along_in_space(edge, 0.7);  // of an edge from (0, 2) to (1, 5) in x and depth
   EXPECT_NEAR(t / (2 + 3 * t), 0.7 * (1.0 / 5), 1e-12);
   EXPECT_EQ(along_in_space(edge, 0), 0);

@@ -51,9 +51,13 @@ class ContourTest : public test::PoseFixture {
     return edges_.front();
   }
 
+  static Eigen::Vector2d image_of(const ScanRay<N>& ray) {
+    const Vec3 u = to_vec3(ray.u);
+    return u.head<2>() / u[2];
+  }
   // Distances of all contour edges from a ray's point in the image, at the edges' own depth, nearest first.
   std::vector<double> brute_distances(const ScanRay<N>& ray) const {
-    const Eigen::Vector2d at(static_cast<double>(ray.u[0] / ray.u[2]), static_cast<double>(ray.u[1] / ray.u[2]));
+    const Eigen::Vector2d at = image_of(ray);
     std::vector<double> distances;
     for (const std::uint32_t k : brute_contour()) {
       const test::BoxEdge edge = test::edge_of_box({scan_.model}, 0, static_cast<int>(k));
@@ -83,9 +87,9 @@ void ContourTest::expect_edges(const ScanRay<N>& ray, const RayEdges<N>& found, 
   ASSERT_GE(found.count, std::min<long>(within(band_m * (1 - kDepthError)), kEdgesPerRay));
   for (std::uint32_t i = 0; i < found.count; ++i) {
     EXPECT_NEAR(std::sqrt(static_cast<double>(found.distance2[i])), truth[i], kDepthError * truth[i] + 2e-6);
-    EXPECT_GE(found.along[i], 0);
-    EXPECT_LE(found.along[i], 1);
-    EXPECT_LE(found.distance2[i > 0 ? i - 1 : 0], found.distance2[i]);
+    EXPECT_GE(found.along[i], N::Unit{0});
+    EXPECT_LE(found.along[i], N::Unit{1});
+    EXPECT_FALSE(found.distance2[i] < found.distance2[i > 0 ? i - 1 : 0]);
   }
 }
 
@@ -117,7 +121,9 @@ TEST_F(ContourTest, EdgesAreProjectedToTheTangentPlane) {
       EXPECT_NEAR(static_cast<double>(edge.y + edge.dy), b[1] / b[2], 5e-7);
       EXPECT_NEAR(static_cast<double>(edge.za), a[2], 2e-6);
       EXPECT_NEAR(static_cast<double>(edge.zb), b[2], 2e-6);
-      EXPECT_NEAR(static_cast<double>((edge.dx * edge.dx + edge.dy * edge.dy) * edge.inverse_length2), 1, 1e-6);
+      const double length = std::hypot(static_cast<double>(edge.dx), static_cast<double>(edge.dy));
+      const double half = static_cast<double>(share_along(half_of(edge.dx) * edge.dx + half_of(edge.dy) * edge.dy, edge.length));
+      EXPECT_NEAR(half, 0.5, 4 * test::rounding_of<N::Tangent>(length) / length);
     }
   }
 }
@@ -143,20 +149,18 @@ TEST_F(ContourTest, AnEdgeWithoutLengthIsAPoint) {
   for (int i = 0; i < 3; ++i) edge.b[i] = edge.a[i];
   find();
   ASSERT_EQ(workspace_->contour.size(), 1u);
-  find_ray_edges(make_view(mission_, truth()), 0.05, *workspace_);
-  const Vec3 a = to_sensor(Vec3(static_cast<double>(edge.a[0]), static_cast<double>(edge.a[1]), static_cast<double>(edge.a[2])));
+  find_ray_edges(make_view(mission_, truth()), FlightNumber::to_length(0.05), *workspace_);
+  const Vec3 a = to_sensor(to_vec3(edge.a));
   int near = 0;
   for (std::size_t i = 0; i < workspace_->rays.size(); ++i) {
     const ScanRay<N>& ray = workspace_->rays[i];
-    const double x = static_cast<double>(ray.u[0] / ray.u[2]) - a[0] / a[2];
-    const double y = static_cast<double>(ray.u[1] / ray.u[2]) - a[1] / a[2];
-    const double distance = std::hypot(x, y) * a[2];
+    const double distance = (image_of(ray) - a.head<2>() / a[2]).norm() * a[2];
     if (std::abs(distance - 0.05) < 1e-5) continue;
     const RayEdges<N>& found = workspace_->ray_edges[i];
     ASSERT_EQ(found.count, distance < 0.05 ? 1u : 0u);
     if (found.count == 0) continue;
     EXPECT_NEAR(std::sqrt(static_cast<double>(found.distance2[0])), distance, 3e-6);
-    EXPECT_EQ(found.along[0], 0.0F);
+    EXPECT_EQ(found.along[0], N::Unit{0});
     ++near;
   }
   EXPECT_GT(near, 4);
@@ -177,7 +181,7 @@ TEST_F(ContourTest, EveryRayHasItsNearestEdges) {
     scan_.T_sensor_target = test::random_box_pose(random_);
     scan();
     find();
-    find_ray_edges(make_view(mission_, truth()), band_m, *workspace_);
+    find_ray_edges(make_view(mission_, truth()), FlightNumber::to_length(band_m), *workspace_);
     std::size_t edges = 0;
     for (std::size_t i = 0; i < workspace_->rays.size(); ++i) {
       expect_edges(workspace_->rays[i], workspace_->ray_edges[i], band_m);
@@ -192,10 +196,10 @@ TEST_F(ContourTest, EveryRayIsInItsBinOnce) {
   scan_.side = 20;
   scan();
   find();
-  find_ray_edges(make_view(mission_, truth()), 0.01, *workspace_);
+  find_ray_edges(make_view(mission_, truth()), FlightNumber::to_length(0.01), *workspace_);
   const RayBins<N>& bins = workspace_->bins;
-  const auto bin = [](float v, float origin, float scale) {
-    return std::min(std::max(static_cast<int>((v - origin) * scale), 0), kRayBins - 1);
+  const auto bin = [](N::Tangent v, N::Tangent origin, N::BinRate scale) {
+    return std::clamp(static_cast<int>(static_cast<double>((v - origin) * scale)), 0, kRayBins - 1);
   };
   std::vector<int> seen(workspace_->rays.size(), 0);
   EXPECT_EQ(bins.start[0], 0);
@@ -218,12 +222,12 @@ TEST_F(ContourTest, RaysOnOneLineOrPointHaveTheirEdgesToo) {
   scan();
   find();
   const ScanRay<N> one = workspace_->rays[30];
-  for (const float tilt : {0.0F, 0.02F}) {
+  for (const double tilt : {0.0, 0.02}) {
     for (std::size_t i = 0; i < workspace_->rays.size(); ++i) {
       workspace_->rays[i] = one;
-      workspace_->rays[i].u[1] += tilt * static_cast<float>(i) / 144;
+      workspace_->rays[i].u[1] += N::to<N::Unit>(tilt * static_cast<double>(i) / 144);
     }
-    find_ray_edges(make_view(mission_, truth()), 0.1, *workspace_);
+    find_ray_edges(make_view(mission_, truth()), FlightNumber::to_length(0.1), *workspace_);
     for (std::size_t i = 0; i < workspace_->rays.size(); ++i) expect_edges(workspace_->rays[i], workspace_->ray_edges[i], 0.1);
   }
 }
@@ -233,7 +237,7 @@ TEST_F(ContourTest, NothingIsNearATargetBehindTheSensor) {
   scan();
   find();
   scan_.T_sensor_target.p = -scan_.T_sensor_target.p;
-  find_ray_edges(make_view(mission_, truth()), 1.0, *workspace_);
+  find_ray_edges(make_view(mission_, truth()), FlightNumber::to_length(1.0), *workspace_);
   for (std::size_t i = 0; i < workspace_->rays.size(); ++i) EXPECT_EQ(workspace_->ray_edges[i].count, 0u);
 }
 
@@ -243,7 +247,7 @@ class ClipTest : public test::PoseFixture {
   double depth(const FieldRay<N>& ray, double t) const {
     double least = 1e9;
     for (int i = 0; i < 3; ++i) {
-      if (ray.cell_u[i] == 0) continue;
+      if (ray.cell_u[i] == N::CellRate{0}) continue;
       const double at = static_cast<double>(ray.cell_m[i]) + t * static_cast<double>(ray.cell_u[i]);
       least = std::min({least, at, mission_.field.cells[i] - at});
     }
@@ -256,8 +260,8 @@ class ClipTest : public test::PoseFixture {
     if (parallel_axis < 3) u[parallel_axis] = 0;
     u.normalize();
     for (int i = 0; i < 3; ++i) {
-      ray.m[i] = static_cast<float>(m[i]);
-      ray.u[i] = static_cast<float>(u[i]);
+      ray.m[i] = N::to_length(m[i]);
+      ray.u[i] = N::to<N::Unit>(u[i]);
     }
     set_cells(mission_.field, ray);
     return ray;
@@ -289,8 +293,8 @@ TEST_F(ClipTest, ARayWithoutDirectionIsNotBounded) {
   FieldRay<N> ray{};
   set_cells(mission_.field, ray);
   const FieldSpan<N> span = clip_to_grid(mission_.field, ray);
-  EXPECT_LT(span.enter, -1e5F);
-  EXPECT_GT(span.leave, 1e5F);
+  EXPECT_EQ(span.enter, N::to_length(-N::kFarthest_m));
+  EXPECT_EQ(span.leave, N::to_length(N::kFarthest_m));
 }
 
 }  // namespace

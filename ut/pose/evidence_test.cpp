@@ -12,8 +12,6 @@ namespace {
 
 using N = FlightNumber;
 
-Vec3 to_vec3(const N::Length* p) { return {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])}; }
-
 class EvidenceTest : public test::SearchFixture {
  protected:
   // Of the points on the boxes, to within the noise.
@@ -85,8 +83,8 @@ TEST_F(EvidenceTest, KnowsTheMedianOfTheDepths) {
   for (std::size_t i = 0; i < evidence->hits.size(); ++i) {
     const Vec3 p = to_vec3(evidence->hits[i].p);
     nearer += sight.dot(p) < evidence->centroid.norm() + evidence->median ? 1 : -1;
-    EXPECT_NEAR(evidence->reaches[i].range, p.norm(), 1e-6);
-    EXPECT_NEAR(evidence->reaches[i].noise, 3e-3, 1e-6);
+    EXPECT_NEAR(static_cast<double>(evidence->reaches[i].range), p.norm(), 1e-6);
+    EXPECT_NEAR(evidence->reaches[i].noise_m, 3e-3, 1e-6);
   }
   EXPECT_LT(std::abs(nearer), static_cast<int>(evidence->hits.size() / 4));
   EXPECT_NE(evidence->median, 0);
@@ -113,7 +111,7 @@ TEST_F(EvidenceTest, CentroidIsTheMiddleOfWhatIsSeenAndNotOfThePattern) {
   workspace_->points.clear();
   std::size_t hit = 0;
   for (const ScanRay<N>& ray : once->rays) {
-    const double x = static_cast<double>(ray.u[0] / ray.u[2]);
+    const double x = static_cast<double>(ray.u[0]) / static_cast<double>(ray.u[2]);
     for (int k = 0; k < (x < 0.02 ? 3 : 1); ++k) {
       ASSERT_TRUE(workspace_->rays.push_back(ray));
       if (ray.state == RayState::kHit) (void)workspace_->points.push_back(once->points[hit]);
@@ -172,8 +170,8 @@ TEST_F(EvidenceTest, TakesRaysOfOneDirectionAndFarOffTheBoresight) {
   ScanRay<N> ray = workspace_->rays[0];
   MatchPoint<N> point = workspace_->points[0];
   ray.state = RayState::kHit;
-  ray.u[0] = ray.u[1] = point.u[0] = point.u[1] = 0.7F;
-  ray.u[2] = point.u[2] = -0.1F;  // behind the sensor
+  ray.u[0] = ray.u[1] = point.u[0] = point.u[1] = N::to<N::Unit>(0.7);
+  ray.u[2] = point.u[2] = N::to<N::Unit>(-0.1);  // behind the sensor
   workspace_->rays.clear();
   workspace_->points.clear();
   for (int i = 0; i < 5; ++i) {

@@ -14,8 +14,6 @@ namespace {
 using N = FlightNumber;
 using Point = MatchPoint<N>;
 
-Vec3 to_vec3(const float* v) { return Vec3(static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])); }
-
 // A measured point and the box, in double: where along its ray the box's front is met, and on which face.
 struct Met {
   bool met = false;
@@ -133,8 +131,8 @@ TEST_F(GaussNewtonTest, RowsAreTheDerivativesOfTheResiduals) {
   int tested = 0;
   for (std::size_t i = 0; i < workspace_->points.size(); i += 7) {
     const Point& point = workspace_->points[i];
-    PassSums<N> sums;
-    match_points(mission_.field, to_path<N>(pose), settings(0.02), points().subspan(i, 1), {1, Lookup::kWalk, 1}, sums);
+    PassSums<N> sums(mission_.radius_m);
+    match_points(mission_.field, to_path<N>(pose), settings(0.02), points().subspan(i, 1), {1, Lookup::kWalk}, sums);
     if (sums.rows.count() == 0) continue;
     const double r = meet(scan_.model, pose, point).residual();
     if (std::abs(r) < 1e-4) continue;
@@ -164,7 +162,7 @@ TEST_F(GaussNewtonTest, SumsAreThoseOfABruteForcePass) {
     keep_clear_points(pose);
     const PassKind kind{i % 4 == 0 ? kQuarter : 1};
     const MatchSettings<N> s = settings(gate_m);
-    PassSums<N> sums;
+    PassSums<N> sums(mission_.radius_m);
     match_points(mission_.field, to_path<N>(pose), s, points(), kind, sums);
     ASSERT_GT(sums.rows.count(), 12u);
     expect_sums(sums, brute(pose, gate_m, kind.stride), N::to_double(s.reference_variance));
@@ -178,7 +176,7 @@ TEST_F(GaussNewtonTest, TheStepSolvesTheNormalEquations) {
   const Pose before = pose;
   keep_clear_points(pose);
   const BruteSums truth = brute(pose, 0.01, 1);
-  const Pass pass = take_pass(mission_, settings(0.01), {1, Lookup::kWalk, 1}, *workspace_, pose);
+  const Pass pass = take_pass(mission_, settings(0.01), {1, Lookup::kWalk}, *workspace_, pose);
   ASSERT_EQ(pass.status, Status::kOk);
   const Vec6 left = truth.H * pass.x - truth.b;  // three faces: the wide prior does not matter
   for (int i = 0; i < 6; ++i) EXPECT_LT(std::abs(left[i]), 2e-3 * std::sqrt(truth.H(i, i) * truth.chi_squared));
@@ -206,12 +204,12 @@ TEST_F(GaussNewtonTest, TheElementHitLastTimeIsOnlyAShortCut) {
   scan();
   const Pose start = inverse(test::disturb(scan_.T_sensor_target, 0.004, 0.003, random_));
   Pose walked = start;
-  const Pass walk = take_pass(mission_, settings(0.01), {1, Lookup::kWalk, 1}, *workspace_, walked);
+  const Pass walk = take_pass(mission_, settings(0.01), {1, Lookup::kWalk}, *workspace_, walked);
   Pose remembered = start;
-  const Pass last = take_pass(mission_, settings(0.01), {1, Lookup::kLast, 1}, *workspace_, remembered);
+  const Pass last = take_pass(mission_, settings(0.01), {1, Lookup::kLast}, *workspace_, remembered);
   for (Point& point : workspace_->points) point.element = (point.element + 2) % 6;  // a face that the ray does not hit
   Pose misled = start;
-  const Pass wrong = take_pass(mission_, settings(0.01), {1, Lookup::kLast, 1}, *workspace_, misled);
+  const Pass wrong = take_pass(mission_, settings(0.01), {1, Lookup::kLast}, *workspace_, misled);
   EXPECT_EQ(walk.sums.rows.count(), last.sums.rows.count());
   EXPECT_LT((walk.x - last.x).norm(), 1e-6 * walk.x.norm());
   EXPECT_LT((walk.x - wrong.x).norm(), 1e-6 * walk.x.norm());
@@ -224,7 +222,7 @@ TEST_F(GaussNewtonTest, TooFewPointsTakeNoStep) {
   for (std::size_t count : {std::size_t{kMinimumPoints}, std::size_t{kMinimumPoints - 1}}) {
     keep_first_points(count);
     Pose pose = start;
-    const Pass pass = take_pass(mission_, settings(0.01), {1, Lookup::kWalk, 1}, *workspace_, pose);
+    const Pass pass = take_pass(mission_, settings(0.01), {1, Lookup::kWalk}, *workspace_, pose);
     EXPECT_EQ(pass.sums.rows.count(), count);
     EXPECT_EQ(pass.status, count == kMinimumPoints ? Status::kOk : Status::kNoData);
     EXPECT_EQ(pose.p == start.p, count < kMinimumPoints);
@@ -232,16 +230,12 @@ TEST_F(GaussNewtonTest, TooFewPointsTakeNoStep) {
 }
 
 // Sums of `count` rows that all look at n from m.
-Pass equal_rows(const Vec3& m, const Vec3& n, double residual, double weight, int count) {
-  Pass pass;
-  float fm[3];
-  float fn[3];
-  for (int i = 0; i < 3; ++i) {
-    fm[i] = static_cast<float>(m[i]);
-    fn[i] = static_cast<float>(n[i]);
-  }
-  const auto r = static_cast<float>(residual);
-  for (int i = 0; i < count; ++i) pass.sums.rows.add(fm, fn, r, static_cast<float>(weight), r);
+Pass equal_rows(const Vec3& m, const Vec3& n, double residual, int count) {
+  Pass pass(test::box_mission());
+  const auto path_m = test::path_vector<N::Length>(m);
+  const auto path_n = test::path_vector<N::Unit>(n);
+  const auto r = N::to_length(residual);
+  for (int i = 0; i < count; ++i) pass.sums.rows.add(path_m.data(), path_n.data(), r, N::Weight{1}, r);
   pass.sums.rows.flush();
   return pass;
 }
@@ -250,7 +244,7 @@ TEST_F(GaussNewtonTest, DirectionsThatNoRaySeesStayWhereTheyAre) {
   VERIFIES("LASSO-REG-008~1");
   scan();
   const Vec3 n(0, 0, 1);
-  Pass pass = equal_rows(Vec3(0.1, 0.2, -0.1), n, 2e-3, 1, 100);
+  Pass pass = equal_rows(Vec3(0.1, 0.2, -0.1), n, 2e-3, 100);
   Pose pose = truth();
   solve_pass(mission_, settings(), PassKind{}, pass, pose);
   ASSERT_EQ(pass.status, Status::kOk);
@@ -267,7 +261,7 @@ TEST_F(GaussNewtonTest, CutsAStepToTheLongestOneInItsDirection) {
   const Pose start = truth();
   const auto step_of = [&](double longest_m, Pose& pose) {
     pose = start;
-    Pass pass = equal_rows(Vec3(0.1, 0.2, -0.1), Vec3(0.36, 0.48, 0.8), 0.05, 1, 100);
+    Pass pass = equal_rows(Vec3(0.1, 0.2, -0.1), Vec3(0.36, 0.48, 0.8), 0.05, 100);
     PassKind kind;
     kind.longest_step_m = longest_m;
     solve_pass(mission_, settings(), kind, pass, pose);
@@ -291,13 +285,18 @@ TEST_F(GaussNewtonTest, SaysWhenThereIsNoSolution) {
   scan();
   const Pose start = truth();
   Pose pose = start;
-  // So far from the origin that the turns drown the shifts in rounding.
-  Pass far = equal_rows(Vec3(2e6, -3e6, 1e6), Vec3(0.6, 0, 0.8), 1e-3, 1, 20);
+  const Pass rows = equal_rows(Vec3(0.1, 0.2, -0.1), Vec3(0.6, 0, 0.8), 1e-3, 20);
+  // Relative to no noise at all, information has no bound.
+  MatchSettings<N> exact = settings();
+  exact.reference_variance = N::Variance{0};
+  Pass infinite = rows;
+  solve_pass(mission_, exact, PassKind{}, infinite, pose);
+  EXPECT_EQ(infinite.status, Status::kNotFinite);
+  // A model so large that the turns drown the shifts in rounding.
+  mission_.radius_m = 1e12;
+  Pass far = rows;
   solve_pass(mission_, settings(), PassKind{}, far, pose);
   EXPECT_EQ(far.status, Status::kSingular);
-  Pass infinite = equal_rows(Vec3(0.1, 0.2, -0.1), Vec3(0.6, 0, 0.8), 1e-3, std::numeric_limits<double>::infinity(), 20);
-  solve_pass(mission_, settings(), PassKind{}, infinite, pose);
-  EXPECT_EQ(infinite.status, Status::kNotFinite);
   EXPECT_EQ(pose.p, start.p);
   EXPECT_EQ(pose.q.coeffs(), start.q.coeffs());
 }
@@ -308,11 +307,21 @@ TEST_F(GaussNewtonTest, SettingsAreTheMissions) {
   parameters().kernel_width = 7;
   parameters().incidence_max_rad = 1.1;
   const MatchSettings<N> s = settings(0.03);
-  EXPECT_FLOAT_EQ(s.kernel_squared, 49);
-  EXPECT_FLOAT_EQ(s.cos_incidence_max, static_cast<float>(std::cos(1.1)));
-  EXPECT_FLOAT_EQ(s.surface_variance, 4e-8F);
-  EXPECT_FLOAT_EQ(s.reference_variance, workspace_->points[0].range_variance + 4e-8F);  // the same at every range here
-  EXPECT_FLOAT_EQ(s.gate, 0.03F);
+  EXPECT_TRUE(test::is_path_number(s.kernel_squared, 49));
+  EXPECT_TRUE(test::is_path_number(s.cos_incidence_max, std::cos(1.1)));
+  EXPECT_TRUE(test::is_path_number(s.surface_variance, 4e-8));
+  EXPECT_TRUE(test::is_path_number(s.reference_variance, 1e-6 + 4e-8));  // the same at every range here
+  EXPECT_TRUE(test::is_path_number(s.gate, 0.03));
+}
+
+// The largest that a mission may say.
+TEST_F(GaussNewtonTest, NoiseOfAPoorSurfaceAddsUp) {
+  VERIFIES("LASSO-REG-003~1");
+  scan();
+  parameters().surface_sigma_m = 1;
+  const MatchSettings<N> s = settings();
+  EXPECT_GT(s.surface_variance, N::Variance{0});
+  EXPECT_GT(s.reference_variance, s.surface_variance);
 }
 
 }  // namespace

@@ -68,11 +68,11 @@ TEST(PathPose, PathTransformsAsThePoseDoes) {
     const Pose pose = test::random_box_pose(random);
     const PathPose<N> path = to_path<N>(pose);
     const Vec3 v = test::random_vec3(random, 3);
-    const float in[3] = {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
-    float moved[3];
-    float turned[3];
-    transform(path, in, moved);
-    rotate(path, in, turned);
+    const auto in = test::path_vector<N::Length>(v);
+    N::Length moved[3];
+    N::Length turned[3];
+    transform(path, in.data(), moved);
+    rotate(path, in.data(), turned);
     for (int k = 0; k < 3; ++k) {
       EXPECT_NEAR(static_cast<double>(moved[k]), (pose * v)[k], 2e-6);
       EXPECT_NEAR(static_cast<double>(turned[k]), rotate(pose.q, v)[k], 2e-6);

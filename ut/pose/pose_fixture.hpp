@@ -9,6 +9,7 @@
 #include "fsw/pose/prepare.hpp"
 #include "fsw/pose/workspace.hpp"
 #include "ut/support/box_scan.hpp"
+#include "ut/support/path_numbers.hpp"
 
 namespace lasso::test {
 

@@ -11,7 +11,15 @@
 namespace lasso {
 namespace {
 
-Vec3 to_vec3(const float* v) { return Vec3(static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])); }
+using N = FlightNumber;
+
+// Roundings of sigma on the way to what a point has: those of the noise's growth, times range and the sample's own factor.
+constexpr double kSigmaRoundings = 16;
+
+double variance_rounding(double variance) {
+  const double sigma = std::sqrt(variance);
+  return 2 * sigma * kSigmaRoundings * test::rounding_of<N::Sigma>(sigma) + test::rounding_of<N::Variance>(variance);
+}
 
 class PrepareTest : public test::PoseFixture {
  protected:
@@ -33,7 +41,7 @@ TEST_F(PrepareTest, MovesEachRayByTheMotionSinceItsOwnTime) {
   ASSERT_EQ(workspace_->rays.size(), image_->samples.size());
   double farthest = 0;
   for (std::size_t i = 0; i < workspace_->rays.size(); ++i) {
-    const ScanRay<FlightNumber>& ray = workspace_->rays[i];
+    const ScanRay<N>& ray = workspace_->rays[i];
     const RangeSample& sample = image_->samples[i];
     const Pose then = pose_at(sample);
     const double cayley = std::pow(log_so3(truth().q.conjugate() * then.q).norm(), 3) / 12;  // stated in prepare.cpp
@@ -49,7 +57,7 @@ TEST_F(PrepareTest, PointsLieOnTheBoxAtTheReferenceTime) {
   scan_.rates.omega_radps = Vec3(0.1, -0.15, 0.12);
   scan();
   ASSERT_GT(workspace_->points.size(), 60u);
-  for (const MatchPoint<FlightNumber>& point : workspace_->points) {
+  for (const MatchPoint<N>& point : workspace_->points) {
     const Vec3 away = truth() * to_vec3(point.p) - scan_.model.center;
     const double depth = (away.cwiseAbs() - scan_.model.half).maxCoeff();  // 0 on the surface
     EXPECT_NEAR(depth, 0, 3e-6);
@@ -65,7 +73,7 @@ TEST_F(PrepareTest, RaysStayAsMeasuredWithoutMotionOrDeskewing) {
     scan();
     for (std::size_t i = 0; i < workspace_->rays.size(); ++i) {
       EXPECT_EQ(to_vec3(workspace_->rays[i].o), Vec3(Vec3::Zero()));
-      EXPECT_EQ(to_vec3(workspace_->rays[i].u), to_vec3(image_->samples[i].direction));
+      for (int k = 0; k < 3; ++k) EXPECT_EQ(workspace_->rays[i].u[k], N::from_float<N::Unit>(image_->samples[i].direction[k]));
     }
   }
 }
@@ -83,12 +91,12 @@ TEST_F(PrepareTest, ANoiseModelThatGrowsWithRange) {
     ASSERT_TRUE(image.samples.push_back(sample));
   }
   prepare_rays(mission_, image, StartPoint(), *workspace_);
-  for (const MatchPoint<FlightNumber>& point : workspace_->points) {
+  for (const MatchPoint<N>& point : workspace_->points) {
     const double z = to_vec3(point.p).norm();
     const double along2 = 1e-3 * 1e-3 + std::pow(1.3e-4 * z * z, 2);
     const double across2 = std::pow(4e-4 * z, 2);
-    EXPECT_NEAR(static_cast<double>(point.range_variance), along2, 1e-5 * along2);
-    EXPECT_NEAR(static_cast<double>(point.across_variance), across2, 1e-5 * across2);
+    EXPECT_NEAR(static_cast<double>(point.range_variance), along2, variance_rounding(along2));
+    EXPECT_NEAR(static_cast<double>(point.across_variance), across2, variance_rounding(across2));
     // The surface may lie k sigma off along the ray, sigma as it is at up to 76 deg of incidence.
     const double reach = static_cast<double>(point.reach);
     EXPECT_GE(reach, parameters().kernel_width * std::sqrt(along2 + 16 * across2 + 2e-4 * 2e-4));
@@ -111,10 +119,13 @@ TEST_F(PrepareTest, ASampleOfLargerSigmaWeighsLess) {
   }
   prepare_rays(mission_, image, StartPoint(), *workspace_);
   const auto& points = workspace_->points;
-  EXPECT_NEAR(static_cast<double>(points[1].range_variance), 25 * static_cast<double>(points[0].range_variance), 1e-10);
-  EXPECT_EQ(points[1].across_variance, points[0].across_variance);
   const double sigma_m = 1e-3 + 1.3e-4 * 16;
-  EXPECT_NEAR(static_cast<double>(points[1].reach - points[0].reach), parameters().kernel_width * 4 * sigma_m, 1e-6);
+  const double variance = 1e-6 + std::pow(1.3e-4 * 16, 2);
+  EXPECT_NEAR(static_cast<double>(points[0].range_variance), variance, variance_rounding(variance));
+  EXPECT_NEAR(static_cast<double>(points[1].range_variance), 25 * variance, variance_rounding(25 * variance));
+  EXPECT_EQ(points[1].across_variance, points[0].across_variance);
+  EXPECT_NEAR(static_cast<double>(points[1].reach - points[0].reach), parameters().kernel_width * 4 * sigma_m,
+              parameters().kernel_width * kSigmaRoundings * test::rounding_of<N::Sigma>(5 * sigma_m));
 }
 
 TEST_F(PrepareTest, KeepsMissesAndLeavesInvalidSamplesOut) {
@@ -136,10 +147,10 @@ TEST_F(PrepareTest, KeepsMissesAndLeavesInvalidSamplesOut) {
   ASSERT_EQ(workspace_->points.size(), 2u);
   const std::size_t kept[] = {0, 2, 4, 5};
   for (std::size_t i = 0; i < 4; ++i) {
-    const ScanRay<FlightNumber>& ray = workspace_->rays[i];
+    const ScanRay<N>& ray = workspace_->rays[i];
     EXPECT_EQ(ray.state, states[kept[i]]);
-    EXPECT_EQ(ray.u[0], 0.1F * static_cast<float>(kept[i]));
-    EXPECT_EQ(ray.range, ray.state == RayState::kHit ? 2.0F : 0.0F);
+    EXPECT_EQ(ray.u[0], N::from_float<N::Unit>(0.1F * static_cast<float>(kept[i])));
+    EXPECT_EQ(ray.range, ray.state == RayState::kHit ? N::Length{2} : N::Length{0});
   }
   EXPECT_FALSE(workspace_->points[0].aimed);
   EXPECT_FALSE(workspace_->points[1].aimed);
@@ -147,8 +158,8 @@ TEST_F(PrepareTest, KeepsMissesAndLeavesInvalidSamplesOut) {
   prepare_rays(mission_, image, StartPoint(), *workspace_);
   EXPECT_FALSE(workspace_->points[0].aimed);
   EXPECT_TRUE(workspace_->points[1].aimed);
-  EXPECT_EQ(workspace_->points[1].u[0], 0.5F);
-  EXPECT_EQ(workspace_->points[1].p[2], 2.0F);
+  EXPECT_EQ(workspace_->points[1].u[0], N::Unit{0.5});
+  EXPECT_EQ(workspace_->points[1].p[2], N::Length{2});
 }
 
 TEST_F(PrepareTest, ReturnsFromWhereTheSensorDoesNotMeasureSayNothing) {
@@ -167,8 +178,23 @@ TEST_F(PrepareTest, ReturnsFromWhereTheSensorDoesNotMeasureSayNothing) {
   prepare_rays(mission_, image, StartPoint(), *workspace_);
   ASSERT_EQ(workspace_->rays.size(), 2u);
   ASSERT_EQ(workspace_->points.size(), 2u);
-  EXPECT_EQ(workspace_->rays[0].range, 0.5F);
-  EXPECT_EQ(workspace_->rays[1].range, 20.0F);
+  EXPECT_EQ(workspace_->rays[0].range, N::Length{0.5});
+  EXPECT_EQ(workspace_->rays[1].range, N::Length{20});
+}
+
+TEST_F(PrepareTest, ReturnsFromFartherThanTheNumberTypeHoldsSayNothing) {
+  VERIFIES("LASSO-REG-006~1");
+  parameters().range_max_m = 100 * N::kFarthest_m;
+  RangeImage image;
+  for (const double share : {0.9, 1.1, 4.0, 50.0}) {
+    RangeSample sample;
+    sample.range_m = static_cast<float>(share * N::kFarthest_m);
+    sample.state = RayState::kHit;
+    ASSERT_TRUE(image.samples.push_back(sample));
+  }
+  prepare_rays(mission_, image, StartPoint(), *workspace_);
+  ASSERT_EQ(workspace_->points.size(), 1u);
+  EXPECT_TRUE(test::is_path_number(workspace_->points[0].p[2], static_cast<double>(image.samples[0].range_m)));
 }
 
 TEST_F(PrepareTest, TakesAsManyRaysAsAScanCanHave) {

@@ -44,13 +44,13 @@ TEST_F(PullTest, DistancesAreThoseToTheBoxes) {
   const SearchTables<FlightNumber>& tables = mission_.search;
   const double cell = 1 / static_cast<double>(tables.cells_per_m);
   const float above[3] = {0.02F, -0.01F, static_cast<float>(-0.09 - 1.3 * cell)};  // below the main box
-  const SurfaceDistance<FlightNumber> d = surface_distance(tables, above);
-  EXPECT_NEAR(d.distance, 1.3 * cell, 0.1 * cell);
+  const SurfaceDistance d = surface_distance(tables, above);
+  EXPECT_NEAR(d.distance_m, 1.3 * cell, 0.1 * cell);
   EXPECT_NEAR(d.away[2], -1, 0.05);
   EXPECT_NEAR(d.away[0], 0, 0.05);
   for (const float x : {-90.0F, 90.0F}) {
     const float outside[3] = {x, 0, 0};
-    EXPECT_FLOAT_EQ(surface_distance(tables, outside).distance, tables.truncation);
+    EXPECT_FLOAT_EQ(surface_distance(tables, outside).distance_m, tables.truncation_m);
   }
 }
 

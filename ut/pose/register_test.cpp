@@ -10,6 +10,8 @@
 namespace lasso {
 namespace {
 
+using N = FlightNumber;
+
 constexpr int kOpening = 2;        // passes before those over all points
 constexpr int kSecondOpening = 3;  // the same of the second look
 
@@ -61,8 +63,11 @@ TEST_F(RegisterTest, OnePassOverAllPointsIsEnoughAtTheTruth) {
 TEST_F(RegisterTest, AReturnThatTheAssumedNoiseWouldExcuseStandsOutWhereTheScanHasLess) {
   VERIFIES("LASSO-REG-001~1");
   scan();
-  MatchPoint<FlightNumber>& wrong = workspace_->points[workspace_->points.size() / 3];
-  for (int i = 0; i < 3; ++i) wrong.p[i] += 5e-3F * wrong.u[i];  // 5 assumed sigmas of a kernel of 10
+  MatchPoint<N>& wrong = workspace_->points[workspace_->points.size() / 3];
+  for (int i = 0; i < 3; ++i) {  // by 5 assumed sigmas of a kernel of 10
+    const N::Length along = N::to_length(5e-3) * wrong.u[i];
+    wrong.p[i] += along;
+  }
   const HitSolution solution = register_from(0.003, 0.002);
   EXPECT_EQ(solution.inliers, workspace_->points.size() - 1);
   EXPECT_LT(error_of(solution.T_target_sensor).norm(), 1e-5);
@@ -103,22 +108,31 @@ TEST_F(RegisterTest, TheInformationIsTheInverseOfTheErrorsCovariance) {
   EXPECT_NEAR(nees, 6, 1.2);
 }
 
+TEST_F(RegisterTest, AStepMayGoAsFarAsTheNoiseReaches) {
+  VERIFIES("LASSO-REG-001~1");
+  parameters().gate_first_m = 1e-6;
+  scan();
+  const HitSolution solution = register_from(0.0004, 0.0003);
+  EXPECT_EQ(solution.stop, StopReason::kConverged);
+  EXPECT_LT(error_of(solution.T_target_sensor).norm(), 1e-4);
+}
+
 // A box of sheets without thickness, open towards the sensor: returns come from the insides of its walls.
 TEST_F(RegisterTest, SheetsAreMatchedFromBehind) {
   VERIFIES("LASSO-REG-001~1");
-  std::vector<Element<FlightNumber>> sheets(mission_.field.elements, mission_.field.elements + mission_.field.element_count);
-  for (Element<FlightNumber>& e : sheets) e.flags = kElementTwoSided;
+  std::vector<Element<N>> sheets(mission_.field.elements, mission_.field.elements + mission_.field.element_count);
+  for (Element<N>& e : sheets) e.flags = kElementTwoSided;
   mission_.field.elements = sheets.data();
   for (int i = 0; i < 10; ++i) {
     scan_.T_sensor_target = test::disturb(test::generic_box_pose(), 0.2, 0.1, random_);
     scan();
-    for (MatchPoint<FlightNumber>& point : workspace_->points) {
-      const Vec3 u_sensor = Vec3(static_cast<double>(point.u[0]), static_cast<double>(point.u[1]), static_cast<double>(point.u[2]));
+    for (MatchPoint<N>& point : workspace_->points) {
+      const Vec3 u_sensor = to_vec3(point.u);
       const Vec3 u = rotate(truth().q, u_sensor);
       const Vec3 m = truth().p - scan_.model.center;
       const Vec3 farther = scan_.model.half.cwiseProduct(u.cwiseSign()) - m;  // the farther of each axis' two faces
       const double range = farther.cwiseQuotient(u).minCoeff();
-      for (int axis = 0; axis < 3; ++axis) point.p[axis] = static_cast<float>(range * u_sensor[axis]);
+      for (int axis = 0; axis < 3; ++axis) point.p[axis] = N::to_length(range * u_sensor[axis]);
     }
     const HitSolution solution = register_from(0.01, 0.005);
     EXPECT_EQ(solution.stop, StopReason::kConverged);
@@ -156,7 +170,7 @@ TEST_F(RegisterTest, AnAimedReturnThatMeetsNothingIsNotHeldAgainstThePose) {
   VERIFIES("LASSO-REG-017~1");
   scan();
   for (std::size_t i = 0; i < workspace_->points.size(); i += 20) {
-    for (float& p : workspace_->points[i].p) p *= 0.8F;  // half a metre in front of the box
+    for (N::Length& p : workspace_->points[i].p) p = N::to_length(0.8 * static_cast<double>(p));  // half a metre in front of the box
   }
   const HitSolution doubted = register_from(0.005, 0.003);
   EXPECT_EQ(doubted.usable, workspace_->points.size());
@@ -231,10 +245,7 @@ TEST_F(RegisterTest, PointsThatMeetNothingAreTooFew) {
 TEST_F(RegisterTest, SumsWithoutASolutionAreSaid) {
   VERIFIES("LASSO-REG-007~1 LASSO-REG-012~1");
   scan();
-  parameters().surface_sigma_m = 0;
-  // Weights are relative to the middle point's variance: the others' are beyond all numbers.
-  for (MatchPoint<FlightNumber>& point : workspace_->points) point.range_variance = 1e-8F;
-  workspace_->points[workspace_->points.size() / 2].range_variance = 1e38F;
+  mission_.radius_m = 1e12;  // so large that the turns drown the shifts in rounding
   const Pose start = truth();
   const HitSolution solution = register_hits(mission_, start, *workspace_);
   EXPECT_EQ(solution.stop, StopReason::kSingular);

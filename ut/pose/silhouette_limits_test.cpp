@@ -5,6 +5,7 @@
 namespace lasso {
 namespace {
 
+using N = FlightNumber;
 using test::BoxModel;
 using test::OcclusionTest;
 using test::SilhouetteTest;
@@ -15,16 +16,14 @@ class OneEdgeTest : public SilhouetteTest {
   void find_from_edge(const Vec3& a_sensor, const Vec3& b_sensor) {
     const Vec3 a = truth() * a_sensor;
     const Vec3 b = truth() * b_sensor;
-    ModelEdge<FlightNumber> edge = mission_.edges[0];
+    ModelEdge<N> edge = mission_.edges[0];
     for (int i = 0; i < 3; ++i) {
-      edge.a[i] = static_cast<float>(a[i]);
-      edge.b[i] = static_cast<float>(b[i]);
+      edge.a[i] = N::to_length(a[i]);
+      edge.b[i] = N::to_length(b[i]);
     }
-    const auto side_of_sensor = [&](const float* n) {
-      return static_cast<float>(truth().p.dot(Vec3(static_cast<double>(n[0]), static_cast<double>(n[1]), static_cast<double>(n[2]))));
-    };
-    edge.d0 = side_of_sensor(edge.n0) - 1;  // this face sees the sensor
-    edge.d1 = side_of_sensor(edge.n1) + 1;  // and this one does not
+    const auto beyond_sensor = [&](const N::Unit* n, double by_m) { return N::to_length(truth().p.dot(to_vec3(n)) + by_m); };
+    edge.d0 = beyond_sensor(edge.n0, -1);  // this face sees the sensor
+    edge.d1 = beyond_sensor(edge.n1, 1);   // and this one does not
     mission_.edges = {&edge, 1};
     find();
   }
@@ -74,9 +73,9 @@ class CornerTest : public SilhouetteTest {
 
 TEST_F(CornerTest, ARayThroughItIsOnItsEdge) {
   VERIFIES("LASSO-REG-002~1");
-  ScanRay<FlightNumber> ray{};
-  ray.u[2] = 1;
-  ray.range = 2.5F;
+  ScanRay<N> ray{};
+  ray.u[2] = N::Unit{1};
+  ray.range = N::Length{2.5};
   ray.state = RayState::kHit;
   ASSERT_TRUE(workspace_->rays.push_back(ray));
   find();
@@ -109,7 +108,7 @@ TEST_F(OcclusionTest, ReturnsFarBehindAStepSayNothing) {
   std::size_t behind = 0;
   for (std::size_t i = 0; i < workspace_->rays.size(); ++i) {
     if (workspace_->rays[i].state == RayState::kHit && seen(line_of(i)) == 0) {
-      workspace_->rays[i].range += 0.5F;
+      workspace_->rays[i].range += N::Length{0.5};
       ++behind;
     }
   }

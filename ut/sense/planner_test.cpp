@@ -9,10 +9,18 @@
 #include <vector>
 
 #include "fsw/sense/pattern.hpp"
+#include "ut/support/path_numbers.hpp"
 #include "ut/support/verifies.hpp"
 
 namespace lasso {
 namespace {
+
+HullPoint hull_point(const Vec3& p) {
+  HullPoint point{};
+  const auto at = test::path_vector<FlightNumber::Length>(p);
+  std::copy(at.begin(), at.end(), point.p);
+  return point;
+}
 
 // A box with sides 1.3 x 0.4 x 0.6 m, its middle off the origin.
 struct Box {
@@ -22,7 +30,7 @@ struct Box {
   Box() {
     for (int corner = 0; corner < 8; ++corner) {
       const Vec3 p = center + Vec3(corner & 1 ? 0.65 : -0.65, corner & 2 ? 0.2 : -0.2, corner & 4 ? 0.3 : -0.3);
-      hull.push_back({{static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())}});
+      hull.push_back(hull_point(p));
     }
   }
   TargetOutline outline() const { return {Span<const HullPoint>(hull.data(), hull.size()), center, 0}; }
@@ -41,7 +49,9 @@ struct Bounds {
 Bounds brute_force_bounds(const Box& box, const Pose& pose) {
   Bounds bounds;
   for (const HullPoint& h : box.hull) {
-    const Eigen::Vector3d seen = pose.q.toRotationMatrix() * Eigen::Vector3f(h.p).cast<double>() + pose.p;
+    const Eigen::Vector3d seen =
+        pose.q.toRotationMatrix() * Eigen::Vector3d(static_cast<double>(h.p[0]), static_cast<double>(h.p[1]), static_cast<double>(h.p[2])) +
+        pose.p;
     bounds.x_low = std::min(bounds.x_low, seen.x() / seen.z());
     bounds.x_high = std::max(bounds.x_high, seen.x() / seen.z());
     bounds.y_low = std::min(bounds.y_low, seen.y() / seen.z());
@@ -190,7 +200,7 @@ TEST(Planner, ScansThePartThatCanBeSeen) {
 
 TEST(Planner, HullPointsBehindTheSensorAreLeftOut) {
   VERIFIES("LASSO-SNS-012~1");
-  std::vector<HullPoint> hull = {{{0.1F, 0.2F, 0.0F}}, {{-0.1F, -0.1F, 0.0F}}, {{0.5F, 0.5F, -9.0F}}};
+  std::vector<HullPoint> hull = {hull_point({0.1, 0.2, 0}), hull_point({-0.1, -0.1, 0}), hull_point({0.5, 0.5, -9})};
   const Pose pose{Quat(1, 0, 0, 0), Vec3(0, 0, 4)};
   ScanPlan plan;
   ASSERT_EQ(plan_scan(preset_parameters(), {Span<const HullPoint>(hull.data(), hull.size()), Vec3::Zero()}, pose, 1, plan), Status::kOk);
@@ -219,9 +229,9 @@ TEST(Planner, RefusesAHullThatHasNoExtentOrLiesBehind) {
   VERIFIES("LASSO-SNS-013~1");
   const Pose pose = generic_pose({0, 0, 5});
   const Pose ahead{Quat(1, 0, 0, 0), Vec3(0, 0, 5)};
-  const HullPoint one[] = {{{0.1F, 0.1F, 0.1F}}};
-  const HullPoint behind[] = {{{0.1F, 0.1F, -9.0F}}, {{-0.1F, -0.1F, -9.0F}}};
-  const HullPoint line[] = {{{0.1F, 0.0F, 0.0F}}, {{-0.1F, 0.0F, 0.0F}}};
+  const HullPoint one[] = {hull_point({0.1, 0.1, 0.1})};
+  const HullPoint behind[] = {hull_point({0.1, 0.1, -9}), hull_point({-0.1, -0.1, -9})};
+  const HullPoint line[] = {hull_point({0.1, 0, 0}), hull_point({-0.1, 0, 0})};
   ScanPlan plan;
   EXPECT_EQ(plan_scan(preset_parameters(), {Span<const HullPoint>(one), Vec3::Zero()}, pose, 1, plan), Status::kBadValue);
   EXPECT_EQ(plan_scan(preset_parameters(), {Span<const HullPoint>(behind), Vec3::Zero()}, ahead, 1, plan), Status::kBadValue);

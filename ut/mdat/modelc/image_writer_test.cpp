@@ -117,11 +117,11 @@ TEST(ImageWriter, TheFlightLookUpHitsWhatBruteForceHits) {
       }
       FieldRay<FlightNumber> ray{};
       for (int i = 0; i < 3; ++i) {
-        ray.m[i] = static_cast<FlightNumber::Length>(from[i]);
-        ray.u[i] = static_cast<FlightNumber::Unit>(u[i]);
+        ray.m[i] = FlightNumber::to_length(from[i]);
+        ray.u[i] = FlightNumber::to<FlightNumber::Unit>(u[i]);
       }
       set_cells(mission.field, ray);
-      const auto hit = walk_field(mission.field, ray, FlightNumber::Length{0.3f}, FlightNumber::Length{3.0f});
+      const auto hit = walk_field(mission.field, ray, FlightNumber::to_length(0.3), FlightNumber::to_length(3));
       hits += std::isfinite(truth);
       const bool same = hit.found == std::isfinite(truth) && (!hit.found || std::abs(static_cast<double>(hit.t) - truth) < 1e-4);
       differ += !same;
