@@ -52,7 +52,7 @@ tidy = @ninja -C $(1) -t cleandead >/dev/null; find $(1) -name '*.$(2)' | while 
 ctest = @rm -rf $(2); mkdir -p $(2); GTEST_OUTPUT=xml:$(abspath $(2))/ \
   ctest --test-dir $(1) --parallel $(JOBS) --output-on-failure --no-tests=error --output-junit $(abspath $(2))/ctest.xml $(3)
 
-.PHONY: help run test accuracy bench basin search montecarlo endurance flips scrub fuzz statistics campaigns-sample golden ppc-count search-count pil pil-sample seu seu-sample prove ppc-test sanitize arrows coverage mcdc trace evidence gates-selftest figures icd format lint install clean build
+.PHONY: help run test accuracy bench basin search montecarlo endurance flips scrub fuzz statistics campaigns-sample golden fixed-point ppc-count search-count pil pil-sample seu seu-sample prove ppc-test sanitize arrows coverage mcdc trace evidence gates-selftest figures icd format lint install clean build
 .DEFAULT_GOAL := help
 
 help: ## this list
@@ -61,12 +61,12 @@ help: ## this list
 run: build ## track the tenth-scale Hubble and report into out/run; MISSION=, SCENARIO= (approach: the full-size one), SENSOR=lcs-wire (the camera over its line), SEED=, OUT=
 	@$(BUILD)/mdat/mdat run $(MISSION) $(if $(SCENARIO),--scenario $(SCENARIO)) $(if $(SEED),--seed $(SEED)) $(if $(SENSOR),--sensor $(SENSOR)) --out $(OUT)
 
-test: ## build with g++ and clang++ without a warning, and pass all tests of the host; reports in out/test
+test: ## build with g++ and clang++ without a warning, that one in floating, this one in fixed point, and pass all tests of the host; reports in out/test
 	$(begin)
 	$(call packages,build clang test)
 	$(call configure,$(BUILD),)
 	$(call compile,$(BUILD))
-	$(call configure,$(CLANG),-DCMAKE_CXX_COMPILER=clang++-19)
+	$(call configure,$(CLANG),-DCMAKE_CXX_COMPILER=clang++-19 -DLASSO_NUMBER=fixed)
 	$(call compile,$(CLANG))
 	@cfg/quality/run-tests test g++=$(BUILD) clang++=$(CLANG)
 
@@ -165,6 +165,20 @@ golden: ## the same telemetry, bit for bit: g++ and clang++, optimised or not, t
 	$(call configure,$(GOLDEN)-clang++-O2,$(call at_level,clang++-19,O2))
 	$(call compile,$(GOLDEN)-clang++-O2,golden_replay)
 	@ft/golden/run $(BUILD) $(PPC) $(foreach build,g++-O0 g++-O2 clang++-O0 clang++-O2,$(build)=$(GOLDEN)-$(build))
+
+fixed-point: ## the fixed-point build: no floating-point instruction per point, errors beside the floating build's, the same bits on the emulated 603e; out/fixed-point
+	$(begin)
+	$(call packages,build target clang)
+	$(call configure,$(BUILD),)
+	$(call compile,$(BUILD),mdat)
+	$(call configure,$(CLANG),-DCMAKE_CXX_COMPILER=clang++-19 -DLASSO_NUMBER=fixed)
+	$(call compile,$(CLANG),mdat golden_record golden_replay golden_compare)
+	$(call configure,$(PPC)-fixed,$(CROSS) -DLASSO_NUMBER=fixed)
+	$(call compile,$(PPC)-fixed,golden_replay)
+	@$(BUILD)/mdat/mdat run cfg/missions/hubble_tenth.toml --scenario paper --out $(LASSO_OUT)/fixed-point/floating
+	@$(CLANG)/mdat/mdat run cfg/missions/hubble_tenth.toml --scenario paper --out $(LASSO_OUT)/fixed-point/paper
+	@LASSO_OUT=$(LASSO_OUT)/fixed-point ft/golden/run $(CLANG) $(PPC)-fixed
+	@cfg/quality/fixed-point $(LASSO_OUT)/fixed-point/floating/results.json $(LASSO_OUT)/fixed-point/paper/results.json $(PPC)-fixed
 
 # $(replays) builds what flies on the host and is replayed on the emulated 603e.
 define replays
