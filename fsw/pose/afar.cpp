@@ -94,7 +94,8 @@ void take_plane_pass(const Mission& mission, const MatchSettings<N>& s, bool far
     }
   }
   pass.sums.rows.flush();
-  solve_pass(mission, s, PassKind{}, pass, pose);
+  Descent whole;
+  solve_pass(mission, s, whole, pass, pose);
 }
 
 void settle(const Mission& mission, MatchSettings<N>& s, Workspace& workspace, Pose& pose) {

@@ -39,7 +39,7 @@ MatchSettings<N> make_settings(const MissionParameters& p, const Workspace& work
 
 void set_gate(double gate_m, MatchSettings<N>& s) { s.gate = N::to_length(gate_m); }
 
-void solve_pass(const Mission& mission, const MatchSettings<N>& s, const PassKind& kind, Pass& pass, Pose& T_target_sensor) {
+void solve_pass(const Mission& mission, const MatchSettings<N>& s, Descent& descent, Pass& pass, Pose& T_target_sensor) {
   if (pass.sums.rows.count() < kMinimumPoints) return;
   Vec6 b;
   pass.sums.rows.unpack(pass.H, b);
@@ -48,16 +48,25 @@ void solve_pass(const Mission& mission, const MatchSettings<N>& s, const PassKin
   b *= scale;
   add_wide_prior(mission.radius_m, pass.H);
   pass.status = solve6(pass.H, b, pass.x);
-  pass.x *= kind.damping;
-  if (pass.status == Status::kOk) T_target_sensor = step_pose(T_target_sensor, cut_step(pass.x, mission.radius_m, kind.longest_step_m));
+  if (pass.status != Status::kOk) return;
+  if (descent.last.dot(pass.H * pass.x) < 0) descent.damping *= 0.5;
+  pass.x *= descent.damping;
+  descent.last = cut_step(pass.x, mission.radius_m, descent.longest_step_m);
+  T_target_sensor = step_pose(T_target_sensor, descent.last);
 }
 
-Pass take_pass(const Mission& mission, const MatchSettings<N>& s, const PassKind& kind, Workspace& workspace, Pose& T_target_sensor) {
+Pass take_pass(const Mission& mission, const MatchSettings<N>& s, const PassKind& kind, Descent& descent, Workspace& workspace,
+               Pose& T_target_sensor) {
   Pass pass(mission);
   const Span<MatchPoint<N>> points(workspace.points.begin(), workspace.points.size());
   match_points(mission.field, to_path<N>(T_target_sensor), s, points, kind, pass.sums);
-  solve_pass(mission, s, kind, pass, T_target_sensor);
+  solve_pass(mission, s, descent, pass, T_target_sensor);
   return pass;
+}
+
+Pass take_pass(const Mission& mission, const MatchSettings<N>& s, const PassKind& kind, Workspace& workspace, Pose& T_target_sensor) {
+  Descent whole;
+  return take_pass(mission, s, kind, whole, workspace, T_target_sensor);
 }
 
 }  // namespace lasso

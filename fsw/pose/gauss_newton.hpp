@@ -18,14 +18,25 @@ struct Pass {
   Status status = Status::kNoData;  // kOk, kNoData (too few points), kSingular, kNotFinite: no step
 };
 
+constexpr double kAnyStep = 1e9;
+
+// The steps of successive passes. One that turns back from the one before, measured by the information, shows that the least cost lies
+// between: it and all that follow are halved, as points that change sides there would be followed to and fro for ever.
+struct Descent {
+  double longest_step_m = kAnyStep;  // of translation and of rotation at the model's radius together
+  double damping = 1;
+  Vec6 last = Vec6::Zero();
+};
+
 MatchSettings<FlightNumber> make_settings(const MissionParameters& parameters, const Workspace& workspace);
 void set_gate(double gate_m, MatchSettings<FlightNumber>& settings);
 
-// Solves the sums of `pass` and, where that succeeds, steps the pose by the kind's damping times the solution, cut to its longest step.
-void solve_pass(const Mission& mission, const MatchSettings<FlightNumber>& settings, const PassKind& kind, Pass& pass,
-                Pose& T_target_sensor);
+// Solves the sums of `pass` and, where that succeeds, steps the pose by the damped solution, cut to the longest step.
+void solve_pass(const Mission& mission, const MatchSettings<FlightNumber>& settings, Descent& descent, Pass& pass, Pose& T_target_sensor);
 
-// A pass from the pose, which takes the step.
+// A pass from the pose, which takes the step; without a descent, the whole one.
+Pass take_pass(const Mission& mission, const MatchSettings<FlightNumber>& settings, const PassKind& kind, Descent& descent,
+               Workspace& workspace, Pose& T_target_sensor);
 Pass take_pass(const Mission& mission, const MatchSettings<FlightNumber>& settings, const PassKind& kind, Workspace& workspace,
                Pose& T_target_sensor);
 

@@ -15,14 +15,10 @@ enum class Lookup : std::uint8_t {
   kLast,  // the element hit last time, if the ray still does; else as kWalk
 };
 
-constexpr double kAnyStep = 1e9;
-
-// Which points a pass takes, how it looks for their surface, and how much of the solution it steps.
+// Which points a pass takes, and how it looks for their surface.
 struct PassKind {
   std::size_t stride = 1;
   Lookup lookup = Lookup::kWalk;
-  double damping = 1;
-  double longest_step_m = kAnyStep;  // of translation and of rotation at the model's radius together
 };
 
 template <class N>

@@ -30,7 +30,8 @@ double take_distance_pass(const Mission& mission, const MatchSettings<N>& s, flo
     pass.sums.rows.add(m, away, -distance, N::from_float<N::Weight>(rest * rest), distance);
   }
   pass.sums.rows.flush();
-  solve_pass(mission, s, PassKind{}, pass, pose);
+  Descent whole;
+  solve_pass(mission, s, whole, pass, pose);
   return sum / (static_cast<double>(mission.search.truncation_m) * static_cast<double>(workspace.points.size()));
 }
 

@@ -10,7 +10,6 @@ using N = FlightNumber;
 
 constexpr double kInsignificant = 1;       // squared step in sigmas^2
 constexpr double kNarrowestKernel = 1e-4;  // of the kernel's squared width
-constexpr int kUndampedPasses = 6;
 
 bool is_small(const Vec6& x, const MissionParameters& p) {
   return x.head<3>().squaredNorm() < p.stop_rotation_rad * p.stop_rotation_rad &&
@@ -52,16 +51,15 @@ void keep(const Pass& pass, const MatchSettings<N>& s, HitSolution& solution) {
   solution.squared_residual_m2 = pass.sums.rows.squared_range();
 }
 
-// Passes over all points, the first of them a walk along the whole gate: without one, surfaces in front go unnoticed. Points at edges can
-// change sides for ever, which the undamped steps would follow to and fro.
+// Passes over all points, the first of them a walk along the whole gate: without one, surfaces in front go unnoticed.
 void iterate_all(const Mission& mission, MatchSettings<N>& s, double longest_m, Workspace& workspace, HitSolution& solution) {
   const int limit = static_cast<int>(mission.parameters.iterations_max);
   solution.stop = StopReason::kIterationLimit;
-  PassKind kind{1, Lookup::kWalk, 1, longest_m};
+  PassKind kind{1, Lookup::kWalk};
+  Descent descent{longest_m};
   for (int i = 0; i < limit; ++i) {
-    const Pass pass = take_pass(mission, s, kind, workspace, solution.T_target_sensor);
+    const Pass pass = take_pass(mission, s, kind, descent, workspace, solution.T_target_sensor);
     kind.lookup = Lookup::kLast;
-    if (i + 1 >= kUndampedPasses) kind.damping *= 0.5;
     ++solution.iterations;
     keep(pass, s, solution);
     narrow_kernel(mission.parameters, pass, s);
@@ -94,8 +92,9 @@ HitSolution register_from(const Mission& mission, const Pose& start, const Openi
   double gate_m = opening.gate_first * mission.parameters.gate_first_m;
   for (int i = 0; i < opening.passes; ++i) {
     set_gate(gate_m, s);
-    const PassKind kind{opening.stride, i == 0 ? Lookup::kWalk : Lookup::kLast, 1, opening.gate_first * longest_m};
-    narrow_kernel(mission.parameters, take_pass(mission, s, kind, workspace, solution.T_target_sensor), s);
+    const PassKind kind{opening.stride, i == 0 ? Lookup::kWalk : Lookup::kLast};
+    Descent whole{opening.gate_first * longest_m};
+    narrow_kernel(mission.parameters, take_pass(mission, s, kind, whole, workspace, solution.T_target_sensor), s);
     gate_m *= opening.gate_shrink;
     ++solution.iterations;
   }

@@ -186,17 +186,27 @@ TEST_F(GaussNewtonTest, TheStepSolvesTheNormalEquations) {
   EXPECT_LT(error_of(pose).norm(), 0.2 * error_of(before).norm());
 }
 
-TEST_F(GaussNewtonTest, DampingShortensTheStep) {
-  VERIFIES("LASSO-REG-001~1");
+TEST_F(GaussNewtonTest, AStepThatTurnsBackIsHalvedAndThoseThatFollow) {
+  VERIFIES("LASSO-REG-018~1");
   scan();
   const Pose start = inverse(test::disturb(scan_.T_sensor_target, 0.004, 0.003, random_));
-  Pose whole = start;
-  Pose quarter = start;
-  const Pass full = take_pass(mission_, settings(0.01), {1, Lookup::kWalk, 1}, *workspace_, whole);
-  const Pass damped = take_pass(mission_, settings(0.01), {1, Lookup::kWalk, 0.25}, *workspace_, quarter);
-  EXPECT_EQ(damped.x, Vec6(0.25 * full.x));
-  EXPECT_EQ(damped.H, full.H);
-  EXPECT_EQ(quarter.p, step_pose(start, 0.25 * full.x).p);
+  const auto step_after = [&](const Vec6& last, Descent& descent) {
+    descent.last = last;
+    Pose pose = start;
+    const Pass pass = take_pass(mission_, settings(0.01), {1, Lookup::kWalk}, descent, *workspace_, pose);
+    EXPECT_EQ(descent.last, pass.x);
+    EXPECT_EQ(pose.p, step_pose(start, pass.x).p);
+    return pass;
+  };
+  Descent descent;
+  const Pass whole = step_after(Vec6::Zero(), descent);
+  const Vec6 across = test::random_vec6(random_, 0.01);
+  // At a right angle by the information's measure.
+  const Vec6 beside = across - whole.x * (across.dot(whole.H * whole.x) / whole.x.dot(whole.H * whole.x));
+  EXPECT_EQ(step_after(beside + 1e-6 * whole.x, descent).x, whole.x);
+  EXPECT_EQ(step_after(beside - 1e-6 * whole.x, descent).x, Vec6(0.5 * whole.x));
+  EXPECT_EQ(step_after(whole.x, descent).x, Vec6(0.5 * whole.x));
+  EXPECT_EQ(step_after(-1e-3 * whole.x, descent).x, Vec6(0.25 * whole.x));
 }
 
 TEST_F(GaussNewtonTest, TheElementHitLastTimeIsOnlyAShortCut) {
@@ -246,7 +256,8 @@ TEST_F(GaussNewtonTest, DirectionsThatNoRaySeesStayWhereTheyAre) {
   const Vec3 n(0, 0, 1);
   Pass pass = equal_rows(Vec3(0.1, 0.2, -0.1), n, 2e-3, 100);
   Pose pose = truth();
-  solve_pass(mission_, settings(), PassKind{}, pass, pose);
+  Descent descent;
+  solve_pass(mission_, settings(), descent, pass, pose);
   ASSERT_EQ(pass.status, Status::kOk);
   Vec6 J;
   J << Vec3(0.1, 0.2, -0.1).cross(n), n;
@@ -262,9 +273,9 @@ TEST_F(GaussNewtonTest, CutsAStepToTheLongestOneInItsDirection) {
   const auto step_of = [&](double longest_m, Pose& pose) {
     pose = start;
     Pass pass = equal_rows(Vec3(0.1, 0.2, -0.1), Vec3(0.36, 0.48, 0.8), 0.05, 100);
-    PassKind kind;
-    kind.longest_step_m = longest_m;
-    solve_pass(mission_, settings(), kind, pass, pose);
+    Descent descent{longest_m};
+    solve_pass(mission_, settings(), descent, pass, pose);
+    EXPECT_EQ(pose.p, step_pose(start, descent.last).p);
     return pass.x;
   };
   Pose whole;
@@ -290,12 +301,14 @@ TEST_F(GaussNewtonTest, SaysWhenThereIsNoSolution) {
   MatchSettings<N> exact = settings();
   exact.reference_variance = N::Variance{0};
   Pass infinite = rows;
-  solve_pass(mission_, exact, PassKind{}, infinite, pose);
+  Descent descent;
+  solve_pass(mission_, exact, descent, infinite, pose);
   EXPECT_EQ(infinite.status, Status::kNotFinite);
   // A model so large that the turns drown the shifts in rounding.
   mission_.radius_m = 1e12;
   Pass far = rows;
-  solve_pass(mission_, settings(), PassKind{}, far, pose);
+  solve_pass(mission_, settings(), descent, far, pose);
+  EXPECT_EQ(descent.last, Vec6(Vec6::Zero()));
   EXPECT_EQ(far.status, Status::kSingular);
   EXPECT_EQ(pose.p, start.p);
   EXPECT_EQ(pose.q.coeffs(), start.q.coeffs());

@@ -142,6 +142,16 @@ TEST_F(RegisterTest, SheetsAreMatchedFromBehind) {
   }
 }
 
+TEST_F(RegisterTest, PointsThatChangeSidesKeepNoScanFromItsEnd) {
+  VERIFIES("LASSO-REG-018~1");
+  for (int i = 0; i < 200; ++i) {
+    scan_.T_sensor_target = test::random_box_pose(random_);
+    scan_.sigma_m = i % 2 == 0 ? 1e-3 : 5e-3;
+    scan();
+    EXPECT_EQ(register_from(0.003, 0.003).stop, StopReason::kConverged) << i;
+  }
+}
+
 TEST_F(RegisterTest, StopsAtTheIterationLimit) {
   VERIFIES("LASSO-REG-007~1 LASSO-REG-011~1");
   scan_.sigma_m = 1e-3;
