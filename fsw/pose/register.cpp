@@ -82,7 +82,7 @@ struct Opening {
   std::size_t stride;  // of the points
 };
 constexpr Opening kUsual{2, 1.0, 0.3, kQuarter};
-constexpr Opening kSecondLook{3, 2.0, 0.5, 1};
+constexpr Opening kSecondLook{2, 2.0, 0.3, 1};
 
 HitSolution register_from(const Mission& mission, const Pose& start, const Opening& opening, Workspace& workspace) {
   HitSolution solution;

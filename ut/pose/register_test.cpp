@@ -13,7 +13,7 @@ namespace {
 using N = FlightNumber;
 
 constexpr int kOpening = 2;        // passes before those over all points
-constexpr int kSecondOpening = 3;  // the same of the second look
+constexpr int kSecondOpening = 2;  // the same of the second look
 
 class RegisterTest : public test::PoseFixture {
  protected:
