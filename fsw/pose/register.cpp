@@ -10,6 +10,7 @@ using N = FlightNumber;
 
 constexpr double kInsignificant = 1;       // squared step in sigmas^2
 constexpr double kNarrowestKernel = 1e-4;  // of the kernel's squared width
+constexpr int kUndampedPasses = 8;
 
 bool is_small(const Vec6& x, const MissionParameters& p) {
   return x.head<3>().squaredNorm() < p.stop_rotation_rad * p.stop_rotation_rad &&
@@ -51,7 +52,8 @@ void keep(const Pass& pass, const MatchSettings<N>& s, HitSolution& solution) {
   solution.squared_residual_m2 = pass.sums.rows.squared_range();
 }
 
-// Passes over all points, the first of them a walk along the whole gate: without one, surfaces in front go unnoticed.
+// Passes over all points, the first of them a walk along the whole gate: without one, surfaces in front go unnoticed. Steps can go round in a
+// ring without ever turning back: later ones are halved by their number.
 void iterate_all(const Mission& mission, MatchSettings<N>& s, double longest_m, Workspace& workspace, HitSolution& solution) {
   const int limit = static_cast<int>(mission.parameters.iterations_max);
   solution.stop = StopReason::kIterationLimit;
@@ -60,6 +62,7 @@ void iterate_all(const Mission& mission, MatchSettings<N>& s, double longest_m, 
   for (int i = 0; i < limit; ++i) {
     const Pass pass = take_pass(mission, s, kind, descent, workspace, solution.T_target_sensor);
     kind.lookup = Lookup::kLast;
+    if (i + 1 >= kUndampedPasses) descent.damping *= 0.5;
     ++solution.iterations;
     keep(pass, s, solution);
     narrow_kernel(mission.parameters, pass, s);
