@@ -22,6 +22,9 @@ export JOBS ?= $(shell nproc)
 CROSS = -DCMAKE_TOOLCHAIN_FILE=$(abspath cfg/toolchains/ppc603e.cmake) -DLASSO_GROUND=OFF -DLASSO_BARE_KERNEL=$(abspath $(BOARD))/bare_kernel.elf
 # the flight image of the bare board (docs/boards/ppc603e.md)
 BARE_BOARD = -DCMAKE_TOOLCHAIN_FILE=$(abspath cfg/toolchains/ppc603e-bare.cmake) -DLASSO_GROUND=OFF -DLASSO_TESTS=OFF
+# the fixed-point build (docs/decisions/fixed-point.md), and that of the host
+FIXED = -DLASSO_NUMBER=fixed
+FIXED_HOST = -DCMAKE_CXX_COMPILER=clang++-19 $(FIXED)
 # $(call at_level,COMPILER,LEVEL): flight code and its tests at one level of optimisation, where the shipped build uses several
 at_level = -DCMAKE_CXX_COMPILER=$(1) -DCMAKE_BUILD_TYPE=Level -DCMAKE_CXX_FLAGS_LEVEL=-$(2) -DLASSO_GROUND=OFF
 # $(call sanitized,SANITIZERS), and the tests that start threads
@@ -66,7 +69,7 @@ test: ## build with g++ and clang++ without a warning, that one in floating, thi
 	$(call packages,build clang test)
 	$(call configure,$(BUILD),)
 	$(call compile,$(BUILD))
-	$(call configure,$(CLANG),-DCMAKE_CXX_COMPILER=clang++-19 -DLASSO_NUMBER=fixed)
+	$(call configure,$(CLANG),$(FIXED_HOST))
 	$(call compile,$(CLANG))
 	@cfg/quality/run-tests test g++=$(BUILD) clang++=$(CLANG)
 
@@ -171,9 +174,9 @@ fixed-point: ## the fixed-point build: no floating-point instruction per point, 
 	$(call packages,build target clang)
 	$(call configure,$(BUILD),)
 	$(call compile,$(BUILD),mdat)
-	$(call configure,$(CLANG),-DCMAKE_CXX_COMPILER=clang++-19 -DLASSO_NUMBER=fixed)
+	$(call configure,$(CLANG),$(FIXED_HOST))
 	$(call compile,$(CLANG),mdat golden_record golden_replay golden_compare)
-	$(call configure,$(PPC)-fixed,$(CROSS) -DLASSO_NUMBER=fixed)
+	$(call configure,$(PPC)-fixed,$(CROSS) $(FIXED))
 	$(call compile,$(PPC)-fixed,golden_replay)
 	@$(BUILD)/mdat/mdat run cfg/missions/hubble_tenth.toml --scenario paper --out $(LASSO_OUT)/fixed-point/floating
 	@$(CLANG)/mdat/mdat run cfg/missions/hubble_tenth.toml --scenario paper --out $(LASSO_OUT)/fixed-point/paper
@@ -188,10 +191,22 @@ $(call compile,$(BUILD),golden_record golden_replay golden_compare)
 $(call configure,$(PPC),$(CROSS))
 $(call compile,$(PPC),golden_replay)
 endef
-ppc-count: ## instructions of one estimate on the PowerPC 603e, by function; table, and out/ppc-count/results.json
+# the same processor without its floating-point unit (ft/ppc603e/soft_float)
+soft = -DLASSO_SOFT_FLOAT=$(abspath $(LASSO_OUT))/soft-float/libsoft_float.a
+ppc-count: ## instructions of one estimate on the PowerPC 603e, by function, in floating and in fixed point, with and without a floating-point unit; table, and out/ppc-count/results.json
 	$(begin)
 	$(replays)
-	@ft/ppc603e/count $(BUILD) $(PPC)
+	$(call packages,clang soft-float)
+	$(call configure,$(CLANG),$(FIXED_HOST))
+	$(call compile,$(CLANG),golden_record golden_replay golden_compare)
+	$(call configure,$(PPC)-fixed,$(CROSS) $(FIXED))
+	$(call compile,$(PPC)-fixed,golden_replay)
+	@ft/ppc603e/soft_float/build $(LASSO_OUT)/soft-float
+	$(call configure,$(PPC)-soft,$(CROSS) $(soft))
+	$(call compile,$(PPC)-soft,golden_replay)
+	$(call configure,$(PPC)-soft-fixed,$(CROSS) $(soft) $(FIXED))
+	$(call compile,$(PPC)-soft-fixed,golden_replay)
+	@ft/ppc603e/count $(BUILD) $(PPC) fixed=$(CLANG),$(PPC)-fixed soft-float=$(BUILD),$(PPC)-soft soft-fixed=$(CLANG),$(PPC)-soft-fixed
 
 search-count: ## instructions of a search on the PowerPC 603e, and its largest step; the same bits as on the host; out/search-count; STARTS=, SEED=
 	$(begin)
