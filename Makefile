@@ -217,23 +217,27 @@ search-count: ## instructions of a search on the PowerPC 603e, and its largest s
 	$(call compile,$(PPC),search_replay)
 	@ft/ppc603e/count-search $(BUILD) $(PPC) $(or $(STARTS),24) $(or $(SEED),11)
 
-# $(on_board) builds the bare board's images, and the rig around them. What its stacks may hold make prove knows.
+# $(on_board) builds the bare board's images of both number types, and the rig around each. What its stacks may hold make prove knows.
 define on_board
-$(call packages,build target)
+$(call packages,build target clang)
 $(call configure,$(BUILD),)
 $(call compile,$(BUILD),pil_rig)
+$(call configure,$(CLANG),$(FIXED_HOST))
+$(call compile,$(CLANG),pil_rig)
 $(call configure,$(BOARD),$(BARE_BOARD))
 $(call compile,$(BOARD),flight_603e planted_603e)
+$(call configure,$(BOARD)-fixed,$(BARE_BOARD) $(FIXED))
+$(call compile,$(BOARD)-fixed,flight_603e)
 endef
-pil: prove ## the component on the bare, emulated PowerPC 603e with camera and ground at its lines: the host's telemetry bit for bit; out/pil; FRAMES=
+pil: prove ## the component on the bare, emulated PowerPC 603e with camera and ground at its lines: the host's telemetry bit for bit, in floating and in fixed point; out/pil; FRAMES=
 	$(begin)
 	$(on_board)
-	@ft/pil/run.py $(BUILD) $(BOARD) $(or $(FRAMES),360)
+	@ft/pil/run.py $(BUILD) $(BOARD) $(CLANG) $(BOARD)-fixed $(or $(FRAMES),360)
 
 pil-sample: prove ## the same for a few frames, and the board's answers to faults: null, stray, hung, cut lines, wrong images; out/pil-sample
 	$(begin)
 	$(on_board)
-	@ft/pil/faults $(BUILD) $(BOARD)
+	@ft/pil/faults $(BUILD) $(BOARD) $(CLANG) $(BOARD)-fixed
 
 # $(call seu,FLIPS,SEED,NAME) flips bits in the running board.
 define seu
@@ -253,12 +257,18 @@ seu-sample: ## eight of them, one in each region; out/seu-sample
 	@rm -rf $(LASSO_OUT)/seu-sample
 	$(call seu,8,2,seu-sample)
 
-prove: ## what the flight image's archives for the 603e do not do: heap, exceptions, recursion, contraction, too much stack or memory; out/prove
+# $(call proof,FOLDER[,CMAKE OPTIONS]) builds the flight image with its call graph.
+define proof
+$(call configure,$(1),$(BARE_BOARD) $(own_includes) -DLASSO_CALL_GRAPH=ON -DCMAKE_CXX_COMPILER_LAUNCHER= $(2))
+$(call compile,$(1),flight_603e)
+$(call tidy,$(1),ci)
+endef
+prove: ## what the flight image's archives for the 603e do not do: heap, exceptions, recursion, contraction, too much stack or memory; out/prove, in fixed point out/fixed-point/prove
 	$(begin)
 	$(call packages,build target)
-	$(call configure,$(PROVE),$(BARE_BOARD) $(own_includes) -DLASSO_CALL_GRAPH=ON -DCMAKE_CXX_COMPILER_LAUNCHER=)
-	$(call compile,$(PROVE),flight_603e)
-	$(call tidy,$(PROVE),ci)
+	$(call proof,$(PROVE)-fixed,$(FIXED))
+	@echo "in fixed point"; LASSO_OUT=$(LASSO_OUT)/fixed-point cfg/quality/prove $(PROVE)-fixed
+	$(call proof,$(PROVE))
 	@cfg/quality/prove $(PROVE)
 
 ppc-test: ## unit tests of the flight component on the emulated PowerPC 603e, a part of them without an operating system too; reports in out/ppc-test
