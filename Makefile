@@ -22,6 +22,9 @@ export JOBS ?= $(shell nproc)
 CROSS = -DCMAKE_TOOLCHAIN_FILE=$(abspath cfg/toolchains/ppc603e.cmake) -DLASSO_GROUND=OFF -DLASSO_BARE_KERNEL=$(abspath $(BOARD))/bare_kernel.elf
 # the flight image of the bare board (docs/boards/ppc603e.md)
 BARE_BOARD = -DCMAKE_TOOLCHAIN_FILE=$(abspath cfg/toolchains/ppc603e-bare.cmake) -DLASSO_GROUND=OFF -DLASSO_TESTS=OFF
+# the fixed-point build (docs/decisions/fixed-point.md), and that of the host
+FIXED = -DLASSO_NUMBER=fixed
+FIXED_HOST = -DCMAKE_CXX_COMPILER=clang++-19 $(FIXED)
 # $(call at_level,COMPILER,LEVEL): flight code and its tests at one level of optimisation, where the shipped build uses several
 at_level = -DCMAKE_CXX_COMPILER=$(1) -DCMAKE_BUILD_TYPE=Level -DCMAKE_CXX_FLAGS_LEVEL=-$(2) -DLASSO_GROUND=OFF
 # $(call sanitized,SANITIZERS), and the tests that start threads
@@ -66,7 +69,7 @@ test: ## build with g++ and clang++ without a warning, that one in floating, thi
 	$(call packages,build clang test)
 	$(call configure,$(BUILD),)
 	$(call compile,$(BUILD))
-	$(call configure,$(CLANG),-DCMAKE_CXX_COMPILER=clang++-19 -DLASSO_NUMBER=fixed)
+	$(call configure,$(CLANG),$(FIXED_HOST))
 	$(call compile,$(CLANG))
 	@cfg/quality/run-tests test g++=$(BUILD) clang++=$(CLANG)
 
@@ -171,9 +174,9 @@ fixed-point: ## the fixed-point build: no floating-point instruction per point, 
 	$(call packages,build target clang)
 	$(call configure,$(BUILD),)
 	$(call compile,$(BUILD),mdat)
-	$(call configure,$(CLANG),-DCMAKE_CXX_COMPILER=clang++-19 -DLASSO_NUMBER=fixed)
+	$(call configure,$(CLANG),$(FIXED_HOST))
 	$(call compile,$(CLANG),mdat golden_record golden_replay golden_compare)
-	$(call configure,$(PPC)-fixed,$(CROSS) -DLASSO_NUMBER=fixed)
+	$(call configure,$(PPC)-fixed,$(CROSS) $(FIXED))
 	$(call compile,$(PPC)-fixed,golden_replay)
 	@$(BUILD)/mdat/mdat run cfg/missions/hubble_tenth.toml --scenario paper --out $(LASSO_OUT)/fixed-point/floating
 	@$(CLANG)/mdat/mdat run cfg/missions/hubble_tenth.toml --scenario paper --out $(LASSO_OUT)/fixed-point/paper
@@ -188,10 +191,22 @@ $(call compile,$(BUILD),golden_record golden_replay golden_compare)
 $(call configure,$(PPC),$(CROSS))
 $(call compile,$(PPC),golden_replay)
 endef
-ppc-count: ## instructions of one estimate on the PowerPC 603e, by function; table, and out/ppc-count/results.json
+# the same processor without its floating-point unit (ft/ppc603e/soft_float)
+soft = -DLASSO_SOFT_FLOAT=$(abspath $(LASSO_OUT))/soft-float/libsoft_float.a
+ppc-count: ## instructions of one estimate on the PowerPC 603e, by function, in floating and in fixed point, with and without a floating-point unit; table, and out/ppc-count/results.json
 	$(begin)
 	$(replays)
-	@ft/ppc603e/count $(BUILD) $(PPC)
+	$(call packages,clang soft-float)
+	$(call configure,$(CLANG),$(FIXED_HOST))
+	$(call compile,$(CLANG),golden_record golden_replay golden_compare)
+	$(call configure,$(PPC)-fixed,$(CROSS) $(FIXED))
+	$(call compile,$(PPC)-fixed,golden_replay)
+	@ft/ppc603e/soft_float/build $(LASSO_OUT)/soft-float
+	$(call configure,$(PPC)-soft,$(CROSS) $(soft))
+	$(call compile,$(PPC)-soft,golden_replay)
+	$(call configure,$(PPC)-soft-fixed,$(CROSS) $(soft) $(FIXED))
+	$(call compile,$(PPC)-soft-fixed,golden_replay)
+	@ft/ppc603e/count $(BUILD) $(PPC) fixed=$(CLANG),$(PPC)-fixed soft-float=$(BUILD),$(PPC)-soft soft-fixed=$(CLANG),$(PPC)-soft-fixed
 
 search-count: ## instructions of a search on the PowerPC 603e, and its largest step; the same bits as on the host; out/search-count; STARTS=, SEED=
 	$(begin)
@@ -202,23 +217,27 @@ search-count: ## instructions of a search on the PowerPC 603e, and its largest s
 	$(call compile,$(PPC),search_replay)
 	@ft/ppc603e/count-search $(BUILD) $(PPC) $(or $(STARTS),24) $(or $(SEED),11)
 
-# $(on_board) builds the bare board's images, and the rig around them. What its stacks may hold make prove knows.
+# $(on_board) builds the bare board's images of both number types, and the rig around each. What its stacks may hold make prove knows.
 define on_board
-$(call packages,build target)
+$(call packages,build target clang)
 $(call configure,$(BUILD),)
 $(call compile,$(BUILD),pil_rig)
+$(call configure,$(CLANG),$(FIXED_HOST))
+$(call compile,$(CLANG),pil_rig)
 $(call configure,$(BOARD),$(BARE_BOARD))
 $(call compile,$(BOARD),flight_603e planted_603e)
+$(call configure,$(BOARD)-fixed,$(BARE_BOARD) $(FIXED))
+$(call compile,$(BOARD)-fixed,flight_603e)
 endef
-pil: prove ## the component on the bare, emulated PowerPC 603e with camera and ground at its lines: the host's telemetry bit for bit; out/pil; FRAMES=
+pil: prove ## the component on the bare, emulated PowerPC 603e with camera and ground at its lines: the host's telemetry bit for bit, in floating and in fixed point; out/pil; FRAMES=
 	$(begin)
 	$(on_board)
-	@ft/pil/run.py $(BUILD) $(BOARD) $(or $(FRAMES),360)
+	@ft/pil/run.py $(BUILD) $(BOARD) $(CLANG) $(BOARD)-fixed $(or $(FRAMES),360)
 
 pil-sample: prove ## the same for a few frames, and the board's answers to faults: null, stray, hung, cut lines, wrong images; out/pil-sample
 	$(begin)
 	$(on_board)
-	@ft/pil/faults $(BUILD) $(BOARD)
+	@ft/pil/faults $(BUILD) $(BOARD) $(CLANG) $(BOARD)-fixed
 
 # $(call seu,FLIPS,SEED,NAME) flips bits in the running board.
 define seu
@@ -238,12 +257,18 @@ seu-sample: ## eight of them, one in each region; out/seu-sample
 	@rm -rf $(LASSO_OUT)/seu-sample
 	$(call seu,8,2,seu-sample)
 
-prove: ## what the flight image's archives for the 603e do not do: heap, exceptions, recursion, contraction, too much stack or memory; out/prove
+# $(call proof,FOLDER[,CMAKE OPTIONS]) builds the flight image with its call graph.
+define proof
+$(call configure,$(1),$(BARE_BOARD) $(own_includes) -DLASSO_CALL_GRAPH=ON -DCMAKE_CXX_COMPILER_LAUNCHER= $(2))
+$(call compile,$(1),flight_603e)
+$(call tidy,$(1),ci)
+endef
+prove: ## what the flight image's archives for the 603e do not do: heap, exceptions, recursion, contraction, too much stack or memory; out/prove, in fixed point out/fixed-point/prove
 	$(begin)
 	$(call packages,build target)
-	$(call configure,$(PROVE),$(BARE_BOARD) $(own_includes) -DLASSO_CALL_GRAPH=ON -DCMAKE_CXX_COMPILER_LAUNCHER=)
-	$(call compile,$(PROVE),flight_603e)
-	$(call tidy,$(PROVE),ci)
+	$(call proof,$(PROVE)-fixed,$(FIXED))
+	@echo "in fixed point"; LASSO_OUT=$(LASSO_OUT)/fixed-point cfg/quality/prove $(PROVE)-fixed
+	$(call proof,$(PROVE))
 	@cfg/quality/prove $(PROVE)
 
 ppc-test: ## unit tests of the flight component on the emulated PowerPC 603e, a part of them without an operating system too; reports in out/ppc-test

@@ -7,6 +7,15 @@ set(CMAKE_EXE_LINKER_FLAGS_INIT "-static")
 set(CMAKE_CXX_STANDARD_LIBRARIES_INIT "-latomic")  # 64-bit atomics are calls on a 32-bit processor
 set(CMAKE_CROSSCOMPILING_EMULATOR qemu-ppc -cpu 603e)
 
+# A processor without a floating-point unit, whose arithmetic is that of a library (ft/ppc603e/soft_float). The C library remains one for the unit: no
+# floating-point number may be handed to it, and the linker must not mind.
+set(LASSO_SOFT_FLOAT "" CACHE FILEPATH "Library of floating-point arithmetic: compile for a processor that has none")
+if(LASSO_SOFT_FLOAT)
+  string(APPEND CMAKE_CXX_FLAGS_INIT " -msoft-float")
+  string(APPEND CMAKE_EXE_LINKER_FLAGS_INIT " -Wl,--no-warn-mismatch")
+  string(PREPEND CMAKE_CXX_STANDARD_LIBRARIES_INIT "${LASSO_SOFT_FLOAT} ")
+endif()
+
 # Libraries of the target only; CMake packages of the host too, for those that are headers alone (Eigen).
 set(CMAKE_FIND_ROOT_PATH /usr/powerpc-linux-gnu)
 set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)

@@ -1,9 +1,10 @@
-"""The report of a processor-in-the-loop run: one page with its picture, the time of each stage against the frame."""
+"""The report of a processor-in-the-loop run: one page, the two number types side by side: the time of each stage against the frame, and figures."""
 import html as text
 
+NUMBERS = {'float': 'floating point', 'fixed': 'fixed point'}
 STAGES = [('estimate', 'estimate'), ('boundary', 'boundary: publish, hand over, plan'), ('polls', 'polls of the camera, 19 slots'),
           ('largest_poll', 'the largest of them'), ('lines', 'interrupts of the lines, in no slot')]
-IDLE_ASKED = 0.70  # by LASSO-PLT-016, which is planned: a figure, no limit
+IDLE_ASKED = 0.70  # by LASSO-PLT-016; a figure, no limit
 COLOURS = {'estimate': '#3465a4', 'polls': '#73b66b', 'boundary': '#c17d11'}
 WIDTH, HEIGHT, LEFT, BOTTOM = 960, 320, 60, 30
 
@@ -49,9 +50,9 @@ def idle(r):
 def rows(r):
     for stage, title in STAGES:
         i = r['instructions'][stage]
-        yield f'instructions: {title}', f'{i["median"]:,.0f} median, {i["p99"]:,} at 99 %, {i["worst"]:,} worst'
+        yield f'{title}: instructions (median, 99 %, worst)', f'{i["median"]:,.0f}; {i["p99"]:,}; {i["worst"]:,}'
     latency = r['interrupt_latency_instructions_without_line_traffic']
-    yield 'from a slot’s time to its first instruction, without line traffic', f'{latency["median"]:.0f} instructions (median), {latency["worst"]} at worst'
+    yield 'from a slot’s time to its first instruction, without line traffic', f'{latency["median"]:.0f} instructions, {latency["worst"]} at worst'
     yield 'processor idle', idle(r)
     yield 'margin of the fullest slot', f'{100 * r["slot_margin_share"]:.1f} %'
     yield 'margin of the fullest frame', f'{100 * r["estimate_margin_share"]:.1f} %'
@@ -60,12 +61,21 @@ def rows(r):
     yield 'code and constants', f'{r["image_bytes"]:,} bytes'
     yield 'memory without mission images', f'{r["memory_bytes"]:,} bytes, of which the component {r["component_bytes"]:,}'
     yield 'lines', f'{r["lost_bytes"]} bytes lost, {r["packets_dropped"]} packets dropped, {r["services_cut"]} services cut short, {r["lines_masked"]} times masked'
-    yield 'telemetry', text.escape(r['telemetry'])
-    yield 'run', text.escape(f'{r["frames"]} frames of {r["scenario"]}, {r["emulator"]}, {r["commit"]}')
+    yield 'telemetry, target and host', text.escape(r['telemetry'].splitlines()[-1])
+    yield 'run', text.escape(f'{r["frames"]} frames of {r["scenario"]}')
 
 
-def html(r, frames, budget):
-    table = ''.join(f'<tr><td>{name}</td><td>{value}</td></tr>' for name, value in rows(r))
+def table(results):
+    heads = ''.join(f'<th>{NUMBERS[number]}</th>' for number in results)
+    lines = zip(*(rows(r) for r in results.values()))
+    return f'<table><tr><th></th>{heads}</tr>' + ''.join(
+        f'<tr><td>{line[0][0]}</td>{"".join(f"<td>{value}</td>" for _, value in line)}</tr>' for line in lines) + '</table>'
+
+
+def html(flights, budget, made):
+    """`flights`: results and frames of each number type. `made`: by what, of what."""
+    pictures = ''.join(f'<h2>{NUMBERS[number].capitalize()}</h2>{picture(frames, budget, r["mips"], r["period_ms"])}' for number, (r, frames) in flights.items())
     return (f'<!doctype html><meta charset="utf-8"><title>3DLASSO on the PowerPC 603e</title><style>body{{font-family:sans-serif;max-width:{WIDTH}px;margin:2em auto}}'
-            f'td{{padding:.2em 1em .2em 0;vertical-align:top}}</style><h1>3DLASSO on the PowerPC 603e</h1><p>Time of each stage in each frame, against the frame.</p>'
-            f'{picture(frames, budget, r["mips"], r["period_ms"])}<table>{table}</table><p>Counts of instructions: the emulator knows neither caches nor a pipeline.</p>\n')
+            f'td,th{{padding:.2em 1em .2em 0;vertical-align:top;text-align:left}}td:first-child{{width:36%}}</style><h1>3DLASSO on the PowerPC 603e</h1><p>Both number types of the per-point path, '
+            f'each beside its own host. Time of each stage in each frame, against the frame.</p>{pictures}<h2>Side by side</h2>'
+            f'{table({number: r for number, (r, _) in flights.items()})}<p>Counts of instructions: the emulator knows neither caches nor a pipeline. {text.escape(made)}.</p>\n')

@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
-"""run.py HOST BOARD [FRAMES [SCENARIO [NAME]]]: the component on the emulated PowerPC 603e, with the simulated camera and the ground at its lines (docs/pil.md).
+"""run.py HOST BOARD FIXED_HOST FIXED_BOARD [FRAMES]: the component on the emulated PowerPC 603e, with the simulated camera and the ground at its lines (docs/pil.md).
 
-HOST and BOARD are build folders. Flies FRAMES frames (360) on host and board, compares the telemetry bit by bit, and leaves instructions, margins
-and stacks in out/NAME (pil): results.json, report.html, summary.json. Exit codes: 0 the same bits, within the limits; 1 not.
+All are build folders, the latter two in fixed point. Flies FRAMES frames (360) on each host and board, both number types at a time, compares
+the telemetry bit by bit, and leaves instructions, margins and stacks in out/pil: results.json, report.html, summary.json. Exit codes: 0 the
+same bits, within the limits; 1 not.
 """
+import concurrent.futures
 import csv
 import json
 import pathlib
@@ -19,10 +21,12 @@ import gate as gates  # noqa: E402
 import emulator  # noqa: E402
 import page  # noqa: E402
 
-MISSION, SLOTS, PERIOD_MS = 'cfg/missions/hubble_tenth.toml', 20, 200
+MISSION, SCENARIO, SLOTS, PERIOD_MS = 'cfg/missions/hubble_tenth.toml', 'spin', 20, 200
+PROOFS = {'float': 'prove', 'fixed': 'fixed-point/prove'}  # where make prove leaves the bounds of each number type
 SECONDS = 280  # of the host; the run ends by itself
 FRAME_INSTRUCTIONS = PERIOD_MS * 1000 * emulator.MIPS
-LIMITS = {'estimate': 3.5e6, 'image': 512 << 10, 'memory': 3 << 20}
+# Of an estimate's instructions: in floating point LASSO-PLT-002, in fixed point half a frame.
+LIMITS = {'estimate': {'float': 3.5e6, 'fixed': 10e6}, 'image': 512 << 10, 'memory': 3 << 20}
 
 
 def instructions(ticks):
@@ -70,26 +74,40 @@ def stacks(slots):
     return {'estimation': max(row['estimate_stack'] for row in slots), 'acquisition': max(row['acquire_stack'] for row in slots)}
 
 
-def proven_stacks(gate):
+def proven_stacks(gate, number):
     """The bounds of the same stacks, for the same code by the same compiler."""
+    path = gates.OUT / PROOFS[number] / 'results.json'
     try:
-        return json.loads((gates.OUT / 'prove/results.json').read_text(encoding='utf-8'))['board_stack_bytes']
+        return json.loads(path.read_text(encoding='utf-8'))['board_stack_bytes']
     except (OSError, ValueError, KeyError) as error:
-        return gate.stop(f'{gates.OUT}/prove/results.json: {error}: the stacks have no proven bounds: make prove')
+        return gate.stop(f'{path}: {error}: the stacks have no proven bounds: make prove')
 
 
-def judge_stacks(gate, used, proven):
+def judge_stacks(gate, number, used, proven):
     for name, bytes_used in used.items():
         if not 0 < bytes_used <= proven[name]:
-            gate.find(f'stack of the {name}: {bytes_used} bytes used, at most {proven[name]} proven: the proof is wrong, or of other code')
-        gate.figure(f'bytes of stack used, {name} (proven bound)', f'{bytes_used} ({proven[name]})')
+            gate.find(f'{number}: stack of the {name}: {bytes_used} bytes used, at most {proven[name]} proven: the proof is wrong, or of other code')
+        gate.figure(f'{number}: bytes of stack used, {name} (proven bound)', f'{bytes_used} ({proven[name]})')
 
 
-def measure(gate, elf, slots):
+def check_number(gate, number, elf):
+    """The image is of this number type: two flights of one would say nothing of the other."""
+    emulator.check_image(elf)
+    if ('FixedNumber' in gate.run('powerpc-linux-gnu-nm', '-C', elf)) != (number == 'fixed'):
+        gate.stop(f'{elf}: not an image of the number type {number}: configure with -DLASSO_NUMBER={number}')
+
+
+def judge_sizes(gate, number, image, memory):
+    for what, value, limit in (('code and constants', image, LIMITS['image']), ('memory without mission images', memory, LIMITS['memory'])):
+        if value > limit:
+            gate.find(f'{number}: {what}: {value} bytes, at most {limit} allowed')
+
+
+def measure(gate, number, elf, slots):
     frames = frames_of(slots)
     flown = [frame for frame in frames if frame['estimate'] > 0]
     if not flown:
-        gate.stop('no estimate has ended on the board')
+        gate.stop(f'{number}: no estimate has ended on the board')
     image, memory = sizes(gate, elf)
     # The processor rests when neither task has work: what idle_ticks say, less the interrupts' entries that they hold. The clock stands still
     # while the bytes of the lines move: their interrupts are in no slot, and are counted apart.
@@ -103,64 +121,76 @@ def measure(gate, elf, slots):
         'idle_share': {'median': statistics.median(with_lines), 'worst': min(with_lines), 'asked': page.IDLE_ASKED},
         'slot_margin_share': 1 - max(max(frame['boundary'], frame['largest_poll']) for frame in flown) / (FRAME_INSTRUCTIONS / SLOTS),
         'estimate_margin_share': 1 - max(frame['estimate'] + frame['polls'] + frame['boundary'] for frame in flown) / FRAME_INSTRUCTIONS,
-        'stack_bytes': stacks(slots), 'proven_stack_bytes': proven_stacks(gate),
+        'stack_bytes': stacks(slots), 'proven_stack_bytes': proven_stacks(gate, number),
         'image_bytes': image, 'memory_bytes': memory, 'component_bytes': slots[0]['memory'], 'lost_bytes': slots[-1]['lost_bytes'],
         'services_cut': slots[-1]['services_cut'], 'lines_masked': slots[-1]['lines_masked'], 'packets_dropped': slots[-1]['packets_dropped'],
     }, flown
 
 
-def judge(gate, r):
-    checks = [('median of an estimate, instructions', r['instructions']['estimate']['median'], LIMITS['estimate']),
-              ('code and constants, bytes', r['image_bytes'], LIMITS['image']),
-              ('memory without mission images, bytes', r['memory_bytes'], LIMITS['memory']),
+def judge(gate, number, r):
+    checks = [('median of an estimate, instructions', r['instructions']['estimate']['median'], LIMITS['estimate'][number]),
               ('bytes lost on the lines', r['lost_bytes'], 0),
               ('packets of telemetry dropped', r['packets_dropped'], 0)]
     for what, value, limit in checks:
         if value > limit:
-            gate.find(f'{what}: {value}, at most {limit} allowed')
-    judge_stacks(gate, r['stack_bytes'], r['proven_stack_bytes'])
+            gate.find(f'{number}: {what}: {value}, at most {limit} allowed')
+    judge_sizes(gate, number, r['image_bytes'], r['memory_bytes'])
+    judge_stacks(gate, number, r['stack_bytes'], r['proven_stack_bytes'])
 
 
 def million(value):
     return f'{value / 1e6:.2f}'
 
 
-def tell(gate, r):
+def tell(gate, number, r):
     i = r['instructions']
+    print(f'{page.NUMBERS[number]}: {r["telemetry"]}')
     print(f'instructions in a frame of {PERIOD_MS} ms at {emulator.MIPS} MIPS ({FRAME_INSTRUCTIONS / 1e6:.0f} million), millions: median, 99 %, worst')
     for stage, title in page.STAGES:
         print(f'  {title:36s} {million(i[stage]["median"])} {million(i[stage]["p99"])} {million(i[stage]["worst"])}')
-    gate.figure('frames', r['frames'])
-    gate.figure('million instructions an estimate (median)', million(i['estimate']['median']))
-    gate.figure('million at worst', million(i['estimate']['worst']))
     print(f'processor idle: {page.idle(r)}')
-    gate.figure('% idle (median)', f'{100 * r["idle_share"]["median"]:.1f}')
-    gate.figure(f'% idle asked (LASSO-PLT-016): {page.verdict(r)}', f'{100 * page.IDLE_ASKED:.0f}')
-    gate.figure('% idle at worst', f'{100 * r["idle_share"]["worst"]:.1f}')
-    gate.figure('% idle without line interrupts (median)', f'{100 * r["idle_share_without_line_interrupts"]["median"]:.1f}')
-    gate.figure('% of the fullest slot free', f'{100 * r["slot_margin_share"]:.0f}')
-    gate.figure('instructions of interrupt latency at worst, without line traffic', r['interrupt_latency_instructions_without_line_traffic']['worst'])
-    gate.figure('kB of code and constants', round(r['image_bytes'] / 1024))
-    gate.figure('MB of memory', f'{r["memory_bytes"] / (1 << 20):.2f}')
+    figures = {
+        'frames': r['frames'],
+        'million instructions an estimate (median, worst)': f'{million(i["estimate"]["median"])} {million(i["estimate"]["worst"])}',
+        f'% idle (median, worst, asked by LASSO-PLT-016): {page.verdict(r)}':
+            f'{100 * r["idle_share"]["median"]:.1f} {100 * r["idle_share"]["worst"]:.1f} {100 * page.IDLE_ASKED:.0f}',
+        '% idle without line interrupts (median)': f'{100 * r["idle_share_without_line_interrupts"]["median"]:.1f}',
+        '% of the fullest slot free': f'{100 * r["slot_margin_share"]:.0f}',
+        'instructions of interrupt latency at worst, without line traffic': r['interrupt_latency_instructions_without_line_traffic']['worst'],
+        'kB of code and constants': round(r['image_bytes'] / 1024),
+        'MB of memory': f'{r["memory_bytes"] / (1 << 20):.2f}',
+    }
+    for label, text in figures.items():
+        gate.figure(f'{number}: {label}', text)
 
 
-def main(host, board, frames='360', scenario='spin', name='pil'):
-    with gates.Gate(name) as gate:
-        elf = f'{board}/flight_603e.elf'
+def fly(gate, number, host, board, frames):
+    """One flight on the host and on the board: what was measured, and its frames."""
+    elf, out = f'{board}/flight_603e.elf', gate.out / number
+    check_number(gate, number, elf)
+    code, said, machine = emulator.fly(f'{host}/ft/pil/pil_rig', elf, [MISSION, SCENARIO, frames, out], out, SECONDS)
+    if code != 0:
+        gate.stop(f'{number}: {said or "the board failed"} ({machine.said()})')
+    results, flown = measure(gate, number, elf, read_reports(out / 'slots.csv'))
+    return results | {'scenario': SCENARIO, 'telemetry': said}, flown
+
+
+def main(host, board, fixed_host, fixed_board, frames='360'):
+    with gates.Gate('pil') as gate:
         try:
             version = emulator.require()
-            code, said, machine = emulator.fly(f'{host}/ft/pil/pil_rig', elf, [MISSION, scenario, frames, gate.out], gate.out, SECONDS)
+            with concurrent.futures.ThreadPoolExecutor() as pool:
+                jobs = {number: pool.submit(fly, gate, number, *folders, frames)
+                        for number, folders in (('float', (host, board)), ('fixed', (fixed_host, fixed_board)))}
+                flights = {number: job.result() for number, job in jobs.items()}
         except emulator.Failure as failure:
             gate.stop(str(failure))
-        print(said)
-        if code != 0:
-            gate.stop(f'{said or "the board failed"} ({machine.said()})')
-        results, flown = measure(gate, elf, read_reports(gate.out / 'slots.csv'))
-        results |= {'scenario': scenario, 'emulator': f'QEMU {version}', 'commit': gates.commit(), 'telemetry': said}
+        results = {'emulator': f'QEMU {version}', 'commit': gates.commit()} | {number: r for number, (r, _) in flights.items()}
         (gate.out / 'results.json').write_text(json.dumps(results, indent=1) + '\n', encoding='utf-8')
-        (gate.out / 'report.html').write_text(page.html(results, flown, FRAME_INSTRUCTIONS), encoding='utf-8')
-        tell(gate, results)
-        judge(gate, results)
+        (gate.out / 'report.html').write_text(page.html(flights, FRAME_INSTRUCTIONS, f'QEMU {version}, {gates.commit()}'), encoding='utf-8')
+        for number, (r, _) in flights.items():
+            tell(gate, number, r)
+            judge(gate, number, r)
 
 
 if __name__ == '__main__':

@@ -4,6 +4,8 @@ import collections
 import re
 import subprocess
 
+import instructions
+
 # The counter's own test: a loop of so many instructions between the markers.
 LOOP = 1000000
 LOOP_TOLERANCE = 20
@@ -47,6 +49,13 @@ def brief(name):
 
 def markers(starts, names):
     return [starts[names.index(name)] for name in ('lasso_estimate_begins', 'lasso_estimate_ends')]
+
+
+def functions_with_unit(program, starts):
+    """Which of the functions that begin there have instructions of the floating-point unit."""
+    code = run('powerpc-linux-gnu-objdump', '-d', '--no-show-raw-insn', program).splitlines()
+    places = (line.split(':', 1)[0] for line in code if instructions.FLOATING.search(line))
+    return {bisect.bisect_right(starts, int(place, 16)) - 1 for place in places}
 
 
 def self_test(gate, plugin):
