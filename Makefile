@@ -27,12 +27,13 @@ FIXED = -DLASSO_NUMBER=fixed
 FIXED_HOST = -DCMAKE_CXX_COMPILER=clang++-19 $(FIXED)
 # $(call at_level,COMPILER,LEVEL): flight code and its tests at one level of optimisation, where the shipped build uses several
 at_level = -DCMAKE_CXX_COMPILER=$(1) -DCMAKE_BUILD_TYPE=Level -DCMAKE_CXX_FLAGS_LEVEL=-$(2) -DLASSO_GROUND=OFF
-# $(call sanitized,SANITIZERS), and the tests that start threads
+# $(call sanitized,SANITIZERS), the tests that start threads, and those of the per-point path
 comma := ,
 sanitized = -DCMAKE_CXX_COMPILER=clang++-19 -DCMAKE_BUILD_TYPE=Level -DCMAKE_CXX_FLAGS_LEVEL="-O1 -g1" -DLASSO_SANITIZE=$(1)
 # Elsewhere what most files include is parsed once (lasso_precompile); here each file has to include what it uses.
 own_includes = -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON
 THREADED = ut_posix ut_exec
+PER_POINT = ut_geometry ut_mission ut_pose
 SOURCES = git ls-files -z '*.cpp' '*.hpp'
 
 export CCACHE_BASEDIR := $(CURDIR)
@@ -282,14 +283,16 @@ ppc-test: ## unit tests of the flight component on the emulated PowerPC 603e, a 
 
 sanitize: export LSAN_OPTIONS := suppressions=$(abspath cfg/quality/leaks.txt):print_suppressions=0
 sanitize: export UBSAN_OPTIONS := print_stacktrace=1
-sanitize: ## all tests under the address and undefined-behaviour sanitizers, the threaded ones under the thread sanitizer
+sanitize: ## all tests under the address and undefined-behaviour sanitizers, those of the per-point path in fixed point, too, the threaded ones under the thread sanitizer
 	$(begin)
 	$(call packages,build clang test)
 	$(call configure,$(SANITIZE)-address,$(call sanitized,address$(comma)undefined))
 	$(call compile,$(SANITIZE)-address)
+	$(call configure,$(SANITIZE)-fixed,$(call sanitized,address$(comma)undefined) $(FIXED) -DLASSO_GROUND=OFF)
+	$(call compile,$(SANITIZE)-fixed,$(PER_POINT))
 	$(call configure,$(SANITIZE)-thread,$(call sanitized,thread) -DLASSO_GROUND=OFF)
 	$(call compile,$(SANITIZE)-thread,$(THREADED))
-	@cfg/quality/run-tests sanitize address,undefined=$(SANITIZE)-address thread=$(SANITIZE)-thread $(THREADED)
+	@cfg/quality/run-tests sanitize address,undefined=$(SANITIZE)-address fixed=$(SANITIZE)-fixed $(PER_POINT) thread=$(SANITIZE)-thread $(THREADED)
 
 arrows: ## the includes obey the arrows between rooms and stages (cfg/quality/arrows.toml)
 	$(begin)
