@@ -85,7 +85,8 @@ TEST(Fixed, StoredNumbersJoinProductsExactly) {
     ASSERT_EQ((a - b).raw, wide - b.raw);
     ASSERT_EQ((b - a).raw, b.raw - wide);
     ASSERT_EQ(a < b, wide < b.raw);
-    const Wide<44> area = a * a;
+    const Metres side = metres(random, 40);  // its square has room beside 52 fractional bits
+    const Wide<44> area = side * side;
     ASSERT_EQ((b + area).raw, b.raw + (area.raw * 256));
     ASSERT_EQ(area < b, area.raw * 256 < b.raw);
     ASSERT_EQ(b < area, b.raw < area.raw * 256);
