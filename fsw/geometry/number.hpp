@@ -5,7 +5,7 @@
 //             what                                              range that is promised     FixedNumber
 //   Length    metres                                            128 m (sums to 512)        2^-22
 //   Unit      components of unit vectors, shares, small angles  1 (sums to 2)              2^-30
-//   Tangent   places on the plane z = 1                         8 (sums to 32)             2^-26
+//   Tangent   places on the plane z = 1; half rates, rad/s      8; 30 (sums to 32)         2^-26
 //   Cells     places in the grid                                32768                      2^-14
 //   CellRate  cells per metre                                   2000                       2^-20
 //   Gradient  of a normal along its surface, 1/m                32768                      2^-16
