@@ -97,6 +97,18 @@ TEST(ImageCheck, RefusesLengthsThatTheNumberTypeDoesNotHold) {
   }
 }
 
+// In the image's coarsest unit, of 1/256 m.
+TEST(ImageCheck, RefusesLengthsThatNoNumberTypeHolds) {
+  VERIFIES("LASSO-IMG-021~1");
+  test::TestImage image = test::make_box_image(preset_parameters());
+  image.data()[test::table_offset(image, static_cast<std::uint32_t>(TableId::kFieldGeometry)) + 3] = 8;
+  image.data()[test::table_offset(image, static_cast<std::uint32_t>(TableId::kHull))] = 0x7F;
+  test::repair_crcs(image);
+  const Checked checked(image);
+  EXPECT_EQ(checked.result.status, Status::kBadValue);
+  EXPECT_NE(std::string(checked.result.what).find("number type holds"), std::string::npos) << checked.result.what;
+}
+
 TEST(ImageCheck, RefusesParametersThatTheNumberTypeDoesNotHold) {
   VERIFIES("LASSO-IMG-021~1 LASSO-IMG-004~1");
   struct Case {

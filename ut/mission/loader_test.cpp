@@ -198,6 +198,13 @@ TEST_F(LoaderTest, RefusesIndicesOutsideTheirTables) {
   }
 }
 
+TEST_F(LoaderTest, LoadsATriangle) {
+  VERIFIES("LASSO-IMG-001~1");
+  for (const std::size_t word : {9U, 13U, 17U}) spoil(TableId::kElements, word, 0);
+  spoil(TableId::kElements, 21, 0x80000000U);
+  EXPECT_EQ(load().status, Status::kOk);
+}
+
 TEST_F(LoaderTest, RefusesTablesOfAnotherLength) {
   VERIFIES("LASSO-IMG-005~1");
   struct Case {

@@ -5,7 +5,8 @@
 #include <array>
 #include <string>
 
-#include "ut/support/box_image.hpp"
+#include "fsw/core/byte_codec.hpp"
+#include "fsw/mission/parameter_area.hpp"
 #include "ut/support/verifies.hpp"
 
 namespace lasso {
@@ -160,6 +161,39 @@ TEST(NumberFit, AScanIsNoLongerThanTheNumberTypeHolds) {
   p.duration_s += 1e-3;
   EXPECT_EQ(std::string(misfit_of(p).what).find("scan.duration_s"), 0U);
   EXPECT_STREQ(parameter_rows()[misfit_of(p).row].key, "scan.duration_s");
+}
+
+// A model of a radius that neither number type holds, with the sensor's range.
+TEST(NumberFit, WhatDoesNotFitHasItsPlaceInTheImage) {
+  VERIFIES("LASSO-IMG-021~1");
+  Record geometry(TableId::kFieldGeometry, kFieldGeometryWords);
+  geometry.put(kLengthFractionBits, kLengthBits);
+  std::array<std::uint8_t, 8 * kMaxParameters> values{};
+  const std::uint32_t count = static_cast<std::uint32_t>(parameter_rows().size());
+  FlightImage image;
+  image.tables[static_cast<std::size_t>(TableId::kFieldGeometry) - 1] = geometry.table();
+  image.tables[static_cast<std::size_t>(TableId::kParameters) - 1] = {values.data(), 2, count};
+  image.tables[static_cast<std::size_t>(TableId::kSensors) - 1] = {values.data(), kSensorWords, 1};
+  MissionParameters p = preset_parameters();
+  const auto store = [&] {
+    ByteWriter writer{Bytes(values.data(), values.size())};
+    for (const ParameterRow& row : parameter_rows()) writer.f64(p.*row.member);
+  };
+  store();
+  EXPECT_EQ(check_parameters_fit(image).status, Status::kOk);
+  EXPECT_EQ(check_sensor_fit(image, 0).status, Status::kOk);
+  geometry.put(kModelRadius, kLongest);
+  const LoadFailure far = check_parameters_fit(image);
+  EXPECT_EQ(far.status, Status::kBadValue);
+  EXPECT_EQ(far.table, static_cast<std::uint32_t>(TableId::kParameters));
+  EXPECT_STREQ(parameter_rows()[far.record].key, "sensor.range_max_m");
+  const LoadFailure sensor = check_sensor_fit(image, 0);
+  EXPECT_EQ(sensor.status, Status::kBadValue);
+  EXPECT_EQ(sensor.table, static_cast<std::uint32_t>(TableId::kSensors));
+  EXPECT_STREQ(sensor.what, far.what);
+  p.duration_s = to_seconds(N::kLongestScan_us);
+  store();
+  EXPECT_STREQ(parameter_rows()[check_parameters_fit(image).record].key, "scan.duration_s") << "the first that is found";
 }
 
 }  // namespace
