@@ -68,7 +68,6 @@ struct Fixed {
   constexpr explicit operator double() const { return raw * (1.0 / static_cast<double>(std::int64_t{1} << F)); }
 
   constexpr Fixed& operator+=(Fixed b) { return *this = *this + b; }
-  constexpr Fixed& operator-=(Fixed b) { return *this = *this - b; }
 
   friend constexpr Fixed operator+(Fixed a, Fixed b) { return of_raw(a.raw + b.raw); }
   friend constexpr Fixed operator-(Fixed a, Fixed b) { return of_raw(a.raw - b.raw); }
@@ -166,6 +165,19 @@ constexpr R bounded(Wide<F> x) {
 template <class R, int F>
 constexpr R bounded(Fixed<F> x) {
   return bounded<R>(Wide<F>{x.raw});
+}
+
+// Stored, and cut to what the type holds.
+template <class R, int F>
+constexpr R cut(Wide<F> x) {
+  return R::of_raw(detail::saturated(detail::rescaled<F - R::kFraction>(x.raw), detail::kMost));
+}
+
+// What is left of 1; nothing where x is more.
+template <int F>
+constexpr Fixed<F> rest_of_one(Fixed<F> x) {
+  const Fixed<F> rest = 1 - x;
+  return rest.raw > 0 ? rest : Fixed<F>{0};
 }
 
 // a / b towards zero, cut to what R holds; 0 for 0 / 0. |a| * 2^(R - A + B) has to fit 63 bits.

@@ -62,14 +62,16 @@ struct FixedNumber {
     return (bits >> 31) != 0 ? -magnitude : magnitude;
   }
   static Unit seconds(TimeUs dt_us) {
-    constexpr std::int64_t kMostUs = 1'900'000;  // 2 s is the end of the type
     const std::int64_t dt = dt_us > kMostUs ? kMostUs : dt_us < -kMostUs ? -kMostUs : dt_us;
     return Wide<50>{dt * 1'125'899'907};  // 2^50 / 10^6
   }
 
+  static constexpr DurationUs kMostUs = 1'900'000;  // 2 s is the end of the type
   static constexpr int kUnitFractionBits = 30;
-  static constexpr double kFarthest_m = 127;  // bounded() cuts there, too
-  static constexpr double kSmallestCell_m = 1.0 / 2000;
+  static constexpr double kFarthest_m = 127;                       // bounded() cuts there, too
+  static constexpr double kSmallestCell_m = 1.0 / 2000;            // rounded by less than the share by which a cell's list is wider
+  static constexpr double kLargestSigma_m = 0.088;                 // of a bounded() Variance
+  static constexpr DurationUs kLongestScan_us = 2 * kMostUs;       // from its start to its last sample
   static constexpr Variance kLeastVariance = Variance::of_raw(1);  // so that no variance is 0
   static constexpr Cells kFarthestCell = Cells(32767);
   static constexpr Area area_at(Tangent x, Tangent y, Length z) {

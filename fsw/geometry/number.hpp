@@ -5,7 +5,7 @@
 //             what                                              range that is promised     FixedNumber
 //   Length    metres                                            128 m (sums to 512)        2^-22
 //   Unit      components of unit vectors, shares, small angles  1 (sums to 2)              2^-30
-//   Tangent   places on the plane z = 1                         8 (sums to 32)             2^-26
+//   Tangent   places on the plane z = 1; half rates, rad/s      8; 30 (sums to 32)         2^-26
 //   Cells     places in the grid                                32768                      2^-14
 //   CellRate  cells per metre                                   2000                       2^-20
 //   Gradient  of a normal along its surface, 1/m                32768                      2^-16
@@ -79,8 +79,10 @@ struct FloatNumber {
   static constexpr int kUnitFractionBits = 30;  // Q1.30
   static constexpr double kFarthest_m = 1e6;    // longer than any length
   static constexpr double kSmallestCell_m = 1e-6;
-  static constexpr Variance kLeastVariance = 0;  // beside which none is lost
-  static constexpr float kFarthestCell = 1e6F;   // rays that start farther out are not looked up
+  static constexpr double kLargestSigma_m = 1e9;
+  static constexpr DurationUs kLongestScan_us = 100'000'000;  // longer than any frame
+  static constexpr Variance kLeastVariance = 0;               // beside which none is lost
+  static constexpr float kFarthestCell = 1e6F;                // rays that start farther out are not looked up
   static constexpr Area area_at(Tangent x, Tangent y, Length z) { return (x * x + y * y) * z * z; }  // of the offset (x, y) at the depth z
   static constexpr double sum(float x) { return static_cast<double>(x); }
   static constexpr Area area(float x) { return x; }
@@ -115,6 +117,11 @@ template <class R>
 constexpr R bounded(float x) {
   return x;
 }
+template <class R>
+constexpr R cut(float x) {
+  return x;
+}
+constexpr float rest_of_one(float x) { return x < 1 ? 1 - x : 0; }
 constexpr float share_of(float num, float den) { return num / den; }
 constexpr float inverse_of(float x) { return 1 / x; }
 template <class R>

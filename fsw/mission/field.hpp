@@ -155,7 +155,7 @@ inline FieldHit<N> walk_field(const Field<N>& field, const FieldRay<N>& ray, typ
   return {};
 }
 
-// Normal at a point of an element, outward on its front; of nearly unit length where the surface is curved.
+// Normal at a point of an element, outward on its front; of nearly unit length where the surface is curved, and cut to what a Unit holds.
 template <class N>
 inline void surface_normal(const Field<N>& field, const Element<N>& e, const typename N::Length* p, typename N::Unit* n) {
   if (e.curvature == 0) {
@@ -164,7 +164,7 @@ inline void surface_normal(const Field<N>& field, const Element<N>& e, const typ
   }
   const Curvature<N>& k = field.curvatures[e.curvature];
   const typename N::Length q[3] = {p[0] - k.c[0], p[1] - k.c[1], p[2] - k.c[2]};
-  for (int i = 0; i < 3; ++i) n[i] = k.n[i] + (k.g[i] * q[0] + k.g[3 + i] * q[1] + k.g[6 + i] * q[2]);
+  for (int i = 0; i < 3; ++i) n[i] = cut<typename N::Unit>(k.n[i] + (k.g[i] * q[0] + k.g[3 + i] * q[1] + k.g[6 + i] * q[2]));
 }
 
 // Where a point lies in the grid; outside it, the nearest cell of the grid.

@@ -3,12 +3,11 @@
 #include "cfg/capacities.hpp"
 #include "fsw/core/byte_codec.hpp"
 #include "fsw/core/crc.hpp"
-#include "fsw/geometry/portable_math.hpp"
+#include "fsw/mission/number_fit.hpp"
 
 namespace lasso {
 namespace {
 
-using N = FlightNumber;
 constexpr std::uint32_t kDirectoryBytes = 4 * (kImageHeaderWords + kTableCount * kDirectoryEntryWords);
 constexpr std::uint32_t kMaxBricksPerAxis = 1023;
 constexpr std::uint32_t kRecordWords[kTableCount] = {2,
@@ -62,19 +61,6 @@ std::uint32_t brick_count(const FlightImage& image) {
   return geometry.word(0, kBricksX) * geometry.word(0, kBricksY) * geometry.word(0, kBricksZ);
 }
 
-// What of the grid this build's number type cannot hold, or nullptr.
-const char* misfit_of(const ImageTable& geometry, std::uint32_t bits) {
-  const double unit_m = 1.0 / (1u << bits);
-  const double cell_m = geometry.signed_word(0, kCellSize) * unit_m;
-  if (!(cell_m > N::kSmallestCell_m)) return "cell size";
-  for (std::uint32_t i = 0; i < 3; ++i) {
-    const double low_m = geometry.signed_word(0, kOriginX + i) * unit_m;
-    const double high_m = low_m + 8 * geometry.word(0, kBricksX + i) * cell_m;
-    if (low_m < -N::kFarthest_m || high_m > N::kFarthest_m) return "grid is larger than the number type holds";
-  }
-  return nullptr;
-}
-
 LoadFailure check_geometry(const FlightImage& image) {
   const ImageTable& geometry = image[TableId::kFieldGeometry];
   if (geometry.records != 1) return failure(Status::kBadLength, "field geometry records", TableId::kFieldGeometry);
@@ -84,7 +70,7 @@ LoadFailure check_geometry(const FlightImage& image) {
     const std::uint32_t n = geometry.word(0, i);
     if (n == 0 || n > kMaxBricksPerAxis) return failure(Status::kBadValue, "bricks along an axis", TableId::kFieldGeometry);
   }
-  if (const char* wrong = misfit_of(geometry, bits)) return failure(Status::kBadValue, wrong, TableId::kFieldGeometry);
+  if (const char* wrong = misfit_of_grid(geometry)) return failure(Status::kBadValue, wrong, TableId::kFieldGeometry);
   if (geometry.signed_word(0, kModelRadius) <= 0) return failure(Status::kBadValue, "model radius", TableId::kFieldGeometry);
   return {};
 }
@@ -163,10 +149,14 @@ double squared_unit(const ImageTable& table, std::uint32_t record, std::uint32_t
   return sum;
 }
 
+// A triangle has no fourth one.
+bool is_fourth_side(double squared) { return !(squared > 0) || is_unit(squared); }
+
 LoadFailure check_element(const FlightImage& image, std::uint32_t i) {
   const ImageTable& elements = image[TableId::kElements];
   bool ok = is_unit(squared_unit(elements, i, 0)) && elements.word(i, 4) < image[TableId::kCurvatures].records;
   for (std::uint32_t side = 0; side < 3; ++side) ok = ok && is_unit(squared_unit(elements, i, 6 + side, 4));
+  ok = ok && is_fourth_side(squared_unit(elements, i, 9, 4));
   if (ok && elements.word(i, 5) <= kElementTwoSided) return {};
   return failure(Status::kBadValue, "element", TableId::kElements, i);
 }
@@ -203,7 +193,8 @@ LoadFailure check_unit(const FlightImage& image, TableId id, std::uint32_t i, st
 LoadFailure check_sensor(const FlightImage& image, std::uint32_t i) {
   std::size_t bad_row = 0;
   const Status status = validate(sensor_of(image[TableId::kSensors], i), bad_row);
-  return status == Status::kOk ? LoadFailure{} : failure(status, sensor_rows()[bad_row].key, TableId::kSensors, i);
+  if (status != Status::kOk) return failure(status, sensor_rows()[bad_row].key, TableId::kSensors, i);
+  return check_sensor_fit(image, i);
 }
 
 // Of one of the sensors, not before the one before, and no more of one than fit.
@@ -225,15 +216,19 @@ LoadFailure check_numbers(const FlightImage& image) {
   if (!failed(result)) result = check_geometry(image);
   if (!failed(result)) result = check_counts(image);
   if (!failed(result)) result = check_search_grid(image);
+  if (!failed(result)) result = check_parameters_fit(image);
   return result;
 }
 
 // Tables whose records are checked one by one, in this order.
-constexpr TableId kChecked[] = {TableId::kBricks, TableId::kRayCells, TableId::kRayLists,   TableId::kNearCells, TableId::kElements,
-                                TableId::kEdges,  TableId::kViews,    TableId::kSymmetries, TableId::kSensors,   TableId::kCalibrations};
+constexpr TableId kChecked[] = {TableId::kBricks,     TableId::kRayCells,   TableId::kRayLists,    TableId::kNearCells, TableId::kElements,
+                                TableId::kCurvatures, TableId::kFootPoints, TableId::kEdges,       TableId::kHull,      TableId::kViews,
+                                TableId::kSymmetries, TableId::kSensors,    TableId::kCalibrations};
 constexpr std::uint32_t kCheckedTables = sizeof(kChecked) / sizeof(kChecked[0]);
 
 LoadFailure check_record(const FlightImage& image, TableId id, std::uint32_t record) {
+  const LoadFailure misfit = check_lengths_fit(image, id, record);
+  if (failed(misfit)) return misfit;
   if (id == TableId::kBricks) return check_brick(image, record);
   if (id == TableId::kRayCells) return check_ray_cells(image, record);
   if (id == TableId::kRayLists) return check_indices(image, id, record, kFinalEntry, image[TableId::kElements].records - 1);
@@ -242,7 +237,8 @@ LoadFailure check_record(const FlightImage& image, TableId id, std::uint32_t rec
   if (id == TableId::kEdges) return check_edge(image, record);
   if (id == TableId::kViews) return check_unit(image, id, record, 3);
   if (id == TableId::kSymmetries) return check_unit(image, id, record, 4);
-  return id == TableId::kSensors ? check_sensor(image, record) : check_calibration(image, record);
+  if (id == TableId::kSensors) return check_sensor(image, record);
+  return id == TableId::kCalibrations ? check_calibration(image, record) : LoadFailure{};
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include "cfg/capacities.hpp"
 #include "fsw/core/byte_codec.hpp"
 #include "fsw/geometry/portable_math.hpp"
+#include "fsw/mission/image_layout.hpp"
 
 namespace lasso {
 namespace {
@@ -16,14 +17,6 @@ static_assert(sizeof(ModelEdge<N>) == std::size_t{4} * kEdgeWords, "edges are co
 static_assert(sizeof(HullPointOf<N>) == std::size_t{4} * 3, "hull points are converted in place");
 static_assert(sizeof(ModelView<N>) == std::size_t{4} * kViewWords, "views are converted in place");
 static_assert(sizeof(NearSymmetry<N>) == std::size_t{4} * kSymmetryWords, "near-symmetries are converted in place");
-
-// Each letter is a word of a record: u plain, L length, U unit vector, K curvature; one letter holds for all words. Tables that are read
-// through the format stay as they were received: nullptr.
-constexpr const char* kElementLayout = "UUULuuUUUUUUUUUUUULLLL";
-constexpr const char* kCurvatureLayout = "UUULLLKKKKKKKKK";
-constexpr const char* kEdgeLayout = "LLLLLLUUULUUULu";
-constexpr const char* kLayouts[kTableCount] = {
-    nullptr, nullptr, kElementLayout, kCurvatureLayout, "u", "u", "u", "u", "L", kEdgeLayout, "L", nullptr, "u", "UUULLLLLLLL", "UUUULLL"};
 
 constexpr std::uint32_t kPartsTables = 100;  // added to the numbers of the first part's tables, and again for each next one
 
@@ -38,6 +31,7 @@ void convert_word(std::uint8_t* place, char kind, int length_bits) {
   const std::int32_t value = one.signed_word(0, 0);
   switch (kind) {
     case 'L':
+    case 'S':
       return store(place, N::length(value, length_bits));
     case 'U':
       return store(place, N::unit(value));
@@ -54,9 +48,8 @@ void convert_table(const ImageTable& table, const char* layout, int length_bits,
   const auto begin = static_cast<std::size_t>(table.data - base);
   const std::size_t end = begin + table.bytes();
   const std::size_t last = end < offset + piece.size() ? end : offset + piece.size();
-  const std::uint32_t period = layout[1] == '\0' ? 1 : table.words;
   for (std::size_t at = begin > offset ? begin : offset; at < last; at += 4) {
-    convert_word(piece.data() + (at - offset), layout[(at - begin) / 4 % period], length_bits);
+    convert_word(piece.data() + (at - offset), kind_of(layout, static_cast<std::uint32_t>((at - begin) / 4 % table.words)), length_bits);
   }
 }
 

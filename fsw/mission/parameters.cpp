@@ -50,7 +50,7 @@ const ParameterRow kRows[] = {
   {"estimation.label_error", "1", kReal, &P::label_error, 1, 1e-6, 0.4, 1e-3, "", "probability that a hit or miss label is wrong, without dropouts"},
   {"estimation.deskew", "1", kBoolean, &P::deskew, 1, 0, 1, 1, "", "move each point to the scan's reference time by the predicted rates"},
   {"estimation.noise_estimated", "1", kBoolean, &P::noise_estimated, 1, 0, 1, 1, "", "scale the covariance by the residuals instead of trusting sensor.sigma"},
-  {"estimation.surface_sigma_m", "m", kReal, &P::surface_sigma_m, 1, 0, 1, 1e-5, "", "how well the model's surface is known"},
+  {"estimation.surface_sigma_m", "m", kReal, &P::surface_sigma_m, 1, 0, 0.08, 1e-5, "", "how well the model's surface is known"},
   {"estimation.wide_start", "1", kBoolean, &P::wide_start, 1, 0, 1, 1, "", "the first scan starts from centroid, far field and slides"},
   {"filter.period_s", "s", kReal, &P::period_s, 1, 0.01, 100, 0.2, "", "frame period"},
   {"filter.acceleration_mps2", "m/s2", kReal, &P::acceleration_mps2, 1, 1e-9, 100, 0.01, "", "unmodelled acceleration of the target (1 sigma)"},

@@ -1,6 +1,7 @@
 #include "fsw/mode/starts.hpp"
 
 #include "fsw/geometry/portable_math.hpp"
+#include "fsw/pose/estimator.hpp"
 
 namespace lasso {
 namespace {
@@ -86,6 +87,7 @@ StartRefusal start_from(const Mission& mission, const StartOffer& offer, TimeUs 
   FilterState started;
   if (start_filter(started, filter_start(p, offer)) != Status::kOk) return StartRefusal::kBadCovariance;
   if (predict_filter(started, now_us, filter_noise(p)) != Status::kOk) return StartRefusal::kTooFast;
+  if (is_too_fast(p, started.rates, 0.5 * p.duration_s)) return StartRefusal::kTooFast;
   const Vec3 center_m = started.T_sensor_target * mission.center_m;
   if (!in_reach(mission, center_m)) return StartRefusal::kOutOfReach;
   if (!at_bearing(mission, bearing, started, center_m)) return StartRefusal::kNotAtBearing;

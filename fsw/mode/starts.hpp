@@ -33,7 +33,7 @@ enum class StartRefusal : std::uint8_t {
   kBadCovariance = 5,  // not symmetric, or not of variances and correlations
   kFromFuture = 6,     // stated later than the frame in which it would start
   kTooOld = 7,         // stated longer ago than start.age_max_s
-  kTooFast = 8,        // its rates since then have no meaning
+  kTooFast = 8,        // its rates since then have no meaning, or move the target too far within a scan
   kOutOfReach = 9,     // not in front of the sensor, or wholly outside the ranges that it measures
   kNotAtBearing = 10,  // not where the bearing sees the target
   kNotConfirmed = 11,  // no scan confirmed it within start.frames

@@ -155,6 +155,7 @@ void find_contour(const Mission& mission, const View<FlightNumber>& view, Worksp
 
 void find_ray_edges(const View<FlightNumber>& view, Length band, Workspace& workspace) {
   for (std::size_t i = 0; i < workspace.rays.size(); ++i) workspace.ray_edges[i].count = 0;
+  if (workspace.rays.empty()) return;  // nor are there bins
   if (!(view.target_depth > Length{0})) return;
   place_rays(view, workspace, workspace.bins);
   sort_rays(workspace.rays.size(), workspace.bins);

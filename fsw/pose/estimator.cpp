@@ -89,15 +89,35 @@ HitSolution register_wide(const Mission& mission, const Pose& T_target_sensor, W
   return explained_share(far) > explained_share(near) ? far : near;
 }
 
+// More than `most` within the time, or than `fastest` by itself; so is what is not a number.
+bool exceeds(const Vec3& rate, double time_s, double most, double fastest) {
+  const double limit = fastest * time_s > most ? most / time_s : fastest;
+  return !(rate.squaredNorm() <= limit * limit);
+}
+
+double half_of(const RangeImage& scan) {
+  return scan.samples.empty() ? 0 : to_seconds(scan.samples[scan.samples.size() - 1].t_us - scan.reference_time_us());
+}
+
 bool has_information(const HitSolution& hits) { return hits.stop == StopReason::kConverged || hits.stop == StopReason::kIterationLimit; }
 
 }  // namespace
+
+bool is_too_fast(const MissionParameters& p, const Twist& rates, double half_scan_s) {
+  if (!(p.deskew > 0.5)) return false;
+  return exceeds(rates.omega_radps, half_scan_s, kMostTurn_rad, kFastestTurn_radps) ||
+         exceeds(rates.v_mps, half_scan_s, kMostWay_m, kFastest_mps);
+}
 
 Registration Estimator::estimate(const Mission& mission, const RangeImage& scan, const StartPoint& start) {
   Registration result;
   result.scan_id = scan.scan_id;
   result.t_us = scan.reference_time_us();
   result.T_sensor_target = start.T_sensor_target;
+  if (is_too_fast(mission.parameters, start.rates, half_of(scan))) {
+    result.reason = PoseReason::kTooFast;
+    return result;
+  }
   prepare_rays(mission, scan, start, workspace_);
   Pose pose = inverse(start.T_sensor_target);
   const HitSolution hits = start.wide ? register_wide(mission, pose, workspace_) : register_hits(mission, pose, workspace_);

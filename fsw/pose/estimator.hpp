@@ -17,6 +17,14 @@ struct StartPoint {
   bool partial = false;  // the model is a part of what is scanned: a return that meets none of it does not count against the pose
 };
 
+// Does the target move too fast for rays to be moved back, with estimation.deskew? By half of a scan, all that is between its reference
+// time and a sample: there Cayley's map is off by a twelfth of a radian, and fixed point (number.hpp) has nothing beyond.
+bool is_too_fast(const MissionParameters& parameters, const Twist& rates, double half_scan_s);
+constexpr double kMostTurn_rad = 1;
+constexpr double kFastestTurn_radps = 60;
+constexpr double kMostWay_m = 50;
+constexpr double kFastest_mps = 500;
+
 class Estimator {
  public:
   // Never fails silently: result.reason says whether and why the pose can(not) be trusted. With nothing to work on the pose is the start.

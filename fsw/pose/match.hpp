@@ -88,11 +88,11 @@ inline void add_hit(const Field<N>& field, const MatchSettings<N>& s, const Matc
   const typename N::Length p[3] = {ray.m[0] + hit.t * ray.u[0], ray.m[1] + hit.t * ray.u[1], ray.m[2] + hit.t * ray.u[2]};
   typename N::Unit n[3];
   surface_normal(field, field.elements[hit.element], p, n);
-  const typename N::Unit facing = dot3<N>(n, ray.u);  // positive only for two-sided elements seen from behind
+  const auto facing = cut<typename N::Unit>(dot3<N>(n, ray.u));  // positive only for two-sided elements seen from behind
   if (facing > -s.cos_incidence_max && facing < s.cos_incidence_max) return;
   ++sums.usable;
-  const typename N::Unit tilt2 = facing * facing;
-  const auto variance = tilt2 * point.range_variance + (1 - tilt2) * point.across_variance + s.surface_variance;
+  const auto tilt2 = cut<typename N::Unit>(facing * facing);  // above 1 where the surface is curved, and its normal longer than 1
+  const auto variance = tilt2 * point.range_variance + rest_of_one(tilt2) * point.across_variance + s.surface_variance;
   const typename N::Variance rounded = variance;
   const typename N::Length r = hit.t * facing;
   const typename N::Area r2 = r * r;

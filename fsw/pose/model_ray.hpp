@@ -13,10 +13,7 @@ inline bool meets_model(const Mission& mission, const PathPose<FlightNumber>& po
   FieldRay<FlightNumber> r{};
   transform(pose, ray.o, r.m);
   rotate(pose, ray.u, r.u);
-  set_cells(mission.field, r);
-  if (!near_grid(r)) return false;
-  const FieldSpan<FlightNumber> span = clip_to_grid(mission.field, r);
-  return walk_field(mission.field, r, span.enter > FlightNumber::Length{0} ? span.enter : FlightNumber::Length{0}, span.leave).found;
+  return cast_ray(mission.field, r).found;
 }
 
 }  // namespace lasso

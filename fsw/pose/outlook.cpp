@@ -23,23 +23,19 @@ void include(const ImagePoint& point, ScanRectangle& rectangle) {
 SeenPoint see(const Mission& mission, FieldRay<N>& ray) {
   SeenPoint seen;
   const Field<N>& field = mission.field;
-  set_cells(field, ray);
-  if (!near_grid(ray)) return seen;
-  const FieldSpan<N> span = clip_to_grid(field, ray);
-  const FieldHit<N> hit =
-      walk_field(field, ray, span.enter > Length{0} ? span.enter : Length{0}, span.leave);  // what lies behind is not seen
+  const FieldHit<N> hit = cast_ray(field, ray);
   if (!hit.found) return seen;
   seen.met = true;
   const Length q[3] = {ray.m[0] + hit.t * ray.u[0], ray.m[1] + hit.t * ray.u[1], ray.m[2] + hit.t * ray.u[2]};
   N::Unit normal[3];
   surface_normal(field, field.elements[hit.element], q, normal);
-  const N::Unit facing = dot3<N>(normal, ray.u);
+  const auto facing = cut<N::Unit>(dot3<N>(normal, ray.u));
   const MissionParameters& p = mission.parameters;
   const double tilt2 = square(N::to_double(facing));
   if (tilt2 < square(sin_cos(p.incidence_max_rad).cos)) return seen;
   const double range_m = N::to_double(hit.t);
-  const double variance =
-      tilt2 * range_variance(p, range_m) + (1 - tilt2) * square(range_m * p.sigma_angle_rad) + square(p.surface_sigma_m);
+  const double across = clamp(1 - tilt2, 0.0, 1.0);  // a curved surface's normal may be longer than 1
+  const double variance = tilt2 * range_variance(p, range_m) + across * square(range_m * p.sigma_angle_rad) + square(p.surface_sigma_m);
   const Vec3 n = to_vec3(normal);
   seen.point = to_vec3(q);
   seen.row << seen.point.cross(n), n;

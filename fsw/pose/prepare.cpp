@@ -21,7 +21,7 @@ PointSettings<N> settings_for(const MissionParameters& p, const StartPoint& star
   const bool moving = !start.rates.omega_radps.isZero(0.0) || !start.rates.v_mps.isZero(0.0);
   s.moving = p.deskew > 0.5 && moving;
   for (int i = 0; i < 3; ++i) {
-    s.minus_half_rate[i] = N::to<N::Unit>(-0.5 * start.rates.omega_radps[i]);
+    s.minus_half_rate[i] = N::to<N::Tangent>(-0.5 * start.rates.omega_radps[i]);
     s.origin[i] = N::to_length(start.T_sensor_target.p[i]);
     s.velocity[i] = N::to<N::Length>(start.rates.v_mps[i]);
   }

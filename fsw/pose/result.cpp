@@ -36,6 +36,8 @@ const char* to_string(PoseReason reason) {
       return "searching";
     case PoseReason::kPartDisagrees:
       return "part_disagrees";
+    case PoseReason::kTooFast:
+      return "too_fast";
   }
   return "unknown";
 }

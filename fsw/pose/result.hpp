@@ -30,6 +30,7 @@ enum class PoseReason : std::uint8_t {
   kFarFromStart = 13,   // farther from the prediction that it was to confirm than start.gate allows
   kSearching = 14,      // no attitude is known: it is looked for
   kPartDisagrees = 15,  // of a part that is elsewhere than the others say
+  kTooFast = 16,        // the prediction moves too far within the scan for its points to be brought to one time
 };
 const char* to_string(PoseReason reason);
 const char* to_string(StopReason reason);

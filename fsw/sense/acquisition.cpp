@@ -87,6 +87,7 @@ Status Acquisition::start(Sensor& sensor, const ScanPlan& plan, TimeUs t_start_u
   image.samples.clear();
   points_ = plan.points;
   well_formed_ = 0;
+  t_start_us_ = t_start_us;
   last_t_us_ = t_start_us;
   const Status plan_status = validate(plan);
   verdict_.reason = plan_status == Status::kOk ? sensor.start(plan, t_start_us) : plan_status;
@@ -119,6 +120,7 @@ bool Acquisition::check(const RangeSample& sample, TimeUs now_us, BadSample& rea
   if (!known_state(sample.state)) return false;
   reason = BadSample::kTime;
   if (sample.t_us < last_t_us_ || sample.t_us > now_us) return false;
+  if (sample.t_us - t_start_us_ > kLongestScan_us) return false;
   if (sample.state == RayState::kInvalid) return true;  // makes no statement that could be wrong
   reason = BadSample::kNotFinite;
   if (!finite(sample)) return false;

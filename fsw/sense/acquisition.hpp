@@ -8,6 +8,7 @@
 #include "cfg/capacities.hpp"
 #include "fsw/core/status.hpp"
 #include "fsw/core/time.hpp"
+#include "fsw/mission/mission.hpp"
 #include "fsw/sense/range_image.hpp"
 #include "fsw/sense/scan_plan.hpp"
 #include "fsw/sense/sensor.hpp"
@@ -20,9 +21,10 @@ enum class BadSample : std::uint8_t {
   kNotFinite = 1,  // NaN or infinity, of a hit's sigma factor, too
   kDirection = 2,  // length not within about 1e-3 of 1 (its square within 2e-3)
   kRange = 3,      // hit: range not within [0, kMaxRangeM], or its sigma factor not within [1, kMaxSigmaFactor]
-  kTime = 4,       // before its predecessor or the scan's start, or later than now
+  kTime = 4,       // before its predecessor or the scan's start, later than now, or after the start by more than kLongestScan_us
 };
 constexpr std::size_t kBadSampleKinds = 5;
+constexpr DurationUs kLongestScan_us = FlightNumber::kLongestScan_us;  // from its start to its last sample
 constexpr double kMaxRangeM = 1e5;
 constexpr std::uint32_t kUsablePercent = 80;  // of the plan's points
 
@@ -95,6 +97,7 @@ class Acquisition {
   State state_ = State::kIdle;
   std::uint16_t points_ = 0;       // that the plan asks for
   std::uint32_t well_formed_ = 0;  // samples in the image that were believed
+  TimeUs t_start_us_ = 0;          // of the scan
   TimeUs last_t_us_ = 0;           // of the last believed sample; the start before the first
   ScanVerdict verdict_;
   RangeSample polled_[kMaxSamplesPerPoll];

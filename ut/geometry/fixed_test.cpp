@@ -47,8 +47,7 @@ TEST(Fixed, SumsAreExact) {
     ASSERT_EQ(static_cast<double>(times(300, a)), 300 * value(a));
     Metres c = a;
     c += b;
-    c -= a;
-    ASSERT_EQ(c, b);
+    ASSERT_EQ(c, a + b);
     ASSERT_EQ(a < b, value(a) < value(b));
     ASSERT_EQ(a > b, value(a) > value(b));
     ASSERT_EQ(a <= b, value(a) <= value(b));
@@ -200,6 +199,22 @@ TEST(Fixed, InversesOfSmallNumbersAreCut) {
   EXPECT_EQ(over<Fixed<30>>(Fixed<2>::of_raw(-(1 << 30)), inverse_of(Metres::of_raw(1))).raw, -kMost);
   EXPECT_EQ(over<Fixed<2>>(Fixed<30>(1), inverse_of(Fixed<2>(1e8))).raw, 0);
   EXPECT_EQ(inverse_of(Metres::of_raw(kLeast)).significand, inverse_of(Metres::of_raw(-kMost)).significand);
+}
+
+TEST(Fixed, StoredIsCutToWhatTheTypeHolds) {
+  VERIFIES("LASSO-GEO-023~1");
+  const Fixed<30> half(0.5);
+  EXPECT_EQ(cut<Fixed<30>>(half * half), Fixed<30>(0.25));
+  const Fixed<30> most(1.9);
+  EXPECT_EQ(cut<Fixed<30>>(most * most), Fixed<30>(4)) << "the largest number";
+  EXPECT_EQ(cut<Fixed<30>>(most * -most), -Fixed<30>(4));
+}
+
+TEST(Fixed, NothingIsLeftOfOneWhereMoreIsTaken) {
+  VERIFIES("LASSO-GEO-023~1");
+  EXPECT_EQ(rest_of_one(Fixed<30>(0.25)), Fixed<30>(0.75));
+  EXPECT_EQ(rest_of_one(Fixed<30>(1)), Fixed<30>(0));
+  EXPECT_EQ(rest_of_one(Fixed<30>(1.75)), Fixed<30>(0));
 }
 
 }  // namespace

@@ -24,6 +24,13 @@ TEST(FloatNumber, LengthIsTheWordRoundedOnceAndScaledExactly) {
   }
 }
 
+TEST(FloatNumber, NothingIsCut) {
+  VERIFIES("LASSO-GEO-008~1");
+  EXPECT_EQ(cut<FloatNumber::Unit>(3.5F), 3.5F);
+  EXPECT_EQ(rest_of_one(0.25F), 0.75F);
+  EXPECT_EQ(rest_of_one(1.25F), 0.0F);
+}
+
 TEST(FloatNumber, EndsOfTheRange) {
   VERIFIES("LASSO-GEO-008~1");
   EXPECT_EQ(FloatNumber::length(0, 20), 0.0F);

@@ -266,5 +266,23 @@ TEST_F(FieldTest, CurvedElementsTurnTheirNormal) {
   EXPECT_TRUE(test::is_path_number(n[2], 1));
 }
 
+// Nobody has to make such a surface; no number may wrap where somebody has.
+TEST_F(FieldTest, ANormalIsCutToWhatItsTypeHolds) {
+  VERIFIES("LASSO-IMG-007~1");
+  Element<N> e = mission_->field.elements[5];
+  e.curvature = 1;
+  Curvature<N> curved[2] = {};
+  curved[1].n[2] = N::Unit{1};
+  curved[1].g[8] = N::Gradient{10};
+  Field<N> field = mission_->field;
+  field.curvatures = curved;
+  for (const double side : {-1.0, 1.0}) {
+    const auto p = test::path_vector<N::Length>(Vec3(0, 0, side * 0.5 - 0.1));
+    N::Unit n[3];
+    surface_normal(field, e, p.data(), n);
+    EXPECT_TRUE(test::is_path_number(n[2], static_cast<double>(N::to<N::Unit>(side * 5)))) << side;
+  }
+}
+
 }  // namespace
 }  // namespace lasso

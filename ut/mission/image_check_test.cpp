@@ -66,57 +66,69 @@ TEST(ImageCheck, GoesOnStepByStep) {
   EXPECT_EQ(spoiled.result.record, 0U);
 }
 
-// Of a field whose lengths are in 1/256 m and whose cells are 1 m wide.
-class GridImage {
- public:
-  GridImage() {
-    put(kLengthFractionBits, 8);
-    put(kCellSize, 256);
-    for (std::size_t axis = 0; axis < 3; ++axis) put(kOriginX + axis, 0);
-  }
-  void put(std::size_t word, std::int32_t value) {
-    std::uint8_t* place = image_.data() + geometry() + 4 * word;
-    for (std::size_t i = 0; i < 4; ++i) place[i] = static_cast<std::uint8_t>(static_cast<std::uint32_t>(value) >> (24 - 8 * i));
-    test::repair_crcs(image_);
-  }
-  LoadFailure check_from(std::size_t axis, double low_m) {
-    put(kOriginX + axis, static_cast<std::int32_t>(256 * low_m));
-    return Checked(image_).result;
-  }
-  double width_m(std::size_t axis) { return 8 * image_.data()[geometry() + 4 * (kBricksX + axis) + 3]; }
+// The image has 128 m as its longest length, which floating point holds, and fixed point does not.
+constexpr bool kHoldsAll = FlightNumber::kFarthest_m > 128;
 
- private:
-  std::size_t geometry() { return test::table_offset(image_, static_cast<std::uint32_t>(TableId::kFieldGeometry)); }
-  test::TestImage image_ = test::make_box_image(preset_parameters());
-};
+void expect_held_or_refused(test::TestImage& image, TableId id, std::uint32_t record = 0) {
+  test::repair_crcs(image);
+  const Checked checked(image);
+  EXPECT_EQ(checked.result.status, kHoldsAll ? Status::kOk : Status::kBadValue) << checked.result.what;
+  EXPECT_EQ(checked.result.table, kHoldsAll ? 0U : static_cast<std::uint32_t>(id));
+  EXPECT_EQ(checked.result.record, kHoldsAll ? 0U : record);
+  EXPECT_EQ(std::string(checked.result.what).find("number type holds") != std::string::npos, !kHoldsAll) << checked.result.what;
+}
 
-TEST(ImageCheck, RefusesAGridThatReachesFartherThanTheNumberTypeHolds) {
-  VERIFIES("LASSO-IMG-004~1 LASSO-IMG-005~1");
-  constexpr double kFarthest_m = FlightNumber::kFarthest_m;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    GridImage image;
-    const double last_m = kFarthest_m - image.width_m(axis);
-    EXPECT_EQ(image.check_from(axis, -kFarthest_m).status, Status::kOk) << axis;
-    EXPECT_EQ(image.check_from(axis, last_m).status, Status::kOk) << axis;
-    for (const double low_m : {-kFarthest_m - 1.0 / 256, last_m + 1.0 / 256}) {
-      const LoadFailure refused = image.check_from(axis, low_m);
-      EXPECT_EQ(refused.status, Status::kBadValue) << axis << ' ' << low_m;
-      EXPECT_EQ(refused.table, static_cast<std::uint32_t>(TableId::kFieldGeometry));
-      EXPECT_NE(std::string(refused.what).find("larger than the number type holds"), std::string::npos) << refused.what;
-    }
+TEST(ImageCheck, RefusesLengthsThatTheNumberTypeDoesNotHold) {
+  VERIFIES("LASSO-IMG-021~1 LASSO-IMG-005~1");
+  struct Case {
+    TableId id;
+    std::size_t word;
+  };
+  for (const Case& c : {Case{TableId::kFieldGeometry, kOriginY}, Case{TableId::kFieldGeometry, kCenterZ},
+                        Case{TableId::kFieldGeometry, kCenterX}, Case{TableId::kElements, 3}, Case{TableId::kElements, 20},
+                        Case{TableId::kCurvatures, 4}, Case{TableId::kFootPoints, 1}, Case{TableId::kEdges, 5}, Case{TableId::kEdges, 9},
+                        Case{TableId::kEdges, 13}, Case{TableId::kHull, 2}, Case{TableId::kViews, 3}, Case{TableId::kSymmetries, 6}}) {
+    SCOPED_TRACE(static_cast<int>(c.id) * 1000 + static_cast<int>(c.word));
+    test::TestImage image = test::make_box_image(preset_parameters());
+    std::uint8_t* word = image.data() + test::table_offset(image, static_cast<std::uint32_t>(c.id)) + 4 * c.word;
+    word[0] = 0x80;  // -128 m
+    for (std::size_t i = 1; i < 4; ++i) word[i] = 0;
+    expect_held_or_refused(image, c.id);
   }
 }
 
-TEST(ImageCheck, RefusesCellsThatAreSmallerThanTheNumberTypeHolds) {
-  VERIFIES("LASSO-IMG-004~1 LASSO-IMG-005~1");
-  constexpr std::int32_t kBits = 30;
-  GridImage image;
-  image.put(kLengthFractionBits, kBits);
-  const auto smallest = static_cast<std::int32_t>(FlightNumber::kSmallestCell_m * (1 << kBits));
-  image.put(kCellSize, smallest);
-  EXPECT_STREQ(image.check_from(0, 0).what, "cell size");
-  image.put(kCellSize, smallest + 1);
-  EXPECT_EQ(image.check_from(0, 0).status, Status::kOk);
+// In the image's coarsest unit, of 1/256 m.
+TEST(ImageCheck, RefusesLengthsThatNoNumberTypeHolds) {
+  VERIFIES("LASSO-IMG-021~1");
+  test::TestImage image = test::make_box_image(preset_parameters());
+  image.data()[test::table_offset(image, static_cast<std::uint32_t>(TableId::kFieldGeometry)) + 3] = 8;
+  image.data()[test::table_offset(image, static_cast<std::uint32_t>(TableId::kHull))] = 0x7F;
+  test::repair_crcs(image);
+  const Checked checked(image);
+  EXPECT_EQ(checked.result.status, Status::kBadValue);
+  EXPECT_NE(std::string(checked.result.what).find("number type holds"), std::string::npos) << checked.result.what;
+}
+
+TEST(ImageCheck, RefusesParametersThatTheNumberTypeDoesNotHold) {
+  VERIFIES("LASSO-IMG-021~1 LASSO-IMG-004~1");
+  struct Case {
+    const char* key;
+    double MissionParameters::*member;
+    double value;
+  };
+  const Case cases[] = {{"sensor.range_max_m", &MissionParameters::range_max_m, 127},
+                        {"sensor.sigma0_m", &MissionParameters::sigma0_m, 0.09},
+                        {"sensor.sigma_angle_rad", &MissionParameters::sigma_angle_rad, 0.005},
+                        {"scan.duration_s", &MissionParameters::duration_s, 3.8}};
+  for (const Case& c : cases) {
+    SCOPED_TRACE(c.key);
+    MissionParameters parameters = preset_parameters();
+    parameters.*c.member = c.value;
+    std::uint32_t row = 0;
+    while (std::string(parameter_rows()[row].key) != c.key) ++row;
+    test::TestImage image = test::make_box_image(parameters);
+    expect_held_or_refused(image, TableId::kParameters, row);
+  }
 }
 
 // Nothing is checked before it is told what.

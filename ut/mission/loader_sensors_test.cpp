@@ -24,6 +24,10 @@ class LoaderSensorsTest : public ::testing::Test {
       sensor.*sensor_member(row) = (row.minimum + share * (row.maximum - row.minimum)) * row.to_si;
       share += 0.01;
     }
+    sensor.range_max_m = 90;  // what either number type holds
+    sensor.sigma0_m = 0.04;
+    sensor.sigma_k_per_m = 7e-6;
+    sensor.sigma_angle_rad = 8e-4;
     return sensor;
   }
   LoadFailure load(const test::BoxTables& tables) {
@@ -84,6 +88,17 @@ TEST_F(LoaderSensorsTest, ValuesOutsideOfTheirRangesAreRefusedByName) {
   failure = load(with({wrong}));
   EXPECT_EQ(failure.status, Status::kNotFinite);
   EXPECT_STREQ(failure.what, "sensor.sigma0_m");
+}
+
+TEST_F(LoaderSensorsTest, ASensorThatTheNumberTypeDoesNotHoldIsRefused) {
+  VERIFIES("LASSO-IMG-021~1");
+  SensorParameters far = near();
+  far.range_max_m = 127;
+  const LoadFailure failure = load(with({near(), far}));
+  constexpr bool kHeld = FlightNumber::kFarthest_m > 128;
+  EXPECT_EQ(failure.status, kHeld ? Status::kOk : Status::kBadValue);
+  EXPECT_EQ(failure.record, kHeld ? 0U : 1U);
+  EXPECT_EQ(std::string(failure.what).find("sensor.range_max_m") == 0, !kHeld) << failure.what;
 }
 
 TEST_F(LoaderSensorsTest, MoreSensorsThanThereIsRoomForAreRefused) {

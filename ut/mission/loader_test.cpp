@@ -166,6 +166,7 @@ TEST_F(LoaderTest, RefusesIndicesOutsideTheirTables) {
       {TableId::kElements, 5, 2, Status::kBadValue},            // unknown flag
       {TableId::kElements, 6, 0x20000000u, Status::kBadValue},  // a side's normal that is too long
       {TableId::kElements, 8, 0x20000000u, Status::kBadValue},
+      {TableId::kElements, 9, 0x20000000u, Status::kBadValue},  // likewise of the fourth side, which is one of unit length or none
       {TableId::kBricks, 0, 0x7FFFFFFFu, Status::kBadIndex},
       {TableId::kBricks, 0, kEmptyBit, Status::kBadIndex},  // no distance
       {TableId::kBricks, 1, 1u << 20, Status::kBadIndex},
@@ -195,6 +196,13 @@ TEST_F(LoaderTest, RefusesIndicesOutsideTheirTables) {
     SCOPED_TRACE(static_cast<int>(c.id) * 1000 + static_cast<int>(c.word));
     expect_refused(c.status);
   }
+}
+
+TEST_F(LoaderTest, LoadsATriangle) {
+  VERIFIES("LASSO-IMG-001~1");
+  for (const std::size_t word : {9U, 13U, 17U}) spoil(TableId::kElements, word, 0);
+  spoil(TableId::kElements, 21, 0x80000000U);
+  EXPECT_EQ(load().status, Status::kOk);
 }
 
 TEST_F(LoaderTest, RefusesTablesOfAnotherLength) {

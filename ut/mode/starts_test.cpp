@@ -88,6 +88,11 @@ TEST_F(StartsTest, WhatCannotBeIsRefusedByItsName) {
   offer_ = good;
   offer_.rates.omega_radps.y() = 1e7;  // more turns in 3 s than an angle can count
   EXPECT_EQ(try_offer(), StartRefusal::kTooFast);
+  offer_ = good;
+  offer_.rates.omega_radps.y() = 0.98 / (0.5 * mission_.parameters.duration_s);  // a radian in half a scan
+  EXPECT_EQ(try_offer(), StartRefusal::kNone);
+  offer_.rates.omega_radps.y() = 1.02 / (0.5 * mission_.parameters.duration_s);
+  EXPECT_EQ(try_offer(), StartRefusal::kTooFast);
 }
 
 TEST_F(StartsTest, WhatTheSensorCannotSeeIsRefused) {

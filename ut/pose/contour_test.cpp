@@ -241,6 +241,15 @@ TEST_F(ContourTest, NothingIsNearATargetBehindTheSensor) {
   for (std::size_t i = 0; i < workspace_->rays.size(); ++i) EXPECT_EQ(workspace_->ray_edges[i].count, 0u);
 }
 
+TEST_F(ContourTest, WithoutRaysThereAreNoBins) {
+  VERIFIES("LASSO-REG-002~1");
+  find();
+  ASSERT_GT(workspace_->contour.size(), 0U);
+  workspace_->bins.x0 = N::Tangent{0};
+  find_ray_edges(make_view(mission_, truth()), FlightNumber::to_length(0.05), *workspace_);
+  EXPECT_EQ(workspace_->bins.x0, N::Tangent{0}) << "nobody has asked where none is";
+}
+
 class ClipTest : public test::PoseFixture {
  protected:
   // How deep inside the grid the ray is at t, in cells; negative outside. A slab that the ray runs along counts as inside.
@@ -295,6 +304,36 @@ TEST_F(ClipTest, ARayWithoutDirectionIsNotBounded) {
   const FieldSpan<N> span = clip_to_grid(mission_.field, ray);
   EXPECT_EQ(span.enter, N::to_length(-N::kFarthest_m));
   EXPECT_EQ(span.leave, N::to_length(N::kFarthest_m));
+}
+
+// From twice as far as places in the grid have numbers for.
+TEST(CastRay, ARayFromFarAwayMeetsWhatOneFromNearbyMeets) {
+  VERIFIES("LASSO-IMG-007~1");
+  const test::BoxModel box{{0.002, -0.001, 0.003}, {0.03, 0.02, 0.012}, 0.001, 0.01};
+  test::TestImage image = test::make_box_image(preset_parameters(), box);
+  const auto mission = std::make_unique<Mission>();
+  ASSERT_EQ(load_image(Bytes(image.data(), image.size), *mission).status, Status::kOk);
+  const double far_m = 2 * box.cell_m * static_cast<double>(N::kFarthestCell);
+  test::Generator random{5};
+  for (int i = 0; i < 200; ++i) {
+    const Vec3 u = test::random_vec3(random, 1).normalized();
+    const Vec3 through = box.center + test::random_vec3(random, 0.01);
+    const auto ray_through = [&](const Vec3& place, double side) {
+      FieldRay<N> ray{};
+      for (int k = 0; k < 3; ++k) {
+        ray.u[k] = N::to<N::Unit>(side * u[k]);
+        ray.m[k] = N::to_length(place[k] - far_m * u[k]);
+      }
+      return ray;
+    };
+    const FieldHit<N> hit = cast_ray(mission->field, ray_through(through, 1));
+    ASSERT_TRUE(hit.found) << i;
+    EXPECT_NEAR(static_cast<double>(hit.t), test::cast_box(box, through - far_m * u, u), 1e-6 * far_m) << i;
+    EXPECT_FALSE(cast_ray(mission->field, ray_through(through, -1)).found) << "it is behind";
+    const Vec3 beside = u.cross(Vec3(0.6, 0.8, 0)).normalized();
+    EXPECT_FALSE(cast_ray(mission->field, ray_through(through + 0.06 * beside, 1)).found) << "it is passed";
+    EXPECT_FALSE(cast_ray(mission->field, ray_through(through + far_m * beside, 1)).found) << "and from afar";
+  }
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <memory>
 
 #include "fsw/geometry/symmetric6.hpp"
@@ -274,6 +275,44 @@ TEST_F(EstimatorTest, TheSameInputGivesTheSameBits) {
   EXPECT_EQ(first.T_sensor_target.p, second.T_sensor_target.p);
   EXPECT_EQ(first.T_sensor_target.q.coeffs(), second.T_sensor_target.q.coeffs());
   EXPECT_EQ(first.covariance, second.covariance);
+}
+
+TEST_F(EstimatorTest, SomeTargetsAreTooFastToMoveTheirPointsBack) {
+  VERIFIES("LASSO-REG-019~1");
+  const auto too_fast = [this](const Vec3& omega_radps, const Vec3& v_mps, double half_scan_s) {
+    return is_too_fast(parameters(), Twist{omega_radps, v_mps}, half_scan_s);
+  };
+  const Vec3 zero = Vec3::Zero();
+  const Vec3 axis = Vec3(0.6, 0, -0.8);
+  EXPECT_FALSE(too_fast(0.99 * kMostTurn_rad / 0.1 * axis, zero, 0.1));
+  EXPECT_TRUE(too_fast(1.01 * kMostTurn_rad / 0.1 * axis, zero, 0.1));
+  EXPECT_FALSE(too_fast(zero, 0.99 * kMostWay_m / 1.5 * axis, 1.5));
+  EXPECT_TRUE(too_fast(zero, 1.01 * kMostWay_m / 1.5 * axis, 1.5));
+  EXPECT_FALSE(too_fast(0.99 * kFastestTurn_radps * axis, 0.99 * kFastest_mps * axis, 0)) << "a flash";
+  EXPECT_TRUE(too_fast(1.01 * kFastestTurn_radps * axis, zero, 0));
+  EXPECT_TRUE(too_fast(zero, 1.01 * kFastest_mps * axis, 0));
+  EXPECT_TRUE(too_fast(std::numeric_limits<double>::quiet_NaN() * axis, zero, 0.1));
+  parameters().deskew = 0;
+  EXPECT_FALSE(too_fast(100 * axis, zero, 1)) << "where nothing is moved";
+}
+
+// 0.18 s, half of which is 0.09 s.
+TEST_F(EstimatorTest, AScanOfATargetThatIsTooFastGivesNoPose) {
+  VERIFIES("LASSO-REG-019~1");
+  const auto image = test::scan_box(scan_, random_);
+  const std::size_t last = image->samples.size() - 1;
+  const double half_s = 0.5 * to_seconds(image->samples[last].t_us - image->samples[0].t_us);
+  StartPoint start;
+  start.T_sensor_target = scan_.T_sensor_target;
+  start.rates.omega_radps = Vec3(0, 0.98 * kMostTurn_rad / half_s, 0);
+  EXPECT_NE(estimate(*image, start).reason, PoseReason::kTooFast);
+  start.rates.omega_radps = Vec3(0, 1.02 * kMostTurn_rad / half_s, 0);
+  const Registration refused = estimate(*image, start);
+  EXPECT_EQ(refused.reason, PoseReason::kTooFast);
+  EXPECT_EQ(refused.stop, StopReason::kNotRun);
+  EXPECT_EQ(refused.t_us, image->reference_time_us());
+  EXPECT_EQ(refused.T_sensor_target.p, start.T_sensor_target.p);
+  EXPECT_NE(estimate(RangeImage(), start).reason, PoseReason::kTooFast) << "no scan, no time in it";
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
 #include "fsw/pose/gauss_newton.hpp"
 #include "ut/pose/pose_fixture.hpp"
 #include "ut/support/verifies.hpp"
@@ -54,6 +56,25 @@ TEST_F(MatchTest, AnAimedPointBesideTheModelIsNotHeldAgainstThePose) {
   EXPECT_EQ(match({}).usable, workspace_->points.size());
   for (MatchPoint<N>& point : workspace_->points) point.aimed = true;
   EXPECT_EQ(match({}).usable, 0U);
+}
+
+// Where a curved surface's normal is longer than 1 no part of the ray's noise is across it, and none is less than none.
+TEST_F(MatchTest, ALongNormalLeavesNoNoiseAcrossTheRay) {
+  VERIFIES("LASSO-REG-001~1");
+  parameters().sigma_angle_rad = 0.01;
+  scan();
+  const std::uint32_t flat = match({}).rows.count();
+  std::vector<Element<N>> elements(mission_.field.elements, mission_.field.elements + mission_.field.element_count);
+  std::vector<Curvature<N>> curved(elements.size() + 1);
+  for (std::uint32_t i = 0; i < elements.size(); ++i) {
+    elements[i].curvature = i + 1;
+    for (int k = 0; k < 3; ++k) curved[i + 1].n[k] = N::to<N::Unit>(1.9 * static_cast<double>(elements[i].n[k]));
+  }
+  mission_.field.elements = elements.data();
+  mission_.field.curvatures = curved.data();
+  const PassSums<N> sums = match({});
+  EXPECT_GE(sums.rows.count(), flat);
+  EXPECT_GE(sums.rows.chi_squared(), 0);
 }
 
 }  // namespace

@@ -71,7 +71,7 @@ TEST_F(PointMakerTest, PointsAreWhereTheTargetHasThemAtTheReferenceTime) {
   const Vec3 velocity(0.05, 0.02, -0.1);
   settings_.moving = true;
   for (int i = 0; i < 3; ++i) {
-    settings_.minus_half_rate[i] = N::to<N::Unit>(-0.5 * omega[i]);
+    settings_.minus_half_rate[i] = N::to<N::Tangent>(-0.5 * omega[i]);
     settings_.origin[i] = N::to_length(origin[i]);
     settings_.velocity[i] = N::to<N::Length>(velocity[i]);
   }
@@ -85,6 +85,26 @@ TEST_F(PointMakerTest, PointsAreWhereTheTargetHasThemAtTheReferenceTime) {
     const MatchPoint<N>& point = workspace_->points[0];
     const Vec3 found(static_cast<double>(point.p[0]), static_cast<double>(point.p[1]), static_cast<double>(point.p[2]));
     ASSERT_LT((found - (origin + place)).norm(), 3e-6);
+  }
+}
+
+// By Cayley's map: a twelfth of the angle's cube is its error.
+TEST_F(PointMakerTest, PointsOfATargetThatTurnsFastAreMovedAsFar) {
+  VERIFIES("LASSO-REG-004~1");
+  const Vec3 origin(0, 0, 6);
+  const Vec3 place(1, 0, 0);
+  settings_.moving = true;
+  for (int i = 0; i < 3; ++i) settings_.origin[i] = N::to_length(origin[i]);
+  for (const double rate : {6.0, -50.0}) {
+    settings_.minus_half_rate[1] = N::to<N::Tangent>(-0.5 * rate);
+    const double tau_s = 0.3 / rate;
+    const Vec3 seen = origin + rotate(exp_so3(tau_s * Vec3(0, rate, 0)), place);
+    image_.samples.clear();
+    add(seen.normalized(), seen.norm(), 1'000'000 + static_cast<TimeUs>(tau_s * 1e6));
+    make();
+    const MatchPoint<N>& point = workspace_->points[0];
+    const Vec3 found(static_cast<double>(point.p[0]), static_cast<double>(point.p[1]), static_cast<double>(point.p[2]));
+    EXPECT_LT((found - (origin + place)).norm(), 0.3 * 0.3 * 0.3 / 12 + 1e-4) << rate;
   }
 }
 

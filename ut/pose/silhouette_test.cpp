@@ -157,7 +157,7 @@ TEST_F(SilhouetteTest, ReturnsFarFromTheEdgeSayNothing) {
   VERIFIES("LASSO-REG-006~1");
   scan();
   for (ScanRay<FlightNumber>& ray : workspace_->rays) {
-    if (ray.state == RayState::kHit) ray.range -= FlightNumber::Length{0.5};  // stray light in front of the target
+    if (ray.state == RayState::kHit) ray.range = ray.range - FlightNumber::Length{0.5};  // stray light in front of the target
   }
   find();
   EXPECT_GT(workspace_->labels.size(), 20u);

@@ -148,7 +148,7 @@ TEST_F(AcquisitionTest, TakesOnlyWhatHasBeenAcquiredByNow) {
 }
 
 TEST_F(AcquisitionTest, BadSamplesBecomeInvalidAndAreCountedByReason) {
-  VERIFIES("LASSO-SNS-022~1 LASSO-SYS-011~1");
+  VERIFIES("LASSO-SNS-022~2 LASSO-SYS-011~1");
   std::vector<RangeSample>& s = sensor.samples;
   for (const std::size_t i : {14u, 15u, 20u, 21u, 22u}) s[i].state = RayState::kHit;
   s[10].direction[1] = std::numeric_limits<float>::quiet_NaN();
@@ -184,8 +184,21 @@ TEST_F(AcquisitionTest, BadSamplesBecomeInvalidAndAreCountedByReason) {
   EXPECT_EQ(image->samples[19].state, s[19].state);
 }
 
+// Farther from the scan's middle than points can be moved to it.
+TEST_F(AcquisitionTest, SamplesLaterThanTheLongestScanAreBad) {
+  VERIFIES("LASSO-SNS-022~2");
+  sensor.ignores_time = true;
+  sensor.samples[1022].t_us = kStart + kLongestScan_us;
+  sensor.samples[1023].t_us = kStart + kLongestScan_us + 1;
+  const ScanVerdict verdict = run(100, kStart + 2 * kLongestScan_us);
+  EXPECT_EQ(verdict.bad[static_cast<int>(BadSample::kTime)], 1U);
+  EXPECT_EQ(image->samples[1022].t_us, kStart + kLongestScan_us);
+  EXPECT_EQ(image->samples[1023].state, RayState::kInvalid);
+  EXPECT_EQ(image->samples[1023].t_us, image->samples[1022].t_us);
+}
+
 TEST_F(AcquisitionTest, SamplesBeforeTheStartAreBad) {
-  VERIFIES("LASSO-SNS-022~1");
+  VERIFIES("LASSO-SNS-022~2");
   sensor.samples[0].t_us = kStart - 1;
   const ScanVerdict verdict = run();
   EXPECT_EQ(verdict.bad[static_cast<int>(BadSample::kTime)], 1u);

@@ -56,7 +56,7 @@ inline void append_part(const BoxPart& part, Words& words) {
 inline TestImage part_image(const MissionParameters& parameters, const BoxModel& box, const BoxTables& whole) {
   BoxTables tables = make_box_tables(box);
   for (std::size_t i = 11; i < 15; ++i) tables[i] = whole[i];
-  for (std::size_t i = 18; i < 22; ++i) tables[2][i] = 0x7FFFFFFF;  // where it was cut there is no face: no point is inside its sides
+  for (std::size_t i = 18; i < 22; ++i) tables[2][i] = 0x64000000;  // where it was cut there is no face: no point is inside its sides
   return make_image(part_parameters(parameters), tables);
 }
 
