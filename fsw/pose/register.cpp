@@ -52,8 +52,8 @@ void keep(const Pass& pass, const MatchSettings<N>& s, HitSolution& solution) {
   solution.squared_residual_m2 = pass.sums.rows.squared_range();
 }
 
-// Passes over all points, the first of them a walk along the whole gate: without one, surfaces in front go unnoticed. Steps can go round in a
-// ring without ever turning back: later ones are halved by their number.
+// Passes over all points, the first of them a walk along the whole gate: without one, surfaces in front go unnoticed. Steps can go round in
+// a ring without ever turning back: later ones are halved by their number.
 void iterate_all(const Mission& mission, MatchSettings<N>& s, double longest_m, Workspace& workspace, HitSolution& solution) {
   const int limit = static_cast<int>(mission.parameters.iterations_max);
   solution.stop = StopReason::kIterationLimit;
