@@ -77,7 +77,7 @@ struct FloatNumber {
   static Unit seconds(TimeUs dt_us) { return static_cast<float>(to_seconds(dt_us)); }
 
   static constexpr int kUnitFractionBits = 30;  // Q1.30
-  static constexpr double kFarthest_m = 1e6;    // longer than any length
+  static constexpr double kFarthest_m = 1e6;    // farther than any target is
   static constexpr double kSmallestCell_m = 1e-6;
   static constexpr double kLargestSigma_m = 1e9;
   static constexpr DurationUs kLongestScan_us = 100'000'000;  // longer than any frame

@@ -28,7 +28,7 @@ inline constexpr Choice kPoseReasons[] = {
   {"far_from_start", "farther from the prediction that it was to confirm than start.gate allows", "send a better pose to start from"},
   {"searching", "no attitude is known: it is looked for", "none: this is what mode searching does"},
   {"part_disagrees", "of a part that is elsewhere than the others say", "look at odd_part: it may have moved, or have a wrong model"},
-  {"too_fast", "the target is predicted to turn or move too far within the scan for its points to be brought to one time", "start anew with the right rates; shorten scan.duration_s for a target that is so fast"},
+  {"too_fast", "the target is predicted to turn or move too far within the scan for its points to be brought to one time, or faster than 60 rad/s or 500 m/s", "start anew with the right rates; shorten scan.duration_s for a target that is so fast"},
 };
 inline constexpr Choice kStopReasons[] = {
   {"converged", "the last step was smaller than estimation.stop_translation_m and _rotation_deg"},
@@ -82,7 +82,7 @@ inline constexpr Choice kStartRefusals[] = {
   {"bad_covariance", "not symmetric, or not of variances and correlations", "correct it"},
   {"from_future", "stated later than the frame in which it would start", "compare the clocks"},
   {"too_old", "stated longer ago than start.age_max_s", "send a fresh one"},
-  {"too_fast", "its rates since then have no meaning, or move the target too far within a scan", "send a fresh one, or correct its rates"},
+  {"too_fast", "its rates since then have no meaning, move the target too far within a scan, or are above 60 rad/s or 500 m/s", "send a fresh one, or correct its rates"},
   {"out_of_reach", "not in front of the sensor, or wholly outside the ranges that it measures", "compare frames and units with T_sensor_target in metres"},
   {"not_at_bearing", "not where the bearing sees the target", "compare it with the item bearing"},
   {"not_confirmed", "no scan confirmed it within start.frames", "send a better one, or command a search"},

@@ -3,6 +3,7 @@
 #include "cfg/capacities.hpp"
 #include "fsw/core/byte_codec.hpp"
 #include "fsw/core/crc.hpp"
+#include "fsw/mission/image_layout.hpp"
 #include "fsw/mission/number_fit.hpp"
 
 namespace lasso {
@@ -149,14 +150,14 @@ double squared_unit(const ImageTable& table, std::uint32_t record, std::uint32_t
   return sum;
 }
 
-// A triangle has no fourth one.
-bool is_fourth_side(double squared) { return !(squared > 0) || is_unit(squared); }
+// A triangle has no fourth one: no direction, and no place.
+bool is_fourth_side(double squared, bool absent) { return absent ? !(squared > 0) : is_unit(squared); }
 
 LoadFailure check_element(const FlightImage& image, std::uint32_t i) {
   const ImageTable& elements = image[TableId::kElements];
   bool ok = is_unit(squared_unit(elements, i, 0)) && elements.word(i, 4) < image[TableId::kCurvatures].records;
   for (std::uint32_t side = 0; side < 3; ++side) ok = ok && is_unit(squared_unit(elements, i, 6 + side, 4));
-  ok = ok && is_fourth_side(squared_unit(elements, i, 9, 4));
+  ok = ok && is_fourth_side(squared_unit(elements, i, 9, 4), elements.signed_word(i, 21) == kNoSide);
   if (ok && elements.word(i, 5) <= kElementTwoSided) return {};
   return failure(Status::kBadValue, "element", TableId::kElements, i);
 }

@@ -1,5 +1,7 @@
 #include "fsw/mission/mission_fit.hpp"
 
+#include "fsw/mission/number_fit.hpp"
+
 namespace lasso {
 namespace {
 
@@ -16,6 +18,15 @@ const char* fault_of(const SensorParameters& sensor) {
   return sensor.use_from_m < sensor.use_to_m ? nullptr : "sensor.use_from_m is not below sensor.use_to_m";
 }
 
+// Each sensor looks at each part, too.
+const char* misfit_of(const SensorParameters& sensor, const Parts& parts) {
+  for (const Part& part : parts) {
+    const Misfit misfit = misfit_of(sensor, part.mission.radius_m);
+    if (misfit.what != nullptr) return misfit.what;
+  }
+  return nullptr;
+}
+
 }  // namespace
 
 const char* fault_of(const Mission& mission, const Parts& parts, std::size_t sensors) {
@@ -23,6 +34,7 @@ const char* fault_of(const Mission& mission, const Parts& parts, std::size_t sen
   if (mission.sensors.size() > sensors) return "the mission has more sensors than are connected";
   for (const SensorParameters& sensor : mission.sensors) {
     const char* fault = fault_of(sensor);
+    if (fault == nullptr) fault = misfit_of(sensor, parts);
     if (fault != nullptr) return fault;
   }
   if (!scans_fit(mission, parts)) return "scan.duration_s exceeds filter.period_s";

@@ -17,8 +17,9 @@ struct StartPoint {
   bool partial = false;  // the model is a part of what is scanned: a return that meets none of it does not count against the pose
 };
 
-// Does the target move too fast for rays to be moved back, with estimation.deskew? By half of a scan, all that is between its reference
-// time and a sample: there Cayley's map is off by a twelfth of a radian, and fixed point (number.hpp) has nothing beyond.
+// Does the target move too fast for rays to be moved back, with estimation.deskew: too far in the time, or beyond all measure? By half of a
+// scan, all that is between its reference time and a sample: there Cayley's map is off by a twelfth of a radian, and fixed point
+// (number.hpp) has nothing beyond.
 bool is_too_fast(const MissionParameters& parameters, const Twist& rates, double half_scan_s);
 constexpr double kMostTurn_rad = 1;
 constexpr double kFastestTurn_radps = 60;

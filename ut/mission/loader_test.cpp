@@ -166,7 +166,9 @@ TEST_F(LoaderTest, RefusesIndicesOutsideTheirTables) {
       {TableId::kElements, 5, 2, Status::kBadValue},            // unknown flag
       {TableId::kElements, 6, 0x20000000u, Status::kBadValue},  // a side's normal that is too long
       {TableId::kElements, 8, 0x20000000u, Status::kBadValue},
-      {TableId::kElements, 9, 0x20000000u, Status::kBadValue},  // likewise of the fourth side, which is one of unit length or none
+      {TableId::kElements, 9, 0x20000000u, Status::kBadValue},   // likewise of the fourth side, which is one of unit length or none
+      {TableId::kElements, 17, 0, Status::kBadValue},            // a fourth side's place without its direction
+      {TableId::kElements, 21, 0x80000000u, Status::kBadValue},  // and the other way round
       {TableId::kBricks, 0, 0x7FFFFFFFu, Status::kBadIndex},
       {TableId::kBricks, 0, kEmptyBit, Status::kBadIndex},  // no distance
       {TableId::kBricks, 1, 1u << 20, Status::kBadIndex},

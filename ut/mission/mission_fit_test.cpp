@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <string>
 
 #include "ut/support/verifies.hpp"
 
@@ -51,6 +52,19 @@ TEST_F(MissionFit, NamesRangesThatAreNone) {
   mission_->sensors[0] = mission_->parameters;
   mission_->sensors[0].use_from_m = mission_->sensors[0].use_to_m;
   EXPECT_STREQ(fault(), "sensor.use_from_m is not below sensor.use_to_m");
+}
+
+TEST_F(MissionFit, NamesASensorThatReachesTooFarForAPart) {
+  VERIFIES("LASSO-IMG-021~1");
+  Part part;
+  part.mission.parameters = mission_->parameters;
+  part.mission.radius_m = FlightNumber::kFarthest_m - mission_->sensors[0].range_max_m - 1;
+  ASSERT_TRUE(parts_->push_back(part));
+  EXPECT_TRUE(mission_->sensors.push_back(mission_->parameters));
+  EXPECT_EQ(fault(2), nullptr);
+  mission_->sensors[1].range_max_m += 2;
+  ASSERT_NE(fault(2), nullptr);
+  EXPECT_NE(std::string(fault(2)).find("sensor.range_max_m and the model's radius"), std::string::npos) << fault(2);
 }
 
 TEST_F(MissionFit, AFrameStaysAsLongAsItIs) {
