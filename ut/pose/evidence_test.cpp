@@ -42,7 +42,7 @@ TEST_F(EvidenceTest, LeavesOutReturnsWithoutCompany) {
 
 // By trying all of them.
 TEST_F(EvidenceTest, EachReturnBelongsToTheClosestOfTheFirst) {
-  VERIFIES("LASSO-MOD-115~1");
+  VERIFIES("LASSO-MOD-115~2");
   scan_.side = 40;
   scan();
   const auto evidence = make_evidence();

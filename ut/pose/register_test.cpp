@@ -205,7 +205,7 @@ TEST_F(RegisterTest, TheSecondLookReachesFarther) {
 }
 
 TEST_F(RegisterTest, TheCostIsTheMeanSquaredResidualAndMoreOfWhatIsLeftOut) {
-  VERIFIES("LASSO-MOD-115~1");
+  VERIFIES("LASSO-MOD-115~2");
   EXPECT_GT(mean_cost(HitSolution()), 1e9);
   HitSolution half;
   half.usable = 4;
@@ -215,7 +215,7 @@ TEST_F(RegisterTest, TheCostIsTheMeanSquaredResidualAndMoreOfWhatIsLeftOut) {
 }
 
 TEST_F(RegisterTest, WeighingAPoseLeavesItWhereItIs) {
-  VERIFIES("LASSO-MOD-115~1");
+  VERIFIES("LASSO-MOD-115~2");
   scan_.sigma_m = 1e-3;
   scan();
   const HitSolution truly = weigh_hits(mission_, truth(), *workspace_);

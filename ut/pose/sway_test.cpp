@@ -31,7 +31,7 @@ class SwayTest : public test::SearchFixture {
 };
 
 TEST_F(SwayTest, WhatIsExplainedStaysAsItIs) {
-  VERIFIES("LASSO-MOD-115~1");
+  VERIFIES("LASSO-MOD-111~1");
   scan();
   EXPECT_EQ(run(truth()), 1);
   EXPECT_EQ(sway_.T_target_sensor().p, truth().p);
@@ -41,7 +41,7 @@ TEST_F(SwayTest, WhatIsExplainedStaysAsItIs) {
 }
 
 TEST_F(SwayTest, APoseThatIsOffIsMovedToWhatExplainsTheReturns) {
-  VERIFIES("LASSO-MOD-115~1");
+  VERIFIES("LASSO-MOD-111~1");
   int right = 0;
   for (int i = 0; i < 8; ++i) {
     scan_.T_sensor_target = test::random_box_pose(random_);
@@ -54,7 +54,7 @@ TEST_F(SwayTest, APoseThatIsOffIsMovedToWhatExplainsTheReturns) {
 
 // The smaller boxes stand turned against the model of the whole, and are most of what is seen.
 TEST_F(SwayTest, APartThatIsTurnedDoesNotKeepThePose) {
-  VERIFIES("LASSO-MOD-115~1");
+  VERIFIES("LASSO-MOD-111~1");
   for (test::BoxModel& box : scan_.others) box.center += Vec3(0, 0, 0.012);
   int right = 0;
   for (int i = 0; i < 8; ++i) {
@@ -67,14 +67,14 @@ TEST_F(SwayTest, APartThatIsTurnedDoesNotKeepThePose) {
 }
 
 TEST_F(SwayTest, WithoutReturnsNothingIsExplained) {
-  VERIFIES("LASSO-MOD-115~1");
+  VERIFIES("LASSO-MOD-111~1");
   const auto none = std::make_unique<Evidence>();
   EXPECT_EQ(weigh_regions(mission_, truth(), *none, *workspace_).cost, kLostCost);
 }
 
 // At the true pose the returns of a box that is not there cost all the same, however far it has gone; those of the others do not.
 TEST_F(SwayTest, APartThatIsElsewhereCostsItsRegionsAndNoMore) {
-  VERIFIES("LASSO-MOD-115~1");
+  VERIFIES("LASSO-MOD-111~1");
   const auto cost_with_the_arm_off_by = [this](double off_m) {
     scan_.others = {test::uneven_boxes()[1], test::uneven_boxes()[2]};
     scan_.others[1].center += Vec3(0, 0, off_m);
