@@ -29,7 +29,7 @@ FIXED_HOST = -DCMAKE_CXX_COMPILER=clang++-19 $(FIXED)
 at_level = -DCMAKE_CXX_COMPILER=$(1) -DCMAKE_BUILD_TYPE=Level -DCMAKE_CXX_FLAGS_LEVEL=-$(2) -DLASSO_GROUND=OFF
 # $(call sanitized,SANITIZERS), the tests that start threads, and those of the per-point path
 comma := ,
-sanitized = -DCMAKE_CXX_COMPILER=clang++-19 -DCMAKE_BUILD_TYPE=Level -DCMAKE_CXX_FLAGS_LEVEL="-O1 -g1" -DLASSO_SANITIZE=$(1)
+sanitized = -DCMAKE_CXX_COMPILER=clang++-19 -DCMAKE_BUILD_TYPE=Level -DCMAKE_CXX_FLAGS_LEVEL="-O1 -g1" -DLASSO_OUTER_OPTIONS=-O0 -DLASSO_SANITIZE=$(1)
 # Elsewhere what most files include is parsed once (lasso_precompile); here each file has to include what it uses.
 own_includes = -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON
 THREADED = ut_posix ut_exec
@@ -56,7 +56,7 @@ tidy = @ninja -C $(1) -t cleandead >/dev/null; find $(1) -name '*.$(2)' | while 
 ctest = @rm -rf $(2); mkdir -p $(2); GTEST_OUTPUT=xml:$(abspath $(2))/ \
   ctest --test-dir $(1) --parallel $(JOBS) --output-on-failure --no-tests=error --output-junit $(abspath $(2))/ctest.xml $(3)
 
-.PHONY: help run test accuracy bench basin search montecarlo endurance flips scrub fuzz statistics campaigns-sample golden fixed-point ppc-count search-count pil pil-sample seu seu-sample prove ppc-test sanitize arrows coverage mcdc trace evidence gates-selftest figures icd format lint install clean build
+.PHONY: help run test accuracy bench basin search montecarlo endurance flips scrub fuzz statistics campaigns-sample golden fixed-point ppc-count search-count pil pil-sample seu seu-sample prove ppc-test sanitize requirements arrows coverage mcdc trace evidence gates-selftest figures icd format lint install clean build
 .DEFAULT_GOAL := help
 
 help: ## this list
@@ -293,6 +293,11 @@ sanitize: ## all tests under the address and undefined-behaviour sanitizers, tho
 	$(call configure,$(SANITIZE)-thread,$(call sanitized,thread) -DLASSO_GROUND=OFF)
 	$(call compile,$(SANITIZE)-thread,$(THREADED))
 	@cfg/quality/run-tests sanitize address,undefined=$(SANITIZE)-address fixed=$(SANITIZE)-fixed $(PER_POINT) thread=$(SANITIZE)-thread $(THREADED)
+
+requirements: ## the requirements are well formed, and the tests' sources name them as they are now; before anything is built
+	$(begin)
+	$(call packages,trace)
+	@reqs/requirements
 
 arrows: ## the includes obey the arrows between rooms and stages (cfg/quality/arrows.toml)
 	$(begin)

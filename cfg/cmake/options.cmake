@@ -23,6 +23,9 @@ if(LASSO_SANITIZE)
   endif()
 endif()
 
+# Of tests and of the command line, which compute little: with sanitizers, most of the build's time goes into making them faster.
+set(LASSO_OUTER_OPTIONS "" CACHE STRING "Compiler options of the tests' own sources and of mdat's command line")
+
 add_library(lasso_warnings INTERFACE)
 target_compile_options(lasso_warnings INTERFACE -Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wdouble-promotion -Wold-style-cast
                                                 -Wshadow -Wnon-virtual-dtor)
