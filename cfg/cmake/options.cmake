@@ -23,8 +23,8 @@ if(LASSO_SANITIZE)
   endif()
 endif()
 
-# Of tests and of the command line, which compute little: with sanitizers, most of the build's time goes into making them faster.
-set(LASSO_OUTER_OPTIONS "" CACHE STRING "Compiler options of the tests' own sources and of mdat's command line")
+# Of mdat's command line and of the tests that call it, which compute nothing: with sanitizers, most of their build's time would go into making them faster.
+set(LASSO_OUTER_OPTIONS "" CACHE STRING "Compiler options of mdat's command line and of the tests that call it")
 
 add_library(lasso_warnings INTERFACE)
 target_compile_options(lasso_warnings INTERFACE -Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wdouble-promotion -Wold-style-cast

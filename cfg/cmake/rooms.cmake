@@ -183,7 +183,6 @@ function(lasso_tests)
   add_library(ut_main OBJECT ut/support/main.cpp)  # the tests' entry
   target_link_libraries(ut_main PRIVATE lasso_warnings fsw_core PUBLIC GTest::gtest)
   target_compile_features(ut_main PUBLIC cxx_std_17)
-  target_compile_options(ut_main INTERFACE ${LASSO_OUTER_OPTIONS})
   add_library(ut_dense STATIC ut/support/dense.cpp)  # decompositions as the tests' truth: not what sanitizers are for
   target_link_libraries(ut_dense PRIVATE lasso_warnings lasso_test_leave PUBLIC fsw_geometry)
   if(LASSO_SANITIZE)
