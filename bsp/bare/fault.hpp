@@ -5,18 +5,17 @@
 
 #include "fsw/exec/watchdog.hpp"
 
-namespace lasso::ppc603e {
+namespace lasso::bare {
 
-// As vectors.S writes it.
+// As the vectors of a board write it (board_fault_registers), in this order; which registers these are its page says (docs/boards).
 struct FaultRegisters {
-  std::uint32_t vector = 0;     // 0x200 machine check, 0x300 data access, ..., 0x1100 load without translation, 0x1200 store
-  std::uint32_t srr0 = 0;       // the instruction
-  std::uint32_t srr1 = 0;       // the machine's state before
-  std::uint32_t dar = 0;        // address of a data access
-  std::uint32_t dsisr = 0;      // what was wrong with it
-  std::uint32_t link = 0;       // where its function returns to
-  std::uint32_t data_miss = 0;  // addresses without translation
-  std::uint32_t code_miss = 0;
+  std::uint32_t vector = 0;        // the exception, by its offset in the processor's table
+  std::uint32_t instruction = 0;   // that was not done
+  std::uint32_t state = 0;         // of the processor, before
+  std::uint32_t data_address = 0;  // of an access to data
+  std::uint32_t data_status = 0;   // what was wrong with it
+  std::uint32_t link = 0;          // where its function returns to
+  std::uint32_t more[2] = {};      // what else the processor says
   std::uint32_t stack = 0;
 };
 
@@ -36,7 +35,7 @@ struct FaultRecord {
 // Before anything else: the record of the last life, or a new one after power-on.
 const FaultRecord& open_record();
 const FaultRecord& fault_record();
-// The address that an exception is about: of the instruction, or of the data that it could not reach.
+// The board's: the address that an exception is about, of the instruction, or of the data that it could not reach.
 std::uint32_t fault_address(const FaultRegisters& registers);
 
 // The board has done well for a while: restarts count from 0 again.
@@ -45,4 +44,4 @@ void end_row_of_restarts();
 // Records, says it on the console, and starts the board anew; after kMaxRestarts in a row it stays down.
 [[noreturn]] void restart(ResetCause cause, const char* text);
 
-}  // namespace lasso::ppc603e
+}  // namespace lasso::bare

@@ -1,30 +1,31 @@
-#include "bsp/ppc603e/loaded.hpp"
+#include "bsp/bare/loaded.hpp"
 
+#include "bsp/bare/board.hpp"
 #include "fsw/core/byte_codec.hpp"
 #include "fsw/mission/image_format.hpp"
 
 extern "C" {
-extern const volatile lasso::ppc603e::Straps board_straps;
+extern const volatile lasso::bare::Straps board_straps;
 extern const std::uint8_t board_mission[];
 }
 
-namespace lasso::ppc603e {
+namespace lasso::bare {
 namespace {
 
-// As start.S has them: 0xFC000000, 64 MB, read and write, not cached, guarded.
-constexpr std::uint32_t kDevices = 0xFC0007FE, kDevicesHow = 0xFC00002A;
-// 0x04000000, 32 MB, read only: link.ld's LOADED.
-constexpr std::uint32_t kLoaded = 0x040003FE, kLoadedHow = 0x04000001;
-
+std::uint32_t place_of(const volatile void* memory) { return static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(memory)); }
 std::uint32_t header_word(std::size_t number) { return ByteReader(ConstBytes(board_mission + 4 * number, 4)).u32(); }
 
 }  // namespace
 
-void map_devices() { set_last_data_block(kDevices, kDevicesHow); }
+LoadedMemory::LoadedMemory() { map_loaded(); }
 
-LoadedMemory::LoadedMemory() { set_last_data_block(kLoaded, kLoadedHow); }
+LoadedMemory::~LoadedMemory() { map_devices(); }
 
 Straps LoadedMemory::straps() { return {board_straps.magic, board_straps.ticks_per_s, board_straps.rig}; }
+
+std::uint32_t LoadedMemory::straps_at() { return place_of(&board_straps); }
+
+std::uint32_t LoadedMemory::image_at() { return place_of(board_mission); }
 
 std::uint32_t LoadedMemory::image_magic() { return header_word(0); }
 
@@ -35,4 +36,4 @@ ConstBytes LoadedMemory::image() {
   return {board_mission, there ? image_bytes() : 0};
 }
 
-}  // namespace lasso::ppc603e
+}  // namespace lasso::bare

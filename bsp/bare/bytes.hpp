@@ -1,11 +1,11 @@
 // Copies, fills and compares memory, for the functions of the C library that the compiler calls (runtime.cpp). No address needs to be
-// aligned: the 603e splits a word that is not, in memory that is cached. Not for devices.
+// aligned: where the processor does not split a word, the compiler does. Not for devices.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 
-namespace lasso::ppc603e {
+namespace lasso::bare {
 
 using Word [[gnu::may_alias, gnu::aligned(1)]] = std::uint32_t;
 constexpr std::size_t kWordBytes = sizeof(std::uint32_t);
@@ -44,4 +44,4 @@ inline int compare(const std::uint8_t* one, const std::uint8_t* other, std::size
   return 0;
 }
 
-}  // namespace lasso::ppc603e
+}  // namespace lasso::bare

@@ -7,7 +7,7 @@
 
 #include <cstdint>
 
-namespace lasso::ppc603e {
+namespace lasso::bare {
 
 enum RigWord : std::uint32_t {
   kRigMagic = 0,      // kRigReport
@@ -31,7 +31,7 @@ enum RigWord : std::uint32_t {
   kRigMemory,         // of the component, bytes
   kRigLineTicks,      // taken by interrupts of camera's and ground's line since the last report
   kRigServicesCut,    // of both lines, which have left bytes for their bound
-  kRigLinesMasked,    // interrupts of the serial card that did not end, and were masked until the next slot
+  kRigLinesMasked,    // interrupts of the lines that did not end, and were masked until the next slot
   kRigDropped,        // of telemetry, for which the ground's line had no room
   kRigWords
 };
@@ -39,4 +39,4 @@ enum class RigKind : std::uint32_t { kBegun = 0, kSlot = 1 };
 constexpr std::uint32_t kRigReport = 0x52494721;
 constexpr std::uint32_t kStopBytes = 0xFFFFFFFF;
 
-}  // namespace lasso::ppc603e
+}  // namespace lasso::bare

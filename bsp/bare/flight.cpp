@@ -1,7 +1,7 @@
-#include "bsp/ppc603e/flight.hpp"
+#include "bsp/bare/flight.hpp"
 
-#include "bsp/ppc603e/cpu.hpp"
-#include "bsp/ppc603e/fault.hpp"
+#include "bsp/bare/cpu.hpp"
+#include "bsp/bare/fault.hpp"
 
 extern "C" {
 extern std::uint32_t board_estimation_stack_begin[], board_estimation_stack_end[];
@@ -10,11 +10,11 @@ extern std::uint32_t board_acquisition_stack_begin[], board_acquisition_stack_en
 [[gnu::weak]] void board_probe(std::uint32_t slots);
 }
 
-namespace lasso::ppc603e {
+namespace lasso::bare {
 namespace {
 
-constexpr std::uint32_t kNever = 0x7FFFFFFF, kLookTicks = 1 << 20;  // of the decrementer
-constexpr std::uint32_t kPaint = 0xA5C3965A;                        // of start.S
+constexpr std::uint32_t kLookTicks = 1 << 20;  // between two looks at the lines while the rig is awaited
+constexpr std::uint32_t kPaint = 0xA5C3965A;   // of start-up
 
 std::uint32_t used(const std::uint32_t* begin, const std::uint32_t* end) {
   const std::uint32_t* at = begin;
@@ -52,18 +52,18 @@ void Flight::tick() {
   if (in_slot_) restart(ResetCause::kWatchdog, "a slot hangs");
   if (++unfed_slots_ > kUnfedSlots) restart(ResetCause::kWatchdog, "the watchdog was not fed");
   in_slot_ = true;
-  set_decrementer(static_cast<std::uint32_t>(clock_.ticks_in(kHungUs)));
+  wake_in(static_cast<std::uint32_t>(clock_.ticks_in(kHungUs)));
   const std::uint64_t begun = clock_.ticks();
   late_ticks_ = begun - clock_.ticks_at(component_.next_slot_us());
   lines_.camera.look();  // an interrupt of theirs that went astray costs a slot, not the line
   lines_.ground.look();
-  allow_interrupts(true);
+  allow_interrupts();
   const TimeUs now_us = time_of_slot();
   run_slot(now_us);
   slot_ticks_ = clock_.ticks() - begun;
   foreground_ticks_ = foreground_ticks_ + slot_ticks_;
   let_world_move(RigKind::kSlot, now_us);
-  allow_interrupts(false);
+  forbid_interrupts();
   if (is_reset_now()) restart(ResetCause::kCommanded, "the command reset");
   in_slot_ = false;
   clock_.wake_at(component_.next_slot_us());
@@ -138,52 +138,51 @@ void Flight::let_world_move(RigKind kind, TimeUs t_us) {
   stopped_ = answer.stop();
   rest_until(
       [&] { return stopped_ || (lines_.camera.received() == answer.camera_bytes && lines_.ground.received() == answer.ground_bytes); });
-  set_decrementer(kNever);
+  wake_in(kMostWakeTicks);
   waiting_ = false;
   clock_.go_on();
 }
 
-void Flight::wait_on() { set_decrementer(kLookTicks); }
+void Flight::wait_on() { wake_in(kLookTicks); }
 
 // --- background
 
 void Flight::run() {
   paint_estimation_stack();
-  allow_interrupts(true);
+  allow_interrupts();
   let_world_move(RigKind::kBegun, component_.next_slot_us());
-  allow_interrupts(false);
+  forbid_interrupts();
   clock_.wake_at(component_.next_slot_us());
-  allow_interrupts(true);
+  allow_interrupts();
   while (!stopped_) {
     if (component_.estimation_pending()) estimate();
     rest();
   }
-  allow_interrupts(false);
+  forbid_interrupts();
 }
 
 void Flight::estimate() {
-  allow_interrupts(false);
+  forbid_interrupts();
   const std::uint64_t begun = clock_.ticks(), elsewhere = foreground_ticks_;
-  allow_interrupts(true);
+  allow_interrupts();
   component_.run_estimation();
-  allow_interrupts(false);
+  forbid_interrupts();
   const std::uint64_t taken = clock_.ticks() - begun - (foreground_ticks_ - elsewhere);
   estimate_ticks_ = static_cast<std::uint32_t>(taken);
-  allow_interrupts(true);
+  allow_interrupts();
 }
 
 // An interrupt that comes between the question and the rest ends the rest at once. With a rig, which moves the world from slot to slot,
 // rest takes no time of the emulator's: the clock skips it.
 void Flight::rest() {
-  allow_interrupts(false);
-  if (component_.estimation_pending() || stopped_) return allow_interrupts(true);
+  forbid_interrupts();
+  if (component_.estimation_pending() || stopped_) return allow_interrupts();
   if (rig_ != nullptr) {
     idle_ticks_ = idle_ticks_ + static_cast<std::uint32_t>(clock_.skip_to(component_.next_slot_us()));
     clock_.wake_at(component_.next_slot_us());
-    return allow_interrupts(true);
+    return allow_interrupts();
   }
-  set_machine_state(machine_state() | kExternalInterrupts | kRest);
-  allow_interrupts(true);
+  bare::rest();
 }
 
-}  // namespace lasso::ppc603e
+}  // namespace lasso::bare

@@ -1,4 +1,4 @@
-#include "bsp/ppc603e/bytes.hpp"
+#include "bsp/bare/bytes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include "ut/support/generator.hpp"
 #include "ut/support/verifies.hpp"
 
-namespace lasso::ppc603e {
+namespace lasso::bare {
 namespace {
 
 using Octets = std::vector<std::uint8_t>;
@@ -74,4 +74,4 @@ TEST(BoardBytes, ComparesByTheFirstByteThatDiffers) {
 }
 
 }  // namespace
-}  // namespace lasso::ppc603e
+}  // namespace lasso::bare

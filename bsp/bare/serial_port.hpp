@@ -1,4 +1,5 @@
-// A 16550 between a line and two rings. Its interrupt moves the bytes: at 4 Mbit/s sixteen bytes come in 40 us, while a slot lasts 10 ms.
+// A serial port between a line and two rings. Its interrupt moves the bytes: at 4 Mbit/s sixteen bytes come in 40 us, while a slot lasts
+// 10 ms. open(), send(), service(), look() and what knows registers are the board's, with the parts in serial_parts.hpp.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +7,7 @@
 #include "hal_lcs/byte_ring.hpp"
 #include "hal_lcs/driver.hpp"
 
-namespace lasso::ppc603e {
+namespace lasso::bare {
 
 using Ring = lcs::ByteRing<lcs::kLineBytes>;
 
@@ -15,7 +16,7 @@ class SerialPort {
   // The rings outlive the port.
   SerialPort(std::uint32_t registers, Ring& in, Ring& out) : registers_(registers), in_(in), out_(out) {}
 
-  // Resets it; 8 data bits, no parity, 1 stop bit. False: bytes sent in its loop do not come back.
+  // Resets it; 8 data bits, no parity, 1 stop bit. False: it fails its test (stated on the board's page).
   bool open();
   // Whatever waits in its ring leaves from now on.
   void send();
@@ -33,12 +34,16 @@ class SerialPort {
  private:
   static constexpr std::uint32_t kFifo = 16;
   static constexpr std::uint32_t kMost = 64;  // four times what a port holds
-  std::uint8_t status();
+  std::uint32_t status();
   void interrupt_when(bool sending);
-  bool loop();
+  template <class Uart>
   void take(std::uint32_t count);
-  void take_rest(std::uint8_t now);
-  void fill();
+  template <class Uart>
+  void take_rest(std::uint32_t now);
+  template <class Uart>
+  std::size_t fill();
+  template <class Uart>
+  void look_at();
 
   std::uint32_t registers_;
   Ring& in_;
@@ -47,4 +52,4 @@ class SerialPort {
   volatile bool sending_ = false;
 };
 
-}  // namespace lasso::ppc603e
+}  // namespace lasso::bare

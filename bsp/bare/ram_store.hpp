@@ -3,11 +3,11 @@
 // (fsw/mission/stored_record.hpp, fsw/exec/stored_log.hpp), and nothing else says what is there, so that a flipped bit costs one of them.
 #pragma once
 
-#include "bsp/ppc603e/bytes.hpp"
+#include "bsp/bare/bytes.hpp"
 #include "fsw/core/invariant.hpp"
 #include "fsw/mission/stored_record.hpp"
 
-namespace lasso::ppc603e {
+namespace lasso::bare {
 
 constexpr std::size_t kMissionBytes = 31U << 20;  // of an image: as loaded, in a buffer, in the store (link.ld)
 
@@ -59,4 +59,4 @@ class RamStore final : public Store {
   WriteBack write_back_;
 };
 
-}  // namespace lasso::ppc603e
+}  // namespace lasso::bare

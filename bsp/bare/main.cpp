@@ -1,13 +1,13 @@
-// The flight image of this board: start-up has made memory and registers ready, and comes here after each restart.
+// The flight image of a bare board: start-up has made memory and registers ready, and comes here after each restart.
 #include <new>
 
-#include "bsp/ppc603e/board_bus.hpp"
-#include "bsp/ppc603e/console.hpp"
-#include "bsp/ppc603e/cpu.hpp"
-#include "bsp/ppc603e/fault.hpp"
-#include "bsp/ppc603e/flight.hpp"
-#include "bsp/ppc603e/loaded.hpp"
-#include "bsp/ppc603e/ram_store.hpp"
+#include "bsp/bare/board.hpp"
+#include "bsp/bare/console.hpp"
+#include "bsp/bare/cpu.hpp"
+#include "bsp/bare/fault.hpp"
+#include "bsp/bare/flight.hpp"
+#include "bsp/bare/loaded.hpp"
+#include "bsp/bare/ram_store.hpp"
 #include "fsw/exec/report.hpp"
 #include "fsw/exec/start_image.hpp"
 #include "fsw/mission/image_format.hpp"
@@ -17,36 +17,28 @@ extern void (*board_constructors_begin[])();
 extern void (*board_constructors_end[])();
 extern const std::uint8_t board_code_begin[], board_code_end[];
 extern std::uint8_t board_image_buffer0[], board_image_buffer1[], board_store[], board_store_end[];
-[[noreturn]] void board_main();
-void board_interrupt(std::uint32_t vector);
 }
 
-namespace lasso::ppc603e {
+namespace lasso::bare {
 namespace {
 
 constexpr std::uint32_t kStrapsMagic = 0x53545250;
-constexpr std::uint32_t kTicksPerSecond = 16600000;
-constexpr std::uint32_t kLeastTicksPerSecond = 1000000, kMostTicksPerSecond = 1000000000;  // the decrementer holds 2 s of them
+constexpr std::uint32_t kLeastTicksPerSecond = 1000000, kMostTicksPerSecond = 1000000000;  // a wake-up call has 2 s of them
 
-// Serial interrupts between two of the decrementer; more are those of a line that is stuck, and would keep the processor for ever. Three
+// Interrupts of the lines between two wake-up calls; more are those of a line that is stuck, and would keep the processor for ever. Three
 // full rings each way are below half of it.
 constexpr std::uint32_t kMostServices = 8192;
 
 constexpr TimeUs kBoundary0Us = 1'000'000;
 constexpr DurationUs kLeadUs = 10'000;  // from the clock's setting to boundary 0
 
-// Of which board this image is (ft/pil/run asks before it is started).
-[[gnu::section(".board_id"), gnu::used]] const char board_id[32] = "3dlasso board ppc603e-grackle";
-
-enum Port : std::uint32_t { kCamera = 0, kGround = 1, kRig = 2, kConsole = 3 };
-
 struct Board {
   lcs::Line camera_line;
   GroundLine ground_line;
   Ring rig_in, rig_out;
-  SerialPort camera{port_registers(kCamera), camera_line.from_camera, camera_line.to_camera};
-  SerialPort ground{port_registers(kGround), ground_line.in, ground_line.out};
-  SerialPort rig_port{port_registers(kRig), rig_in, rig_out};
+  SerialPort camera{port_registers(kCameraPort), camera_line.from_camera, camera_line.to_camera};
+  SerialPort ground{port_registers(kGroundPort), ground_line.in, ground_line.out};
+  SerialPort rig_port{port_registers(kRigPort), rig_in, rig_out};
   Rig rig{rig_port, rig_in, rig_out};
 };
 Straps straps{};
@@ -58,15 +50,7 @@ alignas(Flight) std::uint8_t flight_memory[sizeof(Flight)];
 alignas(Clock) std::uint8_t clock_memory[sizeof(Clock)];
 Board* board = nullptr;
 Flight* flight = nullptr;
-std::uint32_t services = 0;  // since the decrementer's last interrupt
-
-[[noreturn]] void stop(const char* why) {
-  allow_interrupts(false);
-  say("board: ");
-  say(why);
-  say(": stopped\n");
-  for (;;) set_machine_state(machine_state() | kRest);
-}
+std::uint32_t services = 0;  // since the last wake-up call
 
 lcs::Calibration calibration() {
   lcs::Calibration design;
@@ -74,35 +58,28 @@ lcs::Calibration calibration() {
   return design;
 }
 
-// The console first: a refusal is for reading.
-void check_board() {
-  const bool bus = open_bus();
-  if (bus) open_console(port_registers(kConsole));
-  const std::uint32_t version = processor_version() >> 16;
-  if (version != kProcessor603e && version != kProcessor603eV) stop("the image is for another board: the processor is not a 603e");
-  if (!bus) stop("the image is for another board: no Grackle bridge, Heathrow chip and serial card of four ports");
-}
-
 bool strapped() { return straps.magic == kStrapsMagic; }
 
 std::uint32_t ticks_per_s() {
-  const std::uint32_t ticks = strapped() ? straps.ticks_per_s : kTicksPerSecond;
+  const std::uint32_t ticks = strapped() ? straps.ticks_per_s : nominal_ticks_per_s;
   if (ticks >= kLeastTicksPerSecond && ticks <= kMostTicksPerSecond) return ticks;
-  say_number("board: the straps at 0x04010000 say ", ticks);
-  say_number(" ticks of the time base a second, not 1000000 to 1000000000: taken are ", kTicksPerSecond);
+  say_hex("board: the straps at 0x", LoadedMemory::straps_at());
+  say_number(" say ", ticks);
+  say_number(" ticks of the time base a second, not 1000000 to 1000000000: taken are ", nominal_ticks_per_s);
   say("\n");
-  return kTicksPerSecond;
+  return nominal_ticks_per_s;
 }
 
 void open_lines(Board& b) {
   if (!b.camera.open() || !b.ground.open() || !b.rig_port.open()) stop("a serial port does not give back what is sent in its loop");
-  unmask_serial_interrupt();
+  unmask_line_interrupts();
 }
 
 void tell_start(const FaultRecord& record) {
   say("board: 3dlasso ");
   say(version());
-  say(" on ppc603e-grackle");
+  say(" on ");
+  say(board_id + kBoardNameAt);
   say_number(", restarts ", record.restarts);
   say_number(", cause ", record.cause);
   say("\n");
@@ -112,7 +89,7 @@ std::size_t bytes_between(const std::uint8_t* begin, const std::uint8_t* end) {
   return reinterpret_cast<std::uintptr_t>(end) - reinterpret_cast<std::uintptr_t>(begin);
 }
 
-// What the scrub watches beside the images: code and constants. The vectors below them are mapped for nobody.
+// What the scrub watches beside the images: code and constants.
 BoardMemory board_memory_of(RamStore& store) {
   BoardMemory memory;
   memory.image_buffers[0] = Bytes(board_image_buffer0, kMissionBytes);
@@ -124,7 +101,11 @@ BoardMemory board_memory_of(RamStore& store) {
 
 // Why there is no mission: the store has no image that is right, and what was loaded is none.
 [[noreturn]] void refuse_mission(const LoadFailure& failure, std::uint32_t magic, std::uint32_t bytes) {
-  if (magic != kImageMagic) stop("no mission image in the store, and no mission image at its place (load it at 0x04100000)");
+  if (magic != kImageMagic) {
+    say_hex("board: a mission image is to be loaded at 0x", LoadedMemory::image_at());
+    say("\n");
+    stop("no mission image in the store, and no mission image at its place");
+  }
   if (bytes > kMissionBytes) {
     say_number("board: the mission image needs ", bytes);
     say_number(" bytes, and its buffer has ", kMissionBytes);
@@ -158,22 +139,29 @@ Component& make_component(Board& b, ResetCause cause) {
 }
 
 }  // namespace
-}  // namespace lasso::ppc603e
 
-void board_interrupt(std::uint32_t vector) {
-  using namespace lasso::ppc603e;
-  if (vector == 0x900) {
-    if (flight == nullptr) return;
-    if (services > kMostServices) unmask_serial_interrupt();
-    services = 0;
-    if (!flight->waiting()) return flight->tick();
-    board->camera.look();
-    board->ground.look();
-    board->rig_port.look();
-    return flight->wait_on();
-  }
+void stop(const char* why) {
+  forbid_interrupts();
+  say("board: ");
+  say(why);
+  say(": stopped\n");
+  rest_for_ever();
+}
+
+void serve_wake_up() {
+  if (flight == nullptr) return;
+  if (services > kMostServices) unmask_line_interrupts();
+  services = 0;
+  if (!flight->waiting()) return flight->tick();
+  board->camera.look();
+  board->ground.look();
+  board->rig_port.look();
+  return flight->wait_on();
+}
+
+void serve_lines() {
   if (board == nullptr) return;
-  if (++services > kMostServices) mask_serial_interrupt();
+  if (++services > kMostServices) mask_line_interrupts();
   const std::uint64_t begun = time_base();
   board->camera.service();
   board->ground.service();
@@ -182,9 +170,11 @@ void board_interrupt(std::uint32_t vector) {
   if (flight != nullptr) flight->note_lines(taken, services > kMostServices);
 }
 
+}  // namespace lasso::bare
+
 void board_main() {
   using namespace lasso;
-  using namespace lasso::ppc603e;
+  using namespace lasso::bare;
   for (auto make = board_constructors_begin; make != board_constructors_end; ++make) (*make)();
   const FaultRecord& record = open_record();
   check_board();

@@ -1,21 +1,21 @@
-#include "bsp/ppc603e/fault.hpp"
+#include "bsp/bare/fault.hpp"
 
-#include "bsp/ppc603e/console.hpp"
-#include "bsp/ppc603e/cpu.hpp"
-#include "bsp/ppc603e/loaded.hpp"
+#include "bsp/bare/board.hpp"
+#include "bsp/bare/console.hpp"
+#include "bsp/bare/cpu.hpp"
 #include "fsw/core/invariant.hpp"
 
 extern "C" {
 [[noreturn]] void _start();
 [[noreturn]] void board_fault();
-// vectors.S fills the registers before it has a stack.
-lasso::ppc603e::FaultRegisters board_fault_registers;
+// The vectors fill the registers before it has a stack.
+lasso::bare::FaultRegisters board_fault_registers;
 alignas(16) std::uint8_t board_fault_stack[4096];
 extern const std::uint8_t board_fault_stack_end[];
 }
 __asm__(".globl board_fault_stack_end\n.set board_fault_stack_end, board_fault_stack + 4096");
 
-namespace lasso::ppc603e {
+namespace lasso::bare {
 namespace {
 
 constexpr std::uint32_t kMagic = 0x4C46524D;
@@ -29,10 +29,8 @@ std::uint32_t sum_of(const FaultRecord& of) {
 }
 
 [[noreturn]] void stay_down() {
-  set_machine_state(machine_state() & ~kExternalInterrupts);
   say("board: too many restarts: stays down until power is switched\n");
-  set_decrementer(0x7FFFFFFF);
-  for (;;) set_machine_state(machine_state() | kRest);
+  rest_for_ever();
 }
 
 void copy_text(const char* text) {
@@ -57,23 +55,8 @@ void end_row_of_restarts() {
   record.sum = sum_of(record);
 }
 
-std::uint32_t fault_address(const FaultRegisters& r) {
-  switch (r.vector) {
-    case 0x300:
-    case 0x600:
-      return r.dar;
-    case 0x1100:
-    case 0x1200:
-      return r.data_miss;
-    case 0x1000:
-      return r.code_miss;
-    default:
-      return r.srr0;
-  }
-}
-
 void restart(ResetCause cause, const char* text) {
-  set_machine_state(machine_state() & ~kExternalInterrupts);
+  forbid_interrupts();
   map_devices();  // a start may have failed while it read what was loaded
   record.magic = kMagic;
   record.cause = static_cast<std::uint32_t>(cause);
@@ -86,7 +69,7 @@ void restart(ResetCause cause, const char* text) {
   say(text);
   if (cause == ResetCause::kException) {
     say_hex(", vector ", record.registers.vector);
-    say_hex(", instruction ", record.registers.srr0);
+    say_hex(", instruction ", record.registers.instruction);
     say_hex(", address ", fault_address(record.registers));
   }
   const char* const next = cause == ResetCause::kCommanded ? ": restart\n" : ": restart into safe mode\n";
@@ -95,10 +78,10 @@ void restart(ResetCause cause, const char* text) {
   _start();
 }
 
-}  // namespace lasso::ppc603e
+}  // namespace lasso::bare
 
-void board_fault() { lasso::ppc603e::restart(lasso::ResetCause::kException, "exception"); }
+void board_fault() { lasso::bare::restart(lasso::ResetCause::kException, "exception"); }
 
 namespace lasso {
-[[noreturn]] void on_invariant_failure(const char* what) { ppc603e::restart(ResetCause::kInvariant, what); }
+[[noreturn]] void on_invariant_failure(const char* what) { bare::restart(ResetCause::kInvariant, what); }
 }  // namespace lasso

@@ -1,12 +1,11 @@
-#include "bsp/ppc603e/clock.hpp"
+#include "bsp/bare/clock.hpp"
 
-#include "bsp/ppc603e/cpu.hpp"
+#include "bsp/bare/cpu.hpp"
 
-namespace lasso::ppc603e {
+namespace lasso::bare {
 namespace {
 
 constexpr std::uint64_t kUsPerSecond = 1000000;
-constexpr std::uint64_t kMostTicks = 0x7FFFFFFF;  // of the decrementer
 
 }  // namespace
 
@@ -47,7 +46,7 @@ std::uint64_t Clock::skip_to(TimeUs t_us) {
 void Clock::wake_at(TimeUs t_us) const {
   const std::uint64_t then = ticks_at(t_us), now = ticks();
   const std::uint64_t left = then > now ? then - now : 0;
-  set_decrementer(static_cast<std::uint32_t>(left < kMostTicks ? left : kMostTicks));
+  wake_in(static_cast<std::uint32_t>(left < kMostWakeTicks ? left : kMostWakeTicks));
 }
 
-}  // namespace lasso::ppc603e
+}  // namespace lasso::bare

@@ -3,10 +3,10 @@
 
 #include <cstdint>
 
-#include "bsp/ppc603e/rig_words.hpp"
-#include "bsp/ppc603e/serial_port.hpp"
+#include "bsp/bare/rig_words.hpp"
+#include "bsp/bare/serial_port.hpp"
 
-namespace lasso::ppc603e {
+namespace lasso::bare {
 
 struct RigAnswer {
   std::uint32_t camera_bytes = 0, ground_bytes = 0;
@@ -27,4 +27,4 @@ class Rig {
   Ring& out_;
 };
 
-}  // namespace lasso::ppc603e
+}  // namespace lasso::bare

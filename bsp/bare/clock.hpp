@@ -1,11 +1,11 @@
-// The time base as the component's time, and the decrementer, which ends the wait for the next slot.
+// The time base as the component's time, and the wake-up call that ends the wait for the next slot.
 #pragma once
 
 #include <cstdint>
 
 #include "fsw/core/time.hpp"
 
-namespace lasso::ppc603e {
+namespace lasso::bare {
 
 class Clock {
  public:
@@ -36,4 +36,4 @@ class Clock {
   std::uint64_t stopped_ = 0;  // when it stopped; 0: it goes
 };
 
-}  // namespace lasso::ppc603e
+}  // namespace lasso::bare

@@ -1,20 +1,20 @@
-// The executive of this board: two contexts on one processor. The foreground is the acquisition: the decrementer's interrupt at each slot,
-// on a stack of its own, run to its end. The background is the estimation, and rest; the foreground interrupts it. (docs/decisions/
+// The executive of a bare board: two contexts on one processor. The foreground is the acquisition: the wake-up call of each slot, on a
+// stack of its own, run to its end. The background is the estimation, and rest; the foreground interrupts it. (docs/decisions/
 // bare-metal.md)
 #pragma once
 
 #include <cstdint>
 
-#include "bsp/ppc603e/clock.hpp"
-#include "bsp/ppc603e/fault.hpp"
-#include "bsp/ppc603e/reset_wait.hpp"
-#include "bsp/ppc603e/rig.hpp"
-#include "bsp/ppc603e/serial_port.hpp"
+#include "bsp/bare/clock.hpp"
+#include "bsp/bare/fault.hpp"
+#include "bsp/bare/reset_wait.hpp"
+#include "bsp/bare/rig.hpp"
+#include "bsp/bare/serial_port.hpp"
 #include "fsw/exec/component.hpp"
 #include "fsw/exec/link_pump.hpp"
 #include "hal_lcs/driver.hpp"
 
-namespace lasso::ppc603e {
+namespace lasso::bare {
 
 // The ground's line, as the component's link: a stream.
 class GroundLine final : public ByteLink {
@@ -37,12 +37,12 @@ class Flight final : public Watchdog {
 
   // The background; the first slot comes by itself. Only stop() of the rig ends it.
   void run();
-  // The foreground, from the decrementer's interrupt. A second one before the first has ended: the slot hangs, the board restarts.
+  // The foreground, from the wake-up call. A second one before the first has ended: the slot hangs, the board restarts.
   void tick();
-  // While the rig is awaited the decrementer has the lines looked at, should an interrupt of theirs have gone astray.
+  // While the rig is awaited the wake-up call has the lines looked at, should an interrupt of theirs have gone astray.
   bool waiting() const { return waiting_; }
   static void wait_on();
-  // Of the serial card's interrupt: what camera and ground took of it; whether it does not end, and is masked until the next slot.
+  // Of the lines' interrupt: what camera and ground took of it; whether it does not end, and is masked until the next slot.
   void note_lines(std::uint64_t ticks, bool masked) {
     line_ticks_ += ticks;
     if (masked) lines_masked_ = lines_masked_ + 1;
@@ -84,4 +84,4 @@ class Flight final : public Watchdog {
   std::uint32_t packets_dropped_ = 0;
 };
 
-}  // namespace lasso::ppc603e
+}  // namespace lasso::bare

@@ -1,9 +1,9 @@
-#include "bsp/ppc603e/rig.hpp"
+#include "bsp/bare/rig.hpp"
 
-#include "bsp/ppc603e/cpu.hpp"
+#include "bsp/bare/cpu.hpp"
 #include "fsw/core/invariant.hpp"
 
-namespace lasso::ppc603e {
+namespace lasso::bare {
 
 std::uint32_t Rig::take_word() {
   std::uint32_t word = 0;
@@ -26,4 +26,4 @@ RigAnswer Rig::report(const std::uint32_t (&words)[kRigWords]) {
   return answer;
 }
 
-}  // namespace lasso::ppc603e
+}  // namespace lasso::bare

@@ -1,29 +1,23 @@
-#include "bsp/ppc603e/console.hpp"
+#include "bsp/bare/console.hpp"
 
-#include "bsp/ppc603e/cpu.hpp"
-
-namespace lasso::ppc603e {
+namespace lasso::bare {
 namespace {
 
-constexpr std::uint32_t kData = 0, kEnable = 1, kFifoControl = 2, kLineControl = 3, kLineStatus = 5;
-constexpr std::uint8_t kEmpty = 0x20, kEightBits = 3, kFifoOn = 7;
 constexpr std::uint32_t kPatience = 100000;
 std::uint32_t registers_at = 0;
 
 void put(char letter) {
   if (registers_at == 0) return;
-  for (std::uint32_t i = 0; i < kPatience && (read_device(registers_at + kLineStatus) & kEmpty) == 0; ++i) {
+  for (std::uint32_t i = 0; i < kPatience && !console_port_ready(registers_at); ++i) {
   }
-  write_device(registers_at + kData, static_cast<std::uint8_t>(letter));
+  write_console_port(registers_at, static_cast<std::uint8_t>(letter));
 }
 
 }  // namespace
 
 void open_console(std::uint32_t registers) {
   registers_at = registers;
-  write_device(registers + kEnable, 0);
-  write_device(registers + kLineControl, kEightBits);
-  write_device(registers + kFifoControl, kFifoOn);
+  open_console_port(registers);
 }
 
 void say(const char* text) {
@@ -46,4 +40,4 @@ void say_number(const char* label, std::uint32_t value) {
   say(digits + at);
 }
 
-}  // namespace lasso::ppc603e
+}  // namespace lasso::bare

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-namespace lasso::ppc603e {
+namespace lasso::bare {
 
 class ResetWait {
  public:
@@ -19,4 +19,4 @@ class ResetWait {
   std::uint32_t frames_ = 0;
 };
 
-}  // namespace lasso::ppc603e
+}  // namespace lasso::bare

@@ -1,4 +1,4 @@
-#include "bsp/ppc603e/ram_store.hpp"
+#include "bsp/bare/ram_store.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include "ut/support/generator.hpp"
 #include "ut/support/verifies.hpp"
 
-namespace lasso::ppc603e {
+namespace lasso::bare {
 namespace {
 
 using Octets = std::vector<std::uint8_t>;
@@ -180,4 +180,4 @@ TEST_F(RamStoreTest, NeedsMemoryForAllOfIt) {
 }
 
 }  // namespace
-}  // namespace lasso::ppc603e
+}  // namespace lasso::bare

@@ -1,10 +1,10 @@
-#include "bsp/ppc603e/reset_wait.hpp"
+#include "bsp/bare/reset_wait.hpp"
 
 #include <gtest/gtest.h>
 
 #include "ut/support/verifies.hpp"
 
-namespace lasso::ppc603e {
+namespace lasso::bare {
 namespace {
 
 TEST(ResetWait, EndsWhenTheTelemetryIsOut) {
@@ -31,4 +31,4 @@ TEST(ResetWait, CountsFromTheResetOn) {
 }
 
 }  // namespace
-}  // namespace lasso::ppc603e
+}  // namespace lasso::bare
