@@ -71,7 +71,7 @@ std::uint32_t ticks_per_s() {
 }
 
 void open_lines(Board& b) {
-  if (!b.camera.open() || !b.ground.open() || !b.rig_port.open()) stop("a serial port does not give back what is sent in its loop");
+  if (!b.camera.open() || !b.ground.open() || !b.rig_port.open()) stop("a serial port fails its test");
   unmask_line_interrupts();
 }
 

@@ -1,7 +1,7 @@
 // The parts of SerialPort that are the same for each kind of port, for a board's serial_port.cpp alone. Uart is what knows its registers:
 //   static std::uint8_t read(std::uint32_t registers);              // a byte that is there
-//   static void write(std::uint32_t registers, std::uint8_t byte);  // there is room for kFifo of them when can_send
-//   static bool has_byte(std::uint32_t status), can_send(std::uint32_t status);
+//   static void write(std::uint32_t registers, std::uint8_t byte);  // there is room for it
+//   static bool has_byte(std::uint32_t status);
 #pragma once
 
 #include "bsp/bare/serial_port.hpp"
@@ -26,22 +26,14 @@ void SerialPort::take_rest(std::uint32_t now) {
   if (Uart::has_byte(now)) cut_ = cut_ + 1;
 }
 
-// How many bytes have gone; after the last one the port asks for no more. Loop bound: kFifo.
+// As many as are there, and fit. After the last one the port asks for no more. Loop bound: most, at most kFifo.
 template <class Uart>
-std::size_t SerialPort::fill() {
+void SerialPort::fill(std::uint32_t most) {
   std::uint8_t bytes[kFifo];
-  const std::size_t count = out_.read(Bytes(bytes));
+  const std::size_t count = out_.read(Bytes(bytes, most));
   for (std::size_t i = 0; i < count; ++i) Uart::write(registers_, bytes[i]);
   sent_ = sent_ + static_cast<std::uint32_t>(count);
   if (count == 0) interrupt_when(false);
-  return count;
-}
-
-template <class Uart>
-void SerialPort::look_at() {
-  const std::uint32_t now = status();
-  take_rest<Uart>(now);
-  if (sending_ && Uart::can_send(now)) fill<Uart>();
 }
 
 }  // namespace lasso::bare

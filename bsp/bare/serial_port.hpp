@@ -1,5 +1,5 @@
 // A serial port between a line and two rings. Its interrupt moves the bytes: at 4 Mbit/s sixteen bytes come in 40 us, while a slot lasts
-// 10 ms. open(), send(), service(), look() and what knows registers are the board's, with the parts in serial_parts.hpp.
+// 10 ms. What knows registers is the board's: it defines the functions, with the parts in serial_parts.hpp.
 #pragma once
 
 #include <cstdint>
@@ -25,6 +25,7 @@ class SerialPort {
   // Takes what is there without being asked to; the same bound. The interrupt is off.
   void look();
 
+  // Nothing is left to be sent, as far as the port says.
   bool all_sent() const;
   std::uint32_t sent() const { return sent_; }          // bytes since open(), modulo 2^32
   std::uint32_t received() const { return received_; }  // likewise
@@ -41,9 +42,8 @@ class SerialPort {
   template <class Uart>
   void take_rest(std::uint32_t now);
   template <class Uart>
-  std::size_t fill();
-  template <class Uart>
-  void look_at();
+  void fill(std::uint32_t most);
+  void send_more();
 
   std::uint32_t registers_;
   Ring& in_;

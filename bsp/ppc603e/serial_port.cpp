@@ -70,9 +70,17 @@ void SerialPort::service() {
   if (cause == Uart::kFilled) cut_ = cut_ + 1;
   const std::uint32_t now = status();
   if (cause == Uart::kPaused) take_rest<Uart>(now);
-  if (sending_ && Uart::can_send(now)) fill<Uart>();
+  if (sending_ && Uart::can_send(now)) send_more();
 }
 
-void SerialPort::look() { look_at<Uart>(); }
+void SerialPort::look() {
+  const std::uint32_t now = status();
+  take_rest<Uart>(now);
+  if (sending_ && Uart::can_send(now)) send_more();
+}
+
+void SerialPort::send_more() { fill<Uart>(kFifo); }
+
+bool SerialPort::all_sent() const { return !sending_ && out_.room() == lcs::kLineBytes; }
 
 }  // namespace lasso::bare
