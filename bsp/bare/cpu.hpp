@@ -1,4 +1,5 @@
-// What a processor gives to a bare board: interrupts on and off, rest, a time base, one wake-up call. Each board defines these functions.
+// What a processor gives to a bare board: interrupts on and off, rest, a time base, one wake-up call, a cache that is written back. Each
+// board defines these functions, but for the last.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +24,12 @@ void rest();
 // With interrupts forbidden, and nothing to wake up for.
 [[noreturn]] void rest_for_ever();
 
-// From the data cache to memory, before it returns.
+// From the data cache to memory: the line, of this size, that holds the byte. All of them are there when the latter returns.
+constexpr std::size_t kCacheLineBytes = 32;
+void write_back_line(const std::uint8_t* in_line);
+void await_write_back();
+
+// By these, of this room: all that was written, before it returns.
 void write_back(ConstBytes written);
 
 // Until the end of the scope.

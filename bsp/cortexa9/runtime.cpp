@@ -1,10 +1,12 @@
-// What the compiler takes for granted on this processor beside bsp/bare/runtime.cpp. It has no instruction that divides integers.
+// What the compiler takes for granted on this processor beside bsp/bare/runtime.cpp: what libgcc's division of integers, for which there is
+// no instruction, does with zero.
 #include "fsw/core/invariant.hpp"
 
 extern "C" {
-int __aeabi_idiv0(int) {
-  lasso::on_invariant_failure("division by zero");
-}  // NOLINT(bugprone-reserved-identifier): libgcc asks for these names
-long long __aeabi_ldiv0(long long) { lasso::on_invariant_failure("division by zero"); }
-int __aeabi_atexit(void*, void (*)(void*), void*) { return 0; }
+[[noreturn]] int __aeabi_idiv0(int);              // NOLINT(bugprone-reserved-identifier): libgcc asks for this name
+[[noreturn]] long long __aeabi_ldiv0(long long);  // NOLINT(bugprone-reserved-identifier): likewise
 }
+
+int __aeabi_idiv0(int) { lasso::on_invariant_failure("division by zero"); }
+
+long long __aeabi_ldiv0(long long) { lasso::on_invariant_failure("division by zero"); }

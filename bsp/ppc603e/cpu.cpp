@@ -33,13 +33,8 @@ void rest_for_ever() {
   for (;;) set_machine_state(machine_state() | ppc603e::kRest);
 }
 
-void write_back(ConstBytes written) {
-  constexpr std::uint32_t kLineBytes = 32;
-  const std::uint8_t* const at = written.data();
-  const std::size_t bytes = written.size();
-  for (std::size_t i = 0; i < bytes; i += kLineBytes) __asm__ volatile("dcbst 0,%0" ::"r"(at + i) : "memory");
-  if (bytes > 0) __asm__ volatile("dcbst 0,%0" ::"r"(at + bytes - 1) : "memory");
-  __asm__ volatile("sync" ::: "memory");
-}
+void write_back_line(const std::uint8_t* in_line) { __asm__ volatile("dcbst 0,%0" ::"r"(in_line) : "memory"); }
+
+void await_write_back() { __asm__ volatile("sync" ::: "memory"); }
 
 }  // namespace lasso::bare

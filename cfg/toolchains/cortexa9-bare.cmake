@@ -1,19 +1,13 @@
 # The flight image for the bare board with an ARM Cortex-A9: no operating system, no library but libgcc (Debian: g++-arm-linux-gnueabihf). Doubles by
 # the VFP, one operation at a time; nothing by NEON, which has none and flushes small numbers to zero. Accesses that are not aligned trap.
-set(CMAKE_SYSTEM_NAME Generic)
+include(${CMAKE_CURRENT_LIST_DIR}/bare.cmake)
 set(CMAKE_SYSTEM_PROCESSOR arm)
 set(CMAKE_CXX_COMPILER arm-linux-gnueabihf-g++)
 set(CMAKE_ASM_COMPILER arm-linux-gnueabihf-g++)
-set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)
 set(PROCESSOR "-mcpu=cortex-a9 -mfpu=vfpv3-d16 -mfloat-abi=hard")
 set(CMAKE_CXX_FLAGS_INIT "${PROCESSOR} -mthumb -mno-unaligned-access -fno-pic -fno-pie -fno-asynchronous-unwind-tables -fno-unwind-tables \
 -fno-stack-protector -ffunction-sections -fdata-sections")
 set(CMAKE_ASM_FLAGS_INIT "${PROCESSOR} -x assembler-with-cpp")
-set(CMAKE_EXE_LINKER_FLAGS_INIT "-nostdlib -static -no-pie -Wl,--gc-sections")
 set(CMAKE_CXX_STANDARD_LIBRARIES_INIT "-lgcc")  # behind all archives: none of its integer divisions is an instruction
 set(CMAKE_FIND_ROOT_PATH /usr/arm-linux-gnueabihf)
-set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
-set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
-set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)
-set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE BOTH)
 set(LASSO_BOARD cortexa9 CACHE STRING "Board to build for" FORCE)
