@@ -45,9 +45,10 @@ void SerialPort::send_more() {
   for (std::uint32_t i = 0; i <= kFifo && sending_ && (status() & Uart::kFull) == 0; ++i) fill<Uart>(1);
 }
 
+// Bytes that are left keep their interrupt: it ends when they are read.
 void SerialPort::service() {
   const std::uint32_t causes = read_device(registers_ + Uart::kCauses);
-  write_device(registers_ + Uart::kClear, causes);
+  write_device(registers_ + Uart::kClear, Uart::kSent | Uart::kOverrun);
   if ((causes & Uart::kOverrun) != 0) lost_ = lost_ + 1;
   look();
 }
