@@ -1,5 +1,5 @@
 # The flight image for the bare board with an ARM Cortex-A9: no operating system, no library but libgcc (Debian: g++-arm-linux-gnueabihf). Doubles by
-# the VFP, one operation at a time; nothing by NEON, which has none and flushes small numbers to zero. Accesses that are not aligned trap.
+# the VFP, each product rounded before it is added; nothing by NEON, which has no doubles and flushes small numbers to zero. Accesses that are not aligned trap.
 include(${CMAKE_CURRENT_LIST_DIR}/bare.cmake)
 set(CMAKE_SYSTEM_PROCESSOR arm)
 set(CMAKE_CXX_COMPILER arm-linux-gnueabihf-g++)
