@@ -10,6 +10,7 @@ CLANG := $(LASSO_OUT)/build-clang
 GOLDEN := $(LASSO_OUT)/build-golden
 PROVE := $(LASSO_OUT)/build-prove
 BOARD := $(LASSO_OUT)/board
+SECOND := $(LASSO_OUT)/board-cortexa9
 SANITIZE := $(LASSO_OUT)/build-sanitize
 FUZZ := $(LASSO_OUT)/build-fuzz
 COVERAGE := $(LASSO_OUT)/build-coverage
@@ -20,8 +21,9 @@ OUT ?= out/run
 PREFIX ?= /usr/local
 export JOBS ?= $(shell nproc)
 CROSS = -DCMAKE_TOOLCHAIN_FILE=$(abspath cfg/toolchains/ppc603e.cmake) -DLASSO_GROUND=OFF -DLASSO_BARE_KERNEL=$(abspath $(BOARD))/bare_kernel.elf
-# the flight image of the bare board (docs/boards/ppc603e.md)
+# the flight images of the bare boards (docs/boards)
 BARE_BOARD = -DCMAKE_TOOLCHAIN_FILE=$(abspath cfg/toolchains/ppc603e-bare.cmake) -DLASSO_GROUND=OFF -DLASSO_TESTS=OFF
+SECOND_BOARD = -DCMAKE_TOOLCHAIN_FILE=$(abspath cfg/toolchains/cortexa9-bare.cmake) -DLASSO_GROUND=OFF -DLASSO_TESTS=OFF
 # the fixed-point build (docs/decisions/fixed-point.md), and that of the host
 FIXED = -DLASSO_NUMBER=fixed
 FIXED_HOST = -DCMAKE_CXX_COMPILER=clang++-19 $(FIXED)
@@ -218,9 +220,10 @@ search-count: ## instructions of a search on the PowerPC 603e, and its largest s
 	$(call compile,$(PPC),search_replay)
 	@ft/ppc603e/count-search $(BUILD) $(PPC) $(or $(STARTS),24) $(or $(SEED),11)
 
-# $(on_board) builds the bare board's images of both number types, and the rig around each. What its stacks may hold make prove knows.
+# $(on_board) builds the first bare board's images of both number types, the rig around each, and the second board's. What the first one's stacks
+# may hold make prove knows.
 define on_board
-$(call packages,build target clang)
+$(call packages,build target target-arm clang)
 $(call configure,$(BUILD),)
 $(call compile,$(BUILD),pil_rig)
 $(call configure,$(CLANG),$(FIXED_HOST))
@@ -229,16 +232,18 @@ $(call configure,$(BOARD),$(BARE_BOARD))
 $(call compile,$(BOARD),flight_603e planted_603e)
 $(call configure,$(BOARD)-fixed,$(BARE_BOARD) $(FIXED))
 $(call compile,$(BOARD)-fixed,flight_603e)
+$(call configure,$(SECOND),$(SECOND_BOARD))
+$(call compile,$(SECOND),flight_cortexa9 planted_cortexa9)
 endef
-pil: prove ## the component on the bare, emulated PowerPC 603e with camera and ground at its lines: the host's telemetry bit for bit, in floating and in fixed point; out/pil; FRAMES=
+pil: prove ## the component on the bare, emulated PowerPC 603e with camera and ground at its lines: the host's telemetry bit for bit, in floating and in fixed point, and on a Cortex-A9; out/pil; FRAMES=
 	$(begin)
 	$(on_board)
-	@ft/pil/run.py $(BUILD) $(BOARD) $(CLANG) $(BOARD)-fixed $(or $(FRAMES),360)
+	@ft/pil/run.py $(BUILD) $(BOARD) $(CLANG) $(BOARD)-fixed $(SECOND) $(or $(FRAMES),360)
 
-pil-sample: prove ## the same for a few frames, and the board's answers to faults: null, stray, hung, cut lines, wrong images; out/pil-sample
+pil-sample: prove ## the same for a few frames, and the boards' answers to faults: null, stray, hung, cut lines, wrong images; out/pil-sample
 	$(begin)
 	$(on_board)
-	@ft/pil/faults $(BUILD) $(BOARD) $(CLANG) $(BOARD)-fixed
+	@ft/pil/faults $(BUILD) $(BOARD) $(CLANG) $(BOARD)-fixed $(SECOND)
 
 # $(call seu,FLIPS,SEED,NAME) flips bits in the running board.
 define seu
@@ -359,10 +364,11 @@ format: ## format all tracked sources
 
 lint: ## clang-format, clang-tidy and cppcheck find nothing in the tracked sources; out/lint
 	$(begin)
-	$(call packages,build clang lint target)
+	$(call packages,build clang lint target target-arm)
 	$(call configure,$(LINT),-DCMAKE_CXX_COMPILER=clang++-19 $(own_includes))
 	$(call configure,$(LINT)-board,$(BARE_BOARD) -DLASSO_LINT=ON $(own_includes))
-	@cfg/quality/lint $(LINT) . $(LINT)-board
+	$(call configure,$(LINT)-second,$(SECOND_BOARD) -DLASSO_LINT=ON $(own_includes))
+	@cfg/quality/lint $(LINT) . $(LINT)-board $(LINT)-second
 
 install: build ## install mdat, the flight component and its CMake package under PREFIX= (/usr/local)
 	@cmake --install $(BUILD) --prefix $(abspath $(PREFIX)) >out/install.log || { cat out/install.log; false; }

@@ -61,7 +61,7 @@ bool open_bus() {
   return chip && card;
 }
 
-std::uint32_t port_registers(std::uint32_t port) { return kBusIo + kSerialIo + 8 * port; }
+std::uint32_t serial_registers(std::uint32_t port) { return kBusIo + kSerialIo + 8 * port; }
 
 void unmask_serial_interrupt() { write_device_word(kLow + kMask, kBusInterrupts); }
 

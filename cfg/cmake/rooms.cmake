@@ -199,7 +199,7 @@ function(lasso_tests)
   if(TARGET bsp_posix)
     lasso_board_tests(posix bsp_posix ut_box_image)
   endif()
-  lasso_board_tests(ppc603e fsw_mission)  # what of it any board can run
+  lasso_board_tests(bare fsw_mission)  # what of it any processor can run
   lasso_sensor_tests()
   add_executable(ut_support ut/support/verifies_test.cpp)
   target_link_libraries(ut_support PRIVATE lasso_warnings lasso_test_leave fsw_core ut_main)

@@ -1,9 +1,8 @@
 # The flight image for the bare board with a PowerPC 603e: no operating system, no library but libgcc (Debian: g++-powerpc-linux-gnu).
-set(CMAKE_SYSTEM_NAME Generic)
+include(${CMAKE_CURRENT_LIST_DIR}/bare.cmake)
 set(CMAKE_SYSTEM_PROCESSOR ppc)
 set(CMAKE_CXX_COMPILER powerpc-linux-gnu-g++)
 set(CMAKE_ASM_COMPILER powerpc-linux-gnu-g++)
-set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)
 if(NOT LASSO_LINT)  # clang reads the sources for make lint, and does not know it
   set(NO_SMALL_DATA -msdata=none)
 endif()
@@ -13,10 +12,5 @@ if(LASSO_CALL_GRAPH)  # for make prove, beside each object; not together with cc
   string(APPEND CMAKE_CXX_FLAGS_INIT " -fcallgraph-info=su")
 endif()
 set(CMAKE_ASM_FLAGS_INIT "-mcpu=603e -x assembler-with-cpp")
-set(CMAKE_EXE_LINKER_FLAGS_INIT "-nostdlib -static -no-pie -Wl,--gc-sections")
 set(CMAKE_FIND_ROOT_PATH /usr/powerpc-linux-gnu)
-set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
-set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
-set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)
-set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE BOTH)
 set(LASSO_BOARD ppc603e CACHE STRING "Board to build for" FORCE)

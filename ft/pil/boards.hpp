@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "bsp/ppc603e/rig_words.hpp"
+#include "bsp/bare/rig_words.hpp"
 #include "ft/pil/world.hpp"
 
 namespace lasso::pil {
@@ -21,8 +21,8 @@ struct HostMemory {
 Packet fly_on_host(const WorldSetup& setup, const HostMemory& memory, std::uint32_t frames, const Told& told);
 
 struct Report {
-  std::uint32_t words[ppc603e::kRigWords] = {};
-  std::uint32_t operator[](ppc603e::RigWord word) const { return words[word]; }
+  std::uint32_t words[bare::kRigWords] = {};
+  std::uint32_t operator[](bare::RigWord word) const { return words[word]; }
 };
 
 struct TargetFlight {

@@ -1,4 +1,4 @@
-"""The emulated board: QEMU's g3beige with a 603e, 256 MB and a card of four serial ports; counts instructions, and never waits for the host's clock."""
+"""An emulated board (boards.py): 256 MB and four serial ports; counts instructions, and never waits for the host's clock."""
 import os
 import pathlib
 import re
@@ -9,89 +9,42 @@ import subprocess
 import threading
 import time
 
-TOP = pathlib.Path(__file__).resolve().parents[2]
-QEMU, PACKAGE = 'qemu-system-ppc', 'qemu-system-ppc'
-SHIFT = 7  # an instruction is 2^7 ns of the emulator's time
-MIPS = 100  # and 10 ns of the board's
-TIME_BASE_HZ = 16600000  # of the emulator's time
-TICKS_PER_S = int(TIME_BASE_HZ * (2 ** SHIFT) * MIPS / 1000)  # of the board's
-TICKS_PER_INSTRUCTION = TIME_BASE_HZ * 2 ** SHIFT / 1e9
-STRAPS, STRAPS_MAGIC, MISSION = 0x04010000, 0x53545250, 0x04100000
-BOARD_ID = b'3dlasso board ppc603e-grackle'
+from boards import PPC603E, SHIFT, Failure
+
+STRAPS_MAGIC = 0x53545250
 
 
-class Failure(Exception):
-    """A reason for a person."""
-
-
-def require():
-    if shutil.which(QEMU) is None:
-        raise Failure(f'{QEMU} is missing: install the Debian package {PACKAGE} (cfg/packages/ensure target)')
-    done = subprocess.run([QEMU, '--version'], capture_output=True, text=True, check=False)
+def require(board=PPC603E):
+    """The emulator's version."""
+    if shutil.which(board.qemu) is None:
+        raise Failure(f'{board.qemu} is missing: install the Debian package {board.qemu} (cfg/packages/ensure {board.packages})')
+    done = subprocess.run([board.qemu, '--version'], capture_output=True, text=True, check=False)
     if done.returncode != 0:
-        raise Failure(f'{QEMU} does not start: {done.stderr.strip() or done.returncode}: install the Debian package {PACKAGE} anew')
+        raise Failure(f'{board.qemu} does not start: {done.stderr.strip() or done.returncode}: install the Debian package {board.qemu} anew')
     return re.search(r'version (\S+)', done.stdout).group(1)
-
-
-def check_image(elf):
-    """The image is for this board."""
-    try:
-        content = pathlib.Path(elf).read_bytes()
-    except OSError as error:
-        raise Failure(f'{elf}: {error.strerror}: build it first (make pil)') from error
-    if content[:4] != b'\x7fELF' or content[4:6] != b'\x01\x02' or content[18:20] != b'\x00\x14':
-        raise Failure(f'{elf}: not an image for a 32-bit PowerPC: build the board ppc603e (cfg/toolchains/ppc603e-bare.cmake)')
-    if BOARD_ID not in content:
-        raise Failure(f'{elf}: an image for another board, not {BOARD_ID.decode()}: build the board ppc603e')
-
-
-def symbols(path):
-    """The addresses of an image's or object's symbols by their last names."""
-    try:
-        said = subprocess.run(['powerpc-linux-gnu-nm', '-C', str(path)], capture_output=True, text=True, check=True).stdout
-    except (OSError, subprocess.CalledProcessError) as error:
-        raise Failure(f'{path}: its symbols cannot be read ({error}): build it first, and install the Debian package g++-powerpc-linux-gnu') from error
-    words = (line.split(maxsplit=2) for line in said.splitlines())
-    return {word[2].rsplit('::', 1)[-1]: int(word[0], 16) for word in words if len(word) == 3}
-
-
-def code_bytes(elf):
-    """That the board's scrub watches."""
-    places = symbols(elf)
-    return places['board_code_end'] - places['board_code_begin']
-
-
-def machine(folder, processor='603e', options=''):
-    """The command that starts it, but for what is on its card and in its memory."""
-    reset = pathlib.Path(folder) / 'reset.bin'  # it wants some content for its read-only memory
-    reset.write_bytes(bytes(64))
-    return [QEMU, '-M', f'g3beige{options}', '-cpu', processor, '-m', '256', '-bios', str(reset), '-vga', 'none', '-net', 'none', '-display', 'none',
-            '-serial', 'null', '-parallel', 'none', '-no-reboot']
 
 
 class Emulator:
     """Running until the end of the with block. What the board's console says is kept, and said when something fails."""
 
-    def __init__(self, elf, image, folder, rig=True, processor='603e', ticks_per_s=TICKS_PER_S, shared=False):
-        require()
-        check_image(elf)
+    def __init__(self, elf, image, folder, board=PPC603E, rig=True, processor=None, ticks_per_s=None, shared=False):
+        require(board)
+        board.check_image(elf)
         self.folder = pathlib.Path(folder)
         self.console_file = self.folder / 'console.txt'
-        words = [STRAPS_MAGIC, ticks_per_s, 1 if rig else 0, 0]
-        self.command = [*machine(self.folder, processor, ',memory-backend=ram' if shared else ''),
+        words = [STRAPS_MAGIC, ticks_per_s or board.ticks_per_s, 1 if rig else 0, 0]
+        self.command = [*board.machine(self.folder, processor, ',memory-backend=ram' if shared else ''),
                         '-monitor', f'unix:{self.folder}/monitor.sock,server=on,wait=off', '-icount', f'shift={SHIFT},align=off,sleep=on']
         for name in ('camera', 'ground', 'rig'):
             self.command += ['-chardev', f'socket,id={name},path={self.folder}/{name}.sock' if rig else f'null,id={name}']
-        self.command += ['-chardev', f'file,id=console,path={self.console_file}',
-                         '-device', 'pci-serial-4x,chardev1=camera,chardev2=ground,chardev3=rig,chardev4=console',
-                         '-device', f'loader,file={elf},cpu-num=0']
+        self.command += ['-chardev', f'file,id=console,path={self.console_file}', *board.ports(), '-device', f'loader,file={elf},cpu-num=0']
         if shared:  # memory as a file, whose content is that of fresh memory, and a debug port (ft/pil/seu_board.hpp)
             (self.folder / 'ram.bin').unlink(missing_ok=True)
             self.command += ['-object', f'memory-backend-file,id=ram,size=256M,mem-path={self.folder}/ram.bin,share=on', '-gdb', f'unix:{self.folder}/gdb.sock,server=on,wait=off']
         if image:
-            self.command += ['-device', f'loader,file={image},addr={MISSION:#x},force-raw=on']
-        for i in range(0, len(words), 2):  # eight bytes: of four the emulator would write the upper half
-            self.command += ['-device', f'loader,addr={STRAPS + 4 * i:#x},data={words[i] << 32 | words[i + 1]:#x},data-len=8,data-be=on']
+            self.command += ['-device', f'loader,file={image},addr={board.mission:#x},force-raw=on']
+        (self.folder / 'straps.bin').write_bytes(b''.join(word.to_bytes(4, board.order) for word in words))
+        self.command += ['-device', f'loader,file={self.folder}/straps.bin,addr={board.straps:#x},force-raw=on']
 
     def __enter__(self):
         self.console_file.write_text('')
@@ -183,11 +136,11 @@ class Rig:
             raise Failure(f'the rig has ended with exit code {code}')
 
 
-def fly(program, elf, arguments, folder, seconds, **board):
+def fly(program, elf, arguments, folder, seconds, board=PPC603E, **options):
     """One run of the rig with an emulated board; exit code, words, console."""
     os.makedirs(folder, exist_ok=True)
-    emulator = Emulator(elf, f'{folder}/image.3dli', folder, **board)
-    with Rig(program, [*arguments, f'code={code_bytes(elf)}'], seconds) as rig:
+    emulator = Emulator(elf, f'{folder}/image.3dli', folder, board, **options)
+    with Rig(program, [*arguments, f'code={board.code_bytes(elf)}'], seconds) as rig:
         rig.await_ready()
         with emulator:
             code, said = rig.finish()

@@ -1,7 +1,7 @@
 #include <array>
 #include <memory>
 
-#include "bsp/ppc603e/ram_store.hpp"
+#include "bsp/bare/ram_store.hpp"
 #include "fsw/exec/link_pump.hpp"
 #include "fsw/exec/start_image.hpp"
 #include "ft/pil/boards.hpp"
@@ -35,7 +35,7 @@ class MemoryLink final : public ByteLink {
 struct Host {
   Host(const std::vector<std::uint8_t>& bytes, std::size_t code_bytes)
       : buffers{std::vector<std::uint64_t>(bytes.size() / 8 + 1), std::vector<std::uint64_t>(bytes.size() / 8 + 1)},
-        region(ppc603e::RamStore::region_bytes(bytes.size())),
+        region(bare::RamStore::region_bytes(bytes.size())),
         store({region.data(), region.size()}, bytes.size(), [](ConstBytes) {}),
         code(code_bytes),
         driver(line, lcs::Optics(calibration())),
@@ -77,7 +77,7 @@ struct Host {
 
   std::array<std::vector<std::uint64_t>, 2> buffers;
   std::vector<std::uint8_t> region;
-  ppc603e::RamStore store;
+  bare::RamStore store;
   std::vector<std::uint8_t> code;  // as much as the target has: the scrub's pass takes as long
   lcs::Line line;
   lcs::Driver driver;

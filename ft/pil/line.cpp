@@ -60,7 +60,7 @@ Packet words(std::initializer_list<std::uint32_t> words) {
 Report report_of(const Packet& bytes) {
   Report report;
   for (std::size_t i = 0; i < bytes.size(); ++i) report.words[i / 4] = report.words[i / 4] << 8 | bytes[i];
-  if (report[ppc603e::kRigMagic] != ppc603e::kRigReport)
+  if (report[bare::kRigMagic] != bare::kRigReport)
     throw mdat::RunError("the rig's line brings something else than reports: is the image of this version?");
   return report;
 }

@@ -44,7 +44,7 @@ class Line {
   std::uint32_t taken_ = 0, given_ = 0;
 };
 
-// As the rig's line carries them (bsp/ppc603e/rig_words.hpp).
+// As the rig's line carries them (bsp/bare/rig_words.hpp).
 Packet words(std::initializer_list<std::uint32_t> words);
 // Throws mdat::RunError where it is none.
 Report report_of(const Packet& bytes);

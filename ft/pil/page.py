@@ -1,7 +1,7 @@
-"""The report of a processor-in-the-loop run: one page, the two number types side by side: the time of each stage against the frame, and figures."""
+"""The report of a processor-in-the-loop run: one page, the two number types and the second board side by side: the time of each stage against the frame, and figures."""
 import html as text
 
-NUMBERS = {'float': 'floating point', 'fixed': 'fixed point'}
+NUMBERS = {'float': 'floating point', 'fixed': 'fixed point', 'cortexa9': 'floating point, Cortex-A9'}
 STAGES = [('estimate', 'estimate'), ('boundary', 'boundary: publish, hand over, plan'), ('polls', 'polls of the camera, 19 slots'),
           ('largest_poll', 'the largest of them'), ('lines', 'interrupts of the lines, in no slot')]
 IDLE_ASKED = 0.70  # by LASSO-PLT-016; a figure, no limit
@@ -57,7 +57,7 @@ def rows(r):
     yield 'margin of the fullest slot', f'{100 * r["slot_margin_share"]:.1f} %'
     yield 'margin of the fullest frame', f'{100 * r["estimate_margin_share"]:.1f} %'
     for name, used in r['stack_bytes'].items():
-        yield f'stack of the {name}: most that was used', f'{used:,} bytes; proven bound {r["proven_stack_bytes"][name]:,} bytes, of 32,768'
+        yield f'stack of the {name}: most that was used', f'{used:,} bytes; {r["stack_bound"]} {r["stack_bound_bytes"][name]:,} bytes, of 32,768'
     yield 'code and constants', f'{r["image_bytes"]:,} bytes'
     yield 'memory without mission images', f'{r["memory_bytes"]:,} bytes, of which the component {r["component_bytes"]:,}'
     yield 'lines', f'{r["lost_bytes"]} bytes lost, {r["packets_dropped"]} packets dropped, {r["services_cut"]} services cut short, {r["lines_masked"]} times masked'
@@ -75,7 +75,7 @@ def table(results):
 def html(flights, budget, made):
     """`flights`: results and frames of each number type. `made`: by what, of what."""
     pictures = ''.join(f'<h2>{NUMBERS[number].capitalize()}</h2>{picture(frames, budget, r["mips"], r["period_ms"])}' for number, (r, frames) in flights.items())
-    return (f'<!doctype html><meta charset="utf-8"><title>3DLASSO on the PowerPC 603e</title><style>body{{font-family:sans-serif;max-width:{WIDTH}px;margin:2em auto}}'
-            f'td,th{{padding:.2em 1em .2em 0;vertical-align:top;text-align:left}}td:first-child{{width:36%}}</style><h1>3DLASSO on the PowerPC 603e</h1><p>Both number types of the per-point path, '
+    return (f'<!doctype html><meta charset="utf-8"><title>3DLASSO on bare boards</title><style>body{{font-family:sans-serif;max-width:{WIDTH}px;margin:2em auto}}'
+            f'td,th{{padding:.2em 1em .2em 0;vertical-align:top;text-align:left}}td:first-child{{width:36%}}</style><h1>3DLASSO on bare boards</h1><p>Both number types of the per-point path on the PowerPC 603e, and floating point on the Cortex-A9, '
             f'each beside its own host. Time of each stage in each frame, against the frame.</p>{pictures}<h2>Side by side</h2>'
             f'{table({number: r for number, (r, _) in flights.items()})}<p>Counts of instructions: the emulator knows neither caches nor a pipeline. {text.escape(made)}.</p>\n')

@@ -2,25 +2,20 @@
 // after the other.
 #include <cstdint>
 
-#include "bsp/ppc603e/fault.hpp"
+#include "bsp/bare/fault.hpp"
 #include "fsw/core/invariant.hpp"
+#include "ft/pil/planted_ops.hpp"
 
-extern "C" void board_probe(std::uint32_t slot);
+extern "C" {
+void board_probe(std::uint32_t slot);
+extern const std::uint8_t board_code_begin[];
+}
 
 namespace {
 
 constexpr std::uint32_t kSlots = 45;
 std::uint32_t slots = 0;  // of this start
 volatile std::uint32_t sink;
-
-// By their instructions: a compiler may leave out what cannot be right.
-void read_at(std::uint32_t address) {
-  std::uint32_t word = 0;
-  __asm__ volatile("lwz %0,0(%1)" : "=r"(word) : "b"(address) : "memory");
-  sink = word;
-}
-void write_at(std::uint32_t address) { __asm__ volatile("stw %0,0(%0)" ::"b"(address) : "memory"); }
-void jump_to(std::uint32_t address) { __asm__ volatile("mtctr %0\n\tbctr" ::"r"(address) : "ctr", "memory"); }
 
 // Deeper than the stack is.
 [[gnu::noinline]] std::uint32_t dig(std::uint32_t depth) {
@@ -32,22 +27,22 @@ void jump_to(std::uint32_t address) { __asm__ volatile("mtctr %0\n\tbctr" ::"r"(
 }  // namespace
 
 void board_probe(std::uint32_t slot) {
+  namespace planted = lasso::planted;
   if (++slots != kSlots) return;
-  switch (lasso::ppc603e::fault_record().restarts) {
+  switch (lasso::bare::fault_record().restarts) {
     case 0:  // null pointer, read
-      return read_at(8);
+      sink = planted::read_at(8);
+      return;
     case 1:  // stray pointer, write
-      return write_at(0x30000000);
+      return planted::write_at(0x30000000);
     case 2:  // constants are not to be written
-      return write_at(0x00100000);
+      return planted::write_at(static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(board_code_begin)));
     case 3:  // no instruction
-      __asm__ volatile(".long 0");
-      return;
+      return planted::no_instruction();
     case 4:  // an exception that nobody awaits
-      __asm__ volatile("sc" ::: "memory");
-      return;
+      return planted::call_system();
     case 5:
-      return jump_to(0x20000000);
+      return planted::jump_to(0x20000000);
     case 6:
       sink = dig(0);
       return;

@@ -1,10 +1,10 @@
-// pil_rig MISSION SCENARIO FRAMES OUT [cut=BYTES] [noise] [store=ADDRESS] [starts=N] [code=BYTES]: flies a scenario on the host,
-// then on the board behind OUT/camera.sock, OUT/ground.sock and OUT/rig.sock, and compares their telemetry bit by bit. Says `ready` when
-// the board may be started: the mission's image is then in OUT/image.3dli. Leaves OUT/host.ccsds, OUT/target.ccsds, OUT/starts.csv and
+// pil_rig MISSION SCENARIO FRAMES OUT [cut=BYTES] [noise] [store=ADDRESS] [memory=ADDRESS] [starts=N] [code=BYTES]: flies a scenario on the
+// host, then on the board behind OUT/camera.sock, OUT/ground.sock and OUT/rig.sock, and compares their telemetry bit by bit. Says `ready`
+// when the board may be started: the mission's image is then in OUT/image.3dli. Leaves OUT/host.ccsds, OUT/target.ccsds, OUT/starts.csv and
 // OUT/slots.csv (the board's reports, words by name). cut: the camera's line ends after so many bytes. noise: the ground's begins with
-// some. store: three starts try the store (store_story.hpp), the first image buffer being at ADDRESS. starts: so many starts of the board
-// are awaited, and the flight on the host left out. code: so much code the board watches, and the host beside it. Exit codes: 0 the same
-// bits, 1 not, or the board failed, 2 usage or bad input.
+// some. store: three starts try the store (store_story.hpp), the first image buffer being at ADDRESS. memory: where the board's begins, 0.
+// starts: so many starts of the board are awaited, and the flight on the host left out. code: so much code the board watches, and the host
+// beside it. Exit codes: 0 the same bits, 1 not, or the board failed, 2 usage or bad input.
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -39,13 +39,15 @@ struct Options {
   std::size_t code_bytes = 0;
   std::optional<std::uint64_t> cut;
   bool noise = false;
-  std::uint32_t store = 0;  // where the first image buffer is; 0: it is not tried
+  std::uint32_t store = 0;   // where the first image buffer is; 0: it is not tried
+  std::uint32_t memory = 0;  // where the board's memory begins
 };
 
 Options parse(int argc, char** argv) {
   if (argc < 5)
-    throw mdat::InputError("usage: pil_rig MISSION SCENARIO FRAMES OUT [cut=BYTES] [noise] [store=ADDRESS] [starts=N] [code=BYTES]");
-  Options options{argv[1], argv[2], argv[4], static_cast<std::uint32_t>(std::stoul(argv[3])), 1, 0, {}, false, 0};
+    throw mdat::InputError(
+        "usage: pil_rig MISSION SCENARIO FRAMES OUT [cut=BYTES] [noise] [store=ADDRESS] [memory=ADDRESS] [starts=N] [code=BYTES]");
+  Options options{argv[1], argv[2], argv[4], static_cast<std::uint32_t>(std::stoul(argv[3])), 1, 0, {}, false, 0, 0};
   for (int i = 5; i < argc; ++i) {
     const std::string word = argv[i];
     if (word.starts_with("cut=")) {
@@ -54,6 +56,8 @@ Options parse(int argc, char** argv) {
       options.starts = static_cast<std::uint32_t>(std::stoul(word.substr(7)));
     } else if (word.starts_with("code=")) {
       options.code_bytes = std::stoul(word.substr(5));
+    } else if (word.starts_with("memory=")) {
+      options.memory = static_cast<std::uint32_t>(std::stoul(word.substr(7)));
     } else if (word == "noise") {
       options.noise = true;
     } else if (word.starts_with("store=")) {
@@ -61,7 +65,7 @@ Options parse(int argc, char** argv) {
       options.starts = kStoryStarts;
       options.frames = StoreStory::kLastFrames;
     } else {
-      throw mdat::InputError(word + ": none of cut=BYTES, noise, store=ADDRESS, starts=N and code=BYTES");
+      throw mdat::InputError(word + ": none of cut=BYTES, noise, store=ADDRESS, memory=ADDRESS, starts=N and code=BYTES");
     }
   }
   return options;
@@ -171,7 +175,7 @@ int run(const Options& options) {
   write(options.out + "/image.3dli", image);
   const std::uint32_t frames = options.frames + kPipelineFrames;
   std::optional<StoreStory> story;
-  if (options.store != 0) story.emplace(image_to_load(setup.flight.parameters), options.store, options.out);
+  if (options.store != 0) story.emplace(image_to_load(setup.flight.parameters), options.store, options.memory, options.out);
   const Ground ground = [&](std::uint32_t start, std::uint32_t slot, std::uint16_t& count) {
     return story ? story->commands(start, slot, count) : Packet{};
   };
@@ -182,7 +186,7 @@ int run(const Options& options) {
     bar.finish();
   }
   write(options.out + "/host.ccsds", host);
-  mdat::ProgressBar bar("fly on the 603e", frames, "frames");
+  mdat::ProgressBar bar("fly on the board", frames, "frames");
   const TargetFlight flight = fly_on_target(
       setup, options.out, frames, options.starts, tell_ready, [&](std::uint32_t done) { bar.show(done); }, ground);
   bar.finish();

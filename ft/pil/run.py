@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""run.py HOST BOARD FIXED_HOST FIXED_BOARD [FRAMES]: the component on the emulated PowerPC 603e, with the simulated camera and the ground at its lines (docs/pil.md).
+"""run.py HOST BOARD FIXED_HOST FIXED_BOARD CORTEXA9 [FRAMES]: the component on the emulated boards, with the simulated camera and the ground at its lines (docs/pil.md).
 
-All are build folders, the latter two in fixed point. Flies FRAMES frames (360) on each host and board, both number types at a time, compares
+All are build folders: of the PowerPC 603e and its host, of both in fixed point, and of the Cortex-A9. Flies FRAMES frames (360) on each host and board, at a time, compares
 the telemetry bit by bit, and leaves instructions, margins and stacks in out/pil: results.json, report.html, summary.json. Exit codes: 0 the
 same bits, within the limits; 1 not.
 """
@@ -20,17 +20,17 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / 'cfg/qualit
 import gate as gates  # noqa: E402
 import emulator  # noqa: E402
 import page  # noqa: E402
+from boards import CORTEXA9, MIPS, PPC603E  # noqa: E402
 
 MISSION, SCENARIO, SLOTS, PERIOD_MS = 'cfg/missions/hubble_tenth.toml', 'spin', 20, 200
-PROOFS = {'float': 'prove', 'fixed': 'fixed-point/prove'}  # where make prove leaves the bounds of each number type
+# Of each flight: its number type and board; where make prove leaves the bounds of its stacks, where it does.
+NUMBERS = {'float': 'float', 'fixed': 'fixed', 'cortexa9': 'float'}
+BOARDS = {'float': PPC603E, 'fixed': PPC603E, 'cortexa9': CORTEXA9}
+PROOFS = {'float': 'prove', 'fixed': 'fixed-point/prove'}
 SECONDS = 280  # of the host; the run ends by itself
-FRAME_INSTRUCTIONS = PERIOD_MS * 1000 * emulator.MIPS
+FRAME_INSTRUCTIONS = PERIOD_MS * 1000 * MIPS
 # Of an estimate's instructions: in floating point LASSO-PLT-002, in fixed point half a frame.
 LIMITS = {'estimate': {'float': 3.5e6, 'fixed': 10e6}, 'image': 512 << 10, 'memory': 3 << 20}
-
-
-def instructions(ticks):
-    return round(ticks / emulator.TICKS_PER_INSTRUCTION)
 
 
 def read_reports(path):
@@ -38,8 +38,10 @@ def read_reports(path):
         return [{name: int(word) for name, word in row.items()} for row in csv.DictReader(file)]
 
 
-def frames_of(slots):
+def frames_of(slots, board):
     """Instructions of each whole frame, by stage. The estimate of a frame is the one that ended in it."""
+    def instructions(ticks):
+        return round(ticks / board.ticks_per_instruction)
     frames = []
     for first in range(0, len(slots) - SLOTS + 1, SLOTS):
         rows = slots[first:first + SLOTS]
@@ -57,10 +59,10 @@ def spread(values):
     return {'median': statistics.median(values), 'p99': values[int(0.99 * (len(values) - 1))], 'worst': values[-1]}
 
 
-def sizes(gate, elf):
+def sizes(gate, elf, board):
     """Bytes of code and constants, and of memory for the component, its stacks included, without mission images."""
     total = {}
-    for line in gate.run('powerpc-linux-gnu-size', '-A', elf).splitlines():
+    for line in gate.run(f'{board.cross}size', '-A', elf).splitlines():
         words = line.split()
         if len(words) == 3 and words[0].startswith('.'):
             total[words[0]] = int(words[1])
@@ -74,8 +76,11 @@ def stacks(slots):
     return {'estimation': max(row['estimate_stack'] for row in slots), 'acquisition': max(row['acquire_stack'] for row in slots)}
 
 
-def proven_stacks(gate, number):
-    """The bounds of the same stacks, for the same code by the same compiler."""
+def stack_bounds(gate, number, elf):
+    """The proven bounds of the same stacks, for the same code by the same compiler; where there is no proof, all that the stacks have."""
+    if number not in PROOFS:
+        places = BOARDS[number].symbols(elf)
+        return {name: places[f'board_{name}_stack_end'] - places[f'board_{name}_stack_begin'] for name in ('estimation', 'acquisition')}
     path = gates.OUT / PROOFS[number] / 'results.json'
     try:
         return json.loads(path.read_text(encoding='utf-8'))['board_stack_bytes']
@@ -83,17 +88,22 @@ def proven_stacks(gate, number):
         return gate.stop(f'{path}: {error}: the stacks have no proven bounds: make prove')
 
 
-def judge_stacks(gate, number, used, proven):
+def bound_name(number):
+    return 'proven' if number in PROOFS else 'there'
+
+
+def judge_stacks(gate, number, used, bounds):
     for name, bytes_used in used.items():
-        if not 0 < bytes_used <= proven[name]:
-            gate.find(f'{number}: stack of the {name}: {bytes_used} bytes used, at most {proven[name]} proven: the proof is wrong, or of other code')
-        gate.figure(f'{number}: bytes of stack used, {name} (proven bound)', f'{bytes_used} ({proven[name]})')
+        if not 0 < bytes_used <= bounds[name]:
+            gate.find(f'{number}: stack of the {name}: {bytes_used} bytes used, at most {bounds[name]} {bound_name(number)}: the proof is wrong, or of other code')
+        gate.figure(f'{number}: bytes of stack used, {name} ({bound_name(number)})', f'{bytes_used} ({bounds[name]})')
 
 
 def check_number(gate, number, elf):
     """The image is of this number type: two flights of one would say nothing of the other."""
-    emulator.check_image(elf)
-    if ('FixedNumber' in gate.run('powerpc-linux-gnu-nm', '-C', elf)) != (number == 'fixed'):
+    board, number = BOARDS[number], NUMBERS[number]
+    board.check_image(elf)
+    if ('FixedNumber' in gate.run(f'{board.cross}nm', '-C', elf)) != (number == 'fixed'):
         gate.stop(f'{elf}: not an image of the number type {number}: configure with -DLASSO_NUMBER={number}')
 
 
@@ -104,38 +114,38 @@ def judge_sizes(gate, number, image, memory):
 
 
 def measure(gate, number, elf, slots):
-    frames = frames_of(slots)
+    frames = frames_of(slots, BOARDS[number])
     flown = [frame for frame in frames if frame['estimate'] > 0]
     if not flown:
         gate.stop(f'{number}: no estimate has ended on the board')
-    image, memory = sizes(gate, elf)
+    image, memory = sizes(gate, elf, BOARDS[number])
     # The processor rests when neither task has work: what idle_ticks say, less the interrupts' entries that they hold. The clock stands still
     # while the bytes of the lines move: their interrupts are in no slot, and are counted apart.
     idle = [1 - (frame['boundary'] + frame['polls'] + frame['estimate']) / FRAME_INSTRUCTIONS for frame in flown]
     with_lines = [share - frame['lines'] / FRAME_INSTRUCTIONS for share, frame in zip(idle, flown)]
     return {
-        'frames': len(frames), 'mips': emulator.MIPS, 'period_ms': PERIOD_MS,
+        'frames': len(frames), 'mips': MIPS, 'period_ms': PERIOD_MS,
         'instructions': {stage: spread([frame[stage] for frame in flown]) for stage in ('boundary', 'polls', 'largest_poll', 'estimate', 'lines')},
         'interrupt_latency_instructions_without_line_traffic': spread([frame['late'] for frame in flown]),
         'idle_share_without_line_interrupts': {'median': statistics.median(idle), 'worst': min(idle)},
         'idle_share': {'median': statistics.median(with_lines), 'worst': min(with_lines), 'asked': page.IDLE_ASKED},
         'slot_margin_share': 1 - max(max(frame['boundary'], frame['largest_poll']) for frame in flown) / (FRAME_INSTRUCTIONS / SLOTS),
         'estimate_margin_share': 1 - max(frame['estimate'] + frame['polls'] + frame['boundary'] for frame in flown) / FRAME_INSTRUCTIONS,
-        'stack_bytes': stacks(slots), 'proven_stack_bytes': proven_stacks(gate, number),
+        'stack_bytes': stacks(slots), 'stack_bound': bound_name(number), 'stack_bound_bytes': stack_bounds(gate, number, elf),
         'image_bytes': image, 'memory_bytes': memory, 'component_bytes': slots[0]['memory'], 'lost_bytes': slots[-1]['lost_bytes'],
         'services_cut': slots[-1]['services_cut'], 'lines_masked': slots[-1]['lines_masked'], 'packets_dropped': slots[-1]['packets_dropped'],
     }, flown
 
 
 def judge(gate, number, r):
-    checks = [('median of an estimate, instructions', r['instructions']['estimate']['median'], LIMITS['estimate'][number]),
+    checks = [('median of an estimate, instructions', r['instructions']['estimate']['median'], LIMITS['estimate'][NUMBERS[number]]),
               ('bytes lost on the lines', r['lost_bytes'], 0),
               ('packets of telemetry dropped', r['packets_dropped'], 0)]
     for what, value, limit in checks:
         if value > limit:
             gate.find(f'{number}: {what}: {value}, at most {limit} allowed')
     judge_sizes(gate, number, r['image_bytes'], r['memory_bytes'])
-    judge_stacks(gate, number, r['stack_bytes'], r['proven_stack_bytes'])
+    judge_stacks(gate, number, r['stack_bytes'], r['stack_bound_bytes'])
 
 
 def million(value):
@@ -145,7 +155,7 @@ def million(value):
 def tell(gate, number, r):
     i = r['instructions']
     print(f'{page.NUMBERS[number]}: {r["telemetry"]}')
-    print(f'instructions in a frame of {PERIOD_MS} ms at {emulator.MIPS} MIPS ({FRAME_INSTRUCTIONS / 1e6:.0f} million), millions: median, 99 %, worst')
+    print(f'instructions in a frame of {PERIOD_MS} ms at {MIPS} MIPS ({FRAME_INSTRUCTIONS / 1e6:.0f} million), millions: median, 99 %, worst')
     for stage, title in page.STAGES:
         print(f'  {title:36s} {million(i[stage]["median"])} {million(i[stage]["p99"])} {million(i[stage]["worst"])}')
     print(f'processor idle: {page.idle(r)}')
@@ -166,22 +176,23 @@ def tell(gate, number, r):
 
 def fly(gate, number, host, board, frames):
     """One flight on the host and on the board: what was measured, and its frames."""
-    elf, out = f'{board}/flight_603e.elf', gate.out / number
+    elf, out = BOARDS[number].image(board), gate.out / number
     check_number(gate, number, elf)
-    code, said, machine = emulator.fly(f'{host}/ft/pil/pil_rig', elf, [MISSION, SCENARIO, frames, out], out, SECONDS)
+    code, said, machine = emulator.fly(f'{host}/ft/pil/pil_rig', elf, [MISSION, SCENARIO, frames, out], out, SECONDS, BOARDS[number])
     if code != 0:
         gate.stop(f'{number}: {said or "the board failed"} ({machine.said()})')
     results, flown = measure(gate, number, elf, read_reports(out / 'slots.csv'))
     return results | {'scenario': SCENARIO, 'telemetry': said}, flown
 
 
-def main(host, board, fixed_host, fixed_board, frames='360'):
+def main(host, board, fixed_host, fixed_board, cortexa9, frames='360'):
     with gates.Gate('pil') as gate:
         try:
-            version = emulator.require()
+            version = emulator.require(PPC603E)
+            emulator.require(CORTEXA9)
             with concurrent.futures.ThreadPoolExecutor() as pool:
                 jobs = {number: pool.submit(fly, gate, number, *folders, frames)
-                        for number, folders in (('float', (host, board)), ('fixed', (fixed_host, fixed_board)))}
+                        for number, folders in (('float', (host, board)), ('fixed', (fixed_host, fixed_board)), ('cortexa9', (host, cortexa9)))}
                 flights = {number: job.result() for number, job in jobs.items()}
         except emulator.Failure as failure:
             gate.stop(str(failure))

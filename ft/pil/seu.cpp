@@ -7,7 +7,7 @@
 #include <exception>
 #include <filesystem>
 
-#include "bsp/ppc603e/ram_store.hpp"
+#include "bsp/bare/ram_store.hpp"
 #include "ft/pil/seu_flight.hpp"
 #include "mdat/common/errors.hpp"
 #include "mdat/common/flight_image.hpp"
@@ -46,10 +46,10 @@ void add_store(Places& places, std::size_t image_bytes) {
   const auto place = [&](std::size_t offset, std::size_t bytes) {
     return std::vector<Range>{{places.at("store").at(0).address + static_cast<std::uint32_t>(offset), static_cast<std::uint32_t>(bytes)}};
   };
-  const std::size_t small = ppc603e::RamStore::region_bytes(0) - 2 * kStoredHeaderBytes;
+  const std::size_t small = bare::RamStore::region_bytes(0) - 2 * kStoredHeaderBytes;
   places["log"] = place(0, small);
   places["stored_image"] = place(small, stored_area_bytes(StoreArea::kImage0, image_bytes));
-  places["stored_header"] = place(small + stored_area_bytes(StoreArea::kImage0, ppc603e::kMissionBytes), kStoredHeaderBytes);
+  places["stored_header"] = place(small + stored_area_bytes(StoreArea::kImage0, bare::kMissionBytes), kStoredHeaderBytes);
 }
 
 void run(const std::string& mission_file, const std::string& folder, const Places& places, std::uint32_t flips, std::uint64_t seed,

@@ -20,6 +20,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / 'cfg/quality'))
 import gate as gates  # noqa: E402
 import emulator  # noqa: E402
+from boards import PPC603E  # noqa: E402
 
 MISSION = 'cfg/missions/hubble_tenth.toml'
 REGIONS = ('code', 'image', 'views', 'mode', 'vectors', 'data', 'stack', 'registers')
@@ -49,7 +50,7 @@ def without(begin, end, holes):
 
 def places(elf, layout):
     """Regions of the board: name, address, bytes. The bytes of image and store are known when the image is compiled."""
-    at, of = emulator.symbols(elf), emulator.symbols(layout)
+    at, of = PPC603E.symbols(elf), PPC603E.symbols(layout)
     component, driver = at['component_memory'], at['driver_memory']
     mode = [(component + of['mode_at'], of['mode_bytes']), (component + of['parameters_at'], of['parameters_bytes']), (driver + of['laser_at'], of['laser_bytes'])]
     views = [(component + of['views_at'], of['views_bytes'])]
@@ -205,7 +206,7 @@ def main(host, board, flips='2000', seed='1', name='seu'):
         elf, begun = f'{board}/flight_603e.elf', time.monotonic()
         try:
             version = emulator.require()
-            emulator.check_image(elf)
+            PPC603E.check_image(elf)
             first = resume(gate, elf, seed)
             (gate.out / 'places.txt').write_text(places(elf, f'{board}/bsp/ppc603e/CMakeFiles/layout_603e.dir/__/__/ft/pil/layout.cpp.obj'), encoding='utf-8')
             started = fly(gate, host, elf, int(flips), seed, first) if first < int(flips) else 0

@@ -24,7 +24,7 @@ Range only(const Places& places, const std::string& name) {
   return found->second.front();
 }
 
-bool is_start(const Report& report) { return report[ppc603e::kRigKind] == static_cast<std::uint32_t>(ppc603e::RigKind::kBegun); }
+bool is_start(const Report& report) { return report[bare::kRigKind] == static_cast<std::uint32_t>(bare::RigKind::kBegun); }
 
 }  // namespace
 
@@ -90,16 +90,16 @@ std::optional<Said> SeuBoard::await(int patience_s, const std::function<void()>&
   for (;;) {
     for (std::optional<Line>* line : {&camera_, &ground_, &rig_}) (*line)->move();
     if (gdb_.hit() && stopped) stopped();
-    if (!report && rig_->has(4 * ppc603e::kRigWords)) {
-      report = report_of(rig_->take(4 * ppc603e::kRigWords));
+    if (!report && rig_->has(4 * bare::kRigWords)) {
+      report = report_of(rig_->take(4 * bare::kRigWords));
       if (is_start(*report)) camera_->count_anew(), ground_->count_anew();
     }
-    if (report && camera_->has_all((*report)[ppc603e::kRigCameraSent]) && ground_->has_all((*report)[ppc603e::kRigGroundSent])) break;
+    if (report && camera_->has_all((*report)[bare::kRigCameraSent]) && ground_->has_all((*report)[bare::kRigGroundSent])) break;
     std::array<pollfd, 4> states{camera_->awaited(), ground_->awaited(), rig_->awaited(), pollfd{gdb_.descriptor(), POLLIN, 0}};
     if (poll(states.data(), states.size(), patience_s * 1000) <= 0) return {};
   }
-  return Said{is_start(*report), camera_->take_until((*report)[ppc603e::kRigCameraSent]),
-              ground_->take_until((*report)[ppc603e::kRigGroundSent])};
+  return Said{is_start(*report), camera_->take_until((*report)[bare::kRigCameraSent]),
+              ground_->take_until((*report)[bare::kRigGroundSent])};
 }
 
 Snapshot SeuBoard::keep() {

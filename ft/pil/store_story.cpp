@@ -29,8 +29,8 @@ std::string number(std::uint64_t value) { return std::to_string(value); }
 
 }  // namespace
 
-StoreStory::StoreStory(std::vector<std::uint8_t> image, std::uint32_t buffer, std::string folder)
-    : image_(std::move(image)), place_(buffer + kDamageAt), folder_(std::move(folder)) {}
+StoreStory::StoreStory(std::vector<std::uint8_t> image, std::uint32_t buffer, std::uint32_t memory, std::string folder)
+    : image_(std::move(image)), place_(buffer + kDamageAt), memory_(memory), folder_(std::move(folder)) {}
 
 void StoreStory::send(const std::string& command, const Values& values) {
   const Packet packet = mdat::encode_command(mdat::command_row(command), {values.begin(), values.end()}, count_++);
@@ -104,7 +104,7 @@ void StoreStory::third_start(std::uint32_t frame) {
 std::uint8_t StoreStory::byte_of_memory() const {
   std::ifstream memory(folder_ + "/ram.bin", std::ios::binary);
   char byte = 0;
-  if (!memory.seekg(place_) || !memory.get(byte)) throw mdat::RunError(folder_ + "/ram.bin: the board's memory cannot be read");
+  if (!memory.seekg(place_ - memory_) || !memory.get(byte)) throw mdat::RunError(folder_ + "/ram.bin: the board's memory cannot be read");
   return static_cast<std::uint8_t>(byte);
 }
 

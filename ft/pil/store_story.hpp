@@ -16,8 +16,9 @@ constexpr std::uint32_t kStoryStarts = 3;
 
 class StoreStory {
  public:
-  // `image`: to be loaded. `buffer`: where the board has its first image buffer. `folder`: of the emulator's memory and debug port.
-  StoreStory(std::vector<std::uint8_t> image, std::uint32_t buffer, std::string folder);
+  // `image`: to be loaded. `buffer`: where the board has its first image buffer. `memory`: where its memory begins. `folder`: of the
+  // emulator's memory and debug port.
+  StoreStory(std::vector<std::uint8_t> image, std::uint32_t buffer, std::uint32_t memory, std::string folder);
 
   // What the ground sends before a slot of a start (boards.hpp).
   Packet commands(std::uint32_t start, std::uint32_t slot, std::uint16_t& count);
@@ -39,7 +40,7 @@ class StoreStory {
   std::uint8_t byte_of_memory() const;
 
   std::vector<std::uint8_t> image_;
-  std::uint32_t place_;
+  std::uint32_t place_, memory_;
   std::string folder_;
   GdbStub gdb_;
   std::uint8_t right_ = 0;  // the byte before it was damaged

@@ -10,7 +10,7 @@
 namespace lasso::pil {
 namespace {
 
-using ppc603e::RigWord;
+using bare::RigWord;
 
 class Target {
  public:
@@ -27,15 +27,15 @@ class Target {
   }
 
   Report read_report() {
-    move_until([&] { return rig_.has(4 * ppc603e::kRigWords); });
-    return report_of(rig_.take(4 * ppc603e::kRigWords));
+    move_until([&] { return rig_.has(4 * bare::kRigWords); });
+    return report_of(rig_.take(4 * bare::kRigWords));
   }
 
   // Takes a report with what the board has sent before it. True: a start.
   bool take(const Report& report, TargetFlight& flight) {
-    const bool begun = report[ppc603e::kRigKind] == static_cast<std::uint32_t>(ppc603e::RigKind::kBegun);
+    const bool begun = report[bare::kRigKind] == static_cast<std::uint32_t>(bare::RigKind::kBegun);
     if (begun) begin_anew();
-    const std::uint32_t camera = report[ppc603e::kRigCameraSent], ground = report[ppc603e::kRigGroundSent];
+    const std::uint32_t camera = report[bare::kRigCameraSent], ground = report[bare::kRigGroundSent];
     move_until([&] { return camera_.has_all(camera) && ground_.has_all(ground); });
     to_camera_ = camera_.take_until(camera);
     if (begun) flight.slots.clear();
@@ -56,7 +56,7 @@ class Target {
   }
 
   void stop() {
-    rig_.give(words({ppc603e::kStopBytes, 0}));
+    rig_.give(words({bare::kStopBytes, 0}));
     rig_.move();
   }
 

@@ -243,7 +243,7 @@ std::vector<DocumentSection> transport_sections() {
         "`file://PATH` (commands from `PATH.commands`, telemetry to `PATH`); without a host they are bound to the loopback address. `mdat "
         "run "
         "--link` runs a component in real time behind one of them, and `mdat command NAME ITEM=VALUE ... --to` commands it. On the "
-        "PowerPC 603e board it is a serial port (`docs/boards/ppc603e.md`)."},
+        "bare boards it is a serial port (`docs/boards/ppc603e.md`, `docs/boards/cortexa9.md`)."},
        {}},
       {2, "Types", {}, type_table()}};
 }

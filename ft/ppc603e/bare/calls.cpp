@@ -3,13 +3,18 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "bsp/bare/console.hpp"
 #include "bsp/ppc603e/board_bus.hpp"
-#include "bsp/ppc603e/console.hpp"
 
-namespace lasso::bare {
+namespace lasso::kernel {
 namespace {
 
-using namespace ppc603e;  // NOLINT(google-build-using-namespace): the board's console and bus
+using bare::open_console;
+using bare::say;
+using bare::say_hex;
+using bare::say_number;
+using ppc603e::open_bus;
+using ppc603e::serial_registers;
 
 constexpr std::uint32_t kProgram = 0x10000000, kHeap = 0x20000000, kHeapEnd = 0x27000000, kStackEnd = 0x27F00000, kArguments = 0x27F00000;
 constexpr std::uint32_t kConsolePort = 3, kReportPort = 2;
@@ -44,7 +49,7 @@ constexpr std::int32_t kNoSuchCall = -38, kBadFile = -9;
 std::uint32_t heap_at = kHeap;
 
 [[noreturn]] void end(const char* how, std::uint32_t value) {
-  open_console(port_registers(kConsolePort));
+  open_console(serial_registers(kConsolePort));
   say_number(how, value);
   say("\n");
   for (;;) {
@@ -53,7 +58,7 @@ std::uint32_t heap_at = kHeap;
 
 std::int32_t write(std::uint32_t file, const char* text, std::uint32_t size) {
   if (file > static_cast<std::uint32_t>(kReport)) return kBadFile;
-  open_console(port_registers(file == kReport ? kReportPort : kConsolePort));
+  open_console(serial_registers(file == kReport ? kReportPort : kConsolePort));
   for (std::uint32_t i = 0; i < size; ++i) {
     const char letter[2] = {text[i], '\0'};
     say(letter);
@@ -111,7 +116,7 @@ To* at(std::uint32_t address) {
 }
 
 }  // namespace
-}  // namespace lasso::bare
+}  // namespace lasso::kernel
 
 extern "C" {
 std::uint64_t prepare_program();  // its stack and its entry: registers 3 and 4
@@ -122,7 +127,7 @@ std::int32_t serve_call(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::
 
 std::int32_t serve_call(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t, std::uint32_t e, std::uint32_t,
                         std::uint32_t number) {
-  using namespace lasso::bare;
+  using namespace lasso::kernel;
   switch (number) {
     case kExit:
     case kExitGroup:
@@ -163,8 +168,8 @@ std::int32_t serve_call(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::
 }
 
 void tell_fault(std::uint32_t vector, std::uint32_t place, std::uint32_t address, std::uint32_t miss) {
-  using namespace lasso::bare;
-  open_console(port_registers(kConsolePort));
+  using namespace lasso::kernel;
+  open_console(serial_registers(kConsolePort));
   say_hex("\nbare: vector ", vector);
   say_hex(" at ", place);
   say_hex(", address ", address);
@@ -175,7 +180,7 @@ void tell_fault(std::uint32_t vector, std::uint32_t place, std::uint32_t address
 // As Linux leaves the stack: the number of arguments, where they are, the environment, and what is said of the program's headers. Arguments
 // and environment are texts one after the other, an empty one behind each of the two lists.
 std::uint64_t prepare_program() {
-  using namespace lasso::bare;
+  using namespace lasso::kernel;
   if (!open_bus()) {
     for (;;) {
     }
