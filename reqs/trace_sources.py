@@ -1,4 +1,4 @@
-"""The tests' sources: which items they name, known before anything is built."""
+"""The tests' sources: which items they name, known before anything is built. They are read as text: what is commented out counts here, and not in the reports."""
 import re
 
 import trace_reports

@@ -10,10 +10,10 @@ namespace lasso::bare {
 
 // Of the time base: a counter that goes at one rate, never stops and does not come round within a mission.
 std::uint64_t time_base();
-// An interrupt (board.hpp: serve_wake_up) after so many ticks of the time base, at once for 0, in the place of one that was asked for
-// before.
-void wake_in(std::uint32_t ticks);
+// An interrupt (board.hpp: serve_wake_up) after so many ticks of the time base, at once for 0, kMostWakeTicks at most, in the place of one
+// that was asked for before; one that has already come may still be served.
 constexpr std::uint32_t kMostWakeTicks = 0x7FFFFFFF;
+void wake_in(std::uint32_t ticks);
 
 // All interrupts that the board uses. The former: whether they were allowed before.
 bool forbid_interrupts();

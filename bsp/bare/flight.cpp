@@ -22,7 +22,8 @@ std::uint32_t used(const std::uint32_t* begin, const std::uint32_t* end) {
   return static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(end) - reinterpret_cast<std::uintptr_t>(at));
 }
 
-// What start-up has used counts no more. Nothing lives below the caller's frame: interrupts have a stack of their own.
+// What start-up has used counts no more. Nothing lives below the caller's frame, as interrupts, which may save a few words there, are
+// forbidden.
 void paint_estimation_stack() {
   const volatile std::uint32_t* const end = static_cast<std::uint32_t*>(__builtin_frame_address(0));
   for (volatile std::uint32_t* at = board_estimation_stack_begin; at < end; ++at) *at = kPaint;

@@ -26,7 +26,7 @@ constexpr std::uint32_t kStrapsMagic = 0x53545250;
 constexpr std::uint32_t kLeastTicksPerSecond = 1000000, kMostTicksPerSecond = 1000000000;  // a wake-up call has 2 s of them
 
 // Interrupts of the lines between two wake-up calls; more are those of a line that is stuck, and would keep the processor for ever. Three
-// full rings each way are below half of it.
+// full rings each way, with an interrupt each eight bytes, are below two thirds of it.
 constexpr std::uint32_t kMostServices = 8192;
 
 constexpr TimeUs kBoundary0Us = 1'000'000;

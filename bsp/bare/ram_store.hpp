@@ -9,7 +9,7 @@
 
 namespace lasso::bare {
 
-constexpr std::size_t kMissionBytes = 31U << 20;  // of an image: as loaded, in a buffer, in the store (link.ld)
+constexpr std::size_t kMissionBytes = 31U << 20;  // of an image: as loaded, in a buffer, in the store (sections.ld)
 
 class RamStore final : public Store {
  public:

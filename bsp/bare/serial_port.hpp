@@ -20,7 +20,7 @@ class SerialPort {
   bool open();
   // Whatever waits in its ring leaves from now on.
   void send();
-  // Of the interrupt, which is off meanwhile. Loop bound: kMost bytes taken, and kFifo to send. What is left comes with the next one.
+  // Of the interrupt, which is off meanwhile. Loop bound: kMost bytes taken, and kFifo + 1 to send. What is left comes with the next one.
   void service();
   // Takes what is there without being asked to; the same bound. The interrupt is off.
   void look();

@@ -14,7 +14,8 @@ using cortexa9::kInterface;
 using cortexa9::read_device;
 using cortexa9::write_device;
 
-// The interrupt controller, by its interface to the processor and by its distributor.
+// The interrupt controller, by its interface to the processor (ICCPMR, ICCIAR, ICCEOIR) and by its distributor (ICDISER, ICDICER, ICDIPR,
+// ICDIPTR).
 constexpr std::uint32_t kLowestPriority = kInterface + 4, kAcknowledge = kInterface + 12, kEnd = kInterface + 16;
 constexpr std::uint32_t kEnable = kDistributor + 0x100, kDisable = kDistributor + 0x180, kPriorities = kDistributor + 0x400,
                         kProcessors = kDistributor + 0x800;
@@ -33,9 +34,12 @@ std::uint32_t processor() {
   return value;
 }
 
-// All masked but the timer's, of one priority: none interrupts another.
+// All masked but the timer's, of one priority: none interrupts another. Nothing is left of a start before.
 void open_interrupts() {
-  for (std::uint32_t i = 0; i < kWords; ++i) write_device(kDisable + 4 * i, 0xFFFFFFFF);
+  for (std::uint32_t i = 0; i < kWords; ++i) {
+    write_device(kDisable + 4 * i, 0xFFFFFFFF);
+    write_device(cortexa9::kWithdraw + 4 * i, 0xFFFFFFFF);
+  }
   for (std::uint32_t i = 0; i < kIds; i += 4) write_device(kPriorities + i, kPriority);
   for (std::uint32_t i = 32; i < kIds; i += 4) write_device(kProcessors + i, kFirstProcessor);
   write_device(kEnable, kTimerBit);

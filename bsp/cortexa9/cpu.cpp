@@ -5,7 +5,7 @@
 namespace lasso::cortexa9 {
 namespace {
 
-// The global timer.
+// The global timer. From r2p0 on its comparator holds for a time that has come already; earlier ones would miss it.
 constexpr std::uint32_t kLow = kTimer + 0, kHigh = kTimer + 4, kControl = kTimer + 8, kStatus = kTimer + 12, kCompareLow = kTimer + 16,
                         kCompareHigh = kTimer + 20;
 constexpr std::uint32_t kCount = 1 | 3 << 8;  // each fourth clock of the processor's devices
@@ -39,6 +39,7 @@ std::uint64_t time_base() {
 
 void wake_in(std::uint32_t ticks) {
   cortexa9::start_timer();
+  write_device(cortexa9::kWithdraw, 1u << cortexa9::kTimerInterrupt);
   const std::uint64_t then = time_base() + ticks;
   write_device(cortexa9::kCompareLow, static_cast<std::uint32_t>(then));
   write_device(cortexa9::kCompareHigh, static_cast<std::uint32_t>(then >> 32));

@@ -10,7 +10,8 @@ constexpr std::uint32_t kSystemId = 0x10000000, kFirstPort = 0x10009000, kPortSt
 // Of the processor: interface and distributor of its interrupt controller, its global timer.
 constexpr std::uint32_t kInterface = 0x1E000100, kDistributor = 0x1E001000, kTimer = 0x1E000200;
 constexpr std::uint32_t kTimerInterrupt = 27, kFirstPortInterrupt = 37;
-constexpr std::uint32_t kInterfaceControl = kInterface + 0;
+constexpr std::uint32_t kInterfaceControl = kInterface + 0;  // ICCICR
+constexpr std::uint32_t kWithdraw = kDistributor + 0x280;    // ICDICPR: what has come and was not served
 
 // Words; the memory is a device's, which keeps their order.
 inline void write_device(std::uint32_t address, std::uint32_t value) {

@@ -58,6 +58,7 @@ void SerialPort::look() {
   if (sending_) send_more();
 }
 
+// The end of the last byte raises no interrupt: who rests until then has another wake-up call.
 bool SerialPort::all_sent() const {
   return !sending_ && out_.room() == lcs::kLineBytes && (read_device(registers_ + Uart::kFlags) & Uart::kBusy) == 0;
 }

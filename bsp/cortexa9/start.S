@@ -55,12 +55,13 @@ board_translation:
         .globl _start
         .type _start, %function
 _start: cpsid aif, #0x13                        /* supervisor, in which all runs; no interrupts */
+        setend le
         clrex
         mrc   p15, 0, r0, c1, c0, 0             /* SCTLR: the data cache is on after a restart, or as a loader leaves it: */
         tst   r0, #4
         beq   3f
         CACHE 14
-3:      ldr   r4, =0x30001807                   /* TE, AFE, TRE ..., V, I, Z, C, A, M off */
+3:      ldr   r4, =0x72003807                   /* TE, AFE, TRE, EE, V, I, Z, C, A, M off: as a loader left them */
         bic   r0, r0, r4
         mcr   p15, 0, r0, c1, c0, 0
         isb
@@ -114,7 +115,7 @@ _start: cpsid aif, #0x13                        /* supervisor, in which all runs
         ldr   r0, =board_acquisition_stack_begin
         ldr   r1, =board_acquisition_stack_end
         bl    paint
-        cpsie a                                 /* what a device says late is a fault, too */
+        cpsie af                                /* what a device says late is a fault, too, and a fast interrupt */
         bl    board_main
 5:      b     5b
 

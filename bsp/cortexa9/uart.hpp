@@ -1,4 +1,5 @@
-// The registers of a PL011, and bits in them.
+// The registers of a PL011, and bits in them: DR, FR, IBRD, FBRD, LCR_H, CR, IFLS, IMSC, RIS (before the mask: overruns are not in it),
+// ICR.
 #pragma once
 
 #include <cstdint>

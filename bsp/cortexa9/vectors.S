@@ -20,7 +20,7 @@ board_vectors:
 interrupt:
         sub   lr, lr, #4
         srsdb sp!, #0x13
-        cps   #0x13
+        cpsie a, #0x13
         push  {r0-r3, r12, lr}
         ldr   r0, =board_acquisition_stack_begin
         sub   r0, sp, r0

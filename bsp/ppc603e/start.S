@@ -103,7 +103,7 @@ map_memory:
         BAT   536,0x0010,0x001E,0x0010,0x0001   /* DBAT0: the same */
         BAT   538,0x0040,0x007E,0x0040,0x0002   /* DBAT1: 0x00400000, 4 MB, read and write */
         BAT   540,0x0800,0x0FFE,0x0800,0x0002   /* DBAT2: 0x08000000, 128 MB, read and write */
-        BAT   542,0xFC00,0x07FE,0xFC00,0x002A   /* DBAT3: 0xFC000000, 64 MB, not cached, guarded; loaded.cpp changes it for a while */
+        BAT   542,0xFC00,0x07FE,0xFC00,0x002A   /* DBAT3: 0xFC000000, 64 MB, not cached, guarded; map_loaded() changes it for a while */
         isync
         mfmsr 3
         ori   3,3,0x0030                        /* IR, DR */

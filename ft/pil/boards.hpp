@@ -1,4 +1,4 @@
-// One flight on each board: the host, and the emulated PowerPC 603e. Both see the same world.
+// One flight on each board: the host, and an emulated board. Both see the same world.
 #pragma once
 
 #include <functional>

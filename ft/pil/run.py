@@ -77,10 +77,10 @@ def stacks(slots):
 
 
 def stack_bounds(gate, number, elf):
-    """The proven bounds of the same stacks, for the same code by the same compiler; where there is no proof, all that the stacks have."""
+    """The proven bounds of the same stacks, for the same code by the same compiler; where there is no proof, half of what the stacks have."""
     if number not in PROOFS:
         places = BOARDS[number].symbols(elf)
-        return {name: places[f'board_{name}_stack_end'] - places[f'board_{name}_stack_begin'] for name in ('estimation', 'acquisition')}
+        return {name: (places[f'board_{name}_stack_end'] - places[f'board_{name}_stack_begin']) // 2 for name in ('estimation', 'acquisition')}
     path = gates.OUT / PROOFS[number] / 'results.json'
     try:
         return json.loads(path.read_text(encoding='utf-8'))['board_stack_bytes']
@@ -89,13 +89,14 @@ def stack_bounds(gate, number, elf):
 
 
 def bound_name(number):
-    return 'proven' if number in PROOFS else 'there'
+    return 'proven' if number in PROOFS else 'allowed'
 
 
 def judge_stacks(gate, number, used, bounds):
     for name, bytes_used in used.items():
         if not 0 < bytes_used <= bounds[name]:
-            gate.find(f'{number}: stack of the {name}: {bytes_used} bytes used, at most {bounds[name]} {bound_name(number)}: the proof is wrong, or of other code')
+            remedy = 'the proof is wrong, or of other code' if number in PROOFS else 'twice that has to be there: a call is deeper than it was'
+            gate.find(f'{number}: stack of the {name}: {bytes_used} bytes used, at most {bounds[name]} {bound_name(number)}: {remedy}')
         gate.figure(f'{number}: bytes of stack used, {name} ({bound_name(number)})', f'{bytes_used} ({bounds[name]})')
 
 
@@ -140,6 +141,7 @@ def measure(gate, number, elf, slots):
 def judge(gate, number, r):
     checks = [('median of an estimate, instructions', r['instructions']['estimate']['median'], LIMITS['estimate'][NUMBERS[number]]),
               ('bytes lost on the lines', r['lost_bytes'], 0),
+              ('times that the lines were masked', r['lines_masked'], 0),
               ('packets of telemetry dropped', r['packets_dropped'], 0)]
     for what, value, limit in checks:
         if value > limit:
@@ -188,8 +190,7 @@ def fly(gate, number, host, board, frames):
 def main(host, board, fixed_host, fixed_board, cortexa9, frames='360'):
     with gates.Gate('pil') as gate:
         try:
-            version = emulator.require(PPC603E)
-            emulator.require(CORTEXA9)
+            version = ' and '.join(dict.fromkeys(emulator.require(board) for board in (PPC603E, CORTEXA9)))
             with concurrent.futures.ThreadPoolExecutor() as pool:
                 jobs = {number: pool.submit(fly, gate, number, *folders, frames)
                         for number, folders in (('float', (host, board)), ('fixed', (fixed_host, fixed_board)), ('cortexa9', (host, cortexa9)))}
