@@ -192,7 +192,7 @@ def conclude(gate, rows, seed, version, seconds, started):
     (gate.out / 'results.json').write_text(json.dumps(results, indent=1) + '\n', encoding='utf-8')
     (gate.out / 'report.html').write_text(page(rows, results), encoding='utf-8')
     for line in table_of(rows):
-        print(''.join(f'{word!s:>13}' for word in line))
+        print(' '.join(f'{word!s:>12}' for word in line))
     judge(gate, rows)
     counts = count(rows)
     gate.figure('flips', len(rows))
