@@ -74,7 +74,7 @@ def table(results):
 
 def html(flights, budget, made):
     """`flights`: results and frames of each number type. `made`: by what, of what."""
-    pictures = ''.join(f'<h2>{NUMBERS[number].capitalize()}</h2>{picture(frames, budget, r["mips"], r["period_ms"])}' for number, (r, frames) in flights.items())
+    pictures = ''.join(f'<h2>{NUMBERS[number][0].upper()}{NUMBERS[number][1:]}</h2>{picture(frames, budget, r["mips"], r["period_ms"])}' for number, (r, frames) in flights.items())
     return (f'<!doctype html><meta charset="utf-8"><title>3DLASSO on bare boards</title><style>body{{font-family:sans-serif;max-width:{WIDTH}px;margin:2em auto}}'
             f'td,th{{padding:.2em 1em .2em 0;vertical-align:top;text-align:left}}td:first-child{{width:36%}}</style><h1>3DLASSO on bare boards</h1><p>Both number types of the per-point path on the PowerPC 603e, and floating point on the Cortex-A9, '
             f'each beside its own host. Time of each stage in each frame, against the frame.</p>{pictures}<h2>Side by side</h2>'
