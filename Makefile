@@ -31,7 +31,7 @@ FIXED_HOST = -DCMAKE_CXX_COMPILER=clang++-19 $(FIXED)
 at_level = -DCMAKE_CXX_COMPILER=$(1) -DCMAKE_BUILD_TYPE=Level -DCMAKE_CXX_FLAGS_LEVEL=-$(2) -DLASSO_GROUND=OFF
 # $(call sanitized,SANITIZERS) (a finding names its function; -g1 would name lines, too, and costs a sixth of the build), the tests that start threads, and those of the per-point path
 comma := ,
-sanitized = -DCMAKE_CXX_COMPILER=clang++-19 -DCMAKE_BUILD_TYPE=Level -DCMAKE_CXX_FLAGS_LEVEL=-O1 -DLASSO_OUTER_OPTIONS=-O0 -DLASSO_SANITIZE=$(1)
+sanitized = -DCMAKE_CXX_COMPILER=clang++-19 -DCMAKE_BUILD_TYPE=Level -DCMAKE_CXX_FLAGS_LEVEL=-O1 -DLASSO_COMMAND_LINE_OPTIONS=-O0 -DLASSO_SANITIZE=$(1)
 # Elsewhere what most files include is parsed once (lasso_precompile); here each file has to include what it uses.
 own_includes = -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON
 THREADED = ut_posix ut_exec

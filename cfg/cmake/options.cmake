@@ -24,7 +24,7 @@ if(LASSO_SANITIZE)
 endif()
 
 # Of mdat's command line and of the tests that call it, which compute nothing: with sanitizers, most of their build's time would go into making them faster.
-set(LASSO_OUTER_OPTIONS "" CACHE STRING "Compiler options of mdat's command line and of the tests that call it")
+set(LASSO_COMMAND_LINE_OPTIONS "" CACHE STRING "Compiler options of mdat's command line and of the tests that call it")
 
 add_library(lasso_warnings INTERFACE)
 target_compile_options(lasso_warnings INTERFACE -Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wdouble-promotion -Wold-style-cast
