@@ -4,6 +4,7 @@
 #include "fsw/core/fixed_vector.hpp"
 #include "fsw/geometry/se3.hpp"
 #include "fsw/pose/coarse.hpp"
+#include "fsw/pose/fit.hpp"
 
 namespace lasso {
 
@@ -12,6 +13,7 @@ constexpr std::size_t kDrawn = 16;  // of the short list: so many are worth more
 struct Drawn {
   Pose T_target_sensor;
   double score = 0;  // smaller is better: the mean distance when pulled, the fit's score when drawn on rays
+  Fit fit;           // once it is drawn on rays
 };
 
 class DrawnList {

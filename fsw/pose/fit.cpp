@@ -12,6 +12,10 @@ constexpr float kOnSurface = 0.02F;  // of the model's size: farther off is bad
 constexpr float kInFront = 0.03F;    // of the model's size: a surface this far in front would have been measured itself
 constexpr double kMissWeight = 0.3;  // returns are lost for many reasons
 constexpr double kDistanceWeight = 0.5;
+constexpr double kHopeless = 2.5;        // times the best score, and
+constexpr double kHopelessFloor = 0.05;  // this
+constexpr double kPoor = 1.25;           // the same
+constexpr double kPoorFloor = 0.02;
 constexpr std::size_t kLookedAtOnce = 16;  // rays between two looks at the limit
 
 template <class T>
@@ -57,6 +61,10 @@ bool exceeds(const Fit& fit, std::size_t ray, double limit) { return ray % kLook
 double Fit::disagreement() const { return hits > 0 ? (bad + violated) / (hits + violated) : 1; }
 
 double Fit::score() const { return disagreement() + kDistanceWeight * (hits > 0 ? distance / hits : 1); }
+
+double hopeless_beyond(double score) { return kHopeless * score + kHopelessFloor; }
+
+double poor_beyond(double score) { return kPoor * score + kPoorFloor; }
 
 Fit operator+(const Fit& a, const Fit& b) {
   return {a.hits + b.hits, a.bad + b.bad, a.violated + b.violated, a.distance + b.distance, a.walks + b.walks};

@@ -23,6 +23,11 @@ Fit operator+(const Fit& a, const Fit& b);
 
 constexpr double kAnyScore = 1e9;
 
+// Where the best of all scores is this, what fits worse than the result is not worked on.
+double hopeless_beyond(double score);
+// And this is not worth a second attempt.
+double poor_beyond(double score);
+
 // At most kEvidenceHits + kEvidenceMisses walks through the field. Where the score is sure to exceed `limit`, no more are looked at: it is
 // then less than it would be, and still more than that.
 Fit measure_fit(const Mission& mission, const Pose& T_target_sensor, const Evidence& evidence, double limit = kAnyScore);

@@ -11,25 +11,11 @@ namespace {
 using N = FlightNumber;
 
 constexpr std::size_t kPullPoints = 128;
-constexpr double kHopeless = 2.5;               // times the best score, and
-constexpr double kHopelessFloor = 0.05;         // this: what fits as badly is not worked on
-constexpr double kPoor = 1.25;                  // times the best score, and
-constexpr double kPoorFloor = 0.02;             // this: what fits as badly is tried once
 constexpr int kExploreSteps = 12;               // each way, even
 constexpr int kExploreEnd = kExploreSteps + 4;  // with the places beside the best
 constexpr double kExploreStep = 0.005;          // of the model's size, along the least certain direction
 constexpr std::uint32_t kExploredAtOnce = 4;    // of these in a step of the work
 constexpr std::uint32_t kViewWork = kRolls * kCoarsePoints / 2;
-
-double hopeless_beyond(double score) { return kHopeless * score + kHopelessFloor; }
-
-Pose moved_by(const NearSymmetry<N>& symmetry) {
-  Pose pose;
-  pose.q =
-      normalized(Quat(N::to_double(symmetry.q[3]), N::to_double(symmetry.q[0]), N::to_double(symmetry.q[1]), N::to_double(symmetry.q[2])));
-  pose.p = Vec3(N::to_double(symmetry.p[0]), N::to_double(symmetry.p[1]), N::to_double(symmetry.p[2]));
-  return pose;
-}
 
 // The least certain direction of the information H: a step that moves the farthest part of the model by a metre. False where H has none.
 bool find_weakest(const Mission& mission, const Mat6& H, Vec6& direction) {
@@ -67,6 +53,7 @@ Status Search::add_scan(const Mission& mission, const RangeImage& scan, Workspac
   maker_.begin(mission, workspace);
   scan_work_ = 0;
   unfinished_ = false;
+  mirrored_ = false;
   stage_ = Stage::kEvidence;
   return Status::kOk;
 }
@@ -118,6 +105,8 @@ std::uint32_t Search::step(const Mission& mission, Workspace& workspace) {
       return recall_next(mission, workspace);
     case Stage::kSway:
       return sway_next(mission, workspace);
+    case Stage::kMirror:
+      return mirror_next(mission, workspace);
     default:
       return conclude();
   }
@@ -140,10 +129,10 @@ std::uint32_t Search::draw_next(const Mission& mission, Workspace& workspace) {
   put_points(evidence, kPullPoints, workspace);
   Drawn& drawn = drawn_[next_];
   drawn.T_target_sensor = pull_on_rays(mission, drawn.T_target_sensor, workspace);
-  const Fit fit = measure_fit(mission, drawn.T_target_sensor, evidence, hopeless_beyond(drawn_.best_score(next_)));
-  drawn.score = fit.score();
+  drawn.fit = measure_fit(mission, drawn.T_target_sensor, evidence, hopeless_beyond(drawn_.best_score(next_)));
+  drawn.score = drawn.fit.score();
   if (++next_ == drawn_.size()) choose_finalists();
-  return draw_work(workspace) + fit_work(fit);
+  return draw_work(workspace) + fit_work(drawn.fit);
 }
 
 // Is it as far as that from all of the scan's own finalists?
@@ -170,25 +159,17 @@ void Search::choose_finalists() {
   for (std::size_t chosen = 0; chosen < kFinalists; ++chosen) {
     const Drawn* best = best_drawn(chosen + 2 < kFinalists ? kCosHalfSame : kCosHalfDistinct);
     if (best == nullptr) break;
-    add_track(best->T_target_sensor);
+    add_track(best->T_target_sensor, best->fit);
   }
   twins_ = false;
   next_ = 0;
   stage_ = Stage::kSketch;
 }
 
-// The poses that the best one is most easily confused with: its near-symmetries.
-void Search::add_twins(const Mission& mission) {
-  first_ = tracks_.size();
-  const Pose best = tracks_[0].T_target_sensor[last()];
-  for (const NearSymmetry<N>& symmetry : mission.search.symmetries) add_track(moved_by(symmetry) * best);
-  twins_ = true;
-  next_ = first_;
-}
-
-void Search::add_track(const Pose& T_target_sensor) {
+void Search::add_track(const Pose& T_target_sensor, const Fit& fit) {
   Track track;
   track.T_target_sensor[last()] = T_target_sensor;
+  track.fits[last()] = fit;
   invariant(tracks_.push_back(track), "room for a track");
 }
 
@@ -227,7 +208,7 @@ std::uint32_t Search::sketch_next(const Mission& mission, Workspace& workspace) 
   put_points(evidence, kPullPoints, workspace);
   if (working_) {
     const Pose start = pull_in(mission, track.start, workspace);
-    const Settled settled = sketch(mission, evidence, start, limit, workspace, work);
+    const Settled settled = sketch(mission, evidence, start, track.fits[last()], limit, workspace, work);
     if (settled.fit.score() < track.fits[last()].score()) take(settled, last(), track);
     work += pull_work(workspace) + draw_work(workspace);
     working_ = false;
@@ -236,7 +217,7 @@ std::uint32_t Search::sketch_next(const Mission& mission, Workspace& workspace) 
     track.settled = track.swayed = false;
     track.cost = track.whole_cost = track.explained_cost = kAnyScore;
     const Pose start = drawn ? track.start : pull_on_rays(mission, track.start, workspace);
-    take(sketch(mission, evidence, start, limit, workspace, work), last(), track);
+    take(sketch(mission, evidence, start, track.fits[last()], limit, workspace, work), last(), track);
     work += drawn ? 0 : draw_work(workspace);
     working_ = !drawn && is_hopeless(track);
   }
@@ -250,7 +231,7 @@ std::uint32_t Search::sketch_next(const Mission& mission, Workspace& workspace) 
 // One attempt at a track in a scan.
 std::uint32_t Search::settle(const Mission& mission, std::size_t scan, Track& track, Workspace& workspace) {
   std::uint32_t work = 0;
-  const double limit = scan == last() ? kPoor * best_score() + kPoorFloor : kAnyScore;
+  const double limit = scan == last() ? poor_beyond(best_score()) : kAnyScore;
   working_ = settler_.step(mission, evidence_[scan], limit, workspace, work);
   if (!working_) take(settler_.best(), scan, track);
   return work;
@@ -271,7 +252,7 @@ std::uint32_t Search::settle_next(const Mission& mission, Workspace& workspace) 
 void Search::end_settling(const Mission& mission) {
   prune();
   next_ = 0;
-  if (!twins_) {
+  if (!twins_ && scans_ == 1) {
     add_twins(mission);
     stage_ = Stage::kSketch;
     if (first_ < tracks_.size()) return;
@@ -333,7 +314,7 @@ std::uint32_t Search::recall_next(const Mission& mission, Workspace& workspace) 
   for (; next_ < tracks_.size(); ++next_) {
     for (std::size_t scan = last(); scan-- > 0;) {
       Track& track = tracks_[next_];
-      if (track.known[scan]) continue;
+      if (track.known[scan] || is_hopeless(track)) continue;
       const Pose start = carry(track, scan + 1, scan, rates_of(track, scan + 2));
       if (!working_) settler_.begin(start, start);
       return settle(mission, scan, track, workspace);
@@ -343,6 +324,17 @@ std::uint32_t Search::recall_next(const Mission& mission, Workspace& workspace) 
   next_ = 0;
   stage_ = Stage::kSway;
   return 1;
+}
+
+// What comes to the same attitude in the last scan was the same in those before it.
+void Search::inherit(const Track& other, Track& track) const {
+  for (std::size_t scan = 0; scan < last(); ++scan) {
+    if (track.known[scan] || !other.known[scan]) continue;
+    track.T_target_sensor[scan] = other.T_target_sensor[scan];
+    track.fits[scan] = other.fits[scan];
+    track.known[scan] = true;
+  }
+  sum_up(track);
 }
 
 // Keeps the best few that are at least 5 deg apart, best first.
@@ -358,7 +350,9 @@ void Search::prune() {
   for (std::size_t i = 0; i < t.size() && kept < kCarried; ++i) {
     bool apart = true;
     for (std::size_t k = 0; k < kept; ++k) {
-      apart = apart && are_apart(t[i].T_target_sensor[last()].q, t[k].T_target_sensor[last()].q, kCosHalfSame);
+      const bool same = !are_apart(t[i].T_target_sensor[last()].q, t[k].T_target_sensor[last()].q, kCosHalfSame);
+      if (same) inherit(t[i], t[k]);
+      apart = apart && !same;
     }
     if (apart) t[kept++] = t[i];
   }

@@ -47,7 +47,20 @@ class Search {
   const SearchResult& result() const { return result_; }
 
  private:
-  enum class Stage : std::uint8_t { kIdle, kEvidence, kCoarse, kPull, kDraw, kSketch, kSettle, kExplore, kRecall, kSway, kVerdict };
+  enum class Stage : std::uint8_t {
+    kIdle,
+    kEvidence,
+    kCoarse,
+    kPull,
+    kDraw,
+    kSketch,
+    kSettle,
+    kExplore,
+    kRecall,
+    kSway,
+    kMirror,
+    kVerdict
+  };
   // A pose in each scan, as far as known.
   struct Track {
     Pose T_target_sensor[kMaxSearchScans];
@@ -85,6 +98,9 @@ class Search {
   std::uint32_t explore_next(const Mission& mission);
   std::uint32_t recall_next(const Mission& mission, Workspace& workspace);
   std::uint32_t sway_next(const Mission& mission, Workspace& workspace);
+  std::uint32_t mirror_next(const Mission& mission, Workspace& workspace);
+  std::uint32_t end_mirroring();
+  bool is_new(const Pose& T_target_sensor, const Fit& fit) const;
   std::uint32_t conclude();
   std::uint32_t settle(const Mission& mission, std::size_t scan, Track& track, Workspace& workspace);
   void end_settling(const Mission& mission);
@@ -95,7 +111,7 @@ class Search {
   const Drawn* best_drawn(double cos_half_angle) const;
   void choose_finalists();
   void add_twins(const Mission& mission);
-  void add_track(const Pose& T_target_sensor);
+  void add_track(const Pose& T_target_sensor, const Fit& fit);
   void take(const Settled& settled, std::size_t scan, Track& track) const;
   const SwayCare& care_of(std::size_t track) const;
   std::uint32_t take_swayed(const Mission& mission, Track& track) const;
@@ -107,6 +123,7 @@ class Search {
   bool explores_next() const { return next_ < tracks_.size() && next_ < kExplored; }
   bool is_distinct(const Track& track) const;
   bool stands_alone() const;
+  void inherit(const Track& other, Track& track) const;
   void prune();
   Pose carry(const Track& track, std::size_t from, std::size_t to, const Twist& rates) const;
   Twist rates_of(const Track& track, std::size_t scan) const;
@@ -121,6 +138,7 @@ class Search {
   std::size_t next_ = 0;         // of the stage's items
   std::size_t first_ = 0;        // track of the last scan's own finalists, or of the twins
   bool twins_ = false;           // are there
+  bool mirrored_ = false;        // those of the best pose as it stands have been looked for
   bool working_ = false;         // on the next track
   bool unfinished_ = false;      // something that was worth it was not worked on
   std::uint32_t scan_work_ = 0;  // look-ups of the last scan

@@ -10,7 +10,7 @@ constexpr double kRatioFloor = 0.01;
 constexpr double kAlone = 1.5;  // times the ratio asked for: the score alone tells
 constexpr double kAloneInDoubt = 3;
 constexpr double kAgrees = 1.2;  // ratio of costs that are not alike
-constexpr double kFair = 1.8;    // cost of what is explained, where something else is not
+constexpr double kFair = 1.5;    // cost of what is explained, where something else is not
 constexpr double kEven = 0.02;   // disagreement below which nothing is off but by the noise, or by the target's motion
 
 // A part of the target may be off, but what looks a little like the target is something else.
@@ -18,9 +18,9 @@ bool seems_else(const Rival& rival) {
   return rival.best_cost > kCleanCost && rival.best_explained_cost > kFair && rival.best_disagreement > kEven;
 }
 
-double ratio_of(double score, double best) { return (score + kRatioFloor) / (best + kRatioFloor); }
-
 }  // namespace
+
+double ratio_of(double score, double best) { return (score + kRatioFloor) / (best + kRatioFloor); }
 
 bool is_near(double score_ratio, double best_cost, double ratio_min) {
   return score_ratio < (best_cost > kCleanCost ? kAloneInDoubt : kAlone) * ratio_min;
@@ -62,7 +62,8 @@ std::uint32_t Search::sway_next(const Mission& mission, Workspace& workspace) {
     return work;
   }
   prune();
-  stage_ = Stage::kVerdict;
+  next_ = 0;
+  stage_ = worth && !mirrored_ ? Stage::kMirror : Stage::kVerdict;
   return 1;
 }
 

@@ -13,6 +13,9 @@ struct Rival {
   double best_disagreement = 0;
 };
 
+// Scores are compared by this, of which 1 is alike.
+double ratio_of(double score, double best);
+
 // Its score alone does not tell: costs are asked for, and sooner where the best pose itself leaves returns unexplained.
 bool is_near(double score_ratio, double best_cost, double ratio_min);
 
