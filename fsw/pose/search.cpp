@@ -329,10 +329,10 @@ std::uint32_t Search::recall_next(const Mission& mission, Workspace& workspace) 
 // What comes to the same attitude in the last scan was the same in those before it.
 void Search::inherit(const Track& other, Track& track) const {
   for (std::size_t scan = 0; scan < last(); ++scan) {
-    if (track.known[scan] || !other.known[scan]) continue;
+    if (track.known[scan]) continue;
     track.T_target_sensor[scan] = other.T_target_sensor[scan];
     track.fits[scan] = other.fits[scan];
-    track.known[scan] = true;
+    track.known[scan] = other.known[scan];
   }
   sum_up(track);
 }
