@@ -208,7 +208,7 @@ std::uint32_t Search::sketch_next(const Mission& mission, Workspace& workspace) 
   put_points(evidence, kPullPoints, workspace);
   if (working_) {
     const Pose start = pull_in(mission, track.start, workspace);
-    const Settled settled = sketch(mission, evidence, start, track.fits[last()], limit, workspace, work);
+    const Settled settled = sketch(mission, evidence, {start, track.fits[last()]}, limit, workspace, work);
     if (settled.fit.score() < track.fits[last()].score()) take(settled, last(), track);
     work += pull_work(workspace) + draw_work(workspace);
     working_ = false;
@@ -217,7 +217,7 @@ std::uint32_t Search::sketch_next(const Mission& mission, Workspace& workspace) 
     track.settled = track.swayed = false;
     track.cost = track.whole_cost = track.explained_cost = kAnyScore;
     const Pose start = drawn ? track.start : pull_on_rays(mission, track.start, workspace);
-    take(sketch(mission, evidence, start, track.fits[last()], limit, workspace, work), last(), track);
+    take(sketch(mission, evidence, {start, track.fits[last()]}, limit, workspace, work), last(), track);
     work += drawn ? 0 : draw_work(workspace);
     working_ = !drawn && is_hopeless(track);
   }

@@ -26,14 +26,14 @@ std::uint32_t pull_work(const Workspace& workspace) { return kPullCost * points_
 std::uint32_t draw_work(const Workspace& workspace) { return kRayPulls * weigh_work(workspace); }
 std::uint32_t weigh_work(const Workspace& workspace) { return kPassCost * points_of(workspace); }
 
-Settled sketch(const Mission& mission, const Evidence& evidence, const Pose& start, const Fit& start_fit, double limit,
-               Workspace& workspace, std::uint32_t& work) {
+Settled sketch(const Mission& mission, const Evidence& evidence, const SketchStart& start, double limit, Workspace& workspace,
+               std::uint32_t& work) {
   put_points(evidence, kSketchPoints, workspace);
-  const HitSolution solution = register_look(mission, RegisterLook::kFirst, start, workspace);
-  const Settled settled = measured(mission, evidence, solution, limit, points_of(workspace), work);
-  if (!(settled.fit.score() > poor_beyond(start_fit.score()))) return settled;
+  const HitSolution solution = register_look(mission, RegisterLook::kFirst, start.T_target_sensor, workspace);
+  Settled settled = measured(mission, evidence, solution, limit, points_of(workspace), work);
+  if (!(settled.fit.score() > poor_beyond(start.fit.score()))) return settled;
   work += weigh_work(workspace);
-  return {weigh_hits(mission, start, workspace), start_fit};
+  return {weigh_hits(mission, start.T_target_sensor, workspace), start.fit};
 }
 
 void Settler::begin(const Pose& rough, const Pose& start) {

@@ -13,10 +13,15 @@ struct Settled {
 
 // Work is counted in look-ups of some 90 PowerPC 603e instructions; `work` is added to.
 
+struct SketchStart {
+  Pose T_target_sensor;
+  Fit fit;  // of this pose, where it is known
+};
+
 // The start registered on some of the returns, which tells whether it is worth more. The measuring ends beyond `limit`. A start that is
-// known to fit, `start_fit`, is kept where the registration strays from it: a few returns and a wide gate may lead to another minimum.
-Settled sketch(const Mission& mission, const Evidence& evidence, const Pose& start, const Fit& start_fit, double limit,
-               Workspace& workspace, std::uint32_t& work);
+// known to fit is kept where the registration strays from it: a few returns and a wide gate may lead to another minimum.
+Settled sketch(const Mission& mission, const Evidence& evidence, const SketchStart& start, double limit, Workspace& workspace,
+               std::uint32_t& work);
 
 // Settles one start in one scan, attempt by attempt, until one explains the scan.
 class Settler {

@@ -47,7 +47,7 @@ std::uint32_t Search::mirror_next(const Mission& mission, Workspace& workspace) 
   const bool near = is_near(ratio_of(fit.score(), best.fits[last()].score()), best.cost, limits_.ratio_min);
   if (!near || !is_new(twin.T_target_sensor[last()], fit)) return fit_work(fit);
   put_points(evidence_[last()], kEvidenceHits, workspace);
-  Settled settled{weigh_hits(mission, twin.T_target_sensor[last()], workspace), fit};
+  const Settled settled{weigh_hits(mission, twin.T_target_sensor[last()], workspace), fit};
   take(settled, last(), twin);
   twin.settled = true;
   invariant(tracks_.push_back(twin), "room for a twin");

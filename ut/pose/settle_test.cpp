@@ -76,11 +76,11 @@ TEST_F(SettleTest, ASketchTellsRightFromWrongByLessWork) {
   VERIFIES("LASSO-MOD-117~1");
   scan();
   const auto evidence = make_evidence();
-  const Settled right = sketch(mission_, *evidence, off(0.005, 0.002), Fit(), kAnyScore, *workspace_, work_);
+  const Settled right = sketch(mission_, *evidence, {off(0.005, 0.002), Fit()}, kAnyScore, *workspace_, work_);
   EXPECT_TRUE(is_right(right));
   Pose turned = scan_.T_sensor_target;
   turned.q = normalized(turned.q * Quat(0.5, 0.5, -0.5, 0.5));
-  const Settled wrong = sketch(mission_, *evidence, inverse(turned), Fit(), 2 * right.fit.score(), *workspace_, work_);
+  const Settled wrong = sketch(mission_, *evidence, {inverse(turned), Fit()}, 2 * right.fit.score(), *workspace_, work_);
   EXPECT_GT(wrong.fit.score(), 2 * right.fit.score());
   EXPECT_LT(wrong.fit.walks, right.fit.walks);
 }
@@ -93,9 +93,9 @@ TEST_F(SettleTest, AStartThatFitsIsNotLostToARegistrationThatStrays) {
   const Fit good = measure_fit(mission_, inverse(scan_.T_sensor_target), *evidence);
   Pose turned = scan_.T_sensor_target;
   turned.q = normalized(turned.q * Quat(0.5, 0.5, -0.5, 0.5));
-  const Settled strayed = sketch(mission_, *evidence, inverse(turned), Fit(), kAnyScore, *workspace_, work_);
+  const Settled strayed = sketch(mission_, *evidence, {inverse(turned), Fit()}, kAnyScore, *workspace_, work_);
   ASSERT_GT(strayed.fit.score(), 1.25 * good.score() + 0.02);
-  const Settled kept = sketch(mission_, *evidence, inverse(turned), good, kAnyScore, *workspace_, work_);
+  const Settled kept = sketch(mission_, *evidence, {inverse(turned), good}, kAnyScore, *workspace_, work_);
   EXPECT_EQ(kept.fit.score(), good.score());
   EXPECT_EQ(kept.solution.T_target_sensor.p, inverse(turned).p);
   EXPECT_EQ(kept.solution.T_target_sensor.q.coeffs(), inverse(turned).q.coeffs());
