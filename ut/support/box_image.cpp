@@ -199,9 +199,11 @@ Words parameter_words(const MissionParameters& parameters) {
   return words;
 }
 
-}  // namespace
+bool same(const BoxModel& a, const BoxModel& b) {
+  return a.center == b.center && a.half == b.half && a.cell_m == b.cell_m && a.margin_m == b.margin_m;
+}
 
-BoxTables make_box_tables(const Boxes& boxes) {
+BoxTables compute_box_tables(const Boxes& boxes) {
   const BoxModel bounds = bounds_of(boxes);
   const Grid g = make_grid(bounds);
   BoxTables tables;
@@ -226,6 +228,19 @@ BoxTables make_box_tables(const Boxes& boxes) {
   tables[13] = view_words(boxes, bounds);
   tables[14] = symmetry_words(boxes[0]);
   return tables;
+}
+
+}  // namespace
+
+// Most tests of a program want the tables of the test before them, and to make them takes longer than most tests.
+BoxTables make_box_tables(const Boxes& boxes) {
+  static Boxes made_of;
+  static BoxTables made;
+  if (!std::equal(boxes.begin(), boxes.end(), made_of.begin(), made_of.end(), same)) {
+    made = compute_box_tables(boxes);
+    made_of = boxes;
+  }
+  return made;
 }
 
 TestImage make_image(const MissionParameters& parameters, const BoxTables& given) {

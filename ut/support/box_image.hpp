@@ -31,7 +31,7 @@ using Words = std::vector<std::uint32_t>;
 
 // The tables in the order of TableId, without the parameters (table 1, index 0 stays empty).
 using BoxTables = std::array<Words, kTableCount>;
-BoxTables make_box_tables(const Boxes& boxes);
+BoxTables make_box_tables(const Boxes& boxes);  // the last ones are kept: not for two threads at once
 inline BoxTables make_box_tables(const BoxModel& model) { return make_box_tables(Boxes{model}); }
 
 // A complete image. Its memory is aligned for load_image (std::vector<std::uint64_t> behind the bytes).
