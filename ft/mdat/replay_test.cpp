@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <map>
+#include <memory>
 
 #include "ft/mdat/command.hpp"
 #include "ut/support/verifies.hpp"
@@ -46,11 +48,19 @@ double angle_rad(const Row& a, const Row& b) {
 
 class Replay : public ::testing::Test {
  protected:
-  void SetUp() override {
-    const Answer recorded = work.mdat("run missions/test.toml --scenario dropouts --frames 8 --record rec");
+  // Recorded once, and copied for each test.
+  static void SetUpTestSuite() {
+    original = std::make_unique<WorkFolder>();
+    const Answer recorded = original->mdat("run missions/test.toml --scenario dropouts --frames 8 --record rec");
     ASSERT_EQ(recorded.exit_code, 0) << recorded.err;
-    const Answer compiled = work.mdat("mission compile missions/test.toml --scenario dropouts -o image.3dli");
+    const Answer compiled = original->mdat("mission compile missions/test.toml --scenario dropouts -o image.3dli");
     ASSERT_EQ(compiled.exit_code, 0) << compiled.err;
+  }
+  static void TearDownTestSuite() { original.reset(); }
+
+  void SetUp() override {
+    std::filesystem::copy(*original / "rec", work / "rec", std::filesystem::copy_options::recursive);
+    std::filesystem::copy(*original / "image.3dli", work / "image.3dli");
   }
 
   std::vector<Row> replay(const std::string& mission, const std::string& scans, const std::string& options) const {
@@ -78,6 +88,7 @@ class Replay : public ::testing::Test {
     }
   }
   WorkFolder work;
+  static inline std::unique_ptr<WorkFolder> original;
 };
 
 TEST_F(Replay, RegistersEachScanFromItsPose) {
