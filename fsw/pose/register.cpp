@@ -52,12 +52,11 @@ void keep(const Pass& pass, const MatchSettings<N>& s, HitSolution& solution) {
   solution.squared_residual_m2 = pass.sums.rows.squared_range();
 }
 
-// Passes over all points, the first of them a walk along the whole gate: without one, surfaces in front go unnoticed. Steps can go round in
-// a ring without ever turning back: later ones are halved by their number.
-void iterate_all(const Mission& mission, MatchSettings<N>& s, double longest_m, Workspace& workspace, HitSolution& solution) {
+// Passes over all points. Steps can go round in a ring without ever turning back: later ones are halved by their number.
+void iterate_all(const Mission& mission, PassKind kind, MatchSettings<N>& s, double longest_m, Workspace& workspace,
+                 HitSolution& solution) {
   const int limit = static_cast<int>(mission.parameters.iterations_max);
   solution.stop = StopReason::kIterationLimit;
-  PassKind kind{1, Lookup::kWalk};
   Descent descent{longest_m};
   for (int i = 0; i < limit; ++i) {
     const Pass pass = take_pass(mission, s, kind, descent, workspace, solution.T_target_sensor);
@@ -77,32 +76,34 @@ void iterate_all(const Mission& mission, MatchSettings<N>& s, double longest_m, 
   }
 }
 
-// How a registration begins: passes on rays with a wide gate that shrinks.
+// How a look begins: passes with a wide gate that shrinks. Points that they leave out have to be walked along their whole gate after them.
 struct Opening {
   int passes;
-  double gate_first;   // in estimation.gate_first_m
-  double gate_shrink;  // from pass to pass
+  double gate;         // of the first, in estimation.gate_first_m
   std::size_t stride;  // of the points
+  Lookup next;
 };
-constexpr Opening kUsual{2, 1.0, 0.3, kQuarter};
-constexpr Opening kSecondLook{2, 2.0, 0.3, 1};
+constexpr double kGateShrink = 0.3;
+constexpr Opening kFirstLook{2, 1.0, kQuarter, Lookup::kWalk};
+constexpr Opening kSecondLook{2, 2.0, 1, Lookup::kLast};
 
 HitSolution register_from(const Mission& mission, const Pose& start, const Opening& opening, Workspace& workspace) {
   HitSolution solution;
   solution.T_target_sensor = start;
   MatchSettings<N> s = make_settings(mission.parameters, workspace);
   const double longest_m = longest_step_m(mission.parameters, s);
-  double gate_m = opening.gate_first * mission.parameters.gate_first_m;
+  double gate_m = opening.gate * mission.parameters.gate_first_m;
+  PassKind kind{opening.stride, Lookup::kWalk};
   for (int i = 0; i < opening.passes; ++i) {
     set_gate(gate_m, s);
-    const PassKind kind{opening.stride, i == 0 ? Lookup::kWalk : Lookup::kLast};
-    Descent whole{opening.gate_first * longest_m};
-    narrow_kernel(mission.parameters, take_pass(mission, s, kind, whole, workspace, solution.T_target_sensor), s);
-    gate_m *= opening.gate_shrink;
+    Descent wide{opening.gate * longest_m};
+    narrow_kernel(mission.parameters, take_pass(mission, s, kind, wide, workspace, solution.T_target_sensor), s);
+    kind.lookup = Lookup::kLast;
+    gate_m *= kGateShrink;
     ++solution.iterations;
   }
   set_gate(0, s);
-  iterate_all(mission, s, longest_m, workspace, solution);
+  iterate_all(mission, PassKind{1, opening.next}, s, longest_m, workspace, solution);
   return solution;
 }
 
@@ -134,7 +135,7 @@ HitSolution register_look(const Mission& mission, RegisterLook look, const Pose&
     nothing.stop = StopReason::kTooFewPoints;
     return nothing;
   }
-  return register_from(mission, T_target_sensor, look == RegisterLook::kFirst ? kUsual : kSecondLook, workspace);
+  return register_from(mission, T_target_sensor, look == RegisterLook::kFirst ? kFirstLook : kSecondLook, workspace);
 }
 
 HitSolution register_hits(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace) {
