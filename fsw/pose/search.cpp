@@ -314,7 +314,7 @@ std::uint32_t Search::recall_next(const Mission& mission, Workspace& workspace) 
   for (; next_ < tracks_.size(); ++next_) {
     for (std::size_t scan = last(); scan-- > 0;) {
       Track& track = tracks_[next_];
-      if (track.known[scan] || is_hopeless(track)) continue;
+      if (track.known[scan] || (is_hopeless(track) && !is_rival(track))) continue;
       const Pose start = carry(track, scan + 1, scan, rates_of(track, scan + 2));
       if (!working_) settler_.begin(start, start);
       return settle(mission, scan, track, workspace);
@@ -329,7 +329,7 @@ std::uint32_t Search::recall_next(const Mission& mission, Workspace& workspace) 
 // What comes to the same attitude in the last scan was the same in those before it.
 void Search::inherit(const Track& other, Track& track) const {
   for (std::size_t scan = 0; scan < last(); ++scan) {
-    if (track.known[scan]) continue;
+    if (track.known[scan] || (is_hopeless(track) && !is_rival(track))) continue;
     track.T_target_sensor[scan] = other.T_target_sensor[scan];
     track.fits[scan] = other.fits[scan];
     track.known[scan] = other.known[scan];
@@ -359,10 +359,10 @@ void Search::prune() {
   t.shrink(kept);
 }
 
-// From the poses of `scan` and the one before it, which are known; zero where there are none.
+// From the poses of `scan`, which is known, and the one before it; zero where that is not.
 Twist Search::rates_of(const Track& track, std::size_t scan) const {
   Twist rates;
-  if (scan == 0 || scan > last()) return rates;
+  if (scan == 0 || scan > last() || !track.known[scan - 1]) return rates;
   const double dt_s = to_seconds(evidence_[scan].t_us - evidence_[scan - 1].t_us);
   const Vec6 difference = pose_difference(inverse(track.T_target_sensor[scan]), inverse(track.T_target_sensor[scan - 1]));
   rates.omega_radps = difference.head<3>() / dt_s;

@@ -7,11 +7,11 @@
 // target may turn by some 15 deg between two scans. All state is in the object and is forgotten by begin(); the workspace holds nothing
 // between two calls.
 //
-// Work is done in steps and counted in look-ups of some 65 PowerPC 603e instructions. advance() ends with the step that uses the budget up;
-// no step takes more than kLargestStep. A scan of 1024 rays takes some 1.7 million look-ups, 110 million instructions, in all
+// Work is done in steps and counted in look-ups of some 70 PowerPC 603e instructions. advance() ends with the step that uses the budget up;
+// no step takes more than kLargestStep. A scan of 1024 rays takes some 1.7 million look-ups, some 120 million instructions, in all
 // (docs/search.md): most hypotheses are looked at no longer than until they are sure to be worse than others. Once limits.work_max of them
 // are used on a scan, nothing more is settled, explored or swayed: what was found so far stands, as ambiguous, and the next scan goes on
-// from it.
+// from it. Poses are recalled in earlier scans, and the best one's near-symmetries measured, all the same.
 #pragma once
 
 #include "fsw/pose/drawn_list.hpp"

@@ -11,12 +11,12 @@ struct Settled {
   Fit fit;
 };
 
-// Work is counted in look-ups of some 90 PowerPC 603e instructions; `work` is added to.
-
 struct SketchStart {
   Pose T_target_sensor;
-  Fit fit;  // of this pose, where it is known
+  Fit fit;  // of this pose; Fit() where it is not known, which no registration strays from
 };
+
+// Work is counted in look-ups, as a search's is; `work` is added to.
 
 // The start registered on some of the returns, which tells whether it is worth more. The measuring ends beyond `limit`. A start that is
 // known to fit is kept where the registration strays from it: a few returns and a wide gate may lead to another minimum.

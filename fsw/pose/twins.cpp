@@ -37,7 +37,7 @@ bool Search::is_new(const Pose& T_target_sensor, const Fit& fit) const {
 }
 
 // Of the best pose as it stands: it was explored and swayed since, and its twins may have ended elsewhere. They are measured where they
-// are; one that is a rival there, and better than what was found near it, is recalled and swayed.
+// are; one that is a rival there, and better than what was found near it, is carried on with: recalled, and swayed if among the best.
 std::uint32_t Search::mirror_next(const Mission& mission, Workspace& workspace) {
   if (next_ == mission.search.symmetries.size()) return end_mirroring();
   const Track& best = tracks_[0];
@@ -49,7 +49,9 @@ std::uint32_t Search::mirror_next(const Mission& mission, Workspace& workspace) 
   put_points(evidence_[last()], kEvidenceHits, workspace);
   const Settled settled{weigh_hits(mission, twin.T_target_sensor[last()], workspace), fit};
   take(settled, last(), twin);
-  twin.settled = true;
+  for (const Track& track : tracks_) {
+    if (!are_apart(track.T_target_sensor[last()].q, twin.T_target_sensor[last()].q, kCosHalfSame)) inherit(track, twin);
+  }
   invariant(tracks_.push_back(twin), "room for a twin");
   return fit_work(fit) + weigh_work(workspace);
 }

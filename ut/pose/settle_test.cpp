@@ -99,6 +99,11 @@ TEST_F(SettleTest, AStartThatFitsIsNotLostToARegistrationThatStrays) {
   EXPECT_EQ(kept.fit.score(), good.score());
   EXPECT_EQ(kept.solution.T_target_sensor.p, inverse(turned).p);
   EXPECT_EQ(kept.solution.T_target_sensor.q.coeffs(), inverse(turned).q.coeffs());
+  const Pose near = off(0.005, 0.002);
+  const Fit known = measure_fit(mission_, near, *evidence);
+  const Settled drawn = sketch(mission_, *evidence, {near, known}, kAnyScore, *workspace_, work_);
+  EXPECT_TRUE(is_right(drawn)) << "a registration that leads on is taken";
+  EXPECT_LT(drawn.fit.score(), known.score());
 }
 
 }  // namespace
