@@ -20,6 +20,16 @@ TEST(Verdict, AFarScoreLeavesARivalBehind) {
   EXPECT_FALSE(is_left_behind({1.2, false, 0, 0}, 1.3));
 }
 
+TEST(Verdict, ScoresAreComparedAboveAFloorAndNearOnesAskForCosts) {
+  VERIFIES("LASSO-MOD-122~1");
+  EXPECT_DOUBLE_EQ(ratio_of(0.02, 0.02), 1);
+  EXPECT_DOUBLE_EQ(ratio_of(0.05, 0.02), 2);
+  EXPECT_TRUE(is_near(1.94, 1.0, 1.3));
+  EXPECT_FALSE(is_near(1.96, 1.0, 1.3));
+  EXPECT_TRUE(is_near(3.89, 1.9, 1.3)) << "the best pose leaves returns unexplained";
+  EXPECT_FALSE(is_near(3.91, 1.9, 1.3));
+}
+
 TEST(Verdict, ANearScoreDoesNotWhereTheNoiseSaysOtherwise) {
   VERIFIES("LASSO-MOD-122~1 LASSO-MOD-121~1");
   EXPECT_TRUE(is_left_behind({1.4, true, 1.5, 1.0}, 1.3));
