@@ -9,7 +9,9 @@ namespace {
 using N = FlightNumber;
 
 constexpr double kInsignificant = 1;       // squared step in sigmas^2
+constexpr double kOwnUncertainty = 8.56;   // the same: below it are four of five errors of a pose with six directions (chi squared)
 constexpr double kNarrowestKernel = 1e-4;  // of the kernel's squared width
+constexpr double kNarrowed = 0.5;          // the same, from one pass to the next
 constexpr int kUndampedPasses = 8;
 
 bool is_small(const Vec6& x, const MissionParameters& p) {
@@ -23,16 +25,18 @@ double noise_of(const Pass& pass, const MatchSettings<N>& s) {
 }
 
 // A step below the pose's own uncertainty, by the noise that the residuals show: points at edges may change sides for ever.
-bool is_insignificant(const Pass& pass, const MatchSettings<N>& s) {
-  return pass.x.dot(pass.H * pass.x) < kInsignificant * noise_of(pass, s);
+bool is_below(double squared_sigmas, const Pass& pass, const MatchSettings<N>& s) {
+  return pass.x.dot(pass.H * pass.x) < squared_sigmas * noise_of(pass, s);
 }
 
 // Where the last pass shows less noise than the mission assumes, the kernel of the next one is narrower: a match with the wrong surface,
-// which the assumed noise would excuse, stands out.
-void narrow_kernel(const MissionParameters& p, const Pass& last, MatchSettings<N>& s) {
-  if (last.status != Status::kOk) return;
+// which the assumed noise would excuse, stands out. Says whether it is much narrower than the last pass had it.
+bool narrow_kernel(const MissionParameters& p, const Pass& last, MatchSettings<N>& s) {
+  if (last.status != Status::kOk) return false;
+  const double before = N::to_double(s.kernel_squared);
   const double share = clamp(noise_of(last, s), kNarrowestKernel, 1.0);
   s.kernel_squared = N::to<N::Kernel>(p.kernel_width * p.kernel_width * share);
+  return N::to_double(s.kernel_squared) < kNarrowed * before;
 }
 
 // Points that met the wrong surface can ask for steps along directions that hardly any other point holds, past the minimum that the start
@@ -52,59 +56,104 @@ void keep(const Pass& pass, const MatchSettings<N>& s, HitSolution& solution) {
   solution.squared_residual_m2 = pass.sums.rows.squared_range();
 }
 
-// Passes over all points. Steps can go round in a ring without ever turning back: later ones are halved by their number.
-void iterate_all(const Mission& mission, PassKind kind, MatchSettings<N>& s, double longest_m, Workspace& workspace,
-                 HitSolution& solution) {
-  const int limit = static_cast<int>(mission.parameters.iterations_max);
-  solution.stop = StopReason::kIterationLimit;
-  Descent descent{longest_m};
-  for (int i = 0; i < limit; ++i) {
-    const Pass pass = take_pass(mission, s, kind, descent, workspace, solution.T_target_sensor);
-    kind.lookup = Lookup::kLast;
-    if (i + 1 >= kUndampedPasses) descent.damping *= 0.5;
-    ++solution.iterations;
-    keep(pass, s, solution);
-    narrow_kernel(mission.parameters, pass, s);
-    if (pass.status != Status::kOk) {
-      solution.stop = reason_of(pass.status);
-      return;
-    }
-    if (is_small(pass.x, mission.parameters) || is_insignificant(pass, s)) {
-      solution.stop = StopReason::kConverged;
-      return;
-    }
-  }
-}
-
-// How a look begins: passes with a wide gate that shrinks. Points that they leave out have to be walked along their whole gate after them.
+// How a look begins: a pass with a wide gate, and one more where its step was cut, with a narrower one.
 struct Opening {
-  int passes;
-  double gate;         // of the first, in estimation.gate_first_m
+  double gate;         // of the first pass, in estimation.gate_first_m
   std::size_t stride;  // of the points
-  Lookup next;
+  Lookup next;         // points that it leaves out have to be walked along their whole gate after it
+  int patience;        // passes of the estimate after which a step within the pose's own uncertainty ends the look
 };
+constexpr int kOpeningPasses = 2;
 constexpr double kGateShrink = 0.3;
-constexpr Opening kFirstLook{2, 1.0, kQuarter, Lookup::kWalk};
-constexpr Opening kSecondLook{2, 2.0, 1, Lookup::kLast};
+constexpr Opening kFirstLook{1.0, 2, Lookup::kWalk, 3};
+constexpr Opening kSecondLook{2.0, 1, Lookup::kLast, 5};
 
-HitSolution register_from(const Mission& mission, const Pose& start, const Opening& opening, Workspace& workspace) {
-  HitSolution solution;
-  solution.T_target_sensor = start;
-  MatchSettings<N> s = make_settings(mission.parameters, workspace);
-  const double longest_m = longest_step_m(mission.parameters, s);
-  double gate_m = opening.gate * mission.parameters.gate_first_m;
-  PassKind kind{opening.stride, Lookup::kWalk};
-  for (int i = 0; i < opening.passes; ++i) {
-    set_gate(gate_m, s);
-    Descent wide{opening.gate * longest_m};
-    narrow_kernel(mission.parameters, take_pass(mission, s, kind, wide, workspace, solution.T_target_sensor), s);
-    kind.lookup = Lookup::kLast;
-    gate_m *= kGateShrink;
-    ++solution.iterations;
+struct Start {
+  Pose T_target_sensor;
+  std::uint16_t passes;  // that the estimate has taken
+};
+
+class Look {
+ public:
+  Look(const Mission& mission, const Opening& opening, const Start& start, Workspace& workspace)
+      : mission_(mission), opening_(opening), workspace_(workspace), settings_(make_settings(mission.parameters, workspace)) {
+    solution_.T_target_sensor = start.T_target_sensor;
+    solution_.iterations = start.passes;
   }
-  set_gate(0, s);
-  iterate_all(mission, PassKind{1, opening.next}, s, longest_m, workspace, solution);
-  return solution;
+
+  HitSolution take() {
+    const double longest_m = longest_step_m(mission_.parameters, settings_);
+    open(longest_m);
+    iterate_all(longest_m);
+    return solution_;
+  }
+
+ private:
+  void open(double longest_m) {
+    PassKind kind{opening_.stride, Lookup::kWalk};
+    double gate_m = opening_.gate * mission_.parameters.gate_first_m;
+    bool is_cut = true;
+    for (int i = 0; i < kOpeningPasses && is_cut; ++i) {
+      set_gate(gate_m, settings_);
+      Descent wide{opening_.gate * longest_m};
+      const Pass pass = step(kind, wide);
+      is_cut = wide.last != pass.x;
+      kind.lookup = Lookup::kLast;
+      gate_m *= kGateShrink;
+    }
+    set_gate(0, settings_);
+  }
+
+  // Passes over all points. Steps can go round in a ring without ever turning back: later ones are halved by their number.
+  void iterate_all(double longest_m) {
+    const int limit = static_cast<int>(mission_.parameters.iterations_max);
+    solution_.stop = StopReason::kIterationLimit;
+    PassKind kind{1, opening_.next};
+    Descent descent{longest_m};
+    for (int i = 0; i < limit; ++i) {
+      const Pass pass = step(kind, descent);
+      kind.lookup = Lookup::kLast;
+      if (i + 1 >= kUndampedPasses) descent.damping *= 0.5;
+      keep(pass, settings_, solution_);
+      if (has_ended(pass)) return;
+    }
+  }
+
+  Pass step(const PassKind& kind, Descent& descent) {
+    const Pass pass = take_pass(mission_, settings_, kind, descent, workspace_, solution_.T_target_sensor);
+    narrowed_ = narrow_kernel(mission_.parameters, pass, settings_);
+    ++solution_.iterations;
+    return pass;
+  }
+
+  bool has_ended(const Pass& pass) {
+    if (pass.status != Status::kOk) {
+      solution_.stop = reason_of(pass.status);
+      return true;
+    }
+    if (narrowed_) return false;  // what the kernel leaves out now can move the pose
+    const double limit = solution_.iterations > opening_.patience ? kOwnUncertainty : kInsignificant;
+    const bool ended = is_small(pass.x, mission_.parameters) || is_below(limit, pass, settings_);
+    if (ended) solution_.stop = StopReason::kConverged;
+    return ended;
+  }
+
+  const Mission& mission_;
+  const Opening& opening_;
+  Workspace& workspace_;
+  MatchSettings<N> settings_;
+  HitSolution solution_;
+  bool narrowed_ = false;
+};
+
+HitSolution register_from(const Mission& mission, RegisterLook look, const Start& start, Workspace& workspace) {
+  if (workspace.points.size() < kMinimumPoints) {
+    HitSolution nothing;
+    nothing.T_target_sensor = start.T_target_sensor;
+    nothing.stop = StopReason::kTooFewPoints;
+    return nothing;
+  }
+  return Look(mission, look == RegisterLook::kFirst ? kFirstLook : kSecondLook, start, workspace).take();
 }
 
 }  // namespace
@@ -129,22 +178,15 @@ HitSolution weigh_hits(const Mission& mission, const Pose& T_target_sensor, Work
 }
 
 HitSolution register_look(const Mission& mission, RegisterLook look, const Pose& T_target_sensor, Workspace& workspace) {
-  if (workspace.points.size() < kMinimumPoints) {
-    HitSolution nothing;
-    nothing.T_target_sensor = T_target_sensor;
-    nothing.stop = StopReason::kTooFewPoints;
-    return nothing;
-  }
-  return register_from(mission, T_target_sensor, look == RegisterLook::kFirst ? kFirstLook : kSecondLook, workspace);
+  return register_from(mission, look, {T_target_sensor, 0}, workspace);
 }
 
 HitSolution register_hits(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace) {
   HitSolution first = register_look(mission, RegisterLook::kFirst, T_target_sensor, workspace);
   if (workspace.points.size() < kMinimumPoints || explained_share(first) >= kExplainedShare) return first;
-  HitSolution second = register_look(mission, RegisterLook::kSecond, T_target_sensor, workspace);
-  second.iterations = static_cast<std::uint16_t>(second.iterations + first.iterations);
+  const HitSolution second = register_from(mission, RegisterLook::kSecond, {T_target_sensor, first.iterations}, workspace);
   first.iterations = second.iterations;
-  return explained_share(second) > explained_share(first) ? second : first;
+  return explained_share(second) >= explained_share(first) ? second : first;
 }
 
 }  // namespace lasso
