@@ -4,6 +4,11 @@
 #include "fsw/geometry/symmetric6.hpp"
 
 namespace lasso {
+
+double length_of(const Vec6& x, double radius_m) {
+  return square_root(x.tail<3>().squaredNorm()) + radius_m * square_root(x.head<3>().squaredNorm());
+}
+
 namespace {
 
 using N = FlightNumber;
@@ -19,7 +24,7 @@ void add_wide_prior(double radius_m, Mat6& H) {
 }
 
 Vec6 cut_step(const Vec6& x, double radius_m, double longest_m) {
-  const double step_m = square_root(x.tail<3>().squaredNorm()) + radius_m * square_root(x.head<3>().squaredNorm());
+  const double step_m = length_of(x, radius_m);
   return step_m > longest_m ? Vec6(longest_m / step_m * x) : x;
 }
 

@@ -18,12 +18,14 @@ struct Pass {
   Status status = Status::kNoData;  // kOk, kNoData (too few points), kSingular, kNotFinite: no step
 };
 
+// How far a step goes at the model's radius, m: its translation and its rotation together.
+double length_of(const Vec6& x, double radius_m);
 constexpr double kAnyStep = 1e9;
 
 // The steps of successive passes. One that turns back from the one before, measured by the information, shows that the least cost lies
 // between: it and all that follow are halved, as points that change sides there would be followed to and fro for ever.
 struct Descent {
-  double longest_step_m = kAnyStep;  // of translation and of rotation at the model's radius together
+  double longest_step_m = kAnyStep;
   double damping = 1;
   Vec6 last = Vec6::Zero();
 };

@@ -97,7 +97,9 @@ class Look {
       set_gate(gate_m, settings_);
       Descent wide{opening_.gate * longest_m};
       const Pass pass = step(kind, wide);
-      is_cut = wide.last != pass.x;
+      const double length_m = length_of(pass.x, mission_.radius_m);
+      is_cut = length_m > wide.longest_step_m;
+      is_rough_ = is_rough_ || length_m > longest_m;
       kind.lookup = Lookup::kLast;
       gate_m *= kGateShrink;
     }
@@ -132,7 +134,8 @@ class Look {
       return true;
     }
     if (narrowed_) return false;  // what the kernel leaves out now can move the pose
-    const double limit = solution_.iterations > opening_.patience ? kOwnUncertainty : kInsignificant;
+    const bool late = solution_.iterations > opening_.patience && !is_rough_;
+    const double limit = late ? kOwnUncertainty : kInsignificant;
     const bool ended = is_small(pass.x, mission_.parameters) || is_below(limit, pass, settings_);
     if (ended) solution_.stop = StopReason::kConverged;
     return ended;
@@ -144,6 +147,7 @@ class Look {
   MatchSettings<N> settings_;
   HitSolution solution_;
   bool narrowed_ = false;
+  bool is_rough_ = false;  // the start is farther off than it is believed to be: few passes say little
 };
 
 HitSolution register_from(const Mission& mission, RegisterLook look, const Start& start, Workspace& workspace) {
