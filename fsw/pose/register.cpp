@@ -65,12 +65,13 @@ struct Opening {
 };
 constexpr int kOpeningPasses = 2;
 constexpr double kGateShrink = 0.3;
+constexpr int kRoughPatience = 6;  // more of it where an opening moves the pose farther than the start is believed to be off
 constexpr Opening kFirstLook{1.0, 2, Lookup::kWalk, 3};
 constexpr Opening kSecondLook{2.0, 1, Lookup::kLast, 5};
 
 struct Start {
   Pose T_target_sensor;
-  std::uint16_t passes;  // that the estimate has taken
+  std::uint16_t passes = 0;  // that the estimate has taken
 };
 
 class Look {
@@ -134,8 +135,8 @@ class Look {
       return true;
     }
     if (narrowed_) return false;  // what the kernel leaves out now can move the pose
-    const bool late = solution_.iterations > opening_.patience && !is_rough_;
-    const double limit = late ? kOwnUncertainty : kInsignificant;
+    const int patience = opening_.patience + (is_rough_ ? kRoughPatience : 0);
+    const double limit = solution_.iterations > patience ? kOwnUncertainty : kInsignificant;
     const bool ended = is_small(pass.x, mission_.parameters) || is_below(limit, pass, settings_);
     if (ended) solution_.stop = StopReason::kConverged;
     return ended;
@@ -147,7 +148,7 @@ class Look {
   MatchSettings<N> settings_;
   HitSolution solution_;
   bool narrowed_ = false;
-  bool is_rough_ = false;  // the start is farther off than it is believed to be: few passes say little
+  bool is_rough_ = false;
 };
 
 HitSolution register_from(const Mission& mission, RegisterLook look, const Start& start, Workspace& workspace) {
@@ -158,6 +159,12 @@ HitSolution register_from(const Mission& mission, RegisterLook look, const Start
     return nothing;
   }
   return Look(mission, look == RegisterLook::kFirst ? kFirstLook : kSecondLook, start, workspace).take();
+}
+
+// Of two that explain as much the second has seen all points from the start.
+bool is_better(const HitSolution& second, const HitSolution& first) {
+  if (explained_share(second) > explained_share(first)) return true;
+  return second.stop == StopReason::kConverged && explained_share(second) >= explained_share(first);
 }
 
 }  // namespace
@@ -190,7 +197,7 @@ HitSolution register_hits(const Mission& mission, const Pose& T_target_sensor, W
   if (workspace.points.size() < kMinimumPoints || explained_share(first) >= kExplainedShare) return first;
   const HitSolution second = register_from(mission, RegisterLook::kSecond, {T_target_sensor, first.iterations}, workspace);
   first.iterations = second.iterations;
-  return explained_share(second) >= explained_share(first) ? second : first;
+  return is_better(second, first) ? second : first;
 }
 
 }  // namespace lasso

@@ -20,9 +20,9 @@ struct HitSolution {
 double explained_share(const HitSolution& solution);
 constexpr double kExplainedShare = 0.99;
 
-// Registers workspace.points from T_target_sensor: rays of a quarter of the points, then of all of them until the step is below
-// estimation.stop_*; a second look with a wider gate where the first does not explain the scan. At most 2 estimation.iterations_max + 3
-// passes over all points.
+// Registers workspace.points from T_target_sensor: rays of half of the points with a wide gate, then of all of them until the step is below
+// estimation.stop_* or the pose's own uncertainty; a second look with a wider gate where the first does not explain the scan. At most
+// 2 estimation.iterations_max + 3 passes over all points.
 HitSolution register_hits(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace);
 
 // One look of register_hits, as a step of a longer work: at most estimation.iterations_max + 2 passes over all points.
