@@ -11,8 +11,10 @@ constexpr double kFarthestCell = 127;  // from the middle of what is seen: beyon
 constexpr int kPlaceBits = 10;         // fractions of a cell
 constexpr int kTurnBits = 12;          // of sines and cosines
 constexpr std::uint32_t kCellShift = kPlaceBits + kTurnBits;
-constexpr double kMedianApart = 0.5;      // of the truncation: less than that any place serves
-constexpr std::size_t kLookedAtOnce = 8;  // points between two looks whether the score is too large already
+constexpr double kMedianApart = 0.5;    // of the truncation: less than that any place serves
+constexpr std::size_t kBlock = 8;       // points between two looks whether the score is too large already
+constexpr std::size_t kHeadStart = 12;  // points: by so many times its share of the limit a sum may run ahead
+constexpr std::uint32_t kUnwanted = 0xFFFFFFFFu;
 
 // 0 from afar, 1 from as near as the near views, between them by the inverse of the range; larger when nearer still.
 double nearness(const Mission& mission, const Evidence& evidence) {
@@ -83,6 +85,7 @@ void ShortList::put_in(const Hypothesis& hypothesis) {
 void CoarseSearch::begin(const Mission& mission, const Evidence& evidence) {
   short_list_.clear();
   next_view_ = 0;
+  done_ = false;
   by_median_ = false;
   count_ = evidence.hits.size() < kCoarsePoints ? evidence.hits.size() : kCoarsePoints;
   const double range2 = evidence.centroid.squaredNorm();
@@ -99,7 +102,8 @@ void CoarseSearch::begin(const Mission& mission, const Evidence& evidence) {
   }
 }
 
-bool CoarseSearch::step(const Mission& mission, const Evidence& evidence) {
+std::uint32_t CoarseSearch::step(const Mission& mission, const Evidence& evidence) {
+  work_ = static_cast<std::uint32_t>(count_ + kBlock);
   const Mat3 axes = axes_along(to_vec3(mission.search.views[next_view_].direction));
   const bool again = choose_place(mission, evidence);
   turn_points(mission.search, axes);
@@ -110,7 +114,8 @@ bool CoarseSearch::step(const Mission& mission, const Evidence& evidence) {
   }
   by_median_ = again;
   if (!again) ++next_view_;
-  return next_view_ < mission.search.views.size();
+  done_ = next_view_ == mission.search.views.size();
+  return work_;
 }
 
 // Where the returns' centroid is in the view. True where the view is to be laid once more.
@@ -143,18 +148,33 @@ void CoarseSearch::turn_points(const SearchTables<N>& tables, const Mat3& view_a
   }
 }
 
-// The sum over the points, of both the roll and the one half a turn on; less of it where neither is wanted.
-CoarseSearch::RollScore CoarseSearch::score(const SearchTables<N>& tables, std::uint32_t roll) const {
+// The sums over the points of a block, at the roll and half a turn on.
+CoarseSearch::RollScore CoarseSearch::sum_block(const SearchTables<N>& tables, std::uint32_t roll, std::size_t first) const {
   const std::int32_t cos = turns_[roll][0];
   const std::int32_t sin = turns_[roll][1];
-  const std::uint32_t limit = short_list_.limit();
+  const std::size_t end = first + kBlock < count_ ? first + kBlock : count_;
   RollScore sum;
-  for (std::size_t i = 0; i < count_; ++i) {
+  for (std::size_t i = first; i < end; ++i) {
     const Turned& p = turned_[i];
-    if (i % kLookedAtOnce == 0 && sum.here >= limit && sum.opposite >= limit) break;
     const std::int32_t c[3] = {cos * p.a[0] + sin * p.b[0], cos * p.a[1] + sin * p.b[1], cos * p.a[2] + sin * p.b[2]};
     sum.here += byte_at(tables, p.base[0] + c[0], p.base[1] + c[1], p.base[2] + c[2]);
     sum.opposite += byte_at(tables, p.base[0] - c[0], p.base[1] - c[1], p.base[2] - c[2]);
+  }
+  return sum;
+}
+
+// The sum over the points, of both the roll and the one half a turn on; kUnwanted of both where neither promises to be among the best:
+// points are far apart, so that the first few are a fair sample of them all.
+CoarseSearch::RollScore CoarseSearch::score(const SearchTables<N>& tables, std::uint32_t roll) {
+  const std::uint32_t share = short_list_.limit() / static_cast<std::uint32_t>(count_ + kHeadStart);
+  RollScore sum;
+  for (std::size_t first = 0; first < count_; first += kBlock) {
+    const std::uint32_t bound = share * static_cast<std::uint32_t>(first + kHeadStart);
+    if (sum.here >= bound && sum.opposite >= bound) return {kUnwanted, kUnwanted};
+    const RollScore block = sum_block(tables, roll, first);
+    sum.here += block.here;
+    sum.opposite += block.opposite;
+    work_ += kBlock;
   }
   return sum;
 }

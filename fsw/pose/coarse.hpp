@@ -30,7 +30,7 @@ class ShortList {
   const Hypothesis& operator[](std::size_t i) const { return list_[i]; }
 
  private:
-  static constexpr std::uint32_t kNoLimit = 0xFFFFFFFFu;
+  static constexpr std::uint32_t kNoLimit = kFarByte * kCoarsePoints + 1;
   void put_in(const Hypothesis& hypothesis);
   std::size_t worst() const;
   FixedVector<Hypothesis, kShortList> list_;
@@ -48,8 +48,9 @@ class CoarseSearch {
   void begin(const Mission& mission, const Evidence& evidence);
   // One view at all rolls: kRolls * kCoarsePoints cells at most. A view is laid with the middle of what is seen on that of the returns, and
   // once more with their median depths alike where that is another place: thin parts that are seen edge-on, or nearly, move a middle, and a
-  // few parts far behind the others. False after the last view.
-  bool step(const Mission& mission, const Evidence& evidence);
+  // few parts far behind the others. Returns how much work it was, in look-ups (search.hpp); done() after the last view.
+  std::uint32_t step(const Mission& mission, const Evidence& evidence);
+  bool done() const { return done_; }
   const ShortList& short_list() const { return short_list_; }
 
  private:
@@ -67,11 +68,14 @@ class CoarseSearch {
   };
   bool choose_place(const Mission& mission, const Evidence& evidence);
   void turn_points(const SearchTables<N>& tables, const Mat3& view_axes);
-  RollScore score(const SearchTables<N>& tables, std::uint32_t roll) const;
+  RollScore score(const SearchTables<N>& tables, std::uint32_t roll);
+  RollScore sum_block(const SearchTables<N>& tables, std::uint32_t roll, std::size_t first) const;
   void offer(const Evidence& evidence, const Mat3& view_axes, std::uint32_t roll, std::uint32_t score);
 
   Mat3 sight_ = Mat3::Identity();  // columns: axes of the line of sight, the third one back to the sensor; sensor frame
   std::uint32_t next_view_ = 0;
+  bool done_ = false;
+  std::uint32_t work_ = 0;        // of the step
   bool by_median_ = false;        // the view once more, laid where the medians of the depths are alike instead of the middles
   Vec3 centroid_ = Vec3::Zero();  // of what is seen in the view from the scan's range, target frame
   std::size_t count_ = 0;

@@ -66,12 +66,14 @@ struct Opening {
 constexpr int kOpeningPasses = 2;
 constexpr double kGateShrink = 0.3;
 constexpr int kRoughPatience = 6;  // more of it where an opening moves the pose farther than the start is believed to be off
+constexpr int kEndless = 1000;     // more of it than there are passes
 constexpr Opening kFirstLook{1.0, 2, Lookup::kWalk, 3};
 constexpr Opening kSecondLook{2.0, 1, Lookup::kLast, 5};
 
 struct Start {
   Pose T_target_sensor;
   std::uint16_t passes = 0;  // that the estimate has taken
+  int patience = 0;          // more of it than the opening has
 };
 
 class Look {
@@ -80,6 +82,7 @@ class Look {
       : mission_(mission), opening_(opening), workspace_(workspace), settings_(make_settings(mission.parameters, workspace)) {
     solution_.T_target_sensor = start.T_target_sensor;
     solution_.iterations = start.passes;
+    patience_ = opening.patience + start.patience;
   }
 
   HitSolution take() {
@@ -94,16 +97,18 @@ class Look {
     PassKind kind{opening_.stride, Lookup::kWalk};
     double gate_m = opening_.gate * mission_.parameters.gate_first_m;
     bool is_cut = true;
+    bool is_rough = false;
     for (int i = 0; i < kOpeningPasses && is_cut; ++i) {
       set_gate(gate_m, settings_);
       Descent wide{opening_.gate * longest_m};
       const Pass pass = step(kind, wide);
       const double length_m = length_of(pass.x, mission_.radius_m);
       is_cut = length_m > wide.longest_step_m;
-      is_rough_ = is_rough_ || length_m > longest_m;
+      is_rough = is_rough || length_m > longest_m;
       kind.lookup = Lookup::kLast;
       gate_m *= kGateShrink;
     }
+    if (is_rough) patience_ += kRoughPatience;
     set_gate(0, settings_);
   }
 
@@ -135,8 +140,7 @@ class Look {
       return true;
     }
     if (narrowed_) return false;  // what the kernel leaves out now can move the pose
-    const int patience = opening_.patience + (is_rough_ ? kRoughPatience : 0);
-    const double limit = solution_.iterations > patience ? kOwnUncertainty : kInsignificant;
+    const double limit = solution_.iterations > patience_ ? kOwnUncertainty : kInsignificant;
     const bool ended = is_small(pass.x, mission_.parameters) || is_below(limit, pass, settings_);
     if (ended) solution_.stop = StopReason::kConverged;
     return ended;
@@ -148,7 +152,7 @@ class Look {
   MatchSettings<N> settings_;
   HitSolution solution_;
   bool narrowed_ = false;
-  bool is_rough_ = false;
+  int patience_ = 0;
 };
 
 HitSolution register_from(const Mission& mission, RegisterLook look, const Start& start, Workspace& workspace) {
@@ -189,11 +193,11 @@ HitSolution weigh_hits(const Mission& mission, const Pose& T_target_sensor, Work
 }
 
 HitSolution register_look(const Mission& mission, RegisterLook look, const Pose& T_target_sensor, Workspace& workspace) {
-  return register_from(mission, look, {T_target_sensor, 0}, workspace);
+  return register_from(mission, look, {T_target_sensor, 0, kEndless}, workspace);
 }
 
 HitSolution register_hits(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace) {
-  HitSolution first = register_look(mission, RegisterLook::kFirst, T_target_sensor, workspace);
+  HitSolution first = register_from(mission, RegisterLook::kFirst, {T_target_sensor}, workspace);
   if (workspace.points.size() < kMinimumPoints || explained_share(first) >= kExplainedShare) return first;
   const HitSolution second = register_from(mission, RegisterLook::kSecond, {T_target_sensor, first.iterations}, workspace);
   first.iterations = second.iterations;

@@ -25,7 +25,8 @@ constexpr double kExplainedShare = 0.99;
 // 2 estimation.iterations_max + 3 passes over all points.
 HitSolution register_hits(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace);
 
-// One look of register_hits, as a step of a longer work: at most estimation.iterations_max + 2 passes over all points.
+// One look of register_hits, as a step of a search: at most estimation.iterations_max + 2 passes over all points. It goes on within the
+// pose's own uncertainty, too, as the pose is compared with others of its kind.
 enum class RegisterLook : std::uint8_t { kFirst, kSecond };
 HitSolution register_look(const Mission& mission, RegisterLook look, const Pose& T_target_sensor, Workspace& workspace);
 

@@ -15,7 +15,6 @@ constexpr int kExploreSteps = 12;               // each way, even
 constexpr int kExploreEnd = kExploreSteps + 4;  // with the places beside the best
 constexpr double kExploreStep = 0.005;          // of the model's size, along the least certain direction
 constexpr std::uint32_t kExploredAtOnce = 4;    // of these in a step of the work
-constexpr std::uint32_t kViewWork = kRolls * kCoarsePoints / 2;
 
 // The least certain direction of the information H: a step that moves the farthest part of the model by a metre. False where H has none.
 bool find_weakest(const Mission& mission, const Mat6& H, Vec6& direction) {
@@ -85,12 +84,7 @@ std::uint32_t Search::step(const Mission& mission, Workspace& workspace) {
       }
       return kPoolRays / 4;
     case Stage::kCoarse:
-      if (!coarse_.step(mission, evidence_[last()])) {
-        drawn_.clear();
-        next_ = 0;
-        stage_ = Stage::kPull;
-      }
-      return kViewWork;
+      return look_coarsely(mission);
     case Stage::kPull:
       return pull_next(mission, workspace);
     case Stage::kDraw:
@@ -110,6 +104,16 @@ std::uint32_t Search::step(const Mission& mission, Workspace& workspace) {
     default:
       return conclude();
   }
+}
+
+std::uint32_t Search::look_coarsely(const Mission& mission) {
+  const std::uint32_t work = coarse_.step(mission, evidence_[last()]);
+  if (coarse_.done()) {
+    drawn_.clear();
+    next_ = 0;
+    stage_ = Stage::kPull;
+  }
+  return work;
 }
 
 std::uint32_t Search::pull_next(const Mission& mission, Workspace& workspace) {

@@ -8,8 +8,8 @@
 // between two calls.
 //
 // Work is done in steps and counted in look-ups of some 70 PowerPC 603e instructions. advance() ends with the step that uses the budget up;
-// no step takes more than kLargestStep. A scan of 1024 rays takes some 1.7 million look-ups, some 120 million instructions, in all
-// (docs/search.md): most hypotheses are looked at no longer than until they are sure to be worse than others. Once limits.work_max of them
+// no step takes more than kLargestStep. A scan of 1024 rays takes some 1.1 million look-ups, some 80 million instructions, in all
+// (docs/search.md): most hypotheses are looked at no longer than until others promise more. Once limits.work_max of them
 // are used on a scan, nothing more is settled, explored or swayed: what was found so far stands, as ambiguous, and the next scan goes on
 // from it. Poses are recalled in earlier scans, and the best one's near-symmetries measured, all the same.
 #pragma once
@@ -29,7 +29,7 @@ struct SearchLimits {
   double disagreement_max = 0.20;
   double ratio_min = 1.3;  // score of the best distinct competitor over that of the pose; or what the returns make of both by their noise
   std::uint32_t scans_max = kMaxSearchScans;
-  std::uint32_t work_max = 2'750'000;  // look-ups of one scan; what they leave open makes the result ambiguous
+  std::uint32_t work_max = 2'250'000;  // look-ups of one scan; what they leave open makes the result ambiguous
 };
 
 class Search {
@@ -91,6 +91,7 @@ class Search {
   static constexpr std::size_t kTracks = kCarried + (kMaxSymmetries > kFinalists ? kMaxSymmetries : kFinalists);
 
   std::uint32_t step(const Mission& mission, Workspace& workspace);
+  std::uint32_t look_coarsely(const Mission& mission);
   std::uint32_t pull_next(const Mission& mission, Workspace& workspace);
   std::uint32_t draw_next(const Mission& mission, Workspace& workspace);
   std::uint32_t sketch_next(const Mission& mission, Workspace& workspace);

@@ -26,7 +26,69 @@ class CoarseTest : public test::SearchFixture {
     }
     return least;
   }
+
+  std::size_t search(CoarseSearch& coarse, const Evidence& evidence) const {
+    std::size_t steps = 0;
+    while (!coarse.done()) {
+      EXPECT_LE(coarse.step(mission_, evidence), (kRolls / 2 + 1) * (kCoarsePoints + 8));
+      ++steps;
+    }
+    return steps;
+  }
+
+  // The sum of distances, in floating point.
+  double sum_at(const Pose& T_target_sensor, const Evidence& evidence) const {
+    const SearchTables<FlightNumber>& tables = mission_.search;
+    double sum = 0;
+    for (std::size_t i = 0; i < std::min(kCoarsePoints, evidence.hits.size()); ++i) {
+      const Vec3 p = T_target_sensor * to_vec3(evidence.hits[i].p);
+      std::uint32_t cell[3];
+      for (int k = 0; k < 3; ++k) {
+        const double place = static_cast<double>(tables.cells_per_m) * (p[k] - static_cast<double>(tables.origin_m[k]));
+        cell[k] = static_cast<std::uint32_t>(static_cast<std::int32_t>(std::floor(place)));
+      }
+      sum += distance_byte(tables, cell[0], cell[1], cell[2]);
+    }
+    return sum;
+  }
+
+  static bool has_one_as_good(const ShortList& list, const Pose& pose, double sum) {
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      if (angle_between(list[i].T_target_sensor.q, pose.q) < 15.1 * kRadPerDeg && list[i].score <= 1.02 * sum) return true;
+    }
+    return false;
+  }
 };
+
+// Independently of how it is looked for: each listed hypothesis at each other roll about the line of sight was looked at, too.
+TEST_F(CoarseTest, ListsTheSumsAndLeavesOutNothingThatIsClearlyBetter) {
+  VERIFIES("LASSO-MOD-111~1");
+  int better = 0;
+  for (int view = 0; view < 6; ++view) {
+    scan_.T_sensor_target = test::random_box_pose(random_);
+    scan();
+    const auto evidence = make_evidence();
+    CoarseSearch coarse;
+    coarse.begin(mission_, *evidence);
+    search(coarse, *evidence);
+    const ShortList& list = coarse.short_list();
+    const Vec3 sight = evidence->centroid.normalized();
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      const Pose& T = list[i].T_target_sensor;
+      EXPECT_NEAR(list[i].score, sum_at(T, *evidence), 0.02 * list[i].score);
+      for (std::uint32_t roll = 1; roll < kRolls; ++roll) {
+        Pose turn{exp_so3(2 * kPi / kRolls * roll * sight), Vec3::Zero()};
+        turn.p = evidence->centroid - rotate(turn.q, evidence->centroid);
+        const Pose other = T * turn;
+        const double sum = sum_at(other, *evidence);
+        if (sum > 0.8 * list.limit()) continue;
+        ++better;
+        EXPECT_TRUE(has_one_as_good(list, other, sum)) << sum << " of " << list.limit();
+      }
+    }
+  }
+  EXPECT_GT(better, 20);
+}
 
 TEST_F(CoarseTest, HasAHypothesisNearTheTruth) {
   VERIFIES("LASSO-MOD-111~1");
@@ -38,8 +100,7 @@ TEST_F(CoarseTest, HasAHypothesisNearTheTruth) {
     const auto evidence = make_evidence();
     CoarseSearch coarse;
     coarse.begin(mission_, *evidence);
-    std::size_t steps = 1;
-    while (coarse.step(mission_, *evidence)) ++steps;
+    const std::size_t steps = search(coarse, *evidence);
     EXPECT_GE(steps, mission_.search.views.size());
     EXPECT_LE(steps, 2 * mission_.search.views.size());
     EXPECT_EQ(coarse.short_list().size(), kShortList);
@@ -53,7 +114,8 @@ TEST_F(CoarseTest, TakesVeryNearAndEmptyEvidence) {
   auto evidence = std::make_unique<Evidence>();
   CoarseSearch coarse;
   coarse.begin(mission_, *evidence);
-  EXPECT_TRUE(coarse.step(mission_, *evidence));
+  EXPECT_GT(coarse.step(mission_, *evidence), 0u);
+  EXPECT_FALSE(coarse.done());
   EXPECT_EQ(coarse.short_list()[0].score, 0u);
 }
 
@@ -70,9 +132,10 @@ TEST_F(CoarseTest, LaysAViewByTheMedianOfTheDepthsToo) {
     evidence->median = median;
     CoarseSearch coarse;
     coarse.begin(mission_, *evidence);
-    EXPECT_EQ(coarse.step(mission_, *evidence), std::abs(median) > 0.5 * truncation);
-    if (std::abs(median) < 0.5 * truncation) continue;
-    EXPECT_FALSE(coarse.step(mission_, *evidence));
+    coarse.step(mission_, *evidence);
+    EXPECT_EQ(coarse.done(), std::abs(median) < 0.5 * truncation);
+    if (coarse.done()) continue;
+    EXPECT_EQ(search(coarse, *evidence), 1u);
     const Pose first = coarse.short_list()[0].T_target_sensor;
     EXPECT_NEAR((first * evidence->centroid).z(), 0, 1e-6);
   }
@@ -89,8 +152,7 @@ TEST_F(CoarseTest, TheSecondPlaceOfAViewHasTheMediansAlike) {
   evidence->median = 0.05;
   CoarseSearch coarse;
   coarse.begin(mission_, *evidence);
-  EXPECT_TRUE(coarse.step(mission_, *evidence));
-  EXPECT_FALSE(coarse.step(mission_, *evidence));
+  EXPECT_EQ(search(coarse, *evidence), 2u);
   int second = 0;
   for (std::size_t i = 0; i < coarse.short_list().size(); ++i) {
     const double z = (coarse.short_list()[i].T_target_sensor * evidence->centroid).z();
