@@ -7,7 +7,7 @@
 // target may turn by some 15 deg between two scans. All state is in the object and is forgotten by begin(); the workspace holds nothing
 // between two calls.
 //
-// Work is done in steps and counted in look-ups of some 70 PowerPC 603e instructions. advance() ends with the step that uses the budget up;
+// Work is done in steps and counted in look-ups of some 75 PowerPC 603e instructions. advance() ends with the step that uses the budget up;
 // no step takes more than kLargestStep. A scan of 1024 rays takes some 1.1 million look-ups, some 80 million instructions, in all
 // (docs/search.md): most hypotheses are looked at no longer than until others promise more. Once limits.work_max of them
 // are used on a scan, nothing more is settled, explored or swayed: what was found so far stands, as ambiguous, and the next scan goes on
