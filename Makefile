@@ -235,6 +235,12 @@ $(call compile,$(BOARD)-fixed,flight_603e)
 $(call configure,$(SECOND),$(SECOND_BOARD))
 $(call compile,$(SECOND),flight_cortexa9 planted_cortexa9)
 endef
+# $(linked_image) of the first board has the rig's mission in itself.
+define linked_image
+$(call compile,$(BUILD),mdat)
+@$(BUILD)/mdat/mdat mission compile cfg/missions/hubble_tenth.toml --out $(BOARD)/mission.3dli
+$(call compile,$(BOARD),linked_603e)
+endef
 pil: prove ## the component on the bare, emulated PowerPC 603e with camera and ground at its lines: the host's telemetry bit for bit, in floating and in fixed point, and on a Cortex-A9; out/pil; FRAMES=
 	$(begin)
 	$(on_board)
@@ -243,6 +249,7 @@ pil: prove ## the component on the bare, emulated PowerPC 603e with camera and g
 pil-sample: prove ## the same for a few frames, and the boards' answers to faults: null, stray, hung, cut lines, wrong images; out/pil-sample
 	$(begin)
 	$(on_board)
+	$(linked_image)
 	@ft/pil/faults $(BUILD) $(BOARD) $(CLANG) $(BOARD)-fixed $(SECOND)
 
 # $(call seu,FLIPS,SEED,NAME) flips bits in the running board.

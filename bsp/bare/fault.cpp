@@ -58,6 +58,7 @@ void end_row_of_restarts() {
 void restart(ResetCause cause, const char* text) {
   forbid_interrupts();
   map_devices();  // a start may have failed while it read what was loaded
+  open_record();  // what a flipped bit or power-on left in it must not count as restarts
   record.magic = kMagic;
   record.cause = static_cast<std::uint32_t>(cause);
   ++record.restarts;
@@ -73,8 +74,9 @@ void restart(ResetCause cause, const char* text) {
     say_hex(", address ", fault_address(record.registers));
   }
   const char* const next = cause == ResetCause::kCommanded ? ": restart\n" : ": restart into safe mode\n";
-  say(record.in_a_row > kMaxRestarts ? "\n" : next);
-  if (record.in_a_row > kMaxRestarts) stay_down();
+  const bool is_last = cause != ResetCause::kCommanded && record.in_a_row > kMaxRestarts;
+  say(is_last ? "\n" : next);
+  if (is_last) stay_down();
   _start();
 }
 

@@ -1,7 +1,10 @@
 # What is the same for the bare boards: this room's sources with the board's own, and images of them.
 enable_language(ASM)
 
-# lasso_bare_board(NAME SUFFIX SOURCE...): the board bsp/NAME, whose images are flight_SUFFIX and planted_SUFFIX. Needs its tool chain file.
+set(LASSO_MISSION_IMAGE ${CMAKE_BINARY_DIR}/mission.3dli CACHE FILEPATH "Mission image that linked_*.elf has in itself (mdat mission compile)")
+
+# lasso_bare_board(NAME SUFFIX SOURCE...): the board bsp/NAME, whose images are flight_SUFFIX, to which a loader adds a mission's image, linked_SUFFIX, which
+# has it in itself, and planted_SUFFIX. Needs its tool chain file.
 function(lasso_bare_board NAME SUFFIX)
   if(NOT CMAKE_SYSTEM_NAME STREQUAL Generic)
     message(FATAL_ERROR "bsp/${NAME}: configure with -DCMAKE_TOOLCHAIN_FILE=cfg/toolchains/${NAME}-bare.cmake -DLASSO_GROUND=OFF -DLASSO_TESTS=OFF")
@@ -16,6 +19,10 @@ function(lasso_bare_board NAME SUFFIX)
   endif()
   lasso_board_image(${NAME} flight_${SUFFIX})
   lasso_board_image(${NAME} planted_${SUFFIX} ${PROJECT_SOURCE_DIR}/ft/pil/planted.cpp ${PROJECT_SOURCE_DIR}/ft/${NAME}/planted_ops.cpp)
+  set(MISSION ${PROJECT_SOURCE_DIR}/bsp/bare/linked_mission.S)
+  set_source_files_properties(${MISSION} PROPERTIES COMPILE_DEFINITIONS "LASSO_MISSION_IMAGE=\"${LASSO_MISSION_IMAGE}\"" OBJECT_DEPENDS "${LASSO_MISSION_IMAGE}")
+  lasso_board_image(${NAME} linked_${SUFFIX} ${MISSION})
+  set_target_properties(linked_${SUFFIX} PROPERTIES EXCLUDE_FROM_ALL ON)
 endfunction()
 
 # lasso_board_image(NAME IMAGE SOURCE...): an image for the board, with more sources.

@@ -21,7 +21,7 @@ constexpr std::uint32_t kDecrementer = 0x900;
 [[gnu::section(".board_id"), gnu::used]] const char board_id[32] = "3dlasso board ppc603e-grackle";
 const std::uint32_t nominal_ticks_per_s = 16600000;
 
-// The console first: a refusal is for reading.
+// The console first: a refusal is for reading. Without the bus there is none, and that refusal is silent.
 void check_board() {
   const bool bus = ppc603e::open_bus();
   if (bus) open_console(port_registers(kConsolePort));

@@ -1,8 +1,8 @@
 # The flight image for the bare board with a PowerPC 603e: no operating system, no library but libgcc (Debian: g++-powerpc-linux-gnu).
 include(${CMAKE_CURRENT_LIST_DIR}/bare.cmake)
+include(${CMAKE_CURRENT_LIST_DIR}/compiler.cmake)
 set(CMAKE_SYSTEM_PROCESSOR ppc)
-set(CMAKE_CXX_COMPILER powerpc-linux-gnu-g++)
-set(CMAKE_ASM_COMPILER powerpc-linux-gnu-g++)
+lasso_compiler(powerpc-linux-gnu-g++ g++-powerpc-linux-gnu)
 if(NOT LASSO_LINT)  # clang reads the sources for make lint, and does not know it
   set(NO_SMALL_DATA -msdata=none)
 endif()

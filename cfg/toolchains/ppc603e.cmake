@@ -1,7 +1,8 @@
 # Linux programs for the PowerPC 603e, linked statically, run by user-mode emulation (Debian: g++-powerpc-linux-gnu, qemu-user).
 set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_SYSTEM_PROCESSOR ppc)
-set(CMAKE_CXX_COMPILER powerpc-linux-gnu-g++)
+include(${CMAKE_CURRENT_LIST_DIR}/compiler.cmake)
+lasso_compiler(powerpc-linux-gnu-g++ g++-powerpc-linux-gnu)
 set(CMAKE_CXX_FLAGS_INIT "-mcpu=603e")
 set(CMAKE_EXE_LINKER_FLAGS_INIT "-static")
 set(CMAKE_CXX_STANDARD_LIBRARIES_INIT "-latomic")  # 64-bit atomics are calls on a 32-bit processor

@@ -136,10 +136,10 @@ class Rig:
             raise Failure(f'the rig has ended with exit code {code}')
 
 
-def fly(program, elf, arguments, folder, seconds, board=PPC603E, **options):
-    """One run of the rig with an emulated board; exit code, words, console."""
+def fly(program, elf, arguments, folder, seconds, board=PPC603E, linked=False, **options):
+    """One run of the rig with an emulated board; exit code, words, console. linked: the mission's image is in the board's."""
     os.makedirs(folder, exist_ok=True)
-    emulator = Emulator(elf, f'{folder}/image.3dli', folder, board, **options)
+    emulator = Emulator(elf, None if linked else f'{folder}/image.3dli', folder, board, **options)
     with Rig(program, [*arguments, f'code={board.code_bytes(elf)}'], seconds) as rig:
         rig.await_ready()
         with emulator:

@@ -4,7 +4,7 @@ import html as text
 NUMBERS = {'float': 'floating point', 'fixed': 'fixed point', 'cortexa9': 'floating point, Cortex-A9'}
 STAGES = [('estimate', 'estimate'), ('boundary', 'boundary: publish, hand over, plan'), ('polls', 'polls of the camera, 19 slots'),
           ('largest_poll', 'the largest of them'), ('lines', 'interrupts of the lines, in no slot')]
-IDLE_ASKED = 0.70  # by LASSO-PLT-016; a figure, no limit
+IDLE_ASKED = 0.70  # by LASSO-PLT-016, in the median
 COLOURS = {'estimate': '#3465a4', 'polls': '#73b66b', 'boundary': '#c17d11'}
 WIDTH, HEIGHT, LEFT, BOTTOM = 960, 320, 60, 30
 

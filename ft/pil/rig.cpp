@@ -119,7 +119,13 @@ std::optional<std::int64_t> last_of(const mdat::DecodedStream& stream, const std
   return last;
 }
 
-// What telemetry says of a start: in its own words, for ft/pil/faults.
+long long valid_poses(const mdat::DecodedStream& stream) {
+  return static_cast<long long>(std::count_if(stream.packets.begin(), stream.packets.end(), [](const mdat::DecodedPacket& packet) {
+    return packet.name() == std::string("pose") && last_of({{packet}, 0}, "pose", "valid").value_or(0) == 1;
+  }));
+}
+
+// What telemetry says of a start: in its own words, for ft/pil/faults and ft/pil/run.py.
 void tell(const Packet& telemetry) {
   const mdat::DecodedStream stream = mdat::decode_stream({telemetry.data(), telemetry.size()}, PacketType::kTelemetry);
   const auto count_of = [&](const std::string& name) {
@@ -129,9 +135,10 @@ void tell(const Packet& telemetry) {
   const auto last = [&](const char* packet, const char* item, std::int64_t none) {
     return static_cast<long long>(last_of(stream, packet, item).value_or(none));
   };
-  std::printf("telemetry: mode %lld, reset_cause %lld, %lld poses, last valid %lld, other bytes %zu, lost scans %lld, last loss %lld\n",
-              last("pose", "mode", -1), last("health", "reset_cause", -1), count_of("pose"), last("pose", "valid", -1), stream.other_bytes,
-              last("sensor", "lost", 0), last("sensor", "last_loss", 0));
+  std::printf(
+      "telemetry: mode %lld, reset_cause %lld, %lld poses, %lld valid, last valid %lld, other bytes %zu, lost scans %lld, last loss %lld\n",
+      last("pose", "mode", -1), last("health", "reset_cause", -1), count_of("pose"), valid_poses(stream), last("pose", "valid", -1),
+      stream.other_bytes, last("sensor", "lost", 0), last("sensor", "last_loss", 0));
   std::printf("ground: %lld completed, %lld refused, %lld pongs, laser %lld, skipped bytes %lld\n", count_of("completed"),
               count_of("refused"), count_of("pong"), last("link", "laser_enabled", -1), last("link", "skipped_bytes", -1));
 }

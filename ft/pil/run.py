@@ -28,6 +28,8 @@ NUMBERS = {'float': 'float', 'fixed': 'fixed', 'cortexa9': 'float'}
 BOARDS = {'float': PPC603E, 'fixed': PPC603E, 'cortexa9': CORTEXA9}
 PROOFS = {'float': 'prove', 'fixed': 'fixed-point/prove'}
 SECONDS = 280  # of the host; the run ends by itself
+IDLE_HELD = ('float',)  # LASSO-PLT-016: fixed point is for a processor without a floating-point unit (docs/pil.md)
+VALID = re.compile(r'\d+ poses, (\d+) valid')
 FRAME_INSTRUCTIONS = PERIOD_MS * 1000 * MIPS
 # Of an estimate's instructions: in floating point LASSO-PLT-002, in fixed point half a frame.
 LIMITS = {'estimate': {'float': 3.5e6, 'fixed': 10e6}, 'image': 512 << 10, 'memory': 3 << 20}
@@ -119,13 +121,15 @@ def measure(gate, number, elf, slots):
     flown = [frame for frame in frames if frame['estimate'] > 0]
     if not flown:
         gate.stop(f'{number}: no estimate has ended on the board')
+    # Once the first estimate has ended each frame has one.
+    gaps = sum(frame['estimate'] == 0 for frame in frames[frames.index(flown[0]):])
     image, memory = sizes(gate, elf, BOARDS[number])
     # The processor rests when neither task has work: what idle_ticks say, less the interrupts' entries that they hold. The clock stands still
     # while the bytes of the lines move: their interrupts are in no slot, and are counted apart.
     idle = [1 - (frame['boundary'] + frame['polls'] + frame['estimate']) / FRAME_INSTRUCTIONS for frame in flown]
     with_lines = [share - frame['lines'] / FRAME_INSTRUCTIONS for share, frame in zip(idle, flown)]
     return {
-        'frames': len(frames), 'mips': MIPS, 'period_ms': PERIOD_MS,
+        'frames': len(frames), 'frames_without_estimate': gaps, 'mips': MIPS, 'period_ms': PERIOD_MS,
         'instructions': {stage: spread([frame[stage] for frame in flown]) for stage in ('boundary', 'polls', 'largest_poll', 'estimate', 'lines')},
         'interrupt_latency_instructions_without_line_traffic': spread([frame['late'] for frame in flown]),
         'idle_share_without_line_interrupts': {'median': statistics.median(idle), 'worst': min(idle)},
@@ -142,7 +146,11 @@ def judge(gate, number, r):
     checks = [('median of an estimate, instructions', r['instructions']['estimate']['median'], LIMITS['estimate'][NUMBERS[number]]),
               ('bytes lost on the lines', r['lost_bytes'], 0),
               ('times that the lines were masked', r['lines_masked'], 0),
-              ('packets of telemetry dropped', r['packets_dropped'], 0)]
+              ('packets of telemetry dropped', r['packets_dropped'], 0),
+              ('frames without an estimate, once the first has ended', r['frames_without_estimate'], 0),
+              ('frames without a valid pose', r['frames_asked'] - r['valid_poses'], 0)]
+    if number in IDLE_HELD:
+        checks.append(('share of time that the processor works (median)', 1 - r['idle_share']['median'], 1 - page.IDLE_ASKED))
     for what, value, limit in checks:
         if value > limit:
             gate.find(f'{number}: {what}: {value}, at most {limit} allowed')
@@ -184,7 +192,7 @@ def fly(gate, number, host, board, frames):
     if code != 0:
         gate.stop(f'{number}: {said or "the board failed"} ({machine.said()})')
     results, flown = measure(gate, number, elf, read_reports(out / 'slots.csv'))
-    return results | {'scenario': SCENARIO, 'telemetry': said}, flown
+    return results | {'scenario': SCENARIO, 'telemetry': said, 'frames_asked': int(frames), 'valid_poses': int(VALID.search(said)[1])}, flown
 
 
 def main(host, board, fixed_host, fixed_board, cortexa9, frames='360'):

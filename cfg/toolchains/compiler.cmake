@@ -1,0 +1,10 @@
+# lasso_compiler(NAME PACKAGE): compiles and assembles by NAME, of a Debian package. One that is missing, or that does not start, is named with it.
+function(lasso_compiler NAME PACKAGE)
+  execute_process(COMMAND ${NAME} --version RESULT_VARIABLE FAILED OUTPUT_QUIET ERROR_VARIABLE SAID)
+  if(FAILED)
+    string(STRIP "${FAILED} ${SAID}" WHY)
+    message(FATAL_ERROR " ${NAME} is missing, or does not start (${WHY}): install the Debian package ${PACKAGE} anew (apt-get install --reinstall ${PACKAGE})")
+  endif()
+  set(CMAKE_CXX_COMPILER ${NAME} PARENT_SCOPE)
+  set(CMAKE_ASM_COMPILER ${NAME} PARENT_SCOPE)
+endfunction()
