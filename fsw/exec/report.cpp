@@ -21,11 +21,11 @@ void copy_pose(const Pose& pose, double (&q)[4], double (&p)[3]) {
   for (int i = 0; i < 3; ++i) p[i] = pose.p[i];
 }
 
-void copy_upper_triangle(const Mat6& covariance, float (&terms)[kPoseCovarianceTerms]) {
+void copy_upper_triangle(const Mat6& covariance, double (&terms)[kPoseCovarianceTerms]) {
   std::size_t term = 0;
   for (int row = 0; row < 6; ++row) {
     for (int column = row; column < 6; ++column) {
-      terms[term] = static_cast<float>(covariance(row, column));
+      terms[term] = covariance(row, column);
       ++term;
     }
   }

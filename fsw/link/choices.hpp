@@ -29,6 +29,7 @@ inline constexpr Choice kPoseReasons[] = {
   {"searching", "no attitude is known: it is looked for", "none: this is what mode searching does"},
   {"part_disagrees", "of a part that is elsewhere than the others say", "look at odd_part: it may have moved, or have a wrong model"},
   {"too_fast", "the target is predicted to turn or move too far within the scan for its points to be brought to one time, or faster than 60 rad/s or 500 m/s", "start anew with the right rates; shorten scan.duration_s for a target that is so fast"},
+  {"better_twin", "of a start: turned by a near-symmetry of the model, the pose explains the scan better", "start anew from the pose turned so, or from a better one; let the search find it"},
 };
 inline constexpr Choice kStopReasons[] = {
   {"converged", "the last step was smaller than estimation.stop_translation_m and _rotation_deg"},

@@ -32,7 +32,7 @@ struct PoseTelemetry {
   double q_sensor_target[4] = {0, 0, 0, 1};  // registration of this scan alone; the prediction where it did not run
   double p_sensor_target_m[3] = {};
   // Upper triangle, row by row, of (rotation about the target's origin in sensor axes [rad], translation [m]).
-  float covariance[kPoseCovarianceTerms] = {};
+  double covariance[kPoseCovarianceTerms] = {};  // in double: what a scan does not show has a variance 1e10 times that of what it shows
 
   double filter_q_sensor_target[4] = {0, 0, 0, 1};
   double filter_p_sensor_target_m[3] = {};

@@ -28,14 +28,14 @@ struct MissionParameters : SensorParameters {
       silhouette_sigma_m, silhouette_band_m, edge_gap_min_m, edge_depth_m, probe_step_m, label_error, deskew, noise_estimated,
       surface_sigma_m, wide_start;
   // [filter]
-  double period_s, acceleration_mps2, angular_acceleration_radps2, initial_rate_mps, initial_angular_rate_radps;
+  double period_s, acceleration_mps2, angular_acceleration_radps2, precession, initial_rate_mps, initial_angular_rate_radps;
   // [bearing] the target's direction and range without its attitude
   double bearing_returns_min, bearing_rate_mps, bearing_memory_s;
   // [tracking] validity and loss
   double start_sigma_m, start_sigma_rad, inliers_min, inlier_share_min, agreement_min, normalized_residual_max, sigma_position_max_m,
       sigma_attitude_max_rad, innovation_max, coast_frames, hysteresis, recover, reacquire_frames;
   // [start] the ways to a pose to start from
-  double start_frames, start_inlier_share_min, start_gate, start_age_max_s, start_first, start_second, start_third, start_fourth,
+  double start_frames, start_inlier_share_min, start_gate, start_twin_margin, start_age_max_s, start_first, start_second, start_third, start_fourth,
       start_fifth;
   // [search] the first pose without any prior attitude
   double search_hits_min, search_disagreement_max, search_ratio_min, search_scans_max, search_work_max, search_slice, search_frames;

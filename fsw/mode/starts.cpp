@@ -71,7 +71,7 @@ FilterStart filter_start(const MissionParameters& p, const StartOffer& offer) {
   return from;
 }
 
-FilterNoise filter_noise(const MissionParameters& p) { return {p.acceleration_mps2, p.angular_acceleration_radps2}; }
+FilterNoise filter_noise(const MissionParameters& p) { return {p.acceleration_mps2, p.angular_acceleration_radps2, p.precession}; }
 
 StartOffer rough_offer(const MissionParameters& p, const Pose& T_sensor_target, const Twist& rates, TimeUs t_us) {
   StartOffer offer{t_us, T_sensor_target, rates, Mat6::Zero()};

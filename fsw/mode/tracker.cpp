@@ -25,7 +25,7 @@ bool far_from(const FilterState& filter, const Registration& registration, doubl
 // A least share, raised; a scan without any fault always passes.
 double raised(double least, double by) { return least + by < 1 ? least + by : 1; }
 
-// A registration that is valid by itself: may this mode take it?
+// A registration that is valid by itself: do its shares let this mode take it, and in a start the prediction?
 PoseReason confirm(const MissionParameters& p, const ModeProperties& mode, const FilterState& filter, const Registration& registration) {
   if (!mode.takes_up) return PoseReason::kValid;
   if (!(registration.inlier_share >= raised(p.inlier_share_min, p.hysteresis))) return PoseReason::kLowInlierShare;
@@ -74,10 +74,9 @@ ModeEvent event_of(const MissionParameters& p, const TrackState& state, bool val
   return p.recover > 0.5 ? ModeEvent::kRecover : ModeEvent::kExhausted;
 }
 
-// Joins the step's registration to its filter if the mode takes it, and changes the mode accordingly.
+// Joins the step's registration to its filter if it is valid, and changes the mode accordingly.
 void take(const MissionParameters& p, const ModeProperties& mode, TrackStep& step) {
   Registration& registration = step.registration;
-  if (registration.valid()) registration.reason = confirm(p, mode, step.after.filter, registration);
   if (registration.valid()) registration.reason = join(p, mode, registration, step.after.filter);
   count_and_change(p, registration.valid(), step);
 }
@@ -144,7 +143,11 @@ TrackStep track_scan(const Mission& mission, Estimator& estimator, const RangeIm
   const ModeProperties& mode = properties(before.mode);
   predict_or_hold(p, scan.reference_time_us(), filter);
   const bool wide = (mode.wide_start || is_rough(mission, filter)) && p.wide_start > 0.5;
-  step.registration = estimator.estimate(mission, scan, StartPoint{filter.T_sensor_target, filter.rates, wide, false});
+  Registration& registration = step.registration;
+  registration = estimator.estimate(mission, scan, StartPoint{filter.T_sensor_target, filter.rates, wide, false});
+  if (registration.valid()) registration.reason = confirm(p, mode, filter, registration);
+  const bool starts = registration.valid() && mode.confirms;
+  if (starts && estimator.has_better_twin(mission, scan, registration)) registration.reason = PoseReason::kBetterTwin;
   take(p, mode, step);
   return step;
 }

@@ -1,13 +1,14 @@
 #include "fsw/pose/estimator.hpp"
 
 #include "fsw/geometry/portable_math.hpp"
-#include "fsw/geometry/symmetric6.hpp"
 #include "fsw/pose/labels.hpp"
+#include "fsw/pose/near_symmetry.hpp"
 #include "fsw/pose/path_pose.hpp"
 #include "fsw/pose/prepare.hpp"
 #include "fsw/pose/quality.hpp"
 #include "fsw/pose/register.hpp"
 #include "fsw/pose/silhouette.hpp"
+#include "fsw/pose/unseen.hpp"
 
 namespace lasso {
 namespace {
@@ -45,21 +46,20 @@ double range_sigma(const MissionParameters& p, double range_m, double scale) {
 
 // Labels are linear within the band around the contour. Where the hits hold the pose more loosely than that, the contours nearest to the
 // rays may be other ones than those that they passed, and labels would confirm a wrong pose.
-bool are_held(const Mat6& covariance, double band_m, Span<const Label> labels) {
-  for (const Label& label : labels) {
+bool are_held(const Mission& mission, const Mat6& covariance, const Unseen& unseen, FixedVector<Label, kMaxSites>& labels) {
+  const double band_m = mission.parameters.silhouette_band_m;
+  for (Label& label : labels) {
+    if (!forget_unseen(mission.radius_m, unseen, label)) return false;
     if (!(label.a.dot(covariance * label.a) < band_m * band_m)) return false;
   }
   return true;
 }
 
 // Lets the silhouettes speak: moves the pose and shrinks the covariance. Labels that cannot be used are dropped.
-void use_silhouettes(const Mission& mission, bool misses_known, double scale, Workspace& workspace, Pose& pose, Mat6& covariance) {
-  LabelSearch search;
-  search.misses_known = misses_known;
-  search.covariance = covariance;
-  search.range_sigma_m = range_sigma(mission.parameters, square_root(pose.p.squaredNorm()), scale);
+void use_silhouettes(const Mission& mission, const LabelSearch& search, const Unseen& unseen, Workspace& workspace, Pose& pose,
+                     Mat6& covariance) {
   find_labels(mission, pose, search, workspace);
-  if (!are_held(covariance, mission.parameters.silhouette_band_m, workspace.labels.span())) {
+  if (!are_held(mission, covariance, unseen, workspace.labels)) {
     workspace.labels.clear();
     return;
   }
@@ -68,6 +68,24 @@ void use_silhouettes(const Mission& mission, bool misses_known, double scale, Wo
   apply_labels(workspace.labels.span(), mission.parameters, belief);
   pose = step_pose(pose, belief.mean);
   covariance = belief.covariance;
+}
+
+// The pose that hits and silhouettes give, with its covariance, into the result.
+void describe_pose(const Mission& mission, const HitSolution& hits, double scale, bool misses_known, Workspace& workspace,
+                   Registration& result) {
+  const MissionParameters& p = mission.parameters;
+  Unseen unseen;
+  Mat6 covariance = covariance_of_hits(mission.radius_m, hits.H, p.noise_estimated > 0.5 ? scale : 1, unseen);
+  Pose pose = hits.T_target_sensor;
+  if (p.silhouettes > 0.5) {
+    const LabelSearch search{misses_known, covariance, range_sigma(p, square_root(pose.p.squaredNorm()), scale)};
+    use_silhouettes(mission, search, unseen, workspace, pose, covariance);
+    result.labels = to_count(workspace.labels.size());
+  }
+  result.T_sensor_target = inverse(pose);
+  result.covariance = to_sensor_axes(covariance, pose);
+  result.agreement = hit_miss_agreement(mission, pose, hits.inliers, hits.usable, misses_known, workspace);
+  find_weak_directions(mission, result);
 }
 
 void describe_hits(const HitSolution& hits, double scale, const Workspace& workspace, Registration& result) {
@@ -119,24 +137,18 @@ Registration Estimator::estimate(const Mission& mission, const RangeImage& scan,
     return result;
   }
   prepare_rays(mission, scan, start, workspace_);
-  Pose pose = inverse(start.T_sensor_target);
+  const Pose pose = inverse(start.T_sensor_target);
   const HitSolution hits = start.wide ? register_wide(mission, pose, workspace_) : register_hits(mission, pose, workspace_);
   const double scale = noise_scale(mission.parameters, hits, !(workspace_.sigma_factor > FlightNumber::Factor{1}));
   describe_hits(hits, scale, workspace_, result);
-  if (has_information(hits)) {
-    Mat6 covariance;
-    invariant(invert6(hits.H, covariance) == Status::kOk, "information that was solved for a step has an inverse");
-    pose = hits.T_target_sensor;
-    if (mission.parameters.noise_estimated > 0.5) covariance *= scale;
-    if (mission.parameters.silhouettes > 0.5) use_silhouettes(mission, scan.misses_known, scale, workspace_, pose, covariance);
-    result.labels = to_count(mission.parameters.silhouettes > 0.5 ? workspace_.labels.size() : 0);
-    result.T_sensor_target = inverse(pose);
-    result.covariance = to_sensor_axes(covariance, pose);
-    result.agreement = hit_miss_agreement(mission, pose, hits.inliers, hits.usable, scan.misses_known, workspace_);
-    find_weak_directions(mission, result);
-  }
+  if (has_information(hits)) describe_pose(mission, hits, scale, scan.misses_known, workspace_, result);
   result.reason = judge(mission.parameters, result);
   return result;
+}
+
+bool Estimator::has_better_twin(const Mission& mission, const RangeImage& scan, const Registration& result) {
+  const double advantage = twin_advantage(mission, inverse(result.T_sensor_target), scan.misses_known, workspace_);
+  return advantage > mission.parameters.start_twin_margin;
 }
 
 }  // namespace lasso

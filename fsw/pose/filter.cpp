@@ -59,8 +59,11 @@ Status check_covariance(const Mat6& C) {
 }
 
 Status check_noise(const FilterNoise& noise) {
-  if (!is_finite(noise.acceleration_mps2) || !is_finite(noise.angular_acceleration_radps2)) return Status::kNotFinite;
-  return noise.acceleration_mps2 >= 0 && noise.angular_acceleration_radps2 >= 0 ? Status::kOk : Status::kBadValue;
+  for (const double sigma : {noise.acceleration_mps2, noise.angular_acceleration_radps2, noise.precession}) {
+    if (!is_finite(sigma)) return Status::kNotFinite;
+    if (sigma < 0) return Status::kBadValue;
+  }
+  return Status::kOk;
 }
 
 Status check_step(const FilterState& state, TimeUs t_us) {
@@ -101,12 +104,15 @@ Transition transition(const Vec3& omega_radps, double dt_s) {
   return F;
 }
 
+double square(double x) { return x * x; }
+
 // Discrete white-noise acceleration: a moves the rate by a dt and the pose by a dt^2/2 (Bar-Shalom, Li & Kirubarajan 2001, 6.3.2).
-void add_process_noise(Blocks& P, const FilterNoise& noise, double dt_s) {
+void add_process_noise(Blocks& P, const FilterNoise& noise, double omega2, double dt_s) {
   const double dt2 = dt_s * dt_s;
+  const double q_turn = square(noise.angular_acceleration_radps2) + square(noise.precession * omega2);
+  const double q_shift = square(noise.acceleration_mps2);
   for (int i = 0; i < 6; ++i) {
-    const double sigma = i < 3 ? noise.angular_acceleration_radps2 : noise.acceleration_mps2;
-    const double q = sigma * sigma;
+    const double q = i < 3 ? q_turn : q_shift;
     P.pose(i, i) += 0.25 * q * dt2 * dt2;
     P.cross(i, i) += 0.5 * q * dt2 * dt_s;
     P.rates(i, i) += q * dt2;
@@ -121,7 +127,7 @@ Mat12 predicted_covariance(const FilterState& state, double dt_s, const FilterNo
   next.cross = F.pose * P.cross + F.from_rates * P.rates;
   next.pose = pose_rows * F.pose.transpose() + next.cross * F.from_rates.transpose();
   next.rates = P.rates;
-  add_process_noise(next, noise, dt_s);
+  add_process_noise(next, noise, state.rates.omega_radps.squaredNorm(), dt_s);
   return join(next);
 }
 

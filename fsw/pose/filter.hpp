@@ -7,7 +7,7 @@
 // quaternion itself is never filtered, so that it keeps its length and its sign (Markley & Crassidis 2014, chapter 6, for this family).
 //
 // Motion model: constant angular velocity and constant velocity of the origin in sensor axes, disturbed by accelerations that are constant
-// over each step, independent between steps, and of the given sigma (discrete white-noise acceleration). The measurement is a registration
+// over each step, independent between steps, and of the given sigmas (discrete white-noise acceleration). The measurement is a registration
 // of one scan, independent of the prediction (never one into which the prediction entered as a prior). A direction that the scan does not
 // show has a large variance in it and coasts on the prediction.
 //
@@ -52,9 +52,12 @@ struct FilterStart {
   double sigma_v_mps = 0;               // each axis, > 0
 };
 
+// A free body that turns about no principal axis changes its angular velocity by at most half of omega^2 (a rod, or a disc), and not at all
+// at rest: precession's share of omega^2 adds to the other.
 struct FilterNoise {
   double acceleration_mps2 = 0;            // 1 sigma, each axis, >= 0
   double angular_acceleration_radps2 = 0;  // 1 sigma, each axis, >= 0
+  double precession = 0;                   // 1 sigma, each axis, of omega^2, >= 0
 };
 
 // A registration: pose at t_us with the covariance of (rotation in sensor axes [rad], translation of the origin [m]).

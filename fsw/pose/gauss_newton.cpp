@@ -2,6 +2,7 @@
 
 #include "fsw/geometry/portable_math.hpp"
 #include "fsw/geometry/symmetric6.hpp"
+#include "fsw/pose/unseen.hpp"
 
 namespace lasso {
 
@@ -16,10 +17,10 @@ using N = FlightNumber;
 // A prior as wide as the model itself keeps directions that no ray sees solvable; it says nothing where any ray does. The part that grows
 // with the information covers the rounding of the sums.
 void add_wide_prior(double radius_m, Mat6& H) {
-  const double rounding = 1e-7 * H.bottomRightCorner<3, 3>().trace();
+  const double prior = prior_information(radius_m, H.bottomRightCorner<3, 3>().trace());
   for (int i = 0; i < 3; ++i) {
-    H(i, i) += 1 + rounding * radius_m * radius_m;
-    H(i + 3, i + 3) += 1 / (radius_m * radius_m) + rounding;
+    H(i, i) += prior * radius_m * radius_m;
+    H(i + 3, i + 3) += prior;
   }
 }
 

@@ -81,13 +81,14 @@ inline FieldHit<N> find_hit(const Field<N>& field, const MatchSettings<N>& s, co
 
 // Adds the match of a ray with an element at t along the ray. The residual r = n.(q - m) = t (n.u) has variance
 //   sigma_n^2 = (n.u)^2 sigma_r^2 + (1 - (n.u)^2) sigma_across^2 + sigma_surface^2
-// and Tukey's weight (1 - r^2/(k^2 sigma_n^2 + gate^2 (n.u)^2))^2.
+// and Tukey's weight (1 - r^2/(k^2 sigma_n^2 + gate^2 (n.u)^2))^2. Its lever is that of q, where the ray meets the surface, as the range there
+// changes with the pose; that of m would hold the range's noise, and noise squared would pass for information (a tube's roll).
 template <class N>
 inline void add_hit(const Field<N>& field, const MatchSettings<N>& s, const MatchPoint<N>& point, const FieldRay<N>& ray,
                     const FieldHit<N>& hit, PassSums<N>& sums) {
-  const typename N::Length p[3] = {ray.m[0] + hit.t * ray.u[0], ray.m[1] + hit.t * ray.u[1], ray.m[2] + hit.t * ray.u[2]};
+  const typename N::Length q[3] = {ray.m[0] + hit.t * ray.u[0], ray.m[1] + hit.t * ray.u[1], ray.m[2] + hit.t * ray.u[2]};
   typename N::Unit n[3];
-  surface_normal(field, field.elements[hit.element], p, n);
+  surface_normal(field, field.elements[hit.element], q, n);
   const auto facing = cut<typename N::Unit>(dot3<N>(n, ray.u));  // positive only for two-sided elements seen from behind
   if (facing > -s.cos_incidence_max && facing < s.cos_incidence_max) return;
   ++sums.usable;
@@ -100,7 +101,7 @@ inline void add_hit(const Field<N>& field, const MatchSettings<N>& s, const Matc
   if (!(r2 < limit)) return;
   const typename N::Unit rest = 1 - share_of(r2, limit);
   const typename N::Unit tukey = rest * rest;
-  sums.rows.add(ray.m, n, r, quotient<typename N::Weight>(tukey * s.reference_variance, variance), hit.t);
+  sums.rows.add(q, n, r, quotient<typename N::Weight>(tukey * s.reference_variance, variance), hit.t);
 }
 
 // One pass over the points of its kind. Bound: the points, each kMaxWalkSteps cells at most.

@@ -38,6 +38,8 @@ const char* to_string(PoseReason reason) {
       return "part_disagrees";
     case PoseReason::kTooFast:
       return "too_fast";
+    case PoseReason::kBetterTwin:
+      return "better_twin";
   }
   return "unknown";
 }

@@ -31,6 +31,7 @@ enum class PoseReason : std::uint8_t {
   kSearching = 14,      // no attitude is known: it is looked for
   kPartDisagrees = 15,  // of a part that is elsewhere than the others say
   kTooFast = 16,        // the prediction moves too far within the scan for its points to be brought to one time
+  kBetterTwin = 17,     // of a start: a near-symmetry of the pose explains the scan better
 };
 const char* to_string(PoseReason reason);
 const char* to_string(StopReason reason);

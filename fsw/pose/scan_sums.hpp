@@ -1,9 +1,9 @@
 // Sums over the points of one pass: weighted normal equations H x = b, x = (rotation, translation) in target axes, and what the residuals
 // say.
 //
-// Row of a point: J = (m x n, n), with m the measured point and n the surface normal, both in the target frame; residual r = n.(q - m), q
-// the surface point on the ray. Moving the scan by x changes n.m by J.x, so H = sum w J J^T, b = sum w J r: the products of the columns of
-// (J, r), weighted.
+// Row of a point: J = (p x n, n), with n the surface normal and p the point that is held to the surface (of a ray where it meets it, of a
+// closest plane the measured one), both in the target frame; residual r, what the point lacks along n. Moving the scan by x brings it J.x
+// nearer, so H = sum w J J^T, b = sum w J r: the products of the columns of (J, r), weighted.
 #pragma once
 
 #include <cstdint>
@@ -20,14 +20,14 @@ class ScanSums {
   explicit ScanSums(double size_m) : scale_(N::row_scale(size_m)) {}
 
   // Adds a row of weight w; range_residual [m] is the same residual along the ray.
-  void add(const typename N::Length* m, const typename N::Unit* n, typename N::Length r, typename N::Weight w,
+  void add(const typename N::Length* p, const typename N::Unit* n, typename N::Length r, typename N::Weight w,
            typename N::Length range_residual) {
     if (rows_ == kBlock) flush();
     const int row = rows_++;
     const bool heavy = scale_.is_heavy(w);
-    column_[0][row] = scale_.length(m[1] * n[2] - m[2] * n[1], heavy);
-    column_[1][row] = scale_.length(m[2] * n[0] - m[0] * n[2], heavy);
-    column_[2][row] = scale_.length(m[0] * n[1] - m[1] * n[0], heavy);
+    column_[0][row] = scale_.length(p[1] * n[2] - p[2] * n[1], heavy);
+    column_[1][row] = scale_.length(p[2] * n[0] - p[0] * n[2], heavy);
+    column_[2][row] = scale_.length(p[0] * n[1] - p[1] * n[0], heavy);
     for (int i = 0; i < 3; ++i) column_[3 + i][row] = scale_.direction(n[i], heavy);
     column_[kResidual][row] = scale_.length(r, heavy);
     weight_[row] = scale_.weight(w);

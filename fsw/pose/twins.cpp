@@ -1,27 +1,17 @@
 // The poses that a search's best one is most easily confused with: its near-symmetries.
+#include "fsw/pose/near_symmetry.hpp"
 #include "fsw/pose/search.hpp"
 #include "fsw/pose/verdict.hpp"
 
 namespace lasso {
-namespace {
 
 using N = FlightNumber;
-
-Pose moved_by(const NearSymmetry<N>& symmetry) {
-  Pose pose;
-  pose.q =
-      normalized(Quat(N::to_double(symmetry.q[3]), N::to_double(symmetry.q[0]), N::to_double(symmetry.q[1]), N::to_double(symmetry.q[2])));
-  pose.p = Vec3(N::to_double(symmetry.p[0]), N::to_double(symmetry.p[1]), N::to_double(symmetry.p[2]));
-  return pose;
-}
-
-}  // namespace
 
 // Of the pose that was settled first: they are sketched and settled, too.
 void Search::add_twins(const Mission& mission) {
   first_ = tracks_.size();
   const Pose best = tracks_[0].T_target_sensor[last()];
-  for (const NearSymmetry<N>& symmetry : mission.search.symmetries) add_track(moved_by(symmetry) * best, Fit());
+  for (const NearSymmetry<N>& symmetry : mission.search.symmetries) add_track(twin_of(symmetry, best), Fit());
   twins_ = true;
   next_ = first_;
 }
@@ -42,7 +32,7 @@ std::uint32_t Search::mirror_next(const Mission& mission, Workspace& workspace) 
   if (next_ == mission.search.symmetries.size()) return end_mirroring();
   const Track& best = tracks_[0];
   Track twin;
-  twin.T_target_sensor[last()] = moved_by(mission.search.symmetries[next_++]) * best.T_target_sensor[last()];
+  twin.T_target_sensor[last()] = twin_of(mission.search.symmetries[next_++], best.T_target_sensor[last()]);
   const Fit fit = measure_fit(mission, twin.T_target_sensor[last()], evidence_[last()], hopeless_beyond(best.fits[last()].score()));
   const bool near = is_near(ratio_of(fit.score(), best.fits[last()].score()), best.cost, limits_.ratio_min);
   if (!near || !is_new(twin.T_target_sensor[last()], fit)) return fit_work(fit);

@@ -133,6 +133,7 @@ std::vector<ScenarioField> make_scenario_fields() {
     field(&S::navigation_sigma_m, number_row("navigation_sigma_m", "m", kReal, 1, 1e-6, 100, 0.1, "approach: their error, each axis (1 sigma)")),
     field(&S::navigation_sigma_rad, number_row("navigation_sigma_deg", "deg", kReal, kDeg, 1e-4, 180, 2, "approach: error of their attitude, each axis (1 sigma)")),
     field(&S::prior, number_row("prior", "1", ValueKind::kBoolean, 1, 0, 1, 1, "false: no pose to start from is given; the component seeks the bearing first")),
+    field(&S::prior_turn_rad, number_row("prior_turn_deg", "deg", kReal, kDeg, -180, 180, 0, "the pose to start from is turned by this rotation vector about the target's x, y, z: a wrong start"), 3, 3, {0, 0, 0}),
     field(&S::noise, number_row("noise", "1", ValueKind::kBoolean, 1, 0, 1, 1, "false: the simulated sensor measures ranges and angles without noise")),
     field(&S::sigma0_m, number_row("sigma0_m", "m", kReal, 1, 0, 1, 0, "simulated range noise, constant part (1 sigma)"), "sensor.sigma0_m"),
     field(&S::sigma_k_per_m, number_row("sigma_k_per_m", "1/m", kReal, 1, 0, 0.01, 0, "simulated range noise that grows with the square of the range"), "sensor.sigma_k_per_m"),

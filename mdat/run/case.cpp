@@ -9,6 +9,7 @@
 #include "bsp/posix/reset_note.hpp"
 #include "bsp/posix/runner.hpp"
 #include "fsw/exec/component.hpp"
+#include "fsw/geometry/so3.hpp"
 #include "fsw/link/command_rows.hpp"
 #include "hal_sim/lcs_direct.hpp"
 #include "hal_sim/random.hpp"
@@ -225,7 +226,10 @@ class Case {
         throw RunError("the component refused to seek the bearing");
       return;
     }
-    expect(component_->start_tracking(trajectory_->at(truth_us).T_sensor_target, Twist{}, truth_us + period_us_), "start tracking");
+    const std::vector<double>& turn = setup_.scenario.prior_turn_rad;
+    const Pose T_target_turned{exp_so3(Vec3(turn.at(0), turn.at(1), turn.at(2))), Vec3::Zero()};
+    expect(component_->start_tracking(trajectory_->at(truth_us).T_sensor_target * T_target_turned, Twist{}, truth_us + period_us_),
+           "start tracking");
   }
 
   void read_packets(const posix::FrameRecord& record) {
@@ -375,7 +379,7 @@ Mat6 registration_covariance(const PoseTelemetry& telemetry) {
   std::size_t term = 0;
   for (int row = 0; row < 6; ++row) {
     for (int column = row; column < 6; ++column, ++term) {
-      covariance(row, column) = static_cast<double>(telemetry.covariance[term]);
+      covariance(row, column) = telemetry.covariance[term];
       covariance(column, row) = covariance(row, column);
     }
   }

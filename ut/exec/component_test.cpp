@@ -282,7 +282,7 @@ TEST(Component, FullQueueCountsWhatItDrops) {
   }
   scene.run_frame();  // empties the queue
   const auto reports = scene.run_frame();
-  EXPECT_EQ(reports.at(0).pose.dropped_packets, 24u - kTelemetryQueueBytes / 751);
+  EXPECT_EQ(reports.at(0).pose.dropped_packets, 24u - kTelemetryQueueBytes / 835);
 }
 
 TEST(Component, StaysWithinItsMemory) {

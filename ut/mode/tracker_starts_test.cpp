@@ -73,39 +73,97 @@ TEST_F(TrackerTest, AStartFartherOffThanItsCovarianceSaysIsNotConfirmed) {
   EXPECT_EQ(step.event, ModeEvent::kPoseInvalid);
 }
 
-// Two boxes, which no turn makes look alike.
-TEST_F(TrackerTest, AStartHalfATurnOffIsNeverTracked) {
-  VERIFIES("LASSO-MOD-132~1 LASSO-MOD-134~1 LASSO-MOD-182~1");
-  test::BoxModel mast;
-  mast.center = Vec3(0.24, 0.15, -0.32);
-  mast.half = Vec3(0.05, 0.04, 0.20);
-  test::BoxScan view{scene_.box, {mast}, scene_.at_zero, {}, 1e-3};
-  view.half_angle = 0.25;
-  MissionParameters p = test::box_parameters(scene_);
-  p.start_frames = 4;
-  p.start_inlier_share_min = 0.9;
-  image_ = test::make_image(p, test::make_box_tables(test::Boxes{scene_.box, mast}));
-  ASSERT_EQ(load_image(Bytes(image_.data(), image_.size), mission_).status, Status::kOk);
-  test::Generator random(5);
-  const auto track_view = [&](std::uint32_t k) {
-    const auto image = test::scan_box(view, random);
+// Two boxes, which no turn makes look alike; half a turn brings the larger one on itself.
+class MastTest : public TrackerTest {
+ protected:
+  MastTest() {
+    mast_.center = Vec3(0.24, 0.15, -0.32);
+    mast_.half = Vec3(0.05, 0.04, 0.20);
+  }
+
+  void load_with_mast(double share_min) {
+    MissionParameters p = test::box_parameters(scene_);
+    p.start_frames = 4;
+    p.start_inlier_share_min = share_min;
+    image_ = test::make_image(p, test::make_box_tables(test::Boxes{scene_.box, mast_}));
+    ASSERT_EQ(load_image(Bytes(image_.data(), image_.size), mission_).status, Status::kOk);
+  }
+
+  TrackStep track_view(std::uint32_t k) {
+    test::BoxScan view{scene_.box, {}, scene_.at_zero, {}, 1e-3};
+    if (has_mast_) view.others = {mast_};
+    view.half_angle = 0.25;
+    const auto image = test::scan_box(view, random_);
     for (RangeSample& sample : image->samples) sample.t_us += k * kPeriodUs;
-    state_ = track_scan(mission_, *estimator_, *image, state_).after;
-  };
-  start(small_error());
-  track_view(0);
-  ASSERT_EQ(state_.mode, TrackingMode::kTracking) << "the right start is taken";
-  for (const Vec3& axis : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1), Vec3(0.6, 0.64, 0.48)}) {
+    const TrackStep step = track_scan(mission_, *estimator_, *image, state_);
+    state_ = step.after;
+    return step;
+  }
+
+  void start_turned(const Vec3& axis) {
     state_ = TrackState{};
     Vec6 off = Vec6::Zero();
     off.head<3>() = kPi * axis;
     start(off);
+  }
+
+  test::BoxModel mast_;
+  bool has_mast_ = true;
+  test::Generator random_{5};
+};
+
+TEST_F(MastTest, AStartHalfATurnOffIsNeverTracked) {
+  VERIFIES("LASSO-MOD-132~1 LASSO-MOD-134~1 LASSO-MOD-182~1");
+  load_with_mast(0.9);
+  start(small_error());
+  track_view(0);
+  ASSERT_EQ(state_.mode, TrackingMode::kTracking) << "the right start is taken";
+  for (const Vec3& axis : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1), Vec3(0.6, 0.64, 0.48)}) {
+    start_turned(axis);
     for (std::uint32_t k = 1; k <= 4; ++k) {
       track_view(k);
       EXPECT_EQ(state_.mode, TrackingMode::kStarting) << axis.transpose();
     }
     track_view(5);
     EXPECT_EQ(state_.mode, TrackingMode::kLost) << axis.transpose();
+  }
+}
+
+// Where a start's share alone would do, its near-symmetries tell.
+TEST_F(MastTest, AStartIsRefusedWhoseNearSymmetryExplainsTheScanBetter) {
+  VERIFIES("LASSO-MOD-182~1 LASSO-MOD-183~1");
+  load_with_mast(0);
+  start(small_error());
+  ASSERT_TRUE(track_view(0).registration.valid()) << "the right start is taken";
+  const auto symmetries = mission_.search.symmetries;
+  int refused = 0;
+  for (std::uint32_t k = 0; k < symmetries.size(); ++k) {
+    const Vec3 axis = rotate(scene_.at_zero.q, Vec3::Unit(static_cast<int>(k % 3)));
+    start_turned(axis);
+    if (track_view(k).registration.reason != PoseReason::kBetterTwin) continue;
+    ++refused;
+    EXPECT_EQ(state_.mode, TrackingMode::kStarting);
+    mission_.search.symmetries = {};
+    start_turned(axis);
+    EXPECT_TRUE(track_view(k).registration.valid()) << "by itself it explains enough";
+    mission_.search.symmetries = symmetries;
+  }
+  EXPECT_GE(refused, 1);
+}
+
+// Nothing in a scan can tell the poses of a symmetric target apart: the start decides.
+TEST_F(MastTest, AStartIsTakenWhoseTwinExplainsTheScanAsWell) {
+  VERIFIES("LASSO-MOD-183~1");
+  load(test::box_parameters(scene_));
+  has_mast_ = false;
+  for (std::uint32_t k = 0; k < 6; ++k) {
+    state_ = TrackState{};
+    Pose half_turn;  // about the box's middle
+    half_turn.q = exp_so3(kPi * Vec3::Unit(static_cast<int>(k % 3)));
+    half_turn.p = scene_.box.center - rotate(half_turn.q, scene_.box.center);
+    ASSERT_EQ(start_at(scene_.at_zero * half_turn, Twist{}, 0, 0), StartRefusal::kNone);
+    const PoseReason reason = track_view(k).registration.reason;
+    EXPECT_EQ(reason, PoseReason::kValid) << k << " " << to_string(reason);
   }
 }
 

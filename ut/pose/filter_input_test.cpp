@@ -53,6 +53,8 @@ TEST(FilterInput, BadPredictionsAreRefused) {
   EXPECT_EQ(predict_filter(state, next, {1, kNan}), Status::kNotFinite);
   EXPECT_EQ(predict_filter(state, next, {-1, 1}), Status::kBadValue);
   EXPECT_EQ(predict_filter(state, next, {1, -1}), Status::kBadValue);
+  EXPECT_EQ(predict_filter(state, next, {1, 1, kNan}), Status::kNotFinite);
+  EXPECT_EQ(predict_filter(state, next, {1, 1, -1}), Status::kBadValue);
   EXPECT_EQ(predict_filter(state, next, {1e200, 1}), Status::kNotFinite);
   EXPECT_TRUE(same(state, before));
   EXPECT_EQ(predict_filter(state, state.t_us + kMaxPredictionUs, kNoise), Status::kOk);

@@ -152,7 +152,7 @@ TEST(DictionaryJson, HasEveryPacketItemAndChoice) {
   EXPECT_EQ(json.at("apid"), kApid);
   ASSERT_EQ(json.at("packets").size(), std::size(kPackets));
   const auto& pose = json.at("packets").at(0);
-  EXPECT_EQ(pose.at("size"), 751);
+  EXPECT_EQ(pose.at("size"), 835);
   ASSERT_EQ(pose.at("items").size(), kPackets[0].items.size());
   EXPECT_EQ(pose.at("items").at(0).at("byte"), 22);
   EXPECT_TRUE(pose.at("items").at(0).at("maximum").is_null()) << "unbounded";

@@ -1,0 +1,93 @@
+#include "fsw/pose/near_symmetry.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "ut/pose/search_fixture.hpp"
+#include "ut/support/verifies.hpp"
+
+namespace lasso {
+namespace {
+
+// A single box: each half turn about its axes is a symmetry.
+class NearSymmetryTest : public test::PoseFixture {
+ protected:
+  NearSymmetryTest() { scan_.sigma_m = 1e-3; }
+  double advantage(const Pose& T_target_sensor) {
+    scan();
+    return twin_advantage(mission_, T_target_sensor, true, *workspace_);
+  }
+};
+
+class NearlySymmetricTest : public test::SearchFixture {};
+
+TEST_F(NearSymmetryTest, ATwinIsThePoseTurnedAboutTheBoxesMiddle) {
+  VERIFIES("LASSO-MOD-183~1");
+  ASSERT_GE(mission_.search.symmetries.size(), 3u);
+  for (const auto& symmetry : mission_.search.symmetries) {
+    const Pose twin = twin_of(symmetry, truth());
+    for (int i = 0; i < 10; ++i) {
+      const Vec3 here = test::random_vec3(random_, 0.3);  // from the middle
+      const Vec3 seen = scan_.T_sensor_target * Vec3(scan_.model.center + here);
+      EXPECT_LT((Vec3(twin * seen - scan_.model.center).cwiseAbs() - here.cwiseAbs()).norm(), 1e-6);
+    }
+    EXPECT_LT(std::abs((twin.q * scan_.T_sensor_target.q).w()), 1e-6) << "half a turn";
+  }
+}
+
+TEST_F(NearSymmetryTest, TheTwinsOfASymmetricTargetExplainItsScanAsWell) {
+  VERIFIES("LASSO-MOD-183~1");
+  for (int i = 0; i < 20; ++i) {
+    scan_.T_sensor_target = test::random_box_pose(random_);
+    EXPECT_NEAR(advantage(truth()), 0, 0.2) << i;
+  }
+}
+
+TEST_F(NearSymmetryTest, ATwinIsRegisteredFromWhereTheTurnLeads) {
+  VERIFIES("LASSO-MOD-183~1");
+  EXPECT_GT(advantage(inverse(test::disturb(scan_.T_sensor_target, 0.02, 0.01, random_))), 2);
+}
+
+TEST_F(NearSymmetryTest, ThereIsNoTwinWithoutSymmetryOrReturns) {
+  VERIFIES("LASSO-MOD-183~1");
+  parameters().inliers_min = 1e6;
+  EXPECT_LT(advantage(truth()), -1e8);
+  parameters().inliers_min = 60;
+  EXPECT_GT(advantage(truth()), -1);
+  keep_first_points(0);
+  EXPECT_LT(twin_advantage(mission_, truth(), true, *workspace_), -1e8);
+  mission_.search.symmetries = {};
+  EXPECT_LT(advantage(truth()), -1e8);
+}
+
+// Half a turn about the larger box explains most of the scan, and the right pose all of it.
+TEST_F(NearlySymmetricTest, TheRightPoseHasTheAdvantageOverItsTwins) {
+  VERIFIES("LASSO-MOD-183~1");
+  int told = 0;
+  for (int i = 0; i < 20; ++i) {
+    scan_.T_sensor_target = test::random_box_pose(random_);
+    scan();
+    EXPECT_LT(twin_advantage(mission_, truth(), true, *workspace_), 0.3) << i;
+    scan();
+    const Pose twin = twin_of(mission_.search.symmetries[static_cast<std::size_t>(i) % 3], truth());
+    told += twin_advantage(mission_, twin, true, *workspace_) > 0.3 ? 1 : 0;
+  }
+  EXPECT_GE(told, 18);
+}
+
+TEST_F(NearlySymmetricTest, APartOfTheReturnsIsAsked) {
+  VERIFIES("LASSO-MOD-183~1");
+  scan_.side = 48;
+  scan();
+  ASSERT_GT(workspace_->points.size(), kTwinPoints);
+  (void)twin_advantage(mission_, truth(), true, *workspace_);
+  EXPECT_LE(workspace_->points.size(), kTwinPoints);
+  EXPECT_GT(workspace_->points.size(), kTwinPoints / 2);
+  const std::size_t few = workspace_->points.size();
+  (void)twin_advantage(mission_, truth(), true, *workspace_);
+  EXPECT_EQ(workspace_->points.size(), few);
+}
+
+}  // namespace
+}  // namespace lasso
