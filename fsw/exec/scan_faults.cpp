@@ -1,5 +1,10 @@
 #include "fsw/exec/scan_faults.hpp"
 
+#include <cstddef>
+
+#include "fsw/core/crc.hpp"
+#include "fsw/sense/pattern.hpp"
+
 namespace lasso {
 namespace {
 
@@ -23,9 +28,15 @@ std::uint32_t bad_samples(const ScanVerdict& verdict) {
 }
 
 constexpr std::uint32_t bit(ScanLoss loss) { return 1u << static_cast<unsigned>(loss); }
-constexpr std::uint32_t kWrongBytes = bit(ScanLoss::kForeign) | bit(ScanLoss::kOffPlan) | bit(ScanLoss::kOther);
+constexpr std::uint32_t kWrongBytes = bit(ScanLoss::kForeign) | bit(ScanLoss::kOffPlan) | bit(ScanLoss::kOther) | bit(ScanLoss::kFrozen);
 constexpr std::uint32_t kCutShort = bit(ScanLoss::kStopped) | bit(ScanLoss::kRestarted) | bit(ScanLoss::kThin);
 bool is_one_of(ScanLoss loss, std::uint32_t losses) { return (losses & bit(loss)) != 0; }
+
+constexpr std::size_t kMeasuredBytes = offsetof(RangeSample, t_us);
+static_assert(kMeasuredBytes == sizeof(RangeSample::direction) + sizeof(RangeSample::range_m), "direction and range, without gaps");
+ConstBytes measured(const RangeSample& sample) { return {reinterpret_cast<const std::uint8_t*>(&sample), kMeasuredBytes}; }
+
+bool apart(float a, float b) { return a - b > kTracedOffset || b - a > kTracedOffset; }
 
 }  // namespace
 
@@ -40,6 +51,33 @@ bool mirrors_stuck(const ScanPlan& plan, const RangeImage& image) {
     ++rays;
   }
   return rays >= kRaysToTell && (x.half() < kStuckShare * plan.half_x || y.half() < kStuckShare * plan.half_y);
+}
+
+ScanTrace trace_of(const ScanPlan& plan, const RangeImage& image) {
+  ScanTrace trace;
+  for (const RangeSample& sample : image.samples) {
+    trace.digest = crc32c(measured(sample), trace.digest);
+    if (sample.state != RayState::kInvalid) ++trace.rays;
+  }
+  std::size_t ray = 0;
+  for (float(&planned)[2] : trace.planned) {
+    const Vec3 direction = pattern_direction(plan, static_cast<std::uint16_t>(ray * plan.points / kTracedRays));
+    planned[0] = static_cast<float>(direction.x());
+    planned[1] = static_cast<float>(direction.y());
+    ++ray;
+  }
+  return trace;
+}
+
+bool is_repeated(const ScanTrace& before, const ScanTrace& scan) {
+  if (scan.rays < kRaysToTell || scan.digest != before.digest) return false;
+  bool elsewhere = false;
+  const float(*was)[2] = before.planned;
+  for (const float(&now)[2] : scan.planned) {
+    elsewhere = elsewhere || apart(now[0], (*was)[0]) || apart(now[1], (*was)[1]);
+    ++was;
+  }
+  return elsewhere;
 }
 
 FaultSet scan_faults(const ScanVerdict& verdict) {

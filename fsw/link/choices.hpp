@@ -141,6 +141,7 @@ inline constexpr Choice kLossReasons[] = {
   {"unfinished", "too few samples were there at the frame's end", "look at the line; compare its rate with the scan's duration"},
   {"thin", "complete, but too few samples were well formed", "look at damaged_frames and samples_lost: a noisy line"},
   {"stuck", "the rays went nearly one way: the mirrors stand still", "look at the mirrors; reset the sensor"},
+  {"frozen", "its samples are those of the scan before, bit for bit, though other rays were planned", "reset the sensor"},
 };
 inline constexpr Choice kPacketFaults[] = {
   {"none", "it is accepted"},
