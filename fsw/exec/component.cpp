@@ -37,11 +37,17 @@ Status Component::begin(TimeUs boundary_0_us) {
   events_.raise<EventId::kBegun>(software_version(), software_build(), mission().image_crc, health_.reset_cause);
   static_cast<void>(restore_parameters());
   health_.failed_tests = static_cast<std::uint8_t>(failed_self_tests());
-  if (p.initial_present < 0.5) return Status::kOk;
-  const StartOffer offer = rough_offer(p, initial_pose(p), initial_rates(p), boundary_0_us);
-  if (offer_start(StartWay::kApriori, offer) != StartRefusal::kNone) return Status::kBadValue;
-  request_start(StartWay::kApriori);
+  if (p.initial_present > 0.5) start_from_mission(boundary_0_us);
   return Status::kOk;
+}
+
+// The ways that are left are tried in bearing.
+void Component::start_from_mission(TimeUs t_us) {
+  const MissionParameters& p = mission().parameters;
+  const StartRefusal refusal = offer_start(StartWay::kApriori, rough_offer(p, initial_pose(p), initial_rates(p), t_us));
+  if (refusal == StartRefusal::kNone) return request_start(StartWay::kApriori);
+  request_ = Request::kCommand;
+  requested_event_ = ModeEvent::kSeek;
 }
 
 StartRefusal Component::offer_start(StartWay way, const StartOffer& offer) {

@@ -41,6 +41,23 @@ TEST(ComponentSearch, TheTargetIsFoundWithoutAnyPriorAndTracked) {
   for (const PoseTelemetry& t : story.reports) EXPECT_TRUE(t.valid == 0 || scene.error(t).norm() < 1e-2);
 }
 
+TEST(ComponentSearch, AMissionsOwnStartThatCannotBeRightGivesPlaceToTheSearch) {
+  VERIFIES("LASSO-MOD-133~2 LASSO-MOD-134~1");
+  MissionParameters p = search_parameters();
+  p.initial_present = 1;
+  p.initial_z_m = 5000;
+  p.recover = 0;
+  ComponentScene scene(p, test::uneven_scene());
+  scene.begin();
+  Story story;
+  story.run(scene, 16);
+  story.expect({{M::kStandby, E::kSeek, M::kBearing},
+                {M::kBearing, E::kSearch, M::kSearching},
+                {M::kSearching, E::kPoseValid, M::kStarting},
+                {M::kStarting, E::kPoseValid, M::kTracking}});
+  EXPECT_EQ(story.last().refusal, static_cast<std::uint8_t>(StartRefusal::kOutOfReach));
+}
+
 TEST(ComponentSearch, ALostTargetIsLookedForNearItsPredictionThenSearched) {
   VERIFIES("LASSO-MOD-142~1");
   MissionParameters p = search_parameters();

@@ -148,7 +148,7 @@ TEST_F(StartsTest, WhatIsNotAtTheBearingIsRefused) {
 }
 
 TEST_F(StartsTest, TheDeskFollowsTheMissionsOrder) {
-  VERIFIES("LASSO-MOD-131~1 LASSO-MOD-133~1");
+  VERIFIES("LASSO-MOD-131~1 LASSO-MOD-133~2");
   StartDesk desk;
   MissionParameters& p = mission_.parameters;
   EXPECT_EQ(desk.next(p, false), StartWay::kNone);
@@ -169,7 +169,7 @@ TEST_F(StartsTest, TheDeskFollowsTheMissionsOrder) {
 }
 
 TEST_F(StartsTest, SearchHasItsTurnWhereItIsPossibleAndAgainWhenAllElseIsTried) {
-  VERIFIES("LASSO-MOD-131~1 LASSO-MOD-133~1");
+  VERIFIES("LASSO-MOD-131~1 LASSO-MOD-133~2");
   StartDesk desk;
   MissionParameters& p = mission_.parameters;
   p.start_first = static_cast<double>(StartWay::kSearch);
