@@ -265,7 +265,7 @@ TEST(ComponentModes, AMissionsOwnStartIsRefusedByItsReasonAndTheNextWayIsTried) 
   MissionParameters out_of_reach = test::box_parameters(test::default_scene());
   out_of_reach.initial_z_m = 5000;
   MissionParameters not_unit = test::box_parameters(test::default_scene());
-  not_unit.initial_qw += 0.3;
+  not_unit.initial_qw -= 0.3;
   const std::pair<MissionParameters, StartRefusal> cases[] = {
       {behind, StartRefusal::kOutOfReach}, {out_of_reach, StartRefusal::kOutOfReach}, {not_unit, StartRefusal::kNotUnit}};
   for (const auto& [p, refusal] : cases) {
