@@ -129,6 +129,7 @@ std::string check_text(const MissionSource& source) {
   std::ostringstream out;
   for (const std::string& warning : source.warnings) out << "warning: " << warning << '\n';
   const Mesh mesh = load_target(source);
+  for (const PartSource& part : source.parts) static_cast<void>(load_part(source, part, mesh));
   const Box box = box_of(mesh);
   const Eigen::Vector3d size = box.high - box.low;
   out << source.file.string() << ": good: mission " << source.id << " \"" << source.name << "\" version " << source.version
