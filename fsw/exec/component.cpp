@@ -251,14 +251,18 @@ void Component::leave_track() {
   part_ = kWhole;
 }
 
-// Loop bound: each try takes an offer, of which there is one a way; a search awaits no other start.
+// Loop bound: each try takes an offer, of which there is one a way; a search awaits no other start. Where all are refused a search is the
+// next way, whose turn comes in bearing.
 void Component::try_ways() {
   if (track_.held) return;
+  const std::uint32_t refused = counters_.refused_starts;
   StartWay way = next_way();
   while (properties(track_.mode).awaits_start && way != StartWay::kNone) {
     take_way(way);
     way = next_way();
   }
+  const bool left = properties(track_.mode).awaits_start && is_in_order(mission().parameters, StartWay::kSearch);
+  if (left && counters_.refused_starts != refused) take(ModeEvent::kSeek);
 }
 
 StartWay Component::next_way() const {

@@ -51,13 +51,13 @@ inline constexpr Choice kTrackingModes[] = {
 };
 inline constexpr Choice kModeEvents[] = {
   {"start", "a pose to start from is given, or the next way's turn has come"},
-  {"stop", "commanded to standby"},
+  {"stop", "commanded to standby, or an image takes over that cannot go on with the track"},
   {"pose_valid", "a scan gave a valid pose"},
   {"pose_invalid", "a scan gave none, and the mode's frames are not used up"},
   {"exhausted", "the mode's frames are used up, and the mission asks for no recovery", "see mode lost; tracking.recover asks for recovery"},
-  {"recover", "the mode's frames are used up, and the mission asks for recovery"},
-  {"seek", "commanded to look for the target in the whole field"},
-  {"reacquire", "commanded to look near the prediction"},
+  {"recover", "the mode's frames are used up, and the mission asks for recovery, or a start that no scan confirmed leaves a search to be tried"},
+  {"seek", "commanded to look for the target in the whole field; or a start is refused, or a fault leaves no prediction"},
+  {"reacquire", "commanded to look near the prediction, or the answer to a fault, or to an image that lost the track"},
   {"bearing_known", "a full-field scan gave a bearing"},
   {"bearing_unknown", "a full-field scan gave none"},
   {"search", "commanded to look for the pose at any attitude, or the turn of that way to start"},

@@ -22,13 +22,13 @@ enum class TrackingMode : std::uint8_t {
 
 enum class ModeEvent : std::uint8_t {
   kStart = 0,           // a pose to start from is given, or the next way's turn has come
-  kStop = 1,            // commanded to standby
+  kStop = 1,            // commanded to standby, or an image takes over that cannot go on with the track
   kPoseValid = 2,       // a scan gave a valid pose
   kPoseInvalid = 3,     // a scan gave none, and the mode's frames are not used up
   kExhausted = 4,       // they are used up, and the mission asks for no recovery
-  kRecover = 5,         // they are used up, and the mission asks for recovery
-  kSeek = 6,            // commanded to look for the target in the whole field
-  kReacquire = 7,       // commanded to look near the prediction
+  kRecover = 5,         // they are used up, and the mission asks for recovery, or a start leaves a search to be tried
+  kSeek = 6,            // commanded to look for the target in the whole field; or a start is refused, or a fault leaves no prediction
+  kReacquire = 7,       // commanded to look near the prediction, or the answer to a fault, or to an image that lost the track
   kBearingKnown = 8,    // a full-field scan gave a bearing
   kBearingUnknown = 9,  // a full-field scan gave none
   kSearch = 10,         // commanded to look for the pose at any attitude, or the turn of that way to start
@@ -62,7 +62,7 @@ struct ModeProperties {
 
 struct ModeEventProperties {
   ModeEvent event;
-  bool commanded;
+  bool commanded;  // it can be; the component may cause it, too
   const char* name;
 };
 

@@ -68,10 +68,15 @@ ModeEvent event_of_valid(const MissionParameters& p, const TrackState& state) {
   return ModeEvent::kPoseValid;
 }
 
+// Where no scan confirms a start, a search is a way that is left, unless it was its own; its turn comes in bearing.
+bool leaves_search(const MissionParameters& p, const TrackState& state) {
+  return state.mode == TrackingMode::kStarting && state.way != StartWay::kSearch && is_in_order(p, StartWay::kSearch);
+}
+
 ModeEvent event_of(const MissionParameters& p, const TrackState& state, bool valid) {
   if (valid) return event_of_valid(p, state);
   if (state.held || state.missed <= frames_of(p, state.mode)) return ModeEvent::kPoseInvalid;
-  return p.recover > 0.5 ? ModeEvent::kRecover : ModeEvent::kExhausted;
+  return p.recover > 0.5 || leaves_search(p, state) ? ModeEvent::kRecover : ModeEvent::kExhausted;
 }
 
 // Joins the step's registration to its filter if the mode takes it, and changes the mode accordingly.

@@ -41,8 +41,9 @@ void print_page(std::ostream& out) {
          "- **awaits a start**: the next untried pose to start from is taken, in the mission's order `start.first` to `start.fifth`. "
          "Search\n  has its turn in bearing, once the bearing is known.\n\n"
          "`exhausted` and `recover` come when the mode's frames (`start.frames`, `tracking.coast_frames`, `tracking.reacquire_frames`,\n"
-         "`search.frames`) are used up and the mode is not held; which of the two, `tracking.recover` says. An event that a mode has "
-         "no row for changes\nnothing. `near` and `far` are valid poses within `short_range.enter_m` of the target's origin in tracking, "
+         "`search.frames`) are used up and the mode is not held; which of the two, `tracking.recover` says; a start that no scan "
+         "confirmed ends\nwith `recover`, too, where a search is left to be tried. An event that a mode has no row for changes nothing. "
+         "`near` and `far` are valid poses within `short_range.enter_m` of the target's origin in tracking, "
          "and "
          "beyond `short_range.leave_m` in\nshort_range, if the mode is not held.\n\n";
   print_modes(out);

@@ -184,6 +184,17 @@ TEST_F(StartsTest, SearchHasItsTurnWhereItIsPossibleAndAgainWhenAllElseIsTried) 
   EXPECT_EQ(desk.next(p, false), StartWay::kNone);
 }
 
+TEST_F(StartsTest, TheOrderNamesItsWays) {
+  VERIFIES("LASSO-MOD-133~2");
+  MissionParameters& p = mission_.parameters;
+  p.start_first = static_cast<double>(StartWay::kSearch);
+  p.start_fifth = static_cast<double>(StartWay::kUplink);
+  EXPECT_TRUE(is_in_order(p, StartWay::kSearch));
+  EXPECT_TRUE(is_in_order(p, StartWay::kUplink));
+  p.start_first = static_cast<double>(StartWay::kNone);
+  EXPECT_FALSE(is_in_order(p, StartWay::kSearch));
+}
+
 TEST(StartNames, AreThoseOfTheCode) {
   VERIFIES("LASSO-MOD-134~1");
   EXPECT_EQ(std::string(to_string(StartWay::kUplink)), "uplink");
