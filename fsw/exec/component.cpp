@@ -222,12 +222,15 @@ void Component::apply_request() {
   try_ways();
 }
 
-// Nothing where the mode is there already, or has changed since the event was asked for.
+// Nothing where the mode is there already, or has changed since the event was asked for. Between tracking and short_range the track goes
+// on, with the scans that are on their way.
 void Component::take(ModeEvent event) {
   if (event == ModeEvent::kMakeSafe) inhibit_laser();
   if (!has_transition(track_.mode, event)) return;
   note_change({track_.mode, event, next_mode(track_.mode, event)});
   change_mode(event, track_);
+  part_ = kWhole;
+  if (event == ModeEvent::kNear || event == ModeEvent::kFar) return;
   leave_track();
   before_trial_ = TrackState{};
 }

@@ -93,8 +93,9 @@ class Component {
   StartRefusal offer_start(StartWay way, const StartOffer& offer);
   // An uplink as uncertain as tracking.start_sigma_* say. kBadOrder before begin(), kNotFinite, kBadValue for every other refusal.
   Status start_tracking(const Pose& T_sensor_target, const Twist& rates, TimeUs t_us);
-  // Standby, bearing, searching, reacquiring or safe, at the next boundary; until then nothing takes the place of safe. What is refused
-  // changes nothing.
+  // Standby, bearing, searching, reacquiring, tracking (from short_range), short_range (from tracking) or safe, at the next boundary; until
+  // then nothing takes the place of safe. What is refused changes nothing. Tracking within short_range.enter_m, or short_range beyond
+  // leave_m, is not left for the range before the range has once been the mode's (TrackState::range_awaited).
   ModeRefusal command_mode(TrackingMode mode);
   // Standby. kBadOrder before begin().
   Status stop_tracking();

@@ -61,8 +61,8 @@ inline constexpr Choice kModeEvents[] = {
   {"bearing_known", "a full-field scan gave a bearing"},
   {"bearing_unknown", "a full-field scan gave none"},
   {"search", "commanded to look for the pose at any attitude, or the turn of that way to start"},
-  {"near", "a scan gave a valid pose, within short_range.enter_m"},
-  {"far", "a scan gave a valid pose, beyond short_range.leave_m"},
+  {"near", "a scan gave a valid pose, within short_range.enter_m, or commanded to look at parts"},
+  {"far", "a scan gave a valid pose, beyond short_range.leave_m, or commanded to leave the parts"},
   {"make_safe", "commanded, or the answer to a fault", "look at the faults in telemetry"},
 };
 inline constexpr Choice kWays[] = {

@@ -27,7 +27,7 @@ constexpr ModeTransition kTransitions[] = {
   {M::kTracking,    E::kReacquire,      M::kReacquiring, "commanded, or the answer to a fault"},
   {M::kTracking,    E::kSearch,         M::kSearching,   "commanded"},
   {M::kTracking,    E::kPoseValid,      M::kTracking,    "the track holds"},
-  {M::kTracking,    E::kNear,           M::kShortRange,  "close by: its parts in turn"},
+  {M::kTracking,    E::kNear,           M::kShortRange,  "close by: its parts in turn; or commanded"},
   {M::kTracking,    E::kPoseInvalid,    M::kCoasting,    "the filter bridges a scan without a pose"},
   {M::kTracking,    E::kExhausted,      M::kLost,        "no coasting is allowed"},
   {M::kTracking,    E::kRecover,        M::kReacquiring, "no coasting is allowed: look near the prediction"},
@@ -78,7 +78,7 @@ constexpr ModeTransition kTransitions[] = {
   {M::kShortRange,  E::kSearch,         M::kSearching,   "commanded"},
   {M::kShortRange,  E::kPoseValid,      M::kShortRange,  "the track holds"},
   {M::kShortRange,  E::kPoseInvalid,    M::kShortRange,  "the filter bridges a part without a pose"},
-  {M::kShortRange,  E::kFar,            M::kTracking,    "far enough to be scanned as a whole"},
+  {M::kShortRange,  E::kFar,            M::kTracking,    "far enough to be scanned as a whole; or commanded"},
   {M::kShortRange,  E::kExhausted,      M::kLost,        "too many scans without a pose"},
   {M::kShortRange,  E::kRecover,        M::kReacquiring, "too many scans without a pose: look near the prediction"},
   {M::kShortRange,  E::kMakeSafe,      M::kSafe,        "commanded, or the answer to a fault"},
@@ -111,8 +111,8 @@ constexpr ModeEventProperties kEvents[] = {
   {E::kBearingKnown, false, "bearing_known"},
   {E::kBearingUnknown, false, "bearing_unknown"},
   {E::kSearch, true, "search"},
-  {E::kNear, false, "near"},
-  {E::kFar, false, "far"},
+  {E::kNear, true, "near"},
+  {E::kFar, true, "far"},
   {E::kMakeSafe, true, "make_safe"},
 };
 // clang-format on
@@ -145,11 +145,8 @@ bool command_event(TrackingMode mode, ModeEvent& event) {
   constexpr struct {
     TrackingMode mode;
     ModeEvent event;
-  } kCommands[] = {{M::kStandby, E::kStop},
-                   {M::kBearing, E::kSeek},
-                   {M::kReacquiring, E::kReacquire},
-                   {M::kSearching, E::kSearch},
-                   {M::kSafe, E::kMakeSafe}};
+  } kCommands[] = {{M::kStandby, E::kStop}, {M::kBearing, E::kSeek},    {M::kReacquiring, E::kReacquire}, {M::kSearching, E::kSearch},
+                   {M::kTracking, E::kFar}, {M::kShortRange, E::kNear}, {M::kSafe, E::kMakeSafe}};
   for (const auto& command : kCommands) {
     if (command.mode != mode) continue;
     event = command.event;

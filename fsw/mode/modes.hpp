@@ -32,8 +32,8 @@ enum class ModeEvent : std::uint8_t {
   kBearingKnown = 8,    // a full-field scan gave a bearing
   kBearingUnknown = 9,  // a full-field scan gave none
   kSearch = 10,         // commanded to look for the pose at any attitude, or the turn of that way to start
-  kNear = 11,           // a scan gave a valid pose, within short_range.enter_m
-  kFar = 12,            // a scan gave a valid pose, beyond short_range.leave_m
+  kNear = 11,           // a scan gave a valid pose, within short_range.enter_m; or commanded to look at parts
+  kFar = 12,            // a scan gave a valid pose, beyond short_range.leave_m; or commanded to leave the parts
   kMakeSafe = 13,       // commanded, or the answer to a fault
 };
 
@@ -77,7 +77,7 @@ struct ModeChange {
 enum class ModeRefusal : std::uint8_t {
   kNone = 0,
   kNotBegun = 1,      // the component has not begun
-  kNotByCommand = 2,  // scans lead there; starting needs a pose (offer_start)
+  kNotByCommand = 2,  // scans lead there: coasting, lost; starting needs a pose (offer_start)
   kNotFromHere = 3,   // the table has no such way out of the present mode
   kNoPrediction = 4,  // nothing was tracked, so there is no place to look near
 };

@@ -45,7 +45,12 @@ void print_page(std::ostream& out) {
          "confirmed ends\nwith `recover`, too, where a search is left to be tried. An event that a mode has no row for changes nothing. "
          "`near` and `far` are valid poses within `short_range.enter_m` of the target's origin in tracking, "
          "and "
-         "beyond `short_range.leave_m` in\nshort_range, if the mode is not held.\n\n";
+         "beyond `short_range.leave_m` in\nshort_range, if the mode is not held; or commanded. After either, by range or by command, the "
+         "range "
+         "does not change the mode back before a valid\npose has been where the mode is for: within `short_range.leave_m` in "
+         "short_range, not within `short_range.enter_m` otherwise. So a short_range\nthat is commanded far away, or a tracking close by, "
+         "stays until the target has come, or gone, to its side of the limit and crosses it again, or\nuntil another mode is "
+         "commanded.\n\n";
   print_modes(out);
   out << '\n';
   print_transitions(out);

@@ -30,7 +30,7 @@ Vec6 wrong() {
 }
 
 TEST(ComponentModes, ABearingIsSoughtOverTheWholeField) {
-  VERIFIES("LASSO-MOD-101~1 LASSO-MOD-136~2 LASSO-MOD-137~1");
+  VERIFIES("LASSO-MOD-101~1 LASSO-MOD-136~3 LASSO-MOD-137~1");
   ComponentScene scene(story_parameters());
   scene.begin();
   ASSERT_EQ(scene.component->command_mode(M::kBearing), ModeRefusal::kNone);
@@ -146,11 +146,16 @@ TEST(ComponentModes, ALongEclipseEndsInABearingAndANewStart) {
 }
 
 TEST(ComponentModes, CommandsThatCannotBeAreRefusedByTheirName) {
-  VERIFIES("LASSO-MOD-136~2 LASSO-MOD-173~1");
+  VERIFIES("LASSO-MOD-136~3 LASSO-MOD-173~1");
   ComponentScene scene(story_parameters());
   EXPECT_EQ(scene.component->command_mode(M::kStandby), ModeRefusal::kNotBegun);
   scene.begin();
-  EXPECT_EQ(scene.component->command_mode(M::kTracking), ModeRefusal::kNotByCommand);
+  for (const M mode : {M::kStarting, M::kCoasting, M::kLost}) {
+    EXPECT_EQ(scene.component->command_mode(mode), ModeRefusal::kNotByCommand) << to_string(mode);
+  }
+  for (const M mode : {M::kTracking, M::kShortRange}) {
+    EXPECT_EQ(scene.component->command_mode(mode), ModeRefusal::kNotFromHere) << to_string(mode);
+  }
   EXPECT_EQ(scene.component->command_mode(M::kReacquiring), ModeRefusal::kNoPrediction);
   EXPECT_EQ(scene.component->command_mode(M::kStandby), ModeRefusal::kNone) << "it is there already";
   scene.run_frame();
@@ -160,11 +165,11 @@ TEST(ComponentModes, CommandsThatCannotBeAreRefusedByTheirName) {
   Story story;
   story.run(scene, 4);
   EXPECT_EQ(story.last().mode, code(M::kTracking));
-  EXPECT_EQ(story.last().refused_commands, 3u);
+  EXPECT_EQ(story.last().refused_commands, 7u);
 }
 
 TEST(ComponentModes, AnyModeCanBeCommanded) {
-  VERIFIES("LASSO-MOD-136~2 LASSO-MOD-137~1 LASSO-MOD-173~1");
+  VERIFIES("LASSO-MOD-136~3 LASSO-MOD-137~1 LASSO-MOD-173~1");
   ComponentScene scene(story_parameters());
   scene.begin();
   ASSERT_EQ(scene.component->offer_start(StartWay::kUplink, offer_at(scene, 0)), StartRefusal::kNone);
@@ -190,7 +195,7 @@ TEST(ComponentModes, AnyModeCanBeCommanded) {
 }
 
 TEST(ComponentModes, AHeldModeStaysUntilItIsReleased) {
-  VERIFIES("LASSO-MOD-136~2 LASSO-MOD-173~1");
+  VERIFIES("LASSO-MOD-136~3 LASSO-MOD-173~1");
   ComponentScene scene(story_parameters());
   scene.begin();
   ASSERT_EQ(scene.component->command_mode(M::kBearing), ModeRefusal::kNone);

@@ -138,7 +138,7 @@ TEST(ComponentSearch, ALostTargetIsLookedForNearItsPredictionThenSearched) {
 
 // A box looks alike from several sides: never a guess, and the candidates are told.
 TEST(ComponentSearch, AnAmbiguousTargetIsNeverTracked) {
-  VERIFIES("LASSO-MOD-124~1 LASSO-MOD-120~1 LASSO-MOD-136~2");
+  VERIFIES("LASSO-MOD-124~1 LASSO-MOD-120~1 LASSO-MOD-136~3");
   MissionParameters p = story_parameters();
   p.points = 400;
   p.search_slice = 1e7;
@@ -161,7 +161,7 @@ TEST(ComponentSearch, AnAmbiguousTargetIsNeverTracked) {
 }
 
 TEST(ComponentSearch, ASearchThatIsAlwaysLateEnds) {
-  VERIFIES("LASSO-MOD-136~2 LASSO-EXE-003~1");
+  VERIFIES("LASSO-MOD-136~3 LASSO-EXE-003~1");
   MissionParameters p = story_parameters();
   p.search_frames = 3;
   ComponentScene scene(p);
@@ -175,7 +175,7 @@ TEST(ComponentSearch, ASearchThatIsAlwaysLateEnds) {
 }
 
 TEST(ComponentSearch, ASearchTrustsNoOldBearing) {
-  VERIFIES("LASSO-MOD-136~2");
+  VERIFIES("LASSO-MOD-136~3");
   MissionParameters p = story_parameters();
   p.bearing_memory_s = 1;
   ComponentScene scene(p);

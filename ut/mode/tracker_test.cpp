@@ -218,7 +218,7 @@ TEST_F(TrackerTest, AStartThatIsNotConfirmedLeavesASearchThatIsInTheOrder) {
 }
 
 TEST_F(TrackerTest, AHeldModeDoesNotEndByItself) {
-  VERIFIES("LASSO-MOD-136~2");
+  VERIFIES("LASSO-MOD-136~3");
   MissionParameters p = test::box_parameters(scene_);
   p.coast_frames = 1;
   load(p);
