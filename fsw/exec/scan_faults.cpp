@@ -36,7 +36,12 @@ constexpr std::size_t kMeasuredBytes = offsetof(RangeSample, t_us);
 static_assert(kMeasuredBytes == sizeof(RangeSample::direction) + sizeof(RangeSample::range_m), "direction and range, without gaps");
 ConstBytes measured(const RangeSample& sample) { return {reinterpret_cast<const std::uint8_t*>(&sample), kMeasuredBytes}; }
 
-bool apart(float a, float b) { return a - b > kTracedOffset || b - a > kTracedOffset; }
+float distance(float a, float b) { return a < b ? b - a : a - b; }
+bool apart(const AimedRay& a, const AimedRay& b) { return distance(a.x, b.x) > kTracedOffset || distance(a.y, b.y) > kTracedOffset; }
+
+AimedRay place_of(const Vec3& direction) {
+  return {static_cast<float>(direction.x() / direction.z()), static_cast<float>(direction.y() / direction.z())};
+}
 
 }  // namespace
 
@@ -59,25 +64,18 @@ ScanTrace trace_of(const ScanPlan& plan, const RangeImage& image) {
     trace.digest = crc32c(measured(sample), trace.digest);
     if (sample.state != RayState::kInvalid) ++trace.rays;
   }
-  std::size_t ray = 0;
-  for (float(&planned)[2] : trace.planned) {
-    const Vec3 direction = pattern_direction(plan, static_cast<std::uint16_t>(ray * plan.points / kTracedRays));
-    planned[0] = static_cast<float>(direction.x());
-    planned[1] = static_cast<float>(direction.y());
-    ++ray;
+  for (std::size_t i = 0; i < kTracedRays; ++i) {
+    trace.planned[i] = place_of(pattern_direction(plan, static_cast<std::uint16_t>(i * plan.points / kTracedRays)));
   }
   return trace;
 }
 
 bool is_repeated(const ScanTrace& before, const ScanTrace& scan) {
   if (scan.rays < kRaysToTell || scan.digest != before.digest) return false;
-  bool elsewhere = false;
-  const float(*was)[2] = before.planned;
-  for (const float(&now)[2] : scan.planned) {
-    elsewhere = elsewhere || apart(now[0], (*was)[0]) || apart(now[1], (*was)[1]);
-    ++was;
+  for (std::size_t i = 0; i < kTracedRays; ++i) {
+    if (apart(scan.planned[i], before.planned[i])) return true;
   }
-  return elsewhere;
+  return false;
 }
 
 FaultSet scan_faults(const ScanVerdict& verdict) {

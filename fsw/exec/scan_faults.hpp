@@ -26,13 +26,13 @@ constexpr double kDamagedShare = 0.05;
 constexpr double kStuckShare = 0.25;
 constexpr std::size_t kRaysToTell = 32;       // fewer do not tell whether the mirrors move
 constexpr std::size_t kTracedRays = 16;       // of a plan, evenly over it
-constexpr float kTracedOffset = 1.0F / 8192;  // of a direction's components: more than mirrors resolve, less than plans differ by
+constexpr float kTracedOffset = 1.0F / 8192;  // on the tangent plane: more than mirrors resolve, less than plans differ by that differ
 
 // What is kept of a scan to know it again.
 struct ScanTrace {
-  std::uint32_t digest = 0;            // CRC-32C of the measured directions and ranges, all of them, bit for bit
-  std::size_t rays = 0;                // that say where they went
-  float planned[kTracedRays][2] = {};  // where its plan wanted some of them: x and y of their unit vectors
+  std::uint32_t digest = 0;       // CRC-32C of the measured directions and ranges, all of them, bit for bit
+  std::size_t rays = 0;           // that say where they went
+  AimedRay planned[kTracedRays];  // where its plan wanted some of them
 };
 // Loop bound: kMaxRays. The plan is valid.
 ScanTrace trace_of(const ScanPlan& plan, const RangeImage& image);
