@@ -1,6 +1,5 @@
 #include "fsw/exec/acquisition_task.hpp"
 
-#include "fsw/exec/scan_faults.hpp"
 #include "fsw/sense/planner.hpp"
 
 namespace lasso {
@@ -77,16 +76,24 @@ void AcquisitionTask::calibrate(SensorNumber sensor, const ImageSlot& image) {
   Span<ScanTally>(tallies_)[sensor].calibration = found ? index : kOwnCalibration;
 }
 
-// Mirrors that stand still leave an image that a pose could be read into.
 ScanEnd AcquisitionTask::finish(const ScanPlan& plan) {
   ScanEnd end{asked_, acquisition_.finish(*sensors_[sensor_], images_[filling_])};
-  if (mirrors_stuck(plan, images_[filling_])) {
-    end.verdict.usable = false;
-    end.verdict.loss = ScanLoss::kStuck;
-  }
+  if (end.verdict.usable) end.verdict.loss = doubt(plan);
+  if (end.verdict.loss != ScanLoss::kNone) end.verdict.usable = false;
   if (asked_) note(end.verdict.loss);
   asked_ = false;
   return end;
+}
+
+// Mirrors that stand still, and a scan that is given again, leave an image that a pose could be read into.
+ScanLoss AcquisitionTask::doubt(const ScanPlan& plan) {
+  const RangeImage& image = images_[filling_];
+  if (mirrors_stuck(plan, image)) return ScanLoss::kStuck;
+  ScanTrace& before = Span<ScanTrace>(traces_)[sensor_];
+  const ScanTrace scan = trace_of(plan, image);
+  const bool repeated = is_repeated(before, scan);
+  before = scan;
+  return repeated ? ScanLoss::kFrozen : ScanLoss::kNone;
 }
 
 void AcquisitionTask::note(ScanLoss loss) {

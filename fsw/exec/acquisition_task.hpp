@@ -6,6 +6,7 @@
 
 #include "fsw/core/time.hpp"
 #include "fsw/core/voted.hpp"
+#include "fsw/exec/scan_faults.hpp"
 #include "fsw/geometry/se3.hpp"
 #include "fsw/mission/image_slot.hpp"
 #include "fsw/mission/mission.hpp"
@@ -77,6 +78,7 @@ class AcquisitionTask {
  private:
   void keep(Span<const AimedRay> rays);
   std::uint8_t choice(SensorNumber sensor) const { return static_cast<std::uint8_t>(choices() >> 8U * sensor); }
+  ScanLoss doubt(const ScanPlan& plan);
   void note(ScanLoss loss);
 
   SensorBank sensors_;
@@ -86,6 +88,7 @@ class AcquisitionTask {
   RangeImage images_[2];
   AimedRays aimed_;  // of the scan under way
   ScanTally tallies_[kMaxSensors];
+  ScanTrace traces_[kMaxSensors];    // of the last scan each that could be estimated from
   Voted<std::uint32_t> choices_{0};  // of calibrations, a byte a sensor
   std::uint32_t filling_ = 0;
 };

@@ -37,11 +37,17 @@ Status Component::begin(TimeUs boundary_0_us) {
   events_.raise<EventId::kBegun>(software_version(), software_build(), mission().image_crc, health_.reset_cause);
   static_cast<void>(restore_parameters());
   health_.failed_tests = static_cast<std::uint8_t>(failed_self_tests());
-  if (p.initial_present < 0.5) return Status::kOk;
-  const StartOffer offer = rough_offer(p, initial_pose(p), initial_rates(p), boundary_0_us);
-  if (offer_start(StartWay::kApriori, offer) != StartRefusal::kNone) return Status::kBadValue;
-  request_start(StartWay::kApriori);
+  if (p.initial_present > 0.5) start_from_mission(boundary_0_us);
   return Status::kOk;
+}
+
+// The ways that are left are tried in bearing.
+void Component::start_from_mission(TimeUs t_us) {
+  const MissionParameters& p = mission().parameters;
+  const StartRefusal refusal = offer_start(StartWay::kApriori, rough_offer(p, initial_pose(p), initial_rates(p), t_us));
+  if (refusal == StartRefusal::kNone) return request_start(StartWay::kApriori);
+  request_ = Request::kCommand;
+  requested_event_ = ModeEvent::kSeek;
 }
 
 StartRefusal Component::offer_start(StartWay way, const StartOffer& offer) {
@@ -216,12 +222,15 @@ void Component::apply_request() {
   try_ways();
 }
 
-// Nothing where the mode is there already, or has changed since the event was asked for.
+// Nothing where the mode is there already, or has changed since the event was asked for. Between tracking and short_range the track goes
+// on, with the scans that are on their way.
 void Component::take(ModeEvent event) {
   if (event == ModeEvent::kMakeSafe) inhibit_laser();
   if (!has_transition(track_.mode, event)) return;
   note_change({track_.mode, event, next_mode(track_.mode, event)});
   change_mode(event, track_);
+  part_ = kWhole;
+  if (event == ModeEvent::kNear || event == ModeEvent::kFar) return;
   leave_track();
   before_trial_ = TrackState{};
 }
@@ -245,14 +254,18 @@ void Component::leave_track() {
   part_ = kWhole;
 }
 
-// Loop bound: each try takes an offer, of which there is one a way; a search awaits no other start.
+// Loop bound: each try takes an offer, of which there is one a way; a search awaits no other start. Where all are refused a search is the
+// next way, whose turn comes in bearing.
 void Component::try_ways() {
   if (track_.held) return;
+  const std::uint32_t refused = counters_.refused_starts;
   StartWay way = next_way();
   while (properties(track_.mode).awaits_start && way != StartWay::kNone) {
     take_way(way);
     way = next_way();
   }
+  const bool left = properties(track_.mode).awaits_start && is_in_order(mission().parameters, StartWay::kSearch);
+  if (left && counters_.refused_starts != refused) take(ModeEvent::kSeek);
 }
 
 StartWay Component::next_way() const {

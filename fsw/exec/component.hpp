@@ -82,8 +82,9 @@ class Component {
   ImageRefusal activate_image(std::uint32_t crc);
   ImageRefusal roll_back_image();
 
-  // Sets the time of boundary 0. Tracking starts from tracking.initial if the mission has one. kMissing without an image, kBadOrder when
-  // begun already.
+  // Sets the time of boundary 0. Tracking starts from tracking.initial if the mission has one; where that cannot be right it is refused as
+  // any other start, and the other ways of the mission's order have their turn in bearing. kMissing without an image, kBadOrder when begun
+  // already.
   Status begin(TimeUs boundary_0_us);
 
   // A pose to start from. By hand-over and uplink the track starts from it at the next boundary; a running track is left, its scan in
@@ -92,8 +93,9 @@ class Component {
   StartRefusal offer_start(StartWay way, const StartOffer& offer);
   // An uplink as uncertain as tracking.start_sigma_* say. kBadOrder before begin(), kNotFinite, kBadValue for every other refusal.
   Status start_tracking(const Pose& T_sensor_target, const Twist& rates, TimeUs t_us);
-  // Standby, bearing, searching, reacquiring or safe, at the next boundary; until then nothing takes the place of safe. What is refused
-  // changes nothing.
+  // Standby, bearing, searching, reacquiring, tracking (from short_range), short_range (from tracking) or safe, at the next boundary; until
+  // then nothing takes the place of safe. What is refused changes nothing. Tracking within short_range.enter_m, or short_range beyond
+  // leave_m, is not left for the range before the range has once been the mode's (TrackState::range_awaited).
   ModeRefusal command_mode(TrackingMode mode);
   // Standby. kBadOrder before begin().
   Status stop_tracking();
@@ -190,6 +192,7 @@ class Component {
   bool safe_requested() const { return request_ == Request::kCommand && requested_event_ == ModeEvent::kMakeSafe; }
   void drop_request();
   void request_start(StartWay way);
+  void start_from_mission(TimeUs t_us);
   void try_start(StartWay way);
   void take(ModeEvent event);
   void feed_watchdog();

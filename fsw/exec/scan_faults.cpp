@@ -1,5 +1,10 @@
 #include "fsw/exec/scan_faults.hpp"
 
+#include <cstddef>
+
+#include "fsw/core/crc.hpp"
+#include "fsw/sense/pattern.hpp"
+
 namespace lasso {
 namespace {
 
@@ -23,9 +28,20 @@ std::uint32_t bad_samples(const ScanVerdict& verdict) {
 }
 
 constexpr std::uint32_t bit(ScanLoss loss) { return 1u << static_cast<unsigned>(loss); }
-constexpr std::uint32_t kWrongBytes = bit(ScanLoss::kForeign) | bit(ScanLoss::kOffPlan) | bit(ScanLoss::kOther);
+constexpr std::uint32_t kWrongBytes = bit(ScanLoss::kForeign) | bit(ScanLoss::kOffPlan) | bit(ScanLoss::kOther) | bit(ScanLoss::kFrozen);
 constexpr std::uint32_t kCutShort = bit(ScanLoss::kStopped) | bit(ScanLoss::kRestarted) | bit(ScanLoss::kThin);
 bool is_one_of(ScanLoss loss, std::uint32_t losses) { return (losses & bit(loss)) != 0; }
+
+constexpr std::size_t kMeasuredBytes = offsetof(RangeSample, t_us);
+static_assert(kMeasuredBytes == sizeof(RangeSample::direction) + sizeof(RangeSample::range_m), "direction and range, without gaps");
+ConstBytes measured(const RangeSample& sample) { return {reinterpret_cast<const std::uint8_t*>(&sample), kMeasuredBytes}; }
+
+float distance(float a, float b) { return a < b ? b - a : a - b; }
+bool apart(const AimedRay& a, const AimedRay& b) { return distance(a.x, b.x) > kTracedOffset || distance(a.y, b.y) > kTracedOffset; }
+
+AimedRay place_of(const Vec3& direction) {
+  return {static_cast<float>(direction.x() / direction.z()), static_cast<float>(direction.y() / direction.z())};
+}
 
 }  // namespace
 
@@ -40,6 +56,26 @@ bool mirrors_stuck(const ScanPlan& plan, const RangeImage& image) {
     ++rays;
   }
   return rays >= kRaysToTell && (x.half() < kStuckShare * plan.half_x || y.half() < kStuckShare * plan.half_y);
+}
+
+ScanTrace trace_of(const ScanPlan& plan, const RangeImage& image) {
+  ScanTrace trace;
+  for (const RangeSample& sample : image.samples) {
+    trace.digest = crc32c(measured(sample), trace.digest);
+    if (sample.state != RayState::kInvalid) ++trace.rays;
+  }
+  for (std::size_t i = 0; i < kTracedRays; ++i) {
+    trace.planned[i] = place_of(pattern_direction(plan, static_cast<std::uint16_t>(i * plan.points / kTracedRays)));
+  }
+  return trace;
+}
+
+bool is_repeated(const ScanTrace& before, const ScanTrace& scan) {
+  if (scan.rays < kRaysToTell || scan.digest != before.digest) return false;
+  for (std::size_t i = 0; i < kTracedRays; ++i) {
+    if (apart(scan.planned[i], before.planned[i])) return true;
+  }
+  return false;
 }
 
 FaultSet scan_faults(const ScanVerdict& verdict) {

@@ -20,6 +20,7 @@ void describe_losses(const ScanTally& tally, SensorTelemetry& out) {
   out.lost_unfinished = lost(ScanLoss::kUnfinished);
   out.lost_thin = lost(ScanLoss::kThin);
   out.lost_stuck = lost(ScanLoss::kStuck);
+  out.lost_frozen = lost(ScanLoss::kFrozen);
 }
 
 void describe_counters(const SensorCounters& counters, SensorTelemetry& out) {

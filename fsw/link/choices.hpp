@@ -52,18 +52,18 @@ inline constexpr Choice kTrackingModes[] = {
 };
 inline constexpr Choice kModeEvents[] = {
   {"start", "a pose to start from is given, or the next way's turn has come"},
-  {"stop", "commanded to standby"},
+  {"stop", "commanded to standby, or an image takes over that cannot go on with the track"},
   {"pose_valid", "a scan gave a valid pose"},
   {"pose_invalid", "a scan gave none, and the mode's frames are not used up"},
   {"exhausted", "the mode's frames are used up, and the mission asks for no recovery", "see mode lost; tracking.recover asks for recovery"},
-  {"recover", "the mode's frames are used up, and the mission asks for recovery"},
-  {"seek", "commanded to look for the target in the whole field"},
-  {"reacquire", "commanded to look near the prediction"},
+  {"recover", "the mode's frames are used up, and the mission asks for recovery, or a start that no scan confirmed leaves a search to be tried"},
+  {"seek", "commanded to look for the target in the whole field; or a start is refused, or a fault leaves no prediction"},
+  {"reacquire", "commanded to look near the prediction, or the answer to a fault, or to an image that lost the track"},
   {"bearing_known", "a full-field scan gave a bearing"},
   {"bearing_unknown", "a full-field scan gave none"},
   {"search", "commanded to look for the pose at any attitude, or the turn of that way to start"},
-  {"near", "a scan gave a valid pose, within short_range.enter_m"},
-  {"far", "a scan gave a valid pose, beyond short_range.leave_m"},
+  {"near", "a scan gave a valid pose, within short_range.enter_m, or commanded to look at parts"},
+  {"far", "a scan gave a valid pose, beyond short_range.leave_m, or commanded to leave the parts"},
   {"make_safe", "commanded, or the answer to a fault", "look at the faults in telemetry"},
 };
 inline constexpr Choice kWays[] = {
@@ -142,6 +142,7 @@ inline constexpr Choice kLossReasons[] = {
   {"unfinished", "too few samples were there at the frame's end", "look at the line; compare its rate with the scan's duration"},
   {"thin", "complete, but too few samples were well formed", "look at damaged_frames and samples_lost: a noisy line"},
   {"stuck", "the rays went nearly one way: the mirrors stand still", "look at the mirrors; reset the sensor"},
+  {"frozen", "its samples are those of the scan before, bit for bit, though other rays were planned", "reset the sensor"},
 };
 inline constexpr Choice kPacketFaults[] = {
   {"none", "it is accepted"},

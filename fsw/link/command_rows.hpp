@@ -16,7 +16,7 @@ constexpr Range kCucRange{0, 4294967296.0 * 1e6};  // 2^32 s
 
 // clang-format off
 inline constexpr TypedRow<ModeCommand> kMode[] = {
-  make_row<&ModeCommand::mode>(1, "mode", kTrackingMode, "standby, bearing, reacquiring, searching or safe"),
+  make_row<&ModeCommand::mode>(1, "mode", kTrackingMode, "standby, bearing, reacquiring, searching, tracking (from short_range), short_range (from tracking) or safe"),
 };
 inline constexpr TypedRow<HoldCommand> kHold[] = {
   make_row<&HoldCommand::held>(1, "held", kYesNo, "no mode ends because its frames are used up, and no start is taken but by command"),

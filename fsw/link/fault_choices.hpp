@@ -10,7 +10,7 @@ namespace lasso {
 inline constexpr Choice kFaultTexts[] = {
   {"sensor_silent", "no sample of a scan came, and no reason why", "look at the sensor's power and line"},
   {"sensor_late", "the sensor was still busy, or its scan did not end in time", "compare scan.duration_s with what the sensor needs"},
-  {"sensor_corrupt", "what the sensor sent cannot be, or more than a twentieth of its samples were damaged", "look at the line"},
+  {"sensor_corrupt", "what the sensor sent cannot be, is the scan before once more, or more than a twentieth of its samples were damaged", "look at the line, and at last_loss of the packet sensor"},
   {"sensor_stuck", "the rays fill less than a quarter of the plan's extents on an axis; the scan is not used", "look at the mirrors; reset the sensor"},
   {"sensor_saturated", "the sensor says of more than half of its samples that they mean nothing", "look for the sun or a mirror-like face in the field"},
   {"scan_incomplete", "samples came, too few for an estimate", "look at the sensor and its line"},

@@ -42,6 +42,7 @@ inline constexpr TypedRow<S> kRows[] = {
   make_row<&S::restarts>(29, "restarts", "1", kAny, "times that the sensor started anew"),
   make_row<&S::samples_outside>(30, "samples_outside", "1", kAny, "points from beside the calibrated volume or temperatures, which count for less"),
   make_row<&S::calibration>(31, "calibration", "1", kAny, "of those that the active image has for it, the one that its last scan went by, from 0; 255: none of them"),
+  make_row<&S::lost_frozen>(32, "lost_frozen", "1", kAny, "scans lost because their samples were those of the scan before, which was planned otherwise"),
 };
 // clang-format on
 

@@ -13,7 +13,7 @@ namespace lasso {
 struct SensorTelemetry {
   std::uint8_t sensor = 0;
   std::uint32_t scans = 0;
-  std::uint32_t lost = 0;      // the sum of the next twelve
+  std::uint32_t lost = 0;      // the sum of the items lost_*
   std::uint8_t last_loss = 0;  // ScanLoss
   std::uint32_t lost_inhibited = 0;
   std::uint32_t lost_no_room = 0;
@@ -28,6 +28,7 @@ struct SensorTelemetry {
   std::uint32_t lost_unfinished = 0;
   std::uint32_t lost_thin = 0;
   std::uint32_t lost_stuck = 0;
+  std::uint32_t lost_frozen = 0;
 
   std::uint32_t frames = 0;
   std::uint32_t damaged_frames = 0;

@@ -22,18 +22,18 @@ enum class TrackingMode : std::uint8_t {
 
 enum class ModeEvent : std::uint8_t {
   kStart = 0,           // a pose to start from is given, or the next way's turn has come
-  kStop = 1,            // commanded to standby
+  kStop = 1,            // commanded to standby, or an image takes over that cannot go on with the track
   kPoseValid = 2,       // a scan gave a valid pose
   kPoseInvalid = 3,     // a scan gave none, and the mode's frames are not used up
   kExhausted = 4,       // they are used up, and the mission asks for no recovery
-  kRecover = 5,         // they are used up, and the mission asks for recovery
-  kSeek = 6,            // commanded to look for the target in the whole field
-  kReacquire = 7,       // commanded to look near the prediction
+  kRecover = 5,         // they are used up, and the mission asks for recovery, or a start leaves a search to be tried
+  kSeek = 6,            // commanded to look for the target in the whole field; or a start is refused, or a fault leaves no prediction
+  kReacquire = 7,       // commanded to look near the prediction, or the answer to a fault, or to an image that lost the track
   kBearingKnown = 8,    // a full-field scan gave a bearing
   kBearingUnknown = 9,  // a full-field scan gave none
   kSearch = 10,         // commanded to look for the pose at any attitude, or the turn of that way to start
-  kNear = 11,           // a scan gave a valid pose, within short_range.enter_m
-  kFar = 12,            // a scan gave a valid pose, beyond short_range.leave_m
+  kNear = 11,           // a scan gave a valid pose, within short_range.enter_m; or commanded to look at parts
+  kFar = 12,            // a scan gave a valid pose, beyond short_range.leave_m; or commanded to leave the parts
   kMakeSafe = 13,       // commanded, or the answer to a fault
 };
 
@@ -62,7 +62,7 @@ struct ModeProperties {
 
 struct ModeEventProperties {
   ModeEvent event;
-  bool commanded;
+  bool commanded;  // it can be; the component may cause it, too
   const char* name;
 };
 
@@ -77,7 +77,7 @@ struct ModeChange {
 enum class ModeRefusal : std::uint8_t {
   kNone = 0,
   kNotBegun = 1,      // the component has not begun
-  kNotByCommand = 2,  // scans lead there; starting needs a pose (offer_start)
+  kNotByCommand = 2,  // scans lead there: coasting, lost; starting needs a pose (offer_start)
   kNotFromHere = 3,   // the table has no such way out of the present mode
   kNoPrediction = 4,  // nothing was tracked, so there is no place to look near
 };

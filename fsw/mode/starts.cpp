@@ -52,6 +52,15 @@ bool at_bearing(const Mission& mission, const BearingState& bearing, const Filte
   return square_root(apart_m.squaredNorm()) <= mission.radius_m + kBearingSigmas * square_root(variance);
 }
 
+struct WayOrder {
+  StartWay ways[5];
+};
+
+WayOrder order_of(const MissionParameters& p) {
+  const auto way = [](double choice) { return static_cast<StartWay>(static_cast<std::uint8_t>(choice)); };
+  return {{way(p.start_first), way(p.start_second), way(p.start_third), way(p.start_fourth), way(p.start_fifth)}};
+}
+
 std::size_t index_of(StartWay way) {
   const auto index = static_cast<std::size_t>(way);
   invariant(index < kStartWays, "no such way to start");
@@ -72,6 +81,12 @@ FilterStart filter_start(const MissionParameters& p, const StartOffer& offer) {
 }
 
 FilterNoise filter_noise(const MissionParameters& p) { return {p.acceleration_mps2, p.angular_acceleration_radps2, p.precession}; }
+
+bool is_in_order(const MissionParameters& p, StartWay way) {
+  bool named = false;
+  for (const StartWay one : order_of(p).ways) named = named || one == way;
+  return named;
+}
 
 StartOffer rough_offer(const MissionParameters& p, const Pose& T_sensor_target, const Twist& rates, TimeUs t_us) {
   StartOffer offer{t_us, T_sensor_target, rates, Mat6::Zero()};
@@ -107,9 +122,7 @@ const StartOffer& StartDesk::take(StartWay way) {
 
 StartWay StartDesk::next(const MissionParameters& p, bool may_search) const {
   StartWay again = StartWay::kNone;
-  const double order[] = {p.start_first, p.start_second, p.start_third, p.start_fourth, p.start_fifth};
-  for (const double choice : order) {
-    const auto way = static_cast<StartWay>(static_cast<std::uint8_t>(choice));
+  for (const StartWay way : order_of(p).ways) {
     const bool possible = may_search || way != StartWay::kSearch;
     if (possible && fresh_[index_of(way)]) return way;
     if (possible && way == StartWay::kSearch) again = way;

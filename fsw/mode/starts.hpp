@@ -46,6 +46,9 @@ const char* to_string(StartRefusal refusal);  // never null
 FilterStart filter_start(const MissionParameters& parameters, const StartOffer& offer);
 FilterNoise filter_noise(const MissionParameters& parameters);
 
+// Does the mission's order of ways name this one?
+bool is_in_order(const MissionParameters& parameters, StartWay way);
+
 // Believed as tracking.start_sigma_m and _deg say.
 StartOffer rough_offer(const MissionParameters& parameters, const Pose& T_sensor_target, const Twist& rates, TimeUs t_us);
 

@@ -59,19 +59,28 @@ double frames_of(const MissionParameters& p, TrackingMode mode) {
   return mode == TrackingMode::kReacquiring ? p.reacquire_frames : p.coast_frames;
 }
 
-// A valid pose, and how far away the target is.
-ModeEvent event_of_valid(const MissionParameters& p, const TrackState& state) {
+// Is the target as far away as it has to be for the mode?
+bool suits_range(const MissionParameters& p, const TrackState& state) {
   const double range2_m2 = state.filter.T_sensor_target.p.squaredNorm();
-  if (state.held) return ModeEvent::kPoseValid;
-  if (state.mode == TrackingMode::kTracking && range2_m2 < p.short_range_enter_m * p.short_range_enter_m) return ModeEvent::kNear;
-  if (state.mode == TrackingMode::kShortRange && range2_m2 > p.short_range_leave_m * p.short_range_leave_m) return ModeEvent::kFar;
-  return ModeEvent::kPoseValid;
+  if (state.mode == TrackingMode::kShortRange) return range2_m2 <= p.short_range_leave_m * p.short_range_leave_m;
+  return range2_m2 >= p.short_range_enter_m * p.short_range_enter_m;
+}
+
+ModeEvent event_of_valid(const MissionParameters& p, const TrackState& state) {
+  if (state.held || state.range_awaited || suits_range(p, state)) return ModeEvent::kPoseValid;
+  if (state.mode == TrackingMode::kTracking) return ModeEvent::kNear;
+  return state.mode == TrackingMode::kShortRange ? ModeEvent::kFar : ModeEvent::kPoseValid;
+}
+
+// Where no scan confirms a start, a search is a way that is left, unless it was its own; its turn comes in bearing.
+bool leaves_search(const MissionParameters& p, const TrackState& state) {
+  return state.mode == TrackingMode::kStarting && state.way != StartWay::kSearch && is_in_order(p, StartWay::kSearch);
 }
 
 ModeEvent event_of(const MissionParameters& p, const TrackState& state, bool valid) {
   if (valid) return event_of_valid(p, state);
   if (state.held || state.missed <= frames_of(p, state.mode)) return ModeEvent::kPoseInvalid;
-  return p.recover > 0.5 ? ModeEvent::kRecover : ModeEvent::kExhausted;
+  return p.recover > 0.5 || leaves_search(p, state) ? ModeEvent::kRecover : ModeEvent::kExhausted;
 }
 
 // Joins the step's registration to its filter if it is valid, and changes the mode accordingly.
@@ -111,6 +120,8 @@ void change_mode(ModeEvent event, TrackState& state) {
   if (next == state.mode) return;
   state.mode = next;
   if (next != TrackingMode::kCoasting) state.missed = 0;
+  if (next == TrackingMode::kStarting) state.range_awaited = false;
+  if (event == ModeEvent::kNear || event == ModeEvent::kFar) state.range_awaited = true;
   if (properties(next).by_parts) state.parts = PartsState{};
   if (properties(next).searches) ++state.searches;
   if (properties(next).full_field || properties(next).searches) state.filter = FilterState{};
@@ -121,6 +132,7 @@ void count_and_change(const MissionParameters& p, bool valid, TrackStep& step) {
   TrackState& state = step.after;
   if (valid) state.missed = 0;
   if (!valid && state.missed < UINT16_MAX) ++state.missed;
+  if (valid && suits_range(p, state)) state.range_awaited = false;
   step.event = event_of(p, state, valid);
   change_mode(step.event, state);
 }

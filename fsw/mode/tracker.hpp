@@ -30,6 +30,9 @@ struct TrackState {
   BearingState bearing;
   std::uint32_t searches = 0;  // that were begun
   PartsState parts;            // of the mode that looks at parts
+  // Since near or far, by range or by command, no valid pose has been where the mode now is for: within short_range.leave_m in
+  // short_range, not within short_range.enter_m otherwise. Until one is, the range does not change the mode back.
+  bool range_awaited = false;
 };
 
 // What one scan led to. `after.filter` is stated at the registration's time.

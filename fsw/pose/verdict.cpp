@@ -147,10 +147,10 @@ bool Search::stands_alone() const {
 
 void Search::judge(bool registered) {
   result_.outcome = SearchOutcome::kRejected;
-  if (!registered) {
+  if (result_.returns < limits_.hits_min) {
+    result_.reason = SearchReason::kTooFewReturns;  // no wonder, then, if no pose is registered
+  } else if (!registered) {
     result_.reason = SearchReason::kNotRegistered;
-  } else if (result_.returns < limits_.hits_min) {
-    result_.reason = SearchReason::kTooFewReturns;
   } else if (result_.disagreement > limits_.disagreement_max) {
     result_.reason = SearchReason::kUnexplained;
   } else if (!stands_alone()) {

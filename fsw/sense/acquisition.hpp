@@ -44,8 +44,9 @@ enum class ScanLoss : std::uint8_t {
   kUnfinished = 11,  // the frame's boundary came first, and too few samples are there
   kThin = 12,        // complete, but too few of its samples are well formed
   kStuck = 13,       // its rays went nearly one way: the mirrors stand still (fsw/exec/scan_faults.hpp)
+  kFrozen = 14,      // its samples are those of the scan before, which was planned otherwise (fsw/exec/scan_faults.hpp)
 };
-constexpr std::size_t kScanLosses = 14;
+constexpr std::size_t kScanLosses = 15;
 ScanLoss loss_of(Status reason);  // that a sensor gave
 
 struct ScanVerdict {

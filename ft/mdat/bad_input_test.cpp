@@ -74,6 +74,23 @@ TEST(BadMission, ScenarioThatDoesNotExist) {
   expect_refused(work, "run missions/test.toml --scenario nowhere --out result", "nowhere");
 }
 
+// What a mission says of a part can be read, but the part has no model there.
+TEST(BadMission, APartWithoutAModel) {
+  VERIFIES("LASSO-MDT-007~1 LASSO-MOD-182~1");
+  const std::string part = "\n[part.bay]\nrange_m = [1.0, 5.0]\nview = [0, 0, -2]\n";
+  for (const char* model :
+       {"model = \"gone.toml\"", "model = \"\"", "mesh = \"models\"", "mesh = \"empty.obj\"", "box_m = [80, 80, 80, 81, 81, 81]"}) {
+    const WorkFolder work;
+    work.write("missions/empty.obj", "");
+    work.write("missions/test.toml", work.read("missions/test.toml") + part + model + "\n");
+    const std::string place = "missions/test.toml:" + line_with(work, "missions/test.toml", model) + ":";
+    expect_refused(work, "mission check missions/test.toml", place);
+    const std::string told = work.mdat("mission check missions/test.toml").err;
+    EXPECT_NE(told.find("part.bay."), std::string::npos) << told;
+    EXPECT_NE(told.find("delete"), std::string::npos) << "the remedy: " << told;
+  }
+}
+
 // A mission whose target is a mesh file with this content.
 void use_mesh(const WorkFolder& work, const std::string& name, const std::string& content, const std::string& scale = "1.0") {
   if (!content.empty()) work.write("missions/" + name, content);
@@ -186,6 +203,24 @@ TEST(BadOutput, WhatIsThereAndIsNotToBeReplaced) {
   expect_refused(work, "mission new --model models/probe.toml -o missions/test.toml", "missions/test.toml: is there already");
   work.write("poses.csv", std::string(kPoses) + "a,0,0,0,1,0,0,4\n");
   expect_refused(work, "replay missions/test.toml --scans . --initial poses.csv --out ./poses.csv", "./poses.csv");
+}
+
+TEST_F(BadReplay, ItsOutputIsNoneOfItsInputsNorBesideTheScans) {
+  VERIFIES("LASSO-MDT-007~1");
+  work.write("scans/a.csv", kScan);
+  work.write("poses.csv", std::string(kPoses) + "a,0,0,0,1,0,0,4\n");
+  for (const char* initial : {"poses.csv", "search"}) {
+    const std::string replay = "replay image.3dli --scans scans --initial " + std::string(initial) + " --out ";
+    for (const char* out : {"scans/a.csv", "scans/other.csv", "./scans/../scans/new.txt", "image.3dli"}) {
+      expect_refused(work, replay + out, std::string(out) + ": ");
+      EXPECT_EQ(work.read("scans/a.csv"), kScan) << out;
+    }
+    expect_refused(work, replay + "scans", "scans: ");
+  }
+  work.write("out_candidates.csv", std::string(kPoses) + "a,0,0,0,1,0,0,4\n");
+  std::filesystem::create_directory_symlink("scans", work / "link");
+  expect_refused(work, "replay image.3dli --scans scans --initial search --out link/new.csv",
+                 "link/new.csv: lies in the folder of the scans");
 }
 
 TEST(BadOutput, NothingStaysOfAFolderMadeForARunThatIsRefused) {

@@ -29,7 +29,7 @@ Answer first_answer(const WorkFolder& work, const std::string& command) {
 }
 
 TEST(Operate, AnOperatorCommandsARunningComponent) {
-  VERIFIES("LASSO-LNK-026~2 LASSO-GND-021~1 LASSO-LNK-017~1 LASSO-LNK-022~1");
+  VERIFIES("LASSO-LNK-026~2 LASSO-GND-021~1 LASSO-LNK-017~1 LASSO-LNK-022~1 LASSO-MOD-136~3 LASSO-MOD-173~1");
   const WorkFolder work;
   int seed = static_cast<int>(std::chrono::system_clock::now().time_since_epoch().count() / 1000 % 20000);
   for (const std::string scheme : {"udp", "tcp"}) {
@@ -43,6 +43,16 @@ TEST(Operate, AnOperatorCommandsARunningComponent) {
     EXPECT_NE(unarmed.out.find("not_armed"), std::string::npos) << unarmed.out;
     const Answer armed = work.mdat("command enable_laser --arm --wait 30 --to " + url);
     EXPECT_EQ(armed.exit_code, 0) << armed.out << armed.err;
+    const Answer coasting = work.mdat("command set_mode mode=coasting --wait 30 --to " + url);
+    EXPECT_EQ(coasting.exit_code, 1);
+    EXPECT_NE(coasting.out.find("not_by_command"), std::string::npos) << coasting.out;
+    Answer near;
+    for (int i = 0; i < 20 && near.exit_code != 0; ++i) near = work.mdat("command set_mode mode=short_range --wait 30 --to " + url);
+    EXPECT_EQ(near.exit_code, 0) << near.out << near.err;
+    EXPECT_EQ(work.mdat("command ping --wait 30 --to " + url).exit_code, 0);
+    const Answer far = work.mdat("command set_mode mode=tracking --wait 30 --to " + url);
+    EXPECT_EQ(far.exit_code, 0) << far.out << far.err;
+    EXPECT_EQ(work.mdat("command ping --wait 30 --to " + url).exit_code, 0);
     const Answer standby = work.mdat("command set_mode mode=standby --wait 30 --to " + url);
     EXPECT_EQ(standby.exit_code, 0) << standby.err;
     for (int i = 0; i < 3; ++i) work.mdat("command ping --wait 30 --to " + url);  // a frame each: the last events are told
@@ -57,6 +67,7 @@ TEST(Operate, AnOperatorCommandsARunningComponent) {
     }
     const std::size_t failed = story.find("command_failed"), enabled = story.find("laser_enabled"), standby_at = story.find("standby");
     EXPECT_TRUE(failed < enabled && enabled < standby_at && standby_at != std::string::npos) << story;
+    EXPECT_NE(story.find("tracking short_range tracking standby"), std::string::npos) << story;
   }
 }
 

@@ -181,6 +181,20 @@ TEST_F(Replay, FindsEachScansPoseWithoutAnyOrSaysWhyNot) {
   EXPECT_GE(next, accepted);
 }
 
+TEST_F(Replay, ASearchSaysThatThereWereTooFewReturns) {
+  VERIFIES("LASSO-MOD-111~1 LASSO-MOD-122~1");
+  std::string scan = "t_s,x_m,y_m,z_m,valid\n";
+  for (int i = 0; i < 60; ++i)
+    scan += std::to_string(0.003 * i) + (i < 57 ? ",0,0,1,0\n" : ",0.1,0.02," + std::to_string(3.9 + 0.001 * i) + ",1\n");
+  work.write("few/f00000.csv", scan);
+  const Answer answer = work.mdat("replay image.3dli --scans few --initial search --out found.csv");
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  const std::vector<Row> rows = table(work.read("found.csv"));
+  ASSERT_EQ(rows.size(), 1U);
+  EXPECT_EQ(rows[0].at("outcome"), "rejected");
+  EXPECT_EQ(rows[0].at("reason"), "too_few_returns");
+}
+
 TEST_F(Replay, ASearchIsOfEachScanAlone) {
   VERIFIES("LASSO-MOD-111~1");
   const Answer answer = work.mdat("replay image.3dli --scans rec/4m/scans --initial search --closed-loop --out found.csv");

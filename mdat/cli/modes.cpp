@@ -41,10 +41,15 @@ void print_page(std::ostream& out) {
          "- **awaits a start**: the next untried pose to start from is taken, in the mission's order `start.first` to `start.fifth`. "
          "Search\n  has its turn in bearing, once the bearing is known.\n\n"
          "`exhausted` and `recover` come when the mode's frames (`start.frames`, `tracking.coast_frames`, `tracking.reacquire_frames`,\n"
-         "`search.frames`) are used up and the mode is not held; which of the two, `tracking.recover` says. An event that a mode has "
-         "no row for changes\nnothing. `near` and `far` are valid poses within `short_range.enter_m` of the target's origin in tracking, "
-         "and "
-         "beyond `short_range.leave_m` in\nshort_range, if the mode is not held.\n\n";
+         "`search.frames`) are used up and the mode is not held; which of the two, `tracking.recover` says. A start that no scan "
+         "confirmed\n"
+         "ends with `recover`, too, where the order leaves a search to be tried. An event that a mode has no row for changes nothing.\n\n"
+         "`near` and `far` are valid poses within `short_range.enter_m` of the target's origin in tracking, and beyond "
+         "`short_range.leave_m` in\nshort_range, if the mode is not held; or commands. After either the range does not change the mode "
+         "back "
+         "before a valid pose has been where\nthe mode is for: within `short_range.leave_m` in short_range, not within "
+         "`short_range.enter_m` otherwise. A short_range that is commanded far\naway, or a tracking close by, stays until then, or until "
+         "another mode is commanded.\n\n";
   print_modes(out);
   out << '\n';
   print_transitions(out);

@@ -30,11 +30,25 @@ std::filesystem::path candidates_file(std::filesystem::path out) {
   return out.replace_filename(name);
 }
 
+// What is written is none of what is read, nor beside the scans, where the next replay would read it.
+void check_apart(const std::filesystem::path& out, const Options& options) {
+  std::error_code ignored;  // what is not there is told by who reads it
+  for (const std::filesystem::path& input : {std::filesystem::path(options.mission), options.replay.initial}) {
+    if (!std::filesystem::equivalent(out, input, ignored)) continue;
+    throw InputError(out.string() + ": is read by this replay; write to another file");
+  }
+  const std::filesystem::path& scans = options.replay.scans;
+  if (!std::filesystem::equivalent(std::filesystem::absolute(out).parent_path(), scans, ignored)) return;
+  throw InputError(out.string() + ": lies in the folder of the scans, " + scans.string() + ", which are left as they are; write elsewhere");
+}
+
 void search(const Options& options) {
   if (options.replay.closed_loop || options.replay.wide) {
     throw InputError("--initial search: each scan is searched on its own; leave --closed-loop and --wide out");
   }
   const std::filesystem::path candidates = candidates_file(options.out);
+  check_apart(options.out, options);
+  check_apart(candidates, options);
   check_writable(options.out);
   check_writable(candidates);
   const LoadedImage image = load(options);
@@ -46,10 +60,7 @@ void search(const Options& options) {
 
 void run(const Options& options) {
   if (options.replay.initial == "search") return search(options);
-  std::error_code ignored;
-  if (std::filesystem::equivalent(options.out, options.replay.initial, ignored)) {
-    throw InputError(options.out + ": is the file of initial poses; write to another one");
-  }
+  check_apart(options.out, options);
   check_writable(options.out);
   const LoadedImage image = load(options);
   const std::vector<ReplayedScan> scans = replay(image.mission(), options.replay);

@@ -11,7 +11,7 @@ inline bool find_beside(const std::filesystem::path& mission, const std::string&
   const std::filesystem::path folder = std::filesystem::absolute(mission).parent_path();
   for (const auto& candidate : {folder / written, folder.parent_path() / written}) {
     found = candidate.lexically_normal();
-    if (std::filesystem::exists(candidate)) return true;
+    if (std::filesystem::is_regular_file(candidate)) return true;
   }
   return false;
 }

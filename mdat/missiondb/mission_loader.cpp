@@ -322,7 +322,8 @@ Mesh load_part(const MissionSource& source, const PartSource& part, const Mesh& 
   };
   if (part.file.empty()) {
     Mesh mesh = cut_by_box(target, Eigen::Vector3d(part.box_m.data()), Eigen::Vector3d(part.box_m.data() + 3));
-    if (mesh.triangles.empty()) fail("", "nothing of the target lies in the box: the part has no model");
+    if (mesh.triangles.empty())
+      fail("", "nothing of the target lies in the box: the part has no model; correct the box, or delete the part");
     for (Eigen::Vector3d& vertex : mesh.vertices) vertex = q.conjugate() * (vertex - Eigen::Vector3d(part.origin_m.data()));
     return mesh;
   }
@@ -333,7 +334,7 @@ Mesh load_part(const MissionSource& source, const PartSource& part, const Mesh& 
     check_extent(mesh);
     return mesh;
   } catch (const MeshError& error) {
-    fail(part.file.string(), error.what());
+    fail(part.file.string(), std::string(error.what()) + "; give the part another file, or delete it");
   }
   return {};
 }

@@ -100,10 +100,15 @@ class BadScanTest : public ::testing::Test {
          L::kThin,
          {B::kNoScan}},
         {"times to come", [](RangeSample& s, std::size_t) { s.t_us += 500000; }, {R::kNoScan}, L::kThin, {B::kNoScan}},
-        {"the scan before, again",
-         [this](RangeSample& s, std::size_t i) { s = sensor_->before(i); },
+        {"the scan before, again", [this](RangeSample& s, std::size_t i) { s = sensor_->before(i); }, {R::kNoScan}, L::kThin, {B::kNoScan}},
+        {"the scan before, again, with new times",
+         [this](RangeSample& s, std::size_t i) {
+           const TimeUs t_us = s.t_us;
+           s = sensor_->before(i);
+           s.t_us = t_us;
+         },
          {R::kNoScan},
-         L::kThin,
+         L::kFrozen,
          {B::kNoScan}}};
   }
 
@@ -162,7 +167,7 @@ void expect_told(const BadScan& bad, const std::vector<L>& losses) {
 }
 
 TEST_F(BadScanTest, InTrackingEachIsToldAndTheTrackCoastsAndGoesOn) {
-  VERIFIES("LASSO-MOD-181~1");
+  VERIFIES("LASSO-MOD-181~2");
   for (const BadScan& bad : cases()) {
     SetUp();
     std::vector<L> losses;
@@ -185,7 +190,7 @@ TEST_F(BadScanTest, InTrackingEachIsToldAndTheTrackCoastsAndGoesOn) {
 }
 
 TEST_F(BadScanTest, InBearingEachIsToldAndNoPoseIsPublished) {
-  VERIFIES("LASSO-MOD-181~1");
+  VERIFIES("LASSO-MOD-181~2");
   for (const BadScan& bad : cases()) {
     if (bad.bearings.empty()) continue;
     SetUp();
@@ -206,7 +211,7 @@ TEST_F(BadScanTest, InBearingEachIsToldAndNoPoseIsPublished) {
 }
 
 TEST_F(BadScanTest, AStartIsNotConfirmedByAny) {
-  VERIFIES("LASSO-MOD-181~1");
+  VERIFIES("LASSO-MOD-181~2");
   for (const BadScan& bad : cases()) {
     SetUp();
     std::vector<L> losses;
@@ -219,6 +224,25 @@ TEST_F(BadScanTest, AStartIsNotConfirmedByAny) {
       EXPECT_EQ(pose.valid, 0) << bad.name;
       EXPECT_TRUE(contains(bad.reasons, static_cast<R>(pose.reason))) << bad.name << ": " << to_string(static_cast<R>(pose.reason));
       EXPECT_EQ(static_cast<M>(pose.mode), M::kStarting) << bad.name;
+    }
+  }
+}
+
+// Without noise and motion, and with a pattern that does not turn, each scan is as the one before: that is no fault.
+TEST(StillScene, ScansThatAreAlikeByRightAreTaken) {
+  VERIFIES("LASSO-MOD-181~2");
+  test::BoxScene still = test::default_scene();
+  still.rates = Twist();
+  still.sigma_m = 0;
+  MissionParameters p = test::box_parameters(still);
+  p.phase_step_turns = 0;
+  p.points = 400;
+  test::ComponentScene scene(p, still);
+  scene.begin();
+  for (int frame = 0; frame < 12; ++frame) {
+    for (const test::Report& report : scene.run_frame()) {
+      EXPECT_EQ(report.pose.valid, 1) << report.pose.scan_id << " " << to_string(static_cast<R>(report.pose.reason));
+      EXPECT_EQ(report.pose.lost_scans, 0U);
     }
   }
 }

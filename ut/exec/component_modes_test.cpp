@@ -30,7 +30,7 @@ Vec6 wrong() {
 }
 
 TEST(ComponentModes, ABearingIsSoughtOverTheWholeField) {
-  VERIFIES("LASSO-MOD-101~1 LASSO-MOD-136~2 LASSO-MOD-137~1");
+  VERIFIES("LASSO-MOD-101~1 LASSO-MOD-136~3 LASSO-MOD-137~1");
   ComponentScene scene(story_parameters());
   scene.begin();
   ASSERT_EQ(scene.component->command_mode(M::kBearing), ModeRefusal::kNone);
@@ -72,7 +72,7 @@ TEST(ComponentModes, NavigationIsTakenWhereAStartIsAwaited) {
 }
 
 TEST(ComponentModes, AWrongHandOverIsRefusedAndTheNextWayIsTried) {
-  VERIFIES("LASSO-MOD-131~1 LASSO-MOD-132~1 LASSO-MOD-133~1 LASSO-MOD-137~1");
+  VERIFIES("LASSO-MOD-131~1 LASSO-MOD-132~1 LASSO-MOD-133~2 LASSO-MOD-137~1");
   for (const bool recover : {true, false}) {
     MissionParameters p = story_parameters();
     p.recover = recover ? 1 : 0;
@@ -146,11 +146,16 @@ TEST(ComponentModes, ALongEclipseEndsInABearingAndANewStart) {
 }
 
 TEST(ComponentModes, CommandsThatCannotBeAreRefusedByTheirName) {
-  VERIFIES("LASSO-MOD-136~2 LASSO-MOD-173~1");
+  VERIFIES("LASSO-MOD-136~3 LASSO-MOD-173~1");
   ComponentScene scene(story_parameters());
   EXPECT_EQ(scene.component->command_mode(M::kStandby), ModeRefusal::kNotBegun);
   scene.begin();
-  EXPECT_EQ(scene.component->command_mode(M::kTracking), ModeRefusal::kNotByCommand);
+  for (const M mode : {M::kStarting, M::kCoasting, M::kLost}) {
+    EXPECT_EQ(scene.component->command_mode(mode), ModeRefusal::kNotByCommand) << to_string(mode);
+  }
+  for (const M mode : {M::kTracking, M::kShortRange}) {
+    EXPECT_EQ(scene.component->command_mode(mode), ModeRefusal::kNotFromHere) << to_string(mode);
+  }
   EXPECT_EQ(scene.component->command_mode(M::kReacquiring), ModeRefusal::kNoPrediction);
   EXPECT_EQ(scene.component->command_mode(M::kStandby), ModeRefusal::kNone) << "it is there already";
   scene.run_frame();
@@ -160,11 +165,11 @@ TEST(ComponentModes, CommandsThatCannotBeAreRefusedByTheirName) {
   Story story;
   story.run(scene, 4);
   EXPECT_EQ(story.last().mode, code(M::kTracking));
-  EXPECT_EQ(story.last().refused_commands, 3u);
+  EXPECT_EQ(story.last().refused_commands, 7u);
 }
 
 TEST(ComponentModes, AnyModeCanBeCommanded) {
-  VERIFIES("LASSO-MOD-136~2 LASSO-MOD-137~1 LASSO-MOD-173~1");
+  VERIFIES("LASSO-MOD-136~3 LASSO-MOD-137~1 LASSO-MOD-173~1");
   ComponentScene scene(story_parameters());
   scene.begin();
   ASSERT_EQ(scene.component->offer_start(StartWay::kUplink, offer_at(scene, 0)), StartRefusal::kNone);
@@ -190,7 +195,7 @@ TEST(ComponentModes, AnyModeCanBeCommanded) {
 }
 
 TEST(ComponentModes, AHeldModeStaysUntilItIsReleased) {
-  VERIFIES("LASSO-MOD-136~2 LASSO-MOD-173~1");
+  VERIFIES("LASSO-MOD-136~3 LASSO-MOD-173~1");
   ComponentScene scene(story_parameters());
   scene.begin();
   ASSERT_EQ(scene.component->command_mode(M::kBearing), ModeRefusal::kNone);
@@ -241,7 +246,7 @@ TEST(ComponentModes, WrongOffersAreRefusedCountedAndTold) {
 }
 
 TEST(ComponentModes, WhatHasGrownOldIsRefusedWhenItsTurnComes) {
-  VERIFIES("LASSO-MOD-133~1 LASSO-MOD-134~1");
+  VERIFIES("LASSO-MOD-133~2 LASSO-MOD-134~1");
   MissionParameters p = story_parameters();
   p.start_age_max_s = 1;
   ComponentScene scene(p);
@@ -258,14 +263,30 @@ TEST(ComponentModes, WhatHasGrownOldIsRefusedWhenItsTurnComes) {
   EXPECT_EQ(story.last().refusal, static_cast<std::uint8_t>(StartRefusal::kTooOld));
 }
 
-TEST(ComponentModes, AMissionsOwnStartIsValidatedToo) {
-  VERIFIES("LASSO-MOD-134~1");
-  MissionParameters p = story_parameters();
-  p.initial_present = 1;
-  p.initial_z_m = -2.5;
-  ComponentScene scene(p);
-  ASSERT_EQ(scene.load().status, Status::kOk);
-  EXPECT_EQ(scene.component->begin(0), Status::kBadValue);
+TEST(ComponentModes, AMissionsOwnStartIsRefusedByItsReasonAndTheNextWayIsTried) {
+  VERIFIES("LASSO-MOD-133~2 LASSO-MOD-134~1 LASSO-MOD-137~1");
+  MissionParameters behind = test::box_parameters(test::default_scene());
+  behind.initial_z_m = -2.5;
+  MissionParameters out_of_reach = test::box_parameters(test::default_scene());
+  out_of_reach.initial_z_m = 5000;
+  MissionParameters not_unit = test::box_parameters(test::default_scene());
+  not_unit.initial_qw -= 0.3;
+  const std::pair<MissionParameters, StartRefusal> cases[] = {
+      {behind, StartRefusal::kOutOfReach}, {out_of_reach, StartRefusal::kOutOfReach}, {not_unit, StartRefusal::kNotUnit}};
+  for (const auto& [p, refusal] : cases) {
+    ComponentScene scene(p);
+    scene.begin();
+    ASSERT_EQ(scene.component->offer_start(StartWay::kNavigation, offer_at(scene, 0)), StartRefusal::kNone);
+    Story story;
+    story.run(scene, 6);
+    story.expect(
+        {{M::kStandby, E::kSeek, M::kBearing}, {M::kBearing, E::kStart, M::kStarting}, {M::kStarting, E::kPoseValid, M::kTracking}});
+    EXPECT_EQ(story.last().mode, code(M::kTracking));
+    EXPECT_EQ(story.last().start_way, static_cast<std::uint8_t>(StartWay::kNavigation));
+    EXPECT_EQ(story.last().refused_starts, 1u);
+    EXPECT_EQ(story.last().refused_way, static_cast<std::uint8_t>(StartWay::kApriori));
+    EXPECT_EQ(story.last().refusal, static_cast<std::uint8_t>(refusal));
+  }
 }
 
 // The last command counts, and the one before it is not tried later.

@@ -118,8 +118,33 @@ TEST(ComponentParts, APartThatIsNotWhereItsModelSaysIsDroppedAndTold) {
   EXPECT_GE(odd, 1U);
 }
 
+// In both directions the track goes on without a gap, and stays where it was commanded whatever the range.
+TEST(ComponentParts, ShortRangeAndTrackingAreCommandedBothWays) {
+  VERIFIES("LASSO-MOD-136~3 LASSO-MOD-137~1 LASSO-MOD-173~1");
+  ComponentScene scene(leaving_scene(), image_with_parts(test::two_halves()));
+  scene.begin();
+  run(scene, 8);
+  ASSERT_EQ(scene.component->command_mode(M::kTracking), ModeRefusal::kNone);  // at less than enter_m
+  std::vector<PoseTelemetry> reports = run(scene, 6);
+  EXPECT_EQ(reports.size(), 6U) << "none is missing";
+  EXPECT_EQ(static_cast<M>(reports.back().mode), M::kTracking);
+  EXPECT_EQ(reports.back().part, 0);
+  run(scene, 30);  // beyond leave_m
+  ASSERT_EQ(scene.component->command_mode(M::kShortRange), ModeRefusal::kNone);
+  std::set<int> parts;
+  for (const PoseTelemetry& t : run(scene, 10)) {
+    reports.push_back(t);
+    parts.insert(t.part);
+  }
+  EXPECT_EQ(static_cast<M>(reports.back().mode), M::kShortRange);
+  EXPECT_EQ(parts, (std::set<int>{0, 1, 2}));
+  EXPECT_EQ(scene.component->command_mode(M::kShortRange), ModeRefusal::kNone) << "it is there already";
+  for (const PoseTelemetry& t : reports) EXPECT_EQ(t.valid, 1) << t.scan_id << " " << to_string(static_cast<PoseReason>(t.reason));
+  EXPECT_EQ(reports.back().changes, 0);
+}
+
 TEST(ComponentParts, ACommandEndsTheScansOfParts) {
-  VERIFIES("LASSO-MOD-136~2");
+  VERIFIES("LASSO-MOD-136~3");
   ComponentScene scene(leaving_scene(), image_with_parts(test::two_halves()));
   scene.begin();
   run(scene, 8);

@@ -41,6 +41,76 @@ TEST(ComponentSearch, TheTargetIsFoundWithoutAnyPriorAndTracked) {
   for (const PoseTelemetry& t : story.reports) EXPECT_TRUE(t.valid == 0 || scene.error(t).norm() < 1e-2);
 }
 
+TEST(ComponentSearch, AMissionsOwnStartThatCannotBeRightGivesPlaceToTheSearch) {
+  VERIFIES("LASSO-MOD-133~2 LASSO-MOD-134~1");
+  MissionParameters p = search_parameters();
+  p.initial_present = 1;
+  p.initial_z_m = 5000;
+  p.recover = 0;
+  ComponentScene scene(p, test::uneven_scene());
+  scene.begin();
+  Story story;
+  story.run(scene, 16);
+  story.expect({{M::kStandby, E::kSeek, M::kBearing},
+                {M::kBearing, E::kSearch, M::kSearching},
+                {M::kSearching, E::kPoseValid, M::kStarting},
+                {M::kStarting, E::kPoseValid, M::kTracking}});
+  EXPECT_EQ(story.last().refusal, static_cast<std::uint8_t>(StartRefusal::kOutOfReach));
+}
+
+// Without recovery, too: a hand-over that no scan confirms leaves the search, whose turn comes in bearing.
+TEST(ComponentSearch, AWrongHandOverGivesPlaceToTheSearch) {
+  VERIFIES("LASSO-MOD-133~2 LASSO-MOD-137~1");
+  MissionParameters p = search_parameters();
+  p.recover = 0;
+  p.start_frames = 2;
+  ComponentScene scene(p, test::uneven_scene());
+  scene.begin();
+  const test::BoxScene truth = test::uneven_scene();
+  Pose wrong = truth.at_zero;
+  wrong.q = normalized(exp_so3(Vec3(0, 0, 70 * kRadPerDeg)) * wrong.q);
+  wrong.p.y() += 0.6;
+  StartOffer offer = rough_offer(p, wrong, truth.rates, 0);
+  offer.covariance = 1e-4 * Mat6::Identity();
+  ASSERT_EQ(scene.component->offer_start(StartWay::kHandover, offer), StartRefusal::kNone);
+  Story story;
+  story.run(scene, 22);
+  story.expect({{M::kStandby, E::kStart, M::kStarting},
+                {M::kStarting, E::kRecover, M::kBearing},
+                {M::kBearing, E::kSearch, M::kSearching},
+                {M::kSearching, E::kPoseValid, M::kStarting},
+                {M::kStarting, E::kPoseValid, M::kTracking}});
+  EXPECT_EQ(story.last().refusal, static_cast<std::uint8_t>(StartRefusal::kNotConfirmed));
+  EXPECT_LT(scene.error(story.last()).norm(), 1e-2);
+}
+
+// A mode that awaits a start and scans nothing is left for the bearing, if that is what the next way needs; otherwise it stays.
+TEST(ComponentSearch, AStartThatIsRefusedInLostGivesPlaceToTheSearch) {
+  VERIFIES("LASSO-MOD-133~2");
+  for (const bool ordered : {true, false}) {
+    MissionParameters p = search_parameters();
+    p.recover = 0;
+    p.coast_frames = 0;
+    p.start_age_max_s = 1;
+    if (!ordered) p.start_fifth = static_cast<double>(StartWay::kNone);
+    ComponentScene scene(p, test::uneven_scene());
+    scene.begin();
+    const test::BoxScene truth = test::uneven_scene();
+    ASSERT_EQ(scene.component->start_tracking(truth.at_zero, truth.rates, 0), Status::kOk);
+    ASSERT_EQ(scene.component->offer_start(StartWay::kNavigation, rough_offer(p, truth.at_zero, truth.rates, 0)), StartRefusal::kNone);
+    Story story;
+    story.run(scene, 8);
+    story.changes.clear();
+    scene.sensor.hidden = true;
+    story.run(scene, 6);
+    std::vector<ModeChange> expected{{M::kTracking, E::kExhausted, M::kLost}};
+    if (ordered) expected.push_back({M::kLost, E::kSeek, M::kBearing});
+    story.expect(expected);
+    EXPECT_EQ(story.last().refused_way, static_cast<std::uint8_t>(StartWay::kNavigation));
+    EXPECT_EQ(story.last().refusal, static_cast<std::uint8_t>(StartRefusal::kTooOld));
+  }
+}
+
 TEST(ComponentSearch, ALostTargetIsLookedForNearItsPredictionThenSearched) {
   VERIFIES("LASSO-MOD-142~1");
   MissionParameters p = search_parameters();
@@ -68,7 +138,7 @@ TEST(ComponentSearch, ALostTargetIsLookedForNearItsPredictionThenSearched) {
 
 // A box looks alike from several sides: never a guess, and the candidates are told.
 TEST(ComponentSearch, AnAmbiguousTargetIsNeverTracked) {
-  VERIFIES("LASSO-MOD-124~1 LASSO-MOD-120~1 LASSO-MOD-136~2");
+  VERIFIES("LASSO-MOD-124~1 LASSO-MOD-120~1 LASSO-MOD-136~3");
   MissionParameters p = story_parameters();
   p.points = 400;
   p.search_slice = 1e7;
@@ -91,7 +161,7 @@ TEST(ComponentSearch, AnAmbiguousTargetIsNeverTracked) {
 }
 
 TEST(ComponentSearch, ASearchThatIsAlwaysLateEnds) {
-  VERIFIES("LASSO-MOD-136~2 LASSO-EXE-003~1");
+  VERIFIES("LASSO-MOD-136~3 LASSO-EXE-003~1");
   MissionParameters p = story_parameters();
   p.search_frames = 3;
   ComponentScene scene(p);
@@ -105,7 +175,7 @@ TEST(ComponentSearch, ASearchThatIsAlwaysLateEnds) {
 }
 
 TEST(ComponentSearch, ASearchTrustsNoOldBearing) {
-  VERIFIES("LASSO-MOD-136~2");
+  VERIFIES("LASSO-MOD-136~3");
   MissionParameters p = story_parameters();
   p.bearing_memory_s = 1;
   ComponentScene scene(p);

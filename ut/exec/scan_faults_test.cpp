@@ -1,7 +1,9 @@
 #include "fsw/exec/scan_faults.hpp"
 
 #include <cmath>
+#include <vector>
 
+#include "fsw/sense/pattern.hpp"
 #include "ut/support/generator.hpp"
 #include "ut/support/verifies.hpp"
 
@@ -84,7 +86,8 @@ TEST(ScanFaults, FollowWhatTheScanWasLostFor) {
                 {L::kOther, bits_of({Fault::kSensorCorrupt})},
                 {L::kUnfinished, bits_of({Fault::kScanIncomplete})},
                 {L::kThin, bits_of({Fault::kScanIncomplete})},
-                {L::kStuck, bits_of({Fault::kSensorStuck})}};
+                {L::kStuck, bits_of({Fault::kSensorStuck})},
+                {L::kFrozen, bits_of({Fault::kSensorCorrupt})}};
   for (const auto& row : kTable) EXPECT_EQ(found(lost(row.loss, 40)), row.faults) << static_cast<int>(row.loss);
 }
 
@@ -150,6 +153,89 @@ TEST(ScanFaults, AMirrorThatStandsStillIsStuckOnEitherAxis) {
   RangeImage invalid = image_of(0.2, 0.001);
   for (RangeSample& sample : invalid.samples) sample.state = RayState::kInvalid;
   EXPECT_FALSE(stuck(invalid)) << "no ray says where it went";
+}
+
+// A scan of the plan, its ranges drawn by the seed.
+RangeImage scan_of(const ScanPlan& plan, std::uint64_t seed) {
+  test::Generator generator(seed);
+  RangeImage image;
+  for (std::uint16_t i = 0; i < plan.points; ++i) {
+    const Vec3 u = pattern_direction(plan, i);
+    RangeSample sample;
+    for (int k = 0; k < 3; ++k) sample.direction[k] = static_cast<float>(u[k]);
+    sample.range_m = static_cast<float>(generator.uniform(2, 3));
+    sample.t_us = i;
+    sample.state = RayState::kHit;
+    EXPECT_TRUE(image.samples.push_back(sample));
+  }
+  return image;
+}
+
+class RepeatedScan : public ::testing::Test {
+ protected:
+  ScanPlan turned(double phase_turns) const {
+    ScanPlan plan = plan_;
+    plan.phase_turns = phase_turns;
+    return plan;
+  }
+  bool repeated(const ScanPlan& next, const RangeImage& image) const { return is_repeated(trace_of(plan_, scan_), trace_of(next, image)); }
+  ScanPlan plan_ = plan_of(0.2, 0.1);
+  RangeImage scan_ = scan_of(plan_, 3);
+};
+
+TEST_F(RepeatedScan, IsToldByItsSamplesWhereItsPlanIsAnother) {
+  VERIFIES("LASSO-MOD-181~2");
+  EXPECT_TRUE(repeated(turned(0.38), scan_));
+  RangeImage later = scan_;
+  later.scan_id = 7;
+  for (RangeSample& sample : later.samples) sample.t_us += 200000;
+  EXPECT_TRUE(repeated(turned(0.38), later)) << "whatever its times and number say";
+  EXPECT_FALSE(repeated(plan_, later)) << "nothing can be told: without noise a target at rest looks like this";
+  EXPECT_FALSE(repeated(turned(0.38), scan_of(turned(0.38), 3)));
+}
+
+TEST_F(RepeatedScan, IsTheSameInEachBit) {
+  VERIFIES("LASSO-MOD-181~2");
+  for (const std::size_t changed : {std::size_t{0}, std::size_t{117}, std::size_t{199}}) {
+    RangeImage other = scan_;
+    other.samples[changed].range_m = std::nextafter(other.samples[changed].range_m, 9.0F);
+    EXPECT_FALSE(repeated(turned(0.38), other)) << changed;
+    other = scan_;
+    other.samples[changed].direction[1] = std::nextafter(other.samples[changed].direction[1], 9.0F);
+    EXPECT_FALSE(repeated(turned(0.38), other)) << changed;
+  }
+}
+
+// Each way alone in which the next plan's rays can lie elsewhere.
+TEST_F(RepeatedScan, APlanIsAnotherWhereItsRaysAre) {
+  VERIFIES("LASSO-MOD-181~2");
+  for (const double offset : {0.01, -0.01}) {
+    ScanPlan next = plan_;
+    next.center_x += offset;
+    EXPECT_TRUE(repeated(next, scan_)) << offset;
+    next = plan_;
+    next.center_y += offset;
+    EXPECT_TRUE(repeated(next, scan_)) << offset;
+  }
+  ScanPlan next = plan_;
+  next.center_x += 1e-5;
+  EXPECT_FALSE(repeated(next, scan_)) << "no mirror resolves that";
+  next = plan_;
+  next.duration_us += 1000;
+  EXPECT_FALSE(repeated(next, scan_));
+  std::vector<AimedRay> aimed(60, AimedRay{0.02F, -0.03F});
+  next = plan_;
+  next.aimed = Span<const AimedRay>(aimed.data(), aimed.size());
+  EXPECT_TRUE(repeated(next, scan_));
+}
+
+TEST_F(RepeatedScan, FewRaysDoNotTell) {
+  VERIFIES("LASSO-MOD-181~2");
+  for (std::size_t i = kRaysToTell; i < scan_.samples.size(); ++i) scan_.samples[i] = RangeSample{};  // invalid
+  EXPECT_TRUE(repeated(turned(0.38), scan_));
+  scan_.samples[0] = RangeSample{};
+  EXPECT_FALSE(repeated(turned(0.38), scan_));
+  EXPECT_FALSE(is_repeated(ScanTrace(), trace_of(plan_, scan_of(plan_, 5)))) << "the first one";
 }
 
 }  // namespace

@@ -142,7 +142,7 @@ TEST(Modes, IgnoreWhatTheTableDoesNotKnow) {
 }
 
 TEST(Modes, AreCommandedByTheirEvents) {
-  VERIFIES("LASSO-MOD-136~2");
+  VERIFIES("LASSO-MOD-136~3");
   for (const ModeProperties& mode : mode_properties()) {
     E event = E::kPoseValid;
     if (!command_event(mode.mode, event)) {
@@ -161,8 +161,10 @@ TEST(Modes, AreCommandedByTheirEvents) {
   EXPECT_TRUE(command_event(M::kBearing, event));
   EXPECT_TRUE(command_event(M::kReacquiring, event));
   EXPECT_TRUE(command_event(M::kSearching, event));
+  EXPECT_TRUE(command_event(M::kTracking, event));
+  EXPECT_TRUE(command_event(M::kShortRange, event));
   EXPECT_TRUE(command_event(M::kSafe, event));
-  EXPECT_FALSE(command_event(M::kTracking, event));
+  for (const M mode : {M::kStarting, M::kCoasting, M::kLost}) EXPECT_FALSE(command_event(mode, event)) << to_string(mode);
 }
 
 TEST(Modes, PropertiesLieAtTheirModesPlace) {

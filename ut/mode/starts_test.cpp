@@ -148,7 +148,7 @@ TEST_F(StartsTest, WhatIsNotAtTheBearingIsRefused) {
 }
 
 TEST_F(StartsTest, TheDeskFollowsTheMissionsOrder) {
-  VERIFIES("LASSO-MOD-131~1 LASSO-MOD-133~1");
+  VERIFIES("LASSO-MOD-131~1 LASSO-MOD-133~2");
   StartDesk desk;
   MissionParameters& p = mission_.parameters;
   EXPECT_EQ(desk.next(p, false), StartWay::kNone);
@@ -169,7 +169,7 @@ TEST_F(StartsTest, TheDeskFollowsTheMissionsOrder) {
 }
 
 TEST_F(StartsTest, SearchHasItsTurnWhereItIsPossibleAndAgainWhenAllElseIsTried) {
-  VERIFIES("LASSO-MOD-131~1 LASSO-MOD-133~1");
+  VERIFIES("LASSO-MOD-131~1 LASSO-MOD-133~2");
   StartDesk desk;
   MissionParameters& p = mission_.parameters;
   p.start_first = static_cast<double>(StartWay::kSearch);
@@ -182,6 +182,17 @@ TEST_F(StartsTest, SearchHasItsTurnWhereItIsPossibleAndAgainWhenAllElseIsTried) 
   (void)desk.take(StartWay::kApriori);
   EXPECT_EQ(desk.next(p, true), StartWay::kSearch) << "again";
   EXPECT_EQ(desk.next(p, false), StartWay::kNone);
+}
+
+TEST_F(StartsTest, TheOrderNamesItsWays) {
+  VERIFIES("LASSO-MOD-133~2");
+  MissionParameters& p = mission_.parameters;
+  p.start_first = static_cast<double>(StartWay::kSearch);
+  p.start_fifth = static_cast<double>(StartWay::kUplink);
+  EXPECT_TRUE(is_in_order(p, StartWay::kSearch));
+  EXPECT_TRUE(is_in_order(p, StartWay::kUplink));
+  p.start_first = static_cast<double>(StartWay::kNone);
+  EXPECT_FALSE(is_in_order(p, StartWay::kSearch));
 }
 
 TEST(StartNames, AreThoseOfTheCode) {

@@ -72,7 +72,7 @@ TEST_F(TrackerPartsTest, LeavesAtALargerRangeThanItEnters) {
 }
 
 TEST_F(TrackerPartsTest, AModeThatIsHeldIsNotLeftForTheRange) {
-  VERIFIES("LASSO-MOD-136~2");
+  VERIFIES("LASSO-MOD-136~3");
   start(small_error());
   track(0);
   state_.held = true;
@@ -83,6 +83,51 @@ TEST_F(TrackerPartsTest, AModeThatIsHeldIsNotLeftForTheRange) {
   state_.held = true;
   parameters().short_range_leave_m = 1;
   EXPECT_EQ(see(3, 1).event, E::kPoseValid);
+}
+
+// The target is 2.5 m away.
+TEST_F(TrackerPartsTest, ShortRangeThatIsCommandedFarAwayStaysUntilTheTargetHasComeAndGone) {
+  VERIFIES("LASSO-MOD-136~3 LASSO-MOD-171~1");
+  parameters().short_range_enter_m = 1;
+  parameters().short_range_leave_m = 2;
+  start(small_error());
+  track(0);
+  EXPECT_EQ(track(1).event, E::kPoseValid);
+  change_mode(E::kNear, state_);
+  for (std::uint32_t k = 2; k < 4; ++k) EXPECT_EQ(see(k, 1).event, E::kPoseValid) << "beyond leave_m";
+  miss(4);
+  EXPECT_TRUE(state_.range_awaited);
+  parameters().short_range_leave_m = 4;  // as if it had come
+  EXPECT_EQ(see(5, 2).after.mode, M::kShortRange);
+  EXPECT_FALSE(state_.range_awaited);
+  parameters().short_range_leave_m = 2;  // and gone
+  EXPECT_EQ(see(6, 1).event, E::kFar);
+  EXPECT_EQ(state_.mode, M::kTracking);
+}
+
+TEST_F(TrackerPartsTest, TrackingThatIsCommandedCloseByStaysUntilTheTargetHasGoneAndCome) {
+  VERIFIES("LASSO-MOD-136~3 LASSO-MOD-171~1");
+  come_near();
+  EXPECT_EQ(see(2, 1).event, E::kPoseValid);
+  change_mode(E::kFar, state_);
+  EXPECT_EQ(track(3).event, E::kPoseValid) << "within enter_m";
+  miss(4);
+  ASSERT_EQ(state_.mode, M::kCoasting);
+  EXPECT_EQ(track(5).after.mode, M::kTracking);
+  EXPECT_EQ(track(6).event, E::kPoseValid) << "a scan without a pose changes nothing of that";
+  parameters().short_range_enter_m = 1;  // as if it had gone
+  EXPECT_EQ(track(7).event, E::kPoseValid);
+  parameters().short_range_enter_m = 3;  // and come
+  EXPECT_EQ(track(8).event, E::kNear);
+}
+
+TEST_F(TrackerPartsTest, ATrackThatStartsAnewGoesByTheRange) {
+  VERIFIES("LASSO-MOD-171~1");
+  come_near();
+  change_mode(E::kFar, state_);
+  ASSERT_TRUE(state_.range_awaited);
+  start(small_error());
+  EXPECT_FALSE(state_.range_awaited);
 }
 
 TEST_F(TrackerPartsTest, StartingAndCoastingAreNotCutShort) {

@@ -193,8 +193,32 @@ TEST_F(TrackerTest, LooksNearThePredictionThenForTheBearing) {
   EXPECT_FALSE(given_up.after.filter.initialised) << "nothing stale";
 }
 
+// Of a mission that asks for no recovery: which event ends a start that no scan confirms.
+TEST_F(TrackerTest, AStartThatIsNotConfirmedLeavesASearchThatIsInTheOrder) {
+  VERIFIES("LASSO-MOD-133~2");
+  for (const bool ordered : {true, false}) {
+    for (const StartWay way : {StartWay::kUplink, StartWay::kSearch}) {
+      MissionParameters p = test::box_parameters(scene_);
+      p.start_frames = 0;
+      p.coast_frames = 0;
+      if (ordered) p.start_fifth = static_cast<double>(StartWay::kSearch);
+      load(p);
+      state_ = TrackState();
+      start(small_error());
+      state_.way = way;
+      const bool searched = ordered && way != StartWay::kSearch;
+      EXPECT_EQ(miss(0).event, searched ? ModeEvent::kRecover : ModeEvent::kExhausted);
+      EXPECT_EQ(state_.mode, searched ? TrackingMode::kBearing : TrackingMode::kLost);
+      state_ = TrackState();
+      start(small_error());
+      state_.mode = TrackingMode::kTracking;
+      EXPECT_EQ(miss(0).after.mode, TrackingMode::kLost) << "it was confirmed";
+    }
+  }
+}
+
 TEST_F(TrackerTest, AHeldModeDoesNotEndByItself) {
-  VERIFIES("LASSO-MOD-136~2");
+  VERIFIES("LASSO-MOD-136~3");
   MissionParameters p = test::box_parameters(scene_);
   p.coast_frames = 1;
   load(p);

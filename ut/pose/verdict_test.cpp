@@ -96,11 +96,14 @@ TEST_F(VerdictTest, RejectsWhatCannotBeRegistered) {
   for (RangeSample& sample : image->samples) {
     if (sample.state == RayState::kHit && ++hits > 9) sample.state = RayState::kInvalid;
   }
-  search_->begin(limits_);
-  ASSERT_EQ(search_->add_scan(mission_, *image, *workspace_), Status::kOk);
-  work();
-  EXPECT_EQ(result().outcome, SearchOutcome::kRejected);
-  EXPECT_EQ(result().reason, SearchReason::kNotRegistered);
+  for (const double hits_min : {10.0, 9.0}) {
+    limits_.hits_min = hits_min;
+    search_->begin(limits_);
+    ASSERT_EQ(search_->add_scan(mission_, *image, *workspace_), Status::kOk);
+    work();
+    EXPECT_EQ(result().outcome, SearchOutcome::kRejected);
+    EXPECT_EQ(result().reason, hits_min > 9 ? SearchReason::kTooFewReturns : SearchReason::kNotRegistered) << "what comes first";
+  }
 }
 
 class SymmetricVerdictTest : public VerdictTest {

@@ -52,6 +52,22 @@ TEST(MissionText, InfoOfAScenarioShowsItsOverrides) {
   EXPECT_EQ(words_of(info_text(source, "spin"), "scenario.spin.tilt_deg")[1], "15");
 }
 
+TEST(MissionText, CheckWarnsOfAStartThatNoSensorReaches) {
+  VERIFIES("LASSO-GND-003~1 LASSO-MOD-134~1");
+  const Folder folder;
+  folder.write("box.toml", "[[part]]\nkind = 'box'\nsize = [1, 1, 1]\n");
+  const std::string head =
+      "[mission]\nid = 7\nversion = 2\nname = 'test'\n[target]\nmodel = 'box.toml'\n[tracking.initial]\npresent = true\n";
+  const auto checked = [&](const std::string& text) { return check_text(load_mission(folder.write("m.toml", head + text))); };
+  EXPECT_EQ(checked("z_m = 4\n").find("warning"), std::string::npos);
+  const std::string far = checked("z_m = 4000\n");
+  EXPECT_NE(far.find("m.toml:9:7: tracking.initial.z_m: 4000: the target is wholly outside"), std::string::npos) << far;
+  EXPECT_NE(far.find("good: mission 7"), std::string::npos) << "a warning, no more";
+  const std::string sensor = "[further_sensor.lidar]\nkind = 'time_of_flight'\nrange_max_m = 5000\n";
+  EXPECT_EQ(checked("z_m = 4000\n" + sensor).find("warning"), std::string::npos) << checked("z_m = 4000\n" + sensor);
+  EXPECT_NE(checked("z_m = 6000\n" + sensor).find("warning"), std::string::npos);
+}
+
 TEST(MissionText, CheckSaysWhatIsGood) {
   VERIFIES("LASSO-GND-003~1");
   const std::string text = check_text(load_mission(kShippedMission));
