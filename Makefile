@@ -130,10 +130,10 @@ fuzz: ## a million inputs for each reader of outside bytes, and planted bugs to 
 	$(fuzzers)
 	@ft/fuzz/run $(FUZZ) $(or $(EXECUTIONS),$(if $(SECONDS_EACH),$(SECONDS_EACH)s),1000000) $(or $(SEED),1) $(or $(LARGEST),16384) $(FUZZERS)
 
-statistics: ## instructions of estimates on the emulated 603e: median, p99, worst of many frames; out/statistics; FRAMES=, SEED=
+statistics: ## instructions of estimates on the emulated 603e: median, p99, worst of 10000 frames from the hits alone and of as many with silhouettes; out/statistics; FRAMES=, SEED=
 	$(begin)
 	$(replays)
-	@ft/ppc603e/count $(BUILD) $(PPC) $(or $(FRAMES),1800) $(or $(SEED),1)
+	@ft/ppc603e/count $(BUILD) $(PPC) $(or $(FRAMES),10000) $(or $(SEED),1)
 
 endurance: ## a day of simulated time at 5 Hz: nothing drifts, grows, slips or is wrong; out/endurance; HOURS=, SEED=
 	$(begin)
