@@ -284,14 +284,16 @@ prove: ## what the flight image's archives for the 603e do not do: heap, excepti
 	$(call proof,$(PROVE))
 	@cfg/quality/prove $(PROVE)
 
-ppc-test: ## unit tests of the flight component on the emulated PowerPC 603e, a part of them without an operating system too; reports in out/ppc-test
+ppc-test: ## unit tests of the flight component on the emulated PowerPC 603e, a part of them without an operating system too, those of the per-point path in fixed point, too; reports in out/ppc-test
 	$(begin)
 	$(call packages,build target)
 	$(if $(filter .,$(SOURCE)),$(call configure,$(BOARD),$(BARE_BOARD)))
 	$(if $(filter .,$(SOURCE)),$(call compile,$(BOARD),bare_kernel))
 	$(call configure,$(PPC),$(CROSS))
 	$(call compile,$(PPC))
-	@cfg/quality/run-tests ppc-test 603e=$(PPC)
+	$(call configure,$(PPC)-fixed,$(CROSS) $(FIXED))
+	$(call compile,$(PPC)-fixed,$(PER_POINT))
+	@cfg/quality/run-tests ppc-test 603e=$(PPC) fixed=$(PPC)-fixed $(PER_POINT)
 
 sanitize: export LSAN_OPTIONS := suppressions=$(abspath cfg/quality/leaks.txt):print_suppressions=0
 sanitize: export UBSAN_OPTIONS := print_stacktrace=1
