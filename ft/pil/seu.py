@@ -34,7 +34,7 @@ OUTCOMES = {
     'recovered': 'told, and poses valid at the end',
     'stopped': 'told, and no more poses: safe, or lost',
     'reset': 'the board restarted',
-    'hang': 'no more word of the board for 20 s of the host: it hangs, or damaged code has made it restart nine times in a row',
+    'hang': 'no more word of the board for as long as 100 frames without a flip take, 20 s of the host at least: it hangs, or damaged code has made it restart nine times in a row',
     'told_wrong': 'a wrong pose as valid, told within 10 s, or a reset',
     'silent_wrong': 'a wrong pose as valid, and not a word',
 }
