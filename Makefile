@@ -130,10 +130,10 @@ fuzz: ## a million inputs for each reader of outside bytes, and planted bugs to 
 	$(fuzzers)
 	@ft/fuzz/run $(FUZZ) $(or $(EXECUTIONS),$(if $(SECONDS_EACH),$(SECONDS_EACH)s),1000000) $(or $(SEED),1) $(or $(LARGEST),16384) $(FUZZERS)
 
-statistics: ## instructions of estimates on the emulated 603e: median, p99, worst of many frames; out/statistics; FRAMES=, SEED=
+statistics: ## instructions of estimates on the emulated 603e: median, p99, worst of 10000 frames from the hits alone and of as many with silhouettes; out/statistics; FRAMES=, SEED=
 	$(begin)
 	$(replays)
-	@ft/ppc603e/count $(BUILD) $(PPC) $(or $(FRAMES),1800) $(or $(SEED),1)
+	@ft/ppc603e/count $(BUILD) $(PPC) $(or $(FRAMES),10000) $(or $(SEED),1)
 
 endurance: ## a day of simulated time at 5 Hz: nothing drifts, grows, slips or is wrong; out/endurance; HOURS=, SEED=
 	$(begin)
@@ -284,14 +284,16 @@ prove: ## what the flight image's archives for the 603e do not do: heap, excepti
 	$(call proof,$(PROVE))
 	@cfg/quality/prove $(PROVE)
 
-ppc-test: ## unit tests of the flight component on the emulated PowerPC 603e, a part of them without an operating system too; reports in out/ppc-test
+ppc-test: ## unit tests of the flight component on the emulated PowerPC 603e, a part of them without an operating system too, those of the per-point path in fixed point, too; reports in out/ppc-test
 	$(begin)
 	$(call packages,build target)
 	$(if $(filter .,$(SOURCE)),$(call configure,$(BOARD),$(BARE_BOARD)))
 	$(if $(filter .,$(SOURCE)),$(call compile,$(BOARD),bare_kernel))
 	$(call configure,$(PPC),$(CROSS))
 	$(call compile,$(PPC))
-	@cfg/quality/run-tests ppc-test 603e=$(PPC)
+	$(call configure,$(PPC)-fixed,$(CROSS) $(FIXED))
+	$(call compile,$(PPC)-fixed,$(PER_POINT))
+	@cfg/quality/run-tests ppc-test 603e=$(PPC) fixed=$(PPC)-fixed $(PER_POINT)
 
 sanitize: export LSAN_OPTIONS := suppressions=$(abspath cfg/quality/leaks.txt):print_suppressions=0
 sanitize: export UBSAN_OPTIONS := print_stacktrace=1

@@ -20,6 +20,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / 'cfg/quality'))
 import gate as gates  # noqa: E402
 import emulator  # noqa: E402
+from progress import Progress  # noqa: E402
 from boards import PPC603E  # noqa: E402
 
 MISSION = 'cfg/missions/hubble_tenth.toml'
@@ -33,7 +34,7 @@ OUTCOMES = {
     'recovered': 'told, and poses valid at the end',
     'stopped': 'told, and no more poses: safe, or lost',
     'reset': 'the board restarted',
-    'hang': 'no more word of the board for 20 s of the host: it hangs, or damaged code has made it restart nine times in a row',
+    'hang': 'no more word of the board for as long as 100 frames without a flip take, 20 s of the host at least: it hangs, or damaged code has made it restart nine times in a row',
     'told_wrong': 'a wrong pose as valid, told within 10 s, or a reset',
     'silent_wrong': 'a wrong pose as valid, and not a word',
 }
@@ -100,23 +101,8 @@ class Machines:
         self.now = None
 
 
-class Progress:
-    def __init__(self, first, flips):
-        self.first, self.done, self.flips, self.begun, self.told = first, first, flips, time.monotonic(), 0.0
-
-    def row(self):
-        self.done += 1
-        now = time.monotonic()
-        if now - self.told < (1 if sys.stderr.isatty() else 60) and self.done < self.flips:
-            return
-        self.told = now
-        each = (now - self.begun) / (self.done - self.first)
-        left = round(each * (self.flips - self.done))
-        print(f'flips: {self.done}/{self.flips}, {each:.1f} s each, {left // 3600}:{left // 60 % 60:02d}:{left % 60:02d} left', file=sys.stderr, flush=True)
-
-
 def fly(gate, host, elf, flips, seed, first):
-    machines, progress = Machines(elf, gate.out), Progress(first, flips)
+    machines, progress = Machines(elf, gate.out), Progress('flips', flips, 'flips', first)
     command = [f'{host}/ft/pil/pil_seu', MISSION, gate.out, gate.out / 'places.txt', flips - first, seed, first]
     with subprocess.Popen([str(word) for word in command], stdout=subprocess.PIPE, text=True) as rig, open(gate.out / 'flips.csv', 'a', encoding='utf-8') as table:
         try:
@@ -127,7 +113,7 @@ def fly(gate, host, elf, flips, seed, first):
                 elif kind == 'row':
                     table.write(rest + '\n')
                     table.flush()
-                    progress.row()
+                    progress.add()
                 else:
                     print(line.strip(), flush=True)
             said = machines.now.said() if machines.now else 'no emulator'

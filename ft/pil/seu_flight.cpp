@@ -1,6 +1,7 @@
 #include "ft/pil/seu_flight.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 
 #include "fsw/exec/executive.hpp"
@@ -12,7 +13,10 @@
 namespace lasso::pil {
 namespace {
 
-constexpr int kPatience_s = 20;               // of the host, for a slot: the board's own watchdog needs some seconds
+// Of the host, for a slot: at least so long, or as many frames of the flight without a flip took. A slot that hangs the board's own
+// watchdog ends after 200 million instructions, which are those of some 40 frames.
+constexpr int kPatience_s = 20;
+constexpr double kPatienceFrames = 100;
 constexpr std::uint32_t kSameFrames = 3;      // in a row, memory too: the flip is gone
 constexpr std::uint32_t kValidFrames = 3;     // in a row: it tracks again
 constexpr std::uint32_t kRecoverFrames = 10;  // after it was told
@@ -92,6 +96,7 @@ void SeuFlight::ignore(const Range& range) {
 void SeuFlight::record() {
   World world(setup_);
   moments_.resize(kLast + 1);
+  const auto begun = std::chrono::steady_clock::now();
   for (std::uint32_t k = 0; k < kLast; ++k) {
     Moment& moment = moments_[k];
     if (k == kFirst) board_.keep_constants();
@@ -108,6 +113,8 @@ void SeuFlight::record() {
     if (k >= kFirst && (heard.told || heard.invalid + heard.wrong > 0 || (ends_frame(k + 1) && heard.tracking == 0)))
       throw mdat::RunError("the flight without a flip tells of a fault, or has poses that are missing, invalid or wrong");
   }
+  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begun;
+  patience_s_ = std::max(kPatience_s, static_cast<int>(kPatienceFrames / kGoldenFrames * taken.count()));
 }
 
 // The same flight again, from the first state that is kept.
@@ -120,7 +127,7 @@ void SeuFlight::find_unsteady() {
       for (std::size_t i = 0; i < golden.size(); ++i) unsteady_[i] = unsteady_[i] || golden[i] != board_.memory()[i];
     }
     board_.give(moments_[k].camera, moments_[k].ground);
-    const std::optional<Said> said = board_.await(kPatience_s);
+    const std::optional<Said> said = board_.await(patience_s_);
     const Said& golden = moments_[k + 1].said;
     if (!said || said->begun || said->telemetry != golden.telemetry || said->to_camera != golden.to_camera)
       throw mdat::RunError("the board, put back to slot " + std::to_string(kFirst) + ", does something else in slot " + std::to_string(k));
@@ -133,7 +140,7 @@ void SeuFlight::check_board() {
   board_.processor().go_on();
   for (std::uint32_t k = kFirst; k < kFirst + kSlotsPerFrame; ++k) {
     board_.give(moments_[k].camera, moments_[k].ground);
-    const std::optional<Said> said = board_.await(kPatience_s / 4);
+    const std::optional<Said> said = board_.await(patience_s_ / 4);
     if (!said || said->begun || said->telemetry != moments_[k + 1].said.telemetry) throw mdat::RunError("the board cannot be put back");
   }
 }
@@ -190,7 +197,7 @@ void SeuFlight::fly_on(Course& course, const Flip& flip, Trial& trial) {
 
 SeuFlight::Step SeuFlight::step(Course& course, const Flip& flip, Trial& trial) {
   answer(course);
-  const std::optional<Said> said = board_.await(kPatience_s, [&] { reach(course, flip, trial); });
+  const std::optional<Said> said = board_.await(patience_s_, [&] { reach(course, flip, trial); });
   if (!said) return Step::kSilent;
   if (said->begun) return Step::kBegun;
   ++course.boundary;

@@ -84,6 +84,7 @@ class SeuFlight {
   std::map<std::uint32_t, Snapshot> snapshots_;  // by boundary
   std::map<std::uint32_t, Packet> memories_;     // at the ends of frames, by boundary
   std::vector<bool> unsteady_;                   // bytes of memory that are not the same in each flight: times of the processor
+  int patience_s_ = 0;                           // of the host, for a slot; known when the flight without a flip is recorded
   bool doubtful_ = false;                        // whether the board can be put back
 };
 
