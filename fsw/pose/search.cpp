@@ -14,7 +14,6 @@ constexpr std::size_t kPullPoints = 128;
 constexpr int kExploreSteps = 12;               // each way, even
 constexpr int kExploreEnd = kExploreSteps + 4;  // with the places beside the best
 constexpr double kExploreStep = 0.005;          // of the model's size, along the least certain direction
-constexpr std::uint32_t kExploredAtOnce = 4;    // of these in a step of the work
 
 // The least certain direction of the information H: a step that moves the farthest part of the model by a metre. False where H has none.
 bool find_weakest(const Mission& mission, const Mat6& H, Vec6& direction) {
@@ -279,11 +278,12 @@ void Search::end_settling(const Mission& mission) {
 }
 
 // Where a view says little about a direction, the registration may end anywhere along it, and hits that pass an edge decide: the best
-// tracks move to the place along it that fits best. A step looks at a few places of one track.
+// tracks move to the place along it that fits best. A step looks at one place.
 std::uint32_t Search::explore_next(const Mission& mission) {
   const Evidence& evidence = evidence_[last()];
   std::uint32_t work = line_.begun ? 0 : begin_line(mission);
-  for (std::uint32_t k = 0; line_.next <= kExploreEnd && k < kExploredAtOnce; line_.next += 2, ++k) work += look_along(mission, evidence);
+  if (line_.next <= kExploreEnd) work += look_along(mission, evidence);
+  line_.next += 2;
   if (line_.next > kExploreEnd) end_line();
   return work;
 }

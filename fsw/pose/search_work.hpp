@@ -13,7 +13,7 @@ constexpr std::size_t kInstructionsPerUnit = 75;
 constexpr std::uint32_t kDistancePulls = 8;  // passes of pull_on_distances
 constexpr std::uint32_t kRayPulls = 4;       // of pull_on_rays
 
-// Instructions of one each.
+// Instructions of one each, in the mean or, where a ray is walked along, rather more.
 namespace cost {
 constexpr std::size_t kRay = 500;           // of a scan: deskewed, and counted where it points
 constexpr std::size_t kNeighbour = 30;      // of a return, looked at for company
