@@ -32,7 +32,7 @@ struct SearchLimits {
   double disagreement_max = 0.20;
   double ratio_min = 1.3;  // score of the best distinct competitor over that of the pose; or what the returns make of both by their noise
   std::uint32_t scans_max = kMaxSearchScans;
-  std::uint32_t work_max = 2'400'000;  // units of work on one scan; what they leave open makes the result ambiguous
+  std::uint32_t work_max = 2'500'000;  // units of work on one scan; what they leave open makes the result ambiguous
 };
 
 class Search {
