@@ -116,7 +116,7 @@ inline constexpr Choice kSearchReasons[] = {
   {"too_few_returns", "fewer returns than search.hits_min", "wait for a nearer target, or lower search.hits_min"},
   {"unexplained", "the best pose leaves too much unexplained", "check that the mission image is the target's; look for background"},
   {"not_registered", "the registration of the best pose failed", "wait for another aspect"},
-  {"unfinished", "search.work_max look-ups were used up before every other pose was excluded", "wait for another aspect, or raise search.work_max"},
+  {"unfinished", "search.work_max was used up before every other pose was excluded", "wait for another aspect, or raise search.work_max"},
 };
 inline constexpr Choice kSensorReasons[] = {
   {"in_band", "the target's range is within the sensor's band (use_from_m, use_to_m)"},

@@ -79,7 +79,7 @@ inline constexpr TypedRow<P> kRows[] = {
   make_row<&P::search_candidates>(65, "search_candidates", "1", Range{0, kTelemetryCandidates}, "poses that explain them, best first, which follow (at most 4)"),
   make_row<&P::search_ratio>(66, "search_ratio", "1", kAtLeastZero, "score of the best competitor over that of the best pose; 0: no competitor"),
   make_row<&P::search_disagreement>(67, "search_disagreement", "1", kShare, "share of what was looked at that the best pose does not explain"),
-  make_row<&P::search_work>(68, "search_work", "1", kAny, "look-ups of the search so far"),
+  make_row<&P::search_work>(68, "search_work", "1", kAny, "work of the search so far, some 75 instructions of a 603e each"),
   make_row<&P::t_search_us>(69, "t_search_us", "us", kAny, "time at which the candidates are stated"),
   make_row<&P::candidate_q>(70, "candidate_q", "1", kUnitVector, "candidates: quaternions x, y, z, w, one after the other"),
   make_row<&P::candidate_p_m>(71, "candidate_p_m", "m", kAny, "candidates: target's origin in the sensor frame"),

@@ -17,8 +17,8 @@ class Searcher {
   // One frame in mode searching. `step` is the bearing's (bearing_scan, track_without_scan) and is completed: search, registration
   // (kSearching), state and event. `scan` is null where it was lost; it is taken where none is being worked on and it was aimed by a
   // bearing; while one is, the first scan 2 s later waits for its turn. A new search begins when step.after.searches says so, and when one
-  // has joined as many scans as it may. At most search.slice look-ups, and those of the step that uses them up (kLargestStep). A pose that
-  // is accepted is offered as a start: kStarting, or step.refusal says why not. One from a single scan since which the target may have
+  // has joined as many scans as it may. At most search.slice units of work, and those of the step that uses them up (kLargestStep). A pose
+  // that is accepted is offered as a start: kStarting, or step.refusal says why not. One from a single scan since which the target may have
   // turned by 5 deg waits for another scan, which shows its rate. It is offered again where the frame that said so came too late.
   void work(const Mission& mission, const RangeImage* scan, Workspace& workspace, TrackStep& step);
 

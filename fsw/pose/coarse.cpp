@@ -1,6 +1,7 @@
 #include "fsw/pose/coarse.hpp"
 
 #include "fsw/geometry/portable_math.hpp"
+#include "fsw/pose/search_work.hpp"
 
 namespace lasso {
 namespace {
@@ -103,7 +104,7 @@ void CoarseSearch::begin(const Mission& mission, const Evidence& evidence) {
 }
 
 std::uint32_t CoarseSearch::step(const Mission& mission, const Evidence& evidence) {
-  work_ = static_cast<std::uint32_t>(count_ + kBlock);
+  points_looked_at_ = offers_ = 0;
   const Mat3 axes = axes_along(to_vec3(mission.search.views[next_view_].direction));
   const bool again = choose_place(mission, evidence);
   turn_points(mission.search, axes);
@@ -115,7 +116,7 @@ std::uint32_t CoarseSearch::step(const Mission& mission, const Evidence& evidenc
   by_median_ = again;
   if (!again) ++next_view_;
   done_ = next_view_ == mission.search.views.size();
-  return work_;
+  return view_work(count_, points_looked_at_, offers_);
 }
 
 // Where the returns' centroid is in the view. True where the view is to be laid once more.
@@ -163,24 +164,29 @@ CoarseSearch::RollScore CoarseSearch::sum_block(const SearchTables<N>& tables, s
   return sum;
 }
 
+// What the sum over the first `points` of them may be of a hypothesis that is to come on the list: their share of its limit, with a start.
+std::uint32_t CoarseSearch::share_of_limit(std::size_t points) const {
+  return short_list_.limit() * static_cast<std::uint32_t>(points + kHeadStart) / static_cast<std::uint32_t>(count_ + kHeadStart);
+}
+
 // The sum over the points, of both the roll and the one half a turn on; kUnwanted of both where neither promises to be among the best:
 // points are far apart, so that the first few are a fair sample of them all.
 CoarseSearch::RollScore CoarseSearch::score(const SearchTables<N>& tables, std::uint32_t roll) {
-  const std::uint32_t share = short_list_.limit() / static_cast<std::uint32_t>(count_ + kHeadStart);
   RollScore sum;
   for (std::size_t first = 0; first < count_; first += kBlock) {
-    const std::uint32_t bound = share * static_cast<std::uint32_t>(first + kHeadStart);
+    const std::uint32_t bound = share_of_limit(first);
     if (sum.here >= bound && sum.opposite >= bound) return {kUnwanted, kUnwanted};
     const RollScore block = sum_block(tables, roll, first);
     sum.here += block.here;
     sum.opposite += block.opposite;
-    work_ += kBlock;
+    points_looked_at_ += kBlock;
   }
   return sum;
 }
 
 void CoarseSearch::offer(const Evidence& evidence, const Mat3& view_axes, std::uint32_t roll, std::uint32_t score) {
   if (score >= short_list_.limit()) return;
+  ++offers_;
   const SinCos turn = sin_cos(2 * kPi / kRolls * roll);
   Mat3 roll_axes;
   roll_axes << turn.cos, -turn.sin, 0, turn.sin, turn.cos, 0, 0, 0, 1;

@@ -48,7 +48,7 @@ class CoarseSearch {
   void begin(const Mission& mission, const Evidence& evidence);
   // One view at all rolls: kRolls * kCoarsePoints cells at most. A view is laid with the middle of what is seen on that of the returns, and
   // once more with their median depths alike where that is another place: thin parts that are seen edge-on, or nearly, move a middle, and a
-  // few parts far behind the others. Returns how much work it was, in look-ups (search.hpp); done() after the last view.
+  // few parts far behind the others. Returns how much work it was (search_work.hpp); done() after the last view.
   std::uint32_t step(const Mission& mission, const Evidence& evidence);
   bool done() const { return done_; }
   const ShortList& short_list() const { return short_list_; }
@@ -68,6 +68,7 @@ class CoarseSearch {
   };
   bool choose_place(const Mission& mission, const Evidence& evidence);
   void turn_points(const SearchTables<N>& tables, const Mat3& view_axes);
+  std::uint32_t share_of_limit(std::size_t points) const;
   RollScore score(const SearchTables<N>& tables, std::uint32_t roll);
   RollScore sum_block(const SearchTables<N>& tables, std::uint32_t roll, std::size_t first) const;
   void offer(const Evidence& evidence, const Mat3& view_axes, std::uint32_t roll, std::uint32_t score);
@@ -75,9 +76,10 @@ class CoarseSearch {
   Mat3 sight_ = Mat3::Identity();  // columns: axes of the line of sight, the third one back to the sensor; sensor frame
   std::uint32_t next_view_ = 0;
   bool done_ = false;
-  std::uint32_t work_ = 0;        // of the step
-  bool by_median_ = false;        // the view once more, laid where the medians of the depths are alike instead of the middles
-  Vec3 centroid_ = Vec3::Zero();  // of what is seen in the view from the scan's range, target frame
+  std::uint32_t points_looked_at_ = 0;  // of the step
+  std::uint32_t offers_ = 0;            // of the step
+  bool by_median_ = false;              // the view once more, laid where the medians of the depths are alike instead of the middles
+  Vec3 centroid_ = Vec3::Zero();        // of what is seen in the view from the scan's range, target frame
   std::size_t count_ = 0;
   std::int32_t points_[kCoarsePoints][3] = {};  // from the centroid, in the axes of the line of sight; 2^-10 cells
   std::int32_t turns_[kRolls / 2][2] = {};      // cosine and sine of each roll of the first half turn; 2^-12

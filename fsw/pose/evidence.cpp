@@ -1,6 +1,7 @@
 #include "fsw/pose/evidence.hpp"
 
 #include "fsw/geometry/portable_math.hpp"
+#include "fsw/pose/search_work.hpp"
 
 namespace lasso {
 namespace {
@@ -100,33 +101,39 @@ void EvidenceMaker::begin(const Mission& mission, const Workspace& workspace) {
   }
 }
 
-bool EvidenceMaker::step(const Mission& mission, Evidence& evidence) {
+bool EvidenceMaker::step(const Mission& mission, Evidence& evidence, std::uint32_t& work) {
   if (judged_ < hits_.size()) {
-    judge_isolation(judged_++);
+    work += company_work(judge_isolation(judged_++));
     if (judged_ == hits_.size()) drop_isolated();
     return true;
   }
   if (evidence.hits.empty()) {
     evidence.returns = static_cast<std::uint32_t>(hits_.size() * hit_stride_);
     find_centroid(evidence);
+    work += middle_work(hits_.size());
   }
   if (evidence.hits.size() < hits_.size() && !evidence.hits.full()) {
     choose(evidence);
+    work += choice_work(hits_.size());
     return true;
   }
   choose_misses(mission, evidence);
+  work += passing_work(misses_.size());
   return false;
 }
 
-void EvidenceMaker::judge_isolation(std::size_t index) {
+// Answers how many others it looked at.
+std::size_t EvidenceMaker::judge_isolation(std::size_t index) {
   const float reach = hits_[index].reach;
   std::size_t company = 0;
   // Neighbours in time are near, mostly: the search begins with them.
-  for (std::size_t k = 1; k < hits_.size() && company < kCompany; ++k) {
+  std::size_t k = 1;
+  for (; k < hits_.size() && company < kCompany; ++k) {
     const std::size_t other = index + k < hits_.size() ? index + k : index + k - hits_.size();
     if (squared_distance(hits_[index].point.p, hits_[other].point.p) < reach * reach) ++company;
   }
   hits_[index].kept = company >= kCompany;
+  return k;
 }
 
 void EvidenceMaker::drop_isolated() {

@@ -49,8 +49,9 @@ class EvidenceMaker {
   // From the rays and points of `workspace` (prepare_rays). Of more than kPoolRays hits or misses every n-th is taken.
   void begin(const Mission& mission, const Workspace& workspace);
 
-  // One step; false when `evidence` is complete. A step looks at each return of the pool once.
-  bool step(const Mission& mission, Evidence& evidence);
+  // One step, which adds its work; false when `evidence` is complete. A step looks at each return of the pool, the first with a choice
+  // some ten times.
+  bool step(const Mission& mission, Evidence& evidence, std::uint32_t& work);
 
  private:
   struct PoolHit {
@@ -61,7 +62,7 @@ class EvidenceMaker {
     std::uint8_t region;  // the chosen return that is closest, of the first kRegions
     bool kept;
   };
-  void judge_isolation(std::size_t index);
+  std::size_t judge_isolation(std::size_t index);
   void drop_isolated();
   void find_centroid(Evidence& evidence) const;
   void find_median(double weights, Evidence& evidence) const;

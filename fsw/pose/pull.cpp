@@ -1,15 +1,15 @@
 // The pull of a rough hypothesis on the truncated distance to the surface, then on rays with a gate that shrinks.
 #include "fsw/pose/gauss_newton.hpp"
+#include "fsw/pose/search_work.hpp"
 
 namespace lasso {
 namespace {
 
 using N = FlightNumber;
 
-constexpr int kDistancePasses = 8;
-constexpr float kScaleFirst = 1.0F;                       // of the truncation
-constexpr float kScaleShrink = 0.84F;                     // per pass
-constexpr double kRayGates[] = {0.04, 0.02, 0.01, 0.01};  // of the model's size
+constexpr float kScaleFirst = 1.0F;                                // of the truncation
+constexpr float kScaleShrink = 0.84F;                              // per pass
+constexpr double kRayGates[kRayPulls] = {0.04, 0.02, 0.01, 0.01};  // of the model's size
 
 // Points within `scale` of the surface are pulled on to it along the distance's gradient. Returns the mean distance over the truncation.
 double take_distance_pass(const Mission& mission, const MatchSettings<N>& s, float scale_m, const Workspace& workspace, Pose& pose) {
@@ -54,7 +54,7 @@ Pulled pull_on_distances(const Mission& mission, const Pose& T_target_sensor, Wo
   if (workspace.points.size() < kMinimumPoints) return pulled;
   const MatchSettings<N> s = make_settings(mission.parameters, workspace);
   float scale_m = kScaleFirst * mission.search.truncation_m;
-  for (int i = 0; i < kDistancePasses; ++i) {
+  for (std::uint32_t i = 0; i < kDistancePulls; ++i) {
     pulled.distance = take_distance_pass(mission, s, scale_m, workspace, pulled.T_target_sensor);
     scale_m *= kScaleShrink;
   }

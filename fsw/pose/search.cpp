@@ -14,7 +14,6 @@ constexpr std::size_t kPullPoints = 128;
 constexpr int kExploreSteps = 12;               // each way, even
 constexpr int kExploreEnd = kExploreSteps + 4;  // with the places beside the best
 constexpr double kExploreStep = 0.005;          // of the model's size, along the least certain direction
-constexpr std::uint32_t kExploredAtOnce = 4;    // of these in a step of the work
 
 // The least certain direction of the information H: a step that moves the farthest part of the model by a metre. False where H has none.
 bool find_weakest(const Mission& mission, const Mat6& H, Vec6& direction) {
@@ -36,6 +35,7 @@ void Search::begin(const SearchLimits& limits) {
   tracks_.clear();
   line_ = Line();
   working_ = false;
+  adding_work_ = 0;
   result_ = SearchResult();
 }
 
@@ -51,6 +51,8 @@ Status Search::add_scan(const Mission& mission, const RangeImage& scan, Workspac
   evidence.t_us = scan.reference_time_us();
   maker_.begin(mission, workspace);
   scan_work_ = 0;
+  adding_work_ = prepare_work(scan.samples.size());
+  count(adding_work_);
   unfinished_ = false;
   mirrored_ = false;
   stage_ = Stage::kEvidence;
@@ -58,14 +60,19 @@ Status Search::add_scan(const Mission& mission, const RangeImage& scan, Workspac
 }
 
 bool Search::advance(const Mission& mission, Workspace& workspace, std::uint32_t budget) {
-  std::uint32_t used = 0;
+  std::uint32_t used = adding_work_;
+  adding_work_ = 0;
   while (busy() && used < budget) {
     const std::uint32_t work = step(mission, workspace);
     used += work;
-    scan_work_ += work;
+    count(work);
   }
-  result_.work += used;
   return !busy();
+}
+
+void Search::count(std::uint32_t work) {
+  scan_work_ += work;
+  result_.work += work;
 }
 
 // Asked for what is worth working on, and only then.
@@ -78,11 +85,7 @@ bool Search::may_work() {
 std::uint32_t Search::step(const Mission& mission, Workspace& workspace) {
   switch (stage_) {
     case Stage::kEvidence:
-      if (!maker_.step(mission, evidence_[last()])) {
-        coarse_.begin(mission, evidence_[last()]);
-        stage_ = Stage::kCoarse;
-      }
-      return kPoolRays / 4;
+      return gather_evidence(mission);
     case Stage::kCoarse:
       return look_coarsely(mission);
     case Stage::kPull:
@@ -106,6 +109,15 @@ std::uint32_t Search::step(const Mission& mission, Workspace& workspace) {
   }
 }
 
+std::uint32_t Search::gather_evidence(const Mission& mission) {
+  std::uint32_t work = 0;
+  if (!maker_.step(mission, evidence_[last()], work)) {
+    coarse_.begin(mission, evidence_[last()]);
+    stage_ = Stage::kCoarse;
+  }
+  return work;
+}
+
 std::uint32_t Search::look_coarsely(const Mission& mission) {
   const std::uint32_t work = coarse_.step(mission, evidence_[last()]);
   if (coarse_.done()) {
@@ -125,7 +137,7 @@ std::uint32_t Search::pull_next(const Mission& mission, Workspace& workspace) {
     next_ = 0;
     stage_ = Stage::kDraw;
   }
-  return pull_work(workspace);
+  return pull_work(workspace.points.size());
 }
 
 std::uint32_t Search::draw_next(const Mission& mission, Workspace& workspace) {
@@ -136,7 +148,7 @@ std::uint32_t Search::draw_next(const Mission& mission, Workspace& workspace) {
   drawn.fit = measure_fit(mission, drawn.T_target_sensor, evidence, hopeless_beyond(drawn_.best_score(next_)));
   drawn.score = drawn.fit.score();
   if (++next_ == drawn_.size()) choose_finalists();
-  return draw_work(workspace) + fit_work(drawn.fit);
+  return draw_work(workspace.points.size()) + fit_work(drawn.fit);
 }
 
 // Is it as far as that from all of the scan's own finalists?
@@ -214,7 +226,7 @@ std::uint32_t Search::sketch_next(const Mission& mission, Workspace& workspace) 
     const Pose start = pull_in(mission, track.start, workspace);
     const Settled settled = sketch(mission, evidence, {start, track.fits[last()]}, limit, workspace, work);
     if (settled.fit.score() < track.fits[last()].score()) take(settled, last(), track);
-    work += pull_work(workspace) + draw_work(workspace);
+    work += pull_work(workspace.points.size()) + draw_work(workspace.points.size());
     working_ = false;
   } else {
     track.start = own ? track.T_target_sensor[last()] : carry(track, last() - 1, last(), rates_of(track, last() - 1));
@@ -222,7 +234,7 @@ std::uint32_t Search::sketch_next(const Mission& mission, Workspace& workspace) 
     track.cost = track.whole_cost = track.explained_cost = kAnyScore;
     const Pose start = drawn ? track.start : pull_on_rays(mission, track.start, workspace);
     take(sketch(mission, evidence, {start, track.fits[last()]}, limit, workspace, work), last(), track);
-    work += drawn ? 0 : draw_work(workspace);
+    work += drawn ? 0 : draw_work(workspace.points.size());
     working_ = !drawn && is_hopeless(track);
   }
   if (working_ || ++next_ < tracks_.size()) return work;
@@ -250,7 +262,7 @@ std::uint32_t Search::settle_next(const Mission& mission, Workspace& workspace) 
     return settle(mission, last(), track, workspace);
   }
   end_settling(mission);
-  return 1;
+  return kEndingWork;
 }
 
 void Search::end_settling(const Mission& mission) {
@@ -266,24 +278,25 @@ void Search::end_settling(const Mission& mission) {
 }
 
 // Where a view says little about a direction, the registration may end anywhere along it, and hits that pass an edge decide: the best
-// tracks move to the place along it that fits best. A step looks at a few places of one track.
+// tracks move to the place along it that fits best. A step looks at one place.
 std::uint32_t Search::explore_next(const Mission& mission) {
   const Evidence& evidence = evidence_[last()];
-  if (!line_.begun) begin_line(mission);
-  std::uint32_t work = 1;
-  for (std::uint32_t k = 0; line_.next <= kExploreEnd && k < kExploredAtOnce; line_.next += 2, ++k) work += look_along(mission, evidence);
+  std::uint32_t work = line_.begun ? 0 : begin_line(mission);
+  if (line_.next <= kExploreEnd) work += look_along(mission, evidence);
+  line_.next += 2;
   if (line_.next > kExploreEnd) end_line();
   return work;
 }
 
 // Without a direction, or hope, there is no place to look at.
-void Search::begin_line(const Mission& mission) {
+std::uint32_t Search::begin_line(const Mission& mission) {
   const Track& track = tracks_[next_];
   line_.from = line_.best = track.T_target_sensor[last()];
   line_.fit = track.fits[last()];
   const bool worth = !is_hopeless(track) && may_work() && find_weakest(mission, track.H, line_.direction);
   line_.next = worth ? -kExploreSteps : kExploreEnd + 2;
   line_.begun = true;
+  return kLineWork;
 }
 
 std::uint32_t Search::look_along(const Mission& mission, const Evidence& evidence) {
@@ -327,7 +340,7 @@ std::uint32_t Search::recall_next(const Mission& mission, Workspace& workspace) 
   prune();
   next_ = 0;
   stage_ = Stage::kSway;
-  return 1;
+  return kEndingWork;
 }
 
 // What comes to the same attitude in the last scan was the same in those before it.

@@ -7,46 +7,36 @@
 // target may turn by some 15 deg between two scans. All state is in the object and is forgotten by begin(); the workspace holds nothing
 // between two calls.
 //
-// Work is done in steps and counted in look-ups of some 75 PowerPC 603e instructions. advance() ends with the step that uses the budget up;
-// no step takes more than kLargestStep. A scan of 1024 rays takes some 1.1 million look-ups, some 80 million instructions, in all
-// (docs/search.md): most hypotheses are looked at no longer than until others promise more. Once limits.work_max of them
-// are used on a scan, nothing more is settled, explored or swayed: what was found so far stands, as ambiguous, and the next scan goes on
-// from it. Poses are recalled in earlier scans, and the best one's near-symmetries measured, all the same.
+// Work is done in steps and counted in units of some 75 PowerPC 603e instructions (search_work.hpp). advance() ends with the step that
+// uses the budget up; no step takes more than kLargestStep. A scan of 1024 rays takes some 1.15 million units, some 80 million
+// instructions, in all (docs/search.md): most hypotheses are looked at no longer than until others promise more. Once limits.work_max of
+// them are used on a scan, nothing more is settled, explored or swayed: what was found so far stands, as ambiguous, and the next scan goes
+// on from it. Poses are recalled in earlier scans, and the best one's near-symmetries measured, all the same.
 #pragma once
 
 #include "fsw/pose/drawn_list.hpp"
 #include "fsw/pose/search_result.hpp"
+#include "fsw/pose/search_work.hpp"
 #include "fsw/pose/settle.hpp"
 #include "fsw/pose/sway.hpp"
 
 namespace lasso {
 
 constexpr std::size_t kMaxSearchScans = 3;
-constexpr std::uint32_t kLargestStep = 80'000;  // look-ups, at estimation.iterations_max 12
+// At estimation.iterations_max 12: a registration on all evidence, which is then weighed by regions, and its fit measured.
+constexpr std::uint32_t kLargestStep =
+    look_work(kEvidenceHits, 14) + regions_work(kEvidenceHits) + fit_work(kEvidenceHits, kEvidenceMisses);
 
 struct SearchLimits {
   double hits_min = 80;  // returns looked at
   double disagreement_max = 0.20;
   double ratio_min = 1.3;  // score of the best distinct competitor over that of the pose; or what the returns make of both by their noise
   std::uint32_t scans_max = kMaxSearchScans;
-  std::uint32_t work_max = 2'250'000;  // look-ups of one scan; what they leave open makes the result ambiguous
+  std::uint32_t work_max = 2'500'000;  // units of work on one scan; what they leave open makes the result ambiguous
 };
 
 class Search {
  public:
-  void begin(const SearchLimits& limits);
-
-  // Takes what it needs of the scan. kBusy while the last one is being worked on; kBadOrder beyond limits.scans_max, or where the scan is
-  // not later than the last one; kNoData for a scan without returns. Where it is refused nothing changes.
-  Status add_scan(const Mission& mission, const RangeImage& scan, Workspace& workspace);
-
-  // Works until the budget is used up; true when the result for the scans so far stands.
-  bool advance(const Mission& mission, Workspace& workspace, std::uint32_t budget);
-
-  bool busy() const { return stage_ != Stage::kIdle; }
-  const SearchResult& result() const { return result_; }
-
- private:
   enum class Stage : std::uint8_t {
     kIdle,
     kEvidence,
@@ -61,6 +51,22 @@ class Search {
     kMirror,
     kVerdict
   };
+
+  void begin(const SearchLimits& limits);
+
+  // Takes what it needs of the scan. kBusy while the last one is being worked on; kBadOrder beyond limits.scans_max, or where the scan is
+  // not later than the last one; kNoData for a scan without returns. Where it is refused nothing changes. Its work is part of the next
+  // advance()'s.
+  Status add_scan(const Mission& mission, const RangeImage& scan, Workspace& workspace);
+
+  // Works until the budget is used up; true when the result for the scans so far stands.
+  bool advance(const Mission& mission, Workspace& workspace, std::uint32_t budget);
+
+  bool busy() const { return stage_ != Stage::kIdle; }
+  Stage stage() const { return stage_; }  // of the next step
+  const SearchResult& result() const { return result_; }
+
+ private:
   // A pose in each scan, as far as known.
   struct Track {
     Pose T_target_sensor[kMaxSearchScans];
@@ -91,6 +97,8 @@ class Search {
   static constexpr std::size_t kTracks = kCarried + (kMaxSymmetries > kFinalists ? kMaxSymmetries : kFinalists);
 
   std::uint32_t step(const Mission& mission, Workspace& workspace);
+  void count(std::uint32_t work);
+  std::uint32_t gather_evidence(const Mission& mission);
   std::uint32_t look_coarsely(const Mission& mission);
   std::uint32_t pull_next(const Mission& mission, Workspace& workspace);
   std::uint32_t draw_next(const Mission& mission, Workspace& workspace);
@@ -105,7 +113,7 @@ class Search {
   std::uint32_t conclude();
   std::uint32_t settle(const Mission& mission, std::size_t scan, Track& track, Workspace& workspace);
   void end_settling(const Mission& mission);
-  void begin_line(const Mission& mission);
+  std::uint32_t begin_line(const Mission& mission);
   std::uint32_t look_along(const Mission& mission, const Evidence& evidence);
   void end_line();
   bool is_apart(const Pose& T_target_sensor, double cos_half_angle) const;
@@ -136,13 +144,14 @@ class Search {
   SearchLimits limits_;
   Stage stage_ = Stage::kIdle;
   std::size_t scans_ = 0;
-  std::size_t next_ = 0;         // of the stage's items
-  std::size_t first_ = 0;        // track of the last scan's own finalists, or of the twins
-  bool twins_ = false;           // are there
-  bool mirrored_ = false;        // those of the best pose as it stands have been looked for
-  bool working_ = false;         // on the next track
-  bool unfinished_ = false;      // something that was worth it was not worked on
-  std::uint32_t scan_work_ = 0;  // look-ups of the last scan
+  std::size_t next_ = 0;           // of the stage's items
+  std::size_t first_ = 0;          // track of the last scan's own finalists, or of the twins
+  bool twins_ = false;             // are there
+  bool mirrored_ = false;          // those of the best pose as it stands have been looked for
+  bool working_ = false;           // on the next track
+  bool unfinished_ = false;        // something that was worth it was not worked on
+  std::uint32_t scan_work_ = 0;    // on the last scan
+  std::uint32_t adding_work_ = 0;  // of adding it, until a slice has paid for it
   EvidenceMaker maker_;
   CoarseSearch coarse_;
   Evidence evidence_[kMaxSearchScans];

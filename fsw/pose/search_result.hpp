@@ -41,7 +41,7 @@ struct SearchResult {
   double ratio = 0;  // (score of the best candidate more than 15 deg off + 0.01) / (score of the best + 0.01); 0 without one
   std::uint32_t scans = 0;
   std::uint32_t returns = 0;                                      // of all scans that were looked at
-  std::uint32_t work = 0;                                         // look-ups, all scans
+  std::uint32_t work = 0;                                         // in units (search_work.hpp), all scans
   FixedVector<SearchCandidate, kMaxSearchCandidates> candidates;  // the best, and those that the ratio does not exclude
 };
 

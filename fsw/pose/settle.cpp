@@ -1,38 +1,29 @@
 #include "fsw/pose/settle.hpp"
 
+#include "fsw/pose/search_work.hpp"
+
 namespace lasso {
 namespace {
 
 constexpr std::size_t kSketchPoints = 128;
 constexpr double kSettled = 0.02;  // disagreement below which nothing better is looked for
-// Look-ups of one point, by what its instructions are worth on a 603e.
-constexpr std::uint32_t kFitCost = 18;
-constexpr std::uint32_t kPassCost = 12;
-constexpr std::uint32_t kPullCost = 32;  // 8 passes on distances
-constexpr std::uint32_t kRayPulls = 4;
 
-std::uint32_t points_of(const Workspace& workspace) { return static_cast<std::uint32_t>(workspace.points.size()); }
-Settled measured(const Mission& mission, const Evidence& evidence, const HitSolution& solution, double limit, std::uint32_t points,
+Settled measured(const Mission& mission, const Evidence& evidence, const HitSolution& solution, double limit, std::size_t points,
                  std::uint32_t& work) {
   Settled settled{solution, measure_fit(mission, solution.T_target_sensor, evidence, limit)};
-  work += kPassCost * points * solution.iterations + fit_work(settled.fit);
+  work += look_work(points, solution.iterations) + fit_work(settled.fit);
   return settled;
 }
 
 }  // namespace
 
-std::uint32_t fit_work(const Fit& fit) { return kFitCost * fit.walks; }
-std::uint32_t pull_work(const Workspace& workspace) { return kPullCost * points_of(workspace); }
-std::uint32_t draw_work(const Workspace& workspace) { return kRayPulls * weigh_work(workspace); }
-std::uint32_t weigh_work(const Workspace& workspace) { return kPassCost * points_of(workspace); }
-
 Settled sketch(const Mission& mission, const Evidence& evidence, const SketchStart& start, double limit, Workspace& workspace,
                std::uint32_t& work) {
   put_points(evidence, kSketchPoints, workspace);
   const HitSolution solution = register_look(mission, RegisterLook::kFirst, start.T_target_sensor, workspace);
-  Settled settled = measured(mission, evidence, solution, limit, points_of(workspace), work);
+  Settled settled = measured(mission, evidence, solution, limit, workspace.points.size(), work);
   if (!(settled.fit.score() > poor_beyond(start.fit.score()))) return settled;
-  work += weigh_work(workspace);
+  work += weigh_work(workspace.points.size());
   return {weigh_hits(mission, start.T_target_sensor, workspace), start.fit};
 }
 
@@ -47,7 +38,7 @@ void Settler::look(const Mission& mission, const Evidence& evidence, RegisterLoo
   const double limit = first ? kAnyScore : best_.fit.score();
   put_points(evidence, kEvidenceHits, workspace);
   const HitSolution solution = register_look(mission, which, rough_, workspace);
-  const Settled settled = measured(mission, evidence, solution, limit, points_of(workspace), work);
+  const Settled settled = measured(mission, evidence, solution, limit, workspace.points.size(), work);
   if (first || settled.fit.score() < limit) best_ = settled;
 }
 
@@ -64,7 +55,7 @@ bool Settler::step(const Mission& mission, const Evidence& evidence, double limi
     case Attempt::kDraw:
       put_points(evidence, kEvidenceHits, workspace);
       rough_ = pull_in(mission, start_, workspace);
-      work += pull_work(workspace) + draw_work(workspace);
+      work += pull_work(workspace.points.size()) + draw_work(workspace.points.size());
       attempt_ = Attempt::kLast;
       return true;
     default:

@@ -16,7 +16,7 @@ struct SketchStart {
   Fit fit;  // of this pose; Fit() where it is not known, which no registration strays from
 };
 
-// Work is counted in look-ups, as a search's is; `work` is added to.
+// `work` is added to (search_work.hpp).
 
 // The start registered on some of the returns, which tells whether it is worth more. The measuring ends beyond `limit`. A start that is
 // known to fit is kept where the registration strays from it: a few returns and a wide gate may lead to another minimum.
@@ -41,10 +41,5 @@ class Settler {
   Pose rough_, start_;
   Settled best_;
 };
-
-std::uint32_t fit_work(const Fit& fit);
-std::uint32_t pull_work(const Workspace& workspace);   // of pull_on_distances
-std::uint32_t draw_work(const Workspace& workspace);   // of pull_on_rays
-std::uint32_t weigh_work(const Workspace& workspace);  // of a pass of the registration
 
 }  // namespace lasso

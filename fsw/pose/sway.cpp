@@ -2,14 +2,13 @@
 
 #include "fsw/geometry/portable_math.hpp"
 #include "fsw/pose/path_pose.hpp"
-#include "fsw/pose/settle.hpp"
+#include "fsw/pose/search_work.hpp"
 
 namespace lasso {
 namespace {
 
 constexpr double kBetterCost = 0.97;  // of the cost so far: less is no other place
 constexpr double kTurn_rad = 4 * kRadPerDeg;
-constexpr std::uint32_t kWeighCost = 16;  // look-ups of a return
 
 // Turned about a place in the target's frame.
 Pose turned(const Pose& T_target_sensor, int turn, const Vec3& middle) {
@@ -62,12 +61,17 @@ void Sway::begin(const Pose& T_target_sensor, const Mat6& H, const SwayCare& car
 }
 
 bool Sway::step(const Mission& mission, const Evidence& evidence, Workspace& workspace, std::uint32_t& work) {
-  if (!begun_) {
+  if (begun_) {
+    try_next(mission, evidence, workspace, work);
+  } else {
     weigh(mission, best_, evidence, workspace, work);
     standing_ = tried_standing_;
     begun_ = true;
   }
-  if (standing_.cost < kCleanCost) return false;
+  return next_ <= care_.turns && !(standing_.cost < kCleanCost);
+}
+
+void Sway::try_next(const Mission& mission, const Evidence& evidence, Workspace& workspace, std::uint32_t& work) {
   if (again_) {
     put_regions(evidence, tried_standing_.explained, workspace);
     keep_if_better(try_from(mission, tried_, evidence, workspace, work));
@@ -82,17 +86,16 @@ bool Sway::step(const Mission& mission, const Evidence& evidence, Workspace& wor
     again_ = tried_standing_.cost < care_.promising * standing_.cost;
   }
   if (!again_) ++next_;
-  return next_ <= care_.turns;
 }
 
 void Sway::weigh(const Mission& mission, const Pose& T_target_sensor, const Evidence& evidence, Workspace& workspace, std::uint32_t& work) {
   tried_standing_ = weigh_regions(mission, T_target_sensor, evidence, workspace);
-  work += kWeighCost * static_cast<std::uint32_t>(evidence.hits.size());
+  work += regions_work(evidence.hits.size());
 }
 
 Mat6 Sway::try_from(const Mission& mission, const Pose& start, const Evidence& evidence, Workspace& workspace, std::uint32_t& work) {
   const HitSolution solution = register_look(mission, RegisterLook::kFirst, start, workspace);
-  work += solution.iterations * weigh_work(workspace);
+  work += look_work(workspace.points.size(), solution.iterations);
   tried_ = solution.T_target_sensor;
   weigh(mission, tried_, evidence, workspace, work);
   return solution.H;

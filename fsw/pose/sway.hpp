@@ -37,7 +37,7 @@ class Sway {
  public:
   // `H`: information of the pose, kept with it.
   void begin(const Pose& T_target_sensor, const Mat6& H, const SwayCare& care);
-  // At most one registration on all returns, and two passes over them; adds its work. False when it was the last one.
+  // At most one registration on all returns, and a pass over them; adds its work. False when it was the last one.
   bool step(const Mission& mission, const Evidence& evidence, Workspace& workspace, std::uint32_t& work);
 
   const Pose& T_target_sensor() const { return best_; }
@@ -45,6 +45,7 @@ class Sway {
   const Standing& standing() const { return standing_; }  // of that pose
 
  private:
+  void try_next(const Mission& mission, const Evidence& evidence, Workspace& workspace, std::uint32_t& work);
   void weigh(const Mission& mission, const Pose& T_target_sensor, const Evidence& evidence, Workspace& workspace, std::uint32_t& work);
   // Registers workspace.points; its information.
   Mat6 try_from(const Mission& mission, const Pose& start, const Evidence& evidence, Workspace& workspace, std::uint32_t& work);

@@ -43,7 +43,7 @@ std::uint32_t Search::mirror_next(const Mission& mission, Workspace& workspace) 
     if (!are_apart(track.T_target_sensor[last()].q, twin.T_target_sensor[last()].q, kCosHalfSame)) inherit(track, twin);
   }
   invariant(tracks_.push_back(twin), "room for a twin");
-  return fit_work(fit) + weigh_work(workspace);
+  return fit_work(fit) + weigh_work(workspace.points.size());
 }
 
 std::uint32_t Search::end_mirroring() {
@@ -51,7 +51,7 @@ std::uint32_t Search::end_mirroring() {
   next_ = 0;
   prune();
   stage_ = Stage::kRecall;
-  return 1;
+  return kEndingWork;
 }
 
 }  // namespace lasso

@@ -64,7 +64,7 @@ std::uint32_t Search::sway_next(const Mission& mission, Workspace& workspace) {
   prune();
   next_ = 0;
   stage_ = worth && !mirrored_ ? Stage::kMirror : Stage::kVerdict;
-  return 1;
+  return kEndingWork;
 }
 
 // A score that is better there is taken, too: the track had not reached its best place.
@@ -97,7 +97,7 @@ std::uint32_t Search::conclude() {
   describe_candidates();
   judge(describe_covariance(best));
   stage_ = Stage::kIdle;
-  return 1;
+  return kEndingWork;
 }
 
 // A step x of T_target_sensor in target axes is a step -R x of T_sensor_target in sensor axes. False where the pose has no covariance.

@@ -1,6 +1,10 @@
-// search_replay IMAGE SCANS [NUMBER...]: searches each recorded scan (ft/search/recording.hpp), or those of these numbers in ascending
-// order, from 0, step by step, and says what came of it. On the emulated 603e an instruction counter (ft/ppc603e) counts each step. Exit
-// codes: 0 done, 2 usage or unreadable files.
+// search_replay IMAGE SCANS EACH [NUMBER...]: searches recorded scans (ft/search/recording.hpp), EACH of them in a row showing one target,
+// or the targets of these numbers in ascending order, from 0. A scan is worked on step by step in slices of the image's search.slice, the
+// first one with its adding, as the component does; one that is not accepted is joined by the next. On the emulated 603e an instruction
+// counter (ft/ppc603e) counts each step. Exit codes: 0 done, 2 usage or unreadable files.
+//
+// Says "step STAGE UNITS" of each pass that is counted, "slice" after the steps of a slice, "scan RESULT" after those of a scan, and
+// "search" after the scans of a target.
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
@@ -37,33 +41,48 @@ bool read_scan(ByteReader& in, RangeImage& scan) {
   return true;
 }
 
-// One line for each: look-ups of adding the scan (none) and of each step, then the result.
-void search_scan(const Mission& mission, const RangeImage& scan, Search& search, Workspace& workspace) {
-  search.begin(SearchLimits());
+// By Search::Stage.
+constexpr const char* kStages[] = {"none",   "evidence", "coarse", "pull", "draw",   "sketch",
+                                   "settle", "explore",  "recall", "sway", "mirror", "verdict"};
+
+// The work of one counted pass.
+template <class Act>
+std::uint32_t count(const char* stage, const Search& search, Act act) {
+  const std::uint32_t before = search.result().work;
   lasso_estimate_begins();
-  const Status status = search.add_scan(mission, scan, workspace);
+  act();
   lasso_estimate_ends();
-  std::printf("step 0\n");
-  for (bool done = status != Status::kOk; !done;) {
-    const std::uint32_t before = search.result().work;
-    lasso_estimate_begins();
-    done = search.advance(mission, workspace, 1);
-    lasso_estimate_ends();
-    std::printf("step %lu\n", 0UL + search.result().work - before);
-  }
-  const SearchResult& r = search.result();
-  std::printf("search %s %s, %lu look-ups, ratio %.17g, pose %.17g %.17g %.17g %.17g %.17g %.17g %.17g\n", to_string(r.outcome),
+  const std::uint32_t work = search.result().work - before;
+  std::printf("step %s %lu\n", stage, 0UL + work);
+  return work;
+}
+
+void tell(const SearchResult& r) {
+  std::printf("scan %s %s, %lu units of work, ratio %.17g, pose %.17g %.17g %.17g %.17g %.17g %.17g %.17g\n", to_string(r.outcome),
               to_string(r.reason), 0UL + r.work, r.ratio, r.T_sensor_target.q.x(), r.T_sensor_target.q.y(), r.T_sensor_target.q.z(),
               r.T_sensor_target.q.w(), r.T_sensor_target.p[0], r.T_sensor_target.p[1], r.T_sensor_target.p[2]);
 }
 
-// The scans that are asked for: all, or those of the numbers, ascending.
+void search_scan(const Mission& mission, const RangeImage& scan, Search& search, Workspace& workspace) {
+  std::uint32_t used = count("adding", search, [&] { static_cast<void>(search.add_scan(mission, scan, workspace)); });
+  while (search.busy()) {
+    while (search.busy() && used < static_cast<std::uint32_t>(mission.parameters.search_slice)) {
+      const char* stage = kStages[static_cast<std::size_t>(search.stage())];
+      used += count(stage, search, [&] { static_cast<void>(search.advance(mission, workspace, 1)); });
+    }
+    std::printf("slice\n");
+    used = 0;
+  }
+  tell(search.result());
+}
+
+// The targets that are asked for: all, or those of the numbers, ascending.
 class Choice {
  public:
   Choice(int count, char** numbers) : count_(count), numbers_(numbers) {}
-  bool has(unsigned long scan) {
+  bool has(unsigned long target) {
     if (count_ == 0) return true;
-    if (next_ >= count_ || std::strtoul(numbers_[next_], nullptr, 10) != scan) return false;
+    if (next_ >= count_ || std::strtoul(numbers_[next_], nullptr, 10) != target) return false;
     ++next_;
     return true;
   }
@@ -73,7 +92,7 @@ class Choice {
   char** numbers_;
 };
 
-int replay(const char* image_name, const char* scans_name, Choice choice) {
+int replay(const char* image_name, const char* scans_name, unsigned long each, Choice choice) {
   golden::File image, scans;
   if (!golden::read_file(image_name, image)) return fail("the image cannot be read");
   if (!golden::read_file(scans_name, scans)) return fail("the scans cannot be read");
@@ -84,8 +103,13 @@ int replay(const char* image_name, const char* scans_name, Choice choice) {
   const auto scan = std::make_unique<RangeImage>();
   ByteReader in(scans.bytes());
   for (unsigned long number = 0; in.remaining() > 0; ++number) {
-    if (!read_scan(in, *scan)) return fail("the scans end early");
-    if (choice.has(number)) search_scan(*mission, *scan, *search, *workspace);
+    const bool wanted = choice.has(number);
+    if (wanted) search->begin(SearchLimits());
+    for (unsigned long k = 0; k < each; ++k) {
+      if (!read_scan(in, *scan)) return fail("the scans end early");
+      if (wanted && search->result().outcome != SearchOutcome::kAccepted) search_scan(*mission, *scan, *search, *workspace);
+    }
+    if (wanted) std::printf("search\n");
   }
   return 0;
 }
@@ -94,6 +118,7 @@ int replay(const char* image_name, const char* scans_name, Choice choice) {
 }  // namespace lasso::search
 
 int main(int argc, char** argv) {
-  if (argc < 3) return lasso::search::fail("usage: search_replay IMAGE SCANS [NUMBER...]");
-  return lasso::search::replay(argv[1], argv[2], {argc - 3, argv + 3});
+  const unsigned long each = argc > 3 ? std::strtoul(argv[3], nullptr, 10) : 0;
+  if (each == 0) return lasso::search::fail("usage: search_replay IMAGE SCANS EACH [NUMBER...]");
+  return lasso::search::replay(argv[1], argv[2], each, {argc - 4, argv + 4});
 }

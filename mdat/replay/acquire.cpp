@@ -11,7 +11,7 @@
 namespace lasso::mdat {
 namespace {
 
-constexpr std::uint32_t kSlice = 100'000;  // look-ups; the result does not depend on it
+constexpr std::uint32_t kSlice = 100'000;  // units of work; the result does not depend on it
 
 AcquiredScan acquire_scan(const Mission& mission, const RangeImage& image, Search& search, Workspace& workspace) {
   AcquiredScan acquired;

@@ -25,7 +25,7 @@ MissionParameters search_parameters() {
 }
 
 TEST(ComponentSearch, TheTargetIsFoundWithoutAnyPriorAndTracked) {
-  VERIFIES("LASSO-MOD-123~1 LASSO-MOD-111~1 LASSO-MOD-131~1 LASSO-MOD-137~1");
+  VERIFIES("LASSO-MOD-123~2 LASSO-MOD-111~1 LASSO-MOD-131~1 LASSO-MOD-137~1");
   ComponentScene scene(search_parameters(), test::uneven_scene());
   scene.begin();
   ASSERT_EQ(scene.component->command_mode(M::kBearing), ModeRefusal::kNone);

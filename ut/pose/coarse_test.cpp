@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "fsw/geometry/portable_math.hpp"
+#include "fsw/pose/search_work.hpp"
 #include "ut/pose/search_fixture.hpp"
 #include "ut/support/verifies.hpp"
 
@@ -30,7 +33,7 @@ class CoarseTest : public test::SearchFixture {
   std::size_t search(CoarseSearch& coarse, const Evidence& evidence) const {
     std::size_t steps = 0;
     while (!coarse.done()) {
-      EXPECT_LE(coarse.step(mission_, evidence), (kRolls / 2 + 1) * (kCoarsePoints + 8));
+      EXPECT_LE(coarse.step(mission_, evidence), view_work(kCoarsePoints, kRolls / 2 * kCoarsePoints, kRolls));
       ++steps;
     }
     return steps;
@@ -160,6 +163,43 @@ TEST_F(CoarseTest, TheSecondPlaceOfAViewHasTheMediansAlike) {
     second += z < -0.1 ? 1 : 0;
   }
   EXPECT_GT(second, 0);
+}
+
+// All returns lie in one cell, whose byte is 1 in the first views' half of the grid and 0 in the last one's: the list is full of sums that
+// are smaller than the number of returns, and their shares are fractions.
+TEST_F(CoarseTest, ASmallLimitStillLetsABetterOneIn) {
+  VERIFIES("LASSO-MOD-111~1");
+  SearchTables<FlightNumber>& tables = mission_.search;
+  const std::size_t cells = std::size_t{tables.cells[0]} * tables.cells[1] * tables.cells[2];
+  std::vector<std::uint8_t> distances(cells + sizeof(std::uint32_t), 1);
+  std::fill(distances.begin() + static_cast<std::ptrdiff_t>(cells / 2), distances.end(), std::uint8_t{0});
+  std::vector<ModelView<FlightNumber>> views;
+  for (std::size_t i = 0; i <= 12; ++i) {
+    ModelView<FlightNumber>& view = views.emplace_back(tables.views[i * 50]);
+    view.median = view.near_median = FlightNumber::Length{0};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double place = k < 2 ? 0.5 : i < 12 ? 0.25 : 0.75;
+      const double x = static_cast<double>(tables.origin_m[k]) + place * tables.cells[k] / static_cast<double>(tables.cells_per_m);
+      view.centroid[k] = view.near_centroid[k] = FlightNumber::to_length(x);
+    }
+  }
+  tables.distances = distances.data();
+  tables.views = {views.data(), views.size()};
+  auto evidence = std::make_unique<Evidence>();
+  evidence->centroid = Vec3(0, 0, 3);
+  MatchPoint<FlightNumber> point{};
+  point.p[2] = FlightNumber::to_length(3);
+  while (evidence->hits.size() < kCoarsePoints) ASSERT_TRUE(evidence->hits.push_back(point));
+  CoarseSearch coarse;
+  coarse.begin(mission_, *evidence);
+  while (!coarse.done()) {
+    if (coarse.short_list().size() == kShortList) EXPECT_EQ(coarse.short_list().limit(), kCoarsePoints);
+    coarse.step(mission_, *evidence);
+  }
+  ASSERT_EQ(coarse.short_list().size(), kShortList);
+  std::size_t better = 0;
+  for (std::size_t i = 0; i < kShortList; ++i) better += coarse.short_list()[i].score == 0 ? 1u : 0u;
+  EXPECT_GE(better, kRolls / 2);
 }
 
 Hypothesis at(double angle, std::uint32_t score) {

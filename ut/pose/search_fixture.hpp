@@ -26,7 +26,8 @@ class SearchFixture : public PoseFixture {
     auto maker = std::make_unique<EvidenceMaker>();
     auto evidence = std::make_unique<Evidence>();
     maker->begin(mission_, *workspace_);
-    while (maker->step(mission_, *evidence)) {
+    std::uint32_t work = 0;
+    while (maker->step(mission_, *evidence, work)) {
     }
     return evidence;
   }

@@ -56,6 +56,40 @@ TEST_F(SearchTest, TheSizeOfTheSlicesChangesNothing) {
   EXPECT_EQ(result().ratio, whole.ratio);
 }
 
+// What adding a scan takes, the slice of the same frame has less.
+TEST_F(SearchTest, ASlicePaysForTheScanThatIsAdded) {
+  VERIFIES("LASSO-MOD-118~1");
+  look_from_few_sides();
+  search_->begin(limits_);
+  const auto image = scan_at(0);
+  ASSERT_EQ(search_->add_scan(mission_, *image, *workspace_), Status::kOk);
+  const std::uint32_t adding = result().work;
+  EXPECT_EQ(adding, prepare_work(image->samples.size()));
+  EXPECT_FALSE(search_->advance(mission_, *workspace_, adding));
+  EXPECT_EQ(result().work, adding) << "nothing was left of it";
+  EXPECT_EQ(search_->stage(), Search::Stage::kEvidence);
+  EXPECT_FALSE(search_->advance(mission_, *workspace_, 1));
+  EXPECT_GT(result().work, adding);
+  search_->begin(limits_);
+  EXPECT_EQ(result().work, 0u);
+  EXPECT_TRUE(search_->advance(mission_, *workspace_, 1));
+  EXPECT_EQ(result().work, 0u);
+}
+
+// Of a fit that was given up only what was looked at is counted.
+TEST(SearchWork, OfAFitIsThatOfTheRaysThatWereLookedAt) {
+  VERIFIES("LASSO-MOD-118~1");
+  Fit fit;
+  fit.hits = 100;
+  fit.walks = 32;
+  EXPECT_EQ(fit_work(fit), fit_work(32, 0));
+  fit.walks = 100;
+  EXPECT_EQ(fit_work(fit), fit_work(100, 0));
+  fit.walks = 148;
+  EXPECT_EQ(fit_work(fit), fit_work(100, 48));
+  EXPECT_GT(fit_work(100, 48), fit_work(100, 0));
+}
+
 // Whatever the work may be, it is not exceeded by more than what is always done, and no pose is accepted that more work would not accept.
 TEST_F(SearchTest, WhatTheWorkDoesNotAllowIsLeftOpenAndAnswersToTheNextScan) {
   VERIFIES("LASSO-MOD-117~1 LASSO-MOD-120~1");

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "fsw/pose/search_work.hpp"
 #include "ut/pose/search_fixture.hpp"
 #include "ut/support/verifies.hpp"
 
@@ -36,7 +37,7 @@ TEST_F(SettleTest, AStartNearTheTruthTakesOneAttempt) {
   EXPECT_TRUE(is_right(settled));
   EXPECT_LT(settled.fit.disagreement(), 0.02);
   EXPECT_EQ(attempts_, 1);
-  EXPECT_GT(work_, 18 * evidence->hits.size());
+  EXPECT_GT(work_, fit_work(settled.fit));
 }
 
 TEST_F(SettleTest, ARoughStartMayTakeMore) {
