@@ -81,7 +81,7 @@ accuracy: ## the errors of the reference simulation, of pointing noise, spin, ra
 	$(call packages,build)
 	$(call configure,$(BUILD),)
 	$(call compile,$(BUILD),mdat)
-	@for scenario in paper pointing spin rates tumble outliers dropouts; do $(BUILD)/mdat/mdat run cfg/missions/hubble_tenth.toml --scenario $$scenario \
+	@for scenario in paper pointing spin rates tumble half_turn outliers dropouts; do $(BUILD)/mdat/mdat run cfg/missions/hubble_tenth.toml --scenario $$scenario \
 	  --out $(LASSO_OUT)/accuracy/$$scenario || exit 1; done
 	@cfg/quality/accuracy $(LASSO_OUT)/accuracy
 

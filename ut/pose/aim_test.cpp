@@ -121,7 +121,7 @@ using AimTest = AimScene<SilhouetteTest>;
 using AimOcclusionTest = AimScene<OcclusionTest>;
 
 TEST_F(AimTest, RaysPassThePredictedContourEvenlyWithinTwoSigma) {
-  VERIFIES("LASSO-SNS-014~2");
+  VERIFIES("LASSO-SNS-014~2 LASSO-MOD-151~2");
   for (int i = 0; i < 8; ++i) {
     scan_.T_sensor_target = test::random_box_pose(random_);
     request_.scan_id = static_cast<std::uint32_t>(i);
@@ -152,7 +152,7 @@ double left_over(const Mat6& information, const std::vector<Vec6>& rows, double 
 
 // One direction is known badly: the places chosen tell more about it than as many spread evenly along the contour do.
 TEST_F(AimTest, PlacesAreWhereTheUncertaintyIs) {
-  VERIFIES("LASSO-SNS-015~1");
+  VERIFIES("LASSO-SNS-015~1 LASSO-MOD-151~2");
   parameters().aimed_share = 0.06;  // ten places
   parameters().sigma0_m = 0.5;      // returns tell next to nothing
   int better = 0;

@@ -193,7 +193,9 @@ TEST_F(CoarseTest, ASmallLimitStillLetsABetterOneIn) {
   CoarseSearch coarse;
   coarse.begin(mission_, *evidence);
   while (!coarse.done()) {
-    if (coarse.short_list().size() == kShortList) EXPECT_EQ(coarse.short_list().limit(), kCoarsePoints);
+    if (coarse.short_list().size() == kShortList) {
+      EXPECT_EQ(coarse.short_list().limit(), kCoarsePoints);
+    }
     coarse.step(mission_, *evidence);
   }
   ASSERT_EQ(coarse.short_list().size(), kShortList);
