@@ -114,7 +114,7 @@ struct PoseTelemetry {
   std::uint32_t dropped_packets = 0;  // did not fit into the telemetry queue
 };
 
-constexpr std::size_t kMaxPosePacketBytes = 768;
+constexpr std::size_t kMaxPosePacketBytes = 896;
 
 // Writes the whole packet (headers, structure id, rows, CRC) to `out`. `header` says counts and time; its service fields are set here.
 // Returns the packet's size, 0 when `out` is too small.
