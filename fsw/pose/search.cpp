@@ -332,6 +332,7 @@ std::uint32_t Search::recall_next(const Mission& mission, Workspace& workspace) 
     for (std::size_t scan = last(); scan-- > 0;) {
       Track& track = tracks_[next_];
       if (track.known[scan] || (is_hopeless(track) && !is_rival(track))) continue;
+      if (!working_ && !may_work()) continue;
       const Pose start = carry(track, scan + 1, scan, rates_of(track, scan + 2));
       if (!working_) settler_.begin(start, start);
       return settle(mission, scan, track, workspace);

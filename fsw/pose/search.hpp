@@ -10,8 +10,8 @@
 // Work is done in steps and counted in units of some 75 PowerPC 603e instructions (search_work.hpp). advance() ends with the step that
 // uses the budget up; no step takes more than kLargestStep. A scan of 1024 rays takes some 1.15 million units, some 80 million
 // instructions, in all (docs/search.md): most hypotheses are looked at no longer than until others promise more. Once limits.work_max of
-// them are used on a scan, nothing more is settled, explored or swayed: what was found so far stands, as ambiguous, and the next scan goes
-// on from it. Poses are recalled in earlier scans, and the best one's near-symmetries measured, all the same.
+// them are used on a scan, nothing more is settled, explored, recalled in earlier scans or swayed: what was found so far stands, as
+// ambiguous, and the next scan goes on from it. The best one's near-symmetries are measured all the same.
 #pragma once
 
 #include "fsw/pose/drawn_list.hpp"
