@@ -67,7 +67,7 @@ TEST(Operate, AnOperatorCommandsARunningComponent) {
     }
     const std::size_t failed = story.find("command_failed"), enabled = story.find("laser_enabled"), standby_at = story.find("standby");
     EXPECT_TRUE(failed < enabled && enabled < standby_at && standby_at != std::string::npos) << story;
-    EXPECT_NE(story.find("tracking short_range tracking standby"), std::string::npos) << story;
+    EXPECT_NE(story.find("short_range pong tracking pong standby"), std::string::npos) << story;
   }
 }
 

@@ -32,7 +32,7 @@ TEST(SensorTelemetry, IsAStructureOfItsOwn) {
   PacketHeader header;
   ConstBytes data;
   ASSERT_EQ(parse_packet(test::view(packet), header, data), PacketFault::kNone);
-  ASSERT_EQ(data.size(), 2u + 3 * 1 + 28 * 4);
+  ASSERT_EQ(data.size(), 2u + 3 * 1 + 29 * 4);
   EXPECT_EQ(data[0], 0);
   EXPECT_EQ(data[1], 3);
   for (std::size_t i = 2; i < data.size(); ++i) ASSERT_EQ(data[i], i - 1) << i;
