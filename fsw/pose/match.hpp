@@ -81,8 +81,8 @@ inline FieldHit<N> find_hit(const Field<N>& field, const MatchSettings<N>& s, co
 
 // Adds the match of a ray with an element at t along the ray. The residual r = n.(q - m) = t (n.u) has variance
 //   sigma_n^2 = (n.u)^2 sigma_r^2 + (1 - (n.u)^2) sigma_across^2 + sigma_surface^2
-// and Tukey's weight (1 - r^2/(k^2 sigma_n^2 + gate^2 (n.u)^2))^2. Its lever is that of q, where the ray meets the surface, as the range there
-// changes with the pose; that of m would hold the range's noise, and noise squared would pass for information (a tube's roll).
+// and Tukey's weight (1 - r^2/(k^2 sigma_n^2 + gate^2 (n.u)^2))^2. Its lever is that of q, where the ray meets the surface, as the range
+// there changes with the pose; that of m would hold the range's noise, and noise squared would pass for information (a tube's roll).
 template <class N>
 inline void add_hit(const Field<N>& field, const MatchSettings<N>& s, const MatchPoint<N>& point, const FieldRay<N>& ray,
                     const FieldHit<N>& hit, PassSums<N>& sums) {

@@ -5,7 +5,7 @@
 namespace lasso {
 namespace {
 
-constexpr double kRounding = 1e-7;    // of the information: what sums may have lost
+constexpr double kRounding = 1e-7;     // of the information: what sums may have lost
 constexpr double kPriorCounts = 0.01;  // of the information along a direction: less of it is let stand
 constexpr double kPriorLeads = 0.5;
 

@@ -84,7 +84,7 @@ struct Scenario {
   std::vector<double> times_s;     // since frame 0
   std::vector<double> eclipse_s;   // begin and end; none where these are the same
   double navigation_from_s = 0, navigation_period_s = 0, navigation_sigma_m = 0, navigation_sigma_rad = 0;
-  double prior = 1;  // 0: no pose to start from is given; the component is commanded to seek the bearing
+  double prior = 1;                    // 0: no pose to start from is given; the component is commanded to seek the bearing
   std::vector<double> prior_turn_rad;  // rotation vector in the target's axes by which the pose to start from is wrong
   // The simulated sensor, as against the noise that the estimator assumes ([sensor]), from which unwritten values are taken.
   double noise = 1;  // 0: perfect ranges and angles
