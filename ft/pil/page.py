@@ -1,10 +1,12 @@
 """The report of a processor-in-the-loop run: one page, the two number types and the second board side by side: the time of each stage against the frame, and figures."""
 import html as text
 
+from platform_limits import limit
+
 NUMBERS = {'float': 'floating point', 'fixed': 'fixed point', 'cortexa9': 'floating point, Cortex-A9'}
 STAGES = [('estimate', 'estimate'), ('boundary', 'boundary: publish, hand over, plan'), ('polls', 'polls of the camera, 19 slots'),
           ('largest_poll', 'the largest of them'), ('lines', 'interrupts of the lines, in no slot')]
-IDLE_ASKED = 0.70  # by LASSO-PLT-016, in the median
+IDLE_ASKED = limit('PLT-016', 'idle_share')  # in the median
 COLOURS = {'estimate': '#3465a4', 'polls': '#73b66b', 'boundary': '#c17d11'}
 WIDTH, HEIGHT, LEFT, BOTTOM = 960, 320, 60, 30
 
