@@ -26,9 +26,9 @@ def require(board=PPC603E):
 
 
 class Emulator:
-    """Running until the end of the with block. What the board's console says is kept, and said when something fails."""
+    """Running until the end of the with block. What the board's console says is kept, and said when something fails. card: the serial ports are there."""
 
-    def __init__(self, elf, image, folder, board=PPC603E, rig=True, processor=None, ticks_per_s=None, shared=False):
+    def __init__(self, elf, image, folder, board=PPC603E, rig=True, processor=None, ticks_per_s=None, shared=False, card=True):
         require(board)
         board.check_image(elf)
         self.folder = pathlib.Path(folder)
@@ -38,7 +38,7 @@ class Emulator:
                         '-monitor', f'unix:{self.folder}/monitor.sock,server=on,wait=off', '-icount', f'shift={SHIFT},align=off,sleep=on']
         for name in ('camera', 'ground', 'rig'):
             self.command += ['-chardev', f'socket,id={name},path={self.folder}/{name}.sock' if rig else f'null,id={name}']
-        self.command += ['-chardev', f'file,id=console,path={self.console_file}', *board.ports(), '-device', f'loader,file={elf},cpu-num=0']
+        self.command += ['-chardev', f'file,id=console,mux=on,path={self.console_file}', *board.ports(card), '-device', f'loader,file={elf},cpu-num=0']
         if shared:  # memory as a file, whose content is that of fresh memory, and a debug port (ft/pil/seu_board.hpp)
             (self.folder / 'ram.bin').unlink(missing_ok=True)
             self.command += ['-object', f'memory-backend-file,id=ram,size=256M,mem-path={self.folder}/ram.bin,share=on', '-gdb', f'unix:{self.folder}/gdb.sock,server=on,wait=off']
