@@ -53,8 +53,9 @@ def rows(r):
     for stage, title in STAGES:
         i = r['instructions'][stage]
         yield f'{title}: instructions (median, 99 %, worst)', f'{i["median"]:,.0f}; {i["p99"]:,}; {i["worst"]:,}'
-    latency = r['interrupt_latency_instructions_without_line_traffic']
-    yield 'from a slot’s time to its first instruction, without line traffic', f'{latency["median"]:.0f} instructions, {latency["worst"]} at worst'
+    for how in ('without', 'with'):
+        latency = r[f'interrupt_latency_instructions_{how}_line_traffic']
+        yield f'from a wake-up call’s time to its first instruction, {how} line traffic, worst of a frame', f'{latency["median"]:.0f} instructions (median), {latency["worst"]} at worst'
     yield 'processor idle', idle(r)
     yield 'margin of the fullest slot', f'{100 * r["slot_margin_share"]:.1f} %'
     yield 'margin of the fullest frame', f'{100 * r["estimate_margin_share"]:.1f} %'

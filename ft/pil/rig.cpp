@@ -34,7 +34,7 @@ constexpr std::size_t kMissionIdAt = 19;  // the low byte of the header's missio
 constexpr std::uint8_t kOtherMission = 99;
 constexpr const char* kWordNames =
     "magic,kind,time_high,time_low,camera_sent,ground_sent,slot,slot_ticks,estimate_ticks,late_ticks,idle_ticks,restarts,cause,vector,"
-    "address,estimate_stack,acquire_stack,lost_bytes,memory,line_ticks,services_cut,lines_masked,packets_dropped\n";
+    "address,estimate_stack,acquire_stack,lost_bytes,memory,line_ticks,services_cut,lines_masked,packets_dropped,busy_late_ticks\n";
 
 struct Options {
   std::string mission, scenario, out;

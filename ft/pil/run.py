@@ -54,7 +54,8 @@ def frames_of(slots, board):
                        'estimate': sum(instructions(row['estimate_ticks']) for row in rows),
                        'idle': sum(instructions(row['idle_ticks']) for row in rows),
                        'lines': sum(instructions(row['line_ticks']) for row in rows),
-                       'late': max(instructions(row['late_ticks']) for row in rows)})
+                       'late': max(instructions(row['late_ticks']) for row in rows),
+                       'late_busy': max(instructions(row['busy_late_ticks']) for row in rows)})
     return frames
 
 
@@ -134,6 +135,7 @@ def measure(gate, number, elf, slots):
         'frames': len(frames), 'frames_without_estimate': gaps, 'mips': MIPS, 'period_ms': PERIOD_MS,
         'instructions': {stage: spread([frame[stage] for frame in flown]) for stage in ('boundary', 'polls', 'largest_poll', 'estimate', 'lines')},
         'interrupt_latency_instructions_without_line_traffic': spread([frame['late'] for frame in flown]),
+        'interrupt_latency_instructions_with_line_traffic': spread([frame['late_busy'] for frame in flown]),
         'idle_share_without_line_interrupts': {'median': statistics.median(idle), 'worst': min(idle)},
         'idle_share': {'median': statistics.median(with_lines), 'worst': min(with_lines), 'asked': page.IDLE_ASKED},
         'slot_margin_share': 1 - max(max(frame['boundary'], frame['largest_poll']) for frame in flown) / (FRAME_INSTRUCTIONS / SLOTS),
@@ -150,7 +152,8 @@ def judge(gate, number, r):
               ('times that the lines were masked', r['lines_masked'], 0),
               ('packets of telemetry dropped', r['packets_dropped'], 0),
               ('frames without an estimate, once the first has ended', r['frames_without_estimate'], 0),
-              ('frames without a valid pose', r['frames_asked'] - r['valid_poses'], 0)]
+              ('frames without a valid pose', r['frames_asked'] - r['valid_poses'], 0),
+              ('frames whose latency with line traffic was not measured', r['frames'] if r['interrupt_latency_instructions_with_line_traffic']['median'] == 0 else 0, 0)]
     if number in IDLE_HELD:
         checks.append(('share of time that the processor works (median)', 1 - r['idle_share']['median'], 1 - page.IDLE_ASKED))
     for what, value, most in checks:
@@ -178,7 +181,8 @@ def tell(gate, number, r):
             f'{100 * r["idle_share"]["median"]:.1f} {100 * r["idle_share"]["worst"]:.1f} {100 * page.IDLE_ASKED:.0f}',
         '% idle without line interrupts (median)': f'{100 * r["idle_share_without_line_interrupts"]["median"]:.1f}',
         '% of the fullest slot free': f'{100 * r["slot_margin_share"]:.0f}',
-        'instructions of interrupt latency at worst, without line traffic': r['interrupt_latency_instructions_without_line_traffic']['worst'],
+        'instructions of interrupt latency at worst, without line traffic and with it':
+            ' '.join(str(r[f'interrupt_latency_instructions_{how}_line_traffic']['worst']) for how in ('without', 'with')),
         'kB of code and constants': round(r['image_bytes'] / 1024),
         'MB of memory': f'{r["memory_bytes"] / (1 << 20):.2f}',
     }
