@@ -103,6 +103,7 @@ void Flight::let_world_move(RigKind kind, TimeUs t_us) {
   clock_.stop();
   waiting_ = true;
   wait_on();
+  probe_.begin();
   lines_.camera.send();
   lines_.ground.send();
   rest_until([&] { return lines_.camera.all_sent() && lines_.ground.all_sent(); });
@@ -133,12 +134,14 @@ void Flight::let_world_move(RigKind kind, TimeUs t_us) {
   words[kRigServicesCut] = lines_.camera.cut() + lines_.ground.cut();
   words[kRigLinesMasked] = lines_masked_;
   words[kRigDropped] = packets_dropped_;
+  words[kRigBusyLateTicks] = probe_.take_worst();
   estimate_ticks_ = idle_ticks_ = 0;
   line_ticks_ = 0;
   const RigAnswer answer = rig_->report(words);
   stopped_ = answer.stop();
   rest_until(
       [&] { return stopped_ || (lines_.camera.received() == answer.camera_bytes && lines_.ground.received() == answer.ground_bytes); });
+  probe_.end();
   wake_in(kMostWakeTicks);
   waiting_ = false;
   clock_.go_on();

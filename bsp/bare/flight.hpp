@@ -7,6 +7,7 @@
 
 #include "bsp/bare/clock.hpp"
 #include "bsp/bare/fault.hpp"
+#include "bsp/bare/latency_probe.hpp"
 #include "bsp/bare/reset_wait.hpp"
 #include "bsp/bare/rig.hpp"
 #include "bsp/bare/serial_port.hpp"
@@ -42,9 +43,12 @@ class Flight final : public Watchdog {
   // While the rig is awaited the wake-up call has the lines looked at, should an interrupt of theirs have gone astray.
   bool waiting() const { return waiting_; }
   static void wait_on();
-  // Of the lines' interrupt: what camera and ground took of it; whether it does not end, and is masked until the next slot.
-  void note_lines(std::uint64_t ticks, bool masked) {
+  // A wake-up call at `now` was only to see how late it is.
+  bool probed(std::uint64_t now) { return probe_.answers(now); }
+  // Of the lines' interrupt: when it began, what camera and ground took of it; whether it does not end, and is masked until the next slot.
+  void note_lines(std::uint64_t begun, std::uint64_t ticks, bool masked) {
     line_ticks_ += ticks;
+    probe_.ask(begun);
     if (masked) lines_masked_ = lines_masked_ + 1;
   }
 
@@ -74,6 +78,7 @@ class Flight final : public Watchdog {
   DurationUs slot_us_;
   volatile bool in_slot_ = false, stopped_ = false, waiting_ = false;
   ResetWait reset_wait_;
+  LatencyProbe probe_;
   std::uint32_t unfed_slots_ = 0, fed_frames_ = 0;
   std::uint8_t telemetry_[kTelemetryQueueBytes] = {};
   // Of the report.

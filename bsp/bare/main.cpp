@@ -150,6 +150,7 @@ void stop(const char* why) {
 
 void serve_wake_up() {
   if (flight == nullptr) return;
+  if (flight->probed(time_base())) return flight->wait_on();
   if (services > kMostServices) unmask_line_interrupts();
   services = 0;
   if (!flight->waiting()) return flight->tick();
@@ -167,7 +168,7 @@ void serve_lines() {
   board->ground.service();
   const std::uint64_t taken = time_base() - begun;
   board->rig_port.service();
-  if (flight != nullptr) flight->note_lines(taken, services > kMostServices);
+  if (flight != nullptr) flight->note_lines(begun, taken, services > kMostServices);
 }
 
 }  // namespace lasso::bare

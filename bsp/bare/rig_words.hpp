@@ -33,6 +33,7 @@ enum RigWord : std::uint32_t {
   kRigServicesCut,    // of both lines, which have left bytes for their bound
   kRigLinesMasked,    // interrupts of the lines that did not end, and were masked until the next slot
   kRigDropped,        // of telemetry, for which the ground's line had no room
+  kRigBusyLateTicks,  // at worst since the last report, from a wake-up call's time to its first instruction while the lines were busy
   kRigWords
 };
 enum class RigKind : std::uint32_t { kBegun = 0, kSlot = 1 };

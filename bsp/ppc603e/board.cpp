@@ -16,19 +16,26 @@ constexpr std::uint32_t kDevices = 0xFC0007FE, kDevicesHow = 0xFC00002A;
 constexpr std::uint32_t kLoaded = 0x040003FE, kLoadedHow = 0x04000001;
 constexpr std::uint32_t kDecrementer = 0x900;
 
+// A refusal is for reading: on the chip's port where the card's are missing. Without either nothing can be said.
+void open_some_console(const ppc603e::Bus& bus) {
+  if (bus.card) return open_console(port_registers(kConsolePort));
+  if (bus.chip) open_console(ppc603e::kChipSerial);
+}
+
 }  // namespace
 
 [[gnu::section(".board_id"), gnu::used]] const char board_id[32] = "3dlasso board ppc603e-grackle";
 const std::uint32_t nominal_ticks_per_s = 16600000;
 
-// The console first: a refusal is for reading. Without the bus there is none, and that refusal is silent.
 void check_board() {
-  const bool bus = ppc603e::open_bus();
-  if (bus) open_console(port_registers(kConsolePort));
+  const ppc603e::Bus bus = ppc603e::open_bus();
+  open_some_console(bus);
   const std::uint32_t version = ppc603e::processor_version() >> 16;
   if (version != ppc603e::kProcessor603e && version != ppc603e::kProcessor603eV)
     stop("the image is for another board: the processor is not a 603e");
-  if (!bus) stop("the image is for another board: no Grackle bridge, Heathrow chip and serial card of four ports");
+  if (!bus.bridge) stop("the image is for another board: no Grackle bridge");
+  if (!bus.chip) stop("the image is for another board: no Heathrow chip");
+  if (!bus.card) stop("the image is for another board: no serial card of four ports");
 }
 
 std::uint32_t port_registers(std::uint32_t port) { return ppc603e::serial_registers(port); }

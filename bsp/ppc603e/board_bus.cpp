@@ -43,22 +43,23 @@ void mask_all() {
 
 }  // namespace
 
-bool open_bus() {
-  bool chip = false, card = false;
-  if (read_config(0, 0) != kBridge) return false;
+Bus open_bus() {
+  Bus bus;
+  bus.bridge = read_config(0, 0) == kBridge;
+  if (!bus.bridge) return bus;
   for (std::uint32_t device = 1; device < kDevices; ++device) {
     const std::uint32_t id = read_config(device, 0);
-    if (id == kSerialCard && !card) {
+    if (id == kSerialCard && !bus.card) {
       place(device, kSerialIo, kIoOn);
-      card = true;
+      bus.card = true;
     }
     if ((id & 0xFFFF) == kChip && read_config(device, kClass) >> 16 == kChipClass) {
       place(device, kChipMemory, kMemoryOn);
-      chip = true;
+      bus.chip = true;
     }
   }
-  if (chip) mask_all();
-  return chip && card;
+  if (bus.chip) mask_all();
+  return bus;
 }
 
 std::uint32_t serial_registers(std::uint32_t port) { return kBusIo + kSerialIo + 8 * port; }

@@ -1,4 +1,4 @@
-// The registers of a 16550, and bits in them.
+// The registers of the board's serial ports, and bits in them: a 16550, and one of the Heathrow chip.
 #pragma once
 
 #include <cstdint>
@@ -20,6 +20,25 @@ struct Uart {
   static void write(std::uint32_t registers, std::uint8_t byte) { write_device(registers + kData, byte); }
   static bool has_byte(std::uint32_t status) { return (status & kReceived) != 0; }
   static bool can_send(std::uint32_t status) { return (status & kEmpty) != 0; }
+};
+
+// As an 8530 has them: a control register by which the others are chosen, and data.
+struct ChipUart {
+  static constexpr std::uint32_t kControl = 0, kData = 0x10;
+  static constexpr std::uint8_t kClock = 4, kTransmit = 5;                    // chosen registers
+  static constexpr std::uint8_t kSixteenOneStop = 0x44, kEightBitsOn = 0x68;  // in them
+  static constexpr std::uint8_t kEmpty = 4;                                   // of the status
+
+  static void set(std::uint32_t registers, std::uint8_t number, std::uint8_t value) {
+    write_device(registers + kControl, number);
+    write_device(registers + kControl, value);
+  }
+  static void open(std::uint32_t registers) {
+    set(registers, kClock, kSixteenOneStop);
+    set(registers, kTransmit, kEightBitsOn);
+  }
+  static bool can_send(std::uint32_t registers) { return (read_device(registers + kControl) & kEmpty) != 0; }
+  static void write(std::uint32_t registers, std::uint8_t letter) { write_device(registers + kData, letter); }
 };
 
 }  // namespace lasso::ppc603e

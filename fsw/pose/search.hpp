@@ -25,7 +25,7 @@ namespace lasso {
 constexpr std::size_t kMaxSearchScans = 3;
 // At estimation.iterations_max 12: a registration on all evidence, which is then weighed by regions, and its fit measured.
 constexpr std::uint32_t kLargestStep =
-    look_work(kEvidenceHits, 14) + regions_work(kEvidenceHits) + fit_work(kEvidenceHits, kEvidenceMisses);
+    look_work(kEvidenceHits, 14) + regions_work(kEvidenceHits, kRegions) + fit_work(kEvidenceHits, kEvidenceMisses);
 
 struct SearchLimits {
   double hits_min = 80;  // returns looked at

@@ -5,8 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "fsw/pose/fit.hpp"
-
 namespace lasso {
 
 constexpr std::size_t kInstructionsPerUnit = 75;
@@ -56,12 +54,9 @@ constexpr std::uint32_t look_work(std::size_t points, std::size_t passes) {
   return units_of(cost::kOpening * points + passes * (cost::kPass * points + cost::kSolution));
 }
 constexpr std::uint32_t weigh_work(std::size_t points) { return units_of(cost::kRayPull * points + cost::kSolution); }
-constexpr std::uint32_t regions_work(std::size_t points) { return units_of(cost::kRayPull * points + kRegions * cost::kRegion); }
-constexpr std::uint32_t fit_work(std::size_t hits, std::size_t misses) { return units_of(cost::kFitHit * hits + cost::kFitMiss * misses); }
-
-inline std::uint32_t fit_work(const Fit& fit) {
-  const auto hits = static_cast<std::size_t>(static_cast<std::uint32_t>(fit.hits));
-  return fit.walks < hits ? fit_work(fit.walks, 0) : fit_work(hits, fit.walks - hits);
+constexpr std::uint32_t regions_work(std::size_t points, std::size_t regions) {
+  return units_of(cost::kRayPull * points + regions * cost::kRegion);
 }
+constexpr std::uint32_t fit_work(std::size_t hits, std::size_t misses) { return units_of(cost::kFitHit * hits + cost::kFitMiss * misses); }
 
 }  // namespace lasso

@@ -65,4 +65,9 @@ bool Settler::step(const Mission& mission, const Evidence& evidence, double limi
   return best_.fit.disagreement() > kSettled && best_.fit.score() < limit;
 }
 
+std::uint32_t fit_work(const Fit& fit) {
+  const auto hits = static_cast<std::size_t>(static_cast<std::uint32_t>(fit.hits));
+  return fit.walks < hits ? fit_work(fit.walks, 0) : fit_work(hits, fit.walks - hits);
+}
+
 }  // namespace lasso

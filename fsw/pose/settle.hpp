@@ -42,4 +42,7 @@ class Settler {
   Settled best_;
 };
 
+// Of measuring it (search_work.hpp).
+std::uint32_t fit_work(const Fit& fit);
+
 }  // namespace lasso

@@ -90,7 +90,7 @@ void Sway::try_next(const Mission& mission, const Evidence& evidence, Workspace&
 
 void Sway::weigh(const Mission& mission, const Pose& T_target_sensor, const Evidence& evidence, Workspace& workspace, std::uint32_t& work) {
   tried_standing_ = weigh_regions(mission, T_target_sensor, evidence, workspace);
-  work += regions_work(evidence.hits.size());
+  work += regions_work(evidence.hits.size(), kRegions);
 }
 
 Mat6 Sway::try_from(const Mission& mission, const Pose& start, const Evidence& evidence, Workspace& workspace, std::uint32_t& work) {

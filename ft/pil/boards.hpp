@@ -1,6 +1,7 @@
 // One flight on each board: the host, and an emulated board. Both see the same world.
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <string>
 #include <vector>
@@ -35,10 +36,21 @@ struct TargetFlight {
 // command.
 using Ground = std::function<Packet(std::uint32_t start, std::uint32_t slot, std::uint16_t& count)>;
 
-// `folder`: where camera.sock, ground.sock and rig.sock are made, at which the emulator is awaited. Ends after `frames` frames, or after
-// that many since the last start when `starts` are awaited. Throws mdat::RunError: nobody comes, or the other end has gone, or says
-// nothing.
-TargetFlight fly_on_target(const WorldSetup& setup, const std::string& folder, std::uint32_t frames, std::uint32_t starts,
-                           const std::function<void()>& ready, const Told& told, const Ground& ground = {});
+// How long the host waits for the board; no result depends on it.
+struct Patience {
+  std::chrono::seconds quiet{30};                                                            // while nothing moves on the lines
+  std::chrono::steady_clock::time_point end = std::chrono::steady_clock::time_point::max();  // of the whole flight
+};
+
+struct TargetRun {
+  std::string folder;  // where camera.sock, ground.sock and rig.sock are made, at which the emulator is awaited
+  std::uint32_t frames = 0, starts = 1;
+  Patience patience;
+};
+
+// Ends after `frames` frames, or after that many since the last start when `starts` are awaited. Throws mdat::RunError, which names what
+// was awaited: nobody comes, or the other end has gone, or says nothing, or the flight does not end.
+TargetFlight fly_on_target(const WorldSetup& setup, const TargetRun& run, const std::function<void()>& ready, const Told& told,
+                           const Ground& ground = {});
 
 }  // namespace lasso::pil

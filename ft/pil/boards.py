@@ -89,11 +89,11 @@ class Ppc603e(Board):
         reset = pathlib.Path(folder) / 'reset.bin'  # it wants some content for its read-only memory
         reset.write_bytes(bytes(64))
         return [self.qemu, '-M', f'g3beige{options}', '-cpu', processor or self.processor, '-m', '256', '-bios', str(reset), '-vga', 'none', '-net', 'none',
-                '-display', 'none', '-serial', 'null', '-parallel', 'none', '-no-reboot']
+                '-display', 'none', '-parallel', 'none', '-no-reboot']
 
-    def ports(self):
-        """Camera, ground, rig and console at its serial ports."""
-        return ['-device', 'pci-serial-4x,chardev1=camera,chardev2=ground,chardev3=rig,chardev4=console']
+    def ports(self, card=True):
+        """Camera, ground, rig and console at its serial ports; the console at the chip's own, too, for a board without its card."""
+        return ['-serial', 'chardev:console', *(['-device', 'pci-serial-4x,chardev1=camera,chardev2=ground,chardev3=rig,chardev4=console'] if card else [])]
 
 
 class CortexA9(Board):
@@ -101,7 +101,7 @@ class CortexA9(Board):
         return [self.qemu, '-M', f'vexpress-a9{options}', '-cpu', processor or self.processor, '-m', '256', '-net', 'none', '-display', 'none', '-parallel', 'none',
                 '-audiodev', 'none,id=mute', '-global', 'pl041.audiodev=mute', '-no-reboot']
 
-    def ports(self):
+    def ports(self, _=True):
         return [word for name in ('camera', 'ground', 'rig', 'console') for word in ('-serial', f'chardev:{name}')]
 
 

@@ -6,6 +6,7 @@ import shutil
 import signal
 import socket
 import subprocess
+import sys
 import threading
 import time
 
@@ -25,9 +26,9 @@ def require(board=PPC603E):
 
 
 class Emulator:
-    """Running until the end of the with block. What the board's console says is kept, and said when something fails."""
+    """Running until the end of the with block. What the board's console says is kept, and said when something fails. card: the serial ports are there."""
 
-    def __init__(self, elf, image, folder, board=PPC603E, rig=True, processor=None, ticks_per_s=None, shared=False):
+    def __init__(self, elf, image, folder, board=PPC603E, rig=True, processor=None, ticks_per_s=None, shared=False, card=True):
         require(board)
         board.check_image(elf)
         self.folder = pathlib.Path(folder)
@@ -37,7 +38,7 @@ class Emulator:
                         '-monitor', f'unix:{self.folder}/monitor.sock,server=on,wait=off', '-icount', f'shift={SHIFT},align=off,sleep=on']
         for name in ('camera', 'ground', 'rig'):
             self.command += ['-chardev', f'socket,id={name},path={self.folder}/{name}.sock' if rig else f'null,id={name}']
-        self.command += ['-chardev', f'file,id=console,path={self.console_file}', *board.ports(), '-device', f'loader,file={elf},cpu-num=0']
+        self.command += ['-chardev', f'file,id=console,mux=on,path={self.console_file}', *board.ports(card), '-device', f'loader,file={elf},cpu-num=0']
         if shared:  # memory as a file, whose content is that of fresh memory, and a debug port (ft/pil/seu_board.hpp)
             (self.folder / 'ram.bin').unlink(missing_ok=True)
             self.command += ['-object', f'memory-backend-file,id=ram,size=256M,mem-path={self.folder}/ram.bin,share=on', '-gdb', f'unix:{self.folder}/gdb.sock,server=on,wait=off']
@@ -93,14 +94,32 @@ class Emulator:
         return text in self.console()
 
 
-class Rig:
-    """pil_rig with a board at its lines; nothing outlives the block, and nothing takes longer than `seconds`."""
+def seconds_for(frames):
+    """Of the host, that a flight on host and board may take: a minute, and several times what a frame takes where nothing else is done."""
+    return round(60 + 0.6 * frames)
 
-    def __init__(self, program, arguments, seconds):
-        self.process = subprocess.Popen([str(program), *map(str, arguments)], stdout=subprocess.PIPE, text=True, stdin=subprocess.DEVNULL)
-        self.late = False
-        self.timer = threading.Timer(seconds, self.end)
-        self.seconds = seconds
+
+class Rig:
+    """pil_rig with a board at its lines; nothing outlives the block. It ends by itself within `seconds`; if it does not, it is ended soon after."""
+
+    GRACE_S = 10
+
+    def __init__(self, program, arguments, seconds, progress=None):
+        words = [str(program), *map(str, arguments), f'limit={seconds}', 'progress']
+        self.process = subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, stdin=subprocess.DEVNULL)
+        self.late, self.complaint = False, ''
+        self.seconds = seconds + self.GRACE_S
+        self.timer = threading.Timer(self.seconds, self.end)
+        self.listener = threading.Thread(target=self.listen, args=(progress,), daemon=True)
+
+    def listen(self, progress):
+        """Frames that are done; whatever else it says is for people, the last of it why it ends."""
+        for line in self.process.stderr:
+            if line != 'frame\n':
+                self.complaint = line.strip()
+                print(self.complaint, file=sys.stderr, flush=True)
+            elif progress:
+                progress.add()
 
     def end(self):
         self.late = True
@@ -108,6 +127,7 @@ class Rig:
 
     def __enter__(self):
         self.timer.start()
+        self.listener.start()
         return self
 
     def __exit__(self, *_):
@@ -115,6 +135,7 @@ class Rig:
         if self.process.poll() is None:
             self.process.kill()
         self.process.wait()
+        self.listener.join()
 
     def await_ready(self):
         for line in self.process.stdout:
@@ -123,24 +144,25 @@ class Rig:
         self.check(self.process.wait())
 
     def finish(self):
-        """Exit code, and what it said."""
+        """Exit code, and what it said, or why it has ended."""
         said = self.process.stdout.read().strip()
         code = self.process.wait()
+        self.listener.join()
         self.check(0 if code == 1 else code)
-        return code, said
+        return code, said or self.complaint
 
     def check(self, code):
         if self.late:
             raise Failure(f'not done after {self.seconds} s: ended')
         if code != 0:
-            raise Failure(f'the rig has ended with exit code {code}')
+            raise Failure(f'the rig has ended with exit code {code}: {self.complaint or "it says nothing"}')
 
 
-def fly(program, elf, arguments, folder, seconds, board=PPC603E, linked=False, **options):
-    """One run of the rig with an emulated board; exit code, words, console. linked: the mission's image is in the board's."""
+def fly(program, elf, arguments, folder, seconds, board=PPC603E, linked=False, progress=None, **options):
+    """One run of the rig with an emulated board; exit code, words, console. linked: the mission's image is in the board's. progress: is told of each frame."""
     os.makedirs(folder, exist_ok=True)
     emulator = Emulator(elf, None if linked else f'{folder}/image.3dli', folder, board, **options)
-    with Rig(program, [*arguments, f'code={board.code_bytes(elf)}'], seconds) as rig:
+    with Rig(program, [*arguments, f'code={board.code_bytes(elf)}'], seconds, progress) as rig:
         rig.await_ready()
         with emulator:
             code, said = rig.finish()

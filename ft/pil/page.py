@@ -1,10 +1,12 @@
 """The report of a processor-in-the-loop run: one page, the two number types and the second board side by side: the time of each stage against the frame, and figures."""
 import html as text
 
+from platform_limits import limit
+
 NUMBERS = {'float': 'floating point', 'fixed': 'fixed point', 'cortexa9': 'floating point, Cortex-A9'}
 STAGES = [('estimate', 'estimate'), ('boundary', 'boundary: publish, hand over, plan'), ('polls', 'polls of the camera, 19 slots'),
           ('largest_poll', 'the largest of them'), ('lines', 'interrupts of the lines, in no slot')]
-IDLE_ASKED = 0.70  # by LASSO-PLT-016, in the median
+IDLE_ASKED = limit('PLT-016', 'idle_share')  # in the median
 COLOURS = {'estimate': '#3465a4', 'polls': '#73b66b', 'boundary': '#c17d11'}
 WIDTH, HEIGHT, LEFT, BOTTOM = 960, 320, 60, 30
 
@@ -51,8 +53,9 @@ def rows(r):
     for stage, title in STAGES:
         i = r['instructions'][stage]
         yield f'{title}: instructions (median, 99 %, worst)', f'{i["median"]:,.0f}; {i["p99"]:,}; {i["worst"]:,}'
-    latency = r['interrupt_latency_instructions_without_line_traffic']
-    yield 'from a slot’s time to its first instruction, without line traffic', f'{latency["median"]:.0f} instructions, {latency["worst"]} at worst'
+    for how in ('without', 'with'):
+        latency = r[f'interrupt_latency_instructions_{how}_line_traffic']
+        yield f'from a wake-up call’s time to its first instruction, {how} line traffic, worst of a frame', f'{latency["median"]:.0f} instructions (median), {latency["worst"]} at worst'
     yield 'processor idle', idle(r)
     yield 'margin of the fullest slot', f'{100 * r["slot_margin_share"]:.1f} %'
     yield 'margin of the fullest frame', f'{100 * r["estimate_margin_share"]:.1f} %'

@@ -1,14 +1,17 @@
-// pil_rig MISSION SCENARIO FRAMES OUT [cut=BYTES] [noise] [store=ADDRESS] [memory=ADDRESS] [starts=N] [code=BYTES]: flies a scenario on the
-// host, then on the board behind OUT/camera.sock, OUT/ground.sock and OUT/rig.sock, and compares their telemetry bit by bit. Says `ready`
-// when the board may be started: the mission's image is then in OUT/image.3dli. Leaves OUT/host.ccsds, OUT/target.ccsds, OUT/starts.csv and
-// OUT/slots.csv (the board's reports, words by name). cut: the camera's line ends after so many bytes. noise: the ground's begins with
-// some. store: three starts try the store (store_story.hpp), the first image buffer being at ADDRESS. memory: where the board's begins, 0.
-// starts: so many starts of the board are awaited, and the flight on the host left out. code: so much code the board watches, and the host
-// beside it. Exit codes: 0 the same bits, 1 not, or the board failed, 2 usage or bad input.
+// pil_rig MISSION SCENARIO FRAMES OUT [cut=BYTES] [noise] [store=ADDRESS] [memory=ADDRESS] [starts=N] [code=BYTES] [quiet=S] [limit=S]
+// [progress]: flies a scenario on the host, then on the board behind OUT/camera.sock, OUT/ground.sock and OUT/rig.sock, and compares their
+// telemetry bit by bit. Says `ready` when the board may be started: the mission's image is then in OUT/image.3dli. Leaves OUT/host.ccsds,
+// OUT/target.ccsds, OUT/starts.csv and OUT/slots.csv (the board's reports, words by name). cut: the camera's line ends after so many bytes.
+// noise: the ground's begins with some. store: three starts try the store (store_story.hpp), the first image buffer being at ADDRESS.
+// memory: where the board's begins, 0. starts: so many starts of the board are awaited, and the flight on the host left out. code: so much
+// code the board watches, and the host beside it. quiet: seconds of the host for which nothing may move on the lines, 30. limit: seconds
+// that all of it may take, 3600. progress: a line `frame` on standard error for each frame that is done, on the host and on the board,
+// instead of a bar for people. Exit codes: 0 the same bits, 1 not, or the board failed, 2 usage or bad input.
 #include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <map>
 #include <string>
 
 #include "ft/pil/boards.hpp"
@@ -31,7 +34,7 @@ constexpr std::size_t kMissionIdAt = 19;  // the low byte of the header's missio
 constexpr std::uint8_t kOtherMission = 99;
 constexpr const char* kWordNames =
     "magic,kind,time_high,time_low,camera_sent,ground_sent,slot,slot_ticks,estimate_ticks,late_ticks,idle_ticks,restarts,cause,vector,"
-    "address,estimate_stack,acquire_stack,lost_bytes,memory,line_ticks,services_cut,lines_masked,packets_dropped\n";
+    "address,estimate_stack,acquire_stack,lost_bytes,memory,line_ticks,services_cut,lines_masked,packets_dropped,busy_late_ticks\n";
 
 struct Options {
   std::string mission, scenario, out;
@@ -41,33 +44,42 @@ struct Options {
   bool noise = false;
   std::uint32_t store = 0;   // where the first image buffer is; 0: it is not tried
   std::uint32_t memory = 0;  // where the board's memory begins
+  std::chrono::seconds quiet{30}, limit{3600};
+  bool progress = false;
 };
+
+using Take = void (*)(const std::string& value, Options& options);
+void take(const std::string& word, Options& options) {
+  static const std::map<std::string, Take> takes{
+      {"cut", [](const std::string& value, Options& of) { of.cut = std::stoull(value); }},
+      {"noise", [](const std::string&, Options& of) { of.noise = true; }},
+      {"store", [](const std::string& value, Options& of) { of.store = static_cast<std::uint32_t>(std::stoul(value)); }},
+      {"memory", [](const std::string& value, Options& of) { of.memory = static_cast<std::uint32_t>(std::stoul(value)); }},
+      {"starts", [](const std::string& value, Options& of) { of.starts = static_cast<std::uint32_t>(std::stoul(value)); }},
+      {"code", [](const std::string& value, Options& of) { of.code_bytes = std::stoul(value); }},
+      {"quiet", [](const std::string& value, Options& of) { of.quiet = std::chrono::seconds(std::stoul(value)); }},
+      {"limit", [](const std::string& value, Options& of) { of.limit = std::chrono::seconds(std::stoul(value)); }},
+      {"progress", [](const std::string&, Options& of) { of.progress = true; }},
+  };
+  const std::size_t equals = word.find('=');
+  const auto found = takes.find(word.substr(0, equals));
+  if (found == takes.end()) throw mdat::InputError(word + ": no such option; without any words, the usage is told");
+  found->second(equals == std::string::npos ? "" : word.substr(equals + 1), options);
+}
 
 Options parse(int argc, char** argv) {
   if (argc < 5)
     throw mdat::InputError(
-        "usage: pil_rig MISSION SCENARIO FRAMES OUT [cut=BYTES] [noise] [store=ADDRESS] [memory=ADDRESS] [starts=N] [code=BYTES]");
-  Options options{argv[1], argv[2], argv[4], static_cast<std::uint32_t>(std::stoul(argv[3])), 1, 0, {}, false, 0, 0};
-  for (int i = 5; i < argc; ++i) {
-    const std::string word = argv[i];
-    if (word.starts_with("cut=")) {
-      options.cut = std::stoull(word.substr(4));
-    } else if (word.starts_with("starts=")) {
-      options.starts = static_cast<std::uint32_t>(std::stoul(word.substr(7)));
-    } else if (word.starts_with("code=")) {
-      options.code_bytes = std::stoul(word.substr(5));
-    } else if (word.starts_with("memory=")) {
-      options.memory = static_cast<std::uint32_t>(std::stoul(word.substr(7)));
-    } else if (word == "noise") {
-      options.noise = true;
-    } else if (word.starts_with("store=")) {
-      options.store = static_cast<std::uint32_t>(std::stoul(word.substr(6)));
-      options.starts = kStoryStarts;
-      options.frames = StoreStory::kLastFrames;
-    } else {
-      throw mdat::InputError(word + ": none of cut=BYTES, noise, store=ADDRESS, memory=ADDRESS, starts=N and code=BYTES");
-    }
-  }
+        "usage: pil_rig MISSION SCENARIO FRAMES OUT [cut=BYTES] [noise] [store=ADDRESS] [memory=ADDRESS] [starts=N] [code=BYTES] [quiet=S] "
+        "[limit=S] [progress]");
+  Options options;
+  options.mission = argv[1];
+  options.scenario = argv[2];
+  options.frames = static_cast<std::uint32_t>(std::stoul(argv[3]));
+  options.out = argv[4];
+  for (int i = 5; i < argc; ++i) take(argv[i], options);
+  if (options.store != 0) options.starts = kStoryStarts;
+  if (options.store != 0) options.frames = StoreStory::kLastFrames;
   return options;
 }
 
@@ -101,6 +113,24 @@ std::string difference(const Packet& host, const Packet& target) {
   return "byte " + std::to_string(at) + ", in packet " + std::to_string(number) + " of the host's (" + name + "); host " +
          std::to_string(host.size()) + " bytes, target " + std::to_string(target.size());
 }
+
+// Of a flight: for people, or for the program that has called.
+class FlightProgress {
+ public:
+  FlightProgress(const std::string& label, std::uint32_t frames, bool lines) : bar_(label, frames, "frames"), lines_(lines) {}
+  void show(std::uint32_t done) {
+    if (!lines_) return bar_.show(done);
+    for (; told_ < done; ++told_) (void)std::fputs("frame\n", stderr);
+  }
+  void finish() {
+    if (!lines_) bar_.finish();
+  }
+
+ private:
+  mdat::ProgressBar bar_;
+  bool lines_;
+  std::uint32_t told_ = 0;
+};
 
 void tell_ready() {
   std::puts("ready");
@@ -174,6 +204,7 @@ WorldSetup setup_of(const Options& options, const mdat::CompiledMission& mission
 }
 
 int run(const Options& options) {
+  const Patience patience{options.quiet, std::chrono::steady_clock::now() + options.limit};
   const mdat::CompiledMission mission = mdat::compile_mission(options.mission);
   const auto target = mdat::make_target(mission.mesh);
   const WorldSetup setup = setup_of(options, mission, *target);
@@ -188,14 +219,14 @@ int run(const Options& options) {
   };
   Packet host;
   if (options.starts == 1) {
-    mdat::ProgressBar bar("fly on the host", frames, "frames");
+    FlightProgress bar("fly on the host", frames, options.progress);
     host = fly_on_host(setup, {image, options.code_bytes}, frames, [&](std::uint32_t done) { bar.show(done); });
     bar.finish();
   }
   write(options.out + "/host.ccsds", host);
-  mdat::ProgressBar bar("fly on the board", frames, "frames");
+  FlightProgress bar("fly on the board", frames, options.progress);
   const TargetFlight flight = fly_on_target(
-      setup, options.out, frames, options.starts, tell_ready, [&](std::uint32_t done) { bar.show(done); }, ground);
+      setup, {options.out, frames, options.starts, patience}, tell_ready, [&](std::uint32_t done) { bar.show(done); }, ground);
   bar.finish();
   if (story) std::printf("damaged word: %s\n", story->repaired() ? "repaired" : "as it was damaged");
   write(options.out + "/target.ccsds", flight.telemetry.back());

@@ -1,5 +1,6 @@
 #include <poll.h>
 
+#include <algorithm>
 #include <array>
 
 #include "fsw/exec/executive.hpp"
@@ -14,12 +15,12 @@ using bare::RigWord;
 
 class Target {
  public:
-  explicit Target(const WorldSetup& setup) : setup_(setup) {}
+  Target(const WorldSetup& setup, const TargetRun& run) : setup_(setup), run_(run) {}
 
-  void open(const std::string& folder, const std::function<void()>& ready) {
-    camera_.listen(folder, "camera");
-    ground_.listen(folder, "ground");
-    rig_.listen(folder, "rig");
+  void open(const std::function<void()>& ready) {
+    camera_.listen(run_.folder, "camera");
+    ground_.listen(run_.folder, "ground");
+    rig_.listen(run_.folder, "rig");
     ready();
     camera_.await();
     ground_.await();
@@ -27,7 +28,7 @@ class Target {
   }
 
   Report read_report() {
-    move_until([&] { return rig_.has(4 * bare::kRigWords); });
+    move_until("the report", [&] { return rig_.has(4 * bare::kRigWords); });
     return report_of(rig_.take(4 * bare::kRigWords));
   }
 
@@ -36,7 +37,7 @@ class Target {
     const bool begun = report[bare::kRigKind] == static_cast<std::uint32_t>(bare::RigKind::kBegun);
     if (begun) begin_anew();
     const std::uint32_t camera = report[bare::kRigCameraSent], ground = report[bare::kRigGroundSent];
-    move_until([&] { return camera_.has_all(camera) && ground_.has_all(ground); });
+    move_until("bytes that are counted by the report", [&] { return camera_.has_all(camera) && ground_.has_all(ground); });
     to_camera_ = camera_.take_until(camera);
     if (begun) flight.slots.clear();
     if (begun) flight.telemetry.emplace_back();
@@ -63,14 +64,30 @@ class Target {
  private:
   // All lines at once: the board may have to get rid of bytes on one before it says something on another.
   template <class Done>
-  void move_until(const Done& done) {
+  void move_until(const char* awaited, const Done& done) {
     for (;;) {
       for (Line* line : {&camera_, &ground_, &rig_}) line->move();
       if (done()) return;
       std::array<pollfd, 3> states{camera_.awaited(), ground_.awaited(), rig_.awaited()};
-      const int some = poll(states.data(), states.size(), static_cast<int>(std::chrono::milliseconds(kPatience).count()));
-      if (some <= 0) throw mdat::RunError("nothing has moved on the board's lines for 30 s: it hangs, or is not there");
+      const int some = poll(states.data(), states.size(), static_cast<int>(left().count()));
+      if (left().count() == 0) give_up(awaited, "the flight has not ended within its time");
+      if (some <= 0) give_up(awaited, "nothing has moved on the board's lines for " + std::to_string(run_.patience.quiet.count()) + " s");
     }
+  }
+
+  // For which the lines may be quiet, within what is left of the whole.
+  std::chrono::milliseconds left() const {
+    using std::chrono::milliseconds;
+    const auto whole = run_.patience.end - std::chrono::steady_clock::now();
+    return std::clamp(std::chrono::duration_cast<milliseconds>(whole), milliseconds(0), milliseconds(run_.patience.quiet));
+  }
+
+  [[noreturn]] void give_up(const char* awaited, const std::string& why) const {
+    const std::uint32_t slot = slot_ - 1;  // whose answer is the last
+    const std::string where =
+        slot_ == 0 ? " of its start"
+                   : " of slot " + std::to_string(slot % kSlotsPerFrame) + " in frame " + std::to_string(slot / kSlotsPerFrame);
+    throw mdat::RunError(why + "; awaited was " + awaited + where + ": the board hangs, or is not there");
   }
 
   void begin_anew() {
@@ -81,6 +98,7 @@ class Target {
   }
 
   const WorldSetup& setup_;
+  const TargetRun& run_;
   std::optional<World> world_;
   std::uint32_t slot_ = 0;
   Packet to_camera_;
@@ -89,16 +107,16 @@ class Target {
 
 }  // namespace
 
-TargetFlight fly_on_target(const WorldSetup& setup, const std::string& folder, std::uint32_t frames, std::uint32_t starts,
-                           const std::function<void()>& ready, const Told& told, const Ground& ground) {
-  Target target(setup);
+TargetFlight fly_on_target(const WorldSetup& setup, const TargetRun& run, const std::function<void()>& ready, const Told& told,
+                           const Ground& ground) {
+  Target target(setup, run);
   TargetFlight flight;
-  target.open(folder, ready);
-  while (flight.starts.size() < starts || flight.slots.size() < std::size_t{frames} * kSlotsPerFrame) {
+  target.open(ready);
+  while (flight.starts.size() < run.starts || flight.slots.size() < std::size_t{run.frames} * kSlotsPerFrame) {
     if (!flight.starts.empty()) target.answer(static_cast<std::uint32_t>(flight.starts.size() - 1), ground);
     target.take(target.read_report(), flight);
     told(static_cast<std::uint32_t>(flight.slots.size() / kSlotsPerFrame));
-    if (flight.starts.size() > starts) throw mdat::RunError("the board has started anew, for a reason that its console says");
+    if (flight.starts.size() > run.starts) throw mdat::RunError("the board has started anew, for a reason that its console says");
   }
   target.stop();
   return flight;

@@ -236,7 +236,7 @@ void expect_names(const Enumeration& enumeration, E last) {
 
 TEST(Report, DictionaryNamesTheEnumerationsAsTheCodeDoes) {
   VERIFIES("LASSO-LNK-002~1");
-  expect_names(kPoseReason, PoseReason::kTooFast);
+  expect_names(kPoseReason, PoseReason::kBetterTwin);
   expect_names(kStopReason, StopReason::kNotRun);
   EXPECT_EQ(kFault.choices.size(), kFaults);
   expect_names(kFaultReaction, FaultReaction::kMakeSafe);

@@ -181,7 +181,7 @@ void tell_fault(std::uint32_t vector, std::uint32_t place, std::uint32_t address
 // and environment are texts one after the other, an empty one behind each of the two lists.
 std::uint64_t prepare_program() {
   using namespace lasso::kernel;
-  if (!open_bus()) {
+  if (!open_bus().whole()) {
     for (;;) {
     }
   }

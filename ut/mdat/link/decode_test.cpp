@@ -45,7 +45,7 @@ TEST(Decode, GivesBackWhatTheFlightCodePacked) {
   pose.t_measurement_us = -5;
   pose.reason = 11;
   pose.p_sensor_target_m[2] = 1.0 / 3;
-  pose.covariance[20] = 0.1F;
+  pose.covariance[20] = 0.1;
   const Stream stream = pose_packet(7, pose);
   const DecodedStream decoded = decode_stream(view(stream), PacketType::kTelemetry);
   ASSERT_EQ(decoded.packets.size(), 1U);
@@ -59,7 +59,7 @@ TEST(Decode, GivesBackWhatTheFlightCodePacked) {
   EXPECT_EQ(std::get<std::int64_t>(item(packet, "t_measurement_us").values.at(0)), -5);
   EXPECT_STREQ(choice_of(*item(packet, "reason").row, item(packet, "reason").values.at(0))->name, "implausible");
   EXPECT_EQ(std::get<double>(item(packet, "p_sensor_target_m").values.at(2)), 1.0 / 3);
-  EXPECT_EQ(std::get<float>(item(packet, "covariance").values.at(20)), 0.1F);
+  EXPECT_EQ(std::get<double>(item(packet, "covariance").values.at(20)), 0.1);
 }
 
 TEST(Decode, AgreesWithTheFlightDecoderForAllBytes) {
@@ -93,7 +93,7 @@ TEST(Decode, FindsPacketsBetweenGarbageAndBehindABrokenOne) {
   const DecodedStream decoded = decode_stream(view(stream), PacketType::kTelemetry);
   ASSERT_EQ(decoded.packets.size(), 2U);
   EXPECT_EQ(decoded.packets[0].header.at(5), 2U);
-  EXPECT_EQ(decoded.packets[0].offset, 4U + 651U);
+  EXPECT_EQ(decoded.packets[0].offset, 4U + 735U);
   EXPECT_EQ(decoded.packets[1].header.at(5), 3U);
   EXPECT_EQ(decoded.packets[1].offset, stream.size() - 835);
   EXPECT_EQ(decoded.other_bytes, stream.size() - std::size_t{2} * 835);
@@ -236,7 +236,7 @@ TEST(DecodeText, ShowsTheSelectedItems) {
   const DecodedStream decoded = decode_stream(view(stream), PacketType::kTelemetry);
   const Selection selection{"pose", {"mode", "plan_center"}};
   EXPECT_EQ(csv_text(decoded, selection),
-            "offset,sequence_count,time_s,mode,plan_center_0,plan_center_1\n0,3,1.5000000,standby,0,0\n751,4,1.5000000,standby,0,0\n");
+            "offset,sequence_count,time_s,mode,plan_center_0,plan_center_1\n0,3,1.5000000,standby,0,0\n835,4,1.5000000,standby,0,0\n");
   EXPECT_EQ(table_text(decoded, selection), "pose       #3 1.500000 s  standby  0 0\npose       #4 1.500000 s  standby  0 0\n");
   EXPECT_THROW(check_selection({"pos", {}}), InputError);
   EXPECT_THROW(check_selection({"", {"mode", "colour"}}), InputError);

@@ -99,7 +99,7 @@ TEST(Xtce, SizesAreThoseOfThePackets) {
   for (const ItemRow& row : kPackets[0].items) {
     bits += row.count * bits_of("pose_" + std::string(row.name) + (row.count > 1 ? "_element_t" : "_t"));
   }
-  EXPECT_EQ(bits, 751U * 8);
+  EXPECT_EQ(bits, 835U * 8);
 }
 
 // The text between a tag that has this name and its end.
