@@ -78,8 +78,7 @@ TEST(BadMission, ScenarioThatDoesNotExist) {
 TEST(BadMission, APartWithoutAModel) {
   VERIFIES("LASSO-MDT-007~1 LASSO-MOD-182~1");
   const std::string part = "\n[part.bay]\nrange_m = [1.0, 5.0]\nview = [0, 0, -2]\n";
-  for (const char* model :
-       {"model = \"gone.toml\"", "model = \".\"", "mesh = \"models\"", "mesh = \"empty.obj\"", "box_m = [80, 80, 80, 81, 81, 81]"}) {
+  for (const char* model : {"model = \"gone.toml\"", "mesh = \"models\"", "mesh = \"empty.obj\"", "box_m = [80, 80, 80, 81, 81, 81]"}) {
     const WorkFolder work;
     work.write("missions/empty.obj", "");
     work.write("missions/test.toml", work.read("missions/test.toml") + part + model + "\n");

@@ -175,7 +175,7 @@ TEST_F(CoarseTest, ASmallLimitStillLetsABetterOneIn) {
   std::fill(distances.begin() + static_cast<std::ptrdiff_t>(cells / 2), distances.end(), std::uint8_t{0});
   std::vector<ModelView<FlightNumber>> views;
   for (std::size_t i = 0; i <= 12; ++i) {
-    ModelView<FlightNumber>& view = views.emplace_back(tables.views[i * 50]);
+    ModelView<FlightNumber>& view = views.emplace_back(tables.views[i * (tables.views.size() / 13)]);
     view.median = view.near_median = FlightNumber::Length{0};
     for (std::size_t k = 0; k < 3; ++k) {
       const double place = k < 2 ? 0.5 : i < 12 ? 0.25 : 0.75;

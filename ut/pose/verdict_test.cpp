@@ -96,7 +96,7 @@ TEST_F(VerdictTest, RejectsWhatCannotBeRegistered) {
   for (RangeSample& sample : image->samples) {
     if (sample.state == RayState::kHit && ++hits > 9) sample.state = RayState::kInvalid;
   }
-  for (const double hits_min : {10.0, 9.0}) {
+  for (const double hits_min : {10.0, 1.0}) {
     limits_.hits_min = hits_min;
     search_->begin(limits_);
     ASSERT_EQ(search_->add_scan(mission_, *image, *workspace_), Status::kOk);

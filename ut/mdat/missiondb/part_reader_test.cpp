@@ -73,7 +73,8 @@ TEST_F(PartReaderTest, APartWithoutAModelIsNamedWithItsPlaceAndTheRemedy) {
   expect_error("[part.bay]\n" + kPlace, "exactly one model: box_m (cut from the target), model or mesh; 0 are given");
   expect_error("[part.bay]\n" + kPlace + kBox + "mesh = 'x.stl'\n", "2 are given");
   expect_error("[part.bay]\n" + kPlace + "mesh = 'gone.stl'\n", "m.toml:10:8: part.bay.mesh: \"gone.stl\": no such file in");
-  expect_error("[part.bay]\n" + kPlace + "model = '.'\n", "m.toml:10:9: part.bay.model: \".\": no such file in");
+  std::filesystem::create_directory(folder_.path() / "dir.toml");
+  expect_error("[part.bay]\n" + kPlace + "model = 'dir.toml'\n", "m.toml:10:9: part.bay.model: \"dir.toml\": no such file in");
   const MissionSource source = load("[part.bay]\nbox_m = [5, 5, 5, 6, 6, 6]\n" + kPlace);
   const std::string empty = mission_error_of([&] { static_cast<void>(load_part(source, source.parts[0], load_target(source))); });
   EXPECT_NE(empty.find("m.toml:8:9: part.bay.box_m: nothing of the target lies in the box: the part has no model"), std::string::npos)
