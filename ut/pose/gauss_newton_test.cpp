@@ -132,7 +132,7 @@ TEST_F(GaussNewtonTest, RowsAreTheDerivativesOfTheRange) {
   int tested = 0;
   for (std::size_t i = 0; i < workspace_->points.size(); i += 7) {
     Point& point = workspace_->points[i];
-    for (int k = 0; k < 3; ++k) point.p[k] -= N::to_length(0.03 * static_cast<double>(point.u[k]));
+    for (int k = 0; k < 3; ++k) point.p[k] = N::to_length(static_cast<double>(point.p[k]) - 0.03 * static_cast<double>(point.u[k]));
     const Met met = meet(scan_.model, pose, point);
     PassSums<N> sums(mission_.radius_m);
     match_points(mission_.field, to_path<N>(pose), settings(0.02), points().subspan(i, 1), {1, Lookup::kWalk}, sums);
