@@ -120,11 +120,14 @@ TEST_F(SearchTest, WhatTheWorkDoesNotAllowIsLeftOpenAndAnswersToTheNextScan) {
     EXPECT_TRUE(is_right(some.T_sensor_target)) << work_max;
   }
   EXPECT_GT(unfinished, 0);
-  limits_.work_max = least.work;  // and the next scan begins with as much again
-  search_within(least.work);
+  search_within(least.work);  // and the next scan begins with as much again
   EXPECT_EQ(search(2), Status::kOk);
   EXPECT_EQ(result().scans, 2u);
   EXPECT_NE(result().reason, SearchReason::kNotDone);
+  search_within(0);  // with none its poses are not recalled in the scan before
+  EXPECT_EQ(search(2), Status::kOk);
+  EXPECT_EQ(result().scans, 2u);
+  EXPECT_NE(result().outcome, SearchOutcome::kAccepted);
 }
 
 TEST_F(SearchTest, RefusesScansOutOfOrder) {
