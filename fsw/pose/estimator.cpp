@@ -147,6 +147,7 @@ Registration Estimator::estimate(const Mission& mission, const RangeImage& scan,
 }
 
 bool Estimator::has_better_twin(const Mission& mission, const RangeImage& scan, const Registration& result) {
+  if (result.inlier_share >= kExplainedShare) return false;
   const double advantage = twin_advantage(mission, inverse(result.T_sensor_target), scan.misses_known, workspace_);
   return advantage > mission.parameters.start_twin_margin;
 }
