@@ -28,11 +28,13 @@ inline void set_last_data_block(std::uint32_t upper, std::uint32_t lower) {
 
 // Registers of devices: bytes, and words whose lowest byte comes first (PCI).
 inline void write_device(std::uint32_t address, std::uint8_t value) {
-  *reinterpret_cast<volatile std::uint8_t*>(address) = value;  // NOLINT(performance-no-int-to-ptr): registers lie at fixed addresses
+  // NOLINTNEXTLINE(performance-no-int-to-ptr,clang-analyzer-core.FixedAddressDereference): registers lie at fixed addresses
+  *reinterpret_cast<volatile std::uint8_t*>(address) = value;
   __asm__ volatile("eieio" ::: "memory");
 }
 inline std::uint8_t read_device(std::uint32_t address) {
-  const std::uint8_t value = *reinterpret_cast<volatile std::uint8_t*>(address);  // NOLINT(performance-no-int-to-ptr): as above
+  // NOLINTNEXTLINE(performance-no-int-to-ptr,clang-analyzer-core.FixedAddressDereference): as above
+  const std::uint8_t value = *reinterpret_cast<volatile std::uint8_t*>(address);
   __asm__ volatile("eieio" ::: "memory");
   return value;
 }
