@@ -28,7 +28,7 @@ Pose off_by(double x_m, double turn_rad) {
   return pose;
 }
 
-PoseTelemetry report(bool valid, double x_m, float sigma_m = 1e-3F) {
+PoseTelemetry report(bool valid, double x_m, double sigma_m = 1e-3) {
   PoseTelemetry pose;
   pose.valid = valid ? 1 : 0;
   pose.p_sensor_target_m[0] = x_m;
@@ -92,7 +92,7 @@ TEST(Verdict, the_filter_is_judged_too) {
 TEST(Outcome, from_masked_to_detected) {
   EXPECT_EQ(outcome_of({report(true, 0), report(true, 0)}), Outcome::kMasked);
   EXPECT_EQ(outcome_of({report(true, 0), report(true, 0.001)}), Outcome::kHarmless);
-  EXPECT_EQ(outcome_of({report(true, 0), report(true, 0.03, 0.01F)}), Outcome::kCovered);
+  EXPECT_EQ(outcome_of({report(true, 0), report(true, 0.03, 0.01)}), Outcome::kCovered);
   EXPECT_EQ(outcome_of({report(true, 0), report(false, 9)}), Outcome::kDetected);
   EXPECT_EQ(outcome_of({report(true, 0)}), Outcome::kDetected) << "a report is missing";
 }
