@@ -75,7 +75,7 @@ const ParameterRow kRows[] = {
   {"tracking.recover", "1", kBoolean, &P::recover, 1, 0, 1, 0, "", "look for a target that is lost: near the prediction, then its bearing"},
   {"tracking.reacquire_frames", "1", kInteger, &P::reacquire_frames, 1, 0, 10000, 25, "", "frames for which it is looked for near the prediction"},
   {"start.frames", "1", kInteger, &P::start_frames, 1, 0, 10000, 10, "", "frames in which a scan has to confirm a pose to start from"},
-  {"start.inlier_share_min", "1", kReal, &P::start_inlier_share_min, 1, 0, 1, 0.5, "", "least share of that scan's returns that its pose explains; 0.9 for a sensor without outliers: half a turn off, a pose explains most"},
+  {"start.inlier_share_min", "1", kReal, &P::start_inlier_share_min, 1, 0, 1, 0.9, "", "least share of that scan's returns that its pose explains; less for a sensor with outliers: half a turn off, a pose explains most"},
   {"start.gate", "1", kReal, &P::start_gate, 1, 1, 1000, 25, "", "most normalised square of its difference from that scan's pose (6 degrees of freedom)"},
   {"start.twin_margin", "1", kReal, &P::start_twin_margin, 1, 0, 1000, 0.3, "", "a near-symmetry of its pose may explain that scan this much better: squared residuals in sigmas, mean of the rays"},
   {"start.age_max_s", "s", kReal, &P::start_age_max_s, 1, 0, 1000, 100, "", "an older pose to start from is refused"},

@@ -7,6 +7,8 @@ namespace lasso {
 namespace {
 
 constexpr double kBearingSigmas = 4;
+constexpr double kWidest_rad = 3.2;  // one sigma: any attitude
+constexpr double kWidestReaches = 10;  // the same of the place, in what the farthest sensor reaches
 
 template <class M>
 bool all_finite(const M& m) {
@@ -18,6 +20,15 @@ bool all_finite(const M& m) {
 bool all_finite(const StartOffer& offer) {
   return all_finite(offer.T_sensor_target.q.coeffs()) && all_finite(offer.T_sensor_target.p) && all_finite(offer.rates.omega_radps) &&
          all_finite(offer.rates.v_mps) && all_finite(offer.covariance);
+}
+
+// A pose that may lie anywhere would pass every check against it.
+bool tells_something(const Mission& mission, const Mat6& covariance) {
+  double farthest_m = mission.parameters.range_max_m;
+  for (const SensorParameters& sensor : mission.sensors) farthest_m = sensor.range_max_m > farthest_m ? sensor.range_max_m : farthest_m;
+  const double widest_m = kWidestReaches * farthest_m;
+  return covariance.diagonal().head<3>().maxCoeff() <= kWidest_rad * kWidest_rad &&
+         covariance.diagonal().tail<3>().maxCoeff() <= widest_m * widest_m;
 }
 
 StartRefusal check_values(const MissionParameters& p, const StartOffer& offer, TimeUs now_us) {
@@ -99,6 +110,7 @@ StartRefusal start_from(const Mission& mission, const StartOffer& offer, TimeUs 
   const MissionParameters& p = mission.parameters;
   const StartRefusal refusal = check_values(p, offer, now_us);
   if (refusal != StartRefusal::kNone) return refusal;
+  if (!tells_something(mission, offer.covariance)) return StartRefusal::kBadCovariance;
   FilterState started;
   if (start_filter(started, filter_start(p, offer)) != Status::kOk) return StartRefusal::kBadCovariance;
   if (predict_filter(started, now_us, filter_noise(p)) != Status::kOk) return StartRefusal::kTooFast;

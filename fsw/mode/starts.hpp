@@ -30,7 +30,7 @@ enum class StartRefusal : std::uint8_t {
   kNoSuchWay = 2,      // kNone, or a number that is none
   kNotFinite = 3,      // a value is not a number
   kNotUnit = 4,        // the quaternion is not of unit length
-  kBadCovariance = 5,  // not symmetric, or not of variances and correlations
+  kBadCovariance = 5,  // not symmetric, not of variances and correlations, or so wide that it tells nothing
   kFromFuture = 6,     // stated later than the frame in which it would start
   kTooOld = 7,         // stated longer ago than start.age_max_s
   kTooFast = 8,        // its rates since then have no meaning, or move the target too far within a scan

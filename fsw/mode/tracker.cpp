@@ -7,12 +7,26 @@ namespace {
 
 constexpr std::uint32_t kEstablished = 5;  // scans until the filter's word counts more than a scan's: a start may have been wrong
 
-Status restart_from(const MissionParameters& p, const Registration& registration, FilterState& filter) {
-  return start_filter(filter, filter_start(p, {registration.t_us, registration.T_sensor_target, filter.rates, registration.covariance}));
-}
-
 PoseMeasurement measurement_of(const Registration& registration) {
   return {registration.t_us, registration.T_sensor_target, registration.covariance};
+}
+
+// Does the start, where it is known, take the registration in? Its rates stay unknown.
+bool begin_from(const MissionParameters& p, const Registration& registration, const FilterState& filter, FilterState& begun) {
+  const StartOffer known{filter.t_us, filter.T_sensor_target, filter.rates, filter.covariance.topLeftCorner<6, 6>()};
+  if (!filter.initialised || start_filter(begun, filter_start(p, known)) != Status::kOk) return false;
+  return update_filter(begun, measurement_of(registration), kNoGate).accepted;
+}
+
+// A track begins with the registration and, where that shows nothing (unseen.hpp), with what its start was known by: a plate's shift would
+// otherwise begin unknown by three radii, and what views from a little aside tell of so much is beyond a linear filter.
+Status restart_from(const MissionParameters& p, const Registration& registration, FilterState& filter) {
+  FilterState begun;
+  const StartOffer alone{registration.t_us, registration.T_sensor_target, filter.rates, registration.covariance};
+  if (!begin_from(p, registration, filter, begun)) return start_filter(filter, filter_start(p, alone));
+  filter = begun;
+  filter.accepted = 0;
+  return Status::kOk;
 }
 
 // `filter` is predicted to the registration's time. A filter that cannot be asked has nothing against the registration.

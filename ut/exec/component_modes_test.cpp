@@ -221,7 +221,7 @@ TEST(ComponentModes, AHeldModeStaysUntilItIsReleased) {
 }
 
 TEST(ComponentModes, WrongOffersAreRefusedCountedAndTold) {
-  VERIFIES("LASSO-MOD-134~1 LASSO-MOD-008~1");
+  VERIFIES("LASSO-MOD-134~2 LASSO-MOD-008~1");
   ComponentScene scene(story_parameters());
   const StartOffer good = rough_offer(story_parameters(), test::default_scene().at_zero, {}, 0);
   EXPECT_EQ(scene.component->offer_start(StartWay::kUplink, good), StartRefusal::kNotBegun);
@@ -246,7 +246,7 @@ TEST(ComponentModes, WrongOffersAreRefusedCountedAndTold) {
 }
 
 TEST(ComponentModes, WhatHasGrownOldIsRefusedWhenItsTurnComes) {
-  VERIFIES("LASSO-MOD-133~2 LASSO-MOD-134~1");
+  VERIFIES("LASSO-MOD-133~2 LASSO-MOD-134~2");
   MissionParameters p = story_parameters();
   p.start_age_max_s = 1;
   ComponentScene scene(p);
@@ -264,7 +264,7 @@ TEST(ComponentModes, WhatHasGrownOldIsRefusedWhenItsTurnComes) {
 }
 
 TEST(ComponentModes, AMissionsOwnStartIsRefusedByItsReasonAndTheNextWayIsTried) {
-  VERIFIES("LASSO-MOD-133~2 LASSO-MOD-134~1 LASSO-MOD-137~1");
+  VERIFIES("LASSO-MOD-133~2 LASSO-MOD-134~2 LASSO-MOD-137~1");
   MissionParameters behind = test::box_parameters(test::default_scene());
   behind.initial_z_m = -2.5;
   MissionParameters out_of_reach = test::box_parameters(test::default_scene());

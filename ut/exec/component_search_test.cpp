@@ -42,7 +42,7 @@ TEST(ComponentSearch, TheTargetIsFoundWithoutAnyPriorAndTracked) {
 }
 
 TEST(ComponentSearch, AMissionsOwnStartThatCannotBeRightGivesPlaceToTheSearch) {
-  VERIFIES("LASSO-MOD-133~2 LASSO-MOD-134~1");
+  VERIFIES("LASSO-MOD-133~2 LASSO-MOD-134~2");
   MissionParameters p = search_parameters();
   p.initial_present = 1;
   p.initial_z_m = 5000;
@@ -192,7 +192,7 @@ TEST(ComponentSearch, ASearchTrustsNoOldBearing) {
 }
 
 TEST(ComponentSearch, APoseThatWasFoundTooLateIsRefusedByItsName) {
-  VERIFIES("LASSO-MOD-134~1");
+  VERIFIES("LASSO-MOD-134~2");
   MissionParameters p = search_parameters();
   p.start_age_max_s = 0;
   p.search_slice = 300000;  // several frames' work

@@ -164,7 +164,7 @@ TEST_F(SearcherTest, MakesDoWithASingleScanWhereNoOtherIsAllowed) {
 }
 
 TEST_F(SearcherTest, AStartThatIsRefusedSaysWhyAndTheSearchBeginsAnew) {
-  VERIFIES("LASSO-MOD-134~1");
+  VERIFIES("LASSO-MOD-134~2");
   look_from_the_right_side();
   state_.bearing.p_m.z() += 6;
   for (std::uint32_t k = 0; k < 2; ++k) {

@@ -49,7 +49,7 @@ TEST_F(StartsTest, AnOfferIsMovedToNow) {
 }
 
 TEST_F(StartsTest, WhatIsNotANumberIsRefused) {
-  VERIFIES("LASSO-MOD-134~1 LASSO-MOD-008~1");
+  VERIFIES("LASSO-MOD-134~2 LASSO-MOD-008~1");
   const StartOffer good = offer_;
   offer_.T_sensor_target.q.x() = kNan;
   EXPECT_EQ(try_offer(), StartRefusal::kNotFinite);
@@ -68,7 +68,7 @@ TEST_F(StartsTest, WhatIsNotANumberIsRefused) {
 }
 
 TEST_F(StartsTest, WhatCannotBeIsRefusedByItsName) {
-  VERIFIES("LASSO-MOD-134~1 LASSO-MOD-182~1");
+  VERIFIES("LASSO-MOD-134~2 LASSO-MOD-182~1");
   const StartOffer good = offer_;
   offer_.T_sensor_target.q.w() += 0.1;
   EXPECT_EQ(try_offer(), StartRefusal::kNotUnit);
@@ -78,6 +78,12 @@ TEST_F(StartsTest, WhatCannotBeIsRefusedByItsName) {
   offer_ = good;
   offer_.covariance(2, 3) = 1e-3;
   EXPECT_EQ(try_offer(), StartRefusal::kBadCovariance);
+  offer_ = good;
+  offer_.covariance(1, 1) = 11;
+  EXPECT_EQ(try_offer(), StartRefusal::kBadCovariance) << "any attitude";
+  offer_ = good;
+  offer_.covariance(4, 4) = 101 * mission_.parameters.range_max_m * mission_.parameters.range_max_m;
+  EXPECT_EQ(try_offer(), StartRefusal::kBadCovariance) << "any place";
   offer_ = good;
   offer_.t_us = kNow + 1;
   EXPECT_EQ(try_offer(), StartRefusal::kFromFuture);
@@ -96,7 +102,7 @@ TEST_F(StartsTest, WhatCannotBeIsRefusedByItsName) {
 }
 
 TEST_F(StartsTest, WhatTheSensorCannotSeeIsRefused) {
-  VERIFIES("LASSO-MOD-134~1");
+  VERIFIES("LASSO-MOD-134~2");
   offer_.rates = Twist{};
   mission_.parameters.range_min_m = 1;
   for (const double z_m : {-2.5, 21.0, 0.2}) {
@@ -108,7 +114,7 @@ TEST_F(StartsTest, WhatTheSensorCannotSeeIsRefused) {
 }
 
 TEST_F(StartsTest, WhatAnotherSensorReachesIsTaken) {
-  VERIFIES("LASSO-MOD-134~1 LASSO-SNS-041~1");
+  VERIFIES("LASSO-MOD-134~2 LASSO-SNS-041~1");
   offer_.rates = Twist{};
   SensorParameters far = mission_.parameters;
   far.range_min_m = 30;
@@ -125,7 +131,7 @@ TEST_F(StartsTest, WhatAnotherSensorReachesIsTaken) {
 }
 
 TEST_F(StartsTest, WhatIsNotAtTheBearingIsRefused) {
-  VERIFIES("LASSO-MOD-134~1");
+  VERIFIES("LASSO-MOD-134~2");
   offer_.t_us = kNow;
   bearing_.started = true;
   bearing_.t_us = kNow - 1000000;
@@ -196,7 +202,7 @@ TEST_F(StartsTest, TheOrderNamesItsWays) {
 }
 
 TEST(StartNames, AreThoseOfTheCode) {
-  VERIFIES("LASSO-MOD-134~1");
+  VERIFIES("LASSO-MOD-134~2");
   EXPECT_EQ(std::string(to_string(StartWay::kUplink)), "uplink");
   EXPECT_EQ(std::string(to_string(StartWay::kSearch)), "search");
   EXPECT_EQ(std::string(to_string(static_cast<StartWay>(6))), "unknown");

@@ -196,5 +196,25 @@ TEST_F(TrackerWeakTest, ThePoseStaysValidAndWhatIsNotSeenCoasts) {
   }
 }
 
+// Else a shift in the plane would begin unknown by three radii, and a target that turns make it known by what a linear filter cannot say.
+TEST_F(TrackerWeakTest, AStartKnowsWhatItsScanDoesNotShow) {
+  VERIFIES("LASSO-MOD-003~2 LASSO-MOD-143~1");
+  for (const std::uint64_t seed : kSeeds) {
+    establish_hits_only(seed);
+    change_mode(ModeEvent::kStop, state_);
+    ASSERT_EQ(start_at(scene_.at_zero, scene_.rates, 0, 0), StartRefusal::kNone);
+    const double widest = 4 * state_.filter.covariance.topLeftCorner<6, 6>().trace();
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const TrackStep step = track_face(k);
+      ASSERT_TRUE(step.registration.valid()) << seed << " " << k << " " << to_string(step.registration.reason);
+      EXPECT_EQ(step.registration.weak, 3);
+      const Mat6 covariance = state_.filter.covariance.topLeftCorner<6, 6>();
+      const Vec6 e = error(state_.filter.T_sensor_target, state_.filter.t_us);
+      EXPECT_LT(e.dot(covariance.inverse() * e), 40) << seed << " " << k;
+      EXPECT_LT(covariance.trace(), widest);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace lasso

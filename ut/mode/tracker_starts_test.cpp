@@ -10,13 +10,43 @@ using test::small_error;
 using test::TrackerTest;
 
 TEST_F(TrackerTest, FirstRegistrationStartsTheFilterAnew) {
-  VERIFIES("LASSO-MOD-003~1");
+  VERIFIES("LASSO-MOD-003~2");
   start(small_error());
+  const RangeImage& image = scan(0);
+  FilterState known = state_.filter;
+  ASSERT_EQ(predict_filter(known, image.reference_time_us(), filter_noise(mission_.parameters)), Status::kOk);
   const TrackStep step = track(0);
   ASSERT_TRUE(step.registration.valid());
+  const Mat6 information = known.covariance.topLeftCorner<6, 6>().inverse() + step.registration.covariance.inverse();
+  const Mat6 expected = information.inverse();
+  EXPECT_LT((step.after.filter.covariance.topLeftCorner<6, 6>() - expected).norm(), 1e-6 * expected.norm());
+  EXPECT_LT((step.after.filter.T_sensor_target.p - step.registration.T_sensor_target.p).norm(), 1e-4);
+  EXPECT_EQ((step.after.filter.covariance.topRightCorner<6, 6>().norm()), 0) << "the start says nothing of the rates";
+  EXPECT_DOUBLE_EQ(step.after.filter.covariance(11, 11), mission_.parameters.initial_rate_mps * mission_.parameters.initial_rate_mps);
+}
+
+// A filter that has no meaning, as a flipped bit leaves it, starts from the scan alone.
+TEST_F(TrackerTest, AFirstRegistrationCanStandAlone) {
+  VERIFIES("LASSO-MOD-003~2");
+  start(small_error());
+  state_.filter.covariance(0, 0) = -1;
+  const TrackStep step = track(0);
+  ASSERT_TRUE(step.registration.valid()) << to_string(step.registration.reason);
   EXPECT_EQ((step.after.filter.T_sensor_target.p - step.registration.T_sensor_target.p).norm(), 0);
   EXPECT_LT((step.after.filter.covariance.topLeftCorner<6, 6>() - step.registration.covariance).norm(), 1e-18);
-  EXPECT_DOUBLE_EQ(step.after.filter.covariance(11, 11), mission_.parameters.initial_rate_mps * mission_.parameters.initial_rate_mps);
+}
+
+// One wrong offer must not cost a good track; who knows better ends it first.
+TEST_F(TrackerTest, ATrackThatHoldsIsNotLeftForAnOffer) {
+  VERIFIES("LASSO-MOD-134~2");
+  start(small_error());
+  ASSERT_TRUE(track(0).registration.valid());
+  const TrackState before = state_;
+  EXPECT_EQ(start_at(scene_.at_zero, scene_.rates, 0, 200000), StartRefusal::kNotFromHere);
+  EXPECT_EQ(state_.mode, TrackingMode::kTracking);
+  EXPECT_EQ(state_.filter.t_us, before.filter.t_us);
+  change_mode(ModeEvent::kStop, state_);
+  EXPECT_EQ(start_at(scene_.at_zero, scene_.rates, 0, 200000), StartRefusal::kNone);
 }
 
 TEST_F(TrackerTest, WideStartTakesWhatANarrowOneCannot) {
@@ -36,7 +66,7 @@ TEST_F(TrackerTest, WideStartTakesWhatANarrowOneCannot) {
 }
 
 TEST_F(TrackerTest, MovesTheStartToItsFrame) {
-  VERIFIES("LASSO-MOD-003~1 LASSO-MOD-132~1");
+  VERIFIES("LASSO-MOD-003~2 LASSO-MOD-132~1");
   ASSERT_EQ(start_at(scene_.pose_at(300000), scene_.rates, 300000, 1000000), StartRefusal::kNone);
   EXPECT_LT(error(state_.filter.T_sensor_target, 1000000).norm(), 1e-12);
   EXPECT_EQ(state_.filter.t_us, 1000000);
@@ -58,7 +88,7 @@ TEST_F(TrackerTest, RefusesAStartThatMeansNothing) {
 
 // Twelve degrees off with a believed sigma of half a degree: the scan finds the target, but not where the start says.
 TEST_F(TrackerTest, AStartFartherOffThanItsCovarianceSaysIsNotConfirmed) {
-  VERIFIES("LASSO-MOD-132~1 LASSO-MOD-134~1");
+  VERIFIES("LASSO-MOD-132~1 LASSO-MOD-134~2");
   MissionParameters p = test::box_parameters(scene_);
   p.start_sigma_rad = 0.01;
   p.start_sigma_m = 0.005;
@@ -113,7 +143,7 @@ class MastTest : public TrackerTest {
 };
 
 TEST_F(MastTest, AStartHalfATurnOffIsNeverTracked) {
-  VERIFIES("LASSO-MOD-132~1 LASSO-MOD-134~1 LASSO-MOD-182~1");
+  VERIFIES("LASSO-MOD-132~1 LASSO-MOD-134~2 LASSO-MOD-182~1");
   load_with_mast(0.9);
   start(small_error());
   track_view(0);
@@ -198,7 +228,7 @@ TEST_F(TrackerTest, BeginningATrackTakesMoreThanKeepingIt) {
 
 // A filter that nobody has heard of for too long has nothing against what a scan finds.
 TEST_F(TrackerTest, AStartThatCannotBePredictedIsConfirmedByTheScanAlone) {
-  VERIFIES("LASSO-MOD-003~1");
+  VERIFIES("LASSO-MOD-003~2");
   start(small_error());
   state_.filter.initialised = false;
   EXPECT_TRUE(track(0).registration.valid());

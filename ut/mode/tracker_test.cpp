@@ -11,7 +11,7 @@ using test::small_error;
 using test::TrackerTest;
 
 TEST_F(TrackerTest, FollowsTheTargetAndLearnsItsRates) {
-  VERIFIES("LASSO-MOD-003~1");
+  VERIFIES("LASSO-MOD-003~2");
   start(small_error());
   EXPECT_EQ(state_.mode, TrackingMode::kStarting);
   for (std::uint32_t k = 0; k < 30; ++k) {
@@ -113,7 +113,7 @@ TEST_F(TrackerTest, AnUncertainPredictionIsARoughStart) {
 
 // A covariance that says of two directions that they are one has no inverse with the scan's.
 TEST_F(TrackerTest, AScanThatTheFilterCannotJoinStartsItAnew) {
-  VERIFIES("LASSO-MOD-003~1");
+  VERIFIES("LASSO-MOD-003~2");
   start(small_error());
   track(0);
   state_.filter.covariance.topLeftCorner<6, 6>().setConstant(1e9);
@@ -125,7 +125,7 @@ TEST_F(TrackerTest, AScanThatTheFilterCannotJoinStartsItAnew) {
 }
 
 TEST_F(TrackerTest, AfterTooLongAPauseAValidScanStartsTheFilterAnew) {
-  VERIFIES("LASSO-MOD-003~1");
+  VERIFIES("LASSO-MOD-003~2");
   start(small_error());
   for (std::uint32_t k = 0; k < 5; ++k) track(k);
   const Pose last = state_.filter.T_sensor_target;
@@ -143,7 +143,7 @@ TEST_F(TrackerTest, AfterTooLongAPauseAValidScanStartsTheFilterAnew) {
 
 // Only memory that was hit can hold such a state: the scan may be good, but no filter stands behind it.
 TEST_F(TrackerTest, APoseWithoutAFilterIsNotValid) {
-  VERIFIES("LASSO-MOD-003~1");
+  VERIFIES("LASSO-MOD-003~2");
   MissionParameters p = test::box_parameters(scene_);
   p.deskew = 0;
   load(p);

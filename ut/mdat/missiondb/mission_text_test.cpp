@@ -53,7 +53,7 @@ TEST(MissionText, InfoOfAScenarioShowsItsOverrides) {
 }
 
 TEST(MissionText, CheckWarnsOfAStartThatNoSensorReaches) {
-  VERIFIES("LASSO-GND-003~1 LASSO-MOD-134~1");
+  VERIFIES("LASSO-GND-003~1 LASSO-MOD-134~2");
   const Folder folder;
   folder.write("box.toml", "[[part]]\nkind = 'box'\nsize = [1, 1, 1]\n");
   const std::string head =
