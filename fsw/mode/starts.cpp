@@ -7,7 +7,7 @@ namespace lasso {
 namespace {
 
 constexpr double kBearingSigmas = 4;
-constexpr double kWidest_rad = 3.2;  // one sigma: any attitude
+constexpr double kWidest_rad = 3.2;    // one sigma: any attitude
 constexpr double kWidestReaches = 10;  // the same of the place, in what the farthest sensor reaches
 
 template <class M>

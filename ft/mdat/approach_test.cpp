@@ -56,6 +56,17 @@ TEST(Approach, RunsThroughAllModesWithTwoSensorsAndRecoversFromAnEclipse) {
     EXPECT_TRUE(timeline.at("by_part").contains(part)) << part;
 }
 
+// Twenty random attitudes, each start turned end for end.
+TEST(Approach, AStartHalfATurnOffIsNeverConfirmed) {
+  VERIFIES("LASSO-MOD-182~1");
+  const WorkFolder work;
+  const Answer answer = work.mdat("run " + kMission + " --scenario half_turn --no-report --out out");
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  const Json noisy = Json::parse(work.read("out/results.json")).at("noisy");
+  EXPECT_EQ(noisy.at("frames"), 480);
+  EXPECT_EQ(noisy.at("invalid"), 480);
+}
+
 TEST(Approach, TheRangeChangesTheSensorInBothDirectionsAndTheReportShowsIt) {
   VERIFIES("LASSO-MOD-174~1 LASSO-GND-026~1 LASSO-SNS-042~1");
   const WorkFolder work;

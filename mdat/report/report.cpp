@@ -36,8 +36,10 @@ std::string accuracy_table(const TableResult& table, bool paper) {
 }
 
 std::vector<std::string> quality_row(const std::string& name, const RunStatistics& run, bool noise, bool bound) {
-  std::vector<std::string> row = {name, format("%zu", run.frames), format("%zu", run.lost), format("%.4f", run.registration.rms_mm),
-                                  format("%.5f", run.registration.rms_deg)};
+  std::vector<std::string> row = {name};
+  for (const std::size_t count : {run.frames, run.lost, run.invalid, run.wrong}) row.push_back(format("%zu", count));
+  row.push_back(format("%.4f", run.registration.rms_mm));
+  row.push_back(format("%.5f", run.registration.rms_deg));
   row.push_back(bound && noise ? format("%.3f", run.registration.rms_mm / run.crlb_mm) : "–");
   row.push_back(bound && noise ? format("%.3f", run.registration.rms_deg / run.crlb_deg) : "–");
   row.push_back(noise ? format("%.2f", run.nees) : "–");
@@ -49,8 +51,9 @@ std::vector<std::string> quality_row(const std::string& name, const RunStatistic
 
 HtmlTable quality_head(const std::string& first) {
   HtmlTable html;
-  html.head = {first,  "frames",       "lost",          "rms, mm",    "rms, deg", "over bound (mm)", "over bound (deg)",
-               "NEES", "filtered, mm", "filtered, deg", "median, us", "p99, us",  "max, us"};
+  html.head = {
+      first,  "frames",       "lost",          "invalid",    "wrong",   "rms, mm", "rms, deg", "over bound (mm)", "over bound (deg)",
+      "NEES", "filtered, mm", "filtered, deg", "median, us", "p99, us", "max, us"};
   return html;
 }
 

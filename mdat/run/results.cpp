@@ -106,20 +106,31 @@ std::string quality_line(const VariantResult& variant, ScenarioKind kind) {
     text += format("  %6.3f %6.1f", run.omega_rms_degps, run.v_rms_mmps);
   }
   text += variant.variant.noise ? format("  %6.2f", run.nees) : std::string("       -");
-  text += format("  %4zu/%-5zu %5zu", run.lost, run.frames, run.invalid);
+  text += format("  %4zu/%-5zu %5zu  %5zu", run.lost, run.frames, run.invalid, run.wrong);
   return text + format("  %7.0f %7.0f %7.0f\n", run.time.median_us, run.time.p99_us, run.time.max_us);
+}
+
+// Of valid poses that are wrong: nobody should have to look for them.
+std::string warning_of(const TableResult& table) {
+  std::size_t wrong = 0;
+  for (const VariantResult& variant : table.variants) wrong += variant.all.wrong;
+  if (wrong == 0) return "";
+  return format(
+      "  %zu frames say valid and are wrong (off by more than 5 of their own sigma, and by more than 20 mm or 1 deg): these views of this "
+      "target are not to be trusted\n",
+      wrong);
 }
 
 std::string quality_table(const TableResult& table) {
   const bool paper = table.scenario.scenario_kind() == ScenarioKind::kPaper;
   std::string text = "                            rms error         ";
   text += paper ? "over bound      " : "rates error     ";
-  text += "NEES  lost       invalid  time of an estimate, us\n";
+  text += "NEES  lost       invalid wrong  time of an estimate, us\n";
   text += "                            mm       deg      ";
   text += paper ? "mm     deg      " : "deg/s  mm/s     ";
-  text += "of 6                       median     p99     max\n";
+  text += "of 6                              median     p99     max\n";
   for (const VariantResult& variant : table.variants) text += quality_line(variant, table.scenario.scenario_kind());
-  return text;
+  return text + warning_of(table);
 }
 
 Json run_json(const TimelineStatistics& run) {
