@@ -11,4 +11,8 @@ void jump_to(std::uint32_t address);
 void no_instruction();  // does what the processor has no instruction for
 void call_system();     // an exception that nobody awaits
 
+// Those of this processor alone, counted from 0.
+std::uint32_t own_faults();
+void own_fault(std::uint32_t number);
+
 }  // namespace lasso::planted
