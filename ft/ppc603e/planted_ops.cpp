@@ -1,8 +1,12 @@
 #include "ft/pil/planted_ops.hpp"
 
+extern "C" std::uint8_t board_acquisition_stack_begin[];
+
 namespace lasso::planted {
 namespace {
 
+constexpr std::uint32_t kStackBytes = 0x8000;
+constexpr std::uint32_t kFrameBytes = 256, kReturnAt = 84;  // of an interrupt of the background, and SRR0 in it (bsp/ppc603e/vectors.S)
 constexpr std::uint32_t kUnaligned = 0x00400001;
 // That no instruction of this board raises, or not on the emulated processor.
 constexpr std::uint32_t kVectors[] = {0x100, 0x200, 0x300,  0x400,  0xA00,  0xB00,  0xD00,
@@ -40,6 +44,11 @@ void write_at(std::uint32_t address) { __asm__ volatile("stw %0,0(%0)" ::"b"(add
 void jump_to(std::uint32_t address) { __asm__ volatile("mtctr %0\n\tbctr" ::"r"(address) : "ctr", "memory"); }
 void no_instruction() { __asm__ volatile(".long 0"); }
 void call_system() { __asm__ volatile("sc" ::: "memory"); }
+
+void lead_background_to(void (*there)()) {
+  auto* const place = reinterpret_cast<volatile std::uint32_t*>(board_acquisition_stack_begin + kStackBytes - kFrameBytes + kReturnAt);
+  *place = static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(there));
+}
 
 std::uint32_t own_faults() { return 2 + sizeof kVectors / sizeof kVectors[0]; }
 
