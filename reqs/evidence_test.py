@@ -73,6 +73,11 @@ class EvidenceTest(unittest.TestCase):
         self.assertIn('golden FAILED: flights: 3', self.collect(1).stderr)
         self.assertRegex(self.page(), r'`make golden` \| [^|]* \| FAILED \|')
 
+    def test_a_gate_that_has_run_as_a_sample(self):
+        self.write('out/golden/summary.json', '{"gate": "golden", "passed": true, "figures": {}, "sample": "3 of 360"}')
+        self.collect()
+        self.assertRegex(self.page(), r'`make golden` \| [^|]* \| passed as a sample \| sample: 3 of 360 \|')
+
     def test_a_summary_that_cannot_be_read(self):
         self.write('out/lint/summary.json', '{"gate": "lint"}')
         self.assertIn('out/lint/summary.json:1: not the summary', self.collect(1).stderr)

@@ -26,7 +26,7 @@ class Matrix:
                 self.children[item.parent].append(item)
 
     def verdict(self, item):
-        """verified, missing, failed, evidence, not run, planned."""
+        """verified, missing, failed, evidence, not run, a sample, planned."""
         if not item.active:
             return 'planned'
         results = {(test.platform, test.result) for test in trace_reports.tests_of(item, self.tests)}
@@ -50,7 +50,7 @@ class Matrix:
         traced = [item for item in active if self.verdict(item) in ('verified', 'evidence')]
         by_test = [item for item in active if item.method == 'test']
         passed = collections.Counter(test.platform for test in self.tests if test.result == 'passed')
-        waiting = [item for item in active if self.verdict(item) == 'not run']
+        waiting = [item for item in active if self.verdict(item) in ('not run', 'a sample')]
         figures = {
             'active items traced': f'{len(traced)} of {len(active)}',
             'by passing tests': f'{sum(self.verdict(item) == "verified" for item in by_test)} of {len(by_test)}',

@@ -38,13 +38,13 @@ class TraceTest(unittest.TestCase):
     def report(self, test, folder='test'):
         self.write(f'out/{folder}/ut_box.xml', REPORT.format(test))
 
-    def run_trace(self, **environment):
-        return subprocess.run([HERE / 'trace', self.top], cwd=self.top, capture_output=True, text=True, check=False,
+    def run_trace(self, *options, **environment):
+        return subprocess.run([HERE / 'trace', *options, self.top], cwd=self.top, capture_output=True, text=True, check=False,
                               env=os.environ | {'LASSO_OUT': str(self.top / 'out')} | environment)
 
-    def fails(self, *expected):
+    def fails(self, *expected, complete=False):
         """The check fails, says all of the texts, and the summary says so too."""
-        done = self.run_trace()
+        done = self.run_trace(*(['--complete'] if complete else []))
         self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
         self.assertFalse('Traceback' in done.stderr, done.stderr[-1000:])
         for text in expected:
@@ -296,6 +296,11 @@ class TraceTest(unittest.TestCase):
     def test_gate_failed(self):
         self.rest_on_golden({'gate': 'golden', 'passed': False, 'figures': {}})
         self.fails('reqs/needs.yaml:9: LASSO-NEED-001 rests on make golden, which failed')
+
+    def test_gate_that_has_run_as_a_sample(self):
+        self.rest_on_golden({'gate': 'golden', 'passed': True, 'figures': {}, 'sample': '3 of 360'})
+        self.passes()
+        self.fails('LASSO-NEED-001 rests on make golden, which has run as a sample: run it whole', complete=True)
 
     def test_gate_summary_malformed(self):
         for text in ('{\n"gate": ', '{}', '[]', '{"gate": "other", "passed": true, "figures": {}}', '{"gate": "golden", "passed": 1, "figures": {}}'):

@@ -153,9 +153,11 @@ void Flight::wait_on() { wake_in(kLookTicks); }
 
 void Flight::run() {
   paint_estimation_stack();
+  waiting_ = true;  // a wake-up call that came due in the life before may still be served: it is no slot of this one
   allow_interrupts();
   let_world_move(RigKind::kBegun, component_.next_slot_us());
   forbid_interrupts();
+  waiting_ = false;
   clock_.wake_at(component_.next_slot_us());
   allow_interrupts();
   while (!stopped_) {

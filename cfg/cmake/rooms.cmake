@@ -75,6 +75,9 @@ endfunction()
 
 # Board support bsp/NAME for the platform that is being built. A board with a CMakeLists.txt of its own says there how its image is made.
 function(lasso_board NAME)
+  if(NOT IS_DIRECTORY ${PROJECT_SOURCE_DIR}/bsp/${NAME})
+    message(FATAL_ERROR "LASSO_BOARD=${NAME}: no such folder in bsp: name one of its boards (docs/porting.md)")
+  endif()
   if(EXISTS ${PROJECT_SOURCE_DIR}/bsp/${NAME}/CMakeLists.txt)
     add_subdirectory(bsp/${NAME})
     return()

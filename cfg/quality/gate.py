@@ -45,7 +45,7 @@ class Gate:
     """Collects what a gate finds and measures. `with Gate(name) as gate:` ends the program, at once if something cannot go on (stop())."""
 
     def __init__(self, name):
-        self.name, self.findings, self.figures = name, [], {}
+        self.name, self.findings, self.figures, self.sample = name, [], {}, ''
         self.out = OUT / name
 
     def __enter__(self):
@@ -70,6 +70,14 @@ class Gate:
             return tomllib.loads(pathlib.Path(path).read_text(encoding='utf-8'))
         except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
             return self.stop(f'{path}: {error}: correct the file')
+
+    def number(self, name, text, most, whole=None):
+        """A count that somebody asks for, 1 to `most`. Fewer than the whole are a sample, on which nothing may rest."""
+        if not text.isascii() or not text.isdecimal() or not 1 <= int(text[:20]) <= most:
+            self.stop(f'{name}={text}: a whole number from 1 to {most} is needed')
+        if whole and int(text) < whole:
+            self.sample = f'{text} of {whole}'
+        return int(text)
 
     def tool(self, name):
         if shutil.which(name) is None:
@@ -102,13 +110,14 @@ class Gate:
 
     def conclude(self):
         passed = not self.findings
-        summary = {'gate': self.name, 'passed': passed, 'commit': commit(), 'figures': self.figures}
+        summary = {'gate': self.name, 'passed': passed, 'commit': commit(), 'figures': self.figures} | ({'sample': self.sample} if self.sample else {})
         with open(self.out / 'summary.json', 'w', encoding='utf-8') as file:
             json.dump(summary, file, indent=1, ensure_ascii=False)
         for finding in self.findings:
             print(f'{self.name}: {finding}', file=sys.stderr)
         said = ', '.join(f'{text} {label}' for label, text in self.figures.items())
-        print(f'{self.name}: {"passed" if passed else f"FAILED, {len(self.findings)} findings"}{f" ({said})" if said else ""}')
+        good = f'passed as a sample, {self.sample}' if self.sample else 'passed'
+        print(f'{self.name}: {good if passed else f"FAILED, {len(self.findings)} findings"}{f" ({said})" if said else ""}')
         return 0 if passed else 1
 
 

@@ -1,4 +1,5 @@
 """An emulated board (boards.py): 256 MB and four serial ports; counts instructions, and never waits for the host's clock."""
+import ctypes
 import os
 import pathlib
 import re
@@ -13,16 +14,77 @@ import time
 from boards import PPC603E, SHIFT, Failure
 
 STRAPS_MAGIC = 0x53545250
+VERSION_S = 10  # of the host, in which the emulator has to say its version
+LAST_WORDS_S = 2  # of the host, in which a rig says why it ends, once its emulator has
+LIBC = ctypes.CDLL(None)
+PR_SET_PDEATHSIG = 1
 
 
 def require(board=PPC603E):
     """The emulator's version."""
     if shutil.which(board.qemu) is None:
         raise Failure(f'{board.qemu} is missing: install the Debian package {board.qemu} (cfg/packages/ensure {board.packages})')
-    done = subprocess.run([board.qemu, '--version'], capture_output=True, text=True, check=False)
+    anew = f'install the Debian package {board.qemu} anew'
+    try:
+        done = subprocess.run([board.qemu, '--version'], capture_output=True, encoding='utf-8', errors='replace', check=False, timeout=VERSION_S)
+    except subprocess.TimeoutExpired as error:
+        raise Failure(f'{board.qemu} --version says nothing for {VERSION_S} s: {anew}') from error
+    except OSError as error:
+        raise Failure(f'{board.qemu} does not start: {error.strerror}: {anew}') from error
     if done.returncode != 0:
-        raise Failure(f'{board.qemu} does not start: {done.stderr.strip() or done.returncode}: install the Debian package {board.qemu} anew')
-    return re.search(r'version (\S+)', done.stdout).group(1)
+        raise Failure(f'{board.qemu} does not start: {done.stderr.strip() or done.returncode}: {anew}')
+    version = re.search(r'version (\S+)', done.stdout)
+    if version is None:
+        raise Failure(f'{board.qemu} --version says no version but "{done.stdout.strip()[:80]}": {anew}')
+    return version[1]
+
+
+def die_with_parent():
+    """In a child, before its program starts: the kernel ends it when this program is gone, however that went."""
+    LIBC.prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
+
+
+class Children:
+    """Programs that run for this one. Once they have been ended there are no more."""
+
+    def __init__(self):
+        self.running, self.lock, self.over = set(), threading.Lock(), False
+
+    def start(self, command, **options):
+        with self.lock:
+            if self.over:
+                raise Failure('ended by a signal')
+            child = subprocess.Popen(command, stdin=subprocess.DEVNULL, preexec_fn=die_with_parent, **options)
+            self.running.add(child)
+        if self.over:  # by now
+            child.kill()
+        return child
+
+    def end(self, child):
+        if child.poll() is None:
+            child.kill()
+        child.wait()
+        self.running.discard(child)
+
+    def end_all(self):
+        """For threads of this program that wait for one of them."""
+        self.over = True
+        for child in list(self.running):
+            child.kill()
+
+
+CHILDREN = Children()
+
+
+def end_with_children():
+    """A signal that ends this program ends its with blocks, and all that runs for it."""
+    def end(number, _):
+        for one in (signal.SIGTERM, signal.SIGHUP):
+            signal.signal(one, signal.SIG_IGN)
+        CHILDREN.end_all()
+        sys.exit(128 + number)
+    for one in (signal.SIGTERM, signal.SIGHUP):
+        signal.signal(one, end)
 
 
 class Emulator:
@@ -31,6 +93,7 @@ class Emulator:
     def __init__(self, elf, image, folder, board=PPC603E, rig=True, processor=None, ticks_per_s=None, shared=False, card=True):
         require(board)
         board.check_image(elf)
+        self.board = board
         self.folder = pathlib.Path(folder)
         self.console_file = self.folder / 'console.txt'
         words = [STRAPS_MAGIC, ticks_per_s or board.ticks_per_s, 1 if rig else 0, 0]
@@ -50,7 +113,7 @@ class Emulator:
     def __enter__(self):
         self.console_file.write_text('')
         with open(self.folder / 'emulator.txt', 'w', encoding='utf-8') as log:
-            self.process = subprocess.Popen(self.command, stdin=subprocess.DEVNULL, stdout=log, stderr=log)
+            self.process = CHILDREN.start(self.command, stdout=log, stderr=log)
         threading.Thread(target=self.poke, daemon=True).start()
         return self
 
@@ -69,8 +132,7 @@ class Emulator:
                 time.sleep(0.02)
 
     def __exit__(self, *_):
-        self.process.kill()
-        self.process.wait()
+        CHILDREN.end(self.process)
 
     def console(self):
         return self.console_file.read_text(encoding='utf-8', errors='replace')
@@ -80,6 +142,11 @@ class Emulator:
         text = (self.folder / 'emulator.txt').read_text(encoding='utf-8').strip()
         lines = self.console().strip().splitlines()
         return '; '.join(filter(None, [text, f'the console: {lines[-1]}' if lines else 'the console is silent']))
+
+    def end_said(self):
+        """That it has ended by itself, and what it said."""
+        return (f'{self.board.qemu} has ended with exit code {self.process.returncode} ({self.said()}): if it always does, install the Debian package '
+                f'{self.board.qemu} anew')
 
     def await_console(self, text, seconds=60, longest=240):
         """Until the console says it, the emulator ends, nothing more has been said for `seconds`, or the longest time is over."""
@@ -106,8 +173,8 @@ class Rig:
 
     def __init__(self, program, arguments, seconds, progress=None):
         words = [str(program), *map(str, arguments), f'limit={seconds}', 'progress']
-        self.process = subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, stdin=subprocess.DEVNULL)
-        self.late, self.complaint = False, ''
+        self.process = CHILDREN.start(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.late, self.alone, self.complaint = False, '', ''
         self.seconds = seconds + self.GRACE_S
         self.timer = threading.Timer(self.seconds, self.end)
         self.listener = threading.Thread(target=self.listen, args=(progress,), daemon=True)
@@ -125,6 +192,17 @@ class Rig:
         self.late = True
         self.process.send_signal(signal.SIGKILL)
 
+    def watch(self, machine):
+        """The rig waits long for a board to come; for that of an emulator that has ended not at all."""
+        while machine.process.poll() is None and self.process.poll() is None:
+            time.sleep(0.05)
+        end = time.monotonic() + LAST_WORDS_S
+        while self.process.poll() is None and time.monotonic() < end:
+            time.sleep(0.05)
+        if self.process.poll() is None:
+            self.alone = machine.end_said()
+            self.process.kill()
+
     def __enter__(self):
         self.timer.start()
         self.listener.start()
@@ -132,9 +210,7 @@ class Rig:
 
     def __exit__(self, *_):
         self.timer.cancel()
-        if self.process.poll() is None:
-            self.process.kill()
-        self.process.wait()
+        CHILDREN.end(self.process)
         self.listener.join()
 
     def await_ready(self):
@@ -143,8 +219,9 @@ class Rig:
                 return
         self.check(self.process.wait())
 
-    def finish(self):
-        """Exit code, and what it said, or why it has ended."""
+    def finish(self, machine):
+        """Exit code, and what it said, or why it has ended, the emulator's board being at its lines."""
+        threading.Thread(target=self.watch, args=(machine,), daemon=True).start()
         said = self.process.stdout.read().strip()
         code = self.process.wait()
         self.listener.join()
@@ -154,6 +231,8 @@ class Rig:
     def check(self, code):
         if self.late:
             raise Failure(f'not done after {self.seconds} s: ended')
+        if self.alone:
+            raise Failure(self.alone)
         if code != 0:
             raise Failure(f'the rig has ended with exit code {code}: {self.complaint or "it says nothing"}')
 
@@ -165,5 +244,5 @@ def fly(program, elf, arguments, folder, seconds, board=PPC603E, linked=False, p
     with Rig(program, [*arguments, f'code={board.code_bytes(elf)}'], seconds, progress) as rig:
         rig.await_ready()
         with emulator:
-            code, said = rig.finish()
+            code, said = rig.finish(emulator)
             return code, said, emulator

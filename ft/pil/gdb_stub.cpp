@@ -100,10 +100,12 @@ bool GdbStub::take_packet(std::string& body) {
 }
 
 std::string GdbStub::receive() {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(kPatience_ms);
   std::string body;
   while (!take_packet(body)) {
     pollfd state{line_.descriptor(), POLLIN, 0};
-    if (poll(&state, 1, kPatience_ms) <= 0) throw mdat::RunError("the emulator's debug port does not answer");
+    const bool late = std::chrono::steady_clock::now() > end;
+    if (late || poll(&state, 1, kPatience_ms) <= 0) throw mdat::RunError("the emulator's debug port does not answer");
     read_some();
   }
   return body;

@@ -15,6 +15,7 @@
 #include <string>
 
 #include "ft/pil/boards.hpp"
+#include "ft/pil/count.hpp"
 #include "ft/pil/store_story.hpp"
 #include "mdat/common/errors.hpp"
 #include "mdat/common/flight_image.hpp"
@@ -49,16 +50,21 @@ struct Options {
 };
 
 using Take = void (*)(const std::string& value, Options& options);
+constexpr std::uint32_t kMostSeconds = 1'000'000;
+std::chrono::seconds seconds_of(const std::string& name, const std::string& value) {
+  return std::chrono::seconds(std::min(count_of<std::uint32_t>(name, value, 1), kMostSeconds));
+}
+
 void take(const std::string& word, Options& options) {
   static const std::map<std::string, Take> takes{
-      {"cut", [](const std::string& value, Options& of) { of.cut = std::stoull(value); }},
+      {"cut", [](const std::string& value, Options& of) { of.cut = count_of<std::uint64_t>("cut", value); }},
       {"noise", [](const std::string&, Options& of) { of.noise = true; }},
-      {"store", [](const std::string& value, Options& of) { of.store = static_cast<std::uint32_t>(std::stoul(value)); }},
-      {"memory", [](const std::string& value, Options& of) { of.memory = static_cast<std::uint32_t>(std::stoul(value)); }},
-      {"starts", [](const std::string& value, Options& of) { of.starts = static_cast<std::uint32_t>(std::stoul(value)); }},
-      {"code", [](const std::string& value, Options& of) { of.code_bytes = std::stoul(value); }},
-      {"quiet", [](const std::string& value, Options& of) { of.quiet = std::chrono::seconds(std::stoul(value)); }},
-      {"limit", [](const std::string& value, Options& of) { of.limit = std::chrono::seconds(std::stoul(value)); }},
+      {"store", [](const std::string& value, Options& of) { of.store = count_of<std::uint32_t>("store", value); }},
+      {"memory", [](const std::string& value, Options& of) { of.memory = count_of<std::uint32_t>("memory", value); }},
+      {"starts", [](const std::string& value, Options& of) { of.starts = count_of<std::uint32_t>("starts", value, 1); }},
+      {"code", [](const std::string& value, Options& of) { of.code_bytes = count_of<std::uint32_t>("code", value); }},
+      {"quiet", [](const std::string& value, Options& of) { of.quiet = seconds_of("quiet", value); }},
+      {"limit", [](const std::string& value, Options& of) { of.limit = seconds_of("limit", value); }},
       {"progress", [](const std::string&, Options& of) { of.progress = true; }},
   };
   const std::size_t equals = word.find('=');
@@ -75,7 +81,7 @@ Options parse(int argc, char** argv) {
   Options options;
   options.mission = argv[1];
   options.scenario = argv[2];
-  options.frames = static_cast<std::uint32_t>(std::stoul(argv[3]));
+  options.frames = count_of<std::uint32_t>("FRAMES", argv[3]);
   options.out = argv[4];
   for (int i = 5; i < argc; ++i) take(argv[i], options);
   if (options.store != 0) options.starts = kStoryStarts;

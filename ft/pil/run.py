@@ -2,8 +2,8 @@
 """run.py HOST BOARD FIXED_HOST FIXED_BOARD CORTEXA9 [FRAMES]: the component on the emulated boards, with the simulated camera and the ground at its lines (docs/pil.md).
 
 All are build folders: of the PowerPC 603e and its host, of both in fixed point, and of the Cortex-A9. Flies FRAMES frames (360) on each host and board, at a time, compares
-the telemetry bit by bit, and leaves instructions, margins and stacks in out/pil: results.json, report.html, summary.json. Exit codes: 0 the
-same bits, within the limits; 1 not.
+the telemetry bit by bit, and leaves instructions, margins and stacks in out/pil: results.json, report.html, summary.json, which says that fewer frames are a sample. Exit codes: 0 the
+same bits, within the limits; 1 not; 2 usage.
 """
 import concurrent.futures
 import csv
@@ -24,6 +24,7 @@ from boards import CORTEXA9, MIPS, PPC603E  # noqa: E402
 from platform_limits import limit  # noqa: E402
 from progress import Progress  # noqa: E402
 
+WHOLE_FRAMES, MOST_FRAMES = 360, 100_000  # LASSO-PLT-014
 MISSION, SCENARIO, SLOTS, PERIOD_MS = 'cfg/missions/hubble_tenth.toml', 'spin', 20, 200
 # Of each flight: its number type and board; where make prove leaves the bounds of its stacks, where it does.
 NUMBERS = {'float': 'float', 'fixed': 'fixed', 'cortexa9': 'float'}
@@ -214,11 +215,13 @@ def fly_all(gate, flights, frames):
         return {number: job.result() for number, job in jobs.items()}
 
 
-def main(host, board, fixed_host, fixed_board, cortexa9, frames='360'):
+def main(host, board, fixed_host, fixed_board, cortexa9, frames=str(WHOLE_FRAMES)):
+    emulator.end_with_children()
     with gates.Gate('pil') as gate:
+        frames = gate.number('FRAMES', frames, MOST_FRAMES, WHOLE_FRAMES)
         try:
             version = ' and '.join(dict.fromkeys(emulator.require(board) for board in (PPC603E, CORTEXA9)))
-            flights = fly_all(gate, {'float': (host, board), 'fixed': (fixed_host, fixed_board), 'cortexa9': (host, cortexa9)}, int(frames))
+            flights = fly_all(gate, {'float': (host, board), 'fixed': (fixed_host, fixed_board), 'cortexa9': (host, cortexa9)}, frames)
         except emulator.Failure as failure:
             gate.stop(str(failure))
         results = {'emulator': f'QEMU {version}', 'commit': gates.commit()} | {number: r for number, (r, _) in flights.items()}
@@ -230,4 +233,7 @@ def main(host, board, fixed_host, fixed_board, cortexa9, frames='360'):
 
 
 if __name__ == '__main__':
+    if {'-h', '--help'} & set(sys.argv) or not 6 <= len(sys.argv) <= 7:
+        print(__doc__)
+        sys.exit(0 if {'-h', '--help'} & set(sys.argv) else 2)
     main(*sys.argv[1:])

@@ -3,11 +3,11 @@
 // FOLDER/image.3dli), `golden ...` when the flight without flips is done, and a `row` for each flip (ft/pil/seu.py). What is flipped, where
 // and when depends on SEED and the flip's number alone. Exit codes: 0 all flips done, 1 the board failed without a flip, 2 usage.
 #include <cstdio>
-#include <cstdlib>
 #include <exception>
 #include <filesystem>
 
 #include "bsp/bare/ram_store.hpp"
+#include "ft/pil/count.hpp"
 #include "ft/pil/seu_flight.hpp"
 #include "mdat/common/errors.hpp"
 #include "mdat/common/flight_image.hpp"
@@ -35,9 +35,10 @@ WorldSetup setup_of(const mdat::CompiledMission& mission, const sim::RayCaster& 
 
 std::string row_of(const Flip& flip, const Trial& trial) {
   char text[240];
-  (void)std::snprintf(text, sizeof text, "row %u,%s,%u,%u,%s,%u,%08x,%s,%u,%u,%u,%u", flip.trial,
+  (void)std::snprintf(text, sizeof text, "row %u,%s,%u,%u,%s,%u,%08x,%s,%u,%u,%u,%u,%u", flip.trial,
                       kRegionNames[static_cast<std::size_t>(flip.region)], flip.frame, flip.slot, trial.where.c_str(), trial.bit,
-                      trial.instruction, trial.outcome.c_str(), trial.told_after, trial.wrong, trial.invalid, trial.frames);
+                      trial.instruction, trial.outcome.c_str(), trial.told_after, trial.wrong, trial.invalid, trial.frames,
+                      trial.first_wrong);
   return text;
 }
 
@@ -81,9 +82,12 @@ int main(int argc, char** argv) {
     return 2;
   }
   try {
-    const auto number = [&](int i) { return i < argc ? std::strtoull(argv[i], nullptr, 10) : 0; };
-    lasso::pil::run(argv[1], argv[2], lasso::pil::read_places(argv[3]), static_cast<std::uint32_t>(number(4)), number(5),
-                    static_cast<std::uint32_t>(number(6)));
+    using lasso::pil::count_of;
+    lasso::pil::run(argv[1], argv[2], lasso::pil::read_places(argv[3]), count_of<std::uint32_t>("FLIPS", argv[4]),
+                    count_of<std::uint64_t>("SEED", argv[5]), argc > 6 ? count_of<std::uint32_t>("FIRST", argv[6]) : 0);
+  } catch (const lasso::mdat::InputError& error) {
+    (void)std::fprintf(stderr, "pil_seu: %s\n", error.what());
+    return 2;
   } catch (const std::exception& error) {
     (void)std::fprintf(stderr, "pil_seu: %s\n", error.what());
     return 1;

@@ -3,7 +3,7 @@
 
 HOST and BOARD are build folders. FLIPS (2000) flips, an eighth in each region, each in a flight of its own from a state of one flight; where and when depends
 on SEED (1) and the flip's number. Leaves out/NAME (seu): flips.csv, results.json, report.html, summary.json. Interrupted, it goes on where it was, if
-image and seed are the same. Exit codes: 0 no wrong pose was published unsaid by a flip in what is protected; 1 one was, or the board fails without a flip.
+image and seed are the same. Exit codes: 0 no wrong pose stayed untold for 10 s, of a flip in what is protected; 1 one was, or the board fails without a flip.
 """
 import collections
 import csv
@@ -11,8 +11,10 @@ import hashlib
 import html as text
 import json
 import pathlib
+import queue
 import subprocess
 import sys
+import threading
 import time
 
 sys.dont_write_bytecode = True
@@ -35,10 +37,15 @@ OUTCOMES = {
     'stopped': 'told, and no more poses: safe, or lost',
     'reset': 'the board restarted',
     'hang': 'no more word of the board for as long as 100 frames without a flip take, 20 s of the host at least: it hangs, or damaged code has made it restart nine times in a row',
-    'told_wrong': 'a wrong pose as valid, told within 10 s, or a reset',
-    'silent_wrong': 'a wrong pose as valid, and not a word',
+    'told_wrong': 'a wrong pose as valid, and the flip told within 10 s of the pose, or a reset',
+    'silent_wrong': 'a wrong pose as valid, and not a word within 10 s of it: silent as in make scrub',
 }
-COLUMNS = ('number', 'region', 'frame', 'slot', 'where', 'bit', 'instruction', 'outcome', 'told_after', 'wrong', 'invalid', 'frames')
+# Of all outcomes, after their sum: flights with a wrong pose as valid, which are silent as in make flips, and those where it came before or with the word of the flip.
+WRONG = {'wrong': 'a wrong pose as valid, whatever followed: silent as in make flips', 'wrong_first': 'of these, with a wrong pose no later than the frame in which the flip was told, if it was'}
+COLUMNS = ('number', 'region', 'frame', 'slot', 'where', 'bit', 'instruction', 'outcome', 'told_after', 'wrong', 'invalid', 'frames', 'first_wrong')
+WHOLE_FLIPS, MOST_FLIPS = 2000, 1_000_000  # LASSO-PLT-018
+# Of the host: without a word of the rig, which ends each flight within 20 minutes; for it to end by itself.
+SILENT_S, END_S = 1800, 10
 
 
 def without(begin, end, holes):
@@ -75,7 +82,7 @@ def rows_of(path):
 
 def resume(gate, elf, seed):
     """How many flips of the same campaign are there."""
-    campaign = json.dumps({'seed': seed, 'image': hashlib.sha256(pathlib.Path(elf).read_bytes()).hexdigest()})
+    campaign = json.dumps({'seed': seed, 'columns': COLUMNS, 'image': hashlib.sha256(pathlib.Path(elf).read_bytes()).hexdigest()})
     known, table = gate.out / 'campaign.json', gate.out / 'flips.csv'
     if known.exists() and table.exists() and known.read_text(encoding='utf-8') == campaign:
         return len(rows_of(table))
@@ -101,26 +108,54 @@ class Machines:
         self.now = None
 
 
+def lines_of(rig, seconds=SILENT_S):
+    """What it says, line by line."""
+    heard = queue.Queue()
+    def listen():
+        for line in rig.stdout:
+            heard.put(line.strip())
+        heard.put(None)
+    threading.Thread(target=listen, daemon=True).start()
+    while True:
+        try:
+            line = heard.get(timeout=seconds)
+        except queue.Empty as error:
+            raise emulator.Failure(f'pil_seu has said nothing for {seconds} s: ended; start again, it goes on where it was') from error
+        if line is None:
+            return
+        yield line
+
+
+def follow(rig, machines, table, progress):
+    """Up to the rig's end: its wishes, its rows. What the last emulator has said."""
+    for line in lines_of(rig):
+        kind, _, rest = line.partition(' ')
+        if kind == 'start':
+            machines.start()
+        elif kind == 'row':
+            table.write(rest + '\n')
+            table.flush()
+            progress.add()
+        else:
+            print(line, flush=True)
+    try:
+        rig.wait(END_S)
+    except subprocess.TimeoutExpired as error:
+        raise emulator.Failure(f'pil_seu has closed its output and does not end: ended after {END_S} s') from error
+    return machines.now.said() if machines.now else 'no emulator'
+
+
 def fly(gate, host, elf, flips, seed, first):
     machines, progress = Machines(elf, gate.out), Progress('flips', flips, 'flips', first)
     command = [f'{host}/ft/pil/pil_seu', MISSION, gate.out, gate.out / 'places.txt', flips - first, seed, first]
-    with subprocess.Popen([str(word) for word in command], stdout=subprocess.PIPE, text=True) as rig, open(gate.out / 'flips.csv', 'a', encoding='utf-8') as table:
-        try:
-            for line in rig.stdout:
-                kind, _, rest = line.strip().partition(' ')
-                if kind == 'start':
-                    machines.start()
-                elif kind == 'row':
-                    table.write(rest + '\n')
-                    table.flush()
-                    progress.add()
-                else:
-                    print(line.strip(), flush=True)
-            said = machines.now.said() if machines.now else 'no emulator'
-        finally:
-            rig.kill()
-            machines.end()
-            (gate.out / 'ram.bin').unlink(missing_ok=True)
+    rig = emulator.CHILDREN.start([str(word) for word in command], stdout=subprocess.PIPE, text=True)
+    try:
+        with open(gate.out / 'flips.csv', 'a', encoding='utf-8') as table:
+            said = follow(rig, machines, table, progress)
+    finally:
+        emulator.CHILDREN.end(rig)
+        machines.end()
+        (gate.out / 'ram.bin').unlink(missing_ok=True)
     if rig.returncode != 0:
         gate.stop(f'the board has failed without a flip, or cannot be put back: {said}: see above')
     return machines.started
@@ -128,6 +163,12 @@ def fly(gate, host, elf, flips, seed, first):
 
 def count(rows):
     return {region: collections.Counter(row['outcome'] for row in rows if row['region'] == region) for region in REGIONS}
+
+
+def wrong(rows, regions):
+    """How many flights with a wrong pose as valid, and with one before or with the word of the flip."""
+    bad = [row for row in rows if row['region'] in regions and int(row['wrong']) > 0]
+    return len(bad), sum(int(row['told_after']) == 0 or int(row['first_wrong']) <= int(row['told_after']) for row in bad)
 
 
 def told_frames(rows, region):
@@ -138,15 +179,15 @@ def told_frames(rows, region):
 
 def table_of(rows):
     counts = count(rows)
-    yield ['flipped bits in', *OUTCOMES, 'all', 'told after (median, longest)']
+    yield ['flipped bits in', *OUTCOMES, 'all', *WRONG, 'told after (median, longest)']
     for region in REGIONS:
-        yield [region, *(counts[region][outcome] for outcome in OUTCOMES), sum(counts[region].values()), told_frames(rows, region)]
-    yield ['all', *(sum(counts[region][outcome] for region in REGIONS) for outcome in OUTCOMES), len(rows), '']
+        yield [region, *(counts[region][outcome] for outcome in OUTCOMES), sum(counts[region].values()), *wrong(rows, [region]), told_frames(rows, region)]
+    yield ['all', *(sum(counts[region][outcome] for region in REGIONS) for outcome in OUTCOMES), len(rows), *wrong(rows, REGIONS), '']
 
 
 def page(rows, results):
     lines = ''.join('<tr>' + ''.join(f'<td>{text.escape(str(word))}</td>' for word in line) + '</tr>' for line in table_of(rows))
-    meanings = ''.join(f'<tr><td>{name}</td><td>{meaning}</td></tr>' for name, meaning in OUTCOMES.items())
+    meanings = ''.join(f'<tr><td>{name}</td><td>{meaning}</td></tr>' for name, meaning in (OUTCOMES | WRONG).items())
     return ('<!doctype html><meta charset="utf-8"><title>Flips on the PowerPC 603e</title><style>body{font-family:sans-serif;max-width:1100px;margin:2em auto}'
             'td{padding:.2em 1em .2em 0;vertical-align:top}tr:first-child{font-weight:bold}</style><h1>Flips on the PowerPC 603e</h1>'
             f'<p>{results["flips"]} bits flipped in the running board, seed {results["seed"]}, {results["emulator"]}, {results["commit"]}. Protected: {", ".join(PROTECTED)}.</p>'
@@ -174,7 +215,7 @@ def missed(rows):
 
 def conclude(gate, rows, seed, version, seconds, started):
     results = {'flips': len(rows), 'seed': seed, 'emulator': f'QEMU {version}', 'commit': gates.commit(), 'seconds': round(seconds), 'emulators': started,
-               'protected': PROTECTED, 'regions': {region: dict(counts) for region, counts in count(rows).items()}}
+               'protected': PROTECTED, 'wrong': dict(zip(WRONG, wrong(rows, REGIONS))), 'regions': {region: dict(counts) for region, counts in count(rows).items()}}
     (gate.out / 'results.json').write_text(json.dumps(results, indent=1) + '\n', encoding='utf-8')
     (gate.out / 'report.html').write_text(page(rows, results), encoding='utf-8')
     for line in table_of(rows):
@@ -184,22 +225,25 @@ def conclude(gate, rows, seed, version, seconds, started):
     gate.figure('flips', len(rows))
     gate.figure('silent wrong in protected memory', sum(counts[region]['silent_wrong'] for region in PROTECTED))
     gate.figure('not told in protected memory', missed(rows))
+    gate.figure('with a wrong pose in protected memory, whatever followed', wrong(rows, PROTECTED)[0])
     gate.figure('silent wrong elsewhere', sum(counts[region]['silent_wrong'] for region in REGIONS if region not in PROTECTED))
 
 
-def main(host, board, flips='2000', seed='1', name='seu'):
+def main(host, board, flips=str(WHOLE_FLIPS), seed='1', name='seu'):
+    emulator.end_with_children()
     with gates.Gate(name) as gate:
+        flips = gate.number('FLIPS', flips, MOST_FLIPS, WHOLE_FLIPS if name == 'seu' else None)
         elf, begun = f'{board}/flight_603e.elf', time.monotonic()
         try:
             version = emulator.require()
             PPC603E.check_image(elf)
             first = resume(gate, elf, seed)
             (gate.out / 'places.txt').write_text(places(elf, f'{board}/bsp/ppc603e/CMakeFiles/layout_603e.dir/__/__/ft/pil/layout.cpp.obj'), encoding='utf-8')
-            started = fly(gate, host, elf, int(flips), seed, first) if first < int(flips) else 0
+            started = fly(gate, host, elf, flips, seed, first) if first < flips else 0
         except emulator.Failure as failure:
             gate.stop(str(failure))
-        rows = rows_of(gate.out / 'flips.csv')[:int(flips)]
-        if len(rows) != int(flips):
+        rows = rows_of(gate.out / 'flips.csv')[:flips]
+        if len(rows) != flips:
             gate.find(f'{len(rows)} flips of {flips} have an outcome: start again, it goes on where it was')
         conclude(gate, rows, seed, version, time.monotonic() - begun, started)
 

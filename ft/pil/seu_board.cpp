@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <fstream>
 #include <sstream>
 #include <thread>
@@ -86,6 +87,8 @@ void SeuBoard::give(const Packet& from_camera, const Packet& from_ground) {
 }
 
 std::optional<Said> SeuBoard::await(int patience_s, const std::function<void()>& stopped) {
+  using std::chrono::steady_clock;
+  const steady_clock::time_point end = steady_clock::now() + std::chrono::seconds(patience_s);
   std::optional<Report> report;
   for (;;) {
     for (std::optional<Line>* line : {&camera_, &ground_, &rig_}) (*line)->move();
@@ -96,7 +99,8 @@ std::optional<Said> SeuBoard::await(int patience_s, const std::function<void()>&
     }
     if (report && camera_->has_all((*report)[bare::kRigCameraSent]) && ground_->has_all((*report)[bare::kRigGroundSent])) break;
     std::array<pollfd, 4> states{camera_->awaited(), ground_->awaited(), rig_->awaited(), pollfd{gdb_.descriptor(), POLLIN, 0}};
-    if (poll(states.data(), states.size(), patience_s * 1000) <= 0) return {};
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - steady_clock::now()).count();
+    if (left <= 0 || poll(states.data(), states.size(), static_cast<int>(left)) <= 0) return {};
   }
   return Said{is_start(*report), camera_->take_until((*report)[bare::kRigCameraSent]),
               ground_->take_until((*report)[bare::kRigGroundSent])};

@@ -51,7 +51,8 @@ class SeuBoard {
   void keep_constants();
 
   void give(const Packet& from_camera, const Packet& from_ground);
-  // Until the next report; `stopped` is called at each breakpoint. None: the board has said nothing for `patience_s`.
+  // Until the next report; `stopped` is called at each breakpoint. None: there was none within `patience_s`,
+  // whatever else the board has said.
   std::optional<Said> await(int patience_s, const std::function<void()>& stopped = {});
 
   Snapshot keep();

@@ -17,10 +17,13 @@ namespace {
 // watchdog ends after 200 million instructions, which are those of some 40 frames.
 constexpr int kPatience_s = 20;
 constexpr double kPatienceFrames = 100;
-constexpr std::uint32_t kSameFrames = 3;      // in a row, memory too: the flip is gone
-constexpr std::uint32_t kValidFrames = 3;     // in a row: it tracks again
-constexpr std::uint32_t kRecoverFrames = 10;  // after it was told
-constexpr std::uint32_t kRepeats = 2;         // of the flight without a flip
+constexpr std::uint32_t kSameFrames = 3;               // in a row, memory too: the flip is gone
+constexpr std::uint32_t kValidFrames = 3;              // in a row: it tracks again
+constexpr std::uint32_t kRecoverFrames = 10;           // after it was told
+constexpr std::uint32_t kDamagedFrames = 20;           // after it was told of code, which stays damaged
+constexpr std::uint32_t kRestartFrames = 10;           // after a restart
+constexpr std::chrono::seconds kFlightPatience(1200);  // of the host, for a whole flight
+constexpr std::uint32_t kRepeats = 2;                  // of the flight without a flip
 constexpr std::uint32_t kFirst = kFirstFrame * kSlotsPerFrame, kLast = kGoldenFrames * kSlotsPerFrame;
 constexpr std::uint32_t kBackFrame = 256;  // of vectors.S: the interrupted pointer is at its begin, at the stack's end
 
@@ -178,17 +181,13 @@ Trial SeuFlight::fly(const Flip& flip) {
 }
 
 void SeuFlight::fly_on(Course& course, const Flip& flip, Trial& trial) {
+  const auto end = std::chrono::steady_clock::now() + kFlightPatience;
   while (trial.outcome.empty()) {
-    const Step step_done = step(course, flip, trial);
-    if (step_done != Step::kDone) {
-      trial.outcome = trial.wrong > 0             ? (step_done == Step::kBegun ? "told_wrong" : "silent_wrong")
-                      : step_done == Step::kBegun ? "reset"
-                                                  : "hang";
-      doubtful_ = true;
-      return;
-    }
-    if (!ends_frame(course.boundary)) continue;
-    trial.frames = frames_since(course.boundary, flip);
+    const Step done = std::chrono::steady_clock::now() < end ? step(course, flip, trial) : Step::kSilent;
+    if (done == Step::kSilent) trial.outcome = trial.wrong > 0 ? outcome_of(course, trial) : "hang";
+    doubtful_ = doubtful_ || done != Step::kDone;
+    if (done != Step::kDone || !ends_frame(course.boundary)) continue;
+    trial.frames = course.restarts > 0 ? course.frames_before + course.boundary / kSlotsPerFrame : frames_since(course.boundary, flip);
     end_frame(course, trial);
     if (!course.flipped) flip_now(course, flip, trial);
     if (decided(course, trial)) trial.outcome = outcome_of(course, trial);
@@ -199,12 +198,22 @@ SeuFlight::Step SeuFlight::step(Course& course, const Flip& flip, Trial& trial) 
   answer(course);
   const std::optional<Said> said = board_.await(patience_s_, [&] { reach(course, flip, trial); });
   if (!said) return Step::kSilent;
-  if (said->begun) return Step::kBegun;
+  if (said->begun) return start_anew(course, *said, trial), Step::kBegun;
   ++course.boundary;
   course.to_camera = said->to_camera;
   course.telemetry.insert(course.telemetry.end(), said->telemetry.begin(), said->telemetry.end());
   if (!course.world && (course.boundary > kLast || course.to_camera != moments_[course.boundary].said.to_camera)) diverge(course);
   return Step::kDone;
+}
+
+// The world of a start, as for the first one.
+void SeuFlight::start_anew(Course& course, const Said& said, const Trial& trial) {
+  ++course.restarts;
+  course.frames_before = trial.frames;
+  course.boundary = 0;
+  course.world = std::make_unique<World>(setup_);
+  course.to_camera = said.to_camera;
+  course.telemetry = said.telemetry;
 }
 
 void SeuFlight::answer(Course& course) {
@@ -292,8 +301,8 @@ void SeuFlight::end_frame(Course& course, Trial& trial) {
   course.valid = heard.tracking > 0 && heard.invalid == 0 ? course.valid + 1 : 0;
   trial.wrong += heard.wrong;
   trial.invalid += heard.invalid + (heard.poses == 0 ? 1U : 0U);
-  if (heard.wrong > 0 && course.first_wrong == 0) course.first_wrong = trial.frames;
-  if (heard.told && trial.told_after == 0) trial.told_after = trial.frames;
+  if (heard.wrong > 0 && trial.first_wrong == 0) trial.first_wrong = trial.frames;
+  if (heard.told && trial.told_after == 0 && course.restarts == 0) trial.told_after = trial.frames;
   course.telemetry.clear();
 }
 
@@ -311,16 +320,19 @@ bool SeuFlight::steady_again(std::uint32_t boundary, const Trial& trial) const {
 }
 
 bool SeuFlight::decided(const Course& course, const Trial& trial) const {
-  if (trial.told_after > 0)
-    return course.valid >= kValidFrames ? trial.frames >= trial.told_after + kValidFrames
-                                        : trial.frames >= trial.told_after + kRecoverFrames;
+  if (course.restarts > 0) return course.boundary >= kRestartFrames * kSlotsPerFrame;
+  if (trial.told_after > 0) {
+    const std::uint32_t least = board_.constants_right() ? kValidFrames : kDamagedFrames;
+    return trial.frames >= trial.told_after + (course.valid >= kValidFrames ? least : std::max(least, kRecoverFrames));
+  }
   if (course.same >= kSameFrames && board_.constants_right()) return true;
-  return trial.frames > std::max(kScrubFrames, course.first_wrong > 0 ? course.first_wrong + kScrubFrames : 0);
+  return trial.frames > std::max(kScrubFrames, trial.first_wrong > 0 ? trial.first_wrong + kScrubFrames : 0);
 }
 
 std::string SeuFlight::outcome_of(const Course& course, const Trial& trial) {
-  const bool told = trial.told_after > 0;
+  const bool told = trial.told_after > 0 || course.restarts > 0;
   if (trial.wrong > 0) return told ? "told_wrong" : "silent_wrong";
+  if (course.restarts > 0) return "reset";
   if (told) return course.valid >= kValidFrames ? "recovered" : "stopped";
   if (trial.invalid > 0) return "invalid";
   if (course.other) return "harmless";

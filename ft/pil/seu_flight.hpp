@@ -22,6 +22,7 @@ struct Trial {
   std::string outcome;
   std::uint32_t told_after = 0;  // frames; 0: nothing was told
   std::uint32_t wrong = 0, invalid = 0, frames = 0;
+  std::uint32_t first_wrong = 0;  // frame after the flip, from 1, of the first valid pose that was wrong
 };
 
 class SeuFlight {
@@ -48,9 +49,10 @@ class SeuFlight {
     Packet telemetry;                        // of this frame
     std::uint32_t same = 0;                  // frames in a row that end as without the flip
     std::uint32_t valid = 0;                 // frames in a row with valid poses, tracking
-    std::uint32_t first_wrong = 0;           // frame after the flip, from 1
     bool other = false;                      // telemetry has differed
     bool flipped = false;                    // by now
+    std::uint32_t restarts = 0;              // of the board; boundaries count anew from each
+    std::uint32_t frames_before = 0;         // the last of them
     std::uint32_t reached = 0;               // instructions
     std::vector<std::uint32_t> breakpoints;  // that are set
   };
@@ -64,6 +66,7 @@ class SeuFlight {
   void answer(Course& course);
   void diverge(Course& course);
   Step step(Course& course, const Flip& flip, Trial& trial);
+  void start_anew(Course& course, const Said& said, const Trial& trial);
   void inject(Course& course, const Flip& flip, Trial& trial);
   void look_out(Course& course, const Flip& flip);
   void reach(Course& course, const Flip& flip, Trial& trial);

@@ -70,8 +70,11 @@ class Target {
       if (done()) return;
       std::array<pollfd, 3> states{camera_.awaited(), ground_.awaited(), rig_.awaited()};
       const int some = poll(states.data(), states.size(), static_cast<int>(left().count()));
-      if (left().count() == 0) give_up(awaited, "the flight has not ended within its time");
-      if (some <= 0) give_up(awaited, "nothing has moved on the board's lines for " + std::to_string(run_.patience.quiet.count()) + " s");
+      if (left().count() == 0)
+        give_up(awaited, "the flight has not ended within its time", "fewer frames, or a longer limit, if the board flies on");
+      if (some <= 0)
+        give_up(awaited, "nothing has moved on the board's lines for " + std::to_string(run_.patience.quiet.count()) + " s",
+                "the board hangs, or is not there");
     }
   }
 
@@ -82,12 +85,12 @@ class Target {
     return std::clamp(std::chrono::duration_cast<milliseconds>(whole), milliseconds(0), milliseconds(run_.patience.quiet));
   }
 
-  [[noreturn]] void give_up(const char* awaited, const std::string& why) const {
+  [[noreturn]] void give_up(const char* awaited, const std::string& why, const char* advice) const {
     const std::uint32_t slot = slot_ - 1;  // whose answer is the last
     const std::string where =
         slot_ == 0 ? " of its start"
                    : " of slot " + std::to_string(slot % kSlotsPerFrame) + " in frame " + std::to_string(slot / kSlotsPerFrame);
-    throw mdat::RunError(why + "; awaited was " + awaited + where + ": the board hangs, or is not there");
+    throw mdat::RunError(why + "; awaited was " + awaited + where + ": " + advice);
   }
 
   void begin_anew() {
