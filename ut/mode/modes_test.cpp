@@ -75,8 +75,7 @@ TEST(Modes, EachModeAnswersEveryResultOfItsScans) {
     const bool safe = mode.mode == M::kSafe;
     EXPECT_EQ(rows.count({mode.mode, E::kMakeSafe}) != 0, !safe) << mode.name;
     EXPECT_EQ(rows.count({mode.mode, E::kSeek}) != 0, mode.mode != M::kBearing && !safe) << mode.name;
-    const bool has_track = mode.mode == M::kTracking || mode.mode == M::kShortRange;
-    EXPECT_EQ(rows.count({mode.mode, E::kStart}) != 0, !safe && !has_track) << mode.name << ": a good track is not left for an offer";
+    EXPECT_EQ(rows.count({mode.mode, E::kStart}) != 0, !safe) << mode.name;
     EXPECT_EQ(rows.count({mode.mode, E::kSearch}) != 0, mode.mode != M::kSearching && !safe) << mode.name;
   }
 }

@@ -36,19 +36,6 @@ TEST_F(TrackerTest, AFirstRegistrationCanStandAlone) {
   EXPECT_LT((step.after.filter.covariance.topLeftCorner<6, 6>() - step.registration.covariance).norm(), 1e-18);
 }
 
-// One wrong offer must not cost a good track; who knows better ends it first.
-TEST_F(TrackerTest, ATrackThatHoldsIsNotLeftForAnOffer) {
-  VERIFIES("LASSO-MOD-134~2");
-  start(small_error());
-  ASSERT_TRUE(track(0).registration.valid());
-  const TrackState before = state_;
-  EXPECT_EQ(start_at(scene_.at_zero, scene_.rates, 0, 200000), StartRefusal::kNotFromHere);
-  EXPECT_EQ(state_.mode, TrackingMode::kTracking);
-  EXPECT_EQ(state_.filter.t_us, before.filter.t_us);
-  change_mode(ModeEvent::kStop, state_);
-  EXPECT_EQ(start_at(scene_.at_zero, scene_.rates, 0, 200000), StartRefusal::kNone);
-}
-
 TEST_F(TrackerTest, WideStartTakesWhatANarrowOneCannot) {
   VERIFIES("LASSO-MOD-004~1");
   Vec6 off;
