@@ -322,8 +322,6 @@ TEST(Component, ALateEstimateOrANewTrackAimsNothing) {
   EXPECT_TRUE(scene.sensor.last_plan.aimed.empty());
   for (int frame = 0; frame < 10; ++frame) scene.run_frame();
   ASSERT_FALSE(scene.sensor.last_plan.aimed.empty());
-  ASSERT_EQ(scene.component->command_mode(TrackingMode::kStandby), ModeRefusal::kNone);
-  scene.run_frame();
   ASSERT_EQ(scene.component->start_tracking(test::default_scene().at_zero, test::default_scene().rates, 0), Status::kOk);
   scene.run_frame();
   EXPECT_TRUE(scene.sensor.last_plan.aimed.empty());

@@ -22,9 +22,8 @@ class TrackerTest : public ::testing::Test {
     ASSERT_EQ(load_image(Bytes(image_.data(), image_.size), mission_).status, Status::kOk);
   }
 
-  // Starts at t = 0 with an error of `off` (rotation, translation); a track that there is ends.
+  // Starts at t = 0 with an error of `off` (rotation, translation).
   void start(const Vec6& off) {
-    change_mode(ModeEvent::kStop, state_);
     Pose pose = scene_.at_zero;
     pose.q = normalized(exp_so3(off.head<3>()) * pose.q);
     pose.p += off.tail<3>();

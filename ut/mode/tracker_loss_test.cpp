@@ -201,7 +201,6 @@ TEST_F(TrackerWeakTest, AStartKnowsWhatItsScanDoesNotShow) {
   VERIFIES("LASSO-MOD-003~2 LASSO-MOD-143~1");
   for (const std::uint64_t seed : kSeeds) {
     establish_hits_only(seed);
-    change_mode(ModeEvent::kStop, state_);
     ASSERT_EQ(start_at(scene_.at_zero, scene_.rates, 0, 0), StartRefusal::kNone);
     const double widest = 4 * state_.filter.covariance.topLeftCorner<6, 6>().trace();
     for (std::uint32_t k = 0; k < 3; ++k) {
