@@ -167,10 +167,7 @@ bool Component::report_overdue() const { return changes_.size() >= kPoseChanges 
 
 void Component::follow(TrackStep& step) {
   trial_.note(step.registration, track_.mode);
-  const bool given_up =
-      track_.mode == TrackingMode::kStarting && (step.event == ModeEvent::kExhausted || step.event == ModeEvent::kRecover);
-  if (given_up) refuse_start(track_.way, StartRefusal::kNotConfirmed);
-  if (step.refusal != StartRefusal::kNone) refuse_start(StartWay::kSearch, step.refusal);
+  refuse_in(step);
   if (step.after.mode == TrackingMode::kTracking) desk_.put(StartWay::kSearch, StartOffer{});
   if (step.parts.odd != kWhole) {
     ++counters_.odd_parts;
@@ -182,6 +179,15 @@ void Component::follow(TrackStep& step) {
   watch_filter(step);
   step.after.mode = next;  // what is sent of this step tells the table's mode
   track_ = step.after;
+}
+
+// A start that ends without a track, by its frames or by a check; or the pose that a search found.
+void Component::refuse_in(const TrackStep& step) {
+  const bool starting = track_.mode == TrackingMode::kStarting;
+  const bool given_up = starting && step.event != ModeEvent::kPoseValid && next_mode(track_.mode, step.event) != track_.mode;
+  const bool refused = step.refusal != StartRefusal::kNone;
+  if (refused) return refuse_start(starting ? track_.way : StartWay::kSearch, step.refusal);
+  if (given_up) refuse_start(track_.way, StartRefusal::kNotConfirmed);
 }
 
 void Component::refuse_start(StartWay way, StartRefusal refusal) {

@@ -174,6 +174,7 @@ void Component::change_image(bool back) {
   trial_.begin(scans, valid_min);
   if (back || scans == 0) trial_.end();
   if (back || scans == 0) images_.confirm();
+  track_.check = StartCheck{};  // a search of the other image's tables
   if (undone) take_up_again();
   before_trial_ = TrackState{};
   if (kept && !back) before_trial_ = track_;

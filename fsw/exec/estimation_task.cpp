@@ -28,6 +28,7 @@ TrackStep EstimationTask::step_of(const Mission& mission, const Parts& parts) {
   TrackStep step = tracked(mission, parts);
   step.parts.scanned = job_.part;
   if (properties(job_.before.mode).searches) searcher_.work(mission, job_.scan, estimator_.workspace(), step);
+  if (step.after.check.stage == StartCheck::Stage::kSearching) searcher_.check(mission, job_.scan, estimator_.workspace(), step);
   return step;
 }
 

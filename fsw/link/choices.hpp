@@ -30,6 +30,8 @@ inline constexpr Choice kPoseReasons[] = {
   {"part_disagrees", "of a part that is elsewhere than the others say", "look at odd_part: it may have moved, or have a wrong model"},
   {"too_fast", "the target is predicted to turn or move too far within the scan for its points to be brought to one time, or faster than 60 rad/s or 500 m/s", "start anew with the right rates; shorten scan.duration_s for a target that is so fast"},
   {"better_twin", "of a start: turned by a near-symmetry of the model, the pose explains the scan better", "start anew from the pose turned so, or from a better one; let the search find it"},
+  {"unchecked", "of a start: this scan would confirm it; a search of a scan that did is still to contradict it or not (start.check)", "none: wait for its end, some seconds"},
+  {"contradicted", "of a start: a search of the scan that would confirm it found a pose that explains it better", "let the search find it, or start anew from a better pose"},
 };
 inline constexpr Choice kStopReasons[] = {
   {"converged", "the last step was smaller than estimation.stop_translation_m and _rotation_deg"},
@@ -65,6 +67,7 @@ inline constexpr Choice kModeEvents[] = {
   {"near", "a scan gave a valid pose, within short_range.enter_m, or commanded to look at parts"},
   {"far", "a scan gave a valid pose, beyond short_range.leave_m, or commanded to leave the parts"},
   {"make_safe", "commanded, or the answer to a fault", "look at the faults in telemetry"},
+  {"fall_back", "a start that interrupted a track is given up: the track is looked for again", "see start_refused"},
 };
 inline constexpr Choice kWays[] = {
   {"none", "no way"},
@@ -88,6 +91,7 @@ inline constexpr Choice kStartRefusals[] = {
   {"not_at_bearing", "not where the bearing sees the target", "compare it with the item bearing"},
   {"not_confirmed", "no scan confirmed it within start.frames", "send a better one, or command a search"},
   {"not_from_here", "the present mode takes no start: safe", "command standby first"},
+  {"contradicted", "a search of the scan that would confirm it found a pose that explains it better (start.check)", "let the search find it, or send a better one"},
 };
 inline constexpr Choice kBearingReasons[] = {
   {"valid", "the bearing can be trusted"},

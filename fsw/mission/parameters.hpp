@@ -35,8 +35,8 @@ struct MissionParameters : SensorParameters {
   double start_sigma_m, start_sigma_rad, inliers_min, inlier_share_min, agreement_min, normalized_residual_max, sigma_position_max_m,
       sigma_attitude_max_rad, innovation_max, coast_frames, hysteresis, recover, reacquire_frames;
   // [start] the ways to a pose to start from
-  double start_frames, start_inlier_share_min, start_gate, start_twin_margin, start_age_max_s, start_first, start_second, start_third,
-      start_fourth, start_fifth;
+  double start_frames, start_inlier_share_min, start_gate, start_twin_margin, start_check, start_age_max_s, start_first, start_second,
+      start_third, start_fourth, start_fifth;
   // [search] the first pose without any prior attitude
   double search_hits_min, search_disagreement_max, search_ratio_min, search_scans_max, search_work_max, search_slice, search_frames;
   // [short_range] a large target close by, scanned part by part

@@ -20,6 +20,7 @@ constexpr ModeTransition kTransitions[] = {
   {M::kStarting,    E::kPoseInvalid,    M::kStarting,    "the next scan tries again"},
   {M::kStarting,    E::kExhausted,      M::kLost,        "no scan confirmed the start"},
   {M::kStarting,    E::kRecover,        M::kBearing,     "no scan confirmed the start: its direction at least, then a search if it is the next way"},
+  {M::kStarting,    E::kFallBack,       M::kReacquiring, "no scan confirmed the start: the track that it interrupted is looked for again"},
   {M::kStarting,    E::kMakeSafe,      M::kSafe,        "commanded, or the answer to a fault"},
   {M::kTracking,    E::kStart,          M::kStarting,    "another pose to start from"},
   {M::kTracking,    E::kStop,           M::kStandby,     "commanded, or the image that takes over cannot go on with the track"},
@@ -114,6 +115,7 @@ constexpr ModeEventProperties kEvents[] = {
   {E::kNear, true, "near"},
   {E::kFar, true, "far"},
   {E::kMakeSafe, true, "make_safe"},
+  {E::kFallBack, false, "fall_back"},
 };
 // clang-format on
 

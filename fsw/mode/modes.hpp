@@ -35,6 +35,7 @@ enum class ModeEvent : std::uint8_t {
   kNear = 11,           // a scan gave a valid pose, within short_range.enter_m; or commanded to look at parts
   kFar = 12,            // a scan gave a valid pose, beyond short_range.leave_m; or commanded to leave the parts
   kMakeSafe = 13,       // commanded, or the answer to a fault
+  kFallBack = 14,       // a start that interrupted a track is given up
 };
 
 struct ModeTransition {

@@ -9,6 +9,7 @@ constexpr double kOffset_rad = kRadPerDeg;
 constexpr double kOffsetShare = 0.0075;       // of the model's size
 constexpr double kTurn_rad = 5 * kRadPerDeg;  // since its only scan (1 sigma): more needs another scan
 constexpr DurationUs kBetweenScans_us = 2'000'000;
+constexpr double kCheckShare = 0.5;      // of search.slice: the frame registers its scan, too
 constexpr std::uint32_t kAimedFrom = 3;  // bearing scans: the next but one after the first is the first that is aimed by it
 
 }  // namespace
@@ -84,6 +85,27 @@ void Searcher::work(const Mission& mission, const RangeImage* scan, Workspace& w
   step.registration.reason = scan != nullptr ? PoseReason::kSearching : step.registration.reason;
   const bool offered = found(p, now_us) && offer(mission, step);
   count_and_change(p, offered, step);
+}
+
+// Is the check's scan being worked on, or is it this one, and has returns?
+bool Searcher::takes_check(const Mission& mission, const RangeImage* scan, Workspace& workspace, const TrackState& state) {
+  if (number_ == state.searches && taken_us_ == state.check.t_us) return true;
+  begin(mission.parameters, state.searches);
+  if (scan == nullptr || scan->reference_time_us() != state.check.t_us) return false;
+  taken_us_ = state.check.t_us;
+  return search_.add_scan(mission, *scan, workspace) == Status::kOk;
+}
+
+void Searcher::check(const Mission& mission, const RangeImage* scan, Workspace& workspace, TrackStep& step) {
+  const MissionParameters& p = mission.parameters;
+  StartCheck& check = step.after.check;
+  if (!takes_check(mission, scan, workspace, step.after)) {
+    check = StartCheck{};
+    return;
+  }
+  if (!search_.advance(mission, workspace, static_cast<std::uint32_t>(kCheckShare * p.search_slice))) return;
+  step.search = search_.result();
+  end_check(p, search_.contradicts(mission, check.T_sensor_target), step);
 }
 
 }  // namespace lasso

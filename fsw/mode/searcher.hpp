@@ -22,7 +22,13 @@ class Searcher {
   // turned by 5 deg waits for another scan, which shows its rate. It is offered again where the frame that said so came too late.
   void work(const Mission& mission, const RangeImage* scan, Workspace& workspace, TrackStep& step);
 
+  // One frame of a check (state.check of `step`, which track_scan or track_without_scan gave): the scan that the check is of is taken in
+  // the frame that says so, and half of search.slice is worked on it. In the end end_check is told whether the search contradicts the pose.
+  // A check whose scan is gone (its frame came too late) is forgotten: the next scan begins another.
+  void check(const Mission& mission, const RangeImage* scan, Workspace& workspace, TrackStep& step);
+
  private:
+  bool takes_check(const Mission& mission, const RangeImage* scan, Workspace& workspace, const TrackState& state);
   void begin(const MissionParameters& parameters, std::uint32_t number);
   void receive(const Mission& mission, const RangeImage& scan, Workspace& workspace);
   void keep(const RangeImage& scan);

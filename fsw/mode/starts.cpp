@@ -149,9 +149,9 @@ const char* to_string(StartWay way) {
 }
 
 const char* to_string(StartRefusal refusal) {
-  static constexpr const char* kNames[] = {"none",           "not_begun",     "no_such_way",  "not_finite", "not_unit",
-                                           "bad_covariance", "from_future",   "too_old",      "too_fast",   "out_of_reach",
-                                           "not_at_bearing", "not_confirmed", "not_from_here"};
+  static constexpr const char* kNames[] = {"none",           "not_begun",     "no_such_way",   "not_finite",  "not_unit",
+                                           "bad_covariance", "from_future",   "too_old",       "too_fast",    "out_of_reach",
+                                           "not_at_bearing", "not_confirmed", "not_from_here", "contradicted"};
   const auto index = static_cast<std::size_t>(refusal);
   return index < sizeof(kNames) / sizeof(kNames[0]) ? kNames[index] : "unknown";
 }

@@ -38,6 +38,7 @@ enum class StartRefusal : std::uint8_t {
   kNotAtBearing = 10,  // not where the bearing sees the target
   kNotConfirmed = 11,  // no scan confirmed it within start.frames
   kNotFromHere = 12,   // the table of modes has no start from the present one
+  kContradicted = 13,  // a search of the scan that confirmed it found another pose (start.check)
 };
 const char* to_string(StartWay way);          // never null
 const char* to_string(StartRefusal refusal);  // never null

@@ -49,10 +49,28 @@ PoseReason confirm(const MissionParameters& p, const ModeProperties& mode, const
   return far_from(filter, registration, p.start_gate) ? PoseReason::kFarFromStart : PoseReason::kValid;
 }
 
+// A start by search has been compared with all other poses.
+bool is_checked(const MissionParameters& p, const TrackState& state) {
+  return p.start_check > 0.5 && state.mode == TrackingMode::kStarting && state.way != StartWay::kSearch;
+}
+
+// No frame counts against the start meanwhile.
+void await_check(TrackStep& step) {
+  TrackState& state = step.after;
+  Registration& registration = step.registration;
+  registration.reason = PoseReason::kUnchecked;
+  if (state.check.stage == StartCheck::Stage::kNone) {
+    state.check = {StartCheck::Stage::kSearching, registration.t_us, registration.T_sensor_target};
+    ++state.searches;
+  }
+  state.missed = 0;
+  step.event = ModeEvent::kPoseInvalid;
+}
+
 // Joins a valid registration to `filter`, which is predicted to its time: kValid, or why the pose is not to be believed after all. A wrong
 // minimum explains its scan, sometimes as well as the right one does: only the motion since the scans before tells.
-PoseReason join(const MissionParameters& p, const ModeProperties& mode, const Registration& registration, FilterState& filter) {
-  if (!mode.confirms) {
+PoseReason join(const MissionParameters& p, bool starts, const Registration& registration, FilterState& filter) {
+  if (!starts) {
     const double gate_nis = filter.accepted < kEstablished ? kNoGate : p.innovation_max * p.innovation_max;
     const FilterUpdate update = update_filter(filter, measurement_of(registration), gate_nis);
     if (update.status == Status::kOk) return update.accepted ? PoseReason::kValid : PoseReason::kImplausible;
@@ -94,13 +112,17 @@ bool leaves_search(const MissionParameters& p, const TrackState& state) {
 ModeEvent event_of(const MissionParameters& p, const TrackState& state, bool valid) {
   if (valid) return event_of_valid(p, state);
   if (state.held || state.missed <= frames_of(p, state.mode)) return ModeEvent::kPoseInvalid;
+  if (state.former.initialised) return ModeEvent::kFallBack;
   return p.recover > 0.5 || leaves_search(p, state) ? ModeEvent::kRecover : ModeEvent::kExhausted;
 }
 
 // Joins the step's registration to its filter if it is valid, and changes the mode accordingly.
 void take(const MissionParameters& p, const ModeProperties& mode, TrackStep& step) {
   Registration& registration = step.registration;
-  if (registration.valid()) registration.reason = join(p, mode, registration, step.after.filter);
+  const bool starts = mode.confirms && step.after.check.stage == StartCheck::Stage::kNone;
+  if (registration.valid()) registration.reason = join(p, starts, registration, step.after.filter);
+  const bool awaits = is_checked(p, step.after) && step.after.check.stage != StartCheck::Stage::kPassed;
+  if (registration.valid() && awaits) return await_check(step);
   count_and_change(p, registration.valid(), step);
 }
 
@@ -127,12 +149,23 @@ Mat6 likely_covariance(const FilterState& predicted) {
   return share.asDiagonal() * predicted.covariance.topLeftCorner<6, 6>() * share.asDiagonal();
 }
 
+// The track that a start would interrupt; a further start, the one that the first interrupted.
+FilterState interrupted(const TrackState& state) {
+  if (state.mode == TrackingMode::kStarting) return state.former;
+  const ModeProperties& mode = properties(state.mode);
+  const bool tracks = mode.scans && !mode.full_field && !mode.searches;
+  return tracks ? state.filter : FilterState{};
+}
+
 }  // namespace
 
 void change_mode(ModeEvent event, TrackState& state) {
   const TrackingMode next = next_mode(state.mode, event);
   if (next == state.mode) return;
+  if (event == ModeEvent::kFallBack) state.filter = state.former;
   state.mode = next;
+  state.check = StartCheck{};
+  state.former = FilterState{};
   if (next != TrackingMode::kCoasting) state.missed = 0;
   if (next == TrackingMode::kStarting) state.range_awaited = false;
   if (event == ModeEvent::kNear || event == ModeEvent::kFar) state.range_awaited = true;
@@ -153,10 +186,13 @@ void count_and_change(const MissionParameters& p, bool valid, TrackStep& step) {
 
 StartRefusal start_track(const Mission& mission, StartWay way, const StartOffer& offer, TimeUs t_us, TrackState& state) {
   if (!has_transition(state.mode, ModeEvent::kStart)) return StartRefusal::kNotFromHere;
+  const FilterState former = interrupted(state);
   const StartRefusal refusal = start_from(mission, offer, t_us, state.bearing, state.filter);
   if (refusal != StartRefusal::kNone) return refusal;
   change_mode(ModeEvent::kStart, state);
+  state.former = former;
   state.missed = 0;
+  state.check = StartCheck{};
   state.way = way;
   return StartRefusal::kNone;
 }
@@ -172,10 +208,26 @@ TrackStep track_scan(const Mission& mission, Estimator& estimator, const RangeIm
   Registration& registration = step.registration;
   registration = estimator.estimate(mission, scan, StartPoint{filter.T_sensor_target, filter.rates, wide, false});
   if (registration.valid()) registration.reason = confirm(p, mode, filter, registration);
-  const bool starts = registration.valid() && mode.confirms;
-  if (starts && estimator.has_better_twin(mission, scan, registration)) registration.reason = PoseReason::kBetterTwin;
+  const bool asks_twins = registration.valid() && mode.confirms && !is_checked(p, before);
+  if (asks_twins && estimator.has_better_twin(mission, scan, registration)) registration.reason = PoseReason::kBetterTwin;
   take(p, mode, step);
   return step;
+}
+
+void end_check(const MissionParameters& p, bool contradicted, TrackStep& step) {
+  TrackState& state = step.after;
+  Registration& registration = step.registration;
+  state.check = StartCheck{};
+  if (contradicted) {
+    registration.reason = PoseReason::kContradicted;
+    step.refusal = StartRefusal::kContradicted;
+    state.missed = UINT16_MAX;
+    return count_and_change(p, false, step);
+  }
+  state.check.stage = StartCheck::Stage::kPassed;
+  if (registration.reason != PoseReason::kUnchecked) return;
+  registration.reason = PoseReason::kValid;
+  count_and_change(p, true, step);
 }
 
 TrackStep track_part(const Mission& mission, const Parts& parts, PartNumber part, Estimator& estimator, const RangeImage& scan,

@@ -21,14 +21,25 @@
 
 namespace lasso {
 
+// Of a start that a scan has confirmed (start.check): is there another pose, that explains this scan better? The track is followed
+// meanwhile.
+struct StartCheck {
+  enum class Stage : std::uint8_t { kNone, kSearching, kPassed };
+  Stage stage = Stage::kNone;
+  TimeUs t_us = 0;       // of the scan
+  Pose T_sensor_target;  // in it
+};
+
 struct TrackState {
   TrackingMode mode = TrackingMode::kStandby;
   std::uint16_t missed = 0;        // scans without a valid pose since the last one, or since the mode began; at most 65535
   bool held = false;               // no mode ends because its frames are used up
   StartWay way = StartWay::kNone;  // by which the present track was started
+  StartCheck check;                // of that start, in mode starting
+  FilterState former;              // of the track that this start interrupted; initialised where there is one
   FilterState filter;
   BearingState bearing;
-  std::uint32_t searches = 0;  // that were begun
+  std::uint32_t searches = 0;  // that were begun, those of checks too
   PartsState parts;            // of the mode that looks at parts
   // Since near or far, by range or by command, no valid pose has been where the mode now is for: within short_range.leave_m in
   // short_range, not within short_range.enter_m otherwise. Until one is, the range does not change the mode back.
@@ -41,24 +52,27 @@ struct TrackStep {
   Registration registration;
   Bearing bearing;                             // of a full-field scan, or one around the bearing
   SearchResult search;                         // of the scans that it has joined so far; in mode searching
-  StartRefusal refusal = StartRefusal::kNone;  // of the pose that the search accepted
+  StartRefusal refusal = StartRefusal::kNone;  // of the pose that the search accepted; kContradicted: of the present start
   PartsReport parts;                           // of a scan of a part
   ModeEvent event = ModeEvent::kStart;         // of the scan; says nothing of a frame without one
 };
 
-// Takes the state along the table. What belongs to the mode that ends is forgotten: its count of frames; for a bearing or a search, the
-// filter; for a bearing, the bearing before; for parts, what was remembered of them.
+// Takes the state along the table. What belongs to the mode that ends is forgotten: its count of frames; of a start, its check and the
+// track that it interrupted; for a bearing or a search, the filter; for a bearing, the bearing before; for parts, what was remembered of
+// them. kFallBack goes on with the interrupted track.
 void change_mode(ModeEvent event, TrackState& state);
 
-// Takes up a track at t_us: kStarting. Refused as start_from says, and kNotFromHere where the mode takes no start: `state` is then as it
+// Takes up a track at t_us: kStarting. A track that is interrupted by it is kept, and looked for again (kFallBack) where no scan confirms
+// the start. Refused as start_from says, and kNotFromHere where the mode takes no start: `state` is then as it
 // was.
 StartRefusal start_track(const Mission& mission, StartWay way, const StartOffer& offer, TimeUs t_us, TrackState& state);
 
 // One scan: predict, register, join to the filter, next mode. In a mode that confirms, a valid registration has to agree with the
 // prediction (start.gate, kFarFromStart), explains the scan as well as its near-symmetries to within start.twin_margin (kBetterTwin), and
-// starts the filter anew, since the prediction may be far off; so does one that the filter cannot take. One that the prediction of a filter
-// with 5 scans excludes (tracking.innovation_max) is kImplausible and joins nothing. A prediction less certain than the registration's gate
-// is a rough start. Bounds: as Estimator::estimate, in a start as has_better_twin besides.
+// starts the filter anew, since the prediction may be far off; so does one that the filter cannot take. Where start.check is set, a start
+// of another way than search is then checked (end_check): the scans that it takes are kUnchecked, but join the filter. One that the
+// prediction of a filter with 5 scans excludes (tracking.innovation_max) is kImplausible and joins nothing. A prediction less certain than
+// the registration's gate is a rough start. Bounds: as Estimator::estimate, in a start as has_better_twin besides.
 TrackStep track_scan(const Mission& mission, Estimator& estimator, const RangeImage& scan, const TrackState& before);
 
 // The same with a scan that was planned to look at a part (`part` != kWhole): it is compared with the other parts' before it joins.
@@ -72,6 +86,10 @@ PartNumber next_part(const Mission& mission, const Parts& parts, PartNumber in_f
 // Where the rays of scan `scan_id`, whose middle is at t_us, are to leave its pattern, as this step sees it: nowhere unless the step gave a
 // valid pose. Bounds: as aim_rays.
 void aim_next(const Mission& mission, Estimator& estimator, const TrackStep& step, std::uint32_t scan_id, TimeUs t_us, AimedRays& rays);
+
+// The check's word. `contradicted`: the start is refused (kContradicted), as if its frames were used up. Otherwise this scan confirms it if
+// it is kUnchecked, or the next valid one does.
+void end_check(const MissionParameters& parameters, bool contradicted, TrackStep& step);
 
 // Counts a frame with or without a valid pose, and takes the step along the table.
 void count_and_change(const MissionParameters& parameters, bool valid, TrackStep& step);

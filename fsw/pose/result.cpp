@@ -40,6 +40,10 @@ const char* to_string(PoseReason reason) {
       return "too_fast";
     case PoseReason::kBetterTwin:
       return "better_twin";
+    case PoseReason::kUnchecked:
+      return "unchecked";
+    case PoseReason::kContradicted:
+      return "contradicted";
   }
   return "unknown";
 }

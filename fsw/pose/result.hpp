@@ -32,6 +32,8 @@ enum class PoseReason : std::uint8_t {
   kPartDisagrees = 15,  // of a part that is elsewhere than the others say
   kTooFast = 16,        // the prediction moves too far within the scan for its points to be brought to one time
   kBetterTwin = 17,     // of a start: a near-symmetry of the pose explains the scan better
+  kUnchecked = 18,      // of a start: this scan would confirm it, and a search is still to contradict it or not
+  kContradicted = 19,   // of a start: a search of the scan that would confirm it found a pose that explains it better
 };
 const char* to_string(PoseReason reason);
 const char* to_string(StopReason reason);

@@ -145,6 +145,18 @@ bool Search::stands_alone() const {
   return alone;
 }
 
+bool Search::contradicts(const Mission& mission, const Pose& T_sensor_target) const {
+  const bool accepted = result_.outcome == SearchOutcome::kAccepted;
+  if (!accepted && result_.outcome != SearchOutcome::kAmbiguous) return false;
+  const Track& best = tracks_[0];
+  const Pose T_target_sensor = inverse(T_sensor_target);
+  const Quat& found = best.T_target_sensor[last()].q;
+  if (!are_apart(T_target_sensor.q, found, kCosHalfSame)) return false;
+  const Fit fit = measure_fit(mission, T_target_sensor, evidence_[last()], kAnyScore);
+  const bool sure = accepted && are_apart(T_target_sensor.q, found, kCosHalfDistinct);
+  return ratio_of(fit.score(), best.fits[last()].score()) >= (sure ? 1 : limits_.ratio_min);
+}
+
 void Search::judge(bool registered) {
   result_.outcome = SearchOutcome::kRejected;
   if (result_.returns < limits_.hits_min) {

@@ -67,6 +67,18 @@ TEST(Approach, AStartHalfATurnOffIsNeverConfirmed) {
   EXPECT_EQ(noisy.at("invalid"), 480);
 }
 
+// Twenty random attitudes of the tenth-scale target, each start turned by 150 deg: what a scan would confirm a search of it contradicts.
+// Then the target is searched, and all are tracked.
+TEST(Approach, AStartThatItsScanWouldConfirmIsContradictedAndTheTargetFound) {
+  VERIFIES("LASSO-MOD-184~1 LASSO-MOD-182~1");
+  const WorkFolder work;
+  const Answer answer = work.mdat("run " MDAT_SOURCES "/cfg/missions/hubble_tenth.toml --scenario wrong_start --no-report --out out");
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  const Json results = Json::parse(work.read("out/results.json"));
+  EXPECT_EQ(results.at("noisy").at("wrong"), 0);
+  EXPECT_LT(results.at("noisy").at("invalid"), 800) << "of 2400: starting, and some 25 frames of bearing and search";
+}
+
 TEST(Approach, TheRangeChangesTheSensorInBothDirectionsAndTheReportShowsIt) {
   VERIFIES("LASSO-MOD-174~1 LASSO-GND-026~1 LASSO-SNS-042~1");
   const WorkFolder work;

@@ -55,6 +55,9 @@ double initial_range(const Size& size) {
   return rounded(size.radius / std::sin(kFieldShare * half_field) * 1.01);
 }
 
+// What a wrong start, or a lost track, would otherwise leave to the ground.
+const Values kAutonomy{{"start.check", 1}, {"start.fifth", 5}, {"tracking.recover", 1}};
+
 // Lengths of the presets grow with the target; so does the noise, as a larger target is met with a sensor for larger ranges.
 Values sized_values(const Size& size) {
   Values values;
@@ -73,6 +76,7 @@ Values sized_values(const Size& size) {
     const ValueRow& row = *find_row(flight_rows(), key);
     value = std::clamp(rounded(value), row.minimum, row.maximum);
   }
+  values.insert(kAutonomy.begin(), kAutonomy.end());
   values["tracking.initial.present"] = 1;
   values["tracking.initial.x_m"] = rounded(-size.center.x());
   values["tracking.initial.y_m"] = rounded(-size.center.y());
@@ -140,6 +144,7 @@ void write_scenario(std::ostream& out, double range_m) {
     if (row.key != "offset_m" && !row.preset.empty()) write_row(out, row, row.preset);
   }
   out << "override.estimation.deskew = false\n";
+  out << "override.start.check = false  # the start is right\n";
   out << "override.tracking.start_sigma_m = " << rounded(0.005 * range_m) << "  # the track starts from the pose of one frame before\n";
   out << "override.tracking.start_sigma_deg = 2\n";
 }

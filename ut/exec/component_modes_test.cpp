@@ -99,6 +99,27 @@ TEST(ComponentModes, AWrongHandOverIsRefusedAndTheNextWayIsTried) {
   }
 }
 
+TEST(ComponentModes, AWrongOfferCostsNoTrack) {
+  VERIFIES("LASSO-MOD-185~1 LASSO-MOD-137~1");
+  ComponentScene scene(story_parameters());
+  scene.begin();
+  ASSERT_EQ(scene.component->offer_start(StartWay::kUplink, offer_at(scene, 0)), StartRefusal::kNone);
+  Story story;
+  story.run(scene, 8);
+  StartOffer off = offer_at(scene, 8 * 200000, wrong());
+  off.covariance = 1e-4 * Mat6::Identity();
+  ASSERT_EQ(scene.component->offer_start(StartWay::kHandover, off), StartRefusal::kNone);
+  story.run(scene, 12);
+  story.expect({{M::kStandby, E::kStart, M::kStarting},
+                {M::kStarting, E::kPoseValid, M::kTracking},
+                {M::kTracking, E::kStart, M::kStarting},
+                {M::kStarting, E::kFallBack, M::kReacquiring},
+                {M::kReacquiring, E::kPoseValid, M::kTracking}});
+  EXPECT_EQ(story.last().refused_way, static_cast<std::uint8_t>(StartWay::kHandover));
+  EXPECT_EQ(story.last().refusal, static_cast<std::uint8_t>(StartRefusal::kNotConfirmed));
+  for (const PoseTelemetry& t : story.reports) EXPECT_TRUE(t.valid == 0 || scene.error(t).norm() < 1e-2);
+}
+
 TEST(ComponentModes, AShortEclipseIsCoastedALongerOneRecoveredNearThePrediction) {
   VERIFIES("LASSO-MOD-138~1 LASSO-MOD-137~1");
   ComponentScene scene(story_parameters());

@@ -84,6 +84,48 @@ TEST(ComponentSearch, AWrongHandOverGivesPlaceToTheSearch) {
   EXPECT_LT(scene.error(story.last()).norm(), 1e-2);
 }
 
+// A start end for end that a scan would confirm: a search of this scan says otherwise, and the search's turn comes.
+TEST(ComponentSearch, AStartThatASearchOfItsScanContradictsIsNeverTracked) {
+  VERIFIES("LASSO-MOD-184~1 LASSO-MOD-133~2 LASSO-MOD-137~1");
+  MissionParameters p = search_parameters();
+  p.start_check = 1;
+  p.start_inlier_share_min = p.inlier_share_min = p.agreement_min = 0;
+  p.normalized_residual_max = 1000;
+  ComponentScene scene(p, test::uneven_scene());
+  scene.begin();
+  Pose wrong = test::uneven_scene().at_zero;
+  wrong.q = wrong.q * exp_so3(Vec3(kPi, 0, 0));
+  ASSERT_EQ(scene.component->offer_start(StartWay::kHandover, rough_offer(p, wrong, {}, 0)), StartRefusal::kNone);
+  Story story;
+  story.run(scene, 26);
+  story.expect({{M::kStandby, E::kStart, M::kStarting},
+                {M::kStarting, E::kRecover, M::kBearing},
+                {M::kBearing, E::kSearch, M::kSearching},
+                {M::kSearching, E::kPoseValid, M::kStarting},
+                {M::kStarting, E::kPoseValid, M::kTracking}});
+  EXPECT_EQ(story.last().refused_way, static_cast<std::uint8_t>(StartWay::kHandover));
+  EXPECT_EQ(story.last().refusal, static_cast<std::uint8_t>(StartRefusal::kContradicted));
+  EXPECT_EQ(story.last().refused_starts, 1u);
+  for (const PoseTelemetry& t : story.reports) EXPECT_TRUE(t.valid == 0 || scene.error(t).norm() < 5e-2);
+}
+
+TEST(ComponentSearch, ARightStartIsToldAsUncheckedAndThenTracked) {
+  VERIFIES("LASSO-MOD-184~1");
+  MissionParameters p = search_parameters();
+  p.start_check = 1;
+  p.search_slice = 200000;
+  ComponentScene scene(p, test::uneven_scene());
+  scene.begin();
+  ASSERT_EQ(scene.component->offer_start(StartWay::kHandover, rough_offer(p, test::uneven_scene().at_zero, {}, 0)), StartRefusal::kNone);
+  Story story;
+  story.run(scene, 40);
+  story.expect({{M::kStandby, E::kStart, M::kStarting}, {M::kStarting, E::kPoseValid, M::kTracking}});
+  std::size_t unchecked = 0;
+  for (const PoseTelemetry& t : story.reports) unchecked += t.reason == static_cast<std::uint8_t>(PoseReason::kUnchecked) ? 1 : 0;
+  EXPECT_GT(unchecked, 3u);
+  EXPECT_EQ(story.last().refused_starts, 0u);
+}
+
 // A mode that awaits a start and scans nothing is left for the bearing, if that is what the next way needs; otherwise it stays.
 TEST(ComponentSearch, AStartThatIsRefusedInLostGivesPlaceToTheSearch) {
   VERIFIES("LASSO-MOD-133~2");

@@ -236,14 +236,14 @@ void expect_names(const Enumeration& enumeration, E last) {
 
 TEST(Report, DictionaryNamesTheEnumerationsAsTheCodeDoes) {
   VERIFIES("LASSO-LNK-002~1");
-  expect_names(kPoseReason, PoseReason::kBetterTwin);
+  expect_names(kPoseReason, PoseReason::kContradicted);
   expect_names(kStopReason, StopReason::kNotRun);
   EXPECT_EQ(kFault.choices.size(), kFaults);
   expect_names(kFaultReaction, FaultReaction::kMakeSafe);
   expect_names(kTrackingMode, TrackingMode::kSafe);
-  expect_names(kModeEvent, ModeEvent::kMakeSafe);
+  expect_names(kModeEvent, ModeEvent::kFallBack);
   expect_names(kStartWay, StartWay::kSearch);
-  expect_names(kStartRefusal, StartRefusal::kNotFromHere);
+  expect_names(kStartRefusal, StartRefusal::kContradicted);
   expect_names(kModeRefusal, ModeRefusal::kNoPrediction);
   expect_names(kBearingReason, BearingReason::kJump);
   expect_names(kSearchOutcome, SearchOutcome::kRejected);

@@ -208,8 +208,9 @@ TEST(StartNames, AreThoseOfTheCode) {
   EXPECT_EQ(std::string(to_string(static_cast<StartWay>(6))), "unknown");
   EXPECT_EQ(std::string(to_string(StartRefusal::kNone)), "none");
   EXPECT_EQ(std::string(to_string(StartRefusal::kNotConfirmed)), "not_confirmed");
+  EXPECT_EQ(std::string(to_string(StartRefusal::kContradicted)), "contradicted");
   EXPECT_EQ(std::string(to_string(StartRefusal::kNotFromHere)), "not_from_here");
-  EXPECT_EQ(std::string(to_string(static_cast<StartRefusal>(13))), "unknown");
+  EXPECT_EQ(std::string(to_string(static_cast<StartRefusal>(14))), "unknown");
 }
 
 }  // namespace

@@ -13,14 +13,14 @@ namespace {
 const char* const kPoseReasons[] = {"valid",          "no_scan",       "too_few_returns", "too_few_inliers", "low_inlier_share",
                                     "low_agreement",  "high_residual", "not_converged",   "singular",        "no_track",
                                     "overrun",        "implausible",   "only_bearing",    "far_from_start",  "searching",
-                                    "part_disagrees", "too_fast",      "better_twin"};
+                                    "part_disagrees", "too_fast",      "better_twin",     "unchecked",       "contradicted"};
 const char* const kStopReasons[] = {"converged", "iteration_limit", "too_few_points", "singular", "not_run"};
 
 TEST(Result, EveryPoseReasonHasItsName) {
   VERIFIES("LASSO-REG-007~1");
   std::uint8_t code = 0;
   for (const char* name : kPoseReasons) EXPECT_EQ(std::string(to_string(static_cast<PoseReason>(code++))), name);
-  EXPECT_EQ(static_cast<PoseReason>(code - 1), PoseReason::kBetterTwin);  // the last of them
+  EXPECT_EQ(static_cast<PoseReason>(code - 1), PoseReason::kContradicted);  // the last of them
   EXPECT_EQ(std::string(to_string(static_cast<PoseReason>(code))), "unknown");
 }
 

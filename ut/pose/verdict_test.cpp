@@ -131,5 +131,45 @@ TEST_F(SymmetricVerdictTest, ASymmetricTargetIsAmbiguousWithItsCandidates) {
   }
 }
 
+// A pose that is held against a search of its own scan.
+TEST_F(VerdictTest, ContradictsAPoseThatExplainsTheScanWorseAndNoOther) {
+  VERIFIES("LASSO-MOD-184~1");
+  scan_.T_sensor_target = test::random_box_pose(random_);
+  const auto turned = [&](double deg) {
+    Pose pose = scan_.T_sensor_target;
+    pose.q = normalized(exp_so3(deg * kRadPerDeg * Vec3(0.48, -0.6, 0.64)) * pose.q);
+    return pose;
+  };
+  search_->begin(limits_);
+  EXPECT_FALSE(search_->contradicts(mission_, turned(180))) << "nothing was searched";
+  ASSERT_EQ(search(), Status::kOk);
+  ASSERT_EQ(result().outcome, SearchOutcome::kAccepted);
+  EXPECT_FALSE(search_->contradicts(mission_, turned(0)));
+  EXPECT_FALSE(search_->contradicts(mission_, turned(3))) << "the registration goes on from there";
+  for (const double deg : {10.0, 90.0, 180.0}) EXPECT_TRUE(search_->contradicts(mission_, turned(deg))) << deg;
+}
+
+TEST_F(VerdictTest, ContradictsNothingWhereItIsAmbiguousUnlessByItsRatioNorWhereItIsRejected) {
+  VERIFIES("LASSO-MOD-184~1");
+  scan_.T_sensor_target = test::random_box_pose(random_);
+  Pose turned = scan_.T_sensor_target;
+  turned.q = normalized(exp_so3(Vec3(0, kPi, 0)) * turned.q);
+  const auto image = scan_at(0);
+  const auto contradicts = [&](SearchOutcome outcome) {
+    search_->begin(limits_);
+    EXPECT_EQ(search_->add_scan(mission_, *image, *workspace_), Status::kOk);
+    work();
+    EXPECT_EQ(result().outcome, outcome);
+    return search_->contradicts(mission_, turned);
+  };
+  EXPECT_TRUE(contradicts(SearchOutcome::kAccepted));
+  limits_.work_max = 0;
+  EXPECT_TRUE(contradicts(SearchOutcome::kAmbiguous)) << "unfinished, and far better";
+  limits_.ratio_min = 1e6;
+  EXPECT_FALSE(contradicts(SearchOutcome::kAmbiguous));
+  limits_.hits_min = 1e6;
+  EXPECT_FALSE(contradicts(SearchOutcome::kRejected));
+}
+
 }  // namespace
 }  // namespace lasso

@@ -1,0 +1,243 @@
+// A start whose scan is searched for a better pose before it is believed (start.check), and the track that a start interrupts.
+#include "fsw/mode/searcher.hpp"
+#include "ut/mode/mast_fixture.hpp"
+
+namespace lasso {
+namespace {
+
+using test::MastTest;
+using test::small_error;
+using Stage = StartCheck::Stage;
+
+class StartCheckTest : public MastTest {
+ protected:
+  void SetUp() override {
+    others_ = test::uneven_scene().others;
+    load_with_others(0);
+    mission_.parameters.start_check = 1;
+    mission_.parameters.search_slice = 2e7;  // the whole search in one frame
+  }
+
+  // A frame as the estimation task has it; its state is not taken.
+  TrackStep try_frame(std::uint32_t k, bool lost = false) {
+    const TrackState before = state_;
+    TrackStep step = lost ? miss(k) : track_view(k);
+    if (step.after.check.stage == Stage::kSearching) searcher_->check(mission_, lost ? nullptr : seen_.get(), *workspace_, step);
+    state_ = before;
+    return step;
+  }
+  TrackStep frame(std::uint32_t k, bool lost = false) {
+    const TrackStep step = try_frame(k, lost);
+    state_ = step.after;
+    return step;
+  }
+
+  // A start that is turned half about an axis of the target, and that a scan would confirm.
+  Vec3 deceptive_axis() {
+    MissionParameters& p = mission_.parameters;
+    p.inlier_share_min = p.agreement_min = p.start_check = 0;
+    p.start_twin_margin = p.normalized_residual_max = 1000;
+    for (int i = 0; i < 3; ++i) {
+      const Vec3 axis = rotate(scene_.at_zero.q, Vec3::Unit(i));
+      start_turned(axis);
+      if (!track_view(0).registration.valid()) continue;
+      mission_.parameters.start_check = 1;
+      return axis;
+    }
+    ADD_FAILURE() << "no turned start is confirmed by itself";
+    return Vec3::UnitX();
+  }
+
+  std::unique_ptr<Workspace> workspace_ = std::make_unique<Workspace>();
+  std::unique_ptr<Searcher> searcher_ = std::make_unique<Searcher>();
+};
+
+TEST_F(StartCheckTest, ARightStartIsBelievedOnceTheSearchHasFoundNothingElse) {
+  VERIFIES("LASSO-MOD-184~1 LASSO-MOD-132~1");
+  mission_.parameters.search_slice = 200000;
+  start(small_error());
+  std::uint32_t k = 0;
+  TrackStep step = frame(k);
+  for (; step.registration.reason == PoseReason::kUnchecked && k < 100; step = frame(++k)) {
+    ASSERT_EQ(step.after.mode, TrackingMode::kStarting);
+    EXPECT_EQ(step.event, ModeEvent::kPoseInvalid);
+    EXPECT_EQ(step.after.missed, 0) << "none of start.frames is used up";
+    EXPECT_EQ(step.after.searches, 1u);
+  }
+  EXPECT_GT(k, 4u) << "half a slice in each frame";
+  EXPECT_TRUE(step.registration.valid()) << to_string(step.registration.reason);
+  EXPECT_EQ(step.event, ModeEvent::kPoseValid);
+  EXPECT_EQ(step.after.mode, TrackingMode::kTracking);
+  EXPECT_EQ(step.after.check.stage, Stage::kNone);
+  EXPECT_NE(step.search.outcome, SearchOutcome::kNone) << "what it found is told";
+  EXPECT_EQ(step.after.filter.accepted, k) << "the track was followed meanwhile";
+  EXPECT_LT(error(step.after.filter.T_sensor_target, 0).norm(), 5e-3);
+}
+
+TEST_F(StartCheckTest, AWrongStartThatItsScanConfirmsIsContradicted) {
+  VERIFIES("LASSO-MOD-184~1 LASSO-MOD-182~1 LASSO-MOD-134~2");
+  const Vec3 axis = deceptive_axis();
+  start_turned(axis);
+  const TrackStep step = frame(1);
+  EXPECT_EQ(step.registration.reason, PoseReason::kContradicted);
+  EXPECT_EQ(step.refusal, StartRefusal::kContradicted);
+  EXPECT_EQ(step.event, ModeEvent::kExhausted);
+  EXPECT_EQ(step.after.mode, TrackingMode::kLost) << "without waiting for start.frames";
+  EXPECT_EQ(step.after.check.stage, Stage::kNone);
+}
+
+TEST_F(StartCheckTest, AHeldStartThatIsContradictedIsNotBelievedEither) {
+  VERIFIES("LASSO-MOD-184~1");
+  const Vec3 axis = deceptive_axis();
+  start_turned(axis);
+  state_.held = true;
+  for (std::uint32_t k = 1; k < 4; ++k) {
+    const TrackStep step = frame(k);
+    EXPECT_FALSE(step.registration.valid()) << k;
+    EXPECT_EQ(step.after.mode, TrackingMode::kStarting) << k;
+  }
+}
+
+// Nothing in a scan can tell the poses of a symmetric target apart: the start decides.
+TEST_F(StartCheckTest, AStartIsBelievedWhoseCompetitorsExplainTheScanAsWell) {
+  VERIFIES("LASSO-MOD-184~1");
+  load(test::box_parameters(scene_));
+  mission_.parameters.start_check = 1;
+  mission_.parameters.search_slice = 2e7;
+  others_.clear();
+  Pose half_turn;
+  half_turn.q = exp_so3(kPi * Vec3::UnitY());
+  half_turn.p = scene_.box.center - rotate(half_turn.q, scene_.box.center);
+  ASSERT_EQ(start_at(scene_.at_zero * half_turn, Twist{}, 0, 0), StartRefusal::kNone);
+  EXPECT_EQ(frame(0).after.mode, TrackingMode::kTracking);
+}
+
+TEST_F(StartCheckTest, WhatWasSearchedOrIsFoundNearItsPredictionIsNotChecked) {
+  VERIFIES("LASSO-MOD-184~1");
+  start(small_error());
+  state_.way = StartWay::kSearch;
+  EXPECT_EQ(try_frame(0).after.mode, TrackingMode::kTracking);
+  state_.way = StartWay::kUplink;
+  EXPECT_EQ(try_frame(0).after.searches, 1u);
+  change_mode(ModeEvent::kPoseValid, state_);
+  change_mode(ModeEvent::kReacquire, state_);
+  EXPECT_EQ(try_frame(0).after.mode, TrackingMode::kTracking) << "reacquiring";
+  mission_.parameters.start_check = 0;
+  state_ = TrackState{};
+  start(small_error());
+  EXPECT_EQ(try_frame(0).after.mode, TrackingMode::kTracking) << "not asked for";
+}
+
+// The verdict comes in a frame whose scan is lost: the next one confirms the start without another search.
+TEST_F(StartCheckTest, ALostScanDelaysTheVerdictAndCountsAsOne) {
+  VERIFIES("LASSO-MOD-184~1");
+  mission_.parameters.search_slice = 1000;
+  start(small_error());
+  frame(0);
+  mission_.parameters.search_slice = 2e7;
+  const TrackStep lost = frame(1, true);
+  EXPECT_EQ(lost.registration.reason, PoseReason::kNoScan);
+  EXPECT_EQ(lost.after.check.stage, Stage::kPassed);
+  EXPECT_EQ(lost.after.missed, 1);
+  const TrackStep next = frame(2);
+  EXPECT_EQ(next.after.mode, TrackingMode::kTracking);
+  EXPECT_EQ(next.after.searches, 1u);
+}
+
+// A frame that is not ready at its boundary is dropped whole: the check that it began has no scan, and the next scan begins another.
+TEST_F(StartCheckTest, ACheckWhoseFrameWasDroppedBeginsAnew) {
+  VERIFIES("LASSO-MOD-184~1 LASSO-EXE-003~1");
+  mission_.parameters.search_slice = 1000;
+  start(small_error());
+  const TrackStep dropped = try_frame(0);
+  ASSERT_EQ(dropped.after.check.stage, Stage::kSearching);
+  const TrackStep begun = frame(1);
+  EXPECT_EQ(begun.after.check.stage, Stage::kSearching);
+  EXPECT_EQ(begun.after.searches, dropped.after.searches) << "as if it had been the first";
+  ++state_.searches;
+  const TrackState before = state_;
+  EXPECT_EQ(frame(2).after.check.stage, Stage::kNone) << "another search was begun, of which this is not the scan";
+  mission_.parameters.search_slice = 2e7;
+  EXPECT_EQ(frame(3).after.mode, TrackingMode::kTracking);
+  state_ = before;
+  ++state_.searches;
+  EXPECT_EQ(frame(2, true).after.check.stage, Stage::kNone);
+}
+
+TEST_F(StartCheckTest, AnotherStartBeginsItsOwnCheck) {
+  VERIFIES("LASSO-MOD-184~1");
+  mission_.parameters.search_slice = 1000;
+  start(small_error());
+  frame(0);
+  start(small_error());
+  EXPECT_EQ(state_.check.stage, Stage::kNone);
+  EXPECT_EQ(frame(1).after.searches, 2u);
+}
+
+class InterruptedTest : public StartCheckTest {
+ protected:
+  void SetUp() override {
+    others_ = test::uneven_scene().others;
+    load_with_others(0.9);
+    mission_.parameters.start_frames = 1;
+    mission_.parameters.recover = 0;
+    start(small_error());
+    track_view(0);
+    track_view(1);
+    ASSERT_EQ(state_.mode, TrackingMode::kTracking);
+    tracked_ = state_.filter;
+  }
+  void offer_wrong_start() {
+    Pose wrong = scene_.at_zero;
+    wrong.q = normalized(exp_so3(Vec3(0, 0, kPi)) * wrong.q);
+    StartOffer offer = rough_offer(mission_.parameters, wrong, Twist{}, 0);
+    ASSERT_EQ(start_track(mission_, StartWay::kHandover, offer, 1400000, state_), StartRefusal::kNone);
+  }
+
+  FilterState tracked_;
+};
+
+TEST_F(InterruptedTest, AStartThatNoScanConfirmsGivesTheTrackBackThatItInterrupted) {
+  VERIFIES("LASSO-MOD-185~1");
+  offer_wrong_start();
+  EXPECT_EQ(track_view(2).event, ModeEvent::kPoseInvalid);
+  const TrackStep given_up = track_view(3);
+  EXPECT_EQ(given_up.event, ModeEvent::kFallBack);
+  EXPECT_EQ(given_up.after.mode, TrackingMode::kReacquiring);
+  EXPECT_EQ(given_up.after.filter.T_sensor_target.p, tracked_.T_sensor_target.p);
+  EXPECT_EQ(given_up.after.filter.t_us, tracked_.t_us);
+  EXPECT_FALSE(given_up.after.former.initialised);
+  const TrackStep found = track_view(4);
+  EXPECT_EQ(found.after.mode, TrackingMode::kTracking) << to_string(found.registration.reason);
+  EXPECT_LT(error(found.after.filter.T_sensor_target, 0).norm(), 5e-3);
+}
+
+TEST_F(InterruptedTest, AnotherWrongStartInterruptsTheSameTrack) {
+  VERIFIES("LASSO-MOD-185~1");
+  offer_wrong_start();
+  offer_wrong_start();
+  EXPECT_EQ(state_.former.T_sensor_target.p, tracked_.T_sensor_target.p);
+}
+
+TEST_F(InterruptedTest, AConfirmedStartForgetsTheTrackBefore) {
+  VERIFIES("LASSO-MOD-185~1");
+  start(small_error());
+  EXPECT_TRUE(state_.former.initialised);
+  EXPECT_EQ(track_view(2).after.mode, TrackingMode::kTracking);
+  EXPECT_FALSE(state_.former.initialised);
+}
+
+TEST_F(InterruptedTest, WhatWasNoTrackIsNotFallenBackTo) {
+  VERIFIES("LASSO-MOD-185~1");
+  for (const ModeEvent event : {ModeEvent::kSeek, ModeEvent::kSearch, ModeEvent::kStop}) {
+    const TrackState before = state_;
+    change_mode(event, state_);
+    state_.filter = tracked_;  // whatever may be left of one
+    offer_wrong_start();
+    EXPECT_FALSE(state_.former.initialised) << to_string(event);
+    state_ = before;
+  }
+}
+
+}  // namespace
+}  // namespace lasso
