@@ -172,7 +172,7 @@ golden: ## the same telemetry, bit for bit: g++ and clang++, optimised or not, t
 	$(call compile,$(GOLDEN)-clang++-O2,golden_replay)
 	@ft/golden/run $(BUILD) $(PPC) $(foreach build,g++-O0 g++-O2 clang++-O0 clang++-O2,$(build)=$(GOLDEN)-$(build))
 
-fixed-point: ## the fixed-point build: no floating-point instruction per point, errors beside the floating build's, the same bits on the emulated 603e; out/fixed-point
+fixed-point: ## the fixed-point build: no floating-point instruction per point, every object listed by how often it runs, errors beside the floating build's, the same bits on the emulated 603e; out/fixed-point
 	$(begin)
 	$(call packages,build target clang)
 	$(call configure,$(BUILD),)
@@ -181,10 +181,13 @@ fixed-point: ## the fixed-point build: no floating-point instruction per point, 
 	$(call compile,$(CLANG),mdat golden_record golden_replay golden_compare)
 	$(call configure,$(PPC)-fixed,$(CROSS) $(FIXED))
 	$(call compile,$(PPC)-fixed,golden_replay)
+	$(call configure,$(BOARD)-fixed,$(BARE_BOARD) $(FIXED))
+	$(call compile,$(BOARD)-fixed,flight_603e)
+	@for folder in $(PPC)-fixed $(BOARD)-fixed; do ninja -C $$folder -t cleandead >/dev/null; done
 	@$(BUILD)/mdat/mdat run cfg/missions/hubble_tenth.toml --scenario paper --out $(LASSO_OUT)/fixed-point/floating
 	@$(CLANG)/mdat/mdat run cfg/missions/hubble_tenth.toml --scenario paper --out $(LASSO_OUT)/fixed-point/paper
 	@LASSO_OUT=$(LASSO_OUT)/fixed-point ft/golden/run $(CLANG) $(PPC)-fixed
-	@cfg/quality/fixed-point $(LASSO_OUT)/fixed-point/floating/results.json $(LASSO_OUT)/fixed-point/paper/results.json $(PPC)-fixed
+	@cfg/quality/fixed-point cfg/quality/fixed-point.toml $(LASSO_OUT)/fixed-point/floating/results.json $(LASSO_OUT)/fixed-point/paper/results.json $(PPC)-fixed $(BOARD)-fixed
 
 # $(replays) builds what flies on the host and is replayed on the emulated 603e.
 define replays
