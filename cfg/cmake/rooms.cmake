@@ -73,11 +73,20 @@ function(lasso_sensor_driver NAME)
   set_property(GLOBAL APPEND PROPERTY LASSO_ROOMS hal_${NAME})
 endfunction()
 
+# Refuses a NAME that is no folder of bsp/; that of what bare boards share says itself that it is none.
+function(lasso_check_board NAME)
+  file(GLOB BOARDS RELATIVE ${PROJECT_SOURCE_DIR}/bsp ${PROJECT_SOURCE_DIR}/bsp/*)
+  list(FILTER BOARDS EXCLUDE REGEX "[.]")
+  if(NOT NAME IN_LIST BOARDS)
+    list(REMOVE_ITEM BOARDS bare)
+    list(JOIN BOARDS ", " THERE)
+    message(FATAL_ERROR "LASSO_BOARD=${NAME} is no board: name one of ${THERE} (docs/porting.md)")
+  endif()
+endfunction()
+
 # Board support bsp/NAME for the platform that is being built. A board with a CMakeLists.txt of its own says there how its image is made.
 function(lasso_board NAME)
-  if(NOT IS_DIRECTORY ${PROJECT_SOURCE_DIR}/bsp/${NAME})
-    message(FATAL_ERROR "LASSO_BOARD=${NAME}: no such folder in bsp: name one of its boards (docs/porting.md)")
-  endif()
+  lasso_check_board("${NAME}")
   if(EXISTS ${PROJECT_SOURCE_DIR}/bsp/${NAME}/CMakeLists.txt)
     add_subdirectory(bsp/${NAME})
     return()
