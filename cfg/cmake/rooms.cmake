@@ -1,7 +1,7 @@
 # A room is a folder. Its .cpp files become one library; adding a file needs no change here.
 
 # lasso_precompile(KIND TARGET...): what the sources of a kind include most is parsed once for all of them; the first target keeps it.
-# make lint and make prove do without, so that each file still has to include what it uses.
+# make lint does without, so that each file still has to include what it uses.
 set(LASSO_PRECOMPILED_flight <Eigen/Core> <Eigen/Geometry>)
 set(LASSO_PRECOMPILED_flight_test <gtest/gtest.h> <Eigen/Core> <Eigen/Geometry> <cmath> <memory> <string> <vector>)
 set(LASSO_PRECOMPILED_ground <Eigen/Core> <Eigen/Geometry> <algorithm> <cmath> <filesystem> <functional> <fstream> <map> <memory> <optional>
@@ -119,6 +119,13 @@ endfunction()
 function(lasso_ground_room NAME)
   if(EXISTS ${PROJECT_SOURCE_DIR}/${NAME}/CMakeLists.txt)
     add_subdirectory(${NAME})
+  endif()
+endfunction()
+
+# lasso_no_test(PROGRAM...): no test runs these, so that a build with sanitizers goes without them (by name they are built there, too).
+function(lasso_no_test)
+  if(LASSO_SANITIZE)
+    set_target_properties(${ARGN} PROPERTIES EXCLUDE_FROM_ALL ON)
   endif()
 endfunction()
 
