@@ -8,7 +8,6 @@ PPC := $(LASSO_OUT)/ppc
 BENCH := $(LASSO_OUT)/build-bench
 CLANG := $(LASSO_OUT)/build-clang
 GOLDEN := $(LASSO_OUT)/build-golden
-PROVE := $(LASSO_OUT)/build-prove
 BOARD := $(LASSO_OUT)/board
 SECOND := $(LASSO_OUT)/board-cortexa9
 SANITIZE := $(LASSO_OUT)/build-sanitize
@@ -23,6 +22,8 @@ export JOBS ?= $(shell nproc)
 CROSS = -DCMAKE_TOOLCHAIN_FILE=$(abspath cfg/toolchains/ppc603e.cmake) -DLASSO_GROUND=OFF -DLASSO_BARE_KERNEL=$(abspath $(BOARD))/bare_kernel.elf
 # the flight images of the bare boards (docs/boards)
 BARE_BOARD = -DCMAKE_TOOLCHAIN_FILE=$(abspath cfg/toolchains/ppc603e-bare.cmake) -DLASSO_GROUND=OFF -DLASSO_TESTS=OFF
+# what flies on the first one, with the call graph beside each object for make prove: the same bits, and no compiler cache, which forgets the graphs
+FLIGHT_BOARD = $(BARE_BOARD) -DLASSO_CALL_GRAPH=ON -DCMAKE_CXX_COMPILER_LAUNCHER=
 SECOND_BOARD = -DCMAKE_TOOLCHAIN_FILE=$(abspath cfg/toolchains/cortexa9-bare.cmake) -DLASSO_GROUND=OFF -DLASSO_TESTS=OFF
 # the fixed-point build (docs/decisions/fixed-point.md), and that of the host
 FIXED = -DLASSO_NUMBER=fixed
@@ -155,6 +156,7 @@ search: ## find the target without any prior attitude from random views; CASE= (
 	$(call compile,$(BUILD),search)
 	@$(BUILD)/ft/search/search $(MISSION) $(or $(CASE),all) $(or $(STARTS),1000) $(or $(SEED),1) $(or $(SCANS),3) $(or $(SCALE),1)
 
+# Beside what ships (g++, -O3 and -O2) the other compiler, and no optimisation at all, once each; clang++ as it ships in fixed point is fixed-point's.
 golden: ## the same telemetry, bit for bit: g++ and clang++, optimised or not, threads or none, host and emulated PowerPC 603e
 	$(begin)
 	$(call packages,build target clang)
@@ -164,15 +166,13 @@ golden: ## the same telemetry, bit for bit: g++ and clang++, optimised or not, t
 	$(call compile,$(PPC),golden_replay)
 	$(call configure,$(GOLDEN)-g++-O0,$(call at_level,g++,O0))
 	$(call compile,$(GOLDEN)-g++-O0,golden_replay)
-	$(call configure,$(GOLDEN)-g++-O2,$(call at_level,g++,O2))
-	$(call compile,$(GOLDEN)-g++-O2,golden_replay)
-	$(call configure,$(GOLDEN)-clang++-O0,$(call at_level,clang++-19,O0))
-	$(call compile,$(GOLDEN)-clang++-O0,golden_replay)
 	$(call configure,$(GOLDEN)-clang++-O2,$(call at_level,clang++-19,O2))
 	$(call compile,$(GOLDEN)-clang++-O2,golden_replay)
-	@ft/golden/run $(BUILD) $(PPC) $(foreach build,g++-O0 g++-O2 clang++-O0 clang++-O2,$(build)=$(GOLDEN)-$(build))
+	@ft/golden/run $(BUILD) $(PPC) $(foreach build,g++-O0 clang++-O2,$(build)=$(GOLDEN)-$(build))
 
-fixed-point: ## the fixed-point build: no floating-point instruction per point, errors beside the floating build's, the same bits on the emulated 603e; out/fixed-point
+# The floating build's run is that of make accuracy, where no program or mission is newer.
+PAPER := $(LASSO_OUT)/accuracy/paper
+fixed-point: ## the fixed-point build: no floating-point instruction per point, every object listed by how often it runs, errors beside the floating build's, the same bits on the emulated 603e; out/fixed-point
 	$(begin)
 	$(call packages,build target clang)
 	$(call configure,$(BUILD),)
@@ -181,10 +181,14 @@ fixed-point: ## the fixed-point build: no floating-point instruction per point, 
 	$(call compile,$(CLANG),mdat golden_record golden_replay golden_compare)
 	$(call configure,$(PPC)-fixed,$(CROSS) $(FIXED))
 	$(call compile,$(PPC)-fixed,golden_replay)
-	@$(BUILD)/mdat/mdat run cfg/missions/hubble_tenth.toml --scenario paper --out $(LASSO_OUT)/fixed-point/floating
+	$(call configure,$(BOARD)-fixed,$(FLIGHT_BOARD) $(FIXED))
+	$(call compile,$(BOARD)-fixed,flight_603e)
+	@for folder in $(PPC)-fixed $(BOARD)-fixed; do ninja -C $$folder -t cleandead >/dev/null; done
+	@[ $(PAPER)/results.json -nt $(BUILD)/mdat/mdat ] && [ -z "$$(find cfg/missions cfg/models -newer $(PAPER)/results.json)" ] || \
+	  $(BUILD)/mdat/mdat run cfg/missions/hubble_tenth.toml --scenario paper --out $(PAPER)
 	@$(CLANG)/mdat/mdat run cfg/missions/hubble_tenth.toml --scenario paper --out $(LASSO_OUT)/fixed-point/paper
 	@LASSO_OUT=$(LASSO_OUT)/fixed-point ft/golden/run $(CLANG) $(PPC)-fixed
-	@cfg/quality/fixed-point $(LASSO_OUT)/fixed-point/floating/results.json $(LASSO_OUT)/fixed-point/paper/results.json $(PPC)-fixed
+	@cfg/quality/fixed-point cfg/quality/fixed-point.toml $(PAPER)/results.json $(LASSO_OUT)/fixed-point/paper/results.json $(PPC)-fixed $(BOARD)-fixed
 
 # $(replays) builds what flies on the host and is replayed on the emulated 603e.
 define replays
@@ -228,9 +232,9 @@ $(call configure,$(BUILD),)
 $(call compile,$(BUILD),pil_rig)
 $(call configure,$(CLANG),$(FIXED_HOST))
 $(call compile,$(CLANG),pil_rig)
-$(call configure,$(BOARD),$(BARE_BOARD))
+$(call configure,$(BOARD),$(FLIGHT_BOARD))
 $(call compile,$(BOARD),flight_603e planted_603e)
-$(call configure,$(BOARD)-fixed,$(BARE_BOARD) $(FIXED))
+$(call configure,$(BOARD)-fixed,$(FLIGHT_BOARD) $(FIXED))
 $(call compile,$(BOARD)-fixed,flight_603e)
 $(call configure,$(SECOND),$(SECOND_BOARD))
 $(call compile,$(SECOND),flight_cortexa9 planted_cortexa9)
@@ -257,7 +261,7 @@ define seu
 $(call packages,build target)
 $(call configure,$(BUILD),)
 $(call compile,$(BUILD),pil_seu)
-$(call configure,$(BOARD),$(BARE_BOARD))
+$(call configure,$(BOARD),$(FLIGHT_BOARD))
 $(call compile,$(BOARD),flight_603e layout_603e)
 @ft/pil/seu.py $(BUILD) $(BOARD) $(1) $(2) $(3)
 endef
@@ -270,24 +274,24 @@ seu-sample: ## eight of them, one in each region; out/seu-sample
 	@rm -rf $(LASSO_OUT)/seu-sample
 	$(call seu,8,2,seu-sample)
 
-# $(call proof,FOLDER[,CMAKE OPTIONS]) builds the flight image with its call graph.
+# $(call proof,FOLDER[,CMAKE OPTIONS]) builds the flight image with its call graph: the one that make pil flies.
 define proof
-$(call configure,$(1),$(BARE_BOARD) $(own_includes) -DLASSO_CALL_GRAPH=ON -DCMAKE_CXX_COMPILER_LAUNCHER= $(2))
+$(call configure,$(1),$(strip $(FLIGHT_BOARD) $(2)))
 $(call compile,$(1),flight_603e)
 $(call tidy,$(1),ci)
 endef
 prove: ## what the flight image's archives for the 603e do not do: heap, exceptions, recursion, contraction, too much stack or memory; out/prove, in fixed point out/fixed-point/prove
 	$(begin)
 	$(call packages,build target)
-	$(call proof,$(PROVE)-fixed,$(FIXED))
-	@echo "in fixed point"; LASSO_OUT=$(LASSO_OUT)/fixed-point cfg/quality/prove $(PROVE)-fixed
-	$(call proof,$(PROVE))
-	@cfg/quality/prove $(PROVE)
+	$(call proof,$(BOARD)-fixed,$(FIXED))
+	@echo "in fixed point"; LASSO_OUT=$(LASSO_OUT)/fixed-point cfg/quality/prove $(BOARD)-fixed
+	$(call proof,$(BOARD))
+	@cfg/quality/prove $(BOARD)
 
 ppc-test: ## unit tests of the flight component on the emulated PowerPC 603e, a part of them without an operating system too, those of the per-point path in fixed point, too; reports in out/ppc-test
 	$(begin)
 	$(call packages,build target)
-	$(if $(filter .,$(SOURCE)),$(call configure,$(BOARD),$(BARE_BOARD)))
+	$(if $(filter .,$(SOURCE)),$(call configure,$(BOARD),$(FLIGHT_BOARD)))
 	$(if $(filter .,$(SOURCE)),$(call compile,$(BOARD),bare_kernel))
 	$(call configure,$(PPC),$(CROSS))
 	$(call compile,$(PPC))

@@ -1,7 +1,7 @@
 # A room is a folder. Its .cpp files become one library; adding a file needs no change here.
 
 # lasso_precompile(KIND TARGET...): what the sources of a kind include most is parsed once for all of them; the first target keeps it.
-# make lint and make prove do without, so that each file still has to include what it uses.
+# make lint does without, so that each file still has to include what it uses.
 set(LASSO_PRECOMPILED_flight <Eigen/Core> <Eigen/Geometry>)
 set(LASSO_PRECOMPILED_flight_test <gtest/gtest.h> <Eigen/Core> <Eigen/Geometry> <cmath> <memory> <string> <vector>)
 set(LASSO_PRECOMPILED_ground <Eigen/Core> <Eigen/Geometry> <algorithm> <cmath> <filesystem> <functional> <fstream> <map> <memory> <optional>
@@ -73,11 +73,20 @@ function(lasso_sensor_driver NAME)
   set_property(GLOBAL APPEND PROPERTY LASSO_ROOMS hal_${NAME})
 endfunction()
 
+# Refuses a NAME that is no folder of bsp/; that of what bare boards share says itself that it is none.
+function(lasso_check_board NAME)
+  file(GLOB BOARDS RELATIVE ${PROJECT_SOURCE_DIR}/bsp ${PROJECT_SOURCE_DIR}/bsp/*)
+  list(FILTER BOARDS EXCLUDE REGEX "[.]")
+  if(NOT NAME IN_LIST BOARDS)
+    list(REMOVE_ITEM BOARDS bare)
+    list(JOIN BOARDS ", " THERE)
+    message(FATAL_ERROR "LASSO_BOARD=${NAME} is no board: name one of ${THERE} (docs/porting.md)")
+  endif()
+endfunction()
+
 # Board support bsp/NAME for the platform that is being built. A board with a CMakeLists.txt of its own says there how its image is made.
 function(lasso_board NAME)
-  if(NOT IS_DIRECTORY ${PROJECT_SOURCE_DIR}/bsp/${NAME})
-    message(FATAL_ERROR "LASSO_BOARD=${NAME}: no such folder in bsp: name one of its boards (docs/porting.md)")
-  endif()
+  lasso_check_board("${NAME}")
   if(EXISTS ${PROJECT_SOURCE_DIR}/bsp/${NAME}/CMakeLists.txt)
     add_subdirectory(bsp/${NAME})
     return()
@@ -110,6 +119,13 @@ endfunction()
 function(lasso_ground_room NAME)
   if(EXISTS ${PROJECT_SOURCE_DIR}/${NAME}/CMakeLists.txt)
     add_subdirectory(${NAME})
+  endif()
+endfunction()
+
+# lasso_no_test(PROGRAM...): no test runs these, so that a build with sanitizers goes without them (by name they are built there, too).
+function(lasso_no_test)
+  if(LASSO_SANITIZE)
+    set_target_properties(${ARGN} PROPERTIES EXCLUDE_FROM_ALL ON)
   endif()
 endfunction()
 

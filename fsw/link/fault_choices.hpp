@@ -25,7 +25,7 @@ inline constexpr Choice kFaultTexts[] = {
   {"image_lost", "the mission image in memory is corrupt and cannot be repaired", "load it again"},
   {"parameters_corrupt", "a copy of the parameters differed from its check sum; repaired from the other one", "none if it is rare: a flipped bit"},
   {"parameters_lost", "both copies of the parameters are corrupt; the mission image's hold", "set them again"},
-  {"code_corrupt", "the code in memory differs from its check sum", "reset the component"},
+  {"code_corrupt", "the code in memory differs from its check sum", "load the code anew from where the board boots; a reset alone takes its sums anew, and hides it"},
   {"link_silent", "no valid command came for longer than link.silence_max_s", "look at the link"},
   {"memory_high", "more than nine tenths of the telemetry queue were full at a boundary", "look at the link; raise its rate or ask for less"},
   {"watchdog_reset", "the component starts after its watchdog", "look at the events before the reset; then command standby"},

@@ -56,6 +56,16 @@ TEST(Approach, RunsThroughAllModesWithTwoSensorsAndRecoversFromAnEclipse) {
     EXPECT_TRUE(timeline.at("by_part").contains(part)) << part;
 }
 
+TEST(Approach, SaysInWordsThatNoPoseIsValid) {
+  VERIFIES("LASSO-GND-026~1");
+  const WorkFolder work;
+  const Answer answer = work.mdat("run " + kMission + " --scenario approach --frames 3 --out out");
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_NE(answer.out.find("no valid pose in 2 frames"), std::string::npos) << answer.out;
+  EXPECT_EQ(answer.out.find("rms 0.00 mm"), std::string::npos);
+  EXPECT_TRUE(Json::parse(work.read("out/results.json")).at("timeline").at("rms_mm").is_null());
+}
+
 // Twenty random attitudes, each start turned end for end.
 TEST(Approach, AStartHalfATurnOffIsNeverConfirmed) {
   VERIFIES("LASSO-MOD-182~1");

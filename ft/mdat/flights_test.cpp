@@ -64,5 +64,21 @@ TEST(FlightsReport, SaysNothingOfRatesThatHaveNotSettled) {
   EXPECT_EQ(report.find("settled rates"), std::string::npos);
 }
 
+// A start half a turn off is never on the target's pose: there is no error to tell, neither as nan nor as 0.
+TEST(FlightsReport, SaysInWordsThatEveryFrameIsLost) {
+  VERIFIES("LASSO-MDT-011~1");
+  const WorkFolder work;
+  work.write_mission();
+  const Answer answer = work.mdat("run missions/test.toml --scenario half_turn --frames 2 --out out");
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  expect_shown(answer.out, {"with noise               every frame lost       -      -       -    40/40", "X      mm          - /       -",
+                            "after 20 frames of each run, with noise: no run is so long"});
+  const std::string report = work.read("out/report.html");
+  expect_shown(report, {"<td>40</td><td>40</td><td>40</td><td>0</td><td>–</td><td>–</td>", "<td>– <small>±</small> –</td>"});
+  for (const std::string& text : {answer.out, report}) EXPECT_EQ(text.find("nan<"), std::string::npos);
+  EXPECT_EQ(answer.out.find("nan"), std::string::npos);
+  EXPECT_TRUE(Json::parse(work.read("out/results.json")).at("noisy").at("nees").is_null());
+}
+
 }  // namespace
 }  // namespace lasso::ft

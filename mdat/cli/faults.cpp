@@ -28,6 +28,8 @@ void print_page(std::ostream& out) {
   for (const Choice& reaction : kFaultReaction.choices) out << "- **" << reaction.name << "**: " << reaction.meaning << ".\n";
   out << "\n| fault | detected when | confirm | clear | reaction | what an operator can do |\n| --- | --- | --- | --- | --- | --- |\n";
   for (const FaultRow& row : fault_table()) print_row(out, row);
+  out << "\nA reset mends no code that a board does not load again: what `code_corrupt` needs on each board stands in\n"
+         "[porting](porting.md#what-a-reset-mends).\n";
 }
 
 }  // namespace

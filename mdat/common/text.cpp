@@ -1,5 +1,6 @@
 #include "mdat/common/text.hpp"
 
+#include <cmath>
 #include <cstdarg>
 #include <cstdio>
 
@@ -22,5 +23,7 @@ std::string decimals(double value, int count) {
   const bool zero = text.find_first_not_of("-0.") == std::string::npos;
   return zero && text[0] == '-' ? text.substr(1) : text;
 }
+
+std::string known(double value, int count, const char* unknown) { return std::isnan(value) ? unknown : decimals(value, count); }
 
 }  // namespace lasso::mdat

@@ -11,4 +11,7 @@ namespace lasso::mdat {
 // A number with this many decimals, never as -0.
 std::string decimals(double value, int count);
 
+// The same, or `unknown` of what is not a number: of no frame nothing is known.
+std::string known(double value, int count, const char* unknown);
+
 }  // namespace lasso::mdat

@@ -17,12 +17,10 @@ constexpr const char* kFlightColour = "#9fd3d8";  // of one among many; all toge
 constexpr const char* kAllColour = "#1b2a6b";
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-std::string known(double value, int digits) { return std::isfinite(value) ? decimals(value, digits) : std::string("–"); }
-
 std::vector<std::string> settled_row(const std::string& name, const SettledStatistics& run) {
   std::vector<std::string> row = {name, format("%zu", run.frames), format("%zu", run.lost), format("%zu", run.invalid)};
-  for (const double degps : {run.rms_degps, run.worst_degps}) row.push_back(known(run.frames > 0 ? degps : kNone, 3));
-  for (const double mmps : {run.rms_mmps, run.worst_mmps}) row.push_back(known(run.frames > 0 ? mmps : kNone, 2));
+  for (const double degps : {run.rms_degps, run.worst_degps}) row.push_back(known(run.frames > 0 ? degps : kNone, 3, "–"));
+  for (const double mmps : {run.rms_mmps, run.worst_mmps}) row.push_back(known(run.frames > 0 ? mmps : kNone, 2, "–"));
   return row;
 }
 

@@ -1,6 +1,7 @@
 #include "mdat/report/report.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "mdat/common/errors.hpp"
 #include "mdat/common/text.hpp"
@@ -17,7 +18,9 @@
 namespace lasso::mdat {
 namespace {
 
-std::string mean_std_cell(const MeanStd& value) { return decimals(value.mean, 4) + " <small>±</small> " + decimals(value.std, 4); }
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+std::string mean_std_cell(const MeanStd& value) { return known(value.mean, 4, "–") + " <small>±</small> " + known(value.std, 4, "–"); }
 
 // The paper's table 1 beside this run's: axes down, runs across.
 std::string accuracy_table(const TableResult& table, bool paper) {
@@ -38,13 +41,14 @@ std::string accuracy_table(const TableResult& table, bool paper) {
 std::vector<std::string> quality_row(const std::string& name, const RunStatistics& run, bool noise, bool bound) {
   std::vector<std::string> row = {name};
   for (const std::size_t count : {run.frames, run.lost, run.invalid, run.wrong}) row.push_back(format("%zu", count));
-  row.push_back(format("%.4f", run.registration.rms_mm));
-  row.push_back(format("%.5f", run.registration.rms_deg));
-  row.push_back(bound && noise ? format("%.3f", run.registration.rms_mm / run.crlb_mm) : "–");
-  row.push_back(bound && noise ? format("%.3f", run.registration.rms_deg / run.crlb_deg) : "–");
-  row.push_back(noise ? format("%.2f", run.nees) : "–");
-  row.push_back(format("%.4f", run.filtered.rms_mm));
-  row.push_back(format("%.5f", run.filtered.rms_deg));
+  const auto add = [&row](double value, int count) { row.push_back(known(value, count, "–")); };
+  add(run.registration.rms_mm, 4);
+  add(run.registration.rms_deg, 5);
+  add(bound && noise ? run.registration.rms_mm / run.crlb_mm : kNone, 3);
+  add(bound && noise ? run.registration.rms_deg / run.crlb_deg : kNone, 3);
+  add(noise ? run.nees : kNone, 2);
+  add(run.filtered.rms_mm, 4);
+  add(run.filtered.rms_deg, 5);
   for (const double time_us : {run.time.median_us, run.time.p99_us, run.time.max_us}) row.push_back(format("%.0f", time_us));
   return row;
 }

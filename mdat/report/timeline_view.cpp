@@ -80,6 +80,11 @@ std::string points_text(const Timeline& timeline) {
   return text;
 }
 
+// gnuplot draws nothing of no point.
+std::string empty_panel(const char* title) {
+  return format("set title '%s'\nset yrange [1:10]\nset label 1000 'no valid pose' at graph 0.5,0.5 center\nplot 0.1 notitle\n", title);
+}
+
 std::string error_panel(const std::string& points, const char* title, int column) {
   return format(
       "set title '%s'\nplot %s using 1:%d with points pt 7 ps 0.2 lc rgb '#8fb3ea' notitle, "
@@ -268,10 +273,12 @@ std::string timeline_figure(Plotter& plotter, const SimulationResult& result) {
   script += "set logscale y\nset format y '%g'\n" + place.next(kCurve) + range_panel(timeline, points);
   script += "set ytics autofreq\nset yrange [*:*]\n";
   script += place.next(kCurve);
-  script += error_panel(points, "error of valid poses, mm", 3);
+  const bool known = timeline_statistics(timeline).valid > 0;
+  const auto errors = [&](const char* title, int column) { return known ? error_panel(points, title, column) : empty_panel(title); };
+  script += errors("error of valid poses, mm", 3);
   script += place.next(kCurve);
   script += "set format x '%g'\nset xlabel 'time, s' textcolor '#46505f' offset 0,0.4\n";
-  return plotter.svg(1080, height, script + error_panel(points, "error of valid poses, deg", 4) + "unset multiplot\n");
+  return plotter.svg(1080, height, script + errors("error of valid poses, deg", 4) + "unset multiplot\n");
 }
 
 std::string timeline_section(Plotter& plotter, const sim::RayCaster& target, const SimulationResult& result) {

@@ -1,6 +1,7 @@
 #include "mdat/run/results.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "mdat/common/text.hpp"
@@ -75,7 +76,10 @@ Json variant_json(const VariantResult& variant, const Scenario& scenario) {
   return json;
 }
 
-std::string cell(const MeanStd& value) { return format("%8s /%8s", decimals(value.mean, 4).c_str(), decimals(value.std, 4).c_str()); }
+// A column of numbers, right-aligned; a dash of what nothing is known of.
+std::string column(double value, int width, int count) { return format("%*s", width, known(value, count, "-").c_str()); }
+
+std::string cell(const MeanStd& value) { return column(value.mean, 8, 4) + " /" + column(value.std, 8, 4); }
 
 // One column an axis table: the paper's first where it applies.
 std::string axes_table(const TableResult& table, bool paper) {
@@ -97,15 +101,17 @@ std::string ratio(double value, double bound) { return bound > 0 ? format("%6.2f
 
 std::string quality_line(const VariantResult& variant, ScenarioKind kind) {
   const RunStatistics& run = variant.all;
-  std::string text = format("  %-24s %7.4f %8.5f", variant.variant.title, run.registration.rms_mm, run.registration.rms_deg);
+  std::string text = format("  %-24s ", variant.variant.title);
+  const bool tracked = run.lost < run.frames;
+  text += tracked ? column(run.registration.rms_mm, 7, 4) + " " + column(run.registration.rms_deg, 8, 5) : std::string("every frame lost");
   if (kind == ScenarioKind::kPaper) {
     const bool noise = variant.variant.noise;
     text +=
         "  " + ratio(run.registration.rms_mm, noise ? run.crlb_mm : 0) + " " + ratio(run.registration.rms_deg, noise ? run.crlb_deg : 0);
   } else {
-    text += format("  %6.3f %6.1f", run.omega_rms_degps, run.v_rms_mmps);
+    text += "  " + column(run.omega_rms_degps, 6, 3) + " " + column(run.v_rms_mmps, 6, 1);
   }
-  text += variant.variant.noise ? format("  %6.2f", run.nees) : std::string("       -");
+  text += variant.variant.noise ? "  " + column(run.nees, 6, 2) : std::string("       -");
   text += format("  %4zu/%-5zu %5zu  %5zu", run.lost, run.frames, run.invalid, run.wrong);
   return text + format("  %7.0f %7.0f %7.0f\n", run.time.median_us, run.time.p99_us, run.time.max_us);
 }
@@ -204,6 +210,7 @@ std::string timeline_text(const SimulationResult& result, const Timeline& timeli
   }
   text += groups_text("by mode", by_mode(timeline)) + groups_text("by sensor", by_sensor(timeline, result.sensors)) +
           groups_text("by part", by_part(timeline, result.parts));
+  if (run.valid == 0) return text + format("\n  no valid pose in %zu frames\n\n", run.frames);
   text += format("\n  valid poses %zu, of these wrong %zu; rms %.2f mm, %.4f deg; worst %.1f mm, %.3f deg; NEES %.2f of 6\n\n", run.valid,
                  run.wrong, run.rms_mm, run.rms_deg, run.worst_mm, run.worst_deg, run.nees);
   return text;
@@ -211,14 +218,22 @@ std::string timeline_text(const SimulationResult& result, const Timeline& timeli
 
 const Timeline& timeline_of(const SimulationResult& result) { return result.tables.front().variants.front().cases.front().timeline; }
 
+std::string rates_text(const SettledStatistics& settled) {
+  return format("error of the rates rms %.3f deg/s, %.2f mm/s, worst %.3f, %.2f\n", settled.rms_degps, settled.rms_mmps,
+                settled.worst_degps, settled.worst_mmps);
+}
+
 std::string settled_text(const TableResult& table) {
   std::string text;
   for (const VariantResult& variant : table.variants) {
     const SettledStatistics& settled = variant.all.settled;
-    text += format(
-        "  after %zu frames of each run, %s: lost %zu/%zu, invalid %zu; error of the rates rms %.3f deg/s, %.2f mm/s, worst %.3f, %.2f\n",
-        kSettlingFrames, variant.variant.title, settled.lost, settled.frames, settled.invalid, settled.rms_degps, settled.rms_mmps,
-        settled.worst_degps, settled.worst_mmps);
+    text += format("  after %zu frames of each run, %s: ", kSettlingFrames, variant.variant.title);
+    if (settled.frames == 0) {
+      text += "no run is so long\n";
+      continue;
+    }
+    text += format("lost %zu/%zu, invalid %zu; ", settled.lost, settled.frames, settled.invalid);
+    text += std::isnan(settled.rms_degps) ? std::string("no frame is reported\n") : rates_text(settled);
   }
   return text;
 }

@@ -18,9 +18,8 @@ MeanStd mean_std_of(const Items& items, double scale, const Function& value) {
 }
 
 // Of nothing, nothing is known: not a number, null in results.json.
-double root_mean(double sum, std::size_t n) {
-  return n == 0 ? std::numeric_limits<double>::quiet_NaN() : std::sqrt(sum / static_cast<double>(n));
-}
+double mean(double sum, std::size_t n) { return n == 0 ? std::numeric_limits<double>::quiet_NaN() : sum / static_cast<double>(n); }
+double root_mean(double sum, std::size_t n) { return std::sqrt(mean(sum, n)); }
 
 double nearest_rank(const std::vector<double>& sorted, double share) {
   if (sorted.empty()) return 0;
@@ -145,12 +144,11 @@ RunStatistics run_statistics(const std::vector<FrameError>& frames) {
     registrations.push_back(frame.registration);
     sums.add(frame);
   }
-  const double n = static_cast<double>(std::max<std::size_t>(sums.tracked, 1));
   result.registration = error_statistics(registrations);
   result.filtered = error_statistics(filtered);
   result.crlb_mm = 1e3 * root_mean(sums.bound_m2, sums.bounded);
   result.crlb_deg = root_mean(sums.bound_rad2, sums.bounded) / kRadPerDeg;
-  result.nees = sums.nees / n;
+  result.nees = mean(sums.nees, sums.tracked);
   result.omega_rms_degps = root_mean(sums.omega2, sums.tracked) / kRadPerDeg;
   result.v_rms_mmps = 1e3 * root_mean(sums.v2, sums.tracked);
   result.time = time_statistics(std::move(times_us));

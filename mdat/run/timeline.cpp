@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "mdat/run/case.hpp"
 
@@ -38,6 +39,17 @@ struct ErrorSums {
   }
 };
 
+// Of no valid pose no error is known: not numbers, null in results.json.
+TimelineStatistics nothing_known(TimelineStatistics result) {
+  for (double TimelineStatistics::*error :
+       {&TimelineStatistics::rms_mm, &TimelineStatistics::rms_deg, &TimelineStatistics::worst_mm, &TimelineStatistics::worst_deg,
+        &TimelineStatistics::nees, &TimelineStatistics::filtered_rms_mm, &TimelineStatistics::filtered_rms_deg,
+        &TimelineStatistics::filtered_worst_mm, &TimelineStatistics::filtered_worst_deg}) {
+    result.*error = std::numeric_limits<double>::quiet_NaN();
+  }
+  return result;
+}
+
 using Predicate = std::function<bool(const TimelinePoint&)>;
 
 TimelineStatistics statistics_of(const Timeline& timeline, const Predicate& belongs) {
@@ -54,7 +66,8 @@ TimelineStatistics statistics_of(const Timeline& timeline, const Predicate& belo
     filtered.add(point.filtered);
     nees += point.nees;
   }
-  const double n = std::max<double>(1, static_cast<double>(result.valid));
+  if (result.valid == 0) return nothing_known(result);
+  const auto n = static_cast<double>(result.valid);
   result.rms_mm = std::sqrt(registration.mm2 / n);
   result.rms_deg = std::sqrt(registration.deg2 / n);
   result.worst_mm = registration.worst_mm;

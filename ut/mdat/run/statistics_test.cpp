@@ -182,6 +182,7 @@ TEST(Statistics, OnceSettledAllThatIsReportedCountsForTheRates) {
   EXPECT_NEAR(settled.worst_mmps, 4, 1e-12);
   EXPECT_TRUE(settled_frames({run.begin(), run.begin() + 5}).empty());
   EXPECT_TRUE(std::isnan(settled_statistics({}).rms_mmps)) << "of nothing, nothing is known";
+  EXPECT_TRUE(std::isnan(run_statistics({{}}).nees)) << "and 0 would be a claim";
 }
 
 }  // namespace

@@ -34,6 +34,19 @@ Timeline example() {
   return timeline;
 }
 
+TEST(Timeline, KnowsNoErrorOfNoValidPose) {
+  VERIFIES("LASSO-GND-026~1");
+  Timeline timeline;
+  timeline.points = {point(0, TrackingMode::kTracking, 0, 0, -1)};
+  const TimelineStatistics none = timeline_statistics(timeline);
+  EXPECT_EQ(none.frames, 1U);
+  EXPECT_EQ(none.valid, 0U);
+  for (const double error : {none.rms_mm, none.rms_deg, none.worst_mm, none.worst_deg, none.nees, none.filtered_rms_mm,
+                             none.filtered_rms_deg, none.filtered_worst_mm, none.filtered_worst_deg}) {
+    EXPECT_TRUE(std::isnan(error)) << "0 would be a claim";
+  }
+}
+
 TEST(Timeline, CountsValidPosesAndTheirErrors) {
   VERIFIES("LASSO-GND-026~1");
   const TimelineStatistics all = timeline_statistics(example());
