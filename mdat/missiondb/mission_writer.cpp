@@ -55,9 +55,6 @@ double initial_range(const Size& size) {
   return rounded(size.radius / std::sin(kFieldShare * half_field) * 1.01);
 }
 
-// What a wrong start, or a lost track, would otherwise leave to the ground.
-const Values kAutonomy{{"start.check", 1}, {"start.fifth", 5}, {"tracking.recover", 1}};
-
 // Lengths of the presets grow with the target; so does the noise, as a larger target is met with a sensor for larger ranges.
 Values sized_values(const Size& size) {
   Values values;
@@ -76,7 +73,8 @@ Values sized_values(const Size& size) {
     const ValueRow& row = *find_row(flight_rows(), key);
     value = std::clamp(rounded(value), row.minimum, row.maximum);
   }
-  values.insert(kAutonomy.begin(), kAutonomy.end());
+  values.insert(
+      {{"start.check", 1}, {"start.fifth", 5}, {"tracking.recover", 1}});  // or the ground would mend wrong starts and lost tracks
   values["tracking.initial.present"] = 1;
   values["tracking.initial.x_m"] = rounded(-size.center.x());
   values["tracking.initial.y_m"] = rounded(-size.center.y());
