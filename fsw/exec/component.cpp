@@ -173,6 +173,7 @@ void Component::follow(TrackStep& step) {
     ++counters_.odd_parts;
     events_.raise<EventId::kPartOdd>(step.parts.odd, step.parts.odd_sigmas);
   }
+  if (step.event == ModeEvent::kFallBack) step.after.filter = former_;
   const TrackingMode next = next_mode(track_.mode, step.event);
   if (next != track_.mode) note_change({track_.mode, step.event, next});
   seen_.add(Fault::kModeCorrupt, step.after.mode != next);
@@ -243,6 +244,7 @@ void Component::take(ModeEvent event) {
 
 void Component::try_start(StartWay way) {
   const TrackingMode before = track_.mode;
+  if (!track_.interrupts) former_ = track_.filter;
   const StartRefusal refusal = start_track(mission(), way, desk_.take(way), executive_.next_slot_us(), track_);
   if (refusal != StartRefusal::kNone) {
     refuse_start(way, refusal);

@@ -269,6 +269,7 @@ class Component {
   SensorChooser chooser_;
   SensorChoice sensor_;       // of the next scan
   TrackState track_;          // as of the last boundary
+  FilterState former_;        // of the track that the present start interrupted, where it did
   AimedRays aimed_;           // where its estimate would look next; empty when track or sensor are other ones now
   PartNumber part_ = kWhole;  // at which the next scan looks, by that estimate
   ScanInFlight acquired_;     // in this frame

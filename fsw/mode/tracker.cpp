@@ -112,7 +112,7 @@ bool leaves_search(const MissionParameters& p, const TrackState& state) {
 ModeEvent event_of(const MissionParameters& p, const TrackState& state, bool valid) {
   if (valid) return event_of_valid(p, state);
   if (state.held || state.missed <= frames_of(p, state.mode)) return ModeEvent::kPoseInvalid;
-  if (state.former.initialised) return ModeEvent::kFallBack;
+  if (state.interrupts) return ModeEvent::kFallBack;
   return p.recover > 0.5 || leaves_search(p, state) ? ModeEvent::kRecover : ModeEvent::kExhausted;
 }
 
@@ -149,12 +149,11 @@ Mat6 likely_covariance(const FilterState& predicted) {
   return share.asDiagonal() * predicted.covariance.topLeftCorner<6, 6>() * share.asDiagonal();
 }
 
-// The track that a start would interrupt; a further start, the one that the first interrupted.
-FilterState interrupted(const TrackState& state) {
-  if (state.mode == TrackingMode::kStarting) return state.former;
+// A track; a further start, the one that the first interrupted.
+bool would_interrupt(const TrackState& state) {
+  if (state.mode == TrackingMode::kStarting) return state.interrupts;
   const ModeProperties& mode = properties(state.mode);
-  const bool tracks = mode.scans && !mode.full_field && !mode.searches;
-  return tracks ? state.filter : FilterState{};
+  return mode.scans && !mode.full_field && !mode.searches && state.filter.initialised;
 }
 
 }  // namespace
@@ -162,10 +161,9 @@ FilterState interrupted(const TrackState& state) {
 void change_mode(ModeEvent event, TrackState& state) {
   const TrackingMode next = next_mode(state.mode, event);
   if (next == state.mode) return;
-  if (event == ModeEvent::kFallBack) state.filter = state.former;
   state.mode = next;
   state.check = StartCheck{};
-  state.former = FilterState{};
+  state.interrupts = false;
   if (next != TrackingMode::kCoasting) state.missed = 0;
   if (next == TrackingMode::kStarting) state.range_awaited = false;
   if (event == ModeEvent::kNear || event == ModeEvent::kFar) state.range_awaited = true;
@@ -186,11 +184,11 @@ void count_and_change(const MissionParameters& p, bool valid, TrackStep& step) {
 
 StartRefusal start_track(const Mission& mission, StartWay way, const StartOffer& offer, TimeUs t_us, TrackState& state) {
   if (!has_transition(state.mode, ModeEvent::kStart)) return StartRefusal::kNotFromHere;
-  const FilterState former = interrupted(state);
+  const bool interrupts = would_interrupt(state);
   const StartRefusal refusal = start_from(mission, offer, t_us, state.bearing, state.filter);
   if (refusal != StartRefusal::kNone) return refusal;
   change_mode(ModeEvent::kStart, state);
-  state.former = former;
+  state.interrupts = interrupts;
   state.missed = 0;
   state.check = StartCheck{};
   state.way = way;

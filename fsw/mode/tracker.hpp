@@ -36,7 +36,7 @@ struct TrackState {
   bool held = false;               // no mode ends because its frames are used up
   StartWay way = StartWay::kNone;  // by which the present track was started
   StartCheck check;                // of that start, in mode starting
-  FilterState former;              // of the track that this start interrupted; initialised where there is one
+  bool interrupts = false;         // a start: the track that it interrupted is kept by whoever keeps this state
   FilterState filter;
   BearingState bearing;
   std::uint32_t searches = 0;  // that were begun, those of checks too
@@ -59,12 +59,11 @@ struct TrackStep {
 
 // Takes the state along the table. What belongs to the mode that ends is forgotten: its count of frames; of a start, its check and the
 // track that it interrupted; for a bearing or a search, the filter; for a bearing, the bearing before; for parts, what was remembered of
-// them. kFallBack goes on with the interrupted track.
+// them. After kFallBack the filter is still that of the start that was given up.
 void change_mode(ModeEvent event, TrackState& state);
 
-// Takes up a track at t_us: kStarting. A track that is interrupted by it is kept, and looked for again (kFallBack) where no scan confirms
-// the start. Refused as start_from says, and kNotFromHere where the mode takes no start: `state` is then as it
-// was.
+// Takes up a track at t_us: kStarting. Where it interrupts a track, and no scan confirms it, the event is kFallBack. Refused as start_from
+// says, and kNotFromHere where the mode takes no start: `state` is then as it was.
 StartRefusal start_track(const Mission& mission, StartWay way, const StartOffer& offer, TimeUs t_us, TrackState& state);
 
 // One scan: predict, register, join to the filter, next mode. In a mode that confirms, a valid registration has to agree with the

@@ -203,6 +203,10 @@ void join_measurement(FilterState& state, const PoseMeasurement& measured, const
 
 }  // namespace
 
+FilterState::FilterState() = default;
+FilterState::FilterState(const FilterState& other) = default;
+FilterState& FilterState::operator=(const FilterState& other) = default;
+
 Status start_filter(FilterState& state, const FilterStart& from) {
   const Status pose_status = check_pose(from.T_sensor_target);
   if (pose_status != Status::kOk) return pose_status;

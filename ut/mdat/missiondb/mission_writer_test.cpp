@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fsw/mode/starts.hpp"
 #include "mdat/missiondb/mission_source.hpp"
 #include "mdat/missiondb/sha256.hpp"
 #include "mdat/missiondb/value_row.hpp"
@@ -43,7 +42,7 @@ TEST(MissionWriter, WritesAMissionThatLoadsWhateverTheTargetsSize) {
     EXPECT_EQ(source.parameters.initial_present, 1);
     EXPECT_EQ(source.scenarios.count("paper"), 1u);
     EXPECT_EQ(source.parameters.start_check, 1) << "a wrong start is not believed";
-    EXPECT_EQ(source.parameters.start_fifth, static_cast<double>(StartWay::kSearch)) << "and the target searched";
+    EXPECT_EQ(source.parameters.start_fifth, 5) << "and the target is searched, by the last way";
     EXPECT_EQ(source.parameters.recover, 1);
     EXPECT_EQ(parameters_for(source, "paper").start_check, 0);
     EXPECT_FALSE(std::filesystem::exists(file.string() + ".part"));
