@@ -173,13 +173,19 @@ void Component::follow(TrackStep& step) {
     ++counters_.odd_parts;
     events_.raise<EventId::kPartOdd>(step.parts.odd, step.parts.odd_sigmas);
   }
-  if (step.event == ModeEvent::kFallBack) step.after.filter = former_;
+  if (step.event == ModeEvent::kFallBack) take_up_former(step);
   const TrackingMode next = next_mode(track_.mode, step.event);
   if (next != track_.mode) note_change({track_.mode, step.event, next});
   seen_.add(Fault::kModeCorrupt, step.after.mode != next);
   watch_filter(step);
   step.after.mode = next;  // what is sent of this step tells the table's mode
   track_ = step.after;
+}
+
+// Its prediction is what is told of it. Where it is too old for one it stays as it was, and so it is told.
+void Component::take_up_former(TrackStep& step) {
+  static_cast<void>(predict_filter(former_, step.registration.t_us, filter_noise(mission().parameters)));
+  step.after.filter = former_;
 }
 
 // A start that ends without a track, by its frames or by a check; or the pose that a search found.

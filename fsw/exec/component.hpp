@@ -204,6 +204,7 @@ class Component {
   void doubt_track();
   void tell_faults(const FaultChanges& changes, TimeUs now_us);
   void leave_track();
+  void take_up_former(TrackStep& step);
   void refuse_in(const TrackStep& step);
   void refuse_start(StartWay way, StartRefusal refusal);
   void note_change(const ModeChange& change);

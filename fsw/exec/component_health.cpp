@@ -41,6 +41,8 @@ void Component::check_laser() {
 void Component::follow_jump(TimeUs now_us) {
   const DurationUs moved_us = executive_.follow_jump(now_us);
   track_.filter.t_us += moved_us;
+  track_.check = StartCheck{};  // its scan is of another time
+  former_.t_us += moved_us;
   track_.bearing.t_us += moved_us;
   before_trial_ = TrackState{};
   desk_ = StartDesk{};

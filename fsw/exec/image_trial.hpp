@@ -21,10 +21,13 @@ class ImageTrial {
     lost_ = false;
     under_way_ = true;
   }
-  // What a frame gave. Scans that were lost say nothing about the image, nor do those of which no pose is expected.
+  // What a frame gave. Scans that were lost say nothing about the image, nor do those of which no pose is expected, or whose pose
+  // waits for the check of a start, or is refused by it.
   void note(const Registration& registration, TrackingMode mode) {
     const ModeProperties& of_mode = properties(mode);
-    if (registration.reason == PoseReason::kNoScan || of_mode.full_field || of_mode.searches) return;
+    const PoseReason reason = registration.reason;
+    if (reason == PoseReason::kUnchecked || reason == PoseReason::kContradicted) return;
+    if (reason == PoseReason::kNoScan || of_mode.full_field || of_mode.searches) return;
     ++seen_;
     if (registration.valid()) ++valid_;
   }

@@ -73,7 +73,7 @@ inline constexpr TypedRow<P> kRows[] = {
   make_row<&P::t_bearing_us>(59, "t_bearing_us", "us", kAny, "time at which the bearing is stated"),
   make_row<&P::bearing>(60, "bearing", "rad,m", kAny, "azimuth (right), elevation (up), range of the centroid; their rates per second"),
   make_row<&P::bearing_sigma>(61, "bearing_sigma", "rad,m", kAtLeastZero, "their sigmas"),
-  make_row<&P::search_outcome>(62, "search_outcome", kSearchOutcome, "what the search says of the scans that it has joined; none unless in mode searching"),
+  make_row<&P::search_outcome>(62, "search_outcome", kSearchOutcome, "what the search says of the scans that it has joined; none unless in mode searching, or where a check of a start ends"),
   make_row<&P::search_reason>(63, "search_reason", kSearchReason, "why"),
   make_row<&P::search_scans>(64, "search_scans", "1", kAny, "scans that the search has joined"),
   make_row<&P::search_candidates>(65, "search_candidates", "1", Range{0, kTelemetryCandidates}, "poses that explain them, best first, which follow (at most 4)"),

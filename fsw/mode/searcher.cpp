@@ -32,15 +32,16 @@ StartOffer offer_of(const Mission& mission, const SearchResult& result) {
   return offer;
 }
 
-void Searcher::begin(const MissionParameters& p, std::uint32_t number) {
+void Searcher::begin(const MissionParameters& p, std::uint32_t number, bool checks) {
   number_ = number;
+  checks_ = checks;
   waiting_ = false;
   search_.begin(search_limits(p));
 }
 
 // A scan without returns is not taken; the next one may be.
 void Searcher::take(const Mission& mission, const RangeImage& scan, Workspace& workspace) {
-  if (search_.result().scans >= mission.parameters.search_scans_max) begin(mission.parameters, number_);
+  if (search_.result().scans >= mission.parameters.search_scans_max) begin(mission.parameters, number_, false);
   static_cast<void>(search_.add_scan(mission, scan, workspace));
   taken_us_ = scan.reference_time_us();
   waiting_ = false;
@@ -68,7 +69,7 @@ bool Searcher::offer(const Mission& mission, TrackStep& step) {
   TrackState& state = step.after;
   step.refusal = start_from(mission, offer_of(mission, search_.result()), step.registration.t_us, state.bearing, state.filter);
   if (step.refusal != StartRefusal::kNone) {
-    begin(mission.parameters, number_);
+    begin(mission.parameters, number_, false);
     return false;
   }
   state.way = StartWay::kSearch;
@@ -77,7 +78,7 @@ bool Searcher::offer(const Mission& mission, TrackStep& step) {
 
 void Searcher::work(const Mission& mission, const RangeImage* scan, Workspace& workspace, TrackStep& step) {
   const MissionParameters& p = mission.parameters;
-  if (number_ != step.after.searches) begin(p, step.after.searches);
+  if (checks_ || number_ != step.after.searches) begin(p, step.after.searches, false);
   const TimeUs now_us = step.registration.t_us;
   if (scan != nullptr && step.after.bearing.scans >= kAimedFrom) receive(mission, *scan, workspace);
   static_cast<void>(search_.advance(mission, workspace, static_cast<std::uint32_t>(p.search_slice)));
@@ -87,10 +88,9 @@ void Searcher::work(const Mission& mission, const RangeImage* scan, Workspace& w
   count_and_change(p, offered, step);
 }
 
-// Is the check's scan being worked on, or is it this one, and has returns?
+// False where it has no returns, or is another one: the check's own is gone.
 bool Searcher::takes_check(const Mission& mission, const RangeImage* scan, Workspace& workspace, const TrackState& state) {
-  if (number_ == state.searches && taken_us_ == state.check.t_us) return true;
-  begin(mission.parameters, state.searches);
+  begin(mission.parameters, state.searches, true);
   if (scan == nullptr || scan->reference_time_us() != state.check.t_us) return false;
   taken_us_ = state.check.t_us;
   return search_.add_scan(mission, *scan, workspace) == Status::kOk;
@@ -99,8 +99,9 @@ bool Searcher::takes_check(const Mission& mission, const RangeImage* scan, Works
 void Searcher::check(const Mission& mission, const RangeImage* scan, Workspace& workspace, TrackStep& step) {
   const MissionParameters& p = mission.parameters;
   StartCheck& check = step.after.check;
-  if (!takes_check(mission, scan, workspace, step.after)) {
-    check = StartCheck{};
+  const bool at_work = checks_ && number_ == step.after.searches && taken_us_ == check.t_us;
+  if (!at_work) {
+    if (!takes_check(mission, scan, workspace, step.after)) check = StartCheck{};
     return;
   }
   if (!search_.advance(mission, workspace, static_cast<std::uint32_t>(kCheckShare * p.search_slice))) return;

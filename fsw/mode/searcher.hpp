@@ -22,14 +22,14 @@ class Searcher {
   // turned by 5 deg waits for another scan, which shows its rate. It is offered again where the frame that said so came too late.
   void work(const Mission& mission, const RangeImage* scan, Workspace& workspace, TrackStep& step);
 
-  // One frame of a check (state.check of `step`, which track_scan or track_without_scan gave): the scan that the check is of is taken in
-  // the frame that says so, and half of search.slice is worked on it. In the end end_check is told whether the search contradicts the pose.
-  // A check whose scan is gone (its frame came too late) is forgotten: the next scan begins another.
+  // One frame of a check (state.check of `step`, which track_scan or track_without_scan gave). The frame that says so gives its scan; from
+  // the next one on half of search.slice is worked on it in each. In the end end_check is told whether the search contradicts the pose. A
+  // check whose scan is gone (its frame came too late) is forgotten: the next scan begins another.
   void check(const Mission& mission, const RangeImage* scan, Workspace& workspace, TrackStep& step);
 
  private:
   bool takes_check(const Mission& mission, const RangeImage* scan, Workspace& workspace, const TrackState& state);
-  void begin(const MissionParameters& parameters, std::uint32_t number);
+  void begin(const MissionParameters& parameters, std::uint32_t number, bool checks);
   void receive(const Mission& mission, const RangeImage& scan, Workspace& workspace);
   void keep(const RangeImage& scan);
   void take(const Mission& mission, const RangeImage& scan, Workspace& workspace);
@@ -44,6 +44,7 @@ class Searcher {
   bool waiting_ = false;
   TimeUs taken_us_ = 0;       // time of the last scan that was taken
   std::uint32_t number_ = 0;  // of the search, in TrackState::searches
+  bool checks_ = false;       // a start; such a search is none of mode searching's
 };
 
 }  // namespace lasso

@@ -40,11 +40,12 @@ bool far_from(const FilterState& filter, const Registration& registration, doubl
 double raised(double least, double by) { return least + by < 1 ? least + by : 1; }
 
 // A registration that is valid by itself: do its shares let this mode take it, and in a start the prediction?
-PoseReason confirm(const MissionParameters& p, const ModeProperties& mode, const FilterState& filter, const Registration& registration) {
+PoseReason confirm(const MissionParameters& p, const ModeProperties& mode, bool starts, const FilterState& filter,
+                   const Registration& registration) {
   if (!mode.takes_up) return PoseReason::kValid;
   if (!(registration.inlier_share >= raised(p.inlier_share_min, p.hysteresis))) return PoseReason::kLowInlierShare;
   if (!(registration.agreement >= raised(p.agreement_min, p.hysteresis))) return PoseReason::kLowAgreement;
-  if (!mode.confirms) return PoseReason::kValid;
+  if (!starts) return PoseReason::kValid;
   if (!(registration.inlier_share >= p.start_inlier_share_min)) return PoseReason::kLowInlierShare;
   return far_from(filter, registration, p.start_gate) ? PoseReason::kFarFromStart : PoseReason::kValid;
 }
@@ -202,11 +203,12 @@ TrackStep track_scan(const Mission& mission, Estimator& estimator, const RangeIm
   const MissionParameters& p = mission.parameters;
   const ModeProperties& mode = properties(before.mode);
   predict_or_hold(p, scan.reference_time_us(), filter);
-  const bool wide = (mode.wide_start || is_rough(mission, filter)) && p.wide_start > 0.5;
+  const bool starts = mode.confirms && before.check.stage == StartCheck::Stage::kNone;
+  const bool wide = ((mode.wide_start && starts) || is_rough(mission, filter)) && p.wide_start > 0.5;
   Registration& registration = step.registration;
   registration = estimator.estimate(mission, scan, StartPoint{filter.T_sensor_target, filter.rates, wide, false});
-  if (registration.valid()) registration.reason = confirm(p, mode, filter, registration);
-  const bool asks_twins = registration.valid() && mode.confirms && !is_checked(p, before);
+  if (registration.valid()) registration.reason = confirm(p, mode, starts, filter, registration);
+  const bool asks_twins = registration.valid() && starts;
   if (asks_twins && estimator.has_better_twin(mission, scan, registration)) registration.reason = PoseReason::kBetterTwin;
   take(p, mode, step);
   return step;
@@ -217,7 +219,7 @@ void end_check(const MissionParameters& p, bool contradicted, TrackStep& step) {
   Registration& registration = step.registration;
   state.check = StartCheck{};
   if (contradicted) {
-    registration.reason = PoseReason::kContradicted;
+    if (registration.reason == PoseReason::kUnchecked) registration.reason = PoseReason::kContradicted;
     step.refusal = StartRefusal::kContradicted;
     state.missed = UINT16_MAX;
     return count_and_change(p, false, step);

@@ -9,9 +9,10 @@ namespace {
 constexpr double kRatioFloor = 0.01;
 constexpr double kAlone = 1.5;  // times the ratio asked for: the score alone tells
 constexpr double kAloneInDoubt = 3;
-constexpr double kAgrees = 1.2;  // ratio of costs that are not alike
-constexpr double kFair = 1.5;    // cost of what is explained, where something else is not
-constexpr double kEven = 0.02;   // disagreement below which nothing is off but by the noise, or by the target's motion
+constexpr double kSureRatio = 1.15;  // of a pose to an accepted one: what explains the scan as well is no worse for not having been found
+constexpr double kAgrees = 1.2;      // ratio of costs that are not alike
+constexpr double kFair = 1.5;        // cost of what is explained, where something else is not
+constexpr double kEven = 0.02;       // disagreement below which nothing is off but by the noise, or by the target's motion
 
 // A part of the target may be off, but what looks a little like the target is something else.
 bool seems_else(const Rival& rival) {
@@ -146,15 +147,14 @@ bool Search::stands_alone() const {
 }
 
 bool Search::contradicts(const Mission& mission, const Pose& T_sensor_target) const {
-  const bool accepted = result_.outcome == SearchOutcome::kAccepted;
-  if (!accepted && result_.outcome != SearchOutcome::kAmbiguous) return false;
+  if (result_.outcome == SearchOutcome::kNone) return false;
   const Track& best = tracks_[0];
   const Pose T_target_sensor = inverse(T_sensor_target);
   const Quat& found = best.T_target_sensor[last()].q;
   if (!are_apart(T_target_sensor.q, found, kCosHalfSame)) return false;
   const Fit fit = measure_fit(mission, T_target_sensor, evidence_[last()], kAnyScore);
-  const bool sure = accepted && are_apart(T_target_sensor.q, found, kCosHalfDistinct);
-  return ratio_of(fit.score(), best.fits[last()].score()) >= (sure ? 1 : limits_.ratio_min);
+  const bool sure = result_.outcome == SearchOutcome::kAccepted && are_apart(T_target_sensor.q, found, kCosHalfDistinct);
+  return ratio_of(fit.score(), best.fits[last()].score()) >= (sure ? kSureRatio : limits_.ratio_min);
 }
 
 void Search::judge(bool registered) {

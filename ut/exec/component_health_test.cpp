@@ -286,6 +286,33 @@ TEST(ComponentHealth, AClockThatJumpsIsFollowedAndTheTargetLookedForAgain) {
   }
 }
 
+// The track that a wrong offer interrupts is of the old clock's time, too.
+TEST(ComponentHealth, AClockThatJumpsIsFollowedByAnInterruptedTrack) {
+  VERIFIES("LASSO-HLT-006~1 LASSO-MOD-185~1");
+  constexpr DurationUs kJump_us = 100'000'000;
+  MissionParameters p = test::box_parameters(test::default_scene());
+  p.recover = 1;
+  p.start_frames = 6;
+  ComponentScene scene(p);
+  scene.begin();
+  Story story;
+  story.run(scene, 8);
+  Pose wrong = test::default_scene().pose_at(8 * 200000);
+  wrong.p.y() += 1;
+  StartOffer offer = rough_offer(p, wrong, Twist{}, 8 * 200000);
+  offer.covariance = 1e-4 * Mat6::Identity();
+  ASSERT_EQ(scene.component->offer_start(StartWay::kHandover, offer), StartRefusal::kNone);
+  story.run(scene, 2);
+  scene.sensor.scene_ahead_us = -kJump_us;
+  run_shifted(scene, story, kJump_us, 12);
+  ASSERT_EQ(story.last().mode, code(M::kTracking));
+  EXPECT_EQ(story.changes[story.changes.size() - 2].event, E::kFallBack);
+  const Pose told{Quat(story.last().q_sensor_target[3], story.last().q_sensor_target[0], story.last().q_sensor_target[1],
+                       story.last().q_sensor_target[2]),
+                  Vec3(story.last().p_sensor_target_m[0], story.last().p_sensor_target_m[1], story.last().p_sensor_target_m[2])};
+  EXPECT_LT(pose_difference(told, test::default_scene().pose_at(story.last().t_measurement_us - kJump_us)).norm(), 1e-2);
+}
+
 TEST(ComponentHealth, AJumpStartsNothingWhereNothingIsTracked) {
   VERIFIES("LASSO-HLT-006~1");
   for (const M mode : {M::kStandby, M::kBearing}) {

@@ -1,3 +1,4 @@
+#include "fsw/exec/image_trial.hpp"
 #include "ut/exec/memory_scene.hpp"
 
 namespace lasso {
@@ -82,6 +83,21 @@ TEST_F(ComponentMemory, TheImageBeforeIsActiveAgainByCommand) {
   scene_->restart();  // it is what the next start begins with
   ASSERT_EQ(component().load_stored_image().status, Status::kOk);
   EXPECT_EQ(component().mission().image_crc, crc_of(first_image()));
+}
+
+TEST(ImageTrial, AStartThatIsCheckedSaysNothingOfTheImage) {
+  VERIFIES("LASSO-MOD-184~1");
+  ImageTrial trial;
+  trial.begin(2, 1);
+  Registration registration;
+  for (const PoseReason reason : {PoseReason::kUnchecked, PoseReason::kUnchecked, PoseReason::kContradicted}) {
+    registration.reason = reason;
+    trial.note(registration, TrackingMode::kStarting);
+    EXPECT_EQ(trial.verdict(), TrialVerdict::kOpen);
+  }
+  registration.reason = PoseReason::kValid;
+  trial.note(registration, TrackingMode::kStarting);
+  EXPECT_EQ(trial.verdict(), TrialVerdict::kPassed);
 }
 
 // By itself, within the scans of the trial; the track is that of before.

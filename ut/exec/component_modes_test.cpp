@@ -72,7 +72,7 @@ TEST(ComponentModes, NavigationIsTakenWhereAStartIsAwaited) {
 }
 
 TEST(ComponentModes, AWrongHandOverIsRefusedAndTheNextWayIsTried) {
-  VERIFIES("LASSO-MOD-131~1 LASSO-MOD-132~1 LASSO-MOD-133~2 LASSO-MOD-137~1");
+  VERIFIES("LASSO-MOD-131~1 LASSO-MOD-132~1 LASSO-MOD-133~3 LASSO-MOD-137~1");
   for (const bool recover : {true, false}) {
     MissionParameters p = story_parameters();
     p.recover = recover ? 1 : 0;
@@ -271,7 +271,7 @@ TEST(ComponentModes, WrongOffersAreRefusedCountedAndTold) {
 }
 
 TEST(ComponentModes, WhatHasGrownOldIsRefusedWhenItsTurnComes) {
-  VERIFIES("LASSO-MOD-133~2 LASSO-MOD-134~2");
+  VERIFIES("LASSO-MOD-133~3 LASSO-MOD-134~2");
   MissionParameters p = story_parameters();
   p.start_age_max_s = 1;
   ComponentScene scene(p);
@@ -289,7 +289,7 @@ TEST(ComponentModes, WhatHasGrownOldIsRefusedWhenItsTurnComes) {
 }
 
 TEST(ComponentModes, AMissionsOwnStartIsRefusedByItsReasonAndTheNextWayIsTried) {
-  VERIFIES("LASSO-MOD-133~2 LASSO-MOD-134~2 LASSO-MOD-137~1");
+  VERIFIES("LASSO-MOD-133~3 LASSO-MOD-134~2 LASSO-MOD-137~1");
   MissionParameters behind = test::box_parameters(test::default_scene());
   behind.initial_z_m = -2.5;
   MissionParameters out_of_reach = test::box_parameters(test::default_scene());

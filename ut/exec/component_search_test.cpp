@@ -42,7 +42,7 @@ TEST(ComponentSearch, TheTargetIsFoundWithoutAnyPriorAndTracked) {
 }
 
 TEST(ComponentSearch, AMissionsOwnStartThatCannotBeRightGivesPlaceToTheSearch) {
-  VERIFIES("LASSO-MOD-133~2 LASSO-MOD-134~2");
+  VERIFIES("LASSO-MOD-133~3 LASSO-MOD-134~2");
   MissionParameters p = search_parameters();
   p.initial_present = 1;
   p.initial_z_m = 5000;
@@ -60,7 +60,7 @@ TEST(ComponentSearch, AMissionsOwnStartThatCannotBeRightGivesPlaceToTheSearch) {
 
 // Without recovery, too: a hand-over that no scan confirms leaves the search, whose turn comes in bearing.
 TEST(ComponentSearch, AWrongHandOverGivesPlaceToTheSearch) {
-  VERIFIES("LASSO-MOD-133~2 LASSO-MOD-137~1");
+  VERIFIES("LASSO-MOD-133~3 LASSO-MOD-137~1");
   MissionParameters p = search_parameters();
   p.recover = 0;
   p.start_frames = 2;
@@ -86,9 +86,10 @@ TEST(ComponentSearch, AWrongHandOverGivesPlaceToTheSearch) {
 
 // A start end for end that a scan would confirm: a search of this scan says otherwise, and the search's turn comes.
 TEST(ComponentSearch, AStartThatASearchOfItsScanContradictsIsNeverTracked) {
-  VERIFIES("LASSO-MOD-184~1 LASSO-MOD-133~2 LASSO-MOD-137~1");
+  VERIFIES("LASSO-MOD-184~1 LASSO-MOD-133~3 LASSO-MOD-137~1");
   MissionParameters p = search_parameters();
   p.start_check = 1;
+  p.start_twin_margin = 1000;
   p.start_inlier_share_min = p.inlier_share_min = p.agreement_min = 0;
   p.normalized_residual_max = 1000;
   ComponentScene scene(p, test::uneven_scene());
@@ -97,7 +98,7 @@ TEST(ComponentSearch, AStartThatASearchOfItsScanContradictsIsNeverTracked) {
   wrong.q = wrong.q * exp_so3(Vec3(kPi, 0, 0));
   ASSERT_EQ(scene.component->offer_start(StartWay::kHandover, rough_offer(p, wrong, {}, 0)), StartRefusal::kNone);
   Story story;
-  story.run(scene, 26);
+  story.run(scene, 28);
   story.expect({{M::kStandby, E::kStart, M::kStarting},
                 {M::kStarting, E::kRecover, M::kBearing},
                 {M::kBearing, E::kSearch, M::kSearching},
@@ -128,7 +129,7 @@ TEST(ComponentSearch, ARightStartIsToldAsUncheckedAndThenTracked) {
 
 // A mode that awaits a start and scans nothing is left for the bearing, if that is what the next way needs; otherwise it stays.
 TEST(ComponentSearch, AStartThatIsRefusedInLostGivesPlaceToTheSearch) {
-  VERIFIES("LASSO-MOD-133~2");
+  VERIFIES("LASSO-MOD-133~3");
   for (const bool ordered : {true, false}) {
     MissionParameters p = search_parameters();
     p.recover = 0;

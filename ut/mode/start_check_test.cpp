@@ -78,12 +78,35 @@ TEST_F(StartCheckTest, AWrongStartThatItsScanConfirmsIsContradicted) {
   VERIFIES("LASSO-MOD-184~1 LASSO-MOD-182~1 LASSO-MOD-134~2");
   const Vec3 axis = deceptive_axis();
   start_turned(axis);
-  const TrackStep step = frame(1);
+  EXPECT_EQ(frame(1).registration.reason, PoseReason::kUnchecked);
+  const TrackStep step = frame(2);
   EXPECT_EQ(step.registration.reason, PoseReason::kContradicted);
   EXPECT_EQ(step.refusal, StartRefusal::kContradicted);
   EXPECT_EQ(step.event, ModeEvent::kExhausted);
   EXPECT_EQ(step.after.mode, TrackingMode::kLost) << "without waiting for start.frames";
   EXPECT_EQ(step.after.check.stage, Stage::kNone);
+}
+
+// A search that is rejected tells all the same what explains the scan far better.
+TEST_F(StartCheckTest, AWrongStartIsContradictedByASearchThatIsRejected) {
+  VERIFIES("LASSO-MOD-184~1");
+  const Vec3 axis = deceptive_axis();
+  mission_.parameters.search_hits_min = 1e6;
+  start_turned(axis);
+  frame(1);
+  const TrackStep step = frame(2);
+  EXPECT_EQ(step.search.outcome, SearchOutcome::kRejected);
+  EXPECT_EQ(step.registration.reason, PoseReason::kContradicted);
+}
+
+// Near-symmetries are asked as of any other start.
+TEST_F(StartCheckTest, AStartWhoseTwinIsBetterIsNotEvenChecked) {
+  VERIFIES("LASSO-MOD-183~1");
+  const Vec3 axis = deceptive_axis();
+  mission_.parameters.start_twin_margin = 0;
+  start_turned(axis);
+  EXPECT_EQ(frame(1).registration.reason, PoseReason::kBetterTwin);
+  EXPECT_EQ(state_.check.stage, Stage::kNone);
 }
 
 TEST_F(StartCheckTest, AHeldStartThatIsContradictedIsNotBelievedEither) {
@@ -109,7 +132,8 @@ TEST_F(StartCheckTest, AStartIsBelievedWhoseCompetitorsExplainTheScanAsWell) {
   half_turn.q = exp_so3(kPi * Vec3::UnitY());
   half_turn.p = scene_.box.center - rotate(half_turn.q, scene_.box.center);
   ASSERT_EQ(start_at(scene_.at_zero * half_turn, Twist{}, 0, 0), StartRefusal::kNone);
-  EXPECT_EQ(frame(0).after.mode, TrackingMode::kTracking);
+  frame(0);
+  EXPECT_EQ(frame(1).after.mode, TrackingMode::kTracking);
 }
 
 TEST_F(StartCheckTest, WhatWasSearchedOrIsFoundNearItsPredictionIsNotChecked) {
@@ -158,10 +182,24 @@ TEST_F(StartCheckTest, ACheckWhoseFrameWasDroppedBeginsAnew) {
   const TrackState before = state_;
   EXPECT_EQ(frame(2).after.check.stage, Stage::kNone) << "another search was begun, of which this is not the scan";
   mission_.parameters.search_slice = 2e7;
-  EXPECT_EQ(frame(3).after.mode, TrackingMode::kTracking);
+  EXPECT_EQ(frame(3).registration.reason, PoseReason::kUnchecked);
+  EXPECT_EQ(frame(4).after.mode, TrackingMode::kTracking);
   state_ = before;
   ++state_.searches;
   EXPECT_EQ(frame(2, true).after.check.stage, Stage::kNone);
+}
+
+// The check of a frame that was dropped has the number that the next search gets.
+TEST_F(StartCheckTest, ASearchDoesNotGoOnWithACheck) {
+  VERIFIES("LASSO-MOD-184~1 LASSO-MOD-111~1");
+  start(small_error());
+  ASSERT_EQ(try_frame(0).after.searches, 1u);
+  change_mode(ModeEvent::kSearch, state_);
+  ASSERT_EQ(state_.searches, 1u);
+  TrackStep step;
+  step.after = state_;
+  searcher_->work(mission_, nullptr, *workspace_, step);
+  EXPECT_EQ(step.search.work, 0u);
 }
 
 TEST_F(StartCheckTest, AnotherStartBeginsItsOwnCheck) {

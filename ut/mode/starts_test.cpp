@@ -154,7 +154,7 @@ TEST_F(StartsTest, WhatIsNotAtTheBearingIsRefused) {
 }
 
 TEST_F(StartsTest, TheDeskFollowsTheMissionsOrder) {
-  VERIFIES("LASSO-MOD-131~1 LASSO-MOD-133~2");
+  VERIFIES("LASSO-MOD-131~1 LASSO-MOD-133~3");
   StartDesk desk;
   MissionParameters& p = mission_.parameters;
   EXPECT_EQ(desk.next(p, false), StartWay::kNone);
@@ -175,7 +175,7 @@ TEST_F(StartsTest, TheDeskFollowsTheMissionsOrder) {
 }
 
 TEST_F(StartsTest, SearchHasItsTurnWhereItIsPossibleAndAgainWhenAllElseIsTried) {
-  VERIFIES("LASSO-MOD-131~1 LASSO-MOD-133~2");
+  VERIFIES("LASSO-MOD-131~1 LASSO-MOD-133~3");
   StartDesk desk;
   MissionParameters& p = mission_.parameters;
   p.start_first = static_cast<double>(StartWay::kSearch);
@@ -191,7 +191,7 @@ TEST_F(StartsTest, SearchHasItsTurnWhereItIsPossibleAndAgainWhenAllElseIsTried) 
 }
 
 TEST_F(StartsTest, TheOrderNamesItsWays) {
-  VERIFIES("LASSO-MOD-133~2");
+  VERIFIES("LASSO-MOD-133~3");
   MissionParameters& p = mission_.parameters;
   p.start_first = static_cast<double>(StartWay::kSearch);
   p.start_fifth = static_cast<double>(StartWay::kUplink);

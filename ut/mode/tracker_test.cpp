@@ -195,7 +195,7 @@ TEST_F(TrackerTest, LooksNearThePredictionThenForTheBearing) {
 
 // Of a mission that asks for no recovery: which event ends a start that no scan confirms.
 TEST_F(TrackerTest, AStartThatIsNotConfirmedLeavesASearchThatIsInTheOrder) {
-  VERIFIES("LASSO-MOD-133~2");
+  VERIFIES("LASSO-MOD-133~3");
   for (const bool ordered : {true, false}) {
     for (const StartWay way : {StartWay::kUplink, StartWay::kSearch}) {
       MissionParameters p = test::box_parameters(scene_);

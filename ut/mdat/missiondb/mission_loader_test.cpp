@@ -175,7 +175,7 @@ TEST_F(Missions, ContradictionsAreRefused) {
 }
 
 TEST_F(Missions, WaysToStartAreTriedOnceEach) {
-  VERIFIES("LASSO-GND-001~1 LASSO-MOD-133~2");
+  VERIFIES("LASSO-GND-001~1 LASSO-MOD-133~3");
   expect_error(kHead + "[start]\nthird = 'handover'\n", "expected another way than that of start.second, or none");
   EXPECT_EQ(load(kHead + "[start]\nsecond = 'none'\nthird = 'none'\n").parameters.start_third, 0);
 }
