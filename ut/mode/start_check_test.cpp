@@ -87,6 +87,17 @@ TEST_F(StartCheckTest, AWrongStartThatItsScanConfirmsIsContradicted) {
   EXPECT_EQ(step.after.check.stage, Stage::kNone);
 }
 
+TEST_F(StartCheckTest, AVerdictInAFrameWhoseScanIsLostRefusesTheStartAndTellsOfTheScan) {
+  VERIFIES("LASSO-MOD-184~1");
+  const Vec3 axis = deceptive_axis();
+  start_turned(axis);
+  frame(1);
+  const TrackStep step = frame(2, true);
+  EXPECT_EQ(step.registration.reason, PoseReason::kNoScan);
+  EXPECT_EQ(step.refusal, StartRefusal::kContradicted);
+  EXPECT_EQ(step.after.mode, TrackingMode::kLost);
+}
+
 // A search that is rejected tells all the same what explains the scan far better.
 TEST_F(StartCheckTest, AWrongStartIsContradictedByASearchThatIsRejected) {
   VERIFIES("LASSO-MOD-184~1");
