@@ -156,7 +156,6 @@ search: ## find the target without any prior attitude from random views; CASE= (
 	$(call compile,$(BUILD),search)
 	@$(BUILD)/ft/search/search $(MISSION) $(or $(CASE),all) $(or $(STARTS),1000) $(or $(SEED),1) $(or $(SCANS),3) $(or $(SCALE),1)
 
-# Beside what ships (g++, -O3 and -O2) the other compiler, and no optimisation at all, once each; clang++ as it ships in fixed point is fixed-point's.
 golden: ## the same telemetry, bit for bit: g++ and clang++, optimised or not, threads or none, host and emulated PowerPC 603e
 	$(begin)
 	$(call packages,build target clang)
@@ -166,9 +165,13 @@ golden: ## the same telemetry, bit for bit: g++ and clang++, optimised or not, t
 	$(call compile,$(PPC),golden_replay)
 	$(call configure,$(GOLDEN)-g++-O0,$(call at_level,g++,O0))
 	$(call compile,$(GOLDEN)-g++-O0,golden_replay)
+	$(call configure,$(GOLDEN)-g++-O2,$(call at_level,g++,O2))
+	$(call compile,$(GOLDEN)-g++-O2,golden_replay)
+	$(call configure,$(GOLDEN)-clang++-O0,$(call at_level,clang++-19,O0))
+	$(call compile,$(GOLDEN)-clang++-O0,golden_replay)
 	$(call configure,$(GOLDEN)-clang++-O2,$(call at_level,clang++-19,O2))
 	$(call compile,$(GOLDEN)-clang++-O2,golden_replay)
-	@ft/golden/run $(BUILD) $(PPC) $(foreach build,g++-O0 clang++-O2,$(build)=$(GOLDEN)-$(build))
+	@ft/golden/run $(BUILD) $(PPC) $(foreach build,g++-O0 g++-O2 clang++-O0 clang++-O2,$(build)=$(GOLDEN)-$(build))
 
 # The floating build's run is that of make accuracy, where no program or mission is newer.
 PAPER := $(LASSO_OUT)/accuracy/paper
