@@ -1,4 +1,5 @@
-// The mode searching: the pose of a target whose bearing is known is looked for at any attitude, some work a frame.
+// The mode searching: the pose of a target whose bearing is known is looked for at any attitude, some work a frame. And the check of a
+// start: the same search of the scan that would confirm it.
 #pragma once
 
 #include "fsw/mode/tracker.hpp"

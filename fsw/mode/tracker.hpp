@@ -22,7 +22,7 @@
 namespace lasso {
 
 // Of a start that a scan has confirmed (start.check): is there another pose, that explains this scan better? The track is followed
-// meanwhile.
+// meanwhile. kPassed: there is none, and the next valid pose is believed.
 struct StartCheck {
   enum class Stage : std::uint8_t { kNone, kSearching, kPassed };
   Stage stage = Stage::kNone;
@@ -51,7 +51,7 @@ struct TrackStep {
   TrackState after;
   Registration registration;
   Bearing bearing;                             // of a full-field scan, or one around the bearing
-  SearchResult search;                         // of the scans that it has joined so far; in mode searching
+  SearchResult search;                         // of the scans that it has joined so far; in mode searching, and where a check ends
   StartRefusal refusal = StartRefusal::kNone;  // of the pose that the search accepted; kContradicted: of the present start
   PartsReport parts;                           // of a scan of a part
   ModeEvent event = ModeEvent::kStart;         // of the scan; says nothing of a frame without one

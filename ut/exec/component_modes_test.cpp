@@ -29,6 +29,13 @@ Vec6 wrong() {
   return off;
 }
 
+// And sure of itself.
+StartOffer wrong_offer(const ComponentScene& scene, TimeUs t_us) {
+  StartOffer offer = offer_at(scene, t_us, wrong());
+  offer.covariance = 1e-4 * Mat6::Identity();
+  return offer;
+}
+
 TEST(ComponentModes, ABearingIsSoughtOverTheWholeField) {
   VERIFIES("LASSO-MOD-101~1 LASSO-MOD-136~3 LASSO-MOD-137~1");
   ComponentScene scene(story_parameters());
@@ -79,9 +86,7 @@ TEST(ComponentModes, AWrongHandOverIsRefusedAndTheNextWayIsTried) {
     ComponentScene scene(p);
     scene.begin();
     ASSERT_EQ(scene.component->offer_start(StartWay::kNavigation, offer_at(scene, 0)), StartRefusal::kNone);
-    StartOffer off = offer_at(scene, 0, wrong());
-    off.covariance = 1e-4 * Mat6::Identity();  // and sure of itself
-    ASSERT_EQ(scene.component->offer_start(StartWay::kHandover, off), StartRefusal::kNone);
+    ASSERT_EQ(scene.component->offer_start(StartWay::kHandover, wrong_offer(scene, 0)), StartRefusal::kNone);
     Story story;
     story.run(scene, 12);
     const M given_up = recover ? M::kBearing : M::kLost;
@@ -107,9 +112,7 @@ TEST(ComponentModes, AWrongOfferCostsNoTrack) {
   Story story;
   story.run(scene, 8);
   for (const int frame : {8, 10}) {  // the second one before the first is given up
-    StartOffer off = offer_at(scene, frame * 200000, wrong());
-    off.covariance = 1e-4 * Mat6::Identity();
-    ASSERT_EQ(scene.component->offer_start(StartWay::kHandover, off), StartRefusal::kNone);
+    ASSERT_EQ(scene.component->offer_start(StartWay::kHandover, wrong_offer(scene, frame * 200000)), StartRefusal::kNone);
     story.run(scene, 2);
   }
   story.run(scene, 10);

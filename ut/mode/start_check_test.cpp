@@ -48,6 +48,13 @@ class StartCheckTest : public MastTest {
     return Vec3::UnitX();
   }
 
+  // The frame in which the search of such a start's scan ends.
+  TrackStep verdict_on_deceptive_start(bool lost = false) {
+    start_turned(deceptive_axis());
+    EXPECT_EQ(frame(1).registration.reason, PoseReason::kUnchecked);
+    return frame(2, lost);
+  }
+
   std::unique_ptr<Workspace> workspace_ = std::make_unique<Workspace>();
   std::unique_ptr<Searcher> searcher_ = std::make_unique<Searcher>();
 };
@@ -76,10 +83,7 @@ TEST_F(StartCheckTest, ARightStartIsBelievedOnceTheSearchHasFoundNothingElse) {
 
 TEST_F(StartCheckTest, AWrongStartThatItsScanConfirmsIsContradicted) {
   VERIFIES("LASSO-MOD-184~1 LASSO-MOD-182~1 LASSO-MOD-134~2");
-  const Vec3 axis = deceptive_axis();
-  start_turned(axis);
-  EXPECT_EQ(frame(1).registration.reason, PoseReason::kUnchecked);
-  const TrackStep step = frame(2);
+  const TrackStep step = verdict_on_deceptive_start();
   EXPECT_EQ(step.registration.reason, PoseReason::kContradicted);
   EXPECT_EQ(step.refusal, StartRefusal::kContradicted);
   EXPECT_EQ(step.event, ModeEvent::kExhausted);
@@ -89,10 +93,7 @@ TEST_F(StartCheckTest, AWrongStartThatItsScanConfirmsIsContradicted) {
 
 TEST_F(StartCheckTest, AVerdictInAFrameWhoseScanIsLostRefusesTheStartAndTellsOfTheScan) {
   VERIFIES("LASSO-MOD-184~1");
-  const Vec3 axis = deceptive_axis();
-  start_turned(axis);
-  frame(1);
-  const TrackStep step = frame(2, true);
+  const TrackStep step = verdict_on_deceptive_start(true);
   EXPECT_EQ(step.registration.reason, PoseReason::kNoScan);
   EXPECT_EQ(step.refusal, StartRefusal::kContradicted);
   EXPECT_EQ(step.after.mode, TrackingMode::kLost);
@@ -101,11 +102,8 @@ TEST_F(StartCheckTest, AVerdictInAFrameWhoseScanIsLostRefusesTheStartAndTellsOfT
 // A search that is rejected tells all the same what explains the scan far better.
 TEST_F(StartCheckTest, AWrongStartIsContradictedByASearchThatIsRejected) {
   VERIFIES("LASSO-MOD-184~1");
-  const Vec3 axis = deceptive_axis();
   mission_.parameters.search_hits_min = 1e6;
-  start_turned(axis);
-  frame(1);
-  const TrackStep step = frame(2);
+  const TrackStep step = verdict_on_deceptive_start();
   EXPECT_EQ(step.search.outcome, SearchOutcome::kRejected);
   EXPECT_EQ(step.registration.reason, PoseReason::kContradicted);
 }
@@ -177,6 +175,19 @@ TEST_F(StartCheckTest, ALostScanDelaysTheVerdictAndCountsAsOne) {
   const TrackStep next = frame(2);
   EXPECT_EQ(next.after.mode, TrackingMode::kTracking);
   EXPECT_EQ(next.after.searches, 1u);
+}
+
+// Each scan that would confirm the start gives it all of start.frames again.
+TEST_F(StartCheckTest, ScansThatAreLostUseUpTheFramesOfAStartOnlyInARow) {
+  VERIFIES("LASSO-MOD-184~1");
+  mission_.parameters.search_slice = 1000;
+  start(small_error());
+  frame(0);
+  std::uint32_t k = 1;
+  for (int round = 0; round < 2; ++round) {
+    for (int lost = 0; lost < 4; ++lost) ASSERT_EQ(frame(k++, true).after.mode, TrackingMode::kStarting);
+    ASSERT_EQ(frame(k++).registration.reason, PoseReason::kUnchecked) << round;
+  }
 }
 
 // A frame that is not ready at its boundary is dropped whole: the check that it began has no scan, and the next scan begins another.
