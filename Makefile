@@ -34,7 +34,7 @@ at_level = -DCMAKE_CXX_COMPILER=$(1) -DCMAKE_BUILD_TYPE=Level -DCMAKE_CXX_FLAGS_
 comma := ,
 sanitized = -DCMAKE_CXX_COMPILER=clang++-19 -DCMAKE_BUILD_TYPE=Level -DCMAKE_CXX_FLAGS_LEVEL=-O1 -DLASSO_COMMAND_LINE_OPTIONS=-O0 -DLASSO_SANITIZE=$(1)
 # Elsewhere what most files include is parsed once (lasso_precompile); here each file has to include what it uses.
-own_includes = -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON
+own_includes = -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON -DLASSO_UNITY=OFF
 THREADED = ut_posix ut_exec
 PER_POINT = ut_geometry ut_mission ut_pose
 SOURCES = git ls-files -z '*.cpp' '*.hpp'
@@ -51,7 +51,7 @@ begin = @rm -f $(LASSO_OUT)/$@/summary.json
 packages = @cfg/packages/ensure $(1)
 configure = @options='$(subst ',,$(2))'; \
   { [ -e $(1)/build.ninja ] && [ "$$(cat $(1)/options.txt 2>/dev/null)" = "$$options" ]; } || { echo "configure $(1)"; mkdir -p $(1); rm -f $(1)/CMakeCache.txt; \
-  cmake -S $(SOURCE) -B $(1) -G Ninja -DCMAKE_BUILD_TYPE=Release $$(command -v ccache >/dev/null && echo -DCMAKE_CXX_COMPILER_LAUNCHER=ccache) $(2) \
+  cmake -S $(SOURCE) -B $(1) -G Ninja -DCMAKE_BUILD_TYPE=Release -DLASSO_UNITY=ON $$(command -v ccache >/dev/null && echo -DCMAKE_CXX_COMPILER_LAUNCHER=ccache) $(2) \
     >$(1)/configure.log 2>&1 || { cat $(1)/configure.log; rm -f $(1)/build.ninja; false; }; } && echo "$$options" >$(1)/options.txt
 compile = @echo "build $(1)$(if $(2), ($(2)))"; cmake --build $(1) --parallel $(JOBS) $(if $(2),--target $(2)) $(NINJA_FLAGS)
 # $(call tidy,FOLDER,ENDING): removes what sources that are gone left there, and would be counted: beside each object is its file of that ENDING.
@@ -163,15 +163,14 @@ golden: ## the same telemetry, bit for bit: g++ and clang++, optimised or not, t
 	$(call compile,$(BUILD),golden_record golden_replay golden_compare)
 	$(call configure,$(PPC),$(CROSS))
 	$(call compile,$(PPC),golden_replay)
-	$(call configure,$(GOLDEN)-g++-O0,$(call at_level,g++,O0))
-	$(call compile,$(GOLDEN)-g++-O0,golden_replay)
+	$(call counted,golden_replay)
 	$(call configure,$(GOLDEN)-g++-O2,$(call at_level,g++,O2))
 	$(call compile,$(GOLDEN)-g++-O2,golden_replay)
 	$(call configure,$(GOLDEN)-clang++-O0,$(call at_level,clang++-19,O0))
 	$(call compile,$(GOLDEN)-clang++-O0,golden_replay)
 	$(call configure,$(GOLDEN)-clang++-O2,$(call at_level,clang++-19,O2))
 	$(call compile,$(GOLDEN)-clang++-O2,golden_replay)
-	@ft/golden/run $(BUILD) $(PPC) $(foreach build,g++-O0 g++-O2 clang++-O0 clang++-O2,$(build)=$(GOLDEN)-$(build))
+	@ft/golden/run $(BUILD) $(PPC) g++-O0=$(COVERAGE) $(foreach build,g++-O2 clang++-O0 clang++-O2,$(build)=$(GOLDEN)-$(build))
 
 # The floating build's run is that of make accuracy, where no program or mission is newer.
 PAPER := $(LASSO_OUT)/accuracy/paper
@@ -326,13 +325,17 @@ arrows: ## the includes obey the arrows between rooms and stages (cfg/quality/ar
 	@cfg/quality/arrows
 
 # Only fsw and hal_lcs are counted (a pattern that no shell takes apart). A test that ends in an invariant leaves its counts first (ut/support/main.cpp). The cache may not hand out files of another folder.
-coverage mcdc: export CCACHE_BASEDIR :=
+coverage mcdc golden: export CCACHE_BASEDIR :=
+# $(call counted,TARGETS) builds them by g++ -O0 with counters, which change no value: make golden flies that build, too.
+define counted
+$(call configure,$(COVERAGE),-DCMAKE_BUILD_TYPE=Coverage -DLASSO_GROUND=OFF \
+  -DCMAKE_CXX_FLAGS="-O0 --coverage -fprofile-filter-files=/[fh][sa][wl] -fprofile-abs-path -fno-exceptions -DLASSO_BEFORE_ABORT=__gcov_dump")
+$(call compile,$(COVERAGE),$(1))
+endef
 coverage: ## the unit tests take every line and branch of the flight component (reqs/waivers.csv); out/coverage
 	$(begin)
 	$(call packages,build coverage)
-	$(call configure,$(COVERAGE),-DCMAKE_BUILD_TYPE=Coverage -DLASSO_GROUND=OFF \
-	  -DCMAKE_CXX_FLAGS="-O0 --coverage -fprofile-filter-files=/[fh][sa][wl] -fprofile-abs-path -fno-exceptions -DLASSO_BEFORE_ABORT=__gcov_dump")
-	$(call compile,$(COVERAGE),flight_tests)
+	$(call counted,flight_tests golden_replay)
 	$(call tidy,$(COVERAGE),gcno)
 	@find $(COVERAGE) -name '*.gcda' -delete; rm -rf $(LASSO_OUT)/coverage
 	$(call ctest,$(COVERAGE),$(LASSO_OUT)/coverage/test,-L flight)

@@ -11,7 +11,7 @@ namespace {
 constexpr std::string_view kHeader = "t_s,x_m,y_m,z_m,valid";
 constexpr double kLatest_s = 1e11;  // over 3000 years: what is beyond is another unit, and would not fit in microseconds
 
-void read_header(Lines& lines) {
+void read_csv_header(Lines& lines) {
   std::string_view line;
   if (!lines.next(line)) fail(at_line(lines.file(), 1), "the file is empty, expected the header " + shown(kHeader));
   if (line.starts_with("\xEF\xBB\xBF")) line.remove_prefix(3);  // spreadsheets put a byte order mark first
@@ -84,7 +84,7 @@ void write_whole(const std::filesystem::path& file, const std::string& text) {
 
 RangeImage read_csv(const std::string& file, std::string_view text) {
   Lines lines(file, text);
-  read_header(lines);
+  read_csv_header(lines);
   RangeImage image;
   std::string_view line;
   while (lines.next(line)) {

@@ -20,6 +20,11 @@ function(lasso_precompile KIND)
   endforeach()
 endfunction()
 
+# lasso_alone(SOURCE...): compiled by themselves in a build that takes several sources at a time (LASSO_UNITY), as names in them mean others elsewhere.
+function(lasso_alone)
+  set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+endfunction()
+
 # What works once a frame, not once a ray, gains nothing from -O3 but size, and the flight image has to fit its 512 kB: whole rooms, and
 # sources of the others, which unrolled products of 6 x 6 matrices make four times as large.
 set(LASSO_SMALL_ROOMS mission mode link exec)
@@ -49,6 +54,7 @@ function(lasso_flight_room NAME)
     add_library(fsw_${NAME} STATIC ${SOURCES})
     set(VISIBILITY PUBLIC)
     target_link_libraries(fsw_${NAME} PRIVATE $<BUILD_INTERFACE:lasso_warnings> $<BUILD_INTERFACE:lasso_flight>)
+    set_target_properties(fsw_${NAME} PROPERTIES UNITY_BUILD OFF)
     lasso_make_small(${NAME} ${SOURCES})
     if(NOT NAME IN_LIST LASSO_ROOMS_WITHOUT_EIGEN)
       lasso_precompile(flight fsw_${NAME})
@@ -69,7 +75,7 @@ function(lasso_sensor_driver NAME)
   add_library(hal_${NAME} STATIC ${SOURCES})
   target_link_libraries(hal_${NAME} PRIVATE $<BUILD_INTERFACE:lasso_warnings> $<BUILD_INTERFACE:lasso_flight> PUBLIC fsw_sense)
   lasso_precompile(flight hal_${NAME})
-  set_target_properties(hal_${NAME} PROPERTIES EXPORT_NAME ${NAME} OUTPUT_NAME 3dlasso_${NAME})
+  set_target_properties(hal_${NAME} PROPERTIES UNITY_BUILD OFF EXPORT_NAME ${NAME} OUTPUT_NAME 3dlasso_${NAME})
   set_property(GLOBAL APPEND PROPERTY LASSO_ROOMS hal_${NAME})
 endfunction()
 
@@ -99,7 +105,7 @@ function(lasso_board NAME)
     target_link_libraries(bsp_${NAME} PRIVATE $<BUILD_INTERFACE:lasso_warnings> PUBLIC fsw_exec hal_lcs Threads::Threads)
     # The rooms call the board's answer to a bug, but come after it on the linker's line.
     target_link_options(bsp_${NAME} INTERFACE LINKER:--undefined=_ZN5lasso20on_invariant_failureEPKc)
-    set_target_properties(bsp_${NAME} PROPERTIES EXPORT_NAME ${NAME} OUTPUT_NAME 3dlasso_${NAME})
+    set_target_properties(bsp_${NAME} PROPERTIES UNITY_BUILD OFF EXPORT_NAME ${NAME} OUTPUT_NAME 3dlasso_${NAME})
     set_property(GLOBAL APPEND PROPERTY LASSO_BOARDS bsp_${NAME})
   endif()
 endfunction()

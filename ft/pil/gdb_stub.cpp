@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kPatience_ms = 20000;
 
-std::string hex(std::uint32_t number) {
+std::string hex_of(std::uint32_t number) {
   std::array<char, 16> text{};
   (void)std::snprintf(text.data(), text.size(), "%x", number);
   return text.data();
@@ -59,10 +59,10 @@ void GdbStub::set_registers(const std::string& hex) { expect_ok("G" + hex); }
 void GdbStub::write(std::uint32_t address, std::uint8_t byte) {
   std::array<char, 3> text{};
   (void)std::snprintf(text.data(), text.size(), "%02x", byte);
-  expect_ok("M" + hex(address) + ",1:" + text.data());
+  expect_ok("M" + hex_of(address) + ",1:" + text.data());
 }
 
-void GdbStub::set_breakpoint(std::uint32_t address, bool set) { expect_ok((set ? "Z0," : "z0,") + hex(address) + ",4"); }
+void GdbStub::set_breakpoint(std::uint32_t address, bool set) { expect_ok((set ? "Z0," : "z0,") + hex_of(address) + ",4"); }
 
 bool GdbStub::hit() {
   read_some();

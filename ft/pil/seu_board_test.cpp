@@ -14,7 +14,7 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-constexpr off_t kRamBytes = 256 << 20;
+constexpr off_t kRamSize = 256 << 20;
 
 // The emulator's end of lines and debug port, in a thread of its own.
 class BabblingBoard {
@@ -31,7 +31,7 @@ class BabblingBoard {
 
   void start() {
     const int fd = open((folder_ + "/ram.bin").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
-    EXPECT_EQ(ftruncate(fd, kRamBytes), 0);
+    EXPECT_EQ(ftruncate(fd, kRamSize), 0);
     (void)close(fd);
     thread_ = std::thread([this] { run(); });
   }

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kMmAt3m = 1e-3 / 9;  // k of a noise of 1 mm at 3 m
 
-struct Options {
+struct CalibrateArguments {
   std::vector<std::string> recordings;
   std::string start, out, picture, simulate, read;
   bool remote = false;
@@ -23,7 +23,7 @@ struct Options {
   PlaneRun run;
 };
 
-void record(const Options& options) {
+void record(const CalibrateArguments& options) {
   PlaneRun run = options.run;
   run.sigma_k_per_m = options.noise_mm * kMmAt3m;
   const std::vector<RawPoint> points = simulate_planes(load_calibration(options.simulate), run);
@@ -31,7 +31,7 @@ void record(const Options& options) {
   std::printf("%zu raw points written to %s\n", points.size(), options.out.c_str());
 }
 
-void read(const Options& options) {
+void read(const CalibrateArguments& options) {
   check_writable(options.out);
   const lcs::Calibration table = read_camera_table(options.read, options.remote);
   write_file(options.out, calibration_text(table));
@@ -43,7 +43,7 @@ void print(const char* what, const CalibrationReport& report) {
               report.rms_over_noise, report.worst_cell);
 }
 
-void calibrate(const Options& options) {
+void calibrate(const CalibrateArguments& options) {
   check_writable(options.out);
   if (!options.picture.empty()) check_writable(options.picture);
   if (!options.picture.empty()) require_plotter();
@@ -66,7 +66,7 @@ void calibrate(const Options& options) {
 }  // namespace
 
 void add_calibrate_command(CLI::App& app) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<CalibrateArguments>();
   CLI::App* command = app.add_subcommand("calibrate", "fit a laser camera's calibration to raw points of a plane moved through its volume");
   command->add_option("RECORDING", options->recordings, "raw points (CSV, docs/user-guide.md)");
   command->add_option("--start", options->start, "calibration to begin from: the design's, or the last one");

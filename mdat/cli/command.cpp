@@ -15,7 +15,7 @@ namespace {
 
 using Packet = std::vector<std::uint8_t>;
 
-struct Options {
+struct CommandArguments {
   std::string name, to, out, key;
   std::vector<std::string> arguments;
   std::optional<std::uint16_t> count;
@@ -33,7 +33,7 @@ Station::Listener printer(bool poses) {
   };
 }
 
-void send(const Options& options, const PacketRow& row, const std::map<std::string, std::string>& values) {
+void send(const CommandArguments& options, const PacketRow& row, const std::map<std::string, std::string>& values) {
   const std::unique_ptr<posix::PosixLink> link = posix::connect_link(options.to);
   Station station(*link, options.to, printer(options.poses));
   if (options.count) station.set_count(*options.count);
@@ -44,7 +44,7 @@ void send(const Options& options, const PacketRow& row, const std::map<std::stri
   if (answer.outcome != Outcome::kDone) throw RunError(std::string(row.name) + ": not carried out: " + answer.why);
 }
 
-void write(const Options& options, const PacketRow& row, const std::map<std::string, std::string>& values) {
+void write(const CommandArguments& options, const PacketRow& row, const std::map<std::string, std::string>& values) {
   std::uint16_t count = options.count.value_or(0);
   std::vector<Packet> packets;
   if (options.arm) packets.push_back(arm_for(row, count++));
@@ -59,7 +59,7 @@ void write(const Options& options, const PacketRow& row, const std::map<std::str
   write_file(options.out, std::string(bytes.begin(), bytes.end()));
 }
 
-void command(const Options& options) {
+void command(const CommandArguments& options) {
   if (options.list) return (void)std::fputs(command_list().c_str(), stdout);
   if (options.name.empty()) throw InputError("command: which one? mdat command --list shows all");
   const PacketRow& row = command_row(options.name);
@@ -77,7 +77,7 @@ void command(const Options& options) {
 }  // namespace
 
 void add_command_command(CLI::App& app) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<CommandArguments>();
   CLI::App* subcommand = app.add_subcommand("command", "send a command to a component, or write it to a file");
   subcommand->add_option("NAME", options->name, "of the dictionary; alone: shows its items");
   subcommand->add_option("ITEM=VALUE", options->arguments, "its items; elements are separated by commas, choices may be given by name");

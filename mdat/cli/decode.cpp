@@ -15,7 +15,7 @@
 namespace lasso::mdat {
 namespace {
 
-struct Options {
+struct DecodeArguments {
   std::string file, format = "table";
   bool headers = false, commands = false, follow = false;
   Selection selection;
@@ -25,7 +25,7 @@ void print(const std::string& text) { std::fwrite(text.data(), 1, text.size(), s
 
 ConstBytes view(const std::string& content) { return {reinterpret_cast<const std::uint8_t*>(content.data()), content.size()}; }
 
-void list(const Options& options, const std::string& content) {
+void list(const DecodeArguments& options, const std::string& content) {
   if (options.format == "pcap" || !options.selection.packet.empty() || !options.selection.items.empty()) {
     throw CLI::ValidationError("--headers", "goes with --format table, json or csv alone");
   }
@@ -35,7 +35,7 @@ void list(const Options& options, const std::string& content) {
   std::fputs(headers_summary(headers).c_str(), stderr);
 }
 
-std::string text_of(const DecodedStream& stream, const Options& options) {
+std::string text_of(const DecodedStream& stream, const DecodeArguments& options) {
   if (options.format == "json") return json_text(stream, options.selection);
   if (options.format == "csv") return csv_text(stream, options.selection);
   return options.format == "pcap" ? pcap_bytes(stream) : table_text(stream, options.selection);
@@ -69,7 +69,7 @@ class Tail {
 };
 
 // Packets as they come, until Ctrl-C. The last bytes wait for the rest of their packet.
-void follow(const Options& options) {
+void follow(const DecodeArguments& options) {
   constexpr std::chrono::milliseconds kLook(100);
   constexpr std::size_t kLargestPacket = 65542;
   if (options.format != "table" || options.headers) throw CLI::ValidationError("--follow", "goes with --format table alone");
@@ -89,7 +89,7 @@ void follow(const Options& options) {
   }
 }
 
-void decode(const Options& options) {
+void decode(const DecodeArguments& options) {
   check_selection(options.selection);
   if (options.follow) return follow(options);
   const std::string content = file_content(options.file);
@@ -102,7 +102,7 @@ void decode(const Options& options) {
 }  // namespace
 
 void add_decode_command(CLI::App& app) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<DecodeArguments>();
   CLI::App* command = app.add_subcommand("decode", "print a recorded stream of packets");
   command->add_option("FILE", options->file, "packets, as they come from the component (telemetry.ccsds of a run)")->required();
   command->add_option("--format", options->format, "table, json, csv, or pcap for Wireshark")

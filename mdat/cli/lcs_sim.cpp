@@ -13,7 +13,7 @@
 namespace lasso::mdat {
 namespace {
 
-struct Options {
+struct LcsSimArguments {
   std::string mission, listen = "tcp://127.0.0.1:0", device = "laser-camera", camera_faults, optics;
   bool remote = false;
   SimulationOptions simulation;
@@ -30,7 +30,7 @@ void say(const std::string& text) {
   std::fflush(stdout);
 }
 
-void serve(Options options) {
+void serve(LcsSimArguments options) {
   posix::LineServer server;
   const std::string wrong = server.listen(options.listen, options.remote);
   if (!wrong.empty()) throw InputError("--listen: " + wrong);
@@ -48,7 +48,7 @@ void serve(Options options) {
 }  // namespace
 
 void add_lcs_sim_command(CLI::App& app) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<LcsSimArguments>();
   options->simulation.scenario = "spin";
   CLI::App* command = app.add_subcommand(
       "lcs-sim", "run the simulated laser camera, LIDAR or TriDAR alone, in real time, for whoever speaks its protocol (docs/icd/lcs.md)");

@@ -17,7 +17,7 @@ struct MissionOptions {
   bool replace = false;
 };
 
-void print(const std::string& text) { std::fputs(text.c_str(), stdout); }
+void print_text(const std::string& text) { std::fputs(text.c_str(), stdout); }
 
 std::string parts_text(const LoadedImage& image) {
   std::string text;
@@ -72,14 +72,14 @@ std::string parameters_text(const std::string& file) {
 }
 
 void check(const MissionOptions& options) {
-  print(is_image_file(options.file) ? image_text(options.file) : check_text(load_mission(options.file)));
+  print_text(is_image_file(options.file) ? image_text(options.file) : check_text(load_mission(options.file)));
 }
 
 void info(const MissionOptions& options) {
   if (is_image_file(options.file)) {
-    print(image_text(options.file) + parameters_text(options.file));
+    print_text(image_text(options.file) + parameters_text(options.file));
   } else {
-    print(info_text(load_mission(options.file), options.scenario));
+    print_text(info_text(load_mission(options.file), options.scenario));
   }
 }
 
@@ -118,7 +118,7 @@ void compile(const MissionOptions& options) {
   const std::vector<std::uint8_t> bytes = image_bytes(mission, parameters_for(mission.source, options.scenario));
   const LoadedImage loads_in_flight(out.string(), bytes);
   write_file(out, std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
-  print(report_text(mission, out.string(), bytes.size()));
+  print_text(report_text(mission, out.string(), bytes.size()));
 }
 
 void write_new(const MissionOptions& options) {
@@ -128,7 +128,7 @@ void write_new(const MissionOptions& options) {
   }
   check_writable(options.out);
   write_new_mission(options.model, options.scale, options.out);
-  print(options.out + ": written; `mdat mission compile` makes its flight image\n");
+  print_text(options.out + ": written; `mdat mission compile` makes its flight image\n");
 }
 
 CLI::App* add(CLI::App& parent, const char* name, const char* meaning, void (*action)(const MissionOptions&),

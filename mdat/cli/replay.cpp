@@ -13,12 +13,12 @@
 namespace lasso::mdat {
 namespace {
 
-struct Options {
+struct ReplayArguments {
   std::string mission, scenario, out;
   ReplayOptions replay;
 };
 
-LoadedImage load(const Options& options) {
+LoadedImage load(const ReplayArguments& options) {
   if (is_image_file(options.mission)) return LoadedImage(options.mission, read_bytes(options.mission));
   const CompiledMission mission = compile_mission(options.mission);
   return LoadedImage(options.mission, image_bytes(mission, parameters_for(mission.source, options.scenario)));
@@ -31,7 +31,7 @@ std::filesystem::path candidates_file(std::filesystem::path out) {
 }
 
 // What is written is none of what is read, nor beside the scans, where the next replay would read it.
-void check_apart(const std::filesystem::path& out, const Options& options) {
+void check_apart(const std::filesystem::path& out, const ReplayArguments& options) {
   std::error_code ignored;  // what is not there is told by who reads it
   for (const std::filesystem::path& input : {std::filesystem::path(options.mission), options.replay.initial}) {
     if (!std::filesystem::equivalent(out, input, ignored)) continue;
@@ -42,7 +42,7 @@ void check_apart(const std::filesystem::path& out, const Options& options) {
   throw InputError(out.string() + ": lies in the folder of the scans, " + scans.string() + ", which are left as they are; write elsewhere");
 }
 
-void search(const Options& options) {
+void search(const ReplayArguments& options) {
   if (options.replay.closed_loop || options.replay.wide) {
     throw InputError("--initial search: each scan is searched on its own; leave --closed-loop and --wide out");
   }
@@ -58,7 +58,7 @@ void search(const Options& options) {
   std::fputs((acquired_summary(scans) + options.out + ", " + candidates.string() + ": written\n").c_str(), stdout);
 }
 
-void run(const Options& options) {
+void run(const ReplayArguments& options) {
   if (options.replay.initial == "search") return search(options);
   check_apart(options.out, options);
   check_writable(options.out);
@@ -71,7 +71,7 @@ void run(const Options& options) {
 }  // namespace
 
 void add_replay_command(CLI::App& app) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ReplayArguments>();
   CLI::App* command = app.add_subcommand("replay", "register recorded scans (.csv, .ply, .pcd) from given initial poses");
   command->add_option("MISSION", options->mission, "mission file or flight image")->required();
   command->add_option("--scans", options->replay.scans, "folder of scans, taken in name order")->required();

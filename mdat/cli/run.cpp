@@ -18,13 +18,13 @@
 namespace lasso::mdat {
 namespace {
 
-struct Options {
+struct RunArguments {
   std::string mission, sensor = "simulated", camera_faults, optics, calibration, out = "out/run", picture, record, record_sensor, link, key;
   SimulationOptions simulation;
   bool report = true;
 };
 
-void write_outputs(const Options& options, const CompiledMission& mission, const SimulationResult& result, OutputFolder& folder) {
+void write_outputs(const RunArguments& options, const CompiledMission& mission, const SimulationResult& result, OutputFolder& folder) {
   folder.write("results.json", results_json(result));
   folder.write("telemetry.ccsds", telemetry_bytes(result));
   if (options.report) folder.write("report.html", report_html(mission, result));
@@ -62,7 +62,7 @@ void warn_of_replay(const SimulationResult& result) {
       run.replay_unserved);
 }
 
-void run(const Options& options) {
+void run(const RunArguments& options) {
   OutputFolder folder(options.out);
   if (!options.picture.empty()) check_writable(options.picture);
   if (!options.record_sensor.empty()) check_writable(options.record_sensor);
@@ -83,7 +83,7 @@ void run(const Options& options) {
   std::printf("written to %s: results.json, telemetry.ccsds%s\n", options.out.c_str(), options.report ? ", report.html" : "");
 }
 
-void record(const Options& options) {
+void record(const RunArguments& options) {
   OutputFolder writable(options.record);
   write_recording(compile_mission(options.mission), options.simulation, options.record);
   writable.commit();
@@ -114,7 +114,7 @@ std::string check_sensor(const std::string& name) {
 }
 
 // What the words about cameras ask for. Throws where they do not fit together.
-void set_cameras(Options& options) {
+void set_cameras(RunArguments& options) {
   SimulationOptions& simulation = options.simulation;
   const Wire wire = wire_of(options.sensor).value_or(Wire{});
   simulation.wire = wire.head;
@@ -135,7 +135,7 @@ void set_cameras(Options& options) {
 }  // namespace
 
 void add_run_command(CLI::App& app) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<RunArguments>();
   options->simulation.jobs = std::max(1U, std::thread::hardware_concurrency());
   CLI::App* command = app.add_subcommand("run", "track a mission's target in simulation, and report");
   command->add_option("MISSION", options->mission, "mission file")->required();

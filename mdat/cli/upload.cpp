@@ -11,14 +11,14 @@
 namespace lasso::mdat {
 namespace {
 
-struct Options {
+struct UploadArguments {
   std::string image, to, key;
   UploadOptions upload;
   bool unchecked = false;
 };
 
 // A flight image, or a mission that is compiled to one.
-std::vector<std::uint8_t> image_of(const Options& options) {
+std::vector<std::uint8_t> image_of(const UploadArguments& options) {
   if (!is_image_file(options.image)) {
     const CompiledMission mission = compile_mission(options.image);
     return image_bytes(mission, mission.source.parameters);
@@ -28,7 +28,7 @@ std::vector<std::uint8_t> image_of(const Options& options) {
   return bytes;
 }
 
-void run(const Options& options) {
+void run(const UploadArguments& options) {
   const std::vector<std::uint8_t> image = image_of(options);
   const std::unique_ptr<posix::PosixLink> link = posix::connect_link(options.to);
   UploadOptions how = options.upload;
@@ -46,7 +46,7 @@ void run(const Options& options) {
 }  // namespace
 
 void add_upload_command(CLI::App& app) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<UploadArguments>();
   CLI::App* subcommand = app.add_subcommand("upload", "load a mission image into a running component, check it there, and make it active");
   subcommand->add_option("IMAGE", options->image, "flight image (mdat mission compile), or a mission file")->required();
   subcommand

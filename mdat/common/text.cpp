@@ -26,4 +26,13 @@ std::string decimals(double value, int count) {
 
 std::string known(double value, int count, const char* unknown) { return std::isnan(value) ? unknown : decimals(value, count); }
 
+std::string escape(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    const std::string shown = c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '"' ? "&quot;" : std::string(1, c);
+    result += shown;
+  }
+  return result;
+}
+
 }  // namespace lasso::mdat

@@ -8,6 +8,9 @@ namespace lasso::mdat {
 // printf into a string.
 [[gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...);
 
+// Text as markup shows it: the characters that HTML and XML keep for themselves as their entities.
+std::string escape(const std::string& text);
+
 // A number with this many decimals, never as -0.
 std::string decimals(double value, int count);
 

@@ -153,7 +153,7 @@ std::string item(const ItemRow& row) {
          (row.enumeration != nullptr ? values(*row.enumeration) : "") + "},\n";
 }
 
-std::string packet(const PacketRow& row) {
+std::string packet_table(const PacketRow& row) {
   const std::string number = row.numbered ? std::to_string(row.number) : "nil";
   std::string text = format("  {name = \"%s\", type = %u, service = %u, subservice = %u, number = %s, first = %zu, size = %zu, items = {\n",
                             row.name, static_cast<unsigned>(row.type), row.service, row.subservice, number.c_str(), data_offset(row),
@@ -174,7 +174,7 @@ std::string dictionary_lua() {
   text += header_list("telemetry", Span<const HeaderField>(kTelemetryFields));
   text += header_list("command", Span<const HeaderField>(kCommandFields));
   text += "local packets = {\n";
-  for (const PacketRow& row : kPackets) text += packet(row);
+  for (const PacketRow& row : kPackets) text += packet_table(row);
   return text + "}\n" + kProgram;
 }
 

@@ -1,3 +1,4 @@
+#include "mdat/common/text.hpp"
 #include "mdat/link/dictionary_text.hpp"
 #include "mdat/link/page.hpp"
 
@@ -22,8 +23,6 @@ std::string markdown(const DocumentTable& table) {
   return text + "\n";
 }
 
-std::string escaped(const std::string& text) { return replaced(replaced(replaced(text, "&", "&amp;"), "<", "&lt;"), ">", "&gt;"); }
-
 // Pairs of `from` become pairs of tags.
 std::string tagged(std::string text, const std::string& from, const std::string& tag) {
   bool open = true;
@@ -43,7 +42,7 @@ std::string unlinked(std::string text) {
 
 std::string html_row(const std::vector<std::string>& cells, const std::string& tag) {
   std::string text = "<tr>";
-  for (const std::string& cell : cells) text += "<" + tag + ">" + escaped(cell) + "</" + tag + ">";
+  for (const std::string& cell : cells) text += "<" + tag + ">" + escape(cell) + "</" + tag + ">";
   return text + "</tr>\n";
 }
 
@@ -76,9 +75,9 @@ std::string dictionary_html() {
   std::string text = kHtmlHead;
   for (const DocumentSection& section : interface_document()) {
     const std::string level = std::to_string(section.level);
-    text += "<h" + level + ">" + escaped(section.title) + "</h" + level + ">\n";
+    text += "<h" + level + ">" + escape(section.title) + "</h" + level + ">\n";
     for (const std::string& paragraph : section.paragraphs) {
-      text += "<p>" + tagged(tagged(escaped(unlinked(paragraph)), "**", "b"), "`", "code") + "</p>\n";
+      text += "<p>" + tagged(tagged(escape(unlinked(paragraph)), "**", "b"), "`", "code") + "</p>\n";
     }
     text += html(section.table);
   }

@@ -12,25 +12,14 @@
 namespace lasso::mdat {
 namespace {
 
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    const std::string entity = c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '"' ? "&quot;" : std::string(1, c);
-    result += entity;
-  }
-  return result;
-}
-
-std::string attribute(const char* name, const std::string& value) { return format(" %s=\"%s\"", name, escaped(value).c_str()); }
-
-std::string number(double value) { return text_of(Number(value)); }
+std::string attribute(const char* name, const std::string& value) { return format(" %s=\"%s\"", name, escape(value).c_str()); }
 
 std::string integer_encoding(std::size_t bits, bool is_signed) {
   return format("<IntegerDataEncoding sizeInBits=\"%zu\" encoding=\"%s\"/>", bits, is_signed ? "twosComplement" : "unsigned");
 }
 
 std::string unit_set(const ItemRow& row) {
-  return std::string(row.unit) == "1" ? "<UnitSet/>" : format("<UnitSet><Unit>%s</Unit></UnitSet>", escaped(row.unit).c_str());
+  return std::string(row.unit) == "1" ? "<UnitSet/>" : format("<UnitSet><Unit>%s</Unit></UnitSet>", escape(row.unit).c_str());
 }
 
 // What is written alike for parameters of telemetry and arguments of commands.
@@ -38,7 +27,7 @@ enum class Kind { kParameter, kArgument };
 const char* word(Kind kind) { return kind == Kind::kParameter ? "Parameter" : "Argument"; }
 
 // A range of integers has bounds without an exponent.
-std::string bound(const ItemRow& row, double value) { return is_real(row.type) ? number(value) : format("%.0f", value); }
+std::string bound(const ItemRow& row, double value) { return is_real(row.type) ? real_text(value) : format("%.0f", value); }
 
 std::string valid_range(const ItemRow& row, Kind kind) {
   std::string bounds;

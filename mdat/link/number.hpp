@@ -13,6 +13,7 @@ using Number = std::variant<std::int64_t, float, double>;  // integers of the wi
 
 // The shortest text that reads back as the same number; "nan", "inf", "-inf".
 std::string text_of(const Number& number);
+inline std::string real_text(double value) { return text_of(Number(value)); }
 double value_of(const Number& number);
 
 // The element at the start of `bytes`, which has to be whole.

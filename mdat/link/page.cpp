@@ -14,8 +14,6 @@
 namespace lasso::mdat {
 namespace {
 
-std::string number(double value) { return text_of(Number(value)); }
-
 DocumentTable header_table(Span<const HeaderField> fields) {
   DocumentTable table{{"byte", "bit", "bits", "name", "meaning"}, {}};
   for (const HeaderField& field : fields) {
@@ -152,8 +150,8 @@ DocumentTable parameter_table() {
   std::size_t number_in_list = 0;
   for (const ParameterRow& row : parameter_rows()) {
     const std::size_t i = number_in_list++;
-    table.rows.push_back({std::to_string(i), row.key, row.unit, kind_text(row), number(row.minimum), number(row.maximum),
-                          number(row.preset), is_changeable(i) ? "yes" : "no", row.meaning});
+    table.rows.push_back({std::to_string(i), row.key, row.unit, kind_text(row), real_text(row.minimum), real_text(row.maximum),
+                          real_text(row.preset), is_changeable(i) ? "yes" : "no", row.meaning});
   }
   return table;
 }
@@ -179,8 +177,8 @@ std::string severity_text(const PacketRow& event) {
 std::string range_text(const ItemRow& row) {
   if (row.enumeration != nullptr) return row.enumeration->name;
   const bool low = !std::isinf(row.range.minimum), high = !std::isinf(row.range.maximum);
-  if (low && high) return number(row.range.minimum) + " to " + number(row.range.maximum);
-  return low ? "at least " + number(row.range.minimum) : "any";
+  if (low && high) return real_text(row.range.minimum) + " to " + real_text(row.range.maximum);
+  return low ? "at least " + real_text(row.range.minimum) : "any";
 }
 
 // What every packet has.

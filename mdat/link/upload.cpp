@@ -53,7 +53,7 @@ class Upload {
   void command(const std::string& command, const Station::Values& values, bool arm = false) {
     const CommandAnswer answer = station_.command(command_row(command), values, arm, options_.answer_s);
     if (answer.outcome == Outcome::kOpen)
-      fail("no answer to " + command + " within " + number_text(options_.answer_s) + " s; is a component there?");
+      fail("no answer to " + command + " within " + real_text(options_.answer_s) + " s; is a component there?");
     if (answer.outcome != Outcome::kDone) fail(command + " is not carried out: " + answer.why);
   }
 
@@ -168,8 +168,6 @@ class Upload {
     reported_ = true;
     sent_ = 0;
   }
-
-  static std::string number_text(double value) { return text_of(Number(value)); }
 
   std::string name_;
   const std::vector<std::uint8_t>& image_;

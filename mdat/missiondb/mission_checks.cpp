@@ -20,7 +20,7 @@ void check_band(const std::string& from_key, double from_m, const std::string& t
   complain({from_key, to_key}, number_text(from_m), "expected less than " + to_key + ", which is " + number_text(to_m) + " m");
 }
 
-void check_sensor(const std::string& prefix, const SensorParameters& sensor, const Complaint& complain) {
+void check_sensor_under(const std::string& prefix, const SensorParameters& sensor, const Complaint& complain) {
   check_band(prefix + "range_min_m", sensor.range_min_m, prefix + "range_max_m", sensor.range_max_m, complain);
   check_band(prefix + "use_from_m", sensor.use_from_m, prefix + "use_to_m", sensor.use_to_m, complain);
 }
@@ -114,7 +114,7 @@ void check_times(const Scenario& scenario, const Complaint& complain) {
 }  // namespace
 
 void check_parameters(const MissionParameters& parameters, const Complaint& complain) {
-  check_sensor("sensor.", parameters, complain);
+  check_sensor_under("sensor.", parameters, complain);
   check_points(parameters, complain);
   check_pattern(parameters, complain);
   check_duration(parameters, complain);
@@ -123,7 +123,7 @@ void check_parameters(const MissionParameters& parameters, const Complaint& comp
   check_short_range(parameters, complain);
 }
 
-void check_sensor(const SensorParameters& sensor, const Complaint& complain) { check_sensor("", sensor, complain); }
+void check_sensor(const SensorParameters& sensor, const Complaint& complain) { check_sensor_under("", sensor, complain); }
 
 void check_scenario(const Scenario& scenario, const MeasuredRanges& measured, const Complaint& complain) {
   if (scenario.has_profile()) check_times(scenario, complain);

@@ -110,9 +110,9 @@ void append_triangle(const std::array<std::uint32_t, 3>& triangle, double tolera
   surface.normals.push_back(surface.sliver.back() ? none : area2.normalized());
 }
 
-using Seen = std::unordered_map<std::array<std::uint32_t, 3>, std::uint32_t, TriangleHash>;
+using SeenTriangles = std::unordered_map<std::array<std::uint32_t, 3>, std::uint32_t, TriangleHash>;
 
-void take_triangle(const std::array<std::uint32_t, 3>& t, double tolerance, Seen& seen, Surface& surface, CompileReport& report) {
+void take_triangle(const std::array<std::uint32_t, 3>& t, double tolerance, SeenTriangles& seen, Surface& surface, CompileReport& report) {
   if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) {
     ++report.dropped_degenerate;
     return;
@@ -139,7 +139,7 @@ Surface repair_mesh(const Mesh& mesh, double weld_tolerance_m, CompileReport& re
   Welder welder(report.weld_tolerance_m, surface.vertices);
   std::vector<std::uint32_t> welded(mesh.vertices.size(), kNone);
   std::size_t used = 0;
-  Seen seen;
+  SeenTriangles seen;
   for (const auto& triangle : mesh.triangles) {
     std::array<std::uint32_t, 3> t;
     for (std::size_t i = 0; i < 3; ++i) {

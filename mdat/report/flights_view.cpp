@@ -15,12 +15,12 @@ namespace {
 
 constexpr const char* kFlightColour = "#9fd3d8";  // of one among many; all together are dark
 constexpr const char* kAllColour = "#1b2a6b";
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<std::string> settled_row(const std::string& name, const SettledStatistics& run) {
   std::vector<std::string> row = {name, format("%zu", run.frames), format("%zu", run.lost), format("%zu", run.invalid)};
-  for (const double degps : {run.rms_degps, run.worst_degps}) row.push_back(known(run.frames > 0 ? degps : kNone, 3, "–"));
-  for (const double mmps : {run.rms_mmps, run.worst_mmps}) row.push_back(known(run.frames > 0 ? mmps : kNone, 2, "–"));
+  for (const double degps : {run.rms_degps, run.worst_degps}) row.push_back(known(run.frames > 0 ? degps : kNothing, 3, "–"));
+  for (const double mmps : {run.rms_mmps, run.worst_mmps}) row.push_back(known(run.frames > 0 ? mmps : kNothing, 2, "–"));
   return row;
 }
 
@@ -87,10 +87,10 @@ std::string settled_line(std::size_t frames) {
 using FlightValue = std::function<double(const RunStatistics&)>;
 
 const std::pair<const char*, FlightValue> kFlightPanels[] = {
-    {"registration, mm", [](const RunStatistics& run) { return run.lost < run.frames ? run.registration.rms_mm : kNone; }},
-    {"registration, deg", [](const RunStatistics& run) { return run.lost < run.frames ? run.registration.rms_deg : kNone; }},
-    {"settled rates, deg/s", [](const RunStatistics& run) { return run.settled.frames > 0 ? run.settled.rms_degps : kNone; }},
-    {"settled rates, mm/s", [](const RunStatistics& run) { return run.settled.frames > 0 ? run.settled.rms_mmps : kNone; }}};
+    {"registration, mm", [](const RunStatistics& run) { return run.lost < run.frames ? run.registration.rms_mm : kNothing; }},
+    {"registration, deg", [](const RunStatistics& run) { return run.lost < run.frames ? run.registration.rms_deg : kNothing; }},
+    {"settled rates, deg/s", [](const RunStatistics& run) { return run.settled.frames > 0 ? run.settled.rms_degps : kNothing; }},
+    {"settled rates, mm/s", [](const RunStatistics& run) { return run.settled.frames > 0 ? run.settled.rms_mmps : kNothing; }}};
 
 // Flight and value; without those of which it is not known.
 std::string flights_text(const VariantResult& variant, const FlightValue& value) {

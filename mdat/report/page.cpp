@@ -1,5 +1,7 @@
 #include "mdat/report/page.hpp"
 
+#include "mdat/common/text.hpp"
+
 namespace lasso::mdat {
 namespace {
 
@@ -35,22 +37,6 @@ std::string row(const std::vector<std::string>& cells, const std::string& tag) {
 }
 
 }  // namespace
-
-std::string escape(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    if (c == '&') {
-      result += "&amp;";
-    } else if (c == '<') {
-      result += "&lt;";
-    } else if (c == '>') {
-      result += "&gt;";
-    } else {
-      result += c;
-    }
-  }
-  return result;
-}
 
 std::string to_html(const HtmlTable& table) {
   std::string html = "<div class='wide'><table>\n" + row(table.head, "th");

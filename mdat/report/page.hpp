@@ -11,7 +11,6 @@ struct HtmlTable {
   std::vector<std::vector<std::string>> rows;  // first cell: what the row is about; cells are HTML
 };
 
-std::string escape(const std::string& text);
 std::string to_html(const HtmlTable& table);
 std::string figure(const std::string& content, const std::string& caption);
 std::string page(const std::string& title, const std::string& body);

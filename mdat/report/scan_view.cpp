@@ -147,7 +147,7 @@ std::string draw(Plotter& plotter, const sim::RayCaster& target, const ScanPanel
   return text + format("%s using ($1*%.5f):($2*%.5f) with points pt 7 ps 0.3 lc rgb '#7a2fb5' notitle\n", aimed.c_str(), z_m, z_m);
 }
 
-constexpr const char* kStyle =
+constexpr const char* kScanStyle =
     "set size ratio -1\nset border 0\nset tics nomirror out scale 0.4 textcolor '#46505f' font ',12'\nset title textcolor '#2b3440' offset "
     "0,-0.6\n"
     "set xlabel 'right, m' textcolor '#46505f' font ',12' offset 0,0.4\n"
@@ -189,7 +189,7 @@ std::string scan_view_png(Plotter& plotter, const sim::RayCaster& target, const 
     half_x = std::max(half_x, kFrameMargin * panel.scan->telemetry.plan_half_extents[0]);
     half_y = std::max(half_y, kFrameMargin * panel.scan->telemetry.plan_half_extents[1]);
   }
-  std::string script = kStyle + format("set cbrange [%g:%g]\nset multiplot\n", -span_mm, span_mm);
+  std::string script = kScanStyle + format("set cbrange [%g:%g]\nset multiplot\n", -span_mm, span_mm);
   for (std::size_t i = 0; i < panels.size(); ++i) {
     const PoseTelemetry& telemetry = panels[i].scan->telemetry;
     const double own = kFrameMargin * std::max(telemetry.plan_half_extents[0], telemetry.plan_half_extents[1] * kPanelShape);

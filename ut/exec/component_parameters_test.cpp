@@ -3,6 +3,7 @@
 #include <string>
 
 #include "ut/exec/component_operator.hpp"
+#include "ut/support/parameter_row.hpp"
 
 namespace lasso {
 namespace {
@@ -10,15 +11,8 @@ namespace {
 using test::Link;
 using test::Packet;
 using test::refusal_of;
+using test::row_of;
 using test::told;
-
-std::size_t row_of(const std::string& key) {
-  for (std::size_t i = 0; i < parameter_rows().size(); ++i) {
-    if (key == parameter_rows()[i].key) return i;
-  }
-  ADD_FAILURE() << key;
-  return 0;
-}
 
 ParameterTelemetry parameter_of(const std::vector<Packet>& packets) {
   ParameterTelemetry parameter;

@@ -12,7 +12,7 @@ namespace {
 
 using test::Report;
 using M = TrackingMode;
-using R = SensorReason;
+using S = SensorReason;
 
 constexpr double kFarSigma_m = 4e-3;
 constexpr double kNearSigma_m = 1e-3;
@@ -112,7 +112,7 @@ TEST_F(ComponentScansTest, TheTargetsRangeSaysWhichSensorTakesAScan) {
       EXPECT_EQ(t.valid, 1) << t.scan_id;
       EXPECT_EQ(static_cast<M>(t.mode), M::kTracking);
     }
-    EXPECT_EQ(static_cast<R>(t.sensor_reason), R::kInBand);
+    EXPECT_EQ(static_cast<S>(t.sensor_reason), S::kInBand);
     EXPECT_GE(t.sensor_changes, t.sensor == 1 ? 1U : 2U) << "of scans that were planned since, too";
     if (sensors.empty() || sensors.back() != t.sensor) sensors.push_back(t.sensor);
   }
@@ -158,7 +158,7 @@ TEST_F(ComponentScansTest, ASensorThatFailsIsReplacedAndTold) {
   for (const PoseTelemetry& t : run(12)) {
     if (t.sensor == 1) continue;
     substituted = true;
-    EXPECT_EQ(static_cast<R>(t.sensor_reason), R::kSubstitute);
+    EXPECT_EQ(static_cast<S>(t.sensor_reason), S::kSubstitute);
     EXPECT_EQ(t.sensors_failed, 2);
     EXPECT_EQ(t.valid, 1) << t.scan_id;
     EXPECT_EQ(t.sensor_changes, 2U) << "to the one for near, and back";
@@ -202,13 +202,13 @@ TEST_F(ComponentScansTest, WithoutABearingTheSensorsLookInTurn) {
   ASSERT_EQ(component_->command_mode(M::kBearing), ModeRefusal::kNone);
   std::vector<int> sensors;
   for (const PoseTelemetry& t : run(14)) {
-    if (static_cast<R>(t.sensor_reason) == R::kRangeUnknown) sensors.push_back(t.sensor);
+    if (static_cast<S>(t.sensor_reason) == S::kRangeUnknown) sensors.push_back(t.sensor);
   }
   EXPECT_EQ(std::vector<int>(sensors.begin(), sensors.begin() + 7), (std::vector<int>{1, 1, 1, 0, 0, 0, 1}));
   near_->hidden = far_->hidden = false;
   const std::vector<PoseTelemetry> found = run(8);
   EXPECT_EQ(found.back().sensor, 1);
-  EXPECT_EQ(static_cast<R>(found.back().sensor_reason), R::kInBand) << "the bearing's range says whose turn it is";
+  EXPECT_EQ(static_cast<S>(found.back().sensor_reason), S::kInBand) << "the bearing's range says whose turn it is";
   EXPECT_EQ(static_cast<BearingReason>(found.back().bearing_reason), BearingReason::kValid);
 }
 
@@ -219,7 +219,7 @@ TEST_F(ComponentScansTest, ASearchKeepsItsSensor) {
   ASSERT_EQ(component_->command_mode(M::kSearching), ModeRefusal::kNone);
   run(3);
   for (const PoseTelemetry& t : run(6)) {
-    EXPECT_EQ(static_cast<R>(t.sensor_reason), R::kBusy);
+    EXPECT_EQ(static_cast<S>(t.sensor_reason), S::kBusy);
     EXPECT_EQ(t.sensor, 1);
   }
 }

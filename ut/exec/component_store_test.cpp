@@ -2,19 +2,13 @@
 #include "fsw/mission/stored_record.hpp"
 #include "ut/exec/component_operator.hpp"
 #include "ut/exec/memory_scene.hpp"
+#include "ut/support/parameter_row.hpp"
 
 namespace lasso {
 namespace {
 
 using test::Packet;
-
-std::size_t row_of(const std::string& key) {
-  for (std::size_t i = 0; i < parameter_rows().size(); ++i) {
-    if (key == parameter_rows()[i].key) return i;
-  }
-  ADD_FAILURE() << key;
-  return 0;
-}
+using test::row_of;
 
 class ComponentStore : public ::testing::Test {
  protected:

@@ -15,7 +15,7 @@ constexpr auto kTracking = static_cast<std::uint8_t>(TrackingMode::kTracking);
 constexpr auto kCoasting = static_cast<std::uint8_t>(TrackingMode::kCoasting);
 constexpr auto kLost = static_cast<std::uint8_t>(TrackingMode::kLost);
 
-MissionParameters parameters() {
+MissionParameters started_parameters() {
   Vec6 off;
   off << 0.02, -0.03, 0.01, 0.01, 0.02, -0.02;
   return test::box_parameters(test::default_scene(), off);
@@ -36,7 +36,7 @@ PoseTelemetry report_of(ComponentScene& scene, std::uint32_t scan_id) {
 
 TEST(Component, ReportsEachScanTwoBoundariesLater) {
   VERIFIES("LASSO-EXE-002~1 LASSO-SYS-023~1 LASSO-SYS-027~1");
-  ComponentScene scene(parameters());
+  ComponentScene scene(started_parameters());
   scene.begin();
   for (std::uint32_t frame = 0; frame < 40; ++frame) {
     const auto reports = scene.run_frame();
@@ -55,14 +55,14 @@ TEST(Component, ReportsEachScanTwoBoundariesLater) {
 
 TEST(Component, PublishesWithinFourTenthsOfASecond) {
   VERIFIES("LASSO-EXE-007~1");
-  ComponentScene scene(parameters());
+  ComponentScene scene(started_parameters());
   scene.begin();
   EXPECT_LE(report_of(scene, 5).age_us, 400000u);
 }
 
 TEST(Component, TracksTheTarget) {
   VERIFIES("LASSO-EXE-005~1 LASSO-SYS-001~1");
-  ComponentScene scene(parameters());
+  ComponentScene scene(started_parameters());
   scene.begin();
   for (std::uint32_t frame = 0; frame < 40; ++frame) {
     for (const Report& report : scene.run_frame()) {
@@ -77,7 +77,7 @@ TEST(Component, TracksTheTarget) {
 
 TEST(Component, PlansFromThePredictionOfTheLastPublishedScan) {
   VERIFIES("LASSO-EXE-002~1");
-  ComponentScene scene(parameters());
+  ComponentScene scene(started_parameters());
   scene.begin();
   for (int frame = 0; frame < 30; ++frame) scene.run_frame();
   const auto reports = scene.run_frame();
@@ -102,7 +102,7 @@ TEST(Component, PlansFromThePredictionOfTheLastPublishedScan) {
 
 TEST(Component, LostScansCoastAndAreCounted) {
   VERIFIES("LASSO-EXE-005~1 LASSO-MOD-005~1 LASSO-HLT-011~1");
-  ComponentScene scene(parameters());
+  ComponentScene scene(started_parameters());
   scene.sensor.lost = {10};
   scene.sensor.refused = {11};
   scene.begin();
@@ -123,7 +123,7 @@ TEST(Component, LostScansCoastAndAreCounted) {
 
 TEST(Component, LateEstimateIsDroppedWholeAndTheTrackGoesOn) {
   VERIFIES("LASSO-EXE-003~1 LASSO-HLT-011~1");
-  ComponentScene scene(parameters());
+  ComponentScene scene(started_parameters());
   scene.begin();
   for (int frame = 0; frame < 10; ++frame) scene.run_frame();
   scene.run_frame(false);                   // frame 10: the estimate of scan 9 does not get the processor
@@ -144,7 +144,7 @@ TEST(Component, LateEstimateIsDroppedWholeAndTheTrackGoesOn) {
 
 TEST(Component, LostTrackStopsScanningAndSaysSo) {
   VERIFIES("LASSO-MOD-007~1");
-  MissionParameters p = parameters();
+  MissionParameters p = started_parameters();
   p.coast_frames = 2;
   ComponentScene scene(p);
   scene.sensor.lost = {5, 6, 7};
@@ -161,7 +161,7 @@ TEST(Component, LostTrackStopsScanningAndSaysSo) {
 
 TEST(Component, StartsAgainFromAGivenPose) {
   VERIFIES("LASSO-MOD-006~2");
-  MissionParameters p = parameters();
+  MissionParameters p = started_parameters();
   p.initial_present = 0;
   ComponentScene scene(p);
   scene.begin();
@@ -185,7 +185,7 @@ TEST(Component, StartsAgainFromAGivenPose) {
 
 TEST(Component, RefusesAStartThatMeansNothing) {
   VERIFIES("LASSO-MOD-008~1 LASSO-SYS-011~1");
-  ComponentScene scene(parameters());
+  ComponentScene scene(started_parameters());
   EXPECT_EQ(scene.component->start_tracking(Pose{}, Twist{}, 0), Status::kBadOrder);
   EXPECT_EQ(scene.component->stop_tracking(), Status::kBadOrder);
   scene.begin();
@@ -197,12 +197,12 @@ TEST(Component, RefusesAStartThatMeansNothing) {
 
 TEST(Component, NeedsAnImageThatFitsItsFrames) {
   VERIFIES("LASSO-EXE-008~1");
-  ComponentScene scene(parameters());
+  ComponentScene scene(started_parameters());
   EXPECT_EQ(scene.component->begin(0), Status::kMissing);
   scene.begin();
   EXPECT_EQ(scene.component->begin(0), Status::kBadOrder);
   EXPECT_EQ(scene.load().status, Status::kBadOrder);
-  MissionParameters p = parameters();
+  MissionParameters p = started_parameters();
   p.period_s = 0.17;
   ComponentScene slow(p);
   EXPECT_EQ(slow.load().status, Status::kBadValue);
@@ -211,9 +211,9 @@ TEST(Component, NeedsAnImageThatFitsItsFrames) {
 
 TEST(Component, ARefusedImageLeavesNothingToBeginWith) {
   VERIFIES("LASSO-EXE-008~1");
-  ComponentScene scene(parameters());
+  ComponentScene scene(started_parameters());
   ASSERT_EQ(scene.load().status, Status::kOk);
-  test::TestImage damaged = test::make_box_image(parameters());
+  test::TestImage damaged = test::make_box_image(started_parameters());
   damaged.data()[damaged.size / 2] ^= 1;
   EXPECT_EQ(scene.component->load_image(Bytes(damaged.data(), damaged.size)).status, Status::kBadCrc);
   EXPECT_EQ(scene.component->begin(0), Status::kMissing);
@@ -221,7 +221,7 @@ TEST(Component, ARefusedImageLeavesNothingToBeginWith) {
 
 TEST(Component, ScansAtMostTheModelsRadiusFartherForARoughStart) {
   VERIFIES("LASSO-EXE-002~1");
-  MissionParameters p = parameters();
+  MissionParameters p = started_parameters();
   p.start_sigma_m = 50;
   p.fov_half_x_rad = 0.7;
   p.fov_half_y_rad = 0.7;
@@ -240,7 +240,7 @@ TEST(Component, ScansAtMostTheModelsRadiusFartherForARoughStart) {
 
 TEST(Component, AnEstimateIsPendingFromTheHandOverUntilItHasRun) {
   VERIFIES("LASSO-EXE-002~1");
-  ComponentScene scene(parameters());
+  ComponentScene scene(started_parameters());
   scene.begin();
   scene.run_frame();
   EXPECT_FALSE(scene.component->estimation_pending());
@@ -252,7 +252,7 @@ TEST(Component, AnEstimateIsPendingFromTheHandOverUntilItHasRun) {
 
 TEST(Component, SequenceCountWrapsThroughTheWholeChain) {
   VERIFIES("LASSO-LNK-001~1");
-  MissionParameters p = parameters();
+  MissionParameters p = started_parameters();
   p.start_frames = 0;  // lost from the second report on: frames without a scan are short
   ComponentScene scene(p);
   scene.sensor.refused = {0};
@@ -274,7 +274,7 @@ TEST(Component, SequenceCountWrapsThroughTheWholeChain) {
 
 TEST(Component, FullQueueCountsWhatItDrops) {
   VERIFIES("LASSO-LNK-006~1 LASSO-HLT-011~1");
-  ComponentScene scene(parameters());
+  ComponentScene scene(started_parameters());
   scene.begin();
   for (int slot = 0; slot < 25 * 20; ++slot) {
     scene.component->run_slot(scene.component->next_slot_us());
@@ -292,7 +292,7 @@ TEST(Component, StaysWithinItsMemory) {
 }
 
 MissionParameters aiming_parameters() {
-  MissionParameters p = parameters();
+  MissionParameters p = started_parameters();
   p.aimed_share = 0.3;
   p.silhouette_band_m = 0.01;
   return p;

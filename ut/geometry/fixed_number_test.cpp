@@ -12,7 +12,7 @@ namespace lasso {
 namespace {
 
 using N = FixedNumber;
-constexpr std::int32_t kMost = std::numeric_limits<std::int32_t>::max();
+constexpr std::int32_t kMostRaw = std::numeric_limits<std::int32_t>::max();
 
 TEST(FixedNumber, LengthIsTheWordToTheNearest) {
   VERIFIES("LASSO-GEO-008~1 LASSO-GEO-023~1");
@@ -21,7 +21,7 @@ TEST(FixedNumber, LengthIsTheWordToTheNearest) {
     const auto word = static_cast<std::int32_t>(static_cast<std::uint32_t>(random.bits() >> (32 + i % 31)));
     const int bits = i % 96;
     const double exact = std::ldexp(static_cast<double>(word), 22 - bits);
-    const double truth = std::fmax(std::fmin(std::floor(exact + 0.5), kMost), -static_cast<double>(kMost));
+    const double truth = std::fmax(std::fmin(std::floor(exact + 0.5), kMostRaw), -static_cast<double>(kMostRaw));
     ASSERT_EQ(N::length(word, bits).raw, truth) << word << ' ' << bits;
   }
   EXPECT_EQ(N::unit(-(1 << 29)), N::Unit(-0.5));
@@ -37,8 +37,8 @@ TEST(FixedNumber, FloatsAreTakenByTheirBits) {
   }
   EXPECT_EQ(N::from_float<N::Length>(0.0F).raw, 0);
   EXPECT_EQ(N::from_float<N::Length>(-1.5F), N::Length(-1.5));
-  EXPECT_EQ(N::from_float<N::Length>(1e30F).raw, kMost);
-  EXPECT_EQ(N::from_float<N::Length>(-std::numeric_limits<float>::infinity()).raw, -kMost);
+  EXPECT_EQ(N::from_float<N::Length>(1e30F).raw, kMostRaw);
+  EXPECT_EQ(N::from_float<N::Length>(-std::numeric_limits<float>::infinity()).raw, -kMostRaw);
   EXPECT_EQ(N::from_float<N::Length>(std::numeric_limits<float>::quiet_NaN()).raw, 0);
   EXPECT_EQ(N::from_float<N::Length>(std::numeric_limits<float>::denorm_min()).raw, 0);
 }

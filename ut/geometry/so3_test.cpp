@@ -11,7 +11,7 @@
 namespace lasso {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
 // The matrix exponential by its power series with halving and squaring: knows nothing of quaternions.
 Mat3 matrix_exponential(const Mat3& S) {
@@ -119,8 +119,8 @@ TEST(Normalized, ZeroIsIdentityAndNanStaysNan) {
   VERIFIES("LASSO-GEO-020~1");
   EXPECT_EQ(normalized(Quat(0, 0, 0, 0)).coeffs(), Quat(1, 0, 0, 0).coeffs());
   EXPECT_EQ(normalized(Quat(0, -0.0, 0, 0)).coeffs(), Quat(1, 0, 0, 0).coeffs());
-  EXPECT_TRUE(std::isnan(normalized(Quat(kNan, 0, 0, 0)).x()));
-  EXPECT_TRUE(std::isnan(normalized(Quat(1, kNan, 0, 0)).w()));
+  EXPECT_TRUE(std::isnan(normalized(Quat(kNoNumber, 0, 0, 0)).x()));
+  EXPECT_TRUE(std::isnan(normalized(Quat(1, kNoNumber, 0, 0)).w()));
 }
 
 TEST(ToMatrix, TurnsVectorsAsRotateDoes) {

@@ -6,18 +6,12 @@
 #include <vector>
 
 #include "fsw/sense/pattern.hpp"
+#include "ut/hal_lcs/received.hpp"
 #include "ut/support/generator.hpp"
 #include "ut/support/verifies.hpp"
 
 namespace lasso::lcs {
 namespace {
-
-Frame received(const FrameBytes& bytes) {
-  FrameDecoder decoder;
-  Frame frame;
-  EXPECT_TRUE(decoder.step(bytes.span(), frame).found);
-  return frame;
-}
 
 // The same bytes again from what was understood.
 template <class Message>

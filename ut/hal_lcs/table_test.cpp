@@ -4,18 +4,12 @@
 
 #include <vector>
 
+#include "ut/hal_lcs/received.hpp"
 #include "ut/support/generator.hpp"
 #include "ut/support/verifies.hpp"
 
 namespace lasso::lcs {
 namespace {
-
-Frame received(const FrameBytes& bytes) {
-  FrameDecoder decoder;
-  Frame frame;
-  EXPECT_TRUE(decoder.step(bytes.span(), frame).found);
-  return frame;
-}
 
 TriangulationCalibration random_table(test::Generator& chance) {
   TriangulationCalibration c;

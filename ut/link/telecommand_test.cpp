@@ -8,10 +8,10 @@
 namespace lasso {
 namespace {
 
-using Packet = std::array<std::uint8_t, 15>;
+using Telecommand = std::array<std::uint8_t, 15>;
 
 // Put together by hand from the standards; the check sum bit by bit with another program.
-constexpr Packet kByHand = {0x1B, 0xD1, 0xE5, 0x67, 0x00, 0x08, 0x29, 0x11, 0x01, 0x12, 0x34, 0xCA, 0xFE, 0xB6, 0x14};
+constexpr Telecommand kByHand = {0x1B, 0xD1, 0xE5, 0x67, 0x00, 0x08, 0x29, 0x11, 0x01, 0x12, 0x34, 0xCA, 0xFE, 0xB6, 0x14};
 
 CommandHeader header_by_hand() {
   CommandHeader header;
@@ -22,8 +22,8 @@ CommandHeader header_by_hand() {
   return header;
 }
 
-Packet with_byte(std::size_t index, std::uint8_t value) {
-  Packet packet = kByHand;
+Telecommand command_with_byte(std::size_t index, std::uint8_t value) {
+  Telecommand packet = kByHand;
   packet[index] = value;
   const std::uint16_t crc = crc16_ccitt(ConstBytes(packet.data(), 13));
   packet[13] = static_cast<std::uint8_t>(crc >> 8);
@@ -31,7 +31,7 @@ Packet with_byte(std::size_t index, std::uint8_t value) {
   return packet;
 }
 
-PacketFault fault_of(const Packet& packet, std::size_t size = 15) {
+PacketFault fault_of(const Telecommand& packet, std::size_t size = 15) {
   CommandHeader header;
   header.source = 77;
   ConstBytes data;
@@ -45,7 +45,7 @@ PacketFault fault_of(const Packet& packet, std::size_t size = 15) {
 
 TEST(Telecommand, IsByteForByteAsPutTogetherByHand) {
   VERIFIES("LASSO-LNK-033~1");
-  Packet packet{};
+  Telecommand packet{};
   const Bytes out(packet.data(), packet.size());
   ByteWriter writer(out);
   begin_command(header_by_hand(), writer);
@@ -73,7 +73,7 @@ TEST(Telecommand, RefusesEveryTruncationAndEveryBitError) {
   VERIFIES("LASSO-LNK-034~1");
   for (std::size_t n = 0; n < kByHand.size(); ++n) EXPECT_EQ(fault_of(kByHand, n), PacketFault::kTruncated) << n;
   for (std::size_t bit = 0; bit < kByHand.size() * 8; ++bit) {
-    Packet damaged = kByHand;
+    Telecommand damaged = kByHand;
     damaged[bit / 8] = static_cast<std::uint8_t>(damaged[bit / 8] ^ (1u << (bit % 8)));
     EXPECT_NE(fault_of(damaged), PacketFault::kNone) << "bit " << bit;
   }
@@ -81,14 +81,14 @@ TEST(Telecommand, RefusesEveryTruncationAndEveryBitError) {
 
 TEST(Telecommand, NamesWhatItRefuses) {
   VERIFIES("LASSO-LNK-034~1");
-  EXPECT_EQ(fault_of(with_byte(0, 0x3B)), PacketFault::kBadVersion);
-  EXPECT_EQ(fault_of(with_byte(0, 0x0B)), PacketFault::kBadType);
-  EXPECT_EQ(fault_of(with_byte(0, 0x13)), PacketFault::kNoSecondaryHeader);
-  EXPECT_EQ(fault_of(with_byte(1, 0xD2)), PacketFault::kOtherApid);
-  EXPECT_EQ(fault_of(with_byte(2, 0xA5)), PacketFault::kSegmented);
-  EXPECT_EQ(fault_of(with_byte(6, 0x19)), PacketFault::kBadPusVersion);
-  EXPECT_EQ(fault_of(with_byte(5, 0x07)), PacketFault::kBadLength);
-  EXPECT_EQ(fault_of(with_byte(5, 0x09)), PacketFault::kTruncated);
+  EXPECT_EQ(fault_of(command_with_byte(0, 0x3B)), PacketFault::kBadVersion);
+  EXPECT_EQ(fault_of(command_with_byte(0, 0x0B)), PacketFault::kBadType);
+  EXPECT_EQ(fault_of(command_with_byte(0, 0x13)), PacketFault::kNoSecondaryHeader);
+  EXPECT_EQ(fault_of(command_with_byte(1, 0xD2)), PacketFault::kOtherApid);
+  EXPECT_EQ(fault_of(command_with_byte(2, 0xA5)), PacketFault::kSegmented);
+  EXPECT_EQ(fault_of(command_with_byte(6, 0x19)), PacketFault::kBadPusVersion);
+  EXPECT_EQ(fault_of(command_with_byte(5, 0x07)), PacketFault::kBadLength);
+  EXPECT_EQ(fault_of(command_with_byte(5, 0x09)), PacketFault::kTruncated);
 }
 
 }  // namespace

@@ -58,7 +58,7 @@ TEST(Calibration, RefusesCalibrationsThatBendSpace) {
   EXPECT_EQ(verdict([](C& c) { c.outside_sigma_factor = 10.1; }), Status::kBadValue);
 }
 
-constexpr auto kTable = static_cast<std::uint32_t>(TableId::kCalibrations);
+constexpr auto kCalibrationsTable = static_cast<std::uint32_t>(TableId::kCalibrations);
 
 class ImageCalibrationsTest : public ::testing::Test {
  protected:
@@ -125,7 +125,7 @@ TEST_F(ImageCalibrationsTest, WhatIsWrongIsRefusedWithItsPlace) {
   const auto refused = [&](const std::vector<std::pair<std::uint32_t, C>>& calibrations, Status status, std::uint32_t record) {
     const LoadFailure failure = load(with(calibrations));
     EXPECT_EQ(failure.status, status);
-    EXPECT_EQ(failure.table, kTable);
+    EXPECT_EQ(failure.table, kCalibrationsTable);
     EXPECT_EQ(failure.record, record);
   };
   const C good = bent_camera();

@@ -45,7 +45,7 @@ class LoaderSensorsTest : public ::testing::Test {
   std::unique_ptr<Parts> parts_ = std::make_unique<Parts>();
 };
 
-constexpr auto kTable = static_cast<std::uint32_t>(TableId::kSensors);
+constexpr auto kSensorsTable = static_cast<std::uint32_t>(TableId::kSensors);
 
 TEST_F(LoaderSensorsTest, TheMissionsOwnSensorComesFirst) {
   VERIFIES("LASSO-SNS-047~1 LASSO-IMG-001~1");
@@ -80,7 +80,7 @@ TEST_F(LoaderSensorsTest, ValuesOutsideOfTheirRangesAreRefusedByName) {
   wrong.fov_half_y_rad = 2;
   LoadFailure failure = load(with({near(), wrong}));
   EXPECT_EQ(failure.status, Status::kBadValue);
-  EXPECT_EQ(failure.table, kTable);
+  EXPECT_EQ(failure.table, kSensorsTable);
   EXPECT_EQ(failure.record, 1U);
   EXPECT_STREQ(failure.what, "sensor.fov_half_y_deg");
   wrong = near();
@@ -106,7 +106,7 @@ TEST_F(LoaderSensorsTest, MoreSensorsThanThereIsRoomForAreRefused) {
   EXPECT_EQ(load(with(std::vector<SensorParameters>(kMaxSensors - 1, near()))).status, Status::kOk);
   const LoadFailure failure = load(with(std::vector<SensorParameters>(kMaxSensors, near())));
   EXPECT_EQ(failure.status, Status::kOverCapacity);
-  EXPECT_EQ(failure.table, kTable);
+  EXPECT_EQ(failure.table, kSensorsTable);
 }
 
 }  // namespace

@@ -8,18 +8,13 @@
 
 #include "fsw/core/byte_codec.hpp"
 #include "ut/support/generator.hpp"
+#include "ut/support/parameter_row.hpp"
 #include "ut/support/verifies.hpp"
 
 namespace lasso {
 namespace {
 
-std::size_t row_of(const std::string& key) {
-  for (std::size_t i = 0; i < parameter_rows().size(); ++i) {
-    if (key == parameter_rows()[i].key) return i;
-  }
-  ADD_FAILURE() << key;
-  return 0;
-}
+using test::row_of;
 
 TEST(ParameterArea, AChangeIsOverTheImagesValueUntilItIsReverted) {
   VERIFIES("LASSO-IMG-018~1");

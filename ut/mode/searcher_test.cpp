@@ -11,7 +11,7 @@
 namespace lasso {
 namespace {
 
-constexpr DurationUs kPeriodUs = 200000;
+constexpr DurationUs kCycleUs = 200000;
 
 test::TestImage make_image(const test::BoxScene& scene) {
   MissionParameters p = test::box_parameters(scene);
@@ -67,11 +67,11 @@ class SearcherTest : public ::testing::Test {
   }
 
   std::unique_ptr<RangeImage> scan(std::uint32_t k) {
-    test::BoxScan view{scene_.box, scene_.others, scene_.pose_at(k * kPeriodUs), scene_.rates, 1e-3};
+    test::BoxScan view{scene_.box, scene_.others, scene_.pose_at(k * kCycleUs), scene_.rates, 1e-3};
     view.half_angle = 0.26;
     auto image = test::scan_box(view, random_);
     image->scan_id = k;
-    for (RangeSample& sample : image->samples) sample.t_us += k * kPeriodUs;
+    for (RangeSample& sample : image->samples) sample.t_us += k * kCycleUs;
     return image;
   }
 
@@ -103,7 +103,7 @@ class SearcherTest : public ::testing::Test {
     return k;
   }
   Vec6 error(const FilterState& filter, std::uint32_t k) const {
-    return pose_difference(filter.T_sensor_target, scene_.pose_at(k * kPeriodUs));
+    return pose_difference(filter.T_sensor_target, scene_.pose_at(k * kCycleUs));
   }
 
   test::BoxScene scene_;

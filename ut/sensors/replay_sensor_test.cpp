@@ -11,7 +11,7 @@ namespace {
 
 constexpr TimeUs kThenUs = 1'000'000, kNowUs = 7'000'000;
 
-ScanPlan plan_of(std::uint32_t scan_id = 5) {
+ScanPlan plan_with_id(std::uint32_t scan_id = 5) {
   ScanPlan plan;
   plan.scan_id = scan_id;
   plan.points = 16;
@@ -26,7 +26,7 @@ ScanPlan plan_of(std::uint32_t scan_id = 5) {
 SensorScan scan_of(float range_m, Status end = Status::kOk, std::uint8_t sensor = 0) {
   SensorScan scan;
   scan.sensor = sensor;
-  scan.plan = plan_of();
+  scan.plan = plan_with_id();
   scan.t_start_us = kThenUs;
   scan.end = end;
   for (int i = 0; i < 16; ++i) {
@@ -59,8 +59,8 @@ TEST(ReplaySensor, PlaysItsScansInTurnAtTheTimesAfterTheStart) {
   ReplaySensor replay(recording, 0);
   bool first = true;
   for (const float range_m : {2.0F, 3.0F, 2.0F}) {
-    ASSERT_EQ(replay.start(plan_of(), kNowUs), Status::kOk);
-    EXPECT_EQ(replay.start(plan_of(), kNowUs), Status::kBusy);
+    ASSERT_EQ(replay.start(plan_with_id(), kNowUs), Status::kOk);
+    EXPECT_EQ(replay.start(plan_with_id(), kNowUs), Status::kBusy);
     EXPECT_EQ(play(replay, kNowUs + 3'000).samples.size(), 4U);
     const Played rest = play(replay, kNowUs + 20'000);
     ASSERT_EQ(rest.samples.size(), 12U);
@@ -78,7 +78,7 @@ TEST(ReplaySensor, ServesOnlyPlansLikeTheRecorded) {
   const SensorRecording recording{scan_of(2)};
   ReplaySensor replay(recording, 0);
   const auto answer = [&](auto change) {
-    ScanPlan plan = plan_of();
+    ScanPlan plan = plan_with_id();
     change(plan);
     const Status status = replay.start(plan, kNowUs);
     replay.abort();
@@ -88,7 +88,7 @@ TEST(ReplaySensor, ServesOnlyPlansLikeTheRecorded) {
   SensorRecording of_aimed{scan_of(2)};
   of_aimed[0].aimed.assign(1, AimedRay{});
   of_aimed[0].plan.points = 17;
-  ScanPlan aimed_elsewhere = plan_of();
+  ScanPlan aimed_elsewhere = plan_with_id();
   aimed_elsewhere.points = 17;
   EXPECT_EQ(ReplaySensor(of_aimed, 0).start(aimed_elsewhere, kNowUs), Status::kBadValue);
   aimed_elsewhere.aimed = Span<const AimedRay>(elsewhere);
@@ -107,20 +107,20 @@ TEST(ReplaySensor, ServesOnlyPlansLikeTheRecorded) {
   EXPECT_EQ(answer([](ScanPlan& plan) { plan.duration_us = 16'000; }), Status::kBadValue);
   EXPECT_EQ(answer([&](ScanPlan& plan) { plan.aimed = Span<const AimedRay>(aimed); }), Status::kBadValue);
   EXPECT_EQ(replay.unserved(), 10U) << "what is no plan, of one aimed ray among 16, does not count";
-  EXPECT_EQ(ReplaySensor(recording, 1).start(plan_of(), kNowUs), Status::kBadValue);
+  EXPECT_EQ(ReplaySensor(recording, 1).start(plan_with_id(), kNowUs), Status::kBadValue);
   const SensorRecording nothing;
-  EXPECT_EQ(ReplaySensor(nothing, 0).start(plan_of(), kNowUs), Status::kBadValue);
+  EXPECT_EQ(ReplaySensor(nothing, 0).start(plan_with_id(), kNowUs), Status::kBadValue);
 }
 
 TEST(ReplaySensor, AScanThatWasLostIsLostForTheSameReason) {
   VERIFIES("LASSO-SNS-031~1");
   const SensorRecording recording{scan_of(2, Status::kTruncated), scan_of(3, Status::kNoData)};
   ReplaySensor replay(recording, 0);
-  ASSERT_EQ(replay.start(plan_of(), kNowUs), Status::kOk);
+  ASSERT_EQ(replay.start(plan_with_id(), kNowUs), Status::kOk);
   EXPECT_EQ(play(replay, kNowUs + 20'000).samples.size(), 16U);
   EXPECT_EQ(play(replay, kNowUs + 20'000).last.status, Status::kTruncated);
   EXPECT_EQ(play(replay, kNowUs + 20'000).last.status, Status::kNoData);
-  ASSERT_EQ(replay.start(plan_of(), kNowUs), Status::kOk);  // one that was aborted stays without an end
+  ASSERT_EQ(replay.start(plan_with_id(), kNowUs), Status::kOk);  // one that was aborted stays without an end
   const Played aborted = play(replay, kNowUs + 20'000);
   EXPECT_EQ(aborted.samples.size(), 16U);
   EXPECT_FALSE(aborted.last.complete);
@@ -134,13 +134,13 @@ TEST(SensorRecorder, KeepsWhatTheSensorGave) {
   SensorRecording recording;
   SensorRecorder recorder(sensor, 2, recording);
   EXPECT_EQ(play(recorder, kNowUs).last.status, Status::kNoData);
-  ASSERT_EQ(recorder.start(plan_of(31), kNowUs), Status::kOk);
+  ASSERT_EQ(recorder.start(plan_with_id(31), kNowUs), Status::kOk);
   EXPECT_TRUE(play(recorder, kNowUs + 20'000).last.complete);
-  ASSERT_EQ(recorder.start(plan_of(32), kNowUs), Status::kOk);
+  ASSERT_EQ(recorder.start(plan_with_id(32), kNowUs), Status::kOk);
   play(recorder, kNowUs + 20'000);
   EXPECT_EQ(play(recorder, kNowUs + 20'000).last.status, Status::kBadOrder);
-  ASSERT_EQ(recorder.start(plan_of(33), kNowUs), Status::kOk);
-  EXPECT_EQ(recorder.start(plan_of(34), kNowUs), Status::kBusy);
+  ASSERT_EQ(recorder.start(plan_with_id(33), kNowUs), Status::kOk);
+  EXPECT_EQ(recorder.start(plan_with_id(34), kNowUs), Status::kBusy);
   play(recorder, kNowUs + 3'000);
   recorder.abort();
   play(recorder, kNowUs + 20'000);

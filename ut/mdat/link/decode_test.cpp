@@ -5,15 +5,16 @@
 #include "fsw/link/telecommand.hpp"
 #include "mdat/common/errors.hpp"
 #include "mdat/link/decode_text.hpp"
+#include "ut/link/command_packets.hpp"
 #include "ut/support/generator.hpp"
 #include "ut/support/verifies.hpp"
 
 namespace lasso::mdat {
 namespace {
 
-using Stream = std::vector<std::uint8_t>;
+using test::Stream;
+using test::view;
 
-ConstBytes view(const Stream& stream) { return {stream.data(), stream.size()}; }
 void append(Stream& stream, const Stream& more) { stream.insert(stream.end(), more.begin(), more.end()); }
 
 Stream pose_packet(std::uint16_t count, const PoseTelemetry& pose = {}) {

@@ -12,7 +12,7 @@ namespace lasso::mdat {
 namespace {
 
 const std::filesystem::path kHubble = kSourceFolder / "cfg/models/hubble_tenth.toml";
-const std::filesystem::path kProbe = kSourceFolder / "cfg/models/probe.toml";
+const std::filesystem::path kProbeModel = kSourceFolder / "cfg/models/probe.toml";
 
 double nearest_vertex(const Mesh& mesh, const Eigen::Vector3d& p) {
   double least = 1e9;
@@ -76,7 +76,7 @@ TEST(ModelFile, DoorOpensAboutItsHinge) {
 
 TEST(ModelFile, ProbeIsClosedAndAsymmetric) {
   VERIFIES("LASSO-GND-007~1");
-  const Mesh mesh = build_model(kProbe, {});
+  const Mesh mesh = build_model(kProbeModel, {});
   EXPECT_TRUE(is_closed(mesh));
   EXPECT_GT(half_turn_asymmetry(mesh), 0.1);
 }

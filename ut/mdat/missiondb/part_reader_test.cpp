@@ -9,7 +9,7 @@
 namespace lasso::mdat {
 namespace {
 
-const std::string kHead =
+const std::string kPartHead =
     "[mission]\nid = 7\nversion = 2\nname = 'test'\n[target]\nmodel = 'box.toml'\n";  // 6 lines; a part begins on line 7
 const std::string kPlace = "range_m = [1, 5]\nview = [0, 0, -2]\n";
 const std::string kBox = "box_m = [0, -1, -1, 1, 1, 1]\n";
@@ -17,7 +17,7 @@ const std::string kBox = "box_m = [0, -1, -1, 1, 1, 1]\n";
 class PartReaderTest : public ::testing::Test {
  protected:
   PartReaderTest() { folder_.write("box.toml", "[[part]]\nkind = 'box'\nsize = [1, 1, 1]\n"); }
-  MissionSource load(const std::string& text) { return load_mission(folder_.write("m.toml", kHead + text)); }
+  MissionSource load(const std::string& text) { return load_mission(folder_.write("m.toml", kPartHead + text)); }
   void expect_error(const std::string& text, const std::string& expected) {
     const std::string message = mission_error_of([&] { static_cast<void>(load(text)); });
     EXPECT_NE(message.find(expected), std::string::npos) << "got: " << message << "\nexpected: " << expected;
@@ -97,7 +97,7 @@ TEST_F(PartReaderTest, RefusesValuesThatContradictEachOther) {
   expect_error(part + kPlace + "quaternion = [1, 0, 0, 1]\n", "part.bay.quaternion: [1, 0, 0, 1]: expected x, y, z, w of unit length");
   expect_error("[part.bay]\nbox_m = [0, 0, 2, 1, 1, 1]\n" + kPlace, "expected the low x, y, z, and then higher ones");
   expect_error(part, "part.bay.range_m");
-  const std::string number = mission_error_of([&] { static_cast<void>(load_mission(folder_.write("m.toml", "part = 3\n" + kHead))); });
+  const std::string number = mission_error_of([&] { static_cast<void>(load_mission(folder_.write("m.toml", "part = 3\n" + kPartHead))); });
   EXPECT_NE(number.find("expected tables [part.NAME]"), std::string::npos) << number;
   expect_error("[part]\nbay = 3\n", "expected a table [part.bay]");
   std::string many;

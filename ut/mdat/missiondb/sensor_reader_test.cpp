@@ -10,12 +10,13 @@
 namespace lasso::mdat {
 namespace {
 
-const std::string kHead = "[mission]\nid = 7\nversion = 2\nname = 'test'\n[target]\nmodel = 'box.toml'\n";  // what follows begins on line 7
+const std::string kSensorHead =
+    "[mission]\nid = 7\nversion = 2\nname = 'test'\n[target]\nmodel = 'box.toml'\n";  // what follows begins on line 7
 
 class SensorReaderTest : public ::testing::Test {
  protected:
   SensorReaderTest() { folder_.write("box.toml", "[[part]]\nkind = 'box'\nsize = [1, 1, 1]\n"); }
-  MissionSource load(const std::string& text) { return load_mission(folder_.write("m.toml", kHead + text)); }
+  MissionSource load(const std::string& text) { return load_mission(folder_.write("m.toml", kSensorHead + text)); }
   void expect_error(const std::string& text, const std::string& expected) {
     const std::string message = mission_error_of([&] { static_cast<void>(load(text)); });
     EXPECT_NE(message.find(expected), std::string::npos) << "got: " << message << "\nexpected: " << expected;
@@ -50,7 +51,7 @@ TEST_F(SensorReaderTest, WrongValuesAreNamedWithTheirPlace) {
   expect_error("[further_sensor.near]\nfov_half_x_deg = 80\n", "m.toml:8:18: further_sensor.near.fov_half_x_deg");
   expect_error("[further_sensor.near]\nsigma = 1\n", "further_sensor.near.sigma");
   const std::string message =
-      mission_error_of([&] { static_cast<void>(load_mission(folder_.write("n.toml", "further_sensor = 3\n" + kHead))); });
+      mission_error_of([&] { static_cast<void>(load_mission(folder_.write("n.toml", "further_sensor = 3\n" + kSensorHead))); });
   EXPECT_NE(message.find("expected tables [further_sensor.NAME]"), std::string::npos) << message;
   expect_error("[further_sensor]\nnear = 3\n", "expected a table [further_sensor.near]");
 }

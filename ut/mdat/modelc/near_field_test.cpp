@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kNowhere = std::numeric_limits<double>::infinity();
 
-std::vector<Element> elements_of(const Mesh& mesh) {
+std::vector<Element> field_elements(const Mesh& mesh) {
   CompileReport report;
   const Surface surface = repair_mesh(mesh, 0, report);
   const Polygons polygons = make_polygons(surface, edge_uses(surface), smooth_normals(surface, 0.5));
@@ -32,7 +32,7 @@ TEST(NearField, SearchMatchesBruteForceNearAndFar) {
   VERIFIES("LASSO-MDL-003~1");
   for (const auto& [name, mesh] : shapes::property_meshes()) {
     SCOPED_TRACE(name);
-    const std::vector<Element> elements = elements_of(mesh);
+    const std::vector<Element> elements = field_elements(mesh);
     const NearestSearch search(elements);
     Random random(41);
     for (int i = 0; i < 1500; ++i) {
@@ -57,7 +57,7 @@ TEST(NearField, SearchMatchesBruteForceNearAndFar) {
 
 TEST(NearField, AtAnEdgeTheFaceThatLooksAtThePointIsTaken) {
   VERIFIES("LASSO-MDL-003~1");
-  const std::vector<Element> elements = elements_of(shapes::box({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}));
+  const std::vector<Element> elements = field_elements(shapes::box({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}));
   const NearestSearch search(elements);
   // Closest to the edge x = y = 0.5, but much more in front of the face x = 0.5.
   const NearestElement found = search.closest({0.9, 0.51, 0.1});
@@ -68,7 +68,7 @@ TEST(NearField, CellsHoldTheClosestElementsOfTheirCentres) {
   VERIFIES("LASSO-MDL-003~1");
   for (const auto& [name, mesh] : shapes::property_meshes()) {
     SCOPED_TRACE(name);
-    const std::vector<Element> elements = elements_of(mesh);
+    const std::vector<Element> elements = field_elements(mesh);
     Grid grid;
     grid.origin = Vec3d(-0.7, -0.8, -0.75);
     grid.cell_m = 0.02;

@@ -1,0 +1,20 @@
+// The place of a parameter in the dictionary's order.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "fsw/mission/parameters.hpp"
+
+namespace lasso::test {
+
+inline std::size_t row_of(const std::string& key) {
+  for (std::size_t i = 0; i < parameter_rows().size(); ++i) {
+    if (key == parameter_rows()[i].key) return i;
+  }
+  ADD_FAILURE() << key;
+  return 0;
+}
+
+}  // namespace lasso::test
