@@ -37,6 +37,7 @@ sanitized = -DCMAKE_CXX_COMPILER=clang++-19 -DCMAKE_BUILD_TYPE=Level -DCMAKE_CXX
 own_includes = -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON -DLASSO_UNITY=OFF
 THREADED = ut_posix ut_exec
 PER_POINT = ut_geometry ut_mission ut_pose
+FLIGHT_TESTS = ut_core ut_geometry ut_mission ut_sense ut_pose ut_mode ut_link ut_exec ut_hal_lcs ut_posix ut_sensors
 SOURCES = git ls-files -z '*.cpp' '*.hpp'
 
 export CCACHE_BASEDIR := $(CURDIR)
@@ -68,14 +69,14 @@ help: ## this list
 run: build ## track the tenth-scale Hubble and report into out/run; MISSION=, SCENARIO= (approach: the full-size one), SENSOR=lcs-wire (the camera over its line), SEED=, OUT=
 	@$(BUILD)/mdat/mdat run $(MISSION) $(if $(SCENARIO),--scenario $(SCENARIO)) $(if $(SEED),--seed $(SEED)) $(if $(SENSOR),--sensor $(SENSOR)) --out $(OUT)
 
-test: ## build with g++ and clang++ without a warning, that one in floating, this one in fixed point, and pass all tests of the host; reports in out/test
+test: ## all tests of the host by g++ in floating point, those of the flight code by clang++ in fixed point, too, without a warning (make sanitize has all of them by clang++); reports in out/test
 	$(begin)
 	$(call packages,build clang test)
 	$(call configure,$(BUILD),)
 	$(call compile,$(BUILD))
 	$(call configure,$(CLANG),$(FIXED_HOST))
-	$(call compile,$(CLANG))
-	@cfg/quality/run-tests test g++=$(BUILD) clang++=$(CLANG)
+	$(call compile,$(CLANG),$(FLIGHT_TESTS))
+	@cfg/quality/run-tests test g++=$(BUILD) clang++=$(CLANG) $(FLIGHT_TESTS)
 
 accuracy: ## the errors of the reference simulation, of pointing noise, spin, rates, tumble, outliers and dropouts, against the limits of their requirements; out/accuracy
 	$(begin)
@@ -303,16 +304,16 @@ ppc-test: ## unit tests of the flight component on the emulated PowerPC 603e, a 
 
 sanitize: export LSAN_OPTIONS := suppressions=$(abspath cfg/quality/leaks.txt):print_suppressions=0
 sanitize: export UBSAN_OPTIONS := print_stacktrace=1
-sanitize: ## all tests under the address and undefined-behaviour sanitizers, those of the per-point path in fixed point, too, the threaded ones under the thread sanitizer
+sanitize: ## all tests by clang++ in fixed point under the address and undefined-behaviour sanitizers, those of the per-point path in floating point, too, the threaded ones under the thread sanitizer
 	$(begin)
 	$(call packages,build clang test)
-	$(call configure,$(SANITIZE)-address,$(call sanitized,address$(comma)undefined))
+	$(call configure,$(SANITIZE)-address,$(call sanitized,address$(comma)undefined) $(FIXED))
 	$(call compile,$(SANITIZE)-address)
-	$(call configure,$(SANITIZE)-fixed,$(call sanitized,address$(comma)undefined) $(FIXED) -DLASSO_GROUND=OFF)
-	$(call compile,$(SANITIZE)-fixed,$(PER_POINT))
+	$(call configure,$(SANITIZE)-floating,$(call sanitized,address$(comma)undefined) -DLASSO_GROUND=OFF)
+	$(call compile,$(SANITIZE)-floating,$(PER_POINT))
 	$(call configure,$(SANITIZE)-thread,$(call sanitized,thread) -DLASSO_GROUND=OFF)
 	$(call compile,$(SANITIZE)-thread,$(THREADED))
-	@cfg/quality/run-tests sanitize address,undefined=$(SANITIZE)-address fixed=$(SANITIZE)-fixed $(PER_POINT) thread=$(SANITIZE)-thread $(THREADED)
+	@cfg/quality/run-tests sanitize address,undefined=$(SANITIZE)-address floating=$(SANITIZE)-floating $(PER_POINT) thread=$(SANITIZE)-thread $(THREADED)
 
 requirements: ## the requirements are well formed, and the tests' sources name them as they are now; before anything is built
 	$(begin)

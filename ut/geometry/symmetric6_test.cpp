@@ -55,7 +55,7 @@ TEST(Solve6, SolvesWhateverTheScales) {
     for (int k = 0; k < 6; ++k) b[k] = generator.uniform(-1, 1) * std::sqrt(A(k, k));
     Vec6 x;
     ASSERT_EQ(solve6(A, b, x), Status::kOk);
-    const Vec6 truth = test::wide_solution_of(A, b);
+    const Vec6 truth = test::solution_of(A, b);
     const Vec6 scale = A.diagonal().cwiseSqrt();
     ASSERT_LE(scale.cwiseProduct(x - truth).norm(), 1e-11 * scale.cwiseProduct(truth).norm());
     ASSERT_LE(backward_error(A, x, b), 1e-12);
@@ -141,7 +141,7 @@ TEST(Invert6, IsTheInverseAndExactlySymmetric) {
     const Mat6 A = random_spd(generator, i % 3);
     Mat6 inverse;
     ASSERT_EQ(invert6(A, inverse), Status::kOk);
-    const Mat6 truth = test::wide_inverse_of(A);
+    const Mat6 truth = test::inverse_of(A);
     const Vec6 scale = A.diagonal().cwiseSqrt();
     const Mat6 error = scale.asDiagonal() * (inverse - truth) * scale.asDiagonal();
     const Mat6 size = scale.asDiagonal() * truth * scale.asDiagonal();
@@ -169,7 +169,7 @@ TEST(Eigen6, AgreesWithAnotherSolver) {
     const Eigen6 e = eigen6(A);
     expect_decomposition(A, e, 5e-15);
     if (!kHasExtendedPrecision) continue;
-    ASSERT_LE((e.values - test::wide_eigenvalues_of(A)).norm(), 5e-15 * A.norm());
+    ASSERT_LE((e.values - test::eigenvalues_of(A)).norm(), 5e-15 * A.norm());
   }
 }
 
@@ -181,7 +181,7 @@ TEST(Eigen6, SmallEigenvaluesOfBadlyScaledMatricesAreAccurate) {
   for (int i = 0; i < 3000; ++i) {
     const Mat6 A = random_spd(generator, 3);
     const Eigen6 e = eigen6(A);
-    ASSERT_NEAR(e.values[0] / test::wide_least_eigenvalue_of(A), 1.0, 1e-11);
+    ASSERT_NEAR(e.values[0] / test::least_eigenvalue_of(A), 1.0, 1e-11);
     ASSERT_GT(e.values[0], 0.0);
   }
 }

@@ -2,40 +2,39 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <limits>
+#include <type_traits>
 
 namespace lasso::test {
 namespace {
 
-using Wide = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
+using Real = long double;  // for all: each type takes the compiler seconds
+using Wide = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
+// This solver does not converge in PowerPC's pairs of doubles.
+using SolverReal = std::conditional_t<std::numeric_limits<Real>::is_iec559, Real, double>;
+using Solver = Eigen::SelfAdjointEigenSolver<Eigen::Matrix<SolverReal, Eigen::Dynamic, Eigen::Dynamic>>;
 
-Wide wide_inverse(const Dense& A) { return A.cast<long double>().ldlt().solve(Wide::Identity(A.rows(), A.cols())); }
+Wide wide_inverse(const Wide& A) { return A.ldlt().solve(Wide::Identity(A.rows(), A.cols())); }
 
 }  // namespace
 
-Dense inverse_of(const Dense& A) { return A.ldlt().solve(Dense::Identity(A.rows(), A.cols())); }
+Dense inverse_of(const Dense& A) { return wide_inverse(A.cast<Real>()).cast<double>(); }
 
-DenseVector solution_of(const Dense& A, const DenseVector& b) { return A.ldlt().solve(b); }
-
-Dense cholesky_of(const Dense& A) { return A.llt().matrixL(); }
-
-DenseVector eigenvalues_of(const Dense& A) { return Eigen::SelfAdjointEigenSolver<Dense>(A).eigenvalues(); }
-
-Dense orthogonal_of(const Dense& A) { return Eigen::SelfAdjointEigenSolver<Dense>(A + A.transpose()).eigenvectors(); }
-
-DenseVector wide_solution_of(const Dense& A, const DenseVector& b) {
-  return A.cast<long double>().ldlt().solve(b.cast<long double>()).cast<double>();
+DenseVector solution_of(const Dense& A, const DenseVector& b) {
+  const Wide x = A.cast<Real>().ldlt().solve(Wide(b.cast<Real>()));
+  return x.cast<double>();
 }
 
-DenseVector wide_eigenvalues_of(const Dense& A) {
-  return Eigen::SelfAdjointEigenSolver<Wide>(A.cast<long double>()).eigenvalues().cast<double>();
-}
+Dense cholesky_of(const Dense& A) { return Wide(A.cast<Real>().llt().matrixL()).cast<double>(); }
 
-Dense wide_inverse_of(const Dense& A) { return wide_inverse(A).cast<double>(); }
+DenseVector eigenvalues_of(const Dense& A) { return Solver(A.cast<SolverReal>()).eigenvalues().cast<double>(); }
 
-double wide_least_eigenvalue_of(const Dense& A) {
-  const Wide inverse = wide_inverse(A);
-  const Eigen::SelfAdjointEigenSolver<Wide> solver(0.5L * (inverse + inverse.transpose()));
-  return static_cast<double>(1.0L / solver.eigenvalues()[A.rows() - 1]);
+Dense orthogonal_of(const Dense& A) { return Solver((A + A.transpose()).cast<SolverReal>()).eigenvectors().cast<double>(); }
+
+double least_eigenvalue_of(const Dense& A) {
+  const Wide inverse = wide_inverse(A.cast<Real>());
+  const Solver solver((Real(0.5) * (inverse + inverse.transpose())).cast<SolverReal>());
+  return static_cast<double>(SolverReal(1) / solver.eigenvalues()[A.rows() - 1]);
 }
 
 }  // namespace lasso::test
