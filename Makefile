@@ -327,9 +327,10 @@ arrows: ## the includes obey the arrows between rooms and stages (cfg/quality/ar
 
 # Only fsw and hal_lcs are counted (a pattern that no shell takes apart). A test that ends in an invariant leaves its counts first (ut/support/main.cpp). The cache may not hand out files of another folder.
 coverage mcdc golden: export CCACHE_BASEDIR :=
-# $(call counted,TARGETS) builds them by g++ -O0 with counters, which change no value: make golden flies that build, too.
+# $(call counted,TARGETS) builds them by g++ -O0 with counters, which change no value: make golden flies that build, too. Each source by itself: of two
+# instances of a template in one object gcovr keeps the branches of one.
 define counted
-$(call configure,$(COVERAGE),-DCMAKE_BUILD_TYPE=Coverage -DLASSO_GROUND=OFF \
+$(call configure,$(COVERAGE),-DCMAKE_BUILD_TYPE=Coverage -DLASSO_GROUND=OFF -DLASSO_UNITY=OFF \
   -DCMAKE_CXX_FLAGS="-O0 --coverage -fprofile-filter-files=/[fh][sa][wl] -fprofile-abs-path -fno-exceptions -DLASSO_BEFORE_ABORT=__gcov_dump")
 $(call compile,$(COVERAGE),$(1))
 endef
