@@ -21,10 +21,10 @@ PREFIX ?= /usr/local
 export JOBS ?= $(shell nproc)
 CROSS = -DCMAKE_TOOLCHAIN_FILE=$(abspath cfg/toolchains/ppc603e.cmake) -DLASSO_GROUND=OFF -DLASSO_BARE_KERNEL=$(abspath $(BOARD))/bare_kernel.elf
 # the flight images of the bare boards (docs/boards)
-BARE_BOARD = -DCMAKE_TOOLCHAIN_FILE=$(abspath cfg/toolchains/ppc603e-bare.cmake) -DLASSO_GROUND=OFF -DLASSO_TESTS=OFF
+BARE_BOARD = -DCMAKE_TOOLCHAIN_FILE=$(abspath cfg/toolchains/ppc603e-bare.cmake) -DLASSO_GROUND=OFF -DLASSO_TESTS=OFF -DLASSO_UNITY=OFF
 # what flies on the first one, with the call graph beside each object for make prove: the same bits, and no compiler cache, which forgets the graphs
 FLIGHT_BOARD = $(BARE_BOARD) -DLASSO_CALL_GRAPH=ON -DCMAKE_CXX_COMPILER_LAUNCHER=
-SECOND_BOARD = -DCMAKE_TOOLCHAIN_FILE=$(abspath cfg/toolchains/cortexa9-bare.cmake) -DLASSO_GROUND=OFF -DLASSO_TESTS=OFF
+SECOND_BOARD = -DCMAKE_TOOLCHAIN_FILE=$(abspath cfg/toolchains/cortexa9-bare.cmake) -DLASSO_GROUND=OFF -DLASSO_TESTS=OFF -DLASSO_UNITY=OFF
 # the fixed-point build (docs/decisions/fixed-point.md), and that of the host
 FIXED = -DLASSO_NUMBER=fixed
 FIXED_HOST = -DCMAKE_CXX_COMPILER=clang++-19 $(FIXED)
