@@ -30,7 +30,8 @@ FIXED = -DLASSO_NUMBER=fixed
 FIXED_HOST = -DCMAKE_CXX_COMPILER=clang++-19 $(FIXED)
 # $(call at_level,COMPILER,LEVEL): flight code and its tests at one level of optimisation, where the shipped build uses several
 at_level = -DCMAKE_CXX_COMPILER=$(1) -DCMAKE_BUILD_TYPE=Level -DCMAKE_CXX_FLAGS_LEVEL=-$(2) -DLASSO_GROUND=OFF
-# $(call sanitized,SANITIZERS) (a finding names its function; -g1 would name lines, too, and costs a sixth of the build), the tests that start threads, and those of the per-point path
+# $(call sanitized,SANITIZERS) (a finding names its function; -g1 would name lines, too, and costs a sixth of the build), the tests that start threads,
+# those of the per-point path, and those of the flight code and what it runs on (make sanitize runs all by clang++: one that is missing here has its run there)
 comma := ,
 sanitized = -DCMAKE_CXX_COMPILER=clang++-19 -DCMAKE_BUILD_TYPE=Level -DCMAKE_CXX_FLAGS_LEVEL=-O1 -DLASSO_COMMAND_LINE_OPTIONS=-O0 -DLASSO_SANITIZE=$(1)
 # Elsewhere what most files include is parsed once (lasso_precompile); here each file has to include what it uses.
@@ -89,7 +90,7 @@ accuracy: ## the errors of the reference simulation, of pointing noise, spin, ra
 
 bench: ## time the estimate, its stages and its peers; table, and out/bench/results.json
 	$(call packages,build bench)
-	$(call configure,$(BENCH),-DLASSO_BENCH=ON -DLASSO_TESTS=OFF)
+	$(call configure,$(BENCH),-DLASSO_BENCH=ON -DLASSO_TESTS=OFF -DLASSO_UNITY=OFF)
 	$(call compile,$(BENCH))
 	@mkdir -p out/bench
 	@ft/bench/run $(BENCH) out/bench
