@@ -39,9 +39,13 @@ def require(board=PPC603E):
     return version[1]
 
 
-def die_with_parent():
-    """In a child, before its program starts: the kernel ends it when this program is gone, however that went."""
-    LIBC.prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
+def dying_with(parent):
+    """What a child does before its program starts: the kernel ends it when the parent is gone, however that went. One whose parent went before that asks in vain, and ends itself."""
+    def prepare():
+        LIBC.prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
+        if os.getppid() != parent:
+            os._exit(1)
+    return prepare
 
 
 class Children:
@@ -54,7 +58,7 @@ class Children:
         with self.lock:
             if self.over:
                 raise Failure('ended by a signal')
-            child = subprocess.Popen(command, stdin=subprocess.DEVNULL, preexec_fn=die_with_parent, **options)
+            child = subprocess.Popen(command, stdin=subprocess.DEVNULL, preexec_fn=dying_with(os.getpid()), **options)
             self.running.add(child)
         if self.over:  # by now
             child.kill()
