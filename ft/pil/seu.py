@@ -2,14 +2,17 @@
 """seu.py HOST BOARD [FLIPS [SEED [NAME]]]: single bits flipped in the running board: code, image, parameters, mode, data, stack, registers (docs/pil.md).
 
 HOST and BOARD are build folders. FLIPS (2000) flips, an eighth in each region, each in a flight of its own from a state of one flight; where and when depends
-on SEED (1) and the flip's number. Leaves out/NAME (seu): flips.csv, results.json, report.html, summary.json. Interrupted, it goes on where it was, if
-image and seed are the same. Exit codes: 0 no wrong pose stayed untold for 10 s, of a flip in what is protected; 1 one was, or the board fails without a flip.
+on SEED (1) and the flip's number. JOBS in the environment says how many boards fly beside each other (one a core). Leaves out/NAME (seu): flips.csv,
+results.json, report.html, summary.json. Interrupted, it goes on where it was, if image and seed are the same.
+Exit codes: 0 no wrong pose stayed untold for 10 s, of a flip in what is protected; 1 one was, or the board fails without a flip.
 """
 import collections
+import concurrent.futures
 import csv
 import hashlib
 import html as text
 import json
+import os
 import pathlib
 import queue
 import subprocess
@@ -43,6 +46,7 @@ OUTCOMES = {
 # Of all outcomes, after their sum: flights with a wrong pose as valid, which are silent as in make flips, and those where it came before or with the word of the flip.
 WRONG = {'wrong': 'a wrong pose as valid, whatever followed: silent as in make flips', 'wrong_first': 'of these, with a wrong pose no later than the frame in which the flip was told, if it was'}
 COLUMNS = ('number', 'region', 'frame', 'slot', 'where', 'bit', 'instruction', 'outcome', 'told_after', 'wrong', 'invalid', 'frames', 'first_wrong')
+SHORTEST_RUN = 50  # of numbers, each of which begins with the flight without a flip
 WHOLE_FLIPS, MOST_FLIPS = 2000, 1_000_000  # LASSO-PLT-018
 # Of the host: without a word of the rig, which ends each flight within 20 minutes; for it to end by itself.
 SILENT_S, END_S = 1800, 10
@@ -81,14 +85,29 @@ def rows_of(path):
 
 
 def resume(gate, elf, seed):
-    """How many flips of the same campaign are there."""
+    """Numbers of the flips of the same campaign that are there."""
     campaign = json.dumps({'seed': seed, 'columns': COLUMNS, 'image': hashlib.sha256(pathlib.Path(elf).read_bytes()).hexdigest()})
     known, table = gate.out / 'campaign.json', gate.out / 'flips.csv'
     if known.exists() and table.exists() and known.read_text(encoding='utf-8') == campaign:
-        return len(rows_of(table))
+        return {int(row['number']) for row in rows_of(table)}
     known.write_text(campaign, encoding='utf-8')
     table.write_text(','.join(COLUMNS) + '\n', encoding='utf-8')
-    return 0
+    return set()
+
+
+def missing(done, flips, jobs):
+    """Runs of numbers that are not done, enough of them for all jobs where they are long."""
+    runs = []
+    for number in sorted(set(range(flips)) - done):
+        if runs and runs[-1].stop == number:
+            runs[-1] = range(runs[-1].start, number + 1)
+        else:
+            runs.append(range(number, number + 1))
+    while len(runs) < jobs and max(map(len, runs), default=0) >= 2 * SHORTEST_RUN:
+        longest = max(runs, key=len)
+        runs.remove(longest)
+        runs += [longest[:len(longest) // 2], longest[len(longest) // 2:]]
+    return runs
 
 
 class Machines:
@@ -133,8 +152,7 @@ def follow(rig, machines, table, progress):
         if kind == 'start':
             machines.start()
         elif kind == 'row':
-            table.write(rest + '\n')
-            table.flush()
+            table.write(rest + '\n')  # one write, whole: others write rows as well
             progress.add()
         else:
             print(line, flush=True)
@@ -145,20 +163,37 @@ def follow(rig, machines, table, progress):
     return machines.now.said() if machines.now else 'no emulator'
 
 
-def fly(gate, host, elf, flips, seed, first):
-    machines, progress = Machines(elf, gate.out), Progress('flips', flips, 'flips', first)
-    command = [f'{host}/ft/pil/pil_seu', MISSION, gate.out, gate.out / 'places.txt', flips - first, seed, first]
+def fly(gate, host, elf, seed, run, progress):
+    """One rig, and an emulator in a folder of its own, for a run of numbers. How many emulators it took."""
+    folder = gate.out / f'from{run.start}'
+    folder.mkdir(parents=True, exist_ok=True)
+    machines = Machines(elf, folder)
+    command = [f'{host}/ft/pil/pil_seu', MISSION, folder, gate.out / 'places.txt', len(run), seed, run.start]
     rig = emulator.CHILDREN.start([str(word) for word in command], stdout=subprocess.PIPE, text=True)
     try:
-        with open(gate.out / 'flips.csv', 'a', encoding='utf-8') as table:
+        with open(gate.out / 'flips.csv', 'a', encoding='utf-8', buffering=1) as table:
             said = follow(rig, machines, table, progress)
     finally:
         emulator.CHILDREN.end(rig)
         machines.end()
-        (gate.out / 'ram.bin').unlink(missing_ok=True)
+        (folder / 'ram.bin').unlink(missing_ok=True)
     if rig.returncode != 0:
-        gate.stop(f'the board has failed without a flip, or cannot be put back: {said}: see above')
+        raise emulator.Failure(f'the board has failed without a flip, or cannot be put back: {said}: see above')
     return machines.started
+
+
+def fly_all(gate, host, elf, flips, seed):
+    """Beside each other, as many as JOBS says. How many emulators it took; the first failure ends all."""
+    done, jobs = resume(gate, elf, seed), int(os.environ.get('JOBS') or os.cpu_count())
+    runs = missing(done, flips, jobs)
+    progress = Progress('flips', flips, 'flips', flips - sum(map(len, runs)))
+    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+        flights = [pool.submit(fly, gate, host, elf, seed, run, progress) for run in runs]
+        try:
+            return sum(flight.result() for flight in concurrent.futures.as_completed(flights))
+        except emulator.Failure:
+            emulator.CHILDREN.end_all()
+            raise
 
 
 def count(rows):
@@ -237,12 +272,11 @@ def main(host, board, flips=str(WHOLE_FLIPS), seed='1', name='seu'):
         try:
             version = emulator.require()
             PPC603E.check_image(elf)
-            first = resume(gate, elf, seed)
             (gate.out / 'places.txt').write_text(places(elf, f'{board}/bsp/ppc603e/CMakeFiles/layout_603e.dir/__/__/ft/pil/layout.cpp.obj'), encoding='utf-8')
-            started = fly(gate, host, elf, flips, seed, first) if first < flips else 0
+            started = fly_all(gate, host, elf, flips, seed)
         except emulator.Failure as failure:
             gate.stop(str(failure))
-        rows = rows_of(gate.out / 'flips.csv')[:flips]
+        rows = sorted(rows_of(gate.out / 'flips.csv'), key=lambda row: int(row['number']))[:flips]
         if len(rows) != flips:
             gate.find(f'{len(rows)} flips of {flips} have an outcome: start again, it goes on where it was')
         conclude(gate, rows, seed, version, time.monotonic() - begun, started)
