@@ -61,7 +61,7 @@ tidy = @ninja -C $(1) -t cleandead >/dev/null; find $(1) -name '*.$(2)' | while 
 ctest = @rm -rf $(2); mkdir -p $(2); GTEST_OUTPUT=xml:$(abspath $(2))/ \
   ctest --test-dir $(1) --parallel $(JOBS) --output-on-failure --no-tests=error --output-junit $(abspath $(2))/ctest.xml $(3)
 
-.PHONY: help run test accuracy bench basin search montecarlo endurance flips scrub fuzz statistics campaigns-sample golden fixed-point ppc-count search-count pil pil-sample seu seu-sample prove ppc-test sanitize requirements arrows coverage mcdc trace evidence gates-selftest figures icd format lint install clean build
+.PHONY: help run test accuracy bench basin search montecarlo endurance flips scrub fuzz statistics campaigns-sample golden fixed-point ppc-count search-count pil pil-sample pil-upload seu seu-sample prove ppc-test sanitize requirements arrows coverage mcdc trace evidence gates-selftest figures icd format lint install clean build
 .DEFAULT_GOAL := help
 
 help: ## this list
@@ -259,6 +259,15 @@ pil-sample: prove ## the same for a few frames, and the boards' answers to fault
 	$(on_board)
 	$(linked_image)
 	@ft/pil/faults $(BUILD) $(BOARD) $(CLANG) $(BOARD)-fixed $(SECOND)
+
+pil-upload: ## a mission's image, 2.7 MB, over the ground's line into the store of the emulated 603e, and flown from there; out/pil-upload
+	$(begin)
+	$(call packages,build target)
+	$(call configure,$(BUILD),)
+	$(call compile,$(BUILD),pil_rig)
+	$(call configure,$(BOARD),$(FLIGHT_BOARD))
+	$(call compile,$(BOARD),flight_603e)
+	@ft/pil/upload $(BUILD) $(BOARD)
 
 # $(call seu,FLIPS,SEED,NAME) flips bits in the running board.
 define seu

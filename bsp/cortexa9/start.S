@@ -1,4 +1,4 @@
-/* From reset, or from the fault handler, to board_main(): caches, address translation by sections, floating point, data, constructors. */
+/* From reset, or from the fault handler, to board_main(): caches, address translation by sections, floating point, data. */
         .syntax unified
         .arm
 

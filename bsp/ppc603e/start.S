@@ -1,4 +1,4 @@
-/* From reset, or from the fault handler, to board_main(): address translation by blocks, floating point, data, constructors. */
+/* From reset, or from the fault handler, to board_main(): address translation by blocks, floating point, data. */
         .section .text.start,"ax",@progbits
         .globl _start
 _start: li    3,0x1000                          /* ME; no interrupts, no translation; vectors at 0 */

@@ -94,7 +94,7 @@ Packet fly_on_host(const WorldSetup& setup, const HostMemory& memory, std::uint3
   for (std::uint32_t slot = 0; slot < frames * kSlotsPerFrame; ++slot) {
     host.meet(world, slot);
     host.run_slot();
-    told(slot / kSlotsPerFrame);
+    told((slot + 1) / kSlotsPerFrame);
   }
   return host.link.said;
 }

@@ -6,8 +6,9 @@ from platform_limits import limit
 NUMBERS = {'float': 'floating point', 'fixed': 'fixed point', 'cortexa9': 'floating point, Cortex-A9'}
 STAGES = [('estimate', 'estimate'), ('boundary', 'boundary: publish, hand over, plan'), ('polls', 'polls of the camera, 19 slots'),
           ('largest_poll', 'the largest of them'), ('lines', 'interrupts of the lines, in no slot')]
+WHOLE = ('whole', 'the whole frame, entries of interrupts and loops of the background, too')
 IDLE_ASKED = limit('PLT-016', 'idle_share')  # in the median
-COLOURS = {'estimate': '#3465a4', 'polls': '#73b66b', 'boundary': '#c17d11'}
+COLOURS = {'estimate': '#3465a4', 'polls': '#73b66b', 'boundary': '#c17d11', 'lines': '#75507b'}
 WIDTH, HEIGHT, LEFT, BOTTOM = 960, 320, 60, 30
 
 
@@ -32,8 +33,8 @@ def picture(frames, budget, mips, period_ms):
         y, ms = scale_y(budget * share / 5, budget), period_ms * share / 5
         lines.append(f'<line x1="{LEFT}" x2="{WIDTH - 10}" y1="{y:.1f}" y2="{y:.1f}" stroke="{"#c00" if share == 5 else "#ddd"}"/>'
                      f'<text x="{LEFT - 6}" y="{y + 4:.1f}" text-anchor="end">{ms:.0f} ms</text>')
-    legend = ''.join(f'<rect x="{LEFT + 240 * n}" y="{HEIGHT - 16}" width="12" height="12" fill="{colour}"/>'
-                     f'<text x="{LEFT + 240 * n + 18}" y="{HEIGHT - 6}">{dict(STAGES)[stage]}</text>' for n, (stage, colour) in enumerate(COLOURS.items()))
+    legend = ''.join(f'<rect x="{LEFT + 225 * n}" y="{HEIGHT - 16}" width="12" height="12" fill="{colour}"/>'
+                     f'<text x="{LEFT + 225 * n + 18}" y="{HEIGHT - 6}">{dict(STAGES)[stage]}</text>' for n, (stage, colour) in enumerate(COLOURS.items()))
     return (f'<svg viewBox="0 0 {WIDTH} {HEIGHT}" xmlns="http://www.w3.org/2000/svg" font-family="sans-serif" font-size="11">{"".join(lines)}'
             f'{"".join(bars(frames, budget))}{legend}<text x="{WIDTH - 12}" y="14" text-anchor="end" fill="#c00">the frame: {period_ms} ms, {budget / 1e6:.0f} '
             f'million instructions at {mips} MIPS</text></svg>')
@@ -50,7 +51,7 @@ def idle(r):
 
 
 def rows(r):
-    for stage, title in STAGES:
+    for stage, title in (*STAGES, WHOLE):
         i = r['instructions'][stage]
         yield f'{title}: instructions (median, 99 %, worst)', f'{i["median"]:,.0f}; {i["p99"]:,}; {i["worst"]:,}'
     for how in ('without', 'with'):
@@ -58,7 +59,7 @@ def rows(r):
         yield f'from a wake-up call’s time to its first instruction, {how} line traffic, worst of a frame', f'{latency["median"]:.0f} instructions (median), {latency["worst"]} at worst'
     yield 'processor idle', idle(r)
     yield 'margin of the fullest slot', f'{100 * r["slot_margin_share"]:.1f} %'
-    yield 'margin of the fullest frame', f'{100 * r["estimate_margin_share"]:.1f} %'
+    yield 'margin of the fullest frame', f'{100 * r["frame_margin_share"]:.1f} %'
     for name, used in r['stack_bytes'].items():
         yield f'stack of the {name}: most that was used', f'{used:,} bytes; {r["stack_bound"]} {r["stack_bound_bytes"][name]:,} bytes, of 32,768'
     yield 'code and constants', f'{r["image_bytes"]:,} bytes'

@@ -1,12 +1,13 @@
-// pil_rig MISSION SCENARIO FRAMES OUT [cut=BYTES] [noise] [store=ADDRESS] [memory=ADDRESS] [starts=N] [code=BYTES] [quiet=S] [limit=S]
-// [progress]: flies a scenario on the host, then on the board behind OUT/camera.sock, OUT/ground.sock and OUT/rig.sock, and compares their
-// telemetry bit by bit. Says `ready` when the board may be started: the mission's image is then in OUT/image.3dli. Leaves OUT/host.ccsds,
-// OUT/target.ccsds, OUT/starts.csv and OUT/slots.csv (the board's reports, words by name). cut: the camera's line ends after so many bytes.
-// noise: the ground's begins with some. store: three starts try the store (store_story.hpp), the first image buffer being at ADDRESS.
-// memory: where the board's begins, 0. starts: so many starts of the board are awaited, and the flight on the host left out. code: so much
-// code the board watches, and the host beside it. quiet: seconds of the host for which nothing may move on the lines, 30. limit: seconds
-// that all of it may take, 3600. progress: a line `frame` on standard error for each frame that is done, on the host and on the board,
-// instead of a bar for people. Exit codes: 0 the same bits, 1 not, or the board failed, 2 usage or bad input.
+// pil_rig MISSION SCENARIO FRAMES OUT [cut=BYTES] [noise] [store=ADDRESS] [whole] [memory=ADDRESS] [starts=N] [code=BYTES] [quiet=S]
+// [limit=S] [progress]: flies a scenario on the host, then on the board behind OUT/camera.sock, OUT/ground.sock and OUT/rig.sock, and
+// compares their telemetry bit by bit. Says `ready` when the board may be started: the mission's image is then in OUT/image.3dli. Leaves
+// OUT/host.ccsds, OUT/target.ccsds, OUT/starts.csv and OUT/slots.csv (the board's reports, words by name). cut: the camera's line ends
+// after so many bytes. noise: the ground's begins with some. store: three starts try the store (store_story.hpp), the first image buffer
+// being at ADDRESS. whole: what they load is as large as what flies. memory: where the board's begins, 0. starts: so many starts of the
+// board are awaited, and the flight on the host left out. code: so much code the board watches, and the host beside it. quiet: seconds of
+// the host for which nothing may move on the lines, 30. limit: seconds that all of it may take, 3600. progress: a line `frame` on standard
+// error for each frame that is done, on the host and on the board, instead of a bar for people. Exit codes: 0 the same bits, 1 not, or the
+// board failed, 2 usage or bad input.
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -30,7 +31,7 @@ namespace lasso::pil {
 namespace {
 
 constexpr std::uint32_t kPipelineFrames = 2;  // scan k is reported at boundary k + 2
-constexpr double kStoryPoints = 256;
+constexpr double kStoryPoints = 256, kOtherPoints = 250;
 constexpr std::size_t kMissionIdAt = 19;  // the low byte of the header's mission id
 constexpr std::uint8_t kOtherMission = 99;
 constexpr const char* kWordNames =
@@ -44,6 +45,7 @@ struct Options {
   std::optional<std::uint64_t> cut;
   bool noise = false;
   std::uint32_t store = 0;   // where the first image buffer is; 0: it is not tried
+  bool whole = false;        // the image that is loaded is a mission's own
   std::uint32_t memory = 0;  // where the board's memory begins
   std::chrono::seconds quiet{30}, limit{3600};
   bool progress = false;
@@ -60,6 +62,7 @@ void take(const std::string& word, Options& options) {
       {"cut", [](const std::string& value, Options& of) { of.cut = count_of<std::uint64_t>("cut", value); }},
       {"noise", [](const std::string&, Options& of) { of.noise = true; }},
       {"store", [](const std::string& value, Options& of) { of.store = count_of<std::uint32_t>("store", value); }},
+      {"whole", [](const std::string&, Options& of) { of.whole = true; }},
       {"memory", [](const std::string& value, Options& of) { of.memory = count_of<std::uint32_t>("memory", value); }},
       {"starts", [](const std::string& value, Options& of) { of.starts = count_of<std::uint32_t>("starts", value, 1); }},
       {"code", [](const std::string& value, Options& of) { of.code_bytes = count_of<std::uint32_t>("code", value); }},
@@ -76,7 +79,8 @@ void take(const std::string& word, Options& options) {
 Options parse(int argc, char** argv) {
   if (argc < 5)
     throw mdat::InputError(
-        "usage: pil_rig MISSION SCENARIO FRAMES OUT [cut=BYTES] [noise] [store=ADDRESS] [memory=ADDRESS] [starts=N] [code=BYTES] [quiet=S] "
+        "usage: pil_rig MISSION SCENARIO FRAMES OUT [cut=BYTES] [noise] [store=ADDRESS] [whole] [memory=ADDRESS] [starts=N] [code=BYTES] "
+        "[quiet=S] "
         "[limit=S] [progress]");
   Options options;
   options.mission = argv[1];
@@ -191,8 +195,12 @@ int compare(const Options& options, const Packet& host, const TargetFlight& flig
   return wrong.empty() ? mdat::kExitDone : mdat::kExitFailed;
 }
 
-// The image that the ground loads: of a box, small, and of another mission.
-std::vector<std::uint8_t> image_to_load(const MissionParameters& parameters) {
+// The image that the ground loads: of a box, small, and of another mission; or as the one that flies, with another parameter.
+std::vector<std::uint8_t> image_to_load(const Options& options, const mdat::CompiledMission& mission, MissionParameters parameters) {
+  if (options.whole) {
+    parameters.points = kOtherPoints;
+    return mdat::image_bytes(mission, parameters);
+  }
   test::TestImage box = test::make_box_image(parameters, {{0, 0, 0}, {0.3, 0.2, 0.1}, 0.1, 0.2});
   box.data()[kMissionIdAt] = kOtherMission;
   test::repair_crcs(box);
@@ -219,7 +227,8 @@ int run(const Options& options) {
   write(options.out + "/image.3dli", image);
   const std::uint32_t frames = options.frames + kPipelineFrames;
   std::optional<StoreStory> story;
-  if (options.store != 0) story.emplace(image_to_load(setup.flight.parameters), options.store, options.memory, options.out);
+  if (options.store != 0)
+    story.emplace(image_to_load(options, mission, setup.flight.parameters), options.store, options.memory, options.out);
   const Ground ground = [&](std::uint32_t start, std::uint32_t slot, std::uint16_t& count) {
     return story ? story->commands(start, slot, count) : Packet{};
   };

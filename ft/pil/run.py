@@ -128,19 +128,21 @@ def measure(gate, number, elf, slots):
     # Once the first estimate has ended each frame has one.
     gaps = sum(frame['estimate'] == 0 for frame in frames[frames.index(flown[0]):])
     image, memory = sizes(gate, elf, BOARDS[number])
-    # The processor rests when neither task has work: what idle_ticks say, less the interrupts' entries that they hold. The clock stands still
-    # while the bytes of the lines move: their interrupts are in no slot, and are counted apart.
-    idle = [1 - (frame['boundary'] + frame['polls'] + frame['estimate']) / FRAME_INSTRUCTIONS for frame in flown]
-    with_lines = [share - frame['lines'] / FRAME_INSTRUCTIONS for share, frame in zip(idle, flown)]
+    # The processor rests where its clock skips to the next slot: all else, entries of interrupts and the background's loop among it, is work.
+    # The clock stands still while the bytes of the lines move: their interrupts are in no slot, and are counted apart.
+    for frame in flown:
+        frame['whole'] = FRAME_INSTRUCTIONS - frame['idle'] + frame['lines']
+    idle = [frame['idle'] / FRAME_INSTRUCTIONS for frame in flown]
+    with_lines = [1 - frame['whole'] / FRAME_INSTRUCTIONS for frame in flown]
     return {
         'frames': len(frames), 'frames_without_estimate': gaps, 'mips': MIPS, 'period_ms': PERIOD_MS,
-        'instructions': {stage: spread([frame[stage] for frame in flown]) for stage in ('boundary', 'polls', 'largest_poll', 'estimate', 'lines')},
+        'instructions': {stage: spread([frame[stage] for frame in flown]) for stage in (*(stage for stage, _ in page.STAGES), 'whole')},
         'interrupt_latency_instructions_without_line_traffic': spread([frame['late'] for frame in flown]),
         'interrupt_latency_instructions_with_line_traffic': spread([frame['late_busy'] for frame in flown]),
         'idle_share_without_line_interrupts': {'median': statistics.median(idle), 'worst': min(idle)},
         'idle_share': {'median': statistics.median(with_lines), 'worst': min(with_lines), 'asked': page.IDLE_ASKED},
         'slot_margin_share': 1 - max(max(frame['boundary'], frame['largest_poll']) for frame in flown) / (FRAME_INSTRUCTIONS / SLOTS),
-        'estimate_margin_share': 1 - max(frame['estimate'] + frame['polls'] + frame['boundary'] for frame in flown) / FRAME_INSTRUCTIONS,
+        'frame_margin_share': min(with_lines),
         'stack_bytes': stacks(slots), 'stack_bound': bound_name(number), 'stack_bound_bytes': stack_bounds(gate, number, elf),
         'image_bytes': image, 'memory_bytes': memory, 'component_bytes': slots[0]['memory'], 'lost_bytes': slots[-1]['lost_bytes'],
         'services_cut': slots[-1]['services_cut'], 'lines_masked': slots[-1]['lines_masked'], 'packets_dropped': slots[-1]['packets_dropped'],
@@ -172,7 +174,7 @@ def tell(gate, number, r):
     i = r['instructions']
     print(f'{page.NUMBERS[number]}: {r["telemetry"]}')
     print(f'instructions in a frame of {PERIOD_MS} ms at {MIPS} MIPS ({FRAME_INSTRUCTIONS / 1e6:.0f} million), millions: median, 99 %, worst')
-    for stage, title in page.STAGES:
+    for stage, title in (*page.STAGES, page.WHOLE):
         print(f'  {title:36s} {million(i[stage]["median"])} {million(i[stage]["p99"])} {million(i[stage]["worst"])}')
     print(f'processor idle: {page.idle(r)}')
     figures = {
@@ -208,10 +210,16 @@ def fly(gate, number, host, board, frames, progress):
 
 
 def fly_all(gate, flights, frames):
-    """One beside the other, with one progress: a line of each would overwrite the others'."""
+    """One beside the other, with one progress: a line of each would overwrite the others'. The first that fails ends all."""
     progress = Progress('fly', len(flights) * 2 * (frames + PIPELINE_FRAMES), 'frames on hosts and boards')
     with concurrent.futures.ThreadPoolExecutor() as pool:
         jobs = {number: pool.submit(fly, gate, number, *folders, frames, progress) for number, folders in flights.items()}
+        try:
+            for job in concurrent.futures.as_completed(jobs.values()):
+                job.result()
+        except Exception:
+            emulator.CHILDREN.end_all()
+            raise
         return {number: job.result() for number, job in jobs.items()}
 
 

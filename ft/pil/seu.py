@@ -40,14 +40,15 @@ OUTCOMES = {
     'stopped': 'told, and no more poses: safe, or lost',
     'reset': 'the board restarted',
     'hang': 'no more word of the board for as long as 100 frames without a flip take, 20 s of the host at least: it hangs, or damaged code has made it restart nine times in a row',
-    'told_wrong': 'a wrong pose as valid, and the flip told within 10 s of the pose, or a reset',
-    'silent_wrong': 'a wrong pose as valid, and not a word within 10 s of it: silent as in make scrub',
+    'told_wrong': 'a wrong pose as valid, and the flip told within 10 s, or a reset',
+    'silent_wrong': 'a wrong pose as valid, and not a word within 10 s of the flip: silent as in make scrub',
 }
 # Of all outcomes, after their sum: flights with a wrong pose as valid, which are silent as in make flips, and those where it came before or with the word of the flip.
 WRONG = {'wrong': 'a wrong pose as valid, whatever followed: silent as in make flips', 'wrong_first': 'of these, with a wrong pose no later than the frame in which the flip was told, if it was'}
 COLUMNS = ('number', 'region', 'frame', 'slot', 'where', 'bit', 'instruction', 'outcome', 'told_after', 'wrong', 'invalid', 'frames', 'first_wrong')
 SHORTEST_RUN = 50  # of numbers, each of which begins with the flight without a flip
 WHOLE_FLIPS, MOST_FLIPS = 2000, 1_000_000  # LASSO-PLT-018
+MOST_SEED = (1 << 63) - 1
 # Of the host: without a word of the rig, which ends each flight within 20 minutes; for it to end by itself.
 SILENT_S, END_S = 1800, 10
 
@@ -84,12 +85,21 @@ def rows_of(path):
         return list(csv.DictReader(file))
 
 
-def resume(gate, elf, seed):
-    """Numbers of the flips of the same campaign that are there."""
-    campaign = json.dumps({'seed': seed, 'columns': COLUMNS, 'image': hashlib.sha256(pathlib.Path(elf).read_bytes()).hexdigest()})
+def campaign_of(seed, *files):
+    """What a flip's outcome depends on: where one of these differs, the campaign is another."""
+    return json.dumps({'seed': seed, 'columns': COLUMNS} | {pathlib.Path(path).name: hashlib.sha256(pathlib.Path(path).read_bytes()).hexdigest() for path in files})
+
+
+def resume(gate, campaign):
+    """Numbers of the flips of the same campaign that are there. The table of another one is kept aside."""
     known, table = gate.out / 'campaign.json', gate.out / 'flips.csv'
-    if known.exists() and table.exists() and known.read_text(encoding='utf-8') == campaign:
-        return {int(row['number']) for row in rows_of(table)}
+    if known.exists() and table.exists():
+        before = known.read_text(encoding='utf-8')
+        if before == campaign:
+            return {int(row['number']) for row in rows_of(table)}
+        aside = gate.out / f'flips-{hashlib.sha256(before.encode()).hexdigest()[:8]}.csv'
+        table.replace(aside)
+        print(f'{table} was of another campaign (seed, board, rig or mission): kept as {aside.name}')
     known.write_text(campaign, encoding='utf-8')
     table.write_text(','.join(COLUMNS) + '\n', encoding='utf-8')
     return set()
@@ -184,14 +194,14 @@ def fly(gate, host, elf, seed, run, progress):
 
 def fly_all(gate, host, elf, flips, seed):
     """Beside each other, as many as JOBS says. How many emulators it took; the first failure ends all."""
-    done, jobs = resume(gate, elf, seed), int(os.environ.get('JOBS') or os.cpu_count())
+    done, jobs = resume(gate, campaign_of(seed, elf, f'{host}/ft/pil/pil_seu', gates.TOP / MISSION)), int(os.environ.get('JOBS') or os.cpu_count())
     runs = missing(done, flips, jobs)
     progress = Progress('flips', flips, 'flips', flips - sum(map(len, runs)))
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
         flights = [pool.submit(fly, gate, host, elf, seed, run, progress) for run in runs]
         try:
             return sum(flight.result() for flight in concurrent.futures.as_completed(flights))
-        except emulator.Failure:
+        except Exception:
             emulator.CHILDREN.end_all()
             raise
 
@@ -268,6 +278,7 @@ def main(host, board, flips=str(WHOLE_FLIPS), seed='1', name='seu'):
     emulator.end_with_children()
     with gates.Gate(name) as gate:
         flips = gate.number('FLIPS', flips, MOST_FLIPS, WHOLE_FLIPS if name == 'seu' else None)
+        seed = gate.number('SEED', seed, MOST_SEED)
         elf, begun = f'{board}/flight_603e.elf', time.monotonic()
         try:
             version = emulator.require()

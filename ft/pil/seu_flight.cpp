@@ -326,7 +326,7 @@ bool SeuFlight::decided(const Course& course, const Trial& trial) const {
     return trial.frames >= trial.told_after + (course.valid >= kValidFrames ? least : std::max(least, kRecoverFrames));
   }
   if (course.same >= kSameFrames && board_.constants_right()) return true;
-  return trial.frames > std::max(kScrubFrames, trial.first_wrong > 0 ? trial.first_wrong + kScrubFrames : 0);
+  return trial.frames >= kScrubFrames;
 }
 
 std::string SeuFlight::outcome_of(const Course& course, const Trial& trial) {
