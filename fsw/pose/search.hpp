@@ -8,7 +8,7 @@
 // between two calls.
 //
 // Work is done in steps and counted in units of some 75 PowerPC 603e instructions (search_work.hpp). advance() ends with the step that
-// uses the budget up; no step takes more than kLargestStep. A scan of 1024 rays takes some 1.15 million units, some 80 million
+// uses the budget up; no step takes more than kLargestStep. A scan of 1024 rays takes some 1.2 million units, some 80 million
 // instructions, in all (docs/search.md): most hypotheses are looked at no longer than until others promise more. Once limits.work_max of
 // them are used on a scan, nothing more is settled, explored, recalled in earlier scans or swayed: what was found so far stands, as
 // ambiguous, and the next scan goes on from it. The best one's near-symmetries are measured all the same.
@@ -32,7 +32,7 @@ struct SearchLimits {
   double disagreement_max = 0.20;
   double ratio_min = 1.3;  // score of the best distinct competitor over that of the pose; or what the returns make of both by their noise
   std::uint32_t scans_max = kMaxSearchScans;
-  std::uint32_t work_max = 2'500'000;  // units of work on one scan; what they leave open makes the result ambiguous
+  std::uint32_t work_max = 2'600'000;  // units of work on one scan; what they leave open makes the result ambiguous
 };
 
 class Search {

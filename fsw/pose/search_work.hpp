@@ -23,11 +23,12 @@ constexpr std::size_t kTurnedPoint = 40;    // a return in a view
 constexpr std::size_t kCoarsePoint = 75;    // at a roll and half a turn on
 constexpr std::size_t kOffer = 1800;        // of a hypothesis to the short list
 constexpr std::size_t kDistancePull = 450;  // of a point
-constexpr std::size_t kRayPull = 1100;      // of a point
+constexpr std::size_t kRayPull = 1350;      // of a point: its ray is walked along through a gate that begins wide
+constexpr std::size_t kRayWeighed = 1100;   // of a point, as the pose stands
 constexpr std::size_t kOpening = 200;       // of a point, when a registration begins
 constexpr std::size_t kPass = 550;          // of a point in a registration, each time
 constexpr std::size_t kSolution = 6000;     // of any pass
-constexpr std::size_t kFitHit = 2100;       // a return measured
+constexpr std::size_t kFitHit = 2200;       // a return measured
 constexpr std::size_t kFitMiss = 1400;      // a miss measured
 constexpr std::size_t kRegion = 10000;      // of the evidence, besides its returns
 constexpr std::size_t kLine = 40000;        // to explore
@@ -53,9 +54,9 @@ constexpr std::uint32_t draw_work(std::size_t points) { return units_of(kRayPull
 constexpr std::uint32_t look_work(std::size_t points, std::size_t passes) {
   return units_of(cost::kOpening * points + passes * (cost::kPass * points + cost::kSolution));
 }
-constexpr std::uint32_t weigh_work(std::size_t points) { return units_of(cost::kRayPull * points + cost::kSolution); }
+constexpr std::uint32_t weigh_work(std::size_t points) { return units_of(cost::kRayWeighed * points + cost::kSolution); }
 constexpr std::uint32_t regions_work(std::size_t points, std::size_t regions) {
-  return units_of(cost::kRayPull * points + regions * cost::kRegion);
+  return units_of(cost::kRayWeighed * points + regions * cost::kRegion);
 }
 constexpr std::uint32_t fit_work(std::size_t hits, std::size_t misses) { return units_of(cost::kFitHit * hits + cost::kFitMiss * misses); }
 
