@@ -8,12 +8,16 @@
 
 namespace lasso {
 
-// Does the ray meet the model anywhere in front of the sensor? `pose` is T_target_sensor. Bounded by walk_field.
-inline bool meets_model(const Mission& mission, const PathPose<FlightNumber>& pose, const ScanRay<FlightNumber>& ray) {
+// What the ray meets of the model in front of the sensor; t is its range. `pose` is T_target_sensor. Bounded by walk_field.
+inline FieldHit<FlightNumber> meet_model(const Mission& mission, const PathPose<FlightNumber>& pose, const ScanRay<FlightNumber>& ray) {
   FieldRay<FlightNumber> r{};
   transform(pose, ray.o, r.m);
   rotate(pose, ray.u, r.u);
-  return cast_ray(mission.field, r).found;
+  return cast_ray(mission.field, r);
+}
+
+inline bool meets_model(const Mission& mission, const PathPose<FlightNumber>& pose, const ScanRay<FlightNumber>& ray) {
+  return meet_model(mission, pose, ray).found;
 }
 
 }  // namespace lasso

@@ -1,0 +1,188 @@
+#include "fsw/pose/outline.hpp"
+
+#include <cmath>
+#include <initializer_list>
+
+#include "ut/pose/pose_fixture.hpp"
+#include "ut/support/verifies.hpp"
+
+namespace lasso {
+namespace {
+
+constexpr double kGate_m = 0.01;
+constexpr double kLastStep_m = 1e-3;
+
+// The box's top face, seen straight on: its plane holds neither the shifts in it nor the turn about its normal.
+class OutlineTest : public test::PoseFixture {
+ protected:
+  OutlineTest() {
+    scan_.T_sensor_target.q = exp_so3(Vec3(0, 0, 0.4));
+    scan_.T_sensor_target.p = Vec3(0.03, -0.02, 2.5);
+    in_plane_.count = 3;
+    in_plane_.vectors(2, 0) = in_plane_.vectors(3, 1) = in_plane_.vectors(4, 2) = 1;
+  }
+
+  // A step along the three of them, target axes.
+  Pose beside(double turn_rad, double x_m, double y_m) const {
+    Vec6 step = Vec6::Zero();
+    step[2] = turn_rad;
+    step[3] = x_m;
+    step[4] = y_m;
+    return step_pose(truth(), step);
+  }
+
+  OutlineFit fit(const Pose& start) { return fit_outline(mission_, start, in_plane_, kGate_m, kLastStep_m, *workspace_); }
+
+  // By the box's closed form.
+  std::uint32_t count_disputed(const Pose& T_target_sensor) const {
+    std::uint32_t count = 0;
+    for (const ScanRay<FlightNumber>& ray : workspace_->rays) {
+      const Vec3 u(FlightNumber::to_double(ray.u[0]), FlightNumber::to_double(ray.u[1]), FlightNumber::to_double(ray.u[2]));
+      const double met = cast_box(scan_.model, T_target_sensor.p, rotate(T_target_sensor.q, u));
+      const bool agrees =
+          ray.state == RayState::kMiss ? !(met > 0) : met > 0 && std::abs(met - FlightNumber::to_double(ray.range)) < kGate_m;
+      count += agrees ? 0U : 1U;
+    }
+    return count;
+  }
+
+  // Steps go along one direction at a time, and can end where none of them helps: many rays then still dispute the pose.
+  bool is_brought_back(const Pose& start) {
+    const OutlineFit found = fit(start);
+    if (found.disputed > 4) return false;
+    EXPECT_GE(found.within_m.head<3>().minCoeff(), kLastStep_m);
+    EXPECT_LT(found.within_m.head<3>().maxCoeff(), 0.08);
+    const Vec6 error = error_of(found.T_target_sensor);
+    EXPECT_LT(error.head<3>().norm() * mission_.radius_m, 0.025);
+    EXPECT_LT(error.tail<3>().norm(), 0.012);
+    return true;
+  }
+
+  Directions in_plane_;
+};
+
+TEST_F(OutlineTest, APoseThatSlidIsBroughtBackToWithinAFractionOfARaysSpacing) {
+  VERIFIES("LASSO-REG-022~1");
+  scan_.sigma_m = 1e-3;
+  scan_.side = 22;  // a ray every 38 mm
+  scan();
+  int count = 0;
+  for (int i = 0; i < 40; ++i) {
+    const Vec3 x = test::random_vec3(random_, 1);
+    count += is_brought_back(beside(0.1 * x[0], 0.1 * x[1], 0.1 * x[2])) ? 1 : 0;
+  }
+  EXPECT_GE(count, 37);
+  EXPECT_TRUE(is_brought_back(beside(0, 0.3, 0)));  // farther than the longest step at once
+}
+
+TEST_F(OutlineTest, RaysDisputeAPoseAsTheClosedFormHasIt) {
+  VERIFIES("LASSO-REG-022~1");
+  scan_.side = 22;  // all rays are asked
+  scan_.dropouts = 0.02;
+  scan_.outliers = 0.02;
+  in_plane_.count = 0;
+  for (int i = 0; i < 10; ++i) {
+    scan_.T_sensor_target = test::random_box_pose(random_);
+    scan_.half_angle = 0.12;
+    scan();
+    const Pose start = inverse(test::disturb(scan_.T_sensor_target, 0.1, 0.05, random_));
+    const OutlineFit found = fit(start);
+    EXPECT_EQ(found.rays, workspace_->rays.size());
+    EXPECT_EQ(found.hits, workspace_->points.size());
+    EXPECT_NEAR(found.disputed, count_disputed(start), 2);  // a ray along an edge may be rounded to either side
+    EXPECT_GT(found.disputed, 10U);
+    EXPECT_EQ(found.gained, 0U);
+    EXPECT_EQ(found.T_target_sensor.p, start.p) << "there is no direction to go";
+  }
+}
+
+TEST_F(OutlineTest, WhatIsGainedIsTheDifferenceOfBothPoses) {
+  VERIFIES("LASSO-REG-022~1");
+  scan_.side = 22;
+  scan();
+  for (int i = 0; i < 10; ++i) {
+    const Vec3 x = test::random_vec3(random_, 0.1);
+    const Pose start = beside(x[0], x[1], x[2]);
+    const OutlineFit found = fit(start);
+    EXPECT_NEAR(found.disputed, count_disputed(found.T_target_sensor), 2);
+    EXPECT_NEAR(found.disputed + found.gained, count_disputed(start), 3);
+  }
+}
+
+// Off by as much as it says, more rays do dispute the pose.
+TEST_F(OutlineTest, FartherOffThanItSaysMoreRaysDisputeThePose) {
+  VERIFIES("LASSO-REG-022~1");
+  scan_.side = 22;
+  scan();
+  const OutlineFit found = fit(beside(0.02, 0.01, -0.01));
+  for (int i = 0; i < 3; ++i) {
+    ASSERT_GT(found.within_m[i], 0);
+    for (const double way : {-1.0, 1.0}) {
+      const Vec6 x = in_plane_.vectors.col(i).cwiseQuotient(radius_scale(mission_.radius_m)) * way * found.within_m[i];
+      EXPECT_GE(count_disputed(step_pose(found.T_target_sensor, x)), found.disputed + kFewRays - 1) << i << way;
+    }
+  }
+}
+
+TEST_F(OutlineTest, WhereNoRayPassesByItSaysNothing) {
+  VERIFIES("LASSO-REG-023~1");
+  scan_.half_angle = 0.04;  // all rays meet the face, far from its rim
+  scan();
+  const OutlineFit found = fit(truth());
+  EXPECT_EQ(found.hits, found.rays);
+  EXPECT_EQ(found.disputed, 0U);
+  EXPECT_EQ(found.within_m, Vec6(Vec6::Zero()));
+}
+
+TEST_F(OutlineTest, ThePoseMovesInTheGivenDirectionsOnly) {
+  VERIFIES("LASSO-REG-022~1");
+  scan();
+  in_plane_.count = 2;  // not along y
+  const OutlineFit found = fit(beside(0.05, 0.04, 0.03));
+  const Vec3 moved = found.T_target_sensor.p - beside(0, 0, 0.03).p;
+  EXPECT_LT(std::abs((found.T_target_sensor.p - truth().p)[2]), 1e-12) << "height over the face";
+  EXPECT_GT(moved.norm(), 1e-3) << "x alone cannot make it right";
+  EXPECT_GT(found.gained, 0U);
+}
+
+TEST_F(OutlineTest, OnlyRaysNearTheTargetThatSayAnythingAreAsked) {
+  VERIFIES("LASSO-REG-022~1");
+  scan_.side = 56;
+  scan_.half_angle = 0.4;
+  scan();
+  std::uint32_t near = 0;
+  for (std::size_t i = 0; i < workspace_->rays.size(); ++i) {
+    if (i % 2 == 0) workspace_->rays[i].state = RayState::kInvalid;
+    const auto& u = workspace_->rays[i].u;
+    const Vec3 line(FlightNumber::to_double(u[0]), FlightNumber::to_double(u[1]), FlightNumber::to_double(u[2]));
+    const bool passes = (scan_.T_sensor_target * mission_.center_m).cross(line).norm() < 1.5 * mission_.radius_m;
+    if (passes && i % 2 == 1) ++near;
+  }
+  EXPECT_LT(near, kOutlineRays);
+  EXPECT_EQ(fit(truth()).rays, near);
+}
+
+TEST_F(OutlineTest, OfMoreRaysThanThereIsRoomForEveryNthIsAsked) {
+  VERIFIES("LASSO-REG-022~1");
+  scan_.side = 63;
+  scan();
+  const OutlineFit found = fit(beside(0.05, 0.05, -0.08));
+  EXPECT_LE(found.rays, kOutlineRays);
+  EXPECT_GT(found.rays, kOutlineRays / 2);
+  EXPECT_LT(error_of(found.T_target_sensor).tail<3>().norm(), 0.01);
+}
+
+TEST_F(OutlineTest, AnEndlessSearchEndsAndNoRaysMoveNothing) {
+  VERIFIES("LASSO-REG-022~1");
+  scan();
+  const OutlineFit endless = fit_outline(mission_, beside(0.02, 0.01, 0.01), in_plane_, kGate_m, 0, *workspace_);
+  EXPECT_LE(endless.disputed, 4U);
+  workspace_->rays.clear();
+  const OutlineFit nothing = fit(truth());
+  EXPECT_EQ(nothing.rays, 0U);
+  EXPECT_EQ(nothing.disputed, 0U);
+  EXPECT_EQ(nothing.T_target_sensor.p, truth().p);
+}
+
+}  // namespace
+}  // namespace lasso
