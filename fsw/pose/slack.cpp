@@ -21,7 +21,7 @@ double variance_along(double radius_m, const Vec6& axis, const Mat6& covariance)
 
 Directions find_slack(const Mission& mission, const Mat6& covariance) {
   const Eigen6 eigen = eigen6(scaled(radius_scale(mission.radius_m), covariance));
-  const double limit_m = kSlackShare * mission.parameters.silhouette_band_m;
+  const double limit_m = mission.parameters.silhouette_band_m;
   Directions slack;
   for (int i = 0; i < 6; ++i) {
     if (eigen.values[i] > limit_m * limit_m) slack.vectors.col(slack.count++) = eigen.vectors.col(i);
