@@ -17,7 +17,8 @@ namespace {
 constexpr double kPoseDimensions = 6;
 constexpr double kGateSigmas = 6;             // of range: a return farther off the outline's surface disputes it
 constexpr double kLastStep = 0.25;            // of the labels' band: an outline's shortest step
-constexpr double kDisputed = 0.03;            // of its rays, at most, where it settles a pose
+constexpr double kFirstStep = 0.06;           // the same, of the model's radius: its first one
+constexpr std::uint32_t kMostAsked = 14000;   // of its rays, half as often when it is asked again
 constexpr double kSmallestNoiseScale = 1e-6;  // of the variance: a scan without any noise still has rounding
 
 static_assert(kMaxRays <= 65535, "counts of rays fit into the result");
@@ -84,15 +85,12 @@ double range_sigma(const MissionParameters& p, const Pose& T_target_sensor, cons
   return range_sigma(p, square_root(T_target_sensor.p.squaredNorm()), known.scale);
 }
 
-// Rays that a right pose would have disputed: lost returns, and a few at contours.
-bool is_explained(const MissionParameters& p, const OutlineFit& fit) {
-  return fit.disputed < kDisputed * fit.rays + p.dropout_probability * fit.hits + kFewRays;
-}
-
-OutlineFit outline_of(const Mission& mission, const HitSolution& hits, const HitKnowledge& known, Workspace& workspace) {
+OutlineFit outline_of(const Mission& mission, const HitSolution& hits, const HitKnowledge& known, std::uint32_t most_asked,
+                      Workspace& workspace) {
   const MissionParameters& p = mission.parameters;
   const double gate_m = p.edge_depth_m + kGateSigmas * range_sigma(p, hits.T_target_sensor, known);
-  return fit_outline(mission, hits.T_target_sensor, known.slack, gate_m, kLastStep * p.silhouette_band_m, workspace);
+  const OutlineCare care{gate_m, kFirstStep, kLastStep * p.silhouette_band_m, most_asked};
+  return fit_outline(mission, hits.T_target_sensor, known.slack, care, workspace);
 }
 
 // Where the hits let the pose slide, the outline says where it is. Where that is elsewhere the hits are asked again from there: a few of
@@ -100,15 +98,15 @@ OutlineFit outline_of(const Mission& mission, const HitSolution& hits, const Hit
 HitKnowledge settle_slack(const Mission& mission, HitSolution& hits, Workspace& workspace) {
   HitKnowledge known = knowledge_of(mission, hits, workspace);
   if (known.slack.count == 0) return known;
-  OutlineFit fit = outline_of(mission, hits, known, workspace);
-  if (!is_explained(mission.parameters, fit)) return known;
+  OutlineFit fit = outline_of(mission, hits, known, kMostAsked, workspace);
+  if (!fit.settled) return known;
   if (fit.gained >= kFewRays) {
     hits = register_hits(mission, fit.T_target_sensor, workspace);
     known = knowledge_of(mission, hits, workspace);
-    fit = outline_of(mission, hits, known, workspace);
+    fit = outline_of(mission, hits, known, kMostAsked / 2, workspace);
   }
   hits.T_target_sensor = fit.T_target_sensor;
-  if (is_explained(mission.parameters, fit)) known.hold = hold_by(mission, fit, known.slack, known.covariance, known.unseen);
+  known.hold = hold_by(mission, fit, known.slack, known.covariance, known.unseen);
   return known;
 }
 

@@ -7,9 +7,8 @@ namespace {
 
 using N = FlightNumber;
 
-constexpr double kFirstStep = 0.06;  // of the model's radius
-constexpr double kLongestStep = 0.25;
-constexpr double kReach = 1.5;  // rays that pass the model's centre farther off, in radii, say nothing
+constexpr double kLongestStep = 0.25;  // of the model's radius
+constexpr double kReach = 1.5;         // rays that pass the model's centre farther off, in radii, say nothing
 
 bool is_near(const Vec3& center_sensor, double reach_m, const ScanRay<N>& ray) {
   const Vec3 u(N::to_double(ray.u[0]), N::to_double(ray.u[1]), N::to_double(ray.u[2]));
@@ -42,15 +41,15 @@ bool disputes(const Mission& mission, const PathPose<N>& pose, N::Length gate, c
 
 class Slide {
  public:
-  Slide(const Mission& mission, const Directions& directions, double gate_m, Workspace& workspace)
-      : mission_(mission), directions_(directions), gate_(N::to_length(gate_m)), workspace_(workspace) {}
+  Slide(const Mission& mission, const Directions& directions, const OutlineCare& care, Workspace& workspace)
+      : mission_(mission), directions_(directions), care_(care), gate_(N::to_length(care.gate_m)), workspace_(workspace) {}
 
-  OutlineFit take(const Pose& start, double last_step_m) {
+  OutlineFit take(const Pose& start) {
     best_ = start;
     reopen();
     const std::uint32_t before = disputed_;
-    double step_m = kFirstStep * mission_.radius_m;
-    for (int round = 0; round < kOutlineRounds && step_m > last_step_m; ++round) {
+    double step_m = care_.first_step * mission_.radius_m;
+    for (int round = 0; round < kOutlineRounds && step_m > care_.last_step_m; ++round) {
       const bool helps = try_all(step_m);
       helps ? reopen() : close_certain();
       step_m = next_step(step_m, helps);
@@ -68,7 +67,7 @@ class Slide {
 
   bool try_all(double step_m) {
     bool helps = false;
-    for (int i = 0; i < directions_.count; ++i) {
+    for (int i = 0; i < directions_.count && asked_ < care_.asked; ++i) {
       if (try_both_ways(i, step_m)) helps = true;
     }
     return helps;
@@ -89,11 +88,16 @@ class Slide {
     const PathPose<N> path = to_path<N>(pose);
     std::uint32_t count = 0;
     for (OutlineRay& ray : workspace_.outline) {
-      ray.tried = ray.open ? disputes(mission_, path, gate_, workspace_.rays[ray.ray]) : ray.disputed;
+      ray.tried = ray.open ? ask(path, ray) : ray.disputed;
       ray.doubtful = ray.doubtful || ray.tried != ray.disputed;
       count += ray.tried ? 1u : 0u;
     }
     return count;
+  }
+
+  bool ask(const PathPose<N>& pose, const OutlineRay& ray) {
+    ++asked_;
+    return disputes(mission_, pose, gate_, workspace_.rays[ray.ray]);
   }
 
   // To the pose that was tried last. Where more rays dispute the pose is now farther off by the step.
@@ -118,7 +122,7 @@ class Slide {
     const PathPose<N> path = to_path<N>(best_);
     disputed_ = 0;
     for (OutlineRay& ray : workspace_.outline) {
-      if (!ray.open) ray.disputed = disputes(mission_, path, gate_, workspace_.rays[ray.ray]);
+      if (!ray.open) ray.disputed = ask(path, ray);
       ray.open = true;
       disputed_ += ray.disputed ? 1u : 0u;
     }
@@ -129,27 +133,31 @@ class Slide {
     fit.T_target_sensor = best_;
     fit.disputed = disputed_;
     fit.gained = before > disputed_ ? before - disputed_ : 0;
-    fit.within_m = within_m_;
+    fit.asked = asked_;
     fit.rays = static_cast<std::uint32_t>(workspace_.outline.size());
     for (const OutlineRay& ray : workspace_.outline) fit.hits += workspace_.rays[ray.ray].state == RayState::kHit ? 1u : 0u;
+    fit.settled = disputed_ <= kDisputed * fit.rays + mission_.parameters.dropout_probability * fit.hits + kFewRays;
+    if (fit.settled) fit.within_m = within_m_;
     return fit;
   }
 
   const Mission& mission_;
   const Directions& directions_;
+  const OutlineCare& care_;
   N::Length gate_;
   Workspace& workspace_;
   Pose best_;
   std::uint32_t disputed_ = 0;
+  std::uint32_t asked_ = 0;
   Vec6 within_m_ = Vec6::Zero();
 };
 
 }  // namespace
 
-OutlineFit fit_outline(const Mission& mission, const Pose& T_target_sensor, const Directions& directions, double gate_m, double last_step_m,
+OutlineFit fit_outline(const Mission& mission, const Pose& T_target_sensor, const Directions& directions, const OutlineCare& care,
                        Workspace& workspace) {
   choose_rays(mission, T_target_sensor, workspace);
-  return Slide(mission, directions, gate_m, workspace).take(T_target_sensor, last_step_m);
+  return Slide(mission, directions, care, workspace).take(T_target_sensor);
 }
 
 }  // namespace lasso

@@ -7,6 +7,7 @@ namespace lasso {
 namespace {
 
 constexpr double kSlackShare = 0.5;
+constexpr double kLoose = 0.1;  // of the model's radius: where every direction is held better the prediction carries the pose meanwhile
 
 Mat6 scaled(const Vec6& scale, const Mat6& covariance) { return scale.asDiagonal() * covariance * scale.asDiagonal(); }
 
@@ -22,7 +23,9 @@ double variance_along(double radius_m, const Vec6& axis, const Mat6& covariance)
 Directions find_slack(const Mission& mission, const Mat6& covariance) {
   const Eigen6 eigen = eigen6(scaled(radius_scale(mission.radius_m), covariance));
   const double limit_m = mission.parameters.silhouette_band_m;
+  const double loosest_m = kLoose * mission.radius_m;
   Directions slack;
+  if (!(eigen.values[5] > loosest_m * loosest_m)) return slack;
   for (int i = 0; i < 6; ++i) {
     if (eigen.values[i] > limit_m * limit_m) slack.vectors.col(slack.count++) = eigen.vectors.col(i);
   }

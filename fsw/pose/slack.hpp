@@ -9,7 +9,8 @@
 
 namespace lasso {
 
-// Axes of the covariance (target axes) whose sigma at the model's radius is above estimation.silhouette_band_m. Bound: one eigen-decomposition.
+// Axes of the covariance (target axes) whose sigma at the model's radius is above estimation.silhouette_band_m, if one is above a tenth of
+// the radius. Bound: one eigen-decomposition.
 Directions find_slack(const Mission& mission, const Mat6& covariance);
 
 // What the outline says along some of them.

@@ -31,7 +31,7 @@ class OutlineTest : public test::PoseFixture {
     return step_pose(truth(), step);
   }
 
-  OutlineFit fit(const Pose& start) { return fit_outline(mission_, start, in_plane_, kGate_m, kLastStep_m, *workspace_); }
+  OutlineFit fit(const Pose& start) { return fit_outline(mission_, start, in_plane_, care_, *workspace_); }
 
   // By the box's closed form.
   std::uint32_t count_disputed(const Pose& T_target_sensor) const {
@@ -59,6 +59,7 @@ class OutlineTest : public test::PoseFixture {
   }
 
   Directions in_plane_;
+  OutlineCare care_{kGate_m, 0.06, kLastStep_m, 100000};
 };
 
 TEST_F(OutlineTest, APoseThatSlidIsBroughtBackToWithinAFractionOfARaysSpacing) {
@@ -172,11 +173,37 @@ TEST_F(OutlineTest, OfMoreRaysThanThereIsRoomForEveryNthIsAsked) {
   EXPECT_LT(error_of(found.T_target_sensor).tail<3>().norm(), 0.01);
 }
 
+TEST_F(OutlineTest, ItAsksNoMoreThanItMay) {
+  VERIFIES("LASSO-REG-022~1");
+  scan();
+  const Pose start = beside(0.08, 0.07, -0.07);
+  const OutlineFit whole = fit(start);
+  for (const std::uint32_t asked : {0U, 500U, 2000U, 4000U}) {
+    care_.asked = asked;
+    const OutlineFit found = fit(start);
+    EXPECT_LE(found.asked, asked + 4 * kOutlineRays);
+    EXPECT_LT(found.asked, whole.asked);
+  }
+  care_.asked = 0;
+  EXPECT_EQ(fit(start).T_target_sensor.p, start.p);
+}
+
+TEST_F(OutlineTest, AnOutlineThatManyRaysDisputeSettlesNothing) {
+  VERIFIES("LASSO-REG-022~1");
+  scan_.dropouts = 0.2;
+  scan();
+  const OutlineFit disputed = fit(truth());
+  EXPECT_FALSE(disputed.settled);
+  EXPECT_EQ(disputed.within_m, Vec6(Vec6::Zero()));
+  parameters().dropout_probability = 0.2;
+  EXPECT_TRUE(fit(truth()).settled);
+}
+
 TEST_F(OutlineTest, AnEndlessSearchEndsAndNoRaysMoveNothing) {
   VERIFIES("LASSO-REG-022~1");
   scan();
-  const OutlineFit endless = fit_outline(mission_, beside(0.02, 0.01, 0.01), in_plane_, kGate_m, 0, *workspace_);
-  EXPECT_LE(endless.disputed, 4U);
+  care_.last_step_m = 0;
+  EXPECT_LE(fit(beside(0.02, 0.01, 0.01)).disputed, 4U);
   workspace_->rays.clear();
   const OutlineFit nothing = fit(truth());
   EXPECT_EQ(nothing.rays, 0U);
