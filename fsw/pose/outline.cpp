@@ -23,7 +23,7 @@ void choose_rays(const Mission& mission, const Pose& T_target_sensor, Workspace&
   };
   std::size_t count = 0;
   for (const ScanRay<N>& ray : workspace.rays) count += is_asked(ray) ? 1u : 0u;
-  const std::size_t stride = (count + kOutlineRays - 1) / kOutlineRays;
+  const std::size_t stride = count > kOutlineRays ? (count + kOutlineRays - 1) / kOutlineRays : 1;
   std::size_t index = 0;
   workspace.outline.clear();
   for (std::size_t i = 0; i < workspace.rays.size(); ++i) {

@@ -91,7 +91,7 @@ constexpr std::size_t kMaxAimSurfaces = 96;
 
 // A ray that says, by hitting or missing, whether a pose is right (outline.hpp).
 struct OutlineRay {
-  std::uint16_t ray;
+  std::uint16_t ray = 0;
   bool open = false;      // poses that are tried ask it
   bool doubtful = false;  // one of them got another answer than the best one
   bool disputed = false;  // by the best pose
