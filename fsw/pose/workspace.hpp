@@ -89,16 +89,6 @@ struct AimPlace {
 
 constexpr std::size_t kMaxAimSurfaces = 96;
 
-// A ray that says, by hitting or missing, whether a pose is right (outline.hpp).
-struct OutlineRay {
-  std::uint16_t ray = 0;
-  bool open = false;      // poses that are tried ask it
-  bool doubtful = false;  // one of them got another answer than the best one
-  bool disputed = false;  // by the best pose
-  bool tried = false;     // by the pose that is tried
-};
-constexpr std::size_t kOutlineRays = kMaxRays < 512 ? kMaxRays : 512;
-
 struct Workspace {
   FixedVector<ScanRay<FlightNumber>, kMaxRays> rays;
   FixedVector<MatchPoint<FlightNumber>, kMaxRays> points;
@@ -108,7 +98,6 @@ struct Workspace {
   RayBins<FlightNumber> bins{};
   FixedVector<Label, kMaxSites> labels;
   FixedVector<AimPlace, kMaxAimPlaces + kMaxAimSurfaces> places;
-  FixedVector<OutlineRay, kOutlineRays> outline;
 };
 
 }  // namespace lasso
