@@ -3,17 +3,21 @@
 #include "fsw/geometry/portable_math.hpp"
 #include "fsw/pose/labels.hpp"
 #include "fsw/pose/near_symmetry.hpp"
+#include "fsw/pose/outline.hpp"
 #include "fsw/pose/path_pose.hpp"
 #include "fsw/pose/prepare.hpp"
 #include "fsw/pose/quality.hpp"
 #include "fsw/pose/register.hpp"
 #include "fsw/pose/silhouette.hpp"
-#include "fsw/pose/unseen.hpp"
+#include "fsw/pose/slack.hpp"
 
 namespace lasso {
 namespace {
 
 constexpr double kPoseDimensions = 6;
+constexpr double kLastStep = 0.01;            // of the model's radius: an outline's shortest step
+constexpr double kFirstStep = 0.06;           // and its first one
+constexpr std::uint32_t kMostAsked = 1200;    // of its rays, half as often when it is asked again
 constexpr double kSmallestNoiseScale = 1e-6;  // of the variance: a scan without any noise still has rounding
 
 static_assert(kMaxRays <= 65535, "counts of rays fit into the result");
@@ -46,44 +50,103 @@ double range_sigma(const MissionParameters& p, double range_m, double scale) {
 
 // Labels are linear within the band around the contour. Where the hits hold the pose more loosely than that, the contours nearest to the
 // rays may be other ones than those that they passed, and labels would confirm a wrong pose.
-bool are_held(const Mission& mission, const Mat6& covariance, const Unseen& unseen, FixedVector<Label, kMaxSites>& labels) {
-  const double band_m = mission.parameters.silhouette_band_m;
+bool are_held(const Mission& mission, const LabelSearch& search, const Directions& unseen, FixedVector<Label, kMaxSites>& labels) {
   for (Label& label : labels) {
     if (!forget_unseen(mission.radius_m, unseen, label)) return false;
-    if (!(label.a.dot(covariance * label.a) < band_m * band_m)) return false;
+    if (!(label.a.dot(search.covariance * label.a) < search.band_m * search.band_m)) return false;
   }
   return true;
 }
 
-// Lets the silhouettes speak: moves the pose and shrinks the covariance. Labels that cannot be used are dropped.
-void use_silhouettes(const Mission& mission, const LabelSearch& search, const Unseen& unseen, Workspace& workspace, Pose& pose,
-                     Mat6& covariance) {
-  find_labels(mission, pose, search, workspace);
-  if (!are_held(mission, covariance, unseen, workspace.labels)) {
-    workspace.labels.clear();
-    return;
+bool has_information(const HitSolution& hits) { return hits.stop == StopReason::kConverged || hits.stop == StopReason::kIterationLimit; }
+
+// What the hits know of the pose.
+struct HitKnowledge {
+  double scale = 1;  // of the noise's variance over the assumed one
+  Mat6 covariance = Mat6::Zero();
+  Directions unseen;
+  Directions slack;  // too loose for labels
+  Hold hold;         // by the outline, of the slack
+};
+
+void learn_from(const Mission& mission, const HitSolution& hits, const Workspace& workspace, HitKnowledge& known) {
+  const MissionParameters& p = mission.parameters;
+  known.scale = noise_scale(p, hits, !(workspace.sigma_factor > FlightNumber::Factor{1}));
+  known.covariance.setZero();
+  known.unseen.count = known.slack.count = known.hold.axes.count = 0;
+  known.hold.band_m = p.silhouette_band_m;
+  if (!has_information(hits)) return;
+  known.covariance = covariance_of_hits(mission.radius_m, hits.H, p.noise_estimated > 0.5 ? known.scale : 1, known.unseen);
+  known.slack = find_slack(mission, known.covariance);
+}
+
+double range_sigma(const MissionParameters& p, const Pose& T_target_sensor, const HitKnowledge& known) {
+  return range_sigma(p, square_root(T_target_sensor.p.squaredNorm()), known.scale);
+}
+
+OutlineFit outline_of(const Mission& mission, const HitSolution& hits, const HitKnowledge& known, std::uint32_t most_asked,
+                      Workspace& workspace) {
+  const MissionParameters& p = mission.parameters;
+  const double sigma_m = range_sigma(p, square_root(hits.T_target_sensor.p.squaredNorm()), known.scale > 1 ? known.scale : 1);
+  const OutlineCare care{sigma_m, p.edge_depth_m, kFirstStep, kLastStep, most_asked, 4 * kOutlineRays};
+  return fit_outline(mission, hits.T_target_sensor, known.slack, care, workspace);
+}
+
+// Where the hits let the pose slide, the outline says where it is. Where that is elsewhere the hits are asked again from there: a few of
+// them may have held the pose on a side of the model that they never met.
+void settle_slack(const Mission& mission, HitSolution& hits, Workspace& workspace, HitKnowledge& known) {
+  if (known.slack.count == 0) return;
+  OutlineFit fit = outline_of(mission, hits, known, kMostAsked, workspace);
+  if (fit.settled && fit.moved) {
+    hits = register_hits(mission, fit.T_target_sensor, workspace);
+    learn_from(mission, hits, workspace, known);
+    fit = outline_of(mission, hits, known, kMostAsked / 2, workspace);
   }
-  PoseBelief belief;
-  belief.covariance = covariance;
+  if (!fit.settled) return;
+  hits.T_target_sensor = fit.T_target_sensor;
+  known.hold = hold_by(mission, fit, known.slack, known.covariance, known.unseen);
+}
+
+// What hits, outline and labels say, as a step from the pose; false where labels cannot be used, and are dropped.
+bool ask_labels(const Mission& mission, bool misses_known, HitKnowledge& known, const Pose& pose, Workspace& workspace,
+                PoseBelief& belief) {
+  const double sigma_m = range_sigma(mission.parameters, pose, known);
+  LabelSearch search{misses_known, hold_slack(mission.radius_m, known.hold, known.covariance), sigma_m, known.hold.band_m};
+  find_labels(mission, pose, search, workspace);
+  keep_shown(mission, workspace.labels.span(), known.covariance, known.hold, known.unseen);
+  search.covariance = hold_slack(mission.radius_m, known.hold, known.covariance);
+  if (!are_held(mission, search, known.unseen, workspace.labels)) {
+    workspace.labels.clear();
+    return false;
+  }
+  belief = {Vec6::Zero(), search.covariance};
   apply_labels(workspace.labels.span(), mission.parameters, belief);
-  pose = step_pose(pose, belief.mean);
-  covariance = belief.covariance;
+  return true;
+}
+
+// Lets the silhouettes speak: moves the pose and shrinks the covariance. What only the outline holds is looked at twice, as labels are
+// linear near their contours alone: the first look slides the pose, the second one is from there.
+void use_silhouettes(const Mission& mission, bool misses_known, HitKnowledge& known, Workspace& workspace, Pose& pose) {
+  PoseBelief belief;
+  Pose from = pose;
+  for (int look = known.hold.axes.count > 0 ? 0 : 1; look < 2; ++look) {
+    if (!ask_labels(mission, misses_known, known, from, workspace, belief)) return;
+    if (look == 0) from = step_pose(from, narrow_hold(mission, belief, known.hold));
+  }
+  pose = step_pose(from, belief.mean);
+  known.covariance = release_slack(mission.radius_m, known.hold, belief.covariance);
 }
 
 // The pose that hits and silhouettes give, with its covariance, into the result.
-void describe_pose(const Mission& mission, const HitSolution& hits, double scale, bool misses_known, Workspace& workspace,
+void describe_pose(const Mission& mission, const HitSolution& hits, bool misses_known, HitKnowledge& known, Workspace& workspace,
                    Registration& result) {
-  const MissionParameters& p = mission.parameters;
-  Unseen unseen;
-  Mat6 covariance = covariance_of_hits(mission.radius_m, hits.H, p.noise_estimated > 0.5 ? scale : 1, unseen);
   Pose pose = hits.T_target_sensor;
-  if (p.silhouettes > 0.5) {
-    const LabelSearch search{misses_known, covariance, range_sigma(p, square_root(pose.p.squaredNorm()), scale)};
-    use_silhouettes(mission, search, unseen, workspace, pose, covariance);
+  if (mission.parameters.silhouettes > 0.5) {
+    use_silhouettes(mission, misses_known, known, workspace, pose);
     result.labels = to_count(workspace.labels.size());
   }
   result.T_sensor_target = inverse(pose);
-  result.covariance = to_sensor_axes(covariance, pose);
+  result.covariance = to_sensor_axes(known.covariance, pose);
   result.agreement = hit_miss_agreement(mission, pose, hits.inliers, hits.usable, misses_known, workspace);
   find_weak_directions(mission, result);
 }
@@ -117,8 +180,6 @@ double half_of(const RangeImage& scan) {
   return scan.samples.empty() ? 0 : to_seconds(scan.samples[scan.samples.size() - 1].t_us - scan.reference_time_us());
 }
 
-bool has_information(const HitSolution& hits) { return hits.stop == StopReason::kConverged || hits.stop == StopReason::kIterationLimit; }
-
 }  // namespace
 
 bool is_too_fast(const MissionParameters& p, const Twist& rates, double half_scan_s) {
@@ -138,10 +199,13 @@ Registration Estimator::estimate(const Mission& mission, const RangeImage& scan,
   }
   prepare_rays(mission, scan, start, workspace_);
   const Pose pose = inverse(start.T_sensor_target);
-  const HitSolution hits = start.wide ? register_wide(mission, pose, workspace_) : register_hits(mission, pose, workspace_);
-  const double scale = noise_scale(mission.parameters, hits, !(workspace_.sigma_factor > FlightNumber::Factor{1}));
-  describe_hits(hits, scale, workspace_, result);
-  if (has_information(hits)) describe_pose(mission, hits, scale, scan.misses_known, workspace_, result);
+  HitSolution hits = start.wide ? register_wide(mission, pose, workspace_) : register_hits(mission, pose, workspace_);
+  const bool shows_outline = mission.parameters.silhouettes > 0.5 && scan.misses_known && !start.partial;
+  HitKnowledge known;
+  learn_from(mission, hits, workspace_, known);
+  if (shows_outline) settle_slack(mission, hits, workspace_, known);
+  describe_hits(hits, known.scale, workspace_, result);
+  if (has_information(hits)) describe_pose(mission, hits, scan.misses_known, known, workspace_, result);
   result.reason = judge(mission.parameters, result);
   return result;
 }

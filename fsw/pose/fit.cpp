@@ -1,6 +1,7 @@
 #include "fsw/pose/fit.hpp"
 
 #include "fsw/geometry/portable_math.hpp"
+#include "fsw/pose/clip.hpp"
 #include "fsw/pose/model_ray.hpp"
 
 namespace lasso {

@@ -3,6 +3,7 @@
 #include "fsw/geometry/portable_math.hpp"
 #include "fsw/geometry/symmetric6.hpp"
 #include "fsw/pose/model_ray.hpp"
+#include "fsw/pose/unseen.hpp"
 
 namespace lasso {
 namespace {
@@ -55,8 +56,7 @@ double hit_miss_agreement(const Mission& mission, const Pose& T_target_sensor, s
 }
 
 void find_weak_directions(const Mission& mission, Registration& result) {
-  Vec6 scale;
-  scale << mission.radius_m, mission.radius_m, mission.radius_m, 1, 1, 1;
+  const Vec6 scale = radius_scale(mission.radius_m);
   const Mat6 scaled = scale.asDiagonal() * result.covariance * scale.asDiagonal();
   const Eigen6 eigen = eigen6(scaled);
   const double limit_m = sigma_limit_m(mission);

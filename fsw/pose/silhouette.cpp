@@ -142,6 +142,7 @@ bool label_edge(const Search& s, const ScanRay<N>& ray, const Line& line, const 
   point = probe_or_recall(s, contour.edge, place);
   if (point.kind == ContourKind::kNone) return false;
   label.inside = static_cast<std::int8_t>(side_of(ray, point, s.search, s.mission.parameters.edge_depth_m));
+  label.at_end = !place.interior;
   label.across_variance = s.across_variance;
   if (label.inside == 0) return false;
   return measure(place, point, line, label);
@@ -180,10 +181,10 @@ void label_ray(const Search& s, std::size_t ray_index, Workspace& workspace) {
 double smaller(double a, double b) { return a < b ? a : b; }
 
 // Rays farther from a contour than six sigmas of the pose there carry nothing.
-double search_band(const Mission& mission, const Mat6& covariance, double own_variance) {
-  const double shift = covariance.bottomRightCorner<3, 3>().trace();
-  const double turn = covariance.topLeftCorner<3, 3>().trace() * mission.radius_m * mission.radius_m;
-  return smaller(mission.parameters.silhouette_band_m, square_root(kCertain2 * (2 * (shift + turn) + own_variance)));
+double search_band(const Mission& mission, const LabelSearch& search, double own_variance) {
+  const double shift = search.covariance.bottomRightCorner<3, 3>().trace();
+  const double turn = search.covariance.topLeftCorner<3, 3>().trace() * mission.radius_m * mission.radius_m;
+  return smaller(search.band_m, square_root(kCertain2 * (2 * (shift + turn) + own_variance)));
 }
 
 Search make_search(const Mission& mission, const View<N>& view, const LabelSearch& search, ProbedPlaces& probed) {
@@ -203,7 +204,7 @@ void find_labels(const Mission& mission, const Pose& T_target_sensor, const Labe
   ProbedPlaces probed;
   const Search s = make_search(mission, view, search, probed);
   find_contour(mission, view, workspace);
-  find_ray_edges(view, N::to_length(search_band(mission, search.covariance, s.own_variance)), workspace);
+  find_ray_edges(view, N::to_length(search_band(mission, search, s.own_variance)), workspace);
   for (std::size_t i = 0; i < workspace.rays.size() && !workspace.labels.full(); ++i) {
     if (workspace.ray_edges[i].count > 0) label_ray(s, i, workspace);
   }

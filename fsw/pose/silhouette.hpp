@@ -14,6 +14,7 @@ struct LabelSearch {
   Mat6 covariance =
       Mat6::Zero();  // of the pose before the labels, target axes (rotation, translation): labels that it makes certain are left out
   double range_sigma_m = 0;  // of a return at the target's range
+  double band_m = 0;         // farther from a contour no labels are looked for
 };
 
 // Fills workspace.labels from workspace.rays at the pose T_target_sensor. Bounds: the model's edges, kMaxContourEdges, four contour edges a

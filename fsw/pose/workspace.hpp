@@ -68,6 +68,7 @@ struct RayBins {
 struct Label {
   std::uint16_t ray;
   std::int8_t inside;  // +1 the ray was seen inside, -1 outside
+  bool at_end;         // of the edge, beyond which the corner itself is the contour: its lever is the corner's, not the contour's
   double d_m;
   double across_variance;
   Vec6 a;
@@ -89,6 +90,16 @@ struct AimPlace {
 
 constexpr std::size_t kMaxAimSurfaces = 96;
 
+// A ray that says, by hitting or missing, whether a pose is right (outline.hpp).
+struct OutlineRay {
+  std::uint16_t ray = 0;
+  bool open = false;       // poses that are tried ask it
+  bool doubtful = false;   // one of them got another answer than the best one
+  std::uint8_t best = 0;   // how far it disputes the best pose, 0 to kDisputed
+  std::uint8_t tried = 0;  // the pose that is tried
+};
+constexpr std::size_t kOutlineRays = 96;
+
 struct Workspace {
   FixedVector<ScanRay<FlightNumber>, kMaxRays> rays;
   FixedVector<MatchPoint<FlightNumber>, kMaxRays> points;
@@ -98,6 +109,7 @@ struct Workspace {
   RayBins<FlightNumber> bins{};
   FixedVector<Label, kMaxSites> labels;
   FixedVector<AimPlace, kMaxAimPlaces + kMaxAimSurfaces> places;
+  FixedVector<OutlineRay, kOutlineRays> outline;
 };
 
 }  // namespace lasso

@@ -66,6 +66,7 @@ void until_search(Bench& b) {
   const MissionParameters& p = b.mission().parameters;
   const double range_m = b.hits.T_target_sensor.p.norm();
   b.search.range_sigma_m = std::hypot(p.sigma0_m, p.sigma_k_per_m * range_m * range_m);
+  b.search.band_m = p.silhouette_band_m;
   if (invert6(b.hits.H, b.search.covariance) != Status::kOk) throw mdat::RunError("a scan leaves a direction open");
 }
 

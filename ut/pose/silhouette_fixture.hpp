@@ -24,7 +24,10 @@ class SilhouetteTest : public PoseFixture {
     boxes_ = {scan_.model};
   }
 
-  void find() { find_labels(mission_, truth(), search_, *workspace_); }
+  void find() {
+    search_.band_m = parameters().silhouette_band_m;
+    find_labels(mission_, truth(), search_, *workspace_);
+  }
 
   // A ray's line in the target frame at a pose, from the workspace's ray.
   RayLine line_of(std::size_t ray, const Pose& T_target_sensor) const {

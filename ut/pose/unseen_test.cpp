@@ -53,7 +53,7 @@ class UnseenTest : public ::testing::Test {
   test::Generator random_{501};
   Mat6 axes_;
   Vec6 strong_ = (Vec6() << 1e8, 3e7, 2e9, 5e6, 7e8, 4e7).finished();
-  Unseen unseen_;
+  Directions unseen_;
 };
 
 TEST_F(UnseenTest, WhereAllIsSeenTheCovarianceIsTheInverse) {
@@ -73,7 +73,7 @@ TEST_F(UnseenTest, WhatNoHitShowsIsAnywhereWhateverTheNoise) {
     values[2] = 0;
     const Mat6 covariance = covariance_of_hits(kRadius_m, with_prior(information(values)), noise, unseen_);
     ASSERT_EQ(unseen_.count, 1);
-    EXPECT_NEAR(std::abs(unseen_.directions.col(0).dot(axes_.col(2))), 1, 1e-9);
+    EXPECT_NEAR(std::abs(unseen_.vectors.col(0).dot(axes_.col(2))), 1, 1e-9);
     for (int i = 0; i < 6; ++i) {
       const double truth = i == 2 ? std::pow(kUnseenSigma * kRadius_m, 2) : noise / values[i];
       EXPECT_NEAR(variance_along(covariance, i), truth, 1e-3 * truth + 1e-15) << i;  // rounding of the large beside the small
@@ -125,7 +125,7 @@ TEST_F(UnseenTest, ALabelThatHangsOnWhatIsUnseenHasNoMeaning) {
   Label label{};
   label.a = test::random_vec6(random_, 1);
   const Vec6 before = label.a;
-  ASSERT_TRUE(forget_unseen(kRadius_m, Unseen{}, label));
+  ASSERT_TRUE(forget_unseen(kRadius_m, Directions{}, label));
   EXPECT_LT((label.a - before).norm(), 1e-15);
 }
 

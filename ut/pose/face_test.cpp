@@ -1,0 +1,109 @@
+// A box's face, whose outline says where it is (outline.hpp), as the estimator uses it.
+#include "fsw/geometry/symmetric6.hpp"
+#include "fsw/pose/path_pose.hpp"
+#include "ut/pose/estimator_fixture.hpp"
+#include "ut/support/verifies.hpp"
+
+namespace lasso {
+namespace {
+
+// A face seen straight on holds neither its shifts nor the turn about its normal; its rim does.
+class FaceTest : public test::EstimatorTest {
+ protected:
+  FaceTest() {
+    scan_.T_sensor_target.q = exp_so3(Vec3(0, 0, 0.35));
+    scan_.sigma_m = 1e-3;
+  }
+
+  // Slid within the face by up to `shift_m` each way, and turned.
+  Registration estimate_slid(double turn_rad, double shift_m, bool partial = false) {
+    StartPoint start;
+    Vec6 x = Vec6::Zero();
+    x[2] = random_.uniform(-turn_rad, turn_rad);
+    for (int i = 3; i < 5; ++i) x[i] = random_.uniform(-shift_m, shift_m);
+    start.T_sensor_target = inverse(step_pose(inverse(scan_.T_sensor_target), x));
+    start.partial = partial;
+    image_of_scan_ = test::scan_box(scan_, random_);
+    image_of_scan_->misses_known = misses_known_;
+    return estimate(*image_of_scan_, start);
+  }
+
+  std::unique_ptr<RangeImage> image_of_scan_;
+  bool misses_known_ = true;
+};
+
+// A regular raster along an edge may leave a face free by a whole row: not every scan holds it. One that does is right.
+TEST_F(FaceTest, AFaceThatSlidIsBroughtBackByItsOutline) {
+  VERIFIES("LASSO-REG-022~2");
+  scan_.side = 44;
+  const auto count_held = [this](double turn_rad, double shift_m) {
+    int held = 0;
+    for (int i = 0; i < 40; ++i) {
+      const Registration r = estimate_slid(turn_rad, shift_m);
+      EXPECT_TRUE(r.valid()) << to_string(r.reason);
+      if (r.weak > 0) continue;
+      EXPECT_GT(r.labels, 0);
+      EXPECT_LT(error(r).tail<3>().norm(), 8e-3) << i;
+      EXPECT_LT(error(r).head<3>().norm(), 0.03) << i;
+      ++held;
+    }
+    return held;
+  };
+  EXPECT_GE(count_held(0.01, 0.01), 18);
+  EXPECT_GE(count_held(0.04, 0.03), 6);
+  (void)count_held(0.1, 0.08);
+}
+
+TEST_F(FaceTest, ThePoseKnowsHowWellItsLabelsHoldIt) {
+  VERIFIES("LASSO-REG-023~1");
+  double sum = 0;
+  scan_.side = 40;
+  for (int i = 0; i < 200; ++i) {
+    scan_.T_sensor_target.q = exp_so3(Vec3(0, 0, random_.uniform(-3, 3)));
+    scan_.T_sensor_target.p = test::disturb(test::generic_box_pose(), 0, 0.05, random_).p;
+    const Registration r = estimate_slid(0.05, 0.03);
+    const Vec6 e = error(r);
+    Mat6 information;
+    ASSERT_EQ(invert6(r.covariance, information), Status::kOk);
+    sum += e.dot(information * e);
+  }
+  EXPECT_GT(sum / 200, 2);
+  EXPECT_LT(sum / 200, 9) << "of 6";
+}
+
+TEST_F(FaceTest, AnOutlineThatManyRaysDisputeHoldsNothing) {
+  VERIFIES("LASSO-REG-022~2 LASSO-REG-021~1");
+  scan_.outliers = 0.1;
+  const Registration r = estimate_slid(0.05, 0.03);
+  EXPECT_EQ(r.labels, 0);
+  EXPECT_GE(r.weak, 3);
+}
+
+TEST_F(FaceTest, DropOutsThatTheMissionExpectsAreNoDispute) {
+  VERIFIES("LASSO-REG-022~2");
+  scan_.side = 44;
+  scan_.dropouts = 0.15;
+  int held[2] = {};
+  for (int i = 0; i < 40; ++i) {
+    parameters().dropout_probability = i % 2 == 0 ? 0 : 0.25;
+    const Registration r = estimate_slid(0.02, 0.012);
+    if (r.labels == 0) continue;
+    EXPECT_LT(error(r).tail<3>().norm(), 0.02);
+    ++held[i % 2];
+  }
+  EXPECT_GT(held[1], held[0] + 4);
+}
+
+TEST_F(FaceTest, WithoutMissesOrTheWholeTargetThereIsNoOutline) {
+  VERIFIES("LASSO-REG-022~2 LASSO-REG-021~1");
+  const Registration part = estimate_slid(0.05, 0.03, true);
+  EXPECT_EQ(part.labels, 0);
+  EXPECT_GE(part.weak, 3);
+  misses_known_ = false;
+  const Registration cloud = estimate_slid(0.05, 0.03);
+  EXPECT_EQ(cloud.labels, 0);
+  EXPECT_GE(cloud.weak, 3);
+}
+
+}  // namespace
+}  // namespace lasso
