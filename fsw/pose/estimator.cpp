@@ -4,6 +4,7 @@
 #include "fsw/pose/labels.hpp"
 #include "fsw/pose/near_symmetry.hpp"
 #include "fsw/pose/outline.hpp"
+#include "fsw/pose/outlook.hpp"
 #include "fsw/pose/path_pose.hpp"
 #include "fsw/pose/prepare.hpp"
 #include "fsw/pose/quality.hpp"
@@ -15,9 +16,6 @@ namespace lasso {
 namespace {
 
 constexpr double kPoseDimensions = 6;
-constexpr double kLastStep = 0.01;            // of the model's radius: an outline's shortest step
-constexpr double kFirstStep = 0.06;           // and its first one
-constexpr std::uint32_t kMostAsked = 1200;    // of its rays, half as often when it is asked again
 constexpr double kSmallestNoiseScale = 1e-6;  // of the variance: a scan without any noise still has rounding
 
 static_assert(kMaxRays <= 65535, "counts of rays fit into the result");
@@ -43,10 +41,7 @@ Mat6 to_sensor_axes(const Mat6& covariance, const Pose& T_target_sensor) {
   return J * covariance * J.transpose();
 }
 
-double range_sigma(const MissionParameters& p, double range_m, double scale) {
-  const double grown = p.sigma_k_per_m * range_m * range_m;
-  return square_root((p.sigma0_m * p.sigma0_m + grown * grown) * scale);
-}
+double range_sigma(const MissionParameters& p, double range_m, double scale) { return square_root(range_variance(p, range_m) * scale); }
 
 // Labels are linear within the band around the contour. Where the hits hold the pose more loosely than that, the contours nearest to the
 // rays may be other ones than those that they passed, and labels would confirm a wrong pose.
@@ -87,22 +82,33 @@ double range_sigma(const MissionParameters& p, const Pose& T_target_sensor, cons
 OutlineFit outline_of(const Mission& mission, const HitSolution& hits, const HitKnowledge& known, std::uint32_t most_asked,
                       Workspace& workspace) {
   const MissionParameters& p = mission.parameters;
-  const double sigma_m = range_sigma(p, square_root(hits.T_target_sensor.p.squaredNorm()), known.scale > 1 ? known.scale : 1);
-  const OutlineCare care{sigma_m, p.edge_depth_m, kFirstStep, kLastStep, most_asked, 4 * kOutlineRays};
+  const double factor = FlightNumber::to_double(workspace.sigma_factor);
+  const double range_m = square_root(hits.T_target_sensor.p.squaredNorm());
+  const double variance = range_variance(p, range_m) * factor * factor + p.surface_sigma_m * p.surface_sigma_m;
+  const OutlineCare care{square_root(variance * (known.scale > 1 ? known.scale : 1)), p.edge_depth_m, most_asked};
   return fit_outline(mission, hits.T_target_sensor, known.slack, care, workspace);
 }
 
-// Where the hits let the pose slide, the outline says where it is. Where that is elsewhere the hits are asked again from there: a few of
-// them may have held the pose on a side of the model that they never met.
+// Registers the hits from where the outline has the pose: a few of them may have held it on a side of the model that they never met. False,
+// with all as it was before, where nothing is settled there.
+bool follow_outline(const Mission& mission, Workspace& workspace, HitSolution& hits, HitKnowledge& known, OutlineFit& fit) {
+  const HitSolution before = hits;
+  hits = register_hits(mission, fit.T_target_sensor, workspace);
+  hits.iterations = static_cast<std::uint16_t>(hits.iterations + before.iterations);
+  learn_from(mission, hits, workspace, known);
+  fit = outline_of(mission, hits, known, kMostAskedAgain, workspace);
+  if (fit.settled) return true;
+  hits = before;
+  learn_from(mission, hits, workspace, known);
+  return false;
+}
+
+// Where the hits let the pose slide, the outline says where it is.
 void settle_slack(const Mission& mission, HitSolution& hits, Workspace& workspace, HitKnowledge& known) {
   if (known.slack.count == 0) return;
   OutlineFit fit = outline_of(mission, hits, known, kMostAsked, workspace);
-  if (fit.settled && fit.moved) {
-    hits = register_hits(mission, fit.T_target_sensor, workspace);
-    learn_from(mission, hits, workspace, known);
-    fit = outline_of(mission, hits, known, kMostAsked / 2, workspace);
-  }
   if (!fit.settled) return;
+  if (fit.moved && !follow_outline(mission, workspace, hits, known, fit)) return;
   hits.T_target_sensor = fit.T_target_sensor;
   known.hold = hold_by(mission, fit, known.slack, known.covariance, known.unseen);
 }

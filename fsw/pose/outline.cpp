@@ -35,7 +35,7 @@ struct Count {
 
 bool is_near(const Vec3& center_sensor, double reach_m, const ScanRay<N>& ray) {
   const Vec3 u(N::to_double(ray.u[0]), N::to_double(ray.u[1]), N::to_double(ray.u[2]));
-  return center_sensor.cross(u).squaredNorm() < reach_m * reach_m;
+  return (center_sensor - to_vec3(ray.o)).cross(u).squaredNorm() < reach_m * reach_m;
 }
 
 // Takes of those that are told one by one as many as there is room for, spread by the golden ratio: a fixed stride would take the same
@@ -54,7 +54,7 @@ class Choice {
   std::uint32_t turn_ = 0;
 };
 
-enum class RayPlace : std::uint8_t { kAside, kOnTarget, kNearContour };
+enum class RayPlace : std::uint8_t { kAside, kElsewhere, kNearContour };
 
 // Which side of a contour they passed is what rays near one know of the pose; some of the others tell what is wrong with it as a whole.
 void choose_rays(const Mission& mission, const Pose& T_target_sensor, double near_m, Workspace& workspace) {
@@ -64,13 +64,13 @@ void choose_rays(const Mission& mission, const Pose& T_target_sensor, double nea
   const Vec3 center = inverse(T_target_sensor) * mission.center_m;
   const auto place_of = [&](std::size_t i) {
     const ScanRay<N>& ray = workspace.rays[i];
-    if (ray.state == RayState::kInvalid || !is_near(center, kReach * mission.radius_m, ray)) return RayPlace::kAside;
-    return workspace.ray_edges[i].count > 0 ? RayPlace::kNearContour : RayPlace::kOnTarget;
+    if (!is_near(center, kReach * mission.radius_m, ray)) return RayPlace::kAside;
+    return workspace.ray_edges[i].count > 0 ? RayPlace::kNearContour : RayPlace::kElsewhere;
   };
   std::size_t counts[3] = {};
   for (std::size_t i = 0; i < workspace.rays.size(); ++i) ++counts[static_cast<std::size_t>(place_of(i))];
   Choice near(counts[static_cast<std::size_t>(RayPlace::kNearContour)], kNearRays);
-  Choice others(counts[static_cast<std::size_t>(RayPlace::kOnTarget)], kOutlineRays - kNearRays);
+  Choice others(counts[static_cast<std::size_t>(RayPlace::kElsewhere)], kOutlineRays - kNearRays);
   workspace.outline.clear();
   for (std::size_t i = 0; i < workspace.rays.size(); ++i) {
     const RayPlace place = place_of(i);
@@ -111,6 +111,7 @@ class Slide {
     reopen();
     const Count before = count_;
     descend();
+    if (!is_open_) reopen();
     const bool moves = count_.cost + kFewRays * kQuarters <= before.cost && count_.disputed + kFewRays <= before.disputed;
     if (!moves && has_moved_) stay_at(start);
     const std::uint32_t most_asked = asked_ + care_.measured;
@@ -121,19 +122,22 @@ class Slide {
  private:
   void descend() {
     double step_m = care_.first_step * mission_.radius_m;
-    for (int round = 0; round < kOutlineRounds && step_m >= care_.last_step * mission_.radius_m; ++round) {
+    for (int round = 0; round < kOutlineRounds && may_step(step_m); ++round) {
       if (moved_m_ + step_m > closed_within_m_) reopen();
       const bool helps = try_all(step_m);
-      if (!helps && is_open_) close_certain(step_m);
+      if (!helps && is_open_ && asked_ < care_.asked) close_certain(step_m);
       step_m = next_step(step_m, helps);
     }
   }
 
+  bool may_step(double step_m) const { return step_m >= care_.last_step * mission_.radius_m && asked_ < care_.asked; }
+
   double next_step(double step_m, bool helps) const {
     if (!helps) return 0.5 * step_m;
-    const double longest_m = kLongestStep * mission_.radius_m;
-    return is_open_ && 2 * step_m < longest_m ? 2 * step_m : step_m;
+    return is_open_ && may_double(step_m) ? 2 * step_m : step_m;
   }
+
+  bool may_double(double step_m) const { return 2 * step_m < kLongestStep * mission_.radius_m; }
 
   bool try_all(double step_m) {
     bool helps = false;
@@ -184,7 +188,8 @@ class Slide {
     return true;
   }
 
-  // Rays on which no step so long answered otherwise will not do so within as much.
+  // Rays on which no step so long answered otherwise are taken to answer alike within as much. Behind a part thinner than the step that may
+  // be wrong: what the pose costs in the end, and what it is worth, all of them are asked.
   void close_certain(double step_m) {
     for (OutlineRay& ray : workspace_.outline) ray.open = ray.doubtful;
     is_open_ = false;
@@ -216,7 +221,7 @@ class Slide {
 
   bool holds(int i) { return is_disputed_more(try_pose(beside(i, within_m_[i]))) && is_disputed_more(try_pose(beside(i, -within_m_[i]))); }
 
-  double longer(double step_m) const { return step_m < kLongestStep * mission_.radius_m ? 2 * step_m : 0; }
+  double longer(double step_m) const { return may_double(step_m) ? 2 * step_m : 0; }
 
   OutlineFit describe(bool moved) const {
     OutlineFit fit;
@@ -226,7 +231,8 @@ class Slide {
     fit.rays = static_cast<std::uint32_t>(workspace_.outline.size());
     fit.disputed = count_.disputed;
     for (const OutlineRay& ray : workspace_.outline) fit.hits += workspace_.rays[ray.ray].state == RayState::kHit ? 1u : 0u;
-    fit.settled = fit.disputed <= kDisputedShare * fit.rays + mission_.parameters.dropout_probability * fit.hits + kFewRays;
+    const double dropout = mission_.parameters.dropout_probability;  // of the rays on the target, of which the hits are the rest
+    fit.settled = fit.disputed <= kDisputedShare * fit.rays + dropout / (1 - dropout) * fit.hits + kFewRays;
     if (fit.settled) fit.within_m = within_m_;
     return fit;
   }

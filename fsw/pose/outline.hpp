@@ -19,27 +19,30 @@ struct OutlineFit {
   std::uint32_t asked = 0;     // how often a ray was asked of a pose
   bool moved = false;
   bool settled = false;  // disputed is no more than kDisputedShare of the rays, kFewRays and the drop-outs to be expected
-  // For each direction, m at the model's radius: that far off either way kFewRays more dispute the pose; 0
-  // where that was not found, or nothing is settled.
+  // For each direction, m at the model's radius: that far off either way kFewRays more dispute the pose. It is one of the steps that were
+  // tried, not the shortest; 0 where none was found, or nothing is settled.
   Vec6 within_m = Vec6::Zero();
 };
 constexpr std::uint32_t kFewRays = 3;  // more than a pattern's chance
 constexpr double kDisputedShare = 0.05;
 
 struct OutlineCare {
-  double sigma_m;          // of a range
-  double edge_depth_m;     // near its edges the model's field is that far off
-  double first_step;       // of the model's radius
-  double last_step;        // the same
-  std::uint32_t asked;     // no step begins after so many questions,
-  std::uint32_t measured;  // no longer step is measured after so many more
+  double sigma_m;                             // of a range
+  double edge_depth_m;                        // near its edges the model's field is that far off
+  std::uint32_t asked;                        // no step begins after so many questions,
+  std::uint32_t measured = 4 * kOutlineRays;  // no longer step is measured after so many more
+  double first_step = 0.06;                   // of the model's radius
+  double last_step = 0.01;                    // the same
 };
 
-// Slides the pose along `directions` to where it costs least, by steps that double while they help by a ray and are halved where they do
-// not, down to the last one. Bound: kOutlineRounds rounds, and `asked`, `measured` and fifteen times kOutlineRays walks through the
-// field; and the bounds of find_contour and find_ray_edges, whose results it leaves in the workspace.
+// Slides the pose along `directions` to where it costs less, by steps that double while they help by a ray and are halved where they do
+// not, down to the last one or until `asked`. Bound: kOutlineRounds rounds, and `asked`, `measured` and fifteen times kOutlineRays walks
+// through the field; and the bounds of find_contour and find_ray_edges, whose results it leaves in the workspace.
 OutlineFit fit_outline(const Mission& mission, const Pose& T_target_sensor, const Directions& directions, const OutlineCare& care,
                        Workspace& workspace);
 constexpr int kOutlineRounds = 24;
+// What an estimate may ask, and once more where it has moved: a slot's time (docs/decisions/outline.md).
+constexpr std::uint32_t kMostAsked = 1200;
+constexpr std::uint32_t kMostAskedAgain = 600;
 
 }  // namespace lasso

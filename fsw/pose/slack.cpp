@@ -7,6 +7,8 @@ namespace lasso {
 namespace {
 
 constexpr double kSlackShare = 0.5;
+constexpr double kWidest = 0.125;     // of the model's radius: a wider hold would have labels look past other contours
+constexpr double kRounding = 4e-15;   // of the largest variance there is: what differences of variances may have lost
 constexpr double kShownShare = 0.15;  // of the labels
 constexpr double kLoose = 0.1;  // of the model's radius: where every direction is held better the prediction carries the pose meanwhile
 
@@ -31,11 +33,14 @@ void let_go(const Mission& mission, const Vec6& axis, const Mat6& covariance, Di
 Mat6 levers_of(double radius_m, Span<const Label> labels, const Directions& axes) {
   Mat6 levers = Mat6::Zero();
   const Vec6 scale = radius_scale(radius_m);
+  int count = 0;
   for (const Label& label : labels) {
+    if (label.at_end) continue;
     const Vec6 along = axes.vectors.transpose() * label.a.cwiseQuotient(scale);
     levers += along * along.transpose();
+    ++count;
   }
-  if (!labels.empty()) levers /= static_cast<double>(labels.size());
+  if (count > 0) levers /= count;
   for (int i = axes.count; i < 6; ++i) levers(i, i) = 6;
   return levers;
 }
@@ -51,6 +56,12 @@ bool is_shown(double radius_m, Span<const Label> labels, const Vec6& axis, doubl
     ++count;
   }
   return static_cast<double>(showing) > kShownShare * static_cast<double>(count);
+}
+
+// Closely, and better than the hits have it.
+bool is_held(const Mission& mission, double within_m, const Vec6& axis, const Mat6& covariance) {
+  const double sigma_m = kSlackShare * within_m;
+  return within_m > 0 && within_m < kWidest * mission.radius_m && sigma_m * sigma_m < variance_along(mission.radius_m, axis, covariance);
 }
 
 }  // namespace
@@ -73,7 +84,7 @@ Hold hold_by(const Mission& mission, const OutlineFit& outline, const Directions
   hold.band_m = mission.parameters.silhouette_band_m;
   for (int i = 0; i < slack.count; ++i) {
     const Vec6 axis = slack.vectors.col(i);
-    if (outline.within_m[i] > 0) {
+    if (is_held(mission, outline.within_m[i], axis, covariance)) {
       hold.band_m = larger(hold.band_m, outline.within_m[i]);
       hold.sigma_m[hold.axes.count] = kSlackShare * larger(mission.parameters.silhouette_band_m, outline.within_m[i]);
       add(axis, hold.axes);
@@ -85,6 +96,7 @@ Hold hold_by(const Mission& mission, const OutlineFit& outline, const Directions
 }
 
 void keep_shown(const Mission& mission, Span<const Label> labels, const Mat6& covariance, Hold& hold, Directions& unseen) {
+  if (hold.axes.count == 0) return;
   const Eigen6 levers = eigen6(levers_of(mission.radius_m, labels, hold.axes));
   Hold kept;
   kept.band_m = hold.band_m;
@@ -125,7 +137,9 @@ Mat6 release_slack(double radius_m, const Hold& hold, const Mat6& covariance) {
     const double variance = hold.sigma_m[i] * hold.sigma_m[i];
     const double least = variance * variance / (anywhere_m * anywhere_m);
     const Vec6 column = released * hold.axes.vectors.col(i);
-    released += column * column.transpose() / larger(variance - hold.axes.vectors.col(i).dot(column), least);
+    const double shown = variance - hold.axes.vectors.col(i).dot(column);
+    const bool is_rounding = shown < kRounding * anywhere_m * anywhere_m;
+    released += column * column.transpose() / (is_rounding ? least : larger(shown, least));
   }
   return scaled(scale.cwiseInverse(), released);
 }

@@ -20,8 +20,8 @@ struct Hold {
   double band_m = 0;            // how far from the contours labels must be looked for
 };
 
-// Half of the way to where more rays dispute the pose is a sigma; what is already in the labels' band, half of that. Directions of which
-// the outline says nothing and the hits neither are left in `unseen`.
+// Half of the way to where more rays dispute the pose is a sigma; what is already in the labels' band, half of that. A way of an eighth of
+// the radius holds nothing, nor does a sigma above the hits'. Directions of which neither says anything are left in `unseen`.
 Hold hold_by(const Mission& mission, const OutlineFit& outline, const Directions& slack, const Mat6& covariance, Directions& unseen);
 
 // Keeps of the axes, turned within themselves, those that the labels' contours show: a good part of the rows lie along it by more than
@@ -30,7 +30,7 @@ Hold hold_by(const Mission& mission, const OutlineFit& outline, const Directions
 // eigen-decomposition.
 void keep_shown(const Mission& mission, Span<const Label> labels, const Mat6& covariance, Hold& hold, Directions& unseen);
 
-// The covariance with a measurement along each axis, which are axes of the covariance.
+// The covariance with a measurement along each axis.
 Mat6 hold_slack(double radius_m, const Hold& hold, const Mat6& covariance);
 
 // The covariance without these measurements, whatever else it has taken in since; no sigma becomes larger than kUnseenSigma by that.

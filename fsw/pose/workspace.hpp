@@ -95,7 +95,7 @@ struct OutlineRay {
   std::uint16_t ray = 0;
   bool open = false;       // poses that are tried ask it
   bool doubtful = false;   // one of them got another answer than the best one
-  std::uint8_t best = 0;   // how far it disputes the best pose, 0 to kDisputed
+  std::uint8_t best = 0;   // how far it disputes the best pose, in quarters of a ray
   std::uint8_t tried = 0;  // the pose that is tried
 };
 constexpr std::size_t kOutlineRays = 96;

@@ -28,15 +28,21 @@ class FaceTest : public test::EstimatorTest {
     return estimate(*image_of_scan_, start);
   }
 
+  int count_held(int scans) {
+    int held = 0;
+    for (int i = 0; i < scans; ++i) held += estimate_slid(0.05, 0.03).labels > 0 ? 1 : 0;
+    return held;
+  }
+
   std::unique_ptr<RangeImage> image_of_scan_;
   bool misses_known_ = true;
 };
 
 // A regular raster along an edge may leave a face free by a whole row: not every scan holds it. One that does is right.
 TEST_F(FaceTest, AFaceThatSlidIsBroughtBackByItsOutline) {
-  VERIFIES("LASSO-REG-022~2");
+  VERIFIES("LASSO-REG-022~3");
   scan_.side = 44;
-  const auto count_held = [this](double turn_rad, double shift_m) {
+  const auto count_brought_back = [this](double turn_rad, double shift_m) {
     int held = 0;
     for (int i = 0; i < 40; ++i) {
       const Registration r = estimate_slid(turn_rad, shift_m);
@@ -49,43 +55,69 @@ TEST_F(FaceTest, AFaceThatSlidIsBroughtBackByItsOutline) {
     }
     return held;
   };
-  EXPECT_GE(count_held(0.01, 0.01), 18);
-  EXPECT_GE(count_held(0.04, 0.03), 6);
-  (void)count_held(0.1, 0.08);
+  EXPECT_GE(count_brought_back(0.01, 0.01), 18);
+  EXPECT_GE(count_brought_back(0.04, 0.03), 6);
+  (void)count_brought_back(0.1, 0.08);
 }
 
 TEST_F(FaceTest, ThePoseKnowsHowWellItsLabelsHoldIt) {
   VERIFIES("LASSO-REG-023~1");
   double sum = 0;
+  int held = 0;
   scan_.side = 40;
-  for (int i = 0; i < 200; ++i) {
+  for (int i = 0; i < 400; ++i) {
     scan_.T_sensor_target.q = exp_so3(Vec3(0, 0, random_.uniform(-3, 3)));
     scan_.T_sensor_target.p = test::disturb(test::generic_box_pose(), 0, 0.05, random_).p;
     const Registration r = estimate_slid(0.05, 0.03);
+    if (r.labels == 0) continue;
     const Vec6 e = error(r);
     Mat6 information;
     ASSERT_EQ(invert6(r.covariance, information), Status::kOk);
     sum += e.dot(information * e);
+    ++held;
   }
-  EXPECT_GT(sum / 200, 2);
-  EXPECT_LT(sum / 200, 9) << "of 6";
+  EXPECT_GT(held, 100);
+  EXPECT_GT(sum / held, 4.8);
+  EXPECT_LT(sum / held, 7.5) << "of 6";
 }
 
+// The same draws with what keeps the outline out, and without.
 TEST_F(FaceTest, AnOutlineThatManyRaysDisputeHoldsNothing) {
-  VERIFIES("LASSO-REG-022~2 LASSO-REG-021~1");
-  scan_.outliers = 0.1;
-  const Registration r = estimate_slid(0.05, 0.03);
-  EXPECT_EQ(r.labels, 0);
-  EXPECT_GE(r.weak, 3);
+  VERIFIES("LASSO-REG-022~3 LASSO-REG-021~1");
+  for (int i = 0; i < 20; ++i) {
+    scan_.outliers = 0.1;
+    const Registration r = estimate_slid(0.05, 0.03);
+    EXPECT_EQ(r.labels, 0);
+    EXPECT_GE(r.weak, 3);
+  }
+  scan_.outliers = 0;
+  EXPECT_GE(count_held(20), 5);
+}
+
+// Some settle, and move, and then no longer settle: such a pose is that of the hits again.
+TEST_F(FaceTest, AnOutlineThatSomeRaysDisputeHoldsRightOrNothing) {
+  VERIFIES("LASSO-REG-022~3");
+  int held = 0;
+  scan_.side = 44;
+  for (int i = 0; i < 400; ++i) {
+    scan_.dropouts = random_.uniform(0.03, 0.09);
+    const Registration r = estimate_slid(0.04, 0.03);
+    EXPECT_TRUE(r.valid()) << to_string(r.reason);
+    EXPECT_TRUE(r.labels > 0 || r.weak >= 3);
+    if (r.labels == 0) continue;
+    EXPECT_LT(error(r).tail<3>().norm(), 0.03) << i;
+    ++held;
+  }
+  EXPECT_GT(held, 20);
 }
 
 TEST_F(FaceTest, DropOutsThatTheMissionExpectsAreNoDispute) {
-  VERIFIES("LASSO-REG-022~2");
+  VERIFIES("LASSO-REG-022~3");
   scan_.side = 44;
   scan_.dropouts = 0.15;
   int held[2] = {};
   for (int i = 0; i < 40; ++i) {
-    parameters().dropout_probability = i % 2 == 0 ? 0 : 0.25;
+    parameters().dropout_probability = i % 2 == 0 ? 0 : 0.15;
     const Registration r = estimate_slid(0.02, 0.012);
     if (r.labels == 0) continue;
     EXPECT_LT(error(r).tail<3>().norm(), 0.02);
@@ -95,14 +127,31 @@ TEST_F(FaceTest, DropOutsThatTheMissionExpectsAreNoDispute) {
 }
 
 TEST_F(FaceTest, WithoutMissesOrTheWholeTargetThereIsNoOutline) {
-  VERIFIES("LASSO-REG-022~2 LASSO-REG-021~1");
-  const Registration part = estimate_slid(0.05, 0.03, true);
-  EXPECT_EQ(part.labels, 0);
-  EXPECT_GE(part.weak, 3);
-  misses_known_ = false;
-  const Registration cloud = estimate_slid(0.05, 0.03);
-  EXPECT_EQ(cloud.labels, 0);
-  EXPECT_GE(cloud.weak, 3);
+  VERIFIES("LASSO-REG-022~3 LASSO-REG-021~1");
+  for (int i = 0; i < 20; ++i) {
+    misses_known_ = true;
+    const Registration part = estimate_slid(0.05, 0.03, true);
+    EXPECT_EQ(part.labels, 0);
+    EXPECT_GE(part.weak, 3);
+    misses_known_ = false;
+    const Registration cloud = estimate_slid(0.05, 0.03);
+    EXPECT_EQ(cloud.labels, 0);
+    EXPECT_GE(cloud.weak, 3);
+  }
+  misses_known_ = true;
+  EXPECT_GE(count_held(20), 5);
+}
+
+// As of a body whose surface is known to a centimetre, by a sensor that says so of its ranges or by a model.
+TEST_F(FaceTest, ASurfaceThatIsHardlyKnownIsNoDispute) {
+  VERIFIES("LASSO-REG-022~3");
+  scan_.side = 44;
+  scan_.sigma_m = 8e-3;
+  parameters().surface_sigma_m = 8e-3;
+  EXPECT_GE(count_held(20), 4);
+  parameters().surface_sigma_m = 1e-5;
+  parameters().sigma0_m = 8e-3;
+  EXPECT_GE(count_held(20), 4);
 }
 
 }  // namespace

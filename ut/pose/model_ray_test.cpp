@@ -9,7 +9,7 @@ namespace {
 using ModelRayTest = test::PoseFixture;
 
 TEST_F(ModelRayTest, ARayMeetsTheModelWhereTheClosedFormHasIt) {
-  VERIFIES("LASSO-REG-022~2");
+  VERIFIES("LASSO-REG-022~3");
   for (int i = 0; i < 5; ++i) {
     scan_.T_sensor_target = test::random_box_pose(random_);
     scan();

@@ -46,7 +46,7 @@ class SlackTest : public test::PoseFixture {
 };
 
 TEST_F(SlackTest, SlackAreTheAxesThatAreLooserThanAnOutlineHoldsThem) {
-  VERIFIES("LASSO-REG-022~2");
+  VERIFIES("LASSO-REG-022~3");
   const Directions slack = find_slack(mission_, covariance());
   ASSERT_EQ(slack.count, 2);
   for (int i = 0; i < 2; ++i) EXPECT_NEAR(std::abs(slack.vectors.col(i).dot(axes_.col(4 + i))), 1, 1e-9);
@@ -57,7 +57,7 @@ TEST_F(SlackTest, SlackAreTheAxesThatAreLooserThanAnOutlineHoldsThem) {
 }
 
 TEST_F(SlackTest, TheOutlineHoldsWhatItSaysAndNoHitShowsTheRest) {
-  VERIFIES("LASSO-REG-022~2 LASSO-REG-023~1");
+  VERIFIES("LASSO-REG-022~3 LASSO-REG-023~1");
   sigmas_m_ << 1e-4, 2e-4, 5e-3, 0.01, 2, 2.05;  // the last ones no hit shows
   OutlineFit outline;
   outline.within_m << 1e-3, 0, 0.02, 0, 0, 0;
@@ -74,6 +74,22 @@ TEST_F(SlackTest, TheOutlineHoldsWhatItSaysAndNoHitShowsTheRest) {
   EXPECT_DOUBLE_EQ(hold.band_m, 0.02);
   ASSERT_EQ(unseen.count, 1);
   EXPECT_EQ(unseen.vectors.col(0), slack.vectors.col(3));
+}
+
+TEST_F(SlackTest, AnOutlineHoldsWhatItKnowsCloselyAndBetterThanTheHits) {
+  VERIFIES("LASSO-REG-022~3");
+  sigmas_m_ << 1e-4, 2e-4, 6e-3, 0.08, 0.09, 0.1;
+  const Directions slack = find_slack(mission_, covariance());
+  ASSERT_EQ(slack.count, 4);
+  OutlineFit outline;
+  outline.within_m << 0.011, 0.08, 0.09, 0, 0, 0;
+  Directions unseen;
+  EXPECT_EQ(hold_by(mission_, outline, slack, covariance(), unseen).axes.count, 2) << "an eighth of the radius is too wide";
+  outline.within_m << 0.013, 0, 0, 0.08, 0, 0;
+  const Hold hold = hold_by(mission_, outline, slack, covariance(), unseen);
+  ASSERT_EQ(hold.axes.count, 1);
+  EXPECT_EQ(hold.axes.vectors.col(0), slack.vectors.col(3));
+  EXPECT_EQ(unseen.count, 0);
 }
 
 class HoldTest : public SlackTest {
@@ -108,12 +124,16 @@ TEST_F(HoldTest, ReleasedIsWhatWouldBeKnownWithoutTheOutline) {
 
 TEST_F(HoldTest, WhatTheOutlineAloneHeldIsAnywhereOnceReleased) {
   VERIFIES("LASSO-REG-023~1");
-  sigmas_m_[5] = kUnseenSigma * radius_m();
-  Mat6 held = hold_slack(radius_m(), hold_, covariance());
-  held *= 1 + 1e-9;  // rounding, and on the bad side
-  const Mat6 released = scale().asDiagonal() * release_slack(radius_m(), hold_, held) * scale().asDiagonal();
-  const double sigma_m = std::sqrt(axes_.col(5).dot(released * axes_.col(5)));
-  EXPECT_NEAR(sigma_m, kUnseenSigma * radius_m(), 1e-2 * sigma_m);
+  for (const double radius : {0.7, 6.0, 10.0}) {
+    for (const double rounding : {-1e-10, 0.0, 1e-10}) {
+      mission_.radius_m = radius;
+      sigmas_m_[5] = kUnseenSigma * radius;
+      const Mat6 held = (1 + rounding) * hold_slack(radius, hold_, covariance());
+      const Mat6 released = scale().asDiagonal() * release_slack(radius, hold_, held) * scale().asDiagonal();
+      const double sigma_m = std::sqrt(axes_.col(5).dot(released * axes_.col(5)));
+      EXPECT_NEAR(sigma_m, kUnseenSigma * radius, 0.1 * sigma_m) << radius << rounding;
+    }
+  }
 }
 
 TEST_F(HoldTest, WhereNothingIsHeldNotABitChanges) {
@@ -191,6 +211,17 @@ TEST_F(ShownTest, WhatNoContourShowsIsLetGo) {
   EXPECT_NEAR(hold_.sigma_m[0], std::hypot(0.6 * 2e-3, 0.8 * 7e-3), 1e-4);
   ASSERT_EQ(unseen_.count, 2);
   EXPECT_NEAR(std::abs(unseen_.vectors.col(1).dot(hidden)), 1, 1e-3);
+}
+
+// A corner's lever says nothing of a contour's, nor may it turn the axes.
+TEST_F(ShownTest, CornersBetweenTheAxesTurnNone) {
+  VERIFIES("LASSO-REG-023~1");
+  add_labels(30, 0.7 * axes_.col(4) + 0.03 * axes_.col(5));
+  add_labels(30, 0.7 * axes_.col(4) - 0.03 * axes_.col(5));
+  add_labels(20, 0.7 * axes_.col(4) + 0.7 * axes_.col(5), true);
+  keep();
+  ASSERT_EQ(hold_.axes.count, 1);
+  EXPECT_NEAR(std::abs(hold_.axes.vectors.col(0).dot(axes_.col(4))), 1, 1e-3);
 }
 
 TEST_F(ShownTest, WhatTheHitsShowIsNotUnseen) {
