@@ -225,7 +225,7 @@ TEST_F(OutlineTest, WhatMayNotBeMeasuredIsNotSaid) {
   scan_.side = 40;
   scan();
   int said[2] = {};
-  for (int i = 0; i < 100; ++i) {
+  for (int i = 0; i < 25; ++i) {
     const Vec3 x = test::random_vec3(random_, 0.06);
     for (int k = 0; k < 2; ++k) {
       care_.measured = k == 0 ? 0 : 100000;
