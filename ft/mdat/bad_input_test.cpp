@@ -229,6 +229,15 @@ TEST(BadOutput, NothingStaysOfAFolderMadeForARunThatIsRefused) {
   expect_refused(work, "run missions/test.toml --out one/two/three", "missions/test.toml:");
 }
 
+TEST(BadUsage, AFileOfAnotherKindIsTold) {
+  VERIFIES("LASSO-MDT-007~1");
+  const WorkFolder work;
+  ASSERT_EQ(work.mdat("mission compile missions/test.toml --out test.3dli").exit_code, 0);
+  expect_refused(work, "run test.3dli", "flight image: give the mission file");
+  work.write("cube.stl", "solid cube\nendsolid cube\n");
+  expect_refused(work, "mission check cube.stl", "mission new --model cube.stl");
+}
+
 TEST(BadUsage, UnknownCommandsOptionsAndValues) {
   VERIFIES("LASSO-MDT-007~1");
   const WorkFolder work;
@@ -241,6 +250,7 @@ TEST(BadUsage, UnknownCommandsOptionsAndValues) {
   expect_refused(work, "run missions/test.toml --colour", "--colour");
   expect_refused(work, "mission", "--help");
   expect_refused(work, "mission new --model x.stl --scale nan -o m.toml", "scale");
+  expect_refused(work, "mission new --model none.stl --scale 0 -o m.toml", "0.000001");
   expect_refused(work, "mission new --model none.stl --scale 1 -o m.toml", "none.stl");
 }
 

@@ -162,7 +162,7 @@ void add_mission_commands(CLI::App& app) {
   new_command->add_option("--model", options->model, "mesh (STL, OBJ, PLY, glTF) or parametric model (.toml)")->required();
   new_command->add_option("--scale", options->scale, "the file's lengths times this are metres")
       ->capture_default_str()
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(1e-6, 1e6));
   new_command->add_option("-o,--out", options->out, "mission to write")->required();
   new_command->add_flag("--force", options->replace, "replace a file that is there");
 }

@@ -106,6 +106,9 @@ void write_flight_parameters(std::ostream& out, const Values& values) {
     if (section_of(row.key) != section) {
       section = section_of(row.key);
       out << "\n[" << section << "]\n";
+      if (section == "sensor")
+        out << "kind = \"laser_camera\"  # or \"time_of_flight\", a LIDAR: then delete the noise and ranges below, whose presets are that "
+               "kind's\n";
     }
     const auto value = values.find(row.key);
     write_row(out, row, value == values.end() ? row.preset : std::vector<double>{value->second});

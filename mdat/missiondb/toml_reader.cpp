@@ -180,6 +180,14 @@ class TableWalk {
   ProblemList& problems_;
 };
 
+// What somebody may have meant who gave a file of another kind.
+std::string other_kind_of(const std::filesystem::path& file) {
+  const std::string ending = file.extension().string();
+  if (ending == ".3dli") return "; a flight image: give the mission file that it was compiled from";
+  if (ending == ".toml" || ending.empty()) return "";
+  return "; of a mesh, make a mission first: mdat mission new --model " + file.string() + " --out MISSION.toml";
+}
+
 }  // namespace
 
 Origin origin_of(const toml::source_region& region) { return {static_cast<int>(region.begin.line), static_cast<int>(region.begin.column)}; }
@@ -202,9 +210,9 @@ toml::table parse_toml(const std::filesystem::path& file) {
     const std::string text = read_file(file);
     if (text.size() <= kMaxTomlBytes) return toml::parse(text, file.string());
     problems.add({}, "", std::to_string(text.size()) + " bytes",
-                 "expected a TOML file of at most " + std::to_string(kMaxTomlBytes) + " bytes");
+                 "expected a TOML file of at most " + std::to_string(kMaxTomlBytes) + " bytes" + other_kind_of(file));
   } catch (const toml::parse_error& error) {
-    problems.add(origin_of(error.source()), "", "", "not valid TOML: " + std::string(error.description()));
+    problems.add(origin_of(error.source()), "", "", "not valid TOML: " + std::string(error.description()) + other_kind_of(file));
   } catch (const std::runtime_error& error) {
     problems.add({}, "", "", error.what());
   }

@@ -14,7 +14,7 @@ namespace {
 // From near (dark blue) to far (orange): distinct on white, in print and for most colour-blind readers.
 constexpr const char* kRangeColours[] = {"#1b2a6b", "#2563b8", "#1e9aa8", "#5aaf4a", "#d9a300", "#d4571e", "#a3123a", "#6b2b86"};
 constexpr std::size_t kRangeColourCount = std::size(kRangeColours);
-constexpr const char* kVariantColours[] = {"#1e9aa8", "#d4571e", "#2563b8", "#a3123a"};
+constexpr const char* kVariantColours[] = {"#1e9aa8", "#d4571e", "#2563b8", "#a3123a", "#8a6d00"};  // one for each of kVariants
 
 const char* variant_colour(std::size_t i) { return kVariantColours[i % std::size(kVariantColours)]; }
 

@@ -167,7 +167,9 @@ std::string table_section(Plotter& plotter, const sim::RayCaster& target, const 
   const bool flights = table.scenario.drawn != 0;
   std::string html = "<section>\n<h2>" + section_title(table) + "</h2>\n";
   if (flights) html += rates_part(plotter, table) + "</section>\n<section>\n<h2>Poses</h2>\n";
-  html += accuracy_table(table, paper && table.name.empty()) + quality_table(table) + range_table(table);
+  html += accuracy_table(table, paper && table.name.empty()) + quality_table(table);
+  for (const std::string& warning : warnings_of(table)) html += "<p class='note'><b>" + escape(warning) + ".</b></p>\n";
+  html += range_table(table);
   html += scans_figure(plotter, target, table) + angle_figures(plotter, table);
   if (table.scenario.runs_m().size() > 1) html += flights ? flights_part(plotter, table) : range_figure(plotter, table);
   html +=
@@ -207,9 +209,12 @@ std::string introduction(const SimulationResult& result) {
   return text +
          "<p class='note'>Errors are those of the registration of each single scan against the truth at its reference time, as decoded "
          "from telemetry; the "
-         "filtered pose stands beside them. Lost: more than 50 mm or 5° off. Bound: Cramér-Rao bound of the hits of the same scans "
+         "filtered pose stands beside them. Lost: more than 50 mm or 5° off. Invalid: without a valid pose. Wrong: valid, and off by more "
+         "than "
+         "5 of its own σ and by more than 20 mm or 1°. Bound: Cramér-Rao bound of the hits of the same scans "
          "(incidence up to "
-         "85°, root of the mean trace). NEES: 6 when the covariance is honest.</p>\n";
+         "85°, root of the mean trace). NEES, of valid poses: 6 when the covariance is honest, less where it is larger than the "
+         "errors.</p>\n";
 }
 
 }  // namespace

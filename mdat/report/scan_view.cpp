@@ -12,7 +12,7 @@
 namespace lasso::mdat {
 namespace {
 
-constexpr int kPanelWidth = 334, kPanelHeight = 520, kLeftMargin = 66, kRightMargin = 132, kAxisWidth = 48;  // pixels
+constexpr int kPanelWidth = 334, kPanelHeight = 520, kLeftMargin = 88, kRightMargin = 132, kAxisWidth = 48;  // pixels
 constexpr int kSamplesPerAxis = 3;                                                                           // rays of a pixel
 constexpr double kFrameMargin = 1.06;
 constexpr double kPanelShape = 0.8;  // width over height of a panel that shows a view of its own

@@ -116,17 +116,6 @@ std::string quality_line(const VariantResult& variant, ScenarioKind kind) {
   return text + format("  %7.0f %7.0f %7.0f\n", run.time.median_us, run.time.p99_us, run.time.max_us);
 }
 
-// Of valid poses that are wrong: nobody should have to look for them.
-std::string warning_of(const TableResult& table) {
-  std::size_t wrong = 0;
-  for (const VariantResult& variant : table.variants) wrong += variant.all.wrong;
-  if (wrong == 0) return "";
-  return format(
-      "  %zu frames say valid and are wrong (off by more than 5 of their own sigma, and by more than 20 mm or 1 deg): these views of this "
-      "target are not to be trusted\n",
-      wrong);
-}
-
 std::string quality_table(const TableResult& table) {
   const bool paper = table.scenario.scenario_kind() == ScenarioKind::kPaper;
   std::string text = "                            rms error         ";
@@ -136,7 +125,8 @@ std::string quality_table(const TableResult& table) {
   text += paper ? "mm     deg      " : "deg/s  mm/s     ";
   text += "of 6                              median     p99     max\n";
   for (const VariantResult& variant : table.variants) text += quality_line(variant, table.scenario.scenario_kind());
-  return text + warning_of(table);
+  for (const std::string& warning : warnings_of(table)) text += "  " + warning + "\n";
+  return text;
 }
 
 Json run_json(const TimelineStatistics& run) {
@@ -280,6 +270,18 @@ std::string runs_text(const Scenario& scenario) {
 std::string run_text(const Scenario& scenario, std::size_t run) {
   const std::string range = format("%g m", scenario.runs_m()[run]);
   return scenario.drawn != 0 ? format("flight %zu, ", run + 1) + range : range;
+}
+
+std::vector<std::string> warnings_of(const TableResult& table) {
+  std::vector<std::string> warnings;
+  for (const VariantResult& variant : table.variants) {
+    if (variant.all.wrong == 0) continue;
+    warnings.push_back(format(
+        "%s: %zu of %zu frames say valid and are wrong (off by more than 5 of their own sigma, and by more than 20 mm or 1 deg): some "
+        "views of this target are not to be trusted so",
+        variant.variant.title, variant.all.wrong, variant.all.frames));
+  }
+  return warnings;
 }
 
 std::string results_json(const SimulationResult& result) {

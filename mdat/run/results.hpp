@@ -2,16 +2,20 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "mdat/run/simulation.hpp"
 
 namespace lasso::mdat {
 
-// Keys as in docs/user_guide: mission, scenario, seed, version, one object a variant; `side_on` with the same ones; `paper_2005`.
+// Keys as in docs/user-guide.md: mission, scenario, seed, version, one object a variant; `side_on` with the same ones; `paper_2005`.
 std::string results_json(const SimulationResult& result);
 
 // The tables for a person: the paper's beside this run's, then accuracy over the bound, honesty, losses and time.
 std::string summary_text(const SimulationResult& result);
+
+// A line for each variant that has valid poses which are wrong: nobody should have to look for them.
+std::vector<std::string> warnings_of(const TableResult& table);
 
 // "tilt 15 deg", or that each run has one of its own.
 std::string attitude_text(const Scenario& scenario);

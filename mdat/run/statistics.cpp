@@ -28,12 +28,15 @@ double nearest_rank(const std::vector<double>& sorted, double share) {
 }
 
 struct Sums {
-  std::size_t tracked = 0, bounded = 0;
+  std::size_t tracked = 0, valid = 0, bounded = 0;
   double bound_m2 = 0, bound_rad2 = 0, nees = 0, omega2 = 0, v2 = 0;
 
   void add(const FrameError& frame) {
     ++tracked;
-    nees += frame.nees;
+    if (frame.valid) {
+      ++valid;  // what is refused is nobody's to trust
+      nees += frame.nees;
+    }
     omega2 += frame.omega_error_radps * frame.omega_error_radps;
     v2 += frame.v_error_mps * frame.v_error_mps;
     if (!frame.bound.defined) return;
@@ -148,7 +151,7 @@ RunStatistics run_statistics(const std::vector<FrameError>& frames) {
   result.filtered = error_statistics(filtered);
   result.crlb_mm = 1e3 * root_mean(sums.bound_m2, sums.bounded);
   result.crlb_deg = root_mean(sums.bound_rad2, sums.bounded) / kRadPerDeg;
-  result.nees = mean(sums.nees, sums.tracked);
+  result.nees = mean(sums.nees, sums.valid);
   result.omega_rms_degps = root_mean(sums.omega2, sums.tracked) / kRadPerDeg;
   result.v_rms_mmps = 1e3 * root_mean(sums.v2, sums.tracked);
   result.time = time_statistics(std::move(times_us));

@@ -158,6 +158,19 @@ TEST(Statistics, LostFramesAreCountedAndLeftOutOfErrors) {
   EXPECT_EQ(run.time.max_us, 300);
 }
 
+TEST(Statistics, TheCovarianceOfARefusedPoseIsNobodysToTrust) {
+  VERIFIES("LASSO-MDT-002~1");
+  FrameError good, refused;
+  good.reported = refused.reported = good.valid = true;
+  good.nees = 5;
+  refused.nees = 1e6;
+  refused.registration.translation_m = Vec3(0.002, 0, 0);
+  const RunStatistics run = run_statistics({good, refused});
+  EXPECT_EQ(run.invalid, 1U);
+  EXPECT_EQ(run.nees, 5);
+  EXPECT_NEAR(run.registration.rms_mm, 2 / std::sqrt(2), 1e-12);
+}
+
 TEST(Statistics, OnceSettledAllThatIsReportedCountsForTheRates) {
   VERIFIES("LASSO-MDT-002~1");
   std::vector<FrameError> run(23);

@@ -1,0 +1,27 @@
+#include "mdat/run/results.hpp"
+
+#include <gtest/gtest.h>
+
+#include "ut/support/verifies.hpp"
+
+namespace lasso::mdat {
+namespace {
+
+TEST(Results, AVariantWhosePosesAreWrongIsNamed) {
+  VERIFIES("LASSO-MDT-002~1");
+  TableResult table;
+  for (const char* title : {"quiet", "loud", "louder"}) {
+    VariantResult variant;
+    variant.variant.title = title;
+    variant.all.frames = 300;
+    table.variants.push_back(variant);
+  }
+  EXPECT_TRUE(warnings_of(table).empty());
+  table.variants[1].all.wrong = 7;
+  const std::vector<std::string> warnings = warnings_of(table);
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_EQ(warnings[0].find("loud: 7 of 300 frames say valid and are wrong"), 0U) << warnings[0];
+}
+
+}  // namespace
+}  // namespace lasso::mdat
