@@ -27,9 +27,9 @@ constexpr std::uint32_t kFewRays = 3;  // more than a pattern's chance
 constexpr double kDisputedShare = 0.05;
 
 struct OutlineCare {
-  double sigma_m;                             // of a range
-  double edge_depth_m;                        // near its edges the model's field is that far off
-  std::uint32_t asked;                        // no step begins after so many questions,
+  double sigma_m = 0;                         // of a range
+  double edge_depth_m = 0;                    // near its edges the model's field is that far off
+  std::uint32_t asked = 0;                    // no step begins after so many questions,
   std::uint32_t measured = 4 * kOutlineRays;  // no longer step is measured after so many more
   double first_step = 0.06;                   // of the model's radius
   double last_step = 0.01;                    // the same
