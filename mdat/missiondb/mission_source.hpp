@@ -78,6 +78,7 @@ struct Scenario {
   double frames = 0, step_rad = 0, tilt_rad = 0, boresight_rad = 0;
   double roll_rad = 0;             // of the target about its own x axis, before all else
   double drawn = 0;                // 1: at random, by the run's seed
+  double paper_table = 0;          // 1: the scenario is the paper's own, whose table stands beside its results
   std::vector<double> offset_m;    // x, y of the target's origin in the sensor frame
   std::vector<double> spin_radps;  // x, y, z in the target's axes
   std::vector<double> drift_mps;   // x, y, z in the sensor's axes

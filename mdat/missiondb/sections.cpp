@@ -123,6 +123,7 @@ std::vector<ScenarioField> make_scenario_fields() {
     field(&S::boresight_rad, number_row("boresight_deg", "deg", kReal, kDeg, -180, 180, 5, "turn of the target about the boresight")),
     field(&S::roll_rad, number_row("roll_deg", "deg", kReal, kDeg, -180, 180, 0, "turn of the target about its own x axis, before tilt and boresight")),
     field(&S::drawn, number_row("drawn", "1", ValueKind::kBoolean, 1, 0, 1, 0, "spin: attitude of frame 0, and axes of spin and drift, are drawn at random for each run; rates as large as given")),
+    field(&S::paper_table, number_row("paper_table", "1", ValueKind::kBoolean, 1, 0, 1, 0, "paper: results stand beside the paper's table 1, which is of a tenth-scale Hubble")),
     field(&S::offset_m, number_row("offset_m", "m", kReal, 1, -10000, 10000, 0, "target's origin off the boresight: right, down"), 2, 2, {0.02, -0.01}),
     field(&S::spin_radps, number_row("spin_degps", "deg/s", kReal, kDeg, -360, 360, 0, "spin, approach, pass: angular rate about the target's x, y, z"), 3, 3, {0, 0, 0}),
     field(&S::drift_mps, number_row("drift_mps", "m/s", kReal, 1, -100, 100, 0, "spin: velocity along the sensor's x, y, z"), 3, 3, {0, 0, 0}),

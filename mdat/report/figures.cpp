@@ -115,7 +115,7 @@ std::string error_against_angle(Plotter& plotter, const TableResult& table, cons
   if (turns && variant.cases[0].frames.size() > 180) script += "set xtics 90\n";
   for (std::size_t axis = 0; axis < 6; ++axis) {
     if (axis == 1) script += "unset key\n";
-    if (axis == 3) script += turns ? "set xlabel 'turn about the cylinder axis, deg' textcolor '#46505f'\n" : "set xlabel 'frame'\n";
+    if (axis == 3) script += turns ? "set xlabel 'turn about the x axis, deg' textcolor '#46505f'\n" : "set xlabel 'frame'\n";
     script += angle_panel(files, table.scenario, axis);
   }
   return plotter.svg(1080, 560, script + "unset multiplot\n");

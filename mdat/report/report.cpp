@@ -107,14 +107,15 @@ std::string scans_figure(Plotter& plotter, const sim::RayCaster& target, const T
   const std::string png = scan_view_png(plotter, target, shown_panels(table), true, 1);
   const std::string caption = format(
       "The scan on the target at %g m, as the sensor sees it. The model is drawn at the estimated pose. Colour: measured minus predicted "
-      "range of each return; grey: rays that missed, which locate the outline; violet: rays aimed at contours.",
-      table.scenario.runs_m()[shown_range(table.scenario)]);
+      "range of each return; grey: rays that missed, which locate the outline%s.",
+      table.scenario.runs_m()[shown_range(table.scenario)],
+      main_variant(table).parameters.aimed_share > 0 ? "; violet: rays aimed at contours" : "");
   return figure("<img alt='scans on the target' src='data:image/png;base64," + base64(png) + "'>", caption);
 }
 
 std::string angle_text(const TableResult& table, const VariantResult& variant) {
   if (table.scenario.drawn != 0) return format("frame, %s: a line a flight", variant.variant.title);
-  return format("target's angle, %s (the paper's figure 11)", variant.variant.title);
+  return format("target's angle, %s%s", variant.variant.title, table.scenario.paper_table != 0 ? " (the paper's figure 11)" : "");
 }
 
 std::string angle_figures(Plotter& plotter, const TableResult& table) {
@@ -132,7 +133,8 @@ std::string angle_figures(Plotter& plotter, const TableResult& table) {
 
 std::string range_figure(Plotter& plotter, const TableResult& table) {
   return figure(error_against_range(plotter, table),
-                "Root mean square error against range (the paper's figure 13), and the Cramér-Rao bound of the hits of the same scans.");
+                format("Root mean square error against range%s, and the Cramér-Rao bound of the hits of the same scans.",
+                       table.scenario.paper_table != 0 ? " (the paper's figure 13)" : ""));
 }
 
 // How well the rates are known, which is what flights are flown for.
@@ -163,11 +165,11 @@ std::string section_title(const TableResult& table) {
   return format("Tilt %g°", scenario.tilt_rad / kRadPerDeg) + (table.name.empty() ? "" : ": truly side-on, the hardest case");
 }
 
-std::string table_section(Plotter& plotter, const sim::RayCaster& target, const TableResult& table, bool paper) {
+std::string table_section(Plotter& plotter, const sim::RayCaster& target, const TableResult& table) {
   const bool flights = table.scenario.drawn != 0;
   std::string html = "<section>\n<h2>" + section_title(table) + "</h2>\n";
   if (flights) html += rates_part(plotter, table) + "</section>\n<section>\n<h2>Poses</h2>\n";
-  html += accuracy_table(table, paper && table.name.empty()) + quality_table(table);
+  html += accuracy_table(table, is_beside_paper(table)) + quality_table(table);
   for (const std::string& warning : warnings_of(table)) html += "<p class='note'><b>" + escape(warning) + ".</b></p>\n";
   html += range_table(table);
   html += scans_figure(plotter, target, table) + angle_figures(plotter, table);
@@ -225,7 +227,7 @@ std::string report_html(const CompiledMission& mission, const SimulationResult& 
   const std::unique_ptr<sim::RayCaster> target = make_target(mission.mesh);
   std::string body = "<h1>" + escape(result.mission) + "</h1>\n" + introduction(result);
   if (result.kind == ScenarioKind::kPass) body += timeline_section(plotter, *target, result);
-  for (const TableResult& table : result.tables) body += table_section(plotter, *target, table, result.kind == ScenarioKind::kPaper);
+  for (const TableResult& table : result.tables) body += table_section(plotter, *target, table);
   return page(result.mission + ", " + result.scenario, body);
 }
 

@@ -246,7 +246,7 @@ std::string table_text(const SimulationResult& result, const TableResult& table)
   std::string text = format("%s, scenario %s%s: ", result.mission.c_str(), result.scenario.c_str(), table.name.empty() ? "" : ", no tilt");
   text += format("%s x %u frames, %s, registration of single scans\n", runs_text(scenario).c_str(), result.frames,
                  attitude_text(scenario).c_str());
-  text += axes_table(table, table.name.empty() && result.kind == ScenarioKind::kPaper);
+  text += axes_table(table, is_beside_paper(table));
   text += quality_table(table);
   if (result.kind != ScenarioKind::kPaper) text += settled_text(table);
   if (scenario.prior == 0) text += found_text(table);
@@ -271,6 +271,8 @@ std::string run_text(const Scenario& scenario, std::size_t run) {
   const std::string range = format("%g m", scenario.runs_m()[run]);
   return scenario.drawn != 0 ? format("flight %zu, ", run + 1) + range : range;
 }
+
+bool is_beside_paper(const TableResult& table) { return table.scenario.paper_table != 0 && table.name.empty(); }
 
 std::vector<std::string> warnings_of(const TableResult& table) {
   std::vector<std::string> warnings;
@@ -300,7 +302,7 @@ std::string results_json(const SimulationResult& result) {
     }
   }
   if (result.kind == ScenarioKind::kPass) json["timeline"] = timeline_json(result, timeline_of(result));
-  if (result.kind == ScenarioKind::kPaper) json["paper_2005"] = axes_json(paper_table_1());
+  if (is_beside_paper(result.tables.front())) json["paper_2005"] = axes_json(paper_table_1());
   return json.dump(2) + "\n";
 }
 

@@ -8,11 +8,15 @@
 
 namespace lasso::mdat {
 
-// Keys as in docs/user-guide.md: mission, scenario, seed, version, one object a variant; `side_on` with the same ones; `paper_2005`.
+// Keys as in docs/user-guide.md: mission, scenario, seed, version, one object a variant; `side_on` with the same ones; `paper_2005` with
+// scenario.paper_table.
 std::string results_json(const SimulationResult& result);
 
 // The tables for a person: the paper's beside this run's, then accuracy over the bound, honesty, losses and time.
 std::string summary_text(const SimulationResult& result);
+
+// Does the paper's table stand beside this one?
+bool is_beside_paper(const TableResult& table);
 
 // A line for each variant that has valid poses which are wrong: nobody should have to look for them.
 std::vector<std::string> warnings_of(const TableResult& table);

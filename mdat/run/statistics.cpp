@@ -149,8 +149,9 @@ RunStatistics run_statistics(const std::vector<FrameError>& frames) {
   }
   result.registration = error_statistics(registrations);
   result.filtered = error_statistics(filtered);
-  result.crlb_mm = 1e3 * root_mean(sums.bound_m2, sums.bounded);
-  result.crlb_deg = root_mean(sums.bound_rad2, sums.bounded) / kRadPerDeg;
+  const std::size_t bounded = sums.bounded == sums.tracked ? sums.bounded : 0;  // errors of frames without a bound stand over no other's
+  result.crlb_mm = 1e3 * root_mean(sums.bound_m2, bounded);
+  result.crlb_deg = root_mean(sums.bound_rad2, bounded) / kRadPerDeg;
   result.nees = mean(sums.nees, sums.valid);
   result.omega_rms_degps = root_mean(sums.omega2, sums.tracked) / kRadPerDeg;
   result.v_rms_mmps = 1e3 * root_mean(sums.v2, sums.tracked);

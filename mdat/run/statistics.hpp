@@ -66,8 +66,8 @@ constexpr std::size_t kSettlingFrames = 20;  // of a run, from its start on
 struct RunStatistics {
   std::size_t frames = 0, lost = 0, invalid = 0, wrong = 0;
   ErrorStatistics registration, filtered;  // lost frames left out (each by its own error)
-  double crlb_mm = 0, crlb_deg = 0;        // root of the mean trace, over frames that are not lost
-  double nees = 0;                         // mean
+  double crlb_mm = 0, crlb_deg = 0;  // root of the mean trace, over frames that are not lost; not a number where one of them has no bound
+  double nees = 0;                   // mean
   double omega_rms_degps = 0, v_rms_mmps = 0;
   SettledStatistics settled;  // of one run, or of several
   TimeStatistics time;

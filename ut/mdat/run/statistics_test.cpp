@@ -171,6 +171,15 @@ TEST(Statistics, TheCovarianceOfARefusedPoseIsNobodysToTrust) {
   EXPECT_NEAR(run.registration.rms_mm, 2 / std::sqrt(2), 1e-12);
 }
 
+TEST(Statistics, ErrorsOfFramesWithoutABoundStandOverNoOthers) {
+  VERIFIES("LASSO-MDT-002~1");
+  FrameError bounded, open;
+  bounded.reported = open.reported = true;
+  bounded.bound = {true, 4e-6, 9e-6};
+  EXPECT_NEAR(run_statistics({bounded, bounded}).crlb_mm, 2, 1e-12);
+  EXPECT_TRUE(std::isnan(run_statistics({bounded, open}).crlb_mm));
+}
+
 TEST(Statistics, OnceSettledAllThatIsReportedCountsForTheRates) {
   VERIFIES("LASSO-MDT-002~1");
   std::vector<FrameError> run(23);
