@@ -3,9 +3,12 @@
 
 #include <chrono>
 #include <cstdlib>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <random>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "ft/mdat/command.hpp"
 #include "ut/support/verifies.hpp"
@@ -26,6 +29,13 @@ Answer first_answer(const WorkFolder& work, const std::string& command) {
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
   }
   return answer;
+}
+
+constexpr double kFrame_s = 0.2001;  // and a rounded fraction of a second
+
+double time_of(const Json& packet) {
+  const Json& header = packet.at("header");
+  return header.at("time_seconds").get<double>() + header.at("time_fraction").get<double>() / (1 << 24);
 }
 
 TEST(Operate, AnOperatorCommandsARunningComponent) {
@@ -59,19 +69,27 @@ TEST(Operate, AnOperatorCommandsARunningComponent) {
     const Answer over = run.interrupt();
     EXPECT_EQ(over.exit_code, 0) << over.err;
     const Json packets = Json::parse(work.mdat("decode run/telemetry.ccsds --format json").out).at("packets");
-    std::string story, modes;
-    int pongs = 0;
+    std::string story;
+    std::map<std::string, double> told_s;
+    std::vector<double> pongs_s;
     for (const Json& packet : packets) {
       const std::string name = packet.at("packet");
-      if (name == "mode_changed") modes += packet.at("items").at("to").get<std::string>() + " ";
-      if (name == "mode_changed") story += packet.at("items").at("to").get<std::string>() + " ";
+      if (name == "mode_changed") {
+        const std::string mode = packet.at("items").at("to");
+        story += mode + " ";
+        told_s[mode] = time_of(packet);
+      }
+      if (name == "pong") pongs_s.push_back(time_of(packet));
       if (name == "command_failed" || name == "laser_enabled") story += name + " ";
-      pongs += name == "pong" ? 1 : 0;
     }
-    const std::size_t failed = story.find("command_failed"), enabled = story.find("laser_enabled"), standby_at = story.find("standby");
-    EXPECT_TRUE(failed < enabled && enabled < standby_at && standby_at != std::string::npos) << story;
-    EXPECT_NE(modes.find("short_range tracking standby"), std::string::npos) << modes;  // a pong may come before the change is told
-    EXPECT_GE(pongs, 6);
+    const std::size_t failed = story.find("command_failed"), enabled = story.find("laser_enabled");
+    EXPECT_TRUE(failed < enabled && enabled != std::string::npos) << story;
+    EXPECT_NE(story.find("short_range tracking standby", enabled), std::string::npos) << story;
+    // A mode is taken at the boundary that follows its command: the pong of a ping behind that may come a frame before, and no more.
+    ASSERT_GE(pongs_s.size(), 6U);
+    EXPECT_LE(told_s["short_range"], pongs_s[pongs_s.size() - 5] + kFrame_s) << story;
+    EXPECT_LE(told_s["tracking"], pongs_s[pongs_s.size() - 4] + kFrame_s) << story;
+    EXPECT_LE(told_s["standby"], pongs_s[pongs_s.size() - 3] + kFrame_s) << story;
   }
 }
 

@@ -35,30 +35,36 @@ class OutlineTest : public test::PoseFixture {
 
   OutlineFit fit(const Pose& start) { return fit_outline(mission_, start, in_plane_, care_, *workspace_); }
 
-  // Of the rays that were asked last, by the box's closed form.
+  // A ray that was asked last, and what it meets, by the box's closed form.
+  struct Met {
+    bool hit;      // as it was scanned
+    bool surface;  // the pose has one there
+    double gap_m;  // between them, where both are
+  };
+  Met meet(const OutlineRay& asked, const Pose& T_target_sensor) const {
+    const ScanRay<FlightNumber>& ray = workspace_->rays[asked.ray];
+    const Vec3 u(FlightNumber::to_double(ray.u[0]), FlightNumber::to_double(ray.u[1]), FlightNumber::to_double(ray.u[2]));
+    const double met_m = cast_box(scan_.model, T_target_sensor.p, rotate(T_target_sensor.q, u));
+    return {ray.state == RayState::kHit, met_m > 0, std::abs(met_m - FlightNumber::to_double(ray.range))};
+  }
+
   std::uint32_t count_disputed(const Pose& T_target_sensor) const {
     std::uint32_t count = 0;
     for (const OutlineRay& asked : workspace_->outline) {
-      const ScanRay<FlightNumber>& ray = workspace_->rays[asked.ray];
-      const Vec3 u(FlightNumber::to_double(ray.u[0]), FlightNumber::to_double(ray.u[1]), FlightNumber::to_double(ray.u[2]));
-      const double met = cast_box(scan_.model, T_target_sensor.p, rotate(T_target_sensor.q, u));
-      const bool agrees =
-          ray.state == RayState::kMiss ? !(met > 0) : met > 0 && std::abs(met - FlightNumber::to_double(ray.range)) < kGate_m;
-      count += agrees ? 0U : 1U;
+      const Met met = meet(asked, T_target_sensor);
+      count += met.hit != met.surface || (met.hit && met.gap_m >= kGate_m) ? 1U : 0U;
     }
     return count;
   }
 
-  // Quarters of a ray, by the same: a gap's square in parts of three sigmas', or a whole ray.
+  // Quarters of a ray: a gap's square in parts of three sigmas', or a whole ray.
   std::uint32_t cost_of(const Pose& T_target_sensor) const {
     std::uint32_t cost = 0;
     for (const OutlineRay& asked : workspace_->outline) {
-      const ScanRay<FlightNumber>& ray = workspace_->rays[asked.ray];
-      const Vec3 u(FlightNumber::to_double(ray.u[0]), FlightNumber::to_double(ray.u[1]), FlightNumber::to_double(ray.u[2]));
-      const double met = cast_box(scan_.model, T_target_sensor.p, rotate(T_target_sensor.q, u));
-      const double gap = (met - FlightNumber::to_double(ray.range)) / (3 * kSigma_m);
-      const bool is_hit = ray.state == RayState::kHit;
-      cost += is_hit && met > 0 ? static_cast<std::uint32_t>(std::min(4.0, std::floor(4 * gap * gap))) : is_hit == (met > 0) ? 0 : 4;
+      const Met met = meet(asked, T_target_sensor);
+      const double share = met.gap_m / (3 * kSigma_m);
+      if (met.hit != met.surface) cost += 4;
+      if (met.hit && met.surface) cost += static_cast<std::uint32_t>(std::min(4.0, std::floor(4 * share * share)));
     }
     return cost;
   }
