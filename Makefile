@@ -61,7 +61,7 @@ tidy = @ninja -C $(1) -t cleandead >/dev/null; find $(1) -name '*.$(2)' | while 
 ctest = @rm -rf $(2); mkdir -p $(2); GTEST_OUTPUT=xml:$(abspath $(2))/ \
   ctest --test-dir $(1) --parallel $(JOBS) --output-on-failure --no-tests=error --output-junit $(abspath $(2))/ctest.xml $(3)
 
-.PHONY: help run test accuracy bench basin search montecarlo endurance flips scrub fuzz statistics campaigns-sample golden fixed-point ppc-count search-count pil pil-sample pil-upload seu seu-sample prove ppc-test sanitize requirements arrows coverage mcdc trace evidence gates-selftest figures icd format lint install clean build
+.PHONY: help run test accuracy bench basin search montecarlo endurance flips scrub fuzz statistics campaigns-sample golden fixed-point ppc-count search-count start-count pil pil-sample pil-upload seu seu-sample prove ppc-test sanitize requirements arrows coverage mcdc trace evidence gates-selftest figures icd format lint install clean build
 .DEFAULT_GOAL := help
 
 help: ## this list
@@ -218,6 +218,11 @@ ppc-count: ## instructions of one estimate on the PowerPC 603e, by function, in 
 	$(call configure,$(PPC)-soft-fixed,$(CROSS) $(soft) $(FIXED))
 	$(call compile,$(PPC)-soft-fixed,golden_replay)
 	@ft/ppc603e/count $(BUILD) $(PPC) fixed=$(CLANG),$(PPC)-fixed soft-float=$(BUILD),$(PPC)-soft soft-fixed=$(CLANG),$(PPC)-soft-fixed
+
+start-count: ## instructions of an estimate from a rough start (20 deg, 0.3 m) on the PowerPC 603e, held to a frame of the card; the same bits as on the host; out/start-count; STARTS=, SEED=, MISSION=
+	$(begin)
+	$(replays)
+	@ft/ppc603e/count-starts $(BUILD) $(PPC) $(or $(STARTS),300) $(or $(SEED),1) $(MISSION)
 
 search-count: ## instructions of a search on the PowerPC 603e, and its largest step; the same bits as on the host; out/search-count; STARTS=, SEED=
 	$(begin)

@@ -6,9 +6,6 @@
 
 namespace lasso {
 
-constexpr std::size_t kQuarter = 4;  // stride of the passes over a quarter of the points
-constexpr std::uint32_t kMinimumPoints = 12;
-
 struct Pass {
   explicit Pass(const Mission& mission) : sums(mission.radius_m) {}
 

@@ -1,7 +1,9 @@
 // golden_record MISSION OUT SCENARIO RANGE_M FRAMES [KEY=VALUE...]: flies a scenario closed loop, with the simulated scanner and the
 // component on its two Linux threads, and writes OUT/image.3dli, OUT/trace.bin and OUT/telemetry.bin. KEY=VALUE overrides flight
 // parameters, as the mission file names them, and seed=N the seed of the scanner's noise. MISSION may also be followed by several runs in
-// one call: OUT SCENARIO RANGE_M FRAMES [KEY=VALUE...] -- OUT ... Exit codes: 0 done, 1 the run failed, 2 usage or bad input.
+// one call: OUT SCENARIO RANGE_M FRAMES [KEY=VALUE...] -- OUT ... With rough=N the flight begins at one of the scenario's frames,
+// and from a start up to tracking.start_sigma_deg and, on each axis, start_sigma_m off, both drawn with N.
+// Exit codes: 0 done, 1 the run failed, 2 usage or bad input.
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -11,6 +13,7 @@
 #include <vector>
 
 #include "bsp/posix/runner.hpp"
+#include "ft/campaign/draws.hpp"
 #include "ft/golden/trace_sensor.hpp"
 #include "hal_sim/scanner.hpp"
 #include "mdat/common/errors.hpp"
@@ -32,15 +35,18 @@ struct Flight {
   double range_m = 0;
   std::uint32_t frames = 0;
   std::vector<std::string> overrides;
-  std::optional<std::uint64_t> seed;  // otherwise the scenario's
+  std::optional<std::uint64_t> seed;   // otherwise the scenario's
+  std::optional<std::uint64_t> rough;  // otherwise the start is right, and the first frame the scenario's
 };
 
 Flight parse(const std::vector<std::string>& words) {
   if (words.size() < 4) throw InputError("a run is OUT SCENARIO RANGE_M FRAMES [KEY=VALUE...]");
-  Flight flight{words[0], words[1], std::stod(words[2]), static_cast<std::uint32_t>(std::stoul(words[3])), {}, {}};
+  Flight flight{words[0], words[1], std::stod(words[2]), static_cast<std::uint32_t>(std::stoul(words[3])), {}, {}, {}};
   for (std::size_t i = 4; i < words.size(); ++i) {
     if (words[i].starts_with("seed=")) {
       flight.seed = std::stoull(words[i].substr(5));
+    } else if (words[i].starts_with("rough=")) {
+      flight.rough = std::stoull(words[i].substr(6));
     } else {
       flight.overrides.push_back(words[i]);
     }
@@ -86,12 +92,21 @@ void expect(Status status, const std::string& what) {
 }
 
 // The track starts from the true pose of one frame before the first, at rest.
-TraceHeader make_header(const sim::Trajectory& trajectory, std::uint32_t frames, DurationUs period_us) {
+TraceHeader make_header(const sim::Trajectory& trajectory, const Flight& flight, const mdat::Scenario& scenario,
+                        const MissionParameters& parameters) {
+  const DurationUs period_us = mdat::period_us(parameters);
   TraceHeader header;
-  header.frames = frames + kPipelineFrames;
+  header.frames = flight.frames + kPipelineFrames;
   header.boundary_0_us = mdat::kEpochUs;
-  header.T_sensor_target = trajectory.at(mdat::kEpochUs - period_us).T_sensor_target;
-  header.t_us = mdat::kEpochUs;
+  if (flight.rough) {
+    sim::Random random(*flight.rough);
+    header.boundary_0_us += static_cast<DurationUs>(random.uniform() * scenario.frames) * period_us;
+    const Pose truth = trajectory.at(header.boundary_0_us).T_sensor_target;
+    header.T_sensor_target = campaign::disturbed(truth, parameters.start_sigma_rad, parameters.start_sigma_m, random);
+  } else {
+    header.T_sensor_target = trajectory.at(mdat::kEpochUs - period_us).T_sensor_target;
+  }
+  header.t_us = header.boundary_0_us;
   return header;
 }
 
@@ -120,13 +135,14 @@ std::string trace_bytes(const TraceHeader& header, const std::vector<std::uint8_
 
 void record(const mdat::CompiledMission& mission, const sim::RayCaster& target, const Flight& flight) {
   const mdat::Scenario& scenario = mdat::scenario_of(mission.source, flight.scenario);
-  const MissionParameters parameters = parameters_of(mission.source, flight);
+  MissionParameters parameters = parameters_of(mission.source, flight);
+  if (flight.rough) parameters.initial_present = 0;
   const DurationUs period_us = mdat::period_us(parameters);
   const auto trajectory = mdat::make_trajectory(scenario, flight.range_m, mdat::kEpochUs, period_us);
   sim::SimulatedScanner scanner(target, *trajectory, mdat::scanner_model(scenario, parameters, scenario.noise != 0),
                                 flight.seed.value_or(static_cast<std::uint64_t>(scenario.seed)));
   TraceRecorder recorder(scanner);
-  const TraceHeader header = make_header(*trajectory, flight.frames, period_us);
+  const TraceHeader header = make_header(*trajectory, flight, scenario, parameters);
   const std::vector<std::uint8_t> image = mdat::image_bytes(mission, parameters);
   const std::string telemetry = fly(recorder, image, header);
 

@@ -160,7 +160,7 @@ TEST_F(GaussNewtonTest, SumsAreThoseOfABruteForcePass) {
     scan();
     const Pose pose = inverse(test::disturb(scan_.T_sensor_target, 0.005, 0.005, random_));
     keep_clear_points(pose);
-    const PassKind kind{i % 4 == 0 ? kQuarter : 1};
+    const PassKind kind{i % 4 == 0 ? std::size_t{4} : 1};
     const MatchSettings<N> s = settings(gate_m);
     PassSums<N> sums(mission_.radius_m);
     match_points(mission_.field, to_path<N>(pose), s, points(), kind, sums);
