@@ -117,19 +117,11 @@ ModeEvent event_of(const MissionParameters& p, const TrackState& state, bool val
   return p.recover > 0.5 || leaves_search(p, state) ? ModeEvent::kRecover : ModeEvent::kExhausted;
 }
 
-// Are its near-symmetries to be asked, of which there was no time?
-bool lacks_twins(const Registration& registration) {
-  return (registration.from_afar || registration.outlined) && leaves_twins(registration);
-}
-
 // Joins the step's registration to its filter if it is valid, and changes the mode accordingly.
 void take(const MissionParameters& p, const ModeProperties& mode, TrackStep& step) {
   Registration& registration = step.registration;
   const bool starts = mode.confirms && step.after.check.stage == StartCheck::Stage::kNone;
   if (registration.valid()) registration.reason = join(p, starts, registration, step.after.filter);
-  step.after.unasked = registration.valid() && starts && lacks_twins(registration);
-  if (step.after.unasked) registration.reason = PoseReason::kUnchecked;
-  step.after.from_afar = registration.from_afar && !starts && p.silhouettes > 0.5;
   const bool awaits = is_checked(p, step.after) && step.after.check.stage != StartCheck::Stage::kPassed;
   if (registration.valid() && awaits) return await_check(step);
   count_and_change(p, registration.valid(), step);
@@ -212,12 +204,11 @@ TrackStep track_scan(const Mission& mission, Estimator& estimator, const RangeIm
   const ModeProperties& mode = properties(before.mode);
   predict_or_hold(p, scan.reference_time_us(), filter);
   const bool starts = mode.confirms && before.check.stage == StartCheck::Stage::kNone;
-  const bool rough = (mode.wide_start && starts) || is_rough(mission, filter);
-  const bool wide = rough && !before.from_afar && !before.unasked && p.wide_start > 0.5;
+  const bool wide = ((mode.wide_start && starts) || is_rough(mission, filter)) && p.wide_start > 0.5;
   Registration& registration = step.registration;
-  registration = estimator.estimate(mission, scan, StartPoint{filter.T_sensor_target, filter.rates, wide, before.unasked, false});
+  registration = estimator.estimate(mission, scan, StartPoint{filter.T_sensor_target, filter.rates, wide, false});
   if (registration.valid()) registration.reason = confirm(p, mode, starts, filter, registration);
-  const bool asks_twins = registration.valid() && starts && !lacks_twins(registration);
+  const bool asks_twins = registration.valid() && starts;
   if (asks_twins && estimator.has_better_twin(mission, scan, registration)) registration.reason = PoseReason::kBetterTwin;
   take(p, mode, step);
   return step;

@@ -36,8 +36,6 @@ struct TrackState {
   bool held = false;               // no mode ends because its frames are used up
   StartWay way = StartWay::kNone;  // by which the present track was started
   StartCheck check;                // of that start, in mode starting
-  bool from_afar = false;          // of a rough prediction: the last scan took the far way, and this one begins where it ended
-  bool unasked = false;            // the last scan would confirm the start, but had no time for its near-symmetries: this one has
   bool interrupts = false;         // a start: the track that it interrupted is kept by whoever keeps this state
   FilterState filter;
   BearingState bearing;
@@ -73,10 +71,7 @@ StartRefusal start_track(const Mission& mission, StartWay way, const StartOffer&
 // starts the filter anew, since the prediction may be far off; so does one that the filter cannot take. Where start.check is set, a start
 // of another way than search is then checked (end_check): the scans that it takes are kUnchecked, but join the filter. One that the
 // prediction of a filter with 5 scans excludes (tracking.innovation_max) is kImplausible and joins nothing. A prediction less certain than
-// the registration's gate is a rough start. Of what is dear (estimator.hpp) a scan has one: after a prediction that
-// took the far way the next one does not; a start whose near-symmetries would have to be asked of a scan that took the far way or asked the
-// outline starts the filter anew, kUnchecked, and the next scan asks them. Bounds: as Estimator::estimate, in a start as has_better_twin
-// besides.
+// the registration's gate is a rough start. Bounds: as Estimator::estimate, in a start as has_better_twin besides.
 TrackStep track_scan(const Mission& mission, Estimator& estimator, const RangeImage& scan, const TrackState& before);
 
 // The same with a scan that was planned to look at a part (`part` != kWhole): it is compared with the other parts' before it joins.

@@ -29,7 +29,8 @@ struct Cloud {
 Cloud mean_of(const PathPose<N>& pose, const Workspace& workspace) {
   Cloud cloud;
   double count = 0;
-  for (std::size_t i = 0; i < workspace.points.size(); i += stride_of(workspace)) {
+  const std::size_t stride = stride_of(workspace);
+  for (std::size_t i = 0; i < workspace.points.size(); i += stride) {
     N::Length m[3];
     N::Unit u[3];
     transform(pose, workspace.points[i].p, m);
@@ -86,7 +87,8 @@ void take_plane_pass(const Mission& mission, const MatchSettings<N>& s, bool far
   const PathPose<N> path = to_path<N>(pose);
   const float gate_m = N::to_float(s.gate);
   Pass pass(mission);
-  for (std::size_t i = 0; i < workspace.points.size(); i += stride_of(workspace)) {
+  const std::size_t stride = stride_of(workspace);
+  for (std::size_t i = 0; i < workspace.points.size(); i += stride) {
     FieldRay<N> ray = to_target(path, workspace.points[i]);
     set_cells(field, ray);
     if (!near_grid(ray)) continue;
@@ -112,7 +114,8 @@ std::uint32_t explained(const Mission& mission, MatchSettings<N> s, const Pose& 
   set_gate(0.2 * mission.parameters.gate_first_m, s);
   const PathPose<N> path = to_path<N>(pose);
   std::uint32_t count = 0;
-  for (std::size_t i = 0; i < workspace.points.size(); i += stride_of(workspace)) {
+  const std::size_t stride = stride_of(workspace);
+  for (std::size_t i = 0; i < workspace.points.size(); i += stride) {
     const MatchPoint<N>& point = workspace.points[i];
     FieldRay<N> ray = to_target(path, point);
     set_cells(mission.field, ray);
@@ -167,7 +170,8 @@ SlideDistances distances_of(const Mission& mission, int axis, double step_m, con
   const SearchTables<N>& t = mission.search;
   const PathPose<N> path = to_path<N>(pose);
   SlideDistances distances;
-  for (std::size_t i = 0; i < workspace.points.size(); i += stride_of(workspace)) {
+  const std::size_t stride = stride_of(workspace);
+  for (std::size_t i = 0; i < workspace.points.size(); i += stride) {
     N::Length m[3];
     transform(path, workspace.points[i].p, m);
     float cell[3];
@@ -190,11 +194,14 @@ int take_closest(SlideDistances& distances) {
   return closest;
 }
 
+constexpr float kNoDistance = 1e9F;  // m, more than any sum
+
 // Sum of the points' truncated distances to the surface.
 float distance_of(const Mission& mission, const Pose& pose, const Workspace& workspace) {
   const PathPose<N> path = to_path<N>(pose);
   float sum = 0;
-  for (std::size_t i = 0; i < workspace.points.size(); i += stride_of(workspace)) {
+  const std::size_t stride = stride_of(workspace);
+  for (std::size_t i = 0; i < workspace.points.size(); i += stride) {
     N::Length m[3];
     transform(path, workspace.points[i].p, m);
     const float m_float[3] = {N::to_float(m[0]), N::to_float(m[1]), N::to_float(m[2])};
@@ -208,14 +215,14 @@ float distance_of(const Mission& mission, const Pose& pose, const Workspace& wor
 Candidate slide(const Mission& mission, const MatchSettings<N>& s, int axis, double step_m, const Candidate& start, Workspace& workspace) {
   SlideDistances distances = distances_of(mission, axis, step_m, start.pose, workspace);
   distances.sum[kSlides] = UINT32_MAX;
-  Pose closest;
-  float least_m = 0;
+  Pose closest = start.pose;
+  float least_m = kNoDistance;
   for (int i = 0; i < kPlacesOfAxis; ++i) {
     Pose moved = start.pose;
     moved.p[axis] += take_closest(distances) * step_m;
     pull_to_planes(mission, s, workspace, moved);
     const float distance_m = distance_of(mission, moved, workspace);
-    if (i > 0 && !(distance_m < least_m)) continue;
+    if (!(distance_m < least_m)) continue;
     least_m = distance_m;
     closest = moved;
   }

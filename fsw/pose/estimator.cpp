@@ -105,6 +105,7 @@ bool follow_outline(const Mission& mission, Workspace& workspace, HitSolution& h
 
 // Where the hits let the pose slide, the outline says where it is.
 void settle_slack(const Mission& mission, HitSolution& hits, Workspace& workspace, HitKnowledge& known) {
+  if (known.slack.count == 0) return;
   OutlineFit fit = outline_of(mission, hits, known, kMostAsked, workspace);
   if (!fit.settled) return;
   if (fit.moved && !follow_outline(mission, workspace, hits, known, fit)) return;
@@ -146,7 +147,7 @@ void use_silhouettes(const Mission& mission, bool misses_known, HitKnowledge& kn
 void describe_pose(const Mission& mission, const HitSolution& hits, bool misses_known, HitKnowledge& known, Workspace& workspace,
                    Registration& result) {
   Pose pose = hits.T_target_sensor;
-  if (mission.parameters.silhouettes > 0.5 && !result.from_afar) {
+  if (mission.parameters.silhouettes > 0.5) {
     use_silhouettes(mission, misses_known, known, workspace, pose);
     result.labels = to_count(workspace.labels.size());
   }
@@ -168,17 +169,11 @@ void describe_hits(const HitSolution& hits, double scale, const Workspace& works
 }
 
 // A start that may be rough: the far way is taken only where the near one does not explain the scan.
-HitSolution register_wide(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace, bool& from_afar) {
-  const HitSolution near = register_hits(mission, T_target_sensor, workspace);
-  from_afar = explained_share(near) < kExplainedShare && workspace.points.size() >= kMinimumPoints;
-  if (!from_afar) return near;
+HitSolution register_wide(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace) {
+  HitSolution near = register_hits(mission, T_target_sensor, workspace);
+  if (explained_share(near) >= kExplainedShare) return near;
   const HitSolution far = register_hits(mission, approach_from_afar(mission, T_target_sensor, workspace), workspace);
   return explained_share(far) > explained_share(near) ? far : near;
-}
-
-// An outline is asked where nothing else that is dear is.
-bool may_ask_outline(const Mission& mission, const RangeImage& scan, const StartPoint& start, const Registration& result) {
-  return mission.parameters.silhouettes > 0.5 && scan.misses_known && !start.partial && !start.frugal && !result.from_afar;
 }
 
 // More than `most` within the time, or than `fastest` by itself; so is what is not a number.
@@ -210,21 +205,19 @@ Registration Estimator::estimate(const Mission& mission, const RangeImage& scan,
   }
   prepare_rays(mission, scan, start, workspace_);
   const Pose pose = inverse(start.T_sensor_target);
-  HitSolution hits = start.wide ? register_wide(mission, pose, workspace_, result.from_afar) : register_hits(mission, pose, workspace_);
+  HitSolution hits = start.wide ? register_wide(mission, pose, workspace_) : register_hits(mission, pose, workspace_);
+  const bool shows_outline = mission.parameters.silhouettes > 0.5 && scan.misses_known && !start.partial;
   HitKnowledge known;
   learn_from(mission, hits, workspace_, known);
-  result.outlined = known.slack.count > 0 && may_ask_outline(mission, scan, start, result);
-  if (result.outlined) settle_slack(mission, hits, workspace_, known);
+  if (shows_outline) settle_slack(mission, hits, workspace_, known);
   describe_hits(hits, known.scale, workspace_, result);
   if (has_information(hits)) describe_pose(mission, hits, scan.misses_known, known, workspace_, result);
   result.reason = judge(mission.parameters, result);
   return result;
 }
 
-bool leaves_twins(const Registration& result) { return result.inlier_share < kExplainedShare; }
-
 bool Estimator::has_better_twin(const Mission& mission, const RangeImage& scan, const Registration& result) {
-  if (!leaves_twins(result)) return false;
+  if (result.inlier_share >= kExplainedShare) return false;
   const double advantage = twin_advantage(mission, inverse(result.T_sensor_target), scan.misses_known, workspace_);
   return advantage > mission.parameters.start_twin_margin;
 }

@@ -1,6 +1,6 @@
 // From a range image to a pose and its covariance: match, solve, outline, silhouettes, quality. The workspace is a member; no state is kept
 // from scan to scan. Work is bounded by kMaxRays, estimation.iterations_max, what an outline may ask (outline.hpp) and the field's list and
-// walk bounds; of what is dear, a way from afar, an outline and a look at near-symmetries, a scan has one, so that it fits into a frame.
+// walk bounds.
 #pragma once
 
 #include "fsw/mission/mission.hpp"
@@ -14,8 +14,7 @@ namespace lasso {
 struct StartPoint {
   Pose T_sensor_target;
   Twist rates;           // for moving the points to the reference time (estimation.deskew)
-  bool wide = false;     // a rough start (20 deg, a quarter of the model's size): where it does not explain the scan, approach_from_afar
-  bool frugal = false;   // has_better_twin is asked after it: there is no time for an outline
+  bool wide = false;     // a rough start (20 deg, a quarter of the model's size): where the near way fails, centroid, far field and slides
   bool partial = false;  // the model is a part of what is scanned: a return that meets none of it does not count against the pose
 };
 
@@ -28,17 +27,14 @@ constexpr double kFastestTurn_radps = 60;
 constexpr double kMostWay_m = 50;
 constexpr double kFastest_mps = 500;
 
-// Does the pose explain so little of its scan, less than kExplainedShare (register.hpp), that a near-symmetry may be better?
-bool leaves_twins(const Registration& result);
-
 class Estimator {
  public:
   // Never fails silently: result.reason says whether and why the pose can(not) be trusted. With nothing to work on the pose is the start.
   Registration estimate(const Mission& mission, const RangeImage& scan, const StartPoint& start);
 
   // Does a near-symmetry of the pose that the last estimate gave of this scan explain it better, by more than start.twin_margin? Not asked
-  // unless leaves_twins says so, and not to be asked of one from afar or by an outline. For starts: nothing before them tells the one from
-  // the other. Leaves a part of the scan's points. Bound: as twin_advantage (near_symmetry.hpp).
+  // of one that explains kExplainedShare of the returns (register.hpp). For starts: nothing before them tells the one from the other.
+  // Leaves a part of the scan's points. Bound: as twin_advantage (near_symmetry.hpp).
   bool has_better_twin(const Mission& mission, const RangeImage& scan, const Registration& result);
 
   // Room for other stages to work in between two estimates.

@@ -7,7 +7,7 @@
 
 namespace lasso {
 
-constexpr std::size_t kTwinPoints = 192;  // of a scan's returns are enough to tell a pose from its twins
+constexpr std::size_t kTwinPoints = 256;  // of a scan's returns are enough to tell a pose from its twins
 
 // T_target_sensor of a pose to that of its twin.
 Pose twin_of(const NearSymmetry<FlightNumber>& symmetry, const Pose& T_target_sensor);

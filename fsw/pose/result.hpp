@@ -32,7 +32,7 @@ enum class PoseReason : std::uint8_t {
   kPartDisagrees = 15,  // of a part that is elsewhere than the others say
   kTooFast = 16,        // the prediction moves too far within the scan for its points to be brought to one time
   kBetterTwin = 17,     // of a start: a near-symmetry of the pose explains the scan better
-  kUnchecked = 18,      // of a start: this scan explains it, and another one is to confirm it, or a search to contradict it or not
+  kUnchecked = 18,      // of a start: this scan would confirm it, and a search is still to contradict it or not
   kContradicted = 19,   // of a start: a search of the scan that would confirm it found a pose that explains it better
 };
 const char* to_string(PoseReason reason);
@@ -46,8 +46,6 @@ struct Registration {
   Mat6 covariance = Mat6::Zero();  // of (rotation about the target's origin in sensor axes [rad], translation [m])
   StopReason stop = StopReason::kNotRun;
   PoseReason reason = PoseReason::kNoTrack;
-  bool from_afar = false;  // it began farther off than a registration reaches: the far way was taken
-  bool outlined = false;   // the outline was asked
   std::uint16_t iterations = 0;
   std::uint16_t rays = 0;                 // with a statement: hits and misses
   std::uint16_t returns = 0;              // hits

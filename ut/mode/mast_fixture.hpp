@@ -34,12 +34,6 @@ class MastTest : public TrackerTest {
     return step;
   }
 
-  // Of a start: a view that took the far way leaves its near-symmetries to the next one.
-  TrackStep track_start(std::uint32_t k) {
-    const TrackStep step = track_view(k);
-    return step.after.unasked ? track_view(k + 1) : step;
-  }
-
   void start_turned(const Vec3& axis) {
     state_ = TrackState{};
     Vec6 off = Vec6::Zero();

@@ -108,52 +108,6 @@ TEST_F(MastTest, AStartHalfATurnOffIsNeverTracked) {
   }
 }
 
-// A scan that takes the far way has no time for near-symmetries; the next one has, and for nothing else that is dear.
-TEST_F(TrackerTest, AStartFromAfarIsConfirmedByTheNextScan) {
-  VERIFIES("LASSO-MOD-186~1");
-  spoiled_ = true;  // near-symmetries are to be asked
-  start(small_error());
-  const TrackStep first = track(0);
-  EXPECT_EQ(first.registration.reason, PoseReason::kUnchecked);
-  EXPECT_TRUE(first.registration.from_afar);
-  EXPECT_EQ(first.registration.labels, 0);
-  EXPECT_EQ(first.event, ModeEvent::kPoseInvalid);
-  EXPECT_EQ(state_.mode, TrackingMode::kStarting);
-  EXPECT_EQ(state_.missed, 1) << "no start takes more frames than it has";
-  EXPECT_LT(error(state_.filter.T_sensor_target, state_.filter.t_us).norm(), 5e-3) << "the filter starts there";
-  const TrackStep second = track(1);
-  EXPECT_TRUE(second.registration.valid()) << to_string(second.registration.reason);
-  EXPECT_FALSE(second.registration.from_afar);
-  EXPECT_FALSE(second.registration.outlined);
-  EXPECT_FALSE(second.after.unasked);
-  EXPECT_EQ(state_.mode, TrackingMode::kTracking);
-}
-
-// One that explains its scan leaves nothing to ask.
-TEST_F(TrackerTest, AStartFromAfarThatExplainsItsScanIsConfirmedByIt) {
-  VERIFIES("LASSO-MOD-186~1");
-  Vec6 off;
-  off << 0.12, -0.1, 0.08, 0.1, 0.08, 0.12;
-  start(off);
-  const TrackStep step = track(0);
-  EXPECT_TRUE(step.registration.from_afar);
-  EXPECT_TRUE(step.registration.valid()) << to_string(step.registration.reason);
-  EXPECT_EQ(state_.mode, TrackingMode::kTracking);
-}
-
-// A scan without a pose in between: the far way is open again.
-TEST_F(TrackerTest, AStartWhoseSecondScanFailsIsLookedForFromAfarAgain) {
-  VERIFIES("LASSO-MOD-186~1");
-  spoiled_ = true;
-  start(small_error());
-  track(0);
-  ASSERT_TRUE(state_.unasked);
-  state_.filter.T_sensor_target.p += Vec3(0.1, 0.08, 0.12);
-  EXPECT_FALSE(track(1).registration.valid());
-  EXPECT_FALSE(state_.unasked);
-  EXPECT_TRUE(track(2).registration.from_afar);
-}
-
 // Where a start's share alone would do, its near-symmetries tell.
 TEST_F(MastTest, AStartIsRefusedWhoseNearSymmetryExplainsTheScanBetter) {
   VERIFIES("LASSO-MOD-182~1 LASSO-MOD-183~1");
@@ -165,12 +119,12 @@ TEST_F(MastTest, AStartIsRefusedWhoseNearSymmetryExplainsTheScanBetter) {
   for (std::uint32_t k = 0; k < symmetries.size(); ++k) {
     const Vec3 axis = rotate(scene_.at_zero.q, Vec3::Unit(static_cast<int>(k % 3)));
     start_turned(axis);
-    if (track_start(k).registration.reason != PoseReason::kBetterTwin) continue;
+    if (track_view(k).registration.reason != PoseReason::kBetterTwin) continue;
     ++refused;
     EXPECT_EQ(state_.mode, TrackingMode::kStarting);
     mission_.search.symmetries = {};
     start_turned(axis);
-    EXPECT_TRUE(track_start(k).registration.valid()) << "by itself it explains enough";
+    EXPECT_TRUE(track_view(k).registration.valid()) << "by itself it explains enough";
     mission_.search.symmetries = symmetries;
   }
   EXPECT_GE(refused, 1);

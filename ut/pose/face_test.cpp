@@ -16,9 +16,8 @@ class FaceTest : public test::EstimatorTest {
   }
 
   // Slid within the face by up to `shift_m` each way, and turned.
-  Registration estimate_slid(double turn_rad, double shift_m, bool partial = false, bool frugal = false) {
+  Registration estimate_slid(double turn_rad, double shift_m, bool partial = false) {
     StartPoint start;
-    start.frugal = frugal;
     Vec6 x = Vec6::Zero();
     x[2] = random_.uniform(-turn_rad, turn_rad);
     for (int i = 3; i < 5; ++i) x[i] = random_.uniform(-shift_m, shift_m);
@@ -59,30 +58,6 @@ TEST_F(FaceTest, AFaceThatSlidIsBroughtBackByItsOutline) {
   EXPECT_GE(count_brought_back(0.01, 0.01), 7);
   EXPECT_GE(count_brought_back(0.04, 0.03), 2);
   (void)count_brought_back(0.1, 0.08);
-}
-
-// What a scan has no time for leaves its directions weak.
-TEST_F(FaceTest, AFrugalEstimateAsksNoOutline) {
-  VERIFIES("LASSO-MOD-186~1");
-  scan_.side = 44;
-  EXPECT_TRUE(estimate_slid(0.01, 0.01).outlined);
-  const Registration frugal = estimate_slid(0.01, 0.01, false, true);
-  EXPECT_FALSE(frugal.outlined);
-  EXPECT_TRUE(frugal.valid()) << to_string(frugal.reason);
-  EXPECT_EQ(frugal.weak, 3);
-}
-
-TEST_F(FaceTest, AFaceFoundFromAfarAsksNoOutlineEither) {
-  VERIFIES("LASSO-MOD-186~1");
-  scan_.side = 44;
-  StartPoint start;
-  start.T_sensor_target = scan_.T_sensor_target;
-  start.T_sensor_target.p.z() += 0.2;
-  start.wide = true;
-  const Registration r = estimate(*test::scan_box(scan_, random_), start);
-  EXPECT_TRUE(r.from_afar);
-  EXPECT_FALSE(r.outlined);
-  EXPECT_EQ(r.labels, 0);
 }
 
 TEST_F(FaceTest, ThePoseKnowsHowWellItsLabelsHoldIt) {
