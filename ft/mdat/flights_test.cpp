@@ -64,6 +64,20 @@ TEST(FlightsReport, SaysNothingOfRatesThatHaveNotSettled) {
   EXPECT_EQ(report.find("settled rates"), std::string::npos);
 }
 
+// Rates that are exactly zero, as of a target at rest before the filter has learned any, have no place on a logarithmic axis.
+TEST(FlightsReport, SaysThatNoRateIsKnown) {
+  VERIFIES("LASSO-MDT-011~1");
+  const WorkFolder work;
+  work.write_mission({{"spin_degps = [2.0, 0.0, 0.0]        # in any direction\ndrift_mps = [0.01, 0.0, 0.0]",
+                       "spin_degps = [0.0, 0.0, 0.0]\ndrift_mps = [0.0, 0.0, 0.0]"},
+                      {"ranges_m = [4.0, 4.0, 4.0, 4.0, 4.0, 4.0, 4.0, 4.0, 4.0, 4.0, 4.0, 4.0]\nframes = 60",
+                       "ranges_m = [4.0, 7.0, 5.0]\nframes = 60"}});
+  const Answer answer = work.mdat("run missions/test.toml --scenario rates --frames 1 --out out");
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  expect_shown(answer.out, {"3 flights from 4 to 7 m"});
+  expect_shown(work.read("out/report.html"), {"no rate is known"});
+}
+
 // A start half a turn off is never on the target's pose: there is no error to tell, neither as nan nor as 0.
 TEST(FlightsReport, SaysInWordsThatEveryFrameIsLost) {
   VERIFIES("LASSO-MDT-011~1");

@@ -39,11 +39,6 @@ std::string errors_text(const CaseResult& run, double abscissa_step) {
   return text;
 }
 
-// gnuplot draws nothing of no point.
-std::string nothing_to_draw(const std::string& settings) {
-  return settings + "set yrange [-1:1]\nunset key\nset label 1 'every frame is lost' at graph 0.5,0.5 center\nplot -2 notitle\n";
-}
-
 // Far ranges first, so that near ones (with smaller errors) lie on top.
 std::string angle_panel(const std::vector<std::string>& files, const Scenario& scenario, std::size_t axis) {
   std::string text = format("set title '%s, %s'\nplot ", kErrorAxes[axis].name, kErrorAxes[axis].unit);
@@ -101,7 +96,7 @@ std::string histogram_text(const std::vector<double>& times, double bin_us) {
 bool is_tracked(const VariantResult& variant) { return variant.all.lost < variant.all.frames; }
 
 std::string error_against_angle(Plotter& plotter, const TableResult& table, const VariantResult& variant) {
-  if (!is_tracked(variant)) return plotter.svg(1080, 120, nothing_to_draw(kPlotStyle));
+  if (!is_tracked(variant)) return plotter.svg(1080, 120, nothing_to_draw("every frame is lost"));
   const bool turns = table.scenario.scenario_kind() == ScenarioKind::kPaper && table.scenario.step_rad != 0;
   const double step = turns ? table.scenario.step_rad / kRadPerDeg : 1;
   std::vector<std::string> files;
@@ -122,7 +117,8 @@ std::string error_against_angle(Plotter& plotter, const TableResult& table, cons
 }
 
 std::string error_against_range(Plotter& plotter, const TableResult& table) {
-  if (std::none_of(table.variants.begin(), table.variants.end(), is_tracked)) return plotter.svg(1080, 120, nothing_to_draw(kPlotStyle));
+  if (std::none_of(table.variants.begin(), table.variants.end(), is_tracked))
+    return plotter.svg(1080, 120, nothing_to_draw("every frame is lost"));
   std::vector<std::string> files;
   for (const VariantResult& variant : table.variants) files.push_back(plotter.data(ranges_text(variant, table.scenario)));
   const std::vector<double> ranges_m = table.scenario.runs_m();

@@ -67,6 +67,14 @@ std::string mean_rates_text(const VariantResult& variant) {
   return text;
 }
 
+// A logarithmic axis needs a rate that is not zero; where no flight was tracked there may be none.
+bool has_rates(const VariantResult& variant, double (*rate)(const FrameError&)) {
+  return std::any_of(variant.cases.begin(), variant.cases.end(), [rate](const CaseResult& flight) {
+    return std::any_of(flight.frames.begin(), flight.frames.end(),
+                       [rate](const FrameError& frame) { return frame.reported && rate(frame) > 0; });
+  });
+}
+
 std::string rates_panel(const std::vector<std::string>& files, const std::string& mean, const char* title, int column) {
   std::string text = format("set title '%s'\nplot ", title);
   for (std::size_t i = 0; i < files.size(); ++i) {
@@ -128,6 +136,7 @@ std::string settled_section(const TableResult& table) {
 }
 
 std::string rates_figure(Plotter& plotter, const VariantResult& variant) {
+  if (!has_rates(variant, degps) || !has_rates(variant, mmps)) return plotter.svg(1080, 120, nothing_to_draw("no rate is known"));
   std::vector<std::string> files;
   for (const CaseResult& flight : variant.cases) files.push_back(plotter.data(rates_text(flight)));
   const std::string mean = plotter.data(mean_rates_text(variant));

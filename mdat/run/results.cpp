@@ -263,8 +263,8 @@ std::string runs_text(const Scenario& scenario) {
   const std::vector<double> runs_m = scenario.runs_m();
   const auto [nearest, farthest] = std::minmax_element(runs_m.begin(), runs_m.end());
   const std::string runs = format("%zu %s%s", runs_m.size(), scenario.drawn != 0 ? "flight" : "range", runs_m.size() == 1 ? "" : "s");
-  if (scenario.drawn != 0 && *nearest == *farthest) return runs + format(" at %g m", *nearest);
-  return runs + format(" from %g to %g m", runs_m.front(), runs_m.back());
+  if (*nearest == *farthest) return runs + format(" at %g m", *nearest);
+  return runs + format(" from %g to %g m", *nearest, *farthest);
 }
 
 std::string run_text(const Scenario& scenario, std::size_t run) {
