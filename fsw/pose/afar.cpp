@@ -7,7 +7,7 @@ namespace {
 using N = FlightNumber;
 
 constexpr std::size_t kFarPoints = 96;  // at most, evenly taken, are looked at
-constexpr int kFarPasses = 12;
+constexpr int kFarPasses = 20;
 constexpr double kFarGateFirst = 0.9;            // of the model's radius
 constexpr double kFarGateShrink = 0.8;           // per pass
 constexpr double kFrontOfCenter = 0.15;          // of the radius: how far in front of the model's centre its visible side lies
