@@ -249,7 +249,8 @@ Pose approach_from_afar(const Mission& mission, const Pose& T_target_sensor, Wor
   if (workspace.points.size() < kMinimumPoints) return T_target_sensor;
   const MatchSettings<N> s = make_settings(mission.parameters, workspace);
   const std::size_t stride = stride_of(workspace);
-  const double enough = kGoodShare * static_cast<double>((workspace.points.size() + stride - 1) / stride);
+  const std::size_t looked_at = (workspace.points.size() + stride - 1) / stride;
+  const double enough = kGoodShare * static_cast<double>(looked_at);
   Candidate best = settled(mission, s, pull_from_afar(mission, s, T_target_sensor, workspace), workspace);
   for (const double step : kSlideSteps) {
     for (int axis = 0; axis < 3 && best.score < enough; ++axis) {
