@@ -114,7 +114,7 @@ TEST_F(Calibrate, TheDesignsTableGivesNoWrongPoseThatIsValid) {
   VERIFIES("LASSO-LCS-009~1");
   const nlohmann::json run = track("design.toml", "1");
   EXPECT_EQ(run.at("wrong"), 0);
-  EXPECT_EQ(run.at("lost"), 360);
+  EXPECT_EQ(run.at("invalid"), 360);
 }
 
 TEST_F(Calibrate, ATableOfAnotherDeviceGivesNoScan) {

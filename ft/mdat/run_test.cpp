@@ -95,7 +95,7 @@ TEST(PaperRun, IsTheSameForAnyNumberOfJobsAndChangesWithTheSeed) {
 TEST(PaperRun, ReportsARunThatLosesEveryFrame) {
   VERIFIES("LASSO-MDT-002~1 LASSO-MDT-004~1");
   const WorkFolder work;
-  work.write_mission({{"step_deg = 1.0\ntilt_deg = 15.0", "step_deg = 45.0\ntilt_deg = 15.0"}, kTwoRanges[0]});
+  work.write_mission({{"step_deg = 1.0\ntilt_deg = 15.0", "step_deg = 100.0\ntilt_deg = 15.0"}, kTwoRanges[0]});
   const Answer answer = work.mdat("run missions/test.toml --frames 3 --out out/run");
   ASSERT_EQ(answer.exit_code, 0) << answer.err;
   EXPECT_EQ(Json::parse(work.read("out/run/results.json")).at("noisy").at("lost"), 6);
