@@ -5,11 +5,11 @@
 // usage: basin MISSION [STARTS = 1000] [SEED = 1]
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <memory>
 
 #include "ft/campaign/draws.hpp"
 #include "ft/campaign/verdict.hpp"
+#include "mdat/common/count.hpp"
 #include "mdat/common/errors.hpp"
 #include "mdat/common/flight_image.hpp"
 #include "mdat/run/simulation.hpp"
@@ -95,12 +95,12 @@ void judge(const PoseTelemetry& report, const Pose& truth, Tally& tally) {
 }
 
 int run(int argc, char** argv) {
-  const int starts = argc > 2 ? std::atoi(argv[2]) : 1000;
-  const std::uint64_t seed = argc > 3 ? std::strtoull(argv[3], nullptr, 10) : 1;
-  if (argc < 2 || starts < 1) {
+  if (argc < 2) {
     std::fprintf(stderr, "usage: basin MISSION [STARTS = 1000] [SEED = 1]\n");
     return 2;
   }
+  const int starts = argc > 2 ? mdat::count_of<int>("STARTS", argv[2], 1) : 1000;
+  const std::uint64_t seed = argc > 3 ? mdat::count_of<std::uint64_t>("SEED", argv[3]) : 1;
   const mdat::CompiledMission mission = mdat::compile_mission(argv[1]);
   const mdat::Scenario& scenario = mdat::scenario_of(mission.source, "paper");
   const auto trajectory = mdat::make_trajectory(scenario, kRange_m, mdat::kEpochUs, 200000);

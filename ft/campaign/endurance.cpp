@@ -5,12 +5,12 @@
 // POINTS is the scan's; fewer than the mission's make a day fit into minutes.
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <fstream>
 #include <memory>
 
 #include "ft/campaign/draws.hpp"
 #include "ft/campaign/verdict.hpp"
+#include "mdat/common/count.hpp"
 #include "mdat/common/errors.hpp"
 #include "mdat/common/flight_image.hpp"
 #include "mdat/common/output.hpp"
@@ -68,7 +68,7 @@ std::string text_of(std::uint32_t index, const Row& row, DurationUs drift_us) {
   return text;
 }
 
-std::string fly(const char* mission_file, double hours, std::uint64_t seed, double points) {
+std::string fly(const char* mission_file, std::uint32_t hours, std::uint64_t seed, std::uint32_t points) {
   const mdat::CompiledMission mission = mdat::compile_mission(mission_file);
   MissionParameters parameters = mdat::parameters_for(mission.source, kScenario);
   parameters.initial_present = 0;
@@ -86,7 +86,7 @@ std::string fly(const char* mission_file, double hours, std::uint64_t seed, doub
   const auto period_us = static_cast<DurationUs>(parameters.period_s * 1e6 + 0.5);
   const auto frames_a_row = static_cast<std::uint32_t>(3600e6 / kRowsPerHour / static_cast<double>(period_us));
   std::string table = "hours,reported,valid,wrong,rms_mm,rms_deg,worst_mm,slips,dropped,overruns,drift_us,resident_pages\n";
-  const auto rows = static_cast<std::uint32_t>(std::ceil(hours * kRowsPerHour));
+  const std::uint32_t rows = hours * kRowsPerHour;
   for (std::uint32_t index = 0; index < rows; ++index) {
     Row row;
     for (std::uint32_t frame = 0; frame < frames_a_row; ++frame) {
@@ -97,7 +97,7 @@ std::string fly(const char* mission_file, double hours, std::uint64_t seed, doub
     }
     const auto flown = static_cast<std::int64_t>(index + 1) * static_cast<std::int64_t>(frames_a_row);
     table += text_of(index, row, component->next_slot_us() - mdat::kEpochUs - flown * period_us);
-    if (index % kRowsPerHour == kRowsPerHour - 1) (void)std::fprintf(stderr, "%u of %.1f hours\n", (index + 1) / kRowsPerHour, hours);
+    if (index % kRowsPerHour == kRowsPerHour - 1) (void)std::fprintf(stderr, "%u of %u hours\n", (index + 1) / kRowsPerHour, hours);
   }
   return table;
 }
@@ -106,13 +106,16 @@ std::string fly(const char* mission_file, double hours, std::uint64_t seed, doub
 }  // namespace lasso::campaign
 
 int main(int argc, char** argv) {
-  if (argc < 5 || !(std::atof(argv[3]) > 0)) {
+  if (argc < 5) {
     (void)std::fprintf(stderr, "usage: endurance MISSION FILE HOURS SEED [POINTS]\n");
     return 2;
   }
   try {
-    const double points = argc > 5 ? std::atof(argv[5]) : 0;
-    lasso::mdat::write_file(argv[2], lasso::campaign::fly(argv[1], std::atof(argv[3]), std::strtoull(argv[4], nullptr, 10), points));
+    using lasso::mdat::count_of;
+    const auto hours = count_of<std::uint32_t>("HOURS", argv[3], 1);
+    const auto seed = count_of<std::uint64_t>("SEED", argv[4]);
+    const auto points = argc > 5 ? count_of<std::uint32_t>("POINTS", argv[5]) : 0;
+    lasso::mdat::write_file(argv[2], lasso::campaign::fly(argv[1], hours, seed, points));
   } catch (const std::exception& error) {
     (void)std::fprintf(stderr, "endurance: %s\n", error.what());
     return 2;

@@ -3,13 +3,13 @@
 // depends on SEED and its number alone: FLIGHTS = 1 and FIRST repeat one of them.
 #include <atomic>
 #include <cstdio>
-#include <cstdlib>
 #include <fstream>
 #include <memory>
 #include <thread>
 
 #include "ft/campaign/draws.hpp"
 #include "ft/campaign/verdict.hpp"
+#include "mdat/common/count.hpp"
 #include "mdat/common/errors.hpp"
 #include "mdat/common/flight_image.hpp"
 #include "mdat/common/output.hpp"
@@ -141,12 +141,14 @@ int main(int argc, char** argv) {
     return 2;
   }
   try {
-    const auto number = [&](int i) { return i < argc ? std::strtoull(argv[i], nullptr, 10) : 0; };
-    lasso::mdat::write_file(argv[2], lasso::campaign::fly_all(argv[1], static_cast<std::uint32_t>(number(3)), number(4),
-                                                              static_cast<std::uint32_t>(number(5))));
+    using lasso::mdat::count_of;
+    const auto flights = count_of<std::uint32_t>("FLIGHTS", argv[3], 1);
+    const auto seed = count_of<std::uint64_t>("SEED", argv[4]);
+    const auto first = argc > 5 ? count_of<std::uint32_t>("FIRST", argv[5]) : 0;
+    lasso::mdat::write_file(argv[2], lasso::campaign::fly_all(argv[1], flights, seed, first));
   } catch (const std::exception& error) {
     (void)std::fprintf(stderr, "montecarlo: %s\n", error.what());
-    return 1;
+    return 2;
   }
   return 0;
 }

@@ -22,6 +22,7 @@
 #include "ft/campaign/arena.hpp"
 #include "ft/campaign/draws.hpp"
 #include "ft/campaign/verdict.hpp"
+#include "mdat/common/count.hpp"
 #include "mdat/common/errors.hpp"
 #include "mdat/common/flight_image.hpp"
 #include "mdat/common/output.hpp"
@@ -343,13 +344,14 @@ int main(int argc, char** argv) {
     return 2;
   }
   try {
-    const auto number = [&](int i) { return i < argc ? std::strtoull(argv[i], nullptr, 10) : 0; };
-    const std::string rows =
-        lasso::campaign::run(argv[1], static_cast<std::uint32_t>(number(3)), number(4), static_cast<std::uint32_t>(number(5)));
-    lasso::mdat::write_file(argv[2], rows);
+    using lasso::mdat::count_of;
+    const auto flips = count_of<std::uint32_t>("FLIPS", argv[3], 1);
+    const auto seed = count_of<std::uint64_t>("SEED", argv[4]);
+    const auto first = argc > 5 ? count_of<std::uint32_t>("FIRST", argv[5]) : 0;
+    lasso::mdat::write_file(argv[2], lasso::campaign::run(argv[1], flips, seed, first));
   } catch (const std::exception& error) {
     (void)std::fprintf(stderr, "scrub: %s\n", error.what());
-    return 1;
+    return 2;
   }
   return 0;
 }

@@ -16,8 +16,8 @@
 #include <string>
 
 #include "ft/pil/boards.hpp"
-#include "ft/pil/count.hpp"
 #include "ft/pil/store_story.hpp"
+#include "mdat/common/count.hpp"
 #include "mdat/common/errors.hpp"
 #include "mdat/common/flight_image.hpp"
 #include "mdat/common/output.hpp"
@@ -51,6 +51,7 @@ struct Options {
   bool progress = false;
 };
 
+using mdat::count_of;
 using Take = void (*)(const std::string& value, Options& options);
 constexpr std::uint32_t kMostSeconds = 1'000'000;
 std::chrono::seconds seconds_of(const std::string& name, const std::string& value) {

@@ -7,8 +7,8 @@
 #include <filesystem>
 
 #include "bsp/bare/ram_store.hpp"
-#include "ft/pil/count.hpp"
 #include "ft/pil/seu_flight.hpp"
+#include "mdat/common/count.hpp"
 #include "mdat/common/errors.hpp"
 #include "mdat/common/flight_image.hpp"
 #include "mdat/common/output.hpp"
@@ -82,7 +82,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   try {
-    using lasso::pil::count_of;
+    using lasso::mdat::count_of;
     lasso::pil::run(argv[1], argv[2], lasso::pil::read_places(argv[3]), count_of<std::uint32_t>("FLIPS", argv[4]),
                     count_of<std::uint64_t>("SEED", argv[5]), argc > 6 ? count_of<std::uint32_t>("FIRST", argv[6]) : 0);
   } catch (const lasso::mdat::InputError& error) {

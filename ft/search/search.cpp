@@ -18,6 +18,7 @@
 #include "ft/search/cases.hpp"
 #include "ft/search/recording.hpp"
 #include "hal_sim/scanner.hpp"
+#include "mdat/common/count.hpp"
 #include "mdat/common/cpu_clock.hpp"
 #include "mdat/common/errors.hpp"
 #include "mdat/common/flight_image.hpp"
@@ -260,12 +261,12 @@ void print_row(const Case& c, int starts, const Tally& t) {
 
 int run(int argc, char** argv) {
   const std::string name = argc > 2 ? argv[2] : "all";
-  const int starts = argc > 3 ? std::atoi(argv[3]) : 1000;
-  const std::uint64_t seed = argc > 4 ? std::strtoull(argv[4], nullptr, 10) : 1;
-  const int scans = argc > 5 ? std::atoi(argv[5]) : 3;
+  const int starts = argc > 3 ? mdat::count_of<int>("STARTS", argv[3], 1) : 1000;
+  const std::uint64_t seed = argc > 4 ? mdat::count_of<std::uint64_t>("SEED", argv[4]) : 1;
+  const int scans = argc > 5 ? mdat::count_of<int>("SCANS", argv[5], 1) : 3;
   const double scale = argc > 6 ? std::atof(argv[6]) : 1;
   const std::string folder = argc > 7 ? argv[7] : "";
-  if (argc < 2 || starts < 1 || scans < 1 || scans > static_cast<int>(kMaxSearchScans) || !(scale > 0)) {
+  if (argc < 2 || scans > static_cast<int>(kMaxSearchScans) || !(scale > 0)) {
     std::fprintf(stderr, "usage: search MISSION [CASE = all] [STARTS = 1000] [SEED = 1] [SCANS = 3, 1 to 3] [SCALE = 1] [FOLDER]\n");
     return 2;
   }

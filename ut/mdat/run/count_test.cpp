@@ -1,14 +1,14 @@
-#include "ft/pil/count.hpp"
+#include "mdat/common/count.hpp"
 
 #include <gtest/gtest.h>
 
-namespace lasso::pil {
+namespace lasso::mdat {
 namespace {
 
 std::string refusal(const std::string& text, std::uint32_t least) {
   try {
     return std::to_string(count_of<std::uint32_t>("cut", text, least));
-  } catch (const mdat::InputError& error) {
+  } catch (const InputError& error) {
     return error.what();
   }
 }
@@ -25,4 +25,4 @@ TEST(Count, SaysWhatIsNeeded) {
 }
 
 }  // namespace
-}  // namespace lasso::pil
+}  // namespace lasso::mdat
