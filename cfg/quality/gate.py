@@ -102,6 +102,8 @@ class Gate:
     def __exit__(self, kind, error, trace):
         if isinstance(error, OSError) and error.filename:
             self.find(f'{error.filename}: {error.strerror}: give the right folder, and build first what it holds (make {self.name})')
+        elif isinstance(error, subprocess.CalledProcessError):
+            self.find(f'{error.cmd[0]} ended with {error.returncode}: {(error.stderr or "what it says above").strip()}')
         elif kind is not None and kind is not Stopped:
             self.find(f'{kind.__name__}: {error}')
             self.conclude()
