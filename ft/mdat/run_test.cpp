@@ -61,6 +61,7 @@ TEST(PaperRun, LeavesResultsReportAndTelemetry) {
   EXPECT_NE(report.find("<svg"), std::string::npos);
   EXPECT_NE(report.find("data:image/png;base64,"), std::string::npos);
   EXPECT_EQ(report.find("src='http"), std::string::npos) << "the report opens offline";
+  EXPECT_NE(report.find("bound of the hits</"), std::string::npos) << "the figure's key";
   EXPECT_NE(answer.out.find("paper 2005"), std::string::npos);
   EXPECT_NE(answer.err.find("frames"), std::string::npos) << "progress";
   EXPECT_EQ(answer.err.find('\r'), std::string::npos) << "plain lines where there is no terminal";
@@ -156,13 +157,18 @@ TEST(SearchRun, FindsAndTracksTheTargetWithoutAnyPrior) {
   ASSERT_EQ(answer.exit_code, 0) << answer.err;
   EXPECT_NE(answer.out.find("found after"), std::string::npos) << answer.out;
   const Json noisy = Json::parse(work.read("out/results.json")).at("noisy");
+  int longest = 0;
   for (const Json& range : noisy.at("by_range")) {
+    longest = std::max(longest, range.at("frames").get<int>());
     EXPECT_GT(range.at("found_frame").get<int>(), 5);
     EXPECT_LT(range.at("found_frame").get<int>(), 50);
     EXPECT_EQ(range.at("lost"), 0) << "tracked from then on";
     EXPECT_EQ(range.at("frames").get<int>() + range.at("found_frame").get<int>(), 60);
   }
   EXPECT_LT(noisy.at("rms_mm").get<double>(), 2);
+  const std::string report = work.read("out/report.html");
+  EXPECT_NE(report.find("> 40<"), std::string::npos) << "on the axis of frames, of which the longest run has " << longest;
+  EXPECT_EQ(report.find("bound of the hits</"), std::string::npos) << "there is none of a target that turns";
 }
 
 }  // namespace

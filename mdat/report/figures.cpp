@@ -64,10 +64,11 @@ std::string range_panel(const std::vector<std::string>& files, const TableResult
   const int column = rotation ? 3 : 2;
   std::string text = rotation ? "set title 'rotation, deg'\nplot " : "set title 'translation, mm'\nplot ";
   for (std::size_t i = 0; i < files.size(); ++i) {
-    text += format("%s using 1:%d with linespoints pt 7 ps 0.6 lw 1.4 lc rgb '%s' title '%s', ", files[i].c_str(), column,
-                   variant_colour(i), table.variants[i].variant.title);
+    text += format("%s%s using 1:%d with linespoints pt 7 ps 0.6 lw 1.4 lc rgb '%s' title '%s'", i > 0 ? ", " : "", files[i].c_str(),
+                   column, variant_colour(i), table.variants[i].variant.title);
   }
-  return text + format("%s using 1:%d with lines dt 2 lw 1.4 lc rgb '#2b3440' title 'bound of the hits'\n", files[0].c_str(), column + 2);
+  if (!has_bound(table)) return text + "\n";
+  return text + format(", %s using 1:%d with lines dt 2 lw 1.4 lc rgb '#2b3440' title 'bound of the hits'\n", files[0].c_str(), column + 2);
 }
 
 std::vector<double> all_times_us(const VariantResult& variant) {
@@ -95,6 +96,17 @@ std::string histogram_text(const std::vector<double>& times, double bin_us) {
 
 bool is_tracked(const VariantResult& variant) { return variant.all.lost < variant.all.frames; }
 
+std::size_t longest_run(const VariantResult& variant) {
+  std::size_t frames = 0;
+  for (const CaseResult& run : variant.cases) frames = std::max(frames, run.frames.size());
+  return frames;
+}
+
+bool has_bound(const TableResult& table) {
+  const std::vector<RunStatistics>& runs = table.variants.front().by_range;
+  return std::any_of(runs.begin(), runs.end(), [](const RunStatistics& run) { return run.crlb_mm > 0; });
+}
+
 std::string error_against_angle(Plotter& plotter, const TableResult& table, const VariantResult& variant) {
   if (!is_tracked(variant)) return plotter.svg(1080, 120, nothing_to_draw("every frame is lost"));
   const bool turns = table.scenario.scenario_kind() == ScenarioKind::kPaper && table.scenario.step_rad != 0;
@@ -106,8 +118,8 @@ std::string error_against_angle(Plotter& plotter, const TableResult& table, cons
       "set multiplot layout 2,3 margins 0.06,0.925,0.125,0.93 spacing 0.062,0.14\n"
       "set key at screen 0.998,0.95 right top vertical samplen 1.2 spacing 1.2\n";
   if (table.scenario.drawn != 0) script += "unset key\n";  // flights have no order
-  script += format("set xrange [0:%g]\n", step * static_cast<double>(variant.cases[0].frames.size()));
-  if (turns && variant.cases[0].frames.size() > 180) script += "set xtics 90\n";
+  script += format("set xrange [0:%g]\n", step * static_cast<double>(longest_run(variant)));
+  if (turns && longest_run(variant) > 180) script += "set xtics 90\n";
   for (std::size_t axis = 0; axis < 6; ++axis) {
     if (axis == 1) script += "unset key\n";
     if (axis == 3) script += turns ? "set xlabel 'turn about the x axis, deg' textcolor '#46505f'\n" : "set xlabel 'frame'\n";

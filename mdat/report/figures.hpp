@@ -11,10 +11,16 @@ namespace lasso::mdat {
 // In at least one frame: there is something to draw.
 bool is_tracked(const VariantResult& variant);
 
+// Frames of the longest run: one without a prior begins with its first valid pose.
+std::size_t longest_run(const VariantResult& variant);
+
+// The hits have a bound, at some range: only those of a target that stands still in the scan.
+bool has_bound(const TableResult& table);
+
 // Error of each axis against the target's angle, a line a range (the paper's figure 11).
 std::string error_against_angle(Plotter& plotter, const TableResult& table, const VariantResult& variant);
 
-// Error against range, all variants and the bound (the paper's figure 13).
+// Error against range, all variants and the bound where there is one (the paper's figure 13).
 std::string error_against_range(Plotter& plotter, const TableResult& table);
 
 // How the times of the estimates are distributed.

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "mdat/common/text.hpp"
+#include "mdat/report/figures.hpp"
 #include "mdat/report/page.hpp"
 #include "mdat/report/plot_style.hpp"
 #include "mdat/run/results.hpp"
@@ -51,10 +52,8 @@ std::string rates_text(const CaseResult& flight) {
 
 // Of all flights that are reported in a frame.
 std::string mean_rates_text(const VariantResult& variant) {
-  std::size_t frames = 0;
-  for (const CaseResult& flight : variant.cases) frames = std::max(frames, flight.frames.size());
   std::string text;
-  for (std::size_t frame = 0; frame < frames; ++frame) {
+  for (std::size_t frame = 0; frame < longest_run(variant); ++frame) {
     double degps2 = 0, mmps2 = 0, flights = 0;
     for (const CaseResult& flight : variant.cases) {
       if (frame >= flight.frames.size() || !flight.frames[frame].reported) continue;
@@ -140,7 +139,7 @@ std::string rates_figure(Plotter& plotter, const VariantResult& variant) {
   std::vector<std::string> files;
   for (const CaseResult& flight : variant.cases) files.push_back(plotter.data(rates_text(flight)));
   const std::string mean = plotter.data(mean_rates_text(variant));
-  const std::size_t frames = variant.cases.front().frames.size();
+  const std::size_t frames = longest_run(variant);
   std::string script = kPlotStyle;
   script += "set multiplot layout 1,2 margins 0.06,0.86,0.18,0.91 spacing 0.07,0\nset logscale y\nset format y '%g'\n";
   script += format(

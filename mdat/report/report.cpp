@@ -133,8 +133,8 @@ std::string angle_figures(Plotter& plotter, const TableResult& table) {
 
 std::string range_figure(Plotter& plotter, const TableResult& table) {
   return figure(error_against_range(plotter, table),
-                format("Root mean square error against range%s, and the Cramér-Rao bound of the hits of the same scans.",
-                       table.scenario.paper_table != 0 ? " (the paper's figure 13)" : ""));
+                format("Root mean square error against range%s%s.", table.scenario.paper_table != 0 ? " (the paper's figure 13)" : "",
+                       has_bound(table) ? ", and the Cramér-Rao bound of the hits of the same scans" : ""));
 }
 
 // How well the rates are known, which is what flights are flown for.
