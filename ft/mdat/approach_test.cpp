@@ -84,6 +84,7 @@ TEST(Approach, AStartThatItsScanWouldConfirmIsContradictedAndTheTargetFound) {
   const WorkFolder work;
   const Answer answer = work.mdat("run " MDAT_SOURCES "/cfg/missions/hubble_tenth.toml --scenario wrong_start --no-report --out out");
   ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_NE(answer.out.find("with noise: tracked in the last frame 20 of 20 runs"), std::string::npos) << answer.out;
   const Json results = Json::parse(work.read("out/results.json"));
   EXPECT_EQ(results.at("noisy").at("wrong"), 0);
   EXPECT_LT(results.at("noisy").at("invalid"), 800) << "of 2400: starting, and some 25 frames of bearing and search";

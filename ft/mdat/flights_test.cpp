@@ -86,6 +86,7 @@ TEST(FlightsReport, SaysInWordsThatEveryFrameIsLost) {
   const Answer answer = work.mdat("run missions/test.toml --scenario half_turn --frames 2 --out out");
   ASSERT_EQ(answer.exit_code, 0) << answer.err;
   expect_shown(answer.out, {"with noise               every frame lost       -      -       -    40/40", "X      mm          - /       -",
+                            "tracked in the last frame 0 of 20 runs; the filter's pose rms - mm, - deg",
                             "after 20 frames of each run, with noise: no run is so long"});
   const std::string report = work.read("out/report.html");
   expect_shown(report, {"<td>40</td><td>40</td><td>40</td><td>0</td><td>–</td><td>–</td>", "<td>– <small>±</small> –</td>"});

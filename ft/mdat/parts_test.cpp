@@ -24,6 +24,10 @@ TEST(CloseBy, TheFilterHoldsAFullSizeTargetOfWhichNoScanSeesTheWhole) {
   EXPECT_LT(noisy.at("invalid"), 40) << "poses of parts that the others contradict";
   EXPECT_LT(noisy.at("filtered").at("rms_mm").get<double>(), 2.5);
   EXPECT_LT(noisy.at("filtered").at("rms_deg").get<double>(), 0.05);
+  EXPECT_NE(
+      answer.out.find("1 of 1 runs; the filter's pose rms " + std::to_string(noisy.at("filtered").at("rms_mm").get<double>()).substr(0, 4)),
+      std::string::npos)
+      << answer.out;
   const std::string report = work.read("out/report.html");
   EXPECT_NE(report.find("looks at"), std::string::npos) << "which part, over time";
   EXPECT_NE(report.find("array boom"), std::string::npos);

@@ -208,9 +208,23 @@ std::string timeline_text(const SimulationResult& result, const Timeline& timeli
 
 const Timeline& timeline_of(const SimulationResult& result) { return result.tables.front().variants.front().cases.front().timeline; }
 
+bool ends_on_target(const CaseResult& run) { return !run.frames.empty() && run.frames.back().valid && !run.frames.back().lost(); }
+
 std::string rates_text(const SettledStatistics& settled) {
   return format("error of the rates rms %.3f deg/s, %.2f mm/s, worst %.3f, %.2f\n", settled.rms_degps, settled.rms_mmps,
                 settled.worst_degps, settled.worst_mmps);
+}
+
+// How many runs end on the target, and how well the filter knew it: the table is of single scans.
+std::string tracked_text(const TableResult& table) {
+  std::string text;
+  for (const VariantResult& variant : table.variants) {
+    const auto tracked = std::count_if(variant.cases.begin(), variant.cases.end(), ends_on_target);
+    text += format("  %s: tracked in the last frame %zu of %zu runs; the filter's pose rms %s mm, %s deg\n", variant.variant.title,
+                   static_cast<std::size_t>(tracked), variant.cases.size(), known(variant.all.filtered.rms_mm, 4, "-").c_str(),
+                   known(variant.all.filtered.rms_deg, 5, "-").c_str());
+  }
+  return text;
 }
 
 std::string settled_text(const TableResult& table) {
@@ -248,7 +262,7 @@ std::string table_text(const SimulationResult& result, const TableResult& table)
                  attitude_text(scenario).c_str());
   text += axes_table(table, is_beside_paper(table));
   text += quality_table(table);
-  if (result.kind != ScenarioKind::kPaper) text += settled_text(table);
+  if (result.kind != ScenarioKind::kPaper) text += tracked_text(table) + settled_text(table);
   if (scenario.prior == 0) text += found_text(table);
   return text + "\n";
 }
