@@ -227,6 +227,14 @@ TEST(Link, RefusedInputIsNamed) {
   EXPECT_NE(item.err.find("--items colour: no packet has it"), std::string::npos) << item.err;
   EXPECT_EQ(work.mdat("decode empty --headers --items mode").exit_code, 2);
   EXPECT_EQ(work.mdat("decode empty").exit_code, 0);
+  work.write("other", "no stream of packets");
+  for (const char* options : {"", "--commands", "--headers", "--format json"}) {
+    const Answer answer = work.mdat(std::string("decode other ") + options);
+    EXPECT_EQ(answer.exit_code, 2) << options;
+    EXPECT_EQ(answer.out, "") << options;
+    EXPECT_NE(answer.err.find("other: no "), std::string::npos) << answer.err;
+    EXPECT_NE(answer.err.find(" in its 20 bytes: give a recorded stream"), std::string::npos) << answer.err;
+  }
   EXPECT_EQ(work.mdat("dictionary --format pdf").exit_code, 2);
 }
 

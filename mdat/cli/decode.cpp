@@ -25,11 +25,20 @@ void print(const std::string& text) { std::fwrite(text.data(), 1, text.size(), s
 
 ConstBytes view(const std::string& content) { return {reinterpret_cast<const std::uint8_t*>(content.data()), content.size()}; }
 
+// Of a run that recorded nothing there is nothing to print; what has bytes and no packet is another file.
+void require_packets(std::size_t packets, const DecodeArguments& options, const std::string& content) {
+  if (packets > 0 || content.empty()) return;
+  const char* const kind = options.headers ? "space packet" : options.commands ? "command" : "packet of telemetry";
+  throw InputError(options.file + ": no " + kind + " in its " + std::to_string(content.size()) +
+                   " bytes: give a recorded stream (telemetry.ccsds of a run; one of commands with --commands)");
+}
+
 void list(const DecodeArguments& options, const std::string& content) {
   if (options.format == "pcap" || !options.selection.packet.empty() || !options.selection.items.empty()) {
     throw CLI::ValidationError("--headers", "goes with --format table, json or csv alone");
   }
   const HeaderList headers = list_headers(view(content));
+  require_packets(headers.lines.size(), options, content);
   if (options.format == "json") return print(headers_json(headers));
   print(options.format == "csv" ? headers_csv(headers) : headers_table(headers));
   std::fputs(headers_summary(headers).c_str(), stderr);
@@ -95,6 +104,7 @@ void decode(const DecodeArguments& options) {
   const std::string content = file_content(options.file);
   if (options.headers) return list(options, content);
   const DecodedStream stream = decode_stream(view(content), options.commands ? PacketType::kCommand : PacketType::kTelemetry);
+  require_packets(stream.packets.size(), options, content);
   print(text_of(stream, options));
   std::fprintf(stderr, "%zu packets, %zu bytes that belong to none\n", stream.packets.size(), stream.other_bytes);
 }
