@@ -9,7 +9,8 @@ namespace lasso::sim {
 namespace {
 
 constexpr std::string_view kHeader = "t_s,x_m,y_m,z_m,valid";
-constexpr double kLatest_s = 1e11;  // over 3000 years: what is beyond is another unit, and would not fit in microseconds
+constexpr double kLatest_s = 1e11;                // over 3000 years: what is beyond is another unit, and would not fit in microseconds
+constexpr std::size_t kMostLines = kMaxRays + 2;  // the header, the rows that fit, and the one that is refused
 
 void read_csv_header(Lines& lines) {
   std::string_view line;
@@ -41,6 +42,27 @@ void read_row(std::string_view line, RangeImage& image, const std::string& place
   if (fields[4] == "0") return append_miss(image, Vec3(x, y, z), t_us, place);
   fail(place, "valid is " + shown(fields[4]) + ", expected 1 (hit) or 0 (miss)");
 }
+
+// What is wrong with the rows, on one line: the first fault in words, and on which lines others are.
+class RowFaults {
+ public:
+  void add(const ScanFileError& fault, std::size_t line) {
+    if (count_ == 0) first_ = fault.what();
+    if (count_ > 0 && count_ < kTold) lines_ += (count_ > 1 ? ", " : "") + std::to_string(line);
+    ++count_;
+  }
+  void tell() const {
+    if (count_ == 0) return;
+    if (count_ == 1) throw ScanFileError(first_);
+    const std::string rest = count_ > kTold ? " and " + std::to_string(count_ - kTold) + " more" : "";
+    throw ScanFileError(first_ + "; further bad lines: " + lines_ + rest);
+  }
+
+ private:
+  static constexpr std::size_t kTold = 5;
+  std::string first_, lines_;
+  std::size_t count_ = 0;
+};
 
 void put(std::string& text, double value, char after) {
   char buffer[40];
@@ -86,11 +108,17 @@ RangeImage read_csv(const std::string& file, std::string_view text) {
   Lines lines(file, text);
   read_csv_header(lines);
   RangeImage image;
+  RowFaults faults;
   std::string_view line;
-  while (lines.next(line)) {
+  while (lines.number() < kMostLines && lines.next(line)) {
     if (line.empty() && lines.rest().empty()) break;  // a last empty line
-    read_row(line, image, lines.place());
+    try {
+      read_row(line, image, lines.place());
+    } catch (const ScanFileError& fault) {
+      faults.add(fault, lines.number());
+    }
   }
+  faults.tell();
   if (image.samples.empty()) fail(lines.place(), "no row follows the header; a scan needs at least one");
   return image;
 }

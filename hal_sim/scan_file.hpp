@@ -16,7 +16,7 @@
 
 namespace lasso::sim {
 
-// One line: file, line (or point), what stands there, and what to do about it.
+// One line: file, line (or point), what stands there, and what to do about it; of a CSV file also which further lines are bad.
 class ScanFileError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -76,6 +76,16 @@ TEST(ScanCsv, EachErrorNamesItsPlaceAndItsRemedy) {
   expect_refused("a.csv", std::string(1000, 'x'), ":1: the header is \"" + std::string(40, 'x') + "...\"", "expected");
 }
 
+TEST(ScanCsv, TheLinesOfFurtherErrorsAreNamed) {
+  VERIFIES("LASSO-SIM-021~1");
+  const std::string good = "0.1,0,0,1,1\n", bad = "0.1,0,nan,1,1\n";
+  expect_refused("a.csv", kHeader + bad + good + "0.1,0,0,1\n", ":2: y_m is \"nan\"", "such as 1.25; further bad lines: 4");
+  expect_refused("a.csv", kHeader + good + bad + bad + bad + bad + bad, ":3: y_m", "; further bad lines: 4, 5, 6, 7");
+  std::string rows;
+  for (std::size_t i = 0; i < 2 * kMaxRays; ++i) rows += bad;
+  expect_refused("a.csv", kHeader + rows, ":2: y_m", "; further bad lines: 3, 4, 5, 6 and 4092 more");
+}
+
 TEST(ScanCsv, ReadsAsManyRowsAsFitAndRefusesOneMore) {
   VERIFIES("LASSO-SIM-021~1");
   std::string rows = kHeader;
