@@ -77,7 +77,7 @@ const ParameterRow kRows[] = {
   {"start.frames", "1", kInteger, &P::start_frames, 1, 0, 10000, 10, "", "frames in which a scan has to confirm a pose to start from"},
   {"start.inlier_share_min", "1", kReal, &P::start_inlier_share_min, 1, 0, 1, 0.9, "", "least share of that scan's returns that its pose explains; less for a sensor with outliers: half a turn off, a pose explains most"},
   {"start.gate", "1", kReal, &P::start_gate, 1, 1, 1000, 25, "", "most normalised square of its difference from that scan's pose (6 degrees of freedom)"},
-  {"start.twin_margin", "1", kReal, &P::start_twin_margin, 1, 0, 1000, 0.3, "", "a near-symmetry of its pose may explain that scan this much better: squared residuals in sigmas, mean of the rays"},
+  {"start.twin_margin", "1", kReal, &P::start_twin_margin, 1, 0, 1000, 0.1, "", "a near-symmetry of its pose may explain that scan this much better: squared residuals in sigmas, mean of the rays"},
   {"start.check", "1", kBoolean, &P::start_check, 1, 0, 1, 0, "", "a scan that confirms it is searched for a pose that explains it better, before one is valid: some seconds"},
   {"start.age_max_s", "s", kReal, &P::start_age_max_s, 1, 0, 1000, 100, "", "an older pose to start from is refused"},
   {"start.first", "1", kChoice, &P::start_first, 1, 0, 5, 4, "none|handover|navigation|apriori|uplink|search", "the way to a pose to start from that is tried first"},

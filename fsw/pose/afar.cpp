@@ -14,6 +14,7 @@ constexpr double kFrontOfCenter = 0.15;          // of the radius: how far in fr
 constexpr int kSlides = 6;                       // each way
 constexpr double kSlideSteps[] = {0.055, 0.01};  // of the radius: coarse, fine
 constexpr int kPlacesOfAxis = 3;                 // slides along it that are pulled to the model
+constexpr std::size_t kSlideThinning = 2;        // by every other point
 constexpr double kGoodShare = 0.98;              // of the points explained: no slide can be better by much
 constexpr int kPlanePasses = 3;
 constexpr int kRayPasses = 3;
@@ -81,21 +82,25 @@ bool is_near(const Field<N>& field, const GridPlace<N>& place) {
   return place.inside && field.brick_words[kBrickWords * place.brick + 1] != 0;
 }
 
-// A pass over the points on closest planes and, where `far` and the surface is far, foot points.
-void take_plane_pass(const Mission& mission, const MatchSettings<N>& s, bool far, const Workspace& workspace, Pose& pose) {
+struct PlanePass {
+  std::size_t stride;  // of the points
+  bool far;            // where the surface is far, foot points
+};
+
+// A pass over the points on closest planes.
+void take_plane_pass(const Mission& mission, const MatchSettings<N>& s, const PlanePass& kind, const Workspace& workspace, Pose& pose) {
   const Field<N>& field = mission.field;
   const PathPose<N> path = to_path<N>(pose);
   const float gate_m = N::to_float(s.gate);
   Pass pass(mission);
-  const std::size_t stride = stride_of(workspace);
-  for (std::size_t i = 0; i < workspace.points.size(); i += stride) {
+  for (std::size_t i = 0; i < workspace.points.size(); i += kind.stride) {
     FieldRay<N> ray = to_target(path, workspace.points[i]);
     set_cells(field, ray);
     if (!near_grid(ray)) continue;
     const GridPlace<N> place = place_in_grid(field, ray.cell_m);
     if (is_near(field, place)) {
       add_near_plane(field, place, gate_m, ray, pass.sums);
-    } else if (far) {
+    } else if (kind.far) {
       add_foot(field, place, gate_m, ray, pass.sums);
     }
   }
@@ -104,9 +109,9 @@ void take_plane_pass(const Mission& mission, const MatchSettings<N>& s, bool far
   solve_pass(mission, s, whole, pass, pose);
 }
 
-void pull_to_planes(const Mission& mission, MatchSettings<N> s, const Workspace& workspace, Pose& pose) {
+void pull_to_planes(const Mission& mission, MatchSettings<N> s, std::size_t stride, const Workspace& workspace, Pose& pose) {
   set_gate(2 * mission.parameters.gate_first_m, s);
-  for (int i = 0; i < kPlanePasses; ++i) take_plane_pass(mission, s, false, workspace, pose);
+  for (int i = 0; i < kPlanePasses; ++i) take_plane_pass(mission, s, {stride, false}, workspace, pose);
 }
 
 // How many of the points lie on the model, to within their noise and a little more.
@@ -144,7 +149,7 @@ Candidate drawn(const Mission& mission, const MatchSettings<N>& settings, Pose p
 }
 
 Candidate settled(const Mission& mission, const MatchSettings<N>& s, Pose pose, Workspace& workspace) {
-  pull_to_planes(mission, s, workspace, pose);
+  pull_to_planes(mission, s, stride_of(workspace), workspace, pose);
   return drawn(mission, s, pose, workspace);
 }
 
@@ -220,7 +225,7 @@ Candidate slide(const Mission& mission, const MatchSettings<N>& s, int axis, dou
   for (int i = 0; i < kPlacesOfAxis; ++i) {
     Pose moved = start.pose;
     moved.p[axis] += take_closest(distances) * step_m;
-    pull_to_planes(mission, s, workspace, moved);
+    pull_to_planes(mission, s, kSlideThinning * stride_of(workspace), workspace, moved);
     const float distance_m = distance_of(mission, moved, workspace);
     if (!(distance_m < least_m)) continue;
     least_m = distance_m;
@@ -237,7 +242,7 @@ Pose pull_from_afar(const Mission& mission, MatchSettings<N> s, const Pose& T_ta
   double gate_m = kFarGateFirst * mission.radius_m;
   for (int i = 0; i < kFarPasses; ++i) {
     set_gate(gate_m, s);
-    take_plane_pass(mission, s, true, workspace, pose);
+    take_plane_pass(mission, s, {stride_of(workspace), true}, workspace, pose);
     gate_m = gate_m * kFarGateShrink > least_m ? gate_m * kFarGateShrink : least_m;
   }
   return pose;

@@ -96,15 +96,20 @@ void insert_edge(std::uint32_t contour, N::Area distance2, N::Unit along, RayEdg
   edges.along[place] = along;
 }
 
-void test_ray(const ContourEdge<N>& edge, std::uint32_t contour, std::size_t ray, N::Area band2, Workspace& workspace) {
-  const Tangent rx = workspace.bins.x[ray] - edge.x;
-  const Tangent ry = workspace.bins.y[ray] - edge.y;
+struct EdgeFoot {
+  N::Unit along;
+  N::Area distance2;
+};
+
+// The edge's closest point to the ray.
+EdgeFoot foot_of(const ContourEdge<N>& edge, const RayBins<N>& bins, std::size_t ray) {
+  const Tangent rx = bins.x[ray] - edge.x;
+  const Tangent ry = bins.y[ray] - edge.y;
   const N::Unit along = share_along(rx * edge.dx + ry * edge.dy, edge.length);
   const Tangent ex = rx - along * edge.dx;
   const Tangent ey = ry - along * edge.dy;
   const Length z = edge.za + along * (edge.zb - edge.za);
-  const N::Area distance2 = N::area_at(ex, ey, z);
-  if (distance2 < band2) insert_edge(contour, distance2, along, workspace.ray_edges[ray]);
+  return {along, N::area_at(ex, ey, z)};
 }
 
 struct BinRange {
@@ -117,9 +122,9 @@ BinRange bins_between(Tangent a, Tangent b, Tangent band, Tangent origin, N::Bin
   return {bin_at(low - origin, per_unit), bin_at(high - origin, per_unit)};
 }
 
-void test_edge(std::uint32_t contour, Length band, Workspace& workspace) {
-  const ContourEdge<N>& edge = workspace.contour.begin()[contour];
-  const RayBins<N>& bins = workspace.bins;
+// Visits the rays in the bins that the edge's band touches.
+template <class Visit>
+void visit_rays(const ContourEdge<N>& edge, Length band, const RayBins<N>& bins, const Visit& visit) {
   const auto image_band = bounded<Tangent>(quotient<Tangent>(band, edge.za < edge.zb ? edge.za : edge.zb));
   const BinRange columns = bins_between(edge.x, edge.x + edge.dx, image_band, bins.x0, bins.bins_per_x);
   const BinRange rows = bins_between(edge.y, edge.y + edge.dy, image_band, bins.y0, bins.bins_per_y);
@@ -127,8 +132,16 @@ void test_edge(std::uint32_t contour, Length band, Workspace& workspace) {
     const int first = row * kRayBins + columns.low;
     const int end = row * kRayBins + columns.high + 1;
     // NOLINTNEXTLINE(clang-analyzer-security.ArrayBound): clamp_bin ends at kRayBins - 1; the analyser does not see it
-    for (std::uint32_t k = bins.start[first]; k < bins.start[end]; ++k) test_ray(edge, contour, bins.ray[k], band * band, workspace);
+    for (std::uint32_t k = bins.start[first]; k < bins.start[end]; ++k) visit(bins.ray[k]);
   }
+}
+
+// Without rays, or with the target behind the sensor, there are none.
+bool fill_bins(const View<N>& view, Workspace& workspace) {
+  if (workspace.rays.empty() || !(view.target_depth > Length{0})) return false;
+  place_rays(view, workspace, workspace.bins);
+  sort_rays(workspace.rays.size(), workspace.bins);
+  return true;
 }
 
 }  // namespace
@@ -155,11 +168,25 @@ void find_contour(const Mission& mission, const View<FlightNumber>& view, Worksp
 
 void find_ray_edges(const View<FlightNumber>& view, Length band, Workspace& workspace) {
   for (std::size_t i = 0; i < workspace.rays.size(); ++i) workspace.ray_edges[i].count = 0;
-  if (workspace.rays.empty()) return;  // nor are there bins
-  if (!(view.target_depth > Length{0})) return;
-  place_rays(view, workspace, workspace.bins);
-  sort_rays(workspace.rays.size(), workspace.bins);
-  for (std::size_t i = 0; i < workspace.contour.size(); ++i) test_edge(static_cast<std::uint32_t>(i), band, workspace);
+  if (!fill_bins(view, workspace)) return;
+  for (std::uint32_t i = 0; i < workspace.contour.size(); ++i) {
+    const ContourEdge<N>& edge = workspace.contour.begin()[i];
+    visit_rays(edge, band, workspace.bins, [&](std::size_t ray) {
+      const EdgeFoot foot = foot_of(edge, workspace.bins, ray);
+      if (foot.distance2 < band * band) insert_edge(i, foot.distance2, foot.along, workspace.ray_edges[ray]);
+    });
+  }
+}
+
+void find_rays_near_contour(const View<FlightNumber>& view, Length band, Workspace& workspace) {
+  for (std::size_t i = 0; i < workspace.rays.size(); ++i) workspace.near_contour[i] = false;
+  if (!fill_bins(view, workspace)) return;
+  for (const ContourEdge<N>& edge : workspace.contour) {
+    visit_rays(edge, band, workspace.bins, [&](std::size_t ray) {
+      bool& near = workspace.near_contour[ray];
+      near = near || foot_of(edge, workspace.bins, ray).distance2 < band * band;
+    });
+  }
 }
 
 }  // namespace lasso

@@ -36,4 +36,7 @@ void find_contour(const Mission& mission, const View<FlightNumber>& view, Worksp
 // Bound: edges times the rays in the bins that their bands touch.
 void find_ray_edges(const View<FlightNumber>& view, FlightNumber::Length band, Workspace& workspace);
 
+// Fills workspace.near_contour: is there one such edge? Bound: the same, but a ray that has one is not asked again.
+void find_rays_near_contour(const View<FlightNumber>& view, FlightNumber::Length band, Workspace& workspace);
+
 }  // namespace lasso

@@ -168,11 +168,12 @@ void describe_hits(const HitSolution& hits, double scale, const Workspace& works
   result.normalized_residual = square_root(scale);
 }
 
-// A start that may be rough: the far way is taken only where the near one does not explain the scan.
+// A start that may be rough: the far way is taken only where the near one does not explain the scan, and ends too close for a second look.
 HitSolution register_wide(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace) {
-  HitSolution near = register_hits(mission, T_target_sensor, workspace);
+  const HitSolution near = register_hits(mission, T_target_sensor, workspace);
   if (explained_share(near) >= kExplainedShare) return near;
-  const HitSolution far = register_hits(mission, approach_from_afar(mission, T_target_sensor, workspace), workspace);
+  const Pose closer = approach_from_afar(mission, T_target_sensor, workspace);
+  const HitSolution far = register_first(mission, closer, workspace);
   return explained_share(far) > explained_share(near) ? far : near;
 }
 
@@ -217,9 +218,7 @@ Registration Estimator::estimate(const Mission& mission, const RangeImage& scan,
 }
 
 bool Estimator::has_better_twin(const Mission& mission, const RangeImage& scan, const Registration& result) {
-  if (result.inlier_share >= kExplainedShare) return false;
-  const double advantage = twin_advantage(mission, inverse(result.T_sensor_target), scan.misses_known, workspace_);
-  return advantage > mission.parameters.start_twin_margin;
+  return has_twin_better_by(mission, mission.parameters.start_twin_margin, inverse(result.T_sensor_target), scan.misses_known, workspace_);
 }
 
 }  // namespace lasso

@@ -8,7 +8,7 @@ namespace {
 
 using N = FlightNumber;
 
-constexpr double kNoTwin = -1e9;
+constexpr double kNoiseCost = 1;  // of returns that are all explained, and as noisy as the sensor is said to be
 
 // Every n-th point, at most kTwinPoints of them.
 void thin_points(Workspace& workspace) {
@@ -35,21 +35,21 @@ Pose twin_of(const NearSymmetry<N>& symmetry, const Pose& T_target_sensor) {
   return motion * T_target_sensor;
 }
 
-double twin_advantage(const Mission& mission, const Pose& T_target_sensor, bool misses_known, Workspace& workspace) {
+bool has_twin_better_by(const Mission& mission, double margin, const Pose& T_target_sensor, bool misses_known, Workspace& workspace) {
   const std::size_t all = workspace.points.size();
-  if (all == 0) return kNoTwin;
+  if (all == 0) return false;
   thin_points(workspace);
   const double least = mission.parameters.inliers_min * static_cast<double>(workspace.points.size());  // times `all`
-  const double own = cost_of(mission, weigh_hits(mission, T_target_sensor, workspace), misses_known, workspace);
-  double most = kNoTwin;
+  if (cost_of(mission, weigh_hits(mission, T_target_sensor, workspace), misses_known, workspace) < kNoiseCost + margin) return false;
+  const HitSolution own = register_look(mission, RegisterLook::kFirst, T_target_sensor, workspace);
+  const double most = cost_of(mission, own, misses_known, workspace) - margin;
   for (const NearSymmetry<N>& symmetry : mission.search.symmetries) {
     const Pose start = pull_on_rays(mission, twin_of(symmetry, T_target_sensor), workspace);
     const HitSolution twin = register_look(mission, RegisterLook::kFirst, start, workspace);
-    if (twin.inliers * static_cast<double>(all) < least) continue;
-    const double advantage = own - cost_of(mission, twin, misses_known, workspace);
-    if (advantage > most) most = advantage;
+    const bool counts = twin.inliers * static_cast<double>(all) >= least && mean_cost(twin) < most;
+    if (counts && cost_of(mission, twin, misses_known, workspace) < most) return true;
   }
-  return most;
+  return false;
 }
 
 }  // namespace lasso

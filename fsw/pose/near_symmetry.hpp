@@ -12,10 +12,11 @@ constexpr std::size_t kTwinPoints = 256;  // of a scan's returns are enough to t
 // T_target_sensor of a pose to that of its twin.
 Pose twin_of(const NearSymmetry<FlightNumber>& symmetry, const Pose& T_target_sensor);
 
-// By how much the best of the pose's twins, each registered, explains the scan that `workspace` holds (prepare_rays) better than the pose
-// as it stands: squared residuals in sigmas (kUnexplainedCost for a return that is not explained) and violated misses, for a ray; negative
-// where none does, -1e9 where no twin explains tracking.inliers_min of the scan's returns. Leaves every n-th point in the workspace. Bound:
-// kMaxSymmetries registrations of kTwinPoints.
-double twin_advantage(const Mission& mission, const Pose& T_target_sensor, bool misses_known, Workspace& workspace);
+// Does one of the pose's twins explain the scan that `workspace` holds (prepare_rays) better than the pose, by more than `margin`: squared
+// residuals in sigmas (kUnexplainedCost for a return that is not explained) and violated misses, for a ray? All are compared as registered
+// on every n-th point, which stay in the workspace. A twin has to explain tracking.inliers_min of the scan's returns. Not asked of a pose
+// that as it stands leaves no more than the noise and the margin: only a scan better than the sensor's sheet could say otherwise. Bound:
+// kMaxSymmetries + 1 registrations of kTwinPoints.
+bool has_twin_better_by(const Mission& mission, double margin, const Pose& T_target_sensor, bool misses_known, Workspace& workspace);
 
 }  // namespace lasso

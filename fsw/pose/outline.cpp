@@ -60,12 +60,12 @@ enum class RayPlace : std::uint8_t { kAside, kElsewhere, kNearContour };
 void choose_rays(const Mission& mission, const Pose& T_target_sensor, double near_m, Workspace& workspace) {
   const View<N> view = make_view(mission, T_target_sensor);
   find_contour(mission, view, workspace);
-  find_ray_edges(view, N::to_length(near_m), workspace);
+  find_rays_near_contour(view, N::to_length(near_m), workspace);
   const Vec3 center = inverse(T_target_sensor) * mission.center_m;
   const auto place_of = [&](std::size_t i) {
     const ScanRay<N>& ray = workspace.rays[i];
     if (!is_near(center, kReach * mission.radius_m, ray)) return RayPlace::kAside;
-    return workspace.ray_edges[i].count > 0 ? RayPlace::kNearContour : RayPlace::kElsewhere;
+    return workspace.near_contour[i] ? RayPlace::kNearContour : RayPlace::kElsewhere;
   };
   std::size_t counts[3] = {};
   for (std::size_t i = 0; i < workspace.rays.size(); ++i) ++counts[static_cast<std::size_t>(place_of(i))];

@@ -37,7 +37,7 @@ struct OutlineCare {
 
 // Slides the pose along `directions` to where it costs less, by steps that double while they help by a ray and are halved where they do
 // not, down to the last one or until `asked`. Bound: kOutlineRounds rounds, and `asked`, `measured` and fifteen times kOutlineRays walks
-// through the field; and the bounds of find_contour and find_ray_edges, whose results it leaves in the workspace.
+// through the field; and the bounds of find_contour and find_rays_near_contour, whose results it leaves in the workspace.
 OutlineFit fit_outline(const Mission& mission, const Pose& T_target_sensor, const Directions& directions, const OutlineCare& care,
                        Workspace& workspace);
 constexpr int kOutlineRounds = 24;

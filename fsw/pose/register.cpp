@@ -196,8 +196,12 @@ HitSolution register_look(const Mission& mission, RegisterLook look, const Pose&
   return register_from(mission, look, {T_target_sensor, 0, kEndless}, workspace);
 }
 
+HitSolution register_first(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace) {
+  return register_from(mission, RegisterLook::kFirst, {T_target_sensor}, workspace);
+}
+
 HitSolution register_hits(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace) {
-  HitSolution first = register_from(mission, RegisterLook::kFirst, {T_target_sensor}, workspace);
+  HitSolution first = register_first(mission, T_target_sensor, workspace);
   if (workspace.points.size() < kMinimumPoints || explained_share(first) >= kExplainedShare) return first;
   const HitSolution second = register_from(mission, RegisterLook::kSecond, {T_target_sensor, first.iterations}, workspace);
   first.iterations = second.iterations;

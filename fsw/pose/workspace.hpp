@@ -106,6 +106,7 @@ struct Workspace {
   FlightNumber::Factor sigma_factor{1};  // the largest of a point: above 1, the scan's own residuals do not say how good it is
   FixedVector<ContourEdge<FlightNumber>, kMaxContourEdges> contour;
   RayEdges<FlightNumber> ray_edges[kMaxRays] = {};
+  bool near_contour[kMaxRays] = {};
   RayBins<FlightNumber> bins{};
   FixedVector<Label, kMaxSites> labels;
   FixedVector<AimPlace, kMaxAimPlaces + kMaxAimSurfaces> places;

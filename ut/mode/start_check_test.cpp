@@ -110,7 +110,7 @@ TEST_F(StartCheckTest, AWrongStartIsContradictedByASearchThatIsRejected) {
 
 // Near-symmetries are asked as of any other start.
 TEST_F(StartCheckTest, AStartWhoseTwinIsBetterIsNotEvenChecked) {
-  VERIFIES("LASSO-MOD-183~1");
+  VERIFIES("LASSO-MOD-183~2");
   const Vec3 axis = deceptive_axis();
   mission_.parameters.start_twin_margin = 0;
   start_turned(axis);

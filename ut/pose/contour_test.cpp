@@ -187,6 +187,10 @@ TEST_F(ContourTest, EveryRayHasItsNearestEdges) {
       expect_edges(workspace_->rays[i], workspace_->ray_edges[i], band_m);
       edges += workspace_->ray_edges[i].count;
     }
+    find_rays_near_contour(make_view(mission_, truth()), FlightNumber::to_length(band_m), *workspace_);
+    for (std::size_t i = 0; i < workspace_->rays.size(); ++i) {
+      EXPECT_EQ(workspace_->near_contour[i], workspace_->ray_edges[i].count > 0);
+    }
     EXPECT_GT(edges, band_m > 0.5 ? 3 * workspace_->rays.size() : 4u);
   }
 }
@@ -238,7 +242,11 @@ TEST_F(ContourTest, NothingIsNearATargetBehindTheSensor) {
   find();
   scan_.T_sensor_target.p = -scan_.T_sensor_target.p;
   find_ray_edges(make_view(mission_, truth()), FlightNumber::to_length(1.0), *workspace_);
-  for (std::size_t i = 0; i < workspace_->rays.size(); ++i) EXPECT_EQ(workspace_->ray_edges[i].count, 0u);
+  find_rays_near_contour(make_view(mission_, truth()), FlightNumber::to_length(1.0), *workspace_);
+  for (std::size_t i = 0; i < workspace_->rays.size(); ++i) {
+    EXPECT_EQ(workspace_->ray_edges[i].count, 0u);
+    EXPECT_FALSE(workspace_->near_contour[i]);
+  }
 }
 
 TEST_F(ContourTest, WithoutRaysThereAreNoBins) {

@@ -16,8 +16,9 @@ class FaceTest : public test::EstimatorTest {
   }
 
   // Slid within the face by up to `shift_m` each way, and turned.
-  Registration estimate_slid(double turn_rad, double shift_m, bool partial = false) {
+  Registration estimate_slid(double turn_rad, double shift_m, bool partial = false, bool wide = false) {
     StartPoint start;
+    start.wide = wide;
     Vec6 x = Vec6::Zero();
     x[2] = random_.uniform(-turn_rad, turn_rad);
     for (int i = 3; i < 5; ++i) x[i] = random_.uniform(-shift_m, shift_m);
@@ -58,6 +59,20 @@ TEST_F(FaceTest, AFaceThatSlidIsBroughtBackByItsOutline) {
   EXPECT_GE(count_brought_back(0.01, 0.01), 7);
   EXPECT_GE(count_brought_back(0.04, 0.03), 2);
   (void)count_brought_back(0.1, 0.08);
+}
+
+// The far way has centred the face before the outline is asked, and a start has nothing else.
+TEST_F(FaceTest, ARoughStartBesideAFaceIsBroughtBackByItsOutline) {
+  VERIFIES("LASSO-REG-022~3");
+  scan_.side = 44;
+  int found = 0;
+  for (int i = 0; i < 60; ++i) {
+    scan_.T_sensor_target.q = exp_so3(Vec3(0, 0, random_.uniform(-3, 3)));
+    const Registration r = estimate_slid(0.2, 0.1 + 0.2 * (i % 2), false, true);
+    const Vec6 e = error(r);
+    found += r.valid() && e.tail<3>().norm() < 0.02 && e.head<3>().norm() < 0.05 ? 1 : 0;
+  }
+  EXPECT_GE(found, 40);
 }
 
 TEST_F(FaceTest, ThePoseKnowsHowWellItsLabelsHoldIt) {
