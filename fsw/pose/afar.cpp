@@ -14,12 +14,17 @@ constexpr double kFrontOfCenter = 0.15;          // of the radius: how far in fr
 constexpr int kSlides = 6;                       // each way
 constexpr double kSlideSteps[] = {0.055, 0.01};  // of the radius: coarse, fine
 constexpr int kPlacesOfAxis = 3;                 // slides along it that are pulled to the model
-constexpr std::size_t kSlideThinning = 2;        // by every other point
 constexpr double kGoodShare = 0.98;              // of the points explained: no slide can be better by much
 constexpr int kPlanePasses = 3;
 constexpr int kRayPasses = 3;
 
 std::size_t stride_of(const Workspace& workspace) { return (workspace.points.size() + kFarPoints - 1) / kFarPoints; }
+
+// Slides are pulled by every other of them, of a few by all.
+std::size_t slide_stride_of(const Workspace& workspace) {
+  const std::size_t stride = stride_of(workspace);
+  return workspace.points.size() >= 4 * kMinimumPoints * stride ? 2 * stride : stride;
+}
 
 // Mean of the points and of their rays, target frame.
 struct Cloud {
@@ -225,7 +230,7 @@ Candidate slide(const Mission& mission, const MatchSettings<N>& s, int axis, dou
   for (int i = 0; i < kPlacesOfAxis; ++i) {
     Pose moved = start.pose;
     moved.p[axis] += take_closest(distances) * step_m;
-    pull_to_planes(mission, s, kSlideThinning * stride_of(workspace), workspace, moved);
+    pull_to_planes(mission, s, slide_stride_of(workspace), workspace, moved);
     const float distance_m = distance_of(mission, moved, workspace);
     if (!(distance_m < least_m)) continue;
     least_m = distance_m;

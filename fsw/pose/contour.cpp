@@ -131,7 +131,7 @@ void visit_rays(const ContourEdge<N>& edge, Length band, const RayBins<N>& bins,
   for (int row = rows.low; row <= rows.high; ++row) {
     const int first = row * kRayBins + columns.low;
     const int end = row * kRayBins + columns.high + 1;
-    // NOLINTNEXTLINE(clang-analyzer-security.ArrayBound): clamp_bin ends at kRayBins - 1; the analyser does not see it
+    // NOLINTNEXTLINE(clang-analyzer-security.ArrayBound): bin_at ends at kRayBins - 1; the analyser does not see it
     for (std::uint32_t k = bins.start[first]; k < bins.start[end]; ++k) visit(bins.ray[k]);
   }
 }

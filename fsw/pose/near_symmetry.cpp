@@ -35,12 +35,16 @@ Pose twin_of(const NearSymmetry<N>& symmetry, const Pose& T_target_sensor) {
   return motion * T_target_sensor;
 }
 
+bool is_as_good_as_noise(const Mission& mission, double margin, const Pose& T_target_sensor, bool misses_known, Workspace& workspace) {
+  thin_points(workspace);
+  return cost_of(mission, weigh_hits(mission, T_target_sensor, workspace), misses_known, workspace) < kNoiseCost + margin;
+}
+
 bool has_twin_better_by(const Mission& mission, double margin, const Pose& T_target_sensor, bool misses_known, Workspace& workspace) {
   const std::size_t all = workspace.points.size();
   if (all == 0) return false;
   thin_points(workspace);
   const double least = mission.parameters.inliers_min * static_cast<double>(workspace.points.size());  // times `all`
-  if (cost_of(mission, weigh_hits(mission, T_target_sensor, workspace), misses_known, workspace) < kNoiseCost + margin) return false;
   const HitSolution own = register_look(mission, RegisterLook::kFirst, T_target_sensor, workspace);
   const double most = cost_of(mission, own, misses_known, workspace) - margin;
   for (const NearSymmetry<N>& symmetry : mission.search.symmetries) {

@@ -13,10 +13,13 @@ constexpr std::size_t kTwinPoints = 256;  // of a scan's returns are enough to t
 Pose twin_of(const NearSymmetry<FlightNumber>& symmetry, const Pose& T_target_sensor);
 
 // Does one of the pose's twins explain the scan that `workspace` holds (prepare_rays) better than the pose, by more than `margin`: squared
-// residuals in sigmas (kUnexplainedCost for a return that is not explained) and violated misses, for a ray? All are compared as registered
-// on every n-th point, which stay in the workspace. A twin has to explain tracking.inliers_min of the scan's returns. Not asked of a pose
-// that as it stands leaves no more than the noise and the margin: only a scan better than the sensor's sheet could say otherwise. Bound:
-// kMaxSymmetries + 1 registrations of kTwinPoints.
+// residuals in sigmas (kUnexplainedCost for a return that is not explained) and violated misses, for a ray that is kept? All are compared
+// as registered on every n-th return, which stay in the workspace; misses are all kept. A twin has to explain tracking.inliers_min of the
+// scan's returns. Bound: kMaxSymmetries + 1 registrations of kTwinPoints, pulls on rays for as many twins, and as many agreements.
 bool has_twin_better_by(const Mission& mission, double margin, const Pose& T_target_sensor, bool misses_known, Workspace& workspace);
+
+// Does the pose as it stands cost no more than the noise that the sensor is said to have, and `margin`? Thins the returns, too. Bound: a
+// pass and an agreement.
+bool is_as_good_as_noise(const Mission& mission, double margin, const Pose& T_target_sensor, bool misses_known, Workspace& workspace);
 
 }  // namespace lasso

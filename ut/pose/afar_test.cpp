@@ -28,7 +28,7 @@ TEST_F(AfarTest, ConvergesFromTwentyDegreesAndAQuarterOfTheSize) {
       scan();
     }
     const Pose start = inverse(test::disturb(scan_.T_sensor_target, rotation_rad, shift_m, random_));
-    const HitSolution solution = register_hits(mission_, approach_from_afar(mission_, start, *workspace_), *workspace_);
+    const HitSolution solution = register_first(mission_, approach_from_afar(mission_, start, *workspace_), *workspace_);
     const Vec6 error = error_of(solution.T_target_sensor);
     if (error.tail<3>().norm() > 2e-3 || error.head<3>().norm() > 5e-3) ++lost;
   }
@@ -44,7 +44,7 @@ TEST_F(AfarTest, PartOfTheTargetIsEnough) {
     scan();
     keep_points([](std::size_t, const MatchPoint<N>& point) { return point.p[0] > N::Length{0} || point.p[1] > N::to_length(0.1); });
     const Pose start = inverse(test::disturb(scan_.T_sensor_target, 0.25, 0.2 * mission_.radius_m, random_));
-    const HitSolution solution = register_hits(mission_, approach_from_afar(mission_, start, *workspace_), *workspace_);
+    const HitSolution solution = register_first(mission_, approach_from_afar(mission_, start, *workspace_), *workspace_);
     if (error_of(solution.T_target_sensor).tail<3>().norm() > 3e-3) ++lost;
   }
   EXPECT_LE(lost, kStarts / 20);

@@ -240,6 +240,8 @@ TEST_F(ContourTest, NothingIsNearATargetBehindTheSensor) {
   VERIFIES("LASSO-REG-002~1");
   scan();
   find();
+  find_rays_near_contour(make_view(mission_, truth()), FlightNumber::to_length(1.0), *workspace_);
+  EXPECT_TRUE(workspace_->near_contour[0]);
   scan_.T_sensor_target.p = -scan_.T_sensor_target.p;
   find_ray_edges(make_view(mission_, truth()), FlightNumber::to_length(1.0), *workspace_);
   find_rays_near_contour(make_view(mission_, truth()), FlightNumber::to_length(1.0), *workspace_);
