@@ -23,7 +23,7 @@ std::size_t stride_of(const Workspace& workspace) { return (workspace.points.siz
 // Slides are pulled by every other of them, of a few by all.
 std::size_t slide_stride_of(const Workspace& workspace) {
   const std::size_t stride = stride_of(workspace);
-  return workspace.points.size() >= 4 * kMinimumPoints * stride ? 2 * stride : stride;
+  return workspace.points.size() >= std::size_t{4} * kMinimumPoints * stride ? 2 * stride : stride;
 }
 
 // Mean of the points and of their rays, target frame.

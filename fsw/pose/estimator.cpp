@@ -170,7 +170,7 @@ void describe_hits(const HitSolution& hits, double scale, const Workspace& works
 
 // A start that may be rough: the far way is taken only where the near one does not explain the scan, and ends too close for a second look.
 HitSolution register_wide(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace) {
-  const HitSolution near = register_hits(mission, T_target_sensor, workspace);
+  HitSolution near = register_hits(mission, T_target_sensor, workspace);
   if (explained_share(near) >= kExplainedShare) return near;
   const Pose closer = approach_from_afar(mission, T_target_sensor, workspace);
   const HitSolution far = register_first(mission, closer, workspace);

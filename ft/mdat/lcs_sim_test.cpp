@@ -10,7 +10,8 @@
 namespace lasso::ft {
 namespace {
 
-// A shell that keeps the camera running, waits until it (and not one before it) says that it listens, runs `run` against $line, and ends the camera by its own number.
+// A shell that keeps the camera running, waits until it (and not one before it) says that it listens, runs `run` against $line, and ends
+// the camera by its own number.
 std::string with_camera(const std::string& listen, const std::string& device, const std::string& run) {
   return "--version; rm -f camera.txt; '" MDAT_PROGRAM "' lcs-sim missions/test.toml --device " + device + " --listen " + listen +
          " >camera.txt 2>&1 & camera=$!; "
