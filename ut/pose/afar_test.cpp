@@ -50,6 +50,23 @@ TEST_F(AfarTest, PartOfTheTargetIsEnough) {
   EXPECT_LE(lost, kStarts / 20);
 }
 
+// Slides are pulled by all of so few: half of them would be too few to solve for a pose.
+TEST_F(AfarTest, TwentyPointsAreEnough) {
+  VERIFIES("LASSO-REG-005~1");
+  int lost = 0;
+  constexpr int kStarts = 60;
+  for (int i = 0; i < kStarts; ++i) {
+    scan();
+    const std::size_t stride = workspace_->points.size() / 20;
+    keep_points([stride](std::size_t index, const MatchPoint<N>&) { return index % stride == 0; });
+    ASSERT_LT(workspace_->points.size(), 2 * kMinimumPoints);
+    const Pose start = inverse(test::disturb(scan_.T_sensor_target, 0.25, 0.2 * mission_.radius_m, random_));
+    const HitSolution solution = register_first(mission_, approach_from_afar(mission_, start, *workspace_), *workspace_);
+    if (error_of(solution.T_target_sensor).tail<3>().norm() > 5e-3) ++lost;
+  }
+  EXPECT_LE(lost, kStarts / 20);
+}
+
 TEST_F(AfarTest, IsNeededFromThere) {
   VERIFIES("LASSO-REG-005~1");
   scan();
