@@ -218,11 +218,8 @@ Registration Estimator::estimate(const Mission& mission, const RangeImage& scan,
 }
 
 bool Estimator::has_better_twin(const Mission& mission, const RangeImage& scan, const Registration& result) {
-  const double margin = mission.parameters.start_twin_margin;
-  const Pose pose = inverse(result.T_sensor_target);
-  const bool explains = result.inlier_share >= kExplainedShare;  // by the noise that the scan has: the sensor may be better than it says
-  if (explains && is_as_good_as_noise(mission, margin, pose, scan.misses_known, workspace_)) return false;
-  return has_twin_better_by(mission, margin, pose, scan.misses_known, workspace_);
+  if (result.inlier_share >= kExplainedShare) return false;
+  return has_twin_better_by(mission, mission.parameters.start_twin_margin, inverse(result.T_sensor_target), scan.misses_known, workspace_);
 }
 
 }  // namespace lasso

@@ -8,8 +8,6 @@ namespace {
 
 using N = FlightNumber;
 
-constexpr double kNoiseCost = 1;  // of returns that are all explained, and as noisy as the sensor is said to be
-
 // Every n-th point, at most kTwinPoints of them.
 void thin_points(Workspace& workspace) {
   FixedVector<MatchPoint<N>, kMaxRays>& points = workspace.points;
@@ -33,11 +31,6 @@ Pose twin_of(const NearSymmetry<N>& symmetry, const Pose& T_target_sensor) {
       normalized(Quat(N::to_double(symmetry.q[3]), N::to_double(symmetry.q[0]), N::to_double(symmetry.q[1]), N::to_double(symmetry.q[2])));
   motion.p = Vec3(N::to_double(symmetry.p[0]), N::to_double(symmetry.p[1]), N::to_double(symmetry.p[2]));
   return motion * T_target_sensor;
-}
-
-bool is_as_good_as_noise(const Mission& mission, double margin, const Pose& T_target_sensor, bool misses_known, Workspace& workspace) {
-  thin_points(workspace);
-  return cost_of(mission, weigh_hits(mission, T_target_sensor, workspace), misses_known, workspace) < kNoiseCost + margin;
 }
 
 bool has_twin_better_by(const Mission& mission, double margin, const Pose& T_target_sensor, bool misses_known, Workspace& workspace) {

@@ -18,8 +18,4 @@ Pose twin_of(const NearSymmetry<FlightNumber>& symmetry, const Pose& T_target_se
 // scan's returns. Bound: kMaxSymmetries + 1 registrations of kTwinPoints, pulls on rays for as many twins, and as many agreements.
 bool has_twin_better_by(const Mission& mission, double margin, const Pose& T_target_sensor, bool misses_known, Workspace& workspace);
 
-// Does the pose as it stands cost no more than the noise that the sensor is said to have, and `margin`? Thins the returns, too. Bound: a
-// pass and an agreement.
-bool is_as_good_as_noise(const Mission& mission, double margin, const Pose& T_target_sensor, bool misses_known, Workspace& workspace);
-
 }  // namespace lasso
