@@ -36,8 +36,8 @@ void print_transitions(std::ostream& out) {
 void print_page(std::ostream& out) {
   out << "# The modes\n\nPrinted by `mdat modes` from the table that the component executes (`fsw/mode/modes.cpp`).\n\n"
          "- **confirms**: a valid pose has to explain `start.inlier_share_min` of the returns and to agree with the prediction within "
-         "`start.gate`,\n  and no near-symmetry of it may explain the scan better by `start.twin_margin`,\n  unless the pose explains it "
-         "to within its noise; it starts the filter anew.\n"
+         "`start.gate`,\n  and no near-symmetry of it may explain the scan better by `start.twin_margin`,\n  unless the pose explains 99 % "
+         "of the returns; it starts the filter anew.\n"
          "  Where `start.check` is set a start is `unchecked` until a search of its scan has found no better pose.\n"
          "- **takes up**: the shares of a valid pose have to exceed the limits of tracking by `tracking.hysteresis`.\n"
          "- **awaits a start**: the next untried pose to start from is taken, in the mission's order `start.first` to `start.fifth`. "
