@@ -41,7 +41,7 @@ class NearlySymmetricTest : public AskingTest<test::SearchFixture> {
  protected:
   bool has_better(const Pose& T_target_sensor) {
     scan();
-    return has_twin_better_by(mission_, 0.3, T_target_sensor, true, *workspace_);
+    return has_twin_better_by(mission_, 0.1, T_target_sensor, true, *workspace_);
   }
   Pose turned(int i) const { return twin_of(mission_.search.symmetries[static_cast<std::size_t>(i) % 3], truth()); }
 };

@@ -13,7 +13,9 @@ namespace lasso {
 }  // namespace lasso
 
 int main(int argc, char** argv) {
-  lasso::test::TestImage image = lasso::test::make_box_image(lasso::preset_parameters());
+  lasso::MissionParameters parameters = lasso::preset_parameters();
+  parameters.start_check = 0;  // the example starts near the truth, and prints the first eight scans
+  lasso::test::TestImage image = lasso::test::make_box_image(parameters);
   std::FILE* file = argc == 2 ? std::fopen(argv[1], "wb") : nullptr;
   if (file == nullptr) {
     std::fprintf(stderr, "usage: write_box_image FILE\n");
