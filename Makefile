@@ -224,14 +224,18 @@ start-count: ## instructions of an estimate from a rough start (20 deg, 0.3 m) o
 	$(replays)
 	@ft/ppc603e/count-starts $(BUILD) $(PPC) $(or $(STARTS),300) $(or $(SEED),1) $(MISSION)
 
-search-count: ## instructions of a search on the PowerPC 603e, and its largest step; the same bits as on the host; out/search-count; STARTS=, SEED=
+search-count: ## instructions of a search on the PowerPC 603e, and its largest step, and its slices in fixed point; the same bits as on the host; out/search-count; STARTS=, SEED=
 	$(begin)
-	$(call packages,build target)
+	$(call packages,build target clang)
 	$(call configure,$(BUILD),)
 	$(call compile,$(BUILD),search search_replay)
 	$(call configure,$(PPC),$(CROSS))
 	$(call compile,$(PPC),search_replay)
-	@ft/ppc603e/count-search $(BUILD) $(PPC) $(or $(STARTS),24) $(or $(SEED),11)
+	$(call configure,$(CLANG),$(FIXED_HOST))
+	$(call compile,$(CLANG),search search_replay)
+	$(call configure,$(PPC)-fixed,$(CROSS) $(FIXED))
+	$(call compile,$(PPC)-fixed,search_replay)
+	@ft/ppc603e/count-search $(BUILD) $(PPC) $(CLANG) $(PPC)-fixed $(or $(STARTS),24) $(or $(SEED),11)
 
 # $(on_board) builds the first bare board's images of both number types, the rig around each, and the second board's. What the first one's stacks
 # may hold make prove knows.

@@ -9,7 +9,7 @@ constexpr double kOffset_rad = kRadPerDeg;
 constexpr double kOffsetShare = 0.0075;       // of the model's size
 constexpr double kTurn_rad = 5 * kRadPerDeg;  // since its only scan (1 sigma): more needs another scan
 constexpr DurationUs kBetweenScans_us = 2'000'000;
-constexpr double kCheckShare = 0.5;      // of search.slice: the frame registers its scan, too
+constexpr std::uint32_t kCheckPart = 2;  // of frame_work half: the frame registers its scan, too
 constexpr std::uint32_t kAimedFrom = 3;  // bearing scans: the next but one after the first is the first that is aimed by it
 
 }  // namespace
@@ -23,6 +23,8 @@ SearchLimits search_limits(const MissionParameters& p) {
   limits.work_max = static_cast<std::uint32_t>(p.search_work_max);
   return limits;
 }
+
+std::uint32_t frame_work(const MissionParameters& p) { return static_cast<std::uint32_t>(FlightNumber::kWorkShare * p.search_slice); }
 
 StartOffer offer_of(const Mission& mission, const SearchResult& result) {
   const double offset_m = kOffsetShare * static_cast<double>(mission.search.size_m);
@@ -81,7 +83,7 @@ void Searcher::work(const Mission& mission, const RangeImage* scan, Workspace& w
   if (checks_ || number_ != step.after.searches) begin(p, step.after.searches, false);
   const TimeUs now_us = step.registration.t_us;
   if (scan != nullptr && step.after.bearing.scans >= kAimedFrom) receive(mission, *scan, workspace);
-  static_cast<void>(search_.advance(mission, workspace, static_cast<std::uint32_t>(p.search_slice)));
+  static_cast<void>(search_.advance(mission, workspace, frame_work(p)));
   step.search = search_.result();
   step.registration.reason = scan != nullptr ? PoseReason::kSearching : step.registration.reason;
   const bool offered = found(p, now_us) && offer(mission, step);
@@ -104,7 +106,7 @@ void Searcher::check(const Mission& mission, const RangeImage* scan, Workspace& 
     if (!takes_check(mission, scan, workspace, step.after)) check = StartCheck{};
     return;
   }
-  if (!search_.advance(mission, workspace, static_cast<std::uint32_t>(kCheckShare * p.search_slice))) return;
+  if (!search_.advance(mission, workspace, frame_work(p) / kCheckPart)) return;
   step.search = search_.result();
   end_check(p, search_.contradicts(mission, check.T_sensor_target), step);
 }

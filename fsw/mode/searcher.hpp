@@ -9,6 +9,9 @@ namespace lasso {
 
 SearchLimits search_limits(const MissionParameters& parameters);
 
+// Units of work that a frame in mode searching takes on: search.slice, in fixed point 0.3 of it.
+std::uint32_t frame_work(const MissionParameters& parameters);
+
 // What an accepted search offers as a start: its covariance, and what it may be off besides (1 deg and 0.75 % of the model's size, 1
 // sigma).
 StartOffer offer_of(const Mission& mission, const SearchResult& result);
@@ -18,13 +21,13 @@ class Searcher {
   // One frame in mode searching. `step` is the bearing's (bearing_scan, track_without_scan) and is completed: search, registration
   // (kSearching), state and event. `scan` is null where it was lost; it is taken where none is being worked on and it was aimed by a
   // bearing; while one is, the first scan 2 s later waits for its turn. A new search begins when step.after.searches says so, and when one
-  // has joined as many scans as it may. At most search.slice units of work, and those of the step that uses them up (kLargestStep). A pose
+  // has joined as many scans as it may. At most frame_work units, and those of the step that uses them up (kLargestStep). A pose
   // that is accepted is offered as a start: kStarting, or step.refusal says why not. One from a single scan since which the target may have
   // turned by 5 deg waits for another scan, which shows its rate. It is offered again where the frame that said so came too late.
   void work(const Mission& mission, const RangeImage* scan, Workspace& workspace, TrackStep& step);
 
   // One frame of a check (state.check of `step`, which track_scan or track_without_scan gave). The frame that says so gives its scan; from
-  // the next one on half of search.slice is worked on it in each. In the end end_check is told whether the search contradicts the pose. A
+  // the next one on half of frame_work is done on it in each. In the end end_check is told whether the search contradicts the pose. A
   // check whose scan is gone (its frame came too late) is forgotten: the next scan begins another.
   void check(const Mission& mission, const RangeImage* scan, Workspace& workspace, TrackStep& step);
 

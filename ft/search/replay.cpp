@@ -1,5 +1,5 @@
 // search_replay IMAGE SCANS EACH [NUMBER...]: searches recorded scans (ft/search/recording.hpp), EACH of them in a row showing one target,
-// or the targets of these numbers in ascending order, from 0. A scan is worked on step by step in slices of the image's search.slice, the
+// or the targets of these numbers in ascending order, from 0. A scan is worked on step by step in slices of frame_work units, the
 // first one with its adding, as the component does; one that is not accepted is joined by the next. On the emulated 603e an instruction
 // counter (ft/ppc603e) counts each step. Exit codes: 0 done, 2 usage or unreadable files.
 //
@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <memory>
 
-#include "fsw/pose/search.hpp"
+#include "fsw/mode/searcher.hpp"
 #include "ft/golden/files.hpp"
 #include "ft/golden/trace.hpp"
 
@@ -66,7 +66,7 @@ void tell(const SearchResult& r) {
 void search_scan(const Mission& mission, const RangeImage& scan, Search& search, Workspace& workspace) {
   std::uint32_t used = count("adding", search, [&] { static_cast<void>(search.add_scan(mission, scan, workspace)); });
   while (search.busy()) {
-    while (search.busy() && used < static_cast<std::uint32_t>(mission.parameters.search_slice)) {
+    while (search.busy() && used < frame_work(mission.parameters)) {
       const char* stage = kStages[static_cast<std::size_t>(search.stage())];
       used += count(stage, search, [&] { static_cast<void>(search.advance(mission, workspace, 1)); });
     }

@@ -25,7 +25,7 @@ MissionParameters search_parameters() {
 }
 
 TEST(ComponentSearch, TheTargetIsFoundWithoutAnyPriorAndTracked) {
-  VERIFIES("LASSO-MOD-123~2 LASSO-MOD-111~1 LASSO-MOD-131~1 LASSO-MOD-137~1");
+  VERIFIES("LASSO-MOD-123~3 LASSO-MOD-111~1 LASSO-MOD-131~1 LASSO-MOD-137~1");
   ComponentScene scene(search_parameters(), test::uneven_scene());
   scene.begin();
   ASSERT_EQ(scene.component->command_mode(M::kBearing), ModeRefusal::kNone);
@@ -238,7 +238,7 @@ TEST(ComponentSearch, APoseThatWasFoundTooLateIsRefusedByItsName) {
   VERIFIES("LASSO-MOD-134~2");
   MissionParameters p = search_parameters();
   p.start_age_max_s = 0;
-  p.search_slice = 300000;  // several frames' work
+  p.search_slice = 300000 / FlightNumber::kWorkShare;  // several frames' work
   p.search_scans_max = 1;
   ComponentScene scene(p, test::uneven_scene());
   scene.begin();

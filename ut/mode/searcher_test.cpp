@@ -117,7 +117,7 @@ class SearcherTest : public ::testing::Test {
 };
 
 TEST_F(SearcherTest, OffersWhatTheSearchAcceptsAsAStart) {
-  VERIFIES("LASSO-MOD-123~2 LASSO-MOD-111~1 LASSO-MOD-131~1");
+  VERIFIES("LASSO-MOD-123~3 LASSO-MOD-111~1 LASSO-MOD-131~1");
   const TrackStep step = follow(0);
   ASSERT_EQ(step.search.outcome, SearchOutcome::kAccepted);
   EXPECT_EQ(step.event, ModeEvent::kPoseValid);
@@ -132,7 +132,7 @@ TEST_F(SearcherTest, OffersWhatTheSearchAcceptsAsAStart) {
 }
 
 TEST_F(SearcherTest, WorksASliceAFrameAndSeesTheRateByAnotherScan) {
-  VERIFIES("LASSO-MOD-123~2 LASSO-MOD-118~1 LASSO-MOD-116~1");
+  VERIFIES("LASSO-MOD-123~3 LASSO-MOD-118~1 LASSO-MOD-116~1");
   look_from_the_right_side();
   const std::uint32_t frames = search_to_the_end(25000);
   EXPECT_GT(frames, 22u);
@@ -189,7 +189,7 @@ TEST_F(SearcherTest, OffersAgainWhatNobodyHasTaken) {
 }
 
 TEST_F(SearcherTest, WaitsForAScanThatABearingAimed) {
-  VERIFIES("LASSO-MOD-123~2 LASSO-MOD-111~1");
+  VERIFIES("LASSO-MOD-123~3 LASSO-MOD-111~1");
   look_from_few_sides();
   state_.bearing.scans = 2;
   EXPECT_EQ(follow(0).search.work, 0u);

@@ -71,7 +71,7 @@ TEST_F(StartCheckTest, ARightStartIsBelievedOnceTheSearchHasFoundNothingElse) {
     EXPECT_EQ(step.after.missed, 0) << "none of start.frames is used up";
     EXPECT_EQ(step.after.searches, 1u);
   }
-  EXPECT_GT(k, 4u) << "half a slice in each frame";
+  EXPECT_GT(k, 4u) << "half a frame's work in each";
   EXPECT_TRUE(step.registration.valid()) << to_string(step.registration.reason);
   EXPECT_EQ(step.event, ModeEvent::kPoseValid);
   EXPECT_EQ(step.after.mode, TrackingMode::kTracking);
