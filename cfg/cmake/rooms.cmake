@@ -30,7 +30,7 @@ endfunction()
 # What works once a frame, not once a ray, gains nothing from -O3 but size, and the flight image has to fit its 512 kB: whole rooms, and
 # sources of the others, which unrolled products of 6 x 6 matrices make four times as large.
 set(LASSO_SMALL_ROOMS mission mode link exec)
-set(LASSO_SMALL_SOURCES pose/afar.cpp pose/bearing.cpp pose/filter.cpp pose/slack.cpp)
+set(LASSO_SMALL_SOURCES pose/afar.cpp pose/bearing.cpp pose/estimator.cpp pose/filter.cpp pose/outlook.cpp pose/search.cpp pose/slack.cpp)
 set(LASSO_ROOMS_WITHOUT_EIGEN link)
 
 # lasso_make_small(ROOM SOURCE...): -O2 where it is said above.
