@@ -207,7 +207,8 @@ lcs::Result LcsDevice::carry_out(lcs::LaserCommand command, TimeUs t_us) {
 }
 
 bool LcsDevice::within_mirrors(const ScanPlan& plan) const {
-  const double limit = std::tan(optics_of(camera_).mirrors().max_rad);
+  constexpr double kRounded = 1 + 1.0 / (1 << 22);  // the plan's numbers have 24 bits
+  const double limit = kRounded * std::tan(optics_of(camera_).mirrors().max_rad);
   return std::abs(plan.center_x) + plan.half_x <= limit && std::abs(plan.center_y) + plan.half_y <= limit;
 }
 

@@ -45,15 +45,19 @@ struct Tally {
 // Scans of a box by a camera that fails as told; a wrong point is one that is not where the box is along its own ray.
 class Flight {
  public:
-  explicit Flight(const LcsFaults& faults)
-      : camera_(with(faults)),
+  explicit Flight(const LcsFaults& faults) : Flight(with(faults), 0.15, 0.2) {}
+
+  Flight(const LcsCamera& camera, double half_x, double half_y)
+      : half_x_(half_x),
+        half_y_(half_y),
+        camera_(camera),
         device_(*caster_, motion_, ScannerModel{}, 5, camera_),
         line_(device_, optics_of(camera_), camera_.bits_per_s) {
     line_.permit_laser(true);
   }
 
-  Tally fly() {
-    for (int scan = 0; scan < kScans; ++scan) this->scan(kBegin + scan * kPeriodUs, static_cast<std::uint32_t>(scan));
+  Tally fly(int scans = kScans) {
+    for (int scan = 0; scan < scans; ++scan) this->scan(kBegin + scan * kPeriodUs, static_cast<std::uint32_t>(scan));
     tally_.health = line_.driver().health();
     tally_.line = line_.driver().line_counters();
     return tally_;
@@ -69,8 +73,8 @@ class Flight {
   void scan(TimeUs t_us, std::uint32_t id) {
     ScanPlan plan;
     plan.scan_id = id;
-    plan.half_x = 0.15;
-    plan.half_y = 0.2;
+    plan.half_x = half_x_;
+    plan.half_y = half_y_;
     bool lost = line_.start(plan, t_us) != Status::kOk;
     bool complete = false;
     std::size_t there = 0;
@@ -102,6 +106,7 @@ class Flight {
   test::ShapeMesh mesh_ = test::box_mesh(kHalf);
   std::unique_ptr<RayCaster> caster_ = make_ray_caster(mesh_.vertices, mesh_.triangles);
   ConstantTwist motion_{{{upright_attitude(0.26, 0.09) * exp_so3(Vec3(0.7, 0, 0)), Vec3(0.02, -0.01, 4)}, {}}, 0};
+  double half_x_, half_y_;
   LcsCamera camera_;
   LcsDevice device_;
   LcsOverLine line_;
@@ -123,6 +128,19 @@ TEST(LcsDevice, WithoutFaultsEachScanIsWhole) {
   EXPECT_EQ(all_lost(tally.health), 0U);
   EXPECT_EQ(tally.health.sequence_gaps + tally.health.bad_messages + tally.health.bad_times + tally.health.off_plan + tally.line.skipped,
             0U);
+}
+
+// The numbers of a plan are rounded to 32 bits on the line, and half of them upwards.
+TEST(LcsDevice, AScanOfTheMirrorsWholeRangeIsTaken) {
+  VERIFIES("LASSO-LCS-003~1");
+  for (int degrees = 3; degrees <= 40; ++degrees) {
+    LcsCamera wide = camera();
+    wide.truth.angle_max_rad = degrees * kRadPerDeg;
+    const double half = std::tan(wide.truth.angle_max_rad);
+    const Tally tally = Flight(wide, half, half).fly(2);
+    EXPECT_EQ(tally.whole, 2) << degrees << " deg: lost " << tally.lost << ", short of samples " << tally.short_of_samples;
+    EXPECT_EQ(Flight(wide, 1.0001 * half, half).fly(2).lost_by(lcs::Loss::kRefused), 2U) << degrees;
+  }
 }
 
 TEST(LcsDevice, DroppedFramesCostTheirSamples) {
