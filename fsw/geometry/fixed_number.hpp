@@ -9,8 +9,6 @@
 namespace lasso {
 
 struct FixedNumber {
-  static constexpr double kWorkShare = 0.3;  // a unit takes up to 178 instructions, instead of 85 (docs/search.md)
-
   using Length = Fixed<22>;
   using Unit = Fixed<30>;
   using Tangent = Fixed<26>;

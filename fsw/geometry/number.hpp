@@ -29,8 +29,6 @@
 namespace lasso {
 
 struct FloatNumber {
-  static constexpr double kWorkShare = 1;  // of the search's units, what a 603e does in the time of one in floating point
-
   using Length = float;
   using Unit = float;
   using Tangent = float;

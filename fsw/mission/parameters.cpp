@@ -90,7 +90,7 @@ const ParameterRow kRows[] = {
   {"search.ratio_min", "1", kReal, &P::search_ratio_min, 1, 1, 100, 1.3, "", "least score of the best competitor over that of an accepted pose; less is ambiguous"},
   {"search.scans_max", "1", kInteger, &P::search_scans_max, 1, 1, 3, 3, "", "scans that one search joins before it begins anew"},
   {"search.work_max", "1", kInteger, &P::search_work_max, 1, 100000, 100000000, 2600000, "", "work on one scan, in units of some 75 instructions of a 603e; most scans take 1.2 million; what they leave open is ambiguous"},
-  {"search.slice", "1", kInteger, &P::search_slice, 1, 1000, 10000000, 160000, "", "work of one frame, in units of some 75 instructions of a 603e; with its last step at most 17 million of these; in fixed point, of which each takes more, 0.3 of it"},
+  {"search.slice", "1", kInteger, &P::search_slice, 1, 1000, 10000000, 160000, "", "work of one frame, in units of some 75 instructions of a 603e; with its last step at most 17 million of these; in fixed point a share of it"},
   {"search.frames", "1", kInteger, &P::search_frames, 1, 1, 10000, 200, "", "frames in which a pose has to be recognised"},
   {"short_range.enter_m", "m", kReal, &P::short_range_enter_m, 1, 0, 10000, 0, "", "a tracked target whose origin is this near is scanned part by part; 0: never"},
   {"short_range.leave_m", "m", kReal, &P::short_range_leave_m, 1, 0, 10000, 0, "", "one this far away is scanned as a whole again"},

@@ -1,5 +1,8 @@
 #include "fsw/mode/searcher.hpp"
 
+#include <type_traits>
+
+#include "fsw/geometry/fixed_number.hpp"
 #include "fsw/geometry/portable_math.hpp"
 
 namespace lasso {
@@ -9,6 +12,7 @@ constexpr double kOffset_rad = kRadPerDeg;
 constexpr double kOffsetShare = 0.0075;       // of the model's size
 constexpr double kTurn_rad = 5 * kRadPerDeg;  // since its only scan (1 sigma): more needs another scan
 constexpr DurationUs kBetweenScans_us = 2'000'000;
+constexpr double kFrameShare = std::is_same_v<FlightNumber, FixedNumber> ? 0.3 : 1;  // there a unit takes twice as long (docs/search.md)
 constexpr std::uint32_t kCheckPart = 2;  // of frame_work half: the frame registers its scan, too
 constexpr std::uint32_t kAimedFrom = 3;  // bearing scans: the next but one after the first is the first that is aimed by it
 
@@ -24,7 +28,7 @@ SearchLimits search_limits(const MissionParameters& p) {
   return limits;
 }
 
-std::uint32_t frame_work(const MissionParameters& p) { return static_cast<std::uint32_t>(FlightNumber::kWorkShare * p.search_slice); }
+std::uint32_t frame_work(const MissionParameters& p) { return static_cast<std::uint32_t>(kFrameShare * p.search_slice); }
 
 StartOffer offer_of(const Mission& mission, const SearchResult& result) {
   const double offset_m = kOffsetShare * static_cast<double>(mission.search.size_m);
@@ -108,7 +112,7 @@ void Searcher::check(const Mission& mission, const RangeImage* scan, Workspace& 
   }
   if (!search_.advance(mission, workspace, frame_work(p) / kCheckPart)) return;
   step.search = search_.result();
-  end_check(p, search_.contradicts(mission, check.T_sensor_target), step);
+  end_check(p, search_.contradicts(mission, check.T_sensor_target, workspace), step);
 }
 
 }  // namespace lasso

@@ -9,7 +9,7 @@ namespace lasso {
 
 SearchLimits search_limits(const MissionParameters& parameters);
 
-// Units of work that a frame in mode searching takes on: search.slice, in fixed point 0.3 of it.
+// Units of work that a frame in mode searching takes on: search.slice, in fixed point a share of it.
 std::uint32_t frame_work(const MissionParameters& parameters);
 
 // What an accepted search offers as a start: its covariance, and what it may be off besides (1 deg and 0.75 % of the model's size, 1

@@ -122,6 +122,7 @@ void take(const MissionParameters& p, const ModeProperties& mode, TrackStep& ste
   Registration& registration = step.registration;
   const bool starts = mode.confirms && step.after.check.stage == StartCheck::Stage::kNone;
   if (registration.valid()) registration.reason = join(p, starts, registration, step.after.filter);
+  if (registration.reason == PoseReason::kImplausible) step.after.check = StartCheck{};  // what is followed is not what is checked
   const bool awaits = is_checked(p, step.after) && step.after.check.stage != StartCheck::Stage::kPassed;
   if (registration.valid() && awaits) return await_check(step);
   count_and_change(p, registration.valid(), step);

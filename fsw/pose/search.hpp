@@ -62,9 +62,10 @@ class Search {
   // Works until the budget is used up; true when the result for the scans so far stands.
   bool advance(const Mission& mission, Workspace& workspace, std::uint32_t budget);
 
-  // Does the best pose, of a search that is done, explain the last scan better than this one, T_sensor_target at the scan's time? By
-  // limits.ratio_min where they are more than 5 deg apart, by 1.15 where it is accepted and they are more than 15 deg apart.
-  bool contradicts(const Mission& mission, const Pose& T_sensor_target) const;
+  // Does the best pose, of a search that is done, explain the last scan better than this one, T_sensor_target at the scan's time, as the
+  // same returns register it (one look, unless that leads more than 5 deg away)? By limits.ratio_min where they are more than 5 deg apart,
+  // by 1.15 where it is accepted and they are more than 15 deg apart.
+  bool contradicts(const Mission& mission, const Pose& T_sensor_target, Workspace& workspace) const;
 
   bool busy() const { return stage_ != Stage::kIdle; }
   Stage stage() const { return stage_; }  // of the next step

@@ -19,6 +19,13 @@ bool seems_else(const Rival& rival) {
   return rival.best_cost > kCleanCost && rival.best_explained_cost > kFair && rival.best_disagreement > kEven;
 }
 
+// A pose as this scan's returns register it, as they did what it is compared with; as it stands where they lead to another one.
+Pose registered(const Mission& mission, const Evidence& evidence, const Pose& T_target_sensor, Workspace& workspace) {
+  put_points(evidence, kEvidenceHits, workspace);
+  const Pose near = register_look(mission, RegisterLook::kFirst, T_target_sensor, workspace).T_target_sensor;
+  return are_apart(T_target_sensor.q, near.q, kCosHalfSame) ? T_target_sensor : near;
+}
+
 }  // namespace
 
 double ratio_of(double score, double best) { return (score + kRatioFloor) / (best + kRatioFloor); }
@@ -146,13 +153,13 @@ bool Search::stands_alone() const {
   return alone;
 }
 
-bool Search::contradicts(const Mission& mission, const Pose& T_sensor_target) const {
+bool Search::contradicts(const Mission& mission, const Pose& T_sensor_target, Workspace& workspace) const {
   if (result_.outcome == SearchOutcome::kNone) return false;
   const Track& best = tracks_[0];
   const Pose T_target_sensor = inverse(T_sensor_target);
   const Quat& found = best.T_target_sensor[last()].q;
   if (!are_apart(T_target_sensor.q, found, kCosHalfSame)) return false;
-  const Fit fit = measure_fit(mission, T_target_sensor, evidence_[last()], kAnyScore);
+  const Fit fit = measure_fit(mission, registered(mission, evidence_[last()], T_target_sensor, workspace), evidence_[last()], kAnyScore);
   const bool sure = result_.outcome == SearchOutcome::kAccepted && are_apart(T_target_sensor.q, found, kCosHalfDistinct);
   return ratio_of(fit.score(), best.fits[last()].score()) >= (sure ? kSureRatio : limits_.ratio_min);
 }

@@ -64,6 +64,7 @@ class Trial {
     parameters.initial_present = 0;
     parameters.start_sigma_rad = kRotation_rad;
     parameters.start_sigma_m = kShift_m;
+    parameters.start_check = 0;  // what the registration finds, not when it is believed
     return parameters;
   }
 

@@ -73,8 +73,7 @@ Values sized_values(const Size& size) {
     const ValueRow& row = *find_row(flight_rows(), key);
     value = std::clamp(rounded(value), row.minimum, row.maximum);
   }
-  values.insert(
-      {{"start.check", 1}, {"start.fifth", 5}, {"tracking.recover", 1}});  // or the ground would mend wrong starts and lost tracks
+  values.insert({{"start.fifth", 5}, {"tracking.recover", 1}});  // or the ground would mend wrong starts and lost tracks
   values["tracking.initial.present"] = 1;
   values["tracking.initial.x_m"] = rounded(-size.center.x());
   values["tracking.initial.y_m"] = rounded(-size.center.y());

@@ -86,7 +86,7 @@ TEST(ComponentSearch, AWrongHandOverGivesPlaceToTheSearch) {
 
 // A start end for end that a scan would confirm: a search of this scan says otherwise, and the search's turn comes.
 TEST(ComponentSearch, AStartThatASearchOfItsScanContradictsIsNeverTracked) {
-  VERIFIES("LASSO-MOD-184~1 LASSO-MOD-133~3 LASSO-MOD-137~1");
+  VERIFIES("LASSO-MOD-184~2 LASSO-MOD-133~3 LASSO-MOD-137~1");
   MissionParameters p = search_parameters();
   p.start_check = 1;
   p.start_twin_margin = 1000;
@@ -111,7 +111,7 @@ TEST(ComponentSearch, AStartThatASearchOfItsScanContradictsIsNeverTracked) {
 }
 
 TEST(ComponentSearch, ARightStartIsToldAsUncheckedAndThenTracked) {
-  VERIFIES("LASSO-MOD-184~1");
+  VERIFIES("LASSO-MOD-184~2");
   MissionParameters p = search_parameters();
   p.start_check = 1;
   p.search_slice = 200000;
@@ -238,7 +238,8 @@ TEST(ComponentSearch, APoseThatWasFoundTooLateIsRefusedByItsName) {
   VERIFIES("LASSO-MOD-134~2");
   MissionParameters p = search_parameters();
   p.start_age_max_s = 0;
-  p.search_slice = 300000 / FlightNumber::kWorkShare;  // several frames' work
+  p.search_slice = 300000;  // several frames' work
+  p.search_slice *= p.search_slice / frame_work(p);
   p.search_scans_max = 1;
   ComponentScene scene(p, test::uneven_scene());
   scene.begin();
