@@ -153,7 +153,8 @@ TEST(SpinRun, AMotionThatIsDrawnIsAnotherOneForEachRun) {
 TEST(SearchRun, FindsAndTracksTheTargetWithoutAnyPrior) {
   VERIFIES("LASSO-MOD-111~1 LASSO-MDT-004~1");
   const WorkFolder work;
-  const Answer answer = work.mdat("run missions/test.toml --scenario search --frames 110 --out out");
+  const int frames = FIXED_POINT ? 110 : 60;  // there a search takes three times as many
+  const Answer answer = work.mdat("run missions/test.toml --scenario search --out out --frames " + std::to_string(frames));
   ASSERT_EQ(answer.exit_code, 0) << answer.err;
   EXPECT_NE(answer.out.find("found after"), std::string::npos) << answer.out;
   const Json noisy = Json::parse(work.read("out/results.json")).at("noisy");
@@ -161,9 +162,9 @@ TEST(SearchRun, FindsAndTracksTheTargetWithoutAnyPrior) {
   for (const Json& range : noisy.at("by_range")) {
     longest = std::max(longest, range.at("frames").get<int>());
     EXPECT_GT(range.at("found_frame").get<int>(), 5);
-    EXPECT_LT(range.at("found_frame").get<int>(), 80) << "in fixed point three times as late";
+    EXPECT_LT(range.at("found_frame").get<int>(), FIXED_POINT ? 80 : 50);
     EXPECT_EQ(range.at("lost"), 0) << "tracked from then on";
-    EXPECT_EQ(range.at("frames").get<int>() + range.at("found_frame").get<int>(), 110);
+    EXPECT_EQ(range.at("frames").get<int>() + range.at("found_frame").get<int>(), frames);
   }
   EXPECT_LT(noisy.at("rms_mm").get<double>(), 2);
   const std::string report = work.read("out/report.html");
