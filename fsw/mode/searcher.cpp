@@ -42,12 +42,14 @@ void Searcher::begin(const MissionParameters& p, std::uint32_t number, bool chec
   number_ = number;
   checks_ = checks;
   waiting_ = false;
-  search_.begin(search_limits(p));
+  SearchLimits limits = search_limits(p);
+  if (checks) limits.scans_max = 1;
+  search_.begin(limits);
 }
 
 // A scan without returns is not taken; the next one may be.
 void Searcher::take(const Mission& mission, const RangeImage& scan, Workspace& workspace) {
-  if (search_.result().scans >= mission.parameters.search_scans_max) begin(mission.parameters, number_, false);
+  if (!search_.joins()) begin(mission.parameters, number_, false);
   static_cast<void>(search_.add_scan(mission, scan, workspace));
   taken_us_ = scan.reference_time_us();
   waiting_ = false;
@@ -99,6 +101,7 @@ bool Searcher::takes_check(const Mission& mission, const RangeImage* scan, Works
   begin(mission.parameters, state.searches, true);
   if (scan == nullptr || scan->reference_time_us() != state.check.t_us) return false;
   taken_us_ = state.check.t_us;
+  search_.suspect(state.check.T_sensor_target);
   return search_.add_scan(mission, *scan, workspace) == Status::kOk;
 }
 
@@ -112,7 +115,9 @@ void Searcher::check(const Mission& mission, const RangeImage* scan, Workspace& 
   }
   if (!search_.advance(mission, workspace, frame_work(p) / kCheckPart)) return;
   step.search = search_.result();
-  end_check(p, search_.contradicts(mission, check.T_sensor_target, workspace), step);
+  const bool sure = step.search.outcome == SearchOutcome::kAccepted;
+  const bool contradicted = search_.contradicts(mission, check.T_sensor_target, workspace);
+  end_check(p, contradicted ? CheckVerdict::kContradicted : sure ? CheckVerdict::kSure : CheckVerdict::kUndecided, step);
 }
 
 }  // namespace lasso

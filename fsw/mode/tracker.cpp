@@ -60,8 +60,8 @@ void await_check(TrackStep& step) {
   TrackState& state = step.after;
   Registration& registration = step.registration;
   registration.reason = PoseReason::kUnchecked;
-  if (state.check.stage == StartCheck::Stage::kNone) {
-    state.check = {StartCheck::Stage::kSearching, registration.t_us, registration.T_sensor_target};
+  if (state.check.stage != StartCheck::Stage::kSearching) {
+    state.check = {StartCheck::Stage::kSearching, state.check.undecided, registration.t_us, registration.T_sensor_target};
     ++state.searches;
   }
   state.missed = 0;
@@ -215,17 +215,20 @@ TrackStep track_scan(const Mission& mission, Estimator& estimator, const RangeIm
   return step;
 }
 
-void end_check(const MissionParameters& p, bool contradicted, TrackStep& step) {
+void end_check(const MissionParameters& p, CheckVerdict verdict, TrackStep& step) {
   TrackState& state = step.after;
   Registration& registration = step.registration;
+  const bool again = verdict == CheckVerdict::kUndecided && !state.check.undecided;
   state.check = StartCheck{};
-  if (contradicted) {
+  if (verdict == CheckVerdict::kContradicted) {
     if (registration.reason == PoseReason::kUnchecked) registration.reason = PoseReason::kContradicted;
     step.refusal = StartRefusal::kContradicted;
     state.missed = UINT16_MAX;
     return count_and_change(p, false, step);
   }
-  state.check.stage = StartCheck::Stage::kPassed;
+  state.check.stage = again ? StartCheck::Stage::kAgain : StartCheck::Stage::kPassed;
+  state.check.undecided = again;
+  if (again) return;
   if (registration.reason != PoseReason::kUnchecked) return;
   registration.reason = PoseReason::kValid;
   count_and_change(p, true, step);

@@ -22,13 +22,16 @@
 namespace lasso {
 
 // Of a start that a scan has confirmed (start.check): is there another pose, that explains this scan better? The track is followed
-// meanwhile. kPassed: there is none, and the next valid pose is believed.
+// meanwhile. Where the search of the first scan finds no other pose, but does not accept any, a second scan is searched: kAgain, until
+// there is one. kPassed: there is no other pose, and the next valid one is believed.
 struct StartCheck {
-  enum class Stage : std::uint8_t { kNone, kSearching, kPassed };
+  enum class Stage : std::uint8_t { kNone, kSearching, kAgain, kPassed };
   Stage stage = Stage::kNone;
-  TimeUs t_us = 0;       // of the scan
-  Pose T_sensor_target;  // in it
+  bool undecided = false;  // the first search found no other pose, and accepted none
+  TimeUs t_us = 0;         // of the scan
+  Pose T_sensor_target;    // in it
 };
+enum class CheckVerdict : std::uint8_t { kSure, kUndecided, kContradicted };
 
 struct TrackState {
   TrackingMode mode = TrackingMode::kStandby;
@@ -87,9 +90,9 @@ PartNumber next_part(const Mission& mission, const Parts& parts, PartNumber in_f
 // valid pose. Bounds: as aim_rays.
 void aim_next(const Mission& mission, Estimator& estimator, const TrackStep& step, std::uint32_t scan_id, TimeUs t_us, AimedRays& rays);
 
-// The check's word. `contradicted`: the start is refused (kContradicted), as if its frames were used up. Otherwise this scan confirms it if
-// it is kUnchecked, or the next valid one does.
-void end_check(const MissionParameters& parameters, bool contradicted, TrackStep& step);
+// The word of one search. kContradicted: the start is refused (kContradicted), as if its frames were used up. kUndecided: another scan is
+// searched, once: of a symmetric target no search is sure. Otherwise this scan confirms it if it is kUnchecked, or the next valid one does.
+void end_check(const MissionParameters& parameters, CheckVerdict verdict, TrackStep& step);
 
 // Counts a frame with or without a valid pose, and takes the step along the table.
 void count_and_change(const MissionParameters& parameters, bool valid, TrackStep& step);

@@ -5,7 +5,7 @@
 namespace lasso {
 
 void DrawnList::add(const Pose& T_target_sensor, double score) {
-  invariant(list_.push_back({T_target_sensor, score, Fit()}), "as many as the short list");
+  invariant(list_.push_back({T_target_sensor, score, Fit()}), "as many as are pulled");
 }
 
 void DrawnList::keep_best() {

@@ -1,14 +1,15 @@
-// The hypotheses of a search's short list on their way to the model.
+// The hypotheses of a search's short list, and of a pose that it suspects, on their way to the model.
 #pragma once
 
 #include "fsw/core/fixed_vector.hpp"
 #include "fsw/geometry/se3.hpp"
 #include "fsw/pose/coarse.hpp"
 #include "fsw/pose/fit.hpp"
+#include "fsw/pose/quarter_turns.hpp"
 
 namespace lasso {
 
-constexpr std::size_t kDrawn = 16;  // of the short list: so many are worth more than a pull
+constexpr std::size_t kDrawn = 16;  // of those that are pulled: so many are worth more
 
 struct Drawn {
   Pose T_target_sensor;
@@ -29,7 +30,7 @@ class DrawnList {
   double best_score(std::size_t count) const;
 
  private:
-  FixedVector<Drawn, kShortList> list_;
+  FixedVector<Drawn, kShortList + kQuarterTurns> list_;
 };
 
 }  // namespace lasso

@@ -6,7 +6,7 @@
 namespace lasso {
 
 constexpr std::size_t kPoolRays = 1024;       // returns and misses that the choice is made from
-constexpr std::size_t kEvidenceHits = 320;    // the first of them are as far apart as any as many
+constexpr std::size_t kEvidenceHits = 224;    // the first of them are as far apart as any as many
 constexpr std::size_t kEvidenceMisses = 192;  // that pass by the target
 constexpr std::size_t kRegions = 32;          // of the target, as the scan shows it: around the first returns of the evidence
 

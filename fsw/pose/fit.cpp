@@ -57,6 +57,21 @@ void add_hit(const Mission& mission, const PathPose<N>& pose, const MatchPoint<N
 
 bool exceeds(const Fit& fit, std::size_t ray, double limit) { return ray % kLookedAtOnce == 0 && fit.score() > limit; }
 
+// Returns are in an order in which any first of them are far apart, a fair sample: what runs ahead of its share of the limit will exceed
+// it.
+double share_of_limit(std::size_t looked_at, std::size_t hits, std::size_t head_start) {
+  const std::size_t ahead = looked_at + head_start;
+  return ahead < hits ? static_cast<double>(ahead) / static_cast<double>(hits) : 1;
+}
+
+// As if the others were like those that were looked at; beyond the limit, then.
+Fit extrapolated(Fit fit, std::size_t looked_at) {
+  const double factor = fit.hits / static_cast<double>(looked_at);
+  fit.bad *= factor;
+  fit.distance *= factor;
+  return fit;
+}
+
 }  // namespace
 
 double Fit::disagreement() const { return hits > 0 ? (bad + violated) / (hits + violated) : 1; }
@@ -71,13 +86,13 @@ Fit operator+(const Fit& a, const Fit& b) {
   return {a.hits + b.hits, a.bad + b.bad, a.violated + b.violated, a.distance + b.distance, a.walks + b.walks};
 }
 
-Fit measure_fit(const Mission& mission, const Pose& T_target_sensor, const Evidence& evidence, double limit) {
+Fit measure_fit(const Mission& mission, const Pose& T_target_sensor, const Evidence& evidence, double limit, std::size_t head_start) {
   const PathPose<N> pose = to_path<N>(T_target_sensor);
   const double per_miss = kMissWeight * evidence.misses_per_hit;
   Fit fit;
   fit.hits = static_cast<double>(evidence.hits.size());
   for (std::size_t i = 0; i < evidence.hits.size(); ++i, ++fit.walks) {
-    if (exceeds(fit, i, limit)) return fit;
+    if (exceeds(fit, i, limit * share_of_limit(i, evidence.hits.size(), head_start))) return extrapolated(fit, i);
     add_hit(mission, pose, evidence.hits[i], evidence.reaches[i], fit);
   }
   std::uint32_t violated = 0;

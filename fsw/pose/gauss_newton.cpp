@@ -61,11 +61,17 @@ void solve_pass(const Mission& mission, const MatchSettings<N>& s, Descent& desc
   T_target_sensor = step_pose(T_target_sensor, descent.last);
 }
 
-Pass take_pass(const Mission& mission, const MatchSettings<N>& s, const PassKind& kind, Descent& descent, Workspace& workspace,
-               Pose& T_target_sensor) {
+Pass match_pass(const Mission& mission, const MatchSettings<N>& s, const PassKind& kind, const Pose& T_target_sensor,
+                Workspace& workspace) {
   Pass pass(mission);
   const Span<MatchPoint<N>> points(workspace.points.begin(), workspace.points.size());
   match_points(mission.field, to_path<N>(T_target_sensor), s, points, kind, pass.sums);
+  return pass;
+}
+
+Pass take_pass(const Mission& mission, const MatchSettings<N>& s, const PassKind& kind, Descent& descent, Workspace& workspace,
+               Pose& T_target_sensor) {
+  Pass pass = match_pass(mission, s, kind, T_target_sensor, workspace);
   solve_pass(mission, s, descent, pass, T_target_sensor);
   return pass;
 }

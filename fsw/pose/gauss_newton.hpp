@@ -30,6 +30,10 @@ struct Descent {
 MatchSettings<FlightNumber> make_settings(const MissionParameters& parameters, const Workspace& workspace);
 void set_gate(double gate_m, MatchSettings<FlightNumber>& settings);
 
+// The sums of the points as the pose stands: neither solved nor a step.
+Pass match_pass(const Mission& mission, const MatchSettings<FlightNumber>& settings, const PassKind& kind, const Pose& T_target_sensor,
+                Workspace& workspace);
+
 // Solves the sums of `pass` and, where that succeeds, steps the pose by the damped solution, cut to the longest step.
 void solve_pass(const Mission& mission, const MatchSettings<FlightNumber>& settings, Descent& descent, Pass& pass, Pose& T_target_sensor);
 

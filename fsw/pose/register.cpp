@@ -192,6 +192,14 @@ HitSolution weigh_hits(const Mission& mission, const Pose& T_target_sensor, Work
   return solution;
 }
 
+double cost_of_hits(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace) {
+  HitSolution solution;
+  if (workspace.points.empty()) return mean_cost(solution);
+  const MatchSettings<N> s = make_settings(mission.parameters, workspace);
+  keep(match_pass(mission, s, PassKind{}, T_target_sensor, workspace), s, solution);
+  return mean_cost(solution);
+}
+
 HitSolution register_look(const Mission& mission, RegisterLook look, const Pose& T_target_sensor, Workspace& workspace) {
   return register_from(mission, look, {T_target_sensor, 0, kEndless}, workspace);
 }

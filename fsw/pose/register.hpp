@@ -43,6 +43,9 @@ HitSolution weigh_hits(const Mission& mission, const Pose& T_target_sensor, Work
 double mean_cost(const HitSolution& solution);
 constexpr double kUnexplainedCost = 16;  // what a kernel of 10 sigma makes of it
 
+// The same of the pose as it stands: one pass, nothing solved.
+double cost_of_hits(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace);
+
 // A rough start made good enough for register_first, on at most 96 of the points: their centroid, the far field, then slides along the
 // target's axes, until 98 % of them lie on the model. Of the slides along an axis three that leave the points closest to the surface are
 // pulled to its planes by half of these points (all, of less than 48), and the closest of these is drawn along the rays. Converges from

@@ -4,16 +4,20 @@
 #include "fsw/geometry/symmetric6.hpp"
 #include "fsw/pose/path_pose.hpp"
 #include "fsw/pose/prepare.hpp"
+#include "fsw/pose/verdict.hpp"
 
 namespace lasso {
 namespace {
 
 using N = FlightNumber;
 
+constexpr double kFirstShare = 0.8;  // of the work, for a scan that others may join: a later one takes some 0.6 million units
+constexpr double kJoinShare = 0.85;  // beyond it a further scan is not worth adding
 constexpr std::size_t kPullPoints = 128;
 constexpr int kExploreSteps = 12;               // each way, even
 constexpr int kExploreEnd = kExploreSteps + 4;  // with the places beside the best
-constexpr double kExploreStep = 0.005;          // of the model's size, along the least certain direction
+constexpr std::size_t kLineHeadStart = 96;
+constexpr double kExploreStep = 0.005;  // of the model's size, along the least certain direction
 
 // The least certain direction of the information H: a step that moves the farthest part of the model by a metre. False where H has none.
 bool find_weakest(const Mission& mission, const Mat6& H, Vec6& direction) {
@@ -34,25 +38,36 @@ void Search::begin(const SearchLimits& limits) {
   scans_ = 0;
   tracks_.clear();
   line_ = Line();
-  working_ = false;
+  twins_ = working_ = suspects_ = false;
   adding_work_ = 0;
   result_ = SearchResult();
 }
 
+void Search::suspect(const Pose& T_sensor_target) {
+  suspects_ = true;
+  suspect_ = inverse(T_sensor_target);
+}
+
+bool Search::joins() const {
+  const bool room = scans_ < kMaxSearchScans && scans_ < limits_.scans_max;
+  const bool open = scans_ == 0 || (result_.outcome != SearchOutcome::kRejected && result_.work < kJoinShare * limits_.work_max);
+  return room && open;
+}
+
 Status Search::add_scan(const Mission& mission, const RangeImage& scan, Workspace& workspace) {
   if (busy()) return Status::kBusy;
-  if (scans_ == kMaxSearchScans || scans_ >= limits_.scans_max) return Status::kBadOrder;
+  if (!joins()) return Status::kBadOrder;
   if (scans_ > 0 && scan.reference_time_us() <= evidence_[last()].t_us) return Status::kBadOrder;
   prepare_rays(mission, scan, StartPoint(), workspace);
   if (workspace.points.empty()) return Status::kNoData;
+  carry_over();
   Evidence& evidence = evidence_[scans_++];
   evidence.clear();
   evidence.scan_id = scan.scan_id;
   evidence.t_us = scan.reference_time_us();
   maker_.begin(mission, workspace);
-  scan_work_ = 0;
   adding_work_ = prepare_work(scan.samples.size());
-  count(adding_work_);
+  result_.work += adding_work_;
   unfinished_ = false;
   mirrored_ = false;
   stage_ = Stage::kEvidence;
@@ -65,19 +80,28 @@ bool Search::advance(const Mission& mission, Workspace& workspace, std::uint32_t
   while (busy() && used < budget) {
     const std::uint32_t work = step(mission, workspace);
     used += work;
-    count(work);
+    result_.work += work;
   }
   return !busy();
 }
 
-void Search::count(std::uint32_t work) {
-  scan_work_ += work;
-  result_.work += work;
+// To the next scan: the best pose and what it does not leave behind by its score alone, as if nothing were known of them there.
+void Search::carry_over() {
+  std::size_t carried = 0;
+  for (Track& track : tracks_) {
+    if (!is_near(ratio_of(track.total.score(), tracks_[0].total.score()), 0, limits_.ratio_min)) break;
+    track.sketched = track.settled = track.swayed = false;
+    track.cost = track.whole_cost = track.explained_cost = kAnyScore;
+    ++carried;
+  }
+  tracks_.shrink(carried);
 }
 
 // Asked for what is worth working on, and only then.
-bool Search::may_work() {
-  const bool may = scan_work_ < limits_.work_max;
+bool Search::may_work() { return may_work_up_to(scans_ == 1 && limits_.scans_max > 1 ? kFirstShare : 1); }
+
+bool Search::may_work_up_to(double share) {
+  const bool may = result_.work < share * limits_.work_max;
   unfinished_ = unfinished_ || !may;
   return may;
 }
@@ -98,8 +122,6 @@ std::uint32_t Search::step(const Mission& mission, Workspace& workspace) {
       return settle_next(mission, workspace);
     case Stage::kExplore:
       return explore_next(mission);
-    case Stage::kRecall:
-      return recall_next(mission, workspace);
     case Stage::kSway:
       return sway_next(mission, workspace);
     case Stage::kMirror:
@@ -111,10 +133,10 @@ std::uint32_t Search::step(const Mission& mission, Workspace& workspace) {
 
 std::uint32_t Search::gather_evidence(const Mission& mission) {
   std::uint32_t work = 0;
-  if (!maker_.step(mission, evidence_[last()], work)) {
-    coarse_.begin(mission, evidence_[last()]);
-    stage_ = Stage::kCoarse;
-  }
+  if (maker_.step(mission, evidence_[last()], work)) return work;
+  if (scans_ == 1) coarse_.begin(mission, evidence_[last()]);
+  next_ = 0;
+  stage_ = scans_ == 1 ? Stage::kCoarse : Stage::kSketch;
   return work;
 }
 
@@ -128,11 +150,16 @@ std::uint32_t Search::look_coarsely(const Mission& mission) {
   return work;
 }
 
+Pose Search::hypothesis(const Mission& mission, std::size_t i) const {
+  const std::size_t found = coarse_.short_list().size();
+  return i < found ? coarse_.short_list()[i].T_target_sensor : quarter_turned(suspect_, i - found, mission.center_m);
+}
+
 std::uint32_t Search::pull_next(const Mission& mission, Workspace& workspace) {
-  put_points(evidence_[last()], kPullPoints, workspace);
-  const Pulled pulled = pull_on_distances(mission, coarse_.short_list()[next_].T_target_sensor, workspace);
+  put_points(evidence_[last()], kCoarsePoints, workspace);
+  const Pulled pulled = pull_on_distances(mission, hypothesis(mission, next_), workspace);
   drawn_.add(pulled.T_target_sensor, pulled.distance);
-  if (++next_ == coarse_.short_list().size()) {
+  if (++next_ == hypotheses()) {
     drawn_.keep_best();
     next_ = 0;
     stage_ = Stage::kDraw;
@@ -151,12 +178,10 @@ std::uint32_t Search::draw_next(const Mission& mission, Workspace& workspace) {
   return draw_work(workspace.points.size()) + fit_work(drawn.fit);
 }
 
-// Is it as far as that from all of the scan's own finalists?
+// Is it as far as that from all finalists?
 bool Search::is_apart(const Pose& T_target_sensor, double cos_half_angle) const {
   bool apart = true;
-  for (std::size_t i = first_; i < tracks_.size(); ++i) {
-    apart = apart && are_apart(T_target_sensor.q, tracks_[i].T_target_sensor[last()].q, cos_half_angle);
-  }
+  for (const Track& track : tracks_) apart = apart && are_apart(T_target_sensor.q, track.T_target_sensor[0].q, cos_half_angle);
   return apart;
 }
 
@@ -171,13 +196,11 @@ const Drawn* Search::best_drawn(double cos_half_angle) const {
 
 // The best, at least 5 deg apart; and the last two at least 15 deg, so that there is a competitor to compare with.
 void Search::choose_finalists() {
-  first_ = tracks_.size();
   for (std::size_t chosen = 0; chosen < kFinalists; ++chosen) {
     const Drawn* best = best_drawn(chosen + 2 < kFinalists ? kCosHalfSame : kCosHalfDistinct);
     if (best == nullptr) break;
     add_track(best->T_target_sensor, best->fit);
   }
-  twins_ = false;
   next_ = 0;
   stage_ = Stage::kSketch;
 }
@@ -189,11 +212,11 @@ void Search::add_track(const Pose& T_target_sensor, const Fit& fit) {
   invariant(tracks_.push_back(track), "room for a track");
 }
 
-void Search::take(const Settled& settled, std::size_t scan, Track& track) const {
-  track.T_target_sensor[scan] = settled.solution.T_target_sensor;
-  track.fits[scan] = settled.fit;
-  track.known[scan] = true;
-  if (scan == last()) track.H = settled.solution.H;
+void Search::take(const Settled& settled, Track& track) const {
+  track.T_target_sensor[last()] = settled.solution.T_target_sensor;
+  track.fits[last()] = settled.fit;
+  track.sketched = true;
+  track.H = settled.solution.H;
   sum_up(track);
 }
 
@@ -205,51 +228,39 @@ void Search::sum_up(Track& track) const {
 double Search::best_score() const {
   double best = kAnyScore;
   for (const Track& track : tracks_) {
-    if (track.known[last()]) best = clamp(track.total.score(), 0, best);
+    if (track.sketched) best = clamp(track.total.score(), 0, best);
   }
   return best;
 }
 
 bool Search::is_hopeless(const Track& track) const { return track.total.score() > hopeless_beyond(best_score()); }
 
-// All tracks in the last scan: its own finalists from where they were drawn to, the others from where they should be; and once more from
-// there, pulled from farther, where that leads to nothing.
+// All tracks in the last scan: in the first one the finalists from where they were drawn to and the best one's twins, in a later one what
+// is carried from where it should be; and once more from there, pulled from farther, where that leads to nothing or no rate was known.
 std::uint32_t Search::sketch_next(const Mission& mission, Workspace& workspace) {
   const Evidence& evidence = evidence_[last()];
   Track& track = tracks_[next_];
-  const bool own = next_ >= first_;
-  const bool drawn = own && !twins_;
+  const bool drawn = scans_ == 1 && !twins_;
   const double limit = hopeless_beyond(best_score());
   std::uint32_t work = 0;
   put_points(evidence, kPullPoints, workspace);
   if (working_) {
     const Pose start = pull_in(mission, track.start, workspace);
     const Settled settled = sketch(mission, evidence, {start, track.fits[last()]}, limit, workspace, work);
-    if (settled.fit.score() < track.fits[last()].score()) take(settled, last(), track);
+    if (settled.fit.score() < track.fits[last()].score()) take(settled, track);
     work += pull_work(workspace.points.size()) + draw_work(workspace.points.size());
     working_ = false;
   } else {
-    track.start = own ? track.T_target_sensor[last()] : carry(track, last() - 1, last(), rates_of(track, last() - 1));
-    track.settled = track.swayed = false;
-    track.cost = track.whole_cost = track.explained_cost = kAnyScore;
+    track.start = scans_ == 1 ? track.T_target_sensor[0] : carried(track);
     const Pose start = drawn ? track.start : pull_on_rays(mission, track.start, workspace);
-    take(sketch(mission, evidence, {start, track.fits[last()]}, limit, workspace, work), last(), track);
+    take(sketch(mission, evidence, {start, track.fits[last()]}, limit, workspace, work), track);
     work += drawn ? 0 : draw_work(workspace.points.size());
-    working_ = !drawn && is_hopeless(track);
+    working_ = !drawn && (scans_ == 2 || is_hopeless(track));
   }
   if (working_ || ++next_ < tracks_.size()) return work;
   prune();
   next_ = 0;
   stage_ = Stage::kSettle;
-  return work;
-}
-
-// One attempt at a track in a scan.
-std::uint32_t Search::settle(const Mission& mission, std::size_t scan, Track& track, Workspace& workspace) {
-  std::uint32_t work = 0;
-  const double limit = scan == last() ? poor_beyond(best_score()) : kAnyScore;
-  working_ = settler_.step(mission, evidence_[scan], limit, workspace, work);
-  if (!working_) take(settler_.best(), scan, track);
   return work;
 }
 
@@ -259,7 +270,10 @@ std::uint32_t Search::settle_next(const Mission& mission, Workspace& workspace) 
     if (!working_ && (track.settled || is_hopeless(track) || !may_work())) continue;
     if (!working_) settler_.begin(track.T_target_sensor[last()], track.start);
     track.settled = true;
-    return settle(mission, last(), track, workspace);
+    std::uint32_t work = 0;
+    working_ = settler_.step(mission, evidence_[last()], poor_beyond(best_score()), workspace, work) && may_work_up_to(1);
+    if (!working_) take(settler_.best(), track);
+    return work;
   }
   end_settling(mission);
   return kEndingWork;
@@ -268,13 +282,8 @@ std::uint32_t Search::settle_next(const Mission& mission, Workspace& workspace) 
 void Search::end_settling(const Mission& mission) {
   prune();
   next_ = 0;
-  if (!twins_ && scans_ == 1) {
-    add_twins(mission);
-    stage_ = Stage::kSketch;
-    if (first_ < tracks_.size()) return;
-  }
-  next_ = 0;
   stage_ = Stage::kExplore;
+  if (!twins_ && scans_ == 1) add_twins(mission);
 }
 
 // Where a view says little about a direction, the registration may end anywhere along it, and hits that pass an edge decide: the best
@@ -305,7 +314,7 @@ std::uint32_t Search::look_along(const Mission& mission, const Evidence& evidenc
   const bool beside = line_.next > kExploreSteps;
   const int place = beside ? line_.middle + line_.next - kExploreEnd + 1 : line_.next;
   const Pose moved = step_pose(line_.from, place * step_m * line_.direction);
-  const Fit fit = measure_fit(mission, moved, evidence, line_.fit.score());
+  const Fit fit = measure_fit(mission, moved, evidence, line_.fit.score(), kLineHeadStart);
   if (fit.score() < line_.fit.score()) {
     line_.fit = fit;
     line_.best = moved;
@@ -323,36 +332,7 @@ void Search::end_line() {
   ++next_;
   if (explores_next()) return;
   next_ = 0;
-  stage_ = Stage::kRecall;
-}
-
-// The last scan's finalists in the scans before, so that scores of as many scans are compared. A step is one attempt.
-std::uint32_t Search::recall_next(const Mission& mission, Workspace& workspace) {
-  for (; next_ < tracks_.size(); ++next_) {
-    for (std::size_t scan = last(); scan-- > 0;) {
-      Track& track = tracks_[next_];
-      if (track.known[scan] || (is_hopeless(track) && !is_rival(track))) continue;
-      if (!working_ && !may_work()) continue;
-      const Pose start = carry(track, scan + 1, scan, rates_of(track, scan + 2));
-      if (!working_) settler_.begin(start, start);
-      return settle(mission, scan, track, workspace);
-    }
-  }
-  prune();
-  next_ = 0;
   stage_ = Stage::kSway;
-  return kEndingWork;
-}
-
-// What comes to the same attitude in the last scan was the same in those before it.
-void Search::inherit(const Track& other, Track& track) const {
-  for (std::size_t scan = 0; scan < last(); ++scan) {
-    if (track.known[scan] || (is_hopeless(track) && !is_rival(track))) continue;
-    track.T_target_sensor[scan] = other.T_target_sensor[scan];
-    track.fits[scan] = other.fits[scan];
-    track.known[scan] = other.known[scan];
-  }
-  sum_up(track);
 }
 
 // Keeps the best few that are at least 5 deg apart, best first.
@@ -368,19 +348,17 @@ void Search::prune() {
   for (std::size_t i = 0; i < t.size() && kept < kCarried; ++i) {
     bool apart = true;
     for (std::size_t k = 0; k < kept; ++k) {
-      const bool same = !are_apart(t[i].T_target_sensor[last()].q, t[k].T_target_sensor[last()].q, kCosHalfSame);
-      if (same) inherit(t[i], t[k]);
-      apart = apart && !same;
+      apart = apart && are_apart(t[i].T_target_sensor[last()].q, t[k].T_target_sensor[last()].q, kCosHalfSame);
     }
     if (apart) t[kept++] = t[i];
   }
   t.shrink(kept);
 }
 
-// From the poses of `scan`, which is known, and the one before it; zero where that is not.
+// From the poses of the scan and of the one before it; zero in the first.
 Twist Search::rates_of(const Track& track, std::size_t scan) const {
   Twist rates;
-  if (scan == 0 || scan > last() || !track.known[scan - 1]) return rates;
+  if (scan == 0) return rates;
   const double dt_s = to_seconds(evidence_[scan].t_us - evidence_[scan - 1].t_us);
   const Vec6 difference = pose_difference(inverse(track.T_target_sensor[scan]), inverse(track.T_target_sensor[scan - 1]));
   rates.omega_radps = difference.head<3>() / dt_s;
@@ -388,9 +366,11 @@ Twist Search::rates_of(const Track& track, std::size_t scan) const {
   return rates;
 }
 
-Pose Search::carry(const Track& track, std::size_t from, std::size_t to, const Twist& rates) const {
-  const double dt_s = to_seconds(evidence_[to].t_us - evidence_[from].t_us);
-  return inverse(propagate(inverse(track.T_target_sensor[from]), rates, dt_s));
+// Where a pose of the scan before the last one should be in the last one.
+Pose Search::carried(const Track& track) const {
+  const std::size_t from = last() - 1;
+  const double dt_s = to_seconds(evidence_[last()].t_us - evidence_[from].t_us);
+  return inverse(propagate(inverse(track.T_target_sensor[from]), rates_of(track, from), dt_s));
 }
 
 }  // namespace lasso

@@ -2,16 +2,16 @@
 // done like this.
 //
 // begin(), then for each scan add_scan() and advance() until it answers true; result() then says whether the pose is accepted, ambiguous
-// (with its candidates) or rejected, and why. A further scan may be added, up to limits.scans_max, where it is not accepted, or to see how
-// it turns: the scores of all scans are added, and candidates are carried from scan to scan with the rate that their own poses show. A
+// (with its candidates) or rejected, and why. A further scan may join (joins()) where it is ambiguous, or to see how it turns: candidates
+// are carried to it with the rate that their own poses show, nothing else is looked for there, and the scores of all scans are added. A
 // target may turn by some 15 deg between two scans. All state is in the object and is forgotten by begin(); the workspace holds nothing
 // between two calls.
 //
 // Work is done in steps and counted in units of some 75 PowerPC 603e instructions (search_work.hpp). advance() ends with the step that
-// uses the budget up; no step takes more than kLargestStep. A scan of 1024 rays takes some 1.2 million units, some 80 million
-// instructions, in all (docs/search.md): most hypotheses are looked at no longer than until others promise more. Once limits.work_max of
-// them are used on a scan, nothing more is settled, explored, recalled in earlier scans or swayed: what was found so far stands, as
-// ambiguous, and the next scan goes on from it. The best one's near-symmetries are measured all the same.
+// uses the budget up; no step takes more than kLargestStep. The first scan of 1024 rays takes some 1.2 million units, some 80 million
+// instructions, in all, a later one some 0.6 million (docs/search.md): most hypotheses are looked at no longer than until others promise
+// more. Once limits.work_max of them are used, four fifths where further scans may join the first, nothing more is settled, explored or
+// swayed: what was found so far stands, as ambiguous. The best one's near-symmetries are measured while anything is left of them all.
 #pragma once
 
 #include "fsw/pose/drawn_list.hpp"
@@ -32,30 +32,24 @@ struct SearchLimits {
   double disagreement_max = 0.20;
   double ratio_min = 1.3;  // score of the best distinct competitor over that of the pose; or what the returns make of both by their noise
   std::uint32_t scans_max = kMaxSearchScans;
-  std::uint32_t work_max = 2'600'000;  // units of work on one scan; what they leave open makes the result ambiguous
+  std::uint32_t work_max = 2'450'000;  // units of work on all scans; what they leave open makes the result ambiguous
 };
 
 class Search {
  public:
-  enum class Stage : std::uint8_t {
-    kIdle,
-    kEvidence,
-    kCoarse,
-    kPull,
-    kDraw,
-    kSketch,
-    kSettle,
-    kExplore,
-    kRecall,
-    kSway,
-    kMirror,
-    kVerdict
-  };
+  enum class Stage : std::uint8_t { kIdle, kEvidence, kCoarse, kPull, kDraw, kSketch, kSettle, kExplore, kSway, kMirror, kVerdict };
 
   void begin(const SearchLimits& limits);
 
-  // Takes what it needs of the scan. kBusy while the last one is being worked on; kBadOrder beyond limits.scans_max, or where the scan is
-  // not later than the last one; kNoData for a scan without returns. Where it is refused nothing changes. Its work is part of the next
+  // The quarter turns of a pose at the time of the first scan are hypotheses, too, and it itself. Between begin() and the first scan.
+  void suspect(const Pose& T_sensor_target);
+
+  // May a further scan join those so far, once result() stands? Not beyond limits.scans_max, after a rejection (nothing is worth carrying
+  // on with), or where too little of the work is left. What begins anew then is another search.
+  bool joins() const;
+
+  // Takes what it needs of the scan. kBusy while the last one is being worked on; kBadOrder where it does not join(), or is not later than
+  // the last one; kNoData for a scan without returns. Where it is refused nothing changes. Its work is part of the next
   // advance()'s.
   Status add_scan(const Mission& mission, const RangeImage& scan, Workspace& workspace);
 
@@ -72,14 +66,14 @@ class Search {
   const SearchResult& result() const { return result_; }
 
  private:
-  // A pose in each scan, as far as known.
+  // A pose in each scan.
   struct Track {
     Pose T_target_sensor[kMaxSearchScans];
     Fit fits[kMaxSearchScans];
-    bool known[kMaxSearchScans] = {};
     Fit total;
     Pose start;               // in the last scan
-    bool settled = false;     // in the last scan, or sketched only
+    bool sketched = false;    // in the last scan
+    bool settled = false;     // the same
     bool swayed = false;      // in the last scan
     double cost = kAnyScore;  // of the pose in the last scan, once it is: of its Standing
     double whole_cost = kAnyScore;
@@ -102,21 +96,22 @@ class Search {
   static constexpr std::size_t kTracks = kCarried + (kMaxSymmetries > kFinalists ? kMaxSymmetries : kFinalists);
 
   std::uint32_t step(const Mission& mission, Workspace& workspace);
-  void count(std::uint32_t work);
+  void carry_over();
   std::uint32_t gather_evidence(const Mission& mission);
   std::uint32_t look_coarsely(const Mission& mission);
+  Pose hypothesis(const Mission& mission, std::size_t i) const;
+  std::size_t hypotheses() const { return coarse_.short_list().size() + (suspects_ ? kQuarterTurns : 0); }
   std::uint32_t pull_next(const Mission& mission, Workspace& workspace);
   std::uint32_t draw_next(const Mission& mission, Workspace& workspace);
   std::uint32_t sketch_next(const Mission& mission, Workspace& workspace);
   std::uint32_t settle_next(const Mission& mission, Workspace& workspace);
   std::uint32_t explore_next(const Mission& mission);
-  std::uint32_t recall_next(const Mission& mission, Workspace& workspace);
   std::uint32_t sway_next(const Mission& mission, Workspace& workspace);
   std::uint32_t mirror_next(const Mission& mission, Workspace& workspace);
+  std::uint32_t mirror_before(const Mission& mission, const NearSymmetry<FlightNumber>& symmetry, Track& twin) const;
   std::uint32_t end_mirroring();
   bool is_new(const Pose& T_target_sensor, const Fit& fit) const;
   std::uint32_t conclude();
-  std::uint32_t settle(const Mission& mission, std::size_t scan, Track& track, Workspace& workspace);
   void end_settling(const Mission& mission);
   std::uint32_t begin_line(const Mission& mission);
   std::uint32_t look_along(const Mission& mission, const Evidence& evidence);
@@ -126,7 +121,7 @@ class Search {
   void choose_finalists();
   void add_twins(const Mission& mission);
   void add_track(const Pose& T_target_sensor, const Fit& fit);
-  void take(const Settled& settled, std::size_t scan, Track& track) const;
+  void take(const Settled& settled, Track& track) const;
   const SwayCare& care_of(std::size_t track) const;
   std::uint32_t take_swayed(const Mission& mission, Track& track) const;
   void sum_up(Track& track) const;
@@ -134,12 +129,13 @@ class Search {
   bool is_hopeless(const Track& track) const;
   bool is_rival(const Track& track) const;
   bool may_work();
+  bool may_work_up_to(double share);
   bool explores_next() const { return next_ < tracks_.size() && next_ < kExplored; }
   bool is_distinct(const Track& track) const;
   bool stands_alone() const;
-  void inherit(const Track& other, Track& track) const;
+  void inherit(const Track& other, Track& twin) const;
   void prune();
-  Pose carry(const Track& track, std::size_t from, std::size_t to, const Twist& rates) const;
+  Pose carried(const Track& track) const;
   Twist rates_of(const Track& track, std::size_t scan) const;
   bool describe_covariance(const Track& best);
   void describe_candidates();
@@ -149,13 +145,13 @@ class Search {
   SearchLimits limits_;
   Stage stage_ = Stage::kIdle;
   std::size_t scans_ = 0;
+  bool suspects_ = false;
+  Pose suspect_;                   // T_target_sensor
   std::size_t next_ = 0;           // of the stage's items
-  std::size_t first_ = 0;          // track of the last scan's own finalists, or of the twins
-  bool twins_ = false;             // are there
+  bool twins_ = false;             // are there: of the first scan's best pose
   bool mirrored_ = false;          // those of the best pose as it stands have been looked for
   bool working_ = false;           // on the next track
   bool unfinished_ = false;        // something that was worth it was not worked on
-  std::uint32_t scan_work_ = 0;    // on the last scan
   std::uint32_t adding_work_ = 0;  // of adding it, until a slice has paid for it
   EvidenceMaker maker_;
   CoarseSearch coarse_;

@@ -28,9 +28,9 @@ constexpr std::size_t kRayWeighed = 1100;   // of a point, as the pose stands
 constexpr std::size_t kOpening = 200;       // of a point, when a registration begins
 constexpr std::size_t kPass = 550;          // of a point in a registration, each time
 constexpr std::size_t kSolution = 6000;     // of any pass
-constexpr std::size_t kFitHit = 2200;       // a return measured
+constexpr std::size_t kFitHit = 2800;       // a return measured
 constexpr std::size_t kFitMiss = 1400;      // a miss measured
-constexpr std::size_t kRegion = 10000;      // of the evidence, besides its returns
+constexpr std::size_t kRegion = 5500;       // of the evidence, besides its returns
 constexpr std::size_t kLine = 40000;        // to explore
 constexpr std::size_t kEnding = 10500;      // of a stage: tracks put in order
 }  // namespace cost

@@ -36,7 +36,7 @@ Standing weigh_regions(const Mission& mission, const Pose& T_target_sensor, cons
     wanted[region] = true;
     put_regions(evidence, wanted, workspace);
     const auto returns = static_cast<double>(workspace.points.size());
-    const double whole = clamp(mean_cost(weigh_hits(mission, T_target_sensor, workspace)), 0, kUnexplainedCost);
+    const double whole = clamp(cost_of_hits(mission, T_target_sensor, workspace), 0, kUnexplainedCost);
     const double each = clamp(whole, 0, kLostCost);
     whole_cost += returns * whole;
     cost += returns * each;

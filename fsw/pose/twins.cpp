@@ -9,11 +9,12 @@ using N = FlightNumber;
 
 // Of the pose that was settled first: they are sketched and settled, too.
 void Search::add_twins(const Mission& mission) {
-  first_ = tracks_.size();
+  if (mission.search.symmetries.empty()) return;
+  next_ = tracks_.size();
+  stage_ = Stage::kSketch;
   const Pose best = tracks_[0].T_target_sensor[last()];
   for (const NearSymmetry<N>& symmetry : mission.search.symmetries) add_track(twin_of(symmetry, best), Fit());
   twins_ = true;
-  next_ = first_;
 }
 
 // Does it fit better than all that stand where it does?
@@ -27,30 +28,51 @@ bool Search::is_new(const Pose& T_target_sensor, const Fit& fit) const {
 }
 
 // Of the best pose as it stands: it was explored and swayed since, and its twins may have ended elsewhere. They are measured where they
-// are; one that is a rival there, and better than what was found near it, is carried on with: recalled, and swayed if among the best.
+// are; one that is a rival there, and better than what was found near it, is carried on with: swayed if among the best.
 std::uint32_t Search::mirror_next(const Mission& mission, Workspace& workspace) {
-  if (next_ == mission.search.symmetries.size()) return end_mirroring();
+  if (next_ == mission.search.symmetries.size() || !may_work_up_to(1)) return end_mirroring();
   const Track& best = tracks_[0];
-  Track twin;
-  twin.T_target_sensor[last()] = twin_of(mission.search.symmetries[next_++], best.T_target_sensor[last()]);
-  const Fit fit = measure_fit(mission, twin.T_target_sensor[last()], evidence_[last()], hopeless_beyond(best.fits[last()].score()));
+  const NearSymmetry<N>& symmetry = mission.search.symmetries[next_++];
+  const Pose T_target_sensor = twin_of(symmetry, best.T_target_sensor[last()]);
+  const Fit fit = measure_fit(mission, T_target_sensor, evidence_[last()], hopeless_beyond(best.fits[last()].score()));
   const bool near = is_near(ratio_of(fit.score(), best.fits[last()].score()), best.cost, limits_.ratio_min);
-  if (!near || !is_new(twin.T_target_sensor[last()], fit)) return fit_work(fit);
+  if (!near || !is_new(T_target_sensor, fit)) return fit_work(fit);
+  Track twin;
   put_points(evidence_[last()], kEvidenceHits, workspace);
-  const Settled settled{weigh_hits(mission, twin.T_target_sensor[last()], workspace), fit};
-  take(settled, last(), twin);
+  take({weigh_hits(mission, T_target_sensor, workspace), fit}, twin);
+  const std::uint32_t work = fit_work(fit) + weigh_work(workspace.points.size()) + mirror_before(mission, symmetry, twin);
+  invariant(tracks_.push_back(twin), "room for a twin");
+  return work;
+}
+
+// In the scans before, too: as it is there, or as what stands near it was settled, whichever fits better.
+std::uint32_t Search::mirror_before(const Mission& mission, const NearSymmetry<N>& symmetry, Track& twin) const {
+  std::uint32_t work = 0;
+  for (std::size_t scan = 0; scan < last(); ++scan) {
+    twin.T_target_sensor[scan] = twin_of(symmetry, tracks_[0].T_target_sensor[scan]);
+    twin.fits[scan] = measure_fit(mission, twin.T_target_sensor[scan], evidence_[scan], kAnyScore);
+    work += fit_work(twin.fits[scan]);
+  }
   for (const Track& track : tracks_) {
     if (!are_apart(track.T_target_sensor[last()].q, twin.T_target_sensor[last()].q, kCosHalfSame)) inherit(track, twin);
   }
-  invariant(tracks_.push_back(twin), "room for a twin");
-  return fit_work(fit) + weigh_work(workspace.points.size());
+  sum_up(twin);
+  return work;
+}
+
+void Search::inherit(const Track& other, Track& twin) const {
+  for (std::size_t scan = 0; scan < last(); ++scan) {
+    if (!(other.fits[scan].score() < twin.fits[scan].score())) continue;
+    twin.T_target_sensor[scan] = other.T_target_sensor[scan];
+    twin.fits[scan] = other.fits[scan];
+  }
 }
 
 std::uint32_t Search::end_mirroring() {
   mirrored_ = true;
   next_ = 0;
   prune();
-  stage_ = Stage::kRecall;
+  stage_ = Stage::kSway;
   return kEndingWork;
 }
 

@@ -11,8 +11,9 @@ constexpr double kAlone = 1.5;  // times the ratio asked for: the score alone te
 constexpr double kAloneInDoubt = 3;
 constexpr double kSureRatio = 1.15;  // of a pose to an accepted one: what explains the scan as well is no worse for not having been found
 constexpr double kAgrees = 1.2;      // ratio of costs that are not alike
-constexpr double kFair = 1.5;        // cost of what is explained, where something else is not
-constexpr double kEven = 0.02;       // disagreement below which nothing is off but by the noise, or by the target's motion
+constexpr double kJoinedAgrees = 1.05;  // the same, where the scores of several scans tell
+constexpr double kFair = 1.5;           // cost of what is explained, where something else is not
+constexpr double kEven = 0.02;          // disagreement below which nothing is off but by the noise, or by the target's motion
 
 // A part of the target may be off, but what looks a little like the target is something else.
 bool seems_else(const Rival& rival) {
@@ -40,7 +41,8 @@ bool is_left_behind(const Rival& rival, double ratio_min) {
   if (seems_else(rival)) return false;
   if (!rival.weighed) return by_score;
   if (!by_score) return rival.cost > ratio_min * rival.best_cost;
-  return rival.cost > kCleanCost && rival.cost > kAgrees * rival.best_cost;
+  const bool joined = rival.scans > 1 && rival.score_ratio >= kAlone * ratio_min;
+  return rival.cost > kCleanCost && rival.cost > (joined ? kJoinedAgrees : kAgrees) * rival.best_cost;
 }
 
 // Another pose whose score alone does not leave it behind. Both are swayed, and what they cost is compared. Poses are moved by that; the
@@ -64,7 +66,7 @@ std::uint32_t Search::sway_next(const Mission& mission, Workspace& workspace) {
     if (!working_ && (track.swayed || (next_ > 0 && !is_rival(track)) || !may_work())) continue;
     if (!working_) sway_.begin(track.T_target_sensor[last()], track.H, care_of(next_));
     std::uint32_t work = 0;
-    working_ = sway_.step(mission, evidence_[last()], workspace, work);
+    working_ = sway_.step(mission, evidence_[last()], workspace, work) && may_work_up_to(1);
     track.swayed = true;
     if (!working_) work += take_swayed(mission, track);
     return work;
@@ -147,7 +149,8 @@ bool Search::stands_alone() const {
                       even ? track.whole_cost : track.cost,
                       even ? best.whole_cost : best.cost,
                       best.explained_cost,
-                      disagreement};
+                      disagreement,
+                      scans_};
     alone = alone && is_left_behind(rival, limits_.ratio_min);
   }
   return alone;

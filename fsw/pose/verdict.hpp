@@ -1,6 +1,8 @@
 // Whether a search's best pose leaves another one behind.
 #pragma once
 
+#include <cstddef>
+
 namespace lasso {
 
 // A pose more than 15 deg from the best one.
@@ -11,6 +13,7 @@ struct Rival {
   double best_cost = 0;    // of the best pose's
   double best_explained_cost = 0;
   double best_disagreement = 0;
+  std::size_t scans = 1;  // that the scores are of; costs are the last one's
 };
 
 // Scores are compared by this, of which 1 is alike.
@@ -21,7 +24,7 @@ bool is_near(double score_ratio, double best_cost, double ratio_min);
 
 // By its score, and not against what the returns' noise says; or by that alone, which tells near-symmetric poses apart that look alike
 // within the score's tolerance. Never where the best pose leaves returns unexplained and does not explain the others as the noise allows,
-// unless its score is far ahead.
+// unless its score is far ahead. Where the scores of several scans agree that it is behind, costs have to agree less clearly.
 bool is_left_behind(const Rival& rival, double ratio_min);
 
 }  // namespace lasso

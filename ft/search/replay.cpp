@@ -1,10 +1,10 @@
 // search_replay IMAGE SCANS EACH [NUMBER...]: searches recorded scans (ft/search/recording.hpp), EACH of them in a row showing one target,
 // or the targets of these numbers in ascending order, from 0. A scan is worked on step by step in slices of frame_work units, the
-// first one with its adding, as the component does; one that is not accepted is joined by the next. On the emulated 603e an instruction
-// counter (ft/ppc603e) counts each step. Exit codes: 0 done, 2 usage or unreadable files.
+// first one with its adding, as the component does; one that is not accepted is joined by the next, or a new search begins there. On the
+// emulated 603e an instruction counter (ft/ppc603e) counts each step. Exit codes: 0 done, 2 usage or unreadable files.
 //
-// Says "step STAGE UNITS" of each pass that is counted, "slice" after the steps of a slice, "scan RESULT" after those of a scan, and
-// "search" after the scans of a target.
+// Says "step STAGE UNITS" of each pass that is counted, "slice" after the steps of a slice, "scan RESULT" after those of a scan,
+// "search" after the scans of a search, and "target" after the searches of a target.
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
@@ -42,8 +42,8 @@ bool read_scan(ByteReader& in, RangeImage& scan) {
 }
 
 // By Search::Stage.
-constexpr const char* kStages[] = {"none",   "evidence", "coarse", "pull", "draw",   "sketch",
-                                   "settle", "explore",  "recall", "sway", "mirror", "verdict"};
+constexpr const char* kStages[] = {"none",   "evidence", "coarse", "pull",   "draw",   "sketch",
+                                   "settle", "explore",  "sway",   "mirror", "verdict"};
 
 // The work of one counted pass.
 template <class Act>
@@ -76,6 +76,15 @@ void search_scan(const Mission& mission, const RangeImage& scan, Search& search,
   tell(search.result());
 }
 
+// The scan joins the search, or begins another one.
+void join(const Mission& mission, const RangeImage& scan, Search& search, Workspace& workspace) {
+  if (!search.joins()) {
+    std::printf("search\n");
+    search.begin(SearchLimits());
+  }
+  search_scan(mission, scan, search, workspace);
+}
+
 // The targets that are asked for: all, or those of the numbers, ascending.
 class Choice {
  public:
@@ -104,12 +113,12 @@ int replay(const char* image_name, const char* scans_name, unsigned long each, C
   ByteReader in(scans.bytes());
   for (unsigned long number = 0; in.remaining() > 0; ++number) {
     const bool wanted = choice.has(number);
-    if (wanted) search->begin(SearchLimits());
+    search->begin(SearchLimits());
     for (unsigned long k = 0; k < each; ++k) {
       if (!read_scan(in, *scan)) return fail("the scans end early");
-      if (wanted && search->result().outcome != SearchOutcome::kAccepted) search_scan(*mission, *scan, *search, *workspace);
+      if (wanted && search->result().outcome != SearchOutcome::kAccepted) join(*mission, *scan, *search, *workspace);
     }
-    if (wanted) std::printf("search\n");
+    if (wanted) std::printf("search\ntarget\n");
   }
   return 0;
 }

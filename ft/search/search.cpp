@@ -60,7 +60,8 @@ struct Tally {
   int right_first = 0, right = 0, near = 0, wrong = 0, ambiguous = 0, rejected = 0, both = 0, tracked = 0;
   double worst_rad = 0, worst_m = 0, sum_rad = 0;
   std::vector<double> times_ms;
-  double work = 0;
+  double work = 0;              // of the first scans
+  std::uint32_t most_work = 0;  // of a search, all its scans
   std::uint32_t slices = 0;
 };
 
@@ -166,12 +167,14 @@ class Campaign {
     double time_us = 0;
     for (std::uint32_t k = 0; k < scans_; ++k) {
       scan(k);
+      if (!search_->joins()) search_->begin(limits);
       const double begin_us = mdat::thread_cpu_us();
       if (search_->add_scan(image_.mission(), *image_scan_, *workspace_) != Status::kOk) break;
       do ++tally_.slices;
       while (!search_->advance(image_.mission(), *workspace_, kSlice));
       time_us = mdat::thread_cpu_us() - begin_us;
       if (k == 0) tally_.work += search_->result().work;
+      tally_.most_work = std::max(tally_.most_work, search_->result().work);
       tally_.times_ms.push_back(1e-3 * time_us);
       const bool accepted = search_->result().outcome == SearchOutcome::kAccepted;
       if (k == 0 && accepted && is_right()) ++tally_.right_first;
@@ -248,15 +251,17 @@ double quantile(std::vector<double> values, double share) {
 }
 
 void print_head() {
-  std::printf("%-9s %6s %9s %6s %7s %5s %6s %9s %5s %8s %6s %8s %8s %8s %7s %8s %7s\n", "case", "starts", "one scan", "right", "tracked",
-              "near", "wrong", "ambiguous", "both", "rejected", "deg", "mean deg", "worst mm", "ms", "max ms", "work", "slices");
+  std::printf("%-9s %6s %9s %6s %7s %5s %6s %9s %5s %8s %6s %8s %8s %8s %7s %8s %8s %7s\n", "case", "starts", "one scan", "right",
+              "tracked", "near", "wrong", "ambiguous", "both", "rejected", "deg", "mean deg", "worst mm", "ms", "max ms", "work", "most",
+              "slices");
 }
 
 void print_row(const Case& c, int starts, const Tally& t) {
-  std::printf("%-9s %6d %9d %6d %7d %5d %6d %9d %5d %8d %6.2f %8.3f %8.1f %8.0f %7.0f %7.2fM %7.1f\n", c.name.c_str(), starts,
+  std::printf("%-9s %6d %9d %6d %7d %5d %6d %9d %5d %8d %6.2f %8.3f %8.1f %8.0f %7.0f %7.2fM %7.2fM %7.1f\n", c.name.c_str(), starts,
               t.right_first, t.right, t.tracked, t.near, t.wrong, t.ambiguous, t.both, t.rejected, t.worst_rad / kRadPerDeg,
               t.sum_rad / std::max(t.right, 1) / kRadPerDeg, 1e3 * t.worst_m, quantile(t.times_ms, 0.5), quantile(t.times_ms, 1),
-              1e-6 * t.work / starts, static_cast<double>(t.slices) / static_cast<double>(std::max<std::size_t>(t.times_ms.size(), 1)));
+              1e-6 * t.work / starts, 1e-6 * t.most_work,
+              static_cast<double>(t.slices) / static_cast<double>(std::max<std::size_t>(t.times_ms.size(), 1)));
 }
 
 int run(int argc, char** argv) {

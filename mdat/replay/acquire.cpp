@@ -16,7 +16,9 @@ constexpr std::uint32_t kSlice = 100'000;  // units of work; the result does not
 AcquiredScan acquire_scan(const Mission& mission, const RangeImage& image, Search& search, Workspace& workspace) {
   AcquiredScan acquired;
   const double begin_us = thread_cpu_us();
-  search.begin(SearchLimits());
+  SearchLimits limits;
+  limits.scans_max = 1;
+  search.begin(limits);
   acquired.status = search.add_scan(mission, image, workspace);
   while (!search.advance(mission, workspace, kSlice)) {
   }

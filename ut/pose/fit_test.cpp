@@ -69,6 +69,10 @@ TEST_F(FitTest, EndsOnceTheScoreExceedsTheLimit) {
   EXPECT_GT(part.score(), 0.2);
   EXPECT_LE(part.score(), whole.score());
   EXPECT_EQ(measure_fit(mission_, inverse(moved), *evidence, whole.score()).score(), whole.score());
+  const Fit left = measure_fit(mission_, inverse(moved), *evidence, 0.2, 16);  // ahead of its share
+  EXPECT_GT(left.score(), 0.2);
+  EXPECT_LT(left.walks, part.walks);
+  EXPECT_NEAR(left.score(), whole.score(), 0.5 * whole.score()) << "as if the others were like those";
   // Hits that all agree, and misses that do not.
   const Fit right = measure_fit(mission_, truth(), *evidence);
   evidence->misses.clear();

@@ -91,7 +91,7 @@ TEST(SearchWork, OfAFitIsThatOfTheRaysThatWereLookedAt) {
 }
 
 // Whatever the work may be, it is not exceeded by more than what is always done, and no pose is accepted that more work would not accept.
-TEST_F(SearchTest, WhatTheWorkDoesNotAllowIsLeftOpenAndAnswersToTheNextScan) {
+TEST_F(SearchTest, WhatTheWorkDoesNotAllowIsLeftOpen) {
   VERIFIES("LASSO-MOD-117~1 LASSO-MOD-120~1");
   scan_.T_sensor_target = test::random_box_pose(random_);
   const auto image = scan_at(0);
@@ -120,14 +120,84 @@ TEST_F(SearchTest, WhatTheWorkDoesNotAllowIsLeftOpenAndAnswersToTheNextScan) {
     EXPECT_TRUE(is_right(some.T_sensor_target)) << work_max;
   }
   EXPECT_GT(unfinished, 0);
-  search_within(least.work);  // and the next scan begins with as much again
+}
+
+// A first scan leaves a fifth of the work to those that may join it; where less than 15 % are left, none does.
+TEST_F(SearchTest, IsJoinedByFurtherScansWhileWorkIsLeft) {
+  VERIFIES("LASSO-MOD-117~1 LASSO-MOD-186~1");
+  limits_.ratio_min = 1e9;  // never enough
+  search_->begin(limits_);
+  EXPECT_TRUE(search_->joins());
+  ASSERT_EQ(search(0), Status::kOk);
+  const std::uint32_t first = result().work;
+  EXPECT_TRUE(search_->joins());
+  ASSERT_EQ(search(2), Status::kOk);
+  const std::uint32_t second = result().work - first;
+  EXPECT_LT(second, first) << "nothing but what is carried is looked for";
+  limits_.work_max = first + second / 2;
+  search_->begin(limits_);
+  int scans = 0;
+  for (; search_->joins(); ++scans) ASSERT_EQ(search(2 * scans), Status::kOk);
+  EXPECT_EQ(result().outcome, SearchOutcome::kAmbiguous);
+  EXPECT_LT(scans, 3);
+  EXPECT_GE(result().work, 0.85 * limits_.work_max);
+  EXPECT_LT(result().work, limits_.work_max + second);
+  EXPECT_EQ(search(10), Status::kBadOrder);
+}
+
+TEST_F(SearchTest, OfASingleScanHasAllTheWork) {
+  VERIFIES("LASSO-MOD-117~1 LASSO-MOD-186~1");
+  scan_.T_sensor_target = test::random_box_pose(random_);
+  const test::Generator random = random_;
+  search_->begin(limits_);
+  ASSERT_EQ(search(), Status::kOk);
+  ASSERT_EQ(result().outcome, SearchOutcome::kAccepted);
+  limits_.work_max = result().work;
+  for (const std::uint32_t scans_max : {1u, 2u}) {
+    random_ = random;
+    limits_.scans_max = scans_max;
+    search_->begin(limits_);
+    ASSERT_EQ(search(), Status::kOk);
+    EXPECT_EQ(result().outcome == SearchOutcome::kAccepted, scans_max == 1) << scans_max;
+  }
+}
+
+TEST_F(SearchTest, IsNotJoinedWhereItIsRejected) {
+  VERIFIES("LASSO-MOD-186~1");
+  look_from_few_sides();
+  limits_.hits_min = 1e6;
+  search_->begin(limits_);
+  ASSERT_EQ(search(0), Status::kOk);
+  ASSERT_EQ(result().outcome, SearchOutcome::kRejected);
+  EXPECT_FALSE(search_->joins());
+  EXPECT_EQ(search(2), Status::kBadOrder);
+  EXPECT_EQ(result().scans, 1u) << "as it was";
+  search_->begin(limits_);
   EXPECT_EQ(search(2), Status::kOk);
-  EXPECT_EQ(result().scans, 2u);
-  EXPECT_NE(result().reason, SearchReason::kNotDone);
-  search_within(0);  // with none its poses are not recalled in the scan before
-  EXPECT_EQ(search(2), Status::kOk);
-  EXPECT_EQ(result().scans, 2u);
-  EXPECT_NE(result().outcome, SearchOutcome::kAccepted);
+}
+
+// Its only view is that of another side.
+TEST_F(SearchTest, LooksAtTheQuarterTurnsOfAPoseThatItSuspects) {
+  VERIFIES("LASSO-MOD-187~1");
+  look_from_few_sides();
+  std::unique_ptr<RangeImage> image;
+  const auto finds = [&](const Pose* suspect) {
+    search_->begin(limits_);
+    if (suspect != nullptr) search_->suspect(*suspect);
+    EXPECT_EQ(search_->add_scan(mission_, *image, *workspace_), Status::kOk);
+    work();
+    return is_right(result().T_sensor_target);
+  };
+  for (bool found = true; found;) {
+    scan_.T_sensor_target = test::random_box_pose(random_);
+    image = scan_at(0);
+    found = finds(nullptr);
+  }
+  for (const std::size_t turn : {0u, 7u, 18u}) {
+    const Pose suspect = inverse(quarter_turned(inverse(scan_.T_sensor_target), turn, mission_.center_m));
+    EXPECT_TRUE(finds(&suspect)) << turn;
+  }
+  EXPECT_FALSE(finds(nullptr)) << "forgotten";
 }
 
 TEST_F(SearchTest, RefusesScansOutOfOrder) {

@@ -67,6 +67,7 @@ class StrangersTest : public test::WholeSearch {
     return count;
   }
   bool accepts(const RangeImage& image) {
+    if (!search_->joins()) search_->begin(limits_);
     EXPECT_EQ(search_->add_scan(mission_, image, *workspace_), Status::kOk);
     work();
     EXPECT_NE(result().outcome, SearchOutcome::kNone);
