@@ -89,7 +89,7 @@ const ParameterRow kRows[] = {
   {"search.disagreement_max", "1", kReal, &P::search_disagreement_max, 1, 0, 1, 0.20, "", "largest share of what was looked at that an accepted pose does not explain"},
   {"search.ratio_min", "1", kReal, &P::search_ratio_min, 1, 1, 100, 1.3, "", "least score of the best competitor over that of an accepted pose; less is ambiguous"},
   {"search.scans_max", "1", kInteger, &P::search_scans_max, 1, 1, 3, 3, "", "scans that one search joins before it begins anew"},
-  {"search.work_max", "1", kInteger, &P::search_work_max, 1, 100000, 100000000, 2450000, "", "work of a search on all its scans, in units of some 75 instructions of a 603e; most searches take 1.2 million; what they leave open is ambiguous"},
+  {"search.work_max", "1", kInteger, &P::search_work_max, 1, 1500000, 100000000, 2500000, "", "work of a search on all its scans, in units of some 75 instructions of a 603e; most searches take 1.2 million; what they leave open is ambiguous"},
   {"search.slice", "1", kInteger, &P::search_slice, 1, 1000, 10000000, 160000, "", "work of one frame, in units of some 75 instructions of a 603e; with its last step at most 17 million of these; in fixed point a share of it"},
   {"search.frames", "1", kInteger, &P::search_frames, 1, 1, 10000, 200, "", "frames in which a pose has to be recognised"},
   {"short_range.enter_m", "m", kReal, &P::short_range_enter_m, 1, 0, 10000, 0, "", "a tracked target whose origin is this near is scanned part by part; 0: never"},

@@ -105,6 +105,11 @@ bool Searcher::takes_check(const Mission& mission, const RangeImage* scan, Works
   return search_.add_scan(mission, *scan, workspace) == Status::kOk;
 }
 
+CheckVerdict Searcher::verdict_on(const Mission& mission, const Pose& T_sensor_target, Workspace& workspace) const {
+  if (search_.contradicts(mission, T_sensor_target, workspace)) return CheckVerdict::kContradicted;
+  return search_.agrees(T_sensor_target) ? CheckVerdict::kSure : CheckVerdict::kUndecided;
+}
+
 void Searcher::check(const Mission& mission, const RangeImage* scan, Workspace& workspace, TrackStep& step) {
   const MissionParameters& p = mission.parameters;
   StartCheck& check = step.after.check;
@@ -115,9 +120,7 @@ void Searcher::check(const Mission& mission, const RangeImage* scan, Workspace& 
   }
   if (!search_.advance(mission, workspace, frame_work(p) / kCheckPart)) return;
   step.search = search_.result();
-  const bool sure = step.search.outcome == SearchOutcome::kAccepted;
-  const bool contradicted = search_.contradicts(mission, check.T_sensor_target, workspace);
-  end_check(p, contradicted ? CheckVerdict::kContradicted : sure ? CheckVerdict::kSure : CheckVerdict::kUndecided, step);
+  end_check(p, verdict_on(mission, check.T_sensor_target, workspace), step);
 }
 
 }  // namespace lasso

@@ -33,6 +33,7 @@ class Searcher {
 
  private:
   bool takes_check(const Mission& mission, const RangeImage* scan, Workspace& workspace, const TrackState& state);
+  CheckVerdict verdict_on(const Mission& mission, const Pose& T_sensor_target, Workspace& workspace) const;
   void begin(const MissionParameters& parameters, std::uint32_t number, bool checks);
   void receive(const Mission& mission, const RangeImage& scan, Workspace& workspace);
   void keep(const RangeImage& scan);

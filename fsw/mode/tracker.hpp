@@ -22,12 +22,12 @@
 namespace lasso {
 
 // Of a start that a scan has confirmed (start.check): is there another pose, that explains this scan better? The track is followed
-// meanwhile. Where the search of the first scan finds no other pose, but does not accept any, a second scan is searched: kAgain, until
-// there is one. kPassed: there is no other pose, and the next valid one is believed.
+// meanwhile. Where the search of the first scan contradicts nothing, but does not accept the start's pose either, a second scan is
+// searched: kAgain, until there is one. kPassed: there is no other pose, and the next valid one is believed.
 struct StartCheck {
   enum class Stage : std::uint8_t { kNone, kSearching, kAgain, kPassed };
   Stage stage = Stage::kNone;
-  bool undecided = false;  // the first search found no other pose, and accepted none
+  bool undecided = false;  // the first search
   TimeUs t_us = 0;         // of the scan
   Pose T_sensor_target;    // in it
 };

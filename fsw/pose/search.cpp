@@ -11,9 +11,8 @@ namespace {
 
 using N = FlightNumber;
 
-constexpr double kFirstShare = 0.8;  // of the work, for a scan that others may join: a later one takes some 0.6 million units
-constexpr double kJoinShare = 0.85;  // beyond it a further scan is not worth adding
-constexpr std::size_t kPullPoints = 128;
+constexpr double kFirstShare = 0.8;             // of the work, for a scan that others may join: a later one takes some 0.6 million units
+constexpr double kJoinShare = 0.85;             // beyond it a further scan is not worth adding
 constexpr int kExploreSteps = 12;               // each way, even
 constexpr int kExploreEnd = kExploreSteps + 4;  // with the places beside the best
 constexpr std::size_t kLineHeadStart = 96;
@@ -44,14 +43,15 @@ void Search::begin(const SearchLimits& limits) {
 }
 
 void Search::suspect(const Pose& T_sensor_target) {
+  invariant(scans_ == 0, "before the first scan");
   suspects_ = true;
   suspect_ = inverse(T_sensor_target);
 }
 
 bool Search::joins() const {
   const bool room = scans_ < kMaxSearchScans && scans_ < limits_.scans_max;
-  const bool open = scans_ == 0 || (result_.outcome != SearchOutcome::kRejected && result_.work < kJoinShare * limits_.work_max);
-  return room && open;
+  const bool undecided = result_.outcome == SearchOutcome::kAmbiguous && result_.work < kJoinShare * limits_.work_max;
+  return room && (scans_ == 0 || result_.outcome == SearchOutcome::kAccepted || undecided);
 }
 
 Status Search::add_scan(const Mission& mission, const RangeImage& scan, Workspace& workspace) {
@@ -85,11 +85,12 @@ bool Search::advance(const Mission& mission, Workspace& workspace, std::uint32_t
   return !busy();
 }
 
-// To the next scan: the best pose and what it does not leave behind by its score alone, as if nothing were known of them there.
+// To the next scan: the best pose and what it does not leave behind by its score alone, all where not all was worked on; as if nothing
+// were known of them there.
 void Search::carry_over() {
   std::size_t carried = 0;
   for (Track& track : tracks_) {
-    if (!is_near(ratio_of(track.total.score(), tracks_[0].total.score()), 0, limits_.ratio_min)) break;
+    if (!unfinished_ && !is_near(ratio_of(track.total.score(), tracks_[0].total.score()), 0, limits_.ratio_min)) break;
     track.sketched = track.settled = track.swayed = false;
     track.cost = track.whole_cost = track.explained_cost = kAnyScore;
     ++carried;
@@ -169,7 +170,7 @@ std::uint32_t Search::pull_next(const Mission& mission, Workspace& workspace) {
 
 std::uint32_t Search::draw_next(const Mission& mission, Workspace& workspace) {
   const Evidence& evidence = evidence_[last()];
-  put_points(evidence, kPullPoints, workspace);
+  put_points(evidence, kSketchPoints, workspace);
   Drawn& drawn = drawn_[next_];
   drawn.T_target_sensor = pull_on_rays(mission, drawn.T_target_sensor, workspace);
   drawn.fit = measure_fit(mission, drawn.T_target_sensor, evidence, hopeless_beyond(drawn_.best_score(next_)));
@@ -243,7 +244,7 @@ std::uint32_t Search::sketch_next(const Mission& mission, Workspace& workspace) 
   const bool drawn = scans_ == 1 && !twins_;
   const double limit = hopeless_beyond(best_score());
   std::uint32_t work = 0;
-  put_points(evidence, kPullPoints, workspace);
+  put_points(evidence, kSketchPoints, workspace);
   if (working_) {
     const Pose start = pull_in(mission, track.start, workspace);
     const Settled settled = sketch(mission, evidence, {start, track.fits[last()]}, limit, workspace, work);

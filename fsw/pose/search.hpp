@@ -23,16 +23,20 @@
 namespace lasso {
 
 constexpr std::size_t kMaxSearchScans = 3;
-// At estimation.iterations_max 12: a registration on all evidence, which is then weighed by regions, and its fit measured.
-constexpr std::uint32_t kLargestStep =
+// At estimation.iterations_max 12: a registration on all evidence, which is then weighed by regions, and its fit measured; or a track that
+// is pulled from farther, sketched and measured, and weighed as it was drawn.
+constexpr std::uint32_t kLargestSway =
     look_work(kEvidenceHits, 14) + regions_work(kEvidenceHits, kRegions) + fit_work(kEvidenceHits, kEvidenceMisses);
+constexpr std::uint32_t kLargestSketch = pull_work(kSketchPoints) + draw_work(kSketchPoints) + look_work(kSketchPoints, 14) +
+                                         fit_work(kEvidenceHits, kEvidenceMisses) + weigh_work(kSketchPoints);
+constexpr std::uint32_t kLargestStep = kLargestSway > kLargestSketch ? kLargestSway : kLargestSketch;
 
 struct SearchLimits {
   double hits_min = 80;  // returns looked at
   double disagreement_max = 0.20;
   double ratio_min = 1.3;  // score of the best distinct competitor over that of the pose; or what the returns make of both by their noise
   std::uint32_t scans_max = kMaxSearchScans;
-  std::uint32_t work_max = 2'450'000;  // units of work on all scans; what they leave open makes the result ambiguous
+  std::uint32_t work_max = 2'500'000;  // units of work on all scans; what they leave open makes the result ambiguous
 };
 
 class Search {
@@ -45,7 +49,7 @@ class Search {
   void suspect(const Pose& T_sensor_target);
 
   // May a further scan join those so far, once result() stands? Not beyond limits.scans_max, after a rejection (nothing is worth carrying
-  // on with), or where too little of the work is left. What begins anew then is another search.
+  // on with), or where it is ambiguous and too little of the work is left. What begins anew then is another search.
   bool joins() const;
 
   // Takes what it needs of the scan. kBusy while the last one is being worked on; kBadOrder where it does not join(), or is not later than
@@ -58,8 +62,11 @@ class Search {
 
   // Does the best pose, of a search that is done, explain the last scan better than this one, T_sensor_target at the scan's time, as the
   // same returns register it (one look, unless that leads more than 5 deg away)? By limits.ratio_min where they are more than 5 deg apart,
-  // by 1.15 where it is accepted and they are more than 15 deg apart.
+  // at all where it is accepted and they are more than 15 deg apart: the search is to suspect() the pose, so that it was a candidate.
   bool contradicts(const Mission& mission, const Pose& T_sensor_target, Workspace& workspace) const;
+
+  // Has a search that is done accepted this pose, T_sensor_target at the scan's time, to within 5 deg?
+  bool agrees(const Pose& T_sensor_target) const;
 
   bool busy() const { return stage_ != Stage::kIdle; }
   Stage stage() const { return stage_; }  // of the next step

@@ -5,7 +5,6 @@
 namespace lasso {
 namespace {
 
-constexpr std::size_t kSketchPoints = 128;
 constexpr double kSettled = 0.02;  // disagreement below which nothing better is looked for
 
 Settled measured(const Mission& mission, const Evidence& evidence, const HitSolution& solution, double limit, std::size_t points,

@@ -6,6 +6,8 @@
 
 namespace lasso {
 
+constexpr std::size_t kSketchPoints = 128;  // of the evidence
+
 struct Settled {
   HitSolution solution;
   Fit fit;

@@ -9,8 +9,7 @@ namespace {
 constexpr double kRatioFloor = 0.01;
 constexpr double kAlone = 1.5;  // times the ratio asked for: the score alone tells
 constexpr double kAloneInDoubt = 3;
-constexpr double kSureRatio = 1.15;  // of a pose to an accepted one: what explains the scan as well is no worse for not having been found
-constexpr double kAgrees = 1.2;      // ratio of costs that are not alike
+constexpr double kAgrees = 1.2;         // ratio of costs that are not alike
 constexpr double kJoinedAgrees = 1.05;  // the same, where the scores of several scans tell
 constexpr double kFair = 1.5;           // cost of what is explained, where something else is not
 constexpr double kEven = 0.02;          // disagreement below which nothing is off but by the noise, or by the target's motion
@@ -164,7 +163,13 @@ bool Search::contradicts(const Mission& mission, const Pose& T_sensor_target, Wo
   if (!are_apart(T_target_sensor.q, found, kCosHalfSame)) return false;
   const Fit fit = measure_fit(mission, registered(mission, evidence_[last()], T_target_sensor, workspace), evidence_[last()], kAnyScore);
   const bool sure = result_.outcome == SearchOutcome::kAccepted && are_apart(T_target_sensor.q, found, kCosHalfDistinct);
-  return ratio_of(fit.score(), best.fits[last()].score()) >= (sure ? kSureRatio : limits_.ratio_min);
+  const double ratio = ratio_of(fit.score(), best.fits[last()].score());
+  return sure ? ratio > 1 : ratio >= limits_.ratio_min;
+}
+
+bool Search::agrees(const Pose& T_sensor_target) const {
+  if (result_.outcome != SearchOutcome::kAccepted) return false;
+  return !are_apart(inverse(T_sensor_target).q, tracks_[0].T_target_sensor[last()].q, kCosHalfSame);
 }
 
 void Search::judge(bool registered) {

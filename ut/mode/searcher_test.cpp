@@ -218,6 +218,18 @@ TEST_F(SearcherTest, ANewSearchForgetsTheOneBefore) {
   EXPECT_LT(follow(2).search.work, 1000 + kLargestStep);
 }
 
+TEST_F(SearcherTest, AScanAfterARejectionBeginsAnotherSearch) {
+  VERIFIES("LASSO-MOD-186~1");
+  look_from_the_right_side();
+  parameters().search_hits_min = 1e5;
+  for (std::uint32_t k = 0; k < 3; ++k) {
+    const TrackStep step = follow(k);
+    EXPECT_EQ(step.search.outcome, SearchOutcome::kRejected);
+    EXPECT_EQ(step.search.scans, 1u) << k;
+    EXPECT_EQ(state_.mode, TrackingMode::kSearching);
+  }
+}
+
 class SymmetricSearcherTest : public SearcherTest {
  protected:
   SymmetricSearcherTest() : SearcherTest(test::default_scene(), box_image()) { look_from_few_sides(); }

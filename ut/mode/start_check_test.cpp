@@ -151,6 +151,43 @@ TEST_F(StartCheckTest, AStartIsBelievedWhoseCompetitorsExplainTheScanAsWell) {
   EXPECT_EQ(frame(4).after.mode, TrackingMode::kTracking);
 }
 
+TEST_F(StartCheckTest, TheSecondSearchHasTheLastWordWhereTheFirstIsUndecided) {
+  VERIFIES("LASSO-MOD-184~3");
+  mission_.parameters.search_slice = 1000;
+  start(small_error());
+  const TrackStep searching = frame(0);
+  ASSERT_EQ(searching.registration.reason, PoseReason::kUnchecked);
+  const auto second_word = [&](CheckVerdict verdict) {
+    TrackStep step = searching;
+    end_check(mission_.parameters, CheckVerdict::kUndecided, step);
+    EXPECT_EQ(step.after.check.stage, Stage::kAgain);
+    EXPECT_EQ(step.registration.reason, PoseReason::kUnchecked);
+    step.after.check.stage = Stage::kSearching;
+    end_check(mission_.parameters, verdict, step);
+    return step;
+  };
+  EXPECT_EQ(second_word(CheckVerdict::kSure).after.mode, TrackingMode::kTracking);
+  EXPECT_EQ(second_word(CheckVerdict::kUndecided).after.mode, TrackingMode::kTracking);
+  const TrackStep refused = second_word(CheckVerdict::kContradicted);
+  EXPECT_EQ(refused.refusal, StartRefusal::kContradicted);
+  EXPECT_NE(refused.after.mode, TrackingMode::kTracking);
+}
+
+TEST_F(StartCheckTest, AnImplausibleScanEndsACheckThatWaitsForItsSecondSearch) {
+  VERIFIES("LASSO-MOD-184~3 LASSO-MOD-009~1");
+  mission_.parameters.search_slice = 1000;
+  start(small_error());
+  std::uint32_t k = 0;
+  for (; k < 10; ++k) ASSERT_EQ(frame(k).registration.reason, PoseReason::kUnchecked) << k;
+  state_.check.stage = Stage::kAgain;
+  state_.check.undecided = true;
+  scene_.at_zero.p += Vec3(0.006, -0.004, 0.007);
+  const TrackStep jumped = frame(k);
+  EXPECT_EQ(jumped.registration.reason, PoseReason::kImplausible);
+  EXPECT_EQ(jumped.after.check.stage, Stage::kNone);
+  EXPECT_FALSE(jumped.after.check.undecided);
+}
+
 TEST_F(StartCheckTest, WhatWasSearchedOrIsFoundNearItsPredictionIsNotChecked) {
   VERIFIES("LASSO-MOD-184~3");
   start(small_error());

@@ -131,7 +131,11 @@ TEST_F(SearchTest, IsJoinedByFurtherScansWhileWorkIsLeft) {
   ASSERT_EQ(search(0), Status::kOk);
   const std::uint32_t first = result().work;
   EXPECT_TRUE(search_->joins());
-  ASSERT_EQ(search(2), Status::kOk);
+  ASSERT_EQ(search_->add_scan(mission_, *scan_at(2), *workspace_), Status::kOk);
+  while (search_->busy()) {
+    EXPECT_TRUE(search_->stage() == Search::Stage::kEvidence || search_->stage() > Search::Stage::kDraw);
+    search_->advance(mission_, *workspace_, 1);
+  }
   const std::uint32_t second = result().work - first;
   EXPECT_LT(second, first) << "nothing but what is carried is looked for";
   limits_.work_max = first + second / 2;
