@@ -38,7 +38,7 @@ void print_page(std::ostream& out) {
          "- **confirms**: a valid pose has to explain `start.inlier_share_min` of the returns and to agree with the prediction within "
          "`start.gate`,\n  and no near-symmetry of it may explain the scan better by `start.twin_margin`,\n  unless the pose explains 99 % "
          "of the returns; it starts the filter anew.\n"
-         "  Where `start.check` is set a start is `unchecked` until a search of its scan has found no better pose.\n"
+         "  Where `start.check` is set a start is `unchecked` until a search of its scan, and where that is not sure of another one, has found no better pose.\n"
          "- **takes up**: the shares of a valid pose have to exceed the limits of tracking by `tracking.hysteresis`.\n"
          "- **awaits a start**: the next untried pose to start from is taken, in the mission's order `start.first` to `start.fifth`. "
          "Search\n  has its turn in bearing, once the bearing is known.\n\n"
