@@ -92,8 +92,7 @@ Fit measure_fit(const Mission& mission, const Pose& T_target_sensor, const Evide
   Fit fit;
   fit.hits = static_cast<double>(evidence.hits.size());
   for (std::size_t i = 0; i < evidence.hits.size(); ++i, ++fit.walks) {
-    const double share = share_of_limit(i, evidence.hits.size(), head_start);
-    if (exceeds(fit, i, limit * share)) return share < 1 ? extrapolated(fit, i) : fit;
+    if (exceeds(fit, i, limit * share_of_limit(i, evidence.hits.size(), head_start))) return extrapolated(fit, i);
     add_hit(mission, pose, evidence.hits[i], evidence.reaches[i], fit);
   }
   std::uint32_t violated = 0;

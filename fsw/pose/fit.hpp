@@ -28,9 +28,10 @@ double hopeless_beyond(double score);
 // And this is not worth a second attempt.
 double poor_beyond(double score);
 
-// At most kEvidenceHits + kEvidenceMisses walks through the field. Where the score is sure to exceed `limit`, no more are looked at: it is
-// then less than it would be, and still more than that. With a head start of fewer than all returns it is left as soon as it exceeds the
-// limit's share of those looked at and so many more, as likely to, and scored as if the others were like them.
+// At most kEvidenceHits + kEvidenceMisses walks through the field. Where the score is sure to exceed `limit`, no more are looked at; with a
+// head start of fewer than all returns, as soon as it exceeds the limit's share of those looked at and so many more, as it is likely to.
+// What is left among its returns is scored as if the others were like those looked at, and among its misses as if the others were met by
+// nothing: beyond the limit, but not what all would say.
 Fit measure_fit(const Mission& mission, const Pose& T_target_sensor, const Evidence& evidence, double limit = kAnyScore,
                 std::size_t head_start = kEvidenceHits);
 

@@ -242,7 +242,7 @@ std::uint32_t Search::sketch_next(const Mission& mission, Workspace& workspace) 
   const Evidence& evidence = evidence_[last()];
   Track& track = tracks_[next_];
   const bool drawn = scans_ == 1 && !twins_;
-  const double limit = hopeless_beyond(best_score());
+  const double limit = scans_ == 1 ? hopeless_beyond(best_score()) : kAnyScore;  // scores of several scans add up: whole ones
   std::uint32_t work = 0;
   put_points(evidence, kSketchPoints, workspace);
   if (working_) {
