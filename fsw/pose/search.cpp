@@ -236,28 +236,35 @@ double Search::best_score() const {
 
 bool Search::is_hopeless(const Track& track) const { return track.total.score() > hopeless_beyond(best_score()); }
 
-// All tracks in the last scan: in the first one the finalists from where they were drawn to and the best one's twins, in a later one what
-// is carried from where it should be; and once more from there, pulled from farther, where that leads to nothing or no rate was known.
-std::uint32_t Search::sketch_next(const Mission& mission, Workspace& workspace) {
-  const Evidence& evidence = evidence_[last()];
-  Track& track = tracks_[next_];
+// What fits worse than that is not worth measuring. Scores of several scans add up: whole ones.
+double Search::sketch_limit() const { return scans_ == 1 ? hopeless_beyond(best_score()) : kAnyScore; }
+
+// In the first scan the finalists from where they were drawn to, and the best one's twins; in a later one what is carried from where it
+// should be.
+std::uint32_t Search::sketch_near(const Mission& mission, Track& track, Workspace& workspace) {
   const bool drawn = scans_ == 1 && !twins_;
-  const double limit = scans_ == 1 ? hopeless_beyond(best_score()) : kAnyScore;  // scores of several scans add up: whole ones
-  std::uint32_t work = 0;
-  put_points(evidence, kSketchPoints, workspace);
-  if (working_) {
-    const Pose start = pull_in(mission, track.start, workspace);
-    const Settled settled = sketch(mission, evidence, {start, track.fits[last()]}, limit, workspace, work);
-    if (settled.fit.score() < track.fits[last()].score()) take(settled, track);
-    work += pull_work(workspace.points.size()) + draw_work(workspace.points.size());
-    working_ = false;
-  } else {
-    track.start = scans_ == 1 ? track.T_target_sensor[0] : carried(track);
-    const Pose start = drawn ? track.start : pull_on_rays(mission, track.start, workspace);
-    take(sketch(mission, evidence, {start, track.fits[last()]}, limit, workspace, work), track);
-    work += drawn ? 0 : draw_work(workspace.points.size());
-    working_ = !drawn && (scans_ == 2 || is_hopeless(track));
-  }
+  std::uint32_t work = drawn ? 0 : draw_work(workspace.points.size());
+  track.start = scans_ == 1 ? track.T_target_sensor[0] : carried(track);
+  const Pose start = drawn ? track.start : pull_on_rays(mission, track.start, workspace);
+  take(sketch(mission, evidence_[last()], {start, track.fits[last()]}, sketch_limit(), workspace, work), track);
+  working_ = !drawn && (scans_ == 2 || is_hopeless(track));
+  return work;
+}
+
+// Once more from there, pulled from farther, where that leads to nothing, or no rate was known.
+std::uint32_t Search::sketch_afar(const Mission& mission, Track& track, Workspace& workspace) {
+  std::uint32_t work = pull_work(workspace.points.size()) + draw_work(workspace.points.size());
+  const Pose start = pull_in(mission, track.start, workspace);
+  const Settled settled = sketch(mission, evidence_[last()], {start, track.fits[last()]}, sketch_limit(), workspace, work);
+  if (settled.fit.score() < track.fits[last()].score()) take(settled, track);
+  working_ = false;
+  return work;
+}
+
+std::uint32_t Search::sketch_next(const Mission& mission, Workspace& workspace) {
+  Track& track = tracks_[next_];
+  put_points(evidence_[last()], kSketchPoints, workspace);
+  const std::uint32_t work = working_ ? sketch_afar(mission, track, workspace) : sketch_near(mission, track, workspace);
   if (working_ || ++next_ < tracks_.size()) return work;
   prune();
   next_ = 0;

@@ -110,6 +110,9 @@ class Search {
   std::size_t hypotheses() const { return coarse_.short_list().size() + (suspects_ ? kQuarterTurns : 0); }
   std::uint32_t pull_next(const Mission& mission, Workspace& workspace);
   std::uint32_t draw_next(const Mission& mission, Workspace& workspace);
+  double sketch_limit() const;
+  std::uint32_t sketch_near(const Mission& mission, Track& track, Workspace& workspace);
+  std::uint32_t sketch_afar(const Mission& mission, Track& track, Workspace& workspace);
   std::uint32_t sketch_next(const Mission& mission, Workspace& workspace);
   std::uint32_t settle_next(const Mission& mission, Workspace& workspace);
   std::uint32_t explore_next(const Mission& mission);
