@@ -149,6 +149,52 @@ TEST_F(SearchTest, IsJoinedByFurtherScansWhileWorkIsLeft) {
   EXPECT_EQ(search(10), Status::kBadOrder);
 }
 
+// Registrations and sways that are begun are left, too. What is always done goes on: the evidence, the finalists, the best one's twins.
+TEST_F(SearchTest, EndsAStepAfterItsWorkIsUsedUp) {
+  VERIFIES("LASSO-MOD-117~1");
+  scan_.model.half = Vec3(0.09, 0.42, 0.05);  // all poses leave something unexplained
+  scan_.T_sensor_target = test::random_box_pose(random_);
+  limits_.scans_max = 1;
+  const auto image = scan_at(0);
+  const auto work_of = [&](std::uint32_t work_max) {
+    limits_.work_max = work_max;
+    search_->begin(limits_);
+    EXPECT_EQ(search_->add_scan(mission_, *image, *workspace_), Status::kOk);
+    work();
+    return result().work;
+  };
+  const std::uint32_t whole = work_of(100'000'000);
+  const std::uint32_t least = work_of(0);
+  for (std::uint32_t work_max = least; work_max < whole; work_max += (whole - least) / 50 + 1) {
+    EXPECT_LE(work_of(work_max), work_max + 3 * kLargestStep) << work_max;
+  }
+}
+
+TEST_F(SearchTest, CarriesAllCandidatesOfAScanThatWasLeftUnfinished) {
+  VERIFIES("LASSO-MOD-186~1");
+  scan_.T_sensor_target = test::random_box_pose(random_);
+  const auto first = scan_at(0), second = scan_at(2);
+  limits_.work_max = 100'000'000;
+  search_->begin(limits_);
+  ASSERT_EQ(search_->add_scan(mission_, *first, *workspace_), Status::kOk);
+  work();
+  const std::uint32_t whole = result().work;
+  int joined = 0;
+  for (int percent = 100; percent < 130; ++percent) {
+    limits_.work_max = whole / 100 * static_cast<std::uint32_t>(percent);
+    search_->begin(limits_);
+    ASSERT_EQ(search_->add_scan(mission_, *first, *workspace_), Status::kOk);
+    work();
+    if (result().reason != SearchReason::kUnfinished || !search_->joins()) continue;
+    ASSERT_EQ(search_->add_scan(mission_, *second, *workspace_), Status::kOk);
+    work();
+    EXPECT_EQ(result().scans, 2u);
+    EXPECT_TRUE(is_right(result().T_sensor_target, 2)) << percent;
+    ++joined;
+  }
+  EXPECT_GT(joined, 0);
+}
+
 TEST_F(SearchTest, OfASingleScanHasAllTheWork) {
   VERIFIES("LASSO-MOD-117~1 LASSO-MOD-186~1");
   scan_.T_sensor_target = test::random_box_pose(random_);
