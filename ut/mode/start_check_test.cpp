@@ -48,6 +48,13 @@ class StartCheckTest : public MastTest {
     return Vec3::UnitX();
   }
 
+  // Ten frames of a right start, whose search goes on: the filter is established, and scans that it excludes are implausible.
+  void follow_unchecked() {
+    mission_.parameters.search_slice = 1000;
+    start(small_error());
+    for (std::uint32_t k = 0; k < 10; ++k) ASSERT_EQ(frame(k).registration.reason, PoseReason::kUnchecked) << k;
+  }
+
   // The frame in which the search of such a start's scan ends.
   TrackStep verdict_on_deceptive_start(bool lost = false) {
     start_turned(deceptive_axis());
@@ -175,14 +182,11 @@ TEST_F(StartCheckTest, TheSecondSearchHasTheLastWordWhereTheFirstIsUndecided) {
 
 TEST_F(StartCheckTest, AnImplausibleScanEndsACheckThatWaitsForItsSecondSearch) {
   VERIFIES("LASSO-MOD-184~3 LASSO-MOD-009~1");
-  mission_.parameters.search_slice = 1000;
-  start(small_error());
-  std::uint32_t k = 0;
-  for (; k < 10; ++k) ASSERT_EQ(frame(k).registration.reason, PoseReason::kUnchecked) << k;
+  follow_unchecked();
   state_.check.stage = Stage::kAgain;
   state_.check.undecided = true;
   scene_.at_zero.p += Vec3(0.006, -0.004, 0.007);
-  const TrackStep jumped = frame(k);
+  const TrackStep jumped = frame(10);
   EXPECT_EQ(jumped.registration.reason, PoseReason::kImplausible);
   EXPECT_EQ(jumped.after.check.stage, Stage::kNone);
   EXPECT_FALSE(jumped.after.check.undecided);
@@ -236,10 +240,8 @@ TEST_F(StartCheckTest, ScansThatAreLostUseUpTheFramesOfAStartOnlyInARow) {
 // The search speaks of the pose that was confirmed, not of one that the scans have left for: that has to be confirmed by itself.
 TEST_F(StartCheckTest, ATrackThatItsScansContradictIsConfirmedAndCheckedAnew) {
   VERIFIES("LASSO-MOD-184~3 LASSO-MOD-009~1");
-  mission_.parameters.search_slice = 1000;
-  start(small_error());
-  std::uint32_t k = 0;
-  for (; k < 10; ++k) ASSERT_EQ(frame(k).registration.reason, PoseReason::kUnchecked) << k;
+  follow_unchecked();
+  std::uint32_t k = 10;
   mission_.parameters.search_slice = 2e7;
   scene_.at_zero.p += Vec3(0.006, -0.004, 0.007);
   const TrackStep jumped = frame(k++);

@@ -10,6 +10,8 @@ namespace {
 
 using SearchTest = test::WholeSearch;
 
+constexpr std::uint32_t kEnough = 100'000'000;
+
 TEST_F(SearchTest, FindsTheTargetAtAnyAttitudeAndAcceptsNoWrongPose) {
   VERIFIES("LASSO-MOD-111~1 LASSO-MOD-122~1");
   int right = 0;
@@ -95,21 +97,14 @@ TEST_F(SearchTest, WhatTheWorkDoesNotAllowIsLeftOpen) {
   VERIFIES("LASSO-MOD-117~1 LASSO-MOD-120~1");
   scan_.T_sensor_target = test::random_box_pose(random_);
   const auto image = scan_at(0);
-  const auto search_within = [&](std::uint32_t work_max) {
-    limits_.work_max = work_max;
-    search_->begin(limits_);
-    EXPECT_EQ(search_->add_scan(mission_, *image, *workspace_), Status::kOk);
-    work();
-    return result();
-  };
-  const SearchResult whole = search_within(100'000'000);
+  const SearchResult whole = search_within(kEnough, *image);
   ASSERT_EQ(whole.outcome, SearchOutcome::kAccepted);
-  const SearchResult least = search_within(0);
+  const SearchResult least = search_within(0, *image);
   EXPECT_LT(least.work, whole.work);
   EXPECT_NE(least.outcome, SearchOutcome::kAccepted);
   int unfinished = 0;
   for (std::uint32_t work_max = least.work; work_max < whole.work; work_max += (whole.work - least.work) / 6 + 1) {
-    const SearchResult some = search_within(work_max);
+    const SearchResult some = search_within(work_max, *image);
     EXPECT_LE(some.work, whole.work);
     EXPECT_NE(some.outcome, SearchOutcome::kNone);
     if (some.reason == SearchReason::kUnfinished) {
@@ -156,17 +151,10 @@ TEST_F(SearchTest, EndsAStepAfterItsWorkIsUsedUp) {
   scan_.T_sensor_target = test::random_box_pose(random_);
   limits_.scans_max = 1;
   const auto image = scan_at(0);
-  const auto work_of = [&](std::uint32_t work_max) {
-    limits_.work_max = work_max;
-    search_->begin(limits_);
-    EXPECT_EQ(search_->add_scan(mission_, *image, *workspace_), Status::kOk);
-    work();
-    return result().work;
-  };
-  const std::uint32_t whole = work_of(100'000'000);
-  const std::uint32_t least = work_of(0);
+  const std::uint32_t whole = search_within(kEnough, *image).work;
+  const std::uint32_t least = search_within(0, *image).work;
   for (std::uint32_t work_max = least; work_max < whole; work_max += (whole - least) / 20 + 1) {
-    EXPECT_LE(work_of(work_max), work_max + 3 * kLargestStep) << work_max;
+    EXPECT_LE(search_within(work_max, *image).work, work_max + 3 * kLargestStep) << work_max;
   }
 }
 
@@ -174,25 +162,25 @@ TEST_F(SearchTest, CarriesAllCandidatesOfAScanThatWasLeftUnfinished) {
   VERIFIES("LASSO-MOD-186~1");
   scan_.T_sensor_target = test::random_box_pose(random_);
   const auto first = scan_at(0), second = scan_at(2);
-  limits_.work_max = 100'000'000;
-  search_->begin(limits_);
-  ASSERT_EQ(search_->add_scan(mission_, *first, *workspace_), Status::kOk);
-  work();
-  const std::uint32_t whole = result().work;
-  int joined = 0;
-  for (int percent = 100; percent < 130 && joined < 2; percent += 2) {
-    limits_.work_max = whole / 100 * static_cast<std::uint32_t>(percent);
-    search_->begin(limits_);
-    ASSERT_EQ(search_->add_scan(mission_, *first, *workspace_), Status::kOk);
-    work();
-    if (result().reason != SearchReason::kUnfinished || !search_->joins()) continue;
-    ASSERT_EQ(search_->add_scan(mission_, *second, *workspace_), Status::kOk);
-    work();
+  const auto sketches_of_second = [&] {
+    int steps = 0;
+    EXPECT_EQ(search_->add_scan(mission_, *second, *workspace_), Status::kOk);
+    for (bool done = false; !done; done = search_->advance(mission_, *workspace_, 1)) {
+      steps += search_->stage() == Search::Stage::kSketch ? 1 : 0;
+    }
     EXPECT_EQ(result().scans, 2u);
-    EXPECT_TRUE(is_right(result().T_sensor_target, 2)) << percent;
-    ++joined;
+    EXPECT_TRUE(is_right(result().T_sensor_target, 2));
+    return steps;
+  };
+  ASSERT_EQ(search_within(kEnough, *first).outcome, SearchOutcome::kAccepted);
+  const std::uint32_t whole = result().work;
+  const int of_finished = sketches_of_second();
+  bool joined = false;
+  for (std::uint32_t percent = 100; percent < 130 && !joined; percent += 2) {
+    joined = search_within(whole / 100 * percent, *first).reason == SearchReason::kUnfinished && search_->joins();
   }
-  EXPECT_GT(joined, 0);
+  ASSERT_TRUE(joined);
+  EXPECT_GT(sketches_of_second(), of_finished);
 }
 
 TEST_F(SearchTest, OfASingleScanHasAllTheWork) {

@@ -30,6 +30,14 @@ class WholeSearch : public SearchFixture {
     work();
     return status;
   }
+  // A search of that scan alone, with that much work.
+  const SearchResult& search_within(std::uint32_t work_max, const RangeImage& image) {
+    limits_.work_max = work_max;
+    search_->begin(limits_);
+    EXPECT_EQ(search_->add_scan(mission_, image, *workspace_), Status::kOk);
+    work();
+    return result();
+  }
   bool is_right(const Pose& pose, double t_s = 0) const {
     const Vec6 error = pose_difference(pose, propagate(scan_.T_sensor_target, scan_.rates, t_s));
     return error.head<3>().norm() < 2 * kRadPerDeg && error.tail<3>().norm() < 0.02;
