@@ -107,9 +107,13 @@ bool has_bound(const TableResult& table) {
   return std::any_of(runs.begin(), runs.end(), [](const RunStatistics& run) { return run.crlb_mm > 0; });
 }
 
+bool turns_by_steps(const TableResult& table) {
+  return table.scenario.scenario_kind() == ScenarioKind::kPaper && table.scenario.step_rad != 0;
+}
+
 std::string error_against_angle(Plotter& plotter, const TableResult& table, const VariantResult& variant) {
   if (!is_tracked(variant)) return plotter.svg(1080, 120, nothing_to_draw("every frame is lost"));
-  const bool turns = table.scenario.scenario_kind() == ScenarioKind::kPaper && table.scenario.step_rad != 0;
+  const bool turns = turns_by_steps(table);
   const double step = turns ? table.scenario.step_rad / kRadPerDeg : 1;
   std::vector<std::string> files;
   for (const CaseResult& run : variant.cases) files.push_back(plotter.data(errors_text(run, step)));
@@ -122,7 +126,7 @@ std::string error_against_angle(Plotter& plotter, const TableResult& table, cons
   if (turns && longest_run(variant) > 180) script += "set xtics 90\n";
   for (std::size_t axis = 0; axis < 6; ++axis) {
     if (axis == 1) script += "unset key\n";
-    if (axis == 3) script += turns ? "set xlabel 'turn about the x axis, deg' textcolor '#46505f'\n" : "set xlabel 'frame'\n";
+    if (axis == 3) script += format("set xlabel '%s' textcolor '#46505f'\n", turns ? "turn about the x axis, deg" : "frame");
     script += angle_panel(files, table.scenario, axis);
   }
   return plotter.svg(1080, 560, script + "unset multiplot\n");

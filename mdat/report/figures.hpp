@@ -17,7 +17,10 @@ std::size_t longest_run(const VariantResult& variant);
 // The hits have a bound, at some range: only those of a target that stands still in the scan.
 bool has_bound(const TableResult& table);
 
-// Error of each axis against the target's angle, a line a range (the paper's figure 11).
+// Does the target turn by a step a frame, so that errors are shown against its angle? Against the frame where it does not.
+bool turns_by_steps(const TableResult& table);
+
+// Error of each axis against the target's angle or the frame, a line a range (the paper's figure 11).
 std::string error_against_angle(Plotter& plotter, const TableResult& table, const VariantResult& variant);
 
 // Error against range, all variants and the bound where there is one (the paper's figure 13).

@@ -16,7 +16,7 @@ h2 { font-size: 22px; margin: 0 0 16px; letter-spacing: -0.01em; }
 section { background: #fff; border: 1px solid #e0e4ea; border-radius: 10px; padding: 24px 28px; margin: 0 0 28px; }
 .wide { overflow-x: auto; margin: 0 0 18px; }
 table { border-collapse: collapse; font-size: 13.5px; font-variant-numeric: tabular-nums; width: 100%; }
-th, td { padding: 6px 10px; text-align: right; white-space: nowrap; border-bottom: 1px solid #e9ecf1; }
+th, td { padding: 6px 8px; text-align: right; white-space: nowrap; border-bottom: 1px solid #e9ecf1; }
 th { color: #5c6675; font-weight: 600; white-space: normal; vertical-align: bottom; border-bottom: 2px solid #cfd6df; }
 th:first-child, td:first-child { text-align: left; }
 td:first-child { font-weight: 600; }

@@ -115,6 +115,7 @@ std::string scans_figure(Plotter& plotter, const sim::RayCaster& target, const T
 
 std::string angle_text(const TableResult& table, const VariantResult& variant) {
   if (table.scenario.drawn != 0) return format("frame, %s: a line a flight", variant.variant.title);
+  if (!turns_by_steps(table)) return format("frame, %s", variant.variant.title);
   return format("target's angle, %s%s", variant.variant.title, table.scenario.paper_table != 0 ? " (the paper's figure 11)" : "");
 }
 
