@@ -6,6 +6,7 @@
 #include "ft/campaign/flight.hpp"
 #include "mdat/common/flight_image.hpp"
 #include "mdat/run/simulation.hpp"
+#include "ut/support/places.hpp"
 
 namespace lasso::campaign {
 namespace {
@@ -16,7 +17,7 @@ constexpr const char* kScenario = "spin";
 constexpr std::uint64_t kSeed = 7;
 
 const mdat::CompiledMission& hubble() {
-  static const mdat::CompiledMission mission = mdat::compile_mission(LASSO_HUBBLE);
+  static const mdat::CompiledMission mission = mdat::compile_mission(test::source_folder() / "cfg/missions/hubble_tenth.toml");
   return mission;
 }
 

@@ -1,17 +1,13 @@
 // An approach through the modes, by its results.
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-
 #include "ft/mdat/command.hpp"
 #include "ut/support/verifies.hpp"
 
 namespace lasso::ft {
 namespace {
 
-using Json = nlohmann::json;
-
-const std::string kMission = std::string(MDAT_SOURCES) + "/cfg/missions/hubble.toml";
+const std::string kFullSize = source_path("cfg/missions/hubble.toml");
 
 // "to" of each change of the mode, in order.
 std::vector<std::string> modes_of(const Json& timeline) {
@@ -34,7 +30,7 @@ TEST(Approach, RunsThroughAllModesWithTwoSensorsAndRecoversFromAnEclipse) {
   VERIFIES(
       "LASSO-MOD-174~1 LASSO-SYS-014~1 LASSO-GND-026~1 LASSO-SIM-034~1 LASSO-SIM-035~1 LASSO-MDT-004~1 LASSO-SNS-041~1 LASSO-SNS-046~1");
   const WorkFolder work;
-  const Answer answer = work.mdat("run " + kMission + " --scenario approach --out out");
+  const Answer answer = work.mdat("run " + kFullSize + " --scenario approach --out out");
   ASSERT_EQ(answer.exit_code, 0) << answer.err;
   const Json timeline = Json::parse(work.read("out/results.json")).at("timeline");
   const std::vector<std::string> expected = {"bearing",     "searching", "starting",    "tracking", "coasting",
@@ -59,7 +55,7 @@ TEST(Approach, RunsThroughAllModesWithTwoSensorsAndRecoversFromAnEclipse) {
 TEST(Approach, SaysInWordsThatNoPoseIsValid) {
   VERIFIES("LASSO-GND-026~1");
   const WorkFolder work;
-  const Answer answer = work.mdat("run " + kMission + " --scenario approach --frames 3 --out out");
+  const Answer answer = work.mdat("run " + kFullSize + " --scenario approach --frames 3 --out out");
   ASSERT_EQ(answer.exit_code, 0) << answer.err;
   EXPECT_NE(answer.out.find("no valid pose in 2 frames"), std::string::npos) << answer.out;
   EXPECT_EQ(answer.out.find("rms 0.00 mm"), std::string::npos);
@@ -71,7 +67,7 @@ TEST(Approach, AStartHalfATurnOffIsNeverConfirmed) {
   VERIFIES("LASSO-MOD-182~1");
   const WorkFolder work;
   const auto fly = [&](const std::string& more) {
-    const Answer answer = work.mdat("run " + kMission + " --scenario half_turn --no-report --out out" + more);
+    const Answer answer = work.mdat("run " + kFullSize + " --scenario half_turn --no-report --out out" + more);
     EXPECT_EQ(answer.exit_code, 0) << answer.err;
     return Json::parse(work.read("out/results.json")).at("noisy");
   };
@@ -90,7 +86,7 @@ TEST(Approach, AStartHalfATurnOffIsNeverConfirmed) {
 TEST(Approach, AStartThatItsScanWouldConfirmIsContradictedAndTheTargetFound) {
   VERIFIES("LASSO-MOD-184~3 LASSO-MOD-182~1");
   const WorkFolder work;
-  const Answer answer = work.mdat("run " MDAT_SOURCES "/cfg/missions/hubble_tenth.toml --scenario wrong_start --no-report --out out");
+  const Answer answer = work.mdat("run " + source_path("cfg/missions/hubble_tenth.toml") + " --scenario wrong_start --no-report --out out");
   ASSERT_EQ(answer.exit_code, 0) << answer.err;
   EXPECT_NE(answer.out.find("with noise: tracked in the last frame 20 of 20 runs"), std::string::npos) << answer.out;
   const Json results = Json::parse(work.read("out/results.json"));
@@ -101,7 +97,7 @@ TEST(Approach, AStartThatItsScanWouldConfirmIsContradictedAndTheTargetFound) {
 TEST(Approach, TheRangeChangesTheSensorInBothDirectionsAndTheReportShowsIt) {
   VERIFIES("LASSO-MOD-174~1 LASSO-GND-026~1 LASSO-SNS-042~1");
   const WorkFolder work;
-  const Answer answer = work.mdat("run " + kMission + " --scenario approach --seed 2 --out out");
+  const Answer answer = work.mdat("run " + kFullSize + " --scenario approach --seed 2 --out out");
   ASSERT_EQ(answer.exit_code, 0) << answer.err;
   const Json changes = Json::parse(work.read("out/results.json")).at("timeline").at("sensor_changes");
   ASSERT_EQ(changes.size(), 2U) << "once each way: the bands overlap";
@@ -128,7 +124,7 @@ TEST(Approach, TimesThatContradictTheRangesAreRefused) {
                {"ranges_m = [60.0", "ranges_m = [600.0", "expected between sensor.range_min_m and sensor.range_max_m"}};
   for (const auto& c : cases) {
     const WorkFolder work;
-    std::string text = read_text(kMission);
+    std::string text = read_text(kFullSize);
     const std::size_t place = text.find(c.before);
     ASSERT_NE(place, std::string::npos) << c.before;
     work.write("missions/approach.toml", text.replace(place, std::string(c.before).size(), c.after));

@@ -1,7 +1,6 @@
 // mdat calibrate: a camera that is not as its design says is calibrated by a plane, and tracked by what was fitted.
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "ft/mdat/command.hpp"
@@ -41,13 +40,13 @@ class Calibrate : public ::testing::Test {
     folder.write("device.toml", kDevice);
     folder.write("design.toml", kDesign);
   }
-  nlohmann::json track(const std::string& calibration, const std::string& seed) {
+  Json track(const std::string& calibration, const std::string& seed) {
     const Answer answer = folder.mdat(
         "run missions/test.toml --scenario spin --no-report --out run --sensor lcs-wire --camera-optics device.toml "
         "--camera-temperature 35 --calibration " +
         calibration + " --seed " + seed);
     EXPECT_EQ(answer.exit_code, 0) << answer.err;
-    return nlohmann::json::parse(folder.read("run/results.json")).at("noisy");
+    return Json::parse(folder.read("run/results.json")).at("noisy");
   }
   const WorkFolder folder;
 };
@@ -73,8 +72,8 @@ TEST_F(Calibrate, WhatIsFittedTracksAsThePerfectCalibrationDoes) {
 
   double perfect_mm = 0, fitted_mm = 0, perfect_deg = 0, fitted_deg = 0;
   for (const std::string seed : {"1", "2", "3"}) {
-    const nlohmann::json perfect = track("device.toml", seed), fitted = track("fitted.toml", seed);
-    for (const nlohmann::json* run : {&perfect, &fitted}) {
+    const Json perfect = track("device.toml", seed), fitted = track("fitted.toml", seed);
+    for (const Json* run : {&perfect, &fitted}) {
       EXPECT_EQ(run->at("wrong"), 0);
       EXPECT_EQ(run->at("lost"), 0);
     }
@@ -101,7 +100,7 @@ TEST_F(Calibrate, TheMissionsImageCarriesIt) {
   };
   const std::string named = poses("");
   EXPECT_TRUE(named != poses(" --calibration device.toml"));
-  EXPECT_EQ(nlohmann::json::parse(folder.read("run/results.json")).at("noisy").at("lost"), 0);
+  EXPECT_EQ(Json::parse(folder.read("run/results.json")).at("noisy").at("lost"), 0);
   folder.write("other.toml", kDevice);
   const std::string right = poses("");
   EXPECT_TRUE(named != right);
@@ -112,7 +111,7 @@ TEST_F(Calibrate, TheMissionsImageCarriesIt) {
 // Uncalibrated it is far off, and says so: what would be wrong poses are not valid.
 TEST_F(Calibrate, TheDesignsTableGivesNoWrongPoseThatIsValid) {
   VERIFIES("LASSO-LCS-009~1");
-  const nlohmann::json run = track("design.toml", "1");
+  const Json run = track("design.toml", "1");
   EXPECT_EQ(run.at("wrong"), 0);
   EXPECT_EQ(run.at("invalid"), 360);
   EXPECT_EQ(run.at("lost"), 360);

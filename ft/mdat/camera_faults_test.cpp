@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -51,7 +50,7 @@ Outcome fly(const std::string& script) {
   const Answer answer =
       folder.mdat("run missions/test.toml --scenario spin --no-report --sensor lcs-wire --camera-faults faults.toml --out run");
   EXPECT_EQ(answer.exit_code, 0) << answer.err;
-  const nlohmann::json run = nlohmann::json::parse(folder.read("run/results.json")).at("noisy");
+  const Json run = Json::parse(folder.read("run/results.json")).at("noisy");
   Outcome outcome{run.at("wrong"), run.at("lost"), run.at("invalid"), run.at("frames"), 0, {}};
   outcome.lost_scans = last_of(folder, "--packet pose --items lost_scans").at("lost_scans");
   outcome.sensor = last_of(folder, "--packet sensor");

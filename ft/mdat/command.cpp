@@ -12,6 +12,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "ut/support/places.hpp"
+
 namespace lasso::ft {
 
 namespace fs = std::filesystem;
@@ -42,7 +44,7 @@ WorkFolder::WorkFolder() {
   if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
   folder_ = name;
   fs::create_directories(folder_ / "missions/models");
-  fs::copy(fs::path(MDAT_SOURCES) / "cfg/models/hubble_tenth.toml", folder_ / "missions/models");
+  fs::copy(source_path("cfg/models/hubble_tenth.toml"), folder_ / "missions/models");
   write_mission();
 }
 
@@ -53,12 +55,12 @@ WorkFolder::~WorkFolder() {
 
 Answer WorkFolder::mdat(const std::string& arguments) const {
   const std::string out = next_file(folder_), err = next_file(folder_);
-  const int status = std::system(command_line(folder_, "'" MDAT_PROGRAM "' " + arguments, out, err).c_str());
+  const int status = std::system(command_line(folder_, "'" + mdat_program() + "' " + arguments, out, err).c_str());
   return answer_of(status, out, err);
 }
 
 Program::Program(const WorkFolder& work, const std::string& arguments) : out_(next_file(work.folder_)), err_(next_file(work.folder_)) {
-  const std::string command = command_line(work.folder_, "exec '" MDAT_PROGRAM "' " + arguments, out_, err_);
+  const std::string command = command_line(work.folder_, "exec '" + mdat_program() + "' " + arguments, out_, err_);
   process_ = fork();
   if (process_ < 0) throw std::runtime_error("no process");
   if (process_ > 0) return;
@@ -86,7 +88,7 @@ void WorkFolder::write(const std::string& name, const std::string& content) cons
 std::string WorkFolder::read(const std::string& name) const { return read_text(folder_ / name); }
 
 void WorkFolder::write_mission(const std::vector<std::pair<std::string, std::string>>& replacements) const {
-  std::string text = read_text(fs::path(MDAT_SOURCES) / "cfg/missions/hubble_tenth.toml");
+  std::string text = read_text(source_path("cfg/missions/hubble_tenth.toml"));
   for (const auto& [from, to] : replacements) {
     const std::size_t place = text.find(from);
     if (place == std::string::npos) throw std::runtime_error("not in the mission: " + from);
@@ -101,6 +103,10 @@ std::vector<std::string> WorkFolder::contents() const {
   std::sort(names.begin(), names.end());
   return names;
 }
+
+std::string mdat_program() { return (test::build_folder() / "mdat/mdat").string(); }
+
+std::string source_path(const std::string& name) { return (test::source_folder() / name).string(); }
 
 std::string read_text(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);

@@ -4,10 +4,13 @@
 #include <sys/types.h>
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 namespace lasso::ft {
+
+using Json = nlohmann::ordered_json;
 
 struct Answer {
   int exit_code = -1;  // -1: ended by a signal
@@ -54,6 +57,8 @@ class Program {
   pid_t process_;
 };
 
+std::string mdat_program();                        // its path
+std::string source_path(const std::string& name);  // of a file in the repository
 std::string read_text(const std::filesystem::path& file);
 std::vector<std::string> lines_of(const std::string& text);
 std::vector<std::string> fields_of(const std::string& line);  // separated by commas

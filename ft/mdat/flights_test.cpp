@@ -2,15 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
-#include <nlohmann/json.hpp>
 
 #include "ft/mdat/command.hpp"
 #include "ut/support/verifies.hpp"
 
 namespace lasso::ft {
 namespace {
-
-using Json = nlohmann::json;
 
 // The scenario `rates` with the ranges of a few flights.
 void write_flights(const WorkFolder& work, const std::string& ranges_m) {

@@ -1,7 +1,6 @@
 // The camera in a program of its own: mdat lcs-sim, and mdat run over a line of this machine, in real time.
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "ft/mdat/command.hpp"
@@ -13,26 +12,26 @@ namespace {
 // A shell that keeps the camera running, waits until it (and not one before it) says that it listens, runs `run` against $line, and ends
 // the camera by its own number.
 std::string with_camera(const std::string& listen, const std::string& device, const std::string& run) {
-  return "--version; rm -f camera.txt; '" MDAT_PROGRAM "' lcs-sim missions/test.toml --device " + device + " --listen " + listen +
+  return "--version; rm -f camera.txt; '" + mdat_program() + "' lcs-sim missions/test.toml --device " + device + " --listen " + listen +
          " >camera.txt 2>&1 & camera=$!; "
          "for i in $(seq 300); do grep -qs 'listens on' camera.txt && break; sleep 0.1; done; "
          "line=$(sed -n 's/^the camera listens on //p' camera.txt); " +
          run + " >run.txt 2>&1; code=$?; kill $camera; wait $camera; exit $code";
 }
 
-struct Head {
+struct LineHead {
   const char *listen, *device, *sensor;
 };
-class LcsSim : public ::testing::TestWithParam<Head> {};
+class LcsSim : public ::testing::TestWithParam<LineHead> {};
 
 TEST_P(LcsSim, IsTrackedOverALineOfThisMachine) {
   VERIFIES("LASSO-SIM-031~1 LASSO-GND-024~1 LASSO-LCS-017~1");
   const WorkFolder folder;
-  const std::string run = "'" MDAT_PROGRAM "' run missions/test.toml --scenario spin --frames 12 --no-report --out run --sensor " +
+  const std::string run = "'" + mdat_program() + "' run missions/test.toml --scenario spin --frames 12 --no-report --out run --sensor " +
                           std::string(GetParam().sensor) + ":$line";
   const Answer answer = folder.mdat(with_camera(GetParam().listen, GetParam().device, run));
   ASSERT_EQ(answer.exit_code, 0) << folder.read("run.txt") << folder.read("camera.txt");
-  const nlohmann::json results = nlohmann::json::parse(folder.read("run/results.json")).at("noisy");
+  const Json results = Json::parse(folder.read("run/results.json")).at("noisy");
   EXPECT_EQ(results.at("frames"), 12);
   EXPECT_EQ(results.at("wrong"), 0);
   EXPECT_LT(results.at("lost").get<int>(), 12)
@@ -41,8 +40,8 @@ TEST_P(LcsSim, IsTrackedOverALineOfThisMachine) {
   EXPECT_NE(folder.read("camera.txt").find("the client has gone"), std::string::npos);
 }
 INSTANTIATE_TEST_SUITE_P(All, LcsSim,
-                         ::testing::Values(Head{"tcp://127.0.0.1:0", "laser-camera", "lcs-wire"},
-                                           Head{"unix:line", "tridar", "tridar-wire"}, Head{"pty", "laser-camera", "lcs-wire"}),
+                         ::testing::Values(LineHead{"tcp://127.0.0.1:0", "laser-camera", "lcs-wire"},
+                                           LineHead{"unix:line", "tridar", "tridar-wire"}, LineHead{"pty", "laser-camera", "lcs-wire"}),
                          [](const auto& one) { return std::string(one.param.listen).substr(0, 3); });
 
 // Every number is another one.
@@ -58,7 +57,7 @@ TEST(CameraTable, IsReadFromTheCamera) {
   const WorkFolder folder;
   folder.write("optics.toml", kOptics);
   for (const auto& [optics, out] : {std::pair{"optics.toml", "first.toml"}, std::pair{"first.toml", "second.toml"}}) {
-    const std::string read = "'" MDAT_PROGRAM "' calibrate --read $line -o " + std::string(out);
+    const std::string read = "'" + mdat_program() + "' calibrate --read $line -o " + std::string(out);
     const Answer answer = folder.mdat(with_camera("tcp://127.0.0.1:0", "tridar --camera-optics " + std::string(optics), read));
     ASSERT_EQ(answer.exit_code, 0) << folder.read("run.txt") << folder.read("camera.txt");
     EXPECT_NE(folder.read("run.txt").find("calibration of camera 7 written to"), std::string::npos) << folder.read("run.txt");
@@ -72,7 +71,7 @@ TEST(CameraTable, IsReadFromTheCamera) {
 TEST(CameraTable, AHeadWithoutOneIsNamed) {
   VERIFIES("LASSO-LCS-019~1");
   const WorkFolder folder;
-  const Answer answer = folder.mdat(with_camera("unix:line", "lidar", "'" MDAT_PROGRAM "' calibrate --read $line -o none.toml"));
+  const Answer answer = folder.mdat(with_camera("unix:line", "lidar", "'" + mdat_program() + "' calibrate --read $line -o none.toml"));
   EXPECT_EQ(answer.exit_code, 2);
   EXPECT_NE(folder.read("run.txt").find("unix:line: the head has no table of a laser camera"), std::string::npos) << folder.read("run.txt");
   EXPECT_EQ(folder.read("none.toml"), "");

@@ -8,16 +8,14 @@
 #include <cstdlib>
 #include <fstream>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "ft/mdat/live_run.hpp"
+#include "ut/support/places.hpp"
 #include "ut/support/verifies.hpp"
 
 namespace lasso::ft {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr const char* kRun = "run missions/test.toml --scenario spin --frames 12 --no-report --out run";
 
@@ -243,7 +241,7 @@ TEST(Link, InterfaceDocumentIsUpToDate) {
   const WorkFolder work;
   const Answer answer = work.mdat("dictionary");
   ASSERT_EQ(answer.exit_code, 0);
-  EXPECT_TRUE(answer.out == read_text(std::filesystem::path(MDAT_SOURCES) / "docs/icd/link.md"))
+  EXPECT_TRUE(answer.out == read_text(source_path("docs/icd/link.md")))
       << "docs/icd/link.md is not what mdat dictionary says: make icd writes it";
 }
 
@@ -252,7 +250,7 @@ TEST(Link, FlightCodeHasNoTextOfTheDictionary) {
   VERIFIES("LASSO-LNK-035~2");
   const WorkFolder work;
   const Json dictionary = Json::parse(work.mdat("dictionary --format json").out);
-  const std::string archive = read_text(LINK_ARCHIVE);
+  const std::string archive = read_text(test::build_folder() / "lib3dlasso_link.a");
   ASSERT_NE(archive.find("encode_pose"), std::string::npos) << "the right archive";
   for (const Json& packet : dictionary.at("packets")) {
     for (const Json& item : packet.at("items")) {

@@ -26,7 +26,7 @@ void redirect(const std::string& file, int descriptor) {
 }  // namespace
 
 LiveRun::LiveRun(const WorkFolder& work, std::string name, std::vector<std::string> arguments) : work_(work), name_(std::move(name)) {
-  arguments.insert(arguments.begin(), MDAT_PROGRAM);
+  arguments.insert(arguments.begin(), mdat_program());
   std::vector<char*> words;
   for (std::string& argument : arguments) words.push_back(argument.data());
   words.push_back(nullptr);

@@ -1,8 +1,6 @@
 // The pages of modes and faults are what the component's own tables say.
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-
 #include "ft/mdat/command.hpp"
 #include "ut/support/verifies.hpp"
 
@@ -14,7 +12,7 @@ TEST(Modes, TheDocumentedTableIsTheExecutedOne) {
   const WorkFolder work;
   const Answer answer = work.mdat("modes");
   EXPECT_EQ(answer.exit_code, 0) << answer.err;
-  EXPECT_EQ(answer.out, read_text(std::filesystem::path(MDAT_SOURCES) / "docs/modes.md")) << "make it anew: mdat modes > docs/modes.md";
+  EXPECT_EQ(answer.out, read_text(source_path("docs/modes.md"))) << "make it anew: mdat modes > docs/modes.md";
 }
 
 // The component begins all the same, and says why; here the ground has a pose of its own.
@@ -27,7 +25,7 @@ TEST(Modes, AMissionsOwnPoseThatNoSensorReachesIsARefusedStart) {
   EXPECT_NE(checked.out.find("tracking.initial.z_m: 4000: the target is wholly outside"), std::string::npos) << checked.out;
   const Answer run = work.mdat("run missions/test.toml --scenario spin --frames 4 --no-report --out run");
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  const auto packets = nlohmann::json::parse(work.mdat("decode run/telemetry.ccsds --format json").out).at("packets");
+  const auto packets = Json::parse(work.mdat("decode run/telemetry.ccsds --format json").out).at("packets");
   int refused = 0;
   for (const auto& packet : packets) {
     if (packet.at("packet") != "start_refused") continue;
@@ -43,7 +41,7 @@ TEST(Faults, TheDocumentedTableIsTheExecutedOne) {
   const WorkFolder work;
   const Answer answer = work.mdat("faults");
   EXPECT_EQ(answer.exit_code, 0) << answer.err;
-  EXPECT_EQ(answer.out, read_text(std::filesystem::path(MDAT_SOURCES) / "docs/faults.md")) << "make it anew: mdat faults > docs/faults.md";
+  EXPECT_EQ(answer.out, read_text(source_path("docs/faults.md"))) << "make it anew: mdat faults > docs/faults.md";
 }
 
 }  // namespace

@@ -4,21 +4,16 @@
 #include <chrono>
 #include <cstdlib>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <random>
 #include <string>
 #include <thread>
 #include <vector>
 
-#include "ft/mdat/command.hpp"
+#include "ft/mdat/live_run.hpp"
 #include "ut/support/verifies.hpp"
 
 namespace lasso::ft {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-int free_port(int seed) { return 20000 + seed % 20000; }
 
 // Until the run listens.
 Answer first_answer(const WorkFolder& work, const std::string& command) {
@@ -41,9 +36,8 @@ double time_of(const Json& packet) {
 TEST(Operate, AnOperatorCommandsARunningComponent) {
   VERIFIES("LASSO-LNK-026~2 LASSO-GND-021~1 LASSO-LNK-017~1 LASSO-LNK-022~1 LASSO-MOD-136~3 LASSO-MOD-173~1");
   const WorkFolder work;
-  int seed = static_cast<int>(std::chrono::system_clock::now().time_since_epoch().count() / 1000 % 20000);
   for (const std::string scheme : {"udp", "tcp"}) {
-    const std::string url = scheme + "://127.0.0.1:" + std::to_string(free_port(seed += 37));
+    const std::string url = scheme + "://127.0.0.1:" + free_port();
     Program run(work, "run missions/test.toml --scenario spin --no-report --out run --frames 100000 --link " + url);
     const Answer ping = first_answer(work, "command ping --to " + url);
     ASSERT_EQ(ping.exit_code, 0) << ping.err;
@@ -98,7 +92,7 @@ TEST(Operate, AComponentWithAKeyTakesSignedCommandsAlone) {
   const WorkFolder work;
   work.write("key", std::string(64, 'a') + "\n");
   work.write("other", std::string(64, 'b') + "\n");
-  const std::string url = "udp://127.0.0.1:" + std::to_string(free_port(static_cast<int>(std::random_device{}() % 20000)));
+  const std::string url = "udp://127.0.0.1:" + free_port();
   Program run(work, "run missions/test.toml --scenario spin --no-report --out run --frames 100000 --key key --link " + url);
   const Answer signed_one = first_answer(work, "command set_mode mode=standby --key key --to " + url);
   EXPECT_EQ(signed_one.exit_code, 0) << signed_one.err;

@@ -1,22 +1,18 @@
 // A large target close by, scanned part by part, by its results.
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-
 #include "ft/mdat/command.hpp"
 #include "ut/support/verifies.hpp"
 
 namespace lasso::ft {
 namespace {
 
-using Json = nlohmann::json;
-
-const std::string kMission = std::string(MDAT_SOURCES) + "/cfg/missions/hubble_near.toml";
+const std::string kNearMission = source_path("cfg/missions/hubble_near.toml");
 
 TEST(CloseBy, TheFilterHoldsAFullSizeTargetOfWhichNoScanSeesTheWhole) {
   VERIFIES("LASSO-MOD-161~1 LASSO-MOD-164~1 LASSO-SIM-035~1");
   const WorkFolder work;
-  const Answer answer = work.mdat("run " + kMission + " --scenario close_by --out out");
+  const Answer answer = work.mdat("run " + kNearMission + " --scenario close_by --out out");
   ASSERT_EQ(answer.exit_code, 0) << answer.err;
   const Json noisy = Json::parse(work.read("out/results.json")).at("noisy");
   EXPECT_EQ(noisy.at("lost"), 0);
@@ -36,12 +32,12 @@ TEST(CloseBy, TheFilterHoldsAFullSizeTargetOfWhichNoScanSeesTheWhole) {
 TEST(CloseBy, AMissionSaysItsParts) {
   VERIFIES("LASSO-GND-001~1 LASSO-GND-002~1 LASSO-MDL-024~1");
   const WorkFolder work;
-  const Answer compiled = work.mdat("mission compile " + kMission + " --out near.3dli");
+  const Answer compiled = work.mdat("mission compile " + kNearMission + " --out near.3dli");
   ASSERT_EQ(compiled.exit_code, 0) << compiled.err;
   EXPECT_NE(compiled.out.find("part 3, equipment_bay: "), std::string::npos) << compiled.out;
   const Answer image = work.mdat("mission info near.3dli");
   EXPECT_NE(image.out.find("part 1: origin at -6.35, 0, 0 m, serves from 1 m to 15 m, priority 1"), std::string::npos) << image.out;
-  const Answer source = work.mdat("mission info " + kMission);
+  const Answer source = work.mdat("mission info " + kNearMission);
   EXPECT_NE(source.out.find("part.array_boom.range_m"), std::string::npos) << source.out;
 }
 

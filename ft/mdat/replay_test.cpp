@@ -15,7 +15,7 @@ namespace {
 constexpr char kHeader[] =
     "scan,qx,qy,qz,qw,x_m,y_m,z_m,t_s,valid,reason,iterations,inliers,rms_m,sigma_x_m,sigma_y_m,sigma_z_m,sigma_rx_rad,sigma_ry_rad,"
     "sigma_rz_rad,estimate_us";
-constexpr std::size_t kFrames = 8;
+constexpr std::size_t kReplayed = 8;
 
 using Row = std::map<std::string, std::string>;
 
@@ -73,9 +73,9 @@ class Replay : public ::testing::Test {
 
   void expect_near_truth(const std::vector<Row>& rows, double limit_m, double limit_rad) const {
     const std::vector<Row> truth = table(work.read("rec/4m/truth.csv"));
-    ASSERT_EQ(rows.size(), kFrames);
-    ASSERT_EQ(truth.size(), kFrames);
-    for (std::size_t i = 0; i < kFrames; ++i) {
+    ASSERT_EQ(rows.size(), kReplayed);
+    ASSERT_EQ(truth.size(), kReplayed);
+    for (std::size_t i = 0; i < kReplayed; ++i) {
       EXPECT_EQ(rows[i].at("scan"), truth[i].at("scan"));
       EXPECT_EQ(rows[i].at("valid"), "1") << rows[i].at("reason");
       EXPECT_LT(distance_m(rows[i], truth[i]), limit_m);
@@ -149,9 +149,9 @@ TEST_F(Replay, FindsEachScansPoseWithoutAnyOrSaysWhyNot) {
   EXPECT_NE(answer.out.find("9 scans"), std::string::npos) << answer.out;
   const std::vector<Row> rows = table(work.read("found.csv"));
   const std::vector<Row> truth = table(work.read("rec/4m/truth.csv"));
-  ASSERT_EQ(rows.size(), kFrames + 1);
+  ASSERT_EQ(rows.size(), kReplayed + 1);
   std::size_t accepted = 0;
-  for (std::size_t i = 0; i < kFrames; ++i) {
+  for (std::size_t i = 0; i < kReplayed; ++i) {
     EXPECT_EQ(rows[i].at("scan"), truth[i].at("scan"));
     if (rows[i].at("outcome") != "accepted") continue;
     ++accepted;
@@ -160,10 +160,10 @@ TEST_F(Replay, FindsEachScansPoseWithoutAnyOrSaysWhyNot) {
     EXPECT_LT(angle_rad(rows[i], truth[i]), 2 * 0.0174533);
     EXPECT_GE(value(rows[i], "ratio"), 1.3);
   }
-  EXPECT_GE(accepted, kFrames - 1);
-  EXPECT_EQ(rows[kFrames].at("outcome"), "rejected");
-  EXPECT_EQ(rows[kFrames].at("reason"), "no data") << "by the name of the status";
-  EXPECT_EQ(rows[kFrames].at("candidates"), "0");
+  EXPECT_GE(accepted, kReplayed - 1);
+  EXPECT_EQ(rows[kReplayed].at("outcome"), "rejected");
+  EXPECT_EQ(rows[kReplayed].at("reason"), "no data") << "by the name of the status";
+  EXPECT_EQ(rows[kReplayed].at("candidates"), "0");
   const std::vector<Row> candidates = table(work.read("found_candidates.csv"));
   std::size_t next = 0;
   for (const Row& row : rows) {

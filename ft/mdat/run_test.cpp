@@ -3,15 +3,12 @@
 
 #include <cmath>
 #include <iterator>
-#include <nlohmann/json.hpp>
 
 #include "ft/mdat/command.hpp"
 #include "ut/support/verifies.hpp"
 
 namespace lasso::ft {
 namespace {
-
-using Json = nlohmann::json;
 
 const std::vector<std::pair<std::string, std::string>> kTwoRanges = {
     {"ranges_m = [2.0, 3.0, 4.0, 5.0, 6.0, 7.0]", "ranges_m = [3.0, 4.0]"}};

@@ -11,6 +11,7 @@
 #include "ft/pil/line.hpp"
 #include "mdat/common/errors.hpp"
 #include "mdat/run/simulation.hpp"
+#include "ut/support/places.hpp"
 
 namespace lasso::pil {
 namespace {
@@ -77,7 +78,7 @@ class TargetBoard : public testing::Test {
  protected:
   // What the rig says of the board.
   std::string fly(std::uint32_t slots, Hang hang, seconds quiet, seconds whole) {
-    const mdat::CompiledMission mission = mdat::compile_mission(LASSO_HUBBLE);
+    const mdat::CompiledMission mission = mdat::compile_mission(test::source_folder() / "cfg/missions/hubble_tenth.toml");
     const auto target = mdat::make_target(mission.mesh);
     mdat::SimulationOptions simulation;
     simulation.scenario = "spin";

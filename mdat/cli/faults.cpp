@@ -17,7 +17,7 @@ void print_row(std::ostream& out, const FaultRow& row) {
 }
 
 // docs/faults.md is this, written down.
-void print_page(std::ostream& out) {
+void print_faults_page(std::ostream& out) {
   out << "# Faults\n\nPrinted by `mdat faults` from the table that the component executes (`fsw/exec/faults.cpp`).\n\n"
          "A fault that is seen in as many frames running as **confirm** says is confirmed: the event `fault_confirmed` tells it, and the\n"
          "component reacts. One that is not seen for as many frames as **clear** says is cleared, with the event `fault_cleared`. Of "
@@ -36,7 +36,7 @@ void print_page(std::ostream& out) {
 
 void add_faults_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("faults", "Print the table of faults and reactions, as docs/faults.md shows it");
-  command->callback([] { print_page(std::cout); });
+  command->callback([] { print_faults_page(std::cout); });
 }
 
 }  // namespace lasso::mdat

@@ -33,7 +33,7 @@ void print_transitions(std::ostream& out) {
 }
 
 // docs/modes.md is this, written down.
-void print_page(std::ostream& out) {
+void print_modes_page(std::ostream& out) {
   out << "# The modes\n\nPrinted by `mdat modes` from the table that the component executes (`fsw/mode/modes.cpp`).\n\n"
          "- **confirms**: a valid pose has to explain `start.inlier_share_min` of the returns and to agree with the prediction within "
          "`start.gate`,\n  and no near-symmetry of it may explain the scan better by `start.twin_margin`,\n  unless the pose explains 99 % "
@@ -63,7 +63,7 @@ void print_page(std::ostream& out) {
 
 void add_modes_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("modes", "Print the modes and their transitions, as docs/modes.md shows them");
-  command->callback([] { print_page(std::cout); });
+  command->callback([] { print_modes_page(std::cout); });
 }
 
 }  // namespace lasso::mdat

@@ -1,6 +1,7 @@
 #include <limits>
 
 #include "ut/mode/mast_fixture.hpp"
+#include "ut/support/dense.hpp"
 
 namespace lasso {
 namespace {
@@ -18,8 +19,8 @@ TEST_F(TrackerTest, FirstRegistrationStartsTheFilterAnew) {
   ASSERT_EQ(predict_filter(known, image.reference_time_us(), filter_noise(mission_.parameters)), Status::kOk);
   const TrackStep step = track(0);
   ASSERT_TRUE(step.registration.valid());
-  const Mat6 information = known.covariance.topLeftCorner<6, 6>().inverse() + step.registration.covariance.inverse();
-  const Mat6 expected = information.inverse();
+  const Mat6 information = test::inverse_of(known.covariance.topLeftCorner<6, 6>()) + test::inverse_of(step.registration.covariance);
+  const Mat6 expected = test::inverse_of(information);
   EXPECT_LT((step.after.filter.covariance.topLeftCorner<6, 6>() - expected).norm(), 1e-6 * expected.norm());
   EXPECT_LT((step.after.filter.T_sensor_target.p - step.registration.T_sensor_target.p).norm(), 1e-4);
   EXPECT_EQ((step.after.filter.covariance.topRightCorner<6, 6>().norm()), 0) << "the start says nothing of the rates";

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "ut/pose/silhouette_fixture.hpp"
+#include "ut/support/dense.hpp"
 #include "ut/support/verifies.hpp"
 
 namespace lasso {
@@ -146,7 +147,7 @@ TEST_F(AimOcclusionTest, RaysPassVisibleContoursOnly) {
 double left_over(const Mat6& information, const std::vector<Vec6>& rows, double radius_m, double sigma_m) {
   Mat6 sum = information;
   for (const Vec6& a : rows) sum += a * a.transpose() / (sigma_m * sigma_m);
-  const Mat6 C = sum.inverse();
+  const Mat6 C = test::inverse_of(sum);
   return radius_m * radius_m * C.topLeftCorner<3, 3>().trace() + C.bottomRightCorner<3, 3>().trace();
 }
 
@@ -171,7 +172,7 @@ TEST_F(AimTest, PlacesAreWhereTheUncertaintyIs) {
       if (!place.surface) along.push_back(place.a);
     }
     for (std::size_t k = 0; k < 10; ++k) spread.push_back(along[k * along.size() / 10]);
-    const Mat6 information = covariance_in_target_axes().inverse();
+    const Mat6 information = test::inverse_of(covariance_in_target_axes());
     better += left_over(information, chosen, mission_.radius_m, 5e-4) < left_over(information, spread, mission_.radius_m, 5e-4) ? 1 : 0;
   }
   EXPECT_GE(better, 9);

@@ -59,13 +59,13 @@ TEST(Filter, PredictionFollowsConstantRatesAndTheDenseCovarianceEquation) {
   EXPECT_LT(error_of(state, truth).norm(), 1e-12);
   EXPECT_EQ(state.t_us, before.t_us + 350'000);
   const Mat12 F = error_transition(before.rates.omega_radps, dt);
-  Eigen::Matrix<double, 12, 6> G = Eigen::Matrix<double, 12, 6>::Zero();  // how an acceleration acts on the state
+  test::Dense G = test::Dense::Zero(12, 6);  // how an acceleration acts on the state
   G.topRows<6>() = 0.5 * dt * dt * Mat6::Identity();
   G.bottomRows<6>() = dt * Mat6::Identity();
   Vec6 sigma;
   sigma << Vec3::Constant(kNoise.angular_acceleration_radps2), Vec3::Constant(kNoise.acceleration_mps2);
-  const Mat6 accelerations = sigma.cwiseAbs2().asDiagonal();
-  const Mat12 expected = F * before.covariance * F.transpose() + G * accelerations * G.transpose();
+  const test::Dense accelerations = sigma.cwiseAbs2().asDiagonal();
+  const Mat12 expected = test::congruence(F, before.covariance) + test::congruence(G, accelerations);
   EXPECT_LT((state.covariance - expected).cwiseAbs().maxCoeff(), 1e-16);
 }
 

@@ -4,6 +4,7 @@
 
 #include "fsw/geometry/symmetric6.hpp"
 #include "ut/pose/pose_fixture.hpp"
+#include "ut/support/dense.hpp"
 #include "ut/support/verifies.hpp"
 
 namespace lasso {
@@ -32,7 +33,6 @@ class SlackTest : public test::PoseFixture {
     const Vec6 row = scale().cwiseProduct(axis) / sigma_m;
     return row * row.transpose();
   }
-  static Mat6 inverse_of(const Mat6& A) { return A.fullPivLu().inverse(); }
 
   void expect_same(const Mat6& found, const Mat6& truth, double relative) const {
     const Vec6 s = truth.diagonal().cwiseSqrt();
@@ -107,9 +107,9 @@ class HoldTest : public SlackTest {
 
 TEST_F(HoldTest, HeldIsWhatAMeasurementOfEachWouldLeave) {
   VERIFIES("LASSO-REG-023~1");
-  Mat6 information = inverse_of(covariance());
+  Mat6 information = test::inverse_of(covariance());
   for (int i = 0; i < 2; ++i) information += information_along(axes_.col(4 + i), hold_.sigma_m[i]);
-  expect_same(hold_slack(radius_m(), hold_, covariance()), inverse_of(information), 1e-6);
+  expect_same(hold_slack(radius_m(), hold_, covariance()), test::inverse_of(information), 1e-6);
 }
 
 TEST_F(HoldTest, ReleasedIsWhatWouldBeKnownWithoutTheOutline) {
@@ -118,8 +118,8 @@ TEST_F(HoldTest, ReleasedIsWhatWouldBeKnownWithoutTheOutline) {
   expect_same(release_slack(radius_m(), hold_, held), covariance(), 1e-6);
   const Vec6 label = (axes_.col(5) + 0.4 * axes_.col(4) - 0.3 * axes_.col(1)).normalized();
   const Mat6 told = information_along(label, 6e-4);
-  const Mat6 released = release_slack(radius_m(), hold_, inverse_of(inverse_of(held) + told));
-  expect_same(released, inverse_of(inverse_of(covariance()) + told), 1e-6);
+  const Mat6 released = release_slack(radius_m(), hold_, test::inverse_of(test::inverse_of(held) + told));
+  expect_same(released, test::inverse_of(test::inverse_of(covariance()) + told), 1e-6);
 }
 
 TEST_F(HoldTest, WhatTheOutlineAloneHeldIsAnywhereOnceReleased) {

@@ -19,9 +19,11 @@ class TwinsTest : public test::WholeSearch {
     for (std::size_t i = 1; i < mission_.search.views.size(); ++i) {
       if (least_share(i) > least_share(most)) most = i;
     }
-    const Quat to_view = Quat::FromTwoVectors(-Vec3::UnitZ(), to_vec3(mission_.search.views[most].direction));
+    // The shortest turn from the view's direction to the sensor: half of the quaternion of their product.
+    const Vec3 view = to_vec3(mission_.search.views[most].direction), sensor = -Vec3::UnitZ();
+    const Vec3 axis = view.cross(sensor);
     scan_.T_sensor_target = test::random_box_pose(random_);
-    scan_.T_sensor_target.q = normalized(to_view.conjugate());
+    scan_.T_sensor_target.q = normalized(Quat(1 + view.dot(sensor), axis.x(), axis.y(), axis.z()));
     mission_.search.views = {&mission_.search.views[most], 1};
   }
   double least_share(std::size_t view) const { return to_vec3(mission_.search.views[view].direction).cwiseAbs().minCoeff(); }

@@ -20,6 +20,8 @@ Wide wide_inverse(const Wide& A) { return A.ldlt().solve(Wide::Identity(A.rows()
 
 Dense inverse_of(const Dense& A) { return wide_inverse(A.cast<Real>()).cast<double>(); }
 
+Dense congruence(const Dense& A, const Dense& B) { return A * B * A.transpose(); }
+
 DenseVector solution_of(const Dense& A, const DenseVector& b) {
   const Wide x = A.cast<Real>().ldlt().solve(Wide(b.cast<Real>()));
   return x.cast<double>();

@@ -10,6 +10,7 @@ using DenseVector = Eigen::VectorXd;
 
 // In extended precision, but eigenvalues on PowerPC in double: they do not converge in its pairs of doubles.
 Dense inverse_of(const Dense& A);                               // A symmetric
+Dense congruence(const Dense& A, const Dense& B);               // A B A^T; A may have any shape
 DenseVector solution_of(const Dense& A, const DenseVector& b);  // A symmetric
 Dense cholesky_of(const Dense& A);                              // the lower factor; A positive definite
 DenseVector eigenvalues_of(const Dense& A);                     // ascending; A symmetric

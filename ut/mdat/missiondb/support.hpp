@@ -13,10 +13,11 @@
 
 #include "mdat/missiondb/mission_error.hpp"
 #include "mdat/modelc/mesh.hpp"
+#include "ut/support/places.hpp"
 
 namespace lasso::mdat {
 
-inline const std::filesystem::path kSourceFolder = LASSO_SOURCE_FOLDER;
+inline const std::filesystem::path kSourceFolder = test::source_folder();
 inline const std::filesystem::path kShippedMission = kSourceFolder / "cfg/missions/hubble_tenth.toml";
 
 class Folder {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "ut/support/dense.hpp"
 #include "ut/support/generator.hpp"
 #include "ut/support/verifies.hpp"
 
@@ -91,7 +92,7 @@ TEST(Bound, IsTheInverseOfTheInformationOfFiniteDifferences) {
     ++counted;
   }
   ASSERT_GT(counted, 100);
-  const Mat6 covariance = information.inverse();
+  const Mat6 covariance = test::inverse_of(information);
   const PoseBound bound = pose_bound(*box, truth, scan, [&](double) { return sigma; });
   ASSERT_TRUE(bound.defined);
   const double rotation_rad2 = covariance.diagonal().head<3>().sum(), translation_m2 = covariance.diagonal().tail<3>().sum();

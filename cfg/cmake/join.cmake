@@ -1,0 +1,68 @@
+# Joined sources: several sources of a target compiled at a time. Unlike CMake's unity builds they include by a path that is relative to the source folder,
+# so that a compiler cache finds the same text in every clone, wherever it lies (docs/decisions/build-time.md).
+
+# lasso_alone(SOURCE...): compiled by themselves, as names in them mean others elsewhere.
+function(lasso_alone)
+  set_source_files_properties(${ARGN} PROPERTIES LASSO_ALONE ON)
+endfunction()
+
+# lasso_joinable(RESULT FOLDER SOURCE...): those SOURCEs of a target of FOLDER that may be joined.
+function(lasso_joinable RESULT FOLDER)
+  foreach(SOURCE ${ARGN})
+    cmake_path(ABSOLUTE_PATH SOURCE BASE_DIRECTORY ${FOLDER} NORMALIZE)
+    get_source_file_property(ALONE ${SOURCE} DIRECTORY ${FOLDER} LASSO_ALONE)
+    cmake_path(IS_PREFIX PROJECT_SOURCE_DIR ${SOURCE} OURS)
+    cmake_path(IS_PREFIX PROJECT_BINARY_DIR ${SOURCE} GENERATED)
+    if(SOURCE MATCHES "[.]cpp$" AND OURS AND NOT GENERATED AND NOT ALONE)
+      list(APPEND FILES ${SOURCE})
+    endif()
+  endforeach()
+  set(${RESULT} ${FILES} PARENT_SCOPE)
+endfunction()
+
+# lasso_join_target(TARGET FOLDER): its sources are replaced by files that include eight of them each, or as many as its property LASSO_JOIN says.
+function(lasso_join_target TARGET FOLDER)
+  get_target_property(SOURCES ${TARGET} SOURCES)
+  lasso_joinable(FILES ${FOLDER} ${SOURCES})
+  list(LENGTH FILES COUNT)
+  if(COUNT LESS 2)
+    return()
+  endif()
+  list(TRANSFORM SOURCES REPLACE "^([^/$].*)$" "${FOLDER}/\\1")
+  list(REMOVE_ITEM SOURCES ${FILES})
+  get_target_property(SIZE ${TARGET} LASSO_JOIN)
+  if(NOT SIZE)
+    set(SIZE 8)
+  endif()
+  set(NUMBER 0)
+  while(FILES)
+    list(SUBLIST FILES 0 ${SIZE} PART)
+    list(REMOVE_ITEM FILES ${PART})
+    list(TRANSFORM PART REPLACE "^${PROJECT_SOURCE_DIR}/(.*)$" "#include \"\\1\"\n")
+    string(CONCAT TEXT ${PART})
+    set(JOINED ${PROJECT_BINARY_DIR}/joined/${TARGET}_${NUMBER}.cpp)
+    file(CONFIGURE OUTPUT ${JOINED} CONTENT "${TEXT}" @ONLY)  # written only if it differs
+    list(APPEND SOURCES ${JOINED})
+    math(EXPR NUMBER "${NUMBER} + 1")
+  endwhile()
+  set_property(TARGET ${TARGET} PROPERTY SOURCES ${SOURCES})
+endfunction()
+
+# lasso_join(FOLDER): joins the sources of all targets of FOLDER and below, but of those with the property LASSO_ALONE.
+function(lasso_join FOLDER)
+  get_property(TARGETS DIRECTORY ${FOLDER} PROPERTY BUILDSYSTEM_TARGETS)
+  foreach(TARGET ${TARGETS})
+    get_target_property(ALONE ${TARGET} LASSO_ALONE)
+    get_target_property(TYPE ${TARGET} TYPE)
+    if(NOT ALONE AND TYPE MATCHES "EXECUTABLE|STATIC_LIBRARY|OBJECT_LIBRARY")
+      lasso_join_target(${TARGET} ${FOLDER})
+    endif()
+  endforeach()
+  get_property(BELOW DIRECTORY ${FOLDER} PROPERTY SUBDIRECTORIES)
+  foreach(NEXT ${BELOW})
+    cmake_path(IS_PREFIX PROJECT_SOURCE_DIR ${NEXT} OURS)
+    if(OURS)  # GoogleTest of a cross build is not
+      lasso_join(${NEXT})
+    endif()
+  endforeach()
+endfunction()

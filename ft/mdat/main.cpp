@@ -1,0 +1,32 @@
+// All tests of mdat's command line are one program, ft_mdat, as most of their build would be the same headers again. A link ft_mdat_NAME to
+// it runs those of NAME_test.cpp alone: ctest runs these beside each other.
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace {
+
+// A filter for the tests whose source file ends in `file`.
+std::string filter_for(const std::string& file) {
+  const testing::UnitTest& all = *testing::UnitTest::GetInstance();
+  std::string filter;
+  for (int i = 0; i < all.total_test_suite_count(); ++i) {
+    const testing::TestSuite& suite = *all.GetTestSuite(i);
+    const testing::TestInfo& first = *suite.GetTestInfo(0);  // a suite is of one file
+    if (std::string(first.file()).ends_with(file)) filter += std::string(suite.name()) + ".*:";
+  }
+  return filter;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  const std::string program(argv[0]);
+  const std::string prefix = "/ft_mdat_";
+  const std::size_t place = program.rfind(prefix);
+  if (place != std::string::npos && GTEST_FLAG_GET(filter) == "*") {
+    GTEST_FLAG_SET(filter, filter_for("/" + program.substr(place + prefix.size()) + "_test.cpp"));
+  }
+  return RUN_ALL_TESTS();
+}
