@@ -2,6 +2,8 @@
 // it runs those of NAME_test.cpp alone: ctest runs these beside each other.
 #include <gtest/gtest.h>
 
+#include <cstdio>
+#include <cstdlib>
 #include <string>
 
 namespace {
@@ -26,7 +28,8 @@ int main(int argc, char** argv) {
   const std::string prefix = "/ft_mdat_";
   const std::size_t place = program.rfind(prefix);
   if (place != std::string::npos && GTEST_FLAG_GET(filter) == "*") {
-    GTEST_FLAG_SET(filter, filter_for("/" + program.substr(place + prefix.size()) + "_test.cpp"));
+    GTEST_FLAG_SET(filter, filter_for("/" + program.substr(place + prefix.size()) + ".cpp"));
+    if (GTEST_FLAG_GET(filter).empty()) return std::fprintf(stderr, "%s: no such test file\n", argv[0]), EXIT_FAILURE;
   }
   return RUN_ALL_TESTS();
 }
