@@ -61,7 +61,7 @@ tidy = @ninja -C $(1) -t cleandead >/dev/null; find $(1) -name '*.$(2)' | while 
 ctest = @rm -rf $(2); mkdir -p $(2); GTEST_OUTPUT=xml:$(abspath $(2))/ \
   ctest --test-dir $(1) --parallel $(JOBS) --output-on-failure --no-tests=error --output-junit $(abspath $(2))/ctest.xml $(3)
 
-.PHONY: help run test accuracy bench basin search montecarlo endurance flips scrub fuzz statistics campaigns-sample golden fixed-point ppc-count search-count start-count pil pil-sample pil-upload seu seu-sample prove ppc-test sanitize requirements arrows coverage mcdc trace evidence gates-selftest figures icd format lint install clean build
+.PHONY: help run test accuracy bench basin search montecarlo endurance flips scrub fuzz statistics campaigns-sample golden fixed-point ppc-count search-count start-count pil pil-sample pil-upload seu seu-sample prove ppc-test sanitize requirements arrows coverage mcdc trace evidence gates-selftest inputs verify figures icd format lint install clean build
 .DEFAULT_GOAL := help
 
 help: ## this list
@@ -263,7 +263,7 @@ pil: prove ## the component on the bare, emulated PowerPC 603e with camera and g
 	$(on_board)
 	@ft/pil/run.py $(BUILD) $(BOARD) $(CLANG) $(BOARD)-fixed $(SECOND) $(or $(FRAMES),360)
 
-pil-sample: prove ## the same for a few frames, and the boards' answers to faults: null, stray, hung, cut lines, wrong images; out/pil-sample
+pil-sample: $(if $(ORDERED),,prove) ## the same for a few frames, and the boards' answers to faults: null, stray, hung, cut lines, wrong images; out/pil-sample
 	$(begin)
 	$(on_board)
 	$(linked_image)
@@ -388,6 +388,13 @@ gates-selftest: ## every gate fails on its planted violation (ut/gates)
 	$(begin)
 	$(call packages,build target lint trace coverage)
 	@cfg/quality/gates-selftest
+
+inputs: ## each file of the repository that a gate's builds and scripts read is one of its inputs (cfg/quality/gates.toml); after the gates, in make verify
+	$(begin)
+	@cfg/quality/inputs
+
+verify: ## every gate in its whole form, two at a time; goes on where it was; evidence, and the record by which .ci/run skips what did not change
+	@cfg/quality/run-gates verify
 
 icd: ## write the interface document, docs/icd/link.md, from the dictionary
 	$(call packages,build)
