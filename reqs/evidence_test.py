@@ -41,7 +41,7 @@ class EvidenceTest(unittest.TestCase):
         return (self.top / 'docs/verification.md').read_text()
 
     def test_says_what_passed_and_what_has_not_run(self):
-        self.assertIn('3 gates passed, 21 gates not run', self.collect().stdout)
+        self.assertIn('22 gates not run, 3 gates passed', self.collect().stdout)
         self.assertRegex(self.page(), r'\| `make prove` \| [^|]* \| passed \| stack: 10 of 20 bytes \| \d{4}-\d\d-\d\d \|')
         self.assertRegex(self.page(), r'\| `make mcdc` \| [^|]* \| not run \|  \|  \|')
 
@@ -77,6 +77,13 @@ class EvidenceTest(unittest.TestCase):
         self.write('out/golden/summary.json', '{"gate": "golden", "passed": true, "figures": {}, "sample": "3 of 360"}')
         self.collect()
         self.assertRegex(self.page(), r'`make golden` \| [^|]* \| passed as a sample \| sample: 3 of 360 \|')
+
+    def test_a_gate_that_was_skipped_or_shortened(self):
+        self.write('out/golden/summary.json', '{"gate": "golden", "passed": true, "commit": "1", "as_of": "0123456789", "figures": {}}')
+        self.write('out/mcdc/summary.json', '{"gate": "mcdc", "passed": true, "form": "landing", "figures": {}}')
+        self.collect()
+        self.assertRegex(self.page(), r'`make golden` \| [^|]* \| passed \|  \| not run: unchanged since 0123456789 \|')
+        self.assertRegex(self.page(), r'`make mcdc` \| [^|]* \| passed in short form \|')
 
     def test_a_summary_that_cannot_be_read(self):
         self.write('out/lint/summary.json', '{"gate": "lint"}')

@@ -2,7 +2,7 @@
 import json
 import os
 
-NOT_RUN, SAMPLE = 'not run', 'a sample'
+NOT_RUN, SAMPLE, SHORT, UNCHANGED = 'not run', 'a sample', 'short form', 'unchanged'
 
 
 def read_summary(out, gate):
@@ -22,12 +22,14 @@ def read_summary(out, gate):
 
 
 def result_of(out, gate):
-    """passed, failed, not run, or a sample: passed with fewer cases than are asked for."""
+    """passed, failed, not run, or passed less than whole: a sample, with fewer cases than are asked for; in the short form of a landing; or not run
+    at a landing, as its inputs are unchanged since a commit at which it passed (cfg/quality/verified.toml)."""
     summary = read_summary(out, gate)
     if summary is None:
         return NOT_RUN
-    good = SAMPLE if summary.get('sample') else 'passed'
-    return good if summary['passed'] else 'failed'
+    if not summary['passed']:
+        return 'failed'
+    return SAMPLE if summary.get('sample') else UNCHANGED if summary.get('as_of') else SHORT if summary.get('form') == 'landing' else 'passed'
 
 
 def check_gates(items, out, complete=False):
@@ -51,4 +53,6 @@ def check_gates(items, out, complete=False):
             problems.append(f'{item.at("gate")}: {item.id} rests on make {item.gate}, which has run as a sample: run it whole')
         if item.active and results[item.gate] == NOT_RUN and complete:
             problems.append(f'{item.at("gate")}: {item.id} rests on make {item.gate}, which has not run: run it before')
+        if item.active and results[item.gate] in (SHORT, UNCHANGED) and complete:
+            problems.append(f'{item.at("gate")}: {item.id} rests on make {item.gate}, of which only this is known: {results[item.gate]}; run it whole')
     return results, list(dict.fromkeys(problems))

@@ -18,22 +18,24 @@ def area_title(area):
 
 
 class Matrix:
-    def __init__(self, root, items, tests, gates, problems):
-        self.root, self.items, self.tests, self.gates, self.problems = root, items, tests, gates, problems
+    def __init__(self, root, items, tests, gates, problems, standing):
+        self.root, self.items, self.tests, self.gates, self.problems, self.standing = root, items, tests, gates, problems, standing
         self.children = collections.defaultdict(list)
         for item in items:
             if not item.is_need:  # a need with a parent is a problem, and would lead the tree in a circle
                 self.children[item.parent].append(item)
 
     def verdict(self, item):
-        """verified, missing, failed, evidence, not run, a sample, planned."""
+        """verified, missing, failed, evidence, planned, or why it is not known here: not run, a sample, short form, unchanged."""
         if not item.active:
             return 'planned'
         results = {(test.platform, test.result) for test in trace_reports.tests_of(item, self.tests)}
         if any(result == 'failed' for _, result in results):
             return 'failed'
         if item.method == 'test':
-            return 'verified' if all((platform, 'passed') in results for platform in item.targets) else 'missing'
+            left = [platform for platform in item.targets if (platform, 'passed') not in results]
+            reasons = [self.standing.get(platform, 'missing') for platform in left]
+            return 'missing' if 'missing' in reasons else next(iter(reasons), 'verified')
         gate = self.gates.get(item.gate, 'passed')
         return {'passed': 'evidence' if item.evidence else 'missing'}.get(gate, gate)
 
@@ -62,6 +64,9 @@ class Matrix:
         }
         if waiting:
             figures['waiting for a gate'] = ', '.join(sorted({item.gate for item in waiting}))
+        left = collections.Counter(verdict for verdict in map(self.verdict, active) if verdict in ('unchanged', 'short form'))
+        if left:
+            figures['left to make verify'] = ', '.join(f'{count} {why}' for why, count in sorted(left.items()))
         return figures
 
     def row(self, item):

@@ -302,6 +302,36 @@ class TraceTest(unittest.TestCase):
         self.passes()
         self.fails('LASSO-NEED-001 rests on make golden, which has run as a sample: run it whole', complete=True)
 
+    # What a landing leaves to make verify.
+
+    def test_gate_that_is_unchanged_or_has_run_in_its_short_form(self):
+        for word, mark in (('unchanged', {'as_of': '0123456789'}), ('short form', {'form': 'landing'})):
+            with self.subTest(word):
+                self.rest_on_golden({'gate': 'golden', 'passed': True, 'figures': {}} | mark)
+                self.assertIn(f'1 {word} left to make verify', self.passes().stdout)
+                self.fails(f'LASSO-NEED-001 rests on make golden, of which only this is known: {word}; run it whole', complete=True)
+
+    def test_platform_that_is_unchanged(self):
+        shutil.rmtree(self.top / 'out/ppc-test')
+        self.edit('reqs/abc.yaml', 'method: test', 'method: test\n  targets: [host, ppc603e]')
+        self.write('out/ppc-test/summary.json', '{"gate": "ppc-test", "passed": true, "figures": {}, "as_of": "0123456789"}')
+        self.assertIn('1 unchanged left to make verify', self.passes().stdout)
+        self.fails('the tests of ppc603e have not run whole (unchanged): run make ppc-test', complete=True)
+
+    def test_old_reports_of_a_platform_that_is_unchanged(self):
+        self.report(PASSED.format('<failure message="1 != 2"/>'))
+        self.write('out/test/summary.json', '{"gate": "test", "passed": true, "figures": {}, "as_of": "0123456789"}')
+        self.passes()
+
+    def test_platform_in_its_short_form(self):
+        self.edit('reqs/abc.yaml', 'method: test', 'method: test\n  targets: [host, ppc603e]')
+        self.report(PASSED.format(''), 'ppc-test')
+        self.write('out/ppc-test/summary.json', '{"gate": "ppc-test", "passed": true, "figures": {}, "form": "landing"}')
+        self.assertIn('1 short form left to make verify', self.passes().stdout)
+        self.fails('the tests of ppc603e have not run whole (short form): run make ppc-test', complete=True)
+        self.report(PASSED.format('<failure message="1 != 2"/>' + NAMES.format('LASSO-ABC-001~2')), 'ppc-test')
+        self.fails('LASSO-ABC-001: its test Box.IsLong failed on ppc603e')
+
     def test_gate_summary_malformed(self):
         for text in ('{\n"gate": ', '{}', '[]', '{"gate": "other", "passed": true, "figures": {}}', '{"gate": "golden", "passed": 1, "figures": {}}'):
             with self.subTest(text):
