@@ -97,7 +97,7 @@ INSTANTIATE_TEST_SUITE_P(All, Line,
                                            Head{"tridar-wire", "laser_camera"}),
                          [](const auto& one) { return std::string(one.param.sensor).substr(0, 3); });
 
-TEST(Replay, GivesThePosesOfTheRunThatWasRecorded) {
+TEST(RecordedRun, GivesThePosesOfTheRunThatWasRecorded) {
   VERIFIES("LASSO-SNS-031~1");
   const WorkFolder folder;
   const std::string run = "run missions/test.toml --scenario spin --frames 6 --no-report ";
@@ -108,7 +108,7 @@ TEST(Replay, GivesThePosesOfTheRunThatWasRecorded) {
   EXPECT_TRUE(telemetry == folder.read("again/telemetry.ccsds")) << "another seed draws other noise: it was not the recording that played";
 }
 
-TEST(Replay, WarnsOfARunThatIsLongerThanItsRecording) {
+TEST(RecordedRun, WarnsOfARunThatIsLongerThanItsRecording) {
   VERIFIES("LASSO-SNS-031~1");
   const WorkFolder folder;
   const std::string run = "run missions/test.toml --scenario spin --no-report ";
@@ -119,7 +119,7 @@ TEST(Replay, WarnsOfARunThatIsLongerThanItsRecording) {
   EXPECT_NE(longer.err.find("scans are not in the recording, and were lost: it is shorter than the run"), std::string::npos) << longer.err;
 }
 
-TEST(Replay, SaysWhatIsWrongWithARecording) {
+TEST(RecordedRun, SaysWhatIsWrongWithARecording) {
   VERIFIES("LASSO-SNS-031~1");
   const WorkFolder folder;
   folder.write("scans.3dlr", "no recording");
