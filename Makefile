@@ -67,8 +67,12 @@ ctest = @rm -rf $(2); mkdir -p $(2); GTEST_OUTPUT=xml:$(abspath $(2))/ \
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-16s %s\n", $$1, $$2 }' $(firstword $(MAKEFILE_LIST))
 
-run: build ## track the tenth-scale Hubble and report into out/run; MISSION=, SCENARIO= (approach: the full-size one), SENSOR=lcs-wire (the camera over its line), SEED=, OUT=
+run: ## track the tenth-scale Hubble and report into out/run; MISSION=, SCENARIO= (approach: the full-size one), SENSOR=lcs-wire (the camera over its line), SEED=, OUT=
+	$(call packages,build)
+	$(call configure,$(BUILD),)
+	$(call compile,$(BUILD),mdat)
 	@$(BUILD)/mdat/mdat run $(MISSION) $(if $(SCENARIO),--scenario $(SCENARIO)) $(if $(SEED),--seed $(SEED)) $(if $(SENSOR),--sensor $(SENSOR)) --out $(OUT)
+	@echo "open the report: xdg-open $(OUT)/report.html"
 
 test: ## all tests of the host by g++ in floating point, those of the flight code by clang++ in fixed point, too, without a warning (make sanitize has all of them by clang++); reports in out/test
 	$(begin)
