@@ -223,7 +223,7 @@ ppc-count: ## instructions of one estimate on the PowerPC 603e, by function, in 
 	$(call compile,$(PPC)-soft-fixed,golden_replay)
 	@ft/ppc603e/count $(BUILD) $(PPC) fixed=$(CLANG),$(PPC)-fixed soft-float=$(BUILD),$(PPC)-soft soft-fixed=$(CLANG),$(PPC)-soft-fixed
 
-start-count: ## instructions of an estimate from a rough start (20 deg, 0.3 m) on the PowerPC 603e, held to a frame of the card; the same bits as on the host; out/start-count; STARTS=, SEED=, MISSION=
+start-count: ## instructions of an estimate from a rough start (20 deg, 0.3 m) on the PowerPC 603e: those beyond a frame of the card are no more than is known; the same bits as on the host; out/start-count; STARTS=, SEED=, MISSION=
 	$(begin)
 	$(replays)
 	@ft/ppc603e/count-starts $(BUILD) $(PPC) $(or $(STARTS),300) $(or $(SEED),1) $(MISSION)
