@@ -72,6 +72,7 @@ run: ## track the tenth-scale Hubble and report into out/run; MISSION=, SCENARIO
 	$(call configure,$(BUILD),)
 	$(call compile,$(BUILD),mdat)
 	@$(BUILD)/mdat/mdat run $(MISSION) $(if $(SCENARIO),--scenario $(SCENARIO)) $(if $(SEED),--seed $(SEED)) $(if $(SENSOR),--sensor $(SENSOR)) --out $(OUT)
+	@cfg/quality/measured.py run $(OUT)/results.json
 	@echo "open the report: xdg-open $(OUT)/report.html"
 
 test: ## all tests of the host by g++ in floating point, those of the flight code by clang++ in fixed point, too, without a warning (make sanitize has all of them by clang++); reports in out/test
@@ -399,7 +400,7 @@ icd: ## write the interface document, docs/icd/link.md, from the dictionary
 	$(call compile,$(BUILD),mdat)
 	@$(BUILD)/mdat/mdat dictionary >docs/icd/link.md
 
-figures: ## write README.md's table from the results of run, bench, ppc-count and prove
+figures: ## write the measured figures of README.md and docs/benchmarks.md from the results of run, bench, ppc-count and prove that are of this version
 	@docs/figures
 
 format: ## format all tracked sources
