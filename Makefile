@@ -61,7 +61,7 @@ tidy = @ninja -C $(1) -t cleandead >/dev/null; find $(1) -name '*.$(2)' | while 
 ctest = @rm -rf $(2); mkdir -p $(2); GTEST_OUTPUT=xml:$(abspath $(2))/ \
   ctest --test-dir $(1) --parallel $(JOBS) --output-on-failure --no-tests=error --output-junit $(abspath $(2))/ctest.xml $(3)
 
-.PHONY: help run test accuracy bench basin search montecarlo endurance flips scrub fuzz statistics campaigns-sample golden fixed-point ppc-count search-count start-count pil pil-sample pil-upload seu seu-sample prove ppc-test sanitize requirements arrows coverage mcdc trace evidence gates-selftest figures icd format lint install clean build
+.PHONY: help run test accuracy bench basin search montecarlo endurance flips scrub fuzz statistics campaigns-sample golden fixed-point ppc-count search-count start-count pil pil-sample pil-upload seu seu-sample prove ppc-test sanitize requirements arrows coverage mcdc trace evidence gates-selftest figures icd format lint install package clean build
 .DEFAULT_GOAL := help
 
 help: ## this list
@@ -415,9 +415,21 @@ lint: ## clang-format, clang-tidy and cppcheck find nothing in the tracked sourc
 	$(call configure,$(LINT)-second,$(SECOND_BOARD) -DLASSO_LINT=ON $(own_includes))
 	@cfg/quality/lint $(LINT) . $(LINT)-board $(LINT)-second
 
-install: build ## install mdat, the flight component and its CMake package under PREFIX= (/usr/local)
+# $(installed) builds what is installed.
+define installed
+$(call packages,build)
+$(call configure,$(BUILD),)
+$(call compile,$(BUILD),installed)
+endef
+install: ## install mdat, the flight component and its CMake package under PREFIX= (/usr/local)
+	$(installed)
 	@cmake --install $(BUILD) --prefix $(abspath $(PREFIX)) >out/install.log || { cat out/install.log; false; }
 	@echo "installed under $(PREFIX): $$(wc -l <$(BUILD)/install_manifest.txt) files"
+
+package: ## Debian packages 3dlasso-mdat and 3dlasso-dev in out/package, each tried: a mission flown, docs/embedding built
+	$(installed)
+	$(call packages,package)
+	@cfg/quality/package $(BUILD)
 
 clean: ## remove everything that was built (out/)
 	@rm -rf out
