@@ -61,14 +61,20 @@ tidy = @ninja -C $(1) -t cleandead >/dev/null; find $(1) -name '*.$(2)' | while 
 ctest = @rm -rf $(2); mkdir -p $(2); GTEST_OUTPUT=xml:$(abspath $(2))/ \
   ctest --test-dir $(1) --parallel $(JOBS) --output-on-failure --no-tests=error --output-junit $(abspath $(2))/ctest.xml $(3)
 
-.PHONY: help run test accuracy bench basin search montecarlo endurance flips scrub fuzz statistics campaigns-sample golden fixed-point ppc-count search-count start-count pil pil-sample pil-upload seu seu-sample prove ppc-test sanitize requirements arrows coverage mcdc trace evidence gates-selftest inputs verify figures icd format lint install clean build
+# each target that help lists
+.PHONY: $(shell awk -F: '/^[a-z-]+:.*## / { print $$1 }' $(firstword $(MAKEFILE_LIST)))
 .DEFAULT_GOAL := help
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-16s %s\n", $$1, $$2 }' $(firstword $(MAKEFILE_LIST))
 
-run: build ## track the tenth-scale Hubble and report into out/run; MISSION=, SCENARIO= (approach: the full-size one), SENSOR=lcs-wire (the camera over its line), SEED=, OUT=
+run: ## track the tenth-scale Hubble and report into out/run; MISSION=, SCENARIO= (approach: the full-size one), SENSOR=lcs-wire (the camera over its line), SEED=, OUT=
+	$(call packages,build)
+	$(call configure,$(BUILD),)
+	$(call compile,$(BUILD),mdat)
 	@$(BUILD)/mdat/mdat run $(MISSION) $(if $(SCENARIO),--scenario $(SCENARIO)) $(if $(SEED),--seed $(SEED)) $(if $(SENSOR),--sensor $(SENSOR)) --out $(OUT)
+	@cfg/quality/measured.py run $(OUT)/results.json
+	@echo "open the report: xdg-open $(OUT)/report.html"
 
 test: ## all tests of the host by g++ in floating point, those of the flight code by clang++ in fixed point, too, without a warning (make sanitize has all of them by clang++); reports in out/test
 	$(begin)
@@ -219,7 +225,7 @@ ppc-count: ## instructions of one estimate on the PowerPC 603e, by function, in 
 	$(call compile,$(PPC)-soft-fixed,golden_replay)
 	@ft/ppc603e/count $(BUILD) $(PPC) fixed=$(CLANG),$(PPC)-fixed soft-float=$(BUILD),$(PPC)-soft soft-fixed=$(CLANG),$(PPC)-soft-fixed
 
-start-count: ## instructions of an estimate from a rough start (20 deg, 0.3 m) on the PowerPC 603e, held to a frame of the card; the same bits as on the host; out/start-count; STARTS=, SEED=, MISSION=
+start-count: ## instructions of an estimate from a rough start (20 deg, 0.3 m) on the PowerPC 603e: those beyond a frame of the card are no more than is known; the same bits as on the host; out/start-count; STARTS=, SEED=, MISSION=
 	$(begin)
 	$(replays)
 	@ft/ppc603e/count-starts $(BUILD) $(PPC) $(or $(STARTS),300) $(or $(SEED),1) $(MISSION)
@@ -402,7 +408,7 @@ icd: ## write the interface document, docs/icd/link.md, from the dictionary
 	$(call compile,$(BUILD),mdat)
 	@$(BUILD)/mdat/mdat dictionary >docs/icd/link.md
 
-figures: ## write README.md's table from the results of run, bench, ppc-count and prove
+figures: ## write the measured figures of README.md and docs/benchmarks.md from the results of run, bench, ppc-count and prove that are of this version
 	@docs/figures
 
 format: ## format all tracked sources
@@ -417,9 +423,21 @@ lint: ## clang-format, clang-tidy and cppcheck find nothing in the tracked sourc
 	$(call configure,$(LINT)-second,$(SECOND_BOARD) -DLASSO_LINT=ON $(own_includes))
 	@cfg/quality/lint $(LINT) . $(LINT)-board $(LINT)-second
 
-install: build ## install mdat, the flight component and its CMake package under PREFIX= (/usr/local)
+# $(installed) builds what is installed.
+define installed
+$(call packages,build)
+$(call configure,$(BUILD),)
+$(call compile,$(BUILD),installed)
+endef
+install: ## install mdat, the flight component and its CMake package under PREFIX= (/usr/local)
+	$(installed)
 	@cmake --install $(BUILD) --prefix $(abspath $(PREFIX)) >out/install.log || { cat out/install.log; false; }
 	@echo "installed under $(PREFIX): $$(wc -l <$(BUILD)/install_manifest.txt) files"
+
+package: ## Debian packages 3dlasso-mdat and 3dlasso-dev in out/package, each tried: a mission flown, docs/embedding built
+	$(installed)
+	$(call packages,package)
+	@cfg/quality/package $(BUILD)
 
 clean: ## remove everything that was built (out/)
 	@rm -rf out

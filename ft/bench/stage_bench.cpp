@@ -91,7 +91,7 @@ void agreement_stage(Bench& b) {
 // One pass over all points at the registered pose: every ray walks through the field, nothing is remembered from the pass before.
 void walk_stage(Bench& b) {
   const MatchSettings<FlightNumber> settings = make_settings(b.mission().parameters, b.workspace);
-  PassSums<FlightNumber> sums;
+  PassSums<FlightNumber> sums(b.mission().radius_m);
   Span<MatchPoint<FlightNumber>> points(b.workspace.points.begin(), b.workspace.points.size());
   match_points(b.mission().field, to_path<FlightNumber>(b.hits.T_target_sensor), settings, points, {1, Lookup::kWalk}, sums);
   benchmark::DoNotOptimize(sums);
