@@ -31,14 +31,16 @@ FIXED_HOST = -DCMAKE_CXX_COMPILER=clang++-19 $(FIXED)
 # $(call at_level,COMPILER,LEVEL): flight code and its tests at one level of optimisation, where the shipped build uses several
 at_level = -DCMAKE_CXX_COMPILER=$(1) -DCMAKE_BUILD_TYPE=Level -DCMAKE_CXX_FLAGS_LEVEL=-$(2) -DLASSO_GROUND=OFF
 # $(call sanitized,SANITIZERS) (a finding names its function; -g1 would name lines, too, and costs a sixth of the build), the tests that start threads,
-# those of the per-point path, and those of the flight code and what it runs on (make sanitize runs all by clang++: one that is missing here has its run there)
+# and those of the per-point path
 comma := ,
 sanitized = -DCMAKE_CXX_COMPILER=clang++-19 -DCMAKE_BUILD_TYPE=Level -DCMAKE_CXX_FLAGS_LEVEL=-O1 -DLASSO_COMMAND_LINE_OPTIONS=-O0 -DLASSO_SANITIZE=$(1)
 # Elsewhere what most files include is parsed once (lasso_precompile); here each file has to include what it uses.
 own_includes = -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON -DLASSO_UNITY=OFF
 THREADED = ut_posix ut_exec
 PER_POINT = ut_geometry ut_mission ut_pose
-FLIGHT_TESTS = ut_core ut_geometry ut_mission ut_sense ut_pose ut_mode ut_link ut_exec ut_hal_lcs ut_posix ut_sensors
+# At a landing (TIER=landing) the emulated 603e runs the tests of what depends on the processor: codecs, the loader, numbers.
+ON_TARGET = ut_core ut_geometry ut_mission ut_sense ut_link ut_hal_lcs ut_sensors
+landing := $(filter landing,$(TIER))
 SOURCES = git ls-files -z '*.cpp' '*.hpp'
 
 export CCACHE_BASEDIR := $(CURDIR)
@@ -76,14 +78,12 @@ run: ## track the tenth-scale Hubble and report into out/run; MISSION=, SCENARIO
 	@cfg/quality/measured.py run $(OUT)/results.json
 	@echo "open the report: xdg-open $(OUT)/report.html"
 
-test: ## all tests of the host by g++ in floating point, those of the flight code by clang++ in fixed point, too, without a warning (make sanitize has all of them by clang++); reports in out/test
+test: ## all unit and functional tests of the host, by g++ without a warning; reports in out/test
 	$(begin)
-	$(call packages,build clang test)
+	$(call packages,build test)
 	$(call configure,$(BUILD),)
 	$(call compile,$(BUILD))
-	$(call configure,$(CLANG),$(FIXED_HOST))
-	$(call compile,$(CLANG),$(FLIGHT_TESTS))
-	@cfg/quality/run-tests test g++=$(BUILD) clang++=$(CLANG) $(FLIGHT_TESTS)
+	@cfg/quality/run-tests test g++=$(BUILD)
 
 accuracy: ## the errors of the reference simulation, of pointing noise, spin, rates, tumble, outliers and dropouts, against the limits of their requirements; out/accuracy
 	$(begin)
@@ -164,7 +164,7 @@ search: ## find the target without any prior attitude from random views; CASE= (
 	$(call compile,$(BUILD),search)
 	@$(BUILD)/ft/search/search $(MISSION) $(or $(CASE),all) $(or $(STARTS),1000) $(or $(SEED),1) $(or $(SCANS),3) $(or $(SCALE),1)
 
-golden: ## the same telemetry, bit for bit: g++ and clang++, optimised or not, threads or none, host and emulated PowerPC 603e
+golden: ## the same telemetry, bit for bit: g++ and clang++, optimised or not, threads or none, host and emulated PowerPC 603e; TIER=landing: of the builds that other gates make
 	$(begin)
 	$(call packages,build target clang)
 	$(call configure,$(BUILD),)
@@ -172,13 +172,17 @@ golden: ## the same telemetry, bit for bit: g++ and clang++, optimised or not, t
 	$(call configure,$(PPC),$(CROSS))
 	$(call compile,$(PPC),golden_replay)
 	$(call counted,golden_replay)
-	$(call configure,$(GOLDEN)-g++-O2,$(call at_level,g++,O2))
-	$(call compile,$(GOLDEN)-g++-O2,golden_replay)
-	$(call configure,$(GOLDEN)-clang++-O0,$(call at_level,clang++-19,O0))
-	$(call compile,$(GOLDEN)-clang++-O0,golden_replay)
-	$(call configure,$(GOLDEN)-clang++-O2,$(call at_level,clang++-19,O2))
-	$(call compile,$(GOLDEN)-clang++-O2,golden_replay)
-	@ft/golden/run $(BUILD) $(PPC) g++-O0=$(COVERAGE) $(foreach build,g++-O2 clang++-O0 clang++-O2,$(build)=$(GOLDEN)-$(build))
+	$(if $(landing),,$(other_levels))
+	@ft/golden/run $(BUILD) $(PPC) clang++-O1=$(MCDC) $(if $(landing),,$(foreach build,g++-O2 clang++-O0 clang++-O2,$(build)=$(GOLDEN)-$(build)))
+
+define other_levels
+$(call configure,$(GOLDEN)-g++-O2,$(call at_level,g++,O2))
+$(call compile,$(GOLDEN)-g++-O2,golden_replay)
+$(call configure,$(GOLDEN)-clang++-O0,$(call at_level,clang++-19,O0))
+$(call compile,$(GOLDEN)-clang++-O0,golden_replay)
+$(call configure,$(GOLDEN)-clang++-O2,$(call at_level,clang++-19,O2))
+$(call compile,$(GOLDEN)-clang++-O2,golden_replay)
+endef
 
 # The floating build's run is that of make accuracy, where no program or mission is newer.
 PAPER := $(LASSO_OUT)/accuracy/paper
@@ -243,16 +247,20 @@ search-count: ## instructions of a search on the PowerPC 603e, and its largest s
 	$(call compile,$(PPC)-fixed,search_replay)
 	@ft/ppc603e/count-search $(BUILD) $(PPC) $(CLANG) $(PPC)-fixed $(or $(STARTS),24) $(or $(SEED),11)
 
-# $(on_board) builds the first bare board's images of both number types, the rig around each, and the second board's. What the first one's stacks
-# may hold make prove knows.
-define on_board
-$(call packages,build target target-arm clang)
+# $(on_first_board) builds the first bare board's image in floating point and the rig around it, $(on_board) those of both number types, and the second
+# board's. What the first one's stacks may hold make prove knows.
+define on_first_board
+$(call packages,build target)
 $(call configure,$(BUILD),)
 $(call compile,$(BUILD),pil_rig)
-$(call configure,$(CLANG),$(FIXED_HOST))
-$(call compile,$(CLANG),pil_rig)
 $(call configure,$(BOARD),$(FLIGHT_BOARD))
 $(call compile,$(BOARD),flight_603e planted_603e)
+endef
+define on_board
+$(on_first_board)
+$(call packages,target-arm clang)
+$(call configure,$(CLANG),$(FIXED_HOST))
+$(call compile,$(CLANG),pil_rig)
 $(call configure,$(BOARD)-fixed,$(FLIGHT_BOARD) $(FIXED))
 $(call compile,$(BOARD)-fixed,flight_603e)
 $(call configure,$(SECOND),$(SECOND_BOARD))
@@ -269,11 +277,11 @@ pil: prove ## the component on the bare, emulated PowerPC 603e with camera and g
 	$(on_board)
 	@ft/pil/run.py $(BUILD) $(BOARD) $(CLANG) $(BOARD)-fixed $(SECOND) $(or $(FRAMES),360)
 
-pil-sample: $(if $(ORDERED),,prove) ## the same for a few frames, and the boards' answers to faults: null, stray, hung, cut lines, wrong images; out/pil-sample
+pil-sample: $(if $(ORDERED),,prove) ## the same for a few frames, and the boards' answers to faults: null, stray, hung, cut lines, wrong images; TIER=landing: floating point on the 603e; out/pil-sample
 	$(begin)
-	$(on_board)
-	$(linked_image)
-	@ft/pil/faults $(BUILD) $(BOARD) $(CLANG) $(BOARD)-fixed $(SECOND)
+	$(if $(landing),$(on_first_board),$(on_board))
+	$(if $(landing),,$(linked_image))
+	@ft/pil/faults $(BUILD) $(BOARD) $(if $(landing),,$(CLANG) $(BOARD)-fixed $(SECOND))
 
 pil-upload: ## a mission's image, 2.7 MB, over the ground's line into the store of the emulated 603e, and flown from there; out/pil-upload
 	$(begin)
@@ -308,37 +316,49 @@ $(call configure,$(1),$(strip $(FLIGHT_BOARD) $(2)))
 $(call compile,$(1),flight_603e)
 $(call tidy,$(1),ci)
 endef
-prove: ## what the flight image's archives for the 603e do not do: heap, exceptions, recursion, contraction, too much stack or memory; out/prove, in fixed point out/fixed-point/prove
+prove: ## what the flight image's archives for the 603e do not do: heap, exceptions, recursion, contraction, too much stack or memory; out/prove, in fixed point out/fixed-point/prove (not with TIER=landing)
 	$(begin)
 	$(call packages,build target)
-	$(call proof,$(BOARD)-fixed,$(FIXED))
-	@echo "in fixed point"; LASSO_OUT=$(LASSO_OUT)/fixed-point cfg/quality/prove $(BOARD)-fixed
+	$(if $(landing),,$(fixed_proof))
 	$(call proof,$(BOARD))
 	@cfg/quality/prove $(BOARD)
 
-ppc-test: ## unit tests of the flight component on the emulated PowerPC 603e, a part of them without an operating system too, those of the per-point path in fixed point, too; reports in out/ppc-test
+define fixed_proof
+$(call proof,$(BOARD)-fixed,$(FIXED))
+@echo "in fixed point"; LASSO_OUT=$(LASSO_OUT)/fixed-point cfg/quality/prove $(BOARD)-fixed
+endef
+
+ppc-test: ## unit tests of the flight component on the emulated PowerPC 603e, a part of them without an operating system too, those of the per-point path in fixed point, too; TIER=landing: those of what depends on the processor; reports in out/ppc-test
 	$(begin)
 	$(call packages,build target)
-	$(if $(filter .,$(SOURCE)),$(call configure,$(BOARD),$(FLIGHT_BOARD)))
-	$(if $(filter .,$(SOURCE)),$(call compile,$(BOARD),bare_kernel))
-	$(call configure,$(PPC),$(CROSS))
-	$(call compile,$(PPC))
-	$(call configure,$(PPC)-fixed,$(CROSS) $(FIXED))
-	$(call compile,$(PPC)-fixed,$(PER_POINT))
-	@cfg/quality/run-tests ppc-test 603e=$(PPC) fixed=$(PPC)-fixed $(PER_POINT)
+	$(if $(landing),$(tests_on_target),$(all_on_target))
 
-sanitize: export LSAN_OPTIONS := suppressions=$(abspath cfg/quality/leaks.txt):print_suppressions=0
-sanitize: export UBSAN_OPTIONS := print_stacktrace=1
-sanitize: ## all tests by clang++ in fixed point under the address and undefined-behaviour sanitizers, those of the per-point path in floating point, too, the threaded ones under the thread sanitizer
+# All flight sources are compiled for the 603e at a landing, too: golden_replay links them.
+define tests_on_target
+$(call configure,$(PPC),$(CROSS))
+$(call compile,$(PPC),golden_replay $(ON_TARGET))
+@cfg/quality/run-tests ppc-test 603e=$(PPC) $(ON_TARGET)
+endef
+define all_on_target
+$(if $(filter .,$(SOURCE)),$(call configure,$(BOARD),$(FLIGHT_BOARD)))
+$(if $(filter .,$(SOURCE)),$(call compile,$(BOARD),bare_kernel))
+$(call configure,$(PPC),$(CROSS))
+$(call compile,$(PPC))
+$(call configure,$(PPC)-fixed,$(CROSS) $(FIXED))
+$(call compile,$(PPC)-fixed,$(PER_POINT))
+@cfg/quality/run-tests ppc-test 603e=$(PPC) fixed=$(PPC)-fixed $(PER_POINT)
+endef
+
+sanitize mcdc: export LSAN_OPTIONS := suppressions=$(abspath cfg/quality/leaks.txt):print_suppressions=0
+sanitize mcdc: export UBSAN_OPTIONS := print_stacktrace=1
+sanitize: ## all tests by clang++ in fixed point under the address and undefined-behaviour sanitizers (make mcdc: those of the flight code in floating point), the threaded ones under the thread sanitizer
 	$(begin)
 	$(call packages,build clang test)
 	$(call configure,$(SANITIZE)-address,$(call sanitized,address$(comma)undefined) $(FIXED))
 	$(call compile,$(SANITIZE)-address)
-	$(call configure,$(SANITIZE)-floating,$(call sanitized,address$(comma)undefined) -DLASSO_GROUND=OFF)
-	$(call compile,$(SANITIZE)-floating,$(PER_POINT))
 	$(call configure,$(SANITIZE)-thread,$(call sanitized,thread) -DLASSO_GROUND=OFF)
 	$(call compile,$(SANITIZE)-thread,$(THREADED))
-	@cfg/quality/run-tests sanitize address,undefined=$(SANITIZE)-address floating=$(SANITIZE)-floating $(PER_POINT) thread=$(SANITIZE)-thread $(THREADED)
+	@cfg/quality/run-tests sanitize address,undefined=$(SANITIZE)-address thread=$(SANITIZE)-thread $(THREADED)
 
 requirements: ## the requirements are well formed, and the tests' sources name them as they are now; before anything is built
 	$(begin)
@@ -350,33 +370,31 @@ arrows: ## the includes obey the arrows between rooms and stages (cfg/quality/ar
 	$(call packages,lint)
 	@cfg/quality/arrows
 
-# Only fsw and hal_lcs are counted (a pattern that no shell takes apart). A test that ends in an invariant leaves its counts first (ut/support/main.cpp). The cache may not hand out files of another folder.
-coverage mcdc golden: export CCACHE_BASEDIR :=
-# $(call counted,TARGETS) builds them by g++ -O0 with counters, which change no value: make golden flies that build, too. Each source by itself: of two
-# instances of a template in one object gcovr keeps the branches of one.
-define counted
-$(call configure,$(COVERAGE),-DCMAKE_BUILD_TYPE=Coverage -DLASSO_GROUND=OFF -DLASSO_UNITY=OFF \
-  -DCMAKE_CXX_FLAGS="-O0 --coverage -fprofile-filter-files=/[fh][sa][wl] -fprofile-abs-path -fno-exceptions -DLASSO_BEFORE_ABORT=__gcov_dump")
-$(call compile,$(COVERAGE),$(1))
-endef
-coverage: ## the unit tests take every line and branch of the flight component (reqs/waivers.csv); out/coverage
+# Only fsw and hal_lcs are counted (a pattern that no shell takes apart). A test that ends in an invariant leaves its counts first (ut/support/main.cpp).
+# GCC writes the folder of a build into its notes: the cache may not hand them to another.
+coverage: export CCACHE_BASEDIR :=
+coverage: ## the unit tests take every line and branch of the flight component, by gcovr (reqs/waivers.csv); out/coverage
 	$(begin)
 	$(call packages,build coverage)
-	$(call counted,flight_tests golden_replay)
+	$(call configure,$(COVERAGE),-DCMAKE_BUILD_TYPE=Coverage -DLASSO_GROUND=OFF -DLASSO_UNITY=OFF \
+	  -DCMAKE_CXX_FLAGS="-O0 --coverage -fprofile-filter-files=/[fh][sa][wl] -fprofile-abs-path -fno-exceptions -DLASSO_BEFORE_ABORT=__gcov_dump")
+	$(call compile,$(COVERAGE),flight_tests)
 	$(call tidy,$(COVERAGE),gcno)
 	@find $(COVERAGE) -name '*.gcda' -delete; rm -rf $(LASSO_OUT)/coverage
 	$(call ctest,$(COVERAGE),$(LASSO_OUT)/coverage/test,-L flight)
 	@cfg/quality/coverage $(COVERAGE) $(SOURCE)
 
+# $(call counted,TARGETS) builds them by clang++ with sanitizers and counters, which change no value: make golden flies that build, too.
+define counted
+$(call configure,$(MCDC),$(call sanitized,address$(comma)undefined) -DLASSO_GROUND=OFF -DLASSO_COUNT=ON)
+$(call compile,$(MCDC),$(1))
+endef
+mcdc golden: export CCACHE_EXTRAFILES := $(abspath cfg/quality/mcdc.list)
 mcdc: export LLVM_PROFILE_FILE := $(abspath $(MCDC))/profiles/%m.profraw
-mcdc: ## the unit tests show that each condition of the flight component decides by itself; out/mcdc
+mcdc: ## the unit tests take every line of the flight component and show that each condition decides by itself, under the address and undefined-behaviour sanitizers; out/mcdc
 	$(begin)
 	$(call packages,build coverage)
-	$(call configure,$(MCDC),-DCMAKE_BUILD_TYPE=Coverage -DLASSO_GROUND=OFF -DCMAKE_CXX_COMPILER=clang++-19 \
-	  -DCMAKE_CXX_FLAGS="-O1 -fprofile-instr-generate -fcoverage-mapping -fcoverage-mcdc -fprofile-list=$(abspath $(SOURCE))/cfg/quality/mcdc.list \
-	  -DLASSO_BEFORE_ABORT=__llvm_profile_write_file")
-	$(call compile,$(MCDC),flight_tests)
-	$(call tidy,$(MCDC),gcno)
+	$(call counted,flight_tests)
 	@rm -rf $(MCDC)/profiles $(LASSO_OUT)/mcdc
 	$(call ctest,$(MCDC),$(LASSO_OUT)/mcdc/test,-L flight)
 	@cfg/quality/mcdc $(MCDC) $(SOURCE)

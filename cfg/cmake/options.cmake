@@ -12,6 +12,10 @@ endif()
 
 # Precompiled headers are the same whenever they are made, so that a compiler cache can tell.
 add_compile_options("$<$<CXX_COMPILER_ID:Clang>:SHELL:-Xclang -fno-pch-timestamp>")
+if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")  # as CMake says it, but by options whose paths the cache can make relative
+  set(CMAKE_CXX_COMPILE_OPTIONS_CREATE_PCH -Xclang -emit-pch -include <PCH_HEADER> -x c++-header)
+  set(CMAKE_CXX_COMPILE_OPTIONS_USE_PCH -include-pch <PCH_FILE>)
+endif()
 
 # For make sanitize: a finding ends the program. Flight code has no type information, which the check of virtual calls would need.
 set(LASSO_SANITIZE "" CACHE STRING "Sanitizers to build with, as -fsanitize= names them")
@@ -21,6 +25,18 @@ if(LASSO_SANITIZE)
   if(LASSO_SANITIZE MATCHES "fuzzer")  # it would record the operands of each comparison: two thirds of the time, and nothing more is found
     add_compile_options(-fno-sanitize-coverage=trace-cmp)
   endif()
+endif()
+
+# For make mcdc: counters (-fprofile-instr-generate, said so that ccache does not take it for a path) of lines, branches and conditions of what cfg/quality/mcdc.list names. All paths are relative to the build folder, so that the
+# compiler cache hits in any clone.
+option(LASSO_COUNT "Count lines, branches and conditions (clang)" OFF)
+if(LASSO_COUNT)
+  configure_file(${CMAKE_CURRENT_LIST_DIR}/../quality/mcdc.list ${CMAKE_BINARY_DIR}/mcdc.list COPYONLY)
+  foreach(OPTION -fprofile-instrument=clang -fprofile-list=mcdc.list -fcoverage-mapping -fcoverage-mcdc -fcoverage-compilation-dir=.)
+    add_compile_options("SHELL:-Xclang ${OPTION}")
+  endforeach()
+  add_link_options(-fprofile-instr-generate)
+  add_compile_definitions(LASSO_BEFORE_ABORT=__llvm_profile_write_file)
 endif()
 
 # For tests, rigs and mdat's command line, which compute little themselves: half of an optimised build's time would go into making them faster.
