@@ -30,13 +30,19 @@ class Verdicts:
             path.touch()
         return path.is_file()
 
-    def keep(self, keys):
+    def keep(self, key):
         """Two runs may do so at a time: a verdict is an empty file."""
         try:
             FOLDER.mkdir(parents=True, exist_ok=True)
-            for key in keys:
-                (FOLDER / key).touch()
-            for path in sorted(FOLDER.iterdir(), key=lambda path: path.stat().st_mtime, reverse=True)[MOST:]:
-                path.unlink()
+            (FOLDER / key).touch()
         except OSError:
-            pass  # without them the next run reads all
+            pass  # without it the next run reads the file again
+
+
+def prune():
+    """Leaves the newest."""
+    try:
+        for path in sorted(FOLDER.glob('*'), key=lambda path: path.stat().st_mtime, reverse=True)[MOST:]:
+            path.unlink()
+    except OSError:
+        pass  # another run is at it
