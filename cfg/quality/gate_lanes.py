@@ -11,6 +11,7 @@ import time
 from progress import clock
 
 LANES = 2
+CHEAP_S = 10  # of a processor: a gate that takes no longer needs no second core
 EVERY_S = 20  # between two lines of progress where there is no terminal
 PATIENCE_S = 5  # of a gate that is asked to end
 TAIL = 60  # lines of the output of a gate that failed
@@ -22,8 +23,8 @@ OF_MAKE = ('MAKEFLAGS', 'MFLAGS', 'MAKELEVEL', 'MAKE_TERMOUT', 'MAKE_TERMERR', '
 class Job:
     """A gate that runs: its own group of processes, whose output goes to a log."""
 
-    def __init__(self, row, command, log):
-        self.row, self.log, self.begun = row, log, time.monotonic()
+    def __init__(self, row, jobs, command, log):
+        self.row, self.jobs, self.log, self.begun = row, jobs, log, time.monotonic()
         environment = {name: text for name, text in os.environ.items() if name not in OF_MAKE}
         log.parent.mkdir(parents=True, exist_ok=True)
         with open(log, 'wb') as file:
@@ -123,7 +124,12 @@ class Lanes:
     def begin(self):
         while len(self.running) < LANES and (row := self.ready()):
             self.waiting.remove(row)
-            self.running.append(Job(row, self.command(row, self.cores), self.out / f'{row.name}.log'))
+            jobs = self.jobs_of(row)
+            self.running.append(Job(row, jobs, self.command(row, jobs), self.out / f'{row.name}.log'))
+
+    def jobs_of(self, row):
+        """One of the two has a job for each core, so that those that wait for its folders begin early; the other has one, and fills what is left."""
+        return 1 if self.costs.of(row) <= CHEAP_S or any(job.jobs > 1 for job in self.running) else self.cores
 
     def collect(self):
         for job in list(self.running):
