@@ -22,8 +22,8 @@ export JOBS ?= $(shell nproc)
 CROSS = -DCMAKE_TOOLCHAIN_FILE=$(abspath cfg/toolchains/ppc603e.cmake) -DLASSO_GROUND=OFF -DLASSO_BARE_KERNEL=$(abspath $(BOARD))/bare_kernel.elf
 # the flight images of the bare boards (docs/boards)
 BARE_BOARD = -DCMAKE_TOOLCHAIN_FILE=$(abspath cfg/toolchains/ppc603e-bare.cmake) -DLASSO_GROUND=OFF -DLASSO_TESTS=OFF -DLASSO_UNITY=OFF
-# what flies on the first one, with the call graph beside each object for make prove: the same bits, and no compiler cache, which forgets the graphs
-FLIGHT_BOARD = $(BARE_BOARD) -DLASSO_CALL_GRAPH=ON -DCMAKE_CXX_COMPILER_LAUNCHER=
+# what flies on the first one, with the call graph in each object for make prove: the same bits
+FLIGHT_BOARD = $(BARE_BOARD) -DLASSO_CALL_GRAPH=ON
 SECOND_BOARD = -DCMAKE_TOOLCHAIN_FILE=$(abspath cfg/toolchains/cortexa9-bare.cmake) -DLASSO_GROUND=OFF -DLASSO_TESTS=OFF -DLASSO_UNITY=OFF
 # the fixed-point build (docs/decisions/fixed-point.md), and that of the host
 FIXED = -DLASSO_NUMBER=fixed
@@ -314,6 +314,7 @@ seu-sample: ## eight of them, one in each region; out/seu-sample
 define proof
 $(call configure,$(1),$(strip $(FLIGHT_BOARD) $(2)))
 $(call compile,$(1),flight_603e)
+@cfg/toolchains/take_call_graphs $(1)
 $(call tidy,$(1),ci)
 endef
 prove: ## what the flight image's archives for the 603e do not do: heap, exceptions, recursion, contraction, too much stack or memory; out/prove, in fixed point out/fixed-point/prove (not with TIER=landing)

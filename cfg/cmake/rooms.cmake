@@ -123,11 +123,9 @@ function(lasso_ground_room NAME)
   endif()
 endfunction()
 
-# lasso_no_test(PROGRAM...): no test runs these, so that a build with sanitizers goes without them (by name they are built there, too).
+# lasso_no_test(PROGRAM...): no test runs these: they are built by name.
 function(lasso_no_test)
-  if(LASSO_SANITIZE)
-    set_target_properties(${ARGN} PROPERTIES EXCLUDE_FROM_ALL ON)
-  endif()
+  set_target_properties(${ARGN} PROPERTIES EXCLUDE_FROM_ALL ON)
 endfunction()
 
 # lasso_start_early(TEST): with others beside it, a test that takes long begins before those behind it in this list, so that none is left to run alone.

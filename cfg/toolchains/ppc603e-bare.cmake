@@ -8,8 +8,14 @@ if(NOT LASSO_LINT)  # clang reads the sources for make lint, and does not know i
 endif()
 set(CMAKE_CXX_FLAGS_INIT
     "-mcpu=603e -fno-pic -fno-pie ${NO_SMALL_DATA} -fno-asynchronous-unwind-tables -fno-stack-protector -ffunction-sections -fdata-sections")
-if(LASSO_CALL_GRAPH)  # for make prove, beside each object; not together with ccache, which forgets them
+if(LASSO_CALL_GRAPH)  # for make prove, in each object, so that a compiler cache keeps it; the cache is told apart by what the script says, not by its date
   string(APPEND CMAKE_CXX_FLAGS_INIT " -fcallgraph-info=su")
+  set(KEEP ${CMAKE_CURRENT_LIST_DIR}/keep_call_graph)
+  find_program(LASSO_CCACHE ccache)
+  if(LASSO_CCACHE)
+    set(KEEP env CCACHE_PREFIX=${KEEP} CCACHE_COMPILERCHECK=content ${LASSO_CCACHE})
+  endif()
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${KEEP} CACHE STRING "How the compiler is started" FORCE)
 endif()
 set(CMAKE_ASM_FLAGS_INIT "-mcpu=603e -x assembler-with-cpp")
 set(CMAKE_FIND_ROOT_PATH /usr/powerpc-linux-gnu)
