@@ -42,7 +42,7 @@ class Calibrate : public ::testing::Test {
   }
   Json track(const std::string& calibration, const std::string& seed) {
     const Answer answer = folder.mdat(
-        "run missions/test.toml --scenario spin --no-report --out run --sensor lcs-wire --camera-optics device.toml "
+        "run missions/test.toml --scenario spin --frames 180 --no-report --out run --sensor lcs-wire --camera-optics device.toml "
         "--camera-temperature 35 --calibration " +
         calibration + " --seed " + seed);
     EXPECT_EQ(answer.exit_code, 0) << answer.err;
@@ -113,14 +113,14 @@ TEST_F(Calibrate, TheDesignsTableGivesNoWrongPoseThatIsValid) {
   VERIFIES("LASSO-LCS-009~1");
   const Json run = track("design.toml", "1");
   EXPECT_EQ(run.at("wrong"), 0);
-  EXPECT_EQ(run.at("invalid"), 360);
-  EXPECT_EQ(run.at("lost"), 360);
+  EXPECT_EQ(run.at("invalid"), 180);
+  EXPECT_EQ(run.at("lost"), 180);
 }
 
 TEST_F(Calibrate, ATableOfAnotherDeviceGivesNoScan) {
   VERIFIES("LASSO-LCS-015~1");
   folder.write("foreign.toml", replaced(kDevice, "serial = 7", "serial = 8"));
-  EXPECT_EQ(track("foreign.toml", "1").at("lost"), 360);
+  EXPECT_EQ(track("foreign.toml", "1").at("lost"), 180);
   const Answer decoded = folder.mdat("decode run/telemetry.ccsds --packet sensor --items last_loss,lost_foreign --format csv");
   const std::vector<std::string> last = fields_of(lines_of(decoded.out).back());
   EXPECT_EQ(last.at(3), "foreign");
