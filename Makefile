@@ -45,6 +45,8 @@ SOURCES = git ls-files -z '*.cpp' '*.hpp'
 
 export CCACHE_BASEDIR := $(CURDIR)
 export CCACHE_SLOPPINESS := pch_defines,time_macros
+# Tests, rigs and runs share the models that mdat has compiled.
+export MDAT_CACHE ?= $(abspath $(LASSO_OUT))/mission-cache
 # A terminal gets ninja's one changing line, a log only what went wrong.
 NINJA_FLAGS := $(if $(MAKE_TERMOUT),,-- --quiet)
 export NINJA_STATUS := [%f/%t %es] 

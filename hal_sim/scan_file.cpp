@@ -73,4 +73,8 @@ RangeImage RecordedScans::read(std::size_t i) const {
   return image;
 }
 
+void RecordedScans::check() const {
+  for (const std::filesystem::path& scan : files_) (void)read_scan_file(scan);
+}
+
 }  // namespace lasso::sim

@@ -37,6 +37,7 @@ class RecordedScans {
   const std::filesystem::path& file(std::size_t i) const { return files_.at(i); }
   std::string stem(std::size_t i) const { return files_.at(i).stem().string(); }
   RangeImage read(std::size_t i) const;  // scan_id = i; throws as read_scan_file
+  void check() const;                    // reads each file once; throws as read_scan_file
 
  private:
   std::vector<std::filesystem::path> files_;

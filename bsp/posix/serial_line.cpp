@@ -198,6 +198,14 @@ SerialLine& SerialLine::operator=(SerialLine&& other) noexcept {
   return *this;
 }
 
+std::string SerialLine::check(const std::string& address, bool remote) {
+  SocketAddress socket;
+  std::string wrong = is_socket(address) ? parse(address, remote, socket) : std::string();
+  if (!wrong.empty() || begins(address, kTcp)) return wrong;
+  const std::string& path = is_socket(address) ? socket.path : address;
+  return access(path.c_str(), F_OK) == 0 ? std::string() : cause_of(address, errno);
+}
+
 std::string SerialLine::open(const std::string& address, unsigned bits_per_s, bool remote) {
   close();
   SocketAddress socket;

@@ -21,6 +21,8 @@ class SerialLine {
   SerialLine(SerialLine&& other) noexcept : fd_(other.fd_) { other.fd_ = -1; }
   SerialLine& operator=(SerialLine&& other) noexcept;
 
+  // Empty, or why a line of this address cannot be opened, as far as can be told without opening it: not there, not allowed, no address.
+  static std::string check(const std::string& address, bool remote);
   // Empty when the line is open; otherwise why it is not: nobody listens, not there, taken, not allowed, no address.
   std::string open(const std::string& address, unsigned bits_per_s, bool remote);
   bool is_open() const { return fd_ >= 0; }

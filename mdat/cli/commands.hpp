@@ -17,4 +17,7 @@ void add_command_command(CLI::App& app);
 void add_upload_command(CLI::App& app);
 void add_dictionary_command(CLI::App& app);
 
+// --no-cache of a subcommand that compiles a mission; `cached` is true unless it is given.
+void add_no_cache(CLI::App& command, bool& cached);
+
 }  // namespace lasso::mdat

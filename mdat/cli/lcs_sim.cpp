@@ -1,6 +1,7 @@
 #include <atomic>
 #include <cstdio>
 #include <memory>
+#include <utility>
 
 #include "mdat/cli/commands.hpp"
 #include "mdat/common/errors.hpp"
@@ -15,7 +16,7 @@ namespace {
 
 struct LcsSimArguments {
   std::string mission, listen = "tcp://127.0.0.1:0", device = "laser-camera", camera_faults, optics;
-  bool remote = false;
+  bool remote = false, cached = true;
   SimulationOptions simulation;
 };
 
@@ -34,11 +35,13 @@ void serve(LcsSimArguments options) {
   posix::LineServer server;
   const std::string wrong = server.listen(options.listen, options.remote);
   if (!wrong.empty()) throw InputError("--listen: " + wrong);
-  const CompiledMission mission = compile_mission(options.mission);
-  const std::unique_ptr<sim::RayCaster> target = make_target(mission.mesh);
+  MissionInput input = load_mission_input(options.mission);
+  (void)scenario_of(input.source, options.simulation.scenario);
   if (!options.camera_faults.empty()) options.simulation.camera_faults = load_camera_faults(options.camera_faults);
   if (!options.optics.empty()) options.simulation.camera_optics = load_calibration(options.optics);
   options.simulation.wire = device_of(options.device);
+  const CompiledMission mission = compile_mission(std::move(input), ModelCache::of_user_if(options.cached));
+  const std::unique_ptr<sim::RayCaster> target = make_target(mission.mesh);
   const CaseSetup setup = camera_case(mission, options.simulation, *target);
   const std::atomic<bool>& ending = interruption();
   say("the camera listens on " + server.address());
@@ -63,6 +66,7 @@ void add_lcs_sim_command(CLI::App& app) {
   command->add_option("--seed", options->simulation.seed, "start of the random numbers (the scenario's)")
       ->check(CLI::Range(std::int64_t{0}, std::int64_t{4294967295}));
   command->add_option("--camera-optics", options->optics, "what its optics are (a calibration file)");
+  add_no_cache(*command, options->cached);
   command->add_option("--camera-faults", options->camera_faults, "script of what goes wrong (docs/user-guide.md)");
   command->callback([options] { serve(*options); });
 }

@@ -1,5 +1,6 @@
 #include <cstdio>
 #include <memory>
+#include <utility>
 
 #include "mdat/cli/commands.hpp"
 #include "mdat/common/errors.hpp"
@@ -14,7 +15,7 @@ namespace {
 struct MissionOptions {
   std::string file, scenario, out, model;
   double scale = 1;
-  bool replace = false;
+  bool replace = false, cached = true;
 };
 
 void print_text(const std::string& text) { std::fputs(text.c_str(), stdout); }
@@ -92,6 +93,13 @@ std::string parts_text(const CompiledMission& mission) {
   return text;
 }
 
+// Empty where all were compiled.
+std::string cache_text(const CompiledMission& mission, const ModelCache& cache) {
+  if (mission.cached == 0) return "";
+  return std::to_string(mission.cached) + " of " + std::to_string(1 + mission.parts.size()) + " models came from the cache, " +
+         cache.folder().string() + ", with what was said of them then; --no-cache compiles them anew\n";
+}
+
 std::string report_text(const CompiledMission& mission, const std::string& out, std::size_t bytes) {
   const CompileReport& r = mission.report;
   char text[900];
@@ -113,12 +121,15 @@ void compile(const MissionOptions& options) {
   const std::filesystem::path out =
       options.out.empty() ? std::filesystem::path(options.file).filename().replace_extension(".3dli") : std::filesystem::path(options.out);
   check_writable(out);
-  const CompiledMission mission = compile_mission(options.file);
+  MissionInput input = load_mission_input(options.file);
+  const MissionParameters parameters = parameters_for(input.source, options.scenario);
+  const ModelCache cache = ModelCache::of_user_if(options.cached);
+  const CompiledMission mission = compile_mission(std::move(input), cache);
   for (const std::string& warning : mission.source.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
-  const std::vector<std::uint8_t> bytes = image_bytes(mission, parameters_for(mission.source, options.scenario));
+  const std::vector<std::uint8_t> bytes = image_bytes(mission, parameters);
   const LoadedImage loads_in_flight(out.string(), bytes);
   write_file(out, std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
-  print_text(report_text(mission, out.string(), bytes.size()));
+  print_text(report_text(mission, out.string(), bytes.size()) + cache_text(mission, cache));
 }
 
 void write_new(const MissionOptions& options) {
@@ -152,6 +163,7 @@ void add_mission_commands(CLI::App& app) {
   compile_command->add_option("MISSION", options->file, "mission file")->required();
   compile_command->add_option("-o,--out", options->out, "flight image to write (the mission's name with .3dli, here)");
   compile_command->add_option("--scenario", options->scenario, "with this scenario's overrides of parameters");
+  add_no_cache(*compile_command, options->cached);
 
   CLI::App* info_command =
       add(*mission, "info", "print every value of a mission or a flight image, its unit, meaning and origin", info, options);

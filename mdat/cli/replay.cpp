@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <utility>
 
 #include "mdat/cli/commands.hpp"
 #include "mdat/common/errors.hpp"
@@ -16,12 +17,15 @@ namespace {
 struct ReplayArguments {
   std::string mission, scenario, out;
   ReplayOptions replay;
+  bool cached = true;
 };
 
 LoadedImage load(const ReplayArguments& options) {
   if (is_image_file(options.mission)) return LoadedImage(options.mission, read_bytes(options.mission));
-  const CompiledMission mission = compile_mission(options.mission);
-  return LoadedImage(options.mission, image_bytes(mission, parameters_for(mission.source, options.scenario)));
+  MissionInput input = load_mission_input(options.mission);
+  const MissionParameters parameters = parameters_for(input.source, options.scenario);
+  const CompiledMission mission = compile_mission(std::move(input), ModelCache::of_user_if(options.cached));
+  return LoadedImage(options.mission, image_bytes(mission, parameters));
 }
 
 // "out.csv": "out_candidates.csv".
@@ -51,8 +55,10 @@ void search(const ReplayArguments& options) {
   check_apart(candidates, options);
   check_writable(options.out);
   check_writable(candidates);
+  const sim::RecordedScans recorded(options.replay.scans);
+  recorded.check();
   const LoadedImage image = load(options);
-  const std::vector<AcquiredScan> scans = acquire(image.mission(), options.replay.scans);
+  const std::vector<AcquiredScan> scans = acquire(image.mission(), recorded);
   write_file(options.out, acquired_csv(scans));
   write_file(candidates, candidates_csv(scans));
   std::fputs((acquired_summary(scans) + options.out + ", " + candidates.string() + ": written\n").c_str(), stdout);
@@ -62,8 +68,9 @@ void run(const ReplayArguments& options) {
   if (options.replay.initial == "search") return search(options);
   check_apart(options.out, options);
   check_writable(options.out);
+  const ReplayInput input = read_replay_input(options.replay);
   const LoadedImage image = load(options);
-  const std::vector<ReplayedScan> scans = replay(image.mission(), options.replay);
+  const std::vector<ReplayedScan> scans = replay(image.mission(), options.replay, input);
   write_file(options.out, replay_csv(scans));
   std::fputs((replay_summary(scans) + options.out + ": written\n").c_str(), stdout);
 }
@@ -85,6 +92,7 @@ void add_replay_command(CLI::App& app) {
                     "start from the first row, then from the filter's prediction, as in flight");
   command->add_flag("--wide", options->replay.wide, "the initial poses are rough (20 deg, a quarter of the target's size)");
   command->add_option("--scenario", options->scenario, "with this scenario's overrides of parameters");
+  add_no_cache(*command, options->cached);
   command->callback([options] { run(*options); });
 }
 

@@ -1,6 +1,7 @@
 #include <cstdio>
 #include <memory>
 #include <thread>
+#include <utility>
 
 #include "bsp/posix/links.hpp"
 #include "mdat/cli/commands.hpp"
@@ -21,7 +22,7 @@ namespace {
 struct RunArguments {
   std::string mission, sensor = "simulated", camera_faults, optics, calibration, out = "out/run", picture, record, record_sensor, link, key;
   SimulationOptions simulation;
-  bool report = true;
+  bool report = true, cached = true;
 };
 
 void write_outputs(const RunArguments& options, const CompiledMission& mission, const SimulationResult& result, OutputFolder& folder) {
@@ -32,17 +33,19 @@ void write_outputs(const RunArguments& options, const CompiledMission& mission, 
   folder.commit();
 }
 
-// An operator's link; none if there is no URL.
+// An operator's link; none if there is no URL. Who reads its address finds the component running: it is told when the mission is compiled.
 std::unique_ptr<posix::PosixLink> open_link(const std::string& url) {
   if (url.empty()) return nullptr;
   try {
-    std::unique_ptr<posix::PosixLink> link = posix::open_link(url);
-    std::printf("commands and telemetry by %s\n", link->address().c_str());
-    (void)std::fflush(stdout);
-    return link;
+    return posix::open_link(url);
   } catch (const posix::LinkError& error) {
     throw InputError("--link " + std::string(error.what()));
   }
+}
+
+void tell_address(const posix::PosixLink& link) {
+  std::printf("commands and telemetry by %s\n", link.address().c_str());
+  (void)std::fflush(stdout);
 }
 
 void warn_of_replay(const SimulationResult& result) {
@@ -67,13 +70,16 @@ void run(const RunArguments& options) {
   if (!options.picture.empty()) check_writable(options.picture);
   if (!options.record_sensor.empty()) check_writable(options.record_sensor);
   if (options.report || !options.picture.empty()) require_plotter();
-  const CompiledMission mission = compile_mission(options.mission);
-  for (const std::string& warning : mission.source.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
-  SimulationOptions simulation = options.simulation;
-  const std::unique_ptr<posix::PosixLink> link = open_link(options.link);
-  simulation.link = link.get();
+  MissionInput input = load_mission_input(options.mission);
+  check_simulation(input.source, options.simulation, !options.link.empty());
   const std::unique_ptr<SignatureCheck> signatures =
       options.key.empty() ? nullptr : std::make_unique<SignatureCheck>(load_key(options.key));
+  const std::unique_ptr<posix::PosixLink> link = open_link(options.link);
+  const CompiledMission mission = compile_mission(std::move(input), ModelCache::of_user_if(options.cached));
+  for (const std::string& warning : mission.source.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
+  SimulationOptions simulation = options.simulation;
+  if (link) tell_address(*link);
+  simulation.link = link.get();
   simulation.authenticator = signatures.get();
   const SimulationResult result = simulate(mission, simulation);
   write_outputs(options, mission, result, folder);
@@ -85,7 +91,9 @@ void run(const RunArguments& options) {
 
 void record(const RunArguments& options) {
   OutputFolder writable(options.record);
-  write_recording(compile_mission(options.mission), options.simulation, options.record);
+  MissionInput input = load_mission_input(options.mission);
+  check_simulation(input.source, options.simulation, false);
+  write_recording(compile_mission(std::move(input), ModelCache::of_user_if(options.cached)), options.simulation, options.record);
   writable.commit();
   std::printf("written to %s: for each range scans/, poses.csv (of the frame before) and truth.csv\n", options.record.c_str());
 }
@@ -184,6 +192,7 @@ void add_run_command(CLI::App& app) {
           "with --link: folder of the component's non-volatile store (made where it is missing); an image that was confirmed there "
           "is what the run starts with")
       ->needs("--link");
+  add_no_cache(*command, options->cached);
   command->add_flag("!--no-report", options->report, "leave report.html out");
   command->add_option("--picture", options->picture, "also write the scan on the target as a PNG picture");
   CLI::Option* recording = command->add_option("--record", options->record,

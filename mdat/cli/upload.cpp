@@ -14,13 +14,13 @@ namespace {
 struct UploadArguments {
   std::string image, to, key;
   UploadOptions upload;
-  bool unchecked = false;
+  bool unchecked = false, cached = true;
 };
 
 // A flight image, or a mission that is compiled to one.
 std::vector<std::uint8_t> image_of(const UploadArguments& options) {
   if (!is_image_file(options.image)) {
-    const CompiledMission mission = compile_mission(options.image);
+    const CompiledMission mission = compile_mission(options.image, ModelCache::of_user_if(options.cached));
     return image_bytes(mission, mission.source.parameters);
   }
   std::vector<std::uint8_t> bytes = read_bytes(options.image);
@@ -29,10 +29,10 @@ std::vector<std::uint8_t> image_of(const UploadArguments& options) {
 }
 
 void run(const UploadArguments& options) {
-  const std::vector<std::uint8_t> image = image_of(options);
-  const std::unique_ptr<posix::PosixLink> link = posix::connect_link(options.to);
   UploadOptions how = options.upload;
   if (!options.key.empty()) how.key = load_key(options.key);
+  const std::unique_ptr<posix::PosixLink> link = posix::connect_link(options.to);
+  const std::vector<std::uint8_t> image = image_of(options);
   const UploadEnd end = upload(*link, options.to, image, how);
   const unsigned crc = image_crc(image);
   if (end == UploadEnd::kReady)
@@ -56,6 +56,7 @@ void add_upload_command(CLI::App& app) {
                          "file with the key that the component asks commands to be signed with (64 hexadecimal digits)");
   subcommand->add_flag("--activate", options->upload.activate, "arm and activate it, and wait until its first scans confirm it");
   subcommand->add_flag("--unchecked", options->unchecked, "send a flight image even if it is wrong: the component refuses it");
+  add_no_cache(*subcommand, options->cached);
   subcommand->add_option("--wait", options->upload.answer_s, "seconds to wait for an answer")
       ->capture_default_str()
       ->check(CLI::Range(0.1, 3600.0));

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
+#include <utility>
 
 #include "mdat/common/errors.hpp"
 #include "mdat/common/output.hpp"
@@ -34,7 +35,7 @@ bool is_oriented(const PartSource& part, const CompileReport& target) {
   return part.file.empty() && target.flipped_triangles == 0 && target.two_sided_triangles == 0;
 }
 
-CompiledPart compile_part(const CompiledMission& mission, const PartSource& part) {
+CompiledPart compile_part(const CompiledMission& mission, const PartSource& part, ModelCache& cache) {
   const MissionSource& source = mission.source;
   ModelOptions options;
   options.cell_size_m = part.cell_size_m;
@@ -44,7 +45,7 @@ CompiledPart compile_part(const CompiledMission& mission, const PartSource& part
   const Mesh mesh = load_part(source, part, mission.mesh);
   CompiledPart result;
   try {
-    result.tables = compile_model(mesh, options, result.report);
+    result.tables = cache.compile(mesh, options, result.report);
   } catch (const CompileError& error) {
     throw InputError(source.file.string() + ": part." + part.name + ": " + error.what());
   }
@@ -105,20 +106,31 @@ ModelTables with_parts_and_sensors(const CompiledMission& mission, const Mission
 
 }  // namespace
 
-CompiledMission compile_mission(const std::filesystem::path& file, const std::function<void(const std::string&, double)>& progress) {
-  CompiledMission result;
-  result.source = load_mission(file);
-  result.mesh = load_target(result.source);
+MissionInput load_mission_input(const std::filesystem::path& file) {
+  MissionInput input;
+  input.source = load_mission(file);
+  input.mesh = load_target(input.source);
+  return input;
+}
+
+CompiledMission compile_mission(MissionInput input, ModelCache cache) {
+  CompiledMission result{std::move(input), {}, {}, {}};
   ModelOptions options;
   options.cell_size_m = result.source.target.cell_size_m;
   options.crease_angle_deg = result.source.target.crease_angle_rad / kRadPerDeg;
   try {
-    result.tables = compile_model(result.mesh, options, result.report, progress);
+    result.tables = cache.compile(result.mesh, options, result.report);
   } catch (const CompileError& error) {
     throw InputError(result.source.target.file.string() + ": " + error.what());
   }
-  for (const PartSource& part : result.source.parts) result.parts.push_back(compile_part(result, part));
+  for (const PartSource& part : result.source.parts) result.parts.push_back(compile_part(result, part, cache));
+  result.cached = cache.found();
+  if (!cache.warning().empty()) result.source.warnings.push_back(cache.warning());
   return result;
+}
+
+CompiledMission compile_mission(const std::filesystem::path& file, ModelCache cache) {
+  return compile_mission(load_mission_input(file), std::move(cache));
 }
 
 std::vector<std::uint8_t> image_bytes(const CompiledMission& mission, const MissionParameters& parameters) {

@@ -3,12 +3,12 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <vector>
 
 #include "fsw/geometry/portable_math.hpp"
 #include "fsw/mission/mission.hpp"
+#include "mdat/common/model_cache.hpp"
 #include "mdat/missiondb/mission_source.hpp"
 #include "mdat/modelc/model.hpp"
 
@@ -19,17 +19,27 @@ struct CompiledPart {
   CompileReport report;
 };
 
-// A mission whose target is compiled; images for different parameters follow from it in no time.
-struct CompiledMission {
+// All that a mission says, and its target as it stands: what can be wrong with either is known before anything is compiled.
+struct MissionInput {
   MissionSource source;
   Mesh mesh;
+};
+
+// Throws MissionError.
+MissionInput load_mission_input(const std::filesystem::path& file);
+
+// A mission whose target is compiled; images for different parameters follow from it in no time.
+struct CompiledMission : MissionInput {
   ModelTables tables;
   CompileReport report;
   std::vector<CompiledPart> parts;  // of source.parts
+  std::size_t cached = 0;           // of these models, how many came from the cache
 };
 
-// Throws MissionError, or InputError where the target does not fit the flight component.
-CompiledMission compile_mission(const std::filesystem::path& file, const std::function<void(const std::string&, double)>& progress = {});
+// Throws MissionError, or InputError where the target does not fit the flight component. A model that could not be kept is one of the
+// source's warnings.
+CompiledMission compile_mission(MissionInput input, ModelCache cache = ModelCache::of_user());
+CompiledMission compile_mission(const std::filesystem::path& file, ModelCache cache = ModelCache::of_user());
 std::vector<std::uint8_t> image_bytes(const CompiledMission& mission, const MissionParameters& parameters);
 
 // The memory of one image, aligned as the loader wants it, and the mission in it.

@@ -30,6 +30,7 @@ struct ListStatistics {
   double mean = 0;
   std::size_t p99 = 0;
   std::size_t max = 0;
+  bool operator==(const ListStatistics&) const = default;
 };
 
 struct CompileReport {
@@ -57,6 +58,7 @@ struct CompileReport {
   std::array<std::size_t, kTableCount + 1> table_bytes{};  // by TableId; kParameters is left 0
   std::size_t total_bytes = 0;
   double seconds = 0;
+  bool operator==(const CompileReport&) const = default;
 };
 
 // The words of every table but kParameters, in the host's byte order.

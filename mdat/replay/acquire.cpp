@@ -3,7 +3,6 @@
 #include <cstdio>
 #include <memory>
 
-#include "hal_sim/scan_file.hpp"
 #include "mdat/common/cpu_clock.hpp"
 #include "mdat/common/progress_bar.hpp"
 #include "mdat/run/statistics.hpp"
@@ -57,8 +56,7 @@ std::string candidate_rows(const AcquiredScan& scan) {
 
 }  // namespace
 
-std::vector<AcquiredScan> acquire(const Mission& mission, const std::filesystem::path& folder) {
-  const sim::RecordedScans scans(folder);
+std::vector<AcquiredScan> acquire(const Mission& mission, const sim::RecordedScans& scans) {
   const auto search = std::make_unique<Search>();
   const auto workspace = std::make_unique<Workspace>();
   std::vector<AcquiredScan> acquired;

@@ -1,12 +1,12 @@
 // Searches each recorded scan for the target on its own, without any prior attitude.
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "fsw/mission/mission.hpp"
 #include "fsw/pose/search.hpp"
+#include "hal_sim/scan_file.hpp"
 
 namespace lasso::mdat {
 
@@ -17,8 +17,8 @@ struct AcquiredScan {
   double search_us = 0;         // processor time of the whole search
 };
 
-// In name order. Throws InputError and sim::ScanFileError.
-std::vector<AcquiredScan> acquire(const Mission& mission, const std::filesystem::path& scans);
+// In name order. Throws sim::ScanFileError.
+std::vector<AcquiredScan> acquire(const Mission& mission, const sim::RecordedScans& scans);
 
 // One row a scan: outcome, reason, pose, ratio, disagreement and the number of candidates.
 std::string acquired_csv(const std::vector<AcquiredScan>& scans);

@@ -6,11 +6,9 @@
 #include <memory>
 
 #include "fsw/mode/tracker.hpp"
-#include "hal_sim/scan_file.hpp"
 #include "mdat/common/cpu_clock.hpp"
 #include "mdat/common/errors.hpp"
 #include "mdat/common/progress_bar.hpp"
-#include "mdat/replay/initial_poses.hpp"
 #include "mdat/run/statistics.hpp"
 
 namespace lasso::mdat {
@@ -99,17 +97,23 @@ std::string row(const ReplayedScan& scan) {
 
 }  // namespace
 
-std::vector<ReplayedScan> replay(const Mission& mission, const ReplayOptions& options) {
-  const std::vector<InitialPose> poses = read_initial_poses(options.initial);
-  const sim::RecordedScans scans(options.scans);
-  if (options.closed_loop) {
-    ClosedLoop loop(mission, poses.front().T_sensor_target, options.wide);
-    return for_each_scan(scans, [&](const RangeImage& image, const std::string&) { return loop.step(image); });
+ReplayInput read_replay_input(const ReplayOptions& options) {
+  ReplayInput input{read_initial_poses(options.initial), sim::RecordedScans(options.scans)};
+  for (std::size_t i = 0; i < input.scans.size(); ++i) {
+    if (!options.closed_loop) (void)pose_of(input.poses, input.scans.stem(i), options.initial);
   }
-  for (std::size_t i = 0; i < scans.size(); ++i) (void)pose_of(poses, scans.stem(i), options.initial);  // before any work
+  input.scans.check();
+  return input;
+}
+
+std::vector<ReplayedScan> replay(const Mission& mission, const ReplayOptions& options, const ReplayInput& input) {
+  if (options.closed_loop) {
+    ClosedLoop loop(mission, input.poses.front().T_sensor_target, options.wide);
+    return for_each_scan(input.scans, [&](const RangeImage& image, const std::string&) { return loop.step(image); });
+  }
   const auto estimator = std::make_unique<Estimator>();
-  return for_each_scan(scans, [&](const RangeImage& image, const std::string& stem) {
-    return register_scan(mission, *estimator, image, {pose_of(poses, stem, options.initial), {}, options.wide});
+  return for_each_scan(input.scans, [&](const RangeImage& image, const std::string& stem) {
+    return register_scan(mission, *estimator, image, {pose_of(input.poses, stem, options.initial), {}, options.wide});
   });
 }
 

@@ -8,6 +8,8 @@
 
 #include "fsw/mission/mission.hpp"
 #include "fsw/pose/result.hpp"
+#include "hal_sim/scan_file.hpp"
+#include "mdat/replay/initial_poses.hpp"
 
 namespace lasso::mdat {
 
@@ -24,9 +26,19 @@ struct ReplayedScan {
   double estimate_us = 0;  // processor time of the whole estimate
 };
 
+// What a replay reads, checked before anything is compiled.
+struct ReplayInput {
+  std::vector<InitialPose> poses;
+  sim::RecordedScans scans;
+};
+
+// Reads the poses, and each scan once. Throws InputError and sim::ScanFileError: a file that is wrong, or, but in closed loop, a scan
+// without a pose.
+ReplayInput read_replay_input(const ReplayOptions& options);
+
 // In name order. In closed loop the time between scans is that between their reference times where it is positive, and the mission's period
 // otherwise (files without times). Throws InputError and sim::ScanFileError.
-std::vector<ReplayedScan> replay(const Mission& mission, const ReplayOptions& options);
+std::vector<ReplayedScan> replay(const Mission& mission, const ReplayOptions& options, const ReplayInput& input);
 
 // The file poses_out.csv.
 std::string replay_csv(const std::vector<ReplayedScan>& scans);

@@ -13,10 +13,14 @@ using Clock = std::chrono::steady_clock;
 constexpr std::chrono::microseconds kStep(500);
 constexpr double kMaxDepthM = 1000;  // that a calibration can have
 
+// Nothing where nothing is wrong.
+void refuse_line(std::optional<lcs::Device> wire, const std::string& wrong) {
+  if (!wrong.empty()) throw InputError("--sensor " + std::string(wire_name(wire.value_or(lcs::Device::kLaserCamera))) + ": " + wrong);
+}
+
 posix::SerialLine opened(const CaseSetup& setup, double bits_per_s) {
   posix::SerialLine line;
-  const std::string wrong = line.open(setup.camera_line, static_cast<unsigned>(bits_per_s), setup.remote_line);
-  if (!wrong.empty()) throw InputError("--sensor " + std::string(wire_name(setup.wire.value_or(lcs::Device::kLaserCamera))) + ": " + wrong);
+  refuse_line(setup.wire, line.open(setup.camera_line, static_cast<unsigned>(bits_per_s), setup.remote_line));
   return line;
 }
 
@@ -112,6 +116,10 @@ const char* wire_name(lcs::Device device) {
 
 bool wired(lcs::Device device, SensorKind kind) {
   return device == lcs::Device::kTridar || (device == lcs::Device::kLidar) == (kind == SensorKind::kTimeOfFlight);
+}
+
+void check_camera_line(std::optional<lcs::Device> wire, const std::string& line, bool remote) {
+  if (!line.empty()) refuse_line(wire, posix::SerialLine::check(line, remote));
 }
 
 sim::LcsCamera camera_for(const CaseSetup& setup, const sim::ScannerModel& model, std::uint8_t number) {

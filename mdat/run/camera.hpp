@@ -2,6 +2,7 @@
 // machine in real time.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "bsp/posix/line_pump.hpp"
@@ -16,6 +17,9 @@ namespace lasso::mdat {
 const char* wire_name(lcs::Device device);
 // Whether a mission's sensor of this kind is the head that is on a line: a laser camera, a LIDAR, or, as a TriDAR, any.
 bool wired(lcs::Device device, SensorKind kind);
+
+// Refuses a line that cannot be opened, as far as can be told without opening it; an empty one is none. Throws InputError.
+void check_camera_line(std::optional<lcs::Device> wire, const std::string& line, bool remote);
 
 // The camera, or other head, of a case, which is the mission's sensor of that number.
 sim::LcsCamera camera_for(const CaseSetup& setup, const sim::ScannerModel& model, std::uint8_t number);

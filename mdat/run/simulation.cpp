@@ -132,6 +132,20 @@ std::vector<TableResult> make_tables(const Scenario& scenario, const MissionPara
   return tables;
 }
 
+// `linked`: an operator commands the run, which is one case then.
+std::vector<TableResult> tables_of(const MissionSource& source, const SimulationOptions& options, bool linked) {
+  const Scenario& scenario = scenario_of(source, options.scenario);
+  std::vector<TableResult> tables = make_tables(scenario, parameters_for(source, options.scenario), options.plain || linked);
+  if (linked && !scenario.has_profile()) tables[0].scenario.ranges_m.resize(1);
+  return tables;
+}
+
+std::size_t case_count(const std::vector<TableResult>& tables) {
+  std::size_t count = 0;
+  for (const TableResult& table : tables) count += table.variants.size() * table.scenario.runs_m().size();
+  return count;
+}
+
 // Noise with and without silhouettes is the same for the same range.
 std::uint64_t case_seed(std::uint64_t seed, std::size_t table, std::size_t range) {
   std::uint64_t state = seed ^ (std::uint64_t{table} << 40) ^ (std::uint64_t{range} << 48);
@@ -295,9 +309,16 @@ CaseSetup camera_case(const CompiledMission& mission, const SimulationOptions& o
   return setup;
 }
 
+void check_simulation(const MissionSource& source, const SimulationOptions& options, bool linked) {
+  const std::vector<TableResult> tables = tables_of(source, options, linked);
+  require_wired(source, options);
+  if (case_count(tables) != 1) refuse_what_serves_one(options);
+  check_camera_line(options.wire, options.camera_line, options.remote_line);
+}
+
 SimulationResult simulate(const CompiledMission& mission, const SimulationOptions& options) {
+  check_simulation(mission.source, options, options.link != nullptr);
   const Scenario& scenario = scenario_of(mission.source, options.scenario);
-  const MissionParameters parameters = parameters_for(mission.source, options.scenario);
   SimulationResult result;
   result.mission = mission.source.name;
   result.scenario = options.scenario;
@@ -307,16 +328,13 @@ SimulationResult simulate(const CompiledMission& mission, const SimulationOption
   result.sensors = sensor_names(mission.source);
   result.camera_faults = options.camera_faults;
   result.parts = part_names(mission.source);
-  result.tables = make_tables(scenario, parameters, options.plain || options.link != nullptr);
-  if (options.link != nullptr && !scenario.has_profile()) result.tables[0].scenario.ranges_m.resize(1);
+  result.tables = tables_of(mission.source, options, options.link != nullptr);
 
   const auto begin = std::chrono::steady_clock::now();
   const std::unique_ptr<sim::RayCaster> target = make_target(mission.mesh);
-  require_wired(mission.source, options);
   std::optional<CompiledMission> changed;
   if (options.calibration && options.wire) changed = recalibrated(mission, *options.wire, *options.calibration);
   Plan plan = make_plan(changed ? *changed : mission, result, *target);
-  if (plan.cases.size() != 1) refuse_what_serves_one(options);
   for (CaseSetup& setup : plan.cases) {
     setup.link = options.link;
     setup.authenticator = options.authenticator;

@@ -71,9 +71,13 @@ struct SimulationResult {
 // it.
 CaseSetup camera_case(const CompiledMission& mission, const SimulationOptions& options, const sim::RayCaster& target);
 
+// What of a simulation the mission, or this machine, does not have, before anything is compiled: the scenario, a sensor, a line; and what
+// serves one run, where there are several. `linked`: there will be a link. Throws InputError or MissionError.
+void check_simulation(const MissionSource& source, const SimulationOptions& options, bool linked);
+
 // The paper's kind of scenario has four variants (noise x silhouettes), and a second table without tilt where it has one; deskewing is off,
 // as its target stands still in each scan, unless the scenario overrides estimation.deskew. Other kinds have the one variant they state.
-// Throws InputError, MissionError or RunError.
+// Checks first (check_simulation). Throws InputError, MissionError or RunError.
 SimulationResult simulate(const CompiledMission& mission, const SimulationOptions& options);
 
 // All packets, in the order of tables, variants and ranges.

@@ -150,5 +150,26 @@ TEST(LineServer, RefusesWhatIsTakenOrNoAddress) {
   EXPECT_EQ(rmdir(place.c_str()), 0) << "nothing is left behind";
 }
 
+// What can be said without opening a line, and with the words of opening it; whether somebody listens cannot.
+TEST(SerialLine, IsCheckedWithoutBeingOpened) {
+  VERIFIES("LASSO-LCS-017~1");
+  const std::string top = folder();
+  LineServer server;
+  ASSERT_EQ(server.listen("unix:" + top + "/line", false), "");
+  for (const std::string& address : {top + "/none", "unix:" + top + "/none", std::string("unix:"), std::string("tcp://192.0.2.1:9"),
+                                     std::string("tcp://127.0.0.1:many")}) {
+    SerialLine line;
+    EXPECT_EQ(SerialLine::check(address, false), line.open(address, kRate, false)) << address;
+    EXPECT_NE(SerialLine::check(address, false), "") << address;
+  }
+  for (const std::string& address : {server.address(), std::string("/dev/null"), std::string("tcp://127.0.0.1:9")})
+    EXPECT_EQ(SerialLine::check(address, false), "") << address;
+  EXPECT_EQ(SerialLine::check("tcp://192.0.2.1:9", true), "");
+  SerialLine camera;
+  EXPECT_FALSE(server.accept(camera)) << "nobody has come";
+  server.close();
+  static_cast<void>(rmdir(top.c_str()));
+}
+
 }  // namespace
 }  // namespace lasso::posix

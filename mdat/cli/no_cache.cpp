@@ -1,0 +1,11 @@
+#include "mdat/cli/commands.hpp"
+
+namespace lasso::mdat {
+
+void add_no_cache(CLI::App& command, bool& cached) {
+  command.add_flag("!--no-cache", cached,
+                   "compile the target's models anew: neither take them from the cache of compiled models (in MDAT_CACHE, else "
+                   "$XDG_CACHE_HOME/3dlasso, else ~/.cache/3dlasso) nor keep them there");
+}
+
+}  // namespace lasso::mdat
