@@ -68,8 +68,11 @@ class EventLog {
   }
   template <class Value>
   static constexpr EventValue value_of(Value value) {
-    if constexpr (std::is_floating_point_v<Value>) return {0, static_cast<double>(value)};
-    return {static_cast<std::int64_t>(value), 0};
+    if constexpr (std::is_floating_point_v<Value>) {
+      return {0, static_cast<double>(value)};
+    } else {
+      return {static_cast<std::int64_t>(value), 0};
+    }
   }
   void record(EventId id, Span<const EventValue> values);
   static bool admit(EventId id, State& state);
