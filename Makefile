@@ -175,9 +175,10 @@ golden: ## the same telemetry, bit for bit: g++ and clang++, optimised or not, t
 	$(call compile,$(PPC),golden_replay)
 	$(call counted,golden_replay)
 	$(if $(landing),,$(other_levels))
-	@ft/golden/run $(BUILD) $(PPC) clang++-O1=$(MCDC) $(if $(landing),,$(foreach build,g++-O2 clang++-O0 clang++-O2,$(build)=$(GOLDEN)-$(build)))
+	@ft/golden/run $(BUILD) $(PPC) clang++-O1=$(MCDC) $(if $(landing),,g++-O0=$(COVERAGE) $(foreach build,g++-O2 clang++-O0 clang++-O2,$(build)=$(GOLDEN)-$(build)))
 
 define other_levels
+$(call covered,golden_replay)
 $(call configure,$(GOLDEN)-g++-O2,$(call at_level,g++,O2))
 $(call compile,$(GOLDEN)-g++-O2,golden_replay)
 $(call configure,$(GOLDEN)-clang++-O0,$(call at_level,clang++-19,O0))
@@ -374,14 +375,19 @@ arrows: ## the includes obey the arrows between rooms and stages (cfg/quality/ar
 	@cfg/quality/arrows
 
 # Only fsw and hal_lcs are counted (a pattern that no shell takes apart). A test that ends in an invariant leaves its counts first (ut/support/main.cpp).
-# GCC writes the folder of a build into its notes: the cache may not hand them to another.
-coverage: export CCACHE_BASEDIR :=
+# $(call covered,TARGETS) builds them by g++ -O0 with counters, which change no value: make golden flies that build, too. Each source by itself: of two
+# instances of a template in one object gcovr keeps the branches of one. GCC writes the folder of a build into its notes: the cache may not hand them to
+# another.
+coverage $(if $(landing),,golden): export CCACHE_BASEDIR :=
+define covered
+$(call configure,$(COVERAGE),-DCMAKE_BUILD_TYPE=Coverage -DLASSO_GROUND=OFF -DLASSO_UNITY=OFF \
+  -DCMAKE_CXX_FLAGS="-O0 --coverage -fprofile-filter-files=/[fh][sa][wl] -fprofile-abs-path -fno-exceptions -DLASSO_BEFORE_ABORT=__gcov_dump")
+$(call compile,$(COVERAGE),$(1))
+endef
 coverage: ## the unit tests take every line and branch of the flight component, by gcovr (reqs/waivers.csv); out/coverage
 	$(begin)
 	$(call packages,build coverage)
-	$(call configure,$(COVERAGE),-DCMAKE_BUILD_TYPE=Coverage -DLASSO_GROUND=OFF -DLASSO_UNITY=OFF \
-	  -DCMAKE_CXX_FLAGS="-O0 --coverage -fprofile-filter-files=/[fh][sa][wl] -fprofile-abs-path -fno-exceptions -DLASSO_BEFORE_ABORT=__gcov_dump")
-	$(call compile,$(COVERAGE),flight_tests)
+	$(call covered,flight_tests)
 	$(call tidy,$(COVERAGE),gcno)
 	@find $(COVERAGE) -name '*.gcda' -delete; rm -rf $(LASSO_OUT)/coverage
 	$(call ctest,$(COVERAGE),$(LASSO_OUT)/coverage/test,-L flight)
