@@ -15,6 +15,7 @@ FUZZ := $(LASSO_OUT)/build-fuzz
 COVERAGE := $(LASSO_OUT)/build-coverage
 LINT := $(LASSO_OUT)/build-lint
 MCDC := $(LASSO_OUT)/build-mcdc
+SOFT := $(LASSO_OUT)/soft-float
 MISSION ?= cfg/missions/$(if $(filter approach,$(SCENARIO)),hubble,hubble_tenth).toml
 OUT ?= out/run
 PREFIX ?= /usr/local
@@ -72,11 +73,11 @@ ctest = @rm -rf $(2); mkdir -p $(2); GTEST_OUTPUT=xml:$(abspath $(2))/ \
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-16s %s\n", $$1, $$2 }' $(firstword $(MAKEFILE_LIST))
 
-run: ## track the tenth-scale Hubble and report into out/run; MISSION=, SCENARIO= (approach: the full-size one), SENSOR=lcs-wire (the camera over its line), SEED=, OUT=
+run: ## track the tenth-scale Hubble and report into out/run; MISSION=, SCENARIO= (approach: the full-size one), SENSOR=lcs-wire (the camera over its line), SEED=, FRAMES=, OUT=
 	$(call packages,build)
 	$(call configure,$(BUILD),)
 	$(call compile,$(BUILD),mdat)
-	@$(BUILD)/mdat/mdat run $(MISSION) $(if $(SCENARIO),--scenario $(SCENARIO)) $(if $(SEED),--seed $(SEED)) $(if $(SENSOR),--sensor $(SENSOR)) --out $(OUT)
+	@$(BUILD)/mdat/mdat run $(MISSION) $(if $(SCENARIO),--scenario $(SCENARIO)) $(if $(SEED),--seed $(SEED)) $(if $(SENSOR),--sensor $(SENSOR)) $(if $(FRAMES),--frames $(FRAMES)) --out $(OUT)
 	@cfg/quality/measured.py run $(OUT)/results.json
 	@echo "open the report: xdg-open $(OUT)/report.html"
 
@@ -96,12 +97,13 @@ accuracy: ## the errors of the reference simulation, of pointing noise, spin, ra
 	  --out $(LASSO_OUT)/accuracy/$$scenario || exit 1; done
 	@cfg/quality/accuracy $(LASSO_OUT)/accuracy
 
+WITH_BENCH = -DLASSO_BENCH=ON -DLASSO_TESTS=OFF
 bench: ## time the estimate, its stages and its peers; table, and out/bench/results.json
 	$(call packages,build bench)
-	$(call configure,$(BENCH),-DLASSO_BENCH=ON -DLASSO_TESTS=OFF -DLASSO_UNITY=OFF)
-	$(call compile,$(BENCH))
-	@mkdir -p out/bench
-	@ft/bench/run $(BENCH) out/bench
+	$(call configure,$(BENCH),$(WITH_BENCH))
+	$(call compile,$(BENCH),programs)
+	@mkdir -p $(LASSO_OUT)/bench
+	@ft/bench/run $(BENCH) $(LASSO_OUT)/bench
 
 basin: ## 1000 rough starts (20 deg, 0.3 m) at 4 m: how many the component finds; STARTS=, SEED=
 	$(call packages,build)
@@ -160,6 +162,36 @@ campaigns-sample: ## 1 % of fuzz, flips, montecarlo, basin and statistics, an ho
 	$(call compile,$(BUILD),basin endurance flips montecarlo scrub)
 	@ft/campaign/sample $(BUILD) $(PPC) $(FUZZ)
 
+# $(call linked_image,BOARD,IMAGE): a board's image with the shipped mission in itself.
+define linked_image
+$(call compile,$(BUILD),mdat)
+@$(BUILD)/mdat/mdat mission compile cfg/missions/hubble_tenth.toml --out $(1)/mission.3dli >/dev/null
+$(call compile,$(1),$(2))
+endef
+programs: ## everything that make test does not compile: campaigns, rigs, searches, fuzzers, benchmarks, boards; no source is left out
+	$(begin)
+	$(call packages,build clang target target-arm bench soft-float)
+	$(call configure,$(BUILD),)
+	$(call compile,$(BUILD),programs)
+	$(fuzzers)
+	$(call configure,$(BENCH),$(WITH_BENCH))
+	$(call compile,$(BENCH),programs)
+	$(call configure,$(PPC),$(CROSS))
+	$(call compile,$(PPC),programs)
+	$(call configure,$(BOARD),$(FLIGHT_BOARD))
+	$(call linked_image,$(BOARD),programs layout_603e)
+	$(call configure,$(SECOND),$(SECOND_BOARD))
+	$(call linked_image,$(SECOND),programs)
+	@ft/ppc603e/soft_float/build $(SOFT)
+	@cfg/quality/programs $(BUILD)=all,programs $(FUZZ)=fuzzers $(BENCH)=programs $(BOARD)=programs,layout_603e $(SECOND)=programs
+
+commands: ## what README.md and the pages of docs tell a reader to type works: each command of theirs in a short form (cfg/quality/commands.toml); out/commands
+	$(begin)
+	$(call packages,build)
+	$(call configure,$(BUILD),)
+	$(call compile,$(BUILD),mdat)
+	@cfg/quality/commands $(BUILD)
+
 search: ## find the target without any prior attitude from random views; CASE= (docs/search.md), STARTS=, SEED=, SCANS=, SCALE=
 	$(call packages,build)
 	$(call configure,$(BUILD),)
@@ -216,8 +248,8 @@ $(call configure,$(PPC),$(CROSS))
 $(call compile,$(PPC),golden_replay)
 endef
 # the same processor without its floating-point unit (ft/ppc603e/soft_float)
-soft = -DLASSO_SOFT_FLOAT=$(abspath $(LASSO_OUT))/soft-float/libsoft_float.a
-ppc-count: ## instructions of one estimate on the PowerPC 603e, by function, in floating and in fixed point, with and without a floating-point unit; table, and out/ppc-count/results.json
+soft = -DLASSO_SOFT_FLOAT=$(abspath $(SOFT))/libsoft_float.a
+ppc-count: ## instructions of one estimate on the PowerPC 603e, by function, in floating and in fixed point, with and without a floating-point unit; table, and out/ppc-count/results.json; FRAMES=
 	$(begin)
 	$(replays)
 	$(call packages,clang soft-float)
@@ -225,12 +257,12 @@ ppc-count: ## instructions of one estimate on the PowerPC 603e, by function, in 
 	$(call compile,$(CLANG),golden_record golden_replay golden_compare)
 	$(call configure,$(PPC)-fixed,$(CROSS) $(FIXED))
 	$(call compile,$(PPC)-fixed,golden_replay)
-	@ft/ppc603e/soft_float/build $(LASSO_OUT)/soft-float
+	@ft/ppc603e/soft_float/build $(SOFT)
 	$(call configure,$(PPC)-soft,$(CROSS) $(soft))
 	$(call compile,$(PPC)-soft,golden_replay)
 	$(call configure,$(PPC)-soft-fixed,$(CROSS) $(soft) $(FIXED))
 	$(call compile,$(PPC)-soft-fixed,golden_replay)
-	@ft/ppc603e/count $(BUILD) $(PPC) fixed=$(CLANG),$(PPC)-fixed soft-float=$(BUILD),$(PPC)-soft soft-fixed=$(CLANG),$(PPC)-soft-fixed
+	@ft/ppc603e/count $(BUILD) $(PPC) $(FRAMES) fixed=$(CLANG),$(PPC)-fixed soft-float=$(BUILD),$(PPC)-soft soft-fixed=$(CLANG),$(PPC)-soft-fixed
 
 start-count: ## instructions of an estimate from a rough start (20 deg, 0.3 m) on the PowerPC 603e: those beyond a frame of the card are no more than is known; the same bits as on the host; out/start-count; STARTS=, SEED=, MISSION=
 	$(begin)
@@ -269,12 +301,6 @@ $(call compile,$(BOARD)-fixed,flight_603e)
 $(call configure,$(SECOND),$(SECOND_BOARD))
 $(call compile,$(SECOND),flight_cortexa9 planted_cortexa9)
 endef
-# $(linked_image) of the first board has the rig's mission in itself.
-define linked_image
-$(call compile,$(BUILD),mdat)
-@$(BUILD)/mdat/mdat mission compile cfg/missions/hubble_tenth.toml --out $(BOARD)/mission.3dli
-$(call compile,$(BOARD),linked_603e)
-endef
 pil: prove ## the component on the bare, emulated PowerPC 603e with camera and ground at its lines: the host's telemetry bit for bit, in floating and in fixed point, and on a Cortex-A9; out/pil; FRAMES=
 	$(begin)
 	$(on_board)
@@ -283,7 +309,7 @@ pil: prove ## the component on the bare, emulated PowerPC 603e with camera and g
 pil-sample: $(if $(ORDERED),,prove) ## the same for a few frames, and the boards' answers to faults: null, stray, hung, cut lines, wrong images; TIER=landing: floating point on the 603e; out/pil-sample
 	$(begin)
 	$(if $(landing),$(on_first_board),$(on_board))
-	$(if $(landing),,$(linked_image))
+	$(if $(landing),,$(call linked_image,$(BOARD),linked_603e))
 	@ft/pil/faults $(BUILD) $(BOARD) $(if $(landing),,$(CLANG) $(BOARD)-fixed $(SECOND))
 
 pil-upload: ## a mission's image, 2.7 MB, over the ground's line into the store of the emulated 603e, and flown from there; out/pil-upload

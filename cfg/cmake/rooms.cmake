@@ -123,7 +123,7 @@ function(lasso_ground_room NAME)
   endif()
 endfunction()
 
-# lasso_no_test(PROGRAM...): no test runs these: they are built by name.
+# lasso_no_test(PROGRAM...): no test runs these: they are built by name, or by make programs.
 function(lasso_no_test)
   set_target_properties(${ARGN} PROPERTIES EXCLUDE_FROM_ALL ON)
 endfunction()
