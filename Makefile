@@ -425,6 +425,7 @@ $(call configure,$(MCDC),$(call sanitized,address$(comma)undefined) -DLASSO_GROU
 $(call compile,$(MCDC),$(1))
 endef
 mcdc golden: export CCACHE_EXTRAFILES := $(abspath cfg/quality/mcdc.list)
+golden: export LLVM_PROFILE_FILE := /dev/null
 mcdc: export LLVM_PROFILE_FILE := $(abspath $(MCDC))/profiles/%m.profraw
 mcdc: ## the unit tests take every line of the flight component and show that each condition decides by itself, under the address and undefined-behaviour sanitizers; out/mcdc
 	$(begin)

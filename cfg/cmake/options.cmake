@@ -13,6 +13,7 @@ endif()
 # Precompiled headers are the same whenever they are made, so that a compiler cache can tell.
 add_compile_options("$<$<CXX_COMPILER_ID:Clang>:SHELL:-Xclang -fno-pch-timestamp>")
 if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")  # as CMake says it, but by options whose paths the cache can make relative
+  set(CMAKE_PCH_EXTENSION .precompiled)  # clang reads a .pch that lies beside a header that it is to precompile, an old one too
   set(CMAKE_CXX_COMPILE_OPTIONS_CREATE_PCH -Xclang -emit-pch -include <PCH_HEADER> -x c++-header)
   set(CMAKE_CXX_COMPILE_OPTIONS_USE_PCH -include-pch <PCH_FILE>)
 endif()

@@ -8,12 +8,12 @@ if(NOT LASSO_LINT)  # clang reads the sources for make lint, and does not know i
 endif()
 set(CMAKE_CXX_FLAGS_INIT
     "-mcpu=603e -fno-pic -fno-pie ${NO_SMALL_DATA} -fno-asynchronous-unwind-tables -fno-stack-protector -ffunction-sections -fdata-sections")
-if(LASSO_CALL_GRAPH)  # for make prove, in each object, so that a compiler cache keeps it; the cache is told apart by what the script says, not by its date
+if(LASSO_CALL_GRAPH)  # for make prove, in each object, so that a compiler cache keeps it; ccache does not know that the script decides, too
   string(APPEND CMAKE_CXX_FLAGS_INIT " -fcallgraph-info=su")
   set(KEEP ${CMAKE_CURRENT_LIST_DIR}/keep_call_graph)
   find_program(LASSO_CCACHE ccache)
   if(LASSO_CCACHE)
-    set(KEEP env CCACHE_PREFIX=${KEEP} CCACHE_COMPILERCHECK=content ${LASSO_CCACHE})
+    set(KEEP env CCACHE_PREFIX=${KEEP} CCACHE_EXTRAFILES=${KEEP} ${LASSO_CCACHE})
   endif()
   set(CMAKE_CXX_COMPILER_LAUNCHER ${KEEP} CACHE STRING "How the compiler is started" FORCE)
 endif()
