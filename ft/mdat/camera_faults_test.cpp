@@ -47,8 +47,8 @@ Counters last_of(const WorkFolder& folder, const std::string& options) {
 Outcome fly(const std::string& script) {
   const WorkFolder folder;
   folder.write("faults.toml", script);
-  const Answer answer =
-      folder.mdat("run missions/test.toml --scenario spin --frames 180 --no-report --sensor lcs-wire --camera-faults faults.toml --out run");
+  const Answer answer = folder.mdat(
+      "run missions/test.toml --scenario spin --frames 180 --no-report --sensor lcs-wire --camera-faults faults.toml --out run");
   EXPECT_EQ(answer.exit_code, 0) << answer.err;
   const Json run = Json::parse(folder.read("run/results.json")).at("noisy");
   Outcome outcome{run.at("wrong"), run.at("lost"), run.at("invalid"), run.at("frames"), 0, {}};

@@ -61,7 +61,7 @@ class Reader {
   template <class Value>
   void take(Value& value) {
     const std::string_view bytes = take_bytes(sizeof value);
-    if (whole_) std::memcpy(&value, bytes.data(), sizeof value);
+    if (whole_) std::memcpy(&value, bytes.data(), bytes.size());
   }
   void take(std::vector<std::uint32_t>& words) {
     std::uint64_t count = 0;
