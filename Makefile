@@ -435,6 +435,11 @@ mcdc: ## the unit tests take every line of the flight component and show that ea
 	$(call ctest,$(MCDC),$(LASSO_OUT)/mcdc/test,-L flight)
 	@cfg/quality/mcdc $(MCDC) $(SOURCE)
 
+mutants: ## 200 small changes to the flight sources, drawn at random: the unit tests find at least 95 %; survivors, and out/mutants; COUNT=, SEED=
+	$(begin)
+	$(call packages,build clang)
+	@cfg/quality/mutants $(or $(COUNT),200) $(or $(SEED),1) $(SOURCE)
+
 trace: ## every active requirement has a passing test or its evidence; after make test and make ppc-test; matrix in out/trace; COMPLETE=1: its gates must have run
 	$(begin)
 	$(call packages,trace)
