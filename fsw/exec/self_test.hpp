@@ -16,7 +16,6 @@ enum class SelfTest : std::uint8_t {
   kCrc32c = 4,      // of the image and parameters: the published check value
   kCodec = 5,       // big-endian bytes there and back
 };
-constexpr std::size_t kSelfTests = 6;
 
 // A bit a test that failed: 1 << number. 0: all passed.
 std::uint32_t failed_self_tests();

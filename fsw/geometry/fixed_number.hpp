@@ -66,8 +66,7 @@ struct FixedNumber {
     return Wide<50>{dt * 1'125'899'907};  // 2^50 / 10^6
   }
 
-  static constexpr DurationUs kMostUs = 1'900'000;  // 2 s is the end of the type
-  static constexpr int kUnitFractionBits = 30;
+  static constexpr DurationUs kMostUs = 1'900'000;                 // 2 s is the end of the type
   static constexpr double kFarthest_m = 127;                       // bounded() cuts there, too
   static constexpr double kSmallestCell_m = 1.0 / 2000;            // rounded by less than the share by which a cell's list is wider
   static constexpr double kLargestSigma_m = 0.088;                 // of a bounded() Variance

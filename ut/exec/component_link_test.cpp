@@ -176,6 +176,16 @@ TEST(ComponentLink, CountersAreToldWhenTheyChange) {
   EXPECT_EQ(told[0].data[14], 3);
 }
 
+TEST(ComponentLink, BytesThatBelongToNoCommandAreAnEvent) {
+  VERIFIES("LASSO-LNK-015~1");
+  Link link;
+  link.run_frame();
+  link.send({0xCC, 0xDD, 0xEE});
+  const std::vector<Stream> events = events_of(link.run_frame());
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_EQ(events[0], (Stream{0, static_cast<std::uint8_t>(EventId::kBytesSkipped), 0, 0, 0, 3}));
+}
+
 TEST(ComponentLink, ALostScanIsToldWithItsSensor) {
   VERIFIES("LASSO-LCS-012~1");
   Link link;

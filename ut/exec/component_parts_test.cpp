@@ -127,6 +127,8 @@ TEST(ComponentParts, ShortRangeAndTrackingAreCommandedBothWays) {
   ASSERT_EQ(scene.component->command_mode(M::kTracking), ModeRefusal::kNone);  // at less than enter_m
   std::vector<PoseTelemetry> reports = run(scene, 6);
   EXPECT_EQ(reports.size(), 6U) << "none is missing";
+  EXPECT_NE(reports[1].part, 0) << "on its way when the command came";
+  EXPECT_EQ(reports[2].part, 0) << "begun after it";
   EXPECT_EQ(static_cast<M>(reports.back().mode), M::kTracking);
   EXPECT_EQ(reports.back().part, 0);
   run(scene, 30);  // beyond leave_m

@@ -192,5 +192,20 @@ TEST_F(LcsDriver, ALineThatIsNearlyFullKeepsRoomForAnInhibit) {
   EXPECT_EQ(laser_commands(frames), kInhibit);
 }
 
+TEST_F(LcsDriver, AScanIsRefusedWhoseAimedRaysHaveNoRoom) {
+  VERIFIES("LASSO-LCS-006~1");
+  AimedRays aimed;
+  for (std::size_t i = 0; i < kAimedPerFrame + 1; ++i) ASSERT_TRUE(aimed.push_back({0.01F, -0.02F}));
+  ScanPlan plan = small_plan();
+  const std::vector<std::uint8_t> block(line.to_camera.room() - 4 * kMaxFrame,
+                                        0);  // room for an inhibit and three frames, of which two have the rays
+  line.to_camera.write(ConstBytes(block.data(), block.size()));
+  plan.aimed = aimed.span();
+  EXPECT_EQ(driver.start(plan, kStartUs), Status::kOverCapacity);
+  EXPECT_EQ(lost(Loss::kLineFull), 1U);
+  plan.aimed = {};
+  EXPECT_EQ(driver.start(plan, kStartUs), Status::kOk);
+}
+
 }  // namespace
 }  // namespace lasso::lcs

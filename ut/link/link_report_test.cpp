@@ -1,5 +1,8 @@
 #include "fsw/link/link_report.hpp"
 
+#include <iterator>
+#include <utility>
+
 #include "fsw/link/dictionary.hpp"
 #include "ut/link/command_packets.hpp"
 #include "ut/support/generator.hpp"
@@ -35,7 +38,12 @@ TEST(LinkReport, VerificationSaysWhichCommandAndWhy) {
   EXPECT_EQ(data_of(encode(kSubserviceStarted, kSample)), (Stream{0x1B, 0xD1, 0xC0, 0x07}));
   EXPECT_EQ(data_of(encode(kSubserviceCompleted, kSample)), (Stream{0x1B, 0xD1, 0xC0, 0x07}));
   EXPECT_EQ(data_of(encode(kSubserviceFailed, kSample)), (Stream{0x1B, 0xD1, 0xC0, 0x07, 4, 5, 6}));
-  EXPECT_EQ(encode(kSubserviceFailed, kSample)[7], kServiceVerification);
+  EXPECT_EQ(encode(kSubserviceFailed, kSample)[7], 1) << "numbers of ECSS-E-ST-70-41C";
+  EXPECT_EQ(encode(kSubserviceAccepted, kSample)[8], 1);
+  EXPECT_EQ(encode(kSubserviceRefused, kSample)[8], 2);
+  EXPECT_EQ(encode(kSubserviceStarted, kSample)[8], 3);
+  EXPECT_EQ(encode(kSubserviceCompleted, kSample)[8], 7);
+  EXPECT_EQ(encode(kSubserviceFailed, kSample)[8], 8);
   EXPECT_EQ(encode(kSubserviceFailed, kSample)[10], 5);
   EXPECT_TRUE(encode(kSubserviceFailed, kSample, 28).empty());
 }
@@ -120,6 +128,39 @@ TEST(LinkReport, EveryPacketOfTheDictionaryIsAsLongAsItSays) {
     const PacketRow& packet = kPackets[++event];
     EXPECT_EQ(item_offset(packet, packet.items.size()), 22 + items) << packet.name;
   }
+}
+
+TEST(LinkReport, RefusalsHaveTheNumbersThatTheDictionaryNames) {
+  VERIFIES("LASSO-LNK-002~1 LASSO-LNK-013~1");
+  const std::pair<ServiceRefusal, const char*> names[] = {{ServiceRefusal::kNone, "none"},
+                                                          {ServiceRefusal::kNoSuchEvent, "no_such_event"},
+                                                          {ServiceRefusal::kNotArmed, "not_armed"},
+                                                          {ServiceRefusal::kNotHazardous, "not_hazardous"},
+                                                          {ServiceRefusal::kNoSuchStructure, "no_such_structure"},
+                                                          {ServiceRefusal::kNoSuchParameter, "no_such_parameter"},
+                                                          {ServiceRefusal::kFixedParameter, "fixed_parameter"},
+                                                          {ServiceRefusal::kOutOfLimits, "out_of_limits"},
+                                                          {ServiceRefusal::kInconsistent, "inconsistent"},
+                                                          {ServiceRefusal::kNoImageBuffer, "no_image_buffer"},
+                                                          {ServiceRefusal::kTooLong, "too_long"},
+                                                          {ServiceRefusal::kNotOpen, "not_open"},
+                                                          {ServiceRefusal::kOutside, "outside"},
+                                                          {ServiceRefusal::kNotWhole, "not_whole"},
+                                                          {ServiceRefusal::kIncomplete, "incomplete"},
+                                                          {ServiceRefusal::kImageBusy, "image_busy"},
+                                                          {ServiceRefusal::kImageNotReady, "image_not_ready"},
+                                                          {ServiceRefusal::kOtherImage, "other_image"},
+                                                          {ServiceRefusal::kDoesNotFit, "does_not_fit"},
+                                                          {ServiceRefusal::kNotAllowed, "not_allowed"},
+                                                          {ServiceRefusal::kModeSafe, "mode_safe"},
+                                                          {ServiceRefusal::kNoStore, "no_store"},
+                                                          {ServiceRefusal::kStoreFailed, "store_failed"},
+                                                          {ServiceRefusal::kNothingStored, "nothing_stored"},
+                                                          {ServiceRefusal::kOtherTable, "other_table"},
+                                                          {ServiceRefusal::kNoCalibration, "no_calibration"}};
+  ASSERT_EQ(kServiceRefusal.choices.size(), std::size(names));
+  for (const auto& [refusal, name] : names)
+    EXPECT_STREQ(Span<const Choice>(kServiceRefusal.choices)[static_cast<std::size_t>(refusal)].name, name);
 }
 
 }  // namespace

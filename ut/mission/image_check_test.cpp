@@ -47,6 +47,23 @@ TEST(ImageCheck, RefusesTheFormatBeforeThisOne) {
   EXPECT_NE(std::string(checked.result.what).find("compile the mission again"), std::string::npos);
 }
 
+TEST(ImageTable, WordsAreBigEndian) {
+  VERIFIES("LASSO-IMG-001~1");
+  std::uint8_t bytes[] = {0, 0, 0, 0, 0x8A, 0x0B, 0x0C, 0x0D};
+  const ImageTable table{bytes, 1, 2};
+  EXPECT_EQ(table.bytes(), 8U);
+  EXPECT_EQ(table.word(1, 0), 0x8A0B0C0DU);
+  EXPECT_EQ(table.signed_word(1, 0), -0x75F4F3F3);
+}
+
+TEST(IsUnit, WithinAThousandthOfTheSquare) {
+  VERIFIES("LASSO-IMG-002~1");
+  EXPECT_TRUE(is_unit(0.9991));
+  EXPECT_TRUE(is_unit(1.0009));
+  EXPECT_FALSE(is_unit(0.999));
+  EXPECT_FALSE(is_unit(1.001));
+}
+
 // In steps of any size it comes to the same end; a step goes no farther than its words and a record.
 TEST(ImageCheck, GoesOnStepByStep) {
   VERIFIES("LASSO-IMG-005~1");

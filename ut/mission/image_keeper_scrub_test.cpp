@@ -121,5 +121,21 @@ TEST_F(KeeperTest, ALoadIsNoDecay) {
   }
 }
 
+// A load may begin in the middle of what is looked at in the image that it replaces.
+TEST_F(KeeperTest, ALoadThatBeginsWhereTheScrubIsIsNoDecay) {
+  VERIFIES("LASSO-IMG-017~1");
+  ASSERT_EQ(start().status, Status::kOk);
+  for (const ScrubArea area : {ScrubArea::kImage1, ScrubArea::kViews0, ScrubArea::kViews1, ScrubArea::kImage0}) {
+    make_ready(new_image());
+    while (keeper_->scrub_state().area() != area) ASSERT_FALSE(keeper_->scrub(kSlot_us));
+    ASSERT_FALSE(keeper_->scrub(kSlot_us));
+    upload(old_image());
+    EXPECT_FALSE(scrub()) << static_cast<int>(area);
+    make_ready(new_image());
+    keeper_->swap();
+    keeper_->confirm();
+  }
+}
+
 }  // namespace
 }  // namespace lasso

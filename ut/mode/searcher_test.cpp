@@ -188,6 +188,19 @@ TEST_F(SearcherTest, OffersAgainWhatNobodyHasTaken) {
   EXPECT_EQ(step.search.work, dropped.search.work) << "without another search";
 }
 
+// A pose of a single scan has no rate: 5 deg of turn since then are too many.
+TEST_F(SearcherTest, WhatNobodyHasTakenIsOfferedAsLongAsTheTargetCannotHaveTurnedFar) {
+  VERIFIES("LASSO-MOD-116~1");
+  look_from_the_right_side();
+  ASSERT_EQ(frame(0).after.mode, TrackingMode::kStarting);
+  parameters().search_slice = 100;
+  const double age_s = to_seconds(10 * kCycleUs);
+  parameters().initial_angular_rate_radps = 4.9 * kRadPerDeg / age_s;
+  EXPECT_EQ(frame(10).after.mode, TrackingMode::kStarting);
+  parameters().initial_angular_rate_radps = 5.1 * kRadPerDeg / age_s;
+  EXPECT_EQ(frame(10).after.mode, TrackingMode::kSearching);
+}
+
 TEST_F(SearcherTest, WaitsForAScanThatABearingAimed) {
   VERIFIES("LASSO-MOD-123~3 LASSO-MOD-111~1");
   look_from_few_sides();

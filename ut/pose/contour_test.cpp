@@ -93,6 +93,17 @@ void ContourTest::expect_edges(const ScanRay<N>& ray, const RayEdges<N>& found, 
   }
 }
 
+TEST(Project, IsAlongTheDepthAndOfNothingBehind) {
+  VERIFIES("LASSO-REG-013~1");
+  const PathPose<N> pose = to_path<N>(Pose());
+  const N::Length before[3] = {N::to_length(0.5), N::to_length(-1), N::to_length(4)};
+  EXPECT_NEAR(N::to_double(project(pose, before).x), 0.125, 1e-6);
+  EXPECT_NEAR(N::to_double(project(pose, before).y), -0.25, 1e-6);
+  EXPECT_EQ(project(pose, before).z, before[2]);
+  const N::Length behind[3] = {N::to_length(0.5), N::to_length(-1), N::to_length(-4)};
+  EXPECT_EQ(project(pose, behind).z, N::Length{0});
+}
+
 TEST_F(ContourTest, IsTheEdgesWithOneFaceTowardsTheSensor) {
   VERIFIES("LASSO-REG-002~1");
   int hexagons = 0;

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "fsw/pose/register.hpp"
@@ -52,6 +53,47 @@ TEST_F(PullTest, DistancesAreThoseToTheBoxes) {
     const float outside[3] = {x, 0, 0};
     EXPECT_FLOAT_EQ(surface_distance(tables, outside).distance_m, tables.truncation_m);
   }
+}
+
+// A byte of the grid is the distance at the centre of its cell, in 255ths of the truncation.
+TEST_F(PullTest, AtTheCentreOfACellTheDistanceIsThatOfItsByte) {
+  VERIFIES("LASSO-IMG-001~1");
+  const SearchTables<FlightNumber>& tables = mission_.search;
+  std::uint32_t between = 0;
+  for (std::uint32_t i = 1; i + 1 < tables.cells[0]; ++i) {
+    const std::uint32_t cell[3] = {i, tables.cells[1] / 2, tables.cells[2] / 2};
+    float m[3];
+    for (int k = 0; k < 3; ++k) m[k] = tables.origin_m[k] + (static_cast<float>(cell[k]) + 0.5F) / tables.cells_per_m;
+    const std::uint32_t byte = distance_byte(tables, cell[0], cell[1], cell[2]);
+    EXPECT_NEAR(surface_distance(tables, m).distance_m, static_cast<float>(byte) / 255 * tables.truncation_m, 2e-5F) << i;
+    between += byte > 100 && byte < 255 ? 1 : 0;
+  }
+  EXPECT_GT(between, 0U);
+}
+
+// Between centres it is linear along each axis, and its gradient the difference.
+TEST_F(PullTest, TheWayOffTheSurfaceIsTheGradientOfTheDistance) {
+  VERIFIES("LASSO-IMG-001~1");
+  const SearchTables<FlightNumber>& tables = mission_.search;
+  const float step_m = 0.1F / tables.cells_per_m;
+  Vec3 most = Vec3::Zero();
+  for (int i = 0; i < 300; ++i) {
+    float m[3];
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const auto cell = static_cast<float>(1 + random_.below(tables.cells[k] - 3));
+      m[k] = tables.origin_m[k] + (cell + static_cast<float>(random_.uniform(0.7, 1.3))) / tables.cells_per_m;
+    }
+    const SurfaceDistance here = surface_distance(tables, m);
+    for (int k = 0; k < 3; ++k) {
+      float before[3] = {m[0], m[1], m[2]}, behind[3] = {m[0], m[1], m[2]};
+      before[k] -= step_m;
+      behind[k] += step_m;
+      const float change_m = surface_distance(tables, behind).distance_m - surface_distance(tables, before).distance_m;
+      EXPECT_NEAR(here.away[k], change_m / (2 * step_m), 1e-3) << k;
+      most[k] = std::max(most[k], std::abs(static_cast<double>(here.away[k])));
+    }
+  }
+  EXPECT_GT(most.minCoeff(), 0.5);
 }
 
 }  // namespace

@@ -63,6 +63,14 @@ TEST_F(RegisterTest, OnePassOverAllPointsIsEnoughAtTheTruth) {
   EXPECT_EQ(solution.iterations, kOpening + 1);
 }
 
+TEST_F(RegisterTest, APoseWithoutReturnsCostsMoreThanAny) {
+  VERIFIES("LASSO-REG-007~1");
+  scan();
+  EXPECT_LT(cost_of_hits(mission_, truth(), *workspace_), 2);
+  workspace_->points.clear();
+  EXPECT_GT(cost_of_hits(mission_, truth(), *workspace_), 1e200);
+}
+
 TEST_F(RegisterTest, AReturnThatTheAssumedNoiseWouldExcuseStandsOutWhereTheScanHasLess) {
   VERIFIES("LASSO-REG-001~1 LASSO-REG-020~1");
   scan();

@@ -56,6 +56,12 @@ class UnseenTest : public ::testing::Test {
   Directions unseen_;
 };
 
+TEST(PriorInformation, IsThatOfARadiusAndWhatSumsMayHaveLost) {
+  VERIFIES("LASSO-REG-021~1");
+  EXPECT_NEAR(prior_information(0.5, 0), 4, 1e-12);
+  EXPECT_NEAR(prior_information(0.5, 3e7), 7, 1e-6);
+}
+
 TEST_F(UnseenTest, WhereAllIsSeenTheCovarianceIsTheInverse) {
   VERIFIES("LASSO-REG-021~1");
   const Mat6 H = with_prior(information(strong_));

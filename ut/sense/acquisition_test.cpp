@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <type_traits>
 #include <vector>
 
 #include "fsw/sense/pattern.hpp"
@@ -184,15 +185,16 @@ TEST_F(AcquisitionTest, BadSamplesBecomeInvalidAndAreCountedByReason) {
   EXPECT_EQ(image->samples[19].state, s[19].state);
 }
 
-// Farther from the scan's middle than points can be moved to it.
+// Farther from the scan's middle than points can be moved to it: 100 s, or what the fixed-point type holds.
 TEST_F(AcquisitionTest, SamplesLaterThanTheLongestScanAreBad) {
   VERIFIES("LASSO-SNS-022~2");
+  constexpr DurationUs kLongest_us = std::is_same_v<FlightNumber, FloatNumber> ? 100'000'000 : 3'800'000;
   sensor.ignores_time = true;
-  sensor.samples[1022].t_us = kStart + kLongestScan_us;
-  sensor.samples[1023].t_us = kStart + kLongestScan_us + 1;
-  const ScanVerdict verdict = run(100, kStart + 2 * kLongestScan_us);
+  sensor.samples[1022].t_us = kStart + kLongest_us;
+  sensor.samples[1023].t_us = kStart + kLongest_us + 1;
+  const ScanVerdict verdict = run(100, kStart + 2 * kLongest_us);
   EXPECT_EQ(verdict.bad[static_cast<int>(BadSample::kTime)], 1U);
-  EXPECT_EQ(image->samples[1022].t_us, kStart + kLongestScan_us);
+  EXPECT_EQ(image->samples[1022].t_us, kStart + kLongest_us);
   EXPECT_EQ(image->samples[1023].state, RayState::kInvalid);
   EXPECT_EQ(image->samples[1023].t_us, image->samples[1022].t_us);
 }
