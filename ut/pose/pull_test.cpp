@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fsw/mission/search_tables.hpp"
 #include "fsw/pose/register.hpp"
 #include "ut/pose/search_fixture.hpp"
 #include "ut/support/verifies.hpp"
