@@ -225,6 +225,15 @@ TEST(Planner, RefusesWhatCannotBeScannedAndLeavesThePlan) {
   EXPECT_EQ(plan.scan_id, 4711u);
 }
 
+// What lies behind a pose is none of it.
+TEST(Planner, APoseIsJudgedByItsOwnNumbers) {
+  VERIFIES("LASSO-SNS-013~1");
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const Pose poses[] = {generic_pose({0, 0, 5}), Pose{Quat(nan, nan, nan, nan), Vec3(0, 0, 5)}};
+  ScanPlan plan;
+  EXPECT_EQ(plan_box(preset_parameters(), poses[0], plan), Status::kOk);
+}
+
 TEST(Planner, RefusesAHullThatHasNoExtentOrLiesBehind) {
   VERIFIES("LASSO-SNS-013~1");
   const Pose pose = generic_pose({0, 0, 5});
