@@ -8,7 +8,6 @@
 #include <type_traits>
 #include <vector>
 
-#include "fsw/geometry/number.hpp"
 #include "fsw/sense/pattern.hpp"
 #include "ut/support/verifies.hpp"
 
