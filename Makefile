@@ -57,13 +57,14 @@ export NINJA_STATUS := [%f/%t %es]
 begin = @rm -f $(LASSO_OUT)/$@/summary.json
 packages = @cfg/packages/ensure $(1)
 configure = @options='$(subst ',,$(2))'; \
-  { [ -e $(1)/build.ninja ] && [ "$$(cat $(1)/options.txt 2>/dev/null)" = "$$options" ]; } || { echo "configure $(1)"; mkdir -p $(1); rm -f $(1)/CMakeCache.txt; \
+  { [ -e $(1)/build.ninja ] && [ "$$(cat $(1)/options.txt 2>/dev/null)" = "$$options" ]; } || { echo "configure $(1)"; mkdir -p $(1); rm -f $(1)/CMakeCache.txt $(1)/build.ninja $(1)/options.txt; \
   cmake -S $(SOURCE) -B $(1) -G Ninja -DCMAKE_BUILD_TYPE=Release -DLASSO_UNITY=ON $$(command -v ccache >/dev/null && echo -DCMAKE_CXX_COMPILER_LAUNCHER=ccache) $(2) \
     >$(1)/configure.log 2>&1 || { cat $(1)/configure.log; rm -f $(1)/build.ninja; false; }; } && echo "$$options" >$(1)/options.txt
 compile = @echo "build $(1)$(if $(2), ($(2)))"; cmake --build $(1) --parallel $(JOBS) $(if $(2),--target $(2)) $(NINJA_FLAGS)
 # $(call tidy,FOLDER,ENDING): removes what sources that are gone left there, and would be counted: beside each object is its file of that ENDING.
 tidy = @ninja -C $(1) -t cleandead >/dev/null; find $(1) -name '*.$(2)' | while read -r notes; do [ -e "$${notes%.$(2)}.o" ] || [ -e "$${notes%.$(2)}.obj" ] || rm "$$notes"; done
-ctest = @rm -rf $(2); mkdir -p $(2); GTEST_OUTPUT=xml:$(abspath $(2))/ \
+# The caller's settings of GoogleTest and of sanitizers do not count.
+ctest = @rm -rf $(2); mkdir -p $(2); env $$(env | sed -n 's/^\(GTEST_[A-Z_]*\|ASAN_OPTIONS\|TSAN_OPTIONS\)=.*/-u \1/p') GTEST_OUTPUT=xml:$(abspath $(2))/ \
   ctest --test-dir $(1) --parallel $(JOBS) --output-on-failure --no-tests=error --output-junit $(abspath $(2))/ctest.xml $(3)
 
 # each target that help lists
@@ -424,7 +425,6 @@ define counted
 $(call configure,$(MCDC),$(call sanitized,address$(comma)undefined) -DLASSO_GROUND=OFF -DLASSO_COUNT=ON)
 $(call compile,$(MCDC),$(1))
 endef
-mcdc golden: export CCACHE_EXTRAFILES := $(abspath cfg/quality/mcdc.list)
 golden: export LLVM_PROFILE_FILE := /dev/null
 mcdc: export LLVM_PROFILE_FILE := $(abspath $(MCDC))/profiles/%m.profraw
 mcdc: ## the unit tests take every line of the flight component and show that each condition decides by itself, under the address and undefined-behaviour sanitizers; out/mcdc
@@ -465,7 +465,7 @@ icd: ## write the interface document, docs/icd/link.md, from the dictionary
 	$(call packages,build)
 	$(call configure,$(BUILD),)
 	$(call compile,$(BUILD),mdat)
-	@$(BUILD)/mdat/mdat dictionary >docs/icd/link.md
+	@$(BUILD)/mdat/mdat dictionary >$(LASSO_OUT)/link.md && { cmp -s $(LASSO_OUT)/link.md docs/icd/link.md || mv $(LASSO_OUT)/link.md docs/icd/link.md; }
 
 figures: ## write the measured figures of README.md and docs/benchmarks.md from the results of run, bench, ppc-count and prove that are of this version
 	@docs/figures

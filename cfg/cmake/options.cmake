@@ -33,6 +33,8 @@ endif()
 option(LASSO_COUNT "Count lines, branches and conditions (clang)" OFF)
 if(LASSO_COUNT)
   configure_file(${CMAKE_CURRENT_LIST_DIR}/../quality/mcdc.list ${CMAKE_BINARY_DIR}/mcdc.list COPYONLY)
+  file(SHA256 ${CMAKE_BINARY_DIR}/mcdc.list LIST)  # neither ninja nor ccache knows that an object depends on it
+  add_compile_definitions(LASSO_COUNTED=0x${LIST})
   foreach(OPTION -fprofile-instrument=clang -fprofile-list=mcdc.list -fcoverage-mapping -fcoverage-mcdc -fcoverage-compilation-dir=.)
     add_compile_options("SHELL:-Xclang ${OPTION}")
   endforeach()

@@ -33,10 +33,11 @@ TOOLS = {
 
 
 def commit(top=TOP):
-    """The commit that the sources are of, -dirty if tracked files differ from it; empty outside of a repository."""
-    command = ['git', '-C', str(top), 'describe', '--always', '--dirty', '--exclude=*', '--abbrev=10']
+    """The commit that the sources are of, -dirty if files differ from it or are new; empty outside of a repository."""
+    def ask(*words):
+        return subprocess.run(['git', '-C', str(top), *words], capture_output=True, text=True, check=True).stdout.strip()
     try:
-        return subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip()
+        return ask('rev-parse', '--short=10', 'HEAD') + ('-dirty' if ask('status', '--porcelain') else '')
     except (OSError, subprocess.CalledProcessError):
         return ''
 

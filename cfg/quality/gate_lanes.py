@@ -28,7 +28,8 @@ class Job:
         environment = {name: text for name, text in os.environ.items() if name not in OF_MAKE}
         log.parent.mkdir(parents=True, exist_ok=True)
         with open(log, 'wb') as file:
-            self.process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=file, stderr=subprocess.STDOUT, env=environment, start_new_session=True)
+            self.process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=file, stderr=subprocess.STDOUT, env=environment, start_new_session=True,
+                                            close_fds=False)  # the lock of the run is theirs, too
 
     def wall(self):
         return time.monotonic() - self.begun
@@ -107,10 +108,19 @@ class Lanes:
                 self.collect()
                 self.progress()
         finally:
-            for job in self.running:
-                job.end()
-                self.results.append((job.row, 'ended', job.wall(), 0.0))
+            self.end_running()
         return self.results
+
+    def end_running(self):
+        """All at once; whoever is impatient waits until they have ended."""
+        if self.running:
+            for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+                signal.signal(number, signal.SIG_IGN)
+        for job in self.running:
+            job.signal(signal.SIGTERM)
+        for job in self.running:
+            job.end()
+            self.results.append((job.row, 'ended', job.wall(), 0.0))
 
     def elapsed(self):
         return time.monotonic() - self.begun

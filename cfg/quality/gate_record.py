@@ -12,7 +12,8 @@ PLACE = 'cfg/quality/verified.toml'
 OLDEST = datetime.timedelta(days=7)
 PROGRAMS = ('g++', 'clang++-19', 'powerpc-linux-gnu-g++', 'arm-linux-gnueabihf-g++', 'qemu-ppc', 'qemu-system-ppc', 'qemu-system-arm', 'cmake', 'ninja', 'gcovr',
             'llvm-cov-19', 'clang-format', 'clang-tidy-22', 'cppcheck')
-PACKAGES = ('build', 'target', 'target-arm', 'lint', 'clang', 'test', 'trace', 'coverage')  # the lists in cfg/packages that the gates need
+# The lists in cfg/packages that the gates need.
+PACKAGES = ('build', 'target', 'target-arm', 'lint', 'clang', 'test', 'trace', 'coverage', 'bench', 'soft-float', 'package')
 
 
 def ask(*command, cwd=None):
@@ -100,10 +101,10 @@ def clean_commit(top):
     return (ask('git', 'rev-parse', 'HEAD', cwd=top) or '') if status == '' else ''
 
 
-def write(top, commit, names):
-    now = datetime.datetime.now(datetime.timezone.utc).replace(microsecond=0)
+def write(top, commit, date, names):
+    """`date` is that of the oldest proof."""
     lines = ['# Written by make verify: at this commit every gate passed in its whole form. .ci/run skips gates whose inputs are as they were then.',
-             f'commit = "{commit}"', f'date = {now.isoformat()}', 'gates = [' + ', '.join(f'"{name}"' for name in names) + ']', '', '[tools]']
+             f'commit = "{commit}"', f'date = {date.isoformat()}', 'gates = [' + ', '.join(f'"{name}"' for name in names) + ']', '', '[tools]']
     lines += [f'"{name}" = {quoted(version)}' for name, version in tools(top).items()]
     (pathlib.Path(top) / PLACE).write_text('\n'.join(lines) + '\n', encoding='utf-8')
 

@@ -8,14 +8,18 @@
 
 namespace {
 
-// A filter for the tests whose source file ends in `file`.
+// A filter for the tests whose source file ends in `file`. Empty where a test is in a file that no link is named by, and would never run.
 std::string filter_for(const std::string& file) {
   const testing::UnitTest& all = *testing::UnitTest::GetInstance();
   std::string filter;
   for (int i = 0; i < all.total_test_suite_count(); ++i) {
     const testing::TestSuite& suite = *all.GetTestSuite(i);
-    const testing::TestInfo& first = *suite.GetTestInfo(0);  // a suite is of one file
-    if (std::string(first.file()).ends_with(file)) filter += std::string(suite.name()) + ".*:";
+    for (int k = 0; k < suite.total_test_count(); ++k) {
+      const testing::TestInfo& test = *suite.GetTestInfo(k);
+      const std::string source = test.file();
+      if (!source.ends_with("_test.cpp")) return "";
+      if (source.ends_with(file)) filter += std::string(suite.name()) + "." + test.name() + ":";
+    }
   }
   return filter;
 }
@@ -29,7 +33,8 @@ int main(int argc, char** argv) {
   const std::size_t place = program.rfind(prefix);
   if (place != std::string::npos && GTEST_FLAG_GET(filter) == "*") {
     GTEST_FLAG_SET(filter, filter_for("/" + program.substr(place + prefix.size()) + ".cpp"));
-    if (GTEST_FLAG_GET(filter).empty()) return std::fprintf(stderr, "%s: no such test file\n", argv[0]), EXIT_FAILURE;
+    if (GTEST_FLAG_GET(filter).empty())
+      return std::fprintf(stderr, "%s: no such test file, or a test that is in none *_test.cpp\n", argv[0]), EXIT_FAILURE;
   }
   return RUN_ALL_TESTS();
 }

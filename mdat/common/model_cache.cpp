@@ -18,6 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::size_t kKeyDigits = 64;
 constexpr char kEnding[] = ".3dlm";  // nothing else in the folder is counted, or removed
 constexpr std::size_t kDigestCharacters = 64;
 
@@ -102,6 +103,11 @@ std::string write_whole(const fs::path& file, const std::string& bytes) {
   return error ? error.message() : std::strerror(cause);
 }
 
+// The name of an entry, or of a part of one: 64 digits of SHA-256, the ending, and for a part what mkstemp appends.
+bool is_entry(const std::string& name) {
+  return name.find_first_not_of("0123456789abcdef") == kKeyDigits && name.compare(kKeyDigits, sizeof kEnding - 1, kEnding) == 0;
+}
+
 struct Entry {
   fs::file_time_type used;
   std::uint64_t bytes = 0;
@@ -113,7 +119,7 @@ std::vector<Entry> entries_of(const fs::path& folder) {
   std::vector<Entry> entries;
   std::error_code over;
   for (fs::directory_iterator file(folder, over), end; !over && file != end; file.increment(over)) {
-    if (file->path().filename().string().find(kEnding) == std::string::npos) continue;
+    if (!is_entry(file->path().filename().string())) continue;
     std::error_code gone;
     const fs::file_time_type used = file->last_write_time(gone);
     const std::uint64_t bytes = gone ? 0 : file->file_size(gone);
