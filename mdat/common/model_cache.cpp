@@ -18,7 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kKeyDigits = 64;
 constexpr char kEnding[] = ".3dlm";  // nothing else in the folder is counted, or removed
 constexpr std::size_t kDigestCharacters = 64;
 
@@ -103,9 +102,12 @@ std::string write_whole(const fs::path& file, const std::string& bytes) {
   return error ? error.message() : std::strerror(cause);
 }
 
-// The name of an entry, or of a part of one: 64 digits of SHA-256, the ending, and for a part what mkstemp appends.
+// The name of an entry, digits of SHA-256 and the ending, or of a part of one, to which mkstemp has appended a dot and six letters.
 bool is_entry(const std::string& name) {
-  return name.find_first_not_of("0123456789abcdef") == kKeyDigits && name.compare(kKeyDigits, sizeof kEnding - 1, kEnding) == 0;
+  const std::size_t digits = name.find_first_not_of("0123456789abcdef");
+  if (digits == 0 || digits == std::string::npos || name.compare(digits, sizeof kEnding - 1, kEnding) != 0) return false;
+  const std::string rest = name.substr(digits + sizeof kEnding - 1);
+  return rest.empty() || (rest.size() == sizeof ".XXXXXX" - 1 && rest[0] == '.');
 }
 
 struct Entry {

@@ -185,6 +185,7 @@ TEST_F(ModelCacheTest, WhatWasUsedLongestAgoIsRemovedFirst) {
   const std::uint64_t one = fs::file_size(file("a"));
   at_.bytes_max = 5 * one / 2;
   write(at_.folder / "notes.txt", std::string(10 * one, ' '));
+  write(at_.folder / "a.3dlm.bak", std::string(10 * one, ' '));
   const fs::path left = at_.folder / "0123.3dlm.AbCdEf";
   write(left, std::string(one, ' '));
   const auto used = [](const fs::path& entry, int hours) {
@@ -200,7 +201,7 @@ TEST_F(ModelCacheTest, WhatWasUsedLongestAgoIsRemovedFirst) {
   EXPECT_TRUE(has("a"));
   EXPECT_FALSE(has("b"));
   EXPECT_TRUE(has("c"));
-  EXPECT_EQ(files(), 3) << "two entries, and a file that is none";
+  EXPECT_EQ(files(), 4) << "two entries, and files that are none";
 }
 
 TEST_F(ModelCacheTest, AFolderThatCannotBeWrittenCostsAWarning) {
