@@ -10,9 +10,9 @@ namespace lasso {
 namespace {
 
 constexpr std::uint32_t kMajor = 0;
-constexpr std::uint32_t kMinor = 1;
+constexpr std::uint32_t kMinor = 2;
 constexpr std::uint32_t kPatch = 0;
-constexpr char kVersion[] = "0.1.0";
+constexpr char kVersion[] = "0.2.0";
 constexpr std::int64_t kMaxAgeUs = 0xFFFFFFFF;
 
 void copy_pose(const Pose& pose, double (&q)[4], double (&p)[3]) {

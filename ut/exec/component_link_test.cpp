@@ -272,7 +272,7 @@ TEST(ComponentLink, BeginIsAnEvent) {
   const std::vector<Stream> events = events_of(packets);
   ASSERT_EQ(events.size(), 2u) << "and the start that the mission asks for";
   ASSERT_EQ(events[0].size(), 15u);
-  EXPECT_EQ(Stream(events[0].begin(), events[0].begin() + 6), (Stream{0, 1, 0, 1, 0, 0})) << "version 0.1.0";
+  EXPECT_EQ(Stream(events[0].begin(), events[0].begin() + 6), (Stream{0, 1, 0, 2, 0, 0})) << "version 0.2.0";
   const std::uint32_t crc = link.component().mission().image_crc;
   EXPECT_EQ(events[0][10], crc >> 24);
   EXPECT_EQ(events[0][13], crc & 0xFF);
