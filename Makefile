@@ -71,25 +71,37 @@ ctest = @rm -rf $(2); mkdir -p $(2); env $$(env | sed -n 's/^\(GTEST_[A-Z_]*\|AS
 .PHONY: $(shell awk -F: '/^[a-z-]+:.*## / { print $$1 }' $(firstword $(MAKEFILE_LIST)))
 .DEFAULT_GOAL := help
 
-help: ## this list
-	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-16s %s\n", $$1, $$2 }' $(firstword $(MAKEFILE_LIST))
+# Each description begins with its group: "TARGET: ## GROUP: WHAT".
+define help_by_group
+BEGIN { n = split("first|measure|board|gate|write", order, "|")
+  title["first"] = "Begin here"; title["measure"] = "Measure the component in simulation"
+  title["board"] = "On the emulated flight processors"; title["gate"] = "Gates: each fails where something is wrong"
+  title["write"] = "Write files of this repository" }
+/^[a-z-]+:.*## / { split($$2, text, ": "); rows[text[1]] = rows[text[1]] sprintf("  make %-16s %s\n", $$1, substr($$2, length(text[1]) + 3)) }
+END { for (i = 1; i <= n; ++i) printf "%s\n%s\n", title[order[i]], rows[order[i]] }
+endef
+export help_by_group
+help: ## first: this list
+	@awk -F ':.*## ' "$$help_by_group" $(firstword $(MAKEFILE_LIST))
+	@echo "Scenarios of make run (make run SCENARIO=NAME; another mission by MISSION=FILE)"
+	@for mission in cfg/missions/*.toml; do sed -n 's/^\[scenario\.\(.*\)\]/\1/p' $$mission | xargs echo "  $$mission:"; done
 
-run: ## track the tenth-scale Hubble and report into out/run; MISSION=, SCENARIO= (approach: the full-size one), SENSOR=lcs-wire (the camera over its line), SEED=, FRAMES=, OUT=
+run: ## first: track the tenth-scale Hubble in simulation, and write the report out/run/report.html: MISSION= SCENARIO= SENSOR=lcs-wire SEED= FRAMES= OUT=
 	$(call packages,build)
 	$(call configure,$(BUILD),)
 	$(call compile,$(BUILD),mdat)
-	@$(BUILD)/mdat/mdat run $(MISSION) $(if $(SCENARIO),--scenario $(SCENARIO)) $(if $(SEED),--seed $(SEED)) $(if $(SENSOR),--sensor $(SENSOR)) $(if $(FRAMES),--frames $(FRAMES)) --out $(OUT)
-	@cfg/quality/measured.py run $(OUT)/results.json
-	@echo "open the report: xdg-open $(OUT)/report.html"
+	@$(BUILD)/mdat/mdat run "$(MISSION)" $(if $(SCENARIO),--scenario $(SCENARIO)) $(if $(SEED),--seed $(SEED)) $(if $(SENSOR),--sensor $(SENSOR)) $(if $(FRAMES),--frames $(FRAMES)) --out "$(OUT)"
+	@cfg/quality/measured.py run "$(OUT)/results.json"
+	@echo "open the report: xdg-open '$(OUT)/report.html'"
 
-test: ## all unit and functional tests of the host, by g++ without a warning; reports in out/test
+test: ## first: build and pass all unit and functional tests of the host
 	$(begin)
 	$(call packages,build test)
 	$(call configure,$(BUILD),)
 	$(call compile,$(BUILD))
 	@cfg/quality/run-tests test g++=$(BUILD)
 
-accuracy: ## the errors of the reference simulation, of pointing noise, spin, rates, tumble, outliers and dropouts, against the limits of their requirements; out/accuracy
+accuracy: ## measure: errors of eight simulated scenarios against the limits of their requirements
 	$(begin)
 	$(call packages,build)
 	$(call configure,$(BUILD),)
@@ -99,34 +111,34 @@ accuracy: ## the errors of the reference simulation, of pointing noise, spin, ra
 	@cfg/quality/accuracy $(LASSO_OUT)/accuracy
 
 WITH_BENCH = -DLASSO_BENCH=ON -DLASSO_TESTS=OFF
-bench: ## time the estimate, its stages and its peers; table, and out/bench/results.json
+bench: ## measure: time the estimate, its stages, and closest-point ICP of Embree and PCL beside it
 	$(call packages,build bench)
 	$(call configure,$(BENCH),$(WITH_BENCH))
 	$(call compile,$(BENCH),programs)
 	@mkdir -p $(LASSO_OUT)/bench
 	@ft/bench/run $(BENCH) $(LASSO_OUT)/bench
 
-basin: ## 1000 rough starts (20 deg, 0.3 m) at 4 m: how many the component finds; STARTS=, SEED=
+basin: ## measure: 1000 starts that are 20 deg and 0.3 m off: how many are found: STARTS= SEED=
 	$(call packages,build)
 	$(call configure,$(BUILD),)
 	$(call compile,$(BUILD),basin)
-	@$(BUILD)/ft/campaign/basin $(MISSION) $(or $(STARTS),1000) $(or $(SEED),1)
+	@$(BUILD)/ft/campaign/basin "$(MISSION)" $(or $(STARTS),1000) $(or $(SEED),1)
 
-montecarlo: ## 2000 closed-loop flights drawn at random: lost, invalid, wrong; table, worst cases, and out/montecarlo; FLIGHTS=, SEED=
+montecarlo: ## measure: 2000 closed-loop flights drawn at random: lost, invalid, wrong: FLIGHTS= SEED=
 	$(begin)
 	$(call packages,build)
 	$(call configure,$(BUILD),)
 	$(call compile,$(BUILD),montecarlo)
 	@ft/campaign/run montecarlo $(BUILD) $(or $(FLIGHTS),2000) $(or $(SEED),1)
 
-flips: ## 10000 flights with one bit flipped in each: masked, detected, silent; table, and out/flips; FLIPS=, SEED=
+flips: ## measure: 10000 flights, each with one flipped bit: masked, told, silent: FLIPS= SEED=
 	$(begin)
 	$(call packages,build)
 	$(call configure,$(BUILD),)
 	$(call compile,$(BUILD),flips)
 	@ft/campaign/run flips $(BUILD) $(or $(FLIPS),10000) $(or $(SEED),1)
 
-scrub: ## 100000 flights with one bit flipped in what the scrub protects, while tracking: told in time or not; table, and out/scrub; FLIPS=, SEED=
+scrub: ## measure: 100000 flips in what the scrub protects: told in time or not: FLIPS= SEED=
 	$(begin)
 	$(call packages,build)
 	$(call configure,$(BUILD),)
@@ -139,24 +151,24 @@ $(call packages,build clang)
 $(call configure,$(FUZZ),$(call sanitized,fuzzer-no-link$(comma)address$(comma)undefined) -DLASSO_TESTS=OFF -DLASSO_FUZZ=ON)
 $(call compile,$(FUZZ),fuzzers)
 endef
-fuzz: ## a million inputs for each reader of outside bytes, and planted bugs to find; out/fuzz; FUZZERS="frame ...", EXECUTIONS= or SECONDS_EACH=, SEED=, LARGEST= bytes
+fuzz: ## measure: a million inputs for each reader of outside bytes: FUZZERS="frame ..." EXECUTIONS= SECONDS_EACH= SEED= LARGEST=
 	$(begin)
 	$(fuzzers)
 	@ft/fuzz/run $(FUZZ) $(or $(EXECUTIONS),$(if $(SECONDS_EACH),$(SECONDS_EACH)s),1000000) $(or $(SEED),1) $(or $(LARGEST),16384) $(FUZZERS)
 
-statistics: ## instructions of estimates on the emulated 603e: median, p99, worst of 10000 frames from the hits alone and of as many with silhouettes; out/statistics; FRAMES=, SEED=
+statistics: ## board: instructions of 10000 estimates: median, 99th percentile, worst: FRAMES= SEED=
 	$(begin)
 	$(replays)
 	@ft/ppc603e/count $(BUILD) $(PPC) $(or $(FRAMES),10000) $(or $(SEED),1)
 
-endurance: ## a day of simulated time at 5 Hz: nothing drifts, grows, slips or is wrong; out/endurance; HOURS=, SEED=
+endurance: ## measure: a day of simulated time at 5 Hz: nothing drifts, grows, slips or is wrong: HOURS= SEED=
 	$(begin)
 	$(call packages,build)
 	$(call configure,$(BUILD),)
 	$(call compile,$(BUILD),endurance)
 	@ft/campaign/run endurance $(BUILD) $(or $(HOURS),24) $(or $(SEED),1)
 
-campaigns-sample: ## 1 % of fuzz, flips, montecarlo, basin and statistics, an hour of endurance, seeded; out/campaigns-sample
+campaigns-sample: ## gate: a seeded hundredth of fuzz, flips, montecarlo, basin and statistics; an hour of endurance
 	$(begin)
 	$(fuzzers)
 	$(replays)
@@ -169,7 +181,7 @@ $(call compile,$(BUILD),mdat)
 @$(BUILD)/mdat/mdat mission compile cfg/missions/hubble_tenth.toml --out $(1)/mission.3dli >/dev/null
 $(call compile,$(1),$(2))
 endef
-programs: ## everything that make test does not compile: campaigns, rigs, searches, fuzzers, benchmarks, boards; no source is left out
+programs: ## gate: everything that make test does not compile is compiled, and no source is left out
 	$(begin)
 	$(call packages,build clang target target-arm bench soft-float)
 	$(call configure,$(BUILD),)
@@ -186,20 +198,20 @@ programs: ## everything that make test does not compile: campaigns, rigs, search
 	@ft/ppc603e/soft_float/build $(SOFT)
 	@cfg/quality/programs $(BUILD)=all,programs $(FUZZ)=fuzzers $(BENCH)=programs $(BOARD)=programs,layout_603e $(SECOND)=programs
 
-commands: ## what README.md and the pages of docs tell a reader to type works: each command of theirs in a short form (cfg/quality/commands.toml); out/commands
+commands: ## gate: what README.md and the pages of docs tell a reader to type works
 	$(begin)
 	$(call packages,build)
 	$(call configure,$(BUILD),)
 	$(call compile,$(BUILD),mdat)
 	@cfg/quality/commands $(BUILD)
 
-search: ## find the target without any prior attitude from random views; CASE= (docs/search.md), STARTS=, SEED=, SCANS=, SCALE=
+search: ## measure: find the target from random views without any prior attitude: CASE= STARTS= SEED= SCANS= SCALE=
 	$(call packages,build)
 	$(call configure,$(BUILD),)
 	$(call compile,$(BUILD),search)
-	@$(BUILD)/ft/search/search $(MISSION) $(or $(CASE),all) $(or $(STARTS),1000) $(or $(SEED),1) $(or $(SCANS),3) $(or $(SCALE),1)
+	@$(BUILD)/ft/search/search "$(MISSION)" $(or $(CASE),all) $(or $(STARTS),1000) $(or $(SEED),1) $(or $(SCANS),3) $(or $(SCALE),1)
 
-golden: ## the same telemetry, bit for bit: g++ and clang++, optimised or not, threads or none, host and emulated PowerPC 603e; TIER=landing: of the builds that other gates make
+golden: ## board: telemetry is the same, bit for bit, on compilers, levels of optimisation, host and 603e
 	$(begin)
 	$(call packages,build target clang)
 	$(call configure,$(BUILD),)
@@ -222,7 +234,7 @@ endef
 
 # The floating build's run is that of make accuracy, where no program or mission is newer.
 PAPER := $(LASSO_OUT)/accuracy/paper
-fixed-point: ## the fixed-point build: no floating-point instruction per point, every object listed by how often it runs, errors beside the floating build's, the same bits on the emulated 603e; out/fixed-point
+fixed-point: ## board: the fixed-point build: no floating point per point, its errors, the same bits on the 603e
 	$(begin)
 	$(call packages,build target clang)
 	$(call configure,$(BUILD),)
@@ -250,7 +262,7 @@ $(call compile,$(PPC),golden_replay)
 endef
 # the same processor without its floating-point unit (ft/ppc603e/soft_float)
 soft = -DLASSO_SOFT_FLOAT=$(abspath $(SOFT))/libsoft_float.a
-ppc-count: ## instructions of one estimate on the PowerPC 603e, by function, in floating and in fixed point, with and without a floating-point unit; table, and out/ppc-count/results.json; FRAMES=
+ppc-count: ## board: instructions of one estimate, by function; both number types, with and without an FPU: FRAMES=
 	$(begin)
 	$(replays)
 	$(call packages,clang soft-float)
@@ -265,12 +277,12 @@ ppc-count: ## instructions of one estimate on the PowerPC 603e, by function, in 
 	$(call compile,$(PPC)-soft-fixed,golden_replay)
 	@ft/ppc603e/count $(BUILD) $(PPC) $(FRAMES) fixed=$(CLANG),$(PPC)-fixed soft-float=$(BUILD),$(PPC)-soft soft-fixed=$(CLANG),$(PPC)-soft-fixed
 
-start-count: ## instructions of an estimate from a rough start (20 deg, 0.3 m) on the PowerPC 603e: those beyond a frame of the card are no more than is known; the same bits as on the host; out/start-count; STARTS=, SEED=, MISSION=
+start-count: ## board: instructions of an estimate from a rough start, and those beyond a frame: STARTS= SEED= MISSION=
 	$(begin)
 	$(replays)
-	@ft/ppc603e/count-starts $(BUILD) $(PPC) $(or $(STARTS),300) $(or $(SEED),1) $(MISSION)
+	@ft/ppc603e/count-starts $(BUILD) $(PPC) $(or $(STARTS),300) $(or $(SEED),1) "$(MISSION)"
 
-search-count: ## instructions of a search on the PowerPC 603e, and its largest step, and its slices in fixed point; the same bits as on the host; out/search-count; STARTS=, SEED=
+search-count: ## board: instructions of a search, and its largest step: STARTS= SEED=
 	$(begin)
 	$(call packages,build target clang)
 	$(call configure,$(BUILD),)
@@ -302,18 +314,18 @@ $(call compile,$(BOARD)-fixed,flight_603e)
 $(call configure,$(SECOND),$(SECOND_BOARD))
 $(call compile,$(SECOND),flight_cortexa9 planted_cortexa9)
 endef
-pil: prove ## the component on the bare, emulated PowerPC 603e with camera and ground at its lines: the host's telemetry bit for bit, in floating and in fixed point, and on a Cortex-A9; out/pil; FRAMES=
+pil: prove ## board: the component on the bare 603e and Cortex-A9, camera and ground at their lines: FRAMES=
 	$(begin)
 	$(on_board)
 	@ft/pil/run.py $(BUILD) $(BOARD) $(CLANG) $(BOARD)-fixed $(SECOND) $(or $(FRAMES),360)
 
-pil-sample: $(if $(ORDERED),,prove) ## the same for a few frames, and the boards' answers to faults: null, stray, hung, cut lines, wrong images; TIER=landing: floating point on the 603e; out/pil-sample
+pil-sample: $(if $(ORDERED),,prove) ## board: the same for a few frames, and the answers of the boards to planted faults
 	$(begin)
 	$(if $(landing),$(on_first_board),$(on_board))
 	$(if $(landing),,$(call linked_image,$(BOARD),linked_603e))
 	@ft/pil/faults $(BUILD) $(BOARD) $(if $(landing),,$(CLANG) $(BOARD)-fixed $(SECOND))
 
-pil-upload: ## a mission's image, 2.7 MB, over the ground's line into the store of the emulated 603e, and flown from there; out/pil-upload
+pil-upload: ## board: a mission image over the line of the ground into the store of the 603e, and flown from there
 	$(begin)
 	$(call packages,build target)
 	$(call configure,$(BUILD),)
@@ -331,11 +343,11 @@ $(call configure,$(BOARD),$(FLIGHT_BOARD))
 $(call compile,$(BOARD),flight_603e layout_603e)
 @ft/pil/seu.py $(BUILD) $(BOARD) $(1) $(2) $(3)
 endef
-seu: ## 2000 bits flipped in the running, emulated 603e: code, image, parameters, mode, data, stack, registers; table, and out/seu; goes on where it was; FLIPS=, SEED=
+seu: ## board: 2000 bits flipped in the running 603e; goes on where it was: FLIPS= SEED=
 	$(begin)
 	$(call seu,$(or $(FLIPS),2000),$(or $(SEED),1),seu)
 
-seu-sample: ## eight of them, one in each region; out/seu-sample
+seu-sample: ## board: eight of them, one in each region
 	$(begin)
 	@rm -rf $(LASSO_OUT)/seu-sample
 	$(call seu,8,2,seu-sample)
@@ -347,7 +359,7 @@ $(call compile,$(1),flight_603e)
 @cfg/toolchains/take_call_graphs $(1)
 $(call tidy,$(1),ci)
 endef
-prove: ## what the flight image's archives for the 603e do not do: heap, exceptions, recursion, contraction, too much stack or memory; out/prove, in fixed point out/fixed-point/prove (not with TIER=landing)
+prove: ## board: no heap, exceptions, recursion or contraction in the flight image; stacks and memory within budget
 	$(begin)
 	$(call packages,build target)
 	$(if $(landing),,$(fixed_proof))
@@ -359,7 +371,7 @@ $(call proof,$(BOARD)-fixed,$(FIXED))
 @echo "in fixed point"; LASSO_OUT=$(LASSO_OUT)/fixed-point cfg/quality/prove $(BOARD)-fixed
 endef
 
-ppc-test: ## unit tests of the flight component on the emulated PowerPC 603e, a part of them without an operating system too, those of the per-point path in fixed point, too; TIER=landing: those of what depends on the processor; reports in out/ppc-test
+ppc-test: ## board: unit tests of the flight component on the emulated 603e
 	$(begin)
 	$(call packages,build target)
 	$(if $(landing),$(tests_on_target),$(all_on_target))
@@ -382,7 +394,7 @@ endef
 
 sanitize mcdc: export LSAN_OPTIONS := suppressions=$(abspath cfg/quality/leaks.txt):print_suppressions=0
 sanitize mcdc: export UBSAN_OPTIONS := print_stacktrace=1
-sanitize: ## all tests by clang++ in fixed point under the address and undefined-behaviour sanitizers (make mcdc: those of the flight code in floating point), the threaded ones under the thread sanitizer
+sanitize: ## gate: all tests in fixed point under the address and undefined sanitizers; threads under their own
 	$(begin)
 	$(call packages,build clang test)
 	$(call configure,$(SANITIZE)-address,$(call sanitized,address$(comma)undefined) $(FIXED))
@@ -391,12 +403,12 @@ sanitize: ## all tests by clang++ in fixed point under the address and undefined
 	$(call compile,$(SANITIZE)-thread,$(THREADED))
 	@cfg/quality/run-tests sanitize address,undefined=$(SANITIZE)-address thread=$(SANITIZE)-thread $(THREADED)
 
-requirements: ## the requirements are well formed, and the tests' sources name them as they are now; before anything is built
+requirements: ## gate: the requirements are well formed, and the tests name them as they are now
 	$(begin)
 	$(call packages,trace)
 	@reqs/requirements
 
-arrows: ## the includes obey the arrows between rooms and stages (cfg/quality/arrows.toml)
+arrows: ## gate: includes obey the arrows between rooms and stages
 	$(begin)
 	$(call packages,lint)
 	@cfg/quality/arrows
@@ -411,7 +423,7 @@ $(call configure,$(COVERAGE),-DCMAKE_BUILD_TYPE=Coverage -DLASSO_GROUND=OFF -DLA
   -DCMAKE_CXX_FLAGS="-O0 --coverage -fprofile-filter-files=/[fh][sa][wl] -fprofile-abs-path -fno-exceptions -DLASSO_BEFORE_ABORT=__gcov_dump")
 $(call compile,$(COVERAGE),$(1))
 endef
-coverage: ## the unit tests take every line and branch of the flight component, by gcovr (reqs/waivers.csv); out/coverage
+coverage: ## gate: unit tests take every line and branch of the flight component (gcovr)
 	$(begin)
 	$(call packages,build coverage)
 	$(call covered,flight_tests)
@@ -427,7 +439,7 @@ $(call compile,$(MCDC),$(1))
 endef
 golden: export LLVM_PROFILE_FILE := /dev/null
 mcdc: export LLVM_PROFILE_FILE := $(abspath $(MCDC))/profiles/%m.profraw
-mcdc: ## the unit tests take every line of the flight component and show that each condition decides by itself, under the address and undefined-behaviour sanitizers; out/mcdc
+mcdc: ## gate: unit tests show that each condition decides by itself; address and undefined sanitizers
 	$(begin)
 	$(call packages,build coverage)
 	$(call counted,flight_tests)
@@ -435,46 +447,46 @@ mcdc: ## the unit tests take every line of the flight component and show that ea
 	$(call ctest,$(MCDC),$(LASSO_OUT)/mcdc/test,-L flight)
 	@cfg/quality/mcdc $(MCDC) $(SOURCE)
 
-mutants: ## 200 small changes to the flight sources, drawn at random: the unit tests find at least 95 %; survivors, and out/mutants; COUNT=, SEED=
+mutants: ## gate: 200 small changes to the flight sources: the unit tests find at least 95 %: COUNT= SEED=
 	$(begin)
 	$(call packages,build clang)
 	@cfg/quality/mutants $(or $(COUNT),200) $(or $(SEED),1) $(SOURCE)
 
-trace: ## every active requirement has a passing test or its evidence; after make test and make ppc-test; matrix in out/trace; COMPLETE=1: its gates must have run
+trace: ## gate: every active requirement has a passing test or its evidence; after test and ppc-test
 	$(begin)
 	$(call packages,trace)
 	@reqs/trace $(if $(COMPLETE),--complete)
 
-evidence: ## collect what the gates left into out/evidence, for a reviewer, and into docs/verification.md
+evidence: ## gate: collect what the gates left into out/evidence and docs/verification.md
 	$(call packages,trace)
 	@reqs/evidence
 
-gates-selftest: ## every gate fails on its planted violation (ut/gates)
+gates-selftest: ## gate: every gate fails on its planted violation
 	$(begin)
 	$(call packages,build target lint trace coverage)
 	@cfg/quality/gates-selftest
 
-inputs: ## each file of the repository that a gate's builds and scripts read is one of its inputs (cfg/quality/gates.toml); after the gates, in make verify
+inputs: ## gate: gates.toml names what the gates really read; after the gates
 	$(begin)
 	@cfg/quality/inputs
 
-verify: ## every gate in its whole form, two at a time; goes on where it was; evidence, and the record by which .ci/run skips what did not change
+verify: ## gate: every gate in its whole form; goes on where it was, and writes the record by which .ci/run skips
 	@cfg/quality/run-gates verify
 
-icd: ## write the interface document, docs/icd/link.md, from the dictionary
+icd: ## write: write docs/icd/link.md from the dictionary of packets
 	$(call packages,build)
 	$(call configure,$(BUILD),)
 	$(call compile,$(BUILD),mdat)
 	@$(BUILD)/mdat/mdat dictionary >$(LASSO_OUT)/link.md && { cmp -s $(LASSO_OUT)/link.md docs/icd/link.md || mv $(LASSO_OUT)/link.md docs/icd/link.md; }
 
-figures: ## write the measured figures of README.md and docs/benchmarks.md from the results of run, bench, ppc-count and prove that are of this version
+figures: ## write: write the measured figures of README.md and docs/benchmarks.md
 	@docs/figures
 
-format: ## format all tracked sources
+format: ## write: format all tracked sources
 	$(call packages,lint)
 	@$(SOURCES) | xargs -0 clang-format -i
 
-lint: ## clang-format, clang-tidy and cppcheck find nothing in the tracked sources; out/lint
+lint: ## gate: clang-format, clang-tidy and cppcheck find nothing: LINT=all reads all again
 	$(begin)
 	$(call packages,build clang lint target target-arm)
 	$(call configure,$(LINT),-DCMAKE_CXX_COMPILER=clang++-19 $(own_includes))
@@ -488,20 +500,20 @@ $(call packages,build)
 $(call configure,$(BUILD),)
 $(call compile,$(BUILD),installed)
 endef
-install: ## install mdat, the flight component and its CMake package under PREFIX= (/usr/local)
+install: ## first: install mdat, the shipped missions, the flight component and its CMake package: PREFIX= (/usr/local)
 	$(installed)
-	@cmake --install $(BUILD) --prefix $(abspath $(PREFIX)) >out/install.log || { cat out/install.log; false; }
+	@cmake --install $(BUILD) --prefix "$$(realpath -m -- "$(PREFIX)")" >$(LASSO_OUT)/install.log || { cat $(LASSO_OUT)/install.log; false; }
 	@echo "installed under $(PREFIX): $$(wc -l <$(BUILD)/install_manifest.txt) files"
 
-package: ## Debian packages 3dlasso-mdat and 3dlasso-dev in out/package, each tried: a mission flown, docs/embedding built
+package: ## first: Debian packages 3dlasso-mdat and 3dlasso-dev in out/package, each tried
 	$(installed)
 	$(call packages,package)
 	@cfg/quality/package $(BUILD)
 
-clean: ## remove everything that was built (out/)
+clean: ## first: remove everything that was built (out/)
 	@rm -rf out
 
-build: ## build everything of the host into out/build
+build: ## first: build everything of the host into out/build
 	$(call packages,build)
 	$(call configure,$(BUILD),)
 	$(call compile,$(BUILD))
