@@ -48,8 +48,7 @@ export CCACHE_BASEDIR := $(CURDIR)
 export CCACHE_SLOPPINESS := pch_defines,time_macros
 # Tests, rigs and runs share the models that mdat has compiled.
 export MDAT_CACHE ?= $(abspath $(LASSO_OUT))/mission-cache
-# A terminal gets ninja's one changing line, a log only what went wrong.
-NINJA_FLAGS := $(if $(MAKE_TERMOUT),,-- --quiet)
+# Ninja's steps: one changing line on a terminal, a line each in a log.
 export NINJA_STATUS := [%f/%t %es] 
 
 # $(begin) of a gate (nothing old speaks for it), $(call packages,LISTS), $(call configure,FOLDER,CMAKE OPTIONS) (again if they change),
@@ -60,7 +59,7 @@ configure = @options='$(subst ',,$(2))'; \
   { [ -e $(1)/build.ninja ] && [ "$$(cat $(1)/options.txt 2>/dev/null)" = "$$options" ]; } || { echo "configure $(1)"; mkdir -p $(1); rm -f $(1)/CMakeCache.txt $(1)/build.ninja $(1)/options.txt; \
   cmake -S $(SOURCE) -B $(1) -G Ninja -DCMAKE_BUILD_TYPE=Release -DLASSO_UNITY=ON $$(command -v ccache >/dev/null && echo -DCMAKE_CXX_COMPILER_LAUNCHER=ccache) $(2) \
     >$(1)/configure.log 2>&1 || { cat $(1)/configure.log; rm -f $(1)/build.ninja; false; }; } && echo "$$options" >$(1)/options.txt
-compile = @echo "build $(1)$(if $(2), ($(2)))"; cmake --build $(1) --parallel $(JOBS) $(if $(2),--target $(2)) $(NINJA_FLAGS)
+compile = @echo "build $(1)$(if $(2), ($(2)))"; cmake --build $(1) --parallel $(JOBS) $(if $(2),--target $(2))
 # $(call tidy,FOLDER,ENDING): removes what sources that are gone left there, and would be counted: beside each object is its file of that ENDING.
 tidy = @ninja -C $(1) -t cleandead >/dev/null; find $(1) -name '*.$(2)' | while read -r notes; do [ -e "$${notes%.$(2)}.o" ] || [ -e "$${notes%.$(2)}.obj" ] || rm "$$notes"; done
 # The caller's settings of GoogleTest and of sanitizers do not count.
