@@ -9,11 +9,10 @@
 #include <memory>
 
 #include "ft/campaign/draws.hpp"
+#include "ft/campaign/main_of.hpp"
 #include "ft/campaign/verdict.hpp"
-#include "mdat/common/count.hpp"
 #include "mdat/common/errors.hpp"
 #include "mdat/common/flight_image.hpp"
-#include "mdat/common/output.hpp"
 #include "mdat/run/simulation.hpp"
 
 namespace lasso::campaign {
@@ -105,20 +104,4 @@ std::string fly(const char* mission_file, std::uint32_t hours, std::uint64_t see
 }  // namespace
 }  // namespace lasso::campaign
 
-int main(int argc, char** argv) {
-  if (argc < 5) {
-    (void)std::fprintf(stderr, "usage: endurance MISSION FILE HOURS SEED [POINTS]\n");
-    return 2;
-  }
-  try {
-    using lasso::mdat::count_of;
-    const auto hours = count_of<std::uint32_t>("HOURS", argv[3], 1);
-    const auto seed = count_of<std::uint64_t>("SEED", argv[4]);
-    const auto points = argc > 5 ? count_of<std::uint32_t>("POINTS", argv[5]) : 0;
-    lasso::mdat::write_file(argv[2], lasso::campaign::fly(argv[1], hours, seed, points));
-  } catch (const std::exception& error) {
-    (void)std::fprintf(stderr, "endurance: %s\n", error.what());
-    return 2;
-  }
-  return 0;
-}
+int main(int argc, char** argv) { return lasso::campaign::main_of({"endurance", "HOURS", "POINTS"}, argc, argv, lasso::campaign::fly); }

@@ -5,7 +5,6 @@
 // the component's memory here: no error-correcting memory, no scrubber.
 #include <fcntl.h>
 #include <sys/resource.h>
-#include <sys/wait.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -16,11 +15,10 @@
 
 #include "ft/campaign/arena.hpp"
 #include "ft/campaign/draws.hpp"
+#include "ft/campaign/main_of.hpp"
 #include "ft/campaign/verdict.hpp"
-#include "mdat/common/count.hpp"
 #include "mdat/common/errors.hpp"
 #include "mdat/common/flight_image.hpp"
-#include "mdat/common/output.hpp"
 #include "mdat/run/simulation.hpp"
 
 namespace lasso::campaign {
@@ -209,14 +207,6 @@ std::vector<std::uint8_t> read_all(int pipe) {
   return bytes;
 }
 
-End end_of(pid_t pid) {
-  int status = 0;
-  if (waitpid(pid, &status, 0) != pid) throw mdat::RunError("a child is lost");
-  if (WIFEXITED(status)) return WEXITSTATUS(status) == 0 ? End::kDone : End::kCrash;
-  if (WTERMSIG(status) == SIGABRT) return End::kInvariant;
-  return WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL ? End::kHang : End::kCrash;
-}
-
 class Campaign {
  public:
   explicit Campaign(const char* mission_file) : subject_(mission_file) {}
@@ -294,19 +284,8 @@ class Campaign {
 }  // namespace lasso::campaign
 
 int main(int argc, char** argv) {
-  if (argc < 5) {
-    (void)std::fprintf(stderr, "usage: flips MISSION FILE FLIPS SEED [FIRST]\n");
-    return 2;
-  }
-  try {
-    using lasso::mdat::count_of;
-    const auto flips = count_of<std::uint32_t>("FLIPS", argv[3], 1);
-    const auto seed = count_of<std::uint64_t>("SEED", argv[4]);
-    const auto first = argc > 5 ? count_of<std::uint32_t>("FIRST", argv[5]) : 0;
-    lasso::mdat::write_file(argv[2], lasso::campaign::Campaign(argv[1]).run(flips, seed, first));
-  } catch (const std::exception& error) {
-    (void)std::fprintf(stderr, "flips: %s\n", error.what());
-    return 2;
-  }
-  return 0;
+  return lasso::campaign::main_of({"flips", "FLIPS", "FIRST"}, argc, argv,
+                                  [](const char* mission, std::uint32_t flips, std::uint64_t seed, std::uint32_t first) {
+                                    return lasso::campaign::Campaign(mission).run(flips, seed, first);
+                                  });
 }

@@ -8,11 +8,10 @@
 #include <thread>
 
 #include "ft/campaign/draws.hpp"
+#include "ft/campaign/main_of.hpp"
 #include "ft/campaign/verdict.hpp"
-#include "mdat/common/count.hpp"
 #include "mdat/common/errors.hpp"
 #include "mdat/common/flight_image.hpp"
-#include "mdat/common/output.hpp"
 #include "mdat/run/simulation.hpp"
 
 namespace lasso::campaign {
@@ -136,19 +135,5 @@ std::string fly_all(const char* mission_file, std::uint32_t flights, std::uint64
 }  // namespace lasso::campaign
 
 int main(int argc, char** argv) {
-  if (argc < 5) {
-    (void)std::fprintf(stderr, "usage: montecarlo MISSION FILE FLIGHTS SEED [FIRST]\n");
-    return 2;
-  }
-  try {
-    using lasso::mdat::count_of;
-    const auto flights = count_of<std::uint32_t>("FLIGHTS", argv[3], 1);
-    const auto seed = count_of<std::uint64_t>("SEED", argv[4]);
-    const auto first = argc > 5 ? count_of<std::uint32_t>("FIRST", argv[5]) : 0;
-    lasso::mdat::write_file(argv[2], lasso::campaign::fly_all(argv[1], flights, seed, first));
-  } catch (const std::exception& error) {
-    (void)std::fprintf(stderr, "montecarlo: %s\n", error.what());
-    return 2;
-  }
-  return 0;
+  return lasso::campaign::main_of({"montecarlo", "FLIGHTS", "FIRST"}, argc, argv, lasso::campaign::fly_all);
 }

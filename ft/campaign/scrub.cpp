@@ -7,7 +7,6 @@
 // copies, the mode in its three, and code.
 #include <fcntl.h>
 #include <sys/resource.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -21,11 +20,10 @@
 #include "fsw/link/events.hpp"
 #include "ft/campaign/arena.hpp"
 #include "ft/campaign/draws.hpp"
+#include "ft/campaign/main_of.hpp"
 #include "ft/campaign/verdict.hpp"
-#include "mdat/common/count.hpp"
 #include "mdat/common/errors.hpp"
 #include "mdat/common/flight_image.hpp"
-#include "mdat/common/output.hpp"
 #include "mdat/run/simulation.hpp"
 
 namespace lasso::campaign {
@@ -267,14 +265,6 @@ struct Result {
   End end = End::kDone;
 };
 
-End end_of(pid_t pid) {
-  int status = 0;
-  if (waitpid(pid, &status, 0) != pid) throw mdat::RunError("a child is lost");
-  if (WIFEXITED(status)) return WEXITSTATUS(status) == 0 ? End::kDone : End::kCrash;
-  if (WTERMSIG(status) == SIGABRT) return End::kInvariant;
-  return WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL ? End::kHang : End::kCrash;
-}
-
 Result fly(Subject& subject, const Flip* flip, std::uint32_t slot) {
   int ends[2];
   if (pipe(ends) != 0) throw mdat::RunError("no pipe to a child");
@@ -338,20 +328,4 @@ std::string run(const char* mission_file, std::uint32_t flips, std::uint64_t see
 }  // namespace
 }  // namespace lasso::campaign
 
-int main(int argc, char** argv) {
-  if (argc < 5) {
-    (void)std::fprintf(stderr, "usage: scrub MISSION FILE FLIPS SEED [FIRST]\n");
-    return 2;
-  }
-  try {
-    using lasso::mdat::count_of;
-    const auto flips = count_of<std::uint32_t>("FLIPS", argv[3], 1);
-    const auto seed = count_of<std::uint64_t>("SEED", argv[4]);
-    const auto first = argc > 5 ? count_of<std::uint32_t>("FIRST", argv[5]) : 0;
-    lasso::mdat::write_file(argv[2], lasso::campaign::run(argv[1], flips, seed, first));
-  } catch (const std::exception& error) {
-    (void)std::fprintf(stderr, "scrub: %s\n", error.what());
-    return 2;
-  }
-  return 0;
-}
+int main(int argc, char** argv) { return lasso::campaign::main_of({"scrub", "FLIPS", "FIRST"}, argc, argv, lasso::campaign::run); }

@@ -1,6 +1,11 @@
 #include "ft/campaign/verdict.hpp"
 
+#include <sys/wait.h>
+
 #include <algorithm>
+#include <csignal>
+
+#include "mdat/common/errors.hpp"
 
 namespace lasso::campaign {
 namespace {
@@ -20,6 +25,14 @@ Outcome stopped(End end) {
 }
 
 }  // namespace
+
+End end_of(pid_t pid) {
+  int status = 0;
+  if (waitpid(pid, &status, 0) != pid) throw mdat::RunError("a child is lost");
+  if (WIFEXITED(status)) return WEXITSTATUS(status) == 0 ? End::kDone : End::kCrash;
+  if (WTERMSIG(status) == SIGABRT) return End::kInvariant;
+  return WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL ? End::kHang : End::kCrash;
+}
 
 Outcome outcome(ConstBytes telemetry, ConstBytes golden, const sim::Trajectory& truth, End end) {
   const Decoded decoded = decode(telemetry);

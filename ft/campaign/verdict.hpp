@@ -1,6 +1,8 @@
 // What a campaign says of all that a flight with a fault sent.
 #pragma once
 
+#include <sys/types.h>
+
 #include "ft/campaign/flight.hpp"
 #include "hal_sim/trajectory.hpp"
 #include "mdat/run/verdict.hpp"
@@ -13,6 +15,8 @@ using mdat::PoseVerdict;
 
 // How the process of a flight ended.
 enum class End : std::uint8_t { kDone = 0, kInvariant = 1, kCrash = 2, kHang = 3 };
+// Waits for the child `pid`. RunError where it is none.
+End end_of(pid_t pid);
 
 // From harmless to worse. The first three publish nothing wrong and say nothing; silent is what must not be.
 enum class Outcome : std::uint8_t {

@@ -10,6 +10,7 @@
 #include "fsw/link/packet_finder.hpp"
 #include "fsw/link/telecommand.hpp"
 #include "ft/fuzz/exact.hpp"
+#include "ft/fuzz/repair.hpp"
 
 namespace lasso::fuzz {
 namespace {
@@ -17,17 +18,6 @@ namespace {
 using Packets = std::vector<std::vector<std::uint8_t>>;
 constexpr std::size_t kRoom = kMaxCommandBytes;
 constexpr std::size_t kLargestBytes = 1024;  // more of the same would take longer
-
-void repair(Bytes packet) {
-  if (packet.size() < kPrimaryHeaderBytes + kPacketTrailerBytes) return;
-  const std::size_t length = packet.size() - kPrimaryHeaderBytes - 1;
-  packet[4] = static_cast<std::uint8_t>(length >> 8);
-  packet[5] = static_cast<std::uint8_t>(length);
-  const std::size_t end = packet.size() - kPacketTrailerBytes;
-  const std::uint16_t crc = crc16_ccitt(packet.first(end));
-  packet[end] = static_cast<std::uint8_t>(crc >> 8);
-  packet[end + 1] = static_cast<std::uint8_t>(crc);
-}
 
 void check_command(ConstBytes packet) {
   CommandHeader header;

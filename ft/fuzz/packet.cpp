@@ -1,26 +1,15 @@
 // Bytes that claim to be telemetry. What the decoder takes for a pose must encode to the same bytes again; what the queue takes it must
 // give back. The first byte: bit 0 leaves length and check sum as they are.
 #include "cfg/capacities.hpp"
-#include "fsw/core/crc.hpp"
 #include "fsw/link/pose_telemetry.hpp"
 #include "fsw/link/telemetry_queue.hpp"
 #include "ft/fuzz/exact.hpp"
+#include "ft/fuzz/repair.hpp"
 
 namespace lasso::fuzz {
 namespace {
 
 constexpr std::size_t kTimeAt = 13, kTimeBytes = 7;
-
-void repair(Bytes packet) {
-  if (packet.size() < kPrimaryHeaderBytes + kPacketTrailerBytes) return;
-  const std::size_t length = packet.size() - kPrimaryHeaderBytes - 1;
-  packet[4] = static_cast<std::uint8_t>(length >> 8);
-  packet[5] = static_cast<std::uint8_t>(length);
-  const std::size_t end = packet.size() - kPacketTrailerBytes;
-  const std::uint16_t crc = crc16_ccitt(packet.first(end));
-  packet[end] = static_cast<std::uint8_t>(crc >> 8);
-  packet[end + 1] = static_cast<std::uint8_t>(crc);
-}
 
 // Time fractions finer than a microsecond and bits that no field holds are not kept.
 bool kept(std::size_t i, std::size_t size) {
