@@ -17,13 +17,18 @@ void print_row(std::ostream& out, const FaultRow& row) {
 }
 
 // docs/faults.md is this, written down.
+const char kHead[] = R"(# Faults
+
+Printed by `mdat faults` from the table that the component executes (`fsw/exec/faults.cpp`). Words: [glossary](glossary.md).
+
+A fault that is seen in as many frames running as **confirm** says is confirmed. The event `fault_confirmed` reports it, and the component reacts. One
+that is not seen for as many frames as **clear** says is cleared, with the event `fault_cleared`. Of several reactions the heaviest is carried out. The
+packet `health` says which faults are active, a bit each, in the order of this table.
+
+)";
+
 void print_faults_page(std::ostream& out) {
-  out << "# Faults\n\nPrinted by `mdat faults` from the table that the component executes (`fsw/exec/faults.cpp`).\n\n"
-         "A fault that is seen in as many frames running as **confirm** says is confirmed: the event `fault_confirmed` tells it, and the\n"
-         "component reacts. One that is not seen for as many frames as **clear** says is cleared, with the event `fault_cleared`. Of "
-         "several\n"
-         "reactions the heaviest is carried out. The packet `health` says which faults are active, a bit each, in the order of this "
-         "table.\n\n";
+  out << kHead;
   out << "Reactions:\n\n";
   for (const Choice& reaction : kFaultReaction.choices) out << "- **" << reaction.name << "**: " << reaction.meaning << ".\n";
   out << "\n| fault | detected when | confirm | clear | reaction | what an operator can do |\n| --- | --- | --- | --- | --- | --- |\n";

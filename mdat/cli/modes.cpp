@@ -33,27 +33,38 @@ void print_transitions(std::ostream& out) {
 }
 
 // docs/modes.md is this, written down.
+const char kColumns[] = R"(# The modes
+
+Printed by `mdat modes` from the table that the component executes (`fsw/mode/modes.cpp`). Words: [glossary](glossary.md).
+
+The columns of the first table:
+- **confirms**: a valid pose confirms a start, and starts the filter anew. It has to explain `start.inlier_share_min` of the returns. It has to agree with
+  the prediction within `start.gate`. No near-symmetry of it may explain the scan better by `start.twin_margin`. A pose that explains 99 % of the returns
+  is not compared with its near-symmetries. Where `start.check` is set, its scan is searched. The start is `unchecked` until the search has found no
+  better pose. Where that search is not sure, another scan is searched, too.
+- **takes up**: the shares of a valid pose have to exceed the limits of tracking by `tracking.hysteresis`.
+- **awaits a start**: the next untried pose to start from is taken, in the mission's order `start.first` to `start.fifth`. Search has its turn in bearing,
+  once the bearing is known.
+
+)";
+
+const char kEvents[] = R"(Events of the second table:
+- `exhausted` and `recover` come when the mode's frames are used up and the mode is not held. `tracking.recover` says which of the two. The frames are
+  `start.frames`, `tracking.coast_frames`, `tracking.reacquire_frames` or `search.frames`.
+- A start that no scan confirmed ends with `fall_back` where it interrupted a track. It ends with `recover`, too, where the order leaves a search to be
+  tried.
+- `near` is a valid pose within `short_range.enter_m` of the target's origin, in tracking. `far` is one beyond `short_range.leave_m`, in short_range. Both
+  need a mode that is not held. Both may also be commanded.
+- An event that a mode has no row for changes nothing.
+
+After `near` or `far` the range does not change the mode back at once. Before that, a valid pose has to be where the mode is for. In short_range that is
+within `short_range.leave_m`, otherwise it is not within `short_range.enter_m`. Until then a short_range that was commanded far away stays, and so does a
+tracking close by. Another command ends it.
+
+)";
+
 void print_modes_page(std::ostream& out) {
-  out << "# The modes\n\nPrinted by `mdat modes` from the table that the component executes (`fsw/mode/modes.cpp`).\n\n"
-         "- **confirms**: a valid pose has to explain `start.inlier_share_min` of the returns and to agree with the prediction within "
-         "`start.gate`,\n  and no near-symmetry of it may explain the scan better by `start.twin_margin`,\n  unless the pose explains 99 % "
-         "of the returns; it starts the filter anew.\n"
-         "  Where `start.check` is set a start is `unchecked` until a search of its scan, and where that is not sure of another one, has "
-         "found no better pose.\n"
-         "- **takes up**: the shares of a valid pose have to exceed the limits of tracking by `tracking.hysteresis`.\n"
-         "- **awaits a start**: the next untried pose to start from is taken, in the mission's order `start.first` to `start.fifth`. "
-         "Search\n  has its turn in bearing, once the bearing is known.\n\n"
-         "`exhausted` and `recover` come when the mode's frames (`start.frames`, `tracking.coast_frames`, `tracking.reacquire_frames`,\n"
-         "`search.frames`) are used up and the mode is not held; which of the two, `tracking.recover` says. A start that no scan "
-         "confirmed\n"
-         "ends with `fall_back` where it interrupted a track, and with `recover`, too, where the order leaves a search to be tried. An "
-         "event that a mode has no row for changes nothing.\n\n"
-         "`near` and `far` are valid poses within `short_range.enter_m` of the target's origin in tracking, and beyond "
-         "`short_range.leave_m` in\nshort_range, if the mode is not held; or commands. After either the range does not change the mode "
-         "back "
-         "before a valid pose has been where\nthe mode is for: within `short_range.leave_m` in short_range, not within "
-         "`short_range.enter_m` otherwise. A short_range that is commanded far\naway, or a tracking close by, stays until then, or until "
-         "another mode is commanded.\n\n";
+  out << kColumns << kEvents;
   print_modes(out);
   out << '\n';
   print_transitions(out);
