@@ -17,7 +17,7 @@ void print_row(std::ostream& out, const FaultRow& row) {
 }
 
 // docs/faults.md is this, written down.
-const char kHead[] = R"(# Faults
+constexpr char kHead[] = R"(# Faults
 
 Printed by `mdat faults` from the table that the component executes (`fsw/exec/faults.cpp`). Words: [glossary](glossary.md).
 

@@ -33,7 +33,7 @@ void print_transitions(std::ostream& out) {
 }
 
 // docs/modes.md is this, written down.
-const char kColumns[] = R"(# The modes
+constexpr char kColumns[] = R"(# The modes
 
 Printed by `mdat modes` from the table that the component executes (`fsw/mode/modes.cpp`). Words: [glossary](glossary.md).
 
@@ -48,7 +48,7 @@ The columns of the first table:
 
 )";
 
-const char kEvents[] = R"(Events of the second table:
+constexpr char kEvents[] = R"(Events of the second table:
 - `exhausted` and `recover` come when the mode's frames are used up and the mode is not held. `tracking.recover` says which of the two. The frames are
   `start.frames`, `tracking.coast_frames`, `tracking.reacquire_frames` or `search.frames`.
 - A start that no scan confirmed ends with `fall_back` where it interrupted a track. It ends with `recover`, too, where the order leaves a search to be
