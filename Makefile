@@ -391,7 +391,6 @@ $(call compile,$(PPC)-fixed,$(PER_POINT))
 @cfg/quality/run-tests ppc-test 603e=$(PPC) fixed=$(PPC)-fixed $(PER_POINT)
 endef
 
-sanitize mcdc: export LSAN_OPTIONS := suppressions=$(abspath cfg/quality/leaks.txt):print_suppressions=0
 sanitize mcdc: export UBSAN_OPTIONS := print_stacktrace=1
 sanitize: ## gate: all tests in fixed point under the address and undefined sanitizers; threads under their own
 	$(begin)

@@ -109,7 +109,7 @@ ModelTables with_parts_and_sensors(const CompiledMission& mission, const Mission
 MissionInput load_mission_input(const std::filesystem::path& file) {
   MissionInput input;
   input.source = load_mission(file);
-  input.mesh = load_target(input.source);
+  input.mesh = load_target(input.source, &input.source.warnings);
   return input;
 }
 

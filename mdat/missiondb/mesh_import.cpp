@@ -1,118 +1,82 @@
 #include "mdat/missiondb/mesh_import.hpp"
 
-#include <assimp/config.h>
-#include <assimp/postprocess.h>
-#include <assimp/scene.h>
-
-#include <Eigen/Geometry>
 #include <algorithm>
-#include <assimp/Importer.hpp>
-#include <cctype>
-#include <cmath>
-#include <map>
-#include <tuple>
+#include <bit>
+#include <unordered_map>
 
-#include "mdat/missiondb/mesh_precheck.hpp"
+#include "mdat/missiondb/file_mesh.hpp"
+#include "mdat/missiondb/gltf_reader.hpp"
+#include "mdat/missiondb/mesh_text.hpp"
 #include "mdat/missiondb/sha256.hpp"
-#include "mdat/missiondb/solid.hpp"
 #include "mdat/missiondb/value_row.hpp"
 
 namespace lasso::mdat {
 namespace {
 
-using Point = std::tuple<float, float, float>;
-
-// Joins identical vertices (exactly: a tolerance would depend on the file's units).
-class Joiner {
- public:
-  explicit Joiner(double scale) : scale_(scale) {}
-  std::uint32_t index_of(const aiVector3D& vertex) {
-    const auto next = static_cast<std::uint32_t>(mesh.vertices.size());
-    const auto [entry, added] = indices_.try_emplace(Point{vertex.x, vertex.y, vertex.z}, next);
-    if (added)
-      mesh.vertices.push_back(scale_ *
-                              Eigen::Vector3d(static_cast<double>(vertex.x), static_cast<double>(vertex.y), static_cast<double>(vertex.z)));
-    return entry->second;
+struct PlaceHash {
+  std::size_t operator()(const std::array<double, 3>& place) const {
+    std::uint64_t hash = 0;
+    for (const double value : place) hash = (hash ^ std::bit_cast<std::uint64_t>(value)) * 0x9E3779B97F4A7C15U;
+    return hash ^ hash >> 32;
   }
-  Mesh mesh;
-
- private:
-  double scale_;
-  std::map<Point, std::uint32_t> indices_;
 };
 
-void check_finite(const aiMesh& part) {
-  for (unsigned int i = 0; i < part.mNumVertices; ++i) {
-    const aiVector3D& v = part.mVertices[i];
-    if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z)) {
-      throw MeshError("vertex " + std::to_string(i) + " is not finite (NaN or infinite): export the mesh again");
-    }
+// Joins identical vertices (exactly: a tolerance would depend on the file's units). Those of no triangle are left out.
+class Joiner {
+ public:
+  Joiner(const FileMesh& from, double scale) : from_(from), scale_(scale) {}
+  Mesh joined() {
+    for (const auto& triangle : from_.triangles)
+      mesh_.triangles.push_back({index_of(triangle[0]), index_of(triangle[1]), index_of(triangle[2])});
+    return std::move(mesh_);
   }
-}
 
-constexpr unsigned int kMaxCorners = 1000;
-
-// The corners in a plane across the polygon's mean normal (Newell), in which it runs counter-clockwise.
-std::vector<Eigen::Vector2d> flattened(const std::vector<Eigen::Vector3d>& corners) {
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
-  for (std::size_t i = 0; i < corners.size(); ++i) normal += corners[i].cross(corners[(i + 1) % corners.size()]);
-  const Eigen::Vector3d u = normal.unitOrthogonal();
-  const Eigen::Vector3d v = normal.normalized().cross(u);
-  std::vector<Eigen::Vector2d> points;
-  for (const Eigen::Vector3d& corner : corners) points.emplace_back(u.dot(corner), v.dot(corner));
-  return points;
-}
-
-// Polygons are cut here: the library's own step ends the process on some corrupt files.
-void add_face(const aiMesh& part, const aiFace& face, Joiner& joiner) {
-  if (face.mNumIndices < 3 || face.mNumIndices > kMaxCorners) {
-    throw MeshError("has a face of " + std::to_string(face.mNumIndices) +
-                    " corners: points and lines are no surface (export triangles only), or the file is truncated");
+ private:
+  std::uint32_t index_of(std::uint32_t number) {
+    if (number >= from_.vertices.size()) throw MeshError("has a face that refers to a vertex that is not there");
+    const Eigen::Vector3d& v = from_.vertices[number];
+    if (!v.allFinite()) throw MeshError("vertex " + std::to_string(number) + " is not finite (NaN or infinite): export the mesh again");
+    const auto next = static_cast<std::uint32_t>(mesh_.vertices.size());
+    const auto [entry, added] = indices_.try_emplace({v.x() + 0.0, v.y() + 0.0, v.z() + 0.0}, next);  // -0 is 0
+    if (added) mesh_.vertices.push_back(scale_ * v);
+    return entry->second;
   }
-  std::vector<std::uint32_t> indices;
-  std::vector<Eigen::Vector3d> corners;
-  for (unsigned int k = 0; k < face.mNumIndices; ++k) {
-    if (face.mIndices[k] >= part.mNumVertices) throw MeshError("has a face that refers to a vertex that is not there");
-    indices.push_back(joiner.index_of(part.mVertices[face.mIndices[k]]));
-    corners.push_back(joiner.mesh.vertices[indices.back()]);
-  }
-  if (indices.size() == 3) return joiner.mesh.triangles.push_back({indices[0], indices[1], indices[2]});
-  for (const auto& triangle : triangulate_polygon(flattened(corners))) {
-    joiner.mesh.triangles.push_back({indices[triangle[0]], indices[triangle[1]], indices[triangle[2]]});
-  }
-}
 
-const aiScene& read_scene(Assimp::Importer& importer, const std::filesystem::path& file) {
-  const aiScene* scene = importer.ReadFile(file.string(), aiProcess_PreTransformVertices);
-  if (scene == nullptr) throw MeshError(std::string("cannot be read as a mesh: ") + importer.GetErrorString());
-  if ((scene->mFlags & AI_SCENE_FLAGS_INCOMPLETE) != 0) throw MeshError("is incomplete");
-  return *scene;
+  const FileMesh& from_;
+  double scale_;
+  Mesh mesh_;
+  std::unordered_map<std::array<double, 3>, std::uint32_t, PlaceHash> indices_;
+};
+
+FileMesh read_by_kind(const std::filesystem::path& file, std::string_view bytes) {
+  if (bytes.empty()) throw MeshError("is empty: it has 0 bytes");
+  const std::string kind = lower_case(file.extension().string());
+  if (kind == ".stl") return read_stl(bytes);
+  if (kind == ".ply") return read_ply(bytes);
+  if (kind == ".obj") return read_obj(bytes);
+  if (kind == ".glb" || kind == ".gltf") return read_gltf(file.parent_path(), bytes);
+  throw MeshError("is of kind \"" + kind + "\", expected .stl, .obj, .ply, .gltf or .glb");
 }
 
 }  // namespace
 
-Mesh import_mesh(const std::filesystem::path& file, double scale) {
+Mesh import_mesh(const std::filesystem::path& file, double scale, std::vector<std::string>* left_out) {
   std::string bytes;
   try {
     bytes = read_file(file);
   } catch (const std::runtime_error& error) {
     throw MeshError(error.what());
   }
-  const std::size_t faces_expected = precheck_mesh_file(file, bytes);
-  Assimp::Importer importer;
-  const aiScene& scene = read_scene(importer, file);
-  Joiner joiner(scale);
-  for (unsigned int i = 0; i < scene.mNumMeshes; ++i) {
-    check_finite(*scene.mMeshes[i]);
-    for (unsigned int k = 0; k < scene.mMeshes[i]->mNumFaces; ++k) add_face(*scene.mMeshes[i], scene.mMeshes[i]->mFaces[k], joiner);
-  }
-  if (joiner.mesh.triangles.size() < faces_expected) {
-    throw MeshError("has " + std::to_string(joiner.mesh.triangles.size()) + " readable triangles, expected at least " +
-                    std::to_string(faces_expected) + ": the file is truncated or corrupt");
-  }
-  check_mesh(joiner.mesh);
-  check_extent(joiner.mesh);
-  return std::move(joiner.mesh);
+  return parse_mesh(file, bytes, scale, left_out);
+}
+
+Mesh parse_mesh(const std::filesystem::path& file, std::string_view bytes, double scale, std::vector<std::string>* left_out) {
+  const FileMesh read = read_by_kind(file, bytes);
+  Mesh mesh = Joiner(read, scale).joined();
+  check_mesh(mesh);
+  check_extent(mesh);
+  if (left_out != nullptr) *left_out = read.left_out;
+  return mesh;
 }
 
 void check_mesh(const Mesh& mesh) {

@@ -299,11 +299,18 @@ class Loader {
 
 MissionSource load_mission(const std::filesystem::path& file) { return Loader(file).load(); }
 
-Mesh load_target(const MissionSource& source) {
+Mesh load_target(const MissionSource& source, std::vector<std::string>* warnings) {
   const TargetSource& target = source.target;
   const Origin origin = source.origins.at(target.file_key);
   try {
-    if (!target.parametric) return import_mesh(target.file, target.scale);
+    if (!target.parametric) {
+      std::vector<std::string> left_out;
+      Mesh mesh = import_mesh(target.file, target.scale, &left_out);
+      for (const std::string& what : left_out) {
+        if (warnings != nullptr) warnings->push_back(target.file.string() + ": not read: " + what);
+      }
+      return mesh;
+    }
     Mesh mesh = build_model(target.file, target.parameters);
     for (Eigen::Vector3d& vertex : mesh.vertices) vertex *= target.scale;
     check_extent(mesh);

@@ -121,7 +121,8 @@ struct MissionSource {
 MissionSource load_mission(const std::filesystem::path& file);
 
 // The target's surface in metres, in the target frame. Throws MissionError (missing, corrupt, empty, not finite, of absurd size).
-Mesh load_target(const MissionSource& source);
+// `warnings`, where given, get what the file holds and is no surface.
+Mesh load_target(const MissionSource& source, std::vector<std::string>* warnings = nullptr);
 
 // The surface of one of its parts in metres, in the part's frame; `target` is load_target's. Throws MissionError (as load_target; a box in
 // which nothing lies).

@@ -149,10 +149,11 @@ std::string initial_warning(const MissionSource& source, const Box& box) {
 
 std::string check_text(const MissionSource& source) {
   std::ostringstream out;
-  const Mesh mesh = load_target(source);
+  std::vector<std::string> warnings = source.warnings;
+  const Mesh mesh = load_target(source, &warnings);
   for (const PartSource& part : source.parts) static_cast<void>(load_part(source, part, mesh));
   const Box box = box_of(mesh);
-  for (const std::string& warning : source.warnings) out << "warning: " << warning << '\n';
+  for (const std::string& warning : warnings) out << "warning: " << warning << '\n';
   if (source.parameters.initial_present > 0.5) out << initial_warning(source, box);
   const Eigen::Vector3d size = box.high - box.low;
   out << source.file.string() << ": good: mission " << source.id << " \"" << source.name << "\" version " << source.version
