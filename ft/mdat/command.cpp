@@ -53,9 +53,9 @@ WorkFolder::~WorkFolder() {
   fs::remove_all(folder_, ignored);
 }
 
-Answer WorkFolder::mdat(const std::string& arguments) const {
+Answer WorkFolder::mdat(const std::string& arguments, const std::string& environment) const {
   const std::string out = next_file(folder_), err = next_file(folder_);
-  const int status = std::system(command_line(folder_, "'" + mdat_program() + "' " + arguments, out, err).c_str());
+  const int status = std::system(command_line(folder_, environment + " '" + mdat_program() + "' " + arguments, out, err).c_str());
   return answer_of(status, out, err);
 }
 
@@ -97,9 +97,10 @@ void WorkFolder::write_mission(const std::vector<std::pair<std::string, std::str
   write("missions/test.toml", text);
 }
 
-std::vector<std::string> WorkFolder::contents() const {
+std::vector<std::string> WorkFolder::contents(const std::string& below) const {
   std::vector<std::string> names;
-  for (const auto& entry : fs::recursive_directory_iterator(folder_)) names.push_back(fs::relative(entry.path(), folder_).string());
+  const fs::path folder = folder_ / below;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) names.push_back(fs::relative(entry.path(), folder).string());
   std::sort(names.begin(), names.end());
   return names;
 }

@@ -25,8 +25,8 @@ class WorkFolder {
   WorkFolder(const WorkFolder&) = delete;
   WorkFolder& operator=(const WorkFolder&) = delete;
 
-  // Runs `mdat ARGUMENTS` in this folder, by a shell.
-  Answer mdat(const std::string& arguments) const;
+  // Runs `mdat ARGUMENTS` in this folder, by a shell; `environment` stands before it, NAME=VALUE each.
+  Answer mdat(const std::string& arguments, const std::string& environment = "") const;
 
   std::filesystem::path operator/(const std::string& name) const { return folder_ / name; }
   void write(const std::string& name, const std::string& content) const;
@@ -34,7 +34,7 @@ class WorkFolder {
   // missions/test.toml: the default mission with each of the texts replaced (which must occur).
   void write_mission(const std::vector<std::pair<std::string, std::string>>& replacements = {}) const;
   // All files and folders below, sorted: shows what a command left behind.
-  std::vector<std::string> contents() const;
+  std::vector<std::string> contents(const std::string& below = "") const;
 
  private:
   friend class Program;

@@ -4,8 +4,7 @@
 
 #include "fsw/geometry/portable_math.hpp"
 #include "mdat/common/text.hpp"
-#include "mdat/report/plot_style.hpp"
-#include "mdat/report/plotter.hpp"
+#include "mdat/report/drawing.hpp"
 
 namespace lasso::mdat {
 namespace {
@@ -43,8 +42,7 @@ std::string panel(const std::string& title, const std::string& data, const char*
 
 }  // namespace
 
-std::string residual_picture(const CalibrationReport& before, const CalibrationReport& after) {
-  Plotter plotter;
+std::string residual_picture(Plotter& plotter, const CalibrationReport& before, const CalibrationReport& after) {
   const std::string rms_before = plotter.data(cells_text(before, &ResidualCell::rms_over_noise));
   const std::string rms = plotter.data(cells_text(after, &ResidualCell::rms_over_noise));
   const std::string mean = plotter.data(cells_text(after, &ResidualCell::mean_over_noise));

@@ -4,10 +4,11 @@
 #include <string>
 
 #include "mdat/calibrate/fit.hpp"
+#include "mdat/report/plotter.hpp"
 
 namespace lasso::mdat {
 
-// The bytes of a PNG file: rms and mean of the residual over the noise, against depth and mirror x. Throws RunError (no gnuplot).
-std::string residual_picture(const CalibrationReport& before, const CalibrationReport& after);
+// The bytes of a PNG file: rms and mean of the residual over the noise, against depth and mirror x. Throws PictureError.
+std::string residual_picture(Plotter& plotter, const CalibrationReport& before, const CalibrationReport& after);
 
 }  // namespace lasso::mdat

@@ -46,7 +46,7 @@ void print(const char* what, const CalibrationReport& report) {
 void calibrate(const CalibrateArguments& options) {
   check_writable(options.out);
   if (!options.picture.empty()) check_writable(options.picture);
-  if (!options.picture.empty()) require_plotter();
+  if (!options.picture.empty()) warn_of_plotter();
   const lcs::Calibration start = load_calibration(options.start);
   std::vector<RawPoint> points;
   for (const std::string& file : options.recordings) {
@@ -59,8 +59,10 @@ void calibrate(const CalibrateArguments& options) {
   print("before:", before);
   print("after:", fit.report);
   write_file(options.out, calibration_text(fit.calibration));
-  if (!options.picture.empty()) write_file(options.picture, residual_picture(before, fit.report));
   std::printf("written to %s\n", options.out.c_str());
+  if (options.picture.empty()) return;
+  Plotter plotter(std::filesystem::absolute(options.picture).parent_path());
+  write_file(options.picture, residual_picture(plotter, before, fit.report));
 }
 
 }  // namespace

@@ -20,4 +20,7 @@ void add_dictionary_command(CLI::App& app);
 // --no-cache of a subcommand that compiles a mission; `cached` is true unless it is given.
 void add_no_cache(CLI::App& command, bool& cached);
 
+// On the error stream, before any long work: that pictures will be missing, where gnuplot cannot be run.
+void warn_of_plotter();
+
 }  // namespace lasso::mdat

@@ -1,4 +1,5 @@
-// mdat, the mission design and analysis tool. Exit codes: 0 done, 1 the run failed, 2 usage or bad input.
+// mdat, the mission design and analysis tool. Exit codes: 0 done, 1 the run failed, 2 usage or bad input, 3 done, but a picture could not
+// be drawn.
 #include <cstdio>
 #include <exception>
 #include <string>
@@ -42,7 +43,7 @@ int run(int argc, char** argv) {
   add_command_command(app);
   add_upload_command(app);
   add_dictionary_command(app);
-  app.footer("Exit codes: 0 done, 1 the run failed, 2 usage or bad input.");
+  app.footer("Exit codes: 0 done, 1 the run failed, 2 usage or bad input, 3 done, but a picture could not be drawn.");
   try {
     app.parse(argc, argv);
     return kExitDone;
@@ -62,6 +63,8 @@ int main(int argc, char** argv) {
     return refuse(error, kExitBadInput);
   } catch (const lasso::sim::ScanFileError& error) {
     return refuse(error, kExitBadInput);
+  } catch (const PictureError& error) {
+    return refuse(error, kExitNoPicture);
   } catch (const std::exception& error) {
     return refuse(error, kExitFailed);
   }

@@ -25,12 +25,29 @@ struct RunArguments {
   bool report = true, cached = true;
 };
 
-void write_outputs(const RunArguments& options, const CompiledMission& mission, const SimulationResult& result, OutputFolder& folder) {
+void write_results(const RunArguments& options, const SimulationOptions& simulation, const SimulationResult& result, OutputFolder& folder) {
   folder.write("results.json", results_json(result));
   folder.write("telemetry.ccsds", telemetry_bytes(result));
-  if (options.report) folder.write("report.html", report_html(mission, result));
-  if (!options.picture.empty()) write_file(options.picture, picture_png(mission, result));
   folder.commit();
+  if (simulation.record) write_file(options.record_sensor, recording_text(*simulation.record));
+}
+
+// After all else: what goes wrong here costs a picture. Throws PictureError.
+void write_pictures(const RunArguments& options, const CompiledMission& mission, const SimulationResult& result, OutputFolder& folder) {
+  Plotter plotter(folder.path());
+  std::string problem;
+  if (options.report) {
+    folder.write("report.html", report_html(plotter, mission, result));
+    folder.commit();
+    std::printf("the report: %s\n", (folder.path() / "report.html").c_str());
+  }
+  if (!plotter.missing().empty()) problem = (folder.path() / "report.html").string() + ": figures are missing: " + plotter.missing();
+  try {
+    if (!options.picture.empty()) write_file(options.picture, picture_png(plotter, mission, result));
+  } catch (const PictureError& error) {
+    problem = problem.empty() ? options.picture + ": " + error.what() : problem;
+  }
+  if (!problem.empty()) throw PictureError(problem + "; all results are written");
 }
 
 // An operator's link; none if there is no URL. Who reads its address finds the component running: it is told when the mission is compiled.
@@ -69,7 +86,7 @@ void run(const RunArguments& options) {
   OutputFolder folder(options.out);
   if (!options.picture.empty()) check_writable(options.picture);
   if (!options.record_sensor.empty()) check_writable(options.record_sensor);
-  if (options.report || !options.picture.empty()) require_plotter();
+  if (options.report || !options.picture.empty()) warn_of_plotter();
   MissionInput input = load_mission_input(options.mission);
   check_simulation(input.source, options.simulation, !options.link.empty());
   const std::unique_ptr<SignatureCheck> signatures =
@@ -82,11 +99,12 @@ void run(const RunArguments& options) {
   simulation.link = link.get();
   simulation.authenticator = signatures.get();
   const SimulationResult result = simulate(mission, simulation);
-  write_outputs(options, mission, result, folder);
-  if (simulation.record) write_file(options.record_sensor, recording_text(*simulation.record));
+  write_results(options, simulation, result, folder);
   if (simulation.replay) warn_of_replay(result);
   std::fputs(summary_text(result).c_str(), stdout);
-  std::printf("written to %s: results.json, telemetry.ccsds%s\n", options.out.c_str(), options.report ? ", report.html" : "");
+  std::printf("written to %s: results.json, telemetry.ccsds\n", options.out.c_str());
+  (void)std::fflush(stdout);
+  if (options.report || !options.picture.empty()) write_pictures(options, mission, result, folder);
 }
 
 void record(const RunArguments& options) {

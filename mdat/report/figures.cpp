@@ -5,7 +5,7 @@
 #include <map>
 
 #include "mdat/common/text.hpp"
-#include "mdat/report/plot_style.hpp"
+#include "mdat/report/drawing.hpp"
 #include "mdat/run/results.hpp"
 
 namespace lasso::mdat {
@@ -40,13 +40,14 @@ std::string errors_text(const CaseResult& run, double abscissa_step) {
 }
 
 // Far ranges first, so that near ones (with smaller errors) lie on top.
-std::string angle_panel(const std::vector<std::string>& files, const Scenario& scenario, std::size_t axis) {
-  std::string text = format("set title '%s, %s'\nplot ", kErrorAxes[axis].name, kErrorAxes[axis].unit);
-  for (std::size_t i = files.size(); i-- > 0;) {
-    text += format("%s using 1:%zu with lines lw 0.8 lc rgb '%s' title '%s'%s", files[i].c_str(), axis + 2,
-                   kRangeColours[i % kRangeColourCount], run_text(scenario, i).c_str(), i > 0 ? ", " : "\n");
+std::vector<Curve> angle_curves(const std::vector<std::string>& runs, const Scenario& scenario, std::size_t axis) {
+  std::vector<Curve> curves;
+  for (std::size_t i = runs.size(); i-- > 0;) {
+    const std::string style =
+        format(" with lines lw 0.8 lc rgb '%s' title '%s'", kRangeColours[i % kRangeColourCount], run_text(scenario, i).c_str());
+    curves.push_back({runs[i], static_cast<int>(axis) + 2, style});
   }
-  return text;
+  return curves;
 }
 
 // One line a range: range, rms in mm and degrees, bound in mm and degrees.
@@ -60,15 +61,17 @@ std::string ranges_text(const VariantResult& variant, const Scenario& scenario) 
   return text;
 }
 
-std::string range_panel(const std::vector<std::string>& files, const TableResult& table, bool rotation) {
-  const int column = rotation ? 3 : 2;
-  std::string text = rotation ? "set title 'rotation, deg'\nplot " : "set title 'translation, mm'\nplot ";
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    text += format("%s%s using 1:%d with linespoints pt 7 ps 0.6 lw 1.4 lc rgb '%s' title '%s'", i > 0 ? ", " : "", files[i].c_str(),
-                   column, variant_colour(i), table.variants[i].variant.title);
+// Column 2 is the translation, column 3 the rotation; two further on is the bound.
+std::vector<Curve> range_curves(const TableResult& table, int column) {
+  std::vector<Curve> curves;
+  for (std::size_t i = 0; i < table.variants.size(); ++i) {
+    const std::string style =
+        format(" with linespoints pt 7 ps 0.6 lw 1.4 lc rgb '%s' title '%s'", variant_colour(i), table.variants[i].variant.title);
+    curves.push_back({ranges_text(table.variants[i], table.scenario), column, style});
   }
-  if (!has_bound(table)) return text + "\n";
-  return text + format(", %s using 1:%d with lines dt 2 lw 1.4 lc rgb '#2b3440' title 'bound of the hits'\n", files[0].c_str(), column + 2);
+  curves.push_back({ranges_text(table.variants.front(), table.scenario), column + 2,
+                    " with lines dt 2 lw 1.4 lc rgb '#2b3440' title 'bound of the hits'"});
+  return curves;
 }
 
 std::vector<double> all_times_us(const VariantResult& variant) {
@@ -89,8 +92,10 @@ std::string histogram_text(const std::vector<double>& times, double bin_us) {
     text += format("%g %g\n", (static_cast<double>(bin) + 0.5) * bin_us,
                    100.0 * static_cast<double>(count) / static_cast<double>(times.size()));
   }
-  return text + "\n";
+  return text;
 }
+
+constexpr const char* kAllLost = "every frame is lost";
 
 }  // namespace
 
@@ -112,56 +117,56 @@ bool turns_by_steps(const TableResult& table) {
 }
 
 std::string error_against_angle(Plotter& plotter, const TableResult& table, const VariantResult& variant) {
-  if (!is_tracked(variant)) return plotter.svg(1080, 120, nothing_to_draw("every frame is lost"));
   const bool turns = turns_by_steps(table);
   const double step = turns ? table.scenario.step_rad / kRadPerDeg : 1;
-  std::vector<std::string> files;
-  for (const CaseResult& run : variant.cases) files.push_back(plotter.data(errors_text(run, step)));
-  std::string script = kPlotStyle;
-  script +=
+  std::vector<std::string> runs;
+  for (const CaseResult& run : variant.cases) runs.push_back(errors_text(run, step));
+  Drawing drawing(plotter);
+  drawing.set(
       "set multiplot layout 2,3 margins 0.06,0.925,0.125,0.93 spacing 0.062,0.14\n"
-      "set key at screen 0.998,0.95 right top vertical samplen 1.2 spacing 1.2\n";
-  if (table.scenario.drawn != 0) script += "unset key\n";  // flights have no order
-  script += format("set xrange [0:%g]\n", step * static_cast<double>(longest_run(variant)));
-  if (turns && longest_run(variant) > 180) script += "set xtics 90\n";
+      "set key at screen 0.998,0.95 right top vertical samplen 1.2 spacing 1.2\n");
+  if (table.scenario.drawn != 0) drawing.set("unset key\n");  // flights have no order
+  drawing.set(format("set xrange [0:%g]\n", step * static_cast<double>(longest_run(variant))));
+  if (turns && longest_run(variant) > 180) drawing.set("set xtics 90\n");
   for (std::size_t axis = 0; axis < 6; ++axis) {
-    if (axis == 1) script += "unset key\n";
-    if (axis == 3) script += format("set xlabel '%s' textcolor '#46505f'\n", turns ? "turn about the x axis, deg" : "frame");
-    script += angle_panel(files, table.scenario, axis);
+    if (axis == 1) drawing.set("unset key\n");
+    if (axis == 3) drawing.set(format("set xlabel '%s' textcolor '#46505f'\n", turns ? "turn about the x axis, deg" : "frame"));
+    drawing.set(format("set title '%s, %s'\n", kErrorAxes[axis].name, kErrorAxes[axis].unit));
+    drawing.plot(angle_curves(runs, table.scenario, axis), kAllLost);
   }
-  return plotter.svg(1080, 560, script + "unset multiplot\n");
+  return drawing.svg(1080, 560);
 }
 
 std::string error_against_range(Plotter& plotter, const TableResult& table) {
-  if (std::none_of(table.variants.begin(), table.variants.end(), is_tracked))
-    return plotter.svg(1080, 120, nothing_to_draw("every frame is lost"));
-  std::vector<std::string> files;
-  for (const VariantResult& variant : table.variants) files.push_back(plotter.data(ranges_text(variant, table.scenario)));
   const std::vector<double> ranges_m = table.scenario.runs_m();
   const auto [nearest, farthest] = std::minmax_element(ranges_m.begin(), ranges_m.end());
-  std::string script = kPlotStyle;
-  script += "set multiplot layout 1,2 margins 0.06,0.79,0.18,0.91 spacing 0.07,0\nset logscale y\nset format y '%g'\n";
-  script += format(
-      "set xrange [%g:%g]\nset xlabel 'range, m' textcolor '#46505f'\n"
-      "set key at screen 0.998,0.91 right top vertical samplen 1.5 spacing 1.3\n",
-      *nearest - 0.2, *farthest + 0.2);
-  script += range_panel(files, table, false) + "unset key\n" + range_panel(files, table, true);
-  return plotter.svg(1080, 380, script + "unset multiplot\n");
+  Drawing drawing(plotter);
+  drawing.set("set multiplot layout 1,2 margins 0.06,0.79,0.18,0.91 spacing 0.07,0\nset format y '%g'\n");
+  drawing.set(
+      format("set xrange [%g:%g]\nset xlabel 'range, m' textcolor '#46505f'\n"
+             "set key at screen 0.998,0.91 right top vertical samplen 1.5 spacing 1.3\n",
+             *nearest - 0.2, *farthest + 0.2));
+  drawing.set("set title 'translation, mm'\n");
+  drawing.plot(range_curves(table, 2), kAllLost, Axis::kLogarithmic);
+  drawing.set("unset key\nset title 'rotation, deg'\n");
+  drawing.plot(range_curves(table, 3), kAllLost, Axis::kLogarithmic);
+  return drawing.svg(1080, 380);
 }
 
 std::string time_histogram(Plotter& plotter, const TableResult& table) {
   double p99_us = 1;
   for (const VariantResult& variant : table.variants) p99_us = std::max(p99_us, variant.all.time.p99_us);
   const double limit_us = 1.3 * p99_us, bin_us = limit_us / 130;
-  std::string script = kPlotStyle;
-  script += "set xlabel 'processor time of an estimate, us' textcolor '#46505f'\nset ylabel 'share of frames, %' textcolor '#46505f'\n";
-  script += format("set xrange [0:%g]\nset yrange [0:*]\nset key top right\nplot ", limit_us);
+  std::vector<Curve> curves;
   for (std::size_t i = 0; i < table.variants.size(); ++i) {
-    const std::string file = plotter.data(histogram_text(all_times_us(table.variants[i]), bin_us));
-    script += format("%s%s with histeps lw 1.4 lc rgb '%s' title '%s'", i > 0 ? ", " : "", file.c_str(), variant_colour(i),
-                     table.variants[i].variant.title);
+    const std::string style = format(" with histeps lw 1.4 lc rgb '%s' title '%s'", variant_colour(i), table.variants[i].variant.title);
+    curves.push_back({histogram_text(all_times_us(table.variants[i]), bin_us), 2, style});
   }
-  return plotter.svg(1080, 330, script + "\n");
+  Drawing drawing(plotter);
+  drawing.set("set xlabel 'processor time of an estimate, us' textcolor '#46505f'\nset ylabel 'share of frames, %' textcolor '#46505f'\n");
+  drawing.set(format("set xrange [0:%g]\nset yrange [0:*]\nset key top right\n", limit_us));
+  drawing.plot(curves, "no scan was registered");
+  return drawing.svg(1080, 330);
 }
 
 }  // namespace lasso::mdat

@@ -1,14 +1,13 @@
 #include "mdat/report/flights_view.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
 
 #include "mdat/common/text.hpp"
+#include "mdat/report/drawing.hpp"
 #include "mdat/report/figures.hpp"
 #include "mdat/report/page.hpp"
-#include "mdat/report/plot_style.hpp"
 #include "mdat/run/results.hpp"
 
 namespace lasso::mdat {
@@ -66,21 +65,14 @@ std::string mean_rates_text(const VariantResult& variant) {
   return text;
 }
 
-// A logarithmic axis needs a rate that is not zero; where no flight was tracked there may be none.
-bool has_rates(const VariantResult& variant, double (*rate)(const FrameError&)) {
-  return std::any_of(variant.cases.begin(), variant.cases.end(), [rate](const CaseResult& flight) {
-    return std::any_of(flight.frames.begin(), flight.frames.end(),
-                       [rate](const FrameError& frame) { return frame.reported && rate(frame) > 0; });
-  });
-}
-
-std::string rates_panel(const std::vector<std::string>& files, const std::string& mean, const char* title, int column) {
-  std::string text = format("set title '%s'\nplot ", title);
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    text += format("%s using 1:%d with lines lw 0.8 lc rgb '%s' %s, ", files[i].c_str(), column, kFlightColour,
-                   i == 0 ? "title 'a flight'" : "notitle");
-  }
-  return text + format("%s using 1:%d with lines lw 1.8 lc rgb '%s' title 'rms of all'\n", mean.c_str(), column, kAllColour);
+// A line a flight, and one of all.
+std::vector<Curve> rates_curves(const VariantResult& variant, int column) {
+  std::vector<Curve> curves;
+  for (const CaseResult& flight : variant.cases)
+    curves.push_back({rates_text(flight), column,
+                      format(" with lines lw 0.8 lc rgb '%s' %s", kFlightColour, curves.empty() ? "title 'a flight'" : "notitle")});
+  curves.push_back({mean_rates_text(variant), column, format(" with lines lw 1.8 lc rgb '%s' title 'rms of all'", kAllColour)});
+  return curves;
 }
 
 // Where the filter counts as settled.
@@ -99,26 +91,11 @@ const std::pair<const char*, FlightValue> kFlightPanels[] = {
     {"settled rates, deg/s", [](const RunStatistics& run) { return run.settled.frames > 0 ? run.settled.rms_degps : kNothing; }},
     {"settled rates, mm/s", [](const RunStatistics& run) { return run.settled.frames > 0 ? run.settled.rms_mmps : kNothing; }}};
 
-// Flight and value; without those of which it is not known.
+// Flight and value, which is not a number where it is not known.
 std::string flights_text(const VariantResult& variant, const FlightValue& value) {
   std::string text;
-  for (std::size_t i = 0; i < variant.by_range.size(); ++i) {
-    const double of_flight = value(variant.by_range[i]);
-    if (std::isfinite(of_flight)) text += format("%zu %.6g\n", i + 1, of_flight);
-  }
+  for (std::size_t i = 0; i < variant.by_range.size(); ++i) text += format("%zu %.6g\n", i + 1, value(variant.by_range[i]));
   return text;
-}
-
-// gnuplot draws nothing of no point: a panel that would be empty is left out.
-std::vector<std::string> flight_panels(Plotter& plotter, const VariantResult& variant) {
-  std::vector<std::string> panels;
-  for (const auto& [title, value] : kFlightPanels) {
-    const std::string text = flights_text(variant, value);
-    if (text.empty()) continue;
-    panels.push_back(
-        format("set title '%s'\nplot %s using 1:2 with impulses lw 4 lc rgb '%s'\n", title, plotter.data(text).c_str(), kFlightColour));
-  }
-  return panels;
 }
 
 }  // namespace
@@ -135,30 +112,32 @@ std::string settled_section(const TableResult& table) {
 }
 
 std::string rates_figure(Plotter& plotter, const VariantResult& variant) {
-  if (!has_rates(variant, degps) || !has_rates(variant, mmps)) return plotter.svg(1080, 120, nothing_to_draw("no rate is known"));
-  std::vector<std::string> files;
-  for (const CaseResult& flight : variant.cases) files.push_back(plotter.data(rates_text(flight)));
-  const std::string mean = plotter.data(mean_rates_text(variant));
   const std::size_t frames = longest_run(variant);
-  std::string script = kPlotStyle;
-  script += "set multiplot layout 1,2 margins 0.06,0.86,0.18,0.91 spacing 0.07,0\nset logscale y\nset format y '%g'\n";
-  script += format(
+  Drawing drawing(plotter);
+  drawing.set("set multiplot layout 1,2 margins 0.06,0.86,0.18,0.91 spacing 0.07,0\nset format y '%g'\n");
+  drawing.set(format(
       "set xrange [0:%zu]\nset xlabel 'frame' textcolor '#46505f'\nset key at screen 0.998,0.91 right top vertical samplen 1.5 spacing "
       "1.3\n",
-      frames);
-  script += settled_line(frames) + rates_panel(files, mean, "rotation, deg/s", 2) + "unset key\n";
-  return plotter.svg(1080, 380, script + rates_panel(files, mean, "translation, mm/s", 3) + "unset multiplot\n");
+      frames));
+  drawing.set(settled_line(frames) + "set title 'rotation, deg/s'\n");
+  drawing.plot(rates_curves(variant, 2), "no rate is known", Axis::kLogarithmic);
+  drawing.set("unset key\nset title 'translation, mm/s'\n");
+  drawing.plot(rates_curves(variant, 3), "no rate is known", Axis::kLogarithmic);
+  return drawing.svg(1080, 380);
 }
 
 std::string flights_figure(Plotter& plotter, const VariantResult& variant) {
-  const std::vector<std::string> panels = flight_panels(plotter, variant);
-  std::string script = kPlotStyle;
-  script += format("set multiplot layout 1,%zu margins 0.05,0.985,0.23,0.87 spacing 0.055,0\nunset key\nset yrange [0:*]\n", panels.size());
+  Drawing drawing(plotter);
+  drawing.set(format("set multiplot layout 1,%zu margins 0.05,0.985,0.23,0.87 spacing 0.055,0\nunset key\nset yrange [0:*]\n",
+                     std::size(kFlightPanels)));
   const std::size_t flights = variant.cases.size();
-  script += format("set xrange [0.4:%g]\nset xtics %zu\nset xlabel 'flight' textcolor '#46505f'\n", static_cast<double>(flights) + 0.6,
-                   flights / 8 + 1);
-  for (const std::string& panel : panels) script += panel;
-  return plotter.svg(1080, 300, script + "unset multiplot\n");
+  drawing.set(format("set xrange [0.4:%g]\nset xtics %zu\nset xlabel 'flight' textcolor '#46505f'\n", static_cast<double>(flights) + 0.6,
+                     flights / 8 + 1));
+  for (const auto& [title, value] : kFlightPanels) {
+    drawing.set(format("set title '%s'\n", title));
+    drawing.plot({{flights_text(variant, value), 2, format(" with impulses lw 4 lc rgb '%s' notitle", kFlightColour)}}, "not known");
+  }
+  return drawing.svg(1080, 300);
 }
 
 }  // namespace lasso::mdat

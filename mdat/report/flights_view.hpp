@@ -12,7 +12,6 @@ namespace lasso::mdat {
 // Frames, losses and errors of the rates after kSettlingFrames of each flight: of all flights, and of each below.
 std::string settled_section(const TableResult& table);
 
-// Both figures: of flights of which at least one frame is tracked.
 // Error of the rates against the frame, as inline SVG: a line a flight, and their root mean square.
 std::string rates_figure(Plotter& plotter, const VariantResult& variant);
 

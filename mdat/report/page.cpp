@@ -25,6 +25,7 @@ figure { margin: 26px 0 0; }
 figure svg { width: 100%; height: auto; display: block; }
 figure img { max-width: 100%; height: auto; display: block; margin: 0 auto; }
 figcaption { color: #5c6675; font-size: 13.5px; margin-top: 6px; max-width: 900px; }
+.missing { margin: 0; padding: 10px 14px; background: #f3f5f8; border-left: 3px solid #d4571e; font-size: 14px; }
 details { margin: 0 0 18px; }
 summary { cursor: pointer; color: #2563b8; font-size: 14px; margin-bottom: 8px; }
 svg text { font-family: "Inter", "Segoe UI", "Helvetica Neue", Arial, sans-serif; }

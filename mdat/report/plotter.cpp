@@ -1,15 +1,84 @@
 #include "mdat/report/plotter.hpp"
 
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
 #include <cstdlib>
+#include <cstring>
 #include <fstream>
+#include <iterator>
+#include <sstream>
 #include <system_error>
+#include <vector>
 
 #include "mdat/common/errors.hpp"
-#include "mdat/common/output.hpp"
 #include "mdat/common/text.hpp"
 
 namespace lasso::mdat {
 namespace {
+
+constexpr int kCannotRun = -1;
+constexpr std::size_t kLongestMessage = 200;  // characters of gnuplot's
+
+// The environment without what changes gnuplot: its own variables (GNUTERM, GNUPLOT_LIB, FIT_LOG, ...) and the language.
+std::vector<std::string> plain_environment() {
+  std::vector<std::string> variables;
+  for (char** variable = environ; *variable != nullptr; ++variable) {
+    const std::string text = *variable;
+    const auto begins = [&](const char* prefix) { return text.rfind(prefix, 0) == 0; };
+    if (!begins("GNU") && !begins("FIT_") && !begins("LC_") && !begins("LANG")) variables.push_back(text);
+  }
+  variables.emplace_back("LC_ALL=C.UTF-8");
+  return variables;
+}
+
+std::vector<char*> pointers(std::vector<std::string>& texts) {
+  std::vector<char*> result;
+  for (std::string& text : texts) result.push_back(text.data());
+  result.push_back(nullptr);
+  return result;
+}
+
+// Runs gnuplot without a shell in `folder`, with nothing to read; what it says goes to `messages`. Its exit code; kCannotRun: errno says
+// why.
+int run_gnuplot(std::vector<std::string> arguments, const std::filesystem::path& folder, const std::string& messages) {
+  arguments.insert(arguments.begin(), "gnuplot");
+  std::vector<std::string> variables = plain_environment();
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
+  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, messages.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
+  pid_t process = 0;
+  errno = posix_spawnp(&process, "gnuplot", &actions, nullptr, pointers(arguments).data(), pointers(variables).data());
+  posix_spawn_file_actions_destroy(&actions);
+  if (errno != 0) return kCannotRun;
+  int status = 0;
+  while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
+  }
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+std::string cannot_run(const std::string& why) { return "gnuplot cannot be run (" + why + "); install the package gnuplot-nox"; }
+
+std::string content_of(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+// gnuplot repeats the line that it stumbles over, and says at the end what is wrong with it.
+std::string last_line(const std::string& text) {
+  std::istringstream in(text);
+  std::string last;
+  for (std::string line; std::getline(in, line);) {
+    if (line.find_first_not_of(" \t\r") != std::string::npos) last = line;
+  }
+  return last.substr(0, kLongestMessage);
+}
 
 std::string quoted(const std::string& text) { return "'" + text + "'"; }
 
@@ -23,21 +92,22 @@ std::string size_text(int width, int height) { return " size " + std::to_string(
 
 }  // namespace
 
-Plotter::Plotter() {
-  std::error_code error;
-  std::string name = (std::filesystem::temp_directory_path(error) / "mdat-plot-XXXXXX").string();
-  if (error || mkdtemp(name.data()) == nullptr) throw RunError(name + ": no temporary folder can be made for the figures");
-  folder_ = name;
+Plotter::Plotter(const std::filesystem::path& parent) {
+  std::string name = (std::filesystem::absolute(parent) / ".mdat-figures-XXXXXX").string();
+  if (mkdtemp(name.data()) != nullptr)
+    folder_ = name;
+  else
+    failure_ = name + ": no folder can be made for the figures: " + std::strerror(errno);
 }
 
 Plotter::~Plotter() {
   std::error_code ignored;
-  std::filesystem::remove_all(folder_, ignored);
+  if (!folder_.empty()) std::filesystem::remove_all(folder_, ignored);
 }
 
 std::string Plotter::data(std::string_view content) {
   const std::string name = "data" + std::to_string(files_++);
-  std::ofstream(folder_ / name, std::ios::binary).write(content.data(), static_cast<std::streamsize>(content.size()));
+  if (!folder_.empty()) std::ofstream(folder_ / name, std::ios::binary).write(content.data(), static_cast<std::streamsize>(content.size()));
   return quoted(name);
 }
 
@@ -54,21 +124,32 @@ std::string Plotter::png(int width, int height, double scale, const std::string&
       script);
 }
 
-std::string Plotter::draw(const std::string& terminal, const std::string& script) {
-  const std::filesystem::path output = folder_ / "figure", messages = folder_ / "messages";
-  std::ofstream(folder_ / "script") << "set encoding utf8\nset terminal " << terminal << "\nset output 'figure'\n"
-                                    << script << "\nunset output\n";
-  const std::string command = "cd " + quoted(folder_.string()) + " && gnuplot script >messages 2>&1";
-  const int code = std::system(command.c_str());  // NOLINT(bugprone-command-processor): the folder, all that varies in it, is quoted
-  if (code != 0) throw RunError("gnuplot failed (code " + std::to_string(code) + "): " + file_content(messages));
-  return file_content(output);
+std::string Plotter::or_missing(const std::function<std::string()>& draw) {
+  try {
+    return draw();
+  } catch (const PictureError& error) {
+    if (missing_.empty()) missing_ = error.what();
+    return "<p class='missing'>This figure is missing: " + escape(error.what()) + ".</p>";
+  }
 }
 
-void require_plotter() {
-  // NOLINTNEXTLINE(bugprone-command-processor): nothing varies in it
-  if (std::system("gnuplot --version >/dev/null 2>&1") != 0) {
-    throw RunError("gnuplot cannot be run; the report needs the package gnuplot-nox (or run with --no-report)");
-  }
+std::string Plotter::draw(const std::string& terminal, const std::string& script) {
+  if (folder_.empty()) throw PictureError(failure_);
+  std::ofstream(folder_ / "script") << "set encoding utf8\nset terminal " << terminal << "\nset output 'figure'\n"
+                                    << script << "\nunset output\n";
+  std::filesystem::remove(folder_ / "figure");
+  const int code = run_gnuplot({"-d", "script"}, folder_, "messages");
+  if (code == kCannotRun) throw PictureError(cannot_run(std::strerror(errno)));
+  const std::string figure = content_of(folder_ / "figure");
+  if (code != 0 || figure.empty())
+    throw PictureError("gnuplot failed (code " + std::to_string(code) + "): " + last_line(content_of(folder_ / "messages")));
+  return figure;
+}
+
+std::string why_no_plotter() {
+  const int code = run_gnuplot({"-d", "--version"}, "/", "/dev/null");
+  if (code == 0) return "";
+  return cannot_run(code == kCannotRun ? std::strerror(errno) : "its code is " + std::to_string(code));
 }
 
 }  // namespace lasso::mdat

@@ -6,7 +6,6 @@
 #include "mdat/common/errors.hpp"
 #include "mdat/common/text.hpp"
 #include "mdat/common/version.hpp"
-#include "mdat/report/base64.hpp"
 #include "mdat/report/figures.hpp"
 #include "mdat/report/flights_view.hpp"
 #include "mdat/report/page.hpp"
@@ -104,13 +103,12 @@ std::vector<ScanPanel> shown_panels(const TableResult& table) {
 
 std::string scans_figure(Plotter& plotter, const sim::RayCaster& target, const TableResult& table) {
   if (shown_scans(table).empty() || table.scenario.has_profile()) return "";
-  const std::string png = scan_view_png(plotter, target, shown_panels(table), true, 1);
   const std::string caption = format(
       "The scan on the target at %g m, as the sensor sees it. The model is drawn at the estimated pose. Colour: measured minus predicted "
       "range of each return; grey: rays that missed, which locate the outline%s.",
       table.scenario.runs_m()[shown_range(table.scenario)],
       main_variant(table).parameters.aimed_share > 0 ? "; violet: rays aimed at contours" : "");
-  return figure("<img alt='scans on the target' src='data:image/png;base64," + base64(png) + "'>", caption);
+  return figure(scan_view(plotter, target, shown_panels(table), true), caption);
 }
 
 std::string angle_text(const TableResult& table, const VariantResult& variant) {
@@ -140,9 +138,7 @@ std::string range_figure(Plotter& plotter, const TableResult& table) {
 
 // How well the rates are known, which is what flights are flown for.
 std::string rates_part(Plotter& plotter, const TableResult& table) {
-  std::string settled = settled_section(table);
-  if (!is_tracked(main_variant(table))) return settled;
-  return settled +
+  return settled_section(table) +
          figure(
              rates_figure(plotter, main_variant(table)),
              format(
@@ -152,7 +148,6 @@ std::string rates_part(Plotter& plotter, const TableResult& table) {
 }
 
 std::string flights_part(Plotter& plotter, const TableResult& table) {
-  if (!is_tracked(main_variant(table))) return "";
   return figure(
       flights_figure(plotter, main_variant(table)),
       format("Root mean square errors of each flight, %s: of the registrations of single scans, and of the filter's rates after %zu "
@@ -182,8 +177,7 @@ std::string table_section(Plotter& plotter, const sim::RayCaster& target, const 
 
 constexpr double kPictureScale = 0.72;  // of the picture for the README
 
-std::string approach_html(const CompiledMission& mission, const SimulationResult& result) {
-  Plotter plotter;
+std::string approach_html(Plotter& plotter, const CompiledMission& mission, const SimulationResult& result) {
   const std::unique_ptr<sim::RayCaster> target = make_target(mission.mesh);
   const Scenario& scenario = result.tables.front().scenario;
   const auto [nearest, farthest] = std::minmax_element(scenario.ranges_m.begin(), scenario.ranges_m.end());
@@ -222,9 +216,8 @@ std::string introduction(const SimulationResult& result) {
 
 }  // namespace
 
-std::string report_html(const CompiledMission& mission, const SimulationResult& result) {
-  if (result.kind == ScenarioKind::kApproach) return approach_html(mission, result);
-  Plotter plotter;
+std::string report_html(Plotter& plotter, const CompiledMission& mission, const SimulationResult& result) {
+  if (result.kind == ScenarioKind::kApproach) return approach_html(plotter, mission, result);
   const std::unique_ptr<sim::RayCaster> target = make_target(mission.mesh);
   std::string body = "<h1>" + escape(result.mission) + "</h1>\n" + introduction(result);
   if (result.kind == ScenarioKind::kPass) body += timeline_section(plotter, *target, result);
@@ -232,11 +225,10 @@ std::string report_html(const CompiledMission& mission, const SimulationResult& 
   return page(result.mission + ", " + result.scenario, body);
 }
 
-std::string picture_png(const CompiledMission& mission, const SimulationResult& result) {
+std::string picture_png(Plotter& plotter, const CompiledMission& mission, const SimulationResult& result) {
   const TableResult& table = result.tables.front();
   if (shown_scans(table).empty() || table.scenario.has_profile())
-    throw RunError("no scan to show: the run has no frame at the angles of the picture");
-  Plotter plotter;
+    throw PictureError("no scan to show: the run has no frame at the angles of the picture");
   return scan_view_png(plotter, *make_target(mission.mesh), shown_panels(table), true, kPictureScale);
 }
 

@@ -3,17 +3,15 @@
 
 #include <string>
 
+#include "mdat/report/plotter.hpp"
 #include "mdat/run/simulation.hpp"
 
 namespace lasso::mdat {
 
-// Throws RunError naming the package where gnuplot is missing.
-void require_plotter();
+// A figure that cannot be drawn is a line in it that says why, and the plotter's missing().
+std::string report_html(Plotter& plotter, const CompiledMission& mission, const SimulationResult& result);
 
-// Throws RunError where gnuplot fails.
-std::string report_html(const CompiledMission& mission, const SimulationResult& result);
-
-// The scan on the target, as one PNG picture (for the README).
-std::string picture_png(const CompiledMission& mission, const SimulationResult& result);
+// The scan on the target, as one PNG picture (for the README). Throws PictureError.
+std::string picture_png(Plotter& plotter, const CompiledMission& mission, const SimulationResult& result);
 
 }  // namespace lasso::mdat

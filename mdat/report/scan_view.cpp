@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "mdat/common/text.hpp"
+#include "mdat/report/base64.hpp"
 
 namespace lasso::mdat {
 namespace {
@@ -197,6 +198,13 @@ std::string scan_view_png(Plotter& plotter, const sim::RayCaster& target, const 
     script += place(i, panels.size(), one_size) + draw(plotter, target, panels[i], view);
   }
   return plotter.png(picture_width(panels.size(), one_size), kPanelHeight, scale, script + "unset multiplot\n");
+}
+
+std::string scan_view(Plotter& plotter, const sim::RayCaster& target, const std::vector<ScanPanel>& panels, bool one_size) {
+  return plotter.or_missing([&] {
+    return "<img alt='scans on the target' src='data:image/png;base64," + base64(scan_view_png(plotter, target, panels, one_size, 1)) +
+           "'>";
+  });
 }
 
 }  // namespace lasso::mdat

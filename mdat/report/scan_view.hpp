@@ -18,9 +18,12 @@ struct ScanPanel {
 
 // One panel a scan, side by side, 400 x 520 pixels times `scale` each: the target shaded at the estimated pose, the rays that missed as
 // grey points, the returns coloured by measured minus predicted range, the rays aimed at contours violet. Panels of one size are parts of
-// the sensor's view of equal size; otherwise each shows its own scan's. A PNG file's bytes.
+// the sensor's view of equal size; otherwise each shows its own scan's. A PNG file's bytes. Throws PictureError.
 std::string scan_view_png(Plotter& plotter, const sim::RayCaster& target, const std::vector<ScanPanel>& panels, bool one_size,
                           double scale);
+
+// The same at its own size, as an image within a page; a line that says why, where it cannot be drawn.
+std::string scan_view(Plotter& plotter, const sim::RayCaster& target, const std::vector<ScanPanel>& panels, bool one_size);
 
 // Measured minus predicted range of a return at a pose; NaN where the ray does not meet the model there.
 double residual_m(const sim::RayCaster& target, const Pose& T_sensor_target, const RangeSample& sample);

@@ -4,9 +4,8 @@
 #include <map>
 
 #include "mdat/common/text.hpp"
-#include "mdat/report/base64.hpp"
+#include "mdat/report/drawing.hpp"
 #include "mdat/report/page.hpp"
-#include "mdat/report/plot_style.hpp"
 #include "mdat/report/scan_view.hpp"
 
 namespace lasso::mdat {
@@ -33,35 +32,31 @@ std::vector<std::string> mode_names() {
   return names;
 }
 
-// One line a stretch of time in one row: begin, end, row.
-std::string stretches_text(const Timeline& timeline, const Bars& bars) {
+// One line a stretch of time in a row: begin, row, end.
+std::string stretches_text(const Timeline& timeline, const Bars& bars, std::size_t row) {
   const std::vector<TimelinePoint>& points = timeline.points;
   std::string text;
   for (std::size_t i = 0, begin = 0; i < points.size(); ++i) {
     if (i + 1 < points.size() && bars.row_of(points[i + 1]) == bars.row_of(points[begin])) continue;
-    text += format("%.3f %.3f %zu\n", points[begin].t_s, points[std::min(i + 1, points.size() - 1)].t_s, bars.row_of(points[begin]));
+    const double end_s = points[std::min(i + 1, points.size() - 1)].t_s;
+    if (bars.row_of(points[begin]) == row) text += format("%.3f %zu %.3f\n", points[begin].t_s, row, end_s);
     begin = i + 1;
   }
-  return text + "\n";
-}
-
-// gnuplot reads _ as an index.
-std::string plain(std::string name) {
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return name;
+  return text;
 }
 
 // The first row stands at the top.
-std::string bars_panel(Plotter& plotter, const Timeline& timeline, const Bars& bars) {
-  const std::string stretches = plotter.data(stretches_text(timeline, bars));
-  std::string text = "set ytics (";
-  for (std::size_t i = 0; i < bars.rows.size(); ++i) text += format("%s'%s' %zu", i > 0 ? ", " : "", plain(bars.rows[i]).c_str(), i);
-  text += format(")\nset yrange [%g:-0.7]\nset title '%s'\nplot ", static_cast<double>(bars.rows.size()) - 0.3, bars.title);
+void draw_bars(Drawing& drawing, const Timeline& timeline, const Bars& bars) {
+  std::string tics;
+  std::vector<Curve> curves;
   for (std::size_t i = 0; i < bars.rows.size(); ++i) {
-    text += format("%s%s using 1:($3==%zu?$3:1/0):1:2:($3-0.34):($3+0.34) with boxxyerror fs solid noborder lc rgb '%s' notitle",
-                   i > 0 ? ", " : "", stretches.c_str(), i, kColours[i % std::size(kColours)]);
+    tics += format("%s'%s' %zu", i > 0 ? ", " : "", plain(bars.rows[i]).c_str(), i);
+    const char* pattern = ":1:3:($2-0.34):($2+0.34) with boxxyerror fs solid noborder lc rgb '%s' notitle";
+    curves.push_back({stretches_text(timeline, bars, i), 2, format(pattern, kColours[i % std::size(kColours)])});
   }
-  return text + "\n";
+  drawing.set(format("set ytics (%s)\nset yrange [%g:-0.7]\nset title '%s'\n", tics.c_str(), static_cast<double>(bars.rows.size()) - 0.3,
+                     bars.title));
+  drawing.plot(curves, "no packet");
 }
 
 // Time, true range, then the errors of valid poses in mm and degrees: of single scans that are right (or covered), of those that are
@@ -80,27 +75,23 @@ std::string points_text(const Timeline& timeline) {
   return text;
 }
 
-// gnuplot draws nothing of no point.
-std::string empty_panel(const char* title) {
-  return format("set title '%s'\nset yrange [1:10]\nset label 1000 'no valid pose' at graph 0.5,0.5 center\nplot 0.1 notitle\n", title);
+void draw_errors(Drawing& drawing, const std::string& points, const char* title, int column) {
+  drawing.set(format("set title '%s'\n", title));
+  drawing.plot({{points, column, " with points pt 7 ps 0.2 lc rgb '#8fb3ea' notitle"},
+                {points, column + 4, " with points pt 7 ps 0.16 lc rgb '#1b2a6b' notitle"},
+                {points, column + 2, " with points pt 7 ps 0.5 lc rgb '#d4001a' notitle"}},
+               "no valid pose", Axis::kLogarithmic);
 }
 
-std::string error_panel(const std::string& points, const char* title, int column) {
-  return format(
-      "set title '%s'\nplot %s using 1:%d with points pt 7 ps 0.2 lc rgb '#8fb3ea' notitle, "
-      "%s using 1:%d with points pt 7 ps 0.16 lc rgb '#1b2a6b' notitle, %s using 1:%d with points pt 7 ps 0.5 lc rgb '#d4001a' notitle\n",
-      title, points.c_str(), column, points.c_str(), column + 4, points.c_str(), column + 2);
-}
-
-std::string range_panel(const Timeline& timeline, const std::string& points) {
+void draw_range(Drawing& drawing, const Timeline& timeline, const std::string& points) {
   double nearest_m = 1e9, farthest_m = 1e-9;
   for (const TimelinePoint& point : timeline.points) {
     nearest_m = std::min(nearest_m, point.range_m);
     farthest_m = std::max(farthest_m, point.range_m);
   }
-  return format("set yrange [%g:%g]\nset ytics (0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500)\nset title 'true range of the origin, m'\n",
-                0.8 * nearest_m, 1.25 * farthest_m) +
-         "plot " + points + " using 1:2 with lines lw 1.4 lc rgb '#1b2a6b' notitle\n";
+  drawing.set(format("set yrange [%g:%g]\nset ytics (0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500)\n", 0.8 * nearest_m, 1.25 * farthest_m));
+  drawing.set("set title 'true range of the origin, m'\n");
+  drawing.plot({{points, 2, " with lines lw 1.4 lc rgb '#1b2a6b' notitle"}}, "no packet", Axis::kLogarithmic);
 }
 
 std::string eclipse(const Scenario& scenario) {
@@ -221,8 +212,7 @@ std::string scan_figures(Plotter& plotter, const sim::RayCaster& target, const S
   for (std::size_t sensor = 0; sensor < result.sensors.size(); ++sensor) {
     const std::vector<ScanPanel> panels = panels_of(result, sensor);
     if (panels.empty()) continue;
-    const std::string png = scan_view_png(plotter, target, panels, false, 1);
-    html += figure("<img alt='scans on the target' src='data:image/png;base64," + base64(png) + "'>",
+    html += figure(scan_view(plotter, target, panels, false),
                    "Scans by the sensor " + escape(plain(result.sensors[sensor])) +
                        ", at the ranges of the target's origin. The model is drawn at the estimated pose. Colour: measured minus predicted "
                        "range of each return; grey: rays that missed.");
@@ -260,25 +250,24 @@ std::string timeline_figure(Plotter& plotter, const SimulationResult& result) {
   int height = 3 * (kCurve + Panels::kGap) + kBottom;
   for (const Bars& panel : bars) height += static_cast<int>(panel.rows.size() + 1) * kRow + Panels::kGap;
   Panels place(height);
-  const std::string points = plotter.data(points_text(timeline));
-  std::string script = kPlotStyle;
-  script += "set multiplot\nset lmargin at screen 0.115\nset rmargin at screen 0.985\nset format x ''\n" + eclipse(scenario_of(result));
-  script += format("set xrange [0:%g]\nset datafile missing 'NaN'\n", end_of(timeline)) +
-            event_lines(times_of(events_of(result)), end_of(timeline));
-  script += "set title offset 0,-0.4\n";
+  const std::string points = points_text(timeline);
+  Drawing drawing(plotter);
+  drawing.set("set multiplot\nset lmargin at screen 0.115\nset rmargin at screen 0.985\nset format x ''\n" + eclipse(scenario_of(result)));
+  drawing.set(format("set xrange [0:%g]\nset datafile missing 'NaN'\n", end_of(timeline)) +
+              event_lines(times_of(events_of(result)), end_of(timeline)));
+  drawing.set("set title offset 0,-0.4\n");
   for (const Bars& panel : bars) {
-    script += place.next(static_cast<int>(panel.rows.size() + 1) * kRow);
-    script += bars_panel(plotter, timeline, panel) + "unset label\n";
+    drawing.set(place.next(static_cast<int>(panel.rows.size() + 1) * kRow));
+    draw_bars(drawing, timeline, panel);
+    drawing.set("unset label\n");
   }
-  script += "set logscale y\nset format y '%g'\n" + place.next(kCurve) + range_panel(timeline, points);
-  script += "set ytics autofreq\nset yrange [*:*]\n";
-  script += place.next(kCurve);
-  const bool known = timeline_statistics(timeline).valid > 0;
-  const auto errors = [&](const char* title, int column) { return known ? error_panel(points, title, column) : empty_panel(title); };
-  script += errors("error of valid poses, mm", 3);
-  script += place.next(kCurve);
-  script += "set format x '%g'\nset xlabel 'time, s' textcolor '#46505f' offset 0,0.4\n";
-  return plotter.svg(1080, height, script + errors("error of valid poses, deg", 4) + "unset multiplot\n");
+  drawing.set("set format y '%g'\n" + place.next(kCurve));
+  draw_range(drawing, timeline, points);
+  drawing.set("set ytics autofreq\nset yrange [*:*]\n" + place.next(kCurve));
+  draw_errors(drawing, points, "error of valid poses, mm", 3);
+  drawing.set(place.next(kCurve) + "set format x '%g'\nset xlabel 'time, s' textcolor '#46505f' offset 0,0.4\n");
+  draw_errors(drawing, points, "error of valid poses, deg", 4);
+  return drawing.svg(1080, height);
 }
 
 std::string timeline_section(Plotter& plotter, const sim::RayCaster& target, const SimulationResult& result) {
