@@ -1,47 +1,74 @@
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
 
-#include "hal_sim/scan_text.hpp"
+#include "hal_sim/csv_table.hpp"
 
 namespace lasso::sim {
 namespace {
 
 constexpr std::string_view kHeader = "t_s,x_m,y_m,z_m,valid";
-constexpr double kLatest_s = 1e11;                // over 3000 years: what is beyond is another unit, and would not fit in microseconds
-constexpr std::size_t kMostLines = kMaxRays + 2;  // the header, the rows that fit, and the one that is refused
+constexpr double kUnitTolerance = 1e-3;
 
-void read_csv_header(Lines& lines) {
-  std::string_view line;
-  if (!lines.next(line)) fail(at_line(lines.file(), 1), "the file is empty, expected the header " + shown(kHeader));
-  if (line.starts_with("\xEF\xBB\xBF")) line.remove_prefix(3);  // spreadsheets put a byte order mark first
-  if (split(line, ',') == split(kHeader, ',')) return;
-  fail(lines.place(), "the header is " + shown(line) + ", expected " + shown(kHeader));
-}
-
-TimeUs read_time(std::string_view field, const RangeImage& image, const std::string& place) {
-  const double t_s = number(field, "t_s", place);
-  if (std::abs(t_s) > kLatest_s) fail(place, "t_s is " + shown(field) + ", expected at most 1e11; check that its unit is seconds");
-  const TimeUs t_us = std::llround(t_s * 1e6);
-  if (image.samples.empty() || t_us >= image.samples[image.samples.size() - 1].t_us) return t_us;
-  fail(place, "t_s is " + shown(field) + ", earlier than the row before; sort the rows by time");
-}
-
-void read_row(std::string_view line, RangeImage& image, const std::string& place) {
-  const auto fields = split(line, ',');
-  if (fields.size() != 5) {
-    fail(place,
-         "the row has " + std::to_string(fields.size()) + " fields, expected 5: " + std::string(kHeader) + "; the row is " + shown(line));
+// Where a row of the table has what a ray needs. Without times all rays are of one time; without `valid` all are returns, as in a cloud.
+class Rows {
+ public:
+  explicit Rows(const CsvTable& table)
+      : table_(table), xyz_{table.need({"x_m", "x"}), table.need({"y_m", "y"}), table.need({"z_m", "z"})}, valid_(table.find({"valid"})) {
+    constexpr std::pair<const char*, double> kTimes[] = {{"t_s", 0}, {"t_ms", 1e-3}, {"t_us", 1e-6}, {"t_ns", 1e-9}, {"t", 0}};
+    for (const auto& [name, unit_s] : kTimes) {
+      if (time_ || !(time_ = table.find({name}))) continue;
+      unit_s_ = unit_s;
+    }
   }
-  const TimeUs t_us = read_time(fields[0], image, place);
-  const double x = number(fields[1], "x_m", place);
-  const double y = number(fields[2], "y_m", place);
-  const double z = number(fields[3], "z_m", place);
-  if (fields[4] == "1") return append_hit(image, Vec3(x, y, z), t_us, place);
-  if (fields[4] == "0") return append_miss(image, Vec3(x, y, z), t_us, place);
-  fail(place, "valid is " + shown(fields[4]) + ", expected 1 (hit) or 0 (miss)");
-}
+
+  void describe(RawScan& scan) const {
+    scan.rows_are_lines = true;
+    scan.has_times = time_.has_value();
+    scan.misses_known = valid_.has_value();
+    scan.unit_s = unit_s_;
+  }
+
+  void take(RawScan& scan) const {
+    const double time = time_ ? read_time(scan) : 0;
+    const bool hit = !valid_ || read_valid();
+    if (table_.says_nothing(xyz_[0]) && table_.says_nothing(xyz_[1]) && table_.says_nothing(xyz_[2])) {
+      scan.add_point(Vec3::Zero(), time, table_.line());
+      return;
+    }
+    const Vec3 place(table_.number(xyz_[0]), table_.number(xyz_[1]), table_.number(xyz_[2]));
+    if (hit || place.isZero(0)) return scan.add_point(place, time, table_.line());
+    take_miss(place, time, scan);
+  }
+
+ private:
+  double read_time(const RawScan& scan) const {
+    const double time = table_.number(*time_);
+    if (scan.rays.empty() || time >= scan.rays.back().time) return time;
+    fail(table_.place(*time_),
+         table_.name(*time_) + " is " + shown(table_.field(*time_)) + ", earlier than the row before; sort the rows by time");
+  }
+
+  bool read_valid() const {
+    const std::string_view valid = table_.field(*valid_);
+    if (valid == "1" || valid == "0") return valid == "1";
+    fail(table_.place(*valid_), "valid is " + shown(valid) + ", expected 1 (hit) or 0 (miss)");
+  }
+
+  void take_miss(const Vec3& direction, double time, RawScan& scan) const {
+    const double length = direction.stableNorm();
+    if (std::abs(length - 1) <= kUnitTolerance) return scan.add_miss(direction / length, time, table_.line());
+    fail(table_.place(), "the direction of a ray that missed (valid 0) has length " + text_of(length) +
+                             ", expected 1; divide x_m, y_m, z_m by it, or leave out a measurement that is bad");
+  }
+
+  const CsvTable& table_;
+  std::array<std::size_t, 3> xyz_;
+  std::optional<std::size_t> time_, valid_;
+  double unit_s_ = 0;
+};
 
 // What is wrong with the rows, on one line: the first fault in words, and on which lines others are.
 class RowFaults {
@@ -104,23 +131,24 @@ void write_whole(const std::filesystem::path& file, const std::string& text) {
 
 }  // namespace
 
-RangeImage read_csv(const std::string& file, std::string_view text) {
-  Lines lines(file, text);
-  read_csv_header(lines);
-  RangeImage image;
+RawScan read_csv(const std::string& file, std::string_view text) {
+  CsvTable table(file, text, std::string(kHeader));
+  const Rows rows(table);
+  RawScan scan;
+  scan.file = file;
+  rows.describe(scan);
   RowFaults faults;
-  std::string_view line;
-  while (lines.number() < kMostLines && lines.next(line)) {
-    if (line.empty() && lines.rest().empty()) break;  // a last empty line
+  for (bool more = true; more;) {
     try {
-      read_row(line, image, lines.place());
+      more = table.next();
+      if (more) rows.take(scan);
     } catch (const ScanFileError& fault) {
-      faults.add(fault, lines.number());
+      faults.add(fault, table.line());
     }
   }
   faults.tell();
-  if (image.samples.empty()) fail(lines.place(), "no row follows the header; a scan needs at least one");
-  return image;
+  if (scan.rays.empty() && scan.unmeasured == 0) fail(table.place(), "no row follows the header; a scan needs at least one");
+  return scan;
 }
 
 void write_scan_csv(const std::filesystem::path& file, const RangeImage& image) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <fstream>
 #include <set>
 
@@ -12,9 +13,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uintmax_t kLargestFileBytes = 64u << 20;  // far above any scan of kMaxRays
+constexpr std::uintmax_t kLargestFileBytes = std::uintmax_t{4} << 30;
 
-using Reader = RangeImage (*)(const std::string&, std::string_view);
+using Reader = RawScan (*)(const std::string&, std::string_view);
 
 Reader reader_of(const fs::path& file) {
   std::string extension = file.extension().string();
@@ -31,11 +32,40 @@ std::string contents_of(const fs::path& file) {
   const bool regular = fs::is_regular_file(file, error);
   const std::uintmax_t size = regular ? fs::file_size(file, error) : 0;
   if (!regular || error) fail(file.string(), "is not a file that can be read; check its name");
-  if (size > kLargestFileBytes) fail(file.string(), "has " + std::to_string(size) + " bytes, expected at most 64 MiB; is it a scan?");
+  if (size > kLargestFileBytes) fail(file.string(), "has " + std::to_string(size) + " bytes, expected at most 4 GiB; is it a scan?");
   std::ifstream in(file, std::ios::binary);
   std::string text(static_cast<std::size_t>(size), '\0');
   if (!in.read(text.data(), static_cast<std::streamsize>(size))) fail(file.string(), "cannot be read; check your rights to it");
   return text;
+}
+
+// Digits from `i` on, without zeros before them.
+std::string_view number_at(std::string_view name, std::size_t i) {
+  std::string_view digits = name.substr(i, std::min(name.find_first_not_of("0123456789", i), name.size()) - i);
+  while (digits.size() > 1 && digits.front() == '0') digits.remove_prefix(1);
+  return digits;
+}
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+// Natural order: numbers in names compare as numbers, all else by its bytes; names that are then alike by their bytes.
+bool is_before(std::string_view a, std::string_view b) {
+  std::size_t i = 0, k = 0;
+  while (i < a.size() && k < b.size()) {
+    if (is_digit(a[i]) && is_digit(b[k])) {
+      const std::string_view x = number_at(a, i), y = number_at(b, k);
+      if (x.size() != y.size()) return x.size() < y.size();
+      if (x != y) return x < y;
+      i = std::min(a.find_first_not_of("0123456789", i), a.size());
+      k = std::min(b.find_first_not_of("0123456789", k), b.size());
+    } else {
+      if (a[i] != b[k]) return a[i] < b[k];
+      ++i;
+      ++k;
+    }
+  }
+  const std::size_t left_a = a.size() - i, left_b = b.size() - k;
+  return left_a != left_b ? left_a < left_b : a < b;
 }
 
 std::vector<fs::path> scans_in(const fs::path& folder) {
@@ -45,19 +75,44 @@ std::vector<fs::path> scans_in(const fs::path& folder) {
     if (reader_of(entry->path()) != nullptr && entry->is_regular_file()) files.push_back(entry->path());
   }
   if (error) fail(folder.string(), "is not a folder that can be read (" + error.message() + ")");
-  std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) { return a.filename().string() < b.filename().string(); });
+  std::sort(files.begin(), files.end(),
+            [](const fs::path& a, const fs::path& b) { return is_before(a.filename().string(), b.filename().string()); });
   return files;
+}
+
+ScanFacts facts_of(const RawScan& scan, const RangeImage& image) {
+  ScanFacts facts;
+  facts.hits = static_cast<std::size_t>(std::count_if(scan.rays.begin(), scan.rays.end(), [](const RawRay& ray) { return ray.hit; }));
+  facts.misses = scan.rays.size() - facts.hits;
+  facts.unmeasured = scan.unmeasured;
+  for (const RangeSample& sample : image.samples) {
+    facts.kept_hits += sample.state == RayState::kHit ? 1U : 0U;
+    facts.kept_misses += sample.state == RayState::kMiss ? 1U : 0U;
+  }
+  facts.has_times = scan.has_times;
+  facts.first_time = scan.rays.empty() ? scan.first_time : scan.rays.front().time;
+  facts.last_time = scan.rays.empty() ? scan.first_time : scan.rays.back().time;
+  facts.unit_s = scan.unit_s;
+  facts.viewpoint = !scan.T_file_sensor.p.isZero(0) || std::abs(scan.T_file_sensor.q.w()) < 1;
+  return facts;
+}
+
+RangeImage image_of(const RawScan& scan, ScanFrame frame) {
+  if (scan.unit_s > 0) frame.unit_s = scan.unit_s;
+  return to_image(scan, frame);
 }
 
 }  // namespace
 
-RangeImage read_scan_file(const fs::path& file) {
+RawScan read_raw_scan(const fs::path& file) {
   const Reader reader = reader_of(file);
   if (reader == nullptr) fail(file.string(), "is no scan file, expected .csv, .ply or .pcd");
   return reader(file.string(), contents_of(file));
 }
 
-RecordedScans::RecordedScans(const fs::path& folder) : files_(scans_in(folder)) {
+RangeImage read_scan_file(const fs::path& file, const ScanFrame& frame) { return image_of(read_raw_scan(file), frame); }
+
+RecordedScans::RecordedScans(const fs::path& folder, const ScanFrame& frame) : files_(scans_in(folder)), frame_(frame) {
   if (files_.empty()) fail(folder.string(), "holds no scan, expected .csv, .ply or .pcd files");
   std::set<std::string> stems;
   for (const fs::path& file : files_) {
@@ -68,13 +123,30 @@ RecordedScans::RecordedScans(const fs::path& folder) : files_(scans_in(folder)) 
 }
 
 RangeImage RecordedScans::read(std::size_t i) const {
-  RangeImage image = read_scan_file(file(i));
+  RangeImage image = read_scan_file(file(i), frame_);
   image.scan_id = static_cast<std::uint32_t>(i);
   return image;
 }
 
-void RecordedScans::check() const {
-  for (const std::filesystem::path& scan : files_) (void)read_scan_file(scan);
+std::vector<ScanFacts> RecordedScans::survey() const {
+  std::vector<ScanFacts> facts;
+  ScanFrame frame = frame_;
+  frame.unit_s = 0;  // what a time is in seconds is not known yet
+  for (const fs::path& file : files_) {
+    const RawScan scan = read_raw_scan(file);
+    facts.push_back(facts_of(scan, to_image(scan, frame)));
+  }
+  return facts;
+}
+
+void RecordedScans::set_time_unit(double unit_s, const std::vector<ScanFacts>& facts) {
+  frame_.unit_s = unit_s;
+  for (std::size_t i = 0; i < facts.size(); ++i) {
+    const double last_s =
+        std::max(std::abs(facts[i].first_time), std::abs(facts[i].last_time)) * (facts[i].unit_s > 0 ? facts[i].unit_s : unit_s);
+    if (last_s > kLatest_s)
+      fail(file(i).string(), "its times are up to " + text_of(last_s) + " s, expected at most 1e11; check their unit");
+  }
 }
 
 }  // namespace lasso::sim

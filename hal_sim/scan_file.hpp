@@ -1,10 +1,13 @@
-// Scans in files: recordings that this project makes, and third-party data for replay. Sensor frame, metres, seconds.
+// Scans in files: recordings that this project makes, and third-party data for replay.
 //
 //   .csv  header `t_s,x_m,y_m,z_m,valid`, one ray a row in time order. valid 1: the point hit; valid 0: a ray that missed, x,y,z its unit
-//         direction. t_s is rounded to microseconds.
-//   .ply  ascii, binary_little_endian or binary_big_endian; the first element is `vertex` with float or double x, y, z.
-//   .pcd  ascii or binary, with the identity as viewpoint.
-// PLY and PCD have neither times nor misses: all samples at time 0, misses_known false.
+//         direction. Written with t_s rounded to microseconds. Read also without t_s, without valid, and with other columns
+//         (csv_table.hpp).
+//   .ply  ascii or binary; the element `vertex` has x, y, z.
+//   .pcd  ascii, binary or binary_compressed, seen from its VIEWPOINT.
+//
+// PLY and PCD have neither times nor misses: all samples at time 0, misses_known false. Rows without a measurement (coordinates that are
+// not finite, or all zero) are no rays. Of more than kMaxRays rays some are taken (raw_scan.hpp).
 #pragma once
 
 #include <filesystem>
@@ -13,6 +16,7 @@
 #include <vector>
 
 #include "fsw/sense/range_image.hpp"
+#include "hal_sim/raw_scan.hpp"
 
 namespace lasso::sim {
 
@@ -22,25 +26,43 @@ class ScanFileError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// Reads one file by its extension (any case), scan_id 0. A file is read whole or not at all. Throws ScanFileError: cannot be read, unknown
-// extension, wrong header, ragged rows, not a number, NaN or infinity, valid neither 0 nor 1, a miss whose direction is not of unit length
-// within 1e-3, a point at the sensor's origin or beyond 1000 km, time going back, no row, more than kMaxRays rows, truncated data.
-RangeImage read_scan_file(const std::filesystem::path& file);
+// Reads one file by its extension (any case). A file is read whole or not at all. Throws ScanFileError: cannot be read, unknown extension,
+// wrong header, ragged rows, not a number, valid neither 0 nor 1, a miss whose direction is not of unit length within 1e-3, time going
+// back, no row, truncated data.
+RawScan read_raw_scan(const std::filesystem::path& file);
 
-// The scans of a folder: its .csv, .ply and .pcd files in name order; other files are ignored.
+// The same as an image, scan_id 0. Throws as read_raw_scan and to_image.
+RangeImage read_scan_file(const std::filesystem::path& file, const ScanFrame& frame = {});
+
+// What a file holds besides its rays.
+struct ScanFacts {
+  std::size_t hits = 0, misses = 0;  // in the file
+  std::size_t unmeasured = 0;        // rows without a measurement
+  std::size_t kept_hits = 0, kept_misses = 0;
+  bool has_times = false;
+  double first_time = 0, last_time = 0;  // in the file's unit
+  double unit_s = 0;                     // where its header names it
+  bool viewpoint = false;                // the file says where the sensor stood
+};
+
+// The scans of a folder in natural order (scan2 before scan10); other files are ignored.
 class RecordedScans {
  public:
   // Throws ScanFileError: not a folder, no scan in it, two scans with one stem.
-  explicit RecordedScans(const std::filesystem::path& folder);
+  explicit RecordedScans(const std::filesystem::path& folder, const ScanFrame& frame = {});
 
   std::size_t size() const { return files_.size(); }
   const std::filesystem::path& file(std::size_t i) const { return files_.at(i); }
   std::string stem(std::size_t i) const { return files_.at(i).stem().string(); }
-  RangeImage read(std::size_t i) const;  // scan_id = i; throws as read_scan_file
-  void check() const;                    // reads each file once; throws as read_scan_file
+  RangeImage read(std::size_t i) const;   // scan_id = i; throws as read_scan_file
+  std::vector<ScanFacts> survey() const;  // reads each file once; throws as read_scan_file, but for its times
+
+  // Of times whose unit no header names. Throws ScanFileError where a time of these facts is then beyond 1e11 s.
+  void set_time_unit(double unit_s, const std::vector<ScanFacts>& facts);
 
  private:
   std::vector<std::filesystem::path> files_;
+  ScanFrame frame_;
 };
 
 // Writes the CSV form. Invalid samples are left out: like them, a ray that is not listed says nothing. The file appears whole or not at

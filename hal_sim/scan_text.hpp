@@ -1,4 +1,4 @@
-// Shared by the readers of scan files: lines with their numbers, numbers with their errors, checked points.
+// Shared by the readers of scan files: lines with their numbers, numbers with their errors, scalars in binary blocks.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "fsw/geometry/types.hpp"
+#include "hal_sim/raw_scan.hpp"
 #include "hal_sim/scan_file.hpp"
 
 namespace lasso::sim {
@@ -17,7 +17,12 @@ std::string at_line(const std::string& file, std::size_t line);
 std::string at_point(const std::string& file, std::size_t point);
 
 [[noreturn]] void fail(const std::string& place, const std::string& what);
-std::string shown(std::string_view value);  // printable and at most 40 characters
+std::string shown(std::string_view value);             // printable and at most 40 characters
+std::string text_of(double value);                     // the shortest that reads back the same
+std::string_view trimmed(std::string_view field);      // without blanks and tabs around it
+std::string_view without_mark(std::string_view text);  // without the byte order mark of UTF-8 before it
+
+constexpr double kLatest_s = 1e11;  // over 3000 years: what is beyond is another unit, and would not fit in microseconds
 
 // The lines of a text, without their ends (LF or CR LF).
 class Lines {
@@ -39,22 +44,24 @@ class Lines {
 std::vector<std::string_view> split(std::string_view line, char separator);  // fields trimmed of blanks; empty fields are kept
 std::vector<std::string_view> words(std::string_view line);                  // separated by blanks or tabs; none is empty
 
-// A finite decimal number that fills the field, or a count.
+// A finite decimal number that fills the field; any number, NaN and infinity too; or a count.
 double number(std::string_view field, std::string_view name, const std::string& place);
+double any_number(std::string_view field, std::string_view name, const std::string& place);
 std::uint64_t count(std::string_view field, std::string_view name, const std::string& place);
 
-// A point that was hit, or the direction of a ray that missed, checked and appended.
-void append_hit(RangeImage& image, const Vec3& point_m, TimeUs t_us, const std::string& place);
-void append_miss(RangeImage& image, const Vec3& direction, TimeUs t_us, const std::string& place);
-
-// Refuses a declared number of points that is zero or over capacity.
+// Refuses a declared number of points that is zero, or that no file has.
 void check_point_count(std::uint64_t points, const std::string& place);
 
-// Plain scalars in a binary block.
-double scalar_at(const char* bytes, std::size_t size, bool big_endian);  // IEEE binary32 or binary64, size 4 or 8
+// A plain scalar in a binary block: IEEE binary32 or binary64, or an integer of 1, 2, 4 or 8 bytes.
+struct ScalarType {
+  enum class Kind { kReal, kSigned, kUnsigned };
+  Kind kind = Kind::kReal;
+  std::size_t bytes = 0;  // 0: none
+};
+double scalar_at(const char* bytes, ScalarType type, bool big_endian);
 
-RangeImage read_csv(const std::string& file, std::string_view text);
-RangeImage read_ply(const std::string& file, std::string_view text);
-RangeImage read_pcd(const std::string& file, std::string_view text);
+RawScan read_csv(const std::string& file, std::string_view text);
+RawScan read_ply(const std::string& file, std::string_view text);
+RawScan read_pcd(const std::string& file, std::string_view text);
 
 }  // namespace lasso::sim

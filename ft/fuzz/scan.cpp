@@ -15,7 +15,7 @@ bool is_sound(const RangeSample& sample) {
   return std::abs(squared - 1) < 1e-2 && std::isfinite(sample.range_m) && (sample.range_m > 0) == (sample.state == RayState::kHit);
 }
 
-RangeImage read_as(std::uint8_t kind, std::string_view text) {
+sim::RawScan read_as(std::uint8_t kind, std::string_view text) {
   if (kind % 3 == 0) return sim::read_csv("scan.csv", text);
   return kind % 3 == 1 ? sim::read_ply("scan.ply", text) : sim::read_pcd("scan.pcd", text);
 }
@@ -23,7 +23,7 @@ RangeImage read_as(std::uint8_t kind, std::string_view text) {
 void read(std::uint8_t kind, ConstBytes input) {
   ExactCopy text(input);
   try {
-    const RangeImage image = read_as(kind, {reinterpret_cast<const char*>(text.bytes().data()), input.size()});
+    const RangeImage image = sim::to_image(read_as(kind, {reinterpret_cast<const char*>(text.bytes().data()), input.size()}), {});
     expect(!image.samples.empty(), "a scan that is read has samples");
     for (const RangeSample& sample : image.samples) expect(is_sound(sample), "samples are finite, of unit direction, hits have a range");
   } catch (const sim::ScanFileError& error) {

@@ -1,7 +1,9 @@
 // Scans that the simulator wrote, registered again from their files.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -139,6 +141,123 @@ TEST_F(Replay, RegistersPointClouds) {
     work.write("clouds/" + row.at("scan") + ".ply", to_ply(work.read("rec/4m/scans/" + row.at("scan") + ".csv")));
   }
   expect_near_truth(replay("image.3dli", "clouds", ""), 1.5e-3, 0.003);
+}
+
+// The same scans, named 1 to 12 without zeros before them: s10 comes after s9.
+TEST_F(Replay, TakesFilesInNaturalOrder) {
+  VERIFIES("LASSO-SIM-019~2");
+  const std::vector<Row> truth = table(work.read("rec/4m/truth.csv"));
+  for (std::size_t i = 0; i < kReplayed; ++i) {
+    work.write("named/s" + std::to_string(i + 5) + ".csv", work.read("rec/4m/scans/" + truth[i].at("scan") + ".csv"));
+  }
+  const Answer answer = work.mdat("replay image.3dli --scans named --initial rec/4m/poses.csv --closed-loop -o out.csv");
+  EXPECT_EQ(answer.err.find("step back"), std::string::npos) << answer.err;
+  const std::vector<Row> rows = table(work.read("out.csv"));
+  ASSERT_EQ(rows.size(), kReplayed);
+  for (std::size_t i = 0; i < kReplayed; ++i) {
+    EXPECT_EQ(rows[i].at("scan"), "s" + std::to_string(i + 5));
+    EXPECT_EQ(rows[i].at("valid"), "1") << rows[i].at("reason");
+    EXPECT_LT(distance_m(rows[i], truth[i]), 1e-3);
+  }
+}
+
+TEST_F(Replay, WarnsOfTimesThatStepBack) {
+  VERIFIES("LASSO-MDT-070~1");
+  std::filesystem::rename(work / "rec/4m/scans/f00002.csv", work / "rec/4m/scans/z.csv");
+  std::string poses = work.read("rec/4m/poses.csv");
+  poses.replace(poses.find("f00002"), 6, "z");
+  work.write("rec/4m/poses.csv", poses);
+  const Answer answer = work.mdat("replay image.3dli --scans rec/4m/scans --initial rec/4m/poses.csv -o out.csv");
+  EXPECT_EQ(answer.exit_code, 0);
+  EXPECT_NE(answer.err.find("warning: times step back at 1 of 8 scans, first at z,"), std::string::npos) << answer.err;
+  EXPECT_NE(answer.out.find("8 of 8 scans gave a valid pose"), std::string::npos) << answer.out;
+}
+
+// A scan with its times in another unit; all else as it was.
+std::string with_times(const std::string& csv, double units_per_second) {
+  const std::vector<std::string> lines = lines_of(csv);
+  std::string text = lines[0] + "\n";
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    const std::size_t comma = lines[i].find(',');
+    char time[40];
+    std::snprintf(time, sizeof time, "%.0f", std::stod(lines[i].substr(0, comma)) * units_per_second);
+    text += time + lines[i].substr(comma) + "\n";
+  }
+  return text;
+}
+
+TEST_F(Replay, KnowsUnitsOfTimeByAScansSpan) {
+  VERIFIES("LASSO-MDT-070~1");
+  const std::vector<Row> seconds = replay("image.3dli", "rec/4m/scans", "--closed-loop");
+  for (const auto& [per_second, name] : {std::pair(1e6, "microseconds"), std::pair(1e9, "nanoseconds")}) {
+    for (const Row& row : seconds)
+      work.write("other/" + row.at("scan") + ".csv", with_times(work.read("rec/4m/scans/" + row.at("scan") + ".csv"), per_second));
+    const Answer answer = work.mdat("replay image.3dli --scans other --initial rec/4m/poses.csv --closed-loop -o other.csv");
+    EXPECT_NE(answer.err.find(std::string("taken as ") + name), std::string::npos) << answer.err;
+    const std::vector<Row> rows = table(work.read("other.csv"));
+    ASSERT_EQ(rows.size(), seconds.size());
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      EXPECT_EQ(rows[i].at("t_s"), seconds[i].at("t_s"));
+      EXPECT_LT(distance_m(rows[i], seconds[i]), 1e-8);
+    }
+  }
+}
+
+TEST_F(Replay, TakesTheUnitOfTimeThatIsAskedFor) {
+  VERIFIES("LASSO-MDT-070~1");
+  const Answer answer = work.mdat("replay image.3dli --scans rec/4m/scans --initial rec/4m/poses.csv --time-unit ms -o out.csv");
+  EXPECT_EQ(answer.exit_code, 0) << answer.err;
+  const double given_s = value(table(work.read("out.csv")).at(3), "t_s");
+  EXPECT_NEAR(given_s, 1e-3 * value(replay("image.3dli", "rec/4m/scans", "").at(3), "t_s"), 1e-6);
+}
+
+// What replay wrote is what it starts from, and gives the same poses again.
+TEST_F(Replay, StartsFromItsOwnOutput) {
+  VERIFIES("LASSO-MDT-071~1");
+  const std::vector<Row> first = replay("image.3dli", "rec/4m/scans", "");
+  std::filesystem::copy(work / "out.csv", work / "rec/4m/poses.csv", std::filesystem::copy_options::overwrite_existing);
+  const std::vector<Row> again = replay("image.3dli", "rec/4m/scans", "");
+  ASSERT_EQ(again.size(), first.size());
+  for (std::size_t i = 0; i < first.size(); ++i) EXPECT_LT(distance_m(again[i], first[i]), 1e-4);
+}
+
+TEST_F(Replay, StartsFromWhatASearchWroteAndTellsWhichPosesAreNone) {
+  VERIFIES("LASSO-MDT-071~1");
+  const std::string text = work.read("rec/4m/poses.csv");
+  std::string rows = "\xEF\xBB\xBFscan;outcome;" + lines_of(text)[0].substr(5) + "\r\n\r\n";
+  for (std::size_t i = 1; i <= kReplayed; ++i) {
+    const std::string line = lines_of(text)[i];
+    const std::size_t comma = line.find(',');
+    rows += line.substr(0, comma) + ".csv; " + (i == 3 ? "rejected" : "accepted") + line.substr(comma) + "\r\n";
+  }
+  std::replace(rows.begin(), rows.end(), ',', ';');
+  work.write("rec/4m/poses.csv", rows + "\r\n\r\n");
+  const Answer answer = work.mdat("replay image.3dli --scans rec/4m/scans --initial rec/4m/poses.csv -o out.csv");
+  EXPECT_NE(answer.err.find("1 of 8 poses are not valid there"), std::string::npos) << answer.err;
+  expect_near_truth(table(work.read("out.csv")), 1e-3, 0.002);
+}
+
+// The points of a scan as an organised cloud: a row for each ray, NaN or zeros where it missed.
+std::string to_pcd(const std::string& csv, const std::string& nothing) {
+  std::string points;
+  const std::vector<Row> rays = table(csv);
+  for (const Row& ray : rays)
+    points += (ray.at("valid") == "1" ? ray.at("x_m") + " " + ray.at("y_m") + " " + ray.at("z_m") : nothing) + "\n";
+  const std::string count = std::to_string(rays.size());
+  return "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH " + count +
+         "\nHEIGHT 1\nVIEWPOINT 0 0 0 -1 0 0 0\nPOINTS " + count + "\nDATA ascii\n" + points;
+}
+
+TEST_F(Replay, LeavesOutRowsWithoutAMeasurement) {
+  VERIFIES("LASSO-SIM-036~1 LASSO-MDT-070~1");
+  const std::vector<Row> truth = table(work.read("rec/4m/truth.csv"));
+  for (const Row& row : truth) {
+    work.write("clouds/" + row.at("scan") + ".pcd",
+               to_pcd(work.read("rec/4m/scans/" + row.at("scan") + ".csv"), row.at("scan") == "f00001" ? "0 0 0" : "nan nan nan"));
+  }
+  expect_near_truth(replay("image.3dli", "clouds", ""), 1.5e-3, 0.003);
+  const Answer answer = work.mdat("replay image.3dli --scans clouds --initial rec/4m/poses.csv -o out.csv");
+  EXPECT_NE(answer.err.find("rows have no measurement (NaN or zeros; in all 8 scans)"), std::string::npos) << answer.err;
 }
 
 TEST_F(Replay, FindsEachScansPoseWithoutAnyOrSaysWhyNot) {

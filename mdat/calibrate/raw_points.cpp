@@ -1,38 +1,32 @@
 #include "mdat/calibrate/raw_points.hpp"
 
-#include <charconv>
+#include <array>
 #include <cmath>
-#include <fstream>
 
+#include "hal_sim/csv_table.hpp"
 #include "hal_sim/lcs_device.hpp"
 #include "hal_sim/random.hpp"
 #include "mdat/common/errors.hpp"
+#include "mdat/common/output.hpp"
 #include "mdat/common/text.hpp"
 
 namespace lasso::mdat {
 namespace {
 
 constexpr char kHeader[] = "plane_nx,plane_ny,plane_nz,plane_d_m,temperature_degC,angle_x_rad,angle_y_rad,peak";
-constexpr int kColumns = 8;
+constexpr std::size_t kColumns = 8;
+constexpr const char* kNames[kColumns] = {"plane_nx",         "plane_ny",    "plane_nz",    "plane_d_m",
+                                          "temperature_degc", "angle_x_rad", "angle_y_rad", "peak"};  // in lower case
 constexpr int kTemperatures = 3;
 constexpr double kTilt_rad = 0.5;
 constexpr double kUnitTolerance = 1e-6;
 
-RawPoint point_of(const std::string& line, const std::string& place) {
-  double values[kColumns];
-  const char* at = line.data();
-  const char* const end = line.data() + line.size();
-  for (int i = 0; i < kColumns; ++i) {
-    const auto [next, error] = std::from_chars(at, end, values[i]);
-    const bool last = i == kColumns - 1;
-    if (error != std::errc() || !std::isfinite(values[i]) || (last ? next != end : next == end || *next != ',')) {
-      throw InputError(place + ": expected " + std::to_string(kColumns) + " numbers: " + kHeader);
-    }
-    at = next + (last ? 0 : 1);
-  }
-  RawPoint point{Vec3(values[0], values[1], values[2]), values[3], values[4], values[5], values[6], values[7]};
+RawPoint point_of(const sim::CsvTable& table, const std::array<std::size_t, kColumns>& columns) {
+  std::array<double, kColumns> v{};
+  for (std::size_t i = 0; i < kColumns; ++i) v[i] = table.number(columns[i]);
+  RawPoint point{Vec3(v[0], v[1], v[2]), v[3], v[4], v[5], v[6], v[7]};
   if (std::abs(point.normal.norm() - 1) > kUnitTolerance)
-    throw InputError(place + ": the plane's normal is not of unit length: normalise it");
+    throw InputError(table.place() + ": the plane's normal is not of unit length: normalise it");
   point.normal.normalize();
   return point;
 }
@@ -43,12 +37,12 @@ double on_wire(double value) { return std::round(std::ldexp(value, 23)) / std::l
 }  // namespace
 
 std::vector<RawPoint> read_raw_points(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  std::string line;
-  if (!in || !std::getline(in, line)) throw InputError(file.string() + ": cannot be read, or is empty");
-  if (line != kHeader) throw InputError(file.string() + ":1: expected the header " + kHeader);
+  const std::string text = file_content(file);
+  sim::CsvTable table(file.string(), text, kHeader);
+  std::array<std::size_t, kColumns> columns{};
+  for (std::size_t i = 0; i < kColumns; ++i) columns[i] = table.need({kNames[i]});
   std::vector<RawPoint> points;
-  for (int number = 2; std::getline(in, line); ++number) points.push_back(point_of(line, file.string() + ":" + std::to_string(number)));
+  while (table.next()) points.push_back(point_of(table, columns));
   return points;
 }
 

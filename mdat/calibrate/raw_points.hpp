@@ -19,8 +19,8 @@ struct RawPoint {
   double angle_x_rad = 0, angle_y_rad = 0, peak = 0;
 };
 
-// CSV with the header plane_nx,plane_ny,plane_nz,plane_d_m,temperature_degC,angle_x_rad,angle_y_rad,peak. Throws InputError that names file
-// and line.
+// CSV with the header plane_nx,plane_ny,plane_nz,plane_d_m,temperature_degC,angle_x_rad,angle_y_rad,peak. Throws InputError or
+// sim::ScanFileError that names file and line.
 std::vector<RawPoint> read_raw_points(const std::filesystem::path& file);
 std::string raw_points_text(const std::vector<RawPoint>& points);
 

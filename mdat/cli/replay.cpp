@@ -15,7 +15,7 @@ namespace lasso::mdat {
 namespace {
 
 struct ReplayArguments {
-  std::string mission, scenario, out;
+  std::string mission, scenario, out, time_unit;
   ReplayOptions replay;
   bool cached = true;
 };
@@ -46,6 +46,10 @@ void check_apart(const std::filesystem::path& out, const ReplayArguments& option
   throw InputError(out.string() + ": lies in the folder of the scans, " + scans.string() + ", which are left as they are; write elsewhere");
 }
 
+void tell(const Notes& notes) {
+  for (const std::string& note : notes) std::fprintf(stderr, "%s\n", note.c_str());
+}
+
 void search(const ReplayArguments& options) {
   if (options.replay.closed_loop || options.replay.wide) {
     throw InputError("--initial search: each scan is searched on its own; leave --closed-loop and --wide out");
@@ -55,21 +59,31 @@ void search(const ReplayArguments& options) {
   check_apart(candidates, options);
   check_writable(options.out);
   check_writable(candidates);
-  const sim::RecordedScans recorded(options.replay.scans);
-  recorded.check();
+  ReplayInput input = read_replay_input(options.replay);
   const LoadedImage image = load(options);
-  const std::vector<AcquiredScan> scans = acquire(image.mission(), recorded);
+  tell(settle_times(options.replay, image.mission().parameters.duration_s, input));
+  const std::vector<AcquiredScan> scans = acquire(image.mission(), input.scans);
   write_file(options.out, acquired_csv(scans));
   write_file(candidates, candidates_csv(scans));
   std::fputs((acquired_summary(scans) + options.out + ", " + candidates.string() + ": written\n").c_str(), stdout);
 }
 
-void run(const ReplayArguments& options) {
+double unit_of(const std::string& name) {
+  constexpr std::pair<const char*, double> kUnits[] = {{"s", 1}, {"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9}};
+  for (const auto& [known, unit_s] : kUnits) {
+    if (name == known) return unit_s;
+  }
+  return 0;
+}
+
+void run(ReplayArguments options) {
+  options.replay.unit_s = unit_of(options.time_unit);
   if (options.replay.initial == "search") return search(options);
   check_apart(options.out, options);
   check_writable(options.out);
-  const ReplayInput input = read_replay_input(options.replay);
+  ReplayInput input = read_replay_input(options.replay);
   const LoadedImage image = load(options);
+  tell(settle_times(options.replay, image.mission().parameters.duration_s, input));
   const std::vector<ReplayedScan> scans = replay(image.mission(), options.replay, input);
   write_file(options.out, replay_csv(scans));
   std::fputs((replay_summary(scans) + options.out + ": written\n").c_str(), stdout);
@@ -81,7 +95,7 @@ void add_replay_command(CLI::App& app) {
   const auto options = std::make_shared<ReplayArguments>();
   CLI::App* command = app.add_subcommand("replay", "register recorded scans (.csv, .ply, .pcd) from given initial poses");
   command->add_option("MISSION", options->mission, "mission file or flight image")->required();
-  command->add_option("--scans", options->replay.scans, "folder of scans, taken in name order")->required();
+  command->add_option("--scans", options->replay.scans, "folder of scans, taken in natural order (scan2 before scan10)")->required();
   command
       ->add_option("--initial", options->replay.initial,
                    "poses to start from: scan,qx,qy,qz,qw,x_m,y_m,z_m (T_sensor_target); or the word search: find each scan's "
@@ -91,6 +105,8 @@ void add_replay_command(CLI::App& app) {
   command->add_flag("--closed-loop", options->replay.closed_loop,
                     "start from the first row, then from the filter's prediction, as in flight");
   command->add_flag("--wide", options->replay.wide, "the initial poses are rough (20 deg, a quarter of the target's size)");
+  command->add_option("--time-unit", options->time_unit, "of the scans' times (default: by their span against scan.duration_s)")
+      ->check(CLI::IsMember({"s", "ms", "us", "ns"}));
   command->add_option("--scenario", options->scenario, "with this scenario's overrides of parameters");
   add_no_cache(*command, options->cached);
   command->callback([options] { run(*options); });

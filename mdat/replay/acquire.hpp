@@ -17,7 +17,7 @@ struct AcquiredScan {
   double search_us = 0;         // processor time of the whole search
 };
 
-// In name order. Throws sim::ScanFileError.
+// In natural order. Throws sim::ScanFileError.
 std::vector<AcquiredScan> acquire(const Mission& mission, const sim::RecordedScans& scans);
 
 // One row a scan: outcome, reason, pose, ratio, disagreement and the number of candidates.

@@ -1,4 +1,5 @@
-// The file of initial poses that replay starts from: header `scan,qx,qy,qz,qw,x_m,y_m,z_m`, one row a scan, T_sensor_target.
+// Tables of poses: those that replay starts from, and those that are true. Columns `scan,qx,qy,qz,qw,x_m,y_m,z_m`, in any order and among
+// others, one row a scan, T_sensor_target. What mdat writes of poses is such a table.
 #pragma once
 
 #include <filesystem>
@@ -14,13 +15,18 @@ constexpr double kQuaternionLengthTolerance = 1e-3;
 struct InitialPose {
   std::string scan;  // the stem of the scan's file
   Pose T_sensor_target;
+  bool valid = true;  // as its row says, where the table has a column `valid` or `outcome`
 };
 
-// Reads the file whole. Throws InputError with file:line:column: wrong header, ragged row, not a number, NaN or infinity, an empty or
-// double name, a quaternion whose length differs from 1 by more than the tolerance (the returned one is normalised), no row.
+// Reads the file whole (hal_sim/csv_table.hpp). Throws InputError or ScanFileError with file:line:column: wrong header, ragged row, not a
+// number, NaN or infinity, an empty or double name, a quaternion whose length differs from 1 by more than the tolerance (the returned one
+// is normalised), no row.
 std::vector<InitialPose> read_initial_poses(const std::filesystem::path& file);
 
-// The pose of a scan. Throws InputError that names both files.
+// The pose of a scan, null where there is none.
+const InitialPose* find_pose(const std::vector<InitialPose>& poses, const std::string& scan);
+
+// The same; throws InputError that names both files.
 const Pose& pose_of(const std::vector<InitialPose>& poses, const std::string& scan, const std::filesystem::path& file);
 
 }  // namespace lasso::mdat

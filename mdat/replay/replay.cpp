@@ -1,14 +1,15 @@
 #include "mdat/replay/replay.hpp"
 
-#include <cmath>
+#include <algorithm>
 #include <cstdio>
 #include <map>
 #include <memory>
 
-#include "fsw/mode/tracker.hpp"
+#include "fsw/pose/estimator.hpp"
 #include "mdat/common/cpu_clock.hpp"
-#include "mdat/common/errors.hpp"
 #include "mdat/common/progress_bar.hpp"
+#include "mdat/common/text.hpp"
+#include "mdat/replay/closed_loop.hpp"
 #include "mdat/run/statistics.hpp"
 
 namespace lasso::mdat {
@@ -22,52 +23,13 @@ ReplayedScan register_scan(const Mission& mission, Estimator& estimator, const R
   return result;
 }
 
-// Tracks the scans as the flight component does, from a pose given for the first of them. Files without times, or with times that do not
-// rise, follow each other by the mission's period.
-class ClosedLoop {
- public:
-  ClosedLoop(const Mission& mission, const Pose& initial, bool wide) : mission_(mission) {
-    if (wide) mission_.parameters.wide_start = 1;
-    const StartRefusal refusal = start_track(mission_, StartWay::kUplink, rough_offer(mission_.parameters, initial, Twist(), 0), 0, state_);
-    if (refusal != StartRefusal::kNone) throw RunError(std::string("the tracker refused the initial pose: ") + to_string(refusal));
-  }
-
-  ReplayedScan step(const RangeImage& recorded) {
-    const TimeUs recorded_us = recorded.reference_time_us();
-    move_clock(recorded_us);
-    ReplayedScan result;
-    const double begin_us = thread_cpu_us();
-    const TrackStep step =
-        properties(state_.mode).scans ? track_scan(mission_, *estimator_, at_clock(recorded), state_) : no_track(recorded.scan_id, state_);
-    result.estimate_us = thread_cpu_us() - begin_us;
-    state_ = step.after;
-    result.registration = step.registration;
-    result.registration.t_us = recorded_us;
-    return result;
-  }
-
- private:
-  void move_clock(TimeUs recorded_us) {
-    const auto period_us = static_cast<DurationUs>(std::llround(mission_.parameters.period_s * 1e6));
-    if (begun_) clock_us_ += recorded_us > last_us_ ? recorded_us - last_us_ : period_us;
-    begun_ = true;
-    last_us_ = recorded_us;
-  }
-
-  const RangeImage& at_clock(const RangeImage& recorded) {
-    *image_ = recorded;
-    const DurationUs shift_us = clock_us_ - recorded.reference_time_us();
-    for (RangeSample& sample : image_->samples) sample.t_us += shift_us;
-    return *image_;
-  }
-
-  Mission mission_;
-  std::unique_ptr<Estimator> estimator_ = std::make_unique<Estimator>();
-  std::unique_ptr<RangeImage> image_ = std::make_unique<RangeImage>();
-  TrackState state_;
-  TimeUs clock_us_ = 0, last_us_ = 0;
-  bool begun_ = false;
-};
+ReplayedScan track(ClosedLoop& loop, const RangeImage& image) {
+  ReplayedScan result;
+  const double begin_us = thread_cpu_us();
+  result.registration = loop.step(image).registration;
+  result.estimate_us = thread_cpu_us() - begin_us;
+  return result;
+}
 
 using Register = std::function<ReplayedScan(const RangeImage&, const std::string& stem)>;
 
@@ -81,6 +43,14 @@ std::vector<ReplayedScan> for_each_scan(const sim::RecordedScans& scans, const R
   }
   bar.finish();
   return results;
+}
+
+void append(const Notes& more, Notes& notes) { notes.insert(notes.end(), more.begin(), more.end()); }
+
+Notes pose_notes(const std::vector<InitialPose>& poses, const std::filesystem::path& file) {
+  const auto invalid = std::count_if(poses.begin(), poses.end(), [](const InitialPose& pose) { return !pose.valid; });
+  if (invalid == 0) return {};
+  return {format("note: %s: %td of %zu poses are not valid there; as starts they may be far off", file.c_str(), invalid, poses.size())};
 }
 
 std::string row(const ReplayedScan& scan) {
@@ -98,18 +68,30 @@ std::string row(const ReplayedScan& scan) {
 }  // namespace
 
 ReplayInput read_replay_input(const ReplayOptions& options) {
-  ReplayInput input{read_initial_poses(options.initial), sim::RecordedScans(options.scans)};
+  const bool search = options.initial == "search";
+  ReplayInput input{
+      search ? std::vector<InitialPose>() : read_initial_poses(options.initial), sim::RecordedScans(options.scans, options.frame), {}};
   for (std::size_t i = 0; i < input.scans.size(); ++i) {
-    if (!options.closed_loop) (void)pose_of(input.poses, input.scans.stem(i), options.initial);
+    if (!search && !options.closed_loop) (void)pose_of(input.poses, input.scans.stem(i), options.initial);
   }
-  input.scans.check();
+  input.facts = input.scans.survey();
   return input;
+}
+
+Notes settle_times(const ReplayOptions& options, double duration_s, ReplayInput& input) {
+  const double unit_s = options.unit_s > 0 ? options.unit_s : time_unit_s(input.facts, duration_s);
+  input.scans.set_time_unit(unit_s, input.facts);
+  Notes notes = row_notes(input.facts);
+  if (!(options.unit_s > 0)) append(time_unit_note(input.facts, duration_s, unit_s), notes);
+  append(order_notes(input.scans, input.facts, unit_s), notes);
+  append(pose_notes(input.poses, options.initial), notes);
+  return notes;
 }
 
 std::vector<ReplayedScan> replay(const Mission& mission, const ReplayOptions& options, const ReplayInput& input) {
   if (options.closed_loop) {
     ClosedLoop loop(mission, input.poses.front().T_sensor_target, options.wide);
-    return for_each_scan(input.scans, [&](const RangeImage& image, const std::string&) { return loop.step(image); });
+    return for_each_scan(input.scans, [&](const RangeImage& image, const std::string&) { return track(loop, image); });
   }
   const auto estimator = std::make_unique<Estimator>();
   return for_each_scan(input.scans, [&](const RangeImage& image, const std::string& stem) {

@@ -10,12 +10,15 @@
 #include "fsw/pose/result.hpp"
 #include "hal_sim/scan_file.hpp"
 #include "mdat/replay/initial_poses.hpp"
+#include "mdat/replay/scan_notes.hpp"
 
 namespace lasso::mdat {
 
 struct ReplayOptions {
   std::filesystem::path scans;    // folder
   std::filesystem::path initial;  // file of poses
+  sim::ScanFrame frame;           // of the scans' files
+  double unit_s = 0;              // of their times; 0: as their headers and spans say
   bool closed_loop = false;       // the first row starts the track; then the filter predicts, as in flight
   bool wide = false;              // starts are rough: centroid, far field and slides come first
 };
@@ -28,16 +31,20 @@ struct ReplayedScan {
 
 // What a replay reads, checked before anything is compiled.
 struct ReplayInput {
-  std::vector<InitialPose> poses;
+  std::vector<InitialPose> poses;  // none: of a search
   sim::RecordedScans scans;
+  std::vector<sim::ScanFacts> facts;
 };
 
-// Reads the poses, and each scan once. Throws InputError and sim::ScanFileError: a file that is wrong, or, but in closed loop, a scan
-// without a pose.
+// Reads the poses (unless they are the word search), and each scan once. Throws InputError and sim::ScanFileError: a file that is wrong,
+// or, but in closed loop, a scan without a pose.
 ReplayInput read_replay_input(const ReplayOptions& options);
 
-// In name order. In closed loop the time between scans is that between their reference times where it is positive, and the mission's period
-// otherwise (files without times). Throws InputError and sim::ScanFileError.
+// Says in which unit the scans' times are, for a mission whose scans take `duration_s`. What there is to know of the input, for the user.
+Notes settle_times(const ReplayOptions& options, double duration_s, ReplayInput& input);
+
+// In natural order. In closed loop the time between scans is that between their reference times where it is positive, and the mission's
+// period otherwise (files without times). Throws InputError and sim::ScanFileError.
 std::vector<ReplayedScan> replay(const Mission& mission, const ReplayOptions& options, const ReplayInput& input);
 
 // The file poses_out.csv.

@@ -25,22 +25,49 @@ void expect_error(Action action, const std::string& begin, const std::string& pa
   }
 }
 
-TEST(RecordedScans, AreListedInNameOrder) {
-  VERIFIES("LASSO-SIM-019~1");
+TEST(RecordedScans, AreListedInNaturalOrder) {
+  VERIFIES("LASSO-SIM-019~2");
   const Folder folder;
-  for (const char* name : {"scan_010.csv", "scan_002.csv", "scan_001.csv"}) folder.write(name, kOnePoint);
-  folder.write("scan_005.ply", kOnePly);
+  for (const char* name : {"scan_10.csv", "scan_2.csv", "scan_1.csv"}) folder.write(name, kOnePoint);
+  folder.write("scan_05.ply", kOnePly);
   folder.write("notes.txt", "not a scan");
-  std::filesystem::create_directory(folder.path() / "scan_000.csv");
+  std::filesystem::create_directory(folder.path() / "scan_0.csv");
   const RecordedScans scans(folder.path());
   ASSERT_EQ(scans.size(), 4u);
-  EXPECT_EQ(scans.stem(0), "scan_001");
-  EXPECT_EQ(scans.stem(1), "scan_002");
-  EXPECT_EQ(scans.stem(2), "scan_005");
-  EXPECT_EQ(scans.stem(3), "scan_010");
+  EXPECT_EQ(scans.stem(0), "scan_1");
+  EXPECT_EQ(scans.stem(1), "scan_2");
+  EXPECT_EQ(scans.stem(2), "scan_05");
+  EXPECT_EQ(scans.stem(3), "scan_10");
   EXPECT_EQ(scans.read(2).samples[0].range_m, 2);
   EXPECT_EQ(scans.read(3).scan_id, 3u);
   EXPECT_EQ(scans.read(3).samples[0].range_m, 1);
+}
+
+// Numbers by their value, however long; other text by its bytes; a name before those that it begins.
+TEST(RecordedScans, NumbersInNamesCompareAsNumbers) {
+  VERIFIES("LASSO-SIM-019~2");
+  const Folder folder;
+  const char* const names[] = {"a", "a1b2", "a1b10", "a01b11", "a2", "a100", "a99999999999999999999998", "a99999999999999999999999", "b"};
+  for (const char* name : names) folder.write(std::string(name) + ".csv", kOnePoint);
+  const RecordedScans scans(folder.path());
+  ASSERT_EQ(scans.size(), std::size(names));
+  for (std::size_t i = 0; i < scans.size(); ++i) EXPECT_EQ(scans.stem(i), names[i]);
+}
+
+TEST(RecordedScans, AreReadInTheUnitOfTimeThatIsSet) {
+  VERIFIES("LASSO-SIM-038~1");
+  const Folder folder;
+  folder.write("a.csv",
+               "t_s,x_m,y_m,z_m,valid\n1700000000000000000,0,0,1,1\n1700000000180000000,nan,nan,nan,0\n1700000000180000000,0,0,1,1\n");
+  RecordedScans scans(folder.path());
+  const std::vector<ScanFacts> facts = scans.survey();
+  ASSERT_EQ(facts.size(), 1u);
+  EXPECT_EQ(facts[0].hits, 2u);
+  EXPECT_EQ(facts[0].unmeasured, 1u);
+  EXPECT_EQ(facts[0].last_time - facts[0].first_time, 180000000);
+  scans.set_time_unit(1e-9, facts);
+  EXPECT_EQ(scans.read(0).reference_time_us(), 1700000000090000);
+  expect_error([&] { scans.set_time_unit(1e-3, facts); }, folder.path().string() + "/a.csv: ", "check their unit");
 }
 
 TEST(RecordedScans, AFolderThatHoldsNoSequenceIsRefused) {
@@ -64,8 +91,8 @@ TEST(ScanFile, WhatIsNoScanFileIsRefused) {
   const auto text = folder.write("a.xyz", "0 0 1");
   expect_error([&] { (void)read_scan_file(text); }, text.string() + ": ", "expected .csv, .ply or .pcd");
   const auto large = folder.write("large.csv", kOnePoint);
-  std::filesystem::resize_file(large, (64u << 20) + 1);  // sparse
-  expect_error([&] { (void)read_scan_file(large); }, large.string() + ": has 67108865 bytes", "64 MiB");
+  std::filesystem::resize_file(large, (std::uintmax_t{4} << 30) + 1);  // sparse
+  expect_error([&] { (void)read_scan_file(large); }, large.string() + ": has 4294967297 bytes", "4 GiB");
 }
 
 }  // namespace

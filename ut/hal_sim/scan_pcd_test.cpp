@@ -34,7 +34,7 @@ void expect_two_points(const RangeImage& image) {
 }
 
 TEST(ScanPcd, ReadsAscii) {
-  VERIFIES("LASSO-SIM-020~1");
+  VERIFIES("LASSO-SIM-020~2");
   const Folder folder;
   expect_two_points(read_scan_file(folder.write("a.pcd", header("ascii") + "0.3 -0.4 1.2 4294967295\n0 0 2.5 0\n")));
   const std::string other_order = header("ascii", "FIELDS", "FIELDS rgb z y x\n");
@@ -44,7 +44,7 @@ TEST(ScanPcd, ReadsAscii) {
 }
 
 TEST(ScanPcd, ReadsBinary) {
-  VERIFIES("LASSO-SIM-020~1");
+  VERIFIES("LASSO-SIM-020~2");
   const Folder folder;
   const std::string points("\x9A\x99\x99\x3E\xCD\xCC\xCC\xBE\x9A\x99\x99\x3F\xFF\xFF\xFF\xFF\0\0\0\0\0\0\0\0\0\0\x20\x40\xFF\xFF\xFF\xFF",
                            32);
@@ -56,35 +56,69 @@ TEST(ScanPcd, ReadsBinary) {
   expect_two_points(read_scan_file(folder.write("wide.pcd", wide + data)));
 }
 
+// The values of a field are beside each other there: 0.3 0, -0.4 0, 1.2 2.5, and eight bytes of colours, which LZF packs.
+TEST(ScanPcd, ReadsTheCompressedForm) {
+  VERIFIES("LASSO-SIM-020~2");
+  const Folder folder;
+  const std::string literal("\x17\x9A\x99\x99\x3E\0\0\0\0\xCD\xCC\xCC\xBE\0\0\0\0\x9A\x99\x99\x3F\0\0\x20\x40", 25);
+  const std::string colours("\0\xFF\xA0\0", 4);
+  const std::string lengths("\x1D\0\0\0\x20\0\0\0", 8);
+  expect_two_points(read_scan_file(folder.write("a.pcd", header("binary_compressed") + lengths + literal + colours)));
+}
+
+// As organised clouds have them where nothing came back.
+TEST(ScanPcd, RowsWithoutAMeasurementAreCounted) {
+  VERIFIES("LASSO-SIM-036~1");
+  const Folder folder;
+  const std::string four = "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH 2\nHEIGHT 2\nPOINTS 4\nDATA ascii\n";
+  const RawScan scan = read_raw_scan(folder.write("a.pcd", four + "nan nan nan\n\n0 0 0\n0 0 2.5\n1 nan 1\n\n\n"));
+  EXPECT_EQ(scan.unmeasured, 3u);
+  ASSERT_EQ(scan.rays.size(), 1u);
+  EXPECT_EQ(scan.rays[0].place, Vec3(0, 0, 2.5));
+}
+
+// The sensor stands at (1, 2, 3), a quarter turn about z: its x is the file's y.
+TEST(ScanPcd, TakesPointsToTheSensorThatStoodAtTheViewpoint) {
+  VERIFIES("LASSO-SIM-037~1");
+  const Folder folder;
+  const std::string turned = header("ascii", "VIEWPOINT", "VIEWPOINT 1 2 3 -0.70710678118654752 0 0 -0.70710678118654752\n");
+  expect_two_points(read_scan_file(folder.write("a.pcd", turned + "1.4 2.3 4.2 0\n1 2 5.5 0\n")));
+  const std::string same = header("ascii", "VIEWPOINT", "VIEWPOINT 0 0 0 -1 0 0 0\n");
+  expect_two_points(read_scan_file(folder.write("b.pcd", same + "0.3 -0.4 1.2 0\n0 0 2.5 0\n")));
+}
+
 TEST(ScanPcd, EachErrorNamesItsPlaceAndItsRemedy) {
   VERIFIES("LASSO-SIM-021~1");
   const std::string points = "1 2 3 4\n1 2 3 4\n";
   expect_refused("a.pcd", "", ":1: ", "not a PCD file");
   expect_refused("a.pcd", "hello world\n", ":1: header entry \"hello\"", "not a PCD file");
   expect_refused("a.pcd", "VERSION 0.7\nFIELDS x y z\n", ":2: ", "truncated");
-  expect_refused("a.pcd", header("binary_compressed"), ":11: DATA binary_compressed is not read", "convert");
-  expect_refused("a.pcd", header("zip"), ":11: DATA is \"zip\"", "ascii or binary");
+  expect_refused("a.pcd", header("binary_compressed"), ": the file is truncated: ", "compressed data");
+  expect_refused("a.pcd", header("zip"), ":11: DATA is \"zip\"", "ascii, binary or binary_compressed");
   expect_refused("a.pcd", header("ascii", "SIZE") + points, ":10: ", "lacks");
   expect_refused("a.pcd", header("ascii", "FIELDS") + points, ":3: SIZE before FIELDS", "");
   expect_refused("a.pcd", header("ascii", "SIZE", "SIZE 4 4 4\n"), ":4: SIZE has 3 values", "4 FIELDS");
   expect_refused("a.pcd", header("ascii", "SIZE", "SIZE 4 4 3 4\n"), ":4: SIZE is \"3\"", "1, 2, 4 or 8");
   expect_refused("a.pcd", header("ascii", "SIZE", "SIZE 4 4 2 4\n"), ":11: field \"z\"", "TYPE F");
-  expect_refused("a.pcd", header("ascii", "TYPE", "TYPE F I F U\n"), ":11: field \"y\"", "TYPE F");
+  expect_refused("a.pcd", header("ascii", "TYPE", "TYPE F X F U\n"), ":11: field \"y\"", "TYPE F");
   expect_refused("a.pcd", header("ascii", "COUNT", "COUNT 2 1 1 1\n"), ":11: field \"x\"", "COUNT 1");
   expect_refused("a.pcd", header("ascii", "COUNT", "COUNT 1 1 1 99999999999\n"), ":6: COUNT is \"99999999999\"", "at most 4096");
   expect_refused("a.pcd", header("ascii", "FIELDS", "FIELDS x y w rgb\n"), ":11: FIELDS has no \"z\"", "expected x y z");
   expect_refused("a.pcd", header("ascii", "FIELDS", "FIELDS x y z x\n"), ":11: field \"x\"", "");
   expect_refused("a.pcd", header("ascii", "COUNT", "FIELDS w\n"), ":6: FIELDS is declared twice", "");
-  expect_refused("a.pcd", header("ascii", "VIEWPOINT", "VIEWPOINT 0 0 1 1 0 0 0\n"), ":9: ", "sensor's frame");
+  expect_refused("a.pcd", header("ascii", "VIEWPOINT", "VIEWPOINT 0 0 1 2 0 0 0\n"), ":9: VIEWPOINT has a quaternion", "length 2");
   expect_refused("a.pcd", header("ascii", "POINTS", "POINTS 0\n"), ":10: the file declares no point", "at least one");
-  expect_refused("a.pcd", header("ascii", "POINTS", "POINTS 5000\n"), ":10: the file declares 5000 points", "thin it out");
+  expect_refused("a.pcd", header("ascii", "POINTS", "POINTS 5000000000\n"), ":10: the file declares 5000000000 points", "at most 1e9");
   expect_refused("a.pcd", header("ascii", "POINTS", "POINTS x\n"), ":10: POINTS is \"x\"", "whole number");
   expect_refused("a.pcd", header("ascii", "POINTS", "POINTS 3\n"), ":11: POINTS is 3", "WIDTH times HEIGHT");
   expect_refused("a.pcd", header("ascii", "HEIGHT", "HEIGHT 0\n"), ":11: POINTS is 2", "WIDTH times HEIGHT");
   expect_refused("a.pcd", header("ascii", "WIDTH", "WIDTH\n"), ":7: WIDTH has 0 values", "expected 1");
   expect_refused("a.pcd", header("ascii") + "1 2 3 4\n", ":12: the file ends after 1 of 2 points", "");
   expect_refused("a.pcd", header("ascii") + "1 2 3\n", ":12: the point has 3 values", "expected 4");
-  expect_refused("a.pcd", header("ascii") + "1 nan 3 4\n", ":12: y is \"nan\"", "finite");
+  expect_refused("a.pcd", header("ascii", "VIEWPOINT", "VIEWPOINT 0 0 1\n"), ":9: VIEWPOINT has 3 values", "tx ty tz qw qx qy qz");
+  const std::string lengths("\x02\0\0\0\x20\0\0\0", 8);
+  expect_refused("a.pcd", header("binary_compressed") + lengths + "a", ": the file is truncated: 1 of 2 bytes", "");
+  expect_refused("a.pcd", header("binary_compressed") + lengths + "\xE0\x01", ": the compressed data cannot be unpacked", "anew");
   expect_refused("a.pcd", header("binary") + "abc", ": the file is truncated: 3 bytes", "need 32");
 }
 

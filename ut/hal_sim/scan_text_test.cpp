@@ -50,21 +50,30 @@ TEST(ScanText, NumbersFillTheirField) {
 }
 
 TEST(ScanText, ScalarsReadInBothByteOrders) {
-  VERIFIES("LASSO-SIM-020~1");
+  VERIFIES("LASSO-SIM-020~2");
   test::Generator generator(6);
   for (int i = 0; i < 1000; ++i) {
     const double wide = generator.normal() * 1e3;
     const float narrow = static_cast<float>(wide);
     char bytes[8];
     std::memcpy(bytes, &wide, 8);  // the host's order
-    EXPECT_EQ(scalar_at(bytes, 8, std::endian::native == std::endian::big), wide);
+    EXPECT_EQ(scalar_at(bytes, {ScalarType::Kind::kReal, 8}, std::endian::native == std::endian::big), wide);
     std::reverse(bytes, bytes + 8);
-    EXPECT_EQ(scalar_at(bytes, 8, std::endian::native == std::endian::little), wide);
+    EXPECT_EQ(scalar_at(bytes, {ScalarType::Kind::kReal, 8}, std::endian::native == std::endian::little), wide);
     std::memcpy(bytes, &narrow, 4);
-    EXPECT_EQ(scalar_at(bytes, 4, std::endian::native == std::endian::big), static_cast<double>(narrow));
+    EXPECT_EQ(scalar_at(bytes, {ScalarType::Kind::kReal, 4}, std::endian::native == std::endian::big), static_cast<double>(narrow));
     std::reverse(bytes, bytes + 4);
-    EXPECT_EQ(scalar_at(bytes, 4, std::endian::native == std::endian::little), static_cast<double>(narrow));
+    EXPECT_EQ(scalar_at(bytes, {ScalarType::Kind::kReal, 4}, std::endian::native == std::endian::little), static_cast<double>(narrow));
   }
+}
+
+TEST(ScanText, WholeNumbersReadWithTheirSign) {
+  VERIFIES("LASSO-SIM-020~2");
+  const char bytes[] = "\xFE\xFF\xFF\xFF";
+  EXPECT_EQ(scalar_at(bytes, {ScalarType::Kind::kSigned, 1}, false), -2);
+  EXPECT_EQ(scalar_at(bytes, {ScalarType::Kind::kUnsigned, 1}, false), 254);
+  EXPECT_EQ(scalar_at(bytes, {ScalarType::Kind::kSigned, 4}, false), -2);
+  EXPECT_EQ(scalar_at(bytes, {ScalarType::Kind::kUnsigned, 2}, true), 0xFEFF);
 }
 
 }  // namespace

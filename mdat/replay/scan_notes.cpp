@@ -1,0 +1,122 @@
+#include "mdat/replay/scan_notes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mdat/common/text.hpp"
+
+namespace lasso::mdat {
+namespace {
+
+using sim::ScanFacts;
+
+struct Unit {
+  double unit_s;
+  const char* name;
+};
+constexpr Unit kUnits[] = {{1, "seconds"}, {1e-3, "milliseconds"}, {1e-6, "microseconds"}, {1e-9, "nanoseconds"}};
+
+// Of the scans whose unit is not named; 0 where none has a span.
+double median_span(const std::vector<ScanFacts>& facts) {
+  std::vector<double> spans;
+  for (const ScanFacts& scan : facts) {
+    if (scan.has_times && !(scan.unit_s > 0) && scan.last_time > scan.first_time) spans.push_back(scan.last_time - scan.first_time);
+  }
+  if (spans.empty()) return 0;
+  const auto middle = spans.begin() + static_cast<std::ptrdiff_t>(spans.size() / 2);
+  std::nth_element(spans.begin(), middle, spans.end());
+  return *middle;
+}
+
+double seconds(const ScanFacts& scan, double time, double unit_s) { return time * (scan.unit_s > 0 ? scan.unit_s : unit_s); }
+
+// "12 of 30 scans", or "all 30 scans".
+std::string share(std::size_t count, std::size_t all) {
+  if (all == 1) return "the scan";
+  return count == all ? format("all %zu scans", all) : format("%zu of %zu scans", count, all);
+}
+
+template <class Is>
+std::size_t count_if(const std::vector<ScanFacts>& facts, const Is& is) {
+  return static_cast<std::size_t>(std::count_if(facts.begin(), facts.end(), is));
+}
+
+void add_unmeasured(const std::vector<ScanFacts>& facts, Notes& notes) {
+  const std::size_t scans = count_if(facts, [](const ScanFacts& scan) { return scan.unmeasured > 0; });
+  if (scans == 0) return;
+  std::size_t unmeasured = 0, rows = 0;
+  for (const ScanFacts& scan : facts) {
+    unmeasured += scan.unmeasured;
+    rows += scan.unmeasured + scan.hits + scan.misses;
+  }
+  notes.push_back(format("note: %zu of %zu rows have no measurement (NaN or zeros; in %s): they are left out, and are no misses",
+                         unmeasured, rows, share(scans, facts.size()).c_str()));
+}
+
+void add_thinned(const std::vector<ScanFacts>& facts, Notes& notes) {
+  const auto is_thinned = [](const ScanFacts& scan) { return scan.kept_hits < scan.hits || scan.kept_misses < scan.misses; };
+  const std::size_t scans = count_if(facts, is_thinned);
+  if (scans == 0) return;
+  const ScanFacts& largest = *std::max_element(
+      facts.begin(), facts.end(), [](const ScanFacts& a, const ScanFacts& b) { return a.hits + a.misses < b.hits + b.misses; });
+  std::string text = format("note: %s thinned to %zu rays: of the largest %zu of %zu returns are taken, spread over the target",
+                            share(scans, facts.size()).c_str(), kMaxRays, largest.kept_hits, largest.hits);
+  if (largest.misses > 0) text += format(", and %zu of %zu misses, those around them", largest.kept_misses, largest.misses);
+  notes.push_back(text);
+}
+
+}  // namespace
+
+double time_unit_s(const std::vector<ScanFacts>& facts, double duration_s) {
+  const double span = median_span(facts);
+  if (!(span > 0)) return 1;
+  const auto off = [&](const Unit& unit) { return std::abs(std::log(span * unit.unit_s / duration_s)); };
+  return std::min_element(std::begin(kUnits), std::end(kUnits), [&](const Unit& a, const Unit& b) { return off(a) < off(b); })->unit_s;
+}
+
+Notes time_unit_note(const std::vector<ScanFacts>& facts, double duration_s, double unit_s) {
+  const auto unit = std::find_if(std::begin(kUnits), std::end(kUnits), [&](const Unit& known) { return known.unit_s == unit_s; });
+  if (unit == std::end(kUnits) || unit == std::begin(kUnits)) return {};
+  return {format(
+      "note: the scans' times are taken as %s: a scan spans %g of them, and the mission's takes %g s (scan.duration_s); --time-unit says "
+      "otherwise",
+      unit->name, median_span(facts), duration_s)};
+}
+
+Notes row_notes(const std::vector<ScanFacts>& facts) {
+  Notes notes;
+  add_unmeasured(facts, notes);
+  add_thinned(facts, notes);
+  const std::size_t turned = count_if(facts, [](const ScanFacts& scan) { return scan.viewpoint; });
+  if (turned > 0) {
+    notes.push_back(
+        format("note: VIEWPOINT of %s: points are taken to the axes of the sensor that stood there", share(turned, facts.size()).c_str()));
+  }
+  return notes;
+}
+
+Notes order_notes(const sim::RecordedScans& scans, const std::vector<ScanFacts>& facts, double unit_s) {
+  std::size_t timed = 0, back = 0, first = 0;
+  for (std::size_t i = 1; i < facts.size(); ++i) {
+    if (!facts[i].has_times || !facts[i - 1].has_times) continue;
+    ++timed;
+    if (!(seconds(facts[i], facts[i].first_time, unit_s) < seconds(facts[i - 1], facts[i - 1].last_time, unit_s))) continue;
+    if (back++ == 0) first = i;
+  }
+  if (back == 0) return {};
+  const double begin_s = seconds(facts[first], facts[first].first_time, unit_s);
+  const double before_s = seconds(facts[first - 1], facts[first - 1].last_time, unit_s);
+  if (back == timed && timed > 1) {
+    return {
+        format("warning: the times of each scan begin before the scan before it ends (%s: at %.6f s, after %.6f s): as if each began anew; "
+               "in closed loop they follow each other by the mission's period",
+               scans.stem(first).c_str(), begin_s, before_s)};
+  }
+  return {
+      format("warning: times step back at %zu of %zu scans, first at %s, which begins at %.6f s, after %s, which ends at %.6f s: is the "
+             "order of "
+             "the files' names that of time? They are registered in that order",
+             back, facts.size(), scans.stem(first).c_str(), begin_s, scans.stem(first - 1).c_str(), before_s)};
+}
+
+}  // namespace lasso::mdat

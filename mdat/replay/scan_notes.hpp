@@ -1,0 +1,26 @@
+// What a user has to know of the files of scans besides their rays: what was left out or turned, units and order of times.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "hal_sim/scan_file.hpp"
+
+namespace lasso::mdat {
+
+// Lines without their ends, each "note: ..." or "warning: ...".
+using Notes = std::vector<std::string>;
+
+// Seconds in a unit of the scans' times, of those whose header names none: 1, 1e-3, 1e-6 or 1e-9, whichever brings the median span of a
+// scan closest to `duration_s`, by their ratio. 1 where no scan has a span.
+double time_unit_s(const std::vector<sim::ScanFacts>& facts, double duration_s);
+// The note on it; none where it is seconds.
+Notes time_unit_note(const std::vector<sim::ScanFacts>& facts, double duration_s, double unit_s);
+
+// Rows without a measurement, clouds that were thinned, VIEWPOINT.
+Notes row_notes(const std::vector<sim::ScanFacts>& facts);
+
+// Times that step back from a scan to the next one.
+Notes order_notes(const sim::RecordedScans& scans, const std::vector<sim::ScanFacts>& facts, double unit_s);
+
+}  // namespace lasso::mdat
