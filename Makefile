@@ -490,6 +490,7 @@ lint: ## gate: clang-format, clang-tidy and cppcheck find nothing: LINT=all read
 	$(call configure,$(LINT),-DCMAKE_CXX_COMPILER=clang++-19 $(own_includes))
 	$(call configure,$(LINT)-board,$(BARE_BOARD) -DLASSO_LINT=ON $(own_includes))
 	$(call configure,$(LINT)-second,$(SECOND_BOARD) -DLASSO_LINT=ON $(own_includes))
+	@for folder in $(LINT) $(LINT)-board $(LINT)-second; do ninja -C $$folder build.ninja >/dev/null || exit 1; done # new files
 	@cfg/quality/lint $(LINT) . $(LINT)-board $(LINT)-second
 
 # $(installed) builds what is installed.
