@@ -89,7 +89,7 @@ run: ## first: track the tenth-scale Hubble in simulation, and write the report 
 	$(call packages,build)
 	$(call configure,$(BUILD),)
 	$(call compile,$(BUILD),mdat)
-	@$(BUILD)/mdat/mdat run "$(MISSION)" $(if $(SCENARIO),--scenario $(SCENARIO)) $(if $(SEED),--seed $(SEED)) $(if $(SENSOR),--sensor $(SENSOR)) $(if $(FRAMES),--frames $(FRAMES)) --out "$(OUT)"
+	@$(BUILD)/mdat/mdat run "$(MISSION)" $(if $(SCENARIO),--scenario $(SCENARIO)) $(if $(SEED),--seed $(SEED)) $(if $(SENSOR),--sensor $(SENSOR)) $(if $(FRAMES),--frames $(FRAMES)) --out "$(OUT)" --force
 	@cfg/quality/measured.py run "$(OUT)/results.json"
 	@echo "open the report: xdg-open '$(OUT)/report.html'"
 
@@ -105,7 +105,7 @@ accuracy: ## measure: errors of eight simulated scenarios against the limits of 
 	$(call packages,build)
 	$(call configure,$(BUILD),)
 	$(call compile,$(BUILD),mdat)
-	@for scenario in paper pointing spin rates tumble half_turn outliers dropouts; do $(BUILD)/mdat/mdat run cfg/missions/hubble_tenth.toml --scenario $$scenario \
+	@for scenario in paper pointing spin rates tumble half_turn outliers dropouts; do $(BUILD)/mdat/mdat run cfg/missions/hubble_tenth.toml --scenario $$scenario --force \
 	  --out $(LASSO_OUT)/accuracy/$$scenario || exit 1; done
 	@cfg/quality/accuracy $(LASSO_OUT)/accuracy
 
@@ -246,8 +246,8 @@ fixed-point: ## board: the fixed-point build: no floating point per point, its e
 	$(call compile,$(BOARD)-fixed,flight_603e)
 	@for folder in $(PPC)-fixed $(BOARD)-fixed; do ninja -C $$folder -t cleandead >/dev/null; done
 	@[ $(PAPER)/results.json -nt $(BUILD)/mdat/mdat ] && [ -z "$$(find cfg/missions cfg/models -newer $(PAPER)/results.json)" ] || \
-	  $(BUILD)/mdat/mdat run cfg/missions/hubble_tenth.toml --scenario paper --out $(PAPER)
-	@$(CLANG)/mdat/mdat run cfg/missions/hubble_tenth.toml --scenario paper --out $(LASSO_OUT)/fixed-point/paper
+	  $(BUILD)/mdat/mdat run cfg/missions/hubble_tenth.toml --scenario paper --force --out $(PAPER)
+	@$(CLANG)/mdat/mdat run cfg/missions/hubble_tenth.toml --scenario paper --force --out $(LASSO_OUT)/fixed-point/paper
 	@LASSO_OUT=$(LASSO_OUT)/fixed-point ft/golden/run $(CLANG) $(PPC)-fixed
 	@cfg/quality/fixed-point cfg/quality/fixed-point.toml $(PAPER)/results.json $(LASSO_OUT)/fixed-point/paper/results.json $(PPC)-fixed $(BOARD)-fixed
 

@@ -10,12 +10,16 @@ void add_run_command(CLI::App& app);
 void add_lcs_sim_command(CLI::App& app);
 void add_calibrate_command(CLI::App& app);
 void add_replay_command(CLI::App& app);
+void add_compare_command(CLI::App& app);
 void add_modes_command(CLI::App& app);
 void add_faults_command(CLI::App& app);
 void add_decode_command(CLI::App& app);
 void add_command_command(CLI::App& app);
 void add_upload_command(CLI::App& app);
 void add_dictionary_command(CLI::App& app);
+
+// --set KEY=VALUE of a subcommand that reads a mission; may be given again and again.
+void add_settings(CLI::App& command, std::vector<std::string>& settings);
 
 // --no-cache of a subcommand that compiles a mission; `cached` is true unless it is given.
 void add_no_cache(CLI::App& command, bool& cached);

@@ -37,6 +37,7 @@ int run(int argc, char** argv) {
   add_lcs_sim_command(app);
   add_calibrate_command(app);
   add_replay_command(app);
+  add_compare_command(app);
   add_modes_command(app);
   add_faults_command(app);
   add_decode_command(app);

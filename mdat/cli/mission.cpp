@@ -14,6 +14,7 @@ namespace {
 
 struct MissionOptions {
   std::string file, scenario, out, model;
+  std::vector<std::string> settings;
   double scale = 1;
   bool replace = false, cached = true;
 };
@@ -117,11 +118,20 @@ std::string report_text(const CompiledMission& mission, const std::string& out, 
   return parts_text(mission) + text;
 }
 
+// An image is made from its mission again at any time: it is replaced, and that is told. Another file is kept. Throws InputError.
+std::string replaced_text(const std::filesystem::path& out, const MissionOptions& options) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(out, ignored)) return "";
+  if (!options.replace && !is_image(out)) refuse_to_replace({out}, "it is no flight image; --force replaces it");
+  return "the file that was there is replaced\n";
+}
+
 void compile(const MissionOptions& options) {
   const std::filesystem::path out =
       options.out.empty() ? std::filesystem::path(options.file).filename().replace_extension(".3dli") : std::filesystem::path(options.out);
   check_writable(out);
-  MissionInput input = load_mission_input(options.file);
+  const std::string replaced = replaced_text(out, options);
+  MissionInput input = load_mission_input(options.file, options.settings, options.scenario);
   const MissionParameters parameters = parameters_for(input.source, options.scenario);
   const ModelCache cache = ModelCache::of_user_if(options.cached);
   const CompiledMission mission = compile_mission(std::move(input), cache);
@@ -129,7 +139,7 @@ void compile(const MissionOptions& options) {
   const std::vector<std::uint8_t> bytes = image_bytes(mission, parameters);
   const LoadedImage loads_in_flight(out.string(), bytes);
   write_file(out, std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
-  print_text(report_text(mission, out.string(), bytes.size()) + cache_text(mission, cache));
+  print_text(report_text(mission, out.string(), bytes.size()) + replaced + cache_text(mission, cache));
 }
 
 void write_new(const MissionOptions& options) {
@@ -163,6 +173,8 @@ void add_mission_commands(CLI::App& app) {
   compile_command->add_option("MISSION", options->file, "mission file")->required();
   compile_command->add_option("-o,--out", options->out, "flight image to write (the mission's name with .3dli, here)");
   compile_command->add_option("--scenario", options->scenario, "with this scenario's overrides of parameters");
+  add_settings(*compile_command, options->settings);
+  compile_command->add_flag("--force", options->replace, "replace a file that is there and is no flight image");
   add_no_cache(*compile_command, options->cached);
 
   CLI::App* info_command =

@@ -17,12 +17,13 @@ namespace {
 struct ReplayArguments {
   std::string mission, scenario, out, time_unit;
   ReplayOptions replay;
-  bool cached = true;
+  std::vector<std::string> settings;
+  bool cached = true, force = false;
 };
 
 LoadedImage load(const ReplayArguments& options) {
   if (is_image_file(options.mission)) return LoadedImage(options.mission, read_bytes(options.mission));
-  MissionInput input = load_mission_input(options.mission);
+  MissionInput input = load_mission_input(options.mission, options.settings, options.scenario);
   const MissionParameters parameters = parameters_for(input.source, options.scenario);
   const CompiledMission mission = compile_mission(std::move(input), ModelCache::of_user_if(options.cached));
   return LoadedImage(options.mission, image_bytes(mission, parameters));
@@ -50,6 +51,11 @@ void tell(const Notes& notes) {
   for (const std::string& note : notes) std::fprintf(stderr, "%s\n", note.c_str());
 }
 
+// What an earlier replay has written.
+void check_earlier(const std::filesystem::path& out, const ReplayArguments& options) {
+  if (!options.force) refuse_to_replace({out}, "--force replaces it");
+}
+
 void search(const ReplayArguments& options) {
   if (options.replay.closed_loop || options.replay.wide) {
     throw InputError("--initial search: each scan is searched on its own; leave --closed-loop and --wide out");
@@ -57,6 +63,8 @@ void search(const ReplayArguments& options) {
   const std::filesystem::path candidates = candidates_file(options.out);
   check_apart(options.out, options);
   check_apart(candidates, options);
+  check_earlier(options.out, options);
+  check_earlier(candidates, options);
   check_writable(options.out);
   check_writable(candidates);
   ReplayInput input = read_replay_input(options.replay);
@@ -78,8 +86,12 @@ double unit_of(const std::string& name) {
 
 void run(ReplayArguments options) {
   options.replay.unit_s = unit_of(options.time_unit);
+  if (!options.settings.empty() && is_image_file(options.mission))
+    throw InputError("--set " + options.settings.front() + ": " + options.mission +
+                     " is a flight image, whose values are fixed; give its mission");
   if (options.replay.initial == "search") return search(options);
   check_apart(options.out, options);
+  check_earlier(options.out, options);
   check_writable(options.out);
   ReplayInput input = read_replay_input(options.replay);
   const LoadedImage image = load(options);
@@ -108,6 +120,8 @@ void add_replay_command(CLI::App& app) {
   command->add_option("--time-unit", options->time_unit, "of the scans' times (default: by their span against scan.duration_s)")
       ->check(CLI::IsMember({"s", "ms", "us", "ns"}));
   command->add_option("--scenario", options->scenario, "with this scenario's overrides of parameters");
+  add_settings(*command, options->settings);
+  command->add_flag("--force", options->force, "replace the files of an earlier replay");
   add_no_cache(*command, options->cached);
   command->callback([options] { run(*options); });
 }

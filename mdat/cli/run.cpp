@@ -7,6 +7,7 @@
 #include "mdat/cli/commands.hpp"
 #include "mdat/common/errors.hpp"
 #include "mdat/common/output.hpp"
+#include "mdat/common/version.hpp"
 #include "mdat/link/signature.hpp"
 #include "mdat/missiondb/calibration_file.hpp"
 #include "mdat/missiondb/camera_faults.hpp"
@@ -22,13 +23,32 @@ namespace {
 struct RunArguments {
   std::string mission, sensor = "simulated", camera_faults, optics, calibration, out = "out/run", picture, record, record_sensor, link, key;
   SimulationOptions simulation;
-  bool report = true, cached = true;
+  std::vector<std::string> settings;
+  bool report = true, cached = true, force = false;
 };
+
+// All that a run writes into its folder.
+constexpr const char* kFiles[] = {"results.json", "telemetry.ccsds", "report.html"};
+
+MissionInput load_input(const RunArguments& options) {
+  return load_mission_input(options.mission, options.settings, options.simulation.scenario);
+}
+
+// An earlier run, or a file, that this one would replace. Throws InputError.
+void check_earlier(const RunArguments& options) {
+  if (options.force) return;
+  const std::string folder = options.out;
+  std::vector<std::filesystem::path> files;
+  for (const char* file : kFiles) files.push_back(std::filesystem::path(folder) / file);
+  refuse_to_replace(files, "--force replaces that run, --out DIR keeps it");
+  refuse_to_replace({options.picture, options.record_sensor}, "--force replaces it");
+}
 
 void write_results(const RunArguments& options, const SimulationOptions& simulation, const SimulationResult& result, OutputFolder& folder) {
   folder.write("results.json", results_json(result));
   folder.write("telemetry.ccsds", telemetry_bytes(result));
   folder.commit();
+  folder.remove("report.html");  // of an earlier run
   if (simulation.record) write_file(options.record_sensor, recording_text(*simulation.record));
 }
 
@@ -84,10 +104,11 @@ void warn_of_replay(const SimulationResult& result) {
 
 void run(const RunArguments& options) {
   OutputFolder folder(options.out);
+  check_earlier(options);
   if (!options.picture.empty()) check_writable(options.picture);
   if (!options.record_sensor.empty()) check_writable(options.record_sensor);
   if (options.report || !options.picture.empty()) warn_of_plotter();
-  MissionInput input = load_mission_input(options.mission);
+  MissionInput input = load_input(options);
   check_simulation(input.source, options.simulation, !options.link.empty());
   const std::unique_ptr<SignatureCheck> signatures =
       options.key.empty() ? nullptr : std::make_unique<SignatureCheck>(load_key(options.key));
@@ -98,7 +119,9 @@ void run(const RunArguments& options) {
   if (link) tell_address(*link);
   simulation.link = link.get();
   simulation.authenticator = signatures.get();
-  const SimulationResult result = simulate(mission, simulation);
+  SimulationResult result = simulate(mission, simulation);
+  result.sensor = options.sensor;
+  result.commit = kCommit;
   write_results(options, simulation, result, folder);
   if (simulation.replay) warn_of_replay(result);
   std::fputs(summary_text(result).c_str(), stdout);
@@ -109,7 +132,9 @@ void run(const RunArguments& options) {
 
 void record(const RunArguments& options) {
   OutputFolder writable(options.record);
-  MissionInput input = load_mission_input(options.mission);
+  if (!options.force && !std::filesystem::is_empty(options.record))
+    throw InputError(options.record + ": is not empty; --force records into it, and removes the scans that are there");
+  MissionInput input = load_input(options);
   check_simulation(input.source, options.simulation, false);
   write_recording(compile_mission(std::move(input), ModelCache::of_user_if(options.cached)), options.simulation, options.record);
   writable.commit();
@@ -210,6 +235,8 @@ void add_run_command(CLI::App& app) {
           "with --link: folder of the component's non-volatile store (made where it is missing); an image that was confirmed there "
           "is what the run starts with")
       ->needs("--link");
+  add_settings(*command, options->settings);
+  command->add_flag("--force", options->force, "replace what an earlier run left in the folder, and files that are there");
   add_no_cache(*command, options->cached);
   command->add_flag("!--no-report", options->report, "leave report.html out");
   command->add_option("--picture", options->picture, "also write the scan on the target as a PNG picture");

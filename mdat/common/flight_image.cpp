@@ -106,9 +106,10 @@ ModelTables with_parts_and_sensors(const CompiledMission& mission, const Mission
 
 }  // namespace
 
-MissionInput load_mission_input(const std::filesystem::path& file) {
+MissionInput load_mission_input(const std::filesystem::path& file, const std::vector<std::string>& settings, const std::string& scenario) {
   MissionInput input;
-  input.source = load_mission(file);
+  input.source = load_mission(file, settings);
+  check_settings(input.source, scenario);
   input.mesh = load_target(input.source, &input.source.warnings);
   return input;
 }
@@ -160,8 +161,9 @@ LoadedImage::LoadedImage(const std::string& name, const std::vector<std::uint8_t
   if (failure.status != Status::kOk) throw InputError(name + ": not a valid flight image: " + to_string(failure));
 }
 
-bool is_image_file(const std::filesystem::path& file) {
-  if (file.extension() == ".3dli") return true;
+bool is_image_file(const std::filesystem::path& file) { return file.extension() == ".3dli" || is_image(file); }
+
+bool is_image(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   char magic[4] = {};
   in.read(magic, 4);

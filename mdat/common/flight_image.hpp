@@ -25,8 +25,9 @@ struct MissionInput {
   Mesh mesh;
 };
 
-// Throws MissionError.
-MissionInput load_mission_input(const std::filesystem::path& file);
+// `settings` and `scenario` as those of load_mission and check_settings. Throws MissionError.
+MissionInput load_mission_input(const std::filesystem::path& file, const std::vector<std::string>& settings = {},
+                                const std::string& scenario = "");
 
 // A mission whose target is compiled; images for different parameters follow from it in no time.
 struct CompiledMission : MissionInput {
@@ -64,6 +65,8 @@ std::string to_string(const LoadFailure& failure);
 
 // Is this file meant to be a flight image (by its first bytes, or its name .3dli) and not a mission source?
 bool is_image_file(const std::filesystem::path& file);
+// By its first bytes alone.
+bool is_image(const std::filesystem::path& file);
 std::vector<std::uint8_t> read_bytes(const std::filesystem::path& file);
 
 }  // namespace lasso::mdat

@@ -1,7 +1,10 @@
 #include "mdat/common/output.hpp"
 
+#include <sys/stat.h>
+
 #include <cerrno>
 #include <cstring>
+#include <ctime>
 #include <fstream>
 #include <iterator>
 #include <system_error>
@@ -88,6 +91,11 @@ void OutputFolder::commit() {
   made_.clear();
 }
 
+void OutputFolder::remove(const std::string& name) {
+  std::error_code ignored;
+  fs::remove(folder_ / name, ignored);
+}
+
 void write_file(const fs::path& file, std::string_view content) {
   write_partial(file, content);
   rename_partial(file);
@@ -99,6 +107,17 @@ void check_writable(const fs::path& file) {
   if (fs::exists(file, ignored) && !fs::is_regular_file(file, ignored)) refuse(file, "it is there and is not a file");
   write_partial(file, "");
   fs::remove(partial(file), ignored);
+}
+
+void refuse_to_replace(const std::vector<fs::path>& files, const std::string& remedy) {
+  for (const fs::path& file : files) {
+    struct stat about {};
+    if (stat(file.c_str(), &about) != 0 || !S_ISREG(about.st_mode)) continue;
+    char since[32] = "";
+    std::tm local{};
+    (void)std::strftime(since, sizeof since, "%Y-%m-%d %H:%M", localtime_r(&about.st_mtime, &local));
+    throw InputError(file.string() + ": is there since " + since + "; " + remedy);
+  }
 }
 
 std::string file_content(const fs::path& file) {

@@ -21,6 +21,8 @@ class OutputFolder {
   // Throws InputError when the file cannot be written.
   void write(const std::string& name, std::string_view content);
   void commit();
+  // A file of an earlier run, which the new one does not have.
+  void remove(const std::string& name);
   const std::filesystem::path& path() const { return folder_; }
 
  private:
@@ -36,6 +38,9 @@ void write_file(const std::filesystem::path& file, std::string_view content);
 
 // Tries to write beside `file`. Throws InputError; changes nothing.
 void check_writable(const std::filesystem::path& file);
+
+// One of these files is there: throws InputError that says since when, and ends with the remedy.
+void refuse_to_replace(const std::vector<std::filesystem::path>& files, const std::string& remedy);
 
 // A file's bytes. Throws InputError.
 std::string file_content(const std::filesystem::path& file);

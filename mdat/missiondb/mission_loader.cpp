@@ -8,6 +8,7 @@
 #include "mdat/missiondb/part_reader.hpp"
 #include "mdat/missiondb/sections.hpp"
 #include "mdat/missiondb/sensor_reader.hpp"
+#include "mdat/missiondb/settings.hpp"
 #include "mdat/missiondb/sha256.hpp"
 #include "mdat/missiondb/toml_reader.hpp"
 #include "mdat/modelc/cut.hpp"
@@ -36,7 +37,11 @@ void override_parameters(MissionParameters& parameters, const std::map<std::stri
 // Builds a MissionSource from a parsed file; the stages follow each other, problems gather.
 class Loader {
  public:
-  explicit Loader(const std::filesystem::path& file) : root_(parse_toml(file)), problems_(file) { source_.file = file; }
+  Loader(const std::filesystem::path& file, const std::vector<std::string>& settings) : root_(parse_toml(file)), problems_(file) {
+    source_.file = file;
+    source_.settings = settings;
+    apply_settings(settings, root_, problems_);
+  }
 
   MissionSource load() {
     read_values();
@@ -278,7 +283,14 @@ class Loader {
     }
     return ranges;
   }
+  // What was set stands before what the file says.
   Origin first_written(const std::vector<std::string>& prefixes, const std::vector<std::string>& keys) const {
+    for (const std::string& prefix : prefixes) {
+      for (const std::string& key : keys) {
+        const auto origin = source_.origins.find(prefix + key);
+        if (origin != source_.origins.end() && origin->second.set) return origin->second;
+      }
+    }
     for (const std::string& prefix : prefixes) {
       for (const std::string& key : keys) {
         const auto origin = source_.origins.find(prefix + key);
@@ -297,7 +309,23 @@ class Loader {
 
 }  // namespace
 
-MissionSource load_mission(const std::filesystem::path& file) { return Loader(file).load(); }
+MissionSource load_mission(const std::filesystem::path& file, const std::vector<std::string>& settings) {
+  return Loader(file, settings).load();
+}
+
+void check_settings(const MissionSource& source, const std::string& scenario) {
+  const std::string own = "scenario." + scenario + ".";
+  const auto refuse = [](const std::string& key, const std::string& why) {
+    throw MissionError({kSettingPlace, 0, 0, key, "", "changes nothing: " + why});
+  };
+  for (const auto& [key, origin] : source.origins) {
+    if (!origin.set) continue;
+    if (key.rfind("scenario.", 0) == 0 && key.rfind(own, 0) != 0)
+      refuse(key, scenario.empty() ? "no scenario is chosen; add --scenario" : "the scenario is " + scenario);
+    const auto over = source.origins.find(own + "override." + key);
+    if (over != source.origins.end() && !over->second.set) refuse(key, "the scenario overrides it; set " + own + "override." + key);
+  }
+}
 
 Mesh load_target(const MissionSource& source, std::vector<std::string>* warnings) {
   const TargetSource& target = source.target;

@@ -16,11 +16,13 @@
 
 namespace lasso::mdat {
 
-// Where a value came from. Line 0: nobody wrote it, `preset` holds.
+// Where a value came from: a place in the file, or the command line. Neither: nobody wrote it, `preset` holds.
 struct Origin {
   int line = 0, column = 0;
-  bool preset() const { return line == 0; }
+  bool set = false;  // by --set
+  bool preset() const { return line == 0 && !set; }
 };
+constexpr char kSettingPlace[] = "--set";
 
 struct TargetSource {
   std::filesystem::path file;                // resolved; the model's TOML, or the mesh
@@ -115,10 +117,16 @@ struct MissionSource {
   std::map<std::string, Scenario> scenarios;
   std::map<std::string, Origin> origins;  // by dotted key, all rows of parameter_rows() and of the ground sections
   std::vector<std::string> warnings;
+  std::vector<std::string> settings;  // KEY=VALUE of the command line, which hold in place of the file's
 };
 
-// Reads and checks everything except the geometry of the target (which load_target does). Throws MissionError with all problems.
-MissionSource load_mission(const std::filesystem::path& file);
+// Reads and checks everything except the geometry of the target (which load_target does). Each of `settings`, KEY=VALUE, is checked as if
+// the file said it, and holds in its place. Throws MissionError with all problems.
+MissionSource load_mission(const std::filesystem::path& file, const std::vector<std::string>& settings = {});
+
+// A setting that changes nothing in this scenario (empty: none): it is another scenario's, or this one overrides it. Throws MissionError
+// that names the key to set.
+void check_settings(const MissionSource& source, const std::string& scenario);
 
 // The target's surface in metres, in the target frame. Throws MissionError (missing, corrupt, empty, not finite, of absurd size).
 // `warnings`, where given, get what the file holds and is no surface.

@@ -26,13 +26,15 @@ Box box_of(const Mesh& mesh) {
 std::string place_text(const MissionSource& source, const std::string& key) {
   const auto origin = source.origins.find(key);
   if (origin == source.origins.end() || origin->second.preset()) return "preset";
+  if (origin->second.set) return kSettingPlace;
   return source.file.filename().string() + ":" + std::to_string(origin->second.line);
 }
 
-void write_line(std::ostream& out, const std::string& key, const std::string& value, const std::string& unit, const std::string& place,
+using ValueLines = std::vector<EffectiveValue>;
+
+void write_line(ValueLines& out, const std::string& key, const std::string& value, const std::string& unit, const std::string& place,
                 const std::string& meaning) {
-  out << std::left << std::setw(40) << key << ' ' << std::setw(24) << value << ' ' << std::setw(7) << (unit == "1" ? "" : unit) << ' '
-      << std::setw(26) << place << ' ' << meaning << '\n';
+  out.push_back({key, value, unit == "1" ? "" : unit, place, meaning});
 }
 
 // SI to the row's unit, without the last digits that the conversion makes up.
@@ -46,19 +48,19 @@ std::string value_text(const ValueRow& row, std::vector<double> si) {
   return toml_text(row, si);
 }
 
-void write_calibration(std::ostream& out, const MissionSource& source, const std::string& key, const std::vector<std::string>& files) {
+void write_calibration(ValueLines& out, const MissionSource& source, const std::string& key, const std::vector<std::string>& files) {
   std::string text;
   for (const std::string& file : files) text += (text.empty() ? "" : ", ") + file;
   if (!files.empty()) write_line(out, key, text, "", place_text(source, key), find_row(mission_rows(), "sensor.calibration")->meaning);
 }
 
-void write_sensor(std::ostream& out, const MissionSource& source) {
+void write_sensor(ValueLines& out, const MissionSource& source) {
   const ValueRow& row = *find_row(mission_rows(), "sensor.kind");
   write_line(out, row.key, value_text(row, {static_cast<double>(source.sensor)}), row.unit, place_text(source, row.key), row.meaning);
   write_calibration(out, source, "sensor.calibration", source.calibration_files);
 }
 
-void write_further_sensor(std::ostream& out, const MissionSource& source, const FurtherSensor& sensor) {
+void write_further_sensor(ValueLines& out, const MissionSource& source, const FurtherSensor& sensor) {
   const std::string prefix = "further_sensor." + sensor.name + ".";
   const ValueRow& kind = further_sensor_rows().front();
   write_line(out, prefix + kind.key, value_text(kind, {static_cast<double>(sensor.kind)}), kind.unit, place_text(source, prefix + kind.key),
@@ -71,7 +73,7 @@ void write_further_sensor(std::ostream& out, const MissionSource& source, const 
   write_calibration(out, source, prefix + "calibration", sensor.calibration_files);
 }
 
-void write_parameters(std::ostream& out, const MissionSource& source, const std::string& scenario) {
+void write_parameters(ValueLines& out, const MissionSource& source, const std::string& scenario) {
   const MissionParameters parameters = parameters_for(source, scenario);
   const std::string prefix = "scenario." + scenario + ".override.";
   for (const ParameterRow& row : parameter_rows()) {
@@ -82,7 +84,7 @@ void write_parameters(std::ostream& out, const MissionSource& source, const std:
   }
 }
 
-void write_part(std::ostream& out, const MissionSource& source, const PartSource& part) {
+void write_part(ValueLines& out, const MissionSource& source, const PartSource& part) {
   for (const PartField& field : part_fields()) {
     const std::string key = "part." + part.name + "." + field.row.key;
     const bool text = field.list == nullptr && field.number == nullptr;
@@ -90,10 +92,10 @@ void write_part(std::ostream& out, const MissionSource& source, const PartSource
     const std::vector<double> values = field.list != nullptr ? part.*field.list : std::vector<double>{part.*field.number};
     write_line(out, key, value_text(field.row, values), field.row.unit, place_text(source, key), field.row.meaning);
   }
-  if (!part.file.empty()) out << "part." << part.name << ": model of " << part.file.string() << '\n';
+  if (!part.file.empty()) write_line(out, "part." + part.name + ".model", part.file.string(), "", "", "its model");
 }
 
-void write_scenario(std::ostream& out, const MissionSource& source, const std::string& name) {
+void write_scenario(ValueLines& out, const MissionSource& source, const std::string& name) {
   const Scenario& scenario = scenario_of(source, name);
   for (const ScenarioField& field : scenario_fields()) {
     const std::string key = "scenario." + name + "." + field.row.key;
@@ -106,7 +108,7 @@ void write_scenario(std::ostream& out, const MissionSource& source, const std::s
   }
 }
 
-void write_target(std::ostream& out, const MissionSource& source) {
+void write_target(ValueLines& out, const MissionSource& source) {
   const TargetSource& target = source.target;
   const double degrees = find_row(mission_rows(), "target.crease_angle_deg")->to_si;
   write_line(out, target.file_key, target.file.filename().string(), "", place_text(source, target.file_key), "sha256 " + target.sha256);
@@ -121,6 +123,18 @@ void write_target(std::ostream& out, const MissionSource& source) {
     const std::string key = "target.parameters." + name;
     write_line(out, key, number_text(value), "", place_text(source, key), "parameter of the model");
   }
+}
+
+// What holds where nobody writes the key; empty where it has to be written, or holds because of another one.
+std::string preset_text(const MissionSource& source, const std::string& key, const std::string& scenario) {
+  const std::string prefix = "scenario." + scenario + ".";
+  const bool of_scenario = key.rfind(prefix, 0) == 0;
+  const std::string name = of_scenario ? key.substr(prefix.size()) : key;
+  const ValueRow* row = find_row(of_scenario ? scenario_rows() : flight_rows(), name);
+  if (row == nullptr && !of_scenario) row = find_row(mission_rows(), name);
+  if (row == nullptr || row->preset.empty()) return "";
+  if (row->kind == ValueKind::kReals) return toml_text(*row, row->preset);
+  return toml_text(*row, {preset_of(source.sensor, name, row->preset[0])});
 }
 
 bool reaches(const SensorParameters& sensor, double middle_m, double radius_m) {
@@ -162,18 +176,39 @@ std::string check_text(const MissionSource& source) {
   return out.str();
 }
 
-std::string info_text(const MissionSource& source, const std::string& scenario) {
-  std::ostringstream out;
-  out << "mission " << source.id << " \"" << source.name << "\" version " << source.version << "\n\n";
+std::vector<EffectiveValue> effective_values(const MissionSource& source, const std::string& scenario) {
+  ValueLines out;
   write_target(out, source);
-  out << '\n';
+  out.emplace_back();
   write_sensor(out, source);
   write_parameters(out, source, scenario);
-  out << '\n';
+  out.emplace_back();
   for (const FurtherSensor& sensor : source.further_sensors) write_further_sensor(out, source, sensor);
   for (const PartSource& part : source.parts) write_part(out, source, part);
   for (const auto& entry : source.scenarios) {
     if (scenario.empty() || entry.first == scenario) write_scenario(out, source, entry.first);
+  }
+  return out;
+}
+
+std::vector<Deviation> deviations(const MissionSource& source, const std::string& scenario) {
+  std::vector<Deviation> result;
+  for (const EffectiveValue& value : effective_values(source, scenario)) {
+    const bool written = !value.key.empty() && value.place != "preset" && value.place.rfind("as ", 0) != 0;
+    const std::string preset = written ? preset_text(source, value.key, scenario) : "";
+    if (written && value.value != preset) result.push_back({value, preset});
+  }
+  return result;
+}
+
+std::string info_text(const MissionSource& source, const std::string& scenario) {
+  std::ostringstream out;
+  out << "mission " << source.id << " \"" << source.name << "\" version " << source.version << "\n\n";
+  for (const EffectiveValue& value : effective_values(source, scenario)) {
+    if (!value.key.empty())
+      out << std::left << std::setw(40) << value.key << ' ' << std::setw(24) << value.value << ' ' << std::setw(7) << value.unit << ' '
+          << std::setw(26) << value.place << ' ' << value.meaning;
+    out << '\n';
   }
   return out.str();
 }

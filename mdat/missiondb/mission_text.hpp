@@ -13,4 +13,18 @@ std::string check_text(const MissionSource& source);
 // Every effective value with its unit, its meaning and where it came from (file:line or preset); scenario "" shows the mission's own.
 std::string info_text(const MissionSource& source, const std::string& scenario = "");
 
+// A value that holds, in the unit that its key names, and where it came from.
+struct EffectiveValue {
+  std::string key, value, unit, place, meaning;  // no key: an empty line between two sections
+};
+// Of the target, the sensors, the parameters as they hold in the scenario (empty: the mission's own), the parts and the scenario (all).
+std::vector<EffectiveValue> effective_values(const MissionSource& source, const std::string& scenario = "");
+
+// The values that are not their presets, or have none.
+struct Deviation {
+  EffectiveValue value;
+  std::string preset;  // empty: there is none
+};
+std::vector<Deviation> deviations(const MissionSource& source, const std::string& scenario);
+
 }  // namespace lasso::mdat

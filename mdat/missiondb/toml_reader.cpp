@@ -190,10 +190,13 @@ std::string other_kind_of(const std::filesystem::path& file) {
 
 }  // namespace
 
-Origin origin_of(const toml::source_region& region) { return {static_cast<int>(region.begin.line), static_cast<int>(region.begin.column)}; }
+Origin origin_of(const toml::source_region& region) {
+  if (region.path && *region.path == kSettingPlace) return {0, 0, true};
+  return {static_cast<int>(region.begin.line), static_cast<int>(region.begin.column)};
+}
 
 void ProblemList::add(Origin origin, const std::string& key, const std::string& value, const std::string& expected) {
-  problems_.push_back({file_, origin.line, origin.column, key, value, expected});
+  problems_.push_back({origin.set ? kSettingPlace : file_, origin.line, origin.column, key, value, expected});
 }
 
 void ProblemList::add(const toml::node& node, const std::string& key, const std::string& expected) {

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <fstream>
 #include <iterator>
+#include <regex>
 #include <stdexcept>
 #include <vector>
 
@@ -44,8 +45,19 @@ void write_scan(const std::filesystem::path& folder, const KeptScan& scan) {
   sim::write_scan_csv(folder / (scan_name(scan.frame) + ".csv"), *image);
 }
 
+// Of an earlier recording: replay would read them with the new ones.
+void remove_scans(const std::filesystem::path& folder) {
+  const std::regex scan("f[0-9]{5,}\\.csv");
+  std::vector<std::filesystem::path> earlier;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (std::regex_match(entry.path().filename().string(), scan)) earlier.push_back(entry.path());
+  }
+  for (const std::filesystem::path& file : earlier) std::filesystem::remove(file);
+}
+
 void write_range(const std::filesystem::path& folder, const CaseResult& run) {
   OutputFolder scans(folder / "scans");
+  remove_scans(scans.path());
   std::string truth_rows = kHeader, start_rows = kHeader;
   for (const KeptScan& scan : run.scans) {
     write_scan(scans.path(), scan);

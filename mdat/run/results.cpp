@@ -57,6 +57,7 @@ Json found_json(const CaseResult& run) { return run.found_frame ? Json(*run.foun
 
 Json variant_json(const VariantResult& variant, const Scenario& scenario) {
   Json json = statistics_json(variant.all, variant.variant.noise, scenario.scenario_kind());
+  json["image_crc"] = format("%08X", variant.image_crc);
   if (scenario.scenario_kind() == ScenarioKind::kPaper) {
     const ErrorStatistics& edge_on = variant.edge_on.registration;
     json["edge_on"] = {{"frames", variant.edge_on.frames},
@@ -168,6 +169,15 @@ Json timeline_json(const SimulationResult& result, const Timeline& timeline) {
                                       {"from", result.sensors.at(change.from)},
                                       {"to", result.sensors.at(change.to)},
                                       {"reason", to_string(change.reason)}});
+  }
+  return json;
+}
+
+// What TOML writes of numbers, lists and texts is JSON, too; names of files have no quotes.
+Json settings_json(const std::vector<EffectiveValue>& values) {
+  Json json = Json::object();
+  for (const EffectiveValue& value : values) {
+    if (!value.key.empty()) json[value.key] = Json::accept(value.value) ? Json::parse(value.value) : Json(value.value);
   }
   return json;
 }
@@ -301,7 +311,9 @@ std::vector<std::string> warnings_of(const TableResult& table) {
 }
 
 std::string results_json(const SimulationResult& result) {
-  Json json = {{"mission", result.mission}, {"scenario", result.scenario}, {"seed", result.seed}, {"version", kVersion}};
+  Json json = {{"mission", result.mission}, {"scenario", result.scenario}, {"seed", result.seed},     {"frames", result.frames},
+               {"sensor", result.sensor},   {"version", kVersion},         {"commit", result.commit}, {"set", result.settings}};
+  json["settings"] = settings_json(result.values);
   if (result.kind == ScenarioKind::kApproach) {
     json["timeline"] = timeline_json(result, timeline_of(result));
     return json.dump(2) + "\n";

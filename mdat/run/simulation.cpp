@@ -169,15 +169,16 @@ CaseSetup make_case(const SimulationResult& result, const TableResult& table, co
   return setup;
 }
 
-Plan make_plan(const CompiledMission& mission, const SimulationResult& result, const sim::RayCaster& target) {
+Plan make_plan(const CompiledMission& mission, SimulationResult& result, const sim::RayCaster& target) {
   Plan plan;
   std::size_t count = 0;
   for (const TableResult& table : result.tables) count += table.variants.size();
   plan.images.reserve(count);  // cases point into it
   for (std::size_t t = 0; t < result.tables.size(); ++t) {
-    const TableResult& table = result.tables[t];
-    for (const VariantResult& variant : table.variants) {
+    TableResult& table = result.tables[t];
+    for (VariantResult& variant : table.variants) {
       plan.images.push_back(image_bytes(mission, variant.parameters));
+      variant.image_crc = LoadedImage("", plan.images.back()).mission().image_crc;
       for (std::size_t range = 0; range < table.scenario.runs_m().size(); ++range) {
         plan.cases.push_back(make_case(result, table, variant, range));
         plan.cases.back().seed = case_seed(result.seed, t, range);
@@ -325,6 +326,9 @@ SimulationResult simulate(const CompiledMission& mission, const SimulationOption
   result.kind = scenario.scenario_kind();
   result.seed = options.seed.value_or(static_cast<std::uint64_t>(scenario.seed));
   result.frames = options.frames.value_or(static_cast<std::uint32_t>(scenario.frames));
+  result.settings = mission.source.settings;
+  result.values = effective_values(mission.source, options.scenario);
+  result.deviations = deviations(mission.source, options.scenario);
   result.sensors = sensor_names(mission.source);
   result.camera_faults = options.camera_faults;
   result.parts = part_names(mission.source);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "mdat/common/flight_image.hpp"
+#include "mdat/missiondb/mission_text.hpp"
 #include "mdat/run/case.hpp"
 
 namespace lasso::mdat {
@@ -44,6 +45,7 @@ struct Variant {
 struct VariantResult {
   Variant variant{};
   MissionParameters parameters{};
+  std::uint32_t image_crc = 0;    // of the flight image
   std::vector<CaseResult> cases;  // one a range
   std::vector<RunStatistics> by_range;
   RunStatistics all;
@@ -62,6 +64,11 @@ struct SimulationResult {
   std::uint64_t seed = 0;
   std::uint32_t frames = 0;
   sim::LcsFaults camera_faults;
+  std::string sensor = "simulated";         // or as --sensor names it
+  std::string commit;                       // of the program
+  std::vector<std::string> settings;        // KEY=VALUE of the command line
+  std::vector<EffectiveValue> values;       // that held
+  std::vector<Deviation> deviations;        // of them, those that are not presets
   std::vector<std::string> sensors, parts;  // names by their numbers; part 0 is the whole
   std::vector<TableResult> tables;
   double seconds = 0;

@@ -8,4 +8,10 @@ void add_no_cache(CLI::App& command, bool& cached) {
                    "$XDG_CACHE_HOME/3dlasso, else ~/.cache/3dlasso) nor keep them there");
 }
 
+void add_settings(CLI::App& command, std::vector<std::string>& settings) {
+  command.add_option("--set", settings, "KEY=VALUE in place of what the mission says, such as scan.points=512; for more, again --set")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+}
+
 }  // namespace lasso::mdat

@@ -1,0 +1,11 @@
+# Writes OUT, a source that says which commit SOURCE is at, with "+" where tracked files differ from it; only where that changes.
+execute_process(COMMAND git -C ${SOURCE} rev-parse --short=10 HEAD OUTPUT_VARIABLE COMMIT OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET RESULT_VARIABLE FAILED)
+if(FAILED)
+  set(COMMIT unknown)
+else()
+  execute_process(COMMAND git -C ${SOURCE} status --porcelain --untracked-files=no OUTPUT_VARIABLE CHANGES ERROR_QUIET)
+  if(CHANGES)
+    string(APPEND COMMIT "+")
+  endif()
+endif()
+file(CONFIGURE OUTPUT ${OUT} CONTENT "#include \"mdat/common/version.hpp\"\n\nconst char lasso::mdat::kCommit[] = \"${COMMIT}\";\n")

@@ -1,0 +1,81 @@
+#include "mdat/missiondb/settings.hpp"
+
+#include <charconv>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <system_error>
+#include <utility>
+
+#include "mdat/missiondb/value_row.hpp"
+
+namespace lasso::mdat {
+namespace {
+
+const Origin kSet{0, 0, true};
+
+std::string trimmed(const std::string& text) {
+  const std::size_t first = text.find_first_not_of(" \t");
+  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \t") + 1 - first);
+}
+
+// A table with the one key `value`. What is not TOML is a number (".5") or a text; JSON's quotes are TOML's, too.
+toml::table parsed(const std::string& text) {
+  try {
+    return toml::parse("value = " + text, std::string_view(kSettingPlace));
+  } catch (const toml::parse_error&) {
+  }
+  double number = 0;
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, number);
+  const bool is_number = error == std::errc{} && stop == end && !text.empty();
+  const std::string quoted = nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  return toml::parse("value = " + (is_number ? number_text(number) : quoted), std::string_view(kSettingPlace));
+}
+
+void insert(toml::table& table, const std::string& name, const std::string& text) {
+  toml::table holder = parsed(text);
+  toml::node& value = *holder.get("value");
+  const toml::source_region place = value.source();
+  value.visit([&](auto& node) { table.insert_or_assign(toml::key(name, place), std::move(node)); });
+}
+
+// The table of a dotted path, made where it is missing; null where a value is in the way.
+toml::table* table_at(toml::table& mission, const std::vector<std::string>& path) {
+  toml::table* table = &mission;
+  for (const std::string& name : path) {
+    if (table->get(name) == nullptr) insert(*table, name, "{}");
+    table = table->get(name)->as_table();
+    if (table == nullptr) return nullptr;
+  }
+  return table;
+}
+
+std::vector<std::string> names_of(const std::string& key) {
+  std::vector<std::string> names;
+  std::istringstream in(key);
+  for (std::string name; std::getline(in, name, '.');) names.push_back(trimmed(name));
+  return names;
+}
+
+}  // namespace
+
+void apply_settings(const std::vector<std::string>& settings, toml::table& mission, ProblemList& problems) {
+  for (const std::string& setting : settings) {
+    const std::size_t equals = setting.find('=');
+    std::vector<std::string> names = names_of(setting.substr(0, equals));
+    if (equals == std::string::npos || names.empty()) {
+      problems.add(kSet, "", setting, "expected KEY=VALUE, such as scan.points=512");
+      continue;
+    }
+    const std::string last = names.back(), key = trimmed(setting.substr(0, equals)), value = trimmed(setting.substr(equals + 1));
+    names.pop_back();
+    toml::table* table = table_at(mission, names);
+    if (table == nullptr) {
+      problems.add(kSet, key, value, "unknown key; see cfg/mission.schema.json for the keys that exist");
+    } else {
+      insert(*table, last, value);
+    }
+  }
+}
+
+}  // namespace lasso::mdat
