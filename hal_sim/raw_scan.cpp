@@ -29,7 +29,7 @@ TimeUs time_us(const RawScan& scan, const RawRay& ray, double unit_s) {
 // A ray in the sensor frame: the place of a return, or the unit direction of a miss.
 Vec3 in_sensor(const RawRay& ray, const Pose& T_sensor_file, const ScanFrame& frame) {
   if (!ray.hit) return frame.R_sensor_file * rotate(T_sensor_file.q, ray.place);
-  return frame.R_sensor_file * (T_sensor_file * ray.place - frame.sensor_m);
+  return frame.R_sensor_file * (frame.scale * (T_sensor_file * ray.place) - frame.sensor_m);
 }
 
 RangeSample sample_of(const Vec3& place, const RawRay& ray, const RawScan& scan) {

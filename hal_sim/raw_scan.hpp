@@ -38,7 +38,8 @@ struct RawScan {
 // From a file's axes and unit to the sensor frame (x right, y down, z boresight; metres, seconds).
 struct ScanFrame {
   Mat3 R_sensor_file = Mat3::Identity();  // of one length: a change of axes, or of handedness
-  Vec3 sensor_m = Vec3::Zero();           // where the sensor stands, in the file's axes
+  Vec3 sensor_m = Vec3::Zero();           // where the sensor stands, in the file's axes and metres
+  double scale = 1;                       // metres in a unit of the file's lengths
   double unit_s = 1;                      // of times
 };
 

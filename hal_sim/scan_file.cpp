@@ -80,6 +80,17 @@ std::vector<fs::path> scans_in(const fs::path& folder) {
   return files;
 }
 
+double median_range_m(const RangeImage& image) {
+  std::vector<float> ranges_m;
+  for (const RangeSample& sample : image.samples) {
+    if (sample.state == RayState::kHit) ranges_m.push_back(sample.range_m);
+  }
+  if (ranges_m.empty()) return 0;
+  const auto middle = ranges_m.begin() + static_cast<std::ptrdiff_t>(ranges_m.size() / 2);
+  std::nth_element(ranges_m.begin(), middle, ranges_m.end());
+  return static_cast<double>(*middle);
+}
+
 ScanFacts facts_of(const RawScan& scan, const RangeImage& image) {
   ScanFacts facts;
   facts.hits = static_cast<std::size_t>(std::count_if(scan.rays.begin(), scan.rays.end(), [](const RawRay& ray) { return ray.hit; }));
@@ -89,6 +100,7 @@ ScanFacts facts_of(const RawScan& scan, const RangeImage& image) {
     facts.kept_hits += sample.state == RayState::kHit ? 1U : 0U;
     facts.kept_misses += sample.state == RayState::kMiss ? 1U : 0U;
   }
+  facts.median_range_m = median_range_m(image);
   facts.has_times = scan.has_times;
   facts.first_time = scan.rays.empty() ? scan.first_time : scan.rays.front().time;
   facts.last_time = scan.rays.empty() ? scan.first_time : scan.rays.back().time;

@@ -43,6 +43,7 @@ struct ScanFacts {
   double first_time = 0, last_time = 0;  // in the file's unit
   double unit_s = 0;                     // where its header names it
   bool viewpoint = false;                // the file says where the sensor stood
+  double median_range_m = 0;             // of the returns; 0 where there is none
 };
 
 // The scans of a folder in natural order (scan2 before scan10); other files are ignored.

@@ -4,7 +4,6 @@
 #include "fsw/geometry/symmetric6.hpp"
 #include "fsw/pose/path_pose.hpp"
 #include "fsw/pose/prepare.hpp"
-#include "fsw/pose/verdict.hpp"
 
 namespace lasso {
 namespace {

@@ -19,6 +19,7 @@
 #include "fsw/pose/search_work.hpp"
 #include "fsw/pose/settle.hpp"
 #include "fsw/pose/sway.hpp"
+#include "fsw/pose/verdict.hpp"
 
 namespace lasso {
 
@@ -67,6 +68,11 @@ class Search {
 
   // Has a search that is done accepted this pose, T_sensor_target at the scan's time, to within 5 deg?
   bool agrees(const Pose& T_sensor_target) const;
+
+  // The poses that a search that is done was judged by, the best first: what pose i is compared with that one by. False where it does not
+  // compete, within 15 deg of it.
+  std::size_t poses() const { return tracks_.size(); }
+  bool find_rival(std::size_t i, Rival& rival) const;
 
   bool busy() const { return stage_ != Stage::kIdle; }
   Stage stage() const { return stage_; }  // of the next step

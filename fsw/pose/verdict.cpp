@@ -7,18 +7,6 @@ namespace lasso {
 namespace {
 
 constexpr double kRatioFloor = 0.01;
-constexpr double kAlone = 1.5;  // times the ratio asked for: the score alone tells
-constexpr double kAloneInDoubt = 3;
-constexpr double kAgrees = 1.2;         // ratio of costs that are not alike
-constexpr double kJoinedAgrees = 1.05;  // the same, where the scores of several scans tell
-constexpr double kFair = 1.5;           // cost of what is explained, where something else is not
-constexpr double kEven = 0.02;          // disagreement below which nothing is off but by the noise, or by the target's motion
-
-// A part of the target may be off, but what looks a little like the target is something else.
-bool seems_else(const Rival& rival) {
-  return rival.best_cost > kCleanCost && rival.best_explained_cost > kFair && rival.best_disagreement > kEven;
-}
-
 // A pose as this scan's returns register it, as they did what it is compared with; as it stands where they lead to another one.
 Pose registered(const Mission& mission, const Evidence& evidence, const Pose& T_target_sensor, Workspace& workspace) {
   put_points(evidence, kEvidenceHits, workspace);
@@ -32,6 +20,10 @@ double ratio_of(double score, double best) { return (score + kRatioFloor) / (bes
 
 bool is_near(double score_ratio, double best_cost, double ratio_min) {
   return score_ratio < (best_cost > kCleanCost ? kAloneInDoubt : kAlone) * ratio_min;
+}
+
+bool seems_else(const Rival& rival) {
+  return rival.best_cost > kCleanCost && rival.best_explained_cost > kFair && rival.best_disagreement > kEven;
 }
 
 bool is_left_behind(const Rival& rival, double ratio_min) {
@@ -134,23 +126,29 @@ void Search::describe_candidates() {
   }
 }
 
-// Is every other pose left behind? Where nothing is off but by noise and motion, a part is not what costs: no region's cost is bounded
-// then.
-bool Search::stands_alone() const {
+// Where nothing is off but by noise and motion, a part is not what costs: no region's cost is bounded then.
+bool Search::find_rival(std::size_t i, Rival& rival) const {
   const Track& best = tracks_[0];
+  const Track& track = tracks_[i];
+  if (!is_distinct(track)) return false;
   const double disagreement = best.total.disagreement();
   const bool even = disagreement <= kEven;
+  rival = Rival{ratio_of(track.total.score(), best.total.score()),
+                track.swayed,
+                even ? track.whole_cost : track.cost,
+                even ? best.whole_cost : best.cost,
+                best.explained_cost,
+                disagreement,
+                scans_};
+  return true;
+}
+
+// Is every other pose left behind?
+bool Search::stands_alone() const {
   bool alone = true;
-  for (const Track& track : tracks_) {
-    if (!is_distinct(track)) continue;
-    const Rival rival{ratio_of(track.total.score(), best.total.score()),
-                      track.swayed,
-                      even ? track.whole_cost : track.cost,
-                      even ? best.whole_cost : best.cost,
-                      best.explained_cost,
-                      disagreement,
-                      scans_};
-    alone = alone && is_left_behind(rival, limits_.ratio_min);
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    Rival rival;
+    if (find_rival(i, rival)) alone = alone && is_left_behind(rival, limits_.ratio_min);
   }
   return alone;
 }

@@ -5,6 +5,13 @@
 
 namespace lasso {
 
+constexpr double kAlone = 1.5;  // times the ratio asked for: the score alone tells
+constexpr double kAloneInDoubt = 3;
+constexpr double kAgrees = 1.2;         // ratio of costs that are not alike
+constexpr double kJoinedAgrees = 1.05;  // the same, where the scores of several scans tell
+constexpr double kFair = 1.5;           // cost of what is explained, where something else is not
+constexpr double kEven = 0.02;          // disagreement below which nothing is off but by the noise, or by the target's motion
+
 // A pose more than 15 deg from the best one.
 struct Rival {
   double score_ratio = 0;  // its score over the best one's (SearchResult::ratio)
@@ -21,6 +28,9 @@ double ratio_of(double score, double best);
 
 // Its score alone does not tell: costs are asked for, and sooner where the best pose itself leaves returns unexplained.
 bool is_near(double score_ratio, double best_cost, double ratio_min);
+
+// A part of the target may be off, but what looks a little like the target is something else.
+bool seems_else(const Rival& rival);
 
 // By its score, and not against what the returns' noise says; or by that alone, which tells near-symmetric poses apart that look alike
 // within the score's tolerance. Never where the best pose leaves returns unexplained and does not explain the others as the noise allows,

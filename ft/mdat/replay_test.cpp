@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 
@@ -274,6 +275,8 @@ TEST_F(Replay, FindsEachScansPoseWithoutAnyOrSaysWhyNot) {
     EXPECT_EQ(rows[i].at("scan"), truth[i].at("scan"));
     if (rows[i].at("outcome") != "accepted") continue;
     ++accepted;
+    EXPECT_NE(rows[i].at("why").find("scores "), std::string::npos) << rows[i].at("why");
+    EXPECT_NEAR(std::stod(rows[i].at("why").substr(rows[i].at("why").find("scores ") + 7)), value(rows[i], "ratio"), 0.006);
     EXPECT_EQ(rows[i].at("reason"), "distinct");
     EXPECT_LT(distance_m(rows[i], truth[i]), 0.02);
     EXPECT_LT(angle_rad(rows[i], truth[i]), 2 * 0.0174533);
@@ -319,6 +322,109 @@ TEST_F(Replay, ASearchIsOfEachScanAlone) {
   const Answer answer = work.mdat("replay image.3dli --scans rec/4m/scans --initial search --closed-loop --out found.csv");
   EXPECT_NE(answer.exit_code, 0);
   EXPECT_NE(answer.err.find("--closed-loop"), std::string::npos) << answer.err;
+}
+
+// A mission's own start.check: the first scan's pose is valid once a search of that scan has found no better one.
+TEST_F(Replay, ChecksTheStartOfAClosedLoopWithinOneScan) {
+  VERIFIES("LASSO-MDT-073~1");
+  work.write_mission({{"check = false", "check = true"}});
+  const Answer answer = work.mdat("replay missions/test.toml --scans rec/4m/scans --initial rec/4m/poses.csv --closed-loop -o out.csv");
+  EXPECT_EQ(answer.exit_code, 0) << answer.err;
+  expect_near_truth(table(work.read("out.csv")), 1e-3, 0.002);
+}
+
+using Change = std::function<void(Row&)>;
+
+// A table with each row changed.
+std::string changed(const std::string& text, const Change& change) {
+  const std::vector<std::string> names = fields_of(lines_of(text)[0]);
+  std::string result = lines_of(text)[0] + "\n";
+  for (Row row : table(text)) {
+    change(row);
+    for (std::size_t i = 0; i < names.size(); ++i) result += row[names[i]] + (i + 1 < names.size() ? "," : "\n");
+  }
+  return result;
+}
+
+std::string text_of(double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.12g", value);
+  return text;
+}
+
+TEST_F(Replay, SaysThatScansAreInMillimetres) {
+  VERIFIES("LASSO-MDT-074~1");
+  for (const Row& scan : table(work.read("rec/4m/truth.csv"))) {
+    const std::string name = scan.at("scan") + ".csv";
+    work.write("mm/" + name, changed(work.read("rec/4m/scans/" + name), [](Row& row) {
+                 if (row["valid"] == "0") return;
+                 for (const char* axis : {"x_m", "y_m", "z_m"}) row[axis] = text_of(1000 * std::stod(row[axis]));
+               }));
+  }
+  const Answer answer = work.mdat("replay image.3dli --scans mm --initial rec/4m/poses.csv -o out.csv");
+  EXPECT_NE(answer.err.find("the returns of all 8 scans lie beyond sensor.range_max_m 12"), std::string::npos) << answer.err;
+  EXPECT_NE(answer.err.find("in millimetres? --scale 0.001"), std::string::npos) << answer.err;
+  expect_near_truth(replay("image.3dli", "mm", "--scale 0.001"), 1e-3, 0.002);
+}
+
+// Quaternions of both directions and orders by their definition: the inverse of (q, p) is (conjugate q, -R(q)^T p).
+TEST_F(Replay, SaysHowPosesThatDoNotFitWould) {
+  VERIFIES("LASSO-MDT-074~1");
+  const std::string poses = work.read("rec/4m/poses.csv");
+  const Change first = [](Row& row) {
+    const Row old = row;
+    row["qx"] = old.at("qw");
+    row["qy"] = old.at("qx");
+    row["qz"] = old.at("qy");
+    row["qw"] = old.at("qz");
+  };
+  const Change inverse = [](Row& row) {
+    const double x = -value(row, "qx"), y = -value(row, "qy"), z = -value(row, "qz"), w = value(row, "qw");
+    const double px = value(row, "x_m"), py = value(row, "y_m"), pz = value(row, "z_m");
+    row["x_m"] = text_of(-((1 - 2 * (y * y + z * z)) * px + 2 * (x * y - w * z) * py + 2 * (x * z + w * y) * pz));
+    row["y_m"] = text_of(-(2 * (x * y + w * z) * px + (1 - 2 * (x * x + z * z)) * py + 2 * (y * z - w * x) * pz));
+    row["z_m"] = text_of(-(2 * (x * z - w * y) * px + 2 * (y * z + w * x) * py + (1 - 2 * (x * x + y * y)) * pz));
+    row["qx"] = text_of(x);
+    row["qy"] = text_of(y);
+    row["qz"] = text_of(z);
+  };
+  const std::pair<Change, const char*> cases[] = {{first, "quaternions scalar first: the columns"},
+                                                  {inverse, "the inverse of each pose: the file"}};
+  for (const auto& [change, said] : cases) {
+    work.write("rec/4m/other.csv", changed(poses, change));
+    const Answer answer = work.mdat("replay image.3dli --scans rec/4m/scans --initial rec/4m/other.csv -o out.csv");
+    EXPECT_NE(answer.err.find(said), std::string::npos) << answer.err;
+    EXPECT_NE(answer.err.find("of 5 scans that were tried 0 fit as given, and 5 with"), std::string::npos) << answer.err;
+    EXPECT_EQ(answer.err.find("warning: no return") != std::string::npos, said[4] == 'i') << answer.err;
+  }
+}
+
+TEST_F(Replay, SaysInWhichAxesScansWouldFit) {
+  VERIFIES("LASSO-MDT-074~1");
+  for (const Row& scan : table(work.read("rec/4m/truth.csv"))) {
+    const std::string name = scan.at("scan") + ".csv";
+    work.write("other/" + name, changed(work.read("rec/4m/scans/" + name), [](Row& row) {
+                 const Row old = row;  // forward, left, up of right, down, forward
+                 row["x_m"] = old.at("z_m");
+                 row["y_m"] = text_of(-std::stod(old.at("x_m")));
+                 row["z_m"] = text_of(-std::stod(old.at("y_m")));
+               }));
+  }
+  const Answer answer = work.mdat("replay image.3dli --scans other --initial rec/4m/poses.csv -o out.csv");
+  EXPECT_NE(answer.err.find("and 5 with scans in other axes: --axes forward-left-up"), std::string::npos) << answer.err;
+}
+
+TEST_F(Replay, TellsOfNoiseThatIsLargerThanStated) {
+  VERIFIES("LASSO-MDT-075~1");
+  const Answer same = work.mdat("replay image.3dli --scans rec/4m/scans --initial rec/4m/poses.csv -o out.csv");
+  EXPECT_EQ(same.err.find("residuals are"), std::string::npos) << same.err;
+  work.write_mission({{"sigma_k_per_m = 1.1111111111111112e-4", "sigma_k_per_m = 2.5e-5"}});
+  const Answer answer =
+      work.mdat("replay missions/test.toml --scenario dropouts --scans rec/4m/scans --initial rec/4m/poses.csv -o out.csv");
+  const std::size_t at = answer.err.find("warning: residuals are ");
+  ASSERT_NE(at, std::string::npos) << answer.err;
+  EXPECT_NEAR(std::stod(answer.err.substr(at + 23)), 4.4, 0.4) << "1/9000 over 2.5e-5";
+  EXPECT_NE(answer.err.find("they show 1."), std::string::npos) << "1.78 mm at 4 m: " << answer.err;
 }
 
 TEST_F(Replay, SaysWhyAScanHasNoValidPose) {

@@ -10,6 +10,7 @@
 #include "mdat/common/flight_image.hpp"
 #include "mdat/common/output.hpp"
 #include "mdat/replay/acquire.hpp"
+#include "mdat/replay/diagnosis.hpp"
 
 namespace lasso::mdat {
 namespace {
@@ -70,6 +71,7 @@ void search(const ReplayArguments& options) {
   ReplayInput input = read_replay_input(options.replay);
   const LoadedImage image = load(options);
   tell(settle_times(options.replay, image.mission().parameters.duration_s, input));
+  tell(range_notes(image.mission(), input));
   const std::vector<AcquiredScan> scans = acquire(image.mission(), input.scans);
   write_file(options.out, acquired_csv(scans));
   write_file(candidates, candidates_csv(scans));
@@ -96,8 +98,12 @@ void run(ReplayArguments options) {
   ReplayInput input = read_replay_input(options.replay);
   const LoadedImage image = load(options);
   tell(settle_times(options.replay, image.mission().parameters.duration_s, input));
+  const Notes ranges = range_notes(image.mission(), input);
+  tell(ranges);
+  if (ranges.empty()) tell(reading_notes(image.mission(), options.replay, input));
   const std::vector<ReplayedScan> scans = replay(image.mission(), options.replay, input);
   write_file(options.out, replay_csv(scans));
+  tell(noise_notes(image.mission(), input, scans));
   std::fputs((replay_summary(scans) + options.out + ": written\n").c_str(), stdout);
 }
 
@@ -117,6 +123,8 @@ void add_replay_command(CLI::App& app) {
   command->add_flag("--closed-loop", options->replay.closed_loop,
                     "start from the first row, then from the filter's prediction, as in flight");
   command->add_flag("--wide", options->replay.wide, "the initial poses are rough (20 deg, a quarter of the target's size)");
+  command->add_option("--scale", options->replay.frame.scale, "metres in a unit of the scans' lengths, as 0.001 for millimetres")
+      ->check(CLI::Range(1e-6, 1e6));
   command->add_option("--time-unit", options->time_unit, "of the scans' times (default: by their span against scan.duration_s)")
       ->check(CLI::IsMember({"s", "ms", "us", "ns"}));
   command->add_option("--scenario", options->scenario, "with this scenario's overrides of parameters");

@@ -3,19 +3,22 @@
 #include <cstdio>
 #include <memory>
 
+#include "fsw/mode/searcher.hpp"
 #include "mdat/common/cpu_clock.hpp"
 #include "mdat/common/progress_bar.hpp"
+#include "mdat/replay/search_words.hpp"
 #include "mdat/run/statistics.hpp"
 
 namespace lasso::mdat {
 namespace {
 
+constexpr std::size_t kTold = 10;          // scans
 constexpr std::uint32_t kSlice = 100'000;  // units of work; the result does not depend on it
 
 AcquiredScan acquire_scan(const Mission& mission, const RangeImage& image, Search& search, Workspace& workspace) {
   AcquiredScan acquired;
   const double begin_us = thread_cpu_us();
-  SearchLimits limits;
+  SearchLimits limits = search_limits(mission.parameters);
   limits.scans_max = 1;
   search.begin(limits);
   acquired.status = search.add_scan(mission, image, workspace);
@@ -23,6 +26,8 @@ AcquiredScan acquire_scan(const Mission& mission, const RangeImage& image, Searc
   }
   acquired.search_us = thread_cpu_us() - begin_us;
   acquired.result = search.result();
+  acquired.why = acquired.status == Status::kOk ? search_words(search.result(), decisive_rival(search, limits.ratio_min), limits)
+                                                : "no return that the sensor can have measured (sensor.range_min_m to range_max_m)";
   acquired.result.t_us = image.reference_time_us();
   return acquired;
 }
@@ -32,11 +37,15 @@ std::string row(const AcquiredScan& scan) {
   const Quat& q = r.T_sensor_target.q;
   const Vec3& p = r.T_sensor_target.p;
   char text[400];
-  std::snprintf(text, sizeof text, ",%s,%s,%.12g,%.12g,%.12g,%.12g,%.9g,%.9g,%.9g,%.6f,%.4f,%.4f,%zu,%u,%.1f\n",
+  std::snprintf(text, sizeof text, ",%s,%s,%.12g,%.12g,%.12g,%.12g,%.9g,%.9g,%.9g,%.6f,%.4f,%.4f,%zu,%u,%.1f,",
                 scan.status == Status::kOk ? to_string(r.outcome) : to_string(SearchOutcome::kRejected),
                 scan.status == Status::kOk ? to_string(r.reason) : to_string(scan.status), q.x(), q.y(), q.z(), q.w(), p.x(), p.y(), p.z(),
                 to_seconds(r.t_us), r.ratio, r.disagreement, r.candidates.size(), r.returns, scan.search_us);
-  return scan.scan + text;
+  return scan.scan + text + scan.why + "\n";
+}
+
+const char* outcome_of(const AcquiredScan& scan) {
+  return to_string(scan.status == Status::kOk ? scan.result.outcome : SearchOutcome::kRejected);
 }
 
 // Of each of a scan's candidates, the best first.
@@ -71,7 +80,7 @@ std::vector<AcquiredScan> acquire(const Mission& mission, const sim::RecordedSca
 }
 
 std::string acquired_csv(const std::vector<AcquiredScan>& scans) {
-  std::string text = "scan,outcome,reason,qx,qy,qz,qw,x_m,y_m,z_m,t_s,ratio,disagreement,candidates,returns,search_us\n";
+  std::string text = "scan,outcome,reason,qx,qy,qz,qw,x_m,y_m,z_m,t_s,ratio,disagreement,candidates,returns,search_us,why\n";
   for (const AcquiredScan& scan : scans) text += row(scan);
   return text;
 }
@@ -95,7 +104,11 @@ std::string acquired_summary(const std::vector<AcquiredScan>& scans) {
   std::snprintf(text, sizeof text,
                 "%zu scans: %zu poses accepted, %zu ambiguous, %zu rejected; time of a search: median %.0f ms, 99th percentile %.0f ms\n",
                 scans.size(), accepted, ambiguous, scans.size() - accepted - ambiguous, 1e-3 * time.median_us, 1e-3 * time.p99_us);
-  return text;
+  std::string summary = text;
+  for (std::size_t i = 0; i < scans.size() && i < kTold; ++i)
+    summary += "  " + scans[i].scan + " " + outcome_of(scans[i]) + ": " + scans[i].why + "\n";
+  if (scans.size() > kTold) summary += "  the others: column why\n";
+  return summary;
 }
 
 }  // namespace lasso::mdat

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 
+#include "fsw/link/choices.hpp"
 #include "fsw/pose/estimator.hpp"
 #include "mdat/common/cpu_clock.hpp"
 #include "mdat/common/progress_bar.hpp"
@@ -65,6 +66,14 @@ std::string row(const ReplayedScan& scan) {
   return scan.scan + "," + text;
 }
 
+// The dictionary's.
+std::string meaning_of(const std::string& reason) {
+  for (const Choice& choice : kPoseReasons) {
+    if (reason == choice.name) return choice.meaning;
+  }
+  return "unknown";
+}
+
 }  // namespace
 
 ReplayInput read_replay_input(const ReplayOptions& options) {
@@ -121,7 +130,8 @@ std::string replay_summary(const std::vector<ReplayedScan>& scans) {
   std::snprintf(text, sizeof text, "%zu of %zu scans gave a valid pose; time of an estimate: median %.0f us, 99th percentile %.0f us\n",
                 valid, scans.size(), time.median_us, time.p99_us);
   std::string result = text;
-  for (const auto& [reason, count] : reasons) result += "  not valid, " + reason + ": " + std::to_string(count) + "\n";
+  for (const auto& [reason, count] : reasons)
+    result += "  not valid, " + reason + ": " + std::to_string(count) + " (" + meaning_of(reason) + ")\n";
   return result;
 }
 

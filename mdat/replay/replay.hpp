@@ -50,7 +50,7 @@ std::vector<ReplayedScan> replay(const Mission& mission, const ReplayOptions& op
 // The file poses_out.csv.
 std::string replay_csv(const std::vector<ReplayedScan>& scans);
 
-// Valid scans, reasons of the others, median time.
+// Valid scans, reasons of the others with their meanings, median time.
 std::string replay_summary(const std::vector<ReplayedScan>& scans);
 
 }  // namespace lasso::mdat

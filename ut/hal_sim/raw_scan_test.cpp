@@ -35,6 +35,15 @@ TEST(RawScan, IsTurnedAndMovedToTheSensor) {
 }
 
 // 20,000 returns of a disc of 1 m, and 40,000 misses around it and far aside.
+TEST(RawScan, IsScaledToMetres) {
+  VERIFIES("LASSO-SIM-037~1");
+  RawScan scan;
+  scan.add_point(Vec3(300, -400, 1200), 0, 1);
+  ScanFrame frame;
+  frame.scale = 1e-3;
+  EXPECT_LT((place_of(to_image(scan, frame).samples[0]) - Vec3(0.3, -0.4, 1.2)).norm(), 1e-6);
+}
+
 TEST(RawScan, OfTooManyRaysReturnsAndTheMissesAroundThemAreTaken) {
   VERIFIES("LASSO-SIM-040~1");
   RawScan scan;
