@@ -42,7 +42,7 @@ class Calibrate : public ::testing::Test {
   }
   Json track(const std::string& calibration, const std::string& seed) {
     const Answer answer = folder.mdat(
-        "run missions/test.toml --scenario spin --frames 180 --no-report --out run --sensor lcs-wire --camera-optics device.toml "
+        "run missions/test.toml --scenario spin --frames 180 --no-report --out run --force --sensor lcs-wire --camera-optics device.toml "
         "--camera-temperature 35 --calibration " +
         calibration + " --seed " + seed);
     EXPECT_EQ(answer.exit_code, 0) << answer.err;
@@ -92,7 +92,7 @@ TEST_F(Calibrate, TheMissionsImageCarriesIt) {
   folder.write_mission({{"[sensor] ", "[sensor]\ncalibration = 'other.toml' "}});
   folder.write("other.toml", replaced(replaced(kDevice, "0.0817", "0.0818"), "0.004", "0.0045"));
   const std::string run =
-      "run missions/test.toml --scenario spin --frames 40 --no-report --out run --sensor lcs-wire --camera-optics device.toml";
+      "run missions/test.toml --scenario spin --frames 40 --no-report --out run --force --sensor lcs-wire --camera-optics device.toml";
   const auto poses = [&](const std::string& more) {
     const Answer answer = folder.mdat(run + more);
     EXPECT_EQ(answer.exit_code, 0) << answer.err;

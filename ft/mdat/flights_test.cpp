@@ -57,7 +57,8 @@ TEST(FlightsReport, SaysThatSettledRatesAreNotKnown) {
   const Answer answer = work.mdat("run missions/test.toml --scenario rates --frames 4 --out out");
   ASSERT_EQ(answer.exit_code, 0) << answer.err;
   const std::string report = work.read("out/report.html");
-  expect_shown(report, {"2 flights from 4 to 5 m", "with noise</td><td>0</td><td>0</td><td>0</td><td>–</td>", "flight 2, 5 m", "not known"});
+  expect_shown(report,
+               {"2 flights from 4 to 5 m", "with noise</td><td>0</td><td>0</td><td>0</td><td>–</td>", "flight 2, 5 m", "not known"});
 }
 
 // Rates that are exactly zero, as of a target at rest before the filter has learned any, have no place on a logarithmic axis.

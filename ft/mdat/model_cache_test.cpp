@@ -56,7 +56,8 @@ TEST_F(Cached, ASecondCompilationGivesTheSameAndSaysWhereFrom) {
   EXPECT_EQ(first.find(kFound), std::string::npos) << first;
   const std::string second = compile("image.3dli");
   EXPECT_TRUE(work.read("image.3dli") == image);
-  EXPECT_EQ(second, first + kFound + (work / "cache").string() + ", with what was said of them then; --no-cache compiles them anew\n");
+  EXPECT_EQ(second, first + "the file that was there is replaced\n" + kFound + (work / "cache").string() +
+                        ", with what was said of them then; --no-cache compiles them anew\n");
   ASSERT_EQ(cache.entries().size(), 1U);
   std::filesystem::resize_file(cache.entries().front(), std::filesystem::file_size(cache.entries().front()) / 2);
   EXPECT_EQ(compile("image.3dli").find(kFound), std::string::npos) << "half an entry is none";

@@ -38,7 +38,7 @@ TEST(Operate, AnOperatorCommandsARunningComponent) {
   const WorkFolder work;
   for (const std::string scheme : {"udp", "tcp"}) {
     const std::string url = scheme + "://127.0.0.1:" + free_port();
-    Program run(work, "run missions/test.toml --scenario spin --no-report --out run --frames 100000 --link " + url);
+    Program run(work, "run missions/test.toml --scenario spin --no-report --out run --force --frames 100000 --link " + url);
     const Answer ping = first_answer(work, "command ping --to " + url);
     ASSERT_EQ(ping.exit_code, 0) << ping.err;
     EXPECT_NE(ping.out.find("pong"), std::string::npos);
@@ -93,7 +93,7 @@ TEST(Operate, AComponentWithAKeyTakesSignedCommandsAlone) {
   work.write("key", std::string(64, 'a') + "\n");
   work.write("other", std::string(64, 'b') + "\n");
   const std::string url = "udp://127.0.0.1:" + free_port();
-  Program run(work, "run missions/test.toml --scenario spin --no-report --out run --frames 100000 --key key --link " + url);
+  Program run(work, "run missions/test.toml --scenario spin --no-report --out run --force --frames 100000 --key key --link " + url);
   const Answer signed_one = first_answer(work, "command set_mode mode=standby --key key --to " + url);
   EXPECT_EQ(signed_one.exit_code, 0) << signed_one.err;
   for (const char* key : {"", "--key other "}) {

@@ -67,7 +67,8 @@ class Replay : public ::testing::Test {
   }
 
   std::vector<Row> replay(const std::string& mission, const std::string& scans, const std::string& options) const {
-    const Answer answer = work.mdat("replay " + mission + " --scans " + scans + " --initial rec/4m/poses.csv --out out.csv " + options);
+    const Answer answer =
+        work.mdat("replay " + mission + " --scans " + scans + " --initial rec/4m/poses.csv --force --out out.csv " + options);
     EXPECT_EQ(answer.exit_code, 0) << answer.err;
     const std::string text = work.read("out.csv");
     EXPECT_EQ(lines_of(text).at(0), kHeader);
@@ -151,7 +152,7 @@ TEST_F(Replay, TakesFilesInNaturalOrder) {
   for (std::size_t i = 0; i < kReplayed; ++i) {
     work.write("named/s" + std::to_string(i + 5) + ".csv", work.read("rec/4m/scans/" + truth[i].at("scan") + ".csv"));
   }
-  const Answer answer = work.mdat("replay image.3dli --scans named --initial rec/4m/poses.csv --closed-loop -o out.csv");
+  const Answer answer = work.mdat("replay image.3dli --scans named --initial rec/4m/poses.csv --closed-loop --force -o out.csv");
   EXPECT_EQ(answer.err.find("step back"), std::string::npos) << answer.err;
   const std::vector<Row> rows = table(work.read("out.csv"));
   ASSERT_EQ(rows.size(), kReplayed);
@@ -168,7 +169,7 @@ TEST_F(Replay, WarnsOfTimesThatStepBack) {
   std::string poses = work.read("rec/4m/poses.csv");
   poses.replace(poses.find("f00002"), 6, "z");
   work.write("rec/4m/poses.csv", poses);
-  const Answer answer = work.mdat("replay image.3dli --scans rec/4m/scans --initial rec/4m/poses.csv -o out.csv");
+  const Answer answer = work.mdat("replay image.3dli --scans rec/4m/scans --initial rec/4m/poses.csv --force -o out.csv");
   EXPECT_EQ(answer.exit_code, 0);
   EXPECT_NE(answer.err.find("warning: times step back at 1 of 8 scans, first at z,"), std::string::npos) << answer.err;
   EXPECT_NE(answer.out.find("8 of 8 scans gave a valid pose"), std::string::npos) << answer.out;
@@ -193,7 +194,7 @@ TEST_F(Replay, KnowsUnitsOfTimeByAScansSpan) {
   for (const auto& [per_second, name] : {std::pair(1e6, "microseconds"), std::pair(1e9, "nanoseconds")}) {
     for (const Row& row : seconds)
       work.write("other/" + row.at("scan") + ".csv", with_times(work.read("rec/4m/scans/" + row.at("scan") + ".csv"), per_second));
-    const Answer answer = work.mdat("replay image.3dli --scans other --initial rec/4m/poses.csv --closed-loop -o other.csv");
+    const Answer answer = work.mdat("replay image.3dli --scans other --initial rec/4m/poses.csv --closed-loop --force -o other.csv");
     EXPECT_NE(answer.err.find(std::string("taken as ") + name), std::string::npos) << answer.err;
     const std::vector<Row> rows = table(work.read("other.csv"));
     ASSERT_EQ(rows.size(), seconds.size());
@@ -206,7 +207,7 @@ TEST_F(Replay, KnowsUnitsOfTimeByAScansSpan) {
 
 TEST_F(Replay, TakesTheUnitOfTimeThatIsAskedFor) {
   VERIFIES("LASSO-MDT-070~1");
-  const Answer answer = work.mdat("replay image.3dli --scans rec/4m/scans --initial rec/4m/poses.csv --time-unit ms -o out.csv");
+  const Answer answer = work.mdat("replay image.3dli --scans rec/4m/scans --initial rec/4m/poses.csv --time-unit ms --force -o out.csv");
   EXPECT_EQ(answer.exit_code, 0) << answer.err;
   const double given_s = value(table(work.read("out.csv")).at(3), "t_s");
   EXPECT_NEAR(given_s, 1e-3 * value(replay("image.3dli", "rec/4m/scans", "").at(3), "t_s"), 1e-6);
@@ -233,7 +234,7 @@ TEST_F(Replay, StartsFromWhatASearchWroteAndTellsWhichPosesAreNone) {
   }
   std::replace(rows.begin(), rows.end(), ',', ';');
   work.write("rec/4m/poses.csv", rows + "\r\n\r\n");
-  const Answer answer = work.mdat("replay image.3dli --scans rec/4m/scans --initial rec/4m/poses.csv -o out.csv");
+  const Answer answer = work.mdat("replay image.3dli --scans rec/4m/scans --initial rec/4m/poses.csv --force -o out.csv");
   EXPECT_NE(answer.err.find("1 of 8 poses are not valid there"), std::string::npos) << answer.err;
   expect_near_truth(table(work.read("out.csv")), 1e-3, 0.002);
 }
@@ -257,7 +258,7 @@ TEST_F(Replay, LeavesOutRowsWithoutAMeasurement) {
                to_pcd(work.read("rec/4m/scans/" + row.at("scan") + ".csv"), row.at("scan") == "f00001" ? "0 0 0" : "nan nan nan"));
   }
   expect_near_truth(replay("image.3dli", "clouds", ""), 1.5e-3, 0.003);
-  const Answer answer = work.mdat("replay image.3dli --scans clouds --initial rec/4m/poses.csv -o out.csv");
+  const Answer answer = work.mdat("replay image.3dli --scans clouds --initial rec/4m/poses.csv --force -o out.csv");
   EXPECT_NE(answer.err.find("rows have no measurement (NaN or zeros; in all 8 scans)"), std::string::npos) << answer.err;
 }
 
@@ -328,7 +329,8 @@ TEST_F(Replay, ASearchIsOfEachScanAlone) {
 TEST_F(Replay, ChecksTheStartOfAClosedLoopWithinOneScan) {
   VERIFIES("LASSO-MDT-073~1");
   work.write_mission({{"check = false", "check = true"}});
-  const Answer answer = work.mdat("replay missions/test.toml --scans rec/4m/scans --initial rec/4m/poses.csv --closed-loop -o out.csv");
+  const Answer answer =
+      work.mdat("replay missions/test.toml --scans rec/4m/scans --initial rec/4m/poses.csv --closed-loop --force -o out.csv");
   EXPECT_EQ(answer.exit_code, 0) << answer.err;
   expect_near_truth(table(work.read("out.csv")), 1e-3, 0.002);
 }
@@ -361,7 +363,7 @@ TEST_F(Replay, SaysThatScansAreInMillimetres) {
                  for (const char* axis : {"x_m", "y_m", "z_m"}) row[axis] = text_of(1000 * std::stod(row[axis]));
                }));
   }
-  const Answer answer = work.mdat("replay image.3dli --scans mm --initial rec/4m/poses.csv -o out.csv");
+  const Answer answer = work.mdat("replay image.3dli --scans mm --initial rec/4m/poses.csv --force -o out.csv");
   EXPECT_NE(answer.err.find("the returns of all 8 scans lie beyond sensor.range_max_m 12"), std::string::npos) << answer.err;
   EXPECT_NE(answer.err.find("in millimetres? --scale 0.001"), std::string::npos) << answer.err;
   expect_near_truth(replay("image.3dli", "mm", "--scale 0.001"), 1e-3, 0.002);
@@ -392,7 +394,7 @@ TEST_F(Replay, SaysHowPosesThatDoNotFitWould) {
                                                   {inverse, "the inverse of each pose: the file"}};
   for (const auto& [change, said] : cases) {
     work.write("rec/4m/other.csv", changed(poses, change));
-    const Answer answer = work.mdat("replay image.3dli --scans rec/4m/scans --initial rec/4m/other.csv -o out.csv");
+    const Answer answer = work.mdat("replay image.3dli --scans rec/4m/scans --initial rec/4m/other.csv --force -o out.csv");
     EXPECT_NE(answer.err.find(said), std::string::npos) << answer.err;
     EXPECT_NE(answer.err.find("of 5 scans that were tried 0 fit as given, and 5 with"), std::string::npos) << answer.err;
     EXPECT_EQ(answer.err.find("warning: no return") != std::string::npos, said[4] == 'i') << answer.err;
@@ -410,17 +412,17 @@ TEST_F(Replay, SaysInWhichAxesScansWouldFit) {
                  row["z_m"] = text_of(-std::stod(old.at("y_m")));
                }));
   }
-  const Answer answer = work.mdat("replay image.3dli --scans other --initial rec/4m/poses.csv -o out.csv");
+  const Answer answer = work.mdat("replay image.3dli --scans other --initial rec/4m/poses.csv --force -o out.csv");
   EXPECT_NE(answer.err.find("and 5 with scans in other axes: --axes forward-left-up"), std::string::npos) << answer.err;
 }
 
 TEST_F(Replay, TellsOfNoiseThatIsLargerThanStated) {
   VERIFIES("LASSO-MDT-075~1");
-  const Answer same = work.mdat("replay image.3dli --scans rec/4m/scans --initial rec/4m/poses.csv -o out.csv");
+  const Answer same = work.mdat("replay image.3dli --scans rec/4m/scans --initial rec/4m/poses.csv --force -o out.csv");
   EXPECT_EQ(same.err.find("residuals are"), std::string::npos) << same.err;
   work.write_mission({{"sigma_k_per_m = 1.1111111111111112e-4", "sigma_k_per_m = 2.5e-5"}});
   const Answer answer =
-      work.mdat("replay missions/test.toml --scenario dropouts --scans rec/4m/scans --initial rec/4m/poses.csv -o out.csv");
+      work.mdat("replay missions/test.toml --scenario dropouts --scans rec/4m/scans --initial rec/4m/poses.csv --force -o out.csv");
   const std::size_t at = answer.err.find("warning: residuals are ");
   ASSERT_NE(at, std::string::npos) << answer.err;
   EXPECT_NEAR(std::stod(answer.err.substr(at + 23)), 4.4, 0.4) << "1/9000 over 2.5e-5";
