@@ -110,6 +110,7 @@ MissionInput load_mission_input(const std::filesystem::path& file) {
   MissionInput input;
   input.source = load_mission(file);
   input.mesh = load_target(input.source);
+  check_target(input.source, input.mesh);
   return input;
 }
 
