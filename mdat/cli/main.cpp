@@ -10,6 +10,7 @@
 #include "mdat/common/errors.hpp"
 #include "mdat/common/version.hpp"
 #include "mdat/missiondb/mission_error.hpp"
+#include "mdat/missiondb/nearest.hpp"
 
 namespace {
 
@@ -20,10 +21,24 @@ int refuse(const std::exception& error, int exit_code) {
   return exit_code;
 }
 
+// Of the subcommands and options of the command, and of what was found of it on the line.
+std::vector<std::string> names_of(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    names.push_back(command->get_name());
+    if (!command->parsed()) continue;
+    const std::vector<std::string> inner = names_of(*command);
+    names.insert(names.end(), inner.begin(), inner.end());
+  }
+  for (const CLI::Option* option : app.get_options()) names.push_back(option->get_name());
+  return names;
+}
+
 int usage(const CLI::App& app, const CLI::ParseError& error) {
   if (error.get_exit_code() == 0) return app.exit(error);  // help or version: as asked, on standard output
   const std::vector<std::string> unknown = app.remaining(true);
-  const std::string what = unknown.empty() ? error.what() : "'" + unknown.front() + "' is not known here";
+  const std::string what =
+      unknown.empty() ? error.what() : "'" + unknown.front() + "' is not known here" + did_you_mean(unknown.front(), names_of(app));
   std::fprintf(stderr, "mdat: %s (mdat --help shows the commands, mdat COMMAND --help their options)\n", what.c_str());
   return kExitBadInput;
 }

@@ -74,7 +74,9 @@ std::string parameters_text(const std::string& file) {
 }
 
 void check(const MissionOptions& options) {
-  print_text(is_image_file(options.file) ? image_text(options.file) : check_text(load_mission(options.file)));
+  if (is_image_file(options.file)) return print_text(image_text(options.file));
+  const MissionInput input = load_mission_input(options.file);
+  print_text(check_text(input.source, input.mesh));
 }
 
 void info(const MissionOptions& options) {
@@ -135,7 +137,7 @@ void compile(const MissionOptions& options) {
   const MissionParameters parameters = parameters_for(input.source, options.scenario);
   const ModelCache cache = ModelCache::of_user_if(options.cached);
   const CompiledMission mission = compile_mission(std::move(input), cache);
-  for (const std::string& warning : mission.source.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
+  for (const std::string& warning : warnings_for(mission.source, options.scenario)) std::fprintf(stderr, "warning: %s\n", warning.c_str());
   const std::vector<std::uint8_t> bytes = image_bytes(mission, parameters);
   const LoadedImage loads_in_flight(out.string(), bytes);
   write_file(out, std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));

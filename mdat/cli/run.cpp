@@ -114,7 +114,8 @@ void run(const RunArguments& options) {
       options.key.empty() ? nullptr : std::make_unique<SignatureCheck>(load_key(options.key));
   const std::unique_ptr<posix::PosixLink> link = open_link(options.link);
   const CompiledMission mission = compile_mission(std::move(input), ModelCache::of_user_if(options.cached));
-  for (const std::string& warning : mission.source.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
+  for (const std::string& warning : warnings_for(mission.source, options.simulation.scenario))
+    std::fprintf(stderr, "warning: %s\n", warning.c_str());
   SimulationOptions simulation = options.simulation;
   if (link) tell_address(*link);
   simulation.link = link.get();

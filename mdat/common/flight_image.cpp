@@ -111,6 +111,7 @@ MissionInput load_mission_input(const std::filesystem::path& file, const std::ve
   input.source = load_mission(file, settings);
   check_settings(input.source, scenario);
   input.mesh = load_target(input.source, &input.source.warnings);
+  check_target(input.source, input.mesh);
   return input;
 }
 

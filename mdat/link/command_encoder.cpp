@@ -10,6 +10,7 @@
 #include "mdat/link/decode.hpp"
 #include "mdat/link/number.hpp"
 #include "mdat/link/page.hpp"
+#include "mdat/missiondb/nearest.hpp"
 
 namespace lasso::mdat {
 namespace {
@@ -38,6 +39,18 @@ std::int64_t named(const ItemRow& item, const std::string& text) {
   return -1;
 }
 
+// Of the names that the item takes.
+std::string meant(const ItemRow& item, const std::string& text) {
+  std::vector<std::string> names;
+  if (item.enumeration != nullptr) {
+    for (const Choice& choice : item.enumeration->choices) names.emplace_back(choice.name);
+  }
+  if (item.name == std::string("parameter")) {
+    for (const ParameterRow& row : parameter_rows()) names.emplace_back(row.key);
+  }
+  return did_you_mean(text, names);
+}
+
 // A choice by its name, or a number.
 Number number_of(const PacketRow& row, const ItemRow& item, const std::string& text) {
   const std::int64_t by_name = named(item, text);
@@ -48,7 +61,7 @@ Number number_of(const PacketRow& row, const ItemRow& item, const std::string& t
   const auto [stop, error] = is_real(item.type) ? std::from_chars(text.data(), end, real) : std::from_chars(text.data(), end, whole);
   if (error != std::errc() || stop != end)
     throw InputError(of(row, item) + "=" + text + ": not " + (is_real(item.type) ? "a number" : "an integer") +
-                     (item.enumeration != nullptr ? ", and no name of " + std::string(item.enumeration->name) : ""));
+                     (item.enumeration != nullptr ? ", and no name of " + std::string(item.enumeration->name) : "") + meant(item, text));
   return is_real(item.type) ? Number(real) : Number(whole);
 }
 
@@ -120,14 +133,17 @@ void check_alone(const PacketRow& row, const std::vector<std::uint8_t>& packet) 
 
 const PacketRow& command_row(const std::string& name) {
   std::string similar;
+  std::vector<std::string> names;
   for (const PacketRow& row : kPackets) {
     if (!is_command(row)) continue;
+    names.emplace_back(row.name);
     if (name == row.name) return row;
     const std::string known = row.name;
-    if (!name.empty() && (known.find(name) != std::string::npos || name.find(known) != std::string::npos)) similar += " " + known;
+    if (!name.empty() && (known.find(name) != std::string::npos || name.find(known) != std::string::npos))
+      similar += (similar.empty() ? "; there is " : " ") + known;
   }
-  throw InputError(name + ": no command of the dictionary" + (similar.empty() ? "" : "; there is" + similar) +
-                   "; mdat command --list shows all");
+  if (similar.empty()) similar = did_you_mean(name, names);
+  throw InputError(name + ": no command of the dictionary" + similar + "; mdat command --list shows all");
 }
 
 std::pair<std::string, std::string> split_argument(const std::string& argument) {
@@ -143,10 +159,12 @@ HeldCommand held_command(ConstBytes bytes) {
 }
 
 std::vector<std::uint8_t> encode_command(const PacketRow& row, const std::map<std::string, std::string>& values, std::uint16_t count) {
+  std::vector<std::string> names;
+  for (const ItemRow& item : row.items) names.emplace_back(item.name);
   for (const auto& [name, value] : values) {
     const auto is_it = [&](const ItemRow& item) { return name == item.name; };
     if (std::none_of(row.items.begin(), row.items.end(), is_it))
-      throw InputError(std::string(row.name) + ": has no item " + name + "\n" + command_help(row));
+      throw InputError(std::string(row.name) + ": has no item " + name + did_you_mean(name, names) + "\n" + command_help(row));
   }
   std::vector<std::uint8_t> packet(kLargestCommand);
   ByteWriter writer{Bytes(packet.data(), packet.size())};

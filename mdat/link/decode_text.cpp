@@ -7,6 +7,7 @@
 
 #include "mdat/common/errors.hpp"
 #include "mdat/common/text.hpp"
+#include "mdat/missiondb/nearest.hpp"
 
 namespace lasso::mdat {
 namespace {
@@ -144,15 +145,21 @@ const char* type_name(PacketType type) { return type == PacketType::kCommand ? "
 }  // namespace
 
 void check_selection(const Selection& selection) {
-  bool packet_known = selection.packet.empty();
-  for (const PacketRow& packet : kPackets) packet_known = packet_known || selection.packet == packet.name;
-  if (!packet_known) throw InputError("--packet " + selection.packet + ": not in the dictionary; mdat dictionary lists the packets");
+  std::vector<std::string> packets, items;
+  for (const PacketRow& packet : kPackets) {
+    packets.emplace_back(packet.name);
+    for (const ItemRow& row : packet.items) items.emplace_back(row.name);
+  }
+  const auto has = [](const std::vector<std::string>& names, const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  if (!selection.packet.empty() && !has(packets, selection.packet)) {
+    throw InputError("--packet " + selection.packet + ": not in the dictionary" + did_you_mean(selection.packet, packets) +
+                     "; mdat dictionary lists the packets");
+  }
   for (const std::string& name : selection.items) {
-    bool known = false;
-    for (const PacketRow& packet : kPackets) {
-      for (const ItemRow& row : packet.items) known = known || name == row.name;
-    }
-    if (!known) throw InputError("--items " + name + ": no packet has it; mdat dictionary lists the items");
+    if (!has(items, name))
+      throw InputError("--items " + name + ": no packet has it" + did_you_mean(name, items) + "; mdat dictionary lists the items");
   }
 }
 

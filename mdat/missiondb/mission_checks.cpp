@@ -2,143 +2,238 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <numeric>
-#include <utility>
+#include <optional>
 
-#include "cfg/capacities.hpp"
-#include "fsw/sense/scan_plan.hpp"
+#include "mdat/missiondb/sections.hpp"
 #include "mdat/missiondb/value_row.hpp"
 
 namespace lasso::mdat {
 namespace {
 
-using Parameters = MissionParameters;
+constexpr std::size_t kSensorPrefix = sizeof("sensor.") - 1;
+constexpr std::size_t kLongestValue = 60;
+constexpr std::size_t kMostNames = 4;  // of scenarios, in a line
 
-void check_band(const std::string& from_key, double from_m, const std::string& to_key, double to_m, const Complaint& complain) {
-  if (from_m < to_m) return;
-  complain({from_key, to_key}, number_text(from_m), "expected less than " + to_key + ", which is " + number_text(to_m) + " m");
+const Rules& all_rules() {
+  static const Rules rules = [] {
+    Rules all;
+    for (const Rules& some : {scan_rules(), estimation_rules(), sensor_rules(), scenario_rules(), target_rules()})
+      all.insert(all.end(), some.begin(), some.end());
+    return all;
+  }();
+  return rules;
 }
 
-void check_sensor_under(const std::string& prefix, const SensorParameters& sensor, const Complaint& complain) {
-  check_band(prefix + "range_min_m", sensor.range_min_m, prefix + "range_max_m", sensor.range_max_m, complain);
-  check_band(prefix + "use_from_m", sensor.use_from_m, prefix + "use_to_m", sensor.use_to_m, complain);
+bool is_of_sensor(const std::string& key) { return key.rfind("sensor.", 0) == 0; }
+
+bool is_of_scenario(const std::string& key) { return key.find('.') == std::string::npos; }
+
+// As the mission has it.
+std::string mission_key(const Subject& s, const std::string& key) {
+  return s.sensor != nullptr && is_of_sensor(key) ? s.sensor->prefix + key.substr(kSensorPrefix) : key;
 }
 
-void check_points(const Parameters& p, const Complaint& complain) {
-  if (p.points > static_cast<double>(kMaxRays)) {
-    complain({"scan.points"}, number_text(p.points), "the flight component has room for " + std::to_string(kMaxRays) + " rays");
+std::string scenario_prefix(const Subject& s) { return "scenario." + s.name + "."; }
+
+bool is_overridden(const Subject& s, const std::string& key) {
+  return s.scenario != nullptr && mission_key(s, key) == key && s.scenario->overrides.count(key) != 0;
+}
+
+bool overrides_any(const Subject& s, const Rule& rule) {
+  return std::any_of(rule.keys.begin(), rule.keys.end(), [&](const char* key) { return is_overridden(s, key); });
+}
+
+std::string label_of(const Subject& s, const Rule& rule) {
+  const std::string key = rule.keys.front();
+  if (is_of_scenario(key)) return scenario_prefix(s) + key;
+  return (is_overridden(s, key) ? scenario_prefix(s) + "override: " : "") + mission_key(s, key);
+}
+
+std::string value_of_field(const Subject& s, const std::string& key) {
+  for (const ScenarioField& field : scenario_fields()) {
+    if (field.row.key != key) continue;
+    ValueRow row = field.row;
+    if (!row.preset_from.empty()) row.to_si = 1;
+    return value_text(row, field.list != nullptr ? s.scenario->*field.list : std::vector<double>{s.scenario->*field.number});
   }
-  if (p.inliers_min > p.points) {
-    complain({"tracking.inliers_min", "scan.points"}, number_text(p.inliers_min),
-             "expected at most scan.points, which is " + number_text(p.points));
-  }
+  return "";
 }
 
-void check_pattern(const Parameters& p, const Complaint& complain) {
-  const auto a = static_cast<int>(p.cycles_a);
-  const auto b = static_cast<int>(p.cycles_b);
-  const auto kind = static_cast<PatternKind>(static_cast<int>(p.pattern));
-  if (kind == PatternKind::kRaster) {
-    if (p.points < 2 * p.cycles_a) {
-      complain({"scan.cycles_a", "scan.points"}, std::to_string(a),
-               "a raster needs at least 2 points a line: fewer lines, or more scan.points");
+std::string value_of(const Subject& s, const std::string& key) {
+  if (is_of_scenario(key)) return value_of_field(s, key);
+  if (key == "target.cell_size_m") return number_text(s.source.target.cell_size_m);
+  for (const ParameterRow& row : parameter_rows()) {
+    if (row.key != key) continue;
+    const double si = s.sensor != nullptr && is_of_sensor(key) ? s.sensor->p.*sensor_member(row) : s.p.*row.member;
+    return value_text(value_row(row), {si});
+  }
+  return "";
+}
+
+std::string cut(std::string text) {
+  if (text.size() > kLongestValue) text.replace(kLongestValue, std::string::npos, "...");
+  return text;
+}
+
+std::optional<Origin> written_at(const MissionSource& source, const std::string& key) {
+  const auto origin = source.origins.find(key);
+  return origin == source.origins.end() || origin->second.preset() ? std::nullopt : std::optional<Origin>(origin->second);
+}
+
+// In the scenario, or else in the mission.
+std::optional<Origin> written_for(const Subject& s, const std::string& key) {
+  if (s.scenario != nullptr) {
+    for (const char* inner : {"override.", ""}) {
+      if (const auto origin = written_at(s.source, scenario_prefix(s) + inner + mission_key(s, key))) return origin;
     }
-  } else if (a == b || std::gcd(a, b) != 1) {
-    complain({"scan.cycles_b", "scan.cycles_a", "scan.pattern"}, std::to_string(b),
-             "expected a count that differs from scan.cycles_a, which is " + std::to_string(a) +
-                 ", and has no common divisor with it; otherwise the curve repeats itself");
   }
+  return written_at(s.source, mission_key(s, key));
 }
 
-void check_duration(const Parameters& p, const Complaint& complain) {
-  if (p.duration_s < p.period_s) return;
-  complain({"scan.duration_s", "filter.period_s"}, number_text(p.duration_s),
-           "expected less than filter.period_s, which is " + number_text(p.period_s) + " s: a scan ends before the next begins");
-}
-
-double quaternion_length(const Parameters& p) {
-  return std::sqrt(p.initial_qx * p.initial_qx + p.initial_qy * p.initial_qy + p.initial_qz * p.initial_qz + p.initial_qw * p.initial_qw);
-}
-
-void check_initial(const Parameters& p, const Complaint& complain) {
-  const double length = quaternion_length(p);
-  if (!(std::fabs(length - 1) <= kQuaternionTolerance)) {
-    const std::string value = "[" + number_text(p.initial_qx) + ", " + number_text(p.initial_qy) + ", " + number_text(p.initial_qz) + ", " +
-                              number_text(p.initial_qw) + "]";
-    complain({"tracking.initial.qw", "tracking.initial.qx", "tracking.initial.qy", "tracking.initial.qz"}, value,
-             "expected a quaternion of unit length (within " + number_text(kQuaternionTolerance) + "), this one's length is " +
-                 number_text(length));
+// Of the first key that was set on the command line, or else that somebody wrote. None: the file as a whole.
+Origin place_of(const Subject& s, const Rule& rule) {
+  Origin place;
+  for (const char* key : rule.keys) {
+    const auto origin = written_for(s, key);
+    if (!origin) continue;
+    if (origin->set) return *origin;
+    if (place.preset()) place = *origin;
   }
-  if (p.initial_present != 0 && p.initial_z_m <= 0) {
-    complain({"tracking.initial.z_m", "tracking.initial.present"}, number_text(p.initial_z_m),
-             "expected more than 0: the target is in front");
-  }
+  return place;
 }
 
-void check_order(const Parameters& p, const Complaint& complain) {
-  const std::vector<std::pair<std::string, double>> order = {{"start.first", p.start_first},
-                                                             {"start.second", p.start_second},
-                                                             {"start.third", p.start_third},
-                                                             {"start.fourth", p.start_fourth},
-                                                             {"start.fifth", p.start_fifth}};
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    for (std::size_t k = 0; k < i; ++k) {
-      if (order[i].second == 0 || order[i].second != order[k].second) continue;
-      complain({order[i].first, order[k].first}, "", "expected another way than that of " + order[k].first + ", or none");
+Problem problem_of(const Subject& s, const Rule& rule, const std::string& fault) {
+  const Origin place = place_of(s, rule);
+  return {place.set ? kSettingPlace : s.source.file.string(),
+          place.line,
+          place.column,
+          label_of(s, rule),
+          cut(value_of(s, rule.keys.front())),
+          fault};
+}
+
+std::string scenarios_text(const std::vector<std::string>& names) {
+  std::string text;
+  const std::size_t shown = names.size() > kMostNames ? kMostNames - 1 : names.size();
+  for (std::size_t i = 0; i < shown; ++i) text += (i == 0 ? "" : ", ") + names[i];
+  if (shown < names.size()) text += " and " + std::to_string(names.size() - shown) + " more";
+  return (names.size() == 1 ? " (scenario " : " (scenarios ") + text + ")";
+}
+
+// What is said alike of several scenarios, of one place, is said once, with their names; a key of a scenario has its name already.
+std::vector<Problem> joined(const std::vector<Doubt>& doubts) {
+  std::vector<std::pair<Doubt, std::vector<std::string>>> groups;
+  for (const Doubt& doubt : doubts) {
+    const auto same = std::find_if(groups.begin(), groups.end(), [&](const auto& group) {
+      const Problem& first = group.first.problem;
+      return group.first.rule == doubt.rule && first.line == doubt.problem.line && first.column == doubt.problem.column;
+    });
+    if (same == groups.end()) {
+      groups.push_back({doubt, {doubt.scenario}});
+    } else if (same->second.back() != doubt.scenario) {
+      same->second.push_back(doubt.scenario);
     }
   }
+  std::vector<Problem> problems;
+  for (auto& [doubt, names] : groups) {
+    const bool named = names.size() == 1 && (names[0].empty() || doubt.problem.key.rfind("scenario.", 0) == 0);
+    if (!named) doubt.problem.expected += scenarios_text(names);
+    problems.push_back(doubt.problem);
+  }
+  return problems;
 }
 
-void check_short_range(const Parameters& p, const Complaint& complain) {
-  if (p.short_range_enter_m <= 0 || p.short_range_leave_m > p.short_range_enter_m) return;
-  complain({"short_range.leave_m", "short_range.enter_m"}, number_text(p.short_range_leave_m),
-           "expected more than short_range.enter_m, which is " + number_text(p.short_range_enter_m) + " m");
-}
+// One pass over the rules that need, or do not need, the target.
+class Check {
+ public:
+  Check(MissionSource& source, const TargetSize* target) : source_(source), target_(target), broken_(all_rules().size()) {}
 
-void check_times(const Scenario& scenario, const Complaint& complain) {
-  const std::vector<double>& times = scenario.times_s;
-  if (times.size() != scenario.ranges_m.size()) {
-    complain({"times_s", "ranges_m"}, std::to_string(times.size()) + " times",
-             "expected one for each of ranges_m, which are " + std::to_string(scenario.ranges_m.size()));
+  std::vector<Problem> run() {
+    ask("");
+    for (const auto& [name, scenario] : source_.scenarios) {
+      if (errors_.empty() || !errors_.front().scenario.empty()) ask(name);
+    }
+    return joined(errors_);
   }
-  const auto back = std::adjacent_find(times.begin(), times.end(), std::greater_equal<>());
-  if (back != times.end())
-    complain({"times_s"}, number_text(back[1]), "expected more than the time before it, " + number_text(back[0]) + " s");
-  if (scenario.eclipse_s[1] < scenario.eclipse_s[0]) {
-    complain({"eclipse_s"}, number_text(scenario.eclipse_s[1]),
-             "expected an end that is not before the begin, " + number_text(scenario.eclipse_s[0]) + " s");
+
+ private:
+  void ask(const std::string& scenario) {
+    Subject subject = subject_of(source_, scenario);
+    subject.target = target_;
+    const std::vector<SensorInUse> sensors = sensors_in_use(source_, subject.p, subject.scenario);
+    for (std::size_t i = 0; i < all_rules().size(); ++i) {
+      if (!is_asked(i, subject)) continue;
+      if (all_rules()[i].scope == Scope::kSensor) {
+        look(i, subject, sensors);
+      } else {
+        look(i, subject);
+      }
+    }
   }
+
+  // What the mission breaks by itself is not said of its scenarios again.
+  bool is_asked(std::size_t number, const Subject& subject) const {
+    const Rule& rule = all_rules()[number];
+    if ((rule.needs == Needs::kTarget) != (target_ != nullptr)) return false;
+    if (subject.scenario == nullptr) return rule.scope != Scope::kScenario;
+    if (rule.scope == Scope::kScenario) return true;
+    if (rule.scope == Scope::kMission || broken_[number]) return false;
+    return rule.scope == Scope::kSensor || overrides_any(subject, rule);
+  }
+
+  void look(std::size_t number, Subject subject, const std::vector<SensorInUse>& sensors) {
+    for (const SensorInUse& sensor : sensors) {
+      subject.sensor = &sensor;
+      look(number, subject);
+    }
+  }
+
+  void look(std::size_t number, const Subject& subject) {
+    const Rule& rule = all_rules()[number];
+    const std::string fault = rule.fault(subject);
+    if (fault.empty()) return;
+    if (subject.scenario == nullptr) broken_[number] = true;
+    (rule.severity == Severity::kError ? errors_ : source_.doubts).push_back({number, subject.name, problem_of(subject, rule, fault)});
+  }
+
+  MissionSource& source_;
+  const TargetSize* target_;
+  std::vector<bool> broken_;
+  std::vector<Doubt> errors_;
+};
+
+TargetSize target_size(const Mesh& mesh) {
+  TargetSize size{mesh.vertices.at(0), mesh.vertices.at(0)};
+  for (const Eigen::Vector3d& vertex : mesh.vertices) {
+    size.low = size.low.cwiseMin(vertex);
+    size.high = size.high.cwiseMax(vertex);
+  }
+  return size;
 }
 
 }  // namespace
 
-void check_parameters(const MissionParameters& parameters, const Complaint& complain) {
-  check_sensor_under("sensor.", parameters, complain);
-  check_points(parameters, complain);
-  check_pattern(parameters, complain);
-  check_duration(parameters, complain);
-  check_initial(parameters, complain);
-  check_order(parameters, complain);
-  check_short_range(parameters, complain);
+std::vector<Problem> check_rules(MissionSource& source, const TargetSize* target) { return Check(source, target).run(); }
+
+void check_target(MissionSource& source, const Mesh& target) {
+  const TargetSize size = target_size(target);
+  const std::vector<Problem> problems = check_rules(source, &size);
+  if (!problems.empty()) throw MissionError(problems);
 }
 
-void check_sensor(const SensorParameters& sensor, const Complaint& complain) { check_sensor_under("", sensor, complain); }
-
-void check_scenario(const Scenario& scenario, const MeasuredRanges& measured, const Complaint& complain) {
-  if (scenario.has_profile()) check_times(scenario, complain);
-  std::string known;
-  for (const auto& [from_m, to_m] : measured)
-    known += (known.empty() ? "" : ", or ") + number_text(from_m) + " m and " + number_text(to_m) + " m";
-  for (const double range_m : scenario.ranges_m) {
-    const bool good = std::any_of(measured.begin(), measured.end(), [&](const auto& m) { return range_m > m.first && range_m < m.second; });
-    if (good) continue;
-    complain({"ranges_m"}, number_text(range_m), "expected between sensor.range_min_m and sensor.range_max_m, which are " + known);
+std::vector<std::string> warnings_for(const MissionSource& source, const std::string& scenario) {
+  std::vector<std::string> warnings = source.warnings;
+  std::vector<Doubt> doubts;
+  for (const Doubt& doubt : source.doubts) {
+    if (scenario.empty() || doubt.scenario.empty() || doubt.scenario == scenario) doubts.push_back(doubt);
   }
+  for (const Problem& problem : joined(doubts)) warnings.push_back(to_string(problem));
+  return warnings;
 }
 
 void normalize_attitude(MissionParameters& parameters) {
-  const double length = quaternion_length(parameters);
+  const Eigen::Vector4d q(parameters.initial_qx, parameters.initial_qy, parameters.initial_qz, parameters.initial_qw);
+  const double length = q.norm();
   parameters.initial_qx /= length;
   parameters.initial_qy /= length;
   parameters.initial_qz /= length;

@@ -5,6 +5,7 @@
 #include "mdat/missiondb/mission_checks.hpp"
 #include "mdat/missiondb/mission_source.hpp"
 #include "mdat/missiondb/model_file.hpp"
+#include "mdat/missiondb/nearest.hpp"
 #include "mdat/missiondb/part_reader.hpp"
 #include "mdat/missiondb/sections.hpp"
 #include "mdat/missiondb/sensor_reader.hpp"
@@ -210,9 +211,7 @@ class Loader {
                            "out of range: expected " + number_text(parameter.minimum) + " to " + number_text(parameter.maximum) + " " +
                                parameter.unit + " (" + parameter.meaning + ")");
     }
-    const std::string meant = nearest(name, names);
-    problems_.add(origin, key, number_text(value),
-                  "the model has no such parameter" + (meant.empty() ? "" : "; did you mean " + meant + "?"));
+    problems_.add(origin, key, number_text(value), "the model has no such parameter" + did_you_mean(name, names));
   }
 
   void read_scenarios() {
@@ -243,61 +242,8 @@ class Loader {
   }
 
   void check_contradictions() {
-    bool good = true;
-    check_parameters(source_.parameters, [&](const auto& keys, const std::string& value, const std::string& expected) {
-      problems_.add(first_written({""}, keys), keys[0], value, expected);
-      good = false;
-    });
-    for (const FurtherSensor& sensor : source_.further_sensors) {
-      const std::string prefix = "further_sensor." + sensor.name + ".";
-      check_sensor(sensor.parameters, [&](const auto& keys, const std::string& value, const std::string& expected) {
-        problems_.add(first_written({prefix}, keys), prefix + keys[0], value, expected);
-        good = false;
-      });
-    }
-    if (source_.parameters.short_range_enter_m > 0 && source_.parts.empty()) {
-      problems_.add(source_.origins["short_range.enter_m"], "short_range.enter_m", number_text(source_.parameters.short_range_enter_m),
-                    "the mission has no parts to look at: add them as [part.NAME], or set it to 0");
-    }
-    if (!good) return;  // scenarios would repeat them
-    for (const auto& [name, scenario] : source_.scenarios) check_contradictions(name, scenario);
-  }
-  void check_contradictions(const std::string& name, const Scenario& scenario) {
-    MissionParameters parameters = source_.parameters;
-    for (const ParameterRow& row : parameter_rows()) {
-      const auto value = scenario.overrides.find(row.key);
-      if (value != scenario.overrides.end()) parameters.*row.member = value->second * row.to_si;
-    }
-    const std::string prefix = "scenario." + name + ".";
-    check_parameters(parameters, [&](const auto& keys, const std::string& value, const std::string& expected) {
-      problems_.add(first_written({prefix + "override.", ""}, keys), prefix + "override: " + keys[0], value, expected);
-    });
-    check_scenario(scenario, measured_ranges(parameters), [&](const auto& keys, const std::string& value, const std::string& expected) {
-      problems_.add(first_written({prefix}, keys), prefix + keys[0], value, expected);
-    });
-  }
-  MeasuredRanges measured_ranges(const MissionParameters& parameters) const {
-    MeasuredRanges ranges{{parameters.range_min_m, parameters.range_max_m}};
-    for (const FurtherSensor& sensor : source_.further_sensors) {
-      ranges.emplace_back(sensor.parameters.range_min_m, sensor.parameters.range_max_m);
-    }
-    return ranges;
-  }
-  // What was set stands before what the file says.
-  Origin first_written(const std::vector<std::string>& prefixes, const std::vector<std::string>& keys) const {
-    for (const std::string& prefix : prefixes) {
-      for (const std::string& key : keys) {
-        const auto origin = source_.origins.find(prefix + key);
-        if (origin != source_.origins.end() && origin->second.set) return origin->second;
-      }
-    }
-    for (const std::string& prefix : prefixes) {
-      for (const std::string& key : keys) {
-        const auto origin = source_.origins.find(prefix + key);
-        if (origin != source_.origins.end() && !origin->second.preset()) return origin->second;
-      }
-    }
-    return {};
+    const std::vector<Problem> contradictions = check_rules(source_, nullptr);
+    if (!contradictions.empty()) problems_.add(MissionError(contradictions));
   }
 
   toml::table root_;
@@ -378,9 +324,13 @@ const Scenario& scenario_of(const MissionSource& source, const std::string& name
   const auto found = source.scenarios.find(name);
   if (found != source.scenarios.end()) return found->second;
   std::string names;
-  for (const auto& entry : source.scenarios) names += (names.empty() ? "" : ", ") + entry.first;
-  throw MissionError(
-      {source.file.string(), 0, 0, "scenario", name, names.empty() ? "the mission has no scenarios" : "expected one of " + names});
+  std::vector<std::string> known;
+  for (const auto& entry : source.scenarios) {
+    names += (names.empty() ? "" : ", ") + entry.first;
+    known.push_back(entry.first);
+  }
+  throw MissionError({source.file.string(), 0, 0, "scenario", name,
+                      names.empty() ? "the mission has no scenarios" : "expected one of " + names + did_you_mean(name, known)});
 }
 
 MissionParameters parameters_for(const MissionSource& source, const std::string& scenario) {

@@ -66,6 +66,13 @@ using Calibrations = std::map<std::uint8_t, std::vector<TriangulationCalibration
 
 enum class ScenarioKind : std::uint8_t { kPaper = 0, kSpin = 1, kApproach = 2, kPass = 3 };
 
+// What is doubtful about the mission by itself, or about a scenario, by the number of the rule that says so.
+struct Doubt {
+  std::size_t rule = 0;
+  std::string scenario;  // empty: the mission by itself
+  Problem problem;
+};
+
 // What the simulation does. Attitude of frame 0: target's x axis vertical in the image (+x up, -y of the sensor), its z axis away from the
 // sensor, then tilted by `tilt_rad` about the sensor's x (the -x end towards the sensor), then by `boresight_rad` about the boresight.
 // kPaper: the target stands still in each scan and is turned by `step_rad` about its own x axis from frame to frame.
@@ -116,12 +123,13 @@ struct MissionSource {
   MissionParameters parameters{};
   std::map<std::string, Scenario> scenarios;
   std::map<std::string, Origin> origins;  // by dotted key, all rows of parameter_rows() and of the ground sections
-  std::vector<std::string> warnings;
-  std::vector<std::string> settings;  // KEY=VALUE of the command line, which hold in place of the file's
+  std::vector<std::string> warnings;      // of what was read
+  std::vector<Doubt> doubts;              // of values (warnings_for)
+  std::vector<std::string> settings;      // KEY=VALUE of the command line, which hold in place of the file's
 };
 
-// Reads and checks everything except the geometry of the target (which load_target does). Each of `settings`, KEY=VALUE, is checked as if
-// the file said it, and holds in its place. Throws MissionError with all problems.
+// Reads and checks everything except the geometry of the target (load_target) and what has to fit it (check_target). Each of `settings`,
+// KEY=VALUE, is checked as if the file said it, and holds in its place. Throws MissionError with all problems.
 MissionSource load_mission(const std::filesystem::path& file, const std::vector<std::string>& settings = {});
 
 // A setting that changes nothing in this scenario (empty: none): it is another scenario's, or this one overrides it. Throws MissionError
@@ -131,6 +139,12 @@ void check_settings(const MissionSource& source, const std::string& scenario);
 // The target's surface in metres, in the target frame. Throws MissionError (missing, corrupt, empty, not finite, of absurd size).
 // `warnings`, where given, get what the file holds and is no surface.
 Mesh load_target(const MissionSource& source, std::vector<std::string>* warnings = nullptr);
+
+// Whether the mission's values fit the target's size. Throws MissionError where they contradict it; adds what is doubtful to the warnings.
+void check_target(MissionSource& source, const Mesh& target);
+
+// What is doubtful: of the mission by itself and the scenario, or (no name) of all, each doubt once with the scenarios that have it.
+std::vector<std::string> warnings_for(const MissionSource& source, const std::string& scenario);
 
 // The surface of one of its parts in metres, in the part's frame; `target` is load_target's. Throws MissionError (as load_target; a box in
 // which nothing lies).

@@ -1,6 +1,6 @@
 #include "mdat/missiondb/mission_text.hpp"
 
-#include <Eigen/Geometry>
+#include <Eigen/Core>
 #include <iomanip>
 #include <sstream>
 
@@ -35,17 +35,6 @@ using ValueLines = std::vector<EffectiveValue>;
 void write_line(ValueLines& out, const std::string& key, const std::string& value, const std::string& unit, const std::string& place,
                 const std::string& meaning) {
   out.push_back({key, value, unit == "1" ? "" : unit, place, meaning});
-}
-
-// SI to the row's unit, without the last digits that the conversion makes up.
-std::string value_text(const ValueRow& row, std::vector<double> si) {
-  for (double& value : si) {
-    value /= row.to_si;
-    std::ostringstream rounded;
-    rounded << std::setprecision(12) << value;
-    value = std::stod(rounded.str());
-  }
-  return toml_text(row, si);
 }
 
 void write_calibration(ValueLines& out, const MissionSource& source, const std::string& key, const std::vector<std::string>& files) {
@@ -137,38 +126,13 @@ std::string preset_text(const MissionSource& source, const std::string& key, con
   return toml_text(*row, {preset_of(source.sensor, name, row->preset[0])});
 }
 
-bool reaches(const SensorParameters& sensor, double middle_m, double radius_m) {
-  return middle_m + radius_m >= sensor.range_min_m && middle_m - radius_m <= sensor.range_max_m;
-}
-
-// Such a start is refused in flight, as out_of_reach.
-std::string initial_warning(const MissionSource& source, const Box& box) {
-  const MissionParameters& p = source.parameters;
-  const Eigen::Quaterniond q(p.initial_qw, p.initial_qx, p.initial_qy, p.initial_qz);
-  const Eigen::Vector3d middle = q * (0.5 * (box.low + box.high)) + Eigen::Vector3d(p.initial_x_m, p.initial_y_m, p.initial_z_m);
-  const double radius_m = 0.5 * (box.high - box.low).norm();
-  bool reached = reaches(p, middle.norm(), radius_m);
-  for (const FurtherSensor& sensor : source.further_sensors) reached = reached || reaches(sensor.parameters, middle.norm(), radius_m);
-  if (reached) return "";
-  const std::string key = "tracking.initial.z_m";
-  const Origin origin = source.origins.at(key);
-  return "warning: " +
-         to_string({source.file.string(), origin.line, origin.column, key, number_text(p.initial_z_m),
-                    "the target is wholly outside the ranges that the sensors measure, and the start will be refused: correct the pose, or "
-                    "sensor.range_min_m and sensor.range_max_m"}) +
-         "\n";
-}
-
 }  // namespace
 
-std::string check_text(const MissionSource& source) {
+std::string check_text(const MissionSource& source, const Mesh& mesh) {
   std::ostringstream out;
-  std::vector<std::string> warnings = source.warnings;
-  const Mesh mesh = load_target(source, &warnings);
   for (const PartSource& part : source.parts) static_cast<void>(load_part(source, part, mesh));
   const Box box = box_of(mesh);
-  for (const std::string& warning : warnings) out << "warning: " << warning << '\n';
-  if (source.parameters.initial_present > 0.5) out << initial_warning(source, box);
+  for (const std::string& warning : warnings_for(source, "")) out << "warning: " << warning << '\n';
   const Eigen::Vector3d size = box.high - box.low;
   out << source.file.string() << ": good: mission " << source.id << " \"" << source.name << "\" version " << source.version
       << ", target of " << mesh.triangles.size() << " triangles, " << std::setprecision(4) << size.x() << " x " << size.y() << " x "

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "fsw/geometry/portable_math.hpp"
+#include "mdat/missiondb/nearest.hpp"
 #include "mdat/missiondb/solid.hpp"
 #include "mdat/missiondb/toml_reader.hpp"
 
@@ -161,8 +162,7 @@ class ModelReader {
     for (const auto& [key, node] : table) {
       const std::string name(key.str());
       if (std::find(keys.begin(), keys.end(), name) != keys.end()) continue;
-      const std::string meant = nearest(name, keys);
-      problems_.add(origin_of(key.source()), where_ + name, "", "unknown key" + (meant.empty() ? "" : "; did you mean " + meant + "?"));
+      problems_.add(origin_of(key.source()), where_ + name, "", "unknown key" + did_you_mean(name, keys));
     }
   }
 

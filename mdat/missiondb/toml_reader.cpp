@@ -5,6 +5,7 @@
 #include <regex>
 #include <sstream>
 
+#include "mdat/missiondb/nearest.hpp"
 #include "mdat/missiondb/sha256.hpp"
 
 namespace lasso::mdat {

@@ -42,7 +42,7 @@ std::string number_text(double value);
 // A value (number, or position of a choice, or 0/1) of this row as TOML.
 std::string toml_text(const ValueRow& row, const std::vector<double>& value);
 
-// The candidate that a person probably meant, or "".
-std::string nearest(const std::string& written, const std::vector<std::string>& candidates);
+// The same of values in SI, without the last digits that the conversion makes up.
+std::string value_text(const ValueRow& row, std::vector<double> si);
 
 }  // namespace lasso::mdat

@@ -170,7 +170,7 @@ TEST_F(Missions, ContradictionsAreRefused) {
   expect_error(kHead + "[sensor]\nrange_min_m = 30\n", "sensor.range_min_m: 30: expected less than sensor.range_max_m, which is 20 m");
   expect_error(kHead + "[tracking]\ninliers_min = 2000\n", "expected at most scan.points, which is 1024");
   expect_error(kHead + "[tracking.initial]\nqw = 0.9\n",
-               "m.toml:8:6: tracking.initial.qw: [0, 0, 0, 0.9]: expected a quaternion of unit length");
+               "m.toml:8:6: tracking.initial.qw: 0.9: expected a quaternion of unit length (within 0.001), that of [0, 0, 0, 0.9] is 0.9");
   expect_error(kHead + "[tracking.initial]\npresent = true\nz_m = -1\n", "the target is in front");
 }
 
@@ -192,15 +192,15 @@ TEST_F(Missions, ScenariosHaveTheirPresetsFromTheSensorAndTheirOverrides) {
   VERIFIES("LASSO-GND-010~1");
   const MissionSource source =
       load(kHead +
-           "[sensor]\nsigma0_m = 0.002\n[scenario.one]\nkind = 'spin'\nranges_m = [2, 3.5]\nspin_degps = [180, 0, -90]\n"
+           "[sensor]\nsigma0_m = 0.002\n[scenario.one]\nkind = 'spin'\nranges_m = [2, 3.5]\nspin_degps = [18, 0, -9]\n"
            "override.scan.points = 512\noverride.estimation.deskew = false\n"
            "[scenario.two]\nkind = 'paper'\nranges_m = [4]\nsigma_k_per_m = 0\n[scenario.two.override.sensor]\n"
            "sigma0_m = 0.003\nsigma_angle_rad = 1e-4\n");
   const Scenario& one = scenario_of(source, "one");
   EXPECT_EQ(one.scenario_kind(), ScenarioKind::kSpin);
   EXPECT_EQ(one.ranges_m, (std::vector<double>{2, 3.5}));
-  EXPECT_NEAR(one.spin_radps[0], M_PI, 1e-15);
-  EXPECT_NEAR(one.spin_radps[2], -M_PI / 2, 1e-15);
+  EXPECT_NEAR(one.spin_radps[0], 0.1 * M_PI, 1e-15);
+  EXPECT_NEAR(one.spin_radps[2], -0.05 * M_PI, 1e-15);
   EXPECT_EQ(one.sigma0_m, 0.002);
   EXPECT_EQ(one.frames, 360);
   EXPECT_EQ(one.noise, 1);
@@ -223,7 +223,8 @@ TEST_F(Missions, ScenariosAreCheckedLikeTheRest) {
   expect_error(kHead + "[scenario.s]\n", "scenario.s.kind: is missing");
   expect_error(kHead + "[scenario.s]\nkind = 'paper'\nranges_m = []\n", "expected a list of 1 to 100 numbers");
   expect_error(kHead + "[scenario.s]\nkind = 'paper'\nranges_m = [4, -1]\n", "m.toml:9:16: scenario.s.ranges_m[1]: -1: out of range");
-  expect_error(kHead + "[scenario.s]\nkind = 'paper'\nranges_m = [25]\n", "scenario.s.ranges_m: 25: expected between sensor.range_min_m");
+  expect_error(kHead + "[scenario.s]\nkind = 'paper'\nranges_m = [25]\n",
+               "scenario.s.ranges_m: [25]: expected between sensor.range_min_m");
   expect_error(scenario + "fames = 3\n", "m.toml:10:1: scenario.s.fames: unknown key; did you mean scenario.s.frames?");
   expect_error(scenario + "offset_m = [1, 2, 3]\n", "expected a list of 2 numbers");
   expect_error(scenario + "override.scan.pints = 3\n",

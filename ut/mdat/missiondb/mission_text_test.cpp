@@ -21,6 +21,13 @@ std::vector<std::string> words_of(const std::string& text, const std::string& ke
   return {};
 }
 
+std::string check_text_of(const std::filesystem::path& file) {
+  MissionSource source = load_mission(file);
+  const Mesh target = load_target(source);
+  check_target(source, target);
+  return check_text(source, target);
+}
+
 std::size_t line_of(const std::filesystem::path& file, const std::string& text) {
   std::ifstream stream(file);
   std::size_t number = 1;
@@ -58,21 +65,29 @@ TEST(MissionText, CheckWarnsOfAStartThatNoSensorReaches) {
   folder.write("box.toml", "[[part]]\nkind = 'box'\nsize = [1, 1, 1]\n");
   const std::string head =
       "[mission]\nid = 7\nversion = 2\nname = 'test'\n[target]\nmodel = 'box.toml'\n[tracking.initial]\npresent = true\n";
-  const auto checked = [&](const std::string& text) { return check_text(load_mission(folder.write("m.toml", head + text))); };
+  const auto checked = [&](const std::string& text) { return check_text_of(folder.write("m.toml", head + text)); };
   EXPECT_EQ(checked("z_m = 4\n").find("warning"), std::string::npos);
   const std::string far = checked("z_m = 4000\n");
   EXPECT_NE(far.find("m.toml:9:7: tracking.initial.z_m: 4000: the target is wholly outside"), std::string::npos) << far;
   EXPECT_NE(far.find("good: mission 7"), std::string::npos) << "a warning, no more";
-  const std::string sensor = "[further_sensor.lidar]\nkind = 'time_of_flight'\nrange_max_m = 5000\n";
+  const std::string sensor = "[further_sensor.lidar]\nkind = 'time_of_flight'\nrange_max_m = 5000\nsigma_angle_rad = 1e-4\n";
   EXPECT_EQ(checked("z_m = 4000\n" + sensor).find("warning"), std::string::npos) << checked("z_m = 4000\n" + sensor);
   EXPECT_NE(checked("z_m = 6000\n" + sensor).find("warning"), std::string::npos);
 }
 
 TEST(MissionText, CheckSaysWhatIsGood) {
   VERIFIES("LASSO-GND-003~1");
-  const std::string text = check_text(load_mission(kShippedMission));
+  const std::string text = check_text_of(kShippedMission);
   EXPECT_NE(text.find("good: mission 1 \"Hubble, tenth scale\""), std::string::npos) << text;
   EXPECT_NE(text.find("12 scenarios"), std::string::npos) << text;
+}
+
+TEST(MissionText, NothingIsDoubtfulAboutTheShippedMissions) {
+  VERIFIES("LASSO-GND-060~1");
+  for (const char* name : {"hubble_tenth", "hubble", "hubble_near"}) {
+    const std::string text = check_text_of(kSourceFolder / "cfg/missions" / (std::string(name) + ".toml"));
+    EXPECT_EQ(text.find("warning"), std::string::npos) << text;
+  }
 }
 
 }  // namespace

@@ -58,7 +58,7 @@ TEST_F(SensorReaderTest, WrongValuesAreNamedWithTheirPlace) {
 
 TEST_F(SensorReaderTest, ASensorWithoutARangeOrATurnIsRefused) {
   VERIFIES("LASSO-SNS-047~1");
-  expect_error("[further_sensor.near]\nrange_min_m = 30\n", "expected less than range_max_m, which is 20 m");
+  expect_error("[further_sensor.near]\nrange_min_m = 30\n", "expected less than further_sensor.near.range_max_m, which is 20 m");
   expect_error("[further_sensor.near]\nuse_from_m = 30\nuse_to_m = 20\n", "m.toml:8:14: further_sensor.near.use_from_m");
   expect_error("[sensor]\nuse_from_m = 30\nuse_to_m = 20\n", "expected less than sensor.use_to_m, which is 20 m");
 }

@@ -25,16 +25,6 @@ TEST(ValueRow, NumbersReadBackToTheSameDouble) {
   EXPECT_EQ(number_text(1e6), "1000000");  // whole numbers stay whole in TOML
 }
 
-TEST(ValueRow, FindsWhatAPersonMeant) {
-  VERIFIES("LASSO-GND-003~1");
-  std::vector<std::string> keys;
-  for (const ValueRow& row : flight_rows()) keys.push_back(row.key);
-  EXPECT_EQ(nearest("scan.ponts", keys), "scan.points");
-  EXPECT_EQ(nearest("sensor.fov_half_x", keys), "sensor.fov_half_x_deg");  // the unit forgotten
-  EXPECT_EQ(nearest("filter.duration_s", keys), "scan.duration_s");        // the wrong section
-  EXPECT_EQ(nearest("scan.something_else_altogether", keys), "");
-}
-
 TEST(ValueRow, WritesToml) {
   VERIFIES("LASSO-GND-002~1");
   EXPECT_EQ(toml_text(*find_row(flight_rows(), "scan.pattern"), {1}), "\"lissajous\"");

@@ -1,0 +1,253 @@
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "fsw/geometry/portable_math.hpp"
+#include "mdat/missiondb/rule.hpp"
+#include "mdat/missiondb/sections.hpp"
+#include "mdat/missiondb/value_row.hpp"
+
+namespace lasso::mdat {
+namespace {
+
+constexpr double kMostTurn_rad = 4.5 * kRadPerDeg;     // in a scan, at a rate that the start does not know
+constexpr double kHopelessTurn_rad = 15 * kRadPerDeg;  // there every pose was invalid
+constexpr double kMostStep_rad = 12 * kRadPerDeg;      // from scan to scan, of a target that stands still in each
+constexpr double kRateSigmas = 2.5;                    // of what the filter takes a rate at the start for
+constexpr double kSearchedTurn_rad = 15 * kRadPerDeg;  // between two scans of a search, which are 2 s apart
+constexpr double kBetweenScans_s = 2;
+constexpr double kAccelerations = 5;  // over what the filter takes it for
+constexpr double kNoiseRatio = 3;     // of the simulated noise over the one that is assumed
+constexpr double kOnTarget = 0.5;     // of the rays
+
+double norm(const std::vector<double>& v) { return std::hypot(v.at(0), v.at(1), v.at(2)); }
+
+double rate_radps(const Subject& s) { return s.scenario->scenario_kind() == ScenarioKind::kPaper ? 0 : norm(s.scenario->spin_radps); }
+
+double end_s(const Subject& s) { return s.scenario->frames * s.p.period_s; }
+
+std::string times_fault(const Subject& s) {
+  const Scenario& scenario = *s.scenario;
+  if (!scenario.has_profile() || scenario.times_s.size() == scenario.ranges_m.size()) return "";
+  return "expected one for each of ranges_m, which are " + std::to_string(scenario.ranges_m.size());
+}
+
+std::string back_fault(const Subject& s) {
+  const std::vector<double>& times = s.scenario->times_s;
+  const auto back = std::adjacent_find(times.begin(), times.end(), std::greater_equal<>());
+  if (!s.scenario->has_profile() || back == times.end()) return "";
+  return "expected times that ascend: " + number_text(back[1]) + " s is not more than the time before it, " + number_text(back[0]) + " s";
+}
+
+std::string eclipse_fault(const Subject& s) {
+  if (s.scenario->eclipse_s[1] >= s.scenario->eclipse_s[0]) return "";
+  return "expected an end that is not before the begin, " + number_text(s.scenario->eclipse_s[0]) + " s";
+}
+
+std::string late_eclipse_fault(const Subject& s) {
+  if (s.scenario->eclipse_s[0] <= 0 || s.scenario->eclipse_s[0] < end_s(s)) return "";
+  return "begins after the run, which ends at " + figure(end_s(s)) + " s";
+}
+
+std::string ranges_fault(const Subject& s) {
+  std::string known;
+  const std::vector<SensorInUse> sensors = sensors_in_use(s.source, s.p, s.scenario);
+  for (const SensorInUse& sensor : sensors)
+    known += (known.empty() ? "" : ", or ") + number_text(sensor.p.range_min_m) + " m and " + number_text(sensor.p.range_max_m) + " m";
+  for (const double range_m : s.scenario->ranges_m) {
+    const auto measures = [&](const SensorInUse& sensor) { return range_m > sensor.p.range_min_m && range_m < sensor.p.range_max_m; };
+    if (std::none_of(sensors.begin(), sensors.end(), measures))
+      return "expected between sensor.range_min_m and sensor.range_max_m, which are " + known + ": " + number_text(range_m) +
+             " m is not";
+  }
+  return "";
+}
+
+std::string hopeless_spin_fault(const Subject& s) {
+  const double turn_rad = rate_radps(s) * s.p.duration_s;
+  if (turn_rad <= kHopelessTurn_rad) return "";
+  return "the target turns by " + degrees_text(turn_rad) + " in a scan and by " + degrees_text(rate_radps(s) * s.p.period_s) +
+         " from one to the next, and no start knows that: of a tumbling target no scan beyond " + degrees_text(kHopelessTurn_rad) +
+         " was registered";
+}
+
+std::string spin_fault(const Subject& s) {
+  const double turn_rad = rate_radps(s) * s.p.duration_s;
+  if (turn_rad <= kMostTurn_rad || turn_rad > kHopelessTurn_rad) return "";
+  return "the target turns by " + degrees_text(turn_rad) + " in a scan, at a rate that the start does not know: more than " +
+         degrees_text(kMostTurn_rad) + " twists the first scans too much";
+}
+
+std::string spin_sigma_fault(const Subject& s) {
+  if (rate_radps(s) <= kRateSigmas * s.p.initial_angular_rate_radps) return "";
+  return "is " + figure(rate_radps(s) / s.p.initial_angular_rate_radps) + " sigmas of filter.initial_angular_rate_degps, which is " +
+         figure(s.p.initial_angular_rate_radps / kRadPerDeg);
+}
+
+std::string drift_sigma_fault(const Subject& s) {
+  const bool drifts = s.scenario->scenario_kind() == ScenarioKind::kSpin;
+  const double speed_mps = drifts ? norm(s.scenario->drift_mps) : 0;
+  if (speed_mps <= kRateSigmas * s.p.initial_rate_mps) return "";
+  return "is " + figure(speed_mps / s.p.initial_rate_mps) + " sigmas of filter.initial_rate_mps, which is " + figure(s.p.initial_rate_mps);
+}
+
+bool is_searched(const Subject& s) {
+  const bool seeks = s.scenario->prior == 0 || s.scenario->scenario_kind() == ScenarioKind::kApproach;
+  return seeks && is_in_order(s.p, kSearchWay);
+}
+
+std::string searched_spin_fault(const Subject& s) {
+  const double turn_rad = rate_radps(s) * kBetweenScans_s;
+  if (!is_searched(s) || turn_rad <= kSearchedTurn_rad) return "";
+  return "the target turns by " + degrees_text(turn_rad) + " between two scans of a search, which are " + figure(kBetweenScans_s) +
+         " s apart: by more than " + degrees_text(kSearchedTurn_rad) + " its poses are not found again";
+}
+
+std::string step_fault(const Subject& s) {
+  if (s.scenario->scenario_kind() != ScenarioKind::kPaper || std::fabs(s.scenario->step_rad) <= kMostStep_rad) return "";
+  return "the target turns by more than " + degrees_text(kMostStep_rad) + " from scan to scan: tracks are lost";
+}
+
+std::string no_way_fault(const Subject& s) {
+  const bool approach = s.scenario->scenario_kind() == ScenarioKind::kApproach;
+  if ((s.scenario->prior != 0 && !approach) || is_in_order(s.p, kSearchWay)) return "";
+  if (approach && is_in_order(s.p, kNavigationWay) && s.scenario->navigation_from_s < end_s(s)) return "";
+  return "no pose is given, and \"search\" is none of start.first to start.fifth: the component finds the bearing, and never a pose";
+}
+
+std::string short_run_fault(const Subject& s) {
+  if (!s.scenario->has_profile() || end_s(s) >= s.scenario->times_s.back() - s.p.period_s) return "";
+  return "the run ends after " + figure(end_s(s)) + " s, and times_s at " + figure(s.scenario->times_s.back()) + " s: expected " +
+         number_text(std::ceil(s.scenario->times_s.back() / s.p.period_s)) + " frames of " + figure(s.p.period_s) + " s";
+}
+
+std::string haste_fault(const Subject& s) {
+  const std::vector<double>&times = s.scenario->times_s, &ranges = s.scenario->ranges_m;
+  for (std::size_t i = 1; s.scenario->has_profile() && times.size() == ranges.size() && i < times.size(); ++i) {
+    const double span_s = times[i] - times[i - 1], way_m = std::fabs(ranges[i] - ranges[i - 1]);
+    const double most_mps2 = 6 * way_m / (span_s * span_s);  // of u^2 (3 - 2 u), at its ends
+    if (span_s <= 0 || most_mps2 <= kAccelerations * s.p.acceleration_mps2) continue;
+    return "from " + figure(ranges[i - 1]) + " m to " + figure(ranges[i]) + " m in " + figure(span_s) + " s takes " + figure(most_mps2) +
+           " m/s2, and filter.acceleration_mps2 is " + figure(s.p.acceleration_mps2);
+  }
+  return "";
+}
+
+std::string smear_fault(const Subject& s) {
+  const bool still = s.scenario->scenario_kind() == ScenarioKind::kPaper;
+  if (still || s.p.deskew > 0.5) return "";
+  const double turned_m = rate_radps(s) * s.target->half_m(), moved_m = s.scenario->has_profile() ? 0 : norm(s.scenario->drift_mps);
+  const double smear_m = (turned_m + moved_m) * s.p.duration_s;
+  if (smear_m <= 2 * range_sigma_m(s.p, s.scenario->ranges_m.front())) return "";
+  return "the target moves by " + figure(1e3 * smear_m) + " mm in a scan, and its points are left where they were measured";
+}
+
+std::string simulated_noise_fault(const Subject& s) {
+  const Scenario& scenario = *s.scenario;
+  for (const double range_m : scenario.ranges_m) {
+    const double simulated_m = std::hypot(scenario.sigma0_m, scenario.sigma_k_per_m * range_m * range_m);
+    const double assumed_m = range_sigma_m(s.p, range_m);
+    if (scenario.noise == 0 || simulated_m <= kNoiseRatio * assumed_m) continue;
+    return "the simulated noise is " + figure(1e3 * simulated_m) + " mm at " + figure(range_m) + " m, " + figure(simulated_m / assumed_m) +
+           " times the " + figure(1e3 * assumed_m) + " mm of [sensor], by which returns are accepted and weighed";
+  }
+  return "";
+}
+
+std::string simulated_angle_fault(const Subject& s) {
+  const Scenario& scenario = *s.scenario;
+  const double range_m = *std::max_element(scenario.ranges_m.begin(), scenario.ranges_m.end());
+  const double across_m = scenario.angle_noise_rad * range_m;
+  const bool known = scenario.noise == 0 || scenario.angle_noise_rad <= kNoiseRatio * s.p.sigma_angle_rad;
+  if (known || across_m <= 0.3 * range_sigma_m(s.p, range_m)) return "";
+  return "moves a ray by " + figure(1e3 * across_m) + " mm at " + figure(range_m) + " m, and sensor.sigma_angle_rad, which is " +
+         figure(s.p.sigma_angle_rad) + ", does not say so";
+}
+
+std::string outlier_fault(const Subject& s) {
+  const double outliers = s.scenario->outlier_probability;
+  const double explained = kOnTarget * (1 - outliers) / (kOnTarget * (1 - outliers) + outliers);
+  const double asked = std::max(s.p.start_inlier_share_min, std::min(1.0, s.p.inlier_share_min + s.p.hysteresis));
+  if (outliers == 0 || explained >= asked) return "";
+  return "with half of the rays on the target a pose then explains " + percent_text(explained) +
+         " of the returns, and a start has to explain " + percent_text(asked) + ": lower start.inlier_share_min (" +
+         figure(s.p.start_inlier_share_min) + ") or tracking.inlier_share_min (" + figure(s.p.inlier_share_min) + ")";
+}
+
+std::string dropout_fault(const Subject& s) {
+  if (s.scenario->dropout_probability <= s.p.dropout_probability + 0.1) return "";
+  return "of the simulated rays " + percent_text(s.scenario->dropout_probability) +
+         " drop out, and of those that sensor.dropout_probability tells of " + percent_text(s.p.dropout_probability) +
+         ": misses on the target count against its poses";
+}
+
+constexpr unsigned bit(ScenarioKind kind) { return 1U << static_cast<unsigned>(kind); }
+constexpr unsigned kMoving = bit(ScenarioKind::kSpin) | bit(ScenarioKind::kApproach) | bit(ScenarioKind::kPass);
+constexpr unsigned kProfile = bit(ScenarioKind::kApproach) | bit(ScenarioKind::kPass);
+struct Effect {
+  const char* key;
+  unsigned kinds;  // of scenarios in which it has any
+};
+constexpr Effect kEffects[] = {
+    {"step_deg", bit(ScenarioKind::kPaper)},
+    {"paper_table", bit(ScenarioKind::kPaper)},
+    {"spin_degps", kMoving},
+    {"drift_mps", bit(ScenarioKind::kSpin)},
+    {"times_s", kProfile},
+    {"navigation_period_s", bit(ScenarioKind::kApproach)},
+    {"navigation_sigma_m", bit(ScenarioKind::kApproach)},
+    {"navigation_sigma_deg", bit(ScenarioKind::kApproach)},
+};
+
+bool is_changed(const Scenario& scenario, const ScenarioField& field) {
+  if (field.number != nullptr) return scenario.*field.number != field.row.preset.at(0) * field.row.to_si;
+  return std::any_of((scenario.*field.list).begin(), (scenario.*field.list).end(), [](double value) { return value != 0; });
+}
+
+std::string idle_keys_fault(const Subject& s) {
+  static constexpr const char* kNames[] = {"paper", "spin", "approach", "pass"};
+  std::string keys;
+  for (const ScenarioField& field : scenario_fields()) {
+    for (const Effect& effect : kEffects) {
+      const bool idle = effect.key == field.row.key && (effect.kinds & bit(s.scenario->scenario_kind())) == 0;
+      if (idle && is_changed(*s.scenario, field)) keys += (keys.empty() ? "" : ", ") + field.row.key;
+    }
+  }
+  if (keys.empty()) return "";
+  return std::string("in a scenario of kind ") + kNames[static_cast<int>(s.scenario->scenario_kind())] + " these have no effect: " + keys;
+}
+
+}  // namespace
+
+const Rules& scenario_rules() {
+  using enum Severity;
+  using enum Scope;
+  using enum Needs;
+  // clang-format off
+  static const Rules rules = {
+    {kError, kScenario, kValues, {"times_s", "ranges_m"}, times_fault},
+    {kError, kScenario, kValues, {"times_s"}, back_fault},
+    {kError, kScenario, kValues, {"eclipse_s"}, eclipse_fault},
+    {kWarning, kScenario, kValues, {"eclipse_s", "frames"}, late_eclipse_fault},
+    {kError, kScenario, kValues, {"ranges_m", "sensor.range_min_m", "sensor.range_max_m"}, ranges_fault},
+    {kError, kScenario, kValues, {"spin_degps", "scan.duration_s"}, hopeless_spin_fault},
+    {kWarning, kScenario, kValues, {"spin_degps", "scan.duration_s"}, spin_fault},
+    {kWarning, kScenario, kValues, {"spin_degps", "filter.initial_angular_rate_degps"}, spin_sigma_fault},
+    {kWarning, kScenario, kValues, {"drift_mps", "filter.initial_rate_mps"}, drift_sigma_fault},
+    {kWarning, kScenario, kValues, {"spin_degps", "start.first"}, searched_spin_fault},
+    {kWarning, kScenario, kValues, {"step_deg"}, step_fault},
+    {kWarning, kScenario, kValues, {"prior", "kind", "start.first"}, no_way_fault},
+    {kWarning, kScenario, kValues, {"frames", "times_s"}, short_run_fault},
+    {kWarning, kScenario, kValues, {"times_s", "filter.acceleration_mps2"}, haste_fault},
+    {kWarning, kScenario, kTarget, {"estimation.deskew", "spin_degps"}, smear_fault},
+    {kWarning, kScenario, kValues, {"sigma_k_per_m", "sigma0_m", "sensor.sigma_k_per_m", "sensor.sigma0_m"}, simulated_noise_fault},
+    {kWarning, kScenario, kValues, {"angle_noise_rad", "sensor.sigma_angle_rad"}, simulated_angle_fault},
+    {kWarning, kScenario, kValues, {"outlier_probability", "start.inlier_share_min", "tracking.inlier_share_min"}, outlier_fault},
+    {kWarning, kScenario, kValues, {"dropout_probability", "sensor.dropout_probability"}, dropout_fault},
+    {kWarning, kScenario, kValues, {"kind"}, idle_keys_fault},
+  };
+  // clang-format on
+  return rules;
+}
+
+}  // namespace lasso::mdat

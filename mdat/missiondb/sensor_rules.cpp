@@ -1,0 +1,177 @@
+#include <algorithm>
+#include <cmath>
+
+#include "fsw/geometry/portable_math.hpp"
+#include "mdat/missiondb/rule.hpp"
+#include "mdat/missiondb/sections.hpp"
+#include "mdat/missiondb/value_row.hpp"
+
+namespace lasso::mdat {
+namespace {
+
+constexpr double kLidarGrowth = 20;        // over that of the LIDAR whose values are the presets
+constexpr double kFinestClock_m = 5e-4;    // 3 ps
+constexpr double kNarrowBeams = 0.1;       // of the beam's growth, which says how uncertain the place of a contour is
+constexpr double kNoiseShare = 1.0 / 12;   // of half of the target's length: the tenth-scale Hubble has wrong poses from there on
+constexpr double kFieldShare = 0.25;       // of the target that the field shows: below 0.1 most poses are wrong
+constexpr double kLeastFieldShare = 0.05;  // where nothing of the target's shape is left
+
+double farthest_m(const Subject& s) { return *std::max_element(s.sensor->ranges_m.begin(), s.sensor->ranges_m.end()); }
+
+std::string band_fault(double from_m, double to_m, const std::string& to_key) {
+  return from_m < to_m ? "" : "expected less than " + to_key + ", which is " + number_text(to_m) + " m";
+}
+
+std::string measured_fault(const Subject& s) {
+  return band_fault(s.sensor->p.range_min_m, s.sensor->p.range_max_m, s.sensor->prefix + "range_max_m");
+}
+
+std::string used_fault(const Subject& s) { return band_fault(s.sensor->p.use_from_m, s.sensor->p.use_to_m, s.sensor->prefix + "use_to_m"); }
+
+std::string span_text(double from_m, double to_m) { return figure(from_m) + " m to " + figure(to_m) + " m"; }
+
+std::string blind_band_fault(const Subject& s) {
+  const SensorParameters& p = s.sensor->p;
+  if (p.use_from_m < p.range_max_m && p.use_to_m > p.range_min_m) return "";
+  return "the sensor is used from " + span_text(p.use_from_m, p.use_to_m) + ", and measures from " +
+         span_text(p.range_min_m, p.range_max_m) + ": never both";
+}
+
+// Of all scenarios, as a sensor may serve in one of them.
+std::string unused_fault(const Subject& s) {
+  const SensorParameters& p = s.sensor->p;
+  double low_m = 1e9, high_m = 0;
+  bool serves = s.scenario != nullptr || s.source.scenarios.empty() || !(p.use_from_m < p.use_to_m);
+  for (const auto& [name, scenario] : s.source.scenarios) {
+    const auto [low, high] = std::minmax_element(scenario.ranges_m.begin(), scenario.ranges_m.end());
+    low_m = std::min(low_m, *low);
+    high_m = std::max(high_m, *high);
+    const auto within = [&](double range_m) { return range_m >= p.use_from_m && range_m <= p.use_to_m; };
+    serves = serves || std::any_of(scenario.ranges_m.begin(), scenario.ranges_m.end(), within);
+    serves = serves || (scenario.has_profile() && *low <= p.use_to_m && *high >= p.use_from_m);
+  }
+  if (serves) return "";
+  return "the sensor is used from " + span_text(p.use_from_m, p.use_to_m) + ", where no scenario has the target: they have it from " +
+         span_text(low_m, high_m);
+}
+
+std::string lidar_growth_fault(const Subject& s) {
+  const SensorParameters& p = s.sensor->p;
+  const double preset = preset_of(SensorKind::kTimeOfFlight, "sensor.sigma_k_per_m", 0);
+  if (s.sensor->kind != SensorKind::kTimeOfFlight || p.sigma_k_per_m <= kLidarGrowth * preset) return "";
+  return "grows to " + figure(range_sigma_m(p, p.range_max_m)) + " m at " + figure(p.range_max_m) +
+         " m, as that of a laser camera, which triangulates; the preset of a LIDAR is " + figure(preset);
+}
+
+std::string lidar_clock_fault(const Subject& s) {
+  const double sigma_m = s.sensor->p.sigma0_m;
+  if (s.sensor->kind != SensorKind::kTimeOfFlight || sigma_m >= kFinestClock_m) return "";
+  return figure(1e3 * sigma_m) + " mm are " + figure(sigma_m / 149.9e-6) +
+         " ps of a pulse's time, as of a laser camera; the preset of a LIDAR is " +
+         figure(preset_of(SensorKind::kTimeOfFlight, "sensor.sigma0_m", 0)) + " m";
+}
+
+std::string camera_fault(const Subject& s) {
+  const SensorParameters& p = s.sensor->p;
+  if (s.sensor->kind != SensorKind::kLaserCamera || p.sigma_k_per_m > 0 || p.range_max_m <= 10 * p.range_min_m) return "";
+  return "the noise of a laser camera, which triangulates, grows with the square of the range, and this one is the same from " +
+         span_text(p.range_min_m, p.range_max_m) + "; of a LIDAR say kind = \"time_of_flight\"";
+}
+
+std::string beam_fault(const Subject& s) {
+  const double growth_rad = preset_of(SensorKind::kTimeOfFlight, "beam_divergence_rad", 0);
+  const double angle_rad = s.sensor->p.sigma_angle_rad;
+  if (s.sensor->kind != SensorKind::kTimeOfFlight || s.p.silhouettes < 0.5 || angle_rad >= kNarrowBeams * growth_rad) return "";
+  return "the beam of a LIDAR widens by " + figure(growth_rad) + " rad, " + figure(growth_rad * s.sensor->p.range_max_m) + " m at " +
+         figure(s.sensor->p.range_max_m) + " m, and on which side of a contour a ray passed is as uncertain: expected about " +
+         figure(0.4 * growth_rad) + ", or covariances are too small";
+}
+
+double noise_share(const Subject& s) {
+  return s.sensor->ranges_m.empty() ? 0 : range_sigma_m(s.sensor->p, farthest_m(s)) / s.target->half_m();
+}
+
+std::string noise_text(const Subject& s, const std::string& so) {
+  const double sigma_m = range_sigma_m(s.sensor->p, farthest_m(s));
+  const bool constant = s.sensor->p.sigma0_m >= 0.5 * sigma_m;
+  return "one sigma of a range is " + figure(sigma_m) + " m at " + figure(farthest_m(s)) + " m, " +
+         percent_text(sigma_m / s.target->longest_m()) + " of the target's length of " + figure(s.target->longest_m()) + " m: " + so +
+         (constant ? "; in millimetres? " + figure(s.sensor->p.sigma0_m) + " mm are " + figure(1e-3 * s.sensor->p.sigma0_m) + " m"
+                   : "; most of it is by sigma_k_per_m, " + figure(s.sensor->p.sigma_k_per_m));
+}
+
+std::string drowned_fault(const Subject& s) { return noise_share(s) > 1 ? noise_text(s, "no shape is left") : ""; }
+
+std::string noise_fault(const Subject& s) {
+  return noise_share(s) > kNoiseShare && noise_share(s) <= 1 ? noise_text(s, "poses can be wrong") : "";
+}
+
+double field_share(const Subject& s, double half_rad) {
+  return s.sensor->ranges_m.empty() ? 1 : farthest_m(s) * std::tan(half_rad) / s.target->half_m();
+}
+
+std::string field_text(const Subject& s, double half_rad, const std::string& so) {
+  const double in_degrees = half_rad / kRadPerDeg;
+  const bool radians = in_degrees <= 1 && in_degrees >= 0.02;
+  return "the field is " + figure(2 * farthest_m(s) * std::tan(half_rad)) + " m wide at " + figure(farthest_m(s)) + " m, " +
+         percent_text(field_share(s, half_rad)) + " of the target's length of " + figure(s.target->longest_m()) + " m: " + so +
+         (radians ? "; in radians? " + figure(in_degrees) + " rad are " + degrees_text(in_degrees) : "");
+}
+
+template <double SensorParameters::*kHalf>
+std::string blind_field_fault(const Subject& s) {
+  const double half_rad = s.sensor->p.*kHalf;
+  if (field_share(s, half_rad) >= kLeastFieldShare) return "";
+  return field_text(s, half_rad, "nothing of its shape is seen");
+}
+
+template <double SensorParameters::*kHalf>
+std::string field_fault(const Subject& s) {
+  const double half_rad = s.sensor->p.*kHalf, share = field_share(s, half_rad);
+  if (share < kLeastFieldShare || share >= kFieldShare) return "";
+  return field_text(s, half_rad, "poses from so small a part of it can be wrong");
+}
+
+// Half of the target's half on either side of its middle.
+std::string cut_fault(const Subject& s) {
+  const SensorParameters& p = s.sensor->p;
+  for (const double range_m : s.sensor->ranges_m) {
+    const double near_m = range_m - 0.5 * s.target->half_m(), far_m = range_m + 0.5 * s.target->half_m();
+    if (near_m >= p.range_min_m && far_m <= p.range_max_m) continue;
+    return "at " + figure(range_m) + " m the target of " + figure(s.target->longest_m()) +
+           " m reaches well beyond the ranges that the sensor measures, " + span_text(p.range_min_m, p.range_max_m) +
+           ": much of it is not seen";
+  }
+  return "";
+}
+
+}  // namespace
+
+const Rules& sensor_rules() {
+  using enum Severity;
+  using enum Scope;
+  using enum Needs;
+  using P = SensorParameters;
+  // clang-format off
+  static const Rules rules = {
+    {kError, kSensor, kValues, {"sensor.range_min_m", "sensor.range_max_m"}, measured_fault},
+    {kError, kSensor, kValues, {"sensor.use_from_m", "sensor.use_to_m"}, used_fault},
+    {kError, kSensor, kValues, {"sensor.use_to_m", "sensor.use_from_m", "sensor.range_min_m", "sensor.range_max_m"}, blind_band_fault},
+    {kWarning, kSensor, kValues, {"sensor.use_to_m", "sensor.use_from_m"}, unused_fault},
+    {kWarning, kSensor, kValues, {"sensor.sigma_k_per_m", "sensor.kind"}, lidar_growth_fault},
+    {kWarning, kSensor, kValues, {"sensor.sigma0_m", "sensor.kind"}, lidar_clock_fault},
+    {kWarning, kSensor, kValues, {"sensor.sigma_k_per_m", "sensor.kind"}, camera_fault},
+    {kWarning, kSensor, kValues, {"sensor.sigma_angle_rad", "sensor.kind"}, beam_fault},
+    {kError, kSensor, kTarget, {"sensor.sigma0_m", "sensor.sigma_k_per_m"}, drowned_fault},
+    {kWarning, kSensor, kTarget, {"sensor.sigma0_m", "sensor.sigma_k_per_m"}, noise_fault},
+    {kError, kSensor, kTarget, {"sensor.fov_half_x_deg"}, blind_field_fault<&P::fov_half_x_rad>},
+    {kError, kSensor, kTarget, {"sensor.fov_half_y_deg"}, blind_field_fault<&P::fov_half_y_rad>},
+    {kWarning, kSensor, kTarget, {"sensor.fov_half_x_deg"}, field_fault<&P::fov_half_x_rad>},
+    {kWarning, kSensor, kTarget, {"sensor.fov_half_y_deg"}, field_fault<&P::fov_half_y_rad>},
+    {kWarning, kSensor, kTarget, {"ranges_m", "sensor.range_min_m", "sensor.range_max_m"}, cut_fault},
+  };
+  // clang-format on
+  return rules;
+}
+
+}  // namespace lasso::mdat

@@ -1,0 +1,250 @@
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "fsw/geometry/portable_math.hpp"
+#include "mdat/missiondb/rule.hpp"
+#include "mdat/missiondb/value_row.hpp"
+#include "mdat/modelc/compile_error.hpp"
+#include "mdat/modelc/grid.hpp"
+#include "mdat/modelc/model.hpp"
+
+namespace lasso::mdat {
+namespace {
+
+constexpr double kBestCells = 110;  // along the target
+constexpr double kMostCells = 450;  // 70 times as many in all
+constexpr double kFewestCells = 12;
+constexpr double kFootprintShare = 0.02;  // of half of the target's length
+constexpr double kStartShare = 0.5;       // of the range
+constexpr int kBisections = 40;
+
+// What a sensor at the origin sees of the box, on the tangent plane.
+struct Seen {
+  bool in_front = false;  // all of it
+  double middle_x = 0, middle_y = 0, low_x = 1e9, low_y = 1e9, high_x = -1e9, high_y = -1e9;
+};
+
+Seen seen_of(const TargetSize& target, const Eigen::Isometry3d& T_sensor_target) {
+  Seen seen;
+  const Eigen::Vector3d middle = T_sensor_target * target.middle();
+  seen.in_front = middle.z() > 0;
+  seen.middle_x = middle.x() / middle.z();
+  seen.middle_y = middle.y() / middle.z();
+  for (int i = 0; i < 8; ++i) {
+    const Eigen::Vector3d corner((i & 1) != 0 ? target.high.x() : target.low.x(), (i & 2) != 0 ? target.high.y() : target.low.y(),
+                                 (i & 4) != 0 ? target.high.z() : target.low.z());
+    const Eigen::Vector3d p = T_sensor_target * corner;
+    seen.in_front = seen.in_front && p.z() > 0;
+    seen.low_x = std::min(seen.low_x, p.x() / p.z());
+    seen.high_x = std::max(seen.high_x, p.x() / p.z());
+    seen.low_y = std::min(seen.low_y, p.y() / p.z());
+    seen.high_y = std::max(seen.high_y, p.y() / p.z());
+  }
+  return seen;
+}
+
+bool is_outside(const Seen& seen, const SensorParameters& sensor) {
+  const double x = std::tan(sensor.fov_half_x_rad), y = std::tan(sensor.fov_half_y_rad);
+  return seen.low_x > x || seen.high_x < -x || seen.low_y > y || seen.high_y < -y;
+}
+
+bool is_off(const Seen& seen, const SensorParameters& sensor) {
+  return std::fabs(seen.middle_x) > std::tan(sensor.fov_half_x_rad) || std::fabs(seen.middle_y) > std::tan(sensor.fov_half_y_rad);
+}
+
+// Of frame 0, where the target's origin is at range_m (mission_source.hpp: Scenario).
+Eigen::Isometry3d first_pose(const Scenario& scenario, double range_m) {
+  using Eigen::AngleAxisd, Eigen::Vector3d;
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  T.translate(Vector3d(scenario.offset_m.at(0), scenario.offset_m.at(1), range_m));
+  T.rotate(AngleAxisd(scenario.boresight_rad, Vector3d::UnitZ()) * AngleAxisd(-scenario.tilt_rad, Vector3d::UnitX()) *
+           AngleAxisd(-kPi / 2, Vector3d::UnitZ()) * AngleAxisd(scenario.roll_rad, Vector3d::UnitX()));
+  return T;
+}
+
+std::string sides_text(const SensorParameters& sensor, const Seen& seen) {
+  return "its middle is " + degrees_text(std::atan(std::hypot(seen.middle_x, seen.middle_y))) +
+         " off the boresight, and the half field is " + degrees_text(sensor.fov_half_x_rad) + " by " + degrees_text(sensor.fov_half_y_rad);
+}
+
+// The first of the ranges at which no sensor that serves has what `misses` asks; empty where there is none.
+std::string misses_at(const Subject& s, bool (*misses)(const Seen&, const SensorParameters&), const std::string& what) {
+  for (const SensorInUse& sensor : sensors_in_use(s.source, s.p, s.scenario)) {
+    for (const double range_m : sensor.ranges_m) {
+      const Seen seen = seen_of(*s.target, first_pose(*s.scenario, range_m));
+      if (seen.in_front && misses(seen, sensor.p)) return "at " + figure(range_m) + " m " + what + ": " + sides_text(sensor.p, seen);
+    }
+  }
+  return "";
+}
+
+std::string outside_fault(const Subject& s) {
+  if (s.scenario->drawn != 0 && s.target->middle().norm() > s.target->half_m()) return "";
+  return misses_at(s, is_outside, "the target is wholly outside of the field");
+}
+
+std::string off_fault(const Subject& s) {
+  if (!outside_fault(s).empty() || s.scenario->drawn != 0) return "";
+  return misses_at(s, is_off, "the target's middle is outside of the field");
+}
+
+// Does any sensor see the middle of a target that has drifted for so long?
+bool is_measured(const Subject& s, double range_m, double t_s) {
+  Eigen::Isometry3d T = first_pose(*s.scenario, range_m);
+  T.pretranslate(t_s * Eigen::Vector3d(s.scenario->drift_mps.data()));
+  const double z_m = T.translation().z();
+  const std::vector<SensorInUse> sensors = sensors_in_use(s.source, s.p, s.scenario);
+  return std::any_of(sensors.begin(), sensors.end(), [&](const SensorInUse& sensor) {
+    return z_m > sensor.p.range_min_m && z_m < sensor.p.range_max_m && !is_off(seen_of(*s.target, T), sensor.p);
+  });
+}
+
+// By bisection: what a sensor measures is convex. Afterwards the run is of an empty field.
+std::string lost_fault(const Subject& s) {
+  const Scenario& scenario = *s.scenario;
+  if (scenario.scenario_kind() != ScenarioKind::kSpin || scenario.drawn != 0) return "";
+  for (const double range_m : scenario.ranges_m) {
+    double seen_s = 0, lost_s = (scenario.frames - 1) * s.p.period_s;
+    if (!is_measured(s, range_m, seen_s) || is_measured(s, range_m, lost_s)) continue;
+    for (int i = 0; i < kBisections; ++i) {
+      const double middle_s = 0.5 * (seen_s + lost_s);
+      (is_measured(s, range_m, middle_s) ? seen_s : lost_s) = middle_s;
+    }
+    return "from " + figure(range_m) + " m the target drifts out of the field, or of what is measured, after " + figure(lost_s) +
+           " s, in frame " + figure(std::ceil(lost_s / s.p.period_s)) + " of " + figure(scenario.frames);
+  }
+  return "";
+}
+
+std::string inside_fault(const Subject& s) {
+  const double least_m = 0.5 * (s.target->high - s.target->low).minCoeff();
+  for (const double range_m : s.scenario->ranges_m) {
+    if (s.target->middle().norm() > s.target->half_m() || range_m >= least_m) continue;
+    return figure(range_m) + ": the sensor would be in the target, whose surface is " + figure(least_m) +
+           " m from its middle and farther; is target.scale right, which is " + figure(s.source.target.scale) + "?";
+  }
+  return "";
+}
+
+std::string near_fault(const Subject& s) {
+  if (!inside_fault(s).empty() || !s.source.parts.empty()) return "";
+  for (const double range_m : s.scenario->ranges_m) {
+    if (s.target->middle().norm() > s.target->half_m() || range_m >= s.target->half_m()) continue;
+    return figure(range_m) + ": the target reaches " + figure(s.target->half_m()) +
+           " m from its middle, and passes the sensor where it turns; is target.scale right, which is " + figure(s.source.target.scale) +
+           "?";
+  }
+  return "";
+}
+
+std::string footprint_fault(const Subject& s) {
+  const double range_m = *std::max_element(s.scenario->ranges_m.begin(), s.scenario->ranges_m.end());
+  const double radius_m = s.scenario->edge_mixing_m + (s.scenario->noise != 0 ? s.scenario->beam_divergence_rad * range_m : 0);
+  if (radius_m <= kFootprintShare * s.target->half_m()) return "";
+  return "the simulated beam has a radius of " + figure(1e3 * radius_m) + " mm at " + figure(range_m) +
+         " m, and mixes the ranges of both sides of an edge on a target of " + figure(s.target->longest_m()) +
+         " m: poses are not confirmed";
+}
+
+Surface box_surface(const TargetSize& target) {
+  Surface surface;
+  surface.low = target.low;
+  surface.high = target.high;
+  surface.extent = target.longest_m();
+  return surface;
+}
+
+std::string grid_fault(const Subject& s) {
+  const Surface surface = box_surface(*s.target);
+  const double margin_m = ModelOptions{}.far_margin * surface.extent, cell_m = s.source.target.cell_size_m;
+  try {
+    make_grid(surface, margin_m, cell_m, LengthScale(image_reach_m(surface, margin_m, cell_m)));
+  } catch (const CompileError& error) {
+    return std::string(error.what()) + ", about " + figure(surface.extent / kBestCells) + " m";
+  }
+  return "";
+}
+
+std::string cells_fault(const Subject& s) {
+  const double cells = s.target->longest_m() / s.source.target.cell_size_m;
+  if (!grid_fault(s).empty() || (cells <= kMostCells && cells >= kFewestCells)) return "";
+  return "the target of " + figure(s.target->longest_m()) + " m has " + figure(cells) + " cells along it, and is fastest with about " +
+         figure(kBestCells) + ": " + figure(s.target->longest_m() / kBestCells) + " m; " +
+         (cells < kFewestCells ? "rays pass through long lists of elements" : "the image and its compilation grow with the square");
+}
+
+Eigen::Isometry3d initial_pose(const MissionParameters& p) {
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  T.translate(Eigen::Vector3d(p.initial_x_m, p.initial_y_m, p.initial_z_m));
+  T.rotate(Eigen::Quaterniond(p.initial_qw, p.initial_qx, p.initial_qy, p.initial_qz).normalized());
+  return T;
+}
+
+// Such a start is refused in flight, as out_of_reach.
+std::string unreached_fault(const Subject& s) {
+  if (s.p.initial_present < 0.5) return "";
+  const double middle_m = (initial_pose(s.p) * s.target->middle()).norm();
+  const double radius_m = 0.5 * (s.target->high - s.target->low).norm();
+  for (const SensorInUse& sensor : sensors_in_use(s.source, s.p, nullptr)) {
+    if (middle_m + radius_m >= sensor.p.range_min_m && middle_m - radius_m <= sensor.p.range_max_m) return "";
+  }
+  return "the target is wholly outside the ranges that the sensors measure, and the start will be refused: correct the pose, or "
+         "sensor.range_min_m and sensor.range_max_m";
+}
+
+std::string unseen_start_fault(const Subject& s) {
+  if (s.p.initial_present < 0.5) return "";
+  const Seen seen = seen_of(*s.target, initial_pose(s.p));
+  if (!seen.in_front) return "";
+  for (const SensorInUse& sensor : sensors_in_use(s.source, s.p, nullptr)) {
+    if (!is_off(seen, sensor.p)) return "";
+  }
+  return "the target of [tracking.initial] is outside of the field: " + sides_text(s.p, seen);
+}
+
+std::string start_sigma_fault(const Subject& s) {
+  const double range_m = *std::min_element(s.scenario->ranges_m.begin(), s.scenario->ranges_m.end());
+  if (s.p.start_sigma_m <= kStartShare * range_m) return "";
+  return "is " + percent_text(s.p.start_sigma_m / range_m) + " of the range of " + figure(range_m) +
+         " m: the first scans reach as much farther than the target, and miss it; in millimetres? " + figure(s.p.start_sigma_m) +
+         " mm are " + figure(1e-3 * s.p.start_sigma_m) + " m";
+}
+
+std::string serving_parts_fault(const Subject& s) {
+  std::string names;
+  for (const PartSource& part : s.source.parts) {
+    const double way_m = std::hypot(part.origin_m[0], part.origin_m[1], part.origin_m[2]);
+    if (s.p.short_range_enter_m <= 0 || part.range_m[0] < s.p.short_range_leave_m + way_m) continue;
+    names += (names.empty() ? "" : ", ") + part.name;
+  }
+  if (names.empty()) return "";
+  return "within so short a range these parts never serve, by their range_m: " + names;
+}
+
+}  // namespace
+
+const Rules& target_rules() {
+  using enum Severity;
+  using enum Scope;
+  using enum Needs;
+  // clang-format off
+  static const Rules rules = {
+    {kError, kMission, kTarget, {"target.cell_size_m"}, grid_fault},
+    {kWarning, kMission, kTarget, {"target.cell_size_m"}, cells_fault},
+    {kWarning, kParameters, kTarget, {"tracking.initial.z_m", "tracking.initial.present"}, unreached_fault},
+    {kWarning, kParameters, kTarget, {"tracking.initial.x_m", "tracking.initial.y_m", "tracking.initial.present"}, unseen_start_fault},
+    {kWarning, kScenario, kTarget, {"tracking.start_sigma_m"}, start_sigma_fault},
+    {kWarning, kParameters, kValues, {"short_range.leave_m", "short_range.enter_m"}, serving_parts_fault},
+    {kError, kScenario, kTarget, {"offset_m", "sensor.fov_half_x_deg", "sensor.fov_half_y_deg"}, outside_fault},
+    {kWarning, kScenario, kTarget, {"offset_m", "sensor.fov_half_x_deg", "sensor.fov_half_y_deg"}, off_fault},
+    {kWarning, kScenario, kTarget, {"drift_mps", "frames"}, lost_fault},
+    {kError, kScenario, kTarget, {"ranges_m", "target.scale"}, inside_fault},
+    {kWarning, kScenario, kTarget, {"ranges_m", "target.scale"}, near_fault},
+    {kWarning, kScenario, kTarget, {"edge_mixing_m", "beam_divergence_rad"}, footprint_fault},
+  };
+  // clang-format on
+  return rules;
+}
+
+}  // namespace lasso::mdat

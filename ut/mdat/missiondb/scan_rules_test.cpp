@@ -1,0 +1,71 @@
+#include "ut/mdat/missiondb/rules_support.hpp"
+#include "ut/support/verifies.hpp"
+
+namespace lasso::mdat {
+namespace {
+
+class ScanRules : public RuleTest {};
+
+TEST_F(ScanRules, RaysThatDropOutAreNoInliers) {
+  VERIFIES("LASSO-GND-009~1 LASSO-GND-060~1");
+  expect_edge("tracking.inliers_min = 1024", "tracking.inliers_min = 1025", "error: ", "at most scan.points, which is 1024");
+  expect_edge("sensor.dropout_probability = 0.2\ntracking.inliers_min = 819",
+              "sensor.dropout_probability = 0.2\ntracking.inliers_min = 820", "tracking.inliers_min: 820", "819 return at most");
+}
+
+TEST_F(ScanRules, CyclesFitThePattern) {
+  VERIFIES("LASSO-GND-009~1 LASSO-GND-060~1");
+  const std::string fault = "expected at most half of the pattern's 64 rays";
+  const std::string values = "scan.points = 128\nscan.aimed_share = 0.5\nsearch.hits_min = 12\n";
+  EXPECT_EQ(said(values + "scan.cycles_a = 32\nscan.cycles_b = 31").find(fault), std::string::npos);
+  expect_said(said(values + "scan.cycles_a = 33\nscan.cycles_b = 32"), "scan.cycles_a: 33", fault);
+  expect_said(said(values + "scan.cycles_a = 32\nscan.cycles_b = 33"), "scan.cycles_b: 33", fault);
+  expect_said(said("scan.cycles_a = 18"), "scan.cycles_b: 12", "no common divisor");
+  expect_said(said("scan.pattern = 'raster'\nscan.points = 64\nscan.cycles_a = 33"), "scan.cycles_a: 33", "at least 2 points a line");
+}
+
+TEST_F(ScanRules, AScanFillsItsPeriod) {
+  VERIFIES("LASSO-GND-009~1 LASSO-GND-060~1");
+  expect_edge("scan.duration_s = 0.19", "scan.duration_s = 0.2", "error: ", "less than filter.period_s, which is 0.2 s");
+  expect_edge("filter.period_s = 1.79", "filter.period_s = 4",
+              "warning: ", "rests 95.5 % of the time; is it meant in Hz? 4 Hz are a period of 0.25 s");
+}
+
+TEST_F(ScanRules, AimedRaysNeedSilhouettes) {
+  VERIFIES("LASSO-GND-009~1 LASSO-GND-060~1");
+  expect_edge("scan.aimed_share = 0.3", "scan.aimed_share = 0.3\nestimation.silhouettes = false", "scan.aimed_share: 0.3",
+              "silhouettes is false");
+}
+
+TEST_F(ScanRules, TheMarginHoldsTheTarget) {
+  VERIFIES("LASSO-GND-009~1 LASSO-GND-060~1");
+  expect_edge("scan.margin = 1", "scan.margin = 0.9", "scan.margin: 0.9", "outer 10 %");
+  expect_edge("scan.margin = 2", "scan.margin = 2.5", "scan.margin: 2.5", "fills 16 % of such a scan");
+}
+
+TEST_F(ScanRules, ThePatternLeavesNoGaps) {
+  VERIFIES("LASSO-GND-009~1 LASSO-GND-060~1");
+  expect_edge("scan.pattern = 'lissajous'\nscan.cycles_a = 32\nscan.cycles_b = 31", "scan.pattern = 'lissajous'",
+              "scan.pattern: \"lissajous\"", "m across on the target of 2 m");
+  // Two lines at a quarter and three quarters: 0.5 m to either end of the middle.
+  expect_said(said("scan.pattern = 'raster'\nscan.cycles_a = 2"), "scan.pattern: \"raster\"", "up to 1 m across");
+}
+
+TEST_F(ScanRules, ASearchHasTheReturnsAndTheWorkThatItAsksFor) {
+  VERIFIES("LASSO-GND-009~1 LASSO-GND-060~1");
+  expect_edge("search.hits_min = 224", "search.hits_min = 225", "error: ", "looks at 224 returns of a scan of 1024 rays at most");
+  expect_said(said("search.hits_min = 600\nscan.points = 192"), "search.hits_min: 600", "192 returns of a scan of 192 rays at most");
+  expect_edge("start.check = false", "start.check = false\nsearch.hits_min = 600", "warning: ", "looks at 224 returns");
+  expect_edge("scan.points = 267", "scan.points = 266", "search.hits_min: 80", "some 79 of 266 rays return");
+  const std::string search = "start.fifth = 'search'\n";
+  expect_edge(search + "search.slice = 6000", search + "search.slice = 1000", "search.slice: 1000", "a search does 2e+05 units of work");
+}
+
+TEST_F(ScanRules, ABearingHasReturnsAndLasts) {
+  VERIFIES("LASSO-GND-009~1 LASSO-GND-060~1");
+  expect_edge("bearing.returns_min = 1024", "bearing.returns_min = 1025", "error: ", "at most the 1024 returns");
+  expect_edge("bearing.memory_s = 0.21", "bearing.memory_s = 0.2", "warning: ", "more than filter.period_s, which is 0.2 s");
+}
+
+}  // namespace
+}  // namespace lasso::mdat

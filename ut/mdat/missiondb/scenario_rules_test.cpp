@@ -1,0 +1,103 @@
+#include "ut/mdat/missiondb/rules_support.hpp"
+#include "ut/support/verifies.hpp"
+
+namespace lasso::mdat {
+namespace {
+
+class ScenarioRules : public RuleTest {};
+
+const std::string kSpin = "kind = 'spin'\nranges_m = [5]\n";
+const std::string kPass = "kind = 'pass'\nranges_m = [6, 5]\n";
+
+TEST_F(ScenarioRules, TimesAscendAndBelongToRanges) {
+  VERIFIES("LASSO-GND-009~1 LASSO-GND-060~1");
+  expect_scenario_edge(kPass + "times_s = [0, 20]\nframes = 100", kPass + "times_s = [0, 10, 20]\nframes = 100",
+                       "error: ", "expected one for each of ranges_m, which are 2");
+  expect_scenario_edge(kPass + "times_s = [0, 20]\nframes = 100", kPass + "times_s = [20, 20]\nframes = 100",
+                       "error: ", "20 s is not more than");
+  expect_scenario_edge(kPass + "times_s = [0, 20]\nframes = 99", kPass + "times_s = [0, 20]\nframes = 98", "scenario.s.frames: 98",
+                       "expected 100 frames of 0.2 s");
+  expect_scenario_edge(kSpin + "eclipse_s = [1, 2]", kSpin + "eclipse_s = [2, 1]", "error: ", "not before the begin, 2 s");
+  expect_scenario_edge(kSpin + "eclipse_s = [71, 80]", kSpin + "eclipse_s = [72, 80]", "warning: ", "ends at 72 s");
+  expect_said(said("", "kind = 'spin'\nranges_m = [5, 20]"), "scenario.s.ranges_m: [5, 20]",
+              "expected between sensor.range_min_m and sensor.range_max_m, which are 0.5 m and 20 m: 20 m is not");
+}
+
+TEST_F(ScenarioRules, ATargetTurnsNoFasterThanScansCanTell) {
+  VERIFIES("LASSO-GND-009~1 LASSO-GND-060~1");
+  const std::string rate = "filter.initial_angular_rate_degps = 100";
+  expect_scenario_edge(kSpin + "spin_degps = [0, 24.9, 0]", kSpin + "spin_degps = [0, 30, 0]", "warning: ", "turns by 5.4 deg in a scan",
+                       rate);
+  expect_scenario_edge(kSpin + "spin_degps = [24.9, 0, 0]", kSpin + "spin_degps = [300, 0, 0]",
+                       "error: ", "turns by 54 deg in a scan and by 60 deg from one to the next", rate);
+  expect_scenario_edge(kSpin + "spin_degps = [12, 0, 0]", kSpin + "spin_degps = [13, 0, 0]",
+                       "warning: ", "is 2.6 sigmas of filter.initial_angular_rate_degps, which is 5",
+                       "filter.initial_angular_rate_degps = 5");
+  expect_scenario_edge(kSpin + "drift_mps = [0, 0, 0.12]", kSpin + "drift_mps = [0, 0, 0.15]",
+                       "warning: ", "is 3 sigmas of filter.initial_rate_mps, which is 0.05");
+  const std::string paper = "kind = 'paper'\nranges_m = [5]\nstep_deg = ";
+  expect_scenario_edge(paper + "11.9", paper + "12.1", "scenario.s.step_deg: 12.1", "more than 12 deg");
+}
+
+TEST_F(ScenarioRules, ASearchFindsPosesAgain) {
+  VERIFIES("LASSO-GND-009~1 LASSO-GND-060~1");
+  const std::string search = "start.fifth = 'search'";
+  expect_scenario_edge(kSpin + "prior = false\nspin_degps = [7.4, 0, 0]", kSpin + "prior = false\nspin_degps = [8, 0, 0]",
+                       "warning: ", "turns by 16 deg between two scans", search);
+  expect_edge(search, "", "scenario.s.prior: false", "finds the bearing, and never a pose", kSpin + "prior = false");
+  const std::string approach = "kind = 'approach'\nranges_m = [6, 5]\ntimes_s = [0, 20]\nframes = 100\nnavigation_from_s = ";
+  expect_scenario_edge(approach + "19", approach + "20", "scenario.s.prior", "never a pose");
+}
+
+TEST_F(ScenarioRules, AnApproachIsNoHastierThanTheFilterTakesIt) {
+  VERIFIES("LASSO-GND-009~1 LASSO-GND-060~1");
+  // 6 times the way over the square of the time: 0.0496 and 0.06, of 5 times 0.01
+  expect_scenario_edge(kPass + "times_s = [0, 11]\nframes = 60", kPass + "times_s = [0, 10]\nframes = 60", "scenario.s.times_s",
+                       "takes 0.06 m/s2");
+}
+
+TEST_F(ScenarioRules, AMovingTargetIsDeskewed) {
+  VERIFIES("LASSO-GND-009~1 LASSO-GND-060~1");
+  // 1 m at 1.7 and 2 deg/s for 0.18 s: 5.3 and 6.3 mm, of twice 2.8 mm
+  expect_scenario_edge(kSpin + "spin_degps = [1.7, 0, 0]", kSpin + "spin_degps = [2, 0, 0]", "estimation.deskew: false", "6.28 mm",
+                       "estimation.deskew = false");
+}
+
+TEST_F(ScenarioRules, TheSimulatedSensorIsTheOneThatIsAssumed) {
+  VERIFIES("LASSO-GND-009~1 LASSO-GND-060~1");
+  expect_scenario_edge(kSpin + "sigma_k_per_m = 3.3e-4", kSpin + "sigma_k_per_m = 4.1e-4", "scenario.s.sigma_k_per_m: 0.00041",
+                       "10.3 mm at 5 m, 3.69 times the 2.78 mm");
+  expect_scenario_edge(kSpin + "noise = false\nsigma0_m = 0.05", kSpin + "sigma0_m = 0.05", "warning: ", "18 times");
+  expect_scenario_edge(kSpin + "angle_noise_rad = 1.6e-4", kSpin + "angle_noise_rad = 1e-3", "scenario.s.angle_noise_rad: 0.001",
+                       "by 5 mm at 5 m");
+  expect_scenario_edge(kSpin + "dropout_probability = 0.1", kSpin + "dropout_probability = 0.2", "scenario.s.dropout_probability: 0.2",
+                       "20 % drop out");
+  // (1 - 0.05) / (1 + 0.05) is 90.5 %
+  expect_scenario_edge(kSpin + "outlier_probability = 0.05", kSpin + "outlier_probability = 0.2", "scenario.s.outlier_probability: 0.2",
+                       "explains 66.7 % of the returns, and a start has to explain 90 %");
+}
+
+TEST_F(ScenarioRules, KeysThatHaveNoEffectAreTold) {
+  VERIFIES("LASSO-GND-009~1 LASSO-GND-060~1");
+  expect_scenario_edge(kSpin + "step_deg = 1", kSpin + "step_deg = 2\ntimes_s = [0, 3]",
+                       "warning: ", "kind spin these have no effect: step_deg, times_s");
+  expect_scenario_edge("kind = 'paper'\nranges_m = [5]\nspin_degps = [0, 0, 0]", "kind = 'paper'\nranges_m = [5]\nspin_degps = [5, 0, 0]",
+                       "kind: \"paper\"", "spin_degps");
+}
+
+TEST_F(ScenarioRules, OfARunItsOwnScenarioIsTold) {
+  VERIFIES("LASSO-GND-009~1 LASSO-GND-060~1");
+  folder_.write("box.toml", "[[part]]\nkind = 'box'\nsize = [2, 1, 1]\n");
+  MissionSource source = load_mission(
+      folder_.write("two.toml",
+                    "[mission]\nid = 7\nversion = 2\nname = 'test'\n[target]\nmodel = 'box.toml'\n[start]\nage_max_s = 0\n"
+                    "[scenario.a]\nkind = 'spin'\nranges_m = [5]\n[scenario.b]\nkind = 'spin'\nranges_m = [5]\nspin_degps = [30, 0, 0]\n"));
+  check_target(source, load_target(source));
+  ASSERT_EQ(warnings_for(source, "a").size(), 1U);
+  EXPECT_NE(warnings_for(source, "a")[0].find("two.toml:8:13: start.age_max_s: 0: "), std::string::npos) << warnings_for(source, "a")[0];
+  EXPECT_EQ(warnings_for(source, "b").size(), 3U);  // the turn in a scan, and the rate at the start
+  EXPECT_EQ(warnings_for(source, "").size(), 3U);
+}
+
+}  // namespace
+}  // namespace lasso::mdat

@@ -1,0 +1,71 @@
+#include "ut/mdat/missiondb/rules_support.hpp"
+#include "ut/support/verifies.hpp"
+
+namespace lasso::mdat {
+namespace {
+
+class TargetRules : public RuleTest {};
+
+const std::string kFiveAway = "kind = 'spin'\nranges_m = [5]\n";
+
+TEST_F(TargetRules, CellsFitTheTarget) {
+  VERIFIES("LASSO-GND-009~1 LASSO-GND-060~1");
+  expect_edge("target.cell_size_m = 0.0045", "target.cell_size_m = 0.0044", "warning: ", "455 cells along it");
+  expect_edge("target.cell_size_m = 0.16", "target.cell_size_m = 0.2", "warning: ", "10 cells along it");
+  expect_edge("target.cell_size_m = 0.02", "target.cell_size_m = 0.001", "error: ", "take larger cells, about 0.0182 m");
+}
+
+TEST_F(TargetRules, TheInitialPoseIsInReachAndInTheField) {
+  VERIFIES("LASSO-GND-009~1 LASSO-GND-060~1");
+  const std::string present = "tracking.initial.present = true\ntracking.initial.z_m = ";
+  // half of the box's diagonal is 1.22 m
+  expect_edge(present + "21.2", present + "21.3", "tracking.initial.z_m: 21.3", "wholly outside the ranges");
+  expect_edge(present + "5\ntracking.initial.x_m = 1.33", present + "5\ntracking.initial.x_m = 1.35", "tracking.initial.x_m: 1.35",
+              "15.1 deg off the boresight");
+  expect_edge("tracking.start_sigma_m = 2.5", "tracking.start_sigma_m = 3", "tracking.start_sigma_m: 3", "60 % of the range of 5 m");
+}
+
+TEST_F(TargetRules, TheTargetIsInTheField) {
+  VERIFIES("LASSO-GND-009~1 LASSO-GND-060~1");
+  expect_scenario_edge(kFiveAway + "offset_m = [1.33, 0]", kFiveAway + "offset_m = [1.35, 0]",
+                       "warning: ", "at 5 m the target's middle is outside of the field: its middle is 15.1 deg off");
+  expect_scenario_edge(kFiveAway + "offset_m = [0, -1.33]", kFiveAway + "offset_m = [0, -5]",
+                       "error: ", "wholly outside of the field: its middle is 45 deg off");
+}
+
+TEST_F(TargetRules, TheMiddleOfAMeshThatIsNotAboutItsOriginCounts) {
+  VERIFIES("LASSO-GND-009~1 LASSO-GND-060~1");
+  folder_.write("box.toml", "[[part]]\nkind = 'box'\nsize = [2, 1, 1]\nplace = [{move = [0, 8, 0]}]\n");
+  // The target's y is the sensor's x where tilt and turn are none.
+  expect_scenario_edge(kFiveAway + "tilt_deg = 0\nboresight_deg = 0\noffset_m = [-8, 0]",
+                       kFiveAway + "tilt_deg = 0\nboresight_deg = 0\noffset_m = [0, 0]", "scenario.s.offset_m",
+                       "wholly outside of the field: its middle is 58 deg off");
+}
+
+TEST_F(TargetRules, ADriftStaysInTheField) {
+  VERIFIES("LASSO-GND-009~1 LASSO-GND-060~1");
+  // 1.34 m beside the boresight at 0.1 m/s: 13.4 s
+  expect_scenario_edge(kFiveAway + "offset_m = [0, 0]\ndrift_mps = [0.1, 0, 0]\nframes = 67",
+                       kFiveAway + "offset_m = [0, 0]\ndrift_mps = [0.1, 0, 0]\nframes = 80", "scenario.s.drift_mps",
+                       "after 13.4 s, in frame 67 of 80");
+}
+
+TEST_F(TargetRules, TheSensorIsOutsideOfTheTarget) {
+  VERIFIES("LASSO-GND-009~1 LASSO-GND-060~1");
+  const std::string near = "sensor.range_min_m = 0.1";
+  expect_said(said(near, "kind = 'spin'\nranges_m = [0.4]"),
+              "error: ", "0.4: the sensor would be in the target, whose surface is 0.5 m from its middle");
+  expect_said(said(near, "kind = 'spin'\nranges_m = [0.9]"), "warning: ", "0.9: the target reaches 1 m from its middle");
+  EXPECT_EQ(said(near, "kind = 'spin'\nranges_m = [1]"), "");
+}
+
+TEST_F(TargetRules, TheBeamIsNarrowAgainstTheTarget) {
+  VERIFIES("LASSO-GND-009~1 LASSO-GND-060~1");
+  expect_scenario_edge(kFiveAway + "edge_mixing_m = 0.02", kFiveAway + "edge_mixing_m = 0.05", "scenario.s.edge_mixing_m: 0.05",
+                       "radius of 50 mm at 5 m");
+  expect_scenario_edge(kFiveAway + "beam_divergence_rad = 0.004", kFiveAway + "beam_divergence_rad = 0.01", "scenario.s.edge_mixing_m",
+                       "radius of 50 mm at 5 m");
+}
+
+}  // namespace
+}  // namespace lasso::mdat
