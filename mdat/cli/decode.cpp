@@ -11,6 +11,7 @@
 #include "mdat/common/interruption.hpp"
 #include "mdat/common/output.hpp"
 #include "mdat/link/decode_text.hpp"
+#include "mdat/link/headers_text.hpp"
 
 namespace lasso::mdat {
 namespace {

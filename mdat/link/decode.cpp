@@ -1,15 +1,9 @@
 #include "mdat/link/decode.hpp"
 
-#include <map>
-#include <utility>
-
-#include "fsw/core/crc.hpp"
-#include "fsw/link/packet_finder.hpp"
+#include "mdat/link/stream_crc.hpp"
 
 namespace lasso::mdat {
 namespace {
-
-constexpr std::size_t kLargestPacket = kPrimaryHeaderBytes + 0x10000;
 
 // Service, subservice and, where there is one, number.
 bool is_of(const PacketRow& row, ConstBytes packet, PacketType type) {
@@ -39,6 +33,16 @@ DecodedItem decode_item(const ItemRow& row, ConstBytes bytes) {
   return item;
 }
 
+// The size of the packet that `bytes` begin with, by a header of this component; 0: another header, or not whole.
+std::size_t own_packet(ConstBytes bytes, PacketType type) {
+  if (bytes.size() < kPrimaryHeaderBytes) return 0;
+  const PrimaryHeader header = read_primary_header(bytes);
+  const bool own = header.version == 0 && header.type == type && header.secondary_header && header.apid == kApid;
+  const std::size_t size = packet_size(bytes);
+  const bool fits = size >= kPrimaryHeaderBytes + kPacketTrailerBytes && size <= bytes.size();
+  return own && header.sequence_flags == kUnsegmented && fits ? size : 0;
+}
+
 }  // namespace
 
 std::vector<HeaderField> header_fields(PacketType type) {
@@ -66,45 +70,22 @@ DecodedPacket decode_packet(ConstBytes bytes, PacketType type) {
 }
 
 DecodedStream decode_stream(ConstBytes stream, PacketType type) {
-  std::vector<std::uint8_t> buffer(kLargestPacket);
-  PacketFinder finder(type, Bytes(buffer.data(), buffer.size()));
+  const StreamCrc crc(stream);
   DecodedStream decoded;
-  std::size_t taken = 0, in_packets = 0;
-  while (true) {
-    taken += finder.take(stream.subspan(taken, stream.size() - taken));
-    const std::size_t size = finder.packet().size();
-    if (size == 0 && !finder.give_up()) break;
-    if (size == 0) continue;
-    // The finder's bytes are those of the stream, in order: this packet begins behind the earlier ones and what was skipped.
-    const std::size_t offset = in_packets + finder.skipped();
-    decoded.packets.push_back(decode_packet(stream.subspan(offset, size), type));
-    decoded.packets.back().offset = offset;
+  std::size_t in_packets = 0;
+  for (std::size_t at = 0; at < stream.size();) {
+    const std::size_t size = own_packet(stream.subspan(at, stream.size() - at), type);
+    if (size == 0 || !crc.right(at, size)) {
+      ++at;
+      continue;
+    }
+    decoded.packets.push_back(decode_packet(stream.subspan(at, size), type));
+    decoded.packets.back().offset = at;
     in_packets += size;
+    at += size;
   }
   decoded.other_bytes = stream.size() - in_packets;
   return decoded;
-}
-
-HeaderList list_headers(ConstBytes stream) {
-  HeaderList list;
-  std::map<std::pair<PacketType, std::uint16_t>, std::uint16_t> last;  // count by type and APID
-  std::size_t at = 0;
-  while (at < stream.size()) {
-    const ConstBytes rest = stream.subspan(at, stream.size() - at);
-    const std::size_t size = packet_size(rest);
-    if (size == 0 || size > rest.size() || read_primary_header(rest).version != 0) break;
-    HeaderLine line{at, size, read_primary_header(rest), crc16_ccitt(rest.first(size)) == 0, 0};
-    const std::pair key(line.header.type, line.header.apid);
-    const auto before = last.find(key);
-    const std::uint32_t ahead = before == last.end() ? 1U : (line.header.sequence_count - before->second + 0U) & kSequenceCountMask;
-    line.behind = ahead == 0 || ahead > kSequenceCountMask / 2;
-    line.missing = line.behind ? 0 : ahead - 1;
-    if (!line.behind) last[key] = line.header.sequence_count;
-    list.lines.push_back(line);
-    at += size;
-  }
-  list.left_over = stream.size() - at;
-  return list;
 }
 
 }  // namespace lasso::mdat

@@ -39,21 +39,4 @@ DecodedStream decode_stream(ConstBytes stream, PacketType type);
 // The packet at the start of `bytes`, which has to be whole and its CRC right.
 DecodedPacket decode_packet(ConstBytes bytes, PacketType type);
 
-// One packet of any stream of space packets.
-struct HeaderLine {
-  std::size_t offset = 0;
-  std::size_t size = 0;
-  PrimaryHeader header;
-  bool crc_right = false;
-  std::uint32_t missing = 0;  // packets of its type and APID between it and those before, by their counts
-  bool behind = false;        // repeated, or out of order: its count is not after the latest one by less than half of all counts
-};
-struct HeaderList {
-  std::vector<HeaderLine> lines;
-  std::size_t left_over = 0;  // bytes at the end that are no whole packet
-};
-
-// Packet after packet by their length fields, whoever's they are. Ends before a packet that is not whole, or whose version is not 0.
-HeaderList list_headers(ConstBytes stream);
-
 }  // namespace lasso::mdat

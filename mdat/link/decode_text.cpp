@@ -140,8 +140,6 @@ void put_u32(std::string& out, std::uint64_t value) {  // little-endian, as the 
   for (int shift = 0; shift < 32; shift += 8) out += static_cast<char>(value >> shift & 0xFF);
 }
 
-const char* type_name(PacketType type) { return type == PacketType::kCommand ? "command" : "telemetry"; }
-
 }  // namespace
 
 void check_selection(const Selection& selection) {
@@ -203,57 +201,6 @@ std::string pcap_bytes(const DecodedStream& stream) {
     out.append(reinterpret_cast<const char*>(packet.bytes.data()), packet.bytes.size());
   }
   return out;
-}
-
-std::string headers_table(const HeaderList& list) {
-  std::string text = "  offset  APID type      flags count   bytes CRC    missing before\n";
-  for (const HeaderLine& line : list.lines) {
-    text += format("%8zu  %4u %-9s %5u %5u %7zu %-6s %s\n", line.offset, line.header.apid, type_name(line.header.type),
-                   line.header.sequence_flags, line.header.sequence_count, line.size, line.crc_right ? "right" : "WRONG",
-                   line.behind ? "(behind)" : (line.missing != 0 ? std::to_string(line.missing).c_str() : ""));
-  }
-  return text;
-}
-
-std::string headers_csv(const HeaderList& list) {
-  std::string text = "offset,apid,type,secondary_header,sequence_flags,sequence_count,size,crc_right,missing,behind\n";
-  for (const HeaderLine& line : list.lines) {
-    text += format("%zu,%u,%s,%d,%u,%u,%zu,%d,%u,%d\n", line.offset, line.header.apid, type_name(line.header.type),
-                   line.header.secondary_header ? 1 : 0, line.header.sequence_flags, line.header.sequence_count, line.size,
-                   line.crc_right ? 1 : 0, line.missing, line.behind ? 1 : 0);
-  }
-  return text;
-}
-
-std::string headers_json(const HeaderList& list) {
-  Json json = {{"left_over_bytes", list.left_over}, {"packets", Json::array()}};
-  for (const HeaderLine& line : list.lines) {
-    json["packets"].push_back({{"offset", line.offset},
-                               {"apid", line.header.apid},
-                               {"type", type_name(line.header.type)},
-                               {"secondary_header", line.header.secondary_header},
-                               {"sequence_flags", line.header.sequence_flags},
-                               {"sequence_count", line.header.sequence_count},
-                               {"size", line.size},
-                               {"crc_right", line.crc_right},
-                               {"missing", line.missing},
-                               {"behind", line.behind}});
-  }
-  return json.dump(1) + "\n";
-}
-
-std::string headers_summary(const HeaderList& list) {
-  std::size_t right = 0, gaps = 0, missing = 0, behind = 0;
-  for (const HeaderLine& line : list.lines) {
-    right += line.crc_right ? 1 : 0;
-    gaps += line.missing != 0 ? 1 : 0;
-    missing += line.missing;
-    behind += line.behind ? 1 : 0;
-  }
-  return format(
-      "%zu packets: CRC right in %zu, wrong in %zu; %zu gaps in the sequence, %zu packets missing, %zu repeated or out of order; %zu "
-      "bytes left over\n",
-      list.lines.size(), right, list.lines.size() - right, gaps, missing, behind, list.left_over);
 }
 
 }  // namespace lasso::mdat

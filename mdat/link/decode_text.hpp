@@ -27,10 +27,4 @@ std::string json_text(const DecodedStream& stream, const Selection& selection);
 // libpcap, link type 147 (USER0), a record for each packet at its CUC time: what the dissector of `mdat dictionary --format lua` reads.
 std::string pcap_bytes(const DecodedStream& stream);
 
-std::string headers_table(const HeaderList& list);
-std::string headers_csv(const HeaderList& list);
-std::string headers_json(const HeaderList& list);
-// One line.
-std::string headers_summary(const HeaderList& list);
-
 }  // namespace lasso::mdat
