@@ -1,6 +1,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "fsw/geometry/portable_math.hpp"
 #include "mdat/missiondb/mission_checks.hpp"
 #include "mdat/missiondb/rule.hpp"
 #include "mdat/missiondb/value_row.hpp"
@@ -10,6 +11,10 @@ namespace {
 
 // Of half of the target's length: a length of the estimation above it is one in other units.
 constexpr double kLargestShare = 0.25;
+constexpr double kLargestRatio = 5;
+constexpr double kTightestKernel = 3;
+constexpr double kLeastResidual = 1.2;
+constexpr double kMostInitialTurn_rad = 15 * kRadPerDeg;
 
 std::string raised_fault(double least, double hysteresis, const char* what) {
   if (least + hysteresis <= 1) return "";
@@ -45,9 +50,32 @@ std::string probe_fault(const Subject& s) {
 }
 
 std::string age_fault(const Subject& s) {
-  if (s.p.start_age_max_s >= 2 * s.p.period_s) return "";
-  return "a pose to start from is two periods old, " + figure(2 * s.p.period_s) +
-         " s, when a scan is compared with it: all would be refused as too old";
+  if (s.p.start_age_max_s >= s.p.period_s) return "";
+  return "a pose that comes over the link waits for the next frame, up to filter.period_s, which is " + figure(s.p.period_s) +
+         " s: it would be refused as too old";
+}
+
+std::string ratio_fault(const Subject& s) {
+  if (!is_in_order(s.p, kSearchWay) || s.p.search_ratio_min <= kLargestRatio) return "";
+  return "the best competitor seldom explains a scan " + figure(kLargestRatio) +
+         " times worse: most searches would be ambiguous; 1.3 is 30 %";
+}
+
+std::string kernel_fault(const Subject& s) {
+  if (s.p.kernel_width >= kTightestKernel) return "";
+  return "returns more than " + figure(s.p.kernel_width) + " sigmas off do not count: good ones go with the bad, and poses are refused";
+}
+
+std::string residual_fault(const Subject& s) {
+  if (s.p.normalized_residual_max >= kLeastResidual) return "";
+  return "residuals over their sigma have a root mean square of about 1: many good poses would be refused";
+}
+
+std::string fast_start_fault(const Subject& s) {
+  const double rate_radps = std::hypot(s.p.initial_wx_radps, s.p.initial_wy_radps, s.p.initial_wz_radps);
+  const double turn_rad = rate_radps * s.p.duration_s;
+  if (s.p.initial_present == 0 || turn_rad <= kMostInitialTurn_rad) return "";
+  return "the target of [tracking.initial] turns by " + degrees_text(turn_rad) + " in a scan: no such scan was registered";
 }
 
 std::string silence_fault(const Subject& s) {
@@ -134,6 +162,10 @@ const Rules& estimation_rules() {
     {kWarning, kParameters, kValues, {"estimation.silhouette_sigma_m", "estimation.silhouette_band_m"}, band_fault},
     {kWarning, kParameters, kValues, {"estimation.probe_step_m", "estimation.silhouette_band_m"}, probe_fault},
     {kWarning, kParameters, kValues, {"start.age_max_s", "filter.period_s"}, age_fault},
+    {kWarning, kParameters, kValues, {"search.ratio_min", "start.first", "start.second", "start.third", "start.fourth", "start.fifth"}, ratio_fault},
+    {kWarning, kParameters, kValues, {"estimation.kernel_width"}, kernel_fault},
+    {kWarning, kParameters, kValues, {"tracking.normalized_residual_max"}, residual_fault},
+    {kWarning, kParameters, kValues, {"tracking.initial.wx_degps", "tracking.initial.wy_degps", "tracking.initial.wz_degps"}, fast_start_fault},
     {kWarning, kParameters, kValues, {"link.silence_max_s", "filter.period_s"}, silence_fault},
     {kError, kParameters, kValues, {"start.second", "start.first"}, repeated_fault<1>},
     {kError, kParameters, kValues, {"start.third", "start.first", "start.second"}, repeated_fault<2>},

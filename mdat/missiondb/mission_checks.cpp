@@ -62,6 +62,7 @@ std::string value_of_field(const Subject& s, const std::string& key) {
 std::string value_of(const Subject& s, const std::string& key) {
   if (is_of_scenario(key)) return value_of_field(s, key);
   if (key == "target.cell_size_m") return number_text(s.source.target.cell_size_m);
+  if (key == "target.crease_angle_deg") return value_text(*find_row(mission_rows(), key), {s.source.target.crease_angle_rad});
   for (const ParameterRow& row : parameter_rows()) {
     if (row.key != key) continue;
     const double si = s.sensor != nullptr && is_of_sensor(key) ? s.sensor->p.*sensor_member(row) : s.p.*row.member;

@@ -10,9 +10,10 @@
 namespace lasso::mdat {
 namespace {
 
-constexpr double kIdlePeriods = 10;      // of a scan, between two of them
-constexpr double kWidestMargin = 2;      // a quarter of the rays falls on what the target is predicted to fill
-constexpr double kSearchWork = 1.2e6;    // of most searches
+constexpr double kIdlePeriods = 10;    // of a scan, between two of them
+constexpr double kWidestMargin = 2;    // a quarter of the rays falls on what the target is predicted to fill
+constexpr double kSearchWork = 1.2e6;  // of most searches
+constexpr double kUsualReturns = 1.0 / 3;
 constexpr double kReturningShare = 0.3;  // of the rays of a scan around a target of unknown attitude
 constexpr double kGapOverEven = 2.5;  // over that of rays that lie evenly: Lissajous figures of 19 and 12 cycles have 3.1, the rosette 1.9
 constexpr double kWidestGap = 0.2;    // in half extents
@@ -42,6 +43,13 @@ std::string inliers_fault(const Subject& s) {
   if (s.p.inliers_min <= most_returns(s.p)) return "";
   const std::string drops = s.p.dropout_probability > 0 ? ", of which " + number_text(most_returns(s.p)) + " return at most" : "";
   return "expected at most scan.points, which is " + number_text(s.p.points) + drops;
+}
+
+std::string many_inliers_fault(const Subject& s) {
+  const double usual = std::floor(kUsualReturns * most_returns(s.p));
+  if (s.p.inliers_min <= usual || s.p.inliers_min > most_returns(s.p)) return "";
+  return "of a slender target no more than a third of " + number_text(s.p.points) + " rays may return, about " + number_text(usual) +
+         ": poses with fewer inliers are not valid";
 }
 
 std::string lines_fault(const Subject& s) {
@@ -150,6 +158,7 @@ const Rules& scan_rules() {
   static const Rules rules = {
     {kError, kParameters, kValues, {"scan.points"}, points_fault},
     {kError, kParameters, kValues, {"tracking.inliers_min", "scan.points", "sensor.dropout_probability"}, inliers_fault},
+    {kWarning, kParameters, kValues, {"tracking.inliers_min", "scan.points", "sensor.dropout_probability"}, many_inliers_fault},
     {kError, kParameters, kValues, {"scan.cycles_a", "scan.points", "scan.pattern"}, lines_fault},
     {kError, kParameters, kValues, {"scan.cycles_b", "scan.cycles_a", "scan.pattern"}, common_divisor_fault},
     {kError, kParameters, kValues, {"scan.cycles_a", "scan.points", "scan.aimed_share"}, cycles_a_fault},

@@ -18,7 +18,9 @@ constexpr double kSearchedTurn_rad = 15 * kRadPerDeg;  // between two scans of a
 constexpr double kBetweenScans_s = 2;
 constexpr double kAccelerations = 5;  // over what the filter takes it for
 constexpr double kNoiseRatio = 3;     // of the simulated noise over the one that is assumed
-constexpr double kOnTarget = 0.5;     // of the rays
+constexpr double kReturning = 0.6;
+constexpr double kRadians_rad = 1.6 * kRadPerDeg;  // a quarter turn that was written in radians
+constexpr double kOnTarget = 0.5;                  // of the rays
 
 double norm(const std::vector<double>& v) { return std::hypot(v.at(0), v.at(1), v.at(2)); }
 
@@ -36,7 +38,7 @@ std::string back_fault(const Subject& s) {
   const std::vector<double>& times = s.scenario->times_s;
   const auto back = std::adjacent_find(times.begin(), times.end(), std::greater_equal<>());
   if (!s.scenario->has_profile() || back == times.end()) return "";
-  return "expected times that ascend: " + number_text(back[1]) + " s is not more than the time before it, " + number_text(back[0]) + " s";
+  return "expected more than the time before it, " + number_text(back[0]) + " s, of " + number_text(back[1]) + " s";
 }
 
 std::string eclipse_fault(const Subject& s) {
@@ -57,8 +59,7 @@ std::string ranges_fault(const Subject& s) {
   for (const double range_m : s.scenario->ranges_m) {
     const auto measures = [&](const SensorInUse& sensor) { return range_m > sensor.p.range_min_m && range_m < sensor.p.range_max_m; };
     if (std::none_of(sensors.begin(), sensors.end(), measures))
-      return "expected between sensor.range_min_m and sensor.range_max_m, which are " + known + ": " + number_text(range_m) +
-             " m is not";
+      return "expected between sensor.range_min_m and sensor.range_max_m, which are " + known + ": " + number_text(range_m) + " m is not";
   }
   return "";
 }
@@ -113,6 +114,21 @@ std::string no_way_fault(const Subject& s) {
   if ((s.scenario->prior != 0 && !approach) || is_in_order(s.p, kSearchWay)) return "";
   if (approach && is_in_order(s.p, kNavigationWay) && s.scenario->navigation_from_s < end_s(s)) return "";
   return "no pose is given, and \"search\" is none of start.first to start.fifth: the component finds the bearing, and never a pose";
+}
+
+// Of a way through the bands of several sensors, the first range that is in none.
+std::string band_gap_fault(const Subject& s) {
+  const auto [low, high] = std::minmax_element(s.scenario->ranges_m.begin(), s.scenario->ranges_m.end());
+  const std::vector<SensorInUse> sensors = sensors_in_use(s.source, s.p, s.scenario);
+  double reached_m = *low;  // from there on, in some band
+  for (std::size_t i = 0; i < sensors.size(); ++i) {
+    for (const SensorInUse& sensor : sensors) {
+      if (sensor.p.use_from_m <= reached_m && sensor.p.use_to_m > reached_m) reached_m = sensor.p.use_to_m;
+    }
+  }
+  if (sensors.size() == 1 || !s.scenario->has_profile() || reached_m >= *high) return "";
+  return "from " + figure(reached_m) + " m on the target is in no sensor's band (use_from_m, use_to_m), on its way from " + figure(*low) +
+         " m to " + figure(*high) + " m: any sensor that measures it is used";
 }
 
 std::string short_run_fault(const Subject& s) {
@@ -181,6 +197,15 @@ std::string dropout_fault(const Subject& s) {
          ": misses on the target count against its poses";
 }
 
+std::string grazing_fault(const Subject& s) {
+  const double returning = std::pow(std::sin(s.scenario->dropout_incidence_rad), 2);
+  if (returning >= kReturning) return "";
+  return "of the rays on a round target " + percent_text(returning) + " return" +
+         (s.scenario->dropout_incidence_rad < kRadians_rad ? "; in radians? " + figure(s.scenario->dropout_incidence_rad / kRadPerDeg) +
+                                                                 " rad are " + degrees_text(s.scenario->dropout_incidence_rad / kRadPerDeg)
+                                                           : "");
+}
+
 constexpr unsigned bit(ScenarioKind kind) { return 1U << static_cast<unsigned>(kind); }
 constexpr unsigned kMoving = bit(ScenarioKind::kSpin) | bit(ScenarioKind::kApproach) | bit(ScenarioKind::kPass);
 constexpr unsigned kProfile = bit(ScenarioKind::kApproach) | bit(ScenarioKind::kPass);
@@ -237,6 +262,7 @@ const Rules& scenario_rules() {
     {kWarning, kScenario, kValues, {"spin_degps", "start.first"}, searched_spin_fault},
     {kWarning, kScenario, kValues, {"step_deg"}, step_fault},
     {kWarning, kScenario, kValues, {"prior", "kind", "start.first"}, no_way_fault},
+    {kWarning, kScenario, kValues, {"ranges_m", "sensor.use_from_m", "sensor.use_to_m"}, band_gap_fault},
     {kWarning, kScenario, kValues, {"frames", "times_s"}, short_run_fault},
     {kWarning, kScenario, kValues, {"times_s", "filter.acceleration_mps2"}, haste_fault},
     {kWarning, kScenario, kTarget, {"estimation.deskew", "spin_degps"}, smear_fault},
@@ -244,6 +270,7 @@ const Rules& scenario_rules() {
     {kWarning, kScenario, kValues, {"angle_noise_rad", "sensor.sigma_angle_rad"}, simulated_angle_fault},
     {kWarning, kScenario, kValues, {"outlier_probability", "start.inlier_share_min", "tracking.inlier_share_min"}, outlier_fault},
     {kWarning, kScenario, kValues, {"dropout_probability", "sensor.dropout_probability"}, dropout_fault},
+    {kWarning, kScenario, kValues, {"dropout_incidence_deg"}, grazing_fault},
     {kWarning, kScenario, kValues, {"kind"}, idle_keys_fault},
   };
   // clang-format on

@@ -12,6 +12,9 @@ namespace {
 constexpr double kLidarGrowth = 20;        // over that of the LIDAR whose values are the presets
 constexpr double kFinestClock_m = 5e-4;    // 3 ps
 constexpr double kNarrowBeams = 0.1;       // of the beam's growth, which says how uncertain the place of a contour is
+constexpr double kCounts_per_m = 2e-5;     // of the square of the range
+constexpr double kFarNoise = 0.25;         // of the range
+constexpr double kAcrossShare = 0.03;      // the same across the ray
 constexpr double kNoiseShare = 1.0 / 12;   // of half of the target's length: the tenth-scale Hubble has wrong poses from there on
 constexpr double kFieldShare = 0.25;       // of the target that the field shows: below 0.1 most poses are wrong
 constexpr double kLeastFieldShare = 0.05;  // where nothing of the target's shape is left
@@ -78,6 +81,24 @@ std::string camera_fault(const Subject& s) {
          span_text(p.range_min_m, p.range_max_m) + "; of a LIDAR say kind = \"time_of_flight\"";
 }
 
+std::string far_noise_fault(const Subject& s) {
+  const SensorParameters& p = s.sensor->p;
+  const double sigma_m = range_sigma_m(p, p.range_max_m);
+  if (sigma_m <= kFarNoise * p.range_max_m) return "";
+  return "there one sigma of a range is " + figure(sigma_m) + " m; in millimetres? " + figure(p.range_max_m) + " mm are " +
+         figure(1e-3 * p.range_max_m) + " m";
+}
+
+// A simulated camera ends with the counts of its detector (docs/icd/lcs.md).
+std::string fine_camera_fault(const Subject& s) {
+  if (s.sensor->kind != SensorKind::kLaserCamera || s.sensor->ranges_m.empty() || s.scenario->noise == 0) return "";
+  const double range_m = farthest_m(s), counts_m = kCounts_per_m * range_m * range_m;
+  if (range_sigma_m(s.sensor->p, range_m) >= counts_m) return "";
+  return "one sigma of a range is " + figure(1e3 * range_sigma_m(s.sensor->p, range_m)) + " mm at " + figure(range_m) +
+         " m, less than the counts of a laser camera tell apart, about " + figure(1e3 * counts_m) +
+         " mm: its returns would count as outliers";
+}
+
 std::string beam_fault(const Subject& s) {
   const double growth_rad = preset_of(SensorKind::kTimeOfFlight, "beam_divergence_rad", 0);
   const double angle_rad = s.sensor->p.sigma_angle_rad;
@@ -104,6 +125,14 @@ std::string drowned_fault(const Subject& s) { return noise_share(s) > 1 ? noise_
 
 std::string noise_fault(const Subject& s) {
   return noise_share(s) > kNoiseShare && noise_share(s) <= 1 ? noise_text(s, "poses can be wrong") : "";
+}
+
+std::string across_fault(const Subject& s) {
+  const double across_m = s.sensor->ranges_m.empty() ? 0 : s.sensor->p.sigma_angle_rad * farthest_m(s);
+  if (across_m <= kAcrossShare * s.target->half_m()) return "";
+  return "one sigma of a ray's place is " + figure(1e3 * across_m) + " mm at " + figure(farthest_m(s)) + " m, on a target of " +
+         figure(s.target->longest_m()) + " m: poses are refused, or wrong; in degrees? " + figure(s.sensor->p.sigma_angle_rad) +
+         " deg are " + figure(s.sensor->p.sigma_angle_rad * kRadPerDeg) + " rad";
 }
 
 double field_share(const Subject& s, double half_rad) {
@@ -162,6 +191,9 @@ const Rules& sensor_rules() {
     {kWarning, kSensor, kValues, {"sensor.sigma0_m", "sensor.kind"}, lidar_clock_fault},
     {kWarning, kSensor, kValues, {"sensor.sigma_k_per_m", "sensor.kind"}, camera_fault},
     {kWarning, kSensor, kValues, {"sensor.sigma_angle_rad", "sensor.kind"}, beam_fault},
+    {kWarning, kSensor, kValues, {"sensor.sigma_k_per_m", "sensor.sigma0_m"}, fine_camera_fault},
+    {kWarning, kSensor, kValues, {"sensor.range_max_m", "sensor.sigma_k_per_m"}, far_noise_fault},
+    {kWarning, kSensor, kTarget, {"sensor.sigma_angle_rad"}, across_fault},
     {kError, kSensor, kTarget, {"sensor.sigma0_m", "sensor.sigma_k_per_m"}, drowned_fault},
     {kWarning, kSensor, kTarget, {"sensor.sigma0_m", "sensor.sigma_k_per_m"}, noise_fault},
     {kError, kSensor, kTarget, {"sensor.fov_half_x_deg"}, blind_field_fault<&P::fov_half_x_rad>},

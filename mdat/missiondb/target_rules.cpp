@@ -15,9 +15,11 @@ namespace {
 constexpr double kBestCells = 110;  // along the target
 constexpr double kMostCells = 450;  // 70 times as many in all
 constexpr double kFewestCells = 12;
-constexpr double kFootprintShare = 0.02;  // of half of the target's length
+constexpr double kFootprintShare = 0.01;  // of half of the target's length
 constexpr double kStartShare = 0.5;       // of the range
 constexpr int kBisections = 40;
+constexpr double kNarrowCone_rad = 5 * kRadPerDeg;
+constexpr double kRadiansOfCrease = 1.6;  // a right angle
 
 // What a sensor at the origin sees of the box, on the tangent plane.
 struct Seen {
@@ -144,7 +146,7 @@ std::string footprint_fault(const Subject& s) {
   if (radius_m <= kFootprintShare * s.target->half_m()) return "";
   return "the simulated beam has a radius of " + figure(1e3 * radius_m) + " mm at " + figure(range_m) +
          " m, and mixes the ranges of both sides of an edge on a target of " + figure(s.target->longest_m()) +
-         " m: poses are not confirmed";
+         " m: covariances are too small, or poses are not confirmed";
 }
 
 Surface box_surface(const TargetSize& target) {
@@ -211,15 +213,74 @@ std::string start_sigma_fault(const Subject& s) {
          " mm are " + figure(1e-3 * s.p.start_sigma_m) + " m";
 }
 
-std::string serving_parts_fault(const Subject& s) {
+double offset_m(const PartSource& part) { return std::hypot(part.origin_m[0], part.origin_m[1], part.origin_m[2]); }
+
+std::string named(const Subject& s, bool (*is_it)(const Subject&, const PartSource&)) {
   std::string names;
   for (const PartSource& part : s.source.parts) {
-    const double way_m = std::hypot(part.origin_m[0], part.origin_m[1], part.origin_m[2]);
-    if (s.p.short_range_enter_m <= 0 || part.range_m[0] < s.p.short_range_leave_m + way_m) continue;
-    names += (names.empty() ? "" : ", ") + part.name;
+    if (is_it(s, part)) names += (names.empty() ? "" : ", ") + part.name;
   }
-  if (names.empty()) return "";
-  return "within so short a range these parts never serve, by their range_m: " + names;
+  return names;
+}
+
+std::string far_parts_fault(const Subject& s) {
+  const auto is_far = [](const Subject& of, const PartSource& part) {
+    return part.range_m[0] >= of.p.short_range_leave_m + offset_m(part);
+  };
+  const std::string names = s.p.short_range_enter_m > 0 ? named(s, is_far) : "";
+  return names.empty() ? "" : "within so short a range these parts never serve, by their range_m: " + names;
+}
+
+// Nearest that the origin is to the sensor in any scenario.
+double nearest_m(const MissionSource& source) {
+  double nearest = 1e9;
+  for (const auto& [name, scenario] : source.scenarios)
+    nearest = std::min(nearest, *std::min_element(scenario.ranges_m.begin(), scenario.ranges_m.end()));
+  return nearest;
+}
+
+std::string near_parts_fault(const Subject& s) {
+  const auto is_near = [](const Subject& of, const PartSource& part) { return part.range_m[1] < nearest_m(of.source) - offset_m(part); };
+  const std::string names = s.source.scenarios.empty() ? "" : named(s, is_near);
+  return names.empty() ? ""
+                       : "no scenario has the target nearer than " + figure(nearest_m(s.source)) +
+                             " m, where these parts do not serve, by their range_m: " + names;
+}
+
+std::string narrow_parts_fault(const Subject& s) {
+  const auto is_narrow = [](const Subject&, const PartSource& part) { return part.cone_rad < kNarrowCone_rad; };
+  const std::string names = named(s, is_narrow);
+  return names.empty() ? ""
+                       : "seen from within less than " + degrees_text(kNarrowCone_rad) +
+                             " of their view, in radians?, these parts hardly ever serve, by their cone_deg: " + names;
+}
+
+std::string unreached_parts_fault(const Subject& s) {
+  if (s.p.short_range_enter_m <= 0 || s.source.scenarios.empty() || nearest_m(s.source) <= s.p.short_range_enter_m) return "";
+  return "no scenario has the target nearer than " + figure(nearest_m(s.source)) + " m: its parts are never looked at";
+}
+
+std::string crease_fault(const Subject& s) {
+  const double in_degrees = s.source.target.crease_angle_rad / kRadPerDeg;
+  if (in_degrees == 0 || in_degrees > kRadiansOfCrease) return "";
+  return "each facet of a round surface is one of its own; in radians? " + figure(in_degrees) + " rad are " + degrees_text(in_degrees);
+}
+
+// Rays of a scan of the whole field that meet the target, as a box that is seen from all sides: its mean shadow is a quarter of its
+// surface.
+double full_field_returns(const Subject& s, double range_m) {
+  const Eigen::Vector3d size = s.target->high - s.target->low;
+  const double shadow_m2 = 0.5 * (size.x() * size.y() + size.y() * size.z() + size.z() * size.x());
+  const double field_m2 = 4 * range_m * range_m * std::tan(s.p.fov_half_x_rad) * std::tan(s.p.fov_half_y_rad);
+  return s.p.points * (1 - s.p.dropout_probability) * std::min(1.0, shadow_m2 / field_m2);
+}
+
+std::string bearing_fault(const Subject& s) {
+  const bool seeks = s.scenario->prior == 0 || s.scenario->scenario_kind() == ScenarioKind::kApproach;
+  const double range_m = s.scenario->runs_m().front(), returns = full_field_returns(s, range_m);
+  if (!seeks || returns >= s.p.bearing_returns_min) return "";
+  return "of a scan of the whole field some " + figure(returns) + " rays meet the target at " + figure(range_m) +
+         " m: there would be no bearing";
 }
 
 }  // namespace
@@ -235,7 +296,12 @@ const Rules& target_rules() {
     {kWarning, kParameters, kTarget, {"tracking.initial.z_m", "tracking.initial.present"}, unreached_fault},
     {kWarning, kParameters, kTarget, {"tracking.initial.x_m", "tracking.initial.y_m", "tracking.initial.present"}, unseen_start_fault},
     {kWarning, kScenario, kTarget, {"tracking.start_sigma_m"}, start_sigma_fault},
-    {kWarning, kParameters, kValues, {"short_range.leave_m", "short_range.enter_m"}, serving_parts_fault},
+    {kWarning, kParameters, kValues, {"short_range.leave_m", "short_range.enter_m"}, far_parts_fault},
+    {kWarning, kMission, kValues, {"short_range.enter_m"}, near_parts_fault},
+    {kWarning, kMission, kValues, {"short_range.enter_m"}, narrow_parts_fault},
+    {kWarning, kMission, kValues, {"short_range.enter_m"}, unreached_parts_fault},
+    {kWarning, kMission, kValues, {"target.crease_angle_deg"}, crease_fault},
+    {kWarning, kScenario, kTarget, {"bearing.returns_min", "scan.points"}, bearing_fault},
     {kError, kScenario, kTarget, {"offset_m", "sensor.fov_half_x_deg", "sensor.fov_half_y_deg"}, outside_fault},
     {kWarning, kScenario, kTarget, {"offset_m", "sensor.fov_half_x_deg", "sensor.fov_half_y_deg"}, off_fault},
     {kWarning, kScenario, kTarget, {"drift_mps", "frames"}, lost_fault},

@@ -33,7 +33,7 @@ TEST_F(EstimationRules, ContoursAreWithinTheirBand) {
 
 TEST_F(EstimationRules, TimesAreNotShorterThanAPeriod) {
   VERIFIES("LASSO-GND-009~1 LASSO-GND-060~1");
-  expect_edge("start.age_max_s = 0.4", "start.age_max_s = 0.39", "start.age_max_s: 0.39", "0.4 s");
+  expect_edge("start.age_max_s = 0.2", "start.age_max_s = 0.1", "start.age_max_s: 0.1", "which is 0.2 s");
   expect_edge("link.silence_max_s = 0.2", "link.silence_max_s = 0.19", "link.silence_max_s: 0.19", "which is 0.2 s");
 }
 
@@ -57,13 +57,13 @@ TEST_F(EstimationRules, TheInitialPoseIsOne) {
 TEST_F(EstimationRules, PartsAreLookedAtFromWithinTheShortRange) {
   VERIFIES("LASSO-GND-009~1 LASSO-GND-060~1");
   const std::string part = "part.a.box_m = [-1, -0.5, -0.5, 0, 0.5, 0.5]\npart.a.view = [0, 0, -1]\npart.a.range_m = [";
-  const std::string range = "short_range.enter_m = 2\nshort_range.leave_m = 2.5\n";
-  expect_edge(range + part + "0.5, 4]", part + "0.5, 4]", "short_range.enter_m: 0", "never looked at");
-  expect_edge(range + part + "2.4, 4]", range + part + "2.5, 4]", "short_range.leave_m: 2.5",
+  const std::string range = "short_range.enter_m = 5\nshort_range.leave_m = 5.5\n";
+  expect_edge(range + part + "0.5, 6]", part + "0.5, 6]", "short_range.enter_m: 0", "never looked at");
+  expect_edge(range + part + "5.4, 6]", range + part + "5.5, 6]", "short_range.leave_m: 5.5",
               "these parts never serve, by their range_m: a");
-  expect_edge(range + part + "0.5, 4]", "short_range.enter_m = 2\nshort_range.leave_m = 2\n" + part + "0.5, 4]", "short_range.leave_m: 2",
+  expect_edge(range + part + "0.5, 6]", "short_range.enter_m = 5\nshort_range.leave_m = 5\n" + part + "0.5, 6]", "short_range.leave_m: 5",
               "more than short_range.enter_m");
-  expect_said(said(range), "short_range.enter_m: 2", "has no parts to look at");
+  expect_said(said(range), "short_range.enter_m: 5", "has no parts to look at");
 }
 
 TEST_F(EstimationRules, LengthsAreSmallAgainstTheTarget) {
@@ -78,6 +78,16 @@ TEST_F(EstimationRules, LengthsAreSmallAgainstTheTarget) {
     EXPECT_EQ(said(small + "estimation." + key + " = 0.025"), "") << key;
     expect_said(said(small + "estimation." + key + " = 0.05"), std::string(key) + ": 0.05", "25 % of the target's length, which is 0.2 m");
   }
+}
+
+TEST_F(EstimationRules, LimitsLeaveGoodPosesTheirRoom) {
+  VERIFIES("LASSO-GND-009~1 LASSO-GND-060~1");
+  expect_edge("estimation.kernel_width = 3", "estimation.kernel_width = 2", "estimation.kernel_width: 2", "more than 2 sigmas off");
+  expect_edge("tracking.normalized_residual_max = 1.2", "tracking.normalized_residual_max = 1", "normalized_residual_max: 1", "about 1");
+  expect_edge("start.fifth = 'search'\nsearch.ratio_min = 5", "start.fifth = 'search'\nsearch.ratio_min = 30", "search.ratio_min: 30",
+              "1.3 is 30 %");
+  const std::string pose = "tracking.initial.present = true\ntracking.initial.z_m = 5\ntracking.initial.wx_degps = ";
+  expect_edge(pose + "83", pose + "300", "tracking.initial.wx_degps: 300", "turns by 54 deg in a scan");
 }
 
 }  // namespace

@@ -223,8 +223,7 @@ TEST_F(Missions, ScenariosAreCheckedLikeTheRest) {
   expect_error(kHead + "[scenario.s]\n", "scenario.s.kind: is missing");
   expect_error(kHead + "[scenario.s]\nkind = 'paper'\nranges_m = []\n", "expected a list of 1 to 100 numbers");
   expect_error(kHead + "[scenario.s]\nkind = 'paper'\nranges_m = [4, -1]\n", "m.toml:9:16: scenario.s.ranges_m[1]: -1: out of range");
-  expect_error(kHead + "[scenario.s]\nkind = 'paper'\nranges_m = [25]\n",
-               "scenario.s.ranges_m: [25]: expected between sensor.range_min_m");
+  expect_error(kHead + "[scenario.s]\nkind = 'paper'\nranges_m = [25]\n", "scenario.s.ranges_m: [25]: expected between sensor.range_min_m");
   expect_error(scenario + "fames = 3\n", "m.toml:10:1: scenario.s.fames: unknown key; did you mean scenario.s.frames?");
   expect_error(scenario + "offset_m = [1, 2, 3]\n", "expected a list of 2 numbers");
   expect_error(scenario + "override.scan.pints = 3\n",

@@ -14,7 +14,7 @@ TEST_F(ScenarioRules, TimesAscendAndBelongToRanges) {
   expect_scenario_edge(kPass + "times_s = [0, 20]\nframes = 100", kPass + "times_s = [0, 10, 20]\nframes = 100",
                        "error: ", "expected one for each of ranges_m, which are 2");
   expect_scenario_edge(kPass + "times_s = [0, 20]\nframes = 100", kPass + "times_s = [20, 20]\nframes = 100",
-                       "error: ", "20 s is not more than");
+                       "error: ", "expected more than the time before it, 20 s, of 20 s");
   expect_scenario_edge(kPass + "times_s = [0, 20]\nframes = 99", kPass + "times_s = [0, 20]\nframes = 98", "scenario.s.frames: 98",
                        "expected 100 frames of 0.2 s");
   expect_scenario_edge(kSpin + "eclipse_s = [1, 2]", kSpin + "eclipse_s = [2, 1]", "error: ", "not before the begin, 2 s");
@@ -97,6 +97,22 @@ TEST_F(ScenarioRules, OfARunItsOwnScenarioIsTold) {
   EXPECT_NE(warnings_for(source, "a")[0].find("two.toml:8:13: start.age_max_s: 0: "), std::string::npos) << warnings_for(source, "a")[0];
   EXPECT_EQ(warnings_for(source, "b").size(), 3U);  // the turn in a scan, and the rate at the start
   EXPECT_EQ(warnings_for(source, "").size(), 3U);
+}
+
+TEST_F(ScenarioRules, RaysReturnFromMostOfTheTarget) {
+  VERIFIES("LASSO-GND-009~1 LASSO-GND-060~1");
+  // the square of the sine
+  expect_scenario_edge(kSpin + "dropout_incidence_deg = 51", kSpin + "dropout_incidence_deg = 45", "dropout_incidence_deg: 45",
+                       "50 % return");
+  expect_scenario_edge(kSpin + "dropout_incidence_deg = 80", kSpin + "dropout_incidence_deg = 1.4", "dropout_incidence_deg: 1.4",
+                       "1.4 rad are 80.2 deg");
+}
+
+TEST_F(ScenarioRules, BandsOfSensorsMeet) {
+  VERIFIES("LASSO-GND-009~1 LASSO-GND-060~1");
+  const std::string near = "further_sensor.near.use_to_m = 5.5\nsensor.use_from_m = ";
+  expect_edge(near + "5.5", near + "5.8", "scenario.s.ranges_m: [6, 5]", "from 5.5 m on the target is in no sensor's band",
+              kPass + "times_s = [0, 20]\nframes = 100");
 }
 
 }  // namespace

@@ -30,8 +30,8 @@ TEST_F(SensorRules, TheNoiseIsThatOfItsKind) {
   expect_edge(kLidar + "sensor.sigma_k_per_m = 9e-6", kLidar + "sensor.sigma_k_per_m = 1.1e-4", "sensor.sigma_k_per_m: 0.00011",
               "1.1 m at 100 m");
   expect_edge(kLidar + "sensor.sigma0_m = 0.0005", kLidar + "sensor.sigma0_m = 0.00015", "sensor.sigma0_m: 0.00015", "are 1 ps");
-  expect_edge("sensor.sigma_k_per_m = 0\nsensor.range_min_m = 2", "sensor.sigma_k_per_m = 0\nsensor.range_min_m = 1.9",
-              "sensor.sigma_k_per_m: 0", "time_of_flight");
+  expect_edge("sensor.sigma0_m = 0.001\nsensor.sigma_k_per_m = 0\nsensor.range_min_m = 2",
+              "sensor.sigma0_m = 0.001\nsensor.sigma_k_per_m = 0\nsensor.range_min_m = 1.9", "sensor.sigma_k_per_m: 0", "time_of_flight");
   expect_edge("sensor.kind = 'time_of_flight'\nsensor.sigma_angle_rad = 2.6e-5", "sensor.kind = 'time_of_flight'",
               "sensor.sigma_angle_rad: 0", "0.025 m at 100 m");
 }
@@ -64,6 +64,17 @@ TEST_F(SensorRules, WhatScenariosHaveInCommonIsSaidOnce) {
   const std::string text = said("sensor.sigma0_m = 0.41", "kind = 'spin'\nranges_m = [5]\n[scenario.t]\nkind = 'spin'\nranges_m = [6]");
   expect_said(text, "sensor.sigma0_m: 0.41", "(scenarios s, t)");
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1) << text;
+}
+
+TEST_F(SensorRules, TheNoiseIsOneThatASensorCanHave) {
+  VERIFIES("LASSO-GND-009~1 LASSO-GND-060~1");
+  const std::string fine = "sensor.sigma0_m = 1e-5\nsensor.sigma_k_per_m = ";
+  expect_edge(fine + "2e-5", fine + "1.1e-7", "sensor.sigma_k_per_m: 1.1e-07",
+              "0.0104 mm at 5 m, less than the counts of a laser camera tell apart, about 0.5 mm");
+  EXPECT_EQ(said(fine + "1.1e-7", "kind = 'spin'\nranges_m = [5]\nnoise = false"), "");
+  expect_edge("sensor.range_max_m = 2200", "sensor.range_max_m = 9000", "sensor.range_max_m: 9000", "9e+03 mm are 9 m");
+  // 30 mm of 1 m
+  expect_edge("sensor.sigma_angle_rad = 0.006", "sensor.sigma_angle_rad = 0.01", "sensor.sigma_angle_rad: 0.01", "50 mm at 5 m");
 }
 
 }  // namespace

@@ -61,10 +61,38 @@ TEST_F(TargetRules, TheSensorIsOutsideOfTheTarget) {
 
 TEST_F(TargetRules, TheBeamIsNarrowAgainstTheTarget) {
   VERIFIES("LASSO-GND-009~1 LASSO-GND-060~1");
-  expect_scenario_edge(kFiveAway + "edge_mixing_m = 0.02", kFiveAway + "edge_mixing_m = 0.05", "scenario.s.edge_mixing_m: 0.05",
+  expect_scenario_edge(kFiveAway + "edge_mixing_m = 0.01", kFiveAway + "edge_mixing_m = 0.05", "scenario.s.edge_mixing_m: 0.05",
                        "radius of 50 mm at 5 m");
-  expect_scenario_edge(kFiveAway + "beam_divergence_rad = 0.004", kFiveAway + "beam_divergence_rad = 0.01", "scenario.s.edge_mixing_m",
+  expect_scenario_edge(kFiveAway + "beam_divergence_rad = 0.0019", kFiveAway + "beam_divergence_rad = 0.01", "scenario.s.edge_mixing_m",
                        "radius of 50 mm at 5 m");
+}
+
+TEST_F(TargetRules, CreasesAreInDegrees) {
+  VERIFIES("LASSO-GND-009~1 LASSO-GND-060~1");
+  expect_edge("target.crease_angle_deg = 2", "target.crease_angle_deg = 0.5", "target.crease_angle_deg: 0.5", "0.5 rad are 28.6 deg");
+  EXPECT_EQ(said("target.crease_angle_deg = 0"), "");
+}
+
+TEST_F(TargetRules, ABearingHasTheReturnsOfAFullField) {
+  VERIFIES("LASSO-GND-009~1 LASSO-GND-060~1");
+  // A mean shadow of 2.5 m2 of a field of 7.2 m2, 2.68 m squared: 357 rays of 1024.
+  const std::string search = "start.fifth = 'search'\nbearing.returns_min = ";
+  expect_edge(search + "350", search + "360", "bearing.returns_min: 360", "some 357 rays meet the target at 5 m",
+              kFiveAway + "prior = false");
+}
+
+TEST_F(TargetRules, PartsServeWhereTheTargetIs) {
+  VERIFIES("LASSO-GND-009~1 LASSO-GND-060~1");
+  const std::string range = "short_range.enter_m = 5.1\nshort_range.leave_m = 6\n";
+  const std::string part = range + "part.a.box_m = [-1, -0.5, -0.5, 0, 0.5, 0.5]\npart.a.view = [0, 0, -1]\n";
+  expect_edge(part + "part.a.range_m = [0.5, 5.1]", part + "part.a.range_m = [0.5, 4]",
+              "warning: ", "nearer than 5 m, where these parts do not serve, by their range_m: a");
+  expect_edge(part + "part.a.range_m = [0.5, 6]\npart.a.cone_deg = 5", part + "part.a.range_m = [0.5, 6]\npart.a.cone_deg = 1.3",
+              "warning: ", "by their cone_deg: a");
+  const std::string far =
+      "part.a.box_m = [-1, -0.5, -0.5, 0, 0.5, 0.5]\npart.a.view = [0, 0, -1]\npart.a.range_m = [0.5, 6]\nshort_range.leave_m = "
+      "6\nshort_range.enter_m = ";
+  expect_edge(far + "5", far + "4.9", "short_range.enter_m: 4.9", "nearer than 5 m: its parts are never looked at");
 }
 
 }  // namespace
