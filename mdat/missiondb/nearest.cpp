@@ -37,7 +37,8 @@ std::size_t dissimilarity(const std::string& written, const std::string& candida
 
 std::string nearest(const std::string& written, const std::vector<std::string>& candidates) {
   std::string best;
-  std::size_t least = std::max<std::size_t>(2, written.size() / 4) + 1;
+  // A quarter of the letters may differ, or two; of a short word one, as two of "fast" make it "lost".
+  std::size_t least = (written.size() <= 4 ? 1 : std::max<std::size_t>(2, written.size() / 4)) + 1;
   for (const std::string& candidate : candidates) {
     const std::size_t distance = dissimilarity(written, candidate);
     if (distance < least) {

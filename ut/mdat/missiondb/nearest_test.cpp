@@ -13,6 +13,7 @@ TEST(Nearest, NamesWhatIsProbablyMeant) {
   EXPECT_EQ(did_you_mean("stanby", {"standby", "bearing", "safe"}), "; did you mean standby?");
   EXPECT_EQ(did_you_mean("xyz", {"standby", "bearing", "safe"}), "");
   EXPECT_EQ(did_you_mean("", {"standby"}), "");
+  EXPECT_EQ(did_you_mean("fast", {"lost"}), "");
 }
 
 TEST(Nearest, FindsWhatAPersonMeant) {
