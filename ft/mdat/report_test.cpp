@@ -17,7 +17,7 @@ void expect_results(const WorkFolder& work) {
 TEST(Report, OfARunThatSeesNothing) {
   VERIFIES("LASSO-MDT-030~1 LASSO-MDT-004~1");
   const std::vector<std::pair<std::string, std::string>> none = {{"ranges_m = [2.0, 3.0, 4.0, 5.0, 6.0, 7.0]", "ranges_m = [3.0]"},
-                                                                 {"offset_m = [0.02, -0.01]", "dropout_incidence_deg = 0.01"}};
+                                                                 {"offset_m = [0.02, -0.01]", "offset_m = [1.35, 0.0]"}};
   const WorkFolder work;
   work.write_mission(none);
   const Answer answer = work.mdat("run missions/test.toml --scenario paper --frames 3 --out out");

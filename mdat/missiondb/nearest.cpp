@@ -36,10 +36,11 @@ std::size_t dissimilarity(const std::string& written, const std::string& candida
 }  // namespace
 
 std::string nearest(const std::string& written, const std::vector<std::string>& candidates) {
+  if (written.empty()) return "";
   std::string best;
-  // A quarter of the letters may differ, or two; of a short word one, as two of "fast" make it "lost".
-  std::size_t least = (written.size() <= 4 ? 1 : std::max<std::size_t>(2, written.size() / 4)) + 1;
+  std::size_t least = std::max<std::size_t>(2, written.size() / 4) + 1;
   for (const std::string& candidate : candidates) {
+    if (written.size() <= 4 && written[0] != candidate[0]) continue;  // two letters of "fast" make it "lost"
     const std::size_t distance = dissimilarity(written, candidate);
     if (distance < least) {
       least = distance;
