@@ -93,6 +93,16 @@ run: ## first: track the tenth-scale Hubble in simulation, and write the report 
 	@cfg/quality/measured.py run "$(OUT)/results.json"
 	@echo "open the report: xdg-open '$(OUT)/report.html'"
 
+GALLERY ?= $(LASSO_OUT)/gallery
+gallery: ## measure: fly every shipped scenario and write a page of them all, out/gallery/index.html: FRAMES=
+	$(call packages,build)
+	$(call configure,$(BUILD),)
+	$(call compile,$(BUILD),mdat)
+	@for mission in cfg/missions/*.toml; do for scenario in $$(sed -n 's/^\[scenario\.\(.*\)\]/\1/p' $$mission); do \
+	  $(BUILD)/mdat/mdat run $$mission --scenario $$scenario $(if $(FRAMES),--frames $(FRAMES)) --force --out "$(GALLERY)/$$(basename $$mission .toml)/$$scenario" || exit; done; done
+	@$(BUILD)/mdat/mdat gallery "$(GALLERY)"
+	@echo "open the page: xdg-open '$(GALLERY)/index.html'"
+
 test: ## first: build and pass all unit and functional tests of the host
 	$(begin)
 	$(call packages,build test)

@@ -35,7 +35,7 @@ TEST(Report, DoesNotReadTheUsersSettings) {
   EXPECT_EQ(answer.exit_code, 0) << answer.err;
   expect_results(work);
   EXPECT_EQ(work.read("out/report.html").find("is missing"), std::string::npos);
-  EXPECT_EQ(work.contents("out"), (std::vector<std::string>{"report.html", "results.json", "telemetry.ccsds"}));
+  EXPECT_EQ(work.contents("out"), (std::vector<std::string>{"frames.csv", "report.html", "results.json", "telemetry.ccsds"}));
 }
 
 TEST(Report, WithoutGnuplotSaysSoAndTheResultsStand) {
@@ -60,6 +60,57 @@ TEST(Report, GnuplotThatFailsIsToldInItsOwnWords) {
   EXPECT_EQ(lines_of(answer.err).back(),
             "mdat: out/report.html: figures are missing: gnuplot failed (code 4): out of paper; all results are written");
   expect_results(work);
+}
+
+// A wide start that is half a turn off: no pose is valid, and the report shows which frames and why.
+TEST(Report, NamesWhatWasFlownAndTheFramesWithoutAPose) {
+  VERIFIES("LASSO-MDT-035~1 LASSO-MDT-034~1 LASSO-MDT-031~1");
+  const WorkFolder work;
+  const Answer answer =
+      work.mdat("run missions/test.toml --scenario half_turn --frames 3 --set scenario.half_turn.ranges_m=[3.0] --out out");
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  const std::string report = work.read("out/report.html");
+  const std::string crc = Json::parse(work.read("out/results.json")).at("noisy").at("image_crc");
+  for (const std::string& text :
+       {std::string("<dt>Mission</dt><dd>Hubble, tenth scale, number 1, version 1, test.toml</dd>"),
+        "<dt>Flight image, CRC-32C</dt><dd>" + crc + "</dd>", std::string("<code>scenario.half_turn.ranges_m=[3.0]</code>"),
+        std::string("<td>scenario.half_turn.prior_turn_deg</td>"), std::string(", commit "), std::string("with noise, flight 1, 3 m"),
+        std::string("without a valid pose"), std::string("The first of these scans")})
+    EXPECT_NE(report.find(text), std::string::npos) << text;
+  EXPECT_EQ(report.find("<td>estimation.kernel_width</td>"), std::string::npos) << "a preset";
+  const std::vector<std::string> rows = lines_of(work.read("out/frames.csv"));
+  ASSERT_EQ(rows.size(), 4U);
+  EXPECT_EQ(rows[1].find(",noisy,1,0,"), 0U) << rows[1];
+}
+
+TEST(Gallery, ShowsEveryRunBelowAFolder) {
+  VERIFIES("LASSO-MDT-036~1");
+  const WorkFolder work;
+  ASSERT_EQ(work.mdat("run missions/test.toml --scenario spin --frames 3 --out \"all/a b&c\"").exit_code, 0);
+  work.write("all/bad/results.json", R"({"mission": "<m>", "scenario": "s", "noisy": {"frames": 9, "lost": 1, "invalid": 2, "wrong": 4}})");
+  work.write("all/other/results.json", "[]");
+  const Answer answer = work.mdat("gallery all");
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_EQ(answer.out, "2 runs: all/index.html\n");
+  EXPECT_EQ(answer.err, "warning: all/other/results.json: not the results of mdat run; left out\n");
+  const std::string page = work.read("all/index.html");
+  EXPECT_NE(page.find("<a href='a%20b%26c/report.html'>a b&amp;c</a>"), std::string::npos);
+  EXPECT_NE(page.find("<p class='good'>3 frames, all right</p>"), std::string::npos);
+  EXPECT_NE(page.find("<img alt='scans on the target' src='data:image/png;base64,"), std::string::npos);
+  EXPECT_NE(page.find("<a href='bad/results.json'>bad</a>"), std::string::npos) << "it has no report";
+  EXPECT_NE(page.find("<p>&lt;m&gt;, s, seed 0</p>"), std::string::npos);
+  EXPECT_NE(page.find("<p class='bad'>9 frames, 4 wrong, 1 lost, 2 without a valid pose</p>"), std::string::npos);
+  EXPECT_NE(page.find("rms – mm, –°; NEES –"), std::string::npos);
+}
+
+TEST(Gallery, RefusesAFolderWithoutRuns) {
+  VERIFIES("LASSO-MDT-036~1 LASSO-MDT-007~1");
+  const WorkFolder work;
+  const std::vector<std::string> before = work.contents();
+  EXPECT_EQ(work.mdat("gallery missions").err, "mdat: missions: no run below it: mdat run leaves a results.json\n");
+  EXPECT_EQ(work.mdat("gallery none").err, "mdat: none: no such folder\n");
+  EXPECT_EQ(work.mdat("gallery missions").exit_code, 2);
+  EXPECT_EQ(work.contents(), before);
 }
 
 }  // namespace

@@ -88,7 +88,8 @@ TEST(EarlierFiles, AreReplacedOnlyWhenToldSo) {
     EXPECT_EQ(work.contents(), before) << command;
   }
   ASSERT_EQ(work.mdat(kSpin + "--out out --force").exit_code, 0);
-  EXPECT_EQ(work.contents("out"), (std::vector<std::string>{"results.json", "telemetry.ccsds"})) << "no report of another run stays";
+  EXPECT_EQ(work.contents("out"), (std::vector<std::string>{"frames.csv", "results.json", "telemetry.ccsds"}))
+      << "no report of another run stays";
 }
 
 TEST(EarlierFiles, OfARecordingAndAReplay) {

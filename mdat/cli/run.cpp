@@ -13,6 +13,7 @@
 #include "mdat/missiondb/camera_faults.hpp"
 #include "mdat/report/report.hpp"
 #include "mdat/run/camera.hpp"
+#include "mdat/run/frames_table.hpp"
 #include "mdat/run/recording.hpp"
 #include "mdat/run/results.hpp"
 #include "mdat/run/simulation.hpp"
@@ -28,7 +29,7 @@ struct RunArguments {
 };
 
 // All that a run writes into its folder.
-constexpr const char* kFiles[] = {"results.json", "telemetry.ccsds", "report.html"};
+constexpr const char* kFiles[] = {"results.json", "frames.csv", "telemetry.ccsds", "report.html"};
 
 MissionInput load_input(const RunArguments& options) {
   return load_mission_input(options.mission, options.settings, options.simulation.scenario);
@@ -46,6 +47,7 @@ void check_earlier(const RunArguments& options) {
 
 void write_results(const RunArguments& options, const SimulationOptions& simulation, const SimulationResult& result, OutputFolder& folder) {
   folder.write("results.json", results_json(result));
+  folder.write("frames.csv", frames_csv(result));
   folder.write("telemetry.ccsds", telemetry_bytes(result));
   folder.commit();
   folder.remove("report.html");  // of an earlier run
@@ -126,7 +128,7 @@ void run(const RunArguments& options) {
   write_results(options, simulation, result, folder);
   if (simulation.replay) warn_of_replay(result);
   std::fputs(summary_text(result).c_str(), stdout);
-  std::printf("written to %s: results.json, telemetry.ccsds\n", options.out.c_str());
+  std::printf("written to %s: results.json, frames.csv, telemetry.ccsds\n", options.out.c_str());
   (void)std::fflush(stdout);
   if (options.report || !options.picture.empty()) write_pictures(options, mission, result, folder);
 }

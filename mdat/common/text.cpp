@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
+#include <cstring>
 
 namespace lasso::mdat {
 
@@ -25,6 +26,15 @@ std::string decimals(double value, int count) {
 }
 
 std::string known(double value, int count, const char* unknown) { return std::isnan(value) ? unknown : decimals(value, count); }
+
+std::string url(const std::string& path) {
+  std::string result;
+  for (const char c : path) {
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || std::strchr("-._~/", c) != nullptr;
+    result += plain ? std::string(1, c) : format("%%%02X", static_cast<unsigned char>(c));
+  }
+  return result;
+}
 
 std::string escape(const std::string& text) {
   std::string result;

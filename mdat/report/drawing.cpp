@@ -50,12 +50,14 @@ std::string Drawing::file_of(const std::string& rows) {
 
 void Drawing::plot(const std::vector<Curve>& curves, const std::string& why, Axis y) {
   std::string plots;
+  bool drawn = false;
   for (const Curve& curve : curves) {
     if (!has_point(curve.rows, curve.y, y)) continue;
+    drawn = drawn || !curve.mark;
     plots += (plots.empty() ? "plot " : ", ") + file_of(curve.rows) + format(" using 1:%d", curve.y) + curve.style;
   }
   script_ += y == Axis::kLogarithmic ? "set logscale y\n" : "unset logscale y\n";
-  if (!plots.empty()) {
+  if (drawn) {
     has_points_ = true;
     script_ += plots + "\n";
     return;

@@ -18,6 +18,7 @@ struct Curve {
   std::string rows;   // numbers, a line each; of NaN there is no point, and a line without numbers is a gap
   int y = 2;          // its column, from 1; x is the first
   std::string style;  // for gnuplot, behind `using 1:y`: more columns, and how they are drawn
+  bool mark = false;  // drawn beside other curves only: of marks alone there is no plot
 };
 
 enum class Axis { kLinear, kLogarithmic };

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "mdat/common/text.hpp"
+#include "mdat/report/doubtful_view.hpp"
 #include "mdat/report/drawing.hpp"
 #include "mdat/run/results.hpp"
 
@@ -121,10 +122,13 @@ std::string error_against_angle(Plotter& plotter, const TableResult& table, cons
   const double step = turns ? table.scenario.step_rad / kRadPerDeg : 1;
   std::vector<std::string> runs;
   for (const CaseResult& run : variant.cases) runs.push_back(errors_text(run, step));
+  const std::vector<Curve> marks = doubtful_marks(variant, step);
   Drawing drawing(plotter);
+  drawing.set(kMarksAxis);
+  drawing.set("set format y '%.3g'\n");
   drawing.set(
-      "set multiplot layout 2,3 margins 0.06,0.925,0.125,0.93 spacing 0.062,0.14\n"
-      "set key at screen 0.998,0.95 right top vertical samplen 1.2 spacing 1.2\n");
+      "set multiplot layout 2,3 margins 0.065,0.905,0.11,0.94 spacing 0.078,0.19\n"
+      "set key at screen 0.998,0.955 right top vertical samplen 1.2 spacing 1.2\n");
   if (table.scenario.drawn != 0) drawing.set("unset key\n");  // flights have no order
   drawing.set(format("set xrange [0:%g]\n", step * static_cast<double>(longest_run(variant))));
   if (turns && longest_run(variant) > 180) drawing.set("set xtics 90\n");
@@ -132,9 +136,11 @@ std::string error_against_angle(Plotter& plotter, const TableResult& table, cons
     if (axis == 1) drawing.set("unset key\n");
     if (axis == 3) drawing.set(format("set xlabel '%s' textcolor '#46505f'\n", turns ? "turn about the x axis, deg" : "frame"));
     drawing.set(format("set title '%s, %s'\n", kErrorAxes[axis].name, kErrorAxes[axis].unit));
-    drawing.plot(angle_curves(runs, table.scenario, axis), kAllLost);
+    std::vector<Curve> curves = angle_curves(runs, table.scenario, axis);
+    curves.insert(curves.end(), marks.begin(), marks.end());
+    drawing.plot(curves, kAllLost);
   }
-  return drawing.svg(1080, 560);
+  return drawing.svg(1080, 600);
 }
 
 std::string error_against_range(Plotter& plotter, const TableResult& table) {

@@ -6,6 +6,8 @@
 #include "mdat/common/errors.hpp"
 #include "mdat/common/text.hpp"
 #include "mdat/common/version.hpp"
+#include "mdat/report/about_view.hpp"
+#include "mdat/report/doubtful_view.hpp"
 #include "mdat/report/figures.hpp"
 #include "mdat/report/flights_view.hpp"
 #include "mdat/report/page.hpp"
@@ -94,8 +96,9 @@ const std::vector<KeptScan>& shown_scans(const TableResult& table) { return main
 std::vector<ScanPanel> shown_panels(const TableResult& table) {
   std::vector<ScanPanel> panels;
   for (const KeptScan& scan : shown_scans(table)) {
-    const std::string when = table.scenario.drawn != 0 ? format("flight %zu", shown_range(table.scenario) + 1)
-                                                       : format("%.0f°", scan.frame * table.scenario.step_rad / kRadPerDeg);
+    const std::string when = turns_by_steps(table)       ? format("%.0f°", scan.frame * table.scenario.step_rad / kRadPerDeg)
+                             : table.scenario.drawn != 0 ? format("flight %zu", shown_range(table.scenario) + 1)
+                                                         : format("frame %u", scan.frame);
     panels.push_back({&scan, when + format(": %u of %u rays return", scan.telemetry.returns, scan.telemetry.plan_points)});
   }
   return panels;
@@ -142,7 +145,7 @@ std::string rates_part(Plotter& plotter, const TableResult& table) {
          figure(
              rates_figure(plotter, main_variant(table)),
              format(
-                 "Error of the filter's rates against the frame, %s: a line a flight, gaps where nothing is reported; dark, the root mean "
+                 "Error of the filter's rates against the frame, %s: a line a flight, gaps where nothing is reported; thick, the root mean "
                  "square of all flights. The start knows no rate.",
                  main_variant(table).variant.title));
 }
@@ -172,7 +175,7 @@ std::string table_section(Plotter& plotter, const sim::RayCaster& target, const 
   if (table.scenario.runs_m().size() > 1) html += flights ? flights_part(plotter, table) : range_figure(plotter, table);
   html +=
       figure(time_histogram(plotter, table), "Processor time of whole estimates (range image in, pose and covariance out) on one thread.");
-  return html + "</section>\n";
+  return html + doubtful_section(plotter, target, table) + "</section>\n";
 }
 
 constexpr double kPictureScale = 0.72;  // of the picture for the README
@@ -193,8 +196,11 @@ std::string approach_html(Plotter& plotter, const CompiledMission& mission, cons
       "<p class='note'>Errors are those of the registration of each single scan against the truth at its reference time, as decoded from "
       "telemetry. Wrong: valid, and off by more than 5 of its own σ and by more than 20 mm or 1°, the registration's or the filter's. "
       "NEES: 6 "
-      "when the covariance is honest.</p>\n";
-  return page(result.mission + ", " + result.scenario, body + timeline_section(plotter, *target, result));
+      "when the covariance is honest. –: not known, as there is no valid pose.</p>\n" +
+      about_section(mission, result);
+  body += timeline_section(plotter, *target, result);
+  const std::string doubtful = doubtful_section(plotter, *target, result.tables.front());
+  return page(result.mission + ", " + result.scenario, body + (doubtful.empty() ? "" : "<section>\n" + doubtful + "</section>\n"));
 }
 
 std::string introduction(const SimulationResult& result) {
@@ -211,7 +217,7 @@ std::string introduction(const SimulationResult& result) {
          "5 of its own σ and by more than 20 mm or 1°. Bound: Cramér-Rao bound of the hits of the same scans "
          "(incidence up to "
          "85°, root of the mean trace). NEES, of valid poses: 6 when the covariance is honest, less where it is larger than the "
-         "errors.</p>\n";
+         "errors. –: not known: no frame is left to judge, or there is no bound, or no noise that NEES could judge.</p>\n";
 }
 
 }  // namespace
@@ -219,7 +225,7 @@ std::string introduction(const SimulationResult& result) {
 std::string report_html(Plotter& plotter, const CompiledMission& mission, const SimulationResult& result) {
   if (result.kind == ScenarioKind::kApproach) return approach_html(plotter, mission, result);
   const std::unique_ptr<sim::RayCaster> target = make_target(mission.mesh);
-  std::string body = "<h1>" + escape(result.mission) + "</h1>\n" + introduction(result);
+  std::string body = "<h1>" + escape(result.mission) + "</h1>\n" + introduction(result) + about_section(mission, result);
   if (result.kind == ScenarioKind::kPass) body += timeline_section(plotter, *target, result);
   for (const TableResult& table : result.tables) body += table_section(plotter, *target, table);
   return page(result.mission + ", " + result.scenario, body);

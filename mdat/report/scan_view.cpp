@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <sstream>
+#include <utility>
 
 #include "mdat/common/text.hpp"
 #include "mdat/report/base64.hpp"
@@ -13,10 +13,12 @@
 namespace lasso::mdat {
 namespace {
 
-constexpr int kPanelWidth = 334, kPanelHeight = 520, kLeftMargin = 88, kRightMargin = 132, kAxisWidth = 48;  // pixels
-constexpr int kSamplesPerAxis = 3;                                                                           // rays of a pixel
-constexpr double kFrameMargin = 1.06;
-constexpr double kPanelShape = 0.8;  // width over height of a panel that shows a view of its own
+constexpr int kLeftMargin = 88, kRightMargin = 132, kAxisWidth = 48, kTitleLine = 26, kTitleGap = 14, kAxisHeight = 58;  // pixels
+constexpr int kPicture = 1002, kNarrowest = 300, kLowest = 200, kHighest = 430;  // of all panels side by side; of one
+constexpr double kPanelArea = 430.0 * 334.0;
+constexpr int kSamplesPerAxis = 3;  // rays of a pixel
+constexpr double kFrameMargin = 1.12;
+constexpr double kLeastShape = 0.4;  // of a panel: narrower views have room at their sides
 using Colour = std::array<double, 3>;
 constexpr Colour kBackground = {255, 255, 255}, kDark = {72, 84, 104}, kBright = {226, 231, 238};
 
@@ -26,11 +28,34 @@ struct View {
   int width, height;            // pixels
 };
 
-// The scan's rectangle with a margin, at the panel's proportions.
-View make_view(const PoseTelemetry& telemetry, double half_x, double half_y) {
+// Equal panels from left to right, then downwards, as wide and high as what they show; the colour scale stands at the right of all.
+struct Layout {
+  int panel_width = 0, panel_height = 0, title_height = 0, columns = 1, rows = 1;
+  bool one_size = true;  // panels beside each other share the axis at the left
+
+  int pitch() const { return panel_width + (one_size ? 0 : kAxisWidth); }
+  int row_height() const { return title_height + panel_height + kAxisHeight; }
+  int width() const { return kLeftMargin + columns * pitch() + kRightMargin; }
+  int height() const { return rows * row_height(); }
+};
+
+// `shape` is width over height of what a panel shows.
+Layout layout_of(double shape, std::size_t count, bool one_size) {
+  Layout layout;
+  const double width = std::clamp(std::sqrt(kPanelArea * shape), double{kNarrowest}, double{kPicture});
+  layout.panel_width = static_cast<int>(width);
+  layout.panel_height = std::clamp(static_cast<int>(width / shape), kLowest, kHighest);
+  layout.one_size = one_size;
+  layout.columns = std::clamp(kPicture / layout.pitch(), 1, static_cast<int>(count));
+  layout.rows = (static_cast<int>(count) + layout.columns - 1) / layout.columns;
+  return layout;
+}
+
+// A rectangle about the scan's middle, a pixel of it for each of the panel.
+View make_view(const PoseTelemetry& telemetry, double half_x, double half_y, const Layout& layout) {
   View view{telemetry.plan_center[0], telemetry.plan_center[1], half_x, half_y, 0, 0};
-  view.width = 300;
-  view.height = static_cast<int>(std::lround(view.width * half_y / half_x));
+  view.width = layout.panel_width;
+  view.height = std::max(1, static_cast<int>(std::lround(view.width * half_y / half_x)));
   return view;
 }
 
@@ -155,23 +180,24 @@ constexpr const char* kScanStyle =
     "set palette defined (-1 '#1257b0', -0.5 '#49a0e8', 0 '#f2d43d', 0.5 '#ef7d2b', 1 '#b3102a')\n"
     "set cblabel 'measured minus predicted range, mm' textcolor '#46505f' font ',12'\nset cbtics scale 0\n";
 
-// Panels of one size share the axis at their left; others have axes of their own.
-int panel_pitch(bool one_size) { return kPanelWidth + (one_size ? 0 : kAxisWidth); }
-
-int picture_width(std::size_t panels, bool one_size) {
-  return panel_pitch(one_size) * static_cast<int>(panels) + kLeftMargin + kRightMargin;
+std::string place(std::size_t i, std::size_t count, const Layout& layout) {
+  const double x = 1.0 / layout.width(), y = 1.0 / layout.height();
+  const int column = static_cast<int>(i) % layout.columns, row = static_cast<int>(i) / layout.columns;
+  const double left = x * (kLeftMargin + layout.pitch() * column);
+  const double top = 1 - y * (row * layout.row_height() + layout.title_height);
+  std::string text = format("set lmargin at screen %.4f\nset rmargin at screen %.4f\n", left, left + x * layout.panel_width);
+  text += format("set tmargin at screen %.4f\nset bmargin at screen %.4f\n", top, top - y * layout.panel_height);
+  text += column == 0 ? "set ylabel 'down, m' textcolor '#46505f' font ',12' offset 1\n" : "unset ylabel\n";
+  text += layout.one_size && column > 0 ? "set format y ''\n" : "set format y '%g'\n";
+  if (i + 1 < count) return text + "unset colorbox\n";
+  return text + format("set colorbox user origin screen %.4f,%.4f size screen %.4f,%.4f\n", 1 - 102 * x, y * 1.3 * kAxisHeight, 14 * x,
+                       1 - y * (1.3 * kAxisHeight + layout.title_height));
 }
 
-// Equal panels from left to right; the last one has the colour scale at its right.
-std::string place(std::size_t i, std::size_t count, bool one_size) {
-  const double pixel = 1.0 / picture_width(count, one_size);
-  const double left = pixel * (kLeftMargin + panel_pitch(one_size) * static_cast<double>(i));
-  std::string text = format("set lmargin at screen %.4f\nset rmargin at screen %.4f\n", left, left + pixel * kPanelWidth);
-  text += format("set bmargin at screen 0.13\nset tmargin at screen %g\n", one_size ? 0.92 : 0.89);
-  text += i == 0 ? "set ylabel 'down, m' textcolor '#46505f' font ',12' offset 1\n" : "unset ylabel\n";
-  if (one_size && i > 0) text += "set format y ''\n";
-  if (i + 1 < count) return text + "unset colorbox\n";
-  return text + format("set colorbox user origin screen %.4f,0.2 size screen %.4f,0.64\n", 1 - 102 * pixel, 14 * pixel);
+// Half a rectangle of the tangent plane that has all of a scan in it.
+std::pair<double, double> half_extents(const KeptScan& scan) {
+  return {std::max(1e-3, kFrameMargin * scan.telemetry.plan_half_extents[0]),
+          std::max(1e-3, kFrameMargin * scan.telemetry.plan_half_extents[1])};
 }
 
 }  // namespace
@@ -185,19 +211,27 @@ double residual_m(const sim::RayCaster& target, const Pose& T_sensor_target, con
 std::string scan_view_png(Plotter& plotter, const sim::RayCaster& target, const std::vector<ScanPanel>& panels, bool one_size,
                           double scale) {
   const double span_mm = residual_span_mm(target, panels);
-  double half_x = 1e-3, half_y = 1e-3;
+  double widest = 0, highest = 0, shape = 0;
   for (const ScanPanel& panel : panels) {
-    half_x = std::max(half_x, kFrameMargin * panel.scan->telemetry.plan_half_extents[0]);
-    half_y = std::max(half_y, kFrameMargin * panel.scan->telemetry.plan_half_extents[1]);
+    const auto [half_x, half_y] = half_extents(*panel.scan);
+    widest = std::max(widest, half_x);
+    highest = std::max(highest, half_y);
+    shape = std::max(shape, half_x / half_y);
   }
+  if (one_size) shape = widest / highest;
+  shape = std::clamp(shape, kLeastShape, 1 / kLeastShape);
+  Layout layout = layout_of(shape, panels.size(), one_size);
+  const bool two_lines =
+      std::any_of(panels.begin(), panels.end(), [](const ScanPanel& panel) { return panel.title.find("\\n") != std::string::npos; });
+  layout.title_height = kTitleGap + (two_lines ? 2 : 1) * kTitleLine;
   std::string script = kScanStyle + format("set cbrange [%g:%g]\nset multiplot\n", -span_mm, span_mm);
   for (std::size_t i = 0; i < panels.size(); ++i) {
-    const PoseTelemetry& telemetry = panels[i].scan->telemetry;
-    const double own = kFrameMargin * std::max(telemetry.plan_half_extents[0], telemetry.plan_half_extents[1] * kPanelShape);
-    const View view = one_size ? make_view(telemetry, half_x, half_y) : make_view(telemetry, own, own / kPanelShape);
-    script += place(i, panels.size(), one_size) + draw(plotter, target, panels[i], view);
+    const auto [own_x, own_y] = half_extents(*panels[i].scan);
+    const double half_x = one_size ? std::max(widest, highest * shape) : std::max(own_x, own_y * shape);
+    const View view = make_view(panels[i].scan->telemetry, half_x, half_x / shape, layout);
+    script += place(i, panels.size(), layout) + draw(plotter, target, panels[i], view);
   }
-  return plotter.png(picture_width(panels.size(), one_size), kPanelHeight, scale, script + "unset multiplot\n");
+  return plotter.png(layout.width(), layout.height(), scale, script + "unset multiplot\n");
 }
 
 std::string scan_view(Plotter& plotter, const sim::RayCaster& target, const std::vector<ScanPanel>& panels, bool one_size) {

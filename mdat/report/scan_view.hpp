@@ -16,9 +16,10 @@ struct ScanPanel {
   std::string title;
 };
 
-// One panel a scan, side by side, 400 x 520 pixels times `scale` each: the target shaded at the estimated pose, the rays that missed as
-// grey points, the returns coloured by measured minus predicted range, the rays aimed at contours violet. Panels of one size are parts of
-// the sensor's view of equal size; otherwise each shows its own scan's. A PNG file's bytes. Throws PictureError.
+// One panel a scan, of the shape of what it shows, side by side and below each other, times `scale`: the target shaded at the estimated
+// pose, the rays that missed as grey points, the returns coloured by measured minus predicted range, the rays aimed at contours violet.
+// Panels of one size are parts of the sensor's view of equal size; otherwise each shows its own scan's. A PNG file's bytes. Throws
+// PictureError.
 std::string scan_view_png(Plotter& plotter, const sim::RayCaster& target, const std::vector<ScanPanel>& panels, bool one_size,
                           double scale);
 

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "mdat/common/text.hpp"
+#include "mdat/report/doubtful_view.hpp"
 #include "mdat/report/drawing.hpp"
 #include "mdat/report/page.hpp"
 #include "mdat/report/scan_view.hpp"
@@ -75,11 +76,19 @@ std::string points_text(const Timeline& timeline) {
   return text;
 }
 
-void draw_errors(Drawing& drawing, const std::string& points, const char* title, int column) {
+// Times of poses that are not valid, at the lower edge.
+std::string invalid_text(const Timeline& timeline) {
+  std::string text;
+  for (const TimelinePoint& point : timeline.points) text += point.valid ? "" : format("%.3f 0.025\n", point.t_s);
+  return text;
+}
+
+void draw_errors(Drawing& drawing, const std::string& points, const std::string& invalid, const char* title, int column) {
   drawing.set(format("set title '%s'\n", title));
   drawing.plot({{points, column, " with points pt 7 ps 0.2 lc rgb '#8fb3ea' notitle"},
                 {points, column + 4, " with points pt 7 ps 0.16 lc rgb '#1b2a6b' notitle"},
-                {points, column + 2, " with points pt 7 ps 0.5 lc rgb '#d4001a' notitle"}},
+                {points, column + 2, " with points pt 7 ps 0.5 lc rgb '#d4001a' notitle"},
+                {invalid, 2, " axes x1y2 with points pt 9 ps 0.4 lc rgb '#d9a300' notitle", true}},
                "no valid pose", Axis::kLogarithmic);
 }
 
@@ -89,9 +98,12 @@ void draw_range(Drawing& drawing, const Timeline& timeline, const std::string& p
     nearest_m = std::min(nearest_m, point.range_m);
     farthest_m = std::max(farthest_m, point.range_m);
   }
-  drawing.set(format("set yrange [%g:%g]\nset ytics (0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500)\n", 0.8 * nearest_m, 1.25 * farthest_m));
+  const bool wide = farthest_m > 4 * nearest_m;  // so that several of these tics are on the axis
+  drawing.set(format("set yrange [%g:%g]\n", 0.8 * nearest_m, 1.25 * farthest_m));
+  if (wide) drawing.set("set ytics (0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500)\n");
+  if (!wide) drawing.set("set ytics autofreq\n");
   drawing.set("set title 'true range of the origin, m'\n");
-  drawing.plot({{points, 2, " with lines lw 1.4 lc rgb '#1b2a6b' notitle"}}, "no packet", Axis::kLogarithmic);
+  drawing.plot({{points, 2, " with lines lw 1.4 lc rgb '#1b2a6b' notitle"}}, "no packet", wide ? Axis::kLogarithmic : Axis::kLinear);
 }
 
 std::string eclipse(const Scenario& scenario) {
@@ -250,8 +262,9 @@ std::string timeline_figure(Plotter& plotter, const SimulationResult& result) {
   int height = 3 * (kCurve + Panels::kGap) + kBottom;
   for (const Bars& panel : bars) height += static_cast<int>(panel.rows.size() + 1) * kRow + Panels::kGap;
   Panels place(height);
-  const std::string points = points_text(timeline);
+  const std::string points = points_text(timeline), invalid = invalid_text(timeline);
   Drawing drawing(plotter);
+  drawing.set(kMarksAxis);
   drawing.set("set multiplot\nset lmargin at screen 0.115\nset rmargin at screen 0.985\nset format x ''\n" + eclipse(scenario_of(result)));
   drawing.set(format("set xrange [0:%g]\nset datafile missing 'NaN'\n", end_of(timeline)) +
               event_lines(times_of(events_of(result)), end_of(timeline)));
@@ -264,18 +277,20 @@ std::string timeline_figure(Plotter& plotter, const SimulationResult& result) {
   drawing.set("set format y '%g'\n" + place.next(kCurve));
   draw_range(drawing, timeline, points);
   drawing.set("set ytics autofreq\nset yrange [*:*]\n" + place.next(kCurve));
-  draw_errors(drawing, points, "error of valid poses, mm", 3);
+  draw_errors(drawing, points, invalid, "error of valid poses, mm", 3);
   drawing.set(place.next(kCurve) + "set format x '%g'\nset xlabel 'time, s' textcolor '#46505f' offset 0,0.4\n");
-  draw_errors(drawing, points, "error of valid poses, deg", 4);
+  draw_errors(drawing, points, invalid, "error of valid poses, deg", 4);
   return drawing.svg(1080, height);
 }
 
 std::string timeline_section(Plotter& plotter, const sim::RayCaster& target, const SimulationResult& result) {
   return "<section>\n<h2>Through the modes</h2>\n" +
-         figure(timeline_figure(plotter, result),
-                "Mode, sensor in use, the part of the target that each scan looks at, the true range, and the errors of all poses that the "
-                "component called valid: light, of single scans; dark, of the filter; red, wrong. Grey: the target is hidden. The numbers "
-                "are those of the table of changes.") +
+         figure(
+             timeline_figure(plotter, result),
+             "Mode, sensor in use, the part of the target that each scan looks at, the true range, and the errors of all poses that the "
+             "component called valid: faint, of single scans; strong, of the filter; red, wrong; orange at the lower edge, no valid pose. "
+             "Grey: the target is hidden. The numbers "
+             "are those of the table of changes.") +
          "<h2>Changes of mode and sensor</h2>\n" + events_table(events_of(result)) + "<h2>Poses</h2>\n" + statistics_table(result) +
          scan_figures(plotter, target, result) + "</section>\n";
 }

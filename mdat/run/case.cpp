@@ -121,6 +121,11 @@ class Case {
         image_(memory_ ? std::vector<std::uint64_t>() : aligned_copy(*setup.image)),
         navigation_(setup.scenario, *trajectory_, setup.seed) {
     result_.frames.resize(setup.frames);
+    for (std::uint32_t frame = 0; frame < setup.frames; ++frame) {
+      result_.frames[frame].frame = frame;
+      result_.frames[frame].t_s = frame * setup.parameters.period_s;
+      result_.frames[frame].range_m = trajectory_->at(kEpochUs + frame * period_us_).T_sensor_target.p.norm();
+    }
     if (!setup.store.empty()) reset_note_ = std::make_unique<posix::ResetNote>(setup.store);
     if (reset_note_) component_->set_reset_cause(reset_note_->cause());
     load();
@@ -256,23 +261,42 @@ class Case {
     if (setup_.scenario.has_profile()) add_packet(pose, *trajectory_, kEpochUs, result_.timeline);
     const bool restarts = !is_approach() && setup_.link == nullptr;
     if (restarts && static_cast<TrackingMode>(pose.mode) == TrackingMode::kLost) start(record.boundary_us);
-    if (static_cast<StopReason>(pose.stop) == StopReason::kNotRun) return;
     const std::int64_t frame = (pose.t_measurement_us - kEpochUs) / period_us_;
     if (pose.t_measurement_us < kEpochUs || frame >= setup_.frames) return;
+    tell(pose, result_.frames[static_cast<std::size_t>(frame)]);
+    if (static_cast<StopReason>(pose.stop) == StopReason::kNotRun) return;
     if (pose.valid != 0 && !result_.found_frame) result_.found_frame = static_cast<std::uint32_t>(frame);
-    result_.frames[static_cast<std::size_t>(frame)] = judged(pose, scan.samples, record);
-    keep(static_cast<std::uint32_t>(frame), pose, scan);
+    FrameError& error = result_.frames[static_cast<std::size_t>(frame)];
+    error = judged(pose, scan.samples, record);
+    error.frame = static_cast<std::uint32_t>(frame);
+    tell(pose, error);
+    keep(error, pose, scan);
+  }
+
+  static void tell(const PoseTelemetry& pose, FrameError& error) {
+    error.told = true;
+    error.mode = static_cast<TrackingMode>(pose.mode);
+    error.reason = static_cast<PoseReason>(pose.reason);
+    error.sensor = pose.sensor;
+    error.part = pose.part;
   }
 
   FrameError judged(const PoseTelemetry& pose, const std::vector<RangeSample>& scan, const posix::FrameRecord& record) const {
     const sim::TruthState truth = trajectory_->at(pose.t_measurement_us);
     FrameError error;
     error.reported = true;
+    error.t_s = to_seconds(pose.t_measurement_us - kEpochUs);
+    error.range_m = truth.T_sensor_target.p.norm();
+    error.returns = pose.returns;
+    error.inliers = pose.inliers;
+    const Mat6 covariance = registration_covariance(pose);
+    error.sigma_rad = std::sqrt(covariance.topLeftCorner<3, 3>().trace());
+    error.sigma_m = std::sqrt(covariance.bottomRightCorner<3, 3>().trace());
     error.valid = pose.valid != 0;
     error.wrong = judge_valid(pose, truth.T_sensor_target) == PoseVerdict::kWrong;
     error.registration = pose_error(registration_pose(pose), truth.T_sensor_target);
     error.filtered = pose_error(filtered_pose(pose), truth.T_sensor_target);
-    error.nees = nees(registration_pose(pose), truth.T_sensor_target, registration_covariance(pose));
+    error.nees = nees(registration_pose(pose), truth.T_sensor_target, covariance);
     error.bound = bound(truth.T_sensor_target, scan);
     error.estimate_us = 1e-3 * static_cast<double>(record.estimate_cpu_ns);
     error.omega_error_radps = (Vec3(pose.filter_omega_radps) - truth.rates.omega_radps).norm();
@@ -286,11 +310,20 @@ class Case {
     return pose_bound(*setup_.target, truth, scan, [&](double z_m) { return sim::range_sigma_m(noisy_model_, z_m); });
   }
 
-  void keep(std::uint32_t frame, const PoseTelemetry& pose, const RecordedScan& scan) {
-    if (!std::binary_search(setup_.keep_frames.begin(), setup_.keep_frames.end(), frame)) return;
+  void keep(const FrameError& error, const PoseTelemetry& pose, const RecordedScan& scan) {
+    const bool first = !setup_.keep_frames.empty() && result_.scans.empty() && error.valid;  // of a search, which has no first frame
+    const bool wanted = first || std::binary_search(setup_.keep_frames.begin(), setup_.keep_frames.end(), error.frame);
+    std::size_t& count = error.wrong ? wrong_kept_ : invalid_kept_;
+    const bool doubtful = (error.wrong || !error.valid) && count < kDoubtfulScans;
+    if (!wanted && !doubtful) return;
     const TimeUs t_us = pose.t_measurement_us;
-    result_.scans.push_back(
-        {frame, trajectory_->at(t_us).T_sensor_target, trajectory_->at(t_us - period_us_).T_sensor_target, pose, scan.samples, scan.aimed});
+    const KeptScan kept{
+        error.frame, trajectory_->at(t_us).T_sensor_target, trajectory_->at(t_us - period_us_).T_sensor_target, pose, scan.samples,
+        scan.aimed};
+    if (wanted) result_.scans.push_back(kept);
+    if (!doubtful) return;
+    result_.doubtful.push_back(kept);
+    ++count;
   }
 
   const CaseSetup& setup_;
@@ -304,7 +337,8 @@ class Case {
   std::vector<std::uint64_t> image_;
   NavigationSystem navigation_;
   CaseResult result_;
-  std::unique_ptr<posix::Runner> runner_;  // last: it uses the component
+  std::size_t wrong_kept_ = 0, invalid_kept_ = 0;  // scans of result_.doubtful
+  std::unique_ptr<posix::Runner> runner_;          // last: it uses the component
 };
 
 }  // namespace

@@ -64,10 +64,13 @@ struct KeptScan {
   std::size_t aimed = 0;  // samples in the middle whose rays left the pattern
 };
 
+constexpr std::size_t kDoubtfulScans = 3;
+
 struct CaseResult {
   std::vector<FrameError> frames;
   std::vector<std::uint8_t> telemetry;  // all packets, in order
   std::vector<KeptScan> scans;
+  std::vector<KeptScan> doubtful;            // the first kDoubtfulScans whose valid poses are wrong, and as many without a valid pose
   Timeline timeline;                         // of an approach, or a pass
   std::optional<std::uint32_t> found_frame;  // of the first valid pose
   std::uint32_t replay_rounds = 0;           // how often a recording that was at its end began anew, at most

@@ -77,21 +77,38 @@ std::string value_text(const Json& object, const std::string& key) {
 // What each run is of, with what the command line said.
 const char* const kHead[] = {"mission", "scenario", "seed", "frames", "version", "commit", "sensor"};
 
+// By key; a scenario's keys without its name, so that those of two scenarios stand beside each other.
+Json settings_of(const Json& results) {
+  Json settings = Json::object();
+  if (!results.contains("settings")) return settings;
+  const std::string prefix = "scenario.", own = prefix + value_text(results, "scenario") + ".";
+  for (const auto& item : results.at("settings").items()) {
+    const bool is_own = item.key().rfind(own, 0) == 0;
+    settings[is_own ? prefix + item.key().substr(own.size()) : item.key()] = item.value();
+  }
+  return settings;
+}
+
+std::string aligned_settings(std::vector<std::vector<std::string>> rows) {
+  if (rows.empty()) return "settings: all the same\n";
+  rows.insert(rows.begin(), {"settings that differ", "A", "B"});
+  return aligned(rows);
+}
+
 std::string settings_text(const Json& a, const Json& b) {
   std::vector<std::vector<std::string>> rows;
   const auto add = [&rows](const std::string& key, const std::string& of_a, const std::string& of_b) {
     if (of_a != of_b) rows.push_back({key, of_a, of_b});
   };
   for (const char* key : kHead) add(key, value_text(a, key), value_text(b, key));
-  const Json none = Json::object();
-  const Json &of_a = a.contains("settings") ? a.at("settings") : none, &of_b = b.contains("settings") ? b.at("settings") : none;
+  const Json of_a = settings_of(a), of_b = settings_of(b);
+  if (of_a.empty() || of_b.empty()) add("settings", of_a.empty() ? "not recorded" : "recorded", of_b.empty() ? "not recorded" : "recorded");
+  if (of_a.empty() || of_b.empty()) return aligned_settings(std::move(rows));
   for (const auto& item : of_a.items()) add(item.key(), value_text(of_a, item.key()), value_text(of_b, item.key()));
   for (const auto& item : of_b.items()) {
     if (!of_a.contains(item.key())) add(item.key(), kUnknown, value_text(of_b, item.key()));
   }
-  if (rows.empty()) return "settings: all the same\n";
-  rows.insert(rows.begin(), {"settings that differ", "A", "B"});
-  return aligned(rows);
+  return aligned_settings(std::move(rows));
 }
 
 std::optional<double> number_at(const Json& object, const char* pointer) {

@@ -1,10 +1,14 @@
 // Errors of poses against the truth, and what is said about many of them.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
 #include "fsw/geometry/se3.hpp"
+#include "fsw/mode/modes.hpp"
+#include "fsw/pose/result.hpp"
+#include "fsw/sense/sensor_chooser.hpp"
 #include "mdat/run/bound.hpp"
 
 namespace lasso::mdat {
@@ -29,9 +33,19 @@ double nees(const Pose& estimate, const Pose& truth, const Mat6& covariance);
 
 // One frame of a run.
 struct FrameError {
-  bool reported = false;  // a registration of this frame's scan is in the telemetry
-  bool valid = false;     // and it says that it can be trusted
-  bool wrong = false;     // and it, or the filter, cannot (verdict.hpp)
+  std::uint32_t frame = 0;  // since its start
+  double t_s = 0;           // since frame 0: of the scan's reference time, or, where nothing is reported, of the frame's begin
+  double range_m = 0;       // the true one, of the target's origin
+  TrackingMode mode = TrackingMode::kStandby;
+  PoseReason reason = PoseReason::kNoScan;
+  SensorNumber sensor = 0;
+  std::uint8_t part = 0;  // 0: the whole
+  std::uint16_t returns = 0, inliers = 0;
+  double sigma_m = 0, sigma_rad = 0;  // of the registration: roots of the traces of its covariance
+  bool told = false;                  // a packet says its mode and reason
+  bool reported = false;              // a registration of this frame's scan is in the telemetry
+  bool valid = false;                 // and it says that it can be trusted
+  bool wrong = false;                 // and it, or the filter, cannot (verdict.hpp)
   PoseError registration, filtered;
   double nees = 0;
   PoseBound bound;

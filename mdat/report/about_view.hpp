@@ -1,0 +1,12 @@
+// What was flown: mission, target, scenario, sensor, flight images, program, and the values that are not presets.
+#pragma once
+
+#include <string>
+
+#include "mdat/run/simulation.hpp"
+
+namespace lasso::mdat {
+
+std::string about_section(const CompiledMission& mission, const SimulationResult& result);
+
+}  // namespace lasso::mdat
