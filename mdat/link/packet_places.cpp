@@ -28,14 +28,14 @@ class Stream {
   }
   // Whether a header may stand here; what it announces may be cut off.
   bool begins(std::size_t at) const {
-    if (size() - at < kPrimaryHeaderBytes) return false;
+    if (at > size() || size() - at < kPrimaryHeaderBytes) return false;
     const ConstBytes header = bytes_.subspan(at, kPrimaryHeaderBytes);
     const bool fill = std::all_of(header.begin(), header.end(), [](std::uint8_t byte) { return byte == 0; });
     return read_primary_header(header).version == 0 && !fill;
   }
   // The size of the packet here; 0: none, or not whole.
   std::size_t packet(std::size_t at) const {
-    if (at >= size() || !begins(at)) return 0;
+    if (!begins(at)) return 0;
     const std::size_t stated = packet_size(bytes_.subspan(at, kPrimaryHeaderBytes));
     return stated <= size() - at ? stated : 0;
   }
@@ -182,8 +182,7 @@ std::size_t best_head(const Stream& stream, std::size_t prefix) {
   std::vector<std::size_t> bytes(tried + 1, 0);
   for (std::size_t at = tried; at-- > 0;) {
     const std::size_t size = stream.packet(at);
-    if (size == 0 || at + size > tried) continue;
-    bytes[at] = size + bytes[std::min(at + size + prefix, tried)];
+    if (size > 0 && at + size <= tried) bytes[at] = size + bytes[std::min(at + size + prefix, tried)];
   }
   return static_cast<std::size_t>(std::max_element(bytes.begin(), bytes.end()) - bytes.begin());
 }
@@ -217,29 +216,68 @@ Prefix likely_prefix(const Stream& stream) {
   return best;
 }
 
-// Chains of packets of the same applications, by the lengths alone. Where one breaks, the next begins where three packets follow each
-// other.
-Places places_by_lengths(const Stream& stream) {
-  const Prefix prefix = likely_prefix(stream);
-  Places places = stream.chain(prefix.head, prefix.bytes, stream.size());
-  if (!is_likely(stream, places)) return {};
-  Applications applications;
-  for (const PacketPlace& place : places) applications.insert(stream.application(place.offset));
-  const auto follows = [&](std::size_t at) {
-    for (int i = 0; i < 3 && at < stream.size(); ++i) {
-      const std::size_t size = stream.packet(at);
-      if (size == 0 || applications.count(stream.application(at)) == 0) return false;
-      at += size + prefix.bytes;
+Applications repeated_applications(const Stream& stream, const Places& places) {
+  Applications once, repeated;
+  for (const PacketPlace& place : places) {
+    const Application application = stream.application(place.offset);
+    if (!once.insert(application).second) repeated.insert(application);
+  }
+  return repeated;
+}
+
+// Packets of known applications, each behind its prefix, by the lengths alone.
+class LengthWalk {
+ public:
+  LengthWalk(const Stream& stream, const Applications& known, std::size_t prefix) : stream_(stream), known_(known), prefix_(prefix) {}
+
+  Places walk() const {
+    Places places;
+    for (std::size_t at = chain_from(0, stream_.size()); at < stream_.size();) {
+      const std::size_t size = stream_.packet(at);
+      const std::size_t end = at + size;
+      const bool leads_on = size > 0 && leads(end + prefix_);
+      const std::size_t inside = leads_on ? end : chain_from(at + 1, end);
+      if (inside < end) {  // its end is missing: others begin before it
+        at = inside;
+        continue;
+      }
+      if (size > 0) places.push_back({at, size});
+      at = leads_on ? end + prefix_ : chain_from(std::max(end, at + 1), stream_.size());
+    }
+    return places;
+  }
+
+ private:
+  bool begins_known(std::size_t at) const { return stream_.begins(at) && known_.count(stream_.application(at)) > 0; }
+  // To a known header, at once or behind one other packet, or to the end.
+  bool leads(std::size_t at) const {
+    if (at >= stream_.size() || begins_known(at)) return true;
+    const std::size_t next = at + stream_.packet(at) + prefix_;
+    return stream_.packet(at) > 0 && next < stream_.size() && begins_known(next);
+  }
+  // Whether three known packets follow each other here, or fewer up to the end.
+  bool is_chain(std::size_t at) const {
+    for (int i = 0; i < 3 && at < stream_.size(); ++i) {
+      if (!begins_known(at) || stream_.packet(at) == 0) return false;
+      at += stream_.packet(at) + prefix_;
     }
     return true;
-  };
-  for (std::size_t at = end_of(places); at < stream.size();) {
-    const std::size_t size = stream.packet(at);
-    const bool known = size > 0 && follows(at);
-    if (known) places.push_back({at, size});
-    at += known ? size + prefix.bytes : 1;
   }
-  return places;
+  std::size_t chain_from(std::size_t begin, std::size_t end) const {
+    while (begin < end && !is_chain(begin)) ++begin;
+    return begin;
+  }
+
+  const Stream& stream_;
+  const Applications& known_;
+  std::size_t prefix_;
+};
+
+Places places_by_lengths(const Stream& stream) {
+  const Prefix prefix = likely_prefix(stream);
+  const Places places = stream.chain(prefix.head, prefix.bytes, stream.size());
+  if (!is_likely(stream, places)) return {};
+  return LengthWalk(stream, repeated_applications(stream, places), prefix.bytes).walk();
 }
 
 }  // namespace

@@ -214,6 +214,9 @@ TEST(Headers, SkipsAndCountsWhatIsNoPacket) {
     EXPECT_EQ(summary_of(stream_of({'T', 'L', 'M'}, {20, 0}, {}, {})), all + "43 bytes skipped, 0 left over\n");
     EXPECT_EQ(summary_of(stream_of({}, {}, {}, Stream(500, 0))), all + "0 bytes skipped, 500 left over\n");
     EXPECT_EQ(summary_of(stream_of({}, {}, {}, Stream(100, 0xFF))), all + "0 bytes skipped, 100 left over\n");
+    Stream file_header(600);  // of a recorder
+    for (std::size_t i = 0; i < file_header.size(); ++i) file_header[i] = static_cast<std::uint8_t>(i * i >> 3);
+    EXPECT_EQ(summary_of(stream_of(file_header, {}, {}, {})), all + "600 bytes skipped, 0 left over\n");
     const Stream whole = sent({0x4C0, 20, 0, checked});
     EXPECT_EQ(summary_of(stream_of({}, {}, {}, Stream(whole.begin(), whole.begin() + 15))), all + "0 bytes skipped, 15 left over\n");
   }
