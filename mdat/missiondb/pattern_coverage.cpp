@@ -35,10 +35,11 @@ double nearest2(const std::vector<PointInSquare>& rays, double x, double y) {
 double gap_of(const ScanPlan& plan) {
   const std::vector<PointInSquare> rays = rays_of(plan);
   double largest2 = 0;
-  for (int i = 0; i < kAcross * kAcross; ++i) {
-    const double x = (i % kAcross + 0.5) / kAcross * 2 - 1;
-    const double y = (i / kAcross + 0.5) / kAcross * 2 - 1;
-    if (x * x + y * y <= 1) largest2 = std::max(largest2, nearest2(rays, x, y));
+  for (int row = 0; row < kAcross; ++row) {
+    for (int column = 0; column < kAcross; ++column) {
+      const double x = place(column), y = place(row);
+      if (x * x + y * y <= 1) largest2 = std::max(largest2, nearest2(rays, x, y));
+    }
   }
   return std::sqrt(largest2);
 }

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+#include <vector>
+
 #include "mdat/missiondb/value_row.hpp"
 #include "ut/support/verifies.hpp"
 
