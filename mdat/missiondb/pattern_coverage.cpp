@@ -32,12 +32,15 @@ double nearest2(const std::vector<PointInSquare>& rays, double x, double y) {
   return least;
 }
 
+// The middle of the raster's cell, -1 to 1.
+double middle_of(int cell) { return (cell + 0.5) / kAcross * 2 - 1; }
+
 double gap_of(const ScanPlan& plan) {
   const std::vector<PointInSquare> rays = rays_of(plan);
   double largest2 = 0;
   for (int row = 0; row < kAcross; ++row) {
     for (int column = 0; column < kAcross; ++column) {
-      const double x = place(column), y = place(row);
+      const double x = middle_of(column), y = middle_of(row);
       if (x * x + y * y <= 1) largest2 = std::max(largest2, nearest2(rays, x, y));
     }
   }
