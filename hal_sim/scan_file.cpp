@@ -17,15 +17,25 @@ constexpr std::uintmax_t kLargestFileBytes = std::uintmax_t{4} << 30;
 
 using Reader = RawScan (*)(const std::string&, std::string_view);
 
-Reader reader_of(const fs::path& file) {
+constexpr char kKinds[] = "expected .csv, .ply, .pcd, .asc, .xyz or .pts, or .png with a depth camera";
+
+std::string extension_of(const fs::path& file) {
   std::string extension = file.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); });
+  return extension;
+}
+
+Reader reader_of(const fs::path& file) {
+  const std::string extension = extension_of(file);
   if (extension == ".csv") return read_csv;
   if (extension == ".ply") return read_ply;
   if (extension == ".pcd") return read_pcd;
+  if (extension == ".asc" || extension == ".xyz" || extension == ".pts") return read_xyz;
   return nullptr;
 }
+
+bool is_image(const fs::path& file, const DepthCamera& camera) { return camera.fx > 0 && extension_of(file) == ".png"; }
 
 std::string contents_of(const fs::path& file) {
   std::error_code error;
@@ -68,11 +78,12 @@ bool is_before(std::string_view a, std::string_view b) {
   return left_a != left_b ? left_a < left_b : a < b;
 }
 
-std::vector<fs::path> scans_in(const fs::path& folder) {
+std::vector<fs::path> scans_in(const fs::path& folder, const DepthCamera& camera) {
   std::vector<fs::path> files;
   std::error_code error;
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
-    if (reader_of(entry->path()) != nullptr && entry->is_regular_file()) files.push_back(entry->path());
+    if ((reader_of(entry->path()) != nullptr || is_image(entry->path(), camera)) && entry->is_regular_file())
+      files.push_back(entry->path());
   }
   if (error) fail(folder.string(), "is not a folder that can be read (" + error.message() + ")");
   std::sort(files.begin(), files.end(),
@@ -116,16 +127,18 @@ RangeImage image_of(const RawScan& scan, ScanFrame frame) {
 
 }  // namespace
 
-RawScan read_raw_scan(const fs::path& file) {
+RawScan read_raw_scan(const fs::path& file, const DepthCamera& camera) {
+  if (is_image(file, camera)) return read_depth_image(file.string(), contents_of(file), camera);
   const Reader reader = reader_of(file);
-  if (reader == nullptr) fail(file.string(), "is no scan file, expected .csv, .ply or .pcd");
+  if (reader == nullptr) fail(file.string(), std::string("is no scan file, ") + kKinds);
   return reader(file.string(), contents_of(file));
 }
 
 RangeImage read_scan_file(const fs::path& file, const ScanFrame& frame) { return image_of(read_raw_scan(file), frame); }
 
-RecordedScans::RecordedScans(const fs::path& folder, const ScanFrame& frame) : files_(scans_in(folder)), frame_(frame) {
-  if (files_.empty()) fail(folder.string(), "holds no scan, expected .csv, .ply or .pcd files");
+RecordedScans::RecordedScans(const fs::path& folder, const ScanFrame& frame, const DepthCamera& camera)
+    : files_(scans_in(folder, camera)), frame_(frame), camera_(camera) {
+  if (files_.empty()) fail(folder.string(), std::string("holds no scan, ") + kKinds);
   std::set<std::string> stems;
   for (const fs::path& file : files_) {
     if (!stems.insert(file.stem().string()).second) {
@@ -135,7 +148,7 @@ RecordedScans::RecordedScans(const fs::path& folder, const ScanFrame& frame) : f
 }
 
 RangeImage RecordedScans::read(std::size_t i) const {
-  RangeImage image = read_scan_file(file(i), frame_);
+  RangeImage image = image_of(read_raw_scan(file(i), camera_), frame_);
   image.scan_id = static_cast<std::uint32_t>(i);
   return image;
 }
@@ -145,7 +158,7 @@ std::vector<ScanFacts> RecordedScans::survey() const {
   ScanFrame frame = frame_;
   frame.unit_s = 0;  // what a time is in seconds is not known yet
   for (const fs::path& file : files_) {
-    const RawScan scan = read_raw_scan(file);
+    const RawScan scan = read_raw_scan(file, camera_);
     facts.push_back(facts_of(scan, to_image(scan, frame)));
   }
   return facts;

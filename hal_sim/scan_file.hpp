@@ -5,8 +5,10 @@
 //         (csv_table.hpp).
 //   .ply  ascii or binary; the element `vertex` has x, y, z.
 //   .pcd  ascii, binary or binary_compressed, seen from its VIEWPOINT.
+//   .asc, .xyz, .pts  plain text, x, y and z the first columns or those that a header names.
+//   .png  16-bit greyscale: a depth image (depth_image.hpp), where a camera is given; with misses, without times.
 //
-// PLY and PCD have neither times nor misses: all samples at time 0, misses_known false. Rows without a measurement (coordinates that are
+// Clouds have neither times nor misses: all samples at time 0, misses_known false. Rows without a measurement (coordinates that are
 // not finite, or all zero) are no rays. Of more than kMaxRays rays some are taken (raw_scan.hpp).
 #pragma once
 
@@ -16,6 +18,7 @@
 #include <vector>
 
 #include "fsw/sense/range_image.hpp"
+#include "hal_sim/depth_image.hpp"
 #include "hal_sim/raw_scan.hpp"
 
 namespace lasso::sim {
@@ -29,7 +32,7 @@ class ScanFileError : public std::runtime_error {
 // Reads one file by its extension (any case). A file is read whole or not at all. Throws ScanFileError: cannot be read, unknown extension,
 // wrong header, ragged rows, not a number, valid neither 0 nor 1, a miss whose direction is not of unit length within 1e-3, time going
 // back, no row, truncated data.
-RawScan read_raw_scan(const std::filesystem::path& file);
+RawScan read_raw_scan(const std::filesystem::path& file, const DepthCamera& camera = {});
 
 // The same as an image, scan_id 0. Throws as read_raw_scan and to_image.
 RangeImage read_scan_file(const std::filesystem::path& file, const ScanFrame& frame = {});
@@ -46,11 +49,11 @@ struct ScanFacts {
   double median_range_m = 0;             // of the returns; 0 where there is none
 };
 
-// The scans of a folder in natural order (scan2 before scan10); other files are ignored.
+// The scans of a folder in natural order (scan2 before scan10); other files are ignored, images too where no camera is given.
 class RecordedScans {
  public:
   // Throws ScanFileError: not a folder, no scan in it, two scans with one stem.
-  explicit RecordedScans(const std::filesystem::path& folder, const ScanFrame& frame = {});
+  explicit RecordedScans(const std::filesystem::path& folder, const ScanFrame& frame = {}, const DepthCamera& camera = {});
 
   std::size_t size() const { return files_.size(); }
   const std::filesystem::path& file(std::size_t i) const { return files_.at(i); }
@@ -64,6 +67,7 @@ class RecordedScans {
  private:
   std::vector<std::filesystem::path> files_;
   ScanFrame frame_;
+  DepthCamera camera_;
 };
 
 // Writes the CSV form. Invalid samples are left out: like them, a ray that is not listed says nothing. The file appears whole or not at

@@ -63,5 +63,6 @@ double scalar_at(const char* bytes, ScalarType type, bool big_endian);
 RawScan read_csv(const std::string& file, std::string_view text);
 RawScan read_ply(const std::string& file, std::string_view text);
 RawScan read_pcd(const std::string& file, std::string_view text);
+RawScan read_xyz(const std::string& file, std::string_view text);
 
 }  // namespace lasso::sim

@@ -9,6 +9,7 @@
 #include "mdat/common/errors.hpp"
 #include "mdat/common/flight_image.hpp"
 #include "mdat/common/output.hpp"
+#include "mdat/missiondb/depth_camera_file.hpp"
 #include "mdat/replay/acquire.hpp"
 #include "mdat/replay/diagnosis.hpp"
 
@@ -16,8 +17,9 @@ namespace lasso::mdat {
 namespace {
 
 struct ReplayArguments {
-  std::string mission, scenario, out, time_unit;
+  std::string mission, scenario, out, time_unit, axes, camera;
   ReplayOptions replay;
+  std::vector<double> offset_m;
   std::vector<std::string> settings;
   bool cached = true, force = false;
 };
@@ -39,7 +41,8 @@ std::filesystem::path candidates_file(std::filesystem::path out) {
 // What is written is none of what is read, nor beside the scans, where the next replay would read it.
 void check_apart(const std::filesystem::path& out, const ReplayArguments& options) {
   std::error_code ignored;  // what is not there is told by who reads it
-  for (const std::filesystem::path& input : {std::filesystem::path(options.mission), options.replay.initial}) {
+  for (const std::filesystem::path& input :
+       {std::filesystem::path(options.mission), options.replay.initial, options.replay.truth, std::filesystem::path(options.camera)}) {
     if (!std::filesystem::equivalent(out, input, ignored)) continue;
     throw InputError(out.string() + ": is read by this replay; write to another file");
   }
@@ -72,7 +75,7 @@ void search(const ReplayArguments& options) {
   const LoadedImage image = load(options);
   tell(settle_times(options.replay, image.mission().parameters.duration_s, input));
   tell(range_notes(image.mission(), input));
-  const std::vector<AcquiredScan> scans = acquire(image.mission(), input.scans);
+  const std::vector<AcquiredScan> scans = acquire(image.mission(), input.scans, input.truth);
   write_file(options.out, acquired_csv(scans));
   write_file(candidates, candidates_csv(scans));
   std::fputs((acquired_summary(scans) + options.out + ", " + candidates.string() + ": written\n").c_str(), stdout);
@@ -86,8 +89,16 @@ double unit_of(const std::string& name) {
   return 0;
 }
 
+// The options that say how the scans' files are meant.
+void read_frame(const ReplayArguments& options, ReplayOptions& replay) {
+  replay.unit_s = unit_of(options.time_unit);
+  if (!options.axes.empty()) replay.frame.R_sensor_file = sim::axes_of(options.axes);
+  if (!options.offset_m.empty()) replay.frame.sensor_m = Vec3(options.offset_m[0], options.offset_m[1], options.offset_m[2]);
+  if (!options.camera.empty()) replay.camera = load_depth_camera(options.camera);
+}
+
 void run(ReplayArguments options) {
-  options.replay.unit_s = unit_of(options.time_unit);
+  read_frame(options, options.replay);
   if (!options.settings.empty() && is_image_file(options.mission))
     throw InputError("--set " + options.settings.front() + ": " + options.mission +
                      " is a flight image, whose values are fixed; give its mission");
@@ -111,7 +122,7 @@ void run(ReplayArguments options) {
 
 void add_replay_command(CLI::App& app) {
   const auto options = std::make_shared<ReplayArguments>();
-  CLI::App* command = app.add_subcommand("replay", "register recorded scans (.csv, .ply, .pcd) from given initial poses");
+  CLI::App* command = app.add_subcommand("replay", "register recorded scans (.csv, .ply, .pcd, .asc, .xyz, .png) from given initial poses");
   command->add_option("MISSION", options->mission, "mission file or flight image")->required();
   command->add_option("--scans", options->replay.scans, "folder of scans, taken in natural order (scan2 before scan10)")->required();
   command
@@ -123,6 +134,15 @@ void add_replay_command(CLI::App& app) {
   command->add_flag("--closed-loop", options->replay.closed_loop,
                     "start from the first row, then from the filter's prediction, as in flight");
   command->add_flag("--wide", options->replay.wide, "the initial poses are rough (20 deg, a quarter of the target's size)");
+  command->add_option("--truth", options->replay.truth, "true poses, as --initial: prints errors, and adds them to each row");
+  command->add_option(
+      "--axes", options->axes,
+      "what the scans' x, y and z point to, such as forward-right-down (default right-down-forward); or which of them the sensor's "
+      "x, y and z are, such as y,z,x");
+  command->add_option("--sensor-offset", options->offset_m, "X,Y,Z [m]: where the sensor stands in the scans' frame and axes")
+      ->delimiter(',')
+      ->expected(3);
+  command->add_option("--depth-camera", options->camera, "calibration of depth images (.png): a file that says fx, fy, cx, cy and scale_m");
   command->add_option("--scale", options->replay.frame.scale, "metres in a unit of the scans' lengths, as 0.001 for millimetres")
       ->check(CLI::Range(1e-6, 1e6));
   command->add_option("--time-unit", options->time_unit, "of the scans' times (default: by their span against scan.duration_s)")

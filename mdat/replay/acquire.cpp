@@ -1,5 +1,6 @@
 #include "mdat/replay/acquire.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 
@@ -41,7 +42,7 @@ std::string row(const AcquiredScan& scan) {
                 scan.status == Status::kOk ? to_string(r.outcome) : to_string(SearchOutcome::kRejected),
                 scan.status == Status::kOk ? to_string(r.reason) : to_string(scan.status), q.x(), q.y(), q.z(), q.w(), p.x(), p.y(), p.z(),
                 to_seconds(r.t_us), r.ratio, r.disagreement, r.candidates.size(), r.returns, scan.search_us);
-  return scan.scan + text + scan.why + "\n";
+  return scan.scan + text + scan.why;
 }
 
 const char* outcome_of(const AcquiredScan& scan) {
@@ -65,7 +66,7 @@ std::string candidate_rows(const AcquiredScan& scan) {
 
 }  // namespace
 
-std::vector<AcquiredScan> acquire(const Mission& mission, const sim::RecordedScans& scans) {
+std::vector<AcquiredScan> acquire(const Mission& mission, const sim::RecordedScans& scans, const std::vector<InitialPose>& truth) {
   const auto search = std::make_unique<Search>();
   const auto workspace = std::make_unique<Workspace>();
   std::vector<AcquiredScan> acquired;
@@ -73,6 +74,7 @@ std::vector<AcquiredScan> acquire(const Mission& mission, const sim::RecordedSca
   for (std::size_t i = 0; i < scans.size(); ++i) {
     acquired.push_back(acquire_scan(mission, scans.read(i), *search, *workspace));
     acquired.back().scan = scans.stem(i);
+    acquired.back().errors = error_of(truth, scans.stem(i), acquired.back().result.T_sensor_target);
     bar.show(i + 1);
   }
   bar.finish();
@@ -80,8 +82,10 @@ std::vector<AcquiredScan> acquire(const Mission& mission, const sim::RecordedSca
 }
 
 std::string acquired_csv(const std::vector<AcquiredScan>& scans) {
-  std::string text = "scan,outcome,reason,qx,qy,qz,qw,x_m,y_m,z_m,t_s,ratio,disagreement,candidates,returns,search_us,why\n";
-  for (const AcquiredScan& scan : scans) text += row(scan);
+  std::string text = "scan,outcome,reason,qx,qy,qz,qw,x_m,y_m,z_m,t_s,ratio,disagreement,candidates,returns,search_us,why";
+  const bool errors = std::any_of(scans.begin(), scans.end(), [](const AcquiredScan& scan) { return scan.errors.has_value(); });
+  text += errors ? std::string(kErrorColumns) + "\n" : "\n";
+  for (const AcquiredScan& scan : scans) text += row(scan) + (errors ? error_fields(scan.errors) : "") + "\n";
   return text;
 }
 
@@ -94,7 +98,9 @@ std::string candidates_csv(const std::vector<AcquiredScan>& scans) {
 std::string acquired_summary(const std::vector<AcquiredScan>& scans) {
   std::size_t accepted = 0, ambiguous = 0;
   std::vector<double> times_us;
+  std::vector<JudgedScan> judged;
   for (const AcquiredScan& scan : scans) {
+    if (scan.result.outcome == SearchOutcome::kAccepted) judged.push_back({scan.scan, scan.errors});
     accepted += scan.result.outcome == SearchOutcome::kAccepted ? 1U : 0U;
     ambiguous += scan.result.outcome == SearchOutcome::kAmbiguous ? 1U : 0U;
     times_us.push_back(scan.search_us);
@@ -108,7 +114,7 @@ std::string acquired_summary(const std::vector<AcquiredScan>& scans) {
   for (std::size_t i = 0; i < scans.size() && i < kTold; ++i)
     summary += "  " + scans[i].scan + " " + outcome_of(scans[i]) + ": " + scans[i].why + "\n";
   if (scans.size() > kTold) summary += "  the others: column why\n";
-  return summary;
+  return summary + error_summary(judged);
 }
 
 }  // namespace lasso::mdat

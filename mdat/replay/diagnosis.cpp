@@ -91,6 +91,7 @@ std::vector<Reading> readings(const ReplayOptions& options) {
   if (!options.frame.R_sensor_file.isIdentity()) {
     const Mat3 R = options.frame.R_sensor_file;
     all.push_back({"scans as they are: leave --axes out", as_it_is, R.transpose()});
+    if (R.determinant() < 0) return all;  // a change of handedness, which no pose can follow
     all.push_back(
         {"poses turned as the scans are: --axes turns the scans alone, poses are those in the sensor frame", [R](const Pose& pose) {
            return Pose{Quat(R) * pose.q, R * pose.p};

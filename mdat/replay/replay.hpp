@@ -10,6 +10,7 @@
 #include "fsw/pose/result.hpp"
 #include "hal_sim/scan_file.hpp"
 #include "mdat/replay/initial_poses.hpp"
+#include "mdat/replay/pose_errors.hpp"
 #include "mdat/replay/scan_notes.hpp"
 
 namespace lasso::mdat {
@@ -17,7 +18,9 @@ namespace lasso::mdat {
 struct ReplayOptions {
   std::filesystem::path scans;    // folder
   std::filesystem::path initial;  // file of poses
+  std::filesystem::path truth;    // file of true poses; empty: none
   sim::ScanFrame frame;           // of the scans' files
+  sim::DepthCamera camera;        // of depth images
   double unit_s = 0;              // of their times; 0: as their headers and spans say
   bool closed_loop = false;       // the first row starts the track; then the filter predicts, as in flight
   bool wide = false;              // starts are rough: centroid, far field and slides come first
@@ -27,11 +30,13 @@ struct ReplayedScan {
   std::string scan;  // stem
   Registration registration;
   double estimate_us = 0;  // processor time of the whole estimate
+  KnownError errors;
 };
 
 // What a replay reads, checked before anything is compiled.
 struct ReplayInput {
   std::vector<InitialPose> poses;  // none: of a search
+  std::vector<InitialPose> truth;
   sim::RecordedScans scans;
   std::vector<sim::ScanFacts> facts;
 };
@@ -47,7 +52,7 @@ Notes settle_times(const ReplayOptions& options, double duration_s, ReplayInput&
 // period otherwise (files without times). Throws InputError and sim::ScanFileError.
 std::vector<ReplayedScan> replay(const Mission& mission, const ReplayOptions& options, const ReplayInput& input);
 
-// The file poses_out.csv.
+// The file poses_out.csv; with the columns of errors where any is known.
 std::string replay_csv(const std::vector<ReplayedScan>& scans);
 
 // Valid scans, reasons of the others with their meanings, median time.

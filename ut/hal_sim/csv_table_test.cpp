@@ -7,26 +7,24 @@
 namespace lasso::sim {
 namespace {
 
-struct Case {
-  const char* what;
-  std::string text;
-};
-
 // The same table as others write it.
 TEST(CsvTable, ReadsWhatSpreadsheetsAndScriptsWrite) {
   VERIFIES("LASSO-SIM-039~1");
-  const Case cases[] = {{"plain", "name,a,b\none,1.5,-2\ntwo,3,4e1\n"},
-                        {"byte order mark", "\xEF\xBB\xBFname,a,b\none,1.5,-2\ntwo,3,4e1\n"},
-                        {"blanks, signs", " name , a,\tb \n one , +1.5 , -2.0\ntwo,\t3 ,+40\n"},
-                        {"blank lines, CR LF", "\r\nname,a,b\r\n\r\none,1.5,-2\r\n,,\r\n  \r\ntwo,3,40\r\n\r\n\r\n"},
-                        {"quotes", "\"name\",\"a\",\"b\"\n\"one\",\"1.5\",\"-2\"\n\"two\",\" 3 \",\"40\"\n"},
-                        {"semicolons, decimal commas", "name;a;b\none;1,5;-2\ntwo;3;40,0\n"},
-                        {"tabs", "name\ta\tb\none\t1.5\t-2\ntwo\t3\t40\n"},
-                        {"marked header, remarks", "# made elsewhere\n# name,a,b\none,1.5,-2\n# half way\ntwo,3,40\n"},
-                        {"other columns and case", "x,B,Name,A\n7,-2,one,1.5\n,40,two,3\n"},
-                        {"a comma at the end", "name,a,b,\none,1.5,-2,\ntwo,3,40,\n"},
-                        {"no line end", "name,a,b\none,1.5,-2\ntwo,3,40"}};
-  for (const Case& c : cases) {
+  const struct {
+    const char* what;
+    std::string text;
+  } cases[] = {{"plain", "name,a,b\none,1.5,-2\ntwo,3,4e1\n"},
+               {"byte order mark", "\xEF\xBB\xBFname,a,b\none,1.5,-2\ntwo,3,4e1\n"},
+               {"blanks, signs", " name , a,\tb \n one , +1.5 , -2.0\ntwo,\t3 ,+40\n"},
+               {"blank lines, CR LF", "\r\nname,a,b\r\n\r\none,1.5,-2\r\n,,\r\n  \r\ntwo,3,40\r\n\r\n\r\n"},
+               {"quotes", "\"name\",\"a\",\"b\"\n\"one\",\"1.5\",\"-2\"\n\"two\",\" 3 \",\"40\"\n"},
+               {"semicolons, decimal commas", "name;a;b\none;1,5;-2\ntwo;3;40,0\n"},
+               {"tabs", "name\ta\tb\none\t1.5\t-2\ntwo\t3\t40\n"},
+               {"marked header, remarks", "# made elsewhere\n# name,a,b\none,1.5,-2\n# half way\ntwo,3,40\n"},
+               {"other columns and case", "x,B,Name,A\n7,-2,one,1.5\n,40,two,3\n"},
+               {"a comma at the end", "name,a,b,\none,1.5,-2,\ntwo,3,40,\n"},
+               {"no line end", "name,a,b\none,1.5,-2\ntwo,3,40"}};
+  for (const auto& c : cases) {
     CsvTable table("t.csv", c.text, "name,a,b");
     const std::size_t name = table.need({"name"}), a = table.need({"alpha", "a"}), b = table.need({"b"});
     ASSERT_TRUE(table.next()) << c.what;

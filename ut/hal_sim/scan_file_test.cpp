@@ -87,9 +87,9 @@ TEST(ScanFile, WhatIsNoScanFileIsRefused) {
   const Folder folder;
   const std::string place = folder.path().string();
   expect_error([&] { (void)read_scan_file(folder.path() / "a.csv"); }, place + "/a.csv: ", "not a file");
-  expect_error([&] { (void)read_scan_file(folder.path()); }, place, "expected .csv, .ply or .pcd");
-  const auto text = folder.write("a.xyz", "0 0 1");
-  expect_error([&] { (void)read_scan_file(text); }, text.string() + ": ", "expected .csv, .ply or .pcd");
+  expect_error([&] { (void)read_scan_file(folder.path()); }, place, "expected .csv, .ply, .pcd");
+  const auto text = folder.write("a.dat", "0 0 1");
+  expect_error([&] { (void)read_scan_file(text); }, text.string() + ": ", "expected .csv, .ply, .pcd");
   const auto large = folder.write("large.csv", kOnePoint);
   std::filesystem::resize_file(large, (std::uintmax_t{4} << 30) + 1);  // sparse
   expect_error([&] { (void)read_scan_file(large); }, large.string() + ": has 4294967297 bytes", "4 GiB");

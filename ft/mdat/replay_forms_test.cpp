@@ -1,0 +1,325 @@
+// The same scans and poses as others write them, and as others mistake them: each gives the same poses, or is told.
+#include <algorithm>
+#include <cstdio>
+#include <functional>
+
+#include "ft/mdat/replay_fixture.hpp"
+#include "ut/support/verifies.hpp"
+
+namespace lasso::ft {
+namespace {
+
+using ReplayForms = ReplayTest;
+
+using Change = std::function<void(Row&)>;
+
+// A table with each row changed.
+std::string changed(const std::string& text, const Change& change) {
+  const std::vector<std::string> names = fields_of(lines_of(text)[0]);
+  std::string result = lines_of(text)[0] + "\n";
+  for (Row row : table(text)) {
+    change(row);
+    for (std::size_t i = 0; i < names.size(); ++i) result += row[names[i]] + (i + 1 < names.size() ? "," : "\n");
+  }
+  return result;
+}
+
+std::string text_of(double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.12g", value);
+  return text;
+}
+
+// The same scans, named 1 to 12 without zeros before them: s10 comes after s9.
+TEST_F(ReplayForms, TakesFilesInNaturalOrder) {
+  VERIFIES("LASSO-SIM-019~2");
+  const std::vector<Row> truth = table(work.read("rec/4m/truth.csv"));
+  for (std::size_t i = 0; i < kReplayed; ++i) {
+    work.write("named/s" + std::to_string(i + 5) + ".csv", work.read("rec/4m/scans/" + truth[i].at("scan") + ".csv"));
+  }
+  const Answer answer = work.mdat("replay --force image.3dli --scans named --initial rec/4m/poses.csv --closed-loop -o out.csv");
+  EXPECT_EQ(answer.err.find("step back"), std::string::npos) << answer.err;
+  const std::vector<Row> rows = table(work.read("out.csv"));
+  ASSERT_EQ(rows.size(), kReplayed);
+  for (std::size_t i = 0; i < kReplayed; ++i) {
+    EXPECT_EQ(rows[i].at("scan"), "s" + std::to_string(i + 5));
+    EXPECT_EQ(rows[i].at("valid"), "1") << rows[i].at("reason");
+    EXPECT_LT(distance_m(rows[i], truth[i]), 1e-3);
+  }
+}
+
+TEST_F(ReplayForms, WarnsOfTimesThatStepBack) {
+  VERIFIES("LASSO-MDT-070~1");
+  std::filesystem::rename(work / "rec/4m/scans/f00002.csv", work / "rec/4m/scans/z.csv");
+  std::string poses = work.read("rec/4m/poses.csv");
+  poses.replace(poses.find("f00002"), 6, "z");
+  work.write("rec/4m/poses.csv", poses);
+  const Answer answer = work.mdat("replay --force image.3dli --scans rec/4m/scans --initial rec/4m/poses.csv -o out.csv");
+  EXPECT_EQ(answer.exit_code, 0);
+  EXPECT_NE(answer.err.find("warning: times step back at 1 of 8 scans, first at z,"), std::string::npos) << answer.err;
+  EXPECT_NE(answer.out.find("8 of 8 scans gave a valid pose"), std::string::npos) << answer.out;
+}
+
+// A scan with its times in another unit; all else as it was.
+std::string with_times(const std::string& csv, double units_per_second) {
+  const std::vector<std::string> lines = lines_of(csv);
+  std::string text = lines[0] + "\n";
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    const std::size_t comma = lines[i].find(',');
+    char time[40];
+    std::snprintf(time, sizeof time, "%.0f", std::stod(lines[i].substr(0, comma)) * units_per_second);
+    text += time + lines[i].substr(comma) + "\n";
+  }
+  return text;
+}
+
+TEST_F(ReplayForms, KnowsUnitsOfTimeByAScansSpan) {
+  VERIFIES("LASSO-MDT-070~1");
+  const std::vector<Row> seconds = replay("image.3dli", "rec/4m/scans", "--closed-loop");
+  for (const auto& [per_second, name] : {std::pair(1e6, "microseconds"), std::pair(1e9, "nanoseconds")}) {
+    for (const Row& row : seconds)
+      work.write("other/" + row.at("scan") + ".csv", with_times(work.read("rec/4m/scans/" + row.at("scan") + ".csv"), per_second));
+    const Answer answer = work.mdat("replay --force image.3dli --scans other --initial rec/4m/poses.csv --closed-loop -o other.csv");
+    EXPECT_NE(answer.err.find(std::string("taken as ") + name), std::string::npos) << answer.err;
+    const std::vector<Row> rows = table(work.read("other.csv"));
+    ASSERT_EQ(rows.size(), seconds.size());
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      EXPECT_EQ(rows[i].at("t_s"), seconds[i].at("t_s"));
+      EXPECT_LT(distance_m(rows[i], seconds[i]), 1e-8);
+    }
+  }
+}
+
+TEST_F(ReplayForms, TakesTheUnitOfTimeThatIsAskedFor) {
+  VERIFIES("LASSO-MDT-070~1");
+  const Answer answer = work.mdat("replay --force image.3dli --scans rec/4m/scans --initial rec/4m/poses.csv --time-unit ms -o out.csv");
+  EXPECT_EQ(answer.exit_code, 0) << answer.err;
+  const double given_s = value(table(work.read("out.csv")).at(3), "t_s");
+  EXPECT_NEAR(given_s, 1e-3 * value(replay("image.3dli", "rec/4m/scans", "").at(3), "t_s"), 1e-6);
+}
+
+// What replay wrote is what it starts from, and gives the same poses again.
+TEST_F(ReplayForms, StartsFromItsOwnOutput) {
+  VERIFIES("LASSO-MDT-071~1");
+  const std::vector<Row> first = replay("image.3dli", "rec/4m/scans", "");
+  std::filesystem::copy(work / "out.csv", work / "rec/4m/poses.csv", std::filesystem::copy_options::overwrite_existing);
+  const std::vector<Row> again = replay("image.3dli", "rec/4m/scans", "");
+  ASSERT_EQ(again.size(), first.size());
+  for (std::size_t i = 0; i < first.size(); ++i) EXPECT_LT(distance_m(again[i], first[i]), 1e-4);
+}
+
+TEST_F(ReplayForms, StartsFromWhatASearchWroteAndTellsWhichPosesAreNone) {
+  VERIFIES("LASSO-MDT-071~1");
+  const std::string text = work.read("rec/4m/poses.csv");
+  std::string rows = "\xEF\xBB\xBFscan;outcome;" + lines_of(text)[0].substr(5) + "\r\n\r\n";
+  for (std::size_t i = 1; i <= kReplayed; ++i) {
+    const std::string line = lines_of(text)[i];
+    const std::size_t comma = line.find(',');
+    rows += line.substr(0, comma) + ".csv; " + (i == 3 ? "rejected" : "accepted") + line.substr(comma) + "\r\n";
+  }
+  std::replace(rows.begin(), rows.end(), ',', ';');
+  work.write("rec/4m/poses.csv", rows + "\r\n\r\n");
+  const Answer answer = work.mdat("replay --force image.3dli --scans rec/4m/scans --initial rec/4m/poses.csv -o out.csv");
+  EXPECT_NE(answer.err.find("1 of 8 poses are not valid there"), std::string::npos) << answer.err;
+  expect_near_truth(table(work.read("out.csv")), 1e-3, 0.002);
+}
+
+// The points of a scan as an organised cloud: a row for each ray, NaN or zeros where it missed.
+std::string to_pcd(const std::string& csv, const std::string& nothing) {
+  std::string points;
+  const std::vector<Row> rays = table(csv);
+  for (const Row& ray : rays)
+    points += (ray.at("valid") == "1" ? ray.at("x_m") + " " + ray.at("y_m") + " " + ray.at("z_m") : nothing) + "\n";
+  const std::string count = std::to_string(rays.size());
+  return "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH " + count +
+         "\nHEIGHT 1\nVIEWPOINT 0 0 0 -1 0 0 0\nPOINTS " + count + "\nDATA ascii\n" + points;
+}
+
+TEST_F(ReplayForms, LeavesOutRowsWithoutAMeasurement) {
+  VERIFIES("LASSO-SIM-036~1 LASSO-MDT-070~1");
+  const std::vector<Row> truth = table(work.read("rec/4m/truth.csv"));
+  for (const Row& row : truth) {
+    work.write("clouds/" + row.at("scan") + ".pcd",
+               to_pcd(work.read("rec/4m/scans/" + row.at("scan") + ".csv"), row.at("scan") == "f00001" ? "0 0 0" : "nan nan nan"));
+  }
+  expect_near_truth(replay("image.3dli", "clouds", ""), 1.5e-3, 0.003);
+  const Answer answer = work.mdat("replay --force image.3dli --scans clouds --initial rec/4m/poses.csv -o out.csv");
+  EXPECT_NE(answer.err.find("rows have no measurement (NaN or zeros; in all 8 scans)"), std::string::npos) << answer.err;
+}
+
+// A mission's own start.check: the first scan's pose is valid once a search of that scan has found no better one.
+TEST_F(ReplayForms, ChecksTheStartOfAClosedLoopWithinOneScan) {
+  VERIFIES("LASSO-MDT-073~1");
+  work.write_mission({{"check = false", "check = true"}});
+  const Answer answer =
+      work.mdat("replay --force missions/test.toml --scans rec/4m/scans --initial rec/4m/poses.csv --closed-loop -o out.csv");
+  EXPECT_EQ(answer.exit_code, 0) << answer.err;
+  expect_near_truth(table(work.read("out.csv")), 1e-3, 0.002);
+}
+
+TEST_F(ReplayForms, SaysThatScansAreInMillimetres) {
+  VERIFIES("LASSO-MDT-074~1");
+  for (const Row& scan : table(work.read("rec/4m/truth.csv"))) {
+    const std::string name = scan.at("scan") + ".csv";
+    work.write("mm/" + name, changed(work.read("rec/4m/scans/" + name), [](Row& row) {
+                 if (row["valid"] == "0") return;
+                 for (const char* axis : {"x_m", "y_m", "z_m"}) row[axis] = text_of(1000 * std::stod(row[axis]));
+               }));
+  }
+  const Answer answer = work.mdat("replay --force image.3dli --scans mm --initial rec/4m/poses.csv -o out.csv");
+  EXPECT_NE(answer.err.find("the returns of all 8 scans lie beyond sensor.range_max_m 12"), std::string::npos) << answer.err;
+  EXPECT_NE(answer.err.find("in millimetres? --scale 0.001"), std::string::npos) << answer.err;
+  expect_near_truth(replay("image.3dli", "mm", "--scale 0.001"), 1e-3, 0.002);
+}
+
+// Quaternions of both directions and orders by their definition: the inverse of (q, p) is (conjugate q, -R(q)^T p).
+TEST_F(ReplayForms, SaysHowPosesThatDoNotFitWould) {
+  VERIFIES("LASSO-MDT-074~1");
+  const std::string poses = work.read("rec/4m/poses.csv");
+  const Change first = [](Row& row) {
+    const Row old = row;
+    row["qx"] = old.at("qw");
+    row["qy"] = old.at("qx");
+    row["qz"] = old.at("qy");
+    row["qw"] = old.at("qz");
+  };
+  const Change inverse = [](Row& row) {
+    const double x = -value(row, "qx"), y = -value(row, "qy"), z = -value(row, "qz"), w = value(row, "qw");
+    const double px = value(row, "x_m"), py = value(row, "y_m"), pz = value(row, "z_m");
+    row["x_m"] = text_of(-((1 - 2 * (y * y + z * z)) * px + 2 * (x * y - w * z) * py + 2 * (x * z + w * y) * pz));
+    row["y_m"] = text_of(-(2 * (x * y + w * z) * px + (1 - 2 * (x * x + z * z)) * py + 2 * (y * z - w * x) * pz));
+    row["z_m"] = text_of(-(2 * (x * z - w * y) * px + 2 * (y * z + w * x) * py + (1 - 2 * (x * x + y * y)) * pz));
+    row["qx"] = text_of(x);
+    row["qy"] = text_of(y);
+    row["qz"] = text_of(z);
+  };
+  const std::pair<Change, const char*> cases[] = {{first, "quaternions scalar first: the columns"},
+                                                  {inverse, "the inverse of each pose: the file"}};
+  for (const auto& [change, said] : cases) {
+    work.write("rec/4m/other.csv", changed(poses, change));
+    const Answer answer = work.mdat("replay --force image.3dli --scans rec/4m/scans --initial rec/4m/other.csv -o out.csv");
+    EXPECT_NE(answer.err.find(said), std::string::npos) << answer.err;
+    EXPECT_NE(answer.err.find("of 5 scans that were tried 0 fit as given, and 5 with"), std::string::npos) << answer.err;
+    EXPECT_EQ(answer.err.find("warning: no return") != std::string::npos, said[4] == 'i') << answer.err;
+  }
+}
+
+TEST_F(ReplayForms, SaysInWhichAxesScansWouldFit) {
+  VERIFIES("LASSO-MDT-074~1");
+  for (const Row& scan : table(work.read("rec/4m/truth.csv"))) {
+    const std::string name = scan.at("scan") + ".csv";
+    work.write("other/" + name, changed(work.read("rec/4m/scans/" + name), [](Row& row) {
+                 const Row old = row;  // forward, left, up of right, down, forward
+                 row["x_m"] = old.at("z_m");
+                 row["y_m"] = text_of(-std::stod(old.at("x_m")));
+                 row["z_m"] = text_of(-std::stod(old.at("y_m")));
+               }));
+  }
+  const Answer answer = work.mdat("replay --force image.3dli --scans other --initial rec/4m/poses.csv -o out.csv");
+  EXPECT_NE(answer.err.find("and 5 with scans in other axes: --axes forward-left-up"), std::string::npos) << answer.err;
+}
+
+TEST_F(ReplayForms, TellsOfNoiseThatIsLargerThanStated) {
+  VERIFIES("LASSO-MDT-075~1");
+  const Answer same = work.mdat("replay --force image.3dli --scans rec/4m/scans --initial rec/4m/poses.csv -o out.csv");
+  EXPECT_EQ(same.err.find("residuals are"), std::string::npos) << same.err;
+  work.write_mission({{"sigma_k_per_m = 1.1111111111111112e-4", "sigma_k_per_m = 2.5e-5"}});
+  const Answer answer =
+      work.mdat("replay --force missions/test.toml --scenario dropouts --scans rec/4m/scans --initial rec/4m/poses.csv -o out.csv");
+  const std::size_t at = answer.err.find("warning: residuals are ");
+  ASSERT_NE(at, std::string::npos) << answer.err;
+  EXPECT_NEAR(std::stod(answer.err.substr(at + 23)), 4.4, 0.4) << "1/9000 over 2.5e-5";
+  EXPECT_NE(answer.err.find("they show 1."), std::string::npos) << "1.78 mm at 4 m: " << answer.err;
+}
+
+// Each scan of the recording, changed row by row, in another folder.
+void write_changed(const WorkFolder& work, const std::string& folder, const Change& change) {
+  for (const Row& scan : table(work.read("rec/4m/truth.csv"))) {
+    const std::string name = scan.at("scan") + ".csv";
+    work.write(folder + "/" + name, changed(work.read("rec/4m/scans/" + name), change));
+  }
+}
+
+// What the sensor at (0.5, -0.3, 0.2) of a frame with axes forward, right, down writes of returns there; of misses their directions.
+TEST_F(ReplayForms, ReadsOtherAxesFromASensorThatStandsAside) {
+  VERIFIES("LASSO-MDT-077~1");
+  write_changed(work, "frd", [](Row& row) {
+    const Row old = row;
+    const double there = old.at("valid") == "1" ? 1 : 0;
+    row["x_m"] = text_of(std::stod(old.at("z_m")) + 0.5 * there);
+    row["y_m"] = text_of(std::stod(old.at("x_m")) - 0.3 * there);
+    row["z_m"] = text_of(std::stod(old.at("y_m")) + 0.2 * there);
+  });
+  expect_near_truth(replay("image.3dli", "frd", "--axes forward-right-down --sensor-offset 0.5,-0.3,0.2"), 1e-3, 0.002);
+  expect_near_truth(replay("image.3dli", "frd", "--axes y,z,x --sensor-offset=0.5,-0.3,0.2"), 1e-3, 0.002);
+  const Answer answer = work.mdat("replay --force image.3dli --scans frd --initial rec/4m/poses.csv --axes front-right-down -o out.csv");
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_NE(answer.err.find("--axes: is \"front-right-down\""), std::string::npos) << answer.err;
+}
+
+TEST_F(ReplayForms, ReadsPlainTextClouds) {
+  VERIFIES("LASSO-SIM-042~1 LASSO-MDT-006~1");
+  for (const Row& scan : table(work.read("rec/4m/truth.csv"))) {
+    std::string text = "//X;Y;Z;Intensity\n";
+    for (const Row& ray : table(work.read("rec/4m/scans/" + scan.at("scan") + ".csv"))) {
+      if (ray.at("valid") == "1") text += ray.at("x_m") + ";" + ray.at("y_m") + ";" + ray.at("z_m") + ";7\n";
+    }
+    std::replace(text.begin(), text.end(), '.', ',');
+    work.write("text/" + scan.at("scan") + (scan.at("scan") == "f00003" ? ".asc" : ".xyz"), text);
+  }
+  expect_near_truth(replay("image.3dli", "text", ""), 1.5e-3, 0.003);
+}
+
+// Each point 40 times, a tenth of the noise apart: 15,000 points a scan.
+TEST_F(ReplayForms, ThinsDenseClouds) {
+  VERIFIES("LASSO-SIM-040~1 LASSO-MDT-070~1");
+  for (const Row& scan : table(work.read("rec/4m/truth.csv"))) {
+    std::string text;
+    for (const Row& ray : table(work.read("rec/4m/scans/" + scan.at("scan") + ".csv"))) {
+      for (int i = 0; ray.at("valid") == "1" && i < 40; ++i) {
+        for (const char* axis : {"x_m", "y_m", "z_m"})
+          text += text_of(value(ray, axis) * (1 + 1e-6 * (i - 19.5))) + (axis[0] == 'z' ? "\n" : " ");
+      }
+    }
+    work.write("dense/" + scan.at("scan") + ".xyz", text);
+  }
+  const Answer answer = work.mdat("replay --force image.3dli --scans dense --initial rec/4m/poses.csv -o out.csv");
+  EXPECT_NE(answer.err.find("all 8 scans thinned to 4096 rays: of the largest 4096 of "), std::string::npos) << answer.err;
+  const std::vector<Row> rows = table(work.read("out.csv"));
+  const std::vector<Row> truth = table(work.read("rec/4m/truth.csv"));
+  ASSERT_EQ(rows.size(), kReplayed);
+  for (std::size_t i = 0; i < kReplayed; ++i) {
+    EXPECT_EQ(rows[i].at("valid"), "1");
+    EXPECT_LT(distance_m(rows[i], truth[i]), 2e-3);
+  }
+}
+
+TEST_F(ReplayForms, PrintsErrorsAgainstTrueOnes) {
+  VERIFIES("LASSO-MDT-076~1");
+  const Answer answer =
+      work.mdat("replay --force image.3dli --scans rec/4m/scans --initial rec/4m/poses.csv --truth rec/4m/truth.csv -o out.csv");
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  const std::vector<Row> rows = table(work.read("out.csv"));
+  const std::vector<Row> truth = table(work.read("rec/4m/truth.csv"));
+  double sum_mm2 = 0, largest_mm = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    EXPECT_NEAR(value(rows[i], "error_m"), distance_m(rows[i], truth[i]), 1e-8);
+    EXPECT_NEAR(value(rows[i], "error_deg"), angle_rad(rows[i], truth[i]) * 180 / 3.14159265358979, 1e-4);
+    sum_mm2 += 1e6 * value(rows[i], "error_m") * value(rows[i], "error_m");
+    largest_mm = std::max(largest_mm, 1e3 * value(rows[i], "error_m"));
+  }
+  const std::size_t at = answer.out.find("errors of 8 poses: translation rms ");
+  ASSERT_NE(at, std::string::npos) << answer.out;
+  EXPECT_NEAR(std::stod(answer.out.substr(at + 35)), std::sqrt(sum_mm2 / 8), 1e-3);
+  EXPECT_NEAR(std::stod(answer.out.substr(answer.out.find("largest ", at) + 8)), largest_mm, 1e-3);
+  const Answer found = work.mdat("replay --force image.3dli --scans rec/4m/scans --initial search --truth rec/4m/truth.csv -o out.csv");
+  EXPECT_NE(found.out.find("translation rms"), std::string::npos) << found.out;
+  EXPECT_LT(value(table(work.read("out.csv")).at(0), "error_m"), 0.02);
+  work.write("other.csv", "scan,qx,qy,qz,qw,x_m,y_m,z_m\nnone,0,0,0,1,0,0,4\n");
+  const Answer other = work.mdat("replay --force image.3dli --scans rec/4m/scans --initial rec/4m/poses.csv --truth other.csv -o out.csv");
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_NE(other.err.find("other.csv: no row for any scan"), std::string::npos) << other.err;
+}
+
+}  // namespace
+}  // namespace lasso::ft
