@@ -93,7 +93,7 @@ run: ## first: track the tenth-scale Hubble in simulation, and write the report 
 	@cfg/quality/measured.py run "$(OUT)/results.json"
 	@echo "open the report: xdg-open '$(OUT)/report.html'"
 
-test: ## first: build and pass all unit and functional tests of the host
+test: ## first: build and pass all unit and functional tests of the host; MESHES=all: missions of all kinds of meshes
 	$(begin)
 	$(call packages,build test)
 	$(call configure,$(BUILD),)

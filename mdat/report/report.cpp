@@ -96,7 +96,8 @@ std::vector<ScanPanel> shown_panels(const TableResult& table) {
   for (const KeptScan& scan : shown_scans(table)) {
     const std::string when = table.scenario.drawn != 0 ? format("flight %zu", shown_range(table.scenario) + 1)
                                                        : format("%.0f°", scan.frame * table.scenario.step_rad / kRadPerDeg);
-    panels.push_back({&scan, when + format(": %u of %u rays return", scan.telemetry.returns, scan.telemetry.plan_points)});
+    panels.push_back({&scan, when + format(": %u of %u rays return", scan.telemetry.returns, scan.telemetry.plan_points),
+                      Vec3(table.scenario.center_m.data())});
   }
   return panels;
 }

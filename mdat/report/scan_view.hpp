@@ -14,6 +14,7 @@ namespace lasso::mdat {
 struct ScanPanel {
   const KeptScan* scan = nullptr;
   std::string title;
+  Vec3 center_m = Vec3::Zero();  // point of the target at whose depth the picture is measured
 };
 
 // One panel a scan, side by side, 400 x 520 pixels times `scale` each: the target shaded at the estimated pose, the rays that missed as
