@@ -103,7 +103,7 @@ gallery: ## measure: fly every shipped scenario and write a page of them all, ou
 	@$(BUILD)/mdat/mdat gallery "$(GALLERY)"
 	@echo "open the page: xdg-open '$(GALLERY)/index.html'"
 
-test: ## first: build and pass all unit and functional tests of the host
+test: ## first: build and pass all unit and functional tests of the host; MESHES=all: missions of all kinds of meshes
 	$(begin)
 	$(call packages,build test)
 	$(call configure,$(BUILD),)

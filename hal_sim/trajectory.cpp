@@ -84,6 +84,19 @@ TruthState RangeProfile::at(TimeUs t_us) const {
   return truth;
 }
 
+AboutPoint::AboutPoint(std::unique_ptr<Trajectory> motion, const Vec3& point_m) : motion_(std::move(motion)), point_m_(point_m) {
+  require(motion_ != nullptr, "about a point: there is no motion");
+  require(point_m.allFinite(), "about a point: the point is not finite");
+}
+
+TruthState AboutPoint::at(TimeUs t_us) const {
+  TruthState truth = motion_->at(t_us);
+  const Vec3 to_origin_m = rotate(truth.T_sensor_target.q, Vec3(-point_m_));
+  truth.T_sensor_target.p += to_origin_m;
+  truth.rates.v_mps += truth.rates.omega_radps.cross(to_origin_m);
+  return truth;
+}
+
 Vec3 spin_in_sensor_axes(const Pose& T_sensor_target, const Vec3& axis_target, double rate_radps) {
   return rotate(T_sensor_target.q, axis_target) * rate_radps;
 }

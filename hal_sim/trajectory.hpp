@@ -1,6 +1,7 @@
 // Where the target truly is: T_sensor_target and its rates at any time.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "fsw/core/time.hpp"
@@ -77,6 +78,19 @@ class RangeProfile final : public Trajectory {
 
  private:
   Setup setup_;
+};
+
+// The motion of a frame with the target's axes whose origin is another point of the target: ranges are that point's, and the target turns
+// about it.
+class AboutPoint final : public Trajectory {
+ public:
+  // `point_m` in the target's frame. Throws std::invalid_argument: no motion, or the point is not finite.
+  AboutPoint(std::unique_ptr<Trajectory> motion, const Vec3& point_m);
+  TruthState at(TimeUs t_us) const override;
+
+ private:
+  std::unique_ptr<Trajectory> motion_;
+  Vec3 point_m_;
 };
 
 // Angular velocity in sensor axes of a target that turns by `rate_radps` about its own axis `axis_target` (unit).

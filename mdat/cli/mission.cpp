@@ -7,7 +7,7 @@
 #include "mdat/common/flight_image.hpp"
 #include "mdat/common/output.hpp"
 #include "mdat/missiondb/mission_text.hpp"
-#include "mdat/missiondb/mission_writer.hpp"
+#include "mdat/missiondb/new_mission.hpp"
 
 namespace lasso::mdat {
 namespace {
@@ -16,6 +16,8 @@ struct MissionOptions {
   std::string file, scenario, out, model;
   std::vector<std::string> settings;
   double scale = 1;
+  std::string simplify;
+  std::size_t triangles = 0;  // of the coarser mesh
   bool replace = false, cached = true;
 };
 
@@ -144,14 +146,37 @@ void compile(const MissionOptions& options) {
   print_text(report_text(mission, out.string(), bytes.size()) + replaced + cache_text(mission, cache));
 }
 
+// Empty for a good number, and for none: what stands for it depends on the command line's library.
+std::string check_triangles(const std::string& text) {
+  if (text.empty() || text == "true") return "";
+  const bool number = text.size() <= 6 && text.find_first_not_of("0123456789") == std::string::npos;
+  const unsigned long value = number ? std::stoul(text) : 0;
+  return value >= 4 && value <= 500000 ? "" : "--simplify: " + text + ": expected a number of triangles from 4 to 500000, or none";
+}
+
+std::string next_steps(const std::string& mission) {
+  const std::string folder = std::filesystem::path(mission).stem().string() + "_run";
+  return "next:\n  mdat mission check " + mission + "\n  mdat run " + mission + " --scenario spin --out " + folder +
+         "      # or paper, search, approach; the report is " + folder + "/report.html\n";
+}
+
 void write_new(const MissionOptions& options) {
   std::error_code ignored;
   if (!options.replace && std::filesystem::exists(options.out, ignored)) {
     throw InputError(options.out + ": is there already; --force replaces it");
   }
   check_writable(options.out);
-  write_new_mission(options.model, options.scale, options.out);
-  print_text(options.out + ": written; `mdat mission compile` makes its flight image\n");
+  ModelCache cache = ModelCache::of_user_if(options.cached);
+  NewMissionRequest request;
+  request.model = options.model;
+  request.out = options.out;
+  request.scale = options.scale;
+  request.simplify = options.triangles;
+  request.replace = options.replace;
+  request.compile = [&](const Mesh& mesh, const ModelOptions& model, CompileReport& report) { return cache.compile(mesh, model, report); };
+  std::string text = options.out + ": written\n";
+  for (const std::string& remark : write_new_mission(request)) text += "  " + remark + '\n';
+  print_text(text + next_steps(options.out));
 }
 
 CLI::App* add(CLI::App& parent, const char* name, const char* meaning, void (*action)(const MissionOptions&),
@@ -190,6 +215,19 @@ void add_mission_commands(CLI::App& app) {
       ->capture_default_str()
       ->check(CLI::Range(1e-6, 1e6));
   new_command->add_option("-o,--out", options->out, "mission to write")->required();
+  CLI::Option* simplify =
+      new_command
+          ->add_option(
+              "--simplify", options->simplify,
+              "first make a coarser mesh of so many triangles, beside the mission; without a number a quarter of them, at most 20000")
+          ->expected(0, 1)
+          ->check(CLI::Validator(check_triangles, ""));
+  new_command->callback([options, simplify] {
+    if (simplify->count() > 0)
+      options->triangles = options->simplify.empty() || options->simplify == "true" ? kSimplifyChosen : std::stoul(options->simplify);
+    write_new(*options);
+  });
+  add_no_cache(*new_command, options->cached);
   new_command->add_flag("--force", options->replace, "replace a file that is there");
 }
 

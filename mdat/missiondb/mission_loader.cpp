@@ -87,12 +87,18 @@ class Loader {
     source_.name = text_or_empty(found_, "mission.name");
     source_.calibration_files = texts_of(found_, "sensor.calibration");
     source_.target.scale = mission_number("target.scale");
+    source_.target.origin_m = mission_list("target.origin_m");
     source_.target.crease_angle_rad = mission_number("target.crease_angle_deg");
     source_.target.cell_size_m = mission_number("target.cell_size_m");
   }
   double mission_number(const std::string& key) const {
     const ValueRow& row = *find_row(mission_rows(), key);
     return number_or(found_, row, row.preset.empty() ? 0 : row.preset[0]) * row.to_si;
+  }
+
+  std::vector<double> mission_list(const std::string& key) const {
+    const auto value = found_.find(key);
+    return value == found_.end() ? find_row(mission_rows(), key)->preset : value->second.numbers;
   }
 
   void read_scenario_values() {
@@ -277,16 +283,14 @@ Mesh load_target(const MissionSource& source, std::vector<std::string>* warnings
   const TargetSource& target = source.target;
   const Origin origin = source.origins.at(target.file_key);
   try {
-    if (!target.parametric) {
-      std::vector<std::string> left_out;
-      Mesh mesh = import_mesh(target.file, target.scale, &left_out);
-      for (const std::string& what : left_out) {
-        if (warnings != nullptr) warnings->push_back(target.file.string() + ": not read: " + what);
-      }
-      return mesh;
+    std::vector<std::string> left_out;
+    Mesh mesh = target.parametric ? build_model(target.file, target.parameters) : import_mesh(target.file, target.scale, &left_out);
+    const double scale = target.parametric ? target.scale : 1;
+    const Eigen::Vector3d origin_m(target.origin_m.data());
+    for (Eigen::Vector3d& vertex : mesh.vertices) vertex = scale * vertex - origin_m;
+    for (const std::string& what : left_out) {
+      if (warnings != nullptr) warnings->push_back(target.file.string() + ": not read: " + what);
     }
-    Mesh mesh = build_model(target.file, target.parameters);
-    for (Eigen::Vector3d& vertex : mesh.vertices) vertex *= target.scale;
     check_extent(mesh);
     return mesh;
   } catch (const MeshError& error) {

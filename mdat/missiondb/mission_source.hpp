@@ -30,6 +30,7 @@ struct TargetSource {
   std::string file_key;                      // "target.model" or "target.mesh"
   std::string sha256;                        // of the file's bytes as found, lower-case hex
   double scale = 1;                          // applied to the file's lengths to get metres
+  std::vector<double> origin_m;              // the target's origin, in the file's axes after scale
   double crease_angle_rad = 0;               // facets that meet at less are one smooth surface
   double cell_size_m = 0;                    // of the look-up field
   std::map<std::string, double> parameters;  // of the parametric model, in the units that the model states; only those that were written
@@ -88,7 +89,8 @@ struct Scenario {
   double roll_rad = 0;             // of the target about its own x axis, before all else
   double drawn = 0;                // 1: at random, by the run's seed
   double paper_table = 0;          // 1: the scenario is the paper's own, whose table stands beside its results
-  std::vector<double> offset_m;    // x, y of the target's origin in the sensor frame
+  std::vector<double> offset_m;    // x, y of the target's centre in the sensor frame
+  std::vector<double> center_m;    // that point in the target's frame: ranges are its own, and the target turns about it
   std::vector<double> spin_radps;  // x, y, z in the target's axes
   std::vector<double> drift_mps;   // x, y, z in the sensor's axes
   std::vector<double> times_s;     // since frame 0

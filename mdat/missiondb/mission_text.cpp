@@ -103,6 +103,8 @@ void write_target(ValueLines& out, const MissionSource& source) {
   write_line(out, target.file_key, target.file.filename().string(), "", place_text(source, target.file_key), "sha256 " + target.sha256);
   write_line(out, "target.scale", number_text(target.scale), "1", place_text(source, "target.scale"),
              "the file's lengths times this are metres");
+  const ValueRow& origin = *find_row(mission_rows(), "target.origin_m");
+  write_line(out, origin.key, value_text(origin, target.origin_m), origin.unit, place_text(source, origin.key), origin.meaning);
   ValueRow crease = *find_row(mission_rows(), "target.crease_angle_deg");
   crease.to_si = degrees;
   write_line(out, crease.key, value_text(crease, {target.crease_angle_rad}), crease.unit, place_text(source, crease.key), crease.meaning);

@@ -116,7 +116,7 @@ std::vector<ScenarioField> make_scenario_fields() {
   // clang-format off
   return {
     field(&S::kind, kind_row()),
-    field(&S::ranges_m, number_row("ranges_m", "m", kReal, 1, 0.01, 10000, 0, "ranges of the target's origin along the boresight, one run each; approach, pass: at times_s"), 1, 100, {}),
+    field(&S::ranges_m, number_row("ranges_m", "m", kReal, 1, 0.01, 10000, 0, "ranges of the target's center_m along the boresight, one run each; approach, pass: at times_s"), 1, 100, {}),
     field(&S::frames, number_row("frames", "1", kInteger, 1, 1, 1000000, 360, "frames of a run")),
     field(&S::step_rad, number_row("step_deg", "deg", kReal, kDeg, -180, 180, 1, "paper: turn about the target's x axis from frame to frame")),
     field(&S::tilt_rad, number_row("tilt_deg", "deg", kReal, kDeg, -180, 180, 15, "tilt of the target's -x end towards the sensor; 0 is side-on")),
@@ -124,7 +124,8 @@ std::vector<ScenarioField> make_scenario_fields() {
     field(&S::roll_rad, number_row("roll_deg", "deg", kReal, kDeg, -180, 180, 0, "turn of the target about its own x axis, before tilt and boresight")),
     field(&S::drawn, number_row("drawn", "1", ValueKind::kBoolean, 1, 0, 1, 0, "spin: attitude of frame 0, and axes of spin and drift, are drawn at random for each run; rates as large as given")),
     field(&S::paper_table, number_row("paper_table", "1", ValueKind::kBoolean, 1, 0, 1, 0, "paper: results stand beside the paper's table 1, which is of a tenth-scale Hubble")),
-    field(&S::offset_m, number_row("offset_m", "m", kReal, 1, -10000, 10000, 0, "target's origin off the boresight: right, down"), 2, 2, {0.02, -0.01}),
+    field(&S::offset_m, number_row("offset_m", "m", kReal, 1, -10000, 10000, 0, "target's center_m off the boresight: right, down"), 2, 2, {0.02, -0.01}),
+    field(&S::center_m, number_row("center_m", "m", kReal, 1, -1000, 1000, 0, "point of the target, in its own frame, that ranges_m and offset_m are of, and about which it turns"), 3, 3, {0, 0, 0}),
     field(&S::spin_radps, number_row("spin_degps", "deg/s", kReal, kDeg, -360, 360, 0, "spin, approach, pass: angular rate about the target's x, y, z"), 3, 3, {0, 0, 0}),
     field(&S::drift_mps, number_row("drift_mps", "m/s", kReal, 1, -100, 100, 0, "spin: velocity along the sensor's x, y, z"), 3, 3, {0, 0, 0}),
     field(&S::times_s, number_row("times_s", "s", kReal, 1, 0, 1e6, 0, "approach, pass: when the target is at each of ranges_m, at rest"), 1, 100, {0}),
@@ -161,6 +162,7 @@ const std::vector<ValueRow>& mission_rows() {
     text_row("target.mesh", "[^\\x00-\\x1f]+", "mesh (STL, OBJ, PLY, glTF), from the mission's folder or the one above; this or target.model"),
     text_row("target.sha256", "[0-9a-fA-F]{64}", "SHA-256 of that file, 64 hexadecimal digits"),
     number_row("target.scale", "1", kReal, 1, 1e-9, 1e9, 1, "the file's lengths times this are metres"),
+    list(number_row("target.origin_m", "m", kReal, 1, -1e7, 1e7, 0, "the target's origin in the file's axes, after scale: poses are of this point"), 3, {0, 0, 0}),
     number_row("target.crease_angle_deg", "deg", kReal, kDeg, 0, 90, 30, "facets that meet at a smaller angle are one smooth surface"),
     number_row("target.cell_size_m", "m", kReal, 1, 1e-5, 10, 0.012, "cell of the look-up field: about 1/110 of the target is fastest; larger takes less memory"),
     sensor_row(),

@@ -19,6 +19,15 @@ class CrowdedCellError : public CompileError {
   using CompileError::CompileError;
 };
 
+// The image has no room for the look-up field. Larger cells help.
+class LargeFieldError : public CompileError {
+ public:
+  using CompileError::CompileError;
+};
+
+// What helps where cells do not.
+constexpr const char* kCoarserMesh = "take a coarser mesh (mdat mission new --simplify makes one)";
+
 // Joins anything that prints into one CompileError and throws it.
 template <class Error = CompileError, class... Parts>
 [[noreturn]] void fail(const Parts&... parts) {

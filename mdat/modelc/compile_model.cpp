@@ -36,6 +36,13 @@ void check_options(const ModelOptions& options) {
   check_range("near_band_m", options.near_band_m, 0, kExtentMax_m);
 }
 
+// Before time is spent on a mesh of which no image has room: two triangles are one element at best.
+void check_count(const Mesh& mesh) {
+  constexpr std::size_t kMost = 2 * std::size_t{kMaxElements};
+  if (mesh.triangles.size() > kMost)
+    fail("the mesh has ", mesh.triangles.size(), " triangles; an image has room for ", kMost, " at most: ", kCoarserMesh);
+}
+
 Surface prepare_surface(const Mesh& mesh, const ModelOptions& options, CompileReport& report, const Progress& progress) {
   progress("repair the mesh", 0);
   Surface surface = repair_mesh(mesh, options.weld_tolerance_m, report);
@@ -97,12 +104,13 @@ void put_sizes(const ModelTables& tables, CompileReport& report) {
     report.total_bytes += report.table_bytes[id];
   }
   if (report.total_bytes <= kMaxImageBytes) return;
-  fail("the tables need ", report.total_bytes, " bytes (elements ", report.table_bytes[static_cast<std::size_t>(TableId::kElements)],
-       ", ray cells ", report.table_bytes[static_cast<std::size_t>(TableId::kRayCells)], ", lists ",
-       report.table_bytes[static_cast<std::size_t>(TableId::kRayLists)], ", near cells ",
-       report.table_bytes[static_cast<std::size_t>(TableId::kNearCells)], ", edges ",
-       report.table_bytes[static_cast<std::size_t>(TableId::kEdges)], "); the limit of an image is ", kMaxImageBytes,
-       ": take larger cells or a coarser mesh");
+  fail<LargeFieldError>("the tables need ", report.total_bytes, " bytes (elements ",
+                        report.table_bytes[static_cast<std::size_t>(TableId::kElements)], ", ray cells ",
+                        report.table_bytes[static_cast<std::size_t>(TableId::kRayCells)], ", lists ",
+                        report.table_bytes[static_cast<std::size_t>(TableId::kRayLists)], ", near cells ",
+                        report.table_bytes[static_cast<std::size_t>(TableId::kNearCells)], ", edges ",
+                        report.table_bytes[static_cast<std::size_t>(TableId::kEdges)], "); the limit of an image is ", kMaxImageBytes,
+                        ": take larger cells, or ", kCoarserMesh);
 }
 
 struct GriddedField {
@@ -135,6 +143,7 @@ void put_search(const Surface& surface, const std::vector<Element>& elements, co
   tables[TableId::kSymmetries] = symmetry_words(symmetries, scale);
   report.views = views.size();
   report.symmetries = symmetries.size();
+  if (!symmetries.empty()) report.symmetry_mismatch = symmetries.front().mismatch;
 }
 
 ModelTables make_tables(const Surface& surface, const ModelOptions& options, CompileReport& report, const Progress& progress) {
@@ -177,6 +186,7 @@ ModelTables compile_model(const Mesh& mesh, const ModelOptions& options, Compile
   const Progress tell = progress ? progress : [](const std::string&, double) {};
   report = {};
   check_options(options);
+  check_count(mesh);
   const Surface surface = prepare_surface(mesh, options, report, tell);
   ModelTables tables = make_tables(surface, options, report, tell);
   put_sizes(tables, report);

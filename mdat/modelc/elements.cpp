@@ -138,7 +138,7 @@ std::int32_t unit_word(double value) {
 Vec3d round_unit(const Vec3d& v) { return Vec3d(unit_word(v.x()), unit_word(v.y()), unit_word(v.z())) / kUnitOne; }
 
 ElementSet make_elements(const std::vector<Polygon>& polygons, const LengthScale& scale, double extent_m, CompileReport& report) {
-  if (polygons.size() > kMaxElements) fail("the model has ", polygons.size(), " elements; the limit is ", kMaxElements);
+  if (polygons.size() > kMaxElements) fail("the model has ", polygons.size(), " elements; the limit is ", kMaxElements, ": ", kCoarserMesh);
   const double relaxation = kSideRelaxation * extent_m;
   ElementSet set;
   set.curvature_words.assign(kCurvatureWords, 0);

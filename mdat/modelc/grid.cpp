@@ -26,15 +26,16 @@ Grid make_grid(const Surface& surface, double margin_m, double cell_m, const Len
     const double length = surface.high[axis] - surface.low[axis] + 2 * margin;
     const double bricks = std::ceil(length / grid.brick_m());
     if (!(bricks <= kMaxBricksPerAxis)) {
-      fail("the grid needs ", bricks, " bricks of ", grid.brick_m(), " m along axis ", axis, "; the limit is ", kMaxBricksPerAxis,
-           ": take larger cells");
+      fail<LargeFieldError>("the grid needs ", bricks, " bricks of ", grid.brick_m(), " m along axis ", axis, "; the limit is ",
+                            kMaxBricksPerAxis, ": take larger cells");
     }
     bytes *= bricks;
     grid.bricks[static_cast<std::size_t>(axis)] = static_cast<std::uint32_t>(bricks);
     grid.origin[axis] = scale.round(surface.low[axis] - margin - (bricks * grid.brick_m() - length) / 2);
   }
   if (bytes > static_cast<double>(kMaxImageBytes)) {
-    fail("the grid's bricks alone need ", bytes, " bytes; the limit of an image is ", kMaxImageBytes, ": take larger cells");
+    fail<LargeFieldError>("the grid's bricks alone need ", bytes, " bytes; the limit of an image is ", kMaxImageBytes,
+                          ": take larger cells");
   }
   return grid;
 }

@@ -51,7 +51,8 @@ struct CompileReport {
   std::size_t elements = 0, quads = 0, curved_elements = 0, edges = 0, hull_points = 0;
   std::size_t bricks = 0, ray_bricks = 0, near_bricks = 0;
   std::size_t views = 0, symmetries = 0;
-  ListStatistics ray_lists;  // over occupied cells
+  double symmetry_mismatch = 1;  // of the best: mean distance of the moved surface from the model over the truncation; 0: exactly itself
+  ListStatistics ray_lists;      // over occupied cells
   std::size_t distinct_lists = 0;
   double cell_size_m = 0, near_band_m = 0, weld_tolerance_m = 0;
   int length_fraction_bits = 0;

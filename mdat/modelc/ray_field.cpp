@@ -94,7 +94,8 @@ class ListPool {
     const auto count = static_cast<std::uint32_t>(list.size());
     const auto [place, fresh] = offsets_.try_emplace(std::move(list), static_cast<std::uint32_t>(words_.size()));
     if (fresh) words_.insert(words_.end(), place->first.begin(), place->first.end());
-    if (words_.size() > kListOffsetMask) fail("the cell lists need ", words_.size(), " words; the limit is ", kListOffsetMask);
+    if (words_.size() > kListOffsetMask)
+      fail<LargeFieldError>("the cell lists need ", words_.size(), " words; the limit is ", kListOffsetMask);
     return count << kListOffsetBits | place->second;
   }
   std::size_t count() const { return offsets_.size(); }
@@ -119,7 +120,7 @@ ListStatistics statistics(std::vector<std::size_t> lengths) {
 void check_list(const Grid& grid, const Entry& entry, std::size_t count) {
   if (count <= kMaxElementsPerCell) return;
   fail<CrowdedCellError>("the cell at (", cell_center(grid, entry).transpose(), ") m lists ", count, " elements; the limit is ",
-                         kMaxElementsPerCell, ": take smaller cells than ", grid.cell_m, " m or a mesh with less detail there");
+                         kMaxElementsPerCell, ": take smaller cells than ", grid.cell_m, " m, or ", kCoarserMesh);
 }
 
 // An occupied cell: its first entry, and the list as the image holds it.
@@ -169,7 +170,7 @@ void place_lists(std::vector<Cell> cells, RayField& field, CompileReport& report
 void check_size(const RayField& field) {
   const std::size_t bytes = 4 * (field.cells.size() + field.lists.size());
   if (bytes > kMaxImageBytes)
-    fail("the ray cells alone need ", bytes, " bytes; the limit of an image is ", kMaxImageBytes, ": take larger cells");
+    fail<LargeFieldError>("the ray cells alone need ", bytes, " bytes; the limit of an image is ", kMaxImageBytes, ": take larger cells");
 }
 
 std::array<std::uint32_t, 3> cell_place(const Grid& grid, std::uint32_t brick, std::uint32_t cell) {

@@ -111,7 +111,7 @@ std::vector<std::uint32_t> make_edges(const Surface& surface, const std::vector<
     table.add(surface.vertices[first->a], surface.vertices[first->b], std::move(faces));
   });
   report.edges = table.words().size() / kEdgeWords;
-  if (report.edges > kMaxEdges) fail("the model has ", report.edges, " edges; the limit is ", kMaxEdges);
+  if (report.edges > kMaxEdges) fail("the model has ", report.edges, " edges; the limit is ", kMaxEdges, ": ", kCoarserMesh);
   return std::move(table.words());
 }
 

@@ -92,9 +92,11 @@ std::vector<ScanPanel> panels_of(const TableResult& table) {
           if ((scan.telemetry.valid != 0) != valid || panels.size() == kPanels) continue;
           const PoseError error = pose_error(registration_pose(scan.telemetry), scan.truth);
           const std::string why = valid ? "wrong" : plain(to_string(static_cast<PoseReason>(scan.telemetry.reason)));
-          panels.push_back({&scan, format("%s: frame %u, %s\\n%s, %.0f mm and %.1f° off", variant.variant.title, scan.frame,
-                                          run_text(table.scenario, run).c_str(), why.c_str(), 1e3 * error.translation_m.norm(),
-                                          error.rotation_rad / kRadPerDeg)});
+          panels.push_back({&scan,
+                            format("%s: frame %u, %s\\n%s, %.0f mm and %.1f° off", variant.variant.title, scan.frame,
+                                   run_text(table.scenario, run).c_str(), why.c_str(), 1e3 * error.translation_m.norm(),
+                                   error.rotation_rad / kRadPerDeg),
+                            Vec3(table.scenario.center_m.data())});
         }
       }
     }

@@ -99,7 +99,8 @@ std::vector<ScanPanel> shown_panels(const TableResult& table) {
     const std::string when = turns_by_steps(table)       ? format("%.0f°", scan.frame * table.scenario.step_rad / kRadPerDeg)
                              : table.scenario.drawn != 0 ? format("flight %zu", shown_range(table.scenario) + 1)
                                                          : format("frame %u", scan.frame);
-    panels.push_back({&scan, when + format(": %u of %u rays return", scan.telemetry.returns, scan.telemetry.plan_points)});
+    panels.push_back({&scan, when + format(": %u of %u rays return", scan.telemetry.returns, scan.telemetry.plan_points),
+                      Vec3(table.scenario.center_m.data())});
   }
   return panels;
 }

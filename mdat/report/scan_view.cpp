@@ -158,7 +158,7 @@ std::string draw(Plotter& plotter, const sim::RayCaster& target, const ScanPanel
   const std::string image = plotter.data(render(target, pose, view));
   const std::string misses = plotter.data(points_text(scan, RayState::kMiss, target, pose) + "\n");
   const std::string hits = plotter.data(points_text(scan, RayState::kHit, target, pose) + "\n");
-  const double z_m = pose.p.z();
+  const double z_m = (pose * panel.center_m).z();
   const std::string aimed = plotter.data(aimed_text(scan) + "\n");
   std::string text = "set title \"" + panel.title + "\"\n";
   const double step_m = tic_step(2 * z_m * view.half_x);

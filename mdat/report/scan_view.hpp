@@ -14,6 +14,7 @@ namespace lasso::mdat {
 struct ScanPanel {
   const KeptScan* scan = nullptr;
   std::string title;
+  Vec3 center_m = Vec3::Zero();  // point of the target at whose depth the picture is measured
 };
 
 // One panel a scan, of the shape of what it shows, side by side and below each other, times `scale`: the target shaded at the estimated

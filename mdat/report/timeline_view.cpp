@@ -205,12 +205,15 @@ const KeptScan* extreme_scan(const CaseResult& run, std::size_t sensor, std::siz
 // Of one sensor: the whole from far and from near, then each part from near; at most four.
 std::vector<ScanPanel> panels_of(const SimulationResult& result, std::size_t sensor) {
   const CaseResult& run = run_of(result);
+  const Vec3 center_m(result.tables.front().scenario.center_m.data());
   std::vector<ScanPanel> panels;
   const auto add = [&](const KeptScan* scan) {
     const bool there = std::any_of(panels.begin(), panels.end(), [&](const ScanPanel& panel) { return panel.scan == scan; });
     if (scan == nullptr || there || panels.size() == 4) return;
-    panels.push_back({scan, format("%s, %.1f m\\n%u of %u rays return", plain(result.parts.at(scan->telemetry.part)).c_str(),
-                                   scan->truth.p.norm(), scan->telemetry.returns, scan->telemetry.plan_points)});
+    panels.push_back({scan,
+                      format("%s, %.1f m\\n%u of %u rays return", plain(result.parts.at(scan->telemetry.part)).c_str(),
+                             (scan->truth * center_m).norm(), scan->telemetry.returns, scan->telemetry.plan_points),
+                      center_m});
   };
   for (std::size_t part = 1; part < result.parts.size(); ++part) add(extreme_scan(run, sensor, part, false));
   if (panels.size() == 4) panels.pop_back();
@@ -226,7 +229,7 @@ std::string scan_figures(Plotter& plotter, const sim::RayCaster& target, const S
     if (panels.empty()) continue;
     html += figure(scan_view(plotter, target, panels, false),
                    "Scans by the sensor " + escape(plain(result.sensors[sensor])) +
-                       ", at the ranges of the target's origin. The model is drawn at the estimated pose. Colour: measured minus predicted "
+                       ", at the ranges of the target's centre. The model is drawn at the estimated pose. Colour: measured minus predicted "
                        "range of each return; grey: rays that missed.");
   }
   return html.empty() ? html : "<h2>Scans</h2>\n" + html;

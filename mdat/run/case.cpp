@@ -232,7 +232,9 @@ class Case {
       return;
     }
     const std::vector<double>& turn = setup_.scenario.prior_turn_rad;
-    const Pose T_target_turned{exp_so3(Vec3(turn.at(0), turn.at(1), turn.at(2))), Vec3::Zero()};
+    const Vec3 center_m(setup_.scenario.center_m.data());
+    const Quat q = exp_so3(Vec3(turn.at(0), turn.at(1), turn.at(2)));
+    const Pose T_target_turned{q, center_m - rotate(q, center_m)};
     expect(component_->start_tracking(trajectory_->at(truth_us).T_sensor_target * T_target_turned, Twist{}, truth_us + period_us_),
            "start tracking");
   }
@@ -381,7 +383,9 @@ Scenario drawn_scenario(Scenario scenario, std::uint64_t seed) {
   return scenario;
 }
 
-std::unique_ptr<sim::Trajectory> make_trajectory(const Scenario& scenario, double range_m, TimeUs epoch_us, DurationUs period) {
+namespace {
+
+std::unique_ptr<sim::Trajectory> center_trajectory(const Scenario& scenario, double range_m, TimeUs epoch_us, DurationUs period) {
   Pose start;
   start.q = sim::upright_attitude(scenario.tilt_rad, scenario.boresight_rad);
   if (scenario.roll_rad != 0) start.q = normalized(start.q * exp_so3(scenario.roll_rad * Vec3::UnitX()));
@@ -400,6 +404,15 @@ std::unique_ptr<sim::Trajectory> make_trajectory(const Scenario& scenario, doubl
         sim::RangeProfile::Setup{start, rates.omega_radps, scenario.times_s, scenario.ranges_m, epoch_us});
   }
   return std::make_unique<sim::ConstantTwist>(sim::TruthState{start, rates}, epoch_us);
+}
+
+}  // namespace
+
+std::unique_ptr<sim::Trajectory> make_trajectory(const Scenario& scenario, double range_m, TimeUs epoch_us, DurationUs period) {
+  std::unique_ptr<sim::Trajectory> motion = center_trajectory(scenario, range_m, epoch_us, period);
+  const Vec3 center_m(scenario.center_m.data());
+  if (center_m.isZero()) return motion;
+  return std::make_unique<sim::AboutPoint>(std::move(motion), center_m);
 }
 
 CaseResult run_case(const CaseSetup& setup, std::atomic<std::size_t>& done) { return Case(setup).run(done); }

@@ -139,6 +139,27 @@ TEST(ConstantTwist, RefusesWhatHasNoMeaning) {
   EXPECT_THROW(ConstantTwist(initial, 0), std::invalid_argument);
 }
 
+// The point stays where the motion has it, and the origin goes round: poses and rates agree there, too.
+TEST(AboutPoint, TheTargetTurnsAboutThePointAndRatesAreThoseOfItsOrigin) {
+  VERIFIES("LASSO-SIM-006~1");
+  TruthState initial;
+  initial.T_sensor_target = Pose{upright_attitude(0.3, -0.2), Vec3(0.1, 0.2, 4)};
+  initial.rates = Twist{Vec3(0.1, -0.2, 0.15), Vec3(0.02, 0.01, -0.05)};
+  const Vec3 point_m(2.5, -1.2, 0.7);
+  const ConstantTwist alone(initial, 0);
+  const AboutPoint motion(std::make_unique<ConstantTwist>(initial, 0), point_m);
+  for (const TimeUs t_us : {TimeUs{0}, TimeUs{7000000}}) {
+    const TruthState now = motion.at(t_us);
+    EXPECT_NEAR((now.T_sensor_target * point_m - alone.at(t_us).T_sensor_target.p).norm(), 0, 1e-12);
+    EXPECT_NEAR((now.T_sensor_target * (point_m + Vec3::UnitX()) - alone.at(t_us).T_sensor_target * Vec3::UnitX()).norm(), 0, 1e-12);
+    const Vec6 step = pose_difference(motion.at(t_us + 1000).T_sensor_target, motion.at(t_us - 1000).T_sensor_target) / 0.002;
+    EXPECT_NEAR((step.head<3>() - now.rates.omega_radps).norm(), 0, 1e-9);
+    EXPECT_NEAR((step.tail<3>() - now.rates.v_mps).norm(), 0, 1e-6);
+  }
+  EXPECT_THROW(AboutPoint(nullptr, point_m), std::invalid_argument);
+  EXPECT_THROW(AboutPoint(std::make_unique<ConstantTwist>(initial, 0), Vec3(0, 0, NAN)), std::invalid_argument);
+}
+
 RangeProfile::Setup approach_setup() {
   RangeProfile::Setup setup;
   setup.T_sensor_target_at_epoch = Pose{upright_attitude(0.3, -0.2), Vec3(0.1, 0.2, 99)};

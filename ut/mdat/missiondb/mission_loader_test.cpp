@@ -248,6 +248,15 @@ TEST_F(Missions, ModelParametersReachTheTarget) {
   expect_error(kHead + "parameters = 3\n", "target.parameters: 3: wrong type");
 }
 
+TEST_F(Missions, TheTargetsFrameLiesWhereItsOriginIsSaidToBe) {
+  VERIFIES("LASSO-GND-012~1");
+  const Mesh as_filed = load_target(load(kHead + "scale = 10\n"));
+  const Mesh moved = load_target(load(kHead + "scale = 10\norigin_m = [300, -2.5, 0.75]\n"));
+  ASSERT_EQ(moved.vertices.size(), as_filed.vertices.size());
+  for (std::size_t i = 0; i < moved.vertices.size(); ++i)
+    EXPECT_NEAR((as_filed.vertices[i] - moved.vertices[i] - Eigen::Vector3d(300, -2.5, 0.75)).norm(), 0, 1e-12);
+}
+
 TEST_F(Missions, TargetFilesAreProtectedByTheirDigest) {
   VERIFIES("LASSO-GND-004~1 LASSO-GND-013~1");
   const std::string head = "[mission]\nid = 7\nversion = 2\nname = 'test'\n[target]\nmesh = 'm.obj'\n";

@@ -148,7 +148,7 @@ inline std::vector<std::pair<std::string, Mesh>> property_meshes() {
   all.emplace_back("sphere", sphere(0.4, 14, 20));
   all.emplace_back("plate of 1 mm", box({0, 0, 0}, {0.5, 0.3, 0.001}));
   Mesh both = cylinder(0.1, 0.5, 24);
-  append(both, box({-0.05, -0.3, 0.1}, {0.05, 0.3, 0.2}));
+  shapes::append(both, box({-0.05, -0.3, 0.1}, {0.05, 0.3, 0.2}));
   all.emplace_back("cylinder with box", both);
   all.emplace_back("open sheet", sheet(0.4, 4));
   all.emplace_back("soup", soup(150, 0.6, 7));

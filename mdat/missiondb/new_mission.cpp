@@ -1,0 +1,180 @@
+#include "mdat/missiondb/new_mission.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <optional>
+#include <utility>
+
+#include "mdat/missiondb/guesses.hpp"
+#include "mdat/missiondb/mesh_import.hpp"
+#include "mdat/missiondb/mission_error.hpp"
+#include "mdat/missiondb/mission_writer.hpp"
+#include "mdat/missiondb/model_file.hpp"
+#include "mdat/missiondb/scenario_writer.hpp"
+#include "mdat/missiondb/sections.hpp"
+#include "mdat/missiondb/sha256.hpp"
+#include "mdat/missiondb/simplify.hpp"
+
+namespace lasso::mdat {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Sizes between the mesh's centre and its file's origin beyond which the target gets an origin of its own: a pose of a far point is poorly
+// known where the attitude is.
+constexpr double kFarOrigin = 0.8;
+constexpr std::size_t kSimplifyMost = 20000;  // triangles: images of some 10 MB
+constexpr int kCellTries = 4;
+constexpr double kCellShrink = 0.75, kCellGrow = 1.5;  // from one try to the next
+
+[[noreturn]] void refuse(const fs::path& file, const std::string& reason) { throw MissionError({file.string(), 0, 0, "", "", reason}); }
+
+// `remarks` gets what of the file was left out.
+Mesh read_model(const fs::path& model, double scale, std::vector<std::string>& remarks) {
+  const ValueRow& row = *find_row(mission_rows(), "target.scale");
+  if (!(scale >= row.minimum && scale <= row.maximum)) {
+    throw MissionError({model.string(), 0, 0, "scale", number_text(scale), expectation(row) + " (" + row.meaning + ")"});
+  }
+  try {
+    if (model.extension() != ".toml") {
+      std::vector<std::string> left_out;
+      Mesh mesh = import_mesh(model, scale, &left_out);
+      for (const std::string& what : left_out) remarks.push_back("file: not read: " + what);
+      return mesh;
+    }
+    Mesh mesh = build_model(model, {});
+    for (Eigen::Vector3d& v : mesh.vertices) v *= scale;
+    check_extent(mesh);
+    return mesh;
+  } catch (const MeshError& error) {
+    refuse(model, error.what());
+  }
+}
+
+double first_cell_m(double largest_m) {
+  const ValueRow& cell = *find_row(mission_rows(), "target.cell_size_m");
+  return std::clamp(rounded(sized_preset("estimation.gate_first_m", largest_m) / 0.010 * cell.preset[0]), cell.minimum, cell.maximum);
+}
+
+std::size_t coarser_count(std::size_t triangles) { return std::min(kSimplifyMost, std::max<std::size_t>(4, triangles / 4)); }
+
+struct Trial {
+  ModelTables tables;
+  CompileReport report;
+  double cell_m = 0;
+};
+
+// The first cell that the compiler takes: smaller ones where too many elements meet in one, larger ones where the field is too large.
+Trial compile_for_trial(const NewMissionRequest& request, const Mesh& mesh, double cell_m) {
+  Trial trial;
+  ModelOptions options;
+  options.crease_angle_deg = find_row(mission_rows(), "target.crease_angle_deg")->preset[0];
+  double factor = 1;
+  for (int left = kCellTries;; --left, cell_m = rounded(factor * cell_m)) {
+    trial.cell_m = options.cell_size_m = cell_m;
+    try {
+      trial.tables = request.compile(mesh, options, trial.report);
+      return trial;
+    } catch (const CrowdedCellError&) {
+      if (left == 0 || factor > 1) throw;
+      factor = kCellShrink;
+    } catch (const LargeFieldError&) {
+      if (left == 0 || factor < 1) throw;
+      factor = kCellGrow;
+    }
+  }
+}
+
+Trial trial_of(const NewMissionRequest& request, const Mesh& mesh) {
+  try {
+    return compile_for_trial(request, mesh, first_cell_m(size_of(mesh).largest_m));
+  } catch (const CompileError& error) {
+    const std::string why = error.what();
+    refuse(request.model, "no cell fits this mesh: " + why.substr(0, why.find(": take ")) + ": make it coarser: --simplify " +
+                            std::to_string(coarser_count(mesh.triangles.size())) + " (it has " + std::to_string(mesh.triangles.size()) +
+                            " triangles)");
+  }
+}
+
+Simplified simplified(const NewMissionRequest& request, const Mesh& mesh) {
+  try {
+    return simplify(mesh, request.simplify == kSimplifyChosen ? coarser_count(mesh.triangles.size()) : request.simplify);
+  } catch (const CompileError& error) {
+    refuse(request.model, std::string("--simplify: ") + error.what());
+  }
+}
+
+void write_whole(const fs::path& file, const std::string& bytes) {
+  const fs::path part = file.string() + ".part";
+  std::error_code error;
+  std::ofstream stream(part, std::ios::binary);
+  stream << bytes;
+  stream.close();
+  if (!stream) {
+    fs::remove(part, error);
+    refuse(file, "cannot be written: does the folder exist, and may you write there?");
+  }
+  fs::rename(part, file, error);
+  if (!error) return;
+  const std::string why = error.message();
+  fs::remove(part, error);
+  refuse(file, "cannot be written: " + why);
+}
+
+std::string path_from(const fs::path& out, const fs::path& model) {
+  std::error_code error;
+  const fs::path relative = fs::relative(model, fs::absolute(out).parent_path(), error);
+  return (error || relative.empty() ? fs::absolute(model) : relative).generic_string();
+}
+
+// About which point the target's frame lies, and what is then its size.
+void place(NewMission& mission, const Mesh& mesh) {
+  mission.size = size_of(mesh);
+  if (mission.size.center.norm() <= kFarOrigin * mission.size.largest_m) return;
+  mission.origin_m = mission.size.center;
+  mission.size.center.setZero();
+}
+
+Mesh moved(Mesh mesh, const Eigen::Vector3d& origin_m) {
+  const std::vector<double> written = list_of(origin_m);
+  for (Eigen::Vector3d& v : mesh.vertices) v -= Eigen::Vector3d(written.data());
+  return mesh;
+}
+
+}  // namespace
+
+std::vector<std::string> write_new_mission(const NewMissionRequest& request) {
+  NewMission mission;
+  Mesh mesh = read_model(request.model, request.scale, mission.remarks);
+  mission.name = request.model.stem().string();
+  place(mission, mesh);
+  const SurfaceFacts surface = surface_facts(mesh);
+  std::optional<Simplified> coarser;
+  if (request.simplify > 0) coarser = simplified(request, mesh);
+  if (coarser) mesh = coarser->mesh;
+  mesh = moved(std::move(mesh), mission.origin_m);
+  const Trial trial = trial_of(request, mesh);
+  mission.cell_size_m = trial.cell_m;
+  mission.surface_sigma_m = guessed_surface_sigma_m(mission.size, surface, coarser);
+  const std::vector<std::string> guessed = guesses({mission, surface, coarser, part_widths_m(mesh), trial.tables, trial.report});
+  mission.remarks.insert(mission.remarks.end(), guessed.begin(), guessed.end());
+
+  const fs::path simplified_file = request.out.parent_path() / (request.out.stem().string() + "_simplified.stl");
+  const std::string bytes = coarser ? stl_bytes(coarser->mesh) : read_file(request.model);
+  if (coarser && !request.replace && fs::exists(simplified_file)) refuse(simplified_file, "is there already; --force replaces it");
+  mission.path = path_from(request.out, coarser ? simplified_file : request.model);
+  mission.sha256 = sha256_of(bytes);
+  mission.parametric = !coarser && request.model.extension() == ".toml";
+  mission.scale = coarser ? 1 : request.scale;
+  if (coarser) write_whole(simplified_file, bytes);
+  try {
+    write_whole(request.out, new_mission_text(mission));
+  } catch (...) {
+    if (coarser) fs::remove(simplified_file);
+    throw;
+  }
+  return mission.remarks;
+}
+
+}  // namespace lasso::mdat
