@@ -96,9 +96,12 @@ std::string expectation(const ValueRow& row) {
 
 std::string number_text(double value) {
   constexpr double kLongestWhole = 1e15;
+  constexpr double kLeastWithoutExponent = 1e-4;
   if (std::fabs(value) < kLongestWhole && value == std::trunc(value)) return std::to_string(static_cast<long long>(value));
   char buffer[32];
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value);
+  const bool plain = std::fabs(value) >= kLeastWithoutExponent && std::fabs(value) < kLongestWhole;
+  const auto end = plain ? std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::fixed)
+                         : std::to_chars(buffer, buffer + sizeof buffer, value);
   return {buffer, end.ptr};
 }
 
