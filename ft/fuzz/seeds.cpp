@@ -1,5 +1,5 @@
-// fuzz_seeds FOLDER: the inputs that the fuzzers start from, FOLDER/HARNESS/NAME: good ones of each kind, since from nothing a fuzzer finds
-// no way past magic numbers and check sums.
+// fuzz_seeds FOLDER MISSIONS: the inputs that the fuzzers start from, FOLDER/HARNESS/NAME: good ones of each kind, since from nothing a
+// fuzzer finds no way past magic numbers and check sums. MISSIONS is the folder of the shipped missions.
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -206,12 +206,138 @@ void write_scans(const fs::path& folder) {
   write(folder / "pcd_binary", seed(2, pcd("binary") + binary(points, false)));
 }
 
+// A tetrahedron in each format.
+constexpr float kCorners[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+constexpr int kFaces[4][3] = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+
+std::string corner_text(int corner) {
+  std::string text;
+  for (const float value : kCorners[corner]) text += ' ' + std::to_string(static_cast<int>(value));
+  return text + "\n";
+}
+
+std::string stl_text() {
+  std::string text = "solid seed\n";
+  for (const auto& face : kFaces) {
+    text += "facet normal 0 0 0\nouter loop\n";
+    for (const int corner : face) text += "vertex" + corner_text(corner);
+    text += "endloop\nendfacet\n";
+  }
+  return text + "endsolid seed\n";
+}
+
+std::string stl_binary() {
+  std::string bytes = std::string(80, ' ') + std::string("\4\0\0\0", 4);
+  for (const auto& face : kFaces) {
+    bytes += std::string(12, '\0');
+    for (const int corner : face) bytes += binary({kCorners[corner][0], kCorners[corner][1], kCorners[corner][2]}, false);
+    bytes += std::string(2, '\0');
+  }
+  return bytes;
+}
+
+std::string obj_text() {
+  std::string text = "# seed\n";
+  for (int corner = 0; corner < 4; ++corner) text += "v" + corner_text(corner);
+  return text + "vt 0 0\nf 1/1 3/1 2/1\nf 1//1 2//1 \\\n 4//1\nf -4 -1 -2\nf 2 3 4\nl 1 2\nf 1 2 3 4\n";
+}
+
+std::string ply_head(const std::string& format, const std::string& faces) {
+  return "ply\nformat " + format + " 1.0\nelement camera 1\nproperty uchar on\nelement vertex 4\nproperty float x\nproperty float y\n" +
+         "property float z\n" + faces + "property list uchar uchar vertex_indices\nend_header\n";
+}
+
+std::string ply_text() {
+  std::string text = ply_head("ascii", "element face 4\n") + "1\n";
+  for (int corner = 0; corner < 4; ++corner) text += corner_text(corner).substr(1);
+  return text + "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
+}
+
+std::string ply_strip(bool big_endian) {
+  std::string bytes = ply_head(big_endian ? "binary_big_endian" : "binary_little_endian", "element tristrips 1\n") + '\1';
+  for (const auto& corner : kCorners) bytes += binary({corner[0], corner[1], corner[2]}, big_endian);
+  return bytes + std::string("\6\0\2\1\3\0\2", 7);
+}
+
+// Its buffer: positions, then indices.
+std::string gltf_buffer() {
+  std::string bytes;
+  for (const auto& corner : kCorners) bytes += binary({corner[0], corner[1], corner[2]}, false);
+  for (const auto& face : kFaces) {
+    for (const int corner : face) bytes += static_cast<char>(corner);
+  }
+  return bytes;
+}
+
+std::string gltf_json(const std::string& uri) {
+  return R"({"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[{"children":[1],"scale":[1,-1,1]},{"mesh":0,"translation":[0,0,1]}],)"
+         R"("meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1},{"attributes":{"POSITION":0},"mode":5}]}],)"
+         R"("buffers":[{"byteLength":60)" +
+         uri +
+         R"(}],"bufferViews":[{"buffer":0,"byteLength":48,"byteStride":12},{"buffer":0,"byteOffset":48,"byteLength":12}],)"
+         R"("accessors":[{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3"},)"
+         R"({"bufferView":1,"componentType":5121,"count":12,"type":"SCALAR","sparse":{"count":1,"indices":{"bufferView":1,)"
+         R"("componentType":5121},"values":{"bufferView":1}}}]})";
+}
+
+std::string glb() {
+  const auto word = [](std::size_t value) {
+    std::string bytes;
+    for (int shift = 0; shift < 32; shift += 8) bytes += static_cast<char>(value >> shift);
+    return bytes;
+  };
+  const std::string json = gltf_json(""), data = gltf_buffer();
+  return "glTF" + word(2) + word(28 + json.size() + data.size()) + word(json.size()) + "JSON" + json + word(data.size()) +
+         std::string("BIN\0", 4) + data;
+}
+
+// The buffer's bytes as a data URI without base64: each as % and two digits.
+std::string data_uri() {
+  std::string uri = R"(,"uri":"data:,)";
+  for (const char byte : gltf_buffer()) {
+    constexpr char kDigits[] = "0123456789ABCDEF";
+    const auto bits = static_cast<unsigned char>(byte);
+    uri += {'%', kDigits[bits >> 4], kDigits[bits & 15]};
+  }
+  return uri + '"';
+}
+
+void write_meshes(const fs::path& folder) {
+  write(folder / "stl_text", seed(0, stl_text()));
+  write(folder / "stl_binary", seed(0, stl_binary()));
+  write(folder / "obj", seed(1, obj_text()));
+  write(folder / "ply_text", seed(2, ply_text()));
+  write(folder / "ply_little", seed(2, ply_strip(false)));
+  write(folder / "ply_big", seed(2, ply_strip(true)));
+  write(folder / "gltf", seed(3, gltf_json(data_uri())));
+  write(folder / "glb", seed(4, glb()));
+}
+
+std::string content_of(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+// The shipped missions, whose target becomes the mesh that the harness has, and a mission of the fewest lines.
+void write_missions(const fs::path& folder, const fs::path& missions) {
+  const std::string target = "[target]\nmesh = \"target.obj\"\n";
+  write(folder / "least", "[mission]\nid = 1\nversion = 1\nname = \"seed\"\n" + target);
+  for (const auto& entry : fs::directory_iterator(missions)) {
+    std::string text = content_of(entry.path());
+    const std::size_t begin = text.find("[target]");
+    const std::size_t end =
+        text.find("\n[", text.find("[target.parameters]") == std::string::npos ? begin : text.find("[target.parameters]"));
+    if (entry.path().extension() != ".toml" || begin == std::string::npos || end == std::string::npos) continue;
+    write(folder / entry.path().stem(), text.replace(begin, end - begin, target));
+  }
+}
+
 }  // namespace
 }  // namespace lasso::fuzz
 
 int main(int argc, char** argv) {
-  if (argc != 2) {
-    (void)std::fprintf(stderr, "usage: fuzz_seeds FOLDER\n");
+  if (argc != 3) {
+    (void)std::fprintf(stderr, "usage: fuzz_seeds FOLDER MISSIONS\n");
     return 2;
   }
   try {
@@ -220,6 +346,8 @@ int main(int argc, char** argv) {
     lasso::fuzz::write_images(folder / "image");
     lasso::fuzz::write_frames(folder / "frame");
     lasso::fuzz::write_lines(folder / "line");
+    lasso::fuzz::write_meshes(folder / "mesh");
+    lasso::fuzz::write_missions(folder / "mission", argv[2]);
     lasso::fuzz::write_packets(folder / "packet");
     lasso::fuzz::write_scans(folder / "scan");
   } catch (const std::exception& error) {

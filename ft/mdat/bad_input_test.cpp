@@ -127,6 +127,15 @@ TEST(BadMesh, NotFiniteOrAMillionTimesTooLarge) {
   expect_refused(work, "run missions/test.toml --out result", "large.obj");
 }
 
+TEST(BadMesh, WhatIsNoSurfaceIsTold) {
+  VERIFIES("LASSO-GND-005~2");
+  const WorkFolder work;
+  use_mesh(work, "edges.obj", std::string(kTetrahedron) + "l 1 2\n");
+  const Answer answer = work.mdat("mission check missions/test.toml");
+  EXPECT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_NE(answer.out.find("edges.obj: not read: 1 line element\n"), std::string::npos) << answer.out;
+}
+
 TEST(BadImage, MissingTruncatedOrCorrupt) {
   VERIFIES("LASSO-MDT-007~1");
   const WorkFolder work;

@@ -22,10 +22,8 @@ class Stream {
   Stream(ConstBytes bytes, const StreamCrc& crc) : bytes_(bytes), crc_(crc) {}
 
   std::size_t size() const { return bytes_.size(); }
-  Application application(std::size_t at) const { return static_cast<Application>((bytes_[at] << 8U | bytes_[at + 1]) & 0x17FFU); }
-  std::uint16_t count(std::size_t at) const {
-    return static_cast<std::uint16_t>((bytes_[at + 2] << 8U | bytes_[at + 3]) & kSequenceCountMask);
-  }
+  Application application(std::size_t at) const { return static_cast<Application>(word(at) & 0x17FFU); }
+  std::uint16_t count(std::size_t at) const { return static_cast<std::uint16_t>(word(at + 2) & kSequenceCountMask); }
   // Whether a header may stand here; what it announces may be cut off.
   bool begins(std::size_t at) const {
     if (at > size() || size() - at < kPrimaryHeaderBytes) return false;
@@ -54,6 +52,8 @@ class Stream {
   }
 
  private:
+  std::uint32_t word(std::size_t at) const { return std::uint32_t{bytes_[at]} << 8U | bytes_[at + 1]; }
+
   ConstBytes bytes_;
   const StreamCrc& crc_;
 };

@@ -11,7 +11,7 @@ constexpr std::size_t kLargest = kPrimaryHeaderBytes + 0x10000;
 
 std::uint16_t times_x(std::uint16_t value) {
   constexpr std::uint32_t kPolynomial = 0x1021;
-  return static_cast<std::uint16_t>((value << 1U) ^ ((value & 0x8000U) != 0 ? kPolynomial : 0U));
+  return static_cast<std::uint16_t>((std::uint32_t{value} << 1U) ^ ((value & 0x8000U) != 0 ? kPolynomial : 0U));
 }
 
 std::uint16_t product(std::uint16_t a, std::uint16_t b) {

@@ -174,23 +174,24 @@ void GltfFile::check_extensions() {
   }
 }
 
+// One without a name is the binary chunk, or a placeholder of an extension that is not read: an accessor that needs that is refused.
+std::string GltfFile::buffer_bytes(const GltfJson& buffer, const std::filesystem::path& folder, std::string_view binary) const {
+  if (!buffer.is_object()) throw MeshError("is a corrupt glTF file: a buffer is no object");
+  const auto uri = buffer.find("uri");
+  if (uri == buffer.end() || !uri->is_string()) return std::string(buffers_.empty() ? binary : std::string_view{});
+  const auto text = uri->get<std::string>();
+  return text.starts_with("data:") ? data_uri_bytes(text) : read_beside(folder, text);
+}
+
 void GltfFile::read_buffers(const std::filesystem::path& folder, std::string_view binary) {
   for (const GltfJson& buffer : gltf_list(root_, "buffers")) {
-    if (!buffer.is_object()) throw MeshError("is a corrupt glTF file: a buffer is no object");
-    const auto uri = buffer.find("uri");
-    const bool named = uri != buffer.end() && uri->is_string();
-    const std::string text = named ? uri->get<std::string>() : "";
-    if (!named) {
-      buffers_.emplace_back(buffers_.empty() ? binary : std::string_view{});
-    } else {
-      buffers_.push_back(text.starts_with("data:") ? data_uri_bytes(text) : read_beside(folder, text));
-    }
+    buffers_.push_back(buffer_bytes(buffer, folder, binary));
+    const std::size_t size = buffers_.back().size();
     const std::size_t announced = gltf_index(buffer, "byteLength", 0);
-    const bool placeholder = !named && buffers_.back().empty();  // of an extension that is not read; an accessor that needs it is refused
-    if (buffers_.back().size() < announced && !placeholder) {
-      throw MeshError("has a glTF buffer of " + std::to_string(buffers_.back().size()) + " bytes, " + std::to_string(announced) +
-                      " are announced: it is truncated or corrupt");
-    }
+    const bool placeholder = size == 0 && !buffer.contains("uri");
+    if (size >= announced || placeholder) continue;
+    throw MeshError("has a glTF buffer of " + std::to_string(size) + " bytes, " + std::to_string(announced) +
+                    " are announced: it is truncated or corrupt");
   }
 }
 

@@ -32,6 +32,7 @@ class GltfFile {
   std::vector<double> numbers(std::size_t accessor, std::size_t width) const;
 
  private:
+  std::string buffer_bytes(const GltfJson& buffer, const std::filesystem::path& folder, std::string_view binary) const;
   void read_buffers(const std::filesystem::path& folder, std::string_view binary);
   void check_extensions();
   std::string_view view(const GltfJson& accessor) const;

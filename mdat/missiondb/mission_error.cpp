@@ -18,14 +18,29 @@ std::vector<Problem> in_order(std::vector<Problem> problems) {
   return problems;
 }
 
+// One line, whatever a file's own words are: what a terminal would obey is shown as a question mark.
+std::string one_line(std::string text) {
+  for (char& c : text) {
+    const bool obeyed = (c >= 0 && c < ' ') || c == 0x7F;
+    if (obeyed) c = '?';
+  }
+  return text;
+}
+
+std::string shortened_key(std::string key) {
+  constexpr std::size_t kLongest = 120;
+  if (key.size() > kLongest) key.replace(kLongest, std::string::npos, "...");
+  return key;
+}
+
 }  // namespace
 
 std::string to_string(const Problem& problem) {
   std::string text = problem.file;
   if (problem.line > 0) text += ":" + std::to_string(problem.line) + ":" + std::to_string(problem.column);
-  if (!problem.key.empty()) text += ": " + problem.key;
+  if (!problem.key.empty()) text += ": " + shortened_key(problem.key);
   if (!problem.value.empty()) text += ": " + problem.value;
-  return text + ": " + problem.expected;
+  return one_line(text + ": " + problem.expected);
 }
 
 MissionError::MissionError(std::vector<Problem> problems)

@@ -17,7 +17,7 @@ class PlyValues {
   double next(NumberType type) {
     if (format_ == PlyFormat::kAscii) return words_.number();
     if (size_of(type) > bytes_.size()) throw MeshError("is truncated: its data end before what its header announces");
-    const double value = raw_number(type, bytes_.data(), format_ == PlyFormat::kBig ? std::endian::big : std::endian::little);
+    const double value = raw_number(type, &bytes_[0], format_ == PlyFormat::kBig ? std::endian::big : std::endian::little);
     bytes_.remove_prefix(size_of(type));
     return value;
   }
@@ -93,10 +93,10 @@ class PlyReader {
     }
   }
   std::vector<double> read_list(const PlyProperty& property) {
-    const double count = values_.next(*property.count_type);
+    const double count = values_.next(property.count_type.value_or(NumberType::kUint8));
     if (!(count >= 0 && count == std::floor(count))) throw MeshError("has a list of " + std::to_string(count) + " values");
     std::vector<double> list;  // grows as far as there are data
-    for (double i = 0; i < count; ++i) list.push_back(values_.next(property.type));
+    while (static_cast<double>(list.size()) < count) list.push_back(values_.next(property.type));
     return list;
   }
   static std::uint32_t index_of(double value) {

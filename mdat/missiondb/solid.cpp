@@ -100,10 +100,13 @@ std::vector<std::array<Index, 3>> triangulate_polygon(const std::vector<Vector2d
   while (polygon.size() > 2) {
     const std::size_t n = polygon.size();
     std::size_t ear = 0;
-    while (ear + 1 < n && !is_ear(points, polygon, ear)) ++ear;
+    while (ear < n && !is_ear(points, polygon, ear)) ++ear;
+    if (ear == n) break;
     triangles.push_back({polygon[(ear + n - 1) % n], polygon[ear], polygon[(ear + 1) % n]});
     polygon.erase(polygon.begin() + static_cast<std::ptrdiff_t>(ear));
   }
+  // Without an ear it crosses itself, or has no area: any cut is as good as another.
+  for (std::size_t i = 1; i + 1 < polygon.size(); ++i) triangles.push_back({polygon[0], polygon[i], polygon[i + 1]});
   return triangles;
 }
 

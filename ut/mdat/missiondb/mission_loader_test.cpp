@@ -113,6 +113,16 @@ TEST_F(Missions, EveryParameterIsRefusedOutOfItsRangeAndOfAnotherType) {
   expect_error(kHead + "[sensor]\nrange_max_m = inf\n", "not a finite number");
 }
 
+TEST_F(Missions, EachProblemIsOneLineWhateverTheFileSays) {
+  VERIFIES("LASSO-GND-003~1");
+  const std::string key = "\"\\u001b[2J\\n" + std::string(500, 'k') + "\"";
+  const std::string said = mission_error_of([&] { static_cast<void>(load(kHead + key + " = 1\nname = f\n")); });
+  for (const char c : said) EXPECT_TRUE(c < 0 || c >= ' ') << said;
+  const std::string unknown = mission_error_of([&] { static_cast<void>(load(kHead + key + " = 1\n")); });
+  EXPECT_NE(unknown.find("?[2J?kkk"), std::string::npos) << unknown;
+  EXPECT_LT(unknown.size(), 400u);
+}
+
 TEST_F(Missions, AllProblemsAreListedInOrder) {
   VERIFIES("LASSO-GND-003~1");
   const std::string message = error(kHead + "[scan]\nponts = 3\npattern = 'rosete'\n[filter]\nperiod_s = -1\n[scanner]\nx = 1\n");

@@ -89,6 +89,15 @@ TEST(Solid, DishHasConstantThicknessAlongItsAxisAndFollowsTheParaboloid) {
   }
 }
 
+// There is no right cut of a polygon that crosses itself or is flat; it takes no longer than another.
+TEST(Solid, PolygonsWithoutAnEarAreCut) {
+  VERIFIES("LASSO-GND-006~1");
+  EXPECT_EQ(triangulate_polygon({{0, 0}, {1, 1}, {1, 0}, {0, 1}}).size(), 2u);
+  std::vector<Eigen::Vector2d> flat;
+  for (int i = 0; i < 1000; ++i) flat.emplace_back(i, 0);
+  EXPECT_EQ(triangulate_polygon(flat).size(), 998u);
+}
+
 TEST(Solid, AppendKeepsBothSurfaces) {
   VERIFIES("LASSO-GND-006~1");
   Mesh mesh = make_box({1, 1, 1});
