@@ -28,7 +28,7 @@ Values sized_values(const NewMission& mission) {
     values[key] = sized_preset(key, size.largest_m);
   }
   values["estimation.surface_sigma_m"] = mission.surface_sigma_m;
-  values["sensor.sigma_k_per_m"] = find_row(flight_rows(), "sensor.sigma_k_per_m")->preset[0] * kReferenceSize_m / size.largest_m;
+  values["sensor.sigma_k_per_m"] = noise_growth_per_m(size.largest_m);
   const double range_m = initial_range_m(size);
   values["sensor.range_min_m"] = std::max(0.0, (range_m - size.radius_m) / 4);
   values["sensor.range_max_m"] = 4 * (range_m + size.radius_m);
@@ -114,6 +114,10 @@ void write_examples(std::ostream& out, const MeshSize& size, double range_m) {
 
 double sized_preset(const std::string& key, double largest_m) {
   return find_row(flight_rows(), key)->preset[0] * largest_m / kReferenceSize_m;
+}
+
+double noise_growth_per_m(double largest_m) {
+  return std::max(find_row(flight_rows(), "sensor.sigma_k_per_m")->preset[0] * kReferenceSize_m / largest_m, kCameraCounts_per_m);
 }
 
 double initial_range_m(const MeshSize& size) {

@@ -23,6 +23,9 @@ struct NewMission {
 // The preset of a length, for a target of this size: presets are those of the tenth-scale Hubble.
 double sized_preset(const std::string& key, double largest_m);
 
+// How the guessed range noise of a laser camera grows, of the square of the range: less for a larger target, never finer than its counts.
+double noise_growth_per_m(double largest_m);
+
 // Where the sphere about the target fills nine tenths of the field of view.
 double initial_range_m(const MeshSize& size);
 

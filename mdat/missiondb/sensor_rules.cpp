@@ -12,7 +12,6 @@ namespace {
 constexpr double kLidarGrowth = 20;        // over that of the LIDAR whose values are the presets
 constexpr double kFinestClock_m = 5e-4;    // 3 ps
 constexpr double kNarrowBeams = 0.1;       // of the beam's growth, which says how uncertain the place of a contour is
-constexpr double kCounts_per_m = 2e-5;     // of the square of the range
 constexpr double kFarNoise = 0.25;         // of the range
 constexpr double kAcrossShare = 0.03;      // the same across the ray
 constexpr double kNoiseShare = 1.0 / 12;   // of half of the target's length: the tenth-scale Hubble has wrong poses from there on
@@ -92,7 +91,7 @@ std::string far_noise_fault(const Subject& s) {
 // A simulated camera ends with the counts of its detector (docs/icd/lcs.md).
 std::string fine_camera_fault(const Subject& s) {
   if (s.sensor->kind != SensorKind::kLaserCamera || s.sensor->ranges_m.empty() || s.scenario->noise == 0) return "";
-  const double range_m = farthest_m(s), counts_m = kCounts_per_m * range_m * range_m;
+  const double range_m = farthest_m(s), counts_m = kCameraCounts_per_m * range_m * range_m;
   if (range_sigma_m(s.sensor->p, range_m) >= counts_m) return "";
   return "one sigma of a range is " + figure(1e3 * range_sigma_m(s.sensor->p, range_m)) + " mm at " + figure(range_m) +
          " m, less than the counts of a laser camera tell apart, about " + figure(1e3 * counts_m) +
