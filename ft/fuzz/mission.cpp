@@ -51,9 +51,11 @@ void read(ConstBytes input) {
   static const Place place;
   const fs::path file = place.mission({reinterpret_cast<const char*>(input.data()), input.size()});
   try {
-    const mdat::MissionSource source = mdat::load_mission(file);
+    mdat::MissionSource source = mdat::load_mission(file);
     expect(!mdat::info_text(source).empty(), "a mission's values are shown");
-    static_cast<void>(mdat::check_text(source));
+    const mdat::Mesh target = mdat::load_target(source, &source.warnings);
+    mdat::check_target(source, target);
+    expect(!mdat::check_text(source, target).empty(), "a good mission is called so");
   } catch (const mdat::MissionError& error) {
     check(error);
   }
