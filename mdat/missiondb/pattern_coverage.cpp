@@ -35,8 +35,6 @@ double nearest2(const std::vector<PointInSquare>& rays, double x, double y) {
 // The middle of the raster's cell, -1 to 1.
 double middle_of(int cell) { return (cell + 0.5) / kAcross * 2 - 1; }
 
-double place(int index) { return (index + 0.5) / kAcross * 2 - 1; }
-
 double gap_of(const ScanPlan& plan) {
   const std::vector<PointInSquare> rays = rays_of(plan);
   double largest2 = 0;
