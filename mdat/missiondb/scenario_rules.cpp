@@ -11,7 +11,7 @@ namespace lasso::mdat {
 namespace {
 
 constexpr double kMostTurn_rad = 4.5 * kRadPerDeg;     // in a scan, at a rate that the start does not know
-constexpr double kHopelessTurn_rad = 15 * kRadPerDeg;  // there every pose was invalid
+constexpr double kHopelessTurn_rad = 8 * kRadPerDeg;   // there every pose was invalid
 constexpr double kMostStep_rad = 12 * kRadPerDeg;      // from scan to scan, of a target that stands still in each
 constexpr double kRateSigmas = 2.5;                    // of what the filter takes a rate at the start for
 constexpr double kSearchedTurn_rad = 15 * kRadPerDeg;  // between two scans of a search, which are 2 s apart
@@ -64,19 +64,12 @@ std::string ranges_fault(const Subject& s) {
   return "";
 }
 
-std::string hopeless_spin_fault(const Subject& s) {
-  const double turn_rad = rate_radps(s) * s.p.duration_s;
-  if (turn_rad <= kHopelessTurn_rad) return "";
-  return "the target turns by " + degrees_text(turn_rad) + " in a scan and by " + degrees_text(rate_radps(s) * s.p.period_s) +
-         " from one to the next, and no start knows that: of a tumbling target no scan beyond " + degrees_text(kHopelessTurn_rad) +
-         " was registered";
-}
-
 std::string spin_fault(const Subject& s) {
   const double turn_rad = rate_radps(s) * s.p.duration_s;
-  if (turn_rad <= kMostTurn_rad || turn_rad > kHopelessTurn_rad) return "";
-  return "the target turns by " + degrees_text(turn_rad) + " in a scan, at a rate that the start does not know: more than " +
-         degrees_text(kMostTurn_rad) + " twists the first scans too much";
+  if (turn_rad <= kMostTurn_rad) return "";
+  return "the target turns by " + degrees_text(turn_rad) + " in a scan and by " + degrees_text(rate_radps(s) * s.p.period_s) +
+         " from one to the next, at a rate that no start knows: beyond " + degrees_text(kMostTurn_rad) +
+         " in a scan the first ones are twisted too much, and from " + degrees_text(kHopelessTurn_rad) + " on none was registered";
 }
 
 std::string spin_sigma_fault(const Subject& s) {
@@ -255,7 +248,6 @@ const Rules& scenario_rules() {
     {kError, kScenario, kValues, {"eclipse_s"}, eclipse_fault},
     {kWarning, kScenario, kValues, {"eclipse_s", "frames"}, late_eclipse_fault},
     {kError, kScenario, kValues, {"ranges_m", "sensor.range_min_m", "sensor.range_max_m"}, ranges_fault},
-    {kError, kScenario, kValues, {"spin_degps", "scan.duration_s"}, hopeless_spin_fault},
     {kWarning, kScenario, kValues, {"spin_degps", "scan.duration_s"}, spin_fault},
     {kWarning, kScenario, kValues, {"spin_degps", "filter.initial_angular_rate_degps"}, spin_sigma_fault},
     {kWarning, kScenario, kValues, {"drift_mps", "filter.initial_rate_mps"}, drift_sigma_fault},

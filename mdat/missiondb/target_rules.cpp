@@ -302,7 +302,7 @@ const Rules& target_rules() {
     {kWarning, kMission, kValues, {"short_range.enter_m"}, unreached_parts_fault},
     {kWarning, kMission, kValues, {"target.crease_angle_deg"}, crease_fault},
     {kWarning, kScenario, kTarget, {"bearing.returns_min", "scan.points"}, bearing_fault},
-    {kError, kScenario, kTarget, {"offset_m", "sensor.fov_half_x_deg", "sensor.fov_half_y_deg"}, outside_fault},
+    {kWarning, kScenario, kTarget, {"offset_m", "sensor.fov_half_x_deg", "sensor.fov_half_y_deg"}, outside_fault},
     {kWarning, kScenario, kTarget, {"offset_m", "sensor.fov_half_x_deg", "sensor.fov_half_y_deg"}, off_fault},
     {kWarning, kScenario, kTarget, {"drift_mps", "frames"}, lost_fault},
     {kError, kScenario, kTarget, {"ranges_m", "target.scale"}, inside_fault},

@@ -28,8 +28,8 @@ TEST_F(ScenarioRules, ATargetTurnsNoFasterThanScansCanTell) {
   const std::string rate = "filter.initial_angular_rate_degps = 100";
   expect_scenario_edge(kSpin + "spin_degps = [0, 24.9, 0]", kSpin + "spin_degps = [0, 30, 0]", "warning: ", "turns by 5.4 deg in a scan",
                        rate);
-  expect_scenario_edge(kSpin + "spin_degps = [24.9, 0, 0]", kSpin + "spin_degps = [300, 0, 0]",
-                       "error: ", "turns by 54 deg in a scan and by 60 deg from one to the next", rate);
+  expect_scenario_edge(kSpin + "spin_degps = [24.9, 0, 0]", kSpin + "spin_degps = [200, 0, 0]",
+                       "warning: ", "turns by 36 deg in a scan and by 40 deg from one to the next", rate);
   expect_scenario_edge(kSpin + "spin_degps = [12, 0, 0]", kSpin + "spin_degps = [13, 0, 0]",
                        "warning: ", "is 2.6 sigmas of filter.initial_angular_rate_degps, which is 5",
                        "filter.initial_angular_rate_degps = 5");
