@@ -46,10 +46,11 @@ std::string origin_line(const Known& known) {
 
 std::string sensor_line(const Known& known) {
   const double range_m = initial_range_m(known.mission.size);
-  const double sigma_m = std::hypot(sized_preset("sensor.sigma0_m", known.mission.size.largest_m),
-                                    noise_growth_per_m(known.mission.size.largest_m) * range_m * range_m);
-  return "sensor: a laser camera whose field of " + number_text(2 * preset("sensor.fov_half_x_deg")) + " deg the target fills at " +
-         text(range_m) + " m; its noise there, " + text(1000 * sigma_m) + " mm, is a guess: write your sensor's into [sensor]";
+  const RangeNoise noise = guessed_noise(known.mission.size);
+  const double sigma_m = std::hypot(noise.sigma0_m, noise.sigma_k_per_m * range_m * range_m);
+  return std::string("sensor: ") + (noise.kind == SensorKind::kLaserCamera ? "a laser camera" : "a LIDAR (time_of_flight)") +
+         " with a field of " + number_text(2 * preset("sensor.fov_half_x_deg")) + " deg, the target at " + text(range_m) +
+         " m; its noise there, " + text(1000 * sigma_m) + " mm, is a guess: write your sensor's into [sensor]";
 }
 
 std::string surface_line(const Known& known) {

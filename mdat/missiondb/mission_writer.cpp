@@ -5,15 +5,17 @@
 #include <map>
 #include <sstream>
 
+#include "mdat/missiondb/rule.hpp"
 #include "mdat/missiondb/scenario_writer.hpp"
 #include "mdat/missiondb/sections.hpp"
 
 namespace lasso::mdat {
 namespace {
 
-constexpr double kReferenceSize_m = 1.33;  // the tenth-scale Hubble's length, for which the presets were chosen
-constexpr double kFieldShare = 0.9;        // of the field of view that the target's circumscribed sphere fills at the initial range
-constexpr double kNearestRange_m = 0.02;   // scenarios have no ranges below 0.01 m
+constexpr double kReferenceSize_m = 1.33;    // the tenth-scale Hubble's length, for which the presets were chosen
+constexpr double kFieldShare = 0.9;          // of the field of view that the target's circumscribed sphere fills at the initial range
+constexpr double kNearestSurface_m = 0.45;   // a laser camera by the preset optics sees nothing nearer than 0.4 m
+constexpr double kLidarAngle_rad = 1e-4;     // on which side of a contour a beam that widens by 0.25 mrad passed
 
 using Values = std::map<std::string, double>;  // by key, in the row's unit
 
@@ -21,15 +23,18 @@ using Values = std::map<std::string, double>;  // by key, in the row's unit
 Values sized_values(const NewMission& mission) {
   const MeshSize& size = mission.size;
   Values values;
-  for (const char* key : {"sensor.sigma0_m", "estimation.gate_first_m", "estimation.stop_translation_m", "estimation.silhouette_sigma_m",
-                          "estimation.silhouette_band_m", "estimation.edge_gap_min_m", "estimation.edge_depth_m", "estimation.probe_step_m",
-                          "filter.acceleration_mps2", "filter.initial_rate_mps", "bearing.rate_mps", "tracking.start_sigma_m",
-                          "tracking.sigma_position_max_m"}) {
+  for (const char* key :
+       {"estimation.gate_first_m", "estimation.stop_translation_m", "estimation.silhouette_sigma_m", "estimation.silhouette_band_m",
+        "estimation.edge_gap_min_m", "estimation.edge_depth_m", "estimation.probe_step_m", "filter.acceleration_mps2",
+        "filter.initial_rate_mps", "bearing.rate_mps", "tracking.start_sigma_m", "tracking.sigma_position_max_m"}) {
     values[key] = sized_preset(key, size.largest_m);
   }
   values["estimation.surface_sigma_m"] = mission.surface_sigma_m;
-  values["sensor.sigma_k_per_m"] = noise_growth_per_m(size.largest_m);
   const double range_m = initial_range_m(size);
+  const RangeNoise noise = guessed_noise(size);
+  values["sensor.sigma0_m"] = noise.sigma0_m;
+  values["sensor.sigma_k_per_m"] = noise.sigma_k_per_m;
+  if (noise.kind == SensorKind::kTimeOfFlight) values["sensor.sigma_angle_rad"] = kLidarAngle_rad;
   values["sensor.range_min_m"] = std::max(0.0, (range_m - size.radius_m) / 4);
   values["sensor.range_max_m"] = 4 * (range_m + size.radius_m);
   for (auto& [key, value] : values) {
@@ -47,15 +52,16 @@ Values sized_values(const NewMission& mission) {
 
 std::string section_of(const std::string& key) { return key.substr(0, key.rfind('.')); }
 
-void write_flight_parameters(std::ostream& out, const Values& values) {
+void write_flight_parameters(std::ostream& out, const Values& values, SensorKind kind) {
   std::string section;
   for (const ValueRow& row : flight_rows()) {
     if (section_of(row.key) != section) {
       section = section_of(row.key);
       out << "\n[" << section << "]\n";
       if (section == "sensor")
-        out << "kind = \"laser_camera\"  # or \"time_of_flight\", a LIDAR: then delete the noise and ranges below, whose presets are that "
-               "kind's\n";
+        out << (kind == SensorKind::kLaserCamera ? "kind = \"laser_camera\"  # or \"time_of_flight\", a LIDAR"
+                                                 : "kind = \"time_of_flight\"  # a LIDAR; or \"laser_camera\"")
+            << ": then delete the noise and ranges below, whose presets are that kind's\n";
     }
     const auto value = values.find(row.key);
     write_row(out, row, value == values.end() ? row.preset : std::vector<double>{value->second});
@@ -116,20 +122,28 @@ double sized_preset(const std::string& key, double largest_m) {
   return find_row(flight_rows(), key)->preset[0] * largest_m / kReferenceSize_m;
 }
 
-double noise_growth_per_m(double largest_m) {
-  return std::max(find_row(flight_rows(), "sensor.sigma_k_per_m")->preset[0] * kReferenceSize_m / largest_m, kCameraCounts_per_m);
+double filled_range_m(const MeshSize& size) {
+  const ValueRow& field = *find_row(flight_rows(), "sensor.fov_half_x_deg");
+  return size.radius_m / std::sin(kFieldShare * field.preset[0] * field.to_si) * 1.01;
 }
 
-double initial_range_m(const MeshSize& size) {
-  const ValueRow& field = *find_row(flight_rows(), "sensor.fov_half_x_deg");
-  return rounded(std::max(kNearestRange_m, size.radius_m / std::sin(kFieldShare * field.preset[0] * field.to_si) * 1.01));
+double initial_range_m(const MeshSize& size) { return rounded(std::max(kNearestSurface_m + 1.1 * size.radius_m, filled_range_m(size))); }
+
+RangeNoise guessed_noise(const MeshSize& size) {
+  const auto preset = [](const std::string& key) { return find_row(flight_rows(), key)->preset[0]; };
+  const auto of_lidar = [&](const std::string& key) { return preset_of(SensorKind::kTimeOfFlight, key, preset(key)); };
+  if (2 * initial_range_m(size) > preset("sensor.range_max_m"))
+    return {SensorKind::kTimeOfFlight, of_lidar("sensor.sigma0_m"), of_lidar("sensor.sigma_k_per_m")};
+  const double nearer = filled_range_m(size) / initial_range_m(size);  // less than 1 where the target is small
+  return {SensorKind::kLaserCamera, sized_preset("sensor.sigma0_m", size.largest_m),
+          std::max(kCameraCounts_per_m, nearer * nearer * preset("sensor.sigma_k_per_m") * kReferenceSize_m / size.largest_m)};
 }
 
 std::string new_mission_text(const NewMission& mission) {
   std::ostringstream out;
   write_head(out, mission);
-  out << "\n# [sensor] describes your sensor; the noise written here grows with the target's size: replace it by your sensor's.\n";
-  write_flight_parameters(out, sized_values(mission));
+  out << "\n# [sensor] describes your sensor; the noise written here is a guess from the target's size: replace it by your sensor's.\n";
+  write_flight_parameters(out, sized_values(mission), guessed_noise(mission.size).kind);
   write_scenarios(out, mission.size, initial_range_m(mission.size));
   write_examples(out, mission.size, initial_range_m(mission.size));
   return out.str();

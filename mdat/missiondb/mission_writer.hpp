@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mdat/missiondb/mesh_facts.hpp"
+#include "mdat/missiondb/mission_source.hpp"
 
 namespace lasso::mdat {
 
@@ -23,11 +24,15 @@ struct NewMission {
 // The preset of a length, for a target of this size: presets are those of the tenth-scale Hubble.
 double sized_preset(const std::string& key, double largest_m);
 
-// How the guessed range noise of a laser camera grows, of the square of the range: less for a larger target, never finer than its counts.
-double noise_growth_per_m(double largest_m);
-
-// Where the sphere about the target fills nine tenths of the field of view.
+// Where the sphere about the target fills nine tenths of the field of view, or farther, where a laser camera would see nothing so near.
 double initial_range_m(const MeshSize& size);
+
+// A laser camera whose noise at the initial range grows with the target, or a LIDAR where the scenarios lead beyond a camera's ranges.
+struct RangeNoise {
+  SensorKind kind = SensorKind::kLaserCamera;
+  double sigma0_m = 0, sigma_k_per_m = 0;
+};
+RangeNoise guessed_noise(const MeshSize& size);
 
 std::string new_mission_text(const NewMission& mission);
 

@@ -55,14 +55,14 @@ bool is_off(const Seen& seen, const SensorParameters& sensor) {
   return std::fabs(seen.middle_x) > std::tan(sensor.fov_half_x_rad) || std::fabs(seen.middle_y) > std::tan(sensor.fov_half_y_rad);
 }
 
-// Of frame 0, where the target's origin is at range_m (mission_source.hpp: Scenario).
+// Of frame 0, where the target's center_m is at range_m (mission_source.hpp: Scenario).
 Eigen::Isometry3d first_pose(const Scenario& scenario, double range_m) {
   using Eigen::AngleAxisd, Eigen::Vector3d;
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
   T.translate(Vector3d(scenario.offset_m.at(0), scenario.offset_m.at(1), range_m));
   T.rotate(AngleAxisd(scenario.boresight_rad, Vector3d::UnitZ()) * AngleAxisd(-scenario.tilt_rad, Vector3d::UnitX()) *
            AngleAxisd(-kPi / 2, Vector3d::UnitZ()) * AngleAxisd(scenario.roll_rad, Vector3d::UnitX()));
-  return T;
+  return T * Eigen::Translation3d(-Vector3d(scenario.center_m.data()));
 }
 
 std::string sides_text(const SensorParameters& sensor, const Seen& seen) {
@@ -95,7 +95,7 @@ std::string off_fault(const Subject& s) {
 bool is_measured(const Subject& s, double range_m, double t_s) {
   Eigen::Isometry3d T = first_pose(*s.scenario, range_m);
   T.pretranslate(t_s * Eigen::Vector3d(s.scenario->drift_mps.data()));
-  const double z_m = T.translation().z();
+  const double z_m = (T * s.target->middle()).z();
   const std::vector<SensorInUse> sensors = sensors_in_use(s.source, s.p, s.scenario);
   return std::any_of(sensors.begin(), sensors.end(), [&](const SensorInUse& sensor) {
     return z_m > sensor.p.range_min_m && z_m < sensor.p.range_max_m && !is_off(seen_of(*s.target, T), sensor.p);

@@ -108,6 +108,18 @@ TEST(MissionWriter, ItsExamplesOfASensorAndAPartAreGoodOnceUncommented) {
   }
 }
 
+TEST(MissionWriter, ALargeTargetIsMetByALidar) {
+  VERIFIES("LASSO-GND-041~1");
+  const Folder folder;
+  write_new_mission(1, folder.path() / "small.toml");
+  write_new_mission(30, folder.path() / "large.toml");
+  EXPECT_EQ(load_mission(folder.path() / "small.toml").sensor, SensorKind::kLaserCamera);
+  const MissionSource large = load_mission(folder.path() / "large.toml");
+  EXPECT_EQ(large.sensor, SensorKind::kTimeOfFlight);
+  EXPECT_EQ(large.parameters.sigma0_m, 0.02);
+  EXPECT_GT(large.parameters.sigma_angle_rad, 0);
+}
+
 TEST(MissionWriter, ExplainsEveryFlightParameter) {
   VERIFIES("LASSO-GND-012~1");
   const std::string text = new_mission_text(probe(1));
