@@ -14,15 +14,14 @@ namespace {
 
 const std::filesystem::path kParametric = kSourceFolder / "cfg/models/probe.toml";
 
-// A disc of triangles that all meet in its middle, on a box.
-Mesh fan(std::uint32_t sectors) {
-  Mesh mesh = shapes::box({-0.4, -0.3, -0.5}, {0.4, 0.3, -0.1});
-  const std::uint32_t middle = shapes::u32(mesh.vertices.size());
-  mesh.vertices.emplace_back(0, 0, 0.2);
+// A needle whose triangles all meet in its tip.
+Mesh needle(std::uint32_t sectors) {
+  Mesh mesh;
+  mesh.vertices.emplace_back(0, 0, 1);
   for (std::uint32_t i = 0; i < sectors; ++i) {
     const double angle = 2 * std::numbers::pi * i / sectors;
-    mesh.vertices.emplace_back(0.4 * std::cos(angle), 0.4 * std::sin(angle), 0);
-    mesh.triangles.push_back({middle, middle + 1 + i, middle + 1 + (i + 1) % sectors});
+    mesh.vertices.emplace_back(0.03 * std::cos(angle), 0.02 * std::sin(angle), 0);
+    mesh.triangles.push_back({0, 1 + i, 1 + (i + 1) % sectors});
   }
   return mesh;
 }
@@ -41,33 +40,33 @@ std::string error_of(const NewMissionRequest& request) {
 TEST(NewMission, AMeshFarFromItsOriginGetsAnOriginOfItsOwn) {
   VERIFIES("LASSO-GND-012~1 LASSO-GND-043~1");
   const Folder folder;
-  const auto file = folder.write("far.stl", stl_bytes(shapes::box({300, -250, 200}, {301, -249.2, 200.5})));
+  const auto file = folder.write("far.stl", stl_bytes(shapes::box({300, -250, 200}, {301, -249.2, 200.02})));
   write_new_mission(request_of(file, folder.path() / "far.toml"));
   const MissionSource source = load_mission(folder.path() / "far.toml");
   EXPECT_EQ(source.target.sha256, sha256_of(read_file(file)));
-  EXPECT_EQ(source.target.origin_m, std::vector<double>({300.5, -249.6, 200.25}));
+  EXPECT_EQ(source.target.origin_m, std::vector<double>({300.5, -249.6, 200.01}));
   for (const Eigen::Vector3d& v : load_target(source).vertices) {
     EXPECT_NEAR(std::fabs(v.x()), 0.5, 1e-4);
     EXPECT_NEAR(std::fabs(v.y()), 0.4, 1e-4);
-    EXPECT_NEAR(std::fabs(v.z()), 0.25, 1e-4);
+    EXPECT_NEAR(std::fabs(v.z()), 0.01, 1e-4);
   }
 }
 
 TEST(NewMission, AMeshThatNoCellFitsIsRefusedWithTheRemedyWhichHelps) {
   VERIFIES("LASSO-GND-040~1 LASSO-GND-042~1");
   const Folder folder;
-  NewMissionRequest request = request_of(folder.write("fan.stl", stl_bytes(fan(1500))), folder.path() / "fan.toml");
+  NewMissionRequest request = request_of(folder.write("needle.stl", stl_bytes(needle(1200))), folder.path() / "needle.toml");
   const std::string error = error_of(request);
-  EXPECT_NE(error.find("fan.stl"), std::string::npos) << error;
+  EXPECT_NE(error.find("needle.stl"), std::string::npos) << error;
   EXPECT_NE(error.find("lists "), std::string::npos) << error;
-  EXPECT_NE(error.find(": make it coarser: --simplify 378 (it has 1512 triangles)"), std::string::npos) << error;
+  EXPECT_NE(error.find(": make it coarser: --simplify 300 (it has 1200 triangles)"), std::string::npos) << error;
   EXPECT_FALSE(std::filesystem::exists(request.out));
 
   request.simplify = kSimplifyChosen;
   write_new_mission(request);
   const MissionSource source = load_mission(request.out);
-  EXPECT_EQ(source.target.file.filename(), "fan_simplified.stl");
-  EXPECT_LE(load_target(source).triangles.size(), 378U);
+  EXPECT_EQ(source.target.file.filename(), "needle_simplified.stl");
+  EXPECT_LE(load_target(source).triangles.size(), 450U);
   EXPECT_GT(source.parameters.surface_sigma_m, 0);
   EXPECT_NE(error_of(request).find("--force replaces it"), std::string::npos);
 }
@@ -75,9 +74,9 @@ TEST(NewMission, AMeshThatNoCellFitsIsRefusedWithTheRemedyWhichHelps) {
 TEST(NewMission, TakesSmallerCellsWhereTheMeshIsDense) {
   VERIFIES("LASSO-GND-040~1");
   const Folder folder;
-  Mesh mesh = shapes::box({-0.5, -0.4, -0.3}, {0.5, 0.4, 0.3});
+  Mesh mesh = shapes::box({-0.5, -0.02, -0.02}, {0.5, 0.02, 0.02});
   Mesh knob = shapes::sphere(0.011, 24, 32);
-  shapes::move(knob, shapes::generic_turn(), {0.5, 0.05, 0.05});
+  shapes::move(knob, shapes::generic_turn(), {0.5, 0.01, 0.01});
   shapes::append(mesh, knob);
   std::vector<double> cells;
   NewMissionRequest request = request_of(folder.write("knob.stl", stl_bytes(mesh)), folder.path() / "knob.toml");
