@@ -16,11 +16,8 @@ void expect_results(const WorkFolder& work) {
 
 TEST(Report, OfARunThatSeesNothing) {
   VERIFIES("LASSO-MDT-030~1 LASSO-MDT-004~1");
-  const std::vector<std::pair<std::string, std::string>> none = {{"ranges_m = [2.0, 3.0, 4.0, 5.0, 6.0, 7.0]", "ranges_m = [3.0]"},
-                                                                 {"offset_m = [0.02, -0.01]", "offset_m = [1.35, 0.0]"}};
   const WorkFolder work;
-  work.write_mission(none);
-  const Answer answer = work.mdat("run missions/test.toml --scenario paper --frames 3 --out out");
+  const Answer answer = work.mdat(std::string(kReported) + " --set scenario.spin.drift_mps=[50,0,0]");  // it is gone before the first scan
   EXPECT_EQ(answer.exit_code, 0) << answer.err;
   expect_results(work);
   EXPECT_NE(work.read("out/report.html").find("Nothing to draw: no scan was registered"), std::string::npos);
@@ -101,6 +98,9 @@ TEST(Gallery, ShowsEveryRunBelowAFolder) {
   EXPECT_NE(page.find("<p>&lt;m&gt;, s, seed 0</p>"), std::string::npos);
   EXPECT_NE(page.find("<p class='bad'>9 frames, 4 wrong, 1 lost, 2 without a valid pose</p>"), std::string::npos);
   EXPECT_NE(page.find("rms – mm, –°; NEES –"), std::string::npos);
+  EXPECT_EQ(work.mdat("gallery all").exit_code, 0) << "an earlier gallery is replaced";
+  work.write("all/index.html", "<title>mine</title>");
+  EXPECT_EQ(work.mdat("gallery all").err.find("mdat: all/index.html: is there since "), 0U);
 }
 
 TEST(Gallery, RefusesAFolderWithoutRuns) {

@@ -63,7 +63,8 @@ void Drawing::plot(const std::vector<Curve>& curves, const std::string& why, Axi
     return;
   }
   why_ = why;  // a function below the range is a plot with nothing in it
-  script_ += "set label 1000 '" + why + "' at graph 0.5,0.5 center textcolor '#46505f'\nplot [][1:10] 0.1 notitle\nunset label 1000\n";
+  script_ += "set label 1000 '" + why + "' at graph 0.5,0.5 center textcolor '#46505f'\nunset ytics\nplot [][1:10] 0.1 notitle\n";
+  script_ += "unset label 1000\nset ytics nomirror out scale 0.5 textcolor '#46505f'\n";
 }
 
 std::string Drawing::svg(int width, int height) const {

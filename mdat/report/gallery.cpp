@@ -16,6 +16,8 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
+constexpr const char* kTitle = "3DLASSO runs";
+
 // The variant that a person looks at first; of an approach its timeline. Null where there is none.
 const Json* main_part(const Json& results) {
   for (const char* name : {"noisy", "noise_free", "timeline"}) {
@@ -111,7 +113,9 @@ std::string gallery_html(const std::vector<GalleryEntry>& runs, const fs::path& 
       "more "
       "than 20 mm or 1°. Lost: more than 50 mm or 5° off. NEES: 6 when the covariance is honest. –: not known.</p>\n<div class='runs'>\n";
   for (const GalleryEntry& run : runs) html += card(run, folder);
-  return page("3DLASSO runs", html + "</div>\n");
+  return page(kTitle, html + "</div>\n");
 }
+
+bool is_gallery(const std::string& page) { return page.find(std::string("<title>") + kTitle + "</title>") != std::string::npos; }
 
 }  // namespace lasso::mdat

@@ -21,5 +21,6 @@ std::vector<GalleryEntry> find_runs(const std::vector<std::filesystem::path>& fo
 
 // Of a page in `folder`, to which its links are relative.
 std::string gallery_html(const std::vector<GalleryEntry>& runs, const std::filesystem::path& folder);
+bool is_gallery(const std::string& page);
 
 }  // namespace lasso::mdat

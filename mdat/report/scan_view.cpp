@@ -190,8 +190,9 @@ std::string place(std::size_t i, std::size_t count, const Layout& layout) {
   text += column == 0 ? "set ylabel 'down, m' textcolor '#46505f' font ',12' offset 1\n" : "unset ylabel\n";
   text += layout.one_size && column > 0 ? "set format y ''\n" : "set format y '%g'\n";
   if (i + 1 < count) return text + "unset colorbox\n";
-  return text + format("set colorbox user origin screen %.4f,%.4f size screen %.4f,%.4f\n", 1 - 102 * x, y * 1.3 * kAxisHeight, 14 * x,
-                       1 - y * (1.3 * kAxisHeight + layout.title_height));
+  // Beside the first row.
+  return text + format("set colorbox user origin screen %.4f,%.4f size screen %.4f,%.4f\n", 1 - 102 * x,
+                       1 - y * (layout.title_height + layout.panel_height), 14 * x, y * layout.panel_height);
 }
 
 // Half a rectangle of the tangent plane that has all of a scan in it.
