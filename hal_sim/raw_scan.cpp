@@ -49,27 +49,27 @@ struct Cone {
   double cos_half = -1;  // all directions
 };
 
-Cone around(const std::vector<Vec3>& returns) {
+Cone around(const std::vector<Vec3>& directions) {
   Cone cone;
-  if (returns.empty()) return cone;
+  if (directions.empty()) return cone;
   Vec3 sum = Vec3::Zero();
-  for (const Vec3& p : returns) sum += p.normalized();
+  for (const Vec3& u : directions) sum += u;
   cone.axis = sum.normalized();
   double least = 1;
-  for (const Vec3& p : returns) least = std::min(least, p.normalized().dot(cone.axis));
+  for (const Vec3& u : directions) least = std::min(least, u.dot(cone.axis));
   cone.cos_half = std::cos(std::min(std::numbers::pi, std::max(kLeastCone_rad, kMissesAround * std::acos(std::max(-1.0, least)))));
   return cone;
 }
 
-// The places of some rays, and which they are.
+// The directions of some rays, and which they are.
 struct Group {
-  std::vector<Vec3> places;
+  std::vector<Vec3> directions;
   std::vector<std::uint32_t> rays;
   void keep_in(const Cone& cone) {
     Group inside;
     for (std::size_t i = 0; i < rays.size(); ++i) {
-      if (places[i].dot(cone.axis) < cone.cos_half) continue;
-      inside.places.push_back(places[i]);
+      if (directions[i].dot(cone.axis) < cone.cos_half) continue;
+      inside.directions.push_back(directions[i]);
       inside.rays.push_back(rays[i]);
     }
     *this = std::move(inside);
@@ -77,18 +77,19 @@ struct Group {
 };
 
 void append_thinned(const Group& group, std::size_t most, std::vector<std::uint32_t>& kept) {
-  for (const std::uint32_t i : thinned(group.places, most)) kept.push_back(group.rays[i]);
+  for (const std::uint32_t i : thinned(group.directions, most)) kept.push_back(group.rays[i]);
 }
 
-// Returns spread over the surfaces, misses over the directions around them: those far from the target say nothing of it.
+// Returns spread over their directions, as a scanner's are (in space those that noise throws farthest off would be preferred), and misses
+// over the directions around them: those far from the target say nothing of it.
 std::vector<std::uint32_t> spread_rays(const RawScan& scan, const std::vector<Vec3>& places) {
   Group hits, misses;
   for (std::size_t i = 0; i < places.size(); ++i) {
     Group& group = scan.rays[i].hit ? hits : misses;
-    group.places.push_back(places[i]);
+    group.directions.push_back(places[i].normalized());
     group.rays.push_back(static_cast<std::uint32_t>(i));
   }
-  if (places.size() > kMaxRays) misses.keep_in(around(hits.places));
+  if (places.size() > kMaxRays) misses.keep_in(around(hits.directions));
   const std::size_t for_misses = std::min(misses.rays.size(), kMaxRays / kMissShare);
   std::vector<std::uint32_t> kept;
   append_thinned(hits, kMaxRays - for_misses, kept);

@@ -47,8 +47,8 @@ struct ScanFrame {
 // and z are, as "y,-z,x". Throws ScanFileError.
 Mat3 axes_of(std::string_view text);
 
-// At most kMaxRays rays: of more, some that are spread over the target (thinning.hpp). A scan of no ray has one sample that says nothing,
-// at the time of its first row. Throws ScanFileError: a point beyond 1000 km, a time beyond 1e11 s.
+// At most kMaxRays rays: of more, some that are spread over their directions (thinning.hpp). A scan of no ray has one sample that says
+// nothing, at the time of its first row. Throws ScanFileError: a point beyond 1000 km, a time beyond 1e11 s.
 RangeImage to_image(const RawScan& scan, const ScanFrame& frame);
 
 }  // namespace lasso::sim

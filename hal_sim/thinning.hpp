@@ -1,4 +1,4 @@
-// Fewer points of a cloud, spread evenly over its surfaces.
+// Fewer points of many, spread evenly over where they are: surfaces, or directions.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// Bytes that claim to be a scan: CSV, PLY or PCD, by the first byte modulo 3. The reader refuses them with one line, or gives samples that
-// are finite and of unit direction.
+// Bytes that claim to be a scan: CSV, PLY, PCD, plain text or a depth image, by the first byte modulo 5. The reader refuses them with one
+// line, or gives samples that are finite and of unit direction.
 #include <cmath>
 #include <string>
 
@@ -16,8 +16,10 @@ bool is_sound(const RangeSample& sample) {
 }
 
 sim::RawScan read_as(std::uint8_t kind, std::string_view text) {
-  if (kind % 3 == 0) return sim::read_csv("scan.csv", text);
-  return kind % 3 == 1 ? sim::read_ply("scan.ply", text) : sim::read_pcd("scan.pcd", text);
+  constexpr sim::DepthCamera kCamera{500, 500, 320, 240, 1e-3, false};
+  using Reader = sim::RawScan (*)(const std::string&, std::string_view);
+  constexpr Reader kReaders[] = {sim::read_csv, sim::read_ply, sim::read_pcd, sim::read_xyz};
+  return kind % 5 == 4 ? sim::read_depth_image("scan.png", text, kCamera) : kReaders[kind % 5]("scan.txt", text);
 }
 
 void read(std::uint8_t kind, ConstBytes input) {

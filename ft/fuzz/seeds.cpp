@@ -13,6 +13,7 @@
 #include "ft/fuzz/small_image.hpp"
 #include "hal_lcs/messages.hpp"
 #include "hal_sim/scan_file.hpp"
+#include "ut/support/grey_png.hpp"
 
 namespace lasso::fuzz {
 namespace {
@@ -204,6 +205,14 @@ void write_scans(const fs::path& folder) {
   write(folder / "ply_big", seed(1, ply("binary_big_endian") + binary(points, true)));
   write(folder / "pcd_ascii", seed(2, pcd("ascii") + ascii));
   write(folder / "pcd_binary", seed(2, pcd("binary") + binary(points, false)));
+  const std::string lengths("\x19\0\0\0\x18\0\0\0", 8);
+  write(folder / "pcd_compressed", seed(2, pcd("binary_compressed") + lengths + '\x17' + binary(points, false)));
+  write(folder / "ply_lists",
+        seed(1,
+             "ply\nformat ascii 1.0\nelement camera 1\nproperty list uchar int k\nelement vertex 1\nproperty float x\nproperty "
+             "list uchar int k\nproperty float y\nproperty float z\nend_header\n2 1 1\n1 1 7 2 nan\n"));
+  write(folder / "text", seed(3, "//X;Y;Z\n0,1; 0,2; 3\nnan;nan;nan\n"));
+  write(folder / "depth", seed(4, test::grey_png(2, {0, 1000, 65535, 1})));
 }
 
 // A tetrahedron in each format.

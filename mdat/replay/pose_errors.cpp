@@ -39,8 +39,8 @@ std::string error_summary(const std::vector<JudgedScan>& scans) {
     rotation.add(scan.error->rotation_rad / kRadPerDeg, scan.scan);
   }
   if (translation.count == 0) return "";
-  return format("errors of %zu poses: translation rms %.4g mm, largest %.4g mm (%s)\n", translation.count, translation.rms(),
-                translation.largest, translation.worst.c_str()) +
+  return format("errors of %zu %s: translation rms %.4g mm, largest %.4g mm (%s)\n", translation.count,
+                translation.count == 1 ? "pose" : "poses", translation.rms(), translation.largest, translation.worst.c_str()) +
          format("                    rotation rms %.4g deg, largest %.4g deg (%s)\n", rotation.rms(), rotation.largest,
                 rotation.worst.c_str());
 }

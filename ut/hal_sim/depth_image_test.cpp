@@ -56,6 +56,10 @@ TEST(DepthImage, OthersAreRefusedInOneLine) {
     EXPECT_NE(what.find("expected a PNG of 16-bit greyscale"), std::string::npos) << what;
     EXPECT_EQ(what.find('\n'), std::string::npos);
   }
+  std::string huge = test::grey_png(2, {1, 2, 3, 4});
+  const std::string header = std::string("\x7F\xFF\xFF\xFF\x7F\xFF\xFF\xFF\x10\0\0\0\0", 13);
+  huge.replace(8, 25, test::png_chunk("IHDR", header));
+  EXPECT_NE(refusal_of_image(huge).find("cannot be read as a depth image: "), std::string::npos);
   EXPECT_NE(refusal_of_image(test::grey_png(4, {1, 2, 3, 4}, 8)).find("it is not 16-bit greyscale"), std::string::npos);
 }
 
