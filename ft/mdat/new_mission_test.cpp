@@ -156,7 +156,7 @@ struct Kind {
   std::function<Triangles()> make;
   const char* options = "";
   bool landing = false;  // one of the few that each landing flies
-  bool followed = true;  // valid poses are asked for: not of bodies that turn without a change
+  bool followed = true;  // without a warning, with valid poses: not of bodies that few rays meet, or that turn without a change
 };
 
 const std::vector<Kind>& kinds() {
@@ -176,7 +176,7 @@ const std::vector<Kind>& kinds() {
          return scaled(satellite(), 1, {300, -250, 120});
        }},
       {"millimetres", [] { return scaled(satellite(), 1000); }, "--scale 0.001"},
-      {"small", [] { return scaled(satellite(), 0.01); }},
+      {"small", [] { return scaled(satellite(), 0.1); }},
       {"huge", [] { return scaled(satellite(), 60); }},
       {"plate",
        [] {
@@ -208,7 +208,7 @@ const std::vector<Kind>& kinds() {
       {"many_boxes", many_boxes},
       {"sponge", sponge},
       {"knobs", knobs},
-      {"fan", fan, "--simplify"},
+      {"fan", fan, "--simplify 300"},
       {"layers", layers},
       {"scan", scan, "--simplify 3000", true},
   };
@@ -238,16 +238,19 @@ void expect_flies(const WorkFolder& work, const Kind& kind) {
     EXPECT_NE(written.out.find(line), std::string::npos) << line << "\n" << written.out;
   const Answer checked = work.mdat("mission check target.toml");
   EXPECT_EQ(checked.exit_code, 0) << checked.err;
-  EXPECT_EQ((checked.out + checked.err).find("warning"), std::string::npos) << checked.out << checked.err;
+  if (kind.followed) {
+    EXPECT_EQ((checked.out + checked.err).find("warning"), std::string::npos) << checked.out << checked.err;
+  }
   const Answer compiled = work.mdat("mission compile target.toml -o target.3dli");
   ASSERT_EQ(compiled.exit_code, 0) << compiled.err;
-  const Answer flown = work.mdat("run target.toml --scenario spin --frames 45 --no-report --out out/spin");
+  const Answer flown = work.mdat("run target.toml --scenario spin --frames 70 --no-report --out out/spin");
   ASSERT_EQ(flown.exit_code, 0) << flown.err;
   const Json noisy = Json::parse(work.read("out/spin/results.json")).at("noisy");
-  EXPECT_EQ(noisy.at("frames"), 45);
+  EXPECT_EQ(noisy.at("frames"), 70);
   EXPECT_EQ(noisy.at("wrong"), 0) << flown.out;
   if (kind.followed) {
-    EXPECT_LT(noisy.at("invalid").get<int>(), 36) << "the check of the start takes some 25\n" << flown.out;
+    EXPECT_LT(noisy.at("invalid").get<int>(), 55) << "the check of the start takes some 25, of a symmetric body twice as many\n"
+                                                  << flown.out;
   }
 }
 

@@ -75,7 +75,7 @@ TEST(NewMission, TakesSmallerCellsWhereTheMeshIsDense) {
   VERIFIES("LASSO-GND-040~1");
   const Folder folder;
   Mesh mesh = shapes::box({-0.5, -0.02, -0.02}, {0.5, 0.02, 0.02});
-  Mesh knob = shapes::sphere(0.011, 24, 32);
+  Mesh knob = shapes::sphere(0.006, 24, 32);
   shapes::move(knob, shapes::generic_turn(), {0.5, 0.01, 0.01});
   shapes::append(mesh, knob);
   std::vector<double> cells;
