@@ -155,8 +155,9 @@ struct Kind {
   const char* name;
   std::function<Triangles()> make;
   const char* options = "";
-  bool landing = false;  // one of the few that each landing flies
-  bool followed = true;  // without a warning, with valid poses: not of bodies that few rays meet, or that turn without a change
+  bool landing = false;      // one of the few that each landing flies
+  bool followed = true;      // without a warning, with valid poses: not of bodies that few rays meet, or that turn without a change
+  bool has_attitude = true;  // a ball has none that can be known, and some of its poses are valid and wrong (docs/limits.md)
 };
 
 const std::vector<Kind>& kinds() {
@@ -195,7 +196,7 @@ const std::vector<Kind>& kinds() {
        [] {
          return turned(60, 20, [](double t) { return std::array{t, 0.4 * t * t}; }) + box({-0.2, -0.3, -0.5}, {0.3, 0.2, 0});
        }},
-      {"ball", [] { return ball(0.5, 32, 16); }, "", false, false},
+      {"ball", [] { return ball(0.5, 32, 16); }, "", false, false, false},
       {"torus",
        [] {
          return patch(60, 30, [](double u, double v) {
@@ -247,7 +248,7 @@ void expect_flies(const WorkFolder& work, const Kind& kind) {
   ASSERT_EQ(flown.exit_code, 0) << flown.err;
   const Json noisy = Json::parse(work.read("out/spin/results.json")).at("noisy");
   EXPECT_EQ(noisy.at("frames"), 70);
-  EXPECT_EQ(noisy.at("wrong"), 0) << flown.out;
+  if (kind.has_attitude) EXPECT_EQ(noisy.at("wrong"), 0) << flown.out;
   if (kind.followed) {
     EXPECT_LT(noisy.at("invalid").get<int>(), 55) << "the check of the start takes some 25, of a symmetric body twice as many\n"
                                                   << flown.out;

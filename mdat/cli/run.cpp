@@ -186,16 +186,9 @@ void set_cameras(RunArguments& options) {
   if (!options.camera_faults.empty()) simulation.camera_faults = load_camera_faults(options.camera_faults);
 }
 
-}  // namespace
+using SharedArguments = std::shared_ptr<RunArguments>;
 
-void add_run_command(CLI::App& app) {
-  const auto options = std::make_shared<RunArguments>();
-  options->simulation.jobs = std::max(1U, std::thread::hardware_concurrency());
-  CLI::App* command = app.add_subcommand("run", "track a mission's target in simulation, and report");
-  command->add_option("MISSION", options->mission, "mission file")->required();
-  command->add_option("--scenario", options->simulation.scenario, "scenario of the mission")->capture_default_str();
-  command->add_option("--seed", options->simulation.seed, "start of the random numbers (the scenario's)")
-      ->check(CLI::Range(std::int64_t{0}, std::int64_t{4294967295}));
+void add_sensor_options(CLI::App* command, const SharedArguments& options) {
   command
       ->add_option("--sensor", options->sensor,
                    "simulated, or lcs-wire: laser cameras are reached over their serial line, byte by byte (docs/icd/lcs.md); lidar-wire: "
@@ -218,11 +211,9 @@ void add_run_command(CLI::App& app) {
   command->add_option("--camera-temperature", options->simulation.camera_degC, "of the simulated camera, degC")
       ->capture_default_str()
       ->check(CLI::Range(-50.0, 100.0));
-  command->add_option("-o,--out", options->out, "folder to write")->capture_default_str();
-  command->add_option("--frames", options->simulation.frames, "frames of each range (the scenario's)")->check(CLI::Range(1, 1000000));
-  command->add_option("-j,--jobs", options->simulation.jobs, "ranges and variants at a time; no effect on the results")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 256));
+}
+
+void add_link_options(CLI::App* command, const SharedArguments& options) {
   command->add_option(
       "--link", options->link,
       "udp://[HOST]:PORT, tcp://[HOST]:PORT or file://PATH: run the first range at the clock's pace, commanded over this link "
@@ -238,6 +229,25 @@ void add_run_command(CLI::App& app) {
           "with --link: folder of the component's non-volatile store (made where it is missing); an image that was confirmed there "
           "is what the run starts with")
       ->needs("--link");
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& app) {
+  const auto options = std::make_shared<RunArguments>();
+  options->simulation.jobs = std::max(1U, std::thread::hardware_concurrency());
+  CLI::App* command = app.add_subcommand("run", "track a mission's target in simulation, and report");
+  command->add_option("MISSION", options->mission, "mission file")->required();
+  command->add_option("--scenario", options->simulation.scenario, "scenario of the mission")->capture_default_str();
+  command->add_option("--seed", options->simulation.seed, "start of the random numbers (the scenario's)")
+      ->check(CLI::Range(std::int64_t{0}, std::int64_t{4294967295}));
+  add_sensor_options(command, options);
+  command->add_option("-o,--out", options->out, "folder to write")->capture_default_str();
+  command->add_option("--frames", options->simulation.frames, "frames of each range (the scenario's)")->check(CLI::Range(1, 1000000));
+  command->add_option("-j,--jobs", options->simulation.jobs, "ranges and variants at a time; no effect on the results")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 256));
+  add_link_options(command, options);
   add_settings(*command, options->settings);
   command->add_flag("--force", options->force, "replace what an earlier run left in the folder, and files that are there");
   add_no_cache(*command, options->cached);

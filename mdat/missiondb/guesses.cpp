@@ -22,7 +22,7 @@ double preset(const std::string& key) { return find_row(flight_rows(), key)->pre
 
 std::string size_line(const Known& known) {
   const double largest_m = known.mission.size.largest_m;
-  const std::string line = "size: " + length_text(known.mission.size.sides);
+  std::string line = "size: " + length_text(known.mission.size.sides);
   if (largest_m > kLargeCraft_m)
     return line + ", large for a spacecraft: in millimetres? --scale " + number_text(0.001 * known.mission.scale) + " makes it " +
            text(0.001 * largest_m) + " m";

@@ -12,10 +12,10 @@
 namespace lasso::mdat {
 namespace {
 
-constexpr double kReferenceSize_m = 1.33;    // the tenth-scale Hubble's length, for which the presets were chosen
-constexpr double kFieldShare = 0.9;          // of the field of view that the target's circumscribed sphere fills at the initial range
-constexpr double kNearestSurface_m = 0.45;   // a laser camera by the preset optics sees nothing nearer than 0.4 m
-constexpr double kLidarAngle_rad = 1e-4;     // on which side of a contour a beam that widens by 0.25 mrad passed
+constexpr double kReferenceSize_m = 1.33;   // the tenth-scale Hubble's length, for which the presets were chosen
+constexpr double kFieldShare = 0.9;         // of the field of view that the target's circumscribed sphere fills at the initial range
+constexpr double kNearestSurface_m = 0.45;  // a laser camera by the preset optics sees nothing nearer than 0.4 m
+constexpr double kLidarAngle_rad = 1e-4;    // on which side of a contour a beam that widens by 0.25 mrad passed
 
 using Values = std::map<std::string, double>;  // by key, in the row's unit
 

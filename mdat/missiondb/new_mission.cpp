@@ -92,8 +92,8 @@ Trial trial_of(const NewMissionRequest& request, const Mesh& mesh) {
   } catch (const CompileError& error) {
     const std::string why = error.what();
     refuse(request.model, "no cell fits this mesh: " + why.substr(0, why.find(": take ")) + ": make it coarser: --simplify " +
-                            std::to_string(coarser_count(mesh.triangles.size())) + " (it has " + std::to_string(mesh.triangles.size()) +
-                            " triangles)");
+                              std::to_string(coarser_count(mesh.triangles.size())) + " (it has " + std::to_string(mesh.triangles.size()) +
+                              " triangles)");
   }
 }
 

@@ -23,13 +23,13 @@ toml::table parsed(const std::string& text) {
   try {
     return toml::parse("value = " + text, std::string_view(kSettingPlace));
   } catch (const toml::parse_error&) {
+    double number = 0;
+    const char* const end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, number);
+    const bool is_number = error == std::errc{} && stop == end && !text.empty();
+    const std::string quoted = nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    return toml::parse("value = " + (is_number ? number_text(number) : quoted), std::string_view(kSettingPlace));
   }
-  double number = 0;
-  const char* const end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, number);
-  const bool is_number = error == std::errc{} && stop == end && !text.empty();
-  const std::string quoted = nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-  return toml::parse("value = " + (is_number ? number_text(number) : quoted), std::string_view(kSettingPlace));
 }
 
 void insert(toml::table& table, const std::string& name, const std::string& text) {

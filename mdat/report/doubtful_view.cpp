@@ -1,6 +1,7 @@
 #include "mdat/report/doubtful_view.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 #include "mdat/common/text.hpp"
 #include "mdat/report/page.hpp"
@@ -66,8 +67,11 @@ std::vector<std::vector<std::string>> rows_of(const TableResult& table) {
     }
   }
   // What is wrong is what a reader has to see.
-  std::stable_partition(rows.begin(), rows.end(), [](const auto& row) { return row[3] == "wrong"; });
-  return rows;
+  std::vector<std::vector<std::string>> sorted;
+  for (const bool wrong : {true, false}) {
+    std::copy_if(rows.begin(), rows.end(), std::back_inserter(sorted), [&](const auto& row) { return (row[3] == "wrong") == wrong; });
+  }
+  return sorted;
 }
 
 std::string list(std::vector<std::vector<std::string>> rows) {
@@ -76,30 +80,35 @@ std::string list(std::vector<std::vector<std::string>> rows) {
   const std::size_t more = rows.size() > kListed ? rows.size() - kListed : 0;
   rows.resize(rows.size() - more);
   html.rows = std::move(rows);
-  const std::string text =
+  std::string text =
       to_html(html) + (more > 0 ? format("<p class='note'>And %zu more lines: frames.csv has a row for each frame.</p>\n", more) : "");
   if (html.rows.size() <= kOpen) return text;
   return format("<details><summary>%zu lines</summary>", html.rows.size() + more) + text + "</details>\n";
+}
+
+ScanPanel panel_of(const KeptScan& scan, const std::string& title, const Scenario& scenario, std::size_t run) {
+  const PoseError error = pose_error(registration_pose(scan.telemetry), scan.truth);
+  const std::string why = scan.telemetry.valid != 0 ? "wrong" : plain(to_string(static_cast<PoseReason>(scan.telemetry.reason)));
+  return {&scan,
+          format("%s: frame %u, %s\\n%s, %.0f mm and %.1f° off", title.c_str(), scan.frame, run_text(scenario, run).c_str(), why.c_str(),
+                 1e3 * error.translation_m.norm(), error.rotation_rad / kRadPerDeg),
+          Vec3(scenario.center_m.data())};
+}
+
+void add_panels(const VariantResult& variant, const Scenario& scenario, bool valid, std::vector<ScanPanel>& panels) {
+  for (std::size_t run = 0; run < variant.cases.size(); ++run) {
+    for (const KeptScan& scan : variant.cases[run].doubtful) {
+      if ((scan.telemetry.valid != 0) == valid && panels.size() < kPanels)
+        panels.push_back(panel_of(scan, variant.variant.title, scenario, run));
+    }
+  }
 }
 
 // Wrong ones first, each with the run that it is of.
 std::vector<ScanPanel> panels_of(const TableResult& table) {
   std::vector<ScanPanel> panels;
   for (const bool valid : {true, false}) {
-    for (const VariantResult& variant : table.variants) {
-      for (std::size_t run = 0; run < variant.cases.size(); ++run) {
-        for (const KeptScan& scan : variant.cases[run].doubtful) {
-          if ((scan.telemetry.valid != 0) != valid || panels.size() == kPanels) continue;
-          const PoseError error = pose_error(registration_pose(scan.telemetry), scan.truth);
-          const std::string why = valid ? "wrong" : plain(to_string(static_cast<PoseReason>(scan.telemetry.reason)));
-          panels.push_back({&scan,
-                            format("%s: frame %u, %s\\n%s, %.0f mm and %.1f° off", variant.variant.title, scan.frame,
-                                   run_text(table.scenario, run).c_str(), why.c_str(), 1e3 * error.translation_m.norm(),
-                                   error.rotation_rad / kRadPerDeg),
-                            Vec3(table.scenario.center_m.data())});
-        }
-      }
-    }
+    for (const VariantResult& variant : table.variants) add_panels(variant, table.scenario, valid, panels);
   }
   return panels;
 }
