@@ -248,7 +248,9 @@ void expect_flies(const WorkFolder& work, const Kind& kind) {
   ASSERT_EQ(flown.exit_code, 0) << flown.err;
   const Json noisy = Json::parse(work.read("out/spin/results.json")).at("noisy");
   EXPECT_EQ(noisy.at("frames"), 70);
-  if (kind.has_attitude) EXPECT_EQ(noisy.at("wrong"), 0) << flown.out;
+  if (kind.has_attitude) {
+    EXPECT_EQ(noisy.at("wrong"), 0) << flown.out;
+  }
   if (kind.followed) {
     EXPECT_LT(noisy.at("invalid").get<int>(), 55) << "the check of the start takes some 25, of a symmetric body twice as many\n"
                                                   << flown.out;

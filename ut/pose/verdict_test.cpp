@@ -175,6 +175,33 @@ TEST_F(VerdictTest, ContradictsAPoseThatExplainsTheScanWorseAndNoOther) {
   for (const double deg : {10.0, 90.0, 180.0}) EXPECT_TRUE(search_->contradicts(mission_, turned(deg), *workspace_)) << deg;
 }
 
+// What a report says of a search is what it decided by: accepted where all that compete are left behind, ambiguous where one is not.
+TEST_F(VerdictTest, TheRivalsThatItGivesAreThoseThatItDecidedBy) {
+  VERIFIES("LASSO-MOD-184~3");
+  scan_.T_sensor_target = test::random_box_pose(random_);
+  const auto image = scan_at(0);
+  const auto outcome = [&] {
+    search_->begin(limits_);
+    EXPECT_EQ(search_->add_scan(mission_, *image, *workspace_), Status::kOk);
+    work();
+    return result().outcome;
+  };
+  const auto left_behind = [&] {
+    bool all = true;
+    Rival rival;
+    for (std::size_t i = 0; i < search_->poses(); ++i)
+      all = all && (!search_->find_rival(i, rival) || is_left_behind(rival, limits_.ratio_min));
+    return all;
+  };
+  ASSERT_EQ(outcome(), SearchOutcome::kAccepted);
+  Rival rival;
+  EXPECT_FALSE(search_->find_rival(0, rival)) << "the best one competes with none";
+  EXPECT_TRUE(left_behind());
+  limits_.ratio_min = 1e6;
+  ASSERT_EQ(outcome(), SearchOutcome::kAmbiguous);
+  EXPECT_FALSE(left_behind());
+}
+
 TEST_F(VerdictTest, ContradictsNothingWhereItIsAmbiguousUnlessByItsRatioNorWhereItIsRejected) {
   VERIFIES("LASSO-MOD-184~3");
   scan_.T_sensor_target = test::random_box_pose(random_);
