@@ -75,7 +75,7 @@ std::string turn_text(const ModelTables& tables) {
     return std::ldexp(static_cast<double>(static_cast<std::int32_t>(tables[TableId::kSymmetries].at(i))), -kUnitFractionBits);
   };
   const Eigen::AngleAxisd turn(Eigen::Quaterniond(number(3), number(0), number(1), number(2)).normalized());
-  const auto tenth = [&](int i) { return number_text(0.1 * std::round(10 * turn.axis()[i]) + 0.0); };
+  const auto tenth = [&](int i) { return number_text(std::round(10 * turn.axis()[i]) / 10 + 0.0); };
   std::string axis = "(" + tenth(0) + ", " + tenth(1) + ", " + tenth(2) + ")";
   constexpr double kNearAxis = 0.98;
   for (int i = 0; i < 3; ++i) {
@@ -88,7 +88,7 @@ std::string symmetry_line(const Known& known) {
   constexpr double kSame = 0.1;
   const CompileReport& report = known.report;
   if (report.symmetries == 0) return "symmetry: no turn brings the target near itself: a search tells its attitude";
-  const std::string turns = std::to_string(report.symmetries) + (report.symmetries == 1 ? " turn brings" : " turns bring");
+  const std::string turns = "at least " + std::to_string(report.symmetries) + (report.symmetries == 1 ? " turn brings" : " turns bring");
   if (report.symmetry_mismatch < kSame)
     return "symmetry: " + turns + " the target on itself, such as " + turn_text(known.tables) +
            ": a search cannot tell these poses apart and stays ambiguous: start from a pose that says which";

@@ -38,6 +38,11 @@ std::string number(const Json& part, const char* key, int digits) {
 void judge(const Json& part, GalleryEntry& entry) {
   const std::size_t frames = count_of(part, "frames"), wrong = count_of(part, "wrong"), lost = count_of(part, "lost");
   const std::size_t invalid = part.contains("invalid") ? count_of(part, "invalid") : frames - std::min(frames, count_of(part, "valid"));
+  if (frames == 0) {
+    entry.judgement = "bad";
+    entry.verdict = "never found";
+    return;
+  }
   entry.judgement = wrong > 0 ? "bad" : lost + invalid > 0 ? "partly" : "good";
   entry.verdict = format("%zu frames", frames) + counted("wrong", wrong) + counted("lost", lost) + counted("without a valid pose", invalid);
   if (wrong + lost + invalid == 0) entry.verdict += ", all right";

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "mdat/common/text.hpp"
@@ -237,6 +238,31 @@ std::string tracked_text(const TableResult& table) {
   return text;
 }
 
+// "unchecked 26, weak 3": why frames of a variant are without a valid pose, the most frequent reason first; empty where all have one.
+std::string reasons_text(const VariantResult& variant) {
+  std::map<PoseReason, std::size_t> counts;
+  for (const CaseResult& run : variant.cases) {
+    for (const FrameError& frame : run.frames) {
+      if (frame.told && !frame.valid) ++counts[frame.reason];
+    }
+  }
+  std::vector<std::pair<PoseReason, std::size_t>> rows(counts.begin(), counts.end());
+  std::sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
+  std::string text;
+  for (const auto& [reason, count] : rows) text += (text.empty() ? "" : ", ") + format("%s %zu", to_string(reason), count);
+  return text;
+}
+
+std::string invalid_text(const TableResult& table) {
+  std::string text;
+  for (const VariantResult& variant : table.variants) {
+    const std::string reasons = reasons_text(variant);
+    if (!reasons.empty())
+      text += format("  %s: frames without a valid pose: %s (docs/glossary.md)\n", variant.variant.title, reasons.c_str());
+  }
+  return text;
+}
+
 std::string settled_text(const TableResult& table) {
   std::string text;
   for (const VariantResult& variant : table.variants) {
@@ -272,6 +298,7 @@ std::string table_text(const SimulationResult& result, const TableResult& table)
                  attitude_text(scenario).c_str());
   text += axes_table(table, is_beside_paper(table));
   text += quality_table(table);
+  text += invalid_text(table);
   if (result.kind != ScenarioKind::kPaper) text += tracked_text(table) + settled_text(table);
   if (scenario.prior == 0) text += found_text(table);
   return text + "\n";
