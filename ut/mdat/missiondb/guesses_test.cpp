@@ -82,7 +82,7 @@ TEST(Guesses, TheSurfaceIsAsRoughAsItsScanAndAsItsSimplification) {
   EXPECT_NE(target.line("surface").find("measured"), std::string::npos);
   target.coarser = Simplified{{}, 3e-4, 1e-3, 5000};
   EXPECT_NEAR(guessed_surface_sigma_m(target.mission.size, target.surface, target.coarser), std::hypot(1e-4, 3e-4), 1e-12);
-  EXPECT_NE(target.line("mesh").find("of 5000; their error, 3e-04 m rms and 0.001 m at most"), std::string::npos) << target.line("mesh");
+  EXPECT_NE(target.line("mesh").find("of 5000; their error, 0.0003 m rms and 0.001 m at most"), std::string::npos) << target.line("mesh");
 }
 
 TEST(Guesses, PartsAndTargetsThatFewRaysMeetAreTold) {
