@@ -88,7 +88,8 @@ RawScan read_depth_image(const std::string& file, std::string_view bytes, const 
   scan.file = file;
   scan.misses_known = true;
   for (std::size_t i = 0; i < image.values.size(); ++i) {
-    const double u = static_cast<double>(i % image.width), v = static_cast<double>(i / image.width);
+    const std::size_t row = i / image.width;
+    const double u = static_cast<double>(i % image.width), v = static_cast<double>(row);
     const Vec3 ray((u - camera.cx) / camera.fx, (v - camera.cy) / camera.fy, 1);
     if (image.values[i] == 0) {
       scan.add_miss(ray.normalized(), 0, i + 1);

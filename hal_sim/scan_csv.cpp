@@ -19,8 +19,9 @@ class Rows {
       : table_(table), xyz_{table.need({"x_m", "x"}), table.need({"y_m", "y"}), table.need({"z_m", "z"})}, valid_(table.find({"valid"})) {
     constexpr std::pair<const char*, double> kTimes[] = {{"t_s", 0}, {"t_ms", 1e-3}, {"t_us", 1e-6}, {"t_ns", 1e-9}, {"t", 0}};
     for (const auto& [name, unit_s] : kTimes) {
-      if (time_ || !(time_ = table.find({name}))) continue;
-      unit_s_ = unit_s;
+      if (time_) break;
+      time_ = table.find({name});
+      if (time_) unit_s_ = unit_s;
     }
   }
 
@@ -32,8 +33,8 @@ class Rows {
   }
 
   void take(RawScan& scan) const {
-    const double time = time_ ? read_time(scan) : 0;
-    const bool hit = !valid_ || read_valid();
+    const double time = time_ ? read_time(*time_, scan) : 0;
+    const bool hit = !valid_ || read_valid(*valid_);
     if (table_.says_nothing(xyz_[0]) && table_.says_nothing(xyz_[1]) && table_.says_nothing(xyz_[2])) {
       scan.add_point(Vec3::Zero(), time, table_.line());
       return;
@@ -44,17 +45,17 @@ class Rows {
   }
 
  private:
-  double read_time(const RawScan& scan) const {
-    const double time = table_.number(*time_);
+  double read_time(std::size_t column, const RawScan& scan) const {
+    const double time = table_.number(column);
     if (scan.rays.empty() || time >= scan.rays.back().time) return time;
-    fail(table_.place(*time_),
-         table_.name(*time_) + " is " + shown(table_.field(*time_)) + ", earlier than the row before; sort the rows by time");
+    fail(table_.place(column),
+         table_.name(column) + " is " + shown(table_.field(column)) + ", earlier than the row before; sort the rows by time");
   }
 
-  bool read_valid() const {
-    const std::string_view valid = table_.field(*valid_);
+  bool read_valid(std::size_t column) const {
+    const std::string_view valid = table_.field(column);
     if (valid == "1" || valid == "0") return valid == "1";
-    fail(table_.place(*valid_), "valid is " + shown(valid) + ", expected 1 (hit) or 0 (miss)");
+    fail(table_.place(column), "valid is " + shown(valid) + ", expected 1 (hit) or 0 (miss)");
   }
 
   void take_miss(const Vec3& direction, double time, RawScan& scan) const {

@@ -58,21 +58,31 @@ std::string_view number_at(std::string_view name, std::size_t i) {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
+// The length of the digits, or of the one other character, at i.
+std::size_t step_at(std::string_view text, std::size_t i) {
+  return is_digit(text[i]) ? std::min(text.find_first_not_of("0123456789", i), text.size()) - i : 1;
+}
+
+// What stands there, in the order of numbers where both are numbers.
+int compared(std::string_view x, std::string_view y) {
+  if (is_digit(x[0]) && is_digit(y[0])) {
+    x = number_at(x, 0);
+    y = number_at(y, 0);
+    if (x.size() != y.size()) return x.size() < y.size() ? -1 : 1;
+  }
+  return x.compare(y);
+}
+
 // Natural order: numbers in names compare as numbers, all else by its bytes; names that are then alike by their bytes.
 bool is_before(std::string_view a, std::string_view b) {
   std::size_t i = 0, k = 0;
   while (i < a.size() && k < b.size()) {
-    if (is_digit(a[i]) && is_digit(b[k])) {
-      const std::string_view x = number_at(a, i), y = number_at(b, k);
-      if (x.size() != y.size()) return x.size() < y.size();
-      if (x != y) return x < y;
-      i = std::min(a.find_first_not_of("0123456789", i), a.size());
-      k = std::min(b.find_first_not_of("0123456789", k), b.size());
-    } else {
-      if (a[i] != b[k]) return a[i] < b[k];
-      ++i;
-      ++k;
-    }
+    const bool numbers = is_digit(a[i]) && is_digit(b[k]);
+    const std::size_t step_a = numbers ? step_at(a, i) : 1, step_b = numbers ? step_at(b, k) : 1;
+    const int order = compared(a.substr(i, step_a), b.substr(k, step_b));
+    if (order != 0) return order < 0;
+    i += step_a;
+    k += step_b;
   }
   const std::size_t left_a = a.size() - i, left_b = b.size() - k;
   return left_a != left_b ? left_a < left_b : a < b;

@@ -238,8 +238,8 @@ std::string unpacked(std::string_view data, const Header& header, const Layout& 
   constexpr ScalarType kLength{ScalarType::Kind::kUnsigned, 4};
   constexpr std::size_t kLengths = 8;
   if (data.size() < kLengths) fail(file, "the file is truncated: it ends before its compressed data");
-  const auto packed = static_cast<std::size_t>(scalar_at(data.data(), kLength, false));
-  const auto size = static_cast<std::size_t>(scalar_at(data.data() + 4, kLength, false));
+  const auto packed = static_cast<std::size_t>(scalar_at(&data[0], kLength, false));
+  const auto size = static_cast<std::size_t>(scalar_at(&data[4], kLength, false));
   if (packed > data.size() - kLengths) {
     fail(file, "the file is truncated: " + std::to_string(data.size() - kLengths) + " of " + std::to_string(packed) +
                    " bytes of compressed data");

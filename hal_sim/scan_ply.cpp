@@ -104,6 +104,12 @@ std::array<std::size_t, 3> coordinates_of(const Element& vertex, const std::stri
   return xyz;
 }
 
+void read_declaration(const Words& word, Header& header, const std::string& place) {
+  if (word[0] == "element") return read_element(word, header, place);
+  if (word[0] == "property") return read_property(word, header, place);
+  fail(place, "header keyword " + shown(word[0]) + " is not known");
+}
+
 Header read_header(Lines& lines) {
   std::string_view line;
   if (!lines.next(line) || trimmed(line) != "ply") fail(at_line(lines.file(), 1), "expected \"ply\": not a PLY file");
@@ -113,19 +119,12 @@ Header read_header(Lines& lines) {
   do {
     const auto word = words(line);
     if (word.empty() || word[0] == "comment" || word[0] == "obj_info") continue;
-    if (!format_known) {
-      read_format(word, header, lines.place());
-      format_known = true;
-    } else if (word[0] == "end_header") {
+    if (format_known && word[0] == "end_header") {
       if (!header.elements.empty() && header.elements.back().name == "vertex") return header;
       fail(lines.place(), "the header declares no element \"vertex\"");
-    } else if (word[0] == "element") {
-      read_element(word, header, lines.place());
-    } else if (word[0] == "property") {
-      read_property(word, header, lines.place());
-    } else {
-      fail(lines.place(), "header keyword " + shown(word[0]) + " is not known");
     }
+    format_known ? read_declaration(word, header, lines.place()) : read_format(word, header, lines.place());
+    format_known = true;
   } while (lines.next(line));
   fail(lines.place(), "the header has no \"end_header\"");
 }
