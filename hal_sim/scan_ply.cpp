@@ -110,6 +110,10 @@ void read_declaration(const Words& word, Header& header, const std::string& plac
   fail(place, "header keyword " + shown(word[0]) + " is not known");
 }
 
+void check_vertices_declared(const Header& header, const std::string& place) {
+  if (header.elements.empty() || header.elements.back().name != "vertex") fail(place, "the header declares no element \"vertex\"");
+}
+
 Header read_header(Lines& lines) {
   std::string_view line;
   if (!lines.next(line) || trimmed(line) != "ply") fail(at_line(lines.file(), 1), "expected \"ply\": not a PLY file");
@@ -120,8 +124,8 @@ Header read_header(Lines& lines) {
     const auto word = words(line);
     if (word.empty() || word[0] == "comment" || word[0] == "obj_info") continue;
     if (format_known && word[0] == "end_header") {
-      if (!header.elements.empty() && header.elements.back().name == "vertex") return header;
-      fail(lines.place(), "the header declares no element \"vertex\"");
+      check_vertices_declared(header, lines.place());
+      return header;
     }
     format_known ? read_declaration(word, header, lines.place()) : read_format(word, header, lines.place());
     format_known = true;
