@@ -108,12 +108,22 @@ std::vector<double> raw_numbers(std::string_view bytes, NumberType type, std::si
 std::string read_beside(const std::filesystem::path& folder, const std::string& uri) {
   if (uri.find("://") != std::string::npos) throw MeshError("refers to " + excerpt(uri) + ", expected a file beside it: fetch it");
   std::filesystem::path file = folder / percent_decoded(uri);
-  if (!std::filesystem::is_regular_file(file)) file = folder / uri;  // of a program that does not encode
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) file = folder / uri;  // of a program that does not encode
   try {
     return read_file(file);
-  } catch (const std::runtime_error& error) {
-    throw MeshError("refers to " + excerpt(uri) + ", which " + error.what());
+  } catch (const std::runtime_error& why) {
+    throw MeshError("refers to " + excerpt(uri) + ", which " + why.what());
   }
+}
+
+// Of the asset. Programs have written it as a number, too. Anything else is not looked into: it may be nested deeper than the stack.
+std::string version_of(const GltfJson& root) {
+  const auto asset = root.find("asset");
+  if (asset == root.end() || !asset->is_object()) return "";
+  const auto version = asset->find("version");
+  if (version != asset->end() && version->is_number()) return number_text(version->get<double>());
+  return version != asset->end() && version->is_string() ? version->get<std::string>() : "";
 }
 
 }  // namespace
@@ -137,14 +147,21 @@ const GltfJson& gltf_entry(const GltfJson& root, const char* list, std::size_t i
 
 double gltf_number(const GltfJson& object, const char* name, double preset) {
   const auto found = object.find(name);
-  if (found == object.end()) return preset;
-  if (!found->is_number()) throw MeshError(std::string("is a corrupt glTF file: \"") + name + "\" is of the wrong type, expected a number");
-  return found->get<double>();
+  return found == object.end() ? preset : gltf_number(*found, name);
+}
+
+double gltf_number(const GltfJson& number, const char* name) {
+  if (!number.is_number()) throw MeshError(std::string("is a corrupt glTF file: \"") + name + "\" is of the wrong type, expected a number");
+  return number.get<double>();
 }
 
 std::size_t gltf_index(const GltfJson& object, const char* name, std::size_t preset) {
-  if (object.find(name) == object.end()) return preset;
-  const double value = gltf_number(object, name, 0);
+  const auto found = object.find(name);
+  return found == object.end() ? preset : gltf_index(*found, name);
+}
+
+std::size_t gltf_index(const GltfJson& number, const char* name) {
+  const double value = gltf_number(number, name);
   if (!(value >= 0 && value <= kMostBytes && value == std::floor(value))) {
     throw MeshError(std::string("is a corrupt glTF file: \"") + name + "\" is " + number_text(value));
   }
@@ -155,9 +172,9 @@ GltfFile::GltfFile(const std::filesystem::path& folder, std::string_view bytes) 
   const GlbChunks chunks = bytes.starts_with("glTF") ? glb_chunks(bytes) : GlbChunks{plain_text(bytes), {}};
   root_ = GltfJson::parse(chunks.text, nullptr, false);
   if (!root_.is_object()) throw MeshError("is not a glTF file (its JSON is truncated or corrupt)");
-  const auto asset = root_.find("asset");
-  const std::string version = asset != root_.end() && asset->is_object() && asset->contains("version") ? (*asset)["version"].dump() : "";
-  if (!version.starts_with("\"2.")) throw MeshError("is glTF of version " + excerpt(version) + ", expected 2.0: convert it");
+  const std::string version = version_of(root_);
+  if (version != "2" && !version.starts_with("2."))
+    throw MeshError("is glTF of version " + excerpt(version) + ", expected 2.0: convert it");
   check_extensions();
   read_buffers(folder, chunks.binary);
 }
@@ -166,7 +183,8 @@ void GltfFile::check_extensions() {
   for (const char* list : {"extensionsRequired", "extensionsUsed"}) {
     const bool required = std::string(list) == "extensionsRequired";
     for (const GltfJson& entry : gltf_list(root_, list)) {
-      const std::string name = entry.is_string() ? entry.get<std::string>() : entry.dump();
+      if (!entry.is_string()) throw MeshError(std::string("is a corrupt glTF file: \"") + list + "\" holds what is no name");
+      const auto name = entry.get<std::string>();
       if (is_no_shape(name) || name == "KHR_mesh_quantization") continue;
       if (required) throw MeshError("requires the glTF extension " + excerpt(name) + ", which is not read: export without it");
       extensions_not_read_.push_back(name);

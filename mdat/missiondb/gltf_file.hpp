@@ -17,6 +17,9 @@ const GltfJson& gltf_list(const GltfJson& object, const char* name);
 const GltfJson& gltf_entry(const GltfJson& root, const char* list, std::size_t index);  // throws where there is none
 std::size_t gltf_index(const GltfJson& object, const char* name, std::size_t preset);
 double gltf_number(const GltfJson& object, const char* name, double preset);
+// The same of a value itself, which `name` is said to hold.
+std::size_t gltf_index(const GltfJson& number, const char* name);
+double gltf_number(const GltfJson& number, const char* name);
 
 class GltfFile {
  public:

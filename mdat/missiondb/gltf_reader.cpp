@@ -77,7 +77,7 @@ class GltfReader {
   }
   static std::vector<std::size_t> indices(const GltfJson& object, const char* name) {
     std::vector<std::size_t> list;
-    for (const GltfJson& entry : gltf_list(object, name)) list.push_back(gltf_index(GltfJson{{"node", entry}}, "node", 0));
+    for (const GltfJson& entry : gltf_list(object, name)) list.push_back(gltf_index(entry, name));
     return list;
   }
   void add_node(std::size_t index, const Eigen::Affine3d& T_root_parent, std::size_t depth) {

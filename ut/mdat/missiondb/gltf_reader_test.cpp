@@ -284,9 +284,22 @@ TEST(GltfReader, RefusesWhatDoesNotFit) {
   EXPECT_EQ(said([](Gltf& g) { g["accessors"][0]["componentType"] = 5124; }), "has a glTF accessor of an unknown component type 5124");
   EXPECT_EQ(said([](Gltf& g) { g["bufferViews"][0]["byteStride"] = 4; }),
             "has a glTF buffer view whose stride is shorter than its entries: the file is corrupt");
-  EXPECT_EQ(said([](Gltf& g) { g["asset"]["version"] = "1.0"; }), "is glTF of version \"\"1.0\"\", expected 2.0: convert it");
+  EXPECT_EQ(said([](Gltf& g) { g["asset"]["version"] = "1.0"; }), "is glTF of version \"1.0\", expected 2.0: convert it");
   EXPECT_EQ(said([](Gltf& g) { g["meshes"] = "none"; }), "is a corrupt glTF file: \"meshes\" is no list");
   EXPECT_EQ(refusal("g.gltf", "{\"asset\":"), "is not a glTF file (its JSON is truncated or corrupt)");
+}
+
+TEST(GltfReader, ListsInListsDeeperThanTheStackAreNoNamesAndNoNumbers) {
+  VERIFIES("LASSO-GND-014~1");
+  const std::string deep = std::string(80'000, '[') + std::string(80'000, ']');
+  const auto said = [&](const std::string& members) { return refusal("g.gltf", '{' + members + '}'); };
+  const std::string asset = "\"asset\":{\"version\":\"2.0\"},";
+  EXPECT_EQ(said("\"asset\":{\"version\":" + deep + '}'), "is glTF of version \"\", expected 2.0: convert it");
+  for (const std::string list : {"extensionsRequired", "extensionsUsed"}) {
+    EXPECT_EQ(said(asset + '"' + list + "\":[" + deep + ']'), "is a corrupt glTF file: \"" + list + "\" holds what is no name");
+  }
+  EXPECT_EQ(said(asset + "\"scenes\":[{\"nodes\":[" + deep + "]}]"),
+            "is a corrupt glTF file: \"nodes\" is of the wrong type, expected a number");
 }
 
 TEST(GltfReader, RefusesEveryTruncation) {
