@@ -12,7 +12,8 @@
 namespace lasso::sim {
 namespace {
 
-constexpr std::size_t kMostPixelsAByte = 600;  // of a file: its compression makes 1032 bytes of one at most
+constexpr std::size_t kMostPixels = std::size_t{1} << 24;  // 4096 by 4096: as rays they take 0.7 GB
+constexpr std::size_t kMostPixelsAByte = 600;              // of a file: its compression makes 1032 bytes of one at most
 
 struct Source {
   std::string_view bytes;
@@ -46,6 +47,7 @@ void read_rows(png_structp png, png_infop info, Grey16& image) {
   image.height = png_get_image_height(png, info);
   if (png_get_bit_depth(png, info) != 16 || png_get_color_type(png, info) != PNG_COLOR_TYPE_GRAY)
     png_error(png, "it is not 16-bit greyscale");
+  if (image.width > kMostPixels / image.height) png_error(png, "it has more than 16777216 pixels");
   const Source& source = *static_cast<const Source*>(png_get_io_ptr(png));
   if (image.width > kMostPixelsAByte * source.bytes.size() / image.height) png_error(png, "it has more pixels than its bytes can hold");
   png_set_swap(png);  // to the machine's order, which is little endian (checked below)

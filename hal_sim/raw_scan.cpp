@@ -32,12 +32,17 @@ Vec3 in_sensor(const RawRay& ray, const Pose& T_sensor_file, const ScanFrame& fr
   return frame.R_sensor_file * (frame.scale * (T_sensor_file * ray.place) - frame.sensor_m);
 }
 
-RangeSample sample_of(const Vec3& place, const RawRay& ray, const RawScan& scan) {
-  RangeSample sample;
+// Of every ray, taken or not: thinning computes with finite differences, and a return of another unit says that all are.
+void check_range(const Vec3& place, const RawRay& ray, const RawScan& scan) {
   const double range_m = place.stableNorm();
-  if (range_m > kFarthestPoint_m)
+  if (!(range_m <= kFarthestPoint_m))
     fail(scan.place(ray), "the point is " + text_of(range_m) + " m away, expected at most 1e6; check that its unit is metres");
   if (!(static_cast<float>(range_m) > 0)) fail(scan.place(ray), "the point lies in the sensor's origin; check where the sensor stands");
+}
+
+RangeSample sample_of(const Vec3& place, const RawRay& ray) {
+  RangeSample sample;
+  const double range_m = place.stableNorm();
   for (int axis = 0; axis < 3; ++axis) sample.direction[axis] = static_cast<float>(place[axis] / range_m);
   sample.range_m = ray.hit ? static_cast<float>(range_m) : 0;
   sample.state = ray.hit ? RayState::kHit : RayState::kMiss;
@@ -122,9 +127,12 @@ RangeImage to_image(const RawScan& scan, const ScanFrame& frame) {
   std::vector<Vec3> places;
   places.reserve(scan.rays.size());
   const Pose T_sensor_file = inverse(scan.T_file_sensor);
-  for (const RawRay& ray : scan.rays) places.push_back(in_sensor(ray, T_sensor_file, frame));
+  for (const RawRay& ray : scan.rays) {
+    places.push_back(in_sensor(ray, T_sensor_file, frame));
+    check_range(places.back(), ray, scan);
+  }
   for (const std::uint32_t i : spread_rays(scan, places)) {
-    RangeSample sample = sample_of(places[i], scan.rays[i], scan);
+    RangeSample sample = sample_of(places[i], scan.rays[i]);
     sample.t_us = time_us(scan, scan.rays[i], frame.unit_s);
     static_cast<void>(image.samples.push_back(sample));  // spread_rays gives no more than fit
   }

@@ -56,6 +56,9 @@ TEST(DepthImage, OthersAreRefusedInOneLine) {
     EXPECT_NE(what.find("expected a PNG of 16-bit greyscale"), std::string::npos) << what;
     EXPECT_EQ(what.find('\n'), std::string::npos);
   }
+  std::string large = test::grey_png(2, {1, 2, 3, 4});
+  large.replace(8, 25, test::png_chunk("IHDR", test::big_endian(16384) + test::big_endian(8192) + std::string("\x10\0\0\0\0", 5)));
+  EXPECT_NE(refusal_of_image(large).find("it has more than 16777216 pixels"), std::string::npos) << refusal_of_image(large);
   std::string huge = test::grey_png(2, {1, 2, 3, 4});
   const std::string header = std::string("\x7F\xFF\xFF\xFF\x7F\xFF\xFF\xFF\x10\0\0\0\0", 13);
   huge.replace(8, 25, test::png_chunk("IHDR", header));

@@ -77,6 +77,40 @@ TEST(RawScan, WhatFitsIsTakenWhole) {
   EXPECT_EQ(to_image(scan, {}).samples.size(), kMaxRays);
 }
 
+// A disc of 20,000 points at 5 m, and one more point.
+RawScan disc_and_one(const Vec3& outlier) {
+  RawScan scan;
+  scan.file = "a.pcd";
+  for (int i = 0; i < 20000; ++i) {
+    const double r = std::sqrt(i / 20000.0), a = 2.4 * i;
+    scan.add_point(Vec3(r * std::cos(a), r * std::sin(a), 5), 0, static_cast<std::size_t>(i) + 1);
+  }
+  scan.add_point(outlier, 0, 20001);
+  return scan;
+}
+
+TEST(RawScan, AReturnFarOffTakesNoPlaceOfOthers) {
+  VERIFIES("LASSO-SIM-040~1");
+  const RangeImage image = to_image(disc_and_one(Vec3(0, 1e5, 9e5)), {});
+  EXPECT_EQ(image.samples.size(), kMaxRays);
+  std::size_t beyond_half = 0;  // of the disc's area
+  for (const RangeSample& sample : image.samples) beyond_half += std::hypot(sample.direction[0], sample.direction[1]) > 0.14F ? 1U : 0U;
+  EXPECT_GT(beyond_half, kMaxRays / 3);
+  EXPECT_LT(beyond_half, 2 * kMaxRays / 3);
+}
+
+TEST(RawScan, EachRangeIsCheckedBeforeSomeRaysAreTaken) {
+  VERIFIES("LASSO-SIM-021~1");
+  for (const double far : {2e6, 1e308}) {
+    try {
+      static_cast<void>(to_image(disc_and_one(Vec3(-far, far, far)), {}));
+      ADD_FAILURE() << far;
+    } catch (const ScanFileError& error) {
+      EXPECT_EQ(std::string(error.what()).find("a.pcd: point 20001: the point is "), 0u) << error.what();
+    }
+  }
+}
+
 TEST(RawScan, APointWhereTheSensorStandsIsRefused) {
   VERIFIES("LASSO-SIM-021~1");
   RawScan scan;
