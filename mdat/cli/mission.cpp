@@ -161,10 +161,7 @@ std::string next_steps(const std::string& mission) {
 }
 
 void write_new(const MissionOptions& options) {
-  std::error_code ignored;
-  if (!options.replace && std::filesystem::exists(options.out, ignored)) {
-    throw InputError(options.out + ": is there already; --force replaces it");
-  }
+  if (!options.replace) refuse_to_replace({options.out}, "--force replaces it");
   check_writable(options.out);
   ModelCache cache = ModelCache::of_user_if(options.cached);
   NewMissionRequest request;

@@ -38,7 +38,7 @@ std::string trial_fault(const Subject& s) {
          ": every image that takes over would be taken back";
 }
 
-std::string band_fault(const Subject& s) {
+std::string silhouette_band_fault(const Subject& s) {
   if (s.p.silhouettes < 0.5 || s.p.silhouette_sigma_m <= s.p.silhouette_band_m) return "";
   return "a contour is less certain than estimation.silhouette_band_m, which is " + figure(s.p.silhouette_band_m) +
          " m, is wide: no ray tells on which side of it it passed";
@@ -159,7 +159,7 @@ const Rules& estimation_rules() {
     {kError, kParameters, kValues, {"tracking.agreement_min", "tracking.hysteresis"}, agreement_fault},
     {kWarning, kParameters, kValues, {"start.inlier_share_min", "tracking.inlier_share_min"}, start_share_fault},
     {kError, kParameters, kValues, {"image.trial_valid_min", "image.trial_scans"}, trial_fault},
-    {kWarning, kParameters, kValues, {"estimation.silhouette_sigma_m", "estimation.silhouette_band_m"}, band_fault},
+    {kWarning, kParameters, kValues, {"estimation.silhouette_sigma_m", "estimation.silhouette_band_m"}, silhouette_band_fault},
     {kWarning, kParameters, kValues, {"estimation.probe_step_m", "estimation.silhouette_band_m"}, probe_fault},
     {kWarning, kParameters, kValues, {"start.age_max_s", "filter.period_s"}, age_fault},
     {kWarning, kParameters, kValues, {"search.ratio_min", "start.first", "start.second", "start.third", "start.fourth", "start.fifth"}, ratio_fault},

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "cfg/capacities.hpp"
 #include "fsw/geometry/portable_math.hpp"
 #include "fsw/sense/pattern.hpp"
 
@@ -49,10 +50,14 @@ double gap_of(const ScanPlan& plan) {
 
 }  // namespace
 
+double pattern_rays(const MissionParameters& parameters) {
+  return parameters.points - std::min(std::floor(parameters.aimed_share * parameters.points), static_cast<double>(kMaxAimedRays));
+}
+
 ScanPlan pattern_of(const MissionParameters& parameters, std::uint32_t scan_id) {
   ScanPlan plan;
   plan.kind = static_cast<PatternKind>(static_cast<std::uint8_t>(parameters.pattern));
-  plan.points = static_cast<std::uint16_t>(parameters.points);
+  plan.points = static_cast<std::uint16_t>(pattern_rays(parameters));
   plan.cycles_a = static_cast<std::uint16_t>(parameters.cycles_a);
   plan.cycles_b = static_cast<std::uint16_t>(parameters.cycles_b);
   plan.phase_turns = fractional_part(scan_id * parameters.phase_step_turns);

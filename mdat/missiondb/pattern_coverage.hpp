@@ -6,6 +6,9 @@
 
 namespace lasso::mdat {
 
+// Rays of a scan that follow the pattern, where as many as may be are aimed.
+double pattern_rays(const MissionParameters& parameters);
+
 // The pattern of the mission's scan `scan_id`, laid on the square from -1 to 1.
 ScanPlan pattern_of(const MissionParameters& parameters, std::uint32_t scan_id);
 

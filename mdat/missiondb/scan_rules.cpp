@@ -30,10 +30,6 @@ double most_looked_at(const MissionParameters& p) {
   return std::min(room, most_returns(p));
 }
 
-double pattern_rays(const MissionParameters& p) {
-  return p.points - std::min(std::floor(p.aimed_share * p.points), static_cast<double>(kMaxAimedRays));
-}
-
 std::string points_fault(const Subject& s) {
   if (s.p.points <= static_cast<double>(kMaxRays)) return "";
   return "the flight component has room for " + std::to_string(kMaxRays) + " rays";
@@ -103,11 +99,11 @@ std::string margin_fault(const Subject& s) {
 }
 
 std::string gap_fault(const Subject& s) {
-  const double gap = largest_gap(s.p), even = even_gap(s.p.points);
+  const double gap = largest_gap(s.p), even = even_gap(pattern_rays(s.p));
   if (gap <= kWidestGap && gap <= kGapOverEven * even) return "";
   const double half_m = s.p.margin * s.target->half_m();
   return "its rays leave gaps of up to " + figure(2 * gap * half_m) + " m across on the target of " + figure(s.target->longest_m()) +
-         " m, " + figure(gap / even) + " times those of " + number_text(s.p.points) + " rays that lie evenly (" +
+         " m, " + figure(gap / even) + " times those of " + number_text(pattern_rays(s.p)) + " rays that lie evenly (" +
          figure(2 * even * half_m) + " m): parts of it stay unseen; a rosette of 19 and 12 cycles with 1024 rays leaves " +
          figure(2 * 0.083 * half_m) + " m";
 }
@@ -167,7 +163,7 @@ const Rules& scan_rules() {
     {kWarning, kParameters, kValues, {"filter.period_s", "scan.duration_s"}, idle_fault},
     {kWarning, kParameters, kValues, {"scan.aimed_share", "estimation.silhouettes"}, aimed_fault},
     {kWarning, kParameters, kValues, {"scan.margin"}, margin_fault},
-    {kWarning, kParameters, kTarget, {"scan.pattern", "scan.cycles_a", "scan.cycles_b", "scan.points", "scan.phase_step_turns", "scan.margin"}, gap_fault},
+    {kWarning, kParameters, kTarget, {"scan.pattern", "scan.cycles_a", "scan.cycles_b", "scan.points", "scan.aimed_share", "scan.phase_step_turns", "scan.margin"}, gap_fault},
     {kError, kParameters, kValues, {"search.hits_min", "scan.points", "sensor.dropout_probability", "start.check", "start.first", "start.second", "start.third", "start.fourth", "start.fifth"}, search_hits_fault},
     {kWarning, kParameters, kValues, {"search.hits_min", "scan.points"}, unused_hits_fault},
     {kWarning, kParameters, kValues, {"search.hits_min", "scan.points", "sensor.dropout_probability", "start.check", "start.first", "start.second", "start.third", "start.fourth", "start.fifth"}, few_returns_fault},

@@ -51,17 +51,37 @@ std::string late_eclipse_fault(const Subject& s) {
   return "begins after the run, which ends at " + figure(end_s(s)) + " s";
 }
 
-std::string ranges_fault(const Subject& s) {
-  std::string known;
+// Those of the ranges that no sensor measures.
+std::vector<double> unmeasured_m(const Subject& s) {
   const std::vector<SensorInUse> sensors = sensors_in_use(s.source, s.p, s.scenario);
-  for (const SensorInUse& sensor : sensors)
-    known += (known.empty() ? "" : ", or ") + number_text(sensor.p.range_min_m) + " m and " + number_text(sensor.p.range_max_m) + " m";
+  std::vector<double> unmeasured;
   for (const double range_m : s.scenario->ranges_m) {
     const auto measures = [&](const SensorInUse& sensor) { return range_m > sensor.p.range_min_m && range_m < sensor.p.range_max_m; };
-    if (std::none_of(sensors.begin(), sensors.end(), measures))
-      return "expected between sensor.range_min_m and sensor.range_max_m, which are " + known + ": " + number_text(range_m) + " m is not";
+    if (std::none_of(sensors.begin(), sensors.end(), measures)) unmeasured.push_back(range_m);
   }
-  return "";
+  return unmeasured;
+}
+
+std::string unmeasured_text(const Subject& s, double range_m) {
+  std::string known;
+  for (const SensorInUse& sensor : sensors_in_use(s.source, s.p, s.scenario))
+    known += (known.empty() ? "" : ", or ") + number_text(sensor.p.range_min_m) + " m and " + number_text(sensor.p.range_max_m) + " m";
+  return "expected between sensor.range_min_m and sensor.range_max_m, which are " + known + ": " + number_text(range_m) + " m is not";
+}
+
+// A way may begin or end where nothing is measured yet, or any more.
+bool is_partly_measured(const Subject& s) { return s.scenario->has_profile() && unmeasured_m(s).size() < s.scenario->ranges_m.size(); }
+
+std::string ranges_fault(const Subject& s) {
+  const std::vector<double> unmeasured = unmeasured_m(s);
+  return unmeasured.empty() || is_partly_measured(s) ? "" : unmeasured_text(s, unmeasured.front());
+}
+
+std::string partly_measured_fault(const Subject& s) {
+  const std::vector<double> unmeasured = unmeasured_m(s);
+  if (unmeasured.empty() || !is_partly_measured(s)) return "";
+  return "at " + std::to_string(unmeasured.size()) + " of " + std::to_string(s.scenario->ranges_m.size()) +
+         " ranges nothing is measured: " + unmeasured_text(s, unmeasured.front());
 }
 
 std::string spin_fault(const Subject& s) {
@@ -248,6 +268,7 @@ const Rules& scenario_rules() {
     {kError, kScenario, kValues, {"eclipse_s"}, eclipse_fault},
     {kWarning, kScenario, kValues, {"eclipse_s", "frames"}, late_eclipse_fault},
     {kError, kScenario, kValues, {"ranges_m", "sensor.range_min_m", "sensor.range_max_m"}, ranges_fault},
+    {kWarning, kScenario, kValues, {"ranges_m", "sensor.range_min_m", "sensor.range_max_m"}, partly_measured_fault},
     {kWarning, kScenario, kValues, {"spin_degps", "scan.duration_s"}, spin_fault},
     {kWarning, kScenario, kValues, {"spin_degps", "filter.initial_angular_rate_degps"}, spin_sigma_fault},
     {kWarning, kScenario, kValues, {"drift_mps", "filter.initial_rate_mps"}, drift_sigma_fault},

@@ -70,12 +70,16 @@ std::string sides_text(const SensorParameters& sensor, const Seen& seen) {
          " off the boresight, and the half field is " + degrees_text(sensor.fov_half_x_rad) + " by " + degrees_text(sensor.fov_half_y_rad);
 }
 
-// The first of the ranges at which no sensor that serves has what `misses` asks; empty where there is none.
+// The first range in a sensor's band at which that sensor has what `misses` asks, even where another one sees the target: in the
+// overlap of their bands either may take the scans. Empty where there is none.
 std::string misses_at(const Subject& s, bool (*misses)(const Seen&, const SensorParameters&), const std::string& what) {
-  for (const SensorInUse& sensor : sensors_in_use(s.source, s.p, s.scenario)) {
+  const std::vector<SensorInUse> sensors = sensors_in_use(s.source, s.p, s.scenario);
+  for (const SensorInUse& sensor : sensors) {
+    const std::string whose = sensors.size() == 1 ? "" : " of " + sensor.prefix.substr(0, sensor.prefix.size() - 1);
     for (const double range_m : sensor.ranges_m) {
       const Seen seen = seen_of(*s.target, first_pose(*s.scenario, range_m));
-      if (seen.in_front && misses(seen, sensor.p)) return "at " + figure(range_m) + " m " + what + ": " + sides_text(sensor.p, seen);
+      if (seen.in_front && misses(seen, sensor.p))
+        return "at " + figure(range_m) + " m " + what + whose + ": " + sides_text(sensor.p, seen);
     }
   }
   return "";
@@ -119,23 +123,28 @@ std::string lost_fault(const Subject& s) {
   return "";
 }
 
-std::string inside_fault(const Subject& s) {
-  const double least_m = 0.5 * (s.target->high - s.target->low).minCoeff();
-  for (const double range_m : s.scenario->ranges_m) {
-    if (s.target->middle().norm() > s.target->half_m() || range_m >= least_m) continue;
-    return figure(range_m) + ": the sensor would be in the target, whose surface is " + figure(least_m) +
-           " m from its middle and farther; is target.scale right, which is " + figure(s.source.target.scale) + "?";
-  }
-  return "";
+// Is the attitude at the range known, which is that of frame 0?
+bool has_first_attitude(const Scenario& scenario, double range_m) {
+  const auto& spin = scenario.spin_radps;
+  const bool turns = std::any_of(spin.begin(), spin.end(), [](double rate_radps) { return rate_radps != 0; });
+  return scenario.drawn == 0 && (!scenario.has_profile() || !turns || range_m == scenario.ranges_m.front());
 }
 
-std::string near_fault(const Subject& s) {
-  if (!inside_fault(s).empty() || !s.source.parts.empty()) return "";
+// Of an attitude that is not known: in any.
+bool is_sensor_inside(const Subject& s, double range_m) {
+  const TargetSize& box = *s.target;
+  const Eigen::Isometry3d T_sensor_target = first_pose(*s.scenario, range_m);
+  const Eigen::Vector3d sensor = T_sensor_target.inverse().translation(), center(s.scenario->center_m.data());
+  if (has_first_attitude(*s.scenario, range_m)) return (sensor - box.low).minCoeff() > 0 && (box.high - sensor).minCoeff() > 0;
+  return (sensor - center).norm() < std::min((center - box.low).minCoeff(), (box.high - center).minCoeff());
+}
+
+std::string inside_fault(const Subject& s) {
   for (const double range_m : s.scenario->ranges_m) {
-    if (s.target->middle().norm() > s.target->half_m() || range_m >= s.target->half_m()) continue;
-    return figure(range_m) + ": the target reaches " + figure(s.target->half_m()) +
-           " m from its middle, and passes the sensor where it turns; is target.scale right, which is " + figure(s.source.target.scale) +
-           "?";
+    if (!is_sensor_inside(s, range_m)) continue;
+    const Eigen::Vector3d size = s.target->high - s.target->low;
+    return figure(range_m) + ": the sensor would be in the target, which is " + figure(size.x()) + " by " + figure(size.y()) + " by " +
+           figure(size.z()) + " m; is target.scale right, which is " + figure(s.source.target.scale) + ", and the scenario's center_m?";
   }
   return "";
 }
@@ -305,8 +314,7 @@ const Rules& target_rules() {
     {kWarning, kScenario, kTarget, {"offset_m", "sensor.fov_half_x_deg", "sensor.fov_half_y_deg"}, outside_fault},
     {kWarning, kScenario, kTarget, {"offset_m", "sensor.fov_half_x_deg", "sensor.fov_half_y_deg"}, off_fault},
     {kWarning, kScenario, kTarget, {"drift_mps", "frames"}, lost_fault},
-    {kError, kScenario, kTarget, {"ranges_m", "target.scale"}, inside_fault},
-    {kWarning, kScenario, kTarget, {"ranges_m", "target.scale"}, near_fault},
+    {kError, kScenario, kTarget, {"ranges_m", "target.scale", "center_m", "offset_m"}, inside_fault},
     {kWarning, kScenario, kTarget, {"edge_mixing_m", "beam_divergence_rad"}, footprint_fault},
   };
   // clang-format on

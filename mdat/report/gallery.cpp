@@ -28,7 +28,7 @@ const Json* main_part(const Json& results) {
 
 std::size_t count_of(const Json& part, const char* key) { return part.contains(key) ? part.at(key).get<std::size_t>() : 0; }
 
-// "lost 3", or nothing of none.
+// ", 3 lost", or nothing of none.
 std::string counted(const char* what, std::size_t count) { return count == 0 ? "" : format(", %zu %s", count, what); }
 
 std::string number(const Json& part, const char* key, int digits) {

@@ -38,6 +38,14 @@ TEST(PatternCoverage, ALissajousFigureLeavesMoreThanARosette) {
   EXPECT_GT(largest_gap(pattern(PatternKind::kLissajous, 1024, 19, 12)), 1.4 * rosette);
 }
 
+TEST(PatternCoverage, AimedRaysAreNotOfThePattern) {
+  VERIFIES("LASSO-GND-060~1");
+  MissionParameters p = pattern(PatternKind::kRaster, 1024, 16, 1);
+  p.aimed_share = 0.25;
+  EXPECT_EQ(pattern_rays(p), 768);
+  EXPECT_EQ(pattern_of(p, 0).points, 768);
+}
+
 TEST(PatternCoverage, APlanThatIsRefusedHasNone) {
   VERIFIES("LASSO-GND-060~1");
   EXPECT_EQ(largest_gap(pattern(PatternKind::kRosette, 1024, 18, 12)), 0);

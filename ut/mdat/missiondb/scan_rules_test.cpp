@@ -50,6 +50,8 @@ TEST_F(ScanRules, ThePatternLeavesNoGaps) {
               "scan.pattern: \"lissajous\"", "m across on the target of 2 m");
   // Two lines at a quarter and three quarters: 0.5 m to either end of the middle.
   expect_said(said("scan.pattern = 'raster'\nscan.cycles_a = 2"), "scan.pattern: \"raster\"", "up to 1 m across");
+  expect_said(said("scan.pattern = 'raster'\nscan.cycles_a = 2\nscan.aimed_share = 0.25"), "scan.pattern",
+              "those of 768 rays that lie evenly");
 }
 
 TEST_F(ScanRules, ASearchHasTheReturnsAndTheWorkThatItAsksFor) {

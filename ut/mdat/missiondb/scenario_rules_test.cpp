@@ -23,6 +23,17 @@ TEST_F(ScenarioRules, TimesAscendAndBelongToRanges) {
               "expected between sensor.range_min_m and sensor.range_max_m, which are 0.5 m and 20 m: 20 m is not");
 }
 
+TEST_F(ScenarioRules, AWayMayBeginBeyondWhatIsMeasured) {
+  VERIFIES("LASSO-GND-009~1 LASSO-GND-060~1");
+  const std::string way = "kind = 'approach'\ntimes_s = [0, 200, 220]\nframes = 1100\nnavigation_from_s = 0\nranges_m = ";
+  const std::string values = "filter.acceleration_mps2 = 1\nbearing.returns_min = 4";
+  EXPECT_EQ(said(values, way + "[19, 6, 5]"), "");
+  expect_said(said(values, way + "[25, 6, 5]"), "warning: ",
+              "at 1 of 3 ranges nothing is measured: expected between sensor.range_min_m and sensor.range_max_m, which are 0.5 m and 20 m: "
+              "25 m is not");
+  expect_said(said("filter.acceleration_mps2 = 1", way + "[40, 30, 20]"), "error: ", "40 m is not");
+}
+
 TEST_F(ScenarioRules, ATargetTurnsNoFasterThanScansCanTell) {
   VERIFIES("LASSO-GND-009~1 LASSO-GND-060~1");
   const std::string rate = "filter.initial_angular_rate_degps = 100";

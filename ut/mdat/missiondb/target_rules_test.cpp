@@ -50,13 +50,37 @@ TEST_F(TargetRules, ADriftStaysInTheField) {
                        "after 13.4 s, in frame 67 of 80");
 }
 
+// A box of 6 x 4 x 4 m; z of the target points away from the sensor where it is not tilted.
 TEST_F(TargetRules, TheSensorIsOutsideOfTheTarget) {
   VERIFIES("LASSO-GND-009~1 LASSO-GND-060~1");
-  const std::string near = "sensor.range_min_m = 0.1";
-  expect_said(said(near, "kind = 'spin'\nranges_m = [0.4]"),
-              "error: ", "0.4: the sensor would be in the target, whose surface is 0.5 m from its middle");
-  expect_said(said(near, "kind = 'spin'\nranges_m = [0.9]"), "warning: ", "0.9: the target reaches 1 m from its middle");
-  EXPECT_EQ(said(near, "kind = 'spin'\nranges_m = [1]"), "");
+  const auto is_refused = [&](const std::string& box_z, const std::string& scenario) {
+    folder_.write("box.toml", "[[part]]\nkind = 'box'\nsize = [6, 4, 4]\nplace = [{move = [0, 0, " + box_z + "]}]\n");
+    const std::string text =
+        said("sensor.range_min_m = 0.1\ntarget.cell_size_m = 0.05", "tilt_deg = 0\nboresight_deg = 0\n" + scenario + "\n");
+    const bool inside = text.find("the sensor would be in the target, which is 6 by 4 by 4 m") != std::string::npos;
+    EXPECT_EQ(text.rfind("error: ", 0) == 0, inside) << text;
+    return inside;
+  };
+  const std::string at = "kind = 'spin'\nranges_m = ", in_depth = "times_s = [0, 100]\nframes = 500\nnavigation_from_s = 0";
+  EXPECT_FALSE(is_refused("0", at + "[2.1]"));
+  EXPECT_TRUE(is_refused("0", at + "[1.9]"));
+  EXPECT_FALSE(is_refused("0", at + "[1.9]\noffset_m = [2.1, 0]")) << "beside it";
+  EXPECT_FALSE(is_refused("0", at + "[1]\ncenter_m = [0, 0, -2]"));
+  EXPECT_TRUE(is_refused("0", at + "[1]\ncenter_m = [0, 0, 2]"));
+  EXPECT_TRUE(is_refused("0", at + "[1.9]\ndrawn = true"));
+  EXPECT_FALSE(is_refused("0", at + "[2.1]\ndrawn = true")) << "outside in some attitudes";
+  // The origin is in the face towards the sensor, then in the opposite one.
+  const std::string docking = "kind = 'approach'\nranges_m = [10, 1.5]\n" + in_depth;
+  EXPECT_FALSE(is_refused("2", docking));
+  EXPECT_TRUE(is_refused("-2", docking));
+}
+
+TEST_F(TargetRules, TheSensorWhoseFieldIsMissedIsNamed) {
+  VERIFIES("LASSO-GND-009~1 LASSO-GND-060~1");
+  const std::string near =
+      "further_sensor.near.use_to_m = 6\nfurther_sensor.near.fov_half_x_deg = 3\nfurther_sensor.near.fov_half_y_deg = 3";
+  expect_said(said(near, kFiveAway + "offset_m = [0.5, 0]"),
+              "warning: ", "outside of the field of further_sensor.near: its middle is 5.71 deg off");
 }
 
 TEST_F(TargetRules, TheBeamIsNarrowAgainstTheTarget) {
