@@ -208,7 +208,7 @@ TEST(BadOutput, WhatIsThereAndIsNotToBeReplaced) {
   const WorkFolder work;
   expect_refused(work, "mission compile missions/test.toml -o /dev/null", "/dev/null");
   expect_refused(work, "run /dev/full --out result", "/dev/full");
-  expect_refused(work, "mission new --model models/probe.toml -o missions/test.toml", "missions/test.toml: is there already");
+  expect_refused(work, "mission new --model models/probe.toml -o missions/test.toml", "missions/test.toml: is there since");
   work.write("poses.csv", std::string(kPoses) + "a,0,0,0,1,0,0,4\n");
   expect_refused(work, "replay missions/test.toml --scans . --initial poses.csv --out ./poses.csv", "./poses.csv");
 }
