@@ -35,14 +35,14 @@ bool is_oriented(const PartSource& part, const CompileReport& target) {
   return part.file.empty() && target.flipped_triangles == 0 && target.two_sided_triangles == 0;
 }
 
-CompiledPart compile_part(const CompiledMission& mission, const PartSource& part, ModelCache& cache) {
+CompiledPart compile_part(const CompiledMission& mission, const PartSource& part, ModelCache& cache, std::vector<std::string>& warnings) {
   const MissionSource& source = mission.source;
   ModelOptions options;
   options.cell_size_m = part.cell_size_m;
   options.crease_angle_deg = source.target.crease_angle_rad / kRadPerDeg;
   options.far_margin = kPartMargin;
   options.oriented = is_oriented(part, mission.report);
-  const Mesh mesh = load_part(source, part, mission.mesh);
+  const Mesh mesh = load_part(source, part, mission.mesh, &warnings);
   CompiledPart result;
   try {
     result.tables = cache.compile(mesh, options, result.report);
@@ -125,7 +125,7 @@ CompiledMission compile_mission(MissionInput input, ModelCache cache) {
   } catch (const CompileError& error) {
     throw InputError(result.source.target.file.string() + ": " + error.what());
   }
-  for (const PartSource& part : result.source.parts) result.parts.push_back(compile_part(result, part, cache));
+  for (const PartSource& part : result.source.parts) result.parts.push_back(compile_part(result, part, cache, result.source.warnings));
   result.cached = cache.found();
   if (!cache.warning().empty()) result.source.warnings.push_back(cache.warning());
   return result;

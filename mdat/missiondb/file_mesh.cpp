@@ -8,7 +8,9 @@
 namespace lasso::mdat {
 namespace {
 
-constexpr std::size_t kMaxCorners = 1000;  // cutting a polygon takes the cube of its corners
+// Cutting a polygon takes the cube of its corners at worst, but only the square where it is convex. A file's tests take seconds at most.
+constexpr std::size_t kMaxCorners = 1000;
+constexpr std::size_t kMaxTests = 1'000'000'000;
 
 // The corners in a plane across the polygon's mean normal (Newell), in which it runs counter-clockwise.
 std::vector<Eigen::Vector2d> flattened(const std::vector<Eigen::Vector3d>& corners) {
@@ -39,8 +41,12 @@ void add_polygon(FileMesh& mesh, const std::vector<std::uint32_t>& corners) {
     if (corner >= mesh.vertices.size()) throw MeshError("has a face that refers to a vertex that is not there");
     points.push_back(mesh.vertices[corner]);
   }
-  for (const auto& triangle : triangulate_polygon(flattened(points))) {
+  for (const auto& triangle : triangulate_polygon(flattened(points), &mesh.cut_tests)) {
     mesh.triangles.push_back({corners[triangle[0]], corners[triangle[1]], corners[triangle[2]]});
+  }
+  if (mesh.cut_tests > kMaxTests) {
+    throw MeshError("has too many faces of many corners that are not convex (this one has " + std::to_string(corners.size()) +
+                    "): export triangles");
   }
 }
 

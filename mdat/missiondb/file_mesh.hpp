@@ -14,9 +14,11 @@ struct FileMesh {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<std::string> left_out;  // what the file holds besides, a line each
+  std::size_t cut_tests = 0;          // work of cutting its polygons into triangles
 };
 
-// A face of any simple polygon, cut into triangles. Throws MeshError: fewer than 3 corners, more than 1000, or one that is no vertex.
+// A face of any simple polygon, cut into triangles. Throws MeshError: fewer than 3 corners, more than 1000, one that is no vertex, or too
+// much work to cut all those of the mesh.
 void add_polygon(FileMesh& mesh, const std::vector<std::uint32_t>& corners);
 
 // A strip, each triangle of which shares two corners with the one before; every second one is turned.

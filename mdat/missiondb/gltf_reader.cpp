@@ -10,8 +10,11 @@ namespace lasso::mdat {
 namespace {
 
 constexpr std::size_t kNone = static_cast<std::size_t>(-1);
-constexpr std::size_t kMaxDepth = 200;             // of nodes in nodes
-constexpr std::size_t kMaxVertices = 100'000'000;  // a small file may place a mesh many times
+constexpr std::uint32_t kNotAdded = 0xFFFFFFFF;
+constexpr std::size_t kMaxDepth = 200;  // of nodes in nodes
+// A small file may place a mesh many times, and read its positions as often. Corners, and by them vertices, are bounded by the triangles.
+constexpr std::size_t kMaxTriangles = 10'000'000;
+constexpr std::size_t kMaxPositions = 100'000'000;
 
 // The list of `count` numbers, or the preset where there is none.
 std::vector<double> number_list(const GltfJson& object, const char* name, std::vector<double> preset) {
@@ -107,24 +110,31 @@ class GltfReader {
     const std::size_t positions =
         attributes == primitive.end() || !attributes->is_object() ? kNone : gltf_index(*attributes, "POSITION", kNone);
     if (positions == kNone) throw MeshError("has a glTF primitive without positions");
-    if (positions != positions_read_) numbers_ = file_.numbers(positions, 3);  // primitives often share them
-    positions_read_ = positions;
+    read_positions(positions);
     add_corners(mode, corners_of(primitive, T_root_node), T_root_node.linear().determinant() < 0);
+  }
+  // Once for primitives that follow each other and share them, as they often do.
+  void read_positions(std::size_t accessor) {
+    if (accessor == positions_read_) return;
+    numbers_ = file_.numbers(accessor, 3);
+    positions_read_ = accessor;
+    added_.assign(numbers_.size() / 3, kNotAdded);
+    positions_ += added_.size();
+    if (positions_ > kMaxPositions)
+      throw MeshError("has more than " + std::to_string(kMaxPositions) + " positions, copies counted: export fewer copies");
   }
   // Of the primitive's positions those that it uses become vertices.
   std::vector<std::uint32_t> corners_of(const GltfJson& primitive, const Eigen::Affine3d& T_root_node) {
-    constexpr std::uint32_t kNew = 0xFFFFFFFF;
-    std::vector<std::uint32_t> added(numbers_.size() / 3, kNew);
+    const std::vector<std::size_t> indices = indices_of(primitive, added_.size());
     std::vector<std::uint32_t> corners;
-    for (const std::size_t index : indices_of(primitive, added.size())) {
-      if (added[index] == kNew) {
-        added[index] = static_cast<std::uint32_t>(mesh_.vertices.size());
+    for (const std::size_t index : indices) {
+      if (added_[index] == kNotAdded) {
+        added_[index] = static_cast<std::uint32_t>(mesh_.vertices.size());
         mesh_.vertices.push_back(T_root_node * Eigen::Vector3d(&numbers_[3 * index]));
       }
-      corners.push_back(added[index]);
+      corners.push_back(added_[index]);
     }
-    if (mesh_.vertices.size() > kMaxVertices)
-      throw MeshError("has more than " + std::to_string(kMaxVertices) + " vertices, copies counted");
+    for (const std::size_t index : indices) added_[index] = kNotAdded;  // these alone: a primitive may use few of many positions
     return corners;
   }
   std::vector<std::size_t> indices_of(const GltfJson& primitive, std::size_t count) const {
@@ -144,6 +154,11 @@ class GltfReader {
     const std::size_t first = mesh_.triangles.size();
     if (mode == 4 && corners.size() % 3 != 0)
       throw MeshError("has triangles of " + std::to_string(corners.size()) + " corners, no multiple of 3");
+    triangles_ += mode == 4 ? corners.size() / 3 : corners.size();
+    if (triangles_ > kMaxTriangles) {
+      throw MeshError("has more than " + std::to_string(kMaxTriangles) +
+                      " triangles, copies counted: export fewer copies or a coarser mesh");
+    }
     for (std::size_t i = 0; mode == 4 && i + 2 < corners.size(); i += 3)
       mesh_.triangles.push_back({corners[i], corners[i + 1], corners[i + 2]});
     if (mode == 5) add_strip(mesh_, corners);
@@ -156,6 +171,8 @@ class GltfReader {
   std::vector<bool> visited_;
   std::size_t positions_read_ = kNone;  // the accessor of numbers_
   std::vector<double> numbers_;
+  std::vector<std::uint32_t> added_;           // of each of these positions, the vertex that the primitive has made of it
+  std::size_t positions_ = 0, triangles_ = 0;  // read, and placed, copies counted
   std::size_t lines_ = 0, posed_ = 0;
 };
 

@@ -259,6 +259,11 @@ class Loader {
   std::map<std::string, FoundValues> scenario_found_, overrides_;
 };
 
+void warn_of_left_out(const std::filesystem::path& file, const std::vector<std::string>& left_out, std::vector<std::string>* warnings) {
+  if (warnings == nullptr) return;
+  for (const std::string& what : left_out) warnings->push_back(file.string() + ": not read: " + what);
+}
+
 }  // namespace
 
 MissionSource load_mission(const std::filesystem::path& file, const std::vector<std::string>& settings) {
@@ -288,9 +293,7 @@ Mesh load_target(const MissionSource& source, std::vector<std::string>* warnings
     const double scale = target.parametric ? target.scale : 1;
     const Eigen::Vector3d origin_m(target.origin_m.data());
     for (Eigen::Vector3d& vertex : mesh.vertices) vertex = scale * vertex - origin_m;
-    for (const std::string& what : left_out) {
-      if (warnings != nullptr) warnings->push_back(target.file.string() + ": not read: " + what);
-    }
+    warn_of_left_out(target.file, left_out, warnings);
     check_extent(mesh);
     return mesh;
   } catch (const MeshError& error) {
@@ -298,7 +301,7 @@ Mesh load_target(const MissionSource& source, std::vector<std::string>* warnings
   }
 }
 
-Mesh load_part(const MissionSource& source, const PartSource& part, const Mesh& target) {
+Mesh load_part(const MissionSource& source, const PartSource& part, const Mesh& target, std::vector<std::string>* warnings) {
   const Eigen::Quaterniond q(part.quaternion[3], part.quaternion[0], part.quaternion[1], part.quaternion[2]);
   const std::string key = "part." + part.name + (part.file.empty() ? ".box_m" : part.parametric ? ".model" : ".mesh");
   const auto fail = [&](const std::string& value, const std::string& why) {
@@ -313,9 +316,11 @@ Mesh load_part(const MissionSource& source, const PartSource& part, const Mesh& 
     return mesh;
   }
   try {
-    if (!part.parametric) return import_mesh(part.file, part.scale);
-    Mesh mesh = build_model(part.file, {});
-    for (Eigen::Vector3d& vertex : mesh.vertices) vertex *= part.scale;
+    std::vector<std::string> left_out;
+    Mesh mesh = part.parametric ? build_model(part.file, {}) : import_mesh(part.file, part.scale, &left_out);
+    const double scale = part.parametric ? part.scale : 1;
+    for (Eigen::Vector3d& vertex : mesh.vertices) vertex *= scale;
+    warn_of_left_out(part.file, left_out, warnings);
     check_extent(mesh);
     return mesh;
   } catch (const MeshError& error) {

@@ -149,8 +149,8 @@ void check_target(MissionSource& source, const Mesh& target);
 std::vector<std::string> warnings_for(const MissionSource& source, const std::string& scenario);
 
 // The surface of one of its parts in metres, in the part's frame; `target` is load_target's. Throws MissionError (as load_target; a box in
-// which nothing lies).
-Mesh load_part(const MissionSource& source, const PartSource& part, const Mesh& target);
+// which nothing lies); `warnings` as there.
+Mesh load_part(const MissionSource& source, const PartSource& part, const Mesh& target, std::vector<std::string>* warnings = nullptr);
 
 // The flight parameters that hold in a scenario: the mission's, with the scenario's overrides. An empty name: the mission's own.
 // Throws MissionError where there is no such scenario.

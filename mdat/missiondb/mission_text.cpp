@@ -132,9 +132,10 @@ std::string preset_text(const MissionSource& source, const std::string& key, con
 
 std::string check_text(const MissionSource& source, const Mesh& mesh) {
   std::ostringstream out;
-  for (const PartSource& part : source.parts) static_cast<void>(load_part(source, part, mesh));
+  std::vector<std::string> warnings = warnings_for(source, "");
+  for (const PartSource& part : source.parts) static_cast<void>(load_part(source, part, mesh, &warnings));
   const Box box = box_of(mesh);
-  for (const std::string& warning : warnings_for(source, "")) out << "warning: " << warning << '\n';
+  for (const std::string& warning : warnings) out << "warning: " << warning << '\n';
   const Eigen::Vector3d size = box.high - box.low;
   out << source.file.string() << ": good: mission " << source.id << " \"" << source.name << "\" version " << source.version
       << ", target of " << mesh.triangles.size() << " triangles, " << std::setprecision(4) << size.x() << " x " << size.y() << " x "

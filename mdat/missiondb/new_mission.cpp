@@ -105,21 +105,35 @@ Simplified simplified(const NewMissionRequest& request, const Mesh& mesh) {
   }
 }
 
-void write_whole(const fs::path& file, const std::string& bytes) {
-  const fs::path part = file.string() + ".part";
+struct NewFile {
+  fs::path file;
+  std::string bytes;
+  fs::path part() const { return file.string() + ".part"; }
+};
+
+void write_part(const NewFile& whole) {
   std::error_code error;
-  std::ofstream stream(part, std::ios::binary);
-  stream << bytes;
+  if (fs::is_directory(whole.file, error)) refuse(whole.file, "cannot be written: it is a folder");
+  std::ofstream stream(whole.part(), std::ios::binary);
+  stream << whole.bytes;
   stream.close();
-  if (!stream) {
-    fs::remove(part, error);
-    refuse(file, "cannot be written: does the folder exist, and may you write there?");
+  if (!stream) refuse(whole.file, "cannot be written: does the folder exist, and may you write there?");
+}
+
+// All of them are complete before the first one replaces what is there: a failure leaves that as it is.
+void write_whole(const std::vector<NewFile>& files) {
+  try {
+    for (const NewFile& whole : files) write_part(whole);
+    for (const NewFile& whole : files) {
+      std::error_code error;
+      fs::rename(whole.part(), whole.file, error);
+      if (error) refuse(whole.file, "cannot be written: " + error.message());
+    }
+  } catch (...) {
+    std::error_code error;
+    for (const NewFile& whole : files) fs::remove(whole.part(), error);
+    throw;
   }
-  fs::rename(part, file, error);
-  if (!error) return;
-  const std::string why = error.message();
-  fs::remove(part, error);
-  refuse(file, "cannot be written: " + why);
 }
 
 std::string path_from(const fs::path& out, const fs::path& model) {
@@ -167,13 +181,10 @@ std::vector<std::string> write_new_mission(const NewMissionRequest& request) {
   mission.sha256 = sha256_of(bytes);
   mission.parametric = !coarser && request.model.extension() == ".toml";
   mission.scale = coarser ? 1 : request.scale;
-  if (coarser) write_whole(simplified_file, bytes);
-  try {
-    write_whole(request.out, new_mission_text(mission));
-  } catch (...) {
-    if (coarser) fs::remove(simplified_file);
-    throw;
-  }
+  std::vector<NewFile> files;
+  if (coarser) files.push_back({simplified_file, bytes});
+  files.push_back({request.out, new_mission_text(mission)});
+  write_whole(files);
   return mission.remarks;
 }
 

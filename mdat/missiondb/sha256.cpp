@@ -27,8 +27,10 @@ std::string sha256_of(std::string_view bytes) {
 }
 
 std::string read_file(const std::filesystem::path& file) {
-  if (std::filesystem::is_directory(file)) throw std::runtime_error("is a folder, expected a file");
-  if (std::filesystem::exists(file) && !std::filesystem::is_regular_file(file)) throw std::runtime_error("is not a file");
+  std::error_code error;  // what cannot be looked at (a name that is too long) cannot be opened, which says why
+  const std::filesystem::file_status status = std::filesystem::status(file, error);
+  if (std::filesystem::is_directory(status)) throw std::runtime_error("is a folder, expected a file");
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) throw std::runtime_error("is not a file");
   errno = 0;
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw std::runtime_error(std::string("cannot be read: ") + std::strerror(errno == 0 ? ENOENT : errno));

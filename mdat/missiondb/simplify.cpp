@@ -82,16 +82,27 @@ std::vector<Element> elements_of(const Mesh& mesh) {
   return make_elements(polygons, LengthScale(reach_m), 0, report).list;
 }
 
-void measure(const Mesh& mesh, Simplified& result) {
-  const std::vector<Element> elements = elements_of(result.mesh);
+// Where a coarser surface may leave the one that was given, of which its vertices are: the middles of its faces and of their edges.
+std::vector<Eigen::Vector3d> middles_of(const Mesh& mesh) {
+  std::vector<Eigen::Vector3d> middles;
+  for (const auto& t : mesh.triangles) {
+    middles.push_back((mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / 3);
+    for (std::size_t i = 0; i < 3; ++i) middles.push_back((mesh.vertices[t[i]] + mesh.vertices[t[(i + 1) % 3]]) / 2);
+  }
+  return middles;
+}
+
+// The larger of what `result` has and the distances of points from a surface.
+void measure(const std::vector<Eigen::Vector3d>& points, const Mesh& surface, Simplified& result) {
+  const std::vector<Element> elements = elements_of(surface);
   if (elements.empty()) fail("nothing is left of the mesh: take more triangles");
   const NearestSearch nearest(elements);
-  std::vector<double> distances(mesh.vertices.size());
-  parallel_for(distances.size(), [&](std::size_t i) { distances[i] = nearest.closest(mesh.vertices[i]).distance_m; });
+  std::vector<double> distances(points.size());
+  parallel_for(distances.size(), [&](std::size_t i) { distances[i] = nearest.closest(points[i]).distance_m; });
   double squares = 0;
   for (const double d : distances) squares += d * d;
-  result.rms_m = std::sqrt(squares / static_cast<double>(distances.size()));
-  result.worst_m = *std::max_element(distances.begin(), distances.end());
+  result.rms_m = std::max(result.rms_m, std::sqrt(squares / static_cast<double>(distances.size())));
+  result.worst_m = std::max(result.worst_m, *std::max_element(distances.begin(), distances.end()));
 }
 
 void append(float value, std::string& bytes) { bytes.append(reinterpret_cast<const char*>(&value), sizeof value); }
@@ -100,7 +111,8 @@ void append(float value, std::string& bytes) { bytes.append(reinterpret_cast<con
 
 Simplified simplify(const Mesh& mesh, std::size_t triangles) {
   Simplified result{coarser(mesh, triangles), 0, 0, mesh.triangles.size()};
-  measure(mesh, result);
+  measure(mesh.vertices, result.mesh, result);
+  measure(middles_of(result.mesh), mesh, result);  // a face that bridges a slot lies on none of the vertices about it
   return result;
 }
 

@@ -22,12 +22,14 @@ bool inside(const Vector2d& p, const Vector2d& a, const Vector2d& b, const Vecto
   return cross2(b - a, p - a) >= 0 && cross2(c - b, p - b) >= 0 && cross2(a - c, p - c) >= 0;
 }
 
-bool is_ear(const std::vector<Vector2d>& points, const std::vector<Index>& polygon, std::size_t i) {
+bool is_ear(const std::vector<Vector2d>& points, const std::vector<Index>& polygon, std::size_t i, std::size_t& tests) {
   const std::size_t n = polygon.size();
   const Vector2d& a = points[polygon[(i + n - 1) % n]];
   const Vector2d& b = points[polygon[i]];
   const Vector2d& c = points[polygon[(i + 1) % n]];
+  ++tests;
   if (cross2(b - a, c - b) <= 0) return false;
+  tests += n;
   for (const Index k : polygon) {
     const bool corner = points[k] == a || points[k] == b || points[k] == c;
     if (!corner && inside(points[k], a, b, c)) return false;
@@ -91,22 +93,24 @@ std::pair<Vector3d, Vector3d> across(const Vector3d& axis) {
 
 }  // namespace
 
-std::vector<std::array<Index, 3>> triangulate_polygon(const std::vector<Vector2d>& points) {
+std::vector<std::array<Index, 3>> triangulate_polygon(const std::vector<Vector2d>& points, std::size_t* tests) {
   double area = 0;
   for (std::size_t i = 0; i < points.size(); ++i) area += cross2(points[i], points[(i + 1) % points.size()]);
   std::vector<Index> polygon;
   for (std::size_t i = 0; i < points.size(); ++i) polygon.push_back(static_cast<Index>(area > 0 ? i : points.size() - 1 - i));
   std::vector<std::array<Index, 3>> triangles;
+  std::size_t made = 0;
   while (polygon.size() > 2) {
     const std::size_t n = polygon.size();
     std::size_t ear = 0;
-    while (ear < n && !is_ear(points, polygon, ear)) ++ear;
+    while (ear < n && !is_ear(points, polygon, ear, made)) ++ear;
     if (ear == n) break;
     triangles.push_back({polygon[(ear + n - 1) % n], polygon[ear], polygon[(ear + 1) % n]});
     polygon.erase(polygon.begin() + static_cast<std::ptrdiff_t>(ear));
   }
   // Without an ear it crosses itself, or has no area: any cut is as good as another.
   for (std::size_t i = 1; i + 1 < polygon.size(); ++i) triangles.push_back({polygon[0], polygon[i], polygon[i + 1]});
+  if (tests != nullptr) *tests += made;
   return triangles;
 }
 

@@ -31,7 +31,8 @@ struct DishShape {
 Mesh make_dish(const DishShape& shape);
 
 // Triangles of a simple polygon (it need not be convex), each counter-clockwise, as indices of `points`; bounded by their number cubed.
-std::vector<std::array<std::uint32_t, 3>> triangulate_polygon(const std::vector<Eigen::Vector2d>& points);
+// Where given, `tests` grows by the work that was done.
+std::vector<std::array<std::uint32_t, 3>> triangulate_polygon(const std::vector<Eigen::Vector2d>& points, std::size_t* tests = nullptr);
 
 // Positive where the surface is closed and oriented outwards.
 double signed_volume(const Mesh& mesh);

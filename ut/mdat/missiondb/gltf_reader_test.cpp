@@ -112,6 +112,7 @@ TEST(GltfReader, BuffersBesideIt) {
   };
   EXPECT_EQ(said("gone.bin"), "refers to \"gone.bin\", which cannot be read: No such file or directory");
   EXPECT_EQ(said("https://example.org/a.bin"), "refers to \"https://example.org/a.bin\", expected a file beside it: fetch it");
+  EXPECT_EQ(said(std::string(5000, 'a')), "refers to \"" + std::string(40, 'a') + "...\", which cannot be read: File name too long");
   folder.write("short.bin", parts.bytes.substr(1));
   EXPECT_EQ(said("short.bin"), "has a glTF buffer of 167 bytes, 168 are announced: it is truncated or corrupt");
   EXPECT_EQ(said("data:;base64,*"), "has a data URI that is not base64: the file is truncated or corrupt");
@@ -300,6 +301,26 @@ TEST(GltfReader, ListsInListsDeeperThanTheStackAreNoNamesAndNoNumbers) {
   }
   EXPECT_EQ(said(asset + "\"scenes\":[{\"nodes\":[" + deep + "]}]"),
             "is a corrupt glTF file: \"nodes\" is of the wrong type, expected a number");
+}
+
+TEST(GltfReader, BoundsTheTrianglesOfASmallFileThatPlacesAMeshManyTimes) {
+  VERIFIES("LASSO-GND-014~1");
+  Parts parts = box_parts();
+  const std::size_t corners = 3 * 400'000;
+  parts.bytes.resize(96);
+  parts.bytes.append(corners, '\0');
+  parts.json["bufferViews"][1]["byteLength"] = corners;
+  parts.json["buffers"][0]["byteLength"] = parts.bytes.size();
+  parts.json["accessors"][1]["componentType"] = 5121;
+  parts.json["accessors"][1]["count"] = corners;
+  Gltf nodes = Gltf::array(), all = Gltf::array();
+  for (int i = 0; i < 26; ++i) {
+    nodes.push_back({{"mesh", 0}});
+    all.push_back(i);
+  }
+  parts.json["nodes"] = nodes;
+  parts.json["scenes"][0]["nodes"] = all;
+  EXPECT_EQ(refusal("g.glb", glb(parts)), "has more than 10000000 triangles, copies counted: export fewer copies or a coarser mesh");
 }
 
 TEST(GltfReader, RefusesEveryTruncation) {
