@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <limits>
 
 #include "hal_sim/csv_table.hpp"
 
@@ -21,7 +22,9 @@ class Rows {
     for (const auto& [name, unit_s] : kTimes) {
       if (time_) break;
       time_ = table.find({name});
-      if (time_) unit_s_ = unit_s;
+      if (!time_) continue;
+      unit_s_ = unit_s;
+      seconds_named_ = std::string_view(name) == "t_s";
     }
   }
 
@@ -30,6 +33,7 @@ class Rows {
     scan.has_times = time_.has_value();
     scan.misses_known = valid_.has_value();
     scan.unit_s = unit_s_;
+    scan.seconds_named = seconds_named_;
   }
 
   void take(RawScan& scan) const {
@@ -39,8 +43,8 @@ class Rows {
       scan.add_point(Vec3::Zero(), time, table_.line());
       return;
     }
-    const Vec3 place(table_.number(xyz_[0]), table_.number(xyz_[1]), table_.number(xyz_[2]));
-    if (hit || place.isZero(0)) return scan.add_point(place, time, table_.line());
+    const Vec3 place(coordinate(xyz_[0]), coordinate(xyz_[1]), coordinate(xyz_[2]));
+    if (hit || place.isZero(0) || !place.allFinite()) return scan.add_point(place, time, table_.line());
     take_miss(place, time, scan);
   }
 
@@ -52,9 +56,20 @@ class Rows {
          table_.name(column) + " is " + shown(table_.field(column)) + ", earlier than the row before; sort the rows by time");
   }
 
+  // NaN where words say that nothing was measured. A field that is empty beside others is a fault of the row.
+  double coordinate(std::size_t column) const {
+    const bool nothing = table_.says_nothing(column) && !table_.field(column).empty();
+    return nothing ? std::numeric_limits<double>::quiet_NaN() : table_.number(column);
+  }
+
   bool read_valid(std::size_t column) const {
     const std::string_view valid = table_.field(column);
-    if (valid == "1" || valid == "0") return valid == "1";
+    for (const char* hit : {"1", "1.0", "True", "true", "TRUE"}) {
+      if (valid == hit) return true;
+    }
+    for (const char* miss : {"0", "0.0", "False", "false", "FALSE"}) {
+      if (valid == miss) return false;
+    }
     fail(table_.place(column), "valid is " + shown(valid) + ", expected 1 (hit) or 0 (miss)");
   }
 
@@ -69,6 +84,7 @@ class Rows {
   std::array<std::size_t, 3> xyz_;
   std::optional<std::size_t> time_, valid_;
   double unit_s_ = 0;
+  bool seconds_named_ = false;
 };
 
 // What is wrong with the rows, on one line: the first fault in words, and on which lines others are.

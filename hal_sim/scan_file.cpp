@@ -17,7 +17,16 @@ constexpr std::uintmax_t kLargestFileBytes = std::uintmax_t{4} << 30;
 
 using Reader = RawScan (*)(const std::string&, std::string_view);
 
-constexpr char kKinds[] = "expected .csv, .ply, .pcd, .asc, .xyz or .pts, or .png with a depth camera";
+constexpr std::string_view kImage = ".png";
+
+struct Kind {
+  std::string_view extension;
+  Reader read;
+};
+constexpr Kind kKinds[] = {{".csv", read_csv}, {".ply", read_ply}, {".pcd", read_pcd},
+                           {".asc", read_xyz}, {".xyz", read_xyz}, {".pts", read_xyz}};
+
+std::string expected_kinds() { return "expected " + scan_extensions() + " (an image with a depth camera)"; }
 
 std::string extension_of(const fs::path& file) {
   std::string extension = file.extension().string();
@@ -28,14 +37,13 @@ std::string extension_of(const fs::path& file) {
 
 Reader reader_of(const fs::path& file) {
   const std::string extension = extension_of(file);
-  if (extension == ".csv") return read_csv;
-  if (extension == ".ply") return read_ply;
-  if (extension == ".pcd") return read_pcd;
-  if (extension == ".asc" || extension == ".xyz" || extension == ".pts") return read_xyz;
+  for (const Kind& kind : kKinds) {
+    if (kind.extension == extension) return kind.read;
+  }
   return nullptr;
 }
 
-bool is_image(const fs::path& file, const DepthCamera& camera) { return camera.fx > 0 && extension_of(file) == ".png"; }
+bool is_image(const fs::path& file, const DepthCamera& camera) { return camera.fx > 0 && extension_of(file) == kImage; }
 
 std::string contents_of(const fs::path& file) {
   std::error_code error;
@@ -92,6 +100,7 @@ std::vector<fs::path> scans_in(const fs::path& folder, const DepthCamera& camera
   std::vector<fs::path> files;
   std::error_code error;
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    if (entry->path().filename().string().starts_with('.')) continue;  // hidden: of an editor, or of another system (._a.csv)
     if ((reader_of(entry->path()) != nullptr || is_image(entry->path(), camera)) && entry->is_regular_file())
       files.push_back(entry->path());
   }
@@ -126,6 +135,7 @@ ScanFacts facts_of(const RawScan& scan, const RangeImage& image) {
   facts.first_time = scan.rays.empty() ? scan.first_time : scan.rays.front().time;
   facts.last_time = scan.rays.empty() ? scan.first_time : scan.rays.back().time;
   facts.unit_s = scan.unit_s;
+  facts.seconds_named = scan.seconds_named;
   facts.viewpoint = !scan.T_file_sensor.p.isZero(0) || std::abs(scan.T_file_sensor.q.w()) < 1;
   return facts;
 }
@@ -137,10 +147,21 @@ RangeImage image_of(const RawScan& scan, ScanFrame frame) {
 
 }  // namespace
 
+std::string scan_extensions() {
+  std::string text;
+  for (const Kind& kind : kKinds) text.append(kind.extension).append(", ");
+  return text.append(kImage);
+}
+
+std::string scan_stem(const std::string& name) {
+  const fs::path file(name);
+  return reader_of(file) != nullptr || extension_of(file) == kImage ? file.stem().string() : name;
+}
+
 RawScan read_raw_scan(const fs::path& file, const DepthCamera& camera) {
   if (is_image(file, camera)) return read_depth_image(file.string(), contents_of(file), camera);
   const Reader reader = reader_of(file);
-  if (reader == nullptr) fail(file.string(), std::string("is no scan file, ") + kKinds);
+  if (reader == nullptr) fail(file.string(), "is no scan file, " + expected_kinds());
   return reader(file.string(), contents_of(file));
 }
 
@@ -148,7 +169,7 @@ RangeImage read_scan_file(const fs::path& file, const ScanFrame& frame) { return
 
 RecordedScans::RecordedScans(const fs::path& folder, const ScanFrame& frame, const DepthCamera& camera)
     : files_(scans_in(folder, camera)), frame_(frame), camera_(camera) {
-  if (files_.empty()) fail(folder.string(), std::string("holds no scan, ") + kKinds);
+  if (files_.empty()) fail(folder.string(), "holds no scan, " + expected_kinds());
   std::set<std::string> stems;
   for (const fs::path& file : files_) {
     if (!stems.insert(file.stem().string()).second) {

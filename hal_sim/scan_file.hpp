@@ -29,6 +29,12 @@ class ScanFileError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+// The extensions of scans' files, for texts: ".csv, .ply, ...". The last is of images, which need a camera.
+std::string scan_extensions();
+
+// The stem of a scan's file (extension in any case); other names as they are.
+std::string scan_stem(const std::string& name);
+
 // Reads one file by its extension (any case). A file is read whole or not at all. Throws ScanFileError: cannot be read, unknown extension,
 // wrong header, ragged rows, not a number, valid neither 0 nor 1, a miss whose direction is not of unit length within 1e-3, time going
 // back, no row, truncated data.
@@ -44,7 +50,8 @@ struct ScanFacts {
   std::size_t kept_hits = 0, kept_misses = 0;
   bool has_times = false;
   double first_time = 0, last_time = 0;  // in the file's unit
-  double unit_s = 0;                     // where its header names it
+  double unit_s = 0;                     // where its header names another than seconds
+  bool seconds_named = false;            // the header names seconds
   bool viewpoint = false;                // the file says where the sensor stood
   double median_range_m = 0;             // of the returns; 0 where there is none
 };

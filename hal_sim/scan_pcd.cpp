@@ -209,6 +209,7 @@ void read_ascii(Lines& lines, const Header& header, const Layout& layout, RawSca
     }
     scan.add_point(point, 0, lines.number());
   }
+  check_end(lines, header.points);
 }
 
 void check_size(std::size_t have, const Header& header, const Layout& layout, const std::string& file) {

@@ -157,7 +157,8 @@ class AsciiReader {
     for (std::uint64_t i = 0; i < element.count; ++i) static_cast<void>(next(element, i));
   }
 
-  void read(const Element& vertex, const std::array<std::size_t, 3>& xyz, RawScan& scan) {
+  // `last`: no element follows the vertices.
+  void read(const Element& vertex, bool last, const std::array<std::size_t, 3>& xyz, RawScan& scan) {
     for (std::uint64_t i = 0; i < vertex.count; ++i) {
       const Words line = next(vertex, i);
       const Words value = by_property(vertex, line, lines_.place());
@@ -167,6 +168,7 @@ class AsciiReader {
       }
       scan.add_point(point, 0, lines_.number());
     }
+    if (last) check_end(lines_, vertex.count);
   }
 
  private:
@@ -199,7 +201,7 @@ class BinaryReader {
     }
   }
 
-  void read(const Element& vertex, const std::array<std::size_t, 3>& xyz, RawScan& scan) {
+  void read(const Element& vertex, bool /*last*/, const std::array<std::size_t, 3>& xyz, RawScan& scan) {
     if (const auto bytes = vertex.bytes()) need(vertex, vertex.count, *bytes);
     for (std::uint64_t i = 0; i < vertex.count; ++i) {
       Vec3 point = Vec3::Zero();
@@ -248,7 +250,7 @@ class BinaryReader {
 template <class Reader>
 void read_points(Reader reader, const Header& header, const std::array<std::size_t, 3>& xyz, RawScan& scan) {
   for (std::size_t i = 0; i + 1 < header.elements.size(); ++i) reader.pass_over(header.elements[i]);
-  reader.read(header.elements.back(), xyz, scan);
+  reader.read(header.elements.back(), !header.complete, xyz, scan);
 }
 
 }  // namespace

@@ -103,6 +103,15 @@ void check_point_count(std::uint64_t points, const std::string& place) {
   if (points > kMost) fail(place, "the file declares " + std::to_string(points) + " points, expected at most 1e9");
 }
 
+void check_end(Lines& lines, std::uint64_t points) {
+  std::string_view line;
+  while (lines.next(line)) {
+    if (trimmed(line).empty()) continue;
+    fail(lines.place(), "the row is " + shown(line) + ", after all " + std::to_string(points) +
+                            " points that the header declares; correct its number of points");
+  }
+}
+
 double scalar_at(const char* bytes, ScalarType type, bool big_endian) {
   std::uint64_t word = 0;
   for (std::size_t i = 0; i < type.bytes; ++i) {

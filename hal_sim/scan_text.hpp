@@ -52,6 +52,9 @@ std::uint64_t count(std::string_view field, std::string_view name, const std::st
 // Refuses a declared number of points that is zero, or that no file has.
 void check_point_count(std::uint64_t points, const std::string& place);
 
+// Refuses what follows the last of the declared points, but blank lines.
+void check_end(Lines& lines, std::uint64_t points);
+
 // A plain scalar in a binary block: IEEE binary32 or binary64, or an integer of 1, 2, 4 or 8 bytes.
 struct ScalarType {
   enum class Kind { kReal, kSigned, kUnsigned };

@@ -171,7 +171,7 @@ TEST_F(BadReplay, Scans) {
   VERIFIES("LASSO-MDT-007~1");
   const std::string poses = std::string(kPoses) + "a,0,0,0,1,0,0,4\n";
   expect_bad(std::string(kScan) + "0.2,0.1,0.2\n", poses, "a.csv:4");  // ragged
-  expect_bad(std::string(kScan) + "0.2,0.1,nan,4,1\n", poses, "a.csv:4");
+  expect_bad(std::string(kScan) + "0.2,0.1,four,4,1\n", poses, "a.csv:4");
   expect_bad(std::string(kScan) + "0.05,0.1,0,4,1\n", poses, "a.csv:4");  // time goes back
   expect_bad("x,y,z\n", poses, "a.csv:1");
   expect_bad("", poses, "a.csv");

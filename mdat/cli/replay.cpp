@@ -122,7 +122,7 @@ void run(ReplayArguments options) {
 
 void add_replay_command(CLI::App& app) {
   const auto options = std::make_shared<ReplayArguments>();
-  CLI::App* command = app.add_subcommand("replay", "register recorded scans (.csv, .ply, .pcd, .asc, .xyz, .png) from given initial poses");
+  CLI::App* command = app.add_subcommand("replay", "register recorded scans (" + sim::scan_extensions() + ") from given initial poses");
   command->add_option("MISSION", options->mission, "mission file or flight image")->required();
   command->add_option("--scans", options->replay.scans, "folder of scans, taken in natural order (scan2 before scan10)")->required();
   command

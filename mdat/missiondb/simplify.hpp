@@ -10,8 +10,8 @@ namespace lasso::mdat {
 
 constexpr double kSimplifyError = 0.01;  // of the mesh's size: no collapse costs more
 
-// Distances of the vertices that were given from the coarser surface, and of that one's middles of faces and edges from the given one: the
-// larger root mean square of both, and the largest. The coarser surface's vertices are some of those given.
+// Distances of the vertices that were given from the coarser surface, and of a lattice of 36 points on each of its faces from the given
+// one: the larger root mean square of both, and the largest. The coarser surface's vertices are some of those given.
 struct Simplified {
   Mesh mesh;
   double rms_m = 0, worst_m = 0;

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "hal_sim/csv_table.hpp"
+#include "hal_sim/scan_file.hpp"
 #include "mdat/common/errors.hpp"
 #include "mdat/common/output.hpp"
 
@@ -29,14 +30,6 @@ struct Columns {
         outcome(table.find({"outcome"})) {}
 };
 
-// A scan's file, or its stem.
-std::string stem_of(std::string_view name) {
-  for (const std::string_view extension : {".csv", ".ply", ".pcd", ".asc", ".xyz", ".png"}) {
-    if (name.ends_with(extension)) name.remove_suffix(extension.size());
-  }
-  return std::string(name);
-}
-
 Quat attitude(const std::array<double, 7>& values, const std::string& place) {
   const Quat q(values[3], values[0], values[1], values[2]);
   const double length = q.norm();
@@ -48,7 +41,7 @@ Quat attitude(const std::array<double, 7>& values, const std::string& place) {
 
 InitialPose read_row(const sim::CsvTable& table, const Columns& columns) {
   InitialPose result;
-  result.scan = stem_of(table.field(columns.scan));
+  result.scan = sim::scan_stem(std::string(table.field(columns.scan)));  // a file, or its stem
   if (result.scan.empty()) throw InputError(table.place(columns.scan) + ": scan: empty, expected the stem of a scan's file");
   std::array<double, 7> values{};
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = table.number(columns.values[i]);

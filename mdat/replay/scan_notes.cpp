@@ -65,18 +65,36 @@ void add_thinned(const std::vector<ScanFacts>& facts, Notes& notes) {
   notes.push_back(text);
 }
 
+// By the ratio of a span in it to the mission's.
+const Unit& closest_unit(double span, double duration_s) {
+  const auto off = [&](const Unit& unit) { return std::abs(std::log(span * unit.unit_s / duration_s)); };
+  return *std::min_element(std::begin(kUnits), std::end(kUnits), [&](const Unit& a, const Unit& b) { return off(a) < off(b); });
+}
+
+Notes kept_seconds_note(double span, double duration_s) {
+  if (!(span > 0) || closest_unit(span, duration_s).unit_s == 1) return {};
+  return {
+      format("warning: the scans' times are taken as seconds, as their column t_s says: a scan spans %g s, and the mission's takes %g s "
+             "(scan.duration_s); --time-unit says otherwise",
+             span, duration_s)};
+}
+
 }  // namespace
 
 double time_unit_s(const std::vector<ScanFacts>& facts, double duration_s) {
+  constexpr double kSameSpan = 1.2;  // a ratio: a column named t_s that is in another unit spans a scan all the same
   const double span = median_span(facts);
   if (!(span > 0)) return 1;
-  const auto off = [&](const Unit& unit) { return std::abs(std::log(span * unit.unit_s / duration_s)); };
-  return std::min_element(std::begin(kUnits), std::end(kUnits), [&](const Unit& a, const Unit& b) { return off(a) < off(b); })->unit_s;
+  const double unit_s = closest_unit(span, duration_s).unit_s;
+  const bool same = std::abs(std::log(span * unit_s / duration_s)) <= std::log(kSameSpan);
+  const bool named = count_if(facts, [](const ScanFacts& scan) { return scan.seconds_named; }) > 0;
+  return named && !same ? 1 : unit_s;
 }
 
 Notes time_unit_note(const std::vector<ScanFacts>& facts, double duration_s, double unit_s) {
   const auto unit = std::find_if(std::begin(kUnits), std::end(kUnits), [&](const Unit& known) { return known.unit_s == unit_s; });
-  if (unit == std::end(kUnits) || unit == std::begin(kUnits)) return {};
+  if (unit == std::end(kUnits)) return {};
+  if (unit == std::begin(kUnits)) return kept_seconds_note(median_span(facts), duration_s);
   return {format(
       "note: the scans' times are taken as %s: a scan spans %g of them, and the mission's takes %g s (scan.duration_s); --time-unit says "
       "otherwise",

@@ -12,9 +12,10 @@ namespace lasso::mdat {
 using Notes = std::vector<std::string>;
 
 // Seconds in a unit of the scans' times, of those whose header names none: 1, 1e-3, 1e-6 or 1e-9, whichever brings the median span of a
-// scan closest to `duration_s`, by their ratio. 1 where no scan has a span.
+// scan closest to `duration_s`, by their ratio. 1 where no scan has a span, and where a header names seconds, unless the span is within
+// 20 % of `duration_s` in another unit.
 double time_unit_s(const std::vector<sim::ScanFacts>& facts, double duration_s);
-// The note on it; none where it is seconds.
+// The note on it; where it is seconds none, or a warning that another unit is closer.
 Notes time_unit_note(const std::vector<sim::ScanFacts>& facts, double duration_s, double unit_s);
 
 // Rows without a measurement, clouds that were thinned, VIEWPOINT.

@@ -80,7 +80,7 @@ TEST(DepthImage, IsAScanOfItsFolderWhereACameraIsGiven) {
     const RecordedScans without(folder.path());
     ADD_FAILURE();
   } catch (const ScanFileError& error) {
-    EXPECT_NE(std::string(error.what()).find(".png with a depth camera"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find(".png (an image with a depth camera)"), std::string::npos) << error.what();
   }
 }
 

@@ -70,6 +70,31 @@ TEST(RecordedScans, AreReadInTheUnitOfTimeThatIsSet) {
   expect_error([&] { scans.set_time_unit(1e-3, facts); }, folder.path().string() + "/a.csv: ", "check their unit");
 }
 
+TEST(RecordedScans, TheColumnOfSecondsIsTold) {
+  VERIFIES("LASSO-SIM-038~1");
+  const Folder folder;
+  folder.write("a.csv", "t_s,x,y,z\n0,0,0,1\n");
+  folder.write("b.csv", "t,x,y,z\n0,0,0,1\n");
+  const std::vector<ScanFacts> facts = RecordedScans(folder.path()).survey();
+  EXPECT_TRUE(facts.at(0).seconds_named);
+  EXPECT_FALSE(facts.at(1).seconds_named);
+}
+
+TEST(ScanFile, EachExtensionThatIsToldIsReadAndLeftOutOfAStem) {
+  VERIFIES("LASSO-SIM-019~2");
+  EXPECT_EQ(scan_extensions(), ".csv, .ply, .pcd, .asc, .xyz, .pts, .png");
+  for (const char* name : {"a.1.csv", "a.1.ply", "a.1.pcd", "a.1.asc", "a.1.xyz", "a.1.PTS", "a.1.png", "a.1"})
+    EXPECT_EQ(scan_stem(name), "a.1") << name;
+}
+
+TEST(RecordedScans, HiddenFilesAreNoScans) {
+  VERIFIES("LASSO-SIM-021~1");
+  const Folder folder;
+  folder.write("a.csv", "t_s,x,y,z\n0,0,0,1\n");
+  folder.write("._a.csv", std::string("\0\5\x16\7", 4));
+  EXPECT_EQ(RecordedScans(folder.path()).survey().size(), 1u);
+}
+
 TEST(RecordedScans, AFolderThatHoldsNoSequenceIsRefused) {
   VERIFIES("LASSO-SIM-021~1");
   const Folder folder;

@@ -26,6 +26,16 @@ TEST(ScanXyz, ReadsPlainTextHoweverItIsSeparated) {
                {"other order", "Intensity,z[m],\"y\",x_m\n9,1.2,-0.4,0.3\n9,2.5,0,0\n"},
                {"marked header", "//X Y Z R G B\n0.3 -0.4 1.2 1 2 3\n0 0 2.5 1 2 3\n"},
                {"marked header of another order", "# made elsewhere\n# z, x, y\n1.2 0.3 -0.4\n# half way\n2.5 0 0\n"},
+               {"blanks in a name", "Point ID,X,Y,Z,Intensity\n1,0.3,-0.4,1.2,9\n2,0,0,2.5,9\n"},
+               {"blanks in a name, tabs", "Point ID\tX (m)\tY (m)\tZ (m)\n1\t0.3\t-0.4\t1.2\n2\t0\t0\t2.5\n"},
+               {"commas in the header alone", "id,z,x,y\n7 1.2 0.3 -0.4\n7 2.5 0 0\n"},
+               {"a name for the first columns", "x y z\n0.3 -0.4 1.2 9 9\n0 0 2.5 9 9\n"},
+               {"a separator at the end", "id;x;y;z\n1;0,3;-0,4;1,2;\n2;0;0;2,5;\n"},
+               {"a remark of axes, 5 columns", "# x right, y down, z forward\n0.3 -0.4 1.2 8 9\n0 0 2.5 8 9\n"},
+               {"a remark of axes, 6 columns", "# x right, y down, z forward\n0.3 -0.4 1.2 7 8 9\n0 0 2.5 7 8 9\n"},
+               {"a remark of axes, 3 columns", "# z forward, x right, y down\n0.3,-0.4,1.2\n0,0,2.5\n"},
+               {"a remark after the names", "# z x y\n# made elsewhere\n1.2 0.3 -0.4\n2.5 0 0\n"},
+               {"blanks before commas", "0.3 ,-0.4 ,1.2\n0 ,0 ,2.5\n"},
                {"a count", "2\n0.3 -0.4 1.2 -7\n0 0 2.5 -7\n"},
                {"byte order mark, exponents",
                 "\xEF\xBB\xBF"
@@ -38,6 +48,12 @@ TEST(ScanXyz, ReadsPlainTextHoweverItIsSeparated) {
     EXPECT_EQ(scan.rays[1].place, Vec3(0, 0, 2.5)) << c.what;
     EXPECT_FALSE(scan.misses_known) << c.what;
   }
+}
+
+TEST(ScanXyz, WholeNumbersBeforeCommasAreNoDecimals) {
+  VERIFIES("LASSO-SIM-042~1");
+  const Folder folder;
+  EXPECT_EQ(read_raw_scan(folder.write("a.xyz", "2 ,2 ,31\n")).rays.at(0).place, Vec3(2, 2, 31));
 }
 
 TEST(ScanXyz, RowsWithoutAMeasurementAreCounted) {
@@ -53,6 +69,8 @@ TEST(ScanXyz, EachErrorNamesItsPlaceAndItsRemedy) {
   expect_refused("a.xyz", "", ":1: there is no point", "at least one");
   expect_refused("a.xyz", "# X Y Z\n", ":1: there is no point", "at least one");
   expect_refused("a.asc", "ncols 100\nnrows 100\n", ":1: the header is \"ncols 100\"", "columns x, y and z");
+  expect_refused("a.xyz", "\nid n x y z\n7 1 2 3\n", ":2: the header is \"id n x y z\", with 5 names",
+                 "rows of 4 values; name each column");
   expect_refused("a.xyz", "1 2 3\n1 2\n", ":2: the row has 2 values", "x, y and z");
   expect_refused("a.xyz", "1 2 3\n1 b 3\n", ":2: y is \"b\"", "decimal number");
   expect_refused("a.xyz", "1 2 3\n2\n", ":2: the row has 1 values", "x, y and z");

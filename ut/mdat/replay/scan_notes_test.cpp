@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "ut/support/verifies.hpp"
 
 namespace lasso::mdat {
@@ -29,6 +31,23 @@ TEST(ScanNotes, TheUnitOfTimesIsTheOneWhoseSpanIsClosest) {
   sim::ScanFacts named = spanning(0, 180);
   named.unit_s = 1e-3;
   EXPECT_EQ(time_unit_s({named}, 0.18), 1) << "of others: this one's header says it";
+}
+
+TEST(ScanNotes, SecondsThatAreNamedGiveWayToTheSameSpanInAnotherUnitAlone) {
+  VERIFIES("LASSO-MDT-070~1");
+  const struct {
+    double span, unit_s;
+    std::size_t warnings;
+  } cases[] = {{0.18, 1, 0},   {5, 1, 0},      {10, 1, 1},     {60, 1, 1},      {144, 1, 1},
+               {160, 1e-3, 0}, {180, 1e-3, 0}, {210, 1e-3, 0}, {180e6, 1e-9, 0}};
+  for (const auto& c : cases) {
+    std::vector<sim::ScanFacts> facts = {spanning(0, c.span)};
+    facts[0].seconds_named = true;
+    EXPECT_EQ(time_unit_s(facts, 0.18), c.unit_s) << c.span;
+    const Notes notes = time_unit_note(facts, 0.18, c.unit_s);
+    const auto warns = [](const std::string& note) { return note.starts_with("warning: the scans' times are taken as seconds"); };
+    EXPECT_EQ(static_cast<std::size_t>(std::count_if(notes.begin(), notes.end(), warns)), c.warnings) << c.span;
+  }
 }
 
 TEST(ScanNotes, SayWhatWasLeftOut) {
