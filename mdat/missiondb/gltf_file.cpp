@@ -192,7 +192,7 @@ void GltfFile::check_extensions() {
   }
 }
 
-// One without a name is the binary chunk, or a placeholder of an extension that is not read: an accessor that needs that is refused.
+// One without a name is the binary chunk, or a stand-in of an extension that is not read: an accessor that needs that is refused.
 std::string GltfFile::buffer_bytes(const GltfJson& buffer, const std::filesystem::path& folder, std::string_view binary) const {
   if (!buffer.is_object()) throw MeshError("is a corrupt glTF file: a buffer is no object");
   const auto uri = buffer.find("uri");
@@ -206,8 +206,8 @@ void GltfFile::read_buffers(const std::filesystem::path& folder, std::string_vie
     buffers_.push_back(buffer_bytes(buffer, folder, binary));
     const std::size_t size = buffers_.back().size();
     const std::size_t announced = gltf_index(buffer, "byteLength", 0);
-    const bool placeholder = size == 0 && !buffer.contains("uri");
-    if (size >= announced || placeholder) continue;
+    const bool stand_in = size == 0 && !buffer.contains("uri");
+    if (size >= announced || stand_in) continue;
     throw MeshError("has a glTF buffer of " + std::to_string(size) + " bytes, " + std::to_string(announced) +
                     " are announced: it is truncated or corrupt");
   }

@@ -12,7 +12,6 @@
 #include "fsw/geometry/so3.hpp"
 #include "fsw/link/command_rows.hpp"
 #include "hal_sim/lcs_direct.hpp"
-#include "hal_sim/random.hpp"
 #include "mdat/common/errors.hpp"
 #include "mdat/common/flight_image.hpp"
 #include "mdat/common/interruption.hpp"
@@ -27,29 +26,6 @@ namespace {
 constexpr std::uint32_t kPipelineFrames = 2;  // scan k is reported at boundary k + 2
 
 Pose to_pose(const double (&q)[4], const double (&p_m)[3]) { return {Quat(q[3], q[0], q[1], q[2]), Vec3(p_m[0], p_m[1], p_m[2])}; }
-
-// As long as it is, into any direction.
-void turn(std::vector<double>& vector, sim::Random& random) {
-  const double length = Vec3(vector.data()).norm();
-  const double x = random.gaussian(), y = random.gaussian();
-  const Vec3 turned = length * Vec3(x, y, random.gaussian()).normalized();
-  vector.assign(turned.data(), turned.data() + 3);
-}
-
-// What does not depend on noise.
-sim::ScannerModel model_of(const Scenario& scenario, const SensorParameters& sensor) {
-  sim::ScannerModel model;
-  model.fov_half_x_rad = sensor.fov_half_x_rad;
-  model.fov_half_y_rad = sensor.fov_half_y_rad;
-  model.range_min_m = sensor.range_min_m;
-  model.range_max_m = sensor.range_max_m;
-  model.dropout_incidence_rad = scenario.dropout_incidence_rad;
-  model.outlier_probability = scenario.outlier_probability;
-  model.edge_mixing_m = scenario.edge_mixing_m;
-  model.dark_from_us = kEpochUs + to_us(scenario.eclipse_s[0]);
-  model.dark_until_us = kEpochUs + to_us(scenario.eclipse_s[1]);
-  return model;
-}
 
 // The sensor of that number, which remembers its scans: simulated, at the end of a line, or out of a recording.
 struct Scanner {
@@ -344,76 +320,6 @@ class Case {
 };
 
 }  // namespace
-
-DurationUs to_us(double time_s) { return static_cast<DurationUs>(std::llround(time_s * 1e6)); }
-
-DurationUs period_us(const MissionParameters& parameters) { return to_us(parameters.period_s); }
-
-sim::ScannerModel scanner_model(const Scenario& scenario, const MissionParameters& parameters, bool noise) {
-  sim::ScannerModel model = model_of(scenario, parameters);
-  model.dropout_probability = scenario.dropout_probability;
-  if (!noise) return model;
-  model.sigma0_m = scenario.sigma0_m;
-  model.sigma_k_per_m = scenario.sigma_k_per_m;
-  model.sigma_angle_rad = scenario.angle_noise_rad;
-  model.beam_divergence_rad = scenario.beam_divergence_rad;
-  return model;
-}
-
-sim::ScannerModel scanner_model(const Scenario& scenario, const FurtherSensor& sensor, bool noise) {
-  sim::ScannerModel model = model_of(scenario, sensor.parameters);
-  model.dropout_probability = sensor.parameters.dropout_probability;
-  if (!noise) return model;
-  model.sigma0_m = sensor.parameters.sigma0_m;
-  model.sigma_k_per_m = sensor.parameters.sigma_k_per_m;
-  model.sigma_angle_rad = sensor.parameters.sigma_angle_rad;
-  if (sensor.kind == SensorKind::kTimeOfFlight) model.beam_divergence_rad = sim::time_of_flight_lidar().beam_divergence_rad;
-  return model;
-}
-
-Scenario drawn_scenario(Scenario scenario, std::uint64_t seed) {
-  if (scenario.drawn == 0) return scenario;
-  constexpr std::uint64_t kStream = 0x6d6f74696f6eU;  // not that of the noise
-  sim::Random random(seed ^ kStream);
-  scenario.roll_rad = random.uniform(-kPi, kPi);
-  scenario.boresight_rad = random.uniform(-kPi, kPi);
-  scenario.tilt_rad = std::asin(random.uniform(-1, 1));  // the long axis in any direction, all alike
-  turn(scenario.spin_radps, random);
-  turn(scenario.drift_mps, random);
-  return scenario;
-}
-
-namespace {
-
-std::unique_ptr<sim::Trajectory> center_trajectory(const Scenario& scenario, double range_m, TimeUs epoch_us, DurationUs period) {
-  Pose start;
-  start.q = sim::upright_attitude(scenario.tilt_rad, scenario.boresight_rad);
-  if (scenario.roll_rad != 0) start.q = normalized(start.q * exp_so3(scenario.roll_rad * Vec3::UnitX()));
-  start.p = Vec3(scenario.offset_m.at(0), scenario.offset_m.at(1), range_m);
-  if (scenario.scenario_kind() == ScenarioKind::kPaper) {
-    sim::SteppedSpin::Setup setup;
-    setup.T_sensor_target_frame0 = start;
-    setup.step_rad = scenario.step_rad;
-    setup.epoch_us = epoch_us;
-    setup.period_us = period;
-    return std::make_unique<sim::SteppedSpin>(setup);
-  }
-  const Twist rates{rotate(start.q, Vec3(scenario.spin_radps.data())), Vec3(scenario.drift_mps.data())};
-  if (scenario.has_profile()) {
-    return std::make_unique<sim::RangeProfile>(
-        sim::RangeProfile::Setup{start, rates.omega_radps, scenario.times_s, scenario.ranges_m, epoch_us});
-  }
-  return std::make_unique<sim::ConstantTwist>(sim::TruthState{start, rates}, epoch_us);
-}
-
-}  // namespace
-
-std::unique_ptr<sim::Trajectory> make_trajectory(const Scenario& scenario, double range_m, TimeUs epoch_us, DurationUs period) {
-  std::unique_ptr<sim::Trajectory> motion = center_trajectory(scenario, range_m, epoch_us, period);
-  const Vec3 center_m(scenario.center_m.data());
-  if (center_m.isZero()) return motion;
-  return std::make_unique<sim::AboutPoint>(std::move(motion), center_m);
-}
 
 CaseResult run_case(const CaseSetup& setup, std::atomic<std::size_t>& done) { return Case(setup).run(done); }
 

@@ -19,14 +19,11 @@
 #include "hal_sim/scanner.hpp"
 #include "hal_sim/trajectory.hpp"
 #include "mdat/missiondb/mission_source.hpp"
+#include "mdat/run/simulated_scenario.hpp"
 #include "mdat/run/statistics.hpp"
 #include "mdat/run/timeline.hpp"
 
 namespace lasso::mdat {
-
-constexpr TimeUs kEpochUs = 1'000'000;  // begin of frame 0 of every run
-DurationUs to_us(double time_s);        // to the nearest
-DurationUs period_us(const MissionParameters& parameters);
 
 struct CaseSetup {
   Scenario scenario;
@@ -76,17 +73,6 @@ struct CaseResult {
   std::uint32_t replay_rounds = 0;           // how often a recording that was at its end began anew, at most
   std::uint32_t replay_unserved = 0;         // scans that were asked for, and are not in it
 };
-
-// The scanner of a scenario, [sensor]; without noise its ranges and directions are exact.
-sim::ScannerModel scanner_model(const Scenario& scenario, const MissionParameters& parameters, bool noise);
-// Another one of the mission's.
-sim::ScannerModel scanner_model(const Scenario& scenario, const FurtherSensor& sensor, bool noise);
-
-// The scenario of a run whose noise is that of `seed`: where its motion is drawn, with that motion; otherwise as it is.
-Scenario drawn_scenario(Scenario scenario, std::uint64_t seed);
-
-// The target's motion; frame 0 begins at `epoch_us`.
-std::unique_ptr<sim::Trajectory> make_trajectory(const Scenario& scenario, double range_m, TimeUs epoch_us, DurationUs period_us);
 
 // An approach begins in the mode `bearing`, with a navigation system's offers as the only help. A run without a prior begins there, too,
 // and leaves out the frames before the first valid pose. Every other run starts the track from the true pose of one frame before the first,
