@@ -54,13 +54,13 @@ Tokens names_of(std::string_view line) {
 
 // Nothing where the names lack an axis.
 std::optional<Columns> axes_among(const Tokens& names) {
-  std::array<std::optional<std::size_t>, 3> found;
+  Columns found{names.size(), names.size(), names.size()};
   for (std::size_t i = 0; i < names.size(); ++i) {
     const auto axis = axis_of(names[i]);
-    if (axis && !found[*axis]) found[*axis] = i;
+    if (axis && found[*axis] == names.size()) found[*axis] = i;
   }
-  if (!found[0] || !found[1] || !found[2]) return std::nullopt;
-  return Columns{*found[0], *found[1], *found[2]};
+  if (std::find(found.begin(), found.end(), names.size()) != found.end()) return std::nullopt;
+  return found;
 }
 
 // By the last line that names them: one name for each field of a row. A remark that does not may be a sentence; a header that does not is
