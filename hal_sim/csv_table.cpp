@@ -110,6 +110,17 @@ double CsvTable::number(std::size_t column) const {
   return sim::number(with_decimal_point(text), name(column), place(column));
 }
 
+bool CsvTable::yes_or_no(std::size_t column) const {
+  const std::string text = lower(field(column));
+  for (const char* yes : {"1", "1.0", "true"}) {
+    if (text == yes) return true;
+  }
+  for (const char* no : {"0", "0.0", "false"}) {
+    if (text == no) return false;
+  }
+  fail(place(column), name(column) + " is " + shown(field(column)) + ", expected 1 (yes; a hit) or 0 (no; a miss)");
+}
+
 bool CsvTable::says_nothing(std::size_t column) const {
   std::string text = lower(field(column));
   if (text.starts_with('+') || text.starts_with('-')) text.erase(0, 1);

@@ -27,7 +27,8 @@ class CsvTable {
   bool next();
   std::string_view field(std::size_t column) const { return fields_.at(column).text; }  // without blanks and quotes around it
   double number(std::size_t column) const;                                              // throws where it is none, or not finite
-  bool says_nothing(std::size_t column) const;                                          // empty, or not a finite number by its words
+  bool yes_or_no(std::size_t column) const;     // 1, 1.0, True or 0, 0.0, False, in any case; throws
+  bool says_nothing(std::size_t column) const;  // empty, or not a finite number by its words
 
   std::size_t line() const { return lines_.number(); }
   std::string place() const { return lines_.place(); }

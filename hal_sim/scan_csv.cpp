@@ -38,7 +38,7 @@ class Rows {
 
   void take(RawScan& scan) const {
     const double time = time_ ? read_time(*time_, scan) : 0;
-    const bool hit = !valid_ || read_valid(*valid_);
+    const bool hit = !valid_ || table_.yes_or_no(*valid_);
     if (table_.says_nothing(xyz_[0]) && table_.says_nothing(xyz_[1]) && table_.says_nothing(xyz_[2])) {
       scan.add_point(Vec3::Zero(), time, table_.line());
       return;
@@ -60,17 +60,6 @@ class Rows {
   double coordinate(std::size_t column) const {
     const bool nothing = table_.says_nothing(column) && !table_.field(column).empty();
     return nothing ? std::numeric_limits<double>::quiet_NaN() : table_.number(column);
-  }
-
-  bool read_valid(std::size_t column) const {
-    const std::string_view valid = table_.field(column);
-    for (const char* hit : {"1", "1.0", "True", "true", "TRUE"}) {
-      if (valid == hit) return true;
-    }
-    for (const char* miss : {"0", "0.0", "False", "false", "FALSE"}) {
-      if (valid == miss) return false;
-    }
-    fail(table_.place(column), "valid is " + shown(valid) + ", expected 1 (hit) or 0 (miss)");
   }
 
   void take_miss(const Vec3& direction, double time, RawScan& scan) const {

@@ -47,8 +47,7 @@ InitialPose read_row(const sim::CsvTable& table, const Columns& columns) {
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = table.number(columns.values[i]);
   result.T_sensor_target.q = attitude(values, table.place(columns.values[0]));
   result.T_sensor_target.p = Vec3(values[4], values[5], values[6]);
-  result.valid =
-      !(columns.valid && table.field(*columns.valid) == "0") && !(columns.outcome && table.field(*columns.outcome) != "accepted");
+  result.valid = !(columns.valid && !table.yes_or_no(*columns.valid)) && !(columns.outcome && table.field(*columns.outcome) != "accepted");
   return result;
 }
 

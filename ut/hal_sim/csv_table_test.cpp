@@ -64,6 +64,14 @@ TEST(CsvTable, RefusesWithThePlace) {
             0u);
 }
 
+TEST(CsvTable, ReadsYesAndNoAsOtherProgramsWriteThem) {
+  VERIFIES("LASSO-SIM-039~1");
+  CsvTable table("t.csv", "a,b,c,d,e,f,g\n1,1.0,True,0,0.0,FALSE,2\n", "a");
+  ASSERT_TRUE(table.next());
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(table.yes_or_no(i), i < 3) << i;
+  EXPECT_THROW(static_cast<void>(table.yes_or_no(6)), ScanFileError);
+}
+
 TEST(CsvTable, KnowsFieldsThatSayNothing) {
   VERIFIES("LASSO-SIM-036~1");
   CsvTable table("t.csv", "a,b,c,d,e,f\n,NaN,-inf,nan(ind),#N/A,0\n", "a");

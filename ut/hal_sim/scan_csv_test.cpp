@@ -116,7 +116,7 @@ TEST(ScanCsv, EachErrorNamesItsPlaceAndItsRemedy) {
   expect_refused("a.csv", kHeader + "nan,0,0,1,1\n", ":2:1: t_s is \"nan\"", "finite");
   expect_refused("a.csv", kHeader + "1e12,0,0,1,1\n", ":2: the time is 1e+12 s", "seconds");
   expect_refused("a.csv", kHeader + good + "0.09,0,0,1,1\n", ":3:1: t_s is \"0.09\"", "sort the rows");
-  expect_refused("a.csv", kHeader + "0.1,0,0,1,2\n", ":2:11: valid is \"2\"", "1 (hit) or 0 (miss)");
+  expect_refused("a.csv", kHeader + "0.1,0,0,1,2\n", ":2:11: valid is \"2\"", "1 (yes; a hit) or 0 (no; a miss)");
   expect_refused("a.csv", kHeader + "0.1,0,0,1.01,0\n", ":2: the direction of a ray that missed (valid 0) has length 1.01", "divide");
   expect_refused("a.csv", kHeader + "0.1,0,0,4e6,1\n", ":2: the point is 4e+06 m away", "metres");
   expect_refused("a.csv", kHeader + "0.1,0,0,1e300,1\n", ":2: the point is 1e+300 m away", "metres");
