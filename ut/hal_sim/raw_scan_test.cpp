@@ -64,8 +64,8 @@ TEST(RawScan, OfTooManyRaysReturnsAndTheMissesAroundThemAreTaken) {
     hits += sample.state == RayState::kHit ? 1 : 0;
     EXPECT_GE(sample.t_us, last_us) << "in the file's order";
     last_us = sample.t_us;
-    const double aside = std::hypot(sample.direction[0], sample.direction[1]) / sample.direction[2];
-    EXPECT_LT(aside, 0.32) << "1.5 times the disc's";
+    const float aside = std::hypot(sample.direction[0], sample.direction[1]) / sample.direction[2];
+    EXPECT_LT(aside, 0.32F) << "1.5 times the disc's";
   }
   EXPECT_EQ(hits, kMaxRays - kMaxRays / 4);
 }

@@ -157,7 +157,8 @@ TEST(AboutPoint, TheTargetTurnsAboutThePointAndRatesAreThoseOfItsOrigin) {
     EXPECT_NEAR((step.tail<3>() - now.rates.v_mps).norm(), 0, 1e-6);
   }
   EXPECT_THROW(AboutPoint(nullptr, point_m), std::invalid_argument);
-  EXPECT_THROW(AboutPoint(std::make_unique<ConstantTwist>(initial, 0), Vec3(0, 0, NAN)), std::invalid_argument);
+  EXPECT_THROW(AboutPoint(std::make_unique<ConstantTwist>(initial, 0), Vec3(0, 0, std::numeric_limits<double>::quiet_NaN())),
+               std::invalid_argument);
 }
 
 RangeProfile::Setup approach_setup() {
