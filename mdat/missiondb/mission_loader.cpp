@@ -343,8 +343,12 @@ const Scenario& scenario_of(const MissionSource& source, const std::string& name
 }
 
 MissionParameters parameters_for(const MissionSource& source, const std::string& scenario) {
+  return scenario.empty() ? source.parameters : parameters_for(source, scenario_of(source, scenario));
+}
+
+MissionParameters parameters_for(const MissionSource& source, const Scenario& scenario) {
   MissionParameters parameters = source.parameters;
-  if (!scenario.empty()) override_parameters(parameters, scenario_of(source, scenario).overrides);
+  override_parameters(parameters, scenario.overrides);
   return parameters;
 }
 

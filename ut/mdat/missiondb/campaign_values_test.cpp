@@ -1,0 +1,61 @@
+#include "mdat/missiondb/campaign_values.hpp"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+#include "fsw/geometry/portable_math.hpp"
+#include "ut/support/verifies.hpp"
+
+namespace lasso::mdat {
+namespace {
+
+Scenario plain() {
+  Scenario scenario;
+  scenario.ranges_m = {4, 5};
+  scenario.offset_m = {0.1, 0.2};
+  scenario.spin_radps = {0, 0, 0};
+  scenario.model_gone_box_m = std::vector<double>(6, 0.0);
+  return scenario;
+}
+
+TEST(CampaignValues, GoWhereTheirNamesSayInSi) {
+  VERIFIES("LASSO-GND-066~1");
+  Scenario scenario = plain();
+  set_campaign_value("truth.range_m", 3, scenario);
+  set_campaign_value("truth.offset_m.y", -0.4, scenario);
+  set_campaign_value("truth.spin_degps.z", 5, scenario);
+  set_campaign_value("truth.model_gone_box_m.5", 9, scenario);
+  set_campaign_value("truth.tilt_deg", 30, scenario);
+  set_campaign_value("mission.tracking.start_sigma_deg", 2, scenario);
+  EXPECT_EQ(scenario.ranges_m, std::vector<double>{3});
+  EXPECT_EQ(scenario.offset_m, (std::vector<double>{0.1, -0.4}));
+  EXPECT_NEAR(scenario.spin_radps[2], 5 * kRadPerDeg, 1e-15);
+  EXPECT_EQ(scenario.model_gone_box_m[4], 9);
+  EXPECT_NEAR(scenario.tilt_rad, 30 * kRadPerDeg, 1e-15);
+  EXPECT_EQ(scenario.overrides.at("tracking.start_sigma_deg"), 2) << "in the key's unit, as overrides are";
+}
+
+// What is not there; a list, a number's element, one beyond the list; what would change truth and belief together.
+TEST(CampaignValues, AColumnThatIsNoneIsRefused) {
+  VERIFIES("LASSO-GND-066~1");
+  for (const char* column : {"truth.nothing", "mission.nothing", "range_m", "truth.", "", "truth.offset_m", "truth.tilt_deg.x",
+                             "truth.offset_m.z", "truth.seed", "truth.kind", "mission.sensor.range_max_m", "mission.filter.period_s"}) {
+    Scenario scenario = plain();
+    EXPECT_TRUE(campaign_column(column).key.empty()) << column;
+    EXPECT_THROW(set_campaign_value(column, 1, scenario), std::invalid_argument) << column;
+  }
+}
+
+TEST(CampaignValues, NamesOfElementsReadBack) {
+  VERIFIES("LASSO-GND-066~1");
+  for (std::size_t element = 0; element < 6; ++element) {
+    const CampaignColumn column = campaign_column(campaign_column_name(true, "model_gone_box_m", element));
+    EXPECT_TRUE(column.truth);
+    EXPECT_EQ(column.key, "model_gone_box_m");
+    EXPECT_EQ(column.element, element);
+  }
+}
+
+}  // namespace
+}  // namespace lasso::mdat
