@@ -1,6 +1,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "mdat/missiondb/campaign_reader.hpp"
 #include "mdat/missiondb/mesh_import.hpp"
 #include "mdat/missiondb/mission_checks.hpp"
 #include "mdat/missiondb/mission_source.hpp"
@@ -64,11 +65,12 @@ class Loader {
   void read_values() {
     std::vector<ValueRow> rows = mission_rows();
     rows.insert(rows.end(), flight_rows().begin(), flight_rows().end());
-    found_ = read_table(root_, "", rows, {"further_sensor", "part", "scenario", "target.parameters"}, problems_);
+    found_ = read_table(root_, "", rows, {"campaign", "further_sensor", "part", "scenario", "target.parameters"}, problems_);
     for (const ValueRow& row : rows) note_origin(row.key, found_, row.key);
     read_scenario_values();
     read_further_sensors(root_, source_, problems_);
     read_parts(root_, source_, problems_);
+    read_campaigns(root_, source_, problems_);
     read_model_parameters();
     fill_mission();
   }

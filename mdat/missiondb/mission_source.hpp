@@ -11,6 +11,7 @@
 
 #include "fsw/mission/calibration.hpp"
 #include "fsw/mission/parameters.hpp"
+#include "mdat/missiondb/campaign_source.hpp"
 #include "mdat/missiondb/mission_error.hpp"
 #include "mdat/modelc/mesh.hpp"
 
@@ -132,6 +133,7 @@ struct MissionSource {
   Calibrations calibrations;
   MissionParameters parameters{};
   std::map<std::string, Scenario> scenarios;
+  std::map<std::string, CampaignSource> campaigns;
   std::map<std::string, Origin> origins;  // by dotted key, all rows of parameter_rows() and of the ground sections
   std::vector<std::string> warnings;      // of what was read
   std::vector<Doubt> doubts;              // of values (warnings_for)
