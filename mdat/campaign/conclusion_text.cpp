@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "mdat/common/text.hpp"
 
@@ -31,12 +32,10 @@ std::string about(double number) {
   return format("%.0f", std::ceil(number / unit) * unit);
 }
 
-std::string outside_text(const Conclusion& conclusion) {
+// Those that are there, a space apart.
+std::string sentences(const std::vector<std::string>& all) {
   std::string text;
-  if (conclusion.not_run > 0) text += format(" Cases that failed to run count as outside: %u.", conclusion.not_run);
-  if (conclusion.unknown > 0)
-    text +=
-        format(" Cases without %s (no valid pose has one) count as outside: %u.", conclusion.criterion.figure.c_str(), conclusion.unknown);
+  for (const std::string& one : all) text += (text.empty() || one.empty() ? "" : " ") + one;
   return text;
 }
 
@@ -66,15 +65,21 @@ std::string what_decides(const Conclusion& conclusion) {
   return "It needs about " + about(*conclusion.more) + " more cases at this share.";
 }
 
+std::string outside_text(const Conclusion& conclusion) {
+  const std::string not_run = conclusion.not_run == 0 ? "" : format("Cases that failed to run count as outside: %u.", conclusion.not_run);
+  const std::string unknown = conclusion.unknown == 0 ? ""
+                                                      : format("Cases without %s (no valid pose has one) count as outside: %u.",
+                                                               conclusion.criterion.figure.c_str(), conclusion.unknown);
+  return sentences({not_run, unknown});
+}
+
 std::string conclusion_text(const Conclusion& conclusion) {
-  const std::string decides = what_decides(conclusion);
-  std::string text = format(
+  const std::string within = format(
       "%u of %u cases are within %s. With a confidence of %g %% that shows %s of all cases that could be drawn; at least %g %% is asked "
       "for.",
       conclusion.within, conclusion.cases, bounds_text(conclusion.criterion).c_str(), 100 * conclusion.criterion.confidence,
       limits_text(conclusion.limits).c_str(), 100 * conclusion.criterion.share_min);
-  text += outside_text(conclusion);
-  return decides.empty() ? text : text + " " + decides;
+  return sentences({within, outside_text(conclusion), what_decides(conclusion)});
 }
 
 }  // namespace lasso::mdat

@@ -41,4 +41,19 @@ inline mdat::CampaignSource campaign_of(const std::vector<mdat::Criterion>& crit
   return campaign;
 }
 
+// A campaign of 40 cases with two criteria: one is met, one fails where the range is large; a case fails to run, one has no figure.
+struct MixedCampaign {
+  mdat::CampaignSource campaign = campaign_of({at_most("no_wrong_pose", "wrong", 0, 0.8), at_most("precise", "rms_mm", 4, 0.9)});
+  mdat::ResultTable table{{"wrong", "rms_mm"}, {"truth.range_m", "truth.spin_degps.x"}, {}};
+  MixedCampaign() {
+    campaign.cases = 40;
+    for (std::uint32_t number = 0; number < 40; ++number) {
+      const double range_m = 2 + 0.1 * number;
+      table.rows.push_back({number, "ok", {0, range_m}, {range_m, (7 * number) % 40 * 0.1}});
+    }
+    table.rows[3] = {3, "failed:worker ended, by \"signal\" 11", {kNoNumber, kNoNumber}, {2.3, 2.1}};
+    table.rows[5].figures[1] = kNoNumber;
+  }
+};
+
 }  // namespace lasso::test
