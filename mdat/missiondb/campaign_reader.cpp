@@ -231,6 +231,7 @@ void Dispersions::add(Dispersion dispersion, const std::string& key, Origin orig
     const auto [other, is_new] = keys_.emplace(column, key);
     if (!is_new) problems_.add(origin, key, column, "has a law already, of " + other->second + ": delete one of the two");
   }
+  dispersion.key = key;
   all_.push_back(std::move(dispersion));
 }
 

@@ -49,6 +49,7 @@ using Law = std::variant<NumberLaw, AnyDirection, AnyAttitude, Correlated, Rows>
 struct Dispersion {
   std::vector<std::string> columns;
   Law law;
+  std::string key{};  // where the mission says it: "campaign.NAME.truth.range_m", "campaign.NAME.together[0]"
 };
 
 enum class Sampling : std::uint8_t { kRandom = 0, kLatinHypercube = 1, kSobol = 2 };

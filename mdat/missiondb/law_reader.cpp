@@ -188,6 +188,9 @@ Span span_of(const NumberLaw& law) {
                                const auto [low, high] = std::minmax_element(l.values.begin(), l.values.end());
                                return Span{*low, *high};
                              },
+                             [](const Normal& l) {
+                               return Span{std::max(l.low, l.mean - kReach * l.sigma), std::min(l.high, l.mean + kReach * l.sigma)};
+                             },
                              [](const auto& l) {
                                return Span{l.low, l.high};
                              }},

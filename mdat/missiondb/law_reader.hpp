@@ -13,7 +13,7 @@ namespace lasso::mdat {
 // at the range. Otherwise a problem under the name `key`. Of a list's row, the law of one of its numbers.
 std::optional<NumberLaw> read_law(const toml::node& node, ValueRow row, const std::string& key, ProblemList& problems);
 
-// The least and the largest number that the law can draw.
+// The least and the largest number that the law draws, of a normal one at 4 sigma.
 struct Span {
   double low, high;
 };

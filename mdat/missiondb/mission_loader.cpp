@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "mdat/missiondb/campaign_reader.hpp"
+#include "mdat/missiondb/campaign_rules.hpp"
 #include "mdat/missiondb/mesh_import.hpp"
 #include "mdat/missiondb/mission_checks.hpp"
 #include "mdat/missiondb/mission_source.hpp"
@@ -60,6 +61,7 @@ class Loader {
     read_calibrations(source_, problems_);
     read_scenarios();
     check_contradictions();
+    if (problems_.empty()) check_campaigns(source_, problems_);
   }
   // Values of all sections, scenarios included, so that one pass shows the mistakes of all.
   void read_values() {
