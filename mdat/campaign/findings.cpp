@@ -12,17 +12,6 @@ namespace {
 
 constexpr std::size_t kWorstCases = 10;
 
-// As a shell reads it: in quotes where it has more than letters of plain paths.
-std::string shell_word(const std::string& text) {
-  const auto is_plain = [](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) != 0 || std::string_view("/._-+:@%,=").find(c) != std::string_view::npos;
-  };
-  if (!text.empty() && std::all_of(text.begin(), text.end(), is_plain)) return text;
-  std::string quoted = "'";
-  for (const char c : text) quoted += c == '\'' ? "'\\''" : std::string(1, c);
-  return quoted + "'";
-}
-
 }  // namespace
 
 Findings find(const CampaignSource& campaign, const ResultTable& table, const std::string& folder) {

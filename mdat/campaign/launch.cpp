@@ -13,16 +13,6 @@ namespace {
 constexpr double kChunkSeconds = 900;
 constexpr std::uint32_t kMostChunks = 1000;
 constexpr unsigned kEndMinutes = 1;  // between the last case and the job's end
-constexpr char kPlain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:@";
-
-bool is_plain(const std::string& word) { return !word.empty() && word.find_first_not_of(kPlain) == std::string::npos; }
-
-std::string shell_word(const std::string& word) {
-  if (is_plain(word)) return word;
-  std::string quoted = "'";
-  for (const char letter : word) quoted += letter == '\'' ? "'\\''" : std::string(1, letter);
-  return quoted + "'";
-}
 
 unsigned minutes_of(const LaunchOptions& options) { return std::max(10U, static_cast<unsigned>(std::ceil(4 * options.chunk_s / 60))); }
 
@@ -126,7 +116,7 @@ std::string launch_text(const std::string& engine, const LaunchOptions& options)
     names.emplace_back(launcher.engine);
     if (engine != launcher.engine) continue;
     for (const std::string& name : {options.folder, options.program})
-      if (!takes_any_name(engine) && !is_plain(name))
+      if (!takes_any_name(engine) && shell_word(name) != name)
         throw InputError(name + ": " + engine + " does not take a name with spaces or signs in its job files: move it, or link to it");
     return launcher.text(options);
   }
