@@ -177,7 +177,8 @@ std::string times_csv(const fs::path& folder, const ResultTable& table) {
 
 }  // namespace
 
-void expand_campaign(const MissionInput& input, const std::string& campaign, bool cached, const fs::path& folder) {
+void expand_campaign(const MissionInput& input, const std::string& campaign, bool cached, const std::string& commit,
+                     const fs::path& folder) {
   const CampaignSource& source = campaign_of(input.source, campaign);
   OutputFolder out(folder);
   CampaignPlan plan;
@@ -186,7 +187,7 @@ void expand_campaign(const MissionInput& input, const std::string& campaign, boo
   plan.settings = input.source.settings;
   plan.cases = source.cases;
   plan.version = kVersion;
-  plan.commit = kCommit;
+  plan.commit = commit;
   plan.mission_sha256 = sha256_of(file_content(input.source.file));
   plan.target_sha256 = input.source.target.sha256;
   plan.image_sha256 = digest_of_image(input, campaign, cached);

@@ -25,8 +25,9 @@ struct CampaignFolder {
 };
 
 // Draws all cases and writes cases.csv, then plan.json, into the folder, which is made. The mission is compiled in a process of its own.
-// Throws InputError, MissionError, RunError.
-void expand_campaign(const MissionInput& input, const std::string& campaign, bool cached, const std::filesystem::path& folder);
+// `commit`: the program's, for a person. Throws InputError, MissionError, RunError.
+void expand_campaign(const MissionInput& input, const std::string& campaign, bool cached, const std::string& commit,
+                     const std::filesystem::path& folder);
 
 // `mission`: its file, where it is not that which the plan names; empty otherwise. Throws as load_plan and load_planned.
 CampaignFolder open_campaign(const std::filesystem::path& folder, const std::string& mission, bool cached);

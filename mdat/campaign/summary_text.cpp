@@ -13,22 +13,6 @@ constexpr std::size_t kShownCases = 5, kShownCorrelations = 3;
 
 using Lines = std::vector<std::vector<std::string>>;
 
-// Columns two spaces apart, as wide as their longest cell.
-std::string aligned(const Lines& lines) {
-  std::vector<std::size_t> widths;
-  for (const auto& line : lines) {
-    widths.resize(std::max(widths.size(), line.size()));
-    for (std::size_t i = 0; i < line.size(); ++i) widths[i] = std::max(widths[i], line[i].size());
-  }
-  std::string text;
-  for (const auto& line : lines) {
-    std::string row = " ";
-    for (std::size_t i = 0; i < line.size(); ++i) row += " " + line[i] + std::string(widths[i] + 1 - line[i].size(), ' ');
-    text += row.substr(0, row.find_last_not_of(' ') + 1) + "\n";
-  }
-  return text;
-}
-
 std::string verdict_lines(const Findings& all) {
   Lines lines = {{"criterion", "asks for", "cases within", "share", "limits of the share", "verdict"}};
   for (const Finding& finding : all.findings) {
@@ -36,7 +20,7 @@ std::string verdict_lines(const Findings& all) {
     lines.push_back({one.criterion.name, criterion_text(one.criterion), format("%u of %u", one.within, one.cases), share_text(one.share()),
                      limits_text(one.limits) + format(" (%g %%)", 100 * one.criterion.confidence), to_string(one.verdict)});
   }
-  std::string text = aligned(lines);
+  std::string text = aligned_text(lines);
   for (const Finding& finding : all.findings) {
     for (const std::string& more : {outside_text(finding.conclusion), what_decides(finding.conclusion)})
       text += more.empty() ? "" : "  " + finding.conclusion.criterion.name + ": " + more + "\n";
@@ -54,7 +38,7 @@ std::string worst_lines(const Findings& all) {
                        within ? "within" : "outside", case_command(all, row.number)});
     }
   }
-  return lines.empty() ? "" : "Worst cases, and how to fly them again\n" + aligned(lines);
+  return lines.empty() ? "" : "Worst cases, and how to fly them again\n" + aligned_text(lines);
 }
 
 std::string correlation_lines(const Findings& all) {
@@ -69,7 +53,7 @@ std::string correlation_lines(const Findings& all) {
   }
   if (all.findings.empty() || all.table.columns.empty()) return "";
   return lines.empty() ? "No drawn value goes with bad cases (rank correlations, 5 % level).\n"
-                       : "What goes with bad cases: rank correlations, p over all drawn values\n" + aligned(lines);
+                       : "What goes with bad cases: rank correlations, p over all drawn values\n" + aligned_text(lines);
 }
 
 }  // namespace

@@ -9,10 +9,12 @@
 #include "mdat/campaign/chunk_of.hpp"
 #include "mdat/campaign/folder.hpp"
 #include "mdat/campaign/launch.hpp"
+#include "mdat/campaign/paired.hpp"
 #include "mdat/cli/commands.hpp"
 #include "mdat/common/errors.hpp"
 #include "mdat/common/output.hpp"
 #include "mdat/common/text.hpp"
+#include "mdat/common/version.hpp"
 #include "mdat/report/report.hpp"
 #include "mdat/run/frames_table.hpp"
 #include "mdat/run/results.hpp"
@@ -23,7 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct CampaignArguments {
-  std::string target, campaign, out, mission, chunk, engine;
+  std::string target, other, campaign, out, mission, chunk, engine;
   std::vector<std::string> settings;
   EngineOptions engine_options;
   unsigned jobs = std::max(1U, std::thread::hardware_concurrency());
@@ -59,7 +61,7 @@ void expand(const CampaignArguments& options) {
   const CampaignSource& campaign = campaign_of(input.source, options.campaign);
   for (const std::string& warning : warnings_for(input.source, campaign.scenario)) std::fprintf(stderr, "warning: %s\n", warning.c_str());
   if (options.force) remove_campaign(folder);
-  expand_campaign(input, options.campaign, options.cached, folder);
+  expand_campaign(input, options.campaign, options.cached, kCommit, folder);
   std::fprintf(stderr, "%s: plan.json and cases.csv, %u cases of the campaign %s\n", folder.c_str(), campaign.cases,
                options.campaign.c_str());
 }
@@ -154,6 +156,13 @@ void launch(const CampaignArguments& options) {
   std::fputs(text.c_str(), stdout);
 }
 
+void compare(const CampaignArguments& options) {
+  const CampaignFolder a = open_campaign(options.target, options.mission, options.cached),
+                       b = open_campaign(options.other, "", options.cached);
+  const Comparison both = compare_cases(a.campaign(), merged(a, true), b.campaign(), merged(b, true));
+  std::fputs(comparison_text(both, options.target, options.other).c_str(), stdout);
+}
+
 CLI::App* folder_command(CLI::App& group, const char* name, const char* what, const std::shared_ptr<CampaignArguments>& options) {
   CLI::App* command = group.add_subcommand(name, what);
   command->add_option("DIR", options->target, "folder of a campaign")->required()->check(CLI::ExistingDirectory);
@@ -235,6 +244,15 @@ void add_case(CLI::App& group) {
   command->callback([options] { case_again(*options); });
 }
 
+void add_compare(CLI::App& group) {
+  const auto options = std::make_shared<CampaignArguments>();
+  CLI::App* command = group.add_subcommand("compare", "the same cases under two missions or versions: what changed, and is it chance?");
+  command->add_option("A", options->target, "folder of a campaign")->required()->check(CLI::ExistingDirectory);
+  command->add_option("B", options->other, "the other one")->required()->check(CLI::ExistingDirectory);
+  command->footer("Cases are paired by their numbers, and have to draw the same values. Exit codes: 0 printed, whatever differs.");
+  command->callback([options] { compare(*options); });
+}
+
 void add_launch(CLI::App& group) {
   const auto options = std::make_shared<CampaignArguments>();
   CLI::App* command = folder_command(group, "launch", "print what starts the chunks on a cluster", options);
@@ -260,6 +278,7 @@ void add_campaign_command(CLI::App& app) {
   add_retry(*group);
   add_merge(*group);
   add_case(*group);
+  add_compare(*group);
   add_launch(*group);
 }
 

@@ -1,5 +1,6 @@
 #include "mdat/common/text.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
@@ -26,6 +27,21 @@ std::string decimals(double value, int count) {
 }
 
 std::string known(double value, int count, const char* unknown) { return std::isnan(value) ? unknown : decimals(value, count); }
+
+std::string aligned_text(const std::vector<std::vector<std::string>>& lines) {
+  std::vector<std::size_t> widths;
+  for (const auto& line : lines) {
+    widths.resize(std::max(widths.size(), line.size()));
+    for (std::size_t i = 0; i < line.size(); ++i) widths[i] = std::max(widths[i], line[i].size());
+  }
+  std::string text;
+  for (const auto& line : lines) {
+    std::string row = " ";
+    for (std::size_t i = 0; i < line.size(); ++i) row += " " + line[i] + std::string(widths[i] + 1 - line[i].size(), ' ');
+    text += row.substr(0, row.find_last_not_of(' ') + 1) + "\n";
+  }
+  return text;
+}
 
 std::string shell_word(const std::string& text) {
   constexpr char kPlain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:@%";

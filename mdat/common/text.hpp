@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace lasso::mdat {
 
@@ -10,6 +11,9 @@ namespace lasso::mdat {
 
 // Text as markup shows it: the characters that HTML and XML keep for themselves as their entities.
 std::string escape(const std::string& text);
+
+// A table of lines and their cells: columns two spaces apart, as wide as their longest cell.
+std::string aligned_text(const std::vector<std::vector<std::string>>& lines);
 
 // A word of a command as a shell reads it: in quotes where it has more than letters of plain paths.
 std::string shell_word(const std::string& text);
