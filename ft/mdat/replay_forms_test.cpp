@@ -60,6 +60,19 @@ TEST_F(ReplayForms, WarnsOfTimesThatStepBack) {
   EXPECT_NE(answer.out.find("8 of 8 scans gave a valid pose"), std::string::npos) << answer.out;
 }
 
+// The names in the order of time reversed: neither a few steps back, nor times that begin anew with each scan.
+TEST_F(ReplayForms, WarnsOfASeriesThatIsReversed) {
+  VERIFIES("LASSO-MDT-070~1");
+  for (std::size_t i = 0; i < kReplayed; ++i) {
+    const std::string number = std::to_string(i), last = std::to_string(kReplayed - 1 - i);
+    work.write("back/f0000" + last + ".csv", work.read("rec/4m/scans/f0000" + number + ".csv"));
+  }
+  const Answer answer = work.mdat("replay image.3dli --scans back --initial rec/4m/poses.csv -o out.csv");
+  EXPECT_NE(answer.err.find("warning: each scan ends before the one before it begins (f00001: "), std::string::npos) << answer.err;
+  EXPECT_NE(answer.err.find("time reversed"), std::string::npos) << answer.err;
+  EXPECT_EQ(answer.err.find("began anew"), std::string::npos) << answer.err;
+}
+
 // A scan with its times in another unit; all else as it was.
 std::string with_times(const std::string& csv, double units_per_second) {
   const std::vector<std::string> lines = lines_of(csv);
@@ -88,6 +101,17 @@ TEST_F(ReplayForms, KnowsUnitsOfTimeByAScansSpan) {
       EXPECT_LT(distance_m(rows[i], seconds[i]), 1e-8);
     }
   }
+}
+
+TEST_F(ReplayForms, WarnsOfAScanWhoseTimesAreInAnotherUnit) {
+  VERIFIES("LASSO-MDT-070~1");
+  work.write("rec/4m/scans/f00003.csv", with_times(work.read("rec/4m/scans/f00003.csv"), 1e6));
+  const Answer answer = work.mdat("replay image.3dli --scans rec/4m/scans --initial rec/4m/poses.csv -o out.csv");
+  EXPECT_NE(answer.err.find("warning: the times of 1 of 8 scans seem to be in another unit than the others': f00003 spans "),
+            std::string::npos)
+      << answer.err;
+  EXPECT_NE(answer.err.find("about 1e+06 times their "), std::string::npos) << answer.err;
+  EXPECT_EQ(answer.err.find("replay: "), std::string::npos) << "no lines of progress of so short a replay: " << answer.err;
 }
 
 TEST_F(ReplayForms, TakesTheUnitOfTimeThatIsAskedFor) {
@@ -199,7 +223,7 @@ TEST_F(ReplayForms, SaysHowPosesThatDoNotFitWould) {
     work.write("rec/4m/other.csv", changed(poses, change));
     const Answer answer = work.mdat("replay --force image.3dli --scans rec/4m/scans --initial rec/4m/other.csv -o out.csv");
     EXPECT_NE(answer.err.find(said), std::string::npos) << answer.err;
-    EXPECT_NE(answer.err.find("of 5 scans that were tried 0 fit as given, and 5 with"), std::string::npos) << answer.err;
+    EXPECT_NE(answer.err.find("of 5 scans tried 0 fit as given, and 5 with"), std::string::npos) << answer.err;
     EXPECT_EQ(answer.err.find("warning: no return") != std::string::npos, said[4] == 'i') << answer.err;
   }
 }

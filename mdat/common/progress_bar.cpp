@@ -10,6 +10,7 @@ namespace {
 
 constexpr int kBarWidth = 30;
 constexpr double kRedrawSeconds = 0.1;
+constexpr double kQuietSeconds = 3;  // off a terminal: what takes less is not worth a line
 
 std::string bar(double share) {
   const int filled = static_cast<int>(share * kBarWidth);
@@ -66,7 +67,7 @@ void ProgressBar::show(std::size_t done) {
     if (std::chrono::duration<double>(now - drawn_).count() < kRedrawSeconds) return;
     drawn_ = now;
     draw(done);
-  } else if (const std::size_t tenth = 10 * done / total_; tenth > tenth_ && done < total_) {
+  } else if (const std::size_t tenth = 10 * done / total_; tenth > tenth_ && done < total_ && seconds() >= kQuietSeconds) {
     tenth_ = tenth;
     draw(done);
   }
@@ -74,6 +75,7 @@ void ProgressBar::show(std::size_t done) {
 
 void ProgressBar::finish() {
   const double elapsed = seconds();
+  if (!terminal_ && elapsed < kQuietSeconds) return;
   std::fprintf(stderr, "%s%s: %zu %s in %s (%.0f %s/s)%s\n", terminal_ ? "\r" : "", label_.c_str(), total_, unit_.c_str(),
                clock_text(elapsed).c_str(), elapsed > 0 ? static_cast<double>(total_) / elapsed : 0.0, unit_.c_str(),
                terminal_ ? "\033[K" : "");

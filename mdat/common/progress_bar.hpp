@@ -14,9 +14,10 @@ class ProgressBar {
  public:
   // `total` steps of `unit` ("frames") are to come.
   ProgressBar(std::string label, std::size_t total, std::string unit);
-  // Shows `done` steps, at most ten times a second (terminal) or at each tenth of the whole (no terminal).
+  // Shows `done` steps, at most ten times a second (terminal) or at each tenth of the whole (no terminal, and only
+  // where it takes more than a few seconds).
   void show(std::size_t done);
-  // The last line, with the time taken.
+  // The last line, with the time taken; off a terminal of long ones alone.
   void finish();
 
  private:

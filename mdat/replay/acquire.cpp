@@ -106,11 +106,9 @@ std::string acquired_summary(const std::vector<AcquiredScan>& scans) {
     times_us.push_back(scan.search_us);
   }
   const TimeStatistics time = time_statistics(times_us);
-  char text[200];
-  std::snprintf(text, sizeof text,
-                "%zu scans: %zu poses accepted, %zu ambiguous, %zu rejected; time of a search: median %.0f ms, 99th percentile %.0f ms\n",
-                scans.size(), accepted, ambiguous, scans.size() - accepted - ambiguous, 1e-3 * time.median_us, 1e-3 * time.p99_us);
-  std::string summary = text;
+  std::string summary = format("%s: %zu accepted, %zu ambiguous, %zu rejected; time of a search: median %.0f ms, 99th percentile %.0f ms\n",
+                               amount(scans.size(), "scan").c_str(), accepted, ambiguous, scans.size() - accepted - ambiguous,
+                               1e-3 * time.median_us, 1e-3 * time.p99_us);
   for (std::size_t i = 0; i < scans.size() && i < kTold; ++i)
     summary += "  " + scans[i].scan + " " + outcome_of(scans[i]) + ": " + scans[i].why + "\n";
   if (scans.size() > kTold) summary += "  the others: column why\n";

@@ -169,15 +169,15 @@ Notes reading_notes(const Mission& mission, const ReplayOptions& options, const 
   const double within_m = kNear * mission.radius_m;
   if (std::none_of(chosen.begin(), chosen.end(), [&](const Trial& trial) { return has_return_near(trial, within_m); })) {
     notes.push_back(
-        format("warning: no return of %zu scans that were tried is within %.3g m (1.5 times the target's radius) of the target's origin at "
+        format("warning: no return of %s tried is within %.3g m (1.5 times the target's radius) of the target's origin at "
                "the given poses",
-               chosen.size(), within_m));
+               amount(chosen.size(), "scan").c_str(), within_m));
   }
   if (2 * as_asked > chosen.size()) {
     const std::size_t near = options.wide ? as_asked : fitting(mission, *estimator, chosen, {"", as_it_is}, false);
     if (2 * near <= chosen.size())
-      notes.push_back(format("note: of %zu scans that were tried %zu fit as given, and %zu with --wide: the poses are rough", chosen.size(),
-                             near, as_asked));
+      notes.push_back(format("note: of %s tried %zu fit as given, and %zu with --wide: the poses are rough",
+                             amount(chosen.size(), "scan").c_str(), near, as_asked));
     return notes;
   }
   std::size_t most = as_asked;
@@ -189,7 +189,8 @@ Notes reading_notes(const Mission& mission, const ReplayOptions& options, const 
     best = reading.meaning;
   }
   if (!best.empty()) {
-    notes.push_back(format("warning: of %zu scans that were tried %zu fit as given, and %zu with ", chosen.size(), as_asked, most) + best);
+    notes.push_back(format("warning: of %s tried %zu fit as given, and %zu with ", amount(chosen.size(), "scan").c_str(), as_asked, most) +
+                    best);
   } else if (!notes.empty()) {
     notes.back() +=
         ", nor do inverse poses, quaternions scalar first, or other axes fit: check units, and whether the scans are the target's";
@@ -213,9 +214,9 @@ Notes noise_notes(const Mission& mission, const ReplayInput& input, const std::v
   if (ratios.empty() || !(noisy || ratio < kQuiet)) return {};
   const double range_m = median(ranges_m);
   const std::string figures = format(
-      "residuals are %.2g times the noise that the mission states (median of %zu scans): at %.3g m they show %.3g mm, and sensor.sigma0_m, "
+      "residuals are %.2g times the noise that the mission states (median of %s): at %.3g m they show %.3g mm, and sensor.sigma0_m, "
       "sigma_k_per_m and sigma_angle_rad with estimation.surface_sigma_m make %.3g mm",
-      ratio, ratios.size(), range_m, 1e3 * median(shown_m), 1e3 * stated_sigma_m(mission.parameters, range_m));
+      ratio, amount(ratios.size(), "scan").c_str(), range_m, 1e3 * median(shown_m), 1e3 * stated_sigma_m(mission.parameters, range_m));
   if (noisy) return {"warning: " + figures + ": state the sensor's own noise, or how well the surface is known"};
   return {"note: " + figures + ": a noise stated far too large makes gates too wide beside edges"};
 }
