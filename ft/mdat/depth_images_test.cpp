@@ -108,6 +108,7 @@ TEST(DepthImages, ABadCalibrationIsToldWithEachProblem) {
   const Answer answer = work.mdat("replay missions/test.toml --scans images --depth-camera camera.toml --initial start.csv -o out.csv");
   EXPECT_EQ(answer.exit_code, 2);
   for (const char* part : {"camera.toml:1", "fx", "cy", "scale_m"}) EXPECT_NE(answer.err.find(part), std::string::npos) << answer.err;
+  EXPECT_NE(answer.err.find("(length of one step of a pixel's value)"), std::string::npos) << answer.err;
 }
 
 }  // namespace
