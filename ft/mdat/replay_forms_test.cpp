@@ -196,6 +196,22 @@ TEST_F(ReplayForms, SaysThatScansAreInMillimetres) {
   expect_near_truth(replay("image.3dli", "mm", "--scale 0.001"), 1e-3, 0.002);
 }
 
+// What is millimetres by its ranges, and does not fit so, is not said to be: the scans are mirrored as well.
+TEST_F(ReplayForms, ProposesNoUnitThatItHasNotTried) {
+  VERIFIES("LASSO-MDT-074~1");
+  for (const Row& scan : table(work.read("rec/4m/truth.csv"))) {
+    const std::string name = scan.at("scan") + ".csv";
+    work.write("mm/" + name, changed(work.read("rec/4m/scans/" + name), [](Row& row) {
+                 const double unit = row["valid"] == "0" ? 1 : 1000;
+                 for (const char* axis : {"x_m", "y_m", "z_m"}) row[axis] = text_of(unit * std::stod(row[axis]));
+                 row["z_m"] = text_of(-std::stod(row["z_m"]));
+               }));
+  }
+  const Answer answer = work.mdat("replay --force image.3dli --scans mm --initial rec/4m/poses.csv -o out.csv");
+  EXPECT_NE(answer.err.find("the returns of all 8 scans lie beyond sensor.range_max_m 12"), std::string::npos) << answer.err;
+  EXPECT_EQ(answer.err.find("--scale"), std::string::npos) << answer.err;
+}
+
 // Quaternions of both directions and orders by their definition: the inverse of (q, p) is (conjugate q, -R(q)^T p).
 TEST_F(ReplayForms, SaysHowPosesThatDoNotFitWould) {
   VERIFIES("LASSO-MDT-074~1");
@@ -276,6 +292,10 @@ TEST_F(ReplayForms, ReadsOtherAxesFromASensorThatStandsAside) {
   });
   expect_near_truth(replay("image.3dli", "frd", "--axes forward-right-down --sensor-offset 0.5,-0.3,0.2"), 1e-3, 0.002);
   expect_near_truth(replay("image.3dli", "frd", "--axes y,z,x --sensor-offset=0.5,-0.3,0.2"), 1e-3, 0.002);
+  const Answer wrong = work.mdat(
+      "replay --force image.3dli --scans frd --initial rec/4m/poses.csv --axes forward-right-down --sensor-offset=-0.5,0.3,-0.2 -o "
+      "out.csv");
+  EXPECT_NE(wrong.err.find("and 5 with --sensor-offset of the other sign"), std::string::npos) << wrong.err;
   const Answer answer = work.mdat("replay --force image.3dli --scans frd --initial rec/4m/poses.csv --axes front-right-down -o out.csv");
   EXPECT_EQ(answer.exit_code, 2);
   EXPECT_NE(answer.err.find("--axes: is \"front-right-down\""), std::string::npos) << answer.err;
@@ -338,6 +358,15 @@ TEST_F(ReplayForms, PrintsErrorsAgainstTrueOnes) {
   const Answer found = work.mdat("replay --force image.3dli --scans rec/4m/scans --initial search --truth rec/4m/truth.csv -o out.csv");
   EXPECT_NE(found.out.find("translation rms"), std::string::npos) << found.out;
   EXPECT_LT(value(table(work.read("out.csv")).at(0), "error_m"), 0.02);
+  EXPECT_EQ(answer.err.find("--truth"), std::string::npos) << answer.err;
+  work.write("mm.csv", changed(work.read("rec/4m/truth.csv"), [](Row& row) {
+               for (const char* axis : {"x_m", "y_m", "z_m"}) row[axis] = text_of(1000 * std::stod(row[axis]));
+             }));
+  const Answer mm = work.mdat("replay --force image.3dli --scans rec/4m/scans --initial rec/4m/poses.csv --truth mm.csv -o out.csv");
+  const std::size_t told = mm.err.find("warning: --truth: poses are ");
+  ASSERT_NE(told, std::string::npos) << mm.err;
+  EXPECT_NEAR(std::stod(mm.err.substr(told + 28)), 3996, 10) << "4 m of 4000";
+  EXPECT_NE(mm.err.find("if it is read in millimetres"), std::string::npos) << mm.err;
   work.write("other.csv", "scan,qx,qy,qz,qw,x_m,y_m,z_m\nnone,0,0,0,1,0,0,4\n");
   const Answer other = work.mdat("replay --force image.3dli --scans rec/4m/scans --initial rec/4m/poses.csv --truth other.csv -o out.csv");
   EXPECT_EQ(other.exit_code, 2);

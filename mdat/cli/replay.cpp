@@ -75,7 +75,7 @@ void search(const ReplayArguments& options) {
   ReplayInput input = read_replay_input(options.replay);
   const LoadedImage image = load(options);
   tell(settle_times(options.replay, image.mission().parameters.duration_s, input));
-  tell(range_notes(image.mission(), input));
+  tell(range_notes(image.mission(), options.replay, input));
   const std::vector<AcquiredScan> scans = acquire(image.mission(), input.scans, input.truth);
   write_file(options.out, acquired_csv(scans));
   write_file(candidates, candidates_csv(scans));
@@ -110,12 +110,14 @@ void run(ReplayArguments options) {
   ReplayInput input = read_replay_input(options.replay);
   const LoadedImage image = load(options);
   tell(settle_times(options.replay, image.mission().parameters.duration_s, input));
-  const Notes ranges = range_notes(image.mission(), input);
+  const Notes ranges = range_notes(image.mission(), options.replay, input);
   tell(ranges);
+  tell(value_notes(image.mission(), options.replay, input));
   if (ranges.empty()) tell(reading_notes(image.mission(), options.replay, input));
   const std::vector<ReplayedScan> scans = replay(image.mission(), options.replay, input);
   write_file(options.out, replay_csv(scans));
   tell(noise_notes(image.mission(), input, scans));
+  tell(truth_notes(input.truth, judged(scans)));
   std::fputs((replay_summary(scans) + options.out + ": written\n").c_str(), stdout);
 }
 

@@ -129,6 +129,14 @@ std::vector<ReplayedScan> replay(const Mission& mission, const ReplayOptions& op
   });
 }
 
+std::vector<FoundPose> judged(const std::vector<ReplayedScan>& scans) {
+  std::vector<FoundPose> found;
+  for (const ReplayedScan& scan : scans) {
+    if (scan.registration.valid()) found.push_back({scan.scan, scan.registration.T_sensor_target});
+  }
+  return found;
+}
+
 std::string replay_csv(const std::vector<ReplayedScan>& scans) {
   std::string text =
       "scan,qx,qy,qz,qw,x_m,y_m,z_m,t_s,valid,reason,iterations,inliers,rms_m,sigma_x_m,sigma_y_m,sigma_z_m,sigma_rx_rad,sigma_ry_rad,"
