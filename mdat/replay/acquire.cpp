@@ -7,6 +7,7 @@
 #include "fsw/mode/searcher.hpp"
 #include "mdat/common/cpu_clock.hpp"
 #include "mdat/common/progress_bar.hpp"
+#include "mdat/replay/scan_notes.hpp"
 #include "mdat/replay/search_words.hpp"
 #include "mdat/run/statistics.hpp"
 
@@ -70,7 +71,7 @@ std::vector<AcquiredScan> acquire(const Mission& mission, const sim::RecordedSca
   const auto search = std::make_unique<Search>();
   const auto workspace = std::make_unique<Workspace>();
   std::vector<AcquiredScan> acquired;
-  ProgressBar bar("search", scans.size(), "scans");
+  ProgressBar bar("search", scans.size(), "scans", kQuietReplay_s);
   for (std::size_t i = 0; i < scans.size(); ++i) {
     acquired.push_back(acquire_scan(mission, scans.read(i), *search, *workspace));
     acquired.back().scan = scans.stem(i);

@@ -38,7 +38,7 @@ using Register = std::function<ReplayedScan(const RangeImage&, const std::string
 std::vector<ReplayedScan> for_each_scan(const ReplayInput& input, const Register& registered) {
   const sim::RecordedScans& scans = input.scans;
   std::vector<ReplayedScan> results;
-  ProgressBar bar("replay", scans.size(), "scans");
+  ProgressBar bar("replay", scans.size(), "scans", kQuietReplay_s);
   for (std::size_t i = 0; i < scans.size(); ++i) {
     results.push_back(registered(scans.read(i), scans.stem(i)));
     ReplayedScan& result = results.back();

@@ -8,6 +8,8 @@
 
 namespace lasso::mdat {
 
+constexpr double kQuietReplay_s = 3;  // of a replay that takes less no progress is printed off a terminal
+
 // Lines without their ends, each "note: ..." or "warning: ...".
 using Notes = std::vector<std::string>;
 
