@@ -19,6 +19,8 @@ class CsvTable {
   // Reads the header. `expected` is how errors show it. Throws ScanFileError, as all below: of UTF-16, or where nothing stands there.
   CsvTable(std::string file, std::string_view text, std::string expected);
 
+  std::size_t size() const { return names_.size(); }  // columns
+
   // A column by one of its names, in either case.
   std::optional<std::size_t> find(std::initializer_list<std::string_view> names) const;
   std::size_t need(std::initializer_list<std::string_view> names) const;  // throws where there is none

@@ -9,6 +9,7 @@ namespace lasso::mdat {
 
 void add_mission_commands(CLI::App& app);
 void add_run_command(CLI::App& app);
+void add_campaign_command(CLI::App& app);
 void add_lcs_sim_command(CLI::App& app);
 void add_calibrate_command(CLI::App& app);
 void add_replay_command(CLI::App& app);

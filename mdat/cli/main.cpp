@@ -49,6 +49,7 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   add_mission_commands(app);
   add_run_command(app);
+  add_campaign_command(app);
   add_lcs_sim_command(app);
   add_calibrate_command(app);
   add_replay_command(app);
@@ -64,6 +65,8 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
     return kExitDone;
+  } catch (const CLI::RuntimeError& error) {  // what a command ends with, which is no error of the line
+    return error.get_exit_code();
   } catch (const CLI::ParseError& error) {
     return usage(app, error);
   }

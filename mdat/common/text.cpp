@@ -27,6 +27,14 @@ std::string decimals(double value, int count) {
 
 std::string known(double value, int count, const char* unknown) { return std::isnan(value) ? unknown : decimals(value, count); }
 
+std::string shell_word(const std::string& text) {
+  constexpr char kPlain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:@%";
+  if (!text.empty() && text.find_first_not_of(kPlain) == std::string::npos) return text;
+  std::string quoted = "'";
+  for (const char letter : text) quoted += letter == '\'' ? "'\\''" : std::string(1, letter);
+  return quoted + "'";
+}
+
 std::string url(const std::string& path) {
   std::string result;
   for (const char c : path) {

@@ -14,6 +14,9 @@ std::string amount(std::size_t count, const char* name);
 // Text as markup shows it: the characters that HTML and XML keep for themselves as their entities.
 std::string escape(const std::string& text);
 
+// A word of a command as a shell reads it: in quotes where it has more than letters of plain paths.
+std::string shell_word(const std::string& text);
+
 // A path as a page links to it: what is not plain in an address is in percent.
 std::string url(const std::string& path);
 

@@ -9,7 +9,7 @@
 namespace lasso::mdat {
 
 // Laws of one number, in the unit that its key names. `low`, `high` of a normal one: what lies beyond is never drawn (truncated, not
-// clipped); infinite where nothing is cut off.
+// clipped). Where the mission says nothing of them, they are the range of the key.
 struct Uniform {
   double low = 0, high = 1;
 };
@@ -34,6 +34,7 @@ struct AnyDirection {
 struct AnyAttitude {};  // roll, tilt, boresight in degrees: each attitude is as likely as any other
 struct Correlated {
   std::vector<double> mean, covariance;  // normal; the matrix by rows, symmetric, positive definite
+  std::vector<double> low, high;         // the ranges of the keys, 4 sigma away or more: what lies beyond is never drawn
 };
 struct Rows {
   std::string file;            // CSV, as it was written in the mission
@@ -48,6 +49,7 @@ using Law = std::variant<NumberLaw, AnyDirection, AnyAttitude, Correlated, Rows>
 struct Dispersion {
   std::vector<std::string> columns;
   Law law;
+  std::string key{};  // where the mission says it: "campaign.NAME.truth.range_m", "campaign.NAME.together[0]"
 };
 
 enum class Sampling : std::uint8_t { kRandom = 0, kLatinHypercube = 1, kSobol = 2 };

@@ -1,6 +1,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "mdat/missiondb/campaign_reader.hpp"
+#include "mdat/missiondb/campaign_rules.hpp"
 #include "mdat/missiondb/mesh_import.hpp"
 #include "mdat/missiondb/mission_checks.hpp"
 #include "mdat/missiondb/mission_source.hpp"
@@ -59,16 +61,18 @@ class Loader {
     read_calibrations(source_, problems_);
     read_scenarios();
     check_contradictions();
+    if (problems_.empty()) check_campaigns(source_, problems_);
   }
   // Values of all sections, scenarios included, so that one pass shows the mistakes of all.
   void read_values() {
     std::vector<ValueRow> rows = mission_rows();
     rows.insert(rows.end(), flight_rows().begin(), flight_rows().end());
-    found_ = read_table(root_, "", rows, {"further_sensor", "part", "scenario", "target.parameters"}, problems_);
+    found_ = read_table(root_, "", rows, {"campaign", "further_sensor", "part", "scenario", "target.parameters"}, problems_);
     for (const ValueRow& row : rows) note_origin(row.key, found_, row.key);
     read_scenario_values();
     read_further_sensors(root_, source_, problems_);
     read_parts(root_, source_, problems_);
+    read_campaigns(root_, source_, problems_);
     read_model_parameters();
     fill_mission();
   }
@@ -343,8 +347,12 @@ const Scenario& scenario_of(const MissionSource& source, const std::string& name
 }
 
 MissionParameters parameters_for(const MissionSource& source, const std::string& scenario) {
+  return scenario.empty() ? source.parameters : parameters_for(source, scenario_of(source, scenario));
+}
+
+MissionParameters parameters_for(const MissionSource& source, const Scenario& scenario) {
   MissionParameters parameters = source.parameters;
-  if (!scenario.empty()) override_parameters(parameters, scenario_of(source, scenario).overrides);
+  override_parameters(parameters, scenario.overrides);
   return parameters;
 }
 

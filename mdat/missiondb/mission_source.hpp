@@ -11,6 +11,7 @@
 
 #include "fsw/mission/calibration.hpp"
 #include "fsw/mission/parameters.hpp"
+#include "mdat/missiondb/campaign_source.hpp"
 #include "mdat/missiondb/mission_error.hpp"
 #include "mdat/modelc/mesh.hpp"
 
@@ -98,8 +99,16 @@ struct Scenario {
   double navigation_from_s = 0, navigation_period_s = 0, navigation_sigma_m = 0, navigation_sigma_rad = 0;
   double prior = 1;                    // 0: no pose to start from is given; the component is commanded to seek the bearing
   std::vector<double> prior_turn_rad;  // rotation vector in the target's axes by which the pose to start from is wrong
+  std::vector<double> prior_shift_m;   // and by which its position is, in sensor axes
+  // How the simulated target differs from the model that the component has, in this order; in target axes.
+  double model_scale = 1;                   // of all lengths, about the target's origin
+  double model_vertex_sigma_m = 0;          // each coordinate of each vertex, at random
+  std::vector<double> model_turned_box_m;   // low x, y, z, high x, y, z: triangles whose centres lie in it are turned ...
+  std::vector<double> model_turn_rad;       // ... about its middle by this rotation vector
+  std::vector<double> model_gone_box_m;     // triangles whose centres, as the model has them, lie in it are not there; boxes without size: none
   // The simulated sensor, as against the noise that the estimator assumes ([sensor]), from which unwritten values are taken.
   double noise = 1;  // 0: perfect ranges and angles
+  double noise_factor = 1;  // of the range noise
   double sigma0_m = 0, sigma_k_per_m = 0, angle_noise_rad = 0, dropout_probability = 0;
   double dropout_incidence_rad = 0;  // rays that graze the surface more than this do not return
   double outlier_probability = 0, edge_mixing_m = 0, beam_divergence_rad = 0;
@@ -124,6 +133,7 @@ struct MissionSource {
   Calibrations calibrations;
   MissionParameters parameters{};
   std::map<std::string, Scenario> scenarios;
+  std::map<std::string, CampaignSource> campaigns;
   std::map<std::string, Origin> origins;  // by dotted key, all rows of parameter_rows() and of the ground sections
   std::vector<std::string> warnings;      // of what was read
   std::vector<Doubt> doubts;              // of values (warnings_for)
@@ -155,6 +165,7 @@ Mesh load_part(const MissionSource& source, const PartSource& part, const Mesh& 
 // The flight parameters that hold in a scenario: the mission's, with the scenario's overrides. An empty name: the mission's own.
 // Throws MissionError where there is no such scenario.
 MissionParameters parameters_for(const MissionSource& source, const std::string& scenario);
+MissionParameters parameters_for(const MissionSource& source, const Scenario& scenario);
 
 // The scenario's definition. Throws MissionError naming those that exist.
 const Scenario& scenario_of(const MissionSource& source, const std::string& name);

@@ -211,8 +211,9 @@ class Case {
     const Vec3 center_m(setup_.scenario.center_m.data());
     const Quat q = exp_so3(Vec3(turn.at(0), turn.at(1), turn.at(2)));
     const Pose T_target_turned{q, center_m - rotate(q, center_m)};
-    expect(component_->start_tracking(trajectory_->at(truth_us).T_sensor_target * T_target_turned, Twist{}, truth_us + period_us_),
-           "start tracking");
+    Pose T_sensor_start = trajectory_->at(truth_us).T_sensor_target * T_target_turned;
+    T_sensor_start.p += Vec3(setup_.scenario.prior_shift_m.data());
+    expect(component_->start_tracking(T_sensor_start, Twist{}, truth_us + period_us_), "start tracking");
   }
 
   void read_packets(const posix::FrameRecord& record) {

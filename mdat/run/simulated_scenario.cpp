@@ -60,12 +60,12 @@ DurationUs to_us(double time_s) { return static_cast<DurationUs>(std::llround(ti
 
 DurationUs period_us(const MissionParameters& parameters) { return to_us(parameters.period_s); }
 
-sim::ScannerModel scanner_model(const Scenario& scenario, const MissionParameters& parameters, bool noise) {
-  sim::ScannerModel model = model_of(scenario, parameters);
+sim::ScannerModel scanner_model(const Scenario& scenario, const SensorParameters& sensor, bool noise) {
+  sim::ScannerModel model = model_of(scenario, sensor);
   model.dropout_probability = scenario.dropout_probability;
   if (!noise) return model;
-  model.sigma0_m = scenario.sigma0_m;
-  model.sigma_k_per_m = scenario.sigma_k_per_m;
+  model.sigma0_m = scenario.noise_factor * scenario.sigma0_m;
+  model.sigma_k_per_m = scenario.noise_factor * scenario.sigma_k_per_m;
   model.sigma_angle_rad = scenario.angle_noise_rad;
   model.beam_divergence_rad = scenario.beam_divergence_rad;
   return model;
@@ -75,8 +75,8 @@ sim::ScannerModel scanner_model(const Scenario& scenario, const FurtherSensor& s
   sim::ScannerModel model = model_of(scenario, sensor.parameters);
   model.dropout_probability = sensor.parameters.dropout_probability;
   if (!noise) return model;
-  model.sigma0_m = sensor.parameters.sigma0_m;
-  model.sigma_k_per_m = sensor.parameters.sigma_k_per_m;
+  model.sigma0_m = scenario.noise_factor * sensor.parameters.sigma0_m;
+  model.sigma_k_per_m = scenario.noise_factor * sensor.parameters.sigma_k_per_m;
   model.sigma_angle_rad = sensor.parameters.sigma_angle_rad;
   if (sensor.kind == SensorKind::kTimeOfFlight) model.beam_divergence_rad = sim::time_of_flight_lidar().beam_divergence_rad;
   return model;

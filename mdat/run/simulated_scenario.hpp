@@ -15,7 +15,7 @@ DurationUs to_us(double time_s);        // to the nearest
 DurationUs period_us(const MissionParameters& parameters);
 
 // The scanner of a scenario, [sensor]; without noise its ranges and directions are exact.
-sim::ScannerModel scanner_model(const Scenario& scenario, const MissionParameters& parameters, bool noise);
+sim::ScannerModel scanner_model(const Scenario& scenario, const SensorParameters& sensor, bool noise);
 // Another one of the mission's.
 sim::ScannerModel scanner_model(const Scenario& scenario, const FurtherSensor& sensor, bool noise);
 

@@ -272,15 +272,6 @@ void collect(std::vector<CaseResult> cases, SimulationResult& result) {
 
 }  // namespace
 
-std::unique_ptr<sim::RayCaster> make_target(const Mesh& mesh) {
-  const auto has_area = [&](const std::array<std::uint32_t, 3>& t) {
-    return (mesh.vertices[t[1]] - mesh.vertices[t[0]]).cross(mesh.vertices[t[2]] - mesh.vertices[t[0]]).norm() > 0;
-  };
-  std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::copy_if(mesh.triangles.begin(), mesh.triangles.end(), std::back_inserter(triangles), has_area);
-  return sim::make_ray_caster(mesh.vertices, triangles);
-}
-
 std::vector<std::uint32_t> shown_frames(const Scenario& scenario, std::uint32_t frames) {
   std::vector<std::uint32_t> result;
   if (scenario.has_profile()) return all_frames(frames);  // which of them, the run itself will tell
@@ -291,6 +282,21 @@ std::vector<std::uint32_t> shown_frames(const Scenario& scenario, std::uint32_t 
     if (frame < frames) result.push_back(static_cast<std::uint32_t>(frame));
   }
   return result;
+}
+
+CaseSetup plain_case(const MissionSource& source, const Scenario& scenario, std::uint64_t seed, std::uint32_t frames) {
+  const TableResult table = make_tables(scenario, parameters_for(source, scenario), true).front();
+  CaseSetup setup;
+  setup.seed = case_seed(seed, 0, 0);
+  setup.scenario = drawn_scenario(scenario, setup.seed);
+  setup.range_m = scenario.runs_m().front();
+  setup.noise = table.variants.front().variant.noise;
+  setup.frames = frames;
+  setup.parameters = table.variants.front().parameters;
+  setup.further_sensors = source.further_sensors;
+  setup.sensor = source.sensor;
+  setup.calibrations = source.calibrations;
+  return setup;
 }
 
 CaseSetup camera_case(const CompiledMission& mission, const SimulationOptions& options, const sim::RayCaster& target) {
@@ -335,7 +341,7 @@ SimulationResult simulate(const CompiledMission& mission, const SimulationOption
   result.tables = tables_of(mission.source, options, options.link != nullptr);
 
   const auto begin = std::chrono::steady_clock::now();
-  const std::unique_ptr<sim::RayCaster> target = make_target(mission.mesh);
+  const std::unique_ptr<sim::RayCaster> target = simulated_target(mission.mesh, scenario, result.seed);
   std::optional<CompiledMission> changed;
   if (options.calibration && options.wire) changed = recalibrated(mission, *options.wire, *options.calibration);
   Plan plan = make_plan(changed ? *changed : mission, result, *target);

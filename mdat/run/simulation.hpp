@@ -9,6 +9,7 @@
 #include "mdat/common/flight_image.hpp"
 #include "mdat/missiondb/mission_text.hpp"
 #include "mdat/run/case.hpp"
+#include "mdat/run/true_target.hpp"
 
 namespace lasso::mdat {
 
@@ -78,6 +79,10 @@ struct SimulationResult {
 // it.
 CaseSetup camera_case(const CompiledMission& mission, const SimulationOptions& options, const sim::RayCaster& target);
 
+// The one case of a scenario of one range as it stands (SimulationOptions::plain), as simulate runs it, for whoever runs many: the caller
+// sets image, of these parameters, and target.
+CaseSetup plain_case(const MissionSource& source, const Scenario& scenario, std::uint64_t seed, std::uint32_t frames);
+
 // What of a simulation the mission, or this machine, does not have, before anything is compiled: the scenario, a sensor, a line; and what
 // serves one run, where there are several. `linked`: there will be a link. Throws InputError or MissionError.
 void check_simulation(const MissionSource& source, const SimulationOptions& options, bool linked);
@@ -89,9 +94,6 @@ SimulationResult simulate(const CompiledMission& mission, const SimulationOption
 
 // All packets, in the order of tables, variants and ranges.
 std::string telemetry_bytes(const SimulationResult& result);
-
-// The target for the ray caster: triangles without area, which no ray can hit, are left out.
-std::unique_ptr<sim::RayCaster> make_target(const Mesh& mesh);
 
 // Index of the range whose scans the report shows: the middle one.
 inline std::size_t shown_range(const Scenario& scenario) { return scenario.runs_m().size() / 2; }

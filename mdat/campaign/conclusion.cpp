@@ -1,0 +1,104 @@
+#include "mdat/campaign/conclusion.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mdat/campaign/sequence.hpp"
+#include "mdat/common/errors.hpp"
+
+namespace lasso::mdat {
+namespace {
+
+constexpr double kMostCases = 1e9;  // more are not worth a number
+
+// Limits of a campaign whose number of cases is fixed, or that looks at its results and stops.
+using LimitsOf = Limits (*)(double within, double cases, double confidence);
+LimitsOf limits_of(const CampaignSource& campaign) { return campaign.look_every == 0 ? share_limits : share_sequence; }
+
+Verdict verdict_of(const Limits& limits, double share_min) {
+  if (limits.lower >= share_min) return Verdict::kMet;
+  return limits.upper < share_min ? Verdict::kFailed : Verdict::kUndecided;
+}
+
+// The least number of cases, of which this share is within, that decides: the limits close in as it grows. Nothing where more than
+// kMostCases would be needed, as the share is the one that is asked for.
+std::optional<double> deciding_cases(const Criterion& criterion, double share, double cases, LimitsOf limits) {
+  const auto decides = [&](double number) {
+    return verdict_of(limits(share * number, number, criterion.confidence), criterion.share_min) != Verdict::kUndecided;
+  };
+  double low = cases, high = std::max(1.0, 2 * cases);
+  for (; !decides(high); high *= 2) {
+    if (high > kMostCases) return std::nullopt;
+    low = high;
+  }
+  while (high - low > 1) {
+    const double middle = std::floor((low + high) / 2);
+    (decides(middle) ? high : low) = middle;
+  }
+  return high;
+}
+
+void count(const Criterion& criterion, const CaseRow& row, std::size_t figure, Conclusion& conclusion) {
+  ++conclusion.cases;
+  if (!row.has_run())
+    ++conclusion.not_run;
+  else if (std::isnan(row.figures[figure]))
+    ++conclusion.unknown;
+  else if (is_within(criterion, row, figure))
+    ++conclusion.within;
+}
+
+void decide(LimitsOf limits, Conclusion& conclusion) {
+  conclusion.limits = limits(conclusion.within, conclusion.cases, conclusion.criterion.confidence);
+  conclusion.verdict = verdict_of(conclusion.limits, conclusion.criterion.share_min);
+}
+
+}  // namespace
+
+const char* to_string(Verdict verdict) {
+  constexpr const char* kNames[] = {"met", "failed", "undecided"};
+  return kNames[static_cast<std::size_t>(verdict)];
+}
+
+bool is_within(const Criterion& criterion, const CaseRow& row, std::size_t figure) {
+  return row.has_run() && row.figures[figure] >= criterion.at_least && row.figures[figure] <= criterion.at_most;
+}
+
+std::size_t figure_of(const Criterion& criterion, const ResultTable& table) {
+  const auto place = std::find(table.figures.begin(), table.figures.end(), criterion.figure);
+  if (place != table.figures.end()) return static_cast<std::size_t>(place - table.figures.begin());
+  std::string known;
+  for (const std::string& name : table.figures) known += (known.empty() ? "" : ", ") + name;
+  throw InputError("criterion " + criterion.name + ": a case has no figure " + criterion.figure + "; it has " + known);
+}
+
+std::vector<Conclusion> conclude(const CampaignSource& campaign, const ResultTable& table) {
+  std::vector<Conclusion> conclusions;
+  for (const Criterion& criterion : campaign.criteria) {
+    Conclusion& conclusion = conclusions.emplace_back();
+    conclusion.criterion = criterion;
+    for (const CaseRow& row : table.rows) count(criterion, row, figure_of(criterion, table), conclusion);
+    decide(limits_of(campaign), conclusion);
+    if (conclusion.verdict != Verdict::kUndecided || criterion.share_min >= 1 || conclusion.cases == 0) continue;
+    const auto cases = deciding_cases(criterion, conclusion.share(), conclusion.cases, limits_of(campaign));
+    if (cases) conclusion.more = *cases - conclusion.cases;
+  }
+  return conclusions;
+}
+
+std::optional<std::uint32_t> stop_at(const CampaignSource& campaign, const ResultTable& table) {
+  if (campaign.look_every == 0 || campaign.criteria.empty()) return std::nullopt;
+  std::vector<Conclusion> conclusions(campaign.criteria.size());
+  for (std::size_t i = 0; i < conclusions.size(); ++i) conclusions[i].criterion = campaign.criteria[i];
+  for (std::uint32_t number = 0; number < table.rows.size() && table.rows[number].number == number; ++number) {
+    for (Conclusion& conclusion : conclusions)
+      count(conclusion.criterion, table.rows[number], figure_of(conclusion.criterion, table), conclusion);
+    if ((number + 1) % campaign.look_every != 0) continue;
+    for (Conclusion& conclusion : conclusions) decide(limits_of(campaign), conclusion);
+    const auto decided = [](const Conclusion& conclusion) { return conclusion.verdict != Verdict::kUndecided; };
+    if (std::all_of(conclusions.begin(), conclusions.end(), decided)) return number + 1;
+  }
+  return std::nullopt;
+}
+
+}  // namespace lasso::mdat

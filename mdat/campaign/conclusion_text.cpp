@@ -1,0 +1,85 @@
+#include "mdat/campaign/conclusion_text.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "mdat/common/text.hpp"
+
+namespace lasso::mdat {
+namespace {
+
+using Rounding = double (*)(double);
+double down(double value) { return std::floor(value); }
+double up(double value) { return std::ceil(value); }
+double to_nearest(double value) { return std::round(value); }
+
+// One decimal of the percentage, and more as the share comes near 0 or 1.
+int percent_decimals(double share) {
+  const double missing = std::min(share, 1 - share);
+  return missing <= 0 ? 0 : std::clamp(static_cast<int>(std::ceil(-std::log10(missing))) - 1, 1, 7);
+}
+
+std::string rounded(double share, Rounding rounding) {
+  const int count = percent_decimals(share);
+  const double unit = std::pow(10, count);
+  return decimals(rounding(100 * share * unit) / unit, count) + " %";
+}
+
+// Two digits, rounded up: it is an estimate.
+std::string about(double number) {
+  const double unit = std::pow(10, std::max(0.0, std::floor(std::log10(std::max(number, 1.0))) - 1));
+  return format("%.0f", std::ceil(number / unit) * unit);
+}
+
+// Those that are there, a space apart.
+std::string sentences(const std::vector<std::string>& all) {
+  std::string text;
+  for (const std::string& one : all) text += (text.empty() || one.empty() ? "" : " ") + one;
+  return text;
+}
+
+}  // namespace
+
+std::string share_text(double share) { return rounded(share, to_nearest); }
+
+std::string limits_text(const Limits& limits) { return rounded(limits.lower, down) + " to " + rounded(limits.upper, up); }
+
+std::string bounds_text(const Criterion& criterion) {
+  const bool above = std::isfinite(criterion.at_least), below = std::isfinite(criterion.at_most);
+  if (above && below) return format("%g <= %s <= %g", criterion.at_least, criterion.figure.c_str(), criterion.at_most);
+  if (above) return format("%s >= %g", criterion.figure.c_str(), criterion.at_least);
+  return below ? format("%s <= %g", criterion.figure.c_str(), criterion.at_most) : criterion.figure;
+}
+
+std::string criterion_text(const Criterion& criterion) {
+  return bounds_text(criterion) + format(" in at least %g %%", 100 * criterion.share_min);
+}
+
+std::string what_decides(const Conclusion& conclusion) {
+  if (conclusion.verdict != Verdict::kUndecided) return "";
+  if (conclusion.cases == 0) return "No case was flown.";
+  if (conclusion.criterion.share_min >= 1)
+    return "No number of cases shows 100 %; these show " + rounded(conclusion.limits.lower, down) + ": ask for no more than that.";
+  if (!conclusion.more) return "The share is the one that is asked for: no number of cases tells on which side of it the truth lies.";
+  return "It needs about " + about(*conclusion.more) + " more cases at this share.";
+}
+
+std::string outside_text(const Conclusion& conclusion) {
+  const std::string not_run = conclusion.not_run == 0 ? "" : format("Cases that failed to run count as outside: %u.", conclusion.not_run);
+  const std::string unknown = conclusion.unknown == 0 ? ""
+                                                      : format("Cases without %s (no valid pose has one) count as outside: %u.",
+                                                               conclusion.criterion.figure.c_str(), conclusion.unknown);
+  return sentences({not_run, unknown});
+}
+
+std::string conclusion_text(const Conclusion& conclusion) {
+  const std::string within = format(
+      "%u of %u cases are within %s. With a confidence of %g %% that shows %s of all cases that could be drawn; at least %g %% is asked "
+      "for.",
+      conclusion.within, conclusion.cases, bounds_text(conclusion.criterion).c_str(), 100 * conclusion.criterion.confidence,
+      limits_text(conclusion.limits).c_str(), 100 * conclusion.criterion.share_min);
+  return sentences({within, outside_text(conclusion), what_decides(conclusion)});
+}
+
+}  // namespace lasso::mdat

@@ -1,0 +1,30 @@
+// What a campaign shows of its criteria, in words.
+#pragma once
+
+#include <string>
+
+#include "mdat/campaign/conclusion.hpp"
+
+namespace lasso::mdat {
+
+// Two digits of what is missing to 0 or 1: "99.42 %". A lower limit is rounded down, an upper one up: the text promises no more than they
+// do.
+std::string share_text(double share);
+std::string limits_text(const Limits& limits);  // "98.26 % to 99.88 %"
+
+// "wrong <= 0", "2 <= found_s <= 5".
+std::string bounds_text(const Criterion& criterion);
+
+// "wrong <= 0 in at least 98 %".
+std::string criterion_text(const Criterion& criterion);
+
+// Which cases count as outside though no figure says so; empty where there are none.
+std::string outside_text(const Conclusion& conclusion);
+
+// What would decide an undecided one; empty of the others.
+std::string what_decides(const Conclusion& conclusion);
+
+// In sentences: how many cases are within, what that shows, which cases count as outside though they have no figure, what would decide it.
+std::string conclusion_text(const Conclusion& conclusion);
+
+}  // namespace lasso::mdat

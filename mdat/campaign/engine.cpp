@@ -1,0 +1,285 @@
+#include "mdat/campaign/engine.hpp"
+
+#include <poll.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "mdat/campaign/chunk_file.hpp"
+#include "mdat/campaign/records.hpp"
+#include "mdat/common/errors.hpp"
+#include "mdat/common/interruption.hpp"
+#include "mdat/common/progress_bar.hpp"
+#include "mdat/common/text.hpp"
+
+namespace lasso::mdat {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double kGraceSeconds = 10;  // schedulers leave thirty or more between SIGTERM and SIGKILL
+constexpr int kPollMilliseconds = 100;
+constexpr std::uint8_t kTries = 3;
+constexpr std::uint32_t kFailuresShown = 5;
+
+double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
+
+// A line beside the progress bar.
+void say(const std::string& text) { std::fprintf(stderr, "%s%s\n", isatty(STDERR_FILENO) == 1 ? "\r\033[K" : "", text.c_str()); }
+
+class Engine {
+ public:
+  Engine(const EngineOptions& options, const MakeFly& make_fly, const OnCase& on_case);
+  EngineResult run();
+
+ private:
+  struct Seat {
+    std::unique_ptr<Worker> worker;
+    std::optional<std::uint32_t> flying;
+    Clock::time_point since;
+  };
+  void find(const Records& records);
+  void repair(const Records& records);
+  std::optional<std::uint32_t> take_next();
+  void start_worker(Seat& seat);
+  void give_next(Seat& seat);
+  void receive(Seat& seat);
+  void bury(Seat& seat);
+  std::string verdict_on_dead(std::uint32_t number, int signal);
+  void keep(std::uint32_t number, const std::string& fields);
+  void show_failure(std::uint32_t number, const std::string& fields);
+  void poll_workers();
+  void check_case_times();
+  void check_wishes();
+  bool may_begin() const;
+  bool is_over() const;
+  void end_as(EngineEnd end);
+  EngineResult conclude();
+
+  const EngineOptions options_;
+  const MakeFly& make_fly_;
+  const OnCase& on_case_;
+  const std::atomic<bool>& interrupted_;
+  std::optional<ChunkFile> file_;
+  std::vector<bool> recorded_;       // by case
+  std::vector<std::uint8_t> kills_;  // from outside, by case
+  std::vector<std::uint32_t> again_;
+  std::uint32_t next_, failures_ = 0;
+  std::uint8_t killed_starts_ = 0;
+  std::vector<Seat> seats_;
+  EngineResult result_;
+  bool ending_ = false;
+  Clock::time_point begin_ = Clock::now(), ending_since_;
+  double longest_s_ = 0;
+  std::optional<ProgressBar> bar_;
+};
+
+Engine::Engine(const EngineOptions& options, const MakeFly& make_fly, const OnCase& on_case)
+    : options_(options),
+      make_fly_(make_fly),
+      on_case_(on_case),
+      interrupted_(interruption()),
+      recorded_(options.cases),
+      kills_(options.cases),
+      next_(options.chunk.number - 1) {
+  (void)std::signal(SIGXFSZ, SIG_IGN);  // a file that has become too large is an error of write()
+  file_.emplace(options.folder, chunk_name(options.chunk), options.plan_digest);
+  for (const std::string& note : file_->notes()) say("warning: " + note);
+  const Records records(options.folder, options.plan_digest, options.cases, options.chunk);
+  find(records);
+  repair(records);
+}
+
+void Engine::find(const Records& records) {
+  for (std::uint32_t number = next_; number < options_.cases; number += options_.chunk.of) {
+    const std::optional<std::string_view> fields = records.of(number);
+    recorded_[number] = fields.has_value();
+    ++(fields ? result_.found : result_.missing);
+    if (fields && !ending_ && !on_case_(number, std::string(*fields))) end_as(EngineEnd::kDecided);
+  }
+}
+
+// Of other chunks: their runners do it themselves.
+void Engine::repair(const Records& records) {
+  for (const std::filesystem::path& file : records.damaged_files()) {
+    if (in_flight(file)) continue;
+    const TakenOut taken = repair_chunk(
+        file, options_.plan_digest, [](const CaseRecord&) { return false; }, ".damaged");
+    for (const std::string& note : taken.damaged) say("warning: " + note);
+  }
+}
+
+std::optional<std::uint32_t> Engine::take_next() {
+  if (!again_.empty()) {
+    const std::uint32_t number = again_.back();
+    again_.pop_back();
+    return number;
+  }
+  while (next_ < options_.cases && recorded_[next_]) next_ += options_.chunk.of;
+  if (next_ >= options_.cases) return std::nullopt;
+  const std::uint32_t number = next_;
+  next_ += options_.chunk.of;
+  return number;
+}
+
+void Engine::start_worker(Seat& seat) {
+  seat.flying.reset();
+  seat.worker = std::make_unique<Worker>(make_fly_, [this] {
+    file_.reset();
+    for (Seat& other : seats_)
+      if (other.worker) close(other.worker->socket());
+  });
+}
+
+bool Engine::may_begin() const { return !ending_ && seconds_since(begin_) + longest_s_ < options_.time_limit_s; }
+
+void Engine::give_next(Seat& seat) {
+  if (!ending_ && !may_begin()) end_as(EngineEnd::kTimeLimit);
+  seat.flying = ending_ ? std::nullopt : take_next();
+  seat.since = Clock::now();
+  if (seat.flying) {
+    seat.worker->give(*seat.flying);
+  } else {
+    seat.worker.reset();
+  }
+}
+
+void Engine::receive(Seat& seat) {
+  const Worker::Message message = seat.worker->receive();
+  if (message.kind == Worker::Kind::kDead) return bury(seat);
+  if (message.kind == Worker::Kind::kBadInput) throw InputError(message.text);
+  if (message.kind == Worker::Kind::kError) throw RunError(message.text);
+  if (message.kind == Worker::Kind::kFields) {
+    longest_s_ = std::max(longest_s_, seconds_since(seat.since));
+    keep(*seat.flying, message.text);
+  }
+  give_next(seat);
+}
+
+// The record of a case whose worker was ended by a signal (0: it left by itself); empty if it is to be flown again.
+std::string Engine::verdict_on_dead(std::uint32_t number, int signal) {
+  if (signal != SIGKILL)
+    return failed_fields(signal == 0 ? "its process ended by itself" : "crashed with signal " + std::to_string(signal));
+  if (++kills_[number] == kTries) return failed_fields("killed " + std::to_string(kTries) + " times");
+  again_.push_back(number);
+  return "";
+}
+
+void Engine::bury(Seat& seat) {
+  const int signal = seat.worker->signal();
+  const std::string how = signal == 0 ? "ended by itself" : format("was ended by signal %d (%s)", signal, strsignal(signal));
+  if (!seat.flying && (signal != SIGKILL || ++killed_starts_ == kTries))
+    throw RunError("a worker " + how + " before it flew a case: it may be short of memory (fewer --jobs need less)");
+  if (seat.flying) {
+    const std::string fields = verdict_on_dead(*seat.flying, signal);
+    say(format("warning: case %u: its process %s%s", *seat.flying, how.c_str(), fields.empty() ? "; it is flown again" : ""));
+    if (!fields.empty()) keep(*seat.flying, fields);
+  }
+  seat.worker.reset();
+  if (!ending_) start_worker(seat);
+}
+
+void Engine::keep(std::uint32_t number, const std::string& fields) {
+  file_->append(number, fields);
+  recorded_[number] = true;
+  ++result_.flown;
+  --result_.missing;
+  if (is_failed(fields)) show_failure(number, fields);
+  bar_->show(result_.flown);
+  if (!on_case_(number, fields)) end_as(EngineEnd::kDecided);
+}
+
+void Engine::show_failure(std::uint32_t number, const std::string& fields) {
+  if (++failures_ <= kFailuresShown) say(format("case %u %s", number, fields.c_str()));
+  if (failures_ == kFailuresShown) say("further failed cases are counted, and not shown");
+}
+
+void Engine::poll_workers() {
+  std::vector<pollfd> sockets;
+  std::vector<Seat*> seats;
+  for (Seat& seat : seats_) {
+    if (!seat.worker) continue;
+    sockets.push_back({seat.worker->socket(), POLLIN, 0});
+    seats.push_back(&seat);
+  }
+  if (poll(sockets.data(), sockets.size(), kPollMilliseconds) <= 0) return;  // also where a signal came
+  for (std::size_t i = 0; i < seats.size() && !is_over(); ++i)
+    if (sockets[i].revents != 0) receive(*seats[i]);
+}
+
+void Engine::check_case_times() {
+  for (Seat& seat : seats_) {
+    if (!seat.flying || seconds_since(seat.since) < options_.case_time_limit_s) continue;
+    keep(*seat.flying, failed_fields(format("longer than %g s", options_.case_time_limit_s)));
+    seat.worker.reset();
+    if (ending_) {
+      seat.flying.reset();
+    } else {
+      start_worker(seat);
+    }
+  }
+}
+
+void Engine::end_as(EngineEnd end) {
+  if (ending_) return;
+  ending_ = true;
+  result_.end = end;
+  ending_since_ = Clock::now();
+}
+
+void Engine::check_wishes() {
+  if (!interrupted_ || ending_) return;
+  end_as(EngineEnd::kInterrupted);
+  say(format("stopping: cases that end within %.0f s are kept", kGraceSeconds));
+}
+
+// Nobody flies a case any more, or whoever still does is not waited for.
+bool Engine::is_over() const {
+  const bool flying = std::any_of(seats_.begin(), seats_.end(), [](const Seat& seat) { return seat.worker && seat.flying; });
+  if (!ending_) return std::none_of(seats_.begin(), seats_.end(), [](const Seat& seat) { return seat.worker != nullptr; });
+  if (!flying || result_.end == EngineEnd::kDecided) return true;
+  return result_.end == EngineEnd::kTimeLimit ? seconds_since(begin_) > options_.time_limit_s
+                                              : seconds_since(ending_since_) > kGraceSeconds;
+}
+
+EngineResult Engine::run() {
+  seats_.resize(std::min<std::size_t>(options_.jobs, ending_ ? 0 : result_.missing));
+  bar_.emplace("campaign", result_.missing, "cases");
+  for (Seat& seat : seats_) start_worker(seat);
+  for (; !is_over(); check_case_times()) {
+    check_wishes();
+    poll_workers();
+  }
+  return conclude();
+}
+
+EngineResult Engine::conclude() {
+  seats_.clear();
+  if (result_.missing == 0) result_.end = EngineEnd::kDone;
+  if (result_.end == EngineEnd::kDone || result_.end == EngineEnd::kDecided) {
+    if (result_.flown > 0)
+      result_.missing == 0 ? bar_->finish() : say(format("campaign: decided after %u cases", result_.found + result_.flown));
+    file_->complete();
+  } else {
+    say(format("stopped: %u of %u cases are done; the same command goes on", result_.found + result_.flown,
+               result_.found + result_.flown + result_.missing));
+  }
+  return result_;
+}
+
+}  // namespace
+
+EngineResult fly_cases(const EngineOptions& options, const MakeFly& make_fly, const OnCase& on_case) {
+  return Engine(options, make_fly, on_case).run();
+}
+
+int exit_code_of(EngineEnd end) { return end == EngineEnd::kInterrupted || end == EngineEnd::kTimeLimit ? kExitGoOn : kExitDone; }
+
+}  // namespace lasso::mdat

@@ -1,0 +1,52 @@
+#include "mdat/campaign/flight.hpp"
+
+#include <atomic>
+#include <utility>
+
+#include "mdat/missiondb/campaign_columns.hpp"
+
+namespace lasso::mdat {
+
+CampaignFlight::CampaignFlight(const CompiledMission& mission, const CampaignSource& campaign, std::vector<std::string> columns)
+    : mission_(mission),
+      campaign_(campaign),
+      columns_(std::move(columns)),
+      scenario_(scenario_of(mission.source, campaign.scenario)),
+      frames_(campaign.frames != 0 ? campaign.frames : static_cast<std::uint32_t>(scenario_.frames)),
+      image_(image_bytes(mission, plain_case(mission.source, scenario_, 0, 0).parameters)),
+      target_(make_target(mission.mesh)) {}
+
+Scenario CampaignFlight::scenario_with(const std::vector<double>& values) const {
+  Scenario scenario = scenario_;
+  for (std::size_t i = 0; i < columns_.size(); ++i) set_column(scenario, columns_[i], values.at(i));
+  return scenario;
+}
+
+CaseResult CampaignFlight::fly(std::uint64_t seed, const std::vector<double>& values) const {
+  CaseSetup setup = plain_case(mission_.source, scenario_with(values), seed, frames_);
+  std::vector<std::uint8_t> image;
+  if (setup.scenario.overrides != scenario_.overrides) image = image_bytes(mission_, setup.parameters);
+  setup.image = image.empty() ? &image_ : &image;
+  std::unique_ptr<sim::RayCaster> target;
+  if (has_model_error(setup.scenario)) target = simulated_target(mission_.mesh, setup.scenario, seed);
+  setup.target = target ? target.get() : target_.get();
+  std::atomic<std::size_t> frames_done{0};
+  return run_case(setup, frames_done);
+}
+
+CompiledMission CampaignFlight::mission_of(const std::vector<double>& values) const {
+  CompiledMission mission = mission_;
+  mission.source.scenarios[campaign_.scenario] = scenario_with(values);
+  return mission;
+}
+
+SimulationOptions CampaignFlight::options(std::uint64_t seed) const {
+  SimulationOptions options;
+  options.scenario = campaign_.scenario;
+  options.seed = seed;
+  options.frames = frames_;
+  options.plain = true;
+  return options;
+}
+
+}  // namespace lasso::mdat

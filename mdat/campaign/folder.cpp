@@ -1,0 +1,274 @@
+#include "mdat/campaign/folder.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cstdio>
+#include <fstream>
+#include <limits>
+#include <map>
+#include <memory>
+#include <optional>
+#include <sstream>
+
+#include "mdat/campaign/case_table.hpp"
+#include "mdat/campaign/conclusion.hpp"
+#include "mdat/campaign/figures.hpp"
+#include "mdat/campaign/flight.hpp"
+#include "mdat/campaign/results_h5.hpp"
+#include "mdat/campaign/summary_files.hpp"
+#include "mdat/campaign/summary_text.hpp"
+#include "mdat/common/cpu_clock.hpp"
+#include "mdat/common/errors.hpp"
+#include "mdat/common/output.hpp"
+#include "mdat/common/text.hpp"
+#include "mdat/common/version.hpp"
+#include "mdat/missiondb/sha256.hpp"
+
+namespace lasso::mdat {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr char kCaseTable[] = "cases.csv", kChunks[] = "chunks", kTimes[] = ".times";
+constexpr double kNoFigure = std::numeric_limits<double>::quiet_NaN();
+
+// Done in a process of its own: a compilation starts threads, and this process will fork.
+std::string digest_of_image(const MissionInput& input, const std::string& campaign, bool cached) {
+  Worker worker(
+      [&]() -> Fly {
+        const CompiledMission mission = compile_mission(MissionInput(input), ModelCache::of_user_if(cached));
+        const std::string digest = image_sha256(mission, campaign_of(mission.source, campaign));
+        return [digest](std::uint32_t) { return digest; };
+      },
+      [] {});
+  for (;;) {
+    const Worker::Message message = worker.receive();
+    if (message.kind == Worker::Kind::kBadInput) throw InputError(message.text);
+    if (message.kind == Worker::Kind::kError) throw RunError(message.text);
+    if (message.kind == Worker::Kind::kDead) throw RunError("the process that compiles the mission has died: it may be short of memory");
+    if (message.kind == Worker::Kind::kFields) return message.text;
+    worker.give(0);
+  }
+}
+
+std::string record_fields(const CaseResult& result) {
+  std::string fields = "ok";
+  for (const Figure& figure : case_figures()) fields += "," + cell_text(figure.of(result));
+  return fields;
+}
+
+// The values of any case: forward in the table where possible.
+class CaseReader {
+ public:
+  explicit CaseReader(fs::path file) : file_(std::move(file)) { open(); }
+  const std::vector<std::string>& columns() const { return table_->columns(); }
+  CaseValues at(std::uint32_t number) {
+    if (number < table_->case_number()) open();
+    return table_->at(number);
+  }
+
+ private:
+  void open() { table_ = std::make_unique<CaseTable>(file_); }
+  fs::path file_;
+  std::unique_ptr<CaseTable> table_;
+};
+
+// Processor time of cases, apart from their records: it is never the same twice. One file a runner, which its workers append lines to.
+class TimesFile {
+ public:
+  explicit TimesFile(const fs::path& file) : out_(file, std::ios::app) {}
+  void note(std::uint32_t number, double cpu_s) { out_ << format("%u,%.6f\n", number, cpu_s) << std::flush; }
+
+ private:
+  std::ofstream out_;
+};
+
+// All that a worker has while it flies.
+struct Bench {
+  Bench(const CampaignFolder& folder, const std::string& runner)
+      : mission(compile_mission(MissionInput(folder.input), ModelCache::of_user_if(folder.cached))),
+        cases(folder.path / kCaseTable),
+        flight(mission, campaign_of(mission.source, folder.plan.campaign), cases.columns()),
+        times(folder.path / kChunks / (runner + kTimes)) {}
+
+  std::string fly(std::uint32_t number) {
+    const double begin_us = thread_cpu_us();
+    const CaseValues values = cases.at(number);
+    const std::string fields = record_fields(flight.fly(values.seed, values.numbers));
+    times.note(number, 1e-6 * (thread_cpu_us() - begin_us));
+    return fields;
+  }
+
+  CompiledMission mission;
+  CaseReader cases;
+  CampaignFlight flight;
+  TimesFile times;
+};
+
+std::vector<double> figures_of(std::string_view cells, std::size_t count) {
+  std::vector<double> figures;
+  while (figures.size() < count) {
+    cells.remove_prefix(cells.empty() ? 0 : 1);  // the comma before it
+    const std::string_view cell = cells.substr(0, cells.find(','));
+    double value = kNoFigure;
+    std::from_chars(cell.data(), cell.data() + cell.size(), value);
+    figures.push_back(value);
+    cells.remove_prefix(cell.size());
+  }
+  return figures;
+}
+
+CaseRow row_of(std::uint32_t number, std::string_view fields, std::vector<double> drawn) {
+  CaseRow row;
+  row.number = number;
+  row.drawn = std::move(drawn);
+  row.status = is_failed(fields) ? std::string(fields) : std::string(fields.substr(0, fields.find(',')));
+  const std::size_t count = case_figures().size();
+  row.figures = is_failed(fields) ? std::vector<double>(count, kNoFigure) : figures_of(fields.substr(row.status.size()), count);
+  return row;
+}
+
+ResultTable empty_table(const std::vector<std::string>& columns) {
+  ResultTable table;
+  for (const Figure& figure : case_figures()) table.figures.emplace_back(figure.name);
+  table.columns = columns;
+  return table;
+}
+
+// Asks the stopping rule as cases come, in whatever order: rows stand by their numbers, and it looks as often as it may.
+class Watch {
+ public:
+  explicit Watch(const CampaignSource& campaign) : campaign_(campaign), table_(empty_table({})) {}
+
+  bool wants_more(std::uint32_t number, const std::string& fields) {
+    if (campaign_.look_every == 0) return true;
+    const auto after = std::find_if(table_.rows.rbegin(), table_.rows.rend(), [&](const CaseRow& row) { return row.number < number; });
+    table_.rows.insert(after.base(), row_of(number, fields, {}));
+    if (table_.rows.size() % campaign_.look_every != 0 && table_.rows.size() < next_look_) return true;
+    next_look_ = table_.rows.size() + 1;
+    return !stop_at(campaign_, table_);
+  }
+
+ private:
+  const CampaignSource& campaign_;
+  ResultTable table_;
+  std::size_t next_look_ = 0;
+};
+
+std::string times_csv(const fs::path& folder, const ResultTable& table) {
+  std::map<std::uint32_t, std::string> times;
+  for (const auto& entry : fs::directory_iterator(folder / kChunks)) {
+    if (entry.path().extension() != kTimes) continue;
+    std::ifstream in(entry.path());
+    for (std::string line; std::getline(in, line);) {
+      const std::size_t comma = line.find(',');
+      std::uint32_t number = 0;
+      if (comma == std::string::npos || std::from_chars(line.data(), line.data() + comma, number).ec != std::errc{}) continue;
+      times[number] = line.substr(comma + 1);
+    }
+  }
+  std::string text = "case,cpu_s\n";
+  for (const CaseRow& row : table.rows) {
+    const auto time = times.find(row.number);
+    text += std::to_string(row.number) + "," + (time == times.end() ? "" : time->second) + "\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+void expand_campaign(const MissionInput& input, const std::string& campaign, bool cached, const fs::path& folder) {
+  const CampaignSource& source = campaign_of(input.source, campaign);
+  OutputFolder out(folder);
+  CampaignPlan plan;
+  plan.mission = fs::proximate(fs::absolute(input.source.file), fs::absolute(folder)).string();
+  plan.campaign = campaign;
+  plan.settings = input.source.settings;
+  plan.cases = source.cases;
+  plan.version = kVersion;
+  plan.commit = kCommit;
+  plan.mission_sha256 = sha256_of(file_content(input.source.file));
+  plan.target_sha256 = input.source.target.sha256;
+  plan.image_sha256 = digest_of_image(input, campaign, cached);
+  plan.program_sha256 = program_sha256();
+  std::ostringstream cases;
+  write_cases(CaseDraws(source), source.cases, cases);
+  const std::string text = std::move(cases).str();
+  plan.cases_sha256 = sha256_of(text);
+  out.write(kCaseTable, text);
+  out.write("plan.json", plan_json(plan, source));
+  out.commit();
+}
+
+CampaignFolder open_campaign(const fs::path& folder, const std::string& mission, bool cached) {
+  LoadedPlan loaded = load_plan(folder);
+  CampaignFolder result{folder, loaded.plan, loaded.digest, load_planned(folder, loaded.plan, mission), mission, cached};
+  static_cast<void>(campaign_of(result.input.source, loaded.plan.campaign));
+  return result;
+}
+
+EngineResult fly_campaign(const CampaignFolder& folder, EngineOptions options) {
+  check_program(folder.plan);
+  options.folder = folder.path;
+  options.plan_digest = folder.digest;
+  options.cases = folder.plan.cases;
+  const std::string runner = chunk_name(options.chunk);
+  Watch watch(folder.campaign());
+  const bool whole = options.chunk.of == 1;
+  return fly_cases(
+      options,
+      [&]() -> Fly {
+        const auto bench = std::make_shared<Bench>(folder, runner);
+        return [bench](std::uint32_t number) { return bench->fly(number); };
+      },
+      [&](std::uint32_t number, const std::string& fields) { return !whole || watch.wants_more(number, fields); });
+}
+
+ResultTable merged(const CampaignFolder& folder, bool partial) {
+  const Records records(folder.path, folder.digest, folder.plan.cases);
+  CaseTable cases(folder.path / kCaseTable);
+  ResultTable table = empty_table(cases.columns());
+  for (std::uint32_t number = 0; number < folder.plan.cases; ++number) {
+    std::vector<double> drawn = cases.at(number).numbers;
+    if (const auto fields = records.of(number)) table.rows.push_back(row_of(number, *fields, std::move(drawn)));
+  }
+  if (const auto stop = stop_at(folder.campaign(), table)) {
+    table.rows.resize(*stop);
+  } else if (records.missing() > 0 && !partial) {
+    throw InputError(folder.path.string() + ": " + std::to_string(records.missing()) + " of " + std::to_string(records.cases()) +
+                     " cases are missing: mdat campaign run " + shell_word(folder.path.string()) +
+                     " goes on; --partial takes those that are there");
+  }
+  return table;
+}
+
+std::string write_results(const CampaignFolder& folder, const ResultTable& table) {
+  const Findings all = find(folder.campaign(), table, folder.path.string());
+  OutputFolder out(folder.path);
+  out.write("results.csv", results_csv(table));
+  out.write("results.h5", results_h5(table, folder.plan.campaign, folder.digest));
+  out.write("times.csv", times_csv(folder.path, table));
+  out.write("summary.json", summary_json(all));
+  out.write("junit.xml", junit_xml(all));
+  out.commit();
+  return summary_text(all);
+}
+
+fs::path write_report(const CampaignFolder&, const ResultTable&) { throw PictureError("none"); }
+
+FlownCase fly_case(const CampaignFolder& folder, std::uint32_t number) {
+  if (number >= folder.plan.cases)
+    throw InputError("case " + std::to_string(number) + ": the campaign has cases 0 to " + std::to_string(folder.plan.cases - 1));
+  const CompiledMission mission = compile_mission(MissionInput(folder.input), ModelCache::of_user_if(folder.cached));
+  CaseTable cases(folder.path / kCaseTable);
+  const CaseValues values = cases.at(number);
+  const CampaignFlight flight(mission, campaign_of(mission.source, folder.plan.campaign), cases.columns());
+  CompiledMission own = flight.mission_of(values.numbers);
+  for (std::size_t i = 0; i < cases.columns().size(); ++i)
+    own.source.settings.push_back(cases.columns()[i] + "=" + cell_text(values.numbers[i]));
+  SimulationResult result = simulate(own, flight.options(values.seed));
+  std::string fields = record_fields(result.tables[0].variants[0].cases[0]);
+  return {std::move(own), std::move(result), std::move(fields)};
+}
+
+}  // namespace lasso::mdat

@@ -1,0 +1,51 @@
+// A campaign that is about to be flown: plan.json and cases.csv in its folder, which all runners read and none writes again.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "mdat/common/flight_image.hpp"
+#include "mdat/missiondb/campaign_source.hpp"
+
+namespace lasso::mdat {
+
+// What the cases of a folder depend on. Digests are SHA-256 in lower-case hexadecimal.
+struct CampaignPlan {
+  std::string mission;                // file, as it is found from the folder, or absolute
+  std::string campaign;               // its name there
+  std::vector<std::string> settings;  // KEY=VALUE of the command line
+  std::uint32_t cases = 0;
+  std::string mission_sha256, target_sha256, image_sha256, program_sha256, cases_sha256;
+  std::string version, commit;  // of the program, for a person
+};
+
+// plan.json of a campaign, ends with a line feed: the same campaign of the same program gives the same text.
+std::string plan_json(const CampaignPlan& plan, const CampaignSource& campaign);
+
+// A folder's plan, and the digest of its text, by which chunks know it.
+struct LoadedPlan {
+  CampaignPlan plan;
+  std::string digest;
+};
+// Throws InputError: no plan there, not whole, of another version of this form.
+LoadedPlan load_plan(const std::filesystem::path& folder);
+bool has_plan(const std::filesystem::path& folder);
+
+// The program that is running.
+std::string program_sha256();
+// The flight image of the campaign's scenario, as no case varies it.
+std::string image_sha256(const CompiledMission& mission, const CampaignSource& campaign);
+
+// The mission of a plan: `instead` where given, otherwise the plan's own file as found from the folder; with its settings. Throws
+// InputError where mission, target or table of cases are not those of the plan, each with its remedy, and MissionError.
+MissionInput load_planned(const std::filesystem::path& folder, const CampaignPlan& plan, const std::string& instead = "");
+
+// Throws InputError where this program is another one than that of the plan: its cases might not be the same.
+void check_program(const CampaignPlan& plan);
+
+// The campaign of that name. Throws InputError with the names that there are.
+const CampaignSource& campaign_of(const MissionSource& source, const std::string& name);
+
+}  // namespace lasso::mdat

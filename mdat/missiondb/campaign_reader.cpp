@@ -1,0 +1,252 @@
+#include "mdat/missiondb/campaign_reader.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "mdat/missiondb/campaign_columns.hpp"
+#include "mdat/missiondb/campaign_rows.hpp"
+#include "mdat/missiondb/dispersions.hpp"
+#include "mdat/missiondb/law_reader.hpp"
+#include "mdat/missiondb/nearest.hpp"
+#include "mdat/missiondb/sections.hpp"
+
+namespace lasso::mdat {
+namespace {
+
+constexpr char kDirection[] = "any_direction";
+
+std::vector<std::string> keys_of(const std::vector<ValueRow>& rows) {
+  std::vector<std::string> keys;
+  for (const ValueRow& row : rows) keys.push_back(row.key);
+  return keys;
+}
+
+double number_in(const FoundValues& found, const ValueRow& row, double absent) {
+  const auto value = found.find(row.key);
+  return value == found.end() ? (row.preset.empty() ? absent : row.preset[0]) : value->second.numbers[0];
+}
+
+// One campaign: plain values, then what it disperses and asks.
+class CampaignReader {
+ public:
+  CampaignReader(const std::string& name, const toml::table& table, const toml::table& root, MissionSource& source, ProblemList& problems)
+      : table_(table),
+        root_(root),
+        source_(source),
+        problems_(problems),
+        prefix_("campaign." + name + "."),
+        dispersions_(source, problems) {
+    campaign_.name = name;
+  }
+
+  void read() {
+    read_values();
+    if (const toml::table* truth = sub_table("truth")) read_truth(*truth);
+    if (const toml::table* mission = sub_table("mission")) read_mission(*mission, "");
+    read_all_together();
+    if (const toml::table* criteria = sub_table("criteria")) read_criteria(*criteria);
+    campaign_.dispersions = dispersions_.take();
+    source_.campaigns[campaign_.name] = std::move(campaign_);
+  }
+
+ private:
+  void read_values() {
+    const FoundValues found = read_table(table_, prefix_, campaign_rows(), {"truth", "mission", "together", "criteria"}, problems_);
+    for (const ValueRow& row : campaign_rows()) note_origin(prefix_ + row.key, found, row.key);
+    const auto number = [&](const char* key) { return number_in(found, *find_row(campaign_rows(), key), 0); };
+    campaign_.cases = static_cast<std::uint32_t>(number("cases"));
+    campaign_.seed = static_cast<std::uint64_t>(number("seed"));
+    campaign_.frames = static_cast<std::uint32_t>(number("frames"));
+    campaign_.sampling = static_cast<Sampling>(static_cast<int>(number("sampling")));
+    campaign_.look_every = static_cast<std::uint32_t>(number("look_every"));
+    if (const std::vector<std::string> scenario = texts_of(found, "scenario"); !scenario.empty()) check_scenario(scenario.front(), found);
+  }
+  void note_origin(const std::string& key, const FoundValues& found, const std::string& found_key) {
+    const auto value = found.find(found_key);
+    source_.origins[key] = value == found.end() ? Origin{} : value->second.origin;
+  }
+  void check_scenario(const std::string& name, const FoundValues& found) {
+    campaign_.scenario = name;
+    std::vector<std::string> names;
+    if (const toml::table* scenarios = root_["scenario"].as_table()) {
+      for (const auto& [key, node] : *scenarios) names.emplace_back(key.str());
+    }
+    if (std::find(names.begin(), names.end(), name) != names.end()) return;
+    std::string known;
+    for (const std::string& each : names) known += (known.empty() ? "; the mission has " : ", ") + each;
+    const std::string meant = did_you_mean(name, names);
+    problems_.add(found.at("scenario").origin, prefix_ + "scenario", '"' + name + '"',
+                  "no such scenario" + (meant.empty() ? known : meant));
+  }
+
+  const toml::table* sub_table(const std::string& name) {
+    const toml::node* node = table_.get(name);
+    if (node != nullptr && !node->is_table()) problems_.add(*node, prefix_ + name, "wrong type: expected a table [" + prefix_ + name + "]");
+    return node == nullptr ? nullptr : node->as_table();
+  }
+
+  void read_truth(const toml::table& table) {
+    for (const auto& [key, node] : table) {
+      const std::string name(key.str()), whole = prefix_ + "truth." + name;
+      if (name == "attitude") {
+        read_attitude(node, whole);
+      } else if (const ValueRow* row = find_row(truth_rows(), name)) {
+        read_key(node, *row, "truth." + name, whole);
+      } else {
+        refuse_key(key, whole);
+      }
+    }
+  }
+  void read_attitude(const toml::node& node, const std::string& whole) {
+    if (node.value_exact<std::string>() != "any")
+      return problems_.add(
+          node, whole,
+          "expected \"any\": each attitude is as likely as any other; or write roll_deg, tilt_deg and boresight_deg, each with a law");
+    dispersions_.add({attitude_columns(), AnyAttitude{}}, whole, origin_of(node.source()));
+  }
+  void refuse_key(const toml::key& key, const std::string& whole) {
+    const std::string name(key.str());
+    const Origin origin = origin_of(key.source());
+    if (const char* remedy = not_varied(name))
+      return problems_.add(origin, whole, "", std::string("does not vary from case to case: ") + remedy);
+    std::vector<std::string> known = keys_of(truth_rows());
+    known.emplace_back("attitude");
+    const std::string meant = did_you_mean(name, known);
+    problems_.add(origin, whole, "", "unknown key" + (meant.empty() ? "; expected a key of a scenario, range_m or attitude" : meant));
+  }
+
+  // Dotted keys are tables in tables.
+  void read_mission(const toml::table& table, const std::string& path) {
+    for (const auto& [key, node] : table) {
+      const std::string name = path + std::string(key.str()), whole = prefix_ + "mission." + name;
+      if (const ValueRow* row = find_row(flight_rows(), name)) {
+        read_key(node, *row, "mission." + name, whole);
+      } else if (is_section(name) && node.is_table()) {
+        read_mission(*node.as_table(), name + ".");
+      } else {
+        const std::string meant = did_you_mean(name, keys_of(flight_rows()));
+        problems_.add(origin_of(key.source()), whole, "",
+                      "unknown key" + (meant.empty() ? "; expected a flight parameter, such as estimation.surface_sigma_m" : meant));
+      }
+    }
+  }
+  static bool is_section(const std::string& name) {
+    return std::any_of(flight_rows().begin(), flight_rows().end(), [&](const ValueRow& row) { return row.key.rfind(name + ".", 0) == 0; });
+  }
+
+  // One law; of a list one for each of its numbers, or one of its direction.
+  void read_key(const toml::node& node, const ValueRow& row, const std::string& column, const std::string& whole) {
+    const std::vector<std::string> columns = columns_of(column, row);
+    const toml::table* table = node.as_table();
+    if (row.kind != ValueKind::kReals) {
+      read_number(node, row, column, whole);
+    } else if (table != nullptr && table->contains(kDirection)) {
+      read_direction(*table, row, columns, whole);
+    } else {
+      read_list(node, row, columns, whole);
+    }
+  }
+  void read_number(const toml::node& node, const ValueRow& row, const std::string& column, const std::string& whole) {
+    if (const auto law = read_law(node, row, whole, problems_)) dispersions_.add({{column}, *law}, whole, origin_of(node.source()));
+  }
+  void read_list(const toml::node& node, const ValueRow& row, const std::vector<std::string>& columns, const std::string& whole) {
+    const toml::array* items = node.as_array();
+    if (items == nullptr || items->size() != columns.size())
+      return problems_.add(node, whole,
+                           "expected a list of " + std::to_string(columns.size()) + ", each a number or a law" +
+                               (columns.size() == 3 ? ", or { any_direction = LAW }" : ""));
+    for (std::size_t i = 0; i < columns.size(); ++i) read_number((*items)[i], row, columns[i], whole + "[" + std::to_string(i) + "]");
+  }
+  void read_direction(const toml::table& table, const ValueRow& row, const std::vector<std::string>& columns, const std::string& whole) {
+    if (columns.size() != 3 || table.size() != 1)
+      return problems_.add(table, whole, "expected { any_direction = LAW }, of a list of three numbers, and nothing else in it");
+    ValueRow length = row;
+    length.minimum = 0;
+    length.meaning = "length of the vector";
+    if (const auto law = read_law(*table.get(kDirection), length, whole + "." + kDirection, problems_))
+      dispersions_.add({columns, AnyDirection{*law}}, whole, origin_of(table.source()));
+  }
+
+  void read_all_together() {
+    const toml::node* node = table_.get("together");
+    if (node == nullptr) return;
+    const toml::array* entries = node->as_array();
+    if (entries == nullptr || !entries->is_array_of_tables())
+      return problems_.add(*node, prefix_ + "together", "wrong type: expected [[" + prefix_ + "together]], a table for each law");
+    for (std::size_t i = 0; i < entries->size(); ++i)
+      read_together(*(*entries)[i].as_table(), prefix_ + "together[" + std::to_string(i) + "]", dispersions_);
+  }
+
+  void read_criteria(const toml::table& table) {
+    for (const auto& [key, node] : table) {
+      const std::string name(key.str()), whole = prefix_ + "criteria." + name;
+      if (const toml::table* criterion = node.as_table()) {
+        read_criterion(name, *criterion, whole + ".");
+      } else {
+        problems_.add(node, whole, "wrong type: expected a table [" + whole + "]");
+      }
+    }
+  }
+  void read_criterion(const std::string& name, const toml::table& table, const std::string& prefix) {
+    const FoundValues found = read_table(table, prefix, criterion_rows(), {}, problems_);
+    for (const ValueRow& row : criterion_rows()) note_origin(prefix + row.key, found, row.key);
+    constexpr double kNone = std::numeric_limits<double>::infinity();
+    const auto number = [&](const char* key, double absent) { return number_in(found, *find_row(criterion_rows(), key), absent); };
+    Criterion criterion{name, "", number("at_least", -kNone), number("at_most", kNone), number("share_min", 0.5), number("confidence", 0)};
+    const auto figure = found.find("figure");
+    if (figure != found.end()) criterion.figure = criterion_rows()[0].choices.at(static_cast<std::size_t>(figure->second.numbers[0]));
+    check_criterion(criterion, found, table, prefix);
+    campaign_.criteria.push_back(criterion);
+  }
+  void check_criterion(const Criterion& c, const FoundValues& found, const toml::table& table, const std::string& prefix) {
+    const auto complain = [&](const char* key, double value, const std::string& why) {
+      problems_.add(found.at(key).origin, prefix + key, number_text(value), why);
+    };
+    const bool least = found.count("at_least") != 0, most = found.count("at_most") != 0;
+    if (!least && !most)
+      problems_.add(origin_of(table.source()), prefix + "at_most", "",
+                    "is missing: expected a bound of the figure, at_least, at_most or both");
+    if (least && most && c.at_least > c.at_most)
+      complain("at_least", c.at_least, "expected at most at_most, which is " + number_text(c.at_most));
+    if (!(c.share_min > 0 && c.share_min < 1))
+      complain("share_min", c.share_min, "expected more than 0 and less than 1: no number of cases shows that all possible ones are good");
+    if (!(c.confidence > 0.5 && c.confidence < 1))
+      complain("confidence", c.confidence, "expected more than 0.5 and less than 1, such as 0.95");
+  }
+
+  const toml::table& table_;
+  const toml::table& root_;
+  MissionSource& source_;
+  ProblemList& problems_;
+  std::string prefix_;
+  Dispersions dispersions_;
+  CampaignSource campaign_;
+};
+
+}  // namespace
+
+void Dispersions::add(Dispersion dispersion, const std::string& key, Origin origin) {
+  source_.origins[key] = origin;
+  for (const std::string& column : dispersion.columns) {
+    const auto [other, is_new] = keys_.emplace(column, key);
+    if (!is_new) problems_.add(origin, key, column, "has a law already, of " + other->second + ": delete one of the two");
+  }
+  dispersion.key = key;
+  all_.push_back(std::move(dispersion));
+}
+
+void read_campaigns(const toml::table& root, MissionSource& source, ProblemList& problems) {
+  const toml::node* node = root.get("campaign");
+  if (node == nullptr) return;
+  if (!node->is_table()) return problems.add(*node, "campaign", "wrong type: expected tables [campaign.NAME]");
+  for (const auto& [name, entry] : *node->as_table()) {
+    const std::string key = "campaign." + std::string(name.str());
+    if (const toml::table* table = entry.as_table()) {
+      CampaignReader(std::string(name.str()), *table, root, source, problems).read();
+    } else {
+      problems.add(entry, key, "wrong type: expected a table [" + key + "]");
+    }
+  }
+}
+
+}  // namespace lasso::mdat

@@ -1,0 +1,10 @@
+// What a campaign keeps of a case, by the names that criteria use: those of case_figures() (mdat/campaign/figures.hpp), in their order.
+#pragma once
+
+namespace lasso::mdat {
+
+constexpr const char* kFigureNames[] = {"frames",    "valid",  "invalid",         "lost",          "wrong",       "first_wrong",
+                                        "found_s",   "rms_mm", "p95_mm",          "worst_mm",      "rms_deg",     "p95_deg",
+                                        "worst_deg", "nees",   "settled_invalid", "settled_degps", "settled_mmps"};
+
+}  // namespace lasso::mdat

@@ -1,0 +1,26 @@
+// The target as it is simulated, where it differs from the model that the component has.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "hal_sim/ray_caster.hpp"
+#include "mdat/missiondb/mission_source.hpp"
+#include "mdat/modelc/mesh.hpp"
+
+namespace lasso::mdat {
+
+// Whether the scenario has it differ at all (Scenario, model_...).
+bool has_model_error(const Scenario& scenario);
+
+// The model's surface (target frame, metres) with the scenario's errors: a part turned, another one gone, then scaled, then each vertex off
+// at random by a generator of `seed` alone. Which triangles are a part is told by their centres in the model. A part that is turned takes
+// copies of the vertices that it shares. Throws RunError where nothing is left.
+Mesh true_target(const Mesh& model, const Scenario& scenario, std::uint64_t seed);
+
+// A surface for the ray caster: triangles without area, which no ray can hit, are left out.
+std::unique_ptr<sim::RayCaster> make_target(const Mesh& mesh);
+// The same of true_target.
+std::unique_ptr<sim::RayCaster> simulated_target(const Mesh& model, const Scenario& scenario, std::uint64_t seed);
+
+}  // namespace lasso::mdat
