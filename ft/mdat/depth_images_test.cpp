@@ -93,6 +93,10 @@ TEST(DepthImages, OfABodyOfBoxesGiveItsPose) {
       work.mdat("replay boxes.toml --scans images --depth-camera camera.toml --initial start.csv --truth truth.csv -o out.csv");
   ASSERT_EQ(answer.exit_code, 0) << answer.err;
   EXPECT_NE(answer.err.find("the scan thinned to 4096 rays"), std::string::npos) << answer.err;
+  EXPECT_EQ(answer.err.find("in the camera's file"), std::string::npos) << answer.err;
+  work.write("wrong.toml", work.read("camera.toml") + "values = 'range'\n");
+  const Answer wrong = work.mdat("replay boxes.toml --scans images --depth-camera wrong.toml --initial start.csv -o wrong.csv");
+  EXPECT_NE(wrong.err.find("with values = \"depth\" in the camera's file"), std::string::npos) << wrong.err;
   const Row row = table(work.read("out.csv")).at(0);
   EXPECT_EQ(row.at("valid"), "1") << row.at("reason") << answer.err;
   EXPECT_LT(value(row, "error_m"), 1e-3);
@@ -108,6 +112,7 @@ TEST(DepthImages, ABadCalibrationIsToldWithEachProblem) {
   const Answer answer = work.mdat("replay missions/test.toml --scans images --depth-camera camera.toml --initial start.csv -o out.csv");
   EXPECT_EQ(answer.exit_code, 2);
   for (const char* part : {"camera.toml:1", "fx", "cy", "scale_m"}) EXPECT_NE(answer.err.find(part), std::string::npos) << answer.err;
+  EXPECT_NE(answer.err.find("(length of one step of a pixel's value)"), std::string::npos) << answer.err;
 }
 
 }  // namespace

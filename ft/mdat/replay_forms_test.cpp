@@ -60,6 +60,19 @@ TEST_F(ReplayForms, WarnsOfTimesThatStepBack) {
   EXPECT_NE(answer.out.find("8 of 8 scans gave a valid pose"), std::string::npos) << answer.out;
 }
 
+// The names in the order of time reversed: neither a few steps back, nor times that begin anew with each scan.
+TEST_F(ReplayForms, WarnsOfASeriesThatIsReversed) {
+  VERIFIES("LASSO-MDT-070~1");
+  for (std::size_t i = 0; i < kReplayed; ++i) {
+    const std::string number = std::to_string(i), last = std::to_string(kReplayed - 1 - i);
+    work.write("back/f0000" + last + ".csv", work.read("rec/4m/scans/f0000" + number + ".csv"));
+  }
+  const Answer answer = work.mdat("replay image.3dli --scans back --initial rec/4m/poses.csv -o out.csv");
+  EXPECT_NE(answer.err.find("warning: each scan ends before the one before it begins (f00001: "), std::string::npos) << answer.err;
+  EXPECT_NE(answer.err.find("time reversed"), std::string::npos) << answer.err;
+  EXPECT_EQ(answer.err.find("began anew"), std::string::npos) << answer.err;
+}
+
 // A scan with its times in another unit; all else as it was.
 std::string with_times(const std::string& csv, double units_per_second) {
   const std::vector<std::string> lines = lines_of(csv);
@@ -88,6 +101,17 @@ TEST_F(ReplayForms, KnowsUnitsOfTimeByAScansSpan) {
       EXPECT_LT(distance_m(rows[i], seconds[i]), 1e-8);
     }
   }
+}
+
+TEST_F(ReplayForms, WarnsOfAScanWhoseTimesAreInAnotherUnit) {
+  VERIFIES("LASSO-MDT-070~1");
+  work.write("rec/4m/scans/f00003.csv", with_times(work.read("rec/4m/scans/f00003.csv"), 1e6));
+  const Answer answer = work.mdat("replay image.3dli --scans rec/4m/scans --initial rec/4m/poses.csv -o out.csv");
+  EXPECT_NE(answer.err.find("warning: the times of 1 of 8 scans seem to be in another unit than the others': f00003 spans "),
+            std::string::npos)
+      << answer.err;
+  EXPECT_NE(answer.err.find("about 1e+06 times their "), std::string::npos) << answer.err;
+  EXPECT_EQ(answer.err.find("replay: "), std::string::npos) << "no lines of progress of so short a replay: " << answer.err;
 }
 
 TEST_F(ReplayForms, TakesTheUnitOfTimeThatIsAskedFor) {
@@ -172,6 +196,22 @@ TEST_F(ReplayForms, SaysThatScansAreInMillimetres) {
   expect_near_truth(replay("image.3dli", "mm", "--scale 0.001"), 1e-3, 0.002);
 }
 
+// What is millimetres by its ranges, and does not fit so, is not said to be: the scans are mirrored as well.
+TEST_F(ReplayForms, ProposesNoUnitThatItHasNotTried) {
+  VERIFIES("LASSO-MDT-074~1");
+  for (const Row& scan : table(work.read("rec/4m/truth.csv"))) {
+    const std::string name = scan.at("scan") + ".csv";
+    work.write("mm/" + name, changed(work.read("rec/4m/scans/" + name), [](Row& row) {
+                 const double unit = row["valid"] == "0" ? 1 : 1000;
+                 for (const char* axis : {"x_m", "y_m", "z_m"}) row[axis] = text_of(unit * std::stod(row[axis]));
+                 row["z_m"] = text_of(-std::stod(row["z_m"]));
+               }));
+  }
+  const Answer answer = work.mdat("replay --force image.3dli --scans mm --initial rec/4m/poses.csv -o out.csv");
+  EXPECT_NE(answer.err.find("the returns of all 8 scans lie beyond sensor.range_max_m 12"), std::string::npos) << answer.err;
+  EXPECT_EQ(answer.err.find("--scale"), std::string::npos) << answer.err;
+}
+
 // Quaternions of both directions and orders by their definition: the inverse of (q, p) is (conjugate q, -R(q)^T p).
 TEST_F(ReplayForms, SaysHowPosesThatDoNotFitWould) {
   VERIFIES("LASSO-MDT-074~1");
@@ -199,7 +239,7 @@ TEST_F(ReplayForms, SaysHowPosesThatDoNotFitWould) {
     work.write("rec/4m/other.csv", changed(poses, change));
     const Answer answer = work.mdat("replay --force image.3dli --scans rec/4m/scans --initial rec/4m/other.csv -o out.csv");
     EXPECT_NE(answer.err.find(said), std::string::npos) << answer.err;
-    EXPECT_NE(answer.err.find("of 5 scans that were tried 0 fit as given, and 5 with"), std::string::npos) << answer.err;
+    EXPECT_NE(answer.err.find("of 5 scans tried 0 fit as given, and 5 with"), std::string::npos) << answer.err;
     EXPECT_EQ(answer.err.find("warning: no return") != std::string::npos, said[4] == 'i') << answer.err;
   }
 }
@@ -252,6 +292,10 @@ TEST_F(ReplayForms, ReadsOtherAxesFromASensorThatStandsAside) {
   });
   expect_near_truth(replay("image.3dli", "frd", "--axes forward-right-down --sensor-offset 0.5,-0.3,0.2"), 1e-3, 0.002);
   expect_near_truth(replay("image.3dli", "frd", "--axes y,z,x --sensor-offset=0.5,-0.3,0.2"), 1e-3, 0.002);
+  const Answer wrong = work.mdat(
+      "replay --force image.3dli --scans frd --initial rec/4m/poses.csv --axes forward-right-down --sensor-offset=-0.5,0.3,-0.2 -o "
+      "out.csv");
+  EXPECT_NE(wrong.err.find("and 5 with --sensor-offset of the other sign"), std::string::npos) << wrong.err;
   const Answer answer = work.mdat("replay --force image.3dli --scans frd --initial rec/4m/poses.csv --axes front-right-down -o out.csv");
   EXPECT_EQ(answer.exit_code, 2);
   EXPECT_NE(answer.err.find("--axes: is \"front-right-down\""), std::string::npos) << answer.err;
@@ -314,6 +358,15 @@ TEST_F(ReplayForms, PrintsErrorsAgainstTrueOnes) {
   const Answer found = work.mdat("replay --force image.3dli --scans rec/4m/scans --initial search --truth rec/4m/truth.csv -o out.csv");
   EXPECT_NE(found.out.find("translation rms"), std::string::npos) << found.out;
   EXPECT_LT(value(table(work.read("out.csv")).at(0), "error_m"), 0.02);
+  EXPECT_EQ(answer.err.find("--truth"), std::string::npos) << answer.err;
+  work.write("mm.csv", changed(work.read("rec/4m/truth.csv"), [](Row& row) {
+               for (const char* axis : {"x_m", "y_m", "z_m"}) row[axis] = text_of(1000 * std::stod(row[axis]));
+             }));
+  const Answer mm = work.mdat("replay --force image.3dli --scans rec/4m/scans --initial rec/4m/poses.csv --truth mm.csv -o out.csv");
+  const std::size_t told = mm.err.find("warning: --truth: poses are ");
+  ASSERT_NE(told, std::string::npos) << mm.err;
+  EXPECT_NEAR(std::stod(mm.err.substr(told + 28)), 3996, 10) << "4 m of 4000";
+  EXPECT_NE(mm.err.find("if it is read in millimetres"), std::string::npos) << mm.err;
   work.write("other.csv", "scan,qx,qy,qz,qw,x_m,y_m,z_m\nnone,0,0,0,1,0,0,4\n");
   const Answer other = work.mdat("replay --force image.3dli --scans rec/4m/scans --initial rec/4m/poses.csv --truth other.csv -o out.csv");
   EXPECT_EQ(other.exit_code, 2);

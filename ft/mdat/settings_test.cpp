@@ -24,6 +24,22 @@ TEST(Setting, HoldsInPlaceOfTheFilesAndIsNamed) {
   EXPECT_NE(answer.out.find("at 3.5 m"), std::string::npos) << answer.out;
 }
 
+// Not the preset's value again, nor one that an option of its own replaces.
+TEST(Setting, ThatChangesNothingIsTold) {
+  VERIFIES("LASSO-MDT-031~1");
+  const WorkFolder work;
+  const Answer idle =
+      work.mdat(kSpin + "--set scan.margin=1.0 --set scan.points=512 --set mission.name=other --set scenario.spin.frames=5 --out out");
+  EXPECT_EQ(idle.exit_code, 0) << idle.err;
+  EXPECT_NE(idle.err.find("note: --set scan.margin=1.0: changes nothing: the value is the same without it\n"), std::string::npos)
+      << idle.err;
+  EXPECT_EQ(idle.err.find("scan.points"), std::string::npos) << idle.err;
+  EXPECT_EQ(idle.err.find("mission.name"), std::string::npos) << idle.err;
+  EXPECT_NE(idle.err.find("warning: --set scenario.spin.frames: has no effect beside --frames, which holds\n"), std::string::npos)
+      << idle.err;
+  EXPECT_EQ(Json::parse(work.read("out/results.json")).at("frames"), 3);
+}
+
 TEST(Setting, IsCheckedAsTheFilesKeysAre) {
   VERIFIES("LASSO-MDT-031~1");
   const WorkFolder work;

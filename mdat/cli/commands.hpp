@@ -3,6 +3,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "mdat/missiondb/mission_source.hpp"
+
 namespace lasso::mdat {
 
 void add_mission_commands(CLI::App& app);
@@ -22,6 +24,9 @@ void add_dictionary_command(CLI::App& app);
 
 // --set KEY=VALUE of a subcommand that reads a mission; may be given again and again.
 void add_settings(CLI::App& command, std::vector<std::string>& settings);
+
+// On the error stream: settings that change nothing, as the value is that already.
+void tell_idle_settings(const MissionSource& source, const std::string& scenario);
 
 // --no-cache of a subcommand that compiles a mission; `cached` is true unless it is given.
 void add_no_cache(CLI::App& command, bool& cached);

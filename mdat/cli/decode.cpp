@@ -10,6 +10,7 @@
 #include "mdat/common/errors.hpp"
 #include "mdat/common/interruption.hpp"
 #include "mdat/common/output.hpp"
+#include "mdat/common/text.hpp"
 #include "mdat/link/decode_text.hpp"
 #include "mdat/link/headers_text.hpp"
 
@@ -107,7 +108,8 @@ void decode(const DecodeArguments& options) {
   const DecodedStream stream = decode_stream(view(content), options.commands ? PacketType::kCommand : PacketType::kTelemetry);
   require_packets(stream.packets.size(), options, content);
   print(text_of(stream, options));
-  std::fprintf(stderr, "%zu packets, %zu bytes that belong to none\n", stream.packets.size(), stream.other_bytes);
+  std::fprintf(stderr, "%s, %s that belong to none\n", amount(stream.packets.size(), "packet").c_str(),
+               amount(stream.other_bytes, "byte").c_str());
 }
 
 }  // namespace

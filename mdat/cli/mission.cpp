@@ -136,6 +136,7 @@ void compile(const MissionOptions& options) {
   check_writable(out);
   const std::string replaced = replaced_text(out, options);
   MissionInput input = load_mission_input(options.file, options.settings, options.scenario);
+  tell_idle_settings(input.source, options.scenario);
   const MissionParameters parameters = parameters_for(input.source, options.scenario);
   const ModelCache cache = ModelCache::of_user_if(options.cached);
   const CompiledMission mission = compile_mission(std::move(input), cache);

@@ -1,4 +1,7 @@
+#include <cstdio>
+
 #include "mdat/cli/commands.hpp"
+#include "mdat/missiondb/mission_text.hpp"
 
 namespace lasso::mdat {
 
@@ -12,6 +15,11 @@ void add_settings(CLI::App& command, std::vector<std::string>& settings) {
   command.add_option("--set", settings, "KEY=VALUE in place of what the mission says, such as scan.points=512; for more, again --set")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
+}
+
+void tell_idle_settings(const MissionSource& source, const std::string& scenario) {
+  for (const std::string& setting : idle_settings(source, scenario))
+    std::fprintf(stderr, "note: --set %s: changes nothing: the value is the same without it\n", setting.c_str());
 }
 
 }  // namespace lasso::mdat

@@ -27,6 +27,7 @@ struct ReplayArguments {
 LoadedImage load(const ReplayArguments& options) {
   if (is_image_file(options.mission)) return LoadedImage(options.mission, read_bytes(options.mission));
   MissionInput input = load_mission_input(options.mission, options.settings, options.scenario);
+  tell_idle_settings(input.source, options.scenario);
   const MissionParameters parameters = parameters_for(input.source, options.scenario);
   const CompiledMission mission = compile_mission(std::move(input), ModelCache::of_user_if(options.cached));
   return LoadedImage(options.mission, image_bytes(mission, parameters));
@@ -74,7 +75,7 @@ void search(const ReplayArguments& options) {
   ReplayInput input = read_replay_input(options.replay);
   const LoadedImage image = load(options);
   tell(settle_times(options.replay, image.mission().parameters.duration_s, input));
-  tell(range_notes(image.mission(), input));
+  tell(range_notes(image.mission(), options.replay, input));
   const std::vector<AcquiredScan> scans = acquire(image.mission(), input.scans, input.truth);
   write_file(options.out, acquired_csv(scans));
   write_file(candidates, candidates_csv(scans));
@@ -82,7 +83,7 @@ void search(const ReplayArguments& options) {
 }
 
 double unit_of(const std::string& name) {
-  constexpr std::pair<const char*, double> kUnits[] = {{"s", 1}, {"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9}};
+  constexpr std::pair<const char*, double> kUnits[] = {{"min", 60}, {"s", 1}, {"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9}};
   for (const auto& [known, unit_s] : kUnits) {
     if (name == known) return unit_s;
   }
@@ -109,12 +110,14 @@ void run(ReplayArguments options) {
   ReplayInput input = read_replay_input(options.replay);
   const LoadedImage image = load(options);
   tell(settle_times(options.replay, image.mission().parameters.duration_s, input));
-  const Notes ranges = range_notes(image.mission(), input);
+  const Notes ranges = range_notes(image.mission(), options.replay, input);
   tell(ranges);
+  tell(value_notes(image.mission(), options.replay, input));
   if (ranges.empty()) tell(reading_notes(image.mission(), options.replay, input));
   const std::vector<ReplayedScan> scans = replay(image.mission(), options.replay, input);
   write_file(options.out, replay_csv(scans));
   tell(noise_notes(image.mission(), input, scans));
+  tell(truth_notes(input.truth, judged(scans)));
   std::fputs((replay_summary(scans) + options.out + ": written\n").c_str(), stdout);
 }
 
@@ -146,7 +149,7 @@ void add_replay_command(CLI::App& app) {
   command->add_option("--scale", options->replay.frame.scale, "metres in a unit of the scans' lengths, as 0.001 for millimetres")
       ->check(CLI::Range(1e-6, 1e6));
   command->add_option("--time-unit", options->time_unit, "of the scans' times (default: by their span against scan.duration_s)")
-      ->check(CLI::IsMember({"s", "ms", "us", "ns"}));
+      ->check(CLI::IsMember({"min", "s", "ms", "us", "ns"}));
   command->add_option("--scenario", options->scenario, "with this scenario's overrides of parameters");
   add_settings(*command, options->settings);
   command->add_flag("--force", options->force, "replace the files of an earlier replay");

@@ -31,8 +31,22 @@ struct RunArguments {
 // All that a run writes into its folder.
 constexpr const char* kFiles[] = {"results.json", "frames.csv", "telemetry.ccsds", "report.html"};
 
+// An option of its own goes before --set.
+void tell_replaced(const MissionSource& source, const SimulationOptions& simulation) {
+  const auto tell = [&](const char* name, bool given) {
+    const auto origin = source.origins.find("scenario." + simulation.scenario + "." + name);
+    if (given && origin != source.origins.end() && origin->second.set)
+      std::fprintf(stderr, "warning: --set %s: has no effect beside --%s, which holds\n", origin->first.c_str(), name);
+  };
+  tell("frames", simulation.frames.has_value());
+  tell("seed", simulation.seed.has_value());
+}
+
 MissionInput load_input(const RunArguments& options) {
-  return load_mission_input(options.mission, options.settings, options.simulation.scenario);
+  MissionInput input = load_mission_input(options.mission, options.settings, options.simulation.scenario);
+  tell_idle_settings(input.source, options.simulation.scenario);
+  tell_replaced(input.source, options.simulation);
+  return input;
 }
 
 // An earlier run, or a file, that this one would replace. Throws InputError.

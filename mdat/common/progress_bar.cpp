@@ -36,10 +36,11 @@ std::string clock_text(double seconds) {
   return text;
 }
 
-ProgressBar::ProgressBar(std::string label, std::size_t total, std::string unit)
+ProgressBar::ProgressBar(std::string label, std::size_t total, std::string unit, double quiet_s)
     : label_(std::move(label)),
       unit_(std::move(unit)),
       total_(std::max<std::size_t>(total, 1)),
+      quiet_s_(quiet_s),
       terminal_(isatty(STDERR_FILENO) == 1),
       begin_(std::chrono::steady_clock::now()),
       drawn_(begin_) {}
@@ -73,7 +74,7 @@ void ProgressBar::show(std::size_t done) {
     if (std::chrono::duration<double>(now - drawn_).count() < kRedrawSeconds) return;
     drawn_ = now;
     draw(done);
-  } else if (const std::size_t tenth = 10 * done / total_; tenth > tenth_ && done < total_) {
+  } else if (const std::size_t tenth = 10 * done / total_; tenth > tenth_ && done < total_ && seconds() >= quiet_s_) {
     tenth_ = tenth;
     draw(done);
   }
@@ -81,6 +82,7 @@ void ProgressBar::show(std::size_t done) {
 
 void ProgressBar::finish() {
   const double elapsed = seconds();
+  if (!terminal_ && elapsed < quiet_s_) return;
   std::fprintf(stderr, "%s%s: %zu %s in %s (%s)%s\n", terminal_ ? "\r" : "", label_.c_str(), total_, unit_.c_str(),
                clock_text(elapsed).c_str(), rate_text(elapsed > 0 ? static_cast<double>(total_) / elapsed : 0.0, unit_).c_str(),
                terminal_ ? "\033[K" : "");

@@ -12,8 +12,8 @@ std::string clock_text(double seconds);
 
 class ProgressBar {
  public:
-  // `total` steps of `unit` ("frames") are to come.
-  ProgressBar(std::string label, std::size_t total, std::string unit);
+  // `total` steps of `unit` ("frames") are to come. Off a terminal nothing is said of what takes less than `quiet_s`.
+  ProgressBar(std::string label, std::size_t total, std::string unit, double quiet_s = 0);
   // Shows `done` steps, at most ten times a second (terminal) or at each tenth of the whole (no terminal).
   void show(std::size_t done);
   // The last line, with the time taken.
@@ -25,6 +25,7 @@ class ProgressBar {
   void draw(std::size_t done) const;
   std::string label_, unit_;
   std::size_t total_;
+  double quiet_s_;
   bool terminal_;
   std::chrono::steady_clock::time_point begin_, drawn_;
   std::size_t tenth_ = 0;

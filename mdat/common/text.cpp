@@ -60,6 +60,8 @@ std::string url(const std::string& path) {
   return result;
 }
 
+std::string amount(std::size_t count, const char* name) { return format("%zu %s%s", count, name, count == 1 ? "" : "s"); }
+
 std::string escape(const std::string& text) {
   std::string result;
   for (const char c : text) {

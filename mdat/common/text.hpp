@@ -9,6 +9,9 @@ namespace lasso::mdat {
 // printf into a string.
 [[gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...);
 
+// "1 scan", "2 scans".
+std::string amount(std::size_t count, const char* name);
+
 // Text as markup shows it: the characters that HTML and XML keep for themselves as their entities.
 std::string escape(const std::string& text);
 

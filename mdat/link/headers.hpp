@@ -12,10 +12,12 @@ namespace lasso::mdat {
 enum class Checksum : std::uint8_t { kRight, kWrong, kNone };
 
 // How a packet's count stands to those of its type and APID before it.
+constexpr std::uint32_t kFarAhead = 64;
+
 enum class SequenceStep : std::uint8_t {
   kNext,      // ahead of all, by less than half of all counts; the first of its kind, too
   kRestart,   // the counter began anew here
-  kLate,      // a packet that was missing until now
+  kLate,      // a packet that was missing until now, or stands before all since the restart
   kRepeated,  // a count that was there before, after which the sequence goes on
   kIdle,      // fill packets (APID 2047) have no sequence
 };
@@ -28,6 +30,8 @@ struct HeaderLine {
   Checksum checksum = Checksum::kNone;
   SequenceStep step = SequenceStep::kNext;
   std::uint32_t missing = 0;  // packets of its type and APID between it and those before, that never come
+  // More than 64, and 0 among them: the counter may as well have begun anew, with as many missing as it has counted since.
+  bool may_be_restart() const { return missing > kFarAhead && missing > header.sequence_count; }
 };
 struct HeaderList {
   std::vector<HeaderLine> lines;
@@ -40,8 +44,8 @@ HeaderList list_headers(ConstBytes stream);
 
 // Sets `step` and `missing` of all lines. A count that is not ahead is late where it fills a gap since the last restart; repeated where its
 // packet, and those behind it, have the bytes of earlier ones and the sequence then goes on, or where the next count goes on from those
-// before it; otherwise the counter began anew. So it did where a count of 0 stands more than 64 ahead. The count of a packet whose check
-// sum is wrong is believed where it is at most 64 ahead.
+// before it (late where it is before the first one since the restart); otherwise the counter began anew. So it did where a count of 0
+// stands more than 64 ahead. The count of a packet whose check sum is wrong is believed where it is at most 64 ahead.
 void follow_sequences(ConstBytes stream, std::vector<HeaderLine>& lines);
 
 }  // namespace lasso::mdat

@@ -17,9 +17,6 @@ const char* name_of(SequenceStep step) {
   return kNames[static_cast<std::size_t>(step)];
 }
 
-std::string plural(std::size_t count, const char* one, const char* more) { return format("%zu %s", count, count == 1 ? one : more); }
-std::string bytes_text(std::size_t count) { return plural(count, "byte", "bytes"); }
-
 // Where every packet has as many bytes before it, they are the recorder's own header; 0: it is not so.
 std::size_t common_prefix(const HeaderList& list) {
   if (list.lines.size() < 2) return 0;
@@ -30,13 +27,14 @@ std::size_t common_prefix(const HeaderList& list) {
 
 std::string note_of(const HeaderLine& line, bool prefix) {
   std::string text = line.step == SequenceStep::kNext ? "" : name_of(line.step);
-  if (line.missing > 0) text = plural(line.missing, "packet", "packets") + " missing before";
-  if (line.skipped > 0 && !prefix) text += (text.empty() ? "" : ", ") + bytes_text(line.skipped) + " skipped before";
+  if (line.missing > 0) text = amount(line.missing, "packet") + " missing before";
+  if (line.may_be_restart()) text += format(", or a restart with %u missing", unsigned{line.header.sequence_count});
+  if (line.skipped > 0 && !prefix) text += (text.empty() ? "" : ", ") + amount(line.skipped, "byte") + " skipped before";
   return text;
 }
 
 struct Totals {
-  std::size_t right = 0, wrong = 0, none = 0, gaps = 0, missing = 0, skipped = 0;
+  std::size_t right = 0, wrong = 0, none = 0, gaps = 0, missing = 0, skipped = 0, doubtful = 0;
   std::size_t steps[5] = {};
   std::size_t of(SequenceStep step) const { return steps[static_cast<std::size_t>(step)]; }
 };
@@ -48,6 +46,7 @@ Totals totals_of(const HeaderList& list) {
     ++totals.steps[static_cast<std::size_t>(line.step)];
     totals.gaps += line.missing > 0 ? 1 : 0;
     totals.missing += line.missing;
+    totals.doubtful += line.may_be_restart() ? 1U : 0U;
     totals.skipped += line.skipped;
   }
   return totals;
@@ -97,16 +96,18 @@ std::string headers_json(const HeaderList& list) {
 std::string headers_summary(const HeaderList& list) {
   const Totals totals = totals_of(list);
   const std::size_t prefix = common_prefix(list);
-  std::string text = plural(list.lines.size(), "packet", "packets");
+  std::string text = amount(list.lines.size(), "packet");
   if (totals.of(SequenceStep::kIdle) > 0) text += format(", %zu of them idle", totals.of(SequenceStep::kIdle));
   text += format(": CRC right in %zu, wrong in %zu", totals.right, totals.wrong);
   if (totals.none > 0) text += format(", none in %zu", totals.none);
-  text += "; " + plural(totals.gaps, "gap", "gaps") + " in the sequence, " + plural(totals.missing, "packet", "packets") + " missing; " +
-          plural(totals.of(SequenceStep::kRestart), "restart", "restarts") +
+  text += "; " + amount(totals.gaps, "gap") + " in the sequence, " + amount(totals.missing, "packet") + " missing; " +
+          amount(totals.of(SequenceStep::kRestart), "restart") +
           format(", %zu late, %zu repeated; ", totals.of(SequenceStep::kLate), totals.of(SequenceStep::kRepeated)) +
-          bytes_text(totals.skipped) + " skipped";
+          amount(totals.skipped, "byte") + " skipped";
   if (prefix > 0) text += format(" (%zu before each packet)", prefix);
-  return text + format(", %zu left over\n", list.left_over);
+  text += format(", %zu left over\n", list.left_over);
+  if (totals.doubtful == 0) return text;
+  return text + amount(totals.doubtful, "gap") + " may be a restart: the count of 0 is among the packets that are missing\n";
 }
 
 }  // namespace lasso::mdat

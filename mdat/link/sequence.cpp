@@ -10,7 +10,6 @@ namespace lasso::mdat {
 namespace {
 
 constexpr std::uint32_t kHalf = kSequenceCountMask / 2;
-constexpr std::uint32_t kFarAhead = 64;
 constexpr std::size_t kMostCopies = 1000;  // looked at: more are a restart
 
 // The packets of one type and APID, in the order of the stream.
@@ -94,7 +93,8 @@ class SequenceWalk {
     const bool copies = end > i && (end < own_.size() ? is_next(latest_, end) : end == i + 1);
     if (copies || !begins_anew(i)) {
       const std::size_t last = copies ? end - 1 : i;
-      for (std::size_t k = i; k <= last; ++k) line(k).step = SequenceStep::kRepeated;
+      const SequenceStep step = is_before_first(i) ? SequenceStep::kLate : SequenceStep::kRepeated;
+      for (std::size_t k = i; k <= last; ++k) line(k).step = step;
       return last;
     }
     restart(i);
@@ -107,7 +107,13 @@ class SequenceWalk {
   // The next count goes on from this one rather than from the latest; of the last packet, it is 0.
   bool begins_anew(std::size_t i) const {
     if (i + 1 == own_.size()) return count(i) == 0;
+    if (is_swapped(i)) return true;
     return is_next(count(i), i + 1) && distance(count(i), count(i + 1)) < distance(latest_, count(i + 1));
+  }
+  // Three in a row, of which the first two have changed places: 1, 0, 2.
+  bool is_swapped(std::size_t i) const {
+    if (i + 2 >= own_.size() || is_next(latest_, i + 2)) return false;
+    return distance(count(i + 1), count(i)) == 1 && distance(count(i), count(i + 2)) == 1;
   }
 
   ConstBytes stream_;

@@ -5,8 +5,9 @@
 namespace lasso::mdat {
 namespace {
 
-ValueRow real(const char* key, const char* unit, double minimum, double maximum) {
+ValueRow real(const char* key, const char* unit, double minimum, double maximum, const char* meaning) {
   ValueRow row;
+  row.meaning = meaning;
   row.key = key;
   row.unit = unit;
   row.kind = ValueKind::kReal;
@@ -18,7 +19,7 @@ ValueRow real(const char* key, const char* unit, double minimum, double maximum)
 }
 
 ValueRow values_row() {
-  ValueRow row = real("values", "1", 0, 1);
+  ValueRow row = real("values", "1", 0, 1, "what pixels are");
   row.kind = ValueKind::kChoice;
   row.choices = {"depth", "range"};
   row.required = false;
@@ -29,9 +30,12 @@ ValueRow values_row() {
 
 sim::DepthCamera load_depth_camera(const std::filesystem::path& file) {
   constexpr double kLargest = 1e6;  // pixels
-  const std::vector<ValueRow> rows = {real("fx", "pixels", 1e-3, kLargest),      real("fy", "pixels", 1e-3, kLargest),
-                                      real("cx", "pixels", -kLargest, kLargest), real("cy", "pixels", -kLargest, kLargest),
-                                      real("scale_m", "m", 1e-9, 1e3),           values_row()};
+  const std::vector<ValueRow> rows = {real("fx", "pixels", 1e-3, kLargest, "focal length along x"),
+                                      real("fy", "pixels", 1e-3, kLargest, "focal length along y"),
+                                      real("cx", "pixels", -kLargest, kLargest, "principal point, from the left"),
+                                      real("cy", "pixels", -kLargest, kLargest, "principal point, from the top"),
+                                      real("scale_m", "m", 1e-9, 1e3, "length of one step of a pixel's value"),
+                                      values_row()};
   ProblemList problems(file);
   const FoundValues found = read_table(parse_toml(file), "", rows, {}, problems);
   problems.throw_if_any();

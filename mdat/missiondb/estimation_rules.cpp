@@ -14,6 +14,8 @@ constexpr double kLargestShare = 0.25;
 constexpr double kLargestRatio = 5;
 constexpr double kTightestKernel = 3;
 constexpr double kLeastResidual = 1.2;
+constexpr double kLostShare = 0.05;  // of good poses, by a gate on their normalised square
+constexpr double kMostTwinMargin = 1;
 constexpr double kMostInitialTurn_rad = 15 * kRadPerDeg;
 
 std::string raised_fault(double least, double hysteresis, const char* what) {
@@ -69,6 +71,29 @@ std::string kernel_fault(const Subject& s) {
 std::string residual_fault(const Subject& s) {
   if (s.p.normalized_residual_max >= kLeastResidual) return "";
   return "residuals over their sigma have a root mean square of about 1: many good poses would be refused";
+}
+
+// Of good poses, those whose normalised square, chi-square of 6 degrees of freedom, is beyond the gate: in closed form.
+double refused_share(double gate) { return std::exp(-gate / 2) * (1 + gate / 2 + gate * gate / 8); }
+
+std::string gate_text(double gate) {
+  return "the normalised square of a good pose's difference is 6 on average, and beyond " + figure(gate) + " in " +
+         percent_text(refused_share(gate)) + " of them, which would be refused";
+}
+
+std::string start_gate_fault(const Subject& s) {
+  return !checks_starts(s.p) || refused_share(s.p.start_gate) <= kLostShare ? "" : gate_text(s.p.start_gate);
+}
+
+std::string innovation_fault(const Subject& s) {
+  const double gate = s.p.innovation_max * s.p.innovation_max;
+  return refused_share(gate) <= kLostShare ? "" : gate_text(gate);
+}
+
+std::string twin_fault(const Subject& s) {
+  if (!checks_starts(s.p) || s.p.start_twin_margin <= kMostTwinMargin) return "";
+  return "the squared residuals of a right pose are 1 on average: a wrong start would be confirmed whose near-symmetry explains the scan " +
+         figure(1 + s.p.start_twin_margin) + " times as well";
 }
 
 std::string fast_start_fault(const Subject& s) {
@@ -165,6 +190,9 @@ const Rules& estimation_rules() {
     {kWarning, kParameters, kValues, {"search.ratio_min", "start.first", "start.second", "start.third", "start.fourth", "start.fifth"}, ratio_fault},
     {kWarning, kParameters, kValues, {"estimation.kernel_width"}, kernel_fault},
     {kWarning, kParameters, kValues, {"tracking.normalized_residual_max"}, residual_fault},
+    {kWarning, kParameters, kValues, {"start.gate"}, start_gate_fault},
+    {kWarning, kParameters, kValues, {"tracking.innovation_max"}, innovation_fault},
+    {kWarning, kParameters, kValues, {"start.twin_margin"}, twin_fault},
     {kWarning, kParameters, kValues, {"tracking.initial.wx_degps", "tracking.initial.wy_degps", "tracking.initial.wz_degps"}, fast_start_fault},
     {kWarning, kParameters, kValues, {"link.silence_max_s", "filter.period_s"}, silence_fault},
     {kError, kParameters, kValues, {"start.second", "start.first"}, repeated_fault<1>},

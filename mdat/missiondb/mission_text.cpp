@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <iomanip>
+#include <optional>
 #include <sstream>
 
 #include "mdat/missiondb/sections.hpp"
@@ -128,6 +129,24 @@ std::string preset_text(const MissionSource& source, const std::string& key, con
   return toml_text(*row, {preset_of(source.sensor, name, row->preset[0])});
 }
 
+// Empty of a key whose value is not listed, and of a file, which is listed by its name alone.
+std::optional<std::string> value_of(const MissionSource& source, const std::string& key, const std::string& scenario) {
+  for (const EffectiveValue& value : effective_values(source, scenario)) {
+    if (value.key == key && key != source.target.file_key && key != "sensor.calibration") return value.value;
+  }
+  return std::nullopt;
+}
+
+// Empty, too, where the mission is none without what is left out.
+std::optional<std::string> value_without(const std::filesystem::path& file, const std::vector<std::string>& settings,
+                                         const std::string& key, const std::string& scenario) {
+  try {
+    return value_of(load_mission(file, settings), key, scenario);
+  } catch (const MissionError&) {
+    return std::nullopt;
+  }
+}
+
 }  // namespace
 
 std::string check_text(const MissionSource& source, const Mesh& mesh) {
@@ -156,6 +175,19 @@ std::vector<EffectiveValue> effective_values(const MissionSource& source, const 
     if (scenario.empty() || entry.first == scenario) write_scenario(out, source, entry.first);
   }
   return out;
+}
+
+std::vector<std::string> idle_settings(const MissionSource& source, const std::string& scenario) {
+  std::vector<std::string> idle;
+  for (std::size_t i = 0; i < source.settings.size(); ++i) {
+    std::vector<std::string> others = source.settings;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+    const std::string& setting = source.settings[i];
+    const std::string key = setting.substr(0, setting.find_first_of(" ="));
+    const std::optional<std::string> without = value_without(source.file, others, key, scenario);
+    if (without && without == value_of(source, key, scenario)) idle.push_back(setting);
+  }
+  return idle;
 }
 
 std::vector<Deviation> deviations(const MissionSource& source, const std::string& scenario) {

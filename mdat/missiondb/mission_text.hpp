@@ -20,6 +20,9 @@ struct EffectiveValue {
 // Of the target, the sensors, the parameters as they hold in the scenario (empty: the mission's own), the parts and the scenario (all).
 std::vector<EffectiveValue> effective_values(const MissionSource& source, const std::string& scenario = "");
 
+// The settings of the command line without which their value would be the same, as the mission says it or another setting does.
+std::vector<std::string> idle_settings(const MissionSource& source, const std::string& scenario);
+
 // The values that are not their presets, or have none.
 struct Deviation {
   EffectiveValue value;

@@ -29,6 +29,7 @@ class ObjReader {
     if (edges_ > 0) mesh_.left_out.push_back(count_text(edges_, "line element"));
     if (points_ > 0) mesh_.left_out.push_back(count_text(points_, "point element"));
     if (curves_ > 0) mesh_.left_out.push_back(count_text(curves_, "free-form curve or surface"));
+    if (scripts_ > 0) mesh_.left_out.push_back(count_text(scripts_, "call or csh statement"));
     if (faces_.empty()) {
       throw MeshError("is empty: it holds no face" +
                       (mesh_.left_out.empty() ? "" : ", but " + mesh_.left_out.front() + ": export triangles"));
@@ -43,6 +44,7 @@ class ObjReader {
     edges_ += std::size_t{keyword == "l"};
     points_ += std::size_t{keyword == "p"};
     curves_ += std::size_t{keyword == "curv" || keyword == "curv2" || keyword == "surf"};
+    scripts_ += std::size_t{keyword == "call" || keyword == "csh"};
     if (keyword == "v") read_vertex(line, rest);
     if (keyword == "f" || keyword == "fo") read_face(line, rest);
     if (keyword == "l" || keyword == "p") static_cast<void>(whole_statement(rest));
@@ -95,7 +97,7 @@ class ObjReader {
   Words lines_;
   FileMesh mesh_;
   std::vector<ObjFace> faces_;
-  std::size_t edges_ = 0, points_ = 0, curves_ = 0;
+  std::size_t edges_ = 0, points_ = 0, curves_ = 0, scripts_ = 0;
 };
 
 }  // namespace

@@ -19,6 +19,9 @@ constexpr double kBetweenScans_s = 2;
 constexpr double kAccelerations = 5;  // over what the filter takes it for
 constexpr double kNoiseRatio = 3;     // of the simulated noise over the one that is assumed
 constexpr double kReturning = 0.6;
+constexpr double kSettlingFrames = 20;             // after them a filter knows the rates, and results count them
+constexpr double kNever_s = 1e6;                   // what navigation_from_s says where none helps
+constexpr double kNavigationShare = 0.25;          // of the target's length: as much as a rough start may be off
 constexpr double kRadians_rad = 1.6 * kRadPerDeg;  // a quarter turn that was written in radians
 constexpr double kOnTarget = 0.5;                  // of the rays
 
@@ -150,6 +153,27 @@ std::string short_run_fault(const Subject& s) {
          number_text(std::ceil(s.scenario->times_s.back() / s.p.period_s)) + " frames of " + figure(s.p.period_s) + " s";
 }
 
+std::string few_frames_fault(const Subject& s) {
+  if (s.scenario->frames >= kSettlingFrames || s.scenario->scenario_kind() == ScenarioKind::kPaper) return "";
+  return "a run ends before its filter knows the rates, which takes some " + figure(kSettlingFrames) +
+         " frames: results say nothing of them";
+}
+
+bool is_helped(const Subject& s) { return s.scenario->scenario_kind() == ScenarioKind::kApproach && is_in_order(s.p, kNavigationWay); }
+
+std::string late_navigation_fault(const Subject& s) {
+  const double from_s = s.scenario->navigation_from_s;
+  if (!is_helped(s) || !no_way_fault(s).empty() || from_s < end_s(s) || from_s >= kNever_s) return "";
+  return "is after the run, which ends at " + figure(end_s(s)) + " s: no pose is offered; " + number_text(kNever_s) + " says never";
+}
+
+std::string rough_navigation_fault(const Subject& s) {
+  const double sigma_m = s.scenario->navigation_sigma_m, length_m = s.target->longest_m();
+  if (!is_helped(s) || s.scenario->navigation_from_s >= end_s(s) || sigma_m <= kNavigationShare * length_m) return "";
+  return "is " + percent_text(sigma_m / length_m) + " of the target's length of " + figure(length_m) +
+         " m: a start may be off by a quarter of it, and 80 % or more of these are farther off";
+}
+
 std::string haste_fault(const Subject& s) {
   const std::vector<double>&times = s.scenario->times_s, &ranges = s.scenario->ranges_m;
   for (std::size_t i = 1; s.scenario->has_profile() && times.size() == ranges.size() && i < times.size(); ++i) {
@@ -277,6 +301,9 @@ const Rules& scenario_rules() {
     {kWarning, kScenario, kValues, {"prior", "kind", "start.first"}, no_way_fault},
     {kWarning, kScenario, kValues, {"ranges_m", "sensor.use_from_m", "sensor.use_to_m"}, band_gap_fault},
     {kWarning, kScenario, kValues, {"frames", "times_s"}, short_run_fault},
+    {kWarning, kScenario, kValues, {"frames"}, few_frames_fault},
+    {kWarning, kScenario, kValues, {"navigation_from_s", "frames"}, late_navigation_fault},
+    {kWarning, kScenario, kTarget, {"navigation_sigma_m"}, rough_navigation_fault},
     {kWarning, kScenario, kValues, {"times_s", "filter.acceleration_mps2"}, haste_fault},
     {kWarning, kScenario, kTarget, {"estimation.deskew", "spin_degps"}, smear_fault},
     {kWarning, kScenario, kValues, {"sigma_k_per_m", "sigma0_m", "sensor.sigma_k_per_m", "sensor.sigma0_m"}, simulated_noise_fault},

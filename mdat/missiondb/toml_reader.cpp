@@ -32,6 +32,9 @@ std::string as_written(const toml::node& node) {
   return shortened(stream.str());
 }
 
+// What is expected, and what it means where a row says so.
+std::string described(const ValueRow& row) { return expectation(row) + (row.meaning.empty() ? "" : " (" + row.meaning + ")"); }
+
 std::optional<double> number_of(const toml::node& node, bool whole) {
   if (const auto integer = node.value_exact<std::int64_t>()) return static_cast<double>(*integer);
   if (whole) return std::nullopt;
@@ -47,7 +50,7 @@ std::optional<FoundValue> read_number(const toml::node& node, const ValueRow& ro
   } else if (!std::isfinite(*value)) {
     problems.add(node, key, "not a finite number: " + expectation(row));
   } else if (!in_range(row, *value)) {
-    problems.add(node, key, "out of range: " + expectation(row) + " (" + row.meaning + ")");
+    problems.add(node, key, "out of range: " + described(row));
   } else {
     return FoundValue{{*value}, {}, origin_of(node.source())};
   }
@@ -81,7 +84,7 @@ std::optional<FoundValue> read_list(const toml::node& node, const ValueRow& row,
 std::optional<FoundValue> read_text(const toml::node& node, const ValueRow& row, const std::string& key, ProblemList& problems) {
   const auto text = node.value_exact<std::string>();
   if (!text || !std::regex_match(*text, std::regex(row.pattern))) {
-    problems.add(node, key, expectation(row) + " (" + row.meaning + ")");
+    problems.add(node, key, described(row));
     return std::nullopt;
   }
   return FoundValue{{}, {*text}, origin_of(node.source())};
@@ -92,7 +95,7 @@ std::optional<FoundValue> read_texts(const toml::node& node, const ValueRow& row
   const toml::array* array = row.count_max > 1 ? node.as_array() : nullptr;
   if (array == nullptr) return read_text(node, row, key, problems);
   if (array->empty() || array->size() > row.count_max) {
-    problems.add(node, key, expectation(row) + " (" + row.meaning + ")");
+    problems.add(node, key, described(row));
     return std::nullopt;
   }
   return read_items(*array, row, key, read_text, problems);
@@ -134,7 +137,7 @@ class TableWalk {
   void require(const toml::table& table) {
     for (const ValueRow& row : rows_) {
       if (row.required && !table.at_path(row.key)) {
-        problems_.add(origin_of(table.source()), prefix_ + row.key, "", "is missing: " + expectation(row) + " (" + row.meaning + ")");
+        problems_.add(origin_of(table.source()), prefix_ + row.key, "", "is missing: " + described(row));
       }
     }
   }

@@ -7,6 +7,7 @@
 #include "fsw/mode/searcher.hpp"
 #include "mdat/common/cpu_clock.hpp"
 #include "mdat/common/progress_bar.hpp"
+#include "mdat/replay/scan_notes.hpp"
 #include "mdat/replay/search_words.hpp"
 #include "mdat/run/statistics.hpp"
 
@@ -70,7 +71,7 @@ std::vector<AcquiredScan> acquire(const Mission& mission, const sim::RecordedSca
   const auto search = std::make_unique<Search>();
   const auto workspace = std::make_unique<Workspace>();
   std::vector<AcquiredScan> acquired;
-  ProgressBar bar("search", scans.size(), "scans");
+  ProgressBar bar("search", scans.size(), "scans", kQuietReplay_s);
   for (std::size_t i = 0; i < scans.size(); ++i) {
     acquired.push_back(acquire_scan(mission, scans.read(i), *search, *workspace));
     acquired.back().scan = scans.stem(i);
@@ -106,11 +107,9 @@ std::string acquired_summary(const std::vector<AcquiredScan>& scans) {
     times_us.push_back(scan.search_us);
   }
   const TimeStatistics time = time_statistics(times_us);
-  char text[200];
-  std::snprintf(text, sizeof text,
-                "%zu scans: %zu poses accepted, %zu ambiguous, %zu rejected; time of a search: median %.0f ms, 99th percentile %.0f ms\n",
-                scans.size(), accepted, ambiguous, scans.size() - accepted - ambiguous, 1e-3 * time.median_us, 1e-3 * time.p99_us);
-  std::string summary = text;
+  std::string summary = format("%s: %zu accepted, %zu ambiguous, %zu rejected; time of a search: median %.0f ms, 99th percentile %.0f ms\n",
+                               amount(scans.size(), "scan").c_str(), accepted, ambiguous, scans.size() - accepted - ambiguous,
+                               1e-3 * time.median_us, 1e-3 * time.p99_us);
   for (std::size_t i = 0; i < scans.size() && i < kTold; ++i)
     summary += "  " + scans[i].scan + " " + outcome_of(scans[i]) + ": " + scans[i].why + "\n";
   if (scans.size() > kTold) summary += "  the others: column why\n";

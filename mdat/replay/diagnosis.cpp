@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <memory>
 
 #include "fsw/geometry/portable_math.hpp"
@@ -15,15 +16,9 @@ namespace {
 constexpr std::size_t kTried = 5;  // scans
 constexpr double kMostTurn_rad = 20 * kRadPerDeg;
 constexpr double kMostShift = 0.5;                                  // of the model's radius: a quarter of its size
+constexpr double kMuchBetter = 0.7;                                 // of residuals
 constexpr double kNear = 1.5;                                       // times the model's radius
 constexpr double kNoisy = 1.5, kNoisyWeighted = 1.2, kQuiet = 0.2;  // residuals over the noise
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 struct LengthUnit {
   double metres;
@@ -65,16 +60,42 @@ std::vector<Trial> trials(const ReplayOptions& options, const ReplayInput& input
   return chosen;
 }
 
+Pose as_it_is(const Pose& pose) { return pose; }
+
 struct Reading {
   std::string meaning;
   std::function<Pose(const Pose&)> pose;
-  Mat3 axes = Mat3::Identity();  // of the scans
+  Mat3 axes = Mat3::Identity();                // of the scans
+  std::function<void(RangeSample&)> ray = {};  // and of each return behind them; empty: as it is
 };
 
-// (qw, qx, qy, qz) that stood where (qx, qy, qz, qw) is expected.
-Pose scalar_first(const Pose& pose) { return {Quat(pose.q.x(), pose.q.y(), pose.q.z(), pose.q.w()), pose.p}; }
+using Direction = Eigen::Map<Eigen::Vector3f>;
+
+void scale(RangeSample& ray, double factor) { ray.range_m = static_cast<float>(static_cast<double>(ray.range_m) * factor); }
+
+Reading scaled(double factor) {
+  return {"", as_it_is, Mat3::Identity(), [factor](RangeSample& ray) { scale(ray, factor); }};
+}
+
+// As if the sensor stood on the other side of the file's origin.
+Reading other_side(const sim::ScanFrame& frame) {
+  const Vec3 way_m = 2 * frame.R_sensor_file * frame.sensor_m;
+  return {"--sensor-offset of the other sign", as_it_is, Mat3::Identity(), [way_m](RangeSample& ray) {
+            const Vec3 place_m = static_cast<double>(ray.range_m) * Direction(ray.direction).cast<double>() + way_m;
+            ray.range_m = static_cast<float>(place_m.norm());
+            Direction(ray.direction) = place_m.normalized().cast<float>();
+          }};
+}
+
+// Depths along the boresight that are ranges, or ranges that are depths.
+Reading other_values(bool along_ray) {
+  return {along_ray ? "values = \"depth\"" : "values = \"range\"", as_it_is, Mat3::Identity(), [along_ray](RangeSample& ray) {
+            const double z = static_cast<double>(ray.direction[2]);
+            scale(ray, along_ray ? 1 / z : z);
+          }};
+}
+
 Pose inverse_attitude(const Pose& pose) { return {pose.q.conjugate(), pose.p}; }
-Pose as_it_is(const Pose& pose) { return pose; }
 
 std::vector<Reading> readings(const ReplayOptions& options) {
   std::vector<Reading> all = {
@@ -85,9 +106,11 @@ std::vector<Reading> readings(const ReplayOptions& options) {
       {"poses with inverse quaternions: they seem to take the sensor's axes to the target's", inverse_attitude},
       {"poses with inverse quaternions, scalar first: qx,qy,qz,qw seem to hold qw,qx,qy,qz from the sensor's axes to the target's",
        [](const Pose& pose) { return inverse_attitude(scalar_first(pose)); }}};
-  for (const char* axes : {"forward-right-down", "forward-left-up", "right-up-backward", "right-forward-up"}) {
+  for (const char* axes : {"forward-right-down", "forward-left-up", "right-up-backward", "right-forward-up", "left-down-forward",
+                           "right-up-forward", "left-up-forward"}) {
     all.push_back({std::string("scans in other axes: --axes ") + axes, as_it_is, sim::axes_of(axes)});
   }
+  if (!options.frame.sensor_m.isZero()) all.push_back(other_side(options.frame));
   if (!options.frame.R_sensor_file.isIdentity()) {
     const Mat3 R = options.frame.R_sensor_file;
     all.push_back({"scans as they are: leave --axes out", as_it_is, R.transpose()});
@@ -100,11 +123,12 @@ std::vector<Reading> readings(const ReplayOptions& options) {
   return all;
 }
 
-RangeImage turned(const RangeImage& image, const Mat3& axes) {
+RangeImage read_as(const RangeImage& image, const Reading& reading) {
   RangeImage result = image;
   for (RangeSample& sample : result.samples) {
-    Eigen::Map<Eigen::Vector3f> direction(sample.direction);
-    direction = (axes * direction.cast<double>()).cast<float>().eval();
+    Direction direction(sample.direction);
+    direction = (reading.axes * direction.cast<double>()).cast<float>().eval();
+    if (reading.ray && sample.state == RayState::kHit) reading.ray(sample);
   }
   return result;
 }
@@ -118,7 +142,7 @@ bool fits(const Mission& mission, Estimator& estimator, const RangeImage& image,
 std::size_t fitting(const Mission& mission, Estimator& estimator, const std::vector<Trial>& trials, const Reading& reading,
                     bool wide = true) {
   return static_cast<std::size_t>(std::count_if(trials.begin(), trials.end(), [&](const Trial& trial) {
-    return fits(mission, estimator, turned(*trial.image, reading.axes), reading.pose(trial.start), wide);
+    return fits(mission, estimator, read_as(*trial.image, reading), reading.pose(trial.start), wide);
   }));
 }
 
@@ -135,9 +159,38 @@ double stated_sigma_m(const MissionParameters& p, double range_m) {
   return std::sqrt(p.sigma0_m * p.sigma0_m + far_m * far_m + aside_m * aside_m + p.surface_sigma_m * p.surface_sigma_m);
 }
 
+// Do most scans fit whose lengths are in such a unit? Without poses it is not tried, which takes a search.
+bool fits_in(const Mission& mission, const ReplayOptions& options, const ReplayInput& input, double metres) {
+  if (input.poses.empty()) return true;
+  const std::vector<Trial> chosen = trials(options, input);
+  return 2 * fitting(mission, *std::make_unique<Estimator>(), chosen, scaled(metres)) > chosen.size();
+}
+
+// Root mean squares of residuals of scans that fit, the median, m; beyond any where fewer than half fit.
+double residual_m(const Mission& mission, Estimator& estimator, const std::vector<Trial>& trials, const Reading& reading) {
+  std::vector<double> rms_m;
+  for (const Trial& trial : trials) {
+    const Registration r = estimator.estimate(mission, read_as(*trial.image, reading), {reading.pose(trial.start), {}, true});
+    if (r.valid()) rms_m.push_back(r.rms_m);
+  }
+  return 2 * rms_m.size() < trials.size() ? std::numeric_limits<double>::infinity() : median(rms_m);
+}
+
 }  // namespace
 
-Notes range_notes(const Mission& mission, const ReplayInput& input) {
+Notes value_notes(const Mission& mission, const ReplayOptions& options, const ReplayInput& input) {
+  if (input.poses.empty() || !(options.camera.fx > 0)) return {};
+  const std::vector<Trial> chosen = trials(options, input);
+  const auto estimator = std::make_unique<Estimator>();
+  const Reading other = other_values(options.camera.along_ray);
+  const double given_m = residual_m(mission, *estimator, chosen, {"", as_it_is}), other_m = residual_m(mission, *estimator, chosen, other);
+  if (!(other_m < kMuchBetter * given_m)) return {};
+  const std::string given = std::isfinite(given_m) ? format("residuals of %.3g mm", 1e3 * given_m) : "few valid poses";
+  return {format("warning: depth images have %s as given, and residuals of %.3g mm (median of %s tried) with %s in the camera's file",
+                 given.c_str(), 1e3 * other_m, amount(chosen.size(), "scan").c_str(), other.meaning.c_str())};
+}
+
+Notes range_notes(const Mission& mission, const ReplayOptions& options, const ReplayInput& input) {
   const MissionParameters& p = mission.parameters;
   std::vector<double> ranges_m;
   for (const sim::ScanFacts& scan : input.facts) {
@@ -152,12 +205,12 @@ Notes range_notes(const Mission& mission, const ReplayInput& input) {
       format("warning: the returns of %s lie %s %g (their median range: %.4g m)",
              ranges_m.size() == 1 ? "the scan" : format("all %zu scans", ranges_m.size()).c_str(),
              far ? "beyond sensor.range_max_m" : "nearer than sensor.range_min_m", far ? p.range_max_m : p.range_min_m, range_m);
-  if (const LengthUnit* unit = unit_for(p, range_m, target_range_m(input.poses), mission.radius_m)) {
-    text += format(": in %s? --scale %g reads them so", unit->name, unit->metres);
-  } else {
-    text += ": is the mission's sensor the one that took them?";
-  }
-  return {text};
+  const LengthUnit* const unit = unit_for(p, range_m, target_range_m(input.poses), mission.radius_m);
+  if (unit != nullptr && fits_in(mission, options, input, unit->metres))
+    return {text + format(": in %s? --scale %g reads them so", unit->name, unit->metres)};
+  Notes notes = {text + ": is the mission's sensor the one that took them? In no other unit do they fit"};
+  for (const std::string& note : reading_notes(mission, options, input)) notes.push_back(note);
+  return notes;
 }
 
 Notes reading_notes(const Mission& mission, const ReplayOptions& options, const ReplayInput& input) {
@@ -169,15 +222,15 @@ Notes reading_notes(const Mission& mission, const ReplayOptions& options, const 
   const double within_m = kNear * mission.radius_m;
   if (std::none_of(chosen.begin(), chosen.end(), [&](const Trial& trial) { return has_return_near(trial, within_m); })) {
     notes.push_back(
-        format("warning: no return of %zu scans that were tried is within %.3g m (1.5 times the target's radius) of the target's origin at "
+        format("warning: no return of %s tried is within %.3g m (1.5 times the target's radius) of the target's origin at "
                "the given poses",
-               chosen.size(), within_m));
+               amount(chosen.size(), "scan").c_str(), within_m));
   }
   if (2 * as_asked > chosen.size()) {
     const std::size_t near = options.wide ? as_asked : fitting(mission, *estimator, chosen, {"", as_it_is}, false);
     if (2 * near <= chosen.size())
-      notes.push_back(format("note: of %zu scans that were tried %zu fit as given, and %zu with --wide: the poses are rough", chosen.size(),
-                             near, as_asked));
+      notes.push_back(format("note: of %s tried %zu fit as given, and %zu with --wide: the poses are rough",
+                             amount(chosen.size(), "scan").c_str(), near, as_asked));
     return notes;
   }
   std::size_t most = as_asked;
@@ -189,7 +242,8 @@ Notes reading_notes(const Mission& mission, const ReplayOptions& options, const 
     best = reading.meaning;
   }
   if (!best.empty()) {
-    notes.push_back(format("warning: of %zu scans that were tried %zu fit as given, and %zu with ", chosen.size(), as_asked, most) + best);
+    notes.push_back(format("warning: of %s tried %zu fit as given, and %zu with ", amount(chosen.size(), "scan").c_str(), as_asked, most) +
+                    best);
   } else if (!notes.empty()) {
     notes.back() +=
         ", nor do inverse poses, quaternions scalar first, or other axes fit: check units, and whether the scans are the target's";
@@ -213,9 +267,9 @@ Notes noise_notes(const Mission& mission, const ReplayInput& input, const std::v
   if (ratios.empty() || !(noisy || ratio < kQuiet)) return {};
   const double range_m = median(ranges_m);
   const std::string figures = format(
-      "residuals are %.2g times the noise that the mission states (median of %zu scans): at %.3g m they show %.3g mm, and sensor.sigma0_m, "
+      "residuals are %.2g times the noise that the mission states (median of %s): at %.3g m they show %.3g mm, and sensor.sigma0_m, "
       "sigma_k_per_m and sigma_angle_rad with estimation.surface_sigma_m make %.3g mm",
-      ratio, ratios.size(), range_m, 1e3 * median(shown_m), 1e3 * stated_sigma_m(mission.parameters, range_m));
+      ratio, amount(ratios.size(), "scan").c_str(), range_m, 1e3 * median(shown_m), 1e3 * stated_sigma_m(mission.parameters, range_m));
   if (noisy) return {"warning: " + figures + ": state the sensor's own noise, or how well the surface is known"};
   return {"note: " + figures + ": a noise stated far too large makes gates too wide beside edges"};
 }

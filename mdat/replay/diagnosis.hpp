@@ -6,8 +6,11 @@
 namespace lasso::mdat {
 
 // Are the returns of all scans beyond what the sensor measures? With the factor that would bring them to where the poses say that the
-// target is; without poses, within the sensor's range.
-Notes range_notes(const Mission& mission, const ReplayInput& input);
+// target is, where most scans then fit; without poses, within the sensor's range. Where no unit does, what reading_notes finds, too.
+Notes range_notes(const Mission& mission, const ReplayOptions& options, const ReplayInput& input);
+
+// Have depth images much smaller residuals if what they hold as depths is read as ranges, or the other way round? Tried as reading_notes.
+Notes value_notes(const Mission& mission, const ReplayOptions& options, const ReplayInput& input);
 
 // Do the poses, or the scans, fit when they are read otherwise: inverse, scalar first, in other axes? Tried on up to five scans (in closed
 // loop on the first), each by a registration: one fits if it is valid within 20 deg and a quarter of the target's size of its start. Told

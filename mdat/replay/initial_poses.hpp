@@ -29,4 +29,7 @@ const InitialPose* find_pose(const std::vector<InitialPose>& poses, const std::s
 // The same; throws InputError that names both files.
 const Pose& pose_of(const std::vector<InitialPose>& poses, const std::string& scan, const std::filesystem::path& file);
 
+// Of a pose whose (qw, qx, qy, qz) stood where (qx, qy, qz, qw) is expected.
+inline Pose scalar_first(const Pose& pose) { return {Quat(pose.q.x(), pose.q.y(), pose.q.z(), pose.q.w()), pose.p}; }
+
 }  // namespace lasso::mdat

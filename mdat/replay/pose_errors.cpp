@@ -1,5 +1,6 @@
 #include "mdat/replay/pose_errors.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "fsw/geometry/portable_math.hpp"
@@ -22,7 +23,71 @@ struct Spread {
   double rms() const { return std::sqrt(sum2 / static_cast<double>(count)); }
 };
 
+struct TruthReading {
+  const char* meaning;
+  Pose (*pose)(const Pose&);
+};
+Pose as_given(const Pose& pose) { return pose; }
+Pose inverse_of(const Pose& pose) { return inverse(pose); }
+Pose inverse_scalar_first(const Pose& pose) { return inverse(scalar_first(pose)); }
+template <int kPerThousand>
+Pose in_unit(const Pose& pose) {
+  return {pose.q, 1e-3 * kPerThousand * pose.p};
+}
+constexpr TruthReading kReadings[] = {{"as given", as_given},
+                                      {"as T_target_sensor: inverse poses", inverse_of},
+                                      {"scalar first: columns of qw,qx,qy,qz", scalar_first},
+                                      {"as T_target_sensor, scalar first", inverse_scalar_first},
+                                      {"in millimetres", in_unit<1>},
+                                      {"in centimetres", in_unit<10>},
+                                      {"in kilometres", in_unit<1000000>}};
+
+// Medians over the poses; `whole_m`, by which readings are compared, is the translation and, at the pose's range, the rotation.
+struct MedianErrors {
+  double translation_m = 0, rotation_rad = 0, whole_m = 0;
+};
+
+MedianErrors median_errors(const std::vector<InitialPose>& truth, const std::vector<FoundPose>& found, const TruthReading& reading) {
+  std::vector<double> translation_m, rotation_rad, whole_m;
+  for (const FoundPose& pose : found) {
+    const InitialPose* const known = find_pose(truth, pose.scan);
+    if (known == nullptr) continue;
+    const Vec6 difference = pose_difference(pose.T_sensor_target, reading.pose(known->T_sensor_target));
+    translation_m.push_back(difference.tail<3>().norm());
+    rotation_rad.push_back(difference.head<3>().norm());
+    whole_m.push_back(translation_m.back() + rotation_rad.back() * pose.T_sensor_target.p.norm());
+  }
+  if (whole_m.empty()) return {};
+  return {median(translation_m), median(rotation_rad), median(whole_m)};
+}
+
+std::string errors_text(const MedianErrors& errors) {
+  return format("%.3g m and %.3g deg", errors.translation_m, errors.rotation_rad / kRadPerDeg);
+}
+
 }  // namespace
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+std::vector<std::string> truth_notes(const std::vector<InitialPose>& truth, const std::vector<FoundPose>& found) {
+  constexpr double kMuchCloser = 0.2;
+  const MedianErrors given = median_errors(truth, found, kReadings[0]);
+  MedianErrors best = given;
+  const char* meaning = nullptr;
+  for (const TruthReading& reading : kReadings) {
+    const MedianErrors errors = median_errors(truth, found, reading);
+    if (!(errors.whole_m < kMuchCloser * given.whole_m) || errors.whole_m >= best.whole_m) continue;
+    best = errors;
+    meaning = reading.meaning;
+  }
+  if (meaning == nullptr) return {};
+  return {"warning: --truth: poses are " + errors_text(given) + " off (medians), and " + errors_text(best) + " if it is read " + meaning};
+}
 
 KnownError error_of(const std::vector<InitialPose>& truth, const std::string& scan, const Pose& T_sensor_target) {
   const InitialPose* const true_pose = find_pose(truth, scan);

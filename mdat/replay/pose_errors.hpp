@@ -25,6 +25,17 @@ struct JudgedScan {
 // Root mean square and the largest, a line each for translation and rotation; empty where no error is known.
 std::string error_summary(const std::vector<JudgedScan>& scans);
 
+// 0 of none.
+double median(std::vector<double> values);
+
+struct FoundPose {
+  std::string scan;
+  Pose T_sensor_target;
+};
+// Would true poses be much closer, by less than a fifth, if they were read otherwise: inverse, scalar first, lengths in another unit? By
+// the medians of the errors of the poses that count. A warning with the figures of both.
+std::vector<std::string> truth_notes(const std::vector<InitialPose>& truth, const std::vector<FoundPose>& found);
+
 // The columns `error_m,error_deg` with a comma before them.
 constexpr char kErrorColumns[] = ",error_m,error_deg";
 std::string error_fields(const KnownError& error);

@@ -38,7 +38,7 @@ using Register = std::function<ReplayedScan(const RangeImage&, const std::string
 std::vector<ReplayedScan> for_each_scan(const ReplayInput& input, const Register& registered) {
   const sim::RecordedScans& scans = input.scans;
   std::vector<ReplayedScan> results;
-  ProgressBar bar("replay", scans.size(), "scans");
+  ProgressBar bar("replay", scans.size(), "scans", kQuietReplay_s);
   for (std::size_t i = 0; i < scans.size(); ++i) {
     results.push_back(registered(scans.read(i), scans.stem(i)));
     ReplayedScan& result = results.back();
@@ -112,6 +112,7 @@ Notes settle_times(const ReplayOptions& options, double duration_s, ReplayInput&
   input.scans.set_time_unit(unit_s, input.facts);
   Notes notes = row_notes(input.facts);
   if (!(options.unit_s > 0)) append(time_unit_note(input.facts, duration_s, unit_s), notes);
+  append(mixed_unit_notes(input.scans, input.facts, unit_s), notes);
   append(order_notes(input.scans, input.facts, unit_s), notes);
   append(pose_notes(input.poses, options.initial), notes);
   return notes;
@@ -126,6 +127,14 @@ std::vector<ReplayedScan> replay(const Mission& mission, const ReplayOptions& op
   return for_each_scan(input, [&](const RangeImage& image, const std::string& stem) {
     return register_scan(mission, *estimator, image, {pose_of(input.poses, stem, options.initial), {}, options.wide});
   });
+}
+
+std::vector<FoundPose> judged(const std::vector<ReplayedScan>& scans) {
+  std::vector<FoundPose> found;
+  for (const ReplayedScan& scan : scans) {
+    if (scan.registration.valid()) found.push_back({scan.scan, scan.registration.T_sensor_target});
+  }
+  return found;
 }
 
 std::string replay_csv(const std::vector<ReplayedScan>& scans) {
@@ -150,10 +159,8 @@ std::string replay_summary(const std::vector<ReplayedScan>& scans) {
     times_us.push_back(scan.estimate_us);
   }
   const TimeStatistics time = time_statistics(times_us);
-  char text[160];
-  std::snprintf(text, sizeof text, "%zu of %zu scans gave a valid pose; time of an estimate: median %.0f us, 99th percentile %.0f us\n",
-                valid, scans.size(), time.median_us, time.p99_us);
-  std::string result = text;
+  std::string result = format("%zu of %s gave a valid pose; time of an estimate: median %.0f us, 99th percentile %.0f us\n", valid,
+                              amount(scans.size(), "scan").c_str(), time.median_us, time.p99_us);
   for (const auto& [reason, count] : reasons)
     result += "  not valid, " + reason + ": " + std::to_string(count) + " (" + meaning_of(reason) + ")\n";
   return result + error_summary(judged);

@@ -52,6 +52,9 @@ Notes settle_times(const ReplayOptions& options, double duration_s, ReplayInput&
 // period otherwise (files without times). Throws InputError and sim::ScanFileError.
 std::vector<ReplayedScan> replay(const Mission& mission, const ReplayOptions& options, const ReplayInput& input);
 
+// Poses that count against the truth: the valid ones.
+std::vector<FoundPose> judged(const std::vector<ReplayedScan>& scans);
+
 // The file poses_out.csv; with the columns of errors where any is known.
 std::string replay_csv(const std::vector<ReplayedScan>& scans);
 

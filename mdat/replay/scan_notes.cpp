@@ -10,6 +10,9 @@ namespace {
 
 using sim::ScanFacts;
 
+constexpr double kSameSpan = 1.2;  // a ratio: a column named t_s that is in another unit spans a scan all the same
+constexpr double kMinute_s = 60;
+
 struct Unit {
   double unit_s;
   const char* name;
@@ -71,8 +74,17 @@ const Unit& closest_unit(double span, double duration_s) {
   return *std::min_element(std::begin(kUnits), std::end(kUnits), [&](const Unit& a, const Unit& b) { return off(a) < off(b); });
 }
 
+bool is_same_span(double span_s, double other_s) { return std::abs(std::log(span_s / other_s)) <= std::log(kSameSpan); }
+
 Notes kept_seconds_note(double span, double duration_s) {
-  if (!(span > 0) || closest_unit(span, duration_s).unit_s == 1) return {};
+  if (!(span > 0)) return {};
+  if (is_same_span(kMinute_s * span, duration_s)) {
+    return {format(
+        "warning: the scans' times are taken as seconds: a scan spans %g of them, and the mission's takes %g s (scan.duration_s): in "
+        "minutes? --time-unit min reads them so",
+        span, duration_s)};
+  }
+  if (closest_unit(span, duration_s).unit_s == 1) return {};
   return {
       format("warning: the scans' times are taken as seconds, as their column t_s says: a scan spans %g s, and the mission's takes %g s "
              "(scan.duration_s); --time-unit says otherwise",
@@ -82,11 +94,10 @@ Notes kept_seconds_note(double span, double duration_s) {
 }  // namespace
 
 double time_unit_s(const std::vector<ScanFacts>& facts, double duration_s) {
-  constexpr double kSameSpan = 1.2;  // a ratio: a column named t_s that is in another unit spans a scan all the same
   const double span = median_span(facts);
   if (!(span > 0)) return 1;
   const double unit_s = closest_unit(span, duration_s).unit_s;
-  const bool same = std::abs(std::log(span * unit_s / duration_s)) <= std::log(kSameSpan);
+  const bool same = is_same_span(span * unit_s, duration_s);
   const bool named = count_if(facts, [](const ScanFacts& scan) { return scan.seconds_named; }) > 0;
   return named && !same ? 1 : unit_s;
 }
@@ -99,6 +110,26 @@ Notes time_unit_note(const std::vector<ScanFacts>& facts, double duration_s, dou
       "note: the scans' times are taken as %s: a scan spans %g of them, and the mission's takes %g s (scan.duration_s); --time-unit says "
       "otherwise",
       unit->name, median_span(facts), duration_s)};
+}
+
+Notes mixed_unit_notes(const sim::RecordedScans& scans, const std::vector<ScanFacts>& facts, double unit_s) {
+  const double usual = median_span(facts);
+  std::size_t others = 0, first = 0;
+  double between = 0;  // units of the others in one of the first
+  for (std::size_t i = 0; i < facts.size() && usual > 0; ++i) {
+    const double span = facts[i].last_time - facts[i].first_time;
+    if (!facts[i].has_times || facts[i].unit_s > 0 || !(span > 0)) continue;
+    for (const double ratio : {1e-9, 1e-6, 1e-3, 1 / kMinute_s, kMinute_s, 1e3, 1e6, 1e9}) {
+      if (!is_same_span(span, usual * ratio)) continue;
+      if (others++ == 0) first = i, between = ratio;
+    }
+  }
+  if (others == 0) return {};
+  return {format(
+      "warning: the times of %s seem to be in another unit than the others': %s spans %g, about %g times their %g; they are all read as "
+      "units of %g s",
+      share(others, facts.size()).c_str(), scans.stem(first).c_str(), facts[first].last_time - facts[first].first_time, between, usual,
+      unit_s)};
 }
 
 Notes row_notes(const std::vector<ScanFacts>& facts) {
@@ -114,16 +145,24 @@ Notes row_notes(const std::vector<ScanFacts>& facts) {
 }
 
 Notes order_notes(const sim::RecordedScans& scans, const std::vector<ScanFacts>& facts, double unit_s) {
-  std::size_t timed = 0, back = 0, first = 0;
+  std::size_t timed = 0, back = 0, first = 0, before = 0;
   for (std::size_t i = 1; i < facts.size(); ++i) {
     if (!facts[i].has_times || !facts[i - 1].has_times) continue;
     ++timed;
     if (!(seconds(facts[i], facts[i].first_time, unit_s) < seconds(facts[i - 1], facts[i - 1].last_time, unit_s))) continue;
     if (back++ == 0) first = i;
+    before += seconds(facts[i], facts[i].last_time, unit_s) <= seconds(facts[i - 1], facts[i - 1].first_time, unit_s) ? 1U : 0U;
   }
   if (back == 0) return {};
   const double begin_s = seconds(facts[first], facts[first].first_time, unit_s);
   const double before_s = seconds(facts[first - 1], facts[first - 1].last_time, unit_s);
+  if (before == timed && timed > 1) {
+    return {
+        format("warning: each scan ends before the one before it begins (%s: begins at %.6f s, and %s ends at %.6f s): the order of the "
+               "files' names is that of time reversed. They are registered in that order; in closed loop they follow each other by the "
+               "mission's period: name them anew",
+               scans.stem(first).c_str(), begin_s, scans.stem(first - 1).c_str(), before_s)};
+  }
   if (back == timed && timed > 1) {
     return {
         format("warning: the times of each scan begin before the scan before it ends (%s: at %.6f s, after %.6f s): as if each began anew; "

@@ -125,6 +125,11 @@ TEST(Headers, RestartsOfAnyKind) {
       {from_to(16370, 16384), from_to(0, 50), "0 gaps in the sequence, 0 packets missing; 0 restarts, 0 late, 0 repeated"},  // wraps
       {from_to(16370, 16380), from_to(0, 50), "1 gap in the sequence, 4 packets missing; 0 restarts, 0 late, 0 repeated"},
       {from_to(16370, 16380), from_to(3, 50), "1 gap in the sequence, 7 packets missing; 0 restarts, 0 late, 0 repeated"},
+      {{5, 6, 7},
+       {1, 0, 2},
+       "0 gaps in the sequence, 0 packets missing; 1 restart, 1 late, 0 repeated"},  // the first two have changed places
+      {{5, 6, 7}, {1, 0, 2, 4, 5, 6}, "1 gap in the sequence, 1 packet missing; 1 restart, 1 late, 0 repeated"},
+      {from_to(100, 110), {50, 110}, "0 gaps in the sequence, 0 packets missing; 0 restarts, 1 late, 0 repeated"},
       {from_to(0, 10), from_to(5000, 5050), "1 gap in the sequence, 4990 packets missing; 0 restarts, 0 late, 0 repeated"},
       {from_to(0, 10), {0}, "0 gaps in the sequence, 0 packets missing; 1 restart, 0 late, 0 repeated"}};
   for (const auto& one : cases) {
@@ -133,6 +138,19 @@ TEST(Headers, RestartsOfAnyKind) {
     add_counts(stream, one.behind, 1);
     EXPECT_EQ(sequence_of(stream), one.said) << one.before.front() << " " << one.behind.front();
   }
+}
+
+// The counter was at 0 in between, whether it went on or began anew.
+TEST(Headers, AGapThatMayBeARestartIsToldAsEither) {
+  VERIFIES("LASSO-GND-021~2");
+  Stream stream;
+  add_counts(stream, {9028, 9029, 100, 101});
+  EXPECT_NE(headers_table(list_headers(view(stream))).find("7454 packets missing before, or a restart with 100 missing\n"),
+            std::string::npos);
+  EXPECT_NE(summary_of(stream).find("\n1 gap may be a restart"), std::string::npos) << summary_of(stream);
+  Stream forward;
+  add_counts(forward, {100, 7555, 16380, 10});
+  EXPECT_EQ(summary_of(forward).find("may be a restart"), std::string::npos) << "9 counts across 0 are a usual loss, and 7454 short of it";
 }
 
 TEST(Headers, LateAndRepeatedPacketsAreNoRestart) {

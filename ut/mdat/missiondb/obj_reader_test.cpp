@@ -44,6 +44,8 @@ TEST(ObjReader, TellsEdgesPointsAndCurves) {
   std::vector<std::string> left_out;
   expect_box(imported("o.obj", kVertices + kQuads + "l 1 2 3\nl 1 \\\n 2\np 1\ncurv 0 1 1 2\n", &left_out));
   EXPECT_EQ(left_out, (std::vector<std::string>{"2 line elements", "1 point element", "1 free-form curve or surface"}));
+  expect_box(imported("o.obj", "call part.obj 1\ncsh -ls\n" + kVertices + kQuads, &left_out));
+  EXPECT_EQ(left_out.back(), "2 call or csh statements");
   EXPECT_EQ(refusal("o.obj", kVertices + "l 1 2\n"), "is empty: it holds no face, but 1 line element: export triangles");
   EXPECT_EQ(refusal("o.obj", kVertices), "is empty: it holds no face");
 }

@@ -32,6 +32,14 @@ TEST_F(ScanRules, AScanFillsItsPeriod) {
               "warning: ", "rests 95.5 % of the time; is it meant in Hz? 4 Hz are a period of 0.25 s");
 }
 
+// In a scan that takes most of its period deskewing makes its own errors larger; a rosette goes over the target many times.
+TEST_F(ScanRules, ARasterIsSweptInLessThanItsPeriod) {
+  VERIFIES("LASSO-GND-009~1 LASSO-GND-060~1");
+  const std::string raster = "scan.pattern = 'raster'\nscan.cycles_a = 32\n";
+  expect_edge(raster + "scan.duration_s = 0.12", raster + "scan.duration_s = 0.14", "scan.pattern: \"raster\"", "of at most 0.12 s");
+  expect_edge(raster + "estimation.deskew = false", raster, "scan.pattern: \"raster\"", "0.18 s, 90 % of filter.period_s");
+}
+
 TEST_F(ScanRules, AimedRaysNeedSilhouettes) {
   VERIFIES("LASSO-GND-009~1 LASSO-GND-060~1");
   expect_edge("scan.aimed_share = 0.3", "scan.aimed_share = 0.3\nestimation.silhouettes = false", "scan.aimed_share: 0.3",

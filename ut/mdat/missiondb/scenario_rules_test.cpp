@@ -119,6 +119,24 @@ TEST_F(ScenarioRules, RaysReturnFromMostOfTheTarget) {
                        "1.4 rad are 80.2 deg");
 }
 
+TEST_F(ScenarioRules, RunsLastUntilTheFilterHasSettled) {
+  VERIFIES("LASSO-GND-009~1 LASSO-GND-060~1");
+  expect_scenario_edge(kSpin + "frames = 20", kSpin + "frames = 3", "scenario.s.frames: 3", "takes some 20 frames");
+  EXPECT_EQ(said("", "kind = 'paper'\nranges_m = [5]\nframes = 3"), "") << "each scan for itself";
+}
+
+// 100 frames are 20 s, and the target is 2 m long.
+TEST_F(ScenarioRules, ANavigationSystemHelpsInTimeAndWellEnough) {
+  VERIFIES("LASSO-GND-009~1 LASSO-GND-060~1");
+  const std::string approach = "kind = 'approach'\nranges_m = [6, 5]\ntimes_s = [0, 20]\nframes = 100\n", way = "start.fifth = 'search'";
+  expect_scenario_edge(approach + "navigation_from_s = 19", approach + "navigation_from_s = 20", "scenario.s.navigation_from_s: 20",
+                       "the run, which ends at 20 s", way);
+  EXPECT_EQ(said(way, approach + "navigation_from_s = 1e6"), "") << "never";
+  expect_scenario_edge(approach + "navigation_sigma_m = 0.5", approach + "navigation_sigma_m = 50", "scenario.s.navigation_sigma_m: 50",
+                       "target's length of 2 m", way);
+  EXPECT_EQ(said(way, approach + "navigation_from_s = 1e6\nnavigation_sigma_m = 50"), "") << "not asked";
+}
+
 TEST_F(ScenarioRules, BandsOfSensorsMeet) {
   VERIFIES("LASSO-GND-009~1 LASSO-GND-060~1");
   const std::string near = "further_sensor.near.use_to_m = 5.5\nsensor.use_from_m = ";

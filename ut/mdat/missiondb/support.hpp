@@ -4,10 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <functional>
 #include <map>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -20,15 +22,16 @@ namespace lasso::mdat {
 inline const std::filesystem::path kSourceFolder = test::source_folder();
 inline const std::filesystem::path kShippedMission = kSourceFolder / "cfg/missions/hubble_tenth.toml";
 
+// A folder of one test, of its own also where the same test runs twice at a time; removed at the end.
 class Folder {
  public:
   Folder() {
     const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
     std::string name = std::string("lasso_missiondb_") + test->test_suite_name() + "_" + test->name();
     std::replace(name.begin(), name.end(), '/', '_');
-    path_ = std::filesystem::temp_directory_path() / name;
-    std::filesystem::remove_all(path_);
-    std::filesystem::create_directories(path_);
+    std::string path = (std::filesystem::temp_directory_path() / (name + "_XXXXXX")).string();
+    if (::mkdtemp(path.data()) == nullptr) throw std::runtime_error("no folder " + path);
+    path_ = path;
   }
   ~Folder() {
     std::error_code ignored;

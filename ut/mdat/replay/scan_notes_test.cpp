@@ -38,8 +38,8 @@ TEST(ScanNotes, SecondsThatAreNamedGiveWayToTheSameSpanInAnotherUnitAlone) {
   const struct {
     double span, unit_s;
     std::size_t warnings;
-  } cases[] = {{0.18, 1, 0},   {5, 1, 0},      {10, 1, 1},     {60, 1, 1},      {144, 1, 1},
-               {160, 1e-3, 0}, {180, 1e-3, 0}, {210, 1e-3, 0}, {180e6, 1e-9, 0}};
+  } cases[] = {{0.18, 1, 0}, {5, 1, 0},      {0.02, 1, 0},   {10, 1, 1},     {60, 1, 1},
+               {144, 1, 1},  {160, 1e-3, 0}, {180, 1e-3, 0}, {210, 1e-3, 0}, {180e6, 1e-9, 0}};
   for (const auto& c : cases) {
     std::vector<sim::ScanFacts> facts = {spanning(0, c.span)};
     facts[0].seconds_named = true;
@@ -48,6 +48,17 @@ TEST(ScanNotes, SecondsThatAreNamedGiveWayToTheSameSpanInAnotherUnitAlone) {
     const auto warns = [](const std::string& note) { return note.starts_with("warning: the scans' times are taken as seconds"); };
     EXPECT_EQ(static_cast<std::size_t>(std::count_if(notes.begin(), notes.end(), warns)), c.warnings) << c.span;
   }
+}
+
+TEST(ScanNotes, TimesInMinutesAreTold) {
+  VERIFIES("LASSO-MDT-070~1");
+  const std::vector<sim::ScanFacts> facts = {spanning(7, 7.003)};  // of 0.18 s
+  EXPECT_EQ(time_unit_s(facts, 0.18), 1) << "told, and not taken so";
+  const Notes notes = time_unit_note(facts, 0.18, 1);
+  ASSERT_EQ(notes.size(), 1U);
+  EXPECT_NE(notes[0].find("spans 0.003 of them"), std::string::npos) << notes[0];
+  EXPECT_NE(notes[0].find("--time-unit min"), std::string::npos) << notes[0];
+  EXPECT_TRUE(time_unit_note({spanning(7, 7.001)}, 0.18, 1).empty()) << "a third of the mission's, in minutes";
 }
 
 TEST(ScanNotes, SayWhatWasLeftOut) {
