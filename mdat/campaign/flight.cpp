@@ -3,7 +3,7 @@
 #include <atomic>
 #include <utility>
 
-#include "mdat/missiondb/campaign_values.hpp"
+#include "mdat/missiondb/campaign_columns.hpp"
 
 namespace lasso::mdat {
 

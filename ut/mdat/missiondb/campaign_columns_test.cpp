@@ -1,7 +1,8 @@
-#include "mdat/missiondb/campaign_values.hpp"
+#include "mdat/missiondb/campaign_columns.hpp"
 
 #include <gtest/gtest.h>
 
+#include <set>
 #include <stdexcept>
 
 #include "fsw/geometry/portable_math.hpp"
@@ -19,7 +20,7 @@ Scenario plain() {
   return scenario;
 }
 
-TEST(CampaignValues, GoWhereTheirNamesSayInSi) {
+TEST(CampaignColumns, GoWhereTheirNamesSayInSi) {
   VERIFIES("LASSO-GND-066~1");
   Scenario scenario = plain();
   set_campaign_value("truth.range_m", 3, scenario);
@@ -37,23 +38,33 @@ TEST(CampaignValues, GoWhereTheirNamesSayInSi) {
 }
 
 // What is not there; a list, a number's element, one beyond the list; what would change truth and belief together.
-TEST(CampaignValues, AColumnThatIsNoneIsRefused) {
+TEST(CampaignColumns, AColumnThatIsNoneIsRefused) {
   VERIFIES("LASSO-GND-066~1");
   for (const char* column : {"truth.nothing", "mission.nothing", "range_m", "truth.", "", "truth.offset_m", "truth.tilt_deg.x",
                              "truth.offset_m.z", "truth.seed", "truth.kind", "mission.sensor.range_max_m", "mission.filter.period_s"}) {
     Scenario scenario = plain();
-    EXPECT_TRUE(campaign_column(column).key.empty()) << column;
+    EXPECT_EQ(find_column(column), nullptr) << column;
     EXPECT_THROW(set_campaign_value(column, 1, scenario), std::invalid_argument) << column;
   }
 }
 
-TEST(CampaignValues, NamesOfElementsReadBack) {
+TEST(CampaignColumns, EachNumberOfAListHasAColumn) {
   VERIFIES("LASSO-GND-066~1");
-  for (std::size_t element = 0; element < 6; ++element) {
-    const CampaignColumn column = campaign_column(campaign_column_name(true, "model_gone_box_m", element));
-    EXPECT_TRUE(column.truth);
-    EXPECT_EQ(column.key, "model_gone_box_m");
-    EXPECT_EQ(column.element, element);
+  const std::vector<std::string> axes{"truth.spin_degps.x", "truth.spin_degps.y", "truth.spin_degps.z"};
+  EXPECT_EQ(columns_of("truth.spin_degps", *find_row(truth_rows(), "spin_degps")), axes);
+  const std::vector<std::string> corners = columns_of("truth.model_gone_box_m", *find_row(truth_rows(), "model_gone_box_m"));
+  ASSERT_EQ(corners.size(), 6U);
+  EXPECT_EQ(corners[4], "truth.model_gone_box_m.5");
+  EXPECT_EQ(find_column(corners[4])->item, 4U);
+}
+
+// Each column changes one number of the scenario, and no two the same.
+TEST(CampaignColumns, NoTwoAreOfOneNumber) {
+  VERIFIES("LASSO-GND-066~1");
+  std::set<std::string> names;
+  for (const CampaignColumn& column : campaign_columns()) {
+    EXPECT_TRUE(names.insert(column.name).second) << column.name;
+    EXPECT_EQ(find_column(column.name), &column);
   }
 }
 
