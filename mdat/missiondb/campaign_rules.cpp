@@ -59,7 +59,7 @@ void set_columns(Scenario& scenario, const Dispersion& dispersion, const Numbers
 std::string case_text(const Dispersion& dispersion, const Numbers& values) {
   std::string text;
   for (std::size_t i = 0; i < values.size(); ++i)
-    text += (i == 0 ? "with " : ", ") + dispersion.columns[i] + " = " + number_text(values[i]);
+    text += (i == 0 ? "with " : ", ") + dispersion.columns[i] + " = " + rounded_text(values[i]);
   return text;
 }
 
@@ -139,7 +139,9 @@ class CampaignCheck {
     for (const Dispersion& dispersion : campaign_.dispersions) set_columns(scenario_, dispersion, corners_of(dispersion).front());
     for (const Dispersion& dispersion : campaign_.dispersions) {
       for (const Numbers& values : corners_of(dispersion)) {
-        if (!keeps_rules(dispersion, values)) break;
+        if (keeps_rules(dispersion, values)) continue;
+        if (values == corners_of(dispersion).front()) return;  // the middle of all laws
+        break;
       }
     }
   }
