@@ -85,13 +85,15 @@ double UnitSampler::stratified(std::uint32_t case_number, std::size_t dimension)
   return (static_cast<double>(stratum) + within) / cases_;
 }
 
-// Boost begins with the point after the origin. Gray code seeks without drawing what is before.
+// Boost begins after the origin, without which 2^k cases would not balance; shifted, it is a point like any other. Gray code seeks without
+// drawing what is before.
 std::vector<double> UnitSampler::quasi_random(std::uint32_t case_number) const {
   boost::random::sobol sequence = *sobol_;
-  sequence.seed(case_number);
+  if (case_number > 0) sequence.seed(case_number - 1);
   std::vector<double> result;
   for (std::size_t d = 0; d < dimensions_; ++d) {
-    result.push_back(middle_of_part<52>(sequence() ^ hash(seed_, stream_of(d, Use::kShift), 0)));
+    const std::uint64_t bits = case_number > 0 ? sequence() : 0;
+    result.push_back(middle_of_part<52>(bits ^ hash(seed_, stream_of(d, Use::kShift), 0)));
   }
   return result;
 }

@@ -14,6 +14,8 @@ struct NotVaried {
   const char* key;
   const char* remedy;
 };
+constexpr char kShared[] =
+    "the simulated sensor and its clock follow it, so that belief and truth would vary together: write a mission for each value";
 constexpr NotVaried kNotVaried[] = {
     {"kind", "another kind is another scenario: write a campaign for each"},
     {"frames", "write frames = NUMBER in the campaign itself: all its cases have as many"},
@@ -22,6 +24,11 @@ constexpr NotVaried kNotVaried[] = {
     {"paper_table", "it is of a report's pages"},
     {"ranges_m", "a case flies at one range: write range_m"},
     {"times_s", "it belongs to the profile of the scenario"},
+    {"sensor.range_min_m", kShared},
+    {"sensor.range_max_m", kShared},
+    {"sensor.fov_half_x_deg", kShared},
+    {"sensor.fov_half_y_deg", kShared},
+    {"filter.period_s", kShared},
 };
 
 ValueRow range_row() {
@@ -40,6 +47,11 @@ void add_columns(const std::string& prefix, const std::vector<ValueRow>& rows, s
   }
 }
 
+std::vector<ValueRow> varied(const std::vector<ValueRow>& rows, std::vector<ValueRow> result) {
+  std::copy_if(rows.begin(), rows.end(), std::back_inserter(result), [](const ValueRow& row) { return not_varied(row.key) == nullptr; });
+  return result;
+}
+
 const ScenarioField& field_of(const std::string& key) {
   const auto is_it = [&](const ScenarioField& field) { return field.row.key == key; };
   return *std::find_if(scenario_fields().begin(), scenario_fields().end(), is_it);
@@ -48,13 +60,12 @@ const ScenarioField& field_of(const std::string& key) {
 }  // namespace
 
 const std::vector<ValueRow>& truth_rows() {
-  static const std::vector<ValueRow> rows = [] {
-    std::vector<ValueRow> result{range_row()};
-    for (const ValueRow& row : scenario_rows()) {
-      if (not_varied(row.key) == nullptr) result.push_back(row);
-    }
-    return result;
-  }();
+  static const std::vector<ValueRow> rows = varied(scenario_rows(), {range_row()});
+  return rows;
+}
+
+const std::vector<ValueRow>& belief_rows() {
+  static const std::vector<ValueRow> rows = varied(flight_rows(), {});
   return rows;
 }
 
@@ -62,7 +73,7 @@ const std::vector<CampaignColumn>& campaign_columns() {
   static const std::vector<CampaignColumn> columns = [] {
     std::vector<CampaignColumn> result;
     add_columns(kTruth, truth_rows(), result);
-    add_columns(kMission, flight_rows(), result);
+    add_columns(kMission, belief_rows(), result);
     return result;
   }();
   return columns;
@@ -91,9 +102,9 @@ const char* not_varied(const std::string& key) {
 
 std::vector<std::string> attitude_columns() { return {"truth.roll_deg", "truth.tilt_deg", "truth.boresight_deg"}; }
 
-void set_column(Scenario& scenario, const std::string& column, double value) {
+void set_campaign_value(const std::string& column, double value, Scenario& scenario) {
   const CampaignColumn* found = find_column(column);
-  if (found == nullptr) throw std::invalid_argument("no column " + column);
+  if (found == nullptr) throw std::invalid_argument(column + ": names nothing that a campaign may vary");
   if (column == kRangeColumn) {
     scenario.ranges_m = {value};
   } else if (column.rfind(kMission, 0) == 0) {

@@ -29,14 +29,17 @@ std::vector<std::string> columns_of(const std::string& key, const ValueRow& row)
 // The keys of [campaign.NAME.truth] that have a law of numbers, "attitude" apart.
 const std::vector<ValueRow>& truth_rows();
 
-// Why a key of the scenario does not vary, and what to write instead; nullptr if it does, or is none.
+// Those of [campaign.NAME.mission].
+const std::vector<ValueRow>& belief_rows();
+
+// Why a key of a scenario, or a flight parameter, does not vary, and what to write instead; nullptr if it does, or is none.
 const char* not_varied(const std::string& key);
 
 // The columns of an attitude.
 std::vector<std::string> attitude_columns();
 
-// Puts the value of a column, in the unit that its name says, into the scenario: what is simulated into its fields, what the component
-// believes into its overrides. The column must be one of campaign_columns().
-void set_column(Scenario& scenario, const std::string& column, double value);
+// Puts a value, in the unit that the column's name says, into the scenario of a case: what is simulated into the scenario itself, what the
+// component believes into its overrides. Throws std::invalid_argument where the column is none.
+void set_campaign_value(const std::string& column, double value, Scenario& scenario);
 
 }  // namespace lasso::mdat

@@ -93,7 +93,9 @@ class CampaignReader {
       } else if (const ValueRow* row = find_row(truth_rows(), name)) {
         read_key(node, *row, "truth." + name, whole);
       } else {
-        refuse_key(key, whole);
+        std::vector<std::string> known = keys_of(truth_rows());
+        known.emplace_back("attitude");
+        refuse_key(key, name, whole, known, "a key of a scenario, range_m or attitude");
       }
     }
   }
@@ -104,29 +106,25 @@ class CampaignReader {
           "expected \"any\": each attitude is as likely as any other; or write roll_deg, tilt_deg and boresight_deg, each with a law");
     dispersions_.add({attitude_columns(), AnyAttitude{}}, whole, origin_of(node.source()));
   }
-  void refuse_key(const toml::key& key, const std::string& whole) {
-    const std::string name(key.str());
-    const Origin origin = origin_of(key.source());
-    if (const char* remedy = not_varied(name))
-      return problems_.add(origin, whole, "", std::string("does not vary from case to case: ") + remedy);
-    std::vector<std::string> known = keys_of(truth_rows());
-    known.emplace_back("attitude");
+  void refuse_key(const toml::key& key, const std::string& name, const std::string& whole, const std::vector<std::string>& known,
+                  const char* expected) {
+    const char* const remedy = not_varied(name);
     const std::string meant = did_you_mean(name, known);
-    problems_.add(origin, whole, "", "unknown key" + (meant.empty() ? "; expected a key of a scenario, range_m or attitude" : meant));
+    problems_.add(origin_of(key.source()), whole, "",
+                  remedy != nullptr ? std::string("does not vary from case to case: ") + remedy
+                                    : "unknown key" + (meant.empty() ? std::string("; expected ") + expected : meant));
   }
 
   // Dotted keys are tables in tables.
   void read_mission(const toml::table& table, const std::string& path) {
     for (const auto& [key, node] : table) {
       const std::string name = path + std::string(key.str()), whole = prefix_ + "mission." + name;
-      if (const ValueRow* row = find_row(flight_rows(), name)) {
+      if (const ValueRow* row = find_row(belief_rows(), name)) {
         read_key(node, *row, "mission." + name, whole);
       } else if (is_section(name) && node.is_table()) {
         read_mission(*node.as_table(), name + ".");
       } else {
-        const std::string meant = did_you_mean(name, keys_of(flight_rows()));
-        problems_.add(origin_of(key.source()), whole, "",
-                      "unknown key" + (meant.empty() ? "; expected a flight parameter, such as estimation.surface_sigma_m" : meant));
+        refuse_key(key, name, whole, keys_of(belief_rows()), "a flight parameter, such as estimation.surface_sigma_m");
       }
     }
   }

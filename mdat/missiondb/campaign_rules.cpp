@@ -6,6 +6,7 @@
 #include "mdat/missiondb/campaign_columns.hpp"
 #include "mdat/missiondb/law_reader.hpp"
 #include "mdat/missiondb/mission_checks.hpp"
+#include "mdat/missiondb/rule.hpp"
 
 namespace lasso::mdat {
 namespace {
@@ -52,13 +53,13 @@ struct Corners {
 std::vector<Numbers> corners_of(const Dispersion& dispersion) { return std::visit(Corners{dispersion.columns.size()}, dispersion.law); }
 
 void set_columns(Scenario& scenario, const Dispersion& dispersion, const Numbers& values) {
-  for (std::size_t i = 0; i < values.size(); ++i) set_column(scenario, dispersion.columns[i], values[i]);
+  for (std::size_t i = 0; i < values.size(); ++i) set_campaign_value(dispersion.columns[i], values[i], scenario);
 }
 
 std::string case_text(const Dispersion& dispersion, const Numbers& values) {
   std::string text;
   for (std::size_t i = 0; i < values.size(); ++i)
-    text += (i == 0 ? "with " : ", ") + dispersion.columns[i] + " = " + number_text(values[i]);
+    text += (i == 0 ? "with " : ", ") + dispersion.columns[i] + " = " + rounded_text(values[i]);
   return text;
 }
 
@@ -82,7 +83,10 @@ class CampaignCheck {
   void run() {
     check_looks();
     check_scenario();
-    for (const Dispersion& dispersion : campaign_.dispersions) check_rows(dispersion);
+    for (const Dispersion& dispersion : campaign_.dispersions) {
+      check_effect(dispersion);
+      check_rows(dispersion);
+    }
     if (problems_.empty()) check_corners();
   }
 
@@ -109,15 +113,25 @@ class CampaignCheck {
       complain(found->key, "", "changes nothing: scenario " + campaign_.scenario + " draws its attitude itself; write drawn = false in it");
   }
 
+  void warn(const Dispersion& dispersion, const std::string& value, const std::string& what) {
+    const Origin origin = source_.origins[dispersion.key];
+    source_.warnings.push_back(to_string({source_.file.string(), origin.line, origin.column, dispersion.key, value, what}));
+  }
+  void check_effect(const Dispersion& dispersion) {
+    for (const std::string& column : dispersion.columns) {
+      const bool simulated = column.rfind("truth.", 0) == 0;
+      if (!simulated || has_effect(find_column(column)->row.key, scenario_.scenario_kind())) continue;
+      warn(dispersion, column, "has no effect: scenario " + campaign_.scenario + " is of another kind");
+    }
+  }
   void check_rows(const Dispersion& dispersion) {
     const Rows* rows = std::get_if<Rows>(&dispersion.law);
     if (rows == nullptr || !rows->in_order) return;
     const std::size_t count = rows->values.size() / dispersion.columns.size();
     if (count >= campaign_.cases) return;
-    const Origin origin = source_.origins[dispersion.key];
-    source_.warnings.push_back(to_string({source_.file.string(), origin.line, origin.column, dispersion.key, rows->file,
-                                          "has " + std::to_string(count) + " rows for " + std::to_string(campaign_.cases) +
-                                              " cases: after the last they are flown again, with other seeds"}));
+    warn(dispersion, rows->file,
+         "has " + std::to_string(count) + " rows for " + std::to_string(campaign_.cases) +
+             " cases: after the last they are flown again, with other seeds");
   }
 
   // From a possible case, with its middle of each law, to the ends of one law at a time.
@@ -125,7 +139,9 @@ class CampaignCheck {
     for (const Dispersion& dispersion : campaign_.dispersions) set_columns(scenario_, dispersion, corners_of(dispersion).front());
     for (const Dispersion& dispersion : campaign_.dispersions) {
       for (const Numbers& values : corners_of(dispersion)) {
-        if (!keeps_rules(dispersion, values)) break;
+        if (keeps_rules(dispersion, values)) continue;
+        if (values == corners_of(dispersion).front()) return;  // the middle of all laws
+        break;
       }
     }
   }

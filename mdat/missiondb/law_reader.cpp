@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "mdat/missiondb/nearest.hpp"
-#include "mdat/missiondb/rule.hpp"
 
 namespace lasso::mdat {
 namespace {
@@ -123,12 +123,12 @@ class LawTable {
   bool reaches_no_farther(const Normal& law, const toml::node& node) {
     const double low = law.mean - kReach * law.sigma, high = law.mean + kReach * law.sigma;
     if (low >= row_.minimum && high <= row_.maximum) return true;
-    const double from = std::max(low, row_.minimum), to = std::min(high, row_.maximum);
-    const std::string remedy =
-        from < to ? "cut it off, as by within = [" + number_text(from) + ", " + number_text(to) + "]" : "correct the mean";
-    complain(node, ".normal",
-             "out of range: reaches from " + figure(low) + " to " + figure(high) + " (mean and 4 sigma), expected " + range_of(row_) +
-                 " (" + row_.meaning + "): " + remedy);
+    const std::string from = low < row_.minimum ? number_text(row_.minimum) : rounded_text(low);
+    const std::string to = high > row_.maximum ? number_text(row_.maximum) : rounded_text(high);
+    const bool overlaps = low < row_.maximum && high > row_.minimum;
+    problems_.add(origin_of(node.source()), key_ + ".normal", "[" + number_text(law.mean) + ", " + number_text(law.sigma) + "]",
+                  "out of range: " + reach_text(law.mean, law.sigma) + ", expected " + range_of(row_) + " (" + row_.meaning +
+                      "): " + (overlaps ? "cut it off by within = [" + from + ", " + to + "]" : "correct the mean"));
     return false;
   }
 
@@ -178,6 +178,16 @@ std::optional<NumberLaw> read_law(const toml::node& node, ValueRow row, const st
   }
   problems.add(node, key, std::string("wrong type: ") + kLaws);
   return std::nullopt;
+}
+
+std::string rounded_text(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return text;
+}
+
+std::string reach_text(double mean, double sigma) {
+  return "reaches from " + rounded_text(mean - kReach * sigma) + " to " + rounded_text(mean + kReach * sigma) + " (mean and 4 sigma)";
 }
 
 Span span_of(const NumberLaw& law) {

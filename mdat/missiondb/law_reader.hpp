@@ -22,4 +22,10 @@ Span span_of(const NumberLaw& law);
 // How far a normal law reaches, in sigmas: beyond lie 63 of a million.
 constexpr double kReach = 4;
 
+// "reaches from -0.07 to 0.17 (mean and 4 sigma)"
+std::string reach_text(double mean, double sigma);
+
+// Six digits.
+std::string rounded_text(double value);
+
 }  // namespace lasso::mdat

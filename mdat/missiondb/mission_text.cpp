@@ -117,6 +117,20 @@ void write_target(ValueLines& out, const MissionSource& source) {
   }
 }
 
+std::string campaigns_text(std::size_t count) {
+  return count == 0 ? "" : ", " + std::to_string(count) + (count == 1 ? " campaign" : " campaigns");
+}
+
+// Of one campaign a line.
+std::string campaign_text(const CampaignSource& campaign) {
+  std::string columns;
+  for (const Dispersion& dispersion : campaign.dispersions) {
+    for (const std::string& column : dispersion.columns) columns += (columns.empty() ? "" : ", ") + column;
+  }
+  return "campaign " + campaign.name + ": " + std::to_string(campaign.cases) + " cases of scenario " + campaign.scenario + ", " +
+         (columns.empty() ? "nothing but the noise varies" : "varied: " + columns) + '\n';
+}
+
 // What holds where nobody writes the key; empty where it has to be written, or holds because of another one.
 std::string preset_text(const MissionSource& source, const std::string& key, const std::string& scenario) {
   const std::string prefix = "scenario." + scenario + ".";
@@ -158,7 +172,7 @@ std::string check_text(const MissionSource& source, const Mesh& mesh) {
   const Eigen::Vector3d size = box.high - box.low;
   out << source.file.string() << ": good: mission " << source.id << " \"" << source.name << "\" version " << source.version
       << ", target of " << mesh.triangles.size() << " triangles, " << std::setprecision(4) << size.x() << " x " << size.y() << " x "
-      << size.z() << " m, " << source.scenarios.size() << " scenarios\n";
+      << size.z() << " m, " << source.scenarios.size() << " scenarios" << campaigns_text(source.campaigns.size()) << '\n';
   return out.str();
 }
 
@@ -209,6 +223,8 @@ std::string info_text(const MissionSource& source, const std::string& scenario) 
           << std::setw(26) << value.place << ' ' << value.meaning;
     out << '\n';
   }
+  if (!source.campaigns.empty()) out << '\n';
+  for (const auto& [name, campaign] : source.campaigns) out << campaign_text(campaign);
   return out.str();
 }
 

@@ -68,6 +68,9 @@ bool is_in_order(const MissionParameters& p, double way);
 constexpr double kNavigationWay = 2, kAprioriWay = 3, kSearchWay = 5;  // positions in the choices of start.first
 inline bool checks_starts(const MissionParameters& p) { return p.start_check > 0.5; }
 
+// Whether a key of a scenario changes anything in scenarios of this kind.
+bool has_effect(const std::string& key, ScenarioKind kind);
+
 // What a simulated laser camera's detector tells apart, of the square of the range (docs/icd/lcs.md).
 constexpr double kCameraCounts_per_m = 2e-5;
 

@@ -270,16 +270,19 @@ std::string idle_keys_fault(const Subject& s) {
   static constexpr const char* kNames[] = {"paper", "spin", "approach", "pass"};
   std::string keys;
   for (const ScenarioField& field : scenario_fields()) {
-    for (const Effect& effect : kEffects) {
-      const bool idle = effect.key == field.row.key && (effect.kinds & bit(s.scenario->scenario_kind())) == 0;
-      if (idle && is_changed(*s.scenario, field)) keys += (keys.empty() ? "" : ", ") + field.row.key;
-    }
+    const bool idle = !has_effect(field.row.key, s.scenario->scenario_kind());
+    if (idle && is_changed(*s.scenario, field)) keys += (keys.empty() ? "" : ", ") + field.row.key;
   }
   if (keys.empty()) return "";
   return std::string("in a scenario of kind ") + kNames[static_cast<int>(s.scenario->scenario_kind())] + " these have no effect: " + keys;
 }
 
 }  // namespace
+
+bool has_effect(const std::string& key, ScenarioKind kind) {
+  return std::none_of(std::begin(kEffects), std::end(kEffects),
+                      [&](const Effect& effect) { return effect.key == key && (effect.kinds & bit(kind)) == 0; });
+}
 
 const Rules& scenario_rules() {
   using enum Severity;

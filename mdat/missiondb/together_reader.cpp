@@ -25,6 +25,10 @@ std::string no_such_column(const std::string& name) {
 
 std::string range_text_of(const ValueRow& row) { return number_text(row.minimum) + " to " + number_text(row.maximum) + " " + row.unit; }
 
+double least_eigenvalue(const Eigen::MatrixXd& symmetric) {
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(symmetric, Eigen::EigenvaluesOnly).eigenvalues()[0];
+}
+
 class TogetherReader {
  public:
   TogetherReader(const toml::table& table, const std::string& key, Dispersions& dispersions)
@@ -117,7 +121,7 @@ class TogetherReader {
     }
     return true;
   }
-  // Of the correlations: keys may have units of any size.
+  // By the correlations, as keys may have units of any size.
   bool is_definite(const Correlated& law) {
     const auto size = static_cast<Eigen::Index>(law.mean.size());
     const Eigen::Map<const Eigen::MatrixXd> covariance(law.covariance.data(), size, size);
@@ -129,25 +133,23 @@ class TogetherReader {
       return false;
     }
     const Eigen::VectorXd inverse = covariance.diagonal().cwiseSqrt().cwiseInverse();
-    const Eigen::MatrixXd correlation = inverse.asDiagonal() * covariance * inverse.asDiagonal();
-    const double least = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(correlation, Eigen::EigenvaluesOnly).eigenvalues()[0];
     constexpr double kLeastEigenvalue = 1e-10;
-    if (least > kLeastEigenvalue) return true;
+    if (least_eigenvalue(inverse.asDiagonal() * covariance * inverse.asDiagonal()) > kLeastEigenvalue) return true;
     complain("covariance", "",
-             "is not positive definite: the smallest eigenvalue of its correlations is " + figure(least) +
+             "is not positive definite: its smallest eigenvalue is " + figure(least_eigenvalue(covariance)) +
                  "; make the covariances smaller, or leave out a key that follows from the others");
     return false;
   }
   bool fits(const Correlated& law, const std::vector<const CampaignColumn*>& columns) {
     bool good = true;
     for (std::size_t i = 0; i < columns.size(); ++i) {
-      const double reach = kReach * std::sqrt(law.covariance[i * columns.size() + i]);
+      const double sigma = std::sqrt(law.covariance[i * columns.size() + i]);
       const ValueRow& row = columns[i]->row;
-      if (law.mean[i] - reach >= row.minimum && law.mean[i] + reach <= row.maximum) continue;
+      if (law.mean[i] - kReach * sigma >= row.minimum && law.mean[i] + kReach * sigma <= row.maximum) continue;
       good = false;
       complain("covariance", "",
-               columns[i]->name + " is out of range: reaches from " + figure(law.mean[i] - reach) + " to " + figure(law.mean[i] + reach) +
-                   " (mean and 4 sigma), expected " + range_text_of(row) + ": make its variance smaller");
+               columns[i]->name + " is out of range: " + reach_text(law.mean[i], sigma) + ", expected " + range_text_of(row) +
+                   ": make its variance smaller");
     }
     return good;
   }
@@ -195,6 +197,7 @@ class TogetherReader {
       columns.push_back(column);
       places.push_back(i);
     }
+    if (good && columns.empty()) complain("table", "", csv.place() + ": has no column to vary, such as truth.range_m");
     return good ? columns : std::vector<const CampaignColumn*>{};
   }
   static double cell(const sim::CsvTable& csv, std::size_t place, const ValueRow& row) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "mdat/missiondb/figure_names.hpp"
 #include "ut/support/verifies.hpp"
 
 namespace lasso::mdat {
@@ -64,6 +65,13 @@ TEST(CaseFigures, WhatACaseDoesNotHaveIsAnEmptyCell) {
     EXPECT_EQ(cell_text(figures[name]), "") << name;
   }
   EXPECT_EQ(cell_text(0.1), "0.1");
+}
+
+TEST(CaseFigures, AreThoseThatAMissionsCriteriaMayName) {
+  VERIFIES("LASSO-GND-045~1");
+  std::vector<std::string> names;
+  for (const Figure& figure : case_figures()) names.emplace_back(figure.name);
+  EXPECT_EQ(names, std::vector<std::string>(std::begin(kFigureNames), std::end(kFigureNames)));
 }
 
 }  // namespace

@@ -108,5 +108,21 @@ TEST(MissionSchema, RefusesUnknownKeysAndMissingOnes) {
   EXPECT_FALSE(validates("[mission]\nid = 1\nversion = 1\nname = 'x'\n[target]\nmodel = 'a.toml'\nmesh = 'a.stl'\n"));
 }
 
+TEST(MissionSchema, KnowsCampaigns) {
+  VERIFIES("LASSO-GND-001~1 LASSO-GND-045~1");
+  const std::string mission = read_file(kShippedMission) + "\n[campaign.c]\nscenario = 'spin'\ncases = 10\n";
+  const std::string criterion = "criteria.good = { figure = 'wrong', at_most = 0, share_min = 0.9 }\n";
+  EXPECT_TRUE(
+      validates(mission + criterion +
+                "truth = { range_m = { uniform = [2, 7] }, attitude = 'any', spin_degps = { any_direction = 3 }, offset_m = [{ normal = "
+                "[0, 1], within = [-1, 1] }, 0], noise = true }\nmission.scan.points = { one_of = [256, 512], weights = [1, 2] }\n"
+                "together = [{ keys = ['truth.drift_mps.x'], mean = [0], covariance = [[1]] }, { table = 't.csv', rows = 'drawn' }]\n"));
+  for (const char* wrong :
+       {"truth.rnage_m = 3", "truth.seed = 3", "truth.range_m = { unifrom = [2, 7] }", "truth.range_m = { uniform = [2] }",
+        "truth.range_m = { uniform = [2, 7], normal = [3, 1] }", "truth.range_m = 'far'", "truth.offset_m = [1]", "truth.attitude = 'all'",
+        "mission.scan.pints = 3", "sampling = 'lhs'", "cases = 0", "criteria.b.figure = 'wrongs'", "together = [{ tabel = 't.csv' }]"})
+    EXPECT_FALSE(validates(mission + wrong + "\n")) << wrong;
+}
+
 }  // namespace
 }  // namespace lasso::mdat
