@@ -147,7 +147,7 @@ TEST(CampaignEngine, ACaseThatThrowsOrCrashesHasFailedAndTheOthersAreFlown) {
   EXPECT_EQ(records.missing(), 0U);
   const std::string said = quiet.said();
   EXPECT_NE(said.find("warning: case 5: its process was ended by signal 11 (Segmentation fault)\n"), std::string::npos) << said;
-  EXPECT_NE(said.find("case 3 failed:a pose; refused\n"), std::string::npos) << said;
+  EXPECT_NE(said.find("case 3 failed: a pose; refused\n"), std::string::npos) << said;
 }
 
 TEST(CampaignEngine, ACaseThatIsKilledIsFlownAgain) {
