@@ -86,8 +86,9 @@ std::string status_text(const fs::path& folder, const Records& records) {
                             records.failed(), records.missing());
   if (flown > 0) text += counted(static_cast<std::size_t>(flown), "runner") + (flown == 1 ? " is" : " are") + " at work\n";
   for (const std::string& place : records.damaged()) text += place + ": a damaged record: its case is flown again\n";
-  if (records.missing() > 0 && flown == 0) text += "mdat campaign run " + folder.string() + " flies what is missing\n";
-  if (records.failed() > 0) text += "mdat campaign retry " + folder.string() + " --failed lets the failed ones be flown again\n";
+  if (records.missing() > 0 && flown == 0) text += "mdat campaign run " + shell_word(folder.string()) + " flies what is missing\n";
+  if (records.failed() > 0)
+    text += "mdat campaign retry " + shell_word(folder.string()) + " --failed lets the failed ones be flown again\n";
   return text;
 }
 

@@ -95,14 +95,14 @@ int status_of(pid_t process) {
 TEST(CampaignEngine, GivesTheSameForAnyChunksAndJobs) {
   VERIFIES("LASSO-GND-091~1 LASSO-GND-062~1");
   Quiet quiet;
-  for (const auto& [chunks, jobs] : {std::pair{1U, 1U}, {1U, 3U}, {2U, 1U}, {5U, 2U}, {40U, 4U}}) {
+  for (const auto& [chunks, jobs] : {std::pair{1U, 1U}, {1U, 3U}, {2U, 1U}, {13U, 4U}}) {
     const ChunkFolder folder;
     for (std::uint32_t i = chunks; i >= 1; --i) {
-      const EngineResult result = fly_cases(options_of(folder, 37, jobs, {i, chunks}), flies(fields_of_case), goes_on);
+      const EngineResult result = fly_cases(options_of(folder, 11, jobs, {i, chunks}), flies(fields_of_case), goes_on);
       EXPECT_EQ(result.end, EngineEnd::kDone);
       EXPECT_EQ(result.missing, 0U);
     }
-    EXPECT_EQ(merged(folder, 37), undisturbed(37));
+    EXPECT_EQ(merged(folder, 11), undisturbed(11));
     for (const auto& file : std::filesystem::directory_iterator(folder.path() / "chunks")) EXPECT_EQ(file.path().extension(), ".done");
   }
 }
