@@ -187,9 +187,8 @@ ChunkFile::ChunkFile(const fs::path& folder, const std::string& name, const std:
     notes_ = repair_locked(file_, path_, chunk, plan_digest, takes_none, ".damaged").damaged;
     size_ = size_of(file_);
     if (size_ != 0) return;
-    write_synced(file_, path_, chunk_heading(plan_digest));
+    if (const int error = write_all(file_, chunk_heading(plan_digest)); error != 0) fail(error);
     size_ = size_of(file_);
-    sync_folder(path_.parent_path());
   } catch (...) {
     close(file_);
     throw;
@@ -215,20 +214,20 @@ void ChunkFile::append(std::uint32_t number, std::string_view fields) {
 
 void ChunkFile::sync() {
   if (fdatasync(file_) != 0) fail(errno);
+  sync_folder(path_.parent_path());
   synced_ = std::chrono::steady_clock::now();
 }
 
 void ChunkFile::complete() {
-  sync();
   if (records_ == 0) {
     if (unlink(path_.c_str()) != 0) fail(errno);
     return;
   }
+  sync();
   const std::string base = (path_.parent_path() / path_.stem()).string();
   std::string done = base + ".done";
   for (int i = 2; fs::exists(done); ++i) done = base + "-" + std::to_string(i) + ".done";
   if (rename(path_.c_str(), done.c_str()) != 0) fail(errno);
-  sync_folder(path_.parent_path());
 }
 
 std::vector<fs::path> chunk_files(const fs::path& folder) {

@@ -197,7 +197,7 @@ void Engine::keep(std::uint32_t number, const std::string& fields) {
 }
 
 void Engine::show_failure(std::uint32_t number, const std::string& fields) {
-  if (++failures_ <= kFailuresShown) say(format("case %u %s", number, fields.c_str()));
+  if (++failures_ <= kFailuresShown) say(format("case %u failed: %s", number, fields.c_str() + fields.find(':') + 1));
   if (failures_ == kFailuresShown) say("further failed cases are counted, and not shown");
 }
 
@@ -250,7 +250,7 @@ bool Engine::is_over() const {
 }
 
 EngineResult Engine::run() {
-  seats_.resize(std::min<std::size_t>(options_.jobs, ending_ ? 0 : result_.missing));
+  seats_.resize(ending_ ? 0 : std::min(std::max(options_.jobs, 1U), result_.missing));
   bar_.emplace("campaign", result_.missing, "cases");
   for (Seat& seat : seats_) start_worker(seat);
   for (; !is_over(); check_case_times()) {

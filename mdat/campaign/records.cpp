@@ -20,14 +20,20 @@ bool can_have_cases_of(const Chunk& chunk, const fs::path& file) {
   return named.of != chunk.of || named.number == chunk.number;
 }
 
-// A runner may complete or replace a file between the listing and the reading: then it has another name.
-std::string text_of(fs::path& file) {
+std::optional<std::string> text_if_there(const fs::path& file) {
   try {
     return file_content(file);
   } catch (const InputError&) {
-    if (file.extension() != ".part") throw;
-    return file_content(file.replace_extension(".done"));
+    if (fs::exists(file)) throw;
+    return std::nullopt;
   }
+}
+
+// Between the listing and the reading a runner may have completed the file, or removed it as it has no record.
+std::string text_of(fs::path& file) {
+  if (std::optional<std::string> text = text_if_there(file)) return *std::move(text);
+  file.replace_extension(".done");
+  return text_if_there(file).value_or("");
 }
 
 std::string counted(std::size_t count, const char* unit) { return std::to_string(count) + " " + unit + (count == 1 ? "" : "s"); }
@@ -80,8 +86,9 @@ std::string status_text(const fs::path& folder, const Records& records) {
                             records.failed(), records.missing());
   if (flown > 0) text += counted(static_cast<std::size_t>(flown), "runner") + (flown == 1 ? " is" : " are") + " at work\n";
   for (const std::string& place : records.damaged()) text += place + ": a damaged record: its case is flown again\n";
-  if (records.missing() > 0 && flown == 0) text += "mdat campaign run " + folder.string() + " flies what is missing\n";
-  if (records.failed() > 0) text += "mdat campaign retry " + folder.string() + " --failed lets the failed ones be flown again\n";
+  if (records.missing() > 0 && flown == 0) text += "mdat campaign run " + shell_word(folder.string()) + " flies what is missing\n";
+  if (records.failed() > 0)
+    text += "mdat campaign retry " + shell_word(folder.string()) + " --failed lets the failed ones be flown again\n";
   return text;
 }
 
