@@ -168,11 +168,11 @@ std::string how_decided(const CampaignSource& campaign) {
 }
 
 std::string introduction_of(const Findings& all, const std::string& mission) {
-  constexpr const char* kSamplings[] = {"random", "a Latin hypercube", "a Sobol sequence"};
+  constexpr const char* kSamplingWords[] = {"random", "a Latin hypercube", "a Sobol sequence"};
   const CampaignSource& campaign = all.campaign;
   std::string html = "<h1>Campaign " + escape(campaign.name) + "</h1>\n<p class='lead'>" + escape(mission) + ", scenario <b>" +
                      escape(campaign.scenario) + "</b>: " + escape(cases_text(all)) +
-                     format(". Sampling: %s, seed %llu. mdat %s.</p>\n", kSamplings[static_cast<std::size_t>(campaign.sampling)],
+                     format(". Sampling: %s, seed %llu. mdat %s.</p>\n", kSamplingWords[static_cast<std::size_t>(campaign.sampling)],
                             static_cast<unsigned long long>(campaign.seed), kVersion);
   return all.findings.empty() ? html : html + "<p class='note'>" + how_decided(campaign) + "</p>\n";
 }

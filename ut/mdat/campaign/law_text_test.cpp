@@ -19,7 +19,7 @@ TEST(LawText, IsWhatWasWritten) {
   EXPECT_EQ(law_text(NumberLaw(OneOf{{0, 0.005}, {2, 2}})), "one of 0, 0.005");
   EXPECT_EQ(law_text(AnyDirection{Uniform{0, 5}}), "any direction, length uniform, 0 to 5");
   EXPECT_EQ(law_text(AnyAttitude{}), "any attitude");
-  EXPECT_EQ(law_text(Correlated{{0, 1}, {1, 0, 0, 4}}), "normal together, mean 0, 1, covariance by rows 1, 0, 0, 4");
+  EXPECT_EQ(law_text(Correlated{{0, 1}, {1, 0, 0, 4}, {-9, -9}, {9, 9}}), "normal together, mean 0, 1, covariance by rows 1, 0, 0, 4");
   EXPECT_EQ(law_text(Rows{"cases.csv", false, {}}), "rows of cases.csv, drawn");
 }
 
