@@ -46,6 +46,7 @@ double badness(const Criterion& criterion, const CaseRow& row, std::size_t figur
 std::vector<std::size_t> worst_cases(const Criterion& criterion, const ResultTable& table, std::size_t figure, std::size_t most) {
   const std::vector<double> bad = badness_of_all(criterion, table, figure);
   std::vector<std::size_t> places = sorted_places(bad.size(), [&](std::size_t a, std::size_t b) { return bad[a] > bad[b]; });
+  std::erase_if(places, [&](std::size_t row) { return !table.rows[row].has_run(); });
   if (places.empty()) return places;
   const double best = bad[places.back()];
   const auto matters = [&](std::size_t row) { return bad[row] > best || !is_within(criterion, table.rows[row], figure); };

@@ -13,8 +13,8 @@ namespace lasso::mdat {
 // worse. Infinite of a case that failed to run and of a figure that is not a number. `figure` is the criterion's column.
 double badness(const Criterion& criterion, const CaseRow& row, std::size_t figure);
 
-// Rows of the table, the worst first, equal ones in the order of their numbers; at most `most`. Of cases within the bounds only those that
-// are worse than the best of all.
+// Rows of the table, the worst first, equal ones in the order of their numbers; at most `most`. None that
+// failed to run; of cases within the bounds only those that are worse than the best of all.
 std::vector<std::size_t> worst_cases(const Criterion& criterion, const ResultTable& table, std::size_t figure, std::size_t most);
 
 // Ranks from 1; equal values have the mean of theirs.

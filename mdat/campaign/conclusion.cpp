@@ -11,9 +11,9 @@ namespace {
 
 constexpr double kMostCases = 1e9;  // more are not worth a number
 
-// Limits of a campaign whose number of cases is fixed, or that looks at its results and stops.
-using LimitsOf = Limits (*)(double within, double cases, double confidence);
-LimitsOf limits_of(const CampaignSource& campaign) { return campaign.look_every == 0 ? share_limits : share_sequence; }
+Limits limits_of(bool sequence, double within, double cases, double confidence) {
+  return sequence ? share_sequence(within, cases, confidence) : share_limits(within, cases, confidence);
+}
 
 Verdict verdict_of(const Limits& limits, double share_min) {
   if (limits.lower >= share_min) return Verdict::kMet;
@@ -22,9 +22,12 @@ Verdict verdict_of(const Limits& limits, double share_min) {
 
 // The least number of cases, of which this share is within, that decides: the limits close in as it grows. Nothing where more than
 // kMostCases would be needed, as the share is the one that is asked for.
-std::optional<double> deciding_cases(const Criterion& criterion, double share, double cases, LimitsOf limits) {
+std::optional<double> deciding_cases(const Conclusion& conclusion) {
+  const double share = conclusion.share(), cases = conclusion.cases;
+  const Criterion& criterion = conclusion.criterion;
   const auto decides = [&](double number) {
-    return verdict_of(limits(share * number, number, criterion.confidence), criterion.share_min) != Verdict::kUndecided;
+    return verdict_of(limits_of(conclusion.sequence, share * number, number, criterion.confidence), criterion.share_min) !=
+           Verdict::kUndecided;
   };
   double low = cases, high = std::max(1.0, 2 * cases);
   for (; !decides(high); high *= 2) {
@@ -48,8 +51,8 @@ void count(const Criterion& criterion, const CaseRow& row, std::size_t figure, C
     ++conclusion.within;
 }
 
-void decide(LimitsOf limits, Conclusion& conclusion) {
-  conclusion.limits = limits(conclusion.within, conclusion.cases, conclusion.criterion.confidence);
+void decide(Conclusion& conclusion) {
+  conclusion.limits = limits_of(conclusion.sequence, conclusion.within, conclusion.cases, conclusion.criterion.confidence);
   conclusion.verdict = verdict_of(conclusion.limits, conclusion.criterion.share_min);
 }
 
@@ -77,10 +80,11 @@ std::vector<Conclusion> conclude(const CampaignSource& campaign, const ResultTab
   for (const Criterion& criterion : campaign.criteria) {
     Conclusion& conclusion = conclusions.emplace_back();
     conclusion.criterion = criterion;
+    conclusion.sequence = campaign.look_every > 0;
     for (const CaseRow& row : table.rows) count(criterion, row, figure_of(criterion, table), conclusion);
-    decide(limits_of(campaign), conclusion);
+    decide(conclusion);
     if (conclusion.verdict != Verdict::kUndecided || criterion.share_min >= 1 || conclusion.cases == 0) continue;
-    const auto cases = deciding_cases(criterion, conclusion.share(), conclusion.cases, limits_of(campaign));
+    const auto cases = deciding_cases(conclusion);
     if (cases) conclusion.more = *cases - conclusion.cases;
   }
   return conclusions;
@@ -89,12 +93,15 @@ std::vector<Conclusion> conclude(const CampaignSource& campaign, const ResultTab
 std::optional<std::uint32_t> stop_at(const CampaignSource& campaign, const ResultTable& table) {
   if (campaign.look_every == 0 || campaign.criteria.empty()) return std::nullopt;
   std::vector<Conclusion> conclusions(campaign.criteria.size());
-  for (std::size_t i = 0; i < conclusions.size(); ++i) conclusions[i].criterion = campaign.criteria[i];
+  for (std::size_t i = 0; i < conclusions.size(); ++i) {
+    conclusions[i].criterion = campaign.criteria[i];
+    conclusions[i].sequence = true;
+  }
   for (std::uint32_t number = 0; number < table.rows.size() && table.rows[number].number == number; ++number) {
     for (Conclusion& conclusion : conclusions)
       count(conclusion.criterion, table.rows[number], figure_of(conclusion.criterion, table), conclusion);
     if ((number + 1) % campaign.look_every != 0) continue;
-    for (Conclusion& conclusion : conclusions) decide(limits_of(campaign), conclusion);
+    for (Conclusion& conclusion : conclusions) decide(conclusion);
     const auto decided = [](const Conclusion& conclusion) { return conclusion.verdict != Verdict::kUndecided; };
     if (std::all_of(conclusions.begin(), conclusions.end(), decided)) return number + 1;
   }

@@ -18,7 +18,8 @@ struct Conclusion {
   Criterion criterion;
   std::uint32_t cases = 0, within = 0;
   std::uint32_t not_run = 0, unknown = 0;  // outside, as they failed to run; as their figure is not a number (no valid pose: no error)
-  Limits limits;  // of the share: Clopper and Pearson's, or those of a confidence sequence where a rule stops the campaign
+  bool sequence = false;                   // a rule stops the campaign
+  Limits limits;                           // of the share: Clopper and Pearson's; with a rule those of a confidence sequence
   Verdict verdict = Verdict::kUndecided;
   std::optional<double> more;  // cases that would decide it if the share stays as it is; of an undecided one, where any number would
   double share() const { return cases == 0 ? 0 : static_cast<double>(within) / cases; }

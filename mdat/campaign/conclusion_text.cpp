@@ -62,15 +62,14 @@ std::string what_decides(const Conclusion& conclusion) {
   if (conclusion.criterion.share_min >= 1)
     return "No number of cases shows 100 %; these show " + rounded(conclusion.limits.lower, down) + ": ask for no more than that.";
   if (!conclusion.more) return "The share is the one that is asked for: no number of cases tells on which side of it the truth lies.";
-  return "It needs about " + about(*conclusion.more) + " more cases at this share.";
+  if (conclusion.sequence) return "It needs about " + about(*conclusion.more) + " more cases at this share.";
+  return "At this share a campaign of about " + about(conclusion.cases + *conclusion.more) +
+         " cases would decide it; one with look_every goes on until it is decided.";
 }
 
-std::string outside_text(const Conclusion& conclusion) {
-  const std::string not_run = conclusion.not_run == 0 ? "" : format("Cases that failed to run count as outside: %u.", conclusion.not_run);
-  const std::string unknown = conclusion.unknown == 0 ? ""
-                                                      : format("Cases without %s (no valid pose has one) count as outside: %u.",
-                                                               conclusion.criterion.figure.c_str(), conclusion.unknown);
-  return sentences({not_run, unknown});
+std::string unknown_text(const Conclusion& conclusion) {
+  if (conclusion.unknown == 0) return "";
+  return format("Cases without %s (no valid pose has one) count as outside: %u.", conclusion.criterion.figure.c_str(), conclusion.unknown);
 }
 
 std::string conclusion_text(const Conclusion& conclusion) {
@@ -79,7 +78,8 @@ std::string conclusion_text(const Conclusion& conclusion) {
       "for.",
       conclusion.within, conclusion.cases, bounds_text(conclusion.criterion).c_str(), 100 * conclusion.criterion.confidence,
       limits_text(conclusion.limits).c_str(), 100 * conclusion.criterion.share_min);
-  return sentences({within, outside_text(conclusion), what_decides(conclusion)});
+  const std::string not_run = conclusion.not_run == 0 ? "" : format("Cases that failed to run count as outside: %u.", conclusion.not_run);
+  return sentences({within, not_run, unknown_text(conclusion), what_decides(conclusion)});
 }
 
 }  // namespace lasso::mdat

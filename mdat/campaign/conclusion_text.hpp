@@ -18,8 +18,8 @@ std::string bounds_text(const Criterion& criterion);
 // "wrong <= 0 in at least 98 %".
 std::string criterion_text(const Criterion& criterion);
 
-// Which cases count as outside though no figure says so; empty where there are none.
-std::string outside_text(const Conclusion& conclusion);
+// How many cases count as outside as their figure is not a number; empty where there are none.
+std::string unknown_text(const Conclusion& conclusion);
 
 // What would decide an undecided one; empty of the others.
 std::string what_decides(const Conclusion& conclusion);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <map>
 #include <string_view>
 
 #include "mdat/common/text.hpp"
@@ -12,16 +13,46 @@ namespace {
 
 constexpr std::size_t kWorstCases = 10;
 
+// Which columns are components of vectors, by the vectors' names.
+std::map<std::string, std::vector<std::size_t>> vectors_of(const std::vector<std::string>& columns) {
+  std::map<std::string, std::vector<std::size_t>> vectors;
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const std::string& name = columns[i];
+    const std::string end = name.substr(name.size() - std::min<std::size_t>(2, name.size()));
+    if (end == ".x" || end == ".y" || end == ".z") vectors[name.substr(0, name.size() - 2)].push_back(i);
+  }
+  std::erase_if(vectors, [](const auto& vector) { return vector.second.size() < 2; });
+  return vectors;
+}
+
+double length_of(const CaseRow& row, const std::vector<std::size_t>& components) {
+  double square = 0;
+  for (const std::size_t i : components) square += row.drawn[i] * row.drawn[i];
+  return std::sqrt(square);
+}
+
 }  // namespace
 
-Findings find(const CampaignSource& campaign, const ResultTable& table, const std::string& folder) {
-  Findings all{campaign, table, folder, 0, campaign.look_every > 0 && table.rows.size() < campaign.cases, {}};
-  for (const CaseRow& row : table.rows) all.not_run += row.has_run() ? 0U : 1U;
-  for (const Conclusion& conclusion : conclude(campaign, table)) {
-    const std::size_t figure = figure_of(conclusion.criterion, table);
-    all.findings.push_back({conclusion, figure, worst_cases(conclusion.criterion, table, figure, kWorstCases),
-                            correlations(conclusion.criterion, table, figure)});
+ResultTable with_lengths(ResultTable table) {
+  for (const auto& [name, components] : vectors_of(table.columns)) {
+    table.columns.push_back("|" + name + "|");
+    for (CaseRow& row : table.rows) row.drawn.push_back(length_of(row, components));
   }
+  return table;
+}
+
+std::string reason_text(const CaseRow& row) { return row.status.substr(std::min(row.status.size(), row.status.find(':') + 1)); }
+
+Finding finding_of(const Conclusion& conclusion, const ResultTable& table) {
+  const std::size_t figure = figure_of(conclusion.criterion, table);
+  return {conclusion, figure, worst_cases(conclusion.criterion, table, figure, kWorstCases),
+          correlations(conclusion.criterion, table, figure)};
+}
+
+Findings find(const CampaignSource& campaign, const ResultTable& table, const std::string& folder) {
+  Findings all{campaign, with_lengths(table), folder, 0, campaign.look_every > 0 && table.rows.size() < campaign.cases, {}};
+  for (const CaseRow& row : table.rows) all.not_run += row.has_run() ? 0U : 1U;
+  for (const Conclusion& conclusion : conclude(campaign, table)) all.findings.push_back(finding_of(conclusion, all.table));
   return all;
 }
 
@@ -32,9 +63,16 @@ std::string case_command(const Findings& all, std::uint32_t number) {
 std::string case_text(const Findings& all, const Finding& finding, std::size_t row) {
   const CaseRow& one = all.table.rows[row];
   const std::string& name = all.table.figures[finding.figure];
-  if (!one.has_run()) return "failed: " + one.status.substr(std::min(one.status.size(), one.status.find(':') + 1));
   const double value = one.figures[finding.figure];
   return std::isnan(value) ? "no " + name : name + format(" %.4g", value);
+}
+
+std::vector<std::size_t> failed_cases(const ResultTable& table, std::size_t most) {
+  std::vector<std::size_t> rows;
+  for (std::size_t row = 0; row < table.rows.size() && rows.size() < most; ++row) {
+    if (!table.rows[row].has_run()) rows.push_back(row);
+  }
+  return rows;
 }
 
 std::string cases_text(const Findings& all) {
@@ -43,7 +81,9 @@ std::string cases_text(const Findings& all) {
   if (flown < all.campaign.cases) text += format(" of %s%u", all.campaign.look_every > 0 ? "at most " : "", all.campaign.cases);
   text += text == "1" ? " case" : " cases";
   if (all.stopped) text += ", as its rule stopped it";
-  return all.not_run == 0 ? text : text + format("; %u failed to run", all.not_run);
+  if (all.not_run == 0) return text;
+  const std::string counts = all.findings.empty() ? "" : all.not_run == 1 ? ", which counts as outside" : ", which count as outside";
+  return text + format("; %u failed to run", all.not_run) + counts;
 }
 
 }  // namespace lasso::mdat

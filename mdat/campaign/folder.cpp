@@ -14,6 +14,7 @@
 #include "mdat/campaign/conclusion.hpp"
 #include "mdat/campaign/figures.hpp"
 #include "mdat/campaign/flight.hpp"
+#include "mdat/campaign/report.hpp"
 #include "mdat/campaign/results_h5.hpp"
 #include "mdat/campaign/summary_files.hpp"
 #include "mdat/campaign/summary_text.hpp"
@@ -255,7 +256,13 @@ std::string write_results(const CampaignFolder& folder, const ResultTable& table
   return summary_text(all);
 }
 
-fs::path write_report(const CampaignFolder&, const ResultTable&) { throw PictureError("none"); }
+fs::path write_report(const CampaignFolder& folder, const ResultTable& table) {
+  const fs::path file = folder.path / "report.html";
+  Plotter plotter(folder.path);
+  write_file(file, campaign_html(plotter, find(folder.campaign(), table, folder.path.string()), folder.input.source.name));
+  if (!plotter.missing().empty()) throw PictureError(file.string() + ": figures are missing: " + plotter.missing());
+  return file;
+}
 
 FlownCase fly_case(const CampaignFolder& folder, std::uint32_t number) {
   if (number >= folder.plan.cases)

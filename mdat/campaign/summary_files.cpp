@@ -23,7 +23,7 @@ std::string csv_cell(const std::string& text) {
 // What is not finite is null: JSON has no number for it.
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
-Json criterion_json(const Conclusion& one, bool sequence) {
+Json criterion_json(const Conclusion& one) {
   Json json;
   json["name"] = one.criterion.name;
   json["figure"] = one.criterion.figure;
@@ -38,13 +38,13 @@ Json criterion_json(const Conclusion& one, bool sequence) {
   json["without_figure"] = one.unknown;
   json["share"] = one.share();
   json["share_limits"] = {one.limits.lower, one.limits.upper};
-  json["limits_by"] = sequence ? "confidence sequence" : "Clopper-Pearson";
+  json["limits_by"] = one.sequence ? "confidence sequence" : "Clopper-Pearson";
   json["more_cases_to_decide"] = one.more ? Json(*one.more) : Json();
   return json;
 }
 
 Json finding_json(const Findings& all, const Finding& finding) {
-  Json json = criterion_json(finding.conclusion, all.campaign.look_every > 0);
+  Json json = criterion_json(finding.conclusion);
   json["worst_cases"] = Json::array();
   for (const std::size_t row : finding.worst) json["worst_cases"].push_back(all.table.rows[row].number);
   json["rank_correlations"] = Json::array();
@@ -75,7 +75,7 @@ std::string trouble(const char* element, const std::string& type, const std::str
 std::string commands(const Findings& all, const std::vector<std::size_t>& rows, const Finding* finding) {
   std::string text;
   for (const std::size_t row : rows)
-    text += (finding == nullptr ? all.table.rows[row].status : case_text(all, *finding, row)) + ": " +
+    text += (finding == nullptr ? reason_text(all.table.rows[row]) : case_text(all, *finding, row)) + ": " +
             case_command(all, all.table.rows[row].number) + "\n";
   return text;
 }
@@ -92,10 +92,7 @@ std::string criterion_case(const Findings& all, const Finding& finding) {
 constexpr std::size_t kNamedCases = 10;
 
 std::string all_run_case(const Findings& all) {
-  std::vector<std::size_t> rows;
-  for (std::size_t row = 0; row < all.table.rows.size() && rows.size() < kNamedCases; ++row) {
-    if (!all.table.rows[row].has_run()) rows.push_back(row);
-  }
+  const std::vector<std::size_t> rows = failed_cases(all.table, kNamedCases);
   if (rows.empty()) return test_case(all, "all cases run", "");
   const std::string message = format("%u of %zu cases failed to run", all.not_run, all.table.rows.size());
   return test_case(all, "all cases run", trouble("error", "failed to run", message, commands(all, rows, nullptr)));

@@ -22,7 +22,7 @@ std::string verdict_lines(const Findings& all) {
   }
   std::string text = aligned_text(lines);
   for (const Finding& finding : all.findings) {
-    for (const std::string& more : {outside_text(finding.conclusion), what_decides(finding.conclusion)})
+    for (const std::string& more : {unknown_text(finding.conclusion), what_decides(finding.conclusion)})
       text += more.empty() ? "" : "  " + finding.conclusion.criterion.name + ": " + more + "\n";
   }
   return text;
@@ -39,6 +39,15 @@ std::string worst_lines(const Findings& all) {
     }
   }
   return lines.empty() ? "" : "Worst cases, and how to fly them again\n" + aligned_text(lines);
+}
+
+std::string failed_lines(const Findings& all) {
+  Lines lines;
+  for (const std::size_t place : failed_cases(all.table, kShownCases)) {
+    const CaseRow& row = all.table.rows[place];
+    lines.push_back({reason_text(row), case_command(all, row.number)});
+  }
+  return lines.empty() ? "" : "Cases that failed to run\n" + aligned(lines);
 }
 
 std::string correlation_lines(const Findings& all) {
@@ -62,9 +71,8 @@ std::string probability_text(double probability) { return probability < 0.001 ? 
 
 std::string summary_text(const Findings& all) {
   std::string text = "Campaign " + all.campaign.name + ", scenario " + all.campaign.scenario + ": " + cases_text(all) + "\n";
-  if (all.findings.empty()) return text + "It has no criteria, so there is no verdict.\n";
-  text += verdict_lines(all);
-  for (const std::string& part : {worst_lines(all), correlation_lines(all)}) text += part.empty() ? "" : "\n" + part;
+  text += all.findings.empty() ? "It has no criteria, so there is no verdict.\n" : verdict_lines(all);
+  for (const std::string& part : {failed_lines(all), worst_lines(all), correlation_lines(all)}) text += part.empty() ? "" : "\n" + part;
   return text;
 }
 

@@ -28,6 +28,7 @@ th, td { padding: 6px 8px; text-align: right; white-space: nowrap; border-bottom
 th { color: var(--faint); font-weight: 600; white-space: normal; vertical-align: bottom; border-bottom-width: 2px; }
 th:first-child, td:first-child { text-align: left; }
 td:first-child { font-weight: 600; }
+.words th, .words td { text-align: left; }
 small { color: var(--faint); }
 figure { margin: 26px 0 0; }
 figure svg { width: 100%; height: auto; display: block; }
@@ -45,16 +46,16 @@ svg text { font-family: "Inter", "Segoe UI", "Helvetica Neue", Arial, sans-serif
 .runs p { margin: 0 0 6px; font-size: 14px; color: var(--faint); }
 .runs figure { margin: 10px 0 0; }
 .runs img, .runs svg { height: 190px; width: 100%; object-fit: contain; background: #fff; }
-.runs .good { color: #1c7c3c; font-weight: 600; }
-.runs .partly { color: #9a5b00; font-weight: 600; }
-.runs .bad { color: #c01028; font-weight: 600; }
+.good { color: #1c7c3c; font-weight: 600; }
+.partly { color: #9a5b00; font-weight: 600; }
+.bad { color: #c01028; font-weight: 600; }
 @media (prefers-color-scheme: dark) {
   :root { --page: #0f1319; --card: #181d25; --text: #e3e8ef; --soft: #b8c1ce; --faint: #9aa5b4; --line: #2c333e; --link: #7fb0f5; }
   figure svg { filter: invert(0.9) hue-rotate(180deg); }
   figure img { background: #fff; border-radius: 6px; }
-  .runs .good { color: #5fc682; }
-  .runs .partly { color: #e3a94b; }
-  .runs .bad { color: #ff7385; }
+  .good { color: #5fc682; }
+  .partly { color: #e3a94b; }
+  .bad { color: #ff7385; }
 }
 )";
 
@@ -67,7 +68,7 @@ std::string row(const std::vector<std::string>& cells, const std::string& tag) {
 }  // namespace
 
 std::string to_html(const HtmlTable& table) {
-  std::string html = "<div class='wide'><table>\n" + row(table.head, "th");
+  std::string html = format("<div class='wide'><table%s>\n", table.words ? " class='words'" : "") + row(table.head, "th");
   for (const std::vector<std::string>& cells : table.rows) html += row(cells, "td");
   return html + "</table></div>\n";
 }

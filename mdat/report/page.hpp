@@ -9,6 +9,7 @@ namespace lasso::mdat {
 struct HtmlTable {
   std::vector<std::string> head;
   std::vector<std::vector<std::string>> rows;  // first cell: what the row is about; cells are HTML
+  bool words = false;                          // its cells are words, which begin at the left
 };
 
 std::string to_html(const HtmlTable& table);

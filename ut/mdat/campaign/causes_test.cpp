@@ -92,8 +92,8 @@ TEST(WorstCases, AreFarthestBeyondTheNearerBound) {
   ResultTable table = table_of({5, 1, kNoNumber, 9, 5, 0});
   table.rows[1].status = "failed:refused";
   const Criterion between{"", "rms_mm", 4, 6, 0.5, 0.95};
-  EXPECT_EQ(worst_cases(between, table, 0, 10), (std::vector<std::size_t>{1, 2, 5, 3}));  // 0 is 4 below, 9 is 3 above
-  EXPECT_EQ(worst_cases(between, table, 0, 3), (std::vector<std::size_t>{1, 2, 5}));
+  EXPECT_EQ(worst_cases(between, table, 0, 10), (std::vector<std::size_t>{2, 5, 3}));  // 0 is 4 below, 9 is 3 above
+  EXPECT_EQ(worst_cases(between, table, 0, 2), (std::vector<std::size_t>{2, 5}));
   const Criterion below = at_most("", "rms_mm", 20, 0.5);
   EXPECT_EQ(worst_cases(below, table_of({5, 1, 9, 1}), 0, 10), (std::vector<std::size_t>{2, 0}));  // within, but worse than others
   EXPECT_TRUE(worst_cases(below, table_of({1, 1}), 0, 10).empty());

@@ -35,7 +35,10 @@ TEST(ConclusionText, SaysWhatWouldDecide) {
             "497 of 500 cases are within rms_mm <= 1. With a confidence of 95 % that shows 98.2 % to 99.88 % of all cases that could be "
             "drawn; at least 98 % is asked for.");
   const std::string undecided = text_of(at_most("", "rms_mm", 1, 0.99), test::table_with(497, 500));
-  EXPECT_NE(undecided.find(" It needs about "), std::string::npos) << undecided;
+  EXPECT_NE(undecided.find("a campaign of about 2400 cases would decide it"), std::string::npos) << undecided;
+  CampaignSource sequential = campaign_of({at_most("", "rms_mm", 1, 0.99)});
+  sequential.look_every = 50;
+  EXPECT_NE(conclusion_text(conclude(sequential, test::table_with(497, 500))[0]).find(" It needs about "), std::string::npos);
   EXPECT_NE(text_of(at_most("", "rms_mm", 1, 1), test::table_with(10, 10)).find("No number of cases shows 100 %; these show 69.1 %"),
             std::string::npos);
   EXPECT_NE(text_of(at_most("", "rms_mm", 1, 0.5), test::table_with(5, 10)).find("no number of cases tells"), std::string::npos);

@@ -20,8 +20,9 @@ TEST(Findings, AreOfEachCriterion) {
   EXPECT_EQ(all.findings[1].correlations.at(0).column, 0U);
   EXPECT_EQ(case_text(all, all.findings[1], 39), "rms_mm 5.9");
   EXPECT_EQ(case_text(all, all.findings[1], 5), "no rms_mm");
-  EXPECT_EQ(case_text(all, all.findings[1], 3), "failed: worker ended, by \"signal\" 11");
-  EXPECT_EQ(cases_text(all), "40 cases; 1 failed to run");
+  EXPECT_EQ(failed_cases(all.table, 10), (std::vector<std::size_t>{3}));
+  EXPECT_EQ(reason_text(all.table.rows[3]), "worker ended, by \"signal\" 11");
+  EXPECT_EQ(cases_text(all), "40 cases; 1 failed to run, which counts as outside");
 }
 
 TEST(Findings, CountCasesOfAStoppedCampaign) {
@@ -29,10 +30,29 @@ TEST(Findings, CountCasesOfAStoppedCampaign) {
   test::MixedCampaign mixed;
   mixed.campaign.cases = 500;
   mixed.campaign.look_every = 20;
-  EXPECT_EQ(cases_text(find(mixed.campaign, mixed.table, "d")), "40 of at most 500 cases, as its rule stopped it; 1 failed to run");
+  EXPECT_EQ(cases_text(find(mixed.campaign, mixed.table, "d")),
+            "40 of at most 500 cases, as its rule stopped it; 1 failed to run, which counts as outside");
   mixed.campaign.look_every = 0;
   mixed.table.rows.resize(1);
   EXPECT_EQ(cases_text(find(mixed.campaign, mixed.table, "d")), "1 of 500 cases");
+}
+
+// Bad where it spins fast: no component shows it, their length does.
+TEST(Findings, HaveLengthsOfVectors) {
+  VERIFIES("LASSO-GND-056~1");
+  ResultTable table{{"rms_mm"}, {"spin.x", "range", "spin.y", "lone.z"}, {}};
+  for (std::uint32_t i = 0; i < 40; ++i) {
+    const double sign = i % 2 == 0 ? 1 : -1;
+    table.rows.push_back({i, "ok", {1.0 * i}, {3 * sign * i, 1.0 * (i % 3), -4 * sign * i, 0}});
+  }
+  const ResultTable wider = with_lengths(table);
+  EXPECT_EQ(wider.columns, (std::vector<std::string>{"spin.x", "range", "spin.y", "lone.z", "|spin|"}));
+  EXPECT_DOUBLE_EQ(wider.rows[7].drawn[4], 35);
+  const CampaignSource campaign = test::campaign_of({test::at_most("", "rms_mm", 5, 0.5)});
+  const Findings all = find(campaign, table, "d");
+  EXPECT_EQ(all.findings[0].correlations.at(0).column, 4U);
+  EXPECT_EQ(all.findings[0].correlations.at(0).rho, 1);
+  EXPECT_GT(all.findings[0].correlations.at(1).probability, kSignificance);
 }
 
 TEST(Findings, CommandsAreWhatAShellReads) {
