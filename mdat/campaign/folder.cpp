@@ -15,6 +15,7 @@
 #include "mdat/campaign/figures.hpp"
 #include "mdat/campaign/flight.hpp"
 #include "mdat/campaign/report.hpp"
+#include "mdat/campaign/report.hpp"
 #include "mdat/campaign/results_h5.hpp"
 #include "mdat/campaign/summary_files.hpp"
 #include "mdat/campaign/summary_text.hpp"
@@ -257,11 +258,15 @@ std::string write_results(const CampaignFolder& folder, const ResultTable& table
 }
 
 fs::path write_report(const CampaignFolder& folder, const ResultTable& table) {
-  const fs::path file = folder.path / "report.html";
+  const Findings all = find(folder.campaign(), table, folder.path.string());
+  OutputFolder out(folder.path);
   Plotter plotter(folder.path);
-  write_file(file, campaign_html(plotter, find(folder.campaign(), table, folder.path.string()), folder.input.source.name));
-  if (!plotter.missing().empty()) throw PictureError(file.string() + ": figures are missing: " + plotter.missing());
-  return file;
+  out.write("report.html", campaign_html(plotter, all, folder.input.source.name));
+  out.commit();
+  const fs::path report = folder.path / "report.html";
+  if (!plotter.missing().empty())
+    throw PictureError(report.string() + ": figures are missing: " + plotter.missing() + "; all results are written");
+  return report;
 }
 
 FlownCase fly_case(const CampaignFolder& folder, std::uint32_t number) {

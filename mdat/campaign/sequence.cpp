@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kPrior = 0.5;                 // Beta(1/2, 1/2): narrow limits of shares near 0 and 1, which is where campaigns are
 constexpr double kLogPi = 1.1447298858494002;  // ln B(1/2, 1/2)
-constexpr int kSteps = 60;
+constexpr int kBisections = 60;
 
 // ln Gamma of Boost: that of libm writes a global variable, and is not the same everywhere.
 double log_gamma(double x) { return boost::math::lgamma(x); }
@@ -25,7 +25,7 @@ double log_likelihood(double within, double cases, double p) {
 
 // From a share whose likelihood is at least `floor` towards `outer`, where it is less: the outermost one that is not less.
 double limit_towards(double outer, double inner, double within, double cases, double floor) {
-  for (int step = 0; step < kSteps; ++step) {
+  for (int step = 0; step < kBisections; ++step) {
     const double middle = (inner + outer) / 2;
     (log_likelihood(within, cases, middle) < floor ? outer : inner) = middle;
   }
