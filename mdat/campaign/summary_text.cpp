@@ -47,7 +47,7 @@ std::string failed_lines(const Findings& all) {
     const CaseRow& row = all.table.rows[place];
     lines.push_back({reason_text(row), case_command(all, row.number)});
   }
-  return lines.empty() ? "" : "Cases that failed to run\n" + aligned(lines);
+  return lines.empty() ? "" : "Cases that failed to run\n" + aligned_text(lines);
 }
 
 std::string correlation_lines(const Findings& all) {
