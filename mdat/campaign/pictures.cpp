@@ -16,7 +16,7 @@ constexpr const char* kWithinColour = "#2563b8";
 constexpr const char* kOutsideColour = "#c01028";
 constexpr const char* kBoundColour = "#d4571e";
 constexpr const char* kKey = "set key at screen 0.99,0.995 right top horizontal maxrows 1 samplen 1 width 1\n";
-constexpr std::size_t kMostBins = 8, kLeastInBin = 10, kShownColumns = 3, kSteps = 1000;
+constexpr std::size_t kMostBins = 8, kLeastInBin = 10, kShownColumns = 3, kCurvePoints = 1000;
 constexpr double kWide = 50, kSkewed = 7;  // largest to smallest value, largest to median of a logarithmic axis
 
 bool is_outside(const ResultTable& table, const Finding& finding, std::size_t row) {
@@ -116,13 +116,13 @@ std::string bound_lines(const Criterion& criterion, bool upright) {
   return text;
 }
 
-// The share of all cases whose figure is not above each value: those without one are never below. kSteps points at most.
+// The share of all cases whose figure is not above each value: those without one are never below. kCurvePoints points at most.
 std::string distribution_text(const Span& span, std::size_t cases) {
   const std::vector<double>& values = span.values();
   if (values.empty()) return "";
   const double percent = 100.0 / static_cast<double>(cases);
   std::string text = format("%.6g 0\n", values.front());
-  const std::size_t step = values.size() / kSteps + 1;
+  const std::size_t step = values.size() / kCurvePoints + 1;
   for (std::size_t i = step - 1; i < values.size(); i += step)
     text += format("%.6g %.6g\n", values[i], percent * static_cast<double>(i + 1));
   const double end = span.is_wide() ? 2 * span.high() : span.high() + std::max(1.0, std::abs(span.high()));
