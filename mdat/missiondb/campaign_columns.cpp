@@ -102,7 +102,7 @@ const char* not_varied(const std::string& key) {
 
 std::vector<std::string> attitude_columns() { return {"truth.roll_deg", "truth.tilt_deg", "truth.boresight_deg"}; }
 
-void set_campaign_value(const std::string& column, double value, Scenario& scenario) {
+void set_column(Scenario& scenario, const std::string& column, double value) {
   const CampaignColumn* found = find_column(column);
   if (found == nullptr) throw std::invalid_argument(column + ": names nothing that a campaign may vary");
   if (column == kRangeColumn) {

@@ -40,6 +40,6 @@ std::vector<std::string> attitude_columns();
 
 // Puts a value, in the unit that the column's name says, into the scenario of a case: what is simulated into the scenario itself, what the
 // component believes into its overrides. Throws std::invalid_argument where the column is none.
-void set_campaign_value(const std::string& column, double value, Scenario& scenario);
+void set_column(Scenario& scenario, const std::string& column, double value);
 
 }  // namespace lasso::mdat

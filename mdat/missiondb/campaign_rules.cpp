@@ -53,7 +53,7 @@ struct Corners {
 std::vector<Numbers> corners_of(const Dispersion& dispersion) { return std::visit(Corners{dispersion.columns.size()}, dispersion.law); }
 
 void set_columns(Scenario& scenario, const Dispersion& dispersion, const Numbers& values) {
-  for (std::size_t i = 0; i < values.size(); ++i) set_campaign_value(dispersion.columns[i], values[i], scenario);
+  for (std::size_t i = 0; i < values.size(); ++i) set_column(scenario, dispersion.columns[i], values[i]);
 }
 
 std::string case_text(const Dispersion& dispersion, const Numbers& values) {

@@ -173,7 +173,7 @@ TEST(CaseDraws, RowsOfATableStayTogether) {
   const auto any = drawn(Rows{"t.csv", false, values}, 2);
   for (std::uint32_t k = 0; k < kCases; ++k) ASSERT_EQ(any[1][k], -any[0][k]);
   for (const double row : {1, 2, 3})
-    EXPECT_NEAR(std::count(any[0].begin(), any[0].end(), row), kCases / 3.0, 4 * std::sqrt(kCases * 2.0 / 9));
+    EXPECT_NEAR(static_cast<double>(std::count(any[0].begin(), any[0].end(), row)), kCases / 3.0, 4 * std::sqrt(kCases * 2.0 / 9));
 }
 
 std::vector<Dispersion> several() {

@@ -23,12 +23,12 @@ Scenario plain() {
 TEST(CampaignColumns, GoWhereTheirNamesSayInSi) {
   VERIFIES("LASSO-GND-066~1");
   Scenario scenario = plain();
-  set_campaign_value("truth.range_m", 3, scenario);
-  set_campaign_value("truth.offset_m.y", -0.4, scenario);
-  set_campaign_value("truth.spin_degps.z", 5, scenario);
-  set_campaign_value("truth.model_gone_box_m.5", 9, scenario);
-  set_campaign_value("truth.tilt_deg", 30, scenario);
-  set_campaign_value("mission.tracking.start_sigma_deg", 2, scenario);
+  set_column(scenario, "truth.range_m", 3);
+  set_column(scenario, "truth.offset_m.y", -0.4);
+  set_column(scenario, "truth.spin_degps.z", 5);
+  set_column(scenario, "truth.model_gone_box_m.5", 9);
+  set_column(scenario, "truth.tilt_deg", 30);
+  set_column(scenario, "mission.tracking.start_sigma_deg", 2);
   EXPECT_EQ(scenario.ranges_m, std::vector<double>{3});
   EXPECT_EQ(scenario.offset_m, (std::vector<double>{0.1, -0.4}));
   EXPECT_NEAR(scenario.spin_radps[2], 5 * kRadPerDeg, 1e-15);
@@ -44,7 +44,7 @@ TEST(CampaignColumns, AColumnThatIsNoneIsRefused) {
                              "truth.offset_m.z", "truth.seed", "truth.kind", "mission.sensor.range_max_m", "mission.filter.period_s"}) {
     Scenario scenario = plain();
     EXPECT_EQ(find_column(column), nullptr) << column;
-    EXPECT_THROW(set_campaign_value(column, 1, scenario), std::invalid_argument) << column;
+    EXPECT_THROW(set_column(scenario, column, 1), std::invalid_argument) << column;
   }
 }
 

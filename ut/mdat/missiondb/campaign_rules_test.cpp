@@ -60,7 +60,7 @@ TEST_F(CampaignRulesTest, CasesKeepTheRulesOfTheMission) {
   expect_error("truth.range_m = { normal = [1, 0.2] }\n", "with truth.range_m = 0.2");
   const std::string together = "[[campaign.c.together]]\n";
   expect_error(together + "keys = ['truth.range_m', 'truth.offset_m.x']\nmean = [1, 0]\ncovariance = [[0.04, 0.01], [0.01, 0.01]]\n",
-               "with truth.range_m = 0.19");
+               "with truth.range_m = 0.2, truth.offset_m.x = -0.2");
   folder_.write("t.csv", "truth.range_m\n3\n0.125\n");
   expect_error(together + "table = 't.csv'\n", "with truth.range_m = 0.125");
 }

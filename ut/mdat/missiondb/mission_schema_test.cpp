@@ -120,7 +120,7 @@ TEST(MissionSchema, KnowsCampaigns) {
   for (const char* wrong :
        {"truth.rnage_m = 3", "truth.seed = 3", "truth.range_m = { unifrom = [2, 7] }", "truth.range_m = { uniform = [2] }",
         "truth.range_m = { uniform = [2, 7], normal = [3, 1] }", "truth.range_m = 'far'", "truth.offset_m = [1]", "truth.attitude = 'all'",
-        "mission.scan.pints = 3", "sampling = 'lhs'", "cases = 0", "criteria.b.figure = 'wrongs'", "together = [{ tabel = 't.csv' }]"})
+        "mission.scan.pints = 3", "sampling = 'lhs'", "seed = -1", "criteria.b.figure = 'wrongs'", "together = [{ tabel = 't.csv' }]"})
     EXPECT_FALSE(validates(mission + wrong + "\n")) << wrong;
 }
 
