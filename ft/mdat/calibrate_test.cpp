@@ -53,15 +53,20 @@ class Calibrate : public ::testing::Test {
 
 TEST_F(Calibrate, WhatIsFittedTracksAsThePerfectCalibrationDoes) {
   VERIFIES("LASSO-GND-023~1 LASSO-LCS-009~1");
-  ASSERT_EQ(folder.mdat("calibrate --simulate device.toml --seed 5 -o raw.csv").exit_code, 0);
-  ASSERT_EQ(folder.mdat("calibrate --simulate device.toml --seed 6 -o more.csv").exit_code, 0);
-  const Answer answer = folder.mdat("calibrate raw.csv more.csv --start design.toml -o fitted.toml --picture residuals.png");
+  // A fit has learnt some noise: of two recordings enough to raise errors of position by 1 to 7 % (means of 1500 frames, four pairs of
+  // recordings). In their squares that is the inverse of the number of points, so that six recordings leave 1.6 %.
+  std::string recordings;
+  for (const std::string seed : {"5", "6", "7", "8", "9", "10"}) {
+    recordings += " raw" + seed + ".csv";
+    ASSERT_EQ(folder.mdat("calibrate --simulate device.toml --seed " + seed + " -o raw" + seed + ".csv").exit_code, 0);
+  }
+  const Answer answer = folder.mdat("calibrate" + recordings + " --start design.toml -o fitted.toml --picture residuals.png");
   ASSERT_EQ(answer.exit_code, 0) << answer.err;
   const std::string after = answer.out.substr(answer.out.find("after:"));
-  EXPECT_GT(number_behind(after, "after:"), 28000) << "all points lie in the calibrated volume";
+  EXPECT_GT(number_behind(after, "after:"), 84000) << "all points lie in the calibrated volume";
   EXPECT_LE(number_behind(after, "mm, "), 1.1) << "rms over noise: " << after;
   EXPECT_GT(number_behind(after, "mm, "), 0.97) << "no less than the noise is there";
-  EXPECT_LE(number_behind(after, "worst cell "), 1.15) << "of 64 cells of some 450 points each: three of their sigmas above 1";
+  EXPECT_LE(number_behind(after, "worst cell "), 1.1) << "of 64 cells of some 1350 points each: five of their sigmas above 1";
   EXPECT_GT(number_behind(answer.out, "mm, "), 50) << "before: the design is far off";
   EXPECT_EQ(folder.read("residuals.png").substr(1, 3), "PNG");
 
@@ -70,6 +75,8 @@ TEST_F(Calibrate, WhatIsFittedTracksAsThePerfectCalibrationDoes) {
   const Answer other = folder.mdat("calibrate other.csv --start fitted.toml -o again.toml");
   EXPECT_LE(number_behind(other.out.substr(other.out.find("before:")), "mm, "), 1.1) << other.out;
 
+  // Both cameras draw the same noise: over 540 frames the ratio scatters by 0.7 % (translation) and 0.4 % (rotation), a fifth of the
+  // margin.
   double perfect_mm = 0, fitted_mm = 0, perfect_deg = 0, fitted_deg = 0;
   for (const std::string seed : {"1", "2", "3"}) {
     const Json perfect = track("device.toml", seed), fitted = track("fitted.toml", seed);
