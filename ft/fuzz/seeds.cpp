@@ -195,6 +195,13 @@ std::string pcd(const std::string& data) {
          data + "\n";
 }
 
+// Two points with a descriptor of 33 numbers each, as PCL writes them: most of a point is none of the scan's.
+std::string described_pcd() {
+  const std::string rest(33 * sizeof(float), '\0');
+  return "VERSION 0.7\nFIELDS x y z fpfh\nSIZE 4 4 4 4\nTYPE F F F F\nCOUNT 1 1 1 33\nWIDTH 2\nHEIGHT 1\nPOINTS 2\nDATA binary\n" +
+         binary({0.1F, 0.2F, 3}, false) + rest + binary({-0.1F, 0.2F, 3.5F}, false) + rest;
+}
+
 void write_scans(const fs::path& folder) {
   const std::string ascii = "0.1 0.2 3\n-0.1 0.2 3.5\n";
   const std::initializer_list<float> points = {0.1F, 0.2F, 3, -0.1F, 0.2F, 3.5F};
@@ -205,6 +212,7 @@ void write_scans(const fs::path& folder) {
   write(folder / "ply_big", seed(1, ply("binary_big_endian") + binary(points, true)));
   write(folder / "pcd_ascii", seed(2, pcd("ascii") + ascii));
   write(folder / "pcd_binary", seed(2, pcd("binary") + binary(points, false)));
+  write(folder / "pcd_described", seed(2, described_pcd()));
   const std::string lengths("\x19\0\0\0\x18\0\0\0", 8);
   write(folder / "pcd_compressed", seed(2, pcd("binary_compressed") + lengths + '\x17' + binary(points, false)));
   write(folder / "ply_lists",
