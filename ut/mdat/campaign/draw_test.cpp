@@ -14,10 +14,10 @@
 namespace lasso::mdat {
 namespace {
 
-constexpr std::uint32_t kCases = 4000;
+constexpr std::uint32_t kDraws = 4000;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-CampaignSource campaign_of(std::vector<Dispersion> dispersions, std::uint32_t cases = kCases) {
+CampaignSource campaign_of(std::vector<Dispersion> dispersions, std::uint32_t cases = kDraws) {
   CampaignSource campaign;
   campaign.cases = cases;
   campaign.seed = 8;
@@ -26,7 +26,7 @@ CampaignSource campaign_of(std::vector<Dispersion> dispersions, std::uint32_t ca
 }
 
 // Of a law of `count` numbers, by columns.
-std::vector<std::vector<double>> drawn(const Law& law, std::size_t count, std::uint32_t cases = kCases) {
+std::vector<std::vector<double>> drawn(const Law& law, std::size_t count, std::uint32_t cases = kDraws) {
   const CaseDraws draws(campaign_of({{std::vector<std::string>(count, "truth.x"), law}}, cases));
   std::vector<std::vector<double>> columns(count);
   for (std::uint32_t k = 0; k < cases; ++k) {
@@ -44,8 +44,8 @@ double cumulative(double z) { return 0.5 * std::erfc(-z / std::sqrt(2.0)); }
 // Distance, and the mean within 4 of its standard errors.
 template <class Function>
 void expect_law(const std::vector<double>& sample, const Function& distribution, double mean, double sigma) {
-  EXPECT_LT(ks_distance(sample, distribution), ks_limit(kCases));
-  EXPECT_NEAR(mean_of(sample), mean, 4 * sigma / std::sqrt(kCases));
+  EXPECT_LT(ks_distance(sample, distribution), ks_limit(kDraws));
+  EXPECT_NEAR(mean_of(sample), mean, 4 * sigma / std::sqrt(kDraws));
 }
 
 TEST(CaseDraws, NumbersFollowTheirLaws) {
@@ -56,7 +56,7 @@ TEST(CaseDraws, NumbersFollowTheirLaws) {
       drawn(LogUniform{1e-5, 1e-3}), [](double x) { return std::log(x / 1e-5) / std::log(100.0); }, 99e-5 / std::log(100.0), 2.5e-4);
   expect_law(
       drawn(Normal{1, 2, -kInfinity, kInfinity}), [](double x) { return cumulative((x - 1) / 2); }, 1, 2);
-  EXPECT_EQ(drawn(Fixed{0.25}), std::vector<double>(kCases, 0.25));
+  EXPECT_EQ(drawn(Fixed{0.25}), std::vector<double>(kDraws, 0.25));
 }
 
 // The mean of a truncated normal is mu + sigma (phi(a) - phi(b)) / (Phi(b) - Phi(a)).
@@ -89,8 +89,8 @@ TEST(CaseDraws, ValuesOfAListComeAsOftenAsTheirWeights) {
   VERIFIES("LASSO-GND-047~1");
   const std::vector<double> sample = drawn(OneOf{{0, 0.005, 3}, {3, 1, 4}});
   const auto expect_share = [&](double value, double share) {
-    EXPECT_NEAR(static_cast<double>(std::count(sample.begin(), sample.end(), value)) / kCases, share,
-                4 * std::sqrt(share * (1 - share) / kCases))
+    EXPECT_NEAR(static_cast<double>(std::count(sample.begin(), sample.end(), value)) / kDraws, share,
+                4 * std::sqrt(share * (1 - share) / kDraws))
         << value;
   };
   expect_share(0, 0.375);
@@ -103,7 +103,7 @@ TEST(CaseDraws, DirectionsAreUniformOnTheSphere) {
   const auto columns = drawn(AnyDirection{Uniform{1, 5}}, 3);
   std::vector<double> lengths;
   std::vector<std::vector<double>> unit(3);
-  for (std::uint32_t k = 0; k < kCases; ++k) {
+  for (std::uint32_t k = 0; k < kDraws; ++k) {
     lengths.push_back(std::hypot(columns[0][k], columns[1][k], columns[2][k]));
     for (std::size_t i = 0; i < 3; ++i) unit[i].push_back(columns[i][k] / lengths.back());
   }
@@ -112,8 +112,8 @@ TEST(CaseDraws, DirectionsAreUniformOnTheSphere) {
   for (const auto& axis : unit)
     expect_law(
         axis, [](double x) { return (x + 1) / 2; }, 0, 1 / std::sqrt(3.0));
-  for (std::size_t i = 0; i < 3; ++i) EXPECT_LT(std::fabs(correlation(unit[i], unit[(i + 1) % 3])), 4 / std::sqrt(kCases));
-  EXPECT_EQ(drawn(AnyDirection{Fixed{0}}, 3)[0], std::vector<double>(kCases, 0)) << "of no length";
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_LT(std::fabs(correlation(unit[i], unit[(i + 1) % 3])), 4 / std::sqrt(kDraws));
+  EXPECT_EQ(drawn(AnyDirection{Fixed{0}}, 3)[0], std::vector<double>(kDraws, 0)) << "of no length";
 }
 
 // As scenarios draw it themselves: two samples of one law (the limit of two of n is that of one of n / 2).
@@ -124,7 +124,7 @@ TEST(CaseDraws, AttitudesAreThoseOfDrawnScenarios) {
   scenario.drawn = 1;
   scenario.spin_radps = scenario.drift_mps = {1, 0, 0};
   std::vector<std::vector<double>> others(3);
-  for (std::uint64_t seed = 1; seed <= kCases; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kDraws; ++seed) {
     const Scenario other = drawn_scenario(scenario, seed);
     others[0].push_back(other.roll_rad / kRadPerDeg);
     others[1].push_back(other.tilt_rad / kRadPerDeg);
@@ -133,11 +133,11 @@ TEST(CaseDraws, AttitudesAreThoseOfDrawnScenarios) {
   for (std::size_t i = 0; i < 3; ++i) {
     std::sort(others[i].begin(), others[i].end());
     const auto share = [&](double x) {
-      return static_cast<double>(std::lower_bound(others[i].begin(), others[i].end(), x) - others[i].begin()) / kCases;
+      return static_cast<double>(std::lower_bound(others[i].begin(), others[i].end(), x) - others[i].begin()) / kDraws;
     };
-    EXPECT_LT(ks_distance(columns[i], share), ks_limit(kCases / 2.0)) << i;
+    EXPECT_LT(ks_distance(columns[i], share), ks_limit(kDraws / 2.0)) << i;
   }
-  EXPECT_LT(ks_distance(columns[1], [](double tilt) { return 0.5 + 0.5 * std::sin(tilt * kRadPerDeg); }), ks_limit(kCases));
+  EXPECT_LT(ks_distance(columns[1], [](double tilt) { return 0.5 + 0.5 * std::sin(tilt * kRadPerDeg); }), ks_limit(kDraws));
 }
 
 TEST(CaseDraws, CorrelatedNumbersHaveTheCovariance) {
@@ -151,7 +151,7 @@ TEST(CaseDraws, CorrelatedNumbersHaveTheCovariance) {
         std::sqrt(covariance[4 * i]));
     for (std::size_t j = 0; j <= i; ++j) {
       const double expected = covariance[3 * i + j], scale = std::sqrt(covariance[4 * i] * covariance[4 * j]);
-      EXPECT_NEAR(covariance_of(columns[i], columns[j]), expected, 4 * std::sqrt(2.0 / kCases) * scale) << i << j;
+      EXPECT_NEAR(covariance_of(columns[i], columns[j]), expected, 4 * std::sqrt(2.0 / kDraws) * scale) << i << j;
     }
   }
 }
@@ -171,9 +171,9 @@ TEST(CaseDraws, RowsOfATableStayTogether) {
   const auto in_order = drawn(Rows{"t.csv", true, values}, 2, 7);
   EXPECT_EQ(in_order[0], (std::vector<double>{1, 2, 3, 1, 2, 3, 1}));
   const auto any = drawn(Rows{"t.csv", false, values}, 2);
-  for (std::uint32_t k = 0; k < kCases; ++k) ASSERT_EQ(any[1][k], -any[0][k]);
+  for (std::uint32_t k = 0; k < kDraws; ++k) ASSERT_EQ(any[1][k], -any[0][k]);
   for (const double row : {1, 2, 3})
-    EXPECT_NEAR(static_cast<double>(std::count(any[0].begin(), any[0].end(), row)), kCases / 3.0, 4 * std::sqrt(kCases * 2.0 / 9));
+    EXPECT_NEAR(static_cast<double>(std::count(any[0].begin(), any[0].end(), row)), kDraws / 3.0, 4 * std::sqrt(kDraws * 2.0 / 9));
 }
 
 std::vector<Dispersion> several() {
