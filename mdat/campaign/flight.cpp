@@ -18,7 +18,7 @@ CampaignFlight::CampaignFlight(const CompiledMission& mission, const CampaignSou
 
 Scenario CampaignFlight::scenario_with(const std::vector<double>& values) const {
   Scenario scenario = scenario_;
-  for (std::size_t i = 0; i < columns_.size(); ++i) set_campaign_value(columns_[i], values.at(i), scenario);
+  for (std::size_t i = 0; i < columns_.size(); ++i) set_column(scenario, columns_[i], values.at(i));
   return scenario;
 }
 
