@@ -14,7 +14,7 @@ namespace {
 using LimitsOf = Limits (*)(double within, double cases, double confidence);
 
 constexpr double kRates[] = {0.001, 0.01, 0.1};
-constexpr int kCampaigns = 1000, kCases = 2000, kLookEvery = 50;
+constexpr int kCampaigns = 1000, kCasesEach = 2000, kLookEvery = 50;
 constexpr double kConfidence = 0.95;
 
 bool covers(const Limits& limits, double share) { return limits.lower <= share && share <= limits.upper; }
@@ -47,12 +47,12 @@ Coverage simulate(LimitsOf of, double rate) {
     sim::Random random = sim::ray_stream(33, static_cast<std::uint32_t>(campaign), static_cast<std::uint32_t>(1e6 * rate));
     bool always = true;
     int failures = 0;
-    for (int cases = 1; cases <= kCases; ++cases) {
+    for (int cases = 1; cases <= kCasesEach; ++cases) {
       failures += random.uniform() < rate ? 1 : 0;
       if (cases % kLookEvery == 0) always = always && covers(limits.at(failures, cases), rate);
     }
     coverage.at_every_look += always ? 1 : 0;
-    coverage.at_end += covers(limits.at(failures, kCases), rate) ? 1 : 0;
+    coverage.at_end += covers(limits.at(failures, kCasesEach), rate) ? 1 : 0;
   }
   return coverage;
 }
@@ -60,17 +60,17 @@ Coverage simulate(LimitsOf of, double rate) {
 // Of Clopper and Pearson's limits: the sum of the probabilities of the numbers of failures whose limits cover the rate.
 double exact_coverage(double rate) {
   double sum = 0;
-  for (int k = 0; k <= kCases; ++k) {
-    if (!covers(share_limits(k, kCases, kConfidence), rate)) continue;
-    sum += std::exp(std::lgamma(kCases + 1.0) - std::lgamma(k + 1.0) - std::lgamma(kCases - k + 1.0) + k * std::log(rate) +
-                    (kCases - k) * std::log1p(-rate));
+  for (int k = 0; k <= kCasesEach; ++k) {
+    if (!covers(share_limits(k, kCasesEach, kConfidence), rate)) continue;
+    sum += std::exp(std::lgamma(kCasesEach + 1.0) - std::lgamma(k + 1.0) - std::lgamma(kCasesEach - k + 1.0) + k * std::log(rate) +
+                    (kCasesEach - k) * std::log1p(-rate));
   }
   return sum;
 }
 
 TEST(ShareSequence, CoversTheTruthWheneverACampaignStops) {
   VERIFIES("LASSO-GND-053~1");
-  std::printf("coverage of %d simulated campaigns of %d cases, with looks after each %d\n", kCampaigns, kCases, kLookEvery);
+  std::printf("coverage of %d simulated campaigns of %d cases, with looks after each %d\n", kCampaigns, kCasesEach, kLookEvery);
   std::printf("failure rate   fixed   exact   fixed, looked at   sequence, looked at\n");
   for (const double rate : kRates) {
     const Coverage fixed = simulate(share_limits, rate), sequence = simulate(share_sequence, rate);
