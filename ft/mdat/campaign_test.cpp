@@ -1,0 +1,167 @@
+// Campaigns as their user has them: flown, stopped, divided, flown again one by one, compared; and what is refused.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <filesystem>
+#include <thread>
+
+#include "ft/mdat/command.hpp"
+#include "ut/support/verifies.hpp"
+
+namespace lasso::ft {
+namespace {
+
+const std::string kCampaign = R"(
+[campaign.rough]
+scenario = "spin"
+cases = 6
+frames = 3
+[campaign.rough.truth]
+range_m = { uniform = [3, 5] }
+attitude = "any"
+noise_factor = { uniform = [0.5, 1.5] }
+[campaign.rough.mission]
+estimation.surface_sigma_m = { one_of = [0.0, 0.004] }
+[campaign.rough.criteria.accuracy]
+figure = "worst_mm"
+at_most = 20
+share_min = 0.5
+
+# The same cases of a target of which an array is gone, turned and larger.
+[campaign.gone]
+scenario = "spin"
+cases = 3
+frames = 3
+[campaign.gone.truth]
+range_m = { uniform = [3, 5] }
+attitude = "any"
+noise_factor = { uniform = [0.5, 1.5] }
+model_scale = 1.002
+model_vertex_sigma_m = 0.001
+)";
+
+class CampaignCommand : public ::testing::Test {
+ protected:
+  CampaignCommand() { write_campaigns(kCampaign); }
+  void write_campaigns(const std::string& campaigns) {
+    work.write_mission({{"cell_size_m = 0.012", "cell_size_m = 0.05"}});
+    work.write("missions/test.toml", work.read("missions/test.toml") + campaigns);
+  }
+  Answer run(const std::string& arguments) const { return work.mdat("campaign " + arguments); }
+  Answer fly(const std::string& folder, const std::string& options = "") const {
+    return run("run missions/test.toml --campaign rough --no-report --out " + folder + " " + options);
+  }
+  void expect_refusal(const Answer& answer, const std::string& words) const {
+    EXPECT_EQ(answer.exit_code, 2);
+    EXPECT_NE(answer.err.find(words), std::string::npos) << answer.err;
+  }
+  WorkFolder work;
+};
+
+TEST_F(CampaignCommand, GivesTheSameBytesHoweverItIsDivided) {
+  VERIFIES("LASSO-GND-064~1");
+  const Answer whole = fly("whole", "--jobs 2");
+  ASSERT_EQ(whole.exit_code, 0) << whole.err;
+  EXPECT_NE(whole.out.find("worst_mm <= 20 in at least 50 %  6 of 6"), std::string::npos) << whole.out;
+  ASSERT_EQ(run("expand missions/test.toml --campaign rough --out parts").exit_code, 0);
+  EXPECT_EQ(work.read("parts/plan.json"), work.read("whole/plan.json"));
+  ASSERT_EQ(run("run parts --chunk 2/2 --jobs 1").exit_code, 0);
+  EXPECT_EQ(run("status parts").exit_code, 1) << "half of them are missing";
+  expect_refusal(run("merge parts --no-report"), "3 of 6 cases are missing: mdat campaign run parts goes on");
+  ASSERT_EQ(run("run parts --chunk 1/2 --jobs 1").exit_code, 0);
+  EXPECT_EQ(run("status parts").exit_code, 0);
+  ASSERT_EQ(run("merge parts --no-report").exit_code, 0);
+  for (const char* file : {"cases.csv", "results.csv", "results.h5"})
+    EXPECT_TRUE(work.read(std::string("parts/") + file) == work.read(std::string("whole/") + file)) << file;
+}
+
+TEST_F(CampaignCommand, GoesOnWhereItWasStopped) {
+  VERIFIES("LASSO-GND-062~1 LASSO-GND-063~1");
+  ASSERT_EQ(fly("whole").exit_code, 0);
+  Program program(work, "campaign run missions/test.toml --campaign rough --set campaign.rough.frames=400 --no-report --out halted");
+  for (int i = 0; i < 300 && !std::filesystem::exists(work / "halted/chunks/1of1.part"); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  const Answer halted = program.interrupt();
+  EXPECT_EQ(halted.exit_code, 75) << halted.err;
+  EXPECT_NE(halted.err.find("the same command goes on"), std::string::npos) << halted.err;
+  expect_refusal(fly("halted"), "holds another campaign");
+  ASSERT_EQ(fly("halted", "--force").exit_code, 0);
+  EXPECT_TRUE(work.read("halted/results.csv") == work.read("whole/results.csv"));
+  const Answer again = fly("halted");
+  EXPECT_EQ(again.exit_code, 0);
+  EXPECT_TRUE(work.read("halted/results.csv") == work.read("whole/results.csv"));
+}
+
+TEST_F(CampaignCommand, FliesACaseAgainBitForBit) {
+  VERIFIES("LASSO-GND-067~1");
+  ASSERT_EQ(fly("c").exit_code, 0);
+  const Answer again = run("case c 4 --no-report");
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_NE(again.out.find("all figures are those that the campaign recorded"), std::string::npos) << again.out;
+  EXPECT_FALSE(work.read("c/case-4/telemetry.ccsds").empty());
+  expect_refusal(run("case c 6"), "the campaign has cases 0 to 5");
+}
+
+// Of a campaign whose target differs from the model, too: its surface is that of the run.
+TEST_F(CampaignCommand, FliesACaseOfAnotherTargetAgainBitForBit) {
+  VERIFIES("LASSO-GND-067~1 LASSO-SIM-043~1");
+  ASSERT_EQ(run("run missions/test.toml --campaign gone --no-report --out g").exit_code, 0);
+  EXPECT_EQ(run("case g 2 --no-report").exit_code, 0);
+  ASSERT_EQ(run("run missions/test.toml --campaign gone --no-report --out same --set campaign.gone.truth.model_scale=1.0 --set "
+                "campaign.gone.truth.model_vertex_sigma_m=0")
+                .exit_code,
+            0);
+  EXPECT_NE(work.read("g/results.csv"), work.read("same/results.csv"));
+}
+
+TEST_F(CampaignCommand, ComparesTheSameCasesOfTwoMissions) {
+  VERIFIES("LASSO-GND-066~1");
+  ASSERT_EQ(fly("a").exit_code, 0);
+  ASSERT_EQ(fly("b", "--set estimation.silhouettes=false").exit_code, 0);
+  const Answer both = run("compare a b");
+  EXPECT_EQ(both.exit_code, 0) << both.err;
+  EXPECT_NE(both.out.find("6 cases in both"), std::string::npos) << both.out;
+  EXPECT_NE(both.out.find("accuracy: within in both"), std::string::npos) << both.out;
+  ASSERT_EQ(fly("c", "--set campaign.rough.seed=2").exit_code, 0);
+  expect_refusal(run("compare a c"), "these are not the same cases");
+}
+
+TEST_F(CampaignCommand, RefusesWhatIsNotItsOwn) {
+  VERIFIES("LASSO-GND-068~1");
+  expect_refusal(run("run missions/test.toml --campaign roug"), "did you mean rough?");
+  expect_refusal(run("run missions/test.toml"), "--campaign NAME is needed");
+  expect_refusal(run("status ."), "plan.json: there is none");
+  ASSERT_EQ(run("expand missions/test.toml --campaign rough --out c").exit_code, 0);
+  expect_refusal(run("expand missions/test.toml --campaign rough --out c"), "holds a campaign; --out DIR keeps it");
+  const std::string cases = work.read("c/cases.csv"), mission = work.read("missions/test.toml"), plan = work.read("c/plan.json");
+  work.write("c/cases.csv", cases.substr(0, cases.size() - 2) + "9\n");
+  expect_refusal(run("run c"), "c/cases.csv: is not what the campaign was expanded from");
+  work.write("c/cases.csv", cases);
+  work.write("missions/test.toml", mission + "# a word\n");
+  expect_refusal(run("run c"), "test.toml: is not what the campaign was expanded from");
+  work.write("missions/test.toml", mission);
+  std::filesystem::rename(work / "missions/test.toml", work / "missions/other.toml");
+  expect_refusal(run("run c"), "--mission FILE says where it is");
+  const std::size_t program = plan.find("\"program\": \"") + 12;
+  work.write("c/plan.json", plan.substr(0, program) + (plan[program] == '0' ? "1" : "0") + plan.substr(program + 1));
+  expect_refusal(run("run c --mission missions/other.toml"), "this mdat is another one");
+  work.write("c/plan.json", plan.substr(0, plan.size() / 2));
+  expect_refusal(run("run c --mission missions/other.toml"), "c/plan.json: ");
+}
+
+TEST_F(CampaignCommand, StopsWhenItsCriteriaAreDecided) {
+  VERIFIES("LASSO-GND-055~1");
+  write_campaigns(kCampaign + "[campaign.rough.unused]\n");
+  expect_refusal(fly("x"), "unused");
+  write_campaigns(kCampaign);
+  const Answer stopped = fly("s", "--set campaign.rough.cases=400 --set campaign.rough.look_every=10 --set campaign.rough.frames=1");
+  ASSERT_EQ(stopped.exit_code, 0) << stopped.err;
+  const Json summary = Json::parse(work.read("s/summary.json"));
+  EXPECT_TRUE(summary.at("stopped_by_rule"));
+  EXPECT_EQ(summary.at("cases").get<int>() % 10, 0);
+  EXPECT_LT(summary.at("cases"), 400);
+  EXPECT_EQ(summary.at("criteria").at(0).at("verdict"), "met");
+}
+
+}  // namespace
+}  // namespace lasso::ft
