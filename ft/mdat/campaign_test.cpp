@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <set>
 #include <thread>
 
 #include "ft/mdat/command.hpp"
@@ -112,6 +113,25 @@ TEST_F(CampaignCommand, FliesACaseOfAnotherTargetAgainBitForBit) {
                 .exit_code,
             0);
   EXPECT_NE(work.read("g/results.csv"), work.read("same/results.csv"));
+}
+
+TEST_F(CampaignCommand, FliesFaultScriptsAndFliesThemAgain) {
+  VERIFIES("LASSO-GND-069~1");
+  work.write("missions/late.toml", "[[fault]]\nkind = 'late'\nfrom_s = 0.4\nto_s = 2.0\ndelay_s = 0.15\n");
+  work.write("missions/silent.toml", "[[fault]]\nkind = 'silent'\nfrom_s = 0.4\nto_s = 2.0\n");
+  const std::string campaign = "[campaign.faults]\nscenario = 'spin'\ncases = 4\nframes = 8\n";
+  const std::string scripts = "[campaign.faults.truth]\ncamera_faults = ['late.toml', 'silent.toml']\n";
+  write_campaigns(campaign + scripts);
+  const std::string fly_it = "run missions/test.toml --campaign faults --no-report --out f";
+  expect_refusal(run(fly_it), "only a camera on its line fails by a script");
+  write_campaigns(campaign + "sensor = 'lcs-wire'\n" + scripts);
+  ASSERT_EQ(run(fly_it).exit_code, 0);
+  std::set<std::string> flown;
+  for (const std::string& line : lines_of(work.read("f/cases.csv"))) flown.insert(fields_of(line).at(2));
+  EXPECT_EQ(flown, (std::set<std::string>{"truth.camera_faults", "0", "1"}));
+  EXPECT_EQ(run("case f 3 --no-report").exit_code, 0);
+  work.write("missions/late.toml", "[[fault]]\nkind = 'silent'\nfrom_s = 0.4\nto_s = 1.0\n");
+  expect_refusal(run("run f"), "the fault scripts of faults: is not what the campaign was expanded from");
 }
 
 TEST_F(CampaignCommand, ComparesTheSameCasesOfTwoMissions) {

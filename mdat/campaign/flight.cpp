@@ -3,7 +3,9 @@
 #include <atomic>
 #include <utility>
 
+#include "mdat/missiondb/camera_faults.hpp"
 #include "mdat/missiondb/campaign_columns.hpp"
+#include "mdat/run/camera.hpp"
 
 namespace lasso::mdat {
 
@@ -14,7 +16,17 @@ CampaignFlight::CampaignFlight(const CompiledMission& mission, const CampaignSou
       scenario_(scenario_of(mission.source, campaign.scenario)),
       frames_(campaign.frames != 0 ? campaign.frames : static_cast<std::uint32_t>(scenario_.frames)),
       image_(image_bytes(mission, plain_case(mission.source, scenario_, 0, 0).parameters)),
-      target_(make_target(mission.mesh)) {}
+      target_(make_target(mission.mesh)) {
+  for (const lcs::Device device : {lcs::Device::kLaserCamera, lcs::Device::kLidar, lcs::Device::kTridar}) {
+    if (campaign.sensor == wire_name(device)) wire_ = device;
+  }
+  for (const std::string& script : campaign.fault_scripts) faults_.push_back(load_camera_faults(script));
+  check_simulation(mission.source, options(0, {}), false);
+}
+
+sim::LcsFaults CampaignFlight::faults_of(const Scenario& scenario) const {
+  return scenario.fault_script < 0 ? sim::LcsFaults{} : faults_.at(static_cast<std::size_t>(scenario.fault_script));
+}
 
 Scenario CampaignFlight::scenario_with(const std::vector<double>& values) const {
   Scenario scenario = scenario_;
@@ -24,6 +36,8 @@ Scenario CampaignFlight::scenario_with(const std::vector<double>& values) const 
 
 CaseResult CampaignFlight::fly(std::uint64_t seed, const std::vector<double>& values) const {
   CaseSetup setup = plain_case(mission_.source, scenario_with(values), seed, frames_);
+  setup.wire = wire_;
+  setup.camera_faults = faults_of(setup.scenario);
   std::vector<std::uint8_t> image;
   if (setup.scenario.overrides != scenario_.overrides) image = image_bytes(mission_, setup.parameters);
   setup.image = image.empty() ? &image_ : &image;
@@ -40,12 +54,14 @@ CompiledMission CampaignFlight::mission_of(const std::vector<double>& values) co
   return mission;
 }
 
-SimulationOptions CampaignFlight::options(std::uint64_t seed) const {
+SimulationOptions CampaignFlight::options(std::uint64_t seed, const std::vector<double>& values) const {
   SimulationOptions options;
   options.scenario = campaign_.scenario;
   options.seed = seed;
   options.frames = frames_;
   options.plain = true;
+  options.wire = wire_;
+  if (!values.empty()) options.camera_faults = faults_of(scenario_with(values));
   return options;
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,16 +27,19 @@ class CampaignFlight {
   // The mission with the case's values in the place of its scenario's, for simulate with options(): a run of its own of the same case, bit
   // for bit, which has a report.
   CompiledMission mission_of(const std::vector<double>& values) const;
-  SimulationOptions options(std::uint64_t seed) const;
+  SimulationOptions options(std::uint64_t seed, const std::vector<double>& values) const;
 
  private:
   Scenario scenario_with(const std::vector<double>& values) const;
+  sim::LcsFaults faults_of(const Scenario& scenario) const;
 
   const CompiledMission& mission_;
   const CampaignSource& campaign_;
   std::vector<std::string> columns_;
   Scenario scenario_;
   std::uint32_t frames_;
+  std::optional<lcs::Device> wire_;
+  std::vector<sim::LcsFaults> faults_;  // by the scripts of the campaign
   std::vector<std::uint8_t> image_;
   std::unique_ptr<sim::RayCaster> target_;
 };

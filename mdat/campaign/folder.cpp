@@ -15,7 +15,6 @@
 #include "mdat/campaign/figures.hpp"
 #include "mdat/campaign/flight.hpp"
 #include "mdat/campaign/report.hpp"
-#include "mdat/campaign/report.hpp"
 #include "mdat/campaign/results_h5.hpp"
 #include "mdat/campaign/summary_files.hpp"
 #include "mdat/campaign/summary_text.hpp"
@@ -91,7 +90,9 @@ struct Bench {
       : mission(compile_mission(MissionInput(folder.input), ModelCache::of_user_if(folder.cached))),
         cases(folder.path / kCaseTable),
         flight(mission, campaign_of(mission.source, folder.plan.campaign), cases.columns()),
-        times(folder.path / kChunks / (runner + kTimes)) {}
+        times(folder.path / kChunks / (runner + kTimes)) {
+    check_image(folder.plan, mission);
+  }
 
   std::string fly(std::uint32_t number) {
     const double begin_us = thread_cpu_us();
@@ -194,6 +195,7 @@ void expand_campaign(const MissionInput& input, const std::string& campaign, boo
   plan.target_sha256 = input.source.target.sha256;
   plan.image_sha256 = digest_of_image(input, campaign, cached);
   plan.program_sha256 = program_sha256();
+  plan.scripts_sha256 = scripts_sha256(source);
   std::ostringstream cases;
   write_cases(CaseDraws(source), source.cases, cases);
   const std::string text = std::move(cases).str();
@@ -279,7 +281,7 @@ FlownCase fly_case(const CampaignFolder& folder, std::uint32_t number) {
   CompiledMission own = flight.mission_of(values.numbers);
   for (std::size_t i = 0; i < cases.columns().size(); ++i)
     own.source.settings.push_back(cases.columns()[i] + "=" + cell_text(values.numbers[i]));
-  SimulationResult result = simulate(own, flight.options(values.seed));
+  SimulationResult result = simulate(own, flight.options(values.seed, values.numbers));
   std::string fields = record_fields(result.tables[0].variants[0].cases[0]);
   return {std::move(own), std::move(result), std::move(fields)};
 }

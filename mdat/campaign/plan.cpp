@@ -56,6 +56,7 @@ CampaignPlan plan_of(const PlanJson& json) {
   digests.at("image").get_to(plan.image_sha256);
   digests.at("program").get_to(plan.program_sha256);
   digests.at("cases").get_to(plan.cases_sha256);
+  digests.at("fault_scripts").get_to(plan.scripts_sha256);
   json.at("program").at("version").get_to(plan.version);
   json.at("program").at("commit").get_to(plan.commit);
   return plan;
@@ -77,11 +78,8 @@ std::string plan_json(const CampaignPlan& plan, const CampaignSource& campaign) 
   json["look_every"] = campaign.look_every == 0 ? PlanJson(nullptr) : PlanJson(campaign.look_every);
   json["criteria"] = criteria_json(campaign);
   json["program"] = {{"version", plan.version}, {"commit", plan.commit}};
-  json["sha256"] = {{"mission", plan.mission_sha256},
-                    {"target", plan.target_sha256},
-                    {"image", plan.image_sha256},
-                    {"program", plan.program_sha256},
-                    {"cases", plan.cases_sha256}};
+  json["sha256"] = {{"mission", plan.mission_sha256}, {"target", plan.target_sha256}, {"image", plan.image_sha256},
+                    {"program", plan.program_sha256}, {"cases", plan.cases_sha256},   {"fault_scripts", plan.scripts_sha256}};
   return json.dump(2) + "\n";
 }
 
@@ -119,7 +117,22 @@ MissionInput load_planned(const fs::path& folder, const CampaignPlan& plan, cons
   require_same(folder / kCasesFile, digest_of_file(folder / kCasesFile), plan.cases_sha256, remedy);
   MissionInput input = load_mission_input(file, plan.settings);
   require_same(input.source.target.file, input.source.target.sha256, plan.target_sha256, remedy);
+  require_same("the fault scripts of " + plan.campaign, scripts_sha256(campaign_of(input.source, plan.campaign)), plan.scripts_sha256,
+               remedy);
   return input;
+}
+
+std::string scripts_sha256(const CampaignSource& campaign) {
+  std::string digests;
+  for (const std::string& script : campaign.fault_scripts) digests += digest_of_file(script);
+  return sha256_of(digests);
+}
+
+void check_image(const CampaignPlan& plan, const CompiledMission& mission) {
+  const std::string found = image_sha256(mission, campaign_of(mission.source, plan.campaign));
+  require_same(mission.source.file.string() + ", compiled", found, plan.image_sha256,
+               "one of the files that the mission names (parts, calibrations) has changed; restore it, or expand the campaign anew into "
+               "another folder (--out DIR)");
 }
 
 void check_program(const CampaignPlan& plan) {

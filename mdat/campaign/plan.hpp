@@ -18,6 +18,7 @@ struct CampaignPlan {
   std::vector<std::string> settings;  // KEY=VALUE of the command line
   std::uint32_t cases = 0;
   std::string mission_sha256, target_sha256, image_sha256, program_sha256, cases_sha256;
+  std::string scripts_sha256;   // of the digests of the fault scripts, one after the other
   std::string version, commit;  // of the program, for a person
 };
 
@@ -35,6 +36,9 @@ bool has_plan(const std::filesystem::path& folder);
 
 // The program that is running.
 std::string program_sha256();
+std::string scripts_sha256(const CampaignSource& campaign);
+// Throws InputError where the mission's image is not the plan's: one of the files that it is made of has changed.
+void check_image(const CampaignPlan& plan, const CompiledMission& mission);
 // The flight image of the campaign's scenario, as no case varies it.
 std::string image_sha256(const CompiledMission& mission, const CampaignSource& campaign);
 

@@ -40,6 +40,18 @@ ValueRow range_row() {
   return row;
 }
 
+// Of "truth.camera_faults".
+CampaignColumn faults_column() {
+  constexpr double kMostScripts = 1000;
+  ValueRow row;
+  row.key = kFaultsKey;
+  row.kind = ValueKind::kInteger;
+  row.unit = "1";
+  row.maximum = kMostScripts - 1;
+  row.meaning = "number of the script of faults, from 0";
+  return {kTruth + kFaultsKey, row, 0};
+}
+
 void add_columns(const std::string& prefix, const std::vector<ValueRow>& rows, std::vector<CampaignColumn>& columns) {
   for (const ValueRow& row : rows) {
     std::size_t item = 0;
@@ -73,6 +85,7 @@ const std::vector<CampaignColumn>& campaign_columns() {
   static const std::vector<CampaignColumn> columns = [] {
     std::vector<CampaignColumn> result;
     add_columns(kTruth, truth_rows(), result);
+    result.push_back(faults_column());
     add_columns(kMission, belief_rows(), result);
     return result;
   }();
@@ -107,6 +120,8 @@ void set_column(Scenario& scenario, const std::string& column, double value) {
   if (found == nullptr) throw std::invalid_argument(column + ": names nothing that a campaign may vary");
   if (column == kRangeColumn) {
     scenario.ranges_m = {value};
+  } else if (found->row.key == kFaultsKey) {
+    scenario.fault_script = value;
   } else if (column.rfind(kMission, 0) == 0) {
     scenario.overrides[found->row.key] = value;
   } else if (const ScenarioField& field = field_of(found->row.key); field.list != nullptr) {

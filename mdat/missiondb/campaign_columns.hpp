@@ -32,6 +32,9 @@ const std::vector<ValueRow>& truth_rows();
 // Those of [campaign.NAME.mission].
 const std::vector<ValueRow>& belief_rows();
 
+// Which of a campaign's scripts of faults a case has, from 0: a number of its own beside those keys.
+constexpr char kFaultsKey[] = "camera_faults";
+
 // Why a key of a scenario, or a flight parameter, does not vary, and what to write instead; nullptr if it does, or is none.
 const char* not_varied(const std::string& key);
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "mdat/missiondb/beside.hpp"
+#include "mdat/missiondb/camera_faults.hpp"
 #include "mdat/missiondb/campaign_columns.hpp"
 #include "mdat/missiondb/campaign_rows.hpp"
 #include "mdat/missiondb/dispersions.hpp"
@@ -58,6 +60,7 @@ class CampaignReader {
     campaign_.seed = static_cast<std::uint64_t>(number("seed"));
     campaign_.frames = static_cast<std::uint32_t>(number("frames"));
     campaign_.sampling = static_cast<Sampling>(static_cast<int>(number("sampling")));
+    campaign_.sensor = find_row(campaign_rows(), "sensor")->choices.at(static_cast<std::size_t>(number("sensor")));
     campaign_.look_every = static_cast<std::uint32_t>(number("look_every"));
     if (const std::vector<std::string> scenario = texts_of(found, "scenario"); !scenario.empty()) check_scenario(scenario.front(), found);
   }
@@ -90,11 +93,14 @@ class CampaignReader {
       const std::string name(key.str()), whole = prefix_ + "truth." + name;
       if (name == "attitude") {
         read_attitude(node, whole);
+      } else if (name == kFaultsKey) {
+        read_faults(node, whole);
       } else if (const ValueRow* row = find_row(truth_rows(), name)) {
         read_key(node, *row, "truth." + name, whole);
       } else {
         std::vector<std::string> known = keys_of(truth_rows());
         known.emplace_back("attitude");
+        known.emplace_back(kFaultsKey);
         refuse_key(key, name, whole, known, "a key of a scenario, range_m or attitude");
       }
     }
@@ -105,6 +111,36 @@ class CampaignReader {
           node, whole,
           "expected \"any\": each attitude is as likely as any other; or write roll_deg, tilt_deg and boresight_deg, each with a law");
     dispersions_.add({attitude_columns(), AnyAttitude{}}, whole, origin_of(node.source()));
+  }
+  // Scripts, each as likely as any other.
+  void read_faults(const toml::node& node, const std::string& whole) {
+    ValueRow row;
+    row.kind = ValueKind::kText;
+    row.pattern = "[^\\x00-\\x1f]+";
+    row.count_max = 1000;
+    row.meaning = "scripts of camera faults (docs/user-guide.md), from the mission's folder or the one above: each case has one of them";
+    const auto found = read_value(node, row, whole, problems_);
+    if (!found) return;
+    if (campaign_.sensor == "simulated")
+      problems_.add(found->origin, whole, "", "only a camera on its line fails by a script: add sensor = \"lcs-wire\" to the campaign");
+    OneOf law;
+    for (const std::string& written : found->texts) {
+      add_script(written, whole, found->origin);
+      law.values.push_back(static_cast<double>(law.values.size()));
+    }
+    law.weights.assign(law.values.size(), 1);
+    dispersions_.add({{std::string("truth.") + kFaultsKey}, NumberLaw(law)}, whole, found->origin);
+  }
+  void add_script(const std::string& written, const std::string& whole, Origin origin) {
+    std::filesystem::path file;
+    const bool is_there = find_beside(source_.file, written, file);
+    campaign_.fault_scripts.push_back(file.string());
+    if (!is_there) return problems_.add(origin, whole, '"' + written + '"', "no such file beside the mission or in the folder above");
+    try {
+      static_cast<void>(load_camera_faults(file));
+    } catch (const MissionError& error) {
+      problems_.add(error);
+    }
   }
   void refuse_key(const toml::key& key, const std::string& name, const std::string& whole, const std::vector<std::string>& known,
                   const char* expected) {

@@ -50,6 +50,7 @@ const std::vector<ValueRow>& campaign_rows() {
     plain_row("seed", kInteger, 0, kLargestSeed, {1}, "start of all random numbers: the same seed draws the same cases"),
     plain_row("frames", kInteger, 0, kMostFrames, {0}, "frames of a case; 0: as the scenario says"),
     choice(plain_row("sampling", kInteger, 0, 0, {0}, "random: independent cases; latin_hypercube: each of as many strata as there are cases holds one of them, in each column; sobol: quasi-random, best with 2^k cases"), {"random", "latin_hypercube", "sobol"}),
+    choice(plain_row("sensor", kInteger, 0, 0, {0}, "simulated, or at the end of its line: lcs-wire, lidar-wire, tridar-wire"), {"simulated", "lcs-wire", "lidar-wire", "tridar-wire"}),
     plain_row("look_every", kInteger, 0, kMostCases, {0}, "the stopping rule looks after each so many cases; 0: all are flown"),
   };
   // clang-format on

@@ -42,6 +42,9 @@ Json truth_schema() {
   Json schema = laws_schema(truth_rows(), "what is simulated: keys of the scenario, each a number or a law");
   schema["properties"]["attitude"] = {
       {"type", "string"}, {"enum", {"any"}}, {"description", "roll, tilt and boresight: each attitude is as likely as any other"}};
+  const Json file = {{"type", "string"}};
+  schema["properties"][kFaultsKey] = {{"anyOf", {file, {{"type", "array"}, {"minItems", 1}, {"items", file}}}},
+                                      {"description", "scripts of camera faults, files: each case has one of them"}};
   return schema;
 }
 

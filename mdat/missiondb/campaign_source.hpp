@@ -71,6 +71,8 @@ struct CampaignSource {
   Sampling sampling = Sampling::kRandom;
   std::uint32_t look_every = 0;  // cases between two looks of the stopping rule; 0: none, all are flown
   std::vector<Dispersion> dispersions;
+  std::string sensor = "simulated";        // or at the end of its line, as mdat run --sensor names it
+  std::vector<std::string> fault_scripts;  // files, found; each case has one of them
   std::vector<Criterion> criteria;
 };
 

@@ -113,6 +113,7 @@ struct Scenario {
   double dropout_incidence_rad = 0;  // rays that graze the surface more than this do not return
   double outlier_probability = 0, edge_mixing_m = 0, beam_divergence_rad = 0;
   double seed = 0;
+  double fault_script = -1;  // of a campaign's case: which of its camera_faults; -1: none
 
   // The first range of each run.
   std::vector<double> runs_m() const { return has_profile() ? std::vector<double>{ranges_m.front()} : ranges_m; }
