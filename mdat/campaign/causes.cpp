@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "mdat/campaign/conclusion.hpp"
+#include "mdat/campaign/double_policy.hpp"
 
 namespace lasso::mdat {
 namespace {
@@ -83,7 +84,8 @@ double two_sided_probability(double correlation, std::size_t count) {
   const double least = 2 / std::tgamma(pairs + 1), left = 1 - correlation * correlation;
   if (left <= 0) return least;
   const double t = std::abs(correlation) * std::sqrt((pairs - 2) / left);
-  return std::max(least, 2 * boost::math::cdf(boost::math::complement(boost::math::students_t(pairs - 2), t)));
+  return std::max(least,
+                  2 * boost::math::cdf(boost::math::complement(boost::math::students_t_distribution<double, DoublePolicy>(pairs - 2), t)));
 }
 
 std::vector<double> holm(const std::vector<double>& probabilities) {

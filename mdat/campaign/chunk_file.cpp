@@ -212,13 +212,21 @@ void ChunkFile::append(std::uint32_t number, std::string_view fields) {
   if (std::chrono::steady_clock::now() - synced_ > kSyncEvery) sync();
 }
 
+// A file system without locks lets another process replace or remove the file under this one.
+void ChunkFile::require_own() const {
+  if (!is_still(file_, path_))
+    throw RunError(path_.string() + ": another process has replaced it, without the last cases; start the same command again");
+}
+
 void ChunkFile::sync() {
   if (fdatasync(file_) != 0) fail(errno);
+  require_own();
   sync_folder(path_.parent_path());
   synced_ = std::chrono::steady_clock::now();
 }
 
 void ChunkFile::complete() {
+  require_own();
   if (records_ == 0) {
     if (unlink(path_.c_str()) != 0) fail(errno);
     return;

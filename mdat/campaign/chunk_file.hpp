@@ -28,12 +28,14 @@ class ChunkFile {
   // One write() a record; on the disk itself at the latest with the first record after ten seconds. Throws RunError where it cannot be
   // written (a full disk); the file then ends with the record before.
   void append(std::uint32_t number, std::string_view fields);
-  // On the disk, and renamed to NAME.done (NAME-2.done where that is there). A file without a record goes. Throws RunError.
+  // On the disk, and renamed to NAME.done (NAME-2.done where that is there). A file without a record goes. Throws RunError (also
+  // where another process has replaced the file).
   void complete();
   // Cases whose records were damaged are flown again: a line for a person each.
   const std::vector<std::string>& notes() const { return notes_; }
 
  private:
+  void require_own() const;
   void sync();
   [[noreturn]] void fail(int error) const;
   std::filesystem::path path_;

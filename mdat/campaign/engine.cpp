@@ -8,6 +8,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -52,6 +53,7 @@ class Engine {
   void give_next(Seat& seat);
   void receive(Seat& seat);
   void bury(Seat& seat);
+  void leave_or_start_anew(Seat& seat);
   std::string verdict_on_dead(std::uint32_t number, int signal);
   void keep(std::uint32_t number, const std::string& fields);
   void show_failure(std::uint32_t number, const std::string& fields);
@@ -130,7 +132,6 @@ std::optional<std::uint32_t> Engine::take_next() {
 }
 
 void Engine::start_worker(Seat& seat) {
-  seat.flying.reset();
   seat.worker = std::make_unique<Worker>(make_fly_, [this] {
     file_.reset();
     for (Seat& other : seats_)
@@ -163,10 +164,17 @@ void Engine::receive(Seat& seat) {
   give_next(seat);
 }
 
+// Signals that a program brings upon itself: the same case would do so again. All others come from outside, such as SIGKILL where memory
+// is short, SIGXCPU of a limit, SIGHUP of a terminal that closes.
+bool is_crash(int signal) {
+  constexpr int kCrashes[] = {SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGSEGV, SIGSYS, SIGTRAP};
+  return std::find(std::begin(kCrashes), std::end(kCrashes), signal) != std::end(kCrashes);
+}
+
 // The record of a case whose worker was ended by a signal (0: it left by itself); empty if it is to be flown again.
 std::string Engine::verdict_on_dead(std::uint32_t number, int signal) {
-  if (signal != SIGKILL)
-    return failed_fields(signal == 0 ? "its process ended by itself" : "crashed with signal " + std::to_string(signal));
+  if (signal == 0) return failed_fields("its process ended by itself");
+  if (is_crash(signal)) return failed_fields("crashed with signal " + std::to_string(signal));
   if (++kills_[number] == kTries) return failed_fields("killed " + std::to_string(kTries) + " times");
   again_.push_back(number);
   return "";
@@ -175,14 +183,20 @@ std::string Engine::verdict_on_dead(std::uint32_t number, int signal) {
 void Engine::bury(Seat& seat) {
   const int signal = seat.worker->signal();
   const std::string how = signal == 0 ? "ended by itself" : format("was ended by signal %d (%s)", signal, strsignal(signal));
-  if (!seat.flying && (signal != SIGKILL || ++killed_starts_ == kTries))
+  if (!seat.flying && (signal == 0 || is_crash(signal) || ++killed_starts_ == kTries))
     throw RunError("a worker " + how + " before it flew a case: it may be short of memory (fewer --jobs need less)");
   if (seat.flying) {
     const std::string fields = verdict_on_dead(*seat.flying, signal);
     say(format("warning: case %u: its process %s%s", *seat.flying, how.c_str(), fields.empty() ? "; it is flown again" : ""));
     if (!fields.empty()) keep(*seat.flying, fields);
   }
+  leave_or_start_anew(seat);
+}
+
+// A seat without a worker flies nothing: its case has its record, or is flown again.
+void Engine::leave_or_start_anew(Seat& seat) {
   seat.worker.reset();
+  seat.flying.reset();
   if (!ending_) start_worker(seat);
 }
 
@@ -218,12 +232,7 @@ void Engine::check_case_times() {
   for (Seat& seat : seats_) {
     if (!seat.flying || seconds_since(seat.since) < options_.case_time_limit_s) continue;
     keep(*seat.flying, failed_fields(format("longer than %g s", options_.case_time_limit_s)));
-    seat.worker.reset();
-    if (ending_) {
-      seat.flying.reset();
-    } else {
-      start_worker(seat);
-    }
+    leave_or_start_anew(seat);
   }
 }
 
@@ -234,8 +243,10 @@ void Engine::end_as(EngineEnd end) {
   ending_since_ = Clock::now();
 }
 
+// Cases that were begun before a time limit are waited for, but not against the user's wish.
 void Engine::check_wishes() {
-  if (!interrupted_ || ending_) return;
+  if (!interrupted_ || (ending_ && result_.end != EngineEnd::kTimeLimit)) return;
+  ending_ = false;
   end_as(EngineEnd::kInterrupted);
   say(format("stopping: cases that end within %.0f s are kept", kGraceSeconds));
 }

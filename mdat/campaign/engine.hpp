@@ -38,10 +38,10 @@ struct EngineResult {
 using OnCase = std::function<bool(std::uint32_t case_number, const std::string& fields)>;
 
 // One writer, this process; `jobs` workers. A worker that dies is replaced. Its case has the record "failed:crashed with signal N", except
-// where it was killed from outside (SIGKILL: by hand, or as memory was short): then the case is flown again, three times in all. On Ctrl-C
-// or SIGTERM cases that end within ten seconds are written down, others are dropped; the same call goes on later. Shows progress and the
-// first failures on standard error. Must be called before threads are started in this process (Embree's, too): make_fly is called in each
-// worker. Throws InputError, RunError; what is finished stays.
+// where the signal came from outside (SIGKILL as memory was short, SIGXCPU, SIGHUP): then the case is flown again, three times in all. On
+// Ctrl-C or SIGTERM cases that end within ten seconds are written down, others are dropped; the same call goes on later. Shows progress and
+// the first failures on standard error. Must be called before threads are started in this process (Embree's, too): make_fly is called in
+// each worker. Throws InputError, RunError; what is finished stays.
 EngineResult fly_cases(const EngineOptions& options, const MakeFly& make_fly, const OnCase& on_case);
 
 // The exit code of the command: 0 done or decided, 75 (EX_TEMPFAIL) if the same command is to go on later.

@@ -2,13 +2,9 @@
 
 #include <boost/math/special_functions/beta.hpp>
 
+#include "mdat/campaign/double_policy.hpp"
+
 namespace lasso::mdat {
-namespace {
-
-// Without promotion to long double, which not every processor has: double's own accuracy is plenty.
-using DoublePolicy = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
-
-}  // namespace
 
 double lower_share_limit(double within, double cases, double confidence) {
   return within <= 0 ? 0 : boost::math::ibeta_inv(within, cases - within + 1, 1 - confidence, DoublePolicy());

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "mdat/campaign/causes.hpp"
 #include "mdat/campaign/conclusion.hpp"
 #include "mdat/campaign/summary_text.hpp"
 #include "mdat/common/errors.hpp"
@@ -28,14 +29,21 @@ std::size_t place_of(const std::vector<std::string>& names, const std::string& n
   return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
 }
 
+constexpr char kNotTheSame[] =
+    ": these are not the same cases; give both campaigns the same seed, sampling, number of cases and order of laws";
+
+void require_same_seed(const CampaignSource& a, const CampaignSource& b) {
+  if (a.seed == b.seed) return;
+  throw InputError(format("the seed is %llu in A and %llu in B%s", static_cast<unsigned long long>(a.seed),
+                          static_cast<unsigned long long>(b.seed), kNotTheSame));
+}
+
 void require_same_draws(const CasePair& pair, const ResultTable& a, const ResultTable& b) {
   for (std::size_t i = 0; i < a.columns.size(); ++i) {
     const std::size_t other = place_of(b.columns, a.columns[i]);
     if (other == b.columns.size() || pair.a->drawn[i] == pair.b->drawn[other]) continue;
-    throw InputError(
-        format("case %u has %s = %.9g in A and %.9g in B: these are not the same cases; give both campaigns the same seed, "
-               "sampling, number of cases and order of laws",
-               pair.a->number, a.columns[i].c_str(), pair.a->drawn[i], pair.b->drawn[other]));
+    throw InputError(format("case %u has %s = %.9g in A and %.9g in B%s", pair.a->number, a.columns[i].c_str(), pair.a->drawn[i],
+                            pair.b->drawn[other], kNotTheSame));
   }
 }
 
@@ -102,12 +110,29 @@ PairedCriterion paired_criterion(const Criterion& of_a, std::size_t in_a, const 
   return result;
 }
 
+// That of the same name and figure; nullptr if there is none.
+const Criterion* counterpart(const Criterion& of_a, const CampaignSource& campaign) {
+  const auto is_it = [&](const Criterion& of_b) { return of_a.name == of_b.name && of_a.figure == of_b.figure; };
+  const auto found = std::find_if(campaign.criteria.begin(), campaign.criteria.end(), is_it);
+  return found == campaign.criteria.end() ? nullptr : &*found;
+}
+
+// Corrects the probabilities of several questions, each figure's or criterion's, that are asked at once.
+template <class One>
+void correct_by_holm(std::vector<One>& all) {
+  std::vector<double> probabilities;
+  for (const One& one : all) probabilities.push_back(one.probability);
+  const std::vector<double> corrected = holm(probabilities);
+  for (std::size_t i = 0; i < all.size(); ++i) all[i].probability = corrected[i];
+}
+
 std::string interval_text(const PairedFigure& figure) {
   return std::isnan(figure.half_width) ? format("%+.4g", figure.difference) : format("%+.4g +- %.2g", figure.difference, figure.half_width);
 }
 
 std::string figures_text(const Comparison& comparison) {
-  std::vector<std::vector<std::string>> lines = {{"figure", "cases", "mean A", "mean B", "B - A (95 %)", "larger, smaller", "sign test"}};
+  std::vector<std::vector<std::string>> lines = {
+      {"figure", "cases", "mean A", "mean B", "B - A (95 %)", "larger, smaller", "sign test, Holm"}};
   for (const PairedFigure& one : comparison.figures) {
     if (one.cases == 0) continue;
     lines.push_back({one.name, std::to_string(one.cases), format("%.4g", one.mean_a), format("%.4g", one.mean_b), interval_text(one),
@@ -127,7 +152,7 @@ std::string changes_text(const std::vector<std::uint32_t>& cases, const char* wh
 std::string criterion_changes(const PairedCriterion& one, const std::string& folder_a, const std::string& folder_b) {
   const std::size_t changed = one.only_a.size() + one.only_b.size();
   return format("%s: within in both %u, in neither %u; changed sides %zu%s\n", one.name.c_str(), one.both, one.neither, changed,
-                changed == 0 ? "" : (" (McNemar, " + probability_text(one.probability) + ")").c_str()) +
+                changed == 0 ? "" : (" (McNemar, Holm: " + probability_text(one.probability) + ")").c_str()) +
          changes_text(one.only_a, "within in A alone", folder_b) + changes_text(one.only_b, "within in B alone", folder_a);
 }
 
@@ -140,6 +165,7 @@ double sign_test(std::uint32_t some, std::uint32_t all) {
 }
 
 Comparison compare_cases(const CampaignSource& campaign_a, const ResultTable& a, const CampaignSource& campaign_b, const ResultTable& b) {
+  require_same_seed(campaign_a, campaign_b);
   const CasePairs pairs = pairs_of(a, b);
   Comparison comparison;
   comparison.cases = static_cast<std::uint32_t>(pairs.size());
@@ -150,11 +176,11 @@ Comparison compare_cases(const CampaignSource& campaign_a, const ResultTable& a,
     if (other < b.figures.size()) comparison.figures.push_back(paired_figure(a.figures[i], pairs, i, other));
   }
   for (const Criterion& of_a : campaign_a.criteria) {
-    for (const Criterion& of_b : campaign_b.criteria) {
-      if (of_a.name != of_b.name || of_a.figure != of_b.figure) continue;
-      comparison.criteria.push_back(paired_criterion(of_a, figure_of(of_a, a), of_b, figure_of(of_b, b), pairs));
-    }
+    if (const Criterion* of_b = counterpart(of_a, campaign_b))
+      comparison.criteria.push_back(paired_criterion(of_a, figure_of(of_a, a), *of_b, figure_of(*of_b, b), pairs));
   }
+  correct_by_holm(comparison.figures);
+  correct_by_holm(comparison.criteria);
   return comparison;
 }
 

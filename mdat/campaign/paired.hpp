@@ -16,7 +16,7 @@ struct PairedFigure {
   std::uint32_t cases = 0, larger = 0, smaller = 0;  // in B
   double mean_a = 0, mean_b = 0;
   double difference = 0, half_width = 0;  // mean, and half of Student's interval of 95 %; not a number of fewer than two cases
-  double probability = 1;                 // of so unequal numbers of larger and smaller by chance: sign test, exact, two-sided
+  double probability = 1;                 // of so unequal numbers of larger and smaller by chance: sign test, exact, two-sided; Holm
 };
 
 // A criterion that both have by the same name and figure.
@@ -24,7 +24,7 @@ struct PairedCriterion {
   std::string name;
   std::uint32_t both = 0, neither = 0;        // cases within the bounds: A's in A, B's in B
   std::vector<std::uint32_t> only_a, only_b;  // numbers of the cases that changed sides
-  double probability = 1;                     // of so unequal changes by chance: McNemar's test, exact, two-sided
+  double probability = 1;                     // of so unequal changes by chance: McNemar's test, exact, two-sided; Holm
 };
 
 struct Comparison {
@@ -34,8 +34,9 @@ struct Comparison {
   std::vector<PairedCriterion> criteria;
 };
 
-// Cases are the same where they have the same number. Throws InputError where a value that both draw differs in one of them: then they are
-// not the same cases.
+// Cases are the same where they have the same number. Throws InputError where the campaigns have two seeds, so that the noise differs, or
+// where a value that both draw differs in a case: then they are not the same cases. Probabilities are corrected by Holm, those of figures
+// for the number of figures and those of criteria for the number of criteria.
 Comparison compare_cases(const CampaignSource& campaign_a, const ResultTable& a, const CampaignSource& campaign_b, const ResultTable& b);
 
 // For the terminal; `folder_a`, `folder_b` as commands name them.

@@ -3,6 +3,8 @@
 #include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
 
+#include "mdat/campaign/double_policy.hpp"
+
 namespace lasso::mdat {
 namespace {
 
@@ -10,8 +12,8 @@ constexpr double kPrior = 0.5;                 // Beta(1/2, 1/2): narrow limits 
 constexpr double kLogPi = 1.1447298858494002;  // ln B(1/2, 1/2)
 constexpr int kBisections = 60;
 
-// ln Gamma of Boost: that of libm writes a global variable, and is not the same everywhere.
-double log_gamma(double x) { return boost::math::lgamma(x); }
+// ln Gamma of Boost, in doubles throughout: that of libm writes a global variable, and is not the same everywhere.
+double log_gamma(double x) { return boost::math::lgamma(x, DoublePolicy()); }
 
 double log_mixture(double within, double cases) {
   return log_gamma(within + kPrior) + log_gamma(cases - within + kPrior) - log_gamma(cases + 2 * kPrior) - kLogPi;

@@ -101,5 +101,18 @@ TEST(ChunkFile, SaysWhyItCannotBeMade) {
   EXPECT_NE(message.find("chunks: cannot be opened for writing: Not a directory"), std::string::npos) << message;
 }
 
+// Where the file system has no locks.
+TEST(ChunkFile, SaysThatAnotherProcessHasReplacedIt) {
+  VERIFIES("LASSO-GND-090~1");
+  const ChunkFolder folder;
+  ChunkFile file(folder.path(), "1of1", kPlan);
+  file.append(0, "ok");
+  const auto path = folder.path() / "chunks/1of1.part";
+  std::filesystem::copy_file(path, folder.path() / "copy");
+  std::filesystem::rename(folder.path() / "copy", path);
+  const std::string message = message_of<RunError>([&] { file.complete(); });
+  EXPECT_NE(message.find("1of1.part: another process has replaced it"), std::string::npos) << message;
+}
+
 }  // namespace
 }  // namespace lasso::mdat

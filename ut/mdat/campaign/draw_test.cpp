@@ -83,6 +83,7 @@ TEST(CaseDraws, NoShareLeavesTheRange) {
     EXPECT_EQ(std::clamp(quantile_of(Normal{0, 1, 6, 7}, share), 6.0, 7.0), quantile_of(Normal{0, 1, 6, 7}, share));
     EXPECT_LT(std::fabs(quantile_of(Normal{0, 1, -kInfinity, kInfinity}, share)), 8.3);
   }
+  for (double low = -3; low <= 0; low += 0.01) EXPECT_LT(quantile_of(Normal{0, 1, low, kInfinity}, 1 - kLeast), 8.3) << low;
 }
 
 TEST(CaseDraws, ValuesOfAListComeAsOftenAsTheirWeights) {

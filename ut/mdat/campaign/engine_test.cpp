@@ -170,6 +170,46 @@ TEST(CampaignEngine, ACaseThatIsKilledIsFlownAgain) {
   EXPECT_EQ(records.failed(), 1U);
 }
 
+// Case 0 crashes after SIGTERM, while case 2 is still waited for: its time goes on, and must not give it a second record.
+TEST(CampaignEngine, ACaseThatCrashesInTheEndHasOneRecord) {
+  VERIFIES("LASSO-GND-090~1 LASSO-GND-091~1");
+  const ChunkFolder folder;
+  const auto mark = folder.path() / "flying";
+  const auto wait_for_mark = [&] {
+    while (!std::filesystem::exists(mark)) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  };
+  const MakeFly fly = flies([&](std::uint32_t number) {
+    if (number == 2) std::ofstream{mark};
+    if (number == 0) wait_for_mark();
+    std::this_thread::sleep_for(std::chrono::milliseconds(number == 0 ? 100 : 200 * (number + 1)));
+    if (number == 0) (void)raise(SIGSEGV);
+    return fields_of_case(number);
+  });
+  EngineOptions options = options_of(folder, 3, 2);
+  options.case_time_limit_s = 0.7;
+  const pid_t process = start_engine(options, fly);
+  wait_for_mark();
+  kill(process, SIGTERM);
+  (void)status_of(process);
+  EXPECT_EQ(Records(folder.path(), kPlan, 3).of(0), "failed:crashed with signal 11");
+}
+
+TEST(CampaignEngine, ASignalFromOutsideIsNoCrash) {
+  VERIFIES("LASSO-GND-091~1");
+  Quiet quiet;
+  const ChunkFolder folder;
+  const auto mark = folder.path() / "limited";
+  const Fly fly = [&](std::uint32_t number) {
+    if (number == 1 && !std::filesystem::exists(mark)) {
+      std::ofstream{mark};
+      (void)raise(SIGUSR1);
+    }
+    return fields_of_case(number);
+  };
+  EXPECT_EQ(fly_cases(options_of(folder, 3, 1), flies(fly), goes_on).end, EngineEnd::kDone);
+  EXPECT_EQ(Records(folder.path(), kPlan, 3).of(1), fields_of_case(1));
+}
+
 TEST(CampaignEngine, ACaseThatDoesNotEndHasFailed) {
   VERIFIES("LASSO-GND-091~1");
   Quiet quiet;

@@ -69,6 +69,35 @@ TEST(PairedCases, SignTestIsExact) {
   EXPECT_DOUBLE_EQ(sign_test(0, 0), 1);
 }
 
+// Five of five cases are larger in one of four figures: 4 * 2 / 2^5, as one of four would be so unequal by chance.
+TEST(PairedCases, ProbabilitiesAreCorrectedForTheNumberOfFigures) {
+  VERIFIES("LASSO-GND-066~1");
+  ResultTable a = table_of({1, 2, 3, 4, 5}), b = table_of({2, 3, 4, 5, 6});
+  for (const char* name : {"nees", "lost", "wrong"}) {
+    for (ResultTable* table : {&a, &b}) {
+      table->figures.emplace_back(name);
+      for (CaseRow& row : table->rows) row.figures.push_back(0);
+    }
+  }
+  const Comparison both = compare_cases(asking_at_most(3), a, asking_at_most(3), b);
+  ASSERT_EQ(both.figures.size(), 4U);
+  EXPECT_DOUBLE_EQ(both.figures[0].probability, 0.25);
+  EXPECT_EQ(both.figures[1].probability, 1);
+}
+
+// Nothing is drawn but the noise.
+TEST(PairedCases, OfTwoSeedsAreRefused) {
+  VERIFIES("LASSO-GND-066~1");
+  CampaignSource other = asking_at_most(3);
+  other.seed = 2;
+  try {
+    static_cast<void>(compare_cases(asking_at_most(3), table_of({1}), other, table_of({1})));
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_EQ(std::string(error.what()).find("the seed is 1 in A and 2 in B: these are not the same cases"), 0U) << error.what();
+  }
+}
+
 TEST(PairedCases, OtherCasesAreRefusedAndThoseOfOneAloneLeftOut) {
   VERIFIES("LASSO-GND-066~1");
   const ResultTable five = table_of({1, 2, 3, 4, 5});
