@@ -64,6 +64,10 @@ double percentile(const CaseResult& result, double (*value)(const FrameError&)) 
   return values[std::max<std::size_t>(rank, 1) - 1];
 }
 
+double last(const CaseResult& result, double (*value)(const FrameError&)) {
+  return result.frames.empty() || !result.frames.back().valid ? kUnknown : value(result.frames.back());
+}
+
 template <class Test>
 const FrameError* first_of(const CaseResult& result, const Test& test) {
   const auto frame = std::find_if(result.frames.begin(), result.frames.end(), test);
@@ -93,6 +97,8 @@ const std::vector<Figure>& case_figures() {
     {"rms_deg", "error of the attitude, root mean square", [](R r) { return root_mean_square(r, rotation_deg); }},
     {"p95_deg", "error of the attitude, 95th percentile", [](R r) { return percentile(r, rotation_deg); }},
     {"worst_deg", "error of the attitude, worst frame", [](R r) { return worst(r, rotation_deg); }},
+    {"last_mm", "error of the position in the last frame, if its pose is valid", [](R r) { return last(r, translation_mm); }},
+    {"last_deg", "error of the attitude in the last frame, if its pose is valid", [](R r) { return last(r, rotation_deg); }},
     {"nees", "normalised error squared, mean: 6 where the covariance is honest", [](R r) { return mean(r, nees_of); }},
     {"settled_invalid", "frames without a valid pose after the first 20", [](R r) { return known_or_nan(r, static_cast<double>(settled(r).invalid)); }},
     {"settled_degps", "error of the angular rate after the first 20 frames, root mean square", [](R r) { return known_or_nan(r, settled(r).rms_degps); }},
