@@ -38,7 +38,7 @@ TEST(ShippedCampaigns, SettingsAreCheckedAsTheFilesKeysAre) {
     return answer.err;
   };
   EXPECT_NE(refused("campaign.basin.cases=0").find("campaign.basin.cases"), std::string::npos);
-  EXPECT_NE(refused("campaign.basin.case=5").find("did you mean cases?"), std::string::npos);
+  EXPECT_NE(refused("campaign.basin.case=5").find("did you mean campaign.basin.cases?"), std::string::npos);
   EXPECT_NE(refused("campaign.basin.criteria.found_in_place.share_min=2").find("share_min"), std::string::npos);
   EXPECT_NE(refused("campaign.other.cases=5").find("campaign.other.scenario"), std::string::npos);
 }
