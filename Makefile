@@ -127,18 +127,20 @@ bench: ## measure: time the estimate, its stages, and closest-point ICP of Embre
 	@mkdir -p $(LASSO_OUT)/bench
 	@ft/bench/run $(BENCH) $(LASSO_OUT)/bench
 
-basin: ## measure: 1000 starts that are 20 deg and 0.3 m off: how many are found: STARTS= SEED=
-	$(call packages,build)
-	$(call configure,$(BUILD),)
-	$(call compile,$(BUILD),basin)
-	@$(BUILD)/ft/campaign/basin "$(MISSION)" $(or $(STARTS),1000) $(or $(SEED),1)
-
-montecarlo: ## measure: 2000 closed-loop flights drawn at random: lost, invalid, wrong: FLIGHTS= SEED=
+# $(call fly,COUNT): the campaign of MISSION that the target is named after (ft/campaign/fly)
+define fly
+$(call packages,build)
+$(call configure,$(BUILD),)
+$(call compile,$(BUILD),mdat)
+@ft/campaign/fly $@ $(BUILD) "$(MISSION)" $@ "$(1)" "$(SEED)"
+endef
+basin: ## measure: 1000 starts that are 20 deg and 0.3 m off: how many are found: STARTS= SEED= MISSION=
 	$(begin)
-	$(call packages,build)
-	$(call configure,$(BUILD),)
-	$(call compile,$(BUILD),montecarlo)
-	@ft/campaign/run montecarlo $(BUILD) $(or $(FLIGHTS),2000) $(or $(SEED),1)
+	$(call fly,$(STARTS))
+
+montecarlo: ## measure: 2000 closed-loop flights drawn at random: how often a pose is missing or wrong: FLIGHTS= SEED= MISSION=
+	$(begin)
+	$(call fly,$(FLIGHTS))
 
 flips: ## measure: 10000 flights, each with one flipped bit: masked, told, silent: FLIPS= SEED=
 	$(begin)
@@ -177,11 +179,11 @@ endurance: ## measure: a day of simulated time at 5 Hz: nothing drifts, grows, s
 	$(call compile,$(BUILD),endurance)
 	@ft/campaign/run endurance $(BUILD) $(or $(HOURS),24) $(or $(SEED),1)
 
-campaigns-sample: ## gate: a seeded hundredth of fuzz, flips, montecarlo, basin and statistics; an hour of endurance
+campaigns-sample: ## gate: a seeded hundredth of fuzz, flips, statistics and the missions' campaigns; an hour of endurance
 	$(begin)
 	$(fuzzers)
 	$(replays)
-	$(call compile,$(BUILD),basin endurance flips montecarlo scrub)
+	$(call compile,$(BUILD),mdat endurance flips scrub)
 	@ft/campaign/sample $(BUILD) $(PPC) $(FUZZ)
 
 # $(call linked_image,BOARD,IMAGE): a board's image with the shipped mission in itself.
@@ -486,6 +488,12 @@ icd: ## write: write docs/icd/link.md from the dictionary of packets
 	$(call configure,$(BUILD),)
 	$(call compile,$(BUILD),mdat)
 	@$(BUILD)/mdat/mdat dictionary >$(LASSO_OUT)/link.md && { cmp -s $(LASSO_OUT)/link.md docs/icd/link.md || mv $(LASSO_OUT)/link.md docs/icd/link.md; }
+
+campaign-table: ## write: write the tables of the missions' campaigns of docs/campaigns.md
+	$(call packages,build)
+	$(call configure,$(BUILD),)
+	$(call compile,$(BUILD),mdat)
+	@ft/campaign/table $(BUILD)
 
 figures: ## write: write the measured figures of README.md and docs/benchmarks.md
 	@docs/figures

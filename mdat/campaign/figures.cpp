@@ -64,11 +64,18 @@ double percentile(const CaseResult& result, double (*value)(const FrameError&)) 
   return values[std::max<std::size_t>(rank, 1) - 1];
 }
 
+double last(const CaseResult& result, double (*value)(const FrameError&)) {
+  return result.frames.empty() || !result.frames.back().valid ? kUnknown : value(result.frames.back());
+}
+
 template <class Test>
 const FrameError* first_of(const CaseResult& result, const Test& test) {
   const auto frame = std::find_if(result.frames.begin(), result.frames.end(), test);
   return frame == result.frames.end() ? nullptr : &*frame;
 }
+
+// Of a case that never had a valid pose to begin at, nothing is known of what would have followed.
+double of_begun(const CaseResult& result, double count) { return result.frames.empty() ? kUnknown : count; }
 
 SettledStatistics settled(const CaseResult& result) { return settled_statistics(settled_frames(result.frames)); }
 double known_or_nan(const CaseResult& result, double value) { return result.frames.size() > kSettlingFrames ? value : kUnknown; }
@@ -82,8 +89,8 @@ const std::vector<Figure>& case_figures() {
   static const std::vector<Figure> figures = {
     {"frames", "frames that were flown; without a pose to start from: since the first valid one", [](R r) { return static_cast<double>(r.frames.size()); }},
     {"valid", "frames with a valid pose", [](R r) { return count_if(r.frames, [](F f) { return f.valid; }); }},
-    {"invalid", "frames with a registration that is not valid", [](R r) { return count_if(r.frames, [](F f) { return f.reported && !f.valid; }); }},
-    {"lost", "frames without a registration, or off by more than 50 mm or 5 deg", [](R r) { return count_if(r.frames, [](F f) { return f.lost(); }); }},
+    {"invalid", "frames with a registration that is not valid", [](R r) { return of_begun(r, count_if(r.frames, [](F f) { return f.reported && !f.valid; })); }},
+    {"lost", "frames without a registration, or off by more than 50 mm or 5 deg", [](R r) { return of_begun(r, count_if(r.frames, [](F f) { return f.lost(); })); }},
     {"wrong", "frames with a valid pose that is wrong: off by more than 5 of its sigmas, and by more than 20 mm or 1 deg", [](R r) { return count_if(r.frames, [](F f) { return f.wrong; }); }},
     {"first_wrong", "number of the first frame with a wrong pose", [](R r) { const FrameError* f = first_of(r, [](F e) { return e.wrong; }); return f == nullptr ? kUnknown : static_cast<double>(f->frame); }},
     {"found_s", "time of the first valid pose", [](R r) { const FrameError* f = first_of(r, [](F e) { return e.valid; }); return f == nullptr ? kUnknown : f->t_s; }},
@@ -93,6 +100,8 @@ const std::vector<Figure>& case_figures() {
     {"rms_deg", "error of the attitude, root mean square", [](R r) { return root_mean_square(r, rotation_deg); }},
     {"p95_deg", "error of the attitude, 95th percentile", [](R r) { return percentile(r, rotation_deg); }},
     {"worst_deg", "error of the attitude, worst frame", [](R r) { return worst(r, rotation_deg); }},
+    {"last_mm", "error of the position in the last frame, if its pose is valid", [](R r) { return last(r, translation_mm); }},
+    {"last_deg", "error of the attitude in the last frame, if its pose is valid", [](R r) { return last(r, rotation_deg); }},
     {"nees", "normalised error squared, mean: 6 where the covariance is honest", [](R r) { return mean(r, nees_of); }},
     {"settled_invalid", "frames without a valid pose after the first 20", [](R r) { return known_or_nan(r, static_cast<double>(settled(r).invalid)); }},
     {"settled_degps", "error of the angular rate after the first 20 frames, root mean square", [](R r) { return known_or_nan(r, settled(r).rms_degps); }},

@@ -6,6 +6,7 @@
 #include <memory>
 #include <thread>
 
+#include "mdat/campaign/campaign_list.hpp"
 #include "mdat/campaign/chunk_of.hpp"
 #include "mdat/campaign/folder.hpp"
 #include "mdat/campaign/launch.hpp"
@@ -31,7 +32,7 @@ struct CampaignArguments {
   unsigned jobs = std::max(1U, std::thread::hardware_concurrency());
   std::uint32_t number = 0, chunks = 0;
   double seconds_per_case = 0;
-  bool cached = true, force = false, report = true, partial = false, failed = false;
+  bool cached = true, force = false, report = true, partial = false, failed = false, markdown = false;
 };
 
 CampaignFolder open_folder(const CampaignArguments& options) { return open_campaign(options.target, options.mission, options.cached); }
@@ -102,6 +103,11 @@ void run_campaign(CampaignArguments options) {
   const EngineResult flown = fly(options, folder);
   if (exit_code_of(flown.end) != kExitDone) leave(exit_code_of(flown.end));
   if (options.chunk.empty()) conclude(options, folder, false);
+}
+
+void list(const CampaignArguments& options) {
+  const auto campaigns = load_mission_input(options.target, options.settings).source.campaigns;
+  std::fputs((options.markdown ? campaign_table(campaigns) : campaign_list(campaigns)).c_str(), stdout);
 }
 
 void show_status(const CampaignArguments& options) {
@@ -211,6 +217,15 @@ void add_expand(CLI::App& group) {
   command->callback([options] { expand(*options); });
 }
 
+void add_list(CLI::App& group) {
+  const auto options = std::make_shared<CampaignArguments>();
+  CLI::App* command = group.add_subcommand("list", "the campaigns of a mission: what each varies and asks");
+  command->add_option("MISSION", options->target, "mission file (.toml)")->required()->check(CLI::ExistingFile);
+  command->add_flag("--markdown", options->markdown, "as a table for a page");
+  add_settings(*command, options->settings);
+  command->callback([options] { list(*options); });
+}
+
 void add_status(CLI::App& group) {
   const auto options = std::make_shared<CampaignArguments>();
   CLI::App* command = folder_command(group, "status", "how many cases are done, have failed, are missing", options);
@@ -272,6 +287,7 @@ void add_campaign_command(CLI::App& app) {
   CLI::App* group =
       app.add_subcommand("campaign", "fly a mission many times, as [campaign.NAME] varies it: how often does it fail, and where?");
   group->require_subcommand(1);
+  add_list(*group);
   add_run(*group);
   add_expand(*group);
   add_status(*group);

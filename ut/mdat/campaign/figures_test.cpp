@@ -48,6 +48,17 @@ TEST(CaseFigures, AreOfTheValidPosesAlone) {
   EXPECT_NEAR(figures["nees"], 3.5, 1e-12);
 }
 
+TEST(CaseFigures, SayWhereACaseEnds) {
+  VERIFIES("LASSO-GND-044~1");
+  CaseResult result;
+  result.frames = {frame_of(0, 40, 2, true), frame_of(1, 3, 0.5, true)};
+  EXPECT_NEAR(figures_of(result)["last_mm"], 3, 1e-12);
+  EXPECT_NEAR(figures_of(result)["last_deg"], 0.5, 1e-12);
+  result.frames.push_back(frame_of(2, 3, 0.5, false));
+  EXPECT_TRUE(std::isnan(figures_of(result)["last_mm"]));
+  EXPECT_TRUE(std::isnan(figures_of(result)["last_deg"]));
+}
+
 TEST(CaseFigures, PercentilesAreByNearestRank) {
   VERIFIES("LASSO-GND-044~1");
   CaseResult result;
