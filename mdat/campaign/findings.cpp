@@ -13,6 +13,14 @@ namespace {
 
 constexpr std::size_t kWorstCases = 10;
 
+// Cases that were flown and in which no pose was ever valid.
+std::size_t never_valid(const ResultTable& table) {
+  const auto valid = static_cast<std::size_t>(std::find(table.figures.begin(), table.figures.end(), "valid") - table.figures.begin());
+  if (valid == table.figures.size()) return 0;
+  const auto is_never = [&](const CaseRow& row) { return row.has_run() && row.figures[valid] == 0; };
+  return static_cast<std::size_t>(std::count_if(table.rows.begin(), table.rows.end(), is_never));
+}
+
 // Which columns are components of vectors, by the vectors' names.
 std::map<std::string, std::vector<std::size_t>> vectors_of(const std::vector<std::string>& columns) {
   std::map<std::string, std::vector<std::size_t>> vectors;
@@ -81,6 +89,7 @@ std::string cases_text(const Findings& all) {
   if (flown < all.campaign.cases) text += format(" of %s%u", all.campaign.look_every > 0 ? "at most " : "", all.campaign.cases);
   text += text == "1" ? " case" : " cases";
   if (all.stopped) text += ", as its rule stopped it";
+  if (const std::size_t never = never_valid(all.table); never > 0) text += format("; in %zu of them no pose was ever valid", never);
   if (all.not_run == 0) return text;
   const std::string counts = all.findings.empty() ? "" : all.not_run == 1 ? ", which counts as outside" : ", which count as outside";
   return text + format("; %u failed to run", all.not_run) + counts;

@@ -138,6 +138,17 @@ ResultTable empty_table(const std::vector<std::string>& columns) {
   return table;
 }
 
+// Of all finished cases.
+ResultTable rows_of(const CampaignFolder& folder, const Records& records) {
+  CaseTable cases(folder.path / kCaseTable);
+  ResultTable table = empty_table(cases.columns());
+  for (std::uint32_t number = 0; number < folder.plan.cases; ++number) {
+    std::vector<double> drawn = cases.at(number).numbers;
+    if (const auto fields = records.of(number)) table.rows.push_back(row_of(number, *fields, std::move(drawn)));
+  }
+  return table;
+}
+
 // Asks the stopping rule as cases come, in whatever order: rows stand by their numbers, and it looks as often as it may.
 class Watch {
  public:
@@ -231,12 +242,7 @@ EngineResult fly_campaign(const CampaignFolder& folder, EngineOptions options) {
 
 ResultTable merged(const CampaignFolder& folder, bool partial) {
   const Records records(folder.path, folder.digest, folder.plan.cases);
-  CaseTable cases(folder.path / kCaseTable);
-  ResultTable table = empty_table(cases.columns());
-  for (std::uint32_t number = 0; number < folder.plan.cases; ++number) {
-    std::vector<double> drawn = cases.at(number).numbers;
-    if (const auto fields = records.of(number)) table.rows.push_back(row_of(number, *fields, std::move(drawn)));
-  }
+  ResultTable table = rows_of(folder, records);
   if (const auto stop = stop_at(folder.campaign(), table)) {
     table.rows.resize(*stop);
   } else if (records.missing() > 0 && !partial) {
@@ -245,6 +251,10 @@ ResultTable merged(const CampaignFolder& folder, bool partial) {
                      " goes on; --partial takes those that are there");
   }
   return table;
+}
+
+std::optional<std::uint32_t> stopped_at(const CampaignFolder& folder) {
+  return stop_at(folder.campaign(), rows_of(folder, Records(folder.path, folder.digest, folder.plan.cases)));
 }
 
 std::string write_results(const CampaignFolder& folder, const ResultTable& table) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,9 @@ EngineResult fly_campaign(const CampaignFolder& folder, EngineOptions options);
 // Rows of all finished cases, up to the one at which the stopping rule ends the campaign. `partial`: with cases missing; otherwise throws
 // InputError where some are.
 ResultTable merged(const CampaignFolder& folder, bool partial);
+
+// How many cases its stopping rule has needed; nothing where it has none, or is not decided yet.
+std::optional<std::uint32_t> stopped_at(const CampaignFolder& folder);
 
 // results.csv, results.h5, times.csv, summary.json, junit.xml. Returns the summary for the terminal.
 std::string write_results(const CampaignFolder& folder, const ResultTable& table);

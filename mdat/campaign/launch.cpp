@@ -110,19 +110,24 @@ const std::vector<Launcher>& launchers() {
   return all;
 }
 
-std::string launch_text(const std::string& engine, const LaunchOptions& options) {
+const Launcher& launcher_of(const std::string& engine) {
   std::vector<std::string> names;
   for (const Launcher& launcher : launchers()) {
+    if (engine == launcher.engine) return launcher;
     names.emplace_back(launcher.engine);
-    if (engine != launcher.engine) continue;
-    for (const std::string& name : {options.folder, options.program})
-      if (!takes_any_name(engine) && shell_word(name) != name)
-        throw InputError(name + ": " + engine + " does not take a name with spaces or signs in its job files: move it, or link to it");
-    return launcher.text(options);
   }
   std::string known;
   for (const std::string& name : names) known += (known.empty() ? "" : ", ") + name;
   throw InputError("--engine " + engine + ": not known" + did_you_mean(engine, names) + "; known are " + known);
+}
+
+std::string launch_text(const std::string& engine, const LaunchOptions& options) {
+  const Launcher& launcher = launcher_of(engine);
+  for (const std::string& name : {options.folder, options.program}) {
+    if (!takes_any_name(engine) && shell_word(name) != name)
+      throw InputError(name + ": " + engine + " does not take a name with spaces or signs in its job files: move it, or link to it");
+  }
+  return launcher.text(options);
 }
 
 std::uint32_t chunks_for(std::uint32_t cases, double seconds_per_case) {

@@ -24,6 +24,9 @@ struct Launcher {
 // slurm, pbs, lsf, sge, htcondor, k8s, parallel, local
 const std::vector<Launcher>& launchers();
 
+// Throws InputError, which names those that there are.
+const Launcher& launcher_of(const std::string& engine);
+
 // The file of one of the engines. Each chunk that is ended early goes on when the same file is submitted again. Throws InputError: no such
 // engine, or a folder whose name schedulers would cut up.
 std::string launch_text(const std::string& engine, const LaunchOptions& options);

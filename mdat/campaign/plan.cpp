@@ -34,7 +34,13 @@ PlanJson criteria_json(const CampaignSource& campaign) {
   return json;
 }
 
-std::string digest_of_file(const fs::path& file) { return sha256_of(file_content(file)); }
+std::string digest_of_file(const fs::path& file) {
+  try {
+    return sha256_of_file(file);
+  } catch (const std::runtime_error& error) {
+    throw InputError(file.string() + ": " + error.what());
+  }
+}
 
 std::string shown_digest(const std::string& digest) { return digest.substr(0, kPlanDigestShown); }
 

@@ -89,6 +89,10 @@ EngineResult fly(const CampaignArguments& options, const CampaignFolder& folder)
 }
 
 void run_campaign(CampaignArguments options) {
+  if (fs::is_directory(options.target) && (!options.campaign.empty() || !options.out.empty() || !options.settings.empty() || options.force))
+    throw InputError(options.target +
+                     ": is the folder of a campaign that is expanded already: --campaign, --out, --set and --force go "
+                     "with a mission file");
   if (!fs::is_directory(options.target)) {
     const fs::path folder = folder_of(options);
     if (options.force || !has_plan(folder)) {
@@ -113,6 +117,13 @@ void list(const CampaignArguments& options) {
 void show_status(const CampaignArguments& options) {
   const LoadedPlan loaded = load_plan(options.target);
   const Records records(options.target, loaded.digest, loaded.plan.cases);
+  if (records.missing() > 0 && records.done() > 0) {
+    if (const auto stop = stopped_at(open_folder(options))) {
+      std::printf("decided by its stopping rule after %u cases; the others are not needed: mdat campaign merge %s concludes\n", *stop,
+                  shell_word(options.target).c_str());
+      return;
+    }
+  }
   std::fputs(status_text(options.target, records).c_str(), stdout);
   if (records.missing() > 0) leave(kExitFailed);
 }
@@ -120,7 +131,9 @@ void show_status(const CampaignArguments& options) {
 void retry(const CampaignArguments& options) {
   const LoadedPlan loaded = load_plan(options.target);
   const std::size_t taken = retry_failed(options.target, loaded.digest);
-  std::printf("%zu failed cases are to be flown again: mdat campaign run %s\n", taken, shell_word(options.target).c_str());
+  if (taken == 0) return (void)std::printf("no case has failed\n");
+  std::printf("%zu failed %s to be flown again: mdat campaign run %s\n", taken, taken == 1 ? "case is" : "cases are",
+              shell_word(options.target).c_str());
 }
 
 void case_again(const CampaignArguments& options) {
@@ -159,7 +172,11 @@ void launch(const CampaignArguments& options) {
   launch.chunk_s = options.seconds_per_case * loaded.plan.cases / launch.chunks;
   const std::string text = launch_text(options.engine, launch);
   fs::create_directories(fs::path(options.target) / "launch");
+  const Launcher& launcher = launcher_of(options.engine);
+  const fs::path file = fs::path(options.target) / "launch" / launcher.file;
+  write_file(file, text);
   std::fputs(text.c_str(), stdout);
+  std::fprintf(stderr, "written to %s; in its folder: %s\n", file.c_str(), launcher.submit);
 }
 
 void compare(const CampaignArguments& options) {
@@ -229,7 +246,8 @@ void add_list(CLI::App& group) {
 void add_status(CLI::App& group) {
   const auto options = std::make_shared<CampaignArguments>();
   CLI::App* command = folder_command(group, "status", "how many cases are done, have failed, are missing", options);
-  command->footer("Exit codes: 0 none is missing, 1 some are.");
+  add_mission_option(*command, options);
+  command->footer("Exit codes: 0 none is missing or its stopping rule has decided, 1 some are missing.");
   command->callback([options] { show_status(*options); });
 }
 

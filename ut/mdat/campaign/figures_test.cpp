@@ -66,6 +66,16 @@ TEST(CaseFigures, PercentilesAreByNearestRank) {
   EXPECT_NEAR(figures_of(result)["p95_mm"], 38, 1e-12);                                          // the 38th of 40
 }
 
+// Nothing was found in it: that none is lost or invalid is no good sign.
+TEST(CaseFigures, OfACaseThatNeverBeganNoLossIsKnown) {
+  VERIFIES("LASSO-GND-044~1");
+  auto figures = figures_of(CaseResult{});
+  EXPECT_EQ(figures["valid"], 0);
+  EXPECT_EQ(figures["wrong"], 0);
+  EXPECT_TRUE(std::isnan(figures["lost"]));
+  EXPECT_TRUE(std::isnan(figures["invalid"]));
+}
+
 TEST(CaseFigures, WhatACaseDoesNotHaveIsAnEmptyCell) {
   VERIFIES("LASSO-GND-044~1");
   CaseResult result;
