@@ -167,6 +167,10 @@ void launch(const CampaignArguments& options) {
   const std::string text = launch_text(options.engine, launch);
   fs::create_directories(fs::path(options.target) / "launch");
   std::fputs(text.c_str(), stdout);
+  for (const Launcher& launcher : launchers()) {
+    if (options.engine == launcher.engine)
+      std::fprintf(stderr, "%u chunks; in a file %s it is started by: %s\n", launch.chunks, launcher.file, launcher.submit);
+  }
 }
 
 void compare(const CampaignArguments& options) {
