@@ -40,7 +40,7 @@ std::string digest_of_image(const MissionInput& input, const std::string& campai
       [&]() -> Fly {
         const CompiledMission mission = compile_mission(MissionInput(input), ModelCache::of_user_if(cached));
         const std::string digest = image_sha256(mission, campaign_of(mission.source, campaign));
-        return [digest](std::uint32_t) { return digest; };
+        return [digest](std::uint32_t) { return std::string(digest); };
       },
       [] {});
   for (;;) {
@@ -98,7 +98,7 @@ struct Bench {
   std::string fly(std::uint32_t number) {
     const double begin_us = thread_cpu_us();
     const CaseValues values = cases.at(number);
-    const std::string fields = record_fields(flight.fly(values.seed, values.numbers));
+    std::string fields = record_fields(flight.fly(values.seed, values.numbers));
     times.note(number, 1e-6 * (thread_cpu_us() - begin_us));
     return fields;
   }
@@ -305,7 +305,7 @@ fs::path write_report(const CampaignFolder& folder, const ResultTable& table) {
   Plotter plotter(folder.path);
   out.write("report.html", campaign_html(plotter, all, folder.input.source.name));
   out.commit();
-  const fs::path report = folder.path / "report.html";
+  fs::path report = folder.path / "report.html";
   if (!plotter.missing().empty())
     throw PictureError(report.string() + ": figures are missing: " + plotter.missing() + "; all results are written");
   return report;
