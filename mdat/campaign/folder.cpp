@@ -86,8 +86,8 @@ class TimesFile {
 };
 
 // All that a worker has while it flies.
-struct Bench {
-  Bench(const CampaignFolder& folder, const std::string& runner)
+struct CaseFlyer {
+  CaseFlyer(const CampaignFolder& folder, const std::string& runner)
       : mission(compile_mission(MissionInput(folder.input), ModelCache::of_user_if(folder.cached))),
         cases(folder.path / kCaseTable),
         flight(mission, campaign_of(mission.source, folder.plan.campaign), cases.columns()),
@@ -257,8 +257,8 @@ EngineResult fly_campaign(const CampaignFolder& folder, EngineOptions options) {
   return fly_cases(
       options,
       [&]() -> Fly {
-        const auto bench = std::make_shared<Bench>(folder, runner);
-        return [bench](std::uint32_t number) { return bench->fly(number); };
+        const auto flyer = std::make_shared<CaseFlyer>(folder, runner);
+        return [flyer](std::uint32_t number) { return flyer->fly(number); };
       },
       [&](std::uint32_t number, const std::string& fields) { return !whole || watch.wants_more(number, fields); });
 }
