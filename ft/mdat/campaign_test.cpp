@@ -1,5 +1,8 @@
 // Campaigns as their user has them: flown, stopped, divided, flown again one by one, compared; and what is refused.
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <filesystem>
@@ -155,18 +158,36 @@ TEST_F(CampaignCommand, RefusesWhatIsNotItsOwn) {
   expect_refusal(run("expand missions/test.toml --campaign rough --out c"), "holds a campaign; --out DIR keeps it");
   const std::string cases = work.read("c/cases.csv"), mission = work.read("missions/test.toml"), plan = work.read("c/plan.json");
   work.write("c/cases.csv", cases.substr(0, cases.size() - 2) + "9\n");
-  expect_refusal(run("run c"), "c/cases.csv: is not what the campaign was expanded from");
+  expect_refusal(run("run c"), "c/cases.csv:7: case 5 has ");
   work.write("c/cases.csv", cases);
   work.write("missions/test.toml", mission + "# a word\n");
   expect_refusal(run("run c"), "test.toml: is not what the campaign was expanded from");
   work.write("missions/test.toml", mission);
   std::filesystem::rename(work / "missions/test.toml", work / "missions/other.toml");
   expect_refusal(run("run c"), "--mission FILE says where it is");
-  const std::size_t program = plan.find("\"program\": \"") + 12;
-  work.write("c/plan.json", plan.substr(0, program) + (plan[program] == '0' ? "1" : "0") + plan.substr(program + 1));
+  const auto with_other = [&](const std::string& digest) {
+    const std::size_t place = plan.find('"' + digest + "\": \"") + digest.size() + 5;
+    return plan.substr(0, place) + (plan[place] == '0' ? "1" : "0") + plan.substr(place + 1);
+  };
+  work.write("c/plan.json", with_other("program"));
   expect_refusal(run("run c --mission missions/other.toml"), "this mdat is another one");
+  work.write("c/plan.json", with_other("image"));
+  expect_refusal(run("run c --mission missions/other.toml"), "one of the files that the mission names (parts, calibrations) has changed");
   work.write("c/plan.json", plan.substr(0, plan.size() / 2));
   expect_refusal(run("run c --mission missions/other.toml"), "c/plan.json: ");
+}
+
+TEST_F(CampaignCommand, RemovesNothingUnderARunner) {
+  VERIFIES("LASSO-GND-090~1");
+  ASSERT_EQ(run("expand missions/test.toml --campaign rough --out c").exit_code, 0);
+  work.write("c/chunks/1of2.part", "a runner has it");
+  const int file = open((work / "c/chunks/1of2.part").c_str(), O_RDWR);
+  ASSERT_EQ(flock(file, LOCK_EX), 0);
+  expect_refusal(run("expand missions/test.toml --campaign rough --out c --force"), "1of2.part: another process flies this chunk");
+  EXPECT_EQ(work.read("c/chunks/1of2.part"), "a runner has it");
+  close(file);
+  EXPECT_EQ(run("expand missions/test.toml --campaign rough --out c --force").exit_code, 0);
+  EXPECT_FALSE(std::filesystem::exists(work / "c/chunks"));
 }
 
 TEST_F(CampaignCommand, StopsWhenItsCriteriaAreDecided) {
@@ -181,6 +202,11 @@ TEST_F(CampaignCommand, StopsWhenItsCriteriaAreDecided) {
   EXPECT_EQ(summary.at("cases").get<int>() % 10, 0);
   EXPECT_LT(summary.at("cases"), 400);
   EXPECT_EQ(summary.at("criteria").at(0).at("verdict"), "met");
+  const Answer status = run("status s");
+  EXPECT_EQ(status.exit_code, 0);
+  EXPECT_NE(status.out.find("the stopping rule ended the campaign after " + std::to_string(summary.at("cases").get<int>())),
+            std::string::npos)
+      << status.out;
 }
 
 }  // namespace

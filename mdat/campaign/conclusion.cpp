@@ -90,21 +90,27 @@ std::vector<Conclusion> conclude(const CampaignSource& campaign, const ResultTab
   return conclusions;
 }
 
+StoppingRule::StoppingRule(const CampaignSource& campaign, const ResultTable& names) : look_every_(campaign.look_every) {
+  for (const Criterion& criterion : campaign.criteria) {
+    Conclusion& conclusion = conclusions_.emplace_back();
+    conclusion.criterion = criterion;
+    conclusion.sequence = true;
+    figures_.push_back(figure_of(criterion, names));
+  }
+}
+
+bool StoppingRule::ends_with(const CaseRow& row) {
+  for (std::size_t i = 0; i < conclusions_.size(); ++i) count(conclusions_[i].criterion, row, figures_[i], conclusions_[i]);
+  if (look_every_ == 0 || ++cases_ % look_every_ != 0 || conclusions_.empty()) return false;
+  for (Conclusion& conclusion : conclusions_) decide(conclusion);
+  return std::none_of(conclusions_.begin(), conclusions_.end(), [](const Conclusion& one) { return one.verdict == Verdict::kUndecided; });
+}
+
 std::optional<std::uint32_t> stop_at(const CampaignSource& campaign, const ResultTable& table) {
-  if (campaign.look_every == 0 || campaign.criteria.empty()) return std::nullopt;
-  std::vector<Conclusion> conclusions(campaign.criteria.size());
-  for (std::size_t i = 0; i < conclusions.size(); ++i) {
-    conclusions[i].criterion = campaign.criteria[i];
-    conclusions[i].sequence = true;
-  }
-  for (std::uint32_t number = 0; number < table.rows.size() && table.rows[number].number == number; ++number) {
-    for (Conclusion& conclusion : conclusions)
-      count(conclusion.criterion, table.rows[number], figure_of(conclusion.criterion, table), conclusion);
-    if ((number + 1) % campaign.look_every != 0) continue;
-    for (Conclusion& conclusion : conclusions) decide(conclusion);
-    const auto decided = [](const Conclusion& conclusion) { return conclusion.verdict != Verdict::kUndecided; };
-    if (std::all_of(conclusions.begin(), conclusions.end(), decided)) return number + 1;
-  }
+  if (campaign.look_every == 0) return std::nullopt;
+  StoppingRule rule(campaign, table);
+  for (std::uint32_t number = 0; number < table.rows.size() && table.rows[number].number == number; ++number)
+    if (rule.ends_with(table.rows[number])) return number + 1;
   return std::nullopt;
 }
 

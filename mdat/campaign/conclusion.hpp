@@ -34,6 +34,21 @@ std::size_t figure_of(const Criterion& criterion, const ResultTable& table);
 // Of each criterion, in their order.
 std::vector<Conclusion> conclude(const CampaignSource& campaign, const ResultTable& table);
 
+// The stopping rule, which is asked with one case after the other, in the order of their numbers from 0. At each multiple of look_every it
+// ends the campaign if every criterion is decided; without a criterion, never.
+class StoppingRule {
+ public:
+  // `names`: a table with the campaign's figures. Throws as figure_of.
+  StoppingRule(const CampaignSource& campaign, const ResultTable& names);
+  // Whether the campaign ends with this case.
+  bool ends_with(const CaseRow& row);
+
+ private:
+  std::uint32_t look_every_, cases_ = 0;
+  std::vector<Conclusion> conclusions_;
+  std::vector<std::size_t> figures_;  // of each conclusion
+};
+
 // The number of cases after which the stopping rule ends the campaign: the first multiple of look_every, counted in case numbers, at which
 // every criterion is decided by the cases below. Nothing where there is no rule, no criterion, or where a case below is not yet there: it
 // does not depend on who flew which case when.

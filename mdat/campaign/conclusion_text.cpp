@@ -69,7 +69,8 @@ std::string what_decides(const Conclusion& conclusion) {
 
 std::string unknown_text(const Conclusion& conclusion) {
   if (conclusion.unknown == 0) return "";
-  return format("Cases without %s (no valid pose has one) count as outside: %u.", conclusion.criterion.figure.c_str(), conclusion.unknown);
+  return format("Cases without %s (such as those without a valid pose) count as outside: %u.", conclusion.criterion.figure.c_str(),
+                conclusion.unknown);
 }
 
 std::string conclusion_text(const Conclusion& conclusion) {

@@ -41,7 +41,7 @@ class Engine {
   EngineResult run();
 
  private:
-  struct Seat {
+  struct Slot {
     std::unique_ptr<Worker> worker;
     std::optional<std::uint32_t> flying;
     Clock::time_point since;
@@ -49,17 +49,17 @@ class Engine {
   void find(const Records& records);
   void repair(const Records& records);
   std::optional<std::uint32_t> take_next();
-  void start_worker(Seat& seat);
-  void give_next(Seat& seat);
-  void receive(Seat& seat);
-  void bury(Seat& seat);
-  void leave_or_start_anew(Seat& seat);
-  std::string verdict_on_dead(std::uint32_t number, int signal);
+  void start_worker(Slot& slot);
+  void give_next(Slot& slot);
+  void receive(Slot& slot);
+  void replace_dead(Slot& slot);
+  void leave_or_start_anew(Slot& slot);
+  std::string record_of_dead(std::uint32_t number, int signal);
   void keep(std::uint32_t number, const std::string& fields);
   void show_failure(std::uint32_t number, const std::string& fields);
   void poll_workers();
   void check_case_times();
-  void check_wishes();
+  void check_interruption();
   bool may_begin() const;
   bool is_over() const;
   void end_as(EngineEnd end);
@@ -75,7 +75,7 @@ class Engine {
   std::vector<std::uint32_t> again_;
   std::uint32_t next_, failures_ = 0;
   std::uint8_t killed_starts_ = 0;
-  std::vector<Seat> seats_;
+  std::vector<Slot> slots_;
   EngineResult result_;
   bool ending_ = false;
   Clock::time_point begin_ = Clock::now(), ending_since_;
@@ -131,37 +131,37 @@ std::optional<std::uint32_t> Engine::take_next() {
   return number;
 }
 
-void Engine::start_worker(Seat& seat) {
-  seat.worker = std::make_unique<Worker>(make_fly_, [this] {
+void Engine::start_worker(Slot& slot) {
+  slot.worker = std::make_unique<Worker>(make_fly_, [this] {
     file_.reset();
-    for (Seat& other : seats_)
+    for (Slot& other : slots_)
       if (other.worker) close(other.worker->socket());
   });
 }
 
 bool Engine::may_begin() const { return !ending_ && seconds_since(begin_) + longest_s_ < options_.time_limit_s; }
 
-void Engine::give_next(Seat& seat) {
+void Engine::give_next(Slot& slot) {
   if (!ending_ && !may_begin()) end_as(EngineEnd::kTimeLimit);
-  seat.flying = ending_ ? std::nullopt : take_next();
-  seat.since = Clock::now();
-  if (seat.flying) {
-    seat.worker->give(*seat.flying);
+  slot.flying = ending_ ? std::nullopt : take_next();
+  slot.since = Clock::now();
+  if (slot.flying) {
+    slot.worker->give(*slot.flying);
   } else {
-    seat.worker.reset();
+    slot.worker.reset();
   }
 }
 
-void Engine::receive(Seat& seat) {
-  const Worker::Message message = seat.worker->receive();
-  if (message.kind == Worker::Kind::kDead) return bury(seat);
+void Engine::receive(Slot& slot) {
+  const Worker::Message message = slot.worker->receive();
+  if (message.kind == Worker::Kind::kDead) return replace_dead(slot);
   if (message.kind == Worker::Kind::kBadInput) throw InputError(message.text);
   if (message.kind == Worker::Kind::kError) throw RunError(message.text);
   if (message.kind == Worker::Kind::kFields) {
-    longest_s_ = std::max(longest_s_, seconds_since(seat.since));
-    keep(*seat.flying, message.text);
+    longest_s_ = std::max(longest_s_, seconds_since(slot.since));
+    keep(*slot.flying, message.text);
   }
-  give_next(seat);
+  give_next(slot);
 }
 
 // Signals that a program brings upon itself: the same case would do so again. All others come from outside, such as SIGKILL where memory
@@ -172,7 +172,7 @@ bool is_crash(int signal) {
 }
 
 // The record of a case whose worker was ended by a signal (0: it left by itself); empty if it is to be flown again.
-std::string Engine::verdict_on_dead(std::uint32_t number, int signal) {
+std::string Engine::record_of_dead(std::uint32_t number, int signal) {
   if (signal == 0) return failed_fields("its process ended by itself");
   if (is_crash(signal)) return failed_fields("crashed with signal " + std::to_string(signal));
   if (++kills_[number] == kTries) return failed_fields("killed " + std::to_string(kTries) + " times");
@@ -180,24 +180,24 @@ std::string Engine::verdict_on_dead(std::uint32_t number, int signal) {
   return "";
 }
 
-void Engine::bury(Seat& seat) {
-  const int signal = seat.worker->signal();
+void Engine::replace_dead(Slot& slot) {
+  const int signal = slot.worker->signal();
   const std::string how = signal == 0 ? "ended by itself" : format("was ended by signal %d (%s)", signal, strsignal(signal));
-  if (!seat.flying && (signal == 0 || is_crash(signal) || ++killed_starts_ == kTries))
+  if (!slot.flying && (signal == 0 || is_crash(signal) || ++killed_starts_ == kTries))
     throw RunError("a worker " + how + " before it flew a case: it may be short of memory (fewer --jobs need less)");
-  if (seat.flying) {
-    const std::string fields = verdict_on_dead(*seat.flying, signal);
-    say(format("warning: case %u: its process %s%s", *seat.flying, how.c_str(), fields.empty() ? "; it is flown again" : ""));
-    if (!fields.empty()) keep(*seat.flying, fields);
+  if (slot.flying) {
+    const std::string fields = record_of_dead(*slot.flying, signal);
+    say(format("warning: case %u: its process %s%s", *slot.flying, how.c_str(), fields.empty() ? "; it is flown again" : ""));
+    if (!fields.empty()) keep(*slot.flying, fields);
   }
-  leave_or_start_anew(seat);
+  leave_or_start_anew(slot);
 }
 
-// A seat without a worker flies nothing: its case has its record, or is flown again.
-void Engine::leave_or_start_anew(Seat& seat) {
-  seat.worker.reset();
-  seat.flying.reset();
-  if (!ending_) start_worker(seat);
+// A slot without a worker flies nothing: its case has its record, or is flown again.
+void Engine::leave_or_start_anew(Slot& slot) {
+  slot.worker.reset();
+  slot.flying.reset();
+  if (!ending_) start_worker(slot);
 }
 
 void Engine::keep(std::uint32_t number, const std::string& fields) {
@@ -217,22 +217,22 @@ void Engine::show_failure(std::uint32_t number, const std::string& fields) {
 
 void Engine::poll_workers() {
   std::vector<pollfd> sockets;
-  std::vector<Seat*> seats;
-  for (Seat& seat : seats_) {
-    if (!seat.worker) continue;
-    sockets.push_back({seat.worker->socket(), POLLIN, 0});
-    seats.push_back(&seat);
+  std::vector<Slot*> slots;
+  for (Slot& slot : slots_) {
+    if (!slot.worker) continue;
+    sockets.push_back({slot.worker->socket(), POLLIN, 0});
+    slots.push_back(&slot);
   }
   if (poll(sockets.data(), sockets.size(), kPollMilliseconds) <= 0) return;  // also where a signal came
-  for (std::size_t i = 0; i < seats.size() && !is_over(); ++i)
-    if (sockets[i].revents != 0) receive(*seats[i]);
+  for (std::size_t i = 0; i < slots.size() && !is_over(); ++i)
+    if (sockets[i].revents != 0) receive(*slots[i]);
 }
 
 void Engine::check_case_times() {
-  for (Seat& seat : seats_) {
-    if (!seat.flying || seconds_since(seat.since) < options_.case_time_limit_s) continue;
-    keep(*seat.flying, failed_fields(format("longer than %g s", options_.case_time_limit_s)));
-    leave_or_start_anew(seat);
+  for (Slot& slot : slots_) {
+    if (!slot.flying || seconds_since(slot.since) < options_.case_time_limit_s) continue;
+    keep(*slot.flying, failed_fields(format("longer than %g s", options_.case_time_limit_s)));
+    leave_or_start_anew(slot);
   }
 }
 
@@ -244,7 +244,7 @@ void Engine::end_as(EngineEnd end) {
 }
 
 // Cases that were begun before a time limit are waited for, but not against the user's wish.
-void Engine::check_wishes() {
+void Engine::check_interruption() {
   if (!interrupted_ || (ending_ && result_.end != EngineEnd::kTimeLimit)) return;
   ending_ = false;
   end_as(EngineEnd::kInterrupted);
@@ -253,26 +253,26 @@ void Engine::check_wishes() {
 
 // Nobody flies a case any more, or whoever still does is not waited for.
 bool Engine::is_over() const {
-  const bool flying = std::any_of(seats_.begin(), seats_.end(), [](const Seat& seat) { return seat.worker && seat.flying; });
-  if (!ending_) return std::none_of(seats_.begin(), seats_.end(), [](const Seat& seat) { return seat.worker != nullptr; });
+  const bool flying = std::any_of(slots_.begin(), slots_.end(), [](const Slot& slot) { return slot.worker && slot.flying; });
+  if (!ending_) return std::none_of(slots_.begin(), slots_.end(), [](const Slot& slot) { return slot.worker != nullptr; });
   if (!flying || result_.end == EngineEnd::kDecided) return true;
   return result_.end == EngineEnd::kTimeLimit ? seconds_since(begin_) > options_.time_limit_s
                                               : seconds_since(ending_since_) > kGraceSeconds;
 }
 
 EngineResult Engine::run() {
-  seats_.resize(ending_ ? 0 : std::min(std::max(options_.jobs, 1U), result_.missing));
+  slots_.resize(ending_ ? 0 : std::min(std::max(options_.jobs, 1U), result_.missing));
   bar_.emplace("campaign", result_.missing, "cases");
-  for (Seat& seat : seats_) start_worker(seat);
+  for (Slot& slot : slots_) start_worker(slot);
   for (; !is_over(); check_case_times()) {
-    check_wishes();
+    check_interruption();
     poll_workers();
   }
   return conclude();
 }
 
 EngineResult Engine::conclude() {
-  seats_.clear();
+  slots_.clear();
   if (result_.missing == 0) result_.end = EngineEnd::kDone;
   if (result_.end == EngineEnd::kDone || result_.end == EngineEnd::kDecided) {
     if (result_.flown > 0)

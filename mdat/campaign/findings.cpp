@@ -58,7 +58,8 @@ Finding finding_of(const Conclusion& conclusion, const ResultTable& table) {
 }
 
 Findings find(const CampaignSource& campaign, const ResultTable& table, const std::string& folder) {
-  Findings all{campaign, with_lengths(table), folder, 0, campaign.look_every > 0 && table.rows.size() < campaign.cases, {}};
+  const bool stopped = table.rows.size() < campaign.cases && stop_at(campaign, table) == table.rows.size();
+  Findings all{campaign, with_lengths(table), folder, 0, stopped, {}};
   for (const CaseRow& row : table.rows) all.not_run += row.has_run() ? 0U : 1U;
   for (const Conclusion& conclusion : conclude(campaign, table)) all.findings.push_back(finding_of(conclusion, all.table));
   return all;
@@ -90,6 +91,7 @@ std::string cases_text(const Findings& all) {
   text += text == "1" ? " case" : " cases";
   if (all.stopped) text += ", as its rule stopped it";
   if (const std::size_t never = never_valid(all.table); never > 0) text += format("; in %zu of them no pose was ever valid", never);
+  if (!all.complete()) text += "; the others are missing, so that all that follows is preliminary";
   if (all.not_run == 0) return text;
   const std::string counts = all.findings.empty() ? "" : all.not_run == 1 ? ", which counts as outside" : ", which count as outside";
   return text + format("; %u failed to run", all.not_run) + counts;

@@ -27,6 +27,7 @@ struct Findings {
   std::uint32_t not_run = 0;      // cases that failed to run
   bool stopped = false;           // by its rule, before all cases were flown
   std::vector<Finding> findings;  // a criterion each
+  bool complete() const { return stopped || table.rows.size() >= campaign.cases; }
 };
 
 // What there is to say of one conclusion: at most ten worst cases.

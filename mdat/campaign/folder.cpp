@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "mdat/campaign/case_table.hpp"
+#include "mdat/campaign/chunk_file.hpp"
 #include "mdat/campaign/conclusion.hpp"
 #include "mdat/campaign/figures.hpp"
 #include "mdat/campaign/flight.hpp"
@@ -39,7 +40,7 @@ std::string digest_of_image(const MissionInput& input, const std::string& campai
       [&]() -> Fly {
         const CompiledMission mission = compile_mission(MissionInput(input), ModelCache::of_user_if(cached));
         const std::string digest = image_sha256(mission, campaign_of(mission.source, campaign));
-        return [digest](std::uint32_t) { return digest; };
+        return [digest](std::uint32_t) { return std::string(digest); };
       },
       [] {});
   for (;;) {
@@ -85,8 +86,8 @@ class TimesFile {
 };
 
 // All that a worker has while it flies.
-struct Bench {
-  Bench(const CampaignFolder& folder, const std::string& runner)
+struct CaseFlyer {
+  CaseFlyer(const CampaignFolder& folder, const std::string& runner)
       : mission(compile_mission(MissionInput(folder.input), ModelCache::of_user_if(folder.cached))),
         cases(folder.path / kCaseTable),
         flight(mission, campaign_of(mission.source, folder.plan.campaign), cases.columns()),
@@ -97,7 +98,7 @@ struct Bench {
   std::string fly(std::uint32_t number) {
     const double begin_us = thread_cpu_us();
     const CaseValues values = cases.at(number);
-    const std::string fields = record_fields(flight.fly(values.seed, values.numbers));
+    std::string fields = record_fields(flight.fly(values.seed, values.numbers));
     times.note(number, 1e-6 * (thread_cpu_us() - begin_us));
     return fields;
   }
@@ -121,53 +122,52 @@ std::vector<double> figures_of(std::string_view cells, std::size_t count) {
   return figures;
 }
 
-CaseRow row_of(std::uint32_t number, std::string_view fields, std::vector<double> drawn) {
+// `count`: of the campaign's figures.
+CaseRow row_of(std::uint32_t number, std::string_view fields, std::size_t count, std::vector<double> drawn) {
   CaseRow row;
   row.number = number;
   row.drawn = std::move(drawn);
   row.status = is_failed(fields) ? std::string(fields) : std::string(fields.substr(0, fields.find(',')));
-  const std::size_t count = case_figures().size();
   row.figures = is_failed(fields) ? std::vector<double>(count, kNoFigure) : figures_of(fields.substr(row.status.size()), count);
   return row;
 }
 
-ResultTable empty_table(const std::vector<std::string>& columns) {
-  ResultTable table;
-  for (const Figure& figure : case_figures()) table.figures.emplace_back(figure.name);
-  table.columns = columns;
-  return table;
+std::vector<std::string> figure_names() {
+  std::vector<std::string> names;
+  for (const Figure& figure : case_figures()) names.emplace_back(figure.name);
+  return names;
 }
 
-// Of all finished cases.
-ResultTable rows_of(const CampaignFolder& folder, const Records& records) {
-  CaseTable cases(folder.path / kCaseTable);
-  ResultTable table = empty_table(cases.columns());
-  for (std::uint32_t number = 0; number < folder.plan.cases; ++number) {
-    std::vector<double> drawn = cases.at(number).numbers;
-    if (const auto fields = records.of(number)) table.rows.push_back(row_of(number, *fields, std::move(drawn)));
-  }
-  return table;
-}
-
-// Asks the stopping rule as cases come, in whatever order: rows stand by their numbers, and it looks as often as it may.
+// Asks the stopping rule as cases come, in whatever order: those whose predecessors are not there yet wait.
 class Watch {
  public:
-  explicit Watch(const CampaignSource& campaign) : campaign_(campaign), table_(empty_table({})) {}
+  Watch(const CampaignSource& campaign, const std::vector<std::string>& figures)
+      : has_rule_(campaign.look_every > 0), figures_(figures.size()), rule_(campaign, {figures, {}, {}}) {}
 
   bool wants_more(std::uint32_t number, const std::string& fields) {
-    if (campaign_.look_every == 0) return true;
-    const auto after = std::find_if(table_.rows.rbegin(), table_.rows.rend(), [&](const CaseRow& row) { return row.number < number; });
-    table_.rows.insert(after.base(), row_of(number, fields, {}));
-    if (table_.rows.size() % campaign_.look_every != 0 && table_.rows.size() < next_look_) return true;
-    next_look_ = table_.rows.size() + 1;
-    return !stop_at(campaign_, table_);
+    if (!has_rule_) return true;
+    waiting_.emplace(number, row_of(number, fields, figures_, {}));
+    for (auto next = waiting_.find(next_); next != waiting_.end() && !has_ended_; next = waiting_.find(++next_)) {
+      has_ended_ = rule_.ends_with(next->second);
+      waiting_.erase(next);
+    }
+    return !has_ended_;
   }
 
  private:
-  const CampaignSource& campaign_;
-  ResultTable table_;
-  std::size_t next_look_ = 0;
+  bool has_rule_, has_ended_ = false;
+  std::size_t figures_;
+  StoppingRule rule_;
+  std::map<std::uint32_t, CaseRow> waiting_;
+  std::uint32_t next_ = 0;
 };
+
+// The rule's limits hold for cases in the order of their numbers: those behind a missing one are left out.
+void cut_at_first_missing(ResultTable& table) {
+  std::uint32_t count = 0;
+  while (count < table.rows.size() && table.rows[count].number == count) ++count;
+  table.rows.resize(count);
+}
 
 std::string times_csv(const fs::path& folder, const ResultTable& table) {
   std::map<std::uint32_t, std::string> times;
@@ -189,30 +189,53 @@ std::string times_csv(const fs::path& folder, const ResultTable& table) {
   return text;
 }
 
+// Without what it takes long to know.
+CampaignPlan plan_of_mission(const MissionSource& mission, const CampaignSource& campaign, const fs::path& folder) {
+  CampaignPlan plan;
+  plan.mission = fs::proximate(fs::absolute(mission.file), fs::absolute(folder)).string();
+  plan.campaign = campaign.name;
+  plan.settings = mission.settings;
+  plan.figures = figure_names();
+  plan.cases = campaign.cases;
+  plan.look_every = campaign.look_every;
+  plan.version = kVersion;
+  plan.mission_sha256 = sha256_of(file_content(mission.file));
+  plan.target_sha256 = mission.target.sha256;
+  plan.program_sha256 = program_sha256();
+  plan.scripts_sha256 = scripts_sha256(campaign);
+  return plan;
+}
+
+void refuse_to_remove_under_a_runner(const fs::path& folder) {
+  for (const fs::path& file : chunk_files(folder)) {
+    if (in_flight(file)) throw InputError(file.string() + ": another process flies this chunk: wait for it or stop it, then remove it");
+  }
+}
+
+// Removes what mdat has written there, and nothing else.
+void remove_campaign(const fs::path& folder) {
+  for (const char* name : {"plan.json", "cases.csv", "results.csv", "results.h5", "times.csv", "summary.json", "junit.xml", "report.html"})
+    fs::remove(folder / name);
+  fs::remove_all(folder / kChunks);
+}
+
 }  // namespace
 
-void expand_campaign(const MissionInput& input, const std::string& campaign, bool cached, const std::string& commit,
-                     const fs::path& folder) {
+void expand_campaign(const MissionInput& input, const std::string& campaign, bool cached, const std::string& commit, const fs::path& folder,
+                     bool replace) {
+  if (replace) refuse_to_remove_under_a_runner(folder);
   const CampaignSource& source = campaign_of(input.source, campaign);
   OutputFolder out(folder);
-  CampaignPlan plan;
-  plan.mission = fs::proximate(fs::absolute(input.source.file), fs::absolute(folder)).string();
-  plan.campaign = campaign;
-  plan.settings = input.source.settings;
-  plan.cases = source.cases;
-  plan.version = kVersion;
-  plan.commit = commit;
-  plan.mission_sha256 = sha256_of(file_content(input.source.file));
-  plan.target_sha256 = input.source.target.sha256;
+  CampaignPlan plan = plan_of_mission(input.source, source, folder);
   plan.image_sha256 = digest_of_image(input, campaign, cached);
-  plan.program_sha256 = program_sha256();
-  plan.scripts_sha256 = scripts_sha256(source);
+  plan.commit = commit;
   std::ostringstream cases;
   write_cases(CaseDraws(source), source.cases, cases);
   const std::string text = std::move(cases).str();
   plan.cases_sha256 = sha256_of(text);
   out.write(kCaseTable, text);
   out.write("plan.json", plan_json(plan, source));
+  if (replace) remove_campaign(folder);
   out.commit();
 }
 
@@ -229,32 +252,39 @@ EngineResult fly_campaign(const CampaignFolder& folder, EngineOptions options) {
   options.plan_digest = folder.digest;
   options.cases = folder.plan.cases;
   const std::string runner = chunk_name(options.chunk);
-  Watch watch(folder.campaign());
+  Watch watch(folder.campaign(), folder.plan.figures);
   const bool whole = options.chunk.of == 1;
   return fly_cases(
       options,
       [&]() -> Fly {
-        const auto bench = std::make_shared<Bench>(folder, runner);
-        return [bench](std::uint32_t number) { return bench->fly(number); };
+        const auto flyer = std::make_shared<CaseFlyer>(folder, runner);
+        return [flyer](std::uint32_t number) { return flyer->fly(number); };
       },
       [&](std::uint32_t number, const std::string& fields) { return !whole || watch.wants_more(number, fields); });
 }
 
 ResultTable merged(const CampaignFolder& folder, bool partial) {
   const Records records(folder.path, folder.digest, folder.plan.cases);
-  ResultTable table = rows_of(folder, records);
+  CaseTable cases(folder.path / kCaseTable);
+  ResultTable table{folder.plan.figures, cases.columns(), {}};
+  for (std::uint32_t number = 0; number < folder.plan.cases; ++number) {
+    std::vector<double> drawn = cases.at(number).numbers;
+    if (const auto fields = records.of(number)) table.rows.push_back(row_of(number, *fields, table.figures.size(), std::move(drawn)));
+  }
   if (const auto stop = stop_at(folder.campaign(), table)) {
     table.rows.resize(*stop);
   } else if (records.missing() > 0 && !partial) {
     throw InputError(folder.path.string() + ": " + std::to_string(records.missing()) + " of " + std::to_string(records.cases()) +
                      " cases are missing: mdat campaign run " + shell_word(folder.path.string()) +
                      " goes on; --partial takes those that are there");
+  } else if (folder.campaign().look_every > 0) {
+    cut_at_first_missing(table);
   }
   return table;
 }
 
-std::optional<std::uint32_t> stopped_at(const CampaignFolder& folder) {
-  return stop_at(folder.campaign(), rows_of(folder, Records(folder.path, folder.digest, folder.plan.cases)));
+std::optional<std::uint32_t> ended_after(const CampaignFolder& folder) {
+  return folder.plan.look_every == 0 ? std::nullopt : stop_at(folder.campaign(), merged(folder, true));
 }
 
 std::string write_results(const CampaignFolder& folder, const ResultTable& table) {
@@ -275,7 +305,7 @@ fs::path write_report(const CampaignFolder& folder, const ResultTable& table) {
   Plotter plotter(folder.path);
   out.write("report.html", campaign_html(plotter, all, folder.input.source.name));
   out.commit();
-  const fs::path report = folder.path / "report.html";
+  fs::path report = folder.path / "report.html";
   if (!plotter.missing().empty())
     throw PictureError(report.string() + ": figures are missing: " + plotter.missing() + "; all results are written");
   return report;

@@ -26,9 +26,10 @@ struct CampaignFolder {
 };
 
 // Draws all cases and writes cases.csv, then plan.json, into the folder, which is made. The mission is compiled in a process of its own.
-// `commit`: the program's, for a person. Throws InputError, MissionError, RunError.
+// `commit`: the program's, for a person. `replace`: what a campaign has left in the folder goes, as soon as the new one is drawn; refused
+// while a runner flies it. Throws InputError, MissionError, RunError.
 void expand_campaign(const MissionInput& input, const std::string& campaign, bool cached, const std::string& commit,
-                     const std::filesystem::path& folder);
+                     const std::filesystem::path& folder, bool replace);
 
 // `mission`: its file, where it is not that which the plan names; empty otherwise. Throws as load_plan and load_planned.
 CampaignFolder open_campaign(const std::filesystem::path& folder, const std::string& mission, bool cached);
@@ -36,12 +37,12 @@ CampaignFolder open_campaign(const std::filesystem::path& folder, const std::str
 // Flies what is missing (engine.hpp), or as much of it as the stopping rule needs where all is one chunk.
 EngineResult fly_campaign(const CampaignFolder& folder, EngineOptions options);
 
-// Rows of all finished cases, up to the one at which the stopping rule ends the campaign. `partial`: with cases missing; otherwise throws
-// InputError where some are.
+// Rows of all finished cases, up to the one at which the stopping rule ends the campaign. `partial`: with cases missing, with a rule up
+// to the first of them; otherwise throws InputError where some are.
 ResultTable merged(const CampaignFolder& folder, bool partial);
 
-// How many cases its stopping rule has needed; nothing where it has none, or is not decided yet.
-std::optional<std::uint32_t> stopped_at(const CampaignFolder& folder);
+// The number of cases after which the stopping rule has ended the campaign; nothing where it has not, or where there is none.
+std::optional<std::uint32_t> ended_after(const CampaignFolder& folder);
 
 // results.csv, results.h5, times.csv, summary.json, junit.xml. Returns the summary for the terminal.
 std::string write_results(const CampaignFolder& folder, const ResultTable& table);

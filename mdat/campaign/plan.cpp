@@ -1,7 +1,9 @@
 #include "mdat/campaign/plan.hpp"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "mdat/campaign/case_table.hpp"
 #include "mdat/common/errors.hpp"
 #include "mdat/common/output.hpp"
 #include "mdat/common/text.hpp"
@@ -50,12 +52,22 @@ void require_same(const fs::path& file, const std::string& found, const std::str
                    shown_digest(planned) + "...): " + remedy);
 }
 
+// The line of an edited table is named, by drawing all cases again; where none is wrong its text still is not the plan's.
+void require_drawn(const fs::path& table, const CampaignPlan& plan, const CampaignSource& campaign) {
+  const std::string digest = digest_of_file(table);
+  if (digest == plan.cases_sha256) return;
+  check_cases(table, CaseDraws(campaign), plan.cases);
+  require_same(table, digest, plan.cases_sha256, "restore it, or expand the campaign into another folder (--out DIR)");
+}
+
 CampaignPlan plan_of(const PlanJson& json) {
   CampaignPlan plan;
   json.at("mission").get_to(plan.mission);
   json.at("campaign").get_to(plan.campaign);
   json.at("settings").get_to(plan.settings);
+  json.at("figures").get_to(plan.figures);
   json.at("cases").get_to(plan.cases);
+  if (const PlanJson& look_every = json.at("look_every"); !look_every.is_null()) look_every.get_to(plan.look_every);
   const PlanJson& digests = json.at("sha256");
   digests.at("mission").get_to(plan.mission_sha256);
   digests.at("target").get_to(plan.target_sha256);
@@ -76,12 +88,13 @@ std::string plan_json(const CampaignPlan& plan, const CampaignSource& campaign) 
   json["mission"] = plan.mission;
   json["campaign"] = plan.campaign;
   json["settings"] = plan.settings;
+  json["figures"] = plan.figures;
   json["scenario"] = campaign.scenario;
   json["cases"] = plan.cases;
   json["frames"] = campaign.frames == 0 ? PlanJson(nullptr) : PlanJson(campaign.frames);
   json["seed"] = campaign.seed;
   json["sampling"] = kSamplings[static_cast<std::size_t>(campaign.sampling)];
-  json["look_every"] = campaign.look_every == 0 ? PlanJson(nullptr) : PlanJson(campaign.look_every);
+  json["look_every"] = plan.look_every == 0 ? PlanJson(nullptr) : PlanJson(plan.look_every);
   json["criteria"] = criteria_json(campaign);
   json["program"] = {{"version", plan.version}, {"commit", plan.commit}};
   json["sha256"] = {{"mission", plan.mission_sha256}, {"target", plan.target_sha256}, {"image", plan.image_sha256},
@@ -120,8 +133,8 @@ MissionInput load_planned(const fs::path& folder, const CampaignPlan& plan, cons
   if (!fs::exists(file)) throw InputError(file.string() + ": the campaign's mission is not there; --mission FILE says where it is");
   const std::string remedy = "restore it, or expand a campaign of the new one into another folder (--out DIR)";
   require_same(file, digest_of_file(file), plan.mission_sha256, remedy);
-  require_same(folder / kCasesFile, digest_of_file(folder / kCasesFile), plan.cases_sha256, remedy);
   MissionInput input = load_mission_input(file, plan.settings);
+  require_drawn(folder / kCasesFile, plan, campaign_of(input.source, plan.campaign));
   require_same(input.source.target.file, input.source.target.sha256, plan.target_sha256, remedy);
   require_same("the fault scripts of " + plan.campaign, scripts_sha256(campaign_of(input.source, plan.campaign)), plan.scripts_sha256,
                remedy);

@@ -16,7 +16,9 @@ struct CampaignPlan {
   std::string mission;                // file, as it is found from the folder, or absolute
   std::string campaign;               // its name there
   std::vector<std::string> settings;  // KEY=VALUE of the command line
+  std::vector<std::string> figures;   // of a case, in the order of its record
   std::uint32_t cases = 0;
+  std::uint32_t look_every = 0;  // of the stopping rule; 0: none
   std::string mission_sha256, target_sha256, image_sha256, program_sha256, cases_sha256;
   std::string scripts_sha256;   // of the digests of the fault scripts, one after the other
   std::string version, commit;  // of the program, for a person

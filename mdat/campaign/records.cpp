@@ -36,8 +36,6 @@ std::string text_of(fs::path& file) {
   return text_if_there(file).value_or("");
 }
 
-std::string counted(std::size_t count, const char* unit) { return std::to_string(count) + " " + unit + (count == 1 ? "" : "s"); }
-
 }  // namespace
 
 Records::Records(const fs::path& folder, const std::string& plan_digest, std::uint32_t cases, std::optional<Chunk> of) : places_(cases) {
@@ -84,7 +82,7 @@ std::string status_text(const fs::path& folder, const Records& records) {
   const auto flown = std::count_if(files.begin(), files.end(), in_flight);
   std::string text = format("%u of %u cases are done, %u of them failed, %u are missing\n", records.done(), records.cases(),
                             records.failed(), records.missing());
-  if (flown > 0) text += counted(static_cast<std::size_t>(flown), "runner") + (flown == 1 ? " is" : " are") + " at work\n";
+  if (flown > 0) text += amount(static_cast<std::size_t>(flown), "runner") + (flown == 1 ? " is" : " are") + " at work\n";
   for (const std::string& place : records.damaged()) text += place + ": a damaged record: its case is flown again\n";
   if (records.missing() > 0 && flown == 0) text += "mdat campaign run " + shell_word(folder.string()) + " flies what is missing\n";
   if (records.failed() > 0)

@@ -158,13 +158,18 @@ std::string how_decided(const CampaignSource& campaign) {
   std::string text =
       "A criterion is met if the lower limit of the share of cases within its bounds is at least what it asks for, and failed if the upper "
       "one is "
-      "below. The limits are ";
+      "below. Each criterion has its confidence for itself. The limits are ";
   text += campaign.look_every == 0
               ? "those of Clopper and Pearson, exact for a number of cases that was fixed before."
-              : format("those of a confidence sequence, which hold at all looks together: one after every %u cases.", campaign.look_every);
+              : format(
+                    "those of a confidence sequence, which hold at all looks together: one after every %u cases. The share "
+                    "itself is a little too far from what is asked for, as the campaign ends when it happens to be.",
+                    campaign.look_every);
   if (campaign.sampling == Sampling::kRandom) return text;
   return text +
-         " They take cases as independent; this sampling covers the ranges more evenly, so that the limits are mostly wider than need be.";
+         " They take cases as independent. This sampling covers the ranges more evenly, so that the share mostly varies less than they "
+         "say; "
+         "their confidence is not proven for it.";
 }
 
 std::string introduction_of(const Findings& all, const std::string& mission) {

@@ -93,9 +93,14 @@ constexpr std::size_t kNamedCases = 10;
 
 std::string all_run_case(const Findings& all) {
   const std::vector<std::size_t> rows = failed_cases(all.table, kNamedCases);
+  const std::string text = commands(all, rows, nullptr);
+  if (!all.complete()) {
+    const std::string missing = format("%zu of %u cases are missing", all.campaign.cases - all.table.rows.size(), all.campaign.cases);
+    return test_case(all, "all cases run", trouble("error", "missing", missing, text));
+  }
   if (rows.empty()) return test_case(all, "all cases run", "");
   const std::string message = format("%u of %zu cases failed to run", all.not_run, all.table.rows.size());
-  return test_case(all, "all cases run", trouble("error", "failed to run", message, commands(all, rows, nullptr)));
+  return test_case(all, "all cases run", trouble("error", "failed to run", message, text));
 }
 
 }  // namespace
@@ -124,6 +129,7 @@ std::string summary_json(const Findings& all) {
   json["cases"] = all.table.rows.size();
   json["cases_at_most"] = all.campaign.cases;
   json["stopped_by_rule"] = all.stopped;
+  json["complete"] = all.complete();
   json["failed_to_run"] = all.not_run;
   json["criteria"] = Json::array();
   for (const Finding& finding : all.findings) json["criteria"].push_back(finding_json(all, finding));
@@ -133,8 +139,8 @@ std::string summary_json(const Findings& all) {
 std::string junit_xml(const Findings& all) {
   const auto failures = std::count_if(all.findings.begin(), all.findings.end(),
                                       [](const Finding& finding) { return finding.conclusion.verdict != Verdict::kMet; });
-  const std::string counts =
-      format("tests=\"%zu\" failures=\"%td\" errors=\"%d\" time=\"0\"", all.findings.size() + 1, failures, all.not_run > 0 ? 1 : 0);
+  const std::string counts = format("tests=\"%zu\" failures=\"%td\" errors=\"%d\" time=\"0\"", all.findings.size() + 1, failures,
+                                    all.not_run > 0 || !all.complete() ? 1 : 0);
   std::string text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites " + counts + ">\n  <testsuite name=\"campaign." +
                      xml_text(all.campaign.name) + "\" " + counts + " skipped=\"0\">\n";
   for (const Finding& finding : all.findings) text += criterion_case(all, finding);

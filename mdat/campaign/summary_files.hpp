@@ -14,7 +14,7 @@ std::string results_csv(const ResultTable& table);
 // Conclusions with their limits, worst cases, correlations.
 std::string summary_json(const Findings& all);
 
-// JUnit: a test case a criterion, which fails unless it is met, and one of cases that failed to run, which is an error.
+// JUnit: a test case a criterion, which fails unless it is met, and one of cases that failed to run or are missing, which is an error.
 std::string junit_xml(const Findings& all);
 
 }  // namespace lasso::mdat

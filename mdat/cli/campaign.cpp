@@ -39,13 +39,6 @@ CampaignFolder open_folder(const CampaignArguments& options) { return open_campa
 
 std::string folder_of(const CampaignArguments& options) { return options.out.empty() ? "out/campaign/" + options.campaign : options.out; }
 
-// Removes what mdat has written there, and nothing else.
-void remove_campaign(const fs::path& folder) {
-  for (const char* name : {"plan.json", "cases.csv", "results.csv", "results.h5", "times.csv", "summary.json", "junit.xml", "report.html"})
-    fs::remove(folder / name);
-  fs::remove_all(folder / "chunks");
-}
-
 // The folder holds the very campaign that its mission would be expanded to now.
 bool is_same_plan(const CampaignArguments& options, const fs::path& folder) {
   const LoadedPlan loaded = load_plan(folder);
@@ -61,8 +54,7 @@ void expand(const CampaignArguments& options) {
   MissionInput input = load_mission_input(options.target, options.settings);
   const CampaignSource& campaign = campaign_of(input.source, options.campaign);
   for (const std::string& warning : warnings_for(input.source, campaign.scenario)) std::fprintf(stderr, "warning: %s\n", warning.c_str());
-  if (options.force) remove_campaign(folder);
-  expand_campaign(input, options.campaign, options.cached, kCommit, folder);
+  expand_campaign(input, options.campaign, options.cached, kCommit, folder, options.force);
   std::fprintf(stderr, "%s: plan.json and cases.csv, %u cases of the campaign %s\n", folder.c_str(), campaign.cases,
                options.campaign.c_str());
 }
@@ -117,10 +109,10 @@ void list(const CampaignArguments& options) {
 void show_status(const CampaignArguments& options) {
   const LoadedPlan loaded = load_plan(options.target);
   const Records records(options.target, loaded.digest, loaded.plan.cases);
-  if (records.missing() > 0 && records.done() > 0) {
-    if (const auto stop = stopped_at(open_folder(options))) {
-      std::printf("decided by its stopping rule after %u cases; the others are not needed: mdat campaign merge %s concludes\n", *stop,
-                  shell_word(options.target).c_str());
+  if (records.missing() > 0 && loaded.plan.look_every > 0) {
+    if (const auto end = ended_after(open_folder(options))) {
+      std::printf("%u of at most %u cases are done, and the stopping rule ended the campaign after %u: mdat campaign merge %s\n",
+                  records.done(), records.cases(), *end, shell_word(options.target).c_str());
       return;
     }
   }
@@ -136,11 +128,23 @@ void retry(const CampaignArguments& options) {
               shell_word(options.target).c_str());
 }
 
+// Throws RunError where the case is not what the campaign recorded. Returns whether it recorded it.
+bool is_as_recorded(const CampaignFolder& folder, std::uint32_t number, const std::string& fields) {
+  const Records records(folder.path, folder.digest, folder.plan.cases);
+  const auto recorded = records.of(number);
+  if (!recorded || *recorded == fields) return recorded.has_value();
+  throw RunError("case " + std::to_string(number) + " is not what the campaign recorded: " + std::string(*recorded) + ", now " + fields);
+}
+
+void warn_of_another_program(const CampaignPlan& plan) {
+  if (program_sha256() == plan.program_sha256) return;
+  std::fprintf(stderr, "warning: this mdat is not the one that expanded the campaign (%s, commit %s): the case might differ\n",
+               plan.version.c_str(), plan.commit.c_str());
+}
+
 void case_again(const CampaignArguments& options) {
   const CampaignFolder folder = open_folder(options);
-  if (program_sha256() != folder.plan.program_sha256)
-    std::fprintf(stderr, "warning: this mdat is not the one that expanded the campaign (%s, commit %s): the case might differ\n",
-                 folder.plan.version.c_str(), folder.plan.commit.c_str());
+  warn_of_another_program(folder.plan);
   const fs::path out = options.out.empty() ? fs::path(options.target) / ("case-" + std::to_string(options.number)) : fs::path(options.out);
   OutputFolder files(out);
   FlownCase flown = fly_case(folder, options.number);
@@ -149,11 +153,7 @@ void case_again(const CampaignArguments& options) {
   files.write("telemetry.ccsds", telemetry_bytes(flown.result));
   files.commit();
   std::fputs(summary_text(flown.result).c_str(), stdout);
-  const Records records(folder.path, folder.digest, folder.plan.cases);
-  const auto recorded = records.of(options.number);
-  if (recorded && *recorded != flown.fields)
-    throw RunError("case " + std::to_string(options.number) + " is not what the campaign recorded: " + std::string(*recorded) + ", now " +
-                   flown.fields);
+  const bool recorded = is_as_recorded(folder, options.number, flown.fields);
   std::printf("written to %s: results.json, frames.csv, telemetry.ccsds%s\n", out.c_str(),
               recorded ? "; all figures are those that the campaign recorded" : "");
   if (!options.report) return;
@@ -247,7 +247,7 @@ void add_status(CLI::App& group) {
   const auto options = std::make_shared<CampaignArguments>();
   CLI::App* command = folder_command(group, "status", "how many cases are done, have failed, are missing", options);
   add_mission_option(*command, options);
-  command->footer("Exit codes: 0 none is missing or its stopping rule has decided, 1 some are missing.");
+  command->footer("Exit codes: 0 none is missing (or the stopping rule needs no more), 1 some are.");
   command->callback([options] { show_status(*options); });
 }
 

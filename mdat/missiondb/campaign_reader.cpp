@@ -236,6 +236,10 @@ class CampaignReader {
     const auto complain = [&](const char* key, double value, const std::string& why) {
       problems_.add(found.at(key).origin, prefix + key, number_text(value), why);
     };
+    if (c.figure == "first_wrong")
+      problems_.add(
+          found.at("figure").origin, prefix + "figure", c.figure,
+          "has no number where no pose is wrong, so that good cases would count as outside: ask for figure = \"wrong\", at_most = 0");
     const bool least = found.count("at_least") != 0, most = found.count("at_most") != 0;
     if (!least && !most)
       problems_.add(origin_of(table.source()), prefix + "at_most", "",

@@ -56,7 +56,7 @@ void set_columns(Scenario& scenario, const Dispersion& dispersion, const Numbers
   for (std::size_t i = 0; i < values.size(); ++i) set_column(scenario, dispersion.columns[i], values[i]);
 }
 
-std::string case_text(const Dispersion& dispersion, const Numbers& values) {
+std::string values_text(const Dispersion& dispersion, const Numbers& values) {
   std::string text;
   for (std::size_t i = 0; i < values.size(); ++i)
     text += (i == 0 ? "with " : ", ") + dispersion.columns[i] + " = " + rounded_text(values[i]);
@@ -127,11 +127,19 @@ class CampaignCheck {
   void check_rows(const Dispersion& dispersion) {
     const Rows* rows = std::get_if<Rows>(&dispersion.law);
     if (rows == nullptr || !rows->in_order) return;
+    check_order(dispersion, *rows);
     const std::size_t count = rows->values.size() / dispersion.columns.size();
     if (count >= campaign_.cases) return;
     warn(dispersion, rows->file,
          "has " + std::to_string(count) + " rows for " + std::to_string(campaign_.cases) +
              " cases: after the last they are flown again, with other seeds");
+  }
+
+  // A table is mostly sorted: its first rows do not stand for all.
+  void check_order(const Dispersion& dispersion, const Rows& rows) {
+    if (campaign_.look_every == 0) return;
+    complain(dispersion.key, rows.file,
+             "in order does not go with look_every: the first rows do not stand for all; write rows = \"drawn\", or delete look_every");
   }
 
   // From a possible case, with its middle of each law, to the ends of one law at a time.
@@ -152,7 +160,7 @@ class CampaignCheck {
     trial_.doubts.clear();
     if (!broken.empty()) {
       const Problem& first = broken.front();
-      complain(dispersion.key, case_text(dispersion, values), "contradicts " + first.key + ": " + first.value + ": " + first.expected);
+      complain(dispersion.key, values_text(dispersion, values), "contradicts " + first.key + ": " + first.value + ": " + first.expected);
     }
     return broken.empty();
   }

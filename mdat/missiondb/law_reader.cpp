@@ -31,11 +31,6 @@ ValueRow list_row(double minimum, double maximum, std::size_t count, const char*
   return row;
 }
 
-std::string range_of(const ValueRow& row) {
-  const std::string unit = row.unit.empty() || row.unit == "1" ? "" : " " + row.unit;
-  return number_text(row.minimum) + " to " + number_text(row.maximum) + unit;
-}
-
 // One law's table.
 class LawTable {
  public:
@@ -127,7 +122,7 @@ class LawTable {
     const std::string to = high > row_.maximum ? number_text(row_.maximum) : rounded_text(high);
     const bool overlaps = low < row_.maximum && high > row_.minimum;
     problems_.add(origin_of(node.source()), key_ + ".normal", "[" + number_text(law.mean) + ", " + number_text(law.sigma) + "]",
-                  "out of range: " + reach_text(law.mean, law.sigma) + ", expected " + range_of(row_) + " (" + row_.meaning +
+                  "out of range: " + reach_text(law.mean, law.sigma) + ", expected " + range_text(row_) + " (" + row_.meaning +
                       "): " + (overlaps ? "cut it off by within = [" + from + ", " + to + "]" : "correct the mean"));
     return false;
   }

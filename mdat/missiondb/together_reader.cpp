@@ -23,8 +23,6 @@ std::string no_such_column(const std::string& name) {
          (meant.empty() ? "; expected names such as truth.range_m, truth.offset_m.x, mission.estimation.surface_sigma_m" : meant);
 }
 
-std::string range_text_of(const ValueRow& row) { return number_text(row.minimum) + " to " + number_text(row.maximum) + " " + row.unit; }
-
 double least_eigenvalue(const Eigen::MatrixXd& symmetric) {
   return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(symmetric, Eigen::EigenvaluesOnly).eigenvalues()[0];
 }
@@ -148,7 +146,7 @@ class TogetherReader {
       if (law.mean[i] - kReach * sigma >= row.minimum && law.mean[i] + kReach * sigma <= row.maximum) continue;
       good = false;
       complain("covariance", "",
-               columns[i]->name + " is out of range: " + reach_text(law.mean[i], sigma) + ", expected " + range_text_of(row) +
+               columns[i]->name + " is out of range: " + reach_text(law.mean[i], sigma) + ", expected " + range_text(row) +
                    ": make its variance smaller");
     }
     return good;
@@ -205,7 +203,7 @@ class TogetherReader {
     const bool whole = row.kind == ValueKind::kReal || row.kind == ValueKind::kReals || value == std::trunc(value);
     if (whole && value >= row.minimum && value <= row.maximum) return value;
     throw std::runtime_error(csv.place(place) + ": " + csv.name(place) + " is " + number_text(value) + ", expected " +
-                             (whole ? "" : "a whole number from ") + range_text_of(row));
+                             (whole ? "" : "a whole number from ") + range_text(row));
   }
 
   const toml::table& table_;

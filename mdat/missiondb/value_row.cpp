@@ -30,11 +30,6 @@ ValueKind value_kind(ParameterKind kind) {
   return ValueKind::kReal;
 }
 
-std::string range_text(const ValueRow& row) {
-  const std::string unit = row.unit.empty() || row.unit == "1" ? "" : " " + row.unit;
-  return number_text(row.minimum) + " to " + number_text(row.maximum) + unit;
-}
-
 std::string item_text(const ValueRow& row, double value) {
   if (row.kind == ValueKind::kBoolean) return value != 0 ? "true" : "false";
   if (row.kind == ValueKind::kChoice) return '"' + row.choices.at(static_cast<std::size_t>(value)) + '"';
@@ -69,6 +64,11 @@ const std::vector<ValueRow>& flight_rows() {
 const ValueRow* find_row(const std::vector<ValueRow>& rows, const std::string& key) {
   const auto found = std::find_if(rows.begin(), rows.end(), [&](const ValueRow& row) { return row.key == key; });
   return found == rows.end() ? nullptr : &*found;
+}
+
+std::string range_text(const ValueRow& row) {
+  const std::string unit = row.unit.empty() || row.unit == "1" ? "" : " " + row.unit;
+  return number_text(row.minimum) + " to " + number_text(row.maximum) + unit;
 }
 
 std::string expectation(const ValueRow& row) {

@@ -33,6 +33,9 @@ const std::vector<ValueRow>& flight_rows();
 // nullptr if there is none.
 const ValueRow* find_row(const std::vector<ValueRow>& rows, const std::string& key);
 
+// "0.1 to 60 deg".
+std::string range_text(const ValueRow& row);
+
 // "a number from 0.1 to 60 deg", "true or false", ...
 std::string expectation(const ValueRow& row);
 

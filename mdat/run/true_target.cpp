@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <map>
 
@@ -53,11 +54,15 @@ void remove_triangles(const std::vector<bool>& gone, Mesh& mesh) {
   mesh.triangles.resize(kept);
 }
 
+// Vertices of one place move together: many files (all STL) write a vertex once for each of its triangles, and the surface is not to tear.
 void move_vertices(double sigma_m, std::uint64_t seed, Mesh& mesh) {
   constexpr std::uint64_t kStream = 0x766572746578U;  // not that of the noise
   sim::Random random(seed ^ kStream);
+  std::map<std::array<double, 3>, Eigen::Vector3d> errors_m;
   for (Eigen::Vector3d& vertex : mesh.vertices) {
-    for (double& coordinate : vertex) coordinate += sigma_m * random.gaussian();
+    const auto [error_m, is_new] = errors_m.try_emplace({vertex.x(), vertex.y(), vertex.z()}, Eigen::Vector3d::Zero());
+    for (int axis = 0; is_new && axis < 3; ++axis) error_m->second[axis] = sigma_m * random.gaussian();
+    vertex += error_m->second;
   }
 }
 

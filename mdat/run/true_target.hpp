@@ -14,8 +14,8 @@ namespace lasso::mdat {
 bool has_model_error(const Scenario& scenario);
 
 // The model's surface (target frame, metres) with the scenario's errors: a part turned, another one gone, then scaled, then each vertex off
-// at random by a generator of `seed` alone. Which triangles are a part is told by their centres in the model. A part that is turned takes
-// copies of the vertices that it shares. Throws RunError where nothing is left.
+// at random by a generator of `seed` alone, all vertices of one place alike. Which triangles are a part is told by their centres in the
+// model. A part that is turned takes copies of the vertices that it shares. Throws RunError where nothing is left.
 Mesh true_target(const Mesh& model, const Scenario& scenario, std::uint64_t seed);
 
 // A surface for the ray caster: triangles without area, which no ray can hit, are left out.

@@ -34,7 +34,21 @@ TEST(Findings, CountCasesOfAStoppedCampaign) {
             "40 of at most 500 cases, as its rule stopped it; 1 failed to run, which counts as outside");
   mixed.campaign.look_every = 0;
   mixed.table.rows.resize(1);
-  EXPECT_EQ(cases_text(find(mixed.campaign, mixed.table, "d")), "1 of 500 cases");
+  EXPECT_EQ(cases_text(find(mixed.campaign, mixed.table, "d")),
+            "1 of 500 cases; the others are missing, so that all that follows is preliminary");
+}
+
+// A rule that has decided nothing has stopped nothing, though cases are missing.
+TEST(Findings, DoNotTakeMissingCasesForAStop) {
+  VERIFIES("LASSO-GND-055~1 LASSO-GND-056~1");
+  test::MixedCampaign mixed;
+  mixed.campaign.cases = 500;
+  mixed.campaign.look_every = 20;
+  mixed.table.rows.resize(30);
+  const Findings all = find(mixed.campaign, mixed.table, "d");
+  EXPECT_FALSE(all.stopped);
+  EXPECT_FALSE(all.complete());
+  EXPECT_EQ(cases_text(all).find("30 of at most 500 cases; the others are missing"), 0U) << cases_text(all);
 }
 
 // Bad where it spins fast: no component shows it, their length does.

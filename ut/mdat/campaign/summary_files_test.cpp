@@ -57,6 +57,18 @@ TEST(Junit, HoldsWhatAWorkerLeaves) {
   EXPECT_NE(text.find("&lt;bell &gt;: mdat"), std::string::npos) << text;
 }
 
+// A part of a campaign does not pass, whatever its criteria say.
+TEST(Junit, IsAnErrorWhereCasesAreMissing) {
+  VERIFIES("LASSO-GND-058~1");
+  CampaignSource campaign = test::campaign_of({});
+  campaign.cases = 3;
+  const ResultTable table = test::table_of({1});
+  const std::string text = junit_xml(find(campaign, table, "d"));
+  EXPECT_NE(text.find("errors=\"1\""), std::string::npos) << text;
+  EXPECT_NE(text.find("message=\"2 of 3 cases are missing\""), std::string::npos) << text;
+  EXPECT_FALSE(nlohmann::json::parse(summary_json(find(campaign, table, "d"))).at("complete"));
+}
+
 TEST(Junit, HasATestCaseEvenWithoutCriteria) {
   VERIFIES("LASSO-GND-058~1");
   const CampaignSource campaign = test::campaign_of({});

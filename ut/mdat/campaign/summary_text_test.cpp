@@ -17,7 +17,7 @@ TEST(SummaryText, HasVerdictsWorstCasesAndWhatGoesWithThem) {
   expect_line(text, "Campaign rough, scenario spin: 40 cases; 1 failed to run, which counts as outside");
   expect_line(text, "  no_wrong_pose  wrong <= 0 in at least 80 %   39 of 40      97.5 %  86.8 % to 99.937 % (95 %)  met");
   expect_line(text, "  precise        rms_mm <= 4 in at least 90 %  19 of 40      47.5 %  31.5 % to 63.9 % (95 %)    failed");
-  expect_line(text, "  precise: Cases without rms_mm (no valid pose has one) count as outside: 1.");
+  expect_line(text, "  precise: Cases without rms_mm (such as those without a valid pose) count as outside: 1.");
   expect_line(text, "           rms_mm 5.9  outside  mdat campaign case out/rough 39");
   expect_line(text, "  worker ended, by \"signal\" 11  mdat campaign case out/rough 3");
   expect_line(text, "  precise  worse where larger:  truth.range_m  +0.76  p < 0.001");

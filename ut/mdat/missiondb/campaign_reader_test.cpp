@@ -134,6 +134,7 @@ TEST_F(CampaignReaderTest, CriteriaHaveBounds) {
   EXPECT_EQ(criterion.at_least, -std::numeric_limits<double>::infinity());
   EXPECT_EQ(criterion.share_min, 0.98);
   EXPECT_EQ(criterion.confidence, 0.95);
+  refuses(head + "figure = 'first_wrong'\nat_least = 9\nshare_min = 0.9", {"criteria.good.figure: first_wrong: has no number where no"});
   refuses(head + "figure = 'wrong'\nshare_min = 0.9", {"criteria.good.at_most", "a bound of the figure"});
   refuses(head + "figure = 'wrongs'\nat_most = 0\nshare_min = 0.9", {"did you mean \"wrong\"?"});
   refuses(head + "figure = 'wrong'\nat_most = 0", {"share_min", "is missing"});
@@ -204,6 +205,8 @@ TEST_F(CampaignReaderTest, WrongCovariancesAreNamedWithFigures) {
   refuses(head + "mean = [0, 0]\ncovariance = [[1, 0], [0, 0]]", {"the variance of truth.offset_m.y is 0"});
   refuses(head + "mean = [0]\ncovariance = [[1, 0], [0, 1]]", {"as many numbers as keys: 2, not 1"});
   refuses(head + "mean = [0, 9999]\ncovariance = [[1, 0], [0, 1]]", {"truth.offset_m.y is out of range: reaches from 9995 to 10003"});
+  refuses("[[campaign.c.together]]\nkeys = ['truth.outlier_probability']\nmean = [0.1]\ncovariance = [[0.01]]",
+          {"reaches from -0.3 to 0.5 (mean and 4 sigma), expected 0 to 0.9: make its variance smaller"});
   refuses(head + "mean = [0, 0]", {"expected keys, mean and covariance"});
   refuses(head + "table = 't.csv'", {"expected keys, mean and covariance"});
   const std::string one = "mean = [0]\ncovariance = [[1]]";

@@ -41,6 +41,10 @@ TEST_F(CampaignRulesTest, LooksFitTheCases) {
   EXPECT_EQ(load("look_every = 100\n").campaigns.at("c").look_every, 100U);
   expect_error("look_every = 101\n", "m.toml:13:14: campaign.c.look_every: 101: expected at most cases, which is 100");
   expect_error("look_every = 10\nsampling = 'latin_hypercube'\n", "goes with sampling = \"random\" alone");
+  const std::string table = "[[campaign.c.together]]\ntable = 't.csv'\n";
+  folder_.write("t.csv", "truth.range_m\n3\n4\n");
+  expect_error("look_every = 10\n" + table, "campaign.c.together[0]: t.csv: in order does not go with look_every");
+  EXPECT_EQ(error_of("look_every = 10\n" + table + "rows = 'drawn'\n"), "");
 }
 
 TEST_F(CampaignRulesTest, WhatTheScenarioSaysItselfDoesNotVary) {

@@ -99,14 +99,33 @@ TEST(TrueTarget, VerticesAreOffAsMuchAsSaidAndTheSameBySeed) {
   Scenario scenario = no_error();
   scenario.model_vertex_sigma_m = 0.02;
   Mesh many;
-  many.vertices.assign(2000, Eigen::Vector3d(1, 2, 3));
+  for (int i = 0; i < 2000; ++i) many.vertices.emplace_back(i, 2, 3);
   many.triangles = {{0, 1, 2}};
   const Mesh mesh = true_target(many, scenario, 7);
   double squares = 0;
-  for (const Eigen::Vector3d& vertex : mesh.vertices) squares += (vertex - Eigen::Vector3d(1, 2, 3)).squaredNorm();
+  for (std::size_t i = 0; i < 2000; ++i) squares += (mesh.vertices[i] - many.vertices[i]).squaredNorm();
   EXPECT_NEAR(std::sqrt(squares / 6000), 0.02, 4 * 0.02 / std::sqrt(2 * 6000.0)) << "four standard errors";
   EXPECT_EQ(true_target(many, scenario, 7).vertices, mesh.vertices);
   EXPECT_NE(true_target(many, scenario, 8).vertices, mesh.vertices);
+}
+
+// As an STL file has them: three vertices a triangle.
+TEST(TrueTarget, ASurfaceOfSeparateTrianglesDoesNotTear) {
+  VERIFIES("LASSO-SIM-043~1");
+  Scenario scenario = no_error();
+  scenario.model_vertex_sigma_m = 0.02;
+  const Mesh joined = two_squares();
+  Mesh separate;
+  for (const auto& triangle : joined.triangles) {
+    const auto first = static_cast<std::uint32_t>(separate.vertices.size());
+    for (const std::uint32_t vertex : triangle) separate.vertices.push_back(joined.vertices[vertex]);
+    separate.triangles.push_back({first, first + 1, first + 2});
+  }
+  const Mesh moved = true_target(separate, scenario, 7);
+  for (std::size_t i = 0; i < 12; ++i) {
+    for (std::size_t j = 0; j < i; ++j)
+      EXPECT_EQ(moved.vertices[i] == moved.vertices[j], separate.vertices[i] == separate.vertices[j]) << i << j;
+  }
 }
 
 }  // namespace
