@@ -137,6 +137,27 @@ TEST_F(CampaignCommand, FliesFaultScriptsAndFliesThemAgain) {
   expect_refusal(run("run f"), "the fault scripts of faults: is not what the campaign was expanded from");
 }
 
+// Of a scenario of several ranges a case flies the first, and so does its run.
+TEST_F(CampaignCommand, FliesACaseOfOneOfSeveralRangesAgain) {
+  VERIFIES("LASSO-GND-067~1");
+  write_campaigns("[campaign.many]\nscenario = 'rates'\ncases = 1\nframes = 2\n");
+  ASSERT_EQ(run("run missions/test.toml --campaign many --no-report --out m").exit_code, 0);
+  ASSERT_EQ(run("case m 0 --no-report").exit_code, 0);
+  EXPECT_EQ(lines_of(work.read("m/case-0/frames.csv")).size(), 1U + 2);
+}
+
+TEST_F(CampaignCommand, LivesBehindALinkAndReplacesNobodysFiles) {
+  VERIFIES("LASSO-GND-068~1");
+  std::filesystem::create_directories(work / "far/away/scratch");
+  std::filesystem::create_directory_symlink(work / "far/away/scratch", work / "link");
+  EXPECT_EQ(fly("link/c").exit_code, 0);
+  EXPECT_EQ(run("case link/c 0 --no-report").exit_code, 0);
+  std::filesystem::create_directories(work / "own");
+  work.write("own/results.csv", "mine\n");
+  expect_refusal(fly("own"), "own/results.csv");
+  EXPECT_EQ(work.read("own/results.csv"), "mine\n");
+}
+
 TEST_F(CampaignCommand, ComparesTheSameCasesOfTwoMissions) {
   VERIFIES("LASSO-GND-066~1");
   ASSERT_EQ(fly("a").exit_code, 0);

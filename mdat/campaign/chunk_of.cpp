@@ -25,6 +25,8 @@ constexpr ArrayVariables kArrays[] = {
     {"Kubernetes", "JOB_COMPLETION_INDEX", nullptr, nullptr, nullptr, nullptr, 0},
 };
 
+constexpr std::uint32_t kLargestDivision = 1000000;
+
 std::optional<std::uint32_t> whole_number(std::string_view text) {
   std::uint32_t number = 0;
   const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), number);
@@ -46,8 +48,11 @@ Chunk written_chunk(const std::string& text) {
   const std::size_t slash = text.find('/');
   const auto number = whole_number(std::string_view(text).substr(0, slash));
   const auto of = slash == std::string::npos ? std::nullopt : whole_number(std::string_view(text).substr(slash + 1));
-  if (!number || !of || *number < 1 || *number > *of)
-    refuse_chunk_text(text, "expected K/N, the K-th of N chunks, K from 1 to N, such as 3/10; or auto, or auto/N, in a job array");
+  if (!number || !of || *number < 1 || *number > *of || *of > kLargestDivision)
+    refuse_chunk_text(text,
+                      format("expected K/N, the K-th of N chunks, K from 1 to N, N at most %u, such as 3/10; or auto, or auto/N, in a "
+                             "job array",
+                             kLargestDivision));
   return {*number, *of};
 }
 
@@ -95,7 +100,8 @@ ChosenChunk chunk_of_array(const std::string& text, const Environment& environme
 ChosenChunk chunk_of(const std::string& text, const Environment& environment) {
   if (text.substr(0, 4) != "auto") return {written_chunk(text), ""};
   const std::uint32_t of = text.size() > 5 && text[4] == '/' ? whole_number(std::string_view(text).substr(5)).value_or(0) : 0;
-  if (text.size() > 4 && of == 0) refuse_chunk_text(text, "expected auto or auto/N, N chunks");
+  if (text.size() > 4 && (of == 0 || of > kLargestDivision))
+    refuse_chunk_text(text, format("expected auto or auto/N, N chunks, at most %u", kLargestDivision));
   const ArrayVariables* const array = array_in(environment);
   if (array == nullptr) refuse_chunk_text(text, "none of " + known_indices() + " is set: write --chunk K/N, or start it in a job array");
   const std::uint32_t index = *number_in(environment, array->index);

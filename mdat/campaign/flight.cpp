@@ -50,7 +50,8 @@ CaseResult CampaignFlight::fly(std::uint64_t seed, const std::vector<double>& va
 
 CompiledMission CampaignFlight::mission_of(const std::vector<double>& values) const {
   CompiledMission mission = mission_;
-  mission.source.scenarios[campaign_.scenario] = scenario_with(values);
+  Scenario& scenario = mission.source.scenarios[campaign_.scenario] = scenario_with(values);
+  if (!scenario.has_profile()) scenario.ranges_m.resize(1);  // which a case flies
   return mission;
 }
 

@@ -192,7 +192,7 @@ std::string times_csv(const fs::path& folder, const ResultTable& table) {
 // Without what it takes long to know.
 CampaignPlan plan_of_mission(const MissionSource& mission, const CampaignSource& campaign, const fs::path& folder) {
   CampaignPlan plan;
-  plan.mission = fs::proximate(fs::absolute(mission.file), fs::absolute(folder)).string();
+  plan.mission = fs::proximate(fs::weakly_canonical(mission.file), fs::weakly_canonical(folder)).string();  // behind links, too
   plan.campaign = campaign.name;
   plan.settings = mission.settings;
   plan.figures = figure_names();
@@ -212,10 +212,17 @@ void refuse_to_remove_under_a_runner(const fs::path& folder) {
   }
 }
 
+std::vector<fs::path> campaign_files(const fs::path& folder) {
+  std::vector<fs::path> files;
+  for (const char* name : {"plan.json", "cases.csv", "results.csv", "results.h5", "times.csv", "summary.json", "junit.xml", "report.html"})
+    files.push_back(folder / name);
+  return files;
+}
+
 // Removes what mdat has written there, and nothing else.
 void remove_campaign(const fs::path& folder) {
-  for (const char* name : {"plan.json", "cases.csv", "results.csv", "results.h5", "times.csv", "summary.json", "junit.xml", "report.html"})
-    fs::remove(folder / name);
+  if (!has_plan(folder)) return;
+  for (const fs::path& file : campaign_files(folder)) fs::remove(file);
   fs::remove_all(folder / kChunks);
 }
 
@@ -224,6 +231,7 @@ void remove_campaign(const fs::path& folder) {
 void expand_campaign(const MissionInput& input, const std::string& campaign, bool cached, const std::string& commit, const fs::path& folder,
                      bool replace) {
   if (replace) refuse_to_remove_under_a_runner(folder);
+  if (!replace) refuse_to_replace(campaign_files(folder), "--force replaces it, --out DIR keeps it");
   const CampaignSource& source = campaign_of(input.source, campaign);
   OutputFolder out(folder);
   CampaignPlan plan = plan_of_mission(input.source, source, folder);

@@ -129,7 +129,8 @@ std::string image_sha256(const CompiledMission& mission, const CampaignSource& c
 }
 
 MissionInput load_planned(const fs::path& folder, const CampaignPlan& plan, const std::string& instead) {
-  const fs::path file = instead.empty() ? (folder / plan.mission).lexically_normal() : fs::path(instead);
+  const fs::path file =
+      instead.empty() ? fs::proximate((fs::weakly_canonical(folder) / plan.mission).lexically_normal()) : fs::path(instead);
   if (!fs::exists(file)) throw InputError(file.string() + ": the campaign's mission is not there; --mission FILE says where it is");
   const std::string remedy = "restore it, or expand a campaign of the new one into another folder (--out DIR)";
   require_same(file, digest_of_file(file), plan.mission_sha256, remedy);

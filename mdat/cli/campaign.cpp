@@ -42,7 +42,7 @@ std::string folder_of(const CampaignArguments& options) { return options.out.emp
 // The folder holds the very campaign that its mission would be expanded to now.
 bool is_same_plan(const CampaignArguments& options, const fs::path& folder) {
   const LoadedPlan loaded = load_plan(folder);
-  const fs::path planned = (fs::absolute(folder) / loaded.plan.mission).lexically_normal();
+  const fs::path planned = (fs::weakly_canonical(folder) / loaded.plan.mission).lexically_normal();
   return loaded.plan.campaign == options.campaign && loaded.plan.settings == options.settings &&
          fs::weakly_canonical(planned) == fs::weakly_canonical(options.target);
 }

@@ -261,6 +261,11 @@ class CampaignReader {
   CampaignSource campaign_;
 };
 
+bool is_plain_name(std::string_view name) {
+  constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_";
+  return !name.empty() && name.size() <= 64 && name.find_first_not_of(kPlain) == std::string_view::npos;
+}
+
 }  // namespace
 
 void Dispersions::add(Dispersion dispersion, const std::string& key, Origin origin) {
@@ -279,7 +284,10 @@ void read_campaigns(const toml::table& root, MissionSource& source, ProblemList&
   if (!node->is_table()) return problems.add(*node, "campaign", "wrong type: expected tables [campaign.NAME]");
   for (const auto& [name, entry] : *node->as_table()) {
     const std::string key = "campaign." + std::string(name.str());
-    if (const toml::table* table = entry.as_table()) {
+    if (!is_plain_name(name.str())) {
+      problems.add(origin_of(name.source()), "campaign", '"' + std::string(name.str()) + '"',
+                   "expected a name of letters, digits, - and _, at most 64: it becomes that of a folder");
+    } else if (const toml::table* table = entry.as_table()) {
       CampaignReader(std::string(name.str()), *table, root, source, problems).read();
     } else {
       problems.add(entry, key, "wrong type: expected a table [" + key + "]");

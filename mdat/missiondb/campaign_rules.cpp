@@ -82,7 +82,9 @@ class CampaignCheck {
 
   void run() {
     check_looks();
+    check_criteria();
     check_scenario();
+    check_ranges();
     for (const Dispersion& dispersion : campaign_.dispersions) {
       check_effect(dispersion);
       check_rows(dispersion);
@@ -103,6 +105,18 @@ class CampaignCheck {
       complain(key, value, "goes with sampling = \"random\" alone: the first cases of other samplings do not stand for all");
   }
 
+  void check_criteria() {
+    constexpr double kSettling = 20;  // frames after which a figure "settled_..." begins
+    for (const Criterion& criterion : campaign_.criteria) {
+      if (criterion.figure.rfind("settled_", 0) != 0 || scenario_.frames > kSettling) continue;
+      complain("campaign." + campaign_.name + ".criteria." + criterion.name + ".figure", criterion.figure,
+               "is of the frames after the first 20, and a case has " + number_text(scenario_.frames) + ": write more frames");
+    }
+    if (campaign_.look_every > 0 && campaign_.criteria.empty())
+      complain("campaign." + campaign_.name + ".look_every", std::to_string(campaign_.look_every),
+               "has nothing to decide: add [campaign." + campaign_.name + ".criteria.NAME], or delete it");
+  }
+
   void check_scenario() {
     const Dispersion* found = nullptr;
     if (scenario_.has_profile() && has_column(campaign_, {"truth.range_m"}, found))
@@ -113,6 +127,16 @@ class CampaignCheck {
       complain(found->key, "", "changes nothing: scenario " + campaign_.scenario + " draws its attitude itself; write drawn = false in it");
   }
 
+  void check_ranges() {
+    if (scenario_.has_profile() || scenario_.ranges_m.size() < 2) return;
+    const Dispersion* found = nullptr;
+    if (has_column(campaign_, {"truth.range_m"}, found)) return;
+    const Origin origin = source_.origins["campaign." + campaign_.name + ".scenario"];
+    source_.warnings.push_back(
+        to_string({source_.file.string(), origin.line, origin.column, "campaign." + campaign_.name + ".scenario", campaign_.scenario,
+                   "has " + std::to_string(scenario_.ranges_m.size()) + " ranges, of which a case flies the first, " +
+                       number_text(scenario_.ranges_m.front()) + " m: give truth.range_m a law, such as { one_of = [...] }"}));
+  }
   void warn(const Dispersion& dispersion, const std::string& value, const std::string& what) {
     const Origin origin = source_.origins[dispersion.key];
     source_.warnings.push_back(to_string({source_.file.string(), origin.line, origin.column, dispersion.key, value, what}));

@@ -277,6 +277,23 @@ std::string idle_keys_fault(const Subject& s) {
   return std::string("in a scenario of kind ") + kNames[static_cast<int>(s.scenario->scenario_kind())] + " these have no effect: " + keys;
 }
 
+bool has_corners(const std::vector<double>& box) {
+  return std::any_of(box.begin(), box.end(), [](double value) { return value != 0; });
+}
+
+// Low corner, high corner.
+std::string box_fault(const std::vector<double>& box) {
+  if (!has_corners(box) || (box.at(0) < box.at(3) && box.at(1) < box.at(4) && box.at(2) < box.at(5))) return "";
+  return "expected low x, y, z, then high x, y, z, each above its low one";
+}
+std::string gone_box_fault(const Subject& s) { return box_fault(s.scenario->model_gone_box_m); }
+std::string turned_box_fault(const Subject& s) { return box_fault(s.scenario->model_turned_box_m); }
+
+std::string turn_without_box_fault(const Subject& s) {
+  const bool turns = norm(s.scenario->model_turn_rad) > 0;
+  return turns && !has_corners(s.scenario->model_turned_box_m) ? "changes nothing: model_turned_box_m says which part turns" : "";
+}
+
 }  // namespace
 
 bool has_effect(const std::string& key, ScenarioKind kind) {
@@ -301,6 +318,9 @@ const Rules& scenario_rules() {
     {kWarning, kScenario, kValues, {"drift_mps", "filter.initial_rate_mps"}, drift_sigma_fault},
     {kWarning, kScenario, kValues, {"spin_degps", "start.first"}, searched_spin_fault},
     {kWarning, kScenario, kValues, {"step_deg"}, step_fault},
+    {kError, kScenario, kValues, {"model_gone_box_m"}, gone_box_fault},
+    {kError, kScenario, kValues, {"model_turned_box_m"}, turned_box_fault},
+    {kWarning, kScenario, kValues, {"model_turn_deg", "model_turned_box_m"}, turn_without_box_fault},
     {kWarning, kScenario, kValues, {"prior", "kind", "start.first"}, no_way_fault},
     {kWarning, kScenario, kValues, {"ranges_m", "sensor.use_from_m", "sensor.use_to_m"}, band_gap_fault},
     {kWarning, kScenario, kValues, {"frames", "times_s"}, short_run_fault},

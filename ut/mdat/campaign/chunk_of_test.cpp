@@ -29,7 +29,7 @@ TEST(ChunkOf, ReadsWhatIsWritten) {
   VERIFIES("LASSO-GND-064~1");
   EXPECT_EQ(chunk_name(chosen("3/10", {{"SLURM_ARRAY_TASK_ID", "7"}}).chunk), "3of10");
   EXPECT_EQ(chunk_name(chosen("1/1", {}).chunk), "1of1");
-  for (const char* text : {"", "3", "/", "0/10", "11/10", "3/", "/10", "-1/10", "3/10/2", " 3/10", "3/99999999999"})
+  for (const char* text : {"", "3", "/", "0/10", "11/10", "3/", "/10", "-1/10", "3/10/2", " 3/10", "3/99999999999", "2/4294967295"})
     EXPECT_NE(refused(text, {}).find("expected K/N, the K-th of N chunks, K from 1 to N"), std::string::npos) << text;
   for (const char* text : {"auto/", "auto/0", "auto/x", "auto10", "automatic"})
     EXPECT_NE(refused(text, {{"PBS_ARRAY_INDEX", "1"}}).find("expected auto or auto/N"), std::string::npos) << text;

@@ -36,15 +36,46 @@ class CampaignRulesTest : public ::testing::Test {
   Folder folder_;
 };
 
+const std::string kAsks = "[campaign.c.criteria.right]\nfigure = 'wrong'\nat_most = 0\nshare_min = 0.9\n";
+
 TEST_F(CampaignRulesTest, LooksFitTheCases) {
   VERIFIES("LASSO-GND-045~1");
-  EXPECT_EQ(load("look_every = 100\n").campaigns.at("c").look_every, 100U);
-  expect_error("look_every = 101\n", "m.toml:13:14: campaign.c.look_every: 101: expected at most cases, which is 100");
-  expect_error("look_every = 10\nsampling = 'latin_hypercube'\n", "goes with sampling = \"random\" alone");
+  EXPECT_EQ(load("look_every = 100\n" + kAsks).campaigns.at("c").look_every, 100U);
+  expect_error("look_every = 101\n" + kAsks, "m.toml:13:14: campaign.c.look_every: 101: expected at most cases, which is 100");
+  expect_error("look_every = 10\nsampling = 'latin_hypercube'\n" + kAsks, "goes with sampling = \"random\" alone");
+  expect_error("look_every = 10\n", "campaign.c.look_every: 10: has nothing to decide: add [campaign.c.criteria.NAME]");
   const std::string table = "[[campaign.c.together]]\ntable = 't.csv'\n";
   folder_.write("t.csv", "truth.range_m\n3\n4\n");
-  expect_error("look_every = 10\n" + table, "campaign.c.together[0]: t.csv: in order does not go with look_every");
-  EXPECT_EQ(error_of("look_every = 10\n" + table + "rows = 'drawn'\n"), "");
+  expect_error("look_every = 10\n" + kAsks + table, "campaign.c.together[0]: t.csv: in order does not go with look_every");
+  EXPECT_EQ(error_of("look_every = 10\n" + kAsks + table + "rows = 'drawn'\n"), "");
+}
+
+TEST_F(CampaignRulesTest, AFigureOfSettledFramesNeedsSome) {
+  VERIFIES("LASSO-GND-045~1");
+  const std::string asks = "[campaign.c.criteria.rates]\nfigure = 'settled_degps'\nat_most = 1\nshare_min = 0.9\n";
+  expect_error("frames = 20\n" + asks, "campaign.c.criteria.rates.figure: settled_degps: is of the frames after the first 20");
+  EXPECT_EQ(error_of("frames = 21\n" + asks), "");
+}
+
+// It becomes that of a folder.
+TEST_F(CampaignRulesTest, NamesArePlain) {
+  VERIFIES("LASSO-GND-045~1");
+  EXPECT_EQ(error_of("[campaign.Ab-9_]\nscenario = 's'\ncases = 1\n"), "");
+  for (const std::string& name : {std::string(".."), std::string(), std::string("a/b"), std::string("a\\u001b"), std::string(65, 'x')})
+    expect_error("[campaign.\"" + name + "\"]\nscenario = 's'\ncases = 1\n", "expected a name of letters, digits, - and _, at most 64");
+}
+
+TEST_F(CampaignRulesTest, OneOfSeveralRangesIsTold) {
+  VERIFIES("LASSO-GND-045~1");
+  const std::string scenario = "[scenario.s]\nkind = 'spin'\nranges_m = [5, 6]\n";
+  const auto told = [&](const std::string& text) {
+    const std::vector<std::string> warnings = warnings_for(load(text, scenario), "");
+    return std::count_if(warnings.begin(), warnings.end(), [](const std::string& warning) {
+      return warning.find("of which a case flies the first, 5 m") != std::string::npos;
+    });
+  };
+  EXPECT_EQ(told(""), 1);
+  EXPECT_EQ(told("truth.range_m = { one_of = [5, 6] }\n"), 0);
 }
 
 TEST_F(CampaignRulesTest, WhatTheScenarioSaysItselfDoesNotVary) {

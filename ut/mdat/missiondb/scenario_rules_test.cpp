@@ -23,6 +23,16 @@ TEST_F(ScenarioRules, TimesAscendAndBelongToRanges) {
               "expected between sensor.range_min_m and sensor.range_max_m, which are 0.5 m and 20 m: 20 m is not");
 }
 
+TEST_F(ScenarioRules, AModelErrorIsOne) {
+  VERIFIES("LASSO-GND-009~1 LASSO-GND-060~1");
+  expect_scenario_edge(kSpin + "model_gone_box_m = [0, 0, 0, 1, 1, 1]", kSpin + "model_gone_box_m = [0, 0, 1, 1, 1, 1]",
+                       "error: ", "each above its low one");
+  const std::string turn = "model_turn_deg = [0, 5, 0]\n";
+  expect_scenario_edge(kSpin + turn + "model_turned_box_m = [0, 0, 0, 1, 1, 1]", kSpin + turn + "model_turned_box_m = [2, 0, 0, 1, 1, 1]",
+                       "error: ", "each above its low one");
+  expect_scenario_edge(kSpin, kSpin + turn, "warning: ", "changes nothing: model_turned_box_m says which part turns");
+}
+
 TEST_F(ScenarioRules, AWayMayBeginBeyondWhatIsMeasured) {
   VERIFIES("LASSO-GND-009~1 LASSO-GND-060~1");
   const std::string way = "kind = 'approach'\ntimes_s = [0, 200, 220]\nframes = 1100\nnavigation_from_s = 0\nranges_m = ";
