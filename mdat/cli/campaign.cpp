@@ -1,5 +1,7 @@
 #include <unistd.h>
 
+#include <charconv>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
@@ -26,7 +28,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct CampaignArguments {
-  std::string target, other, campaign, out, mission, chunk, engine;
+  std::string target, other, campaign, out, mission, other_mission, chunk, engine;
   std::vector<std::string> settings;
   EngineOptions engine_options;
   unsigned jobs = std::max(1U, std::thread::hardware_concurrency());
@@ -171,19 +173,27 @@ void launch(const CampaignArguments& options) {
   launch.chunks = options.chunks != 0 ? options.chunks : chunks_for(loaded.plan.cases, options.seconds_per_case);
   launch.chunk_s = options.seconds_per_case * loaded.plan.cases / launch.chunks;
   const std::string text = launch_text(options.engine, launch);
-  fs::create_directories(fs::path(options.target) / "launch");
   const Launcher& launcher = launcher_of(options.engine);
-  const fs::path file = fs::path(options.target) / "launch" / launcher.file;
-  write_file(file, text);
+  OutputFolder out(fs::path(options.target) / "launch");
+  out.write(launcher.file, text);
+  out.commit();
   std::fputs(text.c_str(), stdout);
-  std::fprintf(stderr, "written to %s; in its folder: %s\n", file.c_str(), launcher.submit);
+  std::fprintf(stderr, "written to %s; in its folder: %s\n", (out.path() / launcher.file).c_str(), launcher.submit);
 }
 
 void compare(const CampaignArguments& options) {
   const CampaignFolder a = open_campaign(options.target, options.mission, options.cached),
-                       b = open_campaign(options.other, "", options.cached);
+                       b = open_campaign(options.other, options.other_mission, options.cached);
   const Comparison both = compare_cases(a.campaign(), merged(a, true), b.campaign(), merged(b, true));
   std::fputs(comparison_text(both, options.target, options.other).c_str(), stdout);
+}
+
+// Of an option: more than none, and a number.
+std::string check_seconds(const std::string& text) {
+  double seconds = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seconds);
+  const bool is_number = error == std::errc{} && end == text.data() + text.size();
+  return is_number && seconds > 0 && std::isfinite(seconds) ? "" : "expected a number of seconds above 0, not " + text;
 }
 
 CLI::App* folder_command(CLI::App& group, const char* name, const char* what, const std::shared_ptr<CampaignArguments>& options) {
@@ -214,9 +224,9 @@ void add_run(CLI::App& group) {
   command->add_option("--jobs", options->jobs, "cases at a time (all cores)")->check(CLI::Range(1, 1024));
   command->add_option("--chunk", options->chunk, "k/N: fly only chunk k of N, from 1; auto or auto/N: as the scheduler's job array says");
   command->add_option("--time-limit", options->engine_options.time_limit_s, "begin no case that would end later than this, in seconds")
-      ->check(CLI::PositiveNumber);
+      ->check(&check_seconds);
   command->add_option("--case-time-limit", options->engine_options.case_time_limit_s, "a case that takes longer has failed, in seconds")
-      ->check(CLI::PositiveNumber);
+      ->check(&check_seconds);
   command->add_flag("!--no-report", options->report, "without report.html");
   command->footer(
       "The same command goes on where it was stopped or killed; finished cases are never lost.\n"
@@ -282,6 +292,8 @@ void add_compare(CLI::App& group) {
   CLI::App* command = group.add_subcommand("compare", "the same cases under two missions or versions: what changed, and is it chance?");
   command->add_option("A", options->target, "folder of a campaign")->required()->check(CLI::ExistingDirectory);
   command->add_option("B", options->other, "the other one")->required()->check(CLI::ExistingDirectory);
+  command->add_option("--mission", options->mission, "A's mission file as it was then, where that is elsewhere");
+  command->add_option("--mission-b", options->other_mission, "the same of B");
   command->footer("Cases are paired by their numbers, and have to draw the same values. Exit codes: 0 printed, whatever differs.");
   command->callback([options] { compare(*options); });
 }
@@ -294,7 +306,7 @@ void add_launch(CLI::App& group) {
   command->add_option("--engine", options->engine, "whose language")->required()->check(CLI::IsMember(engines));
   command->add_option("--seconds", options->seconds_per_case, "processor seconds of a case, as times.csv of a trial has them")
       ->required()
-      ->check(CLI::PositiveNumber);
+      ->check(&check_seconds);
   command->add_option("--chunks", options->chunks, "how many (so many that one takes a quarter of an hour)")->check(CLI::Range(1, 100000));
   command->callback([options] { launch(*options); });
 }
