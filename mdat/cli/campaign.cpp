@@ -300,7 +300,7 @@ void add_compare(CLI::App& group) {
 
 void add_launch(CLI::App& group) {
   const auto options = std::make_shared<CampaignArguments>();
-  CLI::App* command = folder_command(group, "launch", "print what starts the chunks on a cluster", options);
+  CLI::App* command = folder_command(group, "launch", "write and print what starts the chunks on a cluster", options);
   std::vector<std::string> engines;
   for (const Launcher& launcher : launchers()) engines.emplace_back(launcher.engine);
   command->add_option("--engine", options->engine, "whose language")->required()->check(CLI::IsMember(engines));
