@@ -54,7 +54,7 @@ CaseTable::CaseTable(std::filesystem::path file) : file_(std::move(file)), in_(f
   const std::vector<std::string_view> cells = cells_of(line_);
   if (!has_header || cells.size() < kPlainColumns || cells[0] != "case" || cells[1] != "seed")
     throw InputError(file_.string() + ":1: expected the header \"case,seed,...\"" + kRemedy);
-  columns_.assign(cells.begin() + kPlainColumns, cells.end());
+  for (std::size_t i = kPlainColumns; i < cells.size(); ++i) columns_.emplace_back(cells[i]);
 }
 
 // False at the end.
@@ -107,7 +107,7 @@ void check_cases(const std::filesystem::path& file, const CaseDraws& draws, std:
   if (table.columns() != draws.columns()) throw InputError(file.string() + ":1: the columns are not those of the campaign" + kRemedy);
   for (std::uint32_t k = 0; k < cases; ++k) {
     const auto read = table.next();
-    if (!read) refuse(k, "is missing");
+    if (!read) return refuse(k, "is missing");
     const CaseValues drawn = draws.values(k);
     if (read->seed != drawn.seed) refuse(k, "has the seed " + std::to_string(read->seed) + ", not " + std::to_string(drawn.seed));
     for (std::size_t i = 0; i < drawn.numbers.size(); ++i) {

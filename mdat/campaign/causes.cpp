@@ -19,7 +19,7 @@ template <class Before>
 std::vector<std::size_t> sorted_places(std::size_t count, const Before& before) {
   std::vector<std::size_t> places(count);
   std::iota(places.begin(), places.end(), 0);
-  std::stable_sort(places.begin(), places.end(), before);
+  std::sort(places.begin(), places.end(), [&](std::size_t a, std::size_t b) { return before(a, b) || (!before(b, a) && a < b); });
   return places;
 }
 
@@ -112,8 +112,10 @@ std::vector<Correlation> correlations(const Criterion& criterion, const ResultTa
   }
   const std::vector<double> adjusted = holm(probabilities);
   for (std::size_t i = 0; i < found.size(); ++i) found[i].probability = adjusted[i];
-  const auto stronger = [](const Correlation& a, const Correlation& b) { return std::abs(a.rho) > std::abs(b.rho); };
-  std::stable_sort(found.begin(), found.end(), stronger);
+  const auto stronger = [](const Correlation& a, const Correlation& b) {
+    return std::abs(a.rho) != std::abs(b.rho) ? std::abs(a.rho) > std::abs(b.rho) : a.column < b.column;
+  };
+  std::sort(found.begin(), found.end(), stronger);
   return found;
 }
 

@@ -104,7 +104,7 @@ ChosenChunk chunk_of(const std::string& text, const Environment& environment) {
     refuse_chunk_text(text, format("expected auto or auto/N, N chunks, at most %u", kLargestDivision));
   const ArrayVariables* const array = array_in(environment);
   if (array == nullptr) refuse_chunk_text(text, "none of " + known_indices() + " is set: write --chunk K/N, or start it in a job array");
-  const std::uint32_t index = *number_in(environment, array->index);
+  const std::uint32_t index = number_in(environment, array->index).value_or(0);  // array_in has read it
   const std::uint32_t first = number_in(environment, array->first).value_or(array->counts_from);
   return of > 0 ? chunk_of_written_count(text, *array, index, first, of) : chunk_of_array(text, environment, *array, index, first);
 }

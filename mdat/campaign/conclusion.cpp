@@ -30,9 +30,10 @@ std::optional<double> deciding_cases(const Conclusion& conclusion) {
            Verdict::kUndecided;
   };
   double low = cases, high = std::max(1.0, 2 * cases);
-  for (; !decides(high); high *= 2) {
+  while (!decides(high)) {
     if (high > kMostCases) return std::nullopt;
     low = high;
+    high *= 2;
   }
   while (high - low > 1) {
     const double middle = std::floor((low + high) / 2);

@@ -17,14 +17,14 @@ struct DrawCases : F... {
   using F::operator()...;
 };
 
-const boost::math::normal_distribution<double, DoublePolicy> kStandardNormal;
+boost::math::normal_distribution<double, DoublePolicy> standard_normal() { return {}; }
 
 // Of a standard normal law between two ends: mirrored where both are above, as small numbers keep their digits and those near 1 do not.
 double cut_normal(double low, double high, double share) {
   if (low > 0) return -cut_normal(-high, -low, 1 - share);
-  const double below = boost::math::cdf(kStandardNormal, low), inside = boost::math::cdf(kStandardNormal, high) - below;
+  const double below = boost::math::cdf(standard_normal(), low), inside = boost::math::cdf(standard_normal(), high) - below;
   constexpr double kBelowOne = 1 - 0x1p-53;  // where the sum rounds to 1, which has no quantile
-  return std::clamp(boost::math::quantile(kStandardNormal, std::min(below + share * inside, kBelowOne)), low, high);
+  return std::clamp(boost::math::quantile(standard_normal(), std::min(below + share * inside, kBelowOne)), low, high);
 }
 
 double value_of(const Uniform& law, double share) { return std::clamp(law.low + share * (law.high - law.low), law.low, law.high); }

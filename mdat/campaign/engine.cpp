@@ -69,7 +69,7 @@ class Engine {
   const MakeFly& make_fly_;
   const OnCase& on_case_;
   const std::atomic<bool>& interrupted_;
-  std::optional<ChunkFile> file_;
+  std::unique_ptr<ChunkFile> file_;
   std::vector<bool> recorded_;       // by case
   std::vector<std::uint8_t> kills_;  // from outside, by case
   std::vector<std::uint32_t> again_;
@@ -80,7 +80,7 @@ class Engine {
   bool ending_ = false;
   Clock::time_point begin_ = Clock::now(), ending_since_;
   double longest_s_ = 0;
-  std::optional<ProgressBar> bar_;
+  std::unique_ptr<ProgressBar> bar_;
 };
 
 Engine::Engine(const EngineOptions& options, const MakeFly& make_fly, const OnCase& on_case)
@@ -92,7 +92,7 @@ Engine::Engine(const EngineOptions& options, const MakeFly& make_fly, const OnCa
       kills_(options.cases),
       next_(options.chunk.number - 1) {
   (void)std::signal(SIGXFSZ, SIG_IGN);  // a file that has become too large is an error of write()
-  file_.emplace(options.folder, chunk_name(options.chunk), options.plan_digest);
+  file_ = std::make_unique<ChunkFile>(options.folder, chunk_name(options.chunk), options.plan_digest);
   for (const std::string& note : file_->notes()) say("warning: " + note);
   const Records records(options.folder, options.plan_digest, options.cases, options.chunk);
   find(records);
@@ -157,7 +157,7 @@ void Engine::receive(Slot& slot) {
   if (message.kind == Worker::Kind::kDead) return replace_dead(slot);
   if (message.kind == Worker::Kind::kBadInput) throw InputError(message.text);
   if (message.kind == Worker::Kind::kError) throw RunError(message.text);
-  if (message.kind == Worker::Kind::kFields) {
+  if (message.kind == Worker::Kind::kFields && slot.flying) {
     longest_s_ = std::max(longest_s_, seconds_since(slot.since));
     keep(*slot.flying, message.text);
   }
@@ -262,7 +262,7 @@ bool Engine::is_over() const {
 
 EngineResult Engine::run() {
   slots_.resize(ending_ ? 0 : std::min(std::max(options_.jobs, 1U), result_.missing));
-  bar_.emplace("campaign", result_.missing, "cases");
+  bar_ = std::make_unique<ProgressBar>("campaign", result_.missing, "cases");
   for (Slot& slot : slots_) start_worker(slot);
   for (; !is_over(); check_case_times()) {
     check_interruption();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -78,7 +79,7 @@ class Span {
 
  private:
   std::vector<double> values_;
-  double below_ = INFINITY, above_ = -INFINITY;
+  double below_ = std::numeric_limits<double>::infinity(), above_ = -below_;
 };
 
 Span figure_span(const ResultTable& table, const Finding& finding) {
@@ -206,8 +207,8 @@ std::vector<Bin> bins_of(const ResultTable& table, const Finding& finding, std::
   std::vector<std::size_t> rows(table.rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = i;
   const auto value = [&](std::size_t i) { return table.rows[rows[i]].drawn[column]; };
-  std::stable_sort(rows.begin(), rows.end(),
-                   [&](std::size_t a, std::size_t b) { return table.rows[a].drawn[column] < table.rows[b].drawn[column]; });
+  const auto place = [&](std::size_t row) { return std::pair(table.rows[row].drawn[column], row); };
+  std::sort(rows.begin(), rows.end(), [&](std::size_t a, std::size_t b) { return place(a) < place(b); });
   const std::size_t count = std::clamp<std::size_t>(rows.size() / kLeastInBin, 1, kMostBins);
   std::vector<Bin> bins;
   for (std::size_t i = 0; i < rows.size(); ++i) {

@@ -1,6 +1,7 @@
 #include "mdat/campaign/records.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cstdio>
 
 #include "mdat/campaign/chunk_file.hpp"
@@ -15,8 +16,12 @@ namespace fs = std::filesystem;
 
 // By the name alone: chunks of the same number of chunks have no case in common.
 bool can_have_cases_of(const Chunk& chunk, const fs::path& file) {
+  const std::string name = file.stem().string();
+  const char* const end = name.data() + name.size();
   Chunk named;
-  if (std::sscanf(file.stem().c_str(), "%uof%u", &named.number, &named.of) != 2) return true;
+  const std::from_chars_result number = std::from_chars(name.data(), end, named.number);
+  if (number.ec != std::errc{} || !std::string_view(number.ptr, end).starts_with("of")) return true;
+  if (std::from_chars(number.ptr + 2, end, named.of).ec != std::errc{}) return true;
   return named.of != chunk.of || named.number == chunk.number;
 }
 

@@ -50,16 +50,18 @@ std::string failed_lines(const Findings& all) {
   return lines.empty() ? "" : "Cases that failed to run\n" + aligned_text(lines);
 }
 
+void add_correlations(const Findings& all, const Finding& finding, Lines& lines) {
+  std::size_t shown = 0;
+  for (const Correlation& one : finding.correlations) {
+    if (one.probability >= kSignificance || shown == kShownCorrelations) continue;
+    lines.push_back({shown++ == 0 ? finding.conclusion.criterion.name : "", one.rho > 0 ? "worse where larger:" : "worse where smaller:",
+                     all.table.columns[one.column], format("%+.2f", one.rho), probability_text(one.probability)});
+  }
+}
+
 std::string correlation_lines(const Findings& all) {
   Lines lines;
-  for (const Finding& finding : all.findings) {
-    std::size_t shown = 0;
-    for (const Correlation& one : finding.correlations) {
-      if (one.probability >= kSignificance || shown == kShownCorrelations) continue;
-      lines.push_back({shown++ == 0 ? finding.conclusion.criterion.name : "", one.rho > 0 ? "worse where larger:" : "worse where smaller:",
-                       all.table.columns[one.column], format("%+.2f", one.rho), probability_text(one.probability)});
-    }
-  }
+  for (const Finding& finding : all.findings) add_correlations(all, finding, lines);
   if (all.findings.empty() || all.table.columns.empty()) return "";
   return lines.empty() ? "No drawn value goes with bad cases (rank correlations, 5 % level).\n"
                        : "What goes with bad cases: rank correlations, p over all drawn values\n" + aligned_text(lines);

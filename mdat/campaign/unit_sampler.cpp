@@ -88,6 +88,7 @@ double UnitSampler::stratified(std::uint32_t case_number, std::size_t dimension)
 // Boost begins after the origin, without which 2^k cases would not balance; shifted, it is a point like any other. Gray code seeks without
 // drawing what is before.
 std::vector<double> UnitSampler::quasi_random(std::uint32_t case_number) const {
+  if (!sobol_) return {};  // of another sampling, or without dimensions
   boost::random::sobol sequence = *sobol_;
   if (case_number > 0) sequence.seed(case_number - 1);
   std::vector<double> result;

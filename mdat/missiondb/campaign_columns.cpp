@@ -8,7 +8,7 @@
 namespace lasso::mdat {
 namespace {
 
-const std::string kTruth = "truth.", kMission = "mission.", kRangeColumn = "truth.range_m";
+constexpr char kTruth[] = "truth.", kMission[] = "mission.", kRangeColumn[] = "truth.range_m";
 
 struct NotVaried {
   const char* key;
@@ -49,7 +49,7 @@ CampaignColumn faults_column() {
   row.unit = "1";
   row.maximum = kMostScripts - 1;
   row.meaning = "number of the script of faults, from 0";
-  return {kTruth + kFaultsKey, row, 0};
+  return {std::string(kTruth) + kFaultsKey, row, 0};
 }
 
 void add_columns(const std::string& prefix, const std::vector<ValueRow>& rows, std::vector<CampaignColumn>& columns) {

@@ -12,7 +12,7 @@ Json number_or_law(ValueRow row) {
 }
 
 Json list_of_laws(const ValueRow& row) {
-  const Json list = {{"type", "array"}, {"minItems", row.count_max}, {"maxItems", row.count_max}, {"items", number_or_law(row)}};
+  Json list = {{"type", "array"}, {"minItems", row.count_max}, {"maxItems", row.count_max}, {"items", number_or_law(row)}};
   if (row.count_max != 3) return list;
   Json direction = closed_object();
   direction["properties"]["any_direction"] = {{"anyOf", {{{"type", "number"}, {"minimum", 0}}, {{"$ref", "#/definitions/law"}}}}};

@@ -101,13 +101,14 @@ struct Scenario {
   std::vector<double> prior_turn_rad;  // rotation vector in the target's axes by which the pose to start from is wrong
   std::vector<double> prior_shift_m;   // and by which its position is, in sensor axes
   // How the simulated target differs from the model that the component has, in this order; in target axes.
-  double model_scale = 1;                   // of all lengths, about the target's origin
-  double model_vertex_sigma_m = 0;          // each coordinate of each vertex, at random
-  std::vector<double> model_turned_box_m;   // low x, y, z, high x, y, z: triangles whose centres lie in it are turned ...
-  std::vector<double> model_turn_rad;       // ... about its middle by this rotation vector
-  std::vector<double> model_gone_box_m;     // triangles whose centres, as the model has them, lie in it are not there; boxes without size: none
+  double model_scale = 1;                  // of all lengths, about the target's origin
+  double model_vertex_sigma_m = 0;         // each coordinate of each vertex, at random
+  std::vector<double> model_turned_box_m;  // low x, y, z, high x, y, z: triangles whose centres lie in it are turned ...
+  std::vector<double> model_turn_rad;      // ... about its middle by this rotation vector
+  std::vector<double>
+      model_gone_box_m;  // triangles whose centres, as the model has them, lie in it are not there; boxes without size: none
   // The simulated sensor, as against the noise that the estimator assumes ([sensor]), from which unwritten values are taken.
-  double noise = 1;  // 0: perfect ranges and angles
+  double noise = 1;         // 0: perfect ranges and angles
   double noise_factor = 1;  // of the range noise
   double sigma0_m = 0, sigma_k_per_m = 0, angle_noise_rad = 0, dropout_probability = 0;
   double dropout_incidence_rad = 0;  // rays that graze the surface more than this do not return

@@ -7,6 +7,7 @@
 #include "fsw/mode/searcher.hpp"
 #include "mdat/common/cpu_clock.hpp"
 #include "mdat/common/progress_bar.hpp"
+#include "mdat/common/text.hpp"
 #include "mdat/replay/scan_notes.hpp"
 #include "mdat/replay/search_words.hpp"
 #include "mdat/run/statistics.hpp"
