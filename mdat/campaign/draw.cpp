@@ -12,11 +12,6 @@
 namespace lasso::mdat {
 namespace {
 
-template <class... F>
-struct DrawCases : F... {
-  using F::operator()...;
-};
-
 boost::math::normal_distribution<double, DoublePolicy> standard_normal() { return {}; }
 
 // Of a standard normal law between two ends: mirrored where both are above, as small numbers keep their digits and those near 1 do not.
@@ -52,11 +47,11 @@ double value_of(const Fixed& law, double /*share*/) { return law.value; }
 std::size_t dimensions_of(const NumberLaw& law) { return std::holds_alternative<Fixed>(law) ? 0 : 1; }
 
 std::size_t dimensions_of(const Dispersion& dispersion) {
-  return std::visit(
-      DrawCases{[](const NumberLaw& law) { return dimensions_of(law); },
-                [](const AnyDirection& law) { return 2 + dimensions_of(law.length); }, [](const AnyAttitude&) -> std::size_t { return 3; },
-                [](const Correlated& law) { return law.mean.size(); }, [](const Rows& law) -> std::size_t { return law.in_order ? 0 : 1; }},
-      dispersion.law);
+  return std::visit(LawVisitor{[](const NumberLaw& law) { return dimensions_of(law); },
+                               [](const AnyDirection& law) { return 2 + dimensions_of(law.length); },
+                               [](const AnyAttitude&) -> std::size_t { return 3; }, [](const Correlated& law) { return law.mean.size(); },
+                               [](const Rows& law) -> std::size_t { return law.in_order ? 0 : 1; }},
+                    dispersion.law);
 }
 
 std::size_t dimensions_of(const std::vector<Dispersion>& dispersions) {

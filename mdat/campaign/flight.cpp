@@ -1,5 +1,6 @@
 #include "mdat/campaign/flight.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <utility>
 
@@ -8,6 +9,14 @@
 #include "mdat/run/camera.hpp"
 
 namespace lasso::mdat {
+namespace {
+
+bool are_same(const MissionParameters& a, const MissionParameters& b) {
+  const auto rows = parameter_rows();
+  return std::all_of(rows.begin(), rows.end(), [&](const ParameterRow& row) { return a.*row.member == b.*row.member; });
+}
+
+}  // namespace
 
 CampaignFlight::CampaignFlight(const CompiledMission& mission, const CampaignSource& campaign, std::vector<std::string> columns)
     : mission_(mission),
@@ -15,7 +24,8 @@ CampaignFlight::CampaignFlight(const CompiledMission& mission, const CampaignSou
       columns_(std::move(columns)),
       scenario_(scenario_of(mission.source, campaign.scenario)),
       frames_(campaign.frames != 0 ? campaign.frames : static_cast<std::uint32_t>(scenario_.frames)),
-      image_(image_bytes(mission, plain_case(mission.source, scenario_, 0, 0).parameters)),
+      parameters_(plain_case(mission.source, scenario_, 0, 0).parameters),
+      image_(image_bytes(mission, parameters_)),
       target_(make_target(mission.mesh)) {
   for (const lcs::Device device : {lcs::Device::kLaserCamera, lcs::Device::kLidar, lcs::Device::kTridar}) {
     if (campaign.sensor == wire_name(device)) wire_ = device;
@@ -39,7 +49,7 @@ CaseResult CampaignFlight::fly(std::uint64_t seed, const std::vector<double>& va
   setup.wire = wire_;
   setup.camera_faults = faults_of(setup.scenario);
   std::vector<std::uint8_t> image;
-  if (setup.scenario.overrides != scenario_.overrides) image = image_bytes(mission_, setup.parameters);
+  if (!are_same(setup.parameters, parameters_)) image = image_bytes(mission_, setup.parameters);
   setup.image = image.empty() ? &image_ : &image;
   std::unique_ptr<sim::RayCaster> target;
   if (has_model_error(setup.scenario)) target = simulated_target(mission_.mesh, setup.scenario, seed);

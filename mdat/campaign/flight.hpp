@@ -40,7 +40,8 @@ class CampaignFlight {
   std::uint32_t frames_;
   std::optional<lcs::Device> wire_;
   std::vector<sim::LcsFaults> faults_;  // by the scripts of the campaign
-  std::vector<std::uint8_t> image_;
+  MissionParameters parameters_;        // of a case that varies none of them ...
+  std::vector<std::uint8_t> image_;     // ... and its image
   std::unique_ptr<sim::RayCaster> target_;
 };
 

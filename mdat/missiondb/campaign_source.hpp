@@ -43,6 +43,12 @@ struct Rows {
 };
 using Law = std::variant<NumberLaw, AnyDirection, AnyAttitude, Correlated, Rows>;
 
+// For std::visit of a law: a call operator for each kind.
+template <class... Functions>
+struct LawVisitor : Functions... {
+  using Functions::operator()...;
+};
+
 // Some columns of the table of cases, and the law that they follow together. A column is named as a mission file names the value, after
 // "mission." (the component believes it: it goes into the image) or "truth." (it is simulated: a key of the scenario); of a list's number a
 // final ".x", ".y", ".z" or, where there are more than three, ".1", ".2", ... follows.

@@ -156,11 +156,6 @@ class LawTable {
   ProblemList& problems_;
 };
 
-template <class... F>
-struct LawCases : F... {
-  using F::operator()...;
-};
-
 }  // namespace
 
 std::optional<NumberLaw> read_law(const toml::node& node, ValueRow row, const std::string& key, ProblemList& problems) {
@@ -186,19 +181,19 @@ std::string reach_text(double mean, double sigma) {
 }
 
 Span span_of(const NumberLaw& law) {
-  return std::visit(LawCases{[](const Fixed& l) {
-                               return Span{l.value, l.value};
-                             },
-                             [](const OneOf& l) {
-                               const auto [low, high] = std::minmax_element(l.values.begin(), l.values.end());
-                               return Span{*low, *high};
-                             },
-                             [](const Normal& l) {
-                               return Span{std::max(l.low, l.mean - kReach * l.sigma), std::min(l.high, l.mean + kReach * l.sigma)};
-                             },
-                             [](const auto& l) {
-                               return Span{l.low, l.high};
-                             }},
+  return std::visit(LawVisitor{[](const Fixed& l) {
+                                 return Span{l.value, l.value};
+                               },
+                               [](const OneOf& l) {
+                                 const auto [low, high] = std::minmax_element(l.values.begin(), l.values.end());
+                                 return Span{*low, *high};
+                               },
+                               [](const Normal& l) {
+                                 return Span{std::max(l.low, l.mean - kReach * l.sigma), std::min(l.high, l.mean + kReach * l.sigma)};
+                               },
+                               [](const auto& l) {
+                                 return Span{l.low, l.high};
+                               }},
                     law);
 }
 
