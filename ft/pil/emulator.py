@@ -39,10 +39,19 @@ def require(board=PPC603E):
     return version[1]
 
 
+ENDING = signal.SIGTERM, signal.SIGHUP  # end_with_children answers them
+
+
+def leave_endings_to_main():
+    """In each other thread. Only the main thread answers a signal, and where another one gets it nothing wakes a main thread that waits."""
+    signal.pthread_sigmask(signal.SIG_BLOCK, ENDING)
+
+
 def dying_with(parent):
     """What a child does before its program starts: the kernel ends it when the parent is gone, however that went. One whose parent went before that asks in vain, and ends itself."""
     def prepare():
         LIBC.prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, ENDING)
         if os.getppid() != parent:
             os._exit(1)
     return prepare
@@ -83,11 +92,11 @@ CHILDREN = Children()
 def end_with_children():
     """A signal that ends this program ends its with blocks, and all that runs for it."""
     def end(number, _):
-        for one in (signal.SIGTERM, signal.SIGHUP):
+        for one in ENDING:
             signal.signal(one, signal.SIG_IGN)
         CHILDREN.end_all()
         sys.exit(128 + number)
-    for one in (signal.SIGTERM, signal.SIGHUP):
+    for one in ENDING:
         signal.signal(one, end)
 
 

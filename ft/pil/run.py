@@ -212,7 +212,7 @@ def fly(gate, number, host, board, frames, progress):
 def fly_all(gate, flights, frames):
     """One beside the other, with one progress: a line of each would overwrite the others'. The first that fails ends all."""
     progress = Progress('fly', len(flights) * 2 * (frames + PIPELINE_FRAMES), 'frames on hosts and boards')
-    with concurrent.futures.ThreadPoolExecutor() as pool:
+    with concurrent.futures.ThreadPoolExecutor(initializer=emulator.leave_endings_to_main) as pool:
         jobs = {number: pool.submit(fly, gate, number, *folders, frames, progress) for number, folders in flights.items()}
         try:
             for job in concurrent.futures.as_completed(jobs.values()):
