@@ -25,7 +25,9 @@ void sleep_until(std::int64_t monotonic_ns) {
 
 }  // namespace
 
-Runner::Runner(Component& component, Pace pace) : component_(component), pace_(pace), worker_(&Runner::work, this) {}
+Runner::Runner(Component& component, Pace pace) : component_(component), pace_(pace) {
+  if (pace_ != Pace::kAlone) worker_ = std::thread(&Runner::work, this);
+}
 
 Runner::~Runner() {
   {
@@ -33,7 +35,7 @@ Runner::~Runner() {
     ending_ = true;
   }
   changed_.notify_all();
-  worker_.join();
+  if (worker_.joinable()) worker_.join();
 }
 
 FrameRecord Runner::run_frame() {
@@ -74,6 +76,14 @@ void Runner::run_slot() {
   if (pump_) pump_->receive(now_us);
   component_.run_slot(now_us);
   if (!component_.estimation_pending()) return;
+  if (pace_ == Pace::kAlone) {
+    measurement_ = estimate();
+  } else {
+    request_estimate();
+  }
+}
+
+void Runner::request_estimate() {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     requested_ = true;
@@ -82,7 +92,7 @@ void Runner::run_slot() {
 }
 
 TimeUs Runner::wait_until(TimeUs slot_us) {
-  if (pace_ == Pace::kLockstep) return slot_us;
+  if (pace_ == Pace::kLockstep || pace_ == Pace::kAlone) return slot_us;
   if (!clock_set_) {
     clock_offset_ns_ = clock_ns(CLOCK_MONOTONIC) - slot_us * kNsPerUs;
     clock_set_ = true;

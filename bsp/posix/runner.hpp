@@ -1,5 +1,5 @@
-// Runs the flight component on Linux: the caller is the acquisition thread, a worker thread estimates. Estimates are timed here, outside
-// the flight code.
+// Runs the flight component on Linux: the caller is the acquisition thread, a worker thread estimates (Pace::kAlone: the caller does).
+// Estimates are timed here, outside the flight code.
 #pragma once
 
 #include <condition_variable>
@@ -18,6 +18,7 @@ namespace lasso::posix {
 
 enum class Pace : std::uint8_t {
   kLockstep,  // simulated time, as fast as possible; the worker is waited for at each boundary: never an overrun
+  kAlone,     // the same without a worker: where other flights fill the other cores, which no worker then waits for
   kPaced,  // the same, but no faster than the clock: for a simulated world with an operator. A late machine stretches time, loses nothing
   kRealTime,  // absolute sleeps, overruns are real: for a world with a clock of its own
 };
@@ -54,6 +55,7 @@ class Runner {
     std::int64_t wall_ns = 0;
   };
   void run_slot();
+  void request_estimate();
   void work();
   Measurement estimate();
   Measurement take_measurement();
@@ -77,7 +79,7 @@ class Runner {
   bool working_ = false;
   bool ending_ = false;
   Measurement measurement_;
-  std::thread worker_;  // last: uses all of the above
+  std::thread worker_;  // none in kAlone; last: uses all of the above
 };
 
 }  // namespace lasso::posix

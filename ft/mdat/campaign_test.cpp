@@ -133,8 +133,10 @@ TEST_F(CampaignCommand, FliesFaultScriptsAndFliesThemAgain) {
   for (const std::string& line : lines_of(work.read("f/cases.csv"))) flown.insert(fields_of(line).at(2));
   EXPECT_EQ(flown, (std::set<std::string>{"truth.camera_faults", "0", "1"}));
   EXPECT_EQ(run("case f 3 --no-report").exit_code, 0);
-  work.write("missions/late.toml", "[[fault]]\nkind = 'silent'\nfrom_s = 0.4\nto_s = 1.0\n");
-  expect_refusal(run("run f"), "the fault scripts of faults: is not what the campaign was expanded from");
+  work.write("missions/late.toml", "");
+  EXPECT_EQ(run("case f 3 --no-report").exit_code, 0) << "the folder keeps the scripts";
+  work.write("f/mission/late.toml", "");
+  expect_refusal(run("run f"), "f/mission/late.toml: is not what the campaign was expanded from");
 }
 
 // Of a scenario of several ranges a case flies the first, and so does its run.
@@ -181,21 +183,38 @@ TEST_F(CampaignCommand, RefusesWhatIsNotItsOwn) {
   work.write("c/cases.csv", cases.substr(0, cases.size() - 2) + "9\n");
   expect_refusal(run("run c"), "c/cases.csv:7: case 5 has ");
   work.write("c/cases.csv", cases);
-  work.write("missions/test.toml", mission + "# a word\n");
+  const std::string kept = "c/" + Json::parse(plan).at("mission").get<std::string>();
+  work.write(kept, mission + "# a word\n");
   expect_refusal(run("run c"), "test.toml: is not what the campaign was expanded from");
-  work.write("missions/test.toml", mission);
-  std::filesystem::rename(work / "missions/test.toml", work / "missions/other.toml");
-  expect_refusal(run("run c"), "--mission FILE says where it is");
+  work.write(kept, mission);
   const auto with_other = [&](const std::string& digest) {
     const std::size_t place = plan.find('"' + digest + "\": \"") + digest.size() + 5;
     return plan.substr(0, place) + (plan[place] == '0' ? "1" : "0") + plan.substr(place + 1);
   };
   work.write("c/plan.json", with_other("program"));
-  expect_refusal(run("run c --mission missions/other.toml"), "this mdat is another one");
+  expect_refusal(run("run c"), "this mdat is another one");
   work.write("c/plan.json", with_other("image"));
-  expect_refusal(run("run c --mission missions/other.toml"), "one of the files that the mission names (parts, calibrations) has changed");
+  expect_refusal(run("run c"), "compiled: is not what the campaign was expanded from");
   work.write("c/plan.json", plan.substr(0, plan.size() / 2));
-  expect_refusal(run("run c --mission missions/other.toml"), "c/plan.json: ");
+  expect_refusal(run("run c"), "c/plan.json: ");
+}
+
+// The mission is edited, then gone, and the folder is elsewhere: its cases are what they were.
+TEST_F(CampaignCommand, FliesFromItsFolderAlone) {
+  VERIFIES("LASSO-GND-068~1");
+  ASSERT_EQ(fly("here").exit_code, 0);
+  const std::string mission = work.read("missions/test.toml"), results = work.read("here/results.csv");
+  work.write("missions/test.toml", mission + "# a word\n");
+  expect_refusal(fly("here"), "before test.toml changed: mdat campaign run here goes on with that");
+  ASSERT_EQ(fly("new").exit_code, 0);
+  EXPECT_EQ(run("compare here new").exit_code, 0);
+  std::filesystem::remove_all(work / "missions");
+  std::filesystem::create_directories(work / "far/away");
+  std::filesystem::rename(work / "here", work / "far/away/there");
+  std::filesystem::remove_all(work / "far/away/there/chunks");
+  EXPECT_EQ(run("run far/away/there --no-report").exit_code, 0);
+  EXPECT_EQ(work.read("far/away/there/results.csv"), results);
+  EXPECT_EQ(run("case far/away/there 2 --no-report").exit_code, 0);
 }
 
 TEST_F(CampaignCommand, RemovesNothingUnderARunner) {

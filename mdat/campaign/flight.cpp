@@ -46,6 +46,7 @@ Scenario CampaignFlight::scenario_with(const std::vector<double>& values) const 
 
 CaseResult CampaignFlight::fly(std::uint64_t seed, const std::vector<double>& values) const {
   CaseSetup setup = plain_case(mission_.source, scenario_with(values), seed, frames_);
+  setup.alone = true;
   setup.wire = wire_;
   setup.camera_faults = faults_of(setup.scenario);
   std::vector<std::uint8_t> image;

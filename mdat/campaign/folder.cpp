@@ -15,6 +15,7 @@
 #include "mdat/campaign/conclusion.hpp"
 #include "mdat/campaign/figures.hpp"
 #include "mdat/campaign/flight.hpp"
+#include "mdat/campaign/kept_mission.hpp"
 #include "mdat/campaign/report.hpp"
 #include "mdat/campaign/results_h5.hpp"
 #include "mdat/campaign/summary_files.hpp"
@@ -31,7 +32,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr char kCaseTable[] = "cases.csv", kChunks[] = "chunks", kTimes[] = ".times";
+constexpr char kCaseTable[] = "cases.csv", kChunks[] = "chunks", kMission[] = "mission", kTimes[] = ".times";
 constexpr double kNoFigure = std::numeric_limits<double>::quiet_NaN();
 
 // Done in a process of its own: a compilation starts threads, and this process will fork.
@@ -191,19 +192,17 @@ std::string times_csv(const fs::path& folder, const ResultTable& table) {
 }
 
 // Without what it takes long to know.
-CampaignPlan plan_of_mission(const MissionSource& mission, const CampaignSource& campaign, const fs::path& folder) {
+CampaignPlan plan_of_mission(const MissionSource& mission, const CampaignSource& campaign, const KeptMission& kept) {
   CampaignPlan plan;
-  plan.mission = fs::proximate(fs::weakly_canonical(mission.file), fs::weakly_canonical(folder)).string();  // behind links, too
+  plan.mission = kept.mission;
+  plan.files = kept.digests();
   plan.campaign = campaign.name;
   plan.settings = mission.settings;
   plan.figures = figure_names();
   plan.cases = campaign.cases;
   plan.look_every = campaign.look_every;
   plan.version = kVersion;
-  plan.mission_sha256 = sha256_of(file_content(mission.file));
-  plan.target_sha256 = mission.target.sha256;
   plan.program_sha256 = program_sha256();
-  plan.scripts_sha256 = scripts_sha256(campaign);
   return plan;
 }
 
@@ -225,6 +224,7 @@ void remove_campaign(const fs::path& folder) {
   if (!has_plan(folder)) return;
   for (const fs::path& file : campaign_files(folder)) fs::remove(file);
   fs::remove_all(folder / kChunks);
+  fs::remove_all(folder / kMission);
 }
 
 }  // namespace
@@ -235,7 +235,8 @@ void expand_campaign(const MissionInput& input, const std::string& campaign, boo
   if (!replace) refuse_to_replace(campaign_files(folder), "--force replaces it, --out DIR keeps it");
   const CampaignSource& source = campaign_of(input.source, campaign);
   OutputFolder out(folder);
-  CampaignPlan plan = plan_of_mission(input.source, source, folder);
+  const KeptMission kept = kept_mission(input.source);
+  CampaignPlan plan = plan_of_mission(input.source, source, kept);
   plan.image_sha256 = digest_of_image(input, campaign, cached);
   plan.commit = commit;
   std::ostringstream cases;
@@ -245,12 +246,13 @@ void expand_campaign(const MissionInput& input, const std::string& campaign, boo
   out.write(kCaseTable, text);
   out.write("plan.json", plan_json(plan, source));
   if (replace) remove_campaign(folder);
+  keep_mission(kept, folder);
   out.commit();
 }
 
-CampaignFolder open_campaign(const fs::path& folder, const std::string& mission, bool cached) {
+CampaignFolder open_campaign(const fs::path& folder, bool cached) {
   LoadedPlan loaded = load_plan(folder);
-  CampaignFolder result{folder, loaded.plan, loaded.digest, load_planned(folder, loaded.plan, mission), mission, cached};
+  CampaignFolder result{folder, loaded.plan, loaded.digest, load_planned(folder, loaded.plan), cached};
   static_cast<void>(campaign_of(result.input.source, loaded.plan.campaign));
   return result;
 }

@@ -20,19 +20,18 @@ struct CampaignFolder {
   CampaignPlan plan;
   std::string digest;  // of the plan
   MissionInput input;  // the plan's
-  std::string mission_file;
   bool cached = true;  // models are taken from the user's cache, and kept there
   const CampaignSource& campaign() const { return input.source.campaigns.at(plan.campaign); }
 };
 
-// Draws all cases and writes cases.csv, then plan.json, into the folder, which is made. The mission is compiled in a process of its own.
-// `commit`: the program's, for a person. `replace`: what a campaign has left in the folder goes, as soon as the new one is drawn; refused
-// while a runner flies it. Throws InputError, MissionError, RunError.
+// Draws all cases, keeps the mission's files in the folder, which is made, and writes cases.csv, then plan.json. The mission is compiled in
+// a process of its own. `commit`: the program's, for a person. `replace`: what a campaign has left in the folder goes, as soon as the new
+// one is drawn; refused while a runner flies it. Throws InputError, MissionError, RunError.
 void expand_campaign(const MissionInput& input, const std::string& campaign, bool cached, const std::string& commit,
                      const std::filesystem::path& folder, bool replace);
 
-// `mission`: its file, where it is not that which the plan names; empty otherwise. Throws as load_plan and load_planned.
-CampaignFolder open_campaign(const std::filesystem::path& folder, const std::string& mission, bool cached);
+// Throws as load_plan and load_planned.
+CampaignFolder open_campaign(const std::filesystem::path& folder, bool cached);
 
 // Flies what is missing (engine.hpp), or as much of it as the stopping rule needs where all is one chunk.
 EngineResult fly_campaign(const CampaignFolder& folder, EngineOptions options);

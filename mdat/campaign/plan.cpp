@@ -17,7 +17,7 @@ namespace {
 using PlanJson = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-constexpr int kPlanForm = 1;
+constexpr int kPlanForm = 2;
 constexpr char kPlanFile[] = "plan.json", kCasesFile[] = "cases.csv";
 constexpr const char* kSamplings[] = {"random", "latin_hypercube", "sobol"};
 constexpr std::size_t kPlanDigestShown = 12;
@@ -69,12 +69,10 @@ CampaignPlan plan_of(const PlanJson& json) {
   json.at("cases").get_to(plan.cases);
   if (const PlanJson& look_every = json.at("look_every"); !look_every.is_null()) look_every.get_to(plan.look_every);
   const PlanJson& digests = json.at("sha256");
-  digests.at("mission").get_to(plan.mission_sha256);
-  digests.at("target").get_to(plan.target_sha256);
+  digests.at("files").get_to(plan.files);
   digests.at("image").get_to(plan.image_sha256);
   digests.at("program").get_to(plan.program_sha256);
   digests.at("cases").get_to(plan.cases_sha256);
-  digests.at("fault_scripts").get_to(plan.scripts_sha256);
   json.at("program").at("version").get_to(plan.version);
   json.at("program").at("commit").get_to(plan.commit);
   return plan;
@@ -97,8 +95,7 @@ std::string plan_json(const CampaignPlan& plan, const CampaignSource& campaign) 
   json["look_every"] = plan.look_every == 0 ? PlanJson(nullptr) : PlanJson(plan.look_every);
   json["criteria"] = criteria_json(campaign);
   json["program"] = {{"version", plan.version}, {"commit", plan.commit}};
-  json["sha256"] = {{"mission", plan.mission_sha256}, {"target", plan.target_sha256}, {"image", plan.image_sha256},
-                    {"program", plan.program_sha256}, {"cases", plan.cases_sha256},   {"fault_scripts", plan.scripts_sha256}};
+  json["sha256"] = {{"files", plan.files}, {"image", plan.image_sha256}, {"program", plan.program_sha256}, {"cases", plan.cases_sha256}};
   return json.dump(2) + "\n";
 }
 
@@ -128,31 +125,20 @@ std::string image_sha256(const CompiledMission& mission, const CampaignSource& c
   return sha256_of({reinterpret_cast<const char*>(image.data()), image.size()});
 }
 
-MissionInput load_planned(const fs::path& folder, const CampaignPlan& plan, const std::string& instead) {
-  const fs::path file =
-      instead.empty() ? fs::proximate((fs::weakly_canonical(folder) / plan.mission).lexically_normal()) : fs::path(instead);
-  if (!fs::exists(file)) throw InputError(file.string() + ": the campaign's mission is not there; --mission FILE says where it is");
-  const std::string remedy = "restore it, or expand a campaign of the new one into another folder (--out DIR)";
-  require_same(file, digest_of_file(file), plan.mission_sha256, remedy);
-  MissionInput input = load_mission_input(file, plan.settings);
+MissionInput load_planned(const fs::path& folder, const CampaignPlan& plan) {
+  for (const auto& [name, digest] : plan.files)
+    require_same(folder / name, digest_of_file(folder / name), digest,
+                 "restore it, or expand the campaign into another folder (--out DIR)");
+  MissionInput input = load_mission_input(folder / plan.mission, plan.settings);
   require_drawn(folder / kCasesFile, plan, campaign_of(input.source, plan.campaign));
-  require_same(input.source.target.file, input.source.target.sha256, plan.target_sha256, remedy);
-  require_same("the fault scripts of " + plan.campaign, scripts_sha256(campaign_of(input.source, plan.campaign)), plan.scripts_sha256,
-               remedy);
   return input;
-}
-
-std::string scripts_sha256(const CampaignSource& campaign) {
-  std::string digests;
-  for (const std::string& script : campaign.fault_scripts) digests += digest_of_file(script);
-  return sha256_of(digests);
 }
 
 void check_image(const CampaignPlan& plan, const CompiledMission& mission) {
   const std::string found = image_sha256(mission, campaign_of(mission.source, plan.campaign));
   require_same(mission.source.file.string() + ", compiled", found, plan.image_sha256,
-               "one of the files that the mission names (parts, calibrations) has changed; restore it, or expand the campaign anew into "
-               "another folder (--out DIR)");
+               "what it names by an absolute path has changed, or this machine computes otherwise; expand the campaign anew into another "
+               "folder (--out DIR)");
 }
 
 void check_program(const CampaignPlan& plan) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -13,14 +14,14 @@ namespace lasso::mdat {
 
 // What the cases of a folder depend on. Digests are SHA-256 in lower-case hexadecimal.
 struct CampaignPlan {
-  std::string mission;                // file, as it is found from the folder, or absolute
+  std::string mission;                // file, below the folder
   std::string campaign;               // its name there
   std::vector<std::string> settings;  // KEY=VALUE of the command line
   std::vector<std::string> figures;   // of a case, in the order of its record
   std::uint32_t cases = 0;
-  std::uint32_t look_every = 0;  // of the stopping rule; 0: none
-  std::string mission_sha256, target_sha256, image_sha256, program_sha256, cases_sha256;
-  std::string scripts_sha256;   // of the digests of the fault scripts, one after the other
+  std::uint32_t look_every = 0;              // of the stopping rule; 0: none
+  std::map<std::string, std::string> files;  // of the mission, kept below the folder: digests by name
+  std::string image_sha256, program_sha256, cases_sha256;
   std::string version, commit;  // of the program, for a person
 };
 
@@ -38,15 +39,14 @@ bool has_plan(const std::filesystem::path& folder);
 
 // The program that is running.
 std::string program_sha256();
-std::string scripts_sha256(const CampaignSource& campaign);
-// Throws InputError where the mission's image is not the plan's: one of the files that it is made of has changed.
+// Throws InputError where the mission's image, compiled here, is not the plan's.
 void check_image(const CampaignPlan& plan, const CompiledMission& mission);
 // The flight image of the campaign's scenario, as no case varies it.
 std::string image_sha256(const CompiledMission& mission, const CampaignSource& campaign);
 
-// The mission of a plan: `instead` where given, otherwise the plan's own file as found from the folder; with its settings. Throws
-// InputError where mission, target or table of cases are not those of the plan, each with its remedy, and MissionError.
-MissionInput load_planned(const std::filesystem::path& folder, const CampaignPlan& plan, const std::string& instead = "");
+// The mission that the folder keeps, with the plan's settings. Throws InputError where one of its files or the table of cases is not that
+// of the plan, each with its remedy, and MissionError.
+MissionInput load_planned(const std::filesystem::path& folder, const CampaignPlan& plan);
 
 // Throws InputError where this program is another one than that of the plan: its cases might not be the same.
 void check_program(const CampaignPlan& plan);

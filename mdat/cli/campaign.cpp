@@ -11,6 +11,7 @@
 #include "mdat/campaign/campaign_list.hpp"
 #include "mdat/campaign/chunk_of.hpp"
 #include "mdat/campaign/folder.hpp"
+#include "mdat/campaign/kept_mission.hpp"
 #include "mdat/campaign/launch.hpp"
 #include "mdat/campaign/paired.hpp"
 #include "mdat/cli/commands.hpp"
@@ -28,7 +29,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct CampaignArguments {
-  std::string target, other, campaign, out, mission, other_mission, chunk, engine;
+  std::string target, other, campaign, out, chunk, engine;
   std::vector<std::string> settings;
   EngineOptions engine_options;
   unsigned jobs = std::max(1U, std::thread::hardware_concurrency());
@@ -37,16 +38,25 @@ struct CampaignArguments {
   bool cached = true, force = false, report = true, partial = false, failed = false, markdown = false;
 };
 
-CampaignFolder open_folder(const CampaignArguments& options) { return open_campaign(options.target, options.mission, options.cached); }
+CampaignFolder open_folder(const CampaignArguments& options) { return open_campaign(options.target, options.cached); }
 
 std::string folder_of(const CampaignArguments& options) { return options.out.empty() ? "out/campaign/" + options.campaign : options.out; }
 
-// The folder holds the very campaign that its mission would be expanded to now.
-bool is_same_plan(const CampaignArguments& options, const fs::path& folder) {
-  const LoadedPlan loaded = load_plan(folder);
-  const fs::path planned = (fs::weakly_canonical(folder) / loaded.plan.mission).lexically_normal();
-  return loaded.plan.campaign == options.campaign && loaded.plan.settings == options.settings &&
-         fs::weakly_canonical(planned) == fs::weakly_canonical(options.target);
+// Throws InputError unless the folder holds the very campaign that the mission would be expanded to now.
+void require_same_plan(const CampaignArguments& options, const fs::path& folder) {
+  const CampaignPlan plan = load_plan(folder).plan;
+  const std::string remedy = "; --out DIR keeps it, --force removes it with all its results";
+  if (plan.campaign != options.campaign || plan.settings != options.settings)
+    throw InputError(folder.string() + ": holds another campaign (" + plan.campaign + ")" + remedy);
+  const auto files = kept_mission(load_mission_input(options.target, options.settings).source).digests();
+  if (files == plan.files) return;
+  for (const auto& [name, digest] : files) {
+    const auto planned = plan.files.find(name);
+    if (planned != plan.files.end() && planned->second == digest) continue;
+    throw InputError(folder.string() + ": holds the campaign of the mission as it was before " + name.substr(name.find('/') + 1) +
+                     " changed: mdat campaign run " + shell_word(folder.string()) + " goes on with that" + remedy);
+  }
+  throw InputError(folder.string() + ": holds the campaign of a mission with more files" + remedy);
 }
 
 void expand(const CampaignArguments& options) {
@@ -91,9 +101,8 @@ void run_campaign(CampaignArguments options) {
     const fs::path folder = folder_of(options);
     if (options.force || !has_plan(folder)) {
       expand(options);
-    } else if (!is_same_plan(options, folder)) {
-      throw InputError(folder.string() + ": holds another campaign (" + load_plan(folder).plan.campaign +
-                       "); --out DIR keeps it, --force removes it with all its results");
+    } else {
+      require_same_plan(options, folder);
     }
     options.target = folder.string();
   }
@@ -182,8 +191,7 @@ void launch(const CampaignArguments& options) {
 }
 
 void compare(const CampaignArguments& options) {
-  const CampaignFolder a = open_campaign(options.target, options.mission, options.cached),
-                       b = open_campaign(options.other, options.other_mission, options.cached);
+  const CampaignFolder a = open_campaign(options.target, options.cached), b = open_campaign(options.other, options.cached);
   const Comparison both = compare_cases(a.campaign(), merged(a, true), b.campaign(), merged(b, true));
   std::fputs(comparison_text(both, options.target, options.other).c_str(), stdout);
 }
@@ -202,11 +210,6 @@ CLI::App* folder_command(CLI::App& group, const char* name, const char* what, co
   return command;
 }
 
-void add_mission_option(CLI::App& command, const std::shared_ptr<CampaignArguments>& options) {
-  command.add_option("--mission", options->mission, "the campaign's mission file, where it is not where it was");
-  add_no_cache(command, options->cached);
-}
-
 void add_expansion(CLI::App& command, const std::shared_ptr<CampaignArguments>& options) {
   command.add_option("--campaign", options->campaign, "name of the mission's [campaign.NAME]");
   command.add_option("--out", options->out, "folder of the campaign (out/campaign/NAME)");
@@ -220,7 +223,7 @@ void add_run(CLI::App& group) {
   command->add_option("MISSION|DIR", options->target, "mission file (.toml), or folder of a campaign that was expanded or begun")
       ->required();
   add_expansion(*command, options);
-  add_mission_option(*command, options);
+  add_no_cache(*command, options->cached);
   command->add_option("--jobs", options->jobs, "cases at a time (all cores)")->check(CLI::Range(1, 1024));
   command->add_option("--chunk", options->chunk, "k/N: fly only chunk k of N, from 1; auto or auto/N: as the scheduler's job array says");
   command->add_option("--time-limit", options->engine_options.time_limit_s, "begin no case that would end later than this, in seconds")
@@ -256,7 +259,7 @@ void add_list(CLI::App& group) {
 void add_status(CLI::App& group) {
   const auto options = std::make_shared<CampaignArguments>();
   CLI::App* command = folder_command(group, "status", "how many cases are done, have failed, are missing", options);
-  add_mission_option(*command, options);
+  add_no_cache(*command, options->cached);
   command->footer("Exit codes: 0 none is missing (or the stopping rule needs no more), 1 some are.");
   command->callback([options] { show_status(*options); });
 }
@@ -271,7 +274,7 @@ void add_retry(CLI::App& group) {
 void add_merge(CLI::App& group) {
   const auto options = std::make_shared<CampaignArguments>();
   CLI::App* command = folder_command(group, "merge", "put all chunks together, and conclude", options);
-  add_mission_option(*command, options);
+  add_no_cache(*command, options->cached);
   command->add_flag("--partial", options->partial, "although cases are missing");
   command->add_flag("!--no-report", options->report, "without report.html");
   command->callback([options] { conclude(*options, open_folder(*options), options->partial); });
@@ -282,7 +285,7 @@ void add_case(CLI::App& group) {
   CLI::App* command = folder_command(group, "case", "fly one case again, bit for bit, with its report", options);
   command->add_option("NUMBER", options->number, "of the case, from 0")->required();
   command->add_option("--out", options->out, "folder for its results (DIR/case-NUMBER)");
-  add_mission_option(*command, options);
+  add_no_cache(*command, options->cached);
   command->add_flag("!--no-report", options->report, "without report.html");
   command->callback([options] { case_again(*options); });
 }
@@ -292,8 +295,6 @@ void add_compare(CLI::App& group) {
   CLI::App* command = group.add_subcommand("compare", "the same cases under two missions or versions: what changed, and is it chance?");
   command->add_option("A", options->target, "folder of a campaign")->required()->check(CLI::ExistingDirectory);
   command->add_option("B", options->other, "the other one")->required()->check(CLI::ExistingDirectory);
-  command->add_option("--mission", options->mission, "A's mission file as it was then, where that is elsewhere");
-  command->add_option("--mission-b", options->other_mission, "the same of B");
   command->footer("Cases are paired by their numbers, and have to draw the same values. Exit codes: 0 printed, whatever differs.");
   command->callback([options] { compare(*options); });
 }

@@ -4,14 +4,18 @@
 #include <filesystem>
 #include <string>
 
+#include "mdat/missiondb/mission_source.hpp"
+
 namespace lasso::mdat {
 
-// False, and `found` is in the folder above, where neither has it.
-inline bool find_beside(const std::filesystem::path& mission, const std::string& written, std::filesystem::path& found) {
-  const std::filesystem::path folder = std::filesystem::absolute(mission).parent_path();
+// What is found is one of the source's named files. False, and `found` is in the folder above, where neither has it.
+inline bool find_beside(MissionSource& source, const std::string& written, std::filesystem::path& found) {
+  const std::filesystem::path folder = std::filesystem::absolute(source.file).parent_path();
   for (const auto& candidate : {folder / written, folder.parent_path() / written}) {
     found = candidate.lexically_normal();
-    if (std::filesystem::is_regular_file(candidate)) return true;
+    if (!std::filesystem::is_regular_file(candidate)) continue;
+    source.named_files.push_back(found);
+    return true;
   }
   return false;
 }

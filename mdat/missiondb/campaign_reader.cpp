@@ -133,7 +133,7 @@ class CampaignReader {
   }
   void add_script(const std::string& written, const std::string& whole, Origin origin) {
     std::filesystem::path file;
-    const bool is_there = find_beside(source_.file, written, file);
+    const bool is_there = find_beside(source_, written, file);
     campaign_.fault_scripts.push_back(file.string());
     if (!is_there) return problems_.add(origin, whole, '"' + written + '"', "no such file beside the mission or in the folder above");
     try {

@@ -105,11 +105,14 @@ std::vector<double> raw_numbers(std::string_view bytes, NumberType type, std::si
   return numbers;
 }
 
-std::string read_beside(const std::filesystem::path& folder, const std::string& uri) {
+std::filesystem::path file_beside(const std::filesystem::path& folder, const std::string& uri) {
   if (uri.find("://") != std::string::npos) throw MeshError("refers to " + excerpt(uri) + ", expected a file beside it: fetch it");
   std::filesystem::path file = folder / percent_decoded(uri);
   std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error)) file = folder / uri;  // of a program that does not encode
+  return std::filesystem::is_regular_file(file, error) ? file : folder / uri;  // of a program that does not encode
+}
+
+std::string read_beside(const std::filesystem::path& file, const std::string& uri) {
   try {
     return read_file(file);
   } catch (const std::runtime_error& why) {
@@ -193,12 +196,14 @@ void GltfFile::check_extensions() {
 }
 
 // One without a name is the binary chunk, or a stand-in of an extension that is not read: an accessor that needs that is refused.
-std::string GltfFile::buffer_bytes(const GltfJson& buffer, const std::filesystem::path& folder, std::string_view binary) const {
+std::string GltfFile::buffer_bytes(const GltfJson& buffer, const std::filesystem::path& folder, std::string_view binary) {
   if (!buffer.is_object()) throw MeshError("is a corrupt glTF file: a buffer is no object");
   const auto uri = buffer.find("uri");
   if (uri == buffer.end() || !uri->is_string()) return std::string(buffers_.empty() ? binary : std::string_view{});
   const auto text = uri->get<std::string>();
-  return text.starts_with("data:") ? data_uri_bytes(text) : read_beside(folder, text);
+  if (text.starts_with("data:")) return data_uri_bytes(text);
+  files_.push_back(file_beside(folder, text));
+  return read_beside(files_.back(), text);
 }
 
 void GltfFile::read_buffers(const std::filesystem::path& folder, std::string_view binary) {

@@ -28,6 +28,8 @@ class GltfFile {
   GltfFile(const std::filesystem::path& folder, std::string_view bytes);
 
   const GltfJson& root() const { return root_; }
+  // Of its buffers.
+  const std::vector<std::filesystem::path>& files() const { return files_; }
   // Extensions that are used, change the shape, and are not read.
   const std::vector<std::string>& extensions_not_read() const { return extensions_not_read_; }
   // The numbers of an accessor, entry after entry of `width` each. Integers of KHR_mesh_quantization are decoded. Throws MeshError: of
@@ -35,7 +37,7 @@ class GltfFile {
   std::vector<double> numbers(std::size_t accessor, std::size_t width) const;
 
  private:
-  std::string buffer_bytes(const GltfJson& buffer, const std::filesystem::path& folder, std::string_view binary) const;
+  std::string buffer_bytes(const GltfJson& buffer, const std::filesystem::path& folder, std::string_view binary);
   void read_buffers(const std::filesystem::path& folder, std::string_view binary);
   void check_extensions();
   std::string_view view(const GltfJson& accessor) const;
@@ -44,6 +46,7 @@ class GltfFile {
 
   GltfJson root_;
   std::vector<std::string> buffers_;
+  std::vector<std::filesystem::path> files_;
   std::vector<std::string> extensions_not_read_;
 };
 

@@ -162,7 +162,9 @@ class Loader {
     const std::filesystem::path folder = std::filesystem::absolute(source_.file).parent_path();
     for (const auto& candidate : {folder / written.texts.at(0), folder.parent_path() / written.texts.at(0)}) {
       source_.target.file = candidate.lexically_normal();
-      if (std::filesystem::exists(candidate)) return check_digest(written);
+      if (!std::filesystem::exists(candidate)) continue;
+      source_.named_files.push_back(source_.target.file);
+      return check_digest(written);
     }
     problems_.add(written.origin, source_.target.file_key, '"' + written.texts.at(0) + '"',
                   "no such file in " + folder.string() + " or the folder above it");

@@ -125,6 +125,7 @@ struct Scenario {
 
 struct MissionSource {
   std::filesystem::path file;
+  std::vector<std::filesystem::path> named_files;  // which it names, found: models, meshes, calibrations, tables, scripts
   std::uint32_t id = 0, version = 0;
   std::string name;
   TargetSource target;

@@ -89,7 +89,7 @@ class PartReader {
   }
   void find_file(const std::string& key) {
     const std::string& written = found_[key].texts.at(0);
-    if (find_beside(source_.file, written, part_.file)) return;
+    if (find_beside(source_, written, part_.file)) return;
     const std::string folder = std::filesystem::absolute(source_.file).parent_path().string();
     complain(key, '"' + written + '"', "no such file in " + folder + " or the folder above it: restore it, or delete the part");
   }

@@ -40,7 +40,7 @@ void read_calibration(const std::string& key, const std::string& written, Sensor
   const Origin& origin = source.origins[key];
   if (kind != SensorKind::kLaserCamera) return problems.add(origin, key, '"' + written + '"', "expected none: only laser cameras have one");
   std::filesystem::path file;
-  if (find_beside(source.file, written, file)) {
+  if (find_beside(source, written, file)) {
     source.calibrations[number].push_back(load_calibration(file));
     return;
   }

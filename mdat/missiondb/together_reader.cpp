@@ -156,7 +156,7 @@ class TogetherReader {
     const std::vector<std::string> written = texts_of(found_, "table");
     if (written.empty()) return;
     std::filesystem::path file;
-    if (!find_beside(dispersions_.source().file, written[0], file))
+    if (!find_beside(dispersions_.source(), written[0], file))
       return complain(
           "table", '"' + written[0] + '"',
           "no such file in " + std::filesystem::absolute(dispersions_.source().file).parent_path().string() + " or the folder above it");

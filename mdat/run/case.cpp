@@ -126,7 +126,7 @@ class Case {
  private:
   CaseResult fly(std::atomic<std::size_t>& done) {
     connect();
-    const auto interrupted = [&] { return pace() != posix::Pace::kLockstep && interruption(); };
+    const auto interrupted = [&] { return is_by_the_clock() && interruption(); };
     std::size_t flown = 0;
     for (std::uint32_t frame = 0; frame < setup_.frames + kPipelineFrames && !interrupted(); ++frame) {
       const posix::FrameRecord record = runner_->run_frame();
@@ -149,8 +149,11 @@ class Case {
   // A camera of its own has its own clock; an operator has patience.
   posix::Pace pace() const {
     if (!setup_.camera_line.empty()) return posix::Pace::kRealTime;
-    return setup_.link != nullptr ? posix::Pace::kPaced : posix::Pace::kLockstep;
+    if (setup_.link != nullptr) return posix::Pace::kPaced;
+    return setup_.alone ? posix::Pace::kAlone : posix::Pace::kLockstep;
   }
+
+  bool is_by_the_clock() const { return pace() == posix::Pace::kRealTime || pace() == posix::Pace::kPaced; }
 
   void connect() {
     runner_ = std::make_unique<posix::Runner>(*component_, pace());

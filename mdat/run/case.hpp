@@ -50,6 +50,7 @@ struct CaseSetup {
   const std::vector<std::uint8_t>* image = nullptr;
   const sim::RayCaster* target = nullptr;
   std::vector<std::uint32_t> keep_frames;  // whose scans the result holds; ascending
+  bool alone = false;                      // simulated on the caller's thread: other cases fill the other cores; the same bytes
 };
 
 // A scan with all that a picture of it needs.

@@ -19,30 +19,35 @@ std::vector<std::uint8_t> single_threaded() {
   return scene.stream;
 }
 
+std::vector<std::uint8_t> flown(Pace pace) {
+  test::ComponentScene scene(test::box_parameters(test::default_scene()));
+  scene.begin();
+  Runner runner(*scene.component, pace);
+  std::vector<std::uint8_t> stream;
+  for (int frame = 0; frame < kFrames; ++frame) {
+    const FrameRecord record = runner.run_frame();
+    stream.insert(stream.end(), record.telemetry.begin(), record.telemetry.end());
+  }
+  return stream;
+}
+
 TEST(Runner, TwoThreadsGiveTheBytesOfOne) {
   VERIFIES("LASSO-EXE-012~1 LASSO-SYS-027~1");
   const std::vector<std::uint8_t> expected = single_threaded();
   ASSERT_EQ(test::decode_all(ConstBytes(expected.data(), expected.size())).size(), kFrames - 2u);
   // The same on every processor: to be compared between host and target.
   std::printf("CRC-32C of the telemetry: %08lX\n", 0UL + crc32c(ConstBytes(expected.data(), expected.size())));
-  for (int repetition = 0; repetition < 3; ++repetition) {
-    test::ComponentScene scene(test::box_parameters(test::default_scene()));
-    scene.begin();
-    Runner runner(*scene.component);
-    std::vector<std::uint8_t> stream;
-    for (int frame = 0; frame < kFrames; ++frame) {
-      const FrameRecord record = runner.run_frame();
-      stream.insert(stream.end(), record.telemetry.begin(), record.telemetry.end());
-    }
-    ASSERT_EQ(stream, expected) << repetition;
-  }
+  for (int repetition = 0; repetition < 3; ++repetition) ASSERT_EQ(flown(Pace::kLockstep), expected) << repetition;
+  EXPECT_EQ(flown(Pace::kAlone), expected);
 }
 
-TEST(Runner, MeasuresTheEstimateThatEachFrameReports) {
+class RunnerOfEachPace : public testing::TestWithParam<Pace> {};
+
+TEST_P(RunnerOfEachPace, MeasuresTheEstimateThatEachFrameReports) {
   VERIFIES("LASSO-EXE-011~1");
   test::ComponentScene scene(test::box_parameters(test::default_scene()));
   scene.begin();
-  Runner runner(*scene.component);
+  Runner runner(*scene.component, GetParam());
   for (std::uint32_t frame = 0; frame < 10; ++frame) {
     const FrameRecord record = runner.run_frame();
     EXPECT_EQ(record.frame, frame);
@@ -55,6 +60,8 @@ TEST(Runner, MeasuresTheEstimateThatEachFrameReports) {
     }
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(WithAWorkerAndWithout, RunnerOfEachPace, testing::Values(Pace::kLockstep, Pace::kAlone));
 
 TEST(Runner, RealTimeKeepsItsPace) {
   VERIFIES("LASSO-EXE-011~1");
