@@ -170,26 +170,28 @@ TEST(CampaignEngine, ACaseThatIsKilledIsFlownAgain) {
   EXPECT_EQ(records.failed(), 1U);
 }
 
-// Case 0 crashes after SIGTERM, while case 2 is still waited for: its time goes on, and must not give it a second record.
+// Case 0 crashes after SIGTERM, while case 2 is still waited for until after the time that case 0 had: that must not give it a second
+// record.
 TEST(CampaignEngine, ACaseThatCrashesInTheEndHasOneRecord) {
   VERIFIES("LASSO-GND-090~1 LASSO-GND-091~1");
   const ChunkFolder folder;
-  const auto mark = folder.path() / "flying";
-  const auto wait_for_mark = [&] {
+  const auto flying = folder.path() / "flying", told = folder.path() / "told";
+  const auto wait_for = [](const std::filesystem::path& mark) {
     while (!std::filesystem::exists(mark)) std::this_thread::sleep_for(std::chrono::milliseconds(2));
   };
   const MakeFly fly = flies([&](std::uint32_t number) {
-    if (number == 2) std::ofstream{mark};
-    if (number == 0) wait_for_mark();
-    std::this_thread::sleep_for(std::chrono::milliseconds(number == 0 ? 100 : 200 * (number + 1)));
+    if (number == 2) std::ofstream{flying};
+    if (number == 0) wait_for(told);
+    std::this_thread::sleep_for(std::chrono::milliseconds(number == 0 ? 10 : 300 * number * number));  // case 1 and then 2: 1.5 s
     if (number == 0) (void)raise(SIGSEGV);
     return fields_of_case(number);
   });
   EngineOptions options = options_of(folder, 3, 2);
-  options.case_time_limit_s = 0.7;
+  options.case_time_limit_s = 1.4;
   const pid_t process = start_engine(options, fly);
-  wait_for_mark();
+  wait_for(flying);
   kill(process, SIGTERM);
+  std::ofstream{told};
   (void)status_of(process);
   EXPECT_EQ(Records(folder.path(), kPlan, 3).of(0), "failed:crashed with signal 11");
 }
@@ -293,11 +295,14 @@ TEST(CampaignEngine, KilledAtRandomItGivesTheSameInTheEnd) {
   VERIFIES("LASSO-GND-090~1 LASSO-GND-091~1 LASSO-GND-062~1");
   constexpr int kKills = 100;
   constexpr std::uint32_t kCases = 3000;
-  const ChunkFolder folder;
+  const ChunkFolder folder, trial;
+  const auto begin = std::chrono::steady_clock::now();
+  ASSERT_EQ(status_of(start_engine(options_of(trial, 20, 2), flies_in(std::chrono::microseconds(500)))), 0);
+  const std::chrono::duration<double> time_of_20 = std::chrono::steady_clock::now() - begin;
   test::Generator random(33);
   for (int i = 0; i < kKills; ++i) {
     const pid_t process = start_engine(options_of(folder, kCases, 2), flies_in(std::chrono::microseconds(500)));
-    std::this_thread::sleep_for(std::chrono::microseconds(static_cast<int>(random.uniform(0, 12000))));
+    std::this_thread::sleep_for(random.uniform(0, 1) * time_of_20);
     kill(process, SIGKILL);
     EXPECT_TRUE(WIFSIGNALED(status_of(process)));
   }
