@@ -13,9 +13,10 @@ namespace lasso {
 struct SensorParameters {
   // The noise that the estimator assumes: sigma_r^2 = sigma0^2 + (k z^2)^2 along the ray, z*sigma_angle across it.
   double sigma0_m, sigma_k_per_m, sigma_angle_rad, range_min_m, range_max_m, fov_half_x_rad, fov_half_y_rad, dropout_probability;
+  double noise_tolerance;       // residuals larger than this times the stated noise refuse a pose
   double use_from_m, use_to_m;  // its turn: ranges of the target's origin
 };
-constexpr std::size_t kSensorValues = 10;
+constexpr std::size_t kSensorValues = 11;
 
 // The members of the base are those of the sensor whose scans these parameters are for.
 struct MissionParameters : SensorParameters {
@@ -32,8 +33,8 @@ struct MissionParameters : SensorParameters {
   // [bearing] the target's direction and range without its attitude
   double bearing_returns_min, bearing_rate_mps, bearing_memory_s;
   // [tracking] validity and loss
-  double start_sigma_m, start_sigma_rad, inliers_min, inlier_share_min, agreement_min, normalized_residual_max, sigma_position_max_m,
-      sigma_attitude_max_rad, innovation_max, coast_frames, hysteresis, recover, reacquire_frames;
+  double start_sigma_m, start_sigma_rad, inliers_min, inlier_share_min, agreement_min, sigma_position_max_m, sigma_attitude_max_rad,
+      innovation_max, coast_frames, hysteresis, recover, reacquire_frames;
   // [start] the ways to a pose to start from
   double start_frames, start_inlier_share_min, start_gate, start_twin_margin, start_check, start_age_max_s, start_first, start_second,
       start_third, start_fourth, start_fifth;

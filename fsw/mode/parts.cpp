@@ -189,6 +189,7 @@ Registration register_part(const Mission& mission, const Part& part, Estimator& 
   start.T_sensor_target = predicted.T_sensor_target * part.T_target_part;
   start.rates.omega_radps = predicted.rates.omega_radps;
   start.rates.v_mps = predicted.rates.v_mps + predicted.rates.omega_radps.cross(lever_of(part, predicted.T_sensor_target));
+  start.rate_sigma_mps = rate_sigma(mission.radius_m, predicted);
   start.partial = true;
   Registration result = estimator.estimate(part.mission, scan, start);
   result.T_sensor_target = result.T_sensor_target * inverse(part.T_target_part);

@@ -207,7 +207,8 @@ TrackStep track_scan(const Mission& mission, Estimator& estimator, const RangeIm
   const bool starts = mode.confirms && before.check.stage == StartCheck::Stage::kNone;
   const bool wide = ((mode.wide_start && starts) || is_rough(mission, filter)) && p.wide_start > 0.5;
   Registration& registration = step.registration;
-  registration = estimator.estimate(mission, scan, StartPoint{filter.T_sensor_target, filter.rates, wide, false});
+  registration = estimator.estimate(mission, scan,
+                                    StartPoint{filter.T_sensor_target, filter.rates, wide, rate_sigma(mission.radius_m, filter), false});
   if (registration.valid()) registration.reason = confirm(p, mode, starts, filter, registration);
   const bool asks_twins = registration.valid() && starts;
   if (asks_twins && estimator.has_better_twin(mission, scan, registration)) registration.reason = PoseReason::kBetterTwin;

@@ -16,6 +16,7 @@ namespace lasso {
 namespace {
 
 constexpr double kPoseDimensions = 6;
+constexpr double kMotionSigmas = 3;
 constexpr double kSmallestNoiseScale = 1e-6;  // of the variance: a scan without any noise still has rounding
 
 static_assert(kMaxRays <= 65535, "counts of rays fit into the result");
@@ -168,6 +169,15 @@ void describe_hits(const HitSolution& hits, double scale, const Workspace& works
   result.normalized_residual = square_root(scale);
 }
 
+// Of residuals, over that of the noise: rates that are kMotionSigmas off move the points by that velocity times their time, which is
+// spread evenly over the scan.
+double motion_variance(const Mission& mission, const StartPoint& start, double half_scan_s) {
+  const MissionParameters& p = mission.parameters;
+  const double way_m = kMotionSigmas * start.rate_sigma_mps * half_scan_s;
+  const double noise = range_variance(p, square_root(start.T_sensor_target.p.squaredNorm())) + p.surface_sigma_m * p.surface_sigma_m;
+  return way_m * way_m / 3 / noise;
+}
+
 // A start that may be rough: the far way is taken only where the near one does not explain the scan, and ends too close for a second look.
 HitSolution register_wide(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace) {
   HitSolution near = register_hits(mission, T_target_sensor, workspace);
@@ -213,7 +223,7 @@ Registration Estimator::estimate(const Mission& mission, const RangeImage& scan,
   if (shows_outline) settle_slack(mission, hits, workspace_, known);
   describe_hits(hits, known.scale, workspace_, result);
   if (has_information(hits)) describe_pose(mission, hits, scan.misses_known, known, workspace_, result);
-  result.reason = judge(mission.parameters, result);
+  result.reason = judge(mission.parameters, result, motion_variance(mission, start, half_of(scan)));
   return result;
 }
 

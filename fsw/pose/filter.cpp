@@ -287,6 +287,12 @@ Mat12 error_transition(const Vec3& omega_radps, double dt_s) {
   return full;
 }
 
+double rate_sigma(double radius_m, const FilterState& state) {
+  const double turn = state.covariance.block<3, 3>(6, 6).trace();
+  const double shift = state.covariance.block<3, 3>(9, 9).trace();
+  return square_root((radius_m * radius_m * turn + shift) / 3);
+}
+
 bool is_sound(const FilterState& state) {
   if (!is_finite(state.T_sensor_target.p.squaredNorm()) || !is_finite(state.T_sensor_target.q.squaredNorm())) return false;
   return (state.covariance.diagonal().array() >= 0).all();

@@ -105,6 +105,9 @@ Status predict_pose(const FilterState& state, TimeUs t_us, PredictedPose& predic
 // error of the angular velocity enters through the left Jacobian of the step's rotation (Barfoot 2017, 7.1.5).
 Mat12 error_transition(const Vec3& omega_radps, double dt_s);
 
+// How far the rates may be off (1 sigma), as the velocity along any axis of a point that far from the target's origin: mean of the axes.
+double rate_sigma(double radius_m, const FilterState& state);
+
 // Are its numbers some: a pose that is finite, variances that are not negative? A state that has gone astray by itself still is; only scans
 // tell that.
 bool is_sound(const FilterState& state);

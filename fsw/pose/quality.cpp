@@ -10,6 +10,8 @@ namespace {
 
 using N = FlightNumber;
 constexpr std::uint32_t kMissSamples = 64;
+constexpr double kPoseDegrees = 6;
+constexpr double kNoiseSigmas = 3;  // one good scan in 700 has exactly the noise that is tolerated, and shows more
 
 struct MissSample {
   std::uint32_t misses = 0;  // all of them
@@ -66,14 +68,19 @@ void find_weak_directions(const Mission& mission, Registration& result) {
   result.weakest_direction = eigen.vectors.col(5);
 }
 
-PoseReason judge(const MissionParameters& p, const Registration& r) {
+double most_noise(const MissionParameters& p, std::uint32_t inliers, double motion) {
+  const double freedom = inliers > kPoseDegrees + 1 ? inliers - kPoseDegrees : 1;
+  return (p.noise_tolerance * p.noise_tolerance + motion) * (1 + kNoiseSigmas * square_root(2 / freedom));
+}
+
+PoseReason judge(const MissionParameters& p, const Registration& r, double motion) {
   if (r.returns < p.inliers_min) return PoseReason::kTooFewReturns;
   if (r.stop == StopReason::kSingular) return PoseReason::kSingular;
   if (r.stop == StopReason::kTooFewPoints || r.inliers < p.inliers_min) return PoseReason::kTooFewInliers;
   if (r.stop == StopReason::kIterationLimit) return PoseReason::kNotConverged;
   if (!(r.inlier_share >= p.inlier_share_min)) return PoseReason::kLowInlierShare;  // also what is not a number
   if (!(r.agreement >= p.agreement_min)) return PoseReason::kLowAgreement;
-  if (!(r.normalized_residual <= p.normalized_residual_max)) return PoseReason::kHighResidual;
+  if (!(r.normalized_residual * r.normalized_residual <= most_noise(p, r.inliers, motion))) return PoseReason::kHighResidual;
   return PoseReason::kValid;
 }
 

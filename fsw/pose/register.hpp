@@ -41,7 +41,6 @@ HitSolution weigh_hits(const Mission& mission, const Pose& T_target_sensor, Work
 // How badly the solution explains the returns that it could explain: their mean squared residual in sigmas, kUnexplainedCost for one that
 // it leaves out. Infinite without any.
 double mean_cost(const HitSolution& solution);
-constexpr double kUnexplainedCost = 16;  // what a kernel of 10 sigma makes of it
 
 // The same of the pose as it stands: one pass, nothing solved.
 double cost_of_hits(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace);

@@ -38,6 +38,9 @@ enum class PoseReason : std::uint8_t {
 const char* to_string(PoseReason reason);
 const char* to_string(StopReason reason);
 
+// Of a return that a pose does not explain, in squared sigmas: what a kernel of 10 sigma makes of it.
+constexpr double kUnexplainedCost = 16;
+
 // Registration of a single scan. The prediction is its starting point and not information added to it.
 struct Registration {
   std::uint32_t scan_id = 0;

@@ -13,7 +13,6 @@ namespace {
 constexpr double kLargestShare = 0.25;
 constexpr double kLargestRatio = 5;
 constexpr double kTightestKernel = 3;
-constexpr double kLeastResidual = 1.2;
 constexpr double kLostShare = 0.05;  // of good poses, by a gate on their normalised square
 constexpr double kMostTwinMargin = 1;
 constexpr double kMostInitialTurn_rad = 15 * kRadPerDeg;
@@ -66,11 +65,6 @@ std::string ratio_fault(const Subject& s) {
 std::string kernel_fault(const Subject& s) {
   if (s.p.kernel_width >= kTightestKernel) return "";
   return "returns more than " + figure(s.p.kernel_width) + " sigmas off do not count: good ones go with the bad, and poses are refused";
-}
-
-std::string residual_fault(const Subject& s) {
-  if (s.p.normalized_residual_max >= kLeastResidual) return "";
-  return "residuals over their sigma have a root mean square of about 1: many good poses would be refused";
 }
 
 // Of good poses, those whose normalised square, chi-square of 6 degrees of freedom, is beyond the gate: in closed form.
@@ -189,7 +183,6 @@ const Rules& estimation_rules() {
     {kWarning, kParameters, kValues, {"start.age_max_s", "filter.period_s"}, age_fault},
     {kWarning, kParameters, kValues, {"search.ratio_min", "start.first", "start.second", "start.third", "start.fourth", "start.fifth"}, ratio_fault},
     {kWarning, kParameters, kValues, {"estimation.kernel_width"}, kernel_fault},
-    {kWarning, kParameters, kValues, {"tracking.normalized_residual_max"}, residual_fault},
     {kWarning, kParameters, kValues, {"start.gate"}, start_gate_fault},
     {kWarning, kParameters, kValues, {"tracking.innovation_max"}, innovation_fault},
     {kWarning, kParameters, kValues, {"start.twin_margin"}, twin_fault},

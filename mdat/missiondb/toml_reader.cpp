@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <regex>
 #include <sstream>
 
@@ -10,6 +11,11 @@
 
 namespace lasso::mdat {
 namespace {
+
+// Keys of earlier versions, and what has taken their place.
+const std::map<std::string, std::string> kRenamed = {
+    {"tracking.normalized_residual_max",
+     "is sensor.noise_tolerance now, 1.5 where nobody writes it: how many times the stated noise residuals may show"}};
 
 std::string shortened(std::string text) {
   constexpr std::size_t kLongest = 60;
@@ -172,6 +178,8 @@ class TableWalk {
       const auto dot = row.key.rfind('.');
       if (dot != std::string::npos) candidates.push_back(row.key.substr(0, dot));
     }
+    const auto renamed = kRenamed.find(prefix_ + path);
+    if (renamed != kRenamed.end()) return problems_.add(origin_of(key.source()), prefix_ + path, "", renamed->second);
     const std::string meant = nearest(path, candidates);
     const std::string remedy =
         meant.empty() ? "see cfg/mission.schema.json for the keys that exist" : "did you mean " + prefix_ + meant + "?";

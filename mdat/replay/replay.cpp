@@ -12,15 +12,16 @@
 #include "mdat/common/progress_bar.hpp"
 #include "mdat/common/text.hpp"
 #include "mdat/replay/closed_loop.hpp"
+#include "mdat/replay/single_scans.hpp"
 #include "mdat/run/statistics.hpp"
 
 namespace lasso::mdat {
 namespace {
 
-ReplayedScan register_scan(const Mission& mission, Estimator& estimator, const RangeImage& image, const StartPoint& start) {
+ReplayedScan register_scan(SingleScans& scans, const RangeImage& image, const StartPoint& start) {
   ReplayedScan result;
   const double begin_us = thread_cpu_us();
-  result.registration = estimator.estimate(mission, image, start);
+  result.registration = scans.estimate(image, start);
   result.estimate_us = thread_cpu_us() - begin_us;
   return result;
 }
@@ -123,9 +124,9 @@ std::vector<ReplayedScan> replay(const Mission& mission, const ReplayOptions& op
     ClosedLoop loop(mission, input.poses.front().T_sensor_target, options.wide);
     return for_each_scan(input, [&](const RangeImage& image, const std::string&) { return track(loop, image); });
   }
-  const auto estimator = std::make_unique<Estimator>();
+  SingleScans singles(mission);
   return for_each_scan(input, [&](const RangeImage& image, const std::string& stem) {
-    return register_scan(mission, *estimator, image, {pose_of(input.poses, stem, options.initial), {}, options.wide});
+    return register_scan(singles, image, {pose_of(input.poses, stem, options.initial), {}, options.wide});
   });
 }
 

@@ -91,7 +91,7 @@ TEST(ComponentSearch, AStartThatASearchOfItsScanContradictsIsNeverTracked) {
   p.start_check = 1;
   p.start_twin_margin = 1000;
   p.start_inlier_share_min = p.inlier_share_min = p.agreement_min = 0;
-  p.normalized_residual_max = 1000;
+  p.noise_tolerance = 1000;
   ComponentScene scene(p, test::uneven_scene());
   scene.begin();
   Pose wrong = test::uneven_scene().at_zero;

@@ -36,7 +36,7 @@ class StartCheckTest : public MastTest {
   Vec3 deceptive_axis() {
     MissionParameters& p = mission_.parameters;
     p.inlier_share_min = p.agreement_min = p.start_check = 0;
-    p.start_twin_margin = p.normalized_residual_max = 1000;
+    p.start_twin_margin = p.noise_tolerance = 1000;
     for (int i = 0; i < 3; ++i) {
       const Vec3 axis = rotate(scene_.at_zero.q, Vec3::Unit(i));
       start_turned(axis);

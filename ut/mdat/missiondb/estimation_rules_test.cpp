@@ -98,7 +98,6 @@ TEST_F(EstimationRules, LengthsAreSmallAgainstTheTarget) {
 TEST_F(EstimationRules, LimitsLeaveGoodPosesTheirRoom) {
   VERIFIES("LASSO-GND-009~1 LASSO-GND-060~1");
   expect_edge("estimation.kernel_width = 3", "estimation.kernel_width = 2", "estimation.kernel_width: 2", "more than 2 sigmas off");
-  expect_edge("tracking.normalized_residual_max = 1.2", "tracking.normalized_residual_max = 1", "normalized_residual_max: 1", "about 1");
   expect_edge("start.fifth = 'search'\nsearch.ratio_min = 5", "start.fifth = 'search'\nsearch.ratio_min = 30", "search.ratio_min: 30",
               "1.3 is 30 %");
   const std::string pose = "tracking.initial.present = true\ntracking.initial.z_m = 5\ntracking.initial.wx_degps = ";

@@ -1,0 +1,50 @@
+#include "mdat/replay/single_scans.hpp"
+
+#include "fsw/mode/searcher.hpp"
+
+namespace lasso::mdat {
+namespace {
+
+constexpr std::uint32_t kSlice = 100'000;  // units of work; the result does not depend on it
+
+// Mean over the returns of the squared residual in sigmas; kUnexplainedCost of one that the pose does not explain.
+double cost_of(const Registration& r) {
+  return r.inlier_share * r.normalized_residual * r.normalized_residual + kUnexplainedCost * (1 - r.inlier_share);
+}
+
+}  // namespace
+
+void SingleScans::search(const RangeImage& image, const Pose& T_sensor_target) {
+  SearchLimits limits = search_limits(mission_.parameters);
+  limits.scans_max = 1;
+  search_->begin(limits);
+  search_->suspect(T_sensor_target);
+  if (search_->add_scan(mission_, image, estimator_->workspace()) != Status::kOk) return;
+  while (!search_->advance(mission_, estimator_->workspace(), kSlice)) {
+  }
+}
+
+// Has it accepted a pose within reach of the start?
+bool SingleScans::offers(const StartPoint& start) const {
+  const SearchResult& found = search_->result();
+  if (found.outcome != SearchOutcome::kAccepted) return false;
+  const Vec6 off = pose_difference(found.T_sensor_target, start.T_sensor_target);
+  const Vec3 middle_off = found.T_sensor_target * mission_.center_m - start.T_sensor_target * mission_.center_m;
+  return off.head<3>().norm() <= kRoughStart_rad && middle_off.norm() <= kRoughStartShare * static_cast<double>(mission_.search.size_m);
+}
+
+Registration SingleScans::estimate(const RangeImage& image, const StartPoint& start) {
+  Registration best = estimator_->estimate(mission_, image, start);
+  if (!(mission_.parameters.start_check > 0.5)) return best;
+  search(image, best.T_sensor_target);
+  if (offers(start)) {
+    const StartPoint there{search_->result().T_sensor_target, start.rates};
+    const Registration other = estimator_->estimate(mission_, image, there);
+    if (other.valid() && (!best.valid() || cost_of(other) < cost_of(best))) best = other;
+  }
+  const bool is_contradicted = best.valid() && search_->contradicts(mission_, best.T_sensor_target, estimator_->workspace());
+  if (is_contradicted) best.reason = PoseReason::kContradicted;
+  return best;
+}
+
+}  // namespace lasso::mdat

@@ -1,0 +1,35 @@
+// Registers scans one by one, each from a start of its own that may be rough. What a single scan shows is also looked for without the
+// start, as a flight does before it believes one: a pose that explains the scan as it stands may be a wrong one beside the right one.
+#pragma once
+
+#include <memory>
+
+#include "fsw/geometry/portable_math.hpp"
+#include "fsw/pose/estimator.hpp"
+#include "fsw/pose/search.hpp"
+
+namespace lasso::mdat {
+
+// How far from its start a pose is looked for: what a rough start may be off (StartPoint::wide).
+constexpr double kRoughStart_rad = 20 * kRadPerDeg;
+constexpr double kRoughStartShare = 0.25;  // of the target's size
+
+class SingleScans {
+ public:
+  explicit SingleScans(const Mission& mission) : mission_(mission) {}
+
+  // The registration from the start. With start.check a search of the scan then has its word: where it accepts a pose within the reach of
+  // a rough start, the registration from there takes its place if it explains the scan better. kContradicted where the search contradicts
+  // the pose that is left. A search that cannot decide (a symmetric target) leaves the pose as it is: the start has chosen.
+  Registration estimate(const RangeImage& image, const StartPoint& start);
+
+ private:
+  void search(const RangeImage& image, const Pose& T_sensor_target);
+  bool offers(const StartPoint& start) const;
+
+  const Mission& mission_;
+  std::unique_ptr<Estimator> estimator_ = std::make_unique<Estimator>();
+  std::unique_ptr<Search> search_ = std::make_unique<Search>();
+};
+
+}  // namespace lasso::mdat
