@@ -80,6 +80,25 @@ struct Sums {
   }
 };
 
+// A line for each kind of body.
+std::string kinds_text(const std::vector<Row>& rows) {
+  std::map<std::string, std::pair<std::size_t, Sums>> kinds;
+  for (const Row& row : rows) {
+    auto& [count, sums] = kinds[row.kind];
+    ++count;
+    sums.add(row);
+  }
+  std::string text = "by kind:\n";
+  for (const auto& [kind, each] : kinds) {
+    const auto& [count, sums] = each;
+    text += format("  %-16s %3zu bodies, wrong %5zu of %6zu in %3zu of %4zu, %2zu bodies; valid %5.1f %% of %6zu determined (%5.1f %%)\n",
+                   kind.c_str(), count, sums.wrong, sums.trials, sums.wrong_numbers, sums.numbers, sums.wrong_bodies,
+                   100 * share(sums.determined_valid, sums.determined), sums.determined,
+                   100 * share(sums.settled_valid, sums.settled_determined));
+  }
+  return text;
+}
+
 }  // namespace
 
 void Tally::add(const Trial& trial, double size_m) {
@@ -146,7 +165,9 @@ std::string summary_text(const std::string& what, const std::vector<Row>& rows) 
   std::sort(worst.begin(), worst.end(), is_worse);
   std::string text = "worst bodies:\n";
   for (std::size_t i = 0; i < std::min(kShown, worst.size()); ++i) text += worst_line(worst[i]);
+  text += kinds_text(rows);
   text += format("%s of %zu bodies, %zu of which were not tried:\n", what.c_str(), rows.size(), sums.failed);
+  text += "  valid:                 " + share_text(sums.valid, sums.trials) + "\n";
   text += "  valid and wrong:       " + share_text(sums.wrong, sums.trials) + "; in " + share_text(sums.wrong_numbers, sums.numbers) +
           format(", of %zu bodies; %zu of bodies that cannot be known\n", sums.wrong_bodies, sums.unknowable_wrong);
   text +=
