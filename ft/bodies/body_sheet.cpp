@@ -47,9 +47,11 @@ struct View {
 
   double pixel(int column, int row) const {
     double sum = 0;
-    for (int i = 0; i < kFine * kFine; ++i) {
-      const double x = column + (i % kFine + 0.5) / kFine, y = row + (i / kFine + 0.5) / kFine;
-      sum += brightness(2 * x / kTile - 1, 1 - 2 * y / kTile);
+    for (int i = 0; i < kFine; ++i) {
+      for (int k = 0; k < kFine; ++k) {
+        const double x = column + (i + 0.5) / kFine, y = row + (k + 0.5) / kFine;
+        sum += brightness(2 * x / kTile - 1, 1 - 2 * y / kTile);
+      }
     }
     return sum / (kFine * kFine);
   }
@@ -62,7 +64,7 @@ void draw(const mdat::Body& body, int left, int top, int width, std::vector<unsi
   const View view{*target, 0.5 * (truth.low_m + truth.high_m), truth.size_m};
   for (int row = 0; row < kTile; ++row) {
     for (int column = 0; column < kTile; ++column)
-      picture[static_cast<std::size_t>((top + row) * width + left + column)] =
+      picture[static_cast<std::size_t>(top + row) * static_cast<std::size_t>(width) + static_cast<std::size_t>(left + column)] =
           static_cast<unsigned char>(std::lround(255 * view.pixel(column, row)));
   }
 }
@@ -73,7 +75,7 @@ int main(int argc, char** argv) {
   if (argc < 5) return std::fprintf(stderr, "usage: body_sheet FILE FIRST COLUMNS ROWS [KIND]\n"), 2;
   const int columns = std::stoi(argv[3]), rows = std::stoi(argv[4]), width = columns * kTile;
   const std::optional<mdat::BodyKind> kind = argc > 5 ? mdat::body_kind_of(argv[5]) : std::nullopt;
-  std::vector<unsigned char> picture(static_cast<std::size_t>(width * rows * kTile));
+  std::vector<unsigned char> picture(static_cast<std::size_t>(width) * static_cast<std::size_t>(rows * kTile));
   for (int i = 0; i < columns * rows; ++i)
     draw(mdat::make_body(std::stoul(argv[2]) + static_cast<unsigned long>(i), kind), i % columns * kTile, i / columns * kTile, width,
          picture);

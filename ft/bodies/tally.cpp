@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "mdat/campaign/limits.hpp"
 #include "mdat/common/text.hpp"
@@ -35,12 +36,11 @@ std::string reasons_text(const std::map<std::string, std::size_t>& reasons, cons
   return text;
 }
 
-// What there is to do about a body, most first: wrong ones, then determined ones without a valid pose.
+// What there is to do about a body, most first: wrong poses, then determined ones that are not valid, then a covariance that is not honest.
 bool is_worse(const Row& a, const Row& b) {
-  if (a.tally.wrong != b.tally.wrong) return a.tally.wrong > b.tally.wrong;
-  const double valid_a = share(a.tally.settled_valid, a.tally.settled_determined),
-               valid_b = share(b.tally.settled_valid, b.tally.settled_determined);
-  return valid_a != valid_b ? valid_a < valid_b : a.seed < b.seed;
+  const auto valid = [](const Tally& t) { return share(t.settled_valid, t.settled_determined); };
+  return std::make_tuple(b.tally.wrong, valid(a.tally), b.tally.nees, a.seed) <
+         std::make_tuple(a.tally.wrong, valid(b.tally), a.tally.nees, b.seed);
 }
 
 std::string worst_line(const Row& row) {
