@@ -63,7 +63,8 @@ Tally track(const Subject& subject, std::size_t flights, std::uint32_t frames) {
   for (std::size_t flight = 0; flight < flights; ++flight) {
     std::uint64_t state = subject.body.seed * 1000 + flight;
     sim::Random random(sim::split_mix64(state));
-    mdat::CaseSetup setup = mdat::plain_case(subject.mission.source, flight_of(subject, random), random.bits(), frames);
+    const std::uint64_t seed = random.bits();
+    mdat::CaseSetup setup = mdat::plain_case(subject.mission.source, flight_of(subject, random), seed, frames);
     const std::vector<std::uint8_t> image = mdat::image_bytes(subject.mission, setup.parameters);
     setup.image = &image;
     setup.target = &subject.target->surface();

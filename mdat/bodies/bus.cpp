@@ -84,7 +84,7 @@ void add_upper_stage(Bus& bus, bool round, Fitter& fitter) {
   bus.what += " with an upper stage";
 }
 
-double row_middle(const Bus& bus, int row) { return bus.length * (row - (kRows - 1) / 2) / kRows; }
+double row_middle(const Bus& bus, int row) { return bus.length * (row - 0.5 * (kRows - 1)) / kRows; }
 
 std::vector<Cell> row_cells(const Bus& bus, const Pad& pad, int row) {
   const double half_a = 0.42 * bus.length / kRows, a = row_middle(bus, row);

@@ -106,7 +106,8 @@ void add_end_fitting(Body& body, const Pad& pad, Room& room, Fitter& fitter) {
   const double half = std::min(pad.half_a, pad.half_t), share = fitter.draw(0, 1);
   const Cell whole{pad, 0, 0, pad.half_a, pad.half_t};
   if (share < 0.35) {
-    fitter.dish(whole, fitter.draw(0.5, 0.95) * half, fitter.chance(0.5) ? 0 : 5 * std::floor(fitter.draw(1, 10)));
+    const double tilt_deg = fitter.chance(0.5) ? 0 : 5 * std::floor(fitter.draw(1, 10));
+    fitter.dish(whole, fitter.draw(0.5, 0.95) * half, tilt_deg);
   } else if (share < 0.6) {
     fitter.nozzle(whole, fitter.draw(0.3, 0.6) * half);
   } else if (share < 0.8) {
@@ -124,14 +125,19 @@ BusShape draw_shape(Fitter& fitter) {
   return share < 0.35 ? BusShape::kBox : share < 0.5 ? BusShape::kCube : share < 0.75 ? BusShape::kPrism : BusShape::kCylinder;
 }
 
-// A bus with wings and what its ends have; `room` is what is left.
-Bus draw_craft(Body& body, Fitter& fitter, std::optional<Room>& room) {
+// A bus with wings, and the room that is left.
+struct Craft {
+  Bus bus;
+  Room room;
+};
+
+Craft draw_craft(Body& body, Fitter& fitter) {
   const BusShape shape = draw_shape(fitter);
   Bus bus = draw_bus(shape, 4 + static_cast<int>(fitter.pick(7)), fitter);
   if (fitter.chance(0.3)) add_upper_stage(bus, shape == BusShape::kCylinder, fitter);
-  room.emplace(bus);
-  add_wings(body, bus, draw_wing_count(fitter), *room, fitter);
-  return bus;
+  Craft craft{bus, Room(bus)};
+  add_wings(body, bus, draw_wing_count(fitter), craft.room, fitter);
+  return craft;
 }
 
 void add_small_parts(int count, Room& room, Fitter& fitter) {
@@ -200,24 +206,26 @@ int small_parts(const Body& body) {
 }  // namespace
 
 std::string draw_plain(Body& body, Fitter& fitter) {
-  std::optional<Room> room;
-  const Bus bus = draw_craft(body, fitter, room);
-  if (fitter.chance(0.6)) add_end_fitting(body, bus.front, *room, fitter);
-  add_small_parts(static_cast<int>(fitter.pick(3)), *room, fitter);
+  auto [bus, room] = draw_craft(body, fitter);
+  if (fitter.chance(0.6)) add_end_fitting(body, bus.front, room, fitter);
+  add_small_parts(static_cast<int>(fitter.pick(3)), room, fitter);
   return with(bus.what, {{fitter.count_of("wing"), "wing"}, {fitter.count_of("dish"), "dish"}, {small_parts(body), "other part"}});
 }
 
 std::string draw_cluttered(Body& body, Fitter& fitter) {
-  std::optional<Room> room;
-  const Bus bus = draw_craft(body, fitter, room);
-  add_end_fitting(body, bus.front, *room, fitter);
-  add_end_fitting(body, bus.back, *room, fitter);
-  for (std::size_t booms = fitter.pick(4); booms > 0 && !room->empty(); --booms) fitter.boom(room->take(fitter), fitter.draw(0.4, 1.6));
-  if (fitter.chance(0.4) && !room->empty()) {
-    const Cell cell = room->take(fitter);
-    fitter.dish(cell, fitter.draw(0.8, 1.1) * cell.half(), 5 * std::floor(fitter.draw(0, 10)));
+  auto [bus, room] = draw_craft(body, fitter);
+  add_end_fitting(body, bus.front, room, fitter);
+  add_end_fitting(body, bus.back, room, fitter);
+  for (std::size_t booms = fitter.pick(4); booms > 0 && !room.empty(); --booms) {
+    const double length = fitter.draw(0.4, 1.6);
+    fitter.boom(room.take(fitter), length);
   }
-  add_small_parts(6 + static_cast<int>(fitter.pick(15)), *room, fitter);
+  if (fitter.chance(0.4) && !room.empty()) {
+    const Cell cell = room.take(fitter);
+    const double tilt_deg = 5 * std::floor(fitter.draw(0, 10));
+    fitter.dish(cell, fitter.draw(0.8, 1.1) * cell.half(), tilt_deg);
+  }
+  add_small_parts(6 + static_cast<int>(fitter.pick(15)), room, fitter);
   return with(bus.what, {{fitter.count_of("wing"), "wing"}, {fitter.count_of("dish"), "dish"}, {small_parts(body), "other part"}});
 }
 

@@ -36,7 +36,8 @@ struct WingShape {
   std::string parameter;  // the angle about its axis
 };
 
-// Adds fittings to a body. All stand on the surface with their feet in it, so that nothing floats and no faces lie in one plane.
+// Adds fittings to a body. Of two draws each is a statement of its own: the order of a call's arguments is the compiler's. All stand on the
+// surface with their feet in it, so that nothing floats and no faces lie in one plane.
 class Fitter {
  public:
   Fitter(Body& body, const SolidText& text, sim::Random& random) : body_(body), text_(text), random_(random) {}

@@ -83,7 +83,8 @@ std::string draw_spent_stage(Body&, Fitter& fitter) {
 
 std::string draw_rock(Body&, Fitter& fitter) {
   const double y = fitter.draw(0.9, 2), z = fitter.draw(0.9, 2);
-  fitter.add("rock", "rock", fitter.text().rock({2, y, z}, fitter.draw(0.15, 0.45), 1 + fitter.pick(1000000), 3, {}));
+  const std::size_t seed = 1 + fitter.pick(1000000);
+  fitter.add("rock", "rock", fitter.text().rock({2, y, z}, fitter.draw(0.15, 0.45), seed, 3, {}));
   return "rock";
 }
 
