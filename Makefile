@@ -119,6 +119,15 @@ accuracy: ## measure: errors of eight simulated scenarios against the limits of 
 	  --out $(LASSO_OUT)/accuracy/$$scenario || exit 1; done
 	@cfg/quality/accuracy $(LASSO_OUT)/accuracy
 
+BODIES ?= 1:200
+WHAT ?= track
+bodies: ## measure: fly, start or search bodies that are made from seeds, and count wrong and missing poses: BODIES=1:200 WHAT=track|start|search|configuration FLIGHTS= FRAMES= SENSOR=laser|lidar SET="KEY=VALUE ..."
+	$(call packages,build)
+	$(call configure,$(BUILD),)
+	$(call compile,$(BUILD),bodies)
+	@$(BUILD)/ft/bodies/bodies "$(WHAT)" "$(BODIES)" "$(or $(FLIGHTS),$(if $(filter track,$(WHAT)),6,$(if $(filter configuration,$(WHAT)),10,20)))" "$(or $(FRAMES),60)" "$(or $(SENSOR),-)" "$(JOBS)" \
+	  $(LASSO_OUT)/bodies/$(WHAT)$(if $(SENSOR),-$(SENSOR)) $(SET)
+
 WITH_BENCH = -DLASSO_BENCH=ON -DLASSO_TESTS=OFF
 bench: ## measure: time the estimate, its stages, and closest-point ICP of Embree and PCL beside it
 	$(call packages,build bench)

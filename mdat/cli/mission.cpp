@@ -1,7 +1,9 @@
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <utility>
 
+#include "mdat/bodies/body.hpp"
 #include "mdat/cli/commands.hpp"
 #include "mdat/common/errors.hpp"
 #include "mdat/common/flight_image.hpp"
@@ -13,7 +15,8 @@ namespace lasso::mdat {
 namespace {
 
 struct MissionOptions {
-  std::string file, scenario, out, model;
+  std::string file, scenario, out, model, kind, sensor;
+  std::optional<std::uint64_t> seed;  // of a target that is generated
   std::vector<std::string> settings;
   double scale = 1;
   std::string simplify;
@@ -161,18 +164,52 @@ std::string next_steps(const std::string& mission) {
          "      # or paper, search, approach; the report is " + folder + "/report.html\n";
 }
 
-void write_new(const MissionOptions& options) {
+// Beside the mission, by its name.
+std::filesystem::path generated_model(const std::filesystem::path& mission) {
+  return mission.parent_path() / (mission.stem().string() + "_model.toml");
+}
+
+// The target of the seed, and a few lines on it.
+std::string generate(const MissionOptions& options, NewMissionRequest& request) {
+  const Body body = make_body(*options.seed, body_kind_of(options.kind));
+  const BodyTruth truth = truth_of(body);
+  request.model = generated_model(options.out);
+  request.model_text = commented_model_text(body, truth);
+  std::string text = request.model.string() + ": written\n";
+  for (const std::string& line : body_lines(body, truth)) text += "  " + line + '\n';
+  return text;
+}
+
+std::optional<SensorKind> sensor_of(const std::string& name) {
+  if (name.empty()) return std::nullopt;
+  return name == "laser_camera" ? SensorKind::kLaserCamera : SensorKind::kTimeOfFlight;
+}
+
+// Throws InputError: neither of the two that a mission can begin with, or both.
+void check_target_of(const MissionOptions& options) {
+  if (options.seed.has_value() == !options.model.empty())
+    throw InputError("mission new: expected one of --model FILE, your target, and --generate SEED, a target made from a number");
+  if (options.out.empty() && !options.seed) throw InputError("mission new: expected --out MISSION.toml, the mission to write");
+  if (!options.kind.empty() && !options.seed) throw InputError("--kind " + options.kind + ": of a generated target; add --generate SEED");
+}
+
+void write_new(const MissionOptions& given) {
+  MissionOptions options = given;
+  check_target_of(options);
+  if (options.out.empty()) options.out = "body_" + std::to_string(*options.seed) + ".toml";
   if (!options.replace) refuse_to_replace({options.out}, "--force replaces it");
   check_writable(options.out);
   ModelCache cache = ModelCache::of_user_if(options.cached);
   NewMissionRequest request;
   request.model = options.model;
   request.out = options.out;
+  request.sensor = sensor_of(options.sensor);
+  const std::string generated = options.seed ? generate(options, request) : "";
   request.scale = options.scale;
   request.simplify = options.triangles;
   request.replace = options.replace;
   request.compile = [&](const Mesh& mesh, const ModelOptions& model, CompileReport& report) { return cache.compile(mesh, model, report); };
-  std::string text = options.out + ": written\n";
+  std::string text = generated + options.out + ": written\n";
   for (const std::string& remark : write_new_mission(request)) text += "  " + remark + '\n';
   print_text(text + next_steps(options.out));
 }
@@ -182,6 +219,37 @@ CLI::App* add(CLI::App& parent, const char* name, const char* meaning, void (*ac
   CLI::App* command = parent.add_subcommand(name, meaning);
   command->callback([action, options] { action(*options); });
   return command;
+}
+
+void add_new_command(CLI::App& mission, const std::shared_ptr<MissionOptions>& options) {
+  CLI::App* command = add(mission, "new", "write a commented mission for any mesh, ready to compile", write_new, options);
+  command->add_option("--model", options->model, "mesh (STL, OBJ, PLY, glTF) or parametric model (.toml)");
+  command
+      ->add_option("--generate", options->seed, "make a target instead, and its model beside the mission: the same number, the same target")
+      ->type_name("SEED")
+      ->check(CLI::Range(0.0, 4294967295.0, "0 to 4294967295"));
+  command->add_option("--kind", options->kind, "of the target that is made; otherwise the seed says it")
+      ->check(CLI::IsMember(body_kind_names()));
+  command->add_option("--sensor", options->sensor, "otherwise guessed from the target's size")
+      ->check(CLI::IsMember({"laser_camera", "time_of_flight"}));
+  command->add_option("--scale", options->scale, "the file's lengths times this are metres")
+      ->capture_default_str()
+      ->check(CLI::Range(1e-6, 1e6));
+  command->add_option("-o,--out", options->out, "mission to write (of a target that is made: body_SEED.toml, here)");
+  CLI::Option* simplify =
+      command
+          ->add_option(
+              "--simplify", options->simplify,
+              "first make a coarser mesh of so many triangles, beside the mission; without a number a quarter of them, at most 20000")
+          ->expected(0, 1)
+          ->check(CLI::Validator(check_triangles, ""));
+  command->callback([options, simplify] {
+    if (simplify->count() > 0)
+      options->triangles = options->simplify.empty() || options->simplify == "true" ? kSimplifyChosen : std::stoul(options->simplify);
+    write_new(*options);
+  });
+  add_no_cache(*command, options->cached);
+  command->add_flag("--force", options->replace, "replace a file that is there");
 }
 
 }  // namespace
@@ -206,27 +274,7 @@ void add_mission_commands(CLI::App& app) {
       add(*mission, "info", "print every value of a mission or a flight image, its unit, meaning and origin", info, options);
   info_command->add_option("MISSION", options->file, "mission file or flight image")->required();
   info_command->add_option("--scenario", options->scenario, "with this scenario's overrides of parameters");
-
-  CLI::App* new_command = add(*mission, "new", "write a commented mission for any mesh, ready to compile", write_new, options);
-  new_command->add_option("--model", options->model, "mesh (STL, OBJ, PLY, glTF) or parametric model (.toml)")->required();
-  new_command->add_option("--scale", options->scale, "the file's lengths times this are metres")
-      ->capture_default_str()
-      ->check(CLI::Range(1e-6, 1e6));
-  new_command->add_option("-o,--out", options->out, "mission to write")->required();
-  CLI::Option* simplify =
-      new_command
-          ->add_option(
-              "--simplify", options->simplify,
-              "first make a coarser mesh of so many triangles, beside the mission; without a number a quarter of them, at most 20000")
-          ->expected(0, 1)
-          ->check(CLI::Validator(check_triangles, ""));
-  new_command->callback([options, simplify] {
-    if (simplify->count() > 0)
-      options->triangles = options->simplify.empty() || options->simplify == "true" ? kSimplifyChosen : std::stoul(options->simplify);
-    write_new(*options);
-  });
-  add_no_cache(*new_command, options->cached);
-  new_command->add_flag("--force", options->replace, "replace a file that is there");
+  add_new_command(*mission, options);
 }
 
 }  // namespace lasso::mdat

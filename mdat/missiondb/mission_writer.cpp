@@ -31,7 +31,7 @@ Values sized_values(const NewMission& mission) {
   }
   values["estimation.surface_sigma_m"] = mission.surface_sigma_m;
   const double range_m = initial_range_m(size);
-  const RangeNoise noise = guessed_noise(size);
+  const RangeNoise noise = guessed_noise(size, mission.sensor);
   values["sensor.sigma0_m"] = noise.sigma0_m;
   values["sensor.sigma_k_per_m"] = noise.sigma_k_per_m;
   if (noise.kind == SensorKind::kTimeOfFlight) values["sensor.sigma_angle_rad"] = kLidarAngle_rad;
@@ -129,10 +129,11 @@ double filled_range_m(const MeshSize& size) {
 
 double initial_range_m(const MeshSize& size) { return rounded(std::max(kNearestSurface_m + 1.1 * size.radius_m, filled_range_m(size))); }
 
-RangeNoise guessed_noise(const MeshSize& size) {
+RangeNoise guessed_noise(const MeshSize& size, std::optional<SensorKind> sensor) {
   const auto preset = [](const std::string& key) { return find_row(flight_rows(), key)->preset[0]; };
   const auto of_lidar = [&](const std::string& key) { return preset_of(SensorKind::kTimeOfFlight, key, preset(key)); };
-  if (2 * initial_range_m(size) > preset("sensor.range_max_m"))
+  const bool far = 2 * initial_range_m(size) > preset("sensor.range_max_m");
+  if (sensor.value_or(far ? SensorKind::kTimeOfFlight : SensorKind::kLaserCamera) == SensorKind::kTimeOfFlight)
     return {SensorKind::kTimeOfFlight, of_lidar("sensor.sigma0_m"), of_lidar("sensor.sigma_k_per_m")};
   const double nearer = filled_range_m(size) / initial_range_m(size);  // less than 1 where the target is small
   return {SensorKind::kLaserCamera, sized_preset("sensor.sigma0_m", size.largest_m),
@@ -143,7 +144,7 @@ std::string new_mission_text(const NewMission& mission) {
   std::ostringstream out;
   write_head(out, mission);
   out << "\n# [sensor] describes your sensor; the noise written here is a guess from the target's size: replace it by your sensor's.\n";
-  write_flight_parameters(out, sized_values(mission), guessed_noise(mission.size).kind);
+  write_flight_parameters(out, sized_values(mission), guessed_noise(mission.size, mission.sensor).kind);
   write_scenarios(out, mission.size, initial_range_m(mission.size));
   write_examples(out, mission.size, initial_range_m(mission.size));
   return out.str();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@ struct NewMission {
   Eigen::Vector3d origin_m = Eigen::Vector3d::Zero();  // target.origin_m
   MeshSize size;                                       // about that origin
   double cell_size_m = 0, surface_sigma_m = 0;
+  std::optional<SensorKind> sensor;  // where one is asked for
   std::vector<std::string> remarks;  // what was guessed, a line each
 };
 
@@ -27,12 +29,13 @@ double sized_preset(const std::string& key, double largest_m);
 // Where the sphere about the target fills nine tenths of the field of view, or farther, where a laser camera would see nothing so near.
 double initial_range_m(const MeshSize& size);
 
-// A laser camera whose noise at the initial range grows with the target, or a LIDAR where the scenarios lead beyond a camera's ranges.
+// The sensor that is asked for; otherwise a LIDAR where the scenarios lead beyond a laser camera's ranges. A laser camera's noise at the
+// initial range grows with the target.
 struct RangeNoise {
   SensorKind kind = SensorKind::kLaserCamera;
   double sigma0_m = 0, sigma_k_per_m = 0;
 };
-RangeNoise guessed_noise(const MeshSize& size);
+RangeNoise guessed_noise(const MeshSize& size, std::optional<SensorKind> sensor);
 
 std::string new_mission_text(const NewMission& mission);
 

@@ -42,7 +42,8 @@ std::vector<ValueRow> parameter_table_rows() {
 // Reads one model; all problems gather, values that are wrong count as 1 so that reading can go on.
 class ModelReader {
  public:
-  explicit ModelReader(const std::filesystem::path& file) : root_(parse_toml(file)), problems_(file) {
+  explicit ModelReader(const std::filesystem::path& file) : ModelReader(parse_toml(file), file) {}
+  ModelReader(toml::table root, const std::filesystem::path& file) : root_(std::move(root)), problems_(file) {
     read_table(root_, "", {text_row("name", "name of the model"), scale_row()}, {"parameters", "part"}, problems_);
     scale_ = root_["scale"].value<double>().value_or(1);
     read_parameters();
@@ -188,14 +189,28 @@ class ModelReader {
     if (kind == "rod") return rod_part(part);
     if (kind == "dish") return dish_part(part);
     if (kind == "revolve") return revolve_part(part);
-    problems_.add(origin_of(part.source()), where_ + "kind", '"' + kind + '"', "expected one of \"box\", \"rod\", \"dish\", \"revolve\"");
+    if (kind == "rock") return rock_part(part);
+    problems_.add(origin_of(part.source()), where_ + "kind", '"' + kind + '"',
+                  "expected one of \"box\", \"rod\", \"dish\", \"revolve\", \"rock\"");
     return {};
+  }
+  Vector3d sides(const toml::table& part) {
+    const Vector3d size = vector(part, "size");
+    if (size.minCoeff() <= 0) problems_.add(origin_of(part.source()), where_ + "size", "", "expected three lengths greater than 0");
+    return size;
   }
   Mesh box_part(const toml::table& part) {
     known_keys(part, {"name", "kind", "place", "repeat", "size"});
-    const Vector3d size = vector(part, "size");
-    if (size.minCoeff() <= 0) problems_.add(origin_of(part.source()), where_ + "size", "", "expected three lengths greater than 0");
-    return make_box(size);
+    return make_box(sides(part));
+  }
+  Mesh rock_part(const toml::table& part) {
+    known_keys(part, {"name", "kind", "place", "repeat", "size", "roughness", "seed", "fineness"});
+    RockShape shape;
+    shape.size = sides(part);
+    shape.roughness = number(part, "roughness", 0, 0.5, 0.2);
+    shape.seed = static_cast<std::uint64_t>(count(part, "seed", 0, 1000000000, 0));
+    shape.fineness = count(part, "fineness", 0, 5, 3);
+    return make_rock(shape);
   }
   Mesh rod_part(const toml::table& part) {
     known_keys(part, {"name", "kind", "place", "repeat", "from", "to", "radius", "radius_to", "sides"});
@@ -317,6 +332,13 @@ std::vector<ModelParameter> model_parameters(const std::filesystem::path& file) 
 
 Mesh build_model(const std::filesystem::path& file, const std::map<std::string, double>& values) {
   ModelReader reader(file);
+  reader.finish();
+  return reader.build(values);
+}
+
+Mesh build_model_text(const std::string& text, const std::map<std::string, double>& values) {
+  const std::filesystem::path nowhere = "model";
+  ModelReader reader(parse_toml_text(text, nowhere), nowhere);
   reader.finish();
   return reader.build(values);
 }

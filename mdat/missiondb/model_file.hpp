@@ -21,5 +21,7 @@ std::vector<ModelParameter> model_parameters(const std::filesystem::path& file);
 // The union of the parts as closed, outward-oriented surfaces that may run through each other; metres after the model's own scale.
 // `values`: parameters that differ from their presets, in the units that the model states. Throws MissionError.
 Mesh build_model(const std::filesystem::path& file, const std::map<std::string, double>& values);
+// The same of the text of such a file.
+Mesh build_model_text(const std::string& text, const std::map<std::string, double>& values);
 
 }  // namespace lasso::mdat

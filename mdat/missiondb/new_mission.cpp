@@ -31,7 +31,9 @@ constexpr double kCellShrink = 0.75, kCellGrow = 1.5;  // from one try to the ne
 [[noreturn]] void refuse(const fs::path& file, const std::string& reason) { throw MissionError({file.string(), 0, 0, "", "", reason}); }
 
 // `remarks` gets what of the file was left out.
-Mesh read_model(const fs::path& model, double scale, std::vector<std::string>& remarks) {
+Mesh read_model(const NewMissionRequest& request, std::vector<std::string>& remarks) {
+  const fs::path& model = request.model;
+  const double scale = request.scale;
   const ValueRow& row = *find_row(mission_rows(), "target.scale");
   if (!(scale >= row.minimum && scale <= row.maximum)) {
     throw MissionError({model.string(), 0, 0, "scale", number_text(scale), expectation(row) + " (" + row.meaning + ")"});
@@ -43,7 +45,7 @@ Mesh read_model(const fs::path& model, double scale, std::vector<std::string>& r
       for (const std::string& what : left_out) remarks.push_back("file: not read: " + what);
       return mesh;
     }
-    Mesh mesh = build_model(model, {});
+    Mesh mesh = request.model_text.empty() ? build_model(model, {}) : build_model_text(request.model_text, {});
     for (Eigen::Vector3d& v : mesh.vertices) v *= scale;
     check_extent(mesh);
     return mesh;
@@ -138,7 +140,7 @@ void write_whole(const std::vector<NewFile>& files) {
 
 std::string path_from(const fs::path& out, const fs::path& model) {
   std::error_code error;
-  const fs::path relative = fs::relative(model, fs::absolute(out).parent_path(), error);
+  const fs::path relative = fs::relative(fs::absolute(model), fs::absolute(out).parent_path(), error);
   return (error || relative.empty() ? fs::absolute(model) : relative).generic_string();
 }
 
@@ -160,8 +162,9 @@ Mesh moved(Mesh mesh, const Eigen::Vector3d& origin_m) {
 
 std::vector<std::string> write_new_mission(const NewMissionRequest& request) {
   NewMission mission;
-  Mesh mesh = read_model(request.model, request.scale, mission.remarks);
-  mission.name = request.model.stem().string();
+  Mesh mesh = read_model(request, mission.remarks);
+  mission.name = (request.model_text.empty() ? request.model : request.out).stem().string();
+  mission.sensor = request.sensor;
   place(mission, mesh);
   const SurfaceFacts surface = surface_facts(mesh);
   std::optional<Simplified> coarser;
@@ -175,13 +178,16 @@ std::vector<std::string> write_new_mission(const NewMissionRequest& request) {
   mission.remarks.insert(mission.remarks.end(), guessed.begin(), guessed.end());
 
   const fs::path simplified_file = request.out.parent_path() / (request.out.stem().string() + "_simplified.stl");
-  const std::string bytes = coarser ? stl_bytes(coarser->mesh) : read_file(request.model);
+  const bool made = !request.model_text.empty();
+  const std::string bytes = coarser ? stl_bytes(coarser->mesh) : made ? request.model_text : read_file(request.model);
   if (coarser && !request.replace && fs::exists(simplified_file)) refuse(simplified_file, "is there already; --force replaces it");
+  if (made && !request.replace && fs::exists(request.model)) refuse(request.model, "is there already; --force replaces it");
   mission.path = path_from(request.out, coarser ? simplified_file : request.model);
   mission.sha256 = sha256_of(bytes);
   mission.parametric = !coarser && request.model.extension() == ".toml";
   mission.scale = coarser ? 1 : request.scale;
   std::vector<NewFile> files;
+  if (made) files.push_back({request.model, request.model_text});
   if (coarser) files.push_back({simplified_file, bytes});
   files.push_back({request.out, new_mission_text(mission)});
   write_whole(files);

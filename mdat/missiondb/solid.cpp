@@ -2,7 +2,10 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <map>
 #include <numbers>
+
+#include "mdat/modelc/random.hpp"
 
 namespace lasso::mdat {
 namespace {
@@ -91,6 +94,77 @@ std::pair<Vector3d, Vector3d> across(const Vector3d& axis) {
   return {u, axis.cross(u)};
 }
 
+// Of radius 1.
+Mesh icosahedron() {
+  const double golden = 0.5 * (1 + std::sqrt(5.0));
+  Mesh mesh;
+  for (const double a : {-1.0, 1.0}) {
+    for (const double b : {-golden, golden}) {
+      for (const Vector3d& corner : {Vector3d(0, a, b), Vector3d(a, b, 0), Vector3d(b, 0, a)}) mesh.vertices.push_back(corner.normalized());
+    }
+  }
+  const double side = 2 / std::sqrt(1 + golden * golden) * (1 + 1e-9);
+  const auto near = [&](Index i, Index j) { return (mesh.vertices[i] - mesh.vertices[j]).norm() < side; };
+  for (Index i = 0; i < 12; ++i) {
+    for (Index j = i + 1; j < 12; ++j) {
+      for (Index k = j + 1; k < 12; ++k) {
+        if (!near(i, j) || !near(j, k) || !near(k, i)) continue;
+        const bool outwards = mesh.vertices[i].dot(mesh.vertices[j].cross(mesh.vertices[k])) > 0;
+        mesh.triangles.push_back({i, outwards ? j : k, outwards ? k : j});
+      }
+    }
+  }
+  return mesh;
+}
+
+// Each triangle in four, with the new vertices on the unit sphere.
+Mesh divided(const Mesh& coarse) {
+  Mesh mesh{coarse.vertices, {}};
+  std::map<std::pair<Index, Index>, Index> middles;
+  const auto middle = [&](Index a, Index b) {
+    const auto [place, fresh] = middles.try_emplace(std::minmax(a, b), static_cast<Index>(mesh.vertices.size()));
+    if (fresh) mesh.vertices.push_back((mesh.vertices[a] + mesh.vertices[b]).normalized());
+    return place->second;
+  };
+  for (const auto& [a, b, c] : coarse.triangles) {
+    const Index ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
+    for (const auto& triangle : {std::array{a, ab, ca}, std::array{b, bc, ab}, std::array{c, ca, bc}, std::array{ab, bc, ca}})
+      mesh.triangles.push_back(triangle);
+  }
+  return mesh;
+}
+
+Vector3d drawn_direction(Random& random) {
+  for (;;) {
+    const double x = 2 * random.uniform() - 1, y = 2 * random.uniform() - 1, z = 2 * random.uniform() - 1;
+    const Vector3d direction(x, y, z);
+    if (direction.norm() > 0.1 && direction.norm() <= 1) return direction.normalized();
+  }
+}
+
+// A hill or a hollow: `height` in its middle, falling smoothly to 0 where the cosine of the angle from it is `edge`.
+struct Bump {
+  Vector3d direction = Vector3d::UnitX();
+  double edge = 0, height = 0;
+  double at(const Vector3d& u) const {
+    const double share = std::max(0.0, (u.dot(direction) - edge) / (1 - edge));
+    return height * share * share * (3 - 2 * share);
+  }
+};
+
+// Wide ones are high and narrow ones low.
+std::vector<Bump> drawn_bumps(std::uint64_t seed) {
+  constexpr int kBumps = 40;
+  Random random(seed);
+  std::vector<Bump> bumps;
+  for (int i = 0; i < kBumps; ++i) {
+    const double edge = 0.3 + 0.65 * random.uniform();
+    const double height = std::sqrt(1 - edge) * (2 * random.uniform() - 1);
+    bumps.push_back({drawn_direction(random), edge, height});
+  }
+  return bumps;
+}
+
 }  // namespace
 
 std::vector<std::array<Index, 3>> triangulate_polygon(const std::vector<Vector2d>& points, std::size_t* tests) {
@@ -162,6 +236,25 @@ Mesh make_dish(const DishShape& shape) {
     profile.emplace_back(depth_at(r) - shape.thickness, r);
   }
   return make_revolve(profile, {0, 2 * std::numbers::pi, shape.sides});
+}
+
+Mesh make_rock(const RockShape& shape) {
+  Mesh mesh = icosahedron();
+  for (int i = 0; i < shape.fineness; ++i) mesh = divided(mesh);
+  const std::vector<Bump> bumps = drawn_bumps(shape.seed);
+  std::vector<double> heights;
+  double highest = 0;
+  for (const Vector3d& u : mesh.vertices) {
+    double height = 0;
+    for (const Bump& bump : bumps) height += bump.at(u);
+    heights.push_back(height);
+    highest = std::max(highest, std::fabs(height));
+  }
+  for (std::size_t i = 0; i < heights.size(); ++i) {
+    const double radius = 1 + (highest > 0 ? shape.roughness * heights[i] / highest : 0);
+    mesh.vertices[i] = 0.5 * radius * shape.size.cwiseProduct(mesh.vertices[i]);
+  }
+  return mesh;
 }
 
 double signed_volume(const Mesh& mesh) {

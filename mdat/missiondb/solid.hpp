@@ -30,6 +30,17 @@ struct DishShape {
 };
 Mesh make_dish(const DishShape& shape);
 
+// An ellipsoid of the sides `size` with bumps and hollows, as asteroids have: an icosphere, divided `fineness` times, whose radii change by
+// smooth functions of the direction that `seed` draws. A radius changes by `roughness` of it at most, so that the surface stays star-shaped
+// about the origin. `size` is the ellipsoid's: the rock may reach farther, by `roughness`.
+struct RockShape {
+  Eigen::Vector3d size = Eigen::Vector3d::Zero();
+  double roughness = 0;  // 0 to 0.5
+  std::uint64_t seed = 0;
+  int fineness = 3;  // 20 triangles times 4 to this power
+};
+Mesh make_rock(const RockShape& shape);
+
 // Triangles of a simple polygon (it need not be convex), each counter-clockwise, as indices of `points`; bounded by their number cubed.
 // Where given, `tests` grows by the work that was done.
 std::vector<std::array<std::uint32_t, 3>> triangulate_polygon(const std::vector<Eigen::Vector2d>& points, std::size_t* tests = nullptr);

@@ -219,20 +219,29 @@ void ProblemList::throw_if_any() const {
   if (!problems_.empty()) throw MissionError(problems_);
 }
 
-toml::table parse_toml(const std::filesystem::path& file) {
+toml::table parse_toml_text(const std::string& text, const std::filesystem::path& file) {
   ProblemList problems(file);
   try {
-    const std::string text = read_file(file);
     if (text.size() <= kMaxTomlBytes) return toml::parse(text, file.string());
     problems.add({}, "", std::to_string(text.size()) + " bytes",
                  "expected a TOML file of at most " + std::to_string(kMaxTomlBytes) + " bytes" + other_kind_of(file));
   } catch (const toml::parse_error& error) {
     problems.add(origin_of(error.source()), "", "", "not valid TOML: " + std::string(error.description()) + other_kind_of(file));
-  } catch (const std::runtime_error& error) {
-    problems.add({}, "", "", error.what());
   }
   problems.throw_if_any();
   return {};
+}
+
+toml::table parse_toml(const std::filesystem::path& file) {
+  std::string text;
+  try {
+    text = read_file(file);
+  } catch (const std::runtime_error& error) {
+    ProblemList problems(file);
+    problems.add({}, "", "", error.what());
+    problems.throw_if_any();
+  }
+  return parse_toml_text(text, file);
 }
 
 std::vector<std::string> texts_of(const FoundValues& found, const std::string& key) {

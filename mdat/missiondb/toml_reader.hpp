@@ -47,6 +47,8 @@ std::vector<std::string> texts_of(const FoundValues& found, const std::string& k
 // Throws MissionError: the file cannot be read, is larger than kMaxTomlBytes, or is not TOML.
 constexpr std::size_t kMaxTomlBytes = 1u << 20;
 toml::table parse_toml(const std::filesystem::path& file);
+// The same of a text; problems name `file`.
+toml::table parse_toml_text(const std::string& text, const std::filesystem::path& file);
 
 // The value of `node`, if it is what `row` says; otherwise a problem under the name `key`.
 std::optional<FoundValue> read_value(const toml::node& node, const ValueRow& row, const std::string& key, ProblemList& problems);

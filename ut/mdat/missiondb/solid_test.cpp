@@ -106,5 +106,27 @@ TEST(Solid, AppendKeepsBothSurfaces) {
   EXPECT_NEAR(signed_volume(mesh), 9, 1e-12);
 }
 
+// The volume of an ellipsoid is that of a sphere, stretched; the icosphere lies within it.
+TEST(Solid, RockWithoutRoughnessIsAnEllipsoid) {
+  VERIFIES("LASSO-GND-006~1");
+  const Mesh mesh = make_rock({{4, 3, 2}, 0, 7, 4});
+  EXPECT_TRUE(is_closed(mesh));
+  EXPECT_EQ(mesh.triangles.size(), 20u * 256u);
+  EXPECT_NEAR(signed_volume(mesh), kPi / 6 * 4 * 3 * 2, 0.003 * kPi / 6 * 24);
+  for (const Eigen::Vector3d& v : mesh.vertices) EXPECT_NEAR(v.cwiseQuotient(Eigen::Vector3d(2, 1.5, 1)).norm(), 1, 1e-12);
+}
+
+TEST(Solid, RockIsAsRoughAsSaidAndTheSeedsOwn) {
+  VERIFIES("LASSO-GND-006~1");
+  const Mesh mesh = make_rock({{2, 2, 2}, 0.3, 7, 3});
+  EXPECT_TRUE(is_closed(mesh));
+  EXPECT_GT(signed_volume(mesh), 0);
+  double farthest = 0;
+  for (const Eigen::Vector3d& v : mesh.vertices) farthest = std::max(farthest, std::fabs(v.norm() - 1));
+  EXPECT_NEAR(farthest, 0.3, 1e-12);
+  EXPECT_EQ(make_rock({{2, 2, 2}, 0.3, 7, 3}).vertices, mesh.vertices);
+  EXPECT_NE(make_rock({{2, 2, 2}, 0.3, 8, 3}).vertices, mesh.vertices);
+}
+
 }  // namespace
 }  // namespace lasso::mdat
