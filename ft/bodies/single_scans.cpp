@@ -3,9 +3,9 @@
 #include <memory>
 
 #include "fsw/mode/searcher.hpp"
-#include "fsw/pose/estimator.hpp"
 #include "ft/bodies/still_scans.hpp"
 #include "ft/bodies/trials.hpp"
+#include "mdat/replay/single_scans.hpp"
 #include "mdat/run/true_target.hpp"
 
 namespace lasso::bodies {
@@ -76,13 +76,13 @@ double moved_share(const Subject& subject, const Pose& truth, std::span<const Ra
 Tally start(const Subject& subject, std::size_t starts) {
   Tally tally;
   StillScans scans(subject, kStarts);
-  const auto estimator = std::make_unique<Estimator>();
+  mdat::SingleScans estimator(scans.mission());
   for (std::size_t i = 0; i < starts; ++i) {
     const Pose truth = scans.draw_pose();
     const Pose begin = scans.draw_start(truth, kStartTurn_rad, kStartShift * subject.truth.size_m);
     const RangeImage& scan = scans.scan(subject.target->surface(), truth, begin);
     Trial trial = trial_of(subject, i, truth, scan);
-    const Registration found = estimator->estimate(scans.mission(), scan, {begin, {}, true});
+    const Registration found = estimator.estimate(scan, {begin, {}, true});
     trial.valid = found.valid();
     trial.reason = to_string(found.reason);
     judge(subject, found.T_sensor_target, found.covariance, truth, trial);
@@ -124,7 +124,7 @@ Tally configuration(const Subject& subject, std::size_t changes) {
   constexpr double kMoved = 0.05;
   Tally tally;
   StillScans scans(subject, kChanges);
-  const auto estimator = std::make_unique<Estimator>();
+  mdat::SingleScans estimator(scans.mission());
   for (std::size_t i = 0; i < changes; ++i) {
     const std::optional<mdat::Body> body = changed(subject, scans.random());
     if (!body) return tally;
@@ -133,7 +133,7 @@ Tally configuration(const Subject& subject, std::size_t changes) {
     const RangeImage& scan = scans.scan(*surface, truth, truth);
     if (moved_share(subject, truth, samples_of(scan)) < kMoved) continue;
     Trial trial = trial_of(subject, i, truth, scan);
-    const Registration found = estimator->estimate(scans.mission(), scan, {truth, {}, false});
+    const Registration found = estimator.estimate(scan, {truth, {}, false});
     trial.valid = found.valid();
     trial.reason = to_string(found.reason);
     judge(subject, found.T_sensor_target, found.covariance, truth, trial);
