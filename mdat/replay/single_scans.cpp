@@ -24,12 +24,9 @@ void SingleScans::search(const RangeImage& image, const Pose& T_sensor_target) {
   }
 }
 
-// Has it accepted a pose within reach of the start?
-bool SingleScans::offers(const StartPoint& start) const {
-  const SearchResult& found = search_->result();
-  if (found.outcome != SearchOutcome::kAccepted) return false;
-  const Vec6 off = pose_difference(found.T_sensor_target, start.T_sensor_target);
-  const Vec3 middle_off = found.T_sensor_target * mission_.center_m - start.T_sensor_target * mission_.center_m;
+bool SingleScans::is_within_reach(const Pose& T_sensor_target, const StartPoint& start) const {
+  const Vec6 off = pose_difference(T_sensor_target, start.T_sensor_target);
+  const Vec3 middle_off = T_sensor_target * mission_.center_m - start.T_sensor_target * mission_.center_m;
   return off.head<3>().norm() <= kRoughStart_rad && middle_off.norm() <= kRoughStartShare * static_cast<double>(mission_.search.size_m);
 }
 
@@ -37,12 +34,13 @@ Registration SingleScans::estimate(const RangeImage& image, const StartPoint& st
   Registration best = estimator_->estimate(mission_, image, start);
   if (!(mission_.parameters.start_check > 0.5)) return best;
   search(image, best.T_sensor_target);
-  if (offers(start)) {
-    const StartPoint there{search_->result().T_sensor_target, start.rates};
-    const Registration other = estimator_->estimate(mission_, image, there);
+  for (const SearchCandidate& candidate : search_->result().candidates) {
+    if (!is_within_reach(candidate.T_sensor_target, start)) continue;
+    const Registration other = estimator_->estimate(mission_, image, StartPoint{candidate.T_sensor_target, start.rates});
     if (other.valid() && (!best.valid() || cost_of(other) < cost_of(best))) best = other;
   }
-  const bool is_contradicted = best.valid() && search_->contradicts(mission_, best.T_sensor_target, estimator_->workspace());
+  const bool is_sure = search_->result().outcome == SearchOutcome::kAccepted;
+  const bool is_contradicted = best.valid() && is_sure && search_->contradicts(mission_, best.T_sensor_target, estimator_->workspace());
   if (is_contradicted) best.reason = PoseReason::kContradicted;
   return best;
 }

@@ -18,14 +18,15 @@ class SingleScans {
  public:
   explicit SingleScans(const Mission& mission) : mission_(mission) {}
 
-  // The registration from the start. With start.check a search of the scan then has its word: where it accepts a pose within the reach of
-  // a rough start, the registration from there takes its place if it explains the scan better. kContradicted where the search contradicts
-  // the pose that is left. A search that cannot decide (a symmetric target) leaves the pose as it is: the start has chosen.
+  // The registration from the start. With start.check the scan is searched as well: of the registrations from the start and from the
+  // search's candidates within the reach of a rough start, the one that explains the scan best is given. kContradicted where the search
+  // accepts another pose: the start is farther off than a rough one may be. What a search cannot tell apart (the images of a symmetric
+  // target), the start does.
   Registration estimate(const RangeImage& image, const StartPoint& start);
 
  private:
   void search(const RangeImage& image, const Pose& T_sensor_target);
-  bool offers(const StartPoint& start) const;
+  bool is_within_reach(const Pose& T_sensor_target, const StartPoint& start) const;
 
   const Mission& mission_;
   std::unique_ptr<Estimator> estimator_ = std::make_unique<Estimator>();
