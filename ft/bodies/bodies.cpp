@@ -2,7 +2,8 @@
 //
 // usage: bodies WHAT FIRST:LAST COUNT FRAMES SENSOR JOBS FOLDER [KEY=VALUE ...]
 // WHAT is track (COUNT flights of FRAMES each), start, search or configuration (COUNT scans each). SENSOR is laser, lidar, or - for what
-// the body's size asks for. FOLDER gets table.csv, wrong.csv, summary.txt and the missions, which mdat takes.
+// the body's size asks for. FOLDER gets table.csv, wrong.csv, again.txt (commands that fly flights with wrong
+// poses again), summary.txt, and the missions.
 #include <atomic>
 #include <cstdio>
 #include <exception>
@@ -108,11 +109,12 @@ int run(const Options& options) {
   const std::string summary = summary_text(options.what, rows);
   mdat::write_file(options.folder / "table.csv", table_csv(rows));
   mdat::write_file(options.folder / "wrong.csv", wrong_csv(rows));
+  mdat::write_file(options.folder / "again.txt", again_text(rows));
   mdat::write_file(options.folder / "summary.txt", summary);
   for (const Row& row : rows) {
     if (!row.failure.empty()) std::fprintf(stderr, "body %llu: %s\n", static_cast<unsigned long long>(row.seed), row.failure.c_str());
   }
-  std::printf("%swritten to %s: table.csv, wrong.csv, summary.txt, missions\n", summary.c_str(), options.folder.c_str());
+  std::printf("%swritten to %s: table.csv, wrong.csv, again.txt, summary.txt, missions\n", summary.c_str(), options.folder.c_str());
   return 0;
 }
 

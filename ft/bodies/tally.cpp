@@ -146,6 +146,14 @@ std::string table_csv(const std::vector<Row>& rows) {
   return text;
 }
 
+std::string again_text(const std::vector<Row>& rows) {
+  std::string text;
+  for (const Row& row : rows) {
+    for (const std::string& command : row.tally.again) text += command + "\n";
+  }
+  return text;
+}
+
 std::string wrong_csv(const std::vector<Row>& rows) {
   std::string text = "seed,number,frame,range_m,determined,squared,translation_m,rotation_deg,sigma_m,sigma_deg\n";
   for (const Row& row : rows) {

@@ -33,6 +33,7 @@ struct Tally {
   double worst = 0;                            // of the valid ones: largest normalised error squared
   std::map<std::string, std::size_t> reasons;  // of determined ones that are not valid
   std::vector<Trial> wrong_trials;
+  std::vector<std::string> again;  // of each flight with a wrong pose: the command that flies it again
 
   void add(const Trial& trial, double size_m);
 };
@@ -49,6 +50,8 @@ struct Row {
 Row row_of(const Subject& subject);
 
 std::string table_csv(const std::vector<Row>& rows);
+// A command a line.
+std::string again_text(const std::vector<Row>& rows);
 // Each wrong and valid pose.
 std::string wrong_csv(const std::vector<Row>& rows);
 

@@ -4,6 +4,7 @@
 
 #include "ft/bodies/trials.hpp"
 #include "hal_sim/random.hpp"
+#include "mdat/common/text.hpp"
 #include "mdat/run/case.hpp"
 #include "mdat/run/simulation.hpp"
 
@@ -23,6 +24,17 @@ mdat::Scenario flight_of(const Subject& subject, sim::Random& random) {
   scenario.drift_mps = {kDrift * range_m, 0, 0};
   scenario.drawn = 1;
   return scenario;
+}
+
+// The command that flies it again, bit for bit, with a report.
+std::string again_text(const Subject& subject, const mdat::Scenario& scenario, std::uint64_t seed, std::uint32_t frames) {
+  std::string text = mdat::format(
+      "mdat run %s --scenario spin --seed %llu --frames %u --set 'scenario.spin.ranges_m=[%.17g]' --set "
+      "'scenario.spin.spin_degps=[%.17g,0,0]' --set 'scenario.spin.drift_mps=[%.17g,0,0]' --set scenario.spin.drawn=true",
+      subject.mission.source.file.c_str(), static_cast<unsigned long long>(seed), frames, scenario.ranges_m.front(),
+      scenario.spin_radps.front() / kRadPerDeg, scenario.drift_mps.front());
+  for (const std::string& setting : subject.mission.source.settings) text += " --set '" + setting + "'";
+  return text;
 }
 
 const mdat::KeptScan* kept_of(const mdat::CaseResult& result, std::uint32_t frame) {
@@ -63,15 +75,18 @@ Tally track(const Subject& subject, std::size_t flights, std::uint32_t frames) {
   for (std::size_t flight = 0; flight < flights; ++flight) {
     std::uint64_t state = subject.body.seed * 1000 + flight;
     sim::Random random(sim::split_mix64(state));
-    const std::uint64_t seed = random.bits();
-    mdat::CaseSetup setup = mdat::plain_case(subject.mission.source, flight_of(subject, random), seed, frames);
+    const std::uint64_t seed = random.bits() >> 32;  // as the command line takes it
+    const mdat::Scenario scenario = flight_of(subject, random);
+    mdat::CaseSetup setup = mdat::plain_case(subject.mission.source, scenario, seed, frames);
     const std::vector<std::uint8_t> image = mdat::image_bytes(subject.mission, setup.parameters);
     setup.image = &image;
     setup.target = &subject.target->surface();
     setup.alone = true;
     setup.keep_frames.resize(frames);
     std::iota(setup.keep_frames.begin(), setup.keep_frames.end(), 0U);
+    const std::size_t wrong_before = tally.wrong;
     judge(subject, flight, mdat::run_case(setup, done), tally);
+    if (tally.wrong > wrong_before) tally.again.push_back(again_text(subject, scenario, seed, frames));
     ++tally.numbers;
   }
   return tally;

@@ -8,7 +8,7 @@ namespace lasso::bodies {
 // Flights of any attitude, spin up to 4 deg/s and one to twice the nearest range, which start from the pose of one frame before.
 Tally track(const Subject& subject, std::size_t flights, std::uint32_t frames);
 
-// Single scans of a target at rest, registered as a rough start from a pose that is 10 deg and a tenth of the size off.
+// Single scans of a target at rest, registered from a pose that is 10 deg and a tenth of the size off, as `mdat replay --wide` does.
 Tally start(const Subject& subject, std::size_t starts);
 
 // Single scans of a target at rest, searched without any pose.

@@ -9,8 +9,6 @@
 namespace lasso::mdat {
 namespace {
 
-const Vec3 kX = Vec3::UnitX(), kY = Vec3::UnitY(), kZ = Vec3::UnitZ();
-
 constexpr int kRodSides = 12;
 constexpr int kStemSides = 16;
 
@@ -31,12 +29,12 @@ Place placed(const Cell& cell, Place own) {
   const Pad& pad = cell.pad;
   if (pad.end) {
     own.push_back(PlaceStep::move({pad.reach, cell.a, cell.t}));
-    if (pad.sign < 0) own.push_back(PlaceStep::turned(kZ, 180));
+    if (pad.sign < 0) own.push_back(PlaceStep::turned(Vec3::UnitZ(), 180));
     return own;
   }
-  own.push_back(PlaceStep::turned(kZ, 90));
+  own.push_back(PlaceStep::turned(Vec3::UnitZ(), 90));
   own.push_back(PlaceStep::move({cell.a, pad.reach, cell.t}));
-  if (pad.azimuth_deg != 0) own.push_back(PlaceStep::turned(kX, pad.azimuth_deg));
+  if (pad.azimuth_deg != 0) own.push_back(PlaceStep::turned(Vec3::UnitX(), pad.azimuth_deg));
   return own;
 }
 
@@ -105,8 +103,8 @@ void Fitter::star_tracker(const Cell& cell, const Repeat& repeat) {
   add(name + ", foot", name,
       text_.box({height + sink, 2 * half, 2 * half}, placed(cell, {PlaceStep::move({0.5 * (height - sink), 0, 0})}), repeat));
   add(name + ", baffle", name,
-      text_.rod(Vec3::Zero(), 2.2 * half * kX, 0.5 * half, 0.8 * half, 24,
-                placed(cell, {PlaceStep::turned(kZ, tilt_deg), PlaceStep::move({0.8 * height, 0, 0})}), repeat));
+      text_.rod(Vec3::Zero(), 2.2 * half * Vec3::UnitX(), 0.5 * half, 0.8 * half, 24,
+                placed(cell, {PlaceStep::turned(Vec3::UnitZ(), tilt_deg), PlaceStep::move({0.8 * height, 0, 0})}), repeat));
 }
 
 void Fitter::handrail(const Cell& cell, const Repeat& repeat) {
@@ -124,7 +122,8 @@ void Fitter::whip_antenna(const Cell& cell, const Repeat& repeat) {
   const double length = draw(0.15, 0.5), r = std::max(0.008, text_.thinnest());
   const double tilt_deg = 5 * std::floor(draw(0, 7));
   add(name, name,
-      text_.rod({-foot(cell.pad, 3 * r), 0, 0}, {length, 0, 0}, 1.2 * r, r, 8, placed(cell, {PlaceStep::turned(kY, tilt_deg)}), repeat));
+      text_.rod({-foot(cell.pad, 3 * r), 0, 0}, {length, 0, 0}, 1.2 * r, r, 8, placed(cell, {PlaceStep::turned(Vec3::UnitY(), tilt_deg)}),
+                repeat));
 }
 
 void Fitter::horn_antenna(const Cell& cell, const Repeat& repeat) {
@@ -138,7 +137,7 @@ void Fitter::horn_antenna(const Cell& cell, const Repeat& repeat) {
 void Fitter::boom(const Cell& cell, double length, const Repeat& repeat) {
   const std::string name = numbered("boom");
   const double r = std::max(0.014, text_.thinnest()), tip = std::max(draw(0.03, 0.07), 2 * r);
-  const Place cant{PlaceStep::turned(kZ, 5 * std::floor(draw(-4, 5)))};
+  const Place cant{PlaceStep::turned(Vec3::UnitZ(), 5 * std::floor(draw(-4, 5)))};
   add(name + ", rod", name, text_.rod({-foot(cell.pad, 2 * r), 0, 0}, {length, 0, 0}, r, 0.8 * r, kRodSides, placed(cell, cant), repeat));
   Place at_tip{PlaceStep::move({length, 0, 0})};
   at_tip.insert(at_tip.end(), cant.begin(), cant.end());
@@ -150,7 +149,7 @@ void Fitter::dish(const Cell& cell, double radius, double tilt_deg, const Repeat
   const double depth = draw(0.22, 0.36) * radius, thick = std::max(0.04 * radius, text_.thinnest());
   const double focus = 0.25 * radius * radius / depth;
   const double height = radius * (0.15 + 0.7 * tilt_deg / 45) + 2 * thick;  // so that a tilted rim clears the surface
-  const auto tilted = [&](double h) { return placed(cell, {PlaceStep::turned(kZ, tilt_deg), PlaceStep::move({h, 0, 0})}); };
+  const auto tilted = [&](double h) { return placed(cell, {PlaceStep::turned(Vec3::UnitZ(), tilt_deg), PlaceStep::move({h, 0, 0})}); };
   add(name + ", mast", name,
       text_.rod({-foot(cell.pad, 0.12 * radius), 0, 0}, {height - 0.5 * thick, 0, 0}, 0.12 * radius, 0.07 * radius, mast_sides_,
                 placed(cell), repeat));
@@ -178,8 +177,8 @@ void Fitter::door(const Pad& pad, double radius, const std::string& parameter) {
       text_.box({2 * thick + gap + sink, 3 * thick, 2 * half},
                 placed(whole, {PlaceStep::move({0.5 * (2 * thick + gap - sink), -radius, 0})}), {}));
   add(name + ", lid", name,
-      text_.rod({gap, 0, 0}, {gap + thick, 0, 0}, radius, radius, round_sides_, placed(whole, {PlaceStep::turned_by(kZ, parameter, hinge)}),
-                {}));
+      text_.rod({gap, 0, 0}, {gap + thick, 0, 0}, radius, radius, round_sides_,
+                placed(whole, {PlaceStep::turned_by(Vec3::UnitZ(), parameter, hinge)}), {}));
 }
 
 void Fitter::nozzle(const Cell& cell, double radius, const Repeat& repeat) {
@@ -206,11 +205,11 @@ void Fitter::wing(const Pad& pad, double a, const WingShape& shape, const Repeat
   const double panel = (shape.length - (shape.panels - 1) * between) / shape.panels;
   const double spar = std::max(0.7 * shape.thickness, text_.thinnest());
   Place cant;
-  if (shape.cant_deg != 0) cant.push_back(PlaceStep::turned(kZ, -shape.cant_deg));
+  if (shape.cant_deg != 0) cant.push_back(PlaceStep::turned(Vec3::UnitZ(), -shape.cant_deg));
   add(name + ", spar", name,
       text_.rod({-foot(pad, 2 * spar), 0, 0}, {gap + shape.length - 0.1 * panel, 0, 0}, spar, spar, kRodSides, placed(cell, cant), repeat));
   for (int i = 0; i < shape.panels; ++i) {
-    Place own{PlaceStep::move({gap + 0.5 * panel + i * (panel + between), 0, 0}), PlaceStep::turned_by(kX, shape.parameter)};
+    Place own{PlaceStep::move({gap + 0.5 * panel + i * (panel + between), 0, 0}), PlaceStep::turned_by(Vec3::UnitX(), shape.parameter)};
     own.insert(own.end(), cant.begin(), cant.end());
     add(name + ", panel " + std::to_string(i + 1), name, text_.box({panel, shape.width, shape.thickness}, placed(cell, own), repeat));
   }

@@ -170,8 +170,8 @@ std::filesystem::path generated_model(const std::filesystem::path& mission) {
 }
 
 // The target of the seed, and a few lines on it.
-std::string generate(const MissionOptions& options, NewMissionRequest& request) {
-  const Body body = make_body(*options.seed, body_kind_of(options.kind));
+std::string generate(std::uint64_t seed, const MissionOptions& options, NewMissionRequest& request) {
+  const Body body = make_body(seed, body_kind_of(options.kind));
   const BodyTruth truth = truth_of(body);
   request.model = generated_model(options.out);
   request.model_text = commented_model_text(body, truth);
@@ -196,7 +196,7 @@ void check_target_of(const MissionOptions& options) {
 void write_new(const MissionOptions& given) {
   MissionOptions options = given;
   check_target_of(options);
-  if (options.out.empty()) options.out = "body_" + std::to_string(*options.seed) + ".toml";
+  if (options.out.empty()) options.out = "body_" + std::to_string(options.seed.value_or(0)) + ".toml";
   if (!options.replace) refuse_to_replace({options.out}, "--force replaces it");
   check_writable(options.out);
   ModelCache cache = ModelCache::of_user_if(options.cached);
@@ -204,7 +204,7 @@ void write_new(const MissionOptions& given) {
   request.model = options.model;
   request.out = options.out;
   request.sensor = sensor_of(options.sensor);
-  const std::string generated = options.seed ? generate(options, request) : "";
+  const std::string generated = options.seed ? generate(*options.seed, options, request) : "";
   request.scale = options.scale;
   request.simplify = options.triangles;
   request.replace = options.replace;

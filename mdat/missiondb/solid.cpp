@@ -94,7 +94,7 @@ std::pair<Vector3d, Vector3d> across(const Vector3d& axis) {
   return {u, axis.cross(u)};
 }
 
-// Of radius 1.
+// Of radius 1: corners of three golden rectangles.
 Mesh icosahedron() {
   const double golden = 0.5 * (1 + std::sqrt(5.0));
   Mesh mesh;
@@ -103,17 +103,8 @@ Mesh icosahedron() {
       for (const Vector3d& corner : {Vector3d(0, a, b), Vector3d(a, b, 0), Vector3d(b, 0, a)}) mesh.vertices.push_back(corner.normalized());
     }
   }
-  const double side = 2 / std::sqrt(1 + golden * golden) * (1 + 1e-9);
-  const auto near = [&](Index i, Index j) { return (mesh.vertices[i] - mesh.vertices[j]).norm() < side; };
-  for (Index i = 0; i < 12; ++i) {
-    for (Index j = i + 1; j < 12; ++j) {
-      for (Index k = j + 1; k < 12; ++k) {
-        if (!near(i, j) || !near(j, k) || !near(k, i)) continue;
-        const bool outwards = mesh.vertices[i].dot(mesh.vertices[j].cross(mesh.vertices[k])) > 0;
-        mesh.triangles.push_back({i, outwards ? j : k, outwards ? k : j});
-      }
-    }
-  }
+  mesh.triangles = {{0, 1, 2},  {0, 7, 1}, {0, 2, 6},  {0, 6, 5},  {0, 5, 7}, {1, 8, 2},  {1, 7, 3},  {1, 3, 8},  {2, 4, 6},   {2, 8, 4},
+                    {3, 7, 11}, {3, 9, 8}, {3, 11, 9}, {4, 10, 6}, {4, 8, 9}, {4, 9, 10}, {5, 6, 10}, {5, 11, 7}, {5, 10, 11}, {9, 11, 10}};
   return mesh;
 }
 

@@ -29,7 +29,8 @@ SymmetricError round_error(const Pose& estimate, const Pose& image, const Mat6& 
   const double middle = twist_rad(estimate, image, axis);
   SymmetricError least = at(middle);
   double best = middle;
-  for (double reach = 20 * kRadPerDeg; reach > 0.01 * kRadPerDeg; reach /= 8) {
+  double reach = 20 * kRadPerDeg;
+  for (int finer = 0; finer < 4; ++finer, reach /= 8) {
     const double from = best;
     for (int i = -10; i <= 10; ++i) {
       const double angle = from + 0.1 * i * reach, squared = at(angle).squared;
