@@ -78,7 +78,7 @@ const ParameterRow kRows[] = {
   {"start.inlier_share_min", "1", kReal, &P::start_inlier_share_min, 1, 0, 1, 0.9, "", "least share of that scan's returns that its pose explains; less for a sensor with outliers: half a turn off, a pose explains most"},
   {"start.gate", "1", kReal, &P::start_gate, 1, 1, 1000, 25, "", "most normalised square of its difference from that scan's pose (6 degrees of freedom)"},
   {"start.twin_margin", "1", kReal, &P::start_twin_margin, 1, 0, 1000, 0.1, "", "a near-symmetry of its pose may explain that scan this much better: squared residuals in sigmas, mean of the rays"},
-  {"start.check", "1", kBoolean, &P::start_check, 1, 0, 1, 1, "", "a scan that confirms a start known no better than to 3 deg is searched for a pose that explains it better, before one is valid: some seconds"},
+  {"start.check", "1", kBoolean, &P::start_check, 1, 0, 1, 1, "", "a scan that confirms it is searched for a pose that explains it better, before one is valid: some seconds"},
   {"start.age_max_s", "s", kReal, &P::start_age_max_s, 1, 0, 1000, 100, "", "an older pose to start from is refused"},
   {"start.first", "1", kChoice, &P::start_first, 1, 0, 5, 4, "none|handover|navigation|apriori|uplink|search", "the way to a pose to start from that is tried first"},
   {"start.second", "1", kChoice, &P::start_second, 1, 0, 5, 1, "none|handover|navigation|apriori|uplink|search", "the way that is tried next"},

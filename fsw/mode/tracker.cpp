@@ -50,14 +50,9 @@ PoseReason confirm(const MissionParameters& p, const ModeProperties& mode, bool 
   return far_from(filter, registration, p.start_gate) ? PoseReason::kFarFromStart : PoseReason::kValid;
 }
 
-// A start by search has been compared with all other poses, and one whose attitude is known excludes them.
+// A start by search has been compared with all other poses.
 bool is_checked(const MissionParameters& p, const TrackState& state) {
-  return p.start_check > 0.5 && state.mode == TrackingMode::kStarting && state.way != StartWay::kSearch && state.rough;
-}
-
-// By the sensor's axis about which it is known worst.
-bool is_attitude_rough(const FilterState& start) {
-  return start.covariance.diagonal().head<3>().maxCoeff() > kKnownAttitude_rad * kKnownAttitude_rad;
+  return p.start_check > 0.5 && state.mode == TrackingMode::kStarting && state.way != StartWay::kSearch;
 }
 
 // No frame counts against the start meanwhile.
@@ -198,7 +193,6 @@ StartRefusal start_track(const Mission& mission, StartWay way, const StartOffer&
   state.interrupts = interrupts;
   state.missed = 0;
   state.check = StartCheck{};
-  state.rough = is_attitude_rough(state.filter);
   state.way = way;
   return StartRefusal::kNone;
 }

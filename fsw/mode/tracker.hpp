@@ -6,7 +6,6 @@
 #include <cstdint>
 
 #include "fsw/core/time.hpp"
-#include "fsw/geometry/portable_math.hpp"
 #include "fsw/geometry/se3.hpp"
 #include "fsw/mission/mission.hpp"
 #include "fsw/mode/modes.hpp"
@@ -34,16 +33,11 @@ struct StartCheck {
 };
 enum class CheckVerdict : std::uint8_t { kSure, kUndecided, kContradicted };
 
-// A search tells poses apart that are more than 15 deg off each other: five sigmas of this. A start that is stated better excludes them
-// all.
-constexpr double kKnownAttitude_rad = 3 * kRadPerDeg;
-
 struct TrackState {
   TrackingMode mode = TrackingMode::kStandby;
   std::uint16_t missed = 0;        // scans without a valid pose since the last one, or since the mode began; at most 65535
   bool held = false;               // no mode ends because its frames are used up
   StartWay way = StartWay::kNone;  // by which the present track was started
-  bool rough = false;              // its attitude was stated no better than kKnownAttitude_rad: other poses may lie within it
   StartCheck check;                // of that start, in mode starting
   bool interrupts = false;         // a start: the track that it interrupted is kept by whoever keeps this state
   FilterState filter;
@@ -78,9 +72,9 @@ StartRefusal start_track(const Mission& mission, StartWay way, const StartOffer&
 // One scan: predict, register, join to the filter, next mode. In a mode that confirms, a valid registration has to agree with the
 // prediction (start.gate, kFarFromStart), explains 99 % of the returns or the scan as well as its near-symmetries, to within
 // start.twin_margin (kBetterTwin), and starts the filter anew, since the prediction may be far off; so does one that the filter cannot
-// take. Where start.check is set, a rough start of another way than search is then checked (end_check): the scans that it takes are
-// kUnchecked, but join the filter. One that the prediction of a filter with 5 scans excludes (tracking.innovation_max) is kImplausible and
-// joins nothing; it ends a check, and the start has to be confirmed anew. A prediction less certain than the registration's gate is a rough
+// take. Where start.check is set, a start of another way than search is then checked (end_check): the scans that it takes are kUnchecked,
+// but join the filter. One that the prediction of a filter with 5 scans excludes (tracking.innovation_max) is kImplausible and joins
+// nothing; it ends a check, and the start has to be confirmed anew. A prediction less certain than the registration's gate is a rough
 // start. Bounds: as Estimator::estimate, in a start as has_better_twin besides.
 TrackStep track_scan(const Mission& mission, Estimator& estimator, const RangeImage& scan, const TrackState& before);
 

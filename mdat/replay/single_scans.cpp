@@ -33,6 +33,7 @@ bool SingleScans::is_within_reach(const Pose& T_sensor_target, const StartPoint&
 Registration SingleScans::estimate(const RangeImage& image, const StartPoint& start) {
   Registration best = estimator_->estimate(mission_, image, start);
   if (!(mission_.parameters.start_check > 0.5)) return best;
+  if (best.valid() && !is_within_reach(best.T_sensor_target, start)) best.reason = PoseReason::kFarFromStart;
   search(image, best.T_sensor_target);
   for (const SearchCandidate& candidate : search_->result().candidates) {
     if (!is_within_reach(candidate.T_sensor_target, start)) continue;

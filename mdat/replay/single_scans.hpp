@@ -19,9 +19,9 @@ class SingleScans {
   explicit SingleScans(const Mission& mission) : mission_(mission) {}
 
   // The registration from the start. With start.check the scan is searched as well: of the registrations from the start and from the
-  // search's candidates within the reach of a rough start, the one that explains the scan best is given. kContradicted where the search
-  // accepts another pose: the start is farther off than a rough one may be. What a search cannot tell apart (the images of a symmetric
-  // target), the start does.
+  // search's candidates within the reach of a rough start, the one that explains the scan best is given. kFarFromStart where the
+  // only one lies beyond that reach. kContradicted where the search accepts another pose: the start is farther off than a rough one may be.
+  // What a search cannot tell apart (the images of a symmetric target), the start does.
   Registration estimate(const RangeImage& image, const StartPoint& start);
 
  private:
