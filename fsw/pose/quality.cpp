@@ -69,7 +69,7 @@ void find_weak_directions(const Mission& mission, Registration& result) {
 }
 
 double most_noise(const MissionParameters& p, std::uint32_t inliers, double motion) {
-  const double freedom = inliers > kPoseDegrees + 1 ? inliers - kPoseDegrees : 1;
+  const double freedom = inliers - kPoseDegrees;
   return (p.noise_tolerance * p.noise_tolerance + motion) * (1 + kNoiseSigmas * square_root(2 / freedom));
 }
 

@@ -14,8 +14,9 @@ double hit_miss_agreement(const Mission& mission, const Pose& T_target_sensor, s
 void find_weak_directions(const Mission& mission, Registration& result);
 
 // Variance of residuals over that of the stated noise, from which on more than sensor.noise_tolerance is shown by so many inliers: of
-// Gaussian residuals the ratio varies by sqrt(2 / degrees of freedom) (1 sigma), of which kNoiseSigmas are allowed. `motion` is the
-// variance that the target's unknown motion within the scan may add, over that of the stated noise.
+// Gaussian residuals the ratio varies by sqrt(2 / degrees of freedom) (1 sigma), of which kNoiseSigmas are allowed. `inliers` is at least
+// 12, the least tracking.inliers_min. `motion` is the variance that the target's unknown motion within the scan may add, over that of the
+// stated noise.
 double most_noise(const MissionParameters& parameters, std::uint32_t inliers, double motion);
 
 // The first of the checks that fails, or kValid. `motion` as above.
