@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <regex>
 #include <sstream>
 
@@ -12,8 +11,12 @@
 namespace lasso::mdat {
 namespace {
 
-// Keys of earlier versions, and what has taken their place.
-const std::map<std::string, std::string> kRenamed = {
+// A key of earlier versions, and what has taken its place.
+struct RenamedKey {
+  const char* key;
+  const char* now;
+};
+constexpr RenamedKey kRenamed[] = {
     {"tracking.normalized_residual_max",
      "is sensor.noise_tolerance now, 1.5 where nobody writes it: how many times the stated noise residuals may show"}};
 
@@ -178,8 +181,9 @@ class TableWalk {
       const auto dot = row.key.rfind('.');
       if (dot != std::string::npos) candidates.push_back(row.key.substr(0, dot));
     }
-    const auto renamed = kRenamed.find(prefix_ + path);
-    if (renamed != kRenamed.end()) return problems_.add(origin_of(key.source()), prefix_ + path, "", renamed->second);
+    for (const RenamedKey& renamed : kRenamed) {
+      if (prefix_ + path == renamed.key) return problems_.add(origin_of(key.source()), prefix_ + path, "", renamed.now);
+    }
     const std::string meant = nearest(path, candidates);
     const std::string remedy =
         meant.empty() ? "see cfg/mission.schema.json for the keys that exist" : "did you mean " + prefix_ + meant + "?";
