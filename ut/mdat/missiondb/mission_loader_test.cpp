@@ -123,6 +123,13 @@ TEST_F(Missions, EachProblemIsOneLineWhateverTheFileSays) {
   EXPECT_LT(unknown.size(), 400u);
 }
 
+TEST_F(Missions, AKeyOfAnEarlierVersionSaysWhatIsInItsPlace) {
+  VERIFIES("LASSO-GND-003~1");
+  expect_error(kHead + "[tracking]\nnormalized_residual_max = 5\n",
+               "m.toml:8:1: tracking.normalized_residual_max: is sensor.noise_tolerance now");
+  EXPECT_EQ(load(kHead + "[sensor]\nnoise_tolerance = 5\n").parameters.noise_tolerance, 5);
+}
+
 TEST_F(Missions, AllProblemsAreListedInOrder) {
   VERIFIES("LASSO-GND-003~1");
   const std::string message = error(kHead + "[scan]\nponts = 3\npattern = 'rosete'\n[filter]\nperiod_s = -1\n[scanner]\nx = 1\n");
