@@ -50,6 +50,7 @@ void check_seed(test::TestImage image) {
 void write_images(const fs::path& folder) {
   MissionParameters parameters = preset_parameters();
   parameters.inliers_min = 20;
+  parameters.sigma0_m = 0.003;  // the scan's
   for (const bool silhouettes : {false, true}) {
     parameters.silhouettes = silhouettes ? 1 : 0;
     test::TestImage image = small_image(parameters, !silhouettes);
