@@ -16,7 +16,7 @@ namespace lasso {
 namespace {
 
 constexpr double kPoseDimensions = 6;
-constexpr double kMotionSigmas = 3;
+constexpr double kMotionSigmas = 3;           // rates are farther off in one scan of 400, if they are Gaussian
 constexpr double kSmallestNoiseScale = 1e-6;  // of the variance: a scan without any noise still has rounding
 
 static_assert(kMaxRays <= 65535, "counts of rays fit into the result");

@@ -33,6 +33,15 @@ void judge(const Subject& subject, const Pose& estimate, const Mat6& covariance,
   trial.sigma_m = std::sqrt(covariance.bottomRightCorner<3, 3>().trace());
 }
 
+void add(const Subject& subject, std::size_t number, const Pose& truth, const RangeImage& scan, const Registration& found, Tally& tally) {
+  Trial trial = trial_of(subject, number, truth, scan);
+  trial.valid = found.valid();
+  trial.reason = to_string(found.reason);
+  judge(subject, found.T_sensor_target, found.covariance, truth, trial);
+  tally.add(trial, subject.truth.size_m);
+  ++tally.numbers;
+}
+
 bool is_among(const Subject& subject, const SearchResult& result, const Pose& truth) {
   return std::any_of(result.candidates.begin(), result.candidates.end(), [&](const SearchCandidate& candidate) {
     const mdat::SymmetricError error = mdat::symmetric_error(candidate.T_sensor_target, truth, Mat6::Identity(), subject.truth.symmetry);
@@ -81,13 +90,7 @@ Tally start(const Subject& subject, std::size_t starts) {
     const Pose truth = scans.draw_pose();
     const Pose begin = scans.draw_start(truth, kStartTurn_rad, kStartShift * subject.truth.size_m);
     const RangeImage& scan = scans.scan(subject.target->surface(), truth, begin);
-    Trial trial = trial_of(subject, i, truth, scan);
-    const Registration found = estimator.estimate(scan, {begin, {}, true});
-    trial.valid = found.valid();
-    trial.reason = to_string(found.reason);
-    judge(subject, found.T_sensor_target, found.covariance, truth, trial);
-    tally.add(trial, subject.truth.size_m);
-    ++tally.numbers;
+    add(subject, i, truth, scan, estimator.estimate(scan, {begin, {}, true}), tally);
   }
   return tally;
 }
@@ -132,13 +135,7 @@ Tally configuration(const Subject& subject, std::size_t changes) {
     const Pose truth = scans.draw_pose();
     const RangeImage& scan = scans.scan(*surface, truth, truth);
     if (moved_share(subject, truth, samples_of(scan)) < kMoved) continue;
-    Trial trial = trial_of(subject, i, truth, scan);
-    const Registration found = estimator.estimate(scan, {truth, {}, false});
-    trial.valid = found.valid();
-    trial.reason = to_string(found.reason);
-    judge(subject, found.T_sensor_target, found.covariance, truth, trial);
-    tally.add(trial, subject.truth.size_m);
-    ++tally.numbers;
+    add(subject, i, truth, scan, estimator.estimate(scan, {truth, {}, false}), tally);
   }
   return tally;
 }

@@ -217,6 +217,20 @@ TEST_F(CampaignCommand, FliesFromItsFolderAlone) {
   EXPECT_EQ(run("case far/away/there 2 --no-report").exit_code, 0);
 }
 
+// The campaign's copy of the mission is in a folder of a name that somebody may have, and may itself be what is expanded.
+TEST_F(CampaignCommand, TakesNobodysFolder) {
+  VERIFIES("LASSO-GND-068~1");
+  work.write("own/mission/notes.txt", "mine\n");
+  expect_refusal(run("expand missions/test.toml --campaign rough --out own"), "own/mission: is there, and no campaign beside it");
+  expect_refusal(run("expand missions/test.toml --campaign rough --out own --force"), "own/mission: is there, and no campaign beside it");
+  EXPECT_EQ(work.read("own/mission/notes.txt"), "mine\n");
+  ASSERT_EQ(run("expand missions/test.toml --campaign rough --out c").exit_code, 0);
+  const std::string kept = "c/" + Json::parse(work.read("c/plan.json")).at("mission").get<std::string>(), mission = work.read(kept);
+  ASSERT_EQ(run("expand " + kept + " --campaign rough --out c --force").exit_code, 0);
+  EXPECT_EQ(work.read("c/" + Json::parse(work.read("c/plan.json")).at("mission").get<std::string>()), mission);
+  EXPECT_EQ(run("run c --no-report").exit_code, 0);
+}
+
 TEST_F(CampaignCommand, RemovesNothingUnderARunner) {
   VERIFIES("LASSO-GND-090~1");
   ASSERT_EQ(run("expand missions/test.toml --campaign rough --out c").exit_code, 0);

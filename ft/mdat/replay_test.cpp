@@ -39,11 +39,11 @@ TEST_F(Replay, TracksInClosedLoopFromTheFirstRowAlone) {
   expect_near_truth(replay("image.3dli", "rec/4m/scans", "--closed-loop"), 1e-3, 0.002);
 }
 
-// The truth turned by 0.17 rad about a random axis of the target, and off by up to 80 mm along each of the sensor's.
-std::string rough_start(const Row& truth, test::Generator& random) {
+// The truth turned about a random axis of the target, and off by up to 80 mm along each of the sensor's.
+std::string rough_start(const Row& truth, double turn_rad, test::Generator& random) {
   std::array<double, 3> axis{random.normal(), random.normal(), random.normal()};
   const double length = std::hypot(axis[0], axis[1], axis[2]);
-  const double c = std::cos(0.085), s = std::sin(0.085) / length;
+  const double c = std::cos(0.5 * turn_rad), s = std::sin(0.5 * turn_rad) / length;
   const std::array<double, 4> q{value(truth, "qx"), value(truth, "qy"), value(truth, "qz"), value(truth, "qw")};
   const std::array<double, 3> v{s * axis[0], s * axis[1], s * axis[2]};
   std::string row = truth.at("scan");
@@ -56,15 +56,31 @@ std::string rough_start(const Row& truth, test::Generator& random) {
   return row + "\n";
 }
 
+std::string rough_starts(const std::string& truth, double turn_rad) {
+  test::Generator random(34);
+  std::string starts = "scan,qx,qy,qz,qw,x_m,y_m,z_m\n";
+  for (const Row& row : table(truth)) starts += rough_start(row, turn_rad, random);
+  return starts;
+}
+
+constexpr const char* kChecked[] = {"--scenario dropouts --set start.check=true", "--scenario dropouts --set start.check=true --wide"};
+
 // Near enough for another minimum to explain the scan nearly as well.
 TEST_F(Replay, RoughStartsEndAtTheRightPose) {
   VERIFIES("LASSO-MDT-078~1");
-  test::Generator random(34);
-  std::string starts = "scan,qx,qy,qz,qw,x_m,y_m,z_m\n";
-  for (const Row& row : table(work.read("rec/4m/truth.csv"))) starts += rough_start(row, random);
-  work.write("rec/4m/poses.csv", starts);
-  for (const char* options : {"--set start.check=true", "--set start.check=true --wide"})
-    expect_near_truth(replay("missions/test.toml", "rec/4m/scans", std::string("--scenario dropouts ") + options), 1e-3, 0.002);
+  work.write("rec/4m/poses.csv", rough_starts(work.read("rec/4m/truth.csv"), 0.17));
+  for (const char* options : kChecked) expect_near_truth(replay("missions/test.toml", "rec/4m/scans", options), 1e-3, 0.002);
+}
+
+// Twice as far off as a rough start may be, and more: whatever explains the scan there is not what the start meant.
+TEST_F(Replay, AStartThatIsFartherOffThanARoughOneGivesNoValidPose) {
+  VERIFIES("LASSO-MDT-078~1");
+  for (const double turn_rad : {0.75, 2.0}) {
+    work.write("rec/4m/poses.csv", rough_starts(work.read("rec/4m/truth.csv"), turn_rad));
+    for (const char* options : kChecked) {
+      for (const Row& row : replay("missions/test.toml", "rec/4m/scans", options)) EXPECT_EQ(row.at("valid"), "0") << row.at("scan");
+    }
+  }
 }
 
 // The points of a scan's hits as a PLY file: no times, no misses.

@@ -197,7 +197,7 @@ def fly_all(gate, host, elf, flips, seed):
     done, jobs = resume(gate, campaign_of(seed, elf, f'{host}/ft/pil/pil_seu', gates.TOP / MISSION)), int(os.environ.get('JOBS') or os.cpu_count())
     runs = missing(done, flips, jobs)
     progress = Progress('flips', flips, 'flips', flips - sum(map(len, runs)))
-    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+    with concurrent.futures.ThreadPoolExecutor(jobs, initializer=emulator.leave_endings_to_main) as pool:
         flights = [pool.submit(fly, gate, host, elf, seed, run, progress) for run in runs]
         try:
             return sum(flight.result() for flight in concurrent.futures.as_completed(flights))

@@ -224,7 +224,13 @@ void remove_campaign(const fs::path& folder) {
   if (!has_plan(folder)) return;
   for (const fs::path& file : campaign_files(folder)) fs::remove(file);
   fs::remove_all(folder / kChunks);
-  fs::remove_all(folder / kMission);
+}
+
+// A campaign keeps its mission under that name: what is there without one is somebody's own.
+void refuse_to_take_a_folder(const fs::path& folder) {
+  if (has_plan(folder) || !fs::exists(folder / kMission)) return;
+  throw InputError((folder / kMission).string() +
+                   ": is there, and no campaign beside it; its copy of the mission would take that name: --out DIR");
 }
 
 }  // namespace
@@ -233,6 +239,7 @@ void expand_campaign(const MissionInput& input, const std::string& campaign, boo
                      bool replace) {
   if (replace) refuse_to_remove_under_a_runner(folder);
   if (!replace) refuse_to_replace(campaign_files(folder), "--force replaces it, --out DIR keeps it");
+  refuse_to_take_a_folder(folder);
   const CampaignSource& source = campaign_of(input.source, campaign);
   OutputFolder out(folder);
   const KeptMission kept = kept_mission(input.source);
@@ -245,8 +252,8 @@ void expand_campaign(const MissionInput& input, const std::string& campaign, boo
   plan.cases_sha256 = sha256_of(text);
   out.write(kCaseTable, text);
   out.write("plan.json", plan_json(plan, source));
+  keep_mission(kept, folder);  // before the rest goes: the mission may be the copy of the campaign that is replaced
   if (replace) remove_campaign(folder);
-  keep_mission(kept, folder);
   out.commit();
 }
 

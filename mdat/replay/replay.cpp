@@ -160,7 +160,7 @@ std::string replay_summary(const std::vector<ReplayedScan>& scans) {
     times_us.push_back(scan.estimate_us);
   }
   const TimeStatistics time = time_statistics(times_us);
-  std::string result = format("%zu of %s gave a valid pose; time of an estimate: median %.0f us, 99th percentile %.0f us\n", valid,
+  std::string result = format("%zu of %s gave a valid pose; processor time of each: median %.0f us, 99th percentile %.0f us\n", valid,
                               amount(scans.size(), "scan").c_str(), time.median_us, time.p99_us);
   for (const auto& [reason, count] : reasons)
     result += "  not valid, " + reason + ": " + std::to_string(count) + " (" + meaning_of(reason) + ")\n";

@@ -29,7 +29,7 @@ struct ReplayOptions {
 struct ReplayedScan {
   std::string scan;  // stem
   Registration registration;
-  double estimate_us = 0;  // processor time of the whole estimate
+  double estimate_us = 0;  // processor time of all that was done with the scan, its search as well
   KnownError errors;
 };
 

@@ -38,7 +38,8 @@ Registration SingleScans::estimate(const RangeImage& image, const StartPoint& st
   for (const SearchCandidate& candidate : search_->result().candidates) {
     if (!is_within_reach(candidate.T_sensor_target, start)) continue;
     const Registration other = estimator_->estimate(mission_, image, StartPoint{candidate.T_sensor_target, start.rates});
-    if (other.valid() && (!best.valid() || cost_of(other) < cost_of(best))) best = other;
+    if (!other.valid() || !is_within_reach(other.T_sensor_target, start)) continue;
+    if (!best.valid() || cost_of(other) < cost_of(best)) best = other;
   }
   const bool is_sure = search_->result().outcome == SearchOutcome::kAccepted;
   const bool is_contradicted = best.valid() && is_sure && search_->contradicts(mission_, best.T_sensor_target, estimator_->workspace());
