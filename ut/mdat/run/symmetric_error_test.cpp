@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "ut/support/verifies.hpp"
 
 namespace lasso::mdat {
@@ -84,7 +86,8 @@ TEST(SymmetricError, WrongIsFarAndBeyondItsSigma) {
   EXPECT_TRUE(is_wrong({26, 0, 1.01 * kRadPerDeg}, 1));
   EXPECT_FALSE(is_wrong({24, 0.5, 1}, 1));     // as its covariance says
   EXPECT_FALSE(is_wrong({1e6, 0.014, 0}, 1));  // near enough
-  EXPECT_TRUE(is_wrong({NAN, NAN, NAN}, 1));
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(is_wrong({kNan, kNan, kNan}, 1));
   EXPECT_FALSE(is_wrong({26, 0.016, 0}, 2));
 }
 
