@@ -204,11 +204,7 @@ void Component::refuse_start(StartWay way, StartRefusal refusal) {
   events_.raise<EventId::kStartRefused>(way, refusal);
 }
 
-void Component::run_estimation() {
-  if (!estimation_.pending()) return;
-  const MissionView& view = images_.view(estimation_.sensor());
-  estimation_.run(view.mission, view.parts);
-}
+void Component::run_estimation() { estimation_.run(); }
 
 // At most four at a boundary (a scan's, a fault's, a command's, a start's), and a packet takes four: there is always room.
 void Component::note_change(const ModeChange& change) {

@@ -78,8 +78,9 @@ void Component::hand_over_scan() {
     if (end.verdict.loss == ScanLoss::kForeign) trial_.note_foreign();
   }
   if (!estimation_.idle()) return;  // an estimate that overran still runs: this scan is dropped with it
-  estimation_.submit({estimated_.scan_id, usable ? &acquisition_.filling() : nullptr, estimated_.t_nominal_us, track_,
-                      estimated_.sensor.sensor, estimated_.part, part_, estimated_.scan_id + kPipelineFrames,
+  const MissionView& view = images_.view(estimated_.sensor.sensor);
+  estimation_.submit({estimated_.scan_id, usable ? &acquisition_.filling() : nullptr, estimated_.t_nominal_us, track_, &view.mission,
+                      &view.parts, estimated_.part, part_, estimated_.scan_id + kPipelineFrames,
                       estimated_.t_nominal_us + static_cast<DurationUs>(kPipelineFrames) * to_us(mission().parameters.period_s)});
   if (usable) acquisition_.swap_images();
 }

@@ -42,9 +42,11 @@ TrackStep EstimationTask::tracked(const Mission& mission, const Parts& parts) {
   return track_scan(mission, estimator_, *job_.scan, job_.before);
 }
 
-void EstimationTask::run(const Mission& mission, const Parts& parts) {
+void EstimationTask::run() {
   if (!pending()) return;
   phase_.store(kRunning, std::memory_order_release);
+  const Mission& mission = *job_.mission;
+  const Parts& parts = *job_.parts;
   step_ = step_of(mission, parts);
   part_ = next_part(mission, parts, job_.part_after, job_.next_scan_id, job_.t_next_us, step_);
   aimed_.clear();

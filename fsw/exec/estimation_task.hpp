@@ -20,11 +20,12 @@ struct EstimationJob {
   const RangeImage* scan = nullptr;  // null: the scan was lost, the filter coasts
   TimeUs t_nominal_us = 0;           // planned middle of the scan, for a lost one
   TrackState before;
-  SensorNumber sensor = 0;         // that took the scan
-  PartNumber part = kWhole;        // at which the scan looks
-  PartNumber part_after = kWhole;  // at which the scan after it looks, whose samples are being collected
-  std::uint32_t next_scan_id = 0;  // the first scan that is planned from this job's result
-  TimeUs t_next_us = 0;            // planned middle of that scan
+  const Mission* mission = nullptr;  // as the scans of the sensor that took it see it, and what follows from that; chosen at the boundary:
+  const Parts* parts = nullptr;      // by the time a late job is run, another image may be active
+  PartNumber part = kWhole;          // at which the scan looks
+  PartNumber part_after = kWhole;    // at which the scan after it looks, whose samples are being collected
+  std::uint32_t next_scan_id = 0;    // the first scan that is planned from this job's result
+  TimeUs t_next_us = 0;              // planned middle of that scan
 };
 
 class EstimationTask {
@@ -42,10 +43,8 @@ class EstimationTask {
 
   // Any thread: a job waits to be run.
   bool pending() const { return phase_.load(std::memory_order_acquire) == kPending; }
-  // Estimation thread, while a job is pending: which sensor took its scan.
-  SensorNumber sensor() const { return job_.sensor; }
-  // Estimation thread: runs the pending job, if there is one. Mission and parts are as that sensor's scans see them.
-  void run(const Mission& mission, const Parts& parts);
+  // Estimation thread: runs the pending job, if there is one.
+  void run();
 
  private:
   TrackStep step_of(const Mission& mission, const Parts& parts);

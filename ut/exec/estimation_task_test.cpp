@@ -17,6 +17,8 @@ class EstimationTaskTest : public ::testing::Test {
     ASSERT_EQ(start_track(mission_, StartWay::kUplink, offer, 0, job_.before), StartRefusal::kNone);
     job_.scan_id = 7;
     job_.t_nominal_us = 90000;
+    job_.mission = &mission_;
+    job_.parts = &parts_;
   }
 
   test::BoxScene scene_ = test::default_scene();
@@ -34,7 +36,7 @@ TEST_F(EstimationTaskTest, GivesTheResultOfAJobThatIsDone) {
   EXPECT_FALSE(task_->collect(step_));
   task_->submit(job_);
   EXPECT_TRUE(task_->pending());
-  task_->run(mission_, parts_);
+  task_->run();
   EXPECT_FALSE(task_->pending());
   EXPECT_FALSE(task_->idle());
   ASSERT_TRUE(task_->collect(step_));
@@ -48,11 +50,11 @@ TEST_F(EstimationTaskTest, GivesTheResultOfAJobThatIsDone) {
 TEST_F(EstimationTaskTest, RunsAJobOnce) {
   VERIFIES("LASSO-EXE-012~1");
   task_->submit(job_);
-  task_->run(mission_, parts_);
-  task_->run(mission_, parts_);
+  task_->run();
+  task_->run();
   EXPECT_TRUE(task_->collect(step_));
   EXPECT_FALSE(task_->collect(step_));
-  task_->run(mission_, parts_);
+  task_->run();
   EXPECT_TRUE(task_->idle());
 }
 
@@ -61,13 +63,13 @@ TEST_F(EstimationTaskTest, DropsALateResultWhole) {
   task_->submit(job_);
   EXPECT_FALSE(task_->collect(step_));  // the boundary comes first
   EXPECT_FALSE(task_->idle());
-  task_->run(mission_, parts_);
+  task_->run();
   EXPECT_FALSE(task_->collect(step_));  // done, but too late
   EXPECT_TRUE(task_->idle());
   EXPECT_EQ(step_.registration.scan_id, 0u);
   job_.scan_id = 8;
   task_->submit(job_);
-  task_->run(mission_, parts_);
+  task_->run();
   ASSERT_TRUE(task_->collect(step_));
   EXPECT_EQ(step_.registration.scan_id, 8u);
 }
@@ -76,7 +78,7 @@ TEST_F(EstimationTaskTest, SearchesInTheModeSearching) {
   VERIFIES("LASSO-MOD-111~1");
   change_mode(ModeEvent::kSearch, job_.before);
   task_->submit(job_);
-  task_->run(mission_, parts_);
+  task_->run();
   ASSERT_TRUE(task_->collect(step_));
   EXPECT_EQ(step_.after.mode, TrackingMode::kSearching);
   EXPECT_EQ(step_.registration.reason, PoseReason::kNoScan);
@@ -90,7 +92,7 @@ TEST_F(EstimationTaskTest, AScanOfAPartConfirmsNoStart) {
   job_.scan = scan.get();
   job_.part = 1;
   task_->submit(job_);
-  task_->run(mission_, parts_);
+  task_->run();
   ASSERT_TRUE(task_->collect(step_));
   EXPECT_EQ(step_.registration.reason, PoseReason::kNoScan);
   EXPECT_EQ(step_.parts.scanned, 1);
