@@ -50,9 +50,14 @@ PoseReason confirm(const MissionParameters& p, const ModeProperties& mode, bool 
   return far_from(filter, registration, p.start_gate) ? PoseReason::kFarFromStart : PoseReason::kValid;
 }
 
-// A start by search has been compared with all other poses.
+// A start by search has been compared with all other poses, and one whose attitude is known excludes them.
 bool is_checked(const MissionParameters& p, const TrackState& state) {
-  return p.start_check > 0.5 && state.mode == TrackingMode::kStarting && state.way != StartWay::kSearch;
+  return p.start_check > 0.5 && state.mode == TrackingMode::kStarting && state.way != StartWay::kSearch && state.rough;
+}
+
+// By the sensor's axis about which it is known worst.
+bool is_attitude_rough(const FilterState& start) {
+  return start.covariance.diagonal().head<3>().maxCoeff() > kKnownAttitude_rad * kKnownAttitude_rad;
 }
 
 // No frame counts against the start meanwhile.
@@ -193,6 +198,8 @@ StartRefusal start_track(const Mission& mission, StartWay way, const StartOffer&
   state.interrupts = interrupts;
   state.missed = 0;
   state.check = StartCheck{};
+  state.rival_m = 0;
+  state.rough = is_attitude_rough(state.filter);
   state.way = way;
   return StartRefusal::kNone;
 }
@@ -208,7 +215,9 @@ TrackStep track_scan(const Mission& mission, Estimator& estimator, const RangeIm
   const bool wide = ((mode.wide_start && starts) || is_rough(mission, filter)) && p.wide_start > 0.5;
   Registration& registration = step.registration;
   registration = estimator.estimate(mission, scan,
-                                    StartPoint{filter.T_sensor_target, filter.rates, wide, rate_sigma(mission.radius_m, filter), false});
+                                    StartPoint{filter.T_sensor_target, filter.rates, wide, rate_sigma(mission.radius_m, filter),
+                                               filter.covariance.topLeftCorner<6, 6>(), before.rival_m, false});
+  step.after.rival_m = registration.valid() ? registration.rival_m : before.rival_m;
   if (registration.valid()) registration.reason = confirm(p, mode, starts, filter, registration);
   const bool asks_twins = registration.valid() && starts;
   if (asks_twins && estimator.has_better_twin(mission, scan, registration)) registration.reason = PoseReason::kBetterTwin;

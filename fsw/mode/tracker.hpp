@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "fsw/core/time.hpp"
+#include "fsw/geometry/portable_math.hpp"
 #include "fsw/geometry/se3.hpp"
 #include "fsw/mission/mission.hpp"
 #include "fsw/mode/modes.hpp"
@@ -33,13 +34,19 @@ struct StartCheck {
 };
 enum class CheckVerdict : std::uint8_t { kSure, kUndecided, kContradicted };
 
+// A search tells poses apart that are more than 15 deg off each other: five sigmas of this. A start that is stated better excludes them
+// all.
+constexpr double kKnownAttitude_rad = 3 * kRadPerDeg;
+
 struct TrackState {
   TrackingMode mode = TrackingMode::kStandby;
   std::uint16_t missed = 0;        // scans without a valid pose since the last one, or since the mode began; at most 65535
   bool held = false;               // no mode ends because its frames are used up
   StartWay way = StartWay::kNone;  // by which the present track was started
+  bool rough = false;              // its attitude was stated no better than kKnownAttitude_rad: other poses may lie within it
   StartCheck check;                // of that start, in mode starting
   bool interrupts = false;         // a start: the track that it interrupted is kept by whoever keeps this state
+  double rival_m = 0;              // Registration::rival_m of the last scan
   FilterState filter;
   BearingState bearing;
   std::uint32_t searches = 0;  // that were begun, those of checks too

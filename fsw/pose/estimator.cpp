@@ -11,6 +11,7 @@
 #include "fsw/pose/register.hpp"
 #include "fsw/pose/silhouette.hpp"
 #include "fsw/pose/slack.hpp"
+#include "fsw/pose/weak_axis.hpp"
 
 namespace lasso {
 namespace {
@@ -42,6 +43,8 @@ Mat6 to_sensor_axes(const Mat6& covariance, const Pose& T_target_sensor) {
   return J * covariance * J.transpose();
 }
 
+Mat6 to_target_axes(const Mat6& covariance, const Pose& T_target_sensor) { return to_sensor_axes(covariance, inverse(T_target_sensor)); }
+
 double range_sigma(const MissionParameters& p, double range_m, double scale) { return square_root(range_variance(p, range_m) * scale); }
 
 // Labels are linear within the band around the contour. Where the hits hold the pose more loosely than that, the contours nearest to the
@@ -65,14 +68,18 @@ struct HitKnowledge {
   Hold hold;         // by the outline, of the slack
 };
 
-void learn_from(const Mission& mission, const HitSolution& hits, const Workspace& workspace, HitKnowledge& known) {
+void learn_from(const Mission& mission, const LineSearch& search, Workspace& workspace, HitKnowledge& known) {
+  const HitSolution& hits = search.best;
   const MissionParameters& p = mission.parameters;
   known.scale = noise_scale(p, hits, !(workspace.sigma_factor > FlightNumber::Factor{1}));
   known.covariance.setZero();
   known.unseen.count = known.slack.count = known.hold.axes.count = 0;
   known.hold.band_m = p.silhouette_band_m;
   if (!has_information(hits)) return;
-  known.covariance = covariance_of_hits(mission.radius_m, hits.H, p.noise_estimated > 0.5 ? known.scale : 1, known.unseen);
+  const double scale = p.noise_estimated > 0.5 ? known.scale : 1;
+  known.covariance = covariance_of_hits(mission.radius_m, hits.H, scale, known.unseen);
+  widen_weak_axes(mission, hits, scale, workspace, known.covariance, known.unseen);
+  known.covariance = with_rivals(search, known.covariance);
   known.slack = find_slack(mission, known.covariance);
 }
 
@@ -92,24 +99,26 @@ OutlineFit outline_of(const Mission& mission, const HitSolution& hits, const Hit
 
 // Registers the hits from where the outline has the pose: a few of them may have held it on a side of the model that they never met. False,
 // with all as it was before, where nothing is settled there.
-bool follow_outline(const Mission& mission, Workspace& workspace, HitSolution& hits, HitKnowledge& known, OutlineFit& fit) {
+bool follow_outline(const Mission& mission, Workspace& workspace, LineSearch& search, HitKnowledge& known, OutlineFit& fit) {
+  HitSolution& hits = search.best;
   const HitSolution before = hits;
   hits = register_hits(mission, fit.T_target_sensor, workspace);
   hits.iterations = static_cast<std::uint16_t>(hits.iterations + before.iterations);
-  learn_from(mission, hits, workspace, known);
+  learn_from(mission, search, workspace, known);
   fit = outline_of(mission, hits, known, kMostAskedAgain, workspace);
   if (fit.settled) return true;
   hits = before;
-  learn_from(mission, hits, workspace, known);
+  learn_from(mission, search, workspace, known);
   return false;
 }
 
 // Where the hits let the pose slide, the outline says where it is.
-void settle_slack(const Mission& mission, HitSolution& hits, Workspace& workspace, HitKnowledge& known) {
+void settle_slack(const Mission& mission, LineSearch& search, Workspace& workspace, HitKnowledge& known) {
+  HitSolution& hits = search.best;
   if (known.slack.count == 0) return;
   OutlineFit fit = outline_of(mission, hits, known, kMostAsked, workspace);
   if (!fit.settled) return;
-  if (fit.moved && !follow_outline(mission, workspace, hits, known, fit)) return;
+  if (fit.moved && !follow_outline(mission, workspace, search, known, fit)) return;
   hits.T_target_sensor = fit.T_target_sensor;
   known.hold = hold_by(mission, fit, known.slack, known.covariance, known.unseen);
 }
@@ -216,14 +225,18 @@ Registration Estimator::estimate(const Mission& mission, const RangeImage& scan,
   }
   prepare_rays(mission, scan, start, workspace_);
   const Pose pose = inverse(start.T_sensor_target);
-  HitSolution hits = start.wide ? register_wide(mission, pose, workspace_) : register_hits(mission, pose, workspace_);
+  const HitSolution near = start.wide ? register_wide(mission, pose, workspace_) : register_hits(mission, pose, workspace_);
+  LineSearch search = search_weak_axis(mission, {pose, to_target_axes(start.covariance, pose), start.rival_m}, near, workspace_);
+  const HitSolution& hits = search.best;
   const bool shows_outline = mission.parameters.silhouettes > 0.5 && scan.misses_known && !start.partial;
   HitKnowledge known;
-  learn_from(mission, hits, workspace_, known);
-  if (shows_outline) settle_slack(mission, hits, workspace_, known);
+  learn_from(mission, search, workspace_, known);
+  if (shows_outline) settle_slack(mission, search, workspace_, known);
   describe_hits(hits, known.scale, workspace_, result);
   if (has_information(hits)) describe_pose(mission, hits, scan.misses_known, known, workspace_, result);
+  result.rival_m = search.rival_m;
   result.reason = judge(mission.parameters, result, motion_variance(mission, start, half_of(scan)));
+  if (result.valid() && search.contradicted) result.reason = PoseReason::kImplausible;
   return result;
 }
 

@@ -42,11 +42,16 @@ std::vector<double> times(double range_m, const std::vector<double>& factors) {
   return ranges;
 }
 
+// Of a track that starts from the true pose of one frame before.
+void write_start(std::ostream& out, double range_m) {
+  out << "override.tracking.start_sigma_m = " << number_text(rounded(0.005 * range_m))
+      << "  # the track starts from the pose of one frame before\noverride.tracking.start_sigma_deg = 2\n";
+}
+
 void write_paper(std::ostream& out, const std::vector<double>& center, double range_m) {
   write_begin(out, "paper", "the target turns between scans and stands still in each, at several ranges", "paper");
   write_lines(out, {{"ranges_m", times(range_m, {1, 1.5, 2})}, {"offset_m", {0, 0}}, {"center_m", center}}, true);
-  out << "override.tracking.start_sigma_m = " << number_text(rounded(0.005 * range_m))
-      << "  # the track starts from the pose of one frame before\noverride.tracking.start_sigma_deg = 2\n";
+  write_start(out, range_m);
 }
 
 void write_spin(std::ostream& out, const std::vector<double>& center, double range_m) {
@@ -62,6 +67,7 @@ void write_spin(std::ostream& out, const std::vector<double>& center, double ran
                {"drift_mps", {rounded(0.001 * range_m), 0, 0}},
                {"seed", {2}}},
               false);
+  write_start(out, range_m);
 }
 
 void write_search(std::ostream& out, const std::vector<double>& center, double range_m) {

@@ -86,7 +86,7 @@ TEST_F(ComponentMemory, TheImageBeforeIsActiveAgainByCommand) {
 }
 
 TEST(ImageTrial, AStartThatIsCheckedSaysNothingOfTheImage) {
-  VERIFIES("LASSO-MOD-184~3");
+  VERIFIES("LASSO-MOD-184~4");
   ImageTrial trial;
   trial.begin(2, 1);
   Registration registration;

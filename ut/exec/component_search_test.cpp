@@ -86,7 +86,7 @@ TEST(ComponentSearch, AWrongHandOverGivesPlaceToTheSearch) {
 
 // A start end for end that a scan would confirm: a search of this scan says otherwise, and the search's turn comes.
 TEST(ComponentSearch, AStartThatASearchOfItsScanContradictsIsNeverTracked) {
-  VERIFIES("LASSO-MOD-184~3 LASSO-MOD-133~3 LASSO-MOD-137~1");
+  VERIFIES("LASSO-MOD-184~4 LASSO-MOD-133~3 LASSO-MOD-137~1");
   MissionParameters p = search_parameters();
   p.start_check = 1;
   p.start_twin_margin = 1000;
@@ -111,7 +111,7 @@ TEST(ComponentSearch, AStartThatASearchOfItsScanContradictsIsNeverTracked) {
 }
 
 TEST(ComponentSearch, ARightStartIsToldAsUncheckedAndThenTracked) {
-  VERIFIES("LASSO-MOD-184~3");
+  VERIFIES("LASSO-MOD-184~4");
   MissionParameters p = search_parameters();
   p.start_check = 1;
   p.search_slice = 200000;
