@@ -43,21 +43,22 @@ bool has_axes(const HitSolution& solution) {
   return solution.stop == StopReason::kConverged || solution.stop == StopReason::kIterationLimit;
 }
 
-// The axis, where it begins, and how far it is searched.
+// The least certain axis of a registration's hits; target axes.
 struct WeakAxis {
-  Mat6 covariance, information;  // of the hits; target axes
+  Mat6 covariance, information;
   Vec6 axis;
   double sigma_m = 0;
 };
 
-bool find_axis(const Mission& mission, const HitSolution& near, WeakAxis& weak) {
+WeakAxis find_axis(const Mission& mission, const HitSolution& near) {
+  WeakAxis weak;
   Directions unseen;
   weak.covariance = covariance_of_hits(mission.radius_m, near.H, 1, unseen);
-  if (invert6(weak.covariance, weak.information) != Status::kOk) return false;
+  weak.information = near.H;
   const Eigen6 eigen = eigen6(scaled(mission.radius_m, weak.covariance));
   weak.axis = eigen.vectors.col(5);
   weak.sigma_m = square_root(eigen.values[5]);
-  return true;
+  return weak;
 }
 
 double kernel_width_m(const Mission& mission, const Workspace& workspace) {
@@ -112,11 +113,12 @@ void try_all(const Mission& mission, const HitSolution& near, const WeakAxis& we
   }
 }
 
-// Within five sigmas of prior and registration.
+// Within five sigmas of prior and registration. What has no inverse excludes nothing.
 bool is_likely(const PriorPose& prior, const WeakAxis& weak, const Pose& T_target_sensor) {
   const Vec6 step = step_between(prior.T_target_sensor, T_target_sensor);
-  Mat6 information;
-  return invert6(prior.covariance + weak.covariance, information) == Status::kOk && step.dot(information * step) <= kSquare;
+  Mat6 information = Mat6::Zero();
+  static_cast<void>(invert6(prior.covariance + weak.covariance, information));
+  return step.dot(information * step) <= kSquare;
 }
 
 // Within 25 squared sigmas both the one and the other are believed.
@@ -136,7 +138,7 @@ void move_to(const Mission& mission, const HitSolution& other, double rise, Line
 // Into `search`, what the minimum beside its best pose is.
 void weigh(const Mission& mission, const PriorPose& prior, const WeakAxis& weak, const HitSolution& other, LineSearch& search) {
   const Vec6 step = step_between(search.best.T_target_sensor, other.T_target_sensor);
-  if (!has_axes(other) || !is_apart(weak, step)) return;
+  if (!is_apart(weak, step)) return;
   const double rise = (mean_cost(other) - mean_cost(search.best)) * search.best.usable;
   if (!is_likely(prior, weak, other.T_target_sensor) && length_m(mission, step) > prior.rival_m) {
     search.contradicted = search.contradicted || rise < -kSquare;
@@ -169,8 +171,8 @@ double rising_way_m(const Mission& mission, const HitSolution& hits, const Vec6&
 LineSearch search_weak_axis(const Mission& mission, const PriorPose& prior, const HitSolution& near, Workspace& workspace) {
   LineSearch search;
   search.best = near;
-  WeakAxis weak;
-  if (!has_axes(near) || prior.covariance.isZero(0.0) || !find_axis(mission, near, weak)) return search;
+  if (!has_axes(near) || prior.covariance.isZero(0.0)) return search;
+  const WeakAxis weak = find_axis(mission, near);
   Trials kept;
   try_all(mission, near, weak, reach_of(mission, prior, near, weak, workspace), workspace, kept);
   for (const Trial& trial : kept) weigh(mission, prior, weak, register_first(mission, trial.T_target_sensor, workspace), search);

@@ -59,22 +59,30 @@ class PeggedBeamTest : public BeamTest {
   PeggedBeamTest() : BeamTest(pegged_mission()) { scan_.others = {peg()}; }
 };
 
+// By chance the one or the other costs less.
 TEST_F(BeamTest, AQuarterTurnThatTheScanCannotTellIsARival) {
-  VERIFIES("LASSO-REG-026~1");
-  scan();
-  const LineSearch search = search_weak_axis(mission_, prior(truth(), 0.4), registered(truth()), *workspace_);
-  ASSERT_GT(search.rivals.size(), 0u);
-  EXPECT_FALSE(search.contradicted);
-  const double turns = turn_of(search.rivals[0]) / kQuarterTurn_rad;
-  EXPECT_NEAR(turns, std::round(turns), 0.02);
-  EXPECT_GT(std::abs(turn_of(search.rivals[0]) - turn_of(search.best.T_target_sensor)), 0.9 * kQuarterTurn_rad);
-  EXPECT_GT(search.rival_m, kQuarterTurn_rad * mission_.radius_m);
-  const Mat6 whole = with_rivals(search, 1e-6 * Mat6::Identity());
-  EXPECT_GT(whole(0, 0), 0.24 * kQuarterTurn_rad * kQuarterTurn_rad) << "either of both lies within two sigmas of the other";
+  VERIFIES("LASSO-REG-027~1");
+  int moved = 0;
+  constexpr int kScans = 8;
+  for (int i = 0; i < kScans; ++i) {
+    scan();
+    const LineSearch search = search_weak_axis(mission_, prior(truth(), 0.4), registered(truth()), *workspace_);
+    ASSERT_GT(search.rivals.size(), 0u);
+    EXPECT_FALSE(search.contradicted);
+    const double turns = turn_of(search.rivals[0]) / kQuarterTurn_rad;
+    EXPECT_NEAR(turns, std::round(turns), 0.02);
+    EXPECT_GT(std::abs(turn_of(search.rivals[0]) - turn_of(search.best.T_target_sensor)), 0.9 * kQuarterTurn_rad);
+    EXPECT_GT(search.rival_m, kQuarterTurn_rad * mission_.radius_m);
+    const Mat6 whole = with_rivals(search, 1e-6 * Mat6::Identity());
+    EXPECT_GT(whole(0, 0), 0.24 * kQuarterTurn_rad * kQuarterTurn_rad) << "either of both lies within two sigmas of the other";
+    if (std::abs(turn_of(search.best.T_target_sensor)) > 1) ++moved;
+  }
+  EXPECT_GT(moved, 0);
+  EXPECT_LT(moved, kScans);
 }
 
 TEST_F(BeamTest, WhatThePriorExcludesIsNoRival) {
-  VERIFIES("LASSO-REG-026~1");
+  VERIFIES("LASSO-REG-026~1 LASSO-REG-027~1");
   scan();
   for (const double sigma_rad : {0.0, 0.03}) {
     const HitSolution near = registered(truth());
@@ -88,7 +96,7 @@ TEST_F(BeamTest, WhatThePriorExcludesIsNoRival) {
 }
 
 TEST_F(BeamTest, ARivalIsLookedForAgainAlthoughThePriorHasForgottenIt) {
-  VERIFIES("LASSO-REG-026~1");
+  VERIFIES("LASSO-REG-027~1");
   scan();
   PriorPose known = prior(truth(), 0.01);
   known.rival_m = 2 * mission_.radius_m;
@@ -119,7 +127,7 @@ TEST_F(PeggedBeamTest, AWrongMinimumGivesPlaceToTheRightOne) {
 
 // Its place is known to a millimetre, and off by two centimetres: nothing that the scan shows is likely.
 TEST_F(PeggedBeamTest, APoseThatThePriorExcludesIsNotTakenButContradicts) {
-  VERIFIES("LASSO-REG-026~1");
+  VERIFIES("LASSO-REG-028~1");
   scan();
   const HitSolution wrong = registered(turned(kQuarterTurn_rad));
   PriorPose known = prior(wrong.T_target_sensor, 0.4);
@@ -131,7 +139,7 @@ TEST_F(PeggedBeamTest, APoseThatThePriorExcludesIsNotTakenButContradicts) {
 }
 
 TEST_F(PeggedBeamTest, APoseThatIsContradictedIsNotValid) {
-  VERIFIES("LASSO-REG-026~1");
+  VERIFIES("LASSO-REG-028~1");
   const auto image = test::scan_box(scan_, random_);
   const auto estimator = std::make_unique<Estimator>();
   StartPoint start{inverse(turned(kQuarterTurn_rad)), Twist{}};
