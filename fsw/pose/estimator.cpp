@@ -225,8 +225,9 @@ Registration Estimator::estimate(const Mission& mission, const RangeImage& scan,
   }
   prepare_rays(mission, scan, start, workspace_);
   const Pose pose = inverse(start.T_sensor_target);
-  const HitSolution near = start.wide ? register_wide(mission, pose, workspace_) : register_hits(mission, pose, workspace_);
-  LineSearch search = search_weak_axis(mission, {pose, to_target_axes(start.covariance, pose), start.rival_m}, near, workspace_);
+  LineSearch search;
+  search.best = start.wide ? register_wide(mission, pose, workspace_) : register_hits(mission, pose, workspace_);
+  search_weak_axis(mission, {pose, to_target_axes(start.covariance, pose), start.rival_m}, workspace_, search);
   const HitSolution& hits = search.best;
   const bool shows_outline = mission.parameters.silhouettes > 0.5 && scan.misses_known && !start.partial;
   HitKnowledge known;

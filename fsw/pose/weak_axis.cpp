@@ -50,15 +50,14 @@ struct WeakAxis {
   double sigma_m = 0;
 };
 
-WeakAxis find_axis(const Mission& mission, const HitSolution& near) {
-  WeakAxis weak;
+// This and what follows marked so is not compiled into its caller, where its matrices would add to the stack of the registrations.
+[[gnu::noinline]] void find_axis(const Mission& mission, const HitSolution& near, WeakAxis& weak) {
   Directions unseen;
   weak.covariance = covariance_of_hits(mission.radius_m, near.H, 1, unseen);
   weak.information = near.H;
   const Eigen6 eigen = eigen6(scaled(mission.radius_m, weak.covariance));
   weak.axis = eigen.vectors.col(5);
   weak.sigma_m = square_root(eigen.values[5]);
-  return weak;
 }
 
 double kernel_width_m(const Mission& mission, const Workspace& workspace) {
@@ -66,7 +65,8 @@ double kernel_width_m(const Mission& mission, const Workspace& workspace) {
   return mission.parameters.kernel_width * square_root(N::to_double(s.reference_variance));
 }
 
-double reach_of(const Mission& mission, const PriorPose& prior, const HitSolution& near, const WeakAxis& weak, const Workspace& workspace) {
+[[gnu::noinline]] double reach_of(const Mission& mission, const PriorPose& prior, const HitSolution& near, const WeakAxis& weak,
+                                  const Workspace& workspace) {
   const double prior_m = kSigmas * square_root(weak.axis.dot(scaled(mission.radius_m, prior.covariance) * weak.axis));
   const double loose_m = prior_m > mission.parameters.gate_first_m ? prior_m : 0;
   const double unexplained_m = explained_share(near) < kExplainedShare ? kernel_width_m(mission, workspace) : 0;
@@ -79,11 +79,17 @@ struct Trial {
 };
 using Trials = FixedVector<Trial, kWeakAxisKept>;
 
-Trial try_from(const Mission& mission, Pose pose, double longest_m, Workspace& workspace) {
+[[gnu::noinline]] void draw(const Mission& mission, double longest_m, Workspace& workspace, Pose& T_target_sensor) {
   const MatchSettings<N> s = make_settings(mission.parameters, workspace);
   Descent descent{longest_m};
-  for (int i = 0; i < kTrialPasses; ++i) (void)take_pass(mission, s, kTrialPass, descent, workspace, pose);
-  return {pose, cost_of_hits(mission, pose, workspace)};
+  for (int i = 0; i < kTrialPasses; ++i) (void)take_pass(mission, s, kTrialPass, descent, workspace, T_target_sensor);
+}
+
+Trial try_from(const Mission& mission, const Pose& place, double longest_m, Workspace& workspace) {
+  Trial trial{place};
+  draw(mission, longest_m, workspace, trial.T_target_sensor);
+  trial.cost = cost_of_hits(mission, trial.T_target_sensor, workspace);
+  return trial;
 }
 
 // Keeps the trials with the lowest costs, in their order.
@@ -136,7 +142,8 @@ void move_to(const Mission& mission, const HitSolution& other, double rise, Line
 }
 
 // Into `search`, what the minimum beside its best pose is.
-void weigh(const Mission& mission, const PriorPose& prior, const WeakAxis& weak, const HitSolution& other, LineSearch& search) {
+[[gnu::noinline]] void weigh(const Mission& mission, const PriorPose& prior, const WeakAxis& weak, const HitSolution& other,
+                             LineSearch& search) {
   const Vec6 step = step_between(search.best.T_target_sensor, other.T_target_sensor);
   if (!is_apart(weak, step)) return;
   const double rise = (mean_cost(other) - mean_cost(search.best)) * search.best.usable;
@@ -168,15 +175,13 @@ double rising_way_m(const Mission& mission, const HitSolution& hits, const Vec6&
 
 }  // namespace
 
-LineSearch search_weak_axis(const Mission& mission, const PriorPose& prior, const HitSolution& near, Workspace& workspace) {
-  LineSearch search;
-  search.best = near;
-  if (!has_axes(near) || prior.covariance.isZero(0.0)) return search;
-  const WeakAxis weak = find_axis(mission, near);
+void search_weak_axis(const Mission& mission, const PriorPose& prior, Workspace& workspace, LineSearch& search) {
+  if (!has_axes(search.best) || prior.covariance.isZero(0.0)) return;
+  WeakAxis weak;
+  find_axis(mission, search.best, weak);
   Trials kept;
-  try_all(mission, near, weak, reach_of(mission, prior, near, weak, workspace), workspace, kept);
+  try_all(mission, search.best, weak, reach_of(mission, prior, search.best, weak, workspace), workspace, kept);
   for (const Trial& trial : kept) weigh(mission, prior, weak, register_first(mission, trial.T_target_sensor, workspace), search);
-  return search;
 }
 
 Mat6 with_rivals(const LineSearch& search, const Mat6& covariance) {

@@ -31,12 +31,12 @@ struct LineSearch {
   bool contradicted = false;                // a pose that the prior excludes costs less, by 25 or more
 };
 
-// Line search along the least certain axis of `near`, from five of its sigmas to the farthest of: five sigmas of the prior; `rival_m`; the
-// kernel's width, where `near` leaves returns unexplained. From each place two passes are taken, and the poses with the two lowest costs
-// are registered. One within five sigmas of the prior, or within `rival_m`, takes the place of `near` where it costs less, and is a rival
-// where the costs differ by less than 25: five sigmas. Bound: 4 * kWeakAxisSteps passes over the points, and kWeakAxisKept times
+// Line search along the least certain axis of `search.best`, a registration, from five of its sigmas to the farthest of: five sigmas of the
+// prior; `rival_m`; the kernel's width, where it leaves returns unexplained. From each place two passes are taken, and the poses with the
+// two lowest costs are registered. One within five sigmas of the prior, or within `rival_m`, takes its place where it costs less, and is a
+// rival where the costs differ by less than 25: five sigmas. Bound: 4 * kWeakAxisSteps passes over the points, and kWeakAxisKept times
 // register_first.
-LineSearch search_weak_axis(const Mission& mission, const PriorPose& prior, const HitSolution& near, Workspace& workspace);
+void search_weak_axis(const Mission& mission, const PriorPose& prior, Workspace& workspace, LineSearch& search);
 
 // The covariance of a mixture of the best pose and its rivals in equal parts, about the best pose's. `covariance` is that of each of them.
 Mat6 with_rivals(const LineSearch& search, const Mat6& covariance);

@@ -44,6 +44,12 @@ class BeamTest : public test::PoseFixture {
   }
   Pose turned(double angle_rad) const { return step_of(angle_rad) * truth(); }
   HitSolution registered(const Pose& T_target_sensor) { return register_first(mission_, T_target_sensor, *workspace_); }
+  LineSearch searched(const PriorPose& prior, const HitSolution& near) {
+    LineSearch search;
+    search.best = near;
+    search_weak_axis(mission_, prior, *workspace_, search);
+    return search;
+  }
   double turn_of(const Pose& T_target_sensor) const { return log_so3(T_target_sensor.q * truth().q.conjugate())[0]; }
 
  private:
@@ -66,7 +72,7 @@ TEST_F(BeamTest, AQuarterTurnThatTheScanCannotTellIsARival) {
   constexpr int kScans = 8;
   for (int i = 0; i < kScans; ++i) {
     scan();
-    const LineSearch search = search_weak_axis(mission_, prior(truth(), 0.4), registered(truth()), *workspace_);
+    const LineSearch search = searched(prior(truth(), 0.4), registered(truth()));
     ASSERT_GT(search.rivals.size(), 0u);
     EXPECT_FALSE(search.contradicted);
     const double turns = turn_of(search.rivals[0]) / kQuarterTurn_rad;
@@ -86,7 +92,7 @@ TEST_F(BeamTest, WhatThePriorExcludesIsNoRival) {
   scan();
   for (const double sigma_rad : {0.0, 0.03}) {
     const HitSolution near = registered(truth());
-    const LineSearch search = search_weak_axis(mission_, prior(truth(), sigma_rad), near, *workspace_);
+    const LineSearch search = searched(prior(truth(), sigma_rad), near);
     EXPECT_EQ(search.rivals.size(), 0u) << sigma_rad;
     EXPECT_EQ(search.rival_m, 0);
     EXPECT_FALSE(search.contradicted);
@@ -100,18 +106,18 @@ TEST_F(BeamTest, ARivalIsLookedForAgainAlthoughThePriorHasForgottenIt) {
   scan();
   PriorPose known = prior(truth(), 0.01);
   known.rival_m = 2 * mission_.radius_m;
-  EXPECT_GT(search_weak_axis(mission_, known, registered(truth()), *workspace_).rivals.size(), 0u);
+  EXPECT_GT(searched(known, registered(truth())).rivals.size(), 0u);
 }
 
 TEST_F(BeamTest, WithoutAPriorOrAnAxisThePoseStays) {
   VERIFIES("LASSO-REG-026~1");
   scan();
   const HitSolution near = registered(truth());
-  EXPECT_EQ(search_weak_axis(mission_, {truth()}, near, *workspace_).rivals.size(), 0u);
+  EXPECT_EQ(searched({truth()}, near).rivals.size(), 0u);
   keep_first_points(3);
   const HitSolution nothing = registered(truth());
   ASSERT_EQ(nothing.stop, StopReason::kTooFewPoints);
-  EXPECT_EQ(search_weak_axis(mission_, prior(truth(), 0.4), nothing, *workspace_).best.stop, StopReason::kTooFewPoints);
+  EXPECT_EQ(searched(prior(truth(), 0.4), nothing).best.stop, StopReason::kTooFewPoints);
 }
 
 TEST_F(PeggedBeamTest, AWrongMinimumGivesPlaceToTheRightOne) {
@@ -119,7 +125,7 @@ TEST_F(PeggedBeamTest, AWrongMinimumGivesPlaceToTheRightOne) {
   scan();
   const HitSolution wrong = registered(turned(kQuarterTurn_rad));
   ASSERT_GT(std::abs(turn_of(wrong.T_target_sensor)), 1);
-  const LineSearch search = search_weak_axis(mission_, prior(turned(kQuarterTurn_rad), 0.4), wrong, *workspace_);
+  const LineSearch search = searched(prior(turned(kQuarterTurn_rad), 0.4), wrong);
   EXPECT_LT(std::abs(turn_of(search.best.T_target_sensor)), 0.02);
   EXPECT_EQ(search.rivals.size(), 0u);
   EXPECT_FALSE(search.contradicted);
@@ -132,7 +138,7 @@ TEST_F(PeggedBeamTest, APoseThatThePriorExcludesIsNotTakenButContradicts) {
   const HitSolution wrong = registered(turned(kQuarterTurn_rad));
   PriorPose known = prior(wrong.T_target_sensor, 0.4);
   known.T_target_sensor.p += Vec3(0, 0.02, 0);
-  const LineSearch search = search_weak_axis(mission_, known, wrong, *workspace_);
+  const LineSearch search = searched(known, wrong);
   EXPECT_TRUE(search.contradicted);
   EXPECT_EQ(search.best.T_target_sensor.p, wrong.T_target_sensor.p);
   EXPECT_EQ(search.rivals.size(), 0u);
