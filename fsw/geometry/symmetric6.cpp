@@ -190,4 +190,11 @@ Eigen6 eigen6(const Mat6& A) {
   return e;
 }
 
+Mat6 rotated_covariance(const Mat3& R, const Mat6& covariance) {
+  Mat6 J = Mat6::Zero();
+  J.topLeftCorner<3, 3>() = R;
+  J.bottomRightCorner<3, 3>() = R;
+  return J * covariance * J.transpose();
+}
+
 }  // namespace lasso

@@ -21,4 +21,7 @@ struct Eigen6 {
 // badly scaled (rad beside m). What is not finite gives NaN. The sign of a vector is as the rotations leave it.
 Eigen6 eigen6(const Mat6& A);
 
+// The covariance of (rotation, translation) in the axes that R leads to from its own: J C J^T with R twice in J's diagonal.
+Mat6 rotated_covariance(const Mat3& R, const Mat6& covariance);
+
 }  // namespace lasso

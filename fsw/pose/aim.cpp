@@ -36,14 +36,11 @@ AimSearch make_search(const Mission& mission, const AimRequest& request) {
   const MissionParameters& p = mission.parameters;
   const Pose T_target_sensor = inverse(request.T_sensor_target);
   const Mat3 R = to_matrix(request.T_sensor_target.q);
-  Mat6 J = Mat6::Zero();
-  J.topLeftCorner<3, 3>() = R;
-  J.bottomRightCorner<3, 3>() = R;
   const double range_m = square_root(T_target_sensor.p.squaredNorm());
   return {mission,
           request,
           make_view(mission, T_target_sensor),
-          J.transpose() * request.covariance * J,
+          rotated_covariance(R.transpose(), request.covariance),
           R,
           T_target_sensor.p,
           range_m,

@@ -1,6 +1,7 @@
 #include "fsw/pose/estimator.hpp"
 
 #include "fsw/geometry/portable_math.hpp"
+#include "fsw/geometry/symmetric6.hpp"
 #include "fsw/pose/labels.hpp"
 #include "fsw/pose/near_symmetry.hpp"
 #include "fsw/pose/outline.hpp"
@@ -36,11 +37,7 @@ double noise_scale(const MissionParameters& p, const HitSolution& hits, bool tru
 
 // A step x of T_target_sensor in target axes is a step -R x of T_sensor_target in sensor axes, for rotation and translation alike.
 Mat6 to_sensor_axes(const Mat6& covariance, const Pose& T_target_sensor) {
-  const Mat3 R = to_matrix(T_target_sensor.q).transpose();
-  Mat6 J = Mat6::Zero();
-  J.topLeftCorner<3, 3>() = R;
-  J.bottomRightCorner<3, 3>() = R;
-  return J * covariance * J.transpose();
+  return rotated_covariance(to_matrix(T_target_sensor.q).transpose(), covariance);
 }
 
 Mat6 to_target_axes(const Mat6& covariance, const Pose& T_target_sensor) { return to_sensor_axes(covariance, inverse(T_target_sensor)); }

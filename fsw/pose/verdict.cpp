@@ -105,11 +105,7 @@ std::uint32_t Search::conclude() {
 bool Search::describe_covariance(const Track& best) {
   Mat6 covariance;
   if (invert6(best.H, covariance) != Status::kOk) return false;
-  const Mat3 R = to_matrix(best.T_target_sensor[last()].q).transpose();
-  Mat6 J = Mat6::Zero();
-  J.topLeftCorner<3, 3>() = R;
-  J.bottomRightCorner<3, 3>() = R;
-  result_.covariance = J * covariance * J.transpose();
+  result_.covariance = rotated_covariance(to_matrix(best.T_target_sensor[last()].q).transpose(), covariance);
   return true;
 }
 

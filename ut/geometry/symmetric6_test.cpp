@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "fsw/geometry/so3.hpp"
 #include "ut/geometry/random_inputs.hpp"
 #include "ut/support/dense.hpp"
 #include "ut/support/verifies.hpp"
@@ -205,6 +206,21 @@ TEST(Eigen6, MultipleValuesAndSpecialMatrices) {
   EXPECT_NEAR(ones.values[5], 6, 1e-14);
   EXPECT_LE(ones.values.head<5>().norm(), 1e-14);
   EXPECT_TRUE(std::isnan(eigen6(Mat6::Constant(std::numeric_limits<double>::quiet_NaN())).values.sum()));
+}
+
+// By its blocks.
+TEST(RotatedCovariance, TurnsBothHalvesAlike) {
+  VERIFIES("LASSO-GEO-018~1");
+  test::Generator generator(78);
+  const Mat3 R = to_matrix(exp_so3(Vec3(0.4, -1.1, 0.7)));
+  const Mat6 C = random_spd(generator, 0);
+  const Mat6 rotated = rotated_covariance(R, C);
+  for (int i = 0; i < 6; i += 3) {
+    for (int j = 0; j < 6; j += 3) {
+      const Mat3 block = R * C.block<3, 3>(i, j) * R.transpose();
+      EXPECT_LT((rotated.block<3, 3>(i, j) - block).norm(), 1e-12 * C.norm());
+    }
+  }
 }
 
 }  // namespace
