@@ -176,7 +176,10 @@ void change_mode(ModeEvent event, TrackState& state) {
   if (event == ModeEvent::kNear || event == ModeEvent::kFar) state.range_awaited = true;
   if (properties(next).by_parts) state.parts = PartsState{};
   if (properties(next).searches) ++state.searches;
-  if (properties(next).full_field || properties(next).searches) state.filter = FilterState{};
+  if (properties(next).full_field || properties(next).searches) {
+    state.filter = FilterState{};
+    state.rival_m = 0;
+  }
   if (properties(next).full_field) state.bearing = BearingState{};
 }
 

@@ -17,6 +17,7 @@ constexpr double kCertain = 0.002;         // of the radius
 constexpr double kHopeless = 4 * kSquare;  // a trial that costs more by this is not registered
 constexpr double kMixed = 0.25;            // variance of a mixture of two equal parts, of their squared distance
 constexpr double kBeyond = 1.25;           // of the way to a rival: it is found again although the pose has moved
+constexpr double kFarthest = 3.15;         // of the radius: half a turn; a prior that knows less says nothing
 constexpr int kTrialPasses = 2;
 constexpr PassKind kTrialPass{2, Lookup::kWalk};
 
@@ -70,7 +71,7 @@ double kernel_width_m(const Mission& mission, const Workspace& workspace) {
   const double prior_m = kSigmas * square_root(weak.axis.dot(scaled(mission.radius_m, prior.covariance) * weak.axis));
   const double loose_m = prior_m > mission.parameters.gate_first_m ? prior_m : 0;
   const double unexplained_m = explained_share(near) < kExplainedShare ? kernel_width_m(mission, workspace) : 0;
-  return larger(larger(loose_m, prior.rival_m), unexplained_m);
+  return clamp(larger(larger(loose_m, prior.rival_m), unexplained_m), 0.0, kFarthest * mission.radius_m);
 }
 
 struct Trial {

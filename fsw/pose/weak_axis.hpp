@@ -31,11 +31,12 @@ struct LineSearch {
   bool contradicted = false;                // a pose that the prior excludes costs less, by 25 or more
 };
 
-// Line search along the least certain axis of `search.best`, a registration, from five of its sigmas to the farthest of: five sigmas of the
-// prior; `rival_m`; the kernel's width, where it leaves returns unexplained. From each place two passes are taken, and the poses with the
-// two lowest costs are registered. One within five sigmas of the prior, or within `rival_m`, takes its place where it costs less, and is a
-// rival where the costs differ by less than 25: five sigmas. Bound: 4 * kWeakAxisSteps passes over the points, and kWeakAxisKept times
-// register_first.
+// Line search along the least certain axis of `search.best`, a registration. Places are tried from five of its sigmas on, as far as five
+// sigmas of the prior, if these exceed estimation.gate_first_m; as `prior.rival_m`; and as the kernel's width, if more than 1 % of the
+// returns are unexplained; not farther than half a turn at the model's radius. From each place two passes are taken, and the poses with the
+// two lowest costs are registered. One within five sigmas of the prior, or within `prior.rival_m`, takes the place of the best where it
+// costs less, and is a rival where the costs differ by less than 25: five sigmas. Bound: of 2 * kWeakAxisSteps places kTrialPasses passes
+// over half of the points and one over all, and kWeakAxisKept times register_first.
 void search_weak_axis(const Mission& mission, const PriorPose& prior, Workspace& workspace, LineSearch& search);
 
 // The covariance of a mixture of the best pose and its rivals in equal parts, about the best pose's. `covariance` is that of each of them.
@@ -44,7 +45,7 @@ Mat6 with_rivals(const LineSearch& search, const Mat6& covariance);
 // Does the cost rise as the covariance says? Five sigmas off along an axis it should be higher by 25. Where it is not higher by 16, either
 // way, the sigma is doubled until it is; without an end within the model's radius the axis is unseen. Axes more certain than a 500th of the
 // radius are left: five of their sigmas are 0.6 deg. `covariance` is that of the hits (covariance_of_hits), of a noise whose variance is
-// `scale` times the assumed one. Bound: one eigen-decomposition, and 16 passes over the points for each axis.
+// `scale` times the assumed one. Bound: one eigen-decomposition, and 14 passes over the points for each axis.
 void widen_weak_axes(const Mission& mission, const HitSolution& hits, double scale, Workspace& workspace, Mat6& covariance,
                      Directions& unseen);
 

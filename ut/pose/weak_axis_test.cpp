@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "fsw/geometry/portable_math.hpp"
 #include "fsw/geometry/symmetric6.hpp"
@@ -107,6 +108,19 @@ TEST_F(BeamTest, ARivalIsLookedForAgainAlthoughThePriorHasForgottenIt) {
   PriorPose known = prior(truth(), 0.01);
   known.rival_m = 2 * mission_.radius_m;
   EXPECT_GT(searched(known, registered(truth())).rivals.size(), 0u);
+}
+
+TEST_F(BeamTest, NoPlaceIsTriedBeyondHalfATurn) {
+  VERIFIES("LASSO-REG-026~1");
+  scan();
+  PriorPose known = prior(truth(), 0.01);
+  for (const double rival_m : {10 * mission_.radius_m, 1e300, std::numeric_limits<double>::infinity()}) {
+    known.rival_m = rival_m;
+    const LineSearch search = searched(known, registered(truth()));
+    ASSERT_TRUE(std::isfinite(search.best.T_target_sensor.p.norm())) << rival_m;
+    ASSERT_GT(search.rivals.size(), 0u) << rival_m << ": places are as close as a basin is wide";
+    for (const Pose& rival : search.rivals) EXPECT_LT(rival.p.norm(), 2 * truth().p.norm()) << rival_m;
+  }
 }
 
 TEST_F(BeamTest, WithoutAPriorOrAnAxisThePoseStays) {
