@@ -190,11 +190,21 @@ Eigen6 eigen6(const Mat6& A) {
   return e;
 }
 
+Mat6 at_radius(const Mat6& covariance, double radius) {
+  Mat6 result = covariance;
+  for (int i = 0; i < 3; ++i) result.row(i) *= radius;
+  for (int i = 0; i < 3; ++i) result.col(i) *= radius;
+  return result;
+}
+
+Eigen6 axes_at_radius(const Mat6& covariance, double radius) { return eigen6(at_radius(covariance, radius)); }
+
 Mat6 rotated_covariance(const Mat3& R, const Mat6& covariance) {
-  Mat6 J = Mat6::Zero();
-  J.topLeftCorner<3, 3>() = R;
-  J.bottomRightCorner<3, 3>() = R;
-  return J * covariance * J.transpose();
+  Mat6 result;
+  for (int i = 0; i < kSize; i += 3) {  // in a loop: unrolled it is four kilobytes of a flight image
+    for (int j = 0; j < kSize; j += 3) result.block<3, 3>(i, j) = R * covariance.block<3, 3>(i, j) * R.transpose();
+  }
+  return result;
 }
 
 }  // namespace lasso

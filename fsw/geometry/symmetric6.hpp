@@ -21,6 +21,12 @@ struct Eigen6 {
 // badly scaled (rad beside m). What is not finite gives NaN. The sign of a vector is as the rotations leave it.
 Eigen6 eigen6(const Mat6& A);
 
+// The covariance of (rotation * radius, translation) from that of (rotation, translation); with 1 / radius the other way.
+Mat6 at_radius(const Mat6& covariance, double radius);
+
+// Its axes: directions over (rotation * radius, translation), and their variances.
+Eigen6 axes_at_radius(const Mat6& covariance, double radius);
+
 // The covariance of (rotation, translation) in the axes that R leads to from its own: J C J^T with R twice in J's diagonal.
 Mat6 rotated_covariance(const Mat3& R, const Mat6& covariance);
 

@@ -17,7 +17,7 @@ inline constexpr Choice kPoseReasons[] = {
   {"too_few_returns", "too few rays came back", "look for the target (mode bearing); compare its range with what the sensor measures"},
   {"too_few_inliers", "too few returns lie on the model", "start anew from a better pose; check that the mission image is the target's"},
   {"low_inlier_share", "the pose explains too small a share of the returns", "look for background, an object in between, or a wrong start"},
-  {"low_agreement", "hits and misses are not where the model says", "start anew from a better pose; check that the mission image is the target's"},
+  {"model_mismatch", "rays contradict the model at this pose: the target is not as modelled, or the pose is wrong", "check that the mission image is of the target as it is now; start anew from a better pose"},
   {"high_residual", "residuals are too large for their noise", "compare [sensor] of the mission with the sensor's real noise"},
   {"not_converged", "the iterations reached their limit", "none if it is rare; otherwise raise estimation.iterations_max"},
   {"singular", "the normal equations had no solution: the returns leave a direction open", "wait for another aspect, or widen the scan"},

@@ -38,7 +38,7 @@ inline constexpr TypedRow<P> kRows[] = {
   make_row<&P::rms_m>(24, "rms_m", "m", kAtLeastZero, "unweighted range residual of the inliers"),
   make_row<&P::normalized_residual>(25, "normalized_residual", "1", kAtLeastZero, "root of chi squared per degree of freedom"),
   make_row<&P::inlier_share>(26, "inlier_share", "1", kShare, "share of the returns that the pose explains"),
-  make_row<&P::agreement>(27, "agreement", "1", kShare, "share of rays whose hit or miss is as predicted"),
+  make_row<&P::agreement>(27, "agreement", "1", kShare, "1 less the share of rays that contradict the pose, but for two"),
   make_row<&P::weakest_sigma_m>(28, "weakest_sigma_m", "m", kAtLeastZero, "largest sigma of any direction, rotation times model radius"),
   make_row<&P::weakest_direction>(29, "weakest_direction", "1", kAny, "that direction: rotation times radius, translation; sensor axes"),
   make_row<&P::plan_center>(30, "plan_center", "1", kAny, "middle of the scan on the tangent plane z = 1"),

@@ -112,10 +112,9 @@ Outlook look_at(const Part& part, const Pose& T_sensor_target) {
 
 // The least certain direction: w.x is the displacement along it that a step x of the pose makes, in metres.
 Vec6 weakest(const Mission& mission, const Mat6& C) {
-  Vec6 scale;
-  scale << mission.radius_m, mission.radius_m, mission.radius_m, 1, 1, 1;
-  const Mat6 scaled = scale.asDiagonal() * C * scale.asDiagonal();
-  return scale.cwiseProduct(eigen6(scaled).vectors.col(5));
+  Vec6 direction = axes_at_radius(C, mission.radius_m).vectors.col(5);
+  direction.head<3>() *= mission.radius_m;
+  return direction;
 }
 
 struct Choice {

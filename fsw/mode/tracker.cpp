@@ -44,7 +44,6 @@ PoseReason confirm(const MissionParameters& p, const ModeProperties& mode, bool 
                    const Registration& registration) {
   if (!mode.takes_up) return PoseReason::kValid;
   if (!(registration.inlier_share >= raised(p.inlier_share_min, p.hysteresis))) return PoseReason::kLowInlierShare;
-  if (!(registration.agreement >= raised(p.agreement_min, p.hysteresis))) return PoseReason::kLowAgreement;
   if (!starts) return PoseReason::kValid;
   if (!(registration.inlier_share >= p.start_inlier_share_min)) return PoseReason::kLowInlierShare;
   return far_from(filter, registration, p.start_gate) ? PoseReason::kFarFromStart : PoseReason::kValid;

@@ -2,6 +2,7 @@
 
 #include "fsw/geometry/portable_math.hpp"
 #include "fsw/geometry/symmetric6.hpp"
+#include "fsw/pose/agreement.hpp"
 #include "fsw/pose/labels.hpp"
 #include "fsw/pose/near_symmetry.hpp"
 #include "fsw/pose/outline.hpp"
@@ -18,7 +19,7 @@ namespace lasso {
 namespace {
 
 constexpr double kPoseDimensions = 6;
-constexpr double kMotionSigmas = 3;           // rates are farther off in one scan of 400, if they are Gaussian
+constexpr double kMotionSigmas = 3;  // rates that the target is believed to have are farther off in one scan of 400, if they are Gaussian
 constexpr double kSmallestNoiseScale = 1e-6;  // of the variance: a scan without any noise still has rounding
 
 static_assert(kMaxRays <= 65535, "counts of rays fit into the result");
@@ -150,17 +151,25 @@ void use_silhouettes(const Mission& mission, bool misses_known, HitKnowledge& kn
   known.covariance = release_slack(mission.radius_m, known.hold, belief.covariance);
 }
 
+// What holds for the scan as a whole.
+struct ScanCare {
+  bool misses_known = false;
+  bool shows_outline = false;
+  double motion_m = 0;  // as PoseDoubt's
+};
+
 // The pose that hits and silhouettes give, with its covariance, into the result.
-void describe_pose(const Mission& mission, const HitSolution& hits, bool misses_known, HitKnowledge& known, Workspace& workspace,
+void describe_pose(const Mission& mission, const HitSolution& hits, const ScanCare& care, HitKnowledge& known, Workspace& workspace,
                    Registration& result) {
   Pose pose = hits.T_target_sensor;
   if (mission.parameters.silhouettes > 0.5) {
-    use_silhouettes(mission, misses_known, known, workspace, pose);
+    use_silhouettes(mission, care.misses_known, known, workspace, pose);
     result.labels = to_count(workspace.labels.size());
   }
   result.T_sensor_target = inverse(pose);
   result.covariance = to_sensor_axes(known.covariance, pose);
-  result.agreement = hit_miss_agreement(mission, pose, hits.inliers, hits.usable, misses_known, workspace);
+  const Expectation expectation(mission, pose, {known.covariance, known.scale, care.motion_m});
+  result.agreement = agreement_of_rays(mission, expectation, care.misses_known, workspace);
   find_weak_directions(mission, result);
 }
 
@@ -175,11 +184,9 @@ void describe_hits(const HitSolution& hits, double scale, const Workspace& works
   result.normalized_residual = square_root(scale);
 }
 
-// Of residuals, over that of the noise: rates that are kMotionSigmas off move the points by that velocity times their time, which is
-// spread evenly over the scan.
-double motion_variance(const Mission& mission, const StartPoint& start, double half_scan_s) {
+// Of residuals, over that of the noise: a motion by up to `way_m`, spread evenly over the scan.
+double motion_variance(const Mission& mission, const StartPoint& start, double way_m) {
   const MissionParameters& p = mission.parameters;
-  const double way_m = kMotionSigmas * start.rate_sigma_mps * half_scan_s;
   const double noise = range_variance(p, square_root(start.T_sensor_target.p.squaredNorm())) + p.surface_sigma_m * p.surface_sigma_m;
   return way_m * way_m / 3 / noise;
 }
@@ -191,6 +198,23 @@ HitSolution register_wide(const Mission& mission, const Pose& T_target_sensor, W
   const Pose closer = approach_from_afar(mission, T_target_sensor, workspace);
   const HitSolution far = register_first(mission, closer, workspace);
   return explained_share(far) > explained_share(near) ? far : near;
+}
+
+// Its matrices are off the stack before those of `describe` are on it.
+[[gnu::noinline]] void register_scan(const Mission& mission, const StartPoint& start, Workspace& workspace, LineSearch& search) {
+  const Pose pose = inverse(start.T_sensor_target);
+  search.best = start.wide ? register_wide(mission, pose, workspace) : register_hits(mission, pose, workspace);
+  search_weak_axis(mission, {pose, to_target_axes(start.covariance, pose), start.rival_m}, workspace, search);
+}
+
+[[gnu::noinline]] void describe(const Mission& mission, const ScanCare& care, LineSearch& search, Workspace& workspace,
+                                Registration& result) {
+  HitKnowledge known;
+  learn_from(mission, search, workspace, known);
+  if (mission.parameters.silhouettes > 0.5 && care.shows_outline) settle_slack(mission, search, workspace, known);
+  describe_hits(search.best, known.scale, workspace, result);
+  if (has_information(search.best)) describe_pose(mission, search.best, care, known, workspace, result);
+  result.rival_m = search.rival_m;
 }
 
 // More than `most` within the time, or than `fastest` by itself; so is what is not a number.
@@ -221,19 +245,11 @@ Registration Estimator::estimate(const Mission& mission, const RangeImage& scan,
     return result;
   }
   prepare_rays(mission, scan, start, workspace_);
-  const Pose pose = inverse(start.T_sensor_target);
   LineSearch search;
-  search.best = start.wide ? register_wide(mission, pose, workspace_) : register_hits(mission, pose, workspace_);
-  search_weak_axis(mission, {pose, to_target_axes(start.covariance, pose), start.rival_m}, workspace_, search);
-  const HitSolution& hits = search.best;
-  const bool shows_outline = mission.parameters.silhouettes > 0.5 && scan.misses_known && !start.partial;
-  HitKnowledge known;
-  learn_from(mission, search, workspace_, known);
-  if (shows_outline) settle_slack(mission, search, workspace_, known);
-  describe_hits(hits, known.scale, workspace_, result);
-  if (has_information(hits)) describe_pose(mission, hits, scan.misses_known, known, workspace_, result);
-  result.rival_m = search.rival_m;
-  result.reason = judge(mission.parameters, result, motion_variance(mission, start, half_of(scan)));
+  register_scan(mission, start, workspace_, search);
+  const ScanCare care{scan.misses_known, scan.misses_known && !start.partial, kMotionSigmas * start.rate_sigma_mps * half_of(scan)};
+  describe(mission, care, search, workspace_, result);
+  result.reason = judge(mission.parameters, result, motion_variance(mission, start, care.motion_m));
   if (result.valid() && search.contradicted) result.reason = PoseReason::kImplausible;
   return result;
 }

@@ -1,12 +1,13 @@
 #include "fsw/pose/near_symmetry.hpp"
 
-#include "fsw/pose/quality.hpp"
+#include "fsw/pose/model_ray.hpp"
 #include "fsw/pose/register.hpp"
 
 namespace lasso {
 namespace {
 
 using N = FlightNumber;
+constexpr std::uint32_t kMissSamples = 64;
 
 // Every n-th point, at most kTwinPoints of them.
 void thin_points(Workspace& workspace) {
@@ -16,6 +17,43 @@ void thin_points(Workspace& workspace) {
   const std::size_t kept = (points.size() + stride - 1) / stride;
   for (std::size_t i = 0; i < kept; ++i) points[i] = points[i * stride];
   points.shrink(kept);
+}
+
+struct MissSample {
+  std::uint32_t misses = 0;  // all of them
+  std::uint32_t looked_up = 0;
+  std::uint32_t violated = 0;  // the model says that these should have hit
+};
+
+MissSample sample_misses(const Mission& mission, const Pose& T_target_sensor, const Workspace& workspace) {
+  MissSample sample;
+  for (const ScanRay<N>& ray : workspace.rays) sample.misses += ray.state == RayState::kMiss ? 1u : 0u;
+  const std::uint32_t stride = sample.misses / kMissSamples + 1;
+  const PathPose<N> pose = to_path<N>(T_target_sensor);
+  std::uint32_t index = 0;
+  for (const ScanRay<N>& ray : workspace.rays) {
+    if (ray.state != RayState::kMiss || index++ % stride != 0) continue;
+    ++sample.looked_up;
+    if (meets_model(mission, pose, ray)) ++sample.violated;
+  }
+  return sample;
+}
+
+// Share of rays whose hit or miss is as the pose predicts: inliers and unexplained returns from the registration, and a sample of the
+// misses.
+double hit_miss_agreement(const Mission& mission, const Pose& T_target_sensor, std::uint32_t inliers, std::uint32_t returns,
+                          bool misses_known, const Workspace& workspace) {
+  double agreeing = inliers;
+  double all = returns;
+  if (misses_known) {
+    const MissSample sample = sample_misses(mission, T_target_sensor, workspace);
+    const double violated = sample.looked_up > 0 ? static_cast<double>(sample.violated) / sample.looked_up : 0;
+    const double expected = mission.parameters.dropout_probability;  // drop-outs look like violated misses
+    const double blamed = violated > expected ? violated - expected : 0;
+    agreeing += sample.misses * (1 - blamed);
+    all += sample.misses;
+  }
+  return all > 0 ? agreeing / all : 0;
 }
 
 double cost_of(const Mission& mission, const HitSolution& hits, bool misses_known, const Workspace& workspace) {

@@ -1,8 +1,8 @@
 #include "fsw/pose/outlook.hpp"
 
 #include "fsw/geometry/portable_math.hpp"
-#include "fsw/pose/clip.hpp"
 #include "fsw/pose/contour_probe.hpp"
+#include "fsw/pose/model_ray.hpp"
 
 namespace lasso {
 namespace {
@@ -20,16 +20,19 @@ void include(const ImagePoint& point, ScanRectangle& rectangle) {
   }
 }
 
-SeenPoint see(const Mission& mission, FieldRay<N>& ray) {
+// A ray from the sensor, whose pose is `pose`.
+SeenPoint see(const Mission& mission, const PathPose<N>& pose, const ScanRay<N>& ray) {
   SeenPoint seen;
   const Field<N>& field = mission.field;
-  const FieldHit<N> hit = cast_ray(field, ray);
+  const FieldHit<N> hit = meet_model(mission, pose, ray);
   if (!hit.found) return seen;
   seen.met = true;
-  const Length q[3] = {ray.m[0] + hit.t * ray.u[0], ray.m[1] + hit.t * ray.u[1], ray.m[2] + hit.t * ray.u[2]};
+  N::Unit u[3];
+  rotate(pose, ray.u, u);
+  const Length q[3] = {pose.t[0] + hit.t * u[0], pose.t[1] + hit.t * u[1], pose.t[2] + hit.t * u[2]};
   N::Unit normal[3];
   surface_normal(field, field.elements[hit.element], q, normal);
-  const auto facing = cut<N::Unit>(dot3<N>(normal, ray.u));
+  const auto facing = cut<N::Unit>(dot3<N>(normal, u));
   const MissionParameters& p = mission.parameters;
   const double tilt2 = square(N::to_double(facing));
   if (tilt2 < square(sin_cos(p.incidence_max_rad).cos)) return seen;
@@ -75,11 +78,10 @@ SeenPoint look_at(const Mission& mission, const View<N>& view, const ScanRectang
   const double x = static_cast<double>(r.low[0]) + (column + 0.5) / kOutlookColumns * static_cast<double>(r.high[0] - r.low[0]);
   const double y = static_cast<double>(r.low[1]) + (row + 0.5) / kOutlookRows * static_cast<double>(r.high[1] - r.low[1]);
   const double scale = 1 / square_root(x * x + y * y + 1);
-  const N::Unit u[3] = {N::to<N::Unit>(x * scale), N::to<N::Unit>(y * scale), N::to<N::Unit>(scale)};
-  FieldRay<N> ray{};
-  for (int i = 0; i < 3; ++i) ray.m[i] = view.pose.t[i];
-  rotate(view.pose, u, ray.u);
-  return see(mission, ray);
+  ScanRay<N> ray{};
+  for (int i = 0; i < 2; ++i) ray.u[i] = N::to<N::Unit>((i == 0 ? x : y) * scale);
+  ray.u[2] = N::to<N::Unit>(scale);
+  return see(mission, view.pose, ray);
 }
 
 Outlook look_over(const Mission& mission, const View<N>& view, const ScanRectangle& rectangle, double rays) {

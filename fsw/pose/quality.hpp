@@ -5,11 +5,6 @@
 
 namespace lasso {
 
-// Share of rays whose hit or miss is as the pose predicts: inliers and unexplained returns from the registration, and a sample of the
-// misses (at most kMissSamples) looked up in the field.
-double hit_miss_agreement(const Mission& mission, const Pose& T_target_sensor, std::uint32_t inliers, std::uint32_t returns,
-                          bool misses_known, const Workspace& workspace);
-
 // Fills weak, weakest_sigma_m and weakest_direction from result.covariance.
 void find_weak_directions(const Mission& mission, Registration& result);
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "fsw/pose/estimator.hpp"
+#include "fsw/pose/match.hpp"
 
 namespace lasso {
 
@@ -43,7 +44,7 @@ HitSolution weigh_hits(const Mission& mission, const Pose& T_target_sensor, Work
 double mean_cost(const HitSolution& solution);
 
 // The same of the pose as it stands: one pass, nothing solved.
-double cost_of_hits(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace);
+double cost_of_hits(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace, const PassKind& kind = {});
 
 // A rough start made good enough for register_first, on at most 96 of the points: their centroid, the far field, then slides along the
 // target's axes, until 98 % of them lie on the model. Of the slides along an axis three that leave the points closest to the surface are

@@ -14,8 +14,8 @@ const char* to_string(PoseReason reason) {
       return "too_few_inliers";
     case PoseReason::kLowInlierShare:
       return "low_inlier_share";
-    case PoseReason::kLowAgreement:
-      return "low_agreement";
+    case PoseReason::kModelMismatch:
+      return "model_mismatch";
     case PoseReason::kHighResidual:
       return "high_residual";
     case PoseReason::kNotConverged:

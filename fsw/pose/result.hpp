@@ -19,7 +19,7 @@ enum class PoseReason : std::uint8_t {
   kTooFewReturns = 2,   // too few rays came back
   kTooFewInliers = 3,   // too few of them lie on the model
   kLowInlierShare = 4,  // the pose explains too small a share of the returns
-  kLowAgreement = 5,    // hits and misses are not where the model says
+  kModelMismatch = 5,   // rays contradict the model at this pose: it is wrong, or the target is not as modelled
   kHighResidual = 6,    // residuals too large for their noise
   kNotConverged = 7,    // iteration limit
   kSingular = 8,        // the normal equations had no solution
@@ -58,7 +58,7 @@ struct Registration {
   double rms_m = 0;                       // unweighted range residual of the inliers
   double normalized_residual = 0;         // root of chi^2 per degree of freedom
   double inlier_share = 0;                // inliers / returns that can be inliers
-  double agreement = 0;                   // share of rays whose hit or miss is as predicted (not near a contour)
+  double agreement = 0;                   // 1 less the share of rays that contradict the pose, but for two (agreement.hpp)
   double weakest_sigma_m = 0;             // largest sigma of the covariance's eigen-directions, rotation scaled by the model's radius
   Vec6 weakest_direction = Vec6::Zero();  // that direction: unit vector over (rotation * radius, translation), sensor axes
 

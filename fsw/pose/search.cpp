@@ -21,9 +21,7 @@ constexpr double kExploreStep = 0.005;  // of the model's size, along the least 
 bool find_weakest(const Mission& mission, const Mat6& H, Vec6& direction) {
   Mat6 covariance;
   if (invert6(H, covariance) != Status::kOk) return false;
-  Vec6 scale;
-  scale << mission.radius_m, mission.radius_m, mission.radius_m, 1, 1, 1;
-  direction = eigen6(scale.asDiagonal() * covariance * scale.asDiagonal()).vectors.col(5);
+  direction = axes_at_radius(covariance, mission.radius_m).vectors.col(5);
   direction.head<3>() /= mission.radius_m;
   return true;
 }

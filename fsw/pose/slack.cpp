@@ -12,8 +12,6 @@ constexpr double kRounding = 4e-15;   // of the largest variance there is: what 
 constexpr double kShownShare = 0.15;  // of the labels
 constexpr double kLoose = 0.1;  // of the model's radius: where every direction is held better the prediction carries the pose meanwhile
 
-Mat6 scaled(const Vec6& scale, const Mat6& covariance) { return scale.asDiagonal() * covariance * scale.asDiagonal(); }
-
 double larger(double a, double b) { return a > b ? a : b; }
 
 double variance_along(double radius_m, const Vec6& axis, const Mat6& covariance) {
@@ -67,7 +65,7 @@ bool is_held(const Mission& mission, double within_m, const Vec6& axis, const Ma
 }  // namespace
 
 Directions find_slack(const Mission& mission, const Mat6& covariance) {
-  const Eigen6 eigen = eigen6(scaled(radius_scale(mission.radius_m), covariance));
+  const Eigen6 eigen = axes_at_radius(covariance, mission.radius_m);
   const double limit_m = mission.parameters.silhouette_band_m;
   const double loosest_m = kLoose * mission.radius_m;
   Directions slack;
@@ -119,20 +117,18 @@ void keep_shown(const Mission& mission, Span<const Label> labels, const Mat6& co
 
 Mat6 hold_slack(double radius_m, const Hold& hold, const Mat6& covariance) {
   if (hold.axes.count == 0) return covariance;
-  const Vec6 scale = radius_scale(radius_m);
-  Mat6 held = scaled(scale, covariance);
+  Mat6 held = at_radius(covariance, radius_m);
   for (int i = 0; i < hold.axes.count; ++i) {
     const Vec6 column = held * hold.axes.vectors.col(i);
     held -= column * column.transpose() / (hold.axes.vectors.col(i).dot(column) + hold.sigma_m[i] * hold.sigma_m[i]);
   }
-  return scaled(scale.cwiseInverse(), held);
+  return at_radius(held, 1 / radius_m);
 }
 
 Mat6 release_slack(double radius_m, const Hold& hold, const Mat6& covariance) {
   if (hold.axes.count == 0) return covariance;
-  const Vec6 scale = radius_scale(radius_m);
   const double anywhere_m = kUnseenSigma * radius_m;
-  Mat6 released = scaled(scale, covariance);
+  Mat6 released = at_radius(covariance, radius_m);
   for (int i = 0; i < hold.axes.count; ++i) {
     const double variance = hold.sigma_m[i] * hold.sigma_m[i];
     const double least = variance * variance / (anywhere_m * anywhere_m);
@@ -141,7 +137,7 @@ Mat6 release_slack(double radius_m, const Hold& hold, const Mat6& covariance) {
     const bool is_rounding = shown < kRounding * anywhere_m * anywhere_m;
     released += column * column.transpose() / (is_rounding ? least : larger(shown, least));
   }
-  return scaled(scale.cwiseInverse(), released);
+  return at_radius(released, 1 / radius_m);
 }
 
 Vec6 narrow_hold(const Mission& mission, const PoseBelief& belief, Hold& hold) {

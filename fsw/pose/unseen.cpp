@@ -32,8 +32,7 @@ Mat6 covariance_of_hits(double radius_m, const Mat6& H, double scale, Directions
   unseen.count = 0;
   Mat6 covariance;
   invariant(invert6(H, covariance) == Status::kOk, "information that was solved for a step has an inverse");
-  const Vec6 to_radius = radius_scale(radius_m);
-  const Mat6 scaled = to_radius.asDiagonal() * covariance * to_radius.asDiagonal();
+  const Mat6 scaled = at_radius(covariance, radius_m);
   const double prior = prior_within(radius_m, H);
   if (scaled.trace() * prior < kPriorCounts) return scale * covariance;
   const Eigen6 eigen = eigen6(scaled);
@@ -46,8 +45,7 @@ Mat6 covariance_of_hits(double radius_m, const Mat6& H, double scale, Directions
     const double variance = is_unseen ? anywhere_m * anywhere_m : variance_without(prior, eigen.values[i], scale);
     whole += variance * direction * direction.transpose();
   }
-  const Vec6 from_radius = to_radius.cwiseInverse();
-  return from_radius.asDiagonal() * whole * from_radius.asDiagonal();
+  return at_radius(whole, 1 / radius_m);
 }
 
 bool forget_unseen(double radius_m, const Directions& unseen, Label& label) {

@@ -19,12 +19,8 @@ constexpr double kMixed = 0.25;            // variance of a mixture of two equal
 constexpr double kBeyond = 1.25;           // of the way to a rival: it is found again although the pose has moved
 constexpr double kFarthest = 3.15;         // of the radius: half a turn; a prior that knows less says nothing
 constexpr int kTrialPasses = 2;
-constexpr PassKind kTrialPass{2, Lookup::kWalk};
-
-Mat6 scaled(double radius_m, const Mat6& covariance) {
-  const Vec6 scale = radius_scale(radius_m);
-  return scale.asDiagonal() * covariance * scale.asDiagonal();
-}
+constexpr PassKind kTrialPass{4, Lookup::kWalk};
+constexpr PassKind kTrialCost{2, Lookup::kWalk};
 
 double length_m(const Mission& mission, const Vec6& step) {
   return square_root(step.cwiseProduct(radius_scale(mission.radius_m)).squaredNorm());
@@ -56,7 +52,7 @@ struct WeakAxis {
   Directions unseen;
   weak.covariance = covariance_of_hits(mission.radius_m, near.H, 1, unseen);
   weak.information = near.H;
-  const Eigen6 eigen = eigen6(scaled(mission.radius_m, weak.covariance));
+  const Eigen6 eigen = axes_at_radius(weak.covariance, mission.radius_m);
   weak.axis = eigen.vectors.col(5);
   weak.sigma_m = square_root(eigen.values[5]);
 }
@@ -68,7 +64,7 @@ double kernel_width_m(const Mission& mission, const Workspace& workspace) {
 
 [[gnu::noinline]] double reach_of(const Mission& mission, const PriorPose& prior, const HitSolution& near, const WeakAxis& weak,
                                   const Workspace& workspace) {
-  const double prior_m = kSigmas * square_root(weak.axis.dot(scaled(mission.radius_m, prior.covariance) * weak.axis));
+  const double prior_m = kSigmas * square_root(weak.axis.dot(at_radius(prior.covariance, mission.radius_m) * weak.axis));
   const double loose_m = prior_m > mission.parameters.gate_first_m ? prior_m : 0;
   const double unexplained_m = explained_share(near) < kExplainedShare ? kernel_width_m(mission, workspace) : 0;
   return clamp(larger(larger(loose_m, prior.rival_m), unexplained_m), 0.0, kFarthest * mission.radius_m);
@@ -89,7 +85,7 @@ using Trials = FixedVector<Trial, kWeakAxisKept>;
 Trial try_from(const Mission& mission, const Pose& place, double longest_m, Workspace& workspace) {
   Trial trial{place};
   draw(mission, longest_m, workspace, trial.T_target_sensor);
-  trial.cost = cost_of_hits(mission, trial.T_target_sensor, workspace);
+  trial.cost = cost_of_hits(mission, trial.T_target_sensor, workspace, kTrialCost);
   return trial;
 }
 
@@ -110,7 +106,8 @@ bool is_apart(const WeakAxis& weak, const Vec6& step) { return step.dot(weak.inf
 
 void try_all(const Mission& mission, const HitSolution& near, const WeakAxis& weak, double reach_m, Workspace& workspace, Trials& kept) {
   const double step_m = larger(reach_m / kWeakAxisSteps, kSigmas * weak.sigma_m);
-  const double hopeless = mean_cost(near) + kHopeless / near.usable;
+  if (step_m > reach_m) return;
+  const double hopeless = cost_of_hits(mission, near.T_target_sensor, workspace, kTrialCost) + kHopeless / near.usable;
   const Vec6 step = step_m * weak.axis.cwiseQuotient(radius_scale(mission.radius_m));
   for (int k = 1; k <= kWeakAxisSteps && k * step_m <= reach_m; ++k) {
     for (const double way : {k, -k}) {
@@ -196,7 +193,7 @@ Mat6 with_rivals(const LineSearch& search, const Mat6& covariance) {
 
 void widen_weak_axes(const Mission& mission, const HitSolution& hits, double scale, Workspace& workspace, Mat6& covariance,
                      Directions& unseen) {
-  const Eigen6 eigen = eigen6(scaled(mission.radius_m, covariance));
+  const Eigen6 eigen = axes_at_radius(covariance, mission.radius_m);
   const double anywhere_m = kUnseenSigma * mission.radius_m;
   for (int i = 5; i >= 0; --i) {
     const double sigma_m = square_root(eigen.values[i]);

@@ -3,8 +3,8 @@
 // poses along such an axis are tried, and what they cost is compared.
 //
 // Axes are eigenvectors of the hits' covariance over (rotation * radius, translation), target axes. Lengths along them are metres at the
-// model's radius. A cost is that of all returns (mean_cost times their number): squared sigmas, so that a difference is twice the logarithm
-// of a likelihood ratio.
+// model's radius. A cost is that of all returns (mean_cost times their number; of a trial the mean of half of them): squared sigmas, so
+// that a difference is twice the logarithm of a likelihood ratio.
 #pragma once
 
 #include "fsw/core/fixed_vector.hpp"
@@ -21,7 +21,7 @@ struct PriorPose {
   double rival_m = 0;              // LineSearch::rival_m of the scan before
 };
 
-constexpr int kWeakAxisSteps = 8;         // each way
+constexpr int kWeakAxisSteps = 6;         // each way
 constexpr std::size_t kWeakAxisKept = 2;  // poses of a line that are registered
 
 struct LineSearch {
@@ -36,7 +36,7 @@ struct LineSearch {
 // returns are unexplained; not farther than half a turn at the model's radius. From each place two passes are taken, and the poses with the
 // two lowest costs are registered. One within five sigmas of the prior, or within `prior.rival_m`, takes the place of the best where it
 // costs less, and is a rival where the costs differ by less than 25: five sigmas. Bound: of 2 * kWeakAxisSteps places kTrialPasses passes
-// over half of the points and one over all, and kWeakAxisKept times register_first.
+// over a quarter of the points and one over half, and kWeakAxisKept times register_first.
 void search_weak_axis(const Mission& mission, const PriorPose& prior, Workspace& workspace, LineSearch& search);
 
 // The covariance of a mixture of the best pose and its rivals in equal parts, about the best pose's. `covariance` is that of each of them.

@@ -7,11 +7,11 @@
 #include <exception>
 
 #include "fsw/geometry/symmetric6.hpp"
+#include "fsw/pose/agreement.hpp"
 #include "fsw/pose/estimator.hpp"
 #include "fsw/pose/gauss_newton.hpp"
 #include "fsw/pose/labels.hpp"
 #include "fsw/pose/prepare.hpp"
-#include "fsw/pose/quality.hpp"
 #include "fsw/pose/register.hpp"
 #include "fsw/pose/silhouette.hpp"
 #include "ft/bench/scans.hpp"
@@ -85,7 +85,8 @@ void labels_stage(Bench& b) { find_labels(b.mission(), b.hits.T_target_sensor, b
 void apply_stage(Bench& b) { apply_labels(b.workspace.labels.span(), b.mission().parameters, b.belief); }
 
 void agreement_stage(Bench& b) {
-  benchmark::DoNotOptimize(hit_miss_agreement(b.mission(), b.hits.T_target_sensor, b.hits.inliers, b.hits.usable, true, b.workspace));
+  const Expectation expectation(b.mission(), b.hits.T_target_sensor, {});
+  benchmark::DoNotOptimize(agreement_of_rays(b.mission(), expectation, true, b.workspace));
 }
 
 // One pass over all points at the registered pose: every ray walks through the field, nothing is remembered from the pass before.
@@ -128,7 +129,7 @@ struct Stage {
 constexpr Stage kStages[] = {{"estimate/hits", next_scan, estimate_hits},       {"estimate/silhouettes", next_scan, estimate_silhouettes},
                              {"prepare_rays", next_scan, prepare_stage},        {"register_hits", until_prepared, register_stage},
                              {"walk_all_points", until_registered, walk_stage}, {"find_labels", until_search, labels_stage},
-                             {"apply_labels", until_labelled, apply_stage},     {"hit_miss_agreement", until_registered, agreement_stage}};
+                             {"apply_labels", until_labelled, apply_stage},     {"agreement_of_rays", until_registered, agreement_stage}};
 
 std::unique_ptr<Bench> make_bench(const char* mission_file) {
   const mdat::CompiledMission mission = mdat::compile_mission(mission_file);

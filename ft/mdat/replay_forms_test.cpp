@@ -175,8 +175,9 @@ TEST_F(ReplayForms, LeavesOutRowsWithoutAMeasurement) {
 TEST_F(ReplayForms, ChecksTheStartOfAClosedLoopWithinOneScan) {
   VERIFIES("LASSO-MDT-073~1");
   work.write_mission({{"check = false", "check = true"}});
-  const Answer answer =
-      work.mdat("replay --force missions/test.toml --scans rec/4m/scans --initial rec/4m/poses.csv --closed-loop -o out.csv");
+  const Answer answer = work.mdat(
+      "replay --force missions/test.toml --scans rec/4m/scans --initial rec/4m/poses.csv --closed-loop --set "
+      "sensor.dropout_probability=0.2 -o out.csv");
   EXPECT_EQ(answer.exit_code, 0) << answer.err;
   expect_near_truth(table(work.read("out.csv")), 1e-3, 0.002);
 }

@@ -220,15 +220,16 @@ std::string simulated_angle_fault(const Subject& s) {
 std::string outlier_fault(const Subject& s) {
   const double outliers = s.scenario->outlier_probability;
   const double explained = kOnTarget * (1 - outliers) / (kOnTarget * (1 - outliers) + outliers);
-  const double asked = std::max(s.p.start_inlier_share_min, std::min(1.0, s.p.inlier_share_min + s.p.hysteresis));
+  const double asked = std::max({s.p.start_inlier_share_min, std::min(1.0, s.p.inlier_share_min + s.p.hysteresis), s.p.agreement_min});
   if (outliers == 0 || explained >= asked) return "";
   return "with half of the rays on the target a pose then explains " + percent_text(explained) +
-         " of the returns, and a start has to explain " + percent_text(asked) + ": lower start.inlier_share_min (" +
-         figure(s.p.start_inlier_share_min) + ") or tracking.inlier_share_min (" + figure(s.p.inlier_share_min) + ")";
+         " of the returns, and a start has to explain " + percent_text(asked) + ": lower what asks for more of start.inlier_share_min (" +
+         figure(s.p.start_inlier_share_min) + "), tracking.inlier_share_min (" + figure(s.p.inlier_share_min) +
+         ") and tracking.agreement_min (" + figure(s.p.agreement_min) + ")";
 }
 
 std::string dropout_fault(const Subject& s) {
-  if (s.scenario->dropout_probability <= s.p.dropout_probability + 0.1) return "";
+  if (s.scenario->dropout_probability <= s.p.dropout_probability + 1 - s.p.agreement_min) return "";
   return "of the simulated rays " + percent_text(s.scenario->dropout_probability) +
          " drop out, and of those that sensor.dropout_probability tells of " + percent_text(s.p.dropout_probability) +
          ": misses on the target count against its poses";
@@ -331,8 +332,8 @@ const Rules& scenario_rules() {
     {kWarning, kScenario, kTarget, {"estimation.deskew", "spin_degps"}, smear_fault},
     {kWarning, kScenario, kValues, {"sigma_k_per_m", "sigma0_m", "sensor.sigma_k_per_m", "sensor.sigma0_m"}, simulated_noise_fault},
     {kWarning, kScenario, kValues, {"angle_noise_rad", "sensor.sigma_angle_rad"}, simulated_angle_fault},
-    {kWarning, kScenario, kValues, {"outlier_probability", "start.inlier_share_min", "tracking.inlier_share_min"}, outlier_fault},
-    {kWarning, kScenario, kValues, {"dropout_probability", "sensor.dropout_probability"}, dropout_fault},
+    {kWarning, kScenario, kValues, {"outlier_probability", "start.inlier_share_min", "tracking.inlier_share_min", "tracking.agreement_min"}, outlier_fault},
+    {kWarning, kScenario, kValues, {"dropout_probability", "sensor.dropout_probability", "tracking.agreement_min"}, dropout_fault},
     {kWarning, kScenario, kValues, {"dropout_incidence_deg"}, grazing_fault},
     {kWarning, kScenario, kValues, {"kind"}, idle_keys_fault},
   };

@@ -122,8 +122,7 @@ std::string doubtful_section(Plotter& plotter, const sim::RayCaster& target, con
   const std::vector<ScanPanel> panels = panels_of(table);
   if (panels.empty()) return html;
   return html + figure(scan_view(plotter, target, panels, false),
-                       "The first of these scans, wrong ones first. The model is drawn at the estimated pose. Colour: measured minus "
-                       "predicted range of each return; grey: rays that missed.");
+                       std::string("The first of these scans, wrong ones first. The model is drawn at the estimated pose. ") + kScanLegend);
 }
 
 std::vector<Curve> doubtful_marks(const VariantResult& variant, double abscissa_step) {

@@ -107,11 +107,10 @@ std::vector<ScanPanel> shown_panels(const TableResult& table) {
 
 std::string scans_figure(Plotter& plotter, const sim::RayCaster& target, const TableResult& table) {
   if (shown_scans(table).empty() || table.scenario.has_profile()) return "";
-  const std::string caption = format(
-      "The scan on the target at %g m, as the sensor sees it. The model is drawn at the estimated pose. Colour: measured minus predicted "
-      "range of each return; grey: rays that missed, which locate the outline%s.",
-      table.scenario.runs_m()[shown_range(table.scenario)],
-      main_variant(table).parameters.aimed_share > 0 ? "; violet: rays aimed at contours" : "");
+  const std::string caption =
+      format("The scan on the target at %g m, as the sensor sees it. The model is drawn at the estimated pose. %s%s",
+             table.scenario.runs_m()[shown_range(table.scenario)], kScanLegend,
+             main_variant(table).parameters.aimed_share > 0 ? " Violet: rays aimed at contours." : "");
   return figure(scan_view(plotter, target, shown_panels(table), true), caption);
 }
 

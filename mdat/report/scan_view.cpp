@@ -118,15 +118,17 @@ std::string aimed_text(const KeptScan& scan) {
   return text;
 }
 
-std::string points_text(const KeptScan& scan, RayState state, const sim::RayCaster& target, const Pose& pose) {
+// Rays of the pattern that met something, or nothing, where the model, at this pose, is, or is not. With them measured minus predicted
+// range, mm; of those that lack one of both 0.
+std::string points_text(const KeptScan& scan, RayState state, bool on_model, const sim::RayCaster& target, const Pose& pose) {
   std::string text;
   for (std::size_t i = 0; i < scan.samples.size(); ++i) {
     const RangeSample& sample = scan.samples[i];
-    if (is_aimed(scan, i)) continue;
-    if (sample.state != state) continue;
+    if (is_aimed(scan, i) || sample.state != state) continue;
     const Vec3 u = direction_of(sample);
-    const double residual = state == RayState::kHit ? residual_m(target, pose, sample) : 0;
-    if (!std::isnan(residual)) text += format("%.5f %.5f %.4f\n", u.x() / u.z(), u.y() / u.z(), 1e3 * residual);
+    const double residual = residual_m(target, pose, sample);
+    if (std::isnan(residual) == on_model) continue;
+    text += format("%.5f %.5f %.4f\n", u.x() / u.z(), u.y() / u.z(), on_model && state == RayState::kHit ? 1e3 * residual : 0);
   }
   return text;
 }
@@ -156,8 +158,11 @@ std::string draw(Plotter& plotter, const sim::RayCaster& target, const ScanPanel
   const KeptScan& scan = *panel.scan;
   const Pose pose = registration_pose(scan.telemetry);
   const std::string image = plotter.data(render(target, pose, view));
-  const std::string misses = plotter.data(points_text(scan, RayState::kMiss, target, pose) + "\n");
-  const std::string hits = plotter.data(points_text(scan, RayState::kHit, target, pose) + "\n");
+  const auto points = [&](RayState state, bool on_model) { return plotter.data(points_text(scan, state, on_model, target, pose) + "\n"); };
+  const std::string misses = points(RayState::kMiss, false);
+  const std::string hits = points(RayState::kHit, true);
+  const std::string holes = points(RayState::kMiss, true);
+  const std::string strays = points(RayState::kHit, false);
   const double z_m = (pose * panel.center_m).z();
   const std::string aimed = plotter.data(aimed_text(scan) + "\n");
   std::string text = "set title \"" + panel.title + "\"\n";
@@ -170,6 +175,8 @@ std::string draw(Plotter& plotter, const sim::RayCaster& target, const ScanPanel
                  view.width, view.height, dx, dy, z_m * (view.x - view.half_x) + dx / 2, z_m * (view.y - view.half_y) + dy / 2);
   text += format("%s using ($1*%.5f):($2*%.5f) with points pt 7 ps 0.3 lc rgb '#b6bec9' notitle, ", misses.c_str(), z_m, z_m);
   text += format("%s using ($1*%.5f):($2*%.5f):3 with points pt 7 ps 0.5 lc palette notitle, ", hits.c_str(), z_m, z_m);
+  text += format("%s using ($1*%.5f):($2*%.5f) with points pt 6 ps 0.6 lc rgb '#101418' notitle, ", holes.c_str(), z_m, z_m);
+  text += format("%s using ($1*%.5f):($2*%.5f) with points pt 2 ps 0.6 lc rgb '#101418' notitle, ", strays.c_str(), z_m, z_m);
   return text + format("%s using ($1*%.5f):($2*%.5f) with points pt 7 ps 0.3 lc rgb '#7a2fb5' notitle\n", aimed.c_str(), z_m, z_m);
 }
 

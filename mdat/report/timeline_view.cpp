@@ -229,8 +229,7 @@ std::string scan_figures(Plotter& plotter, const sim::RayCaster& target, const S
     if (panels.empty()) continue;
     html += figure(scan_view(plotter, target, panels, false),
                    "Scans by the sensor " + escape(plain(result.sensors[sensor])) +
-                       ", at the ranges of the target's centre. The model is drawn at the estimated pose. Colour: measured minus predicted "
-                       "range of each return; grey: rays that missed.");
+                       ", at the ranges of the target's centre. The model is drawn at the estimated pose. " + kScanLegend);
   }
   return html.empty() ? html : "<h2>Scans</h2>\n" + html;
 }

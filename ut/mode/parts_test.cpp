@@ -95,7 +95,7 @@ TEST_F(RegisterPartTest, WeakDirectionsAreTheTargetsWhetherThePoseIsValidOrNot) 
   parts_[1].mission.parameters.agreement_min = 1.5;  // no scan reaches it
   const Registration refused = measure(noisy_scan(), 1, Vec6::Zero());
   ASSERT_TRUE(valid.valid());
-  EXPECT_EQ(refused.reason, PoseReason::kLowAgreement);
+  EXPECT_EQ(refused.reason, PoseReason::kModelMismatch);
   EXPECT_EQ(refused.weak, valid.weak);
   EXPECT_EQ(refused.weakest_sigma_m, valid.weakest_sigma_m);
   EXPECT_EQ(refused.weakest_direction, valid.weakest_direction);

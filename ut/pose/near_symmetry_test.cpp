@@ -88,6 +88,23 @@ TEST_F(NearSymmetryTest, ThereIsNoTwinWithoutSymmetryOrReturns) {
   EXPECT_FALSE(has_better(kAnyMargin, truth()));
 }
 
+TEST_F(NearSymmetryTest, MissesCountWhereTheyAreKnownAndThereAreAny) {
+  VERIFIES("LASSO-MOD-183~2 LASSO-REG-009~1");
+  const auto is_better = [this](double margin, const Pose& pose, bool misses_known) {
+    return has_twin_better_by(mission_, margin, pose, misses_known, *workspace_);
+  };
+  scan();
+  EXPECT_TRUE(is_better(-0.1, truth(), false));
+  EXPECT_FALSE(is_better(0.1, truth(), false));
+  for (ScanRay<FlightNumber>& ray : workspace_->rays) ray.state = RayState::kHit;
+  EXPECT_TRUE(is_better(-0.1, truth(), true));
+  EXPECT_FALSE(is_better(0.1, truth(), true));
+  Pose away = truth();
+  away.p += Vec3(0, 0, 3);
+  for (MatchPoint<FlightNumber>& point : workspace_->points) point.aimed = true;  // none of them has to meet anything
+  EXPECT_FALSE(is_better(0.1, away, false)) << "where nothing is met no twin is better";
+}
+
 // Half a turn about the larger box explains most of the scan, and the right pose all of it.
 TEST_F(NearlySymmetricTest, TheRightPoseHasTheAdvantageOverItsTwins) {
   VERIFIES("LASSO-MOD-183~2");

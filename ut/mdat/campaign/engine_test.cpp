@@ -5,6 +5,7 @@
 #include <sys/resource.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <map>
@@ -295,10 +296,14 @@ TEST(CampaignEngine, KilledAtRandomItGivesTheSameInTheEnd) {
   VERIFIES("LASSO-GND-090~1 LASSO-GND-091~1 LASSO-GND-062~1");
   constexpr int kKills = 100;
   constexpr std::uint32_t kCases = 3000;
-  const ChunkFolder folder, trial;
-  const auto begin = std::chrono::steady_clock::now();
-  ASSERT_EQ(status_of(start_engine(options_of(trial, 20, 2), flies_in(std::chrono::microseconds(500)))), 0);
-  const std::chrono::duration<double> time_of_20 = std::chrono::steady_clock::now() - begin;
+  const ChunkFolder folder;
+  std::chrono::duration<double> time_of_20 = std::chrono::hours(1);
+  for (int i = 0; i < 3; ++i) {  // the shortest of three, on a machine that has other work
+    const ChunkFolder trial;
+    const auto begin = std::chrono::steady_clock::now();
+    ASSERT_EQ(status_of(start_engine(options_of(trial, 20, 2), flies_in(std::chrono::microseconds(500)))), 0);
+    time_of_20 = std::min<std::chrono::duration<double>>(time_of_20, std::chrono::steady_clock::now() - begin);
+  }
   test::Generator random(33);
   for (int i = 0; i < kKills; ++i) {
     const pid_t process = start_engine(options_of(folder, kCases, 2), flies_in(std::chrono::microseconds(500)));

@@ -91,11 +91,11 @@ TEST_F(ScenarioRules, TheSimulatedSensorIsTheOneThatIsAssumed) {
   expect_scenario_edge(kSpin + "noise = false\nsigma0_m = 0.05", kSpin + "sigma0_m = 0.05", "warning: ", "18 times");
   expect_scenario_edge(kSpin + "angle_noise_rad = 1.6e-4", kSpin + "angle_noise_rad = 1e-3", "scenario.s.angle_noise_rad: 0.001",
                        "by 5 mm at 5 m");
-  expect_scenario_edge(kSpin + "dropout_probability = 0.1", kSpin + "dropout_probability = 0.2", "scenario.s.dropout_probability: 0.2",
+  expect_scenario_edge(kSpin + "dropout_probability = 0.01", kSpin + "dropout_probability = 0.2", "scenario.s.dropout_probability: 0.2",
                        "20 % drop out");
-  // (1 - 0.05) / (1 + 0.05) is 90.5 %
-  expect_scenario_edge(kSpin + "outlier_probability = 0.05", kSpin + "outlier_probability = 0.2", "scenario.s.outlier_probability: 0.2",
-                       "explains 66.7 % of the returns, and a start has to explain 90 %");
+  // (1 - 0.005) / (1 + 0.005) is 99 %
+  expect_scenario_edge(kSpin + "outlier_probability = 0.005", kSpin + "outlier_probability = 0.2", "scenario.s.outlier_probability: 0.2",
+                       "explains 66.7 % of the returns, and a start has to explain 99 %");
 }
 
 TEST_F(ScenarioRules, KeysThatHaveNoEffectAreTold) {
