@@ -71,7 +71,7 @@ const ParameterRow kRows[] = {
   {"tracking.sigma_attitude_max_deg", "deg", kReal, &P::sigma_attitude_max_rad, kDeg, 1e-6, 180, 2, "", "an axis less certain than this is weak"},
   {"tracking.innovation_max", "1", kReal, &P::innovation_max, 1, 3, 1000, 5, "", "a pose this many sigmas off the filter's prediction is implausible"},
   {"tracking.coast_frames", "1", kInteger, &P::coast_frames, 1, 0, 1000, 10, "", "frames without a valid pose before the track is lost"},
-  {"tracking.hysteresis", "1", kReal, &P::hysteresis, 1, 0, 0.5, 0.02, "", "a track begins, or is taken up again, with this much more than the least share of explained returns"},
+  {"tracking.hysteresis", "1", kReal, &P::hysteresis, 1, 0, 0.5, 0.02, "", "a track begins, or is taken up again, with this much more than the least share of explained returns and agreement"},
   {"tracking.recover", "1", kBoolean, &P::recover, 1, 0, 1, 0, "", "look for a target that is lost: near the prediction, then its bearing"},
   {"tracking.reacquire_frames", "1", kInteger, &P::reacquire_frames, 1, 0, 10000, 25, "", "frames for which it is looked for near the prediction"},
   {"start.frames", "1", kInteger, &P::start_frames, 1, 0, 10000, 10, "", "frames in which a scan has to confirm a pose to start from"},

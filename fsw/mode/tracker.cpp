@@ -39,11 +39,15 @@ bool far_from(const FilterState& filter, const Registration& registration, doubl
 // A least share, raised; a scan without any fault always passes.
 double raised(double least, double by) { return least + by < 1 ? least + by : 1; }
 
+// The least agreement, raised, but not farther than to half as many contradicting rays: few right poses have none.
+double agreement_to_begin(double least, double by) { return least + clamp(by, 0.0, 0.5 * (1 - least)); }
+
 // A registration that is valid by itself: do its shares let this mode take it, and in a start the prediction?
 PoseReason confirm(const MissionParameters& p, const ModeProperties& mode, bool starts, const FilterState& filter,
                    const Registration& registration) {
   if (!mode.takes_up) return PoseReason::kValid;
   if (!(registration.inlier_share >= raised(p.inlier_share_min, p.hysteresis))) return PoseReason::kLowInlierShare;
+  if (!(registration.agreement >= agreement_to_begin(p.agreement_min, p.hysteresis))) return PoseReason::kModelMismatch;
   if (!starts) return PoseReason::kValid;
   if (!(registration.inlier_share >= p.start_inlier_share_min)) return PoseReason::kLowInlierShare;
   return far_from(filter, registration, p.start_gate) ? PoseReason::kFarFromStart : PoseReason::kValid;

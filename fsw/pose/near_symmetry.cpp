@@ -39,8 +39,13 @@ MissSample sample_misses(const Mission& mission, const Pose& T_target_sensor, co
   return sample;
 }
 
-// Share of rays whose hit or miss is as the pose predicts: inliers and unexplained returns from the registration, and a sample of the
-// misses.
+double cost_of(const Mission& mission, const HitSolution& hits, bool misses_known, const Workspace& workspace) {
+  const double agreement = hit_miss_agreement(mission, hits.T_target_sensor, hits.inliers, hits.usable, misses_known, workspace);
+  return mean_cost(hits) + kUnexplainedCost * (1 - agreement);
+}
+
+}  // namespace
+
 double hit_miss_agreement(const Mission& mission, const Pose& T_target_sensor, std::uint32_t inliers, std::uint32_t returns,
                           bool misses_known, const Workspace& workspace) {
   double agreeing = inliers;
@@ -55,13 +60,6 @@ double hit_miss_agreement(const Mission& mission, const Pose& T_target_sensor, s
   }
   return all > 0 ? agreeing / all : 0;
 }
-
-double cost_of(const Mission& mission, const HitSolution& hits, bool misses_known, const Workspace& workspace) {
-  const double agreement = hit_miss_agreement(mission, hits.T_target_sensor, hits.inliers, hits.usable, misses_known, workspace);
-  return mean_cost(hits) + kUnexplainedCost * (1 - agreement);
-}
-
-}  // namespace
 
 Pose twin_of(const NearSymmetry<N>& symmetry, const Pose& T_target_sensor) {
   Pose motion;

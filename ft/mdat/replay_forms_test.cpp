@@ -282,6 +282,16 @@ void write_changed(const WorkFolder& work, const std::string& folder, const Chan
 }
 
 // What the sensor at (0.5, -0.3, 0.2) of a frame with axes forward, right, down writes of returns there; of misses their directions.
+TEST_F(ReplayForms, TellsHowManyRaysContradict) {
+  VERIFIES("LASSO-MDT-075~1 LASSO-REG-029~1");
+  work.write_mission({});
+  const std::string scans = "replay --force missions/test.toml --scans rec/4m/scans --initial rec/4m/poses.csv -o out.csv";
+  const Answer answer = work.mdat(scans);  // a fifth of the rays drops out, which the mission does not state
+  EXPECT_NE(answer.err.find("warning: of 8 scans rays contradict the pose: as many as 2"), std::string::npos) << answer.err;
+  EXPECT_NE(answer.err.find("tracking.agreement_min allows 1 %"), std::string::npos) << answer.err;
+  EXPECT_EQ(work.mdat(scans + " --set sensor.dropout_probability=0.2").err.find("contradict"), std::string::npos);
+}
+
 TEST_F(ReplayForms, ReadsOtherAxesFromASensorThatStandsAside) {
   VERIFIES("LASSO-MDT-077~1");
   write_changed(work, "frd", [](Row& row) {

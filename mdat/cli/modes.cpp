@@ -42,7 +42,8 @@ The columns of the first table:
   the prediction within `start.gate`. No near-symmetry of it may explain the scan better by `start.twin_margin`. A pose that explains 99 % of the returns
   is not compared with its near-symmetries. Where `start.check` is set, and its attitude is stated no better than 3° (1 sigma), its scan is searched. The start is `unchecked` until the search has found no
   better pose. Where that search is not sure, another scan is searched, too.
-- **takes up**: the share of returns that a valid pose explains has to exceed the limit of tracking by `tracking.hysteresis`.
+- **takes up**: the share of returns that a valid pose explains, and its agreement, have to exceed the limits of tracking by `tracking.hysteresis`. The
+  agreement has to by no more than half of what is missing to 1.
 - **awaits a start**: the next untried pose to start from is taken, in the mission's order `start.first` to `start.fifth`. Search has its turn in bearing,
   once the bearing is known.
 

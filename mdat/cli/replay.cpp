@@ -117,6 +117,7 @@ void run(ReplayArguments options) {
   const std::vector<ReplayedScan> scans = replay(image.mission(), options.replay, input);
   write_file(options.out, replay_csv(scans));
   tell(noise_notes(image.mission(), input, scans));
+  tell(mismatch_notes(image.mission(), scans));
   tell(truth_notes(input.truth, judged(scans)));
   std::fputs((replay_summary(scans) + options.out + ": written\n").c_str(), stdout);
 }

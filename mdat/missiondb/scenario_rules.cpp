@@ -237,8 +237,11 @@ std::string dropout_fault(const Subject& s) {
 
 std::string grazing_fault(const Subject& s) {
   const double returning = std::pow(std::sin(s.scenario->dropout_incidence_rad), 2);
-  if (returning >= kReturning) return "";
-  return "of the rays on a round target " + percent_text(returning) + " return" +
+  const bool counts = s.scenario->dropout_incidence_rad < s.p.incidence_max_rad && returning < s.p.agreement_min;
+  if (returning >= kReturning && !counts) return "";
+  const std::string counting =
+      "; misses on the target count against its poses, up to estimation.incidence_max_deg, which is " + degrees_text(s.p.incidence_max_rad);
+  return "of the rays on a round target " + percent_text(returning) + " return" + (counts ? counting : "") +
          (s.scenario->dropout_incidence_rad < kRadians_rad ? "; in radians? " + figure(s.scenario->dropout_incidence_rad / kRadPerDeg) +
                                                                  " rad are " + degrees_text(s.scenario->dropout_incidence_rad / kRadPerDeg)
                                                            : "");
@@ -334,7 +337,7 @@ const Rules& scenario_rules() {
     {kWarning, kScenario, kValues, {"angle_noise_rad", "sensor.sigma_angle_rad"}, simulated_angle_fault},
     {kWarning, kScenario, kValues, {"outlier_probability", "start.inlier_share_min", "tracking.inlier_share_min", "tracking.agreement_min"}, outlier_fault},
     {kWarning, kScenario, kValues, {"dropout_probability", "sensor.dropout_probability", "tracking.agreement_min"}, dropout_fault},
-    {kWarning, kScenario, kValues, {"dropout_incidence_deg"}, grazing_fault},
+    {kWarning, kScenario, kValues, {"dropout_incidence_deg", "estimation.incidence_max_deg", "tracking.agreement_min"}, grazing_fault},
     {kWarning, kScenario, kValues, {"kind"}, idle_keys_fault},
   };
   // clang-format on

@@ -274,4 +274,18 @@ Notes noise_notes(const Mission& mission, const ReplayInput& input, const std::v
   return {"note: " + figures + ": a noise stated far too large makes gates too wide beside edges"};
 }
 
+Notes mismatch_notes(const Mission& mission, const std::vector<ReplayedScan>& scans) {
+  std::vector<double> contradicting;
+  for (const ReplayedScan& scan : scans) {
+    if (scan.registration.reason == PoseReason::kModelMismatch) contradicting.push_back(1 - scan.registration.agreement);
+  }
+  if (2 * contradicting.size() <= scans.size()) return {};
+  const double most = *std::max_element(contradicting.begin(), contradicting.end());
+  return {format(
+      "warning: of %s rays contradict the pose: as many as %.2g %% of the returns (median), at most %.2g %%; "
+      "tracking.agreement_min allows %.2g %%. Is the target as it was modelled? If so, the sensor has outliers or drop-outs that "
+      "are not stated, its rays do not begin in one point, or the model lacks parts: then lower it, at the price of mismatch",
+      amount(contradicting.size(), "scan").c_str(), 100 * median(contradicting), 100 * most, 100 * (1 - mission.parameters.agreement_min))};
+}
+
 }  // namespace lasso::mdat

@@ -20,4 +20,7 @@ Notes reading_notes(const Mission& mission, const ReplayOptions& options, const 
 // Are the residuals much larger, or smaller, than the mission's noise makes them? With the noise that they show.
 Notes noise_notes(const Mission& mission, const ReplayInput& input, const std::vector<ReplayedScan>& scans);
 
+// Do rays contradict most of the poses? With the shares that do, and what tells the causes apart.
+Notes mismatch_notes(const Mission& mission, const std::vector<ReplayedScan>& scans);
+
 }  // namespace lasso::mdat

@@ -186,6 +186,30 @@ TEST_F(TrackerTest, BeginningATrackTakesMoreThanKeepingIt) {
   EXPECT_TRUE(flawless.valid()) << "a scan of which all is explained always passes";
 }
 
+TEST_F(TrackerTest, BeginningATrackTakesHalfTheContradictionsThatKeepIt) {
+  VERIFIES("LASSO-MOD-135~2");
+  MissionParameters p = test::box_parameters(scene_);
+  p.start_inlier_share_min = p.agreement_min = p.inlier_share_min = 0;
+  p.hysteresis = 0.5;
+  load(p);
+  start(small_error());
+  ASSERT_TRUE(track(0).registration.valid());
+  spoiled_ = true;
+  const double agreement = track(1).registration.agreement;
+  ASSERT_LT(agreement, 0.99);
+  mission_.parameters.agreement_min = 2 * agreement - 1 + 0.5 * (1 - agreement);
+  EXPECT_TRUE(track(2).registration.valid()) << "the track holds";
+  miss(3);
+  EXPECT_EQ(track(4).registration.reason, PoseReason::kModelMismatch) << "it is not taken up";
+  EXPECT_EQ(state_.mode, TrackingMode::kCoasting);
+  mission_.parameters.hysteresis = 0.1 * (1 - agreement);
+  EXPECT_TRUE(track(5).registration.valid()) << "raised by less";
+  miss(6);
+  mission_.parameters.hysteresis = 0.5;
+  mission_.parameters.agreement_min = 2 * agreement - 1 - 0.5 * (1 - agreement);
+  EXPECT_TRUE(track(7).registration.valid()) << "and by no more than half";
+}
+
 // A filter that nobody has heard of for too long has nothing against what a scan finds.
 TEST_F(TrackerTest, AStartThatCannotBePredictedIsConfirmedByTheScanAlone) {
   VERIFIES("LASSO-MOD-003~2");

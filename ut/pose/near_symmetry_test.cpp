@@ -7,6 +7,7 @@
 
 #include "fsw/pose/estimator.hpp"
 #include "ut/pose/search_fixture.hpp"
+#include "ut/support/generator.hpp"
 #include "ut/support/verifies.hpp"
 
 namespace lasso {
@@ -139,6 +140,104 @@ TEST_F(NearlySymmetricTest, APartOfTheReturnsIsAsked) {
   const std::size_t few = workspace_->points.size();
   (void)has_twin_better_by(mission_, 0, truth(), true, *workspace_);
   EXPECT_EQ(workspace_->points.size(), few);
+}
+
+class TwinAgreementTest : public test::PoseFixture {
+ protected:
+  // By brute force: does the box stand in the ray's way, seen from the pose?
+  bool meets(const ScanRay<FlightNumber>& ray, const Pose& T_target_sensor) const {
+    Vec3 o;
+    Vec3 u;
+    for (int i = 0; i < 3; ++i) {
+      o[i] = static_cast<double>(ray.o[i]);
+      u[i] = static_cast<double>(ray.u[i]);
+    }
+    return test::cast_box(scan_.model, T_target_sensor * o, rotate(T_target_sensor.q, u)) > 0;
+  }
+  // Misses that `pose` says should have hit, among every stride-th; and all misses.
+  double violated_share(const Pose& pose, std::size_t stride, std::size_t& misses) const {
+    double violated = 0;
+    double looked_up = 0;
+    misses = 0;
+    for (const ScanRay<FlightNumber>& ray : workspace_->rays) {
+      if (ray.state != RayState::kMiss || misses++ % stride != 0) continue;
+      looked_up += 1;
+      violated += meets(ray, pose) ? 1 : 0;
+    }
+    return violated / looked_up;
+  }
+  double agreement(const Pose& pose, std::uint32_t inliers, std::uint32_t returns, bool misses_known = true) const {
+    return hit_miss_agreement(mission_, pose, inliers, returns, misses_known, *workspace_);
+  }
+};
+
+TEST_F(TwinAgreementTest, IsTheShareOfRaysThatAreAsPredicted) {
+  VERIFIES("LASSO-MOD-183~2");
+  scan_.side = 9;
+  scan_.rates.v_mps = Vec3(0.3, -0.2, 0.5);  // rays with an origin of their own
+  int blamed = 0;
+  for (int i = 0; i < 30; ++i) {
+    scan_.T_sensor_target = test::random_box_pose(random_);
+    scan();
+    const Pose pose = inverse(test::disturb(scan_.T_sensor_target, 0.3, 0.15, random_));
+    std::size_t misses = 0;
+    const double violated = violated_share(pose, 1, misses);
+    if (misses > 63) continue;  // more are sampled
+    const auto m = static_cast<double>(misses);
+    EXPECT_NEAR(agreement(pose, 30, 40), (30 + m * (1 - violated)) / (40 + m), 1e-12);
+    blamed += violated > 0.1 ? 1 : 0;
+    mission_.parameters.dropout_probability = 0.1;
+    EXPECT_NEAR(agreement(pose, 30, 40), (30 + m * (1 - std::max(0.0, violated - 0.1))) / (40 + m), 1e-12);
+    mission_.parameters.dropout_probability = 0;
+  }
+  EXPECT_GT(blamed, 10);
+}
+
+TEST_F(TwinAgreementTest, ManyMissesAreSampledEvenly) {
+  VERIFIES("LASSO-MOD-183~2");
+  scan();
+  const Pose pose = inverse(test::disturb(scan_.T_sensor_target, 0.3, 0.15, random_));
+  std::size_t misses = 0;
+  const double all = violated_share(pose, 1, misses);
+  ASSERT_GT(misses, 300u);
+  const double sampled = violated_share(pose, misses / 64 + 1, misses);
+  EXPECT_GT(sampled, 0.02);
+  EXPECT_NEAR(sampled, all, 0.05);
+  const auto m = static_cast<double>(misses);
+  EXPECT_NEAR(agreement(pose, 300, 400), (300 + m * (1 - sampled)) / (400 + m), 1e-12);
+}
+
+TEST_F(TwinAgreementTest, IsOneAtTheTruth) {
+  VERIFIES("LASSO-MOD-183~2");
+  scan();
+  EXPECT_EQ(agreement(truth(), 400, 400), 1);
+}
+
+TEST_F(TwinAgreementTest, UnknownMissesDoNotCount) {
+  VERIFIES("LASSO-REG-009~1");
+  scan();
+  EXPECT_EQ(agreement(truth(), 30, 40, false), 0.75);
+  EXPECT_EQ(agreement(truth(), 0, 0, false), 0);
+  workspace_->rays.clear();
+  EXPECT_EQ(agreement(truth(), 30, 40, true), 0.75);
+}
+
+TEST_F(TwinAgreementTest, WhatLiesBehindTheSensorIsNotMet) {
+  VERIFIES("LASSO-MOD-183~2");
+  scan();
+  for (ScanRay<FlightNumber>& ray : workspace_->rays) ray.state = RayState::kMiss;
+  EXPECT_LT(agreement(truth(), 0, 0), 0.9);
+  Pose behind = scan_.T_sensor_target;
+  behind.p = -behind.p;
+  EXPECT_EQ(agreement(inverse(behind), 0, 0), 1);
+}
+
+TEST_F(TwinAgreementTest, WhatIsTooFarForTheFieldIsNotMet) {
+  VERIFIES("LASSO-MOD-183~2");
+  scan();
+  Pose far = scan_.T_sensor_target;
+  far.p[2] = 3e6 * scan_.model.cell_m;
+  EXPECT_EQ(agreement(inverse(far), 0, 0), 1);
 }
 
 }  // namespace

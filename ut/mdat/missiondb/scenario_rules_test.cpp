@@ -123,9 +123,12 @@ TEST_F(ScenarioRules, OfARunItsOwnScenarioIsTold) {
 TEST_F(ScenarioRules, RaysReturnFromMostOfTheTarget) {
   VERIFIES("LASSO-GND-009~1 LASSO-GND-060~1");
   // the square of the sine
-  expect_scenario_edge(kSpin + "dropout_incidence_deg = 51", kSpin + "dropout_incidence_deg = 45", "dropout_incidence_deg: 45",
+  const std::string all_graze = kSpin + "override.estimation.incidence_max_deg = 45\n";
+  expect_scenario_edge(all_graze + "dropout_incidence_deg = 51", all_graze + "dropout_incidence_deg = 45", "dropout_incidence_deg: 45",
                        "50 % return");
-  expect_scenario_edge(kSpin + "dropout_incidence_deg = 80", kSpin + "dropout_incidence_deg = 1.4", "dropout_incidence_deg: 1.4",
+  expect_scenario_edge(kSpin + "dropout_incidence_deg = 86", kSpin + "dropout_incidence_deg = 80", "dropout_incidence_deg: 80",
+                       "97 % return; misses on the target count against its poses, up to estimation.incidence_max_deg, which is 86 deg");
+  expect_scenario_edge(kSpin + "dropout_incidence_deg = 86", kSpin + "dropout_incidence_deg = 1.4", "dropout_incidence_deg: 1.4",
                        "1.4 rad are 80.2 deg");
 }
 
