@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fsw/geometry/so3.hpp"
 #include "fsw/sense/pattern.hpp"
 
 namespace lasso::sim {
@@ -38,12 +39,17 @@ struct RaySimulator::Beam {
   Pose T_sensor_target;
   Vec3 direction;  // along which the scanner truly looks
   RayDraws draws;
+  CommonErrors common;
 };
 
 RaySimulator::RaySimulator(const RayCaster& target, const Trajectory& trajectory, const ScannerModel& model, std::uint64_t seed)
-    : target_(target), trajectory_(trajectory), model_(model), seed_(seed) {
+    : target_(target), trajectory_(trajectory), model_(model), seed_(seed), common_(seed, model.common_memory_s) {
   sim::validate(model);
   cos_dropout_incidence_ = model.dropout_incidence_rad < kPi / 2 ? sin_cos(model.dropout_incidence_rad).cos : -1;
+}
+
+CommonErrors RaySimulator::common_errors(std::uint32_t scan_id, TimeUs t_us) const {
+  return has_common_errors(model_) ? common_.at(scan_id, t_us) : CommonErrors{};
 }
 
 RayHit RaySimulator::cast(const Pose& T_sensor_target, const Vec3& direction) const {
@@ -53,16 +59,19 @@ RayHit RaySimulator::cast(const Pose& T_sensor_target, const Vec3& direction) co
 
 RangeSample RaySimulator::measure(std::uint32_t scan_id, std::uint32_t ray, const Vec3& direction, TimeUs t_us) const {
   const Vec3 nominal = as_reported(direction);
-  Beam beam{trajectory_.at(t_us).T_sensor_target, nominal, draw(seed_, scan_id, ray)};
+  const CommonErrors common = common_errors(scan_id, t_us);
+  // The reported ray is turned by the error against the one that is measured.
+  const Vec3 pointed = rotate(exp_so3(-model_.common_sigma_rad * common.turn), nominal);
+  Beam beam{trajectory_.at(t_us).T_sensor_target, pointed, draw(seed_, scan_id, ray), common};
   if (beam.draws.outlier < model_.outlier_probability) {
     const double farthest_m = std::min(1.5 * beam.T_sensor_target.p.norm(), model_.range_max_m);
     const double range_m = model_.range_min_m + beam.draws.outlier_place * std::max(0.0, farthest_m - model_.range_min_m);
     return sample_of(direction, t_us, RayState::kHit, range_m);
   }
-  const Across axes = across(nominal);
+  const Across axes = across(pointed);
   const double sigma_rad = model_.sigma_angle_rad;
   if (sigma_rad > 0) {
-    beam.direction = (nominal + sigma_rad * (beam.draws.tilt_x * axes.right + beam.draws.tilt_y * axes.down)).normalized();
+    beam.direction = (pointed + sigma_rad * (beam.draws.tilt_x * axes.right + beam.draws.tilt_y * axes.down)).normalized();
   }
   const RayHit hit = cast(beam.T_sensor_target, beam.direction);
   const bool dark = t_us >= model_.dark_from_us && t_us < model_.dark_until_us;
@@ -100,7 +109,8 @@ double RaySimulator::noisy_range_m(const RayHit& hit, const Beam& beam) const {
   const bool mixing = footprint_m(model_, hit.range_m) > 0 && beam.draws.mixing < model_.edge_mixing_probability;
   const double range_m = mixing ? mixed_range_m(hit, beam) : hit.range_m;
   const double sigma_m = range_sigma_m(model_, range_m * beam.direction.z());
-  return quantised_m(range_m + sigma_m * beam.draws.range, model_.range_step_m);
+  const double common_m = (model_.common_sigma_m + model_.common_sigma_k_per_m * range_m * range_m) * beam.common.range;
+  return quantised_m(range_m + sigma_m * beam.draws.range + common_m, model_.range_step_m);
 }
 
 SimulatedScanner::SimulatedScanner(const RayCaster& target, const Trajectory& trajectory, const ScannerModel& model, std::uint64_t seed)

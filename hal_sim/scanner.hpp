@@ -3,6 +3,7 @@
 #pragma once
 
 #include "fsw/sense/sensor.hpp"
+#include "hal_sim/common_error.hpp"
 #include "hal_sim/ray_caster.hpp"
 #include "hal_sim/scanner_model.hpp"
 #include "hal_sim/trajectory.hpp"
@@ -21,6 +22,7 @@ class RaySimulator {
 
  private:
   struct Beam;
+  CommonErrors common_errors(std::uint32_t scan_id, TimeUs t_us) const;
   RayHit cast(const Pose& T_sensor_target, const Vec3& direction) const;
   bool lost(const RayHit& hit, const Beam& beam) const;
   double mixed_range_m(const RayHit& hit, const Beam& beam) const;
@@ -31,6 +33,7 @@ class RaySimulator {
   ScannerModel model_;
   std::uint64_t seed_;
   double cos_dropout_incidence_;
+  CommonErrorProcess common_;
 };
 
 class SimulatedScanner final : public Sensor {

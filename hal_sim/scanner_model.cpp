@@ -33,6 +33,10 @@ constexpr Limit kLimits[] = {
     {"beam_divergence_rad", &ScannerModel::beam_divergence_rad, 0, 0.1},
     {"edge_mixing_probability", &ScannerModel::edge_mixing_probability, 0, 1},
     {"range_step_m", &ScannerModel::range_step_m, 0, kUnbounded},
+    {"common_sigma_m", &ScannerModel::common_sigma_m, 0, kUnbounded},
+    {"common_sigma_k_per_m", &ScannerModel::common_sigma_k_per_m, 0, kUnbounded},
+    {"common_sigma_rad", &ScannerModel::common_sigma_rad, 0, 0.2},
+    {"common_memory_s", &ScannerModel::common_memory_s, 0, kUnbounded},
 };
 
 void check(const ScannerModel& model, const Limit& limit) {
@@ -44,6 +48,10 @@ void check(const ScannerModel& model, const Limit& limit) {
 }
 
 }  // namespace
+
+bool has_common_errors(const ScannerModel& model) {
+  return model.common_sigma_m > 0 || model.common_sigma_k_per_m > 0 || model.common_sigma_rad > 0;
+}
 
 void validate(const ScannerModel& model) {
   for (const Limit& limit : kLimits) check(model, limit);

@@ -27,8 +27,12 @@ struct ScannerModel {
   double beam_divergence_rad = 0;          // growth of that radius with the range, [0, 0.1]
   double edge_mixing_probability = 1;      // of a mixed range where the footprint covers two surfaces
   double range_step_m = 0;                 // quantisation of the range; 0: none
-  TimeUs dark_from_us = 0;                 // from here ...
-  TimeUs dark_until_us = 0;                // ... to before this nothing of the target is seen: kMiss
+  // What all rays of a scan have in common (common_error.hpp), 1 sigma: along each ray sigma + k R^2, and a turn about each sensor axis.
+  double common_sigma_m = 0, common_sigma_k_per_m = 0;  // >= 0
+  double common_sigma_rad = 0;                          // [0, 0.2]
+  double common_memory_s = 0;                           // in which their correlation falls to 1/e; 0: new in each scan
+  TimeUs dark_from_us = 0;                              // from here ...
+  TimeUs dark_until_us = 0;                             // ... to before this nothing of the target is seen: kMiss
 };
 
 // A LIDAR that times its pulses: 20 mm (20.6 mm at 100 m) from 1 m to 100 m, a beam that widens to 50 mm there.
@@ -41,6 +45,8 @@ inline ScannerModel time_of_flight_lidar() {
   model.beam_divergence_rad = 2.5e-4;
   return model;
 }
+
+bool has_common_errors(const ScannerModel& model);
 
 // Throws std::invalid_argument that names the member, its value and what was expected.
 void validate(const ScannerModel& model);

@@ -68,7 +68,7 @@ endif()
 # For everyone who compiles the flight headers: the linker keeps one copy of an inline function, and may take it from any of them.
 add_library(lasso_same_bits INTERFACE)
 target_compile_options(lasso_same_bits INTERFACE $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-ffp-contract=off>)
-target_compile_definitions(lasso_same_bits INTERFACE EIGEN_DONT_VECTORIZE)
+target_compile_definitions(lasso_same_bits INTERFACE EIGEN_DONT_VECTORIZE EIGEN_UNROLLING_LIMIT=40)
 # The number type of the per-point path (fsw/geometry/number.hpp, docs/decisions/fixed-point.md).
 set(LASSO_NUMBER float CACHE STRING "Number type of the per-point path: float or fixed")
 set_property(CACHE LASSO_NUMBER PROPERTY STRINGS float fixed)

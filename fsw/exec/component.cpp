@@ -1,5 +1,6 @@
 #include "fsw/exec/component.hpp"
 
+#include "fsw/core/renew.hpp"
 #include "fsw/exec/report.hpp"
 #include "fsw/exec/self_test.hpp"
 #include "fsw/geometry/portable_math.hpp"
@@ -151,15 +152,17 @@ void Component::publish_estimate(TimeUs now_us) {
   aimed_.clear();
   part_ = kWhole;
   if (estimated_.active) {
-    if (!in_time) step = step_without_estimate();
+    if (!in_time) renew(step, [&] { return step_without_estimate(); });
     if (in_time) aimed_ = estimation_.aimed();
     if (in_time) part_ = estimation_.part();
     follow(step);
     send(step, now_us);
   } else if (properties(track_.mode).says_lost || report_overdue() || housekeeping_.asked(kPoseStructureId)) {
     const std::uint32_t frame = executive_.frame();
-    send(no_track(frame > kPipelineFrames ? frame - kPipelineFrames : 0, track_), now_us);
+    renew(step, [&] { return no_track(frame > kPipelineFrames ? frame - kPipelineFrames : 0, track_); });
+    send(step, now_us);
   }
+  if (housekeeping_.due(kFilterStructureId, estimated_.active)) send_filter(now_us);
 }
 
 // Changes of the mode wait for the next packet, if one is on its way.
@@ -301,6 +304,12 @@ void Component::send(const TrackStep& step, TimeUs now_us) {
   std::uint8_t packet[kMaxPosePacketBytes];
   const PacketHeader header = downlink_.next_header(kHousekeepingReport, now_us);
   downlink_.send({packet, encode_pose(report, header, Bytes(packet))});
+}
+
+void Component::send_filter(TimeUs now_us) {
+  const FilterTelemetry report = make_filter_report(estimated_.scan_id, track_.filter);
+  std::uint8_t packet[kMaxFilterBytes];
+  downlink_.send({packet, encode_filter(report, downlink_.next_header(kHousekeepingReport, now_us), Bytes(packet))});
 }
 
 void Component::set_changes(PoseTelemetry& report) {

@@ -1,6 +1,7 @@
 #include "fsw/exec/estimation_task.hpp"
 
 #include "fsw/core/invariant.hpp"
+#include "fsw/core/renew.hpp"
 
 namespace lasso {
 
@@ -47,7 +48,7 @@ void EstimationTask::run() {
   phase_.store(kRunning, std::memory_order_release);
   const Mission& mission = *job_.mission;
   const Parts& parts = *job_.parts;
-  step_ = step_of(mission, parts);
+  renew(step_, [&] { return step_of(mission, parts); });
   part_ = next_part(mission, parts, job_.part_after, job_.next_scan_id, job_.t_next_us, step_);
   aimed_.clear();
   if (part_ == kWhole) aim_next(mission, estimator_, step_, job_.next_scan_id, job_.t_next_us, aimed_);

@@ -21,11 +21,12 @@ void copy_pose(const Pose& pose, double (&q)[4], double (&p)[3]) {
   for (int i = 0; i < 3; ++i) p[i] = pose.p[i];
 }
 
-void copy_upper_triangle(const Mat6& covariance, double (&terms)[kPoseCovarianceTerms]) {
+template <class Matrix, class Term>
+void copy_upper_triangle(const Matrix& covariance, Span<Term> terms) {
   std::size_t term = 0;
-  for (int row = 0; row < 6; ++row) {
-    for (int column = row; column < 6; ++column) {
-      terms[term] = covariance(row, column);
+  for (int row = 0; row < covariance.rows(); ++row) {
+    for (int column = row; column < covariance.cols(); ++column) {
+      terms[term] = static_cast<Term>(covariance(row, column));
       ++term;
     }
   }
@@ -40,7 +41,7 @@ void describe_registration(const Registration& r, PoseTelemetry& out) {
   out.reason = static_cast<std::uint8_t>(r.reason);
   out.stop = static_cast<std::uint8_t>(r.stop);
   copy_pose(r.T_sensor_target, out.q_sensor_target, out.p_sensor_target_m);
-  copy_upper_triangle(r.covariance, out.covariance);
+  copy_upper_triangle(r.covariance, Span<double>(out.covariance));
 }
 
 void describe_quality(const Registration& r, PoseTelemetry& out) {
@@ -156,6 +157,17 @@ PoseTelemetry make_report(const Mission& mission, const TrackStep& step, const S
   out.software_version = software_version();
   out.software_build = software_build();
   return out;
+}
+
+FilterTelemetry make_filter_report(std::uint32_t scan_id, const FilterState& filter) {
+  FilterTelemetry report;
+  report.scan_id = scan_id;
+  report.t_us = filter.t_us;
+  report.started = filter.initialised ? 1 : 0;
+  report.accepted = filter.accepted;
+  report.rejected = filter.rejected;
+  copy_upper_triangle(filter.covariance, Span<float>(report.covariance));
+  return report;
 }
 
 }  // namespace lasso

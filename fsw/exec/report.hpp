@@ -2,6 +2,7 @@
 #pragma once
 
 #include "fsw/core/time.hpp"
+#include "fsw/link/filter_report.hpp"
 #include "fsw/link/pose_telemetry.hpp"
 #include "fsw/mission/mission.hpp"
 #include "fsw/mode/tracker.hpp"
@@ -16,5 +17,8 @@ const char* version();
 
 // Everything except the counters, the changes of the mode and the refusals.
 PoseTelemetry make_report(const Mission& mission, const TrackStep& step, const ScanPlan& plan, TimeUs t_publication_us);
+
+// Of the track's filter after the scan.
+FilterTelemetry make_filter_report(std::uint32_t scan_id, const FilterState& filter);
 
 }  // namespace lasso

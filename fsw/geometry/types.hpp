@@ -10,7 +10,8 @@ using Vec3 = Eigen::Matrix<double, 3, 1>;
 using Mat3 = Eigen::Matrix<double, 3, 3>;
 using Vec6 = Eigen::Matrix<double, 6, 1>;
 using Mat6 = Eigen::Matrix<double, 6, 6>;
-using Quat = Eigen::Quaternion<double>;  // Hamilton, scalar last in memory
+using CommonErrors = Eigen::Matrix<double, 6, 4>;  // of a pose: what each error that a scan has in common does to it
+using Quat = Eigen::Quaternion<double>;            // Hamilton, scalar last in memory
 
 // Three numbers of any type.
 template <class V>

@@ -29,7 +29,6 @@ inline constexpr Choice kPoseReasons[] = {
   {"searching", "no attitude is known: it is looked for", "none: this is what mode searching does"},
   {"part_disagrees", "of a part that is elsewhere than the others say", "look at odd_part: it may have moved, or have a wrong model"},
   {"too_fast", "the target is predicted to turn or move too far within the scan for its points to be brought to one time, or faster than 60 rad/s or 500 m/s", "start anew with the right rates; shorten scan.duration_s for a target that is so fast"},
-  {"better_twin", "of a start: turned by a near-symmetry of the model, the pose explains the scan better", "start anew from the pose turned so, or from a better one; let the search find it"},
   {"unchecked", "of a start: this scan would confirm it; a search of a scan that did is still to contradict it or not (start.check)", "none: wait for its end, some seconds"},
   {"contradicted", "of a start: a search of the scan that would confirm it found a pose that explains it better", "let the search find it, or start anew from a better pose"},
 };
@@ -206,6 +205,7 @@ inline constexpr Choice kStructureNames[] = {
   {"sensor", "counters of a sensor, a packet each"},
   {"health", "faults and what led to them"},
   {"image", "the two mission images, and the scrub of memory"},
+  {"filter", "the covariance of the tracking filter; sent when it is asked for, or enabled"},
 };
 inline constexpr Choice kMemoryAreas[] = {
   {"other_image", "the image that is not active: the one that is loaded"},

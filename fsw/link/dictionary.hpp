@@ -6,6 +6,7 @@
 
 #include "fsw/link/command_rows.hpp"
 #include "fsw/link/event_rows.hpp"
+#include "fsw/link/filter_rows.hpp"
 #include "fsw/link/health_rows.hpp"
 #include "fsw/link/link_report_rows.hpp"
 #include "fsw/link/packet.hpp"
@@ -56,6 +57,7 @@ inline constexpr HeaderField kCommandFields[] = {
 inline constexpr auto kPoseItems = items_of(pose_rows::kRows);
 inline constexpr auto kSensorItems = items_of(sensor_report_rows::kRows);
 inline constexpr auto kHealthItems = items_of(health_rows::kRows);
+inline constexpr auto kFilterItems = items_of(filter_rows::kRows);
 inline constexpr auto kImageItems = items_of(memory_rows::kImage);
 inline constexpr auto kDumpedItems = items_of(memory_rows::kDumped);
 inline constexpr auto kCheckedItems = items_of(memory_rows::kChecked);
@@ -77,6 +79,8 @@ inline constexpr PacketRow kTelemetry[] = {
    "faults and what led to them, at the end of a frame in which one is confirmed or cleared, and of the first"},
   {"image", PacketType::kTelemetry, kServiceHousekeeping, kSubserviceHousekeepingReport, true, kImageStructureId, Span<const ItemRow>(kImageItems.rows),
    "the two mission images and the scrub, at the end of a frame in which an image's state has changed, or something was found"},
+  {"filter", PacketType::kTelemetry, kServiceHousekeeping, kSubserviceHousekeepingReport, true, kFilterStructureId, Span<const ItemRow>(kFilterItems.rows),
+   "the covariance of the tracking filter, at the end of a frame with a step of the track; disabled until enable_structure"},
   {"dumped", PacketType::kTelemetry, kServiceMemory, kSubserviceDumped, false, 0, Span<const ItemRow>(kDumpedItems.rows),
    "the answer to dump_memory"},
   {"checked", PacketType::kTelemetry, kServiceMemory, kSubserviceChecked, false, 0, Span<const ItemRow>(kCheckedItems.rows),

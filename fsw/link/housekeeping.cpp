@@ -16,6 +16,7 @@ Housekeeping::Housekeeping() {
     states_[i].period = Span<const std::uint16_t>(kPresetPeriods)[i];
     states_[i].age = kLongest;
   }
+  states_[kFilterStructureId].enabled = false;
 }
 
 bool Housekeeping::set_enabled(std::uint16_t structure, bool enabled) {

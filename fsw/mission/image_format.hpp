@@ -15,7 +15,7 @@
 namespace lasso {
 
 constexpr std::uint32_t kImageMagic = 0x33444C49;  // "3DLI"
-constexpr std::uint32_t kImageVersion = 8;
+constexpr std::uint32_t kImageVersion = 9;
 constexpr std::uint32_t kImageHeaderWords = 16;
 constexpr std::uint32_t kDirectoryEntryWords = 5;
 constexpr int kUnitFractionBits = 30;
@@ -161,7 +161,7 @@ constexpr std::uint32_t kPartWords = kPartImageBytes + 1;
 constexpr double kMaxPartPriority = 1000;
 
 // A further sensor: binary64 values in the order of sensor_rows(), two words each.
-constexpr std::uint32_t kSensorWords = 22;
+constexpr std::uint32_t kSensorWords = 30;
 
 // The calibration of a laser camera: word 0 the sensor's number, 1 the camera's serial number, then binary64 values, two words each: those
 // of kCalibrationReals, and the terms of the residual (fsw/mission/calibration.hpp).

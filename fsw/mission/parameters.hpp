@@ -15,8 +15,10 @@ struct SensorParameters {
   double sigma0_m, sigma_k_per_m, sigma_angle_rad, range_min_m, range_max_m, fov_half_x_rad, fov_half_y_rad, dropout_probability;
   double noise_tolerance;       // residuals larger than this times the stated noise refuse a pose
   double use_from_m, use_to_m;  // its turn: ranges of the target's origin
+  // Errors that all rays of a scan have in common: along each ray sigma + k R^2, and a turn about each sensor axis.
+  double common_sigma_m, common_sigma_k_per_m, common_sigma_rad, common_memory_s;
 };
-constexpr std::size_t kSensorValues = 11;
+constexpr std::size_t kSensorValues = 15;
 
 // The members of the base are those of the sensor whose scans these parameters are for.
 struct MissionParameters : SensorParameters {
@@ -36,8 +38,8 @@ struct MissionParameters : SensorParameters {
   double start_sigma_m, start_sigma_rad, inliers_min, inlier_share_min, agreement_min, sigma_position_max_m, sigma_attitude_max_rad,
       innovation_max, coast_frames, hysteresis, recover, reacquire_frames;
   // [start] the ways to a pose to start from
-  double start_frames, start_inlier_share_min, start_gate, start_twin_margin, start_check, start_age_max_s, start_first, start_second,
-      start_third, start_fourth, start_fifth;
+  double start_frames, start_inlier_share_min, start_gate, start_check, start_age_max_s, start_first, start_second, start_third,
+      start_fourth, start_fifth;
   // [search] the first pose without any prior attitude
   double search_hits_min, search_disagreement_max, search_ratio_min, search_scans_max, search_work_max, search_slice, search_frames;
   // [short_range] a large target close by, scanned part by part

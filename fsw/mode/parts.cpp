@@ -194,6 +194,7 @@ Registration register_part(const Mission& mission, const Part& part, Estimator& 
   result.T_sensor_target = result.T_sensor_target * inverse(part.T_target_part);
   const Mat6 back = moved_by(-lever_of(part, result.T_sensor_target));
   result.covariance = back * result.covariance * back.transpose();
+  result.common = back * result.common;
   if (result.weakest_sigma_m > 0) find_weak_directions(mission, result);  // they were found in the part's frame
   return result;
 }

@@ -91,7 +91,9 @@ FilterStart filter_start(const MissionParameters& p, const StartOffer& offer) {
   return from;
 }
 
-FilterNoise filter_noise(const MissionParameters& p) { return {p.acceleration_mps2, p.angular_acceleration_radps2, p.precession}; }
+FilterNoise filter_noise(const MissionParameters& p) {
+  return {p.acceleration_mps2, p.angular_acceleration_radps2, p.precession, p.common_memory_s};
+}
 
 bool is_in_order(const MissionParameters& p, StartWay way) {
   bool named = false;

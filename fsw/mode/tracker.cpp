@@ -8,13 +8,26 @@ namespace {
 constexpr std::uint32_t kEstablished = 5;  // scans until the filter's word counts more than a scan's: a start may have been wrong
 
 PoseMeasurement measurement_of(const Registration& registration) {
-  return {registration.t_us, registration.T_sensor_target, registration.covariance};
+  return {registration.t_us, registration.T_sensor_target, registration.covariance, registration.common};
+}
+
+// From what the start is known by. Never inlined, as the next one: their offers would lie on the stack while a measurement is joined.
+[[gnu::noinline]] Status start_as_known(const MissionParameters& p, const FilterState& filter, FilterState& begun) {
+  const StartOffer known{filter.t_us, filter.T_sensor_target, filter.rates, filter.covariance.topLeftCorner<6, 6>()};
+  return start_filter(begun, filter_start(p, known));
+}
+
+// From the registration alone.
+[[gnu::noinline]] Status start_alone(const MissionParameters& p, const Registration& registration, FilterState& filter) {
+  const StartOffer alone{registration.t_us, registration.T_sensor_target, filter.rates, registration.covariance};
+  const Status status = start_filter(filter, filter_start(p, alone));
+  if (status == Status::kOk) filter.common_pose = registration.common;
+  return status;
 }
 
 // Does the start, where it is known, take the registration in? Its rates stay unknown.
 bool begin_from(const MissionParameters& p, const Registration& registration, const FilterState& filter, FilterState& begun) {
-  const StartOffer known{filter.t_us, filter.T_sensor_target, filter.rates, filter.covariance.topLeftCorner<6, 6>()};
-  if (!filter.initialised || start_filter(begun, filter_start(p, known)) != Status::kOk) return false;
+  if (!filter.initialised || start_as_known(p, filter, begun) != Status::kOk) return false;
   return update_filter(begun, measurement_of(registration), kNoGate).accepted;
 }
 
@@ -22,8 +35,7 @@ bool begin_from(const MissionParameters& p, const Registration& registration, co
 // otherwise begin unknown by three radii, and what views from a little aside tell of so much is beyond a linear filter.
 Status restart_from(const MissionParameters& p, const Registration& registration, FilterState& filter) {
   FilterState begun;
-  const StartOffer alone{registration.t_us, registration.T_sensor_target, filter.rates, registration.covariance};
-  if (!begin_from(p, registration, filter, begun)) return start_filter(filter, filter_start(p, alone));
+  if (!begin_from(p, registration, filter, begun)) return start_alone(p, registration, filter);
   filter = begun;
   filter.accepted = 0;
   return Status::kOk;
@@ -225,8 +237,6 @@ TrackStep track_scan(const Mission& mission, Estimator& estimator, const RangeIm
                                                filter.covariance.topLeftCorner<6, 6>(), before.rival_m, false});
   step.after.rival_m = registration.valid() ? registration.rival_m : before.rival_m;
   if (registration.valid()) registration.reason = confirm(p, mode, starts, filter, registration);
-  const bool asks_twins = registration.valid() && starts;
-  if (asks_twins && estimator.has_better_twin(mission, scan, registration)) registration.reason = PoseReason::kBetterTwin;
   take(p, mode, step);
   return step;
 }

@@ -77,12 +77,11 @@ void change_mode(ModeEvent event, TrackState& state);
 StartRefusal start_track(const Mission& mission, StartWay way, const StartOffer& offer, TimeUs t_us, TrackState& state);
 
 // One scan: predict, register, join to the filter, next mode. In a mode that confirms, a valid registration has to agree with the
-// prediction (start.gate, kFarFromStart), explains 99 % of the returns or the scan as well as its near-symmetries, to within
-// start.twin_margin (kBetterTwin), and starts the filter anew, since the prediction may be far off; so does one that the filter cannot
-// take. Where start.check is set, a start of another way than search is then checked (end_check): the scans that it takes are kUnchecked,
+// prediction (start.gate, kFarFromStart), and starts the filter anew, since the prediction may be far off; so does one that the filter
+// cannot take. Where start.check is set, a start of another way than search is then checked (end_check): the scans that it takes are kUnchecked,
 // but join the filter. One that the prediction of a filter with 5 scans excludes (tracking.innovation_max) is kImplausible and joins
 // nothing; it ends a check, and the start has to be confirmed anew. A prediction less certain than the registration's gate is a rough
-// start. Bounds: as Estimator::estimate, in a start as has_better_twin besides.
+// start. Bounds: as Estimator::estimate.
 TrackStep track_scan(const Mission& mission, Estimator& estimator, const RangeImage& scan, const TrackState& before);
 
 // The same with a scan that was planned to look at a part (`part` != kWhole): it is compared with the other parts' before it joins.

@@ -3,8 +3,8 @@
 #include "fsw/geometry/portable_math.hpp"
 #include "fsw/geometry/symmetric6.hpp"
 #include "fsw/pose/agreement.hpp"
+#include "fsw/pose/common_error.hpp"
 #include "fsw/pose/labels.hpp"
-#include "fsw/pose/near_symmetry.hpp"
 #include "fsw/pose/outline.hpp"
 #include "fsw/pose/outlook.hpp"
 #include "fsw/pose/path_pose.hpp"
@@ -59,7 +59,8 @@ bool has_information(const HitSolution& hits) { return hits.stop == StopReason::
 
 // What the hits know of the pose.
 struct HitKnowledge {
-  double scale = 1;  // of the noise's variance over the assumed one
+  double scale = 1;        // of the noise's variance over the assumed one
+  double trust_scale = 1;  // the same as the covariance takes it (estimation.noise_estimated)
   Mat6 covariance = Mat6::Zero();
   Directions unseen;
   Directions slack;  // too loose for labels
@@ -74,9 +75,9 @@ void learn_from(const Mission& mission, const LineSearch& search, Workspace& wor
   known.unseen.count = known.slack.count = known.hold.axes.count = 0;
   known.hold.band_m = p.silhouette_band_m;
   if (!has_information(hits)) return;
-  const double scale = p.noise_estimated > 0.5 ? known.scale : 1;
-  known.covariance = covariance_of_hits(mission.radius_m, hits.H, scale, known.unseen);
-  widen_weak_axes(mission, hits, scale, workspace, known.covariance, known.unseen);
+  known.trust_scale = p.noise_estimated > 0.5 ? known.scale : 1;
+  known.covariance = covariance_of_hits(mission.radius_m, hits.H, known.trust_scale, known.unseen);
+  widen_weak_axes(mission, hits, known.trust_scale, workspace, known.covariance, known.unseen);
   known.covariance = with_rivals(search, known.covariance);
   known.slack = find_slack(mission, known.covariance);
 }
@@ -158,6 +159,16 @@ struct ScanCare {
   double motion_m = 0;  // as PoseDoubt's
 };
 
+// Never inlined: its matrices are off the stack where rays and labels are asked.
+[[gnu::noinline]] void add_common_errors(const Mission& mission, const Pose& T_target_sensor, const HitKnowledge& known,
+                                         Workspace& workspace, Registration& result) {
+  const MissionParameters& p = mission.parameters;
+  if (!has_common_errors(p)) return;
+  const double sigma_m = range_sigma(p, square_root(T_target_sensor.p.squaredNorm()), 1);
+  result.common = common_errors(mission, {T_target_sensor, known.covariance, known.trust_scale, sigma_m}, workspace);
+  result.covariance += result.common * result.common.transpose();
+}
+
 // The pose that hits and silhouettes give, with its covariance, into the result.
 void describe_pose(const Mission& mission, const HitSolution& hits, const ScanCare& care, HitKnowledge& known, Workspace& workspace,
                    Registration& result) {
@@ -170,6 +181,7 @@ void describe_pose(const Mission& mission, const HitSolution& hits, const ScanCa
   result.covariance = to_sensor_axes(known.covariance, pose);
   const Expectation expectation(mission, pose, {known.covariance, known.scale, care.motion_m});
   result.agreement = agreement_of_rays(mission, expectation, care.misses_known, workspace);
+  add_common_errors(mission, pose, known, workspace, result);
   find_weak_directions(mission, result);
 }
 
@@ -252,11 +264,6 @@ Registration Estimator::estimate(const Mission& mission, const RangeImage& scan,
   result.reason = judge(mission.parameters, result, motion_variance(mission, start, care.motion_m));
   if (result.valid() && search.contradicted) result.reason = PoseReason::kImplausible;
   return result;
-}
-
-bool Estimator::has_better_twin(const Mission& mission, const RangeImage& scan, const Registration& result) {
-  if (result.inlier_share >= kExplainedShare) return false;
-  return has_twin_better_by(mission, mission.parameters.start_twin_margin, inverse(result.T_sensor_target), scan.misses_known, workspace_);
 }
 
 }  // namespace lasso

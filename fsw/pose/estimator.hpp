@@ -35,11 +35,6 @@ class Estimator {
   // Never fails silently: result.reason says whether and why the pose can(not) be trusted. With nothing to work on the pose is the start.
   Registration estimate(const Mission& mission, const RangeImage& scan, const StartPoint& start);
 
-  // Does a near-symmetry of the pose that the last estimate gave of this scan explain it better, by more than start.twin_margin? For
-  // starts: nothing before them tells the one from the other. Not asked of one that explains kExplainedShare of the returns (register.hpp).
-  // Leaves a part of the scan's points. Bound: as has_twin_better_by (near_symmetry.hpp).
-  bool has_better_twin(const Mission& mission, const RangeImage& scan, const Registration& result);
-
   // Room for other stages to work in between two estimates.
   Workspace& workspace() { return workspace_; }
 

@@ -21,13 +21,11 @@ Blocks split(const Mat12& P) { return {P.block<6, 6>(0, 0), P.block<6, 6>(0, 6),
 
 Mat6 symmetrised(const Mat6& m) { return 0.5 * (m + m.transpose()); }
 
-Mat12 join(const Blocks& blocks) {
-  Mat12 P;
+void join(const Blocks& blocks, Mat12& P) {
   P.block<6, 6>(0, 0) = symmetrised(blocks.pose);
   P.block<6, 6>(0, 6) = blocks.cross;
   P.block<6, 6>(6, 0) = blocks.cross.transpose();
   P.block<6, 6>(6, 6) = symmetrised(blocks.rates);
-  return P;
 }
 
 template <class M>
@@ -59,7 +57,7 @@ Status check_covariance(const Mat6& C) {
 }
 
 Status check_noise(const FilterNoise& noise) {
-  for (const double sigma : {noise.acceleration_mps2, noise.angular_acceleration_radps2, noise.precession}) {
+  for (const double sigma : {noise.acceleration_mps2, noise.angular_acceleration_radps2, noise.precession, noise.common_memory_s}) {
     if (!is_finite(sigma)) return Status::kNotFinite;
     if (sigma < 0) return Status::kBadValue;
   }
@@ -122,13 +120,31 @@ void add_process_noise(Blocks& P, const FilterNoise& noise, double omega2, doubl
 Mat12 predicted_covariance(const FilterState& state, double dt_s, const FilterNoise& noise) {
   const Blocks P = split(state.covariance);
   const Transition F = transition(state.rates.omega_radps, dt_s);
-  const Mat6 pose_rows = F.pose * P.pose + F.from_rates * P.cross.transpose();
+  Mat6 pose_rows = F.pose * P.pose;
+  pose_rows.noalias() += F.from_rates * P.cross.transpose();
   Blocks next;
-  next.cross = F.pose * P.cross + F.from_rates * P.rates;
-  next.pose = pose_rows * F.pose.transpose() + next.cross * F.from_rates.transpose();
+  next.cross.noalias() = F.pose * P.cross;
+  next.cross.noalias() += F.from_rates * P.rates;
+  next.pose.noalias() = pose_rows * F.pose.transpose();
+  next.pose.noalias() += next.cross * F.from_rates.transpose();
   next.rates = P.rates;
   add_process_noise(next, noise, state.rates.omega_radps.squaredNorm(), dt_s);
-  return join(next);
+  Mat12 covariance;
+  join(next, covariance);
+  return covariance;
+}
+
+// The state's error moves on, and the common errors fade.
+void predict_common(FilterState& state, double dt_s, double memory_s) {
+  if (!(memory_s > 0)) {
+    state.common_pose.setZero();
+    state.common_rates.setZero();
+    return;
+  }
+  const double kept = exponential(-dt_s / memory_s);
+  const Transition F = transition(state.rates.omega_radps, dt_s);
+  state.common_pose = kept * (F.pose * state.common_pose + F.from_rates * state.common_rates);
+  state.common_rates *= kept;
 }
 
 // Inverse through the correlation matrix: variances of rad^2 and m^2, of weak and strong directions, differ by many orders of magnitude.
@@ -148,19 +164,59 @@ Status invert_covariance(const Mat6& S, Mat6& inverse) {
   return Status::kOk;
 }
 
-// P+ = (I - K H) P (I - K H)^T + K R K^T with H = [I 0] and K = [pose_gain; rates_gain].
-Mat12 joseph(const Blocks& P, const Mat6& R, const Mat6& pose_gain, const Mat6& rates_gain) {
-  const Mat6 kept = Mat6::Identity() - pose_gain;
-  const Mat6 pose_rows = kept * P.pose;
-  const Mat6 cross_rows = kept * P.cross;
-  const Mat6 rates_rows = P.rates - rates_gain * P.cross;
-  const Mat6 rates_pose = P.cross.transpose() - rates_gain * P.pose;
-  const Mat6 pose_noise = pose_gain * R;
+// K = [pose; rates]. What works with it is never inlined: beside each other its matrices would fill the stack.
+struct Gain {
+  Mat6 pose, rates;
+};
+
+[[gnu::noinline]] void set_gain(const FilterState& state, const CommonErrors& G, const Mat6& S_inverse, Gain& gain) {
+  Mat6 rows = state.covariance.block<6, 6>(0, 0);
+  rows.noalias() -= state.common_pose * G.transpose();
+  gain.pose.noalias() = rows * S_inverse;
+  rows = state.covariance.block<6, 6>(6, 0);
+  rows.noalias() -= state.common_rates * G.transpose();
+  gain.rates.noalias() = rows * S_inverse;
+}
+
+// P+ = (I - K H) P (I - K H)^T + K R K^T with H = [I 0].
+[[gnu::noinline]] void update_by_joseph(const Mat6& R, const Gain& gain, Mat12& covariance) {
+  const Blocks P = split(covariance);
+  const Mat6 kept = Mat6::Identity() - gain.pose;
+  Mat6 rows = kept * P.pose;
+  Mat6 noise = gain.pose * R;
   Blocks next;
-  next.pose = pose_rows * kept.transpose() + pose_noise * pose_gain.transpose();
-  next.cross = cross_rows - pose_rows * rates_gain.transpose() + pose_noise * rates_gain.transpose();
-  next.rates = rates_rows - rates_pose * rates_gain.transpose() + rates_gain * R * rates_gain.transpose();
-  return join(next);
+  next.pose.noalias() = rows * kept.transpose();
+  next.pose.noalias() += noise * gain.pose.transpose();
+  next.cross.noalias() = kept * P.cross;
+  next.cross.noalias() -= rows * gain.rates.transpose();
+  next.cross.noalias() += noise * gain.rates.transpose();
+  rows = P.cross.transpose();
+  rows.noalias() -= gain.rates * P.pose;
+  noise.noalias() = gain.rates * R;
+  next.rates = P.rates;
+  next.rates.noalias() -= gain.rates * P.cross;
+  next.rates.noalias() -= rows * gain.rates.transpose();
+  next.rates.noalias() += noise * gain.rates.transpose();
+  join(next, covariance);
+}
+
+// The innovation is v + G c - H e, e the state's error. Its covariance X with the common errors adds Y Z^T + Z Y^T to Joseph's form,
+// Y = (I - K H) X and Z = K G, and is Y + Z afterwards.
+[[gnu::noinline]] void join_common(const CommonErrors& G, const Gain& gain, FilterState& state) {
+  const CommonErrors Z_pose = gain.pose * G;
+  const CommonErrors Z_rates = gain.rates * G;
+  state.common_rates -= gain.rates * state.common_pose;
+  state.common_pose -= gain.pose * state.common_pose;
+  Blocks P = split(state.covariance);
+  P.pose.noalias() += state.common_pose * Z_pose.transpose();
+  P.pose.noalias() += Z_pose * state.common_pose.transpose();
+  P.cross.noalias() += state.common_pose * Z_rates.transpose();
+  P.cross.noalias() += Z_pose * state.common_rates.transpose();
+  P.rates.noalias() += state.common_rates * Z_rates.transpose();
+  P.rates.noalias() += Z_rates * state.common_rates.transpose();
+  join(P, state.covariance);
+  state.common_pose += Z_pose;
+  state.common_rates += Z_rates;
 }
 
 // The gains act on measured - estimate; the corrections bring the estimate towards the truth.
@@ -181,7 +237,7 @@ Status check_measurement(const FilterState& state, const PoseMeasurement& measur
 }
 
 // The innovation's square is on average the prediction's variance and the measurement's own.
-void note_surprise(const Vec6& innovation, const Mat6& predicted, const Mat6& measured, Vec6& surprise) {
+void note_surprise(const Vec6& innovation, const Mat12& predicted, const Mat6& measured, Vec6& surprise) {
   for (int i = 0; i < 6; ++i) {
     const double square = innovation[i] * innovation[i];
     const bool alarming = square > kAlarm2 * (surprise[i] * predicted(i, i) + measured(i, i));
@@ -192,13 +248,20 @@ void note_surprise(const Vec6& innovation, const Mat6& predicted, const Mat6& me
 }
 
 void join_measurement(FilterState& state, const PoseMeasurement& measured, const Vec6& innovation, const Mat6& S_inverse) {
-  const Blocks P = split(state.covariance);
-  const Mat6 pose_gain = P.pose * S_inverse;
-  const Mat6 rates_gain = P.cross.transpose() * S_inverse;
-  note_surprise(innovation, P.pose, measured.covariance, state.surprise);
-  correct(state, pose_gain * innovation, rates_gain * innovation);
-  state.covariance = joseph(P, measured.covariance, pose_gain, rates_gain);
+  Gain gain;
+  set_gain(state, measured.common, S_inverse, gain);
+  note_surprise(innovation, state.covariance, measured.covariance, state.surprise);
+  correct(state, gain.pose * innovation, gain.rates * innovation);
+  update_by_joseph(measured.covariance, gain, state.covariance);
+  join_common(measured.common, gain, state);
   ++state.accepted;
+}
+
+// Of the innovation.
+[[gnu::noinline]] Mat6 innovation_covariance(const FilterState& state, const PoseMeasurement& measured) {
+  Mat6 S = state.covariance.block<6, 6>(0, 0) + measured.covariance;
+  S.noalias() -= 2 * state.common_pose * measured.common.transpose();
+  return symmetrised(S);
 }
 
 }  // namespace
@@ -240,6 +303,7 @@ Status predict_filter(FilterState& state, TimeUs t_us, const FilterNoise& noise)
   const Mat12 covariance = predicted_covariance(state, dt_s, noise);
   const Pose pose = propagate(state.T_sensor_target, state.rates, dt_s);
   if (!finite(covariance) || !finite(pose)) return Status::kNotFinite;
+  predict_common(state, dt_s, noise.common_memory_s);
   state.covariance = covariance;
   state.T_sensor_target = pose;
   state.t_us = t_us;
@@ -251,9 +315,8 @@ FilterUpdate update_filter(FilterState& state, const PoseMeasurement& measured, 
   result.status = check_measurement(state, measured, gate_nis);
   if (result.status != Status::kOk) return result;
   const Vec6 innovation = pose_difference(measured.T_sensor_target, state.T_sensor_target);
-  const Mat6 S = symmetrised(state.covariance.block<6, 6>(0, 0) + measured.covariance);
   Mat6 S_inverse;
-  result.status = invert_covariance(S, S_inverse);
+  result.status = invert_covariance(innovation_covariance(state, measured), S_inverse);
   if (result.status != Status::kOk) return result;
   result.nis = innovation.dot(S_inverse * innovation);
   // A finite nis bounds the correction, too: |K y|^2 <= nis * P.

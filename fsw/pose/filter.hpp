@@ -11,6 +11,10 @@
 // of one scan, independent of the prediction (never one into which the prediction entered as a prior). A direction that the scan does not
 // show has a large variance in it and coasts on the prediction.
 //
+// What a scan's rays have in common (a calibration that is off, say) does not average out. Such errors are consider states c, of variance 1
+// each: they are not estimated, but their covariance with the state's error is carried along (Schmidt 1966; Woodbury & Junkins 2010). They
+// are a first-order Gauss-Markov process, with its own memory. Without memory they are fresh noise of each scan.
+//
 // Every function leaves the state as it was unless it returns kOk. Fixed size, no loops beyond the matrices' sizes (12).
 #pragma once
 
@@ -31,7 +35,7 @@ constexpr double kNoGate = 0;
 constexpr double kLeastSurprise = 1.0 / 64;  // of a variance: an eighth of the claimed sigma
 
 struct FilterState {
-  // By call: unrolled wherever a state is copied, its 150 numbers took 6 kB of the flight image.
+  // By call: unrolled wherever a state is copied, its numbers took 6 kB of the flight image.
   FilterState();
   FilterState(const FilterState& other);
   FilterState& operator=(const FilterState& other);
@@ -43,6 +47,8 @@ struct FilterState {
   // How far predictions were off, over the variance that they claimed: rotation and translation, axis by axis, [kLeastSurprise, 1]. It
   // rises at once and falls slowly. The filter does not use it.
   Vec6 surprise = Vec6::Ones();
+  CommonErrors common_pose = CommonErrors::Zero();   // covariance of the pose's error with the common errors, column by column
+  CommonErrors common_rates = CommonErrors::Zero();  // of the rates' error
   bool initialised = false;
   std::uint32_t accepted = 0;  // measurements since the start
   std::uint32_t rejected = 0;  // by the gate
@@ -63,6 +69,7 @@ struct FilterNoise {
   double acceleration_mps2 = 0;            // 1 sigma, each axis, >= 0
   double angular_acceleration_radps2 = 0;  // 1 sigma, each axis, >= 0
   double precession = 0;                   // 1 sigma, each axis, of omega^2, >= 0
+  double common_memory_s = 0;              // in which the correlation of common errors falls to 1/e, >= 0
 };
 
 // A registration: pose at t_us with the covariance of (rotation in sensor axes [rad], translation of the origin [m]).
@@ -70,6 +77,8 @@ struct PoseMeasurement {
   TimeUs t_us = 0;
   Pose T_sensor_target;
   Mat6 covariance = Mat6::Zero();
+  CommonErrors common =
+      CommonErrors::Zero();  // what each common error of 1 sigma does to the pose, column by column; `covariance` holds it, too
 };
 
 struct FilterUpdate {

@@ -38,8 +38,6 @@ const char* to_string(PoseReason reason) {
       return "part_disagrees";
     case PoseReason::kTooFast:
       return "too_fast";
-    case PoseReason::kBetterTwin:
-      return "better_twin";
     case PoseReason::kUnchecked:
       return "unchecked";
     case PoseReason::kContradicted:

@@ -31,9 +31,8 @@ enum class PoseReason : std::uint8_t {
   kSearching = 14,      // no attitude is known: it is looked for
   kPartDisagrees = 15,  // of a part that is elsewhere than the others say
   kTooFast = 16,        // the prediction moves too far within the scan for its points to be brought to one time
-  kBetterTwin = 17,     // of a start: a near-symmetry of the pose explains the scan better
-  kUnchecked = 18,      // of a start: this scan would confirm it, and a search is still to contradict it or not
-  kContradicted = 19,   // of a start: a search of the scan that would confirm it found a pose that explains it better
+  kUnchecked = 17,      // of a start: this scan would confirm it, and a search is still to contradict it or not
+  kContradicted = 18,   // of a start: a search of the scan that would confirm it found a pose that explains it better
 };
 const char* to_string(PoseReason reason);
 const char* to_string(StopReason reason);
@@ -46,7 +45,8 @@ struct Registration {
   std::uint32_t scan_id = 0;
   TimeUs t_us = 0;  // the scan's reference time, at which the pose is stated
   Pose T_sensor_target;
-  Mat6 covariance = Mat6::Zero();  // of (rotation about the target's origin in sensor axes [rad], translation [m])
+  Mat6 covariance = Mat6::Zero();              // of (rotation about the target's origin in sensor axes [rad], translation [m])
+  CommonErrors common = CommonErrors::Zero();  // the share of common errors in it: see common_error.hpp
   StopReason stop = StopReason::kNotRun;
   PoseReason reason = PoseReason::kNoTrack;
   std::uint16_t iterations = 0;

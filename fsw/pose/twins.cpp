@@ -1,11 +1,22 @@
 // The poses that a search's best one is most easily confused with: its near-symmetries.
-#include "fsw/pose/near_symmetry.hpp"
 #include "fsw/pose/search.hpp"
 #include "fsw/pose/verdict.hpp"
 
 namespace lasso {
 
 using N = FlightNumber;
+
+namespace {
+
+Pose twin_of(const NearSymmetry<N>& symmetry, const Pose& T_target_sensor) {
+  Pose motion;
+  motion.q =
+      normalized(Quat(N::to_double(symmetry.q[3]), N::to_double(symmetry.q[0]), N::to_double(symmetry.q[1]), N::to_double(symmetry.q[2])));
+  motion.p = Vec3(N::to_double(symmetry.p[0]), N::to_double(symmetry.p[1]), N::to_double(symmetry.p[2]));
+  return motion * T_target_sensor;
+}
+
+}  // namespace
 
 // Of the pose that was settled first: they are sketched and settled, too.
 void Search::add_twins(const Mission& mission) {

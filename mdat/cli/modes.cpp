@@ -39,8 +39,7 @@ Printed by `mdat modes` from the table that the component executes (`fsw/mode/mo
 
 The columns of the first table:
 - **confirms**: a valid pose confirms a start, and starts the filter anew. It has to explain `start.inlier_share_min` of the returns. It has to agree with
-  the prediction within `start.gate`. No near-symmetry of it may explain the scan better by `start.twin_margin`. A pose that explains 99 % of the returns
-  is not compared with its near-symmetries. Where `start.check` is set, and its attitude is stated no better than 3° (1 sigma), its scan is searched. The start is `unchecked` until the search has found no
+  the prediction within `start.gate`. Where `start.check` is set, and its attitude is stated no better than 3° (1 sigma), its scan is searched. The start is `unchecked` until the search has found no
   better pose. Where that search is not sure, another scan is searched, too.
 - **takes up**: the share of returns that a valid pose explains, and its agreement, have to exceed the limits of tracking by `tracking.hysteresis`. The
   agreement has to by no more than half of what is missing to 1.

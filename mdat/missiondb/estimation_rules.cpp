@@ -14,7 +14,6 @@ constexpr double kLargestShare = 0.25;
 constexpr double kLargestRatio = 5;
 constexpr double kTightestKernel = 3;
 constexpr double kLostShare = 0.05;  // of good poses, by a gate on their normalised square
-constexpr double kMostTwinMargin = 1;
 constexpr double kMostContradicting = 0.1;  // of the returns: what moves fewer of them is no other configuration
 constexpr double kMostInitialTurn_rad = 15 * kRadPerDeg;
 
@@ -88,12 +87,6 @@ std::string start_gate_fault(const Subject& s) {
 std::string innovation_fault(const Subject& s) {
   const double gate = s.p.innovation_max * s.p.innovation_max;
   return refused_share(gate) <= kLostShare ? "" : gate_text(gate);
-}
-
-std::string twin_fault(const Subject& s) {
-  if (!checks_starts(s.p) || s.p.start_twin_margin <= kMostTwinMargin) return "";
-  return "the squared residuals of a right pose are 1 on average: a wrong start would be confirmed whose near-symmetry explains the scan " +
-         figure(1 + s.p.start_twin_margin) + " times as well";
 }
 
 std::string fast_start_fault(const Subject& s) {
@@ -191,7 +184,6 @@ const Rules& estimation_rules() {
     {kWarning, kParameters, kValues, {"estimation.kernel_width"}, kernel_fault},
     {kWarning, kParameters, kValues, {"start.gate"}, start_gate_fault},
     {kWarning, kParameters, kValues, {"tracking.innovation_max"}, innovation_fault},
-    {kWarning, kParameters, kValues, {"start.twin_margin"}, twin_fault},
     {kWarning, kParameters, kValues, {"tracking.initial.wx_degps", "tracking.initial.wy_degps", "tracking.initial.wz_degps"}, fast_start_fault},
     {kWarning, kParameters, kValues, {"link.silence_max_s", "filter.period_s"}, silence_fault},
     {kError, kParameters, kValues, {"start.second", "start.first"}, repeated_fault<1>},

@@ -111,6 +111,7 @@ struct Scenario {
   double noise = 1;         // 0: perfect ranges and angles
   double noise_factor = 1;  // of the range noise
   double sigma0_m = 0, sigma_k_per_m = 0, angle_noise_rad = 0, dropout_probability = 0;
+  double common_sigma_m = 0, common_sigma_k_per_m = 0, common_sigma_rad = 0, common_memory_s = 0;
   double dropout_incidence_rad = 0;  // rays that graze the surface more than this do not return
   double outlier_probability = 0, edge_mixing_m = 0, beam_divergence_rad = 0;
   double seed = 0;

@@ -217,6 +217,18 @@ std::string simulated_angle_fault(const Subject& s) {
          figure(s.p.sigma_angle_rad) + ", does not say so";
 }
 
+std::string simulated_common_fault(const Subject& s) {
+  const Scenario& scenario = *s.scenario;
+  const double range_m = *std::max_element(scenario.ranges_m.begin(), scenario.ranges_m.end());
+  const double simulated_m = scenario.common_sigma_m + scenario.common_sigma_k_per_m * range_m * range_m;
+  const double stated_m = s.p.common_sigma_m + s.p.common_sigma_k_per_m * range_m * range_m;
+  const bool turned = scenario.common_sigma_rad > kNoiseRatio * s.p.common_sigma_rad;
+  if (scenario.noise == 0 || (simulated_m <= kNoiseRatio * stated_m && !turned)) return "";
+  return "rays of a scan have errors in common of " + figure(1e3 * simulated_m) + " mm and " +
+         figure(scenario.common_sigma_rad / kRadPerDeg) + " deg, where [sensor] states " + figure(1e3 * stated_m) + " mm and " +
+         figure(s.p.common_sigma_rad / kRadPerDeg) + " deg: covariances will be too small";
+}
+
 std::string outlier_fault(const Subject& s) {
   const double outliers = s.scenario->outlier_probability;
   const double explained = kOnTarget * (1 - outliers) / (kOnTarget * (1 - outliers) + outliers);
@@ -335,6 +347,12 @@ const Rules& scenario_rules() {
     {kWarning, kScenario, kTarget, {"estimation.deskew", "spin_degps"}, smear_fault},
     {kWarning, kScenario, kValues, {"sigma_k_per_m", "sigma0_m", "sensor.sigma_k_per_m", "sensor.sigma0_m"}, simulated_noise_fault},
     {kWarning, kScenario, kValues, {"angle_noise_rad", "sensor.sigma_angle_rad"}, simulated_angle_fault},
+    {kWarning,
+     kScenario,
+     kValues,
+     {"common_sigma_m", "common_sigma_k_per_m", "common_sigma_deg", "sensor.common_sigma_m", "sensor.common_sigma_k_per_m",
+      "sensor.common_sigma_deg"},
+     simulated_common_fault},
     {kWarning, kScenario, kValues, {"outlier_probability", "start.inlier_share_min", "tracking.inlier_share_min", "tracking.agreement_min"}, outlier_fault},
     {kWarning, kScenario, kValues, {"dropout_probability", "sensor.dropout_probability", "tracking.agreement_min"}, dropout_fault},
     {kWarning, kScenario, kValues, {"dropout_incidence_deg", "estimation.incidence_max_deg", "tracking.agreement_min"}, grazing_fault},

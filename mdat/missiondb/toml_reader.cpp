@@ -18,7 +18,8 @@ struct RenamedKey {
 };
 constexpr RenamedKey kRenamed[] = {
     {"tracking.normalized_residual_max",
-     "is sensor.noise_tolerance now, 1.5 where nobody writes it: how many times the stated noise residuals may show"}};
+     "is sensor.noise_tolerance now, 1.5 where nobody writes it: how many times the stated noise residuals may show"},
+    {"start.twin_margin", "is no longer asked: tracking.agreement_min tells such starts; leave the line out"}};
 
 std::string shortened(std::string text) {
   constexpr std::size_t kLongest = 60;

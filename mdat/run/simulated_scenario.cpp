@@ -33,6 +33,15 @@ sim::ScannerModel model_of(const Scenario& scenario, const SensorParameters& sen
   return model;
 }
 
+// Of a scenario, or as a further sensor states its own.
+template <class Source>
+void set_common(const Source& source, sim::ScannerModel& model) {
+  model.common_sigma_m = source.common_sigma_m;
+  model.common_sigma_k_per_m = source.common_sigma_k_per_m;
+  model.common_sigma_rad = source.common_sigma_rad;
+  model.common_memory_s = source.common_memory_s;
+}
+
 std::unique_ptr<sim::Trajectory> center_trajectory(const Scenario& scenario, double range_m, TimeUs epoch_us, DurationUs period) {
   Pose start;
   start.q = sim::upright_attitude(scenario.tilt_rad, scenario.boresight_rad);
@@ -67,6 +76,7 @@ sim::ScannerModel scanner_model(const Scenario& scenario, const SensorParameters
   model.sigma0_m = scenario.noise_factor * scenario.sigma0_m;
   model.sigma_k_per_m = scenario.noise_factor * scenario.sigma_k_per_m;
   model.sigma_angle_rad = scenario.angle_noise_rad;
+  set_common(scenario, model);
   model.beam_divergence_rad = scenario.beam_divergence_rad;
   return model;
 }
@@ -78,6 +88,7 @@ sim::ScannerModel scanner_model(const Scenario& scenario, const FurtherSensor& s
   model.sigma0_m = scenario.noise_factor * sensor.parameters.sigma0_m;
   model.sigma_k_per_m = scenario.noise_factor * sensor.parameters.sigma_k_per_m;
   model.sigma_angle_rad = sensor.parameters.sigma_angle_rad;
+  set_common(sensor.parameters, model);
   if (sensor.kind == SensorKind::kTimeOfFlight) model.beam_divergence_rad = sim::time_of_flight_lidar().beam_divergence_rad;
   return model;
 }

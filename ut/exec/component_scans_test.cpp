@@ -129,7 +129,7 @@ TEST_F(ComponentScansTest, EachScanIsPlannedAndEstimatedByItsOwnSensorsParameter
   double sigma[2] = {};
   double widest[2] = {};
   for (const PoseTelemetry& t : run(45)) {
-    if (t.scan_id < 3) continue;  // its rates are not known yet: a twin may explain the first scan better, which its motion smears
+    if (t.scan_id < 3) continue;  // its rates are not known yet, and its motion smears the first scans
     sigma[t.sensor] = std::sqrt(static_cast<double>(t.covariance[20]));
     widest[t.sensor] = std::max(widest[t.sensor], t.plan_half_extents[0]);
     EXPECT_NEAR(t.normalized_residual, 1, 0.25) << t.scan_id << " by sensor " << int{t.sensor} << ": its residuals are those of its sensor";

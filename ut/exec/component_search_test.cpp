@@ -89,7 +89,6 @@ TEST(ComponentSearch, AStartThatASearchOfItsScanContradictsIsNeverTracked) {
   VERIFIES("LASSO-MOD-184~4 LASSO-MOD-133~3 LASSO-MOD-137~1");
   MissionParameters p = search_parameters();
   p.start_check = 1;
-  p.start_twin_margin = 1000;
   p.start_inlier_share_min = p.inlier_share_min = p.agreement_min = 0;
   p.noise_tolerance = 1000;
   ComponentScene scene(p, test::uneven_scene());

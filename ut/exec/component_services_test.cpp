@@ -1,5 +1,6 @@
 // Services by the link alone: hazardous commands, housekeeping, time.
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "ut/exec/component_operator.hpp"
@@ -183,6 +184,43 @@ TEST(ComponentServices, TheWholeStreamFits64KilobitsASecond) {
     for (const Packet& packet : link.run_frame()) fewer += packet.data.size() + 22;
   }
   EXPECT_LT(fewer * 4, bytes) << "the rate is selectable";
+}
+
+// What is told of its diagonal is what the packet pose of the same frame tells as sigmas.
+TEST(ComponentServices, TheFiltersCovarianceIsSentOnRequest) {
+  VERIFIES("LASSO-LNK-039~1");
+  Link link;
+  std::vector<Packet> frame;
+  const auto filters = [&] {
+    frame = link.run_frame();
+    std::vector<FilterTelemetry> reports;
+    for (const Packet& packet : frame) {
+      if (!packet.is(3, 25) || packet.data[1] != kFilterStructureId) continue;
+      ByteReader in(test::view(packet.data));
+      in.u16();
+      codec_of(filter_rows::kRows).read(in, reports.emplace_back());
+    }
+    return reports;
+  };
+  link.send(test::of_structure(CommandKind::kReportStructure, kFilterStructureId, 0));
+  const auto early = filters();
+  ASSERT_EQ(early.size(), 1u) << "before any scan, too";
+  EXPECT_EQ(early[0].accepted, 0u);
+  for (int i = 0; i < 8; ++i) EXPECT_TRUE(filters().empty());
+  link.send(test::of_structure(CommandKind::kEnableStructure, kFilterStructureId, 1));
+  for (int i = 0; i < 3; ++i) {
+    const auto reports = filters();
+    ASSERT_EQ(reports.size(), 1u);
+    const PoseTelemetry pose = link.pose_of(frame);
+    EXPECT_EQ(reports[0].scan_id, pose.scan_id);
+    EXPECT_EQ(reports[0].t_us, pose.t_measurement_us);
+    EXPECT_EQ(reports[0].started, 1);
+    std::size_t term = 0;
+    for (std::size_t row = 0; row < 12; term += 12 - row, ++row) {
+      const float sigma = row < 6 ? pose.filter_sigma_pose[row] : pose.filter_sigma_rates[row - 6];
+      EXPECT_NEAR(std::sqrt(reports[0].covariance[term]), sigma, 1e-6F * sigma) << row;
+    }
+  }
 }
 
 TEST(ComponentServices, APoseIsReportedInStandbyWhenAskedFor) {

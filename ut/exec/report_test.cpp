@@ -13,6 +13,30 @@
 namespace lasso {
 namespace {
 
+TEST(FilterReport, HoldsTheUpperTriangleByRows) {
+  VERIFIES("LASSO-LNK-039~1");
+  FilterState filter;
+  filter.t_us = 77;
+  filter.accepted = 3;
+  filter.rejected = 4;
+  for (int row = 0; row < 12; ++row) {
+    for (int column = 0; column < 12; ++column) filter.covariance(row, column) = 100 * std::min(row, column) + std::max(row, column);
+  }
+  const FilterTelemetry report = make_filter_report(5, filter);
+  EXPECT_EQ(report.scan_id, 5u);
+  EXPECT_EQ(report.t_us, 77);
+  EXPECT_EQ(report.started, 0);
+  EXPECT_EQ(report.accepted, 3u);
+  EXPECT_EQ(report.rejected, 4u);
+  std::size_t term = 0;
+  for (int row = 0; row < 12; ++row) {
+    for (int column = row; column < 12; ++column) EXPECT_EQ(report.covariance[term++], static_cast<float>(100 * row + column));
+  }
+  EXPECT_EQ(term, kFilterCovarianceTerms);
+  filter.initialised = true;
+  EXPECT_EQ(make_filter_report(5, filter).started, 1);
+}
+
 // Every value differs from every other, so that a swap shows.
 TrackStep numbered_step() {
   TrackStep step;

@@ -41,6 +41,10 @@ TEST(ScannerModel, EachMemberOutsideItsRangeIsNamed) {
       {"beam_divergence_rad", &ScannerModel::beam_divergence_rad, 0.11},
       {"edge_mixing_probability", &ScannerModel::edge_mixing_probability, 2},
       {"range_step_m", &ScannerModel::range_step_m, -1},
+      {"common_sigma_m", &ScannerModel::common_sigma_m, -1},
+      {"common_sigma_k_per_m", &ScannerModel::common_sigma_k_per_m, nan},
+      {"common_sigma_rad", &ScannerModel::common_sigma_rad, 0.3},
+      {"common_memory_s", &ScannerModel::common_memory_s, -1},
       {"range_min_m", &ScannerModel::range_min_m, 1000},  // not below range_max_m
   };
   for (const Case& c : cases) {

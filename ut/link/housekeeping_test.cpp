@@ -23,6 +23,7 @@ TEST(Housekeeping, PresetsAreEachPoseAndLinkWhenItHasNews) {
   EXPECT_EQ(story(housekeeping, kPoseStructureId, 3, false), "111");
   EXPECT_EQ(story(housekeeping, kLinkStructureId, 3, false), "000");
   EXPECT_EQ(story(housekeeping, kLinkStructureId, 3, true), "111");
+  EXPECT_EQ(story(housekeeping, kFilterStructureId, 3, true), "000") << "on request alone";
 }
 
 TEST(Housekeeping, APeriodIsKept) {

@@ -36,7 +36,7 @@ class StartCheckTest : public MastTest {
   Vec3 deceptive_axis() {
     MissionParameters& p = mission_.parameters;
     p.inlier_share_min = p.agreement_min = p.start_check = 0;
-    p.start_twin_margin = p.noise_tolerance = 1000;
+    p.noise_tolerance = 1000;
     for (int i = 0; i < 3; ++i) {
       const Vec3 axis = rotate(scene_.at_zero.q, Vec3::Unit(i));
       start_turned(axis);
@@ -129,16 +129,6 @@ TEST_F(StartCheckTest, AWrongStartIsContradictedByASearchThatIsRejected) {
   const TrackStep step = verdict_on_deceptive_start();
   EXPECT_EQ(step.search.outcome, SearchOutcome::kRejected);
   EXPECT_EQ(step.registration.reason, PoseReason::kContradicted);
-}
-
-// Near-symmetries are asked as of any other start.
-TEST_F(StartCheckTest, AStartWhoseTwinIsBetterIsNotEvenChecked) {
-  VERIFIES("LASSO-MOD-183~2");
-  const Vec3 axis = deceptive_axis();
-  mission_.parameters.start_twin_margin = 0;
-  start_turned(axis);
-  EXPECT_EQ(frame(1).registration.reason, PoseReason::kBetterTwin);
-  EXPECT_EQ(state_.check.stage, Stage::kNone);
 }
 
 TEST_F(StartCheckTest, AHeldStartThatIsContradictedIsNotBelievedEither) {

@@ -13,7 +13,7 @@ namespace {
 const char* const kPoseReasons[] = {"valid",          "no_scan",       "too_few_returns", "too_few_inliers", "low_inlier_share",
                                     "model_mismatch", "high_residual", "not_converged",   "singular",        "no_track",
                                     "overrun",        "implausible",   "only_bearing",    "far_from_start",  "searching",
-                                    "part_disagrees", "too_fast",      "better_twin",     "unchecked",       "contradicted"};
+                                    "part_disagrees", "too_fast",      "unchecked",       "contradicted"};
 const char* const kStopReasons[] = {"converged", "iteration_limit", "too_few_points", "singular", "not_run"};
 
 TEST(Result, EveryPoseReasonHasItsName) {

@@ -174,7 +174,7 @@ Words hull_words(const Boxes& boxes) {
   return words;
 }
 
-constexpr std::uint32_t kRecordWords[kTableCount] = {2, 13, 22, 15, 2, 512, 1, 128, 3, 15, 3, 9, 1, 11, 7, 30, 1, 22, 52};
+constexpr std::uint32_t kRecordWords[kTableCount] = {2, 13, 22, 15, 2, 512, 1, 128, 3, 15, 3, 9, 1, 11, 7, 30, 1, 30, 52};
 
 void put_u32(std::uint8_t* p, std::uint32_t v) {
   for (int i = 0; i < 4; ++i) p[i] = static_cast<std::uint8_t>(v >> (24 - 8 * i));

@@ -127,6 +127,7 @@ TEST_F(Missions, AKeyOfAnEarlierVersionSaysWhatIsInItsPlace) {
   VERIFIES("LASSO-GND-003~1");
   expect_error(kHead + "[tracking]\nnormalized_residual_max = 5\n",
                "m.toml:8:1: tracking.normalized_residual_max: is sensor.noise_tolerance now");
+  expect_error(kHead + "[start]\ntwin_margin = 5\n", "m.toml:8:1: start.twin_margin: is no longer asked");
   EXPECT_EQ(load(kHead + "[sensor]\nnoise_tolerance = 5\n").parameters.noise_tolerance, 5);
 }
 
