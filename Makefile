@@ -231,16 +231,18 @@ search: ## measure: find the target from random views without any prior attitude
 	$(call compile,$(BUILD),search)
 	@$(BUILD)/ft/search/search "$(MISSION)" $(or $(CASE),all) $(or $(STARTS),1000) $(or $(SEED),1) $(or $(SCANS),3) $(or $(SCALE),1)
 
+# Bodies made from seeds that are flown and replayed as well.
+golden_bodies = $(if $(landing),2,20)
 golden: ## board: telemetry is the same, bit for bit, on compilers, levels of optimisation, host and 603e
 	$(begin)
 	$(call packages,build target clang)
 	$(call configure,$(BUILD),)
-	$(call compile,$(BUILD),golden_record golden_replay golden_compare)
+	$(call compile,$(BUILD),mdat golden_record golden_replay golden_compare)
 	$(call configure,$(PPC),$(CROSS))
 	$(call compile,$(PPC),golden_replay)
 	$(call counted,golden_replay)
 	$(if $(landing),,$(other_levels))
-	@ft/golden/run $(BUILD) $(PPC) clang++-O1=$(MCDC) $(if $(landing),,g++-O0=$(COVERAGE) $(foreach build,g++-O2 clang++-O0 clang++-O2,$(build)=$(GOLDEN)-$(build)))
+	@ft/golden/run --bodies $(golden_bodies) $(BUILD) $(PPC) clang++-O1=$(MCDC) $(if $(landing),,g++-O0=$(COVERAGE) $(foreach build,g++-O2 clang++-O0 clang++-O2,$(build)=$(GOLDEN)-$(build)))
 
 define other_levels
 $(call covered,golden_replay)
@@ -269,7 +271,7 @@ fixed-point: ## board: the fixed-point build: no floating point per point, its e
 	@[ $(PAPER)/results.json -nt $(BUILD)/mdat/mdat ] && [ -z "$$(find cfg/missions cfg/models -newer $(PAPER)/results.json)" ] || \
 	  $(BUILD)/mdat/mdat run cfg/missions/hubble_tenth.toml --scenario paper --force --out $(PAPER)
 	@$(CLANG)/mdat/mdat run cfg/missions/hubble_tenth.toml --scenario paper --force --out $(LASSO_OUT)/fixed-point/paper
-	@LASSO_OUT=$(LASSO_OUT)/fixed-point ft/golden/run $(CLANG) $(PPC)-fixed
+	@LASSO_OUT=$(LASSO_OUT)/fixed-point ft/golden/run --bodies $(golden_bodies) $(CLANG) $(PPC)-fixed
 	@cfg/quality/fixed-point cfg/quality/fixed-point.toml $(PAPER)/results.json $(LASSO_OUT)/fixed-point/paper/results.json $(PPC)-fixed $(BOARD)-fixed
 
 # $(replays) builds what flies on the host and is replayed on the emulated 603e.
