@@ -6,7 +6,8 @@
 
 #include "mdat/run/simulated_scenario.hpp"
 #include "mdat/scene/motion.hpp"
-#include "ut/mdat/scene/rates.hpp"
+#include "mdat/scene/table_motion.hpp"
+#include "ut/mdat/scene/support.hpp"
 #include "ut/support/verifies.hpp"
 
 namespace lasso::mdat::scene {
@@ -77,6 +78,23 @@ TEST(Scenarios, ConstantRatesAreTheSpinsToTheBit) {
     const Scenario scenario = random_scenario(random, ScenarioKind::kSpin, trial % 2 == 0);
     const Twist rates{spin_sensor(scenario), Vec3(scenario.drift_mps.data())};
     ASSERT_EQ(largest_difference(scenario, ConstantRates({start_of(scenario), rates, Vec3(scenario.center_m.data())}), random), 0);
+  }
+}
+
+// The ranges as a table at rest in each of its rows, and the turn from it on.
+TEST(Scenarios, ATableAtRestInItsRowsIsTheApproachAndThePass) {
+  VERIFIES("LASSO-SCN-006~1");
+  test::Generator random(13);
+  for (int trial = 0; trial < 20; ++trial) {
+    const Scenario scenario = random_scenario(random, trial < 10 ? ScenarioKind::kApproach : ScenarioKind::kPass, trial % 2 == 0);
+    MotionTable table;
+    table.times_s = scenario.times_s;
+    for (const double range_m : scenario.ranges_m) table.positions_m.emplace_back(scenario.offset_m[0], scenario.offset_m[1], range_m);
+    table.velocities_mps.assign(table.times_s.size(), Vec3::Zero());
+    const Pose at_epoch{start_of(scenario).q, Vec3::Zero()};
+    const auto turn = std::make_shared<ConstantRates>(ConstantRates::Setup{at_epoch, {spin_sensor(scenario), Vec3::Zero()}});
+    const auto motion = with_centre(std::make_shared<Chain>(std::make_shared<TableMotion>(table), turn), scenario);
+    ASSERT_LT(largest_difference(scenario, *motion, random), 1e-12);
   }
 }
 

@@ -1,13 +1,17 @@
-// The rates of a motion by differences of its poses, and random states for tests.
+// The rates of a motion by differences of its poses, random states for tests, and what a refusal says.
 #pragma once
 
 #include <cmath>
 #include <functional>
+#include <limits>
+#include <string>
 
 #include "mdat/scene/motion.hpp"
 #include "ut/support/generator.hpp"
 
 namespace lasso::mdat::scene {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 using PoseAt = std::function<Pose(TimeUs)>;
 
@@ -56,6 +60,16 @@ inline Twist random_rates(test::Generator& random, double sigma_radps, double si
 
 inline TimeUs random_time_us(test::Generator& random, double from_s, double until_s) {
   return static_cast<TimeUs>(std::llround(1e6 * random.uniform(from_s, until_s)));
+}
+
+// The lines of a MissionError, or "".
+inline std::string problems_of(const std::function<void()>& act) {
+  try {
+    act();
+  } catch (const MissionError& error) {
+    return error.what();
+  }
+  return "";
 }
 
 }  // namespace lasso::mdat::scene
