@@ -27,6 +27,7 @@ class Problems {
     if (!holds) add(key, value, expected);
   }
   bool empty() const { return problems_.empty(); }
+  const std::vector<Problem>& all() const { return problems_; }
   void throw_if_any() const {
     if (!empty()) throw MissionError(problems_);
   }
