@@ -1,6 +1,8 @@
 // Gathers what is wrong with a scene or a file of it, so that a person can repair all of it at once. Inside of scene.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,10 +31,14 @@ class Problems {
   bool empty() const { return problems_.empty(); }
   const std::vector<Problem>& all() const { return problems_; }
   void throw_if_any() const {
-    if (!empty()) throw MissionError(problems_);
+    if (empty()) return;
+    std::vector<Problem> told(problems_.begin(), problems_.begin() + static_cast<std::ptrdiff_t>(std::min(problems_.size(), kMost)));
+    if (problems_.size() > kMost) told.push_back({place_.file, 0, 0, "", "", std::to_string(problems_.size() - kMost) + " more problems"});
+    throw MissionError(std::move(told));
   }
 
  private:
+  static constexpr std::size_t kMost = 50;  // are told: a table has thousands of rows
   Place place_;
   std::vector<Problem> problems_;
 };

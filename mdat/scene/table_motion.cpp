@@ -76,25 +76,25 @@ bool same_lengths(const MotionTable& table) {
          fits(table.omegas_radps.size()) && fits(table.lines.size());
 }
 
-void check_degree(const MotionTable& table, Problems& problems) {
+void check_degree(const MotionTable& table, const Place& place, Problems& problems) {
   const int most = static_cast<int>(kMostNodes) - 1;
   if (table.degree < 1 || table.degree > most) {
-    problems.add("degree", std::to_string(table.degree), "expected a degree of interpolation from 1 to " + std::to_string(most));
+    problems.add_at(place, "degree", std::to_string(table.degree), "expected a degree of interpolation from 1 to " + std::to_string(most));
   } else if (!table.positions_m.empty() && table.times_s.size() > 1 && rows_of(table) > table.times_s.size()) {
-    problems.add("degree", std::to_string(table.degree),
-                 "needs " + std::to_string(rows_of(table)) + " rows, and there are " + std::to_string(table.times_s.size()) +
-                     ": lower the degree of interpolation, or add rows");
+    problems.add_at(place, "degree", std::to_string(table.degree),
+                    "needs " + std::to_string(rows_of(table)) + " rows, and there are " + std::to_string(table.times_s.size()) +
+                        ": lower the degree of interpolation, or add rows");
   }
 }
 
 }  // namespace
 
 void check_table(const MotionTable& table, const Place& place, Problems& problems) {
-  if (table.times_s.empty()) problems.add("", "", "has no row: expected at least one");
-  if (!same_lengths(table)) return problems.add("", "", "has columns of different lengths");
+  if (table.times_s.empty()) problems.add_at(place, "", "", "has no row: expected at least one");
+  if (!same_lengths(table)) return problems.add_at(place, "", "", "has columns of different lengths");
   RowCheck rows(table, place, problems);
   for (std::size_t row = 0; row < table.times_s.size(); ++row) rows.check(row);
-  check_degree(table, problems);
+  check_degree(table, place, problems);
 }
 
 TableMotion::TableMotion(MotionTable table, const Place& place) : table_(std::move(table)) {
