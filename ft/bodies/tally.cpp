@@ -4,7 +4,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "mdat/campaign/limits.hpp"
+#include "mdat/common/limits.hpp"
 #include "mdat/common/text.hpp"
 
 namespace lasso::bodies {

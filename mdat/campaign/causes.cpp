@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "mdat/campaign/conclusion.hpp"
-#include "mdat/campaign/double_policy.hpp"
+#include "mdat/common/double_policy.hpp"
 
 namespace lasso::mdat {
 namespace {

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "mdat/campaign/limits.hpp"
 #include "mdat/campaign/result_table.hpp"
+#include "mdat/common/limits.hpp"
 #include "mdat/missiondb/campaign_source.hpp"
 
 namespace lasso::mdat {

@@ -4,27 +4,11 @@
 #include <cmath>
 #include <vector>
 
+#include "mdat/common/share_text.hpp"
 #include "mdat/common/text.hpp"
 
 namespace lasso::mdat {
 namespace {
-
-using Rounding = double (*)(double);
-double down(double value) { return std::floor(value); }
-double up(double value) { return std::ceil(value); }
-double to_nearest(double value) { return std::round(value); }
-
-// One decimal of the percentage, and more as the share comes near 0 or 1.
-int percent_decimals(double share) {
-  const double missing = std::min(share, 1 - share);
-  return missing <= 0 ? 0 : std::clamp(static_cast<int>(std::ceil(-std::log10(missing))) - 1, 1, 7);
-}
-
-std::string rounded(double share, Rounding rounding) {
-  const int count = percent_decimals(share);
-  const double unit = std::pow(10, count);
-  return decimals(rounding(100 * share * unit) / unit, count) + " %";
-}
 
 // Two digits, rounded up: it is an estimate.
 std::string about(double number) {
@@ -41,10 +25,6 @@ std::string sentences(const std::vector<std::string>& all) {
 
 }  // namespace
 
-std::string share_text(double share) { return rounded(share, to_nearest); }
-
-std::string limits_text(const Limits& limits) { return rounded(limits.lower, down) + " to " + rounded(limits.upper, up); }
-
 std::string bounds_text(const Criterion& criterion) {
   const bool above = std::isfinite(criterion.at_least), below = std::isfinite(criterion.at_most);
   if (above && below) return format("%g <= %s <= %g", criterion.at_least, criterion.figure.c_str(), criterion.at_most);
@@ -60,7 +40,7 @@ std::string what_decides(const Conclusion& conclusion) {
   if (conclusion.verdict != Verdict::kUndecided) return "";
   if (conclusion.cases == 0) return "No case was flown.";
   if (conclusion.criterion.share_min >= 1)
-    return "No number of cases shows 100 %; these show " + rounded(conclusion.limits.lower, down) + ": ask for no more than that.";
+    return "No number of cases shows 100 %; these show " + lower_limit_text(conclusion.limits.lower) + ": ask for no more than that.";
   if (!conclusion.more) return "The share is the one that is asked for: no number of cases tells on which side of it the truth lies.";
   if (conclusion.sequence) return "It needs about " + about(*conclusion.more) + " more cases at this share.";
   return "At this share a campaign of about " + about(conclusion.cases + *conclusion.more) +

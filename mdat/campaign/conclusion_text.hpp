@@ -7,11 +7,6 @@
 
 namespace lasso::mdat {
 
-// Two digits of what is missing to 0 or 1: "99.42 %". A lower limit is rounded down, an upper one up: the text promises no more than they
-// do.
-std::string share_text(double share);
-std::string limits_text(const Limits& limits);  // "98.26 % to 99.88 %"
-
 // "wrong <= 0", "2 <= found_s <= 5".
 std::string bounds_text(const Criterion& criterion);
 

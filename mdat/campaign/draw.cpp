@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "fsw/geometry/portable_math.hpp"
-#include "mdat/campaign/double_policy.hpp"
+#include "mdat/common/double_policy.hpp"
 
 namespace lasso::mdat {
 namespace {

@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "mdat/campaign/limits.hpp"
+#include "mdat/common/limits.hpp"
 #include "mdat/common/text.hpp"
 #include "mdat/report/drawing.hpp"
 

@@ -8,6 +8,7 @@
 #include "mdat/campaign/law_text.hpp"
 #include "mdat/campaign/pictures.hpp"
 #include "mdat/campaign/summary_text.hpp"
+#include "mdat/common/share_text.hpp"
 #include "mdat/common/text.hpp"
 #include "mdat/common/version.hpp"
 #include "mdat/report/page.hpp"

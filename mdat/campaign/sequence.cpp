@@ -3,7 +3,7 @@
 #include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
 
-#include "mdat/campaign/double_policy.hpp"
+#include "mdat/common/double_policy.hpp"
 
 namespace lasso::mdat {
 namespace {

@@ -1,7 +1,7 @@
 // Limits of a share that stay valid however often one looks at them: for campaigns that stop when their question is decided.
 #pragma once
 
-#include "mdat/campaign/limits.hpp"
+#include "mdat/common/limits.hpp"
 
 namespace lasso::mdat {
 

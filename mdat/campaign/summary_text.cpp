@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "mdat/campaign/conclusion_text.hpp"
+#include "mdat/common/share_text.hpp"
 #include "mdat/common/text.hpp"
 
 namespace lasso::mdat {

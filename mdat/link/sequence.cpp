@@ -9,7 +9,7 @@
 namespace lasso::mdat {
 namespace {
 
-constexpr std::uint32_t kHalf = kSequenceCountMask / 2;
+constexpr std::uint32_t kHalfOfCounts = kSequenceCountMask / 2;
 constexpr std::size_t kMostCopies = 1000;  // looked at: more are a restart
 
 // The packets of one type and APID, in the order of the stream.
@@ -26,7 +26,7 @@ class SequenceWalk {
       if (damaged) continue;
       if (ahead == 0) {
         line(i).step = SequenceStep::kRepeated;
-      } else if (ahead <= kHalf) {
+      } else if (ahead <= kHalfOfCounts) {
         go_on(i, ahead);
       } else if (is_late(i)) {
         fill_gap(i);
@@ -102,7 +102,7 @@ class SequenceWalk {
   }
   bool is_next(std::uint64_t from, std::size_t i) const {
     const std::uint32_t ahead = distance(from, count(i));
-    return ahead > 0 && ahead <= kHalf;
+    return ahead > 0 && ahead <= kHalfOfCounts;
   }
   // The next count goes on from this one rather than from the latest; of the last packet, it is 0.
   bool begins_anew(std::size_t i) const {

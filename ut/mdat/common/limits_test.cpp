@@ -1,4 +1,4 @@
-#include "mdat/campaign/limits.hpp"
+#include "mdat/common/limits.hpp"
 
 #include <gtest/gtest.h>
 

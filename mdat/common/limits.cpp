@@ -1,8 +1,8 @@
-#include "mdat/campaign/limits.hpp"
+#include "mdat/common/limits.hpp"
 
 #include <boost/math/special_functions/beta.hpp>
 
-#include "mdat/campaign/double_policy.hpp"
+#include "mdat/common/double_policy.hpp"
 
 namespace lasso::mdat {
 
