@@ -12,6 +12,7 @@
 #include "mdat/report/flights_view.hpp"
 #include "mdat/report/page.hpp"
 #include "mdat/report/scan_view.hpp"
+#include "mdat/report/stanford_view.hpp"
 #include "mdat/report/timeline_view.hpp"
 #include "mdat/run/paper.hpp"
 #include "mdat/run/results.hpp"
@@ -175,7 +176,8 @@ std::string table_section(Plotter& plotter, const sim::RayCaster& target, const 
   if (table.scenario.runs_m().size() > 1) html += flights ? flights_part(plotter, table) : range_figure(plotter, table);
   html +=
       figure(time_histogram(plotter, table), "Processor time of whole estimates (range image in, pose and covariance out) on one thread.");
-  return html + doubtful_section(plotter, target, table) + "</section>\n";
+  html += doubtful_section(plotter, target, table) + "<h3>Integrity</h3>\n";
+  return html + integrity_section(plotter, table, main_variant(table)) + "</section>\n";
 }
 
 constexpr double kPictureScale = 0.72;  // of the picture for the README
@@ -199,7 +201,9 @@ std::string approach_html(Plotter& plotter, const CompiledMission& mission, cons
       "when the covariance is honest. –: not known, as there is no valid pose.</p>\n" +
       about_section(mission, result);
   body += timeline_section(plotter, *target, result);
-  const std::string doubtful = doubtful_section(plotter, *target, result.tables.front());
+  const TableResult& table = result.tables.front();
+  const std::string doubtful = doubtful_section(plotter, *target, table);
+  body += "<section>\n<h2>Integrity</h2>\n" + integrity_section(plotter, table, table.variants.front()) + "</section>\n";
   return page(result.mission + ", " + result.scenario, body + (doubtful.empty() ? "" : "<section>\n" + doubtful + "</section>\n"));
 }
 

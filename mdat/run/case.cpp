@@ -139,6 +139,7 @@ class Case {
       ++done;
     }
     result_.frames.resize(flown);
+    result_.end_s = to_seconds(static_cast<DurationUs>(flown) * period_us_);
     if (setup_.scenario.prior == 0) {
       const auto found = static_cast<std::ptrdiff_t>(std::min(std::size_t{result_.found_frame.value_or(setup_.frames)}, flown));
       result_.frames.erase(result_.frames.begin(), result_.frames.begin() + found);
@@ -274,6 +275,7 @@ class Case {
     const Mat6 covariance = registration_covariance(pose);
     error.sigma_rad = std::sqrt(covariance.topLeftCorner<3, 3>().trace());
     error.sigma_m = std::sqrt(covariance.bottomRightCorner<3, 3>().trace());
+    error.level = protection_levels(covariance);
     error.valid = pose.valid != 0;
     error.wrong = judge_valid(pose, truth.T_sensor_target) == PoseVerdict::kWrong;
     error.registration = pose_error(registration_pose(pose), truth.T_sensor_target);

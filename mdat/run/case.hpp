@@ -66,6 +66,7 @@ constexpr std::size_t kDoubtfulScans = 3;
 
 struct CaseResult {
   std::vector<FrameError> frames;
+  double end_s = 0;                     // of the last frame, since frame 0
   std::vector<std::uint8_t> telemetry;  // all packets, in order
   std::vector<KeptScan> scans;
   std::vector<KeptScan> doubtful;            // the first kDoubtfulScans whose valid poses are wrong, and as many without a valid pose

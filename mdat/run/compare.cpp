@@ -39,6 +39,11 @@ constexpr Row kRows[] = {{"frames", "/frames", 0},
                          {"bound, mm", "/crlb_mm", 4},
                          {"bound, deg", "/crlb_deg", 5},
                          {"NEES (6 is honest)", "/nees", 2},
+                         {"times wrong", "/time_to_alert/episodes", 0},
+                         {"time to alert, worst s", "/time_to_alert/worst_s", 3},
+                         {"misleading", "/protection/misleading", 0},
+                         {"protection level, mm", "/protection/position/median_mm", 3},
+                         {"protection level, deg", "/protection/attitude/median_deg", 4},
                          {"estimate, median us", "/estimate_us/median", 0},
                          {"estimate, p99 us", "/estimate_us/p99", 0}};
 

@@ -13,9 +13,11 @@ namespace {
 constexpr double kMm = 1e3, kDeg = 1 / kRadPerDeg;
 
 constexpr char kColumns[] =
-    "table,variant,run,frame,t_s,range_m,mode,reported,valid,reason,wrong,lost,x_mm,y_mm,z_mm,yaw_deg,pitch_deg,roll_deg,error_mm,error_"
+    "table,variant,run,frame,t_s,range_m,mode,reported,valid,reason,wrong,misleading,lost,x_mm,y_mm,z_mm,yaw_deg,pitch_deg,roll_deg,error_"
+    "mm,error_"
     "deg,"
-    "sigma_mm,sigma_deg,nees,filtered_mm,filtered_deg,omega_error_degps,v_error_mmps,returns,inliers,sensor,part,estimate_us\n";
+    "sigma_mm,sigma_deg,nees,level_mm,level_deg,filtered_mm,filtered_deg,omega_error_degps,v_error_mmps,returns,inliers,sensor,part,"
+    "estimate_us\n";
 
 // A number, or an empty cell.
 std::string cell(double value) { return std::isfinite(value) ? format(",%.6g", value) : std::string(","); }
@@ -24,18 +26,20 @@ std::string error_cells(const FrameError& frame) {
   std::string text;
   for (int i = 0; i < 3; ++i) text += cell(kMm * frame.registration.translation_m[i]);
   for (int i = 0; i < 3; ++i) text += cell(kDeg * frame.registration.yaw_pitch_roll[i]);
-  for (const double value : {kMm * frame.registration.translation_m.norm(), kDeg * frame.registration.rotation_rad, kMm * frame.sigma_m,
-                             kDeg * frame.sigma_rad, frame.nees, kMm * frame.filtered.translation_m.norm(),
-                             kDeg * frame.filtered.rotation_rad, kDeg * frame.omega_error_radps, kMm * frame.v_error_mps})
+  for (const double value :
+       {kMm * frame.registration.translation_m.norm(), kDeg * frame.registration.rotation_rad, kMm * frame.sigma_m, kDeg * frame.sigma_rad,
+        frame.nees, kMm * frame.level.position_m, kDeg * frame.level.attitude_rad, kMm * frame.filtered.translation_m.norm(),
+        kDeg * frame.filtered.rotation_rad, kDeg * frame.omega_error_radps, kMm * frame.v_error_mps})
     text += cell(value);
   return text;
 }
 
 std::string row(const SimulationResult& result, const FrameError& frame) {
   std::string text = format("%u,%.6g,%.6g,", frame.frame, frame.t_s, frame.range_m);
-  text += format("%s,%d,%d,%s,%d,%d", frame.told ? to_string(frame.mode) : "", frame.reported ? 1 : 0, frame.valid ? 1 : 0,
-                 frame.told ? to_string(frame.reason) : "", frame.wrong ? 1 : 0, frame.lost() ? 1 : 0);
-  if (!frame.reported) return text + std::string(20, ',') + "\n";
+  const bool misleading = frame.misleads_about_position() || frame.misleads_about_attitude();
+  text += format("%s,%d,%d,%s,%d,%d,%d", frame.told ? to_string(frame.mode) : "", frame.reported ? 1 : 0, frame.valid ? 1 : 0,
+                 frame.told ? to_string(frame.reason) : "", frame.wrong ? 1 : 0, misleading ? 1 : 0, frame.lost() ? 1 : 0);
+  if (!frame.reported) return text + std::string(22, ',') + "\n";
   text += error_cells(frame);
   text +=
       format(",%u,%u,%s,%s", frame.returns, frame.inliers, result.sensors.at(frame.sensor).c_str(), result.parts.at(frame.part).c_str());

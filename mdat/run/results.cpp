@@ -7,6 +7,7 @@
 
 #include "mdat/common/text.hpp"
 #include "mdat/common/version.hpp"
+#include "mdat/run/integrity.hpp"
 #include "mdat/run/paper.hpp"
 
 namespace lasso::mdat {
@@ -51,6 +52,7 @@ Json statistics_json(const RunStatistics& run, bool noise, ScenarioKind kind) {
   json["nees"] = noise ? Json(run.nees) : Json(nullptr);
   json["estimate_us"] = {{"median", run.time.median_us}, {"p99", run.time.p99_us}, {"max", run.time.max_us}};
   json["filtered"] = with_rms(run.filtered);
+  json.update(integrity_json(integrity_of(run)));
   return json;
 }
 
@@ -153,8 +155,11 @@ Json groups_json(const std::vector<TimelineGroup>& groups) {
   return json;
 }
 
+const RunStatistics& statistics_of(const SimulationResult& result) { return result.tables.front().variants.front().all; }
+
 Json timeline_json(const SimulationResult& result, const Timeline& timeline) {
   Json json = run_json(timeline_statistics(timeline));
+  if (result.kind == ScenarioKind::kApproach) json.update(integrity_json(integrity_of(statistics_of(result))));
   json["by_mode"] = groups_json(by_mode(timeline));
   json["by_sensor"] = groups_json(by_sensor(timeline, result.sensors));
   json["by_part"] = groups_json(by_part(timeline, result.parts));
@@ -212,6 +217,7 @@ std::string timeline_text(const SimulationResult& result, const Timeline& timeli
   text += groups_text("by mode", by_mode(timeline)) + groups_text("by sensor", by_sensor(timeline, result.sensors)) +
           groups_text("by part", by_part(timeline, result.parts));
   if (run.valid == 0) return text + format("\n  no valid pose in %zu frames\n\n", run.frames);
+  text += "\n" + aligned_text(integrity_list(integrity_of(statistics_of(result))));
   text += format("\n  valid poses %zu, of these wrong %zu; rms %.2f mm, %.4f deg; worst %.1f mm, %.3f deg; NEES %.2f of 6\n\n", run.valid,
                  run.wrong, run.rms_mm, run.rms_deg, run.worst_mm, run.worst_deg, run.nees);
   return text;
@@ -278,6 +284,12 @@ std::string settled_text(const TableResult& table) {
   return text;
 }
 
+std::string integrity_text(const TableResult& table) {
+  std::vector<std::vector<std::string>> lines = {integrity_head("integrity")};
+  for (const VariantResult& variant : table.variants) lines.push_back(integrity_row(variant.variant.title, integrity_of(variant.all), "-"));
+  return aligned_text(lines);
+}
+
 // When each run had its first valid pose.
 std::string found_text(const TableResult& table) {
   std::string text;
@@ -298,6 +310,7 @@ std::string table_text(const SimulationResult& result, const TableResult& table)
                  attitude_text(scenario).c_str());
   text += axes_table(table, is_beside_paper(table));
   text += quality_table(table);
+  text += integrity_text(table);
   text += invalid_text(table);
   if (result.kind != ScenarioKind::kPaper) text += tracked_text(table) + settled_text(table);
   if (scenario.prior == 0) text += found_text(table);

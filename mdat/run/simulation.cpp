@@ -245,10 +245,13 @@ bool is_edge_on(std::size_t frame, double step_rad) {
 
 void evaluate(const Scenario& scenario, VariantResult& variant) {
   std::vector<FrameError> all, edge_on, all_settled;
+  AlertTimes all_alerts;
   for (const CaseResult& result : variant.cases) {
     const std::vector<FrameError> settled = settled_frames(result.frames);
     variant.by_range.push_back(run_statistics(result.frames));
     variant.by_range.back().settled = settled_statistics(settled);
+    variant.by_range.back().alert = alert_times(result.frames, result.end_s);
+    all_alerts.add(variant.by_range.back().alert);
     all_settled.insert(all_settled.end(), settled.begin(), settled.end());
     all.insert(all.end(), result.frames.begin(), result.frames.end());
     for (std::size_t frame = 0; frame < result.frames.size(); ++frame) {
@@ -257,6 +260,7 @@ void evaluate(const Scenario& scenario, VariantResult& variant) {
   }
   variant.all = run_statistics(all);
   variant.all.settled = settled_statistics(all_settled);
+  variant.all.alert = all_alerts;
   variant.edge_on = run_statistics(edge_on);
 }
 

@@ -27,6 +27,16 @@ double nearest_rank(const std::vector<double>& sorted, double share) {
   return sorted[std::max<std::size_t>(rank, 1) - 1];
 }
 
+LevelStatistics level_statistics(std::vector<double> levels, std::size_t misleading) {
+  LevelStatistics result;
+  result.misleading = misleading;
+  if (levels.empty()) return result;
+  std::sort(levels.begin(), levels.end());
+  result.median = nearest_rank(levels, 0.5);
+  result.worst = levels.back();
+  return result;
+}
+
 struct Sums {
   std::size_t tracked = 0, valid = 0, bounded = 0;
   double bound_m2 = 0, bound_rad2 = 0, nees = 0, omega2 = 0, v2 = 0;
@@ -127,6 +137,33 @@ SettledStatistics settled_statistics(const std::vector<FrameError>& frames) {
   return result;
 }
 
+ProtectionStatistics protection_statistics(const std::vector<FrameError>& frames) {
+  ProtectionStatistics result;
+  std::vector<double> position_mm, attitude_deg;
+  std::size_t about_position = 0, about_attitude = 0;
+  for (const FrameError& frame : frames) {
+    if (!frame.valid) continue;
+    ++result.poses;
+    position_mm.push_back(1e3 * frame.level.position_m);
+    attitude_deg.push_back(frame.level.attitude_rad / kRadPerDeg);
+    about_position += frame.misleads_about_position() ? 1U : 0U;
+    about_attitude += frame.misleads_about_attitude() ? 1U : 0U;
+    result.misleading += frame.misleads_about_position() || frame.misleads_about_attitude() ? 1U : 0U;
+  }
+  result.position_mm = level_statistics(std::move(position_mm), about_position);
+  result.attitude_deg = level_statistics(std::move(attitude_deg), about_attitude);
+  return result;
+}
+
+AlertTimes alert_times(const std::vector<FrameError>& run, double end_s) {
+  std::vector<JudgedFrame> judged;
+  judged.reserve(run.size());
+  for (const FrameError& frame : run) judged.push_back({frame.t_s, frame.wrong});
+  AlertTimes times;
+  times.add(wrong_episodes(judged, end_s));
+  return times;
+}
+
 std::vector<FrameError> settled_frames(const std::vector<FrameError>& run) {
   return {run.begin() + static_cast<std::ptrdiff_t>(std::min(kSettlingFrames, run.size())), run.end()};
 }
@@ -155,6 +192,7 @@ RunStatistics run_statistics(const std::vector<FrameError>& frames) {
   result.nees = mean(sums.nees, sums.valid);
   result.omega_rms_degps = root_mean(sums.omega2, sums.tracked) / kRadPerDeg;
   result.v_rms_mmps = 1e3 * root_mean(sums.v2, sums.tracked);
+  result.protection = protection_statistics(frames);
   result.time = time_statistics(std::move(times_us));
   return result;
 }

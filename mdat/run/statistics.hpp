@@ -10,6 +10,8 @@
 #include "fsw/pose/result.hpp"
 #include "fsw/sense/sensor_chooser.hpp"
 #include "mdat/run/bound.hpp"
+#include "mdat/run/protection_level.hpp"
+#include "mdat/run/time_to_alert.hpp"
 
 namespace lasso::mdat {
 
@@ -42,6 +44,7 @@ struct FrameError {
   std::uint8_t part = 0;  // 0: the whole
   std::uint16_t returns = 0, inliers = 0;
   double sigma_m = 0, sigma_rad = 0;  // of the registration: roots of the traces of its covariance
+  ProtectionLevels level;             // of the registration
   bool told = false;                  // a packet says its mode and reason
   bool reported = false;              // a registration of this frame's scan is in the telemetry
   bool valid = false;                 // and it says that it can be trusted
@@ -53,6 +56,8 @@ struct FrameError {
   double omega_error_radps = 0, v_error_mps = 0;  // of the filter's rates: norms
 
   bool lost() const { return !reported || registration.lost(); }
+  bool misleads_about_position() const { return valid && registration.translation_m.norm() > level.position_m; }
+  bool misleads_about_attitude() const { return valid && registration.rotation_rad > level.attitude_rad; }
 };
 
 struct MeanStd {
@@ -84,6 +89,8 @@ struct RunStatistics {
   double nees = 0;                   // mean
   double omega_rms_degps = 0, v_rms_mmps = 0;
   SettledStatistics settled;  // of one run, or of several
+  AlertTimes alert;           // the same
+  ProtectionStatistics protection;
   TimeStatistics time;
 };
 
@@ -91,7 +98,11 @@ MeanStd mean_std(const std::vector<double>& values);  // of the whole population
 ErrorStatistics error_statistics(const std::vector<PoseError>& errors);
 TimeStatistics time_statistics(std::vector<double> times_us);  // percentiles by nearest rank; the lower median
 SettledStatistics settled_statistics(const std::vector<FrameError>& frames);
-RunStatistics run_statistics(const std::vector<FrameError>& frames);  // `settled` is left out: where a run began, the caller knows
+ProtectionStatistics protection_statistics(const std::vector<FrameError>& frames);
+RunStatistics run_statistics(const std::vector<FrameError>& frames);  // without `settled` and `alert`: where a run began, the caller knows
+
+// Times to alert of a run that ended at `end_s`.
+AlertTimes alert_times(const std::vector<FrameError>& run, double end_s);
 
 // The frames of a run after the first kSettlingFrames.
 std::vector<FrameError> settled_frames(const std::vector<FrameError>& run);

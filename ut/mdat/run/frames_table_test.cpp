@@ -34,6 +34,7 @@ SimulationResult two_frames() {
   frame.sigma_m = 0.002;
   frame.sigma_rad = 0.25 * kRadPerDeg;
   frame.nees = 36;
+  frame.level = {0.008, 3 * kRadPerDeg};
   frame.returns = 900;
   frame.inliers = 850;
   frame.sensor = frame.part = 1;
@@ -69,17 +70,20 @@ TEST(FramesTable, HasARowForEachFrameWithUnitsInTheNames) {
   EXPECT_EQ(rows[1].size(), rows[0].size());
   EXPECT_EQ(rows[2].size(), rows[0].size());
   const std::pair<const char*, const char*> expected[] = {
-      {"table", "side_on"}, {"variant", "noisy"}, {"run", "2"},      {"frame", "7"},        {"t_s", "1.49"},     {"range_m", "3.5"},
-      {"mode", "tracking"}, {"reported", "1"},    {"valid", "1"},    {"reason", "valid"},   {"wrong", "1"},      {"lost", "0"},
-      {"x_mm", "3"},        {"y_mm", "-4"},       {"z_mm", "12"},    {"yaw_deg", "0.5"},    {"pitch_deg", "-1"}, {"roll_deg", "2"},
-      {"error_mm", "13"},   {"error_deg", "2.5"}, {"sigma_mm", "2"}, {"sigma_deg", "0.25"}, {"nees", "36"},      {"returns", "900"},
-      {"inliers", "850"},   {"sensor", "lidar"},  {"part", "bay"},   {"estimate_us", "321"}};
+      {"table", "side_on"},  {"variant", "noisy"}, {"run", "2"},       {"frame", "7"},        {"t_s", "1.49"},     {"range_m", "3.5"},
+      {"mode", "tracking"},  {"reported", "1"},    {"valid", "1"},     {"reason", "valid"},   {"wrong", "1"},      {"lost", "0"},
+      {"x_mm", "3"},         {"y_mm", "-4"},       {"z_mm", "12"},     {"yaw_deg", "0.5"},    {"pitch_deg", "-1"}, {"roll_deg", "2"},
+      {"error_mm", "13"},    {"error_deg", "2.5"}, {"sigma_mm", "2"},  {"sigma_deg", "0.25"}, {"nees", "36"},      {"level_mm", "8"},
+      {"level_deg", "3"},    {"misleading", "1"},  {"returns", "900"}, {"inliers", "850"},    {"sensor", "lidar"}, {"part", "bay"},
+      {"estimate_us", "321"}};
   for (const auto& [name, value] : expected) EXPECT_EQ(cell(1, name), value) << name;
   EXPECT_EQ(cell(2, "frame"), "8");
   EXPECT_EQ(cell(2, "range_m"), "3.4");
   EXPECT_EQ(cell(2, "reported"), "0");
   EXPECT_EQ(cell(2, "lost"), "1");
-  for (const char* unknown : {"mode", "reason", "x_mm", "nees", "sensor", "estimate_us"}) EXPECT_EQ(cell(2, unknown), "") << unknown;
+  EXPECT_EQ(cell(2, "misleading"), "0");
+  for (const char* unknown : {"mode", "reason", "x_mm", "nees", "level_mm", "sensor", "estimate_us"})
+    EXPECT_EQ(cell(2, unknown), "") << unknown;
 }
 
 }  // namespace

@@ -181,6 +181,43 @@ TEST(Statistics, ErrorsOfFramesWithoutABoundStandOverNoOthers) {
   EXPECT_TRUE(std::isnan(run_statistics({bounded, open}).crlb_mm));
 }
 
+FrameError frame_off(double off_m, double turned_rad, const ProtectionLevels& level) {
+  FrameError frame;
+  frame.reported = frame.valid = true;
+  frame.registration.translation_m = Vec3(0, 0.6, -0.8) * off_m;
+  frame.registration.rotation_rad = turned_rad;
+  frame.level = level;
+  return frame;
+}
+
+TEST(Statistics, APoseFartherOffThanItsLevelIsMisleading) {
+  VERIFIES("LASSO-GND-131~1");
+  const double deg = kRadPerDeg;
+  std::vector<FrameError> frames = {frame_off(0.001, 0.1 * deg, {0.004, 0.3 * deg}), frame_off(0.009, 0.1 * deg, {0.008, 0.2 * deg}),
+                                    frame_off(0.001, 0.5 * deg, {0.002, 0.4 * deg}), frame_off(0.009, 0.5 * deg, {0.006, 0.1 * deg}),
+                                    frame_off(0.5, 9 * deg, {0.001, 0.01 * deg})};
+  frames.back().valid = false;  // it says so: nobody is misled
+  const ProtectionStatistics protection = protection_statistics(frames);
+  EXPECT_EQ(protection.poses, 4U);
+  EXPECT_EQ(protection.misleading, 3U);
+  EXPECT_EQ(protection.position_mm.misleading, 2U);
+  EXPECT_EQ(protection.attitude_deg.misleading, 2U);
+  EXPECT_NEAR(protection.position_mm.median, 4, 1e-12);
+  EXPECT_NEAR(protection.position_mm.worst, 8, 1e-12);
+  EXPECT_NEAR(protection.attitude_deg.median, 0.2, 1e-12);
+  EXPECT_NEAR(protection.attitude_deg.worst, 0.4, 1e-12);
+  EXPECT_TRUE(std::isnan(protection_statistics({}).position_mm.median)) << "of nothing, nothing is known";
+  EXPECT_EQ(run_statistics(frames).protection.misleading, 3U);
+}
+
+TEST(Statistics, ARunsTimesToAlertAreThoseOfItsFrames) {
+  VERIFIES("LASSO-GND-130~1");
+  std::vector<FrameError> run(5);
+  for (std::size_t i = 0; i < run.size(); ++i) run[i].t_s = 0.1 + 0.2 * static_cast<double>(i);
+  run[1].wrong = run[2].wrong = run[4].wrong = true;
+  EXPECT_EQ(alert_times(run, 1).text(), "100+ 400");
+}
+
 TEST(Statistics, OnceSettledAllThatIsReportedCountsForTheRates) {
   VERIFIES("LASSO-MDT-002~1");
   std::vector<FrameError> run(23);
