@@ -21,6 +21,8 @@ double count_if(const Frames& frames, const Test& test) {
 double translation_mm(const FrameError& frame) { return 1e3 * frame.registration.translation_m.norm(); }
 double rotation_deg(const FrameError& frame) { return frame.registration.rotation_rad / kRadPerDeg; }
 double nees_of(const FrameError& frame) { return frame.nees; }
+double level_mm(const FrameError& frame) { return 1e3 * frame.level.position_m; }
+double level_deg(const FrameError& frame) { return frame.level.attitude_rad / kRadPerDeg; }
 
 // Of the frames with a valid pose, ascending.
 std::vector<double> sorted_of_valid(const CaseResult& result, double (*value)(const FrameError&)) {
@@ -57,12 +59,15 @@ double worst(const CaseResult& result, double (*value)(const FrameError&)) {
   return values.empty() ? kUnknown : values.back();
 }
 
-double percentile(const CaseResult& result, double (*value)(const FrameError&)) {
+double at_share(const CaseResult& result, double (*value)(const FrameError&), double share) {
   const std::vector<double> values = sorted_of_valid(result, value);
   if (values.empty()) return kUnknown;
-  const auto rank = static_cast<std::size_t>(std::ceil(kPercentile * static_cast<double>(values.size())));
+  const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(values.size())));
   return values[std::max<std::size_t>(rank, 1) - 1];
 }
+
+double percentile(const CaseResult& result, double (*value)(const FrameError&)) { return at_share(result, value, kPercentile); }
+double median(const CaseResult& result, double (*value)(const FrameError&)) { return at_share(result, value, 0.5); }
 
 double last(const CaseResult& result, double (*value)(const FrameError&)) {
   return result.frames.empty() || !result.frames.back().valid ? kUnknown : value(result.frames.back());
@@ -76,6 +81,23 @@ const FrameError* first_of(const CaseResult& result, const Test& test) {
 
 // Of a case that never had a valid pose to begin at, nothing is known of what would have followed.
 double of_begun(const CaseResult& result, double count) { return result.frames.empty() ? kUnknown : count; }
+
+AlertStatistics alerts(const CaseResult& result) { return alert_times(result.frames, result.end_s).statistics(); }
+
+double worst_time_to_alert_s(const CaseResult& result) {
+  const AlertStatistics alert = alerts(result);
+  return alert.episodes == 0 ? 0 : alert.worst_s;  // a criterion asks for no more than some time
+}
+
+double misleading(const CaseResult& result) {
+  return count_if(result.frames,
+                  [](const FrameError& frame) { return frame.misleads_about_position() || frame.misleads_about_attitude(); });
+}
+
+double misleading_share(const CaseResult& result) {
+  const double valid = count_if(result.frames, [](const FrameError& frame) { return frame.valid; });
+  return valid == 0 ? kUnknown : misleading(result) / valid;
+}
 
 SettledStatistics settled(const CaseResult& result) { return settled_statistics(settled_frames(result.frames)); }
 double known_or_nan(const CaseResult& result, double value) { return result.frames.size() > kSettlingFrames ? value : kUnknown; }
@@ -106,6 +128,15 @@ const std::vector<Figure>& case_figures() {
     {"settled_invalid", "frames without a valid pose after the first 20", [](R r) { return known_or_nan(r, static_cast<double>(settled(r).invalid)); }},
     {"settled_degps", "error of the angular rate after the first 20 frames, root mean square", [](R r) { return known_or_nan(r, settled(r).rms_degps); }},
     {"settled_mmps", "error of the velocity after the first 20 frames, root mean square", [](R r) { return known_or_nan(r, settled(r).rms_mmps); }},
+    {"episodes", "episodes: valid poses that are wrong, one after the other", [](R r) { return static_cast<double>(alerts(r).episodes); }},
+    {"censored", "1 where the flight ended within an episode, which then lasted as long at least", [](R r) { return static_cast<double>(alerts(r).censored); }},
+    {"time_to_alert_worst_s", "longest time from a wrong pose to the first frame without one; 0 where no pose is wrong", worst_time_to_alert_s},
+    {"misleading", "frames with a misleading pose: valid, and farther off than its protection level in position or attitude", misleading},
+    {"misleading_share", "of the valid poses, the share that is misleading", misleading_share},
+    {"level_median_mm", "protection level of the position at 10^-4, median", [](R r) { return median(r, level_mm); }},
+    {"level_worst_mm", "protection level of the position at 10^-4, worst frame", [](R r) { return worst(r, level_mm); }},
+    {"level_median_deg", "protection level of the attitude at 10^-4, median", [](R r) { return median(r, level_deg); }},
+    {"level_worst_deg", "protection level of the attitude at 10^-4, worst frame", [](R r) { return worst(r, level_deg); }},
   };
   // clang-format on
   return figures;

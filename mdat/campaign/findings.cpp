@@ -6,12 +6,34 @@
 #include <map>
 #include <string_view>
 
+#include "fsw/geometry/portable_math.hpp"
 #include "mdat/common/text.hpp"
 
 namespace lasso::mdat {
 namespace {
 
 constexpr std::size_t kWorstCases = 10;
+
+// A figure of each case that has run, where there is one.
+std::vector<double> values_of(const ResultTable& table, const char* figure) {
+  std::vector<double> values;
+  const auto place = static_cast<std::size_t>(std::find(table.figures.begin(), table.figures.end(), figure) - table.figures.begin());
+  for (const CaseRow& row : table.rows) {
+    if (place < table.figures.size() && row.has_run() && !std::isnan(row.figures[place])) values.push_back(row.figures[place]);
+  }
+  return values;
+}
+
+std::size_t counted(const ResultTable& table, const char* figure) {
+  double sum = 0;
+  for (const double value : values_of(table, figure)) sum += value;
+  return static_cast<std::size_t>(sum);
+}
+
+double largest(const ResultTable& table, const char* figure) {
+  const std::vector<double> values = values_of(table, figure);
+  return values.empty() ? std::nan("") : *std::max_element(values.begin(), values.end());
+}
 
 // Cases that were flown and in which no pose was ever valid.
 std::size_t never_valid(const ResultTable& table) {
@@ -49,6 +71,24 @@ ResultTable with_lengths(ResultTable table) {
   return table;
 }
 
+std::optional<Integrity> integrity_of(const ResultTable& table) {
+  if (!table.counts) return std::nullopt;
+  Integrity all;
+  all.alert = table.counts->alert.statistics();
+  all.wrong = counted(table, "wrong");
+  all.protection.poses = table.counts->position_m.poses();
+  all.protection.misleading = counted(table, "misleading");
+  all.protection.position_mm = {table.counts->position_m.misleading(), 1e3 * table.counts->position_m.median(),
+                                largest(table, "level_worst_mm")};
+  all.protection.attitude_deg = {table.counts->attitude_rad.misleading(), table.counts->attitude_rad.median() / kRadPerDeg,
+                                 largest(table, "level_worst_deg")};
+  for (const double wrong : values_of(table, "wrong")) {
+    ++all.flights;
+    all.wrong_flights += wrong > 0 ? 1U : 0U;
+  }
+  return all;
+}
+
 std::string reason_text(const CaseRow& row) { return row.status.substr(std::min(row.status.size(), row.status.find(':') + 1)); }
 
 Finding finding_of(const Conclusion& conclusion, const ResultTable& table) {
@@ -59,7 +99,7 @@ Finding finding_of(const Conclusion& conclusion, const ResultTable& table) {
 
 Findings find(const CampaignSource& campaign, const ResultTable& table, const std::string& folder) {
   const bool stopped = table.rows.size() < campaign.cases && stop_at(campaign, table) == table.rows.size();
-  Findings all{campaign, with_lengths(table), folder, 0, stopped, {}};
+  Findings all{campaign, with_lengths(table), folder, 0, stopped, {}, integrity_of(table)};
   for (const CaseRow& row : table.rows) all.not_run += row.has_run() ? 0U : 1U;
   for (const Conclusion& conclusion : conclude(campaign, table)) all.findings.push_back(finding_of(conclusion, all.table));
   return all;

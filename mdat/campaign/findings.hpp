@@ -1,11 +1,13 @@
 // All that is said of a campaign's results, on the terminal, in the report and in files for machines.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "mdat/campaign/causes.hpp"
 #include "mdat/campaign/conclusion.hpp"
+#include "mdat/run/integrity.hpp"
 
 namespace lasso::mdat {
 
@@ -22,11 +24,12 @@ struct Finding {
 
 struct Findings {
   const CampaignSource& campaign;
-  ResultTable table;              // with the lengths of vectors that were drawn, behind the columns
-  std::string folder;             // of the campaign, as commands name it
-  std::uint32_t not_run = 0;      // cases that failed to run
-  bool stopped = false;           // by its rule, before all cases were flown
-  std::vector<Finding> findings;  // a criterion each
+  ResultTable table;                   // with the lengths of vectors that were drawn, behind the columns
+  std::string folder;                  // of the campaign, as commands name it
+  std::uint32_t not_run = 0;           // cases that failed to run
+  bool stopped = false;                // by its rule, before all cases were flown
+  std::vector<Finding> findings;       // a criterion each
+  std::optional<Integrity> integrity;  // of all cases; nothing where their counts were not kept
   bool complete() const { return stopped || table.rows.size() >= campaign.cases; }
 };
 
@@ -35,6 +38,9 @@ Finding finding_of(const Conclusion& conclusion, const ResultTable& table);
 
 // Of each criterion. `campaign` is referred to.
 Findings find(const CampaignSource& campaign, const ResultTable& table, const std::string& folder);
+
+// Of all cases of the table together; medians of levels to within 4.5 %. Nothing where it has no counts.
+std::optional<Integrity> integrity_of(const ResultTable& table);
 
 // The command that flies a case again: a shell reads it.
 std::string case_command(const Findings& all, std::uint32_t number);

@@ -10,6 +10,7 @@
 #include <optional>
 #include <sstream>
 
+#include "mdat/campaign/case_counts.hpp"
 #include "mdat/campaign/case_table.hpp"
 #include "mdat/campaign/chunk_file.hpp"
 #include "mdat/campaign/conclusion.hpp"
@@ -54,9 +55,16 @@ std::string digest_of_image(const MissionInput& input, const std::string& campai
   }
 }
 
-std::string record_fields(const CaseResult& result) {
+// What the plan keeps of a case. One that an earlier mdat expanded keeps less.
+std::string record_fields(const CampaignPlan& plan, const CaseResult& result) {
   std::string fields = "ok";
-  for (const Figure& figure : case_figures()) fields += "," + cell_text(figure.of(result));
+  for (const Figure& figure : case_figures()) {
+    const bool kept = std::find(plan.figures.begin(), plan.figures.end(), figure.name) != plan.figures.end();
+    if (kept) fields += "," + cell_text(figure.of(result));
+  }
+  if (plan.counts == count_names()) {
+    for (const std::string& cell : count_cells(counts_of(result))) fields += "," + cell;
+  }
   return fields;
 }
 
@@ -92,14 +100,15 @@ struct CaseFlyer {
       : mission(compile_mission(MissionInput(folder.input), ModelCache::of_user_if(folder.cached))),
         cases(folder.path / kCaseTable),
         flight(mission, campaign_of(mission.source, folder.plan.campaign), cases.columns()),
-        times(folder.path / kChunks / (runner + kTimes)) {
+        times(folder.path / kChunks / (runner + kTimes)),
+        plan(folder.plan) {
     check_image(folder.plan, mission);
   }
 
   std::string fly(std::uint32_t number) {
     const double begin_us = process_cpu_us();  // a flight has two threads
     const CaseValues values = cases.at(number);
-    std::string fields = record_fields(flight.fly(values.seed, values.numbers));
+    std::string fields = record_fields(plan, flight.fly(values.seed, values.numbers));
     times.note(number, 1e-6 * (process_cpu_us() - begin_us));
     return fields;
   }
@@ -108,6 +117,7 @@ struct CaseFlyer {
   CaseReader cases;
   CampaignFlight flight;
   TimesFile times;
+  const CampaignPlan& plan;
 };
 
 std::vector<double> figures_of(std::string_view cells, std::size_t count) {
@@ -131,6 +141,34 @@ CaseRow row_of(std::uint32_t number, std::string_view fields, std::size_t count,
   row.status = is_failed(fields) ? std::string(fields) : std::string(fields.substr(0, fields.find(',')));
   row.figures = is_failed(fields) ? std::vector<double>(count, kNoFigure) : figures_of(fields.substr(row.status.size()), count);
   return row;
+}
+
+// Cells of a record behind the first `count`, as many as there are.
+std::vector<std::string_view> cells_behind(std::string_view fields, std::size_t count) {
+  std::vector<std::string_view> cells;
+  for (std::size_t i = 0;; ++i) {
+    const std::size_t comma = fields.find(',');
+    if (i >= count) cells.push_back(fields.substr(0, comma));
+    if (comma == std::string_view::npos) return cells;
+    fields.remove_prefix(comma + 1);
+  }
+}
+
+// Of the cases that are in the table, all together; their records are read once more, as counts of each would fill the memory.
+std::optional<CaseCounts> counts_of_rows(const CampaignFolder& folder, const Records& records, const ResultTable& table) {
+  if (folder.plan.counts != count_names()) return std::nullopt;
+  CaseCounts sum;
+  for (const CaseRow& row : table.rows) {
+    if (!row.has_run()) continue;
+    const std::string_view fields = records.of(row.number).value_or("");
+    const std::optional<CaseCounts> counts = counts_of_cells(cells_behind(fields, 1 + table.figures.size()));
+    if (!counts)
+      throw InputError(folder.path.string() + ": case " + std::to_string(row.number) +
+                       ": its record does not end with its counts; use the mdat that flew it (" + folder.plan.version + ", commit " +
+                       folder.plan.commit + ")");
+    sum.add(*counts);
+  }
+  return sum;
 }
 
 std::vector<std::string> figure_names() {
@@ -199,6 +237,7 @@ CampaignPlan plan_of_mission(const MissionSource& mission, const CampaignSource&
   plan.campaign = campaign.name;
   plan.settings = mission.settings;
   plan.figures = figure_names();
+  plan.counts = count_names();
   plan.cases = campaign.cases;
   plan.look_every = campaign.look_every;
   plan.version = kVersion;
@@ -298,6 +337,7 @@ ResultTable merged(const CampaignFolder& folder, bool partial) {
   } else if (folder.campaign().look_every > 0) {
     cut_at_first_missing(table);
   }
+  table.counts = counts_of_rows(folder, records, table);
   return table;
 }
 
@@ -340,7 +380,7 @@ FlownCase fly_case(const CampaignFolder& folder, std::uint32_t number) {
   for (std::size_t i = 0; i < cases.columns().size(); ++i)
     own.source.settings.push_back(cases.columns()[i] + "=" + cell_text(values.numbers[i]));
   SimulationResult result = simulate(own, flight.options(values.seed, values.numbers));
-  std::string fields = record_fields(result.tables[0].variants[0].cases[0]);
+  std::string fields = record_fields(folder.plan, result.tables[0].variants[0].cases[0]);
   return {std::move(own), std::move(result), std::move(fields)};
 }
 

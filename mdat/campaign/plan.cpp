@@ -66,6 +66,7 @@ CampaignPlan plan_of(const PlanJson& json) {
   json.at("campaign").get_to(plan.campaign);
   json.at("settings").get_to(plan.settings);
   json.at("figures").get_to(plan.figures);
+  if (json.contains("counts")) json.at("counts").get_to(plan.counts);
   json.at("cases").get_to(plan.cases);
   if (const PlanJson& look_every = json.at("look_every"); !look_every.is_null()) look_every.get_to(plan.look_every);
   const PlanJson& digests = json.at("sha256");
@@ -87,6 +88,7 @@ std::string plan_json(const CampaignPlan& plan, const CampaignSource& campaign) 
   json["campaign"] = plan.campaign;
   json["settings"] = plan.settings;
   json["figures"] = plan.figures;
+  json["counts"] = plan.counts;
   json["scenario"] = campaign.scenario;
   json["cases"] = plan.cases;
   json["frames"] = campaign.frames == 0 ? PlanJson(nullptr) : PlanJson(campaign.frames);

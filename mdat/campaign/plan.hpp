@@ -18,6 +18,7 @@ struct CampaignPlan {
   std::string campaign;               // its name there
   std::vector<std::string> settings;  // KEY=VALUE of the command line
   std::vector<std::string> figures;   // of a case, in the order of its record
+  std::vector<std::string> counts;    // behind them; none where an earlier mdat expanded it
   std::uint32_t cases = 0;
   std::uint32_t look_every = 0;              // of the stopping rule; 0: none
   std::map<std::string, std::string> files;  // of the mission, kept below the folder: digests by name

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "fsw/geometry/portable_math.hpp"
 #include "mdat/campaign/conclusion_text.hpp"
 #include "mdat/campaign/figures.hpp"
 #include "mdat/campaign/law_text.hpp"
@@ -12,6 +13,7 @@
 #include "mdat/common/text.hpp"
 #include "mdat/common/version.hpp"
 #include "mdat/report/page.hpp"
+#include "mdat/report/stanford_view.hpp"
 
 namespace lasso::mdat {
 namespace {
@@ -155,6 +157,30 @@ std::string drawn_section(const Findings& all) {
   return html + to_html(table) + "</section>\n";
 }
 
+LevelPoints points_of(const CaseCounts& counts) {
+  LevelPoints points;
+  for (const LevelCounts::Cell& cell : counts.position_m.cells())
+    points.position_mm.push_back({1e3 * cell.level, 1e3 * cell.error, static_cast<double>(cell.poses), cell.misleading});
+  for (const LevelCounts::Cell& cell : counts.attitude_rad.cells())
+    points.attitude_deg.push_back({cell.level / kRadPerDeg, cell.error / kRadPerDeg, static_cast<double>(cell.poses), cell.misleading});
+  return points;
+}
+
+std::string integrity_of_cases(Plotter& plotter, const Findings& all) {
+  std::string html = "<section>\n<h2>Integrity</h2>\n";
+  if (!all.integrity || !all.table.counts) return html + "<p class='note'>" + escape(kNoCounts) + "</p>\n</section>\n";
+  html += "<dl>\n";
+  for (const std::vector<std::string>& line : integrity_list(*all.integrity))
+    html += "<dt>" + escape(line[0]) + "</dt><dd>" + html_text(line[1]) + "</dd>\n";
+  html += "</dl>\n<p class='note'>" + escape(kIntegrityNote) + " Medians of levels are known to within 4.5 %.</p>\n";
+  return html +
+         figure(stanford_diagram(plotter, points_of(*all.table.counts)),
+                std::string(kStanfordLegend) +
+                    " A point stands for the poses of a cell, 9 % wide in the level and 19 % in error over "
+                    "level; its shade says how many there are.") +
+         "</section>\n";
+}
+
 std::string how_decided(const CampaignSource& campaign) {
   std::string text =
       "A criterion is met if the lower limit of the share of cases within its bounds is at least what it asks for, and failed if the upper "
@@ -188,7 +214,7 @@ std::string introduction_of(const Findings& all, const std::string& mission) {
 std::string campaign_html(Plotter& plotter, const Findings& all, const std::string& mission) {
   std::string body = introduction_of(all, mission) + verdict_section(all) + failures_section(all);
   for (const Finding& finding : shown_findings(all)) body += finding_section(plotter, all, finding);
-  return page("Campaign " + all.campaign.name + ", " + mission, body + drawn_section(all));
+  return page("Campaign " + all.campaign.name + ", " + mission, body + integrity_of_cases(plotter, all) + drawn_section(all));
 }
 
 }  // namespace lasso::mdat

@@ -2,8 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "mdat/campaign/case_counts.hpp"
 
 namespace lasso::mdat {
 
@@ -17,6 +20,7 @@ struct CaseRow {
 struct ResultTable {
   std::vector<std::string> figures, columns;  // names of a row's figures, and of what was drawn for it
   std::vector<CaseRow> rows;                  // by ascending case number
+  std::optional<CaseCounts> counts = {};      // of all rows; nothing where the mdat that flew them kept none
 };
 
 }  // namespace lasso::mdat

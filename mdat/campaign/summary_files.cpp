@@ -131,6 +131,11 @@ std::string summary_json(const Findings& all) {
   json["stopped_by_rule"] = all.stopped;
   json["complete"] = all.complete();
   json["failed_to_run"] = all.not_run;
+  if (all.integrity) {
+    json.update(integrity_json(*all.integrity));
+  } else {
+    json["time_to_alert"] = json["protection"] = nullptr;  // not kept
+  }
   json["criteria"] = Json::array();
   for (const Finding& finding : all.findings) json["criteria"].push_back(finding_json(all, finding));
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -68,6 +68,11 @@ std::string correlation_lines(const Findings& all) {
                        : "What goes with bad cases: rank correlations, p over all drawn values\n" + aligned_text(lines);
 }
 
+std::string integrity_lines(const Findings& all) {
+  if (!all.integrity) return std::string(kNoCounts) + "\n";
+  return "Integrity\n" + aligned_text(integrity_list(*all.integrity));
+}
+
 }  // namespace
 
 std::string probability_text(double probability) { return probability < 0.001 ? "p < 0.001" : format("p = %.2g", probability); }
@@ -75,7 +80,8 @@ std::string probability_text(double probability) { return probability < 0.001 ? 
 std::string summary_text(const Findings& all) {
   std::string text = "Campaign " + all.campaign.name + ", scenario " + all.campaign.scenario + ": " + cases_text(all) + "\n";
   text += all.findings.empty() ? "It has no criteria, so there is no verdict.\n" : verdict_lines(all);
-  for (const std::string& part : {failed_lines(all), worst_lines(all), correlation_lines(all)}) text += part.empty() ? "" : "\n" + part;
+  for (const std::string& part : {integrity_lines(all), failed_lines(all), worst_lines(all), correlation_lines(all)})
+    text += part.empty() ? "" : "\n" + part;
   return text;
 }
 

@@ -36,7 +36,8 @@ ssize_t receive_bytes(int socket, void* bytes, std::size_t size) {
 
 std::string fields_of(const Fly& fly, std::uint32_t number) {
   try {
-    return fly(number);
+    std::string fields = fly(number);
+    return fields.size() < kLongestMessage ? fields : failed_fields("its record is too long: fly fewer frames a case");
   } catch (const std::exception& error) {
     return failed_fields(error.what());
   }

@@ -334,5 +334,15 @@ TEST(CampaignEngine, MemoryOfAWorkerDoesNotGrow) {
   EXPECT_LE(kib_of(4999), kib_of(500) + 512);
 }
 
+// What a worker sends is bounded: a record that was cut would be taken for a whole one.
+TEST(CampaignEngine, ARecordThatIsTooLongFailsItsCase) {
+  VERIFIES("LASSO-GND-062~1");
+  const ChunkFolder folder;
+  const Quiet quiet;
+  const auto flown = flies([](std::uint32_t number) { return number == 1 ? "ok," + std::string(70000, '7') : fields_of_case(number); });
+  fly_cases(options_of(folder, 3, 1), flown, goes_on);
+  EXPECT_EQ(merged(folder, 3), fields_of_case(0) + "\nfailed:its record is too long: fly fewer frames a case\n" + fields_of_case(2) + "\n");
+}
+
 }  // namespace
 }  // namespace lasso::mdat

@@ -88,6 +88,38 @@ TEST(CaseFigures, WhatACaseDoesNotHaveIsAnEmptyCell) {
   EXPECT_EQ(cell_text(0.1), "0.1");
 }
 
+TEST(CaseFigures, HaveTimesToAlertAndProtectionLevels) {
+  VERIFIES("LASSO-GND-130~1 LASSO-GND-131~1");
+  CaseResult result;
+  result.frames = {frame_of(0, 40, 2, true), frame_of(1, 40, 2, true), frame_of(2, 3, 0.1, true), frame_of(3, 40, 0.1, true)};
+  result.frames[0].wrong = result.frames[1].wrong = result.frames[3].wrong = true;
+  for (std::size_t i = 0; i < 4; ++i) result.frames[i].level = {0.005 + 0.001 * static_cast<double>(i), 0.5 * kRadPerDeg};
+  result.frames[3].level = {0.5, 3 * kRadPerDeg};
+  result.end_s = 0.8;
+  auto figures = figures_of(result);
+  EXPECT_EQ(figures["episodes"], 2);
+  EXPECT_EQ(figures["censored"], 1);
+  EXPECT_DOUBLE_EQ(figures["time_to_alert_worst_s"], 0.4);
+  EXPECT_EQ(figures["misleading"], 2);
+  EXPECT_DOUBLE_EQ(figures["misleading_share"], 0.5);
+  EXPECT_NEAR(figures["level_median_mm"], 6, 1e-12);
+  EXPECT_NEAR(figures["level_worst_mm"], 500, 1e-9);
+  EXPECT_NEAR(figures["level_median_deg"], 0.5, 1e-12);
+  EXPECT_NEAR(figures["level_worst_deg"], 3, 1e-12);
+}
+
+// A criterion asks for at most so long; of no level nothing is known.
+TEST(CaseFigures, WithoutAWrongPoseAreOfNoTimeToAlert) {
+  VERIFIES("LASSO-GND-130~1 LASSO-GND-131~1");
+  CaseResult result;
+  result.frames = {frame_of(0, 40, 2, false)};
+  auto figures = figures_of(result);
+  EXPECT_EQ(figures["episodes"], 0);
+  EXPECT_EQ(figures["time_to_alert_worst_s"], 0);
+  EXPECT_EQ(figures["misleading"], 0);
+  for (const char* name : {"misleading_share", "level_median_mm", "level_worst_deg"}) EXPECT_TRUE(std::isnan(figures[name])) << name;
+}
+
 TEST(CaseFigures, AreThoseThatAMissionsCriteriaMayName) {
   VERIFIES("LASSO-GND-045~1");
   std::vector<std::string> names;

@@ -76,5 +76,24 @@ TEST(Findings, CommandsAreWhatAShellReads) {
   EXPECT_EQ(case_command(find(mixed.campaign, mixed.table, "it's mine"), 0), "mdat campaign case 'it'\\''s mine' 0");
 }
 
+TEST(Findings, HaveTheIntegrityOfAllCasesTogether) {
+  VERIFIES("LASSO-GND-130~1 LASSO-GND-131~1");
+  const std::optional<Integrity> all = integrity_of(test::table_with_counts());
+  ASSERT_TRUE(all);
+  EXPECT_EQ(all->wrong, 2U);
+  EXPECT_EQ(all->flights, 3U);
+  EXPECT_EQ(all->wrong_flights, 1U);
+  EXPECT_EQ(all->alert.episodes, 1U);
+  EXPECT_DOUBLE_EQ(all->alert.worst_s, 0.4);
+  EXPECT_EQ(all->protection.poses, 300U);
+  EXPECT_EQ(all->protection.misleading, 2U);
+  EXPECT_EQ(all->protection.position_mm.misleading, 2U);
+  EXPECT_EQ(all->protection.attitude_deg.misleading, 0U);
+  EXPECT_NEAR(all->protection.position_mm.median, 4, 0.045 * 4);
+  EXPECT_DOUBLE_EQ(all->protection.position_mm.worst, 9);
+  EXPECT_DOUBLE_EQ(all->protection.attitude_deg.worst, 0.5);
+  EXPECT_FALSE(integrity_of(test::table_of({1}))) << "an earlier mdat kept no counts";
+}
+
 }  // namespace
 }  // namespace lasso::mdat

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "mdat/campaign/summary_text.hpp"
 #include "ut/mdat/campaign/tables.hpp"
 #include "ut/support/verifies.hpp"
 
@@ -56,6 +57,15 @@ TEST(CampaignReport, ShowsFiguresWithoutCriteria) {
   expect_in(html, "The campaign has no criteria, so there is no verdict.");
   expect_in(html, "<h2>worst_mm</h2>");
   EXPECT_EQ(html.find("A criterion is met if"), std::string::npos);
+}
+
+TEST(CampaignReport, HasTimesToAlertAndTheStanfordDiagram) {
+  VERIFIES("LASSO-GND-130~1 LASSO-GND-131~1");
+  const std::string html = html_of(test::campaign_of({}), test::table_with_counts());
+  expect_in(html, "<h2>Integrity</h2>");
+  expect_in(html, "<dt>valid and wrong</dt><dd>2 of 300, 0.080 % to 2.4 %; 1 episode; flights with one: 1 of 3, 0.84 % to 90.6 %</dd>");
+  expect_in(html, "error = level");
+  expect_in(html_of(test::campaign_of({}), test::table_of({1})), kNoCounts);
 }
 
 }  // namespace

@@ -37,6 +37,19 @@ TEST(SummaryJson, SaysWhatWasConcluded) {
   EXPECT_EQ(precise["rank_correlations"].at(0)["column"], "truth.range_m");
 }
 
+TEST(SummaryJson, HasTimesToAlertAndProtectionLevelsWhereTheyWereKept) {
+  VERIFIES("LASSO-GND-130~1 LASSO-GND-131~1");
+  const CampaignSource campaign = test::campaign_of({});
+  const ResultTable table = test::table_with_counts(), old = test::table_of({1});
+  const auto json = nlohmann::json::parse(summary_json(find(campaign, table, "d")));
+  EXPECT_EQ(json["time_to_alert"]["worst_s"], 0.4);
+  EXPECT_EQ(json["time_to_alert"]["flights"], 3);
+  EXPECT_EQ(json["time_to_alert"]["wrong_flights"], 1);
+  EXPECT_EQ(json["protection"]["misleading"], 2);
+  const auto earlier = nlohmann::json::parse(summary_json(find(campaign, old, "d")));
+  EXPECT_TRUE(earlier["time_to_alert"].is_null() && earlier["protection"].is_null());
+}
+
 TEST(Junit, FailsWhatIsNotMetAndNamesTheWorstCases) {
   VERIFIES("LASSO-GND-058~1");
   const test::MixedCampaign mixed;

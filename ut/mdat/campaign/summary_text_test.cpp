@@ -23,12 +23,22 @@ TEST(SummaryText, HasVerdictsWorstCasesAndWhatGoesWithThem) {
   expect_line(text, "  precise  worse where larger:  truth.range_m  +0.76  p < 0.001");
 }
 
+TEST(SummaryText, HasTimesToAlertAndProtectionLevels) {
+  VERIFIES("LASSO-GND-130~1 LASSO-GND-131~1");
+  const CampaignSource campaign = test::campaign_of({});
+  const std::string text = summary_text(find(campaign, test::table_with_counts(), "d"));
+  EXPECT_NE(text.find("  valid and wrong             2 of 300, 0.080 % to 2.4 %; 1 episode; flights with one: 1 of 3, 0.84 % to 90.6 %\n"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("2 of 300, 0.080 % to 2.4 %; by position 2, by attitude 0\n"), std::string::npos) << text;
+}
+
 TEST(SummaryText, IsShortWhereThereIsNothingToSay) {
   VERIFIES("LASSO-GND-057~1");
   const CampaignSource campaign = test::campaign_of({});
   const ResultTable table = test::table_of({1});
   EXPECT_EQ(summary_text(find(campaign, table, "d")),
-            "Campaign rough, scenario spin: 1 case\nIt has no criteria, so there is no verdict.\n");
+            "Campaign rough, scenario spin: 1 case\nIt has no criteria, so there is no verdict.\n\n" + std::string(kNoCounts) + "\n");
   EXPECT_EQ(probability_text(0.0231), "p = 0.023");
 }
 

@@ -56,4 +56,20 @@ struct MixedCampaign {
   }
 };
 
+// Three flights of 100 valid poses each: one has a wrong pose for 0.4 s, one two misleading poses, one none of either; and a case that
+// failed to run.
+inline mdat::ResultTable table_with_counts() {
+  mdat::ResultTable table{{"wrong", "misleading", "level_worst_mm", "level_worst_deg"}, {"truth.range_m"}, {}};
+  table.rows = {{0, "ok", {2, 0, 7, 0.5}, {2}}, {1, "ok", {0, 2, 9, 0.25}, {3}}, {2, "ok", {0, 0, 5, 0.1}, {4}}};
+  table.rows.push_back({3, "failed:refused", {kNoNumber, kNoNumber, kNoNumber, kNoNumber}, {5}});
+  mdat::CaseCounts counts;
+  counts.alert.add(mdat::WrongEpisode{1, 0.4, false});
+  for (int i = 0; i < 300; ++i) {
+    counts.position_m.add(0.004, i < 2 ? 0.005 : 0.001);
+    counts.attitude_rad.add(0.001, 0.0002);
+  }
+  table.counts = counts;
+  return table;
+}
+
 }  // namespace lasso::test
