@@ -31,6 +31,7 @@ void judge(const Subject& subject, const Pose& estimate, const Mat6& covariance,
   trial.error = mdat::symmetric_error(estimate, truth, covariance, subject.truth.symmetry);
   trial.sigma_rad = std::sqrt(covariance.topLeftCorner<3, 3>().trace());
   trial.sigma_m = std::sqrt(covariance.bottomRightCorner<3, 3>().trace());
+  trial.level = mdat::protection_levels(covariance);
 }
 
 void add(const Subject& subject, std::size_t number, const Pose& truth, const RangeImage& scan, const Registration& found, Tally& tally) {

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "mdat/common/limits.hpp"
+#include "mdat/common/share_text.hpp"
 #include "mdat/common/text.hpp"
 
 namespace lasso::bodies {
@@ -55,7 +56,8 @@ std::string worst_line(const Row& row) {
 struct Sums {
   std::size_t numbers = 0, trials = 0, valid = 0, determined = 0, determined_valid = 0, settled_determined = 0, settled_valid = 0,
               among = 0;
-  std::size_t wrong = 0, wrong_numbers = 0, wrong_bodies = 0, below = 0, failed = 0, unknowable_wrong = 0;
+  std::size_t wrong = 0, wrong_numbers = 0, wrong_bodies = 0, below = 0, failed = 0, unknowable_wrong = 0, misleading = 0;
+  mdat::AlertTimes alert;
   std::vector<double> nees;
   std::map<std::string, std::size_t> reasons;
 
@@ -73,12 +75,24 @@ struct Sums {
     wrong += t.wrong;
     wrong_numbers += t.wrong_numbers;
     wrong_bodies += t.wrong > 0 ? 1U : 0U;
+    misleading += t.misleading;
+    alert.add(t.alert);
     unknowable_wrong += row.knowable ? 0 : t.wrong;
     below += share(t.determined_valid, t.determined) < 0.9 ? 1U : 0U;
     if (t.valid > 0) nees.push_back(t.nees);
     for (const auto& [reason, count] : t.reasons) reasons[reason] += count;
   }
 };
+
+// Of flights alone: single scans have no time to alert.
+std::string alert_line(const mdat::AlertStatistics& alert, std::size_t valid) {
+  if (alert.episodes == 0)
+    return "  time to alert:         no wrong pose, at most " +
+           mdat::upper_limit_text(mdat::upper_share_limit(0, static_cast<double>(valid), 0.95)) + " of valid ones\n";
+  return format("  time to alert:         median %.3g s, 95 %% %.3g s, worst %s%.3g s of ", alert.median_s, alert.p95_s,
+                alert.worst_is_censored ? ">= " : "", alert.worst_s) +
+         mdat::amount(alert.episodes, "episode") + format(", %zu of which the flight's end cut\n", alert.censored);
+}
 
 // A line for each kind of body.
 std::string kinds_text(const std::vector<Row>& rows) {
@@ -113,7 +127,8 @@ void Tally::add(const Trial& trial, double size_m) {
   ++valid;
   nees += (trial.error.squared - nees) / static_cast<double>(valid);
   worst = std::max(worst, trial.error.squared);
-  if (!mdat::is_wrong(trial.error, size_m)) return;
+  misleading += trial.is_misleading() ? 1U : 0U;
+  if (!trial.is_wrong(size_m)) return;
   ++wrong;
   if (wrong_trials.empty() || wrong_trials.back().number != trial.number) ++wrong_numbers;
   wrong_trials.push_back(trial);
@@ -134,14 +149,15 @@ Row row_of(const Subject& subject) {
 std::string table_csv(const std::vector<Row>& rows) {
   std::string text =
       "seed,kind,size_m,sensor,knowable,numbers,trials,valid,determined,determined_valid,settled_determined,settled_valid,among,wrong,"
-      "wrong_numbers,nees,worst,reasons,symmetry,what,failure\n";
+      "wrong_numbers,episodes,censored,time_to_alert_worst_s,misleading,nees,worst,reasons,symmetry,what,failure\n";
   for (const Row& row : rows) {
     const Tally& t = row.tally;
-    text += format("%llu,%s,%.4g,%s,%d,%zu,%zu,%zu,%zu,%zu,%zu,%zu,%zu,%zu,%zu,%.6g,%.6g,%s,\"%s\",\"%s\",\"%s\"\n",
+    const mdat::AlertStatistics alert = t.alert.statistics();
+    text += format("%llu,%s,%.4g,%s,%d,%zu,%zu,%zu,%zu,%zu,%zu,%zu,%zu,%zu,%zu,%zu,%zu,%.6g,%zu,%.6g,%.6g,%s,\"%s\",\"%s\",\"%s\"\n",
                    static_cast<unsigned long long>(row.seed), row.kind.c_str(), row.size_m, row.sensor.c_str(), row.knowable ? 1 : 0,
                    t.numbers, t.trials, t.valid, t.determined, t.determined_valid, t.settled_determined, t.settled_valid, t.among, t.wrong,
-                   t.wrong_numbers, t.nees, t.worst, reasons_text(t.reasons, "; ").c_str(), row.symmetry.c_str(), row.what.c_str(),
-                   row.failure.c_str());
+                   t.wrong_numbers, alert.episodes, alert.censored, alert.episodes == 0 ? 0 : alert.worst_s, t.misleading, t.nees, t.worst,
+                   reasons_text(t.reasons, "; ").c_str(), row.symmetry.c_str(), row.what.c_str(), row.failure.c_str());
   }
   return text;
 }
@@ -178,6 +194,8 @@ std::string summary_text(const std::string& what, const std::vector<Row>& rows) 
   text += "  valid:                 " + share_text(sums.valid, sums.trials) + "\n";
   text += "  valid and wrong:       " + share_text(sums.wrong, sums.trials) + "; in " + share_text(sums.wrong_numbers, sums.numbers) +
           format(", of %zu bodies; %zu of bodies that cannot be known\n", sums.wrong_bodies, sums.unknowable_wrong);
+  if (what == "track") text += alert_line(sums.alert.statistics(), sums.valid);
+  text += "  misleading:            " + share_text(sums.misleading, sums.valid) + " of the valid ones exceed their protection level\n";
   text +=
       "  determined and valid:  " + share_text(sums.determined_valid, sums.determined) + format("; %zu bodies below 90 %%\n", sums.below);
   text += "  once settled:          " + share_text(sums.settled_valid, sums.settled_determined) + "\n";

@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "ft/bodies/subject.hpp"
+#include "mdat/run/protection_level.hpp"
 #include "mdat/run/symmetric_error.hpp"
+#include "mdat/run/time_to_alert.hpp"
 
 namespace lasso::bodies {
 
@@ -22,6 +24,10 @@ struct Trial {
   std::string reason;       // why it is not valid
   mdat::SymmetricError error;
   double sigma_m = 0, sigma_rad = 0;  // roots of the traces of its covariance
+  mdat::ProtectionLevels level;
+
+  bool is_wrong(double size_m) const { return valid && mdat::is_wrong(error, size_m); }
+  bool is_misleading() const { return valid && (error.translation_m > level.position_m || error.rotation_rad > level.attitude_rad); }
 };
 
 struct Tally {
@@ -29,6 +35,8 @@ struct Tally {
   std::size_t trials = 0, valid = 0, determined = 0, determined_valid = 0, settled_determined = 0, settled_valid = 0;
   std::size_t among = 0;  // determined, not valid, but among
   std::size_t wrong = 0, wrong_numbers = 0;
+  std::size_t misleading = 0;                  // valid, and farther off than its protection level
+  mdat::AlertTimes alert;                      // of flights
   double nees = 0;                             // mean of the valid ones; 0 where there is none
   double worst = 0;                            // of the valid ones: largest normalised error squared
   std::map<std::string, std::size_t> reasons;  // of determined ones that are not valid

@@ -37,6 +37,29 @@ TEST(Tally, CountsWhatItIsGiven) {
   EXPECT_DOUBLE_EQ(tally.worst, 400);
 }
 
+TEST(Tally, CountsMisleadingPosesAndTimesToAlert) {
+  VERIFIES("LASSO-GND-130~1");
+  VERIFIES("LASSO-GND-131~1");
+  std::vector<Row> rows(2);
+  Trial far = trial(0, true, true, 4, 0.02), near = far, invalid = trial(0, true, false, 4, 0.02), turned = near;
+  far.level = invalid.level = {0.01, 1};
+  near.level = turned.level = {0.03, 0.1};
+  turned.error.rotation_rad = 0.2;
+  for (const Trial& one : {far, near, invalid, turned}) rows[0].tally.add(one, 1);
+  EXPECT_EQ(rows[0].tally.misleading, 2u);
+  EXPECT_NE(summary_text("track", rows).find("time to alert:         no wrong pose, at most 63.2 % of valid ones\n"), std::string::npos)
+      << summary_text("track", rows);
+  rows[0].tally.alert.add(mdat::wrong_episodes({{0, true}, {0.2, true}, {0.4, false}, {0.6, true}}, 0.8));
+  rows[1].tally.alert.add(mdat::wrong_episodes({{0, true}, {0.2, false}}, 0.4));
+  const std::string text = summary_text("track", rows);
+  EXPECT_NE(text.find("time to alert:         median 0.2 s, 95 % 0.4 s, worst 0.4 s of 3 episodes, 1 of which the flight's end cut\n"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("misleading:            2 of 3 (66.7 %, 9.43 to 99.2 %)"), std::string::npos) << text;
+  EXPECT_EQ(summary_text("start", rows).find("time to alert"), std::string::npos) << "a single scan has none";
+  EXPECT_NE(table_csv(rows).find(",2,1,0.4,2,"), std::string::npos) << table_csv(rows);
+}
+
 TEST(Tally, SummaryHasExactLimitsAndTheWorstBodyFirst) {
   VERIFIES("LASSO-GND-114~1");
   std::vector<Row> rows(3);

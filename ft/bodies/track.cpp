@@ -49,6 +49,7 @@ void judge(const Subject& subject, std::size_t number, const mdat::CaseResult& r
   Trial trial;
   trial.number = number;
   trial.settled = false;
+  std::vector<mdat::JudgedFrame> flight;
   for (const mdat::FrameError& frame : result.frames) {
     const mdat::KeptScan* scan = kept_of(result, frame.frame);
     trial.frame = frame.frame;
@@ -57,6 +58,7 @@ void judge(const Subject& subject, std::size_t number, const mdat::CaseResult& r
     trial.reason = to_string(frame.reason);
     trial.sigma_m = frame.sigma_m;
     trial.sigma_rad = frame.sigma_rad;
+    trial.level = frame.level;
     if (scan != nullptr) {
       trial.determined = is_determined(subject, scan->truth, scan->samples);
       trial.error = mdat::symmetric_error(mdat::registration_pose(scan->telemetry), scan->truth,
@@ -64,7 +66,9 @@ void judge(const Subject& subject, std::size_t number, const mdat::CaseResult& r
     }
     trial.settled = trial.settled || trial.valid;
     tally.add(trial, subject.truth.size_m);
+    flight.push_back({frame.t_s, trial.is_wrong(subject.truth.size_m)});
   }
+  tally.alert.add(mdat::wrong_episodes(flight, result.end_s));
 }
 
 }  // namespace
