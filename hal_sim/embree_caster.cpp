@@ -125,10 +125,8 @@ class EmbreeCaster final : public RayCaster {
   }
 
   RayHit cast(const Vec3& origin_m, const Vec3& direction) const override {
-    // The search starts where the ray enters the ball, so that a distant origin does not coarsen its single-precision coordinates.
-    const Vec3 from_center = origin_m - ball_.center_m;
-    const double skipped_m = std::max(0.0, -from_center.dot(direction) - 1.01 * ball_.radius_m);
-    RTCRayHit query = single_precision_ray(from_center + skipped_m * direction, direction);
+    const double skipped_m = skipped(origin_m, direction);
+    RTCRayHit query = single_precision_ray(origin_m - ball_.center_m + skipped_m * direction, direction);
     RTCIntersectContext context{};
     rtcInitIntersectContext(&context);
     rtcIntersect1(scene_.get(), &context, &query);
@@ -137,7 +135,20 @@ class EmbreeCaster final : public RayCaster {
     return {true, exact_range(plane, origin_m, direction, skipped_m + static_cast<double>(query.ray.tfar)), query.hit.primID, plane.normal};
   }
 
+  bool is_blocked(const Vec3& origin_m, const Vec3& direction) const override {
+    RTCRayHit query = single_precision_ray(origin_m - ball_.center_m + skipped(origin_m, direction) * direction, direction);
+    RTCIntersectContext context{};
+    rtcInitIntersectContext(&context);
+    rtcOccluded1(scene_.get(), &context, &query.ray);
+    return query.ray.tfar < 0;
+  }
+
  private:
+  // The search starts where the ray enters the ball, so that a distant origin does not coarsen its single-precision coordinates.
+  double skipped(const Vec3& origin_m, const Vec3& direction) const {
+    return std::max(0.0, (ball_.center_m - origin_m).dot(direction) - 1.01 * ball_.radius_m);
+  }
+
   // The plane's range, unless the ray all but lies in the plane: then the search's own range is the better conditioned one.
   double exact_range(const Plane& plane, const Vec3& origin_m, const Vec3& direction, double found_m) const {
     const double range_m = (plane.offset_m - plane.normal.dot(origin_m)) / plane.normal.dot(direction);

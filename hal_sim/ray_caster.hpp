@@ -22,6 +22,8 @@ class RayCaster {
   virtual ~RayCaster() = default;
   // `direction` of unit length. Both sides of a triangle are hit; what lies at or behind the origin is not. Safe from several threads.
   virtual RayHit cast(const Vec3& origin_m, const Vec3& direction) const = 0;
+  // Whether it meets anything, at any range: the answer of cast, sooner.
+  virtual bool is_blocked(const Vec3& origin_m, const Vec3& direction) const { return cast(origin_m, direction).hit; }
 };
 
 // A caster over copies of the vertices and triangles (counter-clockwise seen from outside), built with Embree in its robust mode: a ray

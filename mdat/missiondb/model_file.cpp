@@ -52,7 +52,7 @@ class ModelReader {
   const std::vector<ModelParameter>& parameters() const { return parameters_; }
   void finish() const { problems_.throw_if_any(); }
 
-  Mesh build(const std::map<std::string, double>& values) {
+  Mesh build(const std::map<std::string, double>& values, std::vector<ModelSolid>* solids = nullptr) {
     for (const ModelParameter& parameter : parameters_) values_[parameter.name] = parameter.preset;
     for (const auto& [name, value] : values) values_[name] = value;
     Mesh mesh;
@@ -60,7 +60,11 @@ class ModelReader {
     if (parts == nullptr || !root_["part"].is_array_of_tables()) {
       problems_.add(origin_of(root_.source()), "part", "", "expected at least one [[part]]");
     } else {
-      for (const toml::node& part : *parts) add_part(*part.as_table(), mesh);
+      for (const toml::node& part : *parts) {
+        const std::size_t before = mesh.triangles.size();
+        add_part(*part.as_table(), mesh);
+        if (solids != nullptr) solids->push_back({part_name(*part.as_table()), mesh.triangles.size() - before});
+      }
     }
     finish();
     for (Vector3d& vertex : mesh.vertices) vertex *= scale_;
@@ -167,8 +171,9 @@ class ModelReader {
     }
   }
 
+  static std::string part_name(const toml::table& part) { return part["name"].value_or(std::string("part")); }
   void add_part(const toml::table& part, Mesh& mesh) {
-    const std::string name = part["name"].value_or(std::string("part"));
+    const std::string name = part_name(part);
     where_ = name + ": ";
     const Mesh solid = make_part(part);
     if (!problems_.empty()) return;
@@ -330,10 +335,10 @@ std::vector<ModelParameter> model_parameters(const std::filesystem::path& file) 
   return reader.parameters();
 }
 
-Mesh build_model(const std::filesystem::path& file, const std::map<std::string, double>& values) {
+Mesh build_model(const std::filesystem::path& file, const std::map<std::string, double>& values, std::vector<ModelSolid>* solids) {
   ModelReader reader(file);
   reader.finish();
-  return reader.build(values);
+  return reader.build(values, solids);
 }
 
 Mesh build_model_text(const std::string& text, const std::map<std::string, double>& values) {

@@ -18,9 +18,16 @@ struct ModelParameter {
 // In the file's order of names. Throws MissionError with the places in the model's file.
 std::vector<ModelParameter> model_parameters(const std::filesystem::path& file);
 
+// A [[part]] of the model with its copies: the triangles of its surface follow those of the part before.
+struct ModelSolid {
+  std::string name;
+  std::size_t triangles = 0;
+};
+
 // The union of the parts as closed, outward-oriented surfaces that may run through each other; metres after the model's own scale.
-// `values`: parameters that differ from their presets, in the units that the model states. Throws MissionError.
-Mesh build_model(const std::filesystem::path& file, const std::map<std::string, double>& values);
+// `values`: parameters that differ from their presets, in the units that the model states. `solids`, where given, gets the parts in the
+// order of the mesh's triangles. Throws MissionError.
+Mesh build_model(const std::filesystem::path& file, const std::map<std::string, double>& values, std::vector<ModelSolid>* solids = nullptr);
 // The same of the text of such a file.
 Mesh build_model_text(const std::string& text, const std::map<std::string, double>& values);
 

@@ -29,12 +29,6 @@ constexpr Variant kPaperVariants[] = {kNoiseFree,
                                       {"noisy_hits_only", "with noise, hits only", true, false, false},
                                       {"noisy_aimed", "with noise, aimed rays", true, true, true}};
 
-std::vector<std::string> sensor_names(const MissionSource& source) {
-  std::vector<std::string> names{source.sensor == SensorKind::kTimeOfFlight ? "time_of_flight" : "laser_camera"};
-  for (const FurtherSensor& sensor : source.further_sensors) names.push_back(sensor.name);
-  return names;
-}
-
 std::vector<std::string> part_names(const MissionSource& source) {
   std::vector<std::string> names{"whole"};
   for (const PartSource& part : source.parts) names.push_back(part.name);
@@ -276,6 +270,12 @@ void collect(std::vector<CaseResult> cases, SimulationResult& result) {
 
 }  // namespace
 
+std::vector<std::string> sensor_names(const MissionSource& source) {
+  std::vector<std::string> names{source.sensor == SensorKind::kTimeOfFlight ? "time_of_flight" : "laser_camera"};
+  for (const FurtherSensor& sensor : source.further_sensors) names.push_back(sensor.name);
+  return names;
+}
+
 std::vector<std::uint32_t> shown_frames(const Scenario& scenario, std::uint32_t frames) {
   std::vector<std::uint32_t> result;
   if (scenario.has_profile()) return all_frames(frames);  // which of them, the run itself will tell
@@ -288,12 +288,12 @@ std::vector<std::uint32_t> shown_frames(const Scenario& scenario, std::uint32_t 
   return result;
 }
 
-CaseSetup plain_case(const MissionSource& source, const Scenario& scenario, std::uint64_t seed, std::uint32_t frames) {
+CaseSetup plain_case(const MissionSource& source, const Scenario& scenario, std::uint64_t seed, std::uint32_t frames, std::size_t range) {
   const TableResult table = make_tables(scenario, parameters_for(source, scenario), true).front();
   CaseSetup setup;
-  setup.seed = case_seed(seed, 0, 0);
+  setup.seed = case_seed(seed, 0, range);
   setup.scenario = drawn_scenario(scenario, setup.seed);
-  setup.range_m = scenario.runs_m().front();
+  setup.range_m = scenario.runs_m().at(range);
   setup.noise = table.variants.front().variant.noise;
   setup.frames = frames;
   setup.parameters = table.variants.front().parameters;

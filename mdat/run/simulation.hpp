@@ -79,9 +79,13 @@ struct SimulationResult {
 // it.
 CaseSetup camera_case(const CompiledMission& mission, const SimulationOptions& options, const sim::RayCaster& target);
 
-// The one case of a scenario of one range as it stands (SimulationOptions::plain), as simulate runs it, for whoever runs many: the caller
-// sets image, of these parameters, and target.
-CaseSetup plain_case(const MissionSource& source, const Scenario& scenario, std::uint64_t seed, std::uint32_t frames);
+// The case of a scenario's range (index into runs_m) as it stands (SimulationOptions::plain), as simulate runs it, for whoever runs one or
+// many: the caller sets image, of these parameters, and target.
+CaseSetup plain_case(const MissionSource& source, const Scenario& scenario, std::uint64_t seed, std::uint32_t frames,
+                     std::size_t range = 0);
+
+// Names of the mission's sensors by their numbers; [sensor], which has none, by its kind.
+std::vector<std::string> sensor_names(const MissionSource& source);
 
 // What of a simulation the mission, or this machine, does not have, before anything is compiled: the scenario, a sensor, a line; and what
 // serves one run, where there are several. `linked`: there will be a link. Throws InputError or MissionError.

@@ -85,6 +85,15 @@ Mesh true_target(const Mesh& model, const Scenario& scenario, std::uint64_t seed
   return mesh;
 }
 
+std::vector<std::uint32_t> kept_triangles(const Mesh& model, const Scenario& scenario) {
+  const std::vector<bool> gone = gone_triangles(model, box_of(scenario.model_gone_box_m));
+  std::vector<std::uint32_t> kept;
+  for (std::uint32_t i = 0; i < gone.size(); ++i) {
+    if (!gone[i]) kept.push_back(i);
+  }
+  return kept;
+}
+
 std::unique_ptr<sim::RayCaster> make_target(const Mesh& mesh) {
   const auto has_area = [&](const std::array<std::uint32_t, 3>& t) {
     return (mesh.vertices[t[1]] - mesh.vertices[t[0]]).cross(mesh.vertices[t[2]] - mesh.vertices[t[0]]).norm() > 0;

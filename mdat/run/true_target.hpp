@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "hal_sim/ray_caster.hpp"
 #include "mdat/missiondb/mission_source.hpp"
@@ -17,6 +18,9 @@ bool has_model_error(const Scenario& scenario);
 // at random by a generator of `seed` alone, all vertices of one place alike. Which triangles are a part is told by their centres in the
 // model. A part that is turned takes copies of the vertices that it shares. Throws RunError where nothing is left.
 Mesh true_target(const Mesh& model, const Scenario& scenario, std::uint64_t seed);
+
+// Of the triangles of true_target's mesh, in its order: which ones of the model they are.
+std::vector<std::uint32_t> kept_triangles(const Mesh& model, const Scenario& scenario);
 
 // A surface for the ray caster: triangles without area, which no ray can hit, are left out.
 std::unique_ptr<sim::RayCaster> make_target(const Mesh& mesh);

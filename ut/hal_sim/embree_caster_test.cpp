@@ -91,6 +91,22 @@ TEST(EmbreeCaster, AgreesWithBruteForceOnRandomTriangles) {
   EXPECT_LE(disagreements, 5);
 }
 
+TEST(EmbreeCaster, IsBlockedWhereItHits) {
+  VERIFIES("LASSO-SIM-003~1");
+  const auto caster = caster_of(box_mesh({0.31, 0.57, 0.83}));
+  Generator generator(4);
+  int blocked = 0;
+  for (int i = 0; i < 5000; ++i) {
+    const Vec3 origin = generator.uniform(1.2, 1e4) * random_unit(generator);
+    const Vec3 aim(generator.uniform(-0.9, 0.9), generator.uniform(-0.9, 0.9), generator.uniform(-0.9, 0.9));
+    const Vec3 direction = (i % 3 == 0 ? -1 : 1) * (aim - origin).normalized();  // every third one leads away
+    ASSERT_EQ(caster->is_blocked(origin, direction), caster->cast(origin, direction).hit) << i;
+    blocked += caster->is_blocked(origin, direction) ? 1 : 0;
+  }
+  EXPECT_GT(blocked, 1000);
+  EXPECT_LT(blocked, 3500);
+}
+
 TEST(EmbreeCaster, RangesStayExactFromAfar) {
   VERIFIES("LASSO-SIM-003~1");
   const Vec3 half(0.31, 0.57, 0.83);

@@ -42,6 +42,25 @@ TEST(ModelFile, HubbleIsClosedOfTheStatedSizeAndCount) {
   EXPECT_NEAR(tube, 0.154, 1e-3);  // light shield of about 3 m diameter
 }
 
+TEST(ModelFile, TellsItsSolidsInTheOrderOfTheirTriangles) {
+  VERIFIES("LASSO-PIC-013~1");
+  std::vector<ModelSolid> solids;
+  const Mesh mesh = build_model(kHubble, {}, &solids);
+  std::size_t first = 0;
+  for (const ModelSolid& solid : solids) {
+    if (solid.name == "trunnions") break;
+    first += solid.triangles;
+  }
+  for (std::size_t i = first; i < first + 2 * 64; ++i) {  // two rods of 16 sides: there, and at the other side
+    const Eigen::Vector3d& v = mesh.vertices[mesh.triangles[i][0]];
+    EXPECT_NEAR(v.x(), -0.21, 0.0131);
+    EXPECT_GT(std::fabs(v.y()), 0.199);
+  }
+  std::size_t all = 0;
+  for (const ModelSolid& solid : solids) all += solid.triangles;
+  EXPECT_EQ(all, mesh.triangles.size());
+}
+
 TEST(ModelFile, HubbleHasNoTwoFoldSymmetry) {
   VERIFIES("LASSO-GND-007~1");
   EXPECT_GT(half_turn_asymmetry(build_model(kHubble, {})), 0.05);

@@ -56,6 +56,15 @@ TEST(TrueTarget, ScaleIsAboutTheOrigin) {
   EXPECT_NEAR(true_target(two_squares(), scenario, 7).vertices[4].x(), 3.03, 1e-12);
 }
 
+TEST(TrueTarget, KeptTrianglesAreThoseThatAreNotGone) {
+  VERIFIES("LASSO-SIM-043~1");
+  Scenario scenario = no_error();
+  EXPECT_EQ(kept_triangles(two_squares(), scenario), (std::vector<std::uint32_t>{0, 1, 2, 3}));
+  scenario.model_gone_box_m = {0, 0, -1, 1, 1, 1};  // the first square
+  EXPECT_EQ(kept_triangles(two_squares(), scenario), (std::vector<std::uint32_t>{2, 3}));
+  EXPECT_EQ(true_target(two_squares(), scenario, 7).triangles.size(), 2U);
+}
+
 TEST(TrueTarget, APartIsGone) {
   VERIFIES("LASSO-SIM-043~1");
   Scenario scenario = no_error();
