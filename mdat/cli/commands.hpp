@@ -15,6 +15,7 @@ void add_calibrate_command(CLI::App& app);
 void add_replay_command(CLI::App& app);
 void add_compare_command(CLI::App& app);
 void add_gallery_command(CLI::App& app);
+void add_render_command(CLI::App& app);
 void add_modes_command(CLI::App& app);
 void add_faults_command(CLI::App& app);
 void add_decode_command(CLI::App& app);

@@ -55,6 +55,7 @@ int run(int argc, char** argv) {
   add_replay_command(app);
   add_compare_command(app);
   add_gallery_command(app);
+  add_render_command(app);
   add_modes_command(app);
   add_faults_command(app);
   add_decode_command(app);

@@ -1,0 +1,44 @@
+// What lights a target in orbit, all in one frame.
+#pragma once
+
+#include <optional>
+
+#include "fsw/geometry/types.hpp"
+#include "mdat/render/rgb.hpp"
+#include "mdat/render/sampling.hpp"
+
+namespace lasso::mdat {
+
+constexpr double kSun_Wpm2 = 1361;                  // irradiance at 1 au (Kopp, Lean 2011)
+constexpr double kSunHalfAngle_rad = 0.0046524;     // 0.533 deg across
+constexpr double kEarthAlbedo = 0.3;                // mean Bond albedo (Stephens et al. 2015: 0.29)
+constexpr double kEarthHalfAngle_rad = 1.22173048;  // asin(R/(R+h)) = 70 deg: at 408 km
+constexpr double kLamp_Wpsr = 26;                   // 20 W of light in a cone of 44 deg, as service vehicles carry
+
+// Sun, Earth and a lamp. Directions are unit vectors towards them.
+struct Lights {
+  std::optional<Vec3> sun;
+  std::optional<Vec3> earth;
+  std::optional<Vec3> lamp_m;  // position of a lamp that shines evenly
+  double lamp_Wpsr = kLamp_Wpsr;
+};
+
+// Radiance of Earth's disc, W/m2/sr: evenly bright, as bright as the ground below the craft, which scatters the sun's light evenly and is
+// dark where the sun is below its horizon. 0 without sun or Earth.
+double earth_radiance(const Lights& lights);
+
+// Irradiance of a plate by a disc of radiance 1/pi and half angle `half_angle_rad` (< pi/2) whose middle is at `cosine` from the plate's
+// normal, cut by the plate's horizon: the view factor from a plate to a sphere (Howell, A Catalog of Radiation Heat Transfer Configuration
+// Factors, B-43). 0 to 1, error <= 1e-12.
+double disc_view_factor(double cosine, double half_angle_rad);
+
+// A direction of the disc about `middle` (unit), evenly by solid angle.
+Vec3 disc_direction(const Vec3& middle, double half_angle_rad, const UnitSquare& sample);
+
+// Two unit vectors that are perpendicular to `z` (unit) and to each other; x cross y = z.
+struct Tangents {
+  Vec3 x, y;
+};
+Tangents tangents_of(const Vec3& z);
+
+}  // namespace lasso::mdat

@@ -1,0 +1,99 @@
+#include "mdat/render/model_surface.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "fsw/geometry/portable_math.hpp"
+
+namespace lasso::mdat {
+namespace {
+
+using Corners = std::array<Vec3, 3>;
+
+Corners corners_of(const Mesh& mesh, std::size_t triangle) {
+  const auto& t = mesh.triangles[triangle];
+  return {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
+}
+
+Vec3 twice_the_area(const Corners& c) { return (c[1] - c[0]).cross(c[2] - c[0]); }
+
+double angle_at(const Corners& c, std::size_t corner) {
+  const Vec3 a = c[(corner + 1) % 3] - c[corner], b = c[(corner + 2) % 3] - c[corner];
+  return arc_tangent2(a.cross(b).norm(), a.dot(b));
+}
+
+// A vertex is known by its place: many files write it once for each of its triangles.
+using Place = std::array<double, 4>;
+Place place_of(std::uint32_t part, const Vec3& v) { return {static_cast<double>(part), v.x(), v.y(), v.z()}; }
+
+}  // namespace
+
+ModelSurface::ModelSurface(const Mesh& mesh, const std::vector<std::uint32_t>& part_of_triangle, double crease_angle_rad) {
+  mesh_.vertices = mesh.vertices;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const Vec3 normal = twice_the_area(corners_of(mesh, i));
+    if (!(normal.norm() > 0)) continue;
+    mesh_.triangles.push_back(mesh.triangles[i]);
+    parts_.push_back(part_of_triangle.at(i));
+    facet_normals_.emplace_back(normal.normalized());
+  }
+  caster_ = sim::make_ray_caster(mesh_.vertices, mesh_.triangles);
+  Vec3 low = mesh_.vertices[0], high = low;
+  for (const Vec3& v : mesh_.vertices) {
+    low = low.cwiseMin(v);
+    high = high.cwiseMax(v);
+  }
+  extent_m_ = (high - low).maxCoeff();
+  smooth_corners(crease_angle_rad);
+}
+
+void ModelSurface::smooth_corners(double crease_angle_rad) {
+  struct Facet {
+    std::size_t triangle;
+    double angle_rad;
+  };
+  std::map<Place, std::vector<Facet>> facets_at;
+  for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
+    const Corners c = corners_of(mesh_, i);
+    for (std::size_t k = 0; k < 3; ++k) facets_at[place_of(parts_[i], c[k])].push_back({i, angle_at(c, k)});
+  }
+  const double least_cosine = sin_cos(crease_angle_rad).cos;
+  for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
+    for (const Vec3& corner : corners_of(mesh_, i)) {
+      Vec3 sum = Vec3::Zero();
+      for (const Facet& facet : facets_at[place_of(parts_[i], corner)]) {
+        if (facet_normals_[facet.triangle].dot(facet_normals_[i]) > least_cosine) sum += facet.angle_rad * facet_normals_[facet.triangle];
+      }
+      corner_normals_.emplace_back(sum.norm() > 0 ? sum.normalized() : facet_normals_[i]);
+    }
+  }
+}
+
+// By the shares of the triangle's area that are opposite to its corners.
+Vec3 ModelSurface::smooth_normal(std::uint32_t triangle, const Vec3& place_m) const {
+  const Corners c = corners_of(mesh_, triangle);
+  const Vec3& n = facet_normals_[triangle];
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double share = (c[(k + 1) % 3] - place_m).cross(c[(k + 2) % 3] - place_m).dot(n);
+    sum += std::max(0.0, share) * corner_normals_[3 * std::size_t{triangle} + k];
+  }
+  const double length = sum.norm();
+  return length > 0 ? Vec3(sum / length) : n;
+}
+
+bool ModelSurface::find(const Vec3& origin_m, const Vec3& direction, SurfacePoint& point) const {
+  const sim::RayHit hit = caster_->cast(origin_m, direction);
+  if (!hit.hit) return false;
+  point.place_m = origin_m + hit.range_m * direction;
+  point.range_m = hit.range_m;
+  point.part = parts_[hit.triangle];
+  const double side = hit.normal.dot(direction) > 0 ? -1 : 1;
+  point.facet_normal = side * hit.normal;
+  point.smooth_normal = side * smooth_normal(hit.triangle, point.place_m);
+  return true;
+}
+
+}  // namespace lasso::mdat

@@ -1,0 +1,181 @@
+#include "mdat/render/scene.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <future>
+#include <limits>
+
+#include "mdat/common/errors.hpp"
+#include "mdat/common/progress_bar.hpp"
+#include "mdat/common/text.hpp"
+#include "mdat/missiondb/nearest.hpp"
+#include "mdat/missiondb/target_parts.hpp"
+
+namespace lasso::mdat {
+namespace {
+
+std::string list_of(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+std::size_t range_index(const Scenario& scenario, const std::string& name, const std::optional<double>& range_m) {
+  if (!range_m) return 0;
+  if (scenario.has_profile()) throw InputError("--range: scenario " + name + " flies through a profile of ranges: --time says where it is");
+  const std::vector<double> ranges_m = scenario.runs_m();
+  const auto found = std::find(ranges_m.begin(), ranges_m.end(), *range_m);
+  if (found != ranges_m.end()) return static_cast<std::size_t>(found - ranges_m.begin());
+  std::vector<std::string> names;
+  for (const double range : ranges_m) names.push_back(format("%g", range));
+  throw InputError(format("--range %g: scenario ", *range_m) + name + " has the ranges " + list_of(names) + " m");
+}
+
+struct FieldOfView {
+  std::string name;
+  const SensorParameters* parameters;
+};
+
+FieldOfView camera_of_mission(const MissionSource& source, const std::string& asked, double range_m) {
+  const std::vector<std::string> names = sensor_names(source);
+  std::vector<const SensorParameters*> sensors{&source.parameters};
+  for (const FurtherSensor& sensor : source.further_sensors) sensors.push_back(&sensor.parameters);
+  if (!asked.empty()) {
+    const auto found = std::find(names.begin(), names.end(), asked);
+    if (found == names.end())
+      throw InputError("--camera " + asked + ": the mission's sensors are " + list_of(names) + did_you_mean(asked, names));
+    return {asked, sensors[static_cast<std::size_t>(found - names.begin())]};
+  }
+  for (std::size_t i = 0; i < sensors.size(); ++i) {
+    if (range_m >= sensors[i]->use_from_m && range_m <= sensors[i]->use_to_m) return {names[i], sensors[i]};
+  }
+  return {names[0], sensors[0]};
+}
+
+bool matches(const std::string& part, const std::string& pattern) {
+  if (pattern.empty() || pattern.back() != '*') return part == pattern;
+  return part.compare(0, pattern.size() - 1, pattern, 0, pattern.size() - 1) == 0;
+}
+
+const Material& preset_of(const std::string& setting, const std::string& name) {
+  if (const Material* preset = material_preset(name)) return *preset;
+  std::vector<std::string> names;
+  for (const Material& preset : material_presets()) names.emplace_back(preset.name);
+  throw InputError("--material " + setting + ": no such material; there are " + list_of(names) + did_you_mean(name, names));
+}
+
+void set_material(const std::string& setting, const std::vector<std::string>& parts, std::vector<Material>& materials) {
+  const std::size_t at = setting.rfind('=');
+  if (at == std::string::npos || at == 0)
+    throw InputError("--material " + setting + ": expected PART=MATERIAL, such as 'solar*=solar-cells'");
+  const std::string pattern = setting.substr(0, at);
+  const Material& preset = preset_of(setting, setting.substr(at + 1));
+  bool found = false;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (!matches(parts[i], pattern)) continue;
+    materials[i] = preset;
+    found = true;
+  }
+  if (!found)
+    throw InputError("--material " + setting + ": the target has no such part" + did_you_mean(pattern, parts) + "; --as parts shows them");
+}
+
+std::vector<Material> materials_of(const std::vector<std::string>& parts, const std::vector<std::string>& settings) {
+  std::vector<Material> materials;
+  for (const std::string& part : parts) materials.push_back(likely_material(part));
+  for (const std::string& setting : settings) set_material(setting, parts, materials);
+  return materials;
+}
+
+std::unique_ptr<ModelSurface> simulated_surface(const MissionInput& mission, const TargetParts& parts, const CaseSetup& setup,
+                                                std::uint64_t seed) {
+  const double crease_rad = mission.source.target.crease_angle_rad;
+  if (!has_model_error(setup.scenario)) return std::make_unique<ModelSurface>(mission.mesh, parts.of_triangle, crease_rad);
+  const Mesh mesh = true_target(mission.mesh, setup.scenario, seed);
+  std::vector<std::uint32_t> part_of_triangle;
+  for (const std::uint32_t triangle : kept_triangles(mission.mesh, setup.scenario)) part_of_triangle.push_back(parts.of_triangle[triangle]);
+  return std::make_unique<ModelSurface>(mesh, part_of_triangle, crease_rad);
+}
+
+// The only scan of this case that is kept.
+CaseResult flown_case(const CaseSetup& setup) {
+  std::atomic<std::size_t> done{0};
+  std::future<CaseResult> result = std::async(std::launch::async, [&] { return run_case(setup, done); });
+  ProgressBar bar("track", setup.frames, "frames", 1);
+  while (result.wait_for(std::chrono::milliseconds(20)) != std::future_status::ready) bar.show(done);
+  bar.finish();
+  return result.get();
+}
+
+ScanMark mark_of(const RangeSample& sample, const sim::RayCaster& model, const sim::Trajectory& trajectory) {
+  ScanMark mark;
+  mark.direction = to_vec3(sample.direction);
+  mark.state = sample.state;
+  if (sample.state != RayState::kHit) return mark;
+  const Pose T_target_sensor = inverse(trajectory.at(sample.t_us).T_sensor_target);
+  const sim::RayHit hit = model.cast(T_target_sensor.p, rotate(T_target_sensor.q, mark.direction));
+  mark.residual_m = hit.hit ? static_cast<double>(sample.range_m) - hit.range_m : std::numeric_limits<double>::quiet_NaN();
+  return mark;
+}
+
+}  // namespace
+
+std::string scenario_name(const MissionSource& source, const std::string& asked) {
+  if (!asked.empty()) {
+    static_cast<void>(scenario_of(source, asked));
+    return asked;
+  }
+  if (source.scenarios.count("paper") != 0) return "paper";
+  if (source.scenarios.empty())
+    throw InputError(source.file.string() + ": has no scenario, so there is no place to see the target from: add a [scenario.NAME]");
+  return source.scenarios.begin()->first;
+}
+
+Scene make_scene(const MissionInput& mission, const SceneRequest& request) {
+  const MissionSource& source = mission.source;
+  Scene scene;
+  scene.scenario = scenario_name(source, request.scenario);
+  const Scenario& scenario = scenario_of(source, scene.scenario);
+  scene.seed = request.seed.value_or(static_cast<std::uint64_t>(scenario.seed));
+  scene.setup = plain_case(source, scenario, scene.seed, 1, range_index(scenario, scene.scenario, request.range_m));
+  const TargetParts parts = target_parts(source, mission.mesh);
+  scene.parts = parts.names;
+  scene.materials = materials_of(parts.names, request.materials);
+  scene.surface = simulated_surface(mission, parts, scene.setup, scene.seed);
+  const auto trajectory = make_trajectory(scene.setup.scenario, scene.setup.range_m, kEpochUs, period_us(scene.setup.parameters));
+  scene.T_sensor_target = trajectory->at(kEpochUs + to_us(request.time_s)).T_sensor_target;
+  const FieldOfView view = camera_of_mission(source, request.camera, scene.T_sensor_target.p.norm());
+  scene.camera = view.name;
+  scene.fov_half_x_rad = view.parameters->fov_half_x_rad;
+  scene.fov_half_y_rad = view.parameters->fov_half_y_rad;
+  return scene;
+}
+
+std::vector<ScanMark> flown_scan(const CompiledMission& mission, double time_s, Scene& scene) {
+  const DurationUs period = period_us(scene.setup.parameters);
+  const auto frame = static_cast<std::uint32_t>(to_us(time_s) / period);
+  CaseSetup setup = scene.setup;
+  const std::vector<std::uint8_t> image = image_bytes(mission, setup.parameters);
+  const std::unique_ptr<sim::RayCaster> model = make_target(mission.mesh);
+  setup.image = &image;
+  setup.frames = frame + 1;
+  setup.keep_frames = {frame};
+  const std::unique_ptr<sim::RayCaster> simulated = simulated_target(mission.mesh, setup.scenario, scene.seed);
+  setup.target = simulated.get();
+  const CaseResult result = flown_case(setup);
+  if (result.scans.empty()) throw InputError(format("--scan: frame %u has no scan; another --time has", frame));
+  const KeptScan& scan = result.scans.back();
+  scene.T_sensor_target = scan.truth;
+  const auto trajectory = make_trajectory(setup.scenario, setup.range_m, kEpochUs, period);
+  std::vector<ScanMark> marks;
+  const std::size_t first_aimed = (scan.samples.size() - scan.aimed) / 2;
+  for (std::size_t i = 0; i < scan.samples.size(); ++i) {
+    marks.push_back(mark_of(scan.samples[i], *model, *trajectory));
+    marks.back().aimed = i >= first_aimed && i < first_aimed + scan.aimed;
+  }
+  return marks;
+}
+
+}  // namespace lasso::mdat

@@ -1,0 +1,47 @@
+// What a picture of a mission shows: its target at one time of a scenario, before one of its sensors.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mdat/common/flight_image.hpp"
+#include "mdat/render/render.hpp"
+#include "mdat/render/views.hpp"
+#include "mdat/run/simulation.hpp"
+
+namespace lasso::mdat {
+
+struct SceneRequest {
+  std::string scenario;                // empty: "paper" where there is one, otherwise the first by name
+  std::optional<double> range_m;       // one of the scenario's; none: its first
+  double time_s = 0;                   // since frame 0
+  std::optional<std::uint64_t> seed;   // otherwise the scenario's
+  std::string camera;                  // the sensor's name; empty: the first whose turn it is at that range
+  std::vector<std::string> materials;  // PART=PRESET, where PART may end with *
+};
+
+// The scenario that a request means. Throws MissionError (none of the name) or InputError (a mission without any).
+std::string scenario_name(const MissionSource& source, const std::string& asked);
+
+struct Scene {
+  std::string scenario, camera;
+  std::uint64_t seed = 0;          // that it was drawn by
+  CaseSetup setup;                 // as mdat run flies it; image and target are not set
+  std::vector<std::string> parts;  // names by number
+  std::vector<Material> materials;
+  std::unique_ptr<ModelSurface> surface;  // of the simulated target, which may differ from the model
+  Pose T_sensor_target;                   // the true one
+  double fov_half_x_rad = 0, fov_half_y_rad = 0;
+};
+
+// Throws InputError or MissionError: no such scenario, range, sensor, part or preset.
+Scene make_scene(const MissionInput& mission, const SceneRequest& request);
+
+// The scan of the frame that `time_s` lies in, as mdat run flies it from frame 0 on, and what its rays found: residuals are those to the
+// component's model at the true pose of each sample's own time. The scene is moved to the scan's time. Throws as run_case, and InputError
+// where the frame has no scan.
+std::vector<ScanMark> flown_scan(const CompiledMission& mission, double time_s, Scene& scene);
+
+}  // namespace lasso::mdat

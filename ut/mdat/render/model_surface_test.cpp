@@ -1,0 +1,73 @@
+#include "mdat/render/model_surface.hpp"
+
+#include <gtest/gtest.h>
+
+#include "ut/mdat/render/shapes.hpp"
+#include "ut/support/verifies.hpp"
+
+namespace lasso::mdat {
+namespace {
+
+TEST(ModelSurface, IsSmoothWhereFacetsMeetAtLittle) {
+  VERIFIES("LASSO-PIC-008~1");
+  const ModelSurface surface = surface_of(ball(1, 3));
+  double worst_smooth = 0, worst_facet = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Vec3 direction = exp_so3(Vec3(0.02 * i, 0.7 * i, -0.3)) * Vec3(0.3, 0.5, 0.8).normalized();
+    SurfacePoint point;
+    ASSERT_TRUE(surface.find(-3 * direction, direction, point));
+    worst_smooth = std::max(worst_smooth, (point.smooth_normal + direction).norm());
+    worst_facet = std::max(worst_facet, (point.facet_normal + direction).norm());
+    EXPECT_NEAR(point.range_m, 2, 0.02);
+    EXPECT_LT((point.place_m + direction).norm(), 0.02);
+  }
+  EXPECT_LT(worst_smooth, 0.02);
+  EXPECT_GT(worst_facet, 0.05);
+}
+
+TEST(ModelSurface, KeepsEdges) {
+  VERIFIES("LASSO-PIC-008~1");
+  const ModelSurface surface = surface_of(make_box({1, 2, 3}));
+  SurfacePoint point;
+  ASSERT_TRUE(surface.find(Vec3(5, 0.99, 1.45), -Vec3::UnitX(), point));
+  EXPECT_LT((point.smooth_normal - Vec3::UnitX()).norm(), 1e-12);
+  EXPECT_NEAR(point.range_m, 4.5, 1e-12);
+  EXPECT_FALSE(surface.find(Vec3(5, 1.01, 1.45), -Vec3::UnitX(), point));
+  EXPECT_DOUBLE_EQ(surface.extent_m(), 3);
+}
+
+TEST(ModelSurface, NormalsStandTowardsTheRayWhicheverWayTheFaceIsTurned) {
+  VERIFIES("LASSO-PIC-008~1");
+  const ModelSurface surface = surface_of(square(2));
+  for (const double side : {1.0, -1.0}) {
+    SurfacePoint point;
+    ASSERT_TRUE(surface.find(Vec3(0.2, 0.3, side), Vec3(0, 0, -side), point));
+    EXPECT_NEAR(point.facet_normal.z(), side, 1e-12);
+    EXPECT_NEAR(point.smooth_normal.z(), side, 1e-12);
+  }
+}
+
+TEST(ModelSurface, KnowsPartsAndLeavesOutTrianglesWithoutArea) {
+  VERIFIES("LASSO-PIC-013~1");
+  Mesh mesh = square(2);
+  mesh.triangles.insert(mesh.triangles.begin(), {0, 0, 1});
+  const ModelSurface surface(mesh, {7, 1, 2}, 0.5);
+  SurfacePoint point;
+  ASSERT_TRUE(surface.find(Vec3(0.5, -0.5, 1), -Vec3::UnitZ(), point));
+  EXPECT_EQ(point.part, 1U);
+  ASSERT_TRUE(surface.find(Vec3(-0.5, 0.5, 1), -Vec3::UnitZ(), point));
+  EXPECT_EQ(point.part, 2U);
+}
+
+TEST(ModelSurface, BlocksWhatItFinds) {
+  VERIFIES("LASSO-PIC-003~1");
+  const ModelSurface surface = surface_of(make_box({1, 1, 1}));
+  SurfacePoint point;
+  for (int i = 0; i < 500; ++i) {
+    const Vec3 from(2, 1.3, -0.7), direction = exp_so3(Vec3(0.013 * i, -0.4 * i, 0.9)) * Vec3::UnitX();
+    EXPECT_EQ(surface.is_blocked(from, direction), surface.find(from, direction, point)) << i;
+  }
+}
+
+}  // namespace
+}  // namespace lasso::mdat

@@ -1,0 +1,131 @@
+#include "mdat/render/scene.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "fsw/geometry/portable_math.hpp"
+#include "mdat/common/errors.hpp"
+#include "ut/support/places.hpp"
+#include "ut/support/verifies.hpp"
+
+namespace lasso::mdat {
+namespace {
+
+MissionInput shipped(const std::string& name, const std::vector<std::string>& settings = {}) {
+  return load_mission_input(test::source_folder() / "cfg/missions" / name, settings, settings.empty() ? "" : "paper");
+}
+
+const MissionInput& tenth() {
+  static const MissionInput mission = shipped("hubble_tenth.toml");
+  return mission;
+}
+
+std::string error_of(const MissionInput& mission, const SceneRequest& request) {
+  try {
+    static_cast<void>(make_scene(mission, request));
+  } catch (const InputError& error) {
+    return error.what();
+  } catch (const MissionError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+void expect_says(const std::string& error, const std::vector<std::string>& words) {
+  for (const std::string& word : words) EXPECT_NE(error.find(word), std::string::npos) << "expected '" << word << "' in: " << error;
+}
+
+// The pose of the mission's first frame at 4 m is written in its file, [tracking.initial].
+TEST(Scene, ShowsTheTruePoseOfTheScenario) {
+  VERIFIES("LASSO-PIC-001~1");
+  SceneRequest request;
+  request.range_m = 4;
+  const Scene scene = make_scene(tenth(), request);
+  EXPECT_EQ(scene.scenario, "paper");
+  EXPECT_LT((scene.T_sensor_target.p - Vec3(0.02, -0.01, 4)).norm(), 1e-12);
+  const Quat written(0.730969826988, -0.088182217301, -0.096234003384, -0.669810439735);
+  EXPECT_LT(scene.T_sensor_target.q.angularDistance(written), 1e-9);
+  EXPECT_NEAR(scene.fov_half_x_rad, 15 * kRadPerDeg, 1e-12);
+}
+
+TEST(Scene, MovesWithTime) {
+  VERIFIES("LASSO-PIC-001~1");
+  SceneRequest request;
+  request.scenario = "spin";
+  const Quat before = make_scene(tenth(), request).T_sensor_target.q;
+  request.time_s = 7;  // at 5 deg/s
+  EXPECT_NEAR(make_scene(tenth(), request).T_sensor_target.q.angularDistance(before), 35 * kRadPerDeg, 1e-9);
+}
+
+TEST(Scene, TakesTheSensorWhoseTurnItIs) {
+  VERIFIES("LASSO-PIC-001~1");
+  const MissionInput mission = shipped("hubble.toml");
+  SceneRequest request;
+  request.scenario = "approach";
+  EXPECT_EQ(make_scene(mission, request).camera, "time_of_flight");  // at 60 m
+  request.time_s = 150;
+  const Scene near = make_scene(mission, request);
+  EXPECT_EQ(near.camera, "laser_camera");
+  EXPECT_NEAR(near.fov_half_x_rad, 25 * kRadPerDeg, 1e-12);
+  request.camera = "time_of_flight";
+  EXPECT_NEAR(make_scene(mission, request).fov_half_x_rad, 15 * kRadPerDeg, 1e-12);
+}
+
+TEST(Scene, PartsAreTheSolidsOfTheModelWithMaterialsByTheirNames) {
+  VERIFIES("LASSO-PIC-007~1 LASSO-PIC-013~1");
+  SceneRequest request;
+  request.materials = {"solar array*=mli", "body=white-paint", "solar array +y=black-anodised"};
+  const Scene scene = make_scene(tenth(), request);
+  ASSERT_EQ(scene.parts.size(), scene.materials.size());
+  const auto material = [&](const std::string& part) {
+    const auto found = std::find(scene.parts.begin(), scene.parts.end(), part);
+    return found == scene.parts.end() ? std::string() : scene.materials[static_cast<std::size_t>(found - scene.parts.begin())].name;
+  };
+  EXPECT_EQ(material("solar array -y"), "mli");
+  EXPECT_EQ(material("solar array +y"), "black-anodised");  // the last one that fits
+  EXPECT_EQ(material("body"), "white-paint");
+  EXPECT_EQ(material("bay 3"), "mli");
+}
+
+// The array at +y: where the model has its middle, a ray along z meets it, unless it is gone.
+TEST(Scene, ShowsTheTargetAsItIsSimulated) {
+  VERIFIES("LASSO-PIC-014~1");
+  const Vec3 from(0.2, 0.4, 2);
+  SurfacePoint point;
+  const Scene whole = make_scene(tenth(), {});
+  ASSERT_TRUE(whole.surface->find(from, -Vec3::UnitZ(), point));
+  EXPECT_EQ(whole.parts[point.part], "solar array +y");
+  const MissionInput without = shipped("hubble_tenth.toml", {"scenario.paper.model_gone_box_m=[-0.35,0.2,-0.1,0.48,0.6,0.1]"});
+  const Scene gone = make_scene(without, {});
+  EXPECT_FALSE(gone.surface->find(from, -Vec3::UnitZ(), point));
+  ASSERT_TRUE(gone.surface->find(Vec3(0.2, -0.4, 2), -Vec3::UnitZ(), point));
+  EXPECT_EQ(gone.parts[point.part], "solar array -y");  // triangles keep their parts
+}
+
+TEST(Scene, WhatIsNotThereIsNamedWithWhatIs) {
+  VERIFIES("LASSO-PIC-011~1");
+  SceneRequest request;
+  request.scenario = "papr";
+  expect_says(error_of(tenth(), request), {"papr", "paper"});
+  request = {};
+  request.range_m = 4.5;
+  expect_says(error_of(tenth(), request), {"--range 4.5", "paper", "2, 3, 4, 5, 6, 7 m"});
+  request = {};
+  request.camera = "laser_camra";
+  expect_says(error_of(tenth(), request), {"--camera laser_camra", "laser_camera"});
+  request = {};
+  request.materials = {"body=gold"};
+  expect_says(error_of(tenth(), request), {"--material body=gold", "silver-teflon"});
+  request.materials = {"bodi=mli"};
+  expect_says(error_of(tenth(), request), {"--material bodi=mli", "body"});
+  request.materials = {"mli"};
+  expect_says(error_of(tenth(), request), {"PART=MATERIAL"});
+  request = {};
+  request.scenario = "approach";
+  request.range_m = 20;
+  expect_says(error_of(shipped("hubble.toml"), request), {"--range", "--time"});
+}
+
+}  // namespace
+}  // namespace lasso::mdat
