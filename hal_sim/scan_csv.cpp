@@ -157,14 +157,18 @@ RawScan read_csv(const std::string& file, std::string_view text) {
   return scan;
 }
 
-void write_scan_csv(const std::filesystem::path& file, const RangeImage& image) {
+std::string scan_csv(const RangeImage& image) {
   std::string text(kHeader);
   text += '\n';
-  const std::size_t header_size = text.size();
   for (const RangeSample& sample : image.samples) {
     if (sample.state != RayState::kInvalid) put_row(text, sample);
   }
-  if (text.size() == header_size) fail(file.string(), "the scan has no valid sample to write");
+  return text;
+}
+
+void write_scan_csv(const std::filesystem::path& file, const RangeImage& image) {
+  const std::string text = scan_csv(image);
+  if (text.size() == kHeader.size() + 1) fail(file.string(), "the scan has no valid sample to write");
   write_whole(file, text);
 }
 

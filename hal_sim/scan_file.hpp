@@ -77,8 +77,9 @@ class RecordedScans {
   DepthCamera camera_;
 };
 
-// Writes the CSV form. Invalid samples are left out: like them, a ray that is not listed says nothing. The file appears whole or not at
-// all. Throws ScanFileError: nothing to write, or the file cannot be written.
+// The CSV form. Invalid samples are left out: like them, a ray that is not listed says nothing.
+std::string scan_csv(const RangeImage& image);
+// Writes it. The file appears whole or not at all. Throws ScanFileError: nothing to write, or the file cannot be written.
 void write_scan_csv(const std::filesystem::path& file, const RangeImage& image);
 
 }  // namespace lasso::sim

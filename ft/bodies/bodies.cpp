@@ -62,6 +62,18 @@ Options options_of(int count, char** arguments) {
   return options;
 }
 
+// Mission and model are kept, for who flies the body again.
+Subject make_subject(const Options& options, std::uint64_t seed) {
+  mdat::SubjectRequest request;
+  request.seed = seed;
+  request.sensor = options.sensor;
+  request.settings = options.settings;
+  const std::string name = "body_" + std::to_string(seed);
+  request.mission = options.folder / "missions" / (name + ".toml");
+  request.model = options.folder / "missions" / (name + "_model.toml");
+  return mdat::make_subject(request);
+}
+
 Tally tried(const Options& options, const Subject& subject) {
   if (options.what == "track") return track(subject, options.count, options.frames);
   if (options.what == "start") return start(subject, options.count);
@@ -73,7 +85,7 @@ Row row_of_seed(const Options& options, std::uint64_t seed) {
   Row row;
   row.seed = seed;
   try {
-    const Subject subject = make_subject(seed, options.sensor, options.settings, options.folder / "missions");
+    const Subject subject = make_subject(options, seed);
     row = row_of(subject);
     row.tally = tried(options, subject);
   } catch (const std::exception& error) {

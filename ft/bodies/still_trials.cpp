@@ -3,8 +3,8 @@
 #include <memory>
 
 #include "fsw/mode/searcher.hpp"
-#include "ft/bodies/still_scans.hpp"
 #include "ft/bodies/trials.hpp"
+#include "mdat/benchmark/still_scans.hpp"
 #include "mdat/replay/single_scans.hpp"
 #include "mdat/run/true_target.hpp"
 
@@ -14,8 +14,8 @@ namespace {
 constexpr double kStartTurn_rad = 10 * kRadPerDeg, kStartShift = 0.1;  // of the size
 constexpr double kNear_rad = 7 * kRadPerDeg, kNearShare = 0.05;        // a candidate this near is the right one
 
-// Each mode draws from a stream of its own.
-enum Stream : std::uint64_t { kStarts = 1, kSearches = 2, kChanges = 3 };
+using mdat::ScanStream;
+using mdat::StillScans;
 
 std::span<const RangeSample> samples_of(const RangeImage& scan) { return {scan.samples.begin(), scan.samples.size()}; }
 
@@ -85,7 +85,7 @@ double moved_share(const Subject& subject, const Pose& truth, std::span<const Ra
 
 Tally start(const Subject& subject, std::size_t starts) {
   Tally tally;
-  StillScans scans(subject, kStarts);
+  StillScans scans(subject, ScanStream::kStarts);
   mdat::SingleScans estimator(scans.mission());
   for (std::size_t i = 0; i < starts; ++i) {
     const Pose truth = scans.draw_pose();
@@ -99,7 +99,7 @@ Tally start(const Subject& subject, std::size_t starts) {
 Tally search(const Subject& subject, std::size_t searches) {
   constexpr std::uint32_t kSlice = 160'000;
   Tally tally;
-  StillScans scans(subject, kSearches);
+  StillScans scans(subject, ScanStream::kSearches);
   const auto finder = std::make_unique<Search>();
   const auto workspace = std::make_unique<Workspace>();
   for (std::size_t i = 0; i < searches; ++i) {
@@ -127,7 +127,7 @@ Tally search(const Subject& subject, std::size_t searches) {
 Tally configuration(const Subject& subject, std::size_t changes) {
   constexpr double kMoved = 0.05;
   Tally tally;
-  StillScans scans(subject, kChanges);
+  StillScans scans(subject, ScanStream::kChanges);
   mdat::SingleScans estimator(scans.mission());
   for (std::size_t i = 0; i < changes; ++i) {
     const std::optional<mdat::Body> body = changed(subject, scans.random());

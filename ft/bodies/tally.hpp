@@ -6,12 +6,14 @@
 #include <string>
 #include <vector>
 
-#include "ft/bodies/subject.hpp"
+#include "mdat/benchmark/subject.hpp"
 #include "mdat/run/protection_level.hpp"
 #include "mdat/run/symmetric_error.hpp"
 #include "mdat/run/time_to_alert.hpp"
 
 namespace lasso::bodies {
+
+using mdat::Subject;
 
 // A pose that was to be found: of a frame, a start or a search.
 struct Trial {

@@ -19,7 +19,7 @@ constexpr std::size_t kReplayed = 8;
 
 using Row = std::map<std::string, std::string>;
 
-// Rows of a CSV file by the names in its header.
+// Rows of a CSV file by the names in its header; what fields_of leaves out is empty at their end.
 inline std::vector<Row> table(const std::string& text) {
   const std::vector<std::string> lines = lines_of(text);
   const std::vector<std::string> names = fields_of(lines.at(0));
@@ -27,7 +27,7 @@ inline std::vector<Row> table(const std::string& text) {
   for (std::size_t i = 1; i < lines.size(); ++i) {
     const std::vector<std::string> fields = fields_of(lines[i]);
     Row row;
-    for (std::size_t k = 0; k < names.size(); ++k) row[names[k]] = fields.at(k);
+    for (std::size_t k = 0; k < names.size(); ++k) row[names[k]] = k < fields.size() ? fields[k] : "";
     rows.push_back(row);
   }
   return rows;

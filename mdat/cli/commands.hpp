@@ -14,6 +14,7 @@ void add_lcs_sim_command(CLI::App& app);
 void add_calibrate_command(CLI::App& app);
 void add_replay_command(CLI::App& app);
 void add_compare_command(CLI::App& app);
+void add_benchmark_commands(CLI::App& app);
 void add_gallery_command(CLI::App& app);
 void add_render_command(CLI::App& app);
 void add_modes_command(CLI::App& app);

@@ -54,6 +54,7 @@ int run(int argc, char** argv) {
   add_calibrate_command(app);
   add_replay_command(app);
   add_compare_command(app);
+  add_benchmark_commands(app);
   add_gallery_command(app);
   add_render_command(app);
   add_modes_command(app);

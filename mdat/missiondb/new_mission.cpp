@@ -158,12 +158,17 @@ Mesh moved(Mesh mesh, const Eigen::Vector3d& origin_m) {
   return mesh;
 }
 
+std::string name_of(const NewMissionRequest& request) {
+  if (!request.name.empty()) return request.name;
+  return (request.model_text.empty() ? request.model : request.out).stem().string();
+}
+
 }  // namespace
 
 std::vector<std::string> write_new_mission(const NewMissionRequest& request) {
   NewMission mission;
   Mesh mesh = read_model(request, mission.remarks);
-  mission.name = (request.model_text.empty() ? request.model : request.out).stem().string();
+  mission.name = name_of(request);
   mission.sensor = request.sensor;
   place(mission, mesh);
   const SurfaceFacts surface = surface_facts(mesh);

@@ -19,6 +19,7 @@ constexpr std::size_t kSimplifyChosen = 1;  // of NewMissionRequest::simplify: a
 struct NewMissionRequest {
   std::filesystem::path model, out;  // the target's file, a mesh or a parametric model; the mission to write
   std::string model_text;            // of a parametric model that is written to `model`; empty: the file is there
+  std::string name;                  // of the mission; empty: that of the target's file, or of the mission's where the target is made
   std::optional<SensorKind> sensor;  // otherwise guessed from the target's size
   double scale = 1;                  // the file's lengths times this are metres
   std::size_t simplify = 0;          // triangles of the coarser mesh that is written beside the mission; 0: none

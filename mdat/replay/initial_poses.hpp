@@ -2,15 +2,35 @@
 // others, one row a scan, T_sensor_target. What mdat writes of poses is such a table.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 #include "fsw/geometry/se3.hpp"
+#include "hal_sim/csv_table.hpp"
 
 namespace lasso::mdat {
 
 constexpr double kQuaternionLengthTolerance = 1e-3;
+
+// Where a table has what a pose needs.
+class PoseColumns {
+ public:
+  // Throws ScanFileError where one is missing.
+  explicit PoseColumns(const sim::CsvTable& table);
+
+  // Of the present row, normalised. Throws ScanFileError or InputError with file:line:column: not a number, NaN or infinity, a quaternion
+  // whose length differs from 1 by more than the tolerance.
+  Pose read(const sim::CsvTable& table) const;
+  // The stem of the scan's file, which a row names by it or as a file. Throws InputError where none stands there.
+  std::string scan(const sim::CsvTable& table) const;
+  std::string scan_place(const sim::CsvTable& table) const { return table.place(scan_); }
+
+ private:
+  std::size_t scan_;
+  std::array<std::size_t, 7> values_;  // qx, qy, qz, qw, x, y, z
+};
 
 struct InitialPose {
   std::string scan;  // the stem of the scan's file

@@ -1,4 +1,4 @@
-#include "ft/bodies/still_scans.hpp"
+#include "mdat/benchmark/still_scans.hpp"
 
 #include <algorithm>
 
@@ -7,12 +7,14 @@
 #include "mdat/common/errors.hpp"
 #include "mdat/run/simulated_scenario.hpp"
 
-namespace lasso::bodies {
+namespace lasso::mdat {
 
-StillScans::StillScans(const Subject& subject, std::uint64_t stream)
-    : subject_(subject), random_(1000 * subject.body.seed + stream), middle_m_(0.5 * (subject.truth.low_m + subject.truth.high_m)) {
-  const MissionParameters parameters = mdat::parameters_for(subject.mission.source, "spin");
-  image_ = std::make_unique<mdat::LoadedImage>(subject.mission.source.name, mdat::image_bytes(subject.mission, parameters));
+StillScans::StillScans(const Subject& subject, ScanStream stream)
+    : subject_(subject),
+      random_(1000 * subject.body.seed + static_cast<std::uint64_t>(stream)),
+      middle_m_(0.5 * (subject.truth.low_m + subject.truth.high_m)) {
+  const MissionParameters parameters = parameters_for(subject.mission.source, "spin");
+  image_ = std::make_unique<LoadedImage>(subject.mission.source.name, image_bytes(subject.mission, parameters));
 }
 
 Vec3 StillScans::draw_direction() {
@@ -38,18 +40,18 @@ Pose StillScans::draw_start(const Pose& T_sensor_target, double turn_rad, double
 }
 
 const RangeImage& StillScans::scan(const sim::RayCaster& surface, const Pose& T_sensor_target, const Pose& expected) {
-  const mdat::Scenario& scenario = mdat::scenario_of(subject_.mission.source, "spin");
-  const sim::ConstantTwist rest({T_sensor_target, Twist{}}, mdat::kEpochUs);
-  sim::SimulatedScanner scanner(surface, rest, mdat::scanner_model(scenario, mission().parameters, true), random_.bits());
+  const Scenario& scenario = scenario_of(subject_.mission.source, "spin");
+  const sim::ConstantTwist rest({T_sensor_target, Twist{}}, kEpochUs);
+  sim::SimulatedScanner scanner(surface, rest, scanner_model(scenario, mission().parameters, true), random_.bits());
   ScanPlan plan;
   if (plan_scan(mission().parameters, {mission().hull, mission().center_m}, expected, ++scan_->scan_id, plan) != Status::kOk ||
-      scanner.start(plan, mdat::kEpochUs) != Status::kOk)
-    throw mdat::RunError("a scan has no plan");
+      scanner.start(plan, kEpochUs) != Status::kOk)
+    throw RunError("a scan has no plan");
   std::vector<RangeSample> samples(plan.points);
-  const SensorPoll polled = scanner.poll(mdat::kEpochUs + plan.duration_us, {samples.data(), samples.size()});
+  const SensorPoll polled = scanner.poll(kEpochUs + plan.duration_us, {samples.data(), samples.size()});
   scan_->samples.clear();
   for (std::size_t i = 0; i < polled.count; ++i) (void)scan_->samples.push_back(samples[i]);
   return *scan_;
 }
 
-}  // namespace lasso::bodies
+}  // namespace lasso::mdat

@@ -5,15 +5,18 @@
 
 #include "fsw/mission/mission.hpp"
 #include "fsw/sense/range_image.hpp"
-#include "ft/bodies/subject.hpp"
 #include "hal_sim/random.hpp"
+#include "mdat/benchmark/subject.hpp"
 
-namespace lasso::bodies {
+namespace lasso::mdat {
+
+// Who looks at a body draws from a stream of its own: the first three are those of make bodies (docs/bodies.md).
+enum class ScanStream : std::uint64_t { kStarts = 1, kSearches = 2, kChanges = 3, kBenchmark = 4 };
 
 class StillScans {
  public:
   // What is scanned may be another surface than the model's. Keeps references.
-  StillScans(const Subject& subject, std::uint64_t stream);
+  StillScans(const Subject& subject, ScanStream stream);
 
   // Any attitude, one to twice the nearest range, up to 2 % of it beside the boresight.
   Pose draw_pose();
@@ -31,8 +34,8 @@ class StillScans {
   const Subject& subject_;
   sim::Random random_;
   Vec3 middle_m_;
-  std::unique_ptr<mdat::LoadedImage> image_;
+  std::unique_ptr<LoadedImage> image_;
   std::unique_ptr<RangeImage> scan_ = std::make_unique<RangeImage>();
 };
 
-}  // namespace lasso::bodies
+}  // namespace lasso::mdat

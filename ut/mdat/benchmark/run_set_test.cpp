@@ -1,0 +1,68 @@
+#include "mdat/benchmark/run_set.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "mdat/benchmark/score.hpp"
+#include "mdat/common/flight_image.hpp"
+#include "mdat/replay/replay.hpp"
+#include "ut/mdat/benchmark/folder.hpp"
+#include "ut/support/verifies.hpp"
+
+namespace lasso::mdat {
+namespace {
+
+using test::small_set;
+
+// Of the same files by replay itself.
+std::vector<ReplayedScan> replayed() {
+  const std::filesystem::path body = small_set().path() / "body_52";
+  ReplayOptions options;
+  options.scans = body / kScansFolder;
+  options.initial = body / kStartsFile;
+  options.wide = true;
+  ReplayInput input = read_replay_input(options);
+  const CompiledMission mission = compile_mission(body / kMissionFile);
+  const LoadedImage image("test", image_bytes(mission, mission.source.parameters));
+  settle_times(options, image.mission().parameters.duration_s, input);
+  return replay(image.mission(), options, input);
+}
+
+TEST(RunSet, PosesAreThoseOfReplay) {
+  VERIFIES("LASSO-GND-124~1");
+  const ProgramPoses poses = run_set(small_set().path(), true);
+  const std::vector<ReplayedScan> expected = replayed();
+  ASSERT_EQ(poses.rows.size(), expected.size());
+  EXPECT_TRUE(poses.covariances);
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    const Registration& found = expected[i].registration;
+    EXPECT_EQ(poses.rows[i].body, "body_52");
+    EXPECT_EQ(poses.rows[i].scan, expected[i].scan);
+    EXPECT_EQ(poses.rows[i].valid, found.valid());
+    EXPECT_EQ(poses.rows[i].T_sensor_target.p, found.T_sensor_target.p);
+    EXPECT_EQ(poses.rows[i].T_sensor_target.q.coeffs(), found.T_sensor_target.q.coeffs());
+    EXPECT_EQ(poses.rows[i].covariance, found.covariance);
+    EXPECT_GT(poses.rows[i].time_s.value_or(0), 0);
+  }
+}
+
+TEST(RunSet, WhatItFindsIsRightOnAnEasyBody) {
+  VERIFIES("LASSO-GND-124~1");
+  const Score found = score(small_set().set, run_set(small_set().path(), true));
+  EXPECT_EQ(found.counts.scans, 2u);
+  EXPECT_EQ(found.counts.wrong, 0u);
+  EXPECT_GT(found.counts.determined, 0u);
+  EXPECT_EQ(found.counts.right, found.counts.determined);
+}
+
+TEST(RunSet, AChangedSetIsNotRun) {
+  VERIFIES("LASSO-GND-121~1");
+  const test::PassingFolder folder;
+  std::filesystem::copy(small_set().path(), folder / "set", std::filesystem::copy_options::recursive);
+  std::ofstream(folder / "set/body_52/mission.toml", std::ios::app) << "# tuned\n";
+  EXPECT_NE(test::error_of([&] { run_set(folder / "set", true); }).find("mission.toml: was changed"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace lasso::mdat
