@@ -136,6 +136,12 @@ bench: ## measure: time the estimate, its stages, and closest-point ICP of Embre
 	@mkdir -p $(LASSO_OUT)/bench
 	@ft/bench/run $(BENCH) $(LASSO_OUT)/bench
 
+benchmark: ## measure: poses of rough starts on bodies that nobody tuned for, by the component and by its peers, scored alike: SEED=2001 COUNT=100 SCANS=20 SENSOR=laser_camera|lidar
+	$(call packages,build bench)
+	$(call configure,$(BENCH),$(WITH_BENCH))
+	$(call compile,$(BENCH),mdat peer_poses)
+	@ft/bench/benchmark $(BENCH) $(LASSO_OUT)/benchmark "$(or $(SEED),2001)" "$(or $(COUNT),100)" "$(or $(SCANS),20)" "$(SENSOR)"
+
 # $(call fly,COUNT): the campaign of MISSION that the target is named after (ft/campaign/fly)
 define fly
 $(call packages,build)
@@ -506,7 +512,7 @@ campaign-table: ## write: write the tables of the missions' campaigns of docs/ca
 	$(call compile,$(BUILD),mdat)
 	@ft/campaign/table $(BUILD)
 
-figures: ## write: write the measured figures of README.md and docs/benchmarks.md
+figures: ## write: write the measured figures of README.md, docs/benchmarks.md and docs/benchmark-protocol.md
 	@docs/figures
 
 format: ## write: format all tracked sources

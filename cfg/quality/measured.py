@@ -19,6 +19,7 @@ TARGET = ('bsp', 'cfg/toolchains')
 SOURCES = {
     'run': (*FLIGHT, *SIMULATION),
     'bench': (*FLIGHT, *SIMULATION, 'ft/bench'),
+    'benchmark': (*FLIGHT, *SIMULATION, 'ft/bench', 'mdat/benchmark', 'mdat/bodies', 'mdat/replay'),
     'ppc-count': (*FLIGHT, *SIMULATION, *TARGET, 'ft/golden', 'ft/ppc603e'),
     'prove': (*FLIGHT, *TARGET),
 }

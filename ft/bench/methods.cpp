@@ -1,7 +1,7 @@
 #include "ft/bench/methods.hpp"
 
 #include "fsw/pose/estimator.hpp"
-#include "ft/bench/peers/peer.hpp"
+#include "ft/bench/peer_pose.hpp"
 #include "ft/bench/sampling.hpp"
 
 namespace lasso::bench {
@@ -27,24 +27,6 @@ class Lasso final : public Method {
   std::unique_ptr<RangeImage> range_image_ = std::make_unique<RangeImage>();
 };
 
-PeerPose to_peer(const Pose& pose) {
-  const Mat3 R = to_matrix(pose.q);
-  PeerPose result;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) result.R.at(static_cast<std::size_t>(3 * i + j)) = R(i, j);
-    result.p_m.at(static_cast<std::size_t>(i)) = pose.p[i];
-  }
-  return result;
-}
-
-Pose from_peer(const PeerPose& pose) {
-  Mat3 R;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) R(i, j) = pose.R.at(static_cast<std::size_t>(3 * i + j));
-  }
-  return {to_quaternion(R), Vec3(pose.p_m.data())};
-}
-
 class PeerMethod final : public Method {
  public:
   PeerMethod(std::string name, std::unique_ptr<Peer> peer) : Method(std::move(name)), peer_(std::move(peer)) {}
@@ -62,9 +44,9 @@ class PeerMethod final : public Method {
   }
 
   Outcome run(const Pose& start) override {
-    const PeerResult result = peer_->align(to_peer(start));
+    const PeerResult result = peer_->align(to_peer_pose(start));
     Outcome outcome;
-    outcome.T_sensor_target = from_peer(result.T_sensor_target);
+    outcome.T_sensor_target = from_peer_pose(result.T_sensor_target);
     outcome.iterations = result.iterations;
     return outcome;
   }

@@ -75,9 +75,11 @@ PeerMesh to_peer_mesh(const mdat::Mesh& mesh) {
   return result;
 }
 
+double spacing_m(const mdat::Mesh& mesh, std::size_t count) { return std::sqrt(area_m2(mesh) / static_cast<double>(count)); }
+
 PeerCloud sample_evenly(const mdat::Mesh& mesh, std::size_t count) {
   const PeerCloud dense = sample_randomly(mesh, kOversampling * count);
-  double cell_m = std::sqrt(area_m2(mesh) / static_cast<double>(count));
+  double cell_m = spacing_m(mesh, count);
   PeerCloud result = thin_out(dense, cell_m);
   for (int i = 1; i < kGridSearches; ++i) {  // the number of cells goes with the inverse square of their size
     cell_m *= std::sqrt(static_cast<double>(result.points_m.size()) / static_cast<double>(count));

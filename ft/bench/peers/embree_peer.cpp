@@ -59,29 +59,33 @@ bool visit(RTCPointQueryFunctionArguments* arguments) {
 
 Float3 to_float(const Triple& p) { return Eigen::Map<const Eigen::Vector3d>(p.data()).cast<float>(); }
 
-class EmbreePeer final : public Peer {
+// A mesh that is asked for closest points.
+class Surfaces {
  public:
-  explicit EmbreePeer(const PeerMesh& mesh) : device_(rtcNewDevice("threads=1")), scene_(rtcNewScene(device_)) {
+  explicit Surfaces(const PeerMesh& mesh) : device_(rtcNewDevice("threads=1")), scene_(rtcNewScene(device_)) {
     make_facets(mesh);
     attach(mesh);
     rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_HIGH);
     rtcCommitScene(scene_);
     if (rtcGetDeviceError(device_) != RTC_ERROR_NONE) throw std::runtime_error("Embree refuses the mesh");
   }
-  ~EmbreePeer() override {
+  ~Surfaces() {
     rtcReleaseScene(scene_);
     rtcReleaseDevice(device_);
   }
-  EmbreePeer(const EmbreePeer&) = delete;
-  EmbreePeer& operator=(const EmbreePeer&) = delete;
+  Surfaces(const Surfaces&) = delete;
+  Surfaces& operator=(const Surfaces&) = delete;
 
-  void set_scan(const std::vector<Triple>& points_m) override { points_m_ = to_vectors(points_m); }
-
-  PeerResult align(const PeerPose& start) override {
-    const auto find = [this](const auto& p, const auto& origin, double gate_m, Surface& surface) {
-      return closest_facing(p, origin, gate_m, surface);
-    };
-    return register_points(points_m_, start, PointToPlane(), find);
+  bool closest_facing(const Eigen::Vector3d& p, const Eigen::Vector3d& origin, double gate_m, Surface& surface) const {
+    Query query{facets_.data(), p.cast<float>(), (p - origin).cast<float>(), Float3::Zero()};
+    RTCPointQuery where{query.p[0], query.p[1], query.p[2], 0, static_cast<float>(gate_m)};
+    RTCPointQueryContext context;
+    rtcInitPointQueryContext(&context);
+    rtcPointQuery(scene_, &where, &context, visit, &query);
+    if (query.facet == RTC_INVALID_GEOMETRY_ID) return false;
+    surface.point = query.closest.cast<double>();
+    surface.normal = facets_[query.facet].normal.cast<double>();
+    return true;
   }
 
  private:
@@ -108,26 +112,56 @@ class EmbreePeer final : public Peer {
     rtcReleaseGeometry(geometry);
   }
 
-  bool closest_facing(const Eigen::Vector3d& p, const Eigen::Vector3d& origin, double gate_m, Surface& surface) const {
-    Query query{facets_.data(), p.cast<float>(), (p - origin).cast<float>(), Float3::Zero()};
-    RTCPointQuery where{query.p[0], query.p[1], query.p[2], 0, static_cast<float>(gate_m)};
-    RTCPointQueryContext context;
-    rtcInitPointQueryContext(&context);
-    rtcPointQuery(scene_, &where, &context, visit, &query);
-    if (query.facet == RTC_INVALID_GEOMETRY_ID) return false;
-    surface.point = query.closest.cast<double>();
-    surface.normal = facets_[query.facet].normal.cast<double>();
-    return true;
-  }
-
   RTCDevice device_;
   RTCScene scene_;
   std::vector<Facet> facets_;
+};
+
+class EmbreePeer final : public Peer {
+ public:
+  EmbreePeer(const PeerMesh& mesh, const PeerSettings& settings) : surfaces_(mesh), settings_(settings) {}
+
+  void set_scan(const std::vector<Triple>& points_m) override { points_m_ = to_vectors(points_m); }
+
+  PeerResult align(const PeerPose& start) override {
+    const auto find = [this](const auto& p, const auto& origin, double gate_m, Surface& surface) {
+      return surfaces_.closest_facing(p, origin, gate_m, surface);
+    };
+    return register_points(points_m_, start, settings_, find);
+  }
+
+ private:
+  Surfaces surfaces_;
+  PointToPlane settings_;
   std::vector<Eigen::Vector3d> points_m_;
+};
+
+class EmbreeCheck final : public SurfaceCheck {
+ public:
+  explicit EmbreeCheck(const PeerMesh& mesh) : surfaces_(mesh) {}
+
+  std::size_t count_near(const std::vector<Triple>& points_m, const std::vector<double>& gates_m, const PeerPose& pose) const override {
+    const Eigen::Isometry3d T_target_sensor = from_peer_pose(pose).inverse();
+    const Eigen::Vector3d origin = T_target_sensor.translation();
+    std::size_t count = 0;
+    Surface surface;
+    for (std::size_t i = 0; i < points_m.size(); ++i) {
+      const Eigen::Vector3d p = T_target_sensor * Eigen::Map<const Eigen::Vector3d>(points_m[i].data());
+      count += surfaces_.closest_facing(p, origin, gates_m[i], surface) ? 1U : 0U;
+    }
+    return count;
+  }
+
+ private:
+  Surfaces surfaces_;
 };
 
 }  // namespace
 
-std::unique_ptr<Peer> make_embree_peer(const PeerMesh& mesh) { return std::make_unique<EmbreePeer>(mesh); }
+std::unique_ptr<Peer> make_embree_peer(const PeerMesh& mesh, const PeerSettings& settings) {
+  return std::make_unique<EmbreePeer>(mesh, settings);
+}
+
+std::unique_ptr<SurfaceCheck> make_surface_check(const PeerMesh& mesh) { return std::make_unique<EmbreeCheck>(mesh); }
 
 }  // namespace lasso::bench

@@ -7,7 +7,6 @@ namespace lasso::bench {
 namespace {
 
 constexpr std::size_t kLeafPoints = 10;
-constexpr double kSamplingGate_m = 0.004;  // below it the spacing of the model's points would shut out true matches
 
 // The model as nanoflann reads it.
 struct CloudAdaptor {
@@ -32,21 +31,21 @@ using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<fl
 
 class NanoflannPeer final : public Peer {
  public:
-  explicit NanoflannPeer(const PeerCloud& cloud)
-      : model_points_m_(to_vectors(cloud.points_m)),
+  NanoflannPeer(const PeerCloud& cloud, const PeerSettings& settings)
+      : settings_(settings),
+        model_points_m_(to_vectors(cloud.points_m)),
         model_normals_(to_vectors(cloud.normals)),
         adaptor_(to_adaptor(cloud)),
         tree_(3, adaptor_, nanoflann::KDTreeSingleIndexAdaptorParams(kLeafPoints)) {
+    settings_.gate_min_m = settings.sampled_gate_min_m;
     tree_.buildIndex();
   }
 
   void set_scan(const std::vector<Triple>& points_m) override { points_m_ = to_vectors(points_m); }
 
   PeerResult align(const PeerPose& start) override {
-    PointToPlane settings;
-    settings.gate_min_m = kSamplingGate_m;
     const auto find = [this](const auto& p, const auto&, double gate_m, Surface& surface) { return closest(p, gate_m, surface); };
-    return register_points(points_m_, start, settings, find);
+    return register_points(points_m_, start, settings_, find);
   }
 
  private:
@@ -59,6 +58,7 @@ class NanoflannPeer final : public Peer {
     return true;
   }
 
+  PointToPlane settings_;
   std::vector<Eigen::Vector3d> model_points_m_, model_normals_, points_m_;
   CloudAdaptor adaptor_;
   Tree tree_;
@@ -66,6 +66,8 @@ class NanoflannPeer final : public Peer {
 
 }  // namespace
 
-std::unique_ptr<Peer> make_nanoflann_peer(const PeerCloud& cloud) { return std::make_unique<NanoflannPeer>(cloud); }
+std::unique_ptr<Peer> make_nanoflann_peer(const PeerCloud& cloud, const PeerSettings& settings) {
+  return std::make_unique<NanoflannPeer>(cloud, settings);
+}
 
 }  // namespace lasso::bench

@@ -19,6 +19,10 @@ struct PointToPlane {
   double stop_rad = 0.01 * 3.14159265358979323846 / 180;
   int iterations_max = 20;
   int matches_min = 12;
+
+  PointToPlane() = default;
+  explicit PointToPlane(const PeerSettings& settings)
+      : gate_max_m(settings.gate_max_m), gate_min_m(settings.gate_min_m), iterations_max(settings.iterations_max) {}
 };
 
 // Closest surface: a point on it and its unit normal, target frame.
@@ -108,7 +112,8 @@ PeerResult register_points(const std::vector<Eigen::Vector3d>& points_m, const P
     if (sums.matches < settings.matches_min) break;
     const Eigen::Matrix<double, 6, 1> x = sums.solve();
     T_target_sensor = exponential_step(x) * T_target_sensor;
-    if (x.head<3>().norm() < settings.stop_rad && x.tail<3>().norm() < settings.stop_m) break;
+    result.converged = x.head<3>().norm() < settings.stop_rad && x.tail<3>().norm() < settings.stop_m;
+    if (result.converged) break;
     const double rms_m = std::sqrt(sums.squares_m2 / sums.matches);
     gate_m = std::clamp(settings.gate_rms * rms_m, settings.gate_min_m, settings.gate_max_m);
   }
