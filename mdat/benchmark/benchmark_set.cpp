@@ -119,7 +119,7 @@ void check_new(const fs::path& folder) {
   throw InputError(folder.string() + ": is there already; a set needs a new folder: name another one, or remove it");
 }
 
-fs::path new_folder_beside_all() {
+fs::path temporary_folder() {
   std::string name = (fs::temp_directory_path() / "mdat-benchmark-XXXXXX").string();
   if (mkdtemp(name.data()) == nullptr) throw RunError(name + ": cannot be made: set TMPDIR to a folder that you may write");
   return name;
@@ -129,7 +129,7 @@ fs::path new_folder_beside_all() {
 
 BenchmarkSet make_set(const SetPlan& plan, const fs::path& folder, bool cached) {
   check_new(folder);
-  const PassingFolder partial((folder.lexically_normal() / "").parent_path().string() + ".partial");
+  const PassingFolder partial((fs::absolute(folder).lexically_normal() / "").parent_path().string() + ".partial");
   std::error_code error;
   fs::remove_all(partial.path(), error);
   make_folder(partial.path());
@@ -143,7 +143,7 @@ BenchmarkSet make_set(const SetPlan& plan, const fs::path& folder, bool cached) 
 BenchmarkSet open_set(const fs::path& folder, bool cached) {
   const Protocol protocol = read_protocol(folder);
   check_files(folder, protocol);
-  const PassingFolder beside(new_folder_beside_all());
+  const PassingFolder beside(temporary_folder());
   BenchmarkSet set = write_set(protocol.plan, beside.path(), cached, "make the truth again");
   check_made_again(folder, protocol, set.protocol);
   return set;

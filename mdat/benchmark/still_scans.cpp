@@ -41,14 +41,15 @@ Pose StillScans::draw_start(const Pose& T_sensor_target, double turn_rad, double
 
 const RangeImage& StillScans::scan(const sim::RayCaster& surface, const Pose& T_sensor_target, const Pose& expected) {
   const Scenario& scenario = scenario_of(subject_.mission.source, "spin");
-  const sim::ConstantTwist rest({T_sensor_target, Twist{}}, kEpochUs);
+  const TimeUs begin_us = kEpochUs + scan_->scan_id++ * period_us(mission().parameters);
+  const sim::ConstantTwist rest({T_sensor_target, Twist{}}, begin_us);
   sim::SimulatedScanner scanner(surface, rest, scanner_model(scenario, mission().parameters, true), random_.bits());
   ScanPlan plan;
-  if (plan_scan(mission().parameters, {mission().hull, mission().center_m}, expected, ++scan_->scan_id, plan) != Status::kOk ||
-      scanner.start(plan, kEpochUs) != Status::kOk)
+  if (plan_scan(mission().parameters, {mission().hull, mission().center_m}, expected, scan_->scan_id, plan) != Status::kOk ||
+      scanner.start(plan, begin_us) != Status::kOk)
     throw RunError("a scan has no plan");
   std::vector<RangeSample> samples(plan.points);
-  const SensorPoll polled = scanner.poll(kEpochUs + plan.duration_us, {samples.data(), samples.size()});
+  const SensorPoll polled = scanner.poll(begin_us + plan.duration_us, {samples.data(), samples.size()});
   scan_->samples.clear();
   for (std::size_t i = 0; i < polled.count; ++i) (void)scan_->samples.push_back(samples[i]);
   return *scan_;

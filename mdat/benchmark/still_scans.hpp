@@ -22,7 +22,7 @@ class StillScans {
   Pose draw_pose();
   // The pose turned by `turn_rad` about an axis through the body's middle, and moved by `shift_m`, both in a random direction.
   Pose draw_start(const Pose& T_sensor_target, double turn_rad, double shift_m);
-  // As planned for the pose `expected`. Valid until the next one.
+  // As planned for the pose `expected`, one period of the mission after the scan before. Valid until the next one.
   const RangeImage& scan(const sim::RayCaster& surface, const Pose& T_sensor_target, const Pose& expected);
 
   const Mission& mission() const { return image_->mission(); }

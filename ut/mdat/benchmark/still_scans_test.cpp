@@ -53,6 +53,19 @@ TEST_F(StillScansTest, StartsAreTurnedAndShiftedAsFarAsIsAsked) {
   }
 }
 
+// In their order of time, as a recording has them.
+TEST_F(StillScansTest, EachScanBeginsAfterTheOneBeforeHasEnded) {
+  VERIFIES("LASSO-GND-120~1");
+  StillScans scans(subject, ScanStream::kBenchmark);
+  TimeUs ended_us = 0;
+  for (int i = 0; i < 3; ++i) {
+    const Pose pose = scans.draw_pose();
+    const RangeImage& scan = scans.scan(subject.target->surface(), pose, pose);
+    EXPECT_GT(scan.samples[0].t_us, ended_us);
+    ended_us = scan.samples[scan.samples.size() - 1].t_us;
+  }
+}
+
 TEST_F(StillScansTest, EachStreamIsItsOwnAndRepeats) {
   VERIFIES("LASSO-GND-120~1");
   StillScans one(subject, ScanStream::kBenchmark), same(subject, ScanStream::kBenchmark), other(subject, ScanStream::kStarts);
