@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "mdat/campaign/conclusion_text.hpp"
-#include "mdat/campaign/limits.hpp"
+#include "mdat/common/limits.hpp"
 #include "mdat/common/text.hpp"
 
 namespace lasso::mdat {

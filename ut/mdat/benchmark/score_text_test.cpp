@@ -6,7 +6,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "mdat/campaign/limits.hpp"
+#include "mdat/common/limits.hpp"
 #include "ut/support/verifies.hpp"
 
 namespace lasso::mdat {
