@@ -1,7 +1,7 @@
 // Ephemerides in the files of CCSDS: orbits (OEM, 502.0-B) and attitudes (AEM, 504.0-B) in key-value notation, of one segment.
 //
-// Not read: XML, several segments in one file, spin axes, Euler angles of version 1 (whose order other programs read in two ways) and their
-// rates. Covariances are skipped. A spacecraft's motion is a chain of the tables of its OEM and its AEM.
+// Not read: XML, several segments in one file, spin axes, Euler angles of version 1.0 (its names tell axes, not the order of rotations),
+// rates of Euler angles. Covariances are skipped. A spacecraft's motion is a chain of the tables of its OEM and its AEM.
 //
 // Velocities are the derivatives of the positions in REF_FRAME's own axes, also where this turns (RTN): that is what the table moves by.
 #pragma once

@@ -85,9 +85,8 @@ void TorqueFree::solve(const Mat3& R_node_top) {
   pace_ = square_root((i1 - i3) * (i2 - i3) / (i1 * i2)) * std::fabs(peak_top_radps_[2]);
   const Amplitude begin = to_amplitude(omega[1] / peak_top_radps_[1], omega[0] / peak_top_radps_[0]);
   phase_ = elliptic_first(begin, m1_);
-  momentum_ = inertia_top_.cwiseProduct(omega).norm();
-  precession_radps_ = momentum_ / i3;
-  precession_factor_ = momentum_ / i3 * ((i1 - i3) / i1) / pace_;
+  precession_radps_ = inertia_top_.cwiseProduct(omega).norm() / i3;
+  precession_factor_ = precession_radps_ * ((i1 - i3) / i1) / pace_;
   precession_begin_ = elliptic_third(characteristic_, begin, m1_);
   R_node_momentum_ = R_node_top_ * momentum_axes(omega);
 }

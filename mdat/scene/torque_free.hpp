@@ -7,12 +7,13 @@
 namespace lasso::mdat::scene {
 
 // The parent's axes are inertial, the node's are principal axes of inertia, and its origin is the centre of mass, which stays. Chains say
-// all else: a node about another point, a centre of mass that drifts, a parent that turns (orbit.hpp: inertial_attitude).
+// all else: a node about another point, a centre of mass that drifts, a parent that turns (attitude_laws.hpp: inertial_attitude).
 //
 // Angular velocities by Jacobi's elliptic functions, the attitude by the angle of precession about the angular momentum, an elliptic
 // integral of the third kind (Landau and Lifshitz, Mechanics, 37; NIST Handbook of Mathematical Functions, 19.25 and 22.20). Energy and
 // angular momentum hold to rounding. A state within rounding of the one that parts tumbling about the axis of the greatest moment from
-// tumbling about that of the least is known no better than its numbers: there the next flip's time is uncertain.
+// tumbling about that of the least is known no better than its numbers: there the next flip's time is uncertain. Boost takes a
+// logarithm of the C library: between machines whose libraries differ, last bits may.
 class TorqueFree final : public Motion {
  public:
   struct Setup {
@@ -35,7 +36,7 @@ class TorqueFree final : public Motion {
   Vec3 inertia_top_ = Vec3::Ones(), peak_top_radps_ = Vec3::Zero();
   double m1_ = 1, characteristic_ = 0;  // of the elliptic functions and the integral
   double pace_ = 0, phase_ = 0;         // u = pace * t + phase
-  double momentum_ = 0, precession_radps_ = 0, precession_factor_ = 0, precession_begin_ = 0;
+  double precession_radps_ = 0, precession_factor_ = 0, precession_begin_ = 0;
   Mat3 R_node_momentum_ = Mat3::Identity();  // at t = 0
 };
 
