@@ -3,8 +3,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "mdat/campaign/conclusion_text.hpp"
 #include "mdat/common/limits.hpp"
+#include "mdat/common/share_text.hpp"
 #include "mdat/common/text.hpp"
 
 namespace lasso::mdat {

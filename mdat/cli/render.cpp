@@ -16,7 +16,7 @@
 namespace lasso::mdat {
 namespace {
 
-constexpr int kLargest_px = 8192;
+constexpr int kLargest_px = 4096;
 constexpr int kUsual_px = 1024;
 
 struct RenderArguments {
@@ -164,8 +164,10 @@ void render(const RenderArguments& options) {
   Scene scene = make_scene(input, options.scene);
   tell_idle_settings(input.source, scene.scenario);
   std::vector<ScanMark> marks;
-  if (has_scan(options))
+  if (has_scan(options)) {
+    check_scan_time(scene, options.scene.time_s);
     marks = flown_scan(compile_mission(std::move(input), ModelCache::of_user_if(options.cached)), options.scene.time_s, scene);
+  }
   RenderSetup setup;
   setup.camera =
       camera_of(size.value_or(size_of(kUsual_px, scene.fov_half_x_rad, scene.fov_half_y_rad)), scene.fov_half_x_rad, scene.fov_half_y_rad);

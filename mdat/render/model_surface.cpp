@@ -60,14 +60,16 @@ void ModelSurface::smooth_corners(double crease_angle_rad) {
     for (std::size_t k = 0; k < 3; ++k) facets_at[place_of(parts_[i], c[k])].push_back({i, angle_at(c, k)});
   }
   const double least_cosine = sin_cos(crease_angle_rad).cos;
-  for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
-    for (const Vec3& corner : corners_of(mesh_, i)) {
-      Vec3 sum = Vec3::Zero();
-      for (const Facet& facet : facets_at[place_of(parts_[i], corner)]) {
-        if (facet_normals_[facet.triangle].dot(facet_normals_[i]) > least_cosine) sum += facet.angle_rad * facet_normals_[facet.triangle];
-      }
-      corner_normals_.emplace_back(sum.norm() > 0 ? sum.normalized() : facet_normals_[i]);
+  const auto mean_normal = [&](std::size_t triangle, const std::vector<Facet>& around) -> Vec3 {
+    Vec3 sum = Vec3::Zero();
+    for (const Facet& facet : around) {
+      const Vec3& normal = facet_normals_[facet.triangle];
+      if (normal.dot(facet_normals_[triangle]) > least_cosine) sum += facet.angle_rad * normal;
     }
+    return sum.norm() > 0 ? sum.normalized() : facet_normals_[triangle];
+  };
+  for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
+    for (const Vec3& corner : corners_of(mesh_, i)) corner_normals_.push_back(mean_normal(i, facets_at[place_of(parts_[i], corner)]));
   }
 }
 

@@ -153,7 +153,16 @@ Scene make_scene(const MissionInput& mission, const SceneRequest& request) {
   return scene;
 }
 
+void check_scan_time(const Scene& scene, double time_s) {
+  const Scenario& scenario = scene.setup.scenario;
+  const DurationUs period = period_us(scene.setup.parameters);
+  if (static_cast<double>(to_us(time_s) / period) < scenario.frames) return;
+  throw InputError(format("--time %g: the scenario %s has scans for %g s: choose an earlier time, or leave the scan out", time_s,
+                          scene.scenario.c_str(), scenario.frames * static_cast<double>(period) * 1e-6));
+}
+
 std::vector<ScanMark> flown_scan(const CompiledMission& mission, double time_s, Scene& scene) {
+  check_scan_time(scene, time_s);
   const DurationUs period = period_us(scene.setup.parameters);
   const auto frame = static_cast<std::uint32_t>(to_us(time_s) / period);
   CaseSetup setup = scene.setup;

@@ -39,9 +39,12 @@ struct Scene {
 // Throws InputError or MissionError: no such scenario, range, sensor, part or preset.
 Scene make_scene(const MissionInput& mission, const SceneRequest& request);
 
+// Throws InputError where the scenario's frames are over by then.
+void check_scan_time(const Scene& scene, double time_s);
+
 // The scan of the frame that `time_s` lies in, as mdat run flies it from frame 0 on, and what its rays found: residuals are those to the
-// component's model at the true pose of each sample's own time. The scene is moved to the scan's time. Throws as run_case, and InputError
-// where the frame has no scan.
+// component's model at the true pose of each sample's own time. The scene is moved to the scan's time. Throws as run_case and
+// check_scan_time, and InputError where the frame has no scan.
 std::vector<ScanMark> flown_scan(const CompiledMission& mission, double time_s, Scene& scene);
 
 }  // namespace lasso::mdat
