@@ -162,7 +162,7 @@ void Component::publish_estimate(TimeUs now_us) {
     renew(step, [&] { return no_track(frame > kPipelineFrames ? frame - kPipelineFrames : 0, track_); });
     send(step, now_us);
   }
-  if (housekeeping_.due(kFilterStructureId, estimated_.active)) send_filter(now_us);
+  if (housekeeping_.due(kFilterStructureId, estimated_.active)) send_filter(step.registration.common, now_us);
 }
 
 // Changes of the mode wait for the next packet, if one is on its way.
@@ -187,7 +187,7 @@ void Component::follow(TrackStep& step) {
 
 // Its prediction is what is told of it. Where it is too old for one it stays as it was, and so it is told.
 void Component::take_up_former(TrackStep& step) {
-  static_cast<void>(predict_filter(former_, step.registration.t_us, filter_noise(mission().parameters)));
+  static_cast<void>(predict_filter(former_, step.registration.t_us, filter_noise(images_.view(track_.sensor).mission.parameters)));
   step.after.filter = former_;
 }
 
@@ -219,9 +219,10 @@ TrackStep Component::step_without_estimate() {
   ++counters_.overruns;
   events_.raise<EventId::kEstimateLate>(estimated_.scan_id);
   seen_.add(Fault::kEstimateOverrun);
-  TrackStep step = track_without_scan(mission(), PoseReason::kOverrun, estimated_.scan_id, estimated_.t_nominal_us, track_);
+  const Mission& mission = images_.view(track_.sensor).mission;
+  TrackStep step = track_without_scan(mission, PoseReason::kOverrun, estimated_.scan_id, estimated_.t_nominal_us, track_);
   step.parts.scanned = estimated_.part;
-  if (properties(track_.mode).searches) count_and_change(mission().parameters, false, step);  // a search that is always late ends, too
+  if (properties(track_.mode).searches) count_and_change(mission.parameters, false, step);  // a search that is always late ends, too
   return step;
 }
 
@@ -306,8 +307,8 @@ void Component::send(const TrackStep& step, TimeUs now_us) {
   downlink_.send({packet, encode_pose(report, header, Bytes(packet))});
 }
 
-void Component::send_filter(TimeUs now_us) {
-  const FilterTelemetry report = make_filter_report(estimated_.scan_id, track_.filter);
+void Component::send_filter(const CommonErrors& common, TimeUs now_us) {
+  const FilterTelemetry report = make_filter_report(estimated_.scan_id, track_.filter, common);
   std::uint8_t packet[kMaxFilterBytes];
   downlink_.send({packet, encode_filter(report, downlink_.next_header(kHousekeepingReport, now_us), Bytes(packet))});
 }

@@ -212,7 +212,7 @@ class Component {
   bool report_overdue() const;
   TrackStep step_without_estimate();
   void send(const TrackStep& step, TimeUs now_us);
-  void send_filter(TimeUs now_us);
+  void send_filter(const CommonErrors& common, TimeUs now_us);
   void answer(ConstBytes packet, TimeUs now_us);
   void carry_out(const Command& command, Verification& verification, TimeUs now_us);
   void pass_link_boundary(TimeUs now_us);

@@ -78,6 +78,8 @@ void Component::hand_over_scan() {
     if (end.verdict.loss == ScanLoss::kForeign) trial_.note_foreign();
   }
   if (!estimation_.idle()) return;  // an estimate that overran still runs: this scan is dropped with it
+  if (track_.sensor != estimated_.sensor.sensor) forget_common_errors(track_.filter);
+  track_.sensor = estimated_.sensor.sensor;
   const MissionView& view = images_.view(estimated_.sensor.sensor);
   estimation_.submit({estimated_.scan_id, usable ? &acquisition_.filling() : nullptr, estimated_.t_nominal_us, track_, &view.mission,
                       &view.parts, estimated_.part, part_, estimated_.scan_id + kPipelineFrames,
@@ -100,7 +102,7 @@ Aim Component::aim_of_scan() const {
   Aim aim;
   aim.full_field = mode.full_field;
   aim.T_sensor_target = predicted_pose();
-  aim.uncertainty_m = place_sigma(mission(), track_.filter.covariance.topLeftCorner<6, 6>());
+  aim.uncertainty_m = place_sigma(mission(), relative_covariance(track_.filter));
   aim.rays = aimed_.span();
   if (part_ == kWhole) return aim;
   const Part& part = parts()[part_ - 1U];

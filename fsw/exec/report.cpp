@@ -159,7 +159,7 @@ PoseTelemetry make_report(const Mission& mission, const TrackStep& step, const S
   return out;
 }
 
-FilterTelemetry make_filter_report(std::uint32_t scan_id, const FilterState& filter) {
+FilterTelemetry make_filter_report(std::uint32_t scan_id, const FilterState& filter, const CommonErrors& common) {
   FilterTelemetry report;
   report.scan_id = scan_id;
   report.t_us = filter.t_us;
@@ -167,6 +167,10 @@ FilterTelemetry make_filter_report(std::uint32_t scan_id, const FilterState& fil
   report.accepted = filter.accepted;
   report.rejected = filter.rejected;
   copy_upper_triangle(filter.covariance, Span<float>(report.covariance));
+  const Span<float> terms(report.common);
+  for (int row = 0; row < 6; ++row) {
+    for (int column = 0; column < 4; ++column) terms[static_cast<std::size_t>(4 * row + column)] = static_cast<float>(common(row, column));
+  }
   return report;
 }
 

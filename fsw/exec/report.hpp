@@ -18,7 +18,7 @@ const char* version();
 // Everything except the counters, the changes of the mode and the refusals.
 PoseTelemetry make_report(const Mission& mission, const TrackStep& step, const ScanPlan& plan, TimeUs t_publication_us);
 
-// Of the track's filter after the scan.
-FilterTelemetry make_filter_report(std::uint32_t scan_id, const FilterState& filter);
+// Of the track's filter after the scan; `common` as Registration's.
+FilterTelemetry make_filter_report(std::uint32_t scan_id, const FilterState& filter, const CommonErrors& common);
 
 }  // namespace lasso

@@ -177,7 +177,7 @@ Mat6 unpack(const PackedCovariance& packed) {
 
 Mat6 part_covariance(const Part& part, const FilterState& filter) {
   const Mat6 M = moved_by(lever_of(part, filter.T_sensor_target));
-  return M * filter.covariance.topLeftCorner<6, 6>() * M.transpose();
+  return M * relative_covariance(filter) * M.transpose();
 }
 
 bool rests(const PartRecord& record, std::uint32_t scan_id) { return scan_id < record.rests_until; }
@@ -218,7 +218,8 @@ PoseReason compare_parts(const Mission& mission, const Parts& parts, const Regis
   record.told = false;
   record.scan_id = scan_id;
   record.off = pose_difference(registration.T_sensor_target, predicted.T_sensor_target);
-  record.covariance = pack(registration.covariance + predicted.covariance.topLeftCorner<6, 6>());
+  const Mat6 own = registration.covariance - registration.common * registration.common.transpose();
+  record.covariance = pack(own + relative_covariance(predicted));
   const double limit = mission.parameters.disagreement_max;
   const Comparison comparison = compare(parts, state, scan_id, limit * limit);
   const std::size_t odd = find_odd(parts, comparison, scanned);

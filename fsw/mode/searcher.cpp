@@ -31,10 +31,14 @@ SearchLimits search_limits(const MissionParameters& p) {
 std::uint32_t frame_work(const MissionParameters& p) { return static_cast<std::uint32_t>(kFrameShare * p.search_slice); }
 
 StartOffer offer_of(const Mission& mission, const SearchResult& result) {
+  const MissionParameters& p = mission.parameters;
+  const double range2_m2 = result.T_sensor_target.p.squaredNorm();
+  const double common_m = p.common_sigma_m + p.common_sigma_k_per_m * range2_m2;
+  const double turn2 = p.common_sigma_rad * p.common_sigma_rad;
   const double offset_m = kOffsetShare * static_cast<double>(mission.search.size_m);
   StartOffer offer{result.t_us, result.T_sensor_target, result.rates, result.covariance};
-  offer.covariance.diagonal().head<3>().array() += kOffset_rad * kOffset_rad;
-  offer.covariance.diagonal().tail<3>().array() += offset_m * offset_m;
+  offer.covariance.diagonal().head<3>().array() += kOffset_rad * kOffset_rad + turn2;
+  offer.covariance.diagonal().tail<3>().array() += offset_m * offset_m + common_m * common_m + turn2 * range2_m2;
   return offer;
 }
 

@@ -14,7 +14,9 @@ PoseMeasurement measurement_of(const Registration& registration) {
 // From what the start is known by. Never inlined, as the next one: their offers would lie on the stack while a measurement is joined.
 [[gnu::noinline]] Status start_as_known(const MissionParameters& p, const FilterState& filter, FilterState& begun) {
   const StartOffer known{filter.t_us, filter.T_sensor_target, filter.rates, filter.covariance.topLeftCorner<6, 6>()};
-  return start_filter(begun, filter_start(p, known));
+  const Status status = start_filter(begun, filter_start(p, known));
+  if (status == Status::kOk) begun.common_pose = filter.common_pose;
+  return status;
 }
 
 // From the registration alone.
@@ -159,8 +161,9 @@ Registration not_registered(PoseReason reason, std::uint32_t scan_id, const Filt
 
 // A prediction less certain than the registration's gate (after weak views, or coasting) is a rough start.
 bool is_rough(const Mission& mission, const FilterState& filter) {
-  const double turn_m2 = mission.radius_m * mission.radius_m * filter.covariance.topLeftCorner<3, 3>().trace();
-  const double shift_m2 = filter.covariance.block<3, 3>(3, 3).trace();
+  const Mat6 covariance = relative_covariance(filter);
+  const double turn_m2 = mission.radius_m * mission.radius_m * covariance.topLeftCorner<3, 3>().trace();
+  const double shift_m2 = covariance.block<3, 3>(3, 3).trace();
   return turn_m2 + shift_m2 > mission.parameters.gate_first_m * mission.parameters.gate_first_m;
 }
 
@@ -168,7 +171,7 @@ bool is_rough(const Mission& mission, const FilterState& filter) {
 Mat6 likely_covariance(const FilterState& predicted) {
   Vec6 share;
   for (int i = 0; i < 6; ++i) share[i] = square_root(clamp(predicted.surprise[i], kLeastSurprise, 1.0));
-  return share.asDiagonal() * predicted.covariance.topLeftCorner<6, 6>() * share.asDiagonal();
+  return share.asDiagonal() * relative_covariance(predicted) * share.asDiagonal();
 }
 
 // A track; a further start, the one that the first interrupted.
@@ -234,7 +237,7 @@ TrackStep track_scan(const Mission& mission, Estimator& estimator, const RangeIm
   Registration& registration = step.registration;
   registration = estimator.estimate(mission, scan,
                                     StartPoint{filter.T_sensor_target, filter.rates, wide, rate_sigma(mission.radius_m, filter),
-                                               filter.covariance.topLeftCorner<6, 6>(), before.rival_m, false});
+                                               relative_covariance(filter), before.rival_m, false});
   step.after.rival_m = registration.valid() ? registration.rival_m : before.rival_m;
   if (registration.valid()) registration.reason = confirm(p, mode, starts, filter, registration);
   take(p, mode, step);

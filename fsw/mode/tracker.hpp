@@ -48,6 +48,7 @@ struct TrackState {
   bool interrupts = false;         // a start: the track that it interrupted is kept by whoever keeps this state
   double rival_m = 0;              // Registration::rival_m of the last scan
   FilterState filter;
+  SensorNumber sensor = 0;  // of the last scan: whose common errors the filter carries
   BearingState bearing;
   std::uint32_t searches = 0;  // that were begun, those of checks too
   PartsState parts;            // of the mode that looks at parts
@@ -78,9 +79,9 @@ StartRefusal start_track(const Mission& mission, StartWay way, const StartOffer&
 
 // One scan: predict, register, join to the filter, next mode. In a mode that confirms, a valid registration has to agree with the
 // prediction (start.gate, kFarFromStart), and starts the filter anew, since the prediction may be far off; so does one that the filter
-// cannot take. Where start.check is set, a start of another way than search is then checked (end_check): the scans that it takes are kUnchecked,
-// but join the filter. One that the prediction of a filter with 5 scans excludes (tracking.innovation_max) is kImplausible and joins
-// nothing; it ends a check, and the start has to be confirmed anew. A prediction less certain than the registration's gate is a rough
+// cannot take. Where start.check is set, a start of another way than search is then checked (end_check): the scans that it takes are
+// kUnchecked, but join the filter. One that the prediction of a filter with 5 scans excludes (tracking.innovation_max) is kImplausible and
+// joins nothing; it ends a check, and the start has to be confirmed anew. A prediction less certain than the registration's gate is a rough
 // start. Bounds: as Estimator::estimate.
 TrackStep track_scan(const Mission& mission, Estimator& estimator, const RangeImage& scan, const TrackState& before);
 

@@ -101,7 +101,7 @@ void ask_return(const Expectation& expectation, const ScanRay<N>& ray, const Mat
   ++count.seen;
   if (point.aimed) return;
   ++count.asked;
-  const double variance_m2 = N::to_double(point.range_variance);
+  const double variance_m2 = N::to_double(point.range_variance) + square(expectation.common_error_m(N::to_double(ray.range)));
   if (!expectation.is_met_by(ray, variance_m2)) count.returns.take(expectation, ray, variance_m2);
 }
 
@@ -152,6 +152,11 @@ Expectation::Expectation(const Mission& mission, const Pose& T_target_sensor, co
   if (beside_m_ > most_m) beside_m_ = most_m;
   poses_[0] = to_path<N>(T_target_sensor);
   put_other_poses(T_target_sensor, doubt.covariance, most_m);
+}
+
+double Expectation::common_error_m(double range_m) const {
+  const MissionParameters& p = mission_.parameters;
+  return p.common_sigma_m + p.common_sigma_k_per_m * range_m * range_m;
 }
 
 // So far off along each of the least certain axes, either way.

@@ -30,6 +30,9 @@ class Expectation {
   // beyond the sensor's ranges need not return. Bound: one walk through the field.
   bool is_met_by(const ScanRay<FlightNumber>& ray, double range_variance_m2) const;
 
+  // The range error that all rays have in common (1 sigma, common_error.hpp). Labels may hold the pose where the ranges do not.
+  double common_error_m(double range_m) const;
+
   // Not met, and not excused by what is in doubt either. A ray that grazes the model (estimation.incidence_max_deg) says nothing. Bound:
   // twelve walks.
   bool is_contradicted_by(const ScanRay<FlightNumber>& ray, double range_variance_m2) const;

@@ -159,29 +159,41 @@ struct ScanCare {
   double motion_m = 0;  // as PoseDoubt's
 };
 
-// Never inlined: its matrices are off the stack where rays and labels are asked.
-[[gnu::noinline]] void add_common_errors(const Mission& mission, const Pose& T_target_sensor, const HitKnowledge& known,
-                                         Workspace& workspace, Registration& result) {
+// What the hits' common range error makes of the pose, which joins their covariance: labels and rays are asked of a pose that may be off
+// so. Never inlined, as the next one: their matrices are off the stack where rays and labels are asked.
+[[gnu::noinline]] Vec6 add_range_error(const Mission& mission, const HitSolution& hits, HitKnowledge& known, Workspace& workspace) {
+  const MissionParameters& p = mission.parameters;
+  if (!has_common_errors(p)) return Vec6::Zero();
+  const double sigma_m = range_sigma(p, square_root(hits.T_target_sensor.p.squaredNorm()), 1);
+  const Vec6 step = range_step(mission, {hits.T_target_sensor, known.covariance, known.scale, known.trust_scale, sigma_m}, workspace);
+  known.covariance += step * step.transpose();
+  return step;
+}
+
+// All of them, once labels have had their say.
+[[gnu::noinline]] void describe_common(const Mission& mission, const Pose& T_target_sensor, const Vec6& step, Registration& result) {
   const MissionParameters& p = mission.parameters;
   if (!has_common_errors(p)) return;
-  const double sigma_m = range_sigma(p, square_root(T_target_sensor.p.squaredNorm()), 1);
-  result.common = common_errors(mission, {T_target_sensor, known.covariance, known.trust_scale, sigma_m}, workspace);
-  result.covariance += result.common * result.common.transpose();
+  result.common = common_errors(p, T_target_sensor, step);
+  result.covariance += result.common.rightCols<3>() * result.common.rightCols<3>().transpose();
 }
 
 // The pose that hits and silhouettes give, with its covariance, into the result.
 void describe_pose(const Mission& mission, const HitSolution& hits, const ScanCare& care, HitKnowledge& known, Workspace& workspace,
                    Registration& result) {
   Pose pose = hits.T_target_sensor;
+  Vec6 range_error = add_range_error(mission, hits, known, workspace);
   if (mission.parameters.silhouettes > 0.5) {
+    const Mat6 of_hits = known.covariance;
     use_silhouettes(mission, care.misses_known, known, workspace, pose);
     result.labels = to_count(workspace.labels.size());
+    if (!range_error.isZero(0.0)) range_error = step_after(range_error, of_hits, known.covariance);
   }
   result.T_sensor_target = inverse(pose);
   result.covariance = to_sensor_axes(known.covariance, pose);
   const Expectation expectation(mission, pose, {known.covariance, known.scale, care.motion_m});
   result.agreement = agreement_of_rays(mission, expectation, care.misses_known, workspace);
-  add_common_errors(mission, pose, known, workspace, result);
+  describe_common(mission, pose, range_error, result);
   find_weak_directions(mission, result);
 }
 

@@ -7,6 +7,7 @@ namespace lasso {
 namespace {
 
 constexpr double kSymmetryTolerance = 1e-9;  // of the geometric mean of the two variances
+constexpr double kMostExplained = 1.001;     // of a variance by common errors: all, and rounding
 constexpr double kSurpriseFades = 1.0 / 8;   // by each measurement
 constexpr double kAlarm2 = 9;                // three sigmas
 constexpr double kSmallAngle2 = 1e-4;        // rad^2: below, series to three terms are exact to 1e-17
@@ -136,11 +137,7 @@ Mat12 predicted_covariance(const FilterState& state, double dt_s, const FilterNo
 
 // The state's error moves on, and the common errors fade.
 void predict_common(FilterState& state, double dt_s, double memory_s) {
-  if (!(memory_s > 0)) {
-    state.common_pose.setZero();
-    state.common_rates.setZero();
-    return;
-  }
+  if (!(memory_s > 0)) return forget_common_errors(state);
   const double kept = exponential(-dt_s / memory_s);
   const Transition F = transition(state.rates.omega_radps, dt_s);
   state.common_pose = kept * (F.pose * state.common_pose + F.from_rates * state.common_rates);
@@ -232,16 +229,19 @@ Status check_measurement(const FilterState& state, const PoseMeasurement& measur
   if (measured.t_us != state.t_us) return Status::kBadOrder;
   if (!is_finite(gate_nis)) return Status::kNotFinite;
   if (gate_nis < 0) return Status::kBadValue;
-  const Status status = check_pose(measured.T_sensor_target);
+  const Status status = finite(measured.common) ? check_pose(measured.T_sensor_target) : Status::kNotFinite;
   return status == Status::kOk ? check_covariance(measured.covariance) : status;
 }
 
-// The innovation's square is on average the prediction's variance and the measurement's own.
-void note_surprise(const Vec6& innovation, const Mat12& predicted, const Mat6& measured, Vec6& surprise) {
+// The innovation's square is on average the prediction's variance and the measurement's own, both for given common errors.
+[[gnu::noinline]] void note_surprise(const Vec6& innovation, const FilterState& state, const PoseMeasurement& measured, Vec6& surprise) {
   for (int i = 0; i < 6; ++i) {
+    const CommonErrors& G = measured.common;
+    const double own = measured.covariance(i, i) - G.row(i).squaredNorm();
+    const double claimed = state.covariance(i, i) + (G.row(i) - 2 * state.common_pose.row(i)).dot(G.row(i));
     const double square = innovation[i] * innovation[i];
-    const bool alarming = square > kAlarm2 * (surprise[i] * predicted(i, i) + measured(i, i));
-    const double seen = (square - measured(i, i)) / predicted(i, i);
+    const bool alarming = square > kAlarm2 * (surprise[i] * claimed + own);
+    const double seen = (square - own) / claimed;
     const double next = surprise[i] + (alarming ? 1 : kSurpriseFades) * (seen - surprise[i]);
     surprise[i] = is_finite(next) ? clamp(next, kLeastSurprise, 1.0) : 1.0;  // a flipped bit is over with the next measurement
   }
@@ -250,7 +250,7 @@ void note_surprise(const Vec6& innovation, const Mat12& predicted, const Mat6& m
 void join_measurement(FilterState& state, const PoseMeasurement& measured, const Vec6& innovation, const Mat6& S_inverse) {
   Gain gain;
   set_gain(state, measured.common, S_inverse, gain);
-  note_surprise(innovation, state.covariance, measured.covariance, state.surprise);
+  note_surprise(innovation, state, measured, state.surprise);
   correct(state, gain.pose * innovation, gain.rates * innovation);
   update_by_joseph(measured.covariance, gain, state.covariance);
   join_common(measured.common, gain, state);
@@ -350,6 +350,17 @@ Mat12 error_transition(const Vec3& omega_radps, double dt_s) {
   return full;
 }
 
+void forget_common_errors(FilterState& state) {
+  state.common_pose.setZero();
+  state.common_rates.setZero();
+}
+
+Mat6 relative_covariance(const FilterState& state) {
+  Mat6 covariance = state.covariance.block<6, 6>(0, 0);
+  covariance.noalias() -= state.common_pose * state.common_pose.transpose();
+  return covariance;
+}
+
 double rate_sigma(double radius_m, const FilterState& state) {
   const double turn = state.covariance.block<3, 3>(6, 6).trace();
   const double shift = state.covariance.block<3, 3>(9, 9).trace();
@@ -358,7 +369,12 @@ double rate_sigma(double radius_m, const FilterState& state) {
 
 bool is_sound(const FilterState& state) {
   if (!is_finite(state.T_sensor_target.p.squaredNorm()) || !is_finite(state.T_sensor_target.q.squaredNorm())) return false;
-  return (state.covariance.diagonal().array() >= 0).all();
+  bool sound = true;
+  for (int i = 0; i < 12; ++i) {
+    const double explained = i < 6 ? state.common_pose.row(i).squaredNorm() : state.common_rates.row(i - 6).squaredNorm();
+    sound = sound && explained <= kMostExplained * state.covariance(i, i);
+  }
+  return sound;
 }
 
 }  // namespace lasso

@@ -114,11 +114,18 @@ Status predict_pose(const FilterState& state, TimeUs t_us, PredictedPose& predic
 // error of the angular velocity enters through the left Jacobian of the step's rotation (Barfoot 2017, 7.1.5).
 Mat12 error_transition(const Vec3& omega_radps, double dt_s);
 
+// Of another sensor's scans: their common errors are none of those before. The covariance stays.
+void forget_common_errors(FilterState& state);
+
+// The covariance of the pose for given common errors: P - X X^T, with X = common_pose. A scan has about the errors of the one before, where
+// they last: by this the prediction differs from what it will measure.
+Mat6 relative_covariance(const FilterState& state);
+
 // How far the rates may be off (1 sigma), as the velocity along any axis of a point that far from the target's origin: mean of the axes.
 double rate_sigma(double radius_m, const FilterState& state);
 
-// Are its numbers some: a pose that is finite, variances that are not negative? A state that has gone astray by itself still is; only scans
-// tell that.
+// Are its numbers some: a pose that is finite, variances that are not negative, common errors that explain no more than them? A state that
+// has gone astray by itself still is; only scans tell that.
 bool is_sound(const FilterState& state);
 
 }  // namespace lasso

@@ -219,14 +219,24 @@ std::string simulated_angle_fault(const Subject& s) {
 
 std::string simulated_common_fault(const Subject& s) {
   const Scenario& scenario = *s.scenario;
-  const double range_m = *std::max_element(scenario.ranges_m.begin(), scenario.ranges_m.end());
-  const double simulated_m = scenario.common_sigma_m + scenario.common_sigma_k_per_m * range_m * range_m;
-  const double stated_m = s.p.common_sigma_m + s.p.common_sigma_k_per_m * range_m * range_m;
   const bool turned = scenario.common_sigma_rad > kNoiseRatio * s.p.common_sigma_rad;
-  if (scenario.noise == 0 || (simulated_m <= kNoiseRatio * stated_m && !turned)) return "";
-  return "rays of a scan have errors in common of " + figure(1e3 * simulated_m) + " mm and " +
-         figure(scenario.common_sigma_rad / kRadPerDeg) + " deg, where [sensor] states " + figure(1e3 * stated_m) + " mm and " +
-         figure(s.p.common_sigma_rad / kRadPerDeg) + " deg: covariances will be too small";
+  for (const double range_m : scenario.ranges_m) {
+    const double simulated_m = scenario.common_sigma_m + scenario.common_sigma_k_per_m * range_m * range_m;
+    const double stated_m = s.p.common_sigma_m + s.p.common_sigma_k_per_m * range_m * range_m;
+    if (scenario.noise == 0 || (simulated_m <= kNoiseRatio * stated_m && !turned)) continue;
+    return "rays of a scan have errors in common of " + figure(1e3 * simulated_m) + " mm at " + figure(range_m) + " m and " +
+           figure(scenario.common_sigma_rad / kRadPerDeg) + " deg, where [sensor] states " + figure(1e3 * stated_m) + " mm and " +
+           figure(s.p.common_sigma_rad / kRadPerDeg) + " deg: covariances will be too small";
+  }
+  return "";
+}
+
+std::string simulated_memory_fault(const Subject& s) {
+  const Scenario& scenario = *s.scenario;
+  const bool common = scenario.common_sigma_m + scenario.common_sigma_k_per_m + scenario.common_sigma_rad > 0;
+  if (scenario.noise == 0 || !common || scenario.common_memory_s <= kNoiseRatio * s.p.common_memory_s) return "";
+  return "simulated common errors last longer than sensor.common_memory_s says, which is " + figure(s.p.common_memory_s) +
+         " s: the filter's covariance will be too small";
 }
 
 std::string outlier_fault(const Subject& s) {
@@ -353,6 +363,7 @@ const Rules& scenario_rules() {
      {"common_sigma_m", "common_sigma_k_per_m", "common_sigma_deg", "sensor.common_sigma_m", "sensor.common_sigma_k_per_m",
       "sensor.common_sigma_deg"},
      simulated_common_fault},
+    {kWarning, kScenario, kValues, {"common_memory_s", "sensor.common_memory_s"}, simulated_memory_fault},
     {kWarning, kScenario, kValues, {"outlier_probability", "start.inlier_share_min", "tracking.inlier_share_min", "tracking.agreement_min"}, outlier_fault},
     {kWarning, kScenario, kValues, {"dropout_probability", "sensor.dropout_probability", "tracking.agreement_min"}, dropout_fault},
     {kWarning, kScenario, kValues, {"dropout_incidence_deg", "estimation.incidence_max_deg", "tracking.agreement_min"}, grazing_fault},

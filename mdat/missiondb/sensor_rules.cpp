@@ -160,6 +160,25 @@ std::string field_fault(const Subject& s) {
   return field_text(s, half_rad, "poses from so small a part of it can be wrong");
 }
 
+double common_error_m(const SensorParameters& p, double range_m) { return p.common_sigma_m + p.common_sigma_k_per_m * range_m * range_m; }
+
+std::string common_memory_fault(const Subject& s) {
+  const SensorParameters& p = s.sensor->p;
+  if (p.common_memory_s == 0) return "";
+  if (common_error_m(p, 1) == 0 && p.common_sigma_rad == 0) return "no common error is stated that it could be the memory of";
+  if (p.common_memory_s >= s.p.duration_s) return "";
+  return "is shorter than a scan of " + figure(s.p.duration_s) + " s, whose rays then have no errors in common: expected 0, or more";
+}
+
+std::string common_size_fault(const Subject& s) {
+  const SensorParameters& p = s.sensor->p;
+  const double error_m = s.sensor->ranges_m.empty() ? 0 : common_error_m(p, farthest_m(s)) + p.common_sigma_rad * farthest_m(s);
+  if (error_m <= s.p.sigma_position_max_m) return "";
+  return "common errors make " + figure(1e3 * error_m) + " mm at " + figure(farthest_m(s)) +
+         " m, and no pose is more certain: above tracking.sigma_position_max_m, which is " + figure(1e3 * s.p.sigma_position_max_m) +
+         " mm, every pose is weak";
+}
+
 // Half of the target's half on either side of its middle.
 std::string cut_fault(const Subject& s) {
   const SensorParameters& p = s.sensor->p;
@@ -192,6 +211,8 @@ const Rules& sensor_rules() {
     {kWarning, kSensor, kValues, {"sensor.sigma_angle_rad", "sensor.kind"}, beam_fault},
     {kWarning, kSensor, kValues, {"sensor.sigma_k_per_m", "sensor.sigma0_m"}, fine_camera_fault},
     {kWarning, kSensor, kValues, {"sensor.range_max_m", "sensor.sigma_k_per_m"}, far_noise_fault},
+    {kError, kSensor, kValues, {"sensor.common_memory_s", "scan.duration_s"}, common_memory_fault},
+    {kWarning, kSensor, kValues, {"sensor.common_sigma_m", "sensor.common_sigma_k_per_m", "sensor.common_sigma_deg", "tracking.sigma_position_max_m"}, common_size_fault},
     {kWarning, kSensor, kTarget, {"sensor.sigma_angle_rad"}, across_fault},
     {kError, kSensor, kTarget, {"sensor.sigma0_m", "sensor.sigma_k_per_m"}, drowned_fault},
     {kWarning, kSensor, kTarget, {"sensor.sigma0_m", "sensor.sigma_k_per_m"}, noise_fault},

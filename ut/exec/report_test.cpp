@@ -22,7 +22,12 @@ TEST(FilterReport, HoldsTheUpperTriangleByRows) {
   for (int row = 0; row < 12; ++row) {
     for (int column = 0; column < 12; ++column) filter.covariance(row, column) = 100 * std::min(row, column) + std::max(row, column);
   }
-  const FilterTelemetry report = make_filter_report(5, filter);
+  CommonErrors common;
+  for (int row = 0; row < 6; ++row) {
+    for (int column = 0; column < 4; ++column) common(row, column) = 10 * row + column;
+  }
+  const FilterTelemetry report = make_filter_report(5, filter, common);
+  for (std::size_t i = 0; i < kCommonTerms; ++i) EXPECT_EQ(report.common[i], static_cast<float>(10 * (i / 4) + i % 4)) << i;
   EXPECT_EQ(report.scan_id, 5u);
   EXPECT_EQ(report.t_us, 77);
   EXPECT_EQ(report.started, 0);
@@ -34,7 +39,7 @@ TEST(FilterReport, HoldsTheUpperTriangleByRows) {
   }
   EXPECT_EQ(term, kFilterCovarianceTerms);
   filter.initialised = true;
-  EXPECT_EQ(make_filter_report(5, filter).started, 1);
+  EXPECT_EQ(make_filter_report(5, filter, common).started, 1);
 }
 
 // Every value differs from every other, so that a swap shows.

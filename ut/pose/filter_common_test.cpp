@@ -158,6 +158,49 @@ TEST(FilterCommon, ErrorsAreWithinTheCovarianceWhereCommonErrorsAreTold) {
   EXPECT_GT(mean_square_of_errors(false), 2 * told) << "the same scans, taken for independent";
 }
 
+// For given common errors, by the Schur complement; and how far predictions were off is measured beside them.
+TEST(FilterCommon, WhatCommonErrorsExplainIsNotTheFilters) {
+  VERIFIES("LASSO-FLT-015~1 LASSO-FLT-013~1");
+  Generator random(15);
+  FilterState state = started(random);
+  CommonErrors G = CommonErrors::Zero();
+  G(3, 0) = G(4, 1) = G(5, 2) = 0.02;
+  const Mat6 white = covariance_of(random, 1e-3, 1e-3);
+  for (int k = 0; k < 200; ++k) {
+    ASSERT_EQ(predict_filter(state, state.t_us + 200'000, with_memory(1e6)), Status::kOk);
+    const Vec6 noise = cholesky_of(white) * normals<Vec6>(random);
+    const Vec6 jump = 4e-3 * normals<Vec6>(random);  // of the target
+    const PoseMeasurement measured{state.t_us, disturbed(state.T_sensor_target, noise + jump), white + G * G.transpose(), G};
+    ASSERT_TRUE(update_filter(state, measured, kNoGate).accepted);
+  }
+  Dense joint = Dense::Zero(10, 10);
+  joint.topLeftCorner(6, 6) = state.covariance.topLeftCorner<6, 6>();
+  joint.topRightCorner(6, 4) = state.common_pose;
+  joint.bottomLeftCorner(4, 6) = state.common_pose.transpose();
+  joint.bottomRightCorner(4, 4).setIdentity();
+  const Dense given = inverse_of(Dense(inverse_of(joint).topLeftCorner(6, 6)));
+  const Mat6 relative = relative_covariance(state);
+  EXPECT_LT((relative - given).cwiseAbs().maxCoeff(), 1e-9);
+  EXPECT_LT(std::sqrt(relative(5, 5)), 0.005) << "the error of 20 mm is in all scans";
+  EXPECT_GT(state.surprise[5], 2 * kLeastSurprise) << "predictions are off, beside it";
+  EXPECT_TRUE(is_sound(state));
+  forget_common_errors(state);
+  EXPECT_EQ(relative_covariance(state)(5, 5), state.covariance(5, 5));
+  state.common_pose(5, 0) = 0.03;
+  EXPECT_FALSE(is_sound(state)) << "a flipped bit";
+}
+
+TEST(FilterCommon, CommonErrorsThatAreNoNumbersAreRefused) {
+  VERIFIES("LASSO-FLT-015~1");
+  Generator random(16);
+  FilterState state = started(random);
+  const FilterState before = state;
+  PoseMeasurement measured{state.t_us, state.T_sensor_target, covariance_of(random, 1e-3, 1e-3)};
+  measured.common(2, 1) = std::nan("");
+  EXPECT_EQ(update_filter(state, measured, kNoGate).status, Status::kNotFinite);
+  EXPECT_TRUE(same(state, before));
+}
+
 TEST(FilterCommon, AMemoryThatIsNoneIsRefused) {
   VERIFIES("LASSO-FLT-015~1");
   Generator random(14);

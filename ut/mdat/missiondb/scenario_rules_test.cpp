@@ -157,5 +157,16 @@ TEST_F(ScenarioRules, BandsOfSensorsMeet) {
               kPass + "times_s = [0, 20]\nframes = 100");
 }
 
+TEST_F(ScenarioRules, SimulatedCommonErrorsAreStated) {
+  VERIFIES("LASSO-GND-009~1 LASSO-GND-060~1");
+  const std::string stated = "sensor.common_sigma_m = 0.002\nsensor.common_sigma_deg = 0.01\nsensor.common_memory_s = 5";
+  expect_scenario_edge(kSpin + "common_sigma_m = 0.002", kSpin + "common_sigma_m = 0.02", "scenario.s.common_sigma_m: 0.02",
+                       "covariances will be too small", stated);
+  expect_scenario_edge(kSpin + "common_sigma_deg = 0.01", kSpin + "common_sigma_deg = 0.1", "warning: ", "0.1 deg, where [sensor]", stated);
+  expect_scenario_edge(kSpin + "common_memory_s = 5", kSpin + "common_memory_s = 50", "scenario.s.common_memory_s: 50",
+                       "last longer than sensor.common_memory_s says", stated);
+  EXPECT_EQ(said("", kSpin + "common_memory_s = 50"), "") << "of nothing";
+}
+
 }  // namespace
 }  // namespace lasso::mdat

@@ -77,5 +77,14 @@ TEST_F(SensorRules, TheNoiseIsOneThatASensorCanHave) {
   expect_edge("sensor.sigma_angle_rad = 0.006", "sensor.sigma_angle_rad = 0.01", "sensor.sigma_angle_rad: 0.01", "50 mm at 5 m");
 }
 
+TEST_F(SensorRules, CommonErrorsLastLongerThanAScanAndLeavePosesThatAreNotWeak) {
+  VERIFIES("LASSO-GND-009~1 LASSO-GND-060~1");
+  const std::string sized = "sensor.common_sigma_m = 0.002\nsensor.common_memory_s = ";
+  expect_edge(sized + "0.2", sized + "0.1", "error: ", "shorter than a scan of 0.18 s");
+  expect_edge(sized + "0", "sensor.common_memory_s = 5", "sensor.common_memory_s: 5", "no common error is stated");
+  // 2 mm/m2 at 5 m are 50 mm
+  expect_edge("sensor.common_sigma_k_per_m = 1.9e-3", "sensor.common_sigma_k_per_m = 2.1e-3", "warning: ", "52.5 mm at 5 m");
+}
+
 }  // namespace
 }  // namespace lasso::mdat
