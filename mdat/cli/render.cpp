@@ -227,7 +227,7 @@ void add_render_command(CLI::App& app) {
   add_scene_options(command, options);
   add_light_options(command, options);
   command->add_option("--size", options->size,
-                      "WIDTHxHEIGHT in pixels (the field of view's shape, 1024 pixels long); a legend is added below");
+                      "WIDTHxHEIGHT in pixels (the field of view's shape, 1024 pixels long); a legend, where there is one, is added below");
   command->add_option("--samples", options->samples, "rays of a pixel are this number squared")
       ->capture_default_str()
       ->check(CLI::Range(1, 16));

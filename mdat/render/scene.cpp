@@ -156,7 +156,8 @@ Scene make_scene(const MissionInput& mission, const SceneRequest& request) {
 void check_scan_time(const Scene& scene, double time_s) {
   const Scenario& scenario = scene.setup.scenario;
   const DurationUs period = period_us(scene.setup.parameters);
-  if (static_cast<double>(to_us(time_s) / period) < scenario.frames) return;
+  const DurationUs frame = to_us(time_s) / period;
+  if (static_cast<double>(frame) < scenario.frames) return;
   throw InputError(format("--time %g: the scenario %s has scans for %g s: choose an earlier time, or leave the scan out", time_s,
                           scene.scenario.c_str(), scenario.frames * static_cast<double>(period) * 1e-6));
 }
