@@ -62,11 +62,13 @@ TEST(Render, TheSameBytesWithAnyNumberOfThreads) {
 }
 
 TEST(Render, LightIsAsItIsTold) {
-  VERIFIES("LASSO-PIC-010~1 LASSO-PIC-005~1");
+  VERIFIES("LASSO-PIC-010~1 LASSO-PIC-005~1 LASSO-PIC-015~1");
   const WorkFolder work;
   work.write_mission();
   const Answer told = work.mdat(std::string("render missions/test.toml --exposure 250 -o a.png") + kSmall);
   EXPECT_NE(told.out.find("exposure: 250 W/m2/sr is white\n"), std::string::npos) << told.out;
+  const Answer night = work.mdat(std::string("render missions/test.toml --orbit 400,0,180 --lamp -o n.png") + kSmall);
+  EXPECT_NE(night.out.find("orbit: 0.0 % of the sun's disc is seen"), std::string::npos) << night.out << night.err;
   const Answer lamp = work.mdat(std::string("render missions/test.toml --sun none --lamp -o b.png") + kSmall);
   EXPECT_EQ(lamp.exit_code, 0);
   EXPECT_EQ(lamp.err, "");
@@ -113,6 +115,9 @@ TEST(Render, RefusesWhatItCannotDraw) {
            {"--sun 0,0,0", "--sun 0,0,0: expected X,Y,Z"},
            {"--sun 1,2", "--sun 1,2"},
            {"--earth up", "--earth up"},
+           {"--orbit 400,25", "--orbit 400,25: expected ALTITUDE,BETA,ANGLE"},
+           {"--orbit 400,95,0", "--orbit 400,95,0"},
+           {"--orbit 400,25,0 --sun 1,0,0", "--orbit"},
            {"--as phot", "--as"},
            {"--time -1", "--time"},
            {"--samples 0", "--samples"},

@@ -5,12 +5,14 @@
 #include <memory>
 #include <thread>
 
+#include "fsw/geometry/portable_math.hpp"
 #include "mdat/cli/commands.hpp"
 #include "mdat/common/errors.hpp"
 #include "mdat/common/output.hpp"
 #include "mdat/common/progress_bar.hpp"
 #include "mdat/common/text.hpp"
 #include "mdat/render/exposure.hpp"
+#include "mdat/render/orbit_light.hpp"
 #include "mdat/render/scene.hpp"
 
 namespace lasso::mdat {
@@ -18,9 +20,10 @@ namespace {
 
 constexpr int kLargest_px = 4096;
 constexpr int kUsual_px = 1024;
+constexpr double kLowest_km = 100, kHighest_km = 100000;
 
 struct RenderArguments {
-  std::string mission, as = "photo", size, sun = "0.5,-0.5,-0.7", earth = "0,1,0", out;
+  std::string mission, as = "photo", size, sun = "0.5,-0.5,-0.7", earth = "0,1,0", orbit, out;
   SceneRequest scene;
   std::vector<std::string> settings;
   int samples = 3;
@@ -58,10 +61,32 @@ std::optional<Vec3> direction_given(const char* option, const std::string& text)
   return direction.normalized();
 }
 
+// "ALTITUDE,BETA,ANGLE" in km and degrees; the scenario's time is that of the orbit.
+Lights orbit_given(const std::string& text, double time_s) {
+  double altitude_km = 0, beta_deg = 0, angle_deg = 0;
+  int read = 0;
+  const bool good = std::sscanf(text.c_str(), "%lf,%lf,%lf%n", &altitude_km, &beta_deg, &angle_deg, &read) == 3 &&
+                    static_cast<std::size_t>(read) == text.size() && altitude_km >= kLowest_km && altitude_km <= kHighest_km &&
+                    std::fabs(beta_deg) <= 90 && std::fabs(angle_deg) <= 360;
+  if (!good)
+    refuse_value("--orbit", text,
+                 "ALTITUDE,BETA,ANGLE: 100 to 100000 km, the sun's elevation above the orbit plane (-90 to 90 deg), and the way from orbit "
+                 "noon at 0 s (-360 to 360 deg), such as 400,25,120");
+  scene::Orbit::Setup setup;
+  setup.altitude_m = 1e3 * altitude_km;
+  setup.beta_rad = beta_deg * kRadPerDeg;
+  setup.angle_rad = angle_deg * kRadPerDeg;
+  return orbit_lights(scene::Orbit(setup), to_us(time_s));
+}
+
 Lights lights_given(const RenderArguments& options) {
   Lights lights;
-  lights.sun = direction_given("--sun", options.sun);
-  lights.earth = direction_given("--earth", options.earth);
+  if (!options.orbit.empty()) {
+    lights = orbit_given(options.orbit, options.scene.time_s);
+  } else {
+    lights.sun = direction_given("--sun", options.sun);
+    lights.earth = direction_given("--earth", options.earth);
+  }
   if (!options.earthshine) lights.earth.reset();
   if (options.lamp) lights.lamp_m = Vec3::Zero();
   return lights;
@@ -175,6 +200,7 @@ void render(const RenderArguments& options) {
   setup.samples_per_axis = options.samples;
   setup.jobs = options.jobs;
   tell_scene(options, scene, setup.camera);
+  if (!options.orbit.empty()) std::printf("orbit: %.1f %% of the sun's disc is seen\n", 100 * lights_given(options).sun_share);
   if (!marks.empty()) tell_scan(marks);
   if (options.as == "photo" || options.as == "residual") tell_materials(scene);
   write_out(options, out, picture_bytes(options, scene, setup, marks));
@@ -182,10 +208,21 @@ void render(const RenderArguments& options) {
 }
 
 void add_light_options(CLI::App* command, const std::shared_ptr<RenderArguments>& options) {
-  command->add_option("--sun", options->sun, "direction to the sun in the sensor frame (x right, y down, z ahead), X,Y,Z; none: it is dark")
-      ->capture_default_str();
-  command->add_option("--earth", options->earth, "direction to the middle of Earth's disc, which sends back the sun's light; X,Y,Z or none")
-      ->capture_default_str();
+  CLI::Option* sun = command
+                         ->add_option("--sun", options->sun,
+                                      "direction to the sun in the sensor frame (x right, y down, z ahead), X,Y,Z; none: it is dark")
+                         ->capture_default_str();
+  CLI::Option* earth = command
+                           ->add_option("--earth", options->earth,
+                                        "direction to the middle of Earth's disc, which sends back the sun's light; X,Y,Z or none")
+                           ->capture_default_str();
+  command
+      ->add_option(
+          "--orbit", options->orbit,
+          "sun and Earth by a circular orbit, ALTITUDE,BETA,ANGLE: km, the sun's elevation above its plane, the way from orbit noon at "
+          "0 s, deg; the camera looks along the track with the Earth below; with Earth's shadow")
+      ->excludes(sun)
+      ->excludes(earth);
   command->add_flag("!--no-earthshine", options->earthshine, "leave Earth's light out");
   command->add_flag("--lamp", options->lamp, "a lamp at the camera, 26 W/sr");
   command

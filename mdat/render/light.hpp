@@ -18,8 +18,10 @@ constexpr double kLamp_Wpsr = 26;                   // 20 W of light in a cone o
 // Sun, Earth and a lamp. Directions are unit vectors towards them.
 struct Lights {
   std::optional<Vec3> sun;
+  double sun_share = 1;  // of its disc that Earth leaves visible
   std::optional<Vec3> earth;
-  std::optional<Vec3> lamp_m;  // position of a lamp that shines evenly
+  double earth_half_angle_rad = kEarthHalfAngle_rad;  // (0, pi/2)
+  std::optional<Vec3> lamp_m;                         // position of a lamp that shines evenly
   double lamp_Wpsr = kLamp_Wpsr;
 };
 

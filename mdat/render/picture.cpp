@@ -27,7 +27,7 @@ void take_error(png_structp png, png_const_charp what) {
 void take_warning(png_structp, png_const_charp) {}
 
 // A picture's rows as the file has them.
-struct Rows {
+struct PngRows {
   png_uint_32 width, height;
   int bit_depth, colour_type;
   std::size_t row_bytes;
@@ -35,7 +35,7 @@ struct Rows {
 };
 
 // In a function of its own: a longjmp passes over nothing that has to be destroyed.
-void write_rows(png_structp png, png_infop info, const Rows& rows) {
+void write_rows(png_structp png, png_infop info, const PngRows& rows) {
   png_set_IHDR(png, info, rows.width, rows.height, rows.bit_depth, rows.colour_type, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
                PNG_FILTER_TYPE_DEFAULT);
   png_set_compression_level(png, 6);
@@ -45,7 +45,7 @@ void write_rows(png_structp png, png_infop info, const Rows& rows) {
   png_write_end(png, nullptr);
 }
 
-bool write_png(Sink& sink, const Rows& rows) {
+bool write_png(Sink& sink, const PngRows& rows) {
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &sink, take_error, take_warning);
   png_infop info = png == nullptr ? nullptr : png_create_info_struct(png);
   if (info == nullptr) throw std::runtime_error("PNG: no memory");
@@ -59,7 +59,7 @@ bool write_png(Sink& sink, const Rows& rows) {
   return true;
 }
 
-std::string png_of(const Rows& rows) {
+std::string png_of(const PngRows& rows) {
   Sink sink;
   if (!write_png(sink, rows)) throw std::runtime_error(std::string("PNG: ") + sink.error);
   return sink.bytes;

@@ -40,7 +40,7 @@ struct Shader::Local {
 
 Shader::Shader(const ModelSurface& surface, std::vector<Material> materials, const Lights& lights)
     : surface_(surface), materials_(std::move(materials)), lights_(lights), earth_Wpm2sr_(earth_radiance(lights)) {
-  for (int i = 0; i <= kFactors; ++i) earth_factors_.push_back(disc_view_factor(2.0 * i / kFactors - 1, kEarthHalfAngle_rad));
+  for (int i = 0; i <= kFactors; ++i) earth_factors_.push_back(disc_view_factor(2.0 * i / kFactors - 1, lights_.earth_half_angle_rad));
 }
 
 // Facets lean against the surface. Those that are smaller than the pixel make it rougher instead: a lobe of alpha^2 grows by twice the
@@ -101,11 +101,11 @@ Shader::Local Shader::local_at(const SurfacePoint& point, const Vec3& direction,
 }
 
 Rgb Shader::from_sun(const Local& local, const PictureRay& ray, std::uint32_t purpose) const {
-  if (!lights_.sun) return Rgb::Zero();
+  if (!lights_.sun || lights_.sun_share <= 0) return Rgb::Zero();
   const Vec3 light = disc_direction(*lights_.sun, kSunHalfAngle_rad, ray.samples.at(ray.index, purpose));
   const double cosine = local.normal.dot(light);
   if (cosine <= 0 || local.facet_normal.dot(light) <= 0 || surface_.is_blocked(local.start_m, light)) return Rgb::Zero();
-  return kSun_Wpm2 * cosine * reflected(local.reflection, local.to_frame(local.view), local.to_frame(light));
+  return lights_.sun_share * kSun_Wpm2 * cosine * reflected(local.reflection, local.to_frame(local.view), local.to_frame(light));
 }
 
 // The lamp sees what the camera sees where it stands at the camera; elsewhere its shadows are not.
@@ -128,10 +128,10 @@ Rgb Shader::from_earth(const Local& local, const PictureRay& ray, std::uint32_t 
   const double factor = earth_factors_[low] + share * (earth_factors_[low + 1] - earth_factors_[low]);
   if (factor <= 0) return Rgb::Zero();
   UnitSquare sample = ray.samples.at(ray.index, purpose);
-  Vec3 light = disc_direction(*lights_.earth, kEarthHalfAngle_rad, sample);
+  Vec3 light = disc_direction(*lights_.earth, lights_.earth_half_angle_rad, sample);
   for (int turn = 1; turn < 4 && local.facet_normal.dot(light) <= 0; ++turn) {  // that place is below the horizon: another one
     sample = {fractional_part(sample.u + 0.618034), fractional_part(sample.v + 0.25)};
-    light = disc_direction(*lights_.earth, kEarthHalfAngle_rad, sample);
+    light = disc_direction(*lights_.earth, lights_.earth_half_angle_rad, sample);
   }
   if (local.facet_normal.dot(light) > 0 && surface_.is_blocked(local.start_m, light)) return Rgb::Zero();
   return kPi * factor * earth_Wpm2sr_ * diffusely_reflected(local.reflection, local.to_frame(local.view));
@@ -158,7 +158,7 @@ double Shader::mirrored_earth(const Local& local) const {
   if (earth_Wpm2sr_ <= 0) return 0;
   const Vec3 mirror = 2 * local.normal.dot(local.view) * local.normal - local.view;
   const double off_rad = arc_tangent2(mirror.cross(*lights_.earth).norm(), mirror.dot(*lights_.earth));
-  const double s = tangent(0.5 * (kEarthHalfAngle_rad - off_rad)), alpha = local.reflection.roughness;
+  const double s = tangent(0.5 * (lights_.earth_half_angle_rad - off_rad)), alpha = local.reflection.roughness;
   return 0.5 * (1 + s / std::sqrt(alpha * alpha + s * s));
 }
 

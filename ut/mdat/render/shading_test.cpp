@@ -36,6 +36,22 @@ TEST(Shading, MattPlateIsAsBrightAsTheCosineOfTheSun) {
   }
 }
 
+TEST(Shading, SunAndEarthAreAsTheOrbitHasThem) {
+  VERIFIES("LASSO-PIC-015~1");
+  const ModelSurface plate = surface_of(square(2));
+  Lights lights;
+  lights.sun = Vec3(0, 0, 1);
+  lights.sun_share = 0.3;
+  const Vec3 from(0.3, 0.1, 2);
+  EXPECT_NEAR(mean_radiance(Shader(plate, {matt(0.5)}, lights), from, -Vec3::UnitZ())[0], 0.3 * kSun_Wpm2 * 0.5 / kPi, 0.01);
+  lights.sun = Vec3(0, 0, -1);
+  lights.sun_share = 0;
+  lights.earth = Vec3(0, 0, 1);
+  lights.earth_half_angle_rad = 0.4;
+  const double sine = std::sin(0.4);
+  EXPECT_NEAR(mean_radiance(Shader(plate, {matt(0.5)}, lights), from, -Vec3::UnitZ())[0], 0.5 * sine * sine * earth_radiance(lights), 1e-6);
+}
+
 TEST(Shading, TheBackOfAPlateIsDark) {
   VERIFIES("LASSO-PIC-003~1");
   Lights lights;
