@@ -126,6 +126,24 @@ TEST_F(CommonErrorTest, AStepThatOtherMeasurementsShareInShrinksAsTheCovarianceD
   EXPECT_TRUE(step_after(step, singular, after).isZero(0.0));
 }
 
+// Whatever the covariance claims, and however fine the noise is.
+TEST_F(CommonErrorTest, AStepIsBoundedByItsErrorAndNoFinerThanTheNumbers) {
+  VERIFIES("LASSO-REG-030~1");
+  parameters().common_sigma_m = 1e-3;
+  const Registration known = registered(0);
+  KnownPose hits{inverse(known.T_sensor_target), Mat6::Identity() * 1e-6, 1, 1, 1e-3};
+  const Vec6 step = range_step(*mission_, hits, estimator_->workspace());
+  hits.range_sigma_m = 1e-9;
+  EXPECT_LT((range_step(*mission_, hits, estimator_->workspace()) - step).norm(), 0.1 * step.norm());
+  hits.range_sigma_m = 1e-3;
+  hits.covariance *= 1e9;  // a direction that nothing shows
+  const Vec6 longest = range_step(*mission_, hits, estimator_->workspace());
+  EXPECT_NEAR(longest.tail<3>().norm() + mission_->radius_m * longest.head<3>().norm(), 4e-3, 1e-6);
+  EXPECT_GT(longest.normalized().dot(step.normalized()), 0.99);
+  parameters().common_sigma_m = 0;
+  EXPECT_TRUE(range_step(*mission_, hits, estimator_->workspace()).isZero(0.0));
+}
+
 // Points are moved to ask them, and moved back.
 TEST_F(CommonErrorTest, PointsStayWhereTheyAre) {
   VERIFIES("LASSO-REG-030~1");
