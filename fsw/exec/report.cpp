@@ -168,8 +168,12 @@ FilterTelemetry make_filter_report(std::uint32_t scan_id, const FilterState& fil
   report.rejected = filter.rejected;
   copy_upper_triangle(filter.covariance, Span<float>(report.covariance));
   const Span<float> terms(report.common);
+  std::size_t term = 0;
   for (int row = 0; row < 6; ++row) {
-    for (int column = 0; column < 4; ++column) terms[static_cast<std::size_t>(4 * row + column)] = static_cast<float>(common(row, column));
+    for (int column = 0; column < 4; ++column) {
+      terms[term] = static_cast<float>(common(row, column));
+      ++term;
+    }
   }
   return report;
 }

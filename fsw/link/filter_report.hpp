@@ -13,7 +13,7 @@
 namespace lasso {
 
 constexpr std::size_t kFilterStates = 12;
-constexpr std::size_t kCommonTerms = 6 * 4;
+constexpr std::size_t kCommonTerms = std::size_t{6} * 4;
 constexpr std::size_t kFilterCovarianceTerms = kFilterStates * (kFilterStates + 1) / 2;
 
 struct FilterTelemetry {

@@ -1,6 +1,8 @@
 #include "mdat/benchmark/benchmark_set.hpp"
 
+#include <cerrno>
 #include <cstdlib>
+#include <cstring>
 
 #include "hal_sim/scan_file.hpp"
 #include "mdat/benchmark/still_scans.hpp"
@@ -125,14 +127,23 @@ fs::path temporary_folder() {
   return name;
 }
 
+// Of a name that nobody else has, on the same disk.
+fs::path new_folder_beside(const fs::path& folder) {
+  const fs::path plain = (fs::absolute(folder).lexically_normal() / "").parent_path();
+  make_folder(plain.parent_path());
+  std::string name = plain.string() + ".XXXXXX";
+  if (mkdtemp(name.data()) == nullptr) throw InputError(folder.string() + ": cannot be made: " + std::strerror(errno));
+  fs::permissions(name,
+                  fs::perms::owner_all | fs::perms::group_read | fs::perms::group_exec | fs::perms::others_read | fs::perms::others_exec);
+  return name;
+}
+
 }  // namespace
 
 BenchmarkSet make_set(const SetPlan& plan, const fs::path& folder, bool cached) {
   check_new(folder);
-  const PassingFolder partial((fs::absolute(folder).lexically_normal() / "").parent_path().string() + ".partial");
+  const PassingFolder partial(new_folder_beside(folder));
   std::error_code error;
-  fs::remove_all(partial.path(), error);
-  make_folder(partial.path());
   BenchmarkSet set = write_set(plan, partial.path(), cached, "make");
   fs::remove(folder, error);  // an empty one
   fs::rename(partial.path(), folder, error);

@@ -34,6 +34,10 @@ std::size_t determined_scans(const BenchmarkSet& set) {
 void make(const BenchmarkArguments& options) {
   SetPlan plan = options.plan;
   plan.sensor = sensor_named(options.sensor);
+  if (plan.seed + plan.bodies - 1 > kSeedMost) {
+    throw InputError("--seed: " + std::to_string(plan.seed) + ": the last of " + std::to_string(plan.bodies) +
+                     " bodies would have a seed above " + std::to_string(kSeedMost) + ": take a smaller one, or fewer bodies");
+  }
   const BenchmarkSet set = make_set(plan, options.folder, options.cached);
   ScoreCounts counts;
   counts.scans = plan.bodies * plan.scans;
@@ -75,6 +79,9 @@ void score_all(const BenchmarkArguments& options) {
     if (!options.force) refuse_to_replace({file}, "--force replaces it");
     check_writable(file);
   }
+  std::vector<std::string> inputs = options.poses;
+  inputs.push_back((std::filesystem::path(options.folder) / "protocol.json").string());
+  refuse_same_files({options.json, options.csv}, inputs);
   const std::vector<ProgramPoses> programs = read_all(options);
   const BenchmarkSet set = open_set(options.folder, options.cached);
   std::vector<Score> scores;
@@ -101,7 +108,7 @@ void add_make(CLI::App& benchmark, const std::shared_ptr<BenchmarkArguments>& op
   command->add_option("FOLDER", options->folder, "new folder to write")->required();
   command->add_option("--seed", options->plan.seed, "of the first body; those of the others follow")
       ->capture_default_str()
-      ->check(CLI::Range(0.0, static_cast<double>(kSeedMost), "0 to 4294967295"));
+      ->check(number_between(0, static_cast<double>(kSeedMost)));
   command->add_option("--bodies", options->plan.bodies, "how many")
       ->capture_default_str()
       ->check(CLI::Range(std::uint64_t{1}, kBodiesMost));
@@ -113,7 +120,7 @@ void add_make(CLI::App& benchmark, const std::shared_ptr<BenchmarkArguments>& op
   command
       ->add_option("--start", options->plan.start_deg, "how far starts are turned [deg]; each degree also shifts them by 1 % of the size")
       ->capture_default_str()
-      ->check(CLI::Range(kStartLeast_deg, kStartMost_deg));
+      ->check(number_between(kStartLeast_deg, kStartMost_deg));
   add_no_cache(*command, options->cached);
   command->callback([options] { make(*options); });
 }

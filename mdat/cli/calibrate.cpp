@@ -76,7 +76,7 @@ void add_calibrate_command(CLI::App& app) {
   command->add_option("--picture", options->picture, "also write the residuals over the volume as a PNG picture");
   command->add_option("--noise", options->noise_mm, "of a range at 3 m, mm; it grows with the square of the depth")
       ->capture_default_str()
-      ->check(CLI::Range(1e-3, 1e3));
+      ->check(number_between(1e-3, 1e3));
   CLI::Option* simulate = command->add_option("--simulate", options->simulate,
                                               "instead of a fit: write the raw points that a camera of this calibration measures");
   CLI::Option* read_option = command

@@ -91,10 +91,10 @@ void add_command_command(CLI::App& app) {
       ->check(CLI::Range(0, 16383));
   subcommand->add_option("--wait", options->wait_s, "seconds to wait for the answer")
       ->capture_default_str()
-      ->check(CLI::Range(0.0, 3600.0));
+      ->check(number_between(0.0, 3600.0));
   subcommand->add_option("--listen", options->listen_s, "seconds to go on printing what comes after the answer")
       ->capture_default_str()
-      ->check(CLI::Range(0.0, 3600.0));
+      ->check(number_between(0.0, 3600.0));
   subcommand->add_flag("--poses", options->poses, "print poses, too");
   subcommand->callback([options] {
     try {

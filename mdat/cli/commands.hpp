@@ -33,6 +33,12 @@ void tell_idle_settings(const MissionSource& source, const std::string& scenario
 // --no-cache of a subcommand that compiles a mission; `cached` is true unless it is given.
 void add_no_cache(CLI::App& command, bool& cached);
 
+// Of an option: a number from low to high. CLI11's own ranges take what is not a number.
+CLI::Validator number_between(double low, double high);
+
+// Refuses an output that is one of the inputs, or another output. Throws InputError.
+void refuse_same_files(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs);
+
 // On the error stream, before any long work: that pictures will be missing, where gnuplot cannot be run.
 void warn_of_plotter();
 

@@ -227,14 +227,14 @@ void add_new_command(CLI::App& mission, const std::shared_ptr<MissionOptions>& o
   command
       ->add_option("--generate", options->seed, "make a target instead, and its model beside the mission: the same number, the same target")
       ->type_name("SEED")
-      ->check(CLI::Range(0.0, 4294967295.0, "0 to 4294967295"));
+      ->check(number_between(0.0, 4294967295.0));
   command->add_option("--kind", options->kind, "of the target that is made; otherwise the seed says it")
       ->check(CLI::IsMember(body_kind_names()));
   command->add_option("--sensor", options->sensor, "otherwise guessed from the target's size")
       ->check(CLI::IsMember({"laser_camera", "time_of_flight"}));
   command->add_option("--scale", options->scale, "the file's lengths times this are metres")
       ->capture_default_str()
-      ->check(CLI::Range(1e-6, 1e6));
+      ->check(number_between(1e-6, 1e6));
   command->add_option("-o,--out", options->out, "mission to write (of a target that is made: body_SEED.toml, here)");
   CLI::Option* simplify =
       command

@@ -1,5 +1,6 @@
 #include "mdat/render/render.hpp"
 
+#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -38,44 +39,53 @@ bool has_scan(const RenderArguments& options) { return options.scan || options.a
   throw InputError(std::string(option) + " " + value + ": expected " + expected);
 }
 
+// Numbers with `separator` between them, and nothing else; none where one is no number.
+std::vector<double> numbers_in(const std::string& text, char separator) {
+  std::vector<double> numbers;
+  const char* const end = text.data() + text.size();
+  for (const char* at = text.data(); at <= end; ++at) {
+    double number = 0;
+    const std::from_chars_result read = std::from_chars(at, end, number);
+    if (read.ec != std::errc() || (read.ptr != end && *read.ptr != separator)) return {};
+    numbers.push_back(number);
+    at = read.ptr;
+  }
+  return numbers;
+}
+
 // "1024x768"
 std::optional<PictureSize> size_given(const std::string& text) {
   if (text.empty()) return std::nullopt;
-  PictureSize size;
-  int read = 0;
-  const bool good = std::sscanf(text.c_str(), "%5dx%5d%n", &size.width, &size.height, &read) == 2 &&
-                    static_cast<std::size_t>(read) == text.size() && std::min(size.width, size.height) >= 1 &&
-                    std::max(size.width, size.height) <= kLargest_px;
+  const std::vector<double> sides = numbers_in(text, 'x');
+  const auto fits = [](double side) { return side >= 1 && side <= kLargest_px && side == std::floor(side); };
+  const bool good = sides.size() == 2 && fits(sides[0]) && fits(sides[1]);
   if (!good) refuse_value("--size", text, "WIDTHxHEIGHT in pixels, each 1 to " + std::to_string(kLargest_px) + ", such as 1024x768");
-  return size;
+  return PictureSize{static_cast<int>(sides[0]), static_cast<int>(sides[1])};
 }
 
 // "x,y,z", or "none".
 std::optional<Vec3> direction_given(const char* option, const std::string& text) {
   if (text == "none") return std::nullopt;
-  Vec3 direction;
-  int read = 0;
-  const bool good = std::sscanf(text.c_str(), "%lf,%lf,%lf%n", &direction.x(), &direction.y(), &direction.z(), &read) == 3 &&
-                    static_cast<std::size_t>(read) == text.size() && direction.allFinite() && direction.norm() > 0;
+  const std::vector<double> xyz = numbers_in(text, ',');
+  const Vec3 direction = xyz.size() == 3 ? Vec3(xyz.data()) : Vec3::Zero();
+  const bool good = direction.allFinite() && direction.norm() > 0;
   if (!good) refuse_value(option, text, "X,Y,Z, the direction in the sensor frame (x right, y down, z ahead), not 0,0,0; or none");
   return direction.normalized();
 }
 
 // "ALTITUDE,BETA,ANGLE" in km and degrees; the scenario's time is that of the orbit.
 Lights orbit_given(const std::string& text, double time_s) {
-  double altitude_km = 0, beta_deg = 0, angle_deg = 0;
-  int read = 0;
-  const bool good = std::sscanf(text.c_str(), "%lf,%lf,%lf%n", &altitude_km, &beta_deg, &angle_deg, &read) == 3 &&
-                    static_cast<std::size_t>(read) == text.size() && altitude_km >= kLowest_km && altitude_km <= kHighest_km &&
-                    std::fabs(beta_deg) <= 90 && std::fabs(angle_deg) <= 360;
+  const std::vector<double> orbit = numbers_in(text, ',');
+  const bool good =
+      orbit.size() == 3 && orbit[0] >= kLowest_km && orbit[0] <= kHighest_km && std::fabs(orbit[1]) <= 90 && std::fabs(orbit[2]) <= 360;
   if (!good)
     refuse_value("--orbit", text,
                  "ALTITUDE,BETA,ANGLE: 100 to 100000 km, the sun's elevation above the orbit plane (-90 to 90 deg), and the way from orbit "
-                 "noon at 0 s (-360 to 360 deg), such as 400,25,120");
+                 "noon at 0 s (-360 to 360 deg), such as 400,25,60");
   scene::Orbit::Setup setup;
-  setup.altitude_m = 1e3 * altitude_km;
-  setup.beta_rad = beta_deg * kRadPerDeg;
-  setup.angle_rad = angle_deg * kRadPerDeg;
+  setup.altitude_m = 1e3 * orbit[0];
+  setup.beta_rad = orbit[1] * kRadPerDeg;
+  setup.angle_rad = orbit[2] * kRadPerDeg;
   return orbit_lights(scene::Orbit(setup), to_us(time_s));
 }
 
@@ -101,6 +111,7 @@ std::filesystem::path out_file(const RenderArguments& options) {
 // Before any long work. The folder of a file that nobody named is made.
 void check_out(const RenderArguments& options, const std::filesystem::path& out) {
   if (!options.force) refuse_to_replace({out}, "--force replaces it, --out FILE keeps it");
+  refuse_same_files({out.string()}, {options.mission});
   if (!options.out.empty()) check_writable(out);
 }
 
@@ -122,7 +133,8 @@ Picture photo_of(const RenderArguments& options, const Scene& scene, const Rende
     std::printf("exposure: %.4g W/m2/sr is white%s\n", white,
                 options.white > 0 ? "" : ": 85 % of the lit pixels of the target are darker than half of it");
   } else {
-    std::fprintf(stderr, "warning: nothing lit is in view: the picture is black; another --sun, --lamp, or --time shows more\n");
+    std::fprintf(stderr, "warning: nothing lit is in view: the picture is black; another %s, --lamp, or --time shows more\n",
+                 options.orbit.empty() ? "--sun" : "ANGLE of --orbit");
   }
   return photo(radiance, setup.camera, white);
 }
@@ -228,7 +240,7 @@ void add_light_options(CLI::App* command, const std::shared_ptr<RenderArguments>
   command
       ->add_option("--exposure", options->white,
                    "radiance that is white, W/m2/sr (otherwise 85 % of the lit pixels of the target are darker than half of white)")
-      ->check(CLI::Range(1e-9, 1e9));
+      ->check(number_between(1e-9, 1e9));
   command
       ->add_option(
           "--material", options->scene.materials,
@@ -243,7 +255,7 @@ void add_scene_options(CLI::App* command, const std::shared_ptr<RenderArguments>
   command->add_option("--range", options->scene.range_m, "one of the scenario's ranges, m (its first)");
   command->add_option("--time", options->scene.time_s, "seconds since frame 0; with a scan, that of the frame at this time")
       ->capture_default_str()
-      ->check(CLI::Range(0.0, 1e6));
+      ->check(number_between(0.0, 1e6));
   command->add_option("--seed", options->scene.seed, "start of the random numbers (the scenario's)")
       ->check(CLI::Range(std::int64_t{0}, std::int64_t{4294967295}));
   command->add_option("--camera", options->scene.camera, "the sensor whose view is shown (the one whose turn it is at this range)");

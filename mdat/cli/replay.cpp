@@ -148,7 +148,7 @@ void add_replay_command(CLI::App& app) {
       ->expected(3);
   command->add_option("--depth-camera", options->camera, "calibration of depth images (.png): a file that says fx, fy, cx, cy and scale_m");
   command->add_option("--scale", options->replay.frame.scale, "metres in a unit of the scans' lengths, as 0.001 for millimetres")
-      ->check(CLI::Range(1e-6, 1e6));
+      ->check(number_between(1e-6, 1e6));
   command->add_option("--time-unit", options->time_unit, "of the scans' times (default: by their span against scan.duration_s)")
       ->check(CLI::IsMember({"min", "s", "ms", "us", "ns"}));
   command->add_option("--scenario", options->scenario, "with this scenario's overrides of parameters");

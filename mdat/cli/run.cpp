@@ -224,7 +224,7 @@ void add_sensor_options(CLI::App* command, const SharedArguments& options) {
                       "in the mission image: what mdat calibrate wrote (the mission's sensor.calibration)");
   command->add_option("--camera-temperature", options->simulation.camera_degC, "of the simulated camera, degC")
       ->capture_default_str()
-      ->check(CLI::Range(-50.0, 100.0));
+      ->check(number_between(-50.0, 100.0));
 }
 
 void add_link_options(CLI::App* command, const SharedArguments& options) {

@@ -59,10 +59,10 @@ void add_upload_command(CLI::App& app) {
   add_no_cache(*subcommand, options->cached);
   subcommand->add_option("--wait", options->upload.answer_s, "seconds to wait for an answer")
       ->capture_default_str()
-      ->check(CLI::Range(0.1, 3600.0));
+      ->check(number_between(0.1, 3600.0));
   subcommand->add_option("--trial-wait", options->upload.trial_s, "seconds to wait for its first scans")
       ->capture_default_str()
-      ->check(CLI::Range(0.0, 3600.0));
+      ->check(number_between(0.0, 3600.0));
   subcommand->callback([options] {
     try {
       run(*options);

@@ -13,7 +13,7 @@ namespace {
 constexpr double kLargestShare = 0.25;
 constexpr double kLargestRatio = 5;
 constexpr double kTightestKernel = 3;
-constexpr double kLostShare = 0.05;  // of good poses, by a gate on their normalised square
+constexpr double kLostShare = 0.05;         // of good poses, by a gate on their normalised square
 constexpr double kMostContradicting = 0.1;  // of the returns: what moves fewer of them is no other configuration
 constexpr double kMostInitialTurn_rad = 15 * kRadPerDeg;
 

@@ -14,6 +14,7 @@ constexpr double kFinestClock_m = 5e-4;    // 3 ps
 constexpr double kNarrowBeams = 0.1;       // of the beam's growth, which says how uncertain the place of a contour is
 constexpr double kFarNoise = 0.25;         // of the range
 constexpr double kAcrossShare = 0.03;      // the same across the ray
+constexpr double kLinearCommon = 3;        // of the noise: NEES of 7 to 9 of 6 there, 11 to 26 at ten times
 constexpr double kNoiseShare = 1.0 / 12;   // of half of the target's length: the tenth-scale Hubble has wrong poses from there on
 constexpr double kFieldShare = 0.25;       // of the target that the field shows: below 0.1 most poses are wrong
 constexpr double kLeastFieldShare = 0.05;  // where nothing of the target's shape is left
@@ -179,6 +180,17 @@ std::string common_size_fault(const Subject& s) {
          " mm, every pose is weak";
 }
 
+std::string common_linear_fault(const Subject& s) {
+  const SensorParameters& p = s.sensor->p;
+  for (const double range_m : s.sensor->ranges_m) {
+    const double share = common_error_m(p, range_m) / range_sigma_m(p, range_m);
+    if (share <= kLinearCommon) continue;
+    return "the range error that rays have in common is " + figure(share) + " times their noise at " + figure(range_m) +
+           " m: gates and labels are not linear so far, and poses can be wrong or refused";
+  }
+  return "";
+}
+
 // Half of the target's half on either side of its middle.
 std::string cut_fault(const Subject& s) {
   const SensorParameters& p = s.sensor->p;
@@ -213,6 +225,7 @@ const Rules& sensor_rules() {
     {kWarning, kSensor, kValues, {"sensor.range_max_m", "sensor.sigma_k_per_m"}, far_noise_fault},
     {kError, kSensor, kValues, {"sensor.common_memory_s", "scan.duration_s"}, common_memory_fault},
     {kWarning, kSensor, kValues, {"sensor.common_sigma_m", "sensor.common_sigma_k_per_m", "sensor.common_sigma_deg", "tracking.sigma_position_max_m"}, common_size_fault},
+    {kWarning, kSensor, kValues, {"sensor.common_sigma_m", "sensor.common_sigma_k_per_m", "sensor.sigma0_m", "sensor.sigma_k_per_m"}, common_linear_fault},
     {kWarning, kSensor, kTarget, {"sensor.sigma_angle_rad"}, across_fault},
     {kError, kSensor, kTarget, {"sensor.sigma0_m", "sensor.sigma_k_per_m"}, drowned_fault},
     {kWarning, kSensor, kTarget, {"sensor.sigma0_m", "sensor.sigma_k_per_m"}, noise_fault},

@@ -121,7 +121,7 @@ Rgb Shader::from_lamp(const Local& local) const {
 
 // The view factor is exact where all of the disc is seen; its shadows are those of one place of the disc for each sample.
 Rgb Shader::from_earth(const Local& local, const PictureRay& ray, std::uint32_t purpose) const {
-  if (earth_Wpm2sr_ <= 0) return Rgb::Zero();
+  if (!lights_.earth || earth_Wpm2sr_ <= 0) return Rgb::Zero();
   const double place = 0.5 * (local.normal.dot(*lights_.earth) + 1) * kFactors;
   const auto low = std::min<std::size_t>(kFactors - 1, static_cast<std::size_t>(std::max(0.0, place)));
   const double share = place - static_cast<double>(low);
@@ -155,7 +155,7 @@ Rgb Shader::mirrored_in(const Local& local, const PictureRay& ray) const {
 // Share of the mirrored lobe that lies on Earth's disc, whose edge is taken as straight: slopes of GGX facets along one axis are below s
 // with the probability (1 + s / sqrt(alpha^2 + s^2)) / 2, and a facet turns the ray by twice its own angle.
 double Shader::mirrored_earth(const Local& local) const {
-  if (earth_Wpm2sr_ <= 0) return 0;
+  if (!lights_.earth || earth_Wpm2sr_ <= 0) return 0;
   const Vec3 mirror = 2 * local.normal.dot(local.view) * local.normal - local.view;
   const double off_rad = arc_tangent2(mirror.cross(*lights_.earth).norm(), mirror.dot(*lights_.earth));
   const double s = tangent(0.5 * (lights_.earth_half_angle_rad - off_rad)), alpha = local.reflection.roughness;

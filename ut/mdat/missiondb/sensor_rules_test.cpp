@@ -79,11 +79,14 @@ TEST_F(SensorRules, TheNoiseIsOneThatASensorCanHave) {
 
 TEST_F(SensorRules, CommonErrorsLastLongerThanAScanAndLeavePosesThatAreNotWeak) {
   VERIFIES("LASSO-GND-009~1 LASSO-GND-060~1");
-  const std::string sized = "sensor.common_sigma_m = 0.002\nsensor.common_memory_s = ";
+  const std::string sized = "sensor.common_sigma_m = 0.001\nsensor.common_memory_s = ";
   expect_edge(sized + "0.2", sized + "0.1", "error: ", "shorter than a scan of 0.18 s");
   expect_edge(sized + "0", "sensor.common_memory_s = 5", "sensor.common_memory_s: 5", "no common error is stated");
   // 2 mm/m2 at 5 m are 50 mm
-  expect_edge("sensor.common_sigma_k_per_m = 1.9e-3", "sensor.common_sigma_k_per_m = 2.1e-3", "warning: ", "52.5 mm at 5 m");
+  const std::string noisy = "sensor.sigma_k_per_m = 8e-4\nsensor.common_sigma_k_per_m = ";
+  expect_edge(noisy + "1.9e-3", noisy + "2.1e-3", "warning: ", "52.5 mm at 5 m");
+  const std::string plain = "sensor.sigma_k_per_m = 1e-4\nsensor.common_sigma_k_per_m = ";
+  expect_edge(plain + "2.9e-4", plain + "3.1e-4", "warning: ", "3.1 times their noise at 5 m");
 }
 
 }  // namespace
