@@ -259,7 +259,11 @@ TEST(BadUsage, UnknownCommandsOptionsAndValues) {
   expect_refused(work, "run missions/test.toml --colour", "--colour");
   expect_refused(work, "mission", "--help");
   expect_refused(work, "mission new --model x.stl --scale nan -o m.toml", "scale");
-  expect_refused(work, "mission new --model none.stl --scale 0 -o m.toml", "0.000001");
+  expect_refused(work, "mission new --model none.stl --scale 0 -o m.toml", "1e-06 to 1000000");
+  expect_refused(work, "render none.toml --time nan", "'nan' is no number from 0 to 1000000");
+  expect_refused(work, "render m.toml --force -o m.toml", "m.toml: is read as well");
+  expect_refused(work, "benchmark score none a.csv --csv z.csv --json z.csv", "z.csv: is named twice");
+  expect_refused(work, "benchmark make none --seed 4294967295 --bodies 2", "above 4294967295");
   expect_refused(work, "mission new --model none.stl --scale 1 -o m.toml", "none.stl");
 }
 

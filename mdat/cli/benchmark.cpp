@@ -101,7 +101,7 @@ constexpr char kForms[] =
     "  valid               1, or 0 where the program refuses the pose (optional: without it each row is valid)\n"
     "  time_s              processor time of the scan (optional)\n"
     "  cov_x_x ... cov_rz_rz   covariance: all 21 pairs of x, y, z (origin, metres) and rx, ry, rz (radians), sensor axes (optional)\n"
-    "A scan without a row is refused. docs/benchmark-protocol.md has the rules.";
+    "A scan without a row counts as refused. docs/benchmark-protocol.md has the rules.";
 
 void add_make(CLI::App& benchmark, const std::shared_ptr<BenchmarkArguments>& options) {
   CLI::App* command = benchmark.add_subcommand("make", "write a set: bodies, missions, scans and starts, but no truth");
