@@ -95,8 +95,8 @@ sim::ScannerModel scanner_model(const Scenario& scenario, const FurtherSensor& s
 
 Scenario drawn_scenario(Scenario scenario, std::uint64_t seed) {
   if (scenario.drawn == 0) return scenario;
-  constexpr std::uint64_t kStream = 0x6d6f74696f6eU;  // not that of the noise
-  sim::Random random(seed ^ kStream);
+  constexpr std::uint64_t kMotionStream = 0x6d6f74696f6eU;  // not that of the noise
+  sim::Random random(seed ^ kMotionStream);
   scenario.roll_rad = random.uniform(-kPi, kPi);
   scenario.boresight_rad = random.uniform(-kPi, kPi);
   scenario.tilt_rad = std::asin(random.uniform(-1, 1));  // the long axis in any direction, all alike
