@@ -198,6 +198,7 @@ void Component::leave_target() {
   chooser_ = SensorChooser{};
   sensor_ = SensorChoice{};
   track_.filter = FilterState{};
+  track_.sensor = 0;  // the other image may have fewer
   if (track_.mode == TrackingMode::kSafe || !has_transition(track_.mode, ModeEvent::kStop)) return;
   note_change({track_.mode, ModeEvent::kStop, next_mode(track_.mode, ModeEvent::kStop)});
   change_mode(ModeEvent::kStop, track_);
