@@ -10,12 +10,9 @@ if(CMAKE_CXX_FLAGS_RELEASE STREQUAL "-O3 -DNDEBUG")
   set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG")  # flight rooms are built with -O3, see lasso_flight
 endif()
 
-# Precompiled headers are the same whenever they are made, so that a compiler cache can tell.
-add_compile_options("$<$<CXX_COMPILER_ID:Clang>:SHELL:-Xclang -fno-pch-timestamp>")
-if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")  # as CMake says it, but by options whose paths the cache can make relative
-  set(CMAKE_PCH_EXTENSION .precompiled)  # clang reads a .pch that lies beside a header that it is to precompile, an old one too
-  set(CMAKE_CXX_COMPILE_OPTIONS_CREATE_PCH -Xclang -emit-pch -include <PCH_HEADER> -x c++-header)
-  set(CMAKE_CXX_COMPILE_OPTIONS_USE_PCH -include-pch <PCH_FILE>)
+# A header that clang precompiled names the folder of its sources: from the compiler cache it would be unusable once that folder is gone.
+if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+  set(CMAKE_DISABLE_PRECOMPILE_HEADERS ON)
 endif()
 
 # For make sanitize: a finding ends the program. Flight code has no type information, which the check of virtual calls would need.
