@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "fsw/sense/pattern.hpp"
 #include "hal_lcs/table.hpp"
@@ -15,8 +16,8 @@ constexpr std::uint64_t kChanceOfTheLine = 0x4C43'5346'6175'6C74;  // other than
 }  // namespace
 
 LcsDevice::LcsDevice(const RayCaster& target, const Trajectory& trajectory, const ScannerModel& model, std::uint64_t seed,
-                     const LcsCamera& camera)
-    : rays_(target, trajectory, model, seed), camera_(camera), chance_(seed ^ kChanceOfTheLine) {
+                     const LcsCamera& camera, OtherBodies others)
+    : rays_(target, trajectory, model, seed, std::move(others)), camera_(camera), chance_(seed ^ kChanceOfTheLine) {
   static_cast<void>(optics_of(camera));
   for (const LcsFault& one : camera.faults) {
     if (one.kind == LcsFaultKind::kReset) reset_at_us_.push_back(one.from_us);

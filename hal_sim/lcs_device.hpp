@@ -18,7 +18,8 @@ namespace lasso::sim {
 class LcsDevice {
  public:
   // Keeps references: target and trajectory outlive it. Throws std::invalid_argument as validate(model), and for optics that are not valid.
-  LcsDevice(const RayCaster& target, const Trajectory& trajectory, const ScannerModel& model, std::uint64_t seed, const LcsCamera& camera);
+  LcsDevice(const RayCaster& target, const Trajectory& trajectory, const ScannerModel& model, std::uint64_t seed, const LcsCamera& camera,
+            OtherBodies others = {});
 
   // The line has bytes for the camera since t_us, if it had none before, ...
   void listen(TimeUs t_us, const lcs::Line& line);

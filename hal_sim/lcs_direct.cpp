@@ -1,5 +1,7 @@
 #include "hal_sim/lcs_direct.hpp"
 
+#include <utility>
+
 #include "fsw/sense/pattern.hpp"
 #include "hal_lcs/driver.hpp"
 
@@ -35,8 +37,8 @@ lcs::RawSample carried_sample(const lcs::RawSample& raw) {
 }  // namespace
 
 LcsDirect::LcsDirect(const RayCaster& target, const Trajectory& trajectory, const ScannerModel& model, std::uint64_t seed,
-                     const LcsCamera& camera)
-    : scanner_(target, trajectory, model, seed), camera_(camera), made_(optics_of(camera)), optics_(made_) {
+                     const LcsCamera& camera, OtherBodies others)
+    : scanner_(target, trajectory, model, seed, std::move(others)), camera_(camera), made_(optics_of(camera)), optics_(made_) {
   use_calibration(nullptr);
 }
 

@@ -11,7 +11,8 @@ class LcsDirect final : public Sensor {
  public:
   // References and exceptions as RaySimulator; the camera's faults are those of its line. The optics are taken to be what they are, unless
   // use_calibration says otherwise.
-  LcsDirect(const RayCaster& target, const Trajectory& trajectory, const ScannerModel& model, std::uint64_t seed, const LcsCamera& camera);
+  LcsDirect(const RayCaster& target, const Trajectory& trajectory, const ScannerModel& model, std::uint64_t seed, const LcsCamera& camera,
+            OtherBodies others = {});
 
   // As SimulatedScanner; the first sample is taken when the driver of a line would have it taken (lcs::kStartDelayUs).
   Status start(const ScanPlan& plan, TimeUs t_start_us) override;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "fsw/geometry/so3.hpp"
 #include "fsw/sense/pattern.hpp"
@@ -31,19 +33,34 @@ RangeSample sample_of(const Vec3& direction, TimeUs t_us, RayState state, double
 // The direction that the sample will carry, in double: measuring along it makes the reported point exact.
 Vec3 as_reported(const Vec3& direction) { return direction.cast<float>().cast<double>().normalized(); }
 
+// What a ray from the sensor meets of a surface; the normal is in sensor axes.
+RayHit cast_at(const RayCaster& surface, const Pose& T_sensor_surface, const Vec3& direction) {
+  const Pose T_surface_sensor = inverse(T_sensor_surface);
+  RayHit hit = surface.cast(T_surface_sensor.p, rotate(T_surface_sensor.q, direction));
+  if (hit.hit) hit.normal = rotate(T_sensor_surface.q, hit.normal);
+  return hit;
+}
+
 double quantised_m(double range_m, double step_m) { return step_m > 0 ? std::floor(range_m / step_m + 0.5) * step_m : range_m; }
 
 }  // namespace
 
 struct RaySimulator::Beam {
   Pose T_sensor_target;
+  std::vector<Pose> T_sensor_others;
   Vec3 direction;  // along which the scanner truly looks
   RayDraws draws;
   CommonErrors common;
 };
 
-RaySimulator::RaySimulator(const RayCaster& target, const Trajectory& trajectory, const ScannerModel& model, std::uint64_t seed)
-    : target_(target), trajectory_(trajectory), model_(model), seed_(seed), common_(seed, model.common_memory_s) {
+RaySimulator::RaySimulator(const RayCaster& target, const Trajectory& trajectory, const ScannerModel& model, std::uint64_t seed,
+                           OtherBodies others)
+    : target_(target),
+      trajectory_(trajectory),
+      others_(std::move(others)),
+      model_(model),
+      seed_(seed),
+      common_(seed, model.common_memory_s) {
   sim::validate(model);
   cos_dropout_incidence_ = model.dropout_incidence_rad < kPi / 2 ? sin_cos(model.dropout_incidence_rad).cos : -1;
 }
@@ -52,9 +69,13 @@ CommonErrors RaySimulator::common_errors(std::uint32_t scan_id, TimeUs t_us) con
   return has_common_errors(model_) ? common_.at(scan_id, t_us) : CommonErrors{};
 }
 
-RayHit RaySimulator::cast(const Pose& T_sensor_target, const Vec3& direction) const {
-  const Pose T_target_sensor = inverse(T_sensor_target);
-  return target_.cast(T_target_sensor.p, rotate(T_target_sensor.q, direction));
+RayHit RaySimulator::cast(const Beam& beam, const Vec3& direction) const {
+  RayHit nearest = cast_at(target_, beam.T_sensor_target, direction);
+  for (std::size_t i = 0; i < others_.size(); ++i) {
+    const RayHit hit = cast_at(*others_[i].surface, beam.T_sensor_others[i], direction);
+    if (hit.hit && (!nearest.hit || hit.range_m < nearest.range_m)) nearest = hit;
+  }
+  return nearest;
 }
 
 RangeSample RaySimulator::measure(std::uint32_t scan_id, std::uint32_t ray, const Vec3& direction, TimeUs t_us) const {
@@ -62,7 +83,8 @@ RangeSample RaySimulator::measure(std::uint32_t scan_id, std::uint32_t ray, cons
   const CommonErrors common = common_errors(scan_id, t_us);
   // The reported ray is turned by the error against the one that is measured.
   const Vec3 pointed = rotate(exp_so3(-model_.common_sigma_rad * common.turn), nominal);
-  Beam beam{trajectory_.at(t_us).T_sensor_target, pointed, draw(seed_, scan_id, ray), common};
+  Beam beam{trajectory_.pose_at(t_us), {}, pointed, draw(seed_, scan_id, ray), common};
+  for (const OtherBody& other : others_) beam.T_sensor_others.push_back(other.motion->pose_at(t_us));
   if (beam.draws.outlier < model_.outlier_probability) {
     const double farthest_m = std::min(1.5 * beam.T_sensor_target.p.norm(), model_.range_max_m);
     const double range_m = model_.range_min_m + beam.draws.outlier_place * std::max(0.0, farthest_m - model_.range_min_m);
@@ -73,7 +95,7 @@ RangeSample RaySimulator::measure(std::uint32_t scan_id, std::uint32_t ray, cons
   if (sigma_rad > 0) {
     beam.direction = (pointed + sigma_rad * (beam.draws.tilt_x * axes.right + beam.draws.tilt_y * axes.down)).normalized();
   }
-  const RayHit hit = cast(beam.T_sensor_target, beam.direction);
+  const RayHit hit = cast(beam, beam.direction);
   const bool dark = t_us >= model_.dark_from_us && t_us < model_.dark_until_us;
   if (!hit.hit || dark || lost(hit, beam)) return sample_of(direction, t_us, RayState::kMiss, 0);
   if (hit.range_m < model_.range_min_m) return sample_of(direction, t_us, RayState::kInvalid, 0);
@@ -82,8 +104,7 @@ RangeSample RaySimulator::measure(std::uint32_t scan_id, std::uint32_t ray, cons
 }
 
 bool RaySimulator::lost(const RayHit& hit, const Beam& beam) const {
-  const Vec3 normal = rotate(beam.T_sensor_target.q, hit.normal);
-  const bool grazing = std::abs(normal.dot(beam.direction)) < cos_dropout_incidence_;
+  const bool grazing = std::abs(hit.normal.dot(beam.direction)) < cos_dropout_incidence_;
   return hit.range_m > model_.range_max_m || grazing || beam.draws.dropout < model_.dropout_probability;
 }
 
@@ -91,15 +112,14 @@ bool RaySimulator::lost(const RayHit& hit, const Beam& beam) const {
 // Four rays at the footprint's rim look for a surface that leaves the plane of the hit by more than the footprint's radius. Where the
 // rim sees empty space the hit stands, as the returned light all comes from it.
 double RaySimulator::mixed_range_m(const RayHit& hit, const Beam& beam) const {
-  const Vec3 normal = rotate(beam.T_sensor_target.q, hit.normal);
   const Vec3 point = hit.range_m * beam.direction;
   const Across axes = across(beam.direction);
   const double radius_m = footprint_m(model_, hit.range_m);
   double other_m = hit.range_m;
   for (const Vec3& offset : {axes.right, Vec3(-axes.right), axes.down, Vec3(-axes.down)}) {
     const Vec3 direction = (point + radius_m * offset).normalized();
-    const RayHit rim = cast(beam.T_sensor_target, direction);
-    if (!rim.hit || std::abs(normal.dot(rim.range_m * direction - point)) <= radius_m) continue;
+    const RayHit rim = cast(beam, direction);
+    if (!rim.hit || std::abs(hit.normal.dot(rim.range_m * direction - point)) <= radius_m) continue;
     if (std::abs(rim.range_m - hit.range_m) > std::abs(other_m - hit.range_m)) other_m = rim.range_m;
   }
   return hit.range_m + beam.draws.mixing_weight * (other_m - hit.range_m);
@@ -113,8 +133,11 @@ double RaySimulator::noisy_range_m(const RayHit& hit, const Beam& beam) const {
   return quantised_m(range_m + sigma_m * beam.draws.range + common_m, model_.range_step_m);
 }
 
-SimulatedScanner::SimulatedScanner(const RayCaster& target, const Trajectory& trajectory, const ScannerModel& model, std::uint64_t seed)
-    : rays_(target, trajectory, model, seed), tan_half_x_(tangent(model.fov_half_x_rad)), tan_half_y_(tangent(model.fov_half_y_rad)) {}
+SimulatedScanner::SimulatedScanner(const RayCaster& target, const Trajectory& trajectory, const ScannerModel& model, std::uint64_t seed,
+                                   OtherBodies others)
+    : rays_(target, trajectory, model, seed, std::move(others)),
+      tan_half_x_(tangent(model.fov_half_x_rad)),
+      tan_half_y_(tangent(model.fov_half_y_rad)) {}
 
 // A plan that touches the limit is inside: the planner caps its extents at the same limit, and may differ in the last bits.
 bool SimulatedScanner::within_field_of_view(const ScanPlan& plan) const {

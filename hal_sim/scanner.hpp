@@ -4,6 +4,7 @@
 
 #include "fsw/sense/sensor.hpp"
 #include "hal_sim/common_error.hpp"
+#include "hal_sim/other_body.hpp"
 #include "hal_sim/ray_caster.hpp"
 #include "hal_sim/scanner_model.hpp"
 #include "hal_sim/trajectory.hpp"
@@ -11,11 +12,13 @@
 namespace lasso::sim {
 
 // What one ray finds: pure, so that reports and tests can ask about any ray at any time.
-// `direction` is the reported (nominal) unit direction in the sensor frame; the ray is cast against the target where it is at `t_us`.
+// `direction` is the reported (nominal) unit direction in the sensor frame; the ray is cast against the target, and all other bodies,
+// where they are at `t_us`; what is nearest is met.
 class RaySimulator {
  public:
   // Keeps references: target and trajectory outlive the simulator. Throws std::invalid_argument as validate(model).
-  RaySimulator(const RayCaster& target, const Trajectory& trajectory, const ScannerModel& model, std::uint64_t seed);
+  RaySimulator(const RayCaster& target, const Trajectory& trajectory, const ScannerModel& model, std::uint64_t seed,
+               OtherBodies others = {});
 
   RangeSample measure(std::uint32_t scan_id, std::uint32_t ray, const Vec3& direction, TimeUs t_us) const;
   const ScannerModel& model() const { return model_; }
@@ -23,13 +26,14 @@ class RaySimulator {
  private:
   struct Beam;
   CommonErrors common_errors(std::uint32_t scan_id, TimeUs t_us) const;
-  RayHit cast(const Pose& T_sensor_target, const Vec3& direction) const;
+  RayHit cast(const Beam& beam, const Vec3& direction) const;  // normal in sensor axes
   bool lost(const RayHit& hit, const Beam& beam) const;
   double mixed_range_m(const RayHit& hit, const Beam& beam) const;
   double noisy_range_m(const RayHit& hit, const Beam& beam) const;
 
   const RayCaster& target_;
   const Trajectory& trajectory_;
+  OtherBodies others_;
   ScannerModel model_;
   std::uint64_t seed_;
   double cos_dropout_incidence_;
@@ -39,7 +43,8 @@ class RaySimulator {
 class SimulatedScanner final : public Sensor {
  public:
   // References and exceptions as RaySimulator. What a scan returns depends on the plan, its start time and the seed alone.
-  SimulatedScanner(const RayCaster& target, const Trajectory& trajectory, const ScannerModel& model, std::uint64_t seed);
+  SimulatedScanner(const RayCaster& target, const Trajectory& trajectory, const ScannerModel& model, std::uint64_t seed,
+                   OtherBodies others = {});
 
   // kBadValue: a plan that validate (pattern.hpp) refuses, or that leaves the field of view.
   Status start(const ScanPlan& plan, TimeUs t_start_us) override;

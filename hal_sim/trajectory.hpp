@@ -18,6 +18,8 @@ class Trajectory {
  public:
   virtual ~Trajectory() = default;
   virtual TruthState at(TimeUs t_us) const = 0;
+  // The pose alone, for rays: one that costs less may stand in, by one caller at a time, where it is as good as exact.
+  virtual Pose pose_at(TimeUs t_us) const { return at(t_us).T_sensor_target; }
 };
 
 // The attitude of a target whose long axis is its x axis: x points up in the image (sensor -y) and z along the boresight at zero angles;

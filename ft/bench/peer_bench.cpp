@@ -5,7 +5,7 @@
 #include "ft/bench/outcome_table.hpp"
 #include "mdat/common/errors.hpp"
 #include "mdat/common/output.hpp"
-#include "mdat/missiondb/mission_error.hpp"
+#include "mdat/source/mission_error.hpp"
 
 namespace {
 

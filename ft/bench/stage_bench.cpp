@@ -17,7 +17,7 @@
 #include "ft/bench/scans.hpp"
 #include "mdat/common/cpu_clock.hpp"
 #include "mdat/common/errors.hpp"
-#include "mdat/missiondb/mission_error.hpp"
+#include "mdat/source/mission_error.hpp"
 
 namespace {
 

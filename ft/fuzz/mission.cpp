@@ -8,8 +8,8 @@
 #include <string>
 
 #include "ft/fuzz/exact.hpp"
-#include "mdat/missiondb/mission_error.hpp"
 #include "mdat/missiondb/mission_text.hpp"
+#include "mdat/source/mission_error.hpp"
 
 namespace lasso::fuzz {
 namespace {

@@ -11,8 +11,8 @@
 #include "mdat/common/progress_bar.hpp"
 #include "mdat/common/text.hpp"
 #include "mdat/common/version.hpp"
-#include "mdat/missiondb/sha256.hpp"
 #include "mdat/replay/scan_notes.hpp"
+#include "mdat/source/sha256.hpp"
 
 namespace lasso::mdat {
 namespace {

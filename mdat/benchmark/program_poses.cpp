@@ -9,9 +9,9 @@
 #include "mdat/common/errors.hpp"
 #include "mdat/common/output.hpp"
 #include "mdat/common/text.hpp"
-#include "mdat/missiondb/nearest.hpp"
 #include "mdat/replay/initial_poses.hpp"
 #include "mdat/run/statistics.hpp"
+#include "mdat/source/nearest.hpp"
 
 namespace lasso::mdat {
 namespace {

@@ -9,8 +9,8 @@
 #include "mdat/common/output.hpp"
 #include "mdat/common/text.hpp"
 #include "mdat/common/version.hpp"
-#include "mdat/missiondb/sha256.hpp"
 #include "mdat/run/symmetric_error.hpp"
+#include "mdat/source/sha256.hpp"
 
 namespace lasso::mdat {
 namespace {

@@ -26,7 +26,7 @@
 #include "mdat/common/output.hpp"
 #include "mdat/common/text.hpp"
 #include "mdat/common/version.hpp"
-#include "mdat/missiondb/sha256.hpp"
+#include "mdat/source/sha256.hpp"
 
 namespace lasso::mdat {
 namespace {

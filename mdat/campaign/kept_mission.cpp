@@ -5,7 +5,7 @@
 
 #include "mdat/common/errors.hpp"
 #include "mdat/missiondb/mission_files.hpp"
-#include "mdat/missiondb/sha256.hpp"
+#include "mdat/source/sha256.hpp"
 
 namespace lasso::mdat {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "mdat/common/errors.hpp"
 #include "mdat/common/text.hpp"
-#include "mdat/missiondb/nearest.hpp"
+#include "mdat/source/nearest.hpp"
 
 namespace lasso::mdat {
 namespace {

@@ -7,9 +7,9 @@
 #include "mdat/common/errors.hpp"
 #include "mdat/common/output.hpp"
 #include "mdat/common/text.hpp"
-#include "mdat/missiondb/nearest.hpp"
-#include "mdat/missiondb/sha256.hpp"
 #include "mdat/run/simulation.hpp"
+#include "mdat/source/nearest.hpp"
+#include "mdat/source/sha256.hpp"
 
 namespace lasso::mdat {
 namespace {

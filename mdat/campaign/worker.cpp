@@ -13,7 +13,7 @@
 
 #include "mdat/campaign/record.hpp"
 #include "mdat/common/errors.hpp"
-#include "mdat/missiondb/mission_error.hpp"
+#include "mdat/source/mission_error.hpp"
 
 namespace lasso::mdat {
 namespace {

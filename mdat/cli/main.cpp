@@ -9,8 +9,8 @@
 #include "mdat/cli/commands.hpp"
 #include "mdat/common/errors.hpp"
 #include "mdat/common/version.hpp"
-#include "mdat/missiondb/mission_error.hpp"
-#include "mdat/missiondb/nearest.hpp"
+#include "mdat/source/mission_error.hpp"
+#include "mdat/source/nearest.hpp"
 
 namespace {
 

@@ -24,7 +24,7 @@ constexpr int kUsual_px = 1024;
 constexpr double kLowest_km = 100, kHighest_km = 100000;
 
 struct RenderArguments {
-  std::string mission, as = "photo", size, sun = "0.5,-0.5,-0.7", earth = "0,1,0", orbit, out;
+  std::string mission, as = "photo", size, sun, earth, orbit, out;
   SceneRequest scene;
   std::vector<std::string> settings;
   int samples = 3;
@@ -89,13 +89,32 @@ Lights orbit_given(const std::string& text, double time_s) {
   return orbit_lights(scene::Orbit(setup), to_us(time_s));
 }
 
-Lights lights_given(const RenderArguments& options) {
+constexpr char kUsualSun[] = "0.5,-0.5,-0.7", kUsualEarth[] = "0,1,0";
+
+// Without an orbit: as given, or from over the right shoulder, with the Earth below.
+Lights lights_by_directions(const RenderArguments& options) {
+  Lights lights;
+  lights.sun = direction_given("--sun", options.sun.empty() ? kUsualSun : options.sun);
+  lights.earth = direction_given("--earth", options.earth.empty() ? kUsualEarth : options.earth);
+  return lights;
+}
+
+// Of a scene's orbit, but for what is given.
+Lights lights_by_scene(const RenderArguments& options, Lights lights) {
+  if (!options.sun.empty()) {
+    lights.sun = direction_given("--sun", options.sun);
+    lights.sun_share = 1;
+  }
+  if (!options.earth.empty()) lights.earth = direction_given("--earth", options.earth);
+  return lights;
+}
+
+Lights lights_given(const RenderArguments& options, const std::optional<Lights>& of_scene) {
   Lights lights;
   if (!options.orbit.empty()) {
     lights = orbit_given(options.orbit, options.scene.time_s);
   } else {
-    lights.sun = direction_given("--sun", options.sun);
-    lights.earth = direction_given("--earth", options.earth);
+    lights = of_scene ? lights_by_scene(options, *of_scene) : lights_by_directions(options);
   }
   if (!options.earthshine) lights.earth.reset();
   if (options.lamp) lights.lamp_m = Vec3::Zero();
@@ -126,7 +145,7 @@ Picture photo_of(const RenderArguments& options, const Scene& scene, const Rende
   RenderSetup shown = setup;
   ProgressBar bar("render", static_cast<std::size_t>(setup.camera.height), "rows", 1);
   shown.progress = [&](std::size_t rows) { bar.show(rows); };
-  const std::vector<Rgb> radiance = rendered(*scene.surface, scene.materials, lights_given(options), shown);
+  const std::vector<Rgb> radiance = rendered(*scene.surface, scene.materials, lights_given(options, scene.orbit_lights), shown);
   bar.finish();
   const double white = options.white > 0 ? options.white : automatic_white(radiance, seen);
   if (white > 0) {
@@ -192,7 +211,7 @@ void tell_scan(const std::vector<ScanMark>& marks) {
 
 void render(const RenderArguments& options) {
   const std::optional<PictureSize> size = size_given(options.size);
-  static_cast<void>(lights_given(options));
+  static_cast<void>(lights_given(options, std::nullopt));
   if (options.scan && options.as == "depth16") throw InputError("--scan: --as depth16 holds depths alone; --as depth shows a scan as well");
   const std::filesystem::path out = out_file(options);
   check_out(options, out);
@@ -212,7 +231,8 @@ void render(const RenderArguments& options) {
   setup.samples_per_axis = options.samples;
   setup.jobs = options.jobs;
   tell_scene(options, scene, setup.camera);
-  if (!options.orbit.empty()) std::printf("orbit: %.1f %% of the sun's disc is seen\n", 100 * lights_given(options).sun_share);
+  if (!options.orbit.empty() || (scene.orbit_lights && options.sun.empty()))
+    std::printf("orbit: %.1f %% of the sun's disc is seen\n", 100 * lights_given(options, scene.orbit_lights).sun_share);
   if (!marks.empty()) tell_scan(marks);
   if (options.as == "photo" || options.as == "residual") tell_materials(scene);
   write_out(options, out, picture_bytes(options, scene, setup, marks));
@@ -220,14 +240,14 @@ void render(const RenderArguments& options) {
 }
 
 void add_light_options(CLI::App* command, const std::shared_ptr<RenderArguments>& options) {
-  CLI::Option* sun = command
-                         ->add_option("--sun", options->sun,
-                                      "direction to the sun in the sensor frame (x right, y down, z ahead), X,Y,Z; none: it is dark")
-                         ->capture_default_str();
-  CLI::Option* earth = command
-                           ->add_option("--earth", options->earth,
-                                        "direction to the middle of Earth's disc, which sends back the sun's light; X,Y,Z or none")
-                           ->capture_default_str();
+  CLI::Option* sun =
+      command->add_option("--sun", options->sun,
+                          "direction to the sun in the sensor frame (x right, y down, z ahead), X,Y,Z (that of the scene's orbit, or else "
+                          "0.5,-0.5,-0.7); none: it is dark");
+  CLI::Option* earth =
+      command->add_option("--earth", options->earth,
+                          "direction to the middle of Earth's disc, which sends back the sun's light; X,Y,Z or none (that of the scene's "
+                          "orbit, or else 0,1,0)");
   command
       ->add_option(
           "--orbit", options->orbit,

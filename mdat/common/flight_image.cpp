@@ -8,6 +8,7 @@
 
 #include "mdat/common/errors.hpp"
 #include "mdat/common/output.hpp"
+#include "mdat/missiondb/scene_surfaces.hpp"
 #include "mdat/modelc/image_writer.hpp"
 
 namespace lasso::mdat {
@@ -112,6 +113,7 @@ MissionInput load_mission_input(const std::filesystem::path& file, const std::ve
   check_settings(input.source, scenario);
   input.mesh = load_target(input.source, &input.source.warnings);
   check_target(input.source, input.mesh);
+  load_scene(input.source, input.mesh);
   return input;
 }
 

@@ -11,7 +11,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "mdat/missiondb/sha256.hpp"
+#include "mdat/source/sha256.hpp"
 
 namespace lasso::mdat {
 namespace {

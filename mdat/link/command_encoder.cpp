@@ -10,7 +10,7 @@
 #include "mdat/link/decode.hpp"
 #include "mdat/link/number.hpp"
 #include "mdat/link/page.hpp"
-#include "mdat/missiondb/nearest.hpp"
+#include "mdat/source/nearest.hpp"
 
 namespace lasso::mdat {
 namespace {

@@ -31,7 +31,7 @@ constexpr KindRow kKinds[] = {
     {"bit_errors", "rate", 0, 0.5, true},
 };
 
-ValueRow number_row(const std::string& key, double minimum, double maximum, const std::string& unit) {
+ValueRow fault_row(const std::string& key, double minimum, double maximum, const std::string& unit) {
   ValueRow row;
   row.key = key;
   row.unit = unit;
@@ -53,9 +53,9 @@ ValueRow kind_row() {
 std::string unit_of(const std::string& key) { return key.ends_with("_s") ? "s" : "1"; }
 
 std::vector<ValueRow> rows_of(const KindRow& kind) {
-  std::vector<ValueRow> rows{kind_row(), number_row("from_s", 0, kLongest_s, "s")};
-  if (kind.lasts) rows.push_back(number_row("to_s", 0, kLongest_s, "s"));
-  if (*kind.value_key != 0) rows.push_back(number_row(kind.value_key, kind.minimum, kind.maximum, unit_of(kind.value_key)));
+  std::vector<ValueRow> rows{kind_row(), fault_row("from_s", 0, kLongest_s, "s")};
+  if (kind.lasts) rows.push_back(fault_row("to_s", 0, kLongest_s, "s"));
+  if (*kind.value_key != 0) rows.push_back(fault_row(kind.value_key, kind.minimum, kind.maximum, unit_of(kind.value_key)));
   return rows;
 }
 

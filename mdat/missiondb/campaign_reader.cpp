@@ -9,8 +9,8 @@
 #include "mdat/missiondb/campaign_rows.hpp"
 #include "mdat/missiondb/dispersions.hpp"
 #include "mdat/missiondb/law_reader.hpp"
-#include "mdat/missiondb/nearest.hpp"
 #include "mdat/missiondb/sections.hpp"
+#include "mdat/source/nearest.hpp"
 
 namespace lasso::mdat {
 namespace {

@@ -5,8 +5,8 @@
 
 #include "mdat/missiondb/mesh_import.hpp"
 #include "mdat/missiondb/mesh_text.hpp"
-#include "mdat/missiondb/sha256.hpp"
 #include "mdat/missiondb/value_row.hpp"
+#include "mdat/source/sha256.hpp"
 
 namespace lasso::mdat {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "mdat/missiondb/nearest.hpp"
+#include "mdat/source/nearest.hpp"
 
 namespace lasso::mdat {
 namespace {
@@ -21,7 +21,7 @@ ValueRow pair_row(ValueRow row) {
   return row;
 }
 
-ValueRow list_row(double minimum, double maximum, std::size_t count, const char* meaning) {
+ValueRow numbers_row(double minimum, double maximum, std::size_t count, const char* meaning) {
   ValueRow row;
   row.kind = ValueKind::kReals;
   row.minimum = minimum;
@@ -99,7 +99,7 @@ class LawTable {
 
   std::optional<NumberLaw> normal(const toml::node& node) {
     constexpr double kLargest = 1e12;
-    const auto found = read_value(node, list_row(-kLargest, kLargest, 2, "mean and sigma"), key_ + ".normal", problems_);
+    const auto found = read_value(node, numbers_row(-kLargest, kLargest, 2, "mean and sigma"), key_ + ".normal", problems_);
     if (!found) return std::nullopt;
     Normal law{found->numbers[0], found->numbers[1], row_.minimum, row_.maximum};
     if (!(law.sigma > 0)) return complain(node, ".normal", "expected the mean and a sigma above 0");
@@ -143,7 +143,7 @@ class LawTable {
     law.weights.assign(law.values.size(), 1);
     const toml::node* node = table_.get("weights");
     if (node == nullptr) return law;
-    const auto found = read_value(*node, list_row(kLeast, kLargest, law.values.size(), "one for each of one_of, of any sum"),
+    const auto found = read_value(*node, numbers_row(kLeast, kLargest, law.values.size(), "one for each of one_of, of any sum"),
                                   key_ + ".weights", problems_);
     if (!found) return std::nullopt;
     law.weights = found->numbers;

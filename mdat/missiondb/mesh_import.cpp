@@ -7,8 +7,8 @@
 #include "mdat/missiondb/file_mesh.hpp"
 #include "mdat/missiondb/gltf_reader.hpp"
 #include "mdat/missiondb/mesh_text.hpp"
-#include "mdat/missiondb/sha256.hpp"
 #include "mdat/missiondb/value_row.hpp"
+#include "mdat/source/sha256.hpp"
 
 namespace lasso::mdat {
 namespace {

@@ -3,7 +3,7 @@
 #include <set>
 
 #include "mdat/missiondb/gltf_file.hpp"
-#include "mdat/missiondb/sha256.hpp"
+#include "mdat/source/sha256.hpp"
 
 namespace lasso::mdat {
 

@@ -7,14 +7,16 @@
 #include "mdat/missiondb/mission_checks.hpp"
 #include "mdat/missiondb/mission_source.hpp"
 #include "mdat/missiondb/model_file.hpp"
-#include "mdat/missiondb/nearest.hpp"
+#include "mdat/missiondb/motion_reader.hpp"
+#include "mdat/missiondb/node_reader.hpp"
 #include "mdat/missiondb/part_reader.hpp"
 #include "mdat/missiondb/sections.hpp"
 #include "mdat/missiondb/sensor_reader.hpp"
 #include "mdat/missiondb/settings.hpp"
-#include "mdat/missiondb/sha256.hpp"
 #include "mdat/missiondb/toml_reader.hpp"
 #include "mdat/modelc/cut.hpp"
+#include "mdat/source/nearest.hpp"
+#include "mdat/source/sha256.hpp"
 
 namespace lasso::mdat {
 namespace {
@@ -67,8 +69,11 @@ class Loader {
   void read_values() {
     std::vector<ValueRow> rows = mission_rows();
     rows.insert(rows.end(), flight_rows().begin(), flight_rows().end());
-    found_ = read_table(root_, "", rows, {"campaign", "further_sensor", "part", "scenario", "target.parameters"}, problems_);
+    found_ = read_table(root_, "", rows, {"campaign", "further_sensor", "motion", "node", "orbit", "part", "scenario", "target.parameters"},
+                        problems_);
     for (const ValueRow& row : rows) note_origin(row.key, found_, row.key);
+    read_motions(root_, source_, problems_);
+    read_nodes(root_, source_, problems_);
     read_scenario_values();
     read_further_sensors(root_, source_, problems_);
     read_parts(root_, source_, problems_);
@@ -119,13 +124,33 @@ class Loader {
     }
   }
   void read_scenario_table(const std::string& name, const toml::table& table, const std::string& prefix) {
-    scenario_found_[name] = read_table(table, prefix, scenario_rows(), {"override"}, problems_);
+    scenario_found_[name] = read_table(table, prefix, scenario_rows(), {"motion", "override"}, problems_);
     for (const ValueRow& row : scenario_rows()) note_origin(prefix + row.key, scenario_found_[name], row.key);
+    motions_[name] = read_chosen_motions(table, prefix, source_, problems_);
+    check_scenario_kind(table, prefix, scenario_found_[name]);
     const toml::node* node = table.get("override");
     if (node == nullptr) return;
     if (!node->is_table()) return problems_.add(*node, prefix + "override", "wrong type: expected a table of flight parameters");
     overrides_[name] = read_table(*node->as_table(), prefix + "override.", flight_rows(), {}, problems_);
     for (const auto& [key, value] : overrides_[name]) source_.origins[prefix + "override." + key] = value.origin;
+  }
+
+  // Who flies through the mission's nodes says no ranges; who does not says nothing of their motions.
+  void check_scenario_kind(const toml::table& table, const std::string& prefix, const FoundValues& found) {
+    const auto kind = found.find("kind");
+    if (kind == found.end()) return;  // is missing, which has been said
+    const bool scene = static_cast<ScenarioKind>(static_cast<int>(kind->second.numbers.at(0))) == ScenarioKind::kScene;
+    if (!scene && found.count("ranges_m") == 0 && !table.contains("ranges_m"))
+      problems_.add(origin_of(table.source()), prefix + "ranges_m", "",
+                    "is missing: " + expectation(*find_row(scenario_rows(), "ranges_m")));
+    for (const char* key : {"ranges_m", "times_s"}) {
+      const auto written = found.find(key);
+      if (scene && written != found.end())
+        problems_.add(written->second.origin, prefix + key, "",
+                      "leave it out: in a scenario of kind scene the nodes' motions say where the target is");
+    }
+    if (!scene && table.contains("motion"))
+      problems_.add(*table.get("motion"), prefix + "motion", "has no effect in a scenario of this kind: expected kind = \"scene\"");
   }
 
   void read_model_parameters() {
@@ -233,6 +258,8 @@ class Loader {
       MissionParameters parameters = source_.parameters;
       override_parameters(parameters, scenario.overrides);
       for (const ScenarioField& field : scenario_fields()) fill_field(scenario, field, found, parameters);
+      if (scenario.scenario_kind() == ScenarioKind::kScene)
+        make_scene_run(motions_[name], name, found.at("kind").origin, parameters.period_s, source_, scenario, problems_);
       source_.scenarios[name] = scenario;
     }
   }
@@ -254,6 +281,10 @@ class Loader {
   }
 
   void check_contradictions() {
+    const auto is_unmade = [](const auto& entry) {
+      return entry.second.scenario_kind() == ScenarioKind::kScene && entry.second.scene == nullptr;
+    };
+    if (std::any_of(source_.scenarios.begin(), source_.scenarios.end(), is_unmade)) return;  // which has been said
     const std::vector<Problem> contradictions = check_rules(source_, nullptr);
     if (!contradictions.empty()) problems_.add(MissionError(contradictions));
   }
@@ -263,6 +294,7 @@ class Loader {
   MissionSource source_;
   FoundValues found_;
   std::map<std::string, FoundValues> scenario_found_, overrides_;
+  std::map<std::string, ChosenMotions> motions_;  // by scenario
 };
 
 void warn_of_left_out(const std::filesystem::path& file, const std::vector<std::string>& left_out, std::vector<std::string>* warnings) {

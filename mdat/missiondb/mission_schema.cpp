@@ -1,6 +1,8 @@
 #include "mdat/missiondb/mission_schema.hpp"
 
 #include "cfg/capacities.hpp"
+#include "mdat/missiondb/motion_reader.hpp"
+#include "mdat/missiondb/node_reader.hpp"
 #include "mdat/missiondb/schema_parts.hpp"
 #include "mdat/missiondb/sections.hpp"
 #include "mdat/missiondb/sensor_reader.hpp"
@@ -15,7 +17,41 @@ Json scenario_schema() {
   add_rows(overrides, flight_rows(), false);
   overrides["description"] = "flight parameters that differ in this scenario";
   schema["properties"]["override"] = overrides;
+  schema["properties"]["motion"] = {{"type", "object"},
+                                    {"additionalProperties", {{"type", "string"}}},
+                                    {"description", "scene: motions by node, in place of the nodes' own"}};
+  schema["if"] = {{"properties", {{"kind", {{"const", "scene"}}}}}};
+  schema["else"] = {{"required", {"ranges_m"}}};
   return schema;
+}
+
+Json motion_schema() {
+  Json kinds = Json::array();
+  for (const MotionKind& kind : motion_kinds()) {
+    Json schema = closed_object();
+    schema["description"] = kind.meaning;
+    schema["properties"]["kind"] = {{"const", kind.name}};
+    schema["required"] = {"kind"};
+    add_rows(schema, kind.rows, true);
+    if (!kind.list.empty()) {
+      Json item = closed_object();
+      add_rows(item, kind.list_rows, true);
+      schema["properties"][kind.list] = {{"type", "array"}, {"minItems", 1}, {"items", item}};
+      schema["required"].push_back(kind.list);
+    }
+    kinds.push_back(schema);
+  }
+  return {{"oneOf", kinds}};
+}
+
+void add_scene(Json& schema) {
+  Json node = closed_object();
+  add_rows(node, node_rows(), true);
+  Json orbit = closed_object();
+  add_rows(orbit, orbit_rows(), true);
+  schema["properties"]["orbit"] = orbit;
+  schema["properties"]["motion"] = {{"type", "object"}, {"additionalProperties", motion_schema()}};
+  schema["properties"]["node"] = {{"type", "object"}, {"additionalProperties", node}};
 }
 
 }  // namespace
@@ -38,6 +74,7 @@ std::string mission_schema_text() {
   add_rows(part, part_rows(), true);
   part["oneOf"] = {{{"required", {"box_m"}}}, {{"required", {"model"}}}, {{"required", {"mesh"}}}};
   schema["properties"]["part"] = {{"type", "object"}, {"maxProperties", kMaxParts}, {"additionalProperties", part}};
+  add_scene(schema);
   schema["properties"]["scenario"] = {{"type", "object"}, {"additionalProperties", scenario_schema()}};
   schema["properties"]["campaign"] = campaigns_schema();
   schema["definitions"] = {{"law", law_schema()}};

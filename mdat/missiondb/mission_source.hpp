@@ -12,8 +12,9 @@
 #include "fsw/mission/calibration.hpp"
 #include "fsw/mission/parameters.hpp"
 #include "mdat/missiondb/campaign_source.hpp"
-#include "mdat/missiondb/mission_error.hpp"
+#include "mdat/missiondb/scene_source.hpp"
 #include "mdat/modelc/mesh.hpp"
+#include "mdat/source/mission_error.hpp"
 
 namespace lasso::mdat {
 
@@ -66,7 +67,7 @@ struct FurtherSensor {
 // Of laser cameras, by the number of the sensor; of several of one camera the first holds until a command says otherwise.
 using Calibrations = std::map<std::uint8_t, std::vector<TriangulationCalibration>>;
 
-enum class ScenarioKind : std::uint8_t { kPaper = 0, kSpin = 1, kApproach = 2, kPass = 3 };
+enum class ScenarioKind : std::uint8_t { kPaper = 0, kSpin = 1, kApproach = 2, kPass = 3, kScene = 4 };
 
 // What is doubtful about the mission by itself, or about a scenario, by the number of the rule that says so.
 struct Doubt {
@@ -82,10 +83,11 @@ struct Doubt {
 // attitude of frame 0, and axes of spin and drift, of its own; their magnitudes are those given. kApproach: it turns at `spin_radps`, and
 // `ranges_m` are the ranges of one run at `times_s`. The component starts by itself: it looks for the bearing, and is offered poses by a
 // simulated navigation system. Between the two times of `eclipse_s` nothing returns. kPass: it moves as in an approach, and the track
-// starts from the true pose.
+// starts from the true pose. kScene: target, sensor and all else move as the mission's nodes do; one run, which starts as that of a pass.
 struct Scenario {
-  double kind = 0;               // a ScenarioKind
-  std::vector<double> ranges_m;  // along the boresight, one run of `frames` each; kApproach, kPass: one for each of `times_s`
+  double kind = 0;  // a ScenarioKind
+  std::vector<double>
+      ranges_m;  // along the boresight, one run of `frames` each; kApproach, kPass: one for each of `times_s`; kScene: as it moves
   double frames = 0, step_rad = 0, tilt_rad = 0, boresight_rad = 0;
   double roll_rad = 0;             // of the target about its own x axis, before all else
   double drawn = 0;                // 1: at random, by the run's seed
@@ -119,9 +121,11 @@ struct Scenario {
 
   // The first range of each run.
   std::vector<double> runs_m() const { return has_profile() ? std::vector<double>{ranges_m.front()} : ranges_m; }
-  bool has_profile() const { return scenario_kind() == ScenarioKind::kApproach || scenario_kind() == ScenarioKind::kPass; }
+  // One run that goes through several ranges.
+  bool has_profile() const { return scenario_kind() >= ScenarioKind::kApproach; }
   ScenarioKind scenario_kind() const { return static_cast<ScenarioKind>(static_cast<int>(kind)); }
   std::map<std::string, double> overrides;  // key of a parameter row -> value in the row's TOML unit
+  std::shared_ptr<const SceneRun> scene;    // kScene
 };
 
 struct MissionSource {
@@ -136,6 +140,7 @@ struct MissionSource {
   std::vector<FurtherSensor> further_sensors;  // in the order of their names: numbers 1, 2, ... ; [sensor] is number 0
   Calibrations calibrations;
   MissionParameters parameters{};
+  SceneSource scene;
   std::map<std::string, Scenario> scenarios;
   std::map<std::string, CampaignSource> campaigns;
   std::map<std::string, Origin> origins;  // by dotted key, all rows of parameter_rows() and of the ground sections

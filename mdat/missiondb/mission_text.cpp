@@ -5,6 +5,7 @@
 #include <optional>
 #include <sstream>
 
+#include "mdat/missiondb/rule.hpp"
 #include "mdat/missiondb/sections.hpp"
 #include "mdat/missiondb/sensor_reader.hpp"
 
@@ -88,6 +89,7 @@ void write_part(ValueLines& out, const MissionSource& source, const PartSource& 
 void write_scenario(ValueLines& out, const MissionSource& source, const std::string& name) {
   const Scenario& scenario = scenario_of(source, name);
   for (const ScenarioField& field : scenario_fields()) {
+    if (scenario.scene != nullptr && !has_effect(field.row.key, ScenarioKind::kScene)) continue;
     const std::string key = "scenario." + name + "." + field.row.key;
     std::string place = place_text(source, key);
     if (place == "preset" && !field.row.preset_from.empty()) place = "as sensor." + field.row.preset_from.substr(7);
@@ -114,6 +116,15 @@ void write_target(ValueLines& out, const MissionSource& source) {
   for (const auto& [name, value] : target.parameters) {
     const std::string key = "target.parameters." + name;
     write_line(out, key, number_text(value), "", place_text(source, key), "parameter of the model");
+  }
+}
+
+// Nodes, motions and the orbit; what a scenario says of them where it is the one, or none is chosen.
+void write_scene(ValueLines& out, const MissionSource& source, const std::string& scenario) {
+  for (const WrittenValue& value : source.scene.values) {
+    const bool of_other =
+        value.key.rfind("scenario.", 0) == 0 && !scenario.empty() && value.key.rfind("scenario." + scenario + ".", 0) != 0;
+    if (!of_other) write_line(out, value.key, value.value, value.unit, place_text(source, value.key), value.meaning);
   }
 }
 
@@ -185,6 +196,7 @@ std::vector<EffectiveValue> effective_values(const MissionSource& source, const 
   out.emplace_back();
   for (const FurtherSensor& sensor : source.further_sensors) write_further_sensor(out, source, sensor);
   for (const PartSource& part : source.parts) write_part(out, source, part);
+  write_scene(out, source, scenario);
   for (const auto& entry : source.scenarios) {
     if (scenario.empty() || entry.first == scenario) write_scenario(out, source, entry.first);
   }

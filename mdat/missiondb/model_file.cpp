@@ -5,9 +5,9 @@
 #include <optional>
 
 #include "fsw/geometry/portable_math.hpp"
-#include "mdat/missiondb/nearest.hpp"
 #include "mdat/missiondb/solid.hpp"
 #include "mdat/missiondb/toml_reader.hpp"
+#include "mdat/source/nearest.hpp"
 
 namespace lasso::mdat {
 namespace {
@@ -24,7 +24,7 @@ ValueRow real_row(const std::string& key, double minimum, double maximum, const 
   return row;
 }
 
-ValueRow text_row(const std::string& key, const std::string& meaning) {
+ValueRow line_row(const std::string& key, const std::string& meaning) {
   ValueRow row = real_row(key, 0, 0, meaning);
   row.kind = ValueKind::kText;
   row.pattern = "[^\\x00-\\x1f]*";
@@ -34,7 +34,7 @@ ValueRow text_row(const std::string& key, const std::string& meaning) {
 std::vector<ValueRow> parameter_table_rows() {
   std::vector<ValueRow> rows{real_row("preset", -1e9, 1e9, "value where the mission has none"),
                              real_row("minimum", -1e9, 1e9, "least value"), real_row("maximum", -1e9, 1e9, "greatest value"),
-                             text_row("unit", "unit of the value"), text_row("meaning", "one line")};
+                             line_row("unit", "unit of the value"), line_row("meaning", "one line")};
   for (ValueRow& row : rows) row.required = true;
   return rows;
 }
@@ -44,7 +44,7 @@ class ModelReader {
  public:
   explicit ModelReader(const std::filesystem::path& file) : ModelReader(parse_toml(file), file) {}
   ModelReader(toml::table root, const std::filesystem::path& file) : root_(std::move(root)), problems_(file) {
-    read_table(root_, "", {text_row("name", "name of the model"), scale_row()}, {"parameters", "part"}, problems_);
+    read_table(root_, "", {line_row("name", "name of the model"), scale_row()}, {"parameters", "part"}, problems_);
     scale_ = root_["scale"].value<double>().value_or(1);
     read_parameters();
   }

@@ -8,13 +8,13 @@
 
 #include "mdat/missiondb/guesses.hpp"
 #include "mdat/missiondb/mesh_import.hpp"
-#include "mdat/missiondb/mission_error.hpp"
 #include "mdat/missiondb/mission_writer.hpp"
 #include "mdat/missiondb/model_file.hpp"
 #include "mdat/missiondb/scenario_writer.hpp"
 #include "mdat/missiondb/sections.hpp"
-#include "mdat/missiondb/sha256.hpp"
 #include "mdat/missiondb/simplify.hpp"
+#include "mdat/source/mission_error.hpp"
+#include "mdat/source/sha256.hpp"
 
 namespace lasso::mdat {
 namespace {

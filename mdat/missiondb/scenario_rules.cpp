@@ -27,7 +27,10 @@ constexpr double kOnTarget = 0.5;                  // of the rays
 
 double norm(const std::vector<double>& v) { return std::hypot(v.at(0), v.at(1), v.at(2)); }
 
-double rate_radps(const Subject& s) { return s.scenario->scenario_kind() == ScenarioKind::kPaper ? 0 : norm(s.scenario->spin_radps); }
+double rate_radps(const Subject& s) {
+  if (s.scenario->scene != nullptr) return s.scenario->scene->rate_radps;
+  return s.scenario->scenario_kind() == ScenarioKind::kPaper ? 0 : norm(s.scenario->spin_radps);
+}
 
 double end_s(const Subject& s) { return s.scenario->frames * s.p.period_s; }
 
@@ -174,7 +177,15 @@ std::string rough_navigation_fault(const Subject& s) {
          " m: a start may be off by a quarter of it, and 80 % or more of these are farther off";
 }
 
+std::string scene_haste_fault(const Subject& s) {
+  const double most_mps2 = s.scenario->scene->acceleration_mps2;
+  if (most_mps2 <= kAccelerations * s.p.acceleration_mps2) return "";
+  return "the target's acceleration reaches " + figure(most_mps2) + " m/s2, and filter.acceleration_mps2 is " +
+         figure(s.p.acceleration_mps2);
+}
+
 std::string haste_fault(const Subject& s) {
+  if (s.scenario->scene != nullptr) return scene_haste_fault(s);
   const std::vector<double>&times = s.scenario->times_s, &ranges = s.scenario->ranges_m;
   for (std::size_t i = 1; s.scenario->has_profile() && times.size() == ranges.size() && i < times.size(); ++i) {
     const double span_s = times[i] - times[i - 1], way_m = std::fabs(ranges[i] - ranges[i - 1]);
@@ -272,11 +283,18 @@ std::string grazing_fault(const Subject& s) {
 constexpr unsigned bit(ScenarioKind kind) { return 1U << static_cast<unsigned>(kind); }
 constexpr unsigned kMoving = bit(ScenarioKind::kSpin) | bit(ScenarioKind::kApproach) | bit(ScenarioKind::kPass);
 constexpr unsigned kProfile = bit(ScenarioKind::kApproach) | bit(ScenarioKind::kPass);
+constexpr unsigned kNotScene = kMoving | bit(ScenarioKind::kPaper);
 struct Effect {
   const char* key;
   unsigned kinds;  // of scenarios in which it has any
 };
 constexpr Effect kEffects[] = {
+    {"ranges_m", kNotScene},
+    {"tilt_deg", kNotScene},
+    {"boresight_deg", kNotScene},
+    {"roll_deg", kNotScene},
+    {"drawn", kNotScene},
+    {"offset_m", kNotScene},
     {"step_deg", bit(ScenarioKind::kPaper)},
     {"paper_table", bit(ScenarioKind::kPaper)},
     {"spin_degps", kMoving},
@@ -289,11 +307,15 @@ constexpr Effect kEffects[] = {
 
 bool is_changed(const Scenario& scenario, const ScenarioField& field) {
   if (field.number != nullptr) return scenario.*field.number != field.row.preset.at(0) * field.row.to_si;
-  return std::any_of((scenario.*field.list).begin(), (scenario.*field.list).end(), [](double value) { return value != 0; });
+  const bool flown = field.list == &Scenario::ranges_m || field.list == &Scenario::times_s;
+  if (flown && scenario.scene != nullptr) return false;  // these are where the motions lead
+  std::vector<double> preset = field.row.preset;
+  for (double& value : preset) value *= field.row.to_si;
+  return scenario.*field.list != preset;
 }
 
 std::string idle_keys_fault(const Subject& s) {
-  static constexpr const char* kNames[] = {"paper", "spin", "approach", "pass"};
+  static constexpr const char* kNames[] = {"paper", "spin", "approach", "pass", "scene"};
   std::string keys;
   for (const ScenarioField& field : scenario_fields()) {
     const bool idle = !has_effect(field.row.key, s.scenario->scenario_kind());

@@ -12,41 +12,12 @@ constexpr ValueKind kReal = ValueKind::kReal;
 constexpr ValueKind kInteger = ValueKind::kInteger;
 constexpr double kDeg = kRadPerDeg;
 
-ValueRow number_row(const char* key, const char* unit, ValueKind kind, double to_si, double minimum, double maximum, double preset,
-                    const char* meaning) {
-  ValueRow row;
-  row.key = key;
-  row.unit = unit;
-  row.kind = kind;
-  row.to_si = to_si;
-  row.minimum = minimum;
-  row.maximum = maximum;
-  row.preset = {preset};
-  row.meaning = meaning;
-  return row;
-}
-
-ValueRow text_row(const char* key, const char* pattern, const char* meaning) {
-  ValueRow row;
-  row.key = key;
-  row.kind = ValueKind::kText;
-  row.pattern = pattern;
-  row.meaning = meaning;
-  return row;
-}
-
 ValueRow calibration_row() {
   ValueRow row =
       text_row("sensor.calibration", "[^\\x00-\\x1f]+\\.toml",
                "laser_camera: what mdat calibrate found, from the mission's folder or the one above; of several the first holds until "
                "the command select_calibration; none: the sensor has its own");
   row.count_max = kMaxCalibrations;
-  return row;
-}
-
-ValueRow required(ValueRow row) {
-  row.preset.clear();
-  row.required = true;
   return row;
 }
 
@@ -68,11 +39,18 @@ ScenarioField field(std::vector<double> S::*member, ValueRow row, std::size_t co
   return {std::move(row), nullptr, member};
 }
 
+// Whether it has to be written depends on others.
+ScenarioField without_need(ScenarioField field) {
+  field.row.required = false;
+  return field;
+}
+
 ValueRow kind_row() {
-  ValueRow row = number_row("kind", "1", ValueKind::kChoice, 1, 0, 3, 0,
+  ValueRow row = number_row("kind", "1", ValueKind::kChoice, 1, 0, 4, 0,
                             "paper: the target stands still in each scan and turns between them; spin: it moves all the time; approach: "
-                            "one run through all modes; pass: one run that begins with a track");
-  row.choices = {"paper", "spin", "approach", "pass"};
+                            "one run through all modes; pass: one run that begins with a track; scene: one run, in which the mission's "
+                            "nodes move as [motion.NAME] say");
+  row.choices = {"paper", "spin", "approach", "pass", "scene"};
   return required(row);
 }
 
@@ -86,26 +64,18 @@ ValueRow sensor_row() {
 
 using Q = PartSource;
 
-ValueRow list(ValueRow row, std::size_t count, std::vector<double> preset) {
-  row.kind = ValueKind::kReals;
-  row.count_min = count;
-  row.count_max = count;
-  row.preset = std::move(preset);
-  return row;
-}
-
 std::vector<PartField> make_part_fields() {
   // clang-format off
   return {
-    {list(number_row("box_m", "m", kReal, 1, -1000, 1000, 0, "the part is what of the target lies between x, y, z and x, y, z; this, model or mesh"), 6, {}), nullptr, &Q::box_m},
+    {list_row(number_row("box_m", "m", kReal, 1, -1000, 1000, 0, "the part is what of the target lies between x, y, z and x, y, z; this, model or mesh"), 6, {}), nullptr, &Q::box_m},
     {text_row("model", "[^\\x00-\\x1f]+\\.toml", "parametric model (.toml) with its presets, from the mission's folder or the one above"), nullptr, nullptr},
     {text_row("mesh", "[^\\x00-\\x1f]+", "mesh (STL, OBJ, PLY, glTF), from the mission's folder or the one above"), nullptr, nullptr},
     {number_row("scale", "1", kReal, 1, 1e-9, 1e9, 1, "the file's lengths times this are metres"), &Q::scale, nullptr},
     {number_row("cell_size_m", "m", kReal, 1, 0, 10, 0, "cell of the part's look-up field; 0: about 1/110 of the part"), &Q::cell_size_m, nullptr},
-    {list(number_row("origin_m", "m", kReal, 1, -1000, 1000, 0, "origin of the part's frame in the target's"), 3, {0, 0, 0}), nullptr, &Q::origin_m},
-    {list(number_row("quaternion", "1", kReal, 1, -1, 1, 0, "x, y, z, w: takes part axes to target axes"), 4, {0, 0, 0, 1}), nullptr, &Q::quaternion},
-    {required(list(number_row("range_m", "m", kReal, 1, 0, 10000, 0, "nearest and farthest distance of its centre from the sensor at which it serves"), 2, {})), nullptr, &Q::range_m},
-    {required(list(number_row("view", "1", kReal, 1, -1e6, 1e6, 0, "direction in part axes towards the sensors that see it, of any length"), 3, {})), nullptr, &Q::view},
+    {list_row(number_row("origin_m", "m", kReal, 1, -1000, 1000, 0, "origin of the part's frame in the target's"), 3, {0, 0, 0}), nullptr, &Q::origin_m},
+    {list_row(number_row("quaternion", "1", kReal, 1, -1, 1, 0, "x, y, z, w: takes part axes to target axes"), 4, {0, 0, 0, 1}), nullptr, &Q::quaternion},
+    {required(list_row(number_row("range_m", "m", kReal, 1, 0, 10000, 0, "nearest and farthest distance of its centre from the sensor at which it serves"), 2, {})), nullptr, &Q::range_m},
+    {required(list_row(number_row("view", "1", kReal, 1, -1e6, 1e6, 0, "direction in part axes towards the sensors that see it, of any length"), 3, {})), nullptr, &Q::view},
     {number_row("cone_deg", "deg", kReal, kDeg, 0, 180, 60, "largest angle between it and the direction to the sensor"), &Q::cone_rad, nullptr},
     {number_row("priority", "1", kReal, 1, 0.001, 1000, 1, "weighs what a scan of the part would tell; the part of lower priority goes where two disagree"), &Q::priority, nullptr},
   };
@@ -116,7 +86,7 @@ std::vector<ScenarioField> make_scenario_fields() {
   // clang-format off
   return {
     field(&S::kind, kind_row()),
-    field(&S::ranges_m, number_row("ranges_m", "m", kReal, 1, 0.01, 10000, 0, "ranges of the target's center_m along the boresight, one run each; approach, pass: at times_s"), 1, 100, {}),
+    without_need(field(&S::ranges_m, number_row("ranges_m", "m", kReal, 1, 0.01, 10000, 0, "ranges of the target's center_m along the boresight, one run each; approach, pass: at times_s; scene: none"), 1, 100, {})),
     field(&S::frames, number_row("frames", "1", kInteger, 1, 1, 1000000, 360, "frames of a run")),
     field(&S::step_rad, number_row("step_deg", "deg", kReal, kDeg, -180, 180, 1, "paper: turn about the target's x axis from frame to frame")),
     field(&S::tilt_rad, number_row("tilt_deg", "deg", kReal, kDeg, -180, 180, 15, "tilt of the target's -x end towards the sensor; 0 is side-on")),
@@ -173,7 +143,7 @@ const std::vector<ValueRow>& mission_rows() {
     text_row("target.mesh", "[^\\x00-\\x1f]+", "mesh (STL, OBJ, PLY, glTF), from the mission's folder or the one above; this or target.model"),
     text_row("target.sha256", "[0-9a-fA-F]{64}", "SHA-256 of that file, 64 hexadecimal digits"),
     number_row("target.scale", "1", kReal, 1, 1e-9, 1e9, 1, "the file's lengths times this are metres"),
-    list(number_row("target.origin_m", "m", kReal, 1, -1e7, 1e7, 0, "the target's origin in the file's axes, after scale: poses are of this point"), 3, {0, 0, 0}),
+    list_row(number_row("target.origin_m", "m", kReal, 1, -1e7, 1e7, 0, "the target's origin in the file's axes, after scale: poses are of this point"), 3, {0, 0, 0}),
     number_row("target.crease_angle_deg", "deg", kReal, kDeg, 0, 90, 30, "facets that meet at a smaller angle are one smooth surface"),
     number_row("target.cell_size_m", "m", kReal, 1, 1e-5, 10, 0.012, "cell of the look-up field: about 1/110 of the target is fastest; larger takes less memory"),
     sensor_row(),

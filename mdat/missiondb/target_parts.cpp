@@ -8,13 +8,6 @@
 namespace lasso::mdat {
 namespace {
 
-std::uint32_t number_of_name(std::vector<std::string>& names, const std::string& name) {
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found != names.end()) return static_cast<std::uint32_t>(found - names.begin());
-  names.push_back(name);
-  return static_cast<std::uint32_t>(names.size() - 1);
-}
-
 TargetParts parts_by_solids(const TargetSource& target) {
   std::vector<ModelSolid> solids;
   static_cast<void>(build_model(target.file, target.parameters, &solids));
@@ -35,6 +28,18 @@ std::string name_by_box(const MissionSource& source, const Eigen::Vector3d& cent
 }
 
 }  // namespace
+
+std::uint32_t number_of_name(std::vector<std::string>& names, const std::string& name) {
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found != names.end()) return static_cast<std::uint32_t>(found - names.begin());
+  names.push_back(name);
+  return static_cast<std::uint32_t>(names.size() - 1);
+}
+
+bool matches_part(const std::string& part, const std::string& pattern) {
+  if (pattern.empty() || pattern.back() != '*') return part == pattern;
+  return part.compare(0, pattern.size() - 1, pattern, 0, pattern.size() - 1) == 0;
+}
 
 TargetParts target_parts(const MissionSource& source, const Mesh& mesh) {
   if (source.target.parametric) return parts_by_solids(source.target);

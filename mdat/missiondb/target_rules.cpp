@@ -55,9 +55,19 @@ bool is_off(const Seen& seen, const SensorParameters& sensor) {
   return std::fabs(seen.middle_x) > std::tan(sensor.fov_half_x_rad) || std::fabs(seen.middle_y) > std::tan(sensor.fov_half_y_rad);
 }
 
+// Where it first is at the range of the scenario's that is nearest: a band may begin between two of them.
+Eigen::Isometry3d scene_pose(const Scenario& scenario, double range_m) {
+  const auto found = std::min_element(scenario.ranges_m.begin(), scenario.ranges_m.end(),
+                                      [&](double a, double b) { return std::fabs(a - range_m) < std::fabs(b - range_m); });
+  const auto index = static_cast<std::size_t>(found - scenario.ranges_m.begin());
+  const Pose T_sensor_target = scenario.scene->target_at(static_cast<TimeUs>(std::llround(1e6 * scenario.times_s.at(index)))).T_a_b;
+  return Eigen::Translation3d(T_sensor_target.p) * Eigen::Isometry3d(T_sensor_target.q);
+}
+
 // Of frame 0, where the target's center_m is at range_m (mission_source.hpp: Scenario).
 Eigen::Isometry3d first_pose(const Scenario& scenario, double range_m) {
   using Eigen::AngleAxisd, Eigen::Vector3d;
+  if (scenario.scene != nullptr) return scene_pose(scenario, range_m);
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
   T.translate(Vector3d(scenario.offset_m.at(0), scenario.offset_m.at(1), range_m));
   T.rotate(AngleAxisd(scenario.boresight_rad, Vector3d::UnitZ()) * AngleAxisd(-scenario.tilt_rad, Vector3d::UnitX()) *
@@ -127,6 +137,7 @@ std::string lost_fault(const Subject& s) {
 bool has_first_attitude(const Scenario& scenario, double range_m) {
   const auto& spin = scenario.spin_radps;
   const bool turns = std::any_of(spin.begin(), spin.end(), [](double rate_radps) { return rate_radps != 0; });
+  if (scenario.scene != nullptr) return true;
   return scenario.drawn == 0 && (!scenario.has_profile() || !turns || range_m == scenario.ranges_m.front());
 }
 

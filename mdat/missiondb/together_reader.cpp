@@ -8,9 +8,9 @@
 #include "mdat/missiondb/campaign_rows.hpp"
 #include "mdat/missiondb/dispersions.hpp"
 #include "mdat/missiondb/law_reader.hpp"
-#include "mdat/missiondb/nearest.hpp"
 #include "mdat/missiondb/rule.hpp"
-#include "mdat/missiondb/sha256.hpp"
+#include "mdat/source/nearest.hpp"
+#include "mdat/source/sha256.hpp"
 
 namespace lasso::mdat {
 namespace {

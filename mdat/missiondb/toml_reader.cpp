@@ -5,8 +5,8 @@
 #include <regex>
 #include <sstream>
 
-#include "mdat/missiondb/nearest.hpp"
-#include "mdat/missiondb/sha256.hpp"
+#include "mdat/source/nearest.hpp"
+#include "mdat/source/sha256.hpp"
 
 namespace lasso::mdat {
 namespace {

@@ -26,6 +26,7 @@ class ProblemList {
     problems_.insert(problems_.end(), error.problems().begin(), error.problems().end());
   }  // of other files
   bool empty() const { return problems_.empty(); }
+  std::size_t size() const { return problems_.size(); }
   void throw_if_any() const;
 
  private:

@@ -38,6 +38,43 @@ std::string item_text(const ValueRow& row, double value) {
 
 }  // namespace
 
+ValueRow number_row(const char* key, const char* unit, ValueKind kind, double to_si, double minimum, double maximum, double preset,
+                    const char* meaning) {
+  ValueRow row;
+  row.key = key;
+  row.unit = unit;
+  row.kind = kind;
+  row.to_si = to_si;
+  row.minimum = minimum;
+  row.maximum = maximum;
+  row.preset = {preset};
+  row.meaning = meaning;
+  return row;
+}
+
+ValueRow text_row(const char* key, const char* pattern, const char* meaning) {
+  ValueRow row;
+  row.key = key;
+  row.kind = ValueKind::kText;
+  row.pattern = pattern;
+  row.meaning = meaning;
+  return row;
+}
+
+ValueRow required(ValueRow row) {
+  row.preset.clear();
+  row.required = true;
+  return row;
+}
+
+ValueRow list_row(ValueRow row, std::size_t count, std::vector<double> preset) {
+  row.kind = ValueKind::kReals;
+  row.count_min = count;
+  row.count_max = count;
+  row.preset = std::move(preset);
+  return row;
+}
+
 ValueRow value_row(const ParameterRow& row) {
   ValueRow result;
   result.key = row.key;

@@ -25,6 +25,13 @@ struct ValueRow {
   std::string meaning;
 };
 
+// A row of one number, and how it becomes another one: a text, one that has to be written, a list of `count` numbers.
+ValueRow number_row(const char* key, const char* unit, ValueKind kind, double to_si, double minimum, double maximum, double preset,
+                    const char* meaning);
+ValueRow text_row(const char* key, const char* pattern, const char* meaning);
+ValueRow required(ValueRow row);
+ValueRow list_row(ValueRow row, std::size_t count, std::vector<double> preset);
+
 ValueRow value_row(const ParameterRow& row);
 
 // All flight parameters, in the order of parameter_rows().

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "fsw/geometry/portable_math.hpp"
+#include "fsw/geometry/so3.hpp"
 
 namespace lasso::mdat {
 namespace {
@@ -24,29 +25,53 @@ double angle_at(const Corners& c, std::size_t corner) {
   return arc_tangent2(a.cross(b).norm(), a.dot(b));
 }
 
+Vec3 moved(const Pose& T_a_b, const Vec3& v) { return rotate(T_a_b.q, v) + T_a_b.p; }
+
+double extent_of(const Mesh& mesh) {
+  Vec3 low = mesh.vertices.at(0), high = low;
+  for (const Vec3& v : mesh.vertices) {
+    low = low.cwiseMin(v);
+    high = high.cwiseMax(v);
+  }
+  return (high - low).maxCoeff();
+}
+
 // A vertex is known by its place: many files write it once for each of its triangles.
 using Place = std::array<double, 4>;
 Place place_of(std::uint32_t part, const Vec3& v) { return {static_cast<double>(part), v.x(), v.y(), v.z()}; }
 
 }  // namespace
 
-ModelSurface::ModelSurface(const Mesh& mesh, const std::vector<std::uint32_t>& part_of_triangle, double crease_angle_rad) {
-  mesh_.vertices = mesh.vertices;
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    const Vec3 normal = twice_the_area(corners_of(mesh, i));
-    if (!(normal.norm() > 0)) continue;
-    mesh_.triangles.push_back(mesh.triangles[i]);
-    parts_.push_back(part_of_triangle.at(i));
-    facet_normals_.emplace_back(normal.normalized());
-  }
+ModelSurface::ModelSurface(const Mesh& mesh, const std::vector<std::uint32_t>& part_of_triangle, double crease_angle_rad)
+    : ModelSurface(std::vector<SurfaceBody>{{mesh, part_of_triangle, {}, 0}}, crease_angle_rad) {}
+
+ModelSurface::ModelSurface(const std::vector<SurfaceBody>& bodies, double crease_angle_rad) {
+  for (const SurfaceBody& body : bodies) add_body(body);
   caster_ = sim::make_ray_caster(mesh_.vertices, mesh_.triangles);
-  Vec3 low = mesh_.vertices[0], high = low;
-  for (const Vec3& v : mesh_.vertices) {
-    low = low.cwiseMin(v);
-    high = high.cwiseMax(v);
-  }
-  extent_m_ = (high - low).maxCoeff();
   smooth_corners(crease_angle_rad);
+}
+
+void ModelSurface::add_body(const SurfaceBody& body) {
+  const auto number = static_cast<std::uint32_t>(frames_.size()), first = static_cast<std::uint32_t>(mesh_.vertices.size());
+  const bool is_target = number == 0;  // whose frame is that of the picture
+  for (const Vec3& v : body.mesh.vertices) mesh_.vertices.emplace_back(is_target ? v : moved(body.T_target_body, v));
+  for (std::size_t i = 0; i < body.mesh.triangles.size(); ++i) {
+    const auto& t = body.mesh.triangles[i];
+    mesh_.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+    const Vec3 normal = twice_the_area(corners_of(mesh_, mesh_.triangles.size() - 1));
+    if (normal.norm() > 0) {
+      parts_.push_back(body.part_of_triangle.at(i));
+      bodies_.push_back(number);
+      facet_normals_.emplace_back(normal.normalized());
+    } else {
+      mesh_.triangles.pop_back();
+    }
+  }
+  frames_.push_back({body.T_target_body, body.size_m > 0 ? body.size_m : extent_of(body.mesh)});
+}
+
+Vec3 ModelSurface::to_body(const SurfacePoint& point) const {
+  return point.body == 0 ? point.place_m : moved(inverse(frames_[point.body].T_target_body), point.place_m);
 }
 
 void ModelSurface::smooth_corners(double crease_angle_rad) {
@@ -92,6 +117,7 @@ bool ModelSurface::find(const Vec3& origin_m, const Vec3& direction, SurfacePoin
   point.place_m = origin_m + hit.range_m * direction;
   point.range_m = hit.range_m;
   point.part = parts_[hit.triangle];
+  point.body = bodies_[hit.triangle];
   const double side = hit.normal.dot(direction) > 0 ? -1 : 1;
   point.facet_normal = side * hit.normal;
   point.smooth_normal = side * smooth_normal(hit.triangle, point.place_m);

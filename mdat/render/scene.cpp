@@ -10,8 +10,8 @@
 #include "mdat/common/errors.hpp"
 #include "mdat/common/progress_bar.hpp"
 #include "mdat/common/text.hpp"
-#include "mdat/missiondb/nearest.hpp"
 #include "mdat/missiondb/target_parts.hpp"
+#include "mdat/source/nearest.hpp"
 
 namespace lasso::mdat {
 namespace {
@@ -54,11 +54,6 @@ FieldOfView camera_of_mission(const MissionSource& source, const std::string& as
   return {names[0], sensors[0]};
 }
 
-bool matches(const std::string& part, const std::string& pattern) {
-  if (pattern.empty() || pattern.back() != '*') return part == pattern;
-  return part.compare(0, pattern.size() - 1, pattern, 0, pattern.size() - 1) == 0;
-}
-
 const Material& preset_of(const std::string& setting, const std::string& name) {
   if (const Material* preset = material_preset(name)) return *preset;
   std::vector<std::string> names;
@@ -74,7 +69,7 @@ void set_material(const std::string& setting, const std::vector<std::string>& pa
   const Material& preset = preset_of(setting, setting.substr(at + 1));
   bool found = false;
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    if (!matches(parts[i], pattern)) continue;
+    if (!matches_part(parts[i], pattern)) continue;
     materials[i] = preset;
     found = true;
   }
@@ -89,14 +84,58 @@ std::vector<Material> materials_of(const std::vector<std::string>& parts, const 
   return materials;
 }
 
-std::unique_ptr<ModelSurface> simulated_surface(const MissionInput& mission, const TargetParts& parts, const CaseSetup& setup,
-                                                std::uint64_t seed) {
-  const double crease_rad = mission.source.target.crease_angle_rad;
-  if (!has_model_error(setup.scenario)) return std::make_unique<ModelSurface>(mission.mesh, parts.of_triangle, crease_rad);
-  const Mesh mesh = true_target(mission.mesh, setup.scenario, seed);
-  std::vector<std::uint32_t> part_of_triangle;
-  for (const std::uint32_t triangle : kept_triangles(mission.mesh, setup.scenario)) part_of_triangle.push_back(parts.of_triangle[triangle]);
-  return std::make_unique<ModelSurface>(mesh, part_of_triangle, crease_rad);
+SurfaceBody simulated_body(const MissionInput& mission, const TargetParts& parts, const CaseSetup& setup, std::uint64_t seed) {
+  if (!has_model_error(setup.scenario)) return {mission.mesh, parts.of_triangle, {}, 0};
+  SurfaceBody body{true_target(mission.mesh, setup.scenario, seed), {}, {}, 0};
+  for (const std::uint32_t triangle : kept_triangles(mission.mesh, setup.scenario))
+    body.part_of_triangle.push_back(parts.of_triangle[triangle]);
+  return body;
+}
+
+// Names of the parts of a node that is none of the target's; they join the others.
+std::vector<std::uint32_t> numbers_of_parts(const BodySource& source, const BodySurface& surface, std::vector<std::string>& names) {
+  std::vector<std::uint32_t> numbers;
+  for (const std::string& part : surface.part_names) {
+    const bool alone = source.file.empty() || part == source.node;
+    numbers.push_back(number_of_name(names, alone ? part : source.node + "." + part));
+  }
+  return numbers;
+}
+
+void add_parts_of_nodes(const SceneSource& source, std::vector<std::string>& names) {
+  for (std::size_t i = 0; i < source.bodies.size(); ++i)
+    static_cast<void>(numbers_of_parts(source.bodies[i], source.surfaces->bodies[i], names));
+}
+
+// What is seen at a time since the epoch, target first.
+std::vector<SurfaceBody> bodies_at(const MissionSource& source, const CaseSetup& setup, const SurfaceBody& target,
+                                   std::vector<std::string> names, TimeUs t_us) {
+  std::vector<SurfaceBody> bodies{target};
+  const SceneRun* run = setup.scenario.scene.get();
+  for (std::size_t i = 0; run != nullptr && i < run->body_nodes.size(); ++i) {
+    const BodySource& node = source.scene.bodies[i];
+    const BodySurface& surface = run->surfaces->bodies[i];
+    const std::vector<std::uint32_t> numbers = numbers_of_parts(node, surface, names);
+    SurfaceBody body{surface.mesh, {}, run->tree.state(run->body_nodes[i], run->target, t_us).T_a_b, 0};
+    for (const std::uint32_t part : surface.part_of_triangle) body.part_of_triangle.push_back(numbers[part]);
+    bodies.push_back(std::move(body));
+  }
+  return bodies;
+}
+
+// Sun and Earth as a scene's sensors see them; the shadow is that at the orbit's origin.
+std::optional<Lights> lights_of_orbit(const MissionSource& source, const CaseSetup& setup, TimeUs t_us) {
+  const SceneRun* run = setup.scenario.scene.get();
+  if (run == nullptr || !source.scene.orbit) return std::nullopt;
+  const scene::Orbit& orbit = *source.scene.orbit;
+  const Quat q_sensor_hill = run->tree.state(0, run->sensor, t_us).T_a_b.q;
+  const scene::Earthshine earth = orbit.earthshine(t_us);
+  Lights lights;
+  lights.sun = rotate(q_sensor_hill, orbit.sun_hill(t_us));
+  lights.sun_share = orbit.sunlit_share(t_us);
+  lights.earth = rotate(q_sensor_hill, earth.direction_hill);
+  lights.earth_half_angle_rad = earth.half_angle_rad;
+  return lights;
 }
 
 // The only scan of this case that is kept.
@@ -120,6 +159,16 @@ ScanMark mark_of(const RangeSample& sample, const sim::RayCaster& model, const s
   return mark;
 }
 
+// Everything where it is at a time since frame 0.
+void move_to(const MissionInput& mission, TimeUs t_us, Scene& scene) {
+  const MissionSource& source = mission.source;
+  const SurfaceBody target = simulated_body(mission, target_parts(source, mission.mesh), scene.setup, scene.seed);
+  scene.surface = std::make_unique<ModelSurface>(bodies_at(source, scene.setup, target, scene.parts, t_us), source.target.crease_angle_rad);
+  scene.orbit_lights = lights_of_orbit(source, scene.setup, t_us);
+  const auto trajectory = make_trajectory(scene.setup.scenario, scene.setup.range_m, kEpochUs, period_us(scene.setup.parameters));
+  scene.T_sensor_target = trajectory->at(kEpochUs + t_us).T_sensor_target;
+}
+
 }  // namespace
 
 std::string scenario_name(const MissionSource& source, const std::string& asked) {
@@ -140,12 +189,10 @@ Scene make_scene(const MissionInput& mission, const SceneRequest& request) {
   const Scenario& scenario = scenario_of(source, scene.scenario);
   scene.seed = request.seed.value_or(static_cast<std::uint64_t>(scenario.seed));
   scene.setup = plain_case(source, scenario, scene.seed, 1, range_index(scenario, scene.scenario, request.range_m));
-  const TargetParts parts = target_parts(source, mission.mesh);
-  scene.parts = parts.names;
-  scene.materials = materials_of(parts.names, request.materials);
-  scene.surface = simulated_surface(mission, parts, scene.setup, scene.seed);
-  const auto trajectory = make_trajectory(scene.setup.scenario, scene.setup.range_m, kEpochUs, period_us(scene.setup.parameters));
-  scene.T_sensor_target = trajectory->at(kEpochUs + to_us(request.time_s)).T_sensor_target;
+  scene.parts = target_parts(source, mission.mesh).names;
+  if (scenario.scene != nullptr) add_parts_of_nodes(source.scene, scene.parts);
+  scene.materials = materials_of(scene.parts, request.materials);
+  move_to(mission, to_us(request.time_s), scene);
   const FieldOfView view = camera_of_mission(source, request.camera, scene.T_sensor_target.p.norm());
   scene.camera = view.name;
   scene.fov_half_x_rad = view.parameters->fov_half_x_rad;
@@ -177,7 +224,7 @@ std::vector<ScanMark> flown_scan(const CompiledMission& mission, double time_s, 
   const CaseResult result = flown_case(setup);
   if (result.scans.empty()) throw InputError(format("--scan: frame %u has no scan; another --time has", frame));
   const KeptScan& scan = result.scans.back();
-  scene.T_sensor_target = scan.truth;
+  move_to(mission, scan.telemetry.t_measurement_us - kEpochUs, scene);
   const auto trajectory = make_trajectory(setup.scenario, setup.range_m, kEpochUs, period);
   std::vector<ScanMark> marks;
   const std::size_t first_aimed = (scan.samples.size() - scan.aimed) / 2;

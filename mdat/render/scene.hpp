@@ -31,8 +31,9 @@ struct Scene {
   CaseSetup setup;                 // as mdat run flies it; image and target are not set
   std::vector<std::string> parts;  // names by number
   std::vector<Material> materials;
-  std::unique_ptr<ModelSurface> surface;  // of the simulated target, which may differ from the model
+  std::unique_ptr<ModelSurface> surface;  // of the simulated target, which may differ from the model, and of all else in its scene
   Pose T_sensor_target;                   // the true one
+  std::optional<Lights> orbit_lights;     // of a scene in an orbit
   double fov_half_x_rad = 0, fov_half_y_rad = 0;
 };
 

@@ -47,33 +47,37 @@ Shader::Shader(const ModelSurface& surface, std::vector<Material> materials, con
 // variance of the slopes that are not shown.
 void Shader::lean(const SurfacePoint& point, double footprint_m, const Material& material, Local& local) const {
   Vec3 tilt = Vec3::Zero();
-  double size_m = material.facet_size * surface_.extent_m(), amplitude = material.tilt_rad, lost = 0;
+  const Vec3 place_m = surface_.to_body(point);
+  double size_m = material.facet_size * surface_.extent_m(point.body), amplitude = material.tilt_rad, lost = 0;
   for (std::uint32_t octave = 0; octave < kFacetOctaves; ++octave) {
     const double share = shown_share(size_m, footprint_m);
-    if (share > 0) tilt += amplitude * share * facet_tilt(point.place_m / size_m, 16 * point.part + octave);
+    if (share > 0) tilt += amplitude * share * facet_tilt(place_m / size_m, 16 * point.part + octave);
     lost += amplitude * amplitude * (1 - share * share);
     amplitude *= 0.5;
     size_m *= 0.4;
   }
+  if (point.body != 0) tilt = surface_.turned_to_target(point.body, tilt);
   local.normal = (local.normal + tilt - local.normal * tilt.dot(local.normal)).normalized();
   const double alpha = local.reflection.roughness;
   local.reflection.roughness = std::min(1.0, std::sqrt(alpha * alpha + 2 * lost));
 }
 
 // Factor of the diffuse reflectance; `line_share` of the pixel is on the lines between solar cells.
-double Shader::shade(const SurfacePoint& point, const Vec3& normal, const Material& material, double footprint_m,
+double Shader::shade(const SurfacePoint& point, const Vec3& normal_target, const Material& material, double footprint_m,
                      double& line_share) const {
-  const double size_m = 0.04 * surface_.extent_m();
-  const double noise = smooth_noise(point.place_m / size_m, 1000 + point.part) + 0.6 * smooth_noise(point.place_m / (0.25 * size_m), 77);
+  const double extent_m = surface_.extent_m(point.body), size_m = 0.04 * extent_m;
+  const Vec3 place_m = surface_.to_body(point),
+             normal = point.body == 0 ? normal_target : surface_.turned_to_body(point.body, normal_target);
+  const double noise = smooth_noise(place_m / size_m, 1000 + point.part) + 0.6 * smooth_noise(place_m / (0.25 * size_m), 77);
   line_share = 0;
   if (material.grid_pitch > 0) {
     int least = 0;
     normal.cwiseAbs().minCoeff(&least);
     const Vec3 u = (Vec3::Unit(least) - normal * normal[least]).normalized(), v = normal.cross(u);
-    const double pitch_m = material.grid_pitch * surface_.extent_m();
+    const double pitch_m = material.grid_pitch * extent_m;
     const double width = footprint_m / pitch_m;
-    const double a = line_cover(u.dot(point.place_m) / pitch_m, width, kGridLine);
-    const double b = line_cover(v.dot(point.place_m) / pitch_m, width, kGridLine);
+    const double a = line_cover(u.dot(place_m) / pitch_m, width, kGridLine);
+    const double b = line_cover(v.dot(place_m) / pitch_m, width, kGridLine);
     line_share = a + b - a * b;
   }
   return std::max(0.2, 1 + material.contrast * noise);

@@ -33,7 +33,8 @@ class Shader {
   struct Local;
   Local local_at(const SurfacePoint& point, const Vec3& direction, double footprint_m) const;
   void lean(const SurfacePoint& point, double footprint_m, const Material& material, Local& local) const;
-  double shade(const SurfacePoint& point, const Vec3& normal, const Material& material, double footprint_m, double& line_share) const;
+  double shade(const SurfacePoint& point, const Vec3& normal_target, const Material& material, double footprint_m,
+               double& line_share) const;
   Rgb from_sun(const Local& local, const PictureRay& ray, std::uint32_t purpose) const;
   Rgb from_lamp(const Local& local) const;
   Rgb from_earth(const Local& local, const PictureRay& ray, std::uint32_t purpose) const;

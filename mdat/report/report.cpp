@@ -162,6 +162,7 @@ std::string flights_part(Plotter& plotter, const TableResult& table) {
 std::string section_title(const TableResult& table) {
   const Scenario& scenario = table.scenario;
   if (scenario.drawn != 0) return runs_text(scenario) + ", attitude and axes of each drawn at random";
+  if (scenario.scene != nullptr) return "A scene";
   return format("Tilt %g°", scenario.tilt_rad / kRadPerDeg) + (table.name.empty() ? "" : ": truly side-on, the hardest case");
 }
 
@@ -230,7 +231,7 @@ std::string report_html(Plotter& plotter, const CompiledMission& mission, const 
   if (result.kind == ScenarioKind::kApproach) return approach_html(plotter, mission, result);
   const std::unique_ptr<sim::RayCaster> target = make_target(mission.mesh);
   std::string body = "<h1>" + escape(result.mission) + "</h1>\n" + introduction(result) + about_section(mission, result);
-  if (result.kind == ScenarioKind::kPass) body += timeline_section(plotter, *target, result);
+  if (result.kind >= ScenarioKind::kPass) body += timeline_section(plotter, *target, result);
   for (const TableResult& table : result.tables) body += table_section(plotter, *target, table);
   return page(result.mission + ", " + result.scenario, body);
 }

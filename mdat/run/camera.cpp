@@ -25,20 +25,33 @@ posix::SerialLine opened(const CaseSetup& setup, double bits_per_s) {
 }
 
 // The scenario's motion, which waits for its beginning.
-class AwaitedTrajectory final : public sim::Trajectory {
+class AwaitedBegin {
  public:
-  explicit AwaitedTrajectory(std::unique_ptr<sim::Trajectory> motion) : motion_(std::move(motion)) {}
-  sim::TruthState at(TimeUs t_us) const override { return motion_->at(begun_ ? t_us - begin_us_ + kEpochUs : kEpochUs); }
-  void begin(TimeUs now_us) {
-    if (!begun_) begin_us_ = now_us;
-    begun_ = true;
+  void note(TimeUs now_us) {
+    if (!begin_us_) begin_us_ = now_us;
   }
+  TimeUs scenario_time_us(TimeUs t_us) const { return begin_us_ ? t_us - *begin_us_ + kEpochUs : kEpochUs; }
 
  private:
-  std::unique_ptr<sim::Trajectory> motion_;
-  TimeUs begin_us_ = 0;
-  bool begun_ = false;
+  std::optional<TimeUs> begin_us_;
 };
+
+class AwaitedTrajectory final : public sim::Trajectory {
+ public:
+  AwaitedTrajectory(std::shared_ptr<const sim::Trajectory> motion, std::shared_ptr<const AwaitedBegin> begin)
+      : motion_(std::move(motion)), begin_(std::move(begin)) {}
+  sim::TruthState at(TimeUs t_us) const override { return motion_->at(begin_->scenario_time_us(t_us)); }
+  Pose pose_at(TimeUs t_us) const override { return motion_->pose_at(begin_->scenario_time_us(t_us)); }
+
+ private:
+  std::shared_ptr<const sim::Trajectory> motion_;
+  std::shared_ptr<const AwaitedBegin> begin_;
+};
+
+sim::OtherBodies awaited(sim::OtherBodies bodies, const std::shared_ptr<const AwaitedBegin>& begin) {
+  for (sim::OtherBody& body : bodies) body.motion = std::make_shared<AwaitedTrajectory>(std::move(body.motion), begin);
+  return bodies;
+}
 
 // The clock of a head is behind the mirrors of its camera.
 void share_mirrors(sim::LcsCamera& camera) {
@@ -59,9 +72,9 @@ class Session {
  public:
   Session(const CaseSetup& setup, posix::SerialLine line)
       : line_(std::move(line)),
-        motion_(make_trajectory(setup.scenario, setup.range_m, kEpochUs, period_us(setup.parameters))),
+        motion_(make_trajectory(setup.scenario, setup.range_m, kEpochUs, period_us(setup.parameters)), begin_),
         device_(*setup.target, motion_, scanner_model(setup.scenario, setup.parameters, setup.noise), setup.seed,
-                camera_for(setup, scanner_model(setup.scenario, setup.parameters, setup.noise), 0)) {}
+                camera_for(setup, scanner_model(setup.scenario, setup.parameters, setup.noise), 0), awaited(setup.others, begin_)) {}
 
   void run(const std::atomic<bool>& ending) {
     const Clock::time_point begin = Clock::now();
@@ -76,7 +89,7 @@ class Session {
     lcs::Frame frame;
     for (lcs::FrameDecoder::Step step = decoder_.step(bytes, frame); step.found; step = decoder_.step(bytes, frame)) {
       bytes = bytes.subspan(step.taken, bytes.size() - step.taken);
-      if (frame.type == static_cast<std::uint8_t>(lcs::Type::kStart)) motion_.begin(now_us);
+      if (frame.type == static_cast<std::uint8_t>(lcs::Type::kStart)) begin_->note(now_us);
     }
   }
 
@@ -99,6 +112,7 @@ class Session {
   }
 
   posix::SerialLine line_;
+  std::shared_ptr<AwaitedBegin> begin_ = std::make_shared<AwaitedBegin>();
   AwaitedTrajectory motion_;
   lcs::FrameDecoder decoder_;
   sim::LcsDevice device_;

@@ -32,7 +32,7 @@ struct CameraOnLine {
   CameraOnLine(const CaseSetup& setup, const sim::Trajectory& trajectory, const sim::ScannerModel& model, std::uint64_t seed,
                std::uint8_t number)
       : camera(camera_for(setup, model, number)),
-        device(*setup.target, trajectory, model, seed, camera),
+        device(*setup.target, trajectory, model, seed, camera, setup.others),
         line(device, sim::optics_of(camera), camera.bits_per_s) {}
 
   sim::LcsCamera camera;

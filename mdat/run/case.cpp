@@ -31,8 +31,9 @@ Pose to_pose(const double (&q)[4], const double (&p_m)[3]) { return {Quat(q[3], 
 struct Scanner {
   Scanner(const CaseSetup& setup, const sim::Trajectory& trajectory, const sim::ScannerModel& model, std::uint64_t seed, SensorKind kind,
           std::uint8_t number)
-      : ideal(*setup.target, trajectory, model, seed),
-        head(setup.noise ? std::make_unique<sim::LcsDirect>(*setup.target, trajectory, model, seed, head_for(setup, model, kind, number))
+      : ideal(*setup.target, trajectory, model, seed, setup.others),
+        head(setup.noise ? std::make_unique<sim::LcsDirect>(*setup.target, trajectory, model, seed, head_for(setup, model, kind, number),
+                                                            setup.others)
                          : nullptr),
         camera(setup.wire && setup.camera_line.empty() && wired(*setup.wire, kind)
                    ? std::make_unique<CameraOnLine>(setup, trajectory, model, seed, number)

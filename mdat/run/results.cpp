@@ -320,6 +320,7 @@ std::string table_text(const SimulationResult& result, const TableResult& table)
 }  // namespace
 
 std::string attitude_text(const Scenario& scenario) {
+  if (scenario.scene != nullptr) return format("a scene of %zu nodes", scenario.scene->tree.size() - 1);
   return scenario.drawn != 0 ? "attitudes drawn" : format("tilt %g deg", scenario.tilt_rad / kRadPerDeg);
 }
 
@@ -367,7 +368,7 @@ std::string results_json(const SimulationResult& result) {
       json[table.name] = variants;
     }
   }
-  if (result.kind == ScenarioKind::kPass) json["timeline"] = timeline_json(result, timeline_of(result));
+  if (result.kind >= ScenarioKind::kPass) json["timeline"] = timeline_json(result, timeline_of(result));
   if (is_beside_paper(result.tables.front())) json["paper_2005"] = axes_json(paper_table_1());
   return json.dump(2) + "\n";
 }

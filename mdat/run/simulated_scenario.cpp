@@ -6,9 +6,31 @@
 
 #include "fsw/geometry/so3.hpp"
 #include "hal_sim/random.hpp"
+#include "mdat/run/true_target.hpp"
+#include "mdat/scene/pose_lookup.hpp"
 
 namespace lasso::mdat {
 namespace {
+
+// A node of a scene before its sensors.
+class NodeTrajectory final : public sim::Trajectory {
+ public:
+  NodeTrajectory(std::shared_ptr<const SceneRun> run, std::size_t node, TimeUs epoch_us)
+      : run_(std::move(run)), node_(node), epoch_us_(epoch_us), lookup_([this](TimeUs t_us) { return state(t_us); }) {}
+  sim::TruthState at(TimeUs t_us) const override {
+    const scene::MotionState now = state(t_us - epoch_us_);
+    return {now.T_a_b, now.rates};
+  }
+  Pose pose_at(TimeUs t_us) const override { return lookup_.at(t_us - epoch_us_); }
+
+ private:
+  std::shared_ptr<const SceneRun> run_;
+  scene::MotionState state(TimeUs t_us) const { return run_->tree.state(node_, run_->sensor, t_us); }
+
+  std::size_t node_;
+  TimeUs epoch_us_;
+  mutable scene::PoseLookup lookup_;
+};
 
 // As long as it is, into any direction.
 void turn(std::vector<double>& vector, sim::Random& random) {
@@ -105,7 +127,17 @@ Scenario drawn_scenario(Scenario scenario, std::uint64_t seed) {
   return scenario;
 }
 
+sim::OtherBodies make_other_bodies(const Scenario& scenario, TimeUs epoch_us) {
+  sim::OtherBodies bodies;
+  for (std::size_t i = 0; scenario.scene != nullptr && i < scenario.scene->body_nodes.size(); ++i) {
+    bodies.push_back({make_target(scenario.scene->surfaces->bodies[i].mesh),
+                      std::make_shared<NodeTrajectory>(scenario.scene, scenario.scene->body_nodes[i], epoch_us)});
+  }
+  return bodies;
+}
+
 std::unique_ptr<sim::Trajectory> make_trajectory(const Scenario& scenario, double range_m, TimeUs epoch_us, DurationUs period) {
+  if (scenario.scene != nullptr) return std::make_unique<NodeTrajectory>(scenario.scene, scenario.scene->target, epoch_us);
   std::unique_ptr<sim::Trajectory> motion = center_trajectory(scenario, range_m, epoch_us, period);
   const Vec3 center_m(scenario.center_m.data());
   if (center_m.isZero()) return motion;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "hal_sim/other_body.hpp"
 #include "hal_sim/scanner.hpp"
 #include "hal_sim/trajectory.hpp"
 #include "mdat/missiondb/mission_source.hpp"
@@ -21,6 +22,9 @@ sim::ScannerModel scanner_model(const Scenario& scenario, const FurtherSensor& s
 
 // The scenario of a run whose noise is that of `seed`: where its motion is drawn, with that motion; otherwise as it is.
 Scenario drawn_scenario(Scenario scenario, std::uint64_t seed);
+
+// All else that a scene has: nodes with a surface, as the sensors see them move. None in the other kinds of scenarios.
+sim::OtherBodies make_other_bodies(const Scenario& scenario, TimeUs epoch_us);
 
 // The target's motion; frame 0 begins at `epoch_us`.
 std::unique_ptr<sim::Trajectory> make_trajectory(const Scenario& scenario, double range_m, TimeUs epoch_us, DurationUs period_us);

@@ -177,6 +177,7 @@ Plan make_plan(const CompiledMission& mission, SimulationResult& result, const s
         plan.cases.push_back(make_case(result, table, variant, range));
         plan.cases.back().seed = case_seed(result.seed, t, range);
         plan.cases.back().scenario = drawn_scenario(plan.cases.back().scenario, plan.cases.back().seed);
+        plan.cases.back().others = make_other_bodies(plan.cases.back().scenario, kEpochUs);
         plan.cases.back().image = &plan.images.back();
         plan.cases.back().target = &target;
         plan.cases.back().further_sensors = mission.source.further_sensors;
@@ -293,6 +294,7 @@ CaseSetup plain_case(const MissionSource& source, const Scenario& scenario, std:
   CaseSetup setup;
   setup.seed = case_seed(seed, 0, range);
   setup.scenario = drawn_scenario(scenario, setup.seed);
+  setup.others = make_other_bodies(setup.scenario, kEpochUs);
   setup.range_m = scenario.runs_m().at(range);
   setup.noise = table.variants.front().variant.noise;
   setup.frames = frames;
@@ -312,6 +314,7 @@ CaseSetup camera_case(const CompiledMission& mission, const SimulationOptions& o
   setup.scenario = drawn_scenario(setup.scenario, case_seed(setup.seed, 0, 0));
   setup.parameters = parameters_for(mission.source, options.scenario);
   setup.target = &target;
+  setup.others = make_other_bodies(setup.scenario, kEpochUs);
   setup.camera_faults = options.camera_faults;
   set_camera(mission, options, setup);
   // The camera that runs alone is the mission's first of its kind.

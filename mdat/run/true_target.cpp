@@ -39,10 +39,17 @@ void turn_part(const Box& box, const Vec3& turn_rad, Mesh& mesh) {
   }
 }
 
+const std::vector<bool>& moved_triangles(const Scenario& scenario) {
+  static const std::vector<bool> none;
+  return scenario.scene == nullptr ? none : scenario.scene->surfaces->moved;
+}
+
 // Marks are taken before anything is turned: a part is where the model has it.
-std::vector<bool> gone_triangles(const Mesh& model, const Box& box) {
-  std::vector<bool> gone(model.triangles.size(), false);
-  for (std::size_t i = 0; has_size(box) && i < gone.size(); ++i) gone[i] = is_centred_in(model, model.triangles[i], box);
+std::vector<bool> gone_triangles(const Mesh& model, const Scenario& scenario) {
+  const Box box = box_of(scenario.model_gone_box_m);
+  std::vector<bool> gone = moved_triangles(scenario);
+  gone.resize(model.triangles.size(), false);
+  for (std::size_t i = 0; has_size(box) && i < gone.size(); ++i) gone[i] = gone[i] || is_centred_in(model, model.triangles[i], box);
   return gone;
 }
 
@@ -70,12 +77,13 @@ void move_vertices(double sigma_m, std::uint64_t seed, Mesh& mesh) {
 
 bool has_model_error(const Scenario& scenario) {
   const bool turned = has_size(box_of(scenario.model_turned_box_m)) && !Vec3(scenario.model_turn_rad.data()).isZero();
-  return turned || has_size(box_of(scenario.model_gone_box_m)) || scenario.model_scale != 1 || scenario.model_vertex_sigma_m != 0;
+  return turned || !moved_triangles(scenario).empty() || has_size(box_of(scenario.model_gone_box_m)) || scenario.model_scale != 1 ||
+         scenario.model_vertex_sigma_m != 0;
 }
 
 Mesh true_target(const Mesh& model, const Scenario& scenario, std::uint64_t seed) {
   Mesh mesh = model;
-  const std::vector<bool> gone = gone_triangles(model, box_of(scenario.model_gone_box_m));
+  const std::vector<bool> gone = gone_triangles(model, scenario);
   const Box turned = box_of(scenario.model_turned_box_m);
   if (has_size(turned)) turn_part(turned, Vec3(scenario.model_turn_rad.data()), mesh);
   remove_triangles(gone, mesh);
@@ -86,7 +94,7 @@ Mesh true_target(const Mesh& model, const Scenario& scenario, std::uint64_t seed
 }
 
 std::vector<std::uint32_t> kept_triangles(const Mesh& model, const Scenario& scenario) {
-  const std::vector<bool> gone = gone_triangles(model, box_of(scenario.model_gone_box_m));
+  const std::vector<bool> gone = gone_triangles(model, scenario);
   std::vector<std::uint32_t> kept;
   for (std::uint32_t i = 0; i < gone.size(); ++i) {
     if (!gone[i]) kept.push_back(i);

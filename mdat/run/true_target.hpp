@@ -14,9 +14,10 @@ namespace lasso::mdat {
 // Whether the scenario has it differ at all (Scenario, model_...).
 bool has_model_error(const Scenario& scenario);
 
-// The model's surface (target frame, metres) with the scenario's errors: a part turned, another one gone, then scaled, then each vertex off
-// at random by a generator of `seed` alone, all vertices of one place alike. Which triangles are a part is told by their centres in the
-// model. A part that is turned takes copies of the vertices that it shares. Throws RunError where nothing is left.
+// The model's surface (target frame, metres) without what is another node's, with the scenario's errors: a part turned, another one gone,
+// then scaled, then each vertex off at random by a generator of `seed` alone, all vertices of one place alike. Which triangles are a part
+// is told by their centres in the model. A part that is turned takes copies of the vertices that it shares. Throws RunError where nothing
+// is left.
 Mesh true_target(const Mesh& model, const Scenario& scenario, std::uint64_t seed);
 
 // Of the triangles of true_target's mesh, in its order: which ones of the model they are.

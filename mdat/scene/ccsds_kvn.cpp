@@ -5,8 +5,8 @@
 
 #include "hal_sim/scan_file.hpp"
 #include "hal_sim/scan_text.hpp"
-#include "mdat/missiondb/nearest.hpp"
 #include "mdat/scene/file_text.hpp"
+#include "mdat/source/nearest.hpp"
 
 namespace lasso::mdat::scene {
 namespace {

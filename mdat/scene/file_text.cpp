@@ -3,7 +3,7 @@
 #include <charconv>
 #include <string_view>
 
-#include "mdat/missiondb/sha256.hpp"
+#include "mdat/source/sha256.hpp"
 
 namespace lasso::mdat::scene {
 namespace {

@@ -9,8 +9,8 @@
 
 #include "hal_sim/csv_table.hpp"
 #include "hal_sim/scan_file.hpp"
-#include "mdat/missiondb/nearest.hpp"
 #include "mdat/scene/file_text.hpp"
+#include "mdat/source/nearest.hpp"
 
 namespace lasso::mdat::scene {
 namespace {

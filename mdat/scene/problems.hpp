@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "mdat/missiondb/mission_error.hpp"
+#include "mdat/source/mission_error.hpp"
 
 namespace lasso::mdat::scene {
 

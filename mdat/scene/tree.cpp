@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include "mdat/missiondb/nearest.hpp"
 #include "mdat/scene/tree_check.hpp"
+#include "mdat/source/nearest.hpp"
 
 namespace lasso::mdat::scene {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <map>
 
-#include "mdat/missiondb/nearest.hpp"
+#include "mdat/source/nearest.hpp"
 
 namespace lasso::mdat::scene {
 namespace {

@@ -119,6 +119,35 @@ TEST(SimulatedScanner, EachRaySeesTheMovingTargetAtItsOwnTime) {
   }
 }
 
+// A second box passes before the target: each ray meets the nearer of both, where they are at its own time.
+TEST(SimulatedScanner, EachRayMeetsTheNearestOfAllBodiesAtItsOwnTime) {
+  VERIFIES("LASSO-SCN-021~1");
+  const Vec3 half(0.12, 0.3, 0.05);
+  const Scene scene(0.4);
+  const ShapeMesh mesh = box_mesh(half);
+  TruthState state = Scene::truth(1, 2.5);
+  state.rates.v_mps = Vec3(2, -0.5, 0.7);
+  const auto passing = std::make_shared<ConstantTwist>(state, 90'000);
+  SimulatedScanner scanner(*scene.target, scene.motion, ScannerModel{}, 1,
+                           {{std::shared_ptr<const RayCaster>(make_ray_caster(mesh.vertices, mesh.triangles)), passing}});
+  int of_target = 0, of_other = 0;
+  for (const RangeSample& sample : scan(scanner, plan_of())) {
+    const Pose target = scene.motion.at(sample.t_us).T_sensor_target, other = passing->at(sample.t_us).T_sensor_target;
+    const Vec3 direction = direction_of(sample);
+    const double target_m = true_box_range(target, direction), other_m = true_box_range(other, direction, half);
+    const double expected_m = std::min(target_m, other_m);
+    if (at_silhouette(target, direction) || true_box_range(other, direction, half * (1 - 1e-5)) == kNoHit) {
+      if (other_m != kNoHit || at_silhouette(target, direction)) continue;
+    }
+    EXPECT_EQ(sample.state == RayState::kHit, expected_m != kNoHit);
+    if (sample.state != RayState::kHit) continue;
+    EXPECT_NEAR(static_cast<double>(sample.range_m), expected_m, 1e-6 * expected_m);
+    (other_m < target_m ? of_other : of_target) += 1;
+  }
+  EXPECT_GT(of_target, 100);
+  EXPECT_GT(of_other, 50);
+}
+
 TEST(SimulatedScanner, RangesToASphereAndAPlaneAreClosedForm) {
   VERIFIES("LASSO-SIM-009~1");
   const double radius = 0.5;

@@ -7,9 +7,9 @@
 #include "hal_sim/scan_file.hpp"
 #include "mdat/bodies/body.hpp"
 #include "mdat/missiondb/mesh_import.hpp"
-#include "mdat/missiondb/sha256.hpp"
 #include "mdat/replay/initial_poses.hpp"
 #include "mdat/run/true_target.hpp"
+#include "mdat/source/sha256.hpp"
 #include "ut/mdat/benchmark/folder.hpp"
 #include "ut/support/verifies.hpp"
 

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "mdat/common/output.hpp"
-#include "mdat/missiondb/sha256.hpp"
+#include "mdat/source/sha256.hpp"
 #include "ut/mdat/benchmark/folder.hpp"
 #include "ut/support/verifies.hpp"
 

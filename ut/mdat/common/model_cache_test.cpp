@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "mdat/missiondb/model_file.hpp"
-#include "mdat/missiondb/sha256.hpp"
+#include "mdat/source/sha256.hpp"
 #include "ut/mdat/modelc/meshes.hpp"
 #include "ut/support/places.hpp"
 #include "ut/support/verifies.hpp"

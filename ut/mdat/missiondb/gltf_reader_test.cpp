@@ -1,7 +1,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
-#include "mdat/missiondb/sha256.hpp"
+#include "mdat/source/sha256.hpp"
 #include "ut/mdat/missiondb/mesh_files.hpp"
 #include "ut/support/verifies.hpp"
 

@@ -4,8 +4,8 @@
 
 #include "fsw/geometry/portable_math.hpp"
 #include "mdat/missiondb/mission_source.hpp"
-#include "mdat/missiondb/sha256.hpp"
 #include "mdat/missiondb/value_row.hpp"
+#include "mdat/source/sha256.hpp"
 #include "ut/mdat/missiondb/support.hpp"
 #include "ut/support/verifies.hpp"
 

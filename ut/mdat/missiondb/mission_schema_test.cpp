@@ -11,7 +11,7 @@
 
 #include "mdat/missiondb/mission_source.hpp"
 #include "mdat/missiondb/sections.hpp"
-#include "mdat/missiondb/sha256.hpp"
+#include "mdat/source/sha256.hpp"
 #include "ut/mdat/missiondb/support.hpp"
 #include "ut/support/verifies.hpp"
 

@@ -6,8 +6,8 @@
 
 #include "mdat/missiondb/mission_source.hpp"
 #include "mdat/missiondb/model_file.hpp"
-#include "mdat/missiondb/sha256.hpp"
 #include "mdat/missiondb/value_row.hpp"
+#include "mdat/source/sha256.hpp"
 #include "ut/mdat/missiondb/support.hpp"
 #include "ut/support/verifies.hpp"
 

@@ -1,4 +1,4 @@
-#include "mdat/missiondb/nearest.hpp"
+#include "mdat/source/nearest.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "mdat/missiondb/mission_source.hpp"
-#include "mdat/missiondb/sha256.hpp"
 #include "mdat/missiondb/simplify.hpp"
+#include "mdat/source/sha256.hpp"
 #include "ut/mdat/missiondb/support.hpp"
 #include "ut/mdat/modelc/meshes.hpp"
 #include "ut/support/verifies.hpp"

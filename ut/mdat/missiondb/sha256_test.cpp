@@ -1,4 +1,4 @@
-#include "mdat/missiondb/sha256.hpp"
+#include "mdat/source/sha256.hpp"
 
 #include "ut/mdat/missiondb/support.hpp"
 #include "ut/support/verifies.hpp"

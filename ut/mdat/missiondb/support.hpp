@@ -13,8 +13,8 @@
 #include <string>
 #include <utility>
 
-#include "mdat/missiondb/mission_error.hpp"
 #include "mdat/modelc/mesh.hpp"
+#include "mdat/source/mission_error.hpp"
 #include "ut/support/places.hpp"
 
 namespace lasso::mdat {

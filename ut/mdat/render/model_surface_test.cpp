@@ -25,6 +25,32 @@ TEST(ModelSurface, IsSmoothWhereFacetsMeetAtLittle) {
   EXPECT_GT(worst_facet, 0.05);
 }
 
+TEST(ModelSurface, BodiesStandWhereTheyAreAndKeepTheirOwnPlaces) {
+  VERIFIES("LASSO-PIC-016~1");
+  const Mesh box = make_box({1, 2, 3});
+  const std::vector<std::uint32_t> parts(box.triangles.size(), 0), others(box.triangles.size(), 4);
+  const Pose T_target_other{exp_so3(Vec3(0.3, -0.8, 0.5)), Vec3(4, 1, -2)};
+  const ModelSurface surface({{box, parts, {}, 0}, {box, others, T_target_other, 7}}, 0.5);
+  for (const Vec3& aim : {Vec3(0.5, 0.3, -0.4), Vec3(0.5, -0.8, 1.2)}) {  // on the face x = 0.5
+    const Vec3 place = rotate(T_target_other.q, aim) + T_target_other.p, normal = rotate(T_target_other.q, Vec3::UnitX());
+    const Vec3 way = (-normal + 0.1 * rotate(T_target_other.q, Vec3(0, 1, 0.5))).normalized();
+    SurfacePoint point;
+    ASSERT_TRUE(surface.find(place - 0.7 * way, way, point));
+    EXPECT_EQ(point.body, 1U);
+    EXPECT_EQ(point.part, 4U);
+    EXPECT_LT((point.place_m - place).norm(), 1e-12);
+    EXPECT_LT((surface.to_body(point) - aim).norm(), 1e-12);
+    EXPECT_LT((point.facet_normal - normal).norm(), 1e-12);
+    EXPECT_LT((surface.turned_to_body(1, normal) - Vec3::UnitX()).norm(), 1e-12);
+  }
+  SurfacePoint point;
+  ASSERT_TRUE(surface.find(Vec3(-5, 0.2, 0.3), Vec3::UnitX(), point));
+  EXPECT_EQ(point.body, 0U);
+  EXPECT_EQ(surface.to_body(point), point.place_m);
+  EXPECT_DOUBLE_EQ(surface.extent_m(0), 3);
+  EXPECT_DOUBLE_EQ(surface.extent_m(1), 7);
+}
+
 TEST(ModelSurface, KeepsEdges) {
   VERIFIES("LASSO-PIC-008~1");
   const ModelSurface surface = surface_of(make_box({1, 2, 3}));

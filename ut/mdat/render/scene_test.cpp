@@ -58,6 +58,35 @@ TEST(Scene, MovesWithTime) {
   EXPECT_NEAR(make_scene(tenth(), request).T_sensor_target.q.angularDistance(before), 35 * kRadPerDeg, 1e-9);
 }
 
+// The inspector crosses the line of sight; its path and that of the chaser are closed forms.
+TEST(Scene, ShowsAllBodiesInTheLightOfTheOrbit) {
+  VERIFIES("LASSO-PIC-016~1");
+  const MissionInput mission = shipped("rendezvous.toml");
+  SceneRequest request;
+  request.scenario = "approach";
+  for (const auto& [time_s, share] : {std::pair{75.0, 0.5}, std::pair{110.0, 1.0}}) {  // of the inspector's way: u^2 (3 - 2 u)
+    request.time_s = time_s;
+    const Scene scene = make_scene(mission, request);
+    const SceneRun& run = *scene.setup.scenario.scene;
+    const Vec3 inspector = Vec3(-12, -22, 6) + share * Vec3(24, 0, -12);  // Hill frame
+    const Pose T_sensor_root = run.tree.state(0, run.sensor, to_us(time_s)).T_a_b;
+    const Vec3 middle = rotate(T_sensor_root.q, inspector) + T_sensor_root.p, way = middle.normalized();
+    const Pose T_target_sensor = inverse(scene.T_sensor_target);
+    SurfacePoint point;
+    ASSERT_TRUE(scene.surface->find(T_target_sensor.p, rotate(T_target_sensor.q, way), point));
+    EXPECT_EQ(point.body, 2U);
+    EXPECT_EQ(scene.parts[point.part].substr(0, 10), "inspector.");
+    EXPECT_NEAR(point.range_m, middle.norm(), 1.5);  // its bus is 1.2 to 2 m long
+    // The Sun is 25 deg above the orbit's plane, and at noon in the direction of x.
+    const double angle = (20 * kRadPerDeg) + time_s * std::sqrt(3.986004418e14 / std::pow(6371008.8 + 540e3, 3));
+    const double beta = 25 * kRadPerDeg;
+    const Vec3 sun_hill(std::cos(beta) * std::cos(angle), -std::cos(beta) * std::sin(angle), std::sin(beta));
+    ASSERT_TRUE(scene.orbit_lights && scene.orbit_lights->sun);
+    EXPECT_LT((*scene.orbit_lights->sun - rotate(T_sensor_root.q, sun_hill)).norm(), 1e-9);
+    EXPECT_LT((*scene.orbit_lights->earth - rotate(T_sensor_root.q, Vec3(-1, 0, 0))).norm(), 1e-9);
+  }
+}
+
 TEST(Scene, TakesTheSensorWhoseTurnItIs) {
   VERIFIES("LASSO-PIC-001~1");
   const MissionInput mission = shipped("hubble.toml");

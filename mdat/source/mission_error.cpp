@@ -1,4 +1,4 @@
-#include "mdat/missiondb/mission_error.hpp"
+#include "mdat/source/mission_error.hpp"
 
 #include <algorithm>
 #include <tuple>

@@ -1,0 +1,87 @@
+// Scenes of a mission's nodes, flown and drawn.
+#include <gtest/gtest.h>
+
+#include "ft/mdat/command.hpp"
+#include "ut/support/verifies.hpp"
+
+namespace lasso::ft {
+namespace {
+
+const std::string kScenes = R"(
+[motion.spin]
+kind = "rates"
+position_m = [0.02, -0.01, 4.0]
+quaternion = [-0.088182217301, -0.096234003384, -0.669810439735, 0.730969826988]
+spin_degps = [5, 0, 0]
+
+[motion.before]             # a screen that stands between sensor and target from 4 s on
+kind = "waypoints"
+at = [{time_s = 3.5, position_m = [3, 0, 2]}, {time_s = 4, position_m = [0, 0, 2]}]
+
+[node.telescope]
+target = true
+motion = "spin"
+
+[node.screen]
+model = "models/probe.toml"
+scale = 4
+motion = "before"
+
+[node.camera]
+sensor = true
+
+[scenario.screened]
+kind = "scene"
+frames = 40
+override.tracking.start_sigma_m = 0.02
+override.tracking.start_sigma_deg = 2.0
+
+[scenario.checked]
+)";
+
+// Its target is the one of the scenario spin, but for the screen.
+TEST(SceneRun, FliesTheNodesOfAMission) {
+  VERIFIES("LASSO-SCN-020~1 LASSO-SCN-021~1");
+  const WorkFolder work;
+  work.write_mission({{"\n[scenario.checked]\n", kScenes}});
+  work.write("models/probe.toml", read_text(source_path("cfg/models/probe.toml")));
+  const Answer answer = work.mdat("run missions/test.toml --scenario screened --out out/run --no-report");
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  const std::vector<std::string> lines = lines_of(work.read("out/run/frames.csv"));
+  const std::vector<std::string> names = fields_of(lines.at(0));
+  const auto column = [&](const std::string& name, std::size_t frame) {
+    return fields_of(lines.at(frame + 1)).at(static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin()));
+  };
+  for (std::size_t frame = 2; frame < 17; ++frame) EXPECT_EQ(column("valid", frame), "1") << frame;
+  for (std::size_t frame = 22; frame < 40; ++frame) EXPECT_EQ(column("valid", frame), "0") << frame;
+  const Json results = Json::parse(work.read("out/run/results.json"));
+  EXPECT_EQ(results.at("timeline").at("wrong"), 0);
+  EXPECT_LT(results.at("timeline").at("rms_mm").get<double>(), 0.5);
+}
+
+TEST(SceneRun, NamesThePartsOfItsNodesForPictures) {
+  VERIFIES("LASSO-PIC-016~1");
+  const WorkFolder work;
+  work.write_mission({{"\n[scenario.checked]\n", kScenes}});
+  work.write("models/probe.toml", read_text(source_path("cfg/models/probe.toml")));
+  const std::string render = "render missions/test.toml --scenario screened --size 64x64 --samples 1 --force --material ";
+  EXPECT_EQ(work.mdat(render + "screen.bus=mli").exit_code, 0);
+  const Answer other = work.mdat(render + "screen.bux=mli");
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_NE(other.err.find("did you mean screen.bus?"), std::string::npos) << other.err;
+}
+
+TEST(SceneRun, NamesEveryProblemAndLeavesNothing) {
+  VERIFIES("LASSO-SCN-024~1");
+  const WorkFolder work;
+  work.write_mission({{"\n[scenario.checked]\n", "\n[node.a]\nparent = \"b\"\nmotion = \"c\"\n\n[scenario.checked]\n"}});
+  const std::vector<std::string> before = work.contents();
+  const Answer answer = work.mdat("run missions/test.toml --scenario paper --out out/run");
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_NE(answer.err.find("node.a.motion: \"c\": the mission has no [motion.c]"), std::string::npos) << answer.err;
+  EXPECT_NE(answer.err.find("a, parent: \"b\": there is no such node"), std::string::npos) << answer.err;
+  EXPECT_EQ(work.contents(), before);
+}
+
+}  // namespace
+}  // namespace lasso::ft

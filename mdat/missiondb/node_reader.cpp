@@ -1,0 +1,220 @@
+#include "mdat/missiondb/node_reader.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "mdat/source/nearest.hpp"
+
+namespace lasso::mdat {
+namespace {
+
+using enum ValueKind;
+
+constexpr std::size_t kMostParts = 64;
+constexpr std::size_t kLooks = 240;  // at a run's motion, for what checks ask; results are of all frames
+
+ValueRow flag_row(const char* key, const char* meaning) { return number_row(key, "1", kBoolean, 1, 0, 1, 0, meaning); }
+
+ValueRow parts_row() {
+  ValueRow row =
+      text_row("parts", "[^\\x00-\\x1f]+",
+               "parts of the target that this node is, by their names, or beginnings with * at the end; the target then is without them");
+  row.count_max = kMostParts;
+  return row;
+}
+
+// One [node.NAME].
+class NodeReader {
+ public:
+  NodeReader(const std::string& name, const toml::table& table, MissionSource& source, ProblemList& problems)
+      : source_(source), values_(table, "node." + name, node_rows(), {}, source, problems) {
+    node_.name = name;
+    node_.place = values_.place();
+  }
+
+  void read() {
+    node_.parent = values_.is_written("parent") ? values_.text("parent") : kSceneRoot;
+    node_.T_parent_base = values_.pose();
+    node_.towards = values_.text("towards");
+    node_.pointing = {values_.axis("axis"), values_.axis("up"), values_.axis("up_reference")};
+    read_motion();
+    read_body();
+    claim("target", source_.scene.target);
+    claim("sensor", source_.scene.sensor);
+    source_.scene.nodes.push_back(node_);
+  }
+
+ private:
+  void read_motion() {
+    const std::string motion = values_.text("motion");
+    if (motion.empty()) return;
+    const auto known = source_.scene.motions.find(motion);
+    if (known != source_.scene.motions.end()) {
+      node_.motion = known->second;
+      return;
+    }
+    std::vector<std::string> names;
+    for (const auto& entry : source_.scene.motions) names.push_back(entry.first);
+    values_.complain("motion", '"' + motion + '"', "the mission has no [motion." + motion + "]" + did_you_mean(motion, names));
+  }
+
+  void read_body() {
+    std::string key;
+    for (const char* candidate : {"model", "mesh", "parts"}) {
+      if (!values_.is_written(candidate)) continue;
+      if (!key.empty()) values_.complain(candidate, "", "expected at most one of model, mesh and parts");
+      key = candidate;
+    }
+    if (values_.number("target") != 0 && !key.empty())
+      values_.complain(key, "", "the target's node looks as [target] says: leave it out, or give it a node of its own");
+    if (key.empty()) {
+      if (values_.is_written("scale")) values_.complain("scale", "", "has no effect without model or mesh");
+      return;
+    }
+    BodySource body;
+    body.node = node_.name;
+    body.key = "node." + node_.name + "." + key;
+    body.parametric = key == "model";
+    body.scale = values_.number("scale");
+    body.parts = values_.texts("parts");
+    if (key != "parts") body.file = values_.file(key);
+    source_.scene.bodies.push_back(std::move(body));
+  }
+
+  void claim(const std::string& key, std::string& holder) {
+    if (values_.number(key) == 0) return;
+    if (!holder.empty()) values_.complain(key, "true", "node " + holder + " is the " + key + " already: there is one");
+    holder = node_.name;
+  }
+
+  MissionSource& source_;
+  SceneValues values_;
+  scene::Node node_;
+};
+
+std::vector<std::string> node_names(const SceneSource& scene) {
+  std::vector<std::string> names;
+  for (const scene::Node& node : scene.nodes) names.push_back(node.name);
+  return names;
+}
+
+// What the tree has besides the mission's nodes.
+void add_lvlh(SceneSource& scene) {
+  const std::vector<std::string> names = node_names(scene);
+  if (!scene.orbit || std::find(names.begin(), names.end(), kSceneLvlh) != names.end()) return;
+  scene::Node node;
+  node.name = kSceneLvlh;
+  node.parent = kSceneRoot;
+  node.T_parent_base.q = scene::q_hill_lvlh();
+  scene.nodes.push_back(node);
+}
+
+// At evenly spread frames of the run.
+void look_at_motion(double frames, double period_s, SceneRun& run) {
+  const double end_s = (frames - 1) * period_s;
+  const auto looks = static_cast<std::size_t>(std::min<double>(frames, kLooks));
+  const auto t_us = [&](std::size_t i) {
+    return looks < 2 ? TimeUs{0} : static_cast<TimeUs>(std::llround(1e6 * end_s * static_cast<double>(i) / static_cast<double>(looks - 1)));
+  };
+  constexpr DurationUs kStepUs = 1000;
+  for (std::size_t i = 0; i < looks; ++i) {
+    const scene::MotionState now = run.target_at(t_us(i)), next = run.target_at(t_us(i) + kStepUs);
+    run.times_s.push_back(1e-6 * static_cast<double>(t_us(i)));
+    run.ranges_m.push_back(now.T_a_b.p.norm());
+    run.rate_radps = std::max(run.rate_radps, now.rates.omega_radps.norm());
+    run.acceleration_mps2 = std::max(run.acceleration_mps2, (next.rates.v_mps - now.rates.v_mps).norm() / (1e-6 * kStepUs));
+  }
+}
+
+}  // namespace
+
+const std::vector<ValueRow>& node_rows() {
+  static const std::vector<ValueRow> rows = {
+      text_row("parent", "[^\\x00-\\x1f]+", "node in which it stands; root where not given, which with [orbit] is the Hill frame"),
+      position_row("where it stands in the parent; its motion begins there"),
+      quaternion_row("how it stands there: x, y, z, w, takes its axes to the parent's"),
+      text_row("motion", "[^\\x00-\\x1f]+", "a [motion.NAME] by which it moves there; none: it rests"),
+      text_row("towards", "[^\\x00-\\x1f]+", "node to which its axis points, in place of the motion's attitude"),
+      axis_row("axis", Vec3::UnitZ(), "towards: the axis that points"),
+      axis_row("up", -Vec3::UnitY(), "towards: axis that is turned as near to up_reference as can be"),
+      axis_row("up_reference", Vec3::UnitZ(), "towards: roll reference, in the axes that it stands in"),
+      flag_row("target", "the tracked target: poses are of this node's frame; it looks as [target] says"),
+      flag_row("sensor", "the sensors' frame: z is the boresight, x right, y down"),
+      text_row("model", "[^\\x00-\\x1f]+\\.toml", "what it looks like: a parametric model with its presets"),
+      text_row("mesh", "[^\\x00-\\x1f]+", "what it looks like: a mesh (STL, OBJ, PLY, glTF)"),
+      number_row("scale", "1", kReal, 1, 1e-9, 1e9, 1, "that file's lengths times this are metres"),
+      parts_row(),
+  };
+  return rows;
+}
+
+void read_nodes(const toml::table& root, MissionSource& source, ProblemList& problems) {
+  const toml::node* node = root.get("node");
+  if (node == nullptr) return;
+  if (!node->is_table()) return problems.add(*node, "node", "wrong type: expected tables [node.NAME]");
+  for (const auto& [name, entry] : *node->as_table()) {
+    const std::string path = "node." + std::string(name.str());
+    if (const toml::table* table = entry.as_table()) {
+      NodeReader(std::string(name.str()), *table, source, problems).read();
+    } else {
+      problems.add(entry, path, "wrong type: expected a table [" + path + "]");
+    }
+  }
+  add_lvlh(source.scene);
+  try {
+    static_cast<void>(scene::Tree(kSceneRoot, source.scene.nodes));
+  } catch (const MissionError& error) {
+    problems.add(error);
+  }
+}
+
+ChosenMotions read_chosen_motions(const toml::table& scenario, const std::string& prefix, MissionSource& source, ProblemList& problems) {
+  ChosenMotions chosen;
+  const toml::node* node = scenario.get("motion");
+  if (node == nullptr) return chosen;
+  if (!node->is_table()) {
+    problems.add(*node, prefix + "motion", "wrong type: expected a table of motions by node, such as motion = {target = \"NAME\"}");
+    return chosen;
+  }
+  const std::vector<std::string> names = node_names(source.scene);
+  for (const auto& [name, value] : *node->as_table()) {
+    const std::string key(name.str()), path = prefix + "motion." + key, motion = value.value_or(std::string());
+    if (std::find(names.begin(), names.end(), key) == names.end()) {
+      problems.add(value, path, "the mission has no [node." + key + "]" + did_you_mean(key, names));
+    } else if (source.scene.motions.count(motion) == 0) {
+      problems.add(value, path, "expected the name of a [motion.NAME] of the mission");
+    } else {
+      chosen[key] = {motion, origin_of(value.source())};
+      source.origins[path] = chosen[key].origin;
+      source.scene.values.push_back({path, '"' + motion + '"', "", "how the node moves in this scenario"});
+    }
+  }
+  return chosen;
+}
+
+void make_scene_run(const ChosenMotions& chosen, const std::string& name, Origin origin, double period_s, const MissionSource& source,
+                    Scenario& scenario, ProblemList& problems) {
+  const SceneSource& scene = source.scene;
+  for (const auto& [key, node] : {std::pair{"target", scene.target}, std::pair{"sensor", scene.sensor}}) {
+    if (node.empty())
+      problems.add(origin, "scenario." + name + ".kind", "\"scene\"",
+                   std::string("no node of the mission has ") + key + " = true: add [node.NAME]");
+  }
+  if (!problems.empty()) return;
+  std::vector<scene::Node> nodes = scene.nodes;
+  for (scene::Node& node : nodes) {
+    const auto motion = chosen.find(node.name);
+    if (motion != chosen.end()) node.motion = scene.motions.at(motion->second.motion);
+  }
+  const auto run = std::make_shared<SceneRun>(SceneRun{scene::Tree(kSceneRoot, nodes), 0, 0, {}, scene.surfaces, 0, 0, {}, {}});
+  run->target = run->tree.need(scene.target);
+  run->sensor = run->tree.need(scene.sensor);
+  for (const BodySource& body : scene.bodies) run->body_nodes.push_back(run->tree.need(body.node));
+  look_at_motion(scenario.frames, period_s, *run);
+  scenario.times_s = run->times_s;
+  scenario.ranges_m = run->ranges_m;
+  scenario.scene = run;
+}
+
+}  // namespace lasso::mdat

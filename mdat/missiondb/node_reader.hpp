@@ -1,0 +1,28 @@
+// [node.NAME] of a mission, and the scenes that scenarios make of them. Inside of missiondb.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "mdat/missiondb/scene_values.hpp"
+
+namespace lasso::mdat {
+
+const std::vector<ValueRow>& node_rows();  // keys without "node.NAME."
+
+// Reads them into the source's scene, after its motions. What is wrong is a problem.
+void read_nodes(const toml::table& root, MissionSource& source, ProblemList& problems);
+
+// The motions by which a scenario replaces those that the nodes have: names by node, with their places.
+struct ChosenMotion {
+  std::string motion;
+  Origin origin;
+};
+using ChosenMotions = std::map<std::string, ChosenMotion>;
+ChosenMotions read_chosen_motions(const toml::table& scenario, const std::string& prefix, MissionSource& source, ProblemList& problems);
+
+// Makes a scenario of kind scene fly through the mission's nodes. `origin` is the scenario's place. What is wrong is a problem.
+void make_scene_run(const ChosenMotions& chosen, const std::string& name, Origin origin, double period_s, const MissionSource& source,
+                    Scenario& scenario, ProblemList& problems);
+
+}  // namespace lasso::mdat

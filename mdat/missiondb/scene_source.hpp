@@ -1,0 +1,74 @@
+// The scene that a mission declares: nodes in a tree, how they move, and what stands at them; and what a scenario makes of it.
+//
+// The root of the tree is the node `root`: at rest, or, of a mission with [orbit], the Hill frame (mdat/scene/orbit.hpp), in which there is
+// then also `lvlh`. The target's node has the target's frame, the sensor's node the frame of all sensors.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mdat/modelc/mesh.hpp"
+#include "mdat/scene/orbit.hpp"
+#include "mdat/scene/tree.hpp"
+
+namespace lasso::mdat {
+
+constexpr char kSceneRoot[] = "root", kSceneLvlh[] = "lvlh";
+
+// What a node other than the target's looks like. Its file's axes, or the target's where it is a part of that, are the node's.
+struct BodySource {
+  std::string node;
+  std::string key;                 // that says it, node.NAME.model, .mesh or .parts
+  std::filesystem::path file;      // resolved; empty: parts of the target
+  bool parametric = false;         // file is a model (TOML), not a mesh
+  double scale = 1;                // applied to the file's lengths to get metres
+  std::vector<std::string> parts;  // names of the target's parts, or their beginnings with * at the end
+};
+
+// A surface with the names of its parts.
+struct BodySurface {
+  Mesh mesh;
+  std::vector<std::string> part_names;          // each once
+  std::vector<std::uint32_t> part_of_triangle;  // index into part_names, for each triangle
+};
+
+// Filled by load_scene: what all scenarios of a mission have in common.
+struct SceneSurfaces {
+  std::vector<BodySurface> bodies;  // of SceneSource::bodies
+  std::vector<bool> moved;          // triangles of the target's mesh that are another node's; empty: none
+};
+
+// A value of a node, a motion or the orbit as the file says it.
+struct WrittenValue {
+  std::string key, value, unit, meaning;
+};
+
+struct SceneSource {
+  std::optional<scene::Orbit> orbit;
+  std::map<std::string, scene::MotionPtr> motions;
+  std::vector<scene::Node> nodes;  // with their motions; the root is not among them
+  std::vector<BodySource> bodies;
+  std::string target, sensor;  // nodes; empty: none is said to be
+  std::shared_ptr<SceneSurfaces> surfaces = std::make_shared<SceneSurfaces>();
+  std::vector<WrittenValue> values;
+};
+
+// What a scenario of kind scene flies. Times are in microseconds since frame 0.
+struct SceneRun {
+  scene::Tree tree;
+  std::size_t target, sensor;           // nodes
+  std::vector<std::size_t> body_nodes;  // of SceneSource::bodies
+  std::shared_ptr<const SceneSurfaces> surfaces;
+  double rate_radps = 0;         // greatest of the target's in the sensor's axes, at the times below
+  double acceleration_mps2 = 0;  // greatest of its origin there
+  std::vector<double> times_s, ranges_m;
+
+  scene::MotionState target_at(TimeUs t_us) const { return tree.state(target, sensor, t_us); }
+};
+
+}  // namespace lasso::mdat

@@ -1,0 +1,107 @@
+#include "mdat/missiondb/scene_surfaces.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <optional>
+
+#include "mdat/missiondb/mesh_import.hpp"
+#include "mdat/missiondb/model_file.hpp"
+#include "mdat/missiondb/target_parts.hpp"
+#include "mdat/source/nearest.hpp"
+
+namespace lasso::mdat {
+namespace {
+
+class SceneLoader {
+ public:
+  SceneLoader(MissionSource& source, const Mesh& target) : source_(source), target_(target) {}
+
+  void load() {
+    SceneSurfaces surfaces;
+    for (const BodySource& body : source_.scene.bodies) {
+      try {
+        surfaces.bodies.push_back(body.file.empty() ? parts_of_target(body, surfaces.moved) : surface_of_file(body));
+      } catch (const MissionError& error) {
+        problems_.insert(problems_.end(), error.problems().begin(), error.problems().end());
+      }
+    }
+    if (!problems_.empty()) throw MissionError(problems_);
+    *source_.scene.surfaces = std::move(surfaces);
+  }
+
+ private:
+  [[noreturn]] void refuse(const BodySource& body, const std::string& value, const std::string& why) const {
+    const Origin origin = source_.origins.at(body.key);
+    throw MissionError({origin.set ? kSettingPlace : source_.file.string(), origin.line, origin.column, body.key, value, why});
+  }
+
+  BodySurface surface_of_file(const BodySource& body) const {
+    try {
+      BodySurface surface;
+      std::vector<ModelSolid> solids;
+      std::vector<std::string> left_out;
+      surface.mesh = body.parametric ? build_model(body.file, {}, &solids) : import_mesh(body.file, body.scale, &left_out);
+      for (Eigen::Vector3d& vertex : surface.mesh.vertices) vertex *= body.parametric ? body.scale : 1;
+      for (const std::string& what : left_out) source_.warnings.push_back(body.file.string() + ": not read: " + what);
+      check_extent(surface.mesh);
+      if (!body.parametric) solids.push_back({body.node, surface.mesh.triangles.size()});
+      for (const ModelSolid& solid : solids) {
+        surface.part_of_triangle.insert(surface.part_of_triangle.end(), solid.triangles, number_of_name(surface.part_names, solid.name));
+      }
+      return surface;
+    } catch (const MeshError& error) {
+      refuse(body, body.file.string(), error.what());
+    }
+  }
+
+  const TargetParts& target_parts_once() {
+    if (!parts_) parts_ = target_parts(source_, target_);
+    return *parts_;
+  }
+
+  std::vector<bool> named_parts(const BodySource& body) {
+    const std::vector<std::string>& names = target_parts_once().names;
+    std::vector<bool> named(names.size(), false);
+    for (const std::string& pattern : body.parts) {
+      bool found = false;
+      for (std::size_t i = 0; i < names.size(); ++i) {
+        if (!matches_part(names[i], pattern)) continue;
+        named[i] = true;
+        found = true;
+      }
+      if (!found)
+        refuse(body, '"' + pattern + '"',
+               "the target has no such part" + did_you_mean(pattern, names) + "; mdat render --as parts shows them");
+    }
+    return named;
+  }
+
+  BodySurface parts_of_target(const BodySource& body, std::vector<bool>& moved) {
+    const TargetParts& parts = target_parts_once();
+    const std::vector<bool> named = named_parts(body);
+    moved.resize(target_.triangles.size(), false);
+    BodySurface surface{{target_.vertices, {}}, parts.names, {}};
+    for (std::size_t i = 0; i < target_.triangles.size(); ++i) {
+      if (!named[parts.of_triangle[i]]) continue;
+      if (moved[i]) refuse(body, '"' + parts.names[parts.of_triangle[i]] + '"', "the part is another node's already");
+      moved[i] = true;
+      surface.mesh.triangles.push_back(target_.triangles[i]);
+      surface.part_of_triangle.push_back(parts.of_triangle[i]);
+    }
+    if (std::find(moved.begin(), moved.end(), false) == moved.end()) refuse(body, "", "nothing of the target is left at its own node");
+    return surface;
+  }
+
+  MissionSource& source_;
+  const Mesh& target_;
+  std::optional<TargetParts> parts_;
+  std::vector<Problem> problems_;
+};
+
+}  // namespace
+
+void load_scene(MissionSource& source, const Mesh& target) {
+  if (!source.scene.bodies.empty()) SceneLoader(source, target).load();
+}
+
+}  // namespace lasso::mdat

@@ -1,0 +1,128 @@
+#include "mdat/missiondb/node_reader.hpp"
+
+#include <cmath>
+
+#include "fsw/geometry/portable_math.hpp"
+#include "fsw/geometry/so3.hpp"
+#include "ut/mdat/missiondb/support.hpp"
+#include "ut/support/verifies.hpp"
+
+namespace lasso::mdat {
+namespace {
+
+const std::string kMissionHead = "[mission]\nid = 7\nversion = 2\nname = 'test'\n[target]\nmodel = 'box.toml'\n";  // 6 lines
+const std::string kMotions =
+    "[motion.spin]\nkind = 'rates'\nspin_degps = [0, 0, 2]\nposition_m = [0, 0, 0.5]\n"
+    "[motion.way]\nkind = 'rates'\nposition_m = [0, 0, -5]\nvelocity_mps = [0, 0, 0.1]\n"
+    "[motion.rest]\nkind = 'still'\nposition_m = [0, 0, -3]\n";
+const std::string kNodes =
+    "[node.body]\ntarget = true\nmotion = 'spin'\n[node.chaser]\nmotion = 'way'\n"
+    "[node.camera]\nparent = 'chaser'\nposition_m = [0.2, 0.1, 0]\nquaternion = [0, 0, 0.6, 0.8]\nsensor = true\n";
+
+class NodeReaderTest : public ::testing::Test {
+ protected:
+  NodeReaderTest() { folder_.write("box.toml", "[[part]]\nkind = 'box'\nsize = [1, 1, 1]\n"); }
+  MissionSource load(const std::string& text) { return load_mission(folder_.write("m.toml", kMissionHead + text)); }
+  std::string problems(const std::string& text) {
+    return mission_error_of([&] { static_cast<void>(load(text)); });
+  }
+  void expect_problem(const std::string& text, const std::string& expected) {
+    const std::string said = problems(text);
+    EXPECT_NE(said.find(expected), std::string::npos) << "got: " << said << "\nexpected: " << expected;
+  }
+  Folder folder_;
+};
+
+// The camera is turned about its boresight by 73.7 deg, 0.2 m and 0.1 m off the chaser's origin.
+TEST_F(NodeReaderTest, ASceneIsTheTargetBeforeASensorOnACraftThatMoves) {
+  VERIFIES("LASSO-SCN-020~1");
+  const MissionSource source = load(kMotions + kNodes + "[scenario.s]\nkind = 'scene'\nframes = 50\n");
+  const SceneRun& run = *source.scenarios.at("s").scene;
+  const Quat q_chaser_camera(0.8, 0, 0, 0.6);
+  for (const double t_s : {0.0, 3.7, 9.9}) {
+    const Pose T = run.target_at(static_cast<TimeUs>(std::llround(1e6 * t_s))).T_a_b;
+    const Vec3 p = q_chaser_camera.conjugate() * (Vec3(0, 0, 0.5) - Vec3(0.2, 0.1, -5 + 0.1 * t_s));
+    const Quat q = q_chaser_camera.conjugate() * Quat(Eigen::AngleAxisd(2 * kRadPerDeg * t_s, Vec3::UnitZ()));
+    EXPECT_LT((T.p - p).norm(), 1e-12);
+    EXPECT_LT(T.q.angularDistance(q), 1e-9);
+  }
+  EXPECT_NEAR(run.rate_radps, 2 * kRadPerDeg, 1e-12);
+  EXPECT_NEAR(run.acceleration_mps2, 0, 1e-9);
+  EXPECT_EQ(run.ranges_m.size(), 50U);
+  EXPECT_NEAR(run.times_s.back(), 9.8, 1e-12);
+  EXPECT_EQ(source.scenarios.at("s").ranges_m, run.ranges_m);
+}
+
+TEST_F(NodeReaderTest, AScenarioReplacesTheMotionsThatItNames) {
+  VERIFIES("LASSO-SCN-023~1");
+  const MissionSource source =
+      load(kMotions + kNodes + "[scenario.s]\nkind = 'scene'\nmotion = {chaser = 'rest'}\n[scenario.t]\nkind = 'scene'\n");
+  EXPECT_NEAR(source.scenarios.at("s").scene->target_at(20'000'000).T_a_b.p.z(), 3.5, 1e-12);
+  EXPECT_NEAR(source.scenarios.at("t").scene->target_at(20'000'000).T_a_b.p.z(), 3.5, 1e-12);
+  EXPECT_NEAR(source.scenarios.at("s").scene->target_at(0).T_a_b.p.z(), 3.5, 1e-12);
+  EXPECT_NEAR(source.scenarios.at("t").scene->target_at(0).T_a_b.p.z(), 5.5, 1e-12);
+}
+
+// V-bar is x of LVLH, R-bar its z.
+TEST_F(NodeReaderTest, AnOrbitHasDockingsFrameAsWell) {
+  VERIFIES("LASSO-SCN-020~1");
+  const MissionSource source = load(
+      "[orbit]\n[node.body]\ntarget = true\n[node.port]\nparent = 'lvlh'\nposition_m = [-10, 0, 3]\ntowards = 'body'\nsensor = "
+      "true\n[scenario.s]\nkind = 'scene'\n");
+  const SceneRun& run = *source.scenarios.at("s").scene;
+  EXPECT_LT((run.tree.state(run.sensor, 0, 0).T_a_b.p - Vec3(-3, -10, 0)).norm(), 1e-12);
+  EXPECT_LT((run.target_at(0).T_a_b.p - Vec3(0, 0, std::hypot(10, 3))).norm(), 1e-12);
+}
+
+TEST_F(NodeReaderTest, EveryProblemIsToldWithItsPlace) {
+  VERIFIES("LASSO-SCN-024~1");
+  const std::string said =
+      problems(kMotions +
+               "[node.a]\nparent = 'b'\ntarget = true\n[node.b]\nparent = 'a'\ntarget = true\n[node.c]\nmotion = 'spinn'\nmesh = 'x.stl'\n"
+               "[node.d]\nparent = 'cc'\nmesh = 'x.stl'\nparts = 'y'\n[node.e]\nscale = 2\n[node.f]\ntowards = 'f'\n");
+  for (const char* expected : {"node.b.target: true: node a is the target already",
+                               "node.c.motion: \"spinn\": the mission has no [motion.spinn]; did you mean spin?",
+                               "node.c.mesh: \"x.stl\": no such file", "node.d.parts: expected at most one of model, mesh and parts",
+                               "node.e.scale: has no effect without model or mesh", "d, parent: \"cc\": there is no such node"}) {
+    EXPECT_NE(said.find(expected), std::string::npos) << expected << "\nin:\n" << said;
+  }
+  expect_problem("[node.a]\nparent = 'b'\n[node.b]\nparent = 'a'\n", "m.toml:7:1: a, parent: \"a\" in \"b\" in \"a\": is a circle");
+  expect_problem("[node.a]\ntarget = true\nmodel = 'box.toml'\n", "node.a.model: the target's node looks as [target] says");
+}
+
+TEST_F(NodeReaderTest, AScenarioSaysWhatBelongsToItsKind) {
+  VERIFIES("LASSO-SCN-024~1");
+  expect_problem("[scenario.s]\nkind = 'scene'\n",
+                 "m.toml:8:8: scenario.s.kind: \"scene\": no node of the mission has target = true: add [node.NAME]");
+  expect_problem("[scenario.s]\nkind = 'scene'\n", "no node of the mission has sensor = true");
+  expect_problem(kMotions + kNodes + "[scenario.s]\nkind = 'scene'\nranges_m = [3]\n", "scenario.s.ranges_m: leave it out");
+  expect_problem(kMotions + kNodes + "[scenario.s]\nkind = 'scene'\nmotion = {chasr = 'way'}\n",
+                 "scenario.s.motion.chasr: 'way': the mission has no [node.chasr]; did you mean chaser?");
+  expect_problem(kMotions + kNodes + "[scenario.s]\nkind = 'scene'\nmotion = {body = 'sping'}\n",
+                 "scenario.s.motion.body: 'sping': expected the name of a [motion.NAME]");
+  expect_problem(kMotions + kNodes + "[scenario.s]\nkind = 'spin'\nranges_m = [3]\nmotion = {body = 'spin'}\n",
+                 "scenario.s.motion: a table: has no effect in a scenario of this kind");
+  expect_problem("[scenario.s]\nkind = 'spin'\n", "m.toml:7:1: scenario.s.ranges_m: is missing");
+}
+
+TEST_F(NodeReaderTest, RulesAskTheMotionThatIsFlown) {
+  VERIFIES("LASSO-SCN-024~1");
+  MissionSource source = load(
+      "[motion.fast]\nkind = 'rates'\nspin_degps = [40, 0, 0]\n[node.body]\ntarget = true\nmotion = 'fast'\n"
+      "[node.camera]\nposition_m = [0, 0, -4]\nsensor = true\n[scenario.s]\nkind = 'scene'\ntilt_deg = 20\n");
+  check_target(source, load_target(source));
+  std::string said;
+  for (const std::string& warning : warnings_for(source, "s")) said += warning + "\n";
+  EXPECT_NE(said.find("scenario.s.motion: the target turns by"), std::string::npos) << said;
+  EXPECT_NE(said.find("in a scenario of kind scene these have no effect: tilt_deg"), std::string::npos) << said;
+  const std::string inside = mission_error_of([&] {
+    MissionSource close = load(
+        "[node.body]\ntarget = true\n[node.camera]\nposition_m = [0, 0, -0.2]\nsensor = true\n[scenario.s]\nkind = "
+        "'scene'\n[sensor]\nrange_min_m = 0.1\n");
+    check_target(close, load_target(close));
+  });
+  EXPECT_NE(inside.find("the sensor would be in the target"), std::string::npos) << inside;
+}
+
+}  // namespace
+}  // namespace lasso::mdat
