@@ -59,7 +59,8 @@ TEST(BenchmarkSet, ScansAreThoseOfTheMeshAtTheTruth) {
       if (sample.state != RayState::kHit) continue;
       const sim::RayHit hit = surface->cast(T_target_sensor.p, rotate(T_target_sensor.q, to_vec3(sample.direction)));
       ++hits;
-      near += hit.hit && std::fabs(hit.range_m - double{sample.range_m}) < std::max(4 * sigma_m, 0.01 * truth.size_m) ? 1U : 0U;
+      near +=
+          hit.hit && std::fabs(hit.range_m - static_cast<double>(sample.range_m)) < std::max(4 * sigma_m, 0.01 * truth.size_m) ? 1U : 0U;
     }
     EXPECT_GT(hits, 100u);
     EXPECT_GT(near, 0.9 * static_cast<double>(hits));
