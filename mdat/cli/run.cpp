@@ -15,6 +15,7 @@
 #include "mdat/run/camera.hpp"
 #include "mdat/run/frames_table.hpp"
 #include "mdat/run/recording.hpp"
+#include "mdat/run/relative_poses.hpp"
 #include "mdat/run/results.hpp"
 #include "mdat/run/simulation.hpp"
 
@@ -29,7 +30,7 @@ struct RunArguments {
 };
 
 // All that a run writes into its folder.
-constexpr const char* kFiles[] = {"results.json", "frames.csv", "telemetry.ccsds", "report.html"};
+constexpr const char* kFiles[] = {"results.json", "frames.csv", "telemetry.ccsds", "relative.csv", "report.html"};
 
 // An option of its own goes before --set.
 void tell_replaced(const MissionSource& source, const SimulationOptions& simulation) {
@@ -63,8 +64,11 @@ void write_results(const RunArguments& options, const SimulationOptions& simulat
   folder.write("results.json", results_json(result));
   folder.write("frames.csv", frames_csv(result));
   folder.write("telemetry.ccsds", telemetry_bytes(result));
+  const std::vector<RelativeRun> relative = relative_runs(result);
+  if (!relative.empty()) folder.write("relative.csv", relative_csv(relative));
   folder.commit();
   folder.remove("report.html");  // of an earlier run
+  if (relative.empty()) folder.remove("relative.csv");
   if (simulation.record) write_file(options.record_sensor, recording_text(*simulation.record));
 }
 
@@ -142,7 +146,8 @@ void run(const RunArguments& options) {
   write_results(options, simulation, result, folder);
   if (simulation.replay) warn_of_replay(result);
   std::fputs(summary_text(result).c_str(), stdout);
-  std::printf("written to %s: results.json, frames.csv, telemetry.ccsds\n", options.out.c_str());
+  const bool relative = !relative_runs(result).empty();
+  std::printf("written to %s: results.json, frames.csv, telemetry.ccsds%s\n", options.out.c_str(), relative ? ", relative.csv" : "");
   (void)std::fflush(stdout);
   if (options.report || !options.picture.empty()) write_pictures(options, mission, result, folder);
 }

@@ -69,11 +69,13 @@ class Loader {
   void read_values() {
     std::vector<ValueRow> rows = mission_rows();
     rows.insert(rows.end(), flight_rows().begin(), flight_rows().end());
-    found_ = read_table(root_, "", rows, {"campaign", "further_sensor", "motion", "node", "orbit", "part", "scenario", "target.parameters"},
+    found_ = read_table(root_, "", rows,
+                        {"campaign", "further_sensor", "motion", "node", "orbit", "part", "relative", "scenario", "target.parameters"},
                         problems_);
     for (const ValueRow& row : rows) note_origin(row.key, found_, row.key);
     read_motions(root_, source_, problems_);
     read_nodes(root_, source_, problems_);
+    read_relative(root_, source_, problems_);
     read_scenario_values();
     read_further_sensors(root_, source_, problems_);
     read_parts(root_, source_, problems_);

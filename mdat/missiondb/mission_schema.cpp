@@ -51,6 +51,9 @@ void add_scene(Json& schema) {
   add_rows(orbit, orbit_rows(), true);
   schema["properties"]["orbit"] = orbit;
   schema["properties"]["motion"] = {{"type", "object"}, {"additionalProperties", motion_schema()}};
+  Json relative = closed_object();
+  add_rows(relative, relative_rows(), true);
+  schema["properties"]["relative"] = {{"type", "object"}, {"additionalProperties", relative}};
   schema["properties"]["node"] = {{"type", "object"}, {"additionalProperties", node}};
 }
 

@@ -127,6 +127,21 @@ void look_at_motion(double frames, double period_s, SceneRun& run) {
   }
 }
 
+// The component knows one pose, of the target before the sensors: what moves against either, it knows nothing of.
+void pair_frames(const SceneSource& scene, SceneRun& run, ProblemList& problems) {
+  for (const RelativeSource& relative : scene.relative) {
+    const RelativePair pair{relative.name, run.tree.need(relative.of), run.tree.need(relative.in)};
+    const Origin origin{relative.place.line, relative.place.column, relative.place.file == kSettingPlace};
+    const std::string path = "relative." + relative.name;
+    if (!run.tree.are_rigid(pair.of, run.target))
+      problems.add(origin, path + ".of", '"' + relative.of + '"', "moves against the target: name a node that stands on " + scene.target);
+    if (!run.tree.are_rigid(pair.in, run.sensor))
+      problems.add(origin, path + ".in", '"' + relative.in + '"',
+                   "moves against the sensor: name a node that stands on what carries " + scene.sensor);
+    run.relative.push_back(pair);
+  }
+}
+
 }  // namespace
 
 const std::vector<ValueRow>& node_rows() {
@@ -169,6 +184,37 @@ void read_nodes(const toml::table& root, MissionSource& source, ProblemList& pro
   }
 }
 
+const std::vector<ValueRow>& relative_rows() {
+  static const std::vector<ValueRow> rows = {
+      required(text_row("of", "[^\\x00-\\x1f]+", "node that stands on the target: what the pose is of")),
+      required(text_row("in", "[^\\x00-\\x1f]+", "node that stands on what carries the sensor: whose axes the pose is in")),
+  };
+  return rows;
+}
+
+void read_relative(const toml::table& root, MissionSource& source, ProblemList& problems) {
+  const toml::node* node = root.get("relative");
+  if (node == nullptr) return;
+  if (!node->is_table()) return problems.add(*node, "relative", "wrong type: expected tables [relative.NAME]");
+  std::vector<std::string> names = node_names(source.scene);
+  names.emplace_back(kSceneRoot);
+  for (const auto& [name, entry] : *node->as_table()) {
+    const std::string path = "relative." + std::string(name.str());
+    const toml::table* table = entry.as_table();
+    if (table == nullptr) {
+      problems.add(entry, path, "wrong type: expected a table [" + path + "]");
+      continue;
+    }
+    SceneValues values(*table, path, relative_rows(), {}, source, problems);
+    for (const char* key : {"of", "in"}) {
+      const std::string written = values.text(key);
+      if (!written.empty() && std::find(names.begin(), names.end(), written) == names.end())
+        values.complain(key, '"' + written + '"', "the mission has no [node." + written + "]" + did_you_mean(written, names));
+    }
+    source.scene.relative.push_back({std::string(name.str()), values.text("of"), values.text("in"), values.place()});
+  }
+}
+
 ChosenMotions read_chosen_motions(const toml::table& scenario, const std::string& prefix, MissionSource& source, ProblemList& problems) {
   ChosenMotions chosen;
   const toml::node* node = scenario.get("motion");
@@ -207,10 +253,11 @@ void make_scene_run(const ChosenMotions& chosen, const std::string& name, Origin
     const auto motion = chosen.find(node.name);
     if (motion != chosen.end()) node.motion = scene.motions.at(motion->second.motion);
   }
-  const auto run = std::make_shared<SceneRun>(SceneRun{scene::Tree(kSceneRoot, nodes), 0, 0, {}, scene.surfaces, 0, 0, {}, {}});
+  const auto run = std::make_shared<SceneRun>(SceneRun{scene::Tree(kSceneRoot, nodes), 0, 0, {}, scene.surfaces, 0, 0, {}, {}, {}});
   run->target = run->tree.need(scene.target);
   run->sensor = run->tree.need(scene.sensor);
   for (const BodySource& body : scene.bodies) run->body_nodes.push_back(run->tree.need(body.node));
+  pair_frames(scene, *run, problems);
   look_at_motion(scenario.frames, period_s, *run);
   scenario.times_s = run->times_s;
   scenario.ranges_m = run->ranges_m;

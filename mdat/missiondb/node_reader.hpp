@@ -13,6 +13,11 @@ const std::vector<ValueRow>& node_rows();  // keys without "node.NAME."
 // Reads them into the source's scene, after its motions. What is wrong is a problem.
 void read_nodes(const toml::table& root, MissionSource& source, ProblemList& problems);
 
+const std::vector<ValueRow>& relative_rows();  // keys without "relative.NAME."
+
+// [relative.NAME], after the nodes. What is wrong is a problem.
+void read_relative(const toml::table& root, MissionSource& source, ProblemList& problems);
+
 // The motions by which a scenario replaces those that the nodes have: names by node, with their places.
 struct ChosenMotion {
   std::string motion;

@@ -48,12 +48,23 @@ struct WrittenValue {
   std::string key, value, unit, meaning;
 };
 
+// A pose that results are also said of: of one node in another.
+struct RelativeSource {
+  std::string name, of, in;
+  scene::Place place;
+};
+struct RelativePair {
+  std::string name;
+  std::size_t of, in;  // nodes: `of` does not move against the target, `in` not against the sensor
+};
+
 struct SceneSource {
   std::optional<scene::Orbit> orbit;
   std::map<std::string, scene::MotionPtr> motions;
   std::vector<scene::Node> nodes;  // with their motions; the root is not among them
   std::vector<BodySource> bodies;
   std::string target, sensor;  // nodes; empty: none is said to be
+  std::vector<RelativeSource> relative;
   std::shared_ptr<SceneSurfaces> surfaces = std::make_shared<SceneSurfaces>();
   std::vector<WrittenValue> values;
 };
@@ -67,6 +78,7 @@ struct SceneRun {
   double rate_radps = 0;         // greatest of the target's in the sensor's axes, at the times below
   double acceleration_mps2 = 0;  // greatest of its origin there
   std::vector<double> times_s, ranges_m;
+  std::vector<RelativePair> relative;
 
   scene::MotionState target_at(TimeUs t_us) const { return tree.state(target, sensor, t_us); }
 };

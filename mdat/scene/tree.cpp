@@ -66,6 +66,16 @@ std::size_t Tree::common_ancestor(std::size_t a, std::size_t b) const {
   return a;
 }
 
+bool Tree::stands_in(std::size_t node, std::size_t ancestor) const {
+  while (node != ancestor && nodes_[node].motion == nullptr && nodes_[node].towards.empty()) node = parents_[node];
+  return node == ancestor;
+}
+
+bool Tree::are_rigid(std::size_t a, std::size_t b) const {
+  const std::size_t ancestor = common_ancestor(a, b);
+  return stands_in(a, ancestor) && stands_in(b, ancestor);
+}
+
 MotionState Tree::in_ancestor(std::size_t node, std::size_t ancestor, TimeUs t_us) const {
   MotionState state;
   for (; node != ancestor; node = parents_[node]) state = in_parent(node, t_us) * state;

@@ -34,6 +34,10 @@ class Tree {
   std::optional<std::size_t> find(std::string_view name) const;
   std::size_t need(std::string_view name) const;  // throws MissionError: there is none; with the nearest name
 
+  // Whether two nodes stand still against each other by themselves: neither of them, nor what they stand in up to where their ways to the
+  // root meet, has a motion or points somewhere.
+  bool are_rigid(std::size_t a, std::size_t b) const;
+
   // Pose of `node` in `frame`, and how it moves there: rates relative to `frame`, in its axes, of the node's origin. Both of any branch.
   MotionState state(std::size_t node, std::size_t frame, TimeUs t_us) const;
 
@@ -41,6 +45,7 @@ class Tree {
   MotionState in_parent(std::size_t node, TimeUs t_us) const;
   MotionState in_ancestor(std::size_t node, std::size_t ancestor, TimeUs t_us) const;
   std::size_t common_ancestor(std::size_t a, std::size_t b) const;
+  bool stands_in(std::size_t node, std::size_t ancestor) const;
 
   std::vector<Node> nodes_;
   std::vector<std::size_t> parents_, towards_, depths_;  // by number; a node that points to none has itself

@@ -105,6 +105,24 @@ TEST_F(NodeReaderTest, AScenarioSaysWhatBelongsToItsKind) {
   expect_problem("[scenario.s]\nkind = 'spin'\n", "m.toml:7:1: scenario.s.ranges_m: is missing");
 }
 
+TEST_F(NodeReaderTest, NamedFramesStandOnTheTargetAndOnTheSensorsCraft) {
+  VERIFIES("LASSO-SCN-026~1 LASSO-SCN-024~1");
+  const std::string frames = "[node.port]\nparent = 'body'\n[node.wing]\nparent = 'body'\nmotion = 'spin'\n[node.arm]\nparent = 'chaser'\n";
+  const std::string scenario = "[scenario.s]\nkind = 'scene'\n";
+  const MissionSource source = load(kMotions + kNodes + frames + "[relative.dock]\nof = 'port'\nin = 'arm'\n" + scenario);
+  const SceneRun& run = *source.scenarios.at("s").scene;
+  ASSERT_EQ(run.relative.size(), 1U);
+  EXPECT_EQ(run.tree.name(run.relative[0].of), "port");
+  EXPECT_EQ(run.tree.name(run.relative[0].in), "arm");
+  expect_problem(kMotions + kNodes + frames + "[relative.dock]\nof = 'wing'\nin = 'root'\n" + scenario,
+                 "relative.dock.of: \"wing\": moves against the target: name a node that stands on body");
+  expect_problem(kMotions + kNodes + frames + "[relative.dock]\nof = 'wing'\nin = 'root'\n" + scenario,
+                 "relative.dock.in: \"root\": moves against the sensor");
+  expect_problem(kMotions + kNodes + frames + "[relative.dock]\nof = 'prot'\n",
+                 "relative.dock.of: \"prot\": the mission has no [node.prot]; did you mean port?");
+  expect_problem(kMotions + kNodes + frames + "[relative.dock]\nof = 'port'\n", "relative.dock.in: is missing");
+}
+
 TEST_F(NodeReaderTest, RulesAskTheMotionThatIsFlown) {
   VERIFIES("LASSO-SCN-024~1");
   MissionSource source = load(

@@ -1,0 +1,144 @@
+#include "mdat/run/relative_poses.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fsw/geometry/so3.hpp"
+#include "fsw/link/space_packet.hpp"
+#include "mdat/common/text.hpp"
+
+namespace lasso::mdat {
+namespace {
+
+constexpr double kMm = 1e3, kDeg = 1 / kRadPerDeg;
+
+constexpr char kColumns[] =
+    "relative,t_s,valid,x_m,y_m,z_m,qx,qy,qz,qw,sigma_x_mm,sigma_y_mm,sigma_z_mm,sigma_rx_deg,sigma_ry_deg,sigma_rz_deg,error_mm,error_deg,"
+    "nees,filtered_x_m,filtered_y_m,filtered_z_m,filtered_qx,filtered_qy,filtered_qz,filtered_qw,vx_mps,vy_mps,vz_mps,wx_degps,wy_degps,"
+    "wz_degps,filtered_error_mm,filtered_error_deg,v_error_mmps,w_error_degps\n";
+
+// The pair's two places, which do not move against target and sensor.
+struct Places {
+  Pose T_in_sensor, T_target_of;
+
+  Pose moved(const Pose& T_sensor_target) const { return T_in_sensor * (T_sensor_target * T_target_of); }
+  Mat6 moved(const Mat6& covariance, const Pose& T_sensor_target) const {
+    return scene::covariance_in_frame(scene::covariance_of_point(covariance, T_sensor_target, T_target_of), T_in_sensor);
+  }
+  Twist moved(const Twist& rates, const Pose& T_sensor_target) const {
+    const Vec3 arm_m = rotate(T_sensor_target.q, T_target_of.p);
+    return {rotate(T_in_sensor.q, rates.omega_radps), rotate(T_in_sensor.q, Vec3(rates.v_mps + rates.omega_radps.cross(arm_m)))};
+  }
+};
+
+Places places_of(const SceneRun& run, const RelativePair& pair) {
+  return {run.tree.state(run.sensor, pair.in, 0).T_a_b, run.tree.state(pair.of, run.target, 0).T_a_b};
+}
+
+RelativePose relative_pose(const PoseTelemetry& packet, const SceneRun& run, const RelativePair& pair) {
+  const Places places = places_of(run, pair);
+  const TimeUs t_us = packet.t_measurement_us - kEpochUs;
+  const scene::MotionState truth = run.tree.state(pair.of, pair.in, t_us);
+  const Pose T_sensor_target = registration_pose(packet), filtered = filtered_pose(packet);
+  const Twist rates{Vec3(packet.filter_omega_radps), Vec3(packet.filter_v_mps)};
+  RelativePose pose;
+  pose.t_s = to_seconds(t_us);
+  pose.valid = packet.valid != 0;
+  pose.T_in_of = places.moved(T_sensor_target);
+  pose.T_in_of_filtered = places.moved(filtered);
+  pose.rates = places.moved(rates, filtered);
+  pose.covariance = places.moved(registration_covariance(packet), T_sensor_target);
+  pose.truth = truth.T_a_b;
+  pose.true_rates = truth.rates;
+  return pose;
+}
+
+// Of scans that were registered.
+std::vector<PoseTelemetry> registrations(const std::vector<std::uint8_t>& telemetry) {
+  std::vector<PoseTelemetry> packets;
+  ConstBytes stream(telemetry.data(), telemetry.size());
+  while (const std::size_t size = packet_size(stream)) {
+    PacketHeader header;
+    PoseTelemetry pose;
+    const bool is_pose = decode_pose(stream.first(std::min(size, stream.size())), header, pose) == PacketFault::kNone;
+    if (is_pose && static_cast<StopReason>(pose.stop) != StopReason::kNotRun) packets.push_back(pose);
+    stream = stream.subspan(std::min(size, stream.size()), stream.size() - std::min(size, stream.size()));
+  }
+  return packets;
+}
+
+std::string cells(const Vec3& v, double unit) { return format(",%.9g,%.9g,%.9g", unit * v.x(), unit * v.y(), unit * v.z()); }
+std::string cells(const Pose& pose) {
+  return cells(pose.p, 1) + format(",%.9g,%.9g,%.9g,%.9g", pose.q.x(), pose.q.y(), pose.q.z(), pose.q.w());
+}
+
+std::string row(const std::string& name, const RelativePose& pose) {
+  const PoseError error = pose_error(pose.T_in_of, pose.truth), filtered = pose_error(pose.T_in_of_filtered, pose.truth);
+  const Eigen::Matrix<double, 6, 1> sigma = pose.covariance.diagonal().cwiseMax(0).cwiseSqrt();
+  std::string text = name + format(",%.6f,%d", pose.t_s, pose.valid ? 1 : 0) + cells(pose.T_in_of);
+  text += cells(Vec3(sigma.tail<3>()), kMm) + cells(Vec3(sigma.head<3>()), kDeg);
+  text += format(",%.6g,%.6g,%.6g", kMm * error.translation_m.norm(), kDeg * error.rotation_rad,
+                 nees(pose.T_in_of, pose.truth, pose.covariance));
+  text += cells(pose.T_in_of_filtered) + cells(pose.rates.v_mps, 1) + cells(pose.rates.omega_radps, kDeg);
+  text += format(",%.6g,%.6g", kMm * filtered.translation_m.norm(), kDeg * filtered.rotation_rad);
+  return text + format(",%.6g,%.6g\n", kMm * (pose.rates.v_mps - pose.true_rates.v_mps).norm(),
+                       kDeg * (pose.rates.omega_radps - pose.true_rates.omega_radps).norm());
+}
+
+}  // namespace
+
+std::vector<RelativeRun> relative_runs(const SimulationResult& result) {
+  std::vector<RelativeRun> runs;
+  const TableResult& table = result.tables.front();
+  const SceneRun* scene = table.scenario.scene.get();
+  if (scene == nullptr || scene->relative.empty()) return runs;
+  const std::vector<PoseTelemetry> packets = registrations(table.variants.front().cases.front().telemetry);
+  for (const RelativePair& pair : scene->relative) {
+    runs.push_back({pair.name, {}});
+    for (const PoseTelemetry& packet : packets) runs.back().poses.push_back(relative_pose(packet, *scene, pair));
+  }
+  return runs;
+}
+
+std::string relative_csv(const std::vector<RelativeRun>& runs) {
+  std::string text = kColumns;
+  for (const RelativeRun& run : runs) {
+    for (const RelativePose& pose : run.poses) text += row(run.name, pose);
+  }
+  return text;
+}
+
+RelativeFigures relative_figures(const RelativeRun& run) {
+  RelativeFigures figures;
+  figures.poses = run.poses.size();
+  for (const RelativePose& pose : run.poses) {
+    if (!pose.valid) continue;
+    ++figures.valid;
+    const PoseError error = pose_error(pose.T_in_of, pose.truth), filtered = pose_error(pose.T_in_of_filtered, pose.truth);
+    figures.rms_mm += error.translation_m.squaredNorm();
+    figures.rms_deg += error.rotation_rad * error.rotation_rad;
+    figures.filtered_rms_mm += filtered.translation_m.squaredNorm();
+    figures.filtered_rms_deg += filtered.rotation_rad * filtered.rotation_rad;
+    figures.nees += nees(pose.T_in_of, pose.truth, pose.covariance);
+  }
+  const auto n = static_cast<double>(figures.valid);  // 0: nothing is known, and nothing is a number
+  for (double* mm : {&figures.rms_mm, &figures.filtered_rms_mm}) *mm = kMm * std::sqrt(*mm / n);
+  for (double* deg : {&figures.rms_deg, &figures.filtered_rms_deg}) *deg = kDeg * std::sqrt(*deg / n);
+  figures.nees /= n;
+  return figures;
+}
+
+std::string relative_text(const std::vector<RelativeRun>& runs) {
+  std::string text;
+  for (const RelativeRun& run : runs) {
+    const RelativeFigures figures = relative_figures(run);
+    text += format("relative %s: %zu of %zu poses valid", run.name.c_str(), figures.valid, figures.poses);
+    if (figures.valid > 0)
+      text += format(": rms %.3f mm, %.4f deg, NEES %.2f of 6; filtered %.3f mm, %.4f deg", figures.rms_mm, figures.rms_deg, figures.nees,
+                     figures.filtered_rms_mm, figures.filtered_rms_deg);
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace lasso::mdat
