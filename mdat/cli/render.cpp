@@ -89,18 +89,8 @@ Lights orbit_given(const std::string& text, double time_s) {
   return orbit_lights(scene::Orbit(setup), to_us(time_s));
 }
 
-constexpr char kUsualSun[] = "0.5,-0.5,-0.7", kUsualEarth[] = "0,1,0";
-
-// Without an orbit: as given, or from over the right shoulder, with the Earth below.
-Lights lights_by_directions(const RenderArguments& options) {
-  Lights lights;
-  lights.sun = direction_given("--sun", options.sun.empty() ? kUsualSun : options.sun);
-  lights.earth = direction_given("--earth", options.earth.empty() ? kUsualEarth : options.earth);
-  return lights;
-}
-
-// Of a scene's orbit, but for what is given.
-Lights lights_by_scene(const RenderArguments& options, Lights lights) {
+// Of a scene's orbit, or else the usual ones, but for what is given.
+Lights lights_by_directions(const RenderArguments& options, Lights lights) {
   if (!options.sun.empty()) {
     lights.sun = direction_given("--sun", options.sun);
     lights.sun_share = 1;
@@ -110,12 +100,8 @@ Lights lights_by_scene(const RenderArguments& options, Lights lights) {
 }
 
 Lights lights_given(const RenderArguments& options, const std::optional<Lights>& of_scene) {
-  Lights lights;
-  if (!options.orbit.empty()) {
-    lights = orbit_given(options.orbit, options.scene.time_s);
-  } else {
-    lights = of_scene ? lights_by_scene(options, *of_scene) : lights_by_directions(options);
-  }
+  Lights lights = options.orbit.empty() ? lights_by_directions(options, of_scene.value_or(usual_lights()))
+                                        : orbit_given(options.orbit, options.scene.time_s);
   if (!options.earthshine) lights.earth.reset();
   if (options.lamp) lights.lamp_m = Vec3::Zero();
   return lights;

@@ -11,6 +11,7 @@
 #include "mdat/link/signature.hpp"
 #include "mdat/missiondb/calibration_file.hpp"
 #include "mdat/missiondb/camera_faults.hpp"
+#include "mdat/render/run_pictures.hpp"
 #include "mdat/report/report.hpp"
 #include "mdat/run/camera.hpp"
 #include "mdat/run/frames_table.hpp"
@@ -72,12 +73,19 @@ void write_results(const RunArguments& options, const SimulationOptions& simulat
   if (simulation.record) write_file(options.record_sensor, recording_text(*simulation.record));
 }
 
+std::vector<SeenPicture> seen_pictures(const CompiledMission& mission, const SimulationResult& result) {
+  std::vector<SeenPicture> pictures;
+  for (RunPicture& picture : run_pictures(mission, result, std::max(1U, std::thread::hardware_concurrency())))
+    pictures.push_back({std::move(picture.caption), std::move(picture.png)});
+  return pictures;
+}
+
 // After all else: what goes wrong here costs a picture. Throws PictureError.
 void write_pictures(const RunArguments& options, const CompiledMission& mission, const SimulationResult& result, OutputFolder& folder) {
   Plotter plotter(folder.path());
   std::string problem;
   if (options.report) {
-    folder.write("report.html", report_html(plotter, mission, result));
+    folder.write("report.html", report_html(plotter, mission, result, seen_pictures(mission, result)));
     folder.commit();
     std::printf("the report: %s\n", (folder.path() / "report.html").c_str());
   }

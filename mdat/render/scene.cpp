@@ -200,6 +200,25 @@ Scene make_scene(const MissionInput& mission, const SceneRequest& request) {
   return scene;
 }
 
+Lights usual_lights() {
+  Lights lights;
+  lights.sun = Vec3(0.5, -0.5, -0.7).normalized();
+  lights.earth = Vec3::UnitY();
+  return lights;
+}
+
+std::vector<ScanMark> scan_marks(const CompiledMission& mission, const Scene& scene, const KeptScan& scan) {
+  const std::unique_ptr<sim::RayCaster> model = make_target(mission.mesh);
+  const auto trajectory = make_trajectory(scene.setup.scenario, scene.setup.range_m, kEpochUs, period_us(scene.setup.parameters));
+  std::vector<ScanMark> marks;
+  const std::size_t first_aimed = (scan.samples.size() - scan.aimed) / 2;
+  for (std::size_t i = 0; i < scan.samples.size(); ++i) {
+    marks.push_back(mark_of(scan.samples[i], *model, *trajectory));
+    marks.back().aimed = i >= first_aimed && i < first_aimed + scan.aimed;
+  }
+  return marks;
+}
+
 void check_scan_time(const Scene& scene, double time_s) {
   const Scenario& scenario = scene.setup.scenario;
   const DurationUs period = period_us(scene.setup.parameters);
@@ -215,7 +234,6 @@ std::vector<ScanMark> flown_scan(const CompiledMission& mission, double time_s, 
   const auto frame = static_cast<std::uint32_t>(to_us(time_s) / period);
   CaseSetup setup = scene.setup;
   const std::vector<std::uint8_t> image = image_bytes(mission, setup.parameters);
-  const std::unique_ptr<sim::RayCaster> model = make_target(mission.mesh);
   setup.image = &image;
   setup.frames = frame + 1;
   setup.keep_frames = {frame};
@@ -225,14 +243,7 @@ std::vector<ScanMark> flown_scan(const CompiledMission& mission, double time_s, 
   if (result.scans.empty()) throw InputError(format("--scan: frame %u has no scan; another --time has", frame));
   const KeptScan& scan = result.scans.back();
   move_to(mission, scan.telemetry.t_measurement_us - kEpochUs, scene);
-  const auto trajectory = make_trajectory(setup.scenario, setup.range_m, kEpochUs, period);
-  std::vector<ScanMark> marks;
-  const std::size_t first_aimed = (scan.samples.size() - scan.aimed) / 2;
-  for (std::size_t i = 0; i < scan.samples.size(); ++i) {
-    marks.push_back(mark_of(scan.samples[i], *model, *trajectory));
-    marks.back().aimed = i >= first_aimed && i < first_aimed + scan.aimed;
-  }
-  return marks;
+  return scan_marks(mission, scene, scan);
 }
 
 }  // namespace lasso::mdat

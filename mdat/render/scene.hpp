@@ -40,6 +40,12 @@ struct Scene {
 // Throws InputError or MissionError: no such scenario, range, sensor, part or preset.
 Scene make_scene(const MissionInput& mission, const SceneRequest& request);
 
+// Of where no light is given: the sun from over the right shoulder, the Earth below.
+Lights usual_lights();
+
+// What the rays of a kept scan of the scene's case found.
+std::vector<ScanMark> scan_marks(const CompiledMission& mission, const Scene& scene, const KeptScan& scan);
+
 // Throws InputError where the scenario's frames are over by then.
 void check_scan_time(const Scene& scene, double time_s);
 

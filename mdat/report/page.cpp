@@ -44,6 +44,8 @@ svg text { font-family: "Inter", "Segoe UI", "Helvetica Neue", Arial, sans-serif
 .runs section { padding: 16px 18px; margin: 0; overflow: hidden; }
 .runs h2 { font-size: 18px; margin: 0 0 2px; overflow-wrap: anywhere; }
 .runs p { margin: 0 0 6px; font-size: 14px; color: var(--faint); }
+.seen { display: grid; grid-template-columns: repeat(auto-fit, minmax(300px, 1fr)); gap: 14px; }
+.seen figure { margin: 10px 0 0; }
 .runs figure { margin: 10px 0 0; }
 .runs img, .runs svg { height: 190px; width: 100%; object-fit: contain; background: #fff; }
 .good { color: #1c7c3c; font-weight: 600; }

@@ -12,6 +12,7 @@
 #include "mdat/report/flights_view.hpp"
 #include "mdat/report/page.hpp"
 #include "mdat/report/scan_view.hpp"
+#include "mdat/report/scene_view.hpp"
 #include "mdat/report/stanford_view.hpp"
 #include "mdat/report/timeline_view.hpp"
 #include "mdat/run/paper.hpp"
@@ -227,10 +228,12 @@ std::string introduction(const SimulationResult& result) {
 
 }  // namespace
 
-std::string report_html(Plotter& plotter, const CompiledMission& mission, const SimulationResult& result) {
+std::string report_html(Plotter& plotter, const CompiledMission& mission, const SimulationResult& result,
+                        const std::vector<SeenPicture>& pictures) {
   if (result.kind == ScenarioKind::kApproach) return approach_html(plotter, mission, result);
   const std::unique_ptr<sim::RayCaster> target = make_target(mission.mesh);
   std::string body = "<h1>" + escape(result.mission) + "</h1>\n" + introduction(result) + about_section(mission, result);
+  body += relative_section(result) + seen_section(pictures);
   if (result.kind >= ScenarioKind::kPass) body += timeline_section(plotter, *target, result);
   for (const TableResult& table : result.tables) body += table_section(plotter, *target, table);
   return page(result.mission + ", " + result.scenario, body);

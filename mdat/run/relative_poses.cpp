@@ -10,9 +10,9 @@
 namespace lasso::mdat {
 namespace {
 
-constexpr double kMm = 1e3, kDeg = 1 / kRadPerDeg;
+constexpr double kMillimetres = 1e3, kDegrees = 1 / kRadPerDeg;
 
-constexpr char kColumns[] =
+constexpr char kRelativeColumns[] =
     "relative,t_s,valid,x_m,y_m,z_m,qx,qy,qz,qw,sigma_x_mm,sigma_y_mm,sigma_z_mm,sigma_rx_deg,sigma_ry_deg,sigma_rz_deg,error_mm,error_deg,"
     "nees,filtered_x_m,filtered_y_m,filtered_z_m,filtered_qx,filtered_qy,filtered_qz,filtered_qw,vx_mps,vy_mps,vz_mps,wx_degps,wy_degps,"
     "wz_degps,filtered_error_mm,filtered_error_deg,v_error_mmps,w_error_degps\n";
@@ -76,13 +76,13 @@ std::string row(const std::string& name, const RelativePose& pose) {
   const PoseError error = pose_error(pose.T_in_of, pose.truth), filtered = pose_error(pose.T_in_of_filtered, pose.truth);
   const Eigen::Matrix<double, 6, 1> sigma = pose.covariance.diagonal().cwiseMax(0).cwiseSqrt();
   std::string text = name + format(",%.6f,%d", pose.t_s, pose.valid ? 1 : 0) + cells(pose.T_in_of);
-  text += cells(Vec3(sigma.tail<3>()), kMm) + cells(Vec3(sigma.head<3>()), kDeg);
-  text += format(",%.6g,%.6g,%.6g", kMm * error.translation_m.norm(), kDeg * error.rotation_rad,
+  text += cells(Vec3(sigma.tail<3>()), kMillimetres) + cells(Vec3(sigma.head<3>()), kDegrees);
+  text += format(",%.6g,%.6g,%.6g", kMillimetres * error.translation_m.norm(), kDegrees * error.rotation_rad,
                  nees(pose.T_in_of, pose.truth, pose.covariance));
-  text += cells(pose.T_in_of_filtered) + cells(pose.rates.v_mps, 1) + cells(pose.rates.omega_radps, kDeg);
-  text += format(",%.6g,%.6g", kMm * filtered.translation_m.norm(), kDeg * filtered.rotation_rad);
-  return text + format(",%.6g,%.6g\n", kMm * (pose.rates.v_mps - pose.true_rates.v_mps).norm(),
-                       kDeg * (pose.rates.omega_radps - pose.true_rates.omega_radps).norm());
+  text += cells(pose.T_in_of_filtered) + cells(pose.rates.v_mps, 1) + cells(pose.rates.omega_radps, kDegrees);
+  text += format(",%.6g,%.6g", kMillimetres * filtered.translation_m.norm(), kDegrees * filtered.rotation_rad);
+  return text + format(",%.6g,%.6g\n", kMillimetres * (pose.rates.v_mps - pose.true_rates.v_mps).norm(),
+                       kDegrees * (pose.rates.omega_radps - pose.true_rates.omega_radps).norm());
 }
 
 }  // namespace
@@ -101,7 +101,7 @@ std::vector<RelativeRun> relative_runs(const SimulationResult& result) {
 }
 
 std::string relative_csv(const std::vector<RelativeRun>& runs) {
-  std::string text = kColumns;
+  std::string text = kRelativeColumns;
   for (const RelativeRun& run : runs) {
     for (const RelativePose& pose : run.poses) text += row(run.name, pose);
   }
@@ -122,8 +122,8 @@ RelativeFigures relative_figures(const RelativeRun& run) {
     figures.nees += nees(pose.T_in_of, pose.truth, pose.covariance);
   }
   const auto n = static_cast<double>(figures.valid);  // 0: nothing is known, and nothing is a number
-  for (double* mm : {&figures.rms_mm, &figures.filtered_rms_mm}) *mm = kMm * std::sqrt(*mm / n);
-  for (double* deg : {&figures.rms_deg, &figures.filtered_rms_deg}) *deg = kDeg * std::sqrt(*deg / n);
+  for (double* mm : {&figures.rms_mm, &figures.filtered_rms_mm}) *mm = kMillimetres * std::sqrt(*mm / n);
+  for (double* deg : {&figures.rms_deg, &figures.filtered_rms_deg}) *deg = kDegrees * std::sqrt(*deg / n);
   figures.nees /= n;
   return figures;
 }
