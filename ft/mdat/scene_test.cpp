@@ -86,7 +86,7 @@ TEST(SceneRun, NamesEveryProblemAndLeavesNothing) {
   const Answer answer = work.mdat("run missions/test.toml --scenario paper --out out/run");
   EXPECT_EQ(answer.exit_code, 2);
   EXPECT_NE(answer.err.find("node.a.motion: \"c\": the mission has no [motion.c]"), std::string::npos) << answer.err;
-  EXPECT_NE(answer.err.find("a, parent: \"b\": there is no such node"), std::string::npos) << answer.err;
+  EXPECT_NE(answer.err.find("node.a, parent: \"b\": there is no such node"), std::string::npos) << answer.err;
   EXPECT_EQ(work.contents(), before);
 }
 

@@ -122,7 +122,9 @@ class CampaignCheck {
     if (scenario_.has_profile() && has_column(campaign_, {"truth.range_m"}, found))
       complain(found->key, "truth.range_m",
                "scenario " + campaign_.scenario +
-                   " flies a profile of ranges at times_s: vary offset_m, or choose a scenario of kind spin or paper");
+                   (scenario_.scene != nullptr
+                        ? " is a scene, whose motions say where the target is: choose a scenario of kind spin or paper"
+                        : " flies a profile of ranges at times_s: vary offset_m, or choose a scenario of kind spin or paper"));
     if (scenario_.drawn != 0 && has_column(campaign_, attitude_columns(), found))
       complain(found->key, "", "changes nothing: scenario " + campaign_.scenario + " draws its attitude itself; write drawn = false in it");
   }

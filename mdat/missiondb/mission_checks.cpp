@@ -107,6 +107,7 @@ Origin place_of(const Subject& s, const Rule& rule) {
     if (origin->set) return *origin;
     if (place.preset()) place = *origin;
   }
+  if (place.preset() && is_of_motion(s, rule.keys.front())) return written_at(s.source, scenario_prefix(s) + "kind").value_or(place);
   return place;
 }
 

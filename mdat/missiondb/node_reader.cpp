@@ -180,7 +180,9 @@ void read_nodes(const toml::table& root, MissionSource& source, ProblemList& pro
   try {
     static_cast<void>(scene::Tree(kSceneRoot, source.scene.nodes));
   } catch (const MissionError& error) {
-    problems.add(error);
+    std::vector<Problem> told = error.problems();
+    for (Problem& problem : told) problem.key = "node." + problem.key;
+    problems.add(MissionError(told));
   }
 }
 

@@ -100,6 +100,15 @@ std::string outside_fault(const Subject& s) {
   return misses_at(s, is_outside, "the target is wholly outside of the field");
 }
 
+// Of a scene at frame 0; elsewhere the range is along the boresight.
+std::string behind_fault(const Subject& s) {
+  if (s.scenario->scene == nullptr) return "";
+  const Eigen::Vector3d middle_m = first_pose(*s.scenario, s.scenario->ranges_m.front()) * s.target->middle();
+  if (middle_m.z() > 0) return "";
+  return "at frame 0 the target's middle is behind the sensor, whose boresight is its z axis: towards = \"" + s.source.scene.target +
+         "\" turns a node to it";
+}
+
 std::string off_fault(const Subject& s) {
   if (!outside_fault(s).empty() || s.scenario->drawn != 0) return "";
   return misses_at(s, is_off, "the target's middle is outside of the field");
@@ -324,6 +333,7 @@ const Rules& target_rules() {
     {kWarning, kScenario, kTarget, {"bearing.returns_min", "scan.points"}, bearing_fault},
     {kWarning, kScenario, kTarget, {"offset_m", "sensor.fov_half_x_deg", "sensor.fov_half_y_deg"}, outside_fault},
     {kWarning, kScenario, kTarget, {"offset_m", "sensor.fov_half_x_deg", "sensor.fov_half_y_deg"}, off_fault},
+    {kError, kScenario, kTarget, {"offset_m"}, behind_fault},
     {kWarning, kScenario, kTarget, {"drift_mps", "frames"}, lost_fault},
     {kError, kScenario, kTarget, {"ranges_m", "target.scale", "center_m", "offset_m"}, inside_fault},
     {kWarning, kScenario, kTarget, {"edge_mixing_m", "beam_divergence_rad"}, footprint_fault},

@@ -83,10 +83,10 @@ TEST_F(NodeReaderTest, EveryProblemIsToldWithItsPlace) {
   for (const char* expected : {"node.b.target: true: node a is the target already",
                                "node.c.motion: \"spinn\": the mission has no [motion.spinn]; did you mean spin?",
                                "node.c.mesh: \"x.stl\": no such file", "node.d.parts: expected at most one of model, mesh and parts",
-                               "node.e.scale: has no effect without model or mesh", "d, parent: \"cc\": there is no such node"}) {
+                               "node.e.scale: has no effect without model or mesh", "node.d, parent: \"cc\": there is no such node"}) {
     EXPECT_NE(said.find(expected), std::string::npos) << expected << "\nin:\n" << said;
   }
-  expect_problem("[node.a]\nparent = 'b'\n[node.b]\nparent = 'a'\n", "m.toml:7:1: a, parent: \"a\" in \"b\" in \"a\": is a circle");
+  expect_problem("[node.a]\nparent = 'b'\n[node.b]\nparent = 'a'\n", "m.toml:7:1: node.a, parent: \"a\" in \"b\" in \"a\": is a circle");
   expect_problem("[node.a]\ntarget = true\nmodel = 'box.toml'\n", "node.a.model: the target's node looks as [target] says");
 }
 
@@ -133,6 +133,13 @@ TEST_F(NodeReaderTest, RulesAskTheMotionThatIsFlown) {
   for (const std::string& warning : warnings_for(source, "s")) said += warning + "\n";
   EXPECT_NE(said.find("scenario.s.motion: the target turns by"), std::string::npos) << said;
   EXPECT_NE(said.find("in a scenario of kind scene these have no effect: tilt_deg"), std::string::npos) << said;
+  const std::string behind = mission_error_of([&] {
+    MissionSource back =
+        load("[node.body]\ntarget = true\n[node.camera]\nposition_m = [0, 0, 4]\nsensor = true\n[scenario.s]\nkind = 'scene'\n");
+    check_target(back, load_target(back));
+  });
+  EXPECT_NE(behind.find("m.toml:13:8: scenario.s.motion: at frame 0 the target's middle is behind the sensor"), std::string::npos)
+      << behind;
   const std::string inside = mission_error_of([&] {
     MissionSource close = load(
         "[node.body]\ntarget = true\n[node.camera]\nposition_m = [0, 0, -0.2]\nsensor = true\n[scenario.s]\nkind = "
