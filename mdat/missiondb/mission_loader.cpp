@@ -3,6 +3,7 @@
 
 #include "mdat/missiondb/campaign_reader.hpp"
 #include "mdat/missiondb/campaign_rules.hpp"
+#include "mdat/missiondb/material_reader.hpp"
 #include "mdat/missiondb/mesh_import.hpp"
 #include "mdat/missiondb/mission_checks.hpp"
 #include "mdat/missiondb/mission_source.hpp"
@@ -69,13 +70,15 @@ class Loader {
   void read_values() {
     std::vector<ValueRow> rows = mission_rows();
     rows.insert(rows.end(), flight_rows().begin(), flight_rows().end());
-    found_ = read_table(root_, "", rows,
-                        {"campaign", "further_sensor", "motion", "node", "orbit", "part", "relative", "scenario", "target.parameters"},
-                        problems_);
+    found_ = read_table(
+        root_, "", rows,
+        {"campaign", "further_sensor", "material", "motion", "node", "orbit", "part", "relative", "scenario", "target.parameters"},
+        problems_);
     for (const ValueRow& row : rows) note_origin(row.key, found_, row.key);
     read_motions(root_, source_, problems_);
     read_nodes(root_, source_, problems_);
     read_relative(root_, source_, problems_);
+    read_materials(root_, source_, problems_);
     read_scenario_values();
     read_further_sensors(root_, source_, problems_);
     read_parts(root_, source_, problems_);

@@ -1,6 +1,7 @@
 #include "mdat/missiondb/mission_schema.hpp"
 
 #include "cfg/capacities.hpp"
+#include "mdat/missiondb/material_reader.hpp"
 #include "mdat/missiondb/motion_reader.hpp"
 #include "mdat/missiondb/node_reader.hpp"
 #include "mdat/missiondb/schema_parts.hpp"
@@ -51,6 +52,9 @@ void add_scene(Json& schema) {
   add_rows(orbit, orbit_rows(), true);
   schema["properties"]["orbit"] = orbit;
   schema["properties"]["motion"] = {{"type", "object"}, {"additionalProperties", motion_schema()}};
+  Json material = closed_object();
+  add_rows(material, material_rows(), false);
+  schema["properties"]["material"] = {{"type", "object"}, {"additionalProperties", material}};
   Json relative = closed_object();
   add_rows(relative, relative_rows(), true);
   schema["properties"]["relative"] = {{"type", "object"}, {"additionalProperties", relative}};

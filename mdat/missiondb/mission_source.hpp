@@ -12,6 +12,7 @@
 #include "fsw/mission/calibration.hpp"
 #include "fsw/mission/parameters.hpp"
 #include "mdat/missiondb/campaign_source.hpp"
+#include "mdat/missiondb/material_source.hpp"
 #include "mdat/missiondb/scene_source.hpp"
 #include "mdat/modelc/mesh.hpp"
 #include "mdat/source/mission_error.hpp"
@@ -141,6 +142,7 @@ struct MissionSource {
   Calibrations calibrations;
   MissionParameters parameters{};
   SceneSource scene;
+  std::vector<MaterialSource> materials;  // of pictures
   std::map<std::string, Scenario> scenarios;
   std::map<std::string, CampaignSource> campaigns;
   std::map<std::string, Origin> origins;  // by dotted key, all rows of parameter_rows() and of the ground sections

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <map>
 #include <optional>
 
 #include "mdat/missiondb/mesh_import.hpp"
@@ -98,10 +99,53 @@ class SceneLoader {
   std::vector<Problem> problems_;
 };
 
+Problem material_problem(const MissionSource& source, const MaterialSource& material, const std::string& part, const std::string& why) {
+  const std::string key = "material." + material.name + ".parts";
+  const Origin origin = source.origins.at(key);
+  return {origin.set ? kSettingPlace : source.file.string(), origin.line, origin.column, key, '"' + part + '"', why};
+}
+
+void check_materials(const MissionSource& source, const std::vector<std::string>& names) {
+  std::vector<Problem> problems;
+  std::map<std::string, std::string> materials;  // by part
+  for (const MaterialSource& material : source.materials) {
+    for (const std::string& pattern : material.parts) {
+      bool found = false;
+      for (const std::string& name : names) {
+        if (!matches_part(name, pattern)) continue;
+        found = true;
+        const auto [of, is_new] = materials.emplace(name, material.name);
+        if (!is_new) problems.push_back(material_problem(source, material, pattern, name + " is of [material." + of->second + "] already"));
+      }
+      if (!found)
+        problems.push_back(material_problem(
+            source, material, pattern, "there is no such part" + did_you_mean(pattern, names) + "; mdat render --as parts shows them"));
+    }
+  }
+  if (!problems.empty()) throw MissionError(problems);
+}
+
 }  // namespace
+
+std::vector<std::uint32_t> part_numbers_of(const BodySource& body, const BodySurface& surface, std::vector<std::string>& names) {
+  std::vector<std::uint32_t> numbers;
+  for (const std::string& part : surface.part_names) {
+    const bool alone = body.file.empty() || part == body.node;
+    numbers.push_back(number_of_name(names, alone ? part : body.node + "." + part));
+  }
+  return numbers;
+}
+
+std::vector<std::string> part_names_of(const MissionSource& source, const Mesh& target) {
+  std::vector<std::string> names = target_parts(source, target).names;
+  for (std::size_t i = 0; i < source.scene.bodies.size(); ++i)
+    static_cast<void>(part_numbers_of(source.scene.bodies[i], source.scene.surfaces->bodies[i], names));
+  return names;
+}
 
 void load_scene(MissionSource& source, const Mesh& target) {
   if (!source.scene.bodies.empty()) SceneLoader(source, target).load();
+  if (!source.materials.empty()) check_materials(source, part_names_of(source, target));
 }
 
 }  // namespace lasso::mdat

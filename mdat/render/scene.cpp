@@ -10,6 +10,7 @@
 #include "mdat/common/errors.hpp"
 #include "mdat/common/progress_bar.hpp"
 #include "mdat/common/text.hpp"
+#include "mdat/missiondb/scene_surfaces.hpp"
 #include "mdat/missiondb/target_parts.hpp"
 #include "mdat/source/nearest.hpp"
 
@@ -77,9 +78,28 @@ void set_material(const std::string& setting, const std::vector<std::string>& pa
     throw InputError("--material " + setting + ": the target has no such part" + did_you_mean(pattern, parts) + "; --as parts shows them");
 }
 
-std::vector<Material> materials_of(const std::vector<std::string>& parts, const std::vector<std::string>& settings) {
+Rgb colour(const std::vector<double>& rgb) { return {rgb[0], rgb[1], rgb[2]}; }
+
+Material material_of(const MaterialSource& source) {
+  Material material = *material_preset(source.preset);
+  if (!source.diffuse.empty()) material.reflection.diffuse = colour(source.diffuse);
+  if (!source.specular.empty()) material.reflection.specular = colour(source.specular);
+  material.reflection.roughness = source.roughness.value_or(material.reflection.roughness);
+  material.tilt_rad = source.tilt_rad.value_or(material.tilt_rad);
+  return material;
+}
+
+// By the mission, or else by the part's name; then as set on the command line.
+std::vector<Material> materials_of(const std::vector<MaterialSource>& mission, const std::vector<std::string>& parts,
+                                   const std::vector<std::string>& settings) {
   std::vector<Material> materials;
   for (const std::string& part : parts) materials.push_back(likely_material(part));
+  for (const MaterialSource& source : mission) {
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      const auto matches = [&](const std::string& pattern) { return matches_part(parts[i], pattern); };
+      if (std::any_of(source.parts.begin(), source.parts.end(), matches)) materials[i] = material_of(source);
+    }
+  }
   for (const std::string& setting : settings) set_material(setting, parts, materials);
   return materials;
 }
@@ -92,21 +112,6 @@ SurfaceBody simulated_body(const MissionInput& mission, const TargetParts& parts
   return body;
 }
 
-// Names of the parts of a node that is none of the target's; they join the others.
-std::vector<std::uint32_t> numbers_of_parts(const BodySource& source, const BodySurface& surface, std::vector<std::string>& names) {
-  std::vector<std::uint32_t> numbers;
-  for (const std::string& part : surface.part_names) {
-    const bool alone = source.file.empty() || part == source.node;
-    numbers.push_back(number_of_name(names, alone ? part : source.node + "." + part));
-  }
-  return numbers;
-}
-
-void add_parts_of_nodes(const SceneSource& source, std::vector<std::string>& names) {
-  for (std::size_t i = 0; i < source.bodies.size(); ++i)
-    static_cast<void>(numbers_of_parts(source.bodies[i], source.surfaces->bodies[i], names));
-}
-
 // What is seen at a time since the epoch, target first.
 std::vector<SurfaceBody> bodies_at(const MissionSource& source, const CaseSetup& setup, const SurfaceBody& target,
                                    std::vector<std::string> names, TimeUs t_us) {
@@ -115,7 +120,7 @@ std::vector<SurfaceBody> bodies_at(const MissionSource& source, const CaseSetup&
   for (std::size_t i = 0; run != nullptr && i < run->body_nodes.size(); ++i) {
     const BodySource& node = source.scene.bodies[i];
     const BodySurface& surface = run->surfaces->bodies[i];
-    const std::vector<std::uint32_t> numbers = numbers_of_parts(node, surface, names);
+    const std::vector<std::uint32_t> numbers = part_numbers_of(node, surface, names);
     SurfaceBody body{surface.mesh, {}, run->tree.state(run->body_nodes[i], run->target, t_us).T_a_b, 0};
     for (const std::uint32_t part : surface.part_of_triangle) body.part_of_triangle.push_back(numbers[part]);
     bodies.push_back(std::move(body));
@@ -189,9 +194,8 @@ Scene make_scene(const MissionInput& mission, const SceneRequest& request) {
   const Scenario& scenario = scenario_of(source, scene.scenario);
   scene.seed = request.seed.value_or(static_cast<std::uint64_t>(scenario.seed));
   scene.setup = plain_case(source, scenario, scene.seed, 1, range_index(scenario, scene.scenario, request.range_m));
-  scene.parts = target_parts(source, mission.mesh).names;
-  if (scenario.scene != nullptr) add_parts_of_nodes(source.scene, scene.parts);
-  scene.materials = materials_of(scene.parts, request.materials);
+  scene.parts = scenario.scene != nullptr ? part_names_of(source, mission.mesh) : target_parts(source, mission.mesh).names;
+  scene.materials = materials_of(source.materials, scene.parts, request.materials);
   move_to(mission, to_us(request.time_s), scene);
   const FieldOfView view = camera_of_mission(source, request.camera, scene.T_sensor_target.p.norm());
   scene.camera = view.name;

@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "mdat/missiondb/material_source.hpp"
 #include "ut/support/verifies.hpp"
 
 namespace lasso::mdat {
@@ -14,6 +15,12 @@ double reflectance(const Material& material) {
   const double lines = material.grid_pitch > 0 ? 2 * kGridLine - kGridLine * kGridLine : 0;
   const Rgb diffuse = material.reflection.diffuse * (1 - lines) + lines * kGridReflectance;
   return (diffuse + material.reflection.specular).mean();
+}
+
+TEST(Material, EveryNameOfAMissionIsAPreset) {
+  VERIFIES("LASSO-PIC-018~1");
+  EXPECT_EQ(material_presets().size(), kMaterialNames.size());
+  for (const char* name : kMaterialNames) EXPECT_NE(material_preset(name), nullptr) << name;
 }
 
 TEST(Material, PresetsReflectWhatTheirSourcesDoNotAbsorb) {

@@ -87,6 +87,27 @@ TEST(Scene, ShowsAllBodiesInTheLightOfTheOrbit) {
   }
 }
 
+TEST(Scene, TakesTheMissionsMaterials) {
+  VERIFIES("LASSO-PIC-018~1");
+  const MissionInput mission = shipped(
+      "hubble_tenth.toml", {"material.wing.parts=[\"solar array*\"]", "material.wing.preset=\"mli\"", "material.wing.roughness=0.77",
+                            "material.wing.diffuse=[0.1,0.2,0.3]", "material.wing.specular=[0.4,0.5,0.6]"});
+  SceneRequest request;
+  request.materials = {"solar array +y=regolith"};  // the command line has the last word
+  const Scene scene = make_scene(mission, request);
+  for (std::size_t i = 0; i < scene.parts.size(); ++i) {
+    if (scene.parts[i] == "solar array +y") {
+      EXPECT_STREQ(scene.materials[i].name, "regolith");
+    }
+    if (scene.parts[i] != "solar array -y") continue;
+    EXPECT_STREQ(scene.materials[i].name, "mli");
+    EXPECT_EQ(scene.materials[i].reflection.roughness, 0.77);
+    EXPECT_EQ(scene.materials[i].reflection.diffuse.matrix(), Vec3(0.1, 0.2, 0.3));
+    EXPECT_EQ(scene.materials[i].reflection.specular.matrix(), Vec3(0.4, 0.5, 0.6));
+    EXPECT_EQ(scene.materials[i].tilt_rad, material_preset("mli")->tilt_rad);
+  }
+}
+
 TEST(Scene, TakesTheSensorWhoseTurnItIs) {
   VERIFIES("LASSO-PIC-001~1");
   const MissionInput mission = shipped("hubble.toml");
