@@ -21,6 +21,7 @@
 //   BinRate   bins per unit of Tangent                          16000                      2^-16
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "fsw/core/bits.hpp"
@@ -29,6 +30,10 @@
 namespace lasso {
 
 struct FloatNumber {
+  // Of a line search (fsw/pose/weak_axis.hpp): places each way, and poses that are registered.
+  static constexpr int kLinePlaces = 6;
+  static constexpr std::size_t kLineKept = 2;
+
   using Length = float;
   using Unit = float;
   using Tangent = float;

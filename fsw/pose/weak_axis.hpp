@@ -21,8 +21,8 @@ struct PriorPose {
   double rival_m = 0;              // LineSearch::rival_m of the scan before
 };
 
-constexpr int kWeakAxisSteps = 6;         // each way
-constexpr std::size_t kWeakAxisKept = 2;  // poses of a line that are registered
+constexpr int kWeakAxisSteps = FlightNumber::kLinePlaces;       // each way
+constexpr std::size_t kWeakAxisKept = FlightNumber::kLineKept;  // poses of a line that are registered
 
 struct LineSearch {
   HitSolution best;
