@@ -18,6 +18,7 @@ using scene::MotionPtr;
 
 constexpr double kLongest_s = 1e9;
 constexpr std::size_t kMostInChain = 16;
+constexpr std::size_t kMostLinks = 64;  // of chains in chains
 
 ValueRow file_row(const char* meaning) { return required(text_row("file", "[^\\x00-\\x1f]+", meaning)); }
 
@@ -200,6 +201,7 @@ class MotionReader {
     leg.duration_s = values.number("duration_s");
     for (const auto& [key, kind] : {std::pair{"velocity_mps", Kind::kDrift}, std::pair{"to_m", Kind::kTransfer}}) {
       if (leg.kind == kind) leg.vector = values.vector(key);
+      if (leg.kind == kind && !values.is_written(key)) values.complain(key, "", "is missing: a leg of this kind needs it");
       if (leg.kind != kind && values.is_written(key)) values.complain(key, "", "has no effect in a leg of this kind: leave it out");
     }
     return leg;
@@ -260,6 +262,9 @@ class MotionsReader {
     if (kind == nullptr) return;
     source_.scene.values.push_back({path + ".kind", '"' + kind->name + '"', "", kind->meaning});
     source_.origins[path + ".kind"] = origin_of(table->get("kind")->source());
+    kinds_[name] = kind->name;
+    if (kind->needs_orbit) source_.scene.in_hill.insert(name);
+    if (kind->name == "torque_free") source_.scene.free_tumbles.insert(name);
     if (kind->name == "chain") {
       const SceneValues values(*table, path, kind->rows, {"kind"}, source_, problems_);
       chains_[name] = {values.texts("of"), values.place()};
@@ -291,22 +296,47 @@ class MotionsReader {
     return nullptr;
   }
 
+  MotionPtr known(const std::string& name) const {
+    const auto found = source_.scene.motions.find(name);
+    return found == source_.scene.motions.end() ? nullptr : found->second;
+  }
+
   // Null where something is wrong, which has been told.
   MotionPtr chained(const std::string& name) {
     const auto chain = chains_.find(name);
-    if (source_.scene.motions[name] != nullptr || chain == chains_.end()) return source_.scene.motions[name];
-    if (!open_.insert(name).second) return complain(name, "is part of itself");
-    MotionPtr motion;
-    for (const std::string& link : chain->second.of) {
-      if (std::find(names_.begin(), names_.end(), link) == names_.end())
-        return complain(name, "there is no motion \"" + link + '"' + did_you_mean(link, names_));
-      MotionPtr next = chained(link);
-      if (next == nullptr) return nullptr;
-      motion = motion == nullptr ? next : std::make_shared<scene::Chain>(motion, next);
-    }
+    if (chain == chains_.end()) return known(name);
+    if (open_.count(name) != 0) return complain(name, "is part of itself");
+    if (!tried_.insert(name).second) return known(name);
+    open_.insert(name);
+    const MotionPtr motion = joined(name, chain->second.of);
     open_.erase(name);
     source_.scene.motions[name] = motion;
     return motion;
+  }
+
+  // What keeps `link` from standing there; empty: nothing does. `keeps_hill`: the motions before it keep the Hill frame's axes.
+  std::string fault_of(const std::string& link, bool keeps_hill) const {
+    if (std::find(names_.begin(), names_.end(), link) == names_.end())
+      return "there is no motion \"" + link + '"' + did_you_mean(link, names_);
+    if (keeps_hill || source_.scene.in_hill.count(link) == 0) return "";
+    return '"' + link + "\" is a motion in the Hill frame's axes: before it, only clohessy_wiltshire keeps them";
+  }
+
+  MotionPtr joined(const std::string& name, const std::vector<std::string>& links) {
+    MotionPtr motion;
+    bool keeps_hill = true;
+    for (const std::string& link : links) {
+      const MotionPtr next = chained(link);  // first: it says whether the link is in the Hill frame
+      const std::string fault = fault_of(link, keeps_hill);
+      if (!fault.empty()) return complain(name, fault);
+      if (next == nullptr) return nullptr;
+      keeps_hill = keeps_hill && kinds_[link] == "clohessy_wiltshire";
+      sizes_[name] += std::max<std::size_t>(1, sizes_[link]);
+      motion = motion == nullptr ? next : std::make_shared<scene::Chain>(motion, next);
+    }
+    if (source_.scene.in_hill.count(links.front()) != 0) source_.scene.in_hill.insert(name);
+    if (sizes_[name] <= kMostLinks) return motion;
+    return complain(name, "has " + std::to_string(sizes_[name]) + " motions: expected at most " + std::to_string(kMostLinks));
   }
 
   MotionPtr complain(const std::string& name, const std::string& what) {
@@ -324,7 +354,9 @@ class MotionsReader {
   ProblemList& problems_;
   std::vector<std::string> names_;
   std::map<std::string, ChainSource> chains_;
-  std::set<std::string> open_;  // chains that are being made
+  std::set<std::string> open_, tried_;  // chains that are being made, or have been
+  std::map<std::string, std::size_t> sizes_;
+  std::map<std::string, std::string> kinds_;
 };
 
 void read_orbit(const toml::table& root, MissionSource& source, ProblemList& problems) {

@@ -24,11 +24,23 @@ ValueRow parts_row() {
   return row;
 }
 
+// What a motion needs of the axes in which it moves a node.
+void check_axes(const std::string& motion, const scene::Node& node, const std::string& key, Origin origin, MissionSource& source,
+                ProblemList& problems) {
+  const bool in_root = node.parent == kSceneRoot && node.T_parent_base.q.isApprox(Quat::Identity(), 1e-9);
+  if (source.scene.in_hill.count(motion) != 0 && !in_root)
+    problems.add(origin, key, '"' + motion + '"', "is a motion in the Hill frame's axes: the node has to stand in root, not turned");
+  if (source.scene.free_tumbles.count(motion) != 0 && source.scene.orbit && node.parent == kSceneRoot)
+    source.warnings.push_back(
+        to_string({source.file.string(), origin.line, origin.column, key, '"' + motion + '"',
+                   "is torque-free in axes that do not turn, and the Hill frame does: a chain of an inertial motion and this one is"}));
+}
+
 // One [node.NAME].
 class NodeReader {
  public:
   NodeReader(const std::string& name, const toml::table& table, MissionSource& source, ProblemList& problems)
-      : source_(source), values_(table, "node." + name, node_rows(), {}, source, problems) {
+      : source_(source), problems_(problems), values_(table, "node." + name, node_rows(), {}, source, problems) {
     node_.name = name;
     node_.place = values_.place();
   }
@@ -52,7 +64,8 @@ class NodeReader {
     const auto known = source_.scene.motions.find(motion);
     if (known != source_.scene.motions.end()) {
       node_.motion = known->second;
-      return;
+      const std::string key = "node." + node_.name + ".motion";
+      return check_axes(motion, node_, key, source_.origins[key], source_, problems_);
     }
     std::vector<std::string> names;
     for (const auto& entry : source_.scene.motions) names.push_back(entry.first);
@@ -89,6 +102,7 @@ class NodeReader {
   }
 
   MissionSource& source_;
+  ProblemList& problems_;
   SceneValues values_;
   scene::Node node_;
 };
@@ -100,9 +114,13 @@ std::vector<std::string> node_names(const SceneSource& scene) {
 }
 
 // What the tree has besides the mission's nodes.
-void add_lvlh(SceneSource& scene) {
-  const std::vector<std::string> names = node_names(scene);
-  if (!scene.orbit || std::find(names.begin(), names.end(), kSceneLvlh) != names.end()) return;
+void add_lvlh(SceneSource& scene, ProblemList& problems) {
+  if (!scene.orbit) return;
+  for (const scene::Node& node : scene.nodes) {
+    if (node.name == kSceneLvlh)
+      return problems.add(Origin{node.place.line, node.place.column, node.place.file == kSettingPlace}, "node.lvlh", "",
+                          "is the orbit's frame of docking: give the node another name");
+  }
   scene::Node node;
   node.name = kSceneLvlh;
   node.parent = kSceneRoot;
@@ -114,6 +132,7 @@ void add_lvlh(SceneSource& scene) {
 void look_at_motion(double frames, double period_s, SceneRun& run) {
   const double end_s = (frames - 1) * period_s;
   const auto looks = static_cast<std::size_t>(std::min<double>(frames, kLooks));
+  const auto step_us = static_cast<TimeUs>(std::llround(1e6 * period_s));
   const auto t_us = [&](std::size_t i) {
     return looks < 2 ? TimeUs{0} : static_cast<TimeUs>(std::llround(1e6 * end_s * static_cast<double>(i) / static_cast<double>(looks - 1)));
   };
@@ -122,7 +141,8 @@ void look_at_motion(double frames, double period_s, SceneRun& run) {
     const scene::MotionState now = run.target_at(t_us(i)), next = run.target_at(t_us(i) + kStepUs);
     run.times_s.push_back(1e-6 * static_cast<double>(t_us(i)));
     run.ranges_m.push_back(now.T_a_b.p.norm());
-    run.rate_radps = std::max(run.rate_radps, now.rates.omega_radps.norm());
+    const Quat after = run.target_at(t_us(i) + step_us).T_a_b.q;  // of steps the rate is zero
+    run.rate_radps = std::max({run.rate_radps, now.rates.omega_radps.norm(), after.angularDistance(now.T_a_b.q) / period_s});
     run.acceleration_mps2 = std::max(run.acceleration_mps2, (next.rates.v_mps - now.rates.v_mps).norm() / (1e-6 * kStepUs));
   }
 }
@@ -176,7 +196,7 @@ void read_nodes(const toml::table& root, MissionSource& source, ProblemList& pro
       problems.add(entry, path, "wrong type: expected a table [" + path + "]");
     }
   }
-  add_lvlh(source.scene);
+  add_lvlh(source.scene, problems);
   try {
     static_cast<void>(scene::Tree(kSceneRoot, source.scene.nodes));
   } catch (const MissionError& error) {
@@ -207,6 +227,8 @@ void read_relative(const toml::table& root, MissionSource& source, ProblemList& 
       problems.add(entry, path, "wrong type: expected a table [" + path + "]");
       continue;
     }
+    if (name.str().find_first_of(",\"\n\r;") != std::string_view::npos)
+      problems.add(entry, path, "expected a name without commas, semicolons and quotes: it stands in a table");
     SceneValues values(*table, path, relative_rows(), {}, source, problems);
     for (const char* key : {"of", "in"}) {
       const std::string written = values.text(key);
@@ -234,6 +256,9 @@ ChosenMotions read_chosen_motions(const toml::table& scenario, const std::string
       problems.add(value, path, "expected the name of a [motion.NAME] of the mission");
     } else {
       chosen[key] = {motion, origin_of(value.source())};
+      for (const scene::Node& of : source.scene.nodes) {
+        if (of.name == key) check_axes(motion, of, path, chosen[key].origin, source, problems);
+      }
       source.origins[path] = chosen[key].origin;
       source.scene.values.push_back({path, '"' + motion + '"', "", "how the node moves in this scenario"});
     }

@@ -295,6 +295,7 @@ constexpr Effect kEffects[] = {
     {"roll_deg", kNotScene},
     {"drawn", kNotScene},
     {"offset_m", kNotScene},
+    {"center_m", kNotScene},
     {"step_deg", bit(ScenarioKind::kPaper)},
     {"paper_table", bit(ScenarioKind::kPaper)},
     {"spin_degps", kMoving},

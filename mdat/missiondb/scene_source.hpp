@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -61,7 +62,9 @@ struct RelativePair {
 struct SceneSource {
   std::optional<scene::Orbit> orbit;
   std::map<std::string, scene::MotionPtr> motions;
-  std::vector<scene::Node> nodes;  // with their motions; the root is not among them
+  std::set<std::string> in_hill;       // of these, those whose first axes are the Hill frame's
+  std::set<std::string> free_tumbles;  // and those that are torque-free by themselves, in axes that do not turn
+  std::vector<scene::Node> nodes;      // with their motions; the root is not among them
   std::vector<BodySource> bodies;
   std::string target, sensor;  // nodes; empty: none is said to be
   std::vector<RelativeSource> relative;

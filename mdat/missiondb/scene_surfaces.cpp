@@ -77,9 +77,27 @@ class SceneLoader {
     return named;
   }
 
+  // Parts are seldom meant to stay behind.
+  void warn_of_parent(const BodySource& body) {
+    std::string parent = body.node;
+    for (std::size_t i = 0; i <= source_.scene.nodes.size() && parent != source_.scene.target && parent != kSceneRoot; ++i) {
+      for (const scene::Node& node : source_.scene.nodes) {
+        if (node.name == parent) {
+          parent = node.parent;
+          break;
+        }
+      }
+    }
+    const Origin origin = source_.origins.at(body.key);
+    if (parent != source_.scene.target)
+      source_.warnings.push_back(to_string({source_.file.string(), origin.line, origin.column, body.key, "",
+                                            "these parts do not move with the target: write parent = \"" + source_.scene.target + "\""}));
+  }
+
   BodySurface parts_of_target(const BodySource& body, std::vector<bool>& moved) {
     const TargetParts& parts = target_parts_once();
     const std::vector<bool> named = named_parts(body);
+    warn_of_parent(body);
     moved.resize(target_.triangles.size(), false);
     BodySurface surface{{target_.vertices, {}}, parts.names, {}};
     for (std::size_t i = 0; i < target_.triangles.size(); ++i) {
@@ -105,22 +123,26 @@ Problem material_problem(const MissionSource& source, const MaterialSource& mate
   return {origin.set ? kSettingPlace : source.file.string(), origin.line, origin.column, key, '"' + part + '"', why};
 }
 
+// One pattern of a material; `of_part` gets what it matches.
+void check_pattern(const MissionSource& source, const MaterialSource& material, const std::string& pattern,
+                   const std::vector<std::string>& names, std::map<std::string, std::string>& of_part, std::vector<Problem>& problems) {
+  bool found = false;
+  for (const std::string& name : names) {
+    if (!matches_part(name, pattern)) continue;
+    found = true;
+    const auto [of, is_new] = of_part.emplace(name, material.name);
+    if (!is_new) problems.push_back(material_problem(source, material, pattern, name + " is of [material." + of->second + "] already"));
+  }
+  if (!found)
+    problems.push_back(material_problem(source, material, pattern,
+                                        "there is no such part" + did_you_mean(pattern, names) + "; mdat render --as parts shows them"));
+}
+
 void check_materials(const MissionSource& source, const std::vector<std::string>& names) {
   std::vector<Problem> problems;
-  std::map<std::string, std::string> materials;  // by part
+  std::map<std::string, std::string> of_part;
   for (const MaterialSource& material : source.materials) {
-    for (const std::string& pattern : material.parts) {
-      bool found = false;
-      for (const std::string& name : names) {
-        if (!matches_part(name, pattern)) continue;
-        found = true;
-        const auto [of, is_new] = materials.emplace(name, material.name);
-        if (!is_new) problems.push_back(material_problem(source, material, pattern, name + " is of [material." + of->second + "] already"));
-      }
-      if (!found)
-        problems.push_back(material_problem(
-            source, material, pattern, "there is no such part" + did_you_mean(pattern, names) + "; mdat render --as parts shows them"));
-    }
+    for (const std::string& pattern : material.parts) check_pattern(source, material, pattern, names, of_part, problems);
   }
   if (!problems.empty()) throw MissionError(problems);
 }

@@ -100,6 +100,23 @@ std::string outside_fault(const Subject& s) {
   return misses_at(s, is_outside, "the target is wholly outside of the field");
 }
 
+// The first time of a scene's run, of those looked at, at which no sensor measures the target's middle; it was measured at the begin.
+std::string scene_lost_fault(const Subject& s) {
+  const SceneRun* run = s.scenario->scene.get();
+  const std::vector<SensorInUse> sensors = sensors_in_use(s.source, s.p, s.scenario);
+  for (std::size_t i = 0; run != nullptr && i < run->times_s.size(); ++i) {
+    const Pose pose = run->target_at(static_cast<TimeUs>(std::llround(1e6 * run->times_s[i]))).T_a_b;
+    const Eigen::Isometry3d T = Eigen::Translation3d(pose.p) * Eigen::Isometry3d(pose.q);
+    const double z_m = (T * s.target->middle()).z();
+    const auto measures = [&](const SensorInUse& sensor) {
+      return z_m > sensor.p.range_min_m && z_m < sensor.p.range_max_m && !is_off(seen_of(*s.target, T), sensor.p);
+    };
+    if (std::any_of(sensors.begin(), sensors.end(), measures)) continue;
+    return "after " + figure(run->times_s[i]) + " s the target's middle is out of the field, or of what is measured";
+  }
+  return "";
+}
+
 // Of a scene at frame 0; elsewhere the range is along the boresight.
 std::string behind_fault(const Subject& s) {
   if (s.scenario->scene == nullptr) return "";
@@ -110,6 +127,7 @@ std::string behind_fault(const Subject& s) {
 }
 
 std::string off_fault(const Subject& s) {
+  if (s.scenario->scene != nullptr) return "";  // scene_lost_fault
   if (!outside_fault(s).empty() || s.scenario->drawn != 0) return "";
   return misses_at(s, is_off, "the target's middle is outside of the field");
 }
@@ -334,6 +352,7 @@ const Rules& target_rules() {
     {kWarning, kScenario, kTarget, {"offset_m", "sensor.fov_half_x_deg", "sensor.fov_half_y_deg"}, outside_fault},
     {kWarning, kScenario, kTarget, {"offset_m", "sensor.fov_half_x_deg", "sensor.fov_half_y_deg"}, off_fault},
     {kError, kScenario, kTarget, {"offset_m"}, behind_fault},
+    {kWarning, kScenario, kTarget, {"offset_m"}, scene_lost_fault},
     {kWarning, kScenario, kTarget, {"drift_mps", "frames"}, lost_fault},
     {kError, kScenario, kTarget, {"ranges_m", "target.scale", "center_m", "offset_m"}, inside_fault},
     {kWarning, kScenario, kTarget, {"edge_mixing_m", "beam_divergence_rad"}, footprint_fault},

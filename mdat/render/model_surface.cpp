@@ -27,6 +27,23 @@ double angle_at(const Corners& c, std::size_t corner) {
 
 Vec3 moved(const Pose& T_a_b, const Vec3& v) { return rotate(T_a_b.q, v) + T_a_b.p; }
 
+using Triangle = std::array<std::uint32_t, 3>;
+
+// Of the vertices that the triangles have.
+std::unique_ptr<sim::RayCaster> caster_of(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles) {
+  std::map<std::uint32_t, std::uint32_t> numbers;
+  std::vector<Vec3> used;
+  std::vector<Triangle> renumbered = triangles;
+  for (Triangle& triangle : renumbered) {
+    for (std::uint32_t& vertex : triangle) {
+      const auto [number, is_new] = numbers.try_emplace(vertex, static_cast<std::uint32_t>(used.size()));
+      if (is_new) used.push_back(vertices[vertex]);
+      vertex = number->second;
+    }
+  }
+  return sim::make_ray_caster(used, renumbered);
+}
+
 double extent_of(const Mesh& mesh) {
   Vec3 low = mesh.vertices.at(0), high = low;
   for (const Vec3& v : mesh.vertices) {
@@ -47,13 +64,13 @@ ModelSurface::ModelSurface(const Mesh& mesh, const std::vector<std::uint32_t>& p
 
 ModelSurface::ModelSurface(const std::vector<SurfaceBody>& bodies, double crease_angle_rad) {
   for (const SurfaceBody& body : bodies) add_body(body);
-  caster_ = sim::make_ray_caster(mesh_.vertices, mesh_.triangles);
   smooth_corners(crease_angle_rad);
 }
 
 void ModelSurface::add_body(const SurfaceBody& body) {
   const auto number = static_cast<std::uint32_t>(frames_.size()), first = static_cast<std::uint32_t>(mesh_.vertices.size());
   const bool is_target = number == 0;  // whose frame is that of the picture
+  const auto first_triangle = static_cast<std::uint32_t>(mesh_.triangles.size());
   for (const Vec3& v : body.mesh.vertices) mesh_.vertices.emplace_back(is_target ? v : moved(body.T_target_body, v));
   for (std::size_t i = 0; i < body.mesh.triangles.size(); ++i) {
     const auto& t = body.mesh.triangles[i];
@@ -67,7 +84,9 @@ void ModelSurface::add_body(const SurfaceBody& body) {
       mesh_.triangles.pop_back();
     }
   }
-  frames_.push_back({body.T_target_body, body.size_m > 0 ? body.size_m : extent_of(body.mesh)});
+  const std::vector<Triangle> own(mesh_.triangles.begin() + first_triangle, mesh_.triangles.end());
+  frames_.push_back({body.T_target_body, body.size_m > 0 ? body.size_m : extent_of(body.mesh), first_triangle, nullptr});
+  if (!own.empty() || is_target) frames_.back().caster = caster_of(mesh_.vertices, own);
 }
 
 Vec3 ModelSurface::to_body(const SurfacePoint& point) const {
@@ -111,8 +130,20 @@ Vec3 ModelSurface::smooth_normal(std::uint32_t triangle, const Vec3& place_m) co
   return length > 0 ? Vec3(sum / length) : n;
 }
 
+bool ModelSurface::is_blocked(const Vec3& origin_m, const Vec3& direction) const {
+  return std::any_of(frames_.begin(), frames_.end(),
+                     [&](const Frame& frame) { return frame.caster != nullptr && frame.caster->is_blocked(origin_m, direction); });
+}
+
 bool ModelSurface::find(const Vec3& origin_m, const Vec3& direction, SurfacePoint& point) const {
-  const sim::RayHit hit = caster_->cast(origin_m, direction);
+  sim::RayHit hit;
+  for (const Frame& frame : frames_) {
+    if (frame.caster == nullptr) continue;
+    sim::RayHit of_body = frame.caster->cast(origin_m, direction);
+    if (!of_body.hit || (hit.hit && of_body.range_m >= hit.range_m)) continue;
+    of_body.triangle += frame.first_triangle;
+    hit = of_body;
+  }
   if (!hit.hit) return false;
   point.place_m = origin_m + hit.range_m * direction;
   point.range_m = hit.range_m;

@@ -41,7 +41,7 @@ class ModelSurface {
 
   // What a ray of unit direction meets first; false: nothing.
   bool find(const Vec3& origin_m, const Vec3& direction, SurfacePoint& point) const;
-  bool is_blocked(const Vec3& origin_m, const Vec3& direction) const { return caster_->is_blocked(origin_m, direction); }
+  bool is_blocked(const Vec3& origin_m, const Vec3& direction) const;
   double extent_m(std::uint32_t body = 0) const { return frames_[body].extent_m; }  // SurfaceBody::size_m
   Vec3 to_body(const SurfacePoint& point) const;                                    // its place in its body's frame
   Vec3 turned_to_body(std::uint32_t body, const Vec3& v) const { return rotate(frames_[body].T_target_body.q.conjugate(), v); }
@@ -54,6 +54,9 @@ class ModelSurface {
   struct Frame {
     Pose T_target_body;
     double extent_m;
+    std::uint32_t first_triangle;
+    std::unique_ptr<sim::RayCaster>
+        caster;  // its own: one of all would be as coarse near the target as the farthest body asks; none: no area
   };
   void add_body(const SurfaceBody& body);
 
@@ -61,7 +64,6 @@ class ModelSurface {
   std::vector<Frame> frames_;  // of the bodies
   std::vector<std::uint32_t> parts_, bodies_;
   std::vector<Vec3> facet_normals_, corner_normals_;  // one, and three, for each triangle
-  std::unique_ptr<sim::RayCaster> caster_;
 };
 
 }  // namespace lasso::mdat

@@ -10,7 +10,8 @@ namespace {
 constexpr std::size_t kPictures = 6;
 constexpr int kLongest_px = 440, kSamples = 2;
 
-std::string png_of(const Scene& scene, const std::vector<ScanMark>& marks, unsigned jobs) {
+// `dark`: nothing that is lit is in view.
+std::string png_of(const Scene& scene, const std::vector<ScanMark>& marks, unsigned jobs, bool& dark) {
   RenderSetup setup;
   setup.camera = camera_of(size_of(kLongest_px, scene.fov_half_x_rad, scene.fov_half_y_rad), scene.fov_half_x_rad, scene.fov_half_y_rad);
   setup.T_sensor_target = scene.T_sensor_target;
@@ -18,6 +19,7 @@ std::string png_of(const Scene& scene, const std::vector<ScanMark>& marks, unsig
   setup.jobs = jobs;
   const std::vector<Rgb> radiance = rendered(*scene.surface, scene.materials, scene.orbit_lights.value_or(usual_lights()), setup);
   const double white = automatic_white(radiance, seen_points(*scene.surface, setup));
+  dark = !(white > 0);
   return png_bytes(scan_view(photo(radiance, setup.camera, white), setup.camera, marks));
 }
 
@@ -31,7 +33,9 @@ RunPicture picture_of(const CompiledMission& mission, const SimulationResult& re
   const std::string caption =
       format("%.1f s, %.1f m, %s: %u of %zu rays return%s", request.time_s, scan.truth.p.norm(), request.camera.c_str(),
              scan.telemetry.returns, scan.samples.size(), scan.telemetry.valid != 0 ? "" : "; no valid pose");
-  return {caption, png_of(scene, scan_marks(mission, scene, scan), jobs)};
+  bool dark = false;
+  std::string png = png_of(scene, scan_marks(mission, scene, scan), jobs, dark);
+  return {caption + (dark ? "; dark: nothing in view is lit" : ""), std::move(png)};
 }
 
 }  // namespace

@@ -341,7 +341,7 @@ std::string attitude_text(const Scenario& scenario) {
 }
 
 std::string runs_text(const Scenario& scenario) {
-  if (scenario.scene != nullptr) return format("1 run from %.4g m to %.4g m", scenario.ranges_m.front(), scenario.ranges_m.back());
+  if (scenario.scene != nullptr) return format("1 run from %.4g m on", scenario.ranges_m.front());
   const std::vector<double> runs_m = scenario.runs_m();
   const auto [nearest, farthest] = std::minmax_element(runs_m.begin(), runs_m.end());
   const std::string runs = format("%zu %s%s", runs_m.size(), scenario.drawn != 0 ? "flight" : "range", runs_m.size() == 1 ? "" : "s");

@@ -17,6 +17,8 @@ class NodeTrajectory final : public sim::Trajectory {
  public:
   NodeTrajectory(std::shared_ptr<const SceneRun> run, std::size_t node, TimeUs epoch_us)
       : run_(std::move(run)), node_(node), epoch_us_(epoch_us), lookup_([this](TimeUs t_us) { return state(t_us); }) {}
+  NodeTrajectory(const NodeTrajectory&) = delete;  // its look-up knows it
+  NodeTrajectory& operator=(const NodeTrajectory&) = delete;
   sim::TruthState at(TimeUs t_us) const override {
     const scene::MotionState now = state(t_us - epoch_us_);
     return {now.T_a_b, now.rates};

@@ -9,9 +9,10 @@
 namespace lasso::mdat::scene {
 
 // Time is cut into intervals of 65.536 ms from 0 on. In each a cubic of the position, and one of the rotation vector from the interval's
-// begin, pass through the exact states and rates at both ends. Where at a quarter, the middle and three quarters the cubics are
-// within 1e-9 rad and 1e-9 of the distance (at least of 1 m), they are taken: a smooth motion's error is below twice that. Elsewhere, as at
-// jumps and in fast turns, each pose is exact. A pose depends on its time alone. The interval in use is kept: one caller at a time.
+// begin, pass through the exact states and rates at both ends. Where at a quarter, the middle and three quarters the cubics are within
+// 1e-9 rad and 1e-9 of the distance (at least of 1 m), they are taken: a smooth motion's error is below twice that. In all other intervals,
+// as where it jumps or turns fast, each pose is exact. What begins and ends within one quarter, 16 ms, is not seen. A pose depends on its
+// time alone. The interval in use is kept: one caller at a time.
 class PoseLookup {
  public:
   using Exact = std::function<MotionState(TimeUs)>;

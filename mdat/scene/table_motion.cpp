@@ -11,7 +11,8 @@
 namespace lasso::mdat::scene {
 namespace {
 
-constexpr double kLengthTolerance = 1e-3;  // of quaternions in files, which are rounded
+constexpr double kFarthest_m = 1e9, kLongest_s = 1e9, kFastest = 1e9;  // as in a mission file
+constexpr double kLengthTolerance = 1e-3;                              // of quaternions in files, which are rounded
 
 std::size_t rows_of(const MotionTable& table) {
   const auto degree = static_cast<std::size_t>(table.degree);
@@ -26,9 +27,9 @@ class RowCheck {
   void check(std::size_t row) {
     row_ = row;
     check_time();
-    check_finite(table_.positions_m, "position");
-    check_finite(table_.velocities_mps, "velocity");
-    check_finite(table_.omegas_radps, "angular velocity");
+    check_numbers(table_.positions_m, kFarthest_m, "position");
+    check_numbers(table_.velocities_mps, kFastest, "velocity");
+    check_numbers(table_.omegas_radps, kFastest, "angular velocity");
     check_length();
     if (row > 0 && !table_.omegas_radps.empty() && !table_.attitudes.empty()) check_turn();
   }
@@ -36,13 +37,14 @@ class RowCheck {
  private:
   void check_time() {
     const double t_s = table_.times_s[row_];
-    if (!std::isfinite(t_s)) return complain("time", sim::text_of(t_s), "expected a finite number of seconds");
+    if (!(std::fabs(t_s) <= kLongest_s)) return complain("time", sim::text_of(t_s), "expected a number of seconds from -1e9 to 1e9");
     if (row_ == 0 || t_s > table_.times_s[row_ - 1]) return;
     complain("time", sim::text_of(t_s) + " s",
              "is not after " + sim::text_of(table_.times_s[row_ - 1]) + " s of the row before: sort the rows by time, each time once");
   }
-  void check_finite(const std::vector<Vec3>& column, const char* key) {
-    if (!column.empty() && !column[row_].allFinite()) complain(key, "", "expected finite numbers");
+  void check_numbers(const std::vector<Vec3>& column, double most, const char* key) {
+    const bool good = column.empty() || (column[row_].cwiseAbs().array() <= most).all();  // no NaN is
+    if (!good) complain(key, "", "expected finite numbers, each from -1e9 to 1e9");
   }
   void check_length() {
     if (table_.attitudes.empty()) return;

@@ -20,6 +20,7 @@ class TreeCheck {
     for (std::size_t i = 1; i < nodes_.size(); ++i) check_name(i);
     for (std::size_t i = 1; i < nodes_.size(); ++i) check_node(i);
     if (all_found_) check_circles();
+    if (problems_.empty() && all_found_) check_work();
     problems_.throw_if_any();
     return links_;
   }
@@ -103,6 +104,27 @@ class TreeCheck {
       seen[node] = true;
       left.push_back(links_.parents[node]);
       if (!nodes_[node].towards.empty()) left.push_back(links_.towards[node]);
+    }
+  }
+
+  // Each pose asks where the other node is, and that one the same: states that are computed for one of the node, with its way to the root.
+  double work_of(std::size_t i, std::map<std::size_t, double>& known) const {
+    if (i == 0) return 0;
+    const auto found = known.find(i);
+    if (found != known.end()) return found->second;
+    double work = 1 + work_of(links_.parents[i], known);
+    if (links_.towards[i] != i) work += work_of(links_.towards[i], known) + work_of(links_.parents[i], known);
+    known[i] = work;
+    return work;
+  }
+
+  void check_work() {
+    constexpr double kMost = 2000;
+    std::map<std::size_t, double> known;
+    for (std::size_t i = 1; i < nodes_.size(); ++i) {
+      if (work_of(i, known) <= kMost) continue;
+      return complain(i, "towards", "",
+                      "nodes that point to nodes that point: each of its poses would ask more than 2000 others; let fewer of them point");
     }
   }
 

@@ -106,6 +106,14 @@ TEST_F(MotionReaderTest, TablesAndEphemeridesComeFromTheirFiles) {
   EXPECT_NE(std::find(source.named_files.begin(), source.named_files.end(), folder_.path() / "way.csv"), source.named_files.end());
 }
 
+TEST_F(MotionReaderTest, TablesAreWithinTheLimitsOfMissions) {
+  VERIFIES("LASSO-SCN-024~1");
+  folder_.write("far.csv", "time_s,x_m,y_m,z_m\n0,0,0,0\n2,1e20,0,0\n");
+  EXPECT_NE(problems("[motion.t]\nkind = 'table'\nfile = 'far.csv'\n")
+                .find("far.csv:3:1: position: expected finite numbers, each from -1e9 to 1e9"),
+            std::string::npos);
+}
+
 TEST_F(MotionReaderTest, EveryProblemIsToldWithItsPlace) {
   VERIFIES("LASSO-SCN-024~1");
   const std::string said = problems(
@@ -129,6 +137,24 @@ TEST_F(MotionReaderTest, EveryProblemIsToldWithItsPlace) {
   EXPECT_NE(said.find("motion.i, time: 1 s: is not after 2 s of the row before"), std::string::npos) << said;
 }
 
+TEST_F(MotionReaderTest, ChainsAreShortAndKeepTheAxesThatTheirLinksNeed) {
+  VERIFIES("LASSO-SCN-024~1");
+  std::string nested = "[motion.c0]\nkind = 'still'\n";
+  for (int i = 1; i <= 7; ++i) {
+    const std::string before = "'c" + std::to_string(i - 1) + "'";
+    nested +=
+        "[motion.c" + std::to_string(i) + "]\nkind = 'chain'\nof = [" + before + ", " + before + ", " + before + ", " + before + "]\n";
+  }
+  EXPECT_NE(problems(nested).find("motion.c4.of: has 256 motions: expected at most 64"), std::string::npos) << problems(nested);
+  const std::string lost = problems("[motion.f]\nkind = 'chain'\nof = ['nn']\n[motion.g]\nkind = 'chain'\nof = ['f']\n");
+  EXPECT_NE(lost.find("motion.f.of: there is no motion \"nn\""), std::string::npos) << lost;
+  EXPECT_EQ(lost.find("part of itself"), std::string::npos) << lost;
+  const std::string turned = problems(
+      "[orbit]\n[motion.spin]\nkind = 'rates'\nspin_degps = [1, 0, 0]\n[motion.sun]\nkind = 'sun_pointing'\n[motion.c]\nkind = 'chain'\n"
+      "of = ['spin', 'sun']\n");
+  EXPECT_NE(turned.find("\"sun\" is a motion in the Hill frame's axes"), std::string::npos) << turned;
+}
+
 TEST_F(MotionReaderTest, RelativeMotionNeedsAnOrbitAndLegsTheirOwnKeys) {
   VERIFIES("LASSO-SCN-024~1");
   EXPECT_NE(problems("[motion.m]\nkind = 'inertial'\n").find("motion.m.kind: \"inertial\": needs the mission's orbit: add [orbit]"),
@@ -136,6 +162,8 @@ TEST_F(MotionReaderTest, RelativeMotionNeedsAnOrbitAndLegsTheirOwnKeys) {
   const std::string said =
       problems("[orbit]\n[motion.m]\nkind = 'clohessy_wiltshire'\nlegs = [{kind = 'hold', duration_s = 1, to_m = [1, 2, 3]}]\n");
   EXPECT_NE(said.find("motion.m.legs[0].to_m: has no effect in a leg of this kind"), std::string::npos) << said;
+  const std::string missing = problems("[orbit]\n[motion.m]\nkind = 'clohessy_wiltshire'\nlegs = [{kind = 'transfer', duration_s = 1}]\n");
+  EXPECT_NE(missing.find("motion.m.legs[0].to_m: is missing: a leg of this kind needs it"), std::string::npos) << missing;
 }
 
 }  // namespace

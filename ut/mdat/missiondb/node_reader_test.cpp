@@ -105,6 +105,42 @@ TEST_F(NodeReaderTest, AScenarioSaysWhatBelongsToItsKind) {
   expect_problem("[scenario.s]\nkind = 'spin'\n", "m.toml:7:1: scenario.s.ranges_m: is missing");
 }
 
+TEST_F(NodeReaderTest, MotionsOfTheHillFrameMoveNodesOfTheRoot) {
+  VERIFIES("LASSO-SCN-024~1");
+  const std::string sun =
+      "[orbit]\n[motion.sun]\nkind = 'sun_pointing'\n[motion.tumble]\nkind = 'torque_free'\nspin_degps = [1, 2, 3]\ninertia = [2, 3, "
+      "4]\n[node.body]\ntarget = true\n";
+  EXPECT_EQ(problems(sun + "[node.wing]\nmotion = 'sun'\n"), "");
+  expect_problem(sun + "[node.wing]\nparent = 'body'\nmotion = 'sun'\n",
+                 "node.wing.motion: \"sun\": is a motion in the Hill frame's axes: the node has to stand in root");
+  expect_problem(sun + "[node.wing]\nparent = 'lvlh'\nmotion = 'sun'\n", "is a motion in the Hill frame's axes");
+  expect_problem(sun + "[node.lvlh]\n", "node.lvlh: is the orbit's frame of docking: give the node another name");
+  const MissionSource source = load(sun + "[node.free]\nmotion = 'tumble'\n");
+  ASSERT_FALSE(source.warnings.empty());
+  EXPECT_NE(source.warnings.back().find("node.free.motion: \"tumble\": is torque-free in axes that do not turn"), std::string::npos);
+}
+
+TEST_F(NodeReaderTest, WhatLeavesTheFieldAndWhatTurnsByStepsIsSeen) {
+  VERIFIES("LASSO-SCN-024~1");
+  MissionSource source = load(
+      "[motion.pan]\nkind = 'rates'\nspin_degps = [0, 2, 0]\nposition_m = [0, 0, -5]\n[motion.steps]\nkind = 'steps'\nstep_deg = 30\n"
+      "[node.body]\ntarget = true\nmotion = 'steps'\n[node.camera]\nmotion = 'pan'\nsensor = true\n[scenario.s]\nkind = 'scene'\nframes = "
+      "100\n");
+  check_target(source, load_target(source));
+  std::string said;
+  for (const std::string& warning : warnings_for(source, "s")) said += warning + "\n";
+  EXPECT_NE(said.find("the target's middle is out of the field, or of what is measured"), std::string::npos) << said;
+  EXPECT_NE(said.find("the target turns by"), std::string::npos) << said;
+}
+
+TEST_F(NodeReaderTest, NodesThatPointToNodesThatPointAreFew) {
+  VERIFIES("LASSO-SCN-024~1");
+  std::string line = "[node.t]\ntarget = true\n[node.n0]\nposition_m = [1, 2, 3]\n";
+  for (int i = 1; i < 20; ++i)
+    line += "[node.n" + std::to_string(i) + "]\nparent = 'n" + std::to_string(i - 1) + "'\ntowards = 't'\nposition_m = [0, 1, 0]\n";
+  expect_problem(line, "each of its poses would ask more than 2000 others");
+}
+
 TEST_F(NodeReaderTest, NamedFramesStandOnTheTargetAndOnTheSensorsCraft) {
   VERIFIES("LASSO-SCN-026~1 LASSO-SCN-024~1");
   const std::string frames = "[node.port]\nparent = 'body'\n[node.wing]\nparent = 'body'\nmotion = 'spin'\n[node.arm]\nparent = 'chaser'\n";

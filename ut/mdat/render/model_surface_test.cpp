@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "ut/mdat/render/shapes.hpp"
 #include "ut/support/verifies.hpp"
 
@@ -49,6 +51,21 @@ TEST(ModelSurface, BodiesStandWhereTheyAreAndKeepTheirOwnPlaces) {
   EXPECT_EQ(surface.to_body(point), point.place_m);
   EXPECT_DOUBLE_EQ(surface.extent_m(0), 3);
   EXPECT_DOUBLE_EQ(surface.extent_m(1), 7);
+}
+
+TEST(ModelSurface, IsAsFineBesideABodyThatIsFarAway) {
+  VERIFIES("LASSO-PIC-016~1");
+  const Mesh box = make_box({1, 2, 3});
+  const std::vector<std::uint32_t> parts(box.triangles.size(), 0);
+  const ModelSurface alone(box, parts, 0.5), both({{box, parts, {}, 0}, {box, parts, {Quat(1, 0, 0, 0), Vec3(1e9, 1e9, 1e9)}, 0}}, 0.5);
+  for (int i = 0; i < 200; ++i) {
+    const Vec3 from(3 * std::sin(0.3 * i), 3 * std::cos(0.7 * i), 4 * std::sin(1.1 * i + 1)),
+        way = (Vec3(0.1, -0.3, 0.2) - from).normalized();
+    SurfacePoint a, b;
+    ASSERT_EQ(alone.find(from, way, a), both.find(from, way, b));
+    EXPECT_EQ(a.place_m, b.place_m);
+    EXPECT_EQ(alone.is_blocked(from, way), both.is_blocked(from, way));
+  }
 }
 
 TEST(ModelSurface, KeepsEdges) {

@@ -170,14 +170,14 @@ TEST(TableMotion, SaysEveryProblemOfItsRowsWithTheirLines) {
   table.lines = {2, 3, 5, 9};
   EXPECT_EQ(problems_of_table(table),
             "rows.csv: degree: 9: needs 5 rows, and there are 4: lower the degree of interpolation, or add rows\n"
-            "rows.csv:2:1: velocity: expected finite numbers\n"
+            "rows.csv:2:1: velocity: expected finite numbers, each from -1e9 to 1e9\n"
             "rows.csv:3:1: angular velocity: 2 rad/s: turns the node by half a turn or more since the row before: expected rows at most "
             "1.5707963267948966 s apart, and radians\n"
-            "rows.csv:3:1: position: expected finite numbers\n"
+            "rows.csv:3:1: position: expected finite numbers, each from -1e9 to 1e9\n"
             "rows.csv:5:1: quaternion: length 0.9: expected a quaternion of unit length, the scalar last\n"
             "rows.csv:5:1: time: 2 s: is not after 2 s of the row before: sort the rows by time, each time once\n"
-            "rows.csv:9:1: angular velocity: expected finite numbers\n"
-            "rows.csv:9:1: time: nan: expected a finite number of seconds");
+            "rows.csv:9:1: angular velocity: expected finite numbers, each from -1e9 to 1e9\n"
+            "rows.csv:9:1: time: nan: expected a number of seconds from -1e9 to 1e9");
   table.velocities_mps.pop_back();
   EXPECT_EQ(problems_of_table(table), "rows.csv: has columns of different lengths");
   MotionTable good;
