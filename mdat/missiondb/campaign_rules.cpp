@@ -133,15 +133,13 @@ class CampaignCheck {
     if (scenario_.has_profile() || scenario_.ranges_m.size() < 2) return;
     const Dispersion* found = nullptr;
     if (has_column(campaign_, {"truth.range_m"}, found)) return;
-    const Origin origin = source_.origins["campaign." + campaign_.name + ".scenario"];
     source_.warnings.push_back(
-        to_string({source_.file.string(), origin.line, origin.column, "campaign." + campaign_.name + ".scenario", campaign_.scenario,
-                   "has " + std::to_string(scenario_.ranges_m.size()) + " ranges, of which a case flies the first, " +
-                       number_text(scenario_.ranges_m.front()) + " m: give truth.range_m a law, such as { one_of = [...] }"}));
+        to_string(problem_at(source_, "campaign." + campaign_.name + ".scenario", campaign_.scenario,
+                             "has " + std::to_string(scenario_.ranges_m.size()) + " ranges, of which a case flies the first, " +
+                                 number_text(scenario_.ranges_m.front()) + " m: give truth.range_m a law, such as { one_of = [...] }")));
   }
   void warn(const Dispersion& dispersion, const std::string& value, const std::string& what) {
-    const Origin origin = source_.origins[dispersion.key];
-    source_.warnings.push_back(to_string({source_.file.string(), origin.line, origin.column, dispersion.key, value, what}));
+    source_.warnings.push_back(to_string(problem_at(source_, dispersion.key, value, what)));
   }
   void check_effect(const Dispersion& dispersion) {
     for (const std::string& column : dispersion.columns) {

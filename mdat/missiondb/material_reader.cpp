@@ -71,17 +71,8 @@ const std::vector<ValueRow>& material_rows() {
 }
 
 void read_materials(const toml::table& root, MissionSource& source, ProblemList& problems) {
-  const toml::node* node = root.get("material");
-  if (node == nullptr) return;
-  if (!node->is_table()) return problems.add(*node, "material", "wrong type: expected tables [material.NAME]");
-  for (const auto& [name, entry] : *node->as_table()) {
-    const std::string path = "material." + std::string(name.str());
-    if (const toml::table* table = entry.as_table()) {
-      read_material(std::string(name.str()), *table, source, problems);
-    } else {
-      problems.add(entry, path, "wrong type: expected a table [" + path + "]");
-    }
-  }
+  for_each_table(root, "material", problems,
+                 [&](const std::string& name, const toml::table& table) { read_material(name, table, source, problems); });
 }
 
 }  // namespace lasso::mdat

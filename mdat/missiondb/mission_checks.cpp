@@ -17,7 +17,7 @@ constexpr std::size_t kMostNames = 4;  // of scenarios, in a line
 const Rules& all_rules() {
   static const Rules rules = [] {
     Rules all;
-    for (const Rules& some : {scan_rules(), estimation_rules(), sensor_rules(), scenario_rules(), target_rules()})
+    for (const Rules& some : {scan_rules(), estimation_rules(), sensor_rules(), scenario_rules(), scene_rules(), target_rules()})
       all.insert(all.end(), some.begin(), some.end());
     return all;
   }();

@@ -63,6 +63,7 @@ class Loader {
     if (problems_.empty()) check_model();
     read_calibrations(source_, problems_);
     read_scenarios();
+    if (problems_.empty()) warn_of_idle(source_);
     check_contradictions();
     if (problems_.empty()) check_campaigns(source_, problems_);
   }
@@ -116,17 +117,8 @@ class Loader {
   }
 
   void read_scenario_values() {
-    const toml::node* node = root_.get("scenario");
-    if (node == nullptr) return;
-    if (!node->is_table()) return problems_.add(*node, "scenario", "wrong type: expected tables [scenario.NAME]");
-    for (const auto& [name, entry] : *node->as_table()) {
-      const std::string prefix = "scenario." + std::string(name.str());
-      if (const toml::table* table = entry.as_table()) {
-        read_scenario_table(std::string(name.str()), *table, prefix + ".");
-      } else {
-        problems_.add(entry, prefix, "wrong type: expected a table [" + prefix + "]");
-      }
-    }
+    for_each_table(root_, "scenario", problems_,
+                   [&](const std::string& name, const toml::table& table) { read_scenario_table(name, table, "scenario." + name + "."); });
   }
   void read_scenario_table(const std::string& name, const toml::table& table, const std::string& prefix) {
     scenario_found_[name] = read_table(table, prefix, scenario_rows(), {"motion", "override"}, problems_);
@@ -208,16 +200,16 @@ class Loader {
     std::string expected = text_or_empty(found_, "target.sha256");
     std::transform(expected.begin(), expected.end(), expected.begin(), [](char c) { return static_cast<char>(std::tolower(c)); });
     if (expected.empty()) {
-      if (!source_.target.parametric) warn_of_digest(written);
+      if (!source_.target.parametric) warn_of_digest();
     } else if (expected != source_.target.sha256) {
       problems_.add(
           found_["target.sha256"].origin, "target.sha256", expected,
           source_.target.file.string() + " has " + source_.target.sha256 + ": restore the file, or accept it by writing this digest");
     }
   }
-  void warn_of_digest(const FoundValue& written) {
-    source_.warnings.push_back(to_string({source_.file.string(), written.origin.line, written.origin.column, source_.target.file_key, "",
-                                          "not protected against change; add: sha256 = \"" + source_.target.sha256 + '"'}));
+  void warn_of_digest() {
+    source_.warnings.push_back(to_string(
+        problem_at(source_, source_.target.file_key, "", "not protected against change; add: sha256 = \"" + source_.target.sha256 + '"')));
   }
 
   void check_model() {
@@ -309,6 +301,12 @@ void warn_of_left_out(const std::filesystem::path& file, const std::vector<std::
 
 }  // namespace
 
+Problem problem_at(const MissionSource& source, const std::string& key, const std::string& value, const std::string& expected) {
+  const auto found = source.origins.find(key);
+  const Origin origin = found == source.origins.end() ? Origin{} : found->second;
+  return {origin.set ? kSettingPlace : source.file.string(), origin.line, origin.column, key, value, expected};
+}
+
 MissionSource load_mission(const std::filesystem::path& file, const std::vector<std::string>& settings) {
   return Loader(file, settings).load();
 }
@@ -329,7 +327,6 @@ void check_settings(const MissionSource& source, const std::string& scenario) {
 
 Mesh load_target(const MissionSource& source, std::vector<std::string>* warnings) {
   const TargetSource& target = source.target;
-  const Origin origin = source.origins.at(target.file_key);
   try {
     std::vector<std::string> left_out;
     Mesh mesh = target.parametric ? build_model(target.file, target.parameters) : import_mesh(target.file, target.scale, &left_out);
@@ -340,17 +337,14 @@ Mesh load_target(const MissionSource& source, std::vector<std::string>* warnings
     check_extent(mesh);
     return mesh;
   } catch (const MeshError& error) {
-    throw MissionError({source.file.string(), origin.line, origin.column, target.file_key, target.file.string(), error.what()});
+    throw MissionError(problem_at(source, target.file_key, target.file.string(), error.what()));
   }
 }
 
 Mesh load_part(const MissionSource& source, const PartSource& part, const Mesh& target, std::vector<std::string>* warnings) {
   const Eigen::Quaterniond q(part.quaternion[3], part.quaternion[0], part.quaternion[1], part.quaternion[2]);
   const std::string key = "part." + part.name + (part.file.empty() ? ".box_m" : part.parametric ? ".model" : ".mesh");
-  const auto fail = [&](const std::string& value, const std::string& why) {
-    const Origin origin = source.origins.at(key);
-    throw MissionError({source.file.string(), origin.line, origin.column, key, value, why});
-  };
+  const auto fail = [&](const std::string& value, const std::string& why) { throw MissionError(problem_at(source, key, value, why)); };
   if (part.file.empty()) {
     Mesh mesh = cut_by_box(target, Eigen::Vector3d(part.box_m.data()), Eigen::Vector3d(part.box_m.data() + 3));
     if (mesh.triangles.empty())

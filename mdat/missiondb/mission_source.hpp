@@ -151,6 +151,9 @@ struct MissionSource {
   std::vector<std::string> settings;      // KEY=VALUE of the command line, which hold in place of the file's
 };
 
+// What is wrong with a key of the mission, at the place where it is written.
+Problem problem_at(const MissionSource& source, const std::string& key, const std::string& value, const std::string& expected);
+
 // Reads and checks everything except the geometry of the target (load_target) and what has to fit it (check_target). Each of `settings`,
 // KEY=VALUE, is checked as if the file said it, and holds in its place. Throws MissionError with all problems.
 MissionSource load_mission(const std::filesystem::path& file, const std::vector<std::string>& settings = {});

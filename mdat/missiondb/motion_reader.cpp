@@ -241,37 +241,34 @@ class MotionReader {
 // All motions; chains once those are known that they are of.
 class MotionsReader {
  public:
-  MotionsReader(const toml::table& motions, MissionSource& source, ProblemList& problems)
-      : motions_(motions), source_(source), problems_(problems) {}
+  MotionsReader(MissionSource& source, ProblemList& problems) : source_(source), problems_(problems) {}
 
-  void read() {
-    for (const auto& [name, node] : motions_) {
-      names_.emplace_back(name.str());
-      read_one(names_.back(), node);
-    }
+  void read(const toml::table& root) {
+    for_each_table(root, "motion", problems_, [&](const std::string& name, const toml::table& table) {
+      names_.push_back(name);
+      read_one(name, table);
+    });
     for (const auto& [name, chain] : chains_) static_cast<void>(chained(name));
   }
 
  private:
-  void read_one(const std::string& name, const toml::node& node) {
+  void read_one(const std::string& name, const toml::table& table) {
     source_.scene.motions[name] = nullptr;  // known, until it is read
     const std::string path = "motion." + name;
-    const toml::table* table = node.as_table();
-    if (table == nullptr) return problems_.add(node, path, "wrong type: expected a table [" + path + "]");
-    const MotionKind* kind = kind_of(*table, path);
+    const MotionKind* kind = kind_of(table, path);
     if (kind == nullptr) return;
     source_.scene.values.push_back({path + ".kind", '"' + kind->name + '"', "", kind->meaning});
-    source_.origins[path + ".kind"] = origin_of(table->get("kind")->source());
+    source_.origins[path + ".kind"] = origin_of(table.get("kind")->source());
     kinds_[name] = kind->name;
     if (kind->needs_orbit) source_.scene.in_hill.insert(name);
     if (kind->name == "torque_free") source_.scene.free_tumbles.insert(name);
     if (kind->name == "chain") {
-      const SceneValues values(*table, path, kind->rows, {"kind"}, source_, problems_);
+      const SceneValues values(table, path, kind->rows, {"kind"}, source_, problems_);
       chains_[name] = {values.texts("of"), values.place()};
       return;
     }
     try {
-      source_.scene.motions[name] = MotionReader(*kind, *table, path, source_, problems_).read();
+      source_.scene.motions[name] = MotionReader(*kind, table, path, source_, problems_).read();
     } catch (const MissionError& error) {
       std::vector<Problem> told = error.problems();
       for (Problem& problem : told) {
@@ -331,17 +328,18 @@ class MotionsReader {
       if (!fault.empty()) return complain(name, fault);
       if (next == nullptr) return nullptr;
       keeps_hill = keeps_hill && kinds_[link] == "clohessy_wiltshire";
+      source_.scene.used_motions.insert(link);
       sizes_[name] += std::max<std::size_t>(1, sizes_[link]);
       motion = motion == nullptr ? next : std::make_shared<scene::Chain>(motion, next);
     }
     if (source_.scene.in_hill.count(links.front()) != 0) source_.scene.in_hill.insert(name);
+    if (source_.scene.free_tumbles.count(links.front()) != 0) source_.scene.free_tumbles.insert(name);
     if (sizes_[name] <= kMostLinks) return motion;
     return complain(name, "has " + std::to_string(sizes_[name]) + " motions: expected at most " + std::to_string(kMostLinks));
   }
 
   MotionPtr complain(const std::string& name, const std::string& what) {
-    const scene::Place& place = chains_[name].place;
-    problems_.add(Origin{place.line, place.column, place.file == kSettingPlace}, "motion." + name + ".of", "", what);
+    problems_.add(origin_of(chains_[name].place), "motion." + name + ".of", "", what);
     return nullptr;
   }
 
@@ -349,7 +347,6 @@ class MotionsReader {
     std::vector<std::string> of;
     scene::Place place;
   };
-  const toml::table& motions_;
   MissionSource& source_;
   ProblemList& problems_;
   std::vector<std::string> names_;
@@ -390,10 +387,7 @@ const std::vector<ValueRow>& orbit_rows() {
 
 void read_motions(const toml::table& root, MissionSource& source, ProblemList& problems) {
   read_orbit(root, source, problems);
-  const toml::node* node = root.get("motion");
-  if (node == nullptr) return;
-  if (!node->is_table()) return problems.add(*node, "motion", "wrong type: expected tables [motion.NAME]");
-  MotionsReader(*node->as_table(), source, problems).read();
+  MotionsReader(source, problems).read(root);
 }
 
 }  // namespace lasso::mdat

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <set>
 
 #include "mdat/source/nearest.hpp"
 
@@ -25,15 +26,16 @@ ValueRow parts_row() {
 }
 
 // What a motion needs of the axes in which it moves a node.
-void check_axes(const std::string& motion, const scene::Node& node, const std::string& key, Origin origin, MissionSource& source,
-                ProblemList& problems) {
+void check_axes(const std::string& motion, const scene::Node& node, const std::string& key, MissionSource& source, ProblemList& problems) {
+  source.scene.used_motions.insert(motion);
   const bool in_root = node.parent == kSceneRoot && node.T_parent_base.q.isApprox(Quat::Identity(), 1e-9);
   if (source.scene.in_hill.count(motion) != 0 && !in_root)
-    problems.add(origin, key, '"' + motion + '"', "is a motion in the Hill frame's axes: the node has to stand in root, not turned");
+    problems.add(source.origins.at(key), key, '"' + motion + '"',
+                 "is a motion in the Hill frame's axes: the node has to stand in root, not turned");
   if (source.scene.free_tumbles.count(motion) != 0 && source.scene.orbit && node.parent == kSceneRoot)
-    source.warnings.push_back(
-        to_string({source.file.string(), origin.line, origin.column, key, '"' + motion + '"',
-                   "is torque-free in axes that do not turn, and the Hill frame does: a chain of an inertial motion and this one is"}));
+    source.warnings.push_back(to_string(
+        problem_at(source, key, '"' + motion + '"',
+                   "is torque-free in axes that do not turn, and the Hill frame does: a chain of an inertial motion and this one is")));
 }
 
 // One [node.NAME].
@@ -64,8 +66,7 @@ class NodeReader {
     const auto known = source_.scene.motions.find(motion);
     if (known != source_.scene.motions.end()) {
       node_.motion = known->second;
-      const std::string key = "node." + node_.name + ".motion";
-      return check_axes(motion, node_, key, source_.origins[key], source_, problems_);
+      return check_axes(motion, node_, "node." + node_.name + ".motion", source_, problems_);
     }
     std::vector<std::string> names;
     for (const auto& entry : source_.scene.motions) names.push_back(entry.first);
@@ -113,13 +114,26 @@ std::vector<std::string> node_names(const SceneSource& scene) {
   return names;
 }
 
+// Those that are the target, the sensors or a body, or that others of these stand in or point to, or that results are said of.
+std::set<std::string> used_nodes(const SceneSource& scene) {
+  std::set<std::string> used{scene.target, scene.sensor, kSceneLvlh};
+  for (const BodySource& body : scene.bodies) used.insert(body.node);
+  for (const RelativeSource& relative : scene.relative) used.insert({relative.of, relative.in});
+  for (std::size_t before = 0; before != used.size();) {
+    before = used.size();
+    for (const scene::Node& node : scene.nodes) {
+      if (used.count(node.name) != 0) used.insert({node.parent, node.towards});
+    }
+  }
+  return used;
+}
+
 // What the tree has besides the mission's nodes.
 void add_lvlh(SceneSource& scene, ProblemList& problems) {
   if (!scene.orbit) return;
   for (const scene::Node& node : scene.nodes) {
     if (node.name == kSceneLvlh)
-      return problems.add(Origin{node.place.line, node.place.column, node.place.file == kSettingPlace}, "node.lvlh", "",
-                          "is the orbit's frame of docking: give the node another name");
+      return problems.add(origin_of(node.place), "node.lvlh", "", "is the orbit's frame of docking: give the node another name");
   }
   scene::Node node;
   node.name = kSceneLvlh;
@@ -151,7 +165,7 @@ void look_at_motion(double frames, double period_s, SceneRun& run) {
 void pair_frames(const SceneSource& scene, SceneRun& run, ProblemList& problems) {
   for (const RelativeSource& relative : scene.relative) {
     const RelativePair pair{relative.name, run.tree.need(relative.of), run.tree.need(relative.in)};
-    const Origin origin{relative.place.line, relative.place.column, relative.place.file == kSettingPlace};
+    const Origin origin = origin_of(relative.place);
     const std::string path = "relative." + relative.name;
     if (!run.tree.are_rigid(pair.of, run.target))
       problems.add(origin, path + ".of", '"' + relative.of + '"', "moves against the target: name a node that stands on " + scene.target);
@@ -185,17 +199,8 @@ const std::vector<ValueRow>& node_rows() {
 }
 
 void read_nodes(const toml::table& root, MissionSource& source, ProblemList& problems) {
-  const toml::node* node = root.get("node");
-  if (node == nullptr) return;
-  if (!node->is_table()) return problems.add(*node, "node", "wrong type: expected tables [node.NAME]");
-  for (const auto& [name, entry] : *node->as_table()) {
-    const std::string path = "node." + std::string(name.str());
-    if (const toml::table* table = entry.as_table()) {
-      NodeReader(std::string(name.str()), *table, source, problems).read();
-    } else {
-      problems.add(entry, path, "wrong type: expected a table [" + path + "]");
-    }
-  }
+  for_each_table(root, "node", problems,
+                 [&](const std::string& name, const toml::table& table) { NodeReader(name, table, source, problems).read(); });
   add_lvlh(source.scene, problems);
   try {
     static_cast<void>(scene::Tree(kSceneRoot, source.scene.nodes));
@@ -215,28 +220,19 @@ const std::vector<ValueRow>& relative_rows() {
 }
 
 void read_relative(const toml::table& root, MissionSource& source, ProblemList& problems) {
-  const toml::node* node = root.get("relative");
-  if (node == nullptr) return;
-  if (!node->is_table()) return problems.add(*node, "relative", "wrong type: expected tables [relative.NAME]");
   std::vector<std::string> names = node_names(source.scene);
   names.emplace_back(kSceneRoot);
-  for (const auto& [name, entry] : *node->as_table()) {
-    const std::string path = "relative." + std::string(name.str());
-    const toml::table* table = entry.as_table();
-    if (table == nullptr) {
-      problems.add(entry, path, "wrong type: expected a table [" + path + "]");
-      continue;
-    }
-    if (name.str().find_first_of(",\"\n\r;") != std::string_view::npos)
-      problems.add(entry, path, "expected a name without commas, semicolons and quotes: it stands in a table");
-    SceneValues values(*table, path, relative_rows(), {}, source, problems);
+  for_each_table(root, "relative", problems, [&](const std::string& name, const toml::table& table) {
+    SceneValues values(table, "relative." + name, relative_rows(), {}, source, problems);
+    if (name.find_first_of(",\"\n\r;") != std::string::npos)
+      values.complain("", "", "expected a name without commas, semicolons and quotes: it stands in a table");
     for (const char* key : {"of", "in"}) {
       const std::string written = values.text(key);
       if (!written.empty() && std::find(names.begin(), names.end(), written) == names.end())
         values.complain(key, '"' + written + '"', "the mission has no [node." + written + "]" + did_you_mean(written, names));
     }
-    source.scene.relative.push_back({std::string(name.str()), values.text("of"), values.text("in"), values.place()});
-  }
+    source.scene.relative.push_back({name, values.text("of"), values.text("in"), values.place()});
+  });
 }
 
 ChosenMotions read_chosen_motions(const toml::table& scenario, const std::string& prefix, MissionSource& source, ProblemList& problems) {
@@ -255,15 +251,31 @@ ChosenMotions read_chosen_motions(const toml::table& scenario, const std::string
     } else if (source.scene.motions.count(motion) == 0) {
       problems.add(value, path, "expected the name of a [motion.NAME] of the mission");
     } else {
-      chosen[key] = {motion, origin_of(value.source())};
+      chosen[key] = motion;
+      source.origins[path] = origin_of(value.source());
       for (const scene::Node& of : source.scene.nodes) {
-        if (of.name == key) check_axes(motion, of, path, chosen[key].origin, source, problems);
+        if (of.name == key) check_axes(motion, of, path, source, problems);
       }
-      source.origins[path] = chosen[key].origin;
       source.scene.values.push_back({path, '"' + motion + '"', "", "how the node moves in this scenario"});
     }
   }
   return chosen;
+}
+
+void warn_of_idle(MissionSource& source) {
+  const SceneSource& scene = source.scene;
+  const auto warn = [&](const std::string& key, const std::string& what) {
+    source.warnings.push_back(to_string(problem_at(source, key, "", what)));
+  };
+  for (const auto& [name, motion] : scene.motions) {
+    if (scene.used_motions.count(name) == 0) warn("motion." + name + ".kind", "no node has this motion: it changes nothing");
+  }
+  const std::set<std::string> used = used_nodes(scene);
+  for (const scene::Node& node : scene.nodes) {
+    if (used.count(node.name) == 0)
+      warn("node." + node.name + ".parent",
+           "nothing stands at this node, or asks for it: it changes nothing" + did_you_mean(node.name, {used.begin(), used.end()}));
+  }
 }
 
 void make_scene_run(const ChosenMotions& chosen, const std::string& name, Origin origin, double period_s, const MissionSource& source,
@@ -274,11 +286,11 @@ void make_scene_run(const ChosenMotions& chosen, const std::string& name, Origin
       problems.add(origin, "scenario." + name + ".kind", "\"scene\"",
                    std::string("no node of the mission has ") + key + " = true: add [node.NAME]");
   }
-  if (!problems.empty()) return;
+  if (scene.target.empty() || scene.sensor.empty()) return;
   std::vector<scene::Node> nodes = scene.nodes;
   for (scene::Node& node : nodes) {
     const auto motion = chosen.find(node.name);
-    if (motion != chosen.end()) node.motion = scene.motions.at(motion->second.motion);
+    if (motion != chosen.end()) node.motion = scene.motions.at(motion->second);
   }
   const auto run = std::make_shared<SceneRun>(SceneRun{scene::Tree(kSceneRoot, nodes), 0, 0, {}, scene.surfaces, 0, 0, {}, {}, {}});
   run->target = run->tree.need(scene.target);

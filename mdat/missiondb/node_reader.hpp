@@ -18,13 +18,12 @@ const std::vector<ValueRow>& relative_rows();  // keys without "relative.NAME."
 // [relative.NAME], after the nodes. What is wrong is a problem.
 void read_relative(const toml::table& root, MissionSource& source, ProblemList& problems);
 
-// The motions by which a scenario replaces those that the nodes have: names by node, with their places.
-struct ChosenMotion {
-  std::string motion;
-  Origin origin;
-};
-using ChosenMotions = std::map<std::string, ChosenMotion>;
+// The motions by which a scenario replaces those that the nodes have: names by node.
+using ChosenMotions = std::map<std::string, std::string>;
 ChosenMotions read_chosen_motions(const toml::table& scenario, const std::string& prefix, MissionSource& source, ProblemList& problems);
+
+// What is declared and changes nothing: motions that no node has, nodes at which nothing stands. It joins the source's warnings.
+void warn_of_idle(MissionSource& source);
 
 // Makes a scenario of kind scene fly through the mission's nodes. `origin` is the scenario's place. What is wrong is a problem.
 void make_scene_run(const ChosenMotions& chosen, const std::string& name, Origin origin, double period_s, const MissionSource& source,

@@ -105,20 +105,13 @@ class PartReader {
 }  // namespace
 
 void read_parts(const toml::table& root, MissionSource& source, ProblemList& problems) {
-  const toml::node* node = root.get("part");
-  if (node == nullptr) return;
-  if (!node->is_table()) return problems.add(*node, "part", "wrong type: expected tables [part.NAME]");
-  if (node->as_table()->size() > kMaxParts) {
-    return problems.add(*node, "part",
+  const toml::table* parts = root["part"].as_table();
+  if (parts != nullptr && parts->size() > kMaxParts) {
+    return problems.add(*parts, "part",
                         "expected at most " + std::to_string(kMaxParts) + " parts: the flight component has room for no more");
   }
-  for (const auto& [name, entry] : *node->as_table()) {
-    if (const toml::table* table = entry.as_table()) {
-      PartReader(std::string(name.str()), *table, source, problems).read();
-    } else {
-      problems.add(entry, "part." + std::string(name.str()), "wrong type: expected a table [part." + std::string(name.str()) + "]");
-    }
-  }
+  for_each_table(root, "part", problems,
+                 [&](const std::string& name, const toml::table& table) { PartReader(name, table, source, problems).read(); });
 }
 
 }  // namespace lasso::mdat

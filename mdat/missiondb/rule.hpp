@@ -57,6 +57,7 @@ const Rules& scan_rules();        // pattern and search
 const Rules& estimation_rules();  // estimation, filter, tracking, start, image
 const Rules& sensor_rules();
 const Rules& scenario_rules();
+const Rules& scene_rules();   // of scenarios of kind scene
 const Rules& target_rules();  // the model, its parts, and where it is in the field
 
 // Three digits, as a person reads it.
@@ -67,6 +68,9 @@ std::string percent_text(double share);
 bool is_in_order(const MissionParameters& p, double way);
 constexpr double kNavigationWay = 2, kAprioriWay = 3, kSearchWay = 5;  // positions in the choices of start.first
 inline bool checks_starts(const MissionParameters& p) { return p.start_check > 0.5; }
+
+// The target's greatest acceleration over what the filter takes it for: beyond, its track is doubtful.
+constexpr double kAccelerations = 5;
 
 // Whether a key of a scenario changes anything in scenarios of this kind.
 bool has_effect(const std::string& key, ScenarioKind kind);

@@ -16,8 +16,7 @@ constexpr double kMostStep_rad = 12 * kRadPerDeg;      // from scan to scan, of 
 constexpr double kRateSigmas = 2.5;                    // of what the filter takes a rate at the start for
 constexpr double kSearchedTurn_rad = 15 * kRadPerDeg;  // between two scans of a search, which are 2 s apart
 constexpr double kBetweenScans_s = 2;
-constexpr double kAccelerations = 5;  // over what the filter takes it for
-constexpr double kNoiseRatio = 3;     // of the simulated noise over the one that is assumed
+constexpr double kNoiseRatio = 3;  // of the simulated noise over the one that is assumed
 constexpr double kReturning = 0.6;
 constexpr double kSettlingFrames = 20;             // after them a filter knows the rates, and results count them
 constexpr double kNever_s = 1e6;                   // what navigation_from_s says where none helps
@@ -177,15 +176,8 @@ std::string rough_navigation_fault(const Subject& s) {
          " m: a start may be off by a quarter of it, and 80 % or more of these are farther off";
 }
 
-std::string scene_haste_fault(const Subject& s) {
-  const double most_mps2 = s.scenario->scene->acceleration_mps2;
-  if (most_mps2 <= kAccelerations * s.p.acceleration_mps2) return "";
-  return "the target's acceleration reaches " + figure(most_mps2) + " m/s2, and filter.acceleration_mps2 is " +
-         figure(s.p.acceleration_mps2);
-}
-
 std::string haste_fault(const Subject& s) {
-  if (s.scenario->scene != nullptr) return scene_haste_fault(s);
+  if (s.scenario->scene != nullptr) return "";  // scene_rules.cpp
   const std::vector<double>&times = s.scenario->times_s, &ranges = s.scenario->ranges_m;
   for (std::size_t i = 1; s.scenario->has_profile() && times.size() == ranges.size() && i < times.size(); ++i) {
     const double span_s = times[i] - times[i - 1], way_m = std::fabs(ranges[i] - ranges[i - 1]);

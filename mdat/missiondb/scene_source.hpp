@@ -62,6 +62,7 @@ struct RelativePair {
 struct SceneSource {
   std::optional<scene::Orbit> orbit;
   std::map<std::string, scene::MotionPtr> motions;
+  std::set<std::string> used_motions;
   std::set<std::string> in_hill;       // of these, those whose first axes are the Hill frame's
   std::set<std::string> free_tumbles;  // and those that are torque-free by themselves, in axes that do not turn
   std::vector<scene::Node> nodes;      // with their motions; the root is not among them

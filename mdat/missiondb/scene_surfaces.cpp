@@ -32,8 +32,7 @@ class SceneLoader {
 
  private:
   [[noreturn]] void refuse(const BodySource& body, const std::string& value, const std::string& why) const {
-    const Origin origin = source_.origins.at(body.key);
-    throw MissionError({origin.set ? kSettingPlace : source_.file.string(), origin.line, origin.column, body.key, value, why});
+    throw MissionError(problem_at(source_, body.key, value, why));
   }
 
   BodySurface surface_of_file(const BodySource& body) const {
@@ -77,21 +76,19 @@ class SceneLoader {
     return named;
   }
 
+  bool stands_on_target(std::string node) const {
+    const std::vector<scene::Node>& nodes = source_.scene.nodes;
+    for (std::size_t i = 0; i <= nodes.size() && node != source_.scene.target && node != kSceneRoot; ++i) {
+      node = std::find_if(nodes.begin(), nodes.end(), [&](const scene::Node& one) { return one.name == node; })->parent;
+    }
+    return node == source_.scene.target;
+  }
+
   // Parts are seldom meant to stay behind.
   void warn_of_parent(const BodySource& body) {
-    std::string parent = body.node;
-    for (std::size_t i = 0; i <= source_.scene.nodes.size() && parent != source_.scene.target && parent != kSceneRoot; ++i) {
-      for (const scene::Node& node : source_.scene.nodes) {
-        if (node.name == parent) {
-          parent = node.parent;
-          break;
-        }
-      }
-    }
-    const Origin origin = source_.origins.at(body.key);
-    if (parent != source_.scene.target)
-      source_.warnings.push_back(to_string({source_.file.string(), origin.line, origin.column, body.key, "",
-                                            "these parts do not move with the target: write parent = \"" + source_.scene.target + "\""}));
+    if (stands_on_target(body.node)) return;
+    source_.warnings.push_back(to_string(
+        problem_at(source_, body.key, "", "these parts do not move with the target: write parent = \"" + source_.scene.target + "\"")));
   }
 
   BodySurface parts_of_target(const BodySource& body, std::vector<bool>& moved) {
@@ -118,9 +115,7 @@ class SceneLoader {
 };
 
 Problem material_problem(const MissionSource& source, const MaterialSource& material, const std::string& part, const std::string& why) {
-  const std::string key = "material." + material.name + ".parts";
-  const Origin origin = source.origins.at(key);
-  return {origin.set ? kSettingPlace : source.file.string(), origin.line, origin.column, key, '"' + part + '"', why};
+  return problem_at(source, "material." + material.name + ".parts", '"' + part + '"', why);
 }
 
 // One pattern of a material; `of_part` gets what it matches.

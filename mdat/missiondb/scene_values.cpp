@@ -19,6 +19,8 @@ std::string value_text_of(const ValueRow& row, const FoundValue& value) {
 
 }  // namespace
 
+Origin origin_of(const scene::Place& place) { return {place.line, place.column, place.file == kSettingPlace}; }
+
 ValueRow position_row(const char* meaning) {
   return list_row(number_row("position_m", "m", ValueKind::kReal, 1, -kFarthest_m, kFarthest_m, 0, meaning), 3, {0, 0, 0});
 }

@@ -8,6 +8,8 @@
 
 namespace lasso::mdat {
 
+Origin origin_of(const scene::Place& place);
+
 ValueRow position_row(const char* meaning);    // position_m
 ValueRow quaternion_row(const char* meaning);  // quaternion, x, y, z, w
 ValueRow axis_row(const char* key, const Vec3& preset, const char* meaning);

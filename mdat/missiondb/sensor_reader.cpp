@@ -62,21 +62,13 @@ const std::vector<ValueRow>& further_sensor_rows() {
 }
 
 void read_further_sensors(const toml::table& root, MissionSource& source, ProblemList& problems) {
-  const toml::node* node = root.get("further_sensor");
-  if (node == nullptr) return;
-  if (!node->is_table()) return problems.add(*node, "further_sensor", "wrong type: expected tables [further_sensor.NAME]");
-  if (node->as_table()->size() >= kMaxSensors) {
-    return problems.add(*node, "further_sensor",
+  const toml::table* sensors = root["further_sensor"].as_table();
+  if (sensors != nullptr && sensors->size() >= kMaxSensors) {
+    return problems.add(*sensors, "further_sensor",
                         "expected at most " + std::to_string(kMaxSensors - 1) + ": the flight component has room for no more");
   }
-  for (const auto& [name, entry] : *node->as_table()) {
-    const std::string key = "further_sensor." + std::string(name.str());
-    if (const toml::table* table = entry.as_table()) {
-      read_sensor(std::string(name.str()), *table, source, problems);
-    } else {
-      problems.add(entry, key, "wrong type: expected a table [" + key + "]");
-    }
-  }
+  for_each_table(root, "further_sensor", problems,
+                 [&](const std::string& name, const toml::table& table) { read_sensor(name, table, source, problems); });
 }
 
 void read_calibrations(MissionSource& source, ProblemList& problems) {

@@ -4,6 +4,7 @@
 
 #include "fsw/geometry/portable_math.hpp"
 #include "mdat/missiondb/rule.hpp"
+#include "mdat/missiondb/seen.hpp"
 #include "mdat/missiondb/value_row.hpp"
 #include "mdat/modelc/compile_error.hpp"
 #include "mdat/modelc/grid.hpp"
@@ -21,53 +22,9 @@ constexpr int kBisections = 40;
 constexpr double kNarrowCone_rad = 5 * kRadPerDeg;
 constexpr double kRadiansOfCrease = 1.6;  // a right angle
 
-// What a sensor at the origin sees of the box, on the tangent plane.
-struct Seen {
-  bool in_front = false;  // all of it
-  double middle_x = 0, middle_y = 0, low_x = 1e9, low_y = 1e9, high_x = -1e9, high_y = -1e9;
-};
-
-Seen seen_of(const TargetSize& target, const Eigen::Isometry3d& T_sensor_target) {
-  Seen seen;
-  const Eigen::Vector3d middle = T_sensor_target * target.middle();
-  seen.in_front = middle.z() > 0;
-  seen.middle_x = middle.x() / middle.z();
-  seen.middle_y = middle.y() / middle.z();
-  for (int i = 0; i < 8; ++i) {
-    const Eigen::Vector3d corner((i & 1) != 0 ? target.high.x() : target.low.x(), (i & 2) != 0 ? target.high.y() : target.low.y(),
-                                 (i & 4) != 0 ? target.high.z() : target.low.z());
-    const Eigen::Vector3d p = T_sensor_target * corner;
-    seen.in_front = seen.in_front && p.z() > 0;
-    seen.low_x = std::min(seen.low_x, p.x() / p.z());
-    seen.high_x = std::max(seen.high_x, p.x() / p.z());
-    seen.low_y = std::min(seen.low_y, p.y() / p.z());
-    seen.high_y = std::max(seen.high_y, p.y() / p.z());
-  }
-  return seen;
-}
-
-bool is_outside(const Seen& seen, const SensorParameters& sensor) {
-  const double x = std::tan(sensor.fov_half_x_rad), y = std::tan(sensor.fov_half_y_rad);
-  return seen.low_x > x || seen.high_x < -x || seen.low_y > y || seen.high_y < -y;
-}
-
-bool is_off(const Seen& seen, const SensorParameters& sensor) {
-  return std::fabs(seen.middle_x) > std::tan(sensor.fov_half_x_rad) || std::fabs(seen.middle_y) > std::tan(sensor.fov_half_y_rad);
-}
-
-// Where it first is at the range of the scenario's that is nearest: a band may begin between two of them.
-Eigen::Isometry3d scene_pose(const Scenario& scenario, double range_m) {
-  const auto found = std::min_element(scenario.ranges_m.begin(), scenario.ranges_m.end(),
-                                      [&](double a, double b) { return std::fabs(a - range_m) < std::fabs(b - range_m); });
-  const auto index = static_cast<std::size_t>(found - scenario.ranges_m.begin());
-  const Pose T_sensor_target = scenario.scene->target_at(static_cast<TimeUs>(std::llround(1e6 * scenario.times_s.at(index)))).T_a_b;
-  return Eigen::Translation3d(T_sensor_target.p) * Eigen::Isometry3d(T_sensor_target.q);
-}
-
 // Of frame 0, where the target's center_m is at range_m (mission_source.hpp: Scenario).
 Eigen::Isometry3d first_pose(const Scenario& scenario, double range_m) {
   using Eigen::AngleAxisd, Eigen::Vector3d;
-  if (scenario.scene != nullptr) return scene_pose(scenario, range_m);
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
   T.translate(Vector3d(scenario.offset_m.at(0), scenario.offset_m.at(1), range_m));
   T.rotate(AngleAxisd(scenario.boresight_rad, Vector3d::UnitZ()) * AngleAxisd(-scenario.tilt_rad, Vector3d::UnitX()) *
@@ -75,14 +32,10 @@ Eigen::Isometry3d first_pose(const Scenario& scenario, double range_m) {
   return T * Eigen::Translation3d(-Vector3d(scenario.center_m.data()));
 }
 
-std::string sides_text(const SensorParameters& sensor, const Seen& seen) {
-  return "its middle is " + degrees_text(std::atan(std::hypot(seen.middle_x, seen.middle_y))) +
-         " off the boresight, and the half field is " + degrees_text(sensor.fov_half_x_rad) + " by " + degrees_text(sensor.fov_half_y_rad);
-}
-
 // The first range in a sensor's band at which that sensor has what `misses` asks, even where another one sees the target: in the
 // overlap of their bands either may take the scans. Empty where there is none.
 std::string misses_at(const Subject& s, bool (*misses)(const Seen&, const SensorParameters&), const std::string& what) {
+  if (s.scenario->scene != nullptr) return "";  // scene_rules.cpp looks at its whole run
   const std::vector<SensorInUse> sensors = sensors_in_use(s.source, s.p, s.scenario);
   for (const SensorInUse& sensor : sensors) {
     const std::string whose = sensors.size() == 1 ? "" : " of " + sensor.prefix.substr(0, sensor.prefix.size() - 1);
@@ -100,34 +53,7 @@ std::string outside_fault(const Subject& s) {
   return misses_at(s, is_outside, "the target is wholly outside of the field");
 }
 
-// The first time of a scene's run, of those looked at, at which no sensor measures the target's middle; it was measured at the begin.
-std::string scene_lost_fault(const Subject& s) {
-  const SceneRun* run = s.scenario->scene.get();
-  const std::vector<SensorInUse> sensors = sensors_in_use(s.source, s.p, s.scenario);
-  for (std::size_t i = 0; run != nullptr && i < run->times_s.size(); ++i) {
-    const Pose pose = run->target_at(static_cast<TimeUs>(std::llround(1e6 * run->times_s[i]))).T_a_b;
-    const Eigen::Isometry3d T = Eigen::Translation3d(pose.p) * Eigen::Isometry3d(pose.q);
-    const double z_m = (T * s.target->middle()).z();
-    const auto measures = [&](const SensorInUse& sensor) {
-      return z_m > sensor.p.range_min_m && z_m < sensor.p.range_max_m && !is_off(seen_of(*s.target, T), sensor.p);
-    };
-    if (std::any_of(sensors.begin(), sensors.end(), measures)) continue;
-    return "after " + figure(run->times_s[i]) + " s the target's middle is out of the field, or of what is measured";
-  }
-  return "";
-}
-
-// Of a scene at frame 0; elsewhere the range is along the boresight.
-std::string behind_fault(const Subject& s) {
-  if (s.scenario->scene == nullptr) return "";
-  const Eigen::Vector3d middle_m = first_pose(*s.scenario, s.scenario->ranges_m.front()) * s.target->middle();
-  if (middle_m.z() > 0) return "";
-  return "at frame 0 the target's middle is behind the sensor, whose boresight is its z axis: towards = \"" + s.source.scene.target +
-         "\" turns a node to it";
-}
-
 std::string off_fault(const Subject& s) {
-  if (s.scenario->scene != nullptr) return "";  // scene_lost_fault
   if (!outside_fault(s).empty() || s.scenario->drawn != 0) return "";
   return misses_at(s, is_off, "the target's middle is outside of the field");
 }
@@ -164,7 +90,6 @@ std::string lost_fault(const Subject& s) {
 bool has_first_attitude(const Scenario& scenario, double range_m) {
   const auto& spin = scenario.spin_radps;
   const bool turns = std::any_of(spin.begin(), spin.end(), [](double rate_radps) { return rate_radps != 0; });
-  if (scenario.scene != nullptr) return true;
   return scenario.drawn == 0 && (!scenario.has_profile() || !turns || range_m == scenario.ranges_m.front());
 }
 
@@ -178,6 +103,7 @@ bool is_sensor_inside(const Subject& s, double range_m) {
 }
 
 std::string inside_fault(const Subject& s) {
+  if (s.scenario->scene != nullptr) return "";  // scene_rules.cpp
   for (const double range_m : s.scenario->ranges_m) {
     if (!is_sensor_inside(s, range_m)) continue;
     const Eigen::Vector3d size = s.target->high - s.target->low;
@@ -351,8 +277,6 @@ const Rules& target_rules() {
     {kWarning, kScenario, kTarget, {"bearing.returns_min", "scan.points"}, bearing_fault},
     {kWarning, kScenario, kTarget, {"offset_m", "sensor.fov_half_x_deg", "sensor.fov_half_y_deg"}, outside_fault},
     {kWarning, kScenario, kTarget, {"offset_m", "sensor.fov_half_x_deg", "sensor.fov_half_y_deg"}, off_fault},
-    {kError, kScenario, kTarget, {"offset_m"}, behind_fault},
-    {kWarning, kScenario, kTarget, {"offset_m"}, scene_lost_fault},
     {kWarning, kScenario, kTarget, {"drift_mps", "frames"}, lost_fault},
     {kError, kScenario, kTarget, {"ranges_m", "target.scale", "center_m", "offset_m"}, inside_fault},
     {kWarning, kScenario, kTarget, {"edge_mixing_m", "beam_divergence_rad"}, footprint_fault},

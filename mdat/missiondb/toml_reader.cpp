@@ -271,6 +271,21 @@ std::optional<FoundValue> read_value(const toml::node& node, const ValueRow& row
   return read_number(node, row, key, problems);
 }
 
+void for_each_table(const toml::table& root, const std::string& section, ProblemList& problems,
+                    const std::function<void(const std::string&, const toml::table&)>& read) {
+  const toml::node* node = root.get(section);
+  if (node == nullptr) return;
+  if (!node->is_table()) return problems.add(*node, section, "wrong type: expected tables [" + section + ".NAME]");
+  for (const auto& [name, entry] : *node->as_table()) {
+    const std::string path = section + "." + std::string(name.str());
+    if (const toml::table* table = entry.as_table()) {
+      read(std::string(name.str()), *table);
+    } else {
+      problems.add(entry, path, "wrong type: expected a table [" + path + "]");
+    }
+  }
+}
+
 FoundValues read_table(const toml::table& table, const std::string& prefix, const std::vector<ValueRow>& rows,
                        const std::vector<std::string>& others, ProblemList& problems) {
   TableWalk walk(prefix, rows, others, problems);

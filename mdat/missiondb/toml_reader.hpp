@@ -4,6 +4,7 @@
 #include <toml++/toml.h>
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -58,5 +59,9 @@ std::optional<FoundValue> read_value(const toml::node& node, const ValueRow& row
 // the table) are left to the caller. Unknown keys and missing required ones are problems.
 FoundValues read_table(const toml::table& table, const std::string& prefix, const std::vector<ValueRow>& rows,
                        const std::vector<std::string>& others, ProblemList& problems);
+
+// The tables [SECTION.NAME] of a mission, each to `read` with its name. A section or an entry of it that is no table is a problem.
+void for_each_table(const toml::table& root, const std::string& section, ProblemList& problems,
+                    const std::function<void(const std::string&, const toml::table&)>& read);
 
 }  // namespace lasso::mdat

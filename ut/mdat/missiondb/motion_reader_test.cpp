@@ -39,6 +39,7 @@ TEST_F(MotionReaderTest, RatesTurnAboutAPivotThatDrifts) {
     EXPECT_LT(q.angularDistance(state.T_a_b.q), 1e-9);
     EXPECT_LT((state.T_a_b.p - p).norm(), 1e-9);
     EXPECT_LT((state.rates.omega_radps - q0 * spin).norm(), 1e-12);
+    EXPECT_LT((state.rates.v_mps - (Vec3(0.1, 0, -0.2) - (q0 * spin).cross(q * pivot))).norm(), 1e-12);
   }
 }
 
