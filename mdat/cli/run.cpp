@@ -16,7 +16,7 @@
 #include "mdat/run/camera.hpp"
 #include "mdat/run/frames_table.hpp"
 #include "mdat/run/recording.hpp"
-#include "mdat/run/relative_poses.hpp"
+#include "mdat/run/relative_table.hpp"
 #include "mdat/run/results.hpp"
 #include "mdat/run/simulation.hpp"
 
@@ -65,11 +65,10 @@ void write_results(const RunArguments& options, const SimulationOptions& simulat
   folder.write("results.json", results_json(result));
   folder.write("frames.csv", frames_csv(result));
   folder.write("telemetry.ccsds", telemetry_bytes(result));
-  const std::vector<RelativeRun> relative = relative_runs(result);
-  if (!relative.empty()) folder.write("relative.csv", relative_csv(relative));
+  if (!result.relative.empty()) folder.write("relative.csv", relative_csv(result.relative));
   folder.commit();
   folder.remove("report.html");  // of an earlier run
-  if (relative.empty()) folder.remove("relative.csv");
+  if (result.relative.empty()) folder.remove("relative.csv");
   if (simulation.record) write_file(options.record_sensor, recording_text(*simulation.record));
 }
 
@@ -154,8 +153,8 @@ void run(const RunArguments& options) {
   write_results(options, simulation, result, folder);
   if (simulation.replay) warn_of_replay(result);
   std::fputs(summary_text(result).c_str(), stdout);
-  const bool relative = !relative_runs(result).empty();
-  std::printf("written to %s: results.json, frames.csv, telemetry.ccsds%s\n", options.out.c_str(), relative ? ", relative.csv" : "");
+  std::printf("written to %s: results.json, frames.csv, telemetry.ccsds%s\n", options.out.c_str(),
+              result.relative.empty() ? "" : ", relative.csv");
   (void)std::fflush(stdout);
   if (options.report || !options.picture.empty()) write_pictures(options, mission, result, folder);
 }

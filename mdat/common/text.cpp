@@ -20,6 +20,8 @@ std::string format(const char* pattern, ...) {
   return text;
 }
 
+std::string csv_cell(double value) { return std::isfinite(value) ? format(",%.6g", value) : std::string(","); }
+
 std::string decimals(double value, int count) {
   const std::string text = format("%.*f", count, value);
   const bool zero = text.find_first_not_of("-0.") == std::string::npos;

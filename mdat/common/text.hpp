@@ -24,6 +24,9 @@ std::string shell_word(const std::string& text);
 // A path as a page links to it: what is not plain in an address is in percent.
 std::string url(const std::string& path);
 
+// A number of six digits behind a comma; what is not finite is an empty cell.
+std::string csv_cell(double value);
+
 // A number with this many decimals, never as -0.
 std::string decimals(double value, int count);
 

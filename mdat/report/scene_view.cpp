@@ -22,12 +22,11 @@ std::string seen_section(const std::vector<SeenPicture>& pictures) {
 }
 
 std::string relative_section(const SimulationResult& result) {
-  const std::vector<RelativeRun> runs = relative_runs(result);
-  if (runs.empty()) return "";
+  if (result.relative.empty()) return "";
   std::string html =
       "<section>\n<h2>Poses between named frames</h2>\n<table>\n<tr><th></th><th>valid</th><th>rms, mm</th><th>rms, "
       "deg</th><th>NEES of 6</th><th>filtered rms, mm</th><th>filtered rms, deg</th></tr>\n";
-  for (const RelativeRun& run : runs) {
+  for (const RelativeRun& run : result.relative) {
     const RelativeFigures figures = relative_figures(run);
     html += "<tr><td>" + escape(run.name) + format("</td><td>%zu of %zu</td>", figures.valid, figures.poses);
     for (const double figure : {figures.rms_mm, figures.rms_deg, figures.nees, figures.filtered_rms_mm, figures.filtered_rms_deg})

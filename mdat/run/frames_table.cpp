@@ -19,18 +19,15 @@ constexpr char kColumns[] =
     "sigma_mm,sigma_deg,nees,level_mm,level_deg,filtered_mm,filtered_deg,omega_error_degps,v_error_mmps,returns,inliers,sensor,part,"
     "estimate_us\n";
 
-// A number, or an empty cell.
-std::string cell(double value) { return std::isfinite(value) ? format(",%.6g", value) : std::string(","); }
-
 std::string error_cells(const FrameError& frame) {
   std::string text;
-  for (int i = 0; i < 3; ++i) text += cell(kMm * frame.registration.translation_m[i]);
-  for (int i = 0; i < 3; ++i) text += cell(kDeg * frame.registration.yaw_pitch_roll[i]);
+  for (int i = 0; i < 3; ++i) text += csv_cell(kMm * frame.registration.translation_m[i]);
+  for (int i = 0; i < 3; ++i) text += csv_cell(kDeg * frame.registration.yaw_pitch_roll[i]);
   for (const double value :
        {kMm * frame.registration.translation_m.norm(), kDeg * frame.registration.rotation_rad, kMm * frame.sigma_m, kDeg * frame.sigma_rad,
         frame.nees, kMm * frame.level.position_m, kDeg * frame.level.attitude_rad, kMm * frame.filtered.translation_m.norm(),
         kDeg * frame.filtered.rotation_rad, kDeg * frame.omega_error_radps, kMm * frame.v_error_mps})
-    text += cell(value);
+    text += csv_cell(value);
   return text;
 }
 
@@ -43,7 +40,7 @@ std::string row(const SimulationResult& result, const FrameError& frame) {
   text += error_cells(frame);
   text +=
       format(",%u,%u,%s,%s", frame.returns, frame.inliers, result.sensors.at(frame.sensor).c_str(), result.parts.at(frame.part).c_str());
-  return text + cell(frame.estimate_us) + "\n";
+  return text + csv_cell(frame.estimate_us) + "\n";
 }
 
 }  // namespace

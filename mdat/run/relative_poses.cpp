@@ -5,17 +5,13 @@
 
 #include "fsw/geometry/so3.hpp"
 #include "fsw/link/space_packet.hpp"
-#include "mdat/common/text.hpp"
+#include "fsw/pose/result.hpp"
+#include "mdat/run/case.hpp"
 
 namespace lasso::mdat {
 namespace {
 
 constexpr double kMillimetres = 1e3, kDegrees = 1 / kRadPerDeg;
-
-constexpr char kRelativeColumns[] =
-    "relative,t_s,valid,x_m,y_m,z_m,qx,qy,qz,qw,sigma_x_mm,sigma_y_mm,sigma_z_mm,sigma_rx_deg,sigma_ry_deg,sigma_rz_deg,error_mm,error_deg,"
-    "nees,filtered_x_m,filtered_y_m,filtered_z_m,filtered_qx,filtered_qy,filtered_qz,filtered_qw,vx_mps,vy_mps,vz_mps,wx_degps,wy_degps,"
-    "wz_degps,filtered_error_mm,filtered_error_deg,v_error_mmps,w_error_degps\n";
 
 // The pair's two places, which do not move against target and sensor.
 struct Places {
@@ -67,45 +63,17 @@ std::vector<PoseTelemetry> registrations(const std::vector<std::uint8_t>& teleme
   return packets;
 }
 
-std::string cells(const Vec3& v, double unit) { return format(",%.9g,%.9g,%.9g", unit * v.x(), unit * v.y(), unit * v.z()); }
-std::string cells(const Pose& pose) {
-  return cells(pose.p, 1) + format(",%.9g,%.9g,%.9g,%.9g", pose.q.x(), pose.q.y(), pose.q.z(), pose.q.w());
-}
-
-std::string row(const std::string& name, const RelativePose& pose) {
-  const PoseError error = pose_error(pose.T_in_of, pose.truth), filtered = pose_error(pose.T_in_of_filtered, pose.truth);
-  const Eigen::Matrix<double, 6, 1> sigma = pose.covariance.diagonal().cwiseMax(0).cwiseSqrt();
-  std::string text = name + format(",%.6f,%d", pose.t_s, pose.valid ? 1 : 0) + cells(pose.T_in_of);
-  text += cells(Vec3(sigma.tail<3>()), kMillimetres) + cells(Vec3(sigma.head<3>()), kDegrees);
-  text += format(",%.6g,%.6g,%.6g", kMillimetres * error.translation_m.norm(), kDegrees * error.rotation_rad,
-                 nees(pose.T_in_of, pose.truth, pose.covariance));
-  text += cells(pose.T_in_of_filtered) + cells(pose.rates.v_mps, 1) + cells(pose.rates.omega_radps, kDegrees);
-  text += format(",%.6g,%.6g", kMillimetres * filtered.translation_m.norm(), kDegrees * filtered.rotation_rad);
-  return text + format(",%.6g,%.6g\n", kMillimetres * (pose.rates.v_mps - pose.true_rates.v_mps).norm(),
-                       kDegrees * (pose.rates.omega_radps - pose.true_rates.omega_radps).norm());
-}
-
 }  // namespace
 
-std::vector<RelativeRun> relative_runs(const SimulationResult& result) {
+std::vector<RelativeRun> relative_runs(const SceneRun& scene, const std::vector<std::uint8_t>& telemetry) {
   std::vector<RelativeRun> runs;
-  const TableResult& table = result.tables.front();
-  const SceneRun* scene = table.scenario.scene.get();
-  if (scene == nullptr || scene->relative.empty()) return runs;
-  const std::vector<PoseTelemetry> packets = registrations(table.variants.front().cases.front().telemetry);
-  for (const RelativePair& pair : scene->relative) {
+  if (scene.relative.empty()) return runs;
+  const std::vector<PoseTelemetry> packets = registrations(telemetry);
+  for (const RelativePair& pair : scene.relative) {
     runs.push_back({pair.name, {}});
-    for (const PoseTelemetry& packet : packets) runs.back().poses.push_back(relative_pose(packet, *scene, pair));
+    for (const PoseTelemetry& packet : packets) runs.back().poses.push_back(relative_pose(packet, scene, pair));
   }
   return runs;
-}
-
-std::string relative_csv(const std::vector<RelativeRun>& runs) {
-  std::string text = kRelativeColumns;
-  for (const RelativeRun& run : runs) {
-    for (const RelativePose& pose : run.poses) text += row(run.name, pose);
-  }
-  return text;
 }
 
 RelativeFigures relative_figures(const RelativeRun& run) {
@@ -126,19 +94,6 @@ RelativeFigures relative_figures(const RelativeRun& run) {
   for (double* deg : {&figures.rms_deg, &figures.filtered_rms_deg}) *deg = kDegrees * std::sqrt(*deg / n);
   figures.nees /= n;
   return figures;
-}
-
-std::string relative_text(const std::vector<RelativeRun>& runs) {
-  std::string text;
-  for (const RelativeRun& run : runs) {
-    const RelativeFigures figures = relative_figures(run);
-    text += format("relative %s: %zu of %zu poses valid", run.name.c_str(), figures.valid, figures.poses);
-    if (figures.valid > 0)
-      text += format(": rms %.3f mm, %.4f deg, NEES %.2f of 6; filtered %.3f mm, %.4f deg", figures.rms_mm, figures.rms_deg, figures.nees,
-                     figures.filtered_rms_mm, figures.filtered_rms_deg);
-    text += "\n";
-  }
-  return text;
 }
 
 }  // namespace lasso::mdat

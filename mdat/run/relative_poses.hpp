@@ -4,7 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "mdat/run/simulation.hpp"
+#include "fsw/geometry/se3.hpp"
+#include "mdat/missiondb/scene_source.hpp"
 
 namespace lasso::mdat {
 
@@ -20,15 +21,13 @@ struct RelativePose {
   Twist true_rates;
 };
 
-// By the names of [relative.NAME], each over all packets of the scenario's run. None where a scenario is no scene.
+// One of [relative.NAME], over all packets of a run.
 struct RelativeRun {
   std::string name;
   std::vector<RelativePose> poses;
 };
-std::vector<RelativeRun> relative_runs(const SimulationResult& result);
-
-// One row for each pose; columns as in docs/scenes.md.
-std::string relative_csv(const std::vector<RelativeRun>& runs);
+// Of a run of the scene by its telemetry: packets, one behind the other.
+std::vector<RelativeRun> relative_runs(const SceneRun& scene, const std::vector<std::uint8_t>& telemetry);
 
 // Of the valid ones.
 struct RelativeFigures {
@@ -37,6 +36,5 @@ struct RelativeFigures {
   double nees = 0;  // mean; 6 where covariances are honest
 };
 RelativeFigures relative_figures(const RelativeRun& run);
-std::string relative_text(const std::vector<RelativeRun>& runs);  // a line each
 
 }  // namespace lasso::mdat

@@ -9,7 +9,7 @@
 #include "mdat/common/version.hpp"
 #include "mdat/run/integrity.hpp"
 #include "mdat/run/paper.hpp"
-#include "mdat/run/relative_poses.hpp"
+#include "mdat/run/relative_table.hpp"
 
 namespace lasso::mdat {
 namespace {
@@ -318,25 +318,10 @@ std::string table_text(const SimulationResult& result, const TableResult& table)
   return text + "\n";
 }
 
-Json relative_json(const std::vector<RelativeRun>& runs) {
-  Json json;
-  for (const RelativeRun& run : runs) {
-    const RelativeFigures figures = relative_figures(run);
-    json[run.name] = {{"poses", figures.poses},
-                      {"valid", figures.valid},
-                      {"rms_mm", figures.rms_mm},
-                      {"rms_deg", figures.rms_deg},
-                      {"nees", figures.nees},
-                      {"filtered_rms_mm", figures.filtered_rms_mm},
-                      {"filtered_rms_deg", figures.filtered_rms_deg}};
-  }
-  return json;
-}
-
 }  // namespace
 
 std::string attitude_text(const Scenario& scenario) {
-  if (scenario.scene != nullptr) return format("a scene of %zu nodes", scenario.scene->tree.size() - 1);
+  if (scenario.scene != nullptr) return "a scene";
   return scenario.drawn != 0 ? "attitudes drawn" : format("tilt %g deg", scenario.tilt_rad / kRadPerDeg);
 }
 
@@ -385,7 +370,7 @@ std::string results_json(const SimulationResult& result) {
       json[table.name] = variants;
     }
   }
-  if (const std::vector<RelativeRun> relative = relative_runs(result); !relative.empty()) json["relative"] = relative_json(relative);
+  if (!result.relative.empty()) json["relative"] = relative_json(result.relative);
   if (result.kind >= ScenarioKind::kPass) json["timeline"] = timeline_json(result, timeline_of(result));
   if (is_beside_paper(result.tables.front())) json["paper_2005"] = axes_json(paper_table_1());
   return json.dump(2) + "\n";
@@ -395,8 +380,7 @@ std::string summary_text(const SimulationResult& result) {
   std::string text = "\n";
   if (result.kind == ScenarioKind::kApproach) return text + timeline_text(result, timeline_of(result));
   for (const TableResult& table : result.tables) text += table_text(result, table);
-  const std::string relative = relative_text(relative_runs(result));
-  return relative.empty() ? text : text + relative + "\n";
+  return result.relative.empty() ? text : text + relative_text(result.relative) + "\n";
 }
 
 }  // namespace lasso::mdat

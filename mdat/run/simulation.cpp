@@ -364,6 +364,8 @@ SimulationResult simulate(const CompiledMission& mission, const SimulationOption
   ProgressBar bar("track", plan.cases.size() * result.frames, "frames");
   collect(Pool(plan.cases, options.jobs).wait(bar), result);
   bar.finish();
+  if (scenario.scene != nullptr)
+    result.relative = relative_runs(*scenario.scene, result.tables.front().variants.front().cases.front().telemetry);
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return result;
 }

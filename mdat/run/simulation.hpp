@@ -9,6 +9,7 @@
 #include "mdat/common/flight_image.hpp"
 #include "mdat/missiondb/mission_text.hpp"
 #include "mdat/run/case.hpp"
+#include "mdat/run/relative_poses.hpp"
 #include "mdat/run/true_target.hpp"
 
 namespace lasso::mdat {
@@ -72,6 +73,7 @@ struct SimulationResult {
   std::vector<Deviation> deviations;        // of them, those that are not presets
   std::vector<std::string> sensors, parts;  // names by their numbers; part 0 is the whole
   std::vector<TableResult> tables;
+  std::vector<RelativeRun> relative;  // of a scene
   double seconds = 0;
 };
 

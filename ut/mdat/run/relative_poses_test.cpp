@@ -1,10 +1,11 @@
-#include "mdat/run/relative_poses.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <memory>
 
+#include "mdat/run/case.hpp"
+#include "mdat/run/relative_table.hpp"
+#include "mdat/run/simulated_scenario.hpp"
 #include "ut/support/generator.hpp"
 #include "ut/support/verifies.hpp"
 
@@ -74,16 +75,10 @@ Said said_at(const SceneRun& run, TimeUs t_us, test::Generator& random) {
   return said;
 }
 
-SimulationResult result_of(const std::shared_ptr<SceneRun>& run, const PoseTelemetry& packet) {
-  SimulationResult result;
-  result.tables.resize(1);
-  result.tables[0].scenario.scene = run;
-  result.tables[0].variants.resize(1);
-  result.tables[0].variants[0].cases.resize(1);
-  std::vector<std::uint8_t>& bytes = result.tables[0].variants[0].cases[0].telemetry;
-  bytes.resize(2000);
-  bytes.resize(encode_pose(packet, PacketHeader{}, Bytes(bytes.data(), bytes.size())));
-  return result;
+std::vector<RelativeRun> runs_of(const SceneRun& run, const PoseTelemetry& packet) {
+  std::vector<std::uint8_t> telemetry(2000);
+  telemetry.resize(encode_pose(packet, PacketHeader{}, Bytes(telemetry.data(), telemetry.size())));
+  return relative_runs(run, telemetry);
 }
 
 Eigen::Isometry3d isometry(const Pose& pose) { return Eigen::Translation3d(pose.p) * pose.q; }
@@ -94,7 +89,7 @@ TEST(RelativePoses, ArePosesOfTheNamedFramesWithTheirLeverArms) {
   test::Generator random(26);
   for (const TimeUs t_us : {TimeUs{0}, TimeUs{7'300'000}, TimeUs{31'000'000}}) {
     const Said said = said_at(*run, t_us, random);
-    const RelativePose pose = relative_runs(result_of(run, said.packet)).at(0).poses.at(0);
+    const RelativePose pose = runs_of(*run, said.packet).at(0).poses.at(0);
     const Eigen::Isometry3d expected =
         isometry(kT_port).inverse() * isometry(kT_head) * isometry(said.T_sensor_target) * isometry(kT_point);
     EXPECT_LT((isometry(pose.T_in_of).matrix() - expected.matrix()).norm(), 1e-12);
@@ -113,7 +108,7 @@ TEST(RelativePoses, HaveTheRatesOfTheirOwnOrigins) {
   const auto run = scene_run();
   test::Generator random(27);
   const TimeUs t_us = 12'000'000;
-  const RelativePose pose = relative_runs(result_of(run, said_at(*run, t_us, random).packet)).at(0).poses.at(0);
+  const RelativePose pose = runs_of(*run, said_at(*run, t_us, random).packet).at(0).poses.at(0);
   const auto truth_at = [&](TimeUs t) { return run->tree.state(run->relative[0].of, run->relative[0].in, t).T_a_b; };
   const Pose before = truth_at(t_us - 1000), after = truth_at(t_us + 1000);
   EXPECT_LT((pose.rates.v_mps - (after.p - before.p) / 2e-3).norm(), 1e-6);
@@ -126,10 +121,10 @@ TEST(RelativePoses, FiguresAreOfValidPosesAndTheTableHasAll) {
   const auto run = scene_run();
   test::Generator random(28);
   Said said = said_at(*run, 1'000'000, random);
-  std::vector<RelativeRun> runs = relative_runs(result_of(run, said.packet));
+  std::vector<RelativeRun> runs = runs_of(*run, said.packet);
   said.packet.valid = 0;
   said.packet.p_sensor_target_m[0] += 5;
-  runs[0].poses.push_back(relative_runs(result_of(run, said.packet)).at(0).poses.at(0));
+  runs[0].poses.push_back(runs_of(*run, said.packet).at(0).poses.at(0));
   const RelativeFigures figures = relative_figures(runs[0]);
   EXPECT_EQ(figures.poses, 2U);
   EXPECT_EQ(figures.valid, 1U);
@@ -141,6 +136,10 @@ TEST(RelativePoses, FiguresAreOfValidPosesAndTheTableHasAll) {
                       table.begin() + static_cast<std::ptrdiff_t>(table.find('\n', from)), ',');
   };
   EXPECT_EQ(fields(0), fields(table.find("docking,")));
+  runs[0].poses[0].covariance.setZero();
+  const std::string unknown = relative_csv(runs);
+  EXPECT_EQ(unknown.find("inf"), std::string::npos) << unknown;
+  EXPECT_EQ(std::count(unknown.begin(), unknown.end(), ','), std::count(table.begin(), table.end(), ','));
 }
 
 }  // namespace
