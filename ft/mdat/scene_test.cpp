@@ -39,12 +39,17 @@ override.tracking.start_sigma_deg = 2.0
 [scenario.checked]
 )";
 
+// missions/test.toml, with these scenes.
+void write_scenes(const WorkFolder& work) {
+  work.write_mission({{"\n[scenario.checked]\n", kScenes}});
+  work.write("models/probe.toml", read_text(source_path("cfg/models/probe.toml")));
+}
+
 // Its target is the one of the scenario spin, but for the screen.
 TEST(SceneRun, FliesTheNodesOfAMission) {
   VERIFIES("LASSO-SCN-020~1 LASSO-SCN-021~1");
   const WorkFolder work;
-  work.write_mission({{"\n[scenario.checked]\n", kScenes}});
-  work.write("models/probe.toml", read_text(source_path("cfg/models/probe.toml")));
+  write_scenes(work);
   const Answer answer = work.mdat("run missions/test.toml --scenario screened --out out/run --no-report");
   ASSERT_EQ(answer.exit_code, 0) << answer.err;
   const std::vector<std::string> lines = lines_of(work.read("out/run/frames.csv"));
@@ -63,8 +68,7 @@ TEST(SceneRun, FliesTheNodesOfAMission) {
 TEST(SceneRun, ItsReportShowsWhatTheSensorsSaw) {
   VERIFIES("LASSO-PIC-017~1");
   const WorkFolder work;
-  work.write_mission({{"\n[scenario.checked]\n", kScenes}});
-  work.write("models/probe.toml", read_text(source_path("cfg/models/probe.toml")));
+  write_scenes(work);
   const Answer answer = work.mdat("run missions/test.toml --scenario screened --frames 2 --out out/run");
   ASSERT_EQ(answer.exit_code, 0) << answer.err;
   const std::string report = work.read("out/run/report.html");
@@ -79,8 +83,7 @@ TEST(SceneRun, ItsReportShowsWhatTheSensorsSaw) {
 TEST(SceneRun, NamesThePartsOfItsNodesForPictures) {
   VERIFIES("LASSO-PIC-016~1");
   const WorkFolder work;
-  work.write_mission({{"\n[scenario.checked]\n", kScenes}});
-  work.write("models/probe.toml", read_text(source_path("cfg/models/probe.toml")));
+  write_scenes(work);
   const std::string render = "render missions/test.toml --scenario screened --size 64x64 --samples 1 --force --material ";
   EXPECT_EQ(work.mdat(render + "screen.bus=mli").exit_code, 0);
   const Answer other = work.mdat(render + "screen.bux=mli");

@@ -32,13 +32,7 @@ constexpr KindRow kKinds[] = {
 };
 
 ValueRow fault_row(const std::string& key, double minimum, double maximum, const std::string& unit) {
-  ValueRow row;
-  row.key = key;
-  row.unit = unit;
-  row.minimum = minimum;
-  row.maximum = maximum;
-  row.required = true;
-  return row;
+  return required(number_row(key.c_str(), unit.c_str(), ValueKind::kReal, 1, minimum, maximum, 0, ""));
 }
 
 ValueRow kind_row() {
