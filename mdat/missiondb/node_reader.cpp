@@ -162,16 +162,17 @@ void look_at_motion(double frames, double period_s, SceneRun& run) {
 }
 
 // The component knows one pose, of the target before the sensors: what moves against either, it knows nothing of.
-void pair_frames(const SceneSource& scene, SceneRun& run, ProblemList& problems) {
+void pair_frames(const SceneSource& scene, const std::string& scenario, SceneRun& run, ProblemList& problems) {
   for (const RelativeSource& relative : scene.relative) {
     const RelativePair pair{relative.name, run.tree.need(relative.of), run.tree.need(relative.in)};
     const Origin origin = origin_of(relative.place);
     const std::string path = "relative." + relative.name;
     if (!run.tree.are_rigid(pair.of, run.target))
-      problems.add(origin, path + ".of", '"' + relative.of + '"', "moves against the target: name a node that stands on " + scene.target);
+      problems.add(origin, path + ".of", '"' + relative.of + '"',
+                   "moves against the target in scenario " + scenario + ": name a node that stands on " + scene.target);
     if (!run.tree.are_rigid(pair.in, run.sensor))
       problems.add(origin, path + ".in", '"' + relative.in + '"',
-                   "moves against the sensor: name a node that stands on what carries " + scene.sensor);
+                   "moves against the sensor in scenario " + scenario + ": name a node that stands on what carries " + scene.sensor);
     run.relative.push_back(pair);
   }
 }
@@ -296,7 +297,7 @@ void make_scene_run(const ChosenMotions& chosen, const std::string& name, Origin
   run->target = run->tree.need(scene.target);
   run->sensor = run->tree.need(scene.sensor);
   for (const BodySource& body : scene.bodies) run->body_nodes.push_back(run->tree.need(body.node));
-  pair_frames(scene, *run, problems);
+  pair_frames(scene, name, *run, problems);
   look_at_motion(scenario.frames, period_s, *run);
   scenario.times_s = run->times_s;
   scenario.ranges_m = run->ranges_m;

@@ -174,7 +174,7 @@ TEST_F(NodeReaderTest, NamedFramesStandOnTheTargetAndOnTheSensorsCraft) {
   EXPECT_EQ(run.tree.name(run.relative[0].of), "port");
   EXPECT_EQ(run.tree.name(run.relative[0].in), "arm");
   expect_problem(kMotions + kNodes + frames + "[relative.dock]\nof = 'wing'\nin = 'root'\n" + scenario,
-                 "relative.dock.of: \"wing\": moves against the target: name a node that stands on body");
+                 "relative.dock.of: \"wing\": moves against the target in scenario s: name a node that stands on body");
   expect_problem(kMotions + kNodes + frames + "[relative.dock]\nof = 'wing'\nin = 'root'\n" + scenario,
                  "relative.dock.in: \"root\": moves against the sensor");
   expect_problem(kMotions + kNodes + frames + "[relative.dock]\nof = 'prot'\n",
