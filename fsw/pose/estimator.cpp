@@ -57,9 +57,6 @@ bool are_held(const Mission& mission, const LabelSearch& search, const Direction
 
 bool has_information(const HitSolution& hits) { return hits.stop == StopReason::kConverged || hits.stop == StopReason::kIterationLimit; }
 
-// A pose that is refused, as it explains too little: what is beside it is not worth its time.
-bool is_hopeless(const Mission& mission, const HitSolution& hits) { return explained_share(hits) < mission.parameters.inlier_share_min; }
-
 // What the hits know of the pose.
 struct HitKnowledge {
   double scale = 1;        // of the noise's variance over the assumed one
@@ -80,7 +77,7 @@ void learn_from(const Mission& mission, const LineSearch& search, Workspace& wor
   if (!has_information(hits)) return;
   known.trust_scale = p.noise_estimated > 0.5 ? known.scale : 1;
   known.covariance = covariance_of_hits(mission.radius_m, hits.H, known.trust_scale, known.unseen);
-  if (is_hopeless(mission, hits)) return;
+  if (explained_share(hits) < p.inlier_share_min) return;  // it is refused, however sure it is
   widen_weak_axes(mission, hits, known.trust_scale, workspace, known.covariance, known.unseen);
   known.covariance = with_rivals(search, known.covariance);
   known.slack = find_slack(mission, known.covariance);
@@ -232,7 +229,6 @@ HitSolution register_wide(const Mission& mission, const Pose& T_target_sensor, W
 [[gnu::noinline]] void register_scan(const Mission& mission, const StartPoint& start, Workspace& workspace, LineSearch& search) {
   const Pose pose = inverse(start.T_sensor_target);
   search.best = start.wide ? register_wide(mission, pose, workspace) : register_hits(mission, pose, workspace);
-  if (is_hopeless(mission, search.best)) return;
   search_weak_axis(mission, {pose, to_target_axes(start.covariance, pose), start.rival_m}, workspace, search);
 }
 

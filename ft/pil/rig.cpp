@@ -1,13 +1,13 @@
 // pil_rig MISSION SCENARIO FRAMES OUT [cut=BYTES] [noise] [store=ADDRESS] [whole] [memory=ADDRESS] [starts=N] [code=BYTES] [quiet=S]
-// [limit=S] [progress]: flies a scenario on the host, then on the board behind OUT/camera.sock, OUT/ground.sock and OUT/rig.sock, and
-// compares their telemetry bit by bit. Says `ready` when the board may be started: the mission's image is then in OUT/image.3dli. Leaves
-// OUT/host.ccsds, OUT/target.ccsds, OUT/starts.csv and OUT/slots.csv (the board's reports, words by name). cut: the camera's line ends
-// after so many bytes. noise: the ground's begins with some. store: three starts try the store (store_story.hpp), the first image buffer
-// being at ADDRESS. whole: what they load is as large as what flies. memory: where the board's begins, 0. starts: so many starts of the
-// board are awaited, and the flight on the host left out. code: so much code the board watches, and the host beside it. quiet: seconds of
-// the host for which nothing may move on the lines, 30. limit: seconds that all of it may take, 3600. progress: a line `frame` on standard
-// error for each frame that is done, on the host and on the board, instead of a bar for people. Exit codes: 0 the same bits, 1 not, or the
-// board failed, 2 usage or bad input.
+// [limit=S] [points=N] [progress]: flies a scenario on the host, then on the board behind OUT/camera.sock, OUT/ground.sock and
+// OUT/rig.sock, and compares their telemetry bit by bit. Says `ready` when the board may be started: the mission's image is then in
+// OUT/image.3dli. Leaves OUT/host.ccsds, OUT/target.ccsds, OUT/starts.csv and OUT/slots.csv (the board's reports, words by name). cut: the
+// camera's line ends after so many bytes. noise: the ground's begins with some. store: three starts try the store (store_story.hpp), the
+// first image buffer being at ADDRESS. whole: what they load is as large as what flies. memory: where the board's begins, 0. starts: so
+// many starts of the board are awaited, and the flight on the host left out. code: so much code the board watches, and the host beside it.
+// quiet: seconds of the host for which nothing may move on the lines, 30. limit: seconds that all of it may take, 3600. points: rays of a
+// scan, of which a mission's own may be too many for the board. progress: a line `frame` on standard error for each frame that is done, on
+// the host and on the board, instead of a bar for people. Exit codes: 0 the same bits, 1 not, or the board failed, 2 usage or bad input.
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -48,6 +48,7 @@ struct Options {
   bool whole = false;        // the image that is loaded is a mission's own
   std::uint32_t memory = 0;  // where the board's memory begins
   std::chrono::seconds quiet{30}, limit{3600};
+  std::uint32_t points = 0;  // rays of a scan; 0: the mission's
   bool progress = false;
 };
 
@@ -69,6 +70,7 @@ void take(const std::string& word, Options& options) {
       {"code", [](const std::string& value, Options& of) { of.code_bytes = count_of<std::uint32_t>("code", value); }},
       {"quiet", [](const std::string& value, Options& of) { of.quiet = seconds_of("quiet", value); }},
       {"limit", [](const std::string& value, Options& of) { of.limit = seconds_of("limit", value); }},
+      {"points", [](const std::string& value, Options& of) { of.points = count_of<std::uint32_t>("points", value, 1); }},
       {"progress", [](const std::string&, Options& of) { of.progress = true; }},
   };
   const std::size_t equals = word.find('=');
@@ -82,7 +84,7 @@ Options parse(int argc, char** argv) {
     throw mdat::InputError(
         "usage: pil_rig MISSION SCENARIO FRAMES OUT [cut=BYTES] [noise] [store=ADDRESS] [whole] [memory=ADDRESS] [starts=N] [code=BYTES] "
         "[quiet=S] "
-        "[limit=S] [progress]");
+        "[limit=S] [points=N] [progress]");
   Options options;
   options.mission = argv[1];
   options.scenario = argv[2];
@@ -213,6 +215,7 @@ WorldSetup setup_of(const Options& options, const mdat::CompiledMission& mission
   mdat::SimulationOptions simulation;
   simulation.scenario = options.scenario;
   WorldSetup setup{mdat::camera_case(mission, simulation, target), options.cut, options.noise};
+  if (options.points != 0) setup.flight.parameters.points = options.points;
   if (options.store != 0) setup.flight.parameters.points = kStoryPoints;
   if (options.store != 0) setup.flight.parameters.image_trial_scans = 0;
   return setup;
