@@ -12,6 +12,7 @@ void add_run_command(CLI::App& app);
 void add_campaign_command(CLI::App& app);
 void add_lcs_sim_command(CLI::App& app);
 void add_calibrate_command(CLI::App& app);
+void add_recording_command(CLI::App& app);
 void add_replay_command(CLI::App& app);
 void add_compare_command(CLI::App& app);
 void add_benchmark_commands(CLI::App& app);
@@ -23,6 +24,10 @@ void add_decode_command(CLI::App& app);
 void add_command_command(CLI::App& app);
 void add_upload_command(CLI::App& app);
 void add_dictionary_command(CLI::App& app);
+
+// Flies a recorded run again: the component gets the recorded scans, with `settings` beside those of the run. Prints its summary, and whether
+// telemetry is the recorded one. Throws InputError or MissionError as what it reads; RunError where nothing was changed, and it differs.
+void replay_recording(const std::string& file, const std::vector<std::string>& settings, bool cached);
 
 // --set KEY=VALUE of a subcommand that reads a mission; may be given again and again.
 void add_settings(CLI::App& command, std::vector<std::string>& settings);

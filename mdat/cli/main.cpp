@@ -52,6 +52,7 @@ int run(int argc, char** argv) {
   add_campaign_command(app);
   add_lcs_sim_command(app);
   add_calibrate_command(app);
+  add_recording_command(app);
   add_replay_command(app);
   add_compare_command(app);
   add_benchmark_commands(app);

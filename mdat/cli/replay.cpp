@@ -98,7 +98,20 @@ void read_frame(const ReplayArguments& options, ReplayOptions& replay) {
   if (!options.camera.empty()) replay.camera = load_depth_camera(options.camera);
 }
 
+// Other people's scans need to be said where they are; a recording of a run has all in itself.
+void check_given(const ReplayArguments& options) {
+  const std::pair<const char*, bool> kNeeded[] = {
+      {"--scans", !options.replay.scans.empty()}, {"--initial", !options.replay.initial.empty()}, {"--out", !options.out.empty()}};
+  for (const auto& [name, given] : kNeeded) {
+    if (!given) throw InputError(std::string(name) + " is required, unless a recording (.mcap) is replayed");
+  }
+}
+
+bool is_recording(const ReplayArguments& options) { return std::filesystem::path(options.mission).extension() == ".mcap"; }
+
 void run(ReplayArguments options) {
+  if (is_recording(options)) return replay_recording(options.mission, options.settings, options.cached);
+  check_given(options);
   read_frame(options, options.replay);
   if (!options.settings.empty() && is_image_file(options.mission))
     throw InputError("--set " + options.settings.front() + ": " + options.mission +
@@ -126,15 +139,17 @@ void run(ReplayArguments options) {
 
 void add_replay_command(CLI::App& app) {
   const auto options = std::make_shared<ReplayArguments>();
-  CLI::App* command = app.add_subcommand("replay", "register recorded scans (" + sim::scan_extensions() + ") from given initial poses");
-  command->add_option("MISSION", options->mission, "mission file or flight image")->required();
-  command->add_option("--scans", options->replay.scans, "folder of scans, taken in natural order (scan2 before scan10)")->required();
+  CLI::App* command = app.add_subcommand(
+      "replay", "register recorded scans (" + sim::scan_extensions() + ") from given initial poses, or fly a recorded run (.mcap) again");
   command
-      ->add_option("--initial", options->replay.initial,
-                   "poses to start from: scan,qx,qy,qz,qw,x_m,y_m,z_m (T_sensor_target); or the word search: find each scan's "
-                   "without any")
+      ->add_option("MISSION", options->mission,
+                   "mission file or flight image, for --scans; or a recording of a run (.mcap), which needs nothing else")
       ->required();
-  command->add_option("-o,--out", options->out, "file of poses to write")->required();
+  command->add_option("--scans", options->replay.scans, "folder of scans, taken in natural order (scan2 before scan10)");
+  command->add_option("--initial", options->replay.initial,
+                      "poses to start from: scan,qx,qy,qz,qw,x_m,y_m,z_m (T_sensor_target); or the word search: find each scan's "
+                      "without any");
+  command->add_option("-o,--out", options->out, "file of poses to write");
   command->add_flag("--closed-loop", options->replay.closed_loop,
                     "start from the first row, then from the filter's prediction, as in flight");
   command->add_flag("--wide", options->replay.wide, "the initial poses are rough (20 deg, a quarter of the target's size)");

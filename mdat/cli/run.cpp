@@ -11,6 +11,7 @@
 #include "mdat/link/signature.hpp"
 #include "mdat/missiondb/calibration_file.hpp"
 #include "mdat/missiondb/camera_faults.hpp"
+#include "mdat/recording/frame_recorder.hpp"
 #include "mdat/render/run_pictures.hpp"
 #include "mdat/report/report.hpp"
 #include "mdat/run/camera.hpp"
@@ -32,6 +33,8 @@ struct RunArguments {
 
 // All that a run writes into its folder.
 constexpr const char* kFiles[] = {"results.json", "frames.csv", "telemetry.ccsds", "relative.csv", "report.html"};
+
+bool records_frames(const RunArguments& options) { return std::filesystem::path(options.record).extension() == ".mcap"; }
 
 // An option of its own goes before --set.
 void tell_replaced(const MissionSource& source, const SimulationOptions& simulation) {
@@ -58,7 +61,7 @@ void check_earlier(const RunArguments& options) {
   std::vector<std::filesystem::path> files;
   for (const char* file : kFiles) files.push_back(std::filesystem::path(folder) / file);
   refuse_to_replace(files, "--force replaces that run, --out DIR keeps it");
-  refuse_to_replace({options.picture, options.record_sensor}, "--force replaces it");
+  refuse_to_replace({options.picture, options.record_sensor, records_frames(options) ? options.record : ""}, "--force replaces it");
 }
 
 void write_results(const RunArguments& options, const SimulationOptions& simulation, const SimulationResult& result, OutputFolder& folder) {
@@ -69,7 +72,7 @@ void write_results(const RunArguments& options, const SimulationOptions& simulat
   folder.commit();
   folder.remove("report.html");  // of an earlier run
   if (result.relative.empty()) folder.remove("relative.csv");
-  if (simulation.record) write_file(options.record_sensor, recording_text(*simulation.record));
+  if (!options.record_sensor.empty()) write_file(options.record_sensor, recording_text(*simulation.record));
 }
 
 std::vector<SeenPicture> seen_pictures(const CompiledMission& mission, const SimulationResult& result) {
@@ -129,11 +132,19 @@ void warn_of_replay(const SimulationResult& result) {
       run.replay_unserved);
 }
 
+std::unique_ptr<FrameRecorder> open_recorder(const RunArguments& options, const CompiledMission& mission) {
+  if (!records_frames(options)) return nullptr;
+  const RecordingHead head =
+      recording_head(mission, options.simulation, options.settings, {{"commit", kCommit}, {"sensor", options.sensor}});
+  return std::make_unique<FrameRecorder>(options.record, mission, head, options.simulation.record);
+}
+
 void run(const RunArguments& options) {
   OutputFolder folder(options.out);
   check_earlier(options);
   if (!options.picture.empty()) check_writable(options.picture);
   if (!options.record_sensor.empty()) check_writable(options.record_sensor);
+  if (records_frames(options)) check_writable(options.record);
   if (options.report || !options.picture.empty()) warn_of_plotter();
   MissionInput input = load_input(options);
   check_simulation(input.source, options.simulation, !options.link.empty());
@@ -147,7 +158,10 @@ void run(const RunArguments& options) {
   if (link) tell_address(*link);
   simulation.link = link.get();
   simulation.authenticator = signatures.get();
+  const std::unique_ptr<FrameRecorder> recorder = open_recorder(options, mission);
+  simulation.listener = recorder.get();
   SimulationResult result = simulate(mission, simulation);
+  if (recorder) recorder->close(image_bytes(mission, result.tables[0].variants[0].parameters));
   result.sensor = options.sensor;
   result.commit = kCommit;
   write_results(options, simulation, result, folder);
@@ -155,6 +169,7 @@ void run(const RunArguments& options) {
   std::fputs(summary_text(result).c_str(), stdout);
   std::printf("written to %s: results.json, frames.csv, telemetry.ccsds%s\n", options.out.c_str(),
               result.relative.empty() ? "" : ", relative.csv");
+  if (recorder) std::printf("the recording: %s\n", options.record.c_str());
   (void)std::fflush(stdout);
   if (options.report || !options.picture.empty()) write_pictures(options, mission, result, folder);
 }
@@ -200,7 +215,9 @@ void set_cameras(RunArguments& options) {
   simulation.wire = wire.head;
   simulation.camera_line = wire.line;
   if (!wire.recording.empty()) simulation.replay = load_sensor_recording(wire.recording);
-  if (!options.record_sensor.empty()) simulation.record = std::make_shared<sim::SensorRecording>();
+  if (!options.record_sensor.empty() && records_frames(options))
+    throw InputError("--record-sensor: --record " + options.record + " holds what the sensors gave, too: leave it out");
+  if (!options.record_sensor.empty() || records_frames(options)) simulation.record = std::make_shared<sim::SensorRecording>();
   simulation.plain = !wire.line.empty() || simulation.replay || simulation.record;
   const bool calibrated = !options.optics.empty() || !options.calibration.empty();
   if (calibrated && (!wire.head || wire.head == lcs::Device::kLidar))
@@ -279,11 +296,12 @@ void add_run_command(CLI::App& app) {
   add_no_cache(*command, options->cached);
   command->add_flag("!--no-report", options->report, "leave report.html out");
   command->add_option("--picture", options->picture, "also write the scan on the target as a PNG picture");
-  CLI::Option* recording = command->add_option("--record", options->record,
-                                               "instead of a run: write its scans (.csv) and true poses into this folder, for replay");
-  command->callback([options, recording] {
+  command->add_option("--record", options->record,
+                      "FILE.mcap: also record all frames, for viewers and replay (docs/recordings.md); or a folder: instead of a run "
+                      "write its scans (.csv) and true poses into it, for replay");
+  command->callback([options] {
     set_cameras(*options);
-    recording->count() > 0 ? record(*options) : run(*options);
+    options->record.empty() || records_frames(*options) ? run(*options) : record(*options);
   });
 }
 

@@ -132,6 +132,7 @@ class Case {
     for (std::uint32_t frame = 0; frame < setup_.frames + kPipelineFrames && !interrupted(); ++frame) {
       const posix::FrameRecord record = runner_->run_frame();
       result_.telemetry.insert(result_.telemetry.end(), record.telemetry.begin(), record.telemetry.end());
+      if (setup_.listener != nullptr) setup_.listener->on_packets(record.boundary_us, record.telemetry);
       read_packets(record);
       if (is_approach()) navigation_.offer(record.boundary_us, *component_);
       if (record.reset_due) restart(record.boundary_us + period_us_);
@@ -242,6 +243,7 @@ class Case {
       RecordedScan taken = scanner->recorded.take(pose.scan_id);
       if (!taken.samples.empty()) scan = std::move(taken);  // of one of them
     }
+    if (setup_.listener != nullptr) setup_.listener->on_frame({pose, trajectory_->at(pose.t_measurement_us), scan.samples});
     if (setup_.scenario.has_profile()) add_packet(pose, *trajectory_, kEpochUs, result_.timeline);
     const bool restarts = !is_approach() && setup_.link == nullptr;
     if (restarts && static_cast<TrackingMode>(pose.mode) == TrackingMode::kLost) start(record.boundary_us);

@@ -19,6 +19,7 @@
 #include "hal_sim/scanner.hpp"
 #include "hal_sim/trajectory.hpp"
 #include "mdat/missiondb/mission_source.hpp"
+#include "mdat/run/run_listener.hpp"
 #include "mdat/run/simulated_scenario.hpp"
 #include "mdat/run/statistics.hpp"
 #include "mdat/run/timeline.hpp"
@@ -50,6 +51,7 @@ struct CaseSetup {
   const std::vector<std::uint8_t>* image = nullptr;
   const sim::RayCaster* target = nullptr;
   sim::OtherBodies others;                 // what a scene has beside the target
+  RunListener* listener = nullptr;
   std::vector<std::uint32_t> keep_frames;  // whose scans the result holds; ascending
   bool alone = false;                      // simulated on the caller's thread: other cases fill the other cores; the same bytes
 };

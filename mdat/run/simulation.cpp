@@ -40,6 +40,7 @@ void set_camera(const CompiledMission& mission, const SimulationOptions& options
   setup.wire = options.wire;
   setup.replay = options.replay;
   setup.record = options.record;
+  setup.listener = options.listener;
   setup.camera_optics = options.camera_optics;
   setup.camera_degC = options.camera_degC;
 }
@@ -63,7 +64,7 @@ void refuse_what_serves_one(const SimulationOptions& options) {
     throw InputError("--sensor " + std::string(wire_name(options.wire.value_or(lcs::Device::kLaserCamera))) + ":" + options.camera_line +
                      ": one camera takes the scans of one run" + way_out);
   if (options.replay) throw InputError("--sensor replay: a recording has the scans of one run" + way_out);
-  if (options.record) throw InputError("--record-sensor: a recording takes the scans of one run" + way_out);
+  if (options.record) throw InputError("--record, --record-sensor: a recording takes one run" + way_out);
 }
 
 // What is to be on a line has to be in the mission.

@@ -23,6 +23,7 @@ struct SimulationOptions {
   sim::LcsFaults camera_faults;                           // of those cameras
   std::shared_ptr<const sim::SensorRecording> replay;     // as CaseSetup's: of one case
   std::shared_ptr<sim::SensorRecording> record;           // the same
+  RunListener* listener = nullptr;                        // of one case
   std::optional<TriangulationCalibration> camera_optics;  // as CaseSetup's
   std::optional<TriangulationCalibration> calibration;    // in the image, instead of the mission's
   double camera_degC = 20;

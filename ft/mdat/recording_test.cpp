@@ -1,0 +1,82 @@
+// Recordings of runs: written, looked into, flown again, cut.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "ft/mdat/command.hpp"
+#include "ut/support/verifies.hpp"
+
+namespace lasso::ft {
+namespace {
+
+class Recording : public ::testing::Test {
+ protected:
+  void record(const std::string& more) {
+    work_.write_mission();
+    const Answer answer = work_.mdat("run missions/test.toml --no-report --frames 12 --out out/run --record out/run.mcap " + more);
+    ASSERT_EQ(answer.exit_code, 0) << answer.err;
+    EXPECT_NE(answer.out.find("the recording: out/run.mcap"), std::string::npos) << answer.out;
+  }
+  WorkFolder work_;
+};
+
+// Nothing but the recording is left of the run.
+TEST_F(Recording, IsFlownAgainFromItselfAlone) {
+  VERIFIES("LASSO-REC-002~1 LASSO-REC-003~1");
+  record("--scenario spin --set scan.points=512");
+  std::filesystem::remove_all(work_ / "missions");
+  std::filesystem::remove_all(work_ / "models");
+  const Answer same = work_.mdat("replay out/run.mcap");
+  EXPECT_EQ(same.exit_code, 0) << same.err;
+  EXPECT_NE(same.out.find("telemetry: the same as recorded"), std::string::npos) << same.out;
+  const Answer changed = work_.mdat("replay out/run.mcap --set estimation.silhouettes=false");
+  EXPECT_EQ(changed.exit_code, 0) << changed.err;
+  EXPECT_NE(changed.out.find("telemetry: another than recorded"), std::string::npos) << changed.out;
+}
+
+TEST_F(Recording, ChangesNothingOfTheRun) {
+  VERIFIES("LASSO-REC-001~1");
+  record("--scenario spin");
+  const Answer plain = work_.mdat("run missions/test.toml --no-report --frames 12 --out out/plain --scenario spin");
+  ASSERT_EQ(plain.exit_code, 0) << plain.err;
+  EXPECT_EQ(work_.read("out/plain/telemetry.ccsds"), work_.read("out/run/telemetry.ccsds"));
+}
+
+TEST_F(Recording, TellsWhatIsInIt) {
+  VERIFIES("LASSO-REC-007~1");
+  record("--scenario spin");
+  const Answer info = work_.mdat("recording info out/run.mcap");
+  EXPECT_EQ(info.exit_code, 0) << info.err;
+  for (const char* text :
+       {"profile ros2", "scenario    spin", "/scan                            12", "mission/test.toml", "image.3dli"})
+    EXPECT_NE(info.out.find(text), std::string::npos) << text << "\n" << info.out;
+  EXPECT_EQ(info.out.find("damaged"), std::string::npos) << info.out;
+}
+
+TEST_F(Recording, ThatIsCutSaysWhere) {
+  VERIFIES("LASSO-REC-006~1");
+  record("--scenario spin");
+  std::filesystem::resize_file(work_ / "out/run.mcap", std::filesystem::file_size(work_ / "out/run.mcap") / 2);
+  const Answer info = work_.mdat("recording info out/run.mcap");
+  EXPECT_EQ(info.exit_code, 0) << info.err;
+  EXPECT_NE(info.out.find("damaged at byte "), std::string::npos) << info.out;
+  const Answer replay = work_.mdat("replay out/run.mcap");
+  EXPECT_EQ(replay.exit_code, 0) << replay.err;
+  EXPECT_NE(replay.err.find("damaged at byte "), std::string::npos) << replay.err;
+}
+
+TEST_F(Recording, OfSeveralRunsOrNoRunIsRefused) {
+  VERIFIES("LASSO-REC-008~1");
+  work_.write_mission();
+  const std::vector<std::string> before = work_.contents();
+  const Answer several = work_.mdat("run missions/test.toml --record out/run.mcap");
+  EXPECT_EQ(several.exit_code, 2);
+  EXPECT_NE(several.err.find("--record"), std::string::npos) << several.err;
+  const Answer text = work_.mdat("replay missions/run.mcap");
+  EXPECT_EQ(text.exit_code, 2);
+  EXPECT_NE(text.err.find("missions/run.mcap: cannot be read"), std::string::npos) << text.err;
+  EXPECT_EQ(work_.contents(), before);
+}
+
+}  // namespace
+}  // namespace lasso::ft

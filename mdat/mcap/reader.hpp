@@ -1,0 +1,70 @@
+// Reads an MCAP file from its begin to its end, as a stream: no index is needed, so that files whose end is missing, or damaged, are read
+// as far as they are whole.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "mdat/mcap/format.hpp"
+
+namespace lasso::mdat::mcap {
+
+// What could not be read: the byte of the file where it begins, and why.
+struct Damage {
+  std::uint64_t at = 0;
+  std::string why;
+};
+
+// Gets what a file holds, in the order of the file. Views are valid during the call.
+struct Visitor {
+  std::function<void(const Channel&, const Message&)> message = [](const Channel&, const Message&) {};
+  std::function<void(const Attachment&)> attachment = [](const Attachment&) {};
+  std::function<void(const std::string& name, const Text&)> metadata = [](const std::string&, const Text&) {};
+};
+
+class Reader {
+ public:
+  // Reads the header. Throws InputError: the file cannot be read, is no MCAP file, or is of another version.
+  explicit Reader(const std::filesystem::path& file);
+
+  const std::string& profile() const { return profile_; }
+  const std::string& library() const { return library_; }
+  const std::map<std::uint16_t, Channel>& channels() const { return channels_; }  // that have been met
+  const std::map<std::uint16_t, Schema>& schemas() const { return schemas_; }
+
+  // Everything from the header on, once. A chunk, an attachment or a record of metadata is told whole or not at all: what has another check
+  // sum than it says, or cannot be unpacked, is damage, and left out. So is what stands behind a record that reaches beyond the file, and
+  // that fewer messages were read than the file's summary counts.
+  std::vector<Damage> read(const Visitor& visitor);
+
+ private:
+  bool next(Op& op, std::string& content);
+  void take(Op op, std::string_view content, const Visitor& visitor);
+  void take_inner(Op op, std::string_view content, const Visitor& visitor);
+  void take_chunk(std::string_view content, const Visitor& visitor);
+  void take_records(std::string_view records, const Visitor& visitor);
+  void take_schema(std::string_view content);
+  void take_channel(std::string_view content);
+  void take_attachment(std::string_view content, const Visitor& visitor);
+  void take_metadata(std::string_view content, const Visitor& visitor);
+  void take_message(std::string_view content, const Visitor& visitor);
+  void count_again();
+  void note(const std::string& why) { damage_.push_back({record_at_, why}); }
+
+  std::filesystem::path path_;
+  std::ifstream in_;
+  std::uint64_t size_ = 0, at_ = 0, record_at_ = 0;
+  std::uint64_t messages_ = 0;  // read
+  bool ended_ = false;          // the data's end was met
+  std::string profile_, library_;
+  std::map<std::uint16_t, Schema> schemas_;
+  std::map<std::uint16_t, Channel> channels_;
+  std::vector<Damage> damage_;
+};
+
+}  // namespace lasso::mdat::mcap

@@ -1,0 +1,63 @@
+// Writes an MCAP file: messages in compressed chunks with indexes, attachments, metadata, and the summary by which readers seek.
+//
+// A chunk is in the file as soon as it is full: of a run that is killed all but the last chunk can be read (reader.hpp). Memory is that of
+// one chunk, and 32 bytes for each one written.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "mdat/mcap/format.hpp"
+
+namespace lasso::mdat::mcap {
+
+constexpr std::size_t kChunkBytes = std::size_t{1} << 20;  // uncompressed, beyond which a chunk ends
+
+// All throw InputError that names the file and the reason where it cannot be written, as on a full disk.
+class Writer {
+ public:
+  // `profile`: what the messages follow, as "ros2". A file that is there is replaced.
+  Writer(const std::filesystem::path& file, const std::string& profile, const std::string& library);
+
+  std::uint16_t add_schema(const std::string& name, const std::string& encoding, const std::string& data);
+  std::uint16_t add_channel(const std::string& topic, std::uint16_t schema, const std::string& encoding, const Text& metadata = {});
+  // Sequence numbers count from 0 in each channel.
+  void write(std::uint16_t channel, std::uint64_t time_ns, std::string_view data);
+  void attach(const std::string& name, const std::string& media_type, std::string_view data, std::uint64_t time_ns);
+  void add_metadata(const std::string& name, const Text& content);
+  // Ends the file. Nothing is written after it.
+  void close();
+
+ private:
+  struct Chunk {
+    std::uint64_t first_ns = 0, last_ns = 0;
+    std::string records;
+    std::map<std::uint16_t, std::string> index;  // of each channel: time and place of each message
+  };
+  struct Counts {
+    std::uint64_t first_ns = 0, last_ns = 0;
+    std::uint32_t attachments = 0, metadata = 0, chunks = 0;
+    std::map<std::uint16_t, std::uint64_t> messages;
+  };
+  void put_out(std::string_view bytes);
+  void end_chunk();
+  std::map<std::uint16_t, std::uint64_t> put_indexes();
+  void put_group(Op op, std::string_view records, std::string& summary, std::string& offsets) const;
+  std::string statistics() const;
+
+  std::filesystem::path path_;
+  std::ofstream out_;
+  std::uint64_t at_ = 0;  // bytes written
+  Chunk chunk_;
+  Counts counts_;
+  std::vector<Schema> schemas_;
+  std::vector<Channel> channels_;
+  std::string chunk_indexes_, attachment_indexes_, metadata_indexes_;  // records of the summary
+};
+
+}  // namespace lasso::mdat::mcap

@@ -1,0 +1,54 @@
+// A run as a recording that other people's tools open: MCAP, profile ros2, messages in CDR (docs/recordings.md says topic by topic what).
+//
+// Frames: `world`, at rest for a run without a scene; `sensor` in it; `target_true`, `target` (the registration, or where it did not run
+// the prediction) and `target_filtered` in the sensor's. All are sent with every frame.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "hal_sim/ray_caster.hpp"
+#include "hal_sim/sensor_recording.hpp"
+#include "mdat/common/flight_image.hpp"
+#include "mdat/mcap/writer.hpp"
+#include "mdat/recording/recording_head.hpp"
+#include "mdat/recording/ros_messages.hpp"
+#include "mdat/run/run_listener.hpp"
+
+namespace lasso::mdat {
+
+constexpr char kRecordingProfile[] = "ros2";
+
+class FrameRecorder final : public RunListener {
+ public:
+  // `mission` outlives it. `scans`: where the run's sensors leave what they gave; each scan is taken out of it once it is whole. Throws
+  // InputError where the file cannot be written; so do all calls.
+  FrameRecorder(const std::filesystem::path& file, const CompiledMission& mission, const RecordingHead& head,
+                std::shared_ptr<sim::SensorRecording> scans);
+
+  void on_packets(TimeUs boundary_us, ConstBytes packets) override;
+  void on_frame(const FlownFrame& frame) override;
+  // Ends the file, with the flight image that flew.
+  void close(const std::vector<std::uint8_t>& image);
+
+ private:
+  void write(const char* topic, TimeUs t_us, const std::string& bytes);
+  void write_surfaces(TimeUs t_us);
+  void write_poses(const FlownFrame& frame);
+  void write_scan(const FlownFrame& frame);
+  void write_events(TimeUs boundary_us, ConstBytes packets);
+  void take_scans(bool all);
+
+  const CompiledMission& mission_;
+  mcap::Writer writer_;
+  std::map<std::string, std::uint16_t> channels_;
+  std::unique_ptr<sim::RayCaster> model_;  // as the component knows the target
+  std::shared_ptr<sim::SensorRecording> scans_;
+  std::size_t scans_taken_ = 0;
+  bool surfaces_written_ = false;
+};
+
+}  // namespace lasso::mdat

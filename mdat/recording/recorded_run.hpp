@@ -1,0 +1,45 @@
+// A run as its recording holds it: everything that is needed to fly it again.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "hal_sim/sensor_recording.hpp"
+#include "mdat/mcap/reader.hpp"
+
+namespace lasso::mdat {
+
+struct RecordedRun {
+  mcap::Text about;                          // as RecordingHead's
+  std::map<std::string, std::string> files;  // attachments
+  sim::SensorRecording scans;
+  std::string telemetry;             // all packets, in order
+  std::vector<mcap::Damage> damage;  // what could not be read
+};
+
+// Throws InputError that names the file: it cannot be read, is no MCAP file, has been written by another program, or holds a scan that is
+// none.
+RecordedRun read_recorded_run(const std::filesystem::path& file);
+
+// What a file holds, for a person: who wrote it, its run, each topic with its messages, attachments with their sizes, and what is damaged.
+// Of any MCAP file. Throws InputError as mcap::Reader.
+std::string contents_text(const std::filesystem::path& file);
+
+// Its mission's files in a folder of their own, which goes with this object.
+class MissionFolder {
+ public:
+  // Throws InputError: an attachment that would leave the folder; RunError: no folder can be made.
+  explicit MissionFolder(const RecordedRun& run);
+  ~MissionFolder();
+  MissionFolder(const MissionFolder&) = delete;
+  MissionFolder& operator=(const MissionFolder&) = delete;
+  const std::filesystem::path& mission() const { return mission_; }
+
+ private:
+  std::filesystem::path folder_, mission_;
+};
+
+}  // namespace lasso::mdat

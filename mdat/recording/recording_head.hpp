@@ -1,0 +1,31 @@
+// What a recording says of itself besides its frames.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "mdat/common/flight_image.hpp"
+#include "mdat/mcap/bytes.hpp"
+#include "mdat/run/simulation.hpp"
+
+namespace lasso::mdat {
+
+// The record of metadata by which a program knows one of ours.
+constexpr char kRecordingMetadata[] = "3dlasso";
+// The mission's files are attached under this name, with their places below the folder that they all share.
+constexpr char kMissionFolder[] = "mission/";
+
+constexpr char kImageAttachment[] = "image.3dli";
+
+struct RecordingHead {
+  mcap::Text about;                          // mission (its attachment), scenario, seed, frames, sensor, settings, commit
+  std::map<std::string, std::string> files;  // name -> content
+};
+
+// Of a run of `mission`. Throws InputError where one of its files cannot be read any more.
+// `about`: what the caller knows of it besides, such as the commit of the program.
+RecordingHead recording_head(const CompiledMission& mission, const SimulationOptions& options, const std::vector<std::string>& settings,
+                             mcap::Text about);
+
+}  // namespace lasso::mdat

@@ -1,0 +1,26 @@
+// The definitions of the messages that recordings hold, as ROS 2 writes them (interface definitions of common_interfaces, and of
+// foxglove_msgs for /scene): a reader that knows none of them decodes by these.
+#pragma once
+
+#include <string>
+
+namespace lasso::mdat {
+
+struct RosSchema {
+  std::string name;  // "package/msg/Type"
+  std::string text;  // its fields, and the definitions that these need (encoding "ros2msg")
+};
+
+namespace ros {
+
+RosSchema tf_message();            // tf2_msgs
+RosSchema point_cloud();           // sensor_msgs/PointCloud2
+RosSchema pose_stamped();          // geometry_msgs
+RosSchema pose_with_covariance();  // geometry_msgs/PoseWithCovarianceStamped
+RosSchema odometry();              // nav_msgs
+RosSchema log();                   // rcl_interfaces
+RosSchema scene_update();          // foxglove_msgs
+RosSchema packet();                // lasso_msgs/Packet: a CCSDS packet as it was received
+
+}  // namespace ros
+}  // namespace lasso::mdat
