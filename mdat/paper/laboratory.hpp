@@ -48,6 +48,8 @@ struct LaboratoryResult {
   double seconds = 0;
 };
 
+constexpr double kBudgetRatioMax = 1.1;  // of measured errors over the budget
+
 // Errors of one figure, over stands and mock-ups of one range, or of all; and the root mean square that the budget says.
 struct FigureErrors {
   std::size_t count = 0;
@@ -55,6 +57,7 @@ struct FigureErrors {
   double rms = 0, budget = 0;
   std::array<double, kBudgetSources> budget_by_source{};  // roots of the mean variances
   double ratio() const { return rms / budget; }
+  bool held() const { return ratio() <= kBudgetRatioMax; }
 };
 FigureErrors figure_errors(const LaboratoryResult& result, LaboratoryFigure figure, std::optional<std::size_t> range = {});
 

@@ -72,7 +72,7 @@ std::string budget_table(const LaboratoryResult& lab) {
     std::vector<std::string> row = {format("%s, %s", viewed.title, viewed.unit)};
     for (const double part : errors.budget_by_source) row.push_back(number(part, viewed));
     for (const double value : {errors.budget, errors.rms}) row.push_back(number(value, viewed));
-    row.push_back(known(errors.ratio(), 2, "–"));
+    row.push_back(format("<span class='%s'>%s</span>", errors.held() ? "good" : "bad", known(errors.ratio(), 2, "–").c_str()));
     row.push_back(format("%zu", errors.count));
     html.rows.push_back(row);
   }
@@ -142,7 +142,7 @@ std::vector<Curve> stand_curves(const LaboratoryResult& lab, const ViewedFigure&
 std::string stands_figure(Plotter& plotter, const LaboratoryResult& lab) {
   Drawing drawing(plotter);
   drawing.set(
-      "set multiplot layout 1,2 margins 0.06,0.86,0.16,0.92 spacing 0.08,0\nset xrange [-8:353]\nset xtics 60\n"
+      "set multiplot layout 1,2 margins 0.06,0.86,0.16,0.89 spacing 0.08,0\nset xrange [-8:353]\nset xtics 60\n"
       "set xlabel 'angle of the turntable, deg' textcolor '#46505f'\nset key at screen 0.998,0.92 right top vertical samplen 1.2 spacing "
       "1.3\n");
   bool first = true;
@@ -166,7 +166,7 @@ std::string range_lines(const LaboratoryResult& lab, const ViewedFigure& viewed)
 std::string ranges_figure(Plotter& plotter, const LaboratoryResult& lab) {
   Drawing drawing(plotter);
   drawing.set(
-      "set multiplot layout 1,2 margins 0.06,0.86,0.18,0.91 spacing 0.08,0\nset yrange [0:*]\n"
+      "set multiplot layout 1,2 margins 0.06,0.86,0.18,0.87 spacing 0.08,0\nset yrange [0:*]\n"
       "set xlabel 'range, m' textcolor '#46505f'\nset key at screen 0.998,0.91 right top vertical samplen 1.5 spacing 1.3\n");
   drawing.set(format("set xrange [%g:%g]\n", lab.ranges.front().range_m - 0.2, lab.ranges.back().range_m + 0.2));
   bool first = true;
@@ -212,7 +212,8 @@ std::string laboratory_section(Plotter& plotter, const LaboratoryResult& lab) {
   html +=
       "<h3>Budget</h3>\n<p class='note'>The budget propagates the assumptions through the Jacobian of a least-squares pose of the planned "
       "rays. It is made before the "
-      "test, without any estimate. Contours, which the component uses as well, are not in it.</p>\n" +
+      "test, without any estimate. Contours, which the component uses as well, are not in it. It is held where measured errors are at most "
+      "1.1 times it.</p>\n" +
       budget_table(lab);
   html += "<details><summary>The same by range</summary>" + ranges_table(lab) + "</details>\n";
   html += figure(stands_figure(plotter, lab),

@@ -39,17 +39,18 @@ PaperRow laboratory_row(const PaperResult& result, LaboratoryFigure figure, cons
 
 PaperRow time_row(const PaperResult& result, const char* machine, double paper_ms) {
   const double ms = 1e-3 * result.laboratory.time.median_us;
-  return {std::string("time of an estimate; ") + machine, "ms", known(paper_ms, 1, "–"),
+  return {format("an estimate: %s, here on %s", machine, result.machine.c_str()), "ms", known(paper_ms, 1, "–"),
           known(1e-3 * variant_at(result, 0).all.time.median_us, 2, "–"), known(ms, 2, "–")};
 }
 
 std::vector<std::vector<std::string>> budget_lines(const LaboratoryResult& laboratory) {
-  std::vector<std::vector<std::string>> lines = {{"  laboratory, rms", "here", "budget", "ratio", "stands"}};
+  std::vector<std::vector<std::string>> lines = {{"  laboratory, rms", "here", "budget", "ratio", "", "stands"}};
   for (std::size_t i = 0; i < kLaboratoryFigures; ++i) {
     const FigureErrors errors = figure_errors(laboratory, static_cast<LaboratoryFigure>(i));
     const ShownFigure& shown = kShownFigures[i];
     lines.push_back({format("  %s, %s", shown.title, shown.unit), known(shown.scale * errors.rms, shown.digits, "-"),
-                     known(shown.scale * errors.budget, shown.digits, "-"), known(errors.ratio(), 2, "-"), format("%zu", errors.count)});
+                     known(shown.scale * errors.budget, shown.digits, "-"), known(errors.ratio(), 2, "-"),
+                     errors.held() ? "held" : format("above %g", kBudgetRatioMax), format("%zu", errors.count)});
   }
   return lines;
 }
@@ -62,7 +63,8 @@ Json errors_json(const FigureErrors& errors, double scale) {
                {"std_abs", finite(scale * errors.std_abs)},
                {"rms", finite(scale * errors.rms)},
                {"budget", finite(scale * errors.budget)},
-               {"ratio", finite(errors.ratio())}};
+               {"ratio", finite(errors.ratio())},
+               {"held", errors.held()}};
   for (std::size_t s = 0; s < kBudgetSources; ++s)
     json["budget_by_source"][kBudgetSourceNames[s]] = finite(scale * errors.budget_by_source[s]);
   return json;
@@ -103,6 +105,7 @@ Json laboratory_json(const LaboratoryResult& laboratory) {
                {"frames", laboratory.frames},
                {"stands", laboratory.stands},
                {"mock_ups", laboratory.mock_ups},
+               {"ratio_at_most", kBudgetRatioMax},
                {"paper",
                 {{"z_mm", {{"mean", kPaperTable2.z_mean_mm}, {"std", kPaperTable2.z_std_mm}}},
                  {"turn_deg", {{"mean", kPaperTable2.turn_mean_deg}, {"std", kPaperTable2.turn_std_deg}}}}}};
@@ -139,8 +142,8 @@ std::vector<PaperRow> paper_rows(const PaperResult& result) {
   }
   rows.push_back(laboratory_row(result, LaboratoryFigure::kZ, pair_text(kPaperTable2.z_mean_mm, kPaperTable2.z_std_mm)));
   rows.push_back(laboratory_row(result, LaboratoryFigure::kTurnStep, pair_text(kPaperTable2.turn_mean_deg, kPaperTable2.turn_std_deg)));
-  rows.push_back(time_row(result, "paper: 1.6 GHz Pentium M", kPaperTime.laptop_ms));
-  rows.push_back(time_row(result, "paper: PowerPC 603e", kPaperTime.card_ms));
+  rows.push_back(time_row(result, "paper on a 1.6 GHz Pentium M", kPaperTime.laptop_ms));
+  rows.push_back(time_row(result, "paper on a PowerPC 603e", kPaperTime.card_ms));
   return rows;
 }
 

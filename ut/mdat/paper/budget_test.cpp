@@ -135,7 +135,7 @@ struct Fixture {
 };
 
 TEST(Budget, CommonErrorsGiveWhatAnEstimatorOfItsOwnMakesOfThem) {
-  VERIFIES("LASSO-MDT-081~1");
+  VERIFIES("LASSO-MDT-122~1");
   const Fixture f;
   ASSERT_TRUE(f.stand.defined);
   std::vector<double> common;
@@ -157,7 +157,7 @@ TEST(Budget, CommonErrorsGiveWhatAnEstimatorOfItsOwnMakesOfThem) {
 }
 
 TEST(Budget, AVertexThatIsOffGivesWhatItsMeshDoes) {
-  VERIFIES("LASSO-MDT-081~1");
+  VERIFIES("LASSO-MDT-122~1");
   const Fixture f;
   EXPECT_EQ(f.target.places(), 8U) << "vertices of one place move together";
   constexpr double kOff = 1e-6;
@@ -182,7 +182,7 @@ TEST(Budget, AVertexThatIsOffGivesWhatItsMeshDoes) {
 }
 
 TEST(Budget, WhatRaysDoEachForThemselvesIsWhatDrawsShow) {
-  VERIFIES("LASSO-MDT-081~1");
+  VERIFIES("LASSO-MDT-122~1");
   const Fixture f;
   const auto surface = sim::make_ray_caster(f.mesh.vertices, f.mesh.triangles);
   test::Generator random(11);
@@ -202,7 +202,7 @@ TEST(Budget, WhatRaysDoEachForThemselvesIsWhatDrawsShow) {
 }
 
 TEST(Budget, PointingOfRaysIsWhatDrawsShow) {
-  VERIFIES("LASSO-MDT-081~1");
+  VERIFIES("LASSO-MDT-122~1");
   Fixture f;
   const auto surface = sim::make_ray_caster(f.mesh.vertices, f.mesh.triangles);
   test::Generator random(12);
@@ -227,7 +227,7 @@ TEST(Budget, PointingOfRaysIsWhatDrawsShow) {
 }
 
 TEST(Budget, TheMeanOfScansHasLessNoiseAndLostRaysMore) {
-  VERIFIES("LASSO-MDT-081~1");
+  VERIFIES("LASSO-MDT-122~1");
   Fixture f;
   const std::vector<std::vector<Vec3>> twice = {f.peer.rays(), f.peer.rays()};
   f.a.scans = 50;
@@ -240,7 +240,7 @@ TEST(Budget, TheMeanOfScansHasLessNoiseAndLostRaysMore) {
 }
 
 TEST(Budget, StandsShareTheMockUpAndNothingElse) {
-  VERIFIES("LASSO-MDT-081~1");
+  VERIFIES("LASSO-MDT-122~1");
   const Fixture f;
   const Variances alone = variances_of(f.stand.z_m, f.a.vertex_sigma_m),
                   same = variances_between(f.stand.z_m, f.stand.z_m, f.a.vertex_sigma_m);
@@ -254,7 +254,7 @@ TEST(Budget, StandsShareTheMockUpAndNothingElse) {
 }
 
 TEST(Budget, AScanOfOneFaceLeavesItOpen) {
-  VERIFIES("LASSO-MDT-081~1");
+  VERIFIES("LASSO-MDT-122~1");
   const BudgetTarget target(box());
   const Pose ahead{Quat(1, 0, 0, 0), Vec3(0, 0, 3)};
   std::vector<Vec3> rays;

@@ -16,7 +16,7 @@ Vec3 any_vector(test::Generator& random, double size) {
 }
 
 TEST(Stand, ATurnAboutTheAxisIsFoundFromAnyAttitudeAndWhateverElseIsOff) {
-  VERIFIES("LASSO-MDT-080~1");
+  VERIFIES("LASSO-MDT-121~1");
   test::Generator random(5);
   for (int i = 0; i < 50; ++i) {
     const Quat from = exp_so3(any_vector(random, 1));
@@ -30,7 +30,7 @@ TEST(Stand, ATurnAboutTheAxisIsFoundFromAnyAttitudeAndWhateverElseIsOff) {
 }
 
 TEST(Stand, AnErrorOfTheTurnKnowsNoFullTurnsAndNoSignOfQuaternions) {
-  VERIFIES("LASSO-MDT-080~1");
+  VERIFIES("LASSO-MDT-121~1");
   const Quat from = exp_so3(Vec3(0.4, -0.7, 2.1));
   const double step_rad = 15 * kRadPerDeg, error_rad = -0.008;
   const Quat to = from * exp_so3((step_rad + error_rad) * Vec3::UnitX());
@@ -40,7 +40,7 @@ TEST(Stand, AnErrorOfTheTurnKnowsNoFullTurnsAndNoSignOfQuaternions) {
 }
 
 TEST(Stand, TheMeanOfEstimatesIsWhatTheyAreDrawnAbout) {
-  VERIFIES("LASSO-MDT-080~1");
+  VERIFIES("LASSO-MDT-121~1");
   test::Generator random(6);
   const Pose truth{exp_so3(Vec3(-0.9, 0.3, 1.4)), Vec3(0.1, -0.2, 4)};
   std::vector<Pose> estimates;
@@ -54,7 +54,7 @@ TEST(Stand, TheMeanOfEstimatesIsWhatTheyAreDrawnAbout) {
 }
 
 TEST(Stand, TheSpreadOfAStandIsThatOfTheWholePopulation) {
-  VERIFIES("LASSO-MDT-080~1");
+  VERIFIES("LASSO-MDT-121~1");
   const Quat q = exp_so3(Vec3(0.2, 0.5, -0.3));
   std::vector<Pose> estimates;
   for (const double step : {-1.0, 0.0, 1.0})
