@@ -74,6 +74,14 @@ TEST(Paper, RefusesWhatItCannotFly) {
   const Answer other = work.mdat("paper --missions missions --out paper");
   EXPECT_EQ(other.exit_code, 2);
   EXPECT_NE(other.err.find("scenario.spin.kind"), std::string::npos) << other.err;
+  std::string turning = read_text(source_path("cfg/missions/laboratory.toml"));
+  turning.replace(turning.find("step_deg = 0.0"), 14, "step_deg = 3.0");
+  turning.replace(turning.rfind("frames = 50"), 11, "frames = 40");
+  work.write("missions/laboratory.toml", turning);
+  const Answer uneven = work.mdat("paper --missions missions --out paper");
+  EXPECT_EQ(uneven.exit_code, 2);
+  EXPECT_NE(uneven.err.find("scenario.calibrated.step_deg: 3: expected 0"), std::string::npos) << uneven.err;
+  EXPECT_NE(uneven.err.find("scenario.extrapolated.frames: 40: expected 50"), std::string::npos) << uneven.err;
   EXPECT_EQ(work.mdat("paper --stands 1").exit_code, 2);
 }
 

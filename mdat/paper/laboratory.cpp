@@ -11,6 +11,7 @@
 #include "fsw/sense/planner.hpp"
 #include "hal_sim/random.hpp"
 #include "mdat/common/errors.hpp"
+#include "mdat/common/text.hpp"
 #include "mdat/run/case_pool.hpp"
 #include "mdat/run/simulation.hpp"
 #include "mdat/run/true_target.hpp"
@@ -126,10 +127,11 @@ StandResult stand_of(const CaseSetup& setup, const CaseResult& run, std::vector<
 // Against the stand before; of each mock-up's first there is none.
 void compare_stands(const LaboratoryOptions& options, std::vector<StandResult>& stands) {
   for (std::size_t i = 0; i < stands.size(); ++i) {
-    if (i % options.stands == 0 || !stands[i].mean || !stands[i - 1].mean) continue;
-    const Pose &before = stands[i - 1].mean->pose, &after = stands[i].mean->pose;
-    stands[i].errors[static_cast<std::size_t>(LaboratoryFigure::kZStep)] = after.p.z() - before.p.z();
-    stands[i].errors[static_cast<std::size_t>(LaboratoryFigure::kTurnStep)] = turn_error(before.q, after.q, step_rad(options));
+    if (i % options.stands == 0) continue;
+    const std::optional<StandMean>&before = stands[i - 1].mean, &after = stands[i].mean;
+    if (!before || !after) continue;
+    stands[i].errors[static_cast<std::size_t>(LaboratoryFigure::kZStep)] = after->pose.p.z() - before->pose.p.z();
+    stands[i].errors[static_cast<std::size_t>(LaboratoryFigure::kTurnStep)] = turn_error(before->pose.q, after->pose.q, step_rad(options));
   }
 }
 
@@ -167,13 +169,21 @@ std::array<Variances, kLaboratoryFigures> stand_budget(const StandResponse& befo
 }  // namespace
 
 void check_laboratory(const MissionSource& source) {
-  std::vector<Problem> problems;
-  for (const auto& [name, scenario] : source.scenarios) {
-    if (scenario.scenario_kind() == ScenarioKind::kPaper) continue;
-    problems.push_back(problem_at(source, "scenario." + name + ".kind", "another", "paper, as in all of a laboratory's scenarios"));
-  }
   if (source.scenarios.empty())
     throw InputError(source.file.string() + ": has no scenario: a laboratory's mission has one or more of kind paper");
+  const double frames = source.scenarios.begin()->second.frames;
+  std::vector<Problem> problems;
+  for (const auto& [name, scenario] : source.scenarios) {
+    const auto refuse = [&, key = "scenario." + name](const char* what, double value, const std::string& expected) {
+      problems.push_back(problem_at(source, key + what, value < 0 ? "" : format("%g", value), expected));
+    };
+    if (scenario.scenario_kind() != ScenarioKind::kPaper) refuse(".kind", -1, "expected paper, as in all scenarios of a laboratory");
+    if (scenario.step_rad != 0)
+      refuse(".step_deg", std::fabs(scenario.step_rad) / kRadPerDeg,
+             "expected 0: the target rests in a stand, and --stands says how far apart they are");
+    if (scenario.frames != frames)
+      refuse(".frames", scenario.frames, format("expected %g, as in the mission's first scenario: stands are alike", frames));
+  }
   if (!problems.empty()) throw MissionError(problems);
 }
 

@@ -77,7 +77,7 @@ Json axes_of(const ErrorStatistics& errors) {
 }
 
 Json simulation_json(const PaperResult& result) {
-  Json json = {{"paper", axes_of(paper_table_1())}};
+  Json json = {{"paper", axes_of(paper_table_1())}, {"seed", result.simulation.seed}};
   for (const VariantResult& variant : result.simulation.tables.front().variants) {
     Json here = axes_of(variant.all.registration);
     here["frames"] = variant.all.frames;
@@ -100,11 +100,18 @@ Json counts_json(const LaboratoryRange& range) {
   return {{"scenario", range.scenario}, {"range_m", range.range_m}, {"frames", frames}, {"lost", lost}, {"invalid", invalid}};
 }
 
+Json seeds_json(const LaboratoryResult& laboratory) {
+  Json json = Json::array();
+  for (const Scenario& scenario : laboratory.scenarios) json.push_back(static_cast<std::uint64_t>(scenario.seed));
+  return json;
+}
+
 Json laboratory_json(const LaboratoryResult& laboratory) {
   Json json = {{"simulated", true},
                {"frames", laboratory.frames},
                {"stands", laboratory.stands},
                {"mock_ups", laboratory.mock_ups},
+               {"seeds", seeds_json(laboratory)},
                {"ratio_at_most", kBudgetRatioMax},
                {"paper",
                 {{"z_mm", {{"mean", kPaperTable2.z_mean_mm}, {"std", kPaperTable2.z_std_mm}}},
