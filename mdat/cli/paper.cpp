@@ -7,6 +7,7 @@
 #include "mdat/common/output.hpp"
 #include "mdat/common/version.hpp"
 #include "mdat/paper/page.hpp"
+#include "mdat/paper/results.hpp"
 
 namespace lasso::mdat {
 namespace {

@@ -49,16 +49,4 @@ struct PaperResult {
 // Throws as mdat run does; InputError where a mission is missing.
 PaperResult repeat_paper(const PaperOptions& options);
 
-// One line of the table that a person looks at first.
-struct PaperRow {
-  std::string what, unit;
-  std::string paper;  // "0.53 ± 4.87"
-  std::string here, noisy;
-};
-std::vector<PaperRow> paper_rows(const PaperResult& result);
-
-// The tables for a terminal; the values for programs (docs/paper.md).
-std::string paper_text(const PaperResult& result);
-std::string paper_json(const PaperResult& result);
-
 }  // namespace lasso::mdat

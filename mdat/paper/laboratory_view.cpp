@@ -4,8 +4,8 @@
 #include <cmath>
 #include <set>
 
-#include "fsw/geometry/portable_math.hpp"
 #include "mdat/common/text.hpp"
+#include "mdat/paper/results.hpp"
 #include "mdat/report/drawing.hpp"
 #include "mdat/report/figures.hpp"
 #include "mdat/report/page.hpp"
@@ -13,20 +13,10 @@
 namespace lasso::mdat {
 namespace {
 
-struct ViewedFigure {
-  LaboratoryFigure figure;
-  const char *title, *unit;
-  double scale;
-  int digits;
-};
-constexpr ViewedFigure kViewed[] = {
-    {LaboratoryFigure::kZ, "Z against the truth", "mm", 1e3, 2},
-    {LaboratoryFigure::kZStep, "Z against the stand before", "mm", 1e3, 2},
-    {LaboratoryFigure::kTurn, "Rotation about the axis against the truth", "deg", 1 / kRadPerDeg, 3},
-    {LaboratoryFigure::kTurnStep, "Rotation about the axis against the stand before", "deg", 1 / kRadPerDeg, 3}};
-constexpr ViewedFigure kDrawn[] = {kViewed[0], kViewed[3]};
+// Those that stand beside the paper's table 2.
+constexpr ShownFigure kDrawn[] = {kShownFigures[0], kShownFigures[3]};
 
-std::string number(double value, const ViewedFigure& viewed) { return known(viewed.scale * value, viewed.digits, "–"); }
+std::string number(double value, const ShownFigure& shown) { return known(shown.scale * value, shown.digits, "–"); }
 
 // Every value once, in the order of the scenarios: "0.5 mm (2 to 5 m), 3 mm (6 to 7 m)".
 std::string by_scenario(const LaboratoryResult& laboratory, double Scenario::*member, double scale, const char* unit) {
@@ -34,7 +24,7 @@ std::string by_scenario(const LaboratoryResult& laboratory, double Scenario::*me
   for (const Scenario& scenario : laboratory.scenarios) values.insert(scenario.*member);
   std::string text;
   for (const Scenario& scenario : laboratory.scenarios) {
-    text += (text.empty() ? "" : "; ") + format("%g %s", scale * (scenario.*member), unit);
+    text += (text.empty() ? "" : "; ") + format("%g%s", scale * (scenario.*member), unit);
     if (values.size() == 1) return text;
     text += format(" at %g to %g m", scenario.ranges_m.front(), scenario.ranges_m.back());
   }
@@ -49,17 +39,17 @@ std::string assumptions_table(const LaboratoryResult& lab) {
   const double noise_m = lab.scenarios.front().sigma_k_per_m * 9;
   html.rows = {
       {"Range noise", format("%.3g mm at 3 m, growing with the square of the range", 1e3 * noise_m), "new for each ray", "yes"},
-      {"Calibration of ranges", by_scenario(lab, &Scenario::common_sigma_m, 1e3, "mm"), "the same for all scans of a stand", "yes"},
-      {"Pointing of a ray", by_scenario(lab, &Scenario::angle_noise_rad, 1e3, "mrad about each axis"), "new for each ray", "yes"},
+      {"Calibration of ranges", by_scenario(lab, &Scenario::common_sigma_m, 1e3, " mm"), "the same for all scans of a stand", "yes"},
+      {"Pointing of a ray", by_scenario(lab, &Scenario::angle_noise_rad, 1e3, " mrad about each axis"), "new for each ray", "yes"},
       {"Pointing of the head", by_scenario(lab, &Scenario::common_sigma_rad, degrees, "° about each axis"),
        "the same for all scans of a stand", "yes"},
       {"Foil and tape: no light returns",
-       by_scenario(lab, &Scenario::dropout_probability, 100, "% of the rays") + ", and where they graze by more than " +
+       by_scenario(lab, &Scenario::dropout_probability, 100, " % of the rays") + ", and where they graze by more than " +
            by_scenario(lab, &Scenario::dropout_incidence_rad, degrees, "°"),
        "new for each ray", "fewer rays"},
-      {"Foil and tape: a wrong range", by_scenario(lab, &Scenario::outlier_probability, 100, "% of the rays"), "new for each ray",
+      {"Foil and tape: a wrong range", by_scenario(lab, &Scenario::outlier_probability, 100, " % of the rays"), "new for each ray",
        "fewer rays"},
-      {"The mock-up against its model", by_scenario(lab, &Scenario::model_vertex_sigma_m, 1e3, "mm, each vertex along each axis"),
+      {"The mock-up against its model", by_scenario(lab, &Scenario::model_vertex_sigma_m, 1e3, " mm, each vertex along each axis"),
        "the same for all stands at a range", "yes"}};
   return to_html(html);
 }
@@ -67,11 +57,11 @@ std::string assumptions_table(const LaboratoryResult& lab) {
 std::string budget_table(const LaboratoryResult& lab) {
   HtmlTable html;
   html.head = {"root mean square", "noise", "pointing", "calibration", "mock-up", "budget", "measured", "measured / budget", "stands"};
-  for (const ViewedFigure& viewed : kViewed) {
-    const FigureErrors errors = figure_errors(lab, viewed.figure);
-    std::vector<std::string> row = {format("%s, %s", viewed.title, viewed.unit)};
-    for (const double part : errors.budget_by_source) row.push_back(number(part, viewed));
-    for (const double value : {errors.budget, errors.rms}) row.push_back(number(value, viewed));
+  for (const ShownFigure& shown : kShownFigures) {
+    const FigureErrors errors = figure_errors(lab, shown.figure);
+    std::vector<std::string> row = {format("%s, %s", shown.title, shown.unit)};
+    for (const double part : errors.budget_by_source) row.push_back(number(part, shown));
+    for (const double value : {errors.budget, errors.rms}) row.push_back(number(value, shown));
     row.push_back(format("<span class='%s'>%s</span>", errors.held() ? "good" : "bad", known(errors.ratio(), 2, "–").c_str()));
     row.push_back(format("%zu", errors.count));
     html.rows.push_back(row);
@@ -82,7 +72,7 @@ std::string budget_table(const LaboratoryResult& lab) {
 std::string ranges_table(const LaboratoryResult& lab) {
   HtmlTable html;
   html.head = {"range", "frames", "lost", "not valid"};
-  for (const ViewedFigure& viewed : kViewed) html.head.push_back(format("%s, %s: measured (budget)", viewed.title, viewed.unit));
+  for (const ShownFigure& shown : kShownFigures) html.head.push_back(format("%s, %s: measured (budget)", shown.title, shown.unit));
   for (std::size_t r = 0; r < lab.ranges.size(); ++r) {
     std::size_t frames = 0, lost = 0, invalid = 0;
     for (const StandResult& stand : lab.ranges[r].stands) {
@@ -92,9 +82,9 @@ std::string ranges_table(const LaboratoryResult& lab) {
     }
     std::vector<std::string> row = {format("%g m", lab.ranges[r].range_m)};
     for (const std::size_t count : {frames, lost, invalid}) row.push_back(format("%zu", count));
-    for (const ViewedFigure& viewed : kViewed) {
-      const FigureErrors errors = figure_errors(lab, viewed.figure, r);
-      row.push_back(number(errors.rms, viewed) + " <small>(" + number(errors.budget, viewed) + ")</small>");
+    for (const ShownFigure& shown : kShownFigures) {
+      const FigureErrors errors = figure_errors(lab, shown.figure, r);
+      row.push_back(number(errors.rms, shown) + " <small>(" + number(errors.budget, shown) + ")</small>");
     }
     html.rows.push_back(row);
   }
@@ -104,36 +94,36 @@ std::string ranges_table(const LaboratoryResult& lab) {
 double stand_angle_deg(const LaboratoryResult& lab, std::size_t stand) { return 360.0 * static_cast<double>(stand) / lab.stands; }
 
 // Of one range: a line a stand, all mock-ups.
-std::string stands_text(const LaboratoryResult& lab, std::size_t range, const ViewedFigure& viewed) {
+std::string stands_text(const LaboratoryResult& lab, std::size_t range, const ShownFigure& shown) {
   std::string text;
   const std::vector<StandResult>& stands = lab.ranges[range].stands;
   for (std::size_t i = 0; i < stands.size(); ++i) {
-    const double error = stands[i].errors[static_cast<std::size_t>(viewed.figure)];
-    if (std::isfinite(error)) text += format("%g %.5g\n", stand_angle_deg(lab, i % lab.stands), viewed.scale * error);
+    const double error = stands[i].errors[static_cast<std::size_t>(shown.figure)];
+    if (std::isfinite(error)) text += format("%g %.5g\n", stand_angle_deg(lab, i % lab.stands), shown.scale * error);
   }
   return text;
 }
 
 // The budget of each stand, over all ranges: angle, minus, plus.
-std::string budget_text(const LaboratoryResult& lab, const ViewedFigure& viewed) {
+std::string budget_text(const LaboratoryResult& lab, const ShownFigure& shown) {
   std::string text;
-  const bool compared = viewed.figure == LaboratoryFigure::kZStep || viewed.figure == LaboratoryFigure::kTurnStep;
+  const bool compared = shown.figure == LaboratoryFigure::kZStep || shown.figure == LaboratoryFigure::kTurnStep;
   for (std::size_t stand = compared ? 1 : 0; stand < lab.stands; ++stand) {
     double variance = 0;
     for (const LaboratoryRange& range : lab.ranges)
-      variance += total(range.budget[stand][static_cast<std::size_t>(viewed.figure)]) / static_cast<double>(lab.ranges.size());
-    const double sigma = viewed.scale * std::sqrt(variance);
+      variance += total(range.budget[stand][static_cast<std::size_t>(shown.figure)]) / static_cast<double>(lab.ranges.size());
+    const double sigma = shown.scale * std::sqrt(variance);
     text += format("%g %.5g %.5g\n", stand_angle_deg(lab, stand), -sigma, sigma);
   }
   return text;
 }
 
-std::vector<Curve> stand_curves(const LaboratoryResult& lab, const ViewedFigure& viewed) {
+std::vector<Curve> stand_curves(const LaboratoryResult& lab, const ShownFigure& shown) {
   std::vector<Curve> curves;
   for (std::size_t r = 0; r < lab.ranges.size(); ++r)
-    curves.push_back({stands_text(lab, r, viewed), 2,
+    curves.push_back({stands_text(lab, r, shown), 2,
                       format(" with points pt 7 ps 0.45 lc rgb '%s' title '%g m'", range_colour(r), lab.ranges[r].range_m)});
-  const std::string budget = budget_text(lab, viewed);
+  const std::string budget = budget_text(lab, shown);
   curves.push_back({budget, 2, " with lines dt 2 lw 1.6 lc rgb '#2b3440' title 'budget, 1 sigma'"});
   curves.push_back({budget, 3, " with lines dt 2 lw 1.6 lc rgb '#2b3440' notitle"});
   return curves;
@@ -146,19 +136,19 @@ std::string stands_figure(Plotter& plotter, const LaboratoryResult& lab) {
       "set xlabel 'angle of the turntable, deg' textcolor '#46505f'\nset key at screen 0.998,0.92 right top vertical samplen 1.2 spacing "
       "1.3\n");
   bool first = true;
-  for (const ViewedFigure& viewed : kDrawn) {
-    drawing.set(format("%sset title '%s, %s'\n", first ? "" : "unset key\n", viewed.title, viewed.unit));
-    drawing.plot(stand_curves(lab, viewed), "every frame is lost");
+  for (const ShownFigure& shown : kDrawn) {
+    drawing.set(format("%sset title '%s, %s'\n", first ? "" : "unset key\n", shown.title, shown.unit));
+    drawing.plot(stand_curves(lab, shown), "every frame is lost");
     first = false;
   }
   return drawing.svg(1080, 400);
 }
 
-std::string range_lines(const LaboratoryResult& lab, const ViewedFigure& viewed) {
+std::string range_lines(const LaboratoryResult& lab, const ShownFigure& shown) {
   std::string text;
   for (std::size_t r = 0; r < lab.ranges.size(); ++r) {
-    const FigureErrors errors = figure_errors(lab, viewed.figure, r);
-    text += format("%g %.5g %.5g\n", lab.ranges[r].range_m, viewed.scale * errors.rms, viewed.scale * errors.budget);
+    const FigureErrors errors = figure_errors(lab, shown.figure, r);
+    text += format("%g %.5g %.5g\n", lab.ranges[r].range_m, shown.scale * errors.rms, shown.scale * errors.budget);
   }
   return text;
 }
@@ -170,9 +160,9 @@ std::string ranges_figure(Plotter& plotter, const LaboratoryResult& lab) {
       "set xlabel 'range, m' textcolor '#46505f'\nset key at screen 0.998,0.91 right top vertical samplen 1.5 spacing 1.3\n");
   drawing.set(format("set xrange [%g:%g]\n", lab.ranges.front().range_m - 0.2, lab.ranges.back().range_m + 0.2));
   bool first = true;
-  for (const ViewedFigure& viewed : kDrawn) {
-    const std::string lines = range_lines(lab, viewed);
-    drawing.set(format("%sset title '%s, %s'\n", first ? "" : "unset key\n", viewed.title, viewed.unit));
+  for (const ShownFigure& shown : kDrawn) {
+    const std::string lines = range_lines(lab, shown);
+    drawing.set(format("%sset title '%s, %s'\n", first ? "" : "unset key\n", shown.title, shown.unit));
     drawing.plot({{lines, 2, " with linespoints pt 7 ps 0.7 lw 1.6 lc rgb '#2563b8' title 'measured'"},
                   {lines, 3, " with linespoints pt 6 ps 0.7 dt 2 lw 1.6 lc rgb '#2b3440' title 'budget'"}},
                  "every frame is lost");

@@ -3,6 +3,7 @@
 #include "mdat/common/text.hpp"
 #include "mdat/common/version.hpp"
 #include "mdat/paper/laboratory_view.hpp"
+#include "mdat/paper/results.hpp"
 #include "mdat/report/figures.hpp"
 #include "mdat/report/page.hpp"
 #include "mdat/run/paper.hpp"
@@ -11,7 +12,8 @@
 namespace lasso::mdat {
 namespace {
 
-std::string cell(const MeanStd& value) { return known(value.mean, 4, "–") + " <small>±</small> " + known(value.std, 4, "–"); }
+std::string cell(const MeanStd& value) { return small_number(value.mean) + " <small>±</small> " + small_number(value.std); }
+std::string paper_cell(const MeanStd& value) { return format("%g <small>±</small> %g", value.mean, value.std); }
 
 std::string simulation_table(const TableResult& table) {
   HtmlTable html;
@@ -19,7 +21,7 @@ std::string simulation_table(const TableResult& table) {
   for (const VariantResult& variant : table.variants) html.head.push_back(std::string("here, ") + variant.variant.title);
   const ErrorStatistics reference = paper_table_1();
   for (const ErrorAxis& axis : kErrorAxes) {
-    std::vector<std::string> row = {format("%s, %s", axis.name, axis.unit), cell(reference.*axis.member)};
+    std::vector<std::string> row = {format("%s, %s", axis.name, axis.unit), paper_cell(reference.*axis.member)};
     for (const VariantResult& variant : table.variants) row.push_back(cell(variant.all.registration.*axis.member));
     html.rows.push_back(row);
   }

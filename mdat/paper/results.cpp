@@ -5,7 +5,7 @@
 
 #include "mdat/common/text.hpp"
 #include "mdat/common/version.hpp"
-#include "mdat/paper/experiments.hpp"
+#include "mdat/paper/results.hpp"
 #include "mdat/run/paper.hpp"
 
 namespace lasso::mdat {
@@ -13,21 +13,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string pair_text(double mean, double std) { return known(mean, 4, "–") + " ± " + known(std, 4, "–"); }
+std::string pair_text(double mean, double std) { return small_number(mean) + " ± " + small_number(std); }
 std::string pair_text(const MeanStd& value) { return pair_text(value.mean, value.std); }
 
 const VariantResult& variant_at(const PaperResult& result, std::size_t i) { return result.simulation.tables.front().variants.at(i); }
 
-// Of a figure in m or rad, as it is shown: mm or degrees.
-struct ShownFigure {
-  const char *key, *title, *unit;
-  double scale;
-  int digits;
-};
-constexpr ShownFigure kShownFigures[kLaboratoryFigures] = {{"z_mm", "Z", "mm", 1e3, 3},
-                                                           {"turn_deg", "rotation about the axis", "deg", 1 / kRadPerDeg, 4},
-                                                           {"z_step_mm", "Z, from stand to stand", "mm", 1e3, 3},
-                                                           {"turn_step_deg", "rotation, from stand to stand", "deg", 1 / kRadPerDeg, 4}};
+// As the paper has it.
+std::string paper_pair(double mean, double std) { return format("%g ± %g", mean, std); }
 
 std::string absolute_text(const FigureErrors& errors, double scale) { return pair_text(scale * errors.mean_abs, scale * errors.std_abs); }
 
@@ -139,16 +131,22 @@ Json time_json(const PaperResult& result) {
 
 }  // namespace
 
+std::string small_number(double value) {
+  constexpr double kShownByDecimals = 0.001;
+  if (!std::isfinite(value)) return "–";
+  return value == 0 || std::fabs(value) >= kShownByDecimals ? decimals(value, 4) : format("%.1e", value);
+}
+
 std::vector<PaperRow> paper_rows(const PaperResult& result) {
   std::vector<PaperRow> rows;
   const ErrorStatistics paper = paper_table_1();
   for (const ErrorAxis& axis : kErrorAxes) {
-    rows.push_back({std::string("table 1, ") + axis.name, axis.unit, pair_text(paper.*axis.member),
+    rows.push_back({std::string("table 1, ") + axis.name, axis.unit, paper_pair((paper.*axis.member).mean, (paper.*axis.member).std),
                     pair_text(variant_at(result, 0).all.registration.*axis.member),
                     pair_text(variant_at(result, 1).all.registration.*axis.member)});
   }
-  rows.push_back(laboratory_row(result, LaboratoryFigure::kZ, pair_text(kPaperTable2.z_mean_mm, kPaperTable2.z_std_mm)));
-  rows.push_back(laboratory_row(result, LaboratoryFigure::kTurnStep, pair_text(kPaperTable2.turn_mean_deg, kPaperTable2.turn_std_deg)));
+  rows.push_back(laboratory_row(result, LaboratoryFigure::kZ, paper_pair(kPaperTable2.z_mean_mm, kPaperTable2.z_std_mm)));
+  rows.push_back(laboratory_row(result, LaboratoryFigure::kTurnStep, paper_pair(kPaperTable2.turn_mean_deg, kPaperTable2.turn_std_deg)));
   rows.push_back(time_row(result, "paper on a 1.6 GHz Pentium M", kPaperTime.laptop_ms));
   rows.push_back(time_row(result, "paper on a PowerPC 603e", kPaperTime.card_ms));
   return rows;

@@ -1,6 +1,7 @@
+#include "mdat/paper/results.hpp"
+
 #include <gtest/gtest.h>
 
-#include "mdat/paper/experiments.hpp"
 #include "ut/support/verifies.hpp"
 
 namespace lasso::mdat {
@@ -38,10 +39,10 @@ TEST(PaperResults, ARowStandsBesideEachOfThePapersValues) {
   const std::vector<PaperRow> rows = paper_rows(some_result());
   ASSERT_EQ(rows.size(), 10U) << "six axes, two of the laboratory, two times";
   EXPECT_EQ(rows[2].what, "table 1, Z");
-  EXPECT_EQ(rows[2].paper, "-3.3600 ± 6.2500");
-  EXPECT_EQ(rows[2].here, "0.0001 ± 0.0002");
+  EXPECT_EQ(rows[2].paper, "-3.36 ± 6.25");
+  EXPECT_EQ(rows[2].here, "1.0e-04 ± 2.0e-04");
   EXPECT_EQ(rows[2].noisy, "0.2500 ± 0.5000");
-  EXPECT_EQ(rows[6].paper, "5.0100 ± 2.6200");
+  EXPECT_EQ(rows[6].paper, "5.01 ± 2.62");
   EXPECT_EQ(rows[6].noisy, "2.0000 ± 1.0000") << "of the absolute errors";
   EXPECT_EQ(rows[8].paper, "9.2");
   EXPECT_EQ(rows[8].here, "1.00");
