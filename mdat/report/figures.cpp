@@ -44,8 +44,7 @@ std::string errors_text(const CaseResult& run, double abscissa_step) {
 std::vector<Curve> angle_curves(const std::vector<std::string>& runs, const Scenario& scenario, std::size_t axis) {
   std::vector<Curve> curves;
   for (std::size_t i = runs.size(); i-- > 0;) {
-    const std::string style =
-        format(" with lines lw 0.8 lc rgb '%s' title '%s'", kRangeColours[i % kRangeColourCount], run_text(scenario, i).c_str());
+    const std::string style = format(" with lines lw 0.8 lc rgb '%s' title '%s'", range_colour(i), run_text(scenario, i).c_str());
     curves.push_back({runs[i], static_cast<int>(axis) + 2, style});
   }
   return curves;
@@ -99,6 +98,8 @@ std::string histogram_text(const std::vector<double>& times, double bin_us) {
 constexpr const char* kAllLost = "every frame is lost";
 
 }  // namespace
+
+const char* range_colour(std::size_t i) { return kRangeColours[i % kRangeColourCount]; }
 
 bool is_tracked(const VariantResult& variant) { return variant.all.lost < variant.all.frames; }
 

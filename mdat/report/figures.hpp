@@ -8,6 +8,9 @@
 
 namespace lasso::mdat {
 
+// Of the curves of the i-th range, the nearest first.
+const char* range_colour(std::size_t i);
+
 // In at least one frame: there is something to draw.
 bool is_tracked(const VariantResult& variant);
 

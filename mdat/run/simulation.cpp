@@ -3,17 +3,15 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <exception>
 #include <iterator>
-#include <mutex>
 #include <numeric>
-#include <thread>
 
 #include "hal_sim/random.hpp"
 #include "mdat/common/errors.hpp"
 #include "mdat/common/progress_bar.hpp"
 #include "mdat/modelc/image_writer.hpp"
 #include "mdat/run/camera.hpp"
+#include "mdat/run/case_pool.hpp"
 
 namespace lasso::mdat {
 namespace {
@@ -190,48 +188,6 @@ Plan make_plan(const CompiledMission& mission, SimulationResult& result, const s
   return plan;
 }
 
-// Cases in the order of the plan, whoever ran them.
-class Pool {
- public:
-  Pool(const std::vector<CaseSetup>& cases, unsigned jobs) : cases_(cases), results_(cases.size()) {
-    for (unsigned i = 0; i < std::max(1U, jobs); ++i) threads_.emplace_back([this] { work(); });
-  }
-
-  std::vector<CaseResult> wait(ProgressBar& bar) {
-    while (running() && !failed_) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(50));
-      bar.show(done_);
-    }
-    threads_.clear();  // joins
-    if (error_) std::rethrow_exception(error_);
-    return std::move(results_);
-  }
-
- private:
-  bool running() const { return finished_ < cases_.size(); }
-
-  void work() {
-    for (std::size_t i = next_++; i < cases_.size() && !failed_; i = next_++) {
-      try {
-        results_[i] = run_case(cases_[i], done_);
-      } catch (...) {
-        const std::lock_guard<std::mutex> lock(mutex_);
-        if (!error_) error_ = std::current_exception();
-        failed_ = true;
-      }
-      ++finished_;
-    }
-  }
-
-  const std::vector<CaseSetup>& cases_;
-  std::vector<CaseResult> results_;
-  std::atomic<std::size_t> next_{0}, finished_{0}, done_{0};
-  std::atomic<bool> failed_{false};
-  std::mutex mutex_;
-  std::exception_ptr error_;
-  std::vector<std::jthread> threads_;
-};
-
 // In the paper's scenarios the arrays face the sensor in frame 0 and turn by a step from frame to frame.
 bool is_edge_on(std::size_t frame, double step_rad) {
   const double half_turns = static_cast<double>(frame) * step_rad / kPi;
@@ -363,7 +319,7 @@ SimulationResult simulate(const CompiledMission& mission, const SimulationOption
     if (options.keep_scans) setup.keep_frames = all_frames(result.frames);
   }
   ProgressBar bar("track", plan.cases.size() * result.frames, "frames");
-  collect(Pool(plan.cases, options.jobs).wait(bar), result);
+  collect(run_cases(plan.cases, options.jobs, bar), result);
   bar.finish();
   if (scenario.scene != nullptr)
     result.relative = relative_runs(*scenario.scene, result.tables.front().variants.front().cases.front().telemetry);
