@@ -118,13 +118,17 @@ RTCRayHit single_precision_ray(const Vec3& origin, const Vec3& direction) {
 
 class EmbreeCaster final : public RayCaster {
  public:
-  EmbreeCaster(std::span<const Vec3> vertices, std::span<const Triangle> triangles)
-      : ball_(enclosing_ball(vertices)), planes_(planes_of(vertices, triangles)), device_(rtcNewDevice("threads=1,isa=sse2")) {
+  EmbreeCaster(std::span<const Vec3> vertices, std::span<const Triangle> triangles, std::span<const LaserReflection> reflections)
+      : ball_(enclosing_ball(vertices)),
+        planes_(planes_of(vertices, triangles)),
+        reflections_(reflections.begin(), reflections.end()),
+        device_(rtcNewDevice("threads=1,isa=sse2")) {
     if (!device_) throw std::runtime_error("ray caster: Embree gives no device");
     scene_ = build_scene(device_.get(), vertices, triangles, ball_.center_m);
   }
 
   RayHit cast(const Vec3& origin_m, const Vec3& direction) const override {
+    if (passes_by(origin_m, direction)) return {};
     const double skipped_m = skipped(origin_m, direction);
     RTCRayHit query = single_precision_ray(origin_m - ball_.center_m + skipped_m * direction, direction);
     RTCIntersectContext context{};
@@ -132,10 +136,12 @@ class EmbreeCaster final : public RayCaster {
     rtcIntersect1(scene_.get(), &context, &query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
     const Plane& plane = planes_[query.hit.primID];
-    return {true, exact_range(plane, origin_m, direction, skipped_m + static_cast<double>(query.ray.tfar)), query.hit.primID, plane.normal};
+    return {true, exact_range(plane, origin_m, direction, skipped_m + static_cast<double>(query.ray.tfar)), query.hit.primID, plane.normal,
+            reflections_.empty() ? nullptr : &reflections_[query.hit.primID]};
   }
 
   bool is_blocked(const Vec3& origin_m, const Vec3& direction) const override {
+    if (passes_by(origin_m, direction)) return false;
     RTCRayHit query = single_precision_ray(origin_m - ball_.center_m + skipped(origin_m, direction) * direction, direction);
     RTCIntersectContext context{};
     rtcInitIntersectContext(&context);
@@ -149,6 +155,13 @@ class EmbreeCaster final : public RayCaster {
     return std::max(0.0, (ball_.center_m - origin_m).dot(direction) - 1.01 * ball_.radius_m);
   }
 
+  // Whether the ray is clear of the ball: most rays are, of the smaller bodies of a scene.
+  bool passes_by(const Vec3& origin_m, const Vec3& direction) const {
+    const Vec3 to_center = ball_.center_m - origin_m;
+    const double ahead_m = to_center.dot(direction), reach_m = 1.01 * ball_.radius_m;
+    return ahead_m < -reach_m || (to_center - ahead_m * direction).squaredNorm() > reach_m * reach_m;
+  }
+
   // The plane's range, unless the ray all but lies in the plane: then the search's own range is the better conditioned one.
   double exact_range(const Plane& plane, const Vec3& origin_m, const Vec3& direction, double found_m) const {
     const double range_m = (plane.offset_m - plane.normal.dot(origin_m)) / plane.normal.dot(direction);
@@ -157,16 +170,21 @@ class EmbreeCaster final : public RayCaster {
 
   Ball ball_;
   std::vector<Plane> planes_;
+  std::vector<LaserReflection> reflections_;  // of the triangles, or none
   Device device_;
   Scene scene_;
 };
 
 }  // namespace
 
-std::unique_ptr<RayCaster> make_ray_caster(std::span<const Vec3> vertices_m, std::span<const Triangle> triangles) {
+std::unique_ptr<RayCaster> make_ray_caster(std::span<const Vec3> vertices_m, std::span<const Triangle> triangles,
+                                           std::span<const LaserReflection> reflections) {
   check_vertices(vertices_m);
   check_triangles(vertices_m, triangles);
-  return std::make_unique<EmbreeCaster>(vertices_m, triangles);
+  if (!reflections.empty() && reflections.size() != triangles.size())
+    throw std::invalid_argument("ray caster: " + std::to_string(reflections.size()) + " reflections of " +
+                                std::to_string(triangles.size()) + " triangles");
+  return std::make_unique<EmbreeCaster>(vertices_m, triangles, reflections);
 }
 
 }  // namespace lasso::sim

@@ -5,6 +5,7 @@
 #include "fsw/sense/sensor.hpp"
 #include "hal_sim/common_error.hpp"
 #include "hal_sim/other_body.hpp"
+#include "hal_sim/random.hpp"
 #include "hal_sim/ray_caster.hpp"
 #include "hal_sim/scanner_model.hpp"
 #include "hal_sim/trajectory.hpp"
@@ -13,7 +14,8 @@ namespace lasso::sim {
 
 // What one ray finds: pure, so that reports and tests can ask about any ray at any time.
 // `direction` is the reported (nominal) unit direction in the sensor frame; the ray is cast against the target, and all other bodies,
-// where they are at `t_us`; what is nearest is met.
+// where they are at `t_us`; what is nearest is met. Where the model has a detector, or a body is a cloud, the light that returns decides
+// what is told (detector.hpp, scatter_volume.hpp).
 class RaySimulator {
  public:
   // Keeps references: target and trajectory outlive the simulator. Throws std::invalid_argument as validate(model).
@@ -27,9 +29,16 @@ class RaySimulator {
   struct Beam;
   CommonErrors common_errors(std::uint32_t scan_id, TimeUs t_us) const;
   RayHit cast(const Beam& beam, const Vec3& direction) const;  // normal in sensor axes
+  bool is_blocked(const Beam& beam, const Vec3& from_m, const Vec3& direction) const;
   bool lost(const RayHit& hit, const Beam& beam) const;
-  double mixed_range_m(const RayHit& hit, const Beam& beam) const;
-  double noisy_range_m(const RayHit& hit, const Beam& beam) const;
+  RayHit rim_hit(const RayHit& hit, const Beam& beam) const;
+  bool mixes(const RayHit& hit, const Beam& beam) const;
+  double noisy_range_m(const Echo& echo, double background, const Beam& beam) const;
+  Detection surface_alone(const RayHit& hit, const Beam& beam) const;
+  Echoes echoes_of(const RayHit& hit, const Beam& beam) const;
+  double background_electrons(const RayHit& hit, const Beam& beam) const;
+  Detection detected(const RayHit& hit, double background, const DetectorDraws& draws, const Beam& beam) const;
+  Detection by_single_photons(const RayHit& hit, const Beam& beam, Random& random) const;
 
   const RayCaster& target_;
   const Trajectory& trajectory_;
@@ -38,6 +47,9 @@ class RaySimulator {
   std::uint64_t seed_;
   double cos_dropout_incidence_;
   CommonErrorProcess common_;
+  bool scatters_;  // whether there is a cloud
+  bool detects_;   // whether there is more to a return than that a surface is there
+  FalseAlarms alarms_;
 };
 
 class SimulatedScanner final : public Sensor {

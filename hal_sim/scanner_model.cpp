@@ -55,6 +55,7 @@ bool has_common_errors(const ScannerModel& model) {
 
 void validate(const ScannerModel& model) {
   for (const Limit& limit : kLimits) check(model, limit);
+  validate(model.detector);
   if (model.range_min_m < model.range_max_m) return;
   std::ostringstream message;
   message << "scanner model: range_min_m is " << model.range_min_m << ", expected less than range_max_m (" << model.range_max_m << ")";

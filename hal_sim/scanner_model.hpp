@@ -5,6 +5,7 @@
 
 #include "fsw/core/time.hpp"
 #include "fsw/geometry/portable_math.hpp"
+#include "hal_sim/detector.hpp"
 #include "hal_sim/random.hpp"
 
 namespace lasso::sim {
@@ -33,6 +34,7 @@ struct ScannerModel {
   double common_memory_s = 0;                           // in which their correlation falls to 1/e; 0: new in each scan
   TimeUs dark_from_us = 0;                              // from here ...
   TimeUs dark_until_us = 0;                             // ... to before this nothing of the target is seen: kMiss
+  DetectorModel detector;                               // the light that returns, and which return is told
 };
 
 // A LIDAR that times its pulses: 20 mm (20.6 mm at 100 m) from 1 m to 100 m, a beam that widens to 50 mm there.

@@ -26,7 +26,7 @@ CampaignFlight::CampaignFlight(const CompiledMission& mission, const CampaignSou
       frames_(campaign.frames != 0 ? campaign.frames : static_cast<std::uint32_t>(scenario_.frames)),
       parameters_(plain_case(mission.source, scenario_, 0, 0).parameters),
       image_(image_bytes(mission, parameters_)),
-      target_(make_target(mission.mesh)) {
+      target_(make_target(mission.mesh, mission.source.target_laser)) {
   for (const lcs::Device device : {lcs::Device::kLaserCamera, lcs::Device::kLidar, lcs::Device::kTridar}) {
     if (campaign.sensor == wire_name(device)) wire_ = device;
   }
@@ -53,7 +53,7 @@ CaseResult CampaignFlight::fly(std::uint64_t seed, const std::vector<double>& va
   if (!are_same(setup.parameters, parameters_)) image = image_bytes(mission_, setup.parameters);
   setup.image = image.empty() ? &image_ : &image;
   std::unique_ptr<sim::RayCaster> target;
-  if (has_model_error(setup.scenario)) target = simulated_target(mission_.mesh, setup.scenario, seed);
+  if (has_model_error(setup.scenario)) target = simulated_target(mission_.mesh, setup.scenario, seed, mission_.source.target_laser);
   setup.target = target ? target.get() : target_.get();
   std::atomic<std::size_t> frames_done{0};
   return run_case(setup, frames_done);

@@ -43,7 +43,7 @@ void serve(LcsSimArguments options) {
   const CompiledMission mission = compile_mission(std::move(input), ModelCache::of_user_if(options.cached));
   const Scenario& scenario = scenario_of(mission.source, options.simulation.scenario);
   const std::uint64_t seed = options.simulation.seed.value_or(static_cast<std::uint64_t>(scenario.seed));
-  const std::unique_ptr<sim::RayCaster> target = simulated_target(mission.mesh, scenario, seed);
+  const std::unique_ptr<sim::RayCaster> target = simulated_target(mission.mesh, scenario, seed, mission.source.target_laser);
   const CaseSetup setup = camera_case(mission, options.simulation, *target);
   const std::atomic<bool>& ending = interruption();
   say("the camera listens on " + server.address());

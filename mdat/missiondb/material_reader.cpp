@@ -1,6 +1,9 @@
 #include "mdat/missiondb/material_reader.hpp"
 
+#include <utility>
+
 #include "fsw/geometry/portable_math.hpp"
+#include "mdat/missiondb/laser_material.hpp"
 
 namespace lasso::mdat {
 namespace {
@@ -44,6 +47,17 @@ void read_material(const std::string& name, const toml::table& table, MissionSou
   if (values.is_written("specular")) material.specular = values.list("specular");
   if (values.is_written("roughness")) material.roughness = values.number("roughness");
   if (values.is_written("tilt_deg")) material.tilt_rad = values.number("tilt_deg");
+  for (const auto& [key, member] :
+       {std::pair{"laser", &MaterialSource::laser}, std::pair{"laser_specular", &MaterialSource::laser_specular},
+        std::pair{"laser_roughness", &MaterialSource::laser_roughness}}) {
+    if (values.is_written(key)) material.*member = values.number(key);
+  }
+  const sim::LaserReflection laser = laser_preset(material.preset);
+  const double scattered = material.laser.value_or(laser.diffuse), mirrored = material.laser_specular.value_or(laser.specular);
+  if (scattered + mirrored > 1)
+    return values.complain(material.laser ? "laser" : "laser_specular", number_text(material.laser ? scattered : mirrored),
+                           "laser " + number_text(scattered) + " and laser_specular " + number_text(mirrored) +
+                               ": more light would leave than comes, expected at most 1 together");
   if (material.diffuse.empty() != material.specular.empty())
     return values.complain(material.diffuse.empty() ? "specular" : "diffuse", "",
                            "expected diffuse and specular, or none of them: together they are at most 1");
@@ -65,6 +79,9 @@ const std::vector<ValueRow>& material_rows() {
       colour_row("diffuse", "share of the light that is scattered: red, green, blue"),
       colour_row("specular", "share of the light that is mirrored at right angles: red, green, blue"),
       own_row(number_row("roughness", "1", kReal, 1, 0.01, 1, 0, "of the mirror: alpha of GGX")),
+      own_row(number_row("laser", "1", kReal, 1, 0, 1, 0, "share of a laser's light that is scattered, at 1550 nm")),
+      own_row(number_row("laser_specular", "1", kReal, 1, 0, 1, 0, "share of a laser's light that is mirrored at right angles")),
+      own_row(number_row("laser_roughness", "1", kReal, 1, 0.01, 1, 0, "of that mirror: alpha of GGX")),
       own_row(number_row("tilt_deg", "deg", kReal, kRadPerDeg, 0, 30, 0, "how much facets lean against the surface, root mean square")),
   };
   return rows;

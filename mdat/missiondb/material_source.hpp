@@ -1,4 +1,4 @@
-// What parts are made of, as a mission says it: pictures need it.
+// What parts are made of, as a mission says it: pictures and lasers need it.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 
 namespace lasso::mdat {
 
-// Names of the presets, which mdat/render/material.cpp fills.
+// Names of the presets, which mdat/render/material.cpp and laser_material.cpp fill.
 inline constexpr std::array kMaterialNames = {"white-paint", "silver-teflon",  "aluminium-foil", "mli",
                                               "solar-cells", "black-anodised", "regolith"};
 
@@ -18,6 +18,7 @@ struct MaterialSource {
   std::vector<std::string> parts;         // of the target, or NODE.PART; * at the end stands for any ending
   std::vector<double> diffuse, specular;  // red, green, blue; both, or the preset's
   std::optional<double> roughness, tilt_rad;
+  std::optional<double> laser, laser_specular, laser_roughness;  // hal_sim/laser_reflection.hpp
 };
 
 }  // namespace lasso::mdat

@@ -3,6 +3,7 @@
 
 #include "mdat/missiondb/campaign_reader.hpp"
 #include "mdat/missiondb/campaign_rules.hpp"
+#include "mdat/missiondb/detector_reader.hpp"
 #include "mdat/missiondb/material_reader.hpp"
 #include "mdat/missiondb/mesh_import.hpp"
 #include "mdat/missiondb/mission_checks.hpp"
@@ -64,6 +65,7 @@ class Loader {
     read_calibrations(source_, problems_);
     read_scenarios();
     if (problems_.empty()) warn_of_idle(source_);
+    warn_of_no_sun(source_);
     check_contradictions();
     if (problems_.empty()) check_campaigns(source_, problems_);
   }
@@ -101,6 +103,7 @@ class Loader {
     source_.version = static_cast<std::uint32_t>(mission_number("mission.version"));
     source_.name = text_or_empty(found_, "mission.name");
     source_.calibration_files = texts_of(found_, "sensor.calibration");
+    source_.detector = read_detector(found_, "sensor.", "sensor.", problems_);
     source_.target.scale = mission_number("target.scale");
     source_.target.origin_m = mission_list("target.origin_m");
     source_.target.crease_angle_rad = mission_number("target.crease_angle_deg");
@@ -251,6 +254,7 @@ class Loader {
   void read_scenarios() {
     for (const auto& [name, found] : scenario_found_) {
       Scenario scenario;
+      scenario.detector = source_.detector;
       for (const auto& [key, value] : overrides_[name]) scenario.overrides[key] = value.numbers[0];
       MissionParameters parameters = source_.parameters;
       override_parameters(parameters, scenario.overrides);

@@ -11,6 +11,8 @@
 
 #include "fsw/mission/calibration.hpp"
 #include "fsw/mission/parameters.hpp"
+#include "hal_sim/detector.hpp"
+#include "hal_sim/laser_reflection.hpp"
 #include "mdat/missiondb/campaign_source.hpp"
 #include "mdat/missiondb/material_source.hpp"
 #include "mdat/missiondb/scene_source.hpp"
@@ -63,6 +65,7 @@ struct FurtherSensor {
   SensorKind kind = SensorKind::kLaserCamera;
   SensorParameters parameters{};
   std::vector<std::string> calibration_files;  // as they were written
+  sim::DetectorModel detector;
 };
 
 // Of laser cameras, by the number of the sensor; of several of one camera the first holds until a command says otherwise.
@@ -118,7 +121,8 @@ struct Scenario {
   double dropout_incidence_rad = 0;  // rays that graze the surface more than this do not return
   double outlier_probability = 0, edge_mixing_m = 0, beam_divergence_rad = 0;
   double seed = 0;
-  double fault_script = -1;  // of a campaign's case: which of its camera_faults; -1: none
+  sim::DetectorModel detector;  // of [sensor]
+  double fault_script = -1;     // of a campaign's case: which of its camera_faults; -1: none
 
   // The first range of each run.
   std::vector<double> runs_m() const { return has_profile() ? std::vector<double>{ranges_m.front()} : ranges_m; }
@@ -142,7 +146,9 @@ struct MissionSource {
   Calibrations calibrations;
   MissionParameters parameters{};
   SceneSource scene;
-  std::vector<MaterialSource> materials;  // of pictures
+  sim::DetectorModel detector;  // of [sensor]
+  std::vector<MaterialSource> materials;
+  std::vector<sim::LaserReflection> target_laser;  // of each triangle of the target, filled by load_scene; none: no sensor sees light
   std::map<std::string, Scenario> scenarios;
   std::map<std::string, CampaignSource> campaigns;
   std::map<std::string, Origin> origins;  // by dotted key, all rows of parameter_rows() and of the ground sections

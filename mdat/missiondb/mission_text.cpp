@@ -5,6 +5,7 @@
 #include <optional>
 #include <sstream>
 
+#include "mdat/missiondb/detector_reader.hpp"
 #include "mdat/missiondb/rule.hpp"
 #include "mdat/missiondb/sections.hpp"
 #include "mdat/missiondb/sensor_reader.hpp"
@@ -45,10 +46,20 @@ void write_calibration(ValueLines& out, const MissionSource& source, const std::
   if (!files.empty()) write_line(out, key, text, "", place_text(source, key), find_row(mission_rows(), "sensor.calibration")->meaning);
 }
 
+// Where anything of it is said.
+void write_detector(ValueLines& out, const MissionSource& source, const std::string& prefix, const sim::DetectorModel& detector) {
+  if (!sim::is_simulated(detector) && detector.returns == sim::Returns::kMixed) return;
+  for (const DetectorField& field : detector_fields()) {
+    write_line(out, prefix + field.row.key, value_text(field.row, {detector_value(detector, field)}), field.row.unit,
+               place_text(source, prefix + field.row.key), field.row.meaning);
+  }
+}
+
 void write_sensor(ValueLines& out, const MissionSource& source) {
   const ValueRow& row = *find_row(mission_rows(), "sensor.kind");
   write_line(out, row.key, value_text(row, {static_cast<double>(source.sensor)}), row.unit, place_text(source, row.key), row.meaning);
   write_calibration(out, source, "sensor.calibration", source.calibration_files);
+  write_detector(out, source, "sensor.", source.detector);
 }
 
 void write_further_sensor(ValueLines& out, const MissionSource& source, const FurtherSensor& sensor) {
@@ -62,6 +73,7 @@ void write_further_sensor(ValueLines& out, const MissionSource& source, const Fu
                place_text(source, prefix + row.key), row.meaning);
   }
   write_calibration(out, source, prefix + "calibration", sensor.calibration_files);
+  write_detector(out, source, prefix, sensor.detector);
 }
 
 void write_parameters(ValueLines& out, const MissionSource& source, const std::string& scenario) {

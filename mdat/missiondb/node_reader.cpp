@@ -5,6 +5,7 @@
 #include <iterator>
 #include <set>
 
+#include "mdat/missiondb/volume_reader.hpp"
 #include "mdat/source/nearest.hpp"
 
 namespace lasso::mdat {
@@ -54,6 +55,7 @@ class NodeReader {
     node_.pointing = {values_.axis("axis"), values_.axis("up"), values_.axis("up_reference")};
     read_motion();
     read_body();
+    if (values_.is_any_written("scatter.")) read_volume(values_, node_.name, source_);
     claim("target", source_.scene.target);
     claim("sensor", source_.scene.sensor);
     source_.scene.nodes.push_back(node_);
@@ -118,6 +120,7 @@ std::vector<std::string> node_names(const SceneSource& scene) {
 std::set<std::string> used_nodes(const SceneSource& scene) {
   std::set<std::string> used{scene.target, scene.sensor, kSceneLvlh};
   for (const BodySource& body : scene.bodies) used.insert(body.node);
+  for (const VolumeSource& volume : scene.volumes) used.insert(volume.node);
   for (const RelativeSource& relative : scene.relative) used.insert({relative.of, relative.in});
   for (std::size_t before = 0; before != used.size();) {
     before = used.size();
@@ -180,7 +183,7 @@ void pair_frames(const SceneSource& scene, const std::string& scenario, SceneRun
 }  // namespace
 
 const std::vector<ValueRow>& node_rows() {
-  static const std::vector<ValueRow> rows = {
+  static const std::vector<ValueRow> rows = with_volume_rows({
       text_row("parent", "[^\\x00-\\x1f]+", "node in which it stands; root where not given, which with [orbit] is the Hill frame"),
       position_row("where it stands in the parent; its motion begins there"),
       quaternion_row("how it stands there: x, y, z, w, takes its axes to the parent's"),
@@ -195,7 +198,7 @@ const std::vector<ValueRow>& node_rows() {
       text_row("mesh", "[^\\x00-\\x1f]+", "what it looks like: a mesh (STL, OBJ, PLY, glTF)"),
       number_row("scale", "1", kReal, 1, 1e-9, 1e9, 1, "that file's lengths times this are metres"),
       parts_row(),
-  };
+  });
   return rows;
 }
 
@@ -293,10 +296,12 @@ void make_scene_run(const ChosenMotions& chosen, const std::string& name, Origin
     const auto motion = chosen.find(node.name);
     if (motion != chosen.end()) node.motion = scene.motions.at(motion->second);
   }
-  const auto run = std::make_shared<SceneRun>(SceneRun{scene::Tree(kSceneRoot, nodes), 0, 0, {}, scene.surfaces, 0, 0, {}, {}, {}});
+  const auto run =
+      std::make_shared<SceneRun>(SceneRun{scene::Tree(kSceneRoot, nodes), 0, 0, {}, scene.surfaces, 0, 0, {}, {}, {}, scene.orbit, {}});
   run->target = run->tree.need(scene.target);
   run->sensor = run->tree.need(scene.sensor);
   for (const BodySource& body : scene.bodies) run->body_nodes.push_back(run->tree.need(body.node));
+  for (const VolumeSource& volume : scene.volumes) run->volumes.emplace_back(run->tree.need(volume.node), volume.volume);
   pair_frames(scene, name, *run, problems);
   look_at_motion(scenario.frames, period_s, *run);
   scenario.times_s = run->times_s;

@@ -11,8 +11,11 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "hal_sim/laser_reflection.hpp"
+#include "hal_sim/scatter_volume.hpp"
 #include "mdat/modelc/mesh.hpp"
 #include "mdat/scene/orbit.hpp"
 #include "mdat/scene/tree.hpp"
@@ -31,11 +34,18 @@ struct BodySource {
   std::vector<std::string> parts;  // names of the target's parts, or their beginnings with * at the end
 };
 
+// A cloud that stands at a node.
+struct VolumeSource {
+  std::string node;
+  std::shared_ptr<const sim::ScatterVolume> volume;
+};
+
 // A surface with the names of its parts.
 struct BodySurface {
   Mesh mesh;
   std::vector<std::string> part_names;          // each once
   std::vector<std::uint32_t> part_of_triangle;  // index into part_names, for each triangle
+  std::vector<sim::LaserReflection> laser;      // of each triangle; none: no sensor sees light
 };
 
 // Filled by load_scene: what all scenarios of a mission have in common.
@@ -67,6 +77,7 @@ struct SceneSource {
   std::set<std::string> free_tumbles;  // and those that are torque-free by themselves, in axes that do not turn
   std::vector<scene::Node> nodes;      // with their motions; the root is not among them
   std::vector<BodySource> bodies;
+  std::vector<VolumeSource> volumes;
   std::string target, sensor;  // nodes; empty: none is said to be
   std::vector<RelativeSource> relative;
   std::shared_ptr<SceneSurfaces> surfaces = std::make_shared<SceneSurfaces>();
@@ -83,6 +94,8 @@ struct SceneRun {
   double acceleration_mps2 = 0;  // greatest of its origin there
   std::vector<double> times_s, ranges_m;
   std::vector<RelativePair> relative;
+  std::optional<scene::Orbit> orbit = std::nullopt;
+  std::vector<std::pair<std::size_t, std::shared_ptr<const sim::ScatterVolume>>> volumes = {};  // with their nodes
 
   scene::MotionState target_at(TimeUs t_us) const { return tree.state(target, sensor, t_us); }
 };

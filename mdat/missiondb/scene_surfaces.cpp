@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 
+#include "mdat/missiondb/laser_material.hpp"
 #include "mdat/missiondb/mesh_import.hpp"
 #include "mdat/missiondb/model_file.hpp"
 #include "mdat/missiondb/target_parts.hpp"
@@ -96,7 +97,7 @@ class SceneLoader {
     const std::vector<bool> named = named_parts(body);
     warn_of_parent(body);
     moved.resize(target_.triangles.size(), false);
-    BodySurface surface{{target_.vertices, {}}, parts.names, {}};
+    BodySurface surface{{target_.vertices, {}}, parts.names, {}, {}};
     for (std::size_t i = 0; i < target_.triangles.size(); ++i) {
       if (!named[parts.of_triangle[i]]) continue;
       if (moved[i]) refuse(body, '"' + parts.names[parts.of_triangle[i]] + '"', "the part is another node's already");
@@ -142,6 +143,18 @@ void check_materials(const MissionSource& source, const std::vector<std::string>
   if (!problems.empty()) throw MissionError(problems);
 }
 
+// Parts of other bodies by their names as [material.NAME] has them.
+void set_laser_reflections(MissionSource& source, const Mesh& target) {
+  const TargetParts parts = target_parts(source, target);
+  source.target_laser = laser_reflections(source, parts.names, parts.of_triangle);
+  std::vector<std::string> names = parts.names;
+  for (std::size_t i = 0; i < source.scene.bodies.size(); ++i) {
+    BodySurface& surface = source.scene.surfaces->bodies[i];
+    std::vector<std::uint32_t> numbers = part_numbers_of(source.scene.bodies[i], surface, names);
+    for (const std::uint32_t part : surface.part_of_triangle) surface.laser.push_back(laser_reflection(source, names[numbers[part]]));
+  }
+}
+
 }  // namespace
 
 std::vector<std::uint32_t> part_numbers_of(const BodySource& body, const BodySurface& surface, std::vector<std::string>& names) {
@@ -163,6 +176,7 @@ std::vector<std::string> part_names_of(const MissionSource& source, const Mesh& 
 void load_scene(MissionSource& source, const Mesh& target) {
   if (!source.scene.bodies.empty()) SceneLoader(source, target).load();
   if (!source.materials.empty()) check_materials(source, part_names_of(source, target));
+  if (has_detector(source)) set_laser_reflections(source, target);
 }
 
 }  // namespace lasso::mdat

@@ -1,5 +1,6 @@
 #include "mdat/missiondb/scene_values.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "mdat/missiondb/beside.hpp"
@@ -45,6 +46,10 @@ SceneValues::SceneValues(const toml::table& table, std::string path, const std::
     source_.origins[key] = value == found_.end() ? Origin{} : value->second.origin;
     if (value != found_.end()) source_.scene.values.push_back({key, value_text_of(row, value->second), row.unit, row.meaning});
   }
+}
+
+bool SceneValues::is_any_written(const std::string& beginning) const {
+  return std::any_of(found_.begin(), found_.end(), [&](const auto& entry) { return entry.first.rfind(beginning, 0) == 0; });
 }
 
 std::vector<double> SceneValues::list(const std::string& key) const {

@@ -22,6 +22,7 @@ class SceneValues {
               MissionSource& source, ProblemList& problems);
 
   bool is_written(const std::string& key) const { return found_.count(key) != 0; }
+  bool is_any_written(const std::string& beginning) const;
   double number(const std::string& key) const { return list(key).at(0); }
   std::vector<double> list(const std::string& key) const;
   Vec3 vector(const std::string& key) const { return Vec3(list(key).data()); }

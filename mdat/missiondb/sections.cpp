@@ -3,6 +3,7 @@
 #include "cfg/capacities.hpp"
 #include "fsw/geometry/portable_math.hpp"
 #include "hal_sim/scanner_model.hpp"
+#include "mdat/missiondb/detector_reader.hpp"
 
 namespace lasso::mdat {
 namespace {
@@ -131,11 +132,9 @@ std::vector<ScenarioField> make_scenario_fields() {
   // clang-format on
 }
 
-}  // namespace
-
-const std::vector<ValueRow>& mission_rows() {
+std::vector<ValueRow> make_mission_rows() {
   // clang-format off
-  static const std::vector<ValueRow> rows = {
+  std::vector<ValueRow> rows = {
     required(number_row("mission.id", "1", kInteger, 1, 1, 2147483648.0, 0, "number of the mission in telemetry")),
     required(number_row("mission.version", "1", kInteger, 1, 1, 2147483648.0, 0, "counts up with every change that flies")),
     required(text_row("mission.name", "[^\\x00-\\x1f]{1,80}", "name in reports, at most 80 characters")),
@@ -150,6 +149,17 @@ const std::vector<ValueRow>& mission_rows() {
     calibration_row(),
   };
   // clang-format on
+  for (const DetectorField& field : detector_fields()) {
+    rows.push_back(field.row);
+    rows.back().key = "sensor." + field.row.key;
+  }
+  return rows;
+}
+
+}  // namespace
+
+const std::vector<ValueRow>& mission_rows() {
+  static const std::vector<ValueRow> rows = make_mission_rows();
   return rows;
 }
 

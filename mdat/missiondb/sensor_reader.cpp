@@ -3,6 +3,7 @@
 #include "cfg/capacities.hpp"
 #include "mdat/missiondb/beside.hpp"
 #include "mdat/missiondb/calibration_file.hpp"
+#include "mdat/missiondb/detector_reader.hpp"
 #include "mdat/missiondb/sections.hpp"
 
 namespace lasso::mdat {
@@ -32,6 +33,7 @@ void read_sensor(const std::string& name, const toml::table& table, MissionSourc
     sensor.parameters.*sensor_member(row) = number * row.to_si;
   }
   sensor.calibration_files = texts_of(found, "calibration");
+  sensor.detector = read_detector(found, "", prefix, problems);
   source.further_sensors.push_back(sensor);
 }
 
@@ -56,6 +58,7 @@ const std::vector<ValueRow>& further_sensor_rows() {
     std::vector<ValueRow> result{without_prefix(*find_row(mission_rows(), "sensor.kind"))};
     for (const ParameterRow& row : sensor_rows()) result.push_back(without_prefix(value_row(row)));
     result.push_back(without_prefix(*find_row(mission_rows(), "sensor.calibration")));
+    for (const DetectorField& field : detector_fields()) result.push_back(field.row);
     return result;
   }();
   return rows;

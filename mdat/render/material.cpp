@@ -1,7 +1,8 @@
 #include "mdat/render/material.hpp"
 
 #include <algorithm>
-#include <cctype>
+
+#include "mdat/missiondb/likely_material.hpp"
 
 namespace lasso::mdat {
 namespace {
@@ -42,54 +43,6 @@ std::span<const Material> presets() {
   return kPresets;
 }
 
-struct NameRule {
-  const char* word;  // within the part's name, small letters
-  const char* material;
-};
-
-// The first word that occurs decides: fittings before what they are fitted to.
-constexpr NameRule kRules[] = {
-    {"spar", "black-anodised"},
-    {"hinge", "black-anodised"},
-    {"drive", "black-anodised"},
-    {"boom", "black-anodised"},
-    {"mast", "black-anodised"},
-    {"gimbal", "black-anodised"},
-    {"handrail", "white-paint"},
-    {"rail", "white-paint"},
-    {"standoff", "white-paint"},
-    {"solar panel", "solar-cells"},
-    {"solar array", "solar-cells"},
-    {"solar wing", "solar-cells"},
-    {"wing", "solar-cells"},
-    {"sun sensor", "black-anodised"},
-    {"star tracker", "black-anodised"},
-    {"magnetometer", "black-anodised"},
-    {"trunnion", "black-anodised"},
-    {"berthing pin", "black-anodised"},
-    {"nozzle", "black-anodised"},
-    {"thruster", "black-anodised"},
-    {"docking ring", "aluminium-foil"},
-    {"radiator", "silver-teflon"},
-    {"antenna", "white-paint"},
-    {"dish", "white-paint"},
-    {"feed", "white-paint"},
-    {"horn", "white-paint"},
-    {"aperture door", "aluminium-foil"},
-    {"bay", "mli"},
-    {"bus", "mli"},
-    {"upper stage", "mli"},
-    {"box", "mli"},
-    {"door", "mli"},
-    {"tank", "mli"},
-    {"mli", "mli"},
-    {"body", "silver-teflon"},
-    {"shroud", "silver-teflon"},
-    {"rock", "regolith"},
-    {"asteroid", "regolith"},
-    {"stage", "white-paint"},
-};
-
 }  // namespace
 
 std::span<const Material> material_presets() { return presets(); }
@@ -99,13 +52,6 @@ const Material* material_preset(const std::string& name) {
   return found == presets().end() ? nullptr : &*found;
 }
 
-const Material& likely_material(const std::string& part) {
-  std::string small = part;
-  for (char& c : small) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  for (const NameRule& rule : kRules) {
-    if (small.find(rule.word) != std::string::npos) return *material_preset(rule.material);
-  }
-  return presets()[0];
-}
+const Material& likely_material(const std::string& part) { return *material_preset(likely_material_name(part)); }
 
 }  // namespace lasso::mdat

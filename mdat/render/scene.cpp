@@ -241,7 +241,7 @@ std::vector<ScanMark> flown_scan(const CompiledMission& mission, double time_s, 
   setup.image = &image;
   setup.frames = frame + 1;
   setup.keep_frames = {frame};
-  const std::unique_ptr<sim::RayCaster> simulated = simulated_target(mission.mesh, setup.scenario, scene.seed);
+  const std::unique_ptr<sim::RayCaster> simulated = simulated_target(mission.mesh, setup.scenario, scene.seed, mission.source.target_laser);
   setup.target = simulated.get();
   const CaseResult result = flown_case(setup);
   if (result.scans.empty()) throw InputError(format("--scan: frame %u has no scan; another --time has", frame));

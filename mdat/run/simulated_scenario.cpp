@@ -34,6 +34,27 @@ class NodeTrajectory final : public sim::Trajectory {
   mutable scene::PoseLookup lookup_;
 };
 
+// The Sun of a scene in an orbit, before its sensors.
+class SceneSun final : public sim::SunSource {
+ public:
+  SceneSun(const std::shared_ptr<const SceneRun>& run, TimeUs epoch_us)
+      : orbit_(*run->orbit), root_(run, 0, epoch_us), epoch_us_(epoch_us) {}
+  sim::Sunlight at(TimeUs t_us) const override {
+    return {rotate(root_.pose_at(t_us).q, orbit_.sun_hill(t_us - epoch_us_)), orbit_.sunlit_share(t_us - epoch_us_)};
+  }
+
+ private:
+  scene::Orbit orbit_;
+  NodeTrajectory root_;
+  TimeUs epoch_us_;
+};
+
+void set_detector(const sim::DetectorModel& detector, const Scenario& scenario, sim::ScannerModel& model) {
+  model.detector = detector;
+  if (detector.bandpass_m > 0 && scenario.scene != nullptr && scenario.scene->orbit)
+    model.detector.sun = std::make_shared<SceneSun>(scenario.scene, kEpochUs);
+}
+
 // As long as it is, into any direction.
 void turn(std::vector<double>& vector, sim::Random& random) {
   const double length = Vec3(vector.data()).norm();
@@ -102,6 +123,7 @@ sim::ScannerModel scanner_model(const Scenario& scenario, const SensorParameters
   model.sigma_angle_rad = scenario.angle_noise_rad;
   set_common(scenario, model);
   model.beam_divergence_rad = scenario.beam_divergence_rad;
+  set_detector(scenario.detector, scenario, model);
   return model;
 }
 
@@ -113,6 +135,7 @@ sim::ScannerModel scanner_model(const Scenario& scenario, const FurtherSensor& s
   model.sigma_k_per_m = scenario.noise_factor * sensor.parameters.sigma_k_per_m;
   model.sigma_angle_rad = sensor.parameters.sigma_angle_rad;
   set_common(sensor.parameters, model);
+  set_detector(sensor.detector, scenario, model);
   if (sensor.kind == SensorKind::kTimeOfFlight) model.beam_divergence_rad = sim::time_of_flight_lidar().beam_divergence_rad;
   return model;
 }
@@ -132,9 +155,12 @@ Scenario drawn_scenario(Scenario scenario, std::uint64_t seed) {
 sim::OtherBodies make_other_bodies(const Scenario& scenario, TimeUs epoch_us) {
   sim::OtherBodies bodies;
   for (std::size_t i = 0; scenario.scene != nullptr && i < scenario.scene->body_nodes.size(); ++i) {
-    bodies.push_back({make_target(scenario.scene->surfaces->bodies[i].mesh),
+    bodies.push_back({make_target(scenario.scene->surfaces->bodies[i].mesh, scenario.scene->surfaces->bodies[i].laser),
                       std::make_shared<NodeTrajectory>(scenario.scene, scenario.scene->body_nodes[i], epoch_us)});
   }
+  if (scenario.scene == nullptr) return bodies;
+  for (const auto& [node, volume] : scenario.scene->volumes)
+    bodies.push_back({nullptr, std::make_shared<NodeTrajectory>(scenario.scene, node, epoch_us), volume});
   return bodies;
 }
 

@@ -305,7 +305,7 @@ SimulationResult simulate(const CompiledMission& mission, const SimulationOption
   result.tables = tables_of(mission.source, options, options.link != nullptr);
 
   const auto begin = std::chrono::steady_clock::now();
-  const std::unique_ptr<sim::RayCaster> target = simulated_target(mission.mesh, scenario, result.seed);
+  const std::unique_ptr<sim::RayCaster> target = simulated_target(mission.mesh, scenario, result.seed, mission.source.target_laser);
   std::optional<CompiledMission> changed;
   if (options.calibration && options.wire) changed = recalibrated(mission, *options.wire, *options.calibration);
   Plan plan = make_plan(changed ? *changed : mission, result, *target);

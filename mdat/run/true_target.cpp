@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
-#include <iterator>
 #include <map>
 
 #include "fsw/geometry/so3.hpp"
@@ -102,17 +101,26 @@ std::vector<std::uint32_t> kept_triangles(const Mesh& model, const Scenario& sce
   return kept;
 }
 
-std::unique_ptr<sim::RayCaster> make_target(const Mesh& mesh) {
-  const auto has_area = [&](const std::array<std::uint32_t, 3>& t) {
-    return (mesh.vertices[t[1]] - mesh.vertices[t[0]]).cross(mesh.vertices[t[2]] - mesh.vertices[t[0]]).norm() > 0;
-  };
-  std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::copy_if(mesh.triangles.begin(), mesh.triangles.end(), std::back_inserter(triangles), has_area);
-  return sim::make_ray_caster(mesh.vertices, triangles);
+std::unique_ptr<sim::RayCaster> make_target(const Mesh& mesh, const std::vector<sim::LaserReflection>& laser) {
+  std::vector<Triangle> triangles;
+  std::vector<sim::LaserReflection> reflections;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const Triangle& t = mesh.triangles[i];
+    if (!((mesh.vertices[t[1]] - mesh.vertices[t[0]]).cross(mesh.vertices[t[2]] - mesh.vertices[t[0]]).norm() > 0)) continue;
+    triangles.push_back(t);
+    if (!laser.empty()) reflections.push_back(laser[i]);
+  }
+  return sim::make_ray_caster(mesh.vertices, triangles, reflections);
 }
 
-std::unique_ptr<sim::RayCaster> simulated_target(const Mesh& model, const Scenario& scenario, std::uint64_t seed) {
-  return make_target(has_model_error(scenario) ? true_target(model, scenario, seed) : model);
+std::unique_ptr<sim::RayCaster> simulated_target(const Mesh& model, const Scenario& scenario, std::uint64_t seed,
+                                                 const std::vector<sim::LaserReflection>& laser) {
+  if (!has_model_error(scenario)) return make_target(model, laser);
+  std::vector<sim::LaserReflection> kept;
+  for (const std::uint32_t triangle : kept_triangles(model, scenario)) {
+    if (!laser.empty()) kept.push_back(laser[triangle]);
+  }
+  return make_target(true_target(model, scenario, seed), kept);
 }
 
 }  // namespace lasso::mdat

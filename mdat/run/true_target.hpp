@@ -23,9 +23,10 @@ Mesh true_target(const Mesh& model, const Scenario& scenario, std::uint64_t seed
 // Of the triangles of true_target's mesh, in its order: which ones of the model they are.
 std::vector<std::uint32_t> kept_triangles(const Mesh& model, const Scenario& scenario);
 
-// A surface for the ray caster: triangles without area, which no ray can hit, are left out.
-std::unique_ptr<sim::RayCaster> make_target(const Mesh& mesh);
-// The same of true_target.
-std::unique_ptr<sim::RayCaster> simulated_target(const Mesh& model, const Scenario& scenario, std::uint64_t seed);
+// A surface for the ray caster: triangles without area, which no ray can hit, are left out. `laser`: what each triangle reflects, or none.
+std::unique_ptr<sim::RayCaster> make_target(const Mesh& mesh, const std::vector<sim::LaserReflection>& laser = {});
+// The same of true_target; `laser` of the model's triangles, or none.
+std::unique_ptr<sim::RayCaster> simulated_target(const Mesh& model, const Scenario& scenario, std::uint64_t seed,
+                                                 const std::vector<sim::LaserReflection>& laser = {});
 
 }  // namespace lasso::mdat

@@ -8,7 +8,7 @@
 namespace lasso::mdat {
 namespace {
 
-const std::string kMissionHead = "[mission]\nid = 7\nversion = 2\nname = 'test'\n[target]\nmodel = 'two.toml'\n";  // 6 lines
+const std::string kMaterialHead = "[mission]\nid = 7\nversion = 2\nname = 'test'\n[target]\nmodel = 'two.toml'\n";  // 6 lines
 
 class MaterialReaderTest : public ::testing::Test {
  protected:
@@ -18,7 +18,7 @@ class MaterialReaderTest : public ::testing::Test {
                   "place = [{move = [2, 0, 0]}]\n");
   }
   MissionSource load(const std::string& text) {
-    MissionSource source = load_mission(folder_.write("m.toml", kMissionHead + text));
+    MissionSource source = load_mission(folder_.write("m.toml", kMaterialHead + text));
     load_scene(source, load_target(source));
     return source;
   }
@@ -42,6 +42,17 @@ TEST_F(MaterialReaderTest, ReadsAPresetAndWhatDiffersFromIt) {
   EXPECT_EQ(source.materials[1].diffuse, (std::vector<double>{0.1, 0.2, 0.3}));
   EXPECT_EQ(source.materials[1].specular, (std::vector<double>{0, 0.1, 0.2}));
   EXPECT_FALSE(source.materials[1].roughness.has_value());
+}
+
+TEST_F(MaterialReaderTest, ReadsWhatLasersSee) {
+  VERIFIES("LASSO-SIM-061~1");
+  const MissionSource source =
+      load("[material.a]\nparts = 'bus'\npreset = 'mli'\nlaser = 0.3\nlaser_specular = 0.4\nlaser_roughness = 0.2\n");
+  EXPECT_EQ(source.materials[0].laser, 0.3);
+  EXPECT_EQ(source.materials[0].laser_specular, 0.4);
+  EXPECT_EQ(source.materials[0].laser_roughness, 0.2);
+  expect_problem("[material.a]\nparts = 'bus'\npreset = 'mli'\nlaser = 0.5\n",
+                 "m.toml:10:9: material.a.laser: 0.5: laser 0.5 and laser_specular 0.71: more light would leave than comes");
 }
 
 TEST_F(MaterialReaderTest, EveryProblemIsToldWithItsPlace) {

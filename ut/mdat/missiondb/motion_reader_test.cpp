@@ -10,13 +10,13 @@
 namespace lasso::mdat {
 namespace {
 
-const std::string kMissionHead = "[mission]\nid = 7\nversion = 2\nname = 'test'\n[target]\nmodel = 'box.toml'\n";  // 6 lines
+const std::string kMotionHead = "[mission]\nid = 7\nversion = 2\nname = 'test'\n[target]\nmodel = 'box.toml'\n";  // 6 lines
 constexpr TimeUs kTimesUs[] = {-1'300'000, 0, 700'001, 2'500'000, 61'000'000};
 
 class MotionReaderTest : public ::testing::Test {
  protected:
   MotionReaderTest() { folder_.write("box.toml", "[[part]]\nkind = 'box'\nsize = [1, 1, 1]\n"); }
-  MissionSource load(const std::string& text) { return load_mission(folder_.write("m.toml", kMissionHead + text)); }
+  MissionSource load(const std::string& text) { return load_mission(folder_.write("m.toml", kMotionHead + text)); }
   scene::MotionPtr motion(const std::string& text) { return load("[motion.m]\n" + text).scene.motions.at("m"); }
   std::string problems(const std::string& text) {
     return mission_error_of([&] { static_cast<void>(load(text)); });

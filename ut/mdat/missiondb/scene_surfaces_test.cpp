@@ -6,7 +6,7 @@
 namespace lasso::mdat {
 namespace {
 
-const std::string kMissionHead =
+const std::string kSurfaceHead =
     "[mission]\nid = 7\nversion = 2\nname = 'test'\n[target]\nmodel = 'two.toml'\nscale = 2\n[node.body]\ntarget = true\n"
     "[node.camera]\nposition_m = [0, 0, -9]\nsensor = true\n[scenario.s]\nkind = 'scene'\n";
 
@@ -19,7 +19,7 @@ class SceneSurfacesTest : public ::testing::Test {
                   "[[part]]\nname = 'panel -x'\nkind = 'box'\nsize = [1, 2, 0.1]\nplace = [{move = [-2, 0, 0]}]\n");
   }
   MissionSource load(const std::string& text) {
-    MissionSource source = load_mission(folder_.write("m.toml", kMissionHead + text));
+    MissionSource source = load_mission(folder_.write("m.toml", kSurfaceHead + text));
     load_scene(source, load_target(source));
     return source;
   }
