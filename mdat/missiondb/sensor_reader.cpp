@@ -3,6 +3,7 @@
 #include "cfg/capacities.hpp"
 #include "mdat/missiondb/beside.hpp"
 #include "mdat/missiondb/calibration_file.hpp"
+#include "mdat/missiondb/flash_rows.hpp"
 #include "mdat/missiondb/sections.hpp"
 
 namespace lasso::mdat {
@@ -31,6 +32,7 @@ void read_sensor(const std::string& name, const toml::table& table, MissionSourc
     const double number = value == found.end() ? preset_of(sensor.kind, row.key, row.preset) : value->second.numbers.at(0);
     sensor.parameters.*sensor_member(row) = number * row.to_si;
   }
+  sensor.flash = read_flash(found, "", sensor.kind, prefix, problems);
   sensor.calibration_files = texts_of(found, "calibration");
   source.further_sensors.push_back(sensor);
 }
@@ -56,6 +58,7 @@ const std::vector<ValueRow>& further_sensor_rows() {
     std::vector<ValueRow> result{without_prefix(*find_row(mission_rows(), "sensor.kind"))};
     for (const ParameterRow& row : sensor_rows()) result.push_back(without_prefix(value_row(row)));
     result.push_back(without_prefix(*find_row(mission_rows(), "sensor.calibration")));
+    for (const ValueRow& row : flash_rows()) result.push_back(without_prefix(row));
     return result;
   }();
   return rows;
