@@ -83,6 +83,8 @@ Status PixelSelector::start(const ScanPlan& plan, TimeUs t_start_us) {
   top_ = plan.center_y - plan.half_y;
   parts_per_x_ = grid_.columns * static_cast<double>(kCellParts) / (2 * plan.half_x);
   parts_per_y_ = grid_.rows * static_cast<double>(kCellParts) / (2 * plan.half_y);
+  end_x_ = grid_.columns * static_cast<double>(kCellParts);
+  end_y_ = grid_.rows * static_cast<double>(kCellParts);
   scan_id_ = plan.scan_id;
   begun_ = false;
   next_ = 0;
@@ -127,28 +129,31 @@ Status PixelSelector::take_piece(TimeUs now_us, bool& more) {
   return Status::kOk;
 }
 
+// Most pixels are not the nearest so far: what they say is not looked at.
 void PixelSelector::take(const RangeSample& given) {
+  Place place;
+  if (!locate(given, place)) return;
+  Cell& cell = Span<Cell>(cells_)[place.cell];
+  if (place.key > cell.key) return;
   const RangeSample pixel = plain(given);
   BadSample reason{};
   if (!is_known(pixel.state) || !is_sound(pixel, reason)) {
     ++bad_pixels_;
     return;
   }
-  Place place;
-  if (!locate(pixel, place)) return;
-  Cell& cell = Span<Cell>(cells_)[place.cell];
-  if (place.key > cell.key || (place.key == cell.key && !precedes(pixel, cell.sample))) return;
+  if (place.key == cell.key && !precedes(pixel, cell.sample)) return;
   cell = {pixel, place.key};
 }
 
-// False outside of the window.
+// False outside of the window, and of what is no number.
 bool PixelSelector::locate(const RangeSample& pixel, Place& place) const {
   const double z = static_cast<double>(pixel.direction[2]);
   if (!(z > 0)) return false;
-  const double x = (static_cast<double>(pixel.direction[0]) / z - left_) * parts_per_x_;
-  const double y = (static_cast<double>(pixel.direction[1]) / z - top_) * parts_per_y_;
-  if (x < 0 || x >= static_cast<double>(grid_.columns * kCellParts)) return false;
-  if (y < 0 || y >= static_cast<double>(grid_.rows * kCellParts)) return false;
+  const double per_z = 1 / z;
+  const double x = (static_cast<double>(pixel.direction[0]) * per_z - left_) * parts_per_x_;
+  const double y = (static_cast<double>(pixel.direction[1]) * per_z - top_) * parts_per_y_;
+  if (!(x >= 0 && x < end_x_)) return false;
+  if (!(y >= 0 && y < end_y_)) return false;
   const auto parts_x = static_cast<std::uint32_t>(static_cast<std::int32_t>(x));
   const auto parts_y = static_cast<std::uint32_t>(static_cast<std::int32_t>(y));
   place.cell = (parts_y / kCellParts) * grid_.columns + parts_x / kCellParts;

@@ -42,7 +42,7 @@ class PixelSelector final : public Sensor {
   // then lost, and the sensor's frame aborted.
   SensorPoll poll(TimeUs now_us, Span<RangeSample> out) override;
   void abort() override;
-  // The sensor's; pixels that cannot be (BadSample) are refused samples.
+  // The sensor's; pixels that would have been kept and cannot be (BadSample) are refused samples.
   SensorCounters counters() const override;
   void permit_laser(bool permitted) override { sensor_.permit_laser(permitted); }
   bool can_aim() const override { return false; }
@@ -67,6 +67,7 @@ class PixelSelector final : public Sensor {
   State state_ = State::kIdle;
   CellGrid grid_;
   double left_ = 0, top_ = 0, parts_per_x_ = 0, parts_per_y_ = 0;  // of the window on the tangent plane
+  double end_x_ = 0, end_y_ = 0;                                   // of the grid, in parts
   std::uint32_t scan_id_ = 0;
   bool begun_ = false;  // the frame's time is known
   TimeUs t_us_ = 0;

@@ -337,7 +337,9 @@ TEST_F(PixelSelectorTest, PixelsThatCannotBeAreCountedAndDisplaceNothing) {
     spoil(spoilt);
   }
   EXPECT_TRUE(same(select(plan), expected));
-  EXPECT_EQ(selector.counters().samples_refused, 5 + bad) << "5 of the sensor's own";
+  EXPECT_GE(selector.counters().samples_refused, 5U + 4 * 400)
+      << "5 of the sensor's own, and four of each cell that lie where the kept pixel does";
+  EXPECT_LT(selector.counters().samples_refused, 5 + bad);
 }
 
 TEST_F(PixelSelectorTest, PixelsBesideAndBehindTheWindowAreLeftOut) {
