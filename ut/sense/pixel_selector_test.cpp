@@ -227,7 +227,7 @@ TEST_F(PixelSelectorTest, AFrameThatComesSlowlyIsTakenAsItComes) {
 }
 
 TEST_F(PixelSelectorTest, MissesAndPixelsWithoutAMeasurementAreKeptApart) {
-  VERIFIES("LASSO-SNS-051~1");
+  VERIFIES("LASSO-SNS-055~1");
   frame.pixels = disc(100, 0.25);
   frame.distance = {0.005, 0.005};
   const ScanPlan plan = window(0, 0, 0.25, 0.25, 400);
@@ -362,7 +362,7 @@ TEST_F(PixelSelectorTest, PixelsBesideAndBehindTheWindowAreLeftOut) {
 }
 
 TEST_F(PixelSelectorTest, ACellThatNoPixelHasComeForIsLostAndTheVerdictCountsIt) {
-  VERIFIES("LASSO-SNS-054~1");
+  VERIFIES("LASSO-SNS-056~1");
   frame.pixels = disc(100, 0.25);
   frame.distance = {0.005, 0.005};
   const ScanPlan plan = window(0, 0, 0.25, 0.25, 400);
@@ -400,7 +400,7 @@ TEST_F(PixelSelectorTest, AWindowOfFewPixelsIsAWholeScan) {
 }
 
 TEST_F(PixelSelectorTest, PiecesThatDoNotBelongTogetherLoseTheScan) {
-  VERIFIES("LASSO-SNS-054~1");
+  VERIFIES("LASSO-SNS-057~1");
   const ScanPlan plan = window(0, 0, 0.2, 0.2);
   frame.pixels = disc(100, 0.25);
   frame.other_frame_at = 5000;
