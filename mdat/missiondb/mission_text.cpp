@@ -5,6 +5,7 @@
 #include <optional>
 #include <sstream>
 
+#include "mdat/missiondb/flash_rows.hpp"
 #include "mdat/missiondb/rule.hpp"
 #include "mdat/missiondb/sections.hpp"
 #include "mdat/missiondb/sensor_reader.hpp"
@@ -45,10 +46,19 @@ void write_calibration(ValueLines& out, const MissionSource& source, const std::
   if (!files.empty()) write_line(out, key, text, "", place_text(source, key), find_row(mission_rows(), "sensor.calibration")->meaning);
 }
 
+void write_flash(ValueLines& out, const MissionSource& source, const std::string& prefix, SensorKind kind, const sim::FlashModel& flash) {
+  if (kind != SensorKind::kFlashLidar) return;
+  for (const ValueRow& row : flash_rows()) {
+    const std::string key = prefix + row.key.substr(row.key.find('.') + 1);
+    write_line(out, key, value_text(row, {flash_value(flash, row)}), row.unit, place_text(source, key), row.meaning);
+  }
+}
+
 void write_sensor(ValueLines& out, const MissionSource& source) {
   const ValueRow& row = *find_row(mission_rows(), "sensor.kind");
   write_line(out, row.key, value_text(row, {static_cast<double>(source.sensor)}), row.unit, place_text(source, row.key), row.meaning);
   write_calibration(out, source, "sensor.calibration", source.calibration_files);
+  write_flash(out, source, "sensor.", source.sensor, source.flash);
 }
 
 void write_further_sensor(ValueLines& out, const MissionSource& source, const FurtherSensor& sensor) {
@@ -62,6 +72,7 @@ void write_further_sensor(ValueLines& out, const MissionSource& source, const Fu
                place_text(source, prefix + row.key), row.meaning);
   }
   write_calibration(out, source, prefix + "calibration", sensor.calibration_files);
+  write_flash(out, source, prefix, sensor.kind, sensor.flash);
 }
 
 void write_parameters(ValueLines& out, const MissionSource& source, const std::string& scenario) {
