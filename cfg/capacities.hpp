@@ -9,6 +9,7 @@ namespace lasso {
 constexpr std::size_t kMaxRays = 4096;              // rays of one scan (nominal 1024)
 constexpr std::size_t kMaxAimedRays = 384;          // rays of one scan that leave its pattern
 constexpr std::size_t kMaxSamplesPerPoll = 128;     // samples a sensor hands over in one call
+constexpr std::size_t kMaxPixelsPerPoll = 4096;     // pixels of a dense sensor that are looked at in one call
 constexpr std::size_t kMaxImageBytes = 32u << 20;   // flight image: 70,000 curved triangles
 constexpr std::uint32_t kMaxElementsPerCell = 500;  // elements in one ray cell's list
 constexpr std::uint32_t kMaxCellDistance = 250;     // longest jump through empty cells, in cells

@@ -30,7 +30,7 @@ void AcquisitionTask::start(SensorNumber sensor, const Mission& mission, const A
   const Status status = aim.full_field ? plan_full_field(mission.parameters, scan_id, plan) : plan_aimed(mission, aim, plan);
   if (status != Status::kOk) return;
   aimed_.clear();
-  if (!aim.full_field) keep(aim.rays);
+  if (!aim.full_field && sensors_[sensor]->can_aim()) keep(aim.rays);
   plan.aimed = aimed_.span();
   asked_ = true;
   // A refusal comes back as the verdict of finish().
@@ -85,8 +85,10 @@ ScanEnd AcquisitionTask::finish(const ScanPlan& plan) {
   return end;
 }
 
-// Mirrors that stand still, and a scan that is given again, leave an image that a pose could be read into.
+// Mirrors that stand still, and a scan that is given again, leave an image that a pose could be read into. Of a sensor that cannot aim
+// neither can be told: an empty field looks the same whatever the plan.
 ScanLoss AcquisitionTask::doubt(const ScanPlan& plan) {
+  if (!sensors_[sensor_]->can_aim()) return ScanLoss::kNone;
   const RangeImage& image = images_[filling_];
   if (mirrors_stuck(plan, image)) return ScanLoss::kStuck;
   ScanTrace& before = Span<ScanTrace>(traces_)[sensor_];

@@ -24,7 +24,7 @@ struct Aim {
   double uncertainty_m = 0;
   bool any_attitude = false;  // T_sensor_target says where the model's centre is, no more
   bool full_field = false;
-  Span<const AimedRay> rays;  // that leave the pattern; not those of a full-field scan
+  Span<const AimedRay> rays;  // that leave the pattern; not those of a full-field scan, nor for a sensor that cannot aim
 };
 
 struct ScanEnd {

@@ -18,10 +18,6 @@ constexpr Cause kCauses[] = {
 
 constexpr double kDirectionTolerance = 2e-3;  // of the squared length
 
-bool known_state(RayState state) {
-  return state == RayState::kHit || state == RayState::kMiss || state == RayState::kInvalid;
-}  // not kLost
-
 bool finite(const RangeSample& sample) {
   bool ok = is_finite(static_cast<double>(sample.range_m)) && is_finite(static_cast<double>(sample.sigma_factor));
   for (const float component : sample.direction) ok = ok && is_finite(static_cast<double>(component));
@@ -69,6 +65,17 @@ bool range_valid(const RangeSample& sample) {
 
 }  // namespace
 
+bool is_known(RayState state) { return state == RayState::kHit || state == RayState::kMiss || state == RayState::kInvalid; }
+
+bool is_sound(const RangeSample& sample, BadSample& reason) {
+  reason = BadSample::kNotFinite;
+  if (!finite(sample)) return false;
+  reason = BadSample::kDirection;
+  if (!near_unit(sample)) return false;
+  reason = BadSample::kRange;
+  return range_valid(sample);
+}
+
 ScanLoss loss_of(Status reason) {
   for (const Cause& cause : kCauses) {
     if (cause.reason == reason) return cause.loss;
@@ -85,15 +92,18 @@ Status Acquisition::start(Sensor& sensor, const ScanPlan& plan, TimeUs t_start_u
   image.aimed_first = first_aimed(plan);
   image.aimed_count = static_cast<std::uint16_t>(plan.aimed.size());
   image.samples.clear();
-  points_ = plan.points;
   well_formed_ = 0;
   t_start_us_ = t_start_us;
   last_t_us_ = t_start_us;
   const Status plan_status = validate(plan);
   verdict_.reason = plan_status == Status::kOk ? sensor.start(plan, t_start_us) : plan_status;
-  if (verdict_.reason == Status::kOk) state_ = State::kRunning;
-  if (verdict_.reason != Status::kOk) verdict_.loss = loss_of(verdict_.reason);
-  return verdict_.reason;
+  if (verdict_.reason != Status::kOk) {
+    verdict_.loss = loss_of(verdict_.reason);
+    return verdict_.reason;
+  }
+  points_ = sensor.samples_of(plan);
+  state_ = State::kRunning;
+  return Status::kOk;
 }
 
 void Acquisition::step(Sensor& sensor, TimeUs now_us, RangeImage& image) {
@@ -117,17 +127,12 @@ void Acquisition::lose(Sensor& sensor, Status reason) {
 
 bool Acquisition::check(const RangeSample& sample, TimeUs now_us, BadSample& reason) const {
   reason = BadSample::kState;
-  if (!known_state(sample.state)) return false;
+  if (!is_known(sample.state)) return false;
   reason = BadSample::kTime;
   if (sample.t_us < last_t_us_ || sample.t_us > now_us) return false;
   if (sample.t_us - t_start_us_ > kLongestScan_us) return false;
   if (sample.state == RayState::kInvalid) return true;  // makes no statement that could be wrong
-  reason = BadSample::kNotFinite;
-  if (!finite(sample)) return false;
-  reason = BadSample::kDirection;
-  if (!near_unit(sample)) return false;
-  reason = BadSample::kRange;
-  return range_valid(sample);
+  return is_sound(sample, reason);
 }
 
 void Acquisition::take(const RangeSample& sample, TimeUs now_us, RangeImage& image) {

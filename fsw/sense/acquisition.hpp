@@ -24,9 +24,13 @@ enum class BadSample : std::uint8_t {
   kTime = 4,       // before its predecessor or the scan's start, later than now, or after the start by more than kLongestScan_us
 };
 constexpr std::size_t kBadSampleKinds = 5;
+// The states of a sample that an image holds: all but kLost.
+bool is_known(RayState state);
+// Could a hit or a miss be, its time apart? Otherwise the reason: kNotFinite, kDirection or kRange.
+bool is_sound(const RangeSample& sample, BadSample& reason);
 constexpr DurationUs kLongestScan_us = FlightNumber::kLongestScan_us;  // from its start to its last sample
 constexpr double kMaxRangeM = 1e5;
-constexpr std::uint32_t kUsablePercent = 80;  // of the plan's points
+constexpr std::uint32_t kUsablePercent = 80;  // of the samples that the sensor has for the plan
 
 // Why a scan cannot be estimated from: what an operator looks for first.
 enum class ScanLoss : std::uint8_t {
@@ -76,7 +80,7 @@ class Acquisition {
   void step(Sensor& sensor, TimeUs now_us, RangeImage& image);
 
   // The frame boundary: ends the scan and judges it. An unfinished one is aborted at the sensor. The verdict's reason is
-  //   kOk       complete, and at least kUsablePercent of the plan's points are well formed (hits, misses, or declared invalid): usable
+  //   kOk       complete, and at least kUsablePercent of the samples asked for are well formed (hits, misses, or declared invalid): usable
   //   kTimeout  not complete in time; usable when at least kUsablePercent of the points are there, well formed
   //   kBadValue complete, but fewer well-formed samples than that: not usable
   //   kNoData   no scan was started
@@ -96,7 +100,7 @@ class Acquisition {
   void lose(Sensor& sensor, Status reason);
 
   State state_ = State::kIdle;
-  std::uint16_t points_ = 0;       // that the plan asks for
+  std::uint16_t points_ = 0;       // asked for: Sensor::samples_of
   std::uint32_t well_formed_ = 0;  // samples in the image that were believed
   TimeUs t_start_us_ = 0;          // of the scan
   TimeUs last_t_us_ = 0;           // of the last believed sample; the start before the first

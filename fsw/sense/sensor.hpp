@@ -44,6 +44,10 @@ class Sensor {
   virtual SensorPoll poll(TimeUs now_us, Span<RangeSample> out) = 0;
   // Ends a scan and discards its samples. No effect when idle.
   virtual void abort() = 0;
+  // Whether rays go where a plan wants them. False: the sensor measures all its pixels at once, has no mirrors, and takes no aimed rays.
+  virtual bool can_aim() const { return true; }
+  // How many samples a scan by this plan, which it has started, has: the plan's points, or fewer where it has not so many pixels there.
+  virtual std::uint16_t samples_of(const ScanPlan& plan) const { return plan.points; }
   // Zeros where a sensor has no line on which anything could go wrong.
   virtual SensorCounters counters() const { return {}; }
   // Whether it may light its laser: never before the first permission. Sensors without one, or with one that others look after, ignore it.

@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cstdio>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -182,7 +184,8 @@ std::string generate(std::uint64_t seed, const MissionOptions& options, NewMissi
 
 std::optional<SensorKind> sensor_of(const std::string& name) {
   if (name.empty()) return std::nullopt;
-  return name == "laser_camera" ? SensorKind::kLaserCamera : SensorKind::kTimeOfFlight;
+  const auto found = std::find(std::begin(kSensorKindNames), std::end(kSensorKindNames), name);
+  return static_cast<SensorKind>(found - std::begin(kSensorKindNames));
 }
 
 // Throws InputError: neither of the two that a mission can begin with, or both.
@@ -231,7 +234,7 @@ void add_new_command(CLI::App& mission, const std::shared_ptr<MissionOptions>& o
   command->add_option("--kind", options->kind, "of the target that is made; otherwise the seed says it")
       ->check(CLI::IsMember(body_kind_names()));
   command->add_option("--sensor", options->sensor, "otherwise guessed from the target's size")
-      ->check(CLI::IsMember({"laser_camera", "time_of_flight"}));
+      ->check(CLI::IsMember(std::vector<std::string>(std::begin(kSensorKindNames), std::end(kSensorKindNames))));
   command->add_option("--scale", options->scale, "the file's lengths times this are metres")
       ->capture_default_str()
       ->check(number_between(1e-6, 1e6));

@@ -48,7 +48,10 @@ std::string sensor_line(const Known& known) {
   const double range_m = initial_range_m(known.mission.size);
   const RangeNoise noise = guessed_noise(known.mission.size, known.mission.sensor);
   const double sigma_m = std::hypot(noise.sigma0_m, noise.sigma_k_per_m * range_m * range_m);
-  return std::string("sensor: ") + (noise.kind == SensorKind::kLaserCamera ? "a laser camera" : "a LIDAR (time_of_flight)") +
+  return std::string("sensor: ") +
+         (noise.kind == SensorKind::kLaserCamera  ? "a laser camera"
+          : noise.kind == SensorKind::kFlashLidar ? "a flash LIDAR (flash_lidar)"
+                                                  : "a LIDAR (time_of_flight)") +
          " with a field of " + number_text(2 * preset("sensor.fov_half_x_deg")) + " deg, the target at " + text(range_m) +
          " m; its noise there, " + text(1000 * sigma_m) + " mm, is a guess: write your sensor's into [sensor]";
 }

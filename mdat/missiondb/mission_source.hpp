@@ -13,6 +13,7 @@
 #include "fsw/mission/parameters.hpp"
 #include "hal_sim/detector.hpp"
 #include "hal_sim/laser_reflection.hpp"
+#include "hal_sim/flash_model.hpp"
 #include "mdat/missiondb/campaign_source.hpp"
 #include "mdat/missiondb/material_source.hpp"
 #include "mdat/missiondb/scene_source.hpp"
@@ -56,7 +57,9 @@ struct PartSource {
 };
 
 // How the sensor measures a range. Its presets in [sensor] and of its beam come from the kind (hal_sim/scanner_model.hpp).
-enum class SensorKind : std::uint8_t { kLaserCamera = 0, kTimeOfFlight = 1 };
+enum class SensorKind : std::uint8_t { kLaserCamera = 0, kTimeOfFlight = 1, kFlashLidar = 2 };
+constexpr const char* kSensorKindNames[] = {"laser_camera", "time_of_flight", "flash_lidar"};  // as a mission writes them
+inline const char* kind_name(SensorKind kind) { return kSensorKindNames[static_cast<int>(kind)]; }
 
 // A sensor besides [sensor]. The simulated one is as the mission says, with its kind's beam; what a scenario says of dropouts, outliers,
 // grazing rays and edges holds for it, too.
@@ -64,6 +67,7 @@ struct FurtherSensor {
   std::string name;
   SensorKind kind = SensorKind::kLaserCamera;
   SensorParameters parameters{};
+  sim::FlashModel flash;                       // kFlashLidar
   std::vector<std::string> calibration_files;  // as they were written
   sim::DetectorModel detector;
 };
@@ -141,6 +145,7 @@ struct MissionSource {
   TargetSource target;
   std::vector<PartSource> parts;  // in the order of their names, which is that of their numbers
   SensorKind sensor = SensorKind::kLaserCamera;
+  sim::FlashModel flash;                       // kFlashLidar
   std::vector<std::string> calibration_files;  // as a further sensor's
   std::vector<FurtherSensor> further_sensors;  // in the order of their names: numbers 1, 2, ... ; [sensor] is number 0
   Calibrations calibrations;

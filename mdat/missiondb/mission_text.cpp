@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "mdat/missiondb/detector_reader.hpp"
+#include "mdat/missiondb/flash_rows.hpp"
 #include "mdat/missiondb/rule.hpp"
 #include "mdat/missiondb/sections.hpp"
 #include "mdat/missiondb/sensor_reader.hpp"
@@ -55,11 +56,20 @@ void write_detector(ValueLines& out, const MissionSource& source, const std::str
   }
 }
 
+void write_flash(ValueLines& out, const MissionSource& source, const std::string& prefix, SensorKind kind, const sim::FlashModel& flash) {
+  if (kind != SensorKind::kFlashLidar) return;
+  for (const ValueRow& row : flash_rows()) {
+    const std::string key = prefix + row.key.substr(row.key.find('.') + 1);
+    write_line(out, key, value_text(row, {flash_value(flash, row)}), row.unit, place_text(source, key), row.meaning);
+  }
+}
+
 void write_sensor(ValueLines& out, const MissionSource& source) {
   const ValueRow& row = *find_row(mission_rows(), "sensor.kind");
   write_line(out, row.key, value_text(row, {static_cast<double>(source.sensor)}), row.unit, place_text(source, row.key), row.meaning);
   write_calibration(out, source, "sensor.calibration", source.calibration_files);
   write_detector(out, source, "sensor.", source.detector);
+  write_flash(out, source, "sensor.", source.sensor, source.flash);
 }
 
 void write_further_sensor(ValueLines& out, const MissionSource& source, const FurtherSensor& sensor) {
@@ -74,6 +84,7 @@ void write_further_sensor(ValueLines& out, const MissionSource& source, const Fu
   }
   write_calibration(out, source, prefix + "calibration", sensor.calibration_files);
   write_detector(out, source, prefix, sensor.detector);
+  write_flash(out, source, prefix, sensor.kind, sensor.flash);
 }
 
 void write_parameters(ValueLines& out, const MissionSource& source, const std::string& scenario) {

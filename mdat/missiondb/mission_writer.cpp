@@ -5,6 +5,7 @@
 #include <map>
 #include <sstream>
 
+#include "mdat/missiondb/flash_rows.hpp"
 #include "mdat/missiondb/rule.hpp"
 #include "mdat/missiondb/scenario_writer.hpp"
 #include "mdat/missiondb/sections.hpp"
@@ -35,6 +36,7 @@ Values sized_values(const NewMission& mission) {
   values["sensor.sigma0_m"] = noise.sigma0_m;
   values["sensor.sigma_k_per_m"] = noise.sigma_k_per_m;
   if (noise.kind == SensorKind::kTimeOfFlight) values["sensor.sigma_angle_rad"] = kLidarAngle_rad;
+  if (noise.kind == SensorKind::kFlashLidar) values["sensor.sigma_angle_rad"] = preset_of(noise.kind, "sensor.sigma_angle_rad", 0);
   values["sensor.range_min_m"] = std::max(0.0, (range_m - size.radius_m) / 4);
   values["sensor.range_max_m"] = 4 * (range_m + size.radius_m);
   for (auto& [key, value] : values) {
@@ -52,16 +54,22 @@ Values sized_values(const NewMission& mission) {
 
 std::string section_of(const std::string& key) { return key.substr(0, key.rfind('.')); }
 
+void write_kind(std::ostream& out, SensorKind kind) {
+  const char* texts[] = {"kind = \"laser_camera\"  # or \"time_of_flight\", a LIDAR",
+                         "kind = \"time_of_flight\"  # a LIDAR; or \"laser_camera\"",
+                         "kind = \"flash_lidar\"  # or \"time_of_flight\", a LIDAR that scans"};
+  out << texts[static_cast<int>(kind)] << ": then delete the noise and ranges below, whose presets are that kind's\n";
+  if (kind != SensorKind::kFlashLidar) return;
+  for (const ValueRow& row : flash_rows()) write_row(out, row, row.preset);
+}
+
 void write_flight_parameters(std::ostream& out, const Values& values, SensorKind kind) {
   std::string section;
   for (const ValueRow& row : flight_rows()) {
     if (section_of(row.key) != section) {
       section = section_of(row.key);
       out << "\n[" << section << "]\n";
-      if (section == "sensor")
-        out << (kind == SensorKind::kLaserCamera ? "kind = \"laser_camera\"  # or \"time_of_flight\", a LIDAR"
-                                                 : "kind = \"time_of_flight\"  # a LIDAR; or \"laser_camera\"")
-            << ": then delete the noise and ranges below, whose presets are that kind's\n";
+      if (section == "sensor") write_kind(out, kind);
     }
     const auto value = values.find(row.key);
     write_row(out, row, value == values.end() ? row.preset : std::vector<double>{value->second});
@@ -132,6 +140,10 @@ double initial_range_m(const MeshSize& size) { return rounded(std::max(kNearestS
 RangeNoise guessed_noise(const MeshSize& size, std::optional<SensorKind> sensor) {
   const auto preset = [](const std::string& key) { return find_row(flight_rows(), key)->preset[0]; };
   const auto of_lidar = [&](const std::string& key) { return preset_of(SensorKind::kTimeOfFlight, key, preset(key)); };
+  if (sensor == SensorKind::kFlashLidar) {
+    const auto of_flash = [&](const std::string& key) { return preset_of(SensorKind::kFlashLidar, key, preset(key)); };
+    return {SensorKind::kFlashLidar, of_flash("sensor.sigma0_m"), of_flash("sensor.sigma_k_per_m")};
+  }
   const bool far = 2 * initial_range_m(size) > preset("sensor.range_max_m");
   if (sensor.value_or(far ? SensorKind::kTimeOfFlight : SensorKind::kLaserCamera) == SensorKind::kTimeOfFlight)
     return {SensorKind::kTimeOfFlight, of_lidar("sensor.sigma0_m"), of_lidar("sensor.sigma_k_per_m")};

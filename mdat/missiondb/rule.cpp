@@ -48,9 +48,9 @@ bool is_in_order(const MissionParameters& p, double way) {
 double range_sigma_m(const SensorParameters& sensor, double z_m) { return std::hypot(sensor.sigma0_m, sensor.sigma_k_per_m * z_m * z_m); }
 
 std::vector<SensorInUse> sensors_in_use(const MissionSource& source, const MissionParameters& p, const Scenario* scenario) {
-  std::vector<SensorInUse> sensors{{"sensor.", source.sensor, p, {}}};
+  std::vector<SensorInUse> sensors{{"sensor.", source.sensor, p, {}, source.flash}};
   for (const FurtherSensor& further : source.further_sensors) {
-    sensors.push_back({"further_sensor." + further.name + ".", further.kind, further.parameters, {}});
+    sensors.push_back({"further_sensor." + further.name + ".", further.kind, further.parameters, {}, further.flash});
   }
   for (SensorInUse& sensor : sensors) {
     if (scenario != nullptr) sensor.ranges_m = ranges_in_use(*scenario, sensor.p, sensors.size() == 1);

@@ -33,6 +33,7 @@ struct SensorInUse {
   SensorKind kind = SensorKind::kLaserCamera;
   SensorParameters p{};
   std::vector<double> ranges_m;  // of the scenario's, those at which it takes scans
+  sim::FlashModel flash{};       // of a flash LIDAR
 };
 
 struct Subject {

@@ -1,9 +1,12 @@
 #include "mdat/missiondb/sections.hpp"
 
+#include <iterator>
+
 #include "cfg/capacities.hpp"
 #include "fsw/geometry/portable_math.hpp"
 #include "hal_sim/scanner_model.hpp"
 #include "mdat/missiondb/detector_reader.hpp"
+#include "mdat/missiondb/flash_rows.hpp"
 
 namespace lasso::mdat {
 namespace {
@@ -56,11 +59,24 @@ ValueRow kind_row() {
 }
 
 ValueRow sensor_row() {
-  ValueRow row = number_row("sensor.kind", "1", ValueKind::kChoice, 1, 0, 1, 0,
-                            "laser_camera triangulates; time_of_flight is a LIDAR: its presets of sensor.sigma0_m, sensor.sigma_k_per_m, "
-                            "sensor.range_min_m, sensor.range_max_m and beam_divergence_rad differ from those shown");
-  row.choices = {"laser_camera", "time_of_flight"};
+  ValueRow row =
+      number_row("sensor.kind", "1", ValueKind::kChoice, 1, 0, 2, 0,
+                 "laser_camera triangulates; time_of_flight is a LIDAR that scans; flash_lidar measures all its pixels at once. Of these "
+                 "two the presets of sensor.sigma0_m, sensor.sigma_k_per_m, sensor.sigma_angle_rad (flash_lidar), "
+                 "sensor.range_min_m, sensor.range_max_m and beam_divergence_rad differ from those shown");
+  row.choices = {std::begin(kSensorKindNames), std::end(kSensorKindNames)};
   return row;
+}
+
+// Of the flash LIDAR whose values are the presets: 128 x 128 pixels over 30 degrees, the sigma across a ray that of a place within a pixel.
+double preset_of_flash(const std::string& key, double preset) {
+  const sim::FlashModel flash;
+  if (key == "sensor.sigma0_m") return flash.stated_sigma0_m;
+  if (key == "sensor.sigma_k_per_m") return flash.stated_sigma_k_per_m;
+  if (key == "sensor.sigma_angle_rad") return 1.2e-3;
+  if (key == "sensor.range_min_m") return 1;
+  if (key == "sensor.range_max_m") return 60;
+  return preset;
 }
 
 using Q = PartSource;
@@ -149,6 +165,7 @@ std::vector<ValueRow> make_mission_rows() {
     calibration_row(),
   };
   // clang-format on
+  rows.insert(rows.end(), flash_rows().begin(), flash_rows().end());
   for (const DetectorField& field : detector_fields()) {
     rows.push_back(field.row);
     rows.back().key = "sensor." + field.row.key;
@@ -164,6 +181,7 @@ const std::vector<ValueRow>& mission_rows() {
 }
 
 double preset_of(SensorKind sensor, const std::string& key, double preset) {
+  if (sensor == SensorKind::kFlashLidar) return preset_of_flash(key, preset);
   if (sensor != SensorKind::kTimeOfFlight) return preset;
   const sim::ScannerModel lidar = sim::time_of_flight_lidar();
   if (key == "sensor.sigma0_m") return lidar.sigma0_m;

@@ -4,6 +4,7 @@
 #include "mdat/missiondb/beside.hpp"
 #include "mdat/missiondb/calibration_file.hpp"
 #include "mdat/missiondb/detector_reader.hpp"
+#include "mdat/missiondb/flash_rows.hpp"
 #include "mdat/missiondb/sections.hpp"
 
 namespace lasso::mdat {
@@ -32,6 +33,7 @@ void read_sensor(const std::string& name, const toml::table& table, MissionSourc
     const double number = value == found.end() ? preset_of(sensor.kind, row.key, row.preset) : value->second.numbers.at(0);
     sensor.parameters.*sensor_member(row) = number * row.to_si;
   }
+  sensor.flash = read_flash(found, "", sensor.kind, prefix, problems);
   sensor.calibration_files = texts_of(found, "calibration");
   sensor.detector = read_detector(found, "", prefix, problems);
   source.further_sensors.push_back(sensor);
@@ -59,6 +61,7 @@ const std::vector<ValueRow>& further_sensor_rows() {
     for (const ParameterRow& row : sensor_rows()) result.push_back(without_prefix(value_row(row)));
     result.push_back(without_prefix(*find_row(mission_rows(), "sensor.calibration")));
     for (const DetectorField& field : detector_fields()) result.push_back(field.row);
+    for (const ValueRow& row : flash_rows()) result.push_back(without_prefix(row));
     return result;
   }();
   return rows;

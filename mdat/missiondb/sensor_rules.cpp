@@ -12,6 +12,7 @@ namespace {
 constexpr double kLidarGrowth = 20;        // over that of the LIDAR whose values are the presets
 constexpr double kFinestClock_m = 5e-4;    // 3 ps
 constexpr double kNarrowBeams = 0.1;       // of the beam's growth, which says how uncertain the place of a contour is
+constexpr double kPlaceInPixel = 0.2;      // of a pixel's width
 constexpr double kFarNoise = 0.25;         // of the range
 constexpr double kAcrossShare = 0.03;      // the same across the ray
 constexpr double kLinearCommon = 3;        // of the noise: NEES of 7 to 13 of 6 there, 11 to 26 at ten times
@@ -106,6 +107,28 @@ std::string beam_fault(const Subject& s) {
   return "the beam of a LIDAR widens by " + figure(growth_rad) + " rad, " + figure(growth_rad * s.sensor->p.range_max_m) + " m at " +
          figure(s.sensor->p.range_max_m) + " m, and on which side of a contour a ray passed is as uncertain: expected about " +
          figure(0.4 * growth_rad) + ", or covariances are too small";
+}
+
+// A place within a pixel, one sigma: 0.29 of the pixel.
+std::string pixel_fault(const Subject& s) {
+  if (s.sensor->kind != SensorKind::kFlashLidar || s.p.silhouettes < 0.5) return "";
+  const double pixel_rad = 2 * std::tan(s.sensor->p.fov_half_x_rad) / s.sensor->flash.columns;
+  if (s.sensor->p.sigma_angle_rad >= kPlaceInPixel * pixel_rad) return "";
+  return "a pixel is " + figure(pixel_rad) + " rad wide, and on which side of a contour it looked is as uncertain: expected about " +
+         figure(0.29 * pixel_rad) + ", or covariances are too small";
+}
+
+std::string photons_fault(const Subject& s) {
+  if (s.sensor->kind != SensorKind::kFlashLidar || s.sensor->ranges_m.empty() || s.scenario->noise == 0) return "";
+  const double photons = s.sensor->flash.photons_at_10m * 100 / (farthest_m(s) * farthest_m(s));
+  if (photons >= 2 * s.sensor->flash.threshold) return "";
+  return "a surface seen straight on returns " + figure(photons) + " counts from " + figure(farthest_m(s)) + " m, and " +
+         std::to_string(s.sensor->flash.threshold) + " make a return: many pixels on the target see nothing";
+}
+
+std::string aimed_flash_fault(const Subject& s) {
+  if (s.sensor->kind != SensorKind::kFlashLidar || s.p.aimed_share == 0) return "";
+  return "has no effect in scans of a flash LIDAR, which cannot aim";
 }
 
 double noise_share(const Subject& s) {
@@ -221,6 +244,9 @@ const Rules& sensor_rules() {
     {kWarning, kSensor, kValues, {"sensor.sigma0_m", "sensor.kind"}, lidar_clock_fault},
     {kWarning, kSensor, kValues, {"sensor.sigma_k_per_m", "sensor.kind"}, camera_fault},
     {kWarning, kSensor, kValues, {"sensor.sigma_angle_rad", "sensor.kind"}, beam_fault},
+    {kWarning, kSensor, kValues, {"sensor.sigma_angle_rad", "sensor.flash_columns", "sensor.fov_half_x_deg"}, pixel_fault},
+    {kWarning, kSensor, kValues, {"sensor.flash_photons_at_10m", "sensor.flash_threshold", "ranges_m"}, photons_fault},
+    {kWarning, kSensor, kValues, {"scan.aimed_share", "sensor.kind"}, aimed_flash_fault},
     {kWarning, kSensor, kValues, {"sensor.sigma_k_per_m", "sensor.sigma0_m"}, fine_camera_fault},
     {kWarning, kSensor, kValues, {"sensor.range_max_m", "sensor.sigma_k_per_m"}, far_noise_fault},
     {kError, kSensor, kValues, {"sensor.common_memory_s", "scan.duration_s"}, common_memory_fault},

@@ -15,7 +15,8 @@ namespace lasso::mdat {
 
 // As --sensor names it.
 const char* wire_name(lcs::Device device);
-// Whether a mission's sensor of this kind is the head that is on a line: a laser camera, a LIDAR, or, as a TriDAR, any.
+// Whether a mission's sensor of this kind is the head that is on a line: a laser camera, a LIDAR, or, as a TriDAR, either;
+// a flash LIDAR is none of them.
 bool wired(lcs::Device device, SensorKind kind);
 
 // Refuses a line that cannot be opened, as far as can be told without opening it; an empty one is none. Throws InputError.

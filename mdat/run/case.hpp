@@ -45,6 +45,7 @@ struct CaseSetup {
   double camera_degC = 20;
   sim::LcsFaults camera_faults;  // of each that is; times since frame 0
   SensorKind sensor = SensorKind::kLaserCamera;
+  sim::FlashModel flash;     // kFlashLidar
   ByteLink* link = nullptr;  // an operator's; the run then keeps the clock's pace, and nobody else starts a track that is lost
   Authenticator* authenticator = nullptr;  // of the link's commands; null: they need none
   std::string store;  // folder of the board's store, whose image takes the place of `image` if there is one; empty: none

@@ -22,6 +22,8 @@ class RecordingSensor final : public Sensor {
   SensorPoll poll(TimeUs now_us, Span<RangeSample> out) override;
   void abort() override { sensor_.abort(); }
   SensorCounters counters() const override { return sensor_.counters(); }
+  bool can_aim() const override { return sensor_.can_aim(); }
+  std::uint16_t samples_of(const ScanPlan& plan) const override { return sensor_.samples_of(plan); }
   void permit_laser(bool permitted) override { sensor_.permit_laser(permitted); }
   void use_calibration(const TriangulationCalibration* calibration) override { sensor_.use_calibration(calibration); }
 

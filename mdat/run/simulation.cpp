@@ -81,7 +81,7 @@ void require_wired(const MissionSource& source, const SimulationOptions& options
   if (heads > 0) return;
   throw InputError("--sensor " + std::string(wire_name(*options.wire)) + ": none of the mission's sensors is a " +
                    (*options.wire == lcs::Device::kLidar ? "LIDAR (kind = \"time_of_flight\")" : "laser camera (kind = \"laser_camera\")") +
-                   "; tridar-wire takes any");
+                   "; tridar-wire takes either");
 }
 
 // One image for each set of parameters, and all cases in order.
@@ -181,6 +181,7 @@ Plan make_plan(const CompiledMission& mission, SimulationResult& result, const s
         plan.cases.back().target = &target;
         plan.cases.back().further_sensors = mission.source.further_sensors;
         plan.cases.back().sensor = mission.source.sensor;
+        plan.cases.back().flash = mission.source.flash;
         plan.cases.back().camera_faults = result.camera_faults;
       }
     }
@@ -229,7 +230,7 @@ void collect(std::vector<CaseResult> cases, SimulationResult& result) {
 }  // namespace
 
 std::vector<std::string> sensor_names(const MissionSource& source) {
-  std::vector<std::string> names{source.sensor == SensorKind::kTimeOfFlight ? "time_of_flight" : "laser_camera"};
+  std::vector<std::string> names{kind_name(source.sensor)};
   for (const FurtherSensor& sensor : source.further_sensors) names.push_back(sensor.name);
   return names;
 }
@@ -258,6 +259,7 @@ CaseSetup plain_case(const MissionSource& source, const Scenario& scenario, std:
   setup.parameters = table.variants.front().parameters;
   setup.further_sensors = source.further_sensors;
   setup.sensor = source.sensor;
+  setup.flash = source.flash;
   setup.calibrations = source.calibrations;
   return setup;
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <memory>
 
+#include "fsw/sense/pixel_selector.hpp"
 #include "ut/support/box_scene.hpp"
 #include "ut/support/verifies.hpp"
 
@@ -137,6 +138,54 @@ TEST_F(AcquisitionTaskTest, AimedRaysArePlannedAndScannedButNotInTheWholeField) 
   aim.full_field = true;
   task_->start(0, mission_, aim, 1, 200000, plan_);
   EXPECT_TRUE(plan_.aimed.empty());
+}
+
+// A sensor that measures all its pixels at once: a field of 64 x 64 pixels in which nothing returns.
+class EmptyField final : public PixelSensor {
+ public:
+  PixelPitch pitch() const override { return {0.008, 0.008}; }
+  Status start(const ScanPlan&, TimeUs t_start_us) override {
+    t_us_ = t_start_us;
+    next_ = 0;
+    return Status::kOk;
+  }
+  PixelPoll poll(TimeUs, Span<RangeSample> out) override {
+    PixelPoll result;
+    result.t_us = t_us_;
+    for (; result.count < out.size() && next_ < 4096; ++next_) {
+      const Vec3 ray = Vec3(0.008 * (next_ % 64 - 31.5), 0.008 * (next_ / 64 - 31.5), 1).normalized();
+      RangeSample& pixel = out[result.count++];
+      pixel = RangeSample{};
+      for (int axis = 0; axis < 3; ++axis) pixel.direction[axis] = static_cast<float>(ray[axis]);
+      pixel.state = RayState::kMiss;
+    }
+    result.complete = next_ == 4096;
+    return result;
+  }
+  void abort() override {}
+
+ private:
+  TimeUs t_us_ = 0;
+  int next_ = 0;
+};
+
+TEST_F(AcquisitionTaskTest, ASensorThatCannotAimGetsNoAimedRaysAndMaySeeAnEmptyFieldAgainAndAgain) {
+  VERIFIES("LASSO-SNS-050~1");
+  EmptyField pixels;
+  const auto selector = std::make_unique<PixelSelector>(pixels);
+  AcquisitionTask task(only(*selector));
+  AimedRays rays;
+  ASSERT_TRUE(rays.push_back({0.01F, 0.02F}));
+  for (std::uint32_t scan = 0; scan < 3; ++scan) {
+    const TimeUs t_us = scan * 200000;
+    task.start(0, mission_, {scene_.pose_at(0), 0, false, false, rays.span()}, scan, t_us, plan_);
+    EXPECT_TRUE(plan_.aimed.empty());
+    task.poll(t_us + 100000);
+    const ScanEnd end = task.finish(plan_);
+    EXPECT_TRUE(end.verdict.usable) << scan << ": every pixel is kept, and all of them are as before";
+    EXPECT_EQ(end.verdict.misses, end.verdict.count);
+    task.swap_images();
+  }
 }
 
 TEST_F(AcquisitionTaskTest, AsksTheSensorThatItIsTold) {

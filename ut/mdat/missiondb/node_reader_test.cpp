@@ -10,7 +10,7 @@
 namespace lasso::mdat {
 namespace {
 
-const std::string kMissionHead = "[mission]\nid = 7\nversion = 2\nname = 'test'\n[target]\nmodel = 'box.toml'\n";  // 6 lines
+const std::string kNodeMissionHead = "[mission]\nid = 7\nversion = 2\nname = 'test'\n[target]\nmodel = 'box.toml'\n";  // 6 lines
 const std::string kMotions =
     "[motion.spin]\nkind = 'rates'\nspin_degps = [0, 0, 2]\nposition_m = [0, 0, 0.5]\n"
     "[motion.way]\nkind = 'rates'\nposition_m = [0, 0, -5]\nvelocity_mps = [0, 0, 0.1]\n"
@@ -28,7 +28,7 @@ std::string all_of(const std::vector<std::string>& lines) {
 class NodeReaderTest : public ::testing::Test {
  protected:
   NodeReaderTest() { folder_.write("box.toml", "[[part]]\nkind = 'box'\nsize = [1, 1, 1]\n"); }
-  MissionSource load(const std::string& text) { return load_mission(folder_.write("m.toml", kMissionHead + text)); }
+  MissionSource load(const std::string& text) { return load_mission(folder_.write("m.toml", kNodeMissionHead + text)); }
   std::string problems(const std::string& text) {
     return mission_error_of([&] { static_cast<void>(load(text)); });
   }

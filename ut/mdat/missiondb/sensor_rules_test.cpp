@@ -36,6 +36,17 @@ TEST_F(SensorRules, TheNoiseIsThatOfItsKind) {
               "sensor.sigma_angle_rad: 0", "0.025 m at 100 m");
 }
 
+TEST_F(SensorRules, AFlashLidarHasPhotonsForTheRangeAndKnowsItsPixels) {
+  VERIFIES("LASSO-GND-009~1 LASSO-GND-060~1");
+  const std::string flash = "sensor.kind = 'flash_lidar'\n";
+  EXPECT_EQ(said(flash), "");
+  expect_edge(flash + "sensor.sigma_angle_rad = 8.4e-4", flash + "sensor.sigma_angle_rad = 8.3e-4", "sensor.sigma_angle_rad: 0.00083",
+              "a pixel is 0.00419 rad wide");
+  expect_edge(flash + "sensor.flash_photons_at_10m = 2.51", flash + "sensor.flash_photons_at_10m = 2.49",
+              "sensor.flash_photons_at_10m: a surface", "returns 9.96 counts from 5 m, and 5 make a return");
+  expect_said(said(flash + "scan.aimed_share = 0.3"), "warning: ", "which cannot aim");
+}
+
 TEST_F(SensorRules, TheNoiseLeavesTheTargetItsShape) {
   VERIFIES("LASSO-GND-009~1 LASSO-GND-060~1");
   expect_edge("sensor.sigma0_m = 0.083", "sensor.sigma0_m = 0.41",
