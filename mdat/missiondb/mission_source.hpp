@@ -14,6 +14,7 @@
 #include "mdat/missiondb/campaign_source.hpp"
 #include "mdat/missiondb/material_source.hpp"
 #include "mdat/missiondb/scene_source.hpp"
+#include "mdat/missiondb/stereo_source.hpp"
 #include "mdat/modelc/mesh.hpp"
 #include "mdat/source/mission_error.hpp"
 
@@ -143,6 +144,7 @@ struct MissionSource {
   MissionParameters parameters{};
   SceneSource scene;
   std::vector<MaterialSource> materials;  // of pictures
+  StereoSource stereo;
   std::map<std::string, Scenario> scenarios;
   std::map<std::string, CampaignSource> campaigns;
   std::map<std::string, Origin> origins;  // by dotted key, all rows of parameter_rows() and of the ground sections

@@ -9,13 +9,13 @@ namespace {
 constexpr double kFirst_s = 1e-3;
 constexpr double kSettled = 0.01;  // relative change
 constexpr int kMostFrames = 16;
-constexpr double kLitSigmas = 6;
+constexpr double kLitSigmas = 6, kLitShare = 0.005;
 
 }  // namespace
 
 double next_exposure_s(const RawFrame& frame, const Imager& imager) {
   const int greatest = greatest_number(imager);
-  const double least = kLitSigmas * imager.read_noise_e * greatest / imager.full_well_e;
+  const double least = std::max(kLitShare, kLitSigmas * imager.read_noise_e / imager.full_well_e) * greatest;
   std::vector<std::size_t> counts(static_cast<std::size_t>(greatest) + 1, 0);
   std::size_t lit = 0;
   for (const std::uint16_t number : frame.numbers) {
