@@ -103,9 +103,7 @@ cv::Mat picture_of(const std::filesystem::path& file, const PairCamera& camera, 
                            ": give the picture as the camera took it, or the calibration of this size");
 }
 
-}  // namespace
-
-DisparityMap matched(const RectifiedPair& pictures, const Rectification& cameras, const PairCodes& codes, const DepthWindow& window) {
+DisparityMap empty_map_of(const RectifiedPair& pictures, const Rectification& cameras) {
   DisparityMap map;
   map.focal_px = cameras.focal_px;
   map.center_x_px = cameras.center_x_px;
@@ -113,23 +111,38 @@ DisparityMap matched(const RectifiedPair& pictures, const Rectification& cameras
   map.baseline_m = cameras.baseline_m;
   map.q_left_rectified = cameras.q_left_rectified;
   map.codes = {pictures.left.cols, pictures.left.rows, std::vector<std::uint16_t>(pictures.left.total(), 0)};
+  return map;
+}
+
+// Masks, by which a pixel is left out or not.
+struct Reasons {
+  cv::Mat lit, glint, textured;
+
+  // Where a pixel with this disparity (0: none) is counted.
+  std::size_t& count_of(MatchCounts& counts, std::uint16_t code, int row, int column) const {
+    if (lit.at<std::uint8_t>(row, column) == 0) return counts.dark;
+    if (glint.at<std::uint8_t>(row, column) != 0) return counts.glint;
+    if (textured.at<std::uint8_t>(row, column) == 0) return counts.flat;
+    return code == 0 ? counts.ambiguous : counts.matched;
+  }
+};
+
+}  // namespace
+
+DisparityMap matched(const RectifiedPair& pictures, const Rectification& cameras, const PairCodes& codes, const DepthWindow& window) {
+  DisparityMap map = empty_map_of(pictures, cameras);
   const cv::Mat lit = lit_mask(pictures.left, codes) & pictures.left_seen;
   if (cv::countNonZero(lit) == 0) {
     map.counts.dark = pictures.left.total();
     return map;
   }
   const DisparityWindow disparities = disparity_window(cameras, window);
-  const cv::Mat glint = glint_mask(pictures.left, codes);
-  const cv::Mat textured = predicted_sigma_px(pictures.left, codes) < kWorstSigma_px;
+  const Reasons reasons{lit, glint_mask(pictures.left, codes), predicted_sigma_px(pictures.left, codes) < kWorstSigma_px};
   const cv::Mat disparity = checked_disparity(pictures, cut_about(lit, disparities), disparities);
   for (int row = 0; row < lit.rows; ++row) {
     for (int column = 0; column < lit.cols; ++column) {
       const std::uint16_t code = disparity.at<std::uint16_t>(row, column);
-      std::size_t& count = lit.at<std::uint8_t>(row, column) == 0        ? map.counts.dark
-                           : glint.at<std::uint8_t>(row, column) != 0    ? map.counts.glint
-                           : textured.at<std::uint8_t>(row, column) == 0 ? map.counts.flat
-                           : code == 0                                   ? map.counts.ambiguous
-                                                                         : map.counts.matched;
+      std::size_t& count = reasons.count_of(map.counts, code, row, column);
       ++count;
       if (&count == &map.counts.matched) map.codes.codes[map.index(column, row)] = code;
     }

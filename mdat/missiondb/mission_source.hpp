@@ -55,7 +55,7 @@ struct PartSource {
 };
 
 // How the sensor measures a range. Its presets in [sensor] and of its beam come from the kind (hal_sim/scanner_model.hpp).
-enum class SensorKind : std::uint8_t { kLaserCamera = 0, kTimeOfFlight = 1 };
+enum class SensorKind : std::uint8_t { kLaserCamera = 0, kTimeOfFlight = 1, kStereo = 2 };
 
 // A sensor besides [sensor]. The simulated one is as the mission says, with its kind's beam; what a scenario says of dropouts, outliers,
 // grazing rays and edges holds for it, too.

@@ -3,6 +3,7 @@
 #include "cfg/capacities.hpp"
 #include "fsw/geometry/portable_math.hpp"
 #include "hal_sim/scanner_model.hpp"
+#include "mdat/missiondb/stereo_presets.hpp"
 
 namespace lasso::mdat {
 namespace {
@@ -55,10 +56,11 @@ ValueRow kind_row() {
 }
 
 ValueRow sensor_row() {
-  ValueRow row = number_row("sensor.kind", "1", ValueKind::kChoice, 1, 0, 1, 0,
+  ValueRow row = number_row("sensor.kind", "1", ValueKind::kChoice, 1, 0, 2, 0,
                             "laser_camera triangulates; time_of_flight is a LIDAR: its presets of sensor.sigma0_m, sensor.sigma_k_per_m, "
-                            "sensor.range_min_m, sensor.range_max_m and beam_divergence_rad differ from those shown");
-  row.choices = {"laser_camera", "time_of_flight"};
+                            "sensor.range_min_m, sensor.range_max_m and beam_divergence_rad differ from those shown; stereo is two cameras "
+                            "([stereo], docs/stereo.md), with presets of its own too");
+  row.choices = {"laser_camera", "time_of_flight", "stereo"};
   return row;
 }
 
@@ -154,6 +156,7 @@ const std::vector<ValueRow>& mission_rows() {
 }
 
 double preset_of(SensorKind sensor, const std::string& key, double preset) {
+  if (sensor == SensorKind::kStereo) return stereo_preset(key, preset);
   if (sensor != SensorKind::kTimeOfFlight) return preset;
   const sim::ScannerModel lidar = sim::time_of_flight_lidar();
   if (key == "sensor.sigma0_m") return lidar.sigma0_m;

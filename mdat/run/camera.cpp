@@ -129,6 +129,7 @@ const char* wire_name(lcs::Device device) {
 }
 
 bool wired(lcs::Device device, SensorKind kind) {
+  if (kind == SensorKind::kStereo) return false;  // has no line
   return device == lcs::Device::kTridar || (device == lcs::Device::kLidar) == (kind == SensorKind::kTimeOfFlight);
 }
 

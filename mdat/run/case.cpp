@@ -27,14 +27,25 @@ constexpr std::uint32_t kPipelineFrames = 2;  // scan k is reported at boundary 
 
 Pose to_pose(const double (&q)[4], const double (&p_m)[3]) { return {Quat(q[3], q[0], q[1], q[2]), Vec3(p_m[0], p_m[1], p_m[2])}; }
 
+bool has_stereo(const CaseSetup& setup, SensorKind kind) { return kind == SensorKind::kStereo && setup.noise && !setup.replay; }
+
+std::unique_ptr<MadeSensor> stereo_of(const CaseSetup& setup, std::uint64_t seed, SensorKind kind) {
+  if (!has_stereo(setup, kind)) return nullptr;
+  if (!setup.make_stereo)
+    throw RunError("stereo: only mdat run flies stereo cameras: their pictures take seconds a frame; set sensor.kind to another sensor");
+  return setup.make_stereo(setup, seed);
+}
+
 // The sensor of that number, which remembers its scans: simulated, at the end of a line, or out of a recording.
 struct Scanner {
   Scanner(const CaseSetup& setup, const sim::Trajectory& trajectory, const sim::ScannerModel& model, std::uint64_t seed, SensorKind kind,
           std::uint8_t number)
       : ideal(*setup.target, trajectory, model, seed, setup.others),
-        head(setup.noise ? std::make_unique<sim::LcsDirect>(*setup.target, trajectory, model, seed, head_for(setup, model, kind, number),
-                                                            setup.others)
-                         : nullptr),
+        stereo(stereo_of(setup, seed, kind)),
+        head(setup.noise && kind != SensorKind::kStereo
+                 ? std::make_unique<sim::LcsDirect>(*setup.target, trajectory, model, seed, head_for(setup, model, kind, number),
+                                                    setup.others)
+                 : nullptr),
         camera(setup.wire && setup.camera_line.empty() && wired(*setup.wire, kind)
                    ? std::make_unique<CameraOnLine>(setup, trajectory, model, seed, number)
                    : nullptr),
@@ -49,11 +60,13 @@ struct Scanner {
     if (replay) return *replay;
     if (live) return live->driver;
     if (camera) return camera->line;
+    if (stereo) return stereo->sensor();
     if (head) return *head;
     return ideal;
   }
 
   sim::SimulatedScanner ideal;
+  std::unique_ptr<MadeSensor> stereo;
   std::unique_ptr<sim::LcsDirect> head;  // noise ends with the counts of mirrors and detector
   std::unique_ptr<CameraOnLine> camera;
   std::unique_ptr<LiveCamera> live;
@@ -131,6 +144,7 @@ class Case {
     std::size_t flown = 0;
     for (std::uint32_t frame = 0; frame < setup_.frames + kPipelineFrames && !interrupted(); ++frame) {
       const posix::FrameRecord record = runner_->run_frame();
+      check_sensors();
       result_.telemetry.insert(result_.telemetry.end(), record.telemetry.begin(), record.telemetry.end());
       read_packets(record);
       if (is_approach()) navigation_.offer(record.boundary_us, *component_);
@@ -146,6 +160,13 @@ class Case {
       result_.frames.erase(result_.frames.begin(), result_.frames.begin() + found);
     }
     return std::move(result_);
+  }
+
+  void check_sensors() const {
+    for (const auto& scanner : scanners_) {
+      const std::string failure = scanner->stereo ? scanner->stereo->failure() : "";
+      if (!failure.empty()) throw RunError(failure);
+    }
   }
 
   // A camera of its own has its own clock; an operator has patience.

@@ -41,6 +41,7 @@ void set_camera(const CompiledMission& mission, const SimulationOptions& options
   setup.replay = options.replay;
   setup.record = options.record;
   setup.camera_optics = options.camera_optics;
+  setup.make_stereo = options.make_stereo;
   setup.camera_degC = options.camera_degC;
 }
 
@@ -272,7 +273,8 @@ void collect(std::vector<CaseResult> cases, SimulationResult& result) {
 }  // namespace
 
 std::vector<std::string> sensor_names(const MissionSource& source) {
-  std::vector<std::string> names{source.sensor == SensorKind::kTimeOfFlight ? "time_of_flight" : "laser_camera"};
+  constexpr const char* kKinds[] = {"laser_camera", "time_of_flight", "stereo"};
+  std::vector<std::string> names{kKinds[static_cast<std::size_t>(source.sensor)]};
   for (const FurtherSensor& sensor : source.further_sensors) names.push_back(sensor.name);
   return names;
 }
