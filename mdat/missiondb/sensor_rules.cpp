@@ -99,7 +99,7 @@ std::string stereo_noise_fault(const Subject& s) {
   if (p.sigma_k_per_m < kStereoNoise * expected && expected < kStereoNoise * p.sigma_k_per_m) return "";
   return "two cameras with " + number_text(s.source.stereo.pixels) + " pixels over " +
          degrees_text(2 * std::max(p.fov_half_x_rad, p.fov_half_y_rad)) + ", " + figure(s.source.stereo.baseline_m) +
-         " m apart, make 0.38 pixels of disparity " + figure(expected) +
+         " m apart, make 0.5 pixels of disparity " + figure(expected) +
          ": expected about that, and sensor.common_sigma_k_per_m in proportion";
 }
 

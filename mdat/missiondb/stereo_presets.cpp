@@ -11,7 +11,7 @@ constexpr double kPixelM =
     1406.7 * 0.3;  // focal length, pixels, times baseline: a depth z is off by z^2 / kPixelM for each pixel of disparity
 // Larger than what a disparity spreads, 0.2 to 0.25: errors of neighbours go together, and a picture is worth far fewer independent ranges
 // than a scan has rays.
-constexpr double kNoise_px = 0.38, kCommon_px = 0.13;
+constexpr double kNoise_px = 0.5, kCommon_px = 0.13;
 
 }  // namespace
 
@@ -22,7 +22,7 @@ double stereo_preset(const std::string& key, double preset) {
       {"sensor.fov_half_y_deg", 20},
       {"sensor.range_min_m", 0.9},  // three baselines
       {"sensor.common_sigma_k_per_m", kCommon_px / kPixelM},
-      {"sensor.common_sigma_deg", 0.02},
+      {"sensor.common_sigma_deg", 0.04},
       {"estimation.kernel_width", 4},     // wrong matches are many, and near
       {"estimation.noise_estimated", 0},  // residuals do not show what neighbours have in common
       {"tracking.agreement_min", 0.9},    // surfaces are spread beyond their edges

@@ -11,7 +11,7 @@ namespace lasso::mdat {
 // pixels over 40 deg, 0.3 m): docs/experiments/2026-11-28-stereo.md.
 double stereo_preset(const std::string& key, double preset);
 
-// sensor.sigma_k_per_m of a head whose pixels lie over this half field of view: that of 0.38 pixels of disparity, 0.38 / (f b).
+// sensor.sigma_k_per_m of a head whose pixels lie over this half field of view: that of half a pixel of disparity, 0.5 / (f b).
 double stereo_noise_per_m(const StereoSource& head, double fov_half_rad);
 
 }  // namespace lasso::mdat

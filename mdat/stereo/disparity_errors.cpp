@@ -17,6 +17,11 @@ double median(std::vector<double> values) {
 
 double share_of(std::size_t part, std::size_t whole) { return whole == 0 ? 0 : static_cast<double>(part) / static_cast<double>(whole); }
 
+double wrong_share(const std::vector<double>& errors_px) {
+  const auto wrong = std::count_if(errors_px.begin(), errors_px.end(), [](double error_px) { return std::fabs(error_px) > kWrong_px; });
+  return share_of(static_cast<std::size_t>(wrong), errors_px.size());
+}
+
 // Least and greatest disparity in the band about each pixel, along one axis and then the other.
 struct Extremes {
   std::vector<double> low, high;
@@ -70,24 +75,18 @@ std::vector<double> true_disparities(const DisparityMap& map, const ModelSurface
 DisparityErrors disparity_errors(const DisparityMap& map, const std::vector<double>& truth_px) {
   const std::vector<bool> edges = edges_of(truth_px, map.codes.width, map.codes.height);
   DisparityErrors errors;
-  std::size_t on_target = 0, at_edge = 0, wrong_inside = 0, wrong_at_edge = 0;
-  std::vector<double> inside;
+  std::vector<double> inside, at_edge;
   for (std::size_t i = 0; i < truth_px.size(); ++i) {
     const bool is_valid = map.codes.codes[i] > 0, is_target = truth_px[i] > 0;
-    errors.target += is_target ? 1 : 0;
-    errors.valid += is_valid ? 1 : 0;
-    if (!is_valid || !is_target) continue;
-    ++on_target;
-    const double error_px = map.disparity_px(i) - truth_px[i];
-    const bool is_wrong = std::fabs(error_px) > kWrong_px;
-    if (!edges[i]) inside.push_back(error_px);
-    if (edges[i]) ++at_edge;
-    (edges[i] ? wrong_at_edge : wrong_inside) += is_wrong ? 1 : 0;
+    if (is_target) ++errors.target;
+    if (is_valid) ++errors.valid;
+    if (is_valid && is_target) (edges[i] ? at_edge : inside).push_back(map.disparity_px(i) - truth_px[i]);
   }
+  const std::size_t on_target = inside.size() + at_edge.size();
   errors.valid_share = share_of(on_target, errors.target);
   errors.sky_share = share_of(errors.valid - on_target, errors.valid);
-  errors.wrong_interior = share_of(wrong_inside, inside.size());
-  errors.wrong_edge = share_of(wrong_at_edge, at_edge);
+  errors.wrong_interior = wrong_share(inside);
+  errors.wrong_edge = wrong_share(at_edge);
   errors.bias_px = median(inside);
   for (double& error_px : inside) error_px = std::fabs(error_px - errors.bias_px);
   errors.sigma_px = 1.4826 * median(inside);

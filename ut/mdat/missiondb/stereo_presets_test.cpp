@@ -23,14 +23,14 @@ class StereoPresetsTest : public ::testing::Test {
   Folder folder_;
 };
 
-// 512 pixels on either side of the axis within 20 deg: f = 1407 pixels, and 0.38 of them at a baseline of 0.3 m.
+// 512 pixels on either side of the axis within 20 deg: f = 1407 pixels, and 0.5 of them at a baseline of 0.3 m.
 TEST_F(StereoPresetsTest, AreThoseOfTheHeadThatIsThePreset) {
   VERIFIES("LASSO-STE-012~1");
   const MissionSource source = load("");
   EXPECT_EQ(source.sensor, SensorKind::kStereo);
   const MissionParameters& p = source.parameters;
   EXPECT_NEAR(p.fov_half_x_rad, 20 * kRadPerDeg, 1e-12);
-  EXPECT_NEAR(p.sigma_k_per_m, 0.38 / (512 / std::tan(20 * kRadPerDeg) * 0.3), 1e-7);
+  EXPECT_NEAR(p.sigma_k_per_m, 0.5 / (512 / std::tan(20 * kRadPerDeg) * 0.3), 1e-7);
   EXPECT_NEAR(stereo_noise_per_m(source.stereo, p.fov_half_x_rad), p.sigma_k_per_m, 1e-7);
   EXPECT_EQ(p.silhouettes, 0);
   EXPECT_EQ(p.deskew, 0);
@@ -50,7 +50,7 @@ TEST_F(StereoPresetsTest, WhatIsWrittenHolds) {
 TEST_F(StereoPresetsTest, AnotherHeadWithTheSameNoiseIsDoubtful) {
   VERIFIES("LASSO-STE-012~1");
   EXPECT_EQ(warnings("").find("pixels of disparity"), std::string::npos) << warnings("");
-  EXPECT_NE(warnings("[stereo]\nbaseline_m = 0.1\n").find("0.1 m apart, make 0.38 pixels of disparity 0.0027"), std::string::npos)
+  EXPECT_NE(warnings("[stereo]\nbaseline_m = 0.1\n").find("0.1 m apart, make 0.5 pixels of disparity 0.00355"), std::string::npos)
       << warnings("[stereo]\nbaseline_m = 0.1\n");
 }
 
