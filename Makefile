@@ -95,7 +95,7 @@ run: ## first: track the tenth-scale Hubble in simulation, and write the report 
 
 GALLERY ?= $(LASSO_OUT)/gallery
 gallery: ## measure: fly every shipped scenario and write a page of them all, out/gallery/index.html: FRAMES=
-	$(call packages,build)
+	$(call packages,build stereo)
 	$(call configure,$(BUILD),)
 	$(call compile,$(BUILD),mdat)
 	@for mission in cfg/missions/*.toml; do for scenario in $$(sed -n 's/^\[scenario\.\(.*\)\]/\1/p' $$mission); do \

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "ft/mdat/command.hpp"
@@ -87,6 +88,23 @@ TEST(Stereo, RefusesWhatDoesNotFit) {
                 .find("--nearest 3 --farthest 2"),
             std::string::npos);
   EXPECT_FALSE(std::filesystem::exists(work / "c"));
+}
+
+// The head is a sensor of the mission: each frame has returns of a pair, and the same run gives the same frames.
+TEST(Stereo, DrivesTheTrackerOfARun) {
+  VERIFIES("LASSO-STE-012~1 LASSO-STE-002~1");
+  const WorkFolder work;
+  work.write("missions/stereo.toml", read_text(source_path("cfg/missions/hubble_stereo.toml")));
+  const std::string run = "run missions/stereo.toml --scenario spin --frames 3 --no-report --set stereo.pixels=240 --set stereo.samples=1 ";
+  for (const char* out : {"a", "b"}) {
+    const Answer answer = work.mdat(run + "--out " + out);
+    ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  }
+  EXPECT_EQ(work.read("a/telemetry.ccsds"), work.read("b/telemetry.ccsds"));
+  const std::vector<std::string> lines = lines_of(work.read("a/frames.csv")), names = fields_of(lines.at(0));
+  const auto returns = static_cast<std::size_t>(std::find(names.begin(), names.end(), "returns") - names.begin());
+  ASSERT_EQ(lines.size(), 4U);
+  for (std::size_t i = 1; i < lines.size(); ++i) EXPECT_GT(std::stoi(fields_of(lines[i]).at(returns)), 100) << lines[i];
 }
 
 // mdat by itself, as it is where OpenCV was not there when it was built.

@@ -11,12 +11,12 @@
 namespace lasso::mdat {
 namespace {
 
-const Vec3 kTiltedNormal = Vec3(0.25, -0.2, 1).normalized();
+Vec3 tilted_normal() { return Vec3(0.25, -0.2, 1).normalized(); }
 constexpr double kPlane_m = 2.1, kHalf_m = 0.45;
 
 DisparityMap map_of(const StereoPair& pair, const StereoPair& stated) {
-  const cv::Mat left = picture_of_plane(pair.left, {}, kTiltedNormal, kPlane_m, kHalf_m);
-  const cv::Mat right = picture_of_plane(pair.right, pair.T_left_right, kTiltedNormal, kPlane_m, kHalf_m);
+  const cv::Mat left = picture_of_plane(pair.left, {}, tilted_normal(), kPlane_m, kHalf_m);
+  const cv::Mat right = picture_of_plane(pair.right, pair.T_left_right, tilted_normal(), kPlane_m, kHalf_m);
   const Rectification ideal = rectification_of(stated);
   return matched(rectified(left, right, stated, ideal), ideal, stated.codes, {1.5, 4});
 }
@@ -28,7 +28,7 @@ std::vector<double> errors_px(const DisparityMap& map) {
     for (int column = 0; column < map.codes.width; ++column) {
       if (map.codes.codes[map.index(column, row)] == 0) continue;
       const Vec3 point = map.point_m(column, row), ray = point.normalized();
-      const double true_m = kPlane_m / kTiltedNormal.dot(ray), depth_m = point.z();
+      const double true_m = kPlane_m / tilted_normal().dot(ray), depth_m = point.z();
       errors.push_back((true_m - point.norm()) / true_m * map.focal_px * map.baseline_m / depth_m);
     }
   }
@@ -40,7 +40,7 @@ TEST(Matching, ATiltedPlaneIsMeasuredToAFractionOfAPixel) {
   VERIFIES("LASSO-STE-004~1");
   const DisparityMap map = map_of(ideal_pair(), ideal_pair());
   const std::vector<double> errors = errors_px(map);
-  const int shown = cv::countNonZero(picture_of_plane(ideal_pair().left, {}, kTiltedNormal, kPlane_m, kHalf_m));
+  const int shown = cv::countNonZero(picture_of_plane(ideal_pair().left, {}, tilted_normal(), kPlane_m, kHalf_m));
   ASSERT_GT(static_cast<double>(errors.size()), 0.75 * shown);
   EXPECT_EQ(errors.size(), map.counts.matched);
   EXPECT_EQ(map.counts.matched + map.counts.ambiguous + map.counts.flat + map.counts.dark, 320U * 240U);
@@ -53,7 +53,7 @@ TEST(Matching, SkyStaysEmpty) {
   VERIFIES("LASSO-STE-006~1");
   const DisparityMap map = map_of(ideal_pair(), ideal_pair());
   std::size_t on_sky = 0;
-  const cv::Mat left = picture_of_plane(ideal_pair().left, {}, kTiltedNormal, kPlane_m, kHalf_m);
+  const cv::Mat left = picture_of_plane(ideal_pair().left, {}, tilted_normal(), kPlane_m, kHalf_m);
   for (int row = 0; row < 240; ++row) {
     for (int column = 0; column < 320; ++column)
       on_sky += map.codes.codes[map.index(column, row)] > 0 && left.at<std::uint8_t>(row, column) == 0 ? 1U : 0U;
@@ -94,8 +94,8 @@ TEST(Matching, DarkPicturesHaveNoDisparity) {
 }
 
 MatchInput files_of(const Scratch& scratch, const StereoPair& pair, int width) {
-  const cv::Mat left = picture_of_plane(pair.left, {}, kTiltedNormal, kPlane_m, kHalf_m)(cv::Range::all(), cv::Range(0, width)).clone();
-  const cv::Mat right = picture_of_plane(pair.right, pair.T_left_right, kTiltedNormal, kPlane_m, kHalf_m);
+  const cv::Mat left = picture_of_plane(pair.left, {}, tilted_normal(), kPlane_m, kHalf_m)(cv::Range::all(), cv::Range(0, width)).clone();
+  const cv::Mat right = picture_of_plane(pair.right, pair.T_left_right, tilted_normal(), kPlane_m, kHalf_m);
   const auto png = [](const cv::Mat& picture) {
     return grey_png(GreyPicture<std::uint8_t>{picture.cols, picture.rows, {picture.begin<std::uint8_t>(), picture.end<std::uint8_t>()}});
   };
