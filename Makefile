@@ -95,7 +95,7 @@ run: ## first: track the tenth-scale Hubble in simulation, and write the report 
 
 GALLERY ?= $(LASSO_OUT)/gallery
 gallery: ## measure: fly every shipped scenario and write a page of them all, out/gallery/index.html: FRAMES=
-	$(call packages,build)
+	$(call packages,build stereo)
 	$(call configure,$(BUILD),)
 	$(call compile,$(BUILD),mdat)
 	@for mission in cfg/missions/*.toml; do for scenario in $$(sed -n 's/^\[scenario\.\(.*\)\]/\1/p' $$mission); do \
@@ -105,10 +105,16 @@ gallery: ## measure: fly every shipped scenario and write a page of them all, ou
 
 test: ## first: build and pass all unit and functional tests of the host; MESHES=all: missions of all kinds of meshes
 	$(begin)
-	$(call packages,build test)
+	$(call packages,build test stereo)
 	$(call configure,$(BUILD),)
 	$(call compile,$(BUILD))
 	@cfg/quality/run-tests test g++=$(BUILD)
+
+stereo: ## measure: render and match a stereo pair of the tenth-scale Hubble, out/stereo/disparity.png; installs OpenCV, which mdat stereo needs: MISSION= SCENARIO=
+	$(call packages,build stereo)
+	$(call configure,$(BUILD),)
+	$(call compile,$(BUILD),mdat)
+	@$(BUILD)/mdat/mdat stereo "$(MISSION)" $(if $(SCENARIO),--scenario $(SCENARIO)) --force --out $(LASSO_OUT)/stereo
 
 accuracy: ## measure: errors of eight simulated scenarios against the limits of their requirements
 	$(begin)
@@ -423,7 +429,7 @@ endef
 sanitize mcdc: export UBSAN_OPTIONS := print_stacktrace=1
 sanitize: ## gate: all tests in fixed point under the address and undefined sanitizers; threads under their own
 	$(begin)
-	$(call packages,build clang test)
+	$(call packages,build clang test stereo)
 	$(call configure,$(SANITIZE)-address,$(call sanitized,address$(comma)undefined) $(FIXED))
 	$(call compile,$(SANITIZE)-address)
 	$(call configure,$(SANITIZE)-thread,$(call sanitized,thread) -DLASSO_GROUND=OFF)
@@ -521,7 +527,7 @@ format: ## write: format all tracked sources
 
 lint: ## gate: clang-format, clang-tidy and cppcheck find nothing: LINT=all reads all again
 	$(begin)
-	$(call packages,build clang lint target target-arm)
+	$(call packages,build clang lint target target-arm stereo)
 	$(call configure,$(LINT),-DCMAKE_CXX_COMPILER=clang++-19 $(own_includes))
 	$(call configure,$(LINT)-board,$(BARE_BOARD) -DLASSO_LINT=ON $(own_includes))
 	$(call configure,$(LINT)-second,$(SECOND_BOARD) -DLASSO_LINT=ON $(own_includes))

@@ -59,6 +59,7 @@ int run(int argc, char** argv) {
   add_gallery_command(app);
   add_paper_command(app);
   add_render_command(app);
+  add_stereo_command(app);
   add_modes_command(app);
   add_faults_command(app);
   add_decode_command(app);

@@ -20,6 +20,7 @@
 #include "mdat/run/relative_table.hpp"
 #include "mdat/run/results.hpp"
 #include "mdat/run/simulation.hpp"
+#include "mdat/stereo/stereo_sensor.hpp"
 
 namespace lasso::mdat {
 namespace {
@@ -139,6 +140,14 @@ std::unique_ptr<FrameRecorder> open_recorder(const RunArguments& options, const 
   return std::make_unique<FrameRecorder>(options.record, mission, head, options.simulation.record);
 }
 
+// Pictures of one case take all cores; those of several cases one each.
+MakeStereo stereo_for(const MissionInput& mission, const SimulationOptions& simulation) {
+  if (!has_stereo_head(mission.source)) return {};
+  const Scenario& scenario = scenario_of(mission.source, simulation.scenario);
+  const unsigned jobs = scenario.runs_m().size() == 1 ? std::max(1U, std::thread::hardware_concurrency()) : 1U;
+  return stereo_maker(mission, simulation.seed.value_or(static_cast<std::uint64_t>(scenario.seed)), jobs);
+}
+
 void run(const RunArguments& options) {
   OutputFolder folder(options.out);
   check_earlier(options);
@@ -156,6 +165,7 @@ void run(const RunArguments& options) {
     std::fprintf(stderr, "warning: %s\n", warning.c_str());
   SimulationOptions simulation = options.simulation;
   if (link) tell_address(*link);
+  simulation.make_stereo = stereo_for(mission, simulation);
   simulation.link = link.get();
   simulation.authenticator = signatures.get();
   const std::unique_ptr<FrameRecorder> recorder = open_recorder(options, mission);
@@ -180,7 +190,10 @@ void record(const RunArguments& options) {
     throw InputError(options.record + ": is not empty; --force records into it, and removes the scans that are there");
   MissionInput input = load_input(options);
   check_simulation(input.source, options.simulation, false);
-  write_recording(compile_mission(std::move(input), ModelCache::of_user_if(options.cached)), options.simulation, options.record);
+  const CompiledMission mission = compile_mission(std::move(input), ModelCache::of_user_if(options.cached));
+  SimulationOptions simulation = options.simulation;
+  simulation.make_stereo = stereo_for(mission, simulation);
+  write_recording(mission, simulation, options.record);
   writable.commit();
   std::printf("written to %s: for each range scans/, poses.csv (of the frame before) and truth.csv\n", options.record.c_str());
 }

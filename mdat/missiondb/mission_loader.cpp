@@ -16,6 +16,7 @@
 #include "mdat/missiondb/sections.hpp"
 #include "mdat/missiondb/sensor_reader.hpp"
 #include "mdat/missiondb/settings.hpp"
+#include "mdat/missiondb/stereo_reader.hpp"
 #include "mdat/missiondb/toml_reader.hpp"
 #include "mdat/modelc/cut.hpp"
 #include "mdat/source/nearest.hpp"
@@ -74,15 +75,16 @@ class Loader {
   void read_values() {
     std::vector<ValueRow> rows = mission_rows();
     rows.insert(rows.end(), flight_rows().begin(), flight_rows().end());
-    found_ = read_table(
-        root_, "", rows,
-        {"campaign", "further_sensor", "material", "motion", "node", "orbit", "part", "relative", "scenario", "target.parameters"},
-        problems_);
+    found_ = read_table(root_, "", rows,
+                        {"campaign", "further_sensor", "material", "motion", "node", "orbit", "part", "relative", "scenario", "stereo",
+                         "target.parameters"},
+                        problems_);
     for (const ValueRow& row : rows) note_origin(row.key, found_, row.key);
     read_motions(root_, source_, problems_);
     read_nodes(root_, source_, problems_);
     read_relative(root_, source_, problems_);
     read_materials(root_, source_, problems_);
+    read_stereo(root_, source_, problems_);
     read_scenario_values();
     read_further_sensors(root_, source_, problems_);
     read_parts(root_, source_, problems_);

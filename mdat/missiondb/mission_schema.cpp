@@ -7,6 +7,7 @@
 #include "mdat/missiondb/schema_parts.hpp"
 #include "mdat/missiondb/sections.hpp"
 #include "mdat/missiondb/sensor_reader.hpp"
+#include "mdat/missiondb/stereo_reader.hpp"
 
 namespace lasso::mdat {
 namespace {
@@ -57,6 +58,9 @@ void add_scene(Json& schema) {
   schema["properties"]["material"] = {{"type", "object"}, {"additionalProperties", material}};
   Json relative = closed_object();
   add_rows(relative, relative_rows(), true);
+  Json stereo = closed_object();
+  add_rows(stereo, stereo_rows(), true);
+  schema["properties"]["stereo"] = stereo;
   schema["properties"]["relative"] = {{"type", "object"}, {"additionalProperties", relative}};
   schema["properties"]["node"] = {{"type", "object"}, {"additionalProperties", node}};
 }

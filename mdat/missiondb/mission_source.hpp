@@ -17,6 +17,7 @@
 #include "mdat/missiondb/campaign_source.hpp"
 #include "mdat/missiondb/material_source.hpp"
 #include "mdat/missiondb/scene_source.hpp"
+#include "mdat/missiondb/stereo_source.hpp"
 #include "mdat/modelc/mesh.hpp"
 #include "mdat/source/mission_error.hpp"
 
@@ -57,8 +58,8 @@ struct PartSource {
 };
 
 // How the sensor measures a range. Its presets in [sensor] and of its beam come from the kind (hal_sim/scanner_model.hpp).
-enum class SensorKind : std::uint8_t { kLaserCamera = 0, kTimeOfFlight = 1, kFlashLidar = 2 };
-constexpr const char* kSensorKindNames[] = {"laser_camera", "time_of_flight", "flash_lidar"};  // as a mission writes them
+enum class SensorKind : std::uint8_t { kLaserCamera = 0, kTimeOfFlight = 1, kFlashLidar = 2, kStereo = 3 };
+constexpr const char* kSensorKindNames[] = {"laser_camera", "time_of_flight", "flash_lidar", "stereo"};  // as a mission writes them
 inline const char* kind_name(SensorKind kind) { return kSensorKindNames[static_cast<int>(kind)]; }
 
 // A sensor besides [sensor]. The simulated one is as the mission says, with its kind's beam; what a scenario says of dropouts, outliers,
@@ -154,6 +155,7 @@ struct MissionSource {
   sim::DetectorModel detector;  // of [sensor]
   std::vector<MaterialSource> materials;
   std::vector<sim::LaserReflection> target_laser;  // of each triangle of the target, filled by load_scene; none: no sensor sees light
+  StereoSource stereo;
   std::map<std::string, Scenario> scenarios;
   std::map<std::string, CampaignSource> campaigns;
   std::map<std::string, Origin> origins;  // by dotted key, all rows of parameter_rows() and of the ground sections

@@ -191,7 +191,7 @@ std::string haste_fault(const Subject& s) {
 
 std::string smear_fault(const Subject& s) {
   const bool still = s.scenario->scenario_kind() == ScenarioKind::kPaper;
-  if (still || s.p.deskew > 0.5) return "";
+  if (still || s.p.deskew > 0.5 || s.source.sensor == SensorKind::kStereo) return "";  // cameras take all at once
   const double turned_m = rate_radps(s) * s.target->half_m(), moved_m = s.scenario->has_profile() ? 0 : norm(s.scenario->drift_mps);
   const double smear_m = (turned_m + moved_m) * s.p.duration_s;
   if (smear_m <= 2 * range_sigma_m(s.p, s.scenario->ranges_m.front())) return "";

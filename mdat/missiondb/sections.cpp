@@ -7,6 +7,7 @@
 #include "hal_sim/scanner_model.hpp"
 #include "mdat/missiondb/detector_reader.hpp"
 #include "mdat/missiondb/flash_rows.hpp"
+#include "mdat/missiondb/stereo_presets.hpp"
 
 namespace lasso::mdat {
 namespace {
@@ -59,11 +60,12 @@ ValueRow kind_row() {
 }
 
 ValueRow sensor_row() {
-  ValueRow row =
-      number_row("sensor.kind", "1", ValueKind::kChoice, 1, 0, 2, 0,
-                 "laser_camera triangulates; time_of_flight is a LIDAR that scans; flash_lidar measures all its pixels at once. Of these "
-                 "two the presets of sensor.sigma0_m, sensor.sigma_k_per_m, sensor.sigma_angle_rad (flash_lidar), "
-                 "sensor.range_min_m, sensor.range_max_m and beam_divergence_rad differ from those shown");
+  ValueRow row = number_row(
+      "sensor.kind", "1", ValueKind::kChoice, 1, 0, 3, 0,
+      "laser_camera triangulates; time_of_flight is a LIDAR that scans; flash_lidar measures all its pixels at once; stereo is two "
+      "cameras ([stereo], docs/stereo.md). Of these three the presets of sensor.sigma0_m, sensor.sigma_k_per_m, "
+      "sensor.sigma_angle_rad (flash_lidar), sensor.range_min_m, sensor.range_max_m and beam_divergence_rad differ from those "
+      "shown, and of stereo others, too");
   row.choices = {std::begin(kSensorKindNames), std::end(kSensorKindNames)};
   return row;
 }
@@ -182,6 +184,7 @@ const std::vector<ValueRow>& mission_rows() {
 
 double preset_of(SensorKind sensor, const std::string& key, double preset) {
   if (sensor == SensorKind::kFlashLidar) return preset_of_flash(key, preset);
+  if (sensor == SensorKind::kStereo) return stereo_preset(key, preset);
   if (sensor != SensorKind::kTimeOfFlight) return preset;
   const sim::ScannerModel lidar = sim::time_of_flight_lidar();
   if (key == "sensor.sigma0_m") return lidar.sigma0_m;

@@ -4,11 +4,13 @@
 #include "fsw/geometry/portable_math.hpp"
 #include "mdat/missiondb/rule.hpp"
 #include "mdat/missiondb/sections.hpp"
+#include "mdat/missiondb/stereo_presets.hpp"
 #include "mdat/missiondb/value_row.hpp"
 
 namespace lasso::mdat {
 namespace {
 
+constexpr double kStereoNoise = 1.5;       // factor that is still alike
 constexpr double kLidarGrowth = 20;        // over that of the LIDAR whose values are the presets
 constexpr double kFinestClock_m = 5e-4;    // 3 ps
 constexpr double kNarrowBeams = 0.1;       // of the beam's growth, which says how uncertain the place of a contour is
@@ -88,6 +90,18 @@ std::string far_noise_fault(const Subject& s) {
   if (sigma_m <= kFarNoise * p.range_max_m) return "";
   return "there one sigma of a range is " + figure(sigma_m) + " m; in millimetres? " + figure(p.range_max_m) + " mm are " +
          figure(1e-3 * p.range_max_m) + " m";
+}
+
+// Of the head that the mission states.
+std::string stereo_noise_fault(const Subject& s) {
+  const SensorParameters& p = s.sensor->p;
+  if (s.sensor->kind != SensorKind::kStereo) return "";
+  const double expected = stereo_noise_per_m(s.source.stereo, std::max(p.fov_half_x_rad, p.fov_half_y_rad));
+  if (p.sigma_k_per_m < kStereoNoise * expected && expected < kStereoNoise * p.sigma_k_per_m) return "";
+  return "two cameras with " + number_text(s.source.stereo.pixels) + " pixels over " +
+         degrees_text(2 * std::max(p.fov_half_x_rad, p.fov_half_y_rad)) + ", " + figure(s.source.stereo.baseline_m) +
+         " m apart, make 0.5 pixels of disparity " + figure(expected) +
+         ": expected about that, and sensor.common_sigma_k_per_m in proportion";
 }
 
 // A simulated camera ends with the counts of its detector (docs/icd/lcs.md).
@@ -248,6 +262,7 @@ const Rules& sensor_rules() {
     {kWarning, kSensor, kValues, {"sensor.flash_photons_at_10m", "sensor.flash_threshold", "ranges_m"}, photons_fault},
     {kWarning, kSensor, kValues, {"scan.aimed_share", "sensor.kind"}, aimed_flash_fault},
     {kWarning, kSensor, kValues, {"sensor.sigma_k_per_m", "sensor.sigma0_m"}, fine_camera_fault},
+    {kWarning, kSensor, kValues, {"sensor.sigma_k_per_m", "sensor.kind"}, stereo_noise_fault},
     {kWarning, kSensor, kValues, {"sensor.range_max_m", "sensor.sigma_k_per_m"}, far_noise_fault},
     {kError, kSensor, kValues, {"sensor.common_memory_s", "scan.duration_s"}, common_memory_fault},
     {kWarning, kSensor, kValues, {"sensor.common_sigma_m", "sensor.common_sigma_k_per_m", "sensor.common_sigma_deg", "tracking.sigma_position_max_m"}, common_size_fault},

@@ -1,6 +1,9 @@
 #include "mdat/render/relief.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 
 #include "hal_sim/random.hpp"
@@ -30,6 +33,18 @@ Vec3 three(std::uint64_t bits) {
          Vec3(static_cast<double>(bits & 0x1FFFFF), static_cast<double>(bits >> 21 & 0x1FFFFF), static_cast<double>(bits >> 42 & 0x1FFFFF));
 }
 
+// A cell and those around it, the nearest ones first.
+const std::array<std::array<int, 3>, 27>& neighbours() {
+  static const std::array<std::array<int, 3>, 27> steps = [] {
+    std::array<std::array<int, 3>, 27> all{};
+    for (int i = 0; i < 27; ++i) all[static_cast<std::size_t>(i)] = {i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1};
+    const auto size = [](const std::array<int, 3>& step) { return std::abs(step[0]) + std::abs(step[1]) + std::abs(step[2]); };
+    std::stable_sort(all.begin(), all.end(), [&](const auto& a, const auto& b) { return size(a) < size(b); });
+    return all;
+  }();
+  return steps;
+}
+
 double at_corner(const Cell& cell, std::uint32_t seed) { return 2 * three(cell_bits(cell, seed)).x() - 1; }
 
 double between(double a, double b, double share) { return a + (b - a) * share; }
@@ -38,10 +53,14 @@ double between(double a, double b, double share) { return a + (b - a) * share; }
 
 Vec3 facet_tilt(const Vec3& place, std::uint32_t seed) {
   const Cell here = cell_of(place);
+  const Vec3 within = place - Vec3(static_cast<double>(here.x), static_cast<double>(here.y), static_cast<double>(here.z));
+  const auto gap = [&](int axis, int step) { return step == 0 ? 0.0 : step > 0 ? 1 - within[axis] : within[axis]; };
   double nearest = std::numeric_limits<double>::infinity();
   std::uint64_t found = 0;
-  for (int i = 0; i < 27; ++i) {
-    const Cell cell{here.x + i % 3 - 1, here.y + i / 3 % 3 - 1, here.z + i / 9 - 1};
+  for (const std::array<int, 3>& step : neighbours()) {
+    const double x = gap(0, step[0]), y = gap(1, step[1]), z = gap(2, step[2]);
+    if (x * x + y * y + z * z > nearest) continue;  // no place of that cell is as near
+    const Cell cell{here.x + step[0], here.y + step[1], here.z + step[2]};
     const std::uint64_t bits = cell_bits(cell, seed);
     const Vec3 middle = Vec3(static_cast<double>(cell.x), static_cast<double>(cell.y), static_cast<double>(cell.z)) + three(bits);
     const double distance = (middle - place).squaredNorm();

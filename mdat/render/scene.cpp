@@ -164,16 +164,6 @@ ScanMark mark_of(const RangeSample& sample, const sim::RayCaster& model, const s
   return mark;
 }
 
-// Everything where it is at a time since frame 0.
-void move_to(const MissionInput& mission, TimeUs t_us, Scene& scene) {
-  const MissionSource& source = mission.source;
-  const SurfaceBody target = simulated_body(mission, target_parts(source, mission.mesh), scene.setup, scene.seed);
-  scene.surface = std::make_unique<ModelSurface>(bodies_at(source, scene.setup, target, scene.parts, t_us), source.target.crease_angle_rad);
-  scene.orbit_lights = lights_of_orbit(source, scene.setup, t_us);
-  const auto trajectory = make_trajectory(scene.setup.scenario, scene.setup.range_m, kEpochUs, period_us(scene.setup.parameters));
-  scene.T_sensor_target = trajectory->at(kEpochUs + t_us).T_sensor_target;
-}
-
 }  // namespace
 
 std::string scenario_name(const MissionSource& source, const std::string& asked) {
@@ -196,8 +186,32 @@ Scene make_scene(const MissionInput& mission, const SceneRequest& request) {
   scene.setup = plain_case(source, scenario, scene.seed, 1, range_index(scenario, scene.scenario, request.range_m));
   scene.parts = scenario.scene != nullptr ? part_names_of(source, mission.mesh) : target_parts(source, mission.mesh).names;
   scene.materials = materials_of(source.materials, scene.parts, request.materials);
-  move_to(mission, to_us(request.time_s), scene);
+  move_scene(mission, to_us(request.time_s), scene);
   const FieldOfView view = camera_of_mission(source, request.camera, scene.T_sensor_target.p.norm());
+  scene.camera = view.name;
+  scene.fov_half_x_rad = view.parameters->fov_half_x_rad;
+  scene.fov_half_y_rad = view.parameters->fov_half_y_rad;
+  return scene;
+}
+
+void move_scene(const MissionInput& mission, TimeUs t_us, Scene& scene) {
+  const MissionSource& source = mission.source;
+  const SurfaceBody target = simulated_body(mission, target_parts(source, mission.mesh), scene.setup, scene.seed);
+  scene.surface = std::make_unique<ModelSurface>(bodies_at(source, scene.setup, target, scene.parts, t_us), source.target.crease_angle_rad);
+  scene.orbit_lights = lights_of_orbit(source, scene.setup, t_us);
+  const auto trajectory = make_trajectory(scene.setup.scenario, scene.setup.range_m, kEpochUs, period_us(scene.setup.parameters));
+  scene.T_sensor_target = trajectory->at(kEpochUs + t_us).T_sensor_target;
+}
+
+Scene scene_of_case(const MissionInput& mission, const CaseSetup& setup, std::uint64_t seed, const std::string& camera, TimeUs t_us) {
+  const MissionSource& source = mission.source;
+  Scene scene;
+  scene.seed = seed;
+  scene.setup = setup;
+  scene.parts = setup.scenario.scene != nullptr ? part_names_of(source, mission.mesh) : target_parts(source, mission.mesh).names;
+  scene.materials = materials_of(source.materials, scene.parts, {});
+  move_scene(mission, t_us, scene);
+  const FieldOfView view = camera_of_mission(source, camera, scene.T_sensor_target.p.norm());
   scene.camera = view.name;
   scene.fov_half_x_rad = view.parameters->fov_half_x_rad;
   scene.fov_half_y_rad = view.parameters->fov_half_y_rad;
@@ -246,7 +260,7 @@ std::vector<ScanMark> flown_scan(const CompiledMission& mission, double time_s, 
   const CaseResult result = flown_case(setup);
   if (result.scans.empty()) throw InputError(format("--scan: frame %u has no scan; another --time has", frame));
   const KeptScan& scan = result.scans.back();
-  move_to(mission, scan.telemetry.t_measurement_us - kEpochUs, scene);
+  move_scene(mission, scan.telemetry.t_measurement_us - kEpochUs, scene);
   return scan_marks(mission, scene, scan);
 }
 

@@ -40,6 +40,13 @@ struct Scene {
 // Throws InputError or MissionError: no such scenario, range, sensor, part or preset.
 Scene make_scene(const MissionInput& mission, const SceneRequest& request);
 
+// The same of a case as it is flown (scenario, seed and range are its own), before its sensor of that name, at a time since frame 0.
+// `seed`: of what the simulated target differs in.
+Scene scene_of_case(const MissionInput& mission, const CaseSetup& setup, std::uint64_t seed, const std::string& camera, TimeUs t_us);
+
+// Everything where it is at a time since frame 0.
+void move_scene(const MissionInput& mission, TimeUs t_us, Scene& scene);
+
 // Of where no light is given: the sun from over the right shoulder, the Earth below.
 Lights usual_lights();
 

@@ -129,7 +129,7 @@ const char* wire_name(lcs::Device device) {
 }
 
 bool wired(lcs::Device device, SensorKind kind) {
-  if (kind == SensorKind::kFlashLidar) return false;
+  if (kind == SensorKind::kFlashLidar || kind == SensorKind::kStereo) return false;  // have no line
   return device == lcs::Device::kTridar || (device == lcs::Device::kLidar) == (kind == SensorKind::kTimeOfFlight);
 }
 

@@ -55,15 +55,26 @@ sim::FlashModel as_simulated(sim::FlashModel flash, const CaseSetup& setup, cons
   return flash;
 }
 
+bool has_stereo(const CaseSetup& setup, SensorKind kind) { return kind == SensorKind::kStereo && setup.noise && !setup.replay; }
+
+std::unique_ptr<MadeSensor> stereo_of(const CaseSetup& setup, std::uint64_t seed, SensorKind kind) {
+  if (!has_stereo(setup, kind)) return nullptr;
+  if (!setup.make_stereo)
+    throw RunError("stereo: only mdat run flies stereo cameras: their pictures take seconds a frame; set sensor.kind to another sensor");
+  return setup.make_stereo(setup, seed);
+}
+
 // The sensor of that number, which remembers its scans: simulated, at the end of a line, or out of a recording.
 struct Scanner {
   Scanner(const CaseSetup& setup, const sim::Trajectory& trajectory, const SensorMade& made, std::uint64_t seed, std::uint8_t number)
       : ideal(*setup.target, trajectory, made.scanner, seed, setup.others),
         flash(made.kind == SensorKind::kFlashLidar ? std::make_unique<FlashOnBoard>(setup, trajectory, made.scanner, made.flash, seed)
                                                    : nullptr),
-        head(setup.noise && !flash ? std::make_unique<sim::LcsDirect>(*setup.target, trajectory, made.scanner, seed,
-                                                                      head_for(setup, made.scanner, made.kind, number), setup.others)
-                                   : nullptr),
+        stereo(stereo_of(setup, seed, made.kind)),
+        head(setup.noise && !flash && made.kind != SensorKind::kStereo
+                 ? std::make_unique<sim::LcsDirect>(*setup.target, trajectory, made.scanner, seed,
+                                                    head_for(setup, made.scanner, made.kind, number), setup.others)
+                 : nullptr),
         camera(setup.wire && setup.camera_line.empty() && wired(*setup.wire, made.kind)
                    ? std::make_unique<CameraOnLine>(setup, trajectory, made.scanner, seed, number)
                    : nullptr),
@@ -79,12 +90,14 @@ struct Scanner {
     if (live) return live->driver;
     if (camera) return camera->line;
     if (flash) return flash->selector;
+    if (stereo) return stereo->sensor();
     if (head) return *head;
     return ideal;
   }
 
   sim::SimulatedScanner ideal;
   std::unique_ptr<FlashOnBoard> flash;
+  std::unique_ptr<MadeSensor> stereo;
   std::unique_ptr<sim::LcsDirect> head;  // noise ends with the counts of mirrors and detector
   std::unique_ptr<CameraOnLine> camera;
   std::unique_ptr<LiveCamera> live;
@@ -164,6 +177,7 @@ class Case {
     std::size_t flown = 0;
     for (std::uint32_t frame = 0; frame < setup_.frames + kPipelineFrames && !interrupted(); ++frame) {
       const posix::FrameRecord record = runner_->run_frame();
+      check_sensors();
       result_.telemetry.insert(result_.telemetry.end(), record.telemetry.begin(), record.telemetry.end());
       if (setup_.listener != nullptr) setup_.listener->on_packets(record.boundary_us, record.telemetry);
       read_packets(record);
@@ -180,6 +194,13 @@ class Case {
       result_.frames.erase(result_.frames.begin(), result_.frames.begin() + found);
     }
     return std::move(result_);
+  }
+
+  void check_sensors() const {
+    for (const auto& scanner : scanners_) {
+      const std::string failure = scanner->stereo ? scanner->stereo->failure() : "";
+      if (!failure.empty()) throw RunError(failure);
+    }
   }
 
   // A camera of its own has its own clock; an operator has patience.

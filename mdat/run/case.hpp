@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -11,6 +12,7 @@
 #include "fsw/link/authenticator.hpp"
 #include "fsw/link/byte_link.hpp"
 #include "fsw/link/pose_telemetry.hpp"
+#include "fsw/sense/sensor.hpp"
 #include "hal_lcs/messages.hpp"
 #include "hal_lcs/triangulation.hpp"
 #include "hal_sim/lcs_faults.hpp"
@@ -25,6 +27,19 @@
 #include "mdat/run/timeline.hpp"
 
 namespace lasso::mdat {
+
+struct CaseSetup;
+
+// A simulated sensor that is made of more than rays: it knows pictures, and the flight of a case does not.
+class MadeSensor {
+ public:
+  virtual ~MadeSensor() = default;
+  virtual Sensor& sensor() = 0;
+  // Why it gives nothing more, in one line; empty: it works. The component's threads take no exception.
+  virtual std::string failure() const = 0;
+};
+// Of the mission's stereo head, for a case, with noise by a seed.
+using MakeStereo = std::function<std::unique_ptr<MadeSensor>(const CaseSetup&, std::uint64_t)>;
 
 struct CaseSetup {
   Scenario scenario;
@@ -46,6 +61,7 @@ struct CaseSetup {
   sim::LcsFaults camera_faults;  // of each that is; times since frame 0
   SensorKind sensor = SensorKind::kLaserCamera;
   sim::FlashModel flash;     // kFlashLidar
+  MakeStereo make_stereo;    // of sensors of this kind, where there is noise; empty: a mission that has one is refused
   ByteLink* link = nullptr;  // an operator's; the run then keeps the clock's pace, and nobody else starts a track that is lost
   Authenticator* authenticator = nullptr;  // of the link's commands; null: they need none
   std::string store;  // folder of the board's store, whose image takes the place of `image` if there is one; empty: none

@@ -40,6 +40,7 @@ void set_camera(const CompiledMission& mission, const SimulationOptions& options
   setup.record = options.record;
   setup.listener = options.listener;
   setup.camera_optics = options.camera_optics;
+  setup.make_stereo = options.make_stereo;
   setup.camera_degC = options.camera_degC;
 }
 

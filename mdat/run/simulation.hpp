@@ -27,6 +27,7 @@ struct SimulationOptions {
   std::optional<TriangulationCalibration> camera_optics;  // as CaseSetup's
   std::optional<TriangulationCalibration> calibration;    // in the image, instead of the mission's
   double camera_degC = 20;
+  MakeStereo make_stereo;                  // as CaseSetup's
   ByteLink* link = nullptr;                // an operator's: one case, the scenario's first range, at the clock's pace
   Authenticator* authenticator = nullptr;  // of the link's commands; null: they need none
   std::string store;                       // of the run with a link: a folder, see CaseSetup
