@@ -94,6 +94,12 @@ run: ## first: track the tenth-scale Hubble in simulation, and write the report 
 	@echo "open the report: xdg-open '$(OUT)/report.html'"
 
 GALLERY ?= $(LASSO_OUT)/gallery
+recordings: ## measure: record a run, and read it with MCAP's reference library and Foxglove's reader of messages: MISSION= SCENARIO= FRAMES=
+	$(call packages,build recordings)
+	$(call configure,$(BUILD),)
+	$(call compile,$(BUILD),mdat)
+	@MISSION="$(MISSION)" SCENARIO="$(SCENARIO)" FRAMES="$(FRAMES)" ft/recordings/run $(BUILD)/mdat/mdat $(LASSO_OUT)/recordings
+
 gallery: ## measure: fly every shipped scenario and write a page of them all, out/gallery/index.html: FRAMES=
 	$(call packages,build stereo)
 	$(call configure,$(BUILD),)

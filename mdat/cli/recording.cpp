@@ -53,7 +53,7 @@ SimulationOptions options_of(const std::string& file, const RecordedRun& run) {
   SimulationOptions options;
   options.scenario = word_of(run.about, "scenario");
   options.seed = number_of(file, run.about, "seed");
-  options.frames = static_cast<std::uint32_t>(std::min<std::uint64_t>(number_of(file, run.about, "frames"), 1'000'000));
+  options.frames = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(number_of(file, run.about, "frames"), 1, 1'000'000));
   options.wire = wire_in(word_of(run.about, "sensor"));
   options.replay = std::make_shared<sim::SensorRecording>(run.scans);
   options.plain = true;

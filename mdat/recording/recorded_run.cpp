@@ -118,7 +118,8 @@ RecordedRun read_recorded_run(const fs::path& file) {
     if (name == kRecordingMetadata) run.about = map;
   };
   run.damage = reader.read(visitor);
-  if (run.about.count("mission") == 0 || run.files.count(run.about.at("mission")) == 0)
+  const std::string mission = run.about["mission"];
+  if (mission.rfind(kMissionFolder, 0) != 0 || run.files.count(mission) == 0)
     throw InputError(file.string() + ": says of no mission of which run it is: expected a recording of mdat run --record");
   return run;
 }

@@ -1,0 +1,99 @@
+// check.mjs RECORDING PACKETS: reads a recording with @mcap/core, by its index, and decodes each message with Foxglove's CDR reader by the
+// definition that the recording holds. What it finds is compared with PACKETS, what `mdat decode --format json` says of the same run's
+// telemetry. Exit codes: 0 the same, 1 not.
+import { open, readFile } from "node:fs/promises";
+import { McapIndexedReader } from "@mcap/core";
+import { FileHandleReadable } from "@mcap/nodejs";
+import { parse } from "@foxglove/rosmsg";
+import { MessageReader } from "@foxglove/rosmsg2-serialization";
+import { decompress } from "fzstd";
+
+const [recording, packets] = process.argv.slice(2);
+const NANOSECONDS = 1_000_000_000n;
+const TELEMETRY_ROW = [3, 4, 5, 0, 1, 2]; // of ROS's x, y, z, about x, about y, about z
+let findings = 0;
+
+function find(text) {
+  findings += 1;
+  console.log(`recordings: ${text}`);
+}
+
+// Place of a term of the upper triangle, row by row, of a symmetric matrix of six rows.
+function term(row, column) {
+  const [i, j] = row < column ? [row, column] : [column, row];
+  return (i * (13 - i)) / 2 + j - i;
+}
+
+function decoders(reader) {
+  const made = new Map();
+  return (message) => {
+    if (!made.has(message.channelId)) {
+      const schema = reader.schemasById.get(reader.channelsById.get(message.channelId).schemaId);
+      made.set(message.channelId, new MessageReader(parse(new TextDecoder().decode(schema.data), { ros2: true })));
+    }
+    return made.get(message.channelId).readMessage(message.data);
+  };
+}
+
+async function read(reader, decode, span = {}) {
+  const topics = new Map();
+  for await (const message of reader.readMessages(span)) {
+    const { topic } = reader.channelsById.get(message.channelId);
+    if (!topics.has(topic)) topics.set(topic, []);
+    topics.get(topic).push({ time: message.logTime, value: decode(message) });
+  }
+  return topics;
+}
+
+function checkPose(told, { value }) {
+  const { position, orientation } = value.pose.pose;
+  const pose = [position.x, position.y, position.z, orientation.x, orientation.y, orientation.z, orientation.w];
+  const expected = [...told.p_sensor_target_m, ...told.q_sensor_target];
+  if (pose.some((number, i) => number !== expected[i])) find(`scan ${told.scan_id}: pose ${pose}, and in telemetry ${expected}`);
+  for (let i = 0; i < 36; ++i) {
+    const [row, column] = [TELEMETRY_ROW[Math.floor(i / 6)], TELEMETRY_ROW[i % 6]];
+    if (value.pose.covariance[i] !== told.covariance[term(row, column)]) find(`scan ${told.scan_id}: term ${i} of its covariance`);
+  }
+}
+
+// Returns are where their direction and range say, and as many as telemetry says.
+function checkScan(told, { value }) {
+  const view = new DataView(value.data.buffer, value.data.byteOffset, value.data.byteLength);
+  const offset = Object.fromEntries(value.fields.map((field) => [field.name, field.offset]));
+  let returns = 0;
+  for (let i = 0; i < value.width; ++i) {
+    const at = (name) => view.getFloat32(i * value.point_step + offset[name], true);
+    if (view.getUint8(i * value.point_step + offset.state) !== 0) continue;
+    returns += 1;
+    for (const [place, direction] of [["x", "ux"], ["y", "uy"], ["z", "uz"]]) {
+      if (at(place) !== Math.fround(at("range") * at(direction))) find(`scan ${told.scan_id}, ray ${i}: ${place}`);
+    }
+  }
+  if (returns !== told.returns) find(`scan ${told.scan_id}: ${returns} returns, and in telemetry ${told.returns}`);
+}
+
+function stamp({ value }) {
+  return Number((BigInt(value.header.stamp.sec) * NANOSECONDS + BigInt(value.header.stamp.nanosec)) / 1000n);
+}
+
+const reader = await McapIndexedReader.Initialize({
+  readable: new FileHandleReadable(await open(recording)),
+  decompressHandlers: { zstd: (bytes, size) => decompress(bytes, new Uint8Array(Number(size))) },
+});
+const decode = decoders(reader);
+const topics = await read(reader, decode);
+const told = new Map(JSON.parse(await readFile(packets, "utf8")).packets.map(({ items }) => [items.t_measurement_us, items]));
+const valid = [...told.values()].filter((items) => items.valid === "yes");
+for (const message of topics.get("/pose_with_covariance")) checkPose(told.get(stamp(message)), message);
+for (const message of topics.get("/scan")) checkScan(told.get(stamp(message)), message);
+if (topics.get("/pose_with_covariance").length !== valid.length) find(`${topics.get("/pose_with_covariance").length} poses, and ${valid.length} are valid`);
+
+const { messageStartTime, messageEndTime } = reader.statistics;
+const span = { startTime: messageStartTime + (messageEndTime - messageStartTime) / 3n, endTime: messageStartTime + (messageEndTime - messageStartTime) / 2n };
+const part = await read(reader, decode, span);
+for (const [topic, messages] of topics) {
+  const within = messages.filter(({ time }) => time >= span.startTime && time <= span.endTime).length;
+  if (within !== (part.get(topic) ?? []).length) find(`${topic}: by its index ${(part.get(topic) ?? []).length} messages of a span, not ${within}`);
+  console.log(`${topic.padEnd(24)}${String(messages.length).padStart(6)} messages, ${String(within).padStart(5)} of them by seeking`);
+}
+process.exit(findings === 0 ? 0 : 1);
