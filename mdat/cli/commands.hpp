@@ -27,8 +27,9 @@ void add_command_command(CLI::App& app);
 void add_upload_command(CLI::App& app);
 void add_dictionary_command(CLI::App& app);
 
-// Flies a recorded run again: the component gets the recorded scans, with `settings` beside those of the run. Prints its summary, and whether
-// telemetry is the recorded one. Throws InputError or MissionError as what it reads; RunError where nothing was changed, and it differs.
+// Flies a recorded run again: the component gets the recorded scans, with `settings` beside those of the run. Prints its summary, and
+// whether telemetry is the recorded one. Throws InputError or MissionError as what it reads; RunError where nothing was changed, and it
+// differs.
 void replay_recording(const std::string& file, const std::vector<std::string>& settings, bool cached);
 
 // --set KEY=VALUE of a subcommand that reads a mission; may be given again and again.

@@ -221,6 +221,13 @@ std::string check_sensor(const std::string& name) {
   return wire_of(name) ? "" : "expected simulated, or lcs-wire, lidar-wire or tridar-wire, or one of these with :LINE, or replay:FILE";
 }
 
+// What keeps what the sensors give; none if nothing does.
+std::shared_ptr<sim::SensorRecording> scans_to_keep(const RunArguments& options) {
+  const bool alone = !options.record_sensor.empty(), within = records_frames(options);
+  if (alone && within) throw InputError("--record-sensor: --record " + options.record + " holds what the sensors gave, too: leave it out");
+  return alone || within ? std::make_shared<sim::SensorRecording>() : nullptr;
+}
+
 // What the words about cameras ask for. Throws where they do not fit together.
 void set_cameras(RunArguments& options) {
   SimulationOptions& simulation = options.simulation;
@@ -228,9 +235,7 @@ void set_cameras(RunArguments& options) {
   simulation.wire = wire.head;
   simulation.camera_line = wire.line;
   if (!wire.recording.empty()) simulation.replay = load_sensor_recording(wire.recording);
-  if (!options.record_sensor.empty() && records_frames(options))
-    throw InputError("--record-sensor: --record " + options.record + " holds what the sensors gave, too: leave it out");
-  if (!options.record_sensor.empty() || records_frames(options)) simulation.record = std::make_shared<sim::SensorRecording>();
+  simulation.record = scans_to_keep(options);
   simulation.plain = !wire.line.empty() || simulation.replay || simulation.record;
   const bool calibrated = !options.optics.empty() || !options.calibration.empty();
   if (calibrated && (!wire.head || wire.head == lcs::Device::kLidar))

@@ -49,7 +49,7 @@ class ByteReader {
   T get() {
     const std::string_view bytes = take(sizeof(T));
     T value{};
-    if (ok_) std::memcpy(&value, bytes.data(), sizeof value);
+    if (ok_) std::memcpy(&value, bytes.data(), bytes.size());
     return value;
   }
 

@@ -14,7 +14,8 @@ constexpr std::string_view kMagic("\x89MCAP0\r\n", 8);
 constexpr std::size_t kRecordHead = 9;  // opcode, and the length of what follows
 
 enum class Op : std::uint8_t {
-  kHeader = 1,
+  kNone = 0,  // of no record
+  kHeader,
   kFooter,
   kSchema,
   kChannel,

@@ -42,7 +42,7 @@ Writer::Writer(const std::filesystem::path& file, const std::string& profile, co
   put_out(bytes);
 }
 
-void Writer::put_out(std::string_view bytes) {
+void Writer::put_out(const std::string& bytes) {
   errno = 0;
   out_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   out_.flush();

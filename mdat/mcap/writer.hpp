@@ -44,7 +44,7 @@ class Writer {
     std::uint32_t attachments = 0, metadata = 0, chunks = 0;
     std::map<std::uint16_t, std::uint64_t> messages;
   };
-  void put_out(std::string_view bytes);
+  void put_out(const std::string& bytes);
   void end_chunk();
   std::map<std::uint16_t, std::uint64_t> put_indexes();
   void put_group(Op op, std::string_view records, std::string& summary, std::string& offsets) const;

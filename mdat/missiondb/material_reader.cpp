@@ -35,6 +35,29 @@ ValueRow colour_row(const char* key, const char* meaning) {
   return own_row(list_row(number_row(key, "1", kReal, 1, 0, 1, 0, meaning), 3, {}));
 }
 
+// Of a laser's light no more leaves than comes.
+void complain_of_laser(const MaterialSource& material, SceneValues& values) {
+  const sim::LaserReflection laser = laser_preset(material.preset);
+  const double scattered = material.laser.value_or(laser.diffuse), mirrored = material.laser_specular.value_or(laser.specular);
+  if (scattered + mirrored > 1)
+    values.complain(material.laser ? "laser" : "laser_specular", number_text(material.laser ? scattered : mirrored),
+                    "laser " + number_text(scattered) + " and laser_specular " + number_text(mirrored) +
+                        ": more light would leave than comes, expected at most 1 together");
+}
+
+// The same of light that pictures show.
+void complain_of_light(const MaterialSource& material, SceneValues& values) {
+  if (material.diffuse.empty() != material.specular.empty())
+    return values.complain(material.diffuse.empty() ? "specular" : "diffuse", "",
+                           "expected diffuse and specular, or none of them: together they are at most 1");
+  for (std::size_t i = 0; i < material.diffuse.size() && !material.specular.empty(); ++i) {
+    if (material.diffuse[i] + material.specular[i] <= 1) continue;
+    return values.complain(
+        "specular", number_text(material.specular[i]),
+        "with the diffuse " + number_text(material.diffuse[i]) + " more light would leave than comes: expected at most 1 together");
+  }
+}
+
 void read_material(const std::string& name, const toml::table& table, MissionSource& source, ProblemList& problems) {
   const std::size_t before = problems.size();
   SceneValues values(table, "material." + name, material_rows(), {}, source, problems);
@@ -52,21 +75,9 @@ void read_material(const std::string& name, const toml::table& table, MissionSou
         std::pair{"laser_roughness", &MaterialSource::laser_roughness}}) {
     if (values.is_written(key)) material.*member = values.number(key);
   }
-  const sim::LaserReflection laser = laser_preset(material.preset);
-  const double scattered = material.laser.value_or(laser.diffuse), mirrored = material.laser_specular.value_or(laser.specular);
-  if (scattered + mirrored > 1)
-    return values.complain(material.laser ? "laser" : "laser_specular", number_text(material.laser ? scattered : mirrored),
-                           "laser " + number_text(scattered) + " and laser_specular " + number_text(mirrored) +
-                               ": more light would leave than comes, expected at most 1 together");
-  if (material.diffuse.empty() != material.specular.empty())
-    return values.complain(material.diffuse.empty() ? "specular" : "diffuse", "",
-                           "expected diffuse and specular, or none of them: together they are at most 1");
-  for (std::size_t i = 0; i < material.diffuse.size() && !material.specular.empty(); ++i) {
-    if (material.diffuse[i] + material.specular[i] <= 1) continue;
-    return values.complain(
-        "specular", number_text(material.specular[i]),
-        "with the diffuse " + number_text(material.diffuse[i]) + " more light would leave than comes: expected at most 1 together");
-  }
+  complain_of_laser(material, values);
+  complain_of_light(material, values);
+  if (problems.size() != before) return;
   source.materials.push_back(std::move(material));
 }
 

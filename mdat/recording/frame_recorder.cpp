@@ -15,8 +15,8 @@ namespace lasso::mdat {
 namespace {
 
 constexpr char kSensorFrame[] = "sensor", kTargetFrame[] = "target", kTrueFrame[] = "target_true", kFilteredFrame[] = "target_filtered";
-const Vec3 kTrueColor(0.45, 0.75, 0.45), kEstimateColor(0.95, 0.65, 0.25);
-constexpr double kGhost = 0.35;  // opacity of the true target
+constexpr double kTrueColor[] = {0.45, 0.75, 0.45}, kEstimateColor[] = {0.95, 0.65, 0.25};  // red, green, blue
+constexpr double kGhost = 0.35;                                                             // opacity of the true target
 
 struct Topic {
   const char* name;
@@ -79,8 +79,9 @@ FrameRecorder::FrameRecorder(const std::filesystem::path& file, const CompiledMi
   std::map<std::string, std::uint16_t> schemas;
   for (const Topic& topic : kTopics) {
     const RosSchema schema = topic.schema();
-    if (schemas.count(schema.name) == 0) schemas[schema.name] = writer_.add_schema(schema.name, "ros2msg", schema.text);
-    channels_[topic.name] = writer_.add_channel(topic.name, schemas[schema.name], "cdr");
+    const auto [place, added] = schemas.try_emplace(schema.name, std::uint16_t{0});
+    if (added) place->second = writer_.add_schema(schema.name, "ros2msg", schema.text);
+    channels_[topic.name] = writer_.add_channel(topic.name, place->second, "cdr");
   }
   for (const auto& [name, content] : head.files) writer_.attach(name, "application/octet-stream", content, 0);
   writer_.add_metadata(kRecordingMetadata, head.about);
@@ -134,8 +135,8 @@ void FrameRecorder::write_surfaces(TimeUs t_us) {
   if (std::exchange(surfaces_written_, true)) return;
   const Mesh& mesh = mission_.mesh;
   write("/scene", t_us,
-        ros::scene_bytes(t_us, {{"target, true", kTrueFrame, &mesh.vertices, &mesh.triangles, kTrueColor, kGhost},
-                                {"target, estimated", kTargetFrame, &mesh.vertices, &mesh.triangles, kEstimateColor, 1}}));
+        ros::scene_bytes(t_us, {{"target, true", kTrueFrame, &mesh.vertices, &mesh.triangles, Vec3(kTrueColor), kGhost},
+                                {"target, estimated", kTargetFrame, &mesh.vertices, &mesh.triangles, Vec3(kEstimateColor), 1}}));
 }
 
 void FrameRecorder::write_poses(const FlownFrame& frame) {

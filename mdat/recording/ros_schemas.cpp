@@ -1,118 +1,108 @@
 #include "mdat/recording/ros_schemas.hpp"
 
 #include <algorithm>
-#include <map>
+#include <iterator>
+#include <sstream>
+#include <string_view>
 #include <vector>
 
 namespace lasso::mdat {
 namespace {
 
+// A definition's fields; what these need stands in this table, too.
 struct Definition {
-  const char* fields;
-  std::vector<const char*> needs;  // names of other definitions
+  std::string_view name;
+  std::string_view fields;
 };
 
-// By their names in other definitions.
-const std::map<std::string, Definition>& definitions() {
-  static const std::map<std::string, Definition> kAll = {
-      {"builtin_interfaces/Time", {"int32 sec\nuint32 nanosec\n", {}}},
-      {"builtin_interfaces/Duration", {"int32 sec\nuint32 nanosec\n", {}}},
-      {"std_msgs/Header", {"builtin_interfaces/Time stamp\nstring frame_id\n", {"builtin_interfaces/Time"}}},
-      {"geometry_msgs/Point", {"float64 x\nfloat64 y\nfloat64 z\n", {}}},
-      {"geometry_msgs/Vector3", {"float64 x\nfloat64 y\nfloat64 z\n", {}}},
-      {"geometry_msgs/Quaternion", {"float64 x\nfloat64 y\nfloat64 z\nfloat64 w\n", {}}},
-      {"geometry_msgs/Pose",
-       {"geometry_msgs/Point position\ngeometry_msgs/Quaternion orientation\n", {"geometry_msgs/Point", "geometry_msgs/Quaternion"}}},
-      {"geometry_msgs/Transform",
-       {"geometry_msgs/Vector3 translation\ngeometry_msgs/Quaternion rotation\n", {"geometry_msgs/Vector3", "geometry_msgs/Quaternion"}}},
-      {"geometry_msgs/Twist", {"geometry_msgs/Vector3 linear\ngeometry_msgs/Vector3 angular\n", {"geometry_msgs/Vector3"}}},
-      {"geometry_msgs/PoseWithCovariance", {"geometry_msgs/Pose pose\nfloat64[36] covariance\n", {"geometry_msgs/Pose"}}},
-      {"geometry_msgs/TwistWithCovariance", {"geometry_msgs/Twist twist\nfloat64[36] covariance\n", {"geometry_msgs/Twist"}}},
-      {"geometry_msgs/TransformStamped",
-       {"std_msgs/Header header\nstring child_frame_id\ngeometry_msgs/Transform transform\n",
-        {"std_msgs/Header", "geometry_msgs/Transform"}}},
-      {"tf2_msgs/TFMessage", {"geometry_msgs/TransformStamped[] transforms\n", {"geometry_msgs/TransformStamped"}}},
-      {"geometry_msgs/PoseStamped", {"std_msgs/Header header\ngeometry_msgs/Pose pose\n", {"std_msgs/Header", "geometry_msgs/Pose"}}},
-      {"geometry_msgs/PoseWithCovarianceStamped",
-       {"std_msgs/Header header\ngeometry_msgs/PoseWithCovariance pose\n", {"std_msgs/Header", "geometry_msgs/PoseWithCovariance"}}},
-      {"nav_msgs/Odometry",
-       {"std_msgs/Header header\nstring child_frame_id\ngeometry_msgs/PoseWithCovariance pose\ngeometry_msgs/TwistWithCovariance twist\n",
-        {"std_msgs/Header", "geometry_msgs/PoseWithCovariance", "geometry_msgs/TwistWithCovariance"}}},
-      {"sensor_msgs/PointField",
-       {"uint8 INT8=1\nuint8 UINT8=2\nuint8 INT16=3\nuint8 UINT16=4\nuint8 INT32=5\nuint8 UINT32=6\nuint8 FLOAT32=7\nuint8 FLOAT64=8\n"
-        "string name\nuint32 offset\nuint8 datatype\nuint32 count\n",
-        {}}},
-      {"sensor_msgs/PointCloud2",
-       {"std_msgs/Header header\nuint32 height\nuint32 width\nsensor_msgs/PointField[] fields\nbool is_bigendian\nuint32 point_step\n"
-        "uint32 row_step\nuint8[] data\nbool is_dense\n",
-        {"std_msgs/Header", "sensor_msgs/PointField"}}},
-      {"rcl_interfaces/Log",
-       {"byte DEBUG=10\nbyte INFO=20\nbyte WARN=30\nbyte ERROR=40\nbyte FATAL=50\nbuiltin_interfaces/Time stamp\nuint8 level\nstring name\n"
-        "string msg\nstring file\nstring function\nuint32 line\n",
-        {"builtin_interfaces/Time"}}},
-      {"lasso_msgs/Packet", {"std_msgs/Header header\nuint8[] data\n", {"std_msgs/Header"}}},
-      {"foxglove_msgs/Color", {"float64 r\nfloat64 g\nfloat64 b\nfloat64 a\n", {}}},
-      {"foxglove_msgs/KeyValuePair", {"string key\nstring value\n", {}}},
-      {"foxglove_msgs/SceneEntityDeletion",
-       {"builtin_interfaces/Time timestamp\nuint8 MATCHING_ID=0\nuint8 ALL=1\nuint8 type\nstring id\n", {"builtin_interfaces/Time"}}},
-      {"foxglove_msgs/ArrowPrimitive",
-       {"geometry_msgs/Pose pose\nfloat64 shaft_length\nfloat64 shaft_diameter\nfloat64 head_length\nfloat64 head_diameter\n"
-        "foxglove_msgs/Color color\n",
-        {"geometry_msgs/Pose", "foxglove_msgs/Color"}}},
-      {"foxglove_msgs/CubePrimitive",
-       {"geometry_msgs/Pose pose\ngeometry_msgs/Vector3 size\nfoxglove_msgs/Color color\n",
-        {"geometry_msgs/Pose", "geometry_msgs/Vector3", "foxglove_msgs/Color"}}},
-      {"foxglove_msgs/SpherePrimitive",
-       {"geometry_msgs/Pose pose\ngeometry_msgs/Vector3 size\nfoxglove_msgs/Color color\n",
-        {"geometry_msgs/Pose", "geometry_msgs/Vector3", "foxglove_msgs/Color"}}},
-      {"foxglove_msgs/CylinderPrimitive",
-       {"geometry_msgs/Pose pose\ngeometry_msgs/Vector3 size\nfloat64 bottom_scale\nfloat64 top_scale\nfoxglove_msgs/Color color\n",
-        {"geometry_msgs/Pose", "geometry_msgs/Vector3", "foxglove_msgs/Color"}}},
-      {"foxglove_msgs/LinePrimitive",
-       {"uint8 LINE_STRIP=0\nuint8 LINE_LOOP=1\nuint8 LINE_LIST=2\nuint8 type\ngeometry_msgs/Pose pose\nfloat64 thickness\n"
-        "bool scale_invariant\ngeometry_msgs/Point[] points\nfoxglove_msgs/Color color\nfoxglove_msgs/Color[] colors\nuint32[] indices\n",
-        {"geometry_msgs/Pose", "geometry_msgs/Point", "foxglove_msgs/Color"}}},
-      {"foxglove_msgs/TriangleListPrimitive",
-       {"geometry_msgs/Pose pose\ngeometry_msgs/Point[] points\nfoxglove_msgs/Color color\nfoxglove_msgs/Color[] colors\n"
-        "uint32[] indices\n",
-        {"geometry_msgs/Pose", "geometry_msgs/Point", "foxglove_msgs/Color"}}},
-      {"foxglove_msgs/TextPrimitive",
-       {"geometry_msgs/Pose pose\nbool billboard\nfloat64 font_size\nbool scale_invariant\nfoxglove_msgs/Color color\nstring text\n",
-        {"geometry_msgs/Pose", "foxglove_msgs/Color"}}},
-      {"foxglove_msgs/ModelPrimitive",
-       {"geometry_msgs/Pose pose\ngeometry_msgs/Vector3 scale\nfoxglove_msgs/Color color\nbool override_color\nstring url\n"
-        "string media_type\nuint8[] data\n",
-        {"geometry_msgs/Pose", "geometry_msgs/Vector3", "foxglove_msgs/Color"}}},
-      {"foxglove_msgs/SceneEntity",
-       {"builtin_interfaces/Time timestamp\nstring frame_id\nstring id\nbuiltin_interfaces/Duration lifetime\nbool frame_locked\n"
-        "foxglove_msgs/KeyValuePair[] metadata\nfoxglove_msgs/ArrowPrimitive[] arrows\nfoxglove_msgs/CubePrimitive[] cubes\n"
-        "foxglove_msgs/SpherePrimitive[] spheres\nfoxglove_msgs/CylinderPrimitive[] cylinders\nfoxglove_msgs/LinePrimitive[] lines\n"
-        "foxglove_msgs/TriangleListPrimitive[] triangles\nfoxglove_msgs/TextPrimitive[] texts\nfoxglove_msgs/ModelPrimitive[] models\n",
-        {"builtin_interfaces/Time", "builtin_interfaces/Duration", "foxglove_msgs/KeyValuePair", "foxglove_msgs/ArrowPrimitive",
-         "foxglove_msgs/CubePrimitive", "foxglove_msgs/SpherePrimitive", "foxglove_msgs/CylinderPrimitive", "foxglove_msgs/LinePrimitive",
-         "foxglove_msgs/TriangleListPrimitive", "foxglove_msgs/TextPrimitive", "foxglove_msgs/ModelPrimitive"}}},
-      {"foxglove_msgs/SceneUpdate",
-       {"foxglove_msgs/SceneEntityDeletion[] deletions\nfoxglove_msgs/SceneEntity[] entities\n",
-        {"foxglove_msgs/SceneEntityDeletion", "foxglove_msgs/SceneEntity"}}},
-  };
-  return kAll;
+constexpr Definition kDefinitions[] = {
+    {"builtin_interfaces/Time", "int32 sec\nuint32 nanosec\n"},
+    {"builtin_interfaces/Duration", "int32 sec\nuint32 nanosec\n"},
+    {"std_msgs/Header", "builtin_interfaces/Time stamp\nstring frame_id\n"},
+    {"geometry_msgs/Point", "float64 x\nfloat64 y\nfloat64 z\n"},
+    {"geometry_msgs/Vector3", "float64 x\nfloat64 y\nfloat64 z\n"},
+    {"geometry_msgs/Quaternion", "float64 x\nfloat64 y\nfloat64 z\nfloat64 w\n"},
+    {"geometry_msgs/Pose", "geometry_msgs/Point position\ngeometry_msgs/Quaternion orientation\n"},
+    {"geometry_msgs/Transform", "geometry_msgs/Vector3 translation\ngeometry_msgs/Quaternion rotation\n"},
+    {"geometry_msgs/Twist", "geometry_msgs/Vector3 linear\ngeometry_msgs/Vector3 angular\n"},
+    {"geometry_msgs/PoseWithCovariance", "geometry_msgs/Pose pose\nfloat64[36] covariance\n"},
+    {"geometry_msgs/TwistWithCovariance", "geometry_msgs/Twist twist\nfloat64[36] covariance\n"},
+    {"geometry_msgs/TransformStamped", "std_msgs/Header header\nstring child_frame_id\ngeometry_msgs/Transform transform\n"},
+    {"geometry_msgs/PoseStamped", "std_msgs/Header header\ngeometry_msgs/Pose pose\n"},
+    {"geometry_msgs/PoseWithCovarianceStamped", "std_msgs/Header header\ngeometry_msgs/PoseWithCovariance pose\n"},
+    {"nav_msgs/Odometry",
+     "std_msgs/Header header\nstring child_frame_id\ngeometry_msgs/PoseWithCovariance pose\ngeometry_msgs/TwistWithCovariance twist\n"},
+    {"sensor_msgs/PointField",
+     "uint8 INT8=1\nuint8 UINT8=2\nuint8 INT16=3\nuint8 UINT16=4\nuint8 INT32=5\nuint8 UINT32=6\nuint8 FLOAT32=7\nuint8 FLOAT64=8\n"
+     "string name\nuint32 offset\nuint8 datatype\nuint32 count\n"},
+    {"sensor_msgs/PointCloud2",
+     "std_msgs/Header header\nuint32 height\nuint32 width\nsensor_msgs/PointField[] fields\nbool is_bigendian\nuint32 point_step\n"
+     "uint32 row_step\nuint8[] data\nbool is_dense\n"},
+    {"rcl_interfaces/Log",
+     "byte DEBUG=10\nbyte INFO=20\nbyte WARN=30\nbyte ERROR=40\nbyte FATAL=50\nbuiltin_interfaces/Time stamp\nuint8 level\nstring name\n"
+     "string msg\nstring file\nstring function\nuint32 line\n"},
+    {"lasso_msgs/Packet", "std_msgs/Header header\nuint8[] data\n"},
+    {"foxglove_msgs/Color", "float64 r\nfloat64 g\nfloat64 b\nfloat64 a\n"},
+    {"foxglove_msgs/KeyValuePair", "string key\nstring value\n"},
+    {"foxglove_msgs/SceneEntityDeletion", "builtin_interfaces/Time timestamp\nuint8 MATCHING_ID=0\nuint8 ALL=1\nuint8 type\nstring id\n"},
+    {"foxglove_msgs/ArrowPrimitive",
+     "geometry_msgs/Pose pose\nfloat64 shaft_length\nfloat64 shaft_diameter\nfloat64 head_length\nfloat64 head_diameter\n"
+     "foxglove_msgs/Color color\n"},
+    {"foxglove_msgs/CubePrimitive", "geometry_msgs/Pose pose\ngeometry_msgs/Vector3 size\nfoxglove_msgs/Color color\n"},
+    {"foxglove_msgs/SpherePrimitive", "geometry_msgs/Pose pose\ngeometry_msgs/Vector3 size\nfoxglove_msgs/Color color\n"},
+    {"foxglove_msgs/CylinderPrimitive",
+     "geometry_msgs/Pose pose\ngeometry_msgs/Vector3 size\nfloat64 bottom_scale\nfloat64 top_scale\nfoxglove_msgs/Color color\n"},
+    {"foxglove_msgs/LinePrimitive",
+     "uint8 LINE_STRIP=0\nuint8 LINE_LOOP=1\nuint8 LINE_LIST=2\nuint8 type\ngeometry_msgs/Pose pose\nfloat64 thickness\n"
+     "bool scale_invariant\ngeometry_msgs/Point[] points\nfoxglove_msgs/Color color\nfoxglove_msgs/Color[] colors\nuint32[] indices\n"},
+    {"foxglove_msgs/TriangleListPrimitive",
+     "geometry_msgs/Pose pose\ngeometry_msgs/Point[] points\nfoxglove_msgs/Color color\nfoxglove_msgs/Color[] colors\n"
+     "uint32[] indices\n"},
+    {"foxglove_msgs/TextPrimitive",
+     "geometry_msgs/Pose pose\nbool billboard\nfloat64 font_size\nbool scale_invariant\nfoxglove_msgs/Color color\nstring text\n"},
+    {"foxglove_msgs/ModelPrimitive",
+     "geometry_msgs/Pose pose\ngeometry_msgs/Vector3 scale\nfoxglove_msgs/Color color\nbool override_color\nstring url\n"
+     "string media_type\nuint8[] data\n"},
+    {"foxglove_msgs/SceneEntity",
+     "builtin_interfaces/Time timestamp\nstring frame_id\nstring id\nbuiltin_interfaces/Duration lifetime\nbool frame_locked\n"
+     "foxglove_msgs/KeyValuePair[] metadata\nfoxglove_msgs/ArrowPrimitive[] arrows\nfoxglove_msgs/CubePrimitive[] cubes\n"
+     "foxglove_msgs/SpherePrimitive[] spheres\nfoxglove_msgs/CylinderPrimitive[] cylinders\nfoxglove_msgs/LinePrimitive[] lines\n"
+     "foxglove_msgs/TriangleListPrimitive[] triangles\nfoxglove_msgs/TextPrimitive[] texts\nfoxglove_msgs/ModelPrimitive[] models\n"},
+    {"foxglove_msgs/SceneUpdate", "foxglove_msgs/SceneEntityDeletion[] deletions\nfoxglove_msgs/SceneEntity[] entities\n"},
+};
+
+std::string_view fields_of(std::string_view name) {
+  const auto* found =
+      std::find_if(std::begin(kDefinitions), std::end(kDefinitions), [&](const Definition& row) { return row.name == name; });
+  return found != std::end(kDefinitions) ? found->fields : std::string_view();
+}
+
+// The types that fields have, where they are no numbers or texts: each line begins with its own.
+std::vector<std::string> types_in(std::string_view fields) {
+  std::vector<std::string> types;
+  std::istringstream lines{std::string(fields)};
+  for (std::string line; std::getline(lines, line);) {
+    const std::string type = line.substr(0, line.find_first_of(" ["));
+    if (type.find('/') != std::string::npos) types.push_back(type);
+  }
+  return types;
 }
 
 // Those that `name` needs, and that these need, each once, in the order in which they are met.
-void collect(const std::string& name, std::vector<std::string>& found) {
-  for (const char* need : definitions().at(name).needs) {
+void collect(std::string_view name, std::vector<std::string>& found) {
+  for (const std::string& need : types_in(fields_of(name))) {
     if (std::find(found.begin(), found.end(), need) != found.end()) continue;
-    found.emplace_back(need);
+    found.push_back(need);
     collect(need, found);
   }
 }
 
 RosSchema schema_of(const std::string& name) {
   const std::size_t slash = name.find('/');
-  RosSchema schema{name.substr(0, slash) + "/msg" + name.substr(slash), definitions().at(name).fields};
+  RosSchema schema{name.substr(0, slash) + "/msg" + name.substr(slash), std::string(fields_of(name))};
   std::vector<std::string> found;
   collect(name, found);
-  for (const std::string& need : found) schema.text += std::string(80, '=') + "\nMSG: " + need + "\n" + definitions().at(need).fields;
+  for (const std::string& need : found) schema.text += std::string(80, '=') + "\nMSG: " + need + "\n" + std::string(fields_of(need));
   return schema;
 }
 

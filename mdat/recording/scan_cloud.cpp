@@ -34,7 +34,8 @@ const std::vector<ros::PointField>& cloud_fields() {
 
 float residual_m(const ScanView& scan, const RangeSample& sample, const sim::RayCaster& model) {
   const Pose T_target_sensor = inverse(propagate(scan.T_sensor_target, scan.rates, to_seconds(sample.t_us - scan.t_us)));
-  const Vec3 direction(sample.direction[0], sample.direction[1], sample.direction[2]);
+  Vec3 direction;
+  for (int i = 0; i < 3; ++i) direction[i] = static_cast<double>(sample.direction[i]);
   const sim::RayHit hit = model.cast(T_target_sensor.p, rotate(T_target_sensor.q, direction.normalized()));
   return hit.hit ? static_cast<float>(static_cast<double>(sample.range_m) - hit.range_m) : kNothing;
 }

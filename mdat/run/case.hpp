@@ -67,7 +67,7 @@ struct CaseSetup {
   std::string store;  // folder of the board's store, whose image takes the place of `image` if there is one; empty: none
   const std::vector<std::uint8_t>* image = nullptr;
   const sim::RayCaster* target = nullptr;
-  sim::OtherBodies others;                 // what a scene has beside the target
+  sim::OtherBodies others;  // what a scene has beside the target
   RunListener* listener = nullptr;
   std::vector<std::uint32_t> keep_frames;  // whose scans the result holds; ascending
   bool alone = false;                      // simulated on the caller's thread: other cases fill the other cores; the same bytes

@@ -37,8 +37,8 @@ class NodeTrajectory final : public sim::Trajectory {
 // The Sun of a scene in an orbit, before its sensors.
 class SceneSun final : public sim::SunSource {
  public:
-  SceneSun(const std::shared_ptr<const SceneRun>& run, TimeUs epoch_us)
-      : orbit_(*run->orbit), root_(run, 0, epoch_us), epoch_us_(epoch_us) {}
+  SceneSun(const std::shared_ptr<const SceneRun>& run, const scene::Orbit& orbit, TimeUs epoch_us)
+      : orbit_(orbit), root_(run, 0, epoch_us), epoch_us_(epoch_us) {}
   sim::Sunlight at(TimeUs t_us) const override {
     return {rotate(root_.pose_at(t_us).q, orbit_.sun_hill(t_us - epoch_us_)), orbit_.sunlit_share(t_us - epoch_us_)};
   }
@@ -51,8 +51,9 @@ class SceneSun final : public sim::SunSource {
 
 void set_detector(const sim::DetectorModel& detector, const Scenario& scenario, sim::ScannerModel& model) {
   model.detector = detector;
-  if (detector.bandpass_m > 0 && scenario.scene != nullptr && scenario.scene->orbit)
-    model.detector.sun = std::make_shared<SceneSun>(scenario.scene, kEpochUs);
+  if (!(detector.bandpass_m > 0) || scenario.scene == nullptr) return;
+  const std::optional<scene::Orbit>& orbit = scenario.scene->orbit;
+  if (orbit) model.detector.sun = std::make_shared<SceneSun>(scenario.scene, *orbit, kEpochUs);
 }
 
 // As long as it is, into any direction.
