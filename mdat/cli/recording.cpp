@@ -4,7 +4,9 @@
 
 #include "mdat/cli/commands.hpp"
 #include "mdat/common/errors.hpp"
+#include "mdat/missiondb/calibration_file.hpp"
 #include "mdat/recording/recorded_run.hpp"
+#include "mdat/recording/recording_head.hpp"
 #include "mdat/run/camera.hpp"
 #include "mdat/run/results.hpp"
 #include "mdat/run/simulation.hpp"
@@ -84,7 +86,8 @@ void replay_recording(const std::string& file, const std::vector<std::string>& s
   const RecordedRun run = read_recorded_run(file);
   tell_damage(file, run.damage);
   const MissionFolder folder(run);
-  const SimulationOptions options = options_of(file, run);
+  SimulationOptions options = options_of(file, run);
+  if (run.files.count(kCalibrationAttachment) > 0) options.calibration = load_calibration(folder.file(kCalibrationAttachment));
   std::vector<std::string> all = lines_of(word_of(run.about, "settings"));
   all.insert(all.end(), settings.begin(), settings.end());
   MissionInput input = load_mission_input(folder.mission(), all, options.scenario);

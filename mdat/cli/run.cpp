@@ -135,8 +135,8 @@ void warn_of_replay(const SimulationResult& result) {
 
 std::unique_ptr<FrameRecorder> open_recorder(const RunArguments& options, const CompiledMission& mission) {
   if (!records_frames(options)) return nullptr;
-  const RecordingHead head =
-      recording_head(mission, options.simulation, options.settings, {{"commit", kCommit}, {"sensor", options.sensor}});
+  RecordingHead head = recording_head(mission, options.simulation, options.settings, {{"commit", kCommit}, {"sensor", options.sensor}});
+  if (!options.calibration.empty()) head.files[kCalibrationAttachment] = file_content(options.calibration);
   return std::make_unique<FrameRecorder>(options.record, mission, head, options.simulation.record);
 }
 

@@ -47,6 +47,15 @@ std::string unpacked(const ChunkParts& parts, std::string& why) {
   return why.empty() ? records : std::string();
 }
 
+// By its number.
+template <class Record>
+bool keep(std::string_view content, std::map<std::uint16_t, Record>& records) {
+  Record record;
+  if (!get(content, record)) return false;
+  records[record.id] = record;
+  return true;
+}
+
 }  // namespace
 
 Reader::Reader(const std::filesystem::path& file) : path_(file), in_(file, std::ios::binary) {
@@ -80,12 +89,6 @@ bool Reader::next(Op& op, std::string& content) {
   return true;
 }
 
-void Reader::take_channel(std::string_view content) {
-  Channel channel;
-  if (!get(content, channel)) return note("a channel is shorter than it says");
-  channels_[channel.id] = channel;
-}
-
 void Reader::take_message(std::string_view content, const Visitor& visitor) {
   Message message;
   if (!get(content, message)) return note("a message is shorter than it says");
@@ -114,12 +117,6 @@ void Reader::take_chunk(std::string_view content, const Visitor& visitor) {
   take_records(records, visitor);
 }
 
-void Reader::take_schema(std::string_view content) {
-  Schema schema;
-  if (!get(content, schema)) return note("a schema is shorter than it says");
-  schemas_[schema.id] = schema;
-}
-
 void Reader::take_attachment(std::string_view content, const Visitor& visitor) {
   Attachment attachment;
   if (!get(content, attachment)) return note("an attachment has another check sum than it says");
@@ -136,8 +133,8 @@ void Reader::take_metadata(std::string_view content, const Visitor& visitor) {
 
 // What a chunk may hold, and what stands beside chunks in a file that has none.
 void Reader::take_inner(Op op, std::string_view content, const Visitor& visitor) {
-  if (op == Op::kSchema) return take_schema(content);
-  if (op == Op::kChannel) return take_channel(content);
+  if (op == Op::kSchema && !keep<Schema>(content, schemas_)) return note("a schema is shorter than it says");
+  if (op == Op::kChannel && !keep<Channel>(content, channels_)) return note("a channel is shorter than it says");
   if (op == Op::kMessage) return take_message(content, visitor);
 }
 

@@ -48,8 +48,6 @@ class Reader {
   void take_inner(Op op, std::string_view content, const Visitor& visitor);
   void take_chunk(std::string_view content, const Visitor& visitor);
   void take_records(std::string_view records, const Visitor& visitor);
-  void take_schema(std::string_view content);
-  void take_channel(std::string_view content);
   void take_attachment(std::string_view content, const Visitor& visitor);
   void take_metadata(std::string_view content, const Visitor& visitor);
   void take_message(std::string_view content, const Visitor& visitor);

@@ -37,6 +37,7 @@ class MissionFolder {
   MissionFolder(const MissionFolder&) = delete;
   MissionFolder& operator=(const MissionFolder&) = delete;
   const std::filesystem::path& mission() const { return mission_; }
+  std::filesystem::path file(const std::string& attachment) const { return folder_ / attachment; }  // of kMissionFolder
 
  private:
   std::filesystem::path folder_, mission_;

@@ -17,6 +17,8 @@ constexpr char kRecordingMetadata[] = "3dlasso";
 constexpr char kMissionFolder[] = "mission/";
 
 constexpr char kImageAttachment[] = "image.3dli";
+// What took the place of the mission's calibration, if anything did.
+constexpr char kCalibrationAttachment[] = "mission/--calibration";
 
 struct RecordingHead {
   mcap::Text about;                          // mission (its attachment), scenario, seed, frames, sensor, settings, commit
