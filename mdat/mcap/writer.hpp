@@ -1,13 +1,14 @@
 // Writes an MCAP file: messages in compressed chunks with indexes, attachments, metadata, and the summary by which readers seek.
 //
-// A chunk is in the file as soon as it is full: of a run that is killed all but the last chunk can be read (reader.hpp). Memory is that of
-// one chunk, and 32 bytes for each one written.
+// A chunk is in the file as soon as it is full: of a run that is killed all but the last chunk can be read (reader.hpp). Each says the
+// channels of its messages, so that none needs another one. Memory is that of one chunk, and some 100 bytes for each one written.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,6 +29,7 @@ class Writer {
   std::uint16_t add_channel(const std::string& topic, std::uint16_t schema, const std::string& encoding, const Text& metadata = {});
   // Sequence numbers count from 0 in each channel.
   void write(std::uint16_t channel, std::uint64_t time_ns, std::string_view data);
+  void write(const Message& message);
   void attach(const std::string& name, const std::string& media_type, std::string_view data, std::uint64_t time_ns);
   void add_metadata(const std::string& name, const Text& content);
   // Ends the file. Nothing is written after it.
@@ -38,6 +40,7 @@ class Writer {
     std::uint64_t first_ns = 0, last_ns = 0;
     std::string records;
     std::map<std::uint16_t, std::string> index;  // of each channel: time and place of each message
+    std::set<std::uint16_t> schemas;             // that stand in it
   };
   struct Counts {
     std::uint64_t first_ns = 0, last_ns = 0;
@@ -45,6 +48,7 @@ class Writer {
     std::map<std::uint16_t, std::uint64_t> messages;
   };
   void put_out(const std::string& bytes);
+  void begin_in_chunk(std::uint16_t channel);
   void end_chunk();
   std::map<std::uint16_t, std::uint64_t> put_indexes();
   void put_group(Op op, std::string_view records, std::string& summary, std::string& offsets) const;
@@ -52,7 +56,8 @@ class Writer {
 
   std::filesystem::path path_;
   std::ofstream out_;
-  std::uint64_t at_ = 0;  // bytes written
+  std::uint64_t at_ = 0;   // bytes written
+  std::uint32_t crc_ = 0;  // of them
   Chunk chunk_;
   Counts counts_;
   std::vector<Schema> schemas_;
