@@ -24,7 +24,7 @@ constexpr std::size_t kMostColumns = 40;    // of a table
 Response summary_answer(const Shown& shown);
 Response frames_answer(const Shown& shown, const Target& target);
 Response frame_answer(const Shown& shown, std::size_t n);
-Response scan_answer(const Shown& shown, std::size_t n);
+Response scan_answer(const Shown& shown, std::size_t n, const Target& target);
 Response series_answer(const Shown& shown, const Target& target);
 Response statistics_answer(const Shown& shown, const Target& target);
 Response events_answer(const Shown& shown, const Target& target);

@@ -4,6 +4,7 @@
 #include "mdat/run/case.hpp"
 #include "mdat/serve/answers.hpp"
 #include "mdat/serve/frame_facts.hpp"
+#include "mdat/serve/iterations.hpp"
 
 namespace lasso::mdat::serve {
 namespace {
@@ -78,6 +79,19 @@ Json error_json(const FrameFacts& facts) {
           {"normalised_squared", facts.normalised_squared}};
 }
 
+Json iterations_json(const std::vector<Iteration>& iterations) {
+  if (iterations.empty()) return nullptr;
+  Json list = Json::array();
+  for (const Iteration& row : iterations) {
+    list.push_back({{"step_mm", 1e3 * row.step_m},
+                    {"step_deg", row.step_rad / kRadPerDeg},
+                    {"rms_mm", 1e3 * row.rms_m},
+                    {"inliers", row.inliers},
+                    {"pose", pose_json(row.T_sensor_target)}});
+  }
+  return list;
+}
+
 Json told_json(const Shown& shown, std::size_t n, const PoseTelemetry& told) {
   const FrameFacts facts(told, shown.recording->truth(n));
   Json json = {{"index", n},
@@ -93,7 +107,7 @@ Json told_json(const Shown& shown, std::size_t n, const PoseTelemetry& told) {
                    {"truth", facts.truth ? pose_json(*facts.truth) : Json()}};
   json["T_world_sensor"] = world_of(*shown.recording, n);
   json["error"] = error_json(facts);
-  json["iterations"] = nullptr;
+  json["iterations"] = iterations_json(iterations_of(*shown.recording, n));
   return json;
 }
 

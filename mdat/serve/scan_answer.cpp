@@ -1,11 +1,13 @@
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "fsw/pose/outlook.hpp"
 #include "fsw/sense/range_image.hpp"
 #include "mdat/run/case.hpp"
 #include "mdat/serve/answers.hpp"
 #include "mdat/serve/bits.hpp"
+#include "mdat/serve/iterations.hpp"
 
 namespace lasso::mdat::serve {
 namespace {
@@ -35,8 +37,8 @@ struct ScanFields {
 };
 
 struct ScanSetting {
-  double miss_range_m = 0;                        // at which rays that met nothing are shown
-  const MissionParameters* parameters = nullptr;  // null: the sensor's noise is not known
+  double miss_range_m = 0;                      // at which rays that met nothing are shown
+  std::optional<MissionParameters> parameters;  // none: the sensor's noise is not known
   float part = -1;
 };
 
@@ -66,7 +68,7 @@ ScanPoint point_of(const CloudView& cloud, std::size_t i, const ScanFields& fiel
     return point;
   }
   const float factor = fields.sigma_factor != nullptr ? cloud.value(i, fields.sigma_factor) : 1;
-  if (setting.parameters != nullptr)
+  if (setting.parameters)
     point.sigma_m = factor * static_cast<float>(std::sqrt(range_variance(*setting.parameters, static_cast<double>(point.range_m))));
   return point;
 }
@@ -82,23 +84,37 @@ std::string scan_bytes(const std::vector<ScanPoint>& points) {
   return bytes;
 }
 
+// Residuals at the pose of an iteration; its rates are those of the frame before, with which the registration moved the rays.
+void put_iteration(const Shown& shown, std::size_t n, std::size_t iteration, std::vector<ScanPoint>& points) {
+  const std::vector<Iteration> iterations = iterations_of(*shown.recording, n);
+  const std::optional<RangeImage> scan = recorded_scan(*shown.recording, n);
+  const std::optional<PoseTelemetry> before = n > 0 ? shown.recording->told(n - 1) : std::nullopt;
+  if (iteration >= iterations.size() || !scan || !before)
+    throw Refusal{404, "there is no iteration " + std::to_string(iteration), "this frame has " + std::to_string(iterations.size())};
+  const Twist rates{Vec3(before->filter_omega_radps), Vec3(before->filter_v_mps)};
+  const std::vector<float> residuals = residuals_at(*shown.recording, *scan, iterations[iteration].T_sensor_target, rates);
+  for (std::size_t i = 0; i < std::min(points.size(), residuals.size()); ++i) points[i].residual_m = residuals[i];
+}
+
 }  // namespace
 
 // Of another program's clouds residual and sigma are absent, and every point is a return. A frame whose scan was lost has no points.
-Response scan_answer(const Shown& shown, std::size_t n) {
+Response scan_answer(const Shown& shown, std::size_t n, const Target& target) {
   const Recording& recording = *shown.recording;
   const std::string message = recording.message(n, recording.cloud_topic());
   const std::optional<CloudView> cloud = message.empty() ? std::nullopt : read_cloud(message);
   if (!cloud) return binary_response(scan_bytes({}));
   ScanSetting setting;
-  if (const std::optional<PoseTelemetry> told = recording.told(n)) {
+  const std::optional<PoseTelemetry> told = recording.told(n);
+  if (told) {
     setting.miss_range_m = registration_pose(*told).p.norm();
     setting.part = told->part;
   }
-  if (shown.recording->image() != nullptr) setting.parameters = &shown.recording->image()->mission().parameters;
+  if (recording.image() != nullptr) setting.parameters = parameters_of(*recording.image(), told ? told->sensor : std::uint8_t{0});
   const ScanFields fields(*cloud);
   std::vector<ScanPoint> points;
   for (std::size_t i = 0; i < cloud->size(); ++i) points.push_back(point_of(*cloud, i, fields, setting));
+  if (!text_in(target, "iteration").empty()) put_iteration(shown, n, count_in(target, "iteration", 0, 1000), points);
   return binary_response(scan_bytes(points));
 }
 

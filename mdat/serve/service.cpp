@@ -113,7 +113,7 @@ Response Service::route_frame(const Shown& shown, const Target& target) {
     return error_response(404, "there is no frame " + target.parts[4].substr(0, 40),
                           "its frames are 0 to " + std::to_string(frames) + " less one");
   if (target.parts.size() == 5) return frame_answer(shown, *n);
-  return target.parts.size() == 6 && target.parts[5] == "scan" ? scan_answer(shown, *n) : unknown(target);
+  return target.parts.size() == 6 && target.parts[5] == "scan" ? scan_answer(shown, *n, target) : unknown(target);
 }
 
 Response Service::about() const {
