@@ -16,42 +16,8 @@ import {
 } from "three";
 import type { FrameInfo, WeakDirection } from "../../api/types.ts";
 import { cssValue } from "../../app/theme.ts";
-import { block3, symmetricAxes } from "../../maths/eigen.ts";
-import { niceBelow, shortNumber, withUnit } from "../../maths/scales.ts";
-
-const SIGMAS = 3;
-/** Share of the target's size that the longest half axis shall have on the screen, at most. */
-const SHARE = 0.3;
-
-export interface Ellipsoid {
-  /** Half axes as drawn, metres, with their directions. */
-  halfAxes: { length_m: number; direction: [number, number, number] }[];
-  magnification: number;
-  sigma_mm: number[];
-}
-
-/** The ellipsoid of three sigmas, magnified by a round number until it is seen beside the target; null without a covariance. */
-export function ellipsoidOf(covariance: number[] | null, size_m: number): Ellipsoid | null {
-  if (covariance === null || covariance.length !== 36) return null;
-  const axes = symmetricAxes(block3(covariance, 0));
-  const sigmas_m = axes.map((axis) => Math.sqrt(Math.max(0, axis.value)));
-  if (!(sigmas_m[0] > 0)) return null;
-  const magnification = Math.max(1, niceBelow((SHARE * size_m) / (SIGMAS * sigmas_m[0])));
-  return {
-    halfAxes: axes.map((axis, i) => ({ length_m: SIGMAS * sigmas_m[i] * magnification, direction: axis.vector })),
-    magnification,
-    sigma_mm: sigmas_m.map((sigma) => 1000 * sigma),
-  };
-}
-
-/** A weak direction in words: what it moves, and by how much. */
-export function weakNote(weak: WeakDirection, index: number): string {
-  const turn = Math.hypot(...weak.direction.slice(3));
-  const shift = Math.hypot(...weak.direction.slice(0, 3));
-  const axis = (turn > shift ? weak.direction.slice(3) : weak.direction.slice(0, 3)).map((x) => shortNumber(x, 2)).join(", ");
-  const sigma = turn > shift ? withUnit((weak.sigma * 180) / Math.PI, "°") : withUnit(1000 * weak.sigma, "mm");
-  return `Weak ${index + 1}: ${turn > shift ? "turn about" : "shift along"} (${axis}), sigma ${sigma}`;
-}
+import { shortNumber } from "../../maths/scales.ts";
+import { ellipsoidOf, SIGMAS, weakNote } from "./ellipsoid.ts";
 
 export class Covariance {
   readonly group = new Group();
