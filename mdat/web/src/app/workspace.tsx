@@ -11,9 +11,9 @@ import type { Session } from "./session.ts";
 import { theme, toggleTheme } from "./theme.ts";
 import { type Place, VIEWS } from "./views.ts";
 
-const sideWidth = remembered("side-width", 372);
-const plotsHeight = remembered("plots-height", 196);
-const eventsHeight = remembered("events-height", 210);
+const sideWidth = remembered("side-width", 380);
+const plotsHeight = remembered("plots-height", 200);
+const eventsHeight = remembered("events-height", 190);
 const firstVisit = remembered("first-visit", true);
 
 /** Lets the clock drive the player, and the address follow the frame. */
@@ -113,9 +113,9 @@ function FirstSteps() {
   return (
     <aside class="first-steps" aria-label="First steps">
       <ol>
-        <li>Space plays and stops, the arrow keys go by frames, W jumps to the next wrong pose.</li>
-        <li>Drag in a plot to see a span's statistics, and press P to plot another value.</li>
-        <li>“Why” says for each frame why its pose was taken or refused. Press ? for all keys.</li>
+        <li>Space plays, arrow keys go by frames, W jumps to the next wrong pose.</li>
+        <li>Drag in a plot for a span's statistics; P plots another value.</li>
+        <li>“Why” explains each frame. Press ? for all keys.</li>
       </ol>
       <IconButton icon="close" label="Close the first steps" onClick={endFirstVisit} />
     </aside>
@@ -138,11 +138,11 @@ export function Workspace({ session }: { session: Session }) {
   return (
     <div class="workspace" style={sizes}>
       <Head session={session} />
+      <FirstSteps />
       <Damage session={session} />
       <main class="views">
         <div class="place place-main">
           <Views place="main" />
-          <FirstSteps />
         </div>
         <Splitter label="Width of the side" axis="x" size={sideWidth} least={280} most={720} />
         <div class="place place-side">

@@ -55,6 +55,14 @@ export function withUnit(x: number | null | undefined, unit: string, figures = 3
   return unit === "°" || unit === "%" ? `${text}${unit === "%" ? " " : ""}${unit}` : `${text} ${unit}`;
 }
 
+/** A count, with thin spaces between thousands. */
+export function countText(count: number | null | undefined): string {
+  if (count === null || count === undefined || !Number.isFinite(count)) return DASH;
+  return Math.round(count)
+    .toString()
+    .replace(/\B(?=(\d{3})+$)/g, "\u2009");
+}
+
 /** Seconds with as many decimals as a step of that size needs. */
 export function timeText(time_s: number, step_s = 0.01): string {
   const decimals = Math.min(6, Math.max(0, -Math.floor(Math.log10(step_s) + 1e-9)));

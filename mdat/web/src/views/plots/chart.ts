@@ -22,7 +22,7 @@ function bandOptions(values: ValueInfo[]): uPlot.Band[] {
   return values.map((_, i) => ({ series: [3 * i + 3, 3 * i + 2], fill: `${cssValue(seriesColour(i))}40` }));
 }
 
-function axisOptions(unit: string): uPlot.Axis[] {
+function axisOptions(): uPlot.Axis[] {
   const common = {
     stroke: cssValue("--text-2"),
     grid: { stroke: cssValue("--line"), width: 1 },
@@ -38,7 +38,7 @@ function axisOptions(unit: string): uPlot.Axis[] {
     );
   return [
     { ...common, size: 24, values: times, space: 70 },
-    { ...common, size: 46, values: numbers, space: 26, label: unit, labelSize: 14, labelFont: "11px system-ui, sans-serif", labelGap: 0 },
+    { ...common, size: 50, values: numbers, space: 26 },
   ];
 }
 
@@ -48,6 +48,8 @@ export class Chart {
   private readonly cursor = document.createElement("div");
   private readonly hover = document.createElement("div");
   private readonly spanBox = document.createElement("div");
+
+  private marks: { time_s: number; hovered_s: number | null; span: Span | null } | null = null;
 
   constructor(parent: HTMLElement, values: ValueInfo[], data: PlotData, window: Span, width: number, height: number) {
     const options: uPlot.Options = {
@@ -59,7 +61,9 @@ export class Chart {
       scales: { x: { time: false, range: (_, low, high) => [low, high] } },
       series: seriesOptions(values),
       bands: bandOptions(values),
-      axes: axisOptions(values[0]?.unit ?? ""),
+      axes: axisOptions(),
+      // uPlot settles its scales later: marks are put again then.
+      hooks: { setScale: [() => this.putMarks()], setSize: [() => this.putMarks()], ready: [() => this.putMarks()] },
     };
     this.plot = new uPlot(options, data as uPlot.AlignedData, parent);
     this.cursor.className = "cursor-line";
@@ -98,6 +102,17 @@ export class Chart {
   }
 
   setMarks(time_s: number, hovered_s: number | null, span: Span | null): void {
+    this.marks = { time_s, hovered_s, span };
+    this.putMarks();
+  }
+
+  destroy(): void {
+    this.plot.destroy();
+  }
+
+  private putMarks(): void {
+    if (this.marks === null || this.plot === undefined) return;
+    const { time_s, hovered_s, span } = this.marks;
     const x = (time: number) => this.plot.valToPos(time, "x");
     this.cursor.style.transform = `translateX(${x(time_s)}px)`;
     this.hover.hidden = hovered_s === null;
@@ -106,9 +121,5 @@ export class Chart {
     if (span === null) return;
     this.spanBox.style.left = `${x(span.from_s)}px`;
     this.spanBox.style.width = `${x(span.to_s) - x(span.from_s)}px`;
-  }
-
-  destroy(): void {
-    this.plot.destroy();
   }
 }

@@ -6,7 +6,7 @@ import { openOverlay } from "../../app/overlay.ts";
 import { followPointer } from "../../app/pointer.ts";
 import { type Session, useSession } from "../../app/session.ts";
 import { theme } from "../../app/theme.ts";
-import { shortNumber, timeText, withUnit } from "../../maths/scales.ts";
+import { countText, shortNumber, timeText } from "../../maths/scales.ts";
 import { IconButton, saveFile } from "../../parts/controls.tsx";
 import { useSize } from "../../parts/use_size.ts";
 import { Chart, seriesColour } from "./chart.ts";
@@ -75,8 +75,9 @@ function Legend({ plot, session, values, series }: PaneParts & { plot: Plot }) {
           <i class="swatch" style={{ background: `var(${seriesColour(i)})` }} />
           <span class="legend-name" title={`${value.topic}, ${value.group}`}>
             {value.label}
+            {value.unit === "" ? "" : `, ${value.unit}`}
           </span>
-          <b>{series[i] === undefined ? "" : withUnit(valueAt(series[i], at_s), value.unit, 4)}</b>
+          <b>{series[i] === undefined ? "" : shortNumber(valueAt(series[i], at_s), 4)}</b>
           {values.length > 1 ? (
             <IconButton
               icon="close"
@@ -90,16 +91,20 @@ function Legend({ plot, session, values, series }: PaneParts & { plot: Plot }) {
   );
 }
 
-const COLUMNS: [keyof Statistics, string][] = [
-  ["count", "n"],
-  ["mean", "mean"],
-  ["sigma", "sigma"],
-  ["min", "min"],
-  ["median", "median"],
-  ["p95", "95 %"],
-  ["max", "max"],
-  ["rms", "RMS"],
+const COLUMNS: [keyof Statistics, string, string][] = [
+  ["mean", "mean", "mean"],
+  ["sigma", "σ", "standard deviation"],
+  ["min", "min", "least"],
+  ["median", "med", "median"],
+  ["p95", "95 %", "95 % are not above it"],
+  ["max", "max", "largest"],
+  ["rms", "RMS", "root mean square"],
+  ["count", "n", "number of values"],
 ];
+
+function statisticText(found: Statistics, name: keyof Statistics): string {
+  return name === "count" ? countText(found.count) : shortNumber(found[name]);
+}
 
 /** Statistics of the span, or of what is shown; the largest value can be gone to. */
 function StatisticsLine({ session, values, series }: PaneParts) {
@@ -116,9 +121,11 @@ function StatisticsLine({ session, values, series }: PaneParts) {
         if (found === undefined) return null;
         return (
           <dl class="statistics" key={value.id} aria-label={`Statistics of ${value.label}`}>
-            {COLUMNS.map(([name, label]) => (
+            {COLUMNS.map(([name, label, meaning]) => (
               <div key={name}>
-                <dt>{label}</dt>
+                <dt>
+                  <abbr title={meaning}>{label}</abbr>
+                </dt>
                 <dd>
                   {name === "max" && series[i] !== undefined ? (
                     <button
@@ -130,7 +137,7 @@ function StatisticsLine({ session, values, series }: PaneParts) {
                       {shortNumber(found.max)}
                     </button>
                   ) : (
-                    shortNumber(found[name], name === "count" ? 7 : 3)
+                    statisticText(found, name)
                   )}
                 </dd>
               </div>

@@ -1,7 +1,7 @@
 // The plots of chosen values on the common axis of time.
 import { openOverlay } from "../../app/overlay.ts";
 import { useSession } from "../../app/session.ts";
-import { shortNumber } from "../../maths/scales.ts";
+import { timeText } from "../../maths/scales.ts";
 import { Empty, IconButton, Panel } from "../../parts/controls.tsx";
 import { Icon } from "../../parts/icon.tsx";
 import { PlotPane } from "./pane.tsx";
@@ -14,7 +14,7 @@ export function PlotsView() {
   const tools = (
     <>
       <span class="range" role="status">
-        {span === null ? "Shown" : "Span"} {shortNumber(range.from_s, 4)} to {shortNumber(range.to_s, 4)} s
+        {span === null ? "Shown" : "Span"} {timeText(range.from_s, 0.1)} to {timeText(range.to_s, 0.1)} s
       </span>
       {all.length === 0 ? null : (
         <a

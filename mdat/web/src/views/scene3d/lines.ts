@@ -13,7 +13,7 @@ function geometryOf(places: number[]): BufferGeometry {
 
 export class Lines {
   readonly group = new Group();
-  readonly missed = new LineSegments(new BufferGeometry(), new LineBasicMaterial({ transparent: true, opacity: 0.75 }));
+  readonly missed = new LineSegments(new BufferGeometry(), new LineBasicMaterial({ transparent: true, opacity: 0.45 }));
   readonly frustum = new LineSegments(new BufferGeometry(), new LineBasicMaterial({ transparent: true, opacity: 0.6 }));
   readonly pattern = new Line(new BufferGeometry(), new LineBasicMaterial({ transparent: true, opacity: 0.55 }));
   readonly boresight = new LineSegments(

@@ -12,6 +12,27 @@ import { CommandText, Empty, IconButton } from "../../parts/controls.tsx";
 import { Icon } from "../../parts/icon.tsx";
 import { makeFirst, making } from "./first.ts";
 
+const ROSETTE_RAYS = 1024;
+
+/** The scan pattern of the mission that is flown: two mirrors, 19 and 12 turns a scan. */
+function rosettePath(): string {
+  const point = (i: number) => {
+    const turn = (2 * Math.PI * i) / ROSETTE_RAYS;
+    const x = Math.cos(19 * turn) + Math.cos(12 * turn);
+    const y = Math.sin(19 * turn) - Math.sin(12 * turn);
+    return `${(48 * x).toFixed(1)} ${(48 * y).toFixed(1)}`;
+  };
+  return `M${Array.from({ length: ROSETTE_RAYS + 1 }, (_, i) => point(i)).join("L")}`;
+}
+
+function Rosette() {
+  return (
+    <svg class="rosette" viewBox="-100 -100 200 200" role="img" aria-label="The rosette that the scanner draws on the target" fill="none">
+      <path d={rosettePath()} stroke-width="0.9" />
+    </svg>
+  );
+}
+
 function First({ about }: { about: About | null }) {
   if (about?.first === undefined) return null;
   const job = making.value;
@@ -32,17 +53,20 @@ function First({ about }: { about: About | null }) {
         <p class="same">The same from the command line:</p>
         <CommandText text={about.first.command} label="command of the first recording" />
       </div>
-      <ol class="next-steps">
-        <li>
-          <strong>Play it.</strong> Space plays and stops, arrow keys go by frames.
-        </li>
-        <li>
-          <strong>Ask why.</strong> Each frame says why its pose was taken or refused.
-        </li>
-        <li>
-          <strong>Then your own.</strong> Record a run with <code>mdat run MISSION --record FILE.mcap</code>: it appears below.
-        </li>
-      </ol>
+      <div>
+        <Rosette />
+        <ol class="next-steps">
+          <li>
+            <strong>Play it.</strong> Space plays and stops, arrow keys go by frames.
+          </li>
+          <li>
+            <strong>Ask why.</strong> Each frame says why its pose was taken or refused.
+          </li>
+          <li>
+            <strong>Then your own.</strong> Record a run with <code>mdat run MISSION --record FILE.mcap</code>: it appears below.
+          </li>
+        </ol>
+      </div>
     </section>
   );
 }

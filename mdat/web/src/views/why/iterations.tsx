@@ -1,7 +1,7 @@
 // The registration's iterations. One that is chosen colours the scan by its residuals at that iteration's pose.
 import type { FrameInfo } from "../../api/types.ts";
 import { useSession } from "../../app/session.ts";
-import { shortNumber } from "../../maths/scales.ts";
+import { countText, shortNumber } from "../../maths/scales.ts";
 
 export function Iterations({ frame }: { frame: FrameInfo }) {
   const { selection, scene } = useSession();
@@ -42,7 +42,7 @@ export function Iterations({ frame }: { frame: FrameInfo }) {
             <td class="number">{shortNumber(step.step_mm)}</td>
             <td class="number">{shortNumber(step.step_deg)}</td>
             <td class="number">{shortNumber(step.rms_mm)}</td>
-            <td class="number">{shortNumber(step.inliers, 6)}</td>
+            <td class="number">{countText(step.inliers)}</td>
           </tr>
         ))}
       </tbody>

@@ -5,7 +5,7 @@ import type { FrameInfo, Gate, PoseData } from "../../api/types.ts";
 import { tell } from "../../app/notices.ts";
 import { useSession } from "../../app/session.ts";
 import { verdictOf } from "../../log/frames.ts";
-import { shortNumber, timeText, withUnit } from "../../maths/scales.ts";
+import { countText, shortNumber, timeText, withUnit } from "../../maths/scales.ts";
 import { angleBetween_deg, norm, subtract } from "../../maths/vectors.ts";
 import { Empty, Panel } from "../../parts/controls.tsx";
 import { Icon } from "../../parts/icon.tsx";
@@ -103,10 +103,10 @@ function Facts({ frame }: { frame: FrameInfo }) {
   const { error } = frame;
   return (
     <dl class="facts">
-      <Fact label="Rays" value={shortNumber(frame.rays, 6)} />
-      <Fact label="Returns" value={shortNumber(frame.hits, 6)} />
-      <Fact label="Missed" value={shortNumber(frame.missed, 6)} />
-      <Fact label="Inliers" value={shortNumber(frame.inliers, 6)} />
+      <Fact label="Rays" value={countText(frame.rays)} />
+      <Fact label="Returns" value={countText(frame.hits)} />
+      <Fact label="Missed" value={countText(frame.missed)} />
+      <Fact label="Inliers" value={countText(frame.inliers)} />
       <Fact label="Residual, RMS" value={withUnit(frame.rms_mm, "mm")} />
       <Fact label="Position error" value={withUnit(error?.position_mm, "mm")} />
       <Fact label="Angle error" value={withUnit(error?.angle_deg, "°")} />
