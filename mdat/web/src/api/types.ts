@@ -13,7 +13,8 @@ export interface RecordingEntry {
   id: string;
   name: string;
   size_bytes: number;
-  modified: string;
+  /** Seconds since 1970. */
+  modified: number;
   open: boolean;
   error?: string;
 }
@@ -21,10 +22,13 @@ export interface RecordingEntry {
 /** A number of a topic that can be plotted. */
 export interface ValueInfo {
   id: string;
+  /** A name; of telemetry with its meaning behind a colon. */
   label: string;
   unit: string;
   topic: string;
   group: string;
+  /** Names by number, where the value is one of a few. */
+  choices?: string[];
 }
 
 export interface CameraInfo {
@@ -68,6 +72,7 @@ export interface Gate {
   name: string;
   value: number | null;
   limit: number | null;
+  kind?: "at least" | "at most";
   unit: string;
   pass: boolean;
 }
@@ -80,7 +85,7 @@ export interface IterationStep {
 }
 
 export interface WeakDirection {
-  /** Translation in sensor axes, then rotation about them. */
+  /** Translation in sensor axes, then rotation about them times the model's radius; sigma is in metres. */
   direction: [number, number, number, number, number, number];
   sigma: number;
 }
@@ -88,16 +93,17 @@ export interface WeakDirection {
 export interface FrameInfo {
   index: number;
   time_s: number;
-  mode: string;
-  valid: boolean;
+  /** Mode, verdict and reason are null where another program recorded the frame. */
+  mode: string | null;
+  valid: boolean | null;
   wrong: boolean | null;
-  reason: string;
+  reason: string | null;
   gates: Gate[];
-  inliers: number | null;
-  rays: number | null;
-  hits: number | null;
-  missed: number | null;
-  rms_mm: number | null;
+  inliers?: number | null;
+  rays?: number | null;
+  hits?: number | null;
+  missed?: number | null;
+  rms_mm?: number | null;
   poses: { estimate: PoseData | null; filtered: PoseData | null; truth: PoseData | null };
   T_world_sensor: PoseData | null;
   /** 36 numbers, row by row, translation first, in metres and radians; rotation about the sensor's axes. */

@@ -55,7 +55,13 @@ function Head({ session }: { session: Session }) {
       </a>
       <h1 title={info.name}>{info.name}</h1>
       <p class="run">
-        {[info.mission, info.scenario, info.sensor, info.seed === null ? "" : `seed ${info.seed}`, `${info.frames} frames`]
+        {[
+          info.mission?.replace(/^.*\//, "").replace(/\.toml$/, ""),
+          info.scenario,
+          info.sensor,
+          info.seed === null ? "" : `seed ${info.seed}`,
+          `${info.frames} frames`,
+        ]
           .filter(Boolean)
           .join(" · ")}
       </p>

@@ -35,10 +35,11 @@ export function runsOf(column: ArrayLike<number>): Run[] {
   return runs;
 }
 
-export type Verdict = "valid" | "refused" | "wrong";
+export type Verdict = "unknown" | "valid" | "refused" | "wrong";
 
-/** A pose that is valid and yet not true is wrong; one that is not valid was refused. */
+/** A pose that is valid and yet not true is wrong; one that is not valid was refused. Recordings of others do not say. */
 export function verdictOf(valid: number, wrong: number): Verdict {
+  if (Number.isNaN(valid)) return "unknown";
   if (valid !== 1) return "refused";
   return wrong === 1 ? "wrong" : "valid";
 }

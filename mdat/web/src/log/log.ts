@@ -3,6 +3,7 @@
 import { getBinary, getJson, withQuery } from "../api/client.ts";
 import { decodeColumns, decodeScan, decodeSeries, type Scan, type Series } from "../api/decode.ts";
 import type { EventPage, FrameInfo, RecordingInfo, Statistics } from "../api/types.ts";
+import { unitText } from "../api/units.ts";
 import { Cache } from "./cache.ts";
 import { frameAtTime } from "./frames.ts";
 
@@ -37,7 +38,8 @@ export class Log {
 
   static async open(id: string): Promise<Log> {
     const path = `/api/recordings/${encodeURIComponent(id)}`;
-    const info = await getJson<RecordingInfo>(path);
+    const told = await getJson<RecordingInfo>(path);
+    const info = { ...told, values: told.values.map((value) => ({ ...value, unit: unitText(value.unit) })) };
     const bytes = info.frames === 0 ? new ArrayBuffer(0) : await getBinary(withQuery(`${path}/frames`, { columns: COLUMNS.join(",") }));
     const columns = decodeColumns(bytes, COLUMNS, info.frames);
     return new Log(info, Object.fromEntries(columns) as unknown as FrameColumns);

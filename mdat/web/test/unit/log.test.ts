@@ -55,6 +55,7 @@ test("a pose that is not valid was refused, whatever the truth says; of an unkno
   assert.equal(verdictOf(1, 1), "wrong");
   assert.equal(verdictOf(1, 0), "valid");
   assert.equal(verdictOf(1, Number.NaN), "valid");
+  assert.equal(verdictOf(Number.NaN, Number.NaN), "unknown");
 });
 
 test("a span has its ends in order and within the recording", () => {

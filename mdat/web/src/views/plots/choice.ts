@@ -12,7 +12,7 @@ const AT_FIRST = 3;
 
 /** The plots of a first look: errors where the truth is there, else the first values of the recording. */
 export function firstValues(values: ValueInfo[]): string[][] {
-  const wanted = ["error.position", "error.angle", "residual.rms", "inliers"];
+  const wanted = ["error.position", "error.angle", "residual.rms", "pose.inliers"];
   const found = wanted.filter((id) => values.some((value) => value.id === id));
   const others = values.map((value) => value.id).filter((id) => !found.includes(id));
   return [...found, ...others].slice(0, AT_FIRST).map((id) => [id]);

@@ -2,6 +2,7 @@
 import { useEffect, useRef } from "preact/hooks";
 import type { Series } from "../../api/decode.ts";
 import type { Statistics, ValueInfo } from "../../api/types.ts";
+import { shortLabel } from "../../api/units.ts";
 import { openOverlay } from "../../app/overlay.ts";
 import { followPointer } from "../../app/pointer.ts";
 import { type Session, useSession } from "../../app/session.ts";
@@ -60,9 +61,14 @@ function ChartBox({ session, values, series, onChart }: PaneParts & { onChart: (
       ref={box}
       class="chart"
       role="img"
-      aria-label={`Plot of ${values.map((value) => value.label).join(", ")} over time; the button Tables shows its numbers`}
+      aria-label={`Plot of ${values.map((value) => shortLabel(value.label)).join(", ")} over time; the button Tables shows its numbers`}
     />
   );
+}
+
+/** A number, or the name of the choice that it stands for. */
+function valueText(value: ValueInfo, x: number | null): string {
+  return (x === null ? undefined : value.choices?.[x]) ?? shortNumber(x, 4);
 }
 
 function Legend({ plot, session, values, series }: PaneParts & { plot: Plot }) {
@@ -73,15 +79,15 @@ function Legend({ plot, session, values, series }: PaneParts & { plot: Plot }) {
       {values.map((value, i) => (
         <li key={value.id}>
           <i class="swatch" style={{ background: `var(${seriesColour(i)})` }} />
-          <span class="legend-name" title={`${value.topic}, ${value.group}`}>
-            {value.label}
+          <span class="legend-name" title={`${value.label} (${value.topic})`}>
+            {shortLabel(value.label)}
             {value.unit === "" ? "" : `, ${value.unit}`}
           </span>
-          <b>{series[i] === undefined ? "" : shortNumber(valueAt(series[i], at_s), 4)}</b>
+          <b>{series[i] === undefined ? "" : valueText(value, valueAt(series[i], at_s))}</b>
           {values.length > 1 ? (
             <IconButton
               icon="close"
-              label={`Take ${value.label} away`}
+              label={`Take ${shortLabel(value.label)} away`}
               onClick={() => history.run(plots.removeValue(plot.key, value.id))}
             />
           ) : null}
@@ -158,7 +164,7 @@ function goToLargest(series: Series, player: Session["player"], selection: Sessi
 function Table({ values, series }: PaneParts) {
   const times = series[0]?.time_s ?? new Float64Array();
   return (
-    <div class="scroll" tabIndex={0} role="group" aria-label={`Table of ${values.map((value) => value.label).join(", ")}`}>
+    <div class="scroll" tabIndex={0} role="group" aria-label={`Table of ${values.map((value) => shortLabel(value.label)).join(", ")}`}>
       <table class="table">
         <thead>
           <tr>
@@ -167,7 +173,7 @@ function Table({ values, series }: PaneParts) {
             </th>
             {values.map((value) => (
               <th key={value.id} scope="col" class="number">
-                {value.label}
+                {shortLabel(value.label)}
                 {value.unit === "" ? "" : `, ${value.unit}`}
               </th>
             ))}
@@ -198,7 +204,7 @@ export function PlotPane({ plot }: { plot: Plot }) {
   const size = useSize(box);
   const values = plot.values.map((id) => plots.value(id)).filter((value): value is ValueInfo => value !== undefined);
   const series = useSeries(log, plot.values, selection.window.value, Math.max(0, Math.min(2000, size.value.width))).value;
-  const title = values.map((value) => value.label).join(", ");
+  const title = values.map((value) => shortLabel(value.label)).join(", ");
   const save = async () => {
     const picture =
       chart.current === null

@@ -1,7 +1,7 @@
 // The ellipsoid of a covariance, and weak directions in words.
 import type { WeakDirection } from "../../api/types.ts";
 import { block3, symmetricAxes } from "../../maths/eigen.ts";
-import { niceBelow, shortNumber, withUnit } from "../../maths/scales.ts";
+import { niceBelow, withUnit } from "../../maths/scales.ts";
 
 export const SIGMAS = 3;
 /** Share of the target's size that the longest half axis shall have on the screen, at most. */
@@ -28,11 +28,12 @@ export function ellipsoidOf(covariance: number[] | null, size_m: number): Ellips
   };
 }
 
-/** A weak direction in words: what it moves, and by how much. */
+/** A weak direction in words: what it moves most, and by how much. A turn is told by what it moves at the model's radius. */
 export function weakNote(weak: WeakDirection, index: number): string {
-  const turn = Math.hypot(...weak.direction.slice(3));
-  const shift = Math.hypot(...weak.direction.slice(0, 3));
-  const axis = (turn > shift ? weak.direction.slice(3) : weak.direction.slice(0, 3)).map((x) => shortNumber(x, 2)).join(", ");
-  const sigma = turn > shift ? withUnit((weak.sigma * 180) / Math.PI, "°") : withUnit(1000 * weak.sigma, "mm");
-  return `Weak ${index + 1}: ${turn > shift ? "turn about" : "shift along"} (${axis}), sigma ${sigma}`;
+  const shift = weak.direction.slice(0, 3);
+  const turn = weak.direction.slice(3);
+  const turns = Math.hypot(...turn) > Math.hypot(...shift);
+  const axis = (turns ? turn : shift).map((x) => x.toFixed(2).replace("-", "−")).join(", ");
+  const sigma = withUnit(1000 * weak.sigma, "mm");
+  return `Weak ${index + 1}: ${turns ? "turn about" : "shift along"} (${axis}), sigma ${sigma}${turns ? " at the target's rim" : ""}`;
 }

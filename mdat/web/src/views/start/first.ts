@@ -22,13 +22,14 @@ async function finished(job: string): Promise<string> {
   }
 }
 
-/** Makes the first recording and plays it. */
+/** Makes the first recording, or takes the one that is there, and plays it. */
 export async function makeFirst(): Promise<void> {
   if (making.peek() !== null) return;
   making.value = { done: 0, text: "Starting" };
   try {
-    const { job, id } = await postJson<{ job?: string; id: string }>("/api/recordings/first");
-    const recording = await finished(job ?? id);
+    const { job, id } = await postJson<{ job?: string; id?: string }>("/api/recordings/first");
+    const recording = job === undefined ? id : await finished(job);
+    if (recording === undefined) throw new Error("The server named neither a recording nor a job.");
     location.hash = `${routeTo(recording)}?play`;
   } catch (error) {
     tell(error);

@@ -71,6 +71,13 @@ function First({ about }: { about: About | null }) {
   );
 }
 
+/** Local date and time to the minute, in an order that sorts. */
+function dateText(seconds: number): string {
+  const date = new Date(1000 * seconds);
+  const two = (x: number) => String(x).padStart(2, "0");
+  return `${date.getFullYear()}-${two(date.getMonth() + 1)}-${two(date.getDate())} ${two(date.getHours())}:${two(date.getMinutes())}`;
+}
+
 function Row({ entry }: { entry: RecordingEntry }) {
   return (
     <tr>
@@ -87,7 +94,7 @@ function Row({ entry }: { entry: RecordingEntry }) {
         )}
       </td>
       <td class="number">{bytesText(entry.size_bytes)}</td>
-      <td>{entry.modified.replace("T", " ").replace(/(\.\d+)?Z$/, " UTC")}</td>
+      <td>{dateText(entry.modified)}</td>
     </tr>
   );
 }

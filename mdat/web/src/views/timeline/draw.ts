@@ -27,7 +27,7 @@ const MODE_PX = 15;
 const EVENT_PX = 9;
 const GAP_PX = 3;
 /** Worse verdicts win where many frames share a pixel. */
-const SEVERITY: Verdict[] = ["valid", "refused", "wrong"];
+const SEVERITY: Verdict[] = ["unknown", "valid", "refused", "wrong"];
 
 export const timeToX = (time_s: number, window: Span, width: number): number =>
   ((time_s - window.from_s) / (window.to_s - window.from_s)) * width;
@@ -48,7 +48,7 @@ export function verdictPixels(columns: FrameColumns, window: Span, width: number
 }
 
 /** The height tells the verdict, too: it can be read without colour. */
-const HEIGHTS: Record<Verdict, number> = { valid: 0.45, refused: 0.72, wrong: 1 };
+const HEIGHTS: Record<Verdict, number> = { unknown: 0.2, valid: 0.45, refused: 0.72, wrong: 1 };
 
 function drawVerdicts(pen: CanvasRenderingContext2D, content: TimelineContent, colours: TimelineColours, width: number): void {
   const pixels = verdictPixels(content.columns, content.window, width);

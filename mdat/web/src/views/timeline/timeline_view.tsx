@@ -17,7 +17,7 @@ function coloursNow(): TimelineColours {
     text: cssValue("--text-2"),
     line: cssValue("--line"),
     ground: cssValue("--panel"),
-    verdicts: { valid: cssValue("--valid"), refused: cssValue("--refused"), wrong: cssValue("--wrong") },
+    verdicts: { unknown: cssValue("--line-2"), valid: cssValue("--valid"), refused: cssValue("--refused"), wrong: cssValue("--wrong") },
     events: { info: cssValue("--text-3"), warning: cssValue("--refused"), error: cssValue("--wrong") },
     modes: [cssValue("--mode-a"), cssValue("--mode-b")],
   };

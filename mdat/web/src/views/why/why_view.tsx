@@ -2,6 +2,7 @@
 import { useSignal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 import type { FrameInfo, Gate, PoseData } from "../../api/types.ts";
+import { unitText } from "../../api/units.ts";
 import { tell } from "../../app/notices.ts";
 import { useSession } from "../../app/session.ts";
 import { verdictOf } from "../../log/frames.ts";
@@ -9,6 +10,7 @@ import { countText, shortNumber, timeText, withUnit } from "../../maths/scales.t
 import { angleBetween_deg, norm, subtract } from "../../maths/vectors.ts";
 import { Empty, Panel } from "../../parts/controls.tsx";
 import { Icon } from "../../parts/icon.tsx";
+import { weakNote } from "../scene3d/ellipsoid.ts";
 import { Iterations } from "./iterations.tsx";
 
 /** The selected frame as soon as the server has answered; while playing, the last that came. */
@@ -26,35 +28,48 @@ export function useFrame() {
 }
 
 const VERDICTS = {
+  unknown: { icon: "info", text: "Not judged" },
   valid: { icon: "check", text: "Valid" },
   refused: { icon: "close", text: "Refused" },
   wrong: { icon: "warning", text: "Valid, but wrong" },
 } as const;
 
 function Verdict({ frame }: { frame: FrameInfo }) {
-  const verdict = verdictOf(frame.valid ? 1 : 0, frame.wrong === true ? 1 : 0);
+  const verdict = verdictOf(frame.valid === null ? Number.NaN : Number(frame.valid), frame.wrong === true ? 1 : 0);
   const { icon, text } = VERDICTS[verdict];
   return (
     <div class="verdict">
       <span class={`chip chip-${verdict}`}>
         <Icon name={icon} /> {text}
       </span>
-      <span class="chip">{frame.mode}</span>
+      {frame.mode === null ? null : <span class="chip">{frame.mode}</span>}
       <span class="verdict-frame">
         frame {frame.index}, {timeText(frame.time_s)} s
       </span>
-      <p class="why-sentence">{frame.why || frame.reason}</p>
+      <p class="why-sentence">{sentence(frame.why || frame.reason || "")}</p>
     </div>
   );
 }
 
-/** A gate as a bar: how much of its limit is used. */
+/** With a capital and a full stop. */
+function sentence(text: string): string {
+  const whole = text.charAt(0).toUpperCase() + text.slice(1);
+  return whole === "" || /[.!?]$/.test(whole) ? whole : `${whole}.`;
+}
+
+function gateNumber(value: number | null, unit: string): string {
+  return unitText(unit) === "" && Number.isInteger(value) ? countText(value) : withUnit(value, unitText(unit), 4);
+}
+
 function GateRow({ gate }: { gate: Gate }) {
   return (
     <tr class={gate.pass ? "" : "fails"}>
       <th scope="row">{gate.name}</th>
-      <td class="number">{withUnit(gate.value, gate.unit)}</td>
-      <td class="number">{withUnit(gate.limit, gate.unit)}</td>
+      <td class="number">{gateNumber(gate.value, gate.unit)}</td>
+      <td class="number">
+        {gate.kind === undefined ? "" : <abbr title={gate.kind}>{gate.kind === "at least" ? "≥ " : "≤ "}</abbr>}
+        {gateNumber(gate.limit, gate.unit)}
+      </td>
       <td>
         <span class={gate.pass ? "good" : "bad"}>
           <Icon name={gate.pass ? "check" : "close"} /> {gate.pass ? "passes" : "fails"}
@@ -111,16 +126,20 @@ function Facts({ frame }: { frame: FrameInfo }) {
       <Fact label="Position error" value={withUnit(error?.position_mm, "mm")} />
       <Fact label="Angle error" value={withUnit(error?.angle_deg, "°")} />
       <Fact label="Error², normalised" value={shortNumber(error?.normalised_squared)} />
-      {frame.weak.map((weak, i) => (
-        <Fact key={String(i)} label={`Weak direction ${i + 1}, sigma`} value={weakText(weak.direction, weak.sigma)} />
-      ))}
     </dl>
   );
 }
 
-function weakText(direction: number[], sigma: number): string {
-  const turns = norm([direction[3], direction[4], direction[5]]) > norm([direction[0], direction[1], direction[2]]);
-  return turns ? withUnit((sigma * 180) / Math.PI, "°") : withUnit(sigma * 1000, "mm");
+/** Directions that the scan holds badly, in words. */
+function Weak({ frame }: { frame: FrameInfo }) {
+  if (frame.weak.length === 0) return null;
+  return (
+    <ul class="weak">
+      {frame.weak.map((weak, i) => (
+        <li key={String(i)}>{weakNote(weak, i)}</li>
+      ))}
+    </ul>
+  );
 }
 
 function PoseRow({ name, pose, truth }: { name: string; pose: PoseData | null; truth: PoseData | null }) {
@@ -183,6 +202,7 @@ export function WhyView() {
             <Verdict frame={frame} />
             <Gates gates={frame.gates} />
             <Facts frame={frame} />
+            <Weak frame={frame} />
             <Iterations frame={frame} />
             <Poses frame={frame} />
           </>
