@@ -70,8 +70,8 @@ test("a thinned table keeps its first and last row", () => {
 
 test("the first plots are errors where they are, else what the recording has", () => {
   const value = (id: string): ValueInfo => ({ id, label: id, unit: "", topic: "", group: "" });
-  assert.deepEqual(firstValues([value("a"), value("error.position"), value("b")]), [["error.position"], ["a"], ["b"]]);
-  assert.deepEqual(firstValues([]), []);
+  assert.deepEqual(firstValues([value("a"), value("error.position"), value("b")], 1400), [["error.position"], ["a"], ["b"]]);
+  assert.deepEqual(firstValues([], 1400), []);
 });
 
 test("a long list draws what is in sight and asks for its pages", () => {
