@@ -164,18 +164,19 @@ test("of many requests the first and the last are made, and the answers come in 
   const latest = new Latest<number>();
   const made: number[] = [];
   const taken: number[] = [];
-  const fail = () => assert.fail();
-  for (let i = 0; i < 20; ++i)
-    latest.ask(
-      async () => {
-        made.push(i);
-        await new Promise((resolve) => setTimeout(resolve, 2));
-        return i;
-      },
-      (value) => taken.push(value),
-      fail,
-    );
-  await new Promise((resolve) => setTimeout(resolve, 30));
+  const answers: (() => void)[] = [];
+  for (let i = 0; i < 20; ++i) {
+    const make = () => {
+      made.push(i);
+      return new Promise<number>((resolve) => answers.push(() => resolve(i)));
+    };
+    latest.ask(make, (value) => taken.push(value), assert.fail);
+  }
+  assert.deepEqual(made, [0]);
+  answers[0]();
+  await new Promise(setImmediate);
   assert.deepEqual(made, [0, 19]);
+  answers[1]();
+  await new Promise(setImmediate);
   assert.deepEqual(taken, [0, 19]);
 });
