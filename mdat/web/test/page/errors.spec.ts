@@ -1,6 +1,6 @@
 import { expect, open, test } from "./support.ts";
 
-test.use({ expected: [/Failed to load resource/, /ERR_/] });
+test.use({ expected: { pattern: /Failed to load resource|ERR_/ } });
 
 test("a server that is gone is told, with what helps", async ({ page }) => {
   await page.getByRole("link", { name: "spin.mcap" }).waitFor();
@@ -40,4 +40,10 @@ test("a failure while a recording is open leaves the rest usable", async ({ page
 test("a cut recording says what is missing, and shows the rest", async ({ page }) => {
   await open(page, "cut.mcap", 5);
   await expect(page.locator(".banner")).toContainText("This recording is damaged.");
+});
+
+test("a file that is no recording says so, and the list stays", async ({ page }) => {
+  await page.getByText("letter.mcap").click();
+  await expect(page.getByText(/letter\.mcap.*(no recording|not|MCAP)/).last()).toBeVisible();
+  await expect(page.getByRole("heading", { level: 1 })).toHaveText("Replay");
 });

@@ -8,13 +8,14 @@ const AXE = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.mi
 interface Watched {
   /** The page; at the end of the test it must have had no error, and asked nobody but the server. */
   page: Page;
-  /** Words of errors of the console that a test brings about on purpose. */
-  expected: RegExp[];
+  /** Errors of the console that a test brings about on purpose. */
+  expected: { pattern: RegExp | null };
 }
 
 export const test = base.extend<Watched>({
   // biome-ignore lint/correctness/noEmptyPattern: Playwright asks for a pattern
-  expected: async ({}, use) => use([]),
+  baseURL: async ({}, use) => use(new URL(process.env.PAGE_ADDRESS!).origin),
+  expected: [{ pattern: null }, { option: true }],
   page: async ({ page, expected }, use) => {
     const errors: string[] = [];
     const strangers: string[] = [];
@@ -28,7 +29,7 @@ export const test = base.extend<Watched>({
     await use(page);
     expect(strangers, "requests that leave the machine").toEqual([]);
     expect(
-      errors.filter((text) => !expected.some((pattern) => pattern.test(text))),
+      errors.filter((text) => !(expected.pattern?.test(text) ?? false)),
       "errors of the page",
     ).toEqual([]);
   },
