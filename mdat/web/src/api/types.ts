@@ -77,11 +77,13 @@ export interface Gate {
   pass: boolean;
 }
 
+/** Where the registration was after a pass; the first is where it began, without a step. */
 export interface IterationStep {
-  step_mm: number;
-  step_deg: number;
-  rms_mm: number;
-  inliers: number;
+  step_mm: number | null;
+  step_deg: number | null;
+  rms_mm: number | null;
+  inliers: number | null;
+  pose?: PoseData;
 }
 
 export interface WeakDirection {

@@ -11,9 +11,11 @@ import type { Session } from "./session.ts";
 import { theme, toggleTheme } from "./theme.ts";
 import { type Place, VIEWS } from "./views.ts";
 
-const sideWidth = remembered("side-width", 380);
-const plotsHeight = remembered("plots-height", 200);
-const eventsHeight = remembered("events-height", 190);
+/** Sizes at first follow the size of text, which grows with the screen. */
+const rem = Number.parseFloat(getComputedStyle(document.documentElement).fontSize) / 13;
+const sideWidth = remembered("side-width", Math.round(380 * rem));
+const plotsHeight = remembered("plots-height", Math.round(200 * rem));
+const eventsHeight = remembered("events-height", Math.round(190 * rem));
 const firstVisit = remembered("first-visit", true);
 
 /** Lets the clock drive the player, and the address follow the frame. */

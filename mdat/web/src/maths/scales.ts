@@ -55,6 +55,11 @@ export function withUnit(x: number | null | undefined, unit: string, figures = 3
   return unit === "°" || unit === "%" ? `${text}${unit === "%" ? " " : ""}${unit}` : `${text} ${unit}`;
 }
 
+/** A length in metres, or in millimetres below one. */
+export function lengthText(length_m: number): string {
+  return length_m < 1 ? withUnit(1000 * length_m, "mm", 4) : withUnit(length_m, "m", 4);
+}
+
 /** A count, with thin spaces between thousands. */
 export function countText(count: number | null | undefined): string {
   if (count === null || count === undefined || !Number.isFinite(count)) return DASH;

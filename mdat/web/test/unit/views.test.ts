@@ -70,8 +70,8 @@ test("a thinned table keeps its first and last row", () => {
 
 test("the first plots are errors where they are, else what the recording has", () => {
   const value = (id: string): ValueInfo => ({ id, label: id, unit: "", topic: "", group: "" });
-  assert.deepEqual(firstValues([value("a"), value("error.position"), value("b")]), [["error.position"], ["a"], ["b"]]);
-  assert.deepEqual(firstValues([]), []);
+  assert.deepEqual(firstValues([value("a"), value("error.position"), value("b")], 1400), [["error.position"], ["a"], ["b"]]);
+  assert.deepEqual(firstValues([], 1400), []);
 });
 
 test("a long list draws what is in sight and asks for its pages", () => {
@@ -164,18 +164,20 @@ test("of many requests the first and the last are made, and the answers come in 
   const latest = new Latest<number>();
   const made: number[] = [];
   const taken: number[] = [];
-  const fail = () => assert.fail();
-  for (let i = 0; i < 20; ++i)
-    latest.ask(
-      async () => {
-        made.push(i);
-        await new Promise((resolve) => setTimeout(resolve, 2));
-        return i;
-      },
-      (value) => taken.push(value),
-      fail,
-    );
-  await new Promise((resolve) => setTimeout(resolve, 30));
+  const fail = () => assert.fail("none fails");
+  const answers: (() => void)[] = [];
+  for (let i = 0; i < 20; ++i) {
+    const make = () => {
+      made.push(i);
+      return new Promise<number>((resolve) => answers.push(() => resolve(i)));
+    };
+    latest.ask(make, (value) => taken.push(value), fail);
+  }
+  assert.deepEqual(made, [0]);
+  answers[0]();
+  await new Promise(setImmediate);
   assert.deepEqual(made, [0, 19]);
+  answers[1]();
+  await new Promise(setImmediate);
   assert.deepEqual(taken, [0, 19]);
 });

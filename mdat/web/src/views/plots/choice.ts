@@ -8,14 +8,17 @@ export interface Plot {
   values: string[];
 }
 
-const AT_FIRST = 3;
+/** So many plots stand side by side with their numbers. */
+const PLOT_PX = 440;
+
+const SIDE_PX = 390;
 
 /** The plots of a first look: errors where the truth is there, else the first values of the recording. */
-export function firstValues(values: ValueInfo[]): string[][] {
+export function firstValues(values: ValueInfo[], width_px: number): string[][] {
   const wanted = ["error.position", "error.angle", "residual.rms", "pose.inliers"];
   const found = wanted.filter((id) => values.some((value) => value.id === id));
   const others = values.map((value) => value.id).filter((id) => !found.includes(id));
-  return [...found, ...others].slice(0, AT_FIRST).map((id) => [id]);
+  return [...found, ...others].slice(0, Math.max(1, Math.floor(width_px / PLOT_PX))).map((id) => [id]);
 }
 
 export class PlotChoice {
@@ -28,7 +31,7 @@ export class PlotChoice {
 
   constructor(info: RecordingInfo) {
     this.info = info;
-    this.plots = signal(firstValues(info.values).map((values) => this.make(values)));
+    this.plots = signal(firstValues(info.values, innerWidth - SIDE_PX).map((values) => this.make(values)));
   }
 
   value(id: string): ValueInfo | undefined {

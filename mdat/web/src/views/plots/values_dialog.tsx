@@ -2,6 +2,7 @@
 import { useSignal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import type { ValueInfo } from "../../api/types.ts";
+import { shortLabel } from "../../api/units.ts";
 import { overlay } from "../../app/overlay.ts";
 import { useSession } from "../../app/session.ts";
 import { Empty } from "../../parts/controls.tsx";
@@ -51,8 +52,11 @@ export function ValuesDialog() {
             .filter((value) => value.group === group)
             .map((value) => (
               <button key={value.id} type="button" class="value" onClick={() => choose(value)}>
-                <span>{value.label}</span>
-                <span class="value-unit">{value.unit}</span>
+                <span class="value-name">
+                  {shortLabel(value.label)}
+                  {value.unit === "" ? "" : `, ${value.unit}`}
+                </span>
+                <span class="value-meaning">{value.label.slice(shortLabel(value.label).length + 2)}</span>
                 <code>{value.topic}</code>
               </button>
             ))}

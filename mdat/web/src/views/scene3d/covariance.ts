@@ -22,7 +22,7 @@ import { ellipsoidOf, SIGMAS, weakNote } from "./ellipsoid.ts";
 export class Covariance {
   readonly group = new Group();
   private readonly skin = new MeshBasicMaterial({ transparent: true, opacity: 0.22, depthWrite: false, side: DoubleSide });
-  private readonly lines = new LineBasicMaterial({ transparent: true, opacity: 0.8, depthTest: false });
+  private readonly lines = new LineBasicMaterial({ transparent: true, opacity: 0.4, depthTest: false });
   private readonly weakLines = new LineSegments(new BufferGeometry(), new LineBasicMaterial({ depthTest: false }));
   private readonly body = new Group();
 

@@ -5,7 +5,7 @@ import { niceBelow, withUnit } from "../../maths/scales.ts";
 
 export const SIGMAS = 3;
 /** Share of the target's size that the longest half axis shall have on the screen, at most. */
-const SHARE = 0.3;
+const SHARE = 0.16;
 
 export interface Ellipsoid {
   /** Half axes as drawn, metres, with their directions. */

@@ -1,9 +1,20 @@
 // Things made of lines in the sensor's frame: rays that missed, the field of view, the scan pattern.
-import { BufferAttribute, BufferGeometry, Color, Group, Line, LineBasicMaterial, LineDashedMaterial, LineSegments } from "three";
+import {
+  BufferAttribute,
+  BufferGeometry,
+  Color,
+  Group,
+  Line,
+  LineBasicMaterial,
+  LineDashedMaterial,
+  LineSegments,
+  Points,
+  PointsMaterial,
+} from "three";
 import type { Scan } from "../../api/decode.ts";
 import type { CameraInfo } from "../../api/types.ts";
 import { cssValue } from "../../app/theme.ts";
-import { frustumSegments, missedSegments, patternPlaces } from "./segments.ts";
+import { frustumSegments, missedSegments, passedPlaces, patternPlaces } from "./segments.ts";
 
 function geometryOf(places: number[]): BufferGeometry {
   const geometry = new BufferGeometry();
@@ -14,7 +25,9 @@ function geometryOf(places: number[]): BufferGeometry {
 export class Lines {
   readonly group = new Group();
   readonly missed = new LineSegments(new BufferGeometry(), new LineBasicMaterial({ transparent: true, opacity: 0.45 }));
-  readonly frustum = new LineSegments(new BufferGeometry(), new LineBasicMaterial({ transparent: true, opacity: 0.6 }));
+  /** Where they pass, as dots: seen along the rays the lines are none. */
+  readonly passes = new Points(new BufferGeometry(), new PointsMaterial({ size: 2.5, sizeAttenuation: false }));
+  readonly frustum = new LineSegments(new BufferGeometry(), new LineBasicMaterial({ transparent: true, opacity: 0.4 }));
   readonly pattern = new Line(new BufferGeometry(), new LineBasicMaterial({ transparent: true, opacity: 0.55 }));
   readonly boresight = new LineSegments(
     new BufferGeometry(),
@@ -23,13 +36,14 @@ export class Lines {
   private reach_m = 0;
 
   constructor() {
-    this.group.add(this.missed, this.frustum, this.pattern, this.boresight);
-    for (const line of [this.missed, this.frustum, this.pattern, this.boresight]) line.frustumCulled = false;
+    this.group.add(this.missed, this.passes, this.frustum, this.pattern, this.boresight);
+    for (const line of [this.missed, this.passes, this.frustum, this.pattern, this.boresight]) line.frustumCulled = false;
     this.applyTheme();
   }
 
   applyTheme(): void {
     this.missed.material.color = new Color(cssValue("--missed"));
+    this.passes.material.color = new Color(cssValue("--missed"));
     this.frustum.material.color = new Color(cssValue("--frustum"));
     this.pattern.material.color = new Color(cssValue("--frustum"));
     this.boresight.material.color = new Color(cssValue("--frustum"));
@@ -38,6 +52,8 @@ export class Lines {
   showScan(scan: Scan, distance_m: number): void {
     this.missed.geometry.dispose();
     this.missed.geometry = geometryOf(missedSegments(scan));
+    this.passes.geometry.dispose();
+    this.passes.geometry = geometryOf(passedPlaces(scan));
     this.pattern.geometry.dispose();
     this.pattern.geometry = geometryOf(patternPlaces(scan, distance_m));
   }

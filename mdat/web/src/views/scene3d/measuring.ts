@@ -3,7 +3,7 @@ import { BufferAttribute, BufferGeometry, Color, LineBasicMaterial, LineSegments
 import { setting } from "../../app/history.ts";
 import type { Session } from "../../app/session.ts";
 import { cssValue } from "../../app/theme.ts";
-import { withUnit } from "../../maths/scales.ts";
+import { lengthText } from "../../maths/scales.ts";
 import { add, norm, scale, subtract, type Vec3 } from "../../maths/vectors.ts";
 import type { Measurement } from "./choice.ts";
 import type { Labels } from "./labels.ts";
@@ -52,7 +52,7 @@ export class Measuring {
     this.setPlaces(this.lines, places);
     this.setPlaces(this.ends, first === null ? places : [...places, ...first]);
     this.labels.set(
-      measurements.map(({ a, b }) => ({ text: withUnit(norm(subtract(b, a)), "m", 4), place: scale(add(a, b), 0.5), kind: "distance" })),
+      measurements.map(({ a, b }) => ({ text: lengthText(norm(subtract(b, a))), place: scale(add(a, b), 0.5), kind: "distance" })),
     );
     this.stage.invalidate();
   }

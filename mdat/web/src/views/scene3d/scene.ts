@@ -123,7 +123,7 @@ class SceneRunner {
     this.cloud.points.visible = layers.points;
     this.lines.showScan(scan, distance_m);
     this.lines.showFrustum(log.info.camera, distance_m, log.info.size_m);
-    this.lines.missed.visible = layers.missed;
+    this.lines.missed.visible = this.lines.passes.visible = layers.missed;
     this.lines.pattern.visible = layers.pattern;
     this.lines.frustum.visible = this.lines.boresight.visible = layers.frustum;
     this.target.show(frame, layers);

@@ -4,7 +4,7 @@ import { useEffect, useRef } from "preact/hooks";
 import { setting } from "../../app/history.ts";
 import { tell } from "../../app/notices.ts";
 import { useSession } from "../../app/session.ts";
-import { withUnit } from "../../maths/scales.ts";
+import { lengthText } from "../../maths/scales.ts";
 import { norm, subtract } from "../../maths/vectors.ts";
 import { Empty, IconButton, Panel } from "../../parts/controls.tsx";
 import { Icon } from "../../parts/icon.tsx";
@@ -102,7 +102,7 @@ function Measurements() {
       ) : null}
       {list.map(({ a, b }, i) => (
         <p key={String(i)}>
-          Distance {i + 1}: <b>{withUnit(norm(subtract(b, a)), "m", 4)}</b>
+          Distance {i + 1}: <b>{lengthText(norm(subtract(b, a)))}</b>
         </p>
       ))}
       {list.length === 0 ? null : (

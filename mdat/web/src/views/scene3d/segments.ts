@@ -18,6 +18,14 @@ export function missedSegments(scan: Scan): number[] {
   return places;
 }
 
+/** Where each missed ray passes the target. */
+export function passedPlaces(scan: Scan): number[] {
+  const { x, y, z, state } = scan.columns;
+  const places: number[] = [];
+  for (let i = 0; i < scan.count; ++i) if (state[i] === MISS && Number.isFinite(x[i])) places.push(x[i], y[i], z[i]);
+  return places;
+}
+
 /** The rays' directions in the order of the scan, at one distance. */
 export function patternPlaces(scan: Scan, distance_m: number): number[] {
   const { x, y, z } = scan.columns;

@@ -36,7 +36,7 @@ export function Iterations({ frame }: { frame: FrameInfo }) {
           <tr key={String(i)} class={chosen === i ? "chosen" : ""}>
             <th scope="row">
               <button type="button" class="link" aria-pressed={chosen === i} onClick={() => choose(chosen === i ? null : i)}>
-                {i + 1}
+                {i === 0 ? "start" : i}
               </button>
             </th>
             <td class="number">{shortNumber(step.step_mm)}</td>

@@ -58,7 +58,8 @@ function sentence(text: string): string {
 }
 
 function gateNumber(value: number | null, unit: string): string {
-  return unitText(unit) === "" && Number.isInteger(value) ? countText(value) : withUnit(value, unitText(unit), 4);
+  if (value === null || Math.abs(value) >= 1e6) return withUnit(value, unitText(unit));
+  return `${Number(value.toPrecision(4))} ${unitText(unit)}`.trim().replace("-", "−");
 }
 
 function GateRow({ gate }: { gate: Gate }) {
