@@ -188,20 +188,48 @@ void Reader::end_data(std::string_view content) {
     note("the data before has another check sum than it says: what has none of its own, such as an index, is damaged");
 }
 
-std::vector<Damage> Reader::read(const Visitor& visitor) {
+// False: there is no further one.
+bool Reader::read_record(const Visitor& visitor) {
   Op op{};
   std::string content;
-  while (!ended_) {
-    const bool whole = next(op, content), sound = whole && is_sound(op, content);
-    if (sound && op == Op::kDataEnd) end_data(content);
-    if (sound) take(op, content, visitor);
-    if (sound) continue;
-    note(whole ? "what stands here is no record" : "the file ends here, within its data");
-    if (!find_chunk()) break;
-    if (!whole) damage_.back().why = "a record reaches beyond the file";
+  const bool whole = next(op, content);
+  if (whole && is_sound(op, content)) {
+    if (op == Op::kDataEnd) end_data(content);
+    take(op, content, visitor);
+    return !ended_;
+  }
+  note(whole ? "what stands here is no record" : "the file ends here, within its data");
+  const std::size_t noted = damage_.size() - 1;
+  const bool goes_on = find_chunk();
+  if (goes_on && !whole) damage_[noted].why = "a record reaches beyond the file";
+  return goes_on;
+}
+
+std::vector<Damage> Reader::read(const Visitor& visitor) {
+  while (read_record(visitor)) {
   }
   if (ended_ && damage_.empty()) count_again();
   return damage_;
+}
+
+std::string Reader::message_at(std::uint64_t record_at, std::size_t nth) {
+  std::string data;
+  std::size_t number = 0;
+  bool found = false;
+  Visitor visitor;
+  visitor.message = [&](const Channel&, const Message& message) {
+    if (number++ != nth) return;
+    found = true;
+    data = message.data;
+  };
+  Op op{};
+  std::string content;
+  in_.clear();
+  at_ = record_at;
+  in_.seekg(static_cast<std::streamoff>(at_));
+  if (next(op, content)) op == Op::kMessage ? take_message(content, visitor) : take(op, content, visitor);
+  if (!found) throw InputError(path_.string() + ": the record at byte " + std::to_string(record_at) + " cannot be read again");
+  return data;
 }
 
 }  // namespace lasso::mdat::mcap

@@ -45,10 +45,16 @@ class Reader {
 
   const std::vector<Damage>& damage() const { return damage_; }  // so far
 
+  // The place of the record from which the message comes that a visitor gets: of its chunk.
+  std::uint64_t record_at() const { return record_at_; }
+  // Of a record that was read, the data of its nth message. Throws InputError: it cannot be read again.
+  std::string message_at(std::uint64_t record_at, std::size_t nth);
+
  private:
   bool next(Op& op, std::string& content);
   bool is_sound(Op op, std::string_view content) const;
   bool find_chunk();
+  bool read_record(const Visitor& visitor);
   void end_data(std::string_view content);
   void take(Op op, std::string_view content, const Visitor& visitor);
   void take_inner(Op op, std::string_view content, const Visitor& visitor);

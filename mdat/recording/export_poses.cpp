@@ -77,7 +77,8 @@ void append_line(std::string& text, const char* format, Values... values) {
 
 // The derivative, at the i-th, of the parabola through three neighbours; of two poses, of the line.
 Vec3 velocity_of(const TimedPoses& poses, std::size_t i) {
-  if (poses[i].v_mps) return *poses[i].v_mps;
+  const std::optional<Vec3>& told_mps = poses[i].v_mps;
+  if (told_mps.has_value()) return *told_mps;
   if (poses.size() == 2) return (poses[1].pose.p - poses[0].pose.p) / (poses[1].t_s - poses[0].t_s);
   const std::size_t middle = std::min(std::max<std::size_t>(i, 1), poses.size() - 2);
   const TimedPose &a = poses[middle - 1], &b = poses[middle], &c = poses[middle + 1];
@@ -93,9 +94,10 @@ std::string date_text(std::int64_t day) {
   const std::int64_t year_of_era = (of_era - of_era / 1460 + of_era / 36524 - of_era / 146096) / 365;
   const std::int64_t of_year = of_era - (365 * year_of_era + year_of_era / 4 - year_of_era / 100), month = (5 * of_year + 2) / 153;
   const std::int64_t m = month < 10 ? month + 3 : month - 9;
+  const std::int64_t year = year_of_era + era * 400 + (m <= 2 ? 1 : 0), date = of_year - (153 * month + 2) / 5 + 1;
   std::string text;
-  append_line(text, "%04lld-%02lld-%02lld", static_cast<long long>(year_of_era + era * 400 + (m <= 2 ? 1 : 0)), static_cast<long long>(m),
-              static_cast<long long>(of_year - (153 * month + 2) / 5 + 1));
+  append_line(text, "%04lld-%02lld-%02lld", static_cast<long long>(year), static_cast<long long>(m),
+              static_cast<long long>(date));
   return text;
 }
 
