@@ -26,6 +26,7 @@ void add_decode_command(CLI::App& app);
 void add_command_command(CLI::App& app);
 void add_upload_command(CLI::App& app);
 void add_dictionary_command(CLI::App& app);
+void add_serve_command(CLI::App& app);
 
 // Flies a recorded run again: the component gets the recorded scans, with `settings` beside those of the run. Prints its summary, and
 // whether telemetry is the recorded one. Throws InputError or MissionError as what it reads; RunError where nothing was changed, and it

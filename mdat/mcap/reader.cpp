@@ -5,17 +5,14 @@
 #include <system_error>
 
 #include "mdat/common/errors.hpp"
+#include "mdat/mcap/chunk.hpp"
 
 namespace lasso::mdat::mcap {
 namespace {
 
 constexpr std::uint64_t kLargestChunk = std::uint64_t{1} << 30;  // unpacked: a length that is damaged asks for no memory beyond
 
-struct ChunkParts {
-  std::uint64_t first_ns = 0, last_ns = 0, size = 0;
-  std::uint32_t crc = 0;
-  std::string_view compression, body;
-};
+}  // namespace
 
 bool parts_of(std::string_view content, ChunkParts& parts) {
   ByteReader reader(content);
@@ -46,6 +43,8 @@ std::string unpacked(const ChunkParts& parts, std::string& why) {
     why = "a chunk has another check sum than it says";
   return why.empty() ? records : std::string();
 }
+
+namespace {
 
 // By its number.
 template <class Record>

@@ -52,35 +52,38 @@ void Writer::put_out(const std::string& bytes) {
 
 std::uint16_t Writer::add_schema(const std::string& name, const std::string& encoding, const std::string& data) {
   schemas_.push_back({static_cast<std::uint16_t>(schemas_.size() + 1), name, encoding, data});
-  put_schema(schemas_.back(), chunk_.records);
+  put_schema(schemas_.back(), chunks_.front().records);
   return schemas_.back().id;
 }
 
-std::uint16_t Writer::add_channel(const std::string& topic, std::uint16_t schema, const std::string& encoding, const Text& metadata) {
+std::uint16_t Writer::add_channel(const std::string& topic, std::uint16_t schema, const std::string& encoding, const Text& metadata,
+                                  Bulk bulk) {
   channels_.push_back({static_cast<std::uint16_t>(channels_.size()), schema, topic, encoding, metadata});
-  put_channel(channels_.back(), chunk_.records);
+  bulks_.push_back(bulk);
+  put_channel(channels_.back(), chunks_.front().records);
   return channels_.back().id;
 }
 
 void Writer::write(std::uint16_t channel, std::uint64_t time_ns, std::string_view data) {
-  const bool first_of_chunk = chunk_.index.empty(), first = counts_.messages.empty();
-  chunk_.first_ns = first_of_chunk ? time_ns : std::min(chunk_.first_ns, time_ns);
-  chunk_.last_ns = first_of_chunk ? time_ns : std::max(chunk_.last_ns, time_ns);
+  Chunk& chunk = chunks_.at(static_cast<std::size_t>(bulks_.at(channel)));
+  const bool first_of_chunk = chunk.index.empty(), first = counts_.messages.empty();
+  chunk.first_ns = first_of_chunk ? time_ns : std::min(chunk.first_ns, time_ns);
+  chunk.last_ns = first_of_chunk ? time_ns : std::max(chunk.last_ns, time_ns);
   counts_.first_ns = first ? time_ns : std::min(counts_.first_ns, time_ns);
   counts_.last_ns = std::max(counts_.last_ns, time_ns);
-  std::string& index = chunk_.index[channel];
+  std::string& index = chunk.index[channel];
   put(time_ns, index);
-  put<std::uint64_t>(chunk_.records.size(), index);
+  put<std::uint64_t>(chunk.records.size(), index);
   const auto sequence = static_cast<std::uint32_t>(counts_.messages[channel]++);
-  put_message({channel, sequence, time_ns, time_ns, data}, chunk_.records);
-  if (chunk_.records.size() >= kChunkBytes) end_chunk();
+  put_message({channel, sequence, time_ns, time_ns, data}, chunk.records);
+  if (chunk.records.size() >= kChunkBytes) end_chunks();
 }
 
 // Of the chunk that was just written: one record a channel, and where each begins.
-std::map<std::uint16_t, std::uint64_t> Writer::put_indexes() {
+std::map<std::uint16_t, std::uint64_t> Writer::put_indexes(const Chunk& chunk) {
   std::map<std::uint16_t, std::uint64_t> places;
   std::string bytes;
-  for (const auto& [channel, entries] : chunk_.index) {
+  for (const auto& [channel, entries] : chunk.index) {
     places[channel] = at_ + bytes.size();
     std::string content;
     put(channel, content);
@@ -91,33 +94,37 @@ std::map<std::uint16_t, std::uint64_t> Writer::put_indexes() {
   return places;
 }
 
-void Writer::end_chunk() {
-  if (chunk_.records.empty()) return;
-  const std::string body = compressed(chunk_.records);
+void Writer::end_chunks() {
+  for (Chunk& chunk : chunks_) end_chunk(chunk);
+}
+
+void Writer::end_chunk(Chunk& chunk) {
+  if (chunk.records.empty()) return;
+  const std::string body = compressed(chunk.records);
   const std::uint64_t begin = at_;
   std::string record;
-  put_record(Op::kChunk, chunk_head(chunk_.first_ns, chunk_.last_ns, chunk_.records, body.size()) + body, record);
+  put_record(Op::kChunk, chunk_head(chunk.first_ns, chunk.last_ns, chunk.records, body.size()) + body, record);
   put_out(record);
   const std::uint64_t end = at_;
   std::string places;
-  for (const auto& [channel, place] : put_indexes()) {
+  for (const auto& [channel, place] : put_indexes(chunk)) {
     put(channel, places);
     put(place, places);
   }
   std::string content;
-  for (const std::uint64_t value : {chunk_.first_ns, chunk_.last_ns, begin, end - begin}) put(value, content);
+  for (const std::uint64_t value : {chunk.first_ns, chunk.last_ns, begin, end - begin}) put(value, content);
   put_text(places, content);
   put(at_ - end, content);
   put_text("zstd", content);
   put<std::uint64_t>(body.size(), content);
-  put<std::uint64_t>(chunk_.records.size(), content);
+  put<std::uint64_t>(chunk.records.size(), content);
   put_record(Op::kChunkIndex, content, chunk_indexes_);
   ++counts_.chunks;
-  chunk_ = Chunk{};
+  chunk = Chunk{};
 }
 
 void Writer::attach(const std::string& name, const std::string& media_type, std::string_view data, std::uint64_t time_ns) {
-  end_chunk();
+  end_chunks();
   std::string record, content;
   put_attachment({time_ns, time_ns, name, media_type, data}, record);
   for (const std::uint64_t value : {at_, std::uint64_t{record.size()}, time_ns, time_ns, std::uint64_t{data.size()}}) put(value, content);
@@ -129,7 +136,7 @@ void Writer::attach(const std::string& name, const std::string& media_type, std:
 }
 
 void Writer::add_metadata(const std::string& name, const Text& map) {
-  end_chunk();
+  end_chunks();
   std::string record, content;
   put_text(name, content);
   put_map(map, content);
@@ -174,7 +181,7 @@ void Writer::put_group(Op op, std::string_view records, std::string& summary, st
 }
 
 void Writer::close() {
-  end_chunk();
+  end_chunks();
   std::string end;
   put_record(Op::kDataEnd, std::string(4, '\0'), end);
   put_out(end);

@@ -1,9 +1,13 @@
 // Writes an MCAP file: messages in compressed chunks with indexes, attachments, metadata, and the summary by which readers seek.
 //
 // A chunk is in the file as soon as it is full: of a run that is killed all but the last chunk can be read (reader.hpp). Memory is that of
-// one chunk, and 32 bytes for each one written.
+// two chunks, and 32 bytes for each one written.
+//
+// Large messages, as scans, have chunks of their own, which end together with those of the small ones: who asks for poses or events of a
+// long run unpacks a few percent of it.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -18,6 +22,8 @@ namespace lasso::mdat::mcap {
 
 constexpr std::size_t kChunkBytes = std::size_t{1} << 20;  // uncompressed, beyond which a chunk ends
 
+enum class Bulk : std::uint8_t { kSmall = 0, kLarge = 1 };  // of a channel's messages
+
 // All throw InputError that names the file and the reason where it cannot be written, as on a full disk.
 class Writer {
  public:
@@ -25,7 +31,8 @@ class Writer {
   Writer(const std::filesystem::path& file, const std::string& profile, const std::string& library);
 
   std::uint16_t add_schema(const std::string& name, const std::string& encoding, const std::string& data);
-  std::uint16_t add_channel(const std::string& topic, std::uint16_t schema, const std::string& encoding, const Text& metadata = {});
+  std::uint16_t add_channel(const std::string& topic, std::uint16_t schema, const std::string& encoding, const Text& metadata = {},
+                            Bulk bulk = Bulk::kSmall);
   // Sequence numbers count from 0 in each channel.
   void write(std::uint16_t channel, std::uint64_t time_ns, std::string_view data);
   void attach(const std::string& name, const std::string& media_type, std::string_view data, std::uint64_t time_ns);
@@ -45,18 +52,20 @@ class Writer {
     std::map<std::uint16_t, std::uint64_t> messages;
   };
   void put_out(const std::string& bytes);
-  void end_chunk();
-  std::map<std::uint16_t, std::uint64_t> put_indexes();
+  void end_chunks();
+  void end_chunk(Chunk& chunk);
+  std::map<std::uint16_t, std::uint64_t> put_indexes(const Chunk& chunk);
   void put_group(Op op, std::string_view records, std::string& summary, std::string& offsets) const;
   std::string statistics() const;
 
   std::filesystem::path path_;
   std::ofstream out_;
-  std::uint64_t at_ = 0;  // bytes written
-  Chunk chunk_;
+  std::uint64_t at_ = 0;         // bytes written
+  std::array<Chunk, 2> chunks_;  // by Bulk; definitions of channels are in the first, which is written before the other
   Counts counts_;
   std::vector<Schema> schemas_;
   std::vector<Channel> channels_;
+  std::vector<Bulk> bulks_;                                            // of the channels
   std::string chunk_indexes_, attachment_indexes_, metadata_indexes_;  // records of the summary
 };
 

@@ -21,18 +21,19 @@ constexpr double kGhost = 0.35;                                                 
 struct Topic {
   const char* name;
   RosSchema (*schema)();
+  mcap::Bulk bulk = mcap::Bulk::kSmall;
 };
 constexpr Topic kTopics[] = {{"/tf", ros::tf_message},
-                             {"/scan", ros::point_cloud},
-                             {"/rays_missed", ros::point_cloud},
+                             {"/scan", ros::point_cloud, mcap::Bulk::kLarge},
+                             {"/rays_missed", ros::point_cloud, mcap::Bulk::kLarge},
                              {"/pose", ros::pose_stamped},
                              {"/pose_with_covariance", ros::pose_with_covariance},
                              {"/odom", ros::odometry},
                              {"/truth", ros::pose_stamped},
-                             {"/scene", ros::scene_update},
+                             {"/scene", ros::scene_update, mcap::Bulk::kLarge},
                              {"/events", ros::log},
                              {"/packets", ros::packet},
-                             {"/sensor_scans", ros::packet}};
+                             {"/sensor_scans", ros::packet, mcap::Bulk::kLarge}};
 
 std::uint64_t nanoseconds(TimeUs t_us) { return static_cast<std::uint64_t>(t_us) * 1000; }
 
@@ -81,7 +82,7 @@ FrameRecorder::FrameRecorder(const std::filesystem::path& file, const CompiledMi
     const RosSchema schema = topic.schema();
     const auto [place, added] = schemas.try_emplace(schema.name, std::uint16_t{0});
     if (added) place->second = writer_.add_schema(schema.name, "ros2msg", schema.text);
-    channels_[topic.name] = writer_.add_channel(topic.name, place->second, "cdr");
+    channels_[topic.name] = writer_.add_channel(topic.name, place->second, "cdr", {}, topic.bulk);
   }
   for (const auto& [name, content] : head.files) writer_.attach(name, "application/octet-stream", content, 0);
   writer_.add_metadata(kRecordingMetadata, head.about);

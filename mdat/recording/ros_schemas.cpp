@@ -103,7 +103,7 @@ RosSchema schema_of(const std::string& name) {
   RosSchema schema{name.substr(0, slash) + "/msg" + name.substr(slash), std::string(fields_of(name))};
   std::vector<std::string> found;
   collect(name, found);
-  for (const std::string& need : found) schema.text += std::string(80, '=') + "\nMSG: " + need + "\n" + std::string(fields_of(need));
+  for (const std::string& need : found) schema.text.append(80, '=').append("\nMSG: ").append(need).append("\n").append(fields_of(need));
   return schema;
 }
 

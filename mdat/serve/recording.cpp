@@ -1,0 +1,199 @@
+#include "mdat/serve/recording.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <unordered_map>
+
+#include "mdat/recording/recording_head.hpp"
+#include "mdat/serve/frame_facts.hpp"
+
+namespace lasso::mdat::serve {
+namespace {
+
+constexpr double kNs = 1e-9;
+constexpr std::size_t kFactsTable = 0;
+constexpr std::size_t kPatience = 64;     // reports that wait for their true poses
+constexpr std::size_t kMostDamage = 100;  // of chunks that cannot be read, each
+
+bool is_pose(const PacketRow& row) { return std::string_view(row.name) == "pose"; }
+
+bool is_event(const PacketRow& row) { return row.cause[0] != '\0'; }  // whose words are in /events
+
+}  // namespace
+
+// What is known only while the file is read.
+struct Recording::Building {
+  struct Told {
+    PoseTelemetry pose;
+    double time_s = 0;
+    std::uint64_t time_ns = 0;
+    std::uint32_t chunk = 0;
+  };
+  std::map<std::uint16_t, std::string> topics;  // of the channels that are read whole
+  std::map<const PacketRow*, PacketColumns> packets;
+  std::unordered_map<std::uint64_t, Pose> truth;
+  std::deque<Told> waiting;  // for the true pose, which may come behind the packet
+};
+
+Recording::Recording(const std::filesystem::path& file) : file_(file), cache_(file_) {
+  for (const mcap::Damage& part : file_.damage()) damage_.push_back("byte " + std::to_string(part.at) + ": " + part.why);
+  own_ = file_.metadata().count(kRecordingMetadata) > 0;
+  if (own_) image_ = flown_image(file_);
+  for (const auto& [id, channel] : file_.channels()) {
+    const auto schema = file_.schemas().find(channel.schema);
+    const bool cloud = schema != file_.schemas().end() && schema->second.name == "sensor_msgs/msg/PointCloud2";
+    if (cloud && (cloud_topic_.empty() || channel.topic == "/scan")) cloud_topic_ = channel.topic;
+  }
+  build();
+}
+
+void Recording::build() {
+  Building building;
+  for (const auto& [id, channel] : file_.channels()) {
+    if (channel.topic == "/packets" || channel.topic == "/truth" || channel.topic == "/events") building.topics[id] = channel.topic;
+  }
+  tables_.emplace_back();
+  for (std::size_t i = 0; i < file_.chunks().size(); ++i) {
+    const mcap::ChunkPlace& chunk = file_.chunks()[i];
+    const bool wanted =
+        std::any_of(building.topics.begin(), building.topics.end(), [&](const auto& topic) { return chunk.may_have(topic.first); });
+    if (!wanted) continue;
+    std::string why;
+    const std::string records = file_.records_of(chunk, why);
+    if (!why.empty() && damage_.size() < kMostDamage) damage_.push_back("byte " + std::to_string(chunk.at) + ": " + why);
+    mcap::for_each_message(records, [&](const mcap::Message& message) { take(message, i, building); });
+    judge_waiting(building, kPatience);
+  }
+  judge_waiting(building, 0);
+  finish(building);
+}
+
+void Recording::take(const mcap::Message& message, std::size_t chunk, Building& building) {
+  const auto topic = building.topics.find(message.channel);
+  if (topic == building.topics.end()) return;
+  if (topic->second == "/packets") return take_packet(message, chunk, building);
+  if (topic->second == "/truth") {
+    const std::optional<StampedPose> pose = read_pose(message.data);
+    if (pose && is_valid(pose->pose)) building.truth[message.log_ns] = pose->pose;
+    return;
+  }
+  const std::optional<LogMessage> log = read_log(message.data);
+  if (log) events_.push_back({kNs * static_cast<double>(message.log_ns), 0, log->level, log->name, log->text});
+}
+
+void Recording::take_packet(const mcap::Message& message, std::size_t chunk, Building& building) {
+  const std::optional<ConstBytes> packet = read_packet(message.data);
+  const PacketRow* row = packet ? telemetry_row(*packet) : nullptr;
+  if (row == nullptr || is_event(*row) || row->items.empty()) return;
+  const auto [place, added] = building.packets.try_emplace(row, *row, tables_.size());
+  if (added) tables_.emplace_back();
+  if (is_pose(*row)) return add_pose(message, *packet, chunk, building);
+  place->second.add(kNs * static_cast<double>(message.log_ns), *packet, tables_[place->second.values().front().table]);
+}
+
+// A report without a scan has the time of its boundary.
+void Recording::add_pose(const mcap::Message& message, ConstBytes packet, std::size_t chunk, Building& building) {
+  PacketHeader header;
+  PoseTelemetry pose;
+  if (decode_pose(packet, header, pose) != PacketFault::kNone) return;
+  const std::uint64_t time_ns = pose.t_measurement_us > 0 ? static_cast<std::uint64_t>(pose.t_measurement_us) * 1000 : message.log_ns;
+  const double time_s = kNs * static_cast<double>(time_ns);
+  const PacketColumns& columns = building.packets.at(telemetry_row(packet));
+  columns.add(time_s, packet, tables_[columns.values().front().table]);
+  building.waiting.push_back({pose, time_s, time_ns, static_cast<std::uint32_t>(chunk)});
+}
+
+// In their order: those whose true pose is there, and all but the last `keep`.
+void Recording::judge_waiting(Building& building, std::size_t keep) {
+  while (!building.waiting.empty()) {
+    const Building::Told& told = building.waiting.front();
+    const auto found = building.truth.find(told.time_ns);
+    const bool known = found != building.truth.end();
+    if (!known && building.waiting.size() <= keep) return;
+    const FrameFacts facts(told.pose, known ? std::optional(found->second) : std::nullopt);
+    add_facts(told.time_s, facts, tables_[kFactsTable]);
+    frames_.push_back({told.time_s, told.time_ns, told.chunk, told.pose.mode, told.pose.reason, told.pose.valid != 0, facts.wrong});
+    truth_ = truth_ || known;
+    if (known) building.truth.erase(found);
+    building.waiting.pop_front();
+  }
+}
+
+void Recording::finish(Building& building) {
+  if (!frames_.empty()) values_ = fact_values(kFactsTable);
+  if (!truth_) std::erase_if(values_, [](const Value& value) { return value.topic == "/truth"; });
+  for (const auto& [row, columns] : building.packets) values_.insert(values_.end(), columns.values().begin(), columns.values().end());
+  for (std::size_t i = 0; i < values_.size(); ++i) by_id_[values_[i].id] = i;
+  if (frames_.empty()) find_frames_of_clouds();
+  number_events();
+}
+
+// Of another program's recording: its clouds, by their times.
+void Recording::find_frames_of_clouds() {
+  const std::optional<std::uint16_t> channel = cloud_topic_.empty() ? std::nullopt : file_.channel_of(cloud_topic_);
+  if (!channel) return;
+  for (std::size_t i = 0; i < file_.chunks().size(); ++i) {
+    if (!file_.chunks()[i].may_have(*channel)) continue;
+    std::string why;
+    const std::string records = file_.records_of(file_.chunks()[i], why);
+    if (!why.empty() && damage_.size() < kMostDamage) damage_.push_back("byte " + std::to_string(file_.chunks()[i].at) + ": " + why);
+    mcap::for_each_message(records, [&](const mcap::Message& message) {
+      if (message.channel != *channel) return;
+      Frame frame;
+      frame.time_ns = message.log_ns;
+      frame.time_s = kNs * static_cast<double>(message.log_ns);
+      frame.chunk = static_cast<std::uint32_t>(i);
+      frames_.push_back(frame);
+    });
+  }
+  std::stable_sort(frames_.begin(), frames_.end(), [](const Frame& a, const Frame& b) { return a.time_ns < b.time_ns; });
+}
+
+void Recording::number_events() {
+  std::stable_sort(events_.begin(), events_.end(), [](const RecordedEvent& a, const RecordedEvent& b) { return a.time_s < b.time_s; });
+  for (RecordedEvent& event : events_) {
+    const auto later = std::upper_bound(frames_.begin(), frames_.end(), event.time_s,
+                                        [](double time_s, const Frame& frame) { return time_s < frame.time_s; });
+    event.frame = later == frames_.begin() ? 0 : static_cast<std::size_t>(later - frames_.begin()) - 1;
+  }
+}
+
+const Value* Recording::value(const std::string& id) const {
+  const auto found = by_id_.find(id);
+  return found != by_id_.end() ? &values_[found->second] : nullptr;
+}
+
+std::optional<PoseTelemetry> Recording::told(std::size_t n) const {
+  const std::optional<std::uint16_t> channel = own_ ? file_.channel_of("/packets") : std::nullopt;
+  std::optional<PoseTelemetry> found;
+  if (!channel) return found;
+  const std::shared_ptr<const std::string> records = cache_.records(frames_.at(n).chunk);
+  mcap::for_each_message(*records, [&](const mcap::Message& message) {
+    const std::optional<ConstBytes> packet = message.channel == *channel && !found ? read_packet(message.data) : std::nullopt;
+    PacketHeader header;
+    PoseTelemetry pose;
+    if (!packet || decode_pose(*packet, header, pose) != PacketFault::kNone) return;
+    const std::uint64_t time_ns = pose.t_measurement_us > 0 ? static_cast<std::uint64_t>(pose.t_measurement_us) * 1000 : message.log_ns;
+    if (time_ns == frames_[n].time_ns) found = pose;
+  });
+  return found;
+}
+
+std::optional<Pose> Recording::truth(std::size_t n) const {
+  const std::string bytes = message(n, "/truth");
+  const std::optional<StampedPose> pose = bytes.empty() ? std::nullopt : read_pose(bytes);
+  return pose ? std::optional(pose->pose) : std::nullopt;
+}
+
+std::string Recording::message(std::size_t n, const std::string& topic) const {
+  const std::optional<std::uint16_t> channel = file_.channel_of(topic);
+  return channel ? cache_.message(*channel, frames_.at(n).time_ns) : "";
+}
+
+std::string Recording::first_message(const std::string& topic) const {
+  const std::optional<std::uint16_t> channel = file_.channel_of(topic);
+  return channel ? cache_.first_message(*channel) : "";
+}
+
+}  // namespace lasso::mdat::serve

@@ -1,0 +1,87 @@
+// A recording that is open: its frames, values and events in memory (some 1.3 kB a frame), its scans and messages in the file, by index.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fsw/link/pose_telemetry.hpp"
+#include "mdat/mcap/indexed_file.hpp"
+#include "mdat/serve/chunk_cache.hpp"
+#include "mdat/serve/flown_image.hpp"
+#include "mdat/serve/messages.hpp"
+#include "mdat/serve/value_table.hpp"
+
+namespace lasso::mdat::serve {
+
+// One report of the component on a scan: one packet `pose`. Of a recording by another program: one cloud of points.
+struct Frame {
+  double time_s = 0;          // to which its poses belong
+  std::uint64_t time_ns = 0;  // the same, as messages are stamped
+  std::uint32_t chunk = 0;    // that its packet is in
+  std::uint8_t mode = 0, reason = 0;
+  bool valid = false;
+  std::optional<bool> wrong;  // none: no truth
+};
+
+struct RecordedEvent {
+  double time_s = 0;
+  std::size_t frame = 0;  // the last one that is not later
+  std::uint8_t level = 0;
+  std::string name, text;
+};
+
+// Safe for several threads once it is made.
+class Recording {
+ public:
+  // Reads index, packets, true poses and events. Throws InputError where the file is no recording.
+  explicit Recording(const std::filesystem::path& file);
+
+  const mcap::IndexedFile& file() const { return file_; }
+  bool own() const { return own_; }  // by mdat run --record
+  bool has_truth() const { return truth_; }
+  const std::vector<Frame>& frames() const { return frames_; }
+  const std::vector<Value>& values() const { return values_; }
+  const Value* value(const std::string& id) const;  // null: there is none
+  const ValueTable& table(const Value& value) const { return tables_[value.table]; }
+  const std::vector<float>& column(const Value& value) const { return tables_[value.table].columns[value.column]; }
+  const std::vector<RecordedEvent>& events() const { return events_; }
+  const LoadedImage* image() const { return image_.get(); }  // that flew; null: none that can be loaded
+  const std::vector<std::string>& damage() const { return damage_; }
+
+  // Of frame n: its telemetry; none: it cannot be read, or is of another program.
+  std::optional<PoseTelemetry> told(std::size_t n) const;
+  std::optional<Pose> truth(std::size_t n) const;
+  // The message of a topic at the frame's time; empty, where there is none.
+  std::string message(std::size_t n, const std::string& topic) const;
+  std::string first_message(const std::string& topic) const;
+  std::string cloud_topic() const { return cloud_topic_; }  // of scans; empty: there is none
+
+ private:
+  struct Building;
+  void build();
+  void take(const mcap::Message& message, std::size_t chunk, Building& building);
+  void take_packet(const mcap::Message& message, std::size_t chunk, Building& building);
+  void add_pose(const mcap::Message& message, ConstBytes packet, std::size_t chunk, Building& building);
+  void judge_waiting(Building& building, std::size_t keep);
+  void finish(Building& building);
+  void find_frames_of_clouds();
+  void number_events();
+
+  mcap::IndexedFile file_;
+  mutable ChunkCache cache_;
+  bool own_ = false, truth_ = false;
+  std::string cloud_topic_;
+  std::shared_ptr<const LoadedImage> image_;
+  std::vector<Frame> frames_;
+  std::vector<Value> values_;
+  std::map<std::string, std::size_t> by_id_;
+  std::vector<ValueTable> tables_;
+  std::vector<RecordedEvent> events_;
+  std::vector<std::string> damage_;
+};
+
+}  // namespace lasso::mdat::serve
