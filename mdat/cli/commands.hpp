@@ -19,6 +19,7 @@ void add_compare_command(CLI::App& app);
 void add_benchmark_commands(CLI::App& app);
 void add_gallery_command(CLI::App& app);
 void add_paper_command(CLI::App& app);
+void add_availability_command(CLI::App& app);
 void add_render_command(CLI::App& app);
 void add_stereo_command(CLI::App& app);
 void add_modes_command(CLI::App& app);
