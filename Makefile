@@ -116,6 +116,14 @@ test: ## first: build and pass all unit and functional tests of the host; MESHES
 	$(call compile,$(BUILD))
 	@cfg/quality/run-tests test g++=$(BUILD)
 
+# The library for other languages is compiled here alone: mdat needs it not.
+python: ## gate: python/lasso_mdat reads what mdat writes, registers and searches with its bits; its notebooks run
+	$(begin)
+	$(call packages,build python)
+	$(call configure,$(BUILD),)
+	$(call compile,$(BUILD),mdat lasso_mdat)
+	@cfg/quality/python-package $(BUILD)
+
 stereo: ## measure: render and match a stereo pair of the tenth-scale Hubble, out/stereo/disparity.png; installs OpenCV, which mdat stereo needs: MISSION= SCENARIO=
 	$(call packages,build stereo)
 	$(call configure,$(BUILD),)
@@ -512,11 +520,12 @@ inputs: ## gate: gates.toml names what the gates really read; after the gates
 verify: ## gate: every gate in its whole form; goes on where it was, and writes the record by which .ci/run skips
 	@cfg/quality/run-gates verify
 
-icd: ## write: write docs/icd/link.md from the dictionary of packets
+icd: ## write: write docs/icd/link.md, and python/lasso_mdat/dictionary.json, from the dictionary of packets
 	$(call packages,build)
 	$(call configure,$(BUILD),)
 	$(call compile,$(BUILD),mdat)
 	@$(BUILD)/mdat/mdat dictionary >$(LASSO_OUT)/link.md && { cmp -s $(LASSO_OUT)/link.md docs/icd/link.md || mv $(LASSO_OUT)/link.md docs/icd/link.md; }
+	@$(BUILD)/mdat/mdat dictionary --format json | python/pack_dictionary >$(LASSO_OUT)/dictionary.json && { cmp -s $(LASSO_OUT)/dictionary.json python/lasso_mdat/dictionary.json || mv $(LASSO_OUT)/dictionary.json python/lasso_mdat/dictionary.json; }
 
 campaign-table: ## write: write the tables of the missions' campaigns of docs/campaigns.md
 	$(call packages,build)

@@ -6,6 +6,7 @@
 
 #include "mdat/campaign/conclusion_text.hpp"
 #include "mdat/campaign/figures.hpp"
+#include "mdat/campaign/junit_text.hpp"
 #include "mdat/common/text.hpp"
 
 namespace lasso::mdat {
@@ -53,23 +54,8 @@ Json finding_json(const Findings& all, const Finding& finding) {
   return json;
 }
 
-// Text as XML 1.0 can hold it: without control characters.
-std::string xml_text(std::string text) {
-  for (char& c : text) {
-    if (static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t') c = ' ';
-  }
-  return escape(text);
-}
-
 std::string test_case(const Findings& all, const std::string& name, const std::string& content) {
-  return "    <testcase classname=\"campaign." + xml_text(all.campaign.name) + "\" name=\"" + xml_text(name) + "\" time=\"0\"" +
-         (content.empty() ? "/>\n" : ">\n" + content + "    </testcase>\n");
-}
-
-// `element` is failure or error; its attribute is one line.
-std::string trouble(const char* element, const std::string& type, const std::string& message, const std::string& text) {
-  return format("      <%s type=\"%s\" message=\"%s\">", element, type.c_str(), xml_text(message).c_str()) + xml_text(text) +
-         format("</%s>\n", element);
+  return junit_case("campaign." + all.campaign.name, name, content);
 }
 
 std::string commands(const Findings& all, const std::vector<std::size_t>& rows, const Finding* finding) {
@@ -86,7 +72,7 @@ std::string criterion_case(const Findings& all, const Finding& finding) {
   const std::string message = criterion_text(one.criterion) + format(": %s, %u of %u cases", to_string(one.verdict), one.within, one.cases);
   const std::string text =
       conclusion_text(one) + "\nThe worst cases, and how to fly them again:\n" + commands(all, finding.worst, &finding);
-  return test_case(all, one.criterion.name, trouble("failure", to_string(one.verdict), message, text));
+  return test_case(all, one.criterion.name, junit_trouble("failure", to_string(one.verdict), message, text));
 }
 
 constexpr std::size_t kNamedCases = 10;
@@ -96,11 +82,11 @@ std::string all_run_case(const Findings& all) {
   const std::string text = commands(all, rows, nullptr);
   if (!all.complete()) {
     const std::string missing = format("%zu of %u cases are missing", all.campaign.cases - all.table.rows.size(), all.campaign.cases);
-    return test_case(all, "all cases run", trouble("error", "missing", missing, text));
+    return test_case(all, "all cases run", junit_trouble("error", "missing", missing, text));
   }
   if (rows.empty()) return test_case(all, "all cases run", "");
   const std::string message = format("%u of %zu cases failed to run", all.not_run, all.table.rows.size());
-  return test_case(all, "all cases run", trouble("error", "failed to run", message, text));
+  return test_case(all, "all cases run", junit_trouble("error", "failed to run", message, text));
 }
 
 }  // namespace

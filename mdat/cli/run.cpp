@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "bsp/posix/links.hpp"
+#include "mdat/campaign/run_junit.hpp"
 #include "mdat/cli/commands.hpp"
 #include "mdat/common/errors.hpp"
 #include "mdat/common/output.hpp"
@@ -26,9 +27,10 @@ namespace lasso::mdat {
 namespace {
 
 struct RunArguments {
-  std::string mission, sensor = "simulated", camera_faults, optics, calibration, out = "out/run", picture, record, record_sensor, link, key;
+  std::string mission, sensor = "simulated", camera_faults, optics, calibration, out = "out/run", picture, record, record_sensor, link, key,
+                       junit;
   SimulationOptions simulation;
-  std::vector<std::string> settings;
+  std::vector<std::string> settings, required;
   bool report = true, cached = true, force = false;
 };
 
@@ -62,7 +64,8 @@ void check_earlier(const RunArguments& options) {
   std::vector<std::filesystem::path> files;
   for (const char* file : kFiles) files.push_back(std::filesystem::path(folder) / file);
   refuse_to_replace(files, "--force replaces that run, --out DIR keeps it");
-  refuse_to_replace({options.picture, options.record_sensor, records_frames(options) ? options.record : ""}, "--force replaces it");
+  refuse_to_replace({options.picture, options.junit, options.record_sensor, records_frames(options) ? options.record : ""},
+                    "--force replaces it");
 }
 
 void write_results(const RunArguments& options, const SimulationOptions& simulation, const SimulationResult& result, OutputFolder& folder) {
@@ -148,9 +151,18 @@ MakeStereo stereo_for(const MissionInput& mission, const SimulationOptions& simu
   return stereo_maker(mission, simulation.seed.value_or(static_cast<std::uint64_t>(scenario.seed)), jobs);
 }
 
+// What --require asks. Throws InputError, before anything is flown.
+std::vector<Criterion> required_criteria(const RunArguments& options) {
+  std::vector<Criterion> criteria;
+  for (const std::string& text : options.required) criteria.push_back(required_criterion(text));
+  if (!options.junit.empty()) check_writable(options.junit);
+  return criteria;
+}
+
 void run(const RunArguments& options) {
   OutputFolder folder(options.out);
   check_earlier(options);
+  const std::vector<Criterion> required = required_criteria(options);
   if (!options.picture.empty()) check_writable(options.picture);
   if (!options.record_sensor.empty()) check_writable(options.record_sensor);
   if (records_frames(options)) check_writable(options.record);
@@ -175,6 +187,7 @@ void run(const RunArguments& options) {
   result.sensor = options.sensor;
   result.commit = kCommit;
   write_results(options, simulation, result, folder);
+  if (!options.junit.empty()) write_file(options.junit, run_junit_xml(result, required));
   if (simulation.replay) warn_of_replay(result);
   std::fputs(summary_text(result).c_str(), stdout);
   std::printf("written to %s: results.json, frames.csv, telemetry.ccsds%s\n", options.out.c_str(),
@@ -314,6 +327,12 @@ void add_run_command(CLI::App& app) {
   add_no_cache(*command, options->cached);
   command->add_flag("!--no-report", options->report, "leave report.html out");
   command->add_option("--picture", options->picture, "also write the scan on the target as a PNG picture");
+  command->add_option("--junit", options->junit,
+                      "file to write for continuous integration: a JUnit test case for each criterion and run (docs/user-guide.md)");
+  command
+      ->add_option("--require", options->required, "with --junit: one more criterion, such as 'p95_mm <= 5'; may be given again and again")
+      ->needs("--junit")
+      ->allow_extra_args(false);
   command->add_option("--record", options->record,
                       "FILE.mcap: also record all frames, for viewers and replay (docs/recordings.md); or a folder: instead of a run "
                       "write its scans (.csv) and true poses into it, for replay");

@@ -8,7 +8,10 @@ namespace lasso::mdat {
 std::string dictionary_markdown();  // docs/icd/link.md is this, written down
 std::string dictionary_html();      // the same page, one file that opens offline
 std::string dictionary_json();
-std::string dictionary_xtce();  // XTCE 1.2 (OMG formal/18-10-04, CCSDS 660.0-B-2)
-std::string dictionary_lua();   // a dissector for Wireshark and tshark
+
+// XTCE 1.2 (OMG formal/18-10-04, CCSDS 660.0-B-2). Some readers know no arrays: for them each element is an item, NAME_0, NAME_1, ...
+enum class XtceArrays { kAsArrays, kWrittenOut };
+std::string dictionary_xtce(XtceArrays arrays = XtceArrays::kAsArrays);
+std::string dictionary_lua();  // a dissector for Wireshark and tshark
 
 }  // namespace lasso::mdat

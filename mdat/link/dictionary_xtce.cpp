@@ -3,6 +3,7 @@
 // values. Sequence count and check sum are for whoever sends it to fill in.
 #include <cmath>
 #include <set>
+#include <vector>
 
 #include "fsw/link/dictionary.hpp"
 #include "mdat/common/text.hpp"
@@ -74,9 +75,21 @@ std::string dimensions(const ItemRow& row) {
       row.count - 1U);
 }
 
-std::string item_types(const PacketRow& packet, const ItemRow& row, Kind kind) {
+// What the readers know that the document is for.
+bool is_array(const ItemRow& row, XtceArrays arrays) { return row.count > 1 && arrays == XtceArrays::kAsArrays; }
+
+// Of an item; where arrays are written out, of each of its elements: NAME_0, NAME_1, ...
+std::vector<std::string> element_names(const PacketRow& packet, const ItemRow& row, XtceArrays arrays) {
   const std::string name = full_name(packet, row);
-  if (row.count == 1) return element_type(row, name + "_t", kind);
+  if (row.count == 1 || arrays == XtceArrays::kAsArrays) return {name};
+  std::vector<std::string> names;
+  for (unsigned i = 0; i < row.count; ++i) names.push_back(name + format("_%u", i));
+  return names;
+}
+
+std::string item_types(const PacketRow& packet, const ItemRow& row, Kind kind, XtceArrays arrays) {
+  const std::string name = full_name(packet, row);
+  if (!is_array(row, arrays)) return element_type(row, name + "_t", kind);
   const std::string tag = std::string("Array") + word(kind) + "Type";
   return element_type(row, name + "_element_t", kind) + "<" + tag + attribute("name", name + "_t") +
          attribute("arrayTypeRef", name + "_element_t") + ">" + dimensions(row) + "</" + tag + ">\n";
@@ -87,16 +100,23 @@ std::string header_type(const HeaderField& field, Kind kind) {
          integer_encoding(field.bits, false) + format("</Integer%sType>\n", word(kind));
 }
 
-std::string parameter(const std::string& name, const std::string& meaning) {
-  return "<Parameter" + attribute("name", name) + attribute("parameterTypeRef", name + "_t") + attribute("shortDescription", meaning) +
-         "/>\n";
+std::string parameter(const std::string& name, const std::string& type, const std::string& meaning) {
+  return "<Parameter" + attribute("name", name) + attribute("parameterTypeRef", type) + attribute("shortDescription", meaning) + "/>\n";
+}
+
+std::string item_parameters(const PacketRow& packet, const ItemRow& row, XtceArrays arrays) {
+  std::string text;
+  for (const std::string& name : element_names(packet, row, arrays)) text += parameter(name, full_name(packet, row) + "_t", row.meaning);
+  return text;
 }
 
 std::string entry(const std::string& name) { return "<ParameterRefEntry" + attribute("parameterRef", name) + "/>\n"; }
 
-std::string item_entry(const PacketRow& packet, const ItemRow& row) {
-  const std::string name = full_name(packet, row);
-  return row.count == 1 ? entry(name) : "<ArrayParameterRefEntry" + attribute("parameterRef", name) + "/>\n";
+std::string item_entries(const PacketRow& packet, const ItemRow& row, XtceArrays arrays) {
+  if (is_array(row, arrays)) return "<ArrayParameterRefEntry" + attribute("parameterRef", full_name(packet, row)) + "/>\n";
+  std::string text;
+  for (const std::string& name : element_names(packet, row, arrays)) text += entry(name);
+  return text;
 }
 
 std::string comparison(const char* name, unsigned value) { return format("<Comparison parameterRef=\"%s\" value=\"%u\"/>", name, value); }
@@ -130,10 +150,10 @@ std::string family_container(const PacketRow& packet) {
          entry(kNumber.name) + "</EntryList>\n" + extending("telemetry", type_comparisons(packet.service, packet.subservice));
 }
 
-std::string container(const PacketRow& packet) {
+std::string container(const PacketRow& packet, XtceArrays arrays) {
   std::string text =
       "<SequenceContainer" + attribute("name", packet.name) + attribute("shortDescription", packet.meaning) + ">\n<EntryList>\n";
-  for (const ItemRow& row : packet.items) text += item_entry(packet, row);
+  for (const ItemRow& row : packet.items) text += item_entries(packet, row, arrays);
   text += entry("crc") + "</EntryList>\n";
   if (packet.numbered) return text + extending(family(packet).c_str(), comparison(kNumber.name, packet.number));
   return text + extending("telemetry", type_comparisons(packet.service, packet.subservice));
@@ -168,20 +188,19 @@ std::string fixed_value(const char* name, unsigned value, unsigned bits) {
                 value, bits);
 }
 
-std::string argument(const std::string& name, const std::string& meaning) {
-  return "<Argument" + attribute("name", name) + attribute("argumentTypeRef", name + "_t") + attribute("shortDescription", meaning) +
-         "/>\n";
+std::string argument(const std::string& name, const std::string& type, const std::string& meaning) {
+  return "<Argument" + attribute("name", name) + attribute("argumentTypeRef", type) + attribute("shortDescription", meaning) + "/>\n";
 }
 
 std::string argument_entry(const std::string& name) { return "<ArgumentRefEntry" + attribute("argumentRef", name) + "/>\n"; }
 
-std::string command_types() {
+std::string command_types(XtceArrays arrays) {
   std::string text;
   for (const CommandField& header : kCommandFieldValues) {
     if (header.filled != Filled::kFixed) text += header_type(*header.field, Kind::kArgument);
   }
   for (const PacketRow& packet : command_rows::kCommands) {
-    for (const ItemRow& row : packet.items) text += item_types(packet, row, Kind::kArgument);
+    for (const ItemRow& row : packet.items) text += item_types(packet, row, Kind::kArgument, arrays);
   }
   return text;
 }
@@ -191,7 +210,7 @@ std::string base_command() {
   for (const CommandField& header : kCommandFieldValues) {
     const HeaderField& field = *header.field;
     const bool fixed = header.filled == Filled::kFixed;
-    if (!fixed) arguments += argument(field.name, field.meaning);
+    if (!fixed) arguments += argument(field.name, std::string(field.name) + "_t", field.meaning);
     entries += fixed ? fixed_value(field.name, header.value, field.bits) : argument_entry(field.name);
   }
   return "<MetaCommand name=\"command\" abstract=\"true\" shortDescription=\"what all commands have in common\">\n<ArgumentList>\n" +
@@ -203,44 +222,55 @@ std::string assignment(const char* name, std::size_t value) {
   return format("<ArgumentAssignment argumentName=\"%s\" argumentValue=\"%zu\"/>", name, value);
 }
 
-std::string command_entries(const PacketRow& packet) {
+std::string argument_entries(const PacketRow& packet, const ItemRow& row, XtceArrays arrays) {
+  if (is_array(row, arrays)) return "<ArrayArgumentRefEntry" + attribute("argumentRef", full_name(packet, row)) + "/>\n";
+  std::string text;
+  for (const std::string& name : element_names(packet, row, arrays)) text += argument_entry(name);
+  return text;
+}
+
+std::string command_entries(const PacketRow& packet, XtceArrays arrays) {
   std::string text = packet.numbered ? fixed_value("number", packet.number, 16) : "";
-  for (const ItemRow& row : packet.items) {
-    const std::string name = full_name(packet, row);
-    text += row.count == 1 ? argument_entry(name) : "<ArrayArgumentRefEntry" + attribute("argumentRef", name) + "/>\n";
-  }
+  for (const ItemRow& row : packet.items) text += argument_entries(packet, row, arrays);
   return text + fixed_value("crc", 0, 16);
 }
 
-std::string meta_command(const PacketRow& packet) {
+std::string item_arguments(const PacketRow& packet, XtceArrays arrays) {
+  std::string text;
+  for (const ItemRow& row : packet.items) {
+    for (const std::string& name : element_names(packet, row, arrays)) text += argument(name, full_name(packet, row) + "_t", row.meaning);
+  }
+  return text;
+}
+
+std::string meta_command(const PacketRow& packet, XtceArrays arrays) {
   const std::size_t length = item_offset(packet, packet.items.size()) + kPacketTrailerBytes - kPrimaryHeaderBytes - 1;
-  std::string arguments;
-  for (const ItemRow& row : packet.items) arguments += argument(full_name(packet, row), row.meaning);
+  const std::string arguments = item_arguments(packet, arrays);
   return "<MetaCommand" + attribute("name", packet.name) + attribute("shortDescription", packet.meaning) +
          ">\n<BaseMetaCommand metaCommandRef=\"command\"><ArgumentAssignmentList>" + assignment("data_length", length) +
          assignment("service", packet.service) + assignment("subservice", packet.subservice) +
          "</ArgumentAssignmentList></BaseMetaCommand>\n" + (arguments.empty() ? "" : "<ArgumentList>\n" + arguments + "</ArgumentList>\n") +
-         "<CommandContainer" + attribute("name", packet.name) + ">\n<EntryList>\n" + command_entries(packet) +
+         "<CommandContainer" + attribute("name", packet.name) + ">\n<EntryList>\n" + command_entries(packet, arrays) +
          "</EntryList>\n<BaseContainer containerRef=\"command\"/>\n</CommandContainer>\n" +
          (packet.hazard == Hazard::kNone ? "" : "<DefaultSignificance consequenceLevel=\"critical\" reasonForWarning=\"armed first\"/>\n") +
          "</MetaCommand>\n";
 }
 
-std::string command_meta_data() {
+std::string command_meta_data(XtceArrays arrays) {
   std::string commands = base_command();
-  for (const PacketRow& packet : command_rows::kCommands) commands += meta_command(packet);
-  return "<CommandMetaData>\n<ArgumentTypeSet>\n" + command_types() + "</ArgumentTypeSet>\n<MetaCommandSet>\n" + commands +
+  for (const PacketRow& packet : command_rows::kCommands) commands += meta_command(packet, arrays);
+  return "<CommandMetaData>\n<ArgumentTypeSet>\n" + command_types(arrays) + "</ArgumentTypeSet>\n<MetaCommandSet>\n" + commands +
          "</MetaCommandSet>\n</CommandMetaData>\n";
 }
 
 }  // namespace
 
-std::string dictionary_xtce() {
+std::string dictionary_xtce(XtceArrays arrays) {
   std::string types, parameters, containers = base_container();
   std::set<std::string> families;
   const auto add_field = [&](const HeaderField& field) {
     types += header_type(field, Kind::kParameter);
-    parameters += parameter(field.name, field.meaning);
+    parameters += parameter(field.name, std::string(field.name) + "_t", field.meaning);
   };
   for (const HeaderField& field : kPrimaryFields) add_field(field);
   for (const HeaderField& field : kTelemetryFields) add_field(field);
@@ -248,15 +278,15 @@ std::string dictionary_xtce() {
   add_field(kCrc);
   for (const PacketRow& packet : kPackets) {
     if (packet.type != PacketType::kTelemetry) continue;
-    for (const ItemRow& row : packet.items) types += item_types(packet, row, Kind::kParameter);
-    for (const ItemRow& row : packet.items) parameters += parameter(full_name(packet, row), row.meaning);
+    for (const ItemRow& row : packet.items) types += item_types(packet, row, Kind::kParameter, arrays);
+    for (const ItemRow& row : packet.items) parameters += item_parameters(packet, row, arrays);
     if (packet.numbered && families.insert(family(packet)).second) containers += family_container(packet);
-    containers += container(packet);
+    containers += container(packet, arrays);
   }
   return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<SpaceSystem xmlns=\"http://www.omg.org/spec/XTCE/20180204\" name=\"lasso\" "
          "shortDescription=\"pose estimation by 3D scans\">\n<TelemetryMetaData>\n<ParameterTypeSet>\n" +
          types + "</ParameterTypeSet>\n<ParameterSet>\n" + parameters + "</ParameterSet>\n<ContainerSet>\n" + containers +
-         "</ContainerSet>\n</TelemetryMetaData>\n" + command_meta_data() + "</SpaceSystem>\n";
+         "</ContainerSet>\n</TelemetryMetaData>\n" + command_meta_data(arrays) + "</SpaceSystem>\n";
 }
 
 }  // namespace lasso::mdat

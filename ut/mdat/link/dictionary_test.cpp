@@ -102,6 +102,28 @@ TEST(Xtce, SizesAreThoseOfThePackets) {
   EXPECT_EQ(bits, 835U * 8);
 }
 
+// For readers that know no arrays: what the elements are called, and that nothing else has changed.
+TEST(Xtce, WrittenOutHasEachElementOfAnArrayInOrder) {
+  VERIFIES("LASSO-GND-144~1");
+  const std::string whole = dictionary_xtce(), flat = dictionary_xtce(XtceArrays::kWrittenOut);
+  EXPECT_EQ(flat.find("Array"), std::string::npos);
+  EXPECT_GT(count_elements(flat), count_elements(whole));
+  std::size_t entries = 0, at = flat.find("<SequenceContainer name=\"pose\"");
+  for (const ItemRow& row : kPackets[0].items) {
+    for (unsigned i = 0; i < row.count; ++i, ++entries) {
+      const std::string name = "pose_" + std::string(row.name) + (row.count > 1 ? "_" + std::to_string(i) : "");
+      at = flat.find("<ParameterRefEntry parameterRef=\"" + name + "\"/>", at);
+      ASSERT_NE(at, std::string::npos) << name;
+      const std::string parameter = "<Parameter name=\"" + name + "\" parameterTypeRef=\"pose_" + row.name + "_t\"";
+      EXPECT_NE(flat.find(parameter), std::string::npos) << parameter;
+    }
+  }
+  EXPECT_GT(entries, kPackets[0].items.size());
+  for (const char* tag : {"IntegerArgumentType", "FloatArgumentType", "EnumeratedArgumentType"}) {
+    for (const std::string& name : names(flat, tag)) EXPECT_EQ(name.find("_element_t"), std::string::npos) << name;
+  }
+}
+
 // The text between a tag that has this name and its end.
 std::string element(const std::string& xml, const std::string& tag, const std::string& name) {
   const std::size_t begin = xml.find("<" + tag + " name=\"" + name + "\"");

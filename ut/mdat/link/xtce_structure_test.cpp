@@ -220,6 +220,7 @@ class Structure {
 TEST(XtceStructure, IsThatOfTheSchema) {
   VERIFIES("LASSO-GND-033~1");
   EXPECT_EQ(Structure::faults(dictionary_xtce()), "");
+  EXPECT_EQ(Structure::faults(dictionary_xtce(XtceArrays::kWrittenOut)), "");
 }
 
 // What the rules are for: each of these was a mistake somebody could make.

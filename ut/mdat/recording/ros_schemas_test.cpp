@@ -33,6 +33,7 @@ TEST(RosSchemas, DefineEachTypeThatTheyUse) {
   for (const RosSchema& schema : {ros::tf_message(), ros::point_cloud(), ros::pose_stamped(), ros::pose_with_covariance(), ros::odometry(),
                                   ros::log(), ros::scene_update(), ros::packet()}) {
     EXPECT_NE(schema.name.find("/msg/"), std::string::npos);
+    EXPECT_FALSE(schema.text.empty()) << schema.name;
     expect_complete(schema);
   }
 }
