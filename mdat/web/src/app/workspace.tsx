@@ -18,6 +18,9 @@ const plotsHeight = remembered("plots-height", 200);
 const eventsHeight = remembered("events-height", 190);
 const firstVisit = remembered("first-visit", true);
 
+/** The cursor moves 25 times a second: more costs a software renderer what scans need. */
+const TICK_MS = 40;
+
 /** Lets the clock drive the player, and the address follow the frame. */
 function useClock(session: Session): void {
   useEffect(() => {
@@ -25,9 +28,10 @@ function useClock(session: Session): void {
     let request = 0;
     const tick = (now: number) => {
       if (!session.player.playing.peek()) return;
+      request = requestAnimationFrame(tick);
+      if (last > 0 && now - last < TICK_MS) return;
       if (last > 0) session.player.advance(Math.min(0.25, (now - last) / 1000));
       last = now;
-      request = requestAnimationFrame(tick);
     };
     const stopPlaying = effect(() => {
       cancelAnimationFrame(request);
