@@ -93,6 +93,14 @@ run: ## first: track the tenth-scale Hubble in simulation, and write the report 
 	@cfg/quality/measured.py run "$(OUT)/results.json"
 	@echo "open the report: xdg-open '$(OUT)/report.html'"
 
+# What it needs of npm stands at make page.
+serve: ## first: show recordings in a browser: builds the page into mdat and prints its address: PLACE=FOLDER|FILE.mcap (.) PORT=
+	$(page)
+	$(call packages,build)
+	$(call configure,$(BUILD),)
+	$(call compile,$(BUILD),mdat)
+	@exec $(BUILD)/mdat/mdat serve $(if $(PLACE),"$(PLACE)") $(if $(PORT),--port $(PORT))
+
 GALLERY ?= $(LASSO_OUT)/gallery
 recordings: ## measure: record a run, and read it with MCAP's reference library and Foxglove's reader of messages: MISSION= SCENARIO= FRAMES=
 	$(call packages,build recordings)

@@ -146,7 +146,7 @@ TEST_F(Answers, TheSurfaceIsBinaryGltf) {
       point[static_cast<int>(k)] = static_cast<double>(number_at_byte<float>(glb, binary + 12 * i + 4 * k));
       normal[static_cast<int>(k)] = static_cast<double>(number_at_byte<float>(glb, binary + 12 * (corners + i) + 4 * k));
     }
-    const test::BoxModel& box = test::uneven_boxes()[i / 36];
+    const test::BoxModel box = test::uneven_boxes()[i / 36];
     EXPECT_NEAR(normal.norm(), 1, 1e-6);
     EXPECT_NEAR((point - box.center).dot(normal), box.half.dot(normal.cwiseAbs()), 1e-6) << i;
   }
