@@ -62,6 +62,11 @@ TEST(OpenRecording, OfAnotherProgramsCloudsEachIsAFrame) {
   EXPECT_FALSE(recording.own());
   ASSERT_EQ(recording.frames().size(), 5U);  // one scan is not there
   EXPECT_EQ(recording.told(0), std::nullopt);
+  const std::size_t last = 4;
+  EXPECT_EQ(recording.other_pose(last).value().p, SmallRecording::truth(5).p);
+  const Value* z = recording.value("/truth.z");
+  ASSERT_NE(z, nullptr);
+  EXPECT_EQ(recording.column(*z).at(2), static_cast<float>(SmallRecording::truth(2).p.z()));
   EXPECT_EQ(recording.frames()[4].time_ns, static_cast<std::uint64_t>(SmallRecording::time_us(5)) * 1000);
 }
 

@@ -56,9 +56,10 @@ struct SmallRecording {
 
   std::size_t frames = 6;
   bool with_image = true, with_truth = true, own = true;
-  std::size_t lost = 4;     // this frame's scan never came
-  std::size_t wrong = 3;    // this one's pose says that it is valid, and is 100 mm off
-  std::size_t refused = 2;  // this one has too few inliers
+  Vec3 filter_shift_m = Vec3::Zero();  // of the filter from the truth
+  std::size_t lost = 4;                // this frame's scan never came
+  std::size_t wrong = 3;               // this one's pose says that it is valid, and is 100 mm off
+  std::size_t refused = 2;             // this one has too few inliers
 
   static TimeUs time_us(std::size_t n) { return kFirst_us + static_cast<TimeUs>(n) * kPeriod_us; }
   static Twist rates() { return {Vec3(0.02, -0.05, 0.03), Vec3(0.01, -0.02, 0.03)}; }
@@ -88,7 +89,9 @@ struct SmallRecording {
     Pose registered = estimate(n);
     if (n == wrong) registered.p += Vec3(0, 0.1, 0);
     put(registered, pose.q_sensor_target, pose.p_sensor_target_m);
-    put(truth(n), pose.filter_q_sensor_target, pose.filter_p_sensor_target_m);
+    Pose filtered = truth(n);
+    filtered.p += filter_shift_m;
+    put(filtered, pose.filter_q_sensor_target, pose.filter_p_sensor_target_m);
     for (int i = 0; i < 3; ++i) {
       pose.filter_omega_radps[i] = rates().omega_radps[i];
       pose.filter_v_mps[i] = rates().v_mps[i];
