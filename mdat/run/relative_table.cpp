@@ -8,7 +8,7 @@
 namespace lasso::mdat {
 namespace {
 
-constexpr char kHeader[] =
+constexpr char kRelativeHeader[] =
     "relative,t_s,valid,x_m,y_m,z_m,qx,qy,qz,qw,sigma_x_mm,sigma_y_mm,sigma_z_mm,sigma_rx_deg,sigma_ry_deg,sigma_rz_deg,error_mm,error_deg,"
     "nees,filtered_x_m,filtered_y_m,filtered_z_m,filtered_qx,filtered_qy,filtered_qz,filtered_qw,vx_mps,vy_mps,vz_mps,wx_degps,wy_degps,"
     "wz_degps,filtered_error_mm,filtered_error_deg,v_error_mmps,w_error_degps\n";
@@ -44,7 +44,7 @@ std::string row_of(const std::string& name, const RelativePose& pose) {
 }  // namespace
 
 std::string relative_csv(const std::vector<RelativeRun>& runs) {
-  std::string text = kHeader;
+  std::string text = kRelativeHeader;
   for (const RelativeRun& run : runs) {
     for (const RelativePose& pose : run.poses) text += row_of(run.name, pose);
   }
