@@ -75,10 +75,10 @@ test("the first plots are errors where they are, else what the recording has", (
 });
 
 test("a long list draws what is in sight and asks for its pages", () => {
-  const visible = visibleRows(24 * 1000, 240, 100_000);
+  const visible = visibleRows(24 * 1000, 240, 24, 100_000);
   assert.ok(visible.first <= 1000 && visible.last >= 1010 && visible.last - visible.first < 40);
   assert.deepEqual(pagesOf({ first: 190, last: 410 }), [0, 1, 2]);
-  assert.deepEqual(pagesOf(visibleRows(0, 240, 3)), [0]);
+  assert.deepEqual(pagesOf(visibleRows(0, 240, 24, 3)), [0]);
   assert.equal(rowAfterKey("ArrowDown", 4, 5, 10), 4);
   assert.equal(rowAfterKey("PageUp", 4, 50, 10), 0);
   assert.equal(rowAfterKey("x", 4, 50, 10), null);

@@ -17,7 +17,7 @@ export class Cameras {
   private readonly stage: Stage;
   private readonly controls: OrbitControls;
   private readonly eye: CameraInfo | null;
-  private readonly size_m: number;
+  private size_m: number;
   private name: CameraName = "free";
   private target = new Matrix4().makeTranslation(0, 0, 3);
   private rig = new Matrix4();
@@ -37,6 +37,12 @@ export class Cameras {
     this.moveRig();
     if (!this.placed) this.fit();
     this.placed = true;
+  }
+
+  /** Another size than was known, and the target into the view by it. */
+  setSize(size_m: number): void {
+    this.size_m = size_m;
+    this.fit();
   }
 
   choose(name: CameraName): void {

@@ -8,6 +8,7 @@ import type { Session } from "../../app/session.ts";
 import { theme } from "../../app/theme.ts";
 import { norm } from "../../maths/vectors.ts";
 import { saveFile } from "../../parts/controls.tsx";
+import { textScale } from "../../parts/rem.ts";
 import { Cameras } from "./cameras.ts";
 import type { Request } from "./choice.ts";
 import { Cloud } from "./cloud.ts";
@@ -44,15 +45,17 @@ class SceneRunner {
   private readonly legend: Signal<LegendContent | null>;
   private readonly latest = new Latest<Shown>();
   private shown: Shown | null = null;
+  private size_m: number;
   private readonly ends: (() => void)[] = [];
 
   constructor(box: HTMLElement, session: Session, legend: Signal<LegendContent | null>, report: Signal<SceneReport | null>) {
     const { info } = session.log;
     this.session = session;
+    this.size_m = info.size_m ?? 0;
     this.legend = legend;
     this.stage = new Stage(box);
     this.cameras = new Cameras(this.stage, info.camera, info.size_m);
-    this.cloud = new Cloud(this.stage.renderer.getPixelRatio());
+    this.cloud = new Cloud(this.stage.renderer.getPixelRatio() * textScale());
     const { sensorFrame } = this.stage;
     this.target = new Target(sensorFrame);
     sensorFrame.add(this.cloud.points, this.lines.group, this.covariance.group, new AxesHelper(0.15 * (info.size_m || 1)));
@@ -70,7 +73,7 @@ class SceneRunner {
 
   private follow(): void {
     const { selection, scene, log } = this.session;
-    this.target.load(log.modelPath).then(this.stage.invalidate, tell);
+    this.target.load(log.modelPath).then((size_m) => this.loaded(size_m), tell);
     this.ends.push(
       effect(() => this.applyTheme(theme.value)),
       effect(() => this.load(selection.frame.value, selection.iteration.value)),
@@ -79,6 +82,16 @@ class SceneRunner {
       effect(() => this.measuring.show(scene.measurements.value, scene.firstPoint.value)),
       effect(() => this.answer(scene.request.value?.what ?? null)),
     );
+  }
+
+  /** The surface is there: it is drawn, and tells the target's size where the recording does not. */
+  private loaded(size_m: number): void {
+    if (!(this.size_m > 0) && size_m > 0) {
+      this.size_m = size_m;
+      this.cameras.setSize(size_m);
+      this.showAnew();
+    }
+    this.stage.invalidate();
   }
 
   private applyTheme(_: string): void {
@@ -122,12 +135,12 @@ class SceneRunner {
     this.cloud.show(scan, painted.colours, scene.colour.peek() === "state");
     this.cloud.points.visible = layers.points;
     this.lines.showScan(scan, distance_m);
-    this.lines.showFrustum(log.info.camera, distance_m, log.info.size_m);
+    this.lines.showFrustum(log.info.camera, distance_m, this.size_m);
     this.lines.missed.visible = this.lines.passes.visible = layers.missed;
     this.lines.pattern.visible = layers.pattern;
     this.lines.frustum.visible = this.lines.boresight.visible = layers.frustum;
     this.target.show(frame, layers);
-    const notes = this.covariance.show(frame, log.info.size_m, layers.covariance);
+    const notes = this.covariance.show(frame, this.size_m || 1, layers.covariance);
     this.legend.value = { ...painted.legend, notes };
     this.pointing.setFrame(frame, scan);
     if (place !== null) this.cameras.setTarget(place);
