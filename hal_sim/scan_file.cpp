@@ -140,6 +140,18 @@ ScanFacts facts_of(const RawScan& scan, const RangeImage& image) {
   return facts;
 }
 
+class FolderScans final : public ScanSource {
+ public:
+  FolderScans(std::vector<fs::path> files, const DepthCamera& camera) : files_(std::move(files)), camera_(camera) {}
+  std::size_t size() const override { return files_.size(); }
+  fs::path place(std::size_t i) const override { return files_.at(i); }
+  RawScan read(std::size_t i) const override { return read_raw_scan(files_.at(i), camera_); }
+
+ private:
+  std::vector<fs::path> files_;
+  DepthCamera camera_;
+};
+
 RangeImage image_of(const RawScan& scan, ScanFrame frame) {
   if (scan.unit_s > 0) frame.unit_s = scan.unit_s;
   return to_image(scan, frame);
@@ -167,11 +179,12 @@ RawScan read_raw_scan(const fs::path& file, const DepthCamera& camera) {
 
 RangeImage read_scan_file(const fs::path& file, const ScanFrame& frame) { return image_of(read_raw_scan(file), frame); }
 
-RecordedScans::RecordedScans(const fs::path& folder, const ScanFrame& frame, const DepthCamera& camera)
-    : files_(scans_in(folder, camera)), frame_(frame), camera_(camera) {
-  if (files_.empty()) fail(folder.string(), "holds no scan, " + expected_kinds());
+RecordedScans::RecordedScans(const fs::path& folder, const ScanFrame& frame, const DepthCamera& camera) : frame_(frame) {
+  const std::vector<fs::path> files = scans_in(folder, camera);
+  source_ = std::make_shared<FolderScans>(files, camera);
+  if (files.empty()) fail(folder.string(), "holds no scan, " + expected_kinds());
   std::set<std::string> stems;
-  for (const fs::path& file : files_) {
+  for (const fs::path& file : files) {
     if (!stems.insert(file.stem().string()).second) {
       fail(file.string(), "another scan of this folder has the stem " + shown(file.stem().string()) + " too; rename one of them");
     }
@@ -179,7 +192,7 @@ RecordedScans::RecordedScans(const fs::path& folder, const ScanFrame& frame, con
 }
 
 RangeImage RecordedScans::read(std::size_t i) const {
-  RangeImage image = image_of(read_raw_scan(file(i), camera_), frame_);
+  RangeImage image = image_of(source_->read(i), frame_);
   image.scan_id = static_cast<std::uint32_t>(i);
   return image;
 }
@@ -188,8 +201,8 @@ std::vector<ScanFacts> RecordedScans::survey() const {
   std::vector<ScanFacts> facts;
   ScanFrame frame = frame_;
   frame.unit_s = 0;  // what a time is in seconds is not known yet
-  for (const fs::path& file : files_) {
-    const RawScan scan = read_raw_scan(file, camera_);
+  for (std::size_t i = 0; i < size(); ++i) {
+    const RawScan scan = source_->read(i);
     facts.push_back(facts_of(scan, to_image(scan, frame)));
   }
   return facts;

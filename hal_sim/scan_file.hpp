@@ -13,6 +13,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -56,15 +57,26 @@ struct ScanFacts {
   double median_range_m = 0;             // of the returns; 0 where there is none
 };
 
+// Scans of any origin, in order.
+class ScanSource {
+ public:
+  virtual ~ScanSource() = default;
+  virtual std::size_t size() const = 0;
+  virtual std::filesystem::path place(std::size_t i) const = 0;  // for texts; its stem is the scan's name
+  virtual RawScan read(std::size_t i) const = 0;
+};
+
 // The scans of a folder in natural order (scan2 before scan10); other files are ignored, images too where no camera is given.
 class RecordedScans {
  public:
   // Throws ScanFileError: not a folder, no scan in it, two scans with one stem.
   explicit RecordedScans(const std::filesystem::path& folder, const ScanFrame& frame = {}, const DepthCamera& camera = {});
+  // What reading throws is the source's.
+  RecordedScans(std::shared_ptr<const ScanSource> source, const ScanFrame& frame) : source_(std::move(source)), frame_(frame) {}
 
-  std::size_t size() const { return files_.size(); }
-  const std::filesystem::path& file(std::size_t i) const { return files_.at(i); }
-  std::string stem(std::size_t i) const { return files_.at(i).stem().string(); }
+  std::size_t size() const { return source_->size(); }
+  std::filesystem::path file(std::size_t i) const { return source_->place(i); }
+  std::string stem(std::size_t i) const { return file(i).stem().string(); }
   RangeImage read(std::size_t i) const;   // scan_id = i; throws as read_scan_file
   std::vector<ScanFacts> survey() const;  // reads each file once; throws as read_scan_file, but for its times
 
@@ -72,9 +84,8 @@ class RecordedScans {
   void set_time_unit(double unit_s, const std::vector<ScanFacts>& facts);
 
  private:
-  std::vector<std::filesystem::path> files_;
+  std::shared_ptr<const ScanSource> source_;
   ScanFrame frame_;
-  DepthCamera camera_;
 };
 
 // The CSV form. Invalid samples are left out: like them, a ray that is not listed says nothing.

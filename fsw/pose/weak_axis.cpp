@@ -1,5 +1,7 @@
 #include "fsw/pose/weak_axis.hpp"
 
+#include <algorithm>
+
 #include "fsw/geometry/portable_math.hpp"
 #include "fsw/geometry/symmetric6.hpp"
 #include "fsw/pose/gauss_newton.hpp"
@@ -40,7 +42,8 @@ bool has_axes(const HitSolution& solution) {
   return solution.stop == StopReason::kConverged || solution.stop == StopReason::kIterationLimit;
 }
 
-// The least certain axis of a registration's hits; target axes.
+// The least certain axis of a registration's hits that they see at all; target axes. Unseen ones say themselves that nothing is known along
+// them: a rod's place along itself hides nothing of its roll, which comes next. (One at least is seen where there are hits.)
 struct WeakAxis {
   Mat6 covariance, information;
   Vec6 axis;
@@ -53,8 +56,9 @@ struct WeakAxis {
   weak.covariance = covariance_of_hits(mission.radius_m, near.H, 1, unseen);
   weak.information = near.H;
   const Eigen6 eigen = axes_at_radius(weak.covariance, mission.radius_m);
-  weak.axis = eigen.vectors.col(5);
-  weak.sigma_m = square_root(eigen.values[5]);
+  const int least_certain = 5 - std::min(unseen.count, 5);
+  weak.axis = eigen.vectors.col(least_certain);
+  weak.sigma_m = square_root(eigen.values[least_certain]);
 }
 
 double kernel_width_m(const Mission& mission, const Workspace& workspace) {

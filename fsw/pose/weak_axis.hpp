@@ -31,12 +31,12 @@ struct LineSearch {
   bool contradicted = false;                // a pose that the prior excludes costs less, by 25 or more
 };
 
-// Line search along the least certain axis of `search.best`, a registration. Places are tried from five of its sigmas on, as far as five
-// sigmas of the prior, if these exceed estimation.gate_first_m; as `prior.rival_m`; and as the kernel's width, if more than 1 % of the
-// returns are unexplained; not farther than half a turn at the model's radius. From each place two passes are taken, and the poses with the
-// two lowest costs are registered. One within five sigmas of the prior, or within `prior.rival_m`, takes the place of the best where it
-// costs less, and is a rival where the costs differ by less than 25: five sigmas. Bound: of 2 * kWeakAxisSteps places kTrialPasses passes
-// over a quarter of the points and one over half, and kWeakAxisKept times register_first.
+// Line search along the least certain axis of `search.best`, a registration, that its hits see at all. Places are tried from five of its
+// sigmas on, as far as five sigmas of the prior, if these exceed estimation.gate_first_m; as `prior.rival_m`; and as the kernel's width, if
+// more than 1 % of the returns are unexplained; not farther than half a turn at the model's radius. From each place two passes are taken,
+// and the poses with the two lowest costs are registered. One within five sigmas of the prior, or within `prior.rival_m`, takes the place
+// of the best where it costs less, and is a rival where the costs differ by less than 25: five sigmas. Bound: of 2 * kWeakAxisSteps places
+// kTrialPasses passes over a quarter of the points and one over half, and kWeakAxisKept times register_first.
 void search_weak_axis(const Mission& mission, const PriorPose& prior, Workspace& workspace, LineSearch& search);
 
 // The covariance of a mixture of the best pose and its rivals in equal parts, about the best pose's. `covariance` is that of each of them.

@@ -64,6 +64,42 @@ TEST_F(Recording, ThatIsCutSaysWhere) {
   EXPECT_NE(replay.err.find("damaged at byte "), std::string::npos) << replay.err;
 }
 
+// From its begin on a cut is flown again; from later on nobody knows what the component knew.
+TEST_F(Recording, CutFromItsBeginIsFlownAgain) {
+  VERIFIES("LASSO-REC-011~1 LASSO-REC-015~1");
+  record("--scenario spin");
+  ASSERT_EQ(work_.mdat("recording cut out/run.mcap --to 2.5 -o out/cut.mcap").exit_code, 0);
+  const Answer replay = work_.mdat("replay out/cut.mcap");
+  EXPECT_EQ(replay.exit_code, 0) << replay.err;
+  EXPECT_NE(replay.out.find("telemetry: the same as recorded, "), std::string::npos) << replay.out;
+  EXPECT_EQ(replay.out.find("as recorded, 0 bytes"), std::string::npos) << replay.out;
+  ASSERT_EQ(work_.mdat("recording cut out/run.mcap --from 1.5 -o out/late.mcap").exit_code, 0);
+  const Answer late = work_.mdat("replay out/late.mcap");
+  EXPECT_EQ(late.exit_code, 2);
+  EXPECT_NE(late.err.find("out/late.mcap: begins at 1.5 s of its run"), std::string::npos) << late.err;
+}
+
+TEST_F(Recording, ThatIsCutIsRecoveredMergedAndExported) {
+  VERIFIES("LASSO-REC-012~1 LASSO-REC-013~1 LASSO-REC-014~1 LASSO-REC-015~1");
+  record("--scenario spin");
+  EXPECT_EQ(work_.mdat("recording export out/run.mcap --format packets -o out/packets").exit_code, 0);
+  EXPECT_EQ(work_.read("out/packets"), work_.read("out/run/telemetry.ccsds"));
+  std::filesystem::copy_file(work_ / "out/run.mcap", work_ / "out/part.mcap");
+  std::filesystem::resize_file(work_ / "out/part.mcap", std::filesystem::file_size(work_ / "out/part.mcap") - 1000000);
+  const Answer recovered = work_.mdat("recording recover out/part.mcap -o out/whole.mcap");
+  EXPECT_EQ(recovered.exit_code, 0) << recovered.err;
+  EXPECT_NE(recovered.err.find("warning: out/part.mcap: lost at byte "), std::string::npos) << recovered.err;
+  const Answer replay = work_.mdat("replay out/whole.mcap");
+  EXPECT_EQ(replay.exit_code, 0) << replay.err;
+  const Answer merged = work_.mdat("recording merge out/run.mcap out/whole.mcap --prefix all,part -o out/both.mcap");
+  EXPECT_EQ(merged.exit_code, 0) << merged.err;
+  EXPECT_NE(work_.mdat("recording info out/both.mcap").out.find("/part/"), std::string::npos);
+  const Answer again = work_.mdat("replay out/both.mcap");
+  EXPECT_EQ(again.exit_code, 2);
+  EXPECT_NE(again.err.find("is two runs in one file"), std::string::npos) << again.err;
+  EXPECT_EQ(work_.mdat("recording cut out/run.mcap --to 2 -o out/run.mcap --force").exit_code, 2) << "its own input";
+}
+
 TEST_F(Recording, OfSeveralRunsOrNoRunIsRefused) {
   VERIFIES("LASSO-REC-008~1");
   work_.write_mission();

@@ -72,6 +72,16 @@ function checkScan(told, { value }) {
   if (returns !== told.returns) find(`scan ${told.scan_id}: ${returns} returns, and in telemetry ${told.returns}`);
 }
 
+// Each set of frames hangs together from the world down.
+function checkFrames({ value }) {
+  const parents = new Map(value.transforms.map((transform) => [transform.child_frame_id, transform.header.frame_id]));
+  for (const frame of ["sensor", "target", "target_true", "target_filtered"]) {
+    let root = frame;
+    while (parents.has(root)) root = parents.get(root);
+    if (root !== "world") find(`/tf: ${frame} hangs on ${root}`);
+  }
+}
+
 function stamp({ value }) {
   return Number((BigInt(value.header.stamp.sec) * NANOSECONDS + BigInt(value.header.stamp.nanosec)) / 1000n);
 }
@@ -85,6 +95,7 @@ const topics = await read(reader, decode);
 const told = new Map(JSON.parse(await readFile(packets, "utf8")).packets.map(({ items }) => [items.t_measurement_us, items]));
 const valid = [...told.values()].filter((items) => items.valid === "yes");
 for (const message of topics.get("/pose_with_covariance")) checkPose(told.get(stamp(message)), message);
+for (const message of topics.get("/tf")) checkFrames(message);
 for (const message of topics.get("/scan")) checkScan(told.get(stamp(message)), message);
 if (topics.get("/pose_with_covariance").length !== valid.length) find(`${topics.get("/pose_with_covariance").length} poses, and ${valid.length} are valid`);
 

@@ -13,11 +13,13 @@ void add_campaign_command(CLI::App& app);
 void add_lcs_sim_command(CLI::App& app);
 void add_calibrate_command(CLI::App& app);
 void add_recording_command(CLI::App& app);
+void add_recording_edits(CLI::App* group);  // of that one
 void add_replay_command(CLI::App& app);
 void add_compare_command(CLI::App& app);
 void add_benchmark_commands(CLI::App& app);
 void add_gallery_command(CLI::App& app);
 void add_paper_command(CLI::App& app);
+void add_availability_command(CLI::App& app);
 void add_render_command(CLI::App& app);
 void add_stereo_command(CLI::App& app);
 void add_modes_command(CLI::App& app);

@@ -58,6 +58,7 @@ int run(int argc, char** argv) {
   add_benchmark_commands(app);
   add_gallery_command(app);
   add_paper_command(app);
+  add_availability_command(app);
   add_render_command(app);
   add_stereo_command(app);
   add_modes_command(app);

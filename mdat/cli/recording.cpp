@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 
@@ -62,6 +63,12 @@ SimulationOptions options_of(const std::string& file, const RecordedRun& run) {
   return options;
 }
 
+// Frames that are flown for the telemetry of a part of a recording: up to that of its last boundary.
+std::uint32_t frames_until(const RecordedRun& run, double period_s) {
+  const double frames = std::ceil((1e-9 * static_cast<double>(run.last_packet_ns) - to_seconds(kEpochUs)) / period_s);
+  return static_cast<std::uint32_t>(std::clamp(frames, 1.0, 1e6));
+}
+
 // The first byte that differs, and its frame; empty where all are the same.
 std::string difference(const std::string& now, const std::string& then) {
   if (now == then) return "";
@@ -70,10 +77,10 @@ std::string difference(const std::string& now, const std::string& then) {
          " now";
 }
 
-// Without settings of its own, a replay has to give the recorded telemetry, of a damaged recording as far as that is whole. Returns whether
-// it did.
+// Without settings of its own, a replay has to give the recorded telemetry, of a part of a recording as far as that is whole. Returns
+// whether it did.
 bool tell_comparison(std::string now, const RecordedRun& run, bool changed) {
-  if (!run.damage.empty()) now.resize(std::min(now.size(), run.telemetry.size()));
+  if (!run.whole) now.resize(std::min(now.size(), run.telemetry.size()));
   const std::string differs = difference(now, run.telemetry);
   if (differs.empty()) std::printf("telemetry: the same as recorded, %zu bytes\n", now.size());
   if (!differs.empty()) std::printf("telemetry: another than recorded, %s%s\n", differs.c_str(), changed ? ", as was to be expected" : "");
@@ -92,6 +99,7 @@ void replay_recording(const std::string& file, const std::vector<std::string>& s
   all.insert(all.end(), settings.begin(), settings.end());
   MissionInput input = load_mission_input(folder.mission(), all, options.scenario);
   check_simulation(input.source, options, false);
+  if (!run.whole) options.frames = std::min(*options.frames, frames_until(run, parameters_for(input.source, options.scenario).period_s));
   const CompiledMission mission = compile_mission(std::move(input), ModelCache::of_user_if(cached));
   const SimulationResult result = simulate(mission, options);
   std::fputs(summary_text(result).c_str(), stdout);
@@ -102,12 +110,13 @@ void replay_recording(const std::string& file, const std::vector<std::string>& s
 }
 
 void add_recording_command(CLI::App& app) {
-  CLI::App* group = app.add_subcommand("recording", "look into recordings (.mcap)");
+  CLI::App* group = app.add_subcommand("recording", "look into recordings (.mcap), cut, mend, merge and export them");
   group->require_subcommand(1);
   CLI::App* info = group->add_subcommand("info", "what a recording holds: its run, topics, attachments, and what is damaged");
   const auto file = std::make_shared<std::string>();
   info->add_option("FILE", *file, "recording (.mcap), of any program")->required();
   info->callback([file] { std::fputs(contents_text(*file).c_str(), stdout); });
+  add_recording_edits(group);
 }
 
 }  // namespace lasso::mdat

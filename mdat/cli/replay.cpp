@@ -10,6 +10,7 @@
 #include "mdat/common/flight_image.hpp"
 #include "mdat/common/output.hpp"
 #include "mdat/missiondb/depth_camera_file.hpp"
+#include "mdat/recording/bag_scans.hpp"
 #include "mdat/replay/acquire.hpp"
 #include "mdat/replay/diagnosis.hpp"
 
@@ -17,7 +18,7 @@ namespace lasso::mdat {
 namespace {
 
 struct ReplayArguments {
-  std::string mission, scenario, out, time_unit, axes, camera;
+  std::string mission, scenario, out, time_unit, axes, camera, topic;
   ReplayOptions replay;
   std::vector<double> offset_m;
   std::vector<std::string> settings;
@@ -96,6 +97,12 @@ void read_frame(const ReplayArguments& options, ReplayOptions& replay) {
   if (!options.axes.empty()) replay.frame.R_sensor_file = sim::axes_of(options.axes);
   if (!options.offset_m.empty()) replay.frame.sensor_m = Vec3(options.offset_m[0], options.offset_m[1], options.offset_m[2]);
   if (!options.camera.empty()) replay.camera = load_depth_camera(options.camera);
+  if (is_bag(options.replay.scans)) {
+    replay.source = open_bag(options.replay.scans, options.topic);
+  } else if (!options.topic.empty()) {
+    throw InputError("--topic " + options.topic + ": " + options.replay.scans.string() +
+                     " is no recording (.mcap, .db3, or a bag's folder)");
+  }
 }
 
 // Other people's scans need to be said where they are; a recording of a run has all in itself.
@@ -145,7 +152,10 @@ void add_replay_command(CLI::App& app) {
       ->add_option("MISSION", options->mission,
                    "mission file or flight image, for --scans; or a recording of a run (.mcap), which needs nothing else")
       ->required();
-  command->add_option("--scans", options->replay.scans, "folder of scans, taken in natural order (scan2 before scan10)");
+  command->add_option("--scans", options->replay.scans,
+                      "folder of scans, taken in natural order (scan2 before scan10); or a recording of any program with "
+                      "PointCloud2: .mcap, .db3, or a bag's folder");
+  command->add_option("--topic", options->topic, "which scans of a recording, where it has several topics of them");
   command->add_option("--initial", options->replay.initial,
                       "poses to start from: scan,qx,qy,qz,qw,x_m,y_m,z_m (T_sensor_target); or the word search: find each scan's "
                       "without any");

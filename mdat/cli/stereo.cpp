@@ -116,8 +116,7 @@ void simulated_pair(const StereoArguments& options) {
   const StereoView view{*scene.surface, stereo_materials(source, scene.materials), stereo_lights(source, scene.orbit_lights),
                         scene.T_sensor_target};
   const StereoPictures pictures = pictures_of(options, view, head, scene.seed);
-  const MatchDepths depths =
-      options.depths.nearest_m > 0 ? options.depths : predicted_depths(input.mesh, scene.T_sensor_target, source.baseline_m);
+  const MatchDepths depths = options.depths.nearest_m > 0 ? options.depths : stated_depths(input.mesh, scene.setup, source.baseline_m);
   const DisparityMap map = match_pictures(pictures, head.stated, depths, folder);
   tell_match(map, depths);
   const std::vector<double> truth_px = true_disparities(map, *scene.surface, scene.T_sensor_target);
@@ -188,7 +187,7 @@ void add_stereo_command(CLI::App& app) {
   command->add_option("--calibration", options->recorded.calibration, "recorded: calibration of the pair (docs/stereo.md)");
   command
       ->add_option("--nearest", options->depths.nearest_m,
-                   "depth from which matches are looked for, m (the predicted one; recorded: 10 baselines)")
+                   "depth from which matches are looked for, m (by the mission's ranges; recorded: 10 baselines)")
       ->check(number_between(0.0, 1e6));
   command->add_option("--farthest", options->depths.farthest_m, "and to which (recorded: 1000 baselines)")->check(number_between(0.0, 1e6));
   add_simulated_options(command, options);

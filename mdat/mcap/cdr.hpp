@@ -62,6 +62,8 @@ class CdrReader {
     const auto size = get<std::uint32_t>();
     return reader_.take(size);
   }
+  std::string_view take(std::size_t size) { return reader_.take(size); }  // bytes
+  std::size_t left() const { return reader_.rest().size(); }
 
  private:
   static constexpr std::size_t kEncapsulation = 4;

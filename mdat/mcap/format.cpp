@@ -8,6 +8,13 @@ std::uint32_t crc32_of(std::string_view bytes, std::uint32_t seed) {
   return static_cast<std::uint32_t>(crc32_z(seed, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()));
 }
 
+std::string metadata_crc(std::string_view name, const Text& map) {
+  std::string content;
+  put_text(name, content);
+  put_map(map, content);
+  return std::to_string(crc32_of(content));
+}
+
 void put_record(Op op, std::string_view content, std::string& bytes) {
   put(static_cast<std::uint8_t>(op), bytes);
   put<std::uint64_t>(content.size(), bytes);
@@ -61,7 +68,7 @@ bool get(std::string_view content, Schema& schema) {
   schema.name = reader.text();
   schema.encoding = reader.text();
   schema.data = reader.text();
-  return reader.ok() && schema.id != 0;
+  return reader.ok() && reader.rest().empty() && schema.id != 0;
 }
 
 bool get(std::string_view content, Channel& channel) {
@@ -71,7 +78,7 @@ bool get(std::string_view content, Channel& channel) {
   channel.topic = reader.text();
   channel.encoding = reader.text();
   channel.metadata = reader.map();
-  return reader.ok();
+  return reader.ok() && reader.rest().empty();
 }
 
 bool get(std::string_view content, Message& message) {

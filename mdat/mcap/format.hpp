@@ -70,6 +70,10 @@ bool get(std::string_view content, Channel& channel);
 bool get(std::string_view content, Message& message);
 bool get(std::string_view content, Attachment& attachment);
 
+// The format has no check sum for metadata: ours is an entry under this key, of all others.
+constexpr char kMetadataCrc[] = "crc32";
+std::string metadata_crc(std::string_view name, const Text& map);
+
 // CRC-32 of IEEE 802.3, as MCAP asks for.
 std::uint32_t crc32_of(std::string_view bytes, std::uint32_t seed = 0);
 

@@ -48,11 +48,11 @@ void Writer::put_out(const std::string& bytes) {
   out_.flush();
   if (!out_) throw InputError(path_.string() + ": cannot be written: " + (errno != 0 ? std::strerror(errno) : "the disk may be full"));
   at_ += bytes.size();
+  crc_ = crc32_of(bytes, crc_);
 }
 
 std::uint16_t Writer::add_schema(const std::string& name, const std::string& encoding, const std::string& data) {
   schemas_.push_back({static_cast<std::uint16_t>(schemas_.size() + 1), name, encoding, data});
-  put_schema(schemas_.back(), chunks_.front().records);
   return schemas_.back().id;
 }
 
@@ -60,22 +60,36 @@ std::uint16_t Writer::add_channel(const std::string& topic, std::uint16_t schema
                                   Bulk bulk) {
   channels_.push_back({static_cast<std::uint16_t>(channels_.size()), schema, topic, encoding, metadata});
   bulks_.push_back(bulk);
-  put_channel(channels_.back(), chunks_.front().records);
   return channels_.back().id;
 }
 
 void Writer::write(std::uint16_t channel, std::uint64_t time_ns, std::string_view data) {
-  Chunk& chunk = chunks_.at(static_cast<std::size_t>(bulks_.at(channel)));
+  const auto counted = counts_.messages.find(channel);
+  const std::uint64_t before = counted != counts_.messages.end() ? counted->second : 0;
+  write({channel, static_cast<std::uint32_t>(before), time_ns, time_ns, data});
+}
+
+// A channel's first message in a chunk comes behind what says the channel.
+void Writer::begin_in_chunk(std::uint16_t channel, Chunk& chunk) const {
+  const Channel& said = channels_.at(channel);
+  if (said.schema != 0 && chunk.schemas.insert(said.schema).second) put_schema(schemas_.at(said.schema - 1U), chunk.records);
+  put_channel(said, chunk.records);
+}
+
+void Writer::write(const Message& message) {
+  const std::uint64_t time_ns = message.log_ns;
+  Chunk& chunk = chunks_.at(static_cast<std::size_t>(bulks_.at(message.channel)));
   const bool first_of_chunk = chunk.index.empty(), first = counts_.messages.empty();
   chunk.first_ns = first_of_chunk ? time_ns : std::min(chunk.first_ns, time_ns);
   chunk.last_ns = first_of_chunk ? time_ns : std::max(chunk.last_ns, time_ns);
   counts_.first_ns = first ? time_ns : std::min(counts_.first_ns, time_ns);
   counts_.last_ns = std::max(counts_.last_ns, time_ns);
-  std::string& index = chunk.index[channel];
+  std::string& index = chunk.index[message.channel];
+  if (index.empty()) begin_in_chunk(message.channel, chunk);
   put(time_ns, index);
   put<std::uint64_t>(chunk.records.size(), index);
-  const auto sequence = static_cast<std::uint32_t>(counts_.messages[channel]++);
-  put_message({channel, sequence, time_ns, time_ns, data}, chunk.records);
+  ++counts_.messages[message.channel];
+  put_message(message, chunk.records);
   if (chunk.records.size() >= kChunkBytes) end_chunks();
 }
 
@@ -138,8 +152,10 @@ void Writer::attach(const std::string& name, const std::string& media_type, std:
 void Writer::add_metadata(const std::string& name, const Text& map) {
   end_chunks();
   std::string record, content;
+  Text checked = map;
+  checked[kMetadataCrc] = metadata_crc(name, map);
   put_text(name, content);
-  put_map(map, content);
+  put_map(checked, content);
   put_record(Op::kMetadata, content, record);
   std::string index;
   put(at_, index);
@@ -183,7 +199,9 @@ void Writer::put_group(Op op, std::string_view records, std::string& summary, st
 void Writer::close() {
   end_chunks();
   std::string end;
-  put_record(Op::kDataEnd, std::string(4, '\0'), end);
+  std::string crc;
+  put(crc_, crc);
+  put_record(Op::kDataEnd, crc, end);
   put_out(end);
   std::string schemas, channels, summary, offsets;
   for (const Schema& schema : schemas_) put_schema(schema, schemas);

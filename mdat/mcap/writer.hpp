@@ -1,7 +1,7 @@
 // Writes an MCAP file: messages in compressed chunks with indexes, attachments, metadata, and the summary by which readers seek.
 //
-// A chunk is in the file as soon as it is full: of a run that is killed all but the last chunk can be read (reader.hpp). Memory is that of
-// two chunks, and 32 bytes for each one written.
+// A chunk is in the file as soon as it is full: of a run that is killed all but the last chunk can be read (reader.hpp). Each says the
+// channels of its messages, so that none needs another one. Memory is that of two chunks, and some 100 bytes for each one written.
 //
 // Large messages, as scans, have chunks of their own, which end together with those of the small ones: who asks for poses or events of a
 // long run unpacks a few percent of it.
@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -35,6 +36,7 @@ class Writer {
                             Bulk bulk = Bulk::kSmall);
   // Sequence numbers count from 0 in each channel.
   void write(std::uint16_t channel, std::uint64_t time_ns, std::string_view data);
+  void write(const Message& message);
   void attach(const std::string& name, const std::string& media_type, std::string_view data, std::uint64_t time_ns);
   void add_metadata(const std::string& name, const Text& content);
   // Ends the file. Nothing is written after it.
@@ -45,6 +47,7 @@ class Writer {
     std::uint64_t first_ns = 0, last_ns = 0;
     std::string records;
     std::map<std::uint16_t, std::string> index;  // of each channel: time and place of each message
+    std::set<std::uint16_t> schemas;             // that stand in it
   };
   struct Counts {
     std::uint64_t first_ns = 0, last_ns = 0;
@@ -52,6 +55,7 @@ class Writer {
     std::map<std::uint16_t, std::uint64_t> messages;
   };
   void put_out(const std::string& bytes);
+  void begin_in_chunk(std::uint16_t channel, Chunk& chunk) const;
   void end_chunks();
   void end_chunk(Chunk& chunk);
   std::map<std::uint16_t, std::uint64_t> put_indexes(const Chunk& chunk);
@@ -61,7 +65,8 @@ class Writer {
   std::filesystem::path path_;
   std::ofstream out_;
   std::uint64_t at_ = 0;         // bytes written
-  std::array<Chunk, 2> chunks_;  // by Bulk; definitions of channels are in the first, which is written before the other
+  std::uint32_t crc_ = 0;        // of them
+  std::array<Chunk, 2> chunks_;  // by Bulk
   Counts counts_;
   std::vector<Schema> schemas_;
   std::vector<Channel> channels_;

@@ -103,24 +103,60 @@ std::string text_of(const Contents& contents) {
   return text;
 }
 
+struct TimedPacket {
+  std::uint64_t t_ns = 0;
+  std::string bytes;
+};
+
+std::uint64_t whole_until_ns(const mcap::Text& about) {
+  const auto said = about.find(kWholeUntil);
+  if (said == about.end() || said->second.empty() || said->second.size() > 19) return UINT64_MAX;
+  return said->second.find_first_not_of("0123456789") == std::string::npos ? std::stoull(said->second) : UINT64_MAX;
+}
+
+void check_run(const fs::path& file, RecordedRun& run, bool merged) {
+  if (merged)
+    throw InputError(file.string() + ": is two runs in one file, for viewers: replay one of the recordings that it was merged of");
+  const std::string mission = run.about["mission"];
+  if (mission.rfind(kMissionFolder, 0) != 0 || run.files.count(mission) == 0)
+    throw InputError(file.string() + ": says of no mission of which run it is: expected a recording of mdat run --record");
+  const auto late = run.about.find(kBeginsLate);
+  if (late != run.about.end())
+    throw InputError(
+        file.string() + ": begins at " + late->second +
+        " s of its run: what the component knew then is not recorded, so it cannot be flown again; cut it without --from, or replay the "
+        "whole recording");
+}
+
 }  // namespace
 
 RecordedRun read_recorded_run(const fs::path& file) {
   mcap::Reader reader(file);
   RecordedRun run;
+  std::vector<TimedPacket> packets;
+  std::uint64_t scans_until_ns = 0;
   mcap::Visitor visitor;
   visitor.message = [&](const mcap::Channel& channel, const mcap::Message& message) {
-    if (channel.topic == "/sensor_scans") return take_scan(file, message.data, run.scans);
-    if (channel.topic == "/packets") run.telemetry += packet_of(message.data);
+    if (channel.topic == "/packets") packets.push_back({message.log_ns, std::string(packet_of(message.data))});
+    if (channel.topic != "/sensor_scans") return;
+    take_scan(file, message.data, run.scans);
+    if (reader.damage().empty()) scans_until_ns = std::max(scans_until_ns, message.log_ns);
   };
   visitor.attachment = [&](const mcap::Attachment& attachment) { run.files[attachment.name] = attachment.data; };
+  bool merged = false;
   visitor.metadata = [&](const std::string& name, const mcap::Text& map) {
     if (name == kRecordingMetadata) run.about = map;
+    merged = merged || name == kMergedMetadata;
   };
   run.damage = reader.read(visitor);
-  const std::string mission = run.about["mission"];
-  if (mission.rfind(kMissionFolder, 0) != 0 || run.files.count(mission) == 0)
-    throw InputError(file.string() + ": says of no mission of which run it is: expected a recording of mdat run --record");
+  check_run(file, run, merged);
+  const std::uint64_t until_ns = std::min(whole_until_ns(run.about), run.damage.empty() ? UINT64_MAX : scans_until_ns);
+  run.whole = until_ns == UINT64_MAX;
+  for (const TimedPacket& packet : packets) {
+    if (packet.t_ns > until_ns) continue;
+    run.telemetry += packet.bytes;
+    run.last_packet_ns = std::max(run.last_packet_ns, packet.t_ns);
+  }
   return run;
 }
 

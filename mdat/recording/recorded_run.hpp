@@ -16,12 +16,14 @@ struct RecordedRun {
   mcap::Text about;                          // as RecordingHead's
   std::map<std::string, std::string> files;  // attachments
   sim::SensorRecording scans;
-  std::string telemetry;             // all packets, in order
+  std::string telemetry;             // packets, in order: all that follow from `scans`
+  std::uint64_t last_packet_ns = 0;  // time of the last of them
+  bool whole = true;                 // false: damaged, or a part of a recording
   std::vector<mcap::Damage> damage;  // what could not be read
 };
 
-// Throws InputError that names the file: it cannot be read, is no MCAP file, has been written by another program, or holds a scan that is
-// none.
+// Throws InputError that names the file: it cannot be read, is no MCAP file, has been written by another program, holds a scan that is
+// none, does not begin where its run does, or is two runs in one.
 RecordedRun read_recorded_run(const std::filesystem::path& file);
 
 // What a file holds, for a person: who wrote it, its run, each topic with its messages, attachments with their sizes, and what is damaged.

@@ -13,6 +13,12 @@ namespace lasso::mdat {
 
 // The record of metadata by which a program knows one of ours.
 constexpr char kRecordingMetadata[] = "3dlasso";
+// In it, of a part of a recording: its first second, where that is not the run's begin; and until when [ns] its telemetry follows from the
+// scans that it holds.
+constexpr char kBeginsLate[] = "begins_late_s";
+constexpr char kWholeUntil[] = "whole_until_ns";
+// Of two recordings in one file: prefixes and names of files.
+constexpr char kMergedMetadata[] = "merged";
 // The mission's files are attached under this name, with their places below the folder that they all share.
 constexpr char kMissionFolder[] = "mission/";
 

@@ -96,10 +96,11 @@ std::string meaning_of(const std::string& reason) {
 
 ReplayInput read_replay_input(const ReplayOptions& options) {
   const bool search = options.initial == "search";
-  ReplayInput input{search ? std::vector<InitialPose>() : read_initial_poses(options.initial),
-                    options.truth.empty() ? std::vector<InitialPose>() : read_initial_poses(options.truth),
-                    sim::RecordedScans(options.scans, options.frame, options.camera),
-                    {}};
+  ReplayInput input{
+      search ? std::vector<InitialPose>() : read_initial_poses(options.initial),
+      options.truth.empty() ? std::vector<InitialPose>() : read_initial_poses(options.truth),
+      options.source ? sim::RecordedScans(options.source, options.frame) : sim::RecordedScans(options.scans, options.frame, options.camera),
+      {}};
   for (std::size_t i = 0; i < input.scans.size(); ++i) {
     if (!search && !options.closed_loop) (void)pose_of(input.poses, input.scans.stem(i), options.initial);
   }

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -16,14 +17,15 @@
 namespace lasso::mdat {
 
 struct ReplayOptions {
-  std::filesystem::path scans;    // folder
-  std::filesystem::path initial;  // file of poses
-  std::filesystem::path truth;    // file of true poses; empty: none
-  sim::ScanFrame frame;           // of the scans' files
-  sim::DepthCamera camera;        // of depth images
-  double unit_s = 0;              // of their times; 0: as their headers and spans say
-  bool closed_loop = false;       // the first row starts the track; then the filter predicts, as in flight
-  bool wide = false;              // starts are rough: centroid, far field and slides come first
+  std::filesystem::path scans;                    // folder
+  std::shared_ptr<const sim::ScanSource> source;  // instead of it
+  std::filesystem::path initial;                  // file of poses
+  std::filesystem::path truth;                    // file of true poses; empty: none
+  sim::ScanFrame frame;                           // of the scans' files
+  sim::DepthCamera camera;                        // of depth images
+  double unit_s = 0;                              // of their times; 0: as their headers and spans say
+  bool closed_loop = false;                       // the first row starts the track; then the filter predicts, as in flight
+  bool wide = false;                              // starts are rough: centroid, far field and slides come first
 };
 
 struct ReplayedScan {

@@ -1,22 +1,22 @@
 #include "mdat/stereo/depth_window.hpp"
 
 #include <algorithm>
-#include <limits>
-
-#include "fsw/geometry/so3.hpp"
 
 namespace lasso::mdat {
 
-MatchDepths predicted_depths(const Mesh& target, const Pose& T_sensor_target, double baseline_m) {
-  double nearest_m = std::numeric_limits<double>::infinity(), farthest_m = -nearest_m;
-  for (const Vec3& vertex : target.vertices) {
-    const double depth_m = (T_sensor_target * vertex).z();
-    nearest_m = std::min(nearest_m, depth_m);
-    farthest_m = std::max(farthest_m, depth_m);
-  }
-  const double least_m = kNearestBaselines * baseline_m;
-  const double from_m = std::max(least_m, (1 - kDepthMargin) * nearest_m);
-  return {from_m, std::max(2 * from_m, (1 + kDepthMargin) * farthest_m)};
+MatchDepths depths_at(const Mesh& target, const Vec3& center_m, const std::vector<double>& ranges_m, double baseline_m) {
+  double radius_m = 0;
+  for (const Vec3& vertex : target.vertices) radius_m = std::max(radius_m, (vertex - center_m).norm());
+  const auto [nearest, farthest] = std::minmax_element(ranges_m.begin(), ranges_m.end());
+  const double from_m = std::max(kNearestBaselines * baseline_m, (1 - kDepthMargin) * (*nearest - radius_m));
+  return {from_m, std::max(2 * from_m, (1 + kDepthMargin) * (*farthest + radius_m))};
+}
+
+MatchDepths stated_depths(const Mesh& target, const CaseSetup& setup, double baseline_m) {
+  const Scenario& scenario = setup.scenario;
+  const Vec3 center_m = scenario.center_m.size() == 3 ? Vec3(scenario.center_m.data()) : Vec3::Zero();
+  const std::vector<double> ranges_m = scenario.has_profile() ? scenario.ranges_m : std::vector<double>{setup.range_m};
+  return depths_at(target, center_m, ranges_m, baseline_m);
 }
 
 }  // namespace lasso::mdat

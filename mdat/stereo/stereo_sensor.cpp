@@ -30,6 +30,7 @@ class Photographer {
         scene_(scene_of_case(mission, setup, target_seed, stereo_camera_name(mission.source), 0)),
         camera_(make_head(mission.source.stereo, scene_.fov_half_x_rad, scene_.fov_half_y_rad), seed),
         materials_(stereo_materials(mission.source.stereo, scene_.materials)),
+        depths_(stated_depths(mission.mesh, setup, mission.source.stereo.baseline_m)),
         jobs_(jobs) {
     write_file(files_.calibration, stereo_pair_text(camera_.head().stated));
   }
@@ -41,7 +42,7 @@ class Photographer {
         camera_.take({*scene_.surface, materials_, stereo_lights(source, scene_.orbit_lights), scene_.T_sensor_target}, jobs_);
     write_file(files_.left, grey_png(pictures.left));
     write_file(files_.right, grey_png(pictures.right));
-    return match_files(matcher_program(), files_, predicted_depths(mission_.mesh, scene_.T_sensor_target, source.baseline_m));
+    return match_files(matcher_program(), files_, depths_);
   }
 
  private:
@@ -49,6 +50,7 @@ class Photographer {
   Scene scene_;
   StereoCamera camera_;
   std::vector<Material> materials_;
+  MatchDepths depths_;
   unsigned jobs_;
   ScratchFolder folder_;
   PairFiles files_{folder_.path() / "left.png", folder_.path() / "right.png", folder_.path() / "calibration.toml"};

@@ -89,7 +89,7 @@ TEST_F(BeamTest, AQuarterTurnThatTheScanCannotTellIsARival) {
 }
 
 TEST_F(BeamTest, WhatThePriorExcludesIsNoRival) {
-  VERIFIES("LASSO-REG-026~1 LASSO-REG-027~1");
+  VERIFIES("LASSO-REG-026~2 LASSO-REG-027~1");
   scan();
   for (const double sigma_rad : {0.0, 0.03}) {
     const HitSolution near = registered(truth());
@@ -111,7 +111,7 @@ TEST_F(BeamTest, ARivalIsLookedForAgainAlthoughThePriorHasForgottenIt) {
 }
 
 TEST_F(BeamTest, NoPlaceIsTriedBeyondHalfATurn) {
-  VERIFIES("LASSO-REG-026~1");
+  VERIFIES("LASSO-REG-026~2");
   scan();
   PriorPose known = prior(truth(), 0.01);
   for (const double rival_m : {10 * mission_.radius_m, 1e300, std::numeric_limits<double>::infinity()}) {
@@ -123,8 +123,27 @@ TEST_F(BeamTest, NoPlaceIsTriedBeyondHalfATurn) {
   }
 }
 
+// A beam that is longer than the field says nothing of its place along itself. That hides nothing of its turn.
+TEST_F(BeamTest, BesideAnAxisThatNothingTellsTheNextIsLookedAt) {
+  VERIFIES("LASSO-REG-026~2 LASSO-REG-027~1");
+  scan();
+  keep_points([this](std::size_t, const MatchPoint<FlightNumber>& point) {
+    const Vec3 p(FlightNumber::to_double(point.p[0]), FlightNumber::to_double(point.p[1]), FlightNumber::to_double(point.p[2]));
+    return std::abs((truth() * p)[0]) < 0.25;
+  });
+  const HitSolution near = registered(truth());
+  Directions unseen;
+  (void)covariance_of_hits(mission_.radius_m, near.H, 1, unseen);
+  ASSERT_EQ(unseen.count, 1);
+  PriorPose known = prior(truth(), 0.4);
+  known.covariance(3, 3) = 100;
+  const LineSearch search = searched(known, near);
+  ASSERT_GT(search.rivals.size(), 0u);
+  EXPECT_GT(std::abs(turn_of(search.rivals[0]) - turn_of(search.best.T_target_sensor)), 0.9 * kQuarterTurn_rad);
+}
+
 TEST_F(BeamTest, WithoutAPriorOrAnAxisThePoseStays) {
-  VERIFIES("LASSO-REG-026~1");
+  VERIFIES("LASSO-REG-026~2");
   scan();
   const HitSolution near = registered(truth());
   EXPECT_EQ(searched({truth()}, near).rivals.size(), 0u);
@@ -135,7 +154,7 @@ TEST_F(BeamTest, WithoutAPriorOrAnAxisThePoseStays) {
 }
 
 TEST_F(PeggedBeamTest, AWrongMinimumGivesPlaceToTheRightOne) {
-  VERIFIES("LASSO-REG-026~1");
+  VERIFIES("LASSO-REG-026~2");
   scan();
   const HitSolution wrong = registered(turned(kQuarterTurn_rad));
   ASSERT_GT(std::abs(turn_of(wrong.T_target_sensor)), 1);

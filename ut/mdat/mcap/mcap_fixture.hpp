@@ -34,7 +34,9 @@ class McapFile : public ::testing::Test {
     return {std::istreambuf_iterator<char>(in), {}};
   }
 
+  // Where nothing is: replacing a file may wait for the disk.
   void put(std::string_view bytes) const {
+    std::filesystem::remove(file_);
     std::ofstream(file_, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   }
 

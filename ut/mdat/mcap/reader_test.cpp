@@ -1,5 +1,7 @@
 #include "mdat/mcap/reader.hpp"
 
+#include <lz4frame.h>
+
 #include <algorithm>
 
 #include "hal_sim/random.hpp"
@@ -69,6 +71,69 @@ TEST_F(McapReader, ADamagedByteCostsWhatItDamagesAndIsTold) {
       EXPECT_LT(at, 60U) << error.what();  // the header
     }
   }
+}
+
+// A length that is damaged hides what follows from who trusts it: reading goes on at the next chunk.
+TEST_F(McapReader, GoesOnAtTheNextChunkBehindADamagedLength) {
+  VERIFIES("LASSO-REC-006~1");
+  write_three_chunks();
+  const std::string whole = bytes();
+  const std::size_t chunk = whole.find('\x06', kMagic.size() + kRecordHead + 4);
+  for (const int byte : {1, 2, 5}) {
+    std::string damaged = whole;
+    damaged[chunk + static_cast<std::size_t>(byte)] = static_cast<char>(damaged[chunk + static_cast<std::size_t>(byte)] + 1);
+    put(damaged);
+    const Told part = told();
+    EXPECT_EQ(part.messages.size(), 8U) << byte;
+    ASSERT_FALSE(part.damage.empty());
+    EXPECT_EQ(part.damage[0].at, chunk);
+    EXPECT_EQ(part.damage[0].before_ns, 4U);
+  }
+}
+
+// Times that a chunk's head says, and indexes, have no check sum of their own: that of the data shows them.
+TEST_F(McapReader, AnyOtherByteOfTheDataIsTold) {
+  VERIFIES("LASSO-REC-006~1");
+  write_three_chunks();
+  const std::string whole = bytes();
+  const std::size_t data_end = whole.find("\x0f\x04", whole.find("notes.txt"));
+  ASSERT_NE(data_end, std::string::npos);
+  for (std::size_t at = kMagic.size() + kRecordHead; at < data_end; ++at) {
+    std::string damaged = whole;
+    damaged[at] = static_cast<char>(damaged[at] ^ 4);
+    put(damaged);
+    try {
+      EXPECT_FALSE(told().damage.empty()) << at;
+    } catch (const InputError&) {
+      EXPECT_LT(at, 60U);  // the header
+    }
+  }
+}
+
+// By liblz4's own encoder.
+TEST_F(McapReader, TakesChunksOfLz4) {
+  VERIFIES("LASSO-REC-010~1");
+  std::string records, content(8, '\0');
+  put_schema({1, "a/msg/B", "ros2msg", "int32 x"}, records);
+  put_channel({0, 1, "/one", "cdr", {}}, records);
+  put_message({0, 0, 5, 5, std::string(300, 'm')}, records);
+  std::string body(LZ4F_compressFrameBound(records.size(), nullptr), '\0');
+  body.resize(LZ4F_compressFrame(body.data(), body.size(), records.data(), records.size(), nullptr));
+  std::string chunk, file(kMagic), header;
+  mcap::put(std::uint64_t{5}, chunk);
+  mcap::put(std::uint64_t{5}, chunk);
+  mcap::put(std::uint64_t{records.size()}, chunk);
+  mcap::put(crc32_of(records), chunk);
+  put_text("lz4", chunk);
+  mcap::put(std::uint64_t{body.size()}, chunk);
+  put_record(Op::kHeader, content, file);
+  put_record(Op::kChunk, chunk + body, file);
+  put_record(Op::kDataEnd, std::string(4, '\0'), file);
+  put(file);
+  const Told all = told();
+  ASSERT_EQ(all.messages.size(), 1U);
+  EXPECT_EQ(all.messages[0].second, std::string(300, 'm'));
+  EXPECT_TRUE(all.damage.empty());
 }
 
 TEST_F(McapReader, WhatIsNoRecordingIsRefusedByName) {

@@ -1,0 +1,28 @@
+// The command line's way to what the page shows.
+import { CommandText } from "../parts/controls.tsx";
+import { Dialog } from "../parts/dialog.tsx";
+import { useSession } from "./session.ts";
+
+export function CommandDialog() {
+  const { info } = useSession().log;
+  const file = info.file ?? info.name;
+  return (
+    <Dialog title="The same from the command line">
+      <dl class="commands">
+        <dt>Fly the recorded scans again and compare the telemetry</dt>
+        <dd>
+          <CommandText text={info.command} label="command of the replay" />
+        </dd>
+        <dt>What is in the file, and what is damaged</dt>
+        <dd>
+          <CommandText text={`mdat recording info ${file}`} label="command of the file's contents" />
+        </dd>
+        <dt>This page</dt>
+        <dd>
+          <CommandText text={`mdat serve ${file}`} label="command of this page" />
+        </dd>
+      </dl>
+      <p class="hint">With --set KEY=VALUE the replay flies the same scans with a changed mission.</p>
+    </Dialog>
+  );
+}

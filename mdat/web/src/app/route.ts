@@ -1,0 +1,53 @@
+// Where the page is: #/ is the start, #/r/ID?frame=N an opened recording. The browser's back and a copied address work.
+
+import { tell } from "./notices.ts";
+import { Session, session } from "./session.ts";
+
+export interface Route {
+  recording: string | null;
+  frame: number | null;
+  play: boolean;
+}
+
+export function parseRoute(hash: string): Route {
+  const [path, query = ""] = hash.replace(/^#/, "").split("?");
+  const match = /^\/r\/([^/]+)$/.exec(path);
+  if (match === null) return { recording: null, frame: null, play: false };
+  const search = new URLSearchParams(query);
+  const frame = Number.parseInt(search.get("frame") ?? "", 10);
+  return { recording: decodeURIComponent(match[1]), frame: Number.isFinite(frame) ? frame : null, play: search.has("play") };
+}
+
+export function routeTo(recording: string | null, frame?: number): string {
+  if (recording === null) return "#/";
+  return `#/r/${encodeURIComponent(recording)}${frame === undefined ? "" : `?frame=${frame}`}`;
+}
+
+async function show(route: Route): Promise<void> {
+  const open = session.peek();
+  if (route.recording === null) {
+    open?.player.pause();
+    session.value = null;
+    return;
+  }
+  const wanted = open?.log.info.id === route.recording ? open : await Session.open(route.recording);
+  if (route.frame !== null) wanted.selection.setFrame(route.frame);
+  session.value = wanted;
+  if (route.play) wanted.player.play(1);
+}
+
+/** Follows the address from now on. */
+export function startRouting(): void {
+  const follow = () =>
+    show(parseRoute(location.hash)).catch((error) => {
+      tell(error);
+      location.hash = routeTo(null);
+    });
+  window.addEventListener("hashchange", follow);
+  follow();
+}
+
+/** Keeps the frame in the address without an entry in the browser's history. */
+export function noteFrame(recording: string, frame: number): void {
+  history.replaceState(null, "", routeTo(recording, frame));
+}

@@ -1,0 +1,46 @@
+// The frame of the page: the start, or a recording's workspace; dialogs and notices above either.
+
+import { IconButton } from "../parts/controls.tsx";
+import { Icon } from "../parts/icon.tsx";
+import { ValuesDialog } from "../views/plots/values_dialog.tsx";
+import { Start } from "../views/start/start.tsx";
+import { CommandDialog } from "./command_dialog.tsx";
+import { KeysDialog } from "./keys_dialog.tsx";
+import { dismiss, notices } from "./notices.ts";
+import { overlay } from "./overlay.ts";
+import { SessionContext, session } from "./session.ts";
+import { Workspace } from "./workspace.tsx";
+
+function Notices() {
+  return (
+    <div class="notices" aria-live="polite">
+      {notices.value.map((notice) => (
+        <div key={notice.id} class={`notice notice-${notice.kind}`} role={notice.kind === "error" ? "alert" : "status"}>
+          <Icon name={notice.kind === "error" ? "error" : "info"} />
+          <span>
+            <strong>{notice.what}</strong> {notice.remedy}
+          </span>
+          <IconButton icon="close" label="Close the message" onClick={() => dismiss(notice.id)} />
+        </div>
+      ))}
+    </div>
+  );
+}
+
+function Overlay() {
+  if (overlay.value === "keys") return <KeysDialog />;
+  if (overlay.value === "values" && session.value !== null) return <ValuesDialog />;
+  if (overlay.value === "command" && session.value !== null) return <CommandDialog />;
+  return null;
+}
+
+export function Shell() {
+  const open = session.value;
+  return (
+    <SessionContext.Provider value={open}>
+      {open === null ? <Start /> : <Workspace key={open.log.info.id} session={open} />}
+      <Overlay />
+      <Notices />
+    </SessionContext.Provider>
+  );
+}

@@ -1,0 +1,98 @@
+// The model of one recording: what it is, the columns of all frames, and frames, scans, series and events as they are asked for.
+// It knows no view. What was asked for lately is kept, so that memory stays flat in long recordings.
+import { getBinary, getJson, withQuery } from "../api/client.ts";
+import { decodeColumns, decodeScan, decodeSeries, type Scan, type Series } from "../api/decode.ts";
+import type { EventPage, FrameInfo, RecordingInfo, Statistics } from "../api/types.ts";
+import { unitText } from "../api/units.ts";
+import { Cache } from "./cache.ts";
+import { frameAtTime } from "./frames.ts";
+
+/** Columns of all frames: 1 and 0, NaN where it is not known; the mode as a number that indexes `modes`. */
+export interface FrameColumns {
+  time_s: Float64Array;
+  valid: Float32Array;
+  wrong: Float32Array;
+  mode: Float32Array;
+}
+
+const COLUMNS = ["time_s", "valid", "wrong", "mode"];
+const FRAMES_KEPT = 300;
+
+export interface EventQuery {
+  from: number;
+  count: number;
+  filter?: string;
+  level?: string;
+}
+
+export class Log {
+  private readonly frameCache = new Cache<FrameInfo>(FRAMES_KEPT);
+  private readonly scanCache = new Cache<Scan>(FRAMES_KEPT);
+  readonly info: RecordingInfo;
+  readonly columns: FrameColumns;
+
+  constructor(info: RecordingInfo, columns: FrameColumns) {
+    this.info = info;
+    this.columns = columns;
+  }
+
+  static async open(id: string): Promise<Log> {
+    const path = `/api/recordings/${encodeURIComponent(id)}`;
+    const told = await getJson<RecordingInfo>(path);
+    const info = { ...told, values: told.values.map((value) => ({ ...value, unit: unitText(value.unit) })) };
+    const bytes = info.frames === 0 ? new ArrayBuffer(0) : await getBinary(withQuery(`${path}/frames`, { columns: COLUMNS.join(",") }));
+    const columns = decodeColumns(bytes, COLUMNS, info.frames);
+    return new Log(info, Object.fromEntries(columns) as unknown as FrameColumns);
+  }
+
+  private path(rest: string): string {
+    return `/api/recordings/${encodeURIComponent(this.info.id)}/${rest}`;
+  }
+
+  get frames(): number {
+    return this.columns.time_s.length;
+  }
+
+  get start_s(): number {
+    return this.frames > 0 ? this.columns.time_s[0] : this.info.start_s;
+  }
+
+  get end_s(): number {
+    return this.frames > 0 ? this.columns.time_s[this.frames - 1] : this.info.end_s;
+  }
+
+  /** The last frame that is not after the time; the first where all are. */
+  frameAt(time_s: number): number {
+    return frameAtTime(this.columns.time_s, time_s);
+  }
+
+  frame(index: number): Promise<FrameInfo> {
+    return this.frameCache.get(String(index), () => getJson<FrameInfo>(this.path(`frames/${index}`)));
+  }
+
+  /** The scan of a frame; with `iteration` its residuals at that iteration's pose. */
+  scan(index: number, iteration?: number): Promise<Scan> {
+    const path = withQuery(this.path(`frames/${index}/scan`), { iteration });
+    return this.scanCache.get(path, async () => decodeScan(await getBinary(path)));
+  }
+
+  async series(value: string, from_s: number, to_s: number, points: number, signal?: AbortSignal): Promise<Series> {
+    return decodeSeries(await getBinary(withQuery(this.path("series"), { value, from_s, to_s, points }), signal));
+  }
+
+  statistics(value: string, from_s: number, to_s: number, signal?: AbortSignal): Promise<Statistics> {
+    return getJson<Statistics>(withQuery(this.path("statistics"), { value, from_s, to_s }), signal);
+  }
+
+  events(query: EventQuery, signal?: AbortSignal): Promise<EventPage> {
+    return getJson<EventPage>(withQuery(this.path("events"), { ...query }), signal);
+  }
+
+  get modelPath(): string {
+    return this.path("model.glb");
+  }
+
+  csvPath(values: string[], from_s: number, to_s: number): string {
+    return withQuery(this.path("csv"), { values: values.join(","), from_s, to_s });
+  }
+}

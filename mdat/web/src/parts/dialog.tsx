@@ -1,0 +1,28 @@
+// A dialog over the page: the browser's own, which keeps the focus inside and gives it back.
+import type { ComponentChildren } from "preact";
+import { useEffect, useRef } from "preact/hooks";
+import { overlay } from "../app/overlay.ts";
+import { IconButton } from "./controls.tsx";
+
+export function Dialog({ title, children }: { title: string; children: ComponentChildren }) {
+  const dialog = useRef<HTMLDialogElement>(null);
+  const close = () => {
+    overlay.value = null;
+  };
+  useEffect(() => {
+    dialog.current?.showModal();
+    // A click beside the dialog closes it, as Escape does.
+    dialog.current?.addEventListener("click", (event) => event.target === dialog.current && close());
+  }, []);
+  return (
+    <dialog ref={dialog} class="dialog" aria-label={title} onClose={close}>
+      <header>
+        <h2>{title}</h2>
+        <IconButton icon="close" label="Close" stroke="Escape" onClick={close} />
+      </header>
+      <div class="dialog-body" tabIndex={0}>
+        {children}
+      </div>
+    </dialog>
+  );
+}
