@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "mdat/serve/answers.hpp"
@@ -58,8 +59,9 @@ TEST_F(SeriesAnswers, ManyRowsKeepTheirLeastAndGreatest) {
     ASSERT_TRUE(std::is_sorted(series.time_s.begin(), series.time_s.end()));
     std::size_t row = 0;
     for (std::size_t i = 0; i < series.time_s.size(); ++i) {
-      float least = INFINITY, most = -INFINITY, last = 0;
-      const double end_s = i + 1 < series.time_s.size() ? series.time_s[i + 1] : INFINITY;
+      constexpr float kEndless = std::numeric_limits<float>::infinity();
+      float least = kEndless, most = -kEndless, last = 0;
+      const double end_s = i + 1 < series.time_s.size() ? series.time_s[i + 1] : 1e9;
       for (; row < time_s.size() && time_s[row] < end_s; ++row) {
         last = column[row];
         if (std::isnan(column[row])) continue;

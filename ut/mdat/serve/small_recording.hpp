@@ -134,7 +134,7 @@ struct SmallRecording {
       const auto x = static_cast<double>(i % kRays), y = static_cast<double>(i / kRays);
       const Vec3 u = Vec3(0.22 * (x / (kRays - 1) - 0.5) + 0.03, 0.22 * (y / (kRays - 1) - 0.5) - 0.015, 1).normalized();
       RangeSample sample;
-      sample.t_us = time_us(n) + (static_cast<TimeUs>(i) - kRays * kRays / 2) * 100;
+      sample.t_us = time_us(n) + (static_cast<TimeUs>(i) - static_cast<TimeUs>(kRays * kRays / 2)) * 100;
       for (int k = 0; k < 3; ++k) sample.direction[k] = static_cast<float>(u[k]);
       const Pose T_target_sensor = inverse(propagate(truth(n), rates(), to_seconds(sample.t_us - time_us(n))));
       const double range_m = test::cast_boxes(test::uneven_boxes(), T_target_sensor.p, rotate(T_target_sensor.q, u));
