@@ -16,8 +16,10 @@ constexpr std::chrono::milliseconds kFarewell(500);
 constexpr std::string_view kTellAll[] = {"/events", "/scene"};  // never dropped, and kept
 constexpr std::string_view kForReplay = "/sensor_scans";
 
+// By digits: a name that begins so may belong to anybody.
 bool is_loopback_name(std::string_view name) {
-  return name == "localhost" || name == "[::1]" || name == "::1" || name.rfind("127.", 0) == 0;
+  const bool digits = name.find_first_not_of("0123456789.") == std::string_view::npos;
+  return name == "localhost" || name == "[::1]" || name == "::1" || (digits && name.rfind("127.", 0) == 0);
 }
 
 // "localhost:8765" without its port; an IPv6 address stands in brackets.
