@@ -108,6 +108,12 @@ recordings: ## measure: record a run, and read it with MCAP's reference library 
 	$(call compile,$(BUILD),mdat)
 	@MISSION="$(MISSION)" SCENARIO="$(SCENARIO)" FRAMES="$(FRAMES)" ft/recordings/run $(BUILD)/mdat/mdat $(LASSO_OUT)/recordings
 
+live: ## measure: watch a run while it flies, with the official client of the Foxglove WebSocket protocol: MISSION= SCENARIO= FRAMES=
+	$(call packages,build recordings)
+	$(call configure,$(BUILD),)
+	$(call compile,$(BUILD),mdat)
+	@MISSION="$(MISSION)" SCENARIO="$(SCENARIO)" FRAMES="$(FRAMES)" ft/live/run $(BUILD)/mdat/mdat $(LASSO_OUT)/live
+
 gallery: ## measure: fly every shipped scenario and write a page of them all, out/gallery/index.html: FRAMES=
 	$(call packages,build stereo)
 	$(call configure,$(BUILD),)

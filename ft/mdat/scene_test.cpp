@@ -31,7 +31,6 @@ motion = "before"
 sensor = true
 
 [scenario.screened]
-kind = "scene"
 frames = 40
 override.tracking.start_sigma_m = 0.02
 override.tracking.start_sigma_deg = 2.0
@@ -47,7 +46,7 @@ void write_scenes(const WorkFolder& work) {
 
 // Its target is the one of the scenario spin, but for the screen.
 TEST(SceneRun, FliesTheNodesOfAMission) {
-  VERIFIES("LASSO-SCN-020~1 LASSO-SCN-021~1");
+  VERIFIES("LASSO-SCN-020~2 LASSO-SCN-021~1");
   const WorkFolder work;
   write_scenes(work);
   const Answer answer = work.mdat("run missions/test.toml --scenario screened --out out/run --no-report");
@@ -62,6 +61,22 @@ TEST(SceneRun, FliesTheNodesOfAMission) {
   const Json results = Json::parse(work.read("out/run/results.json"));
   EXPECT_EQ(results.at("timeline").at("wrong"), 0);
   EXPECT_LT(results.at("timeline").at("rms_mm").get<double>(), 0.5);
+}
+
+// With the offers of a navigation system.
+TEST(SceneRun, StartsByItselfWhereItIsAutonomous) {
+  VERIFIES("LASSO-SCN-031~1");
+  const WorkFolder work;
+  write_scenes(work);
+  const Answer answer =
+      work.mdat("run missions/test.toml --scenario screened --set scenario.screened.autonomous=true --out out --no-report");
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  const Json timeline = Json::parse(work.read("out/results.json")).at("timeline");
+  EXPECT_GE(timeline.at("valid"), 15);
+  EXPECT_EQ(timeline.at("wrong"), 0);
+  std::string changes;
+  for (const Json& change : timeline.at("changes")) changes += change.at("event").get<std::string>() + " ";
+  EXPECT_EQ(changes.find("seek start pose_valid"), 0U) << changes;
 }
 
 // Of a run of fewer scans than six, each is shown.
@@ -99,7 +114,7 @@ TEST(SceneRun, NamesEveryProblemAndLeavesNothing) {
   const Answer answer = work.mdat("run missions/test.toml --scenario paper --out out/run");
   EXPECT_EQ(answer.exit_code, 2);
   EXPECT_NE(answer.err.find("node.a.motion: \"c\": the mission has no [motion.c]"), std::string::npos) << answer.err;
-  EXPECT_NE(answer.err.find("node.a, parent: \"b\": there is no such node"), std::string::npos) << answer.err;
+  EXPECT_NE(answer.err.find("node.a.parent: \"b\": there is no such node"), std::string::npos) << answer.err;
   EXPECT_EQ(work.contents(), before);
 }
 

@@ -145,6 +145,12 @@ void add_lvlh(SceneSource& scene, ProblemList& problems) {
   scene.nodes.push_back(node);
 }
 
+// The tree says "NODE, WHAT".
+Problem of_node(const Problem& problem, const MissionSource& source) {
+  const std::size_t end = std::min(problem.key.rfind(", "), problem.key.size());
+  return at_key(problem, "node." + problem.key.substr(0, end), problem.key.substr(std::min(end + 2, problem.key.size())), source);
+}
+
 // At evenly spread frames of the run.
 void look_at_motion(double frames, double period_s, SceneRun& run) {
   const double end_s = (frames - 1) * period_s;
@@ -165,17 +171,20 @@ void look_at_motion(double frames, double period_s, SceneRun& run) {
 }
 
 // The component knows one pose, of the target before the sensors: what moves against either, it knows nothing of.
-void pair_frames(const SceneSource& scene, const std::string& scenario, SceneRun& run, ProblemList& problems) {
+void pair_frames(const MissionSource& source, const std::string& scenario, SceneRun& run, ProblemList& problems) {
+  const SceneSource& scene = source.scene;
+  const auto refuse = [&](const std::string& key, const std::string& node, const std::string& why) {
+    problems.add(source.origins.at(key), key, '"' + node + '"', why);
+  };
   for (const RelativeSource& relative : scene.relative) {
     const RelativePair pair{relative.name, run.tree.need(relative.of), run.tree.need(relative.in)};
-    const Origin origin = origin_of(relative.place);
     const std::string path = "relative." + relative.name;
     if (!run.tree.are_rigid(pair.of, run.target))
-      problems.add(origin, path + ".of", '"' + relative.of + '"',
-                   "moves against the target in scenario " + scenario + ": name a node that stands on " + scene.target);
+      refuse(path + ".of", relative.of,
+             "moves against the target in scenario " + scenario + ": name a node that stands on " + scene.target);
     if (!run.tree.are_rigid(pair.in, run.sensor))
-      problems.add(origin, path + ".in", '"' + relative.in + '"',
-                   "moves against the sensor in scenario " + scenario + ": name a node that stands on what carries " + scene.sensor);
+      refuse(path + ".in", relative.in,
+             "moves against the sensor in scenario " + scenario + ": name a node that stands on what carries " + scene.sensor);
     run.relative.push_back(pair);
   }
 }
@@ -209,8 +218,8 @@ void read_nodes(const toml::table& root, MissionSource& source, ProblemList& pro
   try {
     static_cast<void>(scene::Tree(kSceneRoot, source.scene.nodes));
   } catch (const MissionError& error) {
-    std::vector<Problem> told = error.problems();
-    for (Problem& problem : told) problem.key = "node." + problem.key;
+    std::vector<Problem> told;
+    for (const Problem& problem : error.problems()) told.push_back(of_node(problem, source));
     problems.add(MissionError(told));
   }
 }
@@ -235,7 +244,7 @@ void read_relative(const toml::table& root, MissionSource& source, ProblemList& 
       if (!written.empty() && std::find(names.begin(), names.end(), written) == names.end())
         values.complain(key, '"' + written + '"', "the mission has no [node." + written + "]" + did_you_mean(written, names));
     }
-    source.scene.relative.push_back({name, values.text("of"), values.text("in"), values.place()});
+    source.scene.relative.push_back({name, values.text("of"), values.text("in")});
   });
 }
 
@@ -287,8 +296,8 @@ void make_scene_run(const ChosenMotions& chosen, const std::string& name, Origin
   const SceneSource& scene = source.scene;
   for (const auto& [key, node] : {std::pair{"target", scene.target}, std::pair{"sensor", scene.sensor}}) {
     if (node.empty())
-      problems.add(origin, "scenario." + name + ".kind", "\"scene\"",
-                   std::string("no node of the mission has ") + key + " = true: add [node.NAME]");
+      problems.add(origin, "scenario." + name, "",
+                   std::string("no node of the mission has ") + key + " = true: add it to a [node.NAME]; or write ranges_m");
   }
   if (scene.target.empty() || scene.sensor.empty()) return;
   std::vector<scene::Node> nodes = scene.nodes;
@@ -302,7 +311,7 @@ void make_scene_run(const ChosenMotions& chosen, const std::string& name, Origin
   run->sensor = run->tree.need(scene.sensor);
   for (const BodySource& body : scene.bodies) run->body_nodes.push_back(run->tree.need(body.node));
   for (const VolumeSource& volume : scene.volumes) run->volumes.emplace_back(run->tree.need(volume.node), volume.volume);
-  pair_frames(scene, name, *run, problems);
+  pair_frames(source, name, *run, problems);
   look_at_motion(scenario.frames, period_s, *run);
   scenario.times_s = run->times_s;
   scenario.ranges_m = run->ranges_m;

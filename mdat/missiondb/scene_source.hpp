@@ -62,7 +62,6 @@ struct WrittenValue {
 // A pose that results are also said of: of one node in another.
 struct RelativeSource {
   std::string name, of, in;
-  scene::Place place;
 };
 struct RelativePair {
   std::string name;
@@ -84,7 +83,7 @@ struct SceneSource {
   std::vector<WrittenValue> values;
 };
 
-// What a scenario of kind scene flies. Times are in microseconds since frame 0.
+// What a scenario flies. Times are in microseconds since frame 0.
 struct SceneRun {
   scene::Tree tree;
   std::size_t target, sensor;           // nodes

@@ -1,6 +1,7 @@
 #include "mdat/recording/frame_recorder.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "fsw/link/event_rows.hpp"
@@ -74,22 +75,37 @@ std::string items_text(const DecodedPacket& packet) {
 
 }  // namespace
 
+std::vector<MessageTopic> recorded_topics() {
+  std::vector<MessageTopic> topics;
+  for (const Topic& topic : kTopics) topics.push_back({topic.name, topic.schema()});
+  return topics;
+}
+
 FrameRecorder::FrameRecorder(const std::filesystem::path& file, const CompiledMission& mission, const RecordingHead& head,
-                             std::shared_ptr<sim::SensorRecording> scans)
-    : mission_(mission), writer_(file, kRecordingProfile, "mdat"), model_(make_target(mission.mesh)), scans_(std::move(scans)) {
+                             std::shared_ptr<sim::SensorRecording> scans, MessageTap* tap)
+    : mission_(mission), tap_(tap), model_(make_target(mission.mesh)), scans_(std::move(scans)) {
+  if (!file.empty()) open(file, head);
+}
+
+void FrameRecorder::open(const std::filesystem::path& file, const RecordingHead& head) {
+  writer_.emplace(file, kRecordingProfile, "mdat");
   std::map<std::string, std::uint16_t> schemas;
   for (const Topic& topic : kTopics) {
     const RosSchema schema = topic.schema();
     const auto [place, added] = schemas.try_emplace(schema.name, std::uint16_t{0});
-    if (added) place->second = writer_.add_schema(schema.name, "ros2msg", schema.text);
-    channels_[topic.name] = writer_.add_channel(topic.name, place->second, "cdr", {}, topic.bulk);
+    if (added) place->second = writer_->add_schema(schema.name, "ros2msg", schema.text);
+    channels_[topic.name] = writer_->add_channel(topic.name, place->second, "cdr", {}, topic.bulk);
   }
-  for (const auto& [name, content] : head.files) writer_.attach(name, "application/octet-stream", content, 0);
-  writer_.add_metadata(kRecordingMetadata, head.about);
+  for (const auto& [name, content] : head.files) writer_->attach(name, "application/octet-stream", content, 0);
+  writer_->add_metadata(kRecordingMetadata, head.about);
 }
 
 void FrameRecorder::write(const char* topic, TimeUs t_us, const std::string& bytes) {
-  writer_.write(channels_.at(topic), nanoseconds(t_us), bytes);
+  if (writer_) writer_->write(channels_.at(topic), nanoseconds(t_us), bytes);
+  if (tap_ == nullptr) return;
+  const auto* row =
+      std::find_if(std::begin(kTopics), std::end(kTopics), [&](const Topic& one) { return std::string_view(one.name) == topic; });
+  tap_->on_message(static_cast<std::size_t>(row - std::begin(kTopics)), nanoseconds(t_us), bytes);
 }
 
 void FrameRecorder::on_packets(TimeUs boundary_us, ConstBytes packets) {
@@ -105,6 +121,7 @@ void FrameRecorder::on_packets(TimeUs boundary_us, ConstBytes packets) {
 
 // In the order in which they were begun. One that no later scan of its sensor follows may still be under way.
 void FrameRecorder::take_scans(bool all) {
+  if (!scans_) return;
   const auto is_followed = [&](std::size_t at) {
     return std::any_of(scans_->begin() + static_cast<std::ptrdiff_t>(at) + 1, scans_->end(),
                        [&](const sim::SensorScan& later) { return later.sensor == (*scans_)[at].sensor; });
@@ -119,8 +136,9 @@ void FrameRecorder::take_scans(bool all) {
 
 void FrameRecorder::close(const std::vector<std::uint8_t>& image) {
   take_scans(true);
-  writer_.attach(kImageAttachment, "application/octet-stream", text_of(image), 0);
-  writer_.close();
+  if (!writer_) return;
+  writer_->attach(kImageAttachment, "application/octet-stream", text_of(image), 0);
+  writer_->close();
 }
 
 void FrameRecorder::write_events(TimeUs boundary_us, ConstBytes packets) {

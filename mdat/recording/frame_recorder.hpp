@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "hal_sim/sensor_recording.hpp"
 #include "mdat/common/flight_image.hpp"
 #include "mdat/mcap/writer.hpp"
+#include "mdat/recording/message_tap.hpp"
 #include "mdat/recording/recording_head.hpp"
 #include "mdat/recording/ros_messages.hpp"
 #include "mdat/run/run_listener.hpp"
@@ -22,12 +24,15 @@ namespace lasso::mdat {
 
 constexpr char kRecordingProfile[] = "ros2";
 
+// What a run has told of: the topics of its messages, in the order by which a tap knows them.
+std::vector<MessageTopic> recorded_topics();
+
 class FrameRecorder final : public RunListener {
  public:
-  // `mission` outlives it. `scans`: where the run's sensors leave what they gave; each scan is taken out of it once it is whole. Throws
-  // InputError where the file cannot be written; so do all calls.
+  // `mission` and `tap` outlive it. `scans`: where the run's sensors leave what they gave; each scan is taken out of it once it is whole.
+  // Without a file the tap alone gets the messages. Throws InputError where the file cannot be written; so do all calls.
   FrameRecorder(const std::filesystem::path& file, const CompiledMission& mission, const RecordingHead& head,
-                std::shared_ptr<sim::SensorRecording> scans);
+                std::shared_ptr<sim::SensorRecording> scans, MessageTap* tap = nullptr);
 
   void on_packets(TimeUs boundary_us, ConstBytes packets) override;
   void on_frame(const FlownFrame& frame) override;
@@ -35,6 +40,7 @@ class FrameRecorder final : public RunListener {
   void close(const std::vector<std::uint8_t>& image);
 
  private:
+  void open(const std::filesystem::path& file, const RecordingHead& head);
   void write(const char* topic, TimeUs t_us, const std::string& bytes);
   void write_surfaces(TimeUs t_us);
   void write_poses(const FlownFrame& frame);
@@ -43,9 +49,10 @@ class FrameRecorder final : public RunListener {
   void take_scans(bool all);
 
   const CompiledMission& mission_;
-  mcap::Writer writer_;
-  std::map<std::string, std::uint16_t> channels_;
-  std::unique_ptr<sim::RayCaster> model_;  // as the component knows the target
+  std::optional<mcap::Writer> writer_;
+  MessageTap* tap_;
+  std::map<std::string, std::uint16_t> channels_;  // of the file
+  std::unique_ptr<sim::RayCaster> model_;          // as the component knows the target
   std::shared_ptr<sim::SensorRecording> scans_;
   std::size_t scans_taken_ = 0;
   bool surfaces_written_ = false;

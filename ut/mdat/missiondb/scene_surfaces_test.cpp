@@ -8,7 +8,7 @@ namespace {
 
 const std::string kSurfaceHead =
     "[mission]\nid = 7\nversion = 2\nname = 'test'\n[target]\nmodel = 'two.toml'\nscale = 2\n[node.body]\ntarget = true\n"
-    "[node.camera]\nposition_m = [0, 0, -9]\nsensor = true\n[scenario.s]\nkind = 'scene'\n";
+    "[node.camera]\nposition_m = [0, 0, -9]\nsensor = true\n[scenario.s]\n";
 
 class SceneSurfacesTest : public ::testing::Test {
  protected:
@@ -58,7 +58,7 @@ TEST_F(SceneSurfacesTest, EveryNodeThatCannotBeIsNamed) {
     static_cast<void>(
         load("[node.a]\nparts = ['panels*']\n[node.b]\nparts = ['panel +x']\n[node.c]\nparts = 'panel*'\n[node.d]\nmesh = 'bad.stl'\n"));
   });
-  EXPECT_NE(said.find("m.toml:16:9: node.a.parts: \"panels*\": the target has no such part; mdat render"), std::string::npos) << said;
+  EXPECT_NE(said.find("m.toml:15:9: node.a.parts: \"panels*\": the target has no such part; mdat render"), std::string::npos) << said;
   EXPECT_NE(said.find("node.c.parts: \"panel +x\": the part is another node's already"), std::string::npos) << said;
   EXPECT_NE(said.find("node.d.mesh"), std::string::npos) << said;
   const std::string all = mission_error_of([&] { static_cast<void>(load("[node.a]\nparts = ['bus', 'panel*']\n")); });

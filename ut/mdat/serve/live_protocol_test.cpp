@@ -1,0 +1,81 @@
+#include "mdat/serve/live_protocol.hpp"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "ut/support/verifies.hpp"
+
+namespace lasso::mdat::serve {
+namespace {
+
+std::string what_is_wrong(const std::string& text) {
+  const ClientMessage message = client_message(text, true);
+  const auto* wrong = std::get_if<Misunderstood>(&message);
+  return wrong == nullptr ? "" : wrong->what;
+}
+
+TEST(LiveProtocol, TakesTheNewerOfTheSubprotocolsThatItKnows) {
+  VERIFIES("LASSO-REC-040~1");
+  EXPECT_EQ(live_subprotocol("foxglove.websocket.v1"), "foxglove.websocket.v1");
+  EXPECT_EQ(live_subprotocol("foxglove.websocket.v1, foxglove.sdk.v1 "), "foxglove.sdk.v1");
+  EXPECT_EQ(live_subprotocol("foxglove.websocket.v11,x"), "");
+  EXPECT_EQ(live_subprotocol(""), "");
+}
+
+TEST(LiveProtocol, ChannelsAreTheTopicsThatAreShown) {
+  VERIFIES("LASSO-REC-040~1");
+  const std::vector<MessageTopic> topics = {{"/a", {"p/msg/A", "float64 x\n"}}, {"/b", {"p/msg/B", "string \"s\"\n"}}};
+  const auto json = nlohmann::json::parse(advertise_json(topics, {1}));
+  EXPECT_EQ(json.at("op"), "advertise");
+  ASSERT_EQ(json.at("channels").size(), 1U);
+  const auto& channel = json.at("channels").at(0);
+  EXPECT_EQ(channel.at("id"), 1);
+  EXPECT_EQ(channel.at("topic"), "/b");
+  EXPECT_EQ(channel.at("encoding"), "cdr");
+  EXPECT_EQ(channel.at("schemaName"), "p/msg/B");
+  EXPECT_EQ(channel.at("schema"), "string \"s\"\n");
+  EXPECT_EQ(channel.at("schemaEncoding"), "ros2msg");
+  EXPECT_EQ(nlohmann::json::parse(server_info_json("run", "7")).at("capabilities").at(0), "time");
+  EXPECT_EQ(nlohmann::json::parse(status_json(StatusLevel::kError, "no\x80")).at("level"), 2);
+}
+
+// Byte by byte as the specification has it, little endian.
+TEST(LiveProtocol, MessagesHaveTheirHeads) {
+  VERIFIES("LASSO-REC-040~1");
+  EXPECT_EQ(message_data(0x01020304, 0x1122334455667788, "xy"), "\x01\x04\x03\x02\x01\x88\x77\x66\x55\x44\x33\x22\x11xy");
+  EXPECT_EQ(time_data(0x1122334455667788), "\x02\x88\x77\x66\x55\x44\x33\x22\x11");
+}
+
+TEST(LiveProtocol, ReadsWhatClientsAskFor) {
+  VERIFIES("LASSO-REC-040~1");
+  const ClientMessage asked =
+      client_message(R"({"op":"subscribe","subscriptions":[{"id":0,"channelId":3},{"id":4294967295,"channelId":1}]})", true);
+  const auto* subscribe = std::get_if<Subscribe>(&asked);
+  ASSERT_NE(subscribe, nullptr);
+  ASSERT_EQ(subscribe->subscriptions.size(), 2U);
+  EXPECT_EQ(subscribe->subscriptions[1].id, 4294967295U);
+  EXPECT_EQ(subscribe->subscriptions[1].channel, 1U);
+  const ClientMessage ended = client_message(R"({"op":"unsubscribe","subscriptionIds":[4,5]})", true);
+  const auto* unsubscribe = std::get_if<Unsubscribe>(&ended);
+  ASSERT_NE(unsubscribe, nullptr);
+  EXPECT_EQ(unsubscribe->ids, (std::vector<std::uint32_t>{4, 5}));
+}
+
+TEST(LiveProtocol, SaysWhatItDoesNotTake) {
+  VERIFIES("LASSO-REC-041~1");
+  EXPECT_EQ(what_is_wrong("{"), "expected a JSON object with \"op\"");
+  EXPECT_EQ(what_is_wrong("[1]"), "expected a JSON object with \"op\"");
+  EXPECT_EQ(what_is_wrong(R"({"op":7})"), "expected a JSON object with \"op\"");
+  EXPECT_EQ(what_is_wrong(R"({"op":"advertise"})"), "this server only tells: \"advertise\" is not served");
+  EXPECT_NE(what_is_wrong(R"({"op":"subscribe"})"), "");
+  EXPECT_NE(what_is_wrong(R"({"op":"subscribe","subscriptions":[7]})"), "");
+  EXPECT_NE(what_is_wrong(R"({"op":"subscribe","subscriptions":[{"id":-1,"channelId":1}]})"), "");
+  EXPECT_NE(what_is_wrong(R"({"op":"subscribe","subscriptions":[{"id":1,"channelId":4294967296}]})"), "");
+  EXPECT_NE(what_is_wrong(R"({"op":"unsubscribe","subscriptionIds":["a"]})"), "");
+  EXPECT_NE(what_is_wrong(std::string(100000, '[')), "") << "as deep as the bytes go";
+  EXPECT_TRUE(std::holds_alternative<Misunderstood>(client_message("\x01", false)));
+}
+
+}  // namespace
+}  // namespace lasso::mdat::serve
