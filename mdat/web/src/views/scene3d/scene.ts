@@ -27,6 +27,9 @@ export interface SceneReport {
   pointText: string;
 }
 
+/** Frames that are asked for before their time while playing. */
+const AHEAD = [1, 2];
+
 interface Shown {
   frame: FrameInfo;
   scan: Scan;
@@ -107,11 +110,15 @@ class SceneRunner {
       const [frame, scan] = await Promise.all([log.frame(index), log.scan(index, iteration ?? undefined)]);
       return { frame, scan };
     };
-    this.latest.ask(both, (shown) => this.show(shown), tell);
-    if (this.session.player.playing.peek()) this.askAhead(index + this.session.player.direction.peek());
+    const take = (shown: Shown) => {
+      this.show(shown);
+      this.stage.draw();
+    };
+    this.latest.ask(both, take, tell);
+    const { playing, direction } = this.session.player;
+    if (playing.peek()) for (const ahead of AHEAD) this.askAhead(index + ahead * direction.peek());
   }
 
-  /** While playing the next frame is asked for before its time. */
   private askAhead(index: number): void {
     const { log } = this.session;
     if (index < 0 || index >= log.frames) return;
