@@ -468,13 +468,14 @@ sanitize: ## gate: all tests in fixed point under the address and undefined sani
 WEB = mdat/web
 npm_ci = PLAYWRIGHT_SKIP_BROWSER_DOWNLOAD=1 npm ci --no-audit --no-fund --silent
 define page
-$(call packages,build page)
+$(call packages,build web)
 @cd $(WEB) && { cmp -s package-lock.json node_modules/.lock || { $(npm_ci) && cp package-lock.json node_modules/.lock; }; }
 @cd $(WEB) && npm run --silent build
 endef
 
 page: ## gate: the page of mdat serve: lint, types, units, and each activity in Chromium, in both themes and by the keyboard alone
 	$(begin)
+	$(call packages,page)
 	$(page)
 	$(call configure,$(BUILD),)
 	$(call compile,$(BUILD),mdat)
@@ -540,7 +541,7 @@ evidence: ## gate: collect what the gates left into out/evidence and docs/verifi
 
 gates-selftest: ## gate: every gate fails on its planted violation
 	$(begin)
-	$(call packages,build target lint trace coverage page)
+	$(call packages,build target lint trace coverage web page)
 	@cfg/quality/gates-selftest
 
 inputs: ## gate: gates.toml names what the gates really read; after the gates

@@ -30,8 +30,8 @@ TOOLS = {
     'gcovr': ('gcovr', 'coverage'),
     'llvm-cov-19': ('llvm-19', 'coverage'),
     'llvm-profdata-19': ('llvm-19', 'coverage'),
-    'node': ('nodejs', 'page'),
-    'npm': ('npm', 'page'),
+    'node': ('nodejs', 'web'),
+    'npm': ('npm', 'web'),
 }
 
 

@@ -10,7 +10,7 @@ import { plotData, thinned, timeOfLargest, valueAt } from "../../src/views/plots
 import { limitsOf, paint } from "../../src/views/scene3d/colours.ts";
 import { ellipsoidOf, weakNote } from "../../src/views/scene3d/ellipsoid.ts";
 import { Latest } from "../../src/views/scene3d/latest.ts";
-import { frustumSegments, missedSegments, patternPlaces } from "../../src/views/scene3d/segments.ts";
+import { extentOf, frustumSegments, missedSegments, patternPlaces } from "../../src/views/scene3d/segments.ts";
 import { timeToX, verdictPixels, xToTime } from "../../src/views/timeline/draw.ts";
 import { normal, seeded } from "./seeded.ts";
 
@@ -180,4 +180,17 @@ test("of many requests the first and the last are made, and the answers come in 
   answers[1]();
   await new Promise(setImmediate);
   assert.deepEqual(taken, [0, 19]);
+});
+
+test("without a pose the camera looks at the middle of the returns, from a distance by their spread", () => {
+  const extent = extentOf(
+    scanOf([
+      { state: 0, x: 1, y: 0, z: 5 },
+      { state: 0, x: -1, y: 0, z: 5 },
+      { state: 1, x: 50, y: 50, z: 50 },
+    ]),
+  )!;
+  assert.deepEqual(extent.middle, [0, 0, 5]);
+  assert.equal(extent.size_m, 4);
+  assert.equal(extentOf(scanOf([{ state: 1, x: 1, y: 1, z: 1 }])), null);
 });

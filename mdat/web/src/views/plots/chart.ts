@@ -23,6 +23,12 @@ function bandOptions(values: ValueInfo[]): uPlot.Band[] {
   return values.map((_, i) => ({ series: [3 * i + 3, 3 * i + 2], fill: `${cssValue(seriesColour(i))}40` }));
 }
 
+/** Room for the longest number beside its tick. */
+function axisWidth(texts: string[] | null, scale: number): number {
+  const longest = Math.max(4, ...(texts ?? []).map((text) => text.length));
+  return (6.8 * longest + 14) * scale;
+}
+
 function axisOptions(): uPlot.Axis[] {
   const scale = textScale();
   const common: uPlot.Axis = {
@@ -34,7 +40,7 @@ function axisOptions(): uPlot.Axis[] {
   };
   return [
     { ...common, size: 24 * scale, space: 70 * scale },
-    { ...common, size: 50 * scale, space: 26 * scale },
+    { ...common, size: (_, texts) => axisWidth(texts, scale), space: 26 * scale },
   ];
 }
 
@@ -78,8 +84,10 @@ export class Chart {
     return this.plot.ctx.canvas;
   }
 
-  timeAt(event: MouseEvent): number {
-    return this.plot.posToVal(event.clientX - this.over.getBoundingClientRect().left, "x");
+  /** The time under the pointer, of a window that may be newer than what is drawn. */
+  timeAt(event: MouseEvent, { from_s, to_s }: Span): number {
+    const { left, width } = this.over.getBoundingClientRect();
+    return from_s + ((event.clientX - left) / width) * (to_s - from_s);
   }
 
   setData(data: PlotData, window: Span): void {

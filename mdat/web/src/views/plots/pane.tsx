@@ -37,7 +37,7 @@ function ChartBox({ session, values, series, onChart }: PaneParts & { onChart: (
     const own = new Chart(box.current, values, plotData(series), selection.window.peek(), width, height);
     chart.current = own;
     onChart(own);
-    const stop = followPointer(own.over, { session, timeAt: (event) => own.timeAt(event), drag: "span" });
+    const stop = followPointer(own.over, { session, timeAt: (event) => own.timeAt(event, selection.window.peek()), drag: "span" });
     return () => {
       stop();
       own.destroy();

@@ -2,7 +2,7 @@
 import { effect, type Signal } from "@preact/signals";
 import { AxesHelper } from "three";
 import type { Scan } from "../../api/decode.ts";
-import type { FrameInfo } from "../../api/types.ts";
+import type { FrameInfo, PoseData } from "../../api/types.ts";
 import { tell } from "../../app/notices.ts";
 import type { Session } from "../../app/session.ts";
 import { theme } from "../../app/theme.ts";
@@ -19,6 +19,7 @@ import { Latest } from "./latest.ts";
 import { Lines } from "./lines.ts";
 import { Measuring } from "./measuring.ts";
 import { Pointing } from "./pointing.ts";
+import { extentOf } from "./segments.ts";
 import { Stage } from "./stage.ts";
 import { Target } from "./target.ts";
 
@@ -26,6 +27,9 @@ import { Target } from "./target.ts";
 export interface SceneReport {
   pointText: string;
 }
+
+/** Frames that are asked for before their time while playing. */
+const AHEAD = [1, 2];
 
 interface Shown {
   frame: FrameInfo;
@@ -107,11 +111,15 @@ class SceneRunner {
       const [frame, scan] = await Promise.all([log.frame(index), log.scan(index, iteration ?? undefined)]);
       return { frame, scan };
     };
-    this.latest.ask(both, (shown) => this.show(shown), tell);
-    if (this.session.player.playing.peek()) this.askAhead(index + this.session.player.direction.peek());
+    const take = (shown: Shown) => {
+      this.show(shown);
+      this.stage.draw();
+    };
+    this.latest.ask(both, take, tell);
+    const { playing, direction } = this.session.player;
+    if (playing.peek()) for (const ahead of AHEAD) this.askAhead(index + ahead * direction.peek());
   }
 
-  /** While playing the next frame is asked for before its time. */
   private askAhead(index: number): void {
     const { log } = this.session;
     if (index < 0 || index >= log.frames) return;
@@ -129,7 +137,7 @@ class SceneRunner {
     const { scene, log } = this.session;
     const { frame, scan } = shown;
     const layers = scene.layers.peek();
-    const place = frame.poses.estimate ?? frame.poses.filtered ?? frame.poses.truth;
+    const place = frame.poses.estimate ?? frame.poses.filtered ?? frame.poses.truth ?? this.placeOfPoints(scan);
     const distance_m = place === null ? 0 : norm(place.position_m);
     const painted = paint(scan, scene.colour.peek(), log.info.parts ?? []);
     this.cloud.show(scan, painted.colours, scene.colour.peek() === "state");
@@ -146,6 +154,17 @@ class SceneRunner {
     if (place !== null) this.cameras.setTarget(place);
     this.stage.renderer.domElement.dataset.frame = String(frame.index);
     this.stage.invalidate();
+  }
+
+  /** Without any pose the camera looks at the points, and takes its distance from their spread. */
+  private placeOfPoints(scan: Scan): PoseData | null {
+    const extent = extentOf(scan);
+    if (extent === null) return null;
+    if (!(this.size_m > 0)) {
+      this.size_m = extent.size_m;
+      this.cameras.setSize(extent.size_m);
+    }
+    return { position_m: extent.middle, quaternion_xyzw: [0, 0, 0, 1] };
   }
 
   private answer(what: Request | null): void {
