@@ -22,12 +22,14 @@ namespace lasso::mdat {
 
 constexpr char kRecordingProfile[] = "ros2";
 
+enum class RecordingContent { kAll, kReplay };  // kReplay: packets and what the sensors gave, which is all that mdat replay needs
+
 class FrameRecorder final : public RunListener {
  public:
   // `mission` outlives it. `scans`: where the run's sensors leave what they gave; each scan is taken out of it once it is whole. Throws
   // InputError where the file cannot be written; so do all calls.
   FrameRecorder(const std::filesystem::path& file, const CompiledMission& mission, const RecordingHead& head,
-                std::shared_ptr<sim::SensorRecording> scans);
+                std::shared_ptr<sim::SensorRecording> scans, RecordingContent content = RecordingContent::kAll);
 
   void on_packets(TimeUs boundary_us, ConstBytes packets) override;
   void on_frame(const FlownFrame& frame) override;
@@ -45,8 +47,9 @@ class FrameRecorder final : public RunListener {
   const CompiledMission& mission_;
   mcap::Writer writer_;
   std::map<std::string, std::uint16_t> channels_;
-  std::unique_ptr<sim::RayCaster> model_;  // as the component knows the target
+  std::unique_ptr<sim::RayCaster> model_;  // as the component knows the target; null: only for replay
   std::shared_ptr<sim::SensorRecording> scans_;
+  RecordingContent content_;
   std::size_t scans_taken_ = 0;
   bool surfaces_written_ = false;
 };
