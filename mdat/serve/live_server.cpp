@@ -106,7 +106,11 @@ void LiveHub::on_message(std::size_t topic, std::uint64_t time_ns, std::string_v
     const auto subscription = client->subscriptions.find(topic);
     if (subscription == client->subscriptions.end()) continue;
     std::string message = message_data(subscription->second, time_ns, bytes);
-    event ? sender->send_event(std::move(message), false) : sender->send_frame(std::move(message), false);
+    if (event) {
+      sender->send_event(std::move(message), false);
+    } else {
+      sender->send_frame(std::move(message), false);
+    }
   }
 }
 
