@@ -9,7 +9,7 @@
 namespace lasso::mdat {
 namespace {
 
-std::string span_of(double low, double high) { return format("%.10g to %.10g", low, high); }
+std::string numbers_span(double low, double high) { return format("%.10g to %.10g", low, high); }
 
 bool are_same(const std::string& a, const std::string& b) {
   std::error_code error;
@@ -23,9 +23,9 @@ CLI::Validator number_between(double low, double high) {
   const auto check = [low, high](const std::string& text) -> std::string {
     double value = 0;
     const bool good = CLI::detail::lexical_cast(text, value) && value >= low && value <= high;
-    return good ? "" : "'" + text + "' is no number from " + span_of(low, high);
+    return good ? "" : "'" + text + "' is no number from " + numbers_span(low, high);
   };
-  return CLI::Validator(check, span_of(low, high));
+  return CLI::Validator(check, numbers_span(low, high));
 }
 
 void refuse_same_files(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs) {

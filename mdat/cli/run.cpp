@@ -1,12 +1,12 @@
 #include <cstdio>
 #include <memory>
-#include <optional>
 #include <thread>
 #include <utility>
 
 #include "bsp/posix/links.hpp"
 #include "mdat/campaign/run_junit.hpp"
 #include "mdat/cli/commands.hpp"
+#include "mdat/cli/live_run.hpp"
 #include "mdat/common/errors.hpp"
 #include "mdat/common/output.hpp"
 #include "mdat/common/version.hpp"
@@ -19,11 +19,9 @@
 #include "mdat/report/report.hpp"
 #include "mdat/run/camera.hpp"
 #include "mdat/run/frames_table.hpp"
-#include "mdat/run/paced_listener.hpp"
 #include "mdat/run/relative_table.hpp"
 #include "mdat/run/results.hpp"
 #include "mdat/run/simulation.hpp"
-#include "mdat/serve/live_server.hpp"
 #include "mdat/stereo/stereo_sensor.hpp"
 
 namespace lasso::mdat {
@@ -32,8 +30,7 @@ namespace {
 struct RunArguments {
   std::string mission, sensor = "simulated", camera_faults, optics, calibration, out = "out/run", picture, record, record_for = "viewers",
                        link, key, junit;
-  std::optional<std::string> live;  // its address; empty: the usual one
-  double pace = 1;                  // of a live run
+  LiveOptions live;
   SimulationOptions simulation;
   std::vector<std::string> settings, required;
   bool report = true, cached = true, force = false;
@@ -41,10 +38,6 @@ struct RunArguments {
 
 // All that a run writes into its folder.
 constexpr const char* kFiles[] = {"results.json", "frames.csv", "telemetry.ccsds", "relative.csv", "report.html"};
-
-constexpr std::uint16_t kLivePort = 8765;  // where viewers look for it
-constexpr std::size_t kLiveFrames = 400;   // messages that wait for a slow client: of some 40 frames
-constexpr double kMostPace = 1000;
 
 void check_record(const std::string& file) {
   if (file.empty() || std::filesystem::path(file).extension() == ".mcap") return;
@@ -148,34 +141,10 @@ void warn_of_replay(const SimulationResult& result) {
       run.replay_unserved);
 }
 
-std::string live_name(const CompiledMission& mission, const SimulationOptions& simulation) {
-  return mission.source.name + ", scenario " + simulation.scenario;
-}
-
-// None unless --live is given. Who reads its address can connect at once.
-std::unique_ptr<serve::LiveServer> open_live(const RunArguments& options, const CompiledMission& mission) {
-  if (!options.live) return nullptr;
-  serve::NetworkOptions network;
-  network.port = kLivePort;
-  network.waiting_frames = kLiveFrames;
-  serve::read_address(*options.live, network);
-  auto live = std::make_unique<serve::LiveServer>(network, live_name(mission, options.simulation));
-  std::printf("live: %s (Foxglove WebSocket, for Lichtblick or Foxglove)\n", live->address().c_str());
-  (void)std::fflush(stdout);
-  return live;
-}
-
-// Who listens live is told the messages of one run.
-void check_live(const RunArguments& options, const MissionSource& source) {
-  if (options.live && scenario_of(source, options.simulation.scenario).runs_m().size() > 1)
-    throw InputError("--live: tells one run, and the scenario " + options.simulation.scenario +
-                     " has several: choose a scenario of one range, such as spin");
-}
-
 // Passes each message of a run on, and keeps none.
-std::unique_ptr<FrameRecorder> open_live_listener(const CompiledMission& mission, serve::LiveServer* live) {
-  if (live == nullptr) return nullptr;
-  return std::make_unique<FrameRecorder>("", mission, RecordingHead{}, nullptr, RecordingContent::kAll, &live->tap());
+std::unique_ptr<FrameRecorder> open_live_listener(const CompiledMission& mission, MessageTap* tap) {
+  if (tap == nullptr) return nullptr;
+  return std::make_unique<FrameRecorder>("", mission, RecordingHead{}, nullptr, RecordingContent::kAll, tap);
 }
 
 // Places of the run's recordings, where it has any: nothing may be there, and they can be written.
@@ -223,7 +192,7 @@ void run(const RunArguments& options) {
   if (options.report || !options.picture.empty()) warn_of_plotter();
   MissionInput input = load_input(options);
   check_simulation(input.source, options.simulation, !options.link.empty());
-  check_live(options, input.source);
+  check_live(options.live, input.source, options.simulation.scenario);
   const std::vector<std::filesystem::path> recordings = recordings_of(options, input.source);
   const std::unique_ptr<SignatureCheck> signatures =
       options.key.empty() ? nullptr : std::make_unique<SignatureCheck>(load_key(options.key));
@@ -238,12 +207,11 @@ void run(const RunArguments& options) {
   simulation.authenticator = signatures.get();
   const std::unique_ptr<RunRecorders> recorders = open_recorders(options, recordings, mission);
   if (recorders) simulation.recorders = recorders->cases();
-  const std::unique_ptr<serve::LiveServer> live = open_live(options, mission);
-  const std::unique_ptr<FrameRecorder> told = open_live_listener(mission, live.get());
-  std::optional<PacedListener> paced;
-  if (told) simulation.listener = &paced.emplace(*told, link ? 0 : options.pace);
+  LiveRun live(options.live, mission.source.name + ", scenario " + simulation.scenario);
+  const std::unique_ptr<FrameRecorder> told = open_live_listener(mission, live.tap());
+  simulation.listener = live.paced(told.get(), link != nullptr);
   SimulationResult result = simulate(mission, simulation);
-  if (live) live->end("the run is over");
+  live.end();
   if (recorders) recorders->close(image_bytes(mission, result.tables[0].variants[0].parameters));
   result.sensor = options.sensor;
   result.commit = kCommit;
@@ -296,7 +264,7 @@ void set_cameras(RunArguments& options) {
   simulation.camera_line = wire.line;
   if (!wire.recording.empty()) simulation.replay = recorded_scans(wire.recording);
   check_record(options.record);
-  simulation.plain = !wire.line.empty() || simulation.replay || !options.record.empty() || options.live;
+  simulation.plain = !wire.line.empty() || simulation.replay || !options.record.empty() || options.live.address.has_value();
   const bool calibrated = !options.optics.empty() || !options.calibration.empty();
   if (calibrated && (!wire.head || wire.head == lcs::Device::kLidar))
     throw InputError("--camera-optics, --calibration: only a camera on its line has them: add --sensor lcs-wire or tridar-wire");
@@ -357,19 +325,6 @@ void add_link_options(CLI::App* command, const SharedArguments& options) {
       ->needs("--link");
 }
 
-void add_live_options(CLI::App* command, const SharedArguments& options) {
-  command
-      ->add_option_function<std::string>(
-          "--live", [options](const std::string& address) { options->live = address; },
-          "tell the run to viewers while it flies, by the Foxglove WebSocket protocol (docs/live.md), at HOST:PORT (127.0.0.1:8765)")
-      ->expected(0, 1)
-      ->type_name("[ADDRESS]");
-  command->add_option("--pace", options->pace, "with --live: seconds of the run in one of the clock; 0: as fast as it goes")
-      ->needs("--live")
-      ->capture_default_str()
-      ->check(number_between(0, kMostPace));
-}
-
 }  // namespace
 
 void add_run_command(CLI::App& app) {
@@ -387,7 +342,7 @@ void add_run_command(CLI::App& app) {
       ->capture_default_str()
       ->check(CLI::Range(1, 256));
   add_link_options(command, options);
-  add_live_options(command, options);
+  add_live_options(*command, options->live);
   add_settings(*command, options->settings);
   command->add_flag("--force", options->force, "replace what an earlier run left in the folder, and files that are there");
   add_no_cache(*command, options->cached);

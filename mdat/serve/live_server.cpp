@@ -106,7 +106,11 @@ void LiveHub::on_message(std::size_t topic, std::uint64_t time_ns, std::string_v
     const auto subscription = client->subscriptions.find(topic);
     if (subscription == client->subscriptions.end()) continue;
     std::string message = message_data(subscription->second, time_ns, bytes);
-    event ? sender->send_event(std::move(message), false) : sender->send_frame(std::move(message), false);
+    if (event) {
+      sender->send_event(std::move(message), false);
+    } else {
+      sender->send_frame(std::move(message), false);
+    }
   }
 }
 
@@ -194,14 +198,13 @@ void LiveServer::end(const std::string& message) {
 }
 
 void read_address(const std::string& text, NetworkOptions& options) {
-  const std::size_t colon = text.rfind(':');
-  const bool only_port = text.find_first_not_of("0123456789") == std::string::npos;
-  const std::string host = only_port ? "" : std::string(without_port(text));
-  const std::string port = only_port ? text : (host.size() < text.size() ? text.substr(colon + 1) : "");
+  const bool only_port = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
+  const std::string_view host = only_port || text.empty() ? std::string_view() : without_port(text);
   if (!host.empty()) options.host = host;
-  if (port.empty() && !host.empty()) return;
+  if (!only_port && host.size() == text.size()) return;
+  const std::string port = only_port ? text : text.substr(host.size() + 1);
   const auto [end, error] = std::from_chars(port.data(), port.data() + port.size(), options.port);
-  if (error != std::errc() || end != port.data() + port.size() || port.empty())
+  if (error != std::errc() || end != port.data() + port.size())
     throw InputError("--live " + text + ": expected HOST:PORT, such as 127.0.0.1:8765, or one of them");
 }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <random>
 
 #include "ut/support/verifies.hpp"
 
@@ -75,6 +76,34 @@ TEST(LiveProtocol, SaysWhatItDoesNotTake) {
   EXPECT_NE(what_is_wrong(R"({"op":"unsubscribe","subscriptionIds":["a"]})"), "");
   EXPECT_NE(what_is_wrong(std::string(100000, '[')), "") << "as deep as the bytes go";
   EXPECT_TRUE(std::holds_alternative<Misunderstood>(client_message("\x01", false)));
+}
+
+// Good messages with some bytes changed, cut or doubled: each is understood, or told to be none.
+TEST(LiveProtocol, NoBytesBreakIt) {
+  VERIFIES("LASSO-REC-041~1");
+  const std::string good[] = {R"({"op":"subscribe","subscriptions":[{"id":0,"channelId":3},{"id":42,"channelId":1}]})",
+                              R"({"op":"unsubscribe","subscriptionIds":[4,5]})"};
+  std::mt19937 random(11);
+  std::size_t understood = 0, wrong = 0;
+  for (int i = 0; i < 20000; ++i) {
+    std::string text = good[i % 2];
+    for (std::uint32_t changes = random() % 4; changes > 0; --changes) {
+      const std::size_t at = random() % text.size();
+      const std::uint32_t kind = random() % 3;
+      if (kind == 0) text[at] = static_cast<char>(random() % 256);
+      if (kind == 1) text.erase(at, 1 + random() % 3);
+      if (kind == 2) text.insert(at, text.substr(at, 1 + random() % 20));
+      if (text.empty()) text = "x";
+    }
+    const ClientMessage message = client_message(text, true);
+    const auto* misunderstood = std::get_if<Misunderstood>(&message);
+    if (misunderstood != nullptr) {
+      EXPECT_NO_THROW((void)status_json(StatusLevel::kError, misunderstood->what));
+    }
+    ++(misunderstood != nullptr ? wrong : understood);
+  }
+  EXPECT_GT(understood, 5000U);
+  EXPECT_GT(wrong, 5000U);
 }
 
 }  // namespace
