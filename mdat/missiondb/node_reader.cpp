@@ -77,21 +77,23 @@ class NodeReader {
 
   void read_body() {
     std::string key;
-    for (const char* candidate : {"model", "mesh", "parts"}) {
+    for (const char* candidate : {"model", "mesh", "points", "parts"}) {
       if (!values_.is_written(candidate)) continue;
-      if (!key.empty()) values_.complain(candidate, "", "expected at most one of model, mesh and parts");
+      if (!key.empty()) values_.complain(candidate, "", "expected at most one of model, mesh, points and parts");
       key = candidate;
     }
     if (values_.number("target") != 0 && !key.empty())
       values_.complain(key, "", "the target's node looks as [target] says: leave it out, or give it a node of its own");
+    if (key != "points" && values_.is_written("disc_radius_m")) values_.complain("disc_radius_m", "", "has no effect without points");
     if (key.empty()) {
-      if (values_.is_written("scale")) values_.complain("scale", "", "has no effect without model or mesh");
+      if (values_.is_written("scale")) values_.complain("scale", "", "has no effect without model, mesh or points");
       return;
     }
     BodySource body;
     body.node = node_.name;
     body.key = "node." + node_.name + "." + key;
     body.parametric = key == "model";
+    if (key == "points") body.disc_radius_m = values_.number("disc_radius_m");
     body.scale = values_.number("scale");
     body.parts = values_.texts("parts");
     if (key != "parts") body.file = values_.file(key);
@@ -205,6 +207,9 @@ const std::vector<ValueRow>& node_rows() {
       flag_row("sensor", "the sensors' frame: z is the boresight, x right, y down"),
       text_row("model", "[^\\x00-\\x1f]+\\.toml", "what it looks like: a parametric model with its presets"),
       text_row("mesh", "[^\\x00-\\x1f]+", "what it looks like: a mesh (STL, OBJ, PLY, glTF)"),
+      text_row("points", "[^\\x00-\\x1f]+\\.ply",
+               "what it looks like: a cloud of points (PLY), each a small disc across its normal, or a grain where the file has none"),
+      number_row("disc_radius_m", "m", kReal, 1, 1e-6, 10, 0.005, "radius of these discs"),
       number_row("scale", "1", kReal, 1, 1e-9, 1e9, 1, "that file's lengths times this are metres"),
       parts_row(),
   });

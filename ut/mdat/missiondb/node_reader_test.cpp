@@ -89,8 +89,8 @@ TEST_F(NodeReaderTest, EveryProblemIsToldWithItsPlace) {
   for (const char* expected :
        {"node.b.target: true: node a is the target already",
         "node.c.motion: \"spinn\": the mission has no [motion.spinn]; did you mean spin?", "node.c.mesh: \"x.stl\": no such file",
-        "node.d.parts: expected at most one of model, mesh and parts", "node.e.scale: has no effect without model or mesh",
-        "m.toml:27:10: node.d.parent: \"cc\": there is no such node"}) {
+        "node.d.parts: expected at most one of model, mesh, points and parts", "node.e.scale: has no effect without model, mesh or points",
+        "m.toml:28:10: node.d.parent: \"cc\": there is no such node"}) {
     EXPECT_NE(said.find(expected), std::string::npos) << expected << "\nin:\n" << said;
   }
   expect_problem("[node.a]\nparent = 'b'\n[node.b]\nparent = 'a'\n", "m.toml:8:10: node.a.parent: \"a\" in \"b\" in \"a\": is a circle");
