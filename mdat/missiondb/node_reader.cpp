@@ -123,7 +123,7 @@ std::set<std::string> used_nodes(const SceneSource& scene) {
   std::set<std::string> used{scene.target, scene.sensor, kSceneLvlh};
   for (const BodySource& body : scene.bodies) used.insert(body.node);
   for (const VolumeSource& volume : scene.volumes) used.insert(volume.node);
-  for (const RelativeSource& relative : scene.relative) used.insert({relative.of, relative.in});
+  for (const RelativeSource& relative : scene.relative) used.insert({relative.of, relative.in, relative.axes});
   for (std::size_t before = 0; before != used.size();) {
     before = used.size();
     for (const scene::Node& node : scene.nodes) {
@@ -179,7 +179,7 @@ void pair_frames(const MissionSource& source, const std::string& scenario, Scene
     problems.add(source.origins.at(key), key, '"' + node + '"', why);
   };
   for (const RelativeSource& relative : scene.relative) {
-    const RelativePair pair{relative.name, run.tree.need(relative.of), run.tree.need(relative.in)};
+    RelativePair pair{relative.name, run.tree.need(relative.of), run.tree.need(relative.in)};
     const std::string path = "relative." + relative.name;
     if (!run.tree.are_rigid(pair.of, run.target))
       refuse(path + ".of", relative.of,
@@ -187,6 +187,10 @@ void pair_frames(const MissionSource& source, const std::string& scenario, Scene
     if (!run.tree.are_rigid(pair.in, run.sensor))
       refuse(path + ".in", relative.in,
              "moves against the sensor in scenario " + scenario + ": name a node that stands on what carries " + scene.sensor);
+    if (!relative.axes.empty()) pair.axes = run.tree.need(relative.axes);
+    if (pair.axes && run.tree.are_rigid(*pair.axes, run.target))
+      refuse(path + ".axes", relative.axes,
+             "stands on the target, whose attitude is what is measured: name a node that does not, such as lvlh");
     run.relative.push_back(pair);
   }
 }
@@ -233,6 +237,8 @@ const std::vector<ValueRow>& relative_rows() {
   static const std::vector<ValueRow> rows = {
       required(text_row("of", "[^\\x00-\\x1f]+", "node that stands on the target: what the pose is of")),
       required(text_row("in", "[^\\x00-\\x1f]+", "node that stands on what carries the sensor: whose axes the pose is in")),
+      text_row("axes", "[^\\x00-\\x1f]+",
+               "node whose axes it is said in instead, such as lvlh: how they turn against the sensors is taken as known"),
   };
   return rows;
 }
@@ -244,12 +250,12 @@ void read_relative(const toml::table& root, MissionSource& source, ProblemList& 
     SceneValues values(table, "relative." + name, relative_rows(), {}, source, problems);
     if (name.find_first_of(",\"\n\r;") != std::string::npos)
       values.complain("", "", "expected a name without commas, semicolons and quotes: it stands in a table");
-    for (const char* key : {"of", "in"}) {
+    for (const char* key : {"of", "in", "axes"}) {
       const std::string written = values.text(key);
       if (!written.empty() && std::find(names.begin(), names.end(), written) == names.end())
         values.complain(key, '"' + written + '"', "the mission has no [node." + written + "]" + did_you_mean(written, names));
     }
-    source.scene.relative.push_back({name, values.text("of"), values.text("in")});
+    source.scene.relative.push_back({name, values.text("of"), values.text("in"), values.text("axes")});
   });
 }
 

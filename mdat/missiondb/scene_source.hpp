@@ -60,13 +60,14 @@ struct WrittenValue {
   std::string key, value, unit, meaning;
 };
 
-// A pose that results are also said of: of one node in another.
+// A pose that results are also said of: of one node in another, in the axes of a third one (empty: of the second).
 struct RelativeSource {
-  std::string name, of, in;
+  std::string name, of, in, axes;
 };
 struct RelativePair {
   std::string name;
-  std::size_t of, in;  // nodes: `of` does not move against the target, `in` not against the sensor
+  std::size_t of, in;                              // nodes: `of` does not move against the target, `in` not against the sensor
+  std::optional<std::size_t> axes = std::nullopt;  // node that has the axes, and may turn against both; none: in
 };
 
 struct SceneSource {

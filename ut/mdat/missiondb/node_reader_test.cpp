@@ -192,6 +192,11 @@ TEST_F(NodeReaderTest, NamedFramesStandOnTheTargetAndOnTheSensorsCraft) {
                  "relative.dock.of: \"wing\": moves against the target in scenario s: name a node that stands on body");
   expect_problem(kMotions + kNodes + frames + "[relative.dock]\nof = 'wing'\nin = 'root'\n" + scenario,
                  "relative.dock.in: \"root\": moves against the sensor");
+  const std::string dock = "[relative.dock]\nof = 'port'\nin = 'arm'\naxes = ";
+  EXPECT_EQ(load(kMotions + kNodes + frames + dock + "'root'\n" + scenario).scenarios.at("s").scene->relative.at(0).axes, 0U);
+  expect_problem(kMotions + kNodes + frames + dock + "'port'\n" + scenario,
+                 "relative.dock.axes: \"port\": stands on the target, whose attitude is what is measured");
+  expect_problem(kMotions + kNodes + frames + dock + "'lvhl'\n", "relative.dock.axes: \"lvhl\": the mission has no [node.lvhl]");
   expect_problem(kMotions + kNodes + frames + "[relative.dock]\nof = 'prot'\n",
                  "relative.dock.of: \"prot\": the mission has no [node.prot]; did you mean port?");
   expect_problem(kMotions + kNodes + frames + "[relative.dock]\nof = 'port'\n", "relative.dock.in: is missing");
