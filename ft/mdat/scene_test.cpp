@@ -63,6 +63,35 @@ TEST(SceneRun, FliesTheNodesOfAMission) {
   EXPECT_LT(results.at("timeline").at("rms_mm").get<double>(), 0.5);
 }
 
+// A wall of points, each a disc that overlaps the next.
+std::string wall_of_points() {
+  std::string rows;
+  int count = 0;
+  for (int x = -30; x <= 30; ++x) {
+    for (int y = -30; y <= 30; ++y, ++count) rows += std::to_string(0.05 * x) + " " + std::to_string(0.05 * y) + " 0 0 0 -2\n";
+  }
+  return "ply\nformat ascii 1.0\nelement vertex " + std::to_string(count) +
+         "\nproperty float x\nproperty float y\nproperty float z\nproperty float nx\nproperty float ny\nproperty float nz\nend_header\n" +
+         rows;
+}
+
+TEST(SceneRun, LasersMeetClouds) {
+  VERIFIES("LASSO-SCN-033~1");
+  const WorkFolder work;
+  std::string scenes = kScenes;
+  const std::string probe = "model = \"models/probe.toml\"\nscale = 4\n";
+  scenes.replace(scenes.find(probe), probe.size(), "points = \"models/wall.ply\"\ndisc_radius_m = 0.04\n");
+  work.write_mission({{"\n[scenario.checked]\n", scenes}});
+  work.write("models/wall.ply", wall_of_points());
+  const Answer answer = work.mdat("run missions/test.toml --scenario screened --frames 26 --out out/run --no-report");
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  const std::vector<std::string> lines = lines_of(work.read("out/run/frames.csv"));
+  const std::vector<std::string> names = fields_of(lines.at(0));
+  const auto valid = static_cast<std::size_t>(std::find(names.begin(), names.end(), "valid") - names.begin());
+  for (std::size_t frame = 2; frame < 17; ++frame) EXPECT_EQ(fields_of(lines.at(frame + 1)).at(valid), "1") << frame;
+  for (std::size_t frame = 22; frame < 26; ++frame) EXPECT_EQ(fields_of(lines.at(frame + 1)).at(valid), "0") << frame;
+}
+
 // With the offers of a navigation system.
 TEST(SceneRun, StartsByItselfWhereItIsAutonomous) {
   VERIFIES("LASSO-SCN-031~1");

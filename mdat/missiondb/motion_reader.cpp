@@ -321,18 +321,21 @@ class MotionsReader {
 
   MotionPtr joined(const std::string& name, const std::vector<std::string>& links) {
     MotionPtr motion;
-    bool keeps_hill = true;
+    bool keeps_hill = true, whole = !links.empty();
     for (const std::string& link : links) {
       const MotionPtr next = chained(link);  // first: it says whether the link is in the Hill frame
       const std::string fault = fault_of(link, keeps_hill);
       if (!fault.empty()) return complain(name, fault);
-      if (next == nullptr) return nullptr;
+      if (next == nullptr) {
+        whole = false;  // which has been said
+        continue;
+      }
       keeps_hill = keeps_hill && kinds_[link] == "clohessy_wiltshire";
       source_.scene.used_motions.insert(link);
       sizes_[name] += std::max<std::size_t>(1, sizes_[link]);
       motion = motion == nullptr ? next : std::make_shared<scene::Chain>(motion, next);
     }
-    if (links.empty()) return nullptr;  // which has been said
+    if (!whole) return nullptr;
     if (source_.scene.in_hill.count(links.front()) != 0) source_.scene.in_hill.insert(name);
     if (source_.scene.free_tumbles.count(links.front()) != 0) source_.scene.free_tumbles.insert(name);
     if (sizes_[name] <= kMostLinks) return motion;

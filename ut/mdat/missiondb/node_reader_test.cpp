@@ -89,8 +89,8 @@ TEST_F(NodeReaderTest, EveryProblemIsToldWithItsPlace) {
   for (const char* expected :
        {"node.b.target: true: node a is the target already",
         "node.c.motion: \"spinn\": the mission has no [motion.spinn]; did you mean spin?", "node.c.mesh: \"x.stl\": no such file",
-        "node.d.parts: expected at most one of model, mesh and parts", "node.e.scale: has no effect without model or mesh",
-        "m.toml:27:10: node.d.parent: \"cc\": there is no such node"}) {
+        "node.d.parts: expected at most one of model, mesh, points and parts", "node.e.scale: has no effect without model, mesh or points",
+        "m.toml:28:10: node.d.parent: \"cc\": there is no such node"}) {
     EXPECT_NE(said.find(expected), std::string::npos) << expected << "\nin:\n" << said;
   }
   expect_problem("[node.a]\nparent = 'b'\n[node.b]\nparent = 'a'\n", "m.toml:8:10: node.a.parent: \"a\" in \"b\" in \"a\": is a circle");
@@ -192,6 +192,11 @@ TEST_F(NodeReaderTest, NamedFramesStandOnTheTargetAndOnTheSensorsCraft) {
                  "relative.dock.of: \"wing\": moves against the target in scenario s: name a node that stands on body");
   expect_problem(kMotions + kNodes + frames + "[relative.dock]\nof = 'wing'\nin = 'root'\n" + scenario,
                  "relative.dock.in: \"root\": moves against the sensor");
+  const std::string dock = "[relative.dock]\nof = 'port'\nin = 'arm'\naxes = ";
+  EXPECT_EQ(load(kMotions + kNodes + frames + dock + "'root'\n" + scenario).scenarios.at("s").scene->relative.at(0).axes, 0U);
+  expect_problem(kMotions + kNodes + frames + dock + "'port'\n" + scenario,
+                 "relative.dock.axes: \"port\": stands on the target, whose attitude is what is measured");
+  expect_problem(kMotions + kNodes + frames + dock + "'lvhl'\n", "relative.dock.axes: \"lvhl\": the mission has no [node.lvhl]");
   expect_problem(kMotions + kNodes + frames + "[relative.dock]\nof = 'prot'\n",
                  "relative.dock.of: \"prot\": the mission has no [node.prot]; did you mean port?");
   expect_problem(kMotions + kNodes + frames + "[relative.dock]\nof = 'port'\n", "relative.dock.in: is missing");
