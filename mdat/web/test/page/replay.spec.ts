@@ -56,7 +56,7 @@ test("a span is looped", async ({ page }) => {
   await page.locator(".panel-why .scroll").focus();
   await page.keyboard.press("Space");
   const seen = new Set<number>();
-  await expect.poll(async () => seen.add(await frameOf(page)).size, { intervals: [30], timeout: 40_000 }).toBeGreaterThan(4);
+  await expect.poll(async () => seen.add(await frameOf(page)).size, { intervals: [30], timeout: 90_000 }).toBeGreaterThan(4);
   await page.waitForTimeout(500);
   seen.add(await frameOf(page));
   await page.keyboard.press("k");

@@ -5,7 +5,7 @@ test("a first visit shows the tenth-scale Hubble being tracked after one click, 
   await expect(page.getByText("There is no recording here yet.")).toBeVisible();
   await expect(page.locator(".next-steps li")).toHaveCount(3);
   await page.getByRole("button", { name: "Fly and watch" }).click();
-  await expect(page.locator(".scene-canvas[data-frame]")).toBeAttached({ timeout: 40_000 });
+  await expect(page.locator(".scene-canvas[data-frame]")).toBeAttached({ timeout: 90_000 });
   const before = await frameOf(page);
   await expect.poll(() => frameOf(page)).toBeGreaterThan(before + 2);
   await page.keyboard.press("k");

@@ -67,7 +67,7 @@ export class Cameras {
     if (this.name === "eye") return;
     const { camera } = this.stage;
     const centre = new Vector3().setFromMatrixPosition(this.target).applyMatrix4(this.rig.clone().invert());
-    const distance = (0.47 * this.size_m) / Math.tan(MathUtils.degToRad(FIELD_DEG / 2)) / Math.min(1, camera.aspect);
+    const distance = (0.54 * this.size_m) / Math.tan(MathUtils.degToRad(FIELD_DEG / 2)) / Math.min(1, camera.aspect);
     const from = this.name === "chase" ? new Vector3(-0.55, -0.5, -1) : new Vector3(-0.75, -0.42, -1);
     camera.fov = FIELD_DEG;
     camera.position.copy(centre).addScaledVector(from.normalize(), distance);
