@@ -49,7 +49,7 @@ class Reader {
   explicit Reader(ConstBytes bytes) : in_(bytes) {}
 
   SensorRecording read() {
-    if (in_.u32() != kMagic) wrong("not a recording of a sensor (mdat run --record-sensor writes one)");
+    if (in_.u32() != kMagic) wrong("not what a sensor gave");
     const std::uint32_t version = in_.u32();
     if (version != kRecordingVersion)
       wrong("version " + std::to_string(version) + ", expected " + std::to_string(kRecordingVersion) + ": record it again");

@@ -1,5 +1,6 @@
 #include "ft/mdat/command.hpp"
 
+#include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -95,6 +96,15 @@ void WorkFolder::write_mission(const std::vector<std::pair<std::string, std::str
     text.replace(place, from.size(), to);
   }
   write("missions/test.toml", text);
+}
+
+void WorkFolder::record_scans(const std::string& run, const std::string& folder) const {
+  const Answer recorded = mdat(run + " --no-report --force --out recorded_run --record recorded_run.mcap");
+  EXPECT_EQ(recorded.exit_code, 0) << recorded.err;
+  const Answer exported = mdat("recording export recorded_run.mcap --format scans --force -o " + folder);
+  EXPECT_EQ(exported.exit_code, 0) << exported.err;
+  std::filesystem::remove_all(folder_ / "recorded_run");
+  std::filesystem::remove(folder_ / "recorded_run.mcap");
 }
 
 std::vector<std::string> WorkFolder::contents(const std::string& below) const {

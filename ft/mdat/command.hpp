@@ -33,6 +33,8 @@ class WorkFolder {
   std::string read(const std::string& name) const;
   // missions/test.toml: the default mission with each of the texts replaced (which must occur).
   void write_mission(const std::vector<std::pair<std::string, std::string>>& replacements = {}) const;
+  // Records `mdat RUN` (to FILE.mcap beside), and exports its scans and poses into `folder`.
+  void record_scans(const std::string& run, const std::string& folder) const;
   // All files and folders below, sorted: shows what a command left behind.
   std::vector<std::string> contents(const std::string& below = "") const;
 

@@ -112,8 +112,8 @@ TEST_F(Cached, WhatIsWrongIsSaidBeforeAnythingIsCompiled) {
                     replay = "replay missions/test.toml --out o.csv ";
   const std::pair<std::string, const char*> cases[] = {
       {run + "--scenario nowhere", "nowhere"},
-      {run + "--scenario nowhere --record rec", "nowhere"},
-      {run + "--record-sensor made.3dlr", "choose a scenario of one range"},
+      {run + "--scenario nowhere --record rec.mcap", "nowhere"},
+      {run + "--record rec", "--record rec: expected FILE.mcap"},
       {run + "--sensor lcs-wire:unix:none", "choose a scenario of one range"},
       {spin + "--sensor lidar-wire", "none of the mission's sensors is a LIDAR"},
       {spin + "--sensor lcs-wire:./none", "--sensor lcs-wire: ./none: not there"},

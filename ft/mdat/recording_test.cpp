@@ -100,13 +100,39 @@ TEST_F(Recording, ThatIsCutIsRecoveredMergedAndExported) {
   EXPECT_EQ(work_.mdat("recording cut out/run.mcap --to 2 -o out/run.mcap --force").exit_code, 2) << "its own input";
 }
 
-TEST_F(Recording, OfSeveralRunsOrNoRunIsRefused) {
+// Each is flown again as it flew among the others: with its own noise and its own telemetry.
+TEST_F(Recording, OfSeveralRangesIsAFileEach) {
+  VERIFIES("LASSO-REC-019~1");
+  const std::string twelve = "ranges_m = [4.0, 4.0, 4.0, 4.0, 4.0, 4.0, 4.0, 4.0, 4.0, 4.0, 4.0, 4.0]";
+  work_.write_mission({{twelve + "\nframes = 60", "ranges_m = [4.0, 3.0, 4.0]\nframes = 60"}});
+  const Answer run = work_.mdat("run missions/test.toml --scenario rates --no-report --frames 6 --out out --record run.mcap");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  std::string telemetry;
+  for (const char* name : {"run-4m", "run-3m", "run-4m_2"}) {
+    const Answer replay = work_.mdat("replay " + std::string(name) + ".mcap");
+    EXPECT_EQ(replay.exit_code, 0) << name << replay.err << replay.out;
+    ASSERT_EQ(work_.mdat("recording export " + std::string(name) + ".mcap --format packets -o packets --force").exit_code, 0);
+    telemetry += work_.read("packets");
+  }
+  EXPECT_TRUE(telemetry == work_.read("out/telemetry.ccsds"));
+}
+
+TEST_F(Recording, ForReplayIsSmallAndIsFlownAgain) {
+  VERIFIES("LASSO-REC-020~1");
+  record("--scenario spin");
+  const std::size_t all = std::filesystem::file_size(work_ / "out/run.mcap");
+  record("--scenario spin --record-for replay --force");
+  const std::size_t little = std::filesystem::file_size(work_ / "out/run.mcap");
+  EXPECT_LT(little + 12 * 20000, all);
+  const Answer replay = work_.mdat("replay out/run.mcap");
+  EXPECT_EQ(replay.exit_code, 0) << replay.err;
+  EXPECT_NE(replay.out.find("telemetry: the same as recorded"), std::string::npos) << replay.out;
+}
+
+TEST_F(Recording, OfNoRunIsRefused) {
   VERIFIES("LASSO-REC-008~1");
   work_.write_mission();
   const std::vector<std::string> before = work_.contents();
-  const Answer several = work_.mdat("run missions/test.toml --record out/run.mcap");
-  EXPECT_EQ(several.exit_code, 2);
-  EXPECT_NE(several.err.find("--record"), std::string::npos) << several.err;
   const Answer text = work_.mdat("replay missions/run.mcap");
   EXPECT_EQ(text.exit_code, 2);
   EXPECT_NE(text.err.find("missions/run.mcap: cannot be read"), std::string::npos) << text.err;

@@ -85,7 +85,7 @@ TEST(Render, DrawsTheScanThatARunTakes) {
   VERIFIES("LASSO-PIC-009~1");
   const WorkFolder work;
   work.write_mission();
-  ASSERT_EQ(work.mdat("run missions/test.toml --scenario spin --frames 3 --record rec").exit_code, 0);
+  work.record_scans("run missions/test.toml --scenario spin --frames 3", "rec/4m");
   const std::vector<std::string> rows = lines_of(work.read("rec/4m/scans/f00002.csv"));
   const auto returns = std::count_if(rows.begin() + 1, rows.end(), [](const std::string& row) { return fields_of(row).at(4) == "1"; });
   const Answer noisy = work.mdat(std::string("render missions/test.toml --scenario spin --time 0.5 --scan -o a.png") + kSmall);

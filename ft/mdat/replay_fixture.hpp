@@ -51,8 +51,7 @@ class ReplayTest : public ::testing::Test {
   // Recorded once, and copied for each test.
   static void SetUpTestSuite() {
     original = std::make_unique<WorkFolder>();
-    const Answer recorded = original->mdat("run missions/test.toml --scenario dropouts --frames 8 --record rec");
-    ASSERT_EQ(recorded.exit_code, 0) << recorded.err;
+    original->record_scans("run missions/test.toml --scenario dropouts --frames 8", "rec/4m");
     const Answer compiled = original->mdat("mission compile missions/test.toml --scenario dropouts -o image.3dli");
     ASSERT_EQ(compiled.exit_code, 0) << compiled.err;
   }

@@ -138,13 +138,16 @@ TEST(SpinRun, AMotionThatIsDrawnIsAnotherOneForEachRun) {
   EXPECT_LT(noisy.at("settled").at("rms_degps").get<double>(), 0.1);
   EXPECT_LT(noisy.at("settled").at("worst_mmps").get<double>(), 10);
 
-  ASSERT_EQ(work.mdat("run missions/test.toml --scenario rates --frames 3 --record one").exit_code, 0);
-  ASSERT_EQ(work.mdat("run missions/test.toml --scenario rates --frames 3 --seed 9 --record other").exit_code, 0);
-  const std::vector<std::string> first = attitudes(work.read("one/4m/truth.csv")), second = attitudes(work.read("one/4m_2/truth.csv"));
+  const std::string run = "run missions/test.toml --scenario rates --frames 3 --no-report --force --record ";
+  ASSERT_EQ(work.mdat(run + "one.mcap").exit_code, 0);
+  ASSERT_EQ(work.mdat(run + "other.mcap --seed 9").exit_code, 0);
+  for (const char* name : {"one-4m", "one-4m_2", "other-4m"})
+    ASSERT_EQ(work.mdat("recording export " + std::string(name) + ".mcap --format scans -o " + name).exit_code, 0);
+  const std::vector<std::string> first = attitudes(work.read("one-4m/truth.csv")), second = attitudes(work.read("one-4m_2/truth.csv"));
   ASSERT_EQ(first.size(), 3U);
   ASSERT_EQ(second.size(), 3U);
   EXPECT_NE(first, second);
-  EXPECT_NE(first, attitudes(work.read("other/4m/truth.csv"))) << "the seed tells";
+  EXPECT_NE(first, attitudes(work.read("other-4m/truth.csv"))) << "the seed tells";
 }
 
 TEST(SearchRun, FindsAndTracksTheTargetWithoutAnyPrior) {

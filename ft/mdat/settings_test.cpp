@@ -75,7 +75,7 @@ TEST(Setting, GoesIntoAnImageAndAReplayWhereItIsNotCompiled) {
   const WorkFolder work;
   ASSERT_EQ(work.mdat("mission compile missions/test.toml --set scan.points=512 -o a.3dli").exit_code, 0);
   EXPECT_NE(work.mdat("mission info a.3dli").out.find("scan.points                                512"), std::string::npos);
-  ASSERT_EQ(work.mdat(kSpin + "--record scans --set scan.points=512").exit_code, 0);
+  work.record_scans(kSpin + "--set scan.points=512", "scans/4m");
   EXPECT_EQ(lines_of(work.read("scans/4m/scans/f00000.csv")).size(), 513U);
   const std::string replay = " --scans scans/4m/scans --initial scans/4m/poses.csv --set tracking.inliers_min=600 --out poses.csv";
   const Answer image = work.mdat("replay a.3dli" + replay);
@@ -90,10 +90,11 @@ TEST(EarlierFiles, AreReplacedOnlyWhenToldSo) {
   const WorkFolder work;
   work.write("out/report.html", "earlier");
   work.write("picture.png", "earlier");
+  work.write("picture.mcap", "earlier");
   const std::pair<std::string, std::string> cases[] = {
       {kSpin + "--out out", "mdat: out/report.html: is there since "},
       {kSpin + "--out other --picture picture.png", "mdat: picture.png: is there since "},
-      {kSpin + "--record missions", "mdat: missions: is not empty; --force "},
+      {kSpin + "--out other --record picture.mcap", "mdat: picture.mcap: is there since "},
       {"mission compile missions/test.toml -o picture.png", "mdat: picture.png: is there since "}};
   const std::vector<std::string> before = work.contents();
   for (const auto& [command, expected] : cases) {
@@ -111,10 +112,13 @@ TEST(EarlierFiles, AreReplacedOnlyWhenToldSo) {
 TEST(EarlierFiles, OfARecordingAndAReplay) {
   VERIFIES("LASSO-MDT-032~1");
   const WorkFolder work;
-  const std::string record = "run missions/test.toml --scenario spin --record scans --frames ";
+  const std::string record = "run missions/test.toml --scenario spin --no-report --force --record run.mcap --frames ",
+                    scans = "recording export run.mcap --format scans -o scans/4m";
   ASSERT_EQ(work.mdat(record + "3").exit_code, 0);
-  EXPECT_EQ(work.mdat(record + "2").exit_code, 2);
-  ASSERT_EQ(work.mdat(record + "2 --force").exit_code, 0);
+  ASSERT_EQ(work.mdat(scans).exit_code, 0);
+  ASSERT_EQ(work.mdat(record + "2").exit_code, 0);
+  EXPECT_EQ(work.mdat(scans).exit_code, 2);
+  ASSERT_EQ(work.mdat(scans + " --force").exit_code, 0);
   EXPECT_EQ(work.contents("scans/4m/scans"), (std::vector<std::string>{"f00000.csv", "f00001.csv"}))
       << "the third was of the first recording";
   const std::string replay = "replay missions/test.toml --scans scans/4m/scans --initial scans/4m/poses.csv --out poses.csv";

@@ -101,8 +101,8 @@ TEST(RecordedRun, GivesThePosesOfTheRunThatWasRecorded) {
   VERIFIES("LASSO-SNS-031~1");
   const WorkFolder folder;
   const std::string run = "run missions/test.toml --scenario spin --frames 6 --no-report ";
-  ASSERT_EQ(folder.mdat(run + "--out first --record-sensor scans.3dlr").exit_code, 0);
-  ASSERT_EQ(folder.mdat(run + "--out again --seed 77 --sensor replay:scans.3dlr").exit_code, 0);
+  ASSERT_EQ(folder.mdat(run + "--out first --record scans.mcap --force").exit_code, 0);
+  ASSERT_EQ(folder.mdat(run + "--out again --seed 77 --sensor replay:scans.mcap").exit_code, 0);
   const std::string telemetry = folder.read("first/telemetry.ccsds");
   EXPECT_FALSE(telemetry.empty());
   EXPECT_TRUE(telemetry == folder.read("again/telemetry.ccsds")) << "another seed draws other noise: it was not the recording that played";
@@ -112,9 +112,9 @@ TEST(RecordedRun, WarnsOfARunThatIsLongerThanItsRecording) {
   VERIFIES("LASSO-SNS-031~1");
   const WorkFolder folder;
   const std::string run = "run missions/test.toml --scenario spin --no-report ";
-  ASSERT_EQ(folder.mdat(run + "--frames 3 --out first --record-sensor scans.3dlr").exit_code, 0);
-  const Answer fits = folder.mdat(run + "--frames 3 --out again --sensor replay:scans.3dlr"),
-               longer = folder.mdat(run + "--frames 8 --out longer --sensor replay:scans.3dlr");
+  ASSERT_EQ(folder.mdat(run + "--frames 3 --out first --record scans.mcap --force").exit_code, 0);
+  const Answer fits = folder.mdat(run + "--frames 3 --out again --sensor replay:scans.mcap"),
+               longer = folder.mdat(run + "--frames 8 --out longer --sensor replay:scans.mcap");
   EXPECT_EQ(fits.err.find("warning: --sensor replay"), std::string::npos) << fits.err;
   EXPECT_NE(longer.err.find("scans are not in the recording, and were lost: it is shorter than the run"), std::string::npos) << longer.err;
 }
@@ -122,12 +122,14 @@ TEST(RecordedRun, WarnsOfARunThatIsLongerThanItsRecording) {
 TEST(RecordedRun, SaysWhatIsWrongWithARecording) {
   VERIFIES("LASSO-SNS-031~1");
   const WorkFolder folder;
-  folder.write("scans.3dlr", "no recording");
+  folder.write("scans.mcap", "no recording");
   const std::pair<const char*, const char*> cases[] = {
       {"--scenario spin --sensor replay:none", "none: cannot be read"},
-      {"--scenario spin --sensor replay:scans.3dlr", "scans.3dlr: scan 0, byte 4: not a recording of a sensor"},
+      {"--scenario spin --sensor replay:scans.mcap", "scans.mcap: is no MCAP file"},
+      {"--scenario spin --sensor replay:scans.3dlr", "--sensor replay:scans.3dlr: recordings are FILE.mcap now"},
       {"--scenario spin --sensor replay:", "replay:FILE"},
-      {"--record-sensor made.3dlr", "choose a scenario of one range"},
+      {"--scenario spin --record-sensor made.3dlr", "--record-sensor made.3dlr: is --record FILE.mcap now"},
+      {"--scenario spin --record scans", "--record scans: expected FILE.mcap"},
   };
   for (const auto& [words, why] : cases) {
     const Answer answer = folder.mdat("run missions/test.toml --frames 2 --no-report " + std::string(words));

@@ -57,6 +57,7 @@ SimulationOptions options_of(const std::string& file, const RecordedRun& run) {
   options.scenario = word_of(run.about, "scenario");
   options.seed = number_of(file, run.about, "seed");
   options.frames = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(number_of(file, run.about, "frames"), 1, 1'000'000));
+  if (run.about.count("range") > 0) options.range = std::min<std::uint64_t>(number_of(file, run.about, "range"), 1000);
   options.wire = wire_in(word_of(run.about, "sensor"));
   options.replay = std::make_shared<sim::SensorRecording>(run.scans);
   options.plain = true;
@@ -98,8 +99,12 @@ void replay_recording(const std::string& file, const std::vector<std::string>& s
   std::vector<std::string> all = lines_of(word_of(run.about, "settings"));
   all.insert(all.end(), settings.begin(), settings.end());
   MissionInput input = load_mission_input(folder.mission(), all, options.scenario);
+  if (options.range.value_or(0) >= scenario_of(input.source, options.scenario).runs_m().size())
+    throw InputError(file + ": is of a range that its scenario does not have: the recording is not whole");
   check_simulation(input.source, options, false);
-  if (!run.whole) options.frames = std::min(*options.frames, frames_until(run, parameters_for(input.source, options.scenario).period_s));
+  if (!run.whole)
+    options.frames =
+        std::min(options.frames.value_or(UINT32_MAX), frames_until(run, parameters_for(input.source, options.scenario).period_s));
   const CompiledMission mission = compile_mission(std::move(input), ModelCache::of_user_if(cached));
   const SimulationResult result = simulate(mission, options);
   std::fputs(summary_text(result).c_str(), stdout);

@@ -2,7 +2,9 @@
 
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <memory>
+#include <set>
 
 #include "mdat/cli/commands.hpp"
 #include "mdat/common/errors.hpp"
@@ -75,10 +77,10 @@ struct ExportFormat {
   ManyExport many;  // into a folder
   OneExport one;    // as one file
 };
-constexpr ExportFormat kExportFormats[] = {
-    {"csv", export_csv, nullptr}, {"tum", export_tum, nullptr}, {"ply", export_ply, nullptr},
-    {"pcd", export_pcd, nullptr}, {"glb", nullptr, export_glb}, {"hdf5", nullptr, export_h5},
-    {"oem", nullptr, export_oem}, {"aem", nullptr, export_aem}, {"packets", nullptr, export_packets}};
+constexpr ExportFormat kExportFormats[] = {{"scans", export_scans, nullptr},    {"csv", export_csv, nullptr}, {"tum", export_tum, nullptr},
+                                           {"ply", export_ply, nullptr},        {"pcd", export_pcd, nullptr}, {"glb", nullptr, export_glb},
+                                           {"hdf5", nullptr, export_h5},        {"oem", nullptr, export_oem}, {"aem", nullptr, export_aem},
+                                           {"packets", nullptr, export_packets}};
 
 std::vector<std::string> format_names() {
   std::vector<std::string> names;
@@ -86,13 +88,32 @@ std::vector<std::string> format_names() {
   return names;
 }
 
+// Files of an earlier export that this one does not have: who reads the folder would read them, too.
+void remove_earlier(const EditArguments& options, const ExportedFiles& exported) {
+  std::set<std::string> folders;
+  for (const auto& [name, content] : exported.files) folders.insert(std::filesystem::path(name).parent_path());
+  for (const std::string& folder : folders) {
+    const std::filesystem::path place = std::filesystem::path(options.out) / folder;
+    std::error_code none;
+    for (const auto& entry : std::filesystem::directory_iterator(place, none)) {
+      const bool kind = entry.path().extension() == std::filesystem::path(exported.files.begin()->first).extension();
+      if (!kind || entry.is_directory()) continue;
+      if (!options.force) throw InputError(entry.path().string() + ": is there already: --force replaces all files of its kind");
+      std::filesystem::remove(entry.path());
+    }
+  }
+}
+
 void write_folder(const EditArguments& options, const ExportedFiles& exported) {
-  std::vector<std::filesystem::path> places;
-  for (const auto& [name, content] : exported.files) places.push_back(std::filesystem::path(options.out) / name);
-  if (!options.force) refuse_to_replace(places, "--force replaces it");
-  OutputFolder folder(options.out);
-  for (const auto& [name, content] : exported.files) folder.write(name, content);
-  folder.commit();
+  remove_earlier(options, exported);
+  std::map<std::string, std::unique_ptr<OutputFolder>> folders;
+  for (const auto& [name, content] : exported.files) {
+    const std::filesystem::path place = std::filesystem::path(options.out) / name;
+    std::unique_ptr<OutputFolder>& folder = folders[place.parent_path()];
+    if (!folder) folder = std::make_unique<OutputFolder>(place.parent_path());
+    folder->write(place.filename(), content);
+  }
+  for (const auto& [name, folder] : folders) folder->commit();
   for (const std::string& note : exported.notes) std::fprintf(stderr, "note: %s\n", note.c_str());
   std::printf("%s: written, %zu files\n", options.out.c_str(), exported.files.size());
 }
@@ -128,10 +149,10 @@ void add_export(CLI::App* group) {
   const SharedEdit options = add_edit(command, 1);
   add_span(command, options);
   command
-      ->add_option(
-          "--format", options->format,
-          "csv (a table a topic), tum (trajectories, for evo), ply or pcd (a file a scan, all fields), glb (first scan of the span, with "
-          "the target), hdf5, oem, aem (CCSDS ephemerides), packets (CCSDS, for mdat decode)")
+      ->add_option("--format", options->format,
+                   "scans (CSV and poses, for mdat replay --scans), csv (a table a topic), tum (trajectories, for evo), ply or pcd (a file "
+                   "a scan, all fields), glb (first scan of the span, with "
+                   "the target), hdf5, oem, aem (CCSDS ephemerides), packets (CCSDS, for mdat decode)")
       ->required()
       ->check(CLI::IsMember(format_names()));
   command->add_option("--topic", options->topic, "which one, where there are several");

@@ -13,12 +13,12 @@
 #include "mdat/link/signature.hpp"
 #include "mdat/missiondb/calibration_file.hpp"
 #include "mdat/missiondb/camera_faults.hpp"
-#include "mdat/recording/frame_recorder.hpp"
+#include "mdat/recording/recorded_run.hpp"
+#include "mdat/recording/run_recorders.hpp"
 #include "mdat/render/run_pictures.hpp"
 #include "mdat/report/report.hpp"
 #include "mdat/run/camera.hpp"
 #include "mdat/run/frames_table.hpp"
-#include "mdat/run/recording.hpp"
 #include "mdat/run/relative_table.hpp"
 #include "mdat/run/results.hpp"
 #include "mdat/run/simulation.hpp"
@@ -28,8 +28,8 @@ namespace lasso::mdat {
 namespace {
 
 struct RunArguments {
-  std::string mission, sensor = "simulated", camera_faults, optics, calibration, out = "out/run", picture, record, record_sensor, link, key,
-                       junit;
+  std::string mission, sensor = "simulated", camera_faults, optics, calibration, out = "out/run", picture, record, record_for = "viewers",
+                       link, key, junit;
   LiveOptions live;
   SimulationOptions simulation;
   std::vector<std::string> settings, required;
@@ -39,7 +39,12 @@ struct RunArguments {
 // All that a run writes into its folder.
 constexpr const char* kFiles[] = {"results.json", "frames.csv", "telemetry.ccsds", "relative.csv", "report.html"};
 
-bool records_frames(const RunArguments& options) { return std::filesystem::path(options.record).extension() == ".mcap"; }
+void check_record(const std::string& file) {
+  if (file.empty() || std::filesystem::path(file).extension() == ".mcap") return;
+  throw InputError("--record " + file +
+                   ": expected FILE.mcap, which holds all of a run; its scans as tables: mdat recording export FILE.mcap "
+                   "--format scans");
+}
 
 // An option of its own goes before --set.
 void tell_replaced(const MissionSource& source, const SimulationOptions& simulation) {
@@ -66,11 +71,10 @@ void check_earlier(const RunArguments& options) {
   std::vector<std::filesystem::path> files;
   for (const char* file : kFiles) files.push_back(std::filesystem::path(folder) / file);
   refuse_to_replace(files, "--force replaces that run, --out DIR keeps it");
-  refuse_to_replace({options.picture, options.junit, options.record_sensor, records_frames(options) ? options.record : ""},
-                    "--force replaces it");
+  refuse_to_replace({options.picture, options.junit}, "--force replaces it");
 }
 
-void write_results(const RunArguments& options, const SimulationOptions& simulation, const SimulationResult& result, OutputFolder& folder) {
+void write_results(const SimulationResult& result, OutputFolder& folder) {
   folder.write("results.json", results_json(result));
   folder.write("frames.csv", frames_csv(result));
   folder.write("telemetry.ccsds", telemetry_bytes(result));
@@ -78,7 +82,6 @@ void write_results(const RunArguments& options, const SimulationOptions& simulat
   folder.commit();
   folder.remove("report.html");  // of an earlier run
   if (result.relative.empty()) folder.remove("relative.csv");
-  if (!options.record_sensor.empty()) write_file(options.record_sensor, recording_text(*simulation.record));
 }
 
 std::vector<SeenPicture> seen_pictures(const CompiledMission& mission, const SimulationResult& result) {
@@ -138,12 +141,25 @@ void warn_of_replay(const SimulationResult& result) {
       run.replay_unserved);
 }
 
-std::unique_ptr<FrameRecorder> open_recorder(const RunArguments& options, const CompiledMission& mission, MessageTap* tap) {
-  if (!records_frames(options))
-    return tap == nullptr ? nullptr : std::make_unique<FrameRecorder>("", mission, RecordingHead{}, nullptr, tap);
+// Places of the run's recordings, where it has any: nothing may be there, and they can be written.
+std::vector<std::filesystem::path> recordings_of(const RunArguments& options, const MissionSource& mission) {
+  if (options.record.empty()) return {};
+  const Scenario& scenario = scenario_of(mission, options.simulation.scenario);
+  std::vector<double> ranges_m = scenario.runs_m();
+  if (!options.link.empty()) ranges_m.resize(1);
+  std::vector<std::filesystem::path> files = recording_files(options.record, ranges_m);
+  if (!options.force) refuse_to_replace(files, "--force replaces it");
+  for (const std::filesystem::path& file : files) check_writable(file);
+  return files;
+}
+
+std::unique_ptr<RunRecorders> open_recorders(const RunArguments& options, const std::vector<std::filesystem::path>& files,
+                                             const CompiledMission& mission) {
+  if (files.empty()) return nullptr;
   RecordingHead head = recording_head(mission, options.simulation, options.settings, {{"commit", kCommit}, {"sensor", options.sensor}});
   if (!options.calibration.empty()) head.files[kCalibrationAttachment] = file_content(options.calibration);
-  return std::make_unique<FrameRecorder>(options.record, mission, head, options.simulation.record, tap);
+  const RecordingContent content = options.record_for == "replay" ? RecordingContent::kReplay : RecordingContent::kAll;
+  return std::make_unique<RunRecorders>(files, mission, head, content);
 }
 
 // Pictures of one case take all cores; those of several cases one each.
@@ -162,17 +178,22 @@ std::vector<Criterion> required_criteria(const RunArguments& options) {
   return criteria;
 }
 
+// The messages of the run for who watches it; null: nobody does.
+std::unique_ptr<FrameRecorder> open_watched(MessageTap* tap, const CompiledMission& mission) {
+  if (tap == nullptr) return nullptr;
+  return std::make_unique<FrameRecorder>("", mission, RecordingHead{}, nullptr, RecordingContent::kAll, tap);
+}
+
 void run(const RunArguments& options) {
   OutputFolder folder(options.out);
   check_earlier(options);
   const std::vector<Criterion> required = required_criteria(options);
   if (!options.picture.empty()) check_writable(options.picture);
-  if (!options.record_sensor.empty()) check_writable(options.record_sensor);
-  if (records_frames(options)) check_writable(options.record);
   if (options.report || !options.picture.empty()) warn_of_plotter();
   MissionInput input = load_input(options);
   check_simulation(input.source, options.simulation, !options.link.empty());
   check_live(options.live, input.source, options.simulation.scenario);
+  const std::vector<std::filesystem::path> recordings = recordings_of(options, input.source);
   const std::unique_ptr<SignatureCheck> signatures =
       options.key.empty() ? nullptr : std::make_unique<SignatureCheck>(load_key(options.key));
   const std::unique_ptr<posix::PosixLink> link = open_link(options.link);
@@ -184,37 +205,25 @@ void run(const RunArguments& options) {
   simulation.make_stereo = stereo_for(mission, simulation);
   simulation.link = link.get();
   simulation.authenticator = signatures.get();
+  const std::unique_ptr<RunRecorders> recorders = open_recorders(options, recordings, mission);
+  if (recorders) simulation.recorders = recorders->cases();
   LiveRun live(options.live, mission.source.name + ", scenario " + simulation.scenario);
-  const std::unique_ptr<FrameRecorder> recorder = open_recorder(options, mission, live.tap());
-  simulation.listener = live.paced(recorder.get(), link != nullptr);
+  const std::unique_ptr<FrameRecorder> watched = open_watched(live.tap(), mission);
+  simulation.listener = live.paced(watched.get(), link != nullptr);
   SimulationResult result = simulate(mission, simulation);
   live.end();
-  if (recorder) recorder->close(image_bytes(mission, result.tables[0].variants[0].parameters));
+  if (recorders) recorders->close(image_bytes(mission, result.tables[0].variants[0].parameters));
   result.sensor = options.sensor;
   result.commit = kCommit;
-  write_results(options, simulation, result, folder);
+  write_results(result, folder);
   if (!options.junit.empty()) write_file(options.junit, run_junit_xml(result, required));
   if (simulation.replay) warn_of_replay(result);
   std::fputs(summary_text(result).c_str(), stdout);
   std::printf("written to %s: results.json, frames.csv, telemetry.ccsds%s\n", options.out.c_str(),
               result.relative.empty() ? "" : ", relative.csv");
-  if (records_frames(options)) std::printf("the recording: %s\n", options.record.c_str());
+  for (const std::filesystem::path& file : recordings) std::printf("the recording: %s\n", file.c_str());
   (void)std::fflush(stdout);
   if (options.report || !options.picture.empty()) write_pictures(options, mission, result, folder);
-}
-
-void record(const RunArguments& options) {
-  OutputFolder writable(options.record);
-  if (!options.force && !std::filesystem::is_empty(options.record))
-    throw InputError(options.record + ": is not empty; --force records into it, and removes the scans that are there");
-  MissionInput input = load_input(options);
-  check_simulation(input.source, options.simulation, false);
-  const CompiledMission mission = compile_mission(std::move(input), ModelCache::of_user_if(options.cached));
-  SimulationOptions simulation = options.simulation;
-  simulation.make_stereo = stereo_for(mission, simulation);
-  write_recording(mission, simulation, options.record);
-  writable.commit();
-  std::printf("written to %s: for each range scans/, poses.csv (of the frame before) and truth.csv\n", options.record.c_str());
 }
 
 // The head and the line, or the recording, that --sensor names; none: simulated.
@@ -240,11 +249,11 @@ std::string check_sensor(const std::string& name) {
   return wire_of(name) ? "" : "expected simulated, or lcs-wire, lidar-wire or tridar-wire, or one of these with :LINE, or replay:FILE";
 }
 
-// What keeps what the sensors give; none if nothing does.
-std::shared_ptr<sim::SensorRecording> scans_to_keep(const RunArguments& options) {
-  const bool alone = !options.record_sensor.empty(), within = records_frames(options);
-  if (alone && within) throw InputError("--record-sensor: --record " + options.record + " holds what the sensors gave, too: leave it out");
-  return alone || within ? std::make_shared<sim::SensorRecording>() : nullptr;
+// What a recording's sensors gave.
+std::shared_ptr<const sim::SensorRecording> recorded_scans(const std::string& file) {
+  if (std::filesystem::path(file).extension() == ".3dlr")
+    throw InputError("--sensor replay:" + file + ": recordings are FILE.mcap now: record the run again with --record");
+  return std::make_shared<const sim::SensorRecording>(read_recorded_run(file).scans);
 }
 
 // What the words about cameras ask for. Throws where they do not fit together.
@@ -253,9 +262,9 @@ void set_cameras(RunArguments& options) {
   const Wire wire = wire_of(options.sensor).value_or(Wire{});
   simulation.wire = wire.head;
   simulation.camera_line = wire.line;
-  if (!wire.recording.empty()) simulation.replay = load_sensor_recording(wire.recording);
-  simulation.record = scans_to_keep(options);
-  simulation.plain = !wire.line.empty() || simulation.replay || simulation.record || options.live.address.has_value();
+  if (!wire.recording.empty()) simulation.replay = recorded_scans(wire.recording);
+  check_record(options.record);
+  simulation.plain = !wire.line.empty() || simulation.replay || !options.record.empty() || options.live.address.has_value();
   const bool calibrated = !options.optics.empty() || !options.calibration.empty();
   if (calibrated && (!wire.head || wire.head == lcs::Device::kLidar))
     throw InputError("--camera-optics, --calibration: only a camera on its line has them: add --sensor lcs-wire or tridar-wire");
@@ -275,11 +284,16 @@ void add_sensor_options(CLI::App* command, const SharedArguments& options) {
                    "LIDARs are; "
                    "tridar-wire: each sensor is a TriDAR on its line. With :LINE after it the one at the end of a line of this machine, in "
                    "real time "
-                   "(tcp://127.0.0.1:PORT, unix:PATH, or a device). replay:FILE: the sensors play what --record-sensor has written")
+                   "(tcp://127.0.0.1:PORT, unix:PATH, or a device). replay:FILE.mcap: the sensors play those of a recording")
       ->capture_default_str()
       ->check(CLI::Validator(check_sensor, ""));
-  command->add_option("--record-sensor", options->record_sensor,
-                      "file to write: what the sensors of the run gave, for --sensor replay:FILE");
+  command
+      ->add_option_function<std::string>(
+          "--record-sensor",
+          [](const std::string& file) {
+            throw InputError("--record-sensor " + file + ": is --record FILE.mcap now, which holds what the sensors gave");
+          })
+      ->group("");
   command->add_flag("--remote", options->simulation.remote_line, "the line may lead to other machines");
   command->add_option("--camera-faults", options->camera_faults,
                       "script of what goes wrong with laser cameras and their lines (docs/user-guide.md); with --sensor lcs-wire");
@@ -341,11 +355,15 @@ void add_run_command(CLI::App& app) {
       ->needs("--junit")
       ->allow_extra_args(false);
   command->add_option("--record", options->record,
-                      "FILE.mcap: also record all frames, for viewers and replay (docs/recordings.md); or a folder: instead of a run "
-                      "write its scans (.csv) and true poses into it, for replay");
+                      "FILE.mcap: also record all frames, for viewers and replay (docs/recordings.md); of several ranges a file each "
+                      "(FILE-4m.mcap)");
+  command->add_option("--record-for", options->record_for, "viewers: all; replay: only what mdat replay needs")
+      ->needs("--record")
+      ->check(CLI::IsMember({"viewers", "replay"}))
+      ->capture_default_str();
   command->callback([options] {
     set_cameras(*options);
-    options->record.empty() || records_frames(*options) ? run(*options) : record(*options);
+    run(*options);
   });
 }
 

@@ -96,8 +96,7 @@ std::string date_text(std::int64_t day) {
   const std::int64_t m = month < 10 ? month + 3 : month - 9;
   const std::int64_t year = year_of_era + era * 400 + (m <= 2 ? 1 : 0), date = of_year - (153 * month + 2) / 5 + 1;
   std::string text;
-  append_line(text, "%04lld-%02lld-%02lld", static_cast<long long>(year), static_cast<long long>(m),
-              static_cast<long long>(date));
+  append_line(text, "%04lld-%02lld-%02lld", static_cast<long long>(year), static_cast<long long>(m), static_cast<long long>(date));
   return text;
 }
 

@@ -181,22 +181,26 @@ bool is_of_scene(const TopicName& name) {
   return name.schema == "foxglove_msgs/msg/SceneUpdate" || name.schema == "tf2_msgs/msg/TFMessage";
 }
 
+void add_to_scene(const TopicMessage& message, SceneFrame& frame) {
+  if (message.schema == "tf2_msgs/msg/TFMessage") frame.transforms = message.value.at("transforms");
+  if (message.schema != "foxglove_msgs/msg/SceneUpdate") return;
+  for (const MessageValue& entity : message.value.at("entities")) frame.surfaces.push_back(entity);
+}
+
 SceneFrame frame_of(const fs::path& file, const ExportOptions& options, const std::string& topic) {
   SceneFrame frame;
   const auto done = [&](std::uint64_t t_ns) { return frame.t_ns != 0 && t_ns > frame.t_ns; };
   const auto wanted = [&](const TopicName& name) { return is_of_scene(name) || name.topic == topic || name.topic == "/rays_missed"; };
+  const auto take_scan = [&](const TopicMessage& message) {
+    if (!options.span.holds(message.t_ns) || frame.t_ns != 0) return;
+    frame.scan = message.value;
+    frame.t_ns = message.t_ns;
+  };
   (void)read_topics(file, {0, options.span.end_ns}, wanted, [&](const TopicMessage& message) {
     if (done(message.t_ns)) return;
-    if (message.schema == "foxglove_msgs/msg/SceneUpdate") {
-      for (const MessageValue& entity : message.value.at("entities")) frame.surfaces.push_back(entity);
-    } else if (message.schema == "tf2_msgs/msg/TFMessage") {
-      frame.transforms = message.value.at("transforms");
-    } else if (message.topic == "/rays_missed") {
-      if (message.t_ns == frame.t_ns) frame.missed = message.value;
-    } else if (options.span.holds(message.t_ns) && frame.t_ns == 0) {
-      frame.scan = message.value;
-      frame.t_ns = message.t_ns;
-    }
+    if (is_of_scene({message.topic, message.schema})) return add_to_scene(message, frame);
+    if (message.topic != "/rays_missed") return take_scan(message);
+    if (message.t_ns == frame.t_ns) frame.missed = message.value;
   });
   if (frame.t_ns == 0) throw InputError(file.string() + ": " + topic + ": no scan in this span");
   return frame;

@@ -82,8 +82,9 @@ std::vector<MessageTopic> recorded_topics() {
 }
 
 FrameRecorder::FrameRecorder(const std::filesystem::path& file, const CompiledMission& mission, const RecordingHead& head,
-                             std::shared_ptr<sim::SensorRecording> scans, MessageTap* tap)
-    : mission_(mission), tap_(tap), model_(make_target(mission.mesh)), scans_(std::move(scans)) {
+                             std::shared_ptr<sim::SensorRecording> scans, RecordingContent content, MessageTap* tap)
+    : mission_(mission), tap_(tap), scans_(std::move(scans)), content_(content) {
+  if (content_ == RecordingContent::kAll) model_ = make_target(mission.mesh);
   if (!file.empty()) open(file, head);
 }
 
@@ -91,12 +92,13 @@ void FrameRecorder::open(const std::filesystem::path& file, const RecordingHead&
   writer_.emplace(file, kRecordingProfile, "mdat");
   std::map<std::string, std::uint16_t> schemas;
   for (const Topic& topic : kTopics) {
+    if (content_ == RecordingContent::kReplay && topic.schema != ros::packet) continue;
     const RosSchema schema = topic.schema();
     const auto [place, added] = schemas.try_emplace(schema.name, std::uint16_t{0});
     if (added) place->second = writer_->add_schema(schema.name, "ros2msg", schema.text);
     channels_[topic.name] = writer_->add_channel(topic.name, place->second, "cdr", {}, topic.bulk);
   }
-  for (const auto& [name, content] : head.files) writer_->attach(name, "application/octet-stream", content, 0);
+  for (const auto& [name, bytes] : head.files) writer_->attach(name, "application/octet-stream", bytes, 0);
   writer_->add_metadata(kRecordingMetadata, head.about);
 }
 
@@ -115,7 +117,7 @@ void FrameRecorder::on_packets(TimeUs boundary_us, ConstBytes packets) {
     write("/packets", boundary_us, ros::packet_bytes({boundary_us, ""}, text_of(packet)));
     rest = rest.subspan(packet.size(), rest.size() - packet.size());
   }
-  write_events(boundary_us, packets);
+  if (content_ == RecordingContent::kAll) write_events(boundary_us, packets);
   take_scans(false);
 }
 
@@ -189,6 +191,7 @@ void FrameRecorder::write_scan(const FlownFrame& frame) {
 }
 
 void FrameRecorder::on_frame(const FlownFrame& frame) {
+  if (content_ == RecordingContent::kReplay) return;
   write_surfaces(frame.telemetry.t_measurement_us);
   write_poses(frame);
   write_scan(frame);

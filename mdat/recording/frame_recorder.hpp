@@ -27,12 +27,14 @@ constexpr char kRecordingProfile[] = "ros2";
 // What a run has told of: the topics of its messages, in the order by which a tap knows them.
 std::vector<MessageTopic> recorded_topics();
 
+enum class RecordingContent { kAll, kReplay };  // kReplay: packets and what the sensors gave, which is all that mdat replay needs
+
 class FrameRecorder final : public RunListener {
  public:
   // `mission` and `tap` outlive it. `scans`: where the run's sensors leave what they gave; each scan is taken out of it once it is whole.
   // Without a file the tap alone gets the messages. Throws InputError where the file cannot be written; so do all calls.
   FrameRecorder(const std::filesystem::path& file, const CompiledMission& mission, const RecordingHead& head,
-                std::shared_ptr<sim::SensorRecording> scans, MessageTap* tap = nullptr);
+                std::shared_ptr<sim::SensorRecording> scans, RecordingContent content = RecordingContent::kAll, MessageTap* tap = nullptr);
 
   void on_packets(TimeUs boundary_us, ConstBytes packets) override;
   void on_frame(const FlownFrame& frame) override;
@@ -52,8 +54,9 @@ class FrameRecorder final : public RunListener {
   std::optional<mcap::Writer> writer_;
   MessageTap* tap_;
   std::map<std::string, std::uint16_t> channels_;  // of the file
-  std::unique_ptr<sim::RayCaster> model_;          // as the component knows the target
+  std::unique_ptr<sim::RayCaster> model_;          // as the component knows the target; null: only for replay
   std::shared_ptr<sim::SensorRecording> scans_;
+  RecordingContent content_;
   std::size_t scans_taken_ = 0;
   bool surfaces_written_ = false;
 };

@@ -30,6 +30,10 @@ ExportedFiles export_csv(const std::filesystem::path& file, const ExportOptions&
 // "NAME.tum" for each topic of poses: "t x y z qx qy qz qw", seconds, metres.
 ExportedFiles export_tum(const std::filesystem::path& file, const ExportOptions& options);
 
+// Scans of a run for mdat replay --scans: scans/fNNNNN.csv, and in its form of poses truth.csv (of each scan) and poses.csv (true ones of
+// the frame before, to start from).
+ExportedFiles export_scans(const std::filesystem::path& file, const ExportOptions& options);
+
 // The points of each PointCloud2 (preset /scan), one file a message, all numeric fields: binary PLY or PCD.
 ExportedFiles export_ply(const std::filesystem::path& file, const ExportOptions& options);
 ExportedFiles export_pcd(const std::filesystem::path& file, const ExportOptions& options);

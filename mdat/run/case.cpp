@@ -253,9 +253,7 @@ class Case {
     const bool doubtful = (error.wrong || !error.valid) && count < kDoubtfulScans;
     if (!wanted && !doubtful) return;
     const TimeUs t_us = pose.t_measurement_us;
-    const KeptScan kept{
-        error.frame, trajectory_->at(t_us).T_sensor_target, trajectory_->at(t_us - period_us_).T_sensor_target, pose, scan.samples,
-        scan.aimed};
+    const KeptScan kept{error.frame, trajectory_->at(t_us).T_sensor_target, pose, scan.samples, scan.aimed};
     if (wanted) result_.scans.push_back(kept);
     if (!doubtful) return;
     result_.doubtful.push_back(kept);

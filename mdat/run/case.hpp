@@ -76,7 +76,7 @@ struct CaseSetup {
 // A scan with all that a picture of it needs.
 struct KeptScan {
   std::uint32_t frame = 0;
-  Pose truth, truth_before;  // at the scan's time, and a period before
+  Pose truth;  // at the scan's time
   PoseTelemetry telemetry;
   std::vector<RangeSample> samples;
   std::size_t aimed = 0;  // samples in the middle whose rays left the pattern

@@ -1,6 +1,7 @@
 #include "mdat/run/simulation.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <iterator>
@@ -37,8 +38,6 @@ void set_camera(const CompiledMission& mission, const SimulationOptions& options
   setup.calibrations = mission.source.calibrations;
   setup.wire = options.wire;
   setup.replay = options.replay;
-  setup.record = options.record;
-  setup.listener = options.listener;
   setup.camera_optics = options.camera_optics;
   setup.make_stereo = options.make_stereo;
   setup.camera_degC = options.camera_degC;
@@ -63,7 +62,6 @@ void refuse_what_serves_one(const SimulationOptions& options) {
     throw InputError("--sensor " + std::string(wire_name(options.wire.value_or(lcs::Device::kLaserCamera))) + ":" + options.camera_line +
                      ": one camera takes the scans of one run" + way_out);
   if (options.replay) throw InputError("--sensor replay: a recording has the scans of one run" + way_out);
-  if (options.record) throw InputError("--record, --record-sensor: a recording takes one run" + way_out);
 }
 
 // What is to be on a line has to be in the mission.
@@ -84,6 +82,25 @@ void require_wired(const MissionSource& source, const SimulationOptions& options
                    (*options.wire == lcs::Device::kLidar ? "LIDAR (kind = \"time_of_flight\")" : "laser camera (kind = \"laser_camera\")") +
                    "; tridar-wire takes either");
 }
+
+// Tells each of two, where they are, in their order.
+class BothListeners final : public RunListener {
+ public:
+  BothListeners(RunListener* first, RunListener* second) : listeners_{first, second} {}
+  void on_packets(TimeUs boundary_us, ConstBytes packets) override {
+    for (RunListener* listener : listeners_) {
+      if (listener != nullptr) listener->on_packets(boundary_us, packets);
+    }
+  }
+  void on_frame(const FlownFrame& frame) override {
+    for (RunListener* listener : listeners_) {
+      if (listener != nullptr) listener->on_frame(frame);
+    }
+  }
+
+ private:
+  std::array<RunListener*, 2> listeners_;
+};
 
 // One image for each set of parameters, and all cases in order.
 struct Plan {
@@ -131,6 +148,7 @@ std::vector<TableResult> tables_of(const MissionSource& source, const Simulation
   const Scenario& scenario = scenario_of(source, options.scenario);
   std::vector<TableResult> tables = make_tables(scenario, parameters_for(source, options.scenario), options.plain || linked);
   if (linked && !scenario.has_profile()) tables[0].scenario.ranges_m.resize(1);
+  if (options.range && !scenario.has_profile()) tables[0].scenario.ranges_m = {scenario.runs_m().at(*options.range)};
   return tables;
 }
 
@@ -163,7 +181,8 @@ CaseSetup make_case(const SimulationResult& result, const TableResult& table, co
   return setup;
 }
 
-Plan make_plan(const CompiledMission& mission, SimulationResult& result, const sim::RayCaster& target) {
+// `first`: what is the scenario's number of the first range here.
+Plan make_plan(const CompiledMission& mission, SimulationResult& result, const sim::RayCaster& target, std::size_t first) {
   Plan plan;
   std::size_t count = 0;
   for (const TableResult& table : result.tables) count += table.variants.size();
@@ -175,7 +194,7 @@ Plan make_plan(const CompiledMission& mission, SimulationResult& result, const s
       variant.image_crc = LoadedImage("", plan.images.back()).mission().image_crc;
       for (std::size_t range = 0; range < table.scenario.runs_m().size(); ++range) {
         plan.cases.push_back(make_case(result, table, variant, range));
-        plan.cases.back().seed = case_seed(result.seed, t, range);
+        plan.cases.back().seed = case_seed(result.seed, t, first + range);
         plan.cases.back().scenario = drawn_scenario(plan.cases.back().scenario, plan.cases.back().seed);
         plan.cases.back().others = make_other_bodies(plan.cases.back().scenario, kEpochUs);
         plan.cases.back().image = &plan.images.back();
@@ -311,7 +330,7 @@ SimulationResult simulate(const CompiledMission& mission, const SimulationOption
   const std::unique_ptr<sim::RayCaster> target = simulated_target(mission.mesh, scenario, result.seed, mission.source.target_laser);
   std::optional<CompiledMission> changed;
   if (options.calibration && options.wire) changed = recalibrated(mission, *options.wire, *options.calibration);
-  Plan plan = make_plan(changed ? *changed : mission, result, *target);
+  Plan plan = make_plan(changed ? *changed : mission, result, *target, options.range.value_or(0));
   for (CaseSetup& setup : plan.cases) {
     setup.link = options.link;
     setup.authenticator = options.authenticator;
@@ -319,8 +338,13 @@ SimulationResult simulate(const CompiledMission& mission, const SimulationOption
     setup.camera_line = options.camera_line;
     setup.remote_line = options.remote_line;
     set_camera(mission, options, setup);
-    if (options.keep_scans) setup.keep_frames = all_frames(result.frames);
   }
+  for (std::size_t i = 0; i < options.recorders.size(); ++i) {
+    plan.cases.at(i).record = options.recorders[i].record;
+    plan.cases.at(i).listener = options.recorders[i].listener;
+  }
+  BothListeners both(plan.cases.front().listener, options.listener);
+  if (options.listener != nullptr) plan.cases.front().listener = &both;
   ProgressBar bar("track", plan.cases.size() * result.frames, "frames");
   collect(run_cases(plan.cases, options.jobs, bar), result);
   bar.finish();

@@ -16,14 +16,20 @@ namespace lasso::mdat {
 
 struct SimulationOptions {
   std::string scenario = "paper";
-  std::optional<std::uint64_t> seed;                      // otherwise the scenario's
-  std::optional<std::uint32_t> frames;                    // otherwise the scenario's
-  unsigned jobs = 1;                                      // cases at a time; the results do not depend on it
-  std::optional<lcs::Device> wire;                        // as CaseSetup's
-  sim::LcsFaults camera_faults;                           // of those cameras
-  std::shared_ptr<const sim::SensorRecording> replay;     // as CaseSetup's: of one case
-  std::shared_ptr<sim::SensorRecording> record;           // the same
-  RunListener* listener = nullptr;                        // of one case
+  std::optional<std::uint64_t> seed;                   // otherwise the scenario's
+  std::optional<std::uint32_t> frames;                 // otherwise the scenario's
+  unsigned jobs = 1;                                   // cases at a time; the results do not depend on it
+  std::optional<lcs::Device> wire;                     // as CaseSetup's
+  sim::LcsFaults camera_faults;                        // of those cameras
+  std::shared_ptr<const sim::SensorRecording> replay;  // as CaseSetup's: of one case
+  std::optional<std::size_t> range;                    // this one of the scenario's alone, as it flies among the others
+  // What keeps each case, where it is recorded: as many as the scenario, as it stands, has ranges.
+  struct CaseRecorder {
+    std::shared_ptr<sim::SensorRecording> record;  // as CaseSetup's
+    RunListener* listener = nullptr;
+  };
+  std::vector<CaseRecorder> recorders;
+  RunListener* listener = nullptr;                        // to the first case, besides its recorder
   std::optional<TriangulationCalibration> camera_optics;  // as CaseSetup's
   std::optional<TriangulationCalibration> calibration;    // in the image, instead of the mission's
   double camera_degC = 20;
@@ -34,7 +40,6 @@ struct SimulationOptions {
   std::string camera_line;                 // of this machine, over which the camera is reached, in real time: one case
   bool remote_line = false;                // which may lead to other machines
   bool plain = false;                      // the scenario as it stands: one table, one variant
-  bool keep_scans = false;                 // of all frames; otherwise of those that the report shows
 };
 
 // What a table compares. In the noise-free variants the estimator keeps the mission's noise model.

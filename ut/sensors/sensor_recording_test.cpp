@@ -82,7 +82,7 @@ TEST(SensorRecording, SaysWhatIsWrongAndWhere) {
     bytes.at(place) = byte;
     return refusal(bytes);
   };
-  EXPECT_NE(changed(0, 'X').find("not a recording of a sensor"), std::string::npos);
+  EXPECT_NE(changed(0, 'X').find("not what a sensor gave"), std::string::npos);
   EXPECT_NE(changed(7, 9).find("version 9, expected 2"), std::string::npos);
   EXPECT_NE(changed(8, 200).find("sensor 200"), std::string::npos);
   EXPECT_NE(changed(8 + 6, 0xFF).find("a plan that no scan can have"), std::string::npos);
