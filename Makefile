@@ -93,6 +93,14 @@ run: ## first: track the tenth-scale Hubble in simulation, and write the report 
 	@cfg/quality/measured.py run "$(OUT)/results.json"
 	@echo "open the report: xdg-open '$(OUT)/report.html'"
 
+# What it needs of npm stands at make page.
+serve: ## first: show recordings in a browser: builds the page into mdat and prints its address: PLACE=FOLDER|FILE.mcap (.) PORT=
+	$(page)
+	$(call packages,build)
+	$(call configure,$(BUILD),)
+	$(call compile,$(BUILD),mdat)
+	@exec $(BUILD)/mdat/mdat serve $(if $(PLACE),"$(PLACE)") $(if $(PORT),--port $(PORT))
+
 GALLERY ?= $(LASSO_OUT)/gallery
 recordings: ## measure: record a run, and read it with MCAP's reference library and Foxglove's reader of messages: MISSION= SCENARIO= FRAMES=
 	$(call packages,build recordings)
@@ -456,6 +464,23 @@ sanitize: ## gate: all tests in fixed point under the address and undefined sani
 	$(call compile,$(SANITIZE)-thread,$(THREADED))
 	@cfg/quality/run-tests sanitize address,undefined=$(SANITIZE)-address thread=$(SANITIZE)-thread $(THREADED)
 
+# $(page) builds the page of mdat serve into mdat/web/dist; an mdat that is compiled after it has it. What npm brings is kept until the lock file changes.
+WEB = mdat/web
+npm_ci = PLAYWRIGHT_SKIP_BROWSER_DOWNLOAD=1 npm ci --no-audit --no-fund --silent
+define page
+$(call packages,build web)
+@cd $(WEB) && { cmp -s package-lock.json node_modules/.lock || { $(npm_ci) && cp package-lock.json node_modules/.lock; }; }
+@cd $(WEB) && npm run --silent build
+endef
+
+page: ## gate: the page of mdat serve: lint, types, units, and each activity in Chromium, in both themes and by the keyboard alone
+	$(begin)
+	$(call packages,page)
+	$(page)
+	$(call configure,$(BUILD),)
+	$(call compile,$(BUILD),mdat)
+	@cfg/quality/page $(WEB) $(BUILD)
+
 requirements: ## gate: the requirements are well formed, and the tests name them as they are now
 	$(begin)
 	$(call packages,trace)
@@ -516,7 +541,7 @@ evidence: ## gate: collect what the gates left into out/evidence and docs/verifi
 
 gates-selftest: ## gate: every gate fails on its planted violation
 	$(begin)
-	$(call packages,build target lint trace coverage)
+	$(call packages,build target lint trace coverage web page)
 	@cfg/quality/gates-selftest
 
 inputs: ## gate: gates.toml names what the gates really read; after the gates

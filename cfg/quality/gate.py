@@ -24,11 +24,14 @@ TOOLS = {
     'clang-format': ('clang-format', 'lint'),
     'clang-tidy-22': ('clang-tidy-22', 'lint'),
     'cppcheck': ('cppcheck', 'lint'),
+    'chromium': ('chromium', 'page'),
     'ctest': ('cmake', 'build'),
     'git': ('git', 'lint'),
     'gcovr': ('gcovr', 'coverage'),
     'llvm-cov-19': ('llvm-19', 'coverage'),
     'llvm-profdata-19': ('llvm-19', 'coverage'),
+    'node': ('nodejs', 'web'),
+    'npm': ('npm', 'web'),
 }
 
 

@@ -57,8 +57,7 @@ std::unique_ptr<mdat::LoadedImage> make_image(const mdat::CompiledMission& missi
 
 std::vector<Scan> make_scans(const mdat::CompiledMission& mission, const ScanOptions& options) {
   const mdat::Scenario& scenario = mdat::scenario_of(mission.source, options.scenario);
-  if (scenario.scenario_kind() != mdat::ScenarioKind::kPaper)
-    throw mdat::InputError(options.scenario + ": its target moves during the scans");
+  if (scenario.variants == 0) throw mdat::InputError(options.scenario + ": its target moves during the scans");
   const auto image = make_image(mission, options.scenario, true);
   const MissionParameters& parameters = image->mission().parameters;
   const auto target = mdat::make_target(mission.mesh);

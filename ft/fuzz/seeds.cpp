@@ -337,6 +337,30 @@ std::string content_of(const fs::path& file) {
 }
 
 // The shipped missions, whose target becomes the mesh that the harness has, and a mission of the fewest lines.
+// Who asks has the token, or not; then the request (request.cpp).
+void write_requests(const fs::path& folder) {
+  const char* const targets[] = {"/",
+                                 "/api/about",
+                                 "/api/recordings",
+                                 "/api/recordings/ID",
+                                 "/api/recordings/ID/frames?columns=time_s,valid,error.position",
+                                 "/api/recordings/ID/frames/3",
+                                 "/api/recordings/ID/frames/2/scan?iteration=1",
+                                 "/api/recordings/ID/series?value=pose.inliers&from_s=0.001&to_s=1e3&points=3",
+                                 "/api/recordings/ID/statistics?value=error.angle",
+                                 "/api/recordings/ID/events?from=1&count=2&filter=lost%20&level=warning",
+                                 "/api/recordings/ID/model.glb",
+                                 "/api/recordings/ID/csv?values=pose.inliers,error.x",
+                                 "/api/jobs/job1",
+                                 "/?token=0011"};
+  int number = 0;
+  for (const char* target : targets) {
+    const std::string request = std::string("GET ") + target + "\naccept-encoding: gzip\norigin: http://127.0.0.1:8080\n\nbody";
+    write(folder / ("known" + std::to_string(number)), seed(1, request));
+    write(folder / ("stranger" + std::to_string(number++)), seed(0, request));
+  }
+}
+
 void write_missions(const fs::path& folder, const fs::path& missions) {
   const std::string target = "[target]\nmesh = \"target.obj\"\n";
   write(folder / "least", "[mission]\nid = 1\nversion = 1\nname = \"seed\"\n" + target);
@@ -367,6 +391,7 @@ int main(int argc, char** argv) {
     lasso::fuzz::write_meshes(folder / "mesh");
     lasso::fuzz::write_missions(folder / "mission", argv[2]);
     lasso::fuzz::write_packets(folder / "packet");
+    lasso::fuzz::write_requests(folder / "request");
     lasso::fuzz::write_scans(folder / "scan");
   } catch (const std::exception& error) {
     (void)std::fprintf(stderr, "fuzz_seeds: %s\n", error.what());

@@ -41,7 +41,6 @@ CLOUD
 sensor = true
 
 [scenario.lit]
-kind = "scene"
 frames = 20
 
 [scenario.checked]

@@ -73,7 +73,7 @@ TEST(Paper, RefusesWhatItCannotFly) {
   work.write("missions/laboratory.toml", read_text(work / "missions/test.toml"));
   const Answer other = work.mdat("paper --missions missions --out paper");
   EXPECT_EQ(other.exit_code, 2);
-  EXPECT_NE(other.err.find("scenario.spin.kind"), std::string::npos) << other.err;
+  EXPECT_NE(other.err.find("scenario.spin.variants"), std::string::npos) << other.err;
   std::string turning = read_text(source_path("cfg/missions/laboratory.toml"));
   turning.replace(turning.find("step_deg = 0.0"), 14, "step_deg = 3.0");
   turning.replace(turning.rfind("frames = 50"), 11, "frames = 40");

@@ -107,6 +107,34 @@ TEST(Stereo, DrivesTheTrackerOfARun) {
   for (std::size_t i = 1; i < lines.size(); ++i) EXPECT_GT(std::stoi(fields_of(lines[i]).at(returns)), 100) << lines[i];
 }
 
+TEST(Stereo, MeasuresManyPairsInStatedLights) {
+  VERIFIES("LASSO-STE-014~1");
+  const WorkFolder work;
+  const std::string trial =
+      "stereo missions/test.toml --range 3 --views 2 --set stereo.pixels=240 --set stereo.samples=1 --set sensor.sigma_k_per_m=0.002 --set "
+      "estimation.silhouettes=false --set estimation.kernel_width=4 ";
+  const Answer answer = work.mdat(trial + "--lights lamp,backlit_no_earth --jobs 2 --out tried");
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  const Json lights = Json::parse(work.read("tried/statistics.json")).at("lights");
+  ASSERT_EQ(lights.size(), 2U);
+  const Json &lamp = lights.at("lamp"), &dark = lights.at("backlit_no_earth");
+  EXPECT_EQ(lamp.at("pairs").at("pairs"), 2);
+  EXPECT_GT(lamp.at("pairs").at("valid_share").get<double>(), 0.5);
+  EXPECT_LT(dark.at("pairs").at("valid_share").get<double>(), 0.1);
+  EXPECT_GT(lamp.at("pairs").at("exposure_ms").get<double>(), 10) << "26 W/sr at 3 m";
+  EXPECT_EQ(lamp.at("poses").at("scans"), 6);
+  EXPECT_EQ(dark.at("poses").at("valid"), 0);
+  EXPECT_EQ(lines_of(work.read("tried/poses.csv")).size(), 1U + 12U + 4U * 12U);
+  ASSERT_EQ(work.mdat(trial + "--lights lamp --jobs 1 --out again").exit_code, 0);
+  const std::string all = work.read("tried/poses.csv");
+  for (const std::string& line : lines_of(work.read("again/poses.csv"))) EXPECT_NE(all.find(line), std::string::npos) << line;
+  for (const char* wrong : {"--lights lamb", "--time 3", "--nearest 1 --farthest 3"}) {
+    const Answer refused = work.mdat(trial + wrong);
+    EXPECT_EQ(refused.exit_code, 2) << wrong;
+    EXPECT_EQ(lines_of(refused.err).size(), 1U) << refused.err;
+  }
+}
+
 // mdat by itself, as it is where OpenCV was not there when it was built.
 TEST(Stereo, WithoutItsMatcherSaysWhatBringsIt) {
   VERIFIES("LASSO-STE-011~1");

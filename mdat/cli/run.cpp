@@ -141,6 +141,12 @@ void warn_of_replay(const SimulationResult& result) {
       run.replay_unserved);
 }
 
+// Passes each message of a run on, and keeps none.
+std::unique_ptr<FrameRecorder> open_live_listener(const CompiledMission& mission, MessageTap* tap) {
+  if (tap == nullptr) return nullptr;
+  return std::make_unique<FrameRecorder>("", mission, RecordingHead{}, nullptr, RecordingContent::kAll, tap);
+}
+
 // Places of the run's recordings, where it has any: nothing may be there, and they can be written.
 std::vector<std::filesystem::path> recordings_of(const RunArguments& options, const MissionSource& mission) {
   if (options.record.empty()) return {};
@@ -178,12 +184,6 @@ std::vector<Criterion> required_criteria(const RunArguments& options) {
   return criteria;
 }
 
-// The messages of the run for who watches it; null: nobody does.
-std::unique_ptr<FrameRecorder> open_watched(MessageTap* tap, const CompiledMission& mission) {
-  if (tap == nullptr) return nullptr;
-  return std::make_unique<FrameRecorder>("", mission, RecordingHead{}, nullptr, RecordingContent::kAll, tap);
-}
-
 void run(const RunArguments& options) {
   OutputFolder folder(options.out);
   check_earlier(options);
@@ -208,8 +208,8 @@ void run(const RunArguments& options) {
   const std::unique_ptr<RunRecorders> recorders = open_recorders(options, recordings, mission);
   if (recorders) simulation.recorders = recorders->cases();
   LiveRun live(options.live, mission.source.name + ", scenario " + simulation.scenario);
-  const std::unique_ptr<FrameRecorder> watched = open_watched(live.tap(), mission);
-  simulation.listener = live.paced(watched.get(), link != nullptr);
+  const std::unique_ptr<FrameRecorder> told = open_live_listener(mission, live.tap());
+  simulation.listener = live.paced(told.get(), link != nullptr);
   SimulationResult result = simulate(mission, simulation);
   live.end();
   if (recorders) recorders->close(image_bytes(mission, result.tables[0].variants[0].parameters));

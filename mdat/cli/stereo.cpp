@@ -12,6 +12,7 @@
 #include "mdat/stereo/disparity_errors.hpp"
 #include "mdat/stereo/disparity_view.hpp"
 #include "mdat/stereo/stereo_head.hpp"
+#include "mdat/trial/trial_results.hpp"
 
 namespace lasso::mdat {
 namespace {
@@ -22,11 +23,15 @@ struct StereoArguments {
   MatchDepths depths{0, 0};
   SceneRequest scene;
   std::vector<std::string> settings;
+  std::vector<std::string> lights;
+  std::uint32_t views = 0;  // 0: a pair
+  bool rendered = true;     // of views
   unsigned jobs = 1;
-  bool force = false;
+  bool force = false, cached = true;
 };
 
 constexpr const char* kPairFiles[] = {"left.png", "right.png", "calibration.toml", "errors.png", "truth.csv"};
+constexpr const char* kTrialFiles[] = {"statistics.json", "pairs.csv", "poses.csv", "fit.txt"};
 constexpr const char* kMatchFiles[] = {"disparity.png", "scans/range.ply"};
 
 // An earlier pair that this one would replace. Throws InputError.
@@ -144,6 +149,42 @@ void recorded_pair(const StereoArguments& options) {
   std::printf("written to %s: disparity.png, scans/range.ply\n", options.out.c_str());
 }
 
+// Many pairs in stated lights: what they measure, and poses of scans of them.
+void tried_pairs(const StereoArguments& options) {
+  OutputFolder folder(options.out);
+  if (!options.force) {
+    std::vector<std::filesystem::path> files;
+    for (const char* file : kTrialFiles) files.push_back(folder.path() / file);
+    refuse_to_replace(files, "--force replaces them, --out DIR keeps them");
+  }
+  TrialOptions trial;
+  trial.scenario = scenario_name(load_mission(options.mission, options.settings), options.scene.scenario);
+  trial.range_m = options.scene.range_m;
+  trial.views = options.views;
+  trial.rendered = options.rendered;
+  trial.lights = chosen_lights(options.lights);
+  trial.jobs = options.jobs;
+  MissionInput input = load_mission_input(options.mission, options.settings, trial.scenario);
+  const TrialResult result = try_pairs(compile_mission(std::move(input), ModelCache::of_user_if(options.cached)), trial);
+  const std::string contents[] = {trial_json(result), trial_pairs_csv(result), trial_poses_csv(result), fit_text(result.fit)};
+  const std::size_t files = options.rendered ? std::size(contents) : std::size(contents) - 1;  // nothing was measured to be fitted to
+  for (std::size_t i = 0; i < files; ++i) folder.write(kTrialFiles[i], contents[i]);
+  folder.commit();
+  std::fputs(trial_text(result).c_str(), stdout);
+  std::printf("written to %s: statistics.json, pairs.csv, poses.csv%s\n", options.out.c_str(), options.rendered ? ", fit.txt" : "");
+}
+
+// Words of one way to use the command that the other one would not hear.
+void check_trial(const StereoArguments& options, bool recorded) {
+  if (options.views == 0 && !options.lights.empty())
+    throw InputError("--lights: goes with --views, which says how many pairs each light has");
+  if (options.views == 0) return;
+  if (recorded) throw InputError("--views: pairs are rendered of a MISSION; leave out --left, --right and --calibration");
+  if (options.depths.nearest_m > 0 || options.scene.time_s != 0 || options.scene.seed || !options.scene.camera.empty() ||
+      !options.scene.materials.empty())
+    throw InputError("--views: --nearest, --farthest, --time, --seed, --camera and --material are of one pair: leave them out");
+}
+
 void stereo(const StereoArguments& options) {
   const PairFiles& files = options.recorded;
   const bool recorded = !files.left.empty() || !files.right.empty() || !files.calibration.empty();
@@ -155,6 +196,8 @@ void stereo(const StereoArguments& options) {
       (options.depths.nearest_m > 0 && options.depths.farthest_m <= options.depths.nearest_m))
     throw InputError(format("--nearest %g --farthest %g: expected both, a depth above 0 and then a greater one", options.depths.nearest_m,
                             options.depths.farthest_m));
+  check_trial(options, recorded);
+  if (options.views > 0) return tried_pairs(options);
   recorded ? recorded_pair(options) : simulated_pair(options);
 }
 
@@ -191,12 +234,20 @@ void add_stereo_command(CLI::App& app) {
       ->check(number_between(0.0, 1e6));
   command->add_option("--farthest", options->depths.farthest_m, "and to which (recorded: 1000 baselines)")->check(number_between(0.0, 1e6));
   add_simulated_options(command, options);
+  command
+      ->add_option("--views", options->views,
+                   "instead of one pair: this many views of the scenario in each light, their disparities and poses as statistics")
+      ->check(CLI::Range(1, 10000));
+  command->add_option("--lights", options->lights, "with --views: some of the lights, such as sun_behind,lamp (all)")->delimiter(',');
+  command->add_flag("!--fitted-only", options->rendered, "with --views: by the fitted model alone, without pictures: in seconds");
+  add_no_cache(*command, options->cached);
   command->add_option("-o,--out", options->out, "folder for the results")->capture_default_str();
   command->add_flag("--force", options->force, "replace an earlier pair in the folder");
   command->footer(
       "Examples:\n"
       "  mdat stereo hubble_tenth.toml --range 3 --set sensor.fov_half_x_deg=20 --set sensor.fov_half_y_deg=20\n"
       "  mdat stereo hubble_tenth.toml --range 3 --set 'stereo.sun=[0,0,0]' --set stereo.lamp_Wpsr=26\n"
+      "  mdat stereo hubble_stereo.toml --views 6 --range 3\n"
       "  mdat stereo --left L.png --right R.png --calibration C.toml --nearest 2 --farthest 5");
   command->callback([options] { stereo(*options); });
 }

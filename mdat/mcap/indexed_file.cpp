@@ -138,32 +138,32 @@ bool IndexedFile::take_summary(std::string_view summary) {
   return reader.ok();
 }
 
-bool IndexedFile::take_index(Op op, std::string_view content) {
+bool IndexedFile::take_definition(Op op, std::string_view content) {
   if (op == Op::kSchema) {
     Schema schema;
     return get(content, schema) && schemas_.insert_or_assign(schema.id, schema).second;
   }
-  if (op == Op::kChannel) {
-    Channel channel;
-    return get(content, channel) && channels_.insert_or_assign(channel.id, channel).second;
-  }
+  Channel channel;
+  return get(content, channel) && channels_.insert_or_assign(channel.id, channel).second;
+}
+
+// A record of the summary. False: it is shorter than it says, or leads beyond the file.
+bool IndexedFile::take_index(Op op, std::string_view content) {
+  if (op == Op::kSchema || op == Op::kChannel) return take_definition(op, content);
+  if (op == Op::kStatistics) take_statistics(content);
   if (op == Op::kChunkIndex) {
-    ChunkPlace chunk;
-    if (!chunk_of(content, chunk) || !fits(chunk.at, chunk.size, size_)) return false;
-    chunks_.push_back(std::move(chunk));
+    chunks_.emplace_back();
+    return chunk_of(content, chunks_.back()) && fits(chunks_.back().at, chunks_.back().size, size_);
   }
   if (op == Op::kAttachmentIndex) {
-    AttachmentPlace place;
-    if (!attachment_of(content, place) || !fits(place.at, place.size, size_)) return false;
-    attachments_.push_back(std::move(place));
+    attachments_.emplace_back();
+    return attachment_of(content, attachments_.back()) && fits(attachments_.back().at, attachments_.back().size, size_);
   }
-  if (op == Op::kMetadataIndex) {
-    ByteReader reader(content);
-    const auto at = reader.get<std::uint64_t>(), size = reader.get<std::uint64_t>();
-    if (!reader.ok() || !fits(at, size, size_)) return false;
-    take_metadata(at, size);
-  }
-  if (op == Op::kStatistics) take_statistics(content);
+  if (op != Op::kMetadataIndex) return true;
+  ByteReader reader(content);
+  const auto at = reader.get<std::uint64_t>(), size = reader.get<std::uint64_t>();
+  if (!reader.ok() || !fits(at, size, size_)) return false;
+  take_metadata(at, size);
   return true;
 }
 

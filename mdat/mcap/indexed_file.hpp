@@ -61,6 +61,7 @@ class IndexedFile {
  private:
   bool read_summary();
   bool take_summary(std::string_view summary);
+  bool take_definition(Op op, std::string_view content);
   bool take_index(Op op, std::string_view content);
   void take_statistics(std::string_view content);
   void walk();

@@ -17,7 +17,8 @@ struct NotVaried {
 constexpr char kShared[] =
     "the simulated sensor and its clock follow it, so that belief and truth would vary together: write a mission for each value";
 constexpr NotVaried kNotVaried[] = {
-    {"kind", "another kind is another scenario: write a campaign for each"},
+    {"autonomous", "such a flight is another scenario: write a campaign for each"},
+    {"variants", "a case flies one: write a campaign for each"},
     {"frames", "write frames = NUMBER in the campaign itself: all its cases have as many"},
     {"seed", "each case has a seed of its own; write seed = NUMBER in the campaign itself for other cases"},
     {"drawn", "write attitude = \"any\", and spin_degps = { any_direction = LAW }"},

@@ -123,8 +123,8 @@ class CampaignCheck {
       complain(found->key, "truth.range_m",
                "scenario " + campaign_.scenario +
                    (scenario_.scene != nullptr
-                        ? " is a scene, whose motions say where the target is: choose a scenario of kind spin or paper"
-                        : " flies a profile of ranges at times_s: vary offset_m, or choose a scenario of kind spin or paper"));
+                        ? " flies the mission's nodes, whose motions say where the target is: choose a scenario with ranges_m"
+                        : " flies a profile of ranges at times_s: vary offset_m, or choose a scenario without times_s"));
     if (scenario_.drawn != 0 && has_column(campaign_, attitude_columns(), found))
       complain(found->key, "", "changes nothing: scenario " + campaign_.scenario + " draws its attitude itself; write drawn = false in it");
   }
@@ -144,8 +144,8 @@ class CampaignCheck {
   void check_effect(const Dispersion& dispersion) {
     for (const std::string& column : dispersion.columns) {
       const bool simulated = column.rfind("truth.", 0) == 0;
-      if (!simulated || has_effect(find_column(column)->row.key, scenario_.scenario_kind())) continue;
-      warn(dispersion, column, "has no effect: scenario " + campaign_.scenario + " is of another kind");
+      if (!simulated || has_effect(scenario_, find_column(column)->row.key)) continue;
+      warn(dispersion, column, "has no effect in scenario " + campaign_.scenario);
     }
   }
   void check_rows(const Dispersion& dispersion) {

@@ -43,14 +43,13 @@ bool overrides_any(const Subject& s, const Rule& rule) {
   return std::any_of(rule.keys.begin(), rule.keys.end(), [&](const char* key) { return is_overridden(s, key); });
 }
 
-// What a scene does is by its motions.
-bool is_of_motion(const Subject& s, const std::string& key) {
-  return s.scenario != nullptr && s.scenario->scene != nullptr && is_of_scenario(key) && !has_effect(key, ScenarioKind::kScene);
+bool is_of_nodes(const Subject& s, const std::string& key) {
+  return s.scenario != nullptr && is_of_scenario(key) && is_of_motion(*s.scenario, key);
 }
 
 std::string label_of(const Subject& s, const Rule& rule) {
   const std::string key = rule.keys.front();
-  if (is_of_motion(s, key)) return scenario_prefix(s) + "motion";
+  if (is_of_nodes(s, key)) return scenario_prefix(s) + "motion";
   if (is_of_scenario(key)) return scenario_prefix(s) + key;
   return (is_overridden(s, key) ? scenario_prefix(s) + "override: " : "") + mission_key(s, key);
 }
@@ -66,7 +65,7 @@ std::string value_of_field(const Subject& s, const std::string& key) {
 }
 
 std::string value_of(const Subject& s, const std::string& key) {
-  if (is_of_motion(s, key)) return "";
+  if (is_of_nodes(s, key)) return "";
   if (is_of_scenario(key)) return value_of_field(s, key);
   if (key == "target.cell_size_m") return number_text(s.source.target.cell_size_m);
   if (key == "target.crease_angle_deg") return value_text(*find_row(mission_rows(), key), {s.source.target.crease_angle_rad});
@@ -107,7 +106,7 @@ Origin place_of(const Subject& s, const Rule& rule) {
     if (origin->set) return *origin;
     if (place.preset()) place = *origin;
   }
-  if (place.preset() && is_of_motion(s, rule.keys.front())) return written_at(s.source, scenario_prefix(s) + "kind").value_or(place);
+  if (place.preset() && is_of_nodes(s, rule.keys.front())) return written_at(s.source, "scenario." + s.name).value_or(place);
   return place;
 }
 

@@ -12,6 +12,7 @@
 #include "mdat/missiondb/model_file.hpp"
 #include "mdat/missiondb/motion_reader.hpp"
 #include "mdat/missiondb/node_reader.hpp"
+#include "mdat/missiondb/old_kinds.hpp"
 #include "mdat/missiondb/part_reader.hpp"
 #include "mdat/missiondb/sections.hpp"
 #include "mdat/missiondb/sensor_reader.hpp"
@@ -128,10 +129,12 @@ class Loader {
                    [&](const std::string& name, const toml::table& table) { read_scenario_table(name, table, "scenario." + name + "."); });
   }
   void read_scenario_table(const std::string& name, const toml::table& table, const std::string& prefix) {
-    scenario_found_[name] = read_table(table, prefix, scenario_rows(), {"motion", "override"}, problems_);
+    source_.origins["scenario." + name] = origin_of(table.source());
+    scenario_found_[name] = read_table(table, prefix, scenario_rows(), {"kind", "motion", "override"}, problems_);
     for (const ValueRow& row : scenario_rows()) note_origin(prefix + row.key, scenario_found_[name], row.key);
     motions_[name] = read_chosen_motions(table, prefix, source_, problems_);
-    check_scenario_kind(table, prefix, scenario_found_[name]);
+    refuse_kind(table, prefix, problems_);
+    if (!table.contains("kind")) check_place(table, prefix, scenario_found_[name]);
     const toml::node* node = table.get("override");
     if (node == nullptr) return;
     if (!node->is_table()) return problems_.add(*node, prefix + "override", "wrong type: expected a table of flight parameters");
@@ -139,22 +142,21 @@ class Loader {
     for (const auto& [key, value] : overrides_[name]) source_.origins[prefix + "override." + key] = value.origin;
   }
 
-  // Who flies through the mission's nodes says no ranges; who does not says nothing of their motions.
-  void check_scenario_kind(const toml::table& table, const std::string& prefix, const FoundValues& found) {
-    const auto kind = found.find("kind");
-    if (kind == found.end()) return;  // is missing, which has been said
-    const bool scene = static_cast<ScenarioKind>(static_cast<int>(kind->second.numbers.at(0))) == ScenarioKind::kScene;
-    if (!scene && found.count("ranges_m") == 0 && !table.contains("ranges_m"))
+  // Who says ranges says nothing of the nodes' motions, and the other way round.
+  void check_place(const toml::table& table, const std::string& prefix, const FoundValues& found) {
+    const auto times = found.find("times_s");
+    if (table.contains("ranges_m")) {
+      if (table.contains("motion"))
+        problems_.add(*table.get("motion"), prefix + "motion",
+                      "has no effect where ranges_m say where the target is: leave one of both out");
+    } else if (source_.scene.target.empty() && source_.scene.sensor.empty()) {
       problems_.add(origin_of(table.source()), prefix + "ranges_m", "",
-                    "is missing: " + expectation(*find_row(scenario_rows(), "ranges_m")));
-    for (const char* key : {"ranges_m", "times_s"}) {
-      const auto written = found.find(key);
-      if (scene && written != found.end())
-        problems_.add(written->second.origin, prefix + key, "",
-                      "leave it out: in a scenario of kind scene the nodes' motions say where the target is");
+                    "is missing: " + expectation(*find_row(scenario_rows(), "ranges_m")) +
+                        "; or nodes, one with target = true and one with sensor = true (docs/scenes.md)");
+    } else if (times != found.end()) {
+      problems_.add(times->second.origin, prefix + "times_s", "",
+                    "leave it out: without ranges_m the nodes' motions say where the target is");
     }
-    if (!scene && table.contains("motion"))
-      problems_.add(*table.get("motion"), prefix + "motion", "has no effect in a scenario of this kind: expected kind = \"scene\"");
   }
 
   void read_model_parameters() {
@@ -263,8 +265,8 @@ class Loader {
       MissionParameters parameters = source_.parameters;
       override_parameters(parameters, scenario.overrides);
       for (const ScenarioField& field : scenario_fields()) fill_field(scenario, field, found, parameters);
-      if (scenario.scenario_kind() == ScenarioKind::kScene)
-        make_scene_run(motions_[name], name, found.at("kind").origin, parameters.period_s, source_, scenario, problems_);
+      if (scenario.ranges_m.empty())
+        make_scene_run(motions_[name], name, source_.origins.at("scenario." + name), parameters.period_s, source_, scenario, problems_);
       source_.scenarios[name] = scenario;
     }
   }
@@ -286,9 +288,7 @@ class Loader {
   }
 
   void check_contradictions() {
-    const auto is_unmade = [](const auto& entry) {
-      return entry.second.scenario_kind() == ScenarioKind::kScene && entry.second.scene == nullptr;
-    };
+    const auto is_unmade = [](const auto& entry) { return entry.second.ranges_m.empty() && entry.second.scene == nullptr; };
     if (std::any_of(source_.scenarios.begin(), source_.scenarios.end(), is_unmade)) return;  // which has been said
     const std::vector<Problem> contradictions = check_rules(source_, nullptr);
     if (!contradictions.empty()) problems_.add(MissionError(contradictions));

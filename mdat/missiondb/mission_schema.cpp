@@ -21,9 +21,7 @@ Json scenario_schema() {
   schema["properties"]["override"] = overrides;
   schema["properties"]["motion"] = {{"type", "object"},
                                     {"additionalProperties", {{"type", "string"}}},
-                                    {"description", "scene: motions by node, in place of the nodes' own"}};
-  schema["if"] = {{"properties", {{"kind", {{"const", "scene"}}}}}};
-  schema["else"] = {{"required", {"ranges_m"}}};
+                                    {"description", "without ranges_m: motions by node, in place of the nodes' own"}};
   return schema;
 }
 

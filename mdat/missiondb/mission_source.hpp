@@ -76,8 +76,6 @@ struct FurtherSensor {
 // Of laser cameras, by the number of the sensor; of several of one camera the first holds until a command says otherwise.
 using Calibrations = std::map<std::uint8_t, std::vector<TriangulationCalibration>>;
 
-enum class ScenarioKind : std::uint8_t { kPaper = 0, kSpin = 1, kApproach = 2, kPass = 3, kScene = 4 };
-
 // What is doubtful about the mission by itself, or about a scenario, by the number of the rule that says so.
 struct Doubt {
   std::size_t rule = 0;
@@ -85,28 +83,32 @@ struct Doubt {
   Problem problem;
 };
 
-// What the simulation does. Attitude of frame 0: target's x axis vertical in the image (+x up, -y of the sensor), its z axis away from the
-// sensor, then tilted by `tilt_rad` about the sensor's x (the -x end towards the sensor), then by `boresight_rad` about the boresight.
-// kPaper: the target stands still in each scan and is turned by `step_rad` about its own x axis from frame to frame.
-// kSpin: it turns at `spin_radps` and drifts at `drift_mps`, during the scans as well. Where the motion is `drawn`, each run has an
-// attitude of frame 0, and axes of spin and drift, of its own; their magnitudes are those given. kApproach: it turns at `spin_radps`, and
-// `ranges_m` are the ranges of one run at `times_s`. The component starts by itself: it looks for the bearing, and is offered poses by a
-// simulated navigation system. Between the two times of `eclipse_s` nothing returns. kPass: it moves as in an approach, and the track
-// starts from the true pose. kScene: target, sensor and all else move as the mission's nodes do; one run, which starts as that of a pass.
+// What the simulation does: where the target is, what the component is given to start from, what is simulated otherwise than it believes,
+// and what the results compare.
+//
+// Without ranges the target, the sensor and all else move as the mission's nodes do: one run. With ranges the target is alone before a
+// sensor at rest. Its attitude at frame 0: x axis vertical in the image (+x up, -y of the sensor), z axis away from the sensor, then
+// tilted by `tilt_rad` about the sensor's x (the -x end towards the sensor), then by `boresight_rad` about the boresight. From there it
+// turns at `spin_radps` and drifts at `drift_mps`; or it stands still in each scan, and is turned by `step_rad` about its own x axis from
+// frame to frame. Where the motion is `drawn`, each run has an attitude, and axes of spin and drift, of its own, with magnitudes as given.
+//
+// The track starts from the true pose of one frame before, at rest, and does so again when it is lost; without `prior` the component seeks
+// the bearing instead. `autonomous`: it is told once to seek the bearing, is offered poses by a simulated navigation system, and nobody
+// else helps. Between the two times of `eclipse_s` nothing returns.
 struct Scenario {
-  double kind = 0;  // a ScenarioKind
-  std::vector<double>
-      ranges_m;  // along the boresight, one run of `frames` each; kApproach, kPass: one for each of `times_s`; kScene: as it moves
+  std::vector<double> ranges_m;  // of center_m along the boresight: one run each, or, with times_s, one run; of nodes: as they move
+  double autonomous = 0;         // 1: see above
+  double variants = 0;           // 1: flown as the paper compares it: without noise, from hits alone, with aimed rays, and side-on
   double frames = 0, step_rad = 0, tilt_rad = 0, boresight_rad = 0;
-  double roll_rad = 0;             // of the target about its own x axis, before all else
-  double drawn = 0;                // 1: at random, by the run's seed
-  double paper_table = 0;          // 1: the scenario is the paper's own, whose table stands beside its results
-  std::vector<double> offset_m;    // x, y of the target's centre in the sensor frame
-  std::vector<double> center_m;    // that point in the target's frame: ranges are its own, and the target turns about it
-  std::vector<double> spin_radps;  // x, y, z in the target's axes
-  std::vector<double> drift_mps;   // x, y, z in the sensor's axes
-  std::vector<double> times_s;     // since frame 0
-  std::vector<double> eclipse_s;   // begin and end; none where these are the same
+  double roll_rad = 0;                      // of the target about its own x axis, before all else
+  double drawn = 0;                         // 1: at random, by the run's seed
+  double paper_table = 0;                   // 1: the scenario is the paper's own, whose table stands beside its results
+  std::vector<double> offset_m{0, 0};       // x, y of the target's centre in the sensor frame
+  std::vector<double> center_m{0, 0, 0};    // that point in the target's frame: ranges are its own, and the target turns about it
+  std::vector<double> spin_radps{0, 0, 0};  // x, y, z in the target's axes
+  std::vector<double> drift_mps{0, 0, 0};   // x, y, z in the sensor's axes
+  std::vector<double> times_s;              // since frame 0, at which the target is at its ranges, at rest; none: it stays at each
+  std::vector<double> eclipse_s;            // begin and end; none where these are the same
   double navigation_from_s = 0, navigation_period_s = 0, navigation_sigma_m = 0, navigation_sigma_rad = 0;
   double prior = 1;                    // 0: no pose to start from is given; the component is commanded to seek the bearing
   std::vector<double> prior_turn_rad;  // rotation vector in the target's axes by which the pose to start from is wrong
@@ -131,11 +133,11 @@ struct Scenario {
 
   // The first range of each run.
   std::vector<double> runs_m() const { return has_profile() ? std::vector<double>{ranges_m.front()} : ranges_m; }
-  // One run that goes through several ranges.
-  bool has_profile() const { return scenario_kind() >= ScenarioKind::kApproach; }
-  ScenarioKind scenario_kind() const { return static_cast<ScenarioKind>(static_cast<int>(kind)); }
+  bool has_profile() const { return !times_s.empty(); }                   // one run that goes through several ranges
+  bool has_timeline() const { return has_profile() || autonomous != 0; }  // one run that is shown along its time
+  bool seeks_bearing() const { return prior == 0 || autonomous != 0; }
   std::map<std::string, double> overrides;  // key of a parameter row -> value in the row's TOML unit
-  std::shared_ptr<const SceneRun> scene;    // kScene
+  std::shared_ptr<const SceneRun> scene;    // of the mission's nodes; null: it says ranges
 };
 
 struct MissionSource {

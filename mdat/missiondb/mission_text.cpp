@@ -112,7 +112,7 @@ void write_part(ValueLines& out, const MissionSource& source, const PartSource& 
 void write_scenario(ValueLines& out, const MissionSource& source, const std::string& name) {
   const Scenario& scenario = scenario_of(source, name);
   for (const ScenarioField& field : scenario_fields()) {
-    if (scenario.scene != nullptr && !has_effect(field.row.key, ScenarioKind::kScene)) continue;
+    if (is_of_motion(scenario, field.row.key) || (field.list != nullptr && (scenario.*field.list).empty())) continue;
     const std::string key = "scenario." + name + "." + field.row.key;
     std::string place = place_text(source, key);
     if (place == "preset" && !field.row.preset_from.empty()) place = "as sensor." + field.row.preset_from.substr(7);

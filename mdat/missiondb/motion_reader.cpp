@@ -8,6 +8,7 @@
 #include "mdat/scene/clohessy_wiltshire.hpp"
 #include "mdat/scene/motion_csv.hpp"
 #include "mdat/scene/torque_free.hpp"
+#include "mdat/scene/way.hpp"
 #include "mdat/source/nearest.hpp"
 
 namespace lasso::mdat {
@@ -161,10 +162,9 @@ class MotionReader {
       table.lines.push_back(point.place().line);
     });
     if (problems_.size() != problems_before_) return nullptr;
-    table.velocities_mps.assign(table.times_s.size(), Vec3::Zero());
     Pose attitude;
     attitude.q = values_->pose().q;
-    return std::make_shared<scene::Chain>(make<scene::TableMotion>(table), make<scene::Still>(attitude));
+    return std::make_shared<scene::Sum>(make<scene::Way>(table), make<scene::Still>(attitude));
   }
 
   MotionPtr table() {
@@ -264,7 +264,7 @@ class MotionsReader {
     if (kind->name == "torque_free") source_.scene.free_tumbles.insert(name);
     if (kind->name == "chain") {
       const SceneValues values(table, path, kind->rows, {"kind"}, source_, problems_);
-      chains_[name] = {values.texts("of"), values.place()};
+      chains_[name] = values.texts("of");
       return;
     }
     try {
@@ -272,7 +272,7 @@ class MotionsReader {
     } catch (const MissionError& error) {
       std::vector<Problem> told = error.problems();
       for (Problem& problem : told) {
-        if (problem.file == source_.file.string()) problem.key = path + (problem.key.empty() ? "" : ", " + problem.key);
+        if (problem.file == source_.file.string()) problem = at_key(problem, path, problem.key, source_);
       }
       problems_.add(MissionError(told));
     }
@@ -305,7 +305,7 @@ class MotionsReader {
     if (open_.count(name) != 0) return complain(name, "is part of itself");
     if (!tried_.insert(name).second) return known(name);
     open_.insert(name);
-    const MotionPtr motion = joined(name, chain->second.of);
+    const MotionPtr motion = joined(name, chain->second);
     open_.erase(name);
     source_.scene.motions[name] = motion;
     return motion;
@@ -321,17 +321,21 @@ class MotionsReader {
 
   MotionPtr joined(const std::string& name, const std::vector<std::string>& links) {
     MotionPtr motion;
-    bool keeps_hill = true;
+    bool keeps_hill = true, whole = !links.empty();
     for (const std::string& link : links) {
       const MotionPtr next = chained(link);  // first: it says whether the link is in the Hill frame
       const std::string fault = fault_of(link, keeps_hill);
       if (!fault.empty()) return complain(name, fault);
-      if (next == nullptr) return nullptr;
+      if (next == nullptr) {
+        whole = false;  // which has been said
+        continue;
+      }
       keeps_hill = keeps_hill && kinds_[link] == "clohessy_wiltshire";
       source_.scene.used_motions.insert(link);
       sizes_[name] += std::max<std::size_t>(1, sizes_[link]);
       motion = motion == nullptr ? next : std::make_shared<scene::Chain>(motion, next);
     }
+    if (!whole) return nullptr;
     if (source_.scene.in_hill.count(links.front()) != 0) source_.scene.in_hill.insert(name);
     if (source_.scene.free_tumbles.count(links.front()) != 0) source_.scene.free_tumbles.insert(name);
     if (sizes_[name] <= kMostLinks) return motion;
@@ -339,18 +343,15 @@ class MotionsReader {
   }
 
   MotionPtr complain(const std::string& name, const std::string& what) {
-    problems_.add(origin_of(chains_[name].place), "motion." + name + ".of", "", what);
+    const std::string key = "motion." + name + ".of";
+    problems_.add(source_.origins.at(key), key, "", what);
     return nullptr;
   }
 
-  struct ChainSource {
-    std::vector<std::string> of;
-    scene::Place place;
-  };
   MissionSource& source_;
   ProblemList& problems_;
   std::vector<std::string> names_;
-  std::map<std::string, ChainSource> chains_;
+  std::map<std::string, std::vector<std::string>> chains_;
   std::set<std::string> open_, tried_;  // chains that are being made, or have been
   std::map<std::string, std::size_t> sizes_;
   std::map<std::string, std::string> kinds_;

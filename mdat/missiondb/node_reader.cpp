@@ -77,21 +77,23 @@ class NodeReader {
 
   void read_body() {
     std::string key;
-    for (const char* candidate : {"model", "mesh", "parts"}) {
+    for (const char* candidate : {"model", "mesh", "points", "parts"}) {
       if (!values_.is_written(candidate)) continue;
-      if (!key.empty()) values_.complain(candidate, "", "expected at most one of model, mesh and parts");
+      if (!key.empty()) values_.complain(candidate, "", "expected at most one of model, mesh, points and parts");
       key = candidate;
     }
     if (values_.number("target") != 0 && !key.empty())
       values_.complain(key, "", "the target's node looks as [target] says: leave it out, or give it a node of its own");
+    if (key != "points" && values_.is_written("disc_radius_m")) values_.complain("disc_radius_m", "", "has no effect without points");
     if (key.empty()) {
-      if (values_.is_written("scale")) values_.complain("scale", "", "has no effect without model or mesh");
+      if (values_.is_written("scale")) values_.complain("scale", "", "has no effect without model, mesh or points");
       return;
     }
     BodySource body;
     body.node = node_.name;
     body.key = "node." + node_.name + "." + key;
     body.parametric = key == "model";
+    if (key == "points") body.disc_radius_m = values_.number("disc_radius_m");
     body.scale = values_.number("scale");
     body.parts = values_.texts("parts");
     if (key != "parts") body.file = values_.file(key);
@@ -121,7 +123,7 @@ std::set<std::string> used_nodes(const SceneSource& scene) {
   std::set<std::string> used{scene.target, scene.sensor, kSceneLvlh};
   for (const BodySource& body : scene.bodies) used.insert(body.node);
   for (const VolumeSource& volume : scene.volumes) used.insert(volume.node);
-  for (const RelativeSource& relative : scene.relative) used.insert({relative.of, relative.in});
+  for (const RelativeSource& relative : scene.relative) used.insert({relative.of, relative.in, relative.axes});
   for (std::size_t before = 0; before != used.size();) {
     before = used.size();
     for (const scene::Node& node : scene.nodes) {
@@ -145,6 +147,12 @@ void add_lvlh(SceneSource& scene, ProblemList& problems) {
   scene.nodes.push_back(node);
 }
 
+// The tree says "NODE, WHAT".
+Problem of_node(const Problem& problem, const MissionSource& source) {
+  const std::size_t end = std::min(problem.key.rfind(", "), problem.key.size());
+  return at_key(problem, "node." + problem.key.substr(0, end), problem.key.substr(std::min(end + 2, problem.key.size())), source);
+}
+
 // At evenly spread frames of the run.
 void look_at_motion(double frames, double period_s, SceneRun& run) {
   const double end_s = (frames - 1) * period_s;
@@ -165,17 +173,24 @@ void look_at_motion(double frames, double period_s, SceneRun& run) {
 }
 
 // The component knows one pose, of the target before the sensors: what moves against either, it knows nothing of.
-void pair_frames(const SceneSource& scene, const std::string& scenario, SceneRun& run, ProblemList& problems) {
+void pair_frames(const MissionSource& source, const std::string& scenario, SceneRun& run, ProblemList& problems) {
+  const SceneSource& scene = source.scene;
+  const auto refuse = [&](const std::string& key, const std::string& node, const std::string& why) {
+    problems.add(source.origins.at(key), key, '"' + node + '"', why);
+  };
   for (const RelativeSource& relative : scene.relative) {
-    const RelativePair pair{relative.name, run.tree.need(relative.of), run.tree.need(relative.in)};
-    const Origin origin = origin_of(relative.place);
+    RelativePair pair{relative.name, run.tree.need(relative.of), run.tree.need(relative.in)};
     const std::string path = "relative." + relative.name;
     if (!run.tree.are_rigid(pair.of, run.target))
-      problems.add(origin, path + ".of", '"' + relative.of + '"',
-                   "moves against the target in scenario " + scenario + ": name a node that stands on " + scene.target);
+      refuse(path + ".of", relative.of,
+             "moves against the target in scenario " + scenario + ": name a node that stands on " + scene.target);
     if (!run.tree.are_rigid(pair.in, run.sensor))
-      problems.add(origin, path + ".in", '"' + relative.in + '"',
-                   "moves against the sensor in scenario " + scenario + ": name a node that stands on what carries " + scene.sensor);
+      refuse(path + ".in", relative.in,
+             "moves against the sensor in scenario " + scenario + ": name a node that stands on what carries " + scene.sensor);
+    if (!relative.axes.empty()) pair.axes = run.tree.need(relative.axes);
+    if (pair.axes && run.tree.are_rigid(*pair.axes, run.target))
+      refuse(path + ".axes", relative.axes,
+             "stands on the target, whose attitude is what is measured: name a node that does not, such as lvlh");
     run.relative.push_back(pair);
   }
 }
@@ -196,6 +211,9 @@ const std::vector<ValueRow>& node_rows() {
       flag_row("sensor", "the sensors' frame: z is the boresight, x right, y down"),
       text_row("model", "[^\\x00-\\x1f]+\\.toml", "what it looks like: a parametric model with its presets"),
       text_row("mesh", "[^\\x00-\\x1f]+", "what it looks like: a mesh (STL, OBJ, PLY, glTF)"),
+      text_row("points", "[^\\x00-\\x1f]+\\.ply",
+               "what it looks like: a cloud of points (PLY), each a small disc across its normal, or a grain where the file has none"),
+      number_row("disc_radius_m", "m", kReal, 1, 1e-6, 10, 0.005, "radius of these discs"),
       number_row("scale", "1", kReal, 1, 1e-9, 1e9, 1, "that file's lengths times this are metres"),
       parts_row(),
   });
@@ -209,8 +227,8 @@ void read_nodes(const toml::table& root, MissionSource& source, ProblemList& pro
   try {
     static_cast<void>(scene::Tree(kSceneRoot, source.scene.nodes));
   } catch (const MissionError& error) {
-    std::vector<Problem> told = error.problems();
-    for (Problem& problem : told) problem.key = "node." + problem.key;
+    std::vector<Problem> told;
+    for (const Problem& problem : error.problems()) told.push_back(of_node(problem, source));
     problems.add(MissionError(told));
   }
 }
@@ -219,6 +237,8 @@ const std::vector<ValueRow>& relative_rows() {
   static const std::vector<ValueRow> rows = {
       required(text_row("of", "[^\\x00-\\x1f]+", "node that stands on the target: what the pose is of")),
       required(text_row("in", "[^\\x00-\\x1f]+", "node that stands on what carries the sensor: whose axes the pose is in")),
+      text_row("axes", "[^\\x00-\\x1f]+",
+               "node whose axes it is said in instead, such as lvlh: how they turn against the sensors is taken as known"),
   };
   return rows;
 }
@@ -230,12 +250,12 @@ void read_relative(const toml::table& root, MissionSource& source, ProblemList& 
     SceneValues values(table, "relative." + name, relative_rows(), {}, source, problems);
     if (name.find_first_of(",\"\n\r;") != std::string::npos)
       values.complain("", "", "expected a name without commas, semicolons and quotes: it stands in a table");
-    for (const char* key : {"of", "in"}) {
+    for (const char* key : {"of", "in", "axes"}) {
       const std::string written = values.text(key);
       if (!written.empty() && std::find(names.begin(), names.end(), written) == names.end())
         values.complain(key, '"' + written + '"', "the mission has no [node." + written + "]" + did_you_mean(written, names));
     }
-    source.scene.relative.push_back({name, values.text("of"), values.text("in"), values.place()});
+    source.scene.relative.push_back({name, values.text("of"), values.text("in"), values.text("axes")});
   });
 }
 
@@ -287,8 +307,8 @@ void make_scene_run(const ChosenMotions& chosen, const std::string& name, Origin
   const SceneSource& scene = source.scene;
   for (const auto& [key, node] : {std::pair{"target", scene.target}, std::pair{"sensor", scene.sensor}}) {
     if (node.empty())
-      problems.add(origin, "scenario." + name + ".kind", "\"scene\"",
-                   std::string("no node of the mission has ") + key + " = true: add [node.NAME]");
+      problems.add(origin, "scenario." + name, "",
+                   std::string("no node of the mission has ") + key + " = true: add it to a [node.NAME]; or write ranges_m");
   }
   if (scene.target.empty() || scene.sensor.empty()) return;
   std::vector<scene::Node> nodes = scene.nodes;
@@ -302,7 +322,7 @@ void make_scene_run(const ChosenMotions& chosen, const std::string& name, Origin
   run->sensor = run->tree.need(scene.sensor);
   for (const BodySource& body : scene.bodies) run->body_nodes.push_back(run->tree.need(body.node));
   for (const VolumeSource& volume : scene.volumes) run->volumes.emplace_back(run->tree.need(volume.node), volume.volume);
-  pair_frames(scene, name, *run, problems);
+  pair_frames(source, name, *run, problems);
   look_at_motion(scenario.frames, period_s, *run);
   scenario.times_s = run->times_s;
   scenario.ranges_m = run->ranges_m;

@@ -25,7 +25,7 @@ ChosenMotions read_chosen_motions(const toml::table& scenario, const std::string
 // What is declared and changes nothing: motions that no node has, nodes at which nothing stands. It joins the source's warnings.
 void warn_of_idle(MissionSource& source);
 
-// Makes a scenario of kind scene fly through the mission's nodes. `origin` is the scenario's place. What is wrong is a problem.
+// Makes a scenario without ranges fly through the mission's nodes. `origin` is the scenario's place. What is wrong is a problem.
 void make_scene_run(const ChosenMotions& chosen, const std::string& name, Origin origin, double period_s, const MissionSource& source,
                     Scenario& scenario, ProblemList& problems);
 

@@ -4,6 +4,7 @@
 #include "mdat/missiondb/mesh_import.hpp"
 #include "mdat/missiondb/mesh_text.hpp"
 #include "mdat/missiondb/ply_header.hpp"
+#include "mdat/missiondb/point_discs.hpp"
 
 namespace lasso::mdat {
 namespace {
@@ -56,7 +57,36 @@ class PlyReader {
     return std::move(mesh_);
   }
 
+  PointCloud read_points() {
+    for (const PlyElement& element : header_.elements) read_element(element);
+    if (mesh_.vertices.empty()) throw MeshError("is empty: it holds no point");
+    if (mesh_.vertices.size() > kMaxCloudPoints)
+      throw MeshError("holds " + std::to_string(mesh_.vertices.size()) + " points: expected at most " + std::to_string(kMaxCloudPoints) +
+                      "; thin it out");
+    PointCloud cloud{mesh_.vertices, {}};
+    for (std::size_t i = 0; has_normals() && i < normals_.size(); ++i) cloud.normals.push_back(unit_normal(i));
+    for (const Eigen::Vector3d& point : cloud.points) {
+      if (!point.allFinite()) throw MeshError("has a point that is not finite");
+    }
+    return cloud;
+  }
+
  private:
+  bool has_normals() const {
+    std::size_t found = 0;
+    for (const PlyElement& element : header_.elements) {
+      for (const PlyProperty& property : element.properties) {
+        const std::string name = lower_case(property.name);
+        if (element.name == "vertex" && (name == "nx" || name == "ny" || name == "nz")) ++found;
+      }
+    }
+    return found == 3;
+  }
+  Eigen::Vector3d unit_normal(std::size_t point) const {
+    const double length = normals_[point].norm();
+    if (!(length > 0 && std::isfinite(length))) throw MeshError("has a normal without a direction, of point " + std::to_string(point));
+    return normals_[point] / length;
+  }
   void read_element(const PlyElement& element) {
     if (element.name == "vertex" && !mesh_.vertices.empty()) throw MeshError("has two lists of vertices");
     if (element.name == "edge" && element.count > 0) mesh_.left_out.push_back(count_text(element.count, "edge"));
@@ -69,7 +99,7 @@ class PlyReader {
     }
   }
   void read_vertex(const PlyElement& element) {
-    Eigen::Vector3d vertex = Eigen::Vector3d::Zero();
+    Eigen::Vector3d vertex = Eigen::Vector3d::Zero(), normal = Eigen::Vector3d::Zero();
     for (const PlyProperty& property : element.properties) {
       if (property.count_type) {
         static_cast<void>(read_list(property));
@@ -78,8 +108,10 @@ class PlyReader {
       const double value = values_.next(property.type);
       const std::string name = lower_case(property.name);
       if (name.size() == 1 && name >= "x" && name <= "z") vertex[name[0] - 'x'] = value;
+      if (name.size() == 2 && name >= "nx" && name <= "nz") normal[name[1] - 'x'] = value;
     }
     mesh_.vertices.push_back(vertex);
+    normals_.push_back(normal);
   }
   void read_lists(const PlyElement& element) {
     for (const PlyProperty& property : element.properties) {
@@ -127,6 +159,7 @@ class PlyReader {
   PlyHeader header_;
   PlyValues values_;
   FileMesh mesh_;
+  std::vector<Eigen::Vector3d> normals_;           // of the vertices; zero: none is written
   std::vector<std::vector<std::uint32_t>> faces_;  // they may stand before the vertices
   std::vector<std::vector<double>> strips_;
 };
@@ -134,5 +167,7 @@ class PlyReader {
 }  // namespace
 
 FileMesh read_ply(std::string_view bytes) { return PlyReader(plain_text(bytes)).read(); }
+
+PointCloud read_ply_points(std::string_view bytes) { return PlyReader(plain_text(bytes)).read_points(); }
 
 }  // namespace lasso::mdat

@@ -58,7 +58,7 @@ const Rules& scan_rules();        // pattern and search
 const Rules& estimation_rules();  // estimation, filter, tracking, start, image
 const Rules& sensor_rules();
 const Rules& scenario_rules();
-const Rules& scene_rules();   // of scenarios of kind scene
+const Rules& scene_rules();   // of scenarios that fly the mission's nodes
 const Rules& target_rules();  // the model, its parts, and where it is in the field
 
 // Three digits, as a person reads it.
@@ -73,8 +73,10 @@ inline bool checks_starts(const MissionParameters& p) { return p.start_check > 0
 // The target's greatest acceleration over what the filter takes it for: beyond, its track is doubtful.
 constexpr double kAccelerations = 5;
 
-// Whether a key of a scenario changes anything in scenarios of this kind.
-bool has_effect(const std::string& key, ScenarioKind kind);
+// Whether a key of a scenario says what in this one the nodes' motions say.
+bool is_of_motion(const Scenario& scenario, const std::string& key);
+// Whether it changes anything in this scenario.
+bool has_effect(const Scenario& scenario, const std::string& key);
 
 // What a simulated laser camera's detector tells apart, of the square of the range (docs/icd/lcs.md).
 constexpr double kCameraCounts_per_m = 2e-5;

@@ -28,8 +28,10 @@ double norm(const std::vector<double>& v) { return std::hypot(v.at(0), v.at(1), 
 
 double rate_radps(const Subject& s) {
   if (s.scenario->scene != nullptr) return s.scenario->scene->rate_radps;
-  return s.scenario->scenario_kind() == ScenarioKind::kPaper ? 0 : norm(s.scenario->spin_radps);
+  return norm(s.scenario->spin_radps);
 }
+
+double drift_mps(const Subject& s) { return s.scenario->scene != nullptr ? 0 : norm(s.scenario->drift_mps); }
 
 double end_s(const Subject& s) { return s.scenario->frames * s.p.period_s; }
 
@@ -104,16 +106,12 @@ std::string spin_sigma_fault(const Subject& s) {
 }
 
 std::string drift_sigma_fault(const Subject& s) {
-  const bool drifts = s.scenario->scenario_kind() == ScenarioKind::kSpin;
-  const double speed_mps = drifts ? norm(s.scenario->drift_mps) : 0;
+  const double speed_mps = drift_mps(s);
   if (speed_mps <= kRateSigmas * s.p.initial_rate_mps) return "";
   return "is " + figure(speed_mps / s.p.initial_rate_mps) + " sigmas of filter.initial_rate_mps, which is " + figure(s.p.initial_rate_mps);
 }
 
-bool is_searched(const Subject& s) {
-  const bool seeks = s.scenario->prior == 0 || s.scenario->scenario_kind() == ScenarioKind::kApproach;
-  return seeks && is_in_order(s.p, kSearchWay);
-}
+bool is_searched(const Subject& s) { return s.scenario->seeks_bearing() && is_in_order(s.p, kSearchWay); }
 
 std::string searched_spin_fault(const Subject& s) {
   const double turn_rad = rate_radps(s) * kBetweenScans_s;
@@ -123,14 +121,31 @@ std::string searched_spin_fault(const Subject& s) {
 }
 
 std::string step_fault(const Subject& s) {
-  if (s.scenario->scenario_kind() != ScenarioKind::kPaper || std::fabs(s.scenario->step_rad) <= kMostStep_rad) return "";
+  if (s.scenario->scene != nullptr || std::fabs(s.scenario->step_rad) <= kMostStep_rad) return "";
   return "the target turns by more than " + degrees_text(kMostStep_rad) + " from scan to scan: tracks are lost";
 }
 
+bool is_moved(const Subject& s) { return s.scenario->has_profile() || rate_radps(s) > 0 || drift_mps(s) > 0; }
+
+std::string moved_steps_fault(const Subject& s) {
+  if (s.scenario->scene != nullptr || s.scenario->step_rad == 0 || !is_moved(s)) return "";
+  return "a target that turns from frame to frame stands still in each: expected 0, or no times_s, spin_degps and drift_mps";
+}
+
+std::string moved_variants_fault(const Subject& s) {
+  if (s.scenario->variants == 0 || !is_moved(s)) return "";
+  return "the bound that variants are compared with is of a target that stands still in each scan: expected ranges_m and step_deg alone "
+         "to say where it is, without times_s, spin_degps and drift_mps";
+}
+
+std::string many_runs_fault(const Subject& s) {
+  if (s.scenario->autonomous == 0 || s.scenario->runs_m().size() == 1) return "";
+  return "is one run: expected one of ranges_m, or times_s for them, which say when the target is at each";
+}
+
 std::string no_way_fault(const Subject& s) {
-  const bool approach = s.scenario->scenario_kind() == ScenarioKind::kApproach;
-  if ((s.scenario->prior != 0 && !approach) || is_in_order(s.p, kSearchWay)) return "";
-  if (approach && is_in_order(s.p, kNavigationWay) && s.scenario->navigation_from_s < end_s(s)) return "";
+  if (!s.scenario->seeks_bearing() || is_in_order(s.p, kSearchWay)) return "";
+  if (s.scenario->autonomous != 0 && is_in_order(s.p, kNavigationWay) && s.scenario->navigation_from_s < end_s(s)) return "";
   return "no pose is given, and \"search\" is none of start.first to start.fifth: the component finds the bearing, and never a pose";
 }
 
@@ -156,12 +171,12 @@ std::string short_run_fault(const Subject& s) {
 }
 
 std::string few_frames_fault(const Subject& s) {
-  if (s.scenario->frames >= kSettlingFrames || s.scenario->scenario_kind() == ScenarioKind::kPaper) return "";
+  if (s.scenario->frames >= kSettlingFrames || s.scenario->variants != 0) return "";
   return "a run ends before its filter knows the rates, which takes some " + figure(kSettlingFrames) +
          " frames: results say nothing of them";
 }
 
-bool is_helped(const Subject& s) { return s.scenario->scenario_kind() == ScenarioKind::kApproach && is_in_order(s.p, kNavigationWay); }
+bool is_helped(const Subject& s) { return s.scenario->autonomous != 0 && is_in_order(s.p, kNavigationWay); }
 
 std::string late_navigation_fault(const Subject& s) {
   const double from_s = s.scenario->navigation_from_s;
@@ -190,9 +205,8 @@ std::string haste_fault(const Subject& s) {
 }
 
 std::string smear_fault(const Subject& s) {
-  const bool still = s.scenario->scenario_kind() == ScenarioKind::kPaper;
-  if (still || s.p.deskew > 0.5 || s.source.sensor == SensorKind::kStereo) return "";  // cameras take all at once
-  const double turned_m = rate_radps(s) * s.target->half_m(), moved_m = s.scenario->has_profile() ? 0 : norm(s.scenario->drift_mps);
+  if (s.p.deskew > 0.5 || s.source.sensor == SensorKind::kStereo) return "";  // cameras take all at once
+  const double turned_m = rate_radps(s) * s.target->half_m(), moved_m = drift_mps(s);
   const double smear_m = (turned_m + moved_m) * s.p.duration_s;
   if (smear_m <= 2 * range_sigma_m(s.p, s.scenario->ranges_m.front())) return "";
   return "the target moves by " + figure(1e3 * smear_m) + " mm in a scan, and its points are left where they were measured";
@@ -272,31 +286,16 @@ std::string grazing_fault(const Subject& s) {
                                                            : "");
 }
 
-constexpr unsigned bit(ScenarioKind kind) { return 1U << static_cast<unsigned>(kind); }
-constexpr unsigned kMoving = bit(ScenarioKind::kSpin) | bit(ScenarioKind::kApproach) | bit(ScenarioKind::kPass);
-constexpr unsigned kProfile = bit(ScenarioKind::kApproach) | bit(ScenarioKind::kPass);
-constexpr unsigned kNotScene = kMoving | bit(ScenarioKind::kPaper);
-struct Effect {
-  const char* key;
-  unsigned kinds;  // of scenarios in which it has any
-};
-constexpr Effect kEffects[] = {
-    {"ranges_m", kNotScene},
-    {"tilt_deg", kNotScene},
-    {"boresight_deg", kNotScene},
-    {"roll_deg", kNotScene},
-    {"drawn", kNotScene},
-    {"offset_m", kNotScene},
-    {"center_m", kNotScene},
-    {"step_deg", bit(ScenarioKind::kPaper)},
-    {"paper_table", bit(ScenarioKind::kPaper)},
-    {"spin_degps", kMoving},
-    {"drift_mps", bit(ScenarioKind::kSpin)},
-    {"times_s", kProfile},
-    {"navigation_period_s", bit(ScenarioKind::kApproach)},
-    {"navigation_sigma_m", bit(ScenarioKind::kApproach)},
-    {"navigation_sigma_deg", bit(ScenarioKind::kApproach)},
-};
+// Of a target before a sensor at rest: nodes say it by motions.
+constexpr const char* kOfMotion[] = {"ranges_m", "times_s",  "tilt_deg", "boresight_deg", "roll_deg", "drawn",
+                                     "offset_m", "center_m", "step_deg", "spin_degps",    "drift_mps"};
+// Of the simulated navigation system, which helps an autonomous flight.
+constexpr const char* kOfNavigation[] = {"navigation_period_s", "navigation_sigma_m", "navigation_sigma_deg"};
+
+template <std::size_t kCount>
+bool is_one_of(const std::string& key, const char* const (&keys)[kCount]) {
+  return std::find(std::begin(keys), std::end(keys), key) != std::end(keys);
+}
 
 bool is_changed(const Scenario& scenario, const ScenarioField& field) {
   if (field.number != nullptr) return scenario.*field.number != field.row.preset.at(0) * field.row.to_si;
@@ -308,14 +307,12 @@ bool is_changed(const Scenario& scenario, const ScenarioField& field) {
 }
 
 std::string idle_keys_fault(const Subject& s) {
-  static constexpr const char* kNames[] = {"paper", "spin", "approach", "pass", "scene"};
   std::string keys;
   for (const ScenarioField& field : scenario_fields()) {
-    const bool idle = !has_effect(field.row.key, s.scenario->scenario_kind());
-    if (idle && is_changed(*s.scenario, field)) keys += (keys.empty() ? "" : ", ") + field.row.key;
+    if (has_effect(*s.scenario, field.row.key) || !is_changed(*s.scenario, field)) continue;
+    keys += (keys.empty() ? "" : ", ") + field.row.key;
   }
-  if (keys.empty()) return "";
-  return std::string("in a scenario of kind ") + kNames[static_cast<int>(s.scenario->scenario_kind())] + " these have no effect: " + keys;
+  return keys.empty() ? "" : "of this scenario's keys these have no effect: " + keys;
 }
 
 bool has_corners(const std::vector<double>& box) {
@@ -337,9 +334,11 @@ std::string turn_without_box_fault(const Subject& s) {
 
 }  // namespace
 
-bool has_effect(const std::string& key, ScenarioKind kind) {
-  return std::none_of(std::begin(kEffects), std::end(kEffects),
-                      [&](const Effect& effect) { return effect.key == key && (effect.kinds & bit(kind)) == 0; });
+bool is_of_motion(const Scenario& scenario, const std::string& key) { return scenario.scene != nullptr && is_one_of(key, kOfMotion); }
+
+bool has_effect(const Scenario& scenario, const std::string& key) {
+  if (key == "paper_table") return scenario.variants != 0;
+  return !is_of_motion(scenario, key) && (scenario.autonomous != 0 || !is_one_of(key, kOfNavigation));
 }
 
 const Rules& scenario_rules() {
@@ -359,10 +358,13 @@ const Rules& scenario_rules() {
     {kWarning, kScenario, kValues, {"drift_mps", "filter.initial_rate_mps"}, drift_sigma_fault},
     {kWarning, kScenario, kValues, {"spin_degps", "start.first"}, searched_spin_fault},
     {kWarning, kScenario, kValues, {"step_deg"}, step_fault},
+    {kError, kScenario, kValues, {"step_deg"}, moved_steps_fault},
+    {kError, kScenario, kValues, {"variants"}, moved_variants_fault},
+    {kError, kScenario, kValues, {"autonomous", "ranges_m"}, many_runs_fault},
     {kError, kScenario, kValues, {"model_gone_box_m"}, gone_box_fault},
     {kError, kScenario, kValues, {"model_turned_box_m"}, turned_box_fault},
     {kWarning, kScenario, kValues, {"model_turn_deg", "model_turned_box_m"}, turn_without_box_fault},
-    {kWarning, kScenario, kValues, {"prior", "kind", "start.first"}, no_way_fault},
+    {kWarning, kScenario, kValues, {"prior", "autonomous", "start.first"}, no_way_fault},
     {kWarning, kScenario, kValues, {"ranges_m", "sensor.use_from_m", "sensor.use_to_m"}, band_gap_fault},
     {kWarning, kScenario, kValues, {"frames", "times_s"}, short_run_fault},
     {kWarning, kScenario, kValues, {"frames"}, few_frames_fault},
@@ -382,7 +384,7 @@ const Rules& scenario_rules() {
     {kWarning, kScenario, kValues, {"outlier_probability", "start.inlier_share_min", "tracking.inlier_share_min", "tracking.agreement_min"}, outlier_fault},
     {kWarning, kScenario, kValues, {"dropout_probability", "sensor.dropout_probability", "tracking.agreement_min"}, dropout_fault},
     {kWarning, kScenario, kValues, {"dropout_incidence_deg", "estimation.incidence_max_deg", "tracking.agreement_min"}, grazing_fault},
-    {kWarning, kScenario, kValues, {"kind"}, idle_keys_fault},
+    {kWarning, kScenario, kValues, {"frames"}, idle_keys_fault},
   };
   // clang-format on
   return rules;

@@ -23,8 +23,8 @@ std::string comment_of(const ValueRow& row) {
   return text;
 }
 
-void write_begin(std::ostream& out, const std::string& name, const std::string& meaning, const std::string& kind) {
-  out << "\n[scenario." << name << "]  # " << meaning << "\nkind = \"" << kind << "\"\n";
+void write_begin(std::ostream& out, const std::string& name, const std::string& meaning) {
+  out << "\n[scenario." << name << "]  # " << meaning << "\n";
 }
 
 // Of the keys that scenarios have, those in `lines`, or all where `presets` fill the others.
@@ -49,13 +49,16 @@ void write_start(std::ostream& out, double range_m) {
 }
 
 void write_paper(std::ostream& out, const std::vector<double>& center, double range_m) {
-  write_begin(out, "paper", "the target turns between scans and stands still in each, at several ranges", "paper");
-  write_lines(out, {{"ranges_m", times(range_m, {1, 1.5, 2})}, {"offset_m", {0, 0}}, {"center_m", center}}, true);
+  write_begin(out, "paper", "the target turns between scans and stands still in each, at several ranges");
+  write_lines(out,
+              {{"ranges_m", times(range_m, {1, 1.5, 2})}, {"step_deg", {1}}, {"variants", {1}}, {"offset_m", {0, 0}}, {"center_m", center}},
+              true);
+  out << "override.estimation.deskew = false  # the target stands still in each scan\n";
   write_start(out, range_m);
 }
 
 void write_spin(std::ostream& out, const std::vector<double>& center, double range_m) {
-  write_begin(out, "spin", "the target turns and drifts all the time, at 3 deg/s", "spin");
+  write_begin(out, "spin", "the target turns and drifts all the time, at 3 deg/s");
   write_lines(out,
               {{"ranges_m", times(range_m, {1.3})},
                {"frames", {200}},
@@ -71,7 +74,7 @@ void write_spin(std::ostream& out, const std::vector<double>& center, double ran
 }
 
 void write_search(std::ostream& out, const std::vector<double>& center, double range_m) {
-  write_begin(out, "search", "no pose to start from: the bearing, then a search, then the track", "spin");
+  write_begin(out, "search", "no pose to start from: the bearing, then a search, then the track");
   write_lines(out,
               {{"ranges_m", times(range_m, {1.1, 1.6})},
                {"frames", {150}},
@@ -86,8 +89,7 @@ void write_search(std::ostream& out, const std::vector<double>& center, double r
 }
 
 void write_approach(std::ostream& out, const std::vector<double>& center, double range_m) {
-  write_begin(out, "approach", "from afar to near through all modes; a navigation system helps where no search has found the target",
-              "approach");
+  write_begin(out, "approach", "from afar to near through all modes; a navigation system helps where no search has found the target");
   write_lines(out,
               {{"ranges_m", times(range_m, {2, 2, 1.1, 1.1})},
                {"times_s", {0, 40, 100, 110}},
@@ -97,6 +99,7 @@ void write_approach(std::ostream& out, const std::vector<double>& center, double
                {"offset_m", {0, 0}},
                {"center_m", center},
                {"spin_degps", {0.2, 0.1, 0}},
+               {"autonomous", {1}},
                {"navigation_from_s", {30}},
                {"navigation_sigma_m", {rounded(0.01 * range_m)}},
                {"seed", {4}}},

@@ -27,10 +27,11 @@ constexpr char kSceneRoot[] = "root", kSceneLvlh[] = "lvlh";
 // What a node other than the target's looks like. Its file's axes, or the target's where it is a part of that, are the node's.
 struct BodySource {
   std::string node;
-  std::string key;                 // that says it, node.NAME.model, .mesh or .parts
+  std::string key;                 // that says it, node.NAME.model, .mesh, .points or .parts
   std::filesystem::path file;      // resolved; empty: parts of the target
   bool parametric = false;         // file is a model (TOML), not a mesh
   double scale = 1;                // applied to the file's lengths to get metres
+  double disc_radius_m = 0;        // of the points of a cloud; 0: the file is a surface
   std::vector<std::string> parts;  // names of the target's parts, or their beginnings with * at the end
 };
 
@@ -59,14 +60,14 @@ struct WrittenValue {
   std::string key, value, unit, meaning;
 };
 
-// A pose that results are also said of: of one node in another.
+// A pose that results are also said of: of one node in another, in the axes of a third one (empty: of the second).
 struct RelativeSource {
-  std::string name, of, in;
-  scene::Place place;
+  std::string name, of, in, axes;
 };
 struct RelativePair {
   std::string name;
-  std::size_t of, in;  // nodes: `of` does not move against the target, `in` not against the sensor
+  std::size_t of, in;                              // nodes: `of` does not move against the target, `in` not against the sensor
+  std::optional<std::size_t> axes = std::nullopt;  // node that has the axes, and may turn against both; none: in
 };
 
 struct SceneSource {
@@ -84,7 +85,7 @@ struct SceneSource {
   std::vector<WrittenValue> values;
 };
 
-// What a scenario of kind scene flies. Times are in microseconds since frame 0.
+// What a scenario flies. Times are in microseconds since frame 0.
 struct SceneRun {
   scene::Tree tree;
   std::size_t target, sensor;           // nodes

@@ -8,6 +8,7 @@
 #include "mdat/missiondb/laser_material.hpp"
 #include "mdat/missiondb/mesh_import.hpp"
 #include "mdat/missiondb/model_file.hpp"
+#include "mdat/missiondb/point_discs.hpp"
 #include "mdat/missiondb/target_parts.hpp"
 #include "mdat/source/nearest.hpp"
 
@@ -36,12 +37,20 @@ class SceneLoader {
     throw MissionError(problem_at(source_, body.key, value, why));
   }
 
+  static Mesh surface_of_points(const BodySource& body) {
+    PointCloud cloud = read_cloud(body.file);
+    for (Eigen::Vector3d& point : cloud.points) point *= body.scale;
+    return disc_mesh(cloud, body.disc_radius_m);
+  }
+
   BodySurface surface_of_file(const BodySource& body) const {
     try {
       BodySurface surface;
       std::vector<ModelSolid> solids;
       std::vector<std::string> left_out;
-      surface.mesh = body.parametric ? build_model(body.file, {}, &solids) : import_mesh(body.file, body.scale, &left_out);
+      surface.mesh = body.parametric          ? build_model(body.file, {}, &solids)
+                     : body.disc_radius_m > 0 ? surface_of_points(body)
+                                              : import_mesh(body.file, body.scale, &left_out);
       for (Eigen::Vector3d& vertex : surface.mesh.vertices) vertex *= body.parametric ? body.scale : 1;
       for (const std::string& what : left_out) source_.warnings.push_back(body.file.string() + ": not read: " + what);
       check_extent(surface.mesh);

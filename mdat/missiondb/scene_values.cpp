@@ -22,6 +22,17 @@ std::string value_text_of(const ValueRow& row, const FoundValue& value) {
 
 Origin origin_of(const scene::Place& place) { return {place.line, place.column, place.file == kSettingPlace}; }
 
+Problem at_key(const Problem& problem, const std::string& path, const std::string& what, const MissionSource& source) {
+  static const std::map<std::string, std::string> meanings = {{"pose", "quaternion"}, {"roll reference", "up_reference"}};
+  const auto meaning = meanings.find(what);
+  const std::string key = path + "." + (meaning == meanings.end() ? what : meaning->second);
+  const auto origin = source.origins.find(key);
+  Problem told = problem;
+  told.key = origin != source.origins.end() ? key : path + (what.empty() ? "" : ", " + what);
+  const bool placed = origin != source.origins.end() && !origin->second.preset();
+  return placed ? problem_at(source, key, problem.value, problem.expected) : told;
+}
+
 ValueRow position_row(const char* meaning) {
   return list_row(number_row("position_m", "m", ValueKind::kReal, 1, -kFarthest_m, kFarthest_m, 0, meaning), 3, {0, 0, 0});
 }

@@ -14,6 +14,9 @@ ValueRow position_row(const char* meaning);    // position_m
 ValueRow quaternion_row(const char* meaning);  // quaternion, x, y, z, w
 ValueRow axis_row(const char* key, const Vec3& preset, const char* meaning);
 
+// A problem of the table `path`, of which `what` names a key, or what that says: at the key's own place, where there is one in the file.
+Problem at_key(const Problem& problem, const std::string& path, const std::string& what, const MissionSource& source);
+
 // One table by its rows: what it says, or else the presets, in SI. Each problem is told with its place.
 class SceneValues {
  public:

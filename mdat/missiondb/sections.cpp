@@ -50,15 +50,6 @@ ScenarioField without_need(ScenarioField field) {
   return field;
 }
 
-ValueRow kind_row() {
-  ValueRow row = number_row("kind", "1", ValueKind::kChoice, 1, 0, 4, 0,
-                            "paper: the target stands still in each scan and turns between them; spin: it moves all the time; approach: "
-                            "one run through all modes; pass: one run that begins with a track; scene: one run, in which the mission's "
-                            "nodes move as [motion.NAME] say");
-  row.choices = {"paper", "spin", "approach", "pass", "scene"};
-  return required(row);
-}
-
 ValueRow sensor_row() {
   ValueRow row = number_row(
       "sensor.kind", "1", ValueKind::kChoice, 1, 0, 3, 0,
@@ -104,25 +95,26 @@ std::vector<PartField> make_part_fields() {
 std::vector<ScenarioField> make_scenario_fields() {
   // clang-format off
   return {
-    field(&S::kind, kind_row()),
-    without_need(field(&S::ranges_m, number_row("ranges_m", "m", kReal, 1, 0.01, 10000, 0, "ranges of the target's center_m along the boresight, one run each; approach, pass: at times_s; scene: none"), 1, 100, {})),
+    without_need(field(&S::ranges_m, number_row("ranges_m", "m", kReal, 1, 0.01, 10000, 0, "ranges of the target's center_m along the boresight, one run each, or with times_s one run; none: the target is where the mission's nodes move it"), 1, 100, {})),
     field(&S::frames, number_row("frames", "1", kInteger, 1, 1, 1000000, 360, "frames of a run")),
-    field(&S::step_rad, number_row("step_deg", "deg", kReal, kDeg, -180, 180, 1, "paper: turn about the target's x axis from frame to frame")),
+    field(&S::step_rad, number_row("step_deg", "deg", kReal, kDeg, -180, 180, 0, "turn about the target's x axis from frame to frame; it stands still in each scan")),
     field(&S::tilt_rad, number_row("tilt_deg", "deg", kReal, kDeg, -180, 180, 15, "tilt of the target's -x end towards the sensor; 0 is side-on")),
     field(&S::boresight_rad, number_row("boresight_deg", "deg", kReal, kDeg, -180, 180, 5, "turn of the target about the boresight")),
     field(&S::roll_rad, number_row("roll_deg", "deg", kReal, kDeg, -180, 180, 0, "turn of the target about its own x axis, before tilt and boresight")),
-    field(&S::drawn, number_row("drawn", "1", ValueKind::kBoolean, 1, 0, 1, 0, "spin: attitude of frame 0, and axes of spin and drift, are drawn at random for each run; rates as large as given")),
-    field(&S::paper_table, number_row("paper_table", "1", ValueKind::kBoolean, 1, 0, 1, 0, "paper: results stand beside the paper's table 1, which is of a tenth-scale Hubble")),
+    field(&S::drawn, number_row("drawn", "1", ValueKind::kBoolean, 1, 0, 1, 0, "attitude of frame 0, and axes of spin and drift, are drawn at random for each run; rates as large as given")),
+    field(&S::variants, number_row("variants", "1", ValueKind::kBoolean, 1, 0, 1, 0, "flown also without noise, from hits alone, with aimed rays, and side-on, and compared with a bound, as the paper does; of a target that stands still in each scan")),
+    field(&S::paper_table, number_row("paper_table", "1", ValueKind::kBoolean, 1, 0, 1, 0, "with variants: results stand beside the paper's table 1, which is of a tenth-scale Hubble")),
     field(&S::offset_m, number_row("offset_m", "m", kReal, 1, -10000, 10000, 0, "target's center_m off the boresight: right, down"), 2, 2, {0.02, -0.01}),
     field(&S::center_m, number_row("center_m", "m", kReal, 1, -1000, 1000, 0, "point of the target, in its own frame, that ranges_m and offset_m are of, and about which it turns"), 3, 3, {0, 0, 0}),
-    field(&S::spin_radps, number_row("spin_degps", "deg/s", kReal, kDeg, -360, 360, 0, "spin, approach, pass: angular rate about the target's x, y, z"), 3, 3, {0, 0, 0}),
-    field(&S::drift_mps, number_row("drift_mps", "m/s", kReal, 1, -100, 100, 0, "spin: velocity along the sensor's x, y, z"), 3, 3, {0, 0, 0}),
-    field(&S::times_s, number_row("times_s", "s", kReal, 1, 0, 1e6, 0, "approach, pass: when the target is at each of ranges_m, at rest"), 1, 100, {0}),
-    field(&S::eclipse_s, number_row("eclipse_s", "s", kReal, 1, 0, 1e6, 0, "approach: nothing returns from the first of these times to the second"), 2, 2, {0, 0}),
-    field(&S::navigation_from_s, number_row("navigation_from_s", "s", kReal, 1, 0, 1e6, 0, "approach: from then on a navigation system offers poses to start from")),
-    field(&S::navigation_period_s, number_row("navigation_period_s", "s", kReal, 1, 0.001, 1e6, 1, "approach: how often")),
-    field(&S::navigation_sigma_m, number_row("navigation_sigma_m", "m", kReal, 1, 1e-6, 100, 0.1, "approach: their error, each axis (1 sigma)")),
-    field(&S::navigation_sigma_rad, number_row("navigation_sigma_deg", "deg", kReal, kDeg, 1e-4, 180, 2, "approach: error of their attitude, each axis (1 sigma)")),
+    field(&S::spin_radps, number_row("spin_degps", "deg/s", kReal, kDeg, -360, 360, 0, "angular rate about the target's x, y, z"), 3, 3, {0, 0, 0}),
+    field(&S::drift_mps, number_row("drift_mps", "m/s", kReal, 1, -100, 100, 0, "velocity along the sensor's x, y, z"), 3, 3, {0, 0, 0}),
+    without_need(field(&S::times_s, number_row("times_s", "s", kReal, 1, 0, 1e6, 0, "when the target is at each of ranges_m, at rest; none: it stays at each"), 1, 100, {})),
+    field(&S::eclipse_s, number_row("eclipse_s", "s", kReal, 1, 0, 1e6, 0, "nothing returns from the first of these times to the second"), 2, 2, {0, 0}),
+    field(&S::autonomous, number_row("autonomous", "1", ValueKind::kBoolean, 1, 0, 1, 0, "the component is told once to seek the bearing, and does all else by itself; navigation_* says which help it has")),
+    field(&S::navigation_from_s, number_row("navigation_from_s", "s", kReal, 1, 0, 1e6, 0, "autonomous: from then on a navigation system offers poses to start from")),
+    field(&S::navigation_period_s, number_row("navigation_period_s", "s", kReal, 1, 0.001, 1e6, 1, "autonomous: how often")),
+    field(&S::navigation_sigma_m, number_row("navigation_sigma_m", "m", kReal, 1, 1e-6, 100, 0.1, "autonomous: their error, each axis (1 sigma)")),
+    field(&S::navigation_sigma_rad, number_row("navigation_sigma_deg", "deg", kReal, kDeg, 1e-4, 180, 2, "autonomous: error of their attitude, each axis (1 sigma)")),
     field(&S::prior, number_row("prior", "1", ValueKind::kBoolean, 1, 0, 1, 1, "false: no pose to start from is given; the component seeks the bearing first")),
     field(&S::prior_turn_rad, number_row("prior_turn_deg", "deg", kReal, kDeg, -180, 180, 0, "the pose to start from is turned by this rotation vector about the target's x, y, z: a wrong start"), 3, 3, {0, 0, 0}),
     field(&S::prior_shift_m, number_row("prior_shift_m", "m", kReal, 1, -1000, 1000, 0, "the pose to start from is off by this, along the sensor's x, y, z"), 3, 3, {0, 0, 0}),

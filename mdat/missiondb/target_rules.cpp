@@ -72,7 +72,7 @@ bool is_measured(const Subject& s, double range_m, double t_s) {
 // By bisection: what a sensor measures is convex. Afterwards the run is of an empty field.
 std::string lost_fault(const Subject& s) {
   const Scenario& scenario = *s.scenario;
-  if (scenario.scenario_kind() != ScenarioKind::kSpin || scenario.drawn != 0) return "";
+  if (scenario.has_profile() || scenario.drawn != 0) return "";
   for (const double range_m : scenario.ranges_m) {
     double seen_s = 0, lost_s = (scenario.frames - 1) * s.p.period_s;
     if (!is_measured(s, range_m, seen_s) || is_measured(s, range_m, lost_s)) continue;
@@ -249,9 +249,8 @@ double full_field_returns(const Subject& s, double range_m) {
 }
 
 std::string bearing_fault(const Subject& s) {
-  const bool seeks = s.scenario->prior == 0 || s.scenario->scenario_kind() == ScenarioKind::kApproach;
   const double range_m = s.scenario->runs_m().front(), returns = full_field_returns(s, range_m);
-  if (!seeks || returns >= s.p.bearing_returns_min) return "";
+  if (!s.scenario->seeks_bearing() || returns >= s.p.bearing_returns_min) return "";
   return "of a scan of the whole field some " + figure(returns) + " rays meet the target at " + figure(range_m) +
          " m: there would be no bearing";
 }

@@ -170,14 +170,14 @@ std::array<Variances, kLaboratoryFigures> stand_budget(const StandResponse& befo
 
 void check_laboratory(const MissionSource& source) {
   if (source.scenarios.empty())
-    throw InputError(source.file.string() + ": has no scenario: a laboratory's mission has one or more of kind paper");
+    throw InputError(source.file.string() + ": has no scenario: a laboratory's mission has one or more with variants = true");
   const double frames = source.scenarios.begin()->second.frames;
   std::vector<Problem> problems;
   for (const auto& [name, scenario] : source.scenarios) {
     const auto refuse = [&, key = "scenario." + name](const char* what, double value, const std::string& expected) {
       problems.push_back(problem_at(source, key + what, value < 0 ? "" : format("%g", value), expected));
     };
-    if (scenario.scenario_kind() != ScenarioKind::kPaper) refuse(".kind", -1, "expected paper, as in all scenarios of a laboratory");
+    if (scenario.variants == 0) refuse(".variants", -1, "expected true, as in all scenarios of a laboratory");
     if (scenario.step_rad != 0)
       refuse(".step_deg", std::fabs(scenario.step_rad) / kRadPerDeg,
              "expected 0: the target rests in a stand, and --stands says how far apart they are");

@@ -61,8 +61,8 @@ struct FigureErrors {
 };
 FigureErrors figure_errors(const LaboratoryResult& result, LaboratoryFigure figure, std::optional<std::size_t> range = {});
 
-// Flies every scenario of the mission, which are of kind paper: their frames are those of a stand, and the target is turned about its x
-// axis between stands. Each stand is a run of its own, that begins with a track at the truth. Throws MissionError (another kind of
+// Flies every scenario of the mission, which have variants: their frames are those of a stand, and the target is turned about its x
+// axis between stands. Each stand is a run of its own, that begins with a track at the truth. Throws MissionError (one without
 // scenario, or none), InputError or RunError.
 LaboratoryResult fly_laboratory(const CompiledMission& mission, const LaboratoryOptions& options);
 

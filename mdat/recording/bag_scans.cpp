@@ -268,7 +268,7 @@ sim::RawScan scan_of(const ForeignCloud& cloud, const std::string& place) {
     if (!std::isfinite(time_s)) throw std::invalid_argument("the time of point " + std::to_string(i + 1) + " is no number");
     order.emplace_back(time_s, i);
   }
-  std::stable_sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::sort(order.begin(), order.end());  // points of one time stay in their order
   sim::RawScan scan;
   scan.file = place;
   scan.has_times = true;

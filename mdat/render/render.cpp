@@ -22,14 +22,6 @@ void for_each_row(const RenderSetup& setup, const std::function<void(int)>& row)
   }
 }
 
-Lights in_target_frame(const Lights& lights, const Pose& T_target_sensor) {
-  Lights turned = lights;
-  if (lights.sun) turned.sun = rotate(T_target_sensor.q, *lights.sun);
-  if (lights.earth) turned.earth = rotate(T_target_sensor.q, *lights.earth);
-  if (lights.lamp_m) turned.lamp_m = T_target_sensor * *lights.lamp_m;
-  return turned;
-}
-
 std::size_t pixel_count(const Camera& camera) { return static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height); }
 std::size_t pixel_index(const Camera& camera, int column, int row) {
   return static_cast<std::size_t>(row) * static_cast<std::size_t>(camera.width) + static_cast<std::size_t>(column);
@@ -38,6 +30,14 @@ std::size_t pixel_index(const Camera& camera, int column, int row) {
 constexpr std::uint32_t kWithinPixel = 0;  // purpose of samples
 
 }  // namespace
+
+Lights in_target_frame(const Lights& lights, const Pose& T_target_sensor) {
+  Lights turned = lights;
+  if (lights.sun) turned.sun = rotate(T_target_sensor.q, *lights.sun);
+  if (lights.earth) turned.earth = rotate(T_target_sensor.q, *lights.earth);
+  if (lights.lamp_m) turned.lamp_m = T_target_sensor * *lights.lamp_m;
+  return turned;
+}
 
 std::vector<SeenPoint> seen_points(const ModelSurface& surface, const RenderSetup& setup) {
   const Pose T_target_sensor = inverse(setup.T_sensor_target);

@@ -143,6 +143,12 @@ std::optional<Lights> lights_of_orbit(const MissionSource& source, const CaseSet
   return lights;
 }
 
+std::unique_ptr<ModelSurface> surface_at(const MissionInput& mission, const Scene& scene, TimeUs t_us) {
+  const MissionSource& source = mission.source;
+  const SurfaceBody target = simulated_body(mission, target_parts(source, mission.mesh), scene.setup, scene.seed);
+  return std::make_unique<ModelSurface>(bodies_at(source, scene.setup, target, scene.parts, t_us), source.target.crease_angle_rad);
+}
+
 // The only scan of this case that is kept.
 CaseResult flown_case(const CaseSetup& setup) {
   std::atomic<std::size_t> done{0};
@@ -196,8 +202,9 @@ Scene make_scene(const MissionInput& mission, const SceneRequest& request) {
 
 void move_scene(const MissionInput& mission, TimeUs t_us, Scene& scene) {
   const MissionSource& source = mission.source;
-  const SurfaceBody target = simulated_body(mission, target_parts(source, mission.mesh), scene.setup, scene.seed);
-  scene.surface = std::make_unique<ModelSurface>(bodies_at(source, scene.setup, target, scene.parts, t_us), source.target.crease_angle_rad);
+  const SceneRun* run = scene.setup.scenario.scene.get();
+  const bool alone = run == nullptr || run->body_nodes.empty();  // the target's own frame is that of the surface
+  if (scene.surface == nullptr || !alone) scene.surface = surface_at(mission, scene, t_us);
   scene.orbit_lights = lights_of_orbit(source, scene.setup, t_us);
   const auto trajectory = make_trajectory(scene.setup.scenario, scene.setup.range_m, kEpochUs, period_us(scene.setup.parameters));
   scene.T_sensor_target = trajectory->at(kEpochUs + t_us).T_sensor_target;
@@ -246,7 +253,7 @@ void check_scan_time(const Scene& scene, double time_s) {
                           scene.scenario.c_str(), scenario.frames * static_cast<double>(period) * 1e-6));
 }
 
-std::vector<ScanMark> flown_scan(const CompiledMission& mission, double time_s, Scene& scene) {
+std::vector<ScanMark> flown_scan(const CompiledMission& mission, double time_s, Scene& scene, const MakeStereo& make_stereo) {
   check_scan_time(scene, time_s);
   const DurationUs period = period_us(scene.setup.parameters);
   const auto frame = static_cast<std::uint32_t>(to_us(time_s) / period);
@@ -255,6 +262,7 @@ std::vector<ScanMark> flown_scan(const CompiledMission& mission, double time_s, 
   setup.image = &image;
   setup.frames = frame + 1;
   setup.keep_frames = {frame};
+  setup.make_stereo = make_stereo;
   const std::unique_ptr<sim::RayCaster> simulated = simulated_target(mission.mesh, setup.scenario, scene.seed, mission.source.target_laser);
   setup.target = simulated.get();
   const CaseResult result = flown_case(setup);

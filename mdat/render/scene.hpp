@@ -57,8 +57,8 @@ std::vector<ScanMark> scan_marks(const CompiledMission& mission, const Scene& sc
 void check_scan_time(const Scene& scene, double time_s);
 
 // The scan of the frame that `time_s` lies in, as mdat run flies it from frame 0 on, and what its rays found: residuals are those to the
-// component's model at the true pose of each sample's own time. The scene is moved to the scan's time. Throws as run_case and
-// check_scan_time, and InputError where the frame has no scan.
-std::vector<ScanMark> flown_scan(const CompiledMission& mission, double time_s, Scene& scene);
+// component's model at the true pose of each sample's own time. The scene is moved to the scan's time. `make_stereo`: as CaseSetup's.
+// Throws as run_case and check_scan_time, and InputError where the frame has no scan.
+std::vector<ScanMark> flown_scan(const CompiledMission& mission, double time_s, Scene& scene, const MakeStereo& make_stereo = {});
 
 }  // namespace lasso::mdat

@@ -114,9 +114,7 @@ bool has_bound(const TableResult& table) {
   return std::any_of(runs.begin(), runs.end(), [](const RunStatistics& run) { return run.crlb_mm > 0; });
 }
 
-bool turns_by_steps(const TableResult& table) {
-  return table.scenario.scenario_kind() == ScenarioKind::kPaper && table.scenario.step_rad != 0;
-}
+bool turns_by_steps(const TableResult& table) { return table.scenario.scene == nullptr && table.scenario.step_rad != 0; }
 
 std::string error_against_angle(Plotter& plotter, const TableResult& table, const VariantResult& variant) {
   const bool turns = turns_by_steps(table);

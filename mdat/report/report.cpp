@@ -65,7 +65,7 @@ HtmlTable quality_head(const std::string& first) {
 }
 
 std::string quality_table(const TableResult& table) {
-  const bool bound = table.scenario.scenario_kind() == ScenarioKind::kPaper;
+  const bool bound = table.scenario.variants != 0;
   HtmlTable html = quality_head("variant");
   for (const VariantResult& variant : table.variants)
     html.rows.push_back(quality_row(variant.variant.title, variant.all, variant.variant.noise, bound));
@@ -73,7 +73,7 @@ std::string quality_table(const TableResult& table) {
 }
 
 std::string range_table(const TableResult& table) {
-  const bool bound = table.scenario.scenario_kind() == ScenarioKind::kPaper;
+  const bool bound = table.scenario.variants != 0;
   const char* run = table.scenario.drawn != 0 ? "flight" : "range";
   HtmlTable html = quality_head(format("variant, %s", run));
   for (const VariantResult& variant : table.variants) {
@@ -184,7 +184,8 @@ std::string table_section(Plotter& plotter, const sim::RayCaster& target, const 
 
 constexpr double kPictureScale = 0.72;  // of the picture for the README
 
-std::string approach_html(Plotter& plotter, const CompiledMission& mission, const SimulationResult& result) {
+std::string approach_html(Plotter& plotter, const CompiledMission& mission, const SimulationResult& result,
+                          const std::vector<SeenPicture>& pictures) {
   const std::unique_ptr<sim::RayCaster> target = make_target(mission.mesh);
   const Scenario& scenario = result.tables.front().scenario;
   const auto [nearest, farthest] = std::minmax_element(scenario.ranges_m.begin(), scenario.ranges_m.end());
@@ -202,7 +203,7 @@ std::string approach_html(Plotter& plotter, const CompiledMission& mission, cons
       "NEES: 6 "
       "when the covariance is honest. –: not known, as there is no valid pose.</p>\n" +
       about_section(mission, result);
-  body += timeline_section(plotter, *target, result);
+  body += relative_section(result) + seen_section(pictures) + timeline_section(plotter, *target, result);
   const TableResult& table = result.tables.front();
   const std::string doubtful = doubtful_section(plotter, *target, table);
   body += "<section>\n<h2>Integrity</h2>\n" + integrity_section(plotter, table, table.variants.front()) + "</section>\n";
@@ -230,11 +231,11 @@ std::string introduction(const SimulationResult& result) {
 
 std::string report_html(Plotter& plotter, const CompiledMission& mission, const SimulationResult& result,
                         const std::vector<SeenPicture>& pictures) {
-  if (result.kind == ScenarioKind::kApproach) return approach_html(plotter, mission, result);
+  if (result.flown().autonomous != 0) return approach_html(plotter, mission, result, pictures);
   const std::unique_ptr<sim::RayCaster> target = make_target(mission.mesh);
   std::string body = "<h1>" + escape(result.mission) + "</h1>\n" + introduction(result) + about_section(mission, result);
   body += relative_section(result) + seen_section(pictures);
-  if (result.kind >= ScenarioKind::kPass) body += timeline_section(plotter, *target, result);
+  if (result.flown().has_timeline()) body += timeline_section(plotter, *target, result);
   for (const TableResult& table : result.tables) body += table_section(plotter, *target, table);
   return page(result.mission + ", " + result.scenario, body);
 }

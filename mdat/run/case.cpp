@@ -49,8 +49,8 @@ class Case {
     load();
     expect(component_->begin(kEpochUs), "begin");
     if (setup.wire) enable_laser();
-    if (!is_approach()) start(kEpochUs - period_us_);
-    if (is_approach() && component_->command_mode(TrackingMode::kBearing) != ModeRefusal::kNone) {
+    if (!is_autonomous()) start(kEpochUs - period_us_);
+    if (is_autonomous() && component_->command_mode(TrackingMode::kBearing) != ModeRefusal::kNone) {
       throw RunError("the component refused to look for a bearing");
     }
   }
@@ -76,7 +76,7 @@ class Case {
       result_.telemetry.insert(result_.telemetry.end(), record.telemetry.begin(), record.telemetry.end());
       if (setup_.listener != nullptr) setup_.listener->on_packets(record.boundary_us, record.telemetry);
       read_packets(record);
-      if (is_approach()) navigation_.offer(record.boundary_us, *component_);
+      if (is_autonomous()) navigation_.offer(record.boundary_us, *component_);
       if (record.reset_due) restart(record.boundary_us + period_us_);
       if (frame < kPipelineFrames) continue;
       ++flown;
@@ -154,7 +154,7 @@ class Case {
     if (status != Status::kOk) throw RunError("the component refused to " + what + ": " + to_string(status));
   }
 
-  bool is_approach() const { return setup_.scenario.scenario_kind() == ScenarioKind::kApproach; }
+  bool is_autonomous() const { return setup_.scenario.autonomous != 0; }
 
   void start(TimeUs truth_us) {
     if (setup_.scenario.prior == 0) {
@@ -193,8 +193,8 @@ class Case {
       if (!taken.samples.empty()) scan = std::move(taken);  // of one of them
     }
     if (setup_.listener != nullptr) setup_.listener->on_frame({pose, trajectory_->at(pose.t_measurement_us), scan.samples});
-    if (setup_.scenario.has_profile()) add_packet(pose, *trajectory_, kEpochUs, result_.timeline);
-    const bool restarts = !is_approach() && setup_.link == nullptr;
+    if (setup_.scenario.has_timeline()) add_packet(pose, *trajectory_, kEpochUs, result_.timeline);
+    const bool restarts = !is_autonomous() && setup_.link == nullptr;
     if (restarts && static_cast<TrackingMode>(pose.mode) == TrackingMode::kLost) start(record.boundary_us);
     const std::int64_t frame = (pose.t_measurement_us - kEpochUs) / period_us_;
     if (pose.t_measurement_us < kEpochUs || frame >= setup_.frames) return;
@@ -242,7 +242,7 @@ class Case {
 
   // Only for a target that stands still in the scan: the bound knows one pose.
   PoseBound bound(const Pose& truth, const std::vector<RangeSample>& scan) const {
-    if (setup_.scenario.scenario_kind() != ScenarioKind::kPaper) return {};
+    if (setup_.scenario.variants == 0) return {};
     return pose_bound(*setup_.target, truth, scan, [&](double z_m) { return sim::range_sigma_m(noisy_model_, z_m); });
   }
 

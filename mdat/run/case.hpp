@@ -90,17 +90,17 @@ struct CaseResult {
   std::vector<std::uint8_t> telemetry;  // all packets, in order
   std::vector<KeptScan> scans;
   std::vector<KeptScan> doubtful;            // the first kDoubtfulScans whose valid poses are wrong, and as many without a valid pose
-  Timeline timeline;                         // of an approach, or a pass
+  Timeline timeline;                         // of a scenario that is shown along its time
   std::optional<std::uint32_t> found_frame;  // of the first valid pose
   std::uint32_t replay_rounds = 0;           // how often a recording that was at its end began anew, at most
   std::uint32_t replay_unserved = 0;         // scans that were asked for, and are not in it
 };
 
-// An approach begins in the mode `bearing`, with a navigation system's offers as the only help. A run without a prior begins there, too,
-// and leaves out the frames before the first valid pose. Every other run starts the track from the true pose of one frame before the first,
-// at rest. All that the result says of the estimates was decoded from telemetry packets. A track that the component gives up is then
-// started again from the true pose of the frame before (its frames count as lost). Counts each frame in `done`. Throws RunError where the
-// component refuses its image or a start.
+// An autonomous flight begins in the mode `bearing`, with a navigation system's offers as the only help. A run without a prior begins
+// there, too, and leaves out the frames before the first valid pose. Every other run starts the track from the true pose of one frame
+// before the first, at rest. All that the result says of the estimates was decoded from telemetry packets. A track that the component gives
+// up is then started again from the true pose of the frame before (its frames count as lost). Counts each frame in `done`. Throws RunError
+// where the component refuses its image or a start.
 CaseResult run_case(const CaseSetup& setup, std::atomic<std::size_t>& done);
 
 Pose registration_pose(const PoseTelemetry& telemetry);

@@ -13,39 +13,45 @@ namespace {
 
 constexpr double kMillimetres = 1e3, kDegrees = 1 / kRadPerDeg;
 
-// The pair's two places, which do not move against target and sensor.
-struct Places {
-  Pose T_in_sensor, T_target_of;
+scene::MotionState still(const Pose& pose) { return {pose, Twist{}}; }
 
-  Pose moved(const Pose& T_sensor_target) const { return T_in_sensor * (T_sensor_target * T_target_of); }
+// What is known without error: where `of` is in the target, and how the sensors stand and turn in `in`, or in its origin with other axes.
+struct Places {
+  Places(const SceneRun& run, const RelativePair& pair, TimeUs t_us)
+      : target_of(still(run.tree.state(pair.of, run.target, 0).T_a_b)), in_sensor(still(run.tree.state(run.sensor, pair.in, 0).T_a_b)) {
+    scene::MotionState truth_in = run.tree.state(pair.of, pair.in, t_us);
+    if (pair.axes) {
+      scene::MotionState turn = run.tree.state(pair.in, *pair.axes, t_us);
+      turn.T_a_b.p = turn.rates.v_mps = Vec3::Zero();
+      in_sensor = turn * in_sensor;
+      truth_in = turn * truth_in;
+    }
+    truth = truth_in;
+  }
+
+  scene::MotionState moved(const scene::MotionState& sensor_target) const { return in_sensor * sensor_target * target_of; }
   Mat6 moved(const Mat6& covariance, const Pose& T_sensor_target) const {
-    return scene::covariance_in_frame(scene::covariance_of_point(covariance, T_sensor_target, T_target_of), T_in_sensor);
+    return scene::covariance_in_frame(scene::covariance_of_point(covariance, T_sensor_target, target_of.T_a_b), in_sensor.T_a_b);
   }
-  Twist moved(const Twist& rates, const Pose& T_sensor_target) const {
-    const Vec3 arm_m = rotate(T_sensor_target.q, T_target_of.p);
-    return {rotate(T_in_sensor.q, rates.omega_radps), rotate(T_in_sensor.q, Vec3(rates.v_mps + rates.omega_radps.cross(arm_m)))};
-  }
+
+  scene::MotionState target_of, in_sensor, truth;
 };
 
-Places places_of(const SceneRun& run, const RelativePair& pair) {
-  return {run.tree.state(run.sensor, pair.in, 0).T_a_b, run.tree.state(pair.of, run.target, 0).T_a_b};
-}
-
 RelativePose relative_pose(const PoseTelemetry& packet, const SceneRun& run, const RelativePair& pair) {
-  const Places places = places_of(run, pair);
   const TimeUs t_us = packet.t_measurement_us - kEpochUs;
-  const scene::MotionState truth = run.tree.state(pair.of, pair.in, t_us);
-  const Pose T_sensor_target = registration_pose(packet), filtered = filtered_pose(packet);
+  const Places places(run, pair, t_us);
+  const Pose T_sensor_target = registration_pose(packet);
   const Twist rates{Vec3(packet.filter_omega_radps), Vec3(packet.filter_v_mps)};
+  const scene::MotionState filtered = places.moved({filtered_pose(packet), rates});
   RelativePose pose;
   pose.t_s = to_seconds(t_us);
   pose.valid = packet.valid != 0;
-  pose.T_in_of = places.moved(T_sensor_target);
-  pose.T_in_of_filtered = places.moved(filtered);
-  pose.rates = places.moved(rates, filtered);
+  pose.T_in_of = places.moved(still(T_sensor_target)).T_a_b;
+  pose.T_in_of_filtered = filtered.T_a_b;
+  pose.rates = filtered.rates;
   pose.covariance = places.moved(registration_covariance(packet), T_sensor_target);
-  pose.truth = truth.T_a_b;
-  pose.true_rates = truth.rates;
+  pose.truth = places.truth.T_a_b;
+  pose.true_rates = places.truth.rates;
   return pose;
 }
 

@@ -9,8 +9,9 @@
 
 namespace lasso::mdat {
 
-// One pose that the component reported, said of two other frames: `of`, fixed to the target, in `in`, fixed to the sensors. Both places are
-// known without error. Registration and filter as in telemetry, moved with their lever arms.
+// One pose that the component reported, said of two other frames: `of`, fixed to the target, in `in`, fixed to the sensors, or in its
+// origin with axes that turn against it, such as those of LVLH. Both places, and these axes, are known without error. Registration and
+// filter as in telemetry, moved with their lever arms.
 struct RelativePose {
   double t_s = 0;  // of the scan's reference time, since frame 0
   bool valid = false;

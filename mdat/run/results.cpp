@@ -35,7 +35,7 @@ Json settled_json(const SettledStatistics& rates) {
           {"worst_mmps", rates.worst_mmps}};
 }
 
-Json statistics_json(const RunStatistics& run, bool noise, ScenarioKind kind) {
+Json statistics_json(const RunStatistics& run, bool noise, bool bound) {
   Json json = axes_json(run.registration);
   json["frames"] = run.frames;
   json["lost"] = run.lost;
@@ -43,7 +43,7 @@ Json statistics_json(const RunStatistics& run, bool noise, ScenarioKind kind) {
   json["wrong"] = run.wrong;
   json["rms_mm"] = run.registration.rms_mm;
   json["rms_deg"] = run.registration.rms_deg;
-  if (kind == ScenarioKind::kPaper) {
+  if (bound) {
     json["crlb_mm"] = run.crlb_mm;
     json["crlb_deg"] = run.crlb_deg;
   } else {
@@ -60,9 +60,9 @@ Json statistics_json(const RunStatistics& run, bool noise, ScenarioKind kind) {
 Json found_json(const CaseResult& run) { return run.found_frame ? Json(*run.found_frame) : Json(nullptr); }
 
 Json variant_json(const VariantResult& variant, const Scenario& scenario) {
-  Json json = statistics_json(variant.all, variant.variant.noise, scenario.scenario_kind());
+  Json json = statistics_json(variant.all, variant.variant.noise, scenario.variants != 0);
   json["image_crc"] = format("%08X", variant.image_crc);
-  if (scenario.scenario_kind() == ScenarioKind::kPaper) {
+  if (scenario.variants != 0) {
     const ErrorStatistics& edge_on = variant.edge_on.registration;
     json["edge_on"] = {{"frames", variant.edge_on.frames},
                        {"axial_std_mm", edge_on.axial_mm.std},
@@ -75,7 +75,7 @@ Json variant_json(const VariantResult& variant, const Scenario& scenario) {
   for (std::size_t i = 0; i < variant.by_range.size(); ++i) {
     Json range = {{"range_m", scenario.runs_m()[i]}};
     if (scenario.prior == 0) range["found_frame"] = found_json(variant.cases.at(i));
-    range.update(statistics_json(variant.by_range[i], variant.variant.noise, scenario.scenario_kind()));
+    range.update(statistics_json(variant.by_range[i], variant.variant.noise, scenario.variants != 0));
     json["by_range"].push_back(range);
   }
   return json;
@@ -104,12 +104,12 @@ std::string axes_table(const TableResult& table, bool paper) {
 
 std::string ratio(double value, double bound) { return bound > 0 ? format("%6.2f", value / bound) : std::string("     -"); }
 
-std::string quality_line(const VariantResult& variant, ScenarioKind kind) {
+std::string quality_line(const VariantResult& variant, bool bound) {
   const RunStatistics& run = variant.all;
   std::string text = format("  %-24s ", variant.variant.title);
   const bool tracked = run.lost < run.frames;
   text += tracked ? column(run.registration.rms_mm, 7, 4) + " " + column(run.registration.rms_deg, 8, 5) : std::string("every frame lost");
-  if (kind == ScenarioKind::kPaper) {
+  if (bound) {
     const bool noise = variant.variant.noise;
     text +=
         "  " + ratio(run.registration.rms_mm, noise ? run.crlb_mm : 0) + " " + ratio(run.registration.rms_deg, noise ? run.crlb_deg : 0);
@@ -122,14 +122,14 @@ std::string quality_line(const VariantResult& variant, ScenarioKind kind) {
 }
 
 std::string quality_table(const TableResult& table) {
-  const bool paper = table.scenario.scenario_kind() == ScenarioKind::kPaper;
+  const bool bound = table.scenario.variants != 0;
   std::string text = "                            rms error         ";
-  text += paper ? "over bound      " : "rates error     ";
+  text += bound ? "over bound      " : "rates error     ";
   text += "NEES  lost       invalid wrong  time of an estimate, us\n";
   text += "                            mm       deg      ";
-  text += paper ? "mm     deg      " : "deg/s  mm/s     ";
+  text += bound ? "mm     deg      " : "deg/s  mm/s     ";
   text += "of 6                              median     p99     max\n";
-  for (const VariantResult& variant : table.variants) text += quality_line(variant, table.scenario.scenario_kind());
+  for (const VariantResult& variant : table.variants) text += quality_line(variant, bound);
   for (const std::string& warning : warnings_of(table)) text += "  " + warning + "\n";
   return text;
 }
@@ -160,7 +160,7 @@ const RunStatistics& statistics_of(const SimulationResult& result) { return resu
 
 Json timeline_json(const SimulationResult& result, const Timeline& timeline) {
   Json json = run_json(timeline_statistics(timeline));
-  if (result.kind == ScenarioKind::kApproach) json.update(integrity_json(integrity_of(statistics_of(result))));
+  if (result.flown().autonomous != 0) json.update(integrity_json(integrity_of(statistics_of(result))));
   json["by_mode"] = groups_json(by_mode(timeline));
   json["by_sensor"] = groups_json(by_sensor(timeline, result.sensors));
   json["by_part"] = groups_json(by_part(timeline, result.parts));
@@ -313,7 +313,7 @@ std::string table_text(const SimulationResult& result, const TableResult& table)
   text += quality_table(table);
   text += integrity_text(table);
   text += invalid_text(table);
-  if (result.kind != ScenarioKind::kPaper) text += tracked_text(table) + settled_text(table);
+  if (scenario.variants == 0) text += tracked_text(table) + settled_text(table);
   if (scenario.prior == 0) text += found_text(table);
   return text + "\n";
 }
@@ -357,11 +357,8 @@ std::string results_json(const SimulationResult& result) {
   Json json = {{"mission", result.mission}, {"scenario", result.scenario}, {"seed", result.seed},     {"frames", result.frames},
                {"sensor", result.sensor},   {"version", kVersion},         {"commit", result.commit}, {"set", result.settings}};
   json["settings"] = settings_json(result.values);
-  if (result.kind == ScenarioKind::kApproach) {
-    json["timeline"] = timeline_json(result, timeline_of(result));
-    return json.dump(2) + "\n";
-  }
   for (const TableResult& table : result.tables) {
+    if (table.scenario.autonomous != 0) continue;  // of which the timeline says all
     Json variants;
     for (const VariantResult& variant : table.variants) variants[variant.variant.name] = variant_json(variant, table.scenario);
     if (table.name.empty()) {
@@ -371,15 +368,15 @@ std::string results_json(const SimulationResult& result) {
     }
   }
   if (!result.relative.empty()) json["relative"] = relative_json(result.relative);
-  if (result.kind >= ScenarioKind::kPass) json["timeline"] = timeline_json(result, timeline_of(result));
+  if (result.flown().has_timeline()) json["timeline"] = timeline_json(result, timeline_of(result));
   if (is_beside_paper(result.tables.front())) json["paper_2005"] = axes_json(paper_table_1());
   return json.dump(2) + "\n";
 }
 
 std::string summary_text(const SimulationResult& result) {
   std::string text = "\n";
-  if (result.kind == ScenarioKind::kApproach) return text + timeline_text(result, timeline_of(result));
-  for (const TableResult& table : result.tables) text += table_text(result, table);
+  if (result.flown().autonomous != 0) text += timeline_text(result, timeline_of(result));
+  for (std::size_t i = 0; result.flown().autonomous == 0 && i < result.tables.size(); ++i) text += table_text(result, result.tables[i]);
   return result.relative.empty() ? text : text + relative_text(result.relative) + "\n";
 }
 

@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include "fsw/geometry/so3.hpp"
 #include "hal_sim/random.hpp"
+#include "mdat/run/ranged_scene.hpp"
 #include "mdat/run/true_target.hpp"
 #include "mdat/scene/pose_lookup.hpp"
 
@@ -16,14 +16,18 @@ namespace {
 class NodeTrajectory final : public sim::Trajectory {
  public:
   NodeTrajectory(std::shared_ptr<const SceneRun> run, std::size_t node, TimeUs epoch_us)
-      : run_(std::move(run)), node_(node), epoch_us_(epoch_us), lookup_([this](TimeUs t_us) { return state(t_us); }) {}
+      : run_(std::move(run)),
+        node_(node),
+        epoch_us_(epoch_us),
+        is_quick_(run_->tree.is_quick(node, run_->sensor)),
+        lookup_([this](TimeUs t_us) { return state(t_us); }) {}
   NodeTrajectory(const NodeTrajectory&) = delete;  // its look-up knows it
   NodeTrajectory& operator=(const NodeTrajectory&) = delete;
   sim::TruthState at(TimeUs t_us) const override {
     const scene::MotionState now = state(t_us - epoch_us_);
     return {now.T_a_b, now.rates};
   }
-  Pose pose_at(TimeUs t_us) const override { return lookup_.at(t_us - epoch_us_); }
+  Pose pose_at(TimeUs t_us) const override { return is_quick_ ? state(t_us - epoch_us_).T_a_b : lookup_.at(t_us - epoch_us_); }
 
  private:
   std::shared_ptr<const SceneRun> run_;
@@ -31,6 +35,7 @@ class NodeTrajectory final : public sim::Trajectory {
 
   std::size_t node_;
   TimeUs epoch_us_;
+  bool is_quick_;
   mutable scene::PoseLookup lookup_;
 };
 
@@ -86,27 +91,6 @@ void set_common(const Source& source, sim::ScannerModel& model) {
   model.common_sigma_k_per_m = source.common_sigma_k_per_m;
   model.common_sigma_rad = source.common_sigma_rad;
   model.common_memory_s = source.common_memory_s;
-}
-
-std::unique_ptr<sim::Trajectory> center_trajectory(const Scenario& scenario, double range_m, TimeUs epoch_us, DurationUs period) {
-  Pose start;
-  start.q = sim::upright_attitude(scenario.tilt_rad, scenario.boresight_rad);
-  if (scenario.roll_rad != 0) start.q = normalized(start.q * exp_so3(scenario.roll_rad * Vec3::UnitX()));
-  start.p = Vec3(scenario.offset_m.at(0), scenario.offset_m.at(1), range_m);
-  if (scenario.scenario_kind() == ScenarioKind::kPaper) {
-    sim::SteppedSpin::Setup setup;
-    setup.T_sensor_target_frame0 = start;
-    setup.step_rad = scenario.step_rad;
-    setup.epoch_us = epoch_us;
-    setup.period_us = period;
-    return std::make_unique<sim::SteppedSpin>(setup);
-  }
-  const Twist rates{rotate(start.q, Vec3(scenario.spin_radps.data())), Vec3(scenario.drift_mps.data())};
-  if (scenario.has_profile()) {
-    return std::make_unique<sim::RangeProfile>(
-        sim::RangeProfile::Setup{start, rates.omega_radps, scenario.times_s, scenario.ranges_m, epoch_us});
-  }
-  return std::make_unique<sim::ConstantTwist>(sim::TruthState{start, rates}, epoch_us);
 }
 
 }  // namespace
@@ -166,11 +150,9 @@ sim::OtherBodies make_other_bodies(const Scenario& scenario, TimeUs epoch_us) {
 }
 
 std::unique_ptr<sim::Trajectory> make_trajectory(const Scenario& scenario, double range_m, TimeUs epoch_us, DurationUs period) {
-  if (scenario.scene != nullptr) return std::make_unique<NodeTrajectory>(scenario.scene, scenario.scene->target, epoch_us);
-  std::unique_ptr<sim::Trajectory> motion = center_trajectory(scenario, range_m, epoch_us, period);
-  const Vec3 center_m(scenario.center_m.data());
-  if (center_m.isZero()) return motion;
-  return std::make_unique<sim::AboutPoint>(std::move(motion), center_m);
+  std::shared_ptr<const SceneRun> run = scene_run(scenario, range_m, period);
+  const std::size_t target = run->target;
+  return std::make_unique<NodeTrajectory>(std::move(run), target, epoch_us);
 }
 
 }  // namespace lasso::mdat

@@ -23,7 +23,7 @@ sim::ScannerModel scanner_model(const Scenario& scenario, const FurtherSensor& s
 // The scenario of a run whose noise is that of `seed`: where its motion is drawn, with that motion; otherwise as it is.
 Scenario drawn_scenario(Scenario scenario, std::uint64_t seed);
 
-// All else that a scene has: nodes with a surface, as the sensors see them move. None in the other kinds of scenarios.
+// All else that a scene has: nodes with a surface, as the sensors see them move. None where it says ranges.
 sim::OtherBodies make_other_bodies(const Scenario& scenario, TimeUs epoch_us);
 
 // The target's motion; frame 0 begins at `epoch_us`.

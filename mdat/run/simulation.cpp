@@ -109,7 +109,7 @@ struct Plan {
 };
 
 std::vector<Variant> variants_of(const Scenario& scenario, const MissionParameters& parameters, bool plain) {
-  if (scenario.scenario_kind() == ScenarioKind::kPaper && !plain) return {std::begin(kPaperVariants), std::end(kPaperVariants)};
+  if (scenario.variants != 0 && !plain) return {std::begin(kPaperVariants), std::end(kPaperVariants)};
   Variant variant = scenario.noise != 0 ? kNoisy : kNoiseFree;
   variant.silhouettes = parameters.silhouettes != 0;
   return {variant};
@@ -118,8 +118,6 @@ std::vector<Variant> variants_of(const Scenario& scenario, const MissionParamete
 MissionParameters variant_parameters(const Scenario& scenario, MissionParameters parameters, const Variant& variant) {
   parameters.silhouettes = variant.silhouettes ? 1 : 0;
   if (variant.aimed) parameters.aimed_share = std::max(parameters.aimed_share, kAimedShare);
-  const bool still = scenario.scenario_kind() == ScenarioKind::kPaper && scenario.overrides.count("estimation.deskew") == 0;
-  if (still) parameters.deskew = 0;
   if (scenario.prior == 0) parameters.initial_present = 0;
   return parameters;
 }
@@ -127,7 +125,7 @@ MissionParameters variant_parameters(const Scenario& scenario, MissionParameters
 std::vector<TableResult> make_tables(const Scenario& scenario, const MissionParameters& parameters, bool plain) {
   std::vector<TableResult> tables(1);
   tables[0].scenario = scenario;
-  if (scenario.scenario_kind() == ScenarioKind::kPaper && scenario.tilt_rad != 0 && !plain) {
+  if (scenario.variants != 0 && scenario.tilt_rad != 0 && !plain) {
     tables.push_back(tables[0]);
     tables[1].name = "side_on";
     tables[1].scenario.tilt_rad = 0;
@@ -257,9 +255,8 @@ std::vector<std::string> sensor_names(const MissionSource& source) {
 
 std::vector<std::uint32_t> shown_frames(const Scenario& scenario, std::uint32_t frames) {
   std::vector<std::uint32_t> result;
-  if (scenario.has_profile()) return all_frames(frames);  // which of them, the run itself will tell
-  if (scenario.scenario_kind() != ScenarioKind::kPaper || scenario.step_rad == 0)
-    return frames > 0 ? std::vector<std::uint32_t>{0} : result;
+  if (scenario.has_timeline()) return all_frames(frames);  // which of them, the run itself will tell
+  if (scenario.step_rad == 0) return frames > 0 ? std::vector<std::uint32_t>{0} : result;
   for (const double angle_deg : {0.0, 45.0, 90.0}) {
     const double frame = std::round(angle_deg * kRadPerDeg / std::fabs(scenario.step_rad));
     if (frame < frames) result.push_back(static_cast<std::uint32_t>(frame));
@@ -315,7 +312,6 @@ SimulationResult simulate(const CompiledMission& mission, const SimulationOption
   SimulationResult result;
   result.mission = mission.source.name;
   result.scenario = options.scenario;
-  result.kind = scenario.scenario_kind();
   result.seed = options.seed.value_or(static_cast<std::uint64_t>(scenario.seed));
   result.frames = options.frames.value_or(static_cast<std::uint32_t>(scenario.frames));
   result.settings = mission.source.settings;

@@ -69,7 +69,6 @@ struct TableResult {
 
 struct SimulationResult {
   std::string mission, scenario;
-  ScenarioKind kind = ScenarioKind::kPaper;
   std::uint64_t seed = 0;
   std::uint32_t frames = 0;
   sim::LcsFaults camera_faults;
@@ -82,6 +81,8 @@ struct SimulationResult {
   std::vector<TableResult> tables;
   std::vector<RelativeRun> relative;  // of a scene
   double seconds = 0;
+
+  const Scenario& flown() const { return tables.front().scenario; }
 };
 
 // The case that a scenario's camera is in, for whoever runs it alone: its first range, with noise as the scenario says. `target` outlives
@@ -100,8 +101,8 @@ std::vector<std::string> sensor_names(const MissionSource& source);
 // serves one run, where there are several. `linked`: there will be a link. Throws InputError or MissionError.
 void check_simulation(const MissionSource& source, const SimulationOptions& options, bool linked);
 
-// The paper's kind of scenario has four variants (noise x silhouettes), and a second table without tilt where it has one; deskewing is off,
-// as its target stands still in each scan, unless the scenario overrides estimation.deskew. Other kinds have the one variant they state.
+// A scenario with `variants` is flown in all of them (noise x silhouettes, and aimed rays), with a second table without tilt where it has
+// one; any other in the one that it states.
 // Checks first (check_simulation). Throws InputError, MissionError or RunError.
 SimulationResult simulate(const CompiledMission& mission, const SimulationOptions& options);
 

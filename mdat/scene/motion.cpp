@@ -85,4 +85,16 @@ Chain::Chain(MotionPtr outer, MotionPtr inner) : outer_(std::move(outer)), inner
   if (outer_ == nullptr || inner_ == nullptr) throw std::invalid_argument("chain of motions: one of them is missing");
 }
 
+Sum::Sum(MotionPtr way, MotionPtr motion) : way_(std::move(way)), motion_(std::move(motion)) {
+  if (way_ == nullptr || motion_ == nullptr) throw std::invalid_argument("sum of motions: one of them is missing");
+}
+
+MotionState Sum::at(TimeUs t_us) const {
+  const MotionState way = way_->at(t_us);
+  MotionState state = motion_->at(t_us);
+  state.T_a_b.p += way.T_a_b.p;
+  state.rates.v_mps += way.rates.v_mps;
+  return state;
+}
+
 }  // namespace lasso::mdat::scene

@@ -26,6 +26,8 @@ class Motion {
  public:
   virtual ~Motion() = default;
   virtual MotionState at(TimeUs t_us) const = 0;  // of the node (b) in its parent (a)
+  // Whether it costs so little that each ray may ask for it (PoseLookup serves all others).
+  virtual bool is_quick() const { return false; }
 };
 using MotionPtr = std::shared_ptr<const Motion>;
 
@@ -35,6 +37,7 @@ class Still final : public Motion {
  public:
   explicit Still(const Pose& T_parent_node, const Place& place = {});
   MotionState at(TimeUs t_us) const override;
+  bool is_quick() const override { return true; }
 
  private:
   Pose T_parent_node_;
@@ -50,6 +53,7 @@ class ConstantRates final : public Motion {
   };
   explicit ConstantRates(const Setup& setup, const Place& place = {});
   MotionState at(TimeUs t_us) const override;
+  bool is_quick() const override { return true; }
 
  private:
   Setup setup_;
@@ -66,6 +70,7 @@ class Steps final : public Motion {
   };
   explicit Steps(const Setup& setup, const Place& place = {});
   MotionState at(TimeUs t_us) const override;  // rates are zero: the steps happen between the periods
+  bool is_quick() const override { return true; }
   std::int64_t step_of(TimeUs t_us) const;
 
  private:
@@ -78,9 +83,21 @@ class Chain final : public Motion {
  public:
   Chain(MotionPtr outer, MotionPtr inner);  // neither is null
   MotionState at(TimeUs t_us) const override { return outer_->at(t_us) * inner_->at(t_us); }
+  bool is_quick() const override { return outer_->is_quick() && inner_->is_quick(); }
 
  private:
   MotionPtr outer_, inner_;
+};
+
+// The chain of a motion that keeps the parent's axes, `way`, and any other: positions and velocities add up. Nothing is lost to rounding.
+class Sum final : public Motion {
+ public:
+  Sum(MotionPtr way, MotionPtr motion);  // neither is null
+  MotionState at(TimeUs t_us) const override;
+  bool is_quick() const override { return way_->is_quick() && motion_->is_quick(); }
+
+ private:
+  MotionPtr way_, motion_;
 };
 
 }  // namespace lasso::mdat::scene

@@ -76,9 +76,21 @@ bool Tree::are_rigid(std::size_t a, std::size_t b) const {
   return stands_in(a, ancestor) && stands_in(b, ancestor);
 }
 
+bool Tree::is_quick_in(std::size_t node, std::size_t ancestor) const {
+  const auto is_quick = [](const Node& of) { return of.towards.empty() && (of.motion == nullptr || of.motion->is_quick()); };
+  while (node != ancestor && is_quick(nodes_[node])) node = parents_[node];
+  return node == ancestor;
+}
+
+bool Tree::is_quick(std::size_t node, std::size_t frame) const {
+  const std::size_t ancestor = common_ancestor(node, frame);
+  return is_quick_in(node, ancestor) && is_quick_in(frame, ancestor);
+}
+
 MotionState Tree::in_ancestor(std::size_t node, std::size_t ancestor, TimeUs t_us) const {
-  MotionState state;
-  for (; node != ancestor; node = parents_[node]) state = in_parent(node, t_us) * state;
+  if (node == ancestor) return {};
+  MotionState state = in_parent(node, t_us);
+  for (node = parents_[node]; node != ancestor; node = parents_[node]) state = in_parent(node, t_us) * state;
   return state;
 }
 

@@ -38,6 +38,9 @@ class Tree {
   // root meet, has a motion or points somewhere.
   bool are_rigid(std::size_t a, std::size_t b) const;
 
+  // Whether nothing between the two costs more than a ray may ask for (Motion::is_quick).
+  bool is_quick(std::size_t node, std::size_t frame) const;
+
   // Pose of `node` in `frame`, and how it moves there: rates relative to `frame`, in its axes, of the node's origin. Both of any branch.
   MotionState state(std::size_t node, std::size_t frame, TimeUs t_us) const;
 
@@ -45,6 +48,7 @@ class Tree {
   MotionState in_parent(std::size_t node, TimeUs t_us) const;
   MotionState in_ancestor(std::size_t node, std::size_t ancestor, TimeUs t_us) const;
   std::size_t common_ancestor(std::size_t a, std::size_t b) const;
+  bool is_quick_in(std::size_t node, std::size_t ancestor) const;
   bool stands_in(std::size_t node, std::size_t ancestor) const;
 
   std::vector<Node> nodes_;

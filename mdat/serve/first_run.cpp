@@ -33,14 +33,14 @@ void fly(const fs::path& mission_file, const fs::path& file, const std::string& 
   SimulationOptions options;
   options.scenario = kFirstScenario;
   options.plain = true;
-  options.record = std::make_shared<sim::SensorRecording>();
+  const auto scans = std::make_shared<sim::SensorRecording>();
   MissionInput input = load_mission_input(mission_file, {}, options.scenario);
   check_simulation(input.source, options, false);
   const CompiledMission mission = compile_mission(std::move(input));
   const RecordingHead head = recording_head(mission, options, {}, {{"sensor", "simulated"}, {"commit", commit}});
-  FrameRecorder recorder(file, mission, head, options.record);
+  FrameRecorder recorder(file, mission, head, scans);
   Counting counting(recorder, mission.source.scenarios.at(options.scenario).frames, tell);
-  options.listener = &counting;
+  options.recorders = {{scans, &counting}};
   const SimulationResult result = simulate(mission, options);
   recorder.close(image_bytes(mission, result.tables[0].variants[0].parameters));
 }

@@ -111,8 +111,9 @@ Json told_json(const Shown& shown, std::size_t n, const PoseTelemetry& told) {
   return json;
 }
 
-// Of a recording by another program: its time.
+// Of a recording by another program: its time, and the pose that is told nearest to it.
 Json bare_json(const Shown& shown, std::size_t n) {
+  const std::optional<Pose> pose = shown.recording->other_pose(n);
   return {{"index", n},
           {"time_s", shown.recording->frames()[n].time_s},
           {"mode", nullptr},
@@ -120,7 +121,7 @@ Json bare_json(const Shown& shown, std::size_t n) {
           {"wrong", nullptr},
           {"reason", nullptr},
           {"gates", Json::array()},
-          {"poses", {{"estimate", nullptr}, {"filtered", nullptr}, {"truth", nullptr}}},
+          {"poses", {{"estimate", pose ? pose_json(*pose) : Json()}, {"filtered", nullptr}, {"truth", nullptr}}},
           {"T_world_sensor", world_of(*shown.recording, n)},
           {"covariance", nullptr},
           {"weak", Json::array()},

@@ -18,6 +18,7 @@ constexpr TypeRow kTypes[] = {{".html", "text/html; charset=utf-8"},
                               {".js", "text/javascript; charset=utf-8"},
                               {".css", "text/css; charset=utf-8"},
                               {".svg", "image/svg+xml"},
+                              {".txt", "text/plain; charset=utf-8"},
                               {".json", "application/json"},
                               {".wasm", "application/wasm"},
                               {".png", "image/png"}};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <future>
 #include <unordered_map>
 
 #include "mdat/recording/recording_head.hpp"
@@ -13,6 +14,7 @@ namespace {
 
 constexpr double kNs = 1e-9;
 constexpr std::size_t kFactsTable = 0;
+constexpr std::size_t kTogether = 16;     // chunks
 constexpr std::size_t kPatience = 64;     // reports that wait for their true poses
 constexpr std::size_t kMostDamage = 100;  // of chunks that cannot be read, each
 
@@ -21,6 +23,23 @@ bool is_pose(const PacketRow& row) { return std::string_view(row.name) == "pose"
 bool is_event(const PacketRow& row) { return row.cause[0] != '\0'; }  // whose words are in /events
 
 }  // namespace
+
+struct Recording::UnpackedChunk {
+  std::size_t index = 0;
+  std::string records, why;
+};
+
+// The next ones from `first` on of those that are wanted: another thread unpacks them while the ones before are taken.
+std::vector<Recording::UnpackedChunk> Recording::unpacked_chunks(const mcap::IndexedFile& file, const std::vector<std::size_t>& wanted,
+                                                                 std::size_t first) {
+  std::vector<UnpackedChunk> chunks;
+  for (std::size_t i = first; i < std::min(first + kTogether, wanted.size()); ++i) {
+    chunks.emplace_back();
+    chunks.back().index = wanted[i];
+    chunks.back().records = file.records_of(file.chunks()[wanted[i]], chunks.back().why);
+  }
+  return chunks;
+}
 
 // What is known only while the file is read.
 struct Recording::Building {
@@ -54,19 +73,27 @@ void Recording::build() {
     if (channel.topic == "/packets" || channel.topic == "/truth" || channel.topic == "/events") building.topics[id] = channel.topic;
   }
   tables_.emplace_back();
+  std::vector<std::size_t> wanted;
   for (std::size_t i = 0; i < file_.chunks().size(); ++i) {
-    const mcap::ChunkPlace& chunk = file_.chunks()[i];
-    const bool wanted =
-        std::any_of(building.topics.begin(), building.topics.end(), [&](const auto& topic) { return chunk.may_have(topic.first); });
-    if (!wanted) continue;
-    std::string why;
-    const std::string records = file_.records_of(chunk, why);
-    if (!why.empty() && damage_.size() < kMostDamage) damage_.push_back("byte " + std::to_string(chunk.at) + ": " + why);
-    mcap::for_each_message(records, [&](const mcap::Message& message) { take(message, i, building); });
-    judge_waiting(building, kPatience);
+    const auto may_have = [&](const auto& topic) { return file_.chunks()[i].may_have(topic.first); };
+    if (std::any_of(building.topics.begin(), building.topics.end(), may_have)) wanted.push_back(i);
+  }
+  const auto read = [&](std::size_t first) { return unpacked_chunks(file_, wanted, first); };
+  std::vector<UnpackedChunk> chunks = read(0);
+  for (std::size_t first = 0; first < wanted.size(); first += kTogether) {
+    std::future<std::vector<UnpackedChunk>> next = std::async(std::launch::async, read, first + kTogether);
+    for (const UnpackedChunk& chunk : chunks) take_chunk(chunk, building);
+    chunks = next.get();
   }
   judge_waiting(building, 0);
   finish(building);
+}
+
+void Recording::take_chunk(const UnpackedChunk& chunk, Building& building) {
+  const std::uint64_t at = file_.chunks()[chunk.index].at;
+  if (!chunk.why.empty() && damage_.size() < kMostDamage) damage_.push_back("byte " + std::to_string(at) + ": " + chunk.why);
+  mcap::for_each_message(chunk.records, [&](const mcap::Message& message) { take(message, chunk.index, building); });
+  judge_waiting(building, kPatience);
 }
 
 void Recording::take(const mcap::Message& message, std::size_t chunk, Building& building) {
@@ -84,7 +111,8 @@ void Recording::take(const mcap::Message& message, std::size_t chunk, Building& 
 
 void Recording::take_packet(const mcap::Message& message, std::size_t chunk, Building& building) {
   const std::optional<ConstBytes> packet = read_packet(message.data);
-  const PacketRow* row = packet ? telemetry_row(*packet) : nullptr;
+  if (!packet) return;
+  const PacketRow* row = telemetry_row(*packet);
   if (row == nullptr || is_event(*row) || row->items.empty()) return;
   const auto [place, added] = building.packets.try_emplace(row, *row, tables_.size());
   if (added) tables_.emplace_back();
@@ -124,8 +152,9 @@ void Recording::finish(Building& building) {
   if (!frames_.empty()) values_ = fact_values(kFactsTable);
   if (!truth_) std::erase_if(values_, [](const Value& value) { return value.topic == "/truth"; });
   for (const auto& [row, columns] : building.packets) values_.insert(values_.end(), columns.values().begin(), columns.values().end());
-  for (std::size_t i = 0; i < values_.size(); ++i) by_id_[values_[i].id] = i;
+  if (!own_) find_other_poses();
   if (frames_.empty()) find_frames_of_clouds();
+  for (std::size_t i = 0; i < values_.size(); ++i) by_id_[values_[i].id] = i;
   number_events();
 }
 
@@ -148,6 +177,61 @@ void Recording::find_frames_of_clouds() {
     });
   }
   std::stable_sort(frames_.begin(), frames_.end(), [](const Frame& a, const Frame& b) { return a.time_ns < b.time_ns; });
+}
+
+// Position and attitude of a topic become values of it.
+void Recording::find_other_poses() {
+  std::optional<std::uint16_t> found;
+  for (const auto& [id, channel] : file_.channels()) {
+    const auto schema = file_.schemas().find(channel.schema);
+    const bool poses = schema != file_.schemas().end() && (schema->second.name == "geometry_msgs/msg/PoseStamped" ||
+                                                           schema->second.name == "geometry_msgs/msg/PoseWithCovarianceStamped");
+    if (poses && !found) found = id;
+  }
+  if (!found) return;
+  for (const mcap::ChunkPlace& chunk : file_.chunks()) {
+    if (!chunk.may_have(*found)) continue;
+    std::string why;
+    mcap::for_each_message(file_.records_of(chunk, why), [&](const mcap::Message& message) {
+      std::optional<StampedPose> pose = message.channel == *found ? read_pose(message.data) : std::nullopt;
+      if (!pose || !is_valid(pose->pose)) return;
+      pose->time_s = kNs * static_cast<double>(message.log_ns);
+      other_poses_.push_back(*pose);
+    });
+  }
+  std::stable_sort(other_poses_.begin(), other_poses_.end(),
+                   [](const StampedPose& a, const StampedPose& b) { return a.time_s < b.time_s; });
+  add_other_values(file_.channels().at(*found).topic);
+}
+
+void Recording::add_other_values(const std::string& topic) {
+  constexpr const char* kNames[] = {"x", "y", "z", "qx", "qy", "qz", "qw"};
+  ValueTable table;
+  table.columns.resize(std::size(kNames));
+  for (const StampedPose& pose : other_poses_) {
+    table.time_s.push_back(pose.time_s);
+    for (std::size_t i = 0; i < std::size(kNames); ++i) {
+      const auto axis = static_cast<int>(i);
+      table.columns[i].push_back(static_cast<float>(i < 3 ? pose.pose.p[axis] : pose.pose.q.coeffs()[axis - 3]));
+    }
+  }
+  for (std::size_t i = 0; i < std::size(kNames); ++i) {
+    const std::string name = kNames[i];
+    values_.push_back({topic + "." + name, (i < 3 ? "position " : "attitude, quaternion ") + name, i < 3 ? "m" : "1", topic, "pose",
+                       tables_.size(), i, nullptr});
+  }
+  tables_.push_back(std::move(table));
+}
+
+std::optional<Pose> Recording::other_pose(std::size_t n) const {
+  const double time_s = frames_.at(n).time_s;
+  const auto after = std::lower_bound(other_poses_.begin(), other_poses_.end(), time_s,
+                                      [](const StampedPose& pose, double at_s) { return pose.time_s < at_s; });
+  const StampedPose* nearest = after != other_poses_.end() ? &*after : nullptr;
+  if (after != other_poses_.begin() && (nearest == nullptr || time_s - std::prev(after)->time_s < nearest->time_s - time_s))
+    nearest = &*std::prev(after);
+  if (nearest == nullptr || std::abs(nearest->time_s - time_s) > kNearest_s) return std::nullopt;
+  return nearest->pose;
 }
 
 void Recording::number_events() {

@@ -34,6 +34,8 @@ struct RecordedEvent {
   std::string name, text;
 };
 
+constexpr double kNearest_s = 0.5;
+
 // Safe for several threads once it is made.
 class Recording {
  public:
@@ -58,17 +60,25 @@ class Recording {
   // The message of a topic at the frame's time; empty, where there is none.
   std::string message(std::size_t n, const std::string& topic) const;
   std::string first_message(const std::string& topic) const;
+  // Of another program's recording: the pose that is told nearest to frame n, on the first topic of poses; none: not within kNearest_s.
+  std::optional<Pose> other_pose(std::size_t n) const;
   std::string cloud_topic() const { return cloud_topic_; }  // of scans; empty: there is none
 
  private:
   struct Building;
+  struct UnpackedChunk;
+  static std::vector<UnpackedChunk> unpacked_chunks(const mcap::IndexedFile& file, const std::vector<std::size_t>& wanted,
+                                                    std::size_t first);
   void build();
+  void take_chunk(const UnpackedChunk& chunk, Building& building);
   void take(const mcap::Message& message, std::size_t chunk, Building& building);
   void take_packet(const mcap::Message& message, std::size_t chunk, Building& building);
   void add_pose(const mcap::Message& message, ConstBytes packet, std::size_t chunk, Building& building);
   void judge_waiting(Building& building, std::size_t keep);
   void finish(Building& building);
   void find_frames_of_clouds();
+  void find_other_poses();
+  void add_other_values(const std::string& topic);
   void number_events();
 
   mcap::IndexedFile file_;
@@ -81,6 +91,7 @@ class Recording {
   std::map<std::string, std::size_t> by_id_;
   std::vector<ValueTable> tables_;
   std::vector<RecordedEvent> events_;
+  std::vector<StampedPose> other_poses_;  // ascending times
   std::vector<std::string> damage_;
 };
 

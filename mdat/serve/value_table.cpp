@@ -49,14 +49,15 @@ std::string element_name(const ItemRow& item, std::size_t element) {
 
 // "rad,m" of six, or of the corner of a matrix, is one of them, or their product.
 std::string element_unit(const ItemRow& item, std::size_t element) {
-  const std::string unit = item.unit;
+  std::string unit = item.unit;
   const std::size_t comma = unit.find(',');
   if (comma == std::string::npos) return unit;
   const std::array<std::string, 2> units = {unit.substr(0, comma), unit.substr(comma + 1)};
   if (begins_with(item.name, "bearing")) return units[element % 3 / 2] + (element < 3 ? "" : "/s");
   if (item.count != kPoseCovarianceTerms) return units[element < 3 ? 0 : 1];
   const Corner corner = corner_of(element);
-  const std::string row = units[corner.row / 3], column = units[corner.column / 3];
+  const std::string& row = units[corner.row / 3];
+  const std::string& column = units[corner.column / 3];
   return row == column ? row + "^2" : row + " " + column;
 }
 

@@ -13,8 +13,9 @@ export default defineConfig({
   fullyParallel: true,
   forbidOnly: true,
   retries: 0,
-  timeout: 60_000,
-  expect: { timeout: 15_000 },
+  // What is waited for comes within a second; a machine that compiles beside takes its time.
+  timeout: 180_000,
+  expect: { timeout: 45_000 },
   reporter: [["list"], ["junit", { outputFile: join(OUT, "junit.xml") }]],
   use: {
     browserName: "chromium",

@@ -14,7 +14,7 @@ namespace {
 
 // What follows begins on line 11.
 const std::string kReaderHead =
-    "[mission]\nid = 7\nversion = 2\nname = 'test'\n[target]\nmodel = 'box.toml'\n[scenario.s]\nkind = 'spin'\nranges_m = [5]\n"
+    "[mission]\nid = 7\nversion = 2\nname = 'test'\n[target]\nmodel = 'box.toml'\n[scenario.s]\nseed = 1\nranges_m = [5]\n"
     "[campaign.c]\n";
 const std::string kPlainCampaign = "scenario = 's'\ncases = 100\n";
 
@@ -181,7 +181,7 @@ TEST_F(CampaignReaderTest, WrongNamesAreNamedWithWhatIsMeant) {
   refuses("mission.estimation = 3", {"unknown key"});
   refuses("truth.mission.id = 3", {"unknown key"});
   refuses("frmaes = 3", {"did you mean campaign.c.frames?"});
-  for (const char* key : {"kind", "frames", "seed", "drawn", "paper_table", "ranges_m", "times_s"})
+  for (const char* key : {"autonomous", "variants", "frames", "seed", "drawn", "paper_table", "ranges_m", "times_s"})
     refuses(std::string("truth.") + key + " = 1", {"does not vary from case to case: "});
   refuses("mission.sensor.range_max_m = 9", {"does not vary from case to case: "});
   refuses("truth.attitude = 'any'\ntruth.tilt_deg = 3",

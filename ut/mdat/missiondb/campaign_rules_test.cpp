@@ -11,7 +11,7 @@ namespace lasso::mdat {
 namespace {
 
 const std::string kRulesHead = "[mission]\nid = 7\nversion = 2\nname = 'test'\n[target]\nmodel = 'box.toml'\n";
-const std::string kSpinScenario = "[scenario.s]\nkind = 'spin'\nranges_m = [5]\n";
+const std::string kSpinScenario = "[scenario.s]\nseed = 1\nranges_m = [5]\n";
 const std::string kRulesCampaign = "[campaign.c]\nscenario = 's'\ncases = 100\n";
 
 class CampaignRulesTest : public ::testing::Test {
@@ -67,7 +67,7 @@ TEST_F(CampaignRulesTest, NamesArePlain) {
 
 TEST_F(CampaignRulesTest, OneOfSeveralRangesIsTold) {
   VERIFIES("LASSO-GND-045~1");
-  const std::string scenario = "[scenario.s]\nkind = 'spin'\nranges_m = [5, 6]\n";
+  const std::string scenario = "[scenario.s]\nranges_m = [5, 6]\n";
   const auto told = [&](const std::string& text) {
     const std::vector<std::string> warnings = warnings_for(load(text, scenario), "");
     return std::count_if(warnings.begin(), warnings.end(), [](const std::string& warning) {
@@ -80,10 +80,10 @@ TEST_F(CampaignRulesTest, OneOfSeveralRangesIsTold) {
 
 TEST_F(CampaignRulesTest, WhatTheScenarioSaysItselfDoesNotVary) {
   VERIFIES("LASSO-GND-045~1");
-  expect_error("truth.range_m = 4\n", "flies a profile of ranges", "[scenario.s]\nkind = 'pass'\nranges_m = [5, 4]\ntimes_s = [0, 100]\n");
+  expect_error("truth.range_m = 4\n", "flies a profile of ranges", "[scenario.s]\nranges_m = [5, 4]\ntimes_s = [0, 100]\n");
   expect_error("truth.attitude = 'any'\n", "write drawn = false", kSpinScenario + "drawn = true\n");
   expect_error("truth.tilt_deg = 4\n", "campaign.c.truth.tilt_deg: changes nothing", kSpinScenario + "drawn = true\n");
-  expect_warning("truth.step_deg = 2\n", "campaign.c.truth.step_deg: truth.step_deg: has no effect");
+  expect_warning("truth.navigation_sigma_m = 2\n", "campaign.c.truth.navigation_sigma_m: truth.navigation_sigma_m: has no effect");
 }
 
 // A laser camera measures from 0.5 m on.

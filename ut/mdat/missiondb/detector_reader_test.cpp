@@ -24,7 +24,7 @@ TEST_F(DetectorReaderTest, ReadsTheDetectorOfEachSensorInItsUnits) {
   VERIFIES("LASSO-SIM-062~1 LASSO-SIM-065~1");
   const MissionSource source = load(
       "[sensor.detector]\nreference_electrons = 3000\nbandpass_nm = 10\nenergy_uJ = 2\nfield_mrad = 0.5\ngate_us = 0.01\n"
-      "[further_sensor.far.detector]\nreturns = 'last'\n[scenario.one]\nkind = 'paper'\nranges_m = [3]\n");
+      "[further_sensor.far.detector]\nreturns = 'last'\n[scenario.one]\nvariants = true\nranges_m = [3]\n");
   EXPECT_EQ(source.detector.reference_electrons, 3000);
   EXPECT_NEAR(source.detector.bandpass_m, 10e-9, 1e-20);
   EXPECT_NEAR(source.detector.energy_J, 2e-6, 1e-18);

@@ -57,7 +57,7 @@ TEST_F(Missions, PresetsHoldWhereNothingIsWritten) {
 
 TEST_F(Missions, ALidarHasPresetsOfItsOwnWhereNothingIsWritten) {
   VERIFIES("LASSO-GND-001~1 LASSO-SIM-033~1");
-  const std::string scenario = "[scenario.s]\nkind = 'spin'\nranges_m = [40]\n";
+  const std::string scenario = "[scenario.s]\nranges_m = [40]\n";
   const MissionSource lidar = load(kHead + "[sensor]\nkind = 'time_of_flight'\nrange_max_m = 80\n" + scenario);
   EXPECT_EQ(lidar.sensor, SensorKind::kTimeOfFlight);
   EXPECT_EQ(lidar.parameters.sigma0_m, 0.02);
@@ -71,7 +71,7 @@ TEST_F(Missions, ALidarHasPresetsOfItsOwnWhereNothingIsWritten) {
                 .scenarios.at("s")
                 .beam_divergence_rad,
             0.001);
-  const MissionSource camera = load(kHead + "[sensor]\nkind = 'laser_camera'\n[scenario.s]\nkind = 'spin'\nranges_m = [4]\n");
+  const MissionSource camera = load(kHead + "[sensor]\nkind = 'laser_camera'\n[scenario.s]\nranges_m = [4]\n");
   EXPECT_EQ(camera.sensor, SensorKind::kLaserCamera);
   EXPECT_EQ(camera.parameters.sigma0_m, preset_parameters().sigma0_m);
   EXPECT_EQ(camera.scenarios.at("s").beam_divergence_rad, 0);
@@ -208,14 +208,13 @@ TEST_F(Missions, AlmostUnitQuaternionsAreNormalised) {
 
 TEST_F(Missions, ScenariosHaveTheirPresetsFromTheSensorAndTheirOverrides) {
   VERIFIES("LASSO-GND-010~1");
-  const MissionSource source =
-      load(kHead +
-           "[sensor]\nsigma0_m = 0.002\n[scenario.one]\nkind = 'spin'\nranges_m = [2, 3.5]\nspin_degps = [18, 0, -9]\n"
-           "override.scan.points = 512\noverride.estimation.deskew = false\n"
-           "[scenario.two]\nkind = 'paper'\nranges_m = [4]\nsigma_k_per_m = 0\n[scenario.two.override.sensor]\n"
-           "sigma0_m = 0.003\nsigma_angle_rad = 1e-4\n");
+  const MissionSource source = load(kHead +
+                                    "[sensor]\nsigma0_m = 0.002\n[scenario.one]\nranges_m = [2, 3.5]\nspin_degps = [18, 0, -9]\n"
+                                    "override.scan.points = 512\noverride.estimation.deskew = false\n"
+                                    "[scenario.two]\nvariants = true\nranges_m = [4]\nsigma_k_per_m = 0\n[scenario.two.override.sensor]\n"
+                                    "sigma0_m = 0.003\nsigma_angle_rad = 1e-4\n");
   const Scenario& one = scenario_of(source, "one");
-  EXPECT_EQ(one.scenario_kind(), ScenarioKind::kSpin);
+  EXPECT_FALSE(one.has_profile());
   EXPECT_EQ(one.ranges_m, (std::vector<double>{2, 3.5}));
   EXPECT_NEAR(one.spin_radps[0], 0.1 * M_PI, 1e-15);
   EXPECT_NEAR(one.spin_radps[2], -0.05 * M_PI, 1e-15);
@@ -225,7 +224,7 @@ TEST_F(Missions, ScenariosHaveTheirPresetsFromTheSensorAndTheirOverrides) {
   EXPECT_EQ(parameters_for(source, "one").points, 512);
   EXPECT_EQ(parameters_for(source, "one").deskew, 0);
   EXPECT_EQ(parameters_for(source, "").points, 1024);
-  EXPECT_EQ(source.origins.at("scenario.one.override.scan.points").line, 13);
+  EXPECT_EQ(source.origins.at("scenario.one.override.scan.points").line, 12);
   const Scenario& two = scenario_of(source, "two");
   EXPECT_EQ(two.sigma0_m, 0.003);
   EXPECT_EQ(two.angle_noise_rad, 1e-4);
@@ -237,11 +236,12 @@ TEST_F(Missions, ScenariosHaveTheirPresetsFromTheSensorAndTheirOverrides) {
 
 TEST_F(Missions, ScenariosAreCheckedLikeTheRest) {
   VERIFIES("LASSO-GND-003~1 LASSO-GND-009~1 LASSO-GND-010~1");
-  const std::string scenario = kHead + "[scenario.s]\nkind = 'paper'\nranges_m = [4]\n";  // line 10 is next
-  expect_error(kHead + "[scenario.s]\n", "scenario.s.kind: is missing");
-  expect_error(kHead + "[scenario.s]\nkind = 'paper'\nranges_m = []\n", "expected a list of 1 to 100 numbers");
-  expect_error(kHead + "[scenario.s]\nkind = 'paper'\nranges_m = [4, -1]\n", "m.toml:9:16: scenario.s.ranges_m[1]: -1: out of range");
-  expect_error(kHead + "[scenario.s]\nkind = 'paper'\nranges_m = [25]\n", "scenario.s.ranges_m: [25]: expected between sensor.range_min_m");
+  const std::string scenario = kHead + "[scenario.s]\nvariants = true\nranges_m = [4]\n";  // line 10 is next
+  expect_error(kHead + "[scenario.s]\n", "m.toml:7:1: scenario.s.ranges_m: is missing");
+  expect_error(kHead + "[scenario.s]\nvariants = true\nranges_m = []\n", "expected a list of 1 to 100 numbers");
+  expect_error(kHead + "[scenario.s]\nvariants = true\nranges_m = [4, -1]\n", "m.toml:9:16: scenario.s.ranges_m[1]: -1: out of range");
+  expect_error(kHead + "[scenario.s]\nvariants = true\nranges_m = [25]\n",
+               "scenario.s.ranges_m: [25]: expected between sensor.range_min_m");
   expect_error(scenario + "fames = 3\n", "m.toml:10:1: scenario.s.fames: unknown key; did you mean scenario.s.frames?");
   expect_error(scenario + "offset_m = [1, 2, 3]\n", "expected a list of 2 numbers");
   expect_error(scenario + "override.scan.pints = 3\n",

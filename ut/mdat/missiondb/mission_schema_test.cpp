@@ -75,7 +75,7 @@ TEST(MissionSchema, AgreesWithTheLoaderOnEveryFlightParameter) {
   const Folder folder;
   folder.write("box.toml", "[[part]]\nkind = 'box'\nsize = [1, 1, 1]\n");
   const std::string head =
-      "[mission]\nid = 7\nversion = 2\nname = 'test'\n[target]\nmodel = 'box.toml'\n[scenario.s]\nkind = 'paper'\nranges_m = [4]\n";
+      "[mission]\nid = 7\nversion = 2\nname = 'test'\n[target]\nmodel = 'box.toml'\n[scenario.s]\nvariants = true\nranges_m = [4]\n";
   for (const ValueRow& row : flight_rows()) {
     const double step = row.kind == ValueKind::kInteger ? 1 : 1e-6 * (row.maximum - row.minimum);
     const std::vector<std::string> values{number_text(row.minimum - step),

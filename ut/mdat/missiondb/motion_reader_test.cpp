@@ -25,7 +25,7 @@ class MotionReaderTest : public ::testing::Test {
 };
 
 TEST_F(MotionReaderTest, RatesTurnAboutAPivotThatDrifts) {
-  VERIFIES("LASSO-SCN-020~1");
+  VERIFIES("LASSO-SCN-020~2");
   const auto rates = motion(
       "kind = 'rates'\nposition_m = [1, 2, 3]\nquaternion = [0.48, -0.36, 0, 0.8]\nvelocity_mps = [0.1, 0, -0.2]\n"
       "spin_degps = [3, -4, 5]\npivot_m = [0.5, 0, 0.25]\n");
@@ -44,7 +44,7 @@ TEST_F(MotionReaderTest, RatesTurnAboutAPivotThatDrifts) {
 }
 
 TEST_F(MotionReaderTest, StepsTurnAtTheBeginOfEachPeriod) {
-  VERIFIES("LASSO-SCN-020~1");
+  VERIFIES("LASSO-SCN-020~2");
   const auto steps = motion("kind = 'steps'\naxis = [0, 0, 2]\nstep_deg = 15\nperiod_s = 0.5\nposition_m = [0, 1, 4]\n");
   for (const auto& [t_us, deg] : {std::pair<TimeUs, double>{0, 0}, {499'999, 0}, {500'000, 15}, {1'700'000, 45}, {-1, -15}}) {
     const Quat q(Eigen::AngleAxisd(deg * kRadPerDeg, Vec3::UnitZ()));
@@ -54,7 +54,7 @@ TEST_F(MotionReaderTest, StepsTurnAtTheBeginOfEachPeriod) {
 }
 
 TEST_F(MotionReaderTest, WaypointsAreReachedSmoothlyAndAtRest) {
-  VERIFIES("LASSO-SCN-020~1");
+  VERIFIES("LASSO-SCN-020~2");
   const auto way = motion(
       "kind = 'waypoints'\nquaternion = [0, 0, 0.6, 0.8]\nat = [{time_s = 10, position_m = [0, 0, 8]}, {time_s = 14, position_m = [1, 0, "
       "4]}]\n");
@@ -69,7 +69,7 @@ TEST_F(MotionReaderTest, WaypointsAreReachedSmoothlyAndAtRest) {
 }
 
 TEST_F(MotionReaderTest, MotionsOfAnOrbitAreThoseOfItsHillFrame) {
-  VERIFIES("LASSO-SCN-020~1");
+  VERIFIES("LASSO-SCN-020~2");
   const MissionSource source = load(
       "[orbit]\naltitude_km = 400\nbeta_deg = 20\nangle_deg = 30\n"
       "[motion.fixed]\nkind = 'inertial'\nquaternion = [0, 0.6, 0, 0.8]\n"
@@ -90,7 +90,7 @@ TEST_F(MotionReaderTest, MotionsOfAnOrbitAreThoseOfItsHillFrame) {
 }
 
 TEST_F(MotionReaderTest, TablesAndEphemeridesComeFromTheirFiles) {
-  VERIFIES("LASSO-SCN-020~1");
+  VERIFIES("LASSO-SCN-020~2");
   folder_.write("way.csv", "time_s,x_m,y_m,z_m\n0,0,0,10\n5,1,0,10\n10,2,0,10\n");
   folder_.write(
       "chaser.oem",

@@ -41,8 +41,8 @@ class NodeReaderTest : public ::testing::Test {
 
 // The camera is turned about its boresight by 73.7 deg, 0.2 m and 0.1 m off the chaser's origin.
 TEST_F(NodeReaderTest, ASceneIsTheTargetBeforeASensorOnACraftThatMoves) {
-  VERIFIES("LASSO-SCN-020~1");
-  const MissionSource source = load(kMotions + kNodes + "[scenario.s]\nkind = 'scene'\nframes = 50\n");
+  VERIFIES("LASSO-SCN-020~2");
+  const MissionSource source = load(kMotions + kNodes + "[scenario.s]\nframes = 50\n");
   const SceneRun& run = *source.scenarios.at("s").scene;
   const Quat q_chaser_camera(0.8, 0, 0, 0.6);
   for (const double t_s : {0.0, 3.7, 9.9}) {
@@ -60,9 +60,8 @@ TEST_F(NodeReaderTest, ASceneIsTheTargetBeforeASensorOnACraftThatMoves) {
 }
 
 TEST_F(NodeReaderTest, AScenarioReplacesTheMotionsThatItNames) {
-  VERIFIES("LASSO-SCN-023~1");
-  const MissionSource source =
-      load(kMotions + kNodes + "[scenario.s]\nkind = 'scene'\nmotion = {chaser = 'rest'}\n[scenario.t]\nkind = 'scene'\n");
+  VERIFIES("LASSO-SCN-023~2");
+  const MissionSource source = load(kMotions + kNodes + "[scenario.s]\nmotion = {chaser = 'rest'}\n[scenario.t]\n");
   for (const double t_s : {0.0, 9.0}) {
     const auto t_us = static_cast<TimeUs>(std::llround(1e6 * t_s));
     EXPECT_NEAR(source.scenarios.at("s").scene->target_at(t_us).T_a_b.p.z(), 3.5, 1e-12);
@@ -72,10 +71,10 @@ TEST_F(NodeReaderTest, AScenarioReplacesTheMotionsThatItNames) {
 
 // V-bar is x of LVLH, R-bar its z.
 TEST_F(NodeReaderTest, AnOrbitHasDockingsFrameAsWell) {
-  VERIFIES("LASSO-SCN-020~1");
+  VERIFIES("LASSO-SCN-020~2");
   const MissionSource source = load(
       "[orbit]\n[node.body]\ntarget = true\n[node.port]\nparent = 'lvlh'\nposition_m = [-10, 0, 3]\ntowards = 'body'\nsensor = "
-      "true\n[scenario.s]\nkind = 'scene'\n");
+      "true\n[scenario.s]\n");
   const SceneRun& run = *source.scenarios.at("s").scene;
   EXPECT_LT((run.tree.state(run.sensor, 0, 0).T_a_b.p - Vec3(-3, -10, 0)).norm(), 1e-12);
   EXPECT_LT((run.target_at(0).T_a_b.p - Vec3(0, 0, std::hypot(10, 3))).norm(), 1e-12);
@@ -87,29 +86,45 @@ TEST_F(NodeReaderTest, EveryProblemIsToldWithItsPlace) {
       problems(kMotions +
                "[node.a]\nparent = 'b'\ntarget = true\n[node.b]\nparent = 'a'\ntarget = true\n[node.c]\nmotion = 'spinn'\nmesh = 'x.stl'\n"
                "[node.d]\nparent = 'cc'\nmesh = 'x.stl'\nparts = 'y'\n[node.e]\nscale = 2\n[node.f]\ntowards = 'f'\n");
-  for (const char* expected : {"node.b.target: true: node a is the target already",
-                               "node.c.motion: \"spinn\": the mission has no [motion.spinn]; did you mean spin?",
-                               "node.c.mesh: \"x.stl\": no such file", "node.d.parts: expected at most one of model, mesh and parts",
-                               "node.e.scale: has no effect without model or mesh", "node.d, parent: \"cc\": there is no such node"}) {
+  for (const char* expected :
+       {"node.b.target: true: node a is the target already",
+        "node.c.motion: \"spinn\": the mission has no [motion.spinn]; did you mean spin?", "node.c.mesh: \"x.stl\": no such file",
+        "node.d.parts: expected at most one of model, mesh, points and parts", "node.e.scale: has no effect without model, mesh or points",
+        "m.toml:28:10: node.d.parent: \"cc\": there is no such node"}) {
     EXPECT_NE(said.find(expected), std::string::npos) << expected << "\nin:\n" << said;
   }
-  expect_problem("[node.a]\nparent = 'b'\n[node.b]\nparent = 'a'\n", "m.toml:7:1: node.a, parent: \"a\" in \"b\" in \"a\": is a circle");
+  expect_problem("[node.a]\nparent = 'b'\n[node.b]\nparent = 'a'\n", "m.toml:8:10: node.a.parent: \"a\" in \"b\" in \"a\": is a circle");
   expect_problem("[node.a]\ntarget = true\nmodel = 'box.toml'\n", "node.a.model: the target's node looks as [target] says");
 }
 
-TEST_F(NodeReaderTest, AScenarioSaysWhatBelongsToItsKind) {
+// Each at the place of its own key, and all of one file at once.
+TEST_F(NodeReaderTest, ProblemsOfTheTreeStandAtTheirKeys) {
   VERIFIES("LASSO-SCN-024~1");
-  expect_problem("[scenario.s]\nkind = 'scene'\n",
-                 "m.toml:8:8: scenario.s.kind: \"scene\": no node of the mission has target = true: add [node.NAME]");
-  expect_problem("[scenario.s]\nkind = 'scene'\n", "no node of the mission has sensor = true");
-  expect_problem(kMotions + kNodes + "[scenario.s]\nkind = 'scene'\nranges_m = [3]\n", "scenario.s.ranges_m: leave it out");
-  expect_problem(kMotions + kNodes + "[scenario.s]\nkind = 'scene'\nmotion = {chasr = 'way'}\n",
+  const std::string said = problems(
+      "[node.a]\nposition_m = [1, 0, 0]\nparent = 'x'\n"
+      "[node.b]\ntowards = 'y'\nup = [0, 0, 1]\n"
+      "[motion.cone]\nkind = 'torque_free'\nspin_degps = [1, 0, 0]\ninertia = [1, 2, 9]\n"
+      "[motion.back]\nkind = 'waypoints'\nat = [\n  {time_s = 2, position_m = [0, 0, 1]},\n  {time_s = 1, position_m = [0, 0, 2]},\n]\n"
+      "[motion.loop]\nkind = 'chain'\nof = ['cone', 'loop']\n[node.root]\n");
+  for (const char* expected : {"m.toml:9:10: node.a.parent: \"x\": there is no such node",
+                               "m.toml:11:11: node.b.towards: \"y\": there is no such node", "m.toml:12:6: node.b.up: lies along the axis",
+                               "m.toml:16:11: motion.cone.inertia: 9: ", "m.toml:21:", "is not after 2 s of the row before",
+                               "m.toml:25:6: motion.loop.of: is part of itself", "m.toml:26:1: node.root, name: is the root's"})
+    EXPECT_NE(said.find(expected), std::string::npos) << expected << "\nin:\n" << said;
+}
+
+TEST_F(NodeReaderTest, AScenarioSaysRangesOrFliesNodes) {
+  VERIFIES("LASSO-SCN-024~1");
+  expect_problem("[node.a]\nsensor = true\n[scenario.s]\n", "m.toml:9:1: scenario.s: no node of the mission has target = true: add it");
+  expect_problem("[node.a]\ntarget = true\n[scenario.s]\n", "no node of the mission has sensor = true");
+  expect_problem(kMotions + kNodes + "[scenario.s]\ntimes_s = [3]\n", "scenario.s.times_s: leave it out");
+  expect_problem(kMotions + kNodes + "[scenario.s]\nmotion = {chasr = 'way'}\n",
                  "scenario.s.motion.chasr: 'way': the mission has no [node.chasr]; did you mean chaser?");
-  expect_problem(kMotions + kNodes + "[scenario.s]\nkind = 'scene'\nmotion = {body = 'sping'}\n",
+  expect_problem(kMotions + kNodes + "[scenario.s]\nmotion = {body = 'sping'}\n",
                  "scenario.s.motion.body: 'sping': expected the name of a [motion.NAME]");
-  expect_problem(kMotions + kNodes + "[scenario.s]\nkind = 'spin'\nranges_m = [3]\nmotion = {body = 'spin'}\n",
-                 "scenario.s.motion: a table: has no effect in a scenario of this kind");
-  expect_problem("[scenario.s]\nkind = 'spin'\n", "m.toml:7:1: scenario.s.ranges_m: is missing");
+  expect_problem(kMotions + kNodes + "[scenario.s]\nranges_m = [3]\nmotion = {body = 'spin'}\n",
+                 "scenario.s.motion: a table: has no effect where ranges_m say where the target is");
+  expect_problem("[scenario.s]\n", "m.toml:7:1: scenario.s.ranges_m: is missing");
 }
 
 TEST_F(NodeReaderTest, MotionsOfTheHillFrameMoveNodesOfTheRoot) {
@@ -130,7 +145,7 @@ TEST_F(NodeReaderTest, WhatLeavesTheFieldAndWhatTurnsByStepsIsSeen) {
   VERIFIES("LASSO-SCN-024~1");
   MissionSource source = load(
       "[motion.pan]\nkind = 'rates'\nspin_degps = [0, 2, 0]\nposition_m = [0, 0, -5]\n[motion.steps]\nkind = 'steps'\nstep_deg = 30\n"
-      "[node.body]\ntarget = true\nmotion = 'steps'\n[node.camera]\nmotion = 'pan'\nsensor = true\n[scenario.s]\nkind = 'scene'\nframes = "
+      "[node.body]\ntarget = true\nmotion = 'steps'\n[node.camera]\nmotion = 'pan'\nsensor = true\n[scenario.s]\nframes = "
       "100\n");
   check_target(source, load_target(source));
   const std::string said = all_of(warnings_for(source, "s"));
@@ -140,7 +155,7 @@ TEST_F(NodeReaderTest, WhatLeavesTheFieldAndWhatTurnsByStepsIsSeen) {
 
 TEST_F(NodeReaderTest, WhatChangesNothingIsTold) {
   VERIFIES("LASSO-SCN-024~1");
-  const std::string scenario = "[scenario.s]\nkind = 'scene'\n";
+  const std::string scenario = "[scenario.s]\n";
   EXPECT_EQ(all_of(load(kMotions.substr(0, kMotions.find("[motion.rest]")) + kNodes + scenario).warnings), "");
   const std::string said = all_of(load(kMotions + kNodes + "[node.camra]\nposition_m = [1, 2, 3]\n" + scenario).warnings);
   EXPECT_NE(said.find("motion.rest.kind: no node has this motion"), std::string::npos) << said;
@@ -167,7 +182,7 @@ TEST_F(NodeReaderTest, NodesThatPointToNodesThatPointAreFew) {
 TEST_F(NodeReaderTest, NamedFramesStandOnTheTargetAndOnTheSensorsCraft) {
   VERIFIES("LASSO-SCN-026~1 LASSO-SCN-024~1");
   const std::string frames = "[node.port]\nparent = 'body'\n[node.wing]\nparent = 'body'\nmotion = 'spin'\n[node.arm]\nparent = 'chaser'\n";
-  const std::string scenario = "[scenario.s]\nkind = 'scene'\n";
+  const std::string scenario = "[scenario.s]\n";
   const MissionSource source = load(kMotions + kNodes + frames + "[relative.dock]\nof = 'port'\nin = 'arm'\n" + scenario);
   const SceneRun& run = *source.scenarios.at("s").scene;
   ASSERT_EQ(run.relative.size(), 1U);
@@ -177,6 +192,11 @@ TEST_F(NodeReaderTest, NamedFramesStandOnTheTargetAndOnTheSensorsCraft) {
                  "relative.dock.of: \"wing\": moves against the target in scenario s: name a node that stands on body");
   expect_problem(kMotions + kNodes + frames + "[relative.dock]\nof = 'wing'\nin = 'root'\n" + scenario,
                  "relative.dock.in: \"root\": moves against the sensor");
+  const std::string dock = "[relative.dock]\nof = 'port'\nin = 'arm'\naxes = ";
+  EXPECT_EQ(load(kMotions + kNodes + frames + dock + "'root'\n" + scenario).scenarios.at("s").scene->relative.at(0).axes, 0U);
+  expect_problem(kMotions + kNodes + frames + dock + "'port'\n" + scenario,
+                 "relative.dock.axes: \"port\": stands on the target, whose attitude is what is measured");
+  expect_problem(kMotions + kNodes + frames + dock + "'lvhl'\n", "relative.dock.axes: \"lvhl\": the mission has no [node.lvhl]");
   expect_problem(kMotions + kNodes + frames + "[relative.dock]\nof = 'prot'\n",
                  "relative.dock.of: \"prot\": the mission has no [node.prot]; did you mean port?");
   expect_problem(kMotions + kNodes + frames + "[relative.dock]\nof = 'port'\n", "relative.dock.in: is missing");
@@ -186,21 +206,19 @@ TEST_F(NodeReaderTest, RulesAskTheMotionThatIsFlown) {
   VERIFIES("LASSO-SCN-024~1");
   MissionSource source = load(
       "[motion.fast]\nkind = 'rates'\nspin_degps = [40, 0, 0]\n[node.body]\ntarget = true\nmotion = 'fast'\n"
-      "[node.camera]\nposition_m = [0, 0, -4]\nsensor = true\n[scenario.s]\nkind = 'scene'\ntilt_deg = 20\n");
+      "[node.camera]\nposition_m = [0, 0, -4]\nsensor = true\n[scenario.s]\ntilt_deg = 20\n");
   check_target(source, load_target(source));
   const std::string said = all_of(warnings_for(source, "s"));
   EXPECT_NE(said.find("scenario.s.motion: the target turns by"), std::string::npos) << said;
-  EXPECT_NE(said.find("in a scenario of kind scene these have no effect: tilt_deg"), std::string::npos) << said;
+  EXPECT_NE(said.find("of this scenario's keys these have no effect: tilt_deg"), std::string::npos) << said;
   const std::string behind = mission_error_of([&] {
-    MissionSource back =
-        load("[node.body]\ntarget = true\n[node.camera]\nposition_m = [0, 0, 4]\nsensor = true\n[scenario.s]\nkind = 'scene'\n");
+    MissionSource back = load("[node.body]\ntarget = true\n[node.camera]\nposition_m = [0, 0, 4]\nsensor = true\n[scenario.s]\n");
     check_target(back, load_target(back));
   });
-  EXPECT_NE(behind.find("m.toml:13:8: scenario.s.motion: at 0 s the target's middle is behind the sensor"), std::string::npos) << behind;
+  EXPECT_NE(behind.find("m.toml:12:1: scenario.s.motion: at 0 s the target's middle is behind the sensor"), std::string::npos) << behind;
   const std::string inside = mission_error_of([&] {
     MissionSource close = load(
-        "[node.body]\ntarget = true\n[node.camera]\nposition_m = [0, 0, -0.2]\nsensor = true\n[scenario.s]\nkind = "
-        "'scene'\n[sensor]\nrange_min_m = 0.1\n");
+        "[node.body]\ntarget = true\n[node.camera]\nposition_m = [0, 0, -0.2]\nsensor = true\n[scenario.s]\n[sensor]\nrange_min_m = 0.1\n");
     check_target(close, load_target(close));
   });
   EXPECT_NE(inside.find("the sensor would be in the target"), std::string::npos) << inside;

@@ -45,7 +45,7 @@ class RuleTest : public ::testing::Test {
     EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1) << bad << ": " << text;
   }
 
-  static constexpr const char* kScenario = "kind = 'spin'\nranges_m = [5]";
+  static constexpr const char* kScenario = "ranges_m = [5]";
   Folder folder_;
 
  private:

@@ -6,8 +6,8 @@ namespace {
 
 class ScenarioRules : public RuleTest {};
 
-const std::string kSpin = "kind = 'spin'\nranges_m = [5]\n";
-const std::string kPass = "kind = 'pass'\nranges_m = [6, 5]\n";
+const std::string kSpin = "ranges_m = [5]\n";
+const std::string kPass = "ranges_m = [6, 5]\n";
 
 TEST_F(ScenarioRules, TimesAscendAndBelongToRanges) {
   VERIFIES("LASSO-GND-009~1 LASSO-GND-060~1");
@@ -19,7 +19,7 @@ TEST_F(ScenarioRules, TimesAscendAndBelongToRanges) {
                        "expected 100 frames of 0.2 s");
   expect_scenario_edge(kSpin + "eclipse_s = [1, 2]", kSpin + "eclipse_s = [2, 1]", "error: ", "not before the begin, 2 s");
   expect_scenario_edge(kSpin + "eclipse_s = [71, 80]", kSpin + "eclipse_s = [72, 80]", "warning: ", "ends at 72 s");
-  expect_said(said("", "kind = 'spin'\nranges_m = [5, 20]"), "scenario.s.ranges_m: [5, 20]",
+  expect_said(said("", "ranges_m = [5, 20]"), "scenario.s.ranges_m: [5, 20]",
               "expected between sensor.range_min_m and sensor.range_max_m, which are 0.5 m and 20 m: 20 m is not");
 }
 
@@ -35,7 +35,7 @@ TEST_F(ScenarioRules, AModelErrorIsOne) {
 
 TEST_F(ScenarioRules, AWayMayBeginBeyondWhatIsMeasured) {
   VERIFIES("LASSO-GND-009~1 LASSO-GND-060~1");
-  const std::string way = "kind = 'approach'\ntimes_s = [0, 200, 220]\nframes = 1100\nnavigation_from_s = 0\nranges_m = ";
+  const std::string way = "autonomous = true\ntimes_s = [0, 200, 220]\nframes = 1100\nnavigation_from_s = 0\nranges_m = ";
   const std::string values = "filter.acceleration_mps2 = 1\nbearing.returns_min = 4";
   EXPECT_EQ(said(values, way + "[19, 6, 5]"), "");
   expect_said(said(values, way + "[25, 6, 5]"), "warning: ",
@@ -56,7 +56,7 @@ TEST_F(ScenarioRules, ATargetTurnsNoFasterThanScansCanTell) {
                        "filter.initial_angular_rate_degps = 5");
   expect_scenario_edge(kSpin + "drift_mps = [0, 0, 0.12]", kSpin + "drift_mps = [0, 0, 0.15]",
                        "warning: ", "is 3 sigmas of filter.initial_rate_mps, which is 0.05");
-  const std::string paper = "kind = 'paper'\nranges_m = [5]\nstep_deg = ";
+  const std::string paper = "variants = true\nranges_m = [5]\nstep_deg = ";
   expect_scenario_edge(paper + "11.9", paper + "12.1", "scenario.s.step_deg: 12.1", "more than 12 deg");
 }
 
@@ -66,7 +66,7 @@ TEST_F(ScenarioRules, ASearchFindsPosesAgain) {
   expect_scenario_edge(kSpin + "prior = false\nspin_degps = [7.4, 0, 0]", kSpin + "prior = false\nspin_degps = [8, 0, 0]",
                        "warning: ", "turns by 16 deg between two scans", search);
   expect_edge(search, "", "scenario.s.prior: false", "finds the bearing, and never a pose", kSpin + "prior = false");
-  const std::string approach = "kind = 'approach'\nranges_m = [6, 5]\ntimes_s = [0, 20]\nframes = 100\nnavigation_from_s = ";
+  const std::string approach = "autonomous = true\nranges_m = [6, 5]\ntimes_s = [0, 20]\nframes = 100\nnavigation_from_s = ";
   expect_scenario_edge(approach + "19", approach + "20", "scenario.s.prior", "never a pose");
 }
 
@@ -100,19 +100,31 @@ TEST_F(ScenarioRules, TheSimulatedSensorIsTheOneThatIsAssumed) {
 
 TEST_F(ScenarioRules, KeysThatHaveNoEffectAreTold) {
   VERIFIES("LASSO-GND-009~1 LASSO-GND-060~1");
-  expect_scenario_edge(kSpin + "step_deg = 1", kSpin + "step_deg = 2\ntimes_s = [0, 3]",
-                       "warning: ", "kind spin these have no effect: step_deg, times_s");
-  expect_scenario_edge("kind = 'paper'\nranges_m = [5]\nspin_degps = [0, 0, 0]", "kind = 'paper'\nranges_m = [5]\nspin_degps = [5, 0, 0]",
-                       "kind: \"paper\"", "spin_degps");
+  const std::string offer = "navigation_sigma_m = 0.2\nranges_m = [5]", seek = "start.fifth = 'search'";
+  expect_scenario_edge(offer + "\nautonomous = true", offer, "warning: ", "these have no effect: navigation_sigma_m", seek);
+  expect_scenario_edge("paper_table = true\nvariants = true\nranges_m = [5]", "paper_table = true\nranges_m = [5]",
+                       "warning: ", "these have no effect: paper_table");
+}
+
+TEST_F(ScenarioRules, WhatContradictsIsRefused) {
+  VERIFIES("LASSO-GND-009~1 LASSO-GND-060~1");
+  const std::string steps = "step_deg = 1\nranges_m = [6, 5]\nframes = 100\n", still = "variants = true\nranges_m = [6, 5]\nframes = 100\n";
+  for (const char* moves : {"spin_degps = [0, 0, 1]", "drift_mps = [0, 0.01, 0]", "times_s = [0, 20]"}) {
+    expect_scenario_edge(steps, steps + moves, "scenario.s.step_deg: 1", "expected 0, or no times_s, spin_degps and drift_mps");
+    expect_scenario_edge(still, still + moves, "scenario.s.variants: true", "stands still in each scan");
+  }
+  const std::string alone = "autonomous = true\nframes = 100\nranges_m = ";
+  expect_scenario_edge(alone + "[5]", alone + "[6, 5]", "scenario.s.autonomous: true", "is one run: expected one of ranges_m, or times_s",
+                       "start.fifth = 'search'");
 }
 
 TEST_F(ScenarioRules, OfARunItsOwnScenarioIsTold) {
   VERIFIES("LASSO-GND-009~1 LASSO-GND-060~1");
   folder_.write("box.toml", "[[part]]\nkind = 'box'\nsize = [2, 1, 1]\n");
-  MissionSource source = load_mission(
-      folder_.write("two.toml",
-                    "[mission]\nid = 7\nversion = 2\nname = 'test'\n[target]\nmodel = 'box.toml'\n[start]\nage_max_s = 0\n"
-                    "[scenario.a]\nkind = 'spin'\nranges_m = [5]\n[scenario.b]\nkind = 'spin'\nranges_m = [5]\nspin_degps = [30, 0, 0]\n"));
+  MissionSource source =
+      load_mission(folder_.write("two.toml",
+                                 "[mission]\nid = 7\nversion = 2\nname = 'test'\n[target]\nmodel = 'box.toml'\n[start]\nage_max_s = 0\n"
+                                 "[scenario.a]\nranges_m = [5]\n[scenario.b]\nranges_m = [5]\nspin_degps = [30, 0, 0]\n"));
   check_target(source, load_target(source));
   ASSERT_EQ(warnings_for(source, "a").size(), 1U);
   EXPECT_NE(warnings_for(source, "a")[0].find("two.toml:8:13: start.age_max_s: 0: "), std::string::npos) << warnings_for(source, "a")[0];
@@ -135,13 +147,13 @@ TEST_F(ScenarioRules, RaysReturnFromMostOfTheTarget) {
 TEST_F(ScenarioRules, RunsLastUntilTheFilterHasSettled) {
   VERIFIES("LASSO-GND-009~1 LASSO-GND-060~1");
   expect_scenario_edge(kSpin + "frames = 20", kSpin + "frames = 3", "scenario.s.frames: 3", "takes some 20 frames");
-  EXPECT_EQ(said("", "kind = 'paper'\nranges_m = [5]\nframes = 3"), "") << "each scan for itself";
+  EXPECT_EQ(said("", "variants = true\nranges_m = [5]\nframes = 3"), "") << "each scan for itself";
 }
 
 // 100 frames are 20 s, and the target is 2 m long.
 TEST_F(ScenarioRules, ANavigationSystemHelpsInTimeAndWellEnough) {
   VERIFIES("LASSO-GND-009~1 LASSO-GND-060~1");
-  const std::string approach = "kind = 'approach'\nranges_m = [6, 5]\ntimes_s = [0, 20]\nframes = 100\n", way = "start.fifth = 'search'";
+  const std::string approach = "autonomous = true\nranges_m = [6, 5]\ntimes_s = [0, 20]\nframes = 100\n", way = "start.fifth = 'search'";
   expect_scenario_edge(approach + "navigation_from_s = 19", approach + "navigation_from_s = 20", "scenario.s.navigation_from_s: 20",
                        "the run, which ends at 20 s", way);
   EXPECT_EQ(said(way, approach + "navigation_from_s = 1e6"), "") << "never";

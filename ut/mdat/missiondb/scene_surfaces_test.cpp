@@ -8,7 +8,7 @@ namespace {
 
 const std::string kSurfaceHead =
     "[mission]\nid = 7\nversion = 2\nname = 'test'\n[target]\nmodel = 'two.toml'\nscale = 2\n[node.body]\ntarget = true\n"
-    "[node.camera]\nposition_m = [0, 0, -9]\nsensor = true\n[scenario.s]\nkind = 'scene'\n";
+    "[node.camera]\nposition_m = [0, 0, -9]\nsensor = true\n[scenario.s]\n";
 
 class SceneSurfacesTest : public ::testing::Test {
  protected:
@@ -51,6 +51,23 @@ TEST_F(SceneSurfacesTest, OtherBodiesHaveTheirOwnFilesAndScales) {
   EXPECT_TRUE(source.scene.surfaces->moved.empty());
 }
 
+TEST_F(SceneSurfacesTest, ANodeMayBeACloudOfPoints) {
+  VERIFIES("LASSO-SCN-033~1");
+  folder_.write(
+      "two.ply",
+      "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\nend_header\n1 2 3\n4 5 6\n");
+  const MissionSource source = load("[node.rock]\npoints = 'two.ply'\nscale = 2\ndisc_radius_m = 0.01\n");
+  const BodySurface& rock = source.scene.surfaces->bodies.back();
+  EXPECT_EQ(rock.part_names, std::vector<std::string>{"rock"});
+  EXPECT_EQ(rock.part_of_triangle.size(), rock.mesh.triangles.size());
+  EXPECT_NEAR((rock.mesh.vertices.front() - Eigen::Vector3d(2, 4, 6)).norm(), 0.01 * std::sqrt(M_PI / std::sqrt(3.0)), 1e-12);
+  const auto said = [&](const std::string& node) { return mission_error_of([&] { static_cast<void>(load(node)); }); };
+  EXPECT_NE(said("[node.a]\ndisc_radius_m = 1\n").find("node.a.disc_radius_m: has no effect without points"), std::string::npos)
+      << said("[node.a]\ndisc_radius_m = 1\n");
+  folder_.write("none.ply", "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float z\nend_header\n");
+  EXPECT_NE(said("[node.a]\npoints = 'none.ply'\n").find("node.a.points: "), std::string::npos);
+}
+
 TEST_F(SceneSurfacesTest, EveryNodeThatCannotBeIsNamed) {
   VERIFIES("LASSO-SCN-024~1");
   folder_.write("bad.stl", "solid nothing\nendsolid nothing\n");
@@ -58,7 +75,7 @@ TEST_F(SceneSurfacesTest, EveryNodeThatCannotBeIsNamed) {
     static_cast<void>(
         load("[node.a]\nparts = ['panels*']\n[node.b]\nparts = ['panel +x']\n[node.c]\nparts = 'panel*'\n[node.d]\nmesh = 'bad.stl'\n"));
   });
-  EXPECT_NE(said.find("m.toml:16:9: node.a.parts: \"panels*\": the target has no such part; mdat render"), std::string::npos) << said;
+  EXPECT_NE(said.find("m.toml:15:9: node.a.parts: \"panels*\": the target has no such part; mdat render"), std::string::npos) << said;
   EXPECT_NE(said.find("node.c.parts: \"panel +x\": the part is another node's already"), std::string::npos) << said;
   EXPECT_NE(said.find("node.d.mesh"), std::string::npos) << said;
   const std::string all = mission_error_of([&] { static_cast<void>(load("[node.a]\nparts = ['bus', 'panel*']\n")); });

@@ -22,7 +22,7 @@ TEST_F(SensorRules, ASensorServesInAScenario) {
   VERIFIES("LASSO-GND-009~1 LASSO-GND-060~1");
   const std::string near = "further_sensor.near.use_to_m = ";
   expect_edge(near + "5", near + "4", "further_sensor.near.use_to_m: 4", "used from 0 m to 4 m, where no scenario has the target");
-  EXPECT_EQ(said(near + "5.5", "kind = 'pass'\nranges_m = [6, 5]\ntimes_s = [0, 20]\nframes = 100"), "");  // on its way
+  EXPECT_EQ(said(near + "5.5", "ranges_m = [6, 5]\ntimes_s = [0, 20]\nframes = 100"), "");  // on its way
 }
 
 TEST_F(SensorRules, TheNoiseIsThatOfItsKind) {
@@ -72,7 +72,7 @@ TEST_F(SensorRules, WhatItMeasuresHoldsTheTarget) {
 
 TEST_F(SensorRules, WhatScenariosHaveInCommonIsSaidOnce) {
   VERIFIES("LASSO-GND-009~1 LASSO-GND-060~1");
-  const std::string text = said("sensor.sigma0_m = 0.41", "kind = 'spin'\nranges_m = [5]\n[scenario.t]\nkind = 'spin'\nranges_m = [6]");
+  const std::string text = said("sensor.sigma0_m = 0.41", "ranges_m = [5]\n[scenario.t]\nranges_m = [6]");
   expect_said(text, "sensor.sigma0_m: 0.41", "(scenarios s, t)");
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1) << text;
 }
@@ -82,7 +82,7 @@ TEST_F(SensorRules, TheNoiseIsOneThatASensorCanHave) {
   const std::string fine = "sensor.sigma0_m = 1e-5\nsensor.sigma_k_per_m = ";
   expect_edge(fine + "2e-5", fine + "1.1e-7", "sensor.sigma_k_per_m: 1.1e-07",
               "0.0104 mm at 5 m, less than the counts of a laser camera tell apart, about 0.5 mm");
-  EXPECT_EQ(said(fine + "1.1e-7", "kind = 'spin'\nranges_m = [5]\nnoise = false"), "");
+  EXPECT_EQ(said(fine + "1.1e-7", "ranges_m = [5]\nnoise = false"), "");
   expect_edge("sensor.range_max_m = 2200", "sensor.range_max_m = 9000", "sensor.range_max_m: 9000", "9e+03 mm are 9 m");
   // 30 mm of 1 m
   expect_edge("sensor.sigma_angle_rad = 0.006", "sensor.sigma_angle_rad = 0.01", "sensor.sigma_angle_rad: 0.01", "50 mm at 5 m");

@@ -6,7 +6,7 @@ namespace {
 
 class TargetRules : public RuleTest {};
 
-const std::string kFiveAway = "kind = 'spin'\nranges_m = [5]\n";
+const std::string kFiveAway = "ranges_m = [5]\n";
 
 TEST_F(TargetRules, CellsFitTheTarget) {
   VERIFIES("LASSO-GND-009~1 LASSO-GND-060~1");
@@ -61,7 +61,7 @@ TEST_F(TargetRules, TheSensorIsOutsideOfTheTarget) {
     EXPECT_EQ(text.rfind("error: ", 0) == 0, inside) << text;
     return inside;
   };
-  const std::string at = "kind = 'spin'\nranges_m = ", in_depth = "times_s = [0, 100]\nframes = 500\nnavigation_from_s = 0";
+  const std::string at = "ranges_m = ", in_depth = "times_s = [0, 100]\nframes = 500\nnavigation_from_s = 0";
   EXPECT_FALSE(is_refused("0", at + "[2.1]"));
   EXPECT_TRUE(is_refused("0", at + "[1.9]"));
   EXPECT_FALSE(is_refused("0", at + "[1.9]\noffset_m = [2.1, 0]")) << "beside it";
@@ -70,7 +70,7 @@ TEST_F(TargetRules, TheSensorIsOutsideOfTheTarget) {
   EXPECT_TRUE(is_refused("0", at + "[1.9]\ndrawn = true"));
   EXPECT_FALSE(is_refused("0", at + "[2.1]\ndrawn = true")) << "outside in some attitudes";
   // The origin is in the face towards the sensor, then in the opposite one.
-  const std::string docking = "kind = 'approach'\nranges_m = [10, 1.5]\n" + in_depth;
+  const std::string docking = "autonomous = true\nranges_m = [10, 1.5]\n" + in_depth;
   EXPECT_FALSE(is_refused("2", docking));
   EXPECT_TRUE(is_refused("-2", docking));
 }

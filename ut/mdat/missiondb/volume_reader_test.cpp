@@ -8,8 +8,7 @@ namespace lasso::mdat {
 namespace {
 
 const std::string kCloudHead = "[mission]\nid = 7\nversion = 2\nname = 'test'\n[target]\nmodel = 'box.toml'\n";  // 6 lines
-const std::string kCloudNodes =
-    "[node.body]\ntarget = true\n[node.head]\nsensor = true\nposition_m = [0, 0, -10]\n[scenario.one]\nkind = 'scene'\n";
+const std::string kCloudNodes = "[node.body]\ntarget = true\n[node.head]\nsensor = true\nposition_m = [0, 0, -10]\n[scenario.one]\n";
 
 class VolumeReaderTest : public ::testing::Test {
  protected:

@@ -16,8 +16,16 @@ const Pose kT_head{normalized(Quat(0.9, 0.1, -0.3, 0.2)), Vec3(0.3, -0.2, 0.5)};
 const Pose kT_port{normalized(Quat(0.7, -0.4, 0.2, 0.5)), Vec3(-0.1, 0.4, 0.9)};   // in the chaser
 const Pose kT_point{normalized(Quat(0.6, 0.3, 0.6, -0.4)), Vec3(-6.4, 0.3, 1.2)};  // in the target
 
+// Axes that turn as those of an orbit, far away from all else.
+scene::MotionPtr turning_axes() {
+  scene::ConstantRates::Setup setup;
+  setup.T_parent_pivot = {normalized(Quat(0.5, -0.4, 0.6, 0.3)), Vec3(700, -300, 200)};
+  setup.rates = {Vec3(0.002, 0.03, -0.01), Vec3(1, 2, 3)};
+  return std::make_shared<scene::ConstantRates>(setup);
+}
+
 // A chaser at rest, and a target that turns and drifts before it.
-std::shared_ptr<SceneRun> scene_run() {
+std::shared_ptr<SceneRun> docking_run() {
   scene::ConstantRates::Setup setup;
   setup.T_parent_pivot = {normalized(Quat(0.8, 0.2, 0.5, -0.1)), Vec3(2, -1, 30)};
   setup.rates = {Vec3(0.01, -0.02, 0.005), Vec3(0.05, 0.02, -0.1)};
@@ -31,7 +39,8 @@ std::shared_ptr<SceneRun> scene_run() {
   };
   const scene::Tree tree(
       "root", {node("target", "root", {}, std::make_shared<scene::ConstantRates>(setup)), node("point", "target", kT_point, nullptr),
-               node("chaser", "root", {}, nullptr), node("head", "chaser", kT_head, nullptr), node("port", "chaser", kT_port, nullptr)});
+               node("chaser", "root", {}, nullptr), node("head", "chaser", kT_head, nullptr), node("port", "chaser", kT_port, nullptr),
+               node("local", "root", {}, turning_axes())});
   return std::make_shared<SceneRun>(
       SceneRun{tree, tree.need("target"), tree.need("head"), {}, {}, 0, 0, {}, {}, {{"docking", tree.need("point"), tree.need("port")}}});
 }
@@ -85,7 +94,7 @@ Eigen::Isometry3d isometry(const Pose& pose) { return Eigen::Translation3d(pose.
 
 TEST(RelativePoses, ArePosesOfTheNamedFramesWithTheirLeverArms) {
   VERIFIES("LASSO-SCN-026~1");
-  const auto run = scene_run();
+  const auto run = docking_run();
   test::Generator random(26);
   for (const TimeUs t_us : {TimeUs{0}, TimeUs{7'300'000}, TimeUs{31'000'000}}) {
     const Said said = said_at(*run, t_us, random);
@@ -105,7 +114,7 @@ TEST(RelativePoses, ArePosesOfTheNamedFramesWithTheirLeverArms) {
 // The filter's rates are true, so those of the named frames are the differences of true poses.
 TEST(RelativePoses, HaveTheRatesOfTheirOwnOrigins) {
   VERIFIES("LASSO-SCN-026~1");
-  const auto run = scene_run();
+  const auto run = docking_run();
   test::Generator random(27);
   const TimeUs t_us = 12'000'000;
   const RelativePose pose = runs_of(*run, said_at(*run, t_us, random).packet).at(0).poses.at(0);
@@ -116,9 +125,35 @@ TEST(RelativePoses, HaveTheRatesOfTheirOwnOrigins) {
   EXPECT_LT((pose.T_in_of_filtered.p - truth_at(t_us).p).norm(), 1e-9);
 }
 
+// From the origin of the port, in axes that turn: the position is turned alone, and the rates are those of an observer who turns with them.
+TEST(RelativePoses, AreSaidInOtherAxesAsWell) {
+  VERIFIES("LASSO-SCN-032~1");
+  const auto run = docking_run();
+  run->relative[0].axes = run->tree.need("local");
+  test::Generator random(29);
+  for (const TimeUs t_us : {TimeUs{0}, TimeUs{12'000'000}}) {
+    const Said said = said_at(*run, t_us, random);
+    const RelativePose pose = runs_of(*run, said.packet).at(0).poses.at(0);
+    const auto R_local_root = [&](TimeUs t) {
+      return Mat3(run->tree.state(run->tree.need("local"), 0, t).T_a_b.q.toRotationMatrix().transpose());
+    };
+    const Eigen::Isometry3d in_port = isometry(kT_port).inverse() * isometry(kT_head) * isometry(said.T_sensor_target) * isometry(kT_point);
+    const Mat3 R_local_port = R_local_root(t_us) * kT_port.q.toRotationMatrix();
+    EXPECT_LT((pose.T_in_of.p - R_local_port * in_port.translation()).norm(), 1e-11);
+    EXPECT_LT((pose.T_in_of.q.toRotationMatrix() - R_local_port * in_port.rotation()).norm(), 1e-12);
+    const auto truth_at = [&](TimeUs t) { return runs_of(*run, said_at(*run, t, random).packet).at(0).poses.at(0).truth; };
+    const Pose before = truth_at(t_us - 1000), after = truth_at(t_us + 1000);
+    EXPECT_LT((pose.rates.v_mps - (after.p - before.p) / 2e-3).norm(), 1e-6);
+    EXPECT_LT((pose.rates.omega_radps - log_so3(after.q * before.q.conjugate()) / 2e-3).norm(), 1e-6);
+    EXPECT_LT((pose.true_rates.v_mps - pose.rates.v_mps).norm(), 1e-9) << "the filter says the truth here";
+    const double there = nees(pose.T_in_of, pose.truth, pose.covariance);
+    EXPECT_NEAR(there, nees(said.T_sensor_target, run->target_at(t_us).T_a_b, said.covariance), 0.01 * there);
+  }
+}
+
 TEST(RelativePoses, FiguresAreOfValidPosesAndTheTableHasAll) {
   VERIFIES("LASSO-SCN-026~1");
-  const auto run = scene_run();
+  const auto run = docking_run();
   test::Generator random(28);
   Said said = said_at(*run, 1'000'000, random);
   std::vector<RelativeRun> runs = runs_of(*run, said.packet);

@@ -124,5 +124,26 @@ TEST(Motion, AllThatIsWrongWithOneIsSaidAtOnce) {
             "flight.toml:12:3: period: -1 us: expected more than 0 us");
 }
 
+// A motion that keeps the parent's axes before another one: the chain of both.
+TEST(Sum, IsTheChainOfAWayAndAMotion) {
+  VERIFIES("LASSO-SCN-002~1");
+  test::Generator random(21);
+  const Vec3 velocity_mps = random_vector(random, 0.3);
+  const auto way =
+      std::make_shared<ConstantRates>(ConstantRates::Setup{{Quat::Identity(), Vec3(1, -2, 3)}, {Vec3::Zero(), velocity_mps}, Vec3::Zero()});
+  const auto turn = std::make_shared<ConstantRates>(
+      ConstantRates::Setup{random_pose(random, 2), random_rates(random, 0.2, 0.1), random_vector(random, 1)});
+  const Sum sum(way, turn);
+  const Chain chain(way, turn);
+  for (int i = 0; i < 20; ++i) {
+    const TimeUs t_us = random_time_us(random, -30, 90);
+    ASSERT_LT(distance(sum.at(t_us).T_a_b, chain.at(t_us).T_a_b), 1e-12);
+    ASSERT_LT(rate_error(sum.at(t_us).rates, chain.at(t_us).rates), 1e-12);
+    ASSERT_LT(rate_error(sum, t_us), 1e-9);
+  }
+  EXPECT_THROW(Sum(nullptr, turn), std::invalid_argument);
+  EXPECT_THROW(Sum(way, nullptr), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace lasso::mdat::scene

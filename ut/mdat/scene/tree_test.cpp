@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 
+#include "mdat/scene/table_motion.hpp"
 #include "ut/mdat/scene/support.hpp"
 #include "ut/support/verifies.hpp"
 
@@ -158,6 +159,25 @@ TEST(Covariance, IsThatOfThePoseInTheOtherFrame) {
     compare(covariance_of_point(covariance, pose, other), [&](const Pose& T_a_b) { return T_a_b * other; });
     compare(covariance_of_inverse(covariance, pose), [&](const Pose& T_a_b) { return inverse(T_a_b); });
   }
+}
+
+// Rays ask a quick motion itself, and all others by a look-up.
+TEST(Tree, KnowsBetweenWhichNodesAllIsQuick) {
+  VERIFIES("LASSO-SCN-025~1");
+  test::Generator random(51);
+  MotionTable rows;
+  rows.times_s = {0, 1};
+  rows.positions_m = {Vec3::Zero(), Vec3::UnitX()};
+  std::vector<Node> nodes{node("turns", "root", {}, random_motion(random)), node("on", "turns"),
+                          node("slow", "root", {}, std::make_shared<TableMotion>(rows)), node("rests", "slow")};
+  nodes.push_back(node("points", "root", {Quat::Identity(), Vec3(1, 2, 3)}));
+  nodes.back().towards = "on";
+  const Tree tree("root", nodes);
+  EXPECT_TRUE(tree.is_quick(tree.need("on"), 0));
+  EXPECT_TRUE(tree.is_quick(0, tree.need("on")));
+  EXPECT_FALSE(tree.is_quick(tree.need("on"), tree.need("rests")));
+  EXPECT_TRUE(tree.is_quick(tree.need("slow"), tree.need("rests"))) << "both move alike";
+  EXPECT_FALSE(tree.is_quick(tree.need("points"), 0));
 }
 
 }  // namespace

@@ -4,8 +4,11 @@ import { Dialog } from "../parts/dialog.tsx";
 import { useSession } from "./session.ts";
 
 export function CommandDialog() {
-  const { info } = useSession().log;
+  const { log, selection } = useSession();
+  const { info } = log;
   const file = info.file ?? info.name;
+  const span = selection.span.value ?? selection.window.value;
+  const times = `--from ${span.from_s.toFixed(3)} --to ${span.to_s.toFixed(3)}`;
   return (
     <Dialog title="The same from the command line">
       <dl class="commands">
@@ -16,6 +19,14 @@ export function CommandDialog() {
         <dt>What is in the file, and what is damaged</dt>
         <dd>
           <CommandText text={`mdat recording info ${file}`} label="command of the file's contents" />
+        </dd>
+        <dt>The numbers of the span that is marked, or shown, as tables</dt>
+        <dd>
+          <CommandText text={`mdat recording export ${file} --format csv ${times} --out tables`} label="command of the tables" />
+        </dd>
+        <dt>That span as a recording of its own</dt>
+        <dd>
+          <CommandText text={`mdat recording cut ${file} ${times} --out span.mcap`} label="command of the cut" />
         </dd>
         <dt>This page</dt>
         <dd>

@@ -29,6 +29,11 @@ export function KeysDialog() {
         With the pointer: drag in a plot or on the time line to mark a span, wheel to zoom, Shift and drag to move, double click to show
         all. In the 3D view drag to turn, wheel to go nearer, right button to move.
       </p>
+      <p class="hint">
+        <a href="/licences.txt" target="_blank" rel="noreferrer">
+          Licences of the libraries in this page
+        </a>
+      </p>
     </Dialog>
   );
 }

@@ -23,7 +23,10 @@ export function routeTo(recording: string | null, frame?: number): string {
   return `#/r/${encodeURIComponent(recording)}${frame === undefined ? "" : `?frame=${frame}`}`;
 }
 
+let asked = 0;
+
 async function show(route: Route): Promise<void> {
+  const mine = ++asked;
   const open = session.peek();
   if (route.recording === null) {
     open?.player.pause();
@@ -31,6 +34,8 @@ async function show(route: Route): Promise<void> {
     return;
   }
   const wanted = open?.log.info.id === route.recording ? open : await Session.open(route.recording);
+  // Meanwhile the user may have gone elsewhere.
+  if (mine !== asked) return;
   if (route.frame !== null) wanted.selection.setFrame(route.frame);
   session.value = wanted;
   if (route.play) wanted.player.play(1);

@@ -1,6 +1,7 @@
 // A recording's workspace: the head, the views in their places with lines between them to drag, and the time line at the foot.
 import { effect } from "@preact/signals";
 import { useEffect } from "preact/hooks";
+import { sentence } from "../maths/scales.ts";
 import { IconButton } from "../parts/controls.tsx";
 import { Icon } from "../parts/icon.tsx";
 import { Splitter } from "../parts/splitter.tsx";
@@ -11,12 +12,14 @@ import type { Session } from "./session.ts";
 import { theme, toggleTheme } from "./theme.ts";
 import { type Place, VIEWS } from "./views.ts";
 
-/** Sizes at first follow the size of text, which grows with the screen. */
-const rem = Number.parseFloat(getComputedStyle(document.documentElement).fontSize) / 13;
-const sideWidth = remembered("side-width", Math.round(380 * rem));
-const plotsHeight = remembered("plots-height", Math.round(200 * rem));
-const eventsHeight = remembered("events-height", Math.round(190 * rem));
+/** Sizes of views in thirteenths of a rem: they grow with the text. */
+const sideWidth = remembered("side-width", 380);
+const plotsHeight = remembered("plots-height", 200);
+const eventsHeight = remembered("events-height", 190);
 const firstVisit = remembered("first-visit", true);
+
+/** The cursor moves 25 times a second: more costs a software renderer what scans need. */
+const TICK_MS = 40;
 
 /** Lets the clock drive the player, and the address follow the frame. */
 function useClock(session: Session): void {
@@ -25,9 +28,10 @@ function useClock(session: Session): void {
     let request = 0;
     const tick = (now: number) => {
       if (!session.player.playing.peek()) return;
+      request = requestAnimationFrame(tick);
+      if (last > 0 && now - last < TICK_MS) return;
       if (last > 0) session.player.advance(Math.min(0.25, (now - last) / 1000));
       last = now;
-      request = requestAnimationFrame(tick);
     };
     const stopPlaying = effect(() => {
       cancelAnimationFrame(request);
@@ -105,7 +109,7 @@ function Damage({ session }: { session: Session }) {
     <div class="banner" role="status">
       <Icon name="warning" />
       <span>
-        <strong>This recording is damaged.</strong> What is whole of it is shown. {damage.join(" ")}
+        <strong>This recording is damaged.</strong> What is whole of it is shown. {damage.map(sentence).join(" ")}
       </span>
     </div>
   );
@@ -142,7 +146,8 @@ function Views({ place }: { place: Place }) {
 
 export function Workspace({ session }: { session: Session }) {
   useClock(session);
-  const sizes = { "--side": `${sideWidth.value}px`, "--plots": `${plotsHeight.value}px`, "--events": `${eventsHeight.value}px` };
+  const size = (thirteenths: number) => `${(thirteenths / 13).toFixed(3)}rem`;
+  const sizes = { "--side": size(sideWidth.value), "--plots": size(plotsHeight.value), "--events": size(eventsHeight.value) };
   return (
     <div class="workspace" style={sizes}>
       <Head session={session} />

@@ -34,17 +34,46 @@ export function quantile(values: ArrayLike<number>, share: number): number {
 
 const DASH = "–";
 
+const RAISED = "⁰¹²³⁴⁵⁶⁷⁸⁹";
+
+/** As in 1.97 × 10⁸. */
+function powerText(x: number, figures: number): string {
+  const [lead, power] = x.toExponential(figures - 1).split("e");
+  const raised = power
+    .replace("+", "")
+    .replace("-", "⁻")
+    .replace(/\d/g, (digit) => RAISED[Number(digit)]);
+  return `${lead.replace("-", "−")} × 10${raised}`;
+}
+
+/** Decimals that a step needs, so that no two ticks look alike. */
+export function decimalsOf(step: number): number {
+  for (let decimals = 0; decimals < 9; ++decimals) {
+    const scaled = Math.abs(step) * 10 ** decimals;
+    if (Math.abs(scaled - Math.round(scaled)) < 1e-6 * scaled) return decimals;
+  }
+  return 9;
+}
+
+/** Ticks of an axis as text: all with the decimals of their step. */
+export function tickTexts(marks: number[]): string[] {
+  if (marks.length < 2) return marks.map((mark) => shortNumber(mark));
+  const decimals = decimalsOf(marks[1] - marks[0]);
+  return marks.map((mark) => (Math.abs(mark) >= 1e6 ? shortNumber(mark) : mark.toFixed(decimals).replace("-", "−")));
+}
+
+/** A sentence: with a capital and a full stop. */
+export function sentence(text: string): string {
+  const whole = text.charAt(0).toUpperCase() + text.slice(1);
+  return whole === "" || /[.!?]$/.test(whole) ? whole : `${whole}.`;
+}
+
 /** Three significant figures, without exponents from a millionth to a million; a dash for what is not there. */
 export function shortNumber(x: number | null | undefined, figures = 3): string {
   if (x === null || x === undefined || !Number.isFinite(x)) return DASH;
   if (x === 0) return "0";
   const size = Math.abs(x);
-  if (size >= 1e6 || size < 1e-5)
-    return x
-      .toExponential(figures - 1)
-      .replace("e", "·10^")
-      .replace("^+", "^")
-      .replace("-", "−");
+  if (size >= 1e6 || size < 1e-5) return powerText(x, figures);
   const decimals = Math.max(0, figures - 1 - Math.floor(Math.log10(size)));
   return x.toFixed(Math.min(decimals, 8)).replace("-", "−");
 }

@@ -1,6 +1,6 @@
 // A dialog over the page: the browser's own, which keeps the focus inside and gives it back.
 import type { ComponentChildren } from "preact";
-import { useEffect, useRef } from "preact/hooks";
+import { useLayoutEffect, useRef } from "preact/hooks";
 import { overlay } from "../app/overlay.ts";
 import { IconButton } from "./controls.tsx";
 
@@ -9,7 +9,8 @@ export function Dialog({ title, children }: { title: string; children: Component
   const close = () => {
     overlay.value = null;
   };
-  useEffect(() => {
+  // Before the browser draws: strokes right behind the one that opened it are the dialog's.
+  useLayoutEffect(() => {
     dialog.current?.showModal();
     // A click beside the dialog closes it, as Escape does.
     dialog.current?.addEventListener("click", (event) => event.target === dialog.current && close());

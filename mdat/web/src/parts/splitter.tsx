@@ -1,10 +1,12 @@
 // The line between two views: dragged, or moved by arrow keys.
 import type { Signal } from "@preact/signals";
+import { textScale } from "./rem.ts";
 
 interface SplitterProps {
   label: string;
   /** "x" parts left from right, and the size is that of what is right; "y" top from bottom. */
   axis: "x" | "y";
+  /** In thirteenths of a rem. */
   size: Signal<number>;
   least: number;
   most: number;
@@ -22,7 +24,7 @@ export function Splitter({ label, axis, size, least, most }: SplitterProps) {
     const from = at(event);
     const before = size.peek();
     handle.setPointerCapture(event.pointerId);
-    handle.onpointermove = (e) => set(before + from - at(e));
+    handle.onpointermove = (e) => set(before + (from - at(e)) / textScale());
     handle.onpointerup = () => {
       handle.onpointermove = null;
     };

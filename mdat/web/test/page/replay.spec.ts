@@ -56,14 +56,12 @@ test("a span is looped", async ({ page }) => {
   await page.locator(".panel-why .scroll").focus();
   await page.keyboard.press("Space");
   const seen = new Set<number>();
-  for (let i = 0; i < 25; ++i) {
-    seen.add(await frameOf(page));
-    await page.waitForTimeout(40);
-  }
+  await expect.poll(async () => seen.add(await frameOf(page)).size, { intervals: [30], timeout: 90_000 }).toBeGreaterThan(4);
+  await page.waitForTimeout(500);
+  seen.add(await frameOf(page));
   await page.keyboard.press("k");
-  expect(Math.min(...seen)).toBeGreaterThanOrEqual(19);
+  expect(Math.min(...seen)).toBeGreaterThanOrEqual(20);
   expect(Math.max(...seen)).toBeLessThanOrEqual(30);
-  expect(seen.size).toBeGreaterThan(3);
 });
 
 test("jumps go to wrong and refused poses and to events, and say where there is none", async ({ page }) => {

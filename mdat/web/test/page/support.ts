@@ -53,37 +53,34 @@ export async function drawn(page: Page, frame: number): Promise<void> {
 
 export const frameOf = async (page: Page): Promise<number> => Number(await page.locator("#frame-number").inputValue());
 
-export interface Picture {
-  width: number;
-  height: number;
-  /** Red, green, blue, opacity of each pixel. */
-  pixels: number[];
+/** An element as it is on the screen: a PNG. */
+export async function pictureOf(page: Page, selector: string): Promise<string> {
+  return (await page.locator(selector).screenshot()).toString("base64");
 }
 
-/** The pixels of an element as they are on the screen. */
-export async function pixelsOf(page: Page, selector: string): Promise<Picture> {
-  const png = (await page.locator(selector).screenshot()).toString("base64");
-  return page.evaluate(async (data) => {
-    const image = new Image();
-    image.src = `data:image/png;base64,${data}`;
-    await image.decode();
-    const canvas = document.createElement("canvas");
-    canvas.width = image.width;
-    canvas.height = image.height;
-    const pen = canvas.getContext("2d")!;
-    pen.drawImage(image, 0, 0);
-    return { width: image.width, height: image.height, pixels: Array.from(pen.getImageData(0, 0, image.width, image.height).data) };
-  }, png);
-}
-
-/** How many pixels of two pictures differ by more than what rounding does. */
-export function differing(a: Picture, b: Picture): number {
-  let count = 0;
-  for (let i = 0; i < a.pixels.length; i += 4) {
-    const off = [0, 1, 2].reduce((sum, k) => sum + Math.abs(a.pixels[i + k] - b.pixels[i + k]), 0);
-    if (off > 24) ++count;
-  }
-  return count;
+/** How many pixels of two pictures of one size differ by more than rounding, in the uppermost rows or in all. */
+export function differing(page: Page, a: string, b: string, rows?: number): Promise<number> {
+  return page.evaluate(
+    async ([first, second, most]) => {
+      const pixels = async (data: string) => {
+        const image = new Image();
+        image.src = `data:image/png;base64,${data}`;
+        await image.decode();
+        const canvas = new OffscreenCanvas(image.width, image.height);
+        const pen = canvas.getContext("2d")!;
+        pen.drawImage(image, 0, 0);
+        return pen.getImageData(0, 0, image.width, Math.min(image.height, most)).data;
+      };
+      const [left, right] = [await pixels(first), await pixels(second)];
+      let count = 0;
+      for (let i = 0; i < left.length; i += 4) {
+        const off = Math.abs(left[i] - right[i]) + Math.abs(left[i + 1] - right[i + 1]) + Math.abs(left[i + 2] - right[i + 2]);
+        if (off > 24) ++count;
+      }
+      return count;
+    },
+    [a, b, rows ?? 10_000] as const,
+  );
 }
 
 /** Findings of axe that are serious or worse, one line each. */

@@ -1,4 +1,4 @@
-import { differing, drawn, expect, open, pixelsOf, test } from "./support.ts";
+import { differing, drawn, expect, open, pictureOf, test } from "./support.ts";
 
 test("a refused frame says by which gate, with value and limit", async ({ page }) => {
   await open(page, "checked.mcap", 3);
@@ -24,9 +24,9 @@ test("each iteration's residuals are shown on the scan", async ({ page }) => {
   await open(page, "spin.mcap", 30);
   const start = page.getByRole("button", { name: "start", exact: true });
   await expect(start).toBeVisible();
-  const result = await pixelsOf(page, ".scene-canvas");
+  const result = await pictureOf(page, ".scene-canvas");
   await start.click();
-  await expect.poll(async () => differing(result, await pixelsOf(page, ".scene-canvas"))).toBeGreaterThan(100);
+  await expect.poll(async () => differing(page, result, await pictureOf(page, ".scene-canvas"))).toBeGreaterThan(10);
   await page.keyboard.press("ArrowRight");
   await drawn(page, 31);
   await expect(page.locator(".panel-why tr.chosen")).toHaveCount(0);

@@ -2,7 +2,18 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { block3, symmetricAxes } from "../../src/maths/eigen.ts";
 import { rampColour } from "../../src/maths/ramps.ts";
-import { niceAbove, niceBelow, quantile, shortNumber, ticks, timeText, withUnit } from "../../src/maths/scales.ts";
+import {
+  decimalsOf,
+  niceAbove,
+  niceBelow,
+  quantile,
+  sentence,
+  shortNumber,
+  ticks,
+  tickTexts,
+  timeText,
+  withUnit,
+} from "../../src/maths/scales.ts";
 import { angleBetween_deg, cross, dot, multiply, norm, type Quaternion, type Vec3 } from "../../src/maths/vectors.ts";
 import { normal, seeded } from "./seeded.ts";
 
@@ -76,7 +87,7 @@ test("numbers are short, with a true minus sign, and a dash for what is not ther
   assert.equal(shortNumber(-1.23456), "−1.23");
   assert.equal(shortNumber(123456), "123456");
   assert.equal(shortNumber(null), "–");
-  assert.equal(shortNumber(1e-7), "1.00·10^−7");
+  assert.equal(shortNumber(1e-7), "1.00 × 10⁻⁷");
   assert.equal(withUnit(0.5, "mm"), "0.500 mm");
   assert.equal(withUnit(2, "°"), "2.00°");
   assert.equal(withUnit(Number.NaN, "mm"), "–");
@@ -98,4 +109,16 @@ test("the diverging ramp is brightest about zero, blue below and orange above", 
   assert.ok(luminance(rampColour("diverging", 0)) < 0.5 * middle && luminance(rampColour("diverging", 1)) < 0.5 * middle);
   const [low, high] = [rampColour("diverging", 0.1), rampColour("diverging", 0.9)];
   assert.ok(low[2] > low[0] && high[0] > high[2]);
+});
+
+test("ticks have the decimals of their step: no two look alike", () => {
+  assert.deepEqual(tickTexts([179.9, 179.95, 180]), ["179.90", "179.95", "180.00"]);
+  assert.deepEqual(tickTexts([2.5, 5, 7.5]), ["2.5", "5.0", "7.5"]);
+  assert.deepEqual(tickTexts([-200, 0, 200]), ["−200", "0", "200"]);
+  assert.equal(decimalsOf(0.1 + 0.2), 1);
+});
+
+test("a sentence has a capital and one full stop", () => {
+  assert.equal(sentence("it is so"), "It is so.");
+  assert.equal(sentence("Is it?"), "Is it?");
 });

@@ -10,7 +10,7 @@ import { plotData, thinned, timeOfLargest, valueAt } from "../../src/views/plots
 import { limitsOf, paint } from "../../src/views/scene3d/colours.ts";
 import { ellipsoidOf, weakNote } from "../../src/views/scene3d/ellipsoid.ts";
 import { Latest } from "../../src/views/scene3d/latest.ts";
-import { frustumSegments, missedSegments, patternPlaces } from "../../src/views/scene3d/segments.ts";
+import { extentOf, frustumSegments, missedSegments, patternPlaces } from "../../src/views/scene3d/segments.ts";
 import { timeToX, verdictPixels, xToTime } from "../../src/views/timeline/draw.ts";
 import { normal, seeded } from "./seeded.ts";
 
@@ -75,10 +75,10 @@ test("the first plots are errors where they are, else what the recording has", (
 });
 
 test("a long list draws what is in sight and asks for its pages", () => {
-  const visible = visibleRows(24 * 1000, 240, 100_000);
+  const visible = visibleRows(24 * 1000, 240, 24, 100_000);
   assert.ok(visible.first <= 1000 && visible.last >= 1010 && visible.last - visible.first < 40);
   assert.deepEqual(pagesOf({ first: 190, last: 410 }), [0, 1, 2]);
-  assert.deepEqual(pagesOf(visibleRows(0, 240, 3)), [0]);
+  assert.deepEqual(pagesOf(visibleRows(0, 240, 24, 3)), [0]);
   assert.equal(rowAfterKey("ArrowDown", 4, 5, 10), 4);
   assert.equal(rowAfterKey("PageUp", 4, 50, 10), 0);
   assert.equal(rowAfterKey("x", 4, 50, 10), null);
@@ -180,4 +180,17 @@ test("of many requests the first and the last are made, and the answers come in 
   answers[1]();
   await new Promise(setImmediate);
   assert.deepEqual(taken, [0, 19]);
+});
+
+test("without a pose the camera looks at the middle of the returns, from a distance by their spread", () => {
+  const extent = extentOf(
+    scanOf([
+      { state: 0, x: 1, y: 0, z: 5 },
+      { state: 0, x: -1, y: 0, z: 5 },
+      { state: 1, x: 50, y: 50, z: 50 },
+    ]),
+  )!;
+  assert.deepEqual(extent.middle, [0, 0, 5]);
+  assert.equal(extent.size_m, 4);
+  assert.equal(extentOf(scanOf([{ state: 1, x: 1, y: 1, z: 1 }])), null);
 });

@@ -7,7 +7,8 @@ import { type Session, useSession } from "../../app/session.ts";
 import { timeText } from "../../maths/scales.ts";
 import { Empty, Panel } from "../../parts/controls.tsx";
 import { Icon } from "../../parts/icon.tsx";
-import { PAGE, pagesOf, ROW_PX, rowAfterKey, visibleRows } from "./rows.ts";
+import { textScale } from "../../parts/rem.ts";
+import { PAGE, pagesOf, ROW_REM, rowAfterKey, visibleRows } from "./rows.ts";
 
 const LEVELS = [
   { id: "", label: "All levels" },
@@ -75,7 +76,7 @@ function EventRow({
       tabIndex={-1}
       aria-selected={chosen}
       class={`event event-${event.level}${now}${chosen ? " chosen" : ""}`}
-      style={{ top: `${row * ROW_PX}px` }}
+      style={{ top: `${row * ROW_REM}rem` }}
       onClick={onChoose}
       onKeyDown={() => undefined}
     >
@@ -96,7 +97,7 @@ function List({ session, level }: { session: Session; level: Signal<string> }) {
   const box = useRef<HTMLDivElement>(null);
   const scroll = useSignal(0);
   const chosen = useSignal(-1);
-  const visible = visibleRows(scroll.value, box.current?.clientHeight ?? 400, Number.MAX_SAFE_INTEGER);
+  const visible = visibleRows(scroll.value, box.current?.clientHeight ?? 400, rowPx(), Number.MAX_SAFE_INTEGER);
   const listing = useListing(session, level, visible.first, visible.last).value;
   if (listing === null) return <p class="hint">Reading the events …</p>;
   if (listing.total === 0)
@@ -112,7 +113,7 @@ function List({ session, level }: { session: Session; level: Signal<string> }) {
     keepInSight(box.current, row);
   };
   const onKeyDown = (event: KeyboardEvent) => {
-    const page = Math.floor((box.current?.clientHeight ?? ROW_PX) / ROW_PX);
+    const page = Math.max(1, Math.floor((box.current?.clientHeight ?? 0) / rowPx()));
     const row = rowAfterKey(event.key, chosen.peek(), listing.total, page);
     if (row === null || event.ctrlKey) return;
     event.preventDefault();
@@ -133,30 +134,41 @@ function List({ session, level }: { session: Session; level: Signal<string> }) {
         />,
       );
   }
+  const whole = listing.rows.get(chosen.value);
   return (
-    <div
-      ref={box}
-      class="event-list"
-      role="listbox"
-      tabIndex={0}
-      aria-label={`${listing.total} events`}
-      aria-activedescendant={chosen.value >= 0 ? `event-${chosen.value}` : undefined}
-      onKeyDown={onKeyDown}
-      onScroll={(event) => {
-        scroll.value = event.currentTarget.scrollTop;
-      }}
-    >
-      <div class="event-space" role="presentation" style={{ height: `${listing.total * ROW_PX}px` }}>
-        {rows}
+    <div class="event-box">
+      <div
+        ref={box}
+        class="event-list"
+        role="listbox"
+        tabIndex={0}
+        aria-label={`${listing.total} events`}
+        aria-activedescendant={chosen.value >= 0 ? `event-${chosen.value}` : undefined}
+        onKeyDown={onKeyDown}
+        onScroll={(event) => {
+          scroll.value = event.currentTarget.scrollTop;
+        }}
+      >
+        <div class="event-space" role="presentation" style={{ height: `${listing.total * ROW_REM}rem` }}>
+          {rows}
+        </div>
       </div>
+      {whole === undefined ? null : (
+        <p class="event-whole" role="status">
+          <b>{whole.name}</b> {whole.text}
+        </p>
+      )}
     </div>
   );
 }
 
+const rowPx = (): number => 13 * ROW_REM * textScale();
+
 function keepInSight(box: HTMLElement | null, row: number): void {
   if (box === null) return;
-  if (row * ROW_PX < box.scrollTop) box.scrollTop = row * ROW_PX;
-  else if ((row + 1) * ROW_PX > box.scrollTop + box.clientHeight) box.scrollTop = (row + 1) * ROW_PX - box.clientHeight;
+  const height = rowPx();
+  if (row * height < box.scrollTop) box.scrollTop = row * height;
+  else if ((row + 1) * height > box.scrollTop + box.clientHeight) box.scrollTop = (row + 1) * height - box.clientHeight;
 }
 
 export function EventsView() {

@@ -1,6 +1,7 @@
 // The rows of a long list that are to be drawn, and the pages of them that have to be asked for.
 
-export const ROW_PX = 24;
+/** Height of a row in rem. */
+export const ROW_REM = 1.85;
 export const PAGE = 200;
 
 export interface Visible {
@@ -9,9 +10,9 @@ export interface Visible {
 }
 
 /** Rows that lie in the window of the list, and some around. */
-export function visibleRows(scroll_px: number, height_px: number, total: number, around = 8): Visible {
-  const first = Math.max(0, Math.floor(scroll_px / ROW_PX) - around);
-  const last = Math.min(total, Math.ceil((scroll_px + height_px) / ROW_PX) + around);
+export function visibleRows(scroll_px: number, height_px: number, row_px: number, total: number, around = 8): Visible {
+  const first = Math.max(0, Math.floor(scroll_px / row_px) - around);
+  const last = Math.min(total, Math.ceil((scroll_px + height_px) / row_px) + around);
   return { first, last: Math.max(first, last) };
 }
 

@@ -3,7 +3,8 @@ import uPlot from "uplot";
 import type { ValueInfo } from "../../api/types.ts";
 import { cssValue } from "../../app/theme.ts";
 import type { Span } from "../../log/selection.ts";
-import { shortNumber, timeText } from "../../maths/scales.ts";
+import { tickTexts } from "../../maths/scales.ts";
+import { textScale } from "../../parts/rem.ts";
 import type { PlotData } from "./data.ts";
 
 const COLOURS = ["--series-1", "--series-2", "--series-3", "--series-4", "--series-5", "--series-6"];
@@ -22,23 +23,24 @@ function bandOptions(values: ValueInfo[]): uPlot.Band[] {
   return values.map((_, i) => ({ series: [3 * i + 3, 3 * i + 2], fill: `${cssValue(seriesColour(i))}40` }));
 }
 
+/** Room for the longest number beside its tick. */
+function axisWidth(texts: string[] | null, scale: number): number {
+  const longest = Math.max(4, ...(texts ?? []).map((text) => text.length));
+  return (6.8 * longest + 14) * scale;
+}
+
 function axisOptions(): uPlot.Axis[] {
-  const common = {
+  const scale = textScale();
+  const common: uPlot.Axis = {
     stroke: cssValue("--text-2"),
     grid: { stroke: cssValue("--line"), width: 1 },
     ticks: { stroke: cssValue("--line"), size: 4 },
-    font: "11px system-ui, sans-serif",
+    font: `${11 * scale}px system-ui, sans-serif`,
+    values: (_, marks) => tickTexts(marks),
   };
-  const times: uPlot.Axis.Values = (_, marks) => marks.map((mark) => `${timeText(mark, marks.length > 1 ? marks[1] - marks[0] : 1)}`);
-  const numbers: uPlot.Axis.Values = (_, marks) =>
-    marks.map((mark) =>
-      shortNumber(mark, 4)
-        .replace(/(\.\d*?)0+$/, "$1")
-        .replace(/\.$/, ""),
-    );
   return [
-    { ...common, size: 24, values: times, space: 70 },
-    { ...common, size: 50, values: numbers, space: 26 },
+    { ...common, size: 24 * scale, space: 70 * scale },
+    { ...common, size: (_, texts) => axisWidth(texts, scale), space: 26 * scale },
   ];
 }
 
@@ -82,8 +84,10 @@ export class Chart {
     return this.plot.ctx.canvas;
   }
 
-  timeAt(event: MouseEvent): number {
-    return this.plot.posToVal(event.clientX - this.over.getBoundingClientRect().left, "x");
+  /** The time under the pointer, of a window that may be newer than what is drawn. */
+  timeAt(event: MouseEvent, { from_s, to_s }: Span): number {
+    const { left, width } = this.over.getBoundingClientRect();
+    return from_s + ((event.clientX - left) / width) * (to_s - from_s);
   }
 
   setData(data: PlotData, window: Span): void {

@@ -2,6 +2,7 @@
 import { type Signal, signal } from "@preact/signals";
 import type { RecordingInfo, ValueInfo } from "../../api/types.ts";
 import { type Command, setting } from "../../app/history.ts";
+import { textScale } from "../../parts/rem.ts";
 
 export interface Plot {
   key: number;
@@ -31,7 +32,7 @@ export class PlotChoice {
 
   constructor(info: RecordingInfo) {
     this.info = info;
-    this.plots = signal(firstValues(info.values, innerWidth - SIDE_PX).map((values) => this.make(values)));
+    this.plots = signal(firstValues(info.values, innerWidth / textScale() - SIDE_PX).map((values) => this.make(values)));
   }
 
   value(id: string): ValueInfo | undefined {

@@ -37,7 +37,7 @@ function ChartBox({ session, values, series, onChart }: PaneParts & { onChart: (
     const own = new Chart(box.current, values, plotData(series), selection.window.peek(), width, height);
     chart.current = own;
     onChart(own);
-    const stop = followPointer(own.over, { session, timeAt: (event) => own.timeAt(event), drag: "span" });
+    const stop = followPointer(own.over, { session, timeAt: (event) => own.timeAt(event, selection.window.peek()), drag: "span" });
     return () => {
       stop();
       own.destroy();
@@ -108,6 +108,9 @@ const COLUMNS: [keyof Statistics, string, string][] = [
   ["count", "n", "number of values"],
 ];
 
+/** Dashes keep the room until the numbers are there. */
+const NOT_YET = Object.fromEntries(COLUMNS.map(([name]) => [name, null])) as unknown as Statistics;
+
 function statisticText(found: Statistics, name: keyof Statistics): string {
   return name === "count" ? countText(found.count) : shortNumber(found[name]);
 }
@@ -123,8 +126,7 @@ function StatisticsLine({ session, values, series }: PaneParts) {
   return (
     <>
       {values.map((value, i) => {
-        const found = statistics.get(value.id);
-        if (found === undefined) return null;
+        const found = statistics.get(value.id) ?? NOT_YET;
         return (
           <dl class="statistics" key={value.id} aria-label={`Statistics of ${value.label}`}>
             {COLUMNS.map(([name, label, meaning]) => (

@@ -1,6 +1,6 @@
 // The choice of a value to plot: filtered as one types, in groups, by keyboard or pointer.
 import { useSignal } from "@preact/signals";
-import { useEffect, useRef } from "preact/hooks";
+import { useLayoutEffect, useRef } from "preact/hooks";
 import type { ValueInfo } from "../../api/types.ts";
 import { shortLabel } from "../../api/units.ts";
 import { overlay } from "../../app/overlay.ts";
@@ -25,7 +25,7 @@ export function ValuesDialog() {
   const unit = target === undefined ? null : (plots.value(target.values[0])?.unit ?? "");
   const offered = log.info.values.filter((value) => unit === null || value.unit === unit);
   const found = fittingValues(offered, text.value);
-  useEffect(() => input.current?.focus(), []);
+  useLayoutEffect(() => input.current?.focus(), []);
   const choose = (value: ValueInfo) => {
     history.run(plots.add(value.id));
     overlay.value = null;

@@ -17,7 +17,7 @@ export class Cameras {
   private readonly stage: Stage;
   private readonly controls: OrbitControls;
   private readonly eye: CameraInfo | null;
-  private readonly size_m: number;
+  private size_m: number;
   private name: CameraName = "free";
   private target = new Matrix4().makeTranslation(0, 0, 3);
   private rig = new Matrix4();
@@ -37,6 +37,12 @@ export class Cameras {
     this.moveRig();
     if (!this.placed) this.fit();
     this.placed = true;
+  }
+
+  /** Another size than was known, and the target into the view by it. */
+  setSize(size_m: number): void {
+    this.size_m = size_m;
+    this.fit();
   }
 
   choose(name: CameraName): void {
@@ -61,7 +67,7 @@ export class Cameras {
     if (this.name === "eye") return;
     const { camera } = this.stage;
     const centre = new Vector3().setFromMatrixPosition(this.target).applyMatrix4(this.rig.clone().invert());
-    const distance = (0.47 * this.size_m) / Math.tan(MathUtils.degToRad(FIELD_DEG / 2)) / Math.min(1, camera.aspect);
+    const distance = (0.54 * this.size_m) / Math.tan(MathUtils.degToRad(FIELD_DEG / 2)) / Math.min(1, camera.aspect);
     const from = this.name === "chase" ? new Vector3(-0.55, -0.5, -1) : new Vector3(-0.75, -0.42, -1);
     camera.fov = FIELD_DEG;
     camera.position.copy(centre).addScaledVector(from.normalize(), distance);

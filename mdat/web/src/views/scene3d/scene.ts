@@ -2,12 +2,13 @@
 import { effect, type Signal } from "@preact/signals";
 import { AxesHelper } from "three";
 import type { Scan } from "../../api/decode.ts";
-import type { FrameInfo } from "../../api/types.ts";
+import type { FrameInfo, PoseData } from "../../api/types.ts";
 import { tell } from "../../app/notices.ts";
 import type { Session } from "../../app/session.ts";
 import { theme } from "../../app/theme.ts";
 import { norm } from "../../maths/vectors.ts";
 import { saveFile } from "../../parts/controls.tsx";
+import { textScale } from "../../parts/rem.ts";
 import { Cameras } from "./cameras.ts";
 import type { Request } from "./choice.ts";
 import { Cloud } from "./cloud.ts";
@@ -18,6 +19,7 @@ import { Latest } from "./latest.ts";
 import { Lines } from "./lines.ts";
 import { Measuring } from "./measuring.ts";
 import { Pointing } from "./pointing.ts";
+import { extentOf } from "./segments.ts";
 import { Stage } from "./stage.ts";
 import { Target } from "./target.ts";
 
@@ -25,6 +27,9 @@ import { Target } from "./target.ts";
 export interface SceneReport {
   pointText: string;
 }
+
+/** Frames that are asked for before their time while playing. */
+const AHEAD = [1, 2];
 
 interface Shown {
   frame: FrameInfo;
@@ -44,15 +49,17 @@ class SceneRunner {
   private readonly legend: Signal<LegendContent | null>;
   private readonly latest = new Latest<Shown>();
   private shown: Shown | null = null;
+  private size_m: number;
   private readonly ends: (() => void)[] = [];
 
   constructor(box: HTMLElement, session: Session, legend: Signal<LegendContent | null>, report: Signal<SceneReport | null>) {
     const { info } = session.log;
     this.session = session;
+    this.size_m = info.size_m ?? 0;
     this.legend = legend;
     this.stage = new Stage(box);
     this.cameras = new Cameras(this.stage, info.camera, info.size_m);
-    this.cloud = new Cloud(this.stage.renderer.getPixelRatio());
+    this.cloud = new Cloud(this.stage.renderer.getPixelRatio() * textScale());
     const { sensorFrame } = this.stage;
     this.target = new Target(sensorFrame);
     sensorFrame.add(this.cloud.points, this.lines.group, this.covariance.group, new AxesHelper(0.15 * (info.size_m || 1)));
@@ -70,7 +77,7 @@ class SceneRunner {
 
   private follow(): void {
     const { selection, scene, log } = this.session;
-    this.target.load(log.modelPath).then(this.stage.invalidate, tell);
+    this.target.load(log.modelPath).then((size_m) => this.loaded(size_m), tell);
     this.ends.push(
       effect(() => this.applyTheme(theme.value)),
       effect(() => this.load(selection.frame.value, selection.iteration.value)),
@@ -79,6 +86,16 @@ class SceneRunner {
       effect(() => this.measuring.show(scene.measurements.value, scene.firstPoint.value)),
       effect(() => this.answer(scene.request.value?.what ?? null)),
     );
+  }
+
+  /** The surface is there: it is drawn, and tells the target's size where the recording does not. */
+  private loaded(size_m: number): void {
+    if (!(this.size_m > 0) && size_m > 0) {
+      this.size_m = size_m;
+      this.cameras.setSize(size_m);
+      this.showAnew();
+    }
+    this.stage.invalidate();
   }
 
   private applyTheme(_: string): void {
@@ -94,11 +111,15 @@ class SceneRunner {
       const [frame, scan] = await Promise.all([log.frame(index), log.scan(index, iteration ?? undefined)]);
       return { frame, scan };
     };
-    this.latest.ask(both, (shown) => this.show(shown), tell);
-    if (this.session.player.playing.peek()) this.askAhead(index + this.session.player.direction.peek());
+    const take = (shown: Shown) => {
+      this.show(shown);
+      this.stage.draw();
+    };
+    this.latest.ask(both, take, tell);
+    const { playing, direction } = this.session.player;
+    if (playing.peek()) for (const ahead of AHEAD) this.askAhead(index + ahead * direction.peek());
   }
 
-  /** While playing the next frame is asked for before its time. */
   private askAhead(index: number): void {
     const { log } = this.session;
     if (index < 0 || index >= log.frames) return;
@@ -116,23 +137,34 @@ class SceneRunner {
     const { scene, log } = this.session;
     const { frame, scan } = shown;
     const layers = scene.layers.peek();
-    const place = frame.poses.estimate ?? frame.poses.filtered ?? frame.poses.truth;
+    const place = frame.poses.estimate ?? frame.poses.filtered ?? frame.poses.truth ?? this.placeOfPoints(scan);
     const distance_m = place === null ? 0 : norm(place.position_m);
     const painted = paint(scan, scene.colour.peek(), log.info.parts ?? []);
     this.cloud.show(scan, painted.colours, scene.colour.peek() === "state");
     this.cloud.points.visible = layers.points;
     this.lines.showScan(scan, distance_m);
-    this.lines.showFrustum(log.info.camera, distance_m, log.info.size_m);
+    this.lines.showFrustum(log.info.camera, distance_m, this.size_m);
     this.lines.missed.visible = this.lines.passes.visible = layers.missed;
     this.lines.pattern.visible = layers.pattern;
     this.lines.frustum.visible = this.lines.boresight.visible = layers.frustum;
     this.target.show(frame, layers);
-    const notes = this.covariance.show(frame, log.info.size_m, layers.covariance);
+    const notes = this.covariance.show(frame, this.size_m || 1, layers.covariance);
     this.legend.value = { ...painted.legend, notes };
     this.pointing.setFrame(frame, scan);
     if (place !== null) this.cameras.setTarget(place);
     this.stage.renderer.domElement.dataset.frame = String(frame.index);
     this.stage.invalidate();
+  }
+
+  /** Without any pose the camera looks at the points, and takes its distance from their spread. */
+  private placeOfPoints(scan: Scan): PoseData | null {
+    const extent = extentOf(scan);
+    if (extent === null) return null;
+    if (!(this.size_m > 0)) {
+      this.size_m = extent.size_m;
+      this.cameras.setSize(extent.size_m);
+    }
+    return { position_m: extent.middle, quaternion_xyzw: [0, 0, 0, 1] };
   }
 
   private answer(what: Request | null): void {

@@ -1,7 +1,7 @@
 // Places of lines in the sensor's frame, three numbers each, without anything of three.js.
 import type { Scan } from "../../api/decode.ts";
 import type { CameraInfo } from "../../api/types.ts";
-import { MISS } from "./colours.ts";
+import { MISS, RETURN } from "./colours.ts";
 
 /** Share of a missed ray that is drawn: its end about the target. */
 const DRAWN_FROM = 0.93;
@@ -24,6 +24,17 @@ export function passedPlaces(scan: Scan): number[] {
   const places: number[] = [];
   for (let i = 0; i < scan.count; ++i) if (state[i] === MISS && Number.isFinite(x[i])) places.push(x[i], y[i], z[i]);
   return places;
+}
+
+/** The middle of the returns, and the diameter of a sphere that holds most of them: where to look when no pose is known; null without returns. */
+export function extentOf(scan: Scan): { middle: [number, number, number]; size_m: number } | null {
+  const { x, y, z, state } = scan.columns;
+  const rows = Array.from({ length: scan.count }, (_, i) => i).filter((i) => state[i] === RETURN && Number.isFinite(x[i]));
+  if (rows.length === 0) return null;
+  const mean = (column: Float32Array) => rows.reduce((sum, i) => sum + column[i], 0) / rows.length;
+  const middle: [number, number, number] = [mean(x), mean(y), mean(z)];
+  const squares = rows.reduce((sum, i) => sum + (x[i] - middle[0]) ** 2 + (y[i] - middle[1]) ** 2 + (z[i] - middle[2]) ** 2, 0);
+  return { middle, size_m: 4 * Math.sqrt(squares / rows.length) };
 }
 
 /** The rays' directions in the order of the scan, at one distance. */

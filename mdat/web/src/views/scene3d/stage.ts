@@ -67,7 +67,8 @@ export class Stage {
     this.renderer.domElement.remove();
   }
 
-  private draw(): void {
+  /** Draws at once: with what came for this very frame of the screen. */
+  draw(): void {
     cancelAnimationFrame(this.request);
     this.request = 0;
     for (const prepare of this.beforeDrawing) prepare();

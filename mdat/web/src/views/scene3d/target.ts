@@ -46,14 +46,22 @@ export class Target {
     this.applyTheme();
   }
 
-  async load(path: string): Promise<void> {
+  /** Loads the surface; gives the diameter of a sphere about the target's origin that holds it. */
+  async load(path: string): Promise<number> {
     const { scene } = await new GLTFLoader().loadAsync(path);
     scene.updateMatrixWorld(true);
     const meshes: Mesh[] = [];
     scene.traverse((node) => {
       if ((node as Mesh).isMesh) meshes.push(node as Mesh);
     });
-    for (const { geometry, matrixWorld } of meshes) this.add(geometry.clone().applyMatrix4(matrixWorld));
+    let radius_m = 0;
+    for (const { geometry, matrixWorld } of meshes) {
+      const own = geometry.clone().applyMatrix4(matrixWorld);
+      this.add(own);
+      own.computeBoundingSphere();
+      radius_m = Math.max(radius_m, (own.boundingSphere?.center.length() ?? 0) + (own.boundingSphere?.radius ?? 0));
+    }
+    return 2 * radius_m;
   }
 
   applyTheme(): void {

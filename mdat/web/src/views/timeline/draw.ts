@@ -3,7 +3,8 @@ import type { LogEvent } from "../../api/types.ts";
 import { type Run, runsOf, type Verdict, verdictOf } from "../../log/frames.ts";
 import type { FrameColumns } from "../../log/log.ts";
 import type { Span } from "../../log/selection.ts";
-import { ticks, timeText } from "../../maths/scales.ts";
+import { ticks, tickTexts } from "../../maths/scales.ts";
+import type { Size } from "../../parts/use_size.ts";
 
 export interface TimelineColours {
   text: string;
@@ -99,35 +100,36 @@ function drawEvents(pen: CanvasRenderingContext2D, content: TimelineContent, col
 function drawAxis(pen: CanvasRenderingContext2D, content: TimelineContent, colours: TimelineColours, width: number, height: number): void {
   const { from_s, to_s } = content.window;
   const marks = ticks(from_s, to_s, Math.max(2, Math.floor(width / 90)));
-  const step_s = marks.length > 1 ? marks[1] - marks[0] : 1;
+  const texts = tickTexts(marks);
   pen.fillStyle = colours.text;
   pen.strokeStyle = colours.line;
   pen.beginPath();
-  for (const mark of marks) {
+  for (const [i, mark] of marks.entries()) {
     const x = Math.round(timeToX(mark, content.window, width)) + 0.5;
     pen.moveTo(x, 0);
     pen.lineTo(x, height - 14);
-    const text = `${timeText(mark, step_s)} s`;
+    const text = `${texts[i]} s`;
     const wide = pen.measureText(text).width;
     pen.fillText(text, Math.min(width - wide, Math.max(0, x - wide / 2)), height - 3);
   }
   pen.stroke();
 }
 
-/** Draws it all; sizes in pixels of the style sheet. */
+/** Draws it all; sizes in pixels of the style sheet, things larger by a scale. */
 export function drawTimeline(
   canvas: HTMLCanvasElement,
   content: TimelineContent,
   colours: TimelineColours,
-  width: number,
-  height: number,
+  size: Size,
+  scale: number,
 ): void {
   const density = window.devicePixelRatio || 1;
-  canvas.width = Math.round(width * density);
-  canvas.height = Math.round(height * density);
+  canvas.width = Math.round(size.width * density);
+  canvas.height = Math.round(size.height * density);
+  const [width, height] = [Math.round(size.width / scale), size.height / scale];
   const pen = canvas.getContext("2d");
   if (pen === null) return;
-  pen.scale(density, density);
+  pen.scale(density * scale, density * scale);
   pen.font = "11px system-ui, sans-serif";
   drawAxis(pen, content, colours, width, height);
   drawVerdicts(pen, content, colours, width);

@@ -9,6 +9,7 @@ import { PLAYER_SPEEDS } from "../../log/player.ts";
 import { timeText } from "../../maths/scales.ts";
 import { IconButton } from "../../parts/controls.tsx";
 import { Icon } from "../../parts/icon.tsx";
+import { textScale } from "../../parts/rem.ts";
 import { useSize } from "../../parts/use_size.ts";
 import { drawTimeline, type TimelineColours, timeToX, xToTime } from "./draw.ts";
 
@@ -37,8 +38,8 @@ function Track({ session }: { session: Session }) {
       canvas.current,
       { columns: log.columns, modes: log.info.modes ?? [], modeRuns, events: events.all.value, window },
       coloursNow(),
-      width,
-      height,
+      size.value,
+      textScale(),
     );
   }, [width, height, window, events.all.value, theme.value]);
   useEffect(() => {

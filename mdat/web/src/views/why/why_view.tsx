@@ -6,7 +6,7 @@ import { unitText } from "../../api/units.ts";
 import { tell } from "../../app/notices.ts";
 import { useSession } from "../../app/session.ts";
 import { verdictOf } from "../../log/frames.ts";
-import { countText, shortNumber, timeText, withUnit } from "../../maths/scales.ts";
+import { countText, sentence, shortNumber, timeText, withUnit } from "../../maths/scales.ts";
 import { angleBetween_deg, norm, subtract } from "../../maths/vectors.ts";
 import { Empty, Panel } from "../../parts/controls.tsx";
 import { Icon } from "../../parts/icon.tsx";
@@ -46,15 +46,16 @@ function Verdict({ frame }: { frame: FrameInfo }) {
       <span class="verdict-frame">
         frame {frame.index}, {timeText(frame.time_s)} s
       </span>
-      <p class="why-sentence">{sentence(frame.why || frame.reason || "")}</p>
+      <p class="why-sentence">
+        {sentence(frame.why || frame.reason || "")} {verdict === "wrong" ? wrongText(frame) : ""}
+      </p>
     </div>
   );
 }
 
-/** With a capital and a full stop. */
-function sentence(text: string): string {
-  const whole = text.charAt(0).toUpperCase() + text.slice(1);
-  return whole === "" || /[.!?]$/.test(whole) ? whole : `${whole}.`;
+/** What a pose that was trusted is off, where it should not have been. */
+function wrongText({ error }: FrameInfo): string {
+  return `But the truth says otherwise: it is off by ${withUnit(error?.position_mm, "mm")} and ${withUnit(error?.angle_deg, "°")}.`;
 }
 
 function gateNumber(value: number | null, unit: string): string {
@@ -106,9 +107,9 @@ function Gates({ gates }: { gates: Gate[] }) {
   );
 }
 
-function Fact({ label, value }: { label: string; value: string }) {
+function Fact({ label, value, meaning }: { label: string; value: string; meaning?: string }) {
   return (
-    <div>
+    <div title={meaning}>
       <dt>{label}</dt>
       <dd>{value}</dd>
     </div>
@@ -126,7 +127,11 @@ function Facts({ frame }: { frame: FrameInfo }) {
       <Fact label="Residual, RMS" value={withUnit(frame.rms_mm, "mm")} />
       <Fact label="Position error" value={withUnit(error?.position_mm, "mm")} />
       <Fact label="Angle error" value={withUnit(error?.angle_deg, "°")} />
-      <Fact label="Error², normalised" value={shortNumber(error?.normalised_squared)} />
+      <Fact
+        label="NEES"
+        value={shortNumber(error?.normalised_squared)}
+        meaning="Normalised error squared: 6 in the mean, if the covariance is honest"
+      />
     </dl>
   );
 }

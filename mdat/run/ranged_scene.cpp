@@ -1,0 +1,57 @@
+#include "mdat/run/ranged_scene.hpp"
+
+#include "fsw/geometry/so3.hpp"
+#include "hal_sim/trajectory.hpp"
+#include "mdat/scene/way.hpp"
+
+namespace lasso::mdat {
+namespace {
+
+// Of frame 0, with the origin at the target's center_m.
+Pose first_pose_of(const Scenario& scenario, double range_m) {
+  Pose start;
+  start.q = sim::upright_attitude(scenario.tilt_rad, scenario.boresight_rad);
+  if (scenario.roll_rad != 0) start.q = normalized(start.q * exp_so3(scenario.roll_rad * Vec3::UnitX()));
+  start.p = Vec3(scenario.offset_m.at(0), scenario.offset_m.at(1), range_m);
+  return start;
+}
+
+// About center_m, a step a frame.
+scene::MotionPtr stepped(const Scenario& scenario, const Pose& start, DurationUs period_us) {
+  const auto steps = std::make_shared<scene::Steps>(scene::Steps::Setup{start, Vec3::UnitX(), scenario.step_rad, period_us});
+  const Vec3 center_m(scenario.center_m.data());
+  if (center_m.isZero(0)) return steps;
+  return std::make_shared<scene::Chain>(steps, std::make_shared<scene::Still>(Pose{Quat::Identity(), -center_m}));
+}
+
+// Of center_m, through all ranges.
+scene::MotionPtr way_of(const Scenario& scenario) {
+  scene::MotionTable table;
+  table.times_s = scenario.times_s;
+  for (const double range_m : scenario.ranges_m) table.positions_m.emplace_back(scenario.offset_m.at(0), scenario.offset_m.at(1), range_m);
+  return std::make_shared<scene::Way>(table);
+}
+
+}  // namespace
+
+scene::MotionPtr ranged_motion(const Scenario& scenario, double range_m, DurationUs period_us) {
+  Pose start = first_pose_of(scenario, range_m);
+  if (scenario.step_rad != 0) return stepped(scenario, start, period_us);  // a rule: then there are no rates
+  const Twist rates{rotate(start.q, Vec3(scenario.spin_radps.data())), Vec3(scenario.drift_mps.data())};
+  if (scenario.has_profile()) start.p = Vec3::Zero();
+  const auto turn = std::make_shared<scene::ConstantRates>(scene::ConstantRates::Setup{start, rates, Vec3(scenario.center_m.data())});
+  if (!scenario.has_profile()) return turn;
+  return std::make_shared<scene::Sum>(way_of(scenario), turn);
+}
+
+std::shared_ptr<const SceneRun> scene_run(const Scenario& scenario, double range_m, DurationUs period_us) {
+  if (scenario.scene != nullptr) return scenario.scene;
+  scene::Node target;
+  target.name = "target";
+  target.parent = kSceneRoot;
+  target.motion = ranged_motion(scenario, range_m, period_us);
+  return std::make_shared<SceneRun>(
+      SceneRun{scene::Tree(kSceneRoot, {target}), 1, 0, {}, std::make_shared<SceneSurfaces>(), 0, 0, {}, {}, {}});
+}
+
+}  // namespace lasso::mdat

@@ -1,0 +1,95 @@
+#include "mdat/serve/recording.hpp"
+
+#include <gtest/gtest.h>
+
+#include "mdat/common/errors.hpp"
+#include "ut/mdat/serve/small_recording.hpp"
+#include "ut/support/verifies.hpp"
+
+namespace lasso::mdat::serve {
+namespace {
+
+TEST(OpenRecording, EachReportIsAFrame) {
+  VERIFIES("LASSO-WEB-008~1");
+  const TestFolder folder;
+  const Recording recording(SmallRecording{}.write(folder.path() / "a.mcap"));
+  ASSERT_EQ(recording.frames().size(), 6U);
+  EXPECT_TRUE(recording.own() && recording.has_truth() && recording.image() != nullptr);
+  EXPECT_TRUE(recording.damage().empty());
+  for (std::size_t n = 0; n < 6; ++n) {
+    const Frame& frame = recording.frames()[n];
+    EXPECT_NEAR(frame.time_s, 1.1 + 0.2 * static_cast<double>(n), 1e-9);
+    EXPECT_EQ(frame.valid, n != 2 && n != 4) << n;
+    EXPECT_EQ(frame.wrong, std::optional(n == 3)) << n;
+    EXPECT_EQ(recording.told(n).value().inliers, n == 2 ? 7 : 290 + n) << n;
+    EXPECT_EQ(recording.truth(n).value().p, SmallRecording::truth(n).p) << n;
+  }
+  const Value* inliers = recording.value("pose.inliers");
+  ASSERT_NE(inliers, nullptr);
+  EXPECT_EQ(recording.column(*inliers), (std::vector<float>{290, 291, 7, 293, 294, 295}));
+  EXPECT_EQ(recording.value("pose.nothing"), nullptr);
+}
+
+TEST(OpenRecording, EventsBelongToTheLastFrameBeforeThem) {
+  VERIFIES("LASSO-WEB-008~1");
+  const TestFolder folder;
+  const Recording recording(SmallRecording{}.write(folder.path() / "a.mcap"));
+  ASSERT_EQ(recording.events().size(), 1U);
+  const RecordedEvent& event = recording.events()[0];
+  EXPECT_NEAR(event.time_s, 1.8, 1e-9);  // 0.3 s behind frame 2, which is at 1.5 s
+  EXPECT_EQ(event.frame, 3U);            // at 1.7 s
+  EXPECT_EQ(event.name, "scan_lost");
+}
+
+TEST(OpenRecording, WithoutATruthNothingIsSaidOfErrors) {
+  VERIFIES("LASSO-WEB-008~1");
+  const TestFolder folder;
+  SmallRecording small;
+  small.with_truth = false;
+  const Recording recording(small.write(folder.path() / "a.mcap"));
+  EXPECT_FALSE(recording.has_truth());
+  EXPECT_EQ(recording.frames().at(3).wrong, std::nullopt);
+  EXPECT_EQ(recording.value("error.position"), nullptr);
+  EXPECT_NE(recording.value("sigma.position"), nullptr);
+}
+
+TEST(OpenRecording, OfAnotherProgramsCloudsEachIsAFrame) {
+  VERIFIES("LASSO-WEB-008~1");
+  const TestFolder folder;
+  SmallRecording small;
+  small.own = small.with_image = false;
+  const Recording recording(small.write(folder.path() / "a.mcap"));
+  EXPECT_FALSE(recording.own());
+  ASSERT_EQ(recording.frames().size(), 5U);  // one scan is not there
+  EXPECT_EQ(recording.told(0), std::nullopt);
+  const std::size_t last = 4;
+  EXPECT_EQ(recording.other_pose(last).value().p, SmallRecording::truth(5).p);
+  const Value* z = recording.value("/truth.z");
+  ASSERT_NE(z, nullptr);
+  EXPECT_EQ(recording.column(*z).at(2), static_cast<float>(SmallRecording::truth(2).p.z()));
+  EXPECT_EQ(recording.frames()[4].time_ns, static_cast<std::uint64_t>(SmallRecording::time_us(5)) * 1000);
+}
+
+// Whatever is left of a file is shown up to its last whole chunk, with the damage told.
+TEST(OpenRecording, ACutRecordingIsShownAsFarAsItIsWhole) {
+  VERIFIES("LASSO-WEB-015~1");
+  const TestFolder folder;
+  const std::filesystem::path file = SmallRecording{}.write(folder.path() / "a.mcap");
+  const std::string whole = bytes_of_file(file);
+  std::size_t before = 0;
+  for (std::size_t part = 1; part <= 20; ++part) {
+    const std::filesystem::path cut = folder.path() / "cut.mcap";
+    std::ofstream(cut, std::ios::binary) << whole.substr(0, std::max<std::size_t>(200, whole.size() * part / 21));
+    const Recording recording(cut);
+    EXPECT_FALSE(recording.damage().empty()) << part;
+    EXPECT_GE(recording.frames().size(), before) << part;
+    before = recording.frames().size();
+    for (std::size_t n = 0; n < before; ++n) EXPECT_EQ(recording.told(n).value().scan_id, n) << part;
+  }
+  EXPECT_EQ(before, 6U);  // the image is what is cut last
+  std::ofstream(folder.path() / "none.mcap") << "no recording";
+  EXPECT_THROW((void)Recording(folder.path() / "none.mcap"), InputError);
+}
+
+}  // namespace
+}  // namespace lasso::mdat::serve
