@@ -30,7 +30,7 @@ void require_orbit(const MissionInput& input, const std::string& scenario) {
   const SceneRun* run = scenario_of(input.source, scenario).scene.get();
   if (run != nullptr && run->orbit) return;
   throw InputError(input.source.file.string() + ": scenario " + scenario +
-                   " has no light of an orbit: expected kind = \"scene\" and [orbit], as in " + "cfg/missions/day_and_night.toml");
+                   " has no light of an orbit: expected nodes without ranges_m, and [orbit], as in " + "cfg/missions/day_and_night.toml");
 }
 
 }  // namespace
