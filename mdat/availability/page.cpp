@@ -140,6 +140,18 @@ std::string approach_figure(Plotter& plotter, const HeadComparison& comparison) 
   return drawing.svg(1080, 760);
 }
 
+// The samples of one head at one beta, in a row: with a pose, and without.
+void add_orbit_row(const HeadComparison& comparison, std::size_t i, double beta_rad, double row, bool named, std::vector<Curve>& curves) {
+  std::string with, without;
+  for (const OrbitSample& sample : comparison.heads[i].orbits) {
+    if (sample.beta_rad != beta_rad) continue;
+    (is_available(sample.seen.error) ? with : without) += format("%.6g %g\n", sample.angle_rad / kRadPerDeg, row);
+  }
+  const std::string title = named ? "title '" + comparison.heads[i].head.title + "'" : "notitle";
+  curves.push_back({with, 2, format(" with points pt 5 ps 0.9 lc rgb '%s' ", head_colour(i)) + title});
+  curves.push_back({without, 2, " with points pt 2 ps 0.7 lc rgb '#8a94a3' notitle"});
+}
+
 std::string orbits_figure(Plotter& plotter, const HeadComparison& comparison) {
   Drawing drawing(plotter);
   const std::vector<double> betas = betas_of(comparison.heads.front().orbits);
@@ -148,20 +160,10 @@ std::string orbits_figure(Plotter& plotter, const HeadComparison& comparison) {
   std::string tics;
   std::vector<Curve> curves;
   for (std::size_t b = 0; b < betas.size(); ++b) {
-    tics += format("%s'beta %g deg' %g", tics.empty() ? "" : ", ", betas[b] / kRadPerDeg, -4.0 * static_cast<double>(b) - 1);
-    for (std::size_t i = 0; i < comparison.heads.size(); ++i) {
-      std::vector<OrbitSample> samples;
-      for (const OrbitSample& sample : comparison.heads[i].orbits) {
-        if (sample.beta_rad == betas[b]) samples.push_back(sample);
-      }
-      const double row = -4.0 * static_cast<double>(b) - static_cast<double>(i);
-      std::string with, without;
-      for (const OrbitSample& sample : samples)
-        (is_available(sample.seen.error) ? with : without) += format("%.6g %g\n", sample.angle_rad / kRadPerDeg, row);
-      const std::string title = b == 0 ? "title '" + comparison.heads[i].head.title + "'" : "notitle";
-      curves.push_back({with, 2, format(" with points pt 5 ps 0.9 lc rgb '%s' ", head_colour(i)) + title});
-      curves.push_back({without, 2, " with points pt 2 ps 0.7 lc rgb '#8a94a3' notitle"});
-    }
+    const double top = -4.0 * static_cast<double>(b);
+    tics += format("%s'beta %g deg' %g", tics.empty() ? "" : ", ", betas[b] / kRadPerDeg, top - 1);
+    for (std::size_t i = 0; i < comparison.heads.size(); ++i)
+      add_orbit_row(comparison, i, betas[b], top - static_cast<double>(i), b == 0, curves);
   }
   drawing.set("set ytics (" + tics + format(")\nset yrange [%g:1]\n", -4.0 * static_cast<double>(betas.size())));
   drawing.plot(curves, "no sample");

@@ -26,7 +26,9 @@ std::vector<std::string> phase_line(const std::string& head, const std::string& 
           known(figures.nees, 1, "-")};
 }
 
-const std::vector<std::string> kPhaseHead = {"", "light", "available", "wrong", "mm: median", "rms", "deg: median", "rms", "NEES of 6"};
+std::vector<std::string> phase_head() {
+  return {"", "light", "available", "wrong", "mm: median", "rms", "deg: median", "rms", "NEES of 6"};
+}
 
 void add_phases(const std::string& title, const std::vector<SeenFrame>& frames, Lines& lines) {
   std::string head = title;
@@ -124,7 +126,7 @@ std::string laser_text(LaserInLight laser) {
 }
 
 std::string comparison_text(const HeadComparison& comparison) {
-  Lines lines = {kPhaseHead};
+  Lines lines = {phase_head()};
   for (const HeadResult& head : comparison.heads) add_phases(head.head.title, head.approach, lines);
   std::string text =
       "\n" + comparison.mission + ", scenario " + comparison.approach + ": poses of single scans by light\n" + aligned_text(lines);

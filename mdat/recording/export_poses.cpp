@@ -58,14 +58,14 @@ std::map<std::string, TimedPoses> poses_of(const fs::path& file, const ExportOpt
 TimedPoses poses_of_topic(const fs::path& file, ExportOptions options) {
   options.topic = choose_topic(file, options.topic, pose_schemas(), "/odom");
   std::map<std::string, TimedPoses> all = poses_of(file, options);
-  TimedPoses& poses = all[options.topic];
+  TimedPoses poses = std::move(all[options.topic]);
   for (std::size_t i = 1; i < poses.size(); ++i) {
     if (!(poses[i].t_s > poses[i - 1].t_s))
       throw InputError(file.string() + ": " + options.topic + ": its times go back: an ephemeris has them in order");
   }
   if (poses.size() < 2)
     throw InputError(file.string() + ": " + options.topic + ": fewer than two poses in this span: an ephemeris needs two");
-  return std::move(poses);
+  return poses;
 }
 
 template <class... Values>

@@ -29,8 +29,8 @@ struct SceneFrame {
 // A glTF file that grows: accessors into one buffer.
 class GlbFile {
  public:
-  GlbFile() {
-    json_ = {{"asset", {{"version", "2.0"}, {"generator", "mdat"}}}, {"scene", 0}, {"scenes", Json::array()}, {"nodes", Json::array()}};
+  GlbFile()
+      : json_({{"asset", {{"version", "2.0"}, {"generator", "mdat"}}}, {"scene", 0}, {"scenes", Json::array()}, {"nodes", Json::array()}}) {
     // Its y axis is down, and glTF's up: half a turn about x.
     json_["nodes"].push_back({{"name", "sensor"}, {"rotation", {1, 0, 0, 0}}, {"children", Json::array()}});
     json_["scenes"].push_back({{"nodes", {0}}});

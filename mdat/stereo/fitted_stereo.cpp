@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "fsw/geometry/portable_math.hpp"
 #include "fsw/geometry/so3.hpp"
 #include "mdat/stereo/error_field.hpp"
 

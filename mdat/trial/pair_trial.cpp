@@ -126,7 +126,7 @@ class PairTrial {
     for (std::uint16_t ray = 0; ray < plan.points; ++ray) static_cast<void>(image.samples.push_back(sampled(pattern_direction(plan, ray))));
     StartPoint start;
     start.T_sensor_target = start_beside(truth, 1000 * (1 + view) + 100 * draw + scan);
-    TrialPose pose = trial_pose(singles_->estimate(image, start), truth);
+    TrialPose pose = trial_pose(singles_.value().estimate(image, start), truth);
     pose.view = view;
     pose.draw = draw;
     pose.scan = scan;

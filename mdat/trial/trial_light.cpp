@@ -7,18 +7,13 @@
 #include "mdat/source/nearest.hpp"
 
 namespace lasso::mdat {
-namespace {
-
-const std::vector<double> kNoLight = {0, 0, 0};
-
-}  // namespace
-
 const std::vector<TrialLight>& trial_lights() {
+  static const std::vector<double> no_light = {0, 0, 0};
   static const std::vector<TrialLight> lights = {
       {"sun_behind", {0.3, -0.2, -0.93}, {0, 0.9, -0.43}, 0}, {"over_shoulder", {0.5, -0.5, -0.7}, {0, 1, 0}, 0},
-      {"side_on", {0.98, 0, -0.17}, {-0.6, 0.8, 0}, 0},       {"side_on_no_earth", {0.98, 0, -0.17}, kNoLight, 0},
-      {"backlit", {-0.16, -0.5, 0.85}, {0, 1, 0}, 0},         {"lamp", kNoLight, kNoLight, kLamp_Wpsr},
-      {"backlit_no_earth", {-0.16, -0.5, 0.85}, kNoLight, 0}};
+      {"side_on", {0.98, 0, -0.17}, {-0.6, 0.8, 0}, 0},       {"side_on_no_earth", {0.98, 0, -0.17}, no_light, 0},
+      {"backlit", {-0.16, -0.5, 0.85}, {0, 1, 0}, 0},         {"lamp", no_light, no_light, kLamp_Wpsr},
+      {"backlit_no_earth", {-0.16, -0.5, 0.85}, no_light, 0}};
   return lights;
 }
 
