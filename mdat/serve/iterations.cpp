@@ -78,7 +78,8 @@ std::unique_ptr<sim::RayCaster> caster_of(const SurfaceTriangles& surface) {
   std::vector<std::array<std::uint32_t, 3>> triangles;
   for (std::size_t i = 0; i + 2 < surface.indices.size(); i += 3) {
     const std::array<std::uint32_t, 3> corners = {surface.indices[i], surface.indices[i + 1], surface.indices[i + 2]};
-    const Vec3 a = points[corners[0]], normal = (points[corners[1]] - a).cross(points[corners[2]] - a);
+    const Vec3& a = points[corners[0]];
+    const Vec3 normal = (points[corners[1]] - a).cross(points[corners[2]] - a);
     if (normal.squaredNorm() > 0) triangles.push_back(corners);
   }
   return triangles.empty() ? nullptr : sim::make_ray_caster(points, triangles);

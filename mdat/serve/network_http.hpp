@@ -25,12 +25,13 @@ class Connection : public std::enable_shared_from_this<Connection> {
   using Parser = http::request_parser<http::string_body>;
 
   void read(std::chrono::milliseconds time) {
-    parser_.emplace();
+    parser_ = std::make_unique<Parser>();
     parser_->header_limit(kMaxHeaderBytes);
     parser_->body_limit(kMaxBodyBytes);
     stream_.expires_after(time);
     http::async_read_header(stream_, buffer_, *parser_, [self = shared_from_this()](beast::error_code error, std::size_t) {
-      error ? self->fail(error) : self->read_body();
+      if (error) return self->fail(error);
+      self->read_body();
     });
   }
 
@@ -60,7 +61,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   void open_socket() {
     Header header = parser_->get().base();
     SocketOpening opening = shared_.application.open(request_of(header, ""));
-    if (opening.begin) return std::make_shared<Socket>(std::move(stream_), shared_, count_)->accept(std::move(header), std::move(opening));
+    if (opening.begin) return std::make_shared<Socket>(std::move(stream_), shared_, count_)->accept(std::move(header), opening);
     send(opening.refusal ? std::move(*opening.refusal) : error_response(404, "no socket is served here", "see docs/serve.md"), false);
   }
 
@@ -96,7 +97,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   // Lets the client read what was sent before the end.
   void close() {
     beast::error_code ignored;
-    stream_.socket().shutdown(Tcp::socket::shutdown_send, ignored);
+    (void)stream_.socket().shutdown(Tcp::socket::shutdown_send, ignored);
     stream_.expires_after(std::chrono::milliseconds(200));
     stream_.async_read_some(asio::buffer(rest_), [self = shared_from_this()](beast::error_code, std::size_t) { self->stream_.close(); });
   }
@@ -105,7 +106,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   Shared shared_;
   std::shared_ptr<SocketCount> count_;
   beast::flat_buffer buffer_{kMaxHeaderBytes + kMaxBodyBytes + kMaxHeaderBytes};
-  std::optional<Parser> parser_;
+  std::unique_ptr<Parser> parser_;
   std::array<char, 4096> rest_{};
   bool head_ = false;
 };

@@ -23,7 +23,7 @@ class Socket final : public SocketSender, public std::enable_shared_from_this<So
   }
 
   // Answers the request for an upgrade, and then reads.
-  void accept(Header header, SocketOpening opening) {
+  void accept(Header header, const SocketOpening& opening) {
     session_ = opening.begin(shared_from_this());
     beast::get_lowest_layer(stream_).expires_never();
     stream_.set_option(websocket::stream_base::timeout::suggested(beast::role_type::server));

@@ -14,14 +14,10 @@ struct TypeRow {
   std::string_view ending;
   const char* type;
 };
-constexpr TypeRow kTypes[] = {{".html", "text/html; charset=utf-8"},
-                              {".js", "text/javascript; charset=utf-8"},
-                              {".css", "text/css; charset=utf-8"},
-                              {".svg", "image/svg+xml"},
-                              {".txt", "text/plain; charset=utf-8"},
-                              {".json", "application/json"},
-                              {".wasm", "application/wasm"},
-                              {".png", "image/png"}};
+constexpr TypeRow kTypes[] = {{".html", "text/html; charset=utf-8"}, {".js", "text/javascript; charset=utf-8"},
+                              {".css", "text/css; charset=utf-8"},   {".svg", "image/svg+xml"},
+                              {".txt", "text/plain; charset=utf-8"}, {".json", "application/json"},
+                              {".wasm", "application/wasm"},         {".png", "image/png"}};
 
 const char* type_of(std::string_view name) {
   for (const TypeRow& row : kTypes) {

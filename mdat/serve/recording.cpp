@@ -22,6 +22,17 @@ bool is_pose(const PacketRow& row) { return std::string_view(row.name) == "pose"
 
 bool is_event(const PacketRow& row) { return row.cause[0] != '\0'; }  // whose words are in /events
 
+// The first topic of poses.
+std::optional<std::uint16_t> first_of_poses(const mcap::IndexedFile& file) {
+  for (const auto& [id, channel] : file.channels()) {
+    const auto schema = file.schemas().find(channel.schema);
+    if (schema == file.schemas().end()) continue;
+    const std::string& name = schema->second.name;
+    if (name == "geometry_msgs/msg/PoseStamped" || name == "geometry_msgs/msg/PoseWithCovarianceStamped") return id;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 struct Recording::UnpackedChunk {
@@ -181,13 +192,7 @@ void Recording::find_frames_of_clouds() {
 
 // Position and attitude of a topic become values of it.
 void Recording::find_other_poses() {
-  std::optional<std::uint16_t> found;
-  for (const auto& [id, channel] : file_.channels()) {
-    const auto schema = file_.schemas().find(channel.schema);
-    const bool poses = schema != file_.schemas().end() && (schema->second.name == "geometry_msgs/msg/PoseStamped" ||
-                                                           schema->second.name == "geometry_msgs/msg/PoseWithCovarianceStamped");
-    if (poses && !found) found = id;
-  }
+  const std::optional<std::uint16_t> found = first_of_poses(file_);
   if (!found) return;
   for (const mcap::ChunkPlace& chunk : file_.chunks()) {
     if (!chunk.may_have(*found)) continue;

@@ -1,4 +1,5 @@
 // mdat-embed FOLDER OUT.cpp: the files of a folder, compressed, as the source of page_files(). A folder that is not there gives none.
+#define ZLIB_CONST
 #include <zlib.h>
 
 #include <algorithm>
@@ -24,12 +25,12 @@ std::string bytes_of(const fs::path& file) {
 }
 
 // The same bytes each time: the header says no time.
-std::string gzipped(std::string bytes) {
+std::string gzipped(const std::string& bytes) {
   z_stream stream{};
   if (deflateInit2(&stream, Z_BEST_COMPRESSION, Z_DEFLATED, kGzipWindow, kMemory, Z_DEFAULT_STRATEGY) != Z_OK)
     throw std::runtime_error("zlib cannot begin");
   std::string result(deflateBound(&stream, bytes.size()), '\0');
-  stream.next_in = reinterpret_cast<Bytef*>(bytes.data());
+  stream.next_in = reinterpret_cast<const Bytef*>(bytes.data());
   stream.avail_in = static_cast<uInt>(bytes.size());
   stream.next_out = reinterpret_cast<Bytef*>(result.data());
   stream.avail_out = static_cast<uInt>(result.size());
