@@ -116,7 +116,7 @@ class PairTrial {
 
   template <class Sampled>
   TrialPose registered(std::uint32_t view, std::uint32_t draw, std::uint32_t scan, const Sampled& sampled) {
-    const Mission& mission = image_->mission();
+    const Mission& mission = image_.value().mission();
     const Pose& truth = scene_.T_sensor_target;
     ScanPlan plan;
     if (plan_scan(mission.parameters, {mission.hull, mission.center_m}, truth, scan, plan) != Status::kOk)
@@ -126,7 +126,7 @@ class PairTrial {
     for (std::uint16_t ray = 0; ray < plan.points; ++ray) static_cast<void>(image.samples.push_back(sampled(pattern_direction(plan, ray))));
     StartPoint start;
     start.T_sensor_target = start_beside(truth, 1000 * (1 + view) + 100 * draw + scan);
-    TrialPose pose = trial_pose(singles_.value().estimate(image, start), truth);
+    TrialPose pose = trial_pose(singles_->estimate(image, start), truth);
     pose.view = view;
     pose.draw = draw;
     pose.scan = scan;

@@ -87,9 +87,9 @@ TEST(LiveProtocol, NoBytesBreakIt) {
   std::size_t understood = 0, wrong = 0;
   for (int i = 0; i < 20000; ++i) {
     std::string text = good[i % 2];
-    for (std::uint32_t changes = random() % 4; changes > 0; --changes) {
+    for (auto changes = random() % 4; changes > 0; --changes) {
       const std::size_t at = random() % text.size();
-      const std::uint32_t kind = random() % 3;
+      const auto kind = random() % 3;
       if (kind == 0) text[at] = static_cast<char>(random() % 256);
       if (kind == 1) text.erase(at, 1 + random() % 3);
       if (kind == 2) text.insert(at, text.substr(at, 1 + random() % 20));

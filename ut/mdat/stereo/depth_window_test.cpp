@@ -47,11 +47,10 @@ TEST(DepthWindow, IsThatOfTheMissionsRangesWhereverTheTargetIs) {
   CaseSetup setup;
   setup.range_m = 3;
   setup.scenario.ranges_m = {2, 3, 7};
-  setup.scenario.kind = static_cast<double>(ScenarioKind::kSpin);
   const MatchDepths one = depths_at(target, Vec3::Zero(), {3}, 0.3), all = depths_at(target, Vec3::Zero(), {2, 7}, 0.3);
   EXPECT_EQ(stated_depths(target, setup, 0.3).nearest_m, one.nearest_m);
   EXPECT_EQ(stated_depths(target, setup, 0.3).farthest_m, one.farthest_m);
-  setup.scenario.kind = static_cast<double>(ScenarioKind::kPass);
+  setup.scenario.times_s = {0, 10, 20};
   EXPECT_EQ(stated_depths(target, setup, 0.3).nearest_m, all.nearest_m);
   EXPECT_EQ(stated_depths(target, setup, 0.3).farthest_m, all.farthest_m);
 }
