@@ -1,4 +1,5 @@
 #include <cstdio>
+#include <map>
 #include <memory>
 
 #include "fsw/geometry/se3.hpp"
@@ -53,27 +54,7 @@ Pose pose_before(const std::vector<ScanRow>& rows, std::size_t i) {
   return rows.size() > 1 ? rows[0].truth * inverse(rows[1].truth) * rows[0].truth : rows[0].truth;
 }
 
-}  // namespace
-
-ExportedFiles export_scans(const fs::path& file, const ExportOptions& options) {
-  ExportedFiles result;
-  std::vector<ScanRow> rows;
-  Pose truth;
-  std::uint64_t truth_ns = 0;
-  const auto wanted = [](const TopicName& name) { return name.topic == "/truth" || name.topic == "/scan"; };
-  (void)read_topics(file, options.span, wanted, [&](const TopicMessage& message) {
-    if (message.topic == "/truth") {
-      truth = true_pose(message.value);
-      truth_ns = message.t_ns;
-    } else if (message.t_ns == truth_ns) {  // it comes first
-      char name[24];
-      (void)std::snprintf(name, sizeof name, "f%05zu", rows.size());
-      result.files[std::string("scans/") + name + ".csv"] = csv_of_scan(file, message.value);
-      rows.push_back({name, truth});
-    }
-  });
-  if (rows.empty())
-    throw InputError(file.string() + ": no scan with its true pose in this span: expected a recording of mdat run --record");
+void add_pose_tables(const std::vector<ScanRow>& rows, ExportedFiles& result) {
   std::string truths = "scan,qx,qy,qz,qw,x_m,y_m,z_m\n", starts = truths;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     truths += pose_row(rows[i].name, rows[i].truth);
@@ -81,6 +62,34 @@ ExportedFiles export_scans(const fs::path& file, const ExportOptions& options) {
   }
   result.files["truth.csv"] = truths;
   result.files["poses.csv"] = starts;
+}
+
+}  // namespace
+
+ExportedFiles export_scans(const fs::path& file, const ExportOptions& options) {
+  std::map<std::uint64_t, Pose> truths;        // by time: topics of large messages lie in chunks of their own
+  std::map<std::uint64_t, std::string> scans;  // the same
+  const auto wanted = [](const TopicName& name) { return name.topic == "/truth" || name.topic == "/scan"; };
+  (void)read_topics(file, options.span, wanted, [&](const TopicMessage& message) {
+    if (message.topic == "/truth") {
+      truths[message.t_ns] = true_pose(message.value);
+    } else {
+      scans[message.t_ns] = csv_of_scan(file, message.value);
+    }
+  });
+  ExportedFiles result;
+  std::vector<ScanRow> rows;
+  for (auto& [t_ns, text] : scans) {
+    const auto truth = truths.find(t_ns);
+    if (truth == truths.end()) continue;
+    char name[24];
+    (void)std::snprintf(name, sizeof name, "f%05zu", rows.size());
+    result.files[std::string("scans/") + name + ".csv"] = std::move(text);
+    rows.push_back({name, truth->second});
+  }
+  if (rows.empty())
+    throw InputError(file.string() + ": no scan with its true pose in this span: expected a recording of mdat run --record");
+  add_pose_tables(rows, result);
   return result;
 }
 

@@ -49,7 +49,7 @@ struct Network::Parts {
       if (error == asio::error::operation_aborted) return;
       if (!error && sockets < options.sockets) {
         beast::error_code ignored;
-        (void)socket.set_option(Tcp::no_delay(true), ignored);
+        ignored = socket.set_option(Tcp::no_delay(true), ignored);
         std::make_shared<Connection>(std::move(socket), shared)->start();
       }
       accept(shared);

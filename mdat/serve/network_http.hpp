@@ -42,8 +42,10 @@ class Connection : public std::enable_shared_from_this<Connection> {
     if (header.count(http::field::expect) > 0) return send(error_response(417, "Expect is not taken", "leave it out"), false);
     if (websocket::is_upgrade(parser_->get())) return open_socket();
     stream_.expires_after(shared_.options.header_time);
-    http::async_read(stream_, buffer_, *parser_,
-                     [self = shared_from_this()](beast::error_code error, std::size_t) { error ? self->fail(error) : self->answer(); });
+    http::async_read(stream_, buffer_, *parser_, [self = shared_from_this()](beast::error_code error, std::size_t) {
+      if (error) return self->fail(error);
+      self->answer();
+    });
   }
 
   void answer() {
@@ -97,7 +99,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   // Lets the client read what was sent before the end.
   void close() {
     beast::error_code ignored;
-    (void)stream_.socket().shutdown(Tcp::socket::shutdown_send, ignored);
+    ignored = stream_.socket().shutdown(Tcp::socket::shutdown_send, ignored);
     stream_.expires_after(std::chrono::milliseconds(200));
     stream_.async_read_some(asio::buffer(rest_), [self = shared_from_this()](beast::error_code, std::size_t) { self->stream_.close(); });
   }

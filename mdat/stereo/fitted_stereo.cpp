@@ -29,7 +29,7 @@ FittedStereo::FittedStereo(StereoHead head, std::uint64_t seed, const StereoFit&
     : head_(std::move(head)), seed_(seed), fit_(fit), common_(common) {}
 
 void FittedStereo::take(const StereoView& view, const MatchDepths& depths) {
-  sight_.emplace(head_, view);
+  sight_ = std::make_unique<PairSight>(head_, view);
   depths_ = depths;
   exposure_s_ = head_.source.exposure_s;
   if (exposure_s_ == 0) exposure_s_ = next_exposure_s_ > 0 ? next_exposure_s_ : sight_->settled_exposure_s();

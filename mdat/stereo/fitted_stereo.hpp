@@ -1,6 +1,7 @@
 // A stereo head by its measured errors, in milliseconds a scan: no picture is rendered, and none is matched.
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "fsw/sense/range_image.hpp"
@@ -39,7 +40,7 @@ class FittedStereo {
   std::uint64_t seed_, frame_ = 0;
   const StereoFit& fit_;
   FittedCommon common_;
-  std::optional<PairSight> sight_;
+  std::unique_ptr<PairSight> sight_;
   std::optional<Quat> attitude_;
   MatchDepths depths_;
   double turned_rad_ = 0, exposure_s_ = 0, next_exposure_s_ = 0;

@@ -41,7 +41,7 @@ class PairTrial {
  public:
   PairTrial(const CompiledMission& mission, const TrialOptions& options)
       : mission_(mission), options_(options), scene_(make_scene(mission, {options.scenario, options.range_m, 0, {}, "", {}})) {
-    image_.emplace("the mission", image_bytes(mission, scene_.setup.parameters));
+    image_ = std::make_unique<LoadedImage>("the mission", image_bytes(mission, scene_.setup.parameters));
     singles_ = std::make_unique<SingleScans>(image_->mission());
     depths_ = stated_depths(mission.mesh, scene_.setup, mission.source.stereo.baseline_m);
   }
@@ -116,7 +116,7 @@ class PairTrial {
 
   template <class Sampled>
   TrialPose registered(std::uint32_t view, std::uint32_t draw, std::uint32_t scan, const Sampled& sampled) {
-    const Mission& mission = image_.value().mission();
+    const Mission& mission = image_->mission();
     const Pose& truth = scene_.T_sensor_target;
     ScanPlan plan;
     if (plan_scan(mission.parameters, {mission.hull, mission.center_m}, truth, scan, plan) != Status::kOk)
@@ -136,7 +136,7 @@ class PairTrial {
   const CompiledMission& mission_;
   const TrialOptions& options_;
   Scene scene_;
-  std::optional<LoadedImage> image_;
+  std::unique_ptr<LoadedImage> image_;
   std::unique_ptr<SingleScans> singles_;
   MatchDepths depths_;
   ScratchFolder folder_;
