@@ -73,6 +73,8 @@ Program::~Program() {
   if (process_ > 0) interrupt();
 }
 
+std::string Program::printed() const { return fs::exists(out_) ? read_text(out_) : ""; }
+
 Answer Program::interrupt() {
   int status = 0;
   kill(process_, SIGINT);

@@ -51,6 +51,8 @@ class Program {
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;
 
+  // What it has printed so far.
+  std::string printed() const;
   // As Ctrl-C does, and waits until it has ended.
   Answer interrupt();
 

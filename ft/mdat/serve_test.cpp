@@ -5,7 +5,8 @@
 #include <unistd.h>
 
 #include <chrono>
-#include <filesystem>
+#include <functional>
+#include <string>
 #include <thread>
 
 #include "ft/mdat/command.hpp"
@@ -57,9 +58,9 @@ std::string waited_for(const std::function<std::string()>& look) {
 
 class Serve : public ::testing::Test {
  protected:
-  Serve() : program_(work_, "serve . --port 0 >address.txt 2>said.txt") {
+  Serve() : program_(work_, "serve . --port 0") {
     const std::string address = waited_for([&] {
-      const std::string text = std::filesystem::exists(work_ / "address.txt") ? work_.read("address.txt") : "";
+      const std::string text = program_.printed();
       return text.find('\n') != std::string::npos ? text : "";
     });
     EXPECT_EQ(address.rfind("http://127.0.0.1:", 0), 0U) << address;
@@ -74,7 +75,9 @@ TEST_F(Serve, ListensOnTheLoopbackAddressAndEndsByCtrlC) {
   VERIFIES("LASSO-WEB-003~1 LASSO-WEB-016~1");
   EXPECT_NE(ask(place_, "GET /api/about").find("\"features\":[\"replay\"]"), std::string::npos);
   EXPECT_EQ(ask(place_, "GET /api/about", INADDR_LOOPBACK + 1), "");  // 127.0.0.2: another address of this machine
-  EXPECT_EQ(program_.interrupt().exit_code, 0) << work_.read("said.txt");
+  const Answer answer = program_.interrupt();
+  EXPECT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_EQ(answer.out, "http://127.0.0.1:" + place_.port + "/?token=" + place_.token + "\n");
 }
 
 TEST_F(Serve, AnAddressInUseIsOneClearLine) {
