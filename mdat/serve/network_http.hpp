@@ -14,7 +14,7 @@ namespace lasso::mdat::serve {
 
 class Connection : public std::enable_shared_from_this<Connection> {
  public:
-  Connection(Tcp::socket socket, Shared shared)
+  Connection(Tcp::socket socket, const Shared& shared)
       : stream_(std::move(socket)), shared_(shared), count_(std::make_shared<SocketCount>(shared.sockets)) {}
 
   void start() {

@@ -13,7 +13,7 @@ namespace lasso::mdat::serve {
 // Calls of SocketSender come from any thread, and go on in the socket's strand.
 class Socket final : public SocketSender, public std::enable_shared_from_this<Socket> {
  public:
-  Socket(beast::tcp_stream stream, Shared shared, std::shared_ptr<SocketCount> count)
+  Socket(beast::tcp_stream stream, const Shared& shared, std::shared_ptr<SocketCount> count)
       : stream_(std::move(stream)), shared_(shared), count_(std::move(count)) {}
 
   void send_frame(std::string bytes, bool text) override { post({std::move(bytes), text, true}); }
