@@ -74,7 +74,8 @@ class Repeated {
 
 std::unique_ptr<sim::RayCaster> caster_of(const SurfaceTriangles& surface) {
   std::vector<Vec3> points;
-  for (const auto& point : surface.points) points.emplace_back(double{point[0]}, double{point[1]}, double{point[2]});
+  for (const auto& point : surface.points)
+    points.emplace_back(static_cast<double>(point[0]), static_cast<double>(point[1]), static_cast<double>(point[2]));
   std::vector<std::array<std::uint32_t, 3>> triangles;
   for (std::size_t i = 0; i + 2 < surface.indices.size(); i += 3) {
     const std::array<std::uint32_t, 3> corners = {surface.indices[i], surface.indices[i + 1], surface.indices[i + 2]};
@@ -125,10 +126,11 @@ std::vector<float> residuals_at(const Recording& recording, const RangeImage& sc
   const TimeUs t_us = scan.reference_time_us();
   for (const RangeSample& sample : scan.samples) {
     const Pose T_target_sensor = inverse(propagate(T_sensor_target, rates, to_seconds(sample.t_us - t_us)));
-    const Vec3 direction(double{sample.direction[0]}, double{sample.direction[1]}, double{sample.direction[2]});
+    const Vec3 direction(static_cast<double>(sample.direction[0]), static_cast<double>(sample.direction[1]),
+                         static_cast<double>(sample.direction[2]));
     const bool returned = sample.state == RayState::kHit && direction.squaredNorm() > 0;
     const sim::RayHit hit = returned ? caster->cast(T_target_sensor.p, rotate(T_target_sensor.q, direction.normalized())) : sim::RayHit{};
-    residuals.push_back(hit.hit ? static_cast<float>(double{sample.range_m} - hit.range_m) : kNoResidual);
+    residuals.push_back(hit.hit ? static_cast<float>(static_cast<double>(sample.range_m) - hit.range_m) : kNoResidual);
   }
   return residuals;
 }

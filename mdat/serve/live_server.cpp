@@ -121,8 +121,8 @@ void LiveHub::subscribe(Client& client, const std::vector<Subscription>& asked) 
   const auto sender = client.sender.lock();
   for (const auto& [id, channel] : asked) {
     const bool is_known = channel < topics_.size() && topics_[channel].name != kForReplay;
-    const bool is_used =
-        std::any_of(client.subscriptions.begin(), client.subscriptions.end(), [id = id](const auto& one) { return one.second == id; });
+    const bool is_used = std::any_of(client.subscriptions.begin(), client.subscriptions.end(),
+                                     [asked_id = id](const auto& one) { return one.second == asked_id; });
     if (!is_known || is_used || client.subscriptions.count(channel) > 0) {
       client.tell(StatusLevel::kError,
                   "subscribe: channel " + std::to_string(channel) + (is_known ? " or this id is subscribed already" : " is not there"));

@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kGzipWindow = 16 + MAX_WBITS, kMemory = 9;
-constexpr std::size_t kLineBytes = 40;
+constexpr std::size_t kLineBytes = 16;
 
 std::string bytes_of(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
@@ -41,16 +41,17 @@ std::string gzipped(const std::string& bytes) {
   return result;
 }
 
-std::string escaped(const std::string& bytes) {
+// Characters one by one: a text may not be as long as a file.
+std::string characters(const std::string& bytes) {
   std::string text;
   for (std::size_t at = 0; at < bytes.size(); at += kLineBytes) {
-    text += "    \"";
+    text += "   ";
     for (const char c : bytes.substr(at, kLineBytes)) {
-      char octal[8];
-      (void)std::snprintf(octal, sizeof octal, "\\%03o", static_cast<unsigned>(static_cast<unsigned char>(c)));
+      char octal[12];
+      (void)std::snprintf(octal, sizeof octal, " '\\%03o',", static_cast<unsigned>(static_cast<unsigned char>(c)));
       text += octal;
     }
-    text += "\"\n";
+    text += "\n";
   }
   return text;
 }
@@ -73,7 +74,7 @@ std::string source_of(const fs::path& folder) {
   int number = 0;
   for (const fs::path& file : files_in(folder)) {
     const std::string bytes = gzipped(bytes_of(file)), name = "kFile" + std::to_string(number++);
-    text += "constexpr char " + name + "[] =\n" + escaped(bytes) + "    ;\n";
+    text += "constexpr char " + name + "[] = {\n" + characters(bytes) + "};\n";
     rows += "      PageFile{\"" + file.filename().string() + "\", {" + name + ", " + std::to_string(bytes.size()) + "}},\n";
   }
   text += "\n}  // namespace\n\nstd::span<const PageFile> page_files() {\n";

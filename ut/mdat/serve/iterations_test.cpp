@@ -61,7 +61,9 @@ TEST(Iterations, ResidualsAreThoseOfTheSurfaceAtThePose) {
   for (std::size_t i = 0; i < residuals.size(); ++i) {
     const RangeSample& sample = scan->samples[i];
     const Pose T_target_sensor = inverse(propagate(off, rates, to_seconds(sample.t_us - scan->reference_time_us())));
-    const Vec3 u = Vec3(sample.direction[0], sample.direction[1], sample.direction[2]).normalized();
+    const Vec3 u =
+        Vec3(static_cast<double>(sample.direction[0]), static_cast<double>(sample.direction[1]), static_cast<double>(sample.direction[2]))
+            .normalized();
     const double range_m = test::cast_boxes(test::uneven_boxes(), T_target_sensor.p, rotate(T_target_sensor.q, u));
     EXPECT_TRUE(sample.state == RayState::kHit || std::isnan(residuals[i]));
     if (sample.state != RayState::kHit || range_m < 0 || std::isnan(residuals[i])) continue;
