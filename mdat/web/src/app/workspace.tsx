@@ -5,11 +5,11 @@ import { sentence } from "../maths/scales.ts";
 import { IconButton } from "../parts/controls.tsx";
 import { Icon } from "../parts/icon.tsx";
 import { Splitter } from "../parts/splitter.tsx";
+import { CommonTools } from "./common_tools.tsx";
 import { openOverlay } from "./overlay.ts";
 import { remembered } from "./remembered.ts";
 import { noteFrame, routeTo } from "./route.ts";
 import type { Session } from "./session.ts";
-import { theme, toggleTheme } from "./theme.ts";
 import { type Place, VIEWS } from "./views.ts";
 
 /** Sizes of views in thirteenths of a rem: they grow with the text. */
@@ -89,13 +89,7 @@ function Head({ session }: { session: Session }) {
         <button type="button" class="text-button" onClick={() => openOverlay("command")}>
           <Icon name="command" /> Command
         </button>
-        <IconButton icon="keys" label="Keys" stroke="?" onClick={() => openOverlay("keys")} />
-        <IconButton
-          icon={theme.value === "dark" ? "sun" : "moon"}
-          label={theme.value === "dark" ? "Light" : "Dark"}
-          stroke="t"
-          onClick={toggleTheme}
-        />
+        <CommonTools />
       </div>
     </header>
   );

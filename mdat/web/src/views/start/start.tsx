@@ -3,12 +3,11 @@ import { useSignal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 import { getJson } from "../../api/client.ts";
 import type { About, RecordingEntry } from "../../api/types.ts";
+import { CommonTools } from "../../app/common_tools.tsx";
 import { tell } from "../../app/notices.ts";
-import { openOverlay } from "../../app/overlay.ts";
 import { routeTo } from "../../app/route.ts";
-import { theme, toggleTheme } from "../../app/theme.ts";
 import { bytesText } from "../../maths/scales.ts";
-import { CommandText, Empty, IconButton } from "../../parts/controls.tsx";
+import { CommandText, Empty } from "../../parts/controls.tsx";
 import { Icon } from "../../parts/icon.tsx";
 import { makeFirst, making } from "./first.ts";
 
@@ -144,13 +143,7 @@ export function Start() {
         </span>
         <p class="run">Mission design and analysis tool of 3DLASSO {about.value?.version ?? ""}</p>
         <div class="head-tools">
-          <IconButton icon="keys" label="Keys" stroke="?" onClick={() => openOverlay("keys")} />
-          <IconButton
-            icon={theme.value === "dark" ? "sun" : "moon"}
-            label={theme.value === "dark" ? "Light" : "Dark"}
-            stroke="t"
-            onClick={toggleTheme}
-          />
+          <CommonTools />
         </div>
       </header>
       <main class="start-body" data-view="start">
