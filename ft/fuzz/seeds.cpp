@@ -336,7 +336,6 @@ std::string content_of(const fs::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-// The shipped missions, whose target becomes the mesh that the harness has, and a mission of the fewest lines.
 // Who asks has the token, or not; then the request (request.cpp).
 void write_requests(const fs::path& folder) {
   const char* const targets[] = {"/",
@@ -356,11 +355,11 @@ void write_requests(const fs::path& folder) {
   int number = 0;
   for (const char* target : targets) {
     const std::string request = std::string("GET ") + target + "\naccept-encoding: gzip\norigin: http://127.0.0.1:8080\n\nbody";
-    write(folder / ("known" + std::to_string(number)), seed(1, request));
-    write(folder / ("stranger" + std::to_string(number++)), seed(0, request));
+    for (const bool known : {false, true}) write(folder / std::to_string(number++), seed(known ? 1 : 0, request));
   }
 }
 
+// The shipped missions, whose target becomes the mesh that the harness has, and a mission of the fewest lines.
 void write_missions(const fs::path& folder, const fs::path& missions) {
   const std::string target = "[target]\nmesh = \"target.obj\"\n";
   write(folder / "least", "[mission]\nid = 1\nversion = 1\nname = \"seed\"\n" + target);
