@@ -123,6 +123,24 @@ class RecordingTest(unittest.TestCase):
             self.assertEqual(part.damage, [f'the chunk at byte {place[0]} is damaged: its messages are left out'])
             self.assertLess(len(found), len(self.run_['/pose']))
 
+    def test_damage_of_any_byte_is_told_or_changes_nothing(self):
+        """Of the records beside chunks, too: topics, attachments, lengths. 80 bytes at places that a seed draws, and those of the summary."""
+        data = self.path.read_bytes()
+        places = np.random.default_rng(17).integers(8, len(data), 80)
+        summary = struct.unpack_from('<Q', data, len(data) - 28)[0]
+        for place in [*places, *range(summary, len(data) - 8, 197)]:
+            damaged = bytearray(data)
+            damaged[place] ^= 0x15
+            file = flown.folder() / 'byte.mcap'
+            file.write_bytes(damaged)
+            try:
+                with lasso_mdat.open_recording(file) as part:
+                    same = part.topics == self.run_.topics and all(part.attachment(name) == self.run_.attachment(name) for name in self.run_.files)
+                    same = same and list(part.messages('/odom')) == list(self.run_.messages('/odom'))
+                    self.assertTrue(same or part.damage, f'byte {place}')
+            except lasso_mdat.LassoError as error:
+                self.assertRegex(str(error), 'byte.mcap: ')
+
     def test_what_is_not_there_is_told_with_what_is(self):
         with self.assertRaisesRegex(lasso_mdat.LassoError, r'spin.mcap: has no topic /poses; it has .*/pose, '):
             self.run_['/poses']
