@@ -32,7 +32,7 @@ std::vector<std::uint8_t> packed(const MessageValue& message, std::uint64_t widt
     throw std::invalid_argument("its data has " + std::to_string(bytes.size()) + " bytes, expected those of " + std::to_string(height) +
                                 " x " + std::to_string(width) + " points of " + std::to_string(step));
   std::vector<std::uint8_t> data;
-  for (std::uint64_t i = 0; i < height; ++i)
+  for (std::uint64_t i = 0; i < height && row > 0; ++i)
     data.insert(data.end(), bytes.begin() + static_cast<std::ptrdiff_t>(i * pitch),
                 bytes.begin() + static_cast<std::ptrdiff_t>(i * pitch + row));
   return data;
