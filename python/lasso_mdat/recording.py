@@ -92,12 +92,22 @@ class Recording:
 
     def clouds(self, topic='/scan', start_s=-np.inf, end_s=np.inf):
         """Seconds and points of each sensor_msgs/PointCloud2: an array with the cloud's own fields."""
+        self.expect(topic, 'sensor_msgs/PointCloud2')
         for t_s, cloud in self.values(topic, start_s, end_s):
-            yield t_s, points_of(cloud)
+            try:
+                points = points_of(cloud)
+            except ValueError as error:
+                raise LassoError(f'{self.path}: {topic}: a cloud at {t_s} s is not as its fields say: {error}') from error
+            yield t_s, points
 
     def packets(self, topic='/packets'):
         """What the component sent, decoded."""
+        self.expect(topic, 'lasso_msgs/Packet')
         return Packets(b''.join(value['data'].tobytes() for _, value in self.values(topic)), self.path)
+
+    def expect(self, topic, name):
+        if self.definition(topic).name != name:
+            raise LassoError(f'{self.path}: {topic}: its messages are {self.definition(topic).name}, expected {name}')
 
     def definition(self, topic):
         if topic not in self.decoded:
@@ -254,9 +264,19 @@ def column(values):
 
 
 def points_of(cloud):
+    """Rows may have bytes behind their points. ValueError where its bytes are not those of its points."""
+    fields, rows, columns, step, data = (cloud[name] for name in ('fields', 'height', 'width', 'point_step', 'data'))
     order = '>' if cloud['is_bigendian'] else '<'
-    fields = cloud['fields']
-    kind = np.dtype({'names': [field['name'] for field in fields], 'formats': [(order + POINT_TYPES[field['datatype']], max(field['count'], 1)) if field['count'] > 1
-                                                                                else order + POINT_TYPES[field['datatype']] for field in fields],
-                     'offsets': [field['offset'] for field in fields], 'itemsize': cloud['point_step']})
-    return np.frombuffer(cloud['data'].tobytes(), kind, cloud['height'] * cloud['width'])
+    if any(not 0 < field['datatype'] < len(POINT_TYPES) for field in fields):
+        raise ValueError('a field is of no kind from 1 to 8')
+    types = [order + POINT_TYPES[field['datatype']] for field in fields]
+    kind = np.dtype({'names': [field['name'] for field in fields], 'formats': [(code, field['count']) if field['count'] > 1 else code for code, field in zip(types, fields)],
+                     'offsets': [field['offset'] for field in fields], 'itemsize': step})
+    if rows * columns == 0:
+        return np.zeros(0, kind)
+    row = columns * step
+    pitch = cloud['row_step'] if rows > 1 else row
+    if row == 0 or pitch < row or len(data) < (rows - 1) * pitch + row:
+        raise ValueError(f'it has {len(data)} bytes, expected those of {rows} x {columns} points of {step}')
+    places = np.lib.stride_tricks.as_strided(data, (rows, row), (pitch * data.itemsize, data.itemsize))
+    return np.frombuffer(places.tobytes(), kind)
