@@ -57,8 +57,7 @@ ForeignCloud foreign_cloud(const MessageValue& message) {
   ForeignCloud cloud;
   const MessageValue& header = message.at("header");
   cloud.frame = header.at("frame_id").get<std::string>();
-  cloud.stamp_ns =
-      header.at("stamp").at("sec").get<std::uint64_t>() * 1'000'000'000 + header.at("stamp").at("nanosec").get<std::uint64_t>();
+  cloud.stamp_ns = header.at("stamp").at("sec").get<std::int64_t>() * 1'000'000'000 + header.at("stamp").at("nanosec").get<std::int64_t>();
   cloud.step = message.at("point_step").get<std::uint32_t>();
   cloud.big_endian = message.at("is_bigendian").get<bool>();
   for (const MessageValue& field : message.at("fields")) {
