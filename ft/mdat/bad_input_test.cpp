@@ -231,6 +231,23 @@ TEST_F(BadReplay, ItsOutputIsNoneOfItsInputsNorBesideTheScans) {
                  "link/new.csv: lies in the folder of the scans");
 }
 
+// What a run reads, with --force too.
+TEST(BadOutput, NoFileThatARunReadsIsReplaced) {
+  VERIFIES("LASSO-MDT-007~1");
+  const WorkFolder work;
+  const std::string run = "run missions/test.toml --scenario spin --force --no-report ";
+  expect_refused(work, run + "--junit missions/test.toml", "missions/test.toml: is read as well");
+  expect_refused(work, run + "--picture missions/../missions/test.toml", "is read as well");
+  expect_refused(work, run + "--junit one.xml --picture one.xml", "one.xml: is named twice");
+  ASSERT_EQ(work.mdat(run + "--frames 1 --record run.mcap").exit_code, 0);
+  const std::string recorded = work.read("run.mcap");
+  ASSERT_FALSE(recorded.empty());
+  expect_refused(work, run + "--frames 1 --sensor replay:run.mcap --record run.mcap", "run.mcap: is read as well");
+  expect_refused(work, "replay missions/test.toml --scans run.mcap --initial search --out run.mcap --force",
+                 "run.mcap: is read by this replay");
+  EXPECT_EQ(work.read("run.mcap"), recorded);
+}
+
 TEST(BadOutput, NothingStaysOfAFolderMadeForARunThatIsRefused) {
   VERIFIES("LASSO-MDT-007~1");
   const WorkFolder work;

@@ -85,7 +85,7 @@ TEST_F(Serve, AnAddressInUseIsOneClearLine) {
   const Answer second = work_.mdat("serve . --port " + place_.port);
   EXPECT_EQ(second.exit_code, 2);
   EXPECT_EQ(second.err,
-            "mdat: 127.0.0.1:" + place_.port + ": another program listens there: choose another port, or --port 0 for any that is free\n");
+            "mdat: 127.0.0.1:" + place_.port + ": another program listens there: choose another port, or 0 for any that is free\n");
   const Answer none = work_.mdat("serve nowhere");
   EXPECT_EQ(none.exit_code, 2);
   EXPECT_EQ(none.err, "mdat: nowhere: no such file or folder: expected a recording (.mcap), or a folder with some\n");

@@ -43,8 +43,8 @@ std::filesystem::path candidates_file(std::filesystem::path out) {
 // What is written is none of what is read, nor beside the scans, where the next replay would read it.
 void check_apart(const std::filesystem::path& out, const ReplayArguments& options) {
   std::error_code ignored;  // what is not there is told by who reads it
-  for (const std::filesystem::path& input :
-       {std::filesystem::path(options.mission), options.replay.initial, options.replay.truth, std::filesystem::path(options.camera)}) {
+  for (const std::filesystem::path& input : {std::filesystem::path(options.mission), options.replay.scans, options.replay.initial,
+                                             options.replay.truth, std::filesystem::path(options.camera)}) {
     if (!std::filesystem::equivalent(out, input, ignored)) continue;
     throw InputError(out.string() + ": is read by this replay; write to another file");
   }

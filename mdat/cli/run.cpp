@@ -39,6 +39,8 @@ struct RunArguments {
 // All that a run writes into its folder.
 constexpr const char* kFiles[] = {"results.json", "frames.csv", "telemetry.ccsds", "relative.csv", "report.html"};
 
+constexpr char kReplay[] = "replay:";  // of --sensor, before a recording
+
 void check_record(const std::string& file) {
   if (file.empty() || std::filesystem::path(file).extension() == ".mcap") return;
   throw InputError("--record " + file +
@@ -72,6 +74,15 @@ void check_earlier(const RunArguments& options) {
   for (const char* file : kFiles) files.push_back(std::filesystem::path(folder) / file);
   refuse_to_replace(files, "--force replaces that run, --out DIR keeps it");
   refuse_to_replace({options.picture, options.junit}, "--force replaces it");
+}
+
+// Files that the run writes outside of its folder, and `recordings`, are none that it reads, with --force too. Throws InputError.
+void check_apart_from_inputs(const RunArguments& options, const std::vector<std::filesystem::path>& recordings) {
+  std::vector<std::string> outputs = {options.junit, options.picture};
+  for (const std::filesystem::path& file : recordings) outputs.push_back(file.string());
+  std::vector<std::string> inputs = {options.mission, options.camera_faults, options.optics, options.calibration, options.key};
+  if (options.sensor.rfind(kReplay, 0) == 0) inputs.push_back(options.sensor.substr(sizeof kReplay - 1));
+  refuse_same_files(outputs, inputs);
 }
 
 void write_results(const SimulationResult& result, OutputFolder& folder) {
@@ -154,6 +165,7 @@ std::vector<std::filesystem::path> recordings_of(const RunArguments& options, co
   std::vector<double> ranges_m = scenario.runs_m();
   if (!options.link.empty()) ranges_m.resize(1);
   std::vector<std::filesystem::path> files = recording_files(options.record, ranges_m);
+  check_apart_from_inputs(options, files);
   if (!options.force) refuse_to_replace(files, "--force replaces it");
   for (const std::filesystem::path& file : files) check_writable(file);
   return files;
@@ -187,6 +199,7 @@ std::vector<Criterion> required_criteria(const RunArguments& options) {
 void run(const RunArguments& options) {
   OutputFolder folder(options.out);
   check_earlier(options);
+  check_apart_from_inputs(options, {});
   const std::vector<Criterion> required = required_criteria(options);
   if (!options.picture.empty()) check_writable(options.picture);
   if (options.report || !options.picture.empty()) warn_of_plotter();
@@ -232,7 +245,6 @@ struct Wire {
   std::string line;
   std::string recording;
 };
-constexpr char kReplay[] = "replay:";
 
 std::optional<Wire> wire_of(const std::string& sensor) {
   if (sensor == "simulated") return Wire{};

@@ -61,6 +61,7 @@ std::string take_many(std::string type, const std::string& line, Field& field) {
     if (fixed && (inner.size() > 9 || inner.find_first_not_of("0123456789") != std::string::npos))
       refuse_line(line, "no number of elements");
     if (fixed) field.count = static_cast<std::uint32_t>(std::stoul(inner));
+    if (fixed && field.count == 0) refuse_line(line, "an array of no elements");  // a message could have any number of those
     type.resize(open);
   }
   return type.substr(0, type.find("<="));

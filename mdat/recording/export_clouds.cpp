@@ -30,7 +30,7 @@ std::string point_bytes(const ForeignCloud& cloud, std::size_t& points) {
   return bytes;
 }
 
-std::string seconds(std::uint64_t ns) {
+std::string seconds(std::int64_t ns) {
   char text[40];
   (void)std::snprintf(text, sizeof text, "%.9f", static_cast<double>(ns) * 1e-9);
   return text;
@@ -74,7 +74,8 @@ ExportedFiles export_clouds(const fs::path& file, const ExportOptions& options, 
         try {
           result.files[name + extension] = text_of(foreign_cloud(message.value));
         } catch (const std::invalid_argument& error) {
-          throw InputError(file.string() + ": " + topic + ", at " + seconds(message.t_ns) + " s: " + error.what());
+          throw InputError(file.string() + ": " + topic + ", at " + seconds(static_cast<std::int64_t>(message.t_ns)) +
+                           " s: " + error.what());
         }
       });
   if (result.files.empty()) throw InputError(file.string() + ": " + topic + ": no message in this span");

@@ -32,7 +32,7 @@ std::vector<std::uint8_t> packed(const MessageValue& message, std::uint64_t widt
     throw std::invalid_argument("its data has " + std::to_string(bytes.size()) + " bytes, expected those of " + std::to_string(height) +
                                 " x " + std::to_string(width) + " points of " + std::to_string(step));
   std::vector<std::uint8_t> data;
-  for (std::uint64_t i = 0; i < height; ++i)
+  for (std::uint64_t i = 0; i < height && row > 0; ++i)
     data.insert(data.end(), bytes.begin() + static_cast<std::ptrdiff_t>(i * pitch),
                 bytes.begin() + static_cast<std::ptrdiff_t>(i * pitch + row));
   return data;
@@ -57,8 +57,7 @@ ForeignCloud foreign_cloud(const MessageValue& message) {
   ForeignCloud cloud;
   const MessageValue& header = message.at("header");
   cloud.frame = header.at("frame_id").get<std::string>();
-  cloud.stamp_ns =
-      header.at("stamp").at("sec").get<std::uint64_t>() * 1'000'000'000 + header.at("stamp").at("nanosec").get<std::uint64_t>();
+  cloud.stamp_ns = header.at("stamp").at("sec").get<std::int64_t>() * 1'000'000'000 + header.at("stamp").at("nanosec").get<std::int64_t>();
   cloud.step = message.at("point_step").get<std::uint32_t>();
   cloud.big_endian = message.at("is_bigendian").get<bool>();
   for (const MessageValue& field : message.at("fields")) {

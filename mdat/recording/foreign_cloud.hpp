@@ -20,7 +20,7 @@ struct CloudField {
 
 struct ForeignCloud {
   std::string frame;
-  std::uint64_t stamp_ns = 0;
+  std::int64_t stamp_ns = 0;       // seconds of a stamp have a sign
   std::vector<CloudField> fields;  // of one element each: others are left out
   std::uint32_t step = 0;          // bytes of a point
   std::size_t points = 0;

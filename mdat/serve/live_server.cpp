@@ -29,8 +29,10 @@ std::string_view without_port(std::string_view host) {
   return has_port ? host.substr(0, colon) : host;
 }
 
-// A page of the web that is not of this machine. Programs send no Origin, and desktop viewers one of another kind.
+// A page of the web that is not of this machine. Programs send no Origin, and desktop viewers one of another kind. "null" is that of frames
+// in a sandbox, which any page may hold.
 bool is_from_elsewhere(std::string_view origin) {
+  if (origin == "null") return true;
   for (const std::string_view scheme : {"http://", "https://"}) {
     if (origin.rfind(scheme, 0) == 0) return !is_loopback_name(without_port(origin.substr(scheme.size())));
   }

@@ -1,6 +1,7 @@
 #include "mdat/serve/messages.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -36,15 +37,18 @@ Pose read_bare_pose(CdrReader& in) {
 }
 
 template <class T>
-float number_at(const char* bytes) {
+float number_at(const char* bytes, bool big_endian) {
+  std::array<char, sizeof(T)> own;
+  std::memcpy(own.data(), bytes, sizeof(T));
+  if (big_endian) std::reverse(own.begin(), own.end());
   T value;
-  std::memcpy(&value, bytes, sizeof value);
+  std::memcpy(&value, own.data(), sizeof value);
   return static_cast<float>(value);
 }
 
 struct NumberType {
   std::size_t size;
-  float (*read)(const char*);
+  float (*read)(const char*, bool big_endian);
 };
 // By the numbers of sensor_msgs/PointField.
 constexpr NumberType kNumberTypes[] = {{0, nullptr},
@@ -60,6 +64,16 @@ constexpr NumberType kNumberTypes[] = {{0, nullptr},
 bool is_within(const CloudView::Field& field, std::uint32_t step) {
   return field.type > 0 && field.type < std::size(kNumberTypes) && field.offset <= step &&
          kNumberTypes[field.type].size <= step - field.offset;
+}
+
+// Its points lie within its data. Rows may have bytes behind their points.
+bool is_whole(CloudView& cloud) {
+  const std::uint64_t row = std::uint64_t{cloud.width} * cloud.step;
+  if (cloud.height <= 1) cloud.row_step = row;  // what a single row says of itself is often 0
+  if (cloud.size() == 0) return true;
+  const std::uint64_t rows = cloud.data.size() / std::max<std::uint64_t>(cloud.row_step, 1);  // whole ones
+  const std::uint64_t rest = cloud.data.size() - rows * cloud.row_step;
+  return row > 0 && cloud.row_step >= row && (rows >= cloud.height || (rows + 1 == cloud.height && rest >= row));
 }
 
 // Of a SceneEntity, up to its triangles. False: it has other primitives before them.
@@ -102,7 +116,8 @@ const CloudView::Field* CloudView::field(std::string_view name) const {
 
 float CloudView::value(std::size_t point, const Field* field) const {
   if (field == nullptr || point >= size()) return kNotThere;
-  return kNumberTypes[field->type].read(data.data() + point * step + field->offset);
+  const std::size_t at = point / width * row_step + point % width * step;
+  return kNumberTypes[field->type].read(data.data() + at + field->offset, big_endian);
 }
 
 std::optional<StampedPose> read_pose(std::string_view message) {
@@ -144,8 +159,8 @@ std::optional<CloudView> read_cloud(std::string_view message) {
   CloudView cloud;
   cloud.time_s = read_stamp(in);
   cloud.frame = in.text();
-  (void)in.get<std::uint32_t>();
-  (void)in.get<std::uint32_t>();
+  cloud.height = in.get<std::uint32_t>();
+  cloud.width = in.get<std::uint32_t>();
   const auto fields = in.get<std::uint32_t>();
   if (fields > kMostFields) return std::nullopt;
   for (std::uint32_t i = 0; i < fields && in.ok(); ++i) {
@@ -156,12 +171,12 @@ std::optional<CloudView> read_cloud(std::string_view message) {
     (void)in.get<std::uint32_t>();
     cloud.fields.push_back(std::move(field));
   }
-  const bool big_endian = in.get<std::uint8_t>() != 0;
+  cloud.big_endian = in.get<std::uint8_t>() != 0;
   cloud.step = in.get<std::uint32_t>();
-  (void)in.get<std::uint32_t>();
+  cloud.row_step = in.get<std::uint32_t>();
   cloud.data = in.blob();
   std::erase_if(cloud.fields, [&](const CloudView::Field& field) { return !is_within(field, cloud.step); });
-  return in.ok() && !big_endian ? std::optional(std::move(cloud)) : std::nullopt;
+  return in.ok() && is_whole(cloud) ? std::optional(std::move(cloud)) : std::nullopt;
 }
 
 std::optional<ConstBytes> read_packet(std::string_view message) {

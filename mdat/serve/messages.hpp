@@ -36,10 +36,12 @@ class CloudView {
   std::string frame;
   double time_s = 0;
   std::vector<Field> fields;
-  std::uint32_t step = 0;
+  std::uint32_t width = 0, height = 0, step = 0;  // points of a row, rows, bytes of a point
+  std::uint64_t row_step = 0;                     // bytes from row to row
+  bool big_endian = false;
   std::string_view data;
 
-  std::size_t size() const { return step > 0 ? data.size() / step : 0; }
+  std::size_t size() const { return static_cast<std::size_t>(width) * height; }
   const Field* field(std::string_view name) const;
   // NaN where there is no such field (null).
   float value(std::size_t point, const Field* field) const;

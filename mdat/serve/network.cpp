@@ -39,7 +39,7 @@ struct Network::Parts {
       acceptor.listen(asio::socket_base::max_listen_connections);
     } catch (const boost::system::system_error& error) {
       const bool used = error.code() == asio::error::address_in_use;
-      throw InputError(place + (used ? ": another program listens there: choose another port, or --port 0 for any that is free"
+      throw InputError(place + (used ? ": another program listens there: choose another port, or 0 for any that is free"
                                      : ": cannot be listened on: " + error.code().message()));
     }
   }

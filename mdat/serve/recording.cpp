@@ -14,9 +14,10 @@ namespace {
 
 constexpr double kNs = 1e-9;
 constexpr std::size_t kFactsTable = 0;
-constexpr std::size_t kTogether = 16;     // chunks
-constexpr std::size_t kPatience = 64;     // reports that wait for their true poses
-constexpr std::size_t kMostDamage = 100;  // of chunks that cannot be read, each
+constexpr std::size_t kTogether = 16;                         // chunks
+constexpr std::size_t kTogetherBytes = std::size_t{1} << 26;  // of their records: a small file may unpack to any size
+constexpr std::size_t kPatience = 64;                         // reports that wait for their true poses
+constexpr std::size_t kMostDamage = 100;                      // of chunks that cannot be read, each
 
 bool is_pose(const PacketRow& row) { return std::string_view(row.name) == "pose"; }
 
@@ -40,14 +41,17 @@ struct Recording::UnpackedChunk {
   std::string records, why;
 };
 
-// The next ones from `first` on of those that are wanted: another thread unpacks them while the ones before are taken.
+// The next ones from `first` on of those that are wanted, at least one while there is one: another thread unpacks them while the ones
+// before are taken.
 std::vector<Recording::UnpackedChunk> Recording::unpacked_chunks(const mcap::IndexedFile& file, const std::vector<std::size_t>& wanted,
                                                                  std::size_t first) {
   std::vector<UnpackedChunk> chunks;
-  for (std::size_t i = first; i < std::min(first + kTogether, wanted.size()); ++i) {
+  std::size_t bytes = 0;
+  for (std::size_t i = first; i < std::min(first + kTogether, wanted.size()) && bytes < kTogetherBytes; ++i) {
     chunks.emplace_back();
     chunks.back().index = wanted[i];
     chunks.back().records = file.records_of(file.chunks()[wanted[i]], chunks.back().why);
+    bytes += chunks.back().records.size();
   }
   return chunks;
 }
@@ -91,8 +95,9 @@ void Recording::build() {
   }
   const auto read = [&](std::size_t first) { return unpacked_chunks(file_, wanted, first); };
   std::vector<UnpackedChunk> chunks = read(0);
-  for (std::size_t first = 0; first < wanted.size(); first += kTogether) {
-    std::future<std::vector<UnpackedChunk>> next = std::async(std::launch::async, read, first + kTogether);
+  for (std::size_t first = 0; first < wanted.size();) {
+    first += chunks.size();
+    std::future<std::vector<UnpackedChunk>> next = std::async(std::launch::async, read, first);
     for (const UnpackedChunk& chunk : chunks) take_chunk(chunk, building);
     chunks = next.get();
   }

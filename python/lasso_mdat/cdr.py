@@ -32,7 +32,7 @@ class Definition:
         reader = Reader(data, '<' if data[1] == 1 else '>')
         try:
             return self.structure(self.name, reader)
-        except (struct.error, ValueError) as error:
+        except (struct.error, ValueError, RecursionError) as error:
             raise LassoError(f'{self.name}: a message does not fit its definition: {error}') from error
 
     def structure(self, name, reader):

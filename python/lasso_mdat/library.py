@@ -58,7 +58,10 @@ class Scan:
     """Rays as the component takes them. `misses_known`: rays without return are among them."""
 
     def __init__(self, rays, misses_known):
-        self.rays, self.misses_known = rays, misses_known
+        """Of an array of RAY, whose bytes the library reads as they are."""
+        if not isinstance(rays, np.ndarray) or rays.dtype != RAY or rays.ndim != 1:
+            raise LassoError('rays are expected as an array (n,) of library.RAY')
+        self.rays, self.misses_known = rays, bool(misses_known)
 
     @staticmethod
     def of(scan):
@@ -73,6 +76,11 @@ class Scan:
     @staticmethod
     def of_cloud(cloud):
         """Each sample as it was, bit by bit."""
+        missing = {'ux', 'uy', 'uz', 'range', 'sigma_factor', 'offset_us', 'state'} - set(cloud.dtype.names)
+        if missing:
+            raise LassoError(f'the cloud has no {", ".join(sorted(missing))}: expected the fields of /scan, or points (n, 3)')
+        if cloud.ndim != 1:
+            raise LassoError(f'the cloud has the shape {cloud.shape}, expected (n,)')
         rays = np.zeros(len(cloud), RAY)
         rays['direction'] = np.stack([cloud[name] for name in ('ux', 'uy', 'uz')], 1)
         rays['range_m'], rays['sigma_factor'], rays['t_us'] = cloud['range'], cloud['sigma_factor'], cloud['offset_us']
@@ -86,7 +94,7 @@ class Scan:
         if points_m.ndim != 2 or points_m.shape[1] != 3:
             raise LassoError(f'points have the shape {points_m.shape}, expected (n, 3)')
         times_s, hits = (None if values is None else np.ascontiguousarray(values, kind) for values, kind in ((times_s, 'f8'), (hits, 'u1')))
-        if any(values is not None and len(values) != len(points_m) for values in (times_s, hits)):
+        if any(values is not None and values.shape != (len(points_m),) for values in (times_s, hits)):
             raise LassoError(f'expected as many times and hits as points, {len(points_m)}')
         rays, count = np.zeros(library().lasso_most_rays(), RAY), ctypes.c_size_t()
         call('lasso_rays_of_points', address(points_m), address(times_s), address(hits), ctypes.c_size_t(len(points_m)), address(rays), ctypes.byref(count))

@@ -11,7 +11,7 @@ from .errors import LassoError
 from .packets import Packets
 
 MAGIC = b'\x89MCAP0\r\n'
-FOOTER, SCHEMA, CHANNEL, MESSAGE, CHUNK, ATTACHMENT, METADATA = 2, 3, 4, 5, 6, 9, 12
+FOOTER, SCHEMA, CHANNEL, MESSAGE, CHUNK, ATTACHMENT, STATISTICS, METADATA = 2, 3, 4, 5, 6, 9, 11, 12
 LARGEST_CHUNK = 1 << 31  # bytes: what says more is damaged
 POINT_TYPES = ('', 'i1', 'u1', 'i2', 'u2', 'i4', 'u4', 'f4', 'f8')
 
@@ -25,7 +25,7 @@ class Recording:
     def __init__(self, path):
         self.path, self.damage = str(path), []
         self.schemas, self.channels, self.metadata, self.places, self.attached = {}, {}, {}, [], {}
-        self.decoded, self.file = {}, open(path, 'rb')
+        self.decoded, self.counted, self.file = {}, None, open(path, 'rb')
         if self.file.read(len(MAGIC)) != MAGIC:
             self.file.close()
             raise LassoError(f'{path}: is no MCAP file of version 0, as its first bytes say')
@@ -60,7 +60,11 @@ class Recording:
         if place is None:
             raise LassoError(f'{self.path}: has no attachment {name}; it has {", ".join(self.attached) or "none"}')
         self.file.seek(place[0])
-        return self.file.read(place[1])
+        content = self.file.read(place[1])
+        check = struct.unpack_from('<I', content, len(content) - 4)[0]
+        if check and zlib.crc32(content[:-4]) != check:
+            raise LassoError(f'{self.path}: the attachment {name} is damaged: it has another check sum than it says')
+        return content[place[2]:place[2] + place[3]]
 
     def messages(self, topic, start_s=-np.inf, end_s=np.inf):
         """Nanoseconds of the log and bytes of each message of the topic in this span of time."""
@@ -88,12 +92,22 @@ class Recording:
 
     def clouds(self, topic='/scan', start_s=-np.inf, end_s=np.inf):
         """Seconds and points of each sensor_msgs/PointCloud2: an array with the cloud's own fields."""
+        self.expect(topic, 'sensor_msgs/PointCloud2')
         for t_s, cloud in self.values(topic, start_s, end_s):
-            yield t_s, points_of(cloud)
+            try:
+                points = points_of(cloud)
+            except ValueError as error:
+                raise LassoError(f'{self.path}: {topic}: a cloud at {t_s} s is not as its fields say: {error}') from error
+            yield t_s, points
 
     def packets(self, topic='/packets'):
         """What the component sent, decoded."""
+        self.expect(topic, 'lasso_msgs/Packet')
         return Packets(b''.join(value['data'].tobytes() for _, value in self.values(topic)), self.path)
+
+    def expect(self, topic, name):
+        if self.definition(topic).name != name:
+            raise LassoError(f'{self.path}: {topic}: its messages are {self.definition(topic).name}, expected {name}')
 
     def definition(self, topic):
         if topic not in self.decoded:
@@ -120,14 +134,31 @@ class Recording:
             code, size = struct.unpack('<BQ', self.file.read(9))
             if size > end - at - 9:
                 break
-            self.take(code, at + 9, size)
+            try:
+                self.take(code, at + 9, size)
+            except struct.error:
+                self.damage.append(f'the record at byte {at} is shorter than it says: it is left out')
             whole |= code == FOOTER
             at += 9 + size
         if not whole:
             self.damage.append(f'the file ends at byte {at} without its end: a run that was killed, or a file that was cut')
+        if self.counted not in (None, len(self.places)):
+            self.damage.append(f'{len(self.places)} of {self.counted} chunks are there: the others are damaged, and left out')
         for place in () if whole and self.channels else self.places:
             for code, content in records(self.chunk(place)):
-                self.declare(code, content)
+                try:
+                    self.declare(code, content)
+                except struct.error:
+                    self.damage.append(f'a record in the chunk at byte {place[0]} is shorter than it says: it is left out')
+
+    def check_summary(self, at, start, _, check):
+        """Of a footer whose content is at `at`. What a damaged summary says of topics is forgotten: chunks say it, too."""
+        if not start or not check:
+            return
+        self.file.seek(start)
+        if start > at or zlib.crc32(self.file.read(at + 16 - start)) != check:
+            self.damage.append(f'the summary at byte {start} is damaged: topics are taken from the chunks')
+            self.schemas, self.channels, self.counted = {}, {}, None
 
     def take(self, code, at, size):
         if code == CHUNK:
@@ -139,7 +170,11 @@ class Recording:
             head = self.file.read(min(size, 4096))
             name, rest = text_at(head, 16)
             rest = text_at(head, rest)[1]
-            self.attached[name] = at + rest + 8, struct.unpack_from('<Q', head, rest)[0]
+            self.attached[name] = at, size, rest + 8, struct.unpack_from('<Q', head, rest)[0]
+        elif code == STATISTICS:
+            self.counted = struct.unpack_from('<I', self.file.read(size), 22)[0]
+        elif code == FOOTER:
+            self.check_summary(at, *struct.unpack('<QQI', self.file.read(size)))
 
     def declare(self, code, content):
         if code == SCHEMA:
@@ -229,9 +264,19 @@ def column(values):
 
 
 def points_of(cloud):
+    """Rows may have bytes behind their points. ValueError where its bytes are not those of its points."""
+    fields, rows, columns, step, data = (cloud[name] for name in ('fields', 'height', 'width', 'point_step', 'data'))
     order = '>' if cloud['is_bigendian'] else '<'
-    fields = cloud['fields']
-    kind = np.dtype({'names': [field['name'] for field in fields], 'formats': [(order + POINT_TYPES[field['datatype']], max(field['count'], 1)) if field['count'] > 1
-                                                                                else order + POINT_TYPES[field['datatype']] for field in fields],
-                     'offsets': [field['offset'] for field in fields], 'itemsize': cloud['point_step']})
-    return np.frombuffer(cloud['data'].tobytes(), kind, cloud['height'] * cloud['width'])
+    if any(not 0 < field['datatype'] < len(POINT_TYPES) for field in fields):
+        raise ValueError('a field is of no kind from 1 to 8')
+    types = [order + POINT_TYPES[field['datatype']] for field in fields]
+    kind = np.dtype({'names': [field['name'] for field in fields], 'formats': [(code, field['count']) if field['count'] > 1 else code for code, field in zip(types, fields)],
+                     'offsets': [field['offset'] for field in fields], 'itemsize': step})
+    if rows * columns == 0:
+        return np.zeros(0, kind)
+    row = columns * step
+    pitch = cloud['row_step'] if rows > 1 else row
+    if row == 0 or pitch < row or len(data) < (rows - 1) * pitch + row:
+        raise ValueError(f'it has {len(data)} bytes, expected those of {rows} x {columns} points of {step}')
+    places = np.lib.stride_tricks.as_strided(data, (rows, row), (pitch * data.itemsize, data.itemsize))
+    return np.frombuffer(places.tobytes(), kind)

@@ -126,6 +126,15 @@ class LibraryTest(unittest.TestCase):
                                   (np.zeros((4, 2)), self.priors[0], r'expected \(n, 3\)'), (np.full((2, 3), 1e9), self.priors[0], 'm away')):
             with self.assertRaisesRegex(lasso_mdat.LassoError, what):
                 self.target.register(scan, prior)
+        for rays in np.zeros(10), np.zeros((2, 2), library.RAY), [1, 2]:  # the library would read beyond them
+            with self.assertRaisesRegex(lasso_mdat.LassoError, r'array \(n,\) of library.RAY'):
+                library.Scan(rays, True)
+        with self.assertRaisesRegex(lasso_mdat.LassoError, 'as many times and hits as points'):
+            library.Scan.of_points(np.ones((4, 3)), times_s=np.zeros((4, 2)))
+        with self.assertRaisesRegex(lasso_mdat.LassoError, 'the cloud has no offset_us, range, '):
+            self.target.register(self.cloud[['x', 'y', 'z']], self.priors[0])
+        with self.assertRaisesRegex(lasso_mdat.LassoError, r'the cloud has the shape \(2, 3\)'):
+            self.target.register(self.cloud[:6].reshape(2, 3), self.priors[0])
         with self.assertRaisesRegex(lasso_mdat.LassoError, 'nothing.stl: is no file'):
             lasso_mdat.Target('nothing.stl')
         broken = flown.folder() / 'broken.3dli'

@@ -6,7 +6,7 @@ import numpy as np
 
 import flown
 import lasso_mdat
-from lasso_mdat import cdr
+from lasso_mdat import cdr, recording
 
 
 def turned(orientation):
@@ -123,6 +123,24 @@ class RecordingTest(unittest.TestCase):
             self.assertEqual(part.damage, [f'the chunk at byte {place[0]} is damaged: its messages are left out'])
             self.assertLess(len(found), len(self.run_['/pose']))
 
+    def test_damage_of_any_byte_is_told_or_changes_nothing(self):
+        """Of the records beside chunks, too: topics, attachments, lengths. 80 bytes at places that a seed draws, and those of the summary."""
+        data = self.path.read_bytes()
+        places = np.random.default_rng(17).integers(8, len(data), 80)
+        summary = struct.unpack_from('<Q', data, len(data) - 28)[0]
+        for place in [*places, *range(summary, len(data) - 8, 197)]:
+            damaged = bytearray(data)
+            damaged[place] ^= 0x15
+            file = flown.folder() / 'byte.mcap'
+            file.write_bytes(damaged)
+            try:
+                with lasso_mdat.open_recording(file) as part:
+                    same = part.topics == self.run_.topics and all(part.attachment(name) == self.run_.attachment(name) for name in self.run_.files)
+                    same = same and list(part.messages('/odom')) == list(self.run_.messages('/odom'))
+                    self.assertTrue(same or part.damage, f'byte {place}')
+            except lasso_mdat.LassoError as error:
+                self.assertRegex(str(error), 'byte.mcap: ')
+
     def test_what_is_not_there_is_told_with_what_is(self):
         with self.assertRaisesRegex(lasso_mdat.LassoError, r'spin.mcap: has no topic /poses; it has .*/pose, '):
             self.run_['/poses']
@@ -132,6 +150,36 @@ class RecordingTest(unittest.TestCase):
         other.write_bytes(b'something else')
         with self.assertRaisesRegex(lasso_mdat.LassoError, 'other.mcap: is no MCAP file'):
             lasso_mdat.open_recording(other)
+
+
+class CloudTest(unittest.TestCase):
+    """Clouds of others: rows with bytes behind their points, either order of bytes, and such as are none."""
+    def cloud(self, order='<', **other):
+        points = np.array([[1.5, 258], [-2, 3], [4, 5], [6, 7]])
+        data = b''.join(struct.pack(order + 'fH2x', x, int(y)) + (b'pad' if i == 1 else b'') for i, (x, y) in enumerate(points))
+        fields = [{'name': 'x', 'offset': 0, 'datatype': 7, 'count': 1}, {'name': 'y', 'offset': 4, 'datatype': 4, 'count': 1}]
+        return points, {'height': 2, 'width': 2, 'fields': fields, 'is_bigendian': order == '>', 'point_step': 8, 'row_step': 19,
+                        'data': np.frombuffer(data, 'u1'), **other}
+
+    def test_rows_and_orders_of_bytes(self):
+        for order in '<>':
+            points, cloud = self.cloud(order)
+            found = recording.points_of(cloud)
+            np.testing.assert_array_equal(np.stack([found['x'], found['y']], 1), points)
+
+    def test_what_does_not_fit_is_refused(self):
+        for other in {'row_step': 15}, {'height': 3}, {'width': 3}, {'point_step': 0}, {'data': np.zeros(34, 'u1')}, \
+                {'fields': [{'name': 'x', 'offset': 0, 'datatype': 9, 'count': 1}]}:
+            with self.assertRaises(ValueError, msg=str(other)):
+                recording.points_of(self.cloud(**other)[1])
+        self.assertEqual(len(recording.points_of(self.cloud(height=0)[1])), 0)
+
+    def test_a_topic_of_another_type_is_refused(self):
+        with lasso_mdat.open_recording(flown.run() / 'spin.mcap') as run:
+            with self.assertRaisesRegex(lasso_mdat.LassoError, '/pose: its messages are geometry_msgs/PoseStamped, expected sensor_msgs/PointCloud2'):
+                next(run.clouds('/pose'))
+            with self.assertRaisesRegex(lasso_mdat.LassoError, '/scan: .* expected lasso_msgs/Packet'):
+                run.packets('/scan')
 
 
 class CdrTest(unittest.TestCase):

@@ -44,6 +44,7 @@ TEST(RosDefinition, WhatIsNoneIsRefusedWithItsLine) {
   EXPECT_EQ(error_of("B again\n"), "'B again': types hold each other without end");
   EXPECT_EQ(error_of("int32\n"), "'int32': a field has no name");
   EXPECT_EQ(error_of("int32[x] y\n"), "'int32[x] y': no number of elements");
+  EXPECT_EQ(error_of("int32[0] y\n"), "'int32[0] y': an array of no elements");
 }
 
 }  // namespace

@@ -22,9 +22,9 @@ void put_big(float value, std::string& bytes) {
 
 // Two rows of two points, big-endian, with three bytes behind each point and five behind each row, as a driver may have them. Each point's
 // time [ns] after the stamp goes down.
-std::string foreign_message(const char* time_field) {
+std::string foreign_message(const char* time_field, std::int32_t seconds = 1'700'000'000) {
   mcap::CdrWriter out;
-  out.put(std::int32_t{1'700'000'000}).put(std::uint32_t{500'000'000}).text("lidar");
+  out.put(seconds).put(std::uint32_t{500'000'000}).text("lidar");
   out.put(std::uint32_t{2}).put(std::uint32_t{2}).put(std::uint32_t{4});
   std::uint32_t offset = 0;
   for (const char* name : {"x", "y", "z"}) {
@@ -101,6 +101,8 @@ TEST_F(BagScans, AFieldThatIsNoTimeLeavesTheStamp) {
   VERIFIES("LASSO-REC-017~1");
   const sim::RawScan scan = open_bag(write_bag(file("bag.mcap"), foreign_message("intensity")), "")->read(0);
   for (const sim::RawRay& ray : scan.rays) EXPECT_NEAR(ray.time - 1.7e9, 0.5, 1e-6);
+  const sim::RawScan early = open_bag(write_bag(file("early.mcap"), foreign_message("intensity", -6)), "")->read(0);
+  for (const sim::RawRay& ray : early.rays) EXPECT_NEAR(ray.time, -5.5, 1e-9);
 }
 
 // What has no place and is said to be a miss of mdat's own recordings is one; the third point of each.

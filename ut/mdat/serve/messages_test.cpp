@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "hal_sim/random.hpp"
+#include "mdat/mcap/cdr.hpp"
 #include "ut/mdat/serve/small_recording.hpp"
 #include "ut/support/verifies.hpp"
 
@@ -59,6 +61,45 @@ TEST(RecordedMessages, CloudsAreReadByTheirFields) {
   }
   EXPECT_TRUE(std::isnan(cloud->value(0, cloud->field("intensity"))));
   EXPECT_TRUE(std::isnan(cloud->value(scan.size(), cloud->field("range"))));
+}
+
+// Rows of two points (x as float32, then y as uint16 and two bytes), each row with bytes behind its points, as some drivers write them.
+std::string cloud_of_rows(bool big_endian, std::uint32_t height, std::uint32_t row_step, const std::string& data) {
+  mcap::CdrWriter out;
+  out.put(std::int32_t{1}).put(std::uint32_t{0}).text("lidar").put(height).put(std::uint32_t{2}).put(std::uint32_t{2});
+  out.text("x").put(std::uint32_t{0}).put(std::uint8_t{7}).put(std::uint32_t{1});
+  out.text("y").put(std::uint32_t{4}).put(std::uint8_t{4}).put(std::uint32_t{1});
+  out.put(static_cast<std::uint8_t>(big_endian)).put(std::uint32_t{8}).put(row_step);
+  return out.blob(data).put(std::uint8_t{1}).bytes();
+}
+
+std::string point_bytes(float x, std::uint16_t y, bool big_endian) {
+  std::string first, second;
+  mcap::put(x, first);
+  mcap::put(y, second);
+  if (big_endian) std::reverse(first.begin(), first.end());
+  if (big_endian) std::reverse(second.begin(), second.end());
+  return first + second + "##";
+}
+
+TEST(RecordedMessages, CloudsOfOthersHaveRowsAndAnOrderOfBytes) {
+  VERIFIES("LASSO-WEB-008~1");
+  for (const bool big : {false, true}) {
+    const std::string first = point_bytes(1.5F, 258, big) + point_bytes(-2, 3, big),
+                      second = point_bytes(4, 5, big) + point_bytes(6, 7, big);
+    const std::string message = cloud_of_rows(big, 2, 19, first + "pad" + second);
+    const std::optional<CloudView> cloud = read_cloud(message);
+    ASSERT_TRUE(cloud && cloud->size() == 4);
+    const float x[] = {1.5F, -2, 4, 6}, y[] = {258, 3, 5, 7};
+    for (std::size_t i = 0; i < 4; ++i) {
+      EXPECT_EQ(cloud->value(i, cloud->field("x")), x[i]) << i;
+      EXPECT_EQ(cloud->value(i, cloud->field("y")), y[i]) << i;
+    }
+    EXPECT_FALSE(read_cloud(cloud_of_rows(big, 2, 19, first + "pad" + second.substr(1)))) << "data that end within a point";
+    EXPECT_FALSE(read_cloud(cloud_of_rows(big, 2, 15, first + second))) << "rows that lie in each other";
+    EXPECT_FALSE(read_cloud(cloud_of_rows(big, 4'000'000'000, 16, first + second))) << "more rows than there are bytes";
+    EXPECT_TRUE(read_cloud(cloud_of_rows(big, 1, 0, first))) << "a single row, whose length nothing says";
+  }
 }
 
 TEST(RecordedMessages, SurfacesAreReadBack) {
