@@ -83,7 +83,7 @@ export help_by_group
 help: ## first: this list
 	@awk -F ':.*## ' "$$help_by_group" $(firstword $(MAKEFILE_LIST))
 	@echo "Scenarios of make run (make run SCENARIO=NAME; another mission by MISSION=FILE)"
-	@for mission in cfg/missions/*.toml; do sed -n 's/^\[scenario\.\(.*\)\]/\1/p' $$mission | xargs echo "  $$mission:"; done
+	@for mission in cfg/missions/*.toml; do sed -n 's/^\[scenario\.\([^]]*\)\].*/\1/p' $$mission | xargs echo "  $$mission:"; done
 
 run: ## first: track the tenth-scale Hubble in simulation, and write the report out/run/report.html: MISSION= SCENARIO= SENSOR=lcs-wire SEED= FRAMES= OUT=
 	$(call packages,build)
@@ -118,7 +118,7 @@ gallery: ## measure: fly every shipped scenario and write a page of them all, ou
 	$(call packages,build stereo)
 	$(call configure,$(BUILD),)
 	$(call compile,$(BUILD),mdat)
-	@for mission in cfg/missions/*.toml; do for scenario in $$(sed -n 's/^\[scenario\.\(.*\)\]/\1/p' $$mission); do \
+	@for mission in cfg/missions/*.toml; do for scenario in $$(sed -n 's/^\[scenario\.\([^]]*\)\].*/\1/p' $$mission); do \
 	  $(BUILD)/mdat/mdat run $$mission --scenario $$scenario $(if $(FRAMES),--frames $(FRAMES)) --force --out "$(GALLERY)/$$(basename $$mission .toml)/$$scenario" || exit; done; done
 	@$(BUILD)/mdat/mdat gallery "$(GALLERY)"
 	@echo "open the page: xdg-open '$(GALLERY)/index.html'"
