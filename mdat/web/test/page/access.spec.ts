@@ -101,6 +101,7 @@ for (const [width, height] of [
   });
 
 test("the theme is chosen by a key and kept", async ({ page }) => {
+  await page.getByRole("link", { name: "spin.mcap" }).waitFor();
   await page.keyboard.press("t");
   await expect(page.locator("html")).toHaveAttribute("data-theme", "dark");
   await page.reload();

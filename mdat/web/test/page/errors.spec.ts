@@ -12,6 +12,7 @@ test("a server that is gone is told, with what helps", async ({ page }) => {
 });
 
 test("a browser without the token is told to open the printed address", async ({ page, context }) => {
+  await page.getByRole("link", { name: "spin.mcap" }).waitFor();
   await context.clearCookies();
   await page.getByRole("link", { name: "spin.mcap" }).click();
   await expect(page.getByRole("alert")).toBeVisible();
