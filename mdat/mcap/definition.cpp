@@ -50,6 +50,14 @@ std::vector<TypeText> types_of(const std::string& name, const std::string& text)
   throw std::invalid_argument("'" + line.substr(0, 80) + "': " + why);
 }
 
+// How many elements an array of a fixed length has: what stands between its brackets. None would let a message have any number of them.
+std::uint32_t fixed_count(const std::string& digits, const std::string& line) {
+  if (digits.size() > 9 || digits.find_first_not_of("0123456789") != std::string::npos) refuse_line(line, "no number of elements");
+  const auto count = static_cast<std::uint32_t>(std::stoul(digits));
+  if (count == 0) refuse_line(line, "an array of no elements");
+  return count;
+}
+
 // "float64[36]", "uint8[]", "string<=10", "int32[<=5]": the type without what stands behind it.
 std::string take_many(std::string type, const std::string& line, Field& field) {
   const std::size_t open = type.find('['), close = type.find(']');
@@ -58,10 +66,7 @@ std::string take_many(std::string type, const std::string& line, Field& field) {
     const std::string inner = type.substr(open + 1, close - open - 1);
     const bool fixed = !inner.empty() && inner[0] != '<';
     field.many = fixed ? Field::Many::kFixed : Field::Many::kSequence;
-    if (fixed && (inner.size() > 9 || inner.find_first_not_of("0123456789") != std::string::npos))
-      refuse_line(line, "no number of elements");
-    if (fixed) field.count = static_cast<std::uint32_t>(std::stoul(inner));
-    if (fixed && field.count == 0) refuse_line(line, "an array of no elements");  // a message could have any number of those
+    if (fixed) field.count = fixed_count(inner, line);
     type.resize(open);
   }
   return type.substr(0, type.find("<="));

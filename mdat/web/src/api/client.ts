@@ -30,7 +30,8 @@ async function errorOf(response: Response): Promise<ApiError> {
   try {
     const said = (await response.json()) as { error?: string; remedy?: string };
     return new ApiError(said.error ?? words.error, said.remedy ?? words.remedy, response.status);
-  } catch {
+  } catch (error) {
+    if (wasAborted(error)) throw error;
     return new ApiError(words.error, words.remedy, response.status);
   }
 }
@@ -40,7 +41,7 @@ async function ask(path: string, options: RequestInit): Promise<Response> {
   try {
     response = await fetch(path, { credentials: "same-origin", ...options });
   } catch (error) {
-    if (error instanceof DOMException && error.name === "AbortError") throw error;
+    if (wasAborted(error)) throw error;
     throw NO_ANSWER;
   }
   if (!response.ok) throw await errorOf(response);

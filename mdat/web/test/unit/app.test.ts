@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { signal } from "@preact/signals";
-import { ApiError, wasAborted, withQuery } from "../../src/api/client.ts";
+import { ApiError, getJson, wasAborted, withQuery } from "../../src/api/client.ts";
 import { type Command, History, setting } from "../../src/app/history.ts";
 import { strokeOf, strokeParts, takesStroke } from "../../src/app/keys.ts";
 
@@ -70,4 +70,15 @@ test("queries leave out what is empty, and escape the rest", () => {
 test("a failure and a request that was given up are told apart", () => {
   assert.equal(wasAborted(new DOMException("x", "AbortError")), true);
   assert.equal(wasAborted(new ApiError("a", "b", 500)), false);
+});
+
+test("a request given up while the words of a failure are read is no failure", async () => {
+  const fetched = globalThis.fetch;
+  const cut = new ReadableStream({ start: (body) => body.error(new DOMException("given up", "AbortError")) });
+  globalThis.fetch = async () => new Response(cut, { status: 500 });
+  try {
+    await assert.rejects(getJson("/api/about"), wasAborted);
+  } finally {
+    globalThis.fetch = fetched;
+  }
 });
