@@ -70,10 +70,11 @@ TEST(Masks, PredictedSigmaIsThatOfTheGradient) {
       for (int column = 0; column < 60; ++column)
         codes.at<std::uint8_t>(row, column) = static_cast<std::uint8_t>(10 + std::lround(slope * column));
     }
-    const double e = electrons_of(codes, kind).at<float>(20, 30);
+    const auto e = static_cast<double>(electrons_of(codes, kind).at<float>(20, 30));
     const double noise = std::sqrt(255 * 255 / (4 * 20000 * e) * (e + 64) + 1 / 12.0);
     const double texture = 25 * slope * slope - 25 * 12.0 / 64 * noise * noise;
-    EXPECT_NEAR(double{predicted_sigma_px(codes, kind).at<float>(20, 30)} / (std::sqrt(2) * noise / std::sqrt(texture)), 1, 0.05);
+    EXPECT_NEAR(static_cast<double>(predicted_sigma_px(codes, kind).at<float>(20, 30)) / (std::sqrt(2) * noise / std::sqrt(texture)), 1,
+                0.05);
   }
 }
 
@@ -91,7 +92,7 @@ TEST(Masks, PredictedSigmaIsWhatALeastSquaresMatchReaches) {
   for (int i = 0; i < kPairs; ++i) {
     const auto seed = static_cast<std::uint64_t>(i);
     const cv::Mat left = codes_of(electrons, kind, 2 * seed + 1), right = codes_of(electrons, kind, 2 * seed + 2);
-    predicted += double{predicted_sigma_px(left, kind).at<float>(3, 20)} / kPairs;
+    predicted += static_cast<double>(predicted_sigma_px(left, kind).at<float>(3, 20)) / kPairs;
     double slope_difference = 0, slope2 = 0;
     for (int row = 1; row < 6; ++row) {
       for (int column = 18; column <= 22; ++column) {
