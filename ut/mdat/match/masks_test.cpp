@@ -37,6 +37,20 @@ TEST(Masks, BlackSkyIsDarkAndALitSquareIsLitButForItsRim) {
   }
 }
 
+// Rows and columns are alike: the masks of a picture on its side are its masks on their side.
+TEST(Masks, ReachAsFarAlongColumnsAsAlongRows) {
+  VERIFIES("LASSO-STE-006~1");
+  const PairCodes kind{true, 20000, 8};
+  cv::Mat electrons(120, 120, CV_32F, cv::Scalar(0));
+  electrons(cv::Range(30, 70), cv::Range(20, 90)) = 900;
+  electrons(cv::Range(40, 50), cv::Range(60, 75)) = 19000;
+  const cv::Mat codes = codes_of(electrons, kind, 7), turned = codes.t();
+  EXPECT_EQ(cv::countNonZero(lit_mask(turned, kind) != lit_mask(codes, kind).t()), 0);
+  EXPECT_EQ(cv::countNonZero(glint_mask(turned, kind) != glint_mask(codes, kind).t()), 0);
+  EXPECT_GT(cv::countNonZero(lit_mask(codes, kind)), 100);
+  EXPECT_GT(cv::countNonZero(glint_mask(codes, kind)), 100);
+}
+
 // Beside a bright square, glare lights the sky by some hundredths of it.
 TEST(Masks, SkyThatGlareLightsIsDark) {
   VERIFIES("LASSO-STE-006~1");

@@ -27,6 +27,7 @@ TEST(Grid, CoversTheBoxAndItsMarginWithWholeBricks) {
     EXPECT_LT((end - surface.high).maxCoeff(), least + grid.brick_m());
     EXPECT_EQ(grid.origin.x(), scale.round(grid.origin.x()));
     EXPECT_LT(std::ldexp(end.cwiseAbs().maxCoeff(), scale.bits()), 0x1p30);
+    EXPECT_LE(std::max(end.cwiseAbs().maxCoeff(), grid.origin.cwiseAbs().maxCoeff()), image_reach_m(surface, margin, 0.01));
   }
 }
 

@@ -69,7 +69,7 @@ TEST(ScanCloud, ResidualsAreOfTheTargetAtEachRaysOwnTime) {
     if (samples[i].state != RayState::kHit) continue;
     const double t_s = 1e-4 * static_cast<double>(i);
     const Vec3 n = exp_so3(t_s * rates.omega_radps) * (view.T_sensor_target.q * Vec3::UnitZ());
-    const Vec3 u = Vec3(samples[i].direction[0], samples[i].direction[1], samples[i].direction[2]).normalized();
+    const Vec3 u = Eigen::Vector3f(samples[i].direction).cast<double>().normalized();
     const double range_m = n.dot(view.T_sensor_target.p + t_s * rates.v_mps) / n.dot(u);
     EXPECT_NEAR(residual_m, static_cast<double>(samples[i].range_m) - range_m, 1e-5) << i;
   }
@@ -86,7 +86,7 @@ TEST(ScanCloud, MissedRaysPassAtTheTargetsRange) {
   for (std::size_t i = 0; i < misses; ++i) {
     float point[3];
     std::memcpy(point, cloud.data.data() + i * cloud.step, sizeof point);
-    EXPECT_NEAR(Vec3(point[0], point[1], point[2]).norm(), 5, 1e-5);
+    EXPECT_NEAR(Eigen::Vector3f(point).cast<double>().norm(), 5, 1e-5);
   }
 }
 
