@@ -117,6 +117,13 @@ std::vector<std::string> WorkFolder::contents(const std::string& below) const {
   return names;
 }
 
+bool is_refused_by_fixed_point(const Answer& answer) {
+  if (!FIXED_POINT) return false;
+  EXPECT_NE(answer.exit_code, 0);
+  EXPECT_NE(answer.err.find("than the number type holds"), std::string::npos) << answer.err;
+  return true;
+}
+
 std::string mdat_program() { return (test::build_folder() / "mdat/mdat").string(); }
 
 std::string source_path(const std::string& name) { return (test::source_folder() / name).string(); }

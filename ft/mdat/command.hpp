@@ -61,6 +61,10 @@ class Program {
   pid_t process_;
 };
 
+// True in a build for fixed point, where noise or times of a mission may be more than its numbers hold: then it was refused, which is
+// asked.
+bool is_refused_by_fixed_point(const Answer& answer);
+
 std::string mdat_program();                        // its path
 std::string source_path(const std::string& name);  // of a file in the repository
 std::string read_text(const std::filesystem::path& file);

@@ -37,6 +37,7 @@ TEST(Stereo, WritesAPairItsDisparitiesAndAScan) {
   const Answer replayed = work.mdat(
       "replay missions/test.toml --scans out/stereo/scans --initial out/stereo/truth.csv --truth out/stereo/truth.csv -o poses.csv --set "
       "sensor.sigma_k_per_m=0.002 --set estimation.silhouettes=false --set estimation.deskew=false --set estimation.kernel_width=4 ");
+  if (is_refused_by_fixed_point(replayed)) return;
   EXPECT_EQ(replayed.exit_code, 0) << replayed.err;
   const std::vector<std::string> row = fields_of(lines_of(work.read("poses.csv")).at(1));
   EXPECT_LT(std::stod(row.at(row.size() - 2)), 0.02) << "m from the true pose, a third of a pixel of disparity";
@@ -98,6 +99,7 @@ TEST(Stereo, DrivesTheTrackerOfARun) {
   const std::string run = "run missions/stereo.toml --scenario spin --frames 3 --no-report --set stereo.pixels=240 --set stereo.samples=1 ";
   for (const char* out : {"a", "b"}) {
     const Answer answer = work.mdat(run + "--out " + out);
+    if (is_refused_by_fixed_point(answer)) return;
     ASSERT_EQ(answer.exit_code, 0) << answer.err;
   }
   EXPECT_EQ(work.read("a/telemetry.ccsds"), work.read("b/telemetry.ccsds"));
@@ -114,6 +116,7 @@ TEST(Stereo, MeasuresManyPairsInStatedLights) {
       "stereo missions/test.toml --range 3 --views 2 --set stereo.pixels=240 --set stereo.samples=1 --set sensor.sigma_k_per_m=0.002 --set "
       "estimation.silhouettes=false --set estimation.kernel_width=4 ";
   const Answer answer = work.mdat(trial + "--lights lamp,backlit_no_earth --jobs 2 --out tried");
+  if (is_refused_by_fixed_point(answer)) return;
   ASSERT_EQ(answer.exit_code, 0) << answer.err;
   const Json lights = Json::parse(work.read("tried/statistics.json")).at("lights");
   ASSERT_EQ(lights.size(), 2U);
