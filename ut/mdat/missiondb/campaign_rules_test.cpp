@@ -96,6 +96,8 @@ TEST_F(CampaignRulesTest, CasesKeepTheRulesOfTheMission) {
   const std::string together = "[[campaign.c.together]]\n";
   expect_error(together + "keys = ['truth.range_m', 'truth.offset_m.x']\nmean = [1, 0]\ncovariance = [[0.04, 0.01], [0.01, 0.01]]\n",
                "with truth.range_m = 0.2, truth.offset_m.x = -0.2");
+  expect_error(together + "keys = ['truth.offset_m.x', 'truth.range_m']\nmean = [0, 1]\ncovariance = [[0.01, 0.01], [0.01, 0.04]]\n",
+               "with truth.offset_m.x = -0.2, truth.range_m = 0.2");
   folder_.write("t.csv", "truth.range_m\n3\n0.125\n");
   expect_error(together + "table = 't.csv'\n", "with truth.range_m = 0.125");
 }
