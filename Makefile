@@ -155,7 +155,7 @@ accuracy: ## measure: errors of eight simulated scenarios against the limits of 
 
 BODIES ?= 1:200
 WHAT ?= track
-bodies: ## measure: fly, start or search bodies that are made from seeds, and count wrong and missing poses: BODIES=1:200 WHAT=track|start|search|configuration FLIGHTS= FRAMES= SENSOR=laser|lidar SET="KEY=VALUE ..."
+bodies: ## measure: fly, start or search bodies that are made from seeds, and count wrong and missing poses: BODIES=1:200 WHAT=track|start|search|configuration|compare FLIGHTS= FRAMES= SENSOR=laser|lidar SET="KEY=VALUE ..."
 	$(call packages,build)
 	$(call configure,$(BUILD),)
 	$(call compile,$(BUILD),bodies)

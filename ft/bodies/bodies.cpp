@@ -1,9 +1,10 @@
 // How the component does on bodies that nobody has tuned for (docs/bodies.md).
 //
 // usage: bodies WHAT FIRST:LAST COUNT FRAMES SENSOR JOBS FOLDER [KEY=VALUE ...]
-// WHAT is track (COUNT flights of FRAMES each), start, search or configuration (COUNT scans each). SENSOR is laser, lidar, or - for what
-// the body's size asks for. FOLDER gets table.csv, wrong.csv, again.txt (commands that fly flights with wrong
-// poses again), summary.txt, and the missions.
+// WHAT is track (COUNT flights of FRAMES each), start, search, configuration or compare (COUNT scans each). SENSOR is laser, lidar, or -
+// for what the body's size asks for. FOLDER gets table.csv, wrong.csv, again.txt (commands that fly flights with wrong
+// poses again), summary.txt, and the missions; of compare compare.csv, summary.txt and the missions.
+#include <algorithm>
 #include <atomic>
 #include <cstdio>
 #include <exception>
@@ -14,6 +15,7 @@
 #include <thread>
 #include <vector>
 
+#include "ft/bodies/compare.hpp"
 #include "ft/bodies/trials.hpp"
 #include "mdat/common/count.hpp"
 #include "mdat/common/errors.hpp"
@@ -46,8 +48,9 @@ std::optional<mdat::SensorKind> sensor_of(const std::string& name) {
 Options options_of(int count, char** arguments) {
   Options options;
   options.what = arguments[1];
-  if (options.what != "track" && options.what != "start" && options.what != "search" && options.what != "configuration")
-    throw mdat::InputError("WHAT=" + options.what + ": track, start, search or configuration");
+  const auto known = {"track", "start", "search", "configuration", "compare"};
+  if (std::find(known.begin(), known.end(), options.what) == known.end())
+    throw mdat::InputError("WHAT=" + options.what + ": track, start, search, configuration or compare");
   const std::string range = arguments[2];
   const std::size_t colon = range.find(':');
   options.first = mdat::count_of<std::uint64_t>("BODIES", range.substr(0, colon));
@@ -81,28 +84,38 @@ Tally tried(const Options& options, const Subject& subject) {
   return configuration(subject, options.count);
 }
 
-Row row_of_seed(const Options& options, std::uint64_t seed) {
+// A body's line, and of compare its scans.
+struct TriedBody {
   Row row;
-  row.seed = seed;
+  std::vector<Comparison> comparisons;
+};
+
+TriedBody try_seed(const Options& options, std::uint64_t seed) {
+  TriedBody body;
+  body.row.seed = seed;
   try {
     const Subject subject = make_subject(options, seed);
-    row = row_of(subject);
-    row.tally = tried(options, subject);
+    body.row = row_of(subject);
+    if (options.what == "compare") {
+      body.comparisons = compare(subject, options.count);
+    } else {
+      body.row.tally = tried(options, subject);
+    }
   } catch (const std::exception& error) {
-    row.failure = error.what();
+    body.row.failure = error.what();
   }
-  return row;
+  return body;
 }
 
 // In the order of the seeds, whoever tried them.
-std::vector<Row> try_all(const Options& options) {
-  std::vector<Row> rows(options.last - options.first + 1);
+std::vector<TriedBody> try_all(const Options& options) {
+  std::vector<TriedBody> bodies(options.last - options.first + 1);
   std::atomic<std::size_t> next{0}, done{0};
   std::mutex drawing;
-  mdat::ProgressBar bar(options.what, rows.size(), "bodies");
+  mdat::ProgressBar bar(options.what, bodies.size(), "bodies");
   const auto work = [&] {
-    for (std::size_t i = next++; i < rows.size(); i = next++) {
-      rows[i] = row_of_seed(options, options.first + i);
+    for (std::size_t i = next++; i < bodies.size(); i = next++) {
+      bodies[i] = try_seed(options, options.first + i);
       const std::lock_guard lock(drawing);
       bar.show(++done);
     }
@@ -112,21 +125,45 @@ std::vector<Row> try_all(const Options& options) {
     for (unsigned job = 0; job < options.jobs; ++job) threads.emplace_back(work);
   }
   bar.finish();
-  return rows;
+  return bodies;
 }
 
-int run(const Options& options) {
-  std::filesystem::create_directories(options.folder / "missions");
-  const std::vector<Row> rows = try_all(options);
+// Says which files there are.
+std::string write_comparisons(const Options& options, const std::vector<TriedBody>& bodies) {
+  std::vector<Comparison> all;
+  std::string csv =
+      "body,scan,determined,accepted,accepted_wrong,poses,hits_valid,hits_wrong,hits_margin,likelihood_valid,likelihood_wrong,"
+      "likelihood_margin\n";
+  for (const TriedBody& body : bodies) {
+    csv += comparison_csv(body.row.seed, body.comparisons);
+    all.insert(all.end(), body.comparisons.begin(), body.comparisons.end());
+  }
+  const std::string summary = comparison_text(all);
+  mdat::write_file(options.folder / "compare.csv", csv);
+  mdat::write_file(options.folder / "summary.txt", summary);
+  return summary + "written to " + options.folder.string() + ": compare.csv, summary.txt, missions\n";
+}
+
+std::string write_tallies(const Options& options, const std::vector<TriedBody>& bodies) {
+  std::vector<Row> rows;
+  for (const TriedBody& body : bodies) rows.push_back(body.row);
   const std::string summary = summary_text(options.what, rows);
   mdat::write_file(options.folder / "table.csv", table_csv(rows));
   mdat::write_file(options.folder / "wrong.csv", wrong_csv(rows));
   mdat::write_file(options.folder / "again.txt", again_text(rows));
   mdat::write_file(options.folder / "summary.txt", summary);
-  for (const Row& row : rows) {
+  return summary + "written to " + options.folder.string() + ": table.csv, wrong.csv, again.txt, summary.txt, missions\n";
+}
+
+int run(const Options& options) {
+  std::filesystem::create_directories(options.folder / "missions");
+  const std::vector<TriedBody> bodies = try_all(options);
+  const std::string text = options.what == "compare" ? write_comparisons(options, bodies) : write_tallies(options, bodies);
+  for (const TriedBody& body : bodies) {
+    const Row& row = body.row;
     if (!row.failure.empty()) std::fprintf(stderr, "body %llu: %s\n", static_cast<unsigned long long>(row.seed), row.failure.c_str());
   }
-  std::printf("%swritten to %s: table.csv, wrong.csv, again.txt, summary.txt, missions\n", summary.c_str(), options.folder.c_str());
+  std::fputs(text.c_str(), stdout);
   return 0;
 }
 
