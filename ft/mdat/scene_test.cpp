@@ -92,6 +92,25 @@ TEST(SceneRun, LasersMeetClouds) {
   for (std::size_t frame = 22; frame < 26; ++frame) EXPECT_EQ(fields_of(lines.at(frame + 1)).at(valid), "0") << frame;
 }
 
+// A hundredth of the range beside the sensor frame, and turned by 6 deg: a laser camera that is in use all the time.
+TEST(SceneRun, ASensorBesideTheSensorFrameTracks) {
+  VERIFIES("LASSO-SCN-034~1");
+  const WorkFolder work;
+  write_scenes(work);
+  const Answer answer = work.mdat(
+      "run missions/test.toml --scenario screened --frames 18 --out out/run --no-report --set sensor.use_from_m=10 "
+      "--set 'node.mast={parent=\"camera\", position_m=[0.03, 0.02, -0.05], quaternion=[0.0, -0.0523359562, 0.0, 0.9986295348]}' "
+      "--set 'further_sensor.side={node=\"mast\", use_to_m=10, fov_half_x_deg=20, fov_half_y_deg=20}'");
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  const Json timeline = Json::parse(work.read("out/run/results.json")).at("timeline");
+  EXPECT_GE(timeline.at("valid"), 14);
+  EXPECT_EQ(timeline.at("wrong"), 0);
+  EXPECT_LT(timeline.at("rms_mm").get<double>(), 1);
+  const std::vector<std::string> lines = lines_of(work.read("out/run/frames.csv"));
+  EXPECT_EQ(std::count_if(lines.begin(), lines.end(), [](const std::string& line) { return line.find(",side,") != std::string::npos; }),
+            18);
+}
+
 // With the offers of a navigation system.
 TEST(SceneRun, StartsByItselfWhereItIsAutonomous) {
   VERIFIES("LASSO-SCN-031~1");

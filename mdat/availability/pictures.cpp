@@ -47,8 +47,9 @@ SeenPicture left_picture(const MissionInput& mission, const std::string& scenari
   source.pixels = kShown_px;
   source.samples = kShownSamples;
   StereoCamera camera(make_head(source, scene.fov_half_x_rad, scene.fov_half_y_rad), scene.seed);
-  const StereoPictures pictures = camera.take(
-      {*scene.surface, stereo_materials(source, scene.materials), stereo_lights(source, scene.orbit_lights), scene.T_sensor_target}, jobs);
+  const StereoPictures pictures = camera.take({*scene.surface, stereo_materials(source, scene.materials),
+                                               stereo_lights(source, scene.orbit_lights, scene.lamps), scene.T_sensor_target},
+                                              jobs);
   return {format("%.0f s, %.1f m, %s. %s: %s", seen.error.t_s, seen.error.range_m, light_words(seen.light).c_str(), head.head.title.c_str(),
                  verdict_words(seen.error).c_str()),
           png_bytes(as_colours(pictures.left))};

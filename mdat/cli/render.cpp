@@ -99,11 +99,12 @@ Lights lights_by_directions(const RenderArguments& options, Lights lights) {
   return lights;
 }
 
-Lights lights_given(const RenderArguments& options, const std::optional<Lights>& of_scene) {
+Lights lights_given(const RenderArguments& options, const std::optional<Lights>& of_scene, const std::vector<Lamp>& lamps) {
   Lights lights = options.orbit.empty() ? lights_by_directions(options, of_scene.value_or(usual_lights()))
                                         : orbit_given(options.orbit, options.scene.time_s);
   if (!options.earthshine) lights.earth.reset();
-  if (options.lamp) lights.lamp_m = Vec3::Zero();
+  lights.lamps = lamps;
+  if (options.lamp) lights.lamps.push_back(lamp_at_camera(kLamp_Wpsr));
   return lights;
 }
 
@@ -131,7 +132,8 @@ Picture photo_of(const RenderArguments& options, const Scene& scene, const Rende
   RenderSetup shown = setup;
   ProgressBar bar("render", static_cast<std::size_t>(setup.camera.height), "rows", 1);
   shown.progress = [&](std::size_t rows) { bar.show(rows); };
-  const std::vector<Rgb> radiance = rendered(*scene.surface, scene.materials, lights_given(options, scene.orbit_lights), shown);
+  const std::vector<Rgb> radiance =
+      rendered(*scene.surface, scene.materials, lights_given(options, scene.orbit_lights, scene.lamps), shown);
   bar.finish();
   const double white = options.white > 0 ? options.white : automatic_white(radiance, seen);
   if (white > 0) {
@@ -197,7 +199,7 @@ void tell_scan(const std::vector<ScanMark>& marks) {
 
 void render(const RenderArguments& options) {
   const std::optional<PictureSize> size = size_given(options.size);
-  static_cast<void>(lights_given(options, std::nullopt));
+  static_cast<void>(lights_given(options, std::nullopt, {}));
   if (options.scan && options.as == "depth16") throw InputError("--scan: --as depth16 holds depths alone; --as depth shows a scan as well");
   const std::filesystem::path out = out_file(options);
   check_out(options, out);
@@ -218,7 +220,7 @@ void render(const RenderArguments& options) {
   setup.jobs = options.jobs;
   tell_scene(options, scene, setup.camera);
   if (!options.orbit.empty() || (scene.orbit_lights && options.sun.empty()))
-    std::printf("orbit: %.1f %% of the sun's disc is seen\n", 100 * lights_given(options, scene.orbit_lights).sun_share);
+    std::printf("orbit: %.1f %% of the sun's disc is seen\n", 100 * lights_given(options, scene.orbit_lights, {}).sun_share);
   if (!marks.empty()) tell_scan(marks);
   if (options.as == "photo" || options.as == "residual") tell_materials(scene);
   write_out(options, out, picture_bytes(options, scene, setup, marks));
@@ -264,7 +266,8 @@ void add_scene_options(CLI::App* command, const std::shared_ptr<RenderArguments>
       ->check(number_between(0.0, 1e6));
   command->add_option("--seed", options->scene.seed, "start of the random numbers (the scenario's)")
       ->check(CLI::Range(std::int64_t{0}, std::int64_t{4294967295}));
-  command->add_option("--camera", options->scene.camera, "the sensor whose view is shown (the one whose turn it is at this range)");
+  command->add_option("--camera", options->scene.camera,
+                      "the sensor, or the node with a camera, whose view is shown (the sensor whose turn it is at this range)");
 }
 
 }  // namespace
@@ -272,7 +275,8 @@ void add_scene_options(CLI::App* command, const std::shared_ptr<RenderArguments>
 void add_render_command(CLI::App& app) {
   const auto options = std::make_shared<RenderArguments>();
   options->jobs = std::max(1U, std::thread::hardware_concurrency());
-  CLI::App* command = app.add_subcommand("render", "write a picture of what a sensor sees of a mission's simulated target (PNG)");
+  CLI::App* command =
+      app.add_subcommand("render", "write a picture of what a sensor or a camera sees of a mission's simulated target (PNG)");
   command->add_option("MISSION", options->mission, "mission file")->required();
   command
       ->add_option("--as", options->as, "photo, depth, depth16 (millimetres in 16 bits), normals, parts, or residual (of a scan's returns)")

@@ -118,7 +118,7 @@ void simulated_pair(const StereoArguments& options) {
   const StereoSource& source = input.source.stereo;
   const StereoHead head = make_head(source, scene.fov_half_x_rad, scene.fov_half_y_rad);
   std::printf("scenario %s at %g s, range %.3f m\n", scene.scenario.c_str(), options.scene.time_s, scene.T_sensor_target.p.norm());
-  const StereoView view{*scene.surface, stereo_materials(source, scene.materials), stereo_lights(source, scene.orbit_lights),
+  const StereoView view{*scene.surface, stereo_materials(source, scene.materials), stereo_lights(source, scene.orbit_lights, scene.lamps),
                         scene.T_sensor_target};
   const StereoPictures pictures = pictures_of(options, view, head, scene.seed);
   const MatchDepths depths = options.depths.nearest_m > 0 ? options.depths : stated_depths(input.mesh, scene.setup, source.baseline_m);

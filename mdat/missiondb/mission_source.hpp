@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -71,6 +72,8 @@ struct FurtherSensor {
   sim::FlashModel flash;                       // kFlashLidar
   std::vector<std::string> calibration_files;  // as they were written
   sim::DetectorModel detector;
+  std::string node;                  // where it stands; empty: in the sensor frame
+  std::optional<Pose> T_sensor_own;  // its own frame in the sensor frame, where it names a node
 };
 
 // Of laser cameras, by the number of the sensor; of several of one camera the first holds until a command says otherwise.

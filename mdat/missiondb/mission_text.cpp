@@ -85,6 +85,9 @@ void write_further_sensor(ValueLines& out, const MissionSource& source, const Fu
   write_calibration(out, source, prefix + "calibration", sensor.calibration_files);
   write_detector(out, source, prefix, sensor.detector);
   write_flash(out, source, prefix, sensor.kind, sensor.flash);
+  if (!sensor.node.empty())
+    write_line(out, prefix + "node", '"' + sensor.node + '"', "", place_text(source, prefix + "node"),
+               further_sensor_rows().back().meaning);
 }
 
 void write_parameters(ValueLines& out, const MissionSource& source, const std::string& scenario) {

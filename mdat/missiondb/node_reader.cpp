@@ -5,6 +5,7 @@
 #include <iterator>
 #include <set>
 
+#include "mdat/missiondb/optics_reader.hpp"
 #include "mdat/missiondb/volume_reader.hpp"
 #include "mdat/source/nearest.hpp"
 
@@ -56,6 +57,7 @@ class NodeReader {
     read_motion();
     read_body();
     if (values_.is_any_written("scatter.")) read_volume(values_, node_.name, source_);
+    read_optics(values_, node_.name, source_);
     claim("target", source_.scene.target);
     claim("sensor", source_.scene.sensor);
     source_.scene.nodes.push_back(node_);
@@ -119,10 +121,14 @@ std::vector<std::string> node_names(const SceneSource& scene) {
 }
 
 // Those that are the target, the sensors or a body, or that others of these stand in or point to, or that results are said of.
-std::set<std::string> used_nodes(const SceneSource& scene) {
+std::set<std::string> used_nodes(const MissionSource& source) {
+  const SceneSource& scene = source.scene;
   std::set<std::string> used{scene.target, scene.sensor, kSceneLvlh};
+  for (const FurtherSensor& sensor : source.further_sensors) used.insert(sensor.node);
   for (const BodySource& body : scene.bodies) used.insert(body.node);
   for (const VolumeSource& volume : scene.volumes) used.insert(volume.node);
+  for (const LampSource& lamp : scene.lamps) used.insert(lamp.node);
+  for (const CameraSource& camera : scene.cameras) used.insert(camera.node);
   for (const RelativeSource& relative : scene.relative) used.insert({relative.of, relative.in, relative.axes});
   for (std::size_t before = 0; before != used.size();) {
     before = used.size();
@@ -172,6 +178,16 @@ void look_at_motion(double frames, double period_s, SceneRun& run) {
   }
 }
 
+// Those that stand at nodes of their own, with the motions of this scenario.
+void check_sensors_fixed(const MissionSource& source, const std::string& scenario, const SceneRun& run, ProblemList& problems) {
+  for (const FurtherSensor& sensor : source.further_sensors) {
+    const std::string key = "further_sensor." + sensor.name + ".node";
+    if (!sensor.T_sensor_own || run.tree.are_rigid(run.tree.need(sensor.node), run.sensor)) continue;
+    problems.add(source.origins.at(key), key, '"' + sensor.node + '"',
+                 "moves against " + source.scene.sensor + " in scenario " + scenario + ": all sensors stand still against each other");
+  }
+}
+
 // The component knows one pose, of the target before the sensors: what moves against either, it knows nothing of.
 void pair_frames(const MissionSource& source, const std::string& scenario, SceneRun& run, ProblemList& problems) {
   const SceneSource& scene = source.scene;
@@ -198,7 +214,7 @@ void pair_frames(const MissionSource& source, const std::string& scenario, Scene
 }  // namespace
 
 const std::vector<ValueRow>& node_rows() {
-  static const std::vector<ValueRow> rows = with_volume_rows({
+  static const std::vector<ValueRow> rows = with_optics_rows(with_volume_rows({
       text_row("parent", "[^\\x00-\\x1f]+", "node in which it stands; root where not given, which with [orbit] is the Hill frame"),
       position_row("where it stands in the parent; its motion begins there"),
       quaternion_row("how it stands there: x, y, z, w, takes its axes to the parent's"),
@@ -216,7 +232,7 @@ const std::vector<ValueRow>& node_rows() {
       number_row("disc_radius_m", "m", kReal, 1, 1e-6, 10, 0.005, "radius of these discs"),
       number_row("scale", "1", kReal, 1, 1e-9, 1e9, 1, "that file's lengths times this are metres"),
       parts_row(),
-  });
+  }));
   return rows;
 }
 
@@ -294,7 +310,7 @@ void warn_of_idle(MissionSource& source) {
   for (const auto& [name, motion] : scene.motions) {
     if (scene.used_motions.count(name) == 0) warn("motion." + name + ".kind", "no node has this motion: it changes nothing");
   }
-  const std::set<std::string> used = used_nodes(scene);
+  const std::set<std::string> used = used_nodes(source);
   for (const scene::Node& node : scene.nodes) {
     if (used.count(node.name) == 0)
       warn("node." + node.name + ".parent",
@@ -322,6 +338,7 @@ void make_scene_run(const ChosenMotions& chosen, const std::string& name, Origin
   run->sensor = run->tree.need(scene.sensor);
   for (const BodySource& body : scene.bodies) run->body_nodes.push_back(run->tree.need(body.node));
   for (const VolumeSource& volume : scene.volumes) run->volumes.emplace_back(run->tree.need(volume.node), volume.volume);
+  check_sensors_fixed(source, name, *run, problems);
   pair_frames(source, name, *run, problems);
   look_at_motion(scenario.frames, period_s, *run);
   scenario.times_s = run->times_s;

@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "fsw/geometry/portable_math.hpp"
 #include "hal_sim/laser_reflection.hpp"
 #include "hal_sim/scatter_volume.hpp"
 #include "mdat/modelc/mesh.hpp"
@@ -39,6 +40,19 @@ struct BodySource {
 struct VolumeSource {
   std::string node;
   std::shared_ptr<const sim::ScatterVolume> volume;
+};
+
+// A lamp that shines along the z axis of its node.
+struct LampSource {
+  std::string node;
+  double intensity_Wpsr = 0;    // between 400 and 900 nm, even within its cone
+  double half_angle_rad = kPi;  // of the cone; pi: to all sides
+};
+
+// A camera for pictures: z of its node ahead, x right, y down.
+struct CameraSource {
+  std::string node;
+  double fov_half_x_rad = 0, fov_half_y_rad = 0;
 };
 
 // A surface with the names of its parts.
@@ -79,6 +93,8 @@ struct SceneSource {
   std::vector<scene::Node> nodes;      // with their motions; the root is not among them
   std::vector<BodySource> bodies;
   std::vector<VolumeSource> volumes;
+  std::vector<LampSource> lamps;
+  std::vector<CameraSource> cameras;
   std::string target, sensor;  // nodes; empty: none is said to be
   std::vector<RelativeSource> relative;
   std::shared_ptr<SceneSurfaces> surfaces = std::make_shared<SceneSurfaces>();

@@ -104,6 +104,15 @@ std::string stereo_noise_fault(const Subject& s) {
          ": expected about that, and sensor.common_sigma_k_per_m in proportion";
 }
 
+// The fields of both cameras, each as wide as the other, beside each other.
+std::string overlap_fault(const Subject& s) {
+  if (s.sensor->kind != SensorKind::kStereo || s.sensor->ranges_m.empty()) return "";
+  const double width_m = 2 * farthest_m(s) * std::tan(s.sensor->p.fov_half_x_rad);
+  if (width_m > s.source.stereo.baseline_m) return "";
+  return "the cameras see nothing in common: at " + figure(farthest_m(s)) + " m the field of each is " + figure(width_m) +
+         " m wide, and they stand " + figure(s.source.stereo.baseline_m) + " m apart";
+}
+
 // A simulated camera ends with the counts of its detector (docs/icd/lcs.md).
 std::string fine_camera_fault(const Subject& s) {
   if (s.sensor->kind != SensorKind::kLaserCamera || s.sensor->ranges_m.empty() || s.scenario->noise == 0) return "";
@@ -263,6 +272,7 @@ const Rules& sensor_rules() {
     {kWarning, kSensor, kValues, {"scan.aimed_share", "sensor.kind"}, aimed_flash_fault},
     {kWarning, kSensor, kValues, {"sensor.sigma_k_per_m", "sensor.sigma0_m"}, fine_camera_fault},
     {kWarning, kSensor, kValues, {"sensor.sigma_k_per_m", "sensor.kind"}, stereo_noise_fault},
+    {kError, kSensor, kValues, {"stereo.baseline_m", "sensor.fov_half_x_deg"}, overlap_fault},
     {kWarning, kSensor, kValues, {"sensor.range_max_m", "sensor.sigma_k_per_m"}, far_noise_fault},
     {kError, kSensor, kValues, {"sensor.common_memory_s", "scan.duration_s"}, common_memory_fault},
     {kWarning, kSensor, kValues, {"sensor.common_sigma_m", "sensor.common_sigma_k_per_m", "sensor.common_sigma_deg", "tracking.sigma_position_max_m"}, common_size_fault},

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "mdat/missiondb/value_row.hpp"
+#include "mdat/source/nearest.hpp"
 
 namespace lasso::mdat {
 namespace {
@@ -57,6 +58,20 @@ std::vector<std::string> names_of(const std::string& key) {
   return names;
 }
 
+// Why a key inside of a node or a further sensor cannot be set: there is none of that name. Neither has a key that must be there, so that
+// a misspelt name would make another one, and nobody would hear of it. Empty: it can. `path`: of the table.
+std::string missing_table(const toml::table& mission, const std::vector<std::string>& path) {
+  if (path.size() < 2 || (path[0] != "node" && path[0] != "further_sensor")) return "";
+  const toml::table* tables = mission.get_as<toml::table>(path[0]);
+  if (tables != nullptr && tables->contains(path[1])) return "";
+  std::vector<std::string> names;
+  if (tables != nullptr) {
+    for (const auto& [name, value] : *tables) names.emplace_back(name.str());
+  }
+  const std::string whole = path[0] + "." + path[1];
+  return "the mission has no [" + whole + "]" + did_you_mean(path[1], names) + "; a new one is set as a whole: '" + whole + "={...}'";
+}
+
 }  // namespace
 
 void apply_settings(const std::vector<std::string>& settings, toml::table& mission, ProblemList& problems) {
@@ -69,6 +84,11 @@ void apply_settings(const std::vector<std::string>& settings, toml::table& missi
     }
     const std::string last = names.back(), key = trimmed(setting.substr(0, equals)), value = trimmed(setting.substr(equals + 1));
     names.pop_back();
+    const std::string missing = missing_table(mission, names);
+    if (!missing.empty()) {
+      problems.add(kSet, key, value, missing);
+      continue;
+    }
     toml::table* table = table_at(mission, names);
     if (table == nullptr) {
       problems.add(kSet, key, value, "unknown key; see cfg/mission.schema.json for the keys that exist");

@@ -3,9 +3,35 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fsw/geometry/portable_math.hpp"
+#include "fsw/geometry/so3.hpp"
 
 namespace lasso::mdat {
+
+Lamp lamp_at_camera(double intensity_Wpsr) {
+  Lamp lamp;
+  lamp.intensity_Wpsr = intensity_Wpsr;
+  lamp.casts_shadows = false;
+  return lamp;
+}
+
+double lamp_irradiance(const Lamp& lamp, const Vec3& place_m) {
+  const Vec3 way_m = lamp.place_m - place_m;
+  const double range2_m2 = way_m.squaredNorm();
+  const bool all_around = lamp.half_angle_rad >= kPi;
+  if (!all_around && -way_m.dot(lamp.axis) < sin_cos(lamp.half_angle_rad).cos * std::sqrt(range2_m2)) return 0;
+  return lamp.intensity_Wpsr / range2_m2;
+}
+
+Lights lights_in_frame(const Lights& lights, const Pose& T_b_a) {
+  Lights turned = lights;
+  if (lights.sun) turned.sun = rotate(T_b_a.q, *lights.sun);
+  if (lights.earth) turned.earth = rotate(T_b_a.q, *lights.earth);
+  for (Lamp& lamp : turned.lamps) {
+    lamp.place_m = T_b_a * lamp.place_m;
+    lamp.axis = rotate(T_b_a.q, lamp.axis);
+  }
+  return turned;
+}
 
 double earth_radiance(const Lights& lights) {
   if (!lights.sun || !lights.earth) return 0;

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
-#include "fsw/geometry/types.hpp"
+#include "fsw/geometry/portable_math.hpp"
+#include "fsw/geometry/se3.hpp"
 #include "mdat/render/rgb.hpp"
 #include "mdat/render/sampling.hpp"
 
@@ -15,15 +17,34 @@ constexpr double kEarthAlbedo = 0.3;                // mean Bond albedo (Stephen
 constexpr double kEarthHalfAngle_rad = 1.22173048;  // asin(R/(R+h)) = 70 deg: at 408 km
 constexpr double kLamp_Wpsr = 26;                   // 20 W of light in a cone of 44 deg, as service vehicles carry
 
-// Sun, Earth and a lamp. Directions are unit vectors towards them.
+constexpr double kBandShare = 0.59;  // of the sun's power between 400 and 900 nm, where silicon sees (ASTM E490)
+
+// A lamp that is small against its distance, and shines evenly within a cone.
+struct Lamp {
+  Vec3 place_m = Vec3::Zero();
+  double intensity_Wpsr = kLamp_Wpsr;
+  Vec3 axis = Vec3::UnitZ();    // unit, of the cone
+  double half_angle_rad = kPi;  // of the cone; pi: to all sides
+  bool casts_shadows = true;    // false: at the camera, which sees no shadow of its lamp
+};
+
+// One at the camera, to all sides.
+Lamp lamp_at_camera(double intensity_Wpsr);
+
+// Irradiance in W/m2 of a plate at `place_m` that faces the lamp, without what is between them.
+double lamp_irradiance(const Lamp& lamp, const Vec3& place_m);
+
+// Sun, Earth and lamps. Directions are unit vectors towards sun and Earth.
 struct Lights {
   std::optional<Vec3> sun;
   double sun_share = 1;  // of its disc that Earth leaves visible
   std::optional<Vec3> earth;
   double earth_half_angle_rad = kEarthHalfAngle_rad;  // (0, pi/2)
-  std::optional<Vec3> lamp_m;                         // position of a lamp that shines evenly
-  double lamp_Wpsr = kLamp_Wpsr;
+  std::vector<Lamp> lamps;
 };
+
+// The same lights as frame b has them, of those that frame a has.
+Lights lights_in_frame(const Lights& lights, const Pose& T_b_a);
 
 // Radiance of Earth's disc, W/m2/sr: evenly bright, as bright as the ground below the craft, which scatters the sun's light evenly and is
 // dark where the sun is below its horizon. 0 without sun or Earth.

@@ -135,6 +135,14 @@ bool ModelSurface::is_blocked(const Vec3& origin_m, const Vec3& direction) const
                      [&](const Frame& frame) { return frame.caster != nullptr && frame.caster->is_blocked(origin_m, direction); });
 }
 
+bool ModelSurface::is_blocked(const Vec3& origin_m, const Vec3& direction, double within_m) const {
+  return std::any_of(frames_.begin(), frames_.end(), [&](const Frame& frame) {
+    if (frame.caster == nullptr) return false;
+    const sim::RayHit hit = frame.caster->cast(origin_m, direction);
+    return hit.hit && hit.range_m < within_m;
+  });
+}
+
 bool ModelSurface::find(const Vec3& origin_m, const Vec3& direction, SurfacePoint& point) const {
   sim::RayHit hit;
   for (const Frame& frame : frames_) {

@@ -42,8 +42,9 @@ class ModelSurface {
   // What a ray of unit direction meets first; false: nothing.
   bool find(const Vec3& origin_m, const Vec3& direction, SurfacePoint& point) const;
   bool is_blocked(const Vec3& origin_m, const Vec3& direction) const;
-  double extent_m(std::uint32_t body = 0) const { return frames_[body].extent_m; }  // SurfaceBody::size_m
-  Vec3 to_body(const SurfacePoint& point) const;                                    // its place in its body's frame
+  bool is_blocked(const Vec3& origin_m, const Vec3& direction, double within_m) const;  // nearer than that
+  double extent_m(std::uint32_t body = 0) const { return frames_[body].extent_m; }      // SurfaceBody::size_m
+  Vec3 to_body(const SurfacePoint& point) const;                                        // its place in its body's frame
   Vec3 turned_to_body(std::uint32_t body, const Vec3& v) const { return rotate(frames_[body].T_target_body.q.conjugate(), v); }
   Vec3 turned_to_target(std::uint32_t body, const Vec3& v) const { return rotate(frames_[body].T_target_body.q, v); }
 

@@ -31,14 +31,6 @@ constexpr std::uint32_t kWithinPixel = 0;  // purpose of samples
 
 }  // namespace
 
-Lights in_target_frame(const Lights& lights, const Pose& T_target_sensor) {
-  Lights turned = lights;
-  if (lights.sun) turned.sun = rotate(T_target_sensor.q, *lights.sun);
-  if (lights.earth) turned.earth = rotate(T_target_sensor.q, *lights.earth);
-  if (lights.lamp_m) turned.lamp_m = T_target_sensor * *lights.lamp_m;
-  return turned;
-}
-
 std::vector<SeenPoint> seen_points(const ModelSurface& surface, const RenderSetup& setup) {
   const Pose T_target_sensor = inverse(setup.T_sensor_target);
   std::vector<SeenPoint> points(pixel_count(setup.camera));
@@ -57,7 +49,7 @@ std::vector<SeenPoint> seen_points(const ModelSurface& surface, const RenderSetu
 std::vector<Rgb> rendered(const ModelSurface& surface, const std::vector<Material>& materials, const Lights& lights,
                           const RenderSetup& setup) {
   const Pose T_target_sensor = inverse(setup.T_sensor_target);
-  const Shader shader(surface, materials, in_target_frame(lights, T_target_sensor));
+  const Shader shader(surface, materials, lights_in_frame(lights, T_target_sensor));
   const Camera& camera = setup.camera;
   std::vector<Rgb> picture(pixel_count(camera), Rgb::Zero());
   const int n = setup.samples_per_axis;

@@ -30,9 +30,6 @@ struct RenderSetup {
 // What the middle of each pixel sees, row by row from the top.
 std::vector<SeenPoint> seen_points(const ModelSurface& surface, const RenderSetup& setup);
 
-// Directions and the lamp's place as the target's frame has them, as Shader takes them.
-Lights in_target_frame(const Lights& lights, const Pose& T_target_sensor);
-
 // Mean radiance of each pixel, W/m2/sr, row by row from the top. Directions of `lights` are in the sensor frame. `materials`: one for each
 // part.
 std::vector<Rgb> rendered(const ModelSurface& surface, const std::vector<Material>& materials, const Lights& lights,

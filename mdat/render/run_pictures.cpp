@@ -17,7 +17,9 @@ std::string png_of(const Scene& scene, const std::vector<ScanMark>& marks, unsig
   setup.T_sensor_target = scene.T_sensor_target;
   setup.samples_per_axis = kSamples;
   setup.jobs = jobs;
-  const std::vector<Rgb> radiance = rendered(*scene.surface, scene.materials, scene.orbit_lights.value_or(usual_lights()), setup);
+  Lights lights = scene.orbit_lights.value_or(usual_lights());
+  lights.lamps = scene.lamps;
+  const std::vector<Rgb> radiance = rendered(*scene.surface, scene.materials, lights, setup);
   const double white = automatic_white(radiance, seen_points(*scene.surface, setup));
   dark = !(white > 0);
   return png_bytes(scan_view(photo(radiance, setup.camera, white), setup.camera, marks));

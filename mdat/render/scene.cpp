@@ -12,6 +12,7 @@
 #include "mdat/common/text.hpp"
 #include "mdat/missiondb/scene_surfaces.hpp"
 #include "mdat/missiondb/target_parts.hpp"
+#include "mdat/run/ranged_scene.hpp"
 #include "mdat/source/nearest.hpp"
 
 namespace lasso::mdat {
@@ -34,25 +35,67 @@ std::size_t range_index(const Scenario& scenario, const std::string& name, const
   throw InputError(format("--range %g: scenario ", *range_m) + name + " has the ranges " + list_of(names) + " m");
 }
 
+// Of a camera: the node at which it stands, or none where that is the sensor frame.
 struct FieldOfView {
   std::string name;
-  const SensorParameters* parameters;
+  double half_x_rad = 0, half_y_rad = 0;
+  std::string node;
 };
 
-FieldOfView camera_of_mission(const MissionSource& source, const std::string& asked, double range_m) {
+FieldOfView view_of(const std::string& name, const SensorParameters& sensor, const std::string& node) {
+  return {name, sensor.fov_half_x_rad, sensor.fov_half_y_rad, node};
+}
+
+// All sensors, then the nodes with cameras.
+std::vector<FieldOfView> cameras_of(const MissionSource& source) {
   const std::vector<std::string> names = sensor_names(source);
-  std::vector<const SensorParameters*> sensors{&source.parameters};
-  for (const FurtherSensor& sensor : source.further_sensors) sensors.push_back(&sensor.parameters);
+  std::vector<FieldOfView> cameras{view_of(names[0], source.parameters, "")};
+  for (const FurtherSensor& sensor : source.further_sensors) cameras.push_back(view_of(sensor.name, sensor.parameters, sensor.node));
+  for (const CameraSource& camera : source.scene.cameras)
+    cameras.push_back({camera.node, camera.fov_half_x_rad, camera.fov_half_y_rad, camera.node});
+  return cameras;
+}
+
+[[noreturn]] void refuse_camera(const std::string& asked, const std::vector<FieldOfView>& cameras) {
+  std::vector<std::string> names;
+  for (const FieldOfView& camera : cameras) names.push_back(camera.name);
+  throw InputError("--camera " + asked + ": the mission's sensors and cameras are " + list_of(names) + did_you_mean(asked, names));
+}
+
+FieldOfView camera_of_mission(const MissionSource& source, const std::string& asked, double range_m) {
+  const std::vector<FieldOfView> cameras = cameras_of(source);
   if (!asked.empty()) {
-    const auto found = std::find(names.begin(), names.end(), asked);
-    if (found == names.end())
-      throw InputError("--camera " + asked + ": the mission's sensors are " + list_of(names) + did_you_mean(asked, names));
-    return {asked, sensors[static_cast<std::size_t>(found - names.begin())]};
+    const auto found = std::find_if(cameras.begin(), cameras.end(), [&](const FieldOfView& camera) { return camera.name == asked; });
+    if (found == cameras.end()) refuse_camera(asked, cameras);
+    return *found;
   }
-  for (std::size_t i = 0; i < sensors.size(); ++i) {
-    if (range_m >= sensors[i]->use_from_m && range_m <= sensors[i]->use_to_m) return {names[i], sensors[i]};
+  const auto is_in_turn = [&](const SensorParameters& sensor) { return range_m >= sensor.use_from_m && range_m <= sensor.use_to_m; };
+  if (is_in_turn(source.parameters)) return cameras[0];
+  for (std::size_t i = 0; i < source.further_sensors.size(); ++i) {
+    if (is_in_turn(source.further_sensors[i].parameters)) return cameras[i + 1];
   }
-  return {names[0], sensors[0]};
+  return cameras[0];
+}
+
+// The scene before a camera that stands at a node.
+std::shared_ptr<const SceneRun> run_before(const MissionSource& source, const Scene& scene, const FieldOfView& camera) {
+  const Scenario& scenario = scene.setup.scenario;
+  for (const FurtherSensor& sensor : source.further_sensors) {
+    if (sensor.name == camera.name && sensor.T_sensor_own)
+      return scene_run_from(scenario, scene.setup.range_m, period_us(scene.setup.parameters), sensor);
+  }
+  if (scenario.scene == nullptr)
+    throw InputError("--camera " + camera.name + ": scenario " + scene.scenario +
+                     " says ranges_m, and has no nodes: choose a scenario without, or a sensor");
+  auto run = std::make_shared<SceneRun>(*scenario.scene);
+  run->sensor = run->tree.need(camera.node);
+  return run;
+}
+
+void look_through(const FieldOfView& camera, Scene& scene) {
+  scene.camera = camera.name;
+  scene.fov_half_x_rad = camera.half_x_rad;
+  scene.fov_half_y_rad = camera.half_y_rad;
 }
 
 const Material& preset_of(const std::string& setting, const std::string& name) {
@@ -128,9 +171,8 @@ std::vector<SurfaceBody> bodies_at(const MissionSource& source, const CaseSetup&
   return bodies;
 }
 
-// Sun and Earth as a scene's sensors see them; the shadow is that at the orbit's origin.
-std::optional<Lights> lights_of_orbit(const MissionSource& source, const CaseSetup& setup, TimeUs t_us) {
-  const SceneRun* run = setup.scenario.scene.get();
+// Sun and Earth as a scene's camera sees them; the shadow is that at the orbit's origin.
+std::optional<Lights> lights_of_orbit(const MissionSource& source, const SceneRun* run, TimeUs t_us) {
   if (run == nullptr || !source.scene.orbit) return std::nullopt;
   const scene::Orbit& orbit = *source.scene.orbit;
   const Quat q_sensor_hill = run->tree.state(0, run->sensor, t_us).T_a_b.q;
@@ -141,6 +183,18 @@ std::optional<Lights> lights_of_orbit(const MissionSource& source, const CaseSet
   lights.earth = rotate(q_sensor_hill, earth.direction_hill);
   lights.earth_half_angle_rad = earth.half_angle_rad;
   return lights;
+}
+
+// Where they stand before a scene's camera. Their light is told in the band that cameras see; pictures show that of all the sun's.
+std::vector<Lamp> lamps_of(const MissionSource& source, const SceneRun* run, TimeUs t_us) {
+  std::vector<Lamp> lamps;
+  if (run == nullptr) return lamps;
+  for (const LampSource& lamp : source.scene.lamps) {
+    const Pose pose = run->tree.state(run->tree.need(lamp.node), run->sensor, t_us).T_a_b;
+    if (lamp.intensity_Wpsr > 0)
+      lamps.push_back({pose.p, lamp.intensity_Wpsr / kBandShare, rotate(pose.q, Vec3::UnitZ()), lamp.half_angle_rad, true});
+  }
+  return lamps;
 }
 
 std::unique_ptr<ModelSurface> surface_at(const MissionInput& mission, const Scene& scene, TimeUs t_us) {
@@ -193,10 +247,11 @@ Scene make_scene(const MissionInput& mission, const SceneRequest& request) {
   scene.parts = scenario.scene != nullptr ? part_names_of(source, mission.mesh) : target_parts(source, mission.mesh).names;
   scene.materials = materials_of(source.materials, scene.parts, request.materials);
   move_scene(mission, to_us(request.time_s), scene);
-  const FieldOfView view = camera_of_mission(source, request.camera, scene.T_sensor_target.p.norm());
-  scene.camera = view.name;
-  scene.fov_half_x_rad = view.parameters->fov_half_x_rad;
-  scene.fov_half_y_rad = view.parameters->fov_half_y_rad;
+  const FieldOfView camera = camera_of_mission(source, request.camera, scene.T_sensor_target.p.norm());
+  look_through(camera, scene);
+  if (camera.node.empty()) return scene;
+  scene.view = run_before(source, scene, camera);
+  move_scene(mission, to_us(request.time_s), scene);
   return scene;
 }
 
@@ -205,7 +260,14 @@ void move_scene(const MissionInput& mission, TimeUs t_us, Scene& scene) {
   const SceneRun* run = scene.setup.scenario.scene.get();
   const bool alone = run == nullptr || run->body_nodes.empty();  // the target's own frame is that of the surface
   if (scene.surface == nullptr || !alone) scene.surface = surface_at(mission, scene, t_us);
-  scene.orbit_lights = lights_of_orbit(source, scene.setup, t_us);
+  const SceneRun* seen = scene.view ? scene.view.get() : run;
+  scene.orbit_lights = lights_of_orbit(source, seen, t_us);
+  scene.lamps = lamps_of(source, seen, t_us);
+  if (scene.view) {
+    scene.T_sensor_target = scene.view->target_at(t_us).T_a_b;
+    scene.T_camera_sensor = scene.view->tree.state(run != nullptr ? run->sensor : 0, scene.view->sensor, t_us).T_a_b;
+    return;
+  }
   const auto trajectory = make_trajectory(scene.setup.scenario, scene.setup.range_m, kEpochUs, period_us(scene.setup.parameters));
   scene.T_sensor_target = trajectory->at(kEpochUs + t_us).T_sensor_target;
 }
@@ -218,10 +280,7 @@ Scene scene_of_case(const MissionInput& mission, const CaseSetup& setup, std::ui
   scene.parts = setup.scenario.scene != nullptr ? part_names_of(source, mission.mesh) : target_parts(source, mission.mesh).names;
   scene.materials = materials_of(source.materials, scene.parts, {});
   move_scene(mission, t_us, scene);
-  const FieldOfView view = camera_of_mission(source, camera, scene.T_sensor_target.p.norm());
-  scene.camera = view.name;
-  scene.fov_half_x_rad = view.parameters->fov_half_x_rad;
-  scene.fov_half_y_rad = view.parameters->fov_half_y_rad;
+  look_through(camera_of_mission(source, camera, scene.T_sensor_target.p.norm()), scene);
   return scene;
 }
 
@@ -238,7 +297,11 @@ std::vector<ScanMark> scan_marks(const CompiledMission& mission, const Scene& sc
   std::vector<ScanMark> marks;
   const std::size_t first_aimed = (scan.samples.size() - scan.aimed) / 2;
   for (std::size_t i = 0; i < scan.samples.size(); ++i) {
+    if (scene.view && scan.samples[i].state != RayState::kHit) continue;
     marks.push_back(mark_of(scan.samples[i], *model, *trajectory));
+    if (scene.view)
+      marks.back().direction =
+          (scene.T_camera_sensor * (static_cast<double>(scan.samples[i].range_m) * marks.back().direction).eval()).normalized();
     marks.back().aimed = i >= first_aimed && i < first_aimed + scan.aimed;
   }
   return marks;

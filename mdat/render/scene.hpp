@@ -18,7 +18,7 @@ struct SceneRequest {
   std::optional<double> range_m;       // one of the scenario's; none: its first
   double time_s = 0;                   // since frame 0
   std::optional<std::uint64_t> seed;   // otherwise the scenario's
-  std::string camera;                  // the sensor's name; empty: the first whose turn it is at that range
+  std::string camera;                  // the name of a sensor, or of a node with a camera; empty: the first sensor whose turn it is there
   std::vector<std::string> materials;  // PART=PRESET, where PART may end with *
 };
 
@@ -32,8 +32,11 @@ struct Scene {
   std::vector<std::string> parts;  // names by number
   std::vector<Material> materials;
   std::unique_ptr<ModelSurface> surface;  // of the simulated target, which may differ from the model, and of all else in its scene
-  Pose T_sensor_target;                   // the true one
+  std::shared_ptr<const SceneRun> view;   // the scene before a camera that stands elsewhere than in the sensor frame; none: it does not
+  Pose T_sensor_target;                   // the true one; with a view in the camera's frame, as lights and lamps are
+  Pose T_camera_sensor;                   // with a view; else it is the same frame
   std::optional<Lights> orbit_lights;     // of a scene in an orbit
+  std::vector<Lamp> lamps;                // at its nodes
   double fov_half_x_rad = 0, fov_half_y_rad = 0;
 };
 
@@ -50,7 +53,7 @@ void move_scene(const MissionInput& mission, TimeUs t_us, Scene& scene);
 // Of where no light is given: the sun from over the right shoulder, the Earth below.
 Lights usual_lights();
 
-// What the rays of a kept scan of the scene's case found.
+// What the rays of a kept scan of the scene's case found, as its camera sees them: from aside, returns where they are, and no other rays.
 std::vector<ScanMark> scan_marks(const CompiledMission& mission, const Scene& scene, const KeptScan& scan);
 
 // Throws InputError where the scenario's frames are over by then.

@@ -112,15 +112,20 @@ Rgb Shader::from_sun(const Local& local, const PictureRay& ray, std::uint32_t pu
   return lights_.sun_share * kSun_Wpm2 * cosine * reflected(local.reflection, local.to_frame(local.view), local.to_frame(light));
 }
 
-// The lamp sees what the camera sees where it stands at the camera; elsewhere its shadows are not.
-Rgb Shader::from_lamp(const Local& local) const {
-  if (!lights_.lamp_m) return Rgb::Zero();
-  const Vec3 way_m = *lights_.lamp_m - local.start_m;
-  const double range2_m2 = way_m.squaredNorm();
-  const Vec3 light = way_m / std::sqrt(range2_m2);
-  const double cosine = local.normal.dot(light);
-  if (cosine <= 0 || local.facet_normal.dot(light) <= 0) return Rgb::Zero();
-  return lights_.lamp_Wpsr / range2_m2 * cosine * reflected(local.reflection, local.to_frame(local.view), local.to_frame(light));
+Rgb Shader::from_lamp(const Lamp& lamp, const Local& local) const {
+  const Vec3 way_m = lamp.place_m - local.start_m;
+  const double range_m = way_m.norm();
+  const Vec3 light = way_m / range_m;
+  const double cosine = local.normal.dot(light), irradiance_Wpm2 = lamp_irradiance(lamp, local.start_m);
+  if (cosine <= 0 || local.facet_normal.dot(light) <= 0 || !(irradiance_Wpm2 > 0)) return Rgb::Zero();
+  if (lamp.casts_shadows && surface_.is_blocked(local.start_m, light, range_m)) return Rgb::Zero();
+  return irradiance_Wpm2 * cosine * reflected(local.reflection, local.to_frame(local.view), local.to_frame(light));
+}
+
+Rgb Shader::from_lamps(const Local& local) const {
+  Rgb sum = Rgb::Zero();
+  for (const Lamp& lamp : lights_.lamps) sum += from_lamp(lamp, local);
+  return sum;
 }
 
 // The view factor is exact where all of the disc is seen; its shadows are those of one place of the disc for each sample.
@@ -151,7 +156,7 @@ Rgb Shader::mirrored_in(const Local& local, const PictureRay& ray) const {
   if (surface_.find(local.start_m, out, other)) {
     Local there = local_at(other, out, std::max(0.01 * surface_.extent_m(), 2 * local.reflection.roughness * other.range_m));
     there.reflection.roughness = std::max(kRoughestMirrored, there.reflection.roughness);
-    return mirror.share * (from_sun(there, ray, kMirroredSun) + from_lamp(there) + from_earth(there, ray, kMirroredEarth));
+    return mirror.share * (from_sun(there, ray, kMirroredSun) + from_lamps(there) + from_earth(there, ray, kMirroredEarth));
   }
   return mirror.share * earth_Wpm2sr_ * mirrored_earth(local);
 }
@@ -170,7 +175,7 @@ bool Shader::radiance(const PictureRay& ray, SurfacePoint& point, Rgb& radiance)
   radiance = Rgb::Zero();
   if (!surface_.find(ray.origin_m, ray.direction, point)) return false;
   const Local local = local_at(point, ray.direction, point.range_m * ray.pixel_rad);
-  radiance = from_sun(local, ray, kSunDisc) + from_lamp(local) + from_earth(local, ray, kEarthDisc) + mirrored_in(local, ray);
+  radiance = from_sun(local, ray, kSunDisc) + from_lamps(local) + from_earth(local, ray, kEarthDisc) + mirrored_in(local, ray);
   return true;
 }
 

@@ -18,9 +18,9 @@ struct PictureRay {
   int index = 0;
 };
 
-// Sun with shadows (a disc, so that they have soft edges), the lamp, Earth's disc with shadows, and one mirror reflection of what is
-// around, Earth or the target itself. Light that is scattered from one part to another more than once is not there. All in the target's
-// frame.
+// Sun with shadows (a disc, so that they have soft edges), lamps with sharp ones, Earth's disc with shadows, and one mirror reflection of
+// what is around, Earth or the target itself. Light that is scattered from one part to another more than once is not there. All in the
+// target's frame.
 class Shader {
  public:
   // Keeps the surface by reference. `materials`: one for each part.
@@ -36,7 +36,8 @@ class Shader {
   double shade(const SurfacePoint& point, const Vec3& normal_target, const Material& material, double footprint_m,
                double& line_share) const;
   Rgb from_sun(const Local& local, const PictureRay& ray, std::uint32_t purpose) const;
-  Rgb from_lamp(const Local& local) const;
+  Rgb from_lamp(const Lamp& lamp, const Local& local) const;
+  Rgb from_lamps(const Local& local) const;
   Rgb from_earth(const Local& local, const PictureRay& ray, std::uint32_t purpose) const;
   Rgb mirrored_in(const Local& local, const PictureRay& ray) const;
   double mirrored_earth(const Local& local) const;

@@ -1,5 +1,9 @@
 #include "mdat/run/ranged_scene.hpp"
 
+#include <optional>
+#include <utility>
+#include <vector>
+
 #include "fsw/geometry/so3.hpp"
 #include "hal_sim/trajectory.hpp"
 #include "mdat/scene/way.hpp"
@@ -32,6 +36,22 @@ scene::MotionPtr way_of(const Scenario& scenario) {
   return std::make_shared<scene::Way>(table);
 }
 
+// The target alone, in the root, before a sensor that is the root, or rests in it.
+std::shared_ptr<const SceneRun> alone_before(const std::optional<Pose>& T_root_sensor, scene::MotionPtr motion) {
+  std::vector<scene::Node> nodes(1);
+  nodes[0].name = "target";
+  nodes[0].motion = std::move(motion);
+  if (T_root_sensor) {
+    nodes.emplace_back();
+    nodes[1].name = "sensor";
+    nodes[1].T_parent_base = *T_root_sensor;
+  }
+  for (scene::Node& node : nodes) node.parent = kSceneRoot;
+  const std::size_t sensor = T_root_sensor ? 2 : 0;
+  return std::make_shared<SceneRun>(
+      SceneRun{scene::Tree(kSceneRoot, nodes), 1, sensor, {}, std::make_shared<SceneSurfaces>(), 0, 0, {}, {}, {}});
+}
+
 }  // namespace
 
 scene::MotionPtr ranged_motion(const Scenario& scenario, double range_m, DurationUs period_us) {
@@ -46,12 +66,15 @@ scene::MotionPtr ranged_motion(const Scenario& scenario, double range_m, Duratio
 
 std::shared_ptr<const SceneRun> scene_run(const Scenario& scenario, double range_m, DurationUs period_us) {
   if (scenario.scene != nullptr) return scenario.scene;
-  scene::Node target;
-  target.name = "target";
-  target.parent = kSceneRoot;
-  target.motion = ranged_motion(scenario, range_m, period_us);
-  return std::make_shared<SceneRun>(
-      SceneRun{scene::Tree(kSceneRoot, {target}), 1, 0, {}, std::make_shared<SceneSurfaces>(), 0, 0, {}, {}, {}});
+  return alone_before(std::nullopt, ranged_motion(scenario, range_m, period_us));
+}
+
+std::shared_ptr<const SceneRun> scene_run_from(const Scenario& scenario, double range_m, DurationUs period_us,
+                                               const FurtherSensor& sensor) {
+  if (scenario.scene == nullptr) return alone_before(*sensor.T_sensor_own, ranged_motion(scenario, range_m, period_us));
+  auto run = std::make_shared<SceneRun>(*scenario.scene);
+  run->sensor = run->tree.need(sensor.node);
+  return run;
 }
 
 }  // namespace lasso::mdat

@@ -17,4 +17,7 @@ scene::MotionPtr ranged_motion(const Scenario& scenario, double range_m, Duratio
 // The scene of a run. Of a scenario that says ranges: root is the sensor, the target its only node.
 std::shared_ptr<const SceneRun> scene_run(const Scenario& scenario, double range_m, DurationUs period_us);
 
+// The same as a sensor sees it that stands elsewhere (FurtherSensor::T_sensor_own): its own frame is the sensor frame.
+std::shared_ptr<const SceneRun> scene_run_from(const Scenario& scenario, double range_m, DurationUs period_us, const FurtherSensor& sensor);
+
 }  // namespace lasso::mdat

@@ -29,7 +29,7 @@ PairSight::PairSight(const StereoHead& head, const StereoView& view)
     : head_(head),
       view_(view),
       T_target_sensor_(inverse(view.T_sensor_target)),
-      shader_(view.surface, view.materials, in_target_frame(view.lights, T_target_sensor_)),
+      shader_(view.surface, view.materials, lights_in_frame(view.lights, T_target_sensor_)),
       electrons_(electrons_per_radiance(head.imager)) {
   for (int j = 0; j < kGrid; ++j) {
     for (int i = 0; i < kGrid; ++i)

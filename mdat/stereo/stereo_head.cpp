@@ -17,15 +17,6 @@ std::optional<Vec3> direction_of(const std::vector<double>& xyz) {
   return direction.norm() > 0 ? std::optional<Vec3>(direction.normalized()) : std::nullopt;
 }
 
-// In the axes, and from the place, of a camera that stands there.
-Lights seen_from(const Lights& lights, const Pose& T_camera_sensor) {
-  Lights seen = lights;
-  if (lights.sun) seen.sun = rotate(T_camera_sensor.q, *lights.sun);
-  if (lights.earth) seen.earth = rotate(T_camera_sensor.q, *lights.earth);
-  if (lights.lamp_m) seen.lamp_m = T_camera_sensor * *lights.lamp_m;
-  return seen;
-}
-
 }  // namespace
 
 StereoHead make_head(const StereoSource& source, double fov_half_x_rad, double fov_half_y_rad) {
@@ -44,14 +35,14 @@ StereoHead make_head(const StereoSource& source, double fov_half_x_rad, double f
   return head;
 }
 
-Lights stereo_lights(const StereoSource& source, const std::optional<Lights>& of_orbit) {
+Lights stereo_lights(const StereoSource& source, const std::optional<Lights>& of_orbit, const std::vector<Lamp>& lamps) {
   Lights lights;
   lights.sun = direction_of(source.sun);
   lights.earth = direction_of(source.earth);
   if (of_orbit) lights = *of_orbit;
   if (source.earthshine == 0) lights.earth.reset();
-  if (source.lamp_Wpsr > 0) lights.lamp_m = Vec3::Zero();
-  lights.lamp_Wpsr = source.lamp_Wpsr / kBandShare;  // all of its light is in the band
+  lights.lamps = lamps;
+  if (source.lamp_Wpsr > 0) lights.lamps.push_back(lamp_at_camera(source.lamp_Wpsr / kBandShare));  // all of its light is in the band
   return lights;
 }
 
@@ -70,7 +61,7 @@ GreyImage StereoCamera::seen_by(const StereoView& view, bool right, unsigned job
   setup.jobs = jobs;
   const auto rows = static_cast<std::size_t>(right ? head_.camera.height : 0);
   if (progress) setup.progress = [&](std::size_t done) { progress(rows + done); };
-  const std::vector<Rgb> radiance = rendered(view.surface, view.materials, seen_from(view.lights, T_camera_sensor), setup);
+  const std::vector<Rgb> radiance = rendered(view.surface, view.materials, lights_in_frame(view.lights, T_camera_sensor), setup);
   GreyImage image{head_.camera.width, head_.camera.height, {}};
   image.values.reserve(radiance.size());
   for (const Rgb& colour : radiance) image.values.push_back(kBandShare * colour.mean());  // the detector sees all colours alike

@@ -11,8 +11,6 @@
 
 namespace lasso::mdat {
 
-constexpr double kBandShare = 0.59;  // of the sun's power between 400 and 900 nm, where silicon sees (ASTM E490)
-
 struct StereoHead {
   Camera camera;      // both are alike
   Pose T_left_right;  // where the right one truly stands
@@ -32,8 +30,9 @@ struct StereoView {
   Pose T_sensor_target;
 };
 
-// Of a mission's light: the orbit's, or else the directions of `source`; without Earth's, and with the lamp, as `source` says.
-Lights stereo_lights(const StereoSource& source, const std::optional<Lights>& of_orbit);
+// Of a mission's light: the orbit's, or else the directions of `source`; without Earth's, and with the lamp, as `source` says; and the
+// scene's lamps.
+Lights stereo_lights(const StereoSource& source, const std::optional<Lights>& of_orbit, const std::vector<Lamp>& lamps);
 
 // Without relief and shades, where `source` says so.
 std::vector<Material> stereo_materials(const StereoSource& source, std::vector<Material> materials);

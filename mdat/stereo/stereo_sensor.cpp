@@ -38,8 +38,8 @@ class Photographer {
   DisparityMap pair_at(TimeUs t_us) {
     move_scene(mission_, t_us, scene_);
     const StereoSource& source = mission_.source.stereo;
-    const StereoPictures pictures =
-        camera_.take({*scene_.surface, materials_, stereo_lights(source, scene_.orbit_lights), scene_.T_sensor_target}, jobs_);
+    const StereoPictures pictures = camera_.take(
+        {*scene_.surface, materials_, stereo_lights(source, scene_.orbit_lights, scene_.lamps), scene_.T_sensor_target}, jobs_);
     write_file(files_.left, grey_png(pictures.left));
     write_file(files_.right, grey_png(pictures.right));
     return match_files(matcher_program(), files_, depths_);

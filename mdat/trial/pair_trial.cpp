@@ -73,7 +73,7 @@ class PairTrial {
 
   void try_pair(std::size_t light, std::uint32_t view, double time_s) {
     const StereoSource source = lit_by(options_.lights[light], mission_.source.stereo);
-    const StereoView seen{*scene_.surface, stereo_materials(source, scene_.materials), stereo_lights(source, std::nullopt),
+    const StereoView seen{*scene_.surface, stereo_materials(source, scene_.materials), stereo_lights(source, std::nullopt, {}),
                           scene_.T_sensor_target};
     const StereoHead head = make_head(source, scene_.fov_half_x_rad, scene_.fov_half_y_rad);
     if (options_.rendered) try_rendered({light, view}, time_s, head, seen);

@@ -224,5 +224,19 @@ TEST_F(NodeReaderTest, RulesAskTheMotionThatIsFlown) {
   EXPECT_NE(inside.find("the sensor would be in the target"), std::string::npos) << inside;
 }
 
+// A name that is misspelt would be a node or a sensor of its own.
+TEST_F(NodeReaderTest, ASettingMakesNoTableThatIsNotThere) {
+  VERIFIES("LASSO-SCN-024~1");
+  const auto file = folder_.write("m.toml", kNodeMissionHead + kMotions + kNodes + "[scenario.s]\n");
+  const auto said = [&](const std::string& setting) { return mission_error_of([&] { static_cast<void>(load_mission(file, {setting})); }); };
+  EXPECT_NE(said("node.chasr.position_m=[0,0,1]")
+                .find("--set: node.chasr.position_m: [0,0,1]: the mission has no [node.chasr]; did you mean "
+                      "chaser?; a new one is set as a whole: 'node.chasr={...}'"),
+            std::string::npos)
+      << said("node.chasr.position_m=[0,0,1]");
+  EXPECT_NE(said("further_sensor.near.range_max_m=4").find("the mission has no [further_sensor.near]"), std::string::npos);
+  EXPECT_EQ(load_mission(file, {"node.chaser.position_m=[0,0,1]", "node.mast={parent='chaser'}"}).scene.nodes.size(), 4U);
+}
+
 }  // namespace
 }  // namespace lasso::mdat

@@ -1,5 +1,7 @@
 #include "mdat/missiondb/sensor_reader.hpp"
 
+#include <cmath>
+
 #include "cfg/capacities.hpp"
 #include "fsw/geometry/portable_math.hpp"
 #include "mdat/missiondb/calibration_file.hpp"
@@ -123,6 +125,42 @@ TEST_F(SensorReaderTest, MoreThanTheComponentHasRoomForAreRefused) {
   for (std::size_t i = 0; i < kMaxSensors - 1; ++i) text += "[further_sensor.s" + std::to_string(i) + "]\n";
   EXPECT_EQ(load(text).further_sensors.size(), kMaxSensors - 1);
   expect_error(text + "[further_sensor.one_more]\n", "expected at most 3");
+}
+
+const std::string kMastNodes =
+    "[motion.turn]\nkind = 'rates'\nspin_degps = [0, 0, 1]\n[node.body]\ntarget = true\nposition_m = [0, 0, 5]\nmotion = 'turn'\n"
+    "[node.head]\nsensor = true\nposition_m = [0.1, 0, 0]\n"
+    "[node.mast]\nposition_m = [0.1, 0.4, -0.1]\nquaternion = [0, 0.0871557427, 0, 0.9961946981]\n";  // 10 deg about y
+
+// By hand: 0.4 m below and 0.1 m behind the head, turned to the right.
+TEST_F(SensorReaderTest, ASensorStandsAtANode) {
+  VERIFIES("LASSO-SCN-034~1");
+  const MissionSource source = load(kMastNodes + "[further_sensor.far]\nnode = 'mast'\n[further_sensor.near]\n[scenario.s]\n");
+  const Pose& pose = source.further_sensors[0].T_sensor_own.value();
+  EXPECT_LT((pose.p - Vec3(0, 0.4, -0.1)).norm(), 1e-12);
+  EXPECT_LT((pose.q * Vec3::UnitZ() - Vec3(std::sin(10 * kRadPerDeg), 0, std::cos(10 * kRadPerDeg))).norm(), 1e-8);
+  EXPECT_FALSE(source.further_sensors[1].T_sensor_own);
+  EXPECT_NE(info_text(source, "").find("further_sensor.far.node"), std::string::npos);
+  for (const std::string& warning : source.warnings) EXPECT_EQ(warning.find("node.mast"), std::string::npos) << warning;
+}
+
+TEST_F(SensorReaderTest, ANodeThatIsNoPlaceForASensorIsRefused) {
+  VERIFIES("LASSO-SCN-034~1 LASSO-SCN-024~1");
+  const auto at = [](const std::string& node) { return "[further_sensor.far]\nnode = '" + node + "'\n[scenario.s]\n"; };
+  expect_error(kMastNodes + at("mats"), "further_sensor.far.node");
+  expect_error(kMastNodes + at("mats"), "did you mean mast");
+  expect_error(kMastNodes + at("body"), "moves against head");
+  expect_error(kMastNodes + "[node.back]\nquaternion = [0, 1, 0, 0]\n" + at("back"), "180 deg away from where head looks");
+  expect_error("[node.body]\ntarget = true\n" + at("body"), "no node of the mission has sensor = true");
+  expect_error(kMastNodes + "[further_sensor.far]\nnode = 'mast'\n[scenario.s]\nmotion = {mast = 'turn'}\n", "in scenario s");
+}
+
+TEST_F(SensorReaderTest, TwoSensorsOfOneNameAreRefused) {
+  VERIFIES("LASSO-SCN-024~1");
+  expect_error("[sensor]\nkind = 'time_of_flight'\n[further_sensor.time_of_flight]\n",
+               "m.toml:9:1: further_sensor.time_of_flight: is the name of [sensor] already");
+  expect_error("[further_sensor.laser_camera]\nkind = 'time_of_flight'\n", "is the name of [sensor] already");
+  expect_error("[node.mast]\ncamera = {fov_half_x_deg = 10}\n[further_sensor.mast]\n", "is the name of the camera at [node.mast], too");
 }
 
 }  // namespace

@@ -47,6 +47,14 @@ TEST_F(SensorRules, AFlashLidarHasPhotonsForTheRangeAndKnowsItsPixels) {
   expect_said(said(flash + "scan.aimed_share = 0.3"), "warning: ", "which cannot aim");
 }
 
+// Fields of 10 m tan 15 deg, 2.68 m, at 5 m.
+TEST_F(SensorRules, StereoCamerasSeeSomethingInCommon) {
+  VERIFIES("LASSO-SCN-024~1");
+  const std::string stereo = "sensor.kind = 'stereo'\nsensor.fov_half_x_deg = 15\nstereo.baseline_m = ";
+  EXPECT_EQ(said(stereo + "2.67").find("nothing in common"), std::string::npos);
+  expect_said(said(stereo + "2.69"), "error: ", "stereo.baseline_m: the cameras see nothing in common: at 5 m the field of each is 2.68 m");
+}
+
 TEST_F(SensorRules, TheNoiseLeavesTheTargetItsShape) {
   VERIFIES("LASSO-GND-009~1 LASSO-GND-060~1");
   expect_edge("sensor.sigma0_m = 0.083", "sensor.sigma0_m = 0.41",

@@ -93,5 +93,20 @@ TEST(Light, TangentsAreARightHandedFrame) {
   }
 }
 
+TEST(Light, TurnsWithTheFrame) {
+  VERIFIES("LASSO-SCN-035~1");
+  Lights lights;
+  lights.sun = Vec3(0.6, 0, 0.8);
+  lights.lamps.resize(1);
+  lights.lamps[0].place_m = Vec3(1, 2, 3);
+  lights.lamps[0].axis = Vec3(0, 0.6, -0.8);
+  const Eigen::AngleAxisd turn(0.7, Vec3(1, -2, 0.5).normalized());
+  const Lights turned = lights_in_frame(lights, {Quat(turn), Vec3(0.3, -0.1, 2)});
+  EXPECT_LT((*turned.sun - turn * *lights.sun).norm(), 1e-12);
+  EXPECT_LT((turned.lamps[0].place_m - (turn * lights.lamps[0].place_m + Vec3(0.3, -0.1, 2))).norm(), 1e-12);
+  EXPECT_LT((turned.lamps[0].axis - turn * lights.lamps[0].axis).norm(), 1e-12);
+  EXPECT_FALSE(turned.earth);
+}
+
 }  // namespace
 }  // namespace lasso::mdat

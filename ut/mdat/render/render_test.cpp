@@ -161,7 +161,7 @@ TEST(Render, PicturesDoNotDependOnThreads) {
   Lights lights;
   lights.sun = Vec3(0.5, -0.5, -0.7).normalized();
   lights.earth = Vec3(0, 1, 0);
-  lights.lamp_m = Vec3::Zero();
+  lights.lamps = {lamp_at_camera(kLamp_Wpsr)};
   RenderSetup setup = setup_of(80, 0.2, {generic_attitude(), {0.1, 0, 5}});
   std::size_t last = 0;
   std::string bytes[2];

@@ -177,5 +177,37 @@ TEST(Scene, WhatIsNotThereIsNamedWithWhatIs) {
   expect_says(error_of(shipped("hubble.toml"), request), {"--range", "--time"});
 }
 
+// On the chaser beside its sensors: by hand, from the poses of tree and target.
+TEST(Scene, IsSeenFromACameraAtANode) {
+  VERIFIES("LASSO-SCN-035~1");
+  const MissionInput mission = load_mission_input(
+      test::source_folder() / "cfg/missions/rendezvous.toml",
+      {"node.bow={parent='chaser', position_m=[-0.4, 0.2, 0.9], quaternion=[0.6, 0, 0, 0.8], camera={fov_half_x_deg=30}}",
+       "node.bulb={parent='chaser', lamp={intensity_Wpsr=0}}",
+       "node.spot={parent='chaser', position_m=[0.1, 0, 1], lamp={intensity_Wpsr=59, half_angle_deg=20}}"},
+      "approach");
+  SceneRequest request;
+  request.scenario = "approach";
+  request.time_s = 42;
+  const Scene plain = make_scene(mission, request);
+  request.camera = "bow";
+  const Scene scene = make_scene(mission, request);
+  EXPECT_EQ(scene.camera, "bow");
+  EXPECT_NEAR(scene.fov_half_x_rad, 30 * kRadPerDeg, 1e-12);
+  EXPECT_NEAR(scene.fov_half_y_rad, 20 * kRadPerDeg, 1e-12);
+  const Vec3 head_m(0.3, 0.0, 0.5), bow_m(-0.4, 0.2, 0.9), spot_m(0.1, 0, 1);  // in the chaser, whose axes the head has
+  const Quat q_bow_chaser = Quat(0.8, 0.6, 0, 0).conjugate();
+  EXPECT_LT((scene.T_sensor_target.p - q_bow_chaser * (plain.T_sensor_target.p + head_m - bow_m)).norm(), 1e-9);
+  EXPECT_LT((*scene.orbit_lights->sun - q_bow_chaser * *plain.orbit_lights->sun).norm(), 1e-9);
+  EXPECT_LT((scene.T_camera_sensor.p - q_bow_chaser * (head_m - bow_m)).norm(), 1e-9);
+  ASSERT_EQ(scene.lamps.size(), 1U) << "one is off";
+  EXPECT_LT((scene.lamps[0].place_m - q_bow_chaser * (spot_m - bow_m)).norm(), 1e-9);
+  EXPECT_LT((scene.lamps[0].axis - q_bow_chaser * Vec3::UnitZ()).norm(), 1e-9);
+  EXPECT_NEAR(scene.lamps[0].intensity_Wpsr, 100, 1e-9) << "59 % of the Sun's light is in the band";
+  EXPECT_LT((plain.lamps.at(0).place_m - (spot_m - head_m)).norm(), 1e-9);
+  request.camera = "bwo";
+  expect_says(error_of(mission, request), {"--camera bwo", "did you mean bow?"});
+}
+
 }  // namespace
 }  // namespace lasso::mdat

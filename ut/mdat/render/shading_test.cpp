@@ -65,8 +65,9 @@ TEST(Shading, LampFallsWithTheSquareOfTheRange) {
   const ModelSurface plate = surface_of(square(2));
   for (const double range_m : {2.0, 5.0}) {
     Lights lights;
-    lights.lamp_m = Vec3(0.3, 0.2, range_m);
-    const Rgb seen = mean_radiance(Shader(plate, {matt(0.5)}, lights), *lights.lamp_m, -Vec3::UnitZ());
+    lights.lamps.resize(1);
+    lights.lamps[0].place_m = Vec3(0.3, 0.2, range_m);
+    const Rgb seen = mean_radiance(Shader(plate, {matt(0.5)}, lights), lights.lamps[0].place_m, -Vec3::UnitZ());
     EXPECT_NEAR(seen[0], kLamp_Wpsr / (range_m * range_m) * 0.5 / kPi, 1e-5) << range_m;
   }
 }
@@ -158,6 +159,58 @@ TEST(Shading, LinesBetweenCellsCoverTheirShare) {
   const double share = 1 - (1 - kGridLine) * (1 - kGridLine);
   EXPECT_NEAR(sum, 0.1 + share * (kGridReflectance - 0.1), 0.01);
   EXPECT_NEAR(brightest, kGridReflectance, 1e-3);
+}
+
+// The inverse square and the cosine on a matt plate, within the cone and nowhere else.
+TEST(Shading, ALampLightsItsConeByTheInverseSquare) {
+  VERIFIES("LASSO-SCN-035~1");
+  const ModelSurface plate = surface_of(square(8));
+  Lights lights;
+  lights.lamps.resize(2);
+  lights.lamps[0].place_m = Vec3(1, 0.5, 3);
+  lights.lamps[0].axis = Vec3(-0.2, 0.1, -1).normalized();
+  lights.lamps[0].half_angle_rad = 0.25;
+  lights.lamps[0].intensity_Wpsr = 40;
+  lights.lamps[1].place_m = Vec3(-2, 0, 4);
+  lights.lamps[1].intensity_Wpsr = 7;
+  const Shader shader(plate, {matt(0.5)}, lights);
+  const auto expected = [&](const Lamp& lamp, const Vec3& at) {
+    const Vec3 way = lamp.place_m - at;
+    const double off_rad = std::acos(-way.normalized().dot(lamp.axis));
+    return off_rad < lamp.half_angle_rad ? lamp.intensity_Wpsr * way.normalized().z() / way.squaredNorm() * 0.5 / kPi : 0;
+  };
+  int in_cone = 0;
+  for (double x = -1.5; x < 2; x += 0.31) {
+    const Vec3 at(x, 0.4, 0);
+    in_cone += expected(lights.lamps[0], at) > 0 ? 1 : 0;
+    EXPECT_NEAR(mean_radiance(shader, at + Vec3(0, 0, 2), -Vec3::UnitZ())[0], expected(lights.lamps[0], at) + expected(lights.lamps[1], at),
+                1e-4)
+        << x;
+  }
+  EXPECT_GT(in_cone, 2);
+  EXPECT_LT(in_cone, 8);
+}
+
+// A plate of 0.4 m, half-way to a lamp 2 m above the ground, shades 0.8 m of it; one that is behind the lamp shades nothing.
+TEST(Shading, ALampCastsShadowsOfWhatIsBeforeIt) {
+  VERIFIES("LASSO-SCN-035~1");
+  Mesh mesh = square(8), plate = square(0.4);
+  for (Eigen::Vector3d& v : plate.vertices) v += Eigen::Vector3d(0, 0, 1);
+  append(mesh, plate);
+  for (const auto& [height_m, half_m] : {std::pair{2.0, 0.4}, std::pair{0.5, 0.0}}) {
+    Lights lights;
+    lights.lamps.resize(1);
+    lights.lamps[0].place_m = Vec3(0, 0, height_m);
+    const ModelSurface surface(mesh, std::vector<std::uint32_t>(mesh.triangles.size(), 0), 0.5);
+    const Shader shader(surface, {matt(0.5)}, lights);
+    for (const double x : {0.1, 0.35, 0.45, 0.9}) {
+      const Vec3 slanted = Vec3(-0.1, 0.02, -0.3).normalized();  // from below the plate
+      const Rgb seen = mean_radiance(shader, Vec3(x, 0, 0) - 0.5 * slanted, slanted);
+      EXPECT_EQ(seen.maxCoeff() > 0, x > half_m) << x << " " << height_m;
+    }
+    lights.lamps[0].casts_shadows = false;
+    EXPECT_GT(mean_radiance(Shader(surface, {matt(0.5)}, lights), Vec3(0.1, 0, 0.5), -Vec3::UnitZ()).maxCoeff(), 0);
+  }
 }
 
 }  // namespace

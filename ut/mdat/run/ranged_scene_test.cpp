@@ -50,6 +50,8 @@ Mat3 turned_by(const Vec3& rotation_rad) {
   return AngleAxisd(angle_rad, axis).toRotationMatrix();  // of no angle: the identity
 }
 
+Quat random_attitude(test::Generator& random) { return Quat(turned_by(Vec3(numbers(random, 2).data()))); }
+
 TimeUs random_time(test::Generator& random) { return static_cast<TimeUs>(std::llround(random.uniform(-10e6, 400e6))); }
 
 // The point center_m is where it is said to be, the attitude is as expected, and the rates are those of the pose.
@@ -149,6 +151,35 @@ TEST(RangedScene, IsATargetAloneBeforeASensorInTheRoot) {
   Scenario of_nodes = scenario;
   of_nodes.scene = run;
   EXPECT_EQ(scene_run(of_nodes, 7, kPeriodUs), run) << "a scenario of nodes is the scene itself";
+}
+
+// A sensor that stands elsewhere sees the target from there: by matrices, before nodes and before a sensor at rest.
+TEST(RangedScene, ASensorElsewhereSeesTheTargetFromThere) {
+  VERIFIES("LASSO-SCN-034~1");
+  test::Generator random(15);
+  for (int trial = 0; trial < 20; ++trial) {
+    Scenario scenario = random_placed(random, false);
+    scenario.spin_radps = numbers(random, 0.1);
+    FurtherSensor sensor;
+    sensor.node = "mast";
+    sensor.T_sensor_own = Pose{random_attitude(random), Vec3(numbers(random, 1).data())};
+    const Eigen::Isometry3d own = Eigen::Translation3d(sensor.T_sensor_own->p) * Eigen::Isometry3d(sensor.T_sensor_own->q);
+    const auto plain = scene_run(scenario, kRange_m, kPeriodUs), seen = scene_run_from(scenario, kRange_m, kPeriodUs, sensor);
+    const TimeUs t_us = random_time(random);
+    const auto as_matrix = [](const Pose& pose) { return Eigen::Translation3d(pose.p) * Eigen::Isometry3d(pose.q); };
+    const Eigen::Isometry3d expected = own.inverse() * as_matrix(plain->target_at(t_us).T_a_b);
+    EXPECT_LT((as_matrix(seen->target_at(t_us).T_a_b).matrix() - expected.matrix()).norm(), 1e-11);
+    scene::Node target, head, mast;
+    target.name = "body", head.name = "head", mast.name = "mast";
+    target.parent = head.parent = kSceneRoot;
+    target.motion = ranged_motion(scenario, kRange_m, kPeriodUs);
+    mast.parent = "head";
+    mast.T_parent_base = *sensor.T_sensor_own;
+    SceneRun run{scene::Tree(kSceneRoot, {target, head, mast}), 1, 2, {}, nullptr, 0, 0, {}, {}, {}};
+    scenario.scene = std::make_shared<SceneRun>(run);
+    const auto of_nodes = scene_run_from(scenario, kRange_m, kPeriodUs, sensor);
+    EXPECT_LT((as_matrix(of_nodes->target_at(t_us).T_a_b).matrix() - expected.matrix()).norm(), 1e-11);
+  }
 }
 
 }  // namespace

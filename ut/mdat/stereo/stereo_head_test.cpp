@@ -117,16 +117,20 @@ TEST(StereoHead, LightIsThatOfTheOrbitUnlessItHasNone) {
   source.sun = {0, 0, -2};
   source.earthshine = 0;
   source.lamp_Wpsr = 26;
-  const Lights lights = stereo_lights(source, std::nullopt);
+  const Lights lights = stereo_lights(source, std::nullopt, {});
   EXPECT_EQ(lights.sun, Vec3(0, 0, -1));
   EXPECT_FALSE(lights.earth.has_value());
-  EXPECT_EQ(lights.lamp_m, Vec3(0, 0, 0));
-  EXPECT_NEAR(lights.lamp_Wpsr * kBandShare, 26, 1e-12);
+  ASSERT_EQ(lights.lamps.size(), 1U);
+  EXPECT_EQ(lights.lamps[0].place_m, Vec3(0, 0, 0));
+  EXPECT_NEAR(lights.lamps[0].intensity_Wpsr * kBandShare, 26, 1e-12);
+  Lamp other;
+  other.place_m = Vec3(1, 0, 0);
+  EXPECT_EQ(stereo_lights(source, std::nullopt, {other}).lamps.size(), 2U);
   Lights orbit;
   orbit.sun = Vec3::UnitX();
   orbit.sun_share = 0.3;
-  EXPECT_EQ(stereo_lights(source, orbit).sun, Vec3(1, 0, 0));
-  EXPECT_EQ(stereo_lights(source, orbit).sun_share, 0.3);
+  EXPECT_EQ(stereo_lights(source, orbit, {}).sun, Vec3(1, 0, 0));
+  EXPECT_EQ(stereo_lights(source, orbit, {}).sun_share, 0.3);
 }
 
 TEST(StereoHead, PlainMaterialsHaveNoReliefAndNoShades) {
