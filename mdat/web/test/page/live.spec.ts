@@ -102,6 +102,22 @@ test("the pace is chosen, and faster and slower by keys", async ({ page }) => {
   await expect(page.getByText("The run is over.")).toHaveCount(0);
 });
 
+test("data that do not come are called stale, and no longer when they do", async ({ page }) => {
+  const server = Number(process.env.PAGE_LIVE_PID);
+  await fly(page);
+  await expect(page.locator(".live-health")).toContainText("packets/s, none missing");
+  await expect(page.getByText("The data are stale.")).toHaveCount(0);
+  process.kill(server, "SIGSTOP");
+  try {
+    await expect(page.getByText("The data are stale.")).toBeVisible();
+    await screenshot(page, "live-stale-light");
+  } finally {
+    process.kill(server, "SIGCONT");
+  }
+  await expect(page.getByText("The data are stale.")).toHaveCount(0);
+  await stop(page);
+});
+
 test("a second page sees the run on its start, opens it and stops it", async ({ page, context }) => {
   await fly(page);
   const other = await context.newPage();
