@@ -66,7 +66,8 @@ export class Log {
     const path = `/api/recordings/${encodeURIComponent(id)}`;
     const info = await Log.ask(id);
     const bytes = info.frames === 0 ? new ArrayBuffer(0) : await getBinary(withQuery(`${path}/frames`, { columns: COLUMNS.join(",") }));
-    const columns = decodeColumns(bytes, COLUMNS, info.frames);
+    // A live run may have more by now than it had when it was asked what it is.
+    const columns = decodeColumns(bytes, COLUMNS, Math.floor(bytes.byteLength / FRAME_BYTES));
     return new Log(info, Object.fromEntries(columns) as unknown as FrameColumns);
   }
 
