@@ -21,7 +21,8 @@ void serve_page(const ServeArguments& options) {
   serve::Folder folder(options.place);
   serve::Network network(options.network);
   const serve::Gate gate(options.network.host, network.port(), serve::random_token());
-  serve::Service service(gate, folder, {kCommit, serve::page_files()});
+  serve::Live live(folder, kCommit);
+  serve::Service service(gate, folder, {kCommit, serve::page_files(), &live});
   std::printf("%s\n", gate.address().c_str());
   (void)std::fflush(stdout);
   std::fprintf(stderr, "Open this address in a browser; who has it can read the recordings. Ctrl-C ends.\n");

@@ -76,13 +76,27 @@ bool for_each_message(std::string_view records, const std::function<void(const M
   return reader.ok();
 }
 
-IndexedFile::IndexedFile(const std::filesystem::path& file) : path_(file) {
+void IndexedFile::read_header(const std::filesystem::path& file) {
   const Reader head(file);  // says what is wrong with a file that is none
   profile_ = head.profile();
   library_ = head.library();
+  begin_ = walked_ = kMagic.size() + kRecordHead + head_of(bytes(kMagic.size(), kRecordHead)).length;
+}
+
+IndexedFile::IndexedFile(const std::filesystem::path& file, std::uint64_t whole) : path_(file) {
+  read_header(file);
+  grow(whole);
+}
+
+void IndexedFile::grow(std::uint64_t whole) {
+  size_ = std::max(size_, whole);
+  walk_on();
+}
+
+IndexedFile::IndexedFile(const std::filesystem::path& file) : path_(file) {
+  read_header(file);
   std::error_code error;
   size_ = std::filesystem::file_size(file, error);
-  begin_ = kMagic.size() + kRecordHead + head_of(bytes(kMagic.size(), kRecordHead)).length;
   if (read_summary()) return;
   schemas_.clear();
   channels_.clear();
@@ -187,18 +201,22 @@ void IndexedFile::take_metadata(std::uint64_t at, std::uint64_t size) {
   if (head.op == Op::kMetadata && reader.ok()) metadata_[name] = map;
 }
 
-// Record by record, by their heads.
-void IndexedFile::walk() {
-  std::uint64_t at = begin_;
+// Record by record, by their heads, from where it was before. Whether the data end.
+bool IndexedFile::walk_on() {
   bool ended = false;
-  while (!ended && fits(at, kRecordHead, size_)) {
-    const RecordHead head = head_of(bytes(at, kRecordHead));
-    if (!fits(at + kRecordHead, head.length, size_)) break;
+  while (!ended && fits(walked_, kRecordHead, size_)) {
+    const RecordHead head = head_of(bytes(walked_, kRecordHead));
+    if (!fits(walked_ + kRecordHead, head.length, size_)) break;
     ended = head.op == Op::kDataEnd;
-    take_walked(head.op, at, kRecordHead + head.length);
-    at += kRecordHead + head.length;
+    take_walked(head.op, walked_, kRecordHead + head.length);
+    walked_ += kRecordHead + head.length;
   }
-  Damage damage{at, "the file ends here, within its data: what is whole before is shown"};
+  return ended;
+}
+
+void IndexedFile::walk() {
+  const bool ended = walk_on();
+  Damage damage{walked_, "the file ends here, within its data: what is whole before is shown"};
   if (ended) damage.why = "its summary is missing or damaged: what it holds was found record by record";
   damage_.push_back(std::move(damage));
 }

@@ -39,6 +39,10 @@ class IndexedFile {
  public:
   // Throws InputError as Reader's constructor.
   explicit IndexedFile(const std::filesystem::path& file);
+  // Of a file that is still being written: its first `whole` bytes, which end with a record. Throws as above.
+  IndexedFile(const std::filesystem::path& file, std::uint64_t whole);
+  // The same file later, with more bytes: only what is new is read. Never less than before.
+  void grow(std::uint64_t whole);
 
   const std::filesystem::path& path() const { return path_; }
   std::uint64_t size() const { return size_; }
@@ -64,7 +68,9 @@ class IndexedFile {
   bool take_definition(Op op, std::string_view content);
   bool take_index(Op op, std::string_view content);
   void take_statistics(std::string_view content);
+  void read_header(const std::filesystem::path& file);
   void walk();
+  bool walk_on();
   void take_walked(Op op, std::uint64_t at, std::uint64_t size);
   void take_loose(std::uint64_t at, std::uint64_t size);
   void take_message_index(std::uint64_t at, std::uint64_t size);
@@ -74,6 +80,7 @@ class IndexedFile {
 
   std::filesystem::path path_;
   std::uint64_t size_ = 0, begin_ = 0;  // of the file; behind the header
+  std::uint64_t walked_ = 0;            // bytes whose records are known, of a file that is walked
   std::string profile_, library_;
   std::map<std::uint16_t, Schema> schemas_;
   std::map<std::uint16_t, Channel> channels_;

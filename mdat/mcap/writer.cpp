@@ -112,6 +112,11 @@ void Writer::end_chunks() {
   for (Chunk& chunk : chunks_) end_chunk(chunk);
 }
 
+std::uint64_t Writer::flush() {
+  end_chunks();
+  return at_;
+}
+
 void Writer::end_chunk(Chunk& chunk) {
   if (chunk.records.empty()) return;
   const std::string body = compressed(chunk.records);

@@ -136,10 +136,12 @@ void FrameRecorder::take_scans(bool all) {
   }
 }
 
+std::uint64_t FrameRecorder::flush() { return writer_ ? writer_->flush() : 0; }
+
 void FrameRecorder::close(const std::vector<std::uint8_t>& image) {
   take_scans(true);
   if (!writer_) return;
-  writer_->attach(kImageAttachment, "application/octet-stream", text_of(image), 0);
+  if (!image.empty()) writer_->attach(kImageAttachment, "application/octet-stream", text_of(image), 0);
   writer_->close();
 }
 

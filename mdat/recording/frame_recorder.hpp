@@ -38,7 +38,9 @@ class FrameRecorder final : public RunListener {
 
   void on_packets(TimeUs boundary_us, ConstBytes packets) override;
   void on_frame(const FlownFrame& frame) override;
-  // Ends the file, with the flight image that flew.
+  // All so far is in the file; returns its bytes, for who reads it while the run flies (mcap::IndexedFile). 0: there is no file.
+  std::uint64_t flush();
+  // Ends the file, with the flight image that flew; an empty one is left out.
   void close(const std::vector<std::uint8_t>& image);
 
  private:

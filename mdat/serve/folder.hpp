@@ -32,6 +32,7 @@ class Folder {
   explicit Folder(const std::filesystem::path& place);
 
   const std::filesystem::path& path() const { return folder_; }
+  bool takes_files() const { return single_.empty(); }  // new ones appear in the list
   // Looks again at what is there. By name.
   std::vector<RecordingEntry> list();
   // Opens it, where it is not open. Throws Refusal: 404 there is no such id, 422 it cannot be read.

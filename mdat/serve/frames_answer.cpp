@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "mdat/serve/answers.hpp"
 #include "mdat/serve/bits.hpp"
@@ -27,8 +28,9 @@ FrameNumber frame_number(const std::string& name) {
   return nullptr;
 }
 
-void put_column(const Shown& shown, const std::string& name, std::string& bytes) {
-  const std::vector<Frame>& frames = shown.recording->frames();
+void put_column(const Shown& shown, const std::string& name, std::size_t from, std::string& bytes) {
+  const std::vector<Frame>& all = shown.recording->frames();
+  const std::span<const Frame> frames = std::span(all).subspan(std::min(from, all.size()));
   if (name == "time_s") {
     for (const Frame& frame : frames) mcap::put(frame.time_s, bytes);
     return;
@@ -39,8 +41,8 @@ void put_column(const Shown& shown, const std::string& name, std::string& bytes)
   }
   const Value& value = value_in(shown, name);
   const std::vector<float>& column = shown.recording->column(value);
-  if (column.size() != frames.size()) throw Refusal{400, name + " is not told once a frame", "ask for its series"};
-  put_all(column, bytes);
+  if (column.size() != all.size()) throw Refusal{400, name + " is not told once a frame", "ask for its series"};
+  for (std::size_t i = from; i < column.size(); ++i) mcap::put(column[i], bytes);
 }
 
 const char* level_name(std::uint8_t level) {
@@ -66,8 +68,9 @@ Response frames_answer(const Shown& shown, const Target& target) {
   std::vector<std::string> names = list_in(target, "columns");
   if (names.empty()) names = {"time_s", "valid", "wrong", "mode"};
   if (names.size() > kMostColumns) throw Refusal{400, "too many columns", "ask for " + std::to_string(kMostColumns) + " at a time"};
+  const std::size_t from = count_in(target, "from", 0, std::numeric_limits<std::uint32_t>::max());
   std::string bytes;
-  for (const std::string& name : names) put_column(shown, name, bytes);
+  for (const std::string& name : names) put_column(shown, name, from, bytes);
   return binary_response(std::move(bytes));
 }
 

@@ -72,21 +72,73 @@ struct Recording::Building {
 
 Recording::Recording(const std::filesystem::path& file) : file_(file), cache_(file_) {
   for (const mcap::Damage& part : file_.damage()) damage_.push_back("byte " + std::to_string(part.at) + ": " + part.why);
+  look_at_head();
+  build();
+}
+
+Recording::Recording(const std::filesystem::path& file, std::uint64_t whole)
+    : file_(file, whole), cache_(file_), building_(std::make_shared<Building>()) {
+  tables_.emplace_back();
+  take_new_chunks();
+}
+
+Recording::Recording(const Recording& before, std::uint64_t whole)
+    : file_(before.file_),
+      cache_(file_),
+      truth_(before.truth_),
+      image_(before.image_),
+      frames_(before.frames_),
+      tables_(before.tables_),
+      events_(before.events_),
+      damage_(before.damage_),
+      building_(std::make_shared<Building>(*before.building_)),
+      taken_(before.taken_) {
+  file_.grow(whole);
+  take_new_chunks();
+}
+
+std::shared_ptr<const Recording> Recording::grown(std::uint64_t whole) const {
+  return std::shared_ptr<const Recording>(new Recording(*this, whole));
+}
+
+// Each boundary's messages are whole in the file: no report waits for its true pose longer than that.
+void Recording::take_new_chunks() {
+  look_at_head();
+  building_->topics = topics_read_whole();
+  for (; taken_ < file_.chunks().size(); ++taken_) {
+    const mcap::ChunkPlace& place = file_.chunks()[taken_];
+    const auto may_have = [&](const auto& topic) { return place.may_have(topic.first); };
+    if (!std::any_of(building_->topics.begin(), building_->topics.end(), may_have)) continue;
+    UnpackedChunk chunk;
+    chunk.index = taken_;
+    chunk.records = file_.records_of(place, chunk.why);
+    take_chunk(chunk, *building_);
+  }
+  judge_waiting(*building_, 0);
+  finish(*building_);
+}
+
+void Recording::look_at_head() {
   own_ = file_.metadata().count(kRecordingMetadata) > 0;
-  if (own_) image_ = flown_image(file_);
+  if (own_ && !image_) image_ = flown_image(file_);
   for (const auto& [id, channel] : file_.channels()) {
     const auto schema = file_.schemas().find(channel.schema);
     const bool cloud = schema != file_.schemas().end() && schema->second.name == "sensor_msgs/msg/PointCloud2";
     if (cloud && (cloud_topic_.empty() || channel.topic == "/scan")) cloud_topic_ = channel.topic;
   }
-  build();
+}
+
+std::map<std::uint16_t, std::string> Recording::topics_read_whole() const {
+  std::map<std::uint16_t, std::string> topics;
+  for (const auto& [id, channel] : file_.channels()) {
+    if (channel.topic == "/packets" || channel.topic == "/truth" || channel.topic == "/events") topics[id] = channel.topic;
+  }
+  return topics;
 }
 
 void Recording::build() {
   Building building;
-  for (const auto& [id, channel] : file_.channels()) {
-    if (channel.topic == "/packets" || channel.topic == "/truth" || channel.topic == "/events") building.topics[id] = channel.topic;
-  }
+  building.topics = topics_read_whole();
   tables_.emplace_back();
   std::vector<std::size_t> wanted;
   for (std::size_t i = 0; i < file_.chunks().size(); ++i) {
@@ -168,8 +220,8 @@ void Recording::finish(Building& building) {
   if (!frames_.empty()) values_ = fact_values(kFactsTable);
   if (!truth_) std::erase_if(values_, [](const Value& value) { return value.topic == "/truth"; });
   for (const auto& [row, columns] : building.packets) values_.insert(values_.end(), columns.values().begin(), columns.values().end());
-  if (!own_) find_other_poses();
-  if (frames_.empty()) find_frames_of_clouds();
+  if (!own_ && !building_) find_other_poses();
+  if (frames_.empty() && !building_) find_frames_of_clouds();
   for (std::size_t i = 0; i < values_.size(); ++i) by_id_[values_[i].id] = i;
   number_events();
 }

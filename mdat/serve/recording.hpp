@@ -41,6 +41,10 @@ class Recording {
  public:
   // Reads index, packets, true poses and events. Throws InputError where the file is no recording.
   explicit Recording(const std::filesystem::path& file);
+  // Of a run that flies: the first `whole` bytes of its file (mcap::IndexedFile).
+  Recording(const std::filesystem::path& file, std::uint64_t whole);
+  // The same later: a copy with what was added. Of a recording that the constructor above made.
+  std::shared_ptr<const Recording> grown(std::uint64_t whole) const;
 
   const mcap::IndexedFile& file() const { return file_; }
   bool own() const { return own_; }  // by mdat run --record
@@ -69,7 +73,11 @@ class Recording {
   struct UnpackedChunk;
   static std::vector<UnpackedChunk> unpacked_chunks(const mcap::IndexedFile& file, const std::vector<std::size_t>& wanted,
                                                     std::size_t first);
+  Recording(const Recording& before, std::uint64_t whole);
+  void look_at_head();
+  std::map<std::uint16_t, std::string> topics_read_whole() const;
   void build();
+  void take_new_chunks();
   void take_chunk(const UnpackedChunk& chunk, Building& building);
   void take(const mcap::Message& message, std::size_t chunk, Building& building);
   void take_packet(const mcap::Message& message, std::size_t chunk, Building& building);
@@ -93,6 +101,8 @@ class Recording {
   std::vector<RecordedEvent> events_;
   std::vector<StampedPose> other_poses_;  // ascending times
   std::vector<std::string> damage_;
+  std::shared_ptr<Building> building_;  // of a run that flies
+  std::size_t taken_ = 0;               // of its chunks
 };
 
 }  // namespace lasso::mdat::serve

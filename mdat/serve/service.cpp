@@ -5,6 +5,7 @@
 #include "mdat/common/errors.hpp"
 #include "mdat/common/version.hpp"
 #include "mdat/serve/first_run.hpp"
+#include "mdat/serve/live_answers.hpp"
 #include "mdat/source/mission_error.hpp"
 
 namespace lasso::mdat::serve {
@@ -68,13 +69,16 @@ SocketOpening Service::open(const Request& request) {
   checked.method = Method::kGet;
   opening.refusal = gate_.refuse(checked);
   if (!opening.refusal && !gate_.knows(checked)) opening.refusal = error_response(401, "this needs the token", "open the page first");
+  const bool live = options_.live != nullptr && request.target == "/api/live/socket";
+  if (!opening.refusal && live) return live_opening(*options_.live);
   if (!opening.refusal) opening.refusal = error_response(404, "no socket is served here", "see docs/serve.md");
   return opening;
 }
 
 Response Service::route(const Request& request, const Target& target) {
   const bool reads = request.method == Method::kGet || request.method == Method::kHead;
-  const bool begins = request.method == Method::kPost && target.path == "/api/recordings/first";
+  const bool acts = options_.live != nullptr && target.parts.size() == 3 && target.path.rfind("/api/live/", 0) == 0;
+  const bool begins = request.method == Method::kPost && (target.path == "/api/recordings/first" || acts);
   if (!reads && !begins) {
     Response response = error_response(405, "this cannot be done here", "use GET");
     response.headers = {{"Allow", "GET, HEAD"}};
@@ -88,6 +92,7 @@ Response Service::route_api(const Request& request, const Target& target) {
   const std::vector<std::string>& parts = target.parts;
   if (parts.size() == 2 && parts[1] == "about") return about();
   if (parts.size() == 2 && parts[1] == "recordings") return recordings();
+  if (parts.size() >= 2 && parts[1] == "live" && options_.live != nullptr) return live_answer(*options_.live, request, target);
   if (parts.size() == 3 && parts[1] == "jobs") return job(parts[2]);
   if (request.method == Method::kPost) return first();
   if (parts.size() >= 3 && parts[1] == "recordings") return route_recording(target);
@@ -96,7 +101,8 @@ Response Service::route_api(const Request& request, const Target& target) {
 
 Response Service::route_recording(const Target& target) {
   const std::string& id = target.parts[2];
-  const std::shared_ptr<const Recording> recording = folder_.recording(id);
+  std::shared_ptr<const Recording> recording = options_.live != nullptr ? options_.live->recording(id) : nullptr;
+  if (!recording) recording = folder_.recording(id);
   const Shown shown{id, recording->file().path().lexically_relative(folder_.path()).string(), recording};
   if (target.parts.size() == 3) return summary_answer(shown);
   if (target.parts.size() > 4 && target.parts[3] == "frames") return route_frame(shown, target);
@@ -124,7 +130,7 @@ Response Service::about() const {
   return json_response(text_of({{"version", kVersion},
                                 {"commit", options_.commit},
                                 {"folder", folder_.path().string()},
-                                {"features", Json::array({"replay"})},
+                                {"features", options_.live != nullptr ? Json::array({"replay", "live"}) : Json::array({"replay"})},
                                 {"first", first}}));
 }
 

@@ -9,6 +9,7 @@
 #include "mdat/serve/folder.hpp"
 #include "mdat/serve/gate.hpp"
 #include "mdat/serve/jobs.hpp"
+#include "mdat/serve/live.hpp"
 #include "mdat/serve/page_files.hpp"
 
 namespace lasso::mdat::serve {
@@ -16,6 +17,7 @@ namespace lasso::mdat::serve {
 struct ServiceOptions {
   std::string commit;               // of the program
   std::span<const PageFile> files;  // of the page
+  Live* live = nullptr;             // which outlives the service; null: nothing can be flown
 };
 
 class Service final : public Application {
@@ -24,7 +26,7 @@ class Service final : public Application {
   Service(const Gate& gate, Folder& folder, ServiceOptions options) : gate_(gate), folder_(folder), options_(std::move(options)) {}
 
   Response answer(const Request& request) override;
-  // No socket is served yet.
+  // That of /api/live/socket alone.
   SocketOpening open(const Request& request) override;
 
  private:

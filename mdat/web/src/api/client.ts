@@ -56,8 +56,10 @@ export async function getBinary(path: string, signal?: AbortSignal): Promise<Arr
   return (await ask(path, { signal: signal ?? null })).arrayBuffer();
 }
 
-export async function postJson<T>(path: string): Promise<T> {
-  return (await (await ask(path, { method: "POST" })).json()) as T;
+/** With a body the server takes it as JSON. */
+export async function postJson<T>(path: string, body?: object): Promise<T> {
+  const sent = body === undefined ? {} : { headers: { "Content-Type": "application/json" }, body: JSON.stringify(body) };
+  return (await (await ask(path, { method: "POST", ...sent })).json()) as T;
 }
 
 /** A path with the arguments that are not empty. */

@@ -150,3 +150,43 @@ export interface Job {
   error?: string;
   remedy?: string;
 }
+
+/** A mission that can be flown live. */
+export interface LiveMission {
+  id: string;
+  file: string;
+  shipped: boolean;
+}
+
+/** Only a scenario of one run can be watched. */
+export interface LiveScenario {
+  name: string;
+  frames: number;
+  runs: number;
+  seed: number;
+}
+
+/** The run that the server flies, or the last one; sent anew at each change. */
+export interface LiveState {
+  phase: "idle" | "preparing" | "running" | "over" | "failed";
+  paused: boolean;
+  /** Seconds of the run in one of the clock; 0: as fast as it goes. */
+  pace: number;
+  /** Of its recording. */
+  id: string;
+  name: string;
+  mission: string;
+  scenario: string;
+  command: string;
+  error: string | null;
+  /** That it will have. */
+  frames: number;
+  boundaries: number;
+  /** Of the recording so far. */
+  bytes: number;
+  packets: number;
+  missing: number;
+  rate_per_s: number;
+  /** Since the last packet. */
+  age_s: number | null;
+}

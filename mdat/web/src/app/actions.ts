@@ -1,4 +1,5 @@
 // What the keyboard does, as a list: the handler of keys and the page of help both read it.
+import { changePace, live, stepRun, toggleRun } from "../live/feed.ts";
 import { nextIndex, verdictOf } from "../log/frames.ts";
 import { CAMERAS, COLOURS } from "../views/scene3d/choice.ts";
 import { setting } from "./history.ts";
@@ -61,19 +62,35 @@ function focusOn(selector: string): void {
   document.querySelector<HTMLElement>(selector)?.focus();
 }
 
+/** At the newest frame of a live run the keys are the run's. */
+export function playOrPause(session: Session): void {
+  if (session.selection.following.peek()) toggleRun();
+  else session.player.toggle();
+}
+
+export function stepForward(session: Session): void {
+  if (session.selection.following.peek() && live.peek()?.paused === true) stepRun();
+  else session.player.step(1);
+}
+
+function changeSpeed(session: Session, steps: 1 | -1): void {
+  if (session.selection.following.peek()) changePace(steps);
+  else session.player.changeSpeed(steps);
+}
+
 const play: Action[] = [
-  { keys: ["Space"], label: "play or pause", group: "Play", run: (s) => s.player.toggle() },
-  { keys: ["ArrowRight"], label: "next frame", group: "Play", run: (s) => s.player.step(1) },
+  { keys: ["Space"], label: "play or pause; at the newest frame of a live run: the run", group: "Play", run: playOrPause },
+  { keys: ["ArrowRight"], label: "next frame; of a paused run it is flown", group: "Play", run: stepForward },
   { keys: ["ArrowLeft"], label: "frame before", group: "Play", run: (s) => s.player.step(-1) },
   { keys: ["Shift+ArrowRight"], label: "ten frames on", group: "Play", run: (s) => s.player.step(10) },
   { keys: ["Shift+ArrowLeft"], label: "ten frames back", group: "Play", run: (s) => s.player.step(-10) },
   { keys: ["j"], label: "play in reverse; again: faster", group: "Play", run: (s) => s.player.shuttle(-1) },
   { keys: ["k"], label: "pause", group: "Play", run: (s) => s.player.pause() },
   { keys: ["l"], label: "play; again: faster", group: "Play", run: (s) => s.player.shuttle(1) },
-  { keys: [","], label: "slower", group: "Play", run: (s) => s.player.changeSpeed(-1) },
-  { keys: ["."], label: "faster", group: "Play", run: (s) => s.player.changeSpeed(1) },
+  { keys: [","], label: "slower, also a live run", group: "Play", run: (s) => changeSpeed(s, -1) },
+  { keys: ["."], label: "faster, also a live run", group: "Play", run: (s) => changeSpeed(s, 1) },
   { keys: ["Home"], label: "first frame", group: "Play", run: (s) => s.player.goTo(0) },
-  { keys: ["End"], label: "last frame", group: "Play", run: (s) => s.player.goTo(s.log.frames - 1) },
+  { keys: ["End"], label: "last frame; of a live run: follow it", group: "Play", run: (s) => s.player.goTo(s.log.frames - 1) },
 ];
 
 const find: Action[] = [

@@ -2,6 +2,7 @@
 import { type Signal, signal } from "@preact/signals";
 import { createContext } from "preact";
 import { useContext } from "preact/hooks";
+import { isLive } from "../live/feed.ts";
 import { Events } from "../log/events.ts";
 import { Log } from "../log/log.ts";
 import { Player } from "../log/player.ts";
@@ -10,6 +11,17 @@ import { PlotChoice } from "../views/plots/choice.ts";
 import { SceneChoice } from "../views/scene3d/choice.ts";
 import { History } from "./history.ts";
 import { tell } from "./notices.ts";
+
+const WAIT_MS = 150;
+
+/** A run that has just begun has no frame yet: the first one is waited for. */
+async function openedWithFrames(id: string): Promise<Log> {
+  for (;;) {
+    const log = await Log.open(id);
+    if (log.frames > 0 || !isLive(id)) return log;
+    await new Promise((resolve) => setTimeout(resolve, WAIT_MS));
+  }
+}
 
 export class Session {
   readonly log: Log;
@@ -31,7 +43,10 @@ export class Session {
   }
 
   static async open(id: string): Promise<Session> {
-    const session = new Session(await Log.open(id));
+    const log = await openedWithFrames(id);
+    log.live.value = isLive(id);
+    const session = new Session(log);
+    if (log.live.peek()) session.selection.setFrame(log.frames - 1);
     session.events.load(session.log).catch(tell);
     return session;
   }

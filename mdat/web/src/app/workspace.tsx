@@ -5,6 +5,7 @@ import { sentence } from "../maths/scales.ts";
 import { IconButton } from "../parts/controls.tsx";
 import { Icon } from "../parts/icon.tsx";
 import { Splitter } from "../parts/splitter.tsx";
+import { LiveBar } from "../views/live/live_bar.tsx";
 import { CommonTools } from "./common_tools.tsx";
 import { openOverlay } from "./overlay.ts";
 import { remembered } from "./remembered.ts";
@@ -40,7 +41,7 @@ function useClock(session: Session): void {
     });
     const stopNoting = effect(() => {
       const frame = session.selection.frame.value;
-      if (!session.player.playing.value) noteFrame(session.log.info.id, frame);
+      if (!session.player.playing.value && !session.selection.following.value) noteFrame(session.log.info.id, frame);
     });
     return () => {
       cancelAnimationFrame(request);
@@ -66,7 +67,7 @@ function Head({ session }: { session: Session }) {
           info.scenario,
           info.sensor,
           info.seed === null ? "" : `seed ${info.seed}`,
-          `${info.frames} frames`,
+          `${session.log.frames} frames`,
         ]
           .filter(Boolean)
           .join(" · ")}
@@ -147,6 +148,7 @@ export function Workspace({ session }: { session: Session }) {
       <Head session={session} />
       <FirstSteps />
       <Damage session={session} />
+      <LiveBar session={session} />
       <main class="views">
         <div class="place place-main">
           <Views place="main" />

@@ -24,6 +24,19 @@ export class Events {
     this.total.value = total;
   }
 
+  /** Counts up when a live run has told more. */
+  readonly grown: Signal<number> = signal(0);
+
+  /** Asks for what a live run has added. */
+  async more(log: Log): Promise<void> {
+    if (this.total.peek() === null) return;
+    const page = await log.events({ from: this.all.peek().length, count: PAGE });
+    if (page.events.length === 0 || this.all.peek().length >= MOST) return;
+    this.all.value = this.all.peek().concat(page.events);
+    this.total.value = page.total;
+    ++this.grown.value;
+  }
+
   /** The nearest event before or after a frame; events of the frame itself do not count. */
   next(frame: number, direction: 1 | -1): LogEvent | null {
     const events = this.all.peek();

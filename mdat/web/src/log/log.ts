@@ -1,5 +1,6 @@
 // The model of one recording: what it is, the columns of all frames, and frames, scans, series and events as they are asked for.
 // It knows no view. What was asked for lately is kept, so that memory stays flat in long recordings.
+import { signal } from "@preact/signals";
 import { getBinary, getJson, withQuery } from "../api/client.ts";
 import { decodeColumns, decodeScan, decodeSeries, type Scan, type Series } from "../api/decode.ts";
 import type { EventPage, FrameInfo, RecordingInfo, Statistics } from "../api/types.ts";
@@ -17,6 +18,21 @@ export interface FrameColumns {
 
 const COLUMNS = ["time_s", "valid", "wrong", "mode"];
 const FRAMES_KEPT = 300;
+/** Of COLUMNS: a double and three floats. */
+const FRAME_BYTES = 20;
+
+function joined(a: FrameColumns, b: FrameColumns): FrameColumns {
+  const time_s = new Float64Array(a.time_s.length + b.time_s.length);
+  time_s.set(a.time_s);
+  time_s.set(b.time_s, a.time_s.length);
+  const float = (first: Float32Array, then: Float32Array) => {
+    const both = new Float32Array(first.length + then.length);
+    both.set(first);
+    both.set(then, first.length);
+    return both;
+  };
+  return { time_s, valid: float(a.valid, b.valid), wrong: float(a.wrong, b.wrong), mode: float(a.mode, b.mode) };
+}
 
 export interface EventQuery {
   from: number;
@@ -29,20 +45,48 @@ export class Log {
   private readonly frameCache = new Cache<FrameInfo>(FRAMES_KEPT);
   private readonly scanCache = new Cache<Scan>(FRAMES_KEPT);
   readonly info: RecordingInfo;
-  readonly columns: FrameColumns;
+  columns: FrameColumns;
+  /** Frames so far: views that read it, or `frames`, are shown anew when a live run has more. */
+  readonly count = signal(0);
+  /** A run that flies writes it. */
+  readonly live = signal(false);
 
   constructor(info: RecordingInfo, columns: FrameColumns) {
     this.info = info;
     this.columns = columns;
+    this.count.value = columns.time_s.length;
+  }
+
+  private static async ask(id: string): Promise<RecordingInfo> {
+    const told = await getJson<RecordingInfo>(`/api/recordings/${encodeURIComponent(id)}`);
+    return { ...told, values: told.values.map((value) => ({ ...value, unit: unitText(value.unit) })) };
   }
 
   static async open(id: string): Promise<Log> {
     const path = `/api/recordings/${encodeURIComponent(id)}`;
-    const told = await getJson<RecordingInfo>(path);
-    const info = { ...told, values: told.values.map((value) => ({ ...value, unit: unitText(value.unit) })) };
+    const info = await Log.ask(id);
     const bytes = info.frames === 0 ? new ArrayBuffer(0) : await getBinary(withQuery(`${path}/frames`, { columns: COLUMNS.join(",") }));
-    const columns = decodeColumns(bytes, COLUMNS, info.frames);
+    // A live run may have more by now than it had when it was asked what it is.
+    const columns = decodeColumns(bytes, COLUMNS, Math.floor(bytes.byteLength / FRAME_BYTES));
     return new Log(info, Object.fromEntries(columns) as unknown as FrameColumns);
+  }
+
+  /** The frames that a live run has added; none: null. */
+  async more(): Promise<FrameColumns | null> {
+    const bytes = await getBinary(withQuery(this.path("frames"), { columns: COLUMNS.join(","), from: this.columns.time_s.length }));
+    const added = Math.floor(bytes.byteLength / FRAME_BYTES);
+    if (added === 0) return null;
+    return Object.fromEntries(decodeColumns(bytes, COLUMNS, added)) as unknown as FrameColumns;
+  }
+
+  append(more: FrameColumns): void {
+    this.columns = joined(this.columns, more);
+    this.count.value = this.columns.time_s.length;
+  }
+
+  /** What the recording is, as it is now: topics and values come as a run tells them first. */
+  async askAgain(): Promise<void> {
+    Object.assign(this.info, await Log.ask(this.info.id));
   }
 
   private path(rest: string): string {
@@ -50,7 +94,7 @@ export class Log {
   }
 
   get frames(): number {
-    return this.columns.time_s.length;
+    return this.count.value;
   }
 
   get start_s(): number {

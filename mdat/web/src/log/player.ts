@@ -81,8 +81,8 @@ export class Player {
 
   /** What is played: the span while it is looped, else all. */
   private range(): Span {
-    const { span, loop, whole } = this.selection;
-    return loop.peek() && span.peek() !== null ? (span.peek() as Span) : whole;
+    const { span, loop, data } = this.selection;
+    return loop.peek() && span.peek() !== null ? (span.peek() as Span) : data;
   }
 }
 

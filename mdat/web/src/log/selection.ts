@@ -13,6 +13,15 @@ export function orderedSpan(a_s: number, b_s: number, limits: Span): Span {
   return { from_s: clamp(Math.min(a_s, b_s)), to_s: clamp(Math.max(a_s, b_s)) };
 }
 
+const LEAST_AHEAD_S = 5;
+
+/** The end of a time line that grows: in steps of five seconds, doubled as it gets longer. */
+export function horizonOf(from_s: number, to_s: number): number {
+  const length_s = Math.max(to_s - from_s, LEAST_AHEAD_S);
+  const step_s = LEAST_AHEAD_S * 2 ** Math.floor(Math.log2(length_s / LEAST_AHEAD_S));
+  return from_s + step_s * (Math.floor(Math.max(0, to_s - from_s) / step_s) + 1);
+}
+
 export class Selection {
   readonly log: Log;
   readonly time_s: Signal<number>;
@@ -27,6 +36,8 @@ export class Selection {
   readonly window: Signal<Span>;
   /** Iteration whose residuals are shown; null is the result. */
   readonly iteration: Signal<number | null> = signal(null);
+  /** The newest frame of a live run is selected, and the next one will be. */
+  readonly following: Signal<boolean> = signal(false);
 
   constructor(log: Log) {
     this.log = log;
@@ -35,16 +46,24 @@ export class Selection {
     this.window = signal(this.whole);
   }
 
-  get whole(): Span {
+  /** From the first frame to the last. */
+  get data(): Span {
     const { start_s, end_s } = this.log;
     return { from_s: start_s, to_s: end_s > start_s ? end_s : start_s + 1 };
   }
 
+  /** The data; while they grow, with room for the next frames, so that axes seldom change. */
+  get whole(): Span {
+    const { from_s, to_s } = this.data;
+    return this.log.live.value ? { from_s, to_s: horizonOf(from_s, to_s) } : { from_s, to_s };
+  }
+
   setTime(time_s: number): void {
-    const { from_s, to_s } = this.whole;
+    const { from_s, to_s } = this.data;
     batch(() => {
       const before = this.frame.peek();
       this.time_s.value = Math.min(to_s, Math.max(from_s, time_s));
+      this.following.value = this.log.live.peek() && this.time_s.peek() >= this.log.end_s;
       if (this.frame.peek() !== before) this.iteration.value = null;
       this.follow();
     });
@@ -54,6 +73,19 @@ export class Selection {
     const last = this.log.frames - 1;
     if (last < 0) return;
     this.setTime(this.log.columns.time_s[Math.min(last, Math.max(0, frame))]);
+  }
+
+  /** A live run has more frames, or has ended: a window that showed all still does. `change` brings them. */
+  grow(change: () => void): void {
+    const before = this.whole;
+    const shown = this.window.peek();
+    const all = shown.from_s <= before.from_s && shown.to_s >= before.to_s;
+    const following = this.following.peek();
+    batch(() => {
+      change();
+      if (all) this.setWindow(this.whole);
+      if (following) this.setFrame(this.log.frames - 1);
+    });
   }
 
   setSpan(span: Span | null): void {

@@ -29,12 +29,15 @@ const PATHS = {
   check: "M3 8.5l3.5 3.5L13 4.5",
   maximise: "M3 9.5V13h3.5M13 6.5V3H9.5M3 13l4-4M13 3L9 7",
   home: "M2.5 7.5L8 3l5.5 4.5M4 6.5V13h8V6.5",
+  stop: "M4 4h8v8H4z",
+  slower: "M8 4L4 8l4 4M12 4L8 8l4 4",
+  faster: "M4 4l4 4-4 4M8 4l4 4-4 4",
   jump: "M3 4l4 4-4 4M8 4l4 4-4 4M13.5 4v8",
 } as const;
 
 export type IconName = keyof typeof PATHS;
 
-const FILLED: IconName[] = ["play", "reverse", "stepForward", "stepBack", "first", "last"];
+const FILLED: IconName[] = ["play", "reverse", "stepForward", "stepBack", "first", "last", "stop"];
 
 export function Icon({ name }: { name: IconName }) {
   return (

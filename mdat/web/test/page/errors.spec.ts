@@ -22,7 +22,7 @@ test("a browser without the token is told to open the printed address", async ({
 test("an address of a recording that is not there leads back to the list", async ({ page }) => {
   await page.goto("/#/r/0123456789abcdef");
   await expect(page.getByRole("alert")).toBeVisible();
-  await expect(page.getByRole("heading", { level: 1 })).toHaveText("Replay");
+  await expect(page.getByRole("heading", { level: 1 })).toHaveText("Fly and replay");
 });
 
 test("a failure while a recording is open leaves the rest usable", async ({ page }) => {
@@ -46,5 +46,5 @@ test("a cut recording says what is missing, and shows the rest", async ({ page }
 test("a file that is no recording says so, and the list stays", async ({ page }) => {
   await page.getByText("letter.mcap").click();
   await expect(page.getByText(/letter\.mcap.*(no recording|not|MCAP)/).last()).toBeVisible();
-  await expect(page.getByRole("heading", { level: 1 })).toHaveText("Replay");
+  await expect(page.getByRole("heading", { level: 1 })).toHaveText("Fly and replay");
 });

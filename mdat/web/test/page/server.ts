@@ -1,4 +1,4 @@
-// Before all tests: flies three short runs, records them, and starts mdat serve on them and on an empty folder. Ends both after the tests.
+// Before all tests: flies three short runs, records them, and starts mdat serve on them and on two empty folders. Ends all after the tests.
 import { type ChildProcess, execFileSync, spawn } from "node:child_process";
 import { copyFileSync, mkdirSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
 import { join, resolve } from "node:path";
@@ -51,9 +51,14 @@ export default async function setUp(): Promise<() => void> {
   makeRecordings(recordings);
   rmSync(empty, { recursive: true, force: true });
   mkdirSync(empty, { recursive: true });
-  const servers = [await serve(recordings), await serve(empty)];
+  const live = join(OUT, "live");
+  rmSync(live, { recursive: true, force: true });
+  mkdirSync(live, { recursive: true });
+  const servers = [await serve(recordings), await serve(empty), await serve(live)];
   process.env.PAGE_ADDRESS = servers[0].address;
   process.env.PAGE_EMPTY_ADDRESS = servers[1].address;
+  process.env.PAGE_LIVE_ADDRESS = servers[2].address;
+  process.env.PAGE_LIVE_PID = String(servers[2].process.pid);
   return () => {
     for (const server of servers) server.process.kill("SIGINT");
   };

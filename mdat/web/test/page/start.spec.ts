@@ -26,7 +26,7 @@ test("recordings are listed with size and time, and opened by a click", async ({
   await drawn(page, 0);
   await expect(page.getByRole("heading", { level: 1 })).toHaveText("spin.mcap");
   await page.goBack();
-  await expect(page.getByRole("heading", { level: 1 })).toHaveText("Replay");
+  await expect(page.getByRole("heading", { level: 1 })).toHaveText("Fly and replay");
 });
 
 test("the first load is small", async ({ page, context }) => {

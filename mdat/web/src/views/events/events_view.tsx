@@ -47,7 +47,7 @@ function useListing(session: Session, level: Signal<string>, first: number, last
       clearTimeout(timer);
       abort.abort();
     };
-  }, [session, filter, level.value]);
+  }, [session, filter, level.value, session.events.grown.value]);
   useEffect(() => {
     if (listing.peek() === null) return;
     for (const page of pagesOf({ first, last })) if (!asked.current.has(page)) ask(page).then((answer) => take(page, answer, false), tell);

@@ -106,7 +106,7 @@ class SceneRunner {
   /** Asks for a frame and its scan; while they are on their way the picture stays. */
   private load(index: number, iteration: number | null): void {
     const { log } = this.session;
-    if (log.frames === 0) return;
+    if (log.count.peek() === 0) return;
     const both = async (): Promise<Shown> => {
       const [frame, scan] = await Promise.all([log.frame(index), log.scan(index, iteration ?? undefined)]);
       return { frame, scan };

@@ -9,6 +9,7 @@ import { routeTo } from "../../app/route.ts";
 import { bytesText } from "../../maths/scales.ts";
 import { CommandText, Empty } from "../../parts/controls.tsx";
 import { Icon } from "../../parts/icon.tsx";
+import { Fly } from "../live/fly.tsx";
 import { makeFirst, making } from "./first.ts";
 
 const ROSETTE_RAYS = 1024;
@@ -147,8 +148,9 @@ export function Start() {
         </div>
       </header>
       <main class="start-body" data-view="start">
-        <h1>Replay</h1>
+        <h1>Fly and replay</h1>
         <First about={about.value} />
+        <Fly />
         <section aria-label="Recordings">
           <h2>Recordings {about.value?.folder ? <small>in {about.value.folder}</small> : null}</h2>
           {entries.value === null ? (

@@ -1,6 +1,6 @@
 // The time line of the whole recording, and what plays it.
 import { useEffect, useMemo, useRef } from "preact/hooks";
-import { jumpToEvent, jumpToVerdict, markSpan, toggleLoop } from "../../app/actions.ts";
+import { jumpToEvent, jumpToVerdict, markSpan, playOrPause, stepForward, toggleLoop } from "../../app/actions.ts";
 import { followPointer } from "../../app/pointer.ts";
 import { type Session, useSession } from "../../app/session.ts";
 import { cssValue, theme } from "../../app/theme.ts";
@@ -29,7 +29,7 @@ function Track({ session }: { session: Session }) {
   const canvas = useRef<HTMLCanvasElement>(null);
   const size = useSize(box);
   const { selection, log, events } = session;
-  const modeRuns = useMemo(() => runsOf(log.columns.mode), [log]);
+  const modeRuns = useMemo(() => runsOf(log.columns.mode), [log, log.frames]);
   const { width, height } = size.value;
   const window = selection.window.value;
   useEffect(() => {
@@ -41,7 +41,7 @@ function Track({ session }: { session: Session }) {
       size.value,
       textScale(),
     );
-  }, [width, height, window, events.all.value, theme.value]);
+  }, [width, height, window, events.all.value, theme.value, log.frames]);
   useEffect(() => {
     const element = box.current!;
     const timeAt = (event: MouseEvent) => {
@@ -109,11 +109,11 @@ function Transport({ session }: { session: Session }) {
         class="play-button"
         title={`${forward ? "Pause" : "Play"} (Space)`}
         aria-label={forward ? "Pause" : "Play"}
-        onClick={() => (forward ? player.pause() : player.play(1))}
+        onClick={() => (forward ? player.pause() : playOrPause(session))}
       >
         <Icon name={forward ? "pause" : "play"} />
       </button>
-      <IconButton icon="stepForward" label="Next frame" stroke="ArrowRight" onClick={() => player.step(1)} />
+      <IconButton icon="stepForward" label="Next frame" stroke="ArrowRight" onClick={() => stepForward(session)} />
       <IconButton icon="last" label="Last frame" stroke="End" onClick={() => player.goTo(session.log.frames - 1)} />
       <select
         aria-label="Speed"

@@ -1,0 +1,35 @@
+// What is to be flown: a mission of the list, one of its scenarios, a seed, a pace; and the command that does the same.
+import type { LiveMission, LiveScenario } from "../../api/types.ts";
+
+const MOST_SEED = 4294967295;
+
+/** A word of a shell: quoted where it has other signs than these. */
+function shellWord(text: string): string {
+  return /^[\w@%+=:,./-]+$/.test(text) ? text : `'${text.replace(/'/g, "'\\''")}'`;
+}
+
+/** The seed that was typed; null: the scenario's own; undefined: it is none. */
+export function seedOf(text: string): number | null | undefined {
+  if (text.trim() === "") return null;
+  const seed = Number(text);
+  return Number.isInteger(seed) && seed >= 0 && seed <= MOST_SEED ? seed : undefined;
+}
+
+export function commandOf(mission: LiveMission, scenario: string, seed: number | null, pace: number): string {
+  const stem = mission.id.replace(/^.*\//, "").replace(/\.toml$/, "");
+  const words = ["mdat", "run", mission.file, "--scenario", scenario];
+  if (seed !== null) words.push("--seed", String(seed));
+  words.push("--record", `${stem}-${scenario}-live.mcap`, "--live", "--pace", String(pace));
+  return words.map(shellWord).join(" ");
+}
+
+/** The mission to offer first: that of the first look, where it is there. */
+export function firstMission(missions: LiveMission[]): string {
+  return missions.find((mission) => mission.id === "hubble_tenth")?.id ?? missions[0]?.id ?? "";
+}
+
+/** The scenario to offer first: "spin" shows the most, else the first that can be watched. */
+export function firstScenario(scenarios: LiveScenario[]): string {
+  const watched = scenarios.filter((scenario) => scenario.runs === 1);
+  return watched.find((scenario) => scenario.name === "spin")?.name ?? watched[0]?.name ?? "";
+}
