@@ -64,11 +64,13 @@ export async function startFeed(): Promise<void> {
   listen();
 }
 
-async function act(what: string, body: object = {}): Promise<void> {
+/** The answer is not shown: the socket may have told a later state before it came. Null where it was refused, which is told. */
+async function act(what: string, body: object = {}): Promise<LiveState | null> {
   try {
-    take(await postJson<LiveState>(`/api/live/${what}`, body));
+    return await postJson<LiveState>(`/api/live/${what}`, body);
   } catch (error) {
     tell(error);
+    return null;
   }
 }
 
@@ -79,9 +81,9 @@ export interface RunOrder {
   pace: number;
 }
 
-export const startRun = (order: RunOrder): Promise<void> => act("start", order);
-export const stopRun = (): Promise<void> => act("stop");
-export const stepRun = (): Promise<void> => act("step");
-export const setPace = (pace: number): Promise<void> => act("pace", { pace });
-export const toggleRun = (): Promise<void> => act(live.peek()?.paused === true ? "resume" : "pause");
-export const changePace = (steps: 1 | -1): Promise<void> => setPace(nextPace(live.peek()?.pace ?? 1, steps));
+export const startRun = (order: RunOrder): Promise<LiveState | null> => act("start", order);
+export const stopRun = (): Promise<LiveState | null> => act("stop");
+export const stepRun = (): Promise<LiveState | null> => act("step");
+export const setPace = (pace: number): Promise<LiveState | null> => act("pace", { pace });
+export const toggleRun = (): Promise<LiveState | null> => act(live.peek()?.paused === true ? "resume" : "pause");
+export const changePace = (steps: 1 | -1): Promise<LiveState | null> => setPace(nextPace(live.peek()?.pace ?? 1, steps));

@@ -21,9 +21,11 @@ function openWanted(state: LiveState): void {
 }
 
 async function begin(mission: string, scenario: string, seed: number | null, pace: number): Promise<void> {
-  await startRun({ mission, scenario, seed, pace });
+  const begun = await startRun({ mission, scenario, seed, pace });
+  if (begun === null) return;
+  wanted.id = begun.id;
   const state = live.peek();
-  if (state !== null && isUnderWay(state)) wanted.id = state.id;
+  if (state !== null) openWanted(state);
 }
 
 function useScenarios(mission: string): Signal<LiveScenario[] | null> {
