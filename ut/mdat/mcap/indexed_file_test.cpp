@@ -78,6 +78,35 @@ TEST_F(McapIndexedFile, ACutFileIsWalked) {
   }
 }
 
+// Read while it is written, after each flush: what is new is added, and what is not whole yet is no damage.
+TEST_F(McapIndexedFile, AFileThatIsWrittenGrows) {
+  VERIFIES("LASSO-WEB-022~1");
+  Writer writer(file_, "ros2", "test");
+  const std::uint16_t schema = writer.add_schema("a/msg/B", "ros2msg", "int32 x");
+  const std::uint16_t small = writer.add_channel("/small", schema, "cdr");
+  const std::uint16_t large = writer.add_channel("/large", schema, "cdr", {}, Bulk::kLarge);
+  IndexedFile file(file_, writer.flush());
+  EXPECT_TRUE(file.chunks().empty());
+  std::vector<std::pair<std::string, std::string>> written;
+  for (std::uint64_t i = 0; i < 6; ++i) {
+    writer.write(small, i, "small " + std::to_string(i));
+    written.emplace_back("/small", "small " + std::to_string(i));
+    if (i % 2 == 1) {
+      writer.write(large, i, "large " + std::to_string(i));
+      written.emplace_back("/large", "large " + std::to_string(i));
+    }
+    file.grow(writer.flush());
+    EXPECT_EQ(messages_of(file), written) << i;
+    EXPECT_TRUE(file.damage().empty());
+  }
+  EXPECT_EQ(file.channel_of("/large"), std::optional(large));
+  const std::uint64_t whole = file.size();
+  file.grow(0);
+  EXPECT_EQ(file.size(), whole);
+  writer.close();
+  EXPECT_EQ(messages_of(IndexedFile(file_)), written);
+}
+
 // A byte that is damaged: no crash, no message that is another, nothing beyond the file is asked for.
 TEST_F(McapIndexedFile, DamageChangesNoMessage) {
   VERIFIES("LASSO-WEB-015~1");

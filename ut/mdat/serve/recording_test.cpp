@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
+
 #include "mdat/common/errors.hpp"
 #include "ut/mdat/serve/small_recording.hpp"
 #include "ut/support/verifies.hpp"
@@ -28,6 +30,52 @@ TEST(OpenRecording, EachReportIsAFrame) {
   ASSERT_NE(inliers, nullptr);
   EXPECT_EQ(recording.column(*inliers), (std::vector<float>{290, 291, 7, 293, 294, 295}));
   EXPECT_EQ(recording.value("pose.nothing"), nullptr);
+}
+
+// Where a file that is being written may be looked at: at the ends of records, but not between a chunk and its indexes.
+std::vector<std::uint64_t> record_ends(const std::string& bytes) {
+  constexpr std::size_t kMagicBytes = 8, kHead = 9;
+  constexpr char kMessageIndex = 7;
+  std::vector<std::uint64_t> ends;
+  for (std::size_t at = kMagicBytes; at + kHead <= bytes.size();) {
+    std::uint64_t length = 0;
+    std::memcpy(&length, bytes.data() + at + 1, sizeof length);
+    if (length > bytes.size() - at - kHead) break;
+    at += kHead + length;
+    if (at < bytes.size() && bytes[at] != kMessageIndex) ends.push_back(at);
+  }
+  return ends;
+}
+
+// Whatever was known before stays, and in the end all is known: as by the file opened whole.
+TEST(OpenRecording, OneThatIsWrittenGrows) {
+  VERIFIES("LASSO-WEB-022~1");
+  const TestFolder folder;
+  const std::filesystem::path file = SmallRecording{}.write(folder.path() / "a.mcap");
+  const Recording whole(file);
+  const std::vector<std::uint64_t> ends = record_ends(bytes_of_file(file));
+  auto growing = std::make_shared<const Recording>(file, ends.front());
+  EXPECT_TRUE(growing->frames().empty());
+  for (const std::uint64_t end : ends) {
+    const std::shared_ptr<const Recording> before = growing;
+    const std::size_t frames = before->frames().size();
+    growing = before->grown(end);
+    EXPECT_EQ(before->frames().size(), frames);
+    EXPECT_GE(growing->frames().size(), frames);
+    EXPECT_TRUE(growing->damage().empty());
+  }
+  ASSERT_EQ(growing->frames().size(), whole.frames().size());
+  EXPECT_EQ(growing->has_truth(), whole.has_truth());
+  EXPECT_EQ(growing->own(), whole.own());
+  EXPECT_NE(growing->image(), nullptr);
+  EXPECT_EQ(growing->events().size(), whole.events().size());
+  ASSERT_EQ(growing->values().size(), whole.values().size());
+  for (std::size_t i = 0; i < whole.values().size(); ++i) EXPECT_EQ(growing->values()[i].id, whole.values()[i].id);
+  for (std::size_t n = 0; n < whole.frames().size(); ++n) {
+    EXPECT_EQ(growing->frames()[n].wrong, whole.frames()[n].wrong) << n;
+    EXPECT_EQ(growing->told(n).value().inliers, whole.told(n).value().inliers) << n;
+    EXPECT_EQ(growing->message(n, "/scan"), whole.message(n, "/scan")) << n;
+  }
 }
 
 TEST(OpenRecording, EventsBelongToTheLastFrameBeforeThem) {
