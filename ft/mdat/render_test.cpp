@@ -124,7 +124,7 @@ TEST(Render, RefusesWhatItCannotDraw) {
            {"--exposure 0", "--exposure"},
            {"--range 9", "--range 9: scenario paper has the ranges 2, 3, 4, 5, 6, 7 m"},
            {"--scenario papr", "papr"},
-           {"--camera left", "--camera left: the mission's sensors are laser_camera"},
+           {"--camera left", "--camera left: the mission's sensors and cameras are laser_camera"},
            {"--material body=gold", "--material body=gold: no such material"},
            {"--material wing=mli", "--material wing=mli: the target has no such part"},
            {"--as depth16 --scan", "--as depth16"},
