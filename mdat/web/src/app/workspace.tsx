@@ -67,7 +67,7 @@ function Head({ session }: { session: Session }) {
           info.scenario,
           info.sensor,
           info.seed === null ? "" : `seed ${info.seed}`,
-          `${session.log.frames} frames`,
+          session.log.frames === 1 ? "1 frame" : `${session.log.frames} frames`,
         ]
           .filter(Boolean)
           .join(" · ")}

@@ -10,7 +10,7 @@ const AGAIN_MS = 1000;
 export const PACES: readonly number[] = [0.1, 0.25, 0.5, 1, 2, 4, 8, 16, 0];
 
 export function paceText(pace: number): string {
-  return pace === 0 ? "as fast as it goes" : `${pace} ×`;
+  return pace === 0 ? "no limit" : `${pace} ×`;
 }
 
 /** The next pace of the list: the unlimited one is the fastest. */
