@@ -39,7 +39,8 @@ class Writer {
   void write(const Message& message);
   void attach(const std::string& name, const std::string& media_type, std::string_view data, std::uint64_t time_ns);
   void add_metadata(const std::string& name, const Text& content);
-  // Ends the chunks, so that who reads the file meanwhile finds all messages so far. Returns the bytes of the file, which end with a record.
+  // Ends the chunks, so that who reads the file meanwhile finds all messages so far. Returns the bytes of the file, which end with a
+  // record.
   std::uint64_t flush();
   // Ends the file. Nothing is written after it.
   void close();

@@ -64,6 +64,7 @@ void read_calibration(const std::string& key, const std::string& written, Sensor
 
 // A turn beyond which nothing of what the component plans, in the sensor frame, may be in its field.
 void check_boresight(const FurtherSensor& sensor, const std::string& key, MissionSource& source, ProblemList& problems) {
+  if (!sensor.T_sensor_own) return;
   const double turn_rad = std::acos(std::clamp(rotate(sensor.T_sensor_own->q, Vec3::UnitZ()).z(), -1.0, 1.0));
   const double limit_rad = std::min(sensor.parameters.fov_half_x_rad, sensor.parameters.fov_half_y_rad);
   if (turn_rad < limit_rad) return;

@@ -39,7 +39,7 @@ std::unique_ptr<OwnView> own_view(const CaseSetup& setup, const FurtherSensor& s
 
 SensorPlace place_of(const CaseSetup& setup, const FurtherSensor& sensor, const std::shared_ptr<MeasuredDepth>& depth) {
   SensorPlace place{own_view(setup, sensor), std::nullopt, depth};
-  if (place.view) place.mounting = {*sensor.T_sensor_own, sensor.parameters.fov_half_x_rad, sensor.parameters.fov_half_y_rad};
+  if (sensor.T_sensor_own) place.mounting = {*sensor.T_sensor_own, sensor.parameters.fov_half_x_rad, sensor.parameters.fov_half_y_rad};
   return place;
 }
 

@@ -71,7 +71,7 @@ std::shared_ptr<const SceneRun> scene_run(const Scenario& scenario, double range
 
 std::shared_ptr<const SceneRun> scene_run_from(const Scenario& scenario, double range_m, DurationUs period_us,
                                                const FurtherSensor& sensor) {
-  if (scenario.scene == nullptr) return alone_before(*sensor.T_sensor_own, ranged_motion(scenario, range_m, period_us));
+  if (scenario.scene == nullptr) return alone_before(sensor.T_sensor_own, ranged_motion(scenario, range_m, period_us));
   auto run = std::make_shared<SceneRun>(*scenario.scene);
   run->sensor = run->tree.need(sensor.node);
   return run;

@@ -61,6 +61,15 @@ CompiledMission compiled(const FlightOrder& order) {
   return compile_mission(std::move(input), ModelCache::of_user());
 }
 
+bool flown_to_its_end(const CompiledMission& mission, const SimulationOptions& options) {
+  try {
+    (void)simulate(mission, options);
+    return true;
+  } catch (const Stopped&) {
+    return false;
+  }
+}
+
 }  // namespace
 
 void fly(const FlightOrder& order, const std::string& commit, Pacing& pacing, const FlightTold& told) {
@@ -71,10 +80,7 @@ void fly(const FlightOrder& order, const std::string& commit, Pacing& pacing, co
   Watched watched(recorder, pacing, told);
   options.recorders = {{scans, &watched}};
   told.begun(static_cast<std::uint32_t>(scenario_of(mission.source, order.scenario).frames));
-  try {
-    simulate(mission, options);
-  } catch (const Stopped&) {
-  }
+  (void)flown_to_its_end(mission, options);  // of one that was stopped the recording is whole as well
   recorder.close({});
 }
 

@@ -66,10 +66,10 @@ std::vector<LiveMission> Live::missions() const {
 }
 
 LiveMission Live::mission(const std::string& id) const {
-  for (LiveMission& one : missions()) {
-    if (one.id == id) return std::move(one);
-  }
-  throw Refusal{404, "there is no mission " + id.substr(0, 80), "choose one of the list"};
+  const std::vector<LiveMission> all = missions();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const LiveMission& one) { return one.id == id; });
+  if (found == all.end()) throw Refusal{404, "there is no mission " + id.substr(0, 80), "choose one of the list"};
+  return *found;
 }
 
 void Live::start(const LiveOrder& order) {
