@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "bsp/posix/urgency.hpp"
+
 namespace lasso::posix {
 namespace {
 
@@ -18,10 +20,16 @@ LinePump::~LinePump() {
   thread_.join();
 }
 
+// A line whose ring is full is not waited for: it would answer at once, again and again.
+void LinePump::wait() {
+  pollfd state{line_.descriptor(), rings_.from_camera.room() > 0 ? static_cast<short>(POLLIN) : short{0}, 0};
+  (void)poll(&state, 1, kWaitMs);
+}
+
 void LinePump::work() {
+  const Urgency urgency(UrgencyLevel::kLine);
   while (!ending_ && line_.is_open()) {
-    pollfd state{line_.descriptor(), POLLIN, 0};
-    (void)poll(&state, 1, kWaitMs);
+    wait();
     receive();
     send();
   }

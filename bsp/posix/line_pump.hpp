@@ -21,6 +21,7 @@ class LinePump {
 
  private:
   void work();
+  void wait();
   void receive();
   void send();
 

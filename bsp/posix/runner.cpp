@@ -26,6 +26,7 @@ void sleep_until(std::int64_t monotonic_ns) {
 }  // namespace
 
 Runner::Runner(Component& component, Pace pace) : component_(component), pace_(pace) {
+  if (pace_ == Pace::kRealTime) urgency_.emplace(UrgencyLevel::kSlots);
   if (pace_ != Pace::kAlone) worker_ = std::thread(&Runner::work, this);
 }
 
@@ -117,6 +118,8 @@ Runner::Measurement Runner::take_measurement() {
 }
 
 void Runner::work() {
+  std::optional<Urgency> urgency;
+  if (pace_ == Pace::kRealTime) urgency.emplace(UrgencyLevel::kEstimation);
   std::unique_lock<std::mutex> lock(mutex_);
   while (true) {
     changed_.wait(lock, [this] { return requested_ || ending_; });

@@ -8,6 +8,7 @@
 #include <optional>
 #include <thread>
 
+#include "bsp/posix/urgency.hpp"
 #include "fsw/core/span.hpp"
 #include "fsw/core/time.hpp"
 #include "fsw/exec/component.hpp"
@@ -20,7 +21,7 @@ enum class Pace : std::uint8_t {
   kLockstep,  // simulated time, as fast as possible; the worker is waited for at each boundary: never an overrun
   kAlone,     // the same without a worker: where other flights fill the other cores, which no worker then waits for
   kPaced,  // the same, but no faster than the clock: for a simulated world with an operator. A late machine stretches time, loses nothing
-  kRealTime,  // absolute sleeps, overruns are real: for a world with a clock of its own
+  kRealTime,  // absolute sleeps, overruns are real: for a world with a clock of its own. Both threads are urgent (Urgency)
 };
 
 // What one call of run_frame() saw.
@@ -36,7 +37,8 @@ struct FrameRecord {
 
 class Runner {
  public:
-  // `component` has its image and has begun. By the clock, boundary 0 is the moment of the first run_frame().
+  // `component` has its image and has begun. By the clock, boundary 0 is the moment of the first run_frame(). All calls, the destructor's,
+  // too, are of one thread.
   explicit Runner(Component& component, Pace pace = Pace::kLockstep);
   ~Runner();  // waits for a running estimate
   Runner(const Runner&) = delete;
@@ -66,6 +68,7 @@ class Runner {
 
   Component& component_;
   Pace pace_;
+  std::optional<Urgency> urgency_;  // of the caller
   ByteLink* link_ = nullptr;
   std::optional<LinkPump> pump_;
   std::int64_t clock_offset_ns_ = 0;  // monotonic clock at component time 0

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <thread>
 
+#include "bsp/posix/urgency.hpp"
 #include "mdat/common/errors.hpp"
 
 namespace lasso::mdat {
@@ -77,6 +78,7 @@ class Session {
                 camera_for(setup, scanner_model(setup.scenario, setup.parameters, setup.noise), 0), awaited(setup.others, begin_)) {}
 
   void run(const std::atomic<bool>& ending) {
+    const posix::Urgency urgency(posix::UrgencyLevel::kLine);  // its samples' time is when it hears the command
     const Clock::time_point begin = Clock::now();
     while (line_.is_open() && !ending) {
       step(kEpochUs + std::chrono::duration_cast<std::chrono::microseconds>(Clock::now() - begin).count());
