@@ -176,5 +176,59 @@ TEST(Compare, RefusesWhatIsNoResult) {
   EXPECT_EQ(work.mdat("compare a missions").err, "mdat: missions/results.json: no such file\n");
 }
 
+// What is valid is written, with its comments; what is not leaves the file as it was.
+TEST(MissionSet, WritesWhatIsValidAndNothingElse) {
+  VERIFIES("LASSO-GND-146~1");
+  const WorkFolder work;
+  const std::string before = work.read("missions/test.toml");
+  const std::pair<const char*, const char*> refused[] = {
+      {"scan.pionts=512", "mdat: mission set: scan.pionts: unknown key; did you mean scan.points?"},
+      {"scan.points=512 scan.points=5", "mdat: mission set: scan.points: 5: out of range"},
+      {"sensor.range_min_m=20", "mdat: mission set: sensor.range_m"},
+      {"scan=5", "scan: 5: wrong type: expected a table [scan]"}};
+  for (const auto& [settings, expected] : refused) {
+    const Answer answer = work.mdat("mission set missions/test.toml " + std::string(settings));
+    EXPECT_EQ(answer.exit_code, 2) << settings;
+    EXPECT_NE(answer.err.find(expected), std::string::npos) << answer.err;
+    EXPECT_EQ(work.read("missions/test.toml"), before) << settings;
+  }
+  EXPECT_NE(work.mdat("mission set missions/test.toml scan.points=512 --dry-run").out.find(": would change so\n"), std::string::npos);
+  EXPECT_EQ(work.read("missions/test.toml"), before);
+  const Answer done = work.mdat("mission set missions/test.toml scan.points=512");
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_NE(done.out.find(": +points = 512"), std::string::npos) << done.out;
+  EXPECT_NE(work.mdat("mission info missions/test.toml").out.find("scan.points                              512"), std::string::npos);
+  EXPECT_NE(work.mdat("mission set missions/test.toml scan.points=512").out.find("says so already"), std::string::npos);
+}
+
+TEST(MissionDiff, OfMissionsAndImagesIsInUnits) {
+  VERIFIES("LASSO-GND-148~1");
+  const WorkFolder work;
+  work.write("missions/other.toml", work.read("missions/test.toml"));
+  const Answer set = work.mdat(
+      "mission set missions/other.toml sensor.sigma0_m=0.00002 scenario.spin.frames=9 scenario.spin.override.tracking.coast_frames=7");
+  ASSERT_EQ(set.exit_code, 0) << set.err;
+  const Answer diff = work.mdat("mission diff missions/test.toml missions/other.toml");
+  EXPECT_EQ(lines_of(diff.out).size(), 4U) << diff.out;
+  for (const char* expected : {"2e-05 m", "scenario.spin.frames", "scenario.spin.override.tracking.coast_frames  -"})
+    EXPECT_NE(diff.out.find(expected), std::string::npos) << diff.out;
+  ASSERT_EQ(work.mdat("mission compile missions/test.toml -o a.3dli").exit_code, 0);
+  EXPECT_EQ(lines_of(work.mdat("mission diff missions/test.toml a.3dli").out).front(), "no value differs");
+  EXPECT_NE(work.mdat("mission diff a.3dli missions/other.toml").out.find("2e-05 m"), std::string::npos);
+  EXPECT_EQ(work.mdat("mission diff a.3dli missions/none.toml").exit_code, 2);
+}
+
+TEST(MissionExplain, SaysWhereAValueCameFrom) {
+  VERIFIES("LASSO-GND-147~1");
+  const WorkFolder work;
+  const Answer answer = work.mdat("mission explain scan.points missions/test.toml");
+  EXPECT_EQ(answer.exit_code, 0) << answer.err;
+  for (const char* expected : {"rays of one scan", "a whole number from 64 to 4096", "1024  (test.toml:"})
+    EXPECT_NE(answer.out.find(expected), std::string::npos) << answer.out;
+  const Answer unknown = work.mdat("mission explain points");
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_NE(unknown.err.find("did you mean scan.points?"), std::string::npos) << unknown.err;
+}
+
 }  // namespace
 }  // namespace lasso::ft

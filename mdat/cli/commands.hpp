@@ -8,6 +8,7 @@
 namespace lasso::mdat {
 
 void add_mission_commands(CLI::App& app);
+void add_mission_edits(CLI::App& mission);  // of that one
 void add_run_command(CLI::App& app);
 void add_campaign_command(CLI::App& app);
 void add_lcs_sim_command(CLI::App& app);

@@ -259,7 +259,7 @@ void add_new_command(CLI::App& mission, const std::shared_ptr<MissionOptions>& o
 
 void add_mission_commands(CLI::App& app) {
   const auto options = std::make_shared<MissionOptions>();
-  CLI::App* mission = app.add_subcommand("mission", "check, compile, show or begin a mission");
+  CLI::App* mission = app.add_subcommand("mission", "check, compile, show, change or begin a mission");
   mission->require_subcommand(1);
 
   CLI::App* check_command = add(*mission, "check", "check a mission (.toml) and its target, or a flight image (.3dli)", check, options);
@@ -278,6 +278,7 @@ void add_mission_commands(CLI::App& app) {
   info_command->add_option("MISSION", options->file, "mission file or flight image")->required();
   info_command->add_option("--scenario", options->scenario, "with this scenario's overrides of parameters");
   add_new_command(*mission, options);
+  add_mission_edits(*mission);
 }
 
 }  // namespace lasso::mdat

@@ -14,16 +14,6 @@ constexpr std::size_t kSensorPrefix = sizeof("sensor.") - 1;
 constexpr std::size_t kLongestValue = 60;
 constexpr std::size_t kMostNames = 4;  // of scenarios, in a line
 
-const Rules& all_rules() {
-  static const Rules rules = [] {
-    Rules all;
-    for (const Rules& some : {scan_rules(), estimation_rules(), sensor_rules(), scenario_rules(), scene_rules(), target_rules()})
-      all.insert(all.end(), some.begin(), some.end());
-    return all;
-  }();
-  return rules;
-}
-
 bool is_of_sensor(const std::string& key) { return key.rfind("sensor.", 0) == 0; }
 
 bool is_of_scenario(const std::string& key) { return key.find('.') == std::string::npos; }
@@ -220,6 +210,16 @@ TargetSize target_size(const Mesh& mesh) {
 }
 
 }  // namespace
+
+const Rules& all_rules() {
+  static const Rules rules = [] {
+    Rules all;
+    for (const Rules& some : {scan_rules(), estimation_rules(), sensor_rules(), scenario_rules(), scene_rules(), target_rules()})
+      all.insert(all.end(), some.begin(), some.end());
+    return all;
+  }();
+  return rules;
+}
 
 std::vector<Problem> check_rules(MissionSource& source, const TargetSize* target) { return Check(source, target).run(); }
 

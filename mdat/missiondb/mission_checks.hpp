@@ -8,6 +8,9 @@
 
 namespace lasso::mdat {
 
+// Every rule there is, each under a number that stays.
+const Rules& all_rules();
+
 // Asks the rules that need no target (null), or those that need one. Returns the contradictions; what is doubtful joins the source's
 // doubts. Scenarios are looked at once the mission by itself has no contradiction: they would repeat it.
 std::vector<Problem> check_rules(MissionSource& source, const TargetSize* target);

@@ -19,19 +19,27 @@ std::string trimmed(const std::string& text) {
   return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \t") + 1 - first);
 }
 
-// A table with the one key `value`. What is not TOML is a number (".5") or a text; JSON's quotes are TOML's, too.
-toml::table parsed(const std::string& text) {
+bool is_toml_value(const std::string& text) {
   try {
-    return toml::parse("value = " + text, std::string_view(kSettingPlace));
+    static_cast<void>(toml::parse("value = " + text));
+    return true;
   } catch (const toml::parse_error&) {
-    double number = 0;
-    const char* const end = text.data() + text.size();
-    const auto [stop, error] = std::from_chars(text.data(), end, number);
-    const bool is_number = error == std::errc{} && stop == end && !text.empty();
-    const std::string quoted = nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-    return toml::parse("value = " + (is_number ? number_text(number) : quoted), std::string_view(kSettingPlace));
+    return false;
   }
 }
+
+// What is not TOML is a number (".5") or a text; JSON's quotes are TOML's, too.
+std::string toml_of(const std::string& text) {
+  if (is_toml_value(text)) return text;
+  double number = 0;
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, number);
+  if (error == std::errc{} && stop == end && !text.empty()) return number_text(number);
+  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+// A table with the one key `value`.
+toml::table parsed(const std::string& text) { return toml::parse("value = " + toml_of(text), std::string_view(kSettingPlace)); }
 
 void insert(toml::table& table, const std::string& name, const std::string& text) {
   toml::table holder = parsed(text);
@@ -51,13 +59,6 @@ toml::table* table_at(toml::table& mission, const std::vector<std::string>& path
   return table;
 }
 
-std::vector<std::string> names_of(const std::string& key) {
-  std::vector<std::string> names;
-  std::istringstream in(key);
-  for (std::string name; std::getline(in, name, '.');) names.push_back(trimmed(name));
-  return names;
-}
-
 // Why a key inside of a node or a further sensor cannot be set: there is none of that name. Neither has a key that must be there, so that
 // a misspelt name would make another one, and nobody would hear of it. Empty: it can. `path`: of the table.
 std::string missing_table(const toml::table& mission, const std::vector<std::string>& path) {
@@ -74,10 +75,23 @@ std::string missing_table(const toml::table& mission, const std::vector<std::str
 
 }  // namespace
 
+std::vector<std::string> names_of_key(const std::string& key) {
+  std::vector<std::string> names;
+  std::istringstream in(key);
+  for (std::string name; std::getline(in, name, '.');) names.push_back(trimmed(name));
+  return names;
+}
+
+Setting parts_of(const std::string& setting) {
+  const std::size_t equals = setting.find('=');
+  if (equals == std::string::npos) return {};
+  return {names_of_key(setting.substr(0, equals)), toml_of(trimmed(setting.substr(equals + 1)))};
+}
+
 void apply_settings(const std::vector<std::string>& settings, toml::table& mission, ProblemList& problems) {
   for (const std::string& setting : settings) {
     const std::size_t equals = setting.find('=');
-    std::vector<std::string> names = names_of(setting.substr(0, equals));
+    std::vector<std::string> names = names_of_key(setting.substr(0, equals));
     if (equals == std::string::npos || names.empty()) {
       problems.add(kSet, "", setting, "expected KEY=VALUE, such as scan.points=512");
       continue;

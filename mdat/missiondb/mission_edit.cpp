@@ -1,0 +1,205 @@
+#include "mdat/missiondb/mission_edit.hpp"
+
+#include <algorithm>
+#include <sstream>
+
+#include "mdat/missiondb/settings.hpp"
+#include "mdat/missiondb/toml_reader.hpp"
+
+namespace lasso::mdat {
+namespace {
+
+using Names = std::vector<std::string>;
+
+// The byte of a line and column, both from 1; columns count characters, not bytes.
+std::size_t byte_of(const std::string& text, const toml::source_position& place) {
+  std::size_t at = 0;
+  for (toml::source_index line = 1; line < place.line; ++line) at = text.find('\n', at) + 1;
+  for (toml::source_index column = 1; column < place.column && at < text.size(); ++column) {
+    do ++at;
+    while (at < text.size() && (static_cast<unsigned char>(text[at]) & 0xC0u) == 0x80u);
+  }
+  return at;
+}
+
+TextSpan span_of_node(const std::string& text, const toml::node& node) {
+  return {byte_of(text, node.source().begin), byte_of(text, node.source().end)};
+}
+
+const toml::node* node_at(const toml::table& root, const Names& names) {
+  const toml::node* node = &root;
+  for (const std::string& name : names) {
+    const toml::table* table = node == nullptr ? nullptr : node->as_table();
+    node = table == nullptr ? nullptr : table->get(name);
+  }
+  return node;
+}
+
+// As a key of TOML has to be written.
+std::string key_text(const Names& names) {
+  constexpr char kBare[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-";
+  std::string text;
+  for (const std::string& name : names) {
+    const bool bare = !name.empty() && name.find_first_not_of(kBare) == std::string::npos;
+    text += (text.empty() ? "" : ".") + (bare ? name : '"' + name + '"');
+  }
+  return text;
+}
+
+std::string line_end(const std::string& text) { return text.find("\r\n") == std::string::npos ? "\n" : "\r\n"; }
+
+// What a table's nodes are in the text.
+struct Lines {
+  std::vector<std::size_t> headers;  // of tables in brackets
+  std::size_t last = 0;              // of the values that were asked for
+};
+
+void note_headers(const std::string& text, const toml::table& table, Lines& lines) {
+  for (const auto& [name, node] : table) {
+    const toml::table* inner = node.as_table();
+    if (inner == nullptr) continue;
+    if (text[byte_of(text, inner->source().begin)] == '[') lines.headers.push_back(inner->source().begin.line);
+    note_headers(text, *inner, lines);
+  }
+}
+
+// The last line of the table's values that stand in lines from `from` to `to`.
+void note_last(const toml::table& table, std::size_t from, std::size_t to, Lines& lines) {
+  for (const auto& [name, node] : table) {
+    const toml::table* inner = node.as_table();
+    if (inner != nullptr && !inner->is_inline()) {
+      note_last(*inner, from, to, lines);
+    } else if (node.source().begin.line >= from && node.source().end.line < to) {
+      lines.last = std::max<std::size_t>(lines.last, node.source().end.line);
+    }
+  }
+}
+
+// A line behind the last one that the table has below its own header.
+std::string with_line(const std::string& text, const toml::table& root, const toml::table& table, const std::string& line) {
+  Lines lines;
+  note_headers(text, root, lines);
+  const std::size_t header = table.source().begin.line;
+  std::size_t next = static_cast<std::size_t>(-1);
+  for (const std::size_t other : lines.headers) {
+    if (other > header) next = std::min(next, other);
+  }
+  note_last(table, header, next, lines);
+  const std::size_t after = text.find('\n', byte_of(text, {static_cast<toml::source_index>(std::max(lines.last, header)), 1}));
+  const std::string end = line_end(text);
+  return after == std::string::npos ? text + end + line + end : text.substr(0, after + 1) + line + end + text.substr(after + 1);
+}
+
+// { a = 1, KEY = VALUE }
+std::string with_member(const std::string& text, const toml::table& table, const std::string& member) {
+  std::size_t at = span_of_node(text, table).end - 1;
+  while (at > 0 && text[at - 1] == ' ') --at;
+  return text.substr(0, at) + (table.empty() ? "" : ", ") + member + text.substr(at);
+}
+
+std::string with_table(const std::string& text, const Names& table, const std::string& line) {
+  const std::string end = line_end(text);
+  const bool closed = text.empty() || text.back() == '\n';
+  return text + (closed ? "" : end) + end + "[" + key_text(table) + "]" + end + line + end;
+}
+
+// The ways in which a missing value may be written, the one that a person would choose first.
+std::vector<std::string> additions(const std::string& text, const toml::table& root, const Names& names, const std::string& value) {
+  std::vector<std::string> ways;
+  for (std::size_t depth = names.size() - 1; depth > 0; --depth) {
+    const auto split = names.begin() + static_cast<std::ptrdiff_t>(depth);
+    const toml::node* node = node_at(root, Names(names.begin(), split));
+    const toml::table* table = node == nullptr ? nullptr : node->as_table();
+    if (table == nullptr) continue;
+    const std::string assignment = key_text(Names(split, names.end())) + " = " + value;
+    ways.push_back(table->is_inline() ? with_member(text, *table, assignment) : with_line(text, root, *table, assignment));
+  }
+  ways.push_back(with_table(text, Names(names.begin(), names.end() - 1), key_text({names.back()}) + " = " + value));
+  return ways;
+}
+
+std::optional<toml::table> read(const std::string& text, const std::filesystem::path& file) {
+  try {
+    return parse_toml_text(text, file);
+  } catch (const MissionError&) {
+    return std::nullopt;
+  }
+}
+
+std::vector<std::string> ways_to_write(const std::string& text, const toml::table& root, const Names& names, const std::string& value) {
+  const toml::node* node = node_at(root, names);
+  if (node == nullptr) return names.size() < 2 ? std::vector<std::string>{} : additions(text, root, names, value);
+  if (node->is_table() && !node->as_table()->is_inline()) return {};
+  const TextSpan span = span_of_node(text, *node);
+  return {text.substr(0, span.begin) + value + text.substr(span.end)};
+}
+
+std::string with_setting(const std::string& text, const std::string& setting, const std::filesystem::path& file) {
+  const toml::table before = parse_toml_text(text, file);
+  toml::table wanted = before;
+  ProblemList problems(file);
+  apply_settings({setting}, wanted, problems);
+  problems.throw_if_any();
+  const Setting parts = parts_of(setting);
+  for (const std::string& way : ways_to_write(text, before, parts.names, parts.toml)) {
+    const std::optional<toml::table> result = read(way, file);
+    if (result && *result == wanted) return way;
+  }
+  const toml::node* node = node_at(before, parts.names);
+  problems.add(node == nullptr ? Origin{} : origin_of(node->source()), key_text(parts.names), "",
+               "cannot be set in this text: set single values, or edit the file");
+  problems.throw_if_any();
+  return text;
+}
+
+std::vector<std::string> lines_of_text(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+// The longest common run of lines from a[i], b[k] on, as its length: by the table of all pairs.
+std::vector<std::vector<std::size_t>> common_lines(const std::vector<std::string>& a, const std::vector<std::string>& b) {
+  std::vector<std::vector<std::size_t>> common(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
+  for (std::size_t i = a.size(); i-- > 0;) {
+    for (std::size_t k = b.size(); k-- > 0;)
+      common[i][k] = a[i] == b[k] ? common[i + 1][k + 1] + 1 : std::max(common[i + 1][k], common[i][k + 1]);
+  }
+  return common;
+}
+
+}  // namespace
+
+std::optional<TextSpan> span_of(const std::string& text, const std::string& key, const std::filesystem::path& file) {
+  const toml::table root = parse_toml_text(text, file);
+  const toml::node* node = node_at(root, names_of_key(key));
+  if (node == nullptr) return std::nullopt;
+  return span_of_node(text, *node);
+}
+
+std::string edited(const std::string& text, const std::vector<std::string>& settings, const std::filesystem::path& file) {
+  std::string result = text;
+  for (const std::string& setting : settings) result = with_setting(result, setting, file);
+  return result;
+}
+
+std::string changed_lines(const std::string& before, const std::string& after) {
+  const std::vector<std::string> a = lines_of_text(before), b = lines_of_text(after);
+  const auto common = common_lines(a, b);
+  std::string text;
+  for (std::size_t i = 0, k = 0; i < a.size() || k < b.size();) {
+    if (i < a.size() && k < b.size() && a[i] == b[k]) {
+      ++i, ++k;
+    } else if (k == b.size() || (i < a.size() && common[i + 1][k] >= common[i][k + 1])) {
+      text += std::to_string(i + 1) + ": -" + a[i] + '\n';
+      ++i;
+    } else {
+      text += std::to_string(k + 1) + ": +" + b[k] + '\n';
+      ++k;
+    }
+  }
+  return text;
+}
+
+}  // namespace lasso::mdat
