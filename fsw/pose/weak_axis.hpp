@@ -3,8 +3,8 @@
 // poses along such an axis are tried, and what they cost is compared.
 //
 // Axes are eigenvectors of the hits' covariance over (rotation * radius, translation), target axes. Lengths along them are metres at the
-// model's radius. A cost is that of all returns (mean_cost times their number; of a trial the mean of half of them): squared sigmas, so
-// that a difference is twice the logarithm of a likelihood ratio.
+// model's radius. A cost is that of all returns (mean_cost times their number; of a trial the mean of half of them): squared sigmas. A
+// difference is about twice the logarithm of a likelihood ratio where residuals are a few sigmas. It is not beyond 6 (see mean_cost).
 #pragma once
 
 #include "fsw/core/fixed_vector.hpp"
