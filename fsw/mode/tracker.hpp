@@ -24,7 +24,8 @@ namespace lasso {
 
 // Of a start that a scan has confirmed (start.check): is there another pose, that explains this scan better? The track is followed
 // meanwhile. Where the search of the first scan contradicts nothing, but does not accept the start's pose either, a second scan is
-// searched: kAgain, until there is one. kPassed: there is no other pose, and the next valid one is believed.
+// searched: kAgain, until there is one. kPassed: a search accepts the start's pose, or two contradict nothing and accept nothing (a
+// symmetric target, few returns). The next valid pose is then believed.
 struct StartCheck {
   enum class Stage : std::uint8_t { kNone, kSearching, kAgain, kPassed };
   Stage stage = Stage::kNone;

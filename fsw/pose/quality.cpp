@@ -8,7 +8,7 @@ namespace lasso {
 namespace {
 
 constexpr double kPoseDegrees = 6;
-constexpr double kNoiseSigmas = 3;  // one good scan in 700 has exactly the noise that is tolerated, and shows more
+constexpr double kNoiseSigmas = 3;  // of scans whose noise is just what is tolerated, one in 700 is refused
 
 // The tighter of the position's limit and the attitude's, as a displacement at the model's radius.
 double sigma_limit_m(const Mission& mission) {

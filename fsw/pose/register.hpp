@@ -40,7 +40,8 @@ HitSolution register_look(const Mission& mission, RegisterLook look, const Pose&
 HitSolution weigh_hits(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace);
 
 // How badly the solution explains the returns that it could explain: their mean squared residual in sigmas, kUnexplainedCost for one that
-// it leaves out. Infinite without any.
+// it leaves out. Infinite without any. Squared residuals are Tukey-weighted, with the kernel of the pass that they are of, which is
+// not Tukey's rho: with a kernel of 10 sigmas a return costs most, 15, at 6, and hardly anything just within 10.
 double mean_cost(const HitSolution& solution);
 
 // The same of the pose as it stands: one pass, nothing solved.

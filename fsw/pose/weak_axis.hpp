@@ -3,8 +3,8 @@
 // poses along such an axis are tried, and what they cost is compared.
 //
 // Axes are eigenvectors of the hits' covariance over (rotation * radius, translation), target axes. Lengths along them are metres at the
-// model's radius. A cost is that of all returns (mean_cost times their number; of a trial the mean of half of them): squared sigmas, so
-// that a difference is twice the logarithm of a likelihood ratio.
+// model's radius. A cost is that of all returns (mean_cost times their number; of a trial the mean of half of them): squared sigmas. A
+// difference is about twice the logarithm of a likelihood ratio where residuals are a few sigmas. It is not beyond 6 (see mean_cost).
 #pragma once
 
 #include "fsw/core/fixed_vector.hpp"
@@ -39,13 +39,16 @@ struct LineSearch {
 // kTrialPasses passes over a quarter of the points and one over half, and kWeakAxisKept times register_first.
 void search_weak_axis(const Mission& mission, const PriorPose& prior, Workspace& workspace, LineSearch& search);
 
-// The covariance of a mixture of the best pose and its rivals in equal parts, about the best pose's. `covariance` is that of each of them.
+// The covariance with a quarter of the squared way to each rival. With one rival that is the covariance of a mixture of both in equal
+// parts, about its mean. The pose that is given is not this mean, but the best one: about it, half of the squared way is expected.
+// `covariance` is that of each of them.
 Mat6 with_rivals(const LineSearch& search, const Mat6& covariance);
 
 // Does the cost rise as the covariance says? Five sigmas off along an axis it should be higher by 25. Where it is not higher by 16, either
 // way, the sigma is doubled until it is; without an end within the model's radius the axis is unseen. Axes more certain than a 500th of the
-// radius are left: five of their sigmas are 0.6 deg. `covariance` is that of the hits (covariance_of_hits), of a noise whose variance is
-// `scale` times the assumed one. Bound: one eigen-decomposition, and 14 passes over the points for each axis.
+// radius are left: five of their sigmas are 0.6 deg. So are those whose five sigmas reach beyond the radius: they say so. `covariance` is
+// that of the hits (covariance_of_hits), of a noise whose variance is `scale` times the assumed one. Bound: one eigen-decomposition, and 14
+// passes over the points for each axis.
 void widen_weak_axes(const Mission& mission, const HitSolution& hits, double scale, Workspace& workspace, Mat6& covariance,
                      Directions& unseen);
 

@@ -1,7 +1,6 @@
 #include "ft/bodies/compare.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 
 #include "fsw/mode/searcher.hpp"

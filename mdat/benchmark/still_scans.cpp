@@ -1,7 +1,5 @@
 #include "mdat/benchmark/still_scans.hpp"
 
-#include <algorithm>
-
 #include "fsw/sense/planner.hpp"
 #include "hal_sim/scanner.hpp"
 #include "mdat/common/errors.hpp"

@@ -101,8 +101,6 @@ constexpr const char* kAllLost = "every frame is lost";
 
 const char* range_colour(std::size_t i) { return kRangeColours[i % kRangeColourCount]; }
 
-bool is_tracked(const VariantResult& variant) { return variant.all.lost < variant.all.frames; }
-
 std::size_t longest_run(const VariantResult& variant) {
   std::size_t frames = 0;
   for (const CaseResult& run : variant.cases) frames = std::max(frames, run.frames.size());

@@ -11,9 +11,6 @@ namespace lasso::mdat {
 // Of the curves of the i-th range, the nearest first.
 const char* range_colour(std::size_t i);
 
-// In at least one frame: there is something to draw.
-bool is_tracked(const VariantResult& variant);
-
 // Frames of the longest run: one without a prior begins with its first valid pose.
 std::size_t longest_run(const VariantResult& variant);
 

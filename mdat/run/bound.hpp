@@ -22,6 +22,7 @@ struct PoseBound {
 // Fisher information of the hits' ranges at the true pose: each surface known (the plane of the triangle that the reported ray meets),
 // directions exact, noise along the ray of standard deviation sigma_m(depth along the boresight), incidence up to kBoundIncidenceMax_rad.
 // A range changes by (n.(v + w x p))/(n.u) when the target moves by v and turns by w about its origin; p is the point from that origin.
+// The estimator takes rays up to estimation.incidence_max_deg (86 by preset), so that its errors may be a little below this bound.
 PoseBound pose_bound(const sim::RayCaster& target, const Pose& T_sensor_target, std::span<const RangeSample> scan,
                      const std::function<double(double)>& sigma_m);
 

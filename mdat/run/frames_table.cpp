@@ -1,7 +1,5 @@
 #include "mdat/run/frames_table.hpp"
 
-#include <cmath>
-
 #include "fsw/mode/modes.hpp"
 #include "fsw/pose/result.hpp"
 #include "mdat/common/text.hpp"

@@ -29,7 +29,8 @@ class KnowableTarget {
   // True where three Cramer-Rao sigmas of the hits lie within kWrongShare of the size and kWrongTurn_rad, in each direction; or where, for
   // each direction that the hits leave open, a pose that far off along it either way changes the label of at least three rays: hit becomes
   // miss or the reverse, or the range jumps by more than a hundredth of the size and 10 sigma. Each label is nearly certain, so three
-  // exclude that pose. The target stands still; `scan` has the directions, and which rays the sensor looked along.
+  // exclude that pose. Only poses that near are asked: one at another attitude may explain the scan as well. The target stands still;
+  // `scan` has the directions, and which rays the sensor looked along.
   bool is_determined(const Pose& T_sensor_target, std::span<const RangeSample> scan) const;
 
   const sim::RayCaster& surface() const { return *surface_; }
