@@ -98,8 +98,10 @@ TEST(MissionEdit, ChangesOneValueOfShippedMissions) {
 
 TEST(MissionDiff, TellsWhatEitherHas) {
   VERIFIES("LASSO-GND-148~1");
-  const std::vector<EffectiveValue> first{{"a", "1", "m", "", ""}, {"", "", "", "", ""}, {"b", "2", "", "", ""}, {"c", "3", "", "", ""}, {"e", "6", "", "as b", ""}};
-  const std::vector<EffectiveValue> second{{"b", "2", "", "", ""}, {"c", "4", "", "", ""}, {"d", "5", "s", "", ""}, {"e", "7", "", "as b", ""}};
+  const std::vector<EffectiveValue> first{
+      {"a", "1", "m", "", ""}, {"", "", "", "", ""}, {"b", "2", "", "", ""}, {"c", "3", "", "", ""}, {"e", "6", "", "as b", ""}};
+  const std::vector<EffectiveValue> second{
+      {"b", "2", "", "", ""}, {"c", "4", "", "", ""}, {"d", "5", "s", "", ""}, {"e", "7", "", "as b", ""}};
   std::string text;
   for (const ValueChange& change : changes_between(first, second))
     text += change.key + ":" + change.first + ">" + change.second + change.unit + " ";
