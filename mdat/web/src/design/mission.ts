@@ -22,7 +22,7 @@ export class Mission {
   /** Of the last text without problems. */
   readonly values: Signal<EffectiveValue[]> = signal([]);
   readonly scenarios: Signal<{ name: string; runs: number }[]> = signal([]);
-  /** The values that the form has changed since the file was saved, by key: what `mdat mission set` needs. */
+  /** The values that the form has changed since the file was saved or the text was typed, by key: what `mdat mission set` needs. */
   readonly settings: Signal<ReadonlyMap<string, string>> = signal(new Map());
   readonly section: Signal<string> = signal("scan");
   readonly filter: Signal<string> = signal("");
@@ -70,10 +70,11 @@ export class Mission {
   async set(key: string, value: string): Promise<void> {
     const mine = ++this.asked;
     const before = this.settings.peek();
+    const old = this.text.peek();
     try {
-      const answer = await postJson<MissionView & { text: string }>(this.path("set"), { text: this.text.peek(), set: [`${key}=${value}`] });
-      if (mine !== this.asked || answer.text === this.text.peek()) return;
-      const old = this.text.peek();
+      const answer = await postJson<MissionView & { text: string }>(this.path("set"), { text: old, set: [`${key}=${value}`] });
+      // What was typed meanwhile is not lost.
+      if (mine !== this.asked || old !== this.text.peek() || answer.text === old) return;
       const after = new Map([...before, [key, value]]);
       this.burst = null;
       this.history.run({ label: `${key} = ${value}`, apply: () => this.put(answer.text, after), revert: () => this.put(old, before) });
@@ -97,7 +98,7 @@ export class Mission {
       const settings = this.settings.peek();
       const old = this.text.peek();
       this.burst = burst;
-      this.history.run({ label: "typing", apply: () => this.put(burst.text, settings), revert: () => this.put(old, settings) });
+      this.history.run({ label: "typing", apply: () => this.put(burst.text, new Map()), revert: () => this.put(old, settings) });
     } else {
       this.burst.text = text;
       this.burst.at_ms = now;

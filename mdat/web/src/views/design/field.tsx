@@ -85,7 +85,7 @@ export function FieldRow({ mission, field }: { mission: Mission; field: Field })
   const held = mission.byKey.value.get(field.key);
   const problems = mission.problems.value.filter((problem) => problem.key === field.key);
   const preset = presetText(field.schema);
-  const value = shown(held?.value ?? preset);
+  const value = shown(mission.settings.value.get(field.key) ?? held?.value ?? preset);
   // A file is shown by its name, but written with its folder: the text has it.
   const isFile = field.schema.type === "string" && held !== undefined && !held.value.startsWith('"');
   const changed = mission.settings.value.has(field.key);
@@ -124,7 +124,7 @@ export function FieldRow({ mission, field }: { mission: Mission; field: Field })
       <p id={help} class="field-help">
         {field.schema.description ?? ""}
         <span class="expected">
-          {" "}
+          {field.schema.description === undefined ? "" : " · "}
           {expectedText(field.schema)}
           {preset === "" ? "" : `; preset ${shown(preset)}`}
           {isFile ? "; files are changed in the text" : ""}
