@@ -4,7 +4,6 @@
 
 #include <set>
 
-#include "fsw/link/dictionary.hpp"
 #include "hal_sim/random.hpp"
 #include "mdat/mcap/definition.hpp"
 #include "mdat/mcap/message_value.hpp"

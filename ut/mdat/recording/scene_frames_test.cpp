@@ -4,7 +4,7 @@
 
 #include <map>
 
-#include "mdat/run/simulated_scenario.hpp"
+#include "mdat/run/case.hpp"
 #include "ut/support/verifies.hpp"
 
 namespace lasso::mdat {
