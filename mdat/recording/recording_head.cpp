@@ -46,4 +46,16 @@ RecordingHead recording_head(const CompiledMission& mission, const SimulationOpt
   return head;
 }
 
+std::map<std::string, std::string> store_files(const std::string& folder) {
+  std::map<std::string, std::string> files;
+  std::error_code none;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, none)) {
+    if (!entry.is_regular_file()) continue;
+    std::string content = file_content(entry.path());
+    content.resize(content.find_last_not_of('\0') + 1);
+    files[kStoreFolder + entry.path().filename().string()] = std::move(content);
+  }
+  return files;
+}
+
 }  // namespace lasso::mdat
