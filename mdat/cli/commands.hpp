@@ -28,6 +28,7 @@ void add_decode_command(CLI::App& app);
 void add_command_command(CLI::App& app);
 void add_upload_command(CLI::App& app);
 void add_dictionary_command(CLI::App& app);
+void add_monitor_command(CLI::App& app);
 void add_serve_command(CLI::App& app);
 
 // Flies a recorded run again: the component gets the recorded scans, with `settings` beside those of the run. Prints its summary, and

@@ -6,7 +6,7 @@
 
 #include "fsw/link/event_rows.hpp"
 #include "mdat/common/version.hpp"
-#include "mdat/link/decode.hpp"
+#include "mdat/link/decode_text.hpp"
 #include "mdat/recording/ros_schemas.hpp"
 #include "mdat/recording/scan_cloud.hpp"
 #include "mdat/run/case.hpp"
@@ -60,19 +60,6 @@ const EventRow* event_of(const DecodedPacket& packet) {
   return nullptr;
 }
 
-// "item value, item value"
-std::string items_text(const DecodedPacket& packet) {
-  std::string text;
-  for (const DecodedItem& item : packet.items) {
-    text += (text.empty() ? "" : ", ") + std::string(item.row->name);
-    for (const Number& number : item.values) {
-      const Choice* choice = choice_of(*item.row, number);
-      text += " " + (choice != nullptr ? std::string(choice->name) : mdat::text_of(number));
-    }
-  }
-  return text;
-}
-
 }  // namespace
 
 std::vector<MessageTopic> recorded_topics() {
@@ -83,8 +70,13 @@ std::vector<MessageTopic> recorded_topics() {
 
 FrameRecorder::FrameRecorder(const std::filesystem::path& file, const CompiledMission& mission, const RecordingHead& head,
                              std::shared_ptr<sim::SensorRecording> scans, RecordingContent content, MessageTap* tap)
-    : mission_(mission), tap_(tap), scans_(std::move(scans)), content_(content) {
+    : target_(&mission.mesh), tap_(tap), scans_(std::move(scans)), content_(content) {
   if (content_ == RecordingContent::kAll) model_ = make_target(mission.mesh);
+  if (!file.empty()) open(file, head);
+}
+
+FrameRecorder::FrameRecorder(const std::filesystem::path& file, const Mesh* target, const RecordingHead& head, MessageTap* tap)
+    : target_(target), tap_(tap), content_(RecordingContent::kAll) {
   if (!file.empty()) open(file, head);
 }
 
@@ -153,26 +145,25 @@ void FrameRecorder::write_events(TimeUs boundary_us, ConstBytes packets) {
   }
 }
 
-// Once: both move with their frames.
-void FrameRecorder::write_surfaces(TimeUs t_us) {
-  if (std::exchange(surfaces_written_, true)) return;
-  const Mesh& mesh = mission_.mesh;
-  write("/scene", t_us,
-        ros::scene_bytes(t_us, {{"target, true", kTrueFrame, &mesh.vertices, &mesh.triangles, Vec3(kTrueColor), kGhost},
-                                {"target, estimated", kTargetFrame, &mesh.vertices, &mesh.triangles, Vec3(kEstimateColor), 1}}));
+// Once: they move with their frames.
+void FrameRecorder::write_surfaces(TimeUs t_us, bool with_truth) {
+  if (target_ == nullptr || std::exchange(surfaces_written_, true)) return;
+  std::vector<ros::Surface> surfaces;
+  if (with_truth) surfaces.push_back({"target, true", kTrueFrame, &target_->vertices, &target_->triangles, Vec3(kTrueColor), kGhost});
+  surfaces.push_back({"target, estimated", kTargetFrame, &target_->vertices, &target_->triangles, Vec3(kEstimateColor), 1});
+  write("/scene", t_us, ros::scene_bytes(t_us, surfaces));
 }
 
-void FrameRecorder::write_poses(const FlownFrame& frame) {
-  const PoseTelemetry& told = frame.telemetry;
+void FrameRecorder::write_poses(const PoseTelemetry& told, const Pose* truth) {
   const TimeUs t_us = told.t_measurement_us;
   const ros::Header header{t_us, kSensorFrame};
   const Pose estimate = registration_pose(told), filtered = filtered_pose(told);
-  write("/tf", t_us,
-        ros::tf_bytes(t_us, {{"world", kSensorFrame, Pose{}},
-                             {kSensorFrame, kTrueFrame, frame.truth.T_sensor_target},
-                             {kSensorFrame, kTargetFrame, estimate},
-                             {kSensorFrame, kFilteredFrame, filtered}}));
-  write("/truth", t_us, ros::pose_bytes(header, frame.truth.T_sensor_target));
+  std::vector<ros::FrameTransform> frames = {{"world", kSensorFrame, Pose{}}};
+  if (truth != nullptr) frames.push_back({kSensorFrame, kTrueFrame, *truth});
+  frames.push_back({kSensorFrame, kTargetFrame, estimate});
+  frames.push_back({kSensorFrame, kFilteredFrame, filtered});
+  write("/tf", t_us, ros::tf_bytes(t_us, frames));
+  if (truth != nullptr) write("/truth", t_us, ros::pose_bytes(header, *truth));
   const Twist rates{Vec3(told.filter_omega_radps), Vec3(told.filter_v_mps)};
   write("/odom", t_us,
         ros::odometry_bytes(header,
@@ -194,9 +185,15 @@ void FrameRecorder::write_scan(const FlownFrame& frame) {
 
 void FrameRecorder::on_frame(const FlownFrame& frame) {
   if (content_ == RecordingContent::kReplay) return;
-  write_surfaces(frame.telemetry.t_measurement_us);
-  write_poses(frame);
+  write_surfaces(frame.telemetry.t_measurement_us, true);
+  write_poses(frame.telemetry, &frame.truth.T_sensor_target);
   write_scan(frame);
+}
+
+void FrameRecorder::on_report(const PoseTelemetry& told) {
+  if (told.t_measurement_us <= 0) return;
+  write_surfaces(told.t_measurement_us, false);
+  write_poses(told, nullptr);
 }
 
 }  // namespace lasso::mdat

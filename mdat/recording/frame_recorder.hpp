@@ -35,9 +35,13 @@ class FrameRecorder final : public RunListener {
   // Without a file the tap alone gets the messages. Throws InputError where the file cannot be written; so do all calls.
   FrameRecorder(const std::filesystem::path& file, const CompiledMission& mission, const RecordingHead& head,
                 std::shared_ptr<sim::SensorRecording> scans, RecordingContent content = RecordingContent::kAll, MessageTap* tap = nullptr);
+  // Of telemetry alone, without scans and true poses. `target`, which outlives it: its surface; null: it is not known.
+  FrameRecorder(const std::filesystem::path& file, const Mesh* target, const RecordingHead& head, MessageTap* tap);
 
   void on_packets(TimeUs boundary_us, ConstBytes packets) override;
   void on_frame(const FlownFrame& frame) override;
+  // A frame of which no more is known than what the component tells; one that has no scan leaves no message.
+  void on_report(const PoseTelemetry& told);
   // All so far is in the file; returns its bytes, for who reads it while the run flies (mcap::IndexedFile). 0: there is no file.
   std::uint64_t flush();
   // Ends the file, with the flight image that flew; an empty one is left out.
@@ -46,13 +50,13 @@ class FrameRecorder final : public RunListener {
  private:
   void open(const std::filesystem::path& file, const RecordingHead& head);
   void write(const char* topic, TimeUs t_us, const std::string& bytes);
-  void write_surfaces(TimeUs t_us);
-  void write_poses(const FlownFrame& frame);
+  void write_surfaces(TimeUs t_us, bool with_truth);
+  void write_poses(const PoseTelemetry& told, const Pose* truth);
   void write_scan(const FlownFrame& frame);
   void write_events(TimeUs boundary_us, ConstBytes packets);
   void take_scans(bool all);
 
-  const CompiledMission& mission_;
+  const Mesh* target_;
   std::optional<mcap::Writer> writer_;
   MessageTap* tap_;
   std::map<std::string, std::uint16_t> channels_;  // of the file

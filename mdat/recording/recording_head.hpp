@@ -17,6 +17,8 @@ constexpr char kRecordingMetadata[] = "3dlasso";
 // scans that it holds.
 constexpr char kBeginsLate[] = "begins_late_s";
 constexpr char kWholeUntil[] = "whole_until_ns";
+// In it, of telemetry that came over a link: its address. There are no scans then.
+constexpr char kLinkAddress[] = "link";
 // Of two recordings in one file: prefixes and names of files.
 constexpr char kMergedMetadata[] = "merged";
 // The mission's files are attached under this name, with their places below the folder that they all share.
@@ -35,5 +37,7 @@ struct RecordingHead {
 // `about`: what the caller knows of it besides, such as the commit of the program.
 RecordingHead recording_head(const CompiledMission& mission, const SimulationOptions& options, const std::vector<std::string>& settings,
                              mcap::Text about);
+// Of telemetry that comes over a link, with the image of the mission in its file; null: not known. Throws as above.
+RecordingHead link_recording_head(const CompiledMission* mission, const std::string& address, mcap::Text about);
 
 }  // namespace lasso::mdat
