@@ -29,6 +29,7 @@ void add_decode_command(CLI::App& app);
 void add_command_command(CLI::App& app);
 void add_upload_command(CLI::App& app);
 void add_dictionary_command(CLI::App& app);
+void add_monitor_command(CLI::App& app);
 void add_serve_command(CLI::App& app);
 
 // A recording that is flown again: as it was, or, where one of the first three is given, with a component that is another one: with

@@ -7,6 +7,7 @@
 
 #include "fsw/link/event_rows.hpp"
 #include "mdat/common/version.hpp"
+#include "mdat/link/decode_text.hpp"
 #include "mdat/recording/packet_messages.hpp"
 #include "mdat/recording/ros_schemas.hpp"
 #include "mdat/recording/scan_cloud.hpp"
@@ -62,19 +63,6 @@ const EventRow* event_of(const DecodedPacket& packet) {
   return nullptr;
 }
 
-// "item value, item value"
-std::string items_text(const DecodedPacket& packet) {
-  std::string text;
-  for (const DecodedItem& item : packet.items) {
-    text += (text.empty() ? "" : ", ") + std::string(item.row->name);
-    for (const Number& number : item.values) {
-      const Choice* choice = choice_of(*item.row, number);
-      text += " " + (choice != nullptr ? std::string(choice->name) : mdat::text_of(number));
-    }
-  }
-  return text;
-}
-
 // Of recorded_topics(), by their names.
 const std::map<std::string, std::size_t>& tap_numbers() {
   static const std::map<std::string, std::size_t> kNumbers = [] {
@@ -112,8 +100,17 @@ std::vector<MessageTopic> recorded_topics() {
 
 FrameRecorder::FrameRecorder(const std::filesystem::path& file, const CompiledMission& mission, const RecordingHead& head,
                              std::shared_ptr<sim::SensorRecording> scans, RecordingContent content, MessageTap* tap)
-    : mission_(mission), frames_(mission.source, scenario_in(head)), tap_(tap), scans_(std::move(scans)), content_(content) {
+    : target_(&mission.mesh),
+      frames_(std::in_place, mission.source, scenario_in(head)),
+      tap_(tap),
+      scans_(std::move(scans)),
+      content_(content) {
   if (content_ == RecordingContent::kAll) model_ = make_target(mission.mesh);
+  if (!file.empty()) open(file, head);
+}
+
+FrameRecorder::FrameRecorder(const std::filesystem::path& file, const Mesh* target, const RecordingHead& head, MessageTap* tap)
+    : target_(target), tap_(tap), content_(RecordingContent::kAll) {
   if (!file.empty()) open(file, head);
 }
 
@@ -195,29 +192,35 @@ void FrameRecorder::write_event(TimeUs boundary_us, const DecodedPacket& packet)
   write("/events", boundary_us, ros::log_bytes(boundary_us, level_of(event->severity), event->name, items_text(packet)));
 }
 
-// Once: both move with their frames.
-void FrameRecorder::write_surfaces(TimeUs t_us) {
-  if (std::exchange(surfaces_written_, true)) return;
-  const Mesh& mesh = mission_.mesh;
-  const std::vector<std::array<std::uint32_t, 3>> still = kept(mesh.triangles, frames_.moved_triangles());
-  std::vector<ros::Surface> surfaces = {{"target, true", kTrueFrame, &mesh.vertices, &still, Vec3(kTrueColor), kGhost},
-                                        {"target, estimated", kTargetFrame, &mesh.vertices, &mesh.triangles, Vec3(kEstimateColor), 1}};
-  for (const SceneFrames::Body& body : frames_.bodies())
+// What is known of a run besides its estimates: the true target, and other bodies of its scene.
+void FrameRecorder::add_true_surfaces(const std::vector<std::array<std::uint32_t, 3>>& still, std::vector<ros::Surface>& surfaces) const {
+  surfaces.push_back({"target, true", kTrueFrame, &target_->vertices, &still, Vec3(kTrueColor), kGhost});
+  for (const SceneFrames::Body& body : frames_->bodies())
     surfaces.push_back({body.frame, body.frame, &body.surface->vertices, &body.surface->triangles, Vec3(kOtherColor), 1});
+}
+
+// Once: they move with their frames.
+void FrameRecorder::write_surfaces(TimeUs t_us) {
+  if (target_ == nullptr || std::exchange(surfaces_written_, true)) return;
+  std::vector<ros::Surface> surfaces;
+  std::vector<std::array<std::uint32_t, 3>> still;  // lives as long as the surfaces
+  if (frames_) still = kept(target_->triangles, frames_->moved_triangles());
+  if (frames_) add_true_surfaces(still, surfaces);
+  surfaces.push_back({"target, estimated", kTargetFrame, &target_->vertices, &target_->triangles, Vec3(kEstimateColor), 1});
   write("/scene", t_us, ros::scene_bytes(t_us, surfaces));
 }
 
-void FrameRecorder::write_poses(const FlownFrame& frame) {
-  const PoseTelemetry& told = frame.telemetry;
+void FrameRecorder::write_poses(const PoseTelemetry& told, const Pose* truth) {
   const TimeUs t_us = told.t_measurement_us;
   const ros::Header header{t_us, kSensorFrame};
   const Pose estimate = registration_pose(told), filtered = filtered_pose(told);
-  std::vector<ros::FrameTransform> frames = frames_.true_frames(t_us, frame.truth.T_sensor_target);
+  std::vector<ros::FrameTransform> frames = {{kWorldFrame, kSensorFrame, Pose{}}};
+  if (frames_ && truth != nullptr) frames = frames_->true_frames(t_us, *truth);
   frames.push_back({kSensorFrame, kTargetFrame, estimate});
   frames.push_back({kSensorFrame, kFilteredFrame, filtered});
-  frames.insert(frames.end(), frames_.estimated_frames().begin(), frames_.estimated_frames().end());
+  if (frames_) frames.insert(frames.end(), frames_->estimated_frames().begin(), frames_->estimated_frames().end());
   write("/tf", t_us, ros::tf_bytes(t_us, frames));
-  write("/truth", t_us, ros::pose_bytes(header, frame.truth.T_sensor_target));
+  if (truth != nullptr) write("/truth", t_us, ros::pose_bytes(header, *truth));
   const Twist rates{Vec3(told.filter_omega_radps), Vec3(told.filter_v_mps)};
   write("/odom", t_us,
         ros::odometry_bytes(header,
@@ -240,8 +243,14 @@ void FrameRecorder::write_scan(const FlownFrame& frame) {
 void FrameRecorder::on_frame(const FlownFrame& frame) {
   if (content_ == RecordingContent::kReplay) return;
   write_surfaces(frame.telemetry.t_measurement_us);
-  write_poses(frame);
+  write_poses(frame.telemetry, &frame.truth.T_sensor_target);
   write_scan(frame);
+}
+
+void FrameRecorder::on_report(const PoseTelemetry& told) {
+  if (told.t_measurement_us <= 0) return;
+  write_surfaces(told.t_measurement_us);
+  write_poses(told, nullptr);
 }
 
 }  // namespace lasso::mdat

@@ -38,10 +38,14 @@ class FrameRecorder final : public RunListener {
   // so do all calls.
   FrameRecorder(const std::filesystem::path& file, const CompiledMission& mission, const RecordingHead& head,
                 std::shared_ptr<sim::SensorRecording> scans, RecordingContent content = RecordingContent::kAll, MessageTap* tap = nullptr);
+  // Of telemetry alone, without scans and true poses. `target`, which outlives it: its surface; null: it is not known.
+  FrameRecorder(const std::filesystem::path& file, const Mesh* target, const RecordingHead& head, MessageTap* tap);
 
   void on_packets(TimeUs boundary_us, ConstBytes packets) override;
   void on_frame(const FlownFrame& frame) override;
   void on_commands(TimeUs slot_us, ConstBytes bytes) override;
+  // A frame of which no more is known than what the component tells; one that has no scan leaves no message.
+  void on_report(const PoseTelemetry& told);
   // All so far is in the file; returns its bytes, for who reads it while the run flies (mcap::IndexedFile). 0: there is no file.
   std::uint64_t flush();
   // Ends the file, with the flight image that flew; an empty one is left out.
@@ -52,14 +56,15 @@ class FrameRecorder final : public RunListener {
   void add_topic(const MessageTopic& topic, mcap::Bulk bulk);
   void write(const std::string& topic, TimeUs t_us, const std::string& bytes);
   void write_told(TimeUs boundary_us, ConstBytes packets);
+  void add_true_surfaces(const std::vector<std::array<std::uint32_t, 3>>& still, std::vector<ros::Surface>& surfaces) const;
   void write_surfaces(TimeUs t_us);
-  void write_poses(const FlownFrame& frame);
+  void write_poses(const PoseTelemetry& told, const Pose* truth);
   void write_scan(const FlownFrame& frame);
   void write_event(TimeUs boundary_us, const DecodedPacket& packet);
   void take_scans(bool all);
 
-  const CompiledMission& mission_;
-  SceneFrames frames_;
+  const Mesh* target_;
+  std::optional<SceneFrames> frames_;  // of a run; none: telemetry alone is known
   std::optional<mcap::Writer> writer_;
   MessageTap* tap_;
   std::map<std::string, std::uint16_t> schemas_, channels_;  // of the file

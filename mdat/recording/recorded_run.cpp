@@ -125,6 +125,9 @@ std::uint64_t whole_until_ns(const mcap::Text& about) { return number_in(about, 
 void check_run(const fs::path& file, RecordedRun& run, bool merged) {
   if (merged)
     throw InputError(file.string() + ": is two runs in one file, for viewers: replay one of the recordings that it was merged of");
+  if (run.about.count(kLinkAddress) > 0)
+    throw InputError(file.string() +
+                     ": is telemetry of a link, without scans, and cannot be flown again: record the run itself (mdat run --record)");
   const std::string mission = run.about["mission"];
   if (mission.rfind(kMissionFolder, 0) != 0 || run.files.count(mission) == 0)
     throw InputError(file.string() + ": says of no mission of which run it is: expected a recording of mdat run --record");

@@ -25,6 +25,8 @@ constexpr char kBoundaries[] = "boundaries";
 constexpr char kLinkForm[] = "link", kDatagrams[] = "datagrams", kByteStream[] = "stream";
 constexpr char kSigned[] = "signed", kHasStore[] = "store";  // "yes"
 constexpr char kStoreFolder[] = "store/";
+// In it, of telemetry that came over a link: its address. There are no scans then.
+constexpr char kLinkAddress[] = "link_address";
 // Of two recordings in one file: prefixes and names of files.
 constexpr char kMergedMetadata[] = "merged";
 // The mission's files are attached under this name, with their places below the folder that they all share.
@@ -43,6 +45,8 @@ struct RecordingHead {
 // `about`: what the caller knows of it besides, such as the commit of the program.
 RecordingHead recording_head(const CompiledMission& mission, const SimulationOptions& options, const std::vector<std::string>& settings,
                              mcap::Text about);
+// Of telemetry that comes over a link, with the image of the mission in its file; null: not known. Throws as above.
+RecordingHead link_recording_head(const CompiledMission* mission, const std::string& address, mcap::Text about);
 
 // The files of a board's store, as they are now, to be attached; zeros at their ends are left out, which it adds again. Empty where there
 // is no such folder, or nothing in it. Throws InputError where one cannot be read.
