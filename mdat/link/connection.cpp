@@ -48,8 +48,8 @@ void Connection::listen(double seconds, const std::function<bool()>& done) {
     const std::chrono::duration<double> left = end - std::chrono::steady_clock::now();
     if (!station_) {
       std::this_thread::sleep_for(kNoLink);
-    } else if (left.count() > 0) {
-      (void)station_->listen(std::min(kLookAfter_s, left.count()), done);
+    } else if (left.count() > 0 && station_->listen(std::min(kLookAfter_s, left.count()), done)) {
+      return;
     }
   }
 }

@@ -9,11 +9,11 @@
 namespace lasso::mdat {
 namespace {
 
-// What the component's end has heard within a second.
+// What the component's end hears, within some seconds.
 TelemetryBytes heard_by(posix::PosixLink& component, Connection& connection) {
   TelemetryBytes bytes(2000);
   std::size_t size = 0;
-  connection.listen(1, [&] { return (size = component.read(Bytes(bytes.data(), bytes.size()))) > 0; });
+  connection.listen(10, [&] { return (size = component.read(Bytes(bytes.data(), bytes.size()))) > 0; });
   bytes.resize(size);
   return bytes;
 }
@@ -43,7 +43,6 @@ TEST_F(ConnectionTest, AComponentByDatagramsIsCalledUntilItAnswers) {
   EXPECT_EQ(first[7], 17) << "a ping, which changes nothing";
   EXPECT_EQ(first[8], 1);
   EXPECT_LT(connection.health().age_s(std::chrono::steady_clock::now()), 0);
-  connection.listen(2.1, [] { return false; });
   EXPECT_EQ(heard_by(*component, connection).size(), first.size()) << "it may have missed the first one";
   for (const std::uint16_t count : std::initializer_list<std::uint16_t>{0, 1, 4}) send_pose(*component, count);
   listen_until(connection, 3);
