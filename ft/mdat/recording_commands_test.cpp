@@ -1,8 +1,10 @@
 // Recordings of commanded runs: what an operator sent comes again, to the slot.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <filesystem>
 #include <string>
+#include <thread>
 
 #include "ft/mdat/live_run.hpp"
 #include "ut/support/verifies.hpp"
@@ -12,9 +14,13 @@ namespace {
 
 constexpr const char* kRun = "run missions/test.toml --scenario spin --no-report --force --out run --record run.mcap --frames ";
 
+// A run that has not begun refuses at once.
 Answer until_it_answers(const WorkFolder& work, const std::string& command) {
-  Answer answer;
-  for (int i = 0; i < 200 && answer.exit_code != 0; ++i) answer = work.mdat(command + " --wait 2");
+  Answer answer = work.mdat(command + " --wait 2");
+  for (int i = 0; i < 200 && answer.exit_code != 0; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    answer = work.mdat(command + " --wait 2");
+  }
   return answer;
 }
 

@@ -46,7 +46,7 @@ TEST_F(WhatIf, BothAreToldSideBySide) {
   const std::vector<std::string> rms = row(changed.out, "rms, mm");
   EXPECT_NEAR(std::stod(rms[0]), results.at("noisy").at("rms_mm").get<double>(), 6e-4);
   EXPECT_NE(rms[0], rms[1]);
-  EXPECT_NE(changed.out.find("the first pose that differs: at 1.1"), std::string::npos) << changed.out;
+  EXPECT_NE(changed.out.find("the first pose that differs: at 1.09"), std::string::npos) << changed.out;
 }
 
 // A setting that says again what the run had changes no pose; one of the simulated world is told to be idle.

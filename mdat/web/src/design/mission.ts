@@ -32,6 +32,8 @@ export class Mission {
   readonly byKey: ReadonlySignal<Map<string, EffectiveValue>> = computed(() => new Map(this.values.value.map((each) => [each.key, each])));
   readonly changed: ReadonlySignal<boolean> = computed(() => this.text.value !== this.saved.value);
   readonly sections = computed(() => sectionsOf(this.schema, this.text.value, this.values.value));
+  /** The last change of the form, until the server has made it. */
+  pending: Promise<void> = Promise.resolve();
   private digest: string;
   private asked = 0;
   /** What is being typed. */
@@ -67,7 +69,11 @@ export class Mission {
   }
 
   /** A value of the form: the server changes its span of the text. */
-  async set(key: string, value: string): Promise<void> {
+  set(key: string, value: string): void {
+    this.pending = this.change(key, value);
+  }
+
+  private async change(key: string, value: string): Promise<void> {
     const mine = ++this.asked;
     const before = this.settings.peek();
     const old = this.text.peek();

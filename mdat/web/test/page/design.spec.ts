@@ -70,6 +70,7 @@ test("a file that was changed on disk meanwhile is not overwritten", async ({ pa
 test("keys are found by words, and a place leads to its line", async ({ page }) => {
   await design(page, "found");
   await page.keyboard.press("/");
+  await expect(page.getByLabel("Find a key")).toBeFocused();
   await page.keyboard.type("rays of one scan");
   await expect(page.locator(".field-row")).toHaveCount(1);
   await page.getByRole("button", { name: /hubble_tenth\.toml:\d+/ }).click();

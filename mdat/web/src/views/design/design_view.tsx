@@ -1,6 +1,6 @@
 // The editor of missions: tables of keys at the left, the form of one in the middle, the text that it is made of at the right.
 import { useSignal } from "@preact/signals";
-import { useEffect } from "preact/hooks";
+import { useEffect, useLayoutEffect } from "preact/hooks";
 import { CommonTools } from "../../app/common_tools.tsx";
 import { routeTo, routeToMission } from "../../app/route.ts";
 import { mission as current, type Mission } from "../../design/mission.ts";
@@ -196,8 +196,9 @@ function actOf(event: KeyboardEvent, mission: Mission, onSave: () => void): (() 
   return !control && key === "/" ? () => document.querySelector<HTMLElement>("#key-filter")?.focus() : null;
 }
 
+/** From the first picture on: a stroke that comes with it is not lost. */
 function useKeys(mission: Mission, onSave: () => void): void {
-  useEffect(() => {
+  useLayoutEffect(() => {
     const onKey = (event: KeyboardEvent) => {
       const act = actOf(event, mission, onSave);
       if (act === null) return;
@@ -221,7 +222,8 @@ function useGuard(mission: Mission): void {
 export function DesignView() {
   const mission = current.value!;
   const saving = useSignal(false);
-  const save = () => {
+  const save = async () => {
+    await mission.pending;
     saving.value = mission.changed.peek() && mission.problems.peek().length === 0;
   };
   useKeys(mission, save);
