@@ -133,8 +133,8 @@ std::string lua_quoted(const std::string& text) {
 std::string header_list(const char* name, Span<const HeaderField> header) {
   std::string text = format("local %s = {\n", name);
   for (const HeaderField& field : header) {
-    text +=
-        format("  {name = \"%s\", bit = %u, bits = %u, meaning = %s},\n", field.name, field.bit, field.bits, lua_quoted(field.meaning).c_str());
+    text += format("  {name = \"%s\", bit = %u, bits = %u, meaning = %s},\n", field.name, field.bit, field.bits,
+                   lua_quoted(field.meaning).c_str());
   }
   return text + "}\n";
 }
