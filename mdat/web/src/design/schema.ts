@@ -28,9 +28,13 @@ export function namesIn(table: string, text: string, values: EffectiveValue[]): 
   return [...names];
 }
 
+/** Tables whose values the server does not tell: they are edited in the text alone. */
+const TEXT_ALONE = ["campaign", "material"];
+
 /** All tables of a mission in the order of the schema; of named ones those that are there. */
 export function sectionsOf(root: Schema, text: string, values: EffectiveValue[]): Section[] {
-  return Object.entries(root.properties ?? {}).flatMap(([table, schema]): Section[] => {
+  const tables = Object.entries(root.properties ?? {}).filter(([table]) => !TEXT_ALONE.includes(table));
+  return tables.flatMap(([table, schema]): Section[] => {
     const named = namedTable(schema);
     if (named === null) return [{ path: table, schema }];
     return namesIn(table, text, values).map((name) => ({ path: `${table}.${name}`, schema: named }));
