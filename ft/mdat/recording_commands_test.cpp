@@ -37,12 +37,13 @@ TEST(RecordedCommands, ComeAgainToTheSlot) {
   for (const std::string scheme : {"udp", "tcp"}) {
     const std::string url = scheme + "://127.0.0.1:" + free_port();
     Program run(work, std::string(kRun) + "100000 --link " + url);
-    ASSERT_EQ(until_it_answers(work, "command ping --to " + url).exit_code, 0);
+    const Answer pong = until_it_answers(work, "command ping --to " + url);
+    ASSERT_EQ(pong.exit_code, 0) << url << '\n' << pong.err << run.printed();
     for (const char* command : {"set_mode mode=standby", "set_structure_period structure=pose period_frames=2", "enable_laser",
                                 "reset --arm", "set_mode mode=bearing"})
       (void)work.mdat(std::string("command ") + command + " --wait 30 --to " + url);
     ASSERT_EQ(run.interrupt().exit_code, 0);
-    std::filesystem::remove_all(work / "missions");
+    std::filesystem::remove(work / "missions/test.toml");
     expect_the_same(work);
     EXPECT_NE(work.mdat("recording info run.mcap").out.find("/commands"), std::string::npos);
     work.write_mission();

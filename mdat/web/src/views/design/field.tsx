@@ -112,11 +112,12 @@ export function FieldRow({ mission, field }: { mission: Mission; field: Field })
         <button
           type="button"
           class="link place"
+          title={held.place}
           onClick={() => {
             mission.line.value = held.line;
           }}
         >
-          {held.place}
+          line {held.line}
         </button>
       ) : (
         <span class="place">{placeText(held?.place, preset)}</span>
