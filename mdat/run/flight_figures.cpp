@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
 #include <iterator>
 
 #include "fsw/mode/modes.hpp"
@@ -35,17 +34,18 @@ void add_valid(const PoseTelemetry& pose, const TruthAt& truth, FlightSums& sums
 
 double root_of_mean(double sum, std::size_t count) { return count > 0 ? std::sqrt(sum / static_cast<double>(count)) : 0; }
 
+// What is no number is the same as another one that is none.
 template <class T, std::size_t N>
-bool same_bits(const T (&a)[N], const T (&b)[N]) {
-  return std::memcmp(a, b, sizeof a) == 0;
+bool same_values(const T (&a)[N], const T (&b)[N]) {
+  return std::equal(a, a + N, b, [](T x, T y) { return x == y || (std::isnan(x) && std::isnan(y)); });
 }
 
 bool say_the_same(const PoseTelemetry& a, const PoseTelemetry& b) {
-  return a.valid == b.valid && a.reason == b.reason && a.mode == b.mode && same_bits(a.q_sensor_target, b.q_sensor_target) &&
-         same_bits(a.p_sensor_target_m, b.p_sensor_target_m) && same_bits(a.covariance, b.covariance) &&
-         same_bits(a.filter_q_sensor_target, b.filter_q_sensor_target) &&
-         same_bits(a.filter_p_sensor_target_m, b.filter_p_sensor_target_m) && same_bits(a.filter_omega_radps, b.filter_omega_radps) &&
-         same_bits(a.filter_v_mps, b.filter_v_mps);
+  return a.valid == b.valid && a.reason == b.reason && a.mode == b.mode && same_values(a.q_sensor_target, b.q_sensor_target) &&
+         same_values(a.p_sensor_target_m, b.p_sensor_target_m) && same_values(a.covariance, b.covariance) &&
+         same_values(a.filter_q_sensor_target, b.filter_q_sensor_target) &&
+         same_values(a.filter_p_sensor_target_m, b.filter_p_sensor_target_m) && same_values(a.filter_omega_radps, b.filter_omega_radps) &&
+         same_values(a.filter_v_mps, b.filter_v_mps);
 }
 
 std::string flight_figure(const char* format, std::optional<double> value) {
