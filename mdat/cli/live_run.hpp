@@ -1,4 +1,4 @@
-// --live of mdat run and mdat monitor: what comes is told to viewers while it does.
+// --live of mdat run: the run is told to viewers while it flies.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -17,9 +17,7 @@ struct LiveOptions {
   double pace = 1;                     // seconds of the run in one of the clock; 0: as fast as it goes
 };
 
-// --live alone; `options` lives as long as the command.
-CLI::Option* add_live_option(CLI::App& command, LiveOptions& options);
-// --pace, too.
+// `options` lives as long as the command.
 void add_live_options(CLI::App& command, LiveOptions& options);
 
 // What is told is one run. Throws InputError where the scenario has several.
@@ -34,7 +32,7 @@ class LiveRun {
   MessageTap* tap();
   // What the run is told to instead of `next`; it keeps the pace, unless the run has another clock.
   RunListener* paced(RunListener* next, bool has_clock);
-  void end(const char* message = "the run is over");
+  void end();
 
  private:
   double pace_;
