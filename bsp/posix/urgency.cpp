@@ -21,8 +21,9 @@ Urgency::Urgency(UrgencyLevel level) {
   granted_ = schedule(SCHED_FIFO | SCHED_RESET_ON_FORK, static_cast<int>(level));
 }
 
+// Without CAP_SYS_NICE a thread keeps the flag.
 Urgency::~Urgency() {
-  if (granted_) static_cast<void>(schedule(policy_, priority_));
+  if (granted_ && !schedule(policy_, priority_)) static_cast<void>(schedule(policy_ | SCHED_RESET_ON_FORK, priority_));
 }
 
 }  // namespace lasso::posix

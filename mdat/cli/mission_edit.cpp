@@ -149,11 +149,16 @@ void set_values(const SetOptions& options) {
     throw InputError(options.mission +
                      ": a flight image: set values in the mission file that it was compiled from, or compile it with --set");
   const MissionSource source = changed_mission(options);
-  const std::string before = file_content(options.mission);
-  const std::string after = edited(before, options.settings, options.mission);
-  if (before == after) return print_lines(options.mission + ": says so already\n");
-  if (!options.dry_run) write_file(options.mission, after);
-  print_lines(changed_lines(before, after) + options.mission + (options.dry_run ? ": would change so\n" : ": written\n"));
+  const std::filesystem::path file = std::filesystem::canonical(options.mission);  // a link stays one
+  std::string text = file_content(file), changes;
+  for (const std::string& setting : options.settings) {
+    const std::string next = edited(text, {setting}, options.mission);
+    changes += changed_lines(text, next);
+    text = next;
+  }
+  if (changes.empty()) return print_lines(options.mission + ": says so already\n");
+  if (!options.dry_run) write_file(file, text);
+  print_lines(changes + options.mission + (options.dry_run ? ": would change so\n" : ": written\n"));
   for (const std::string& warning : warnings_for(source, "")) std::fprintf(stderr, "warning: %s\n", warning.c_str());
 }
 

@@ -95,6 +95,7 @@ std::string list_text(const Json& schema, const std::string& unit) {
 
 // Of a value; empty for a table.
 std::string expected_text(const Json& schema, const std::string& unit) {
+  if (schema.contains("$ref")) return "a law, such as { uniform = [1, 2] }";  // definitions/law, the only one
   if (schema.contains("const")) return choices_text({schema["const"]});
   if (schema.contains("enum")) return choices_text(schema["enum"]);
   if (schema.contains("anyOf")) return expected_text(schema["anyOf"][0], unit) + ", or " + expected_text(schema["anyOf"][1], unit);

@@ -8,7 +8,7 @@
 
 namespace lasso::mdat {
 
-// Every rule there is, each under a number that stays.
+// Every rule there is. A rule's number, in a Doubt, is its place here.
 const Rules& all_rules();
 
 // Asks the rules that need no target (null), or those that need one. Returns the contradictions; what is doubtful joins the source's

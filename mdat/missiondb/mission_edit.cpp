@@ -159,14 +159,10 @@ std::vector<std::string> lines_of_text(const std::string& text) {
   return lines;
 }
 
-// The longest common run of lines from a[i], b[k] on, as its length: by the table of all pairs.
-std::vector<std::vector<std::size_t>> common_lines(const std::vector<std::string>& a, const std::vector<std::string>& b) {
-  std::vector<std::vector<std::size_t>> common(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
-  for (std::size_t i = a.size(); i-- > 0;) {
-    for (std::size_t k = b.size(); k-- > 0;)
-      common[i][k] = a[i] == b[k] ? common[i + 1][k + 1] + 1 : std::max(common[i + 1][k], common[i][k + 1]);
-  }
-  return common;
+std::string signed_lines(const std::vector<std::string>& lines, std::size_t from, std::size_t to, char sign) {
+  std::string text;
+  for (std::size_t i = from; i < to; ++i) text += std::to_string(i + 1) + ": " + sign + lines[i] + '\n';
+  return text;
 }
 
 }  // namespace
@@ -186,20 +182,11 @@ std::string edited(const std::string& text, const std::vector<std::string>& sett
 
 std::string changed_lines(const std::string& before, const std::string& after) {
   const std::vector<std::string> a = lines_of_text(before), b = lines_of_text(after);
-  const auto common = common_lines(a, b);
-  std::string text;
-  for (std::size_t i = 0, k = 0; i < a.size() || k < b.size();) {
-    if (i < a.size() && k < b.size() && a[i] == b[k]) {
-      ++i, ++k;
-    } else if (k == b.size() || (i < a.size() && common[i + 1][k] >= common[i][k + 1])) {
-      text += std::to_string(i + 1) + ": -" + a[i] + '\n';
-      ++i;
-    } else {
-      text += std::to_string(k + 1) + ": +" + b[k] + '\n';
-      ++k;
-    }
-  }
-  return text;
+  const std::size_t least = std::min(a.size(), b.size());
+  std::size_t head = 0, tail = 0;
+  while (head < least && a[head] == b[head]) ++head;
+  while (tail < least - head && a[a.size() - 1 - tail] == b[b.size() - 1 - tail]) ++tail;
+  return signed_lines(a, head, a.size() - tail, '-') + signed_lines(b, head, b.size() - tail, '+');
 }
 
 }  // namespace lasso::mdat

@@ -24,7 +24,8 @@ std::optional<TextSpan> span_of(const std::string& text, const std::string& key,
 // no TOML, or it is written in a way in which the value has no place. The values themselves are not checked.
 std::string edited(const std::string& text, const std::vector<std::string>& settings, const std::filesystem::path& file);
 
-// The lines that differ, with their numbers, as `12: -points = 1024` and `12: +points = 512`, each with a line feed.
+// The lines between the first and the last one that differ, with their numbers in their text, as `12: -points = 1024` and
+// `12: +points = 512`, each with a line feed. Of one setting these are the lines that it changes. Bound: one pass.
 std::string changed_lines(const std::string& before, const std::string& after);
 
 }  // namespace lasso::mdat

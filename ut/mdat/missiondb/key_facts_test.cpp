@@ -34,6 +34,8 @@ TEST(KeyFacts, KnowTablesAndChosenNames) {
   EXPECT_EQ(facts_of("node.hubble.position_m").at(0).key, "node.hubble.position_m");
   EXPECT_EQ(facts_of("node.hubble.position_m").at(0).unit, "m");
   EXPECT_GT(facts_of("motion.slow.position_m").size(), 1U) << "several kinds have it";
+  EXPECT_EQ(facts_of("campaign.some.truth.range_m").at(0).expected,
+            "a number from 0.01 to 10000 m, or a law, such as { uniform = [1, 2] }");
   for (const char* unknown : {"scna", "scan.pionts", "scan.points.x", "node.hubble.x"}) EXPECT_TRUE(facts_of(unknown).empty()) << unknown;
 }
 

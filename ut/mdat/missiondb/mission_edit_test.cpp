@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "mdat/missiondb/mission_diff.hpp"
+#include "mdat/missiondb/value_row.hpp"
 #include "mdat/source/mission_error.hpp"
 #include "mdat/source/sha256.hpp"
 #include "ut/mdat/missiondb/support.hpp"
