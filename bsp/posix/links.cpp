@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
+#include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -12,10 +13,14 @@
 #include <fstream>
 #include <system_error>
 
+#include "bsp/posix/serial_line.hpp"
+
 namespace lasso::posix {
 namespace {
 
-constexpr int kVanished_s = 10;  // without a sign of life: a TCP client that is gone
+constexpr int kVanished_s = 10;    // without a sign of life: a TCP client that is gone
+constexpr int kAnswer_ms = 5'000;  // that connecting may take
+constexpr char kSerial[] = "serial:", kUnixSocket[] = "unix:";
 
 struct Place {
   std::string scheme, host, port;
@@ -30,7 +35,8 @@ struct Place {
 
 Place place_of(const std::string& url) {
   const std::size_t scheme = url.find("://");
-  if (scheme == std::string::npos) refuse(url, "no link; one of udp://[HOST]:PORT, tcp://[HOST]:PORT, file://PATH");
+  if (scheme == std::string::npos)
+    refuse(url, "no link; one of udp://[HOST]:PORT, tcp://[HOST]:PORT, file://PATH, or to connect to serial:PATH");
   Place place{url.substr(0, scheme), "", ""};
   const std::string rest = url.substr(scheme + 3);
   if (place.scheme == "file") {
@@ -82,14 +88,27 @@ class Descriptor {
   int fd_ = -1;
 };
 
+// Of a socket that does not wait.
+void connect_socket(const std::string& url, const Descriptor& socket, const sockaddr_in& place) {
+  if (::connect(socket.get(), generic(place), sizeof place) == 0) return;
+  pollfd waiting{socket.get(), POLLOUT, 0};
+  int error = errno;
+  if (error == EINPROGRESS) {
+    socklen_t size = sizeof error;
+    const bool settled = ::poll(&waiting, 1, kAnswer_ms) > 0 && getsockopt(socket.get(), SOL_SOCKET, SO_ERROR, &error, &size) == 0;
+    if (settled && error == 0) return;
+    if (!settled) error = ETIMEDOUT;
+  }
+  errno = error;
+  refuse_errno(url, "nobody answers");
+}
+
 void make_socket(const std::string& url, int type, Descriptor& socket) {
   socket.reset(::socket(AF_INET, type | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
   if (!socket.open()) refuse_errno(url, "no socket");
 }
 
 void bind_to(const std::string& url, const Descriptor& socket, const sockaddr_in& address) {
-  const int yes = 1;
-  (void)setsockopt(socket.get(), SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
   if (::bind(socket.get(), generic(address), sizeof address) != 0) refuse_errno(url, "cannot be bound");
 }
 
@@ -139,13 +158,13 @@ class Tcp final : public PosixLink {
     Descriptor& socket = listens ? listener_ : peer_;
     make_socket(url, SOCK_STREAM, socket);
     if (listens) {
+      const int yes = 1;  // what was said to an earlier listener may still be on its way
+      (void)setsockopt(socket.get(), SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
       bind_to(url, socket, place);
       if (::listen(socket.get(), 1) != 0) refuse_errno(url, "cannot listen");
       return;
     }
-    (void)fcntl(socket.get(), F_SETFL, fcntl(socket.get(), F_GETFL) & ~O_NONBLOCK);  // connecting may wait
-    if (::connect(socket.get(), generic(place), sizeof place) != 0) refuse_errno(url, "nobody answers");
-    (void)fcntl(socket.get(), F_SETFL, fcntl(socket.get(), F_GETFL) | O_NONBLOCK);
+    connect_socket(url, socket, place);
   }
   bool datagrams() const override { return false; }
   std::size_t read(Bytes out) override {
@@ -166,6 +185,7 @@ class Tcp final : public PosixLink {
     return packets.size();
   }
   std::string address() const override { return bound_address("tcp", ever_ ? peer_ : listener_); }
+  bool ended() const override { return ever_ && !peer_.open(); }
 
  private:
   void accept_peer() {
@@ -183,6 +203,24 @@ class Tcp final : public PosixLink {
   void set(int level, int option, int value) { (void)setsockopt(peer_.get(), level, option, &value, sizeof value); }
   Descriptor listener_, peer_;
   bool ever_;  // the ground's end
+};
+
+// A serial device, or a Unix socket in its place.
+class Line final : public PosixLink {
+ public:
+  Line(const std::string& url, const std::string& address) : url_(url) {
+    const std::string wrong = line_.open(address, 0, false);
+    if (!wrong.empty()) throw LinkError(wrong);
+  }
+  bool datagrams() const override { return false; }
+  std::size_t read(Bytes out) override { return line_.is_open() ? line_.read(out) : 0; }
+  std::size_t write(ConstBytes packets) override { return line_.is_open() ? line_.write(packets) : packets.size(); }
+  std::string address() const override { return url_; }
+  bool ended() const override { return !line_.is_open(); }
+
+ private:
+  std::string url_;
+  SerialLine line_;
 };
 
 class File final : public PosixLink {
@@ -224,6 +262,10 @@ std::unique_ptr<PosixLink> open_link(const std::string& url) {
   return open_socket(url, true);
 }
 
-std::unique_ptr<PosixLink> connect_link(const std::string& url) { return open_socket(url, false); }
+std::unique_ptr<PosixLink> connect_link(const std::string& url) {
+  if (url.rfind(kSerial, 0) == 0) return std::make_unique<Line>(url, url.substr(sizeof kSerial - 1));
+  if (url.rfind(kUnixSocket, 0) == 0) return std::make_unique<Line>(url, url);
+  return open_socket(url, false);
+}
 
 }  // namespace lasso::posix

@@ -1,4 +1,4 @@
-// The link on Linux: UDP, TCP and files.
+// The link on Linux: UDP, TCP, serial lines and files.
 #pragma once
 
 #include <memory>
@@ -23,6 +23,8 @@ class PosixLink : public ByteLink {
   PosixLink& operator=(const PosixLink&) = delete;
   // Where it is bound, as an URL that the other end can use.
   virtual std::string address() const = 0;
+  // The other end has gone, and cannot come back: the link has to be opened again.
+  virtual bool ended() const { return false; }
 };
 
 // A component's end of a link:
@@ -31,7 +33,10 @@ class PosixLink : public ByteLink {
 //   file://PATH         reads commands from PATH.commands, if there is one, and appends telemetry to PATH
 // Without a host the loopback address; a host is a numeric IPv4 address. Port 0: a free one, which address() says. Throws LinkError.
 std::unique_ptr<PosixLink> open_link(const std::string& url);
-// The ground's end of the first two: reads telemetry, writes commands. Throws LinkError.
+// The ground's end of the first two, which a component hears only from its first datagram or connection on; or of a line:
+//   serial:PATH         a serial device, taken for this program alone, at the rate that it was set to (stty)
+//   unix:PATH           a Unix socket that stands for one
+// Waits at most a few seconds for who does not answer. Throws LinkError.
 std::unique_ptr<PosixLink> connect_link(const std::string& url);
 
 }  // namespace lasso::posix

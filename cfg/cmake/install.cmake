@@ -29,7 +29,11 @@ if(TARGET mdat)
   install(TARGETS mdat COMPONENT mdat)
   install(FILES cfg/mission.schema.json DESTINATION ${CMAKE_INSTALL_DATADIR}/3dlasso COMPONENT mdat)
   install(DIRECTORY cfg/missions cfg/models DESTINATION ${CMAKE_INSTALL_DATADIR}/3dlasso COMPONENT mdat)
-  add_dependencies(installed mdat)
+  # Registration for Python and C, side by side (docs/python.md).
+  install(TARGETS lasso_mdat LIBRARY DESTINATION lib COMPONENT mdat OPTIONAL)
+  install(FILES mdat/library/lasso_mdat.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT mdat)
+  install(DIRECTORY python/lasso_mdat DESTINATION lib/python3/dist-packages COMPONENT mdat PATTERN __pycache__ EXCLUDE)
+  add_dependencies(installed mdat lasso_mdat)
   if(TARGET mdat-match)  # not in the Debian package, which would bring OpenCV
     install(TARGETS mdat-match COMPONENT match)
   endif()

@@ -12,9 +12,12 @@ set(CPACK_DEBIAN_MDAT_PACKAGE_NAME 3dlasso-mdat)
 set(CPACK_DEBIAN_MDAT_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_MDAT_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_MDAT_PACKAGE_DEPENDS "gnuplot-nox | gnuplot")
+set(CPACK_DEBIAN_MDAT_PACKAGE_SUGGESTS "python3-numpy")
 set(CPACK_DEBIAN_MDAT_DESCRIPTION "pose of a spacecraft from 3D laser scans: ground tool
 mdat checks and compiles missions, simulates laser cameras and LIDARs, runs the
-flight component of 3DLASSO, registers recorded scans, and decodes telemetry.")
+flight component of 3DLASSO, registers recorded scans, and decodes telemetry.
+.
+lasso_mdat is a module of Python that reads what it writes, and registers scans.")
 
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME 3dlasso-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)

@@ -73,7 +73,7 @@ class Serve : public ::testing::Test {
 
 TEST_F(Serve, ListensOnTheLoopbackAddressAndEndsByCtrlC) {
   VERIFIES("LASSO-WEB-003~1 LASSO-WEB-016~1");
-  EXPECT_NE(ask(place_, "GET /api/about").find("\"features\":[\"replay\",\"live\"]"), std::string::npos);
+  EXPECT_NE(ask(place_, "GET /api/about").find("\"features\":[\"replay\",\"live\",\"design\"]"), std::string::npos);
   EXPECT_EQ(ask(place_, "GET /api/about", INADDR_LOOPBACK + 1), "");  // 127.0.0.2: another address of this machine
   const Answer answer = program_.interrupt();
   EXPECT_EQ(answer.exit_code, 0) << answer.err;

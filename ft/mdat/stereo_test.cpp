@@ -109,6 +109,82 @@ TEST(Stereo, DrivesTheTrackerOfARun) {
   for (std::size_t i = 1; i < lines.size(); ++i) EXPECT_GT(std::stoi(fields_of(lines[i]).at(returns)), 100) << lines[i];
 }
 
+// A mission of fitted errors beside a program without its matcher: OpenCV is not asked for.
+TEST(Stereo, FliesByFittedErrorsWithoutPictures) {
+  VERIFIES("LASSO-STE-016~1");
+  const WorkFolder work;
+  work.write("missions/stereo.toml", read_text(source_path("cfg/missions/hubble_stereo.toml")));
+  std::filesystem::copy_file(mdat_program(), work / "mdat");
+  const std::string run = "cd '" + (work / "").string() +
+                          "' && PATH=. ./mdat run missions/stereo.toml --scenario spin --frames 4 --no-report --set stereo.model=fitted "
+                          ">out.txt 2>err.txt --out ";
+  for (const char* out : {"a", "b"}) {
+    const int status = std::system((run + out).c_str());
+    if (is_refused_by_fixed_point({WEXITSTATUS(status), work.read("out.txt"), work.read("err.txt")})) return;
+    ASSERT_EQ(WEXITSTATUS(status), 0) << work.read("err.txt");
+  }
+  EXPECT_EQ(work.read("a/telemetry.ccsds"), work.read("b/telemetry.ccsds"));
+  const Json results = Json::parse(work.read("a/results.json"));
+  EXPECT_NE(work.read("a/results.json").find("stereo.model"), std::string::npos) << "the report tells it";
+  EXPECT_EQ(lines_of(work.read("a/frames.csv")).size(), 5U);
+}
+
+TEST(Stereo, CampaignsFlyFittedErrorsAndRefusePictures) {
+  VERIFIES("LASSO-STE-016~1 LASSO-STE-018~1");
+  const WorkFolder work;
+  work.write("missions/stereo.toml", read_text(source_path("cfg/missions/hubble_stereo.toml")));
+  const std::string campaign =
+      "campaign run missions/stereo.toml --campaign light --set campaign.light.cases=4 --set campaign.light.frames=3 --no-report ";
+  const Answer refused = work.mdat(campaign + "--out none");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("--set stereo.model=fitted"), std::string::npos) << refused.err;
+  EXPECT_EQ(lines_of(refused.err).size(), 1U) << refused.err;
+  EXPECT_FALSE(std::filesystem::exists(work / "none"));
+  for (const char* jobs : {"1", "2"}) {
+    const Answer flown = work.mdat(campaign + "--set stereo.model=fitted --jobs " + jobs + " --out by" + jobs);
+    if (is_refused_by_fixed_point(flown)) return;
+    ASSERT_EQ(flown.exit_code, 0) << flown.err;
+  }
+  EXPECT_EQ(work.read("by1/results.csv"), work.read("by2/results.csv"));
+  EXPECT_EQ(lines_of(work.read("by1/results.csv")).size(), 5U);
+}
+
+TEST(Stereo, ItsScansAreDrawnOnPictures) {
+  VERIFIES("LASSO-STE-012~1");
+  const WorkFolder work;
+  work.write("missions/stereo.toml", read_text(source_path("cfg/missions/hubble_stereo.toml")));
+  for (const char* model : {"fitted", "rendered"}) {
+    const Answer answer = work.mdat(
+        "render missions/stereo.toml --scenario spin --time 0.2 --scan --size 96x96 --samples 1 --set stereo.pixels=240 --set "
+        "stereo.samples=1 --force --set sensor.sigma_k_per_m=0.005 --set sensor.common_sigma_k_per_m=0.0013 --set stereo.model=" +
+        std::string(model));
+    if (is_refused_by_fixed_point(answer)) return;
+    ASSERT_EQ(answer.exit_code, 0) << answer.err;
+    EXPECT_GT(number_after(answer.out, "rays, "), 100) << "returns: " << answer.out;
+  }
+}
+
+TEST(Stereo, SetsFlightsOfBothModelsSideBySide) {
+  VERIFIES("LASSO-STE-017~1");
+  const WorkFolder work;
+  work.write("missions/stereo.toml", read_text(source_path("cfg/missions/hubble_stereo.toml")));
+  const std::string flights =
+      "stereo missions/stereo.toml --scenario flights --flights 1 --frames 2 --set stereo.pixels=240 --set "
+      "stereo.samples=1 --set sensor.sigma_k_per_m=0.005 --set sensor.common_sigma_k_per_m=0.0013 --lights lamp ";
+  const Answer both = work.mdat(flights + "--out both");
+  if (is_refused_by_fixed_point(both)) return;
+  ASSERT_EQ(both.exit_code, 0) << both.err;
+  EXPECT_EQ(lines_of(work.read("both/flights.csv")).size(), 1U + 2U + 4U * 2U);
+  ASSERT_EQ(work.mdat(flights + "--fitted-only --jobs 3 --out fitted").exit_code, 0);
+  const std::string all = work.read("both/flights.csv");
+  for (const std::string& line : lines_of(work.read("fitted/flights.csv"))) EXPECT_NE(all.find(line), std::string::npos) << line;
+  for (const char* wrong : {"--views 2", "--range 3", "--nearest 1 --farthest 3"}) {
+    const Answer refused = work.mdat(flights + wrong);
+    EXPECT_EQ(refused.exit_code, 2) << wrong;
+    EXPECT_EQ(lines_of(refused.err).size(), 1U) << refused.err;
+  }
+}
+
 TEST(Stereo, MeasuresManyPairsInStatedLights) {
   VERIFIES("LASSO-STE-014~1");
   const WorkFolder work;

@@ -82,6 +82,37 @@ function checkFrames({ value }) {
   }
 }
 
+// Those of a topic's definition, by their names.
+function constantsOf(reader, topic) {
+  const channel = [...reader.channelsById.values()].find((one) => one.topic === topic);
+  if (channel === undefined) return new Map();
+  const [{ definitions }] = parse(new TextDecoder().decode(reader.schemasById.get(channel.schemaId).data), { ros2: true });
+  return new Map(definitions.filter(({ isConstant }) => isConstant).map(({ name, value }) => [name, value]));
+}
+
+function sameNumber(found, expected, constant) {
+  if (typeof expected === "string" && constant !== undefined) return found === constant;
+  if (typeof found === "bigint") return found === BigInt(expected);
+  if (typeof expected === "string") return Object.is(found, { nan: NaN, inf: Infinity, "-inf": -Infinity }[expected]);
+  return found === expected || found === Math.fround(expected);
+}
+
+// Each packet by its topic: what mdat decode says of it, number by number. A name of an enumeration is a constant of the definition.
+function checkPackets(name, expected, messages, constants) {
+  if (messages.length !== expected.length) find(`/telemetry/${name}: ${messages.length} messages, and ${expected.length} packets`);
+  messages.forEach(({ value }, i) => {
+    const { items, header } = expected[i] ?? { items: {}, header: {} };
+    if (value.sequence_count !== header.sequence_count) find(`/telemetry/${name}, message ${i}: sequence_count`);
+    for (const [item, told] of Object.entries(items)) {
+      const found = typeof value[item] === "object" ? [...value[item]] : [value[item]];
+      const numbers = Array.isArray(told) ? told : [told];
+      const same = numbers.length === found.length
+        && numbers.every((number, k) => sameNumber(found[k], number, constants.get(`${item}_${number}`.toUpperCase())));
+      if (!same) find(`/telemetry/${name}, message ${i}: ${item} is ${found}, and ${numbers} by mdat decode`);
+    }
+  });
+}
+
 function stamp({ value }) {
   return Number((BigInt(value.header.stamp.sec) * NANOSECONDS + BigInt(value.header.stamp.nanosec)) / 1000n);
 }
@@ -92,7 +123,11 @@ const reader = await McapIndexedReader.Initialize({
 });
 const decode = decoders(reader);
 const topics = await read(reader, decode);
-const told = new Map(JSON.parse(await readFile(packets, "utf8")).packets.map(({ items }) => [items.t_measurement_us, items]));
+const decoded = JSON.parse(await readFile(packets, "utf8")).packets;
+const told = new Map(decoded.filter(({ packet }) => packet === "pose").map(({ items }) => [items.t_measurement_us, items]));
+for (const name of new Set(decoded.map(({ packet }) => packet))) {
+  checkPackets(name, decoded.filter(({ packet }) => packet === name), topics.get(`/telemetry/${name}`) ?? [], constantsOf(reader, `/telemetry/${name}`));
+}
 const valid = [...told.values()].filter((items) => items.valid === "yes");
 for (const message of topics.get("/pose_with_covariance")) checkPose(told.get(stamp(message)), message);
 for (const message of topics.get("/tf")) checkFrames(message);

@@ -7,7 +7,7 @@
 #include "mdat/common/text.hpp"
 #include "mdat/render/light.hpp"
 #include "mdat/run/simulation.hpp"
-#include "mdat/stereo/stereo_sensor.hpp"
+#include "mdat/stereo/stereo_maker.hpp"
 
 namespace lasso::mdat {
 namespace {

@@ -7,6 +7,7 @@
 #include "mdat/missiondb/camera_faults.hpp"
 #include "mdat/missiondb/campaign_columns.hpp"
 #include "mdat/run/camera.hpp"
+#include "mdat/stereo/stereo_maker.hpp"
 
 namespace lasso::mdat {
 namespace {
@@ -49,6 +50,7 @@ CaseResult CampaignFlight::fly(std::uint64_t seed, const std::vector<double>& va
   setup.alone = true;
   setup.wire = wire_;
   setup.camera_faults = faults_of(setup.scenario);
+  setup.make_stereo = stereo_of(seed);
   std::vector<std::uint8_t> image;
   if (!are_same(setup.parameters, parameters_)) image = image_bytes(mission_, setup.parameters);
   setup.image = image.empty() ? &image_ : &image;
@@ -58,6 +60,8 @@ CaseResult CampaignFlight::fly(std::uint64_t seed, const std::vector<double>& va
   std::atomic<std::size_t> frames_done{0};
   return run_case(setup, frames_done);
 }
+
+MakeStereo CampaignFlight::stereo_of(std::uint64_t seed) const { return stereo_without_pictures(mission_, seed, "campaigns"); }
 
 CompiledMission CampaignFlight::mission_of(const std::vector<double>& values) const {
   CompiledMission mission = mission_;
@@ -73,6 +77,7 @@ SimulationOptions CampaignFlight::options(std::uint64_t seed, const std::vector<
   options.frames = frames_;
   options.plain = true;
   options.wire = wire_;
+  options.make_stereo = stereo_of(seed);
   if (!values.empty()) options.camera_faults = faults_of(scenario_with(values));
   return options;
 }

@@ -17,7 +17,8 @@ namespace lasso::mdat {
 // believes gets an image, and one whose target differs from the model gets a surface, of its own.
 class CampaignFlight {
  public:
-  // `columns` are those of the table of cases. Keeps references: both outlive it. Throws MissionError where there is no such scenario.
+  // `columns` are those of the table of cases. Keeps references: both outlive it. Throws MissionError where there is no such scenario, and
+  // InputError where stereo cameras would be rendered.
   CampaignFlight(const CompiledMission& mission, const CampaignSource& campaign, std::vector<std::string> columns);
 
   // The case of these values, in the order of the columns, and of the noise of `seed`. Throws RunError where the component refuses its
@@ -31,6 +32,7 @@ class CampaignFlight {
 
  private:
   Scenario scenario_with(const std::vector<double>& values) const;
+  MakeStereo stereo_of(std::uint64_t seed) const;
   sim::LcsFaults faults_of(const Scenario& scenario) const;
 
   const CompiledMission& mission_;

@@ -22,6 +22,7 @@
 #include "mdat/report/report.hpp"
 #include "mdat/run/frames_table.hpp"
 #include "mdat/run/results.hpp"
+#include "mdat/stereo/stereo_maker.hpp"
 
 namespace lasso::mdat {
 namespace {
@@ -65,6 +66,7 @@ void expand(const CampaignArguments& options) {
     throw InputError(folder.string() + ": holds a campaign; --out DIR keeps it, --force removes it with all its results");
   MissionInput input = load_mission_input(options.target, options.settings);
   const CampaignSource& campaign = campaign_of(input.source, options.campaign);
+  refuse_pictures(input.source, "campaigns");
   for (const std::string& warning : warnings_for(input.source, campaign.scenario)) std::fprintf(stderr, "warning: %s\n", warning.c_str());
   expand_campaign(input, options.campaign, options.cached, kCommit, folder, options.force);
   std::fprintf(stderr, "%s: plan.json and cases.csv, %u cases of the campaign %s\n", folder.c_str(), campaign.cases,

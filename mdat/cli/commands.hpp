@@ -29,12 +29,21 @@ void add_decode_command(CLI::App& app);
 void add_command_command(CLI::App& app);
 void add_upload_command(CLI::App& app);
 void add_dictionary_command(CLI::App& app);
+void add_monitor_command(CLI::App& app);
 void add_serve_command(CLI::App& app);
 
-// Flies a recorded run again: the component gets the recorded scans, with `settings` beside those of the run. Prints its summary, and
-// whether telemetry is the recorded one. Throws InputError or MissionError as what it reads; RunError where nothing was changed, and it
+// A recording that is flown again: as it was, or, where one of the first three is given, with a component that is another one: with
+// settings beside those of the run, of another mission, by a flight image.
+struct RecordedReplay {
+  std::vector<std::string> settings;
+  std::string mission, image;
+  std::string file, record, key;  // the recording; one to write, or none; the key of its commands, or none
+  bool cached = true, force = false;
+};
+// The component gets the recorded scans and commands. Prints a summary and whether telemetry is the recorded one; of a changed component
+// the figures of both, side by side. Throws InputError or MissionError as what it reads; RunError where nothing was changed, and telemetry
 // differs.
-void replay_recording(const std::string& file, const std::vector<std::string>& settings, bool cached);
+void replay_recording(const RecordedReplay& options);
 
 // --set KEY=VALUE of a subcommand that reads a mission; may be given again and again.
 void add_settings(CLI::App& command, std::vector<std::string>& settings);

@@ -14,13 +14,17 @@ constexpr double kMostPace = 1000;
 
 }  // namespace
 
-void add_live_options(CLI::App& command, LiveOptions& options) {
-  command
+CLI::Option* add_live_option(CLI::App& command, LiveOptions& options) {
+  return command
       .add_option_function<std::string>(
           "--live", [&options](const std::string& address) { options.address = address; },
-          "tell the run to viewers while it flies, by the Foxglove WebSocket protocol (docs/live.md), at HOST:PORT (127.0.0.1:8765)")
+          "tell viewers what comes while it does, by the Foxglove WebSocket protocol (docs/live.md), at HOST:PORT (127.0.0.1:8765)")
       ->expected(0, 1)
       ->type_name("[ADDRESS]");
+}
+
+void add_live_options(CLI::App& command, LiveOptions& options) {
+  (void)add_live_option(command, options);
   command.add_option("--pace", options.pace, "with --live: seconds of the run in one of the clock; 0: as fast as it goes")
       ->needs("--live")
       ->capture_default_str()
@@ -50,8 +54,8 @@ RunListener* LiveRun::paced(RunListener* next, bool has_clock) {
   return &paced_.emplace(*next, has_clock ? 0 : pace_);
 }
 
-void LiveRun::end() {
-  if (server_) server_->end("the run is over");
+void LiveRun::end(const char* message) {
+  if (server_) server_->end(message);
 }
 
 }  // namespace lasso::mdat

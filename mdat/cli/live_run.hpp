@@ -1,4 +1,4 @@
-// --live of mdat run: the run is told to viewers while it flies.
+// --live of mdat run and mdat monitor: what comes is told to viewers while it does.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -17,7 +17,9 @@ struct LiveOptions {
   double pace = 1;                     // seconds of the run in one of the clock; 0: as fast as it goes
 };
 
-// `options` lives as long as the command.
+// --live alone; `options` lives as long as the command.
+CLI::Option* add_live_option(CLI::App& command, LiveOptions& options);
+// --pace, too.
 void add_live_options(CLI::App& command, LiveOptions& options);
 
 // What is told is one run. Throws InputError where the scenario has several.
@@ -32,7 +34,7 @@ class LiveRun {
   MessageTap* tap();
   // What the run is told to instead of `next`; it keeps the pace, unless the run has another clock.
   RunListener* paced(RunListener* next, bool has_clock);
-  void end();
+  void end(const char* message = "the run is over");
 
  private:
   double pace_;

@@ -67,6 +67,7 @@ int run(int argc, char** argv) {
   add_command_command(app);
   add_upload_command(app);
   add_dictionary_command(app);
+  add_monitor_command(app);
   add_serve_command(app);
   app.footer("Exit codes: 0 done, 1 the run failed, 2 usage or bad input, 3 done, but a picture could not be drawn.");
   try {

@@ -82,8 +82,10 @@ constexpr ExportFormat kExportFormats[] = {{"scans", export_scans, nullptr},    
                                            {"hdf5", nullptr, export_h5},        {"oem", nullptr, export_oem}, {"aem", nullptr, export_aem},
                                            {"packets", nullptr, export_packets}};
 
+constexpr char kBagFormat[] = "rosbag2";  // a folder whose messages may be more than memory holds
+
 std::vector<std::string> format_names() {
-  std::vector<std::string> names;
+  std::vector<std::string> names = {kBagFormat};
   for (const ExportFormat& format : kExportFormats) names.emplace_back(format.name);
   return names;
 }
@@ -118,8 +120,16 @@ void write_folder(const EditArguments& options, const ExportedFiles& exported) {
   std::printf("%s: written, %zu files\n", options.out.c_str(), exported.files.size());
 }
 
+void write_bag(const EditArguments& options, const ExportOptions& what) {
+  if (!options.topic.empty()) throw InputError("--topic " + options.topic + ": a bag has all topics: leave it out");
+  if (!options.force) refuse_to_replace({std::filesystem::path(options.out) / "metadata.yaml"}, "--force replaces that bag");
+  export_bag(options.files[0], what, options.out);
+  std::printf("%s: written: ros2 bag info %s\n", options.out.c_str(), options.out.c_str());
+}
+
 void export_to(const EditArguments& options) {
   const ExportOptions what{options.topic, span_of(options.from_s, options.to_s), options.epoch};
+  if (options.format == kBagFormat) return write_bag(options, what);
   for (const ExportFormat& format : kExportFormats) {
     if (options.format != format.name) continue;
     if (format.many != nullptr) return write_folder(options, format.many(options.files[0], what));
@@ -152,7 +162,8 @@ void add_export(CLI::App* group) {
       ->add_option("--format", options->format,
                    "scans (CSV and poses, for mdat replay --scans), csv (a table a topic), tum (trajectories, for evo), ply or pcd (a file "
                    "a scan, all fields), glb (first scan of the span, with "
-                   "the target), hdf5, oem, aem (CCSDS ephemerides), packets (CCSDS, for mdat decode)")
+                   "the target), hdf5, oem, aem (CCSDS ephemerides), packets (CCSDS, for mdat decode), rosbag2 (a folder with "
+                   "metadata.yaml, for ros2 bag)")
       ->required()
       ->check(CLI::IsMember(format_names()));
   command->add_option("--topic", options->topic, "which one, where there are several");

@@ -15,6 +15,7 @@
 #include "mdat/render/exposure.hpp"
 #include "mdat/render/orbit_light.hpp"
 #include "mdat/render/scene.hpp"
+#include "mdat/stereo/stereo_maker.hpp"
 
 namespace lasso::mdat {
 namespace {
@@ -210,7 +211,9 @@ void render(const RenderArguments& options) {
   std::vector<ScanMark> marks;
   if (has_scan(options)) {
     check_scan_time(scene, options.scene.time_s);
-    marks = flown_scan(compile_mission(std::move(input), ModelCache::of_user_if(options.cached)), options.scene.time_s, scene);
+    const CompiledMission mission = compile_mission(std::move(input), ModelCache::of_user_if(options.cached));
+    const MakeStereo stereo = has_stereo_head(mission.source) ? stereo_maker(mission, scene.seed, options.jobs) : MakeStereo{};
+    marks = flown_scan(mission, options.scene.time_s, scene, stereo);
   }
   RenderSetup setup;
   setup.camera =

@@ -19,6 +19,7 @@ namespace {
 
 struct ReplayArguments {
   std::string mission, scenario, out, time_unit, axes, camera, topic;
+  RecordedReplay recorded;  // what is for recordings alone
   ReplayOptions replay;
   std::vector<double> offset_m;
   std::vector<std::string> settings;
@@ -114,10 +115,31 @@ void check_given(const ReplayArguments& options) {
   }
 }
 
+RecordedReplay recorded_replay(const ReplayArguments& options) {
+  RecordedReplay recorded = options.recorded;
+  recorded.file = options.mission;
+  recorded.settings = options.settings;
+  recorded.cached = options.cached;
+  recorded.force = options.force;
+  return recorded;
+}
+
+// What scans of others do not have.
+void refuse_for_recordings(const ReplayArguments& options) {
+  const std::pair<const char*, const std::string&> kOfRecordings[] = {{"--mission", options.recorded.mission},
+                                                                      {"--image", options.recorded.image},
+                                                                      {"--record", options.recorded.record},
+                                                                      {"--key", options.recorded.key}};
+  for (const auto& [name, value] : kOfRecordings) {
+    if (!value.empty()) throw InputError(std::string(name) + " " + value + ": is for a recording of a run (.mcap) alone");
+  }
+}
+
 bool is_recording(const ReplayArguments& options) { return std::filesystem::path(options.mission).extension() == ".mcap"; }
 
 void run(ReplayArguments options) {
-  if (is_recording(options)) return replay_recording(options.mission, options.settings, options.cached);
+  if (is_recording(options)) return replay_recording(recorded_replay(options));
+  refuse_for_recordings(options);
   check_given(options);
   read_frame(options, options.replay);
   if (!options.settings.empty() && is_image_file(options.mission))
@@ -140,6 +162,13 @@ void run(ReplayArguments options) {
   tell(mismatch_notes(image.mission(), scans));
   tell(truth_notes(input.truth, judged(scans)));
   std::fputs((replay_summary(scans) + options.out + ": written\n").c_str(), stdout);
+}
+
+void add_recording_options(CLI::App& command, RecordedReplay& recorded) {
+  command.add_option("--mission", recorded.mission, "of a recording: fly its scans with this mission's component, and print both");
+  command.add_option("--image", recorded.image, "of a recording: fly its scans with this flight image (.3dli), and print both");
+  command.add_option("--record", recorded.record, "of a recording: also record the replay, FILE.mcap");
+  command.add_option("--key", recorded.key, "of a recording whose commands were signed: file with the key (64 hexadecimal digits)");
 }
 
 }  // namespace
@@ -178,6 +207,7 @@ void add_replay_command(CLI::App& app) {
       ->check(CLI::IsMember({"min", "s", "ms", "us", "ns"}));
   command->add_option("--scenario", options->scenario, "with this scenario's overrides of parameters");
   add_settings(*command, options->settings);
+  add_recording_options(*command, options->recorded);
   command->add_flag("--force", options->force, "replace the files of an earlier replay");
   add_no_cache(*command, options->cached);
   command->callback([options] { run(*options); });

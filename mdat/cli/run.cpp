@@ -22,7 +22,7 @@
 #include "mdat/run/relative_table.hpp"
 #include "mdat/run/results.hpp"
 #include "mdat/run/simulation.hpp"
-#include "mdat/stereo/stereo_sensor.hpp"
+#include "mdat/stereo/stereo_maker.hpp"
 
 namespace lasso::mdat {
 namespace {
@@ -153,9 +153,9 @@ void warn_of_replay(const SimulationResult& result) {
 }
 
 // Passes each message of a run on, and keeps none.
-std::unique_ptr<FrameRecorder> open_live_listener(const CompiledMission& mission, MessageTap* tap) {
+std::unique_ptr<FrameRecorder> open_live_listener(const CompiledMission& mission, const std::string& scenario, MessageTap* tap) {
   if (tap == nullptr) return nullptr;
-  return std::make_unique<FrameRecorder>("", mission, RecordingHead{}, nullptr, RecordingContent::kAll, tap);
+  return std::make_unique<FrameRecorder>("", mission, RecordingHead{{{"scenario", scenario}}, {}}, nullptr, RecordingContent::kAll, tap);
 }
 
 // Places of the run's recordings, where it has any: nothing may be there, and they can be written.
@@ -171,11 +171,22 @@ std::vector<std::filesystem::path> recordings_of(const RunArguments& options, co
   return files;
 }
 
+// What flies a commanded run again, besides the commands.
+void tell_link(const RunArguments& options, const ByteLink* link, RecordingHead& head) {
+  if (link == nullptr) return;
+  head.about[kLinkForm] = link->datagrams() ? kDatagrams : kByteStream;
+  if (!options.key.empty()) head.about[kSigned] = "yes";
+  if (options.simulation.store.empty()) return;
+  head.about[kHasStore] = "yes";
+  head.files.merge(store_files(options.simulation.store));
+}
+
 std::unique_ptr<RunRecorders> open_recorders(const RunArguments& options, const std::vector<std::filesystem::path>& files,
-                                             const CompiledMission& mission) {
+                                             const CompiledMission& mission, const ByteLink* link) {
   if (files.empty()) return nullptr;
   RecordingHead head = recording_head(mission, options.simulation, options.settings, {{"commit", kCommit}, {"sensor", options.sensor}});
   if (!options.calibration.empty()) head.files[kCalibrationAttachment] = file_content(options.calibration);
+  tell_link(options, link, head);
   const RecordingContent content = options.record_for == "replay" ? RecordingContent::kReplay : RecordingContent::kAll;
   return std::make_unique<RunRecorders>(files, mission, head, content);
 }
@@ -218,10 +229,10 @@ void run(const RunArguments& options) {
   simulation.make_stereo = stereo_for(mission, simulation);
   simulation.link = link.get();
   simulation.authenticator = signatures.get();
-  const std::unique_ptr<RunRecorders> recorders = open_recorders(options, recordings, mission);
+  const std::unique_ptr<RunRecorders> recorders = open_recorders(options, recordings, mission, link.get());
   if (recorders) simulation.recorders = recorders->cases();
   LiveRun live(options.live, mission.source.name + ", scenario " + simulation.scenario);
-  const std::unique_ptr<FrameRecorder> told = open_live_listener(mission, live.tap());
+  const std::unique_ptr<FrameRecorder> told = open_live_listener(mission, simulation.scenario, live.tap());
   simulation.listener = live.paced(told.get(), link != nullptr);
   SimulationResult result = simulate(mission, simulation);
   live.end();

@@ -1,5 +1,6 @@
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <thread>
 
 #include "mdat/cli/commands.hpp"
@@ -12,6 +13,7 @@
 #include "mdat/stereo/disparity_errors.hpp"
 #include "mdat/stereo/disparity_view.hpp"
 #include "mdat/stereo/stereo_head.hpp"
+#include "mdat/trial/flight_results.hpp"
 #include "mdat/trial/trial_results.hpp"
 
 namespace lasso::mdat {
@@ -24,14 +26,16 @@ struct StereoArguments {
   SceneRequest scene;
   std::vector<std::string> settings;
   std::vector<std::string> lights;
-  std::uint32_t views = 0;  // 0: a pair
-  bool rendered = true;     // of views
+  std::uint32_t views = 0, flights = 0;  // of each light; both 0: a pair
+  std::optional<std::uint32_t> frames;   // of flights
+  bool rendered = true;                  // of views and flights
   unsigned jobs = 1;
   bool force = false, cached = true;
 };
 
 constexpr const char* kPairFiles[] = {"left.png", "right.png", "calibration.toml", "errors.png", "truth.csv"};
 constexpr const char* kTrialFiles[] = {"statistics.json", "pairs.csv", "poses.csv", "fit.txt"};
+constexpr const char* kFlightFiles[] = {"flights.json", "flights.csv"};
 constexpr const char* kMatchFiles[] = {"disparity.png", "scans/range.ply"};
 
 // An earlier pair that this one would replace. Throws InputError.
@@ -174,15 +178,44 @@ void tried_pairs(const StereoArguments& options) {
   std::printf("written to %s: statistics.json, pairs.csv, poses.csv%s\n", options.out.c_str(), options.rendered ? ", fit.txt" : "");
 }
 
+// Whole flights in stated lights, by rendered pairs and by fitted errors.
+void flown_trials(const StereoArguments& options) {
+  OutputFolder folder(options.out);
+  if (!options.force) {
+    std::vector<std::filesystem::path> files;
+    for (const char* file : kFlightFiles) files.push_back(folder.path() / file);
+    refuse_to_replace(files, "--force replaces them, --out DIR keeps them");
+  }
+  FlightTrialOptions trial;
+  trial.scenario = scenario_name(load_mission(options.mission, options.settings), options.scene.scenario);
+  trial.seed = options.scene.seed;
+  trial.flights = options.flights;
+  trial.frames = options.frames;
+  trial.rendered = options.rendered;
+  trial.lights = chosen_lights(options.lights);
+  trial.jobs = options.jobs;
+  MissionInput input = load_mission_input(options.mission, options.settings, trial.scenario);
+  const FlightTrialResult result = try_flights(compile_mission(std::move(input), ModelCache::of_user_if(options.cached)), trial);
+  folder.write(kFlightFiles[0], flights_json(result));
+  folder.write(kFlightFiles[1], flights_csv(result));
+  folder.commit();
+  std::fputs(flights_text(result).c_str(), stdout);
+  std::printf("written to %s: flights.json, flights.csv\n", options.out.c_str());
+}
+
 // Words of one way to use the command that the other one would not hear.
 void check_trial(const StereoArguments& options, bool recorded) {
-  if (options.views == 0 && !options.lights.empty())
-    throw InputError("--lights: goes with --views, which says how many pairs each light has");
-  if (options.views == 0) return;
-  if (recorded) throw InputError("--views: pairs are rendered of a MISSION; leave out --left, --right and --calibration");
-  if (options.depths.nearest_m > 0 || options.scene.time_s != 0 || options.scene.seed || !options.scene.camera.empty() ||
-      !options.scene.materials.empty())
-    throw InputError("--views: --nearest, --farthest, --time, --seed, --camera and --material are of one pair: leave them out");
+  const bool many = options.views > 0 || options.flights > 0;
+  if (!many && !options.lights.empty()) throw InputError("--lights: goes with --views or --flights, which say how many each light has");
+  if (options.frames && options.flights == 0) throw InputError("--frames: goes with --flights");
+  if (!many) return;
+  const std::string which = options.views > 0 ? "--views" : "--flights";
+  if (options.views > 0 && options.flights > 0) throw InputError("--views: single pairs, and --flights flies: leave one of them out");
+  if (recorded) throw InputError(which + ": pairs are those of a MISSION; leave out --left, --right and --calibration");
+  if (options.depths.nearest_m > 0 || options.scene.time_s != 0 || !options.scene.camera.empty() || !options.scene.materials.empty())
+    throw InputError(which + ": --nearest, --farthest, --time, --camera and --material are of one pair: leave them out");
+  if (options.views > 0 && options.scene.seed) throw InputError("--views: --seed is of one pair, and of --flights: leave it out");
+  if (options.flights > 0 && options.scene.range_m) throw InputError("--flights: --range is of pairs: choose a scenario of one range");
 }
 
 void stereo(const StereoArguments& options) {
@@ -198,6 +231,7 @@ void stereo(const StereoArguments& options) {
                             options.depths.farthest_m));
   check_trial(options, recorded);
   if (options.views > 0) return tried_pairs(options);
+  if (options.flights > 0) return flown_trials(options);
   recorded ? recorded_pair(options) : simulated_pair(options);
 }
 
@@ -238,8 +272,15 @@ void add_stereo_command(CLI::App& app) {
       ->add_option("--views", options->views,
                    "instead of one pair: this many views of the scenario in each light, their disparities and poses as statistics")
       ->check(CLI::Range(1, 10000));
-  command->add_option("--lights", options->lights, "with --views: some of the lights, such as sun_behind,lamp (all)")->delimiter(',');
-  command->add_flag("!--fitted-only", options->rendered, "with --views: by the fitted model alone, without pictures: in seconds");
+  command
+      ->add_option("--flights", options->flights,
+                   "instead: this many flights of the scenario in each light, by rendered pairs and by fitted errors, side by side")
+      ->check(CLI::Range(1, 10000));
+  command->add_option("--frames", options->frames, "of each flight (the scenario's)")->check(CLI::Range(1, 1000000));
+  command->add_option("--lights", options->lights, "with --views or --flights: some of the lights, such as sun_behind,lamp (all)")
+      ->delimiter(',');
+  command->add_flag("!--fitted-only", options->rendered,
+                    "with --views or --flights: by the fitted model alone, without pictures: in seconds");
   add_no_cache(*command, options->cached);
   command->add_option("-o,--out", options->out, "folder for the results")->capture_default_str();
   command->add_flag("--force", options->force, "replace an earlier pair in the folder");
@@ -248,6 +289,7 @@ void add_stereo_command(CLI::App& app) {
       "  mdat stereo hubble_tenth.toml --range 3 --set sensor.fov_half_x_deg=20 --set sensor.fov_half_y_deg=20\n"
       "  mdat stereo hubble_tenth.toml --range 3 --set 'stereo.sun=[0,0,0]' --set stereo.lamp_Wpsr=26\n"
       "  mdat stereo hubble_stereo.toml --views 6 --range 3\n"
+      "  mdat stereo hubble_stereo.toml --flights 100 --fitted-only\n"
       "  mdat stereo --left L.png --right R.png --calibration C.toml --nearest 2 --farthest 5");
   command->callback([options] { stereo(*options); });
 }

@@ -142,6 +142,18 @@ void put_u32(std::string& out, std::uint64_t value) {  // little-endian, as the 
 
 }  // namespace
 
+std::string items_text(const DecodedPacket& packet) {
+  std::string text;
+  for (const DecodedItem& item : packet.items) {
+    text += (text.empty() ? "" : ", ") + std::string(item.row->name);
+    for (const Number& number : item.values) {
+      const Choice* choice = choice_of(*item.row, number);
+      text += " " + (choice != nullptr ? std::string(choice->name) : text_of(number));
+    }
+  }
+  return text;
+}
+
 void check_selection(const Selection& selection) {
   std::vector<std::string> packets, items;
   for (const PacketRow& packet : kPackets) {

@@ -17,6 +17,9 @@ struct Selection {
 // Throws InputError: a kind or an item that the dictionary does not have.
 void check_selection(const Selection& selection);
 
+// "item value, item value"; values of enumerations by name.
+std::string items_text(const DecodedPacket& packet);
+
 // A block for each packet; with items selected, a line for each.
 std::string table_text(const DecodedStream& stream, const Selection& selection);
 // A line for each packet of one kind: the selected one, or the commonest of those that have a selected item. Elements of an item are

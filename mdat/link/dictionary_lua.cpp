@@ -121,7 +121,7 @@ DissectorTable.get("wtap_encap"):add(wtap.USER0, lasso)
 DissectorTable.get("udp.port"):add_for_decode_as(lasso)
 )";
 
-std::string quoted(const std::string& text) {
+std::string lua_quoted(const std::string& text) {
   std::string result = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\') result += '\\';
@@ -133,8 +133,8 @@ std::string quoted(const std::string& text) {
 std::string header_list(const char* name, Span<const HeaderField> header) {
   std::string text = format("local %s = {\n", name);
   for (const HeaderField& field : header) {
-    text +=
-        format("  {name = \"%s\", bit = %u, bits = %u, meaning = %s},\n", field.name, field.bit, field.bits, quoted(field.meaning).c_str());
+    text += format("  {name = \"%s\", bit = %u, bits = %u, meaning = %s},\n", field.name, field.bit, field.bits,
+                   lua_quoted(field.meaning).c_str());
   }
   return text + "}\n";
 }
@@ -142,14 +142,14 @@ std::string header_list(const char* name, Span<const HeaderField> header) {
 std::string values(const Enumeration& enumeration) {
   std::string text = ", values = {";
   std::size_t value = 0;
-  for (const Choice& choice : enumeration.choices) text += format("[%zu] = %s, ", value++, quoted(choice.name).c_str());
+  for (const Choice& choice : enumeration.choices) text += format("[%zu] = %s, ", value++, lua_quoted(choice.name).c_str());
   return text + "}";
 }
 
 std::string item(const ItemRow& row) {
   const std::string unit = std::string(row.unit) == "1" ? "" : std::string(" [") + row.unit + "]";
   return format("    {name = \"%s\", type = \"%s\", count = %u, meaning = %s", row.name, to_string(row.type), row.count,
-                quoted(row.meaning + unit).c_str()) +
+                lua_quoted(row.meaning + unit).c_str()) +
          (row.enumeration != nullptr ? values(*row.enumeration) : "") + "},\n";
 }
 

@@ -68,10 +68,14 @@ void Station::set_count(std::uint16_t count) {
 
 CommandAnswer Station::command(const PacketRow& row, const Values& values, bool arm, double wait_s) {
   if (arm) {
-    const CommandAnswer armed = ask([&](std::uint16_t count) { return arm_for(row, count); }, wait_s);
+    const CommandAnswer armed = this->arm(row, wait_s);
     if (armed.outcome != Outcome::kDone) return armed;
   }
   return ask([&](std::uint16_t count) { return encode_command(row, values, count); }, wait_s);
+}
+
+CommandAnswer Station::arm(const PacketRow& row, double wait_s) {
+  return ask([&](std::uint16_t count) { return arm_for(row, count); }, wait_s);
 }
 
 // Of a count that the component does not take, the one half of all counts further on is taken, but where the last one was either of the
@@ -129,21 +133,16 @@ bool Station::listen(double seconds, const std::function<bool()>& done) {
   const auto end = Clock::now() + std::chrono::duration<double>(seconds);
   while (!done()) {
     if (Clock::now() > end) return false;
-    Packet bytes(65536);
-    bytes.resize(link_.read(Bytes(bytes.data(), bytes.size())));
-    if (bytes.empty()) std::this_thread::sleep_for(kPause);
-    stream_.insert(stream_.end(), bytes.begin(), bytes.end());
-    if (!bytes.empty()) take_packets();
+    if (!receiver_.take(link_, [this](const DecodedPacket& packet) { note(packet); })) std::this_thread::sleep_for(kPause);
   }
   return true;
 }
 
-void Station::take_packets() {
-  const DecodedStream decoded = decode_stream({stream_.data(), stream_.size()}, PacketType::kTelemetry);
-  if (decoded.packets.empty()) return;
-  for (const DecodedPacket& packet : decoded.packets) note(packet);
-  const DecodedPacket& last = decoded.packets.back();
-  stream_.erase(stream_.begin(), stream_.begin() + static_cast<std::ptrdiff_t>(last.offset + last.bytes.size()));
+// By the time, so that it is not behind what others have counted since the last call.
+bool Station::call() {
+  const Packet ping = encode_command(command_row("ping"), {}, agreed_ ? count_++ : some_count());
+  const Packet sent = signer_ ? signer_->sign(ping) : ping;
+  return link_.write({sent.data(), sent.size()}) > 0;
 }
 
 void Station::note(const DecodedPacket& packet) {
@@ -153,6 +152,7 @@ void Station::note(const DecodedPacket& packet) {
   if (sent == sent_.end()) return;
   CommandAnswer& answer = sent->second;
   const std::uint8_t subservice = packet.bytes[8];
+  if (subservice == kSubserviceAccepted) accepted_();
   if (subservice == kSubserviceCompleted) answer.outcome = Outcome::kDone;
   if (subservice != kSubserviceFailed && subservice != kSubserviceRefused) return;
   const bool repeated = item_value(packet, "fault") == static_cast<double>(PacketFault::kRepeated);

@@ -13,6 +13,7 @@
 #include "mdat/link/command_encoder.hpp"
 #include "mdat/link/decode.hpp"
 #include "mdat/link/signature.hpp"
+#include "mdat/link/telemetry_receiver.hpp"
 
 namespace lasso::mdat {
 
@@ -28,7 +29,7 @@ struct CommandAnswer {
 class Station {
  public:
   using Values = std::map<std::string, std::string>;
-  using Listener = std::function<void(const DecodedPacket&)>;
+  using Listener = TelemetryReceiver::Listener;
 
   // `name` stands in errors. The listener gets each packet that comes, before anything else is done with it. The link outlives the station.
   Station(ByteLink& link, std::string name, Listener listener);
@@ -43,6 +44,11 @@ class Station {
   // link takes nothing.
   CommandAnswer command(const PacketRow& row, const Values& values, bool arm, double wait_s);
 
+  // The command that arms a hazardous one, which is carried out within kArmFrames frames. As command().
+  CommandAnswer arm(const PacketRow& row, double wait_s);
+  // Called where a command is reported as accepted, before its end.
+  void on_acceptance(std::function<void()> accepted) { accepted_ = std::move(accepted); }
+
   // Sends a command and does not wait. Throws RunError.
   void send(const PacketRow& row, const Values& values);
   // Commands that were sent and neither answered nor forgotten.
@@ -52,6 +58,13 @@ class Station {
   // Of all that were sent: their answers are of no interest any more.
   void forget() { sent_.clear(); }
 
+  // Sends a ping whose answer is of no interest: a component at the other end of datagrams learns where to send its telemetry. False: the
+  // link takes nothing now.
+  bool call();
+
+  // Bytes that have come and belong to no packet.
+  std::uint64_t other_bytes() const { return receiver_.other_bytes(); }
+
   // Takes telemetry until `done` holds, at most so long. Whether it does.
   bool listen(double seconds, const std::function<bool()>& done);
 
@@ -59,17 +72,17 @@ class Station {
   CommandAnswer ask(const std::function<std::vector<std::uint8_t>(std::uint16_t)>& encode, double wait_s);
   CommandAnswer wait_for(const std::vector<std::uint8_t>& packet, double wait_s);
   void transmit(const std::vector<std::uint8_t>& packet);
-  void take_packets();
   void note(const DecodedPacket& packet);
 
   ByteLink& link_;
   std::string name_;
   Listener listener_;
+  std::function<void()> accepted_ = [] {};
   std::optional<Signer> signer_;
   std::uint16_t count_;
   bool agreed_ = false;                          // the component has taken a count, or somebody has set it
   std::map<std::uint32_t, CommandAnswer> sent_;  // by the first four bytes
-  std::vector<std::uint8_t> stream_;
+  TelemetryReceiver receiver_;
 };
 
 // The first value of an item; 0 where the packet does not have it.

@@ -40,14 +40,16 @@ void put_channel(const Channel& channel, std::string& bytes) {
   put_record(Op::kChannel, content, bytes);
 }
 
+// In place: most of a recording's bytes pass here.
 void put_message(const Message& message, std::string& bytes) {
-  std::string content;
-  put(message.channel, content);
-  put(message.sequence, content);
-  put(message.log_ns, content);
-  put(message.publish_ns, content);
-  content.append(message.data);
-  put_record(Op::kMessage, content, bytes);
+  constexpr std::uint64_t kHeadBytes = 2 + 4 + 8 + 8;
+  put(static_cast<std::uint8_t>(Op::kMessage), bytes);
+  put<std::uint64_t>(kHeadBytes + message.data.size(), bytes);
+  put(message.channel, bytes);
+  put(message.sequence, bytes);
+  put(message.log_ns, bytes);
+  put(message.publish_ns, bytes);
+  bytes.append(message.data);
 }
 
 void put_attachment(const Attachment& attachment, std::string& bytes) {

@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <memory>
 #include <set>
 #include <string>
 #include <string_view>
@@ -19,11 +20,17 @@
 
 #include "mdat/mcap/format.hpp"
 
+struct ZSTD_CCtx_s;  // of <zstd.h>
+
 namespace lasso::mdat::mcap {
 
 constexpr std::size_t kChunkBytes = std::size_t{1} << 20;  // uncompressed, beyond which a chunk ends
 
 enum class Bulk : std::uint8_t { kSmall = 0, kLarge = 1 };  // of a channel's messages
+
+struct FreeCompressor {
+  void operator()(ZSTD_CCtx_s* context) const;
+};
 
 // All throw InputError that names the file and the reason where it cannot be written, as on a full disk.
 class Writer {
@@ -51,13 +58,21 @@ class Writer {
     std::string records;
     std::map<std::uint16_t, std::string> index;  // of each channel: time and place of each message
     std::set<std::uint16_t> schemas;             // that stand in it
+
+    // Its memory stays: that of a new one would be asked of the system, and cleared by it, each time.
+    void clear() {
+      records.clear();
+      index.clear();
+      schemas.clear();
+    }
   };
   struct Counts {
     std::uint64_t first_ns = 0, last_ns = 0;
     std::uint32_t attachments = 0, metadata = 0, chunks = 0;
     std::map<std::uint16_t, std::uint64_t> messages;
   };
-  void put_out(const std::string& bytes);
+  std::string_view compressed(std::string_view bytes);  // until the next call
+  void put_out(std::string_view bytes, bool flush = true);
   void begin_in_chunk(std::uint16_t channel, Chunk& chunk) const;
   void end_chunks();
   void end_chunk(Chunk& chunk);
@@ -67,6 +82,8 @@ class Writer {
 
   std::filesystem::path path_;
   std::ofstream out_;
+  std::unique_ptr<ZSTD_CCtx_s, FreeCompressor> compressor_;
+  std::string packed_;
   std::uint64_t at_ = 0;         // bytes written
   std::uint32_t crc_ = 0;        // of them
   std::array<Chunk, 2> chunks_;  // by Bulk

@@ -47,7 +47,8 @@ void override_parameters(MissionParameters& parameters, const std::map<std::stri
 // Builds a MissionSource from a parsed file; the stages follow each other, problems gather.
 class Loader {
  public:
-  Loader(const std::filesystem::path& file, const std::vector<std::string>& settings) : root_(parse_toml(file)), problems_(file) {
+  Loader(toml::table root, const std::filesystem::path& file, const std::vector<std::string>& settings)
+      : root_(std::move(root)), problems_(file) {
     source_.file = file;
     source_.settings = settings;
     apply_settings(settings, root_, problems_);
@@ -316,7 +317,11 @@ Problem problem_at(const MissionSource& source, const std::string& key, const st
 }
 
 MissionSource load_mission(const std::filesystem::path& file, const std::vector<std::string>& settings) {
-  return Loader(file, settings).load();
+  return Loader(parse_toml(file), file, settings).load();
+}
+
+MissionSource load_mission_text(const std::string& text, const std::filesystem::path& file) {
+  return Loader(parse_toml_text(text, file), file, {}).load();
 }
 
 void check_settings(const MissionSource& source, const std::string& scenario) {

@@ -175,6 +175,8 @@ Problem problem_at(const MissionSource& source, const std::string& key, const st
 // Reads and checks everything except the geometry of the target (load_target) and what has to fit it (check_target). Each of `settings`,
 // KEY=VALUE, is checked as if the file said it, and holds in its place. Throws MissionError with all problems.
 MissionSource load_mission(const std::filesystem::path& file, const std::vector<std::string>& settings = {});
+// The same of a text, as if `file` held it: what it names is looked for from there.
+MissionSource load_mission_text(const std::string& text, const std::filesystem::path& file);
 
 // A setting that changes nothing in this scenario (empty: none): it is another scenario's, or this one overrides it. Throws MissionError
 // that names the key to set.

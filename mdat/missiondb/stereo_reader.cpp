@@ -11,10 +11,20 @@ ValueRow direction_row(const char* key, const std::vector<double>& preset, const
   return list_row(number_row(key, "1", kReal, 1, -1e6, 1e6, 0, meaning), 3, preset);
 }
 
+ValueRow model_row() {
+  ValueRow row =
+      number_row("model", "1", kChoice, 1, 0, 1, 0,
+                 "of sensors of the kind stereo: rendered pairs, which are matched (seconds a frame, OpenCV), or ranges by errors "
+                 "that were fitted to such pairs (milliseconds)");
+  row.choices = {std::begin(kStereoModelNames), std::end(kStereoModelNames)};
+  return row;
+}
+
 std::vector<ValueRow> make_stereo_rows() {
   const StereoSource s;
   // clang-format off
   return {
+    model_row(),
     number_row("baseline_m", "m", kReal, 1, 0.001, 100, s.baseline_m, "the right camera stands this far to the right of the left one, whose frame is the sensor's"),
     number_row("pixels", "1", kInteger, 1, 64, 4096, s.pixels, "along the longer side of the field of view"),
     number_row("f_number", "1", kReal, 1, 0.5, 64, s.f_number, "focal length by aperture"),
@@ -47,6 +57,7 @@ void read_stereo(const toml::table& root, MissionSource& source, ProblemList& pr
   if (!node->is_table()) return problems.add(*node, "stereo", "wrong type: expected a table [stereo]");
   const SceneValues values(*node->as_table(), "stereo", stereo_rows(), {}, source, problems);
   StereoSource& stereo = source.stereo;
+  stereo.model = values.number("model");
   stereo.baseline_m = values.number("baseline_m");
   stereo.pixels = values.number("pixels");
   stereo.f_number = values.number("f_number");

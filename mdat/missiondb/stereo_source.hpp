@@ -5,7 +5,10 @@
 
 namespace lasso::mdat {
 
+constexpr const char* kStereoModelNames[] = {"rendered", "fitted"};  // as a mission writes them
+
 struct StereoSource {
+  double model = 0;  // position in kStereoModelNames: pairs are rendered and matched, or ranges have errors that were fitted to such pairs
   double baseline_m = 0.3;
   double pixels = 1024;  // along the longer side of the field of view
   double f_number = 8, pixel_m = 5.5e-6, full_well_e = 20000, read_noise_e = 8;
@@ -20,6 +23,8 @@ struct StereoSource {
   // error.
   std::vector<double> turn_error_rad = {0, 0, 0};
   double baseline_error = 0;
+
+  bool is_fitted() const { return model == 1; }
 };
 
 }  // namespace lasso::mdat

@@ -1,12 +1,14 @@
 #include "mdat/recording/frame_recorder.hpp"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <utility>
 
 #include "fsw/link/event_rows.hpp"
 #include "mdat/common/version.hpp"
-#include "mdat/link/decode.hpp"
+#include "mdat/link/decode_text.hpp"
+#include "mdat/recording/packet_messages.hpp"
 #include "mdat/recording/ros_schemas.hpp"
 #include "mdat/recording/scan_cloud.hpp"
 #include "mdat/run/case.hpp"
@@ -15,9 +17,9 @@
 namespace lasso::mdat {
 namespace {
 
-constexpr char kSensorFrame[] = "sensor", kTargetFrame[] = "target", kTrueFrame[] = "target_true", kFilteredFrame[] = "target_filtered";
-constexpr double kTrueColor[] = {0.45, 0.75, 0.45}, kEstimateColor[] = {0.95, 0.65, 0.25};  // red, green, blue
-constexpr double kGhost = 0.35;                                                             // opacity of the true target
+constexpr double kTrueColor[] = {0.45, 0.75, 0.45}, kEstimateColor[] = {0.95, 0.65, 0.25},
+                 kOtherColor[] = {0.6, 0.65, 0.7};  // red, green, blue
+constexpr double kGhost = 0.35;                     // opacity of the true target
 
 struct Topic {
   const char* name;
@@ -34,7 +36,8 @@ constexpr Topic kTopics[] = {{"/tf", ros::tf_message},
                              {"/scene", ros::scene_update, mcap::Bulk::kLarge},
                              {"/events", ros::log},
                              {"/packets", ros::packet},
-                             {"/sensor_scans", ros::packet, mcap::Bulk::kLarge}};
+                             {"/sensor_scans", ros::packet, mcap::Bulk::kLarge},
+                             {"/commands", ros::packet}};
 
 std::uint64_t nanoseconds(TimeUs t_us) { return static_cast<std::uint64_t>(t_us) * 1000; }
 
@@ -60,17 +63,30 @@ const EventRow* event_of(const DecodedPacket& packet) {
   return nullptr;
 }
 
-// "item value, item value"
-std::string items_text(const DecodedPacket& packet) {
-  std::string text;
-  for (const DecodedItem& item : packet.items) {
-    text += (text.empty() ? "" : ", ") + std::string(item.row->name);
-    for (const Number& number : item.values) {
-      const Choice* choice = choice_of(*item.row, number);
-      text += " " + (choice != nullptr ? std::string(choice->name) : mdat::text_of(number));
-    }
+// Of recorded_topics(), by their names.
+const std::map<std::string, std::size_t>& tap_numbers() {
+  static const std::map<std::string, std::size_t> kNumbers = [] {
+    std::map<std::string, std::size_t> numbers;
+    for (const Topic& topic : kTopics) numbers.emplace(topic.name, numbers.size());
+    for (const PacketRow* packet : told_packets()) numbers.emplace(packet_topic(*packet), numbers.size());
+    return numbers;
+  }();
+  return kNumbers;
+}
+
+std::string scenario_in(const RecordingHead& head) {
+  const auto said = head.about.find("scenario");
+  return said != head.about.end() ? said->second : "";
+}
+
+// Those that are not `moved`, where it is of this mesh; else all.
+std::vector<std::array<std::uint32_t, 3>> kept(const std::vector<std::array<std::uint32_t, 3>>& triangles, const std::vector<bool>& moved) {
+  if (moved.size() != triangles.size()) return triangles;
+  std::vector<std::array<std::uint32_t, 3>> still;
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    if (!moved[i]) still.push_back(triangles[i]);
   }
-  return text;
+  return still;
 }
 
 }  // namespace
@@ -78,46 +94,59 @@ std::string items_text(const DecodedPacket& packet) {
 std::vector<MessageTopic> recorded_topics() {
   std::vector<MessageTopic> topics;
   for (const Topic& topic : kTopics) topics.push_back({topic.name, topic.schema()});
+  for (const PacketRow* packet : told_packets()) topics.push_back({packet_topic(*packet), packet_schema(*packet)});
   return topics;
 }
 
 FrameRecorder::FrameRecorder(const std::filesystem::path& file, const CompiledMission& mission, const RecordingHead& head,
                              std::shared_ptr<sim::SensorRecording> scans, RecordingContent content, MessageTap* tap)
-    : mission_(mission), tap_(tap), scans_(std::move(scans)), content_(content) {
+    : target_(&mission.mesh),
+      frames_(std::in_place, mission.source, scenario_in(head)),
+      tap_(tap),
+      scans_(std::move(scans)),
+      content_(content) {
   if (content_ == RecordingContent::kAll) model_ = make_target(mission.mesh);
+  if (!file.empty()) open(file, head);
+}
+
+FrameRecorder::FrameRecorder(const std::filesystem::path& file, const Mesh* target, const RecordingHead& head, MessageTap* tap)
+    : target_(target), tap_(tap), content_(RecordingContent::kAll) {
   if (!file.empty()) open(file, head);
 }
 
 void FrameRecorder::open(const std::filesystem::path& file, const RecordingHead& head) {
   writer_.emplace(file, kRecordingProfile, "mdat");
-  std::map<std::string, std::uint16_t> schemas;
   for (const Topic& topic : kTopics) {
-    if (content_ == RecordingContent::kReplay && topic.schema != ros::packet) continue;
-    const RosSchema schema = topic.schema();
-    const auto [place, added] = schemas.try_emplace(schema.name, std::uint16_t{0});
-    if (added) place->second = writer_->add_schema(schema.name, "ros2msg", schema.text);
-    channels_[topic.name] = writer_->add_channel(topic.name, place->second, "cdr", {}, topic.bulk);
+    if (content_ == RecordingContent::kAll || topic.schema == ros::packet) add_topic({topic.name, topic.schema()}, topic.bulk);
   }
   for (const auto& [name, bytes] : head.files) writer_->attach(name, "application/octet-stream", bytes, 0);
   writer_->add_metadata(kRecordingMetadata, head.about);
 }
 
-void FrameRecorder::write(const char* topic, TimeUs t_us, const std::string& bytes) {
+void FrameRecorder::add_topic(const MessageTopic& topic, mcap::Bulk bulk) {
+  const auto [place, added] = schemas_.try_emplace(topic.schema.name, std::uint16_t{0});
+  if (added) place->second = writer_->add_schema(topic.schema.name, "ros2msg", topic.schema.text);
+  channels_[topic.name] = writer_->add_channel(topic.name, place->second, "cdr", {}, bulk);
+}
+
+void FrameRecorder::write(const std::string& topic, TimeUs t_us, const std::string& bytes) {
   if (writer_) writer_->write(channels_.at(topic), nanoseconds(t_us), bytes);
-  if (tap_ == nullptr) return;
-  const auto* row =
-      std::find_if(std::begin(kTopics), std::end(kTopics), [&](const Topic& one) { return std::string_view(one.name) == topic; });
-  tap_->on_message(static_cast<std::size_t>(row - std::begin(kTopics)), nanoseconds(t_us), bytes);
+  if (tap_ != nullptr) tap_->on_message(tap_numbers().at(topic), nanoseconds(t_us), bytes);
+}
+
+void FrameRecorder::on_commands(TimeUs slot_us, ConstBytes bytes) {
+  write("/commands", slot_us, ros::packet_bytes({slot_us, ""}, text_of(bytes)));
 }
 
 void FrameRecorder::on_packets(TimeUs boundary_us, ConstBytes packets) {
+  ++boundaries_;
   ConstBytes rest = packets;
   while (const std::size_t size = packet_size(rest)) {
     const ConstBytes packet = rest.first(std::min(size, rest.size()));
     write("/packets", boundary_us, ros::packet_bytes({boundary_us, ""}, text_of(packet)));
     rest = rest.subspan(packet.size(), rest.size() - packet.size());
   }
-  if (content_ == RecordingContent::kAll) write_events(boundary_us, packets);
+  if (content_ == RecordingContent::kAll) write_told(boundary_us, packets);
   take_scans(false);
 }
 
@@ -129,10 +158,10 @@ void FrameRecorder::take_scans(bool all) {
                        [&](const sim::SensorScan& later) { return later.sensor == (*scans_)[at].sensor; });
   };
   for (; scans_taken_ < scans_->size() && (all || is_followed(scans_taken_)); ++scans_taken_) {
-    sim::SensorScan& scan = (*scans_)[scans_taken_];
-    const std::vector<std::uint8_t> bytes = sim::to_bytes({scan});
-    write("/sensor_scans", scan.t_start_us, ros::packet_bytes({scan.t_start_us, ""}, text_of(bytes)));
-    scan.samples = {};
+    sim::SensorRecording scan;
+    scan.push_back(std::move((*scans_)[scans_taken_]));  // nobody asks for its samples again
+    const TimeUs t_start_us = scan.front().t_start_us;
+    write("/sensor_scans", t_start_us, ros::packet_bytes({t_start_us, ""}, text_of(sim::to_bytes(scan))));
   }
 }
 
@@ -142,37 +171,56 @@ void FrameRecorder::close(const std::vector<std::uint8_t>& image) {
   take_scans(true);
   if (!writer_) return;
   if (!image.empty()) writer_->attach(kImageAttachment, "application/octet-stream", text_of(image), 0);
+  writer_->add_metadata(kRecordingEnd, {{kBoundaries, std::to_string(boundaries_)}});
   writer_->close();
 }
 
-void FrameRecorder::write_events(TimeUs boundary_us, ConstBytes packets) {
+// Each packet by the dictionary. The file has a packet's topic from the first one on.
+void FrameRecorder::write_told(TimeUs boundary_us, ConstBytes packets) {
   for (const DecodedPacket& packet : decode_stream(packets, PacketType::kTelemetry).packets) {
-    const EventRow* event = event_of(packet);
-    if (event == nullptr) continue;
-    write("/events", boundary_us, ros::log_bytes(boundary_us, level_of(event->severity), event->name, items_text(packet)));
+    if (packet.row == nullptr) continue;
+    const std::string topic = packet_topic(*packet.row);
+    if (writer_ && channels_.count(topic) == 0) add_topic({topic, packet_schema(*packet.row)}, mcap::Bulk::kSmall);
+    write(topic, boundary_us, packet_message(boundary_us, packet));
+    write_event(boundary_us, packet);
   }
 }
 
-// Once: both move with their frames.
-void FrameRecorder::write_surfaces(TimeUs t_us) {
-  if (std::exchange(surfaces_written_, true)) return;
-  const Mesh& mesh = mission_.mesh;
-  write("/scene", t_us,
-        ros::scene_bytes(t_us, {{"target, true", kTrueFrame, &mesh.vertices, &mesh.triangles, Vec3(kTrueColor), kGhost},
-                                {"target, estimated", kTargetFrame, &mesh.vertices, &mesh.triangles, Vec3(kEstimateColor), 1}}));
+void FrameRecorder::write_event(TimeUs boundary_us, const DecodedPacket& packet) {
+  const EventRow* event = event_of(packet);
+  if (event == nullptr) return;
+  write("/events", boundary_us, ros::log_bytes(boundary_us, level_of(event->severity), event->name, items_text(packet)));
 }
 
-void FrameRecorder::write_poses(const FlownFrame& frame) {
-  const PoseTelemetry& told = frame.telemetry;
+// What is known of a run besides its estimates: the true target, and other bodies of its scene.
+void FrameRecorder::add_true_surfaces(const std::vector<std::array<std::uint32_t, 3>>& still, std::vector<ros::Surface>& surfaces) const {
+  surfaces.push_back({"target, true", kTrueFrame, &target_->vertices, &still, Vec3(kTrueColor), kGhost});
+  for (const SceneFrames::Body& body : frames_->bodies())
+    surfaces.push_back({body.frame, body.frame, &body.surface->vertices, &body.surface->triangles, Vec3(kOtherColor), 1});
+}
+
+// Once: they move with their frames.
+void FrameRecorder::write_surfaces(TimeUs t_us) {
+  if (target_ == nullptr || std::exchange(surfaces_written_, true)) return;
+  std::vector<ros::Surface> surfaces;
+  std::vector<std::array<std::uint32_t, 3>> still;  // lives as long as the surfaces
+  if (frames_) still = kept(target_->triangles, frames_->moved_triangles());
+  if (frames_) add_true_surfaces(still, surfaces);
+  surfaces.push_back({"target, estimated", kTargetFrame, &target_->vertices, &target_->triangles, Vec3(kEstimateColor), 1});
+  write("/scene", t_us, ros::scene_bytes(t_us, surfaces));
+}
+
+void FrameRecorder::write_poses(const PoseTelemetry& told, const Pose* truth) {
   const TimeUs t_us = told.t_measurement_us;
   const ros::Header header{t_us, kSensorFrame};
   const Pose estimate = registration_pose(told), filtered = filtered_pose(told);
-  write("/tf", t_us,
-        ros::tf_bytes(t_us, {{"world", kSensorFrame, Pose{}},
-                             {kSensorFrame, kTrueFrame, frame.truth.T_sensor_target},
-                             {kSensorFrame, kTargetFrame, estimate},
-                             {kSensorFrame, kFilteredFrame, filtered}}));
-  write("/truth", t_us, ros::pose_bytes(header, frame.truth.T_sensor_target));
+  std::vector<ros::FrameTransform> frames = {{kWorldFrame, kSensorFrame, Pose{}}};
+  if (frames_ && truth != nullptr) frames = frames_->true_frames(t_us, *truth);
+  frames.push_back({kSensorFrame, kTargetFrame, estimate});
+  frames.push_back({kSensorFrame, kFilteredFrame, filtered});
+  if (frames_) frames.insert(frames.end(), frames_->estimated_frames().begin(), frames_->estimated_frames().end());
+  write("/tf", t_us, ros::tf_bytes(t_us, frames));
+  if (truth != nullptr) write("/truth", t_us, ros::pose_bytes(header, *truth));
   const Twist rates{Vec3(told.filter_omega_radps), Vec3(told.filter_v_mps)};
   write("/odom", t_us,
         ros::odometry_bytes(header,
@@ -195,8 +243,14 @@ void FrameRecorder::write_scan(const FlownFrame& frame) {
 void FrameRecorder::on_frame(const FlownFrame& frame) {
   if (content_ == RecordingContent::kReplay) return;
   write_surfaces(frame.telemetry.t_measurement_us);
-  write_poses(frame);
+  write_poses(frame.telemetry, &frame.truth.T_sensor_target);
   write_scan(frame);
+}
+
+void FrameRecorder::on_report(const PoseTelemetry& told) {
+  if (told.t_measurement_us <= 0) return;
+  write_surfaces(told.t_measurement_us);
+  write_poses(told, nullptr);
 }
 
 }  // namespace lasso::mdat

@@ -1,7 +1,7 @@
 // A run as a recording that other people's tools open: MCAP, profile ros2, messages in CDR (docs/recordings.md says topic by topic what).
 //
-// Frames: `world`, at rest for a run without a scene; `sensor` in it; `target_true`, `target` (the registration, or where it did not run
-// the prediction) and `target_filtered` in the sensor's. All are sent with every frame.
+// Frames: those of scene_frames.hpp, and in the sensor's `target` (the registration, or where it did not run the prediction) and
+// `target_filtered`. All are sent with every frame.
 #pragma once
 
 #include <filesystem>
@@ -14,10 +14,12 @@
 #include "hal_sim/ray_caster.hpp"
 #include "hal_sim/sensor_recording.hpp"
 #include "mdat/common/flight_image.hpp"
+#include "mdat/link/decode.hpp"
 #include "mdat/mcap/writer.hpp"
 #include "mdat/recording/message_tap.hpp"
 #include "mdat/recording/recording_head.hpp"
 #include "mdat/recording/ros_messages.hpp"
+#include "mdat/recording/scene_frames.hpp"
 #include "mdat/run/run_listener.hpp"
 
 namespace lasso::mdat {
@@ -27,17 +29,23 @@ constexpr char kRecordingProfile[] = "ros2";
 // What a run has told of: the topics of its messages, in the order by which a tap knows them.
 std::vector<MessageTopic> recorded_topics();
 
-enum class RecordingContent { kAll, kReplay };  // kReplay: packets and what the sensors gave, which is all that mdat replay needs
+enum class RecordingContent { kAll, kReplay };  // kReplay: packets, and what sensors and operator gave, which is all that mdat replay needs
 
 class FrameRecorder final : public RunListener {
  public:
   // `mission` and `tap` outlive it. `scans`: where the run's sensors leave what they gave; each scan is taken out of it once it is whole.
-  // Without a file the tap alone gets the messages. Throws InputError where the file cannot be written; so do all calls.
+  // Without a file the tap alone gets the messages; `head` says the scenario then, too. Throws InputError where the file cannot be written;
+  // so do all calls.
   FrameRecorder(const std::filesystem::path& file, const CompiledMission& mission, const RecordingHead& head,
                 std::shared_ptr<sim::SensorRecording> scans, RecordingContent content = RecordingContent::kAll, MessageTap* tap = nullptr);
+  // Of telemetry alone, without scans and true poses. `target`, which outlives it: its surface; null: it is not known.
+  FrameRecorder(const std::filesystem::path& file, const Mesh* target, const RecordingHead& head, MessageTap* tap);
 
   void on_packets(TimeUs boundary_us, ConstBytes packets) override;
   void on_frame(const FlownFrame& frame) override;
+  void on_commands(TimeUs slot_us, ConstBytes bytes) override;
+  // A frame of which no more is known than what the component tells; one that has no scan leaves no message.
+  void on_report(const PoseTelemetry& told);
   // All so far is in the file; returns its bytes, for who reads it while the run flies (mcap::IndexedFile). 0: there is no file.
   std::uint64_t flush();
   // Ends the file, with the flight image that flew; an empty one is left out.
@@ -45,22 +53,27 @@ class FrameRecorder final : public RunListener {
 
  private:
   void open(const std::filesystem::path& file, const RecordingHead& head);
-  void write(const char* topic, TimeUs t_us, const std::string& bytes);
+  void add_topic(const MessageTopic& topic, mcap::Bulk bulk);
+  void write(const std::string& topic, TimeUs t_us, const std::string& bytes);
+  void write_told(TimeUs boundary_us, ConstBytes packets);
+  void add_true_surfaces(const std::vector<std::array<std::uint32_t, 3>>& still, std::vector<ros::Surface>& surfaces) const;
   void write_surfaces(TimeUs t_us);
-  void write_poses(const FlownFrame& frame);
+  void write_poses(const PoseTelemetry& told, const Pose* truth);
   void write_scan(const FlownFrame& frame);
-  void write_events(TimeUs boundary_us, ConstBytes packets);
+  void write_event(TimeUs boundary_us, const DecodedPacket& packet);
   void take_scans(bool all);
 
-  const CompiledMission& mission_;
+  const Mesh* target_;
+  std::optional<SceneFrames> frames_;  // of a run; none: telemetry alone is known
   std::optional<mcap::Writer> writer_;
   MessageTap* tap_;
-  std::map<std::string, std::uint16_t> channels_;  // of the file
-  std::unique_ptr<sim::RayCaster> model_;          // as the component knows the target; null: only for replay
+  std::map<std::string, std::uint16_t> schemas_, channels_;  // of the file
+  std::unique_ptr<sim::RayCaster> model_;                    // as the component knows the target; null: only for replay
   std::shared_ptr<sim::SensorRecording> scans_;
   RecordingContent content_;
   std::size_t scans_taken_ = 0;
   bool surfaces_written_ = false;
+  std::uint64_t boundaries_ = 0;
 };
 
 }  // namespace lasso::mdat

@@ -9,7 +9,6 @@
 #include "mdat/common/errors.hpp"
 #include "mdat/common/output.hpp"
 #include "mdat/mcap/cdr.hpp"
-#include "mdat/recording/recording_head.hpp"
 
 namespace lasso::mdat {
 namespace {
@@ -34,6 +33,11 @@ void take_scan(const fs::path& file, std::string_view message, sim::SensorRecord
   } catch (const std::invalid_argument& error) {
     throw InputError(file.string() + ": /sensor_scans, message " + std::to_string(scans.size() + 1) + ": " + error.what());
   }
+}
+
+void take_commands(const mcap::Message& message, CommandStream& commands) {
+  const std::string_view bytes = packet_of(message.data);
+  commands.pieces.push_back({static_cast<TimeUs>(message.log_ns / 1000), {bytes.begin(), bytes.end()}});
 }
 
 std::string size_text(std::uint64_t bytes) {
@@ -108,15 +112,22 @@ struct TimedPacket {
   std::string bytes;
 };
 
-std::uint64_t whole_until_ns(const mcap::Text& about) {
-  const auto said = about.find(kWholeUntil);
-  if (said == about.end() || said->second.empty() || said->second.size() > 19) return UINT64_MAX;
-  return said->second.find_first_not_of("0123456789") == std::string::npos ? std::stoull(said->second) : UINT64_MAX;
+// Metadata's number of at most 19 digits; else none.
+std::optional<std::uint64_t> number_in(const mcap::Text& map, const std::string& key) {
+  const auto said = map.find(key);
+  if (said == map.end() || said->second.empty() || said->second.size() > 19) return std::nullopt;
+  if (said->second.find_first_not_of("0123456789") != std::string::npos) return std::nullopt;
+  return std::stoull(said->second);
 }
+
+std::uint64_t whole_until_ns(const mcap::Text& about) { return number_in(about, kWholeUntil).value_or(UINT64_MAX); }
 
 void check_run(const fs::path& file, RecordedRun& run, bool merged) {
   if (merged)
     throw InputError(file.string() + ": is two runs in one file, for viewers: replay one of the recordings that it was merged of");
+  if (run.about.count(kLinkAddress) > 0)
+    throw InputError(file.string() +
+                     ": is telemetry of a link, without scans, and cannot be flown again: record the run itself (mdat run --record)");
   const std::string mission = run.about["mission"];
   if (mission.rfind(kMissionFolder, 0) != 0 || run.files.count(mission) == 0)
     throw InputError(file.string() + ": says of no mission of which run it is: expected a recording of mdat run --record");
@@ -138,6 +149,7 @@ RecordedRun read_recorded_run(const fs::path& file) {
   mcap::Visitor visitor;
   visitor.message = [&](const mcap::Channel& channel, const mcap::Message& message) {
     if (channel.topic == "/packets") packets.push_back({message.log_ns, std::string(packet_of(message.data))});
+    if (channel.topic == "/commands") take_commands(message, run.commands);
     if (channel.topic != "/sensor_scans") return;
     take_scan(file, message.data, run.scans);
     if (reader.damage().empty()) scans_until_ns = std::max(scans_until_ns, message.log_ns);
@@ -146,10 +158,13 @@ RecordedRun read_recorded_run(const fs::path& file) {
   bool merged = false;
   visitor.metadata = [&](const std::string& name, const mcap::Text& map) {
     if (name == kRecordingMetadata) run.about = map;
+    if (name == kRecordingEnd) run.boundaries = number_in(map, kBoundaries);
     merged = merged || name == kMergedMetadata;
   };
   run.damage = reader.read(visitor);
   check_run(file, run, merged);
+  const auto form = run.about.find(kLinkForm);
+  run.commands.datagrams = form != run.about.end() && form->second == kDatagrams;
   const std::uint64_t until_ns = std::min(whole_until_ns(run.about), run.damage.empty() ? UINT64_MAX : scans_until_ns);
   run.whole = until_ns == UINT64_MAX;
   for (const TimedPacket& packet : packets) {
@@ -179,10 +194,11 @@ MissionFolder::MissionFolder(const RecordedRun& run) {
   folder_ = name;
   try {
     for (const auto& [attachment, content] : run.files) {
-      if (attachment.rfind(kMissionFolder, 0) != 0) continue;
+      const bool of_store = attachment.rfind(kStoreFolder, 0) == 0;
+      if (attachment.rfind(kMissionFolder, 0) != 0 && !of_store) continue;
       const fs::path place = fs::path(attachment).lexically_normal();
-      if (place.is_absolute() || *place.begin() != "mission")
-        throw InputError("attachment '" + attachment + "' would leave the mission's folder");
+      if (place.is_absolute() || *place.begin() != (of_store ? "store" : "mission"))
+        throw InputError("attachment '" + attachment + "' would leave the " + (of_store ? "store's" : "mission's") + " folder");
       fs::create_directories((folder_ / place).parent_path());
       write_file(folder_ / place, content);
     }

@@ -4,11 +4,14 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "hal_sim/sensor_recording.hpp"
 #include "mdat/mcap/reader.hpp"
+#include "mdat/recording/recording_head.hpp"
+#include "mdat/run/command_stream.hpp"
 
 namespace lasso::mdat {
 
@@ -16,10 +19,12 @@ struct RecordedRun {
   mcap::Text about;                          // as RecordingHead's
   std::map<std::string, std::string> files;  // attachments
   sim::SensorRecording scans;
-  std::string telemetry;             // packets, in order: all that follow from `scans`
-  std::uint64_t last_packet_ns = 0;  // time of the last of them
-  bool whole = true;                 // false: damaged, or a part of a recording
-  std::vector<mcap::Damage> damage;  // what could not be read
+  CommandStream commands;                   // of an operator, where it had a link (kLinkForm)
+  std::string telemetry;                    // packets, in order: all that follow from `scans`
+  std::uint64_t last_packet_ns = 0;         // time of the last of them
+  std::optional<std::uint64_t> boundaries;  // that it passed, where it ended as it should
+  bool whole = true;                        // false: damaged, or a part of a recording
+  std::vector<mcap::Damage> damage;         // what could not be read
 };
 
 // Throws InputError that names the file: it cannot be read, is no MCAP file, has been written by another program, holds a scan that is
@@ -30,7 +35,7 @@ RecordedRun read_recorded_run(const std::filesystem::path& file);
 // Of any MCAP file. Throws InputError as mcap::Reader.
 std::string contents_text(const std::filesystem::path& file);
 
-// Its mission's files in a folder of their own, which goes with this object.
+// Its mission's files, and those of its board's store, in a folder of their own, which goes with this object.
 class MissionFolder {
  public:
   // Throws InputError: an attachment that would leave the folder; RunError: no folder can be made.
@@ -40,6 +45,7 @@ class MissionFolder {
   MissionFolder& operator=(const MissionFolder&) = delete;
   const std::filesystem::path& mission() const { return mission_; }
   std::filesystem::path file(const std::string& attachment) const { return folder_ / attachment; }  // of kMissionFolder
+  std::filesystem::path store() const { return folder_ / kStoreFolder; }  // the board's, as it was; there where the run had one
 
  private:
   std::filesystem::path folder_, mission_;

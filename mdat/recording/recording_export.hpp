@@ -51,6 +51,10 @@ std::string export_glb(const std::filesystem::path& file, const ExportOptions& o
 // message begins. Topics of other lists are left out.
 std::string export_h5(const std::filesystem::path& file, const ExportOptions& options);
 
+// A bag of rosbag2: folder/NAME_0.mcap, which is the recording or its span, and folder/metadata.yaml (version 5), NAME that of the folder.
+// Throws InputError: no message, or a file that cannot be written.
+void export_bag(const std::filesystem::path& file, const ExportOptions& options, const std::filesystem::path& folder);
+
 // CCSDS packets one behind the other, as the component sent them.
 std::string export_packets(const std::filesystem::path& file, const ExportOptions& options);
 

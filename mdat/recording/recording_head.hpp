@@ -17,6 +17,16 @@ constexpr char kRecordingMetadata[] = "3dlasso";
 // scans that it holds.
 constexpr char kBeginsLate[] = "begins_late_s";
 constexpr char kWholeUntil[] = "whole_until_ns";
+// Of a run that ended: how many boundaries it passed, which are fewer than its frames need where somebody ended it.
+constexpr char kRecordingEnd[] = "3dlasso_end";
+constexpr char kBoundaries[] = "boundaries";
+// Of a run with an operator's link, in kRecordingMetadata: its form; whether its commands had to be signed; whether its board had a store.
+// What that held before is attached below kStoreFolder.
+constexpr char kLinkForm[] = "link", kDatagrams[] = "datagrams", kByteStream[] = "stream";
+constexpr char kSigned[] = "signed", kHasStore[] = "store";  // "yes"
+constexpr char kStoreFolder[] = "store/";
+// In it, of telemetry that came over a link: its address. There are no scans then.
+constexpr char kLinkAddress[] = "link_address";
 // Of two recordings in one file: prefixes and names of files.
 constexpr char kMergedMetadata[] = "merged";
 // The mission's files are attached under this name, with their places below the folder that they all share.
@@ -35,5 +45,11 @@ struct RecordingHead {
 // `about`: what the caller knows of it besides, such as the commit of the program.
 RecordingHead recording_head(const CompiledMission& mission, const SimulationOptions& options, const std::vector<std::string>& settings,
                              mcap::Text about);
+// Of telemetry that comes over a link, with the image of the mission in its file; null: not known. Throws as above.
+RecordingHead link_recording_head(const CompiledMission* mission, const std::string& address, mcap::Text about);
+
+// The files of a board's store, as they are now, to be attached; zeros at their ends are left out, which it adds again. Empty where there
+// is no such folder, or nothing in it. Throws InputError where one cannot be read.
+std::map<std::string, std::string> store_files(const std::string& folder);
 
 }  // namespace lasso::mdat

@@ -1,7 +1,5 @@
 #include "mdat/recording/ros_messages.hpp"
 
-#include "mdat/mcap/cdr.hpp"
-
 namespace lasso::mdat::ros {
 namespace {
 
@@ -13,11 +11,6 @@ void put_time(TimeUs t_us, CdrWriter& out) {
   const std::int64_t seconds = t_us / kUsPerSecond - (t_us % kUsPerSecond < 0 ? 1 : 0);
   out.put(static_cast<std::int32_t>(seconds));
   out.put(static_cast<std::uint32_t>((t_us - seconds * kUsPerSecond) * 1000));
-}
-
-void put_header(const Header& header, CdrWriter& out) {
-  put_time(header.t_us, out);
-  out.text(header.frame);
 }
 
 void put_vector(const Vec3& vector, CdrWriter& out) {
@@ -63,6 +56,11 @@ void put_entity(TimeUs t_us, const Surface& surface, CdrWriter& out) {
 }
 
 }  // namespace
+
+void put_header(const Header& header, CdrWriter& out) {
+  put_time(header.t_us, out);
+  out.text(header.frame);
+}
 
 std::string tf_bytes(TimeUs t_us, const std::vector<FrameTransform>& transforms) {
   CdrWriter out;

@@ -10,6 +10,7 @@
 
 #include "fsw/core/time.hpp"
 #include "fsw/geometry/se3.hpp"
+#include "mdat/mcap/cdr.hpp"
 
 namespace lasso::mdat::ros {
 
@@ -24,6 +25,9 @@ struct FrameTransform {
   std::string parent, child;
   Pose T_parent_child;
 };
+
+// At the begin of a message of another kind.
+void put_header(const Header& header, mcap::CdrWriter& out);
 
 std::string tf_bytes(TimeUs t_us, const std::vector<FrameTransform>& transforms);
 std::string pose_bytes(const Header& header, const Pose& pose);

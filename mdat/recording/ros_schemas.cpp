@@ -89,27 +89,29 @@ std::vector<std::string> types_in(std::string_view fields) {
   return types;
 }
 
-// Those that `name` needs, and that these need, each once, in the order in which they are met.
-void collect(std::string_view name, std::vector<std::string>& found) {
-  for (const std::string& need : types_in(fields_of(name))) {
+// Those that `fields` need, and that these need, each once, in the order in which they are met.
+void collect(std::string_view fields, std::vector<std::string>& found) {
+  for (const std::string& need : types_in(fields)) {
     if (std::find(found.begin(), found.end(), need) != found.end()) continue;
     found.push_back(need);
-    collect(need, found);
+    collect(fields_of(need), found);
   }
 }
 
-RosSchema schema_of(const std::string& name) {
-  const std::size_t slash = name.find('/');
-  RosSchema schema{name.substr(0, slash) + "/msg" + name.substr(slash), std::string(fields_of(name))};
-  std::vector<std::string> found;
-  collect(name, found);
-  for (const std::string& need : found) schema.text.append(80, '=').append("\nMSG: ").append(need).append("\n").append(fields_of(need));
-  return schema;
-}
+RosSchema schema_of(const std::string& name) { return ros::schema_with(name, std::string(fields_of(name))); }
 
 }  // namespace
 
 namespace ros {
+
+RosSchema schema_with(const std::string& name, const std::string& fields) {
+  const std::size_t slash = name.find('/');
+  RosSchema schema{name.substr(0, slash) + "/msg" + name.substr(slash), fields};
+  std::vector<std::string> found;
+  collect(fields, found);
+  for (const std::string& need : found) schema.text.append(80, '=').append("\nMSG: ").append(need).append("\n").append(fields_of(need));
+  return schema;
+}
 
 RosSchema tf_message() { return schema_of("tf2_msgs/TFMessage"); }
 RosSchema point_cloud() { return schema_of("sensor_msgs/PointCloud2"); }

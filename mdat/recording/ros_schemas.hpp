@@ -13,6 +13,10 @@ struct RosSchema {
 
 namespace ros {
 
+// Of a message that has these fields, one a line; `name`: "package/Type". Its definitions are those of the fields' types, which this file
+// knows.
+RosSchema schema_with(const std::string& name, const std::string& fields);
+
 RosSchema tf_message();            // tf2_msgs
 RosSchema point_cloud();           // sensor_msgs/PointCloud2
 RosSchema pose_stamped();          // geometry_msgs

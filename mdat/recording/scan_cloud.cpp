@@ -32,15 +32,41 @@ const std::vector<ros::PointField>& cloud_fields() {
   return kFields;
 }
 
-float residual_m(const ScanView& scan, const RangeSample& sample, const sim::RayCaster& model) {
-  const Pose T_target_sensor = inverse(propagate(scan.T_sensor_target, scan.rates, to_seconds(sample.t_us - scan.t_us)));
+// The target as it turns and moves during a scan: propagate (se3.hpp), for a thousand times of the same rates.
+class MovingTarget {
+ public:
+  explicit MovingTarget(const ScanView& scan)
+      : p_(scan.T_sensor_target.p), v_mps_(scan.rates.v_mps), speed_radps_(scan.rates.omega_radps.norm()) {
+    still_ = to_matrix(scan.T_sensor_target.q).transpose();
+    if (!(speed_radps_ > 0)) return;
+    const Vec3 axis = scan.rates.omega_radps / speed_radps_;
+    Mat3 cross;
+    cross << 0, -axis.z(), axis.y(), axis.z(), 0, -axis.x(), -axis.y(), axis.x(), 0;
+    sine_ = -still_ * cross;
+    versine_ = still_ * cross * cross;
+  }
+  // Rotation from sensor to target axes, and where the sensor is in the target's frame.
+  Mat3 R_target_sensor(double dt_s) const {
+    const double angle_rad = speed_radps_ * dt_s;
+    return still_ + std::sin(angle_rad) * sine_ + (1 - std::cos(angle_rad)) * versine_;
+  }
+  Vec3 sensor_m(const Mat3& R_target_sensor, double dt_s) const { return -(R_target_sensor * (p_ + dt_s * v_mps_)); }
+
+ private:
+  Vec3 p_, v_mps_;
+  double speed_radps_;
+  Mat3 still_ = Mat3::Identity(), sine_ = Mat3::Zero(), versine_ = Mat3::Zero();  // Rodrigues' formula, times the attitude at dt_s = 0
+};
+
+float residual_m(const MovingTarget& target, double dt_s, const RangeSample& sample, const sim::RayCaster& model) {
+  const Mat3 R_target_sensor = target.R_target_sensor(dt_s);
   Vec3 direction;
   for (int i = 0; i < 3; ++i) direction[i] = static_cast<double>(sample.direction[i]);
-  const sim::RayHit hit = model.cast(T_target_sensor.p, rotate(T_target_sensor.q, direction.normalized()));
+  const sim::RayHit hit = model.cast(target.sensor_m(R_target_sensor, dt_s), R_target_sensor * direction.normalized());
   return hit.hit ? static_cast<float>(static_cast<double>(sample.range_m) - hit.range_m) : kNothing;
 }
 
-CloudPoint point_of(const ScanView& scan, const RangeSample& sample, const sim::RayCaster& model) {
+CloudPoint point_of(const ScanView& scan, const MovingTarget& target, const RangeSample& sample, const sim::RayCaster& model) {
   CloudPoint point;
   std::memcpy(point.direction, sample.direction, sizeof point.direction);
   point.range_m = sample.range_m;
@@ -51,7 +77,7 @@ CloudPoint point_of(const ScanView& scan, const RangeSample& sample, const sim::
   point.x = sample.range_m * sample.direction[0];
   point.y = sample.range_m * sample.direction[1];
   point.z = sample.range_m * sample.direction[2];
-  point.residual_m = residual_m(scan, sample, model);
+  point.residual_m = residual_m(target, to_seconds(sample.t_us - scan.t_us), sample, model);
   return point;
 }
 
@@ -59,8 +85,10 @@ CloudPoint point_of(const ScanView& scan, const RangeSample& sample, const sim::
 
 ros::PointCloud scan_cloud(const ScanView& scan, const sim::RayCaster& model) {
   ros::PointCloud cloud{cloud_fields(), sizeof(CloudPoint), {}};
+  cloud.data.reserve(scan.samples.size() * sizeof(CloudPoint));
+  const MovingTarget target(scan);
   for (const RangeSample& sample : scan.samples) {
-    const CloudPoint point = point_of(scan, sample, model);
+    const CloudPoint point = point_of(scan, target, sample, model);
     cloud.data.append(reinterpret_cast<const char*>(&point), sizeof point);
   }
   return cloud;

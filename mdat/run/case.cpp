@@ -35,7 +35,8 @@ class Case {
         trajectory_(make_trajectory(setup.scenario, setup.range_m, kEpochUs, period_us_)),
         scanners_(make_scanners(setup, *trajectory_)),
         component_(std::make_unique<Component>(bank_of(scanners_))),
-        memory_(setup.link != nullptr ? std::make_unique<posix::ImageMemory>(setup.store) : nullptr),
+        link_(setup.link, setup.commands.get(), setup.listener, [this] { return component_->next_slot_us(); }),
+        memory_(link_.get() != nullptr ? std::make_unique<posix::ImageMemory>(setup.store) : nullptr),
         image_(memory_ ? std::vector<std::uint64_t>() : aligned_copy(*setup.image)),
         navigation_(setup.scenario, *trajectory_, setup.seed) {
     result_.frames.resize(setup.frames);
@@ -109,7 +110,7 @@ class Case {
 
   void connect() {
     runner_ = std::make_unique<posix::Runner>(*component_, pace());
-    if (setup_.link != nullptr) runner_->connect(*setup_.link);
+    if (link_.get() != nullptr) runner_->connect(*link_.get());
     if (setup_.authenticator != nullptr) component_->use_authenticator(*setup_.authenticator);
   }
 
@@ -194,7 +195,7 @@ class Case {
     }
     if (setup_.listener != nullptr) setup_.listener->on_frame({pose, trajectory_->at(pose.t_measurement_us), scan.samples});
     if (setup_.scenario.has_timeline()) add_packet(pose, *trajectory_, kEpochUs, result_.timeline);
-    const bool restarts = !is_autonomous() && setup_.link == nullptr;
+    const bool restarts = !is_autonomous() && link_.get() == nullptr;
     if (restarts && static_cast<TrackingMode>(pose.mode) == TrackingMode::kLost) start(record.boundary_us);
     const std::int64_t frame = (pose.t_measurement_us - kEpochUs) / period_us_;
     if (pose.t_measurement_us < kEpochUs || frame >= setup_.frames) return;
@@ -266,13 +267,14 @@ class Case {
   std::unique_ptr<sim::Trajectory> trajectory_;
   std::vector<std::unique_ptr<Scanner>> scanners_;
   std::unique_ptr<Component> component_;
+  RunLink link_;
   std::unique_ptr<posix::ImageMemory> memory_;
   std::unique_ptr<posix::ResetNote> reset_note_;
   std::vector<std::uint64_t> image_;
   NavigationSystem navigation_;
   CaseResult result_;
   std::size_t wrong_kept_ = 0, invalid_kept_ = 0;  // scans of result_.doubtful
-  std::unique_ptr<posix::Runner> runner_;          // last: it uses the component
+  std::unique_ptr<posix::Runner> runner_;          // last: it uses the component and the link
 };
 
 }  // namespace

@@ -21,6 +21,7 @@
 #include "hal_sim/scanner.hpp"
 #include "hal_sim/trajectory.hpp"
 #include "mdat/missiondb/mission_source.hpp"
+#include "mdat/run/command_stream.hpp"
 #include "mdat/run/run_listener.hpp"
 #include "mdat/run/simulated_scenario.hpp"
 #include "mdat/run/statistics.hpp"
@@ -63,7 +64,8 @@ struct CaseSetup {
   sim::FlashModel flash;     // kFlashLidar
   MakeStereo make_stereo;    // of sensors of this kind, where there is noise; empty: a mission that has one is refused
   ByteLink* link = nullptr;  // an operator's; the run then keeps the clock's pace, and nobody else starts a track that is lost
-  Authenticator* authenticator = nullptr;  // of the link's commands; null: they need none
+  std::shared_ptr<const CommandStream> commands;  // those of an earlier run, instead of a link: given again, as fast as it goes
+  Authenticator* authenticator = nullptr;         // of the link's commands; null: they need none
   std::string store;  // folder of the board's store, whose image takes the place of `image` if there is one; empty: none
   const std::vector<std::uint8_t>* image = nullptr;
   const sim::RayCaster* target = nullptr;

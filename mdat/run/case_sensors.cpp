@@ -23,7 +23,9 @@ bool has_stereo(const CaseSetup& setup, SensorKind kind) { return kind == Sensor
 std::unique_ptr<MadeSensor> stereo_of(const CaseSetup& setup, std::uint64_t seed, SensorKind kind) {
   if (!has_stereo(setup, kind)) return nullptr;
   if (!setup.make_stereo)
-    throw RunError("stereo: only mdat run flies stereo cameras: their pictures take seconds a frame; set sensor.kind to another sensor");
+    throw RunError(
+        "stereo: this command flies no stereo cameras; mdat run does, and mdat campaign with stereo.model = fitted; set sensor.kind to "
+        "another sensor");
   return setup.make_stereo(setup, seed);
 }
 

@@ -14,6 +14,7 @@ class PacedListener final : public RunListener {
   PacedListener(RunListener& next, double pace) : next_(next), pace_(pace) {}
   void on_packets(TimeUs boundary_us, ConstBytes packets) override;
   void on_frame(const FlownFrame& frame) override { next_.on_frame(frame); }
+  void on_commands(TimeUs slot_us, ConstBytes bytes) override { next_.on_commands(slot_us, bytes); }
 
  private:
   using Clock = std::chrono::steady_clock;

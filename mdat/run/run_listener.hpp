@@ -24,6 +24,8 @@ class RunListener {
   // All packets of one frame's boundary, as they leave the component.
   virtual void on_packets(TimeUs boundary_us, ConstBytes packets) = 0;
   virtual void on_frame(const FlownFrame& frame) = 0;
+  // What an operator's link gave for the slot that was to begin at `slot_us`: bytes of a stream, or one datagram.
+  virtual void on_commands(TimeUs /*slot_us*/, ConstBytes /*bytes*/) {}
 };
 
 }  // namespace lasso::mdat

@@ -43,18 +43,6 @@ void set_camera(const CompiledMission& mission, const SimulationOptions& options
   setup.camera_degC = options.camera_degC;
 }
 
-// The mission with another calibration of each head that is on a line.
-CompiledMission recalibrated(CompiledMission mission, lcs::Device wire, const TriangulationCalibration& calibration) {
-  MissionSource& source = mission.source;
-  if (wired(wire, source.sensor)) source.calibrations[0] = {calibration};
-  std::uint8_t number = 0;
-  for (const FurtherSensor& sensor : source.further_sensors) {
-    ++number;
-    if (wired(wire, sensor.kind)) source.calibrations[number] = {calibration};
-  }
-  return mission;
-}
-
 // More runs than one are asked for.
 void refuse_what_serves_one(const SimulationOptions& options) {
   const std::string way_out = ": choose a scenario of one range, such as spin";
@@ -95,6 +83,11 @@ class BothListeners final : public RunListener {
   void on_frame(const FlownFrame& frame) override {
     for (RunListener* listener : listeners_) {
       if (listener != nullptr) listener->on_frame(frame);
+    }
+  }
+  void on_commands(TimeUs slot_us, ConstBytes bytes) override {
+    for (RunListener* listener : listeners_) {
+      if (listener != nullptr) listener->on_commands(slot_us, bytes);
     }
   }
 
@@ -179,8 +172,9 @@ CaseSetup make_case(const SimulationResult& result, const TableResult& table, co
   return setup;
 }
 
-// `first`: what is the scenario's number of the first range here.
-Plan make_plan(const CompiledMission& mission, SimulationResult& result, const sim::RayCaster& target, std::size_t first) {
+// `first`: what is the scenario's number of the first range here. `image`: that of each case, or null.
+Plan make_plan(const CompiledMission& mission, SimulationResult& result, const sim::RayCaster& target, std::size_t first,
+               const std::vector<std::uint8_t>* image) {
   Plan plan;
   std::size_t count = 0;
   for (const TableResult& table : result.tables) count += table.variants.size();
@@ -188,7 +182,7 @@ Plan make_plan(const CompiledMission& mission, SimulationResult& result, const s
   for (std::size_t t = 0; t < result.tables.size(); ++t) {
     TableResult& table = result.tables[t];
     for (VariantResult& variant : table.variants) {
-      plan.images.push_back(image_bytes(mission, variant.parameters));
+      plan.images.push_back(image != nullptr ? *image : image_bytes(mission, variant.parameters));
       variant.image_crc = LoadedImage("", plan.images.back()).mission().image_crc;
       for (std::size_t range = 0; range < table.scenario.runs_m().size(); ++range) {
         plan.cases.push_back(make_case(result, table, variant, range));
@@ -246,6 +240,17 @@ void collect(std::vector<CaseResult> cases, SimulationResult& result) {
 }
 
 }  // namespace
+
+CompiledMission recalibrated(CompiledMission mission, lcs::Device wire, const TriangulationCalibration& calibration) {
+  MissionSource& source = mission.source;
+  if (wired(wire, source.sensor)) source.calibrations[0] = {calibration};
+  std::uint8_t number = 0;
+  for (const FurtherSensor& sensor : source.further_sensors) {
+    ++number;
+    if (wired(wire, sensor.kind)) source.calibrations[number] = {calibration};
+  }
+  return mission;
+}
 
 std::vector<std::string> sensor_names(const MissionSource& source) {
   std::vector<std::string> names{kind_name(source.sensor)};
@@ -307,7 +312,8 @@ void check_simulation(const MissionSource& source, const SimulationOptions& opti
 }
 
 SimulationResult simulate(const CompiledMission& mission, const SimulationOptions& options) {
-  check_simulation(mission.source, options, options.link != nullptr);
+  const bool linked = options.link != nullptr || options.commands;
+  check_simulation(mission.source, options, linked);
   const Scenario& scenario = scenario_of(mission.source, options.scenario);
   SimulationResult result;
   result.mission = mission.source.name;
@@ -320,15 +326,16 @@ SimulationResult simulate(const CompiledMission& mission, const SimulationOption
   result.sensors = sensor_names(mission.source);
   result.camera_faults = options.camera_faults;
   result.parts = part_names(mission.source);
-  result.tables = tables_of(mission.source, options, options.link != nullptr);
+  result.tables = tables_of(mission.source, options, linked);
 
   const auto begin = std::chrono::steady_clock::now();
   const std::unique_ptr<sim::RayCaster> target = simulated_target(mission.mesh, scenario, result.seed, mission.source.target_laser);
   std::optional<CompiledMission> changed;
   if (options.calibration && options.wire) changed = recalibrated(mission, *options.wire, *options.calibration);
-  Plan plan = make_plan(changed ? *changed : mission, result, *target, options.range.value_or(0));
+  Plan plan = make_plan(changed ? *changed : mission, result, *target, options.range.value_or(0), options.image);
   for (CaseSetup& setup : plan.cases) {
     setup.link = options.link;
+    setup.commands = options.commands;
     setup.authenticator = options.authenticator;
     setup.store = options.store;
     setup.camera_line = options.camera_line;

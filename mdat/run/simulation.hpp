@@ -33,13 +33,16 @@ struct SimulationOptions {
   std::optional<TriangulationCalibration> camera_optics;  // as CaseSetup's
   std::optional<TriangulationCalibration> calibration;    // in the image, instead of the mission's
   double camera_degC = 20;
-  MakeStereo make_stereo;                  // as CaseSetup's
-  ByteLink* link = nullptr;                // an operator's: one case, the scenario's first range, at the clock's pace
-  Authenticator* authenticator = nullptr;  // of the link's commands; null: they need none
-  std::string store;                       // of the run with a link: a folder, see CaseSetup
-  std::string camera_line;                 // of this machine, over which the camera is reached, in real time: one case
-  bool remote_line = false;                // which may lead to other machines
-  bool plain = false;                      // the scenario as it stands: one table, one variant
+  MakeStereo make_stereo;                         // as CaseSetup's
+  ByteLink* link = nullptr;                       // an operator's: one case, the scenario's first range, at the clock's pace
+  std::shared_ptr<const CommandStream> commands;  // as CaseSetup's: one case, too
+  Authenticator* authenticator = nullptr;         // of the link's commands; null: they need none
+  const std::vector<std::uint8_t>* image =
+      nullptr;               // that flies instead of the mission's, of the same period; the world stays the mission's
+  std::string store;         // of the run with a link: a folder, see CaseSetup
+  std::string camera_line;   // of this machine, over which the camera is reached, in real time: one case
+  bool remote_line = false;  // which may lead to other machines
+  bool plain = false;        // the scenario as it stands: one table, one variant
 };
 
 // What a table compares. In the noise-free variants the estimator keeps the mission's noise model.
@@ -93,6 +96,9 @@ CaseSetup camera_case(const CompiledMission& mission, const SimulationOptions& o
 // many: the caller sets image, of these parameters, and target.
 CaseSetup plain_case(const MissionSource& source, const Scenario& scenario, std::uint64_t seed, std::uint32_t frames,
                      std::size_t range = 0);
+
+// The mission with another calibration of each head that is on a line.
+CompiledMission recalibrated(CompiledMission mission, lcs::Device wire, const TriangulationCalibration& calibration);
 
 // Names of the mission's sensors by their numbers; [sensor], which has none, by its kind.
 std::vector<std::string> sensor_names(const MissionSource& source);

@@ -10,10 +10,10 @@
 #include <thread>
 #include <vector>
 
+#include "mdat/link/link_health.hpp"
 #include "mdat/serve/application.hpp"
 #include "mdat/serve/flight.hpp"
 #include "mdat/serve/folder.hpp"
-#include "mdat/serve/link_health.hpp"
 
 namespace lasso::mdat::serve {
 

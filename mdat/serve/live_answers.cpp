@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "mdat/missiondb/mission_source.hpp"
+#include "mdat/serve/json_body.hpp"
 #include "mdat/source/mission_error.hpp"
 
 namespace lasso::mdat::serve {
@@ -13,21 +14,6 @@ namespace {
 using AskedJson = nlohmann::ordered_json;
 
 std::string live_json(const AskedJson& json) { return json.dump(-1, ' ', false, AskedJson::error_handler_t::replace); }
-
-// The body of a request. A page from elsewhere cannot send this type without asking first.
-AskedJson body_of(const Request& request) {
-  if (request.header("content-type").rfind("application/json", 0) != 0)
-    throw Refusal{415, "the body has another type", "send JSON, as Content-Type: application/json"};
-  AskedJson body = AskedJson::parse(request.body, nullptr, false);
-  if (!body.is_object()) throw Refusal{400, "the body is no object of JSON", "see docs/serve.md"};
-  return body;
-}
-
-std::string word_of(const AskedJson& body, const char* name) {
-  const auto found = body.find(name);
-  if (found == body.end() || !found->is_string()) throw Refusal{400, std::string(name) + ": a text was expected", "see docs/serve.md"};
-  return found->get<std::string>();
-}
 
 double pace_of(const AskedJson& body) {
   const auto found = body.find("pace");
@@ -74,7 +60,7 @@ struct LiveAct {
 constexpr LiveAct kActs[] = {
     {"start",
      [](Live& live, const AskedJson& body) {
-       live.start({word_of(body, "mission"), word_of(body, "scenario"), seed_of(body), pace_of(body)});
+       live.start({body_text(body, "mission"), body_text(body, "scenario"), seed_of(body), pace_of(body)});
      }},
     {"pause", [](Live& live, const AskedJson&) { live.pause(); }},
     {"resume", [](Live& live, const AskedJson&) { live.resume(); }},
@@ -86,7 +72,7 @@ constexpr LiveAct kActs[] = {
 Response act_answer(Live& live, const Request& request, const Target& target) {
   for (const LiveAct& row : kActs) {
     if (target.parts.size() != 3 || target.parts[2] != row.name) continue;
-    row.act(live, body_of(request));
+    row.act(live, json_body(request));
     return json_response(live.state());
   }
   throw Refusal{404, "there is no " + target.path.substr(0, 120), "see docs/serve.md"};

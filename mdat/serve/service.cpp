@@ -4,6 +4,8 @@
 
 #include "mdat/common/errors.hpp"
 #include "mdat/common/version.hpp"
+#include "mdat/missiondb/mission_schema.hpp"
+#include "mdat/serve/design_answers.hpp"
 #include "mdat/serve/first_run.hpp"
 #include "mdat/serve/live_answers.hpp"
 #include "mdat/source/mission_error.hpp"
@@ -77,7 +79,8 @@ SocketOpening Service::open(const Request& request) {
 
 Response Service::route(const Request& request, const Target& target) {
   const bool reads = request.method == Method::kGet || request.method == Method::kHead;
-  const bool acts = options_.live != nullptr && target.parts.size() == 3 && target.path.rfind("/api/live/", 0) == 0;
+  const bool room = target.path.rfind("/api/live/", 0) == 0 || target.path.rfind("/api/mission/", 0) == 0;
+  const bool acts = options_.live != nullptr && target.parts.size() == 3 && room;
   const bool begins = request.method == Method::kPost && (target.path == "/api/recordings/first" || acts);
   if (!reads && !begins) {
     Response response = error_response(405, "this cannot be done here", "use GET");
@@ -93,6 +96,8 @@ Response Service::route_api(const Request& request, const Target& target) {
   if (parts.size() == 2 && parts[1] == "about") return about();
   if (parts.size() == 2 && parts[1] == "recordings") return recordings();
   if (parts.size() >= 2 && parts[1] == "live" && options_.live != nullptr) return live_answer(*options_.live, request, target);
+  if (parts.size() == 2 && parts[1] == "schema") return json_response(mission_schema_text());
+  if (parts.size() >= 2 && parts[1] == "mission" && design_) return design_answer(*design_, request, target);
   if (parts.size() == 3 && parts[1] == "jobs") return job(parts[2]);
   if (request.method == Method::kPost) return first();
   if (parts.size() >= 3 && parts[1] == "recordings") return route_recording(target);
@@ -127,11 +132,12 @@ Response Service::about() const {
   const Json first =
       mission ? Json{{"mission", kFirstMission}, {"scenario", kFirstScenario}, {"command", first_command(*mission, folder_.path())}}
               : Json();
-  return json_response(text_of({{"version", kVersion},
-                                {"commit", options_.commit},
-                                {"folder", folder_.path().string()},
-                                {"features", options_.live != nullptr ? Json::array({"replay", "live"}) : Json::array({"replay"})},
-                                {"first", first}}));
+  return json_response(
+      text_of({{"version", kVersion},
+               {"commit", options_.commit},
+               {"folder", folder_.path().string()},
+               {"features", options_.live != nullptr ? Json::array({"replay", "live", "design"}) : Json::array({"replay"})},
+               {"first", first}}));
 }
 
 Response Service::recordings() {

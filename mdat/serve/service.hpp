@@ -1,11 +1,13 @@
 // What mdat serve answers: who may ask (gate.hpp), then the page, or a part of the interface for programs (docs/serve.md).
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 
 #include "mdat/serve/answers.hpp"
 #include "mdat/serve/application.hpp"
+#include "mdat/serve/design.hpp"
 #include "mdat/serve/folder.hpp"
 #include "mdat/serve/gate.hpp"
 #include "mdat/serve/jobs.hpp"
@@ -23,7 +25,9 @@ struct ServiceOptions {
 class Service final : public Application {
  public:
   // `gate` and `folder` outlive it.
-  Service(const Gate& gate, Folder& folder, ServiceOptions options) : gate_(gate), folder_(folder), options_(std::move(options)) {}
+  Service(const Gate& gate, Folder& folder, ServiceOptions options) : gate_(gate), folder_(folder), options_(std::move(options)) {
+    if (options_.live != nullptr) design_.emplace(folder_, *options_.live);
+  }
 
   Response answer(const Request& request) override;
   // That of /api/live/socket alone.
@@ -43,6 +47,7 @@ class Service final : public Application {
   const Gate& gate_;
   Folder& folder_;
   ServiceOptions options_;
+  std::optional<Design> design_;  // where missions can be flown
   Jobs jobs_;
 };
 

@@ -82,7 +82,8 @@ Response summary_answer(const Shown& shown) {
   const auto metadata = recording.file().metadata().find(kRecordingMetadata);
   const mcap::Text about = metadata != recording.file().metadata().end() ? metadata->second : mcap::Text();
   const std::vector<Frame>& frames = recording.frames();
-  const std::string command = (recording.own() ? "mdat replay " : "mdat recording info ") + shell_word(shown.name);
+  const bool replayed = recording.own() && about.count(kLinkAddress) == 0;
+  const std::string command = (replayed ? "mdat replay " : "mdat recording info ") + shell_word(shown.name);
   const std::string seed = word_in(about, "seed");
   const Json json = {{"id", shown.id},
                      {"name", shown.name},

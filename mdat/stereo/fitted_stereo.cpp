@@ -50,6 +50,7 @@ double FittedStereo::kept_field(std::uint64_t purpose, double column, double row
 }
 
 double FittedStereo::measured_px(const PixelSight& sight, int column, int row) const {
+  if (sight.dark && sight.region != PixelRegion::kSky) return 0;  // sky is dark, and glare lights it
   const RegionFit& fit = fit_[static_cast<std::size_t>(sight.region)];
   if (normal_share(kept_field(kFoundAtAll, column, row, kFoundBlur_px)) >= fit.valid[fit_level(sight.level)]) return 0;
   const double near_share = 1 - common_.part_share - common_.view_share;

@@ -15,6 +15,9 @@ constexpr int kGrid = 64;  // pixels of the exposure's grid along a side
 constexpr double kFirstExposure_s = 1e-3, kSettledWithin = 0.01;
 constexpr int kMostExposures = 16;
 constexpr double kClearOf = 1e-4;  // of a range: so far off the surface a ray to the right camera starts
+// As the matcher's mask of light has it (mdat/match/masks.hpp): means over 5 x 5 pixels, and what is within 4 pixels of a dark one. The
+// dark window's nearer side is then kMaskNear_px away, and its farther one about kEdgeBand_px.
+constexpr double kDark_e = 20, kMaskNear_px = 2.5;
 constexpr int kAround[][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {-1, 1}, {1, -1}, {-1, -1}};
 
 }  // namespace
@@ -59,6 +62,10 @@ bool PairSight::is_hidden(const Vec3& point_m) const {
   return hit && found.range_m < (1 - kClearOf) * way.norm() - kClearOf;
 }
 
+double PairSight::electrons_of(const Seen& seen, double exposure_s) const {
+  return std::min(head_.imager.full_well_e, seen.radiance * electrons_ * exposure_s);
+}
+
 RawFrame PairSight::grid_frame(double exposure_s) const {
   RawFrame frame{kGrid, kGrid, exposure_s, {}};
   const int greatest = greatest_number(head_.imager);
@@ -87,16 +94,18 @@ PixelSight PairSight::at(int column, int row, double exposure_s) const {
   PixelSight sight;
   if (seen.hit) sight.disparity_px = sight.nearer_px = disparity_of(column, seen.point_m);
   double least_px = sight.disparity_px;
+  const double own_e = electrons_of(seen, exposure_s);
+  sight.dark = own_e < kDark_e;
   for (const auto& [right, down] : kAround) {
     const double u = column + kEdgeBand_px * right, v = row + kEdgeBand_px * down;
-    const Vec3 direction = head_.camera.direction(u, v);
-    SurfacePoint found;
-    const bool hit = view_.surface.find(T_target_sensor_.p, rotate(T_target_sensor_.q, direction), found);
-    const double disparity_px = hit ? disparity_of(u, found.range_m * direction) : 0;
+    const Seen beside = seen_at(u, v);
+    const double disparity_px = beside.hit ? disparity_of(u, beside.point_m) : 0;
     sight.nearer_px = std::max(sight.nearer_px, disparity_px);
     least_px = std::min(least_px, disparity_px);
+    if (sight.dark || electrons_of(beside, exposure_s) >= kDark_e) continue;
+    sight.dark = electrons_of(seen_at(column + kMaskNear_px * right, row + kMaskNear_px * down), exposure_s) < kDark_e;
   }
-  sight.level = std::sqrt(std::min(1.0, seen.radiance * electrons_ * exposure_s / head_.imager.full_well_e));
+  sight.level = std::sqrt(own_e / head_.imager.full_well_e);
   if (!seen.hit) {
     sight.region = sight.nearer_px > 0 ? PixelRegion::kSky : PixelRegion::kEmpty;
   } else if (is_hidden(seen.point_m)) {

@@ -23,6 +23,7 @@ struct PixelSight {
   double disparity_px = 0;  // that the pair truly has there, 0 where nothing is
   double nearer_px = 0;     // the greatest within the band: what a matcher may spread over this pixel
   double level = 0;         // root of the share of the full well, 0 to 1: without noise, blur and glare
+  bool dark = false;        // the matcher leaves it out as such: it, or a window beside it, is not above the noise
 };
 
 class PairSight {
@@ -42,6 +43,7 @@ class PairSight {
   Seen seen_at(double column, double row) const;
   double disparity_of(double column, const Vec3& point_m) const;
   bool is_hidden(const Vec3& point_m) const;
+  double electrons_of(const Seen& seen, double exposure_s) const;
   RawFrame grid_frame(double exposure_s) const;
 
   const StereoHead& head_;

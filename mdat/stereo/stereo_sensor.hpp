@@ -1,13 +1,12 @@
-// The stereo head as a sensor of the component: at the begin of each scan a pair is taken of all that is in view, and matched.
+// The stereo head as a sensor of the component: at the begin of each scan a pair is taken of all that is in view.
 #pragma once
 
-#include <memory>
+#include <functional>
 #include <mutex>
+#include <string>
 
-#include "mdat/common/flight_image.hpp"
-#include "mdat/render/scene.hpp"
-#include "mdat/stereo/matcher.hpp"
-#include "mdat/stereo/stereo_head.hpp"
+#include "fsw/sense/sensor.hpp"
+#include "mdat/pair/disparity_map.hpp"
 
 namespace lasso::mdat {
 
@@ -15,12 +14,16 @@ namespace lasso::mdat {
 // where nothing was matched. Never a miss: a dark pixel may be shadow as well as sky.
 RangeSample stereo_sample(const DisparityMap& map, const Vec3& direction, TimeUs t_us);
 
-// A pair of pictures, matched. `t_us` since frame 0. Throws InputError or RunError.
-using MatchedPairAt = std::function<DisparityMap(TimeUs t_us)>;
+// What the rays of a plan find in one pair: along a direction, at the pair's time.
+using PairRanges = std::function<RangeSample(const Vec3& direction, TimeUs t_us)>;
+PairRanges ranges_in(DisparityMap map);  // stereo_sample of it
+
+// The pair of a time since frame 0; its ranges are asked for until the next one is taken. Throws InputError or RunError.
+using PairAt = std::function<PairRanges(TimeUs t_us)>;
 
 class StereoSensor final : public Sensor {
  public:
-  explicit StereoSensor(MatchedPairAt pair) : pair_(std::move(pair)) {}
+  explicit StereoSensor(PairAt pair) : pair_(std::move(pair)) {}
 
   // A global shutter: all samples have the time of the start. kBusy while a scan runs, kBadValue for a plan that validate (pattern.hpp)
   // refuses, kTimeout where no pair came; failure() then says why.
@@ -30,8 +33,8 @@ class StereoSensor final : public Sensor {
   std::string failure() const;
 
  private:
-  MatchedPairAt pair_;
-  DisparityMap map_;
+  PairAt pair_;
+  PairRanges ranges_;
   ScanPlan plan_;
   TimeUs t_start_us_ = 0;
   std::uint16_t next_ = 0;  // ray
@@ -39,12 +42,5 @@ class StereoSensor final : public Sensor {
   mutable std::mutex mutex_;  // failure_: the component's threads ask for scans, another one for it
   std::string failure_;
 };
-
-// For SimulationOptions::make_stereo. Keeps the mission by reference. `target_seed`: the run's, of what the simulated target differs in;
-// `jobs`: threads that render a picture, of no effect on it.
-MakeStereo stereo_maker(const MissionInput& mission, std::uint64_t target_seed, unsigned jobs);
-
-// Whether one of the mission's sensors is a stereo head.
-bool has_stereo_head(const MissionSource& source);
 
 }  // namespace lasso::mdat

@@ -78,31 +78,6 @@ std::vector<std::string> fitted_line(const std::string& name, const PoseFigures&
   return line;
 }
 
-std::string fitted_table(const TrialResult& result) {
-  std::vector<std::vector<std::string>> lines = {
-      {"  the fitted model", "valid", "wrong", "rms, mm", "/ rendered", "rms, deg", "/ rendered", "NEES of 6", "/ rendered"}};
-  for (std::size_t light = 0; light < result.lights.size(); ++light)
-    lines.push_back(
-        fitted_line(result.lights[light].name, pose_figures(poses_in(result.poses, light)), pose_figures(poses_in(result.fitted, light))));
-  lines.push_back(fitted_line("all", pose_figures(result.poses), pose_figures(result.fitted)));
-  return aligned_text(lines);
-}
-
-Json pose_json(const PoseFigures& f) {
-  return {{"scans", f.scans},
-          {"valid", f.valid},
-          {"wrong", f.wrong},
-          {"median_mm", figure(f.median_mm)},
-          {"rms_mm", figure(f.rms_mm)},
-          {"worst_mm", figure(f.worst_mm)},
-          {"median_deg", figure(f.median_deg)},
-          {"rms_deg", figure(f.rms_deg)},
-          {"worst_deg", figure(f.worst_deg)},
-          {"squared_position", figure(f.squared_position)},
-          {"squared_attitude", figure(f.squared_attitude)},
-          {"nees", figure(f.nees)}};
-}
-
 Json pair_json(const PairFigures& f) {
   return {{"pairs", f.pairs},
           {"exposure_ms", 1e3 * f.exposure_s},
@@ -161,18 +136,48 @@ PoseFigures pose_figures(const std::vector<TrialPose>& poses) {
   return figures;
 }
 
+std::string fitted_table(const std::vector<TrialLight>& lights, const std::vector<TrialPose>& rendered,
+                         const std::vector<TrialPose>& fitted) {
+  std::vector<std::vector<std::string>> lines = {
+      {"  the fitted model", "valid", "wrong", "rms, mm", "/ rendered", "rms, deg", "/ rendered", "NEES of 6", "/ rendered"}};
+  for (std::size_t light = 0; light < lights.size(); ++light)
+    lines.push_back(fitted_line(lights[light].name, pose_figures(poses_in(rendered, light)), pose_figures(poses_in(fitted, light))));
+  lines.push_back(fitted_line("all", pose_figures(rendered), pose_figures(fitted)));
+  return aligned_text(lines);
+}
+
+std::string pose_table(const std::string& title, const std::vector<TrialLight>& lights, const std::vector<TrialPose>& poses) {
+  std::vector<std::vector<std::string>> lines = {{"  " + title, "valid", "wrong", "mm: median", "rms", "worst", "deg: median", "rms",
+                                                  "worst", "squared: position", "attitude", "NEES of 6"}};
+  for (std::size_t light = 0; light < lights.size(); ++light)
+    lines.push_back(pose_line(lights[light].name, pose_figures(poses_in(poses, light))));
+  lines.push_back(pose_line("all", pose_figures(poses)));
+  return aligned_text(lines);
+}
+
 std::string trial_text(const TrialResult& result) {
   std::vector<std::vector<std::string>> pairs = {
       {"  means of pairs", "exposure, ms", "valid share", "sky, %", "bias, px", "sigma, px", "> 1 px: inside, %", "at edges, %"}};
-  std::vector<std::vector<std::string>> poses = {{"  single scans", "valid", "wrong", "mm: median", "rms", "worst", "deg: median", "rms",
-                                                  "worst", "squared: position", "attitude", "NEES of 6"}};
-  for (std::size_t light = 0; light < result.lights.size(); ++light) {
+  for (std::size_t light = 0; light < result.lights.size(); ++light)
     pairs.push_back(pair_line(result.lights[light].name, pair_figures(result, light)));
-    poses.push_back(pose_line(result.lights[light].name, pose_figures(poses_in(result.poses, light))));
-  }
-  poses.push_back(pose_line("all", pose_figures(result.poses)));
-  return (result.pairs.empty() ? "" : "\n" + aligned_text(pairs) + "\n" + aligned_text(poses)) + "\n" + fitted_table(result) +
+  return (result.pairs.empty() ? "" : "\n" + aligned_text(pairs) + "\n" + pose_table("single scans", result.lights, result.poses)) + "\n" +
+         fitted_table(result.lights, result.poses, result.fitted) +
          "  squared: errors over their sigmas, squared, for each axis: 1 where covariances are honest\n\n";
+}
+
+nlohmann::ordered_json pose_json(const PoseFigures& f) {
+  return {{"scans", f.scans},
+          {"valid", f.valid},
+          {"wrong", f.wrong},
+          {"median_mm", figure(f.median_mm)},
+          {"rms_mm", figure(f.rms_mm)},
+          {"worst_mm", figure(f.worst_mm)},
+          {"median_deg", figure(f.median_deg)},
+          {"rms_deg", figure(f.rms_deg)},
+          {"worst_deg", figure(f.worst_deg)},
+          {"squared_position", figure(f.squared_position)},
+          {"squared_attitude", figure(f.squared_attitude)},
+          {"nees", figure(f.nees)}};
 }
 
 std::string trial_json(const TrialResult& result) {
@@ -196,14 +201,17 @@ std::string trial_pairs_csv(const TrialResult& result) {
   return text;
 }
 
-std::string trial_poses_csv(const TrialResult& result) {
+std::string poses_csv(const std::vector<TrialLight>& lights, const std::vector<TrialPose>& rendered, const std::vector<TrialPose>& fitted,
+                      const std::string& which) {
   std::string text =
-      "model,light,view,draw,scan,reason,wrong,returns,error_mm,error_deg,sigma_mm,sigma_deg,squared_position,squared_attitude,nees\n";
-  for (const std::vector<TrialPose>* poses : {&result.poses, &result.fitted}) {
+      "model,light," + which + ",reason,wrong,returns,error_mm,error_deg,sigma_mm,sigma_deg,squared_position,squared_attitude,nees\n";
+  for (const std::vector<TrialPose>* poses : {&rendered, &fitted}) {
     for (const TrialPose& pose : *poses)
-      text += (poses == &result.poses ? "rendered," : "fitted,") + result.lights[pose.light].name + pose_cells(pose) + '\n';
+      text += (poses == &rendered ? "rendered," : "fitted,") + lights[pose.light].name + pose_cells(pose) + '\n';
   }
   return text;
 }
+
+std::string trial_poses_csv(const TrialResult& result) { return poses_csv(result.lights, result.poses, result.fitted, "view,draw,scan"); }
 
 }  // namespace lasso::mdat

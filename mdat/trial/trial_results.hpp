@@ -1,6 +1,7 @@
 // What trials of single pairs say on the terminal, and leave for programs.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "mdat/trial/pair_trial.hpp"
@@ -22,6 +23,15 @@ struct PoseFigures {
 };
 PoseFigures pose_figures(const std::vector<TrialPose>& poses);
 std::vector<TrialPose> poses_in(const std::vector<TrialPose>& poses, std::size_t light);
+
+// Figures of each light and of all: a table of poses, one that sets those of fitted errors beside those of rendered pairs, and one line a
+// pose, in which `which` names view, draw and scan.
+std::string pose_table(const std::string& title, const std::vector<TrialLight>& lights, const std::vector<TrialPose>& poses);
+std::string fitted_table(const std::vector<TrialLight>& lights, const std::vector<TrialPose>& rendered,
+                         const std::vector<TrialPose>& fitted);
+nlohmann::ordered_json pose_json(const PoseFigures& figures);
+std::string poses_csv(const std::vector<TrialLight>& lights, const std::vector<TrialPose>& rendered, const std::vector<TrialPose>& fitted,
+                      const std::string& which);
 
 std::string trial_text(const TrialResult& result);
 std::string trial_json(const TrialResult& result);

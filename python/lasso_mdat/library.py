@@ -14,7 +14,9 @@ from .errors import LassoError
 from .tables import read_table
 
 INTERFACE, ROOM = 1, 400
-BUILD = pathlib.Path(__file__).resolve().parents[2] / 'out/build/mdat'
+HERE = pathlib.Path(__file__).resolve()
+BUILD = HERE.parents[2] / 'out/build/mdat'
+PLACES = BUILD / 'library/liblasso_mdat.so', HERE.parents[3] / 'liblasso_mdat.so'  # of the sources, or installed: lib/python3/dist-packages/lasso_mdat
 RAY = np.dtype([('direction', 'f4', 3), ('range_m', 'f4'), ('t_us', 'i8'), ('sigma_factor', 'f4'), ('state', 'i4')], align=True)
 REGISTRATION = np.dtype([('pose', 'f8', 7), ('covariance', 'f8', (6, 6)), ('t_us', 'i8'), ('valid', 'i4'), ('reason', 'i4'), ('iterations', 'i4'),
                          ('rays', 'i4'), ('returns', 'i4'), ('inliers', 'i4'), ('rms_m', 'f8'), ('normalized_residual', 'f8'), ('inlier_share', 'f8'),
@@ -25,10 +27,10 @@ SEARCH = np.dtype([('pose', 'f8', 7), ('covariance', 'f8', (6, 6)), ('t_us', 'i8
 
 @functools.lru_cache(None)
 def library():
-    path = os.environ.get('LASSO_MDAT_LIBRARY') or next((str(file) for file in [BUILD / 'library/liblasso_mdat.so'] if file.exists()), None) \
+    path = os.environ.get('LASSO_MDAT_LIBRARY') or next((str(file) for file in PLACES if file.exists()), None) \
         or ctypes.util.find_library('lasso_mdat')
     if path is None:
-        raise LassoError(f'{BUILD}/library/liblasso_mdat.so is not there: make python builds it; or LASSO_MDAT_LIBRARY names it')
+        raise LassoError(f'{PLACES[0]} is not there: make python builds it; or LASSO_MDAT_LIBRARY names it')
     found = ctypes.CDLL(path)
     found.lasso_open.restype = ctypes.c_void_p
     found.lasso_most_rays.restype = ctypes.c_size_t

@@ -5,8 +5,8 @@ import zlib
 
 import numpy as np
 
-from . import zstd
 from .cdr import Definition
+from .compression import DECOMPRESS
 from .errors import LassoError
 from .packets import Packets
 
@@ -195,11 +195,11 @@ class Recording:
         content = self.file.read(place[1])
         size, check = struct.unpack_from('<QI', content, 16)
         compression, at = text_at(content, 28)
-        if compression not in ('', 'zstd'):
-            raise LassoError(f'{self.path}: a chunk at byte {place[0]} is compressed by {compression}, expected zstd or none')
+        if compression not in DECOMPRESS:
+            raise LassoError(f'{self.path}: a chunk at byte {place[0]} is compressed by {compression}, expected zstd, lz4 or none')
         data = content[at + 8:]
         if compression:
-            data = zstd.decompress(data, size) if size <= LARGEST_CHUNK else None
+            data = DECOMPRESS[compression](data, size) if size <= LARGEST_CHUNK else None
         if data is None or (check and zlib.crc32(data) != check):
             what = f'the chunk at byte {place[0]} is damaged: its messages are left out'
             if what not in self.damage:

@@ -1,11 +1,14 @@
 #include "bsp/posix/links.hpp"
 
+#include <unistd.h>
+
 #include <filesystem>
 #include <fstream>
 #include <thread>
 #include <vector>
 
 #include "bsp/posix/runner.hpp"
+#include "bsp/posix/serial_line.hpp"
 #include "ut/exec/component_scene.hpp"
 #include "ut/link/command_packets.hpp"
 
@@ -80,11 +83,59 @@ TEST(Links, WhatCannotBeOpenedIsNamed) {
   EXPECT_NE(why("udp://:70000").find("'70000' is no port"), std::string::npos);
   EXPECT_NE(why("tcp://:x").find("'x' is no port"), std::string::npos);
   EXPECT_NE(why("file:///nowhere/at/all").find("cannot be written"), std::string::npos);
-  const auto taken = open_link("tcp://:0");
-  EXPECT_NE(why(taken->address()).find("cannot be bound"), std::string::npos);
+  for (const std::string scheme : {"udp", "tcp"}) {
+    const auto taken = open_link(scheme + "://:0");
+    EXPECT_NE(why(taken->address()).find("cannot be bound"), std::string::npos) << scheme;
+  }
   EXPECT_THROW(connect_link("file://x"), LinkError);
   const std::string closed = [] { return open_link("tcp://:0")->address(); }();
   EXPECT_THROW(connect_link(closed), LinkError);
+}
+
+TEST(Links, TheGroundReachesAComponentByASerialLine) {
+  VERIFIES("LASSO-GND-161~1");
+  for (const std::string kind : {"pty", "unix"}) {
+    const std::string socket = "unix:" + (std::filesystem::temp_directory_path() / ("lasso_line_" + std::to_string(::getpid()))).string();
+    LineServer board;
+    ASSERT_EQ(board.listen(kind == "pty" ? kind : socket, false), "");
+    const std::string url = kind == "pty" ? "serial:" + board.address() : socket;
+    const auto ground = connect_link(url);
+    EXPECT_EQ(ground->address(), url);
+    EXPECT_FALSE(ground->datagrams());
+    EXPECT_EQ(ground->write(test::view(Stream{5, 6})), 2u);
+    SerialLine line;
+    for (int i = 0; i < 200 && !board.accept(line); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    ASSERT_TRUE(line.is_open());
+    Stream up(8);
+    for (int i = 0; i < 200 && up.size() == 8; ++i) {
+      const std::size_t came = line.read(Bytes(up.data(), up.size()));
+      if (came > 0) up.resize(came);
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    EXPECT_EQ(up, (Stream{5, 6}));
+    EXPECT_EQ(line.write(test::view(Stream{1, 2, 3})), 3u);
+    EXPECT_EQ(read_all(*ground, 3), (Stream{1, 2, 3}));
+    EXPECT_FALSE(ground->ended());
+    line.close();
+    board.close();
+    for (int i = 0; i < 200 && !ground->ended(); ++i) (void)ground->read(Bytes(up.data(), up.size()));
+    EXPECT_TRUE(ground->ended()) << kind;
+    EXPECT_EQ(ground->read(Bytes(up.data(), up.size())), 0u);
+    EXPECT_EQ(ground->write(test::view(Stream{1})), 1u) << "it is lost";
+  }
+}
+
+TEST(Links, TheGroundSeesThatATcpLinkHasEnded) {
+  VERIFIES("LASSO-GND-161~1");
+  auto component = open_link("tcp://:0");
+  const auto ground = connect_link(component->address());
+  EXPECT_EQ(component->write(test::view(Stream{1})), 1u);
+  (void)read_all(*ground, 1);
+  EXPECT_FALSE(ground->ended());
+  EXPECT_FALSE(component->ended());
+  component.reset();
+  (void)read_all(*ground, 1);
+  EXPECT_TRUE(ground->ended());
 }
 
 TEST(Links, AComponentIsCommandedByAFile) {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "mdat/common/errors.hpp"
-#include "mdat/stereo/stereo_sensor.hpp"
+#include "mdat/stereo/stereo_maker.hpp"
 #include "ut/support/places.hpp"
 #include "ut/support/verifies.hpp"
 

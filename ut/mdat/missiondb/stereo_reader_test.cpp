@@ -34,6 +34,16 @@ TEST_F(StereoReaderTest, ReadsTheHeadAndItsLight) {
   EXPECT_EQ(stereo.f_number, 8) << "a preset";
 }
 
+TEST_F(StereoReaderTest, PairsAreRenderedUnlessItSaysFitted) {
+  VERIFIES("LASSO-STE-016~1");
+  EXPECT_FALSE(load("").stereo.is_fitted());
+  EXPECT_FALSE(load("[stereo]\nmodel = 'rendered'\n").stereo.is_fitted());
+  EXPECT_TRUE(load("[stereo]\nmodel = 'fitted'\n").stereo.is_fitted());
+  const std::string problem = mission_error_of([&] { static_cast<void>(load("[stereo]\nmodel = 'fit'\n")); });
+  EXPECT_NE(problem.find("m.toml:8:9: stereo.model"), std::string::npos) << problem;
+  EXPECT_NE(problem.find("fitted"), std::string::npos) << problem;
+}
+
 TEST_F(StereoReaderTest, PresetsAreThoseOfAMissionWithoutStereo) {
   VERIFIES("LASSO-STE-008~1");
   const StereoSource none = load("").stereo, empty = load("[stereo]\n").stereo;

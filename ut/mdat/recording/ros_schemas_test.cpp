@@ -5,6 +5,7 @@
 #include <set>
 #include <sstream>
 
+#include "mdat/recording/packet_messages.hpp"
 #include "ut/support/verifies.hpp"
 
 namespace lasso::mdat {
@@ -36,6 +37,7 @@ TEST(RosSchemas, DefineEachTypeThatTheyUse) {
     EXPECT_FALSE(schema.text.empty()) << schema.name;
     expect_complete(schema);
   }
+  for (const PacketRow* packet : told_packets()) expect_complete(packet_schema(*packet));
 }
 
 }  // namespace

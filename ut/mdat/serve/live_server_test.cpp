@@ -116,7 +116,7 @@ TEST_F(LiveHubTest, WrongQuestionsAreAnsweredAndChangeNothing) {
   EXPECT_TRUE(complains(subscribe_text("/pose", 2))) << "subscribed already";
   EXPECT_TRUE(complains(subscribe_text("/truth", 1))) << "the id is in use";
   EXPECT_TRUE(complains(subscribe_text("/sensor_scans", 3)));
-  EXPECT_TRUE(complains(R"({"op":"subscribe","subscriptions":[{"id":5,"channelId":99}]})"));
+  EXPECT_TRUE(complains(R"({"op":"subscribe","subscriptions":[{"id":5,"channelId":9999}]})"));
   EXPECT_TRUE(complains("garbage"));
   EXPECT_TRUE(complains("\x01\x02", false));
   tell("/pose", 6, "one");

@@ -100,7 +100,7 @@ TEST_F(FittedStereoTest, NeighboursAndFramesOfOneViewHaveErrorsInCommon) {
     next += likeness(first, second) / kSeeds;
     turned += likeness(first, third) / kSeeds;
   }
-  EXPECT_NEAR(near, std::exp(-4 / (4 * 2.5 * 2.5)), 0.08);
+  EXPECT_NEAR(near, std::exp(-4 / (4 * common.near_px * common.near_px)), 0.08);
   EXPECT_NEAR(far, 0, 0.15);
   EXPECT_NEAR(next, common.kept_share, 0.12);
   EXPECT_NEAR(turned, 0, 0.15) << "two views on";

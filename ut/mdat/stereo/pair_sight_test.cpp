@@ -70,5 +70,19 @@ TEST_F(PairSightTest, TellsHowBrightAPixelIs) {
   EXPECT_NEAR(sight.next_exposure_s(1e-5 + 1e-5), sight.settled_exposure_s(), 0.05 * sight.settled_exposure_s());
 }
 
+// The matcher's mask: a pixel is dark, too, where a window beside it is.
+TEST_F(PairSightTest, TellsWhatIsTooDarkToBeMatched) {
+  VERIFIES("LASSO-STE-015~1");
+  const StereoView seen = view(sun_behind()), dark = view(Lights{});
+  const PairSight sight(head_, seen);
+  const int rim = column_of(1, 4), row = middle_row();
+  EXPECT_FALSE(sight.at(column_of(0, 2), row, 1e-4).dark);
+  EXPECT_FALSE(sight.at(rim - 4, row, 1e-4).dark);
+  EXPECT_TRUE(sight.at(rim - 1, row, 1e-4).dark) << "beside the sky";
+  EXPECT_TRUE(sight.at(rim + 3, row, 1e-4).dark) << "the sky";
+  EXPECT_TRUE(sight.at(column_of(0, 2), row, 1e-9).dark) << "hardly exposed";
+  EXPECT_TRUE(PairSight(head_, dark).at(column_of(0, 2), row, 1e-4).dark);
+}
+
 }  // namespace
 }  // namespace lasso::mdat

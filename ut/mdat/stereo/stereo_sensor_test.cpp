@@ -59,7 +59,7 @@ TEST(StereoSensor, TakesOnePairAScanAtItsStart) {
   std::vector<TimeUs> asked;
   StereoSensor sensor([&](TimeUs t_us) {
     asked.push_back(t_us);
-    return half_plane();
+    return ranges_in(half_plane());
   });
   const ScanPlan plan = small_plan();
   std::vector<RangeSample> samples(100);
@@ -84,7 +84,7 @@ TEST(StereoSensor, TakesOnePairAScanAtItsStart) {
 
 TEST(StereoSensor, RefusesABadPlanAndAnAbortedScanIsGone) {
   VERIFIES("LASSO-STE-012~1");
-  StereoSensor sensor([](TimeUs) { return half_plane(); });
+  StereoSensor sensor([](TimeUs) { return ranges_in(half_plane()); });
   ScanPlan bad = small_plan();
   bad.points = 1;
   EXPECT_EQ(sensor.start(bad, kEpochUs), Status::kBadValue);
@@ -97,7 +97,7 @@ TEST(StereoSensor, RefusesABadPlanAndAnAbortedScanIsGone) {
 
 TEST(StereoSensor, AFailureIsAStatusForTheComponentAndALineForTheUser) {
   VERIFIES("LASSO-STE-011~1");
-  StereoSensor sensor([](TimeUs) -> DisparityMap { throw std::runtime_error("no matcher"); });
+  StereoSensor sensor([](TimeUs) -> PairRanges { throw std::runtime_error("no matcher"); });
   EXPECT_EQ(sensor.failure(), "");
   EXPECT_EQ(sensor.start(small_plan(), kEpochUs), Status::kTimeout);
   EXPECT_EQ(sensor.failure(), "no matcher");

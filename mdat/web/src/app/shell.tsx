@@ -1,13 +1,18 @@
 // The frame of the page: the start, or a recording's workspace; dialogs and notices above either.
 
+import { useSignal } from "@preact/signals";
+import type { FunctionComponent } from "preact";
+import { useEffect } from "preact/hooks";
+import { mission } from "../design/mission.ts";
 import { IconButton } from "../parts/controls.tsx";
 import { Icon } from "../parts/icon.tsx";
 import { ValuesDialog } from "../views/plots/values_dialog.tsx";
 import { Start } from "../views/start/start.tsx";
 import { CommandDialog } from "./command_dialog.tsx";
 import { KeysDialog } from "./keys_dialog.tsx";
-import { dismiss, notices } from "./notices.ts";
+import { dismiss, notices, tell } from "./notices.ts";
 import { overlay } from "./overlay.ts";
+import { designing } from "./route.ts";
 import { SessionContext, session } from "./session.ts";
 import { Workspace } from "./workspace.tsx";
 
@@ -34,11 +39,24 @@ function Overlay() {
   return null;
 }
 
+/** The editor of missions, which is loaded when it is first shown. */
+function Design() {
+  const view = useSignal<FunctionComponent | null>(null);
+  useEffect(() => {
+    import("../views/design/design_view.tsx").then(({ DesignView }) => {
+      view.value = DesignView;
+    }, tell);
+  }, []);
+  const View = view.value;
+  const open = mission.value;
+  return View === null || open === null ? <p class="hint">Opening the mission …</p> : <View key={open.id} />;
+}
+
 export function Shell() {
   const open = session.value;
   return (
     <SessionContext.Provider value={open}>
-      {open === null ? <Start /> : <Workspace key={open.log.info.id} session={open} />}
+      {open === null ? designing.value ? <Design /> : <Start /> : <Workspace key={open.log.info.id} session={open} />}
       <Overlay />
       <Notices />
     </SessionContext.Provider>

@@ -58,6 +58,7 @@ export default async function setUp(): Promise<() => void> {
   process.env.PAGE_ADDRESS = servers[0].address;
   process.env.PAGE_EMPTY_ADDRESS = servers[1].address;
   process.env.PAGE_LIVE_ADDRESS = servers[2].address;
+  process.env.PAGE_LIVE_FOLDER = live;
   process.env.PAGE_LIVE_PID = String(servers[2].process.pid);
   return () => {
     for (const server of servers) server.process.kill("SIGINT");

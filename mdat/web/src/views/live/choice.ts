@@ -23,8 +23,16 @@ export function commandOf(mission: LiveMission, scenario: string, seed: number |
   return words.map(shellWord).join(" ");
 }
 
-/** The mission to offer first: that of the first look, where it is there. */
+/** The mission that was designed last, which is flown next. */
+const designed = { id: "" };
+
+export function setFirstMission(id: string): void {
+  designed.id = id;
+}
+
+/** The mission to offer first: the one that was designed, or that of the first look, where it is there. */
 export function firstMission(missions: LiveMission[]): string {
+  if (missions.some((mission) => mission.id === designed.id)) return designed.id;
   return missions.find((mission) => mission.id === "hubble_tenth")?.id ?? missions[0]?.id ?? "";
 }
 

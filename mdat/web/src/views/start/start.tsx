@@ -11,6 +11,7 @@ import { CommandText, Empty } from "../../parts/controls.tsx";
 import { Icon } from "../../parts/icon.tsx";
 import { Fly } from "../live/fly.tsx";
 import { makeFirst, making } from "./first.ts";
+import { Missions } from "./missions.tsx";
 
 const ROSETTE_RAYS = 1024;
 
@@ -151,6 +152,7 @@ export function Start() {
         <h1>Fly and replay</h1>
         <First about={about.value} />
         <Fly />
+        <Missions />
         <section aria-label="Recordings">
           <h2>Recordings {about.value?.folder ? <small>in {about.value.folder}</small> : null}</h2>
           {entries.value === null ? (

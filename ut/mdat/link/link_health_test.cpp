@@ -1,4 +1,4 @@
-#include "mdat/serve/link_health.hpp"
+#include "mdat/link/link_health.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include "hal_sim/random.hpp"
 #include "ut/support/verifies.hpp"
 
-namespace lasso::mdat::serve {
+namespace lasso::mdat {
 namespace {
 
 using std::chrono::milliseconds;
@@ -90,4 +90,4 @@ TEST_F(LinkHealthTest, SeveralPacketsComeTogetherAndACutOneIsLeft) {
 }
 
 }  // namespace
-}  // namespace lasso::mdat::serve
+}  // namespace lasso::mdat

@@ -8,7 +8,7 @@
 
 #include "fsw/core/span.hpp"
 
-namespace lasso::mdat::serve {
+namespace lasso::mdat {
 
 constexpr std::chrono::seconds kRateWindow(5);
 
@@ -37,4 +37,4 @@ class LinkHealth {
   Time first_{};
 };
 
-}  // namespace lasso::mdat::serve
+}  // namespace lasso::mdat

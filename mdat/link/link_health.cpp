@@ -1,14 +1,14 @@
-#include "mdat/serve/link_health.hpp"
+#include "mdat/link/link_health.hpp"
 
 #include <algorithm>
 
 #include "fsw/link/space_packet.hpp"
 
-namespace lasso::mdat::serve {
+namespace lasso::mdat {
 namespace {
 
 constexpr std::uint16_t kApidMask = 0x7FF, kCountMask = 0x3FFF;
-constexpr std::uint16_t kHalfOfCounts = kCountMask / 2;
+constexpr std::uint16_t kHalfOfHealthCounts = kCountMask / 2;
 
 std::uint16_t word_at(ConstBytes bytes, std::size_t at) { return static_cast<std::uint16_t>(bytes[at] << 8 | bytes[at + 1]); }
 
@@ -24,7 +24,7 @@ void LinkHealth::take(ConstBytes packets, Time now) {
     const auto count = static_cast<std::uint16_t>(word_at(packets, 2) & kCountMask);
     const auto last = counts_.find(apid);
     const auto ahead = static_cast<std::uint16_t>(last == counts_.end() ? 1 : (count - last->second) & kCountMask);
-    if (ahead > 1 && ahead <= kHalfOfCounts) missing_ += ahead - 1U;
+    if (ahead > 1 && ahead <= kHalfOfHealthCounts) missing_ += ahead - 1U;
     counts_[apid] = count;
     packets = packets.subspan(size, packets.size() - size);
     ++taken;
@@ -48,4 +48,4 @@ double LinkHealth::rate_per_s(Time now) const {
 
 double LinkHealth::age_s(Time now) const { return packets_ == 0 ? -1 : seconds_between(recent_.back().at, now); }
 
-}  // namespace lasso::mdat::serve
+}  // namespace lasso::mdat

@@ -1,0 +1,72 @@
+#include "mdat/serve/design_answers.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "mdat/serve/json_body.hpp"
+#include "mdat/serve/mission_view.hpp"
+
+namespace lasso::mdat::serve {
+namespace {
+
+using DesignJson = nlohmann::ordered_json;
+
+std::string design_json(const DesignJson& json) { return json.dump(-1, ' ', false, DesignJson::error_handler_t::replace); }
+
+DesignJson view_json(const LiveMission& mission, const std::string& text) { return DesignJson::parse(mission_view(text, mission.file)); }
+
+std::vector<std::string> words_of(const DesignJson& body, const char* name) {
+  const auto found = body.find(name);
+  if (found == body.end() || !found->is_array()) throw Refusal{400, std::string(name) + ": a list was expected", "see docs/serve.md"};
+  std::vector<std::string> words;
+  for (const DesignJson& word : *found) {
+    if (!word.is_string()) throw Refusal{400, std::string(name) + ": a list of texts was expected", "see docs/serve.md"};
+    words.push_back(word.get<std::string>());
+  }
+  return words;
+}
+
+Response opened(const Design& design, const LiveMission& mission) {
+  const MissionText text = design.open(mission);
+  DesignJson json{
+      {"id", mission.id}, {"file", mission.file.string()}, {"shipped", mission.shipped}, {"digest", text.digest}, {"text", text.text}};
+  json.update(view_json(mission, text.text));
+  return json_response(design_json(json));
+}
+
+struct DesignAct {
+  const char* name;
+  DesignJson (*act)(Design& design, const LiveMission& mission, const DesignJson& body);
+};
+constexpr DesignAct kDesignActs[] = {
+    {"look", [](Design&, const LiveMission& mission, const DesignJson& body) { return view_json(mission, body_text(body, "text")); }},
+    {"set",
+     [](Design&, const LiveMission& mission, const DesignJson& body) {
+       const std::string text = Design::set(mission, body_text(body, "text"), words_of(body, "set"));
+       DesignJson json{{"text", text}};
+       json.update(view_json(mission, text));
+       return json;
+     }},
+    {"save",
+     [](Design& design, const LiveMission& mission, const DesignJson& body) {
+       return DesignJson{{"digest", design.save(mission, body_text(body, "text"), body_text(body, "digest"))}};
+     }},
+    {"copy",
+     [](Design& design, const LiveMission& mission, const DesignJson& body) {
+       return DesignJson{{"id", design.copy(mission, body_text(body, "name"))}};
+     }},
+};
+
+}  // namespace
+
+Response design_answer(Design& design, const Request& request, const Target& target) {
+  const bool acts = request.method == Method::kPost;
+  if (!acts && target.parts.size() == 2) return opened(design, design.mission(text_in(target, "id")));
+  for (const DesignAct& row : kDesignActs) {
+    if (!acts || target.parts.size() != 3 || target.parts[2] != row.name) continue;
+    const DesignJson body = json_body(request);
+    return json_response(design_json(row.act(design, design.mission(text_in(target, "id")), body)));
+  }
+  throw Refusal{404, "there is no " + target.path.substr(0, 120), "see docs/serve.md"};
+}
+
+}  // namespace lasso::mdat::serve

@@ -1,0 +1,14 @@
+// A mission's text as the page shows it beside its form.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace lasso::mdat::serve {
+
+// JSON: `problems` (line, column, key, value, expected), those of mdat mission check before the target is read; and where there are none
+// `warnings`, `values` (key, value, unit, place, line), those of mdat mission info, and `scenarios` (name, frames, runs, seed). A line
+// or column of 0 is that of no place. `file` is where the text stands, or would.
+std::string mission_view(const std::string& text, const std::filesystem::path& file);
+
+}  // namespace lasso::mdat::serve

@@ -1,0 +1,98 @@
+// The form of a mission, made from its JSON Schema: which tables and keys there are, and what may stand there.
+import type { EffectiveValue, Schema } from "./types.ts";
+
+/** A table of keys: "scan", or one with a chosen name: "scenario.spin". */
+export interface Section {
+  path: string;
+  schema: Schema;
+}
+
+export interface Field {
+  key: string;
+  /** Within its section. */
+  name: string;
+  schema: Schema;
+}
+
+/** Schema of a table of chosen names, such as scenario; null of any other. */
+export function namedTable(schema: Schema): Schema | null {
+  const inner = schema.additionalProperties;
+  return typeof inner === "object" && inner.type !== "number" && inner.type !== "string" ? inner : null;
+}
+
+/** The names that a text or its values have below a table: [node.chaser] and node.chaser.motion say "chaser". */
+export function namesIn(table: string, text: string, values: EffectiveValue[]): string[] {
+  const header = new RegExp(`^\\s*\\[${table}\\.(?:"([^"]+)"|([\\w-]+))`, "gm");
+  const names = new Set([...text.matchAll(header)].map((match) => match[1] ?? match[2]));
+  for (const { key } of values) if (key.startsWith(`${table}.`)) names.add(key.split(".")[1]);
+  return [...names];
+}
+
+/** Tables whose values the server does not tell: they are edited in the text alone. */
+const TEXT_ALONE = ["campaign", "material"];
+
+/** All tables of a mission in the order of the schema; of named ones those that are there. */
+export function sectionsOf(root: Schema, text: string, values: EffectiveValue[]): Section[] {
+  const tables = Object.entries(root.properties ?? {}).filter(([table]) => !TEXT_ALONE.includes(table));
+  return tables.flatMap(([table, schema]): Section[] => {
+    const named = namedTable(schema);
+    if (named === null) return [{ path: table, schema }];
+    return namesIn(table, text, values).map((name) => ({ path: `${table}.${name}`, schema: named }));
+  });
+}
+
+/** Of several forms the one whose kind the mission has, or the first. */
+function formOf(section: Section, values: Map<string, EffectiveValue>): Schema {
+  const { oneOf } = section.schema;
+  if (oneOf === undefined || oneOf[0].properties === undefined) return section.schema;
+  const kind = values.get(`${section.path}.kind`)?.value.replace(/"/g, "");
+  return oneOf.find((form) => form.properties?.kind?.const === kind) ?? oneOf[0];
+}
+
+function fieldsBelow(path: string, prefix: string, schema: Schema): Field[] {
+  return Object.entries(schema.properties ?? {}).flatMap(([name, inner]): Field[] => {
+    const own = prefix === "" ? name : `${prefix}.${name}`;
+    if (inner.properties !== undefined) return fieldsBelow(path, own, inner);
+    return inner.type === "object" ? [] : [{ key: `${path}.${own}`, name: own, schema: inner }];
+  });
+}
+
+/** The keys of a section that hold a value. Of a scenario's overrides those that are written. */
+export function fieldsOf(section: Section, values: Map<string, EffectiveValue>): Field[] {
+  const fields = fieldsBelow(section.path, "", formOf(section, values));
+  return fields.filter(({ key, name }) => !name.startsWith("override.") || values.has(key));
+}
+
+/** What may stand there, in words. */
+export function expectedText(schema: Schema): string {
+  const unit = schema["x-unit"] === undefined ? "" : ` ${schema["x-unit"]}`;
+  if (schema.const !== undefined) return `"${schema.const}"`;
+  if (schema.enum !== undefined) return `one of ${schema.enum.join(", ")}`;
+  if (schema.anyOf !== undefined) return schema.anyOf.map(expectedText).join(", or ");
+  if (schema.type === "boolean") return "true or false";
+  if (schema.type === "string") return "a text";
+  if (schema.type === "array") return listText(schema, unit);
+  return `${schema.type === "integer" ? "a whole number" : "a number"} from ${schema.minimum} to ${schema.maximum}${unit}`;
+}
+
+function listText({ minItems, maxItems, items }: Schema, unit: string): string {
+  const count = minItems === maxItems ? String(minItems) : `${minItems ?? 1} to ${maxItems ?? "any number"}`;
+  if (items?.minimum === undefined) return `a list of ${count}`;
+  return `a list of ${count} numbers, each from ${items.minimum} to ${items.maximum}${unit}`;
+}
+
+/** The preset as TOML; "" where there is none. */
+export function presetText(schema: Schema): string {
+  if (schema.default === undefined) return "";
+  if (Array.isArray(schema.default)) return `[${schema.default.join(", ")}]`;
+  return schema.enum === undefined ? String(schema.default) : `"${schema.default}"`;
+}
+
+/** Fields whose key, meaning or unit holds every word. */
+export function fittingFields(fields: Field[], text: string): Field[] {
+  const words = text.toLowerCase().split(/\s+/).filter(Boolean);
+  return fields.filter(({ key, schema }) => {
+    const where = `${key} ${schema.description ?? ""} ${schema["x-unit"] ?? ""}`.toLowerCase();
+    return words.every((word) => where.includes(word));
+  });
+}

@@ -1,0 +1,257 @@
+// The editor of missions: tables of keys at the left, the form of one in the middle, the text that it is made of at the right.
+import { useSignal } from "@preact/signals";
+import { useEffect, useLayoutEffect } from "preact/hooks";
+import { CommonTools } from "../../app/common_tools.tsx";
+import { routeTo, routeToMission } from "../../app/route.ts";
+import { mission as current, type Mission } from "../../design/mission.ts";
+import { fieldsOf, fittingFields, type Section } from "../../design/schema.ts";
+import { CommandText, Empty, IconButton, Panel } from "../../parts/controls.tsx";
+import { Icon } from "../../parts/icon.tsx";
+import { setFirstMission } from "../live/choice.ts";
+import { FieldRow } from "./field.tsx";
+import { SaveDialog } from "./save_dialog.tsx";
+import { TextPane } from "./text_pane.tsx";
+
+function hasProblem(mission: Mission, section: Section): boolean {
+  return mission.problems.value.some(({ key }) => key === section.path || key.startsWith(`${section.path}.`));
+}
+
+function Sections({ mission }: { mission: Mission }) {
+  return (
+    <Panel id="sections" title="Tables">
+      <nav class="scroll sections" aria-label="Tables of the mission">
+        {mission.sections.value.map((section) => (
+          <button
+            key={section.path}
+            type="button"
+            aria-current={section.path === mission.section.value ? "true" : undefined}
+            onClick={() => {
+              mission.filter.value = "";
+              mission.section.value = section.path;
+            }}
+          >
+            {section.path}
+            {hasProblem(mission, section) ? <Icon name="error" /> : null}
+          </button>
+        ))}
+      </nav>
+    </Panel>
+  );
+}
+
+/** Of the table that is chosen; while the filter holds words, of all. */
+function Form({ mission }: { mission: Mission }) {
+  const words = mission.filter.value;
+  const sections = mission.sections.value.filter((section) => words !== "" || section.path === mission.section.value);
+  const fields = sections.flatMap((section) => fieldsOf(section, mission.byKey.value));
+  const found = fittingFields(fields, words).map((field) => (words === "" ? field : { ...field, name: field.key }));
+  return (
+    <Panel
+      id="form"
+      title={words === "" ? mission.section.value : `${found.length} keys`}
+      tools={
+        <input
+          type="search"
+          placeholder="Find a key (/)"
+          aria-label="Find a key"
+          id="key-filter"
+          value={words}
+          onInput={(event) => {
+            mission.filter.value = event.currentTarget.value;
+          }}
+        />
+      }
+    >
+      <div class="scroll">
+        {found.length === 0 ? <Empty title="No key fits.">Change the words, or look into the text.</Empty> : null}
+        {found.map((field) => (
+          <FieldRow key={field.key} mission={mission} field={field} />
+        ))}
+      </div>
+    </Panel>
+  );
+}
+
+function Problems({ mission }: { mission: Mission }) {
+  const problems = mission.problems.value;
+  if (problems.length === 0) {
+    const warnings = mission.warnings.value;
+    return warnings.length === 0 ? null : (
+      <details class="banner">
+        <summary>
+          <Icon name="warning" /> {warnings.length === 1 ? "1 warning" : `${warnings.length} warnings`}
+        </summary>
+        <ul>
+          {warnings.map((warning) => (
+            <li key={warning}>{warning}</li>
+          ))}
+        </ul>
+      </details>
+    );
+  }
+  return (
+    <div class="problems" role="alert">
+      <strong>{problems.length === 1 ? "1 problem" : `${problems.length} problems`}; the form shows the last text without any</strong>
+      <ul>
+        {problems.map((problem) => (
+          <li key={`${problem.line} ${problem.key} ${problem.expected}`}>
+            <button
+              type="button"
+              class="link"
+              onClick={() => {
+                mission.line.value = problem.line;
+              }}
+            >
+              {problem.line > 0 ? `line ${problem.line}` : "mission"}
+            </button>{" "}
+            {[problem.key, problem.value, problem.expected].filter(Boolean).join(": ")}
+          </li>
+        ))}
+      </ul>
+    </div>
+  );
+}
+
+function shellWord(text: string): string {
+  return /^[\w@%+=:,./-]+$/.test(text) ? text : `'${text.replace(/'/g, "'\\''")}'`;
+}
+
+function commandOf(mission: Mission): string {
+  const settings = [...mission.settings.value].map(([key, value]) => `${key}=${value}`);
+  const words = settings.length === 0 ? ["mdat", "mission", "check", mission.file] : ["mdat", "mission", "set", mission.file, ...settings];
+  return words.map(shellWord).join(" ");
+}
+
+/** A shipped mission is read: what is designed is a copy. */
+function CopyForm({ mission }: { mission: Mission }) {
+  const name = useSignal(`my_${mission.id.replace(/\W/g, "_")}`);
+  const submit = async (event: Event) => {
+    event.preventDefault();
+    const id = await mission.copy(name.value.trim());
+    if (id !== null) location.hash = routeToMission(id);
+  };
+  return (
+    <form class="banner copy-form" aria-label="Copy the mission" onSubmit={submit}>
+      <Icon name="info" /> A shipped mission is not changed. Make a copy of it, with all its files, to design on:
+      <label>
+        Folder{" "}
+        <input
+          value={name.value}
+          onInput={(event) => {
+            name.value = event.currentTarget.value;
+          }}
+        />
+      </label>
+      <button type="submit" class="text-button">
+        <Icon name="copy" /> Copy
+      </button>
+    </form>
+  );
+}
+
+function Head({ mission, onSave }: { mission: Mission; onSave: () => void }) {
+  const { canUndo, canRedo } = mission.history;
+  const savable = mission.changed.value && mission.problems.value.length === 0;
+  return (
+    <header class="head">
+      <a class="brand" href={routeTo(null)}>
+        <Icon name="home" />
+        <span>MDAT</span>
+      </a>
+      <h1>{mission.id}</h1>
+      <p class="run">{mission.shipped ? "shipped" : mission.changed.value ? "changed, not saved" : "saved"}</p>
+      <div class="head-tools">
+        <IconButton icon="undo" label="Undo" stroke="Ctrl+z" disabled={canUndo.value === null} onClick={() => mission.undo(false)} />
+        <IconButton
+          icon="redo"
+          label="Do again"
+          stroke="Ctrl+Shift+z"
+          disabled={canRedo.value === null}
+          onClick={() => mission.undo(true)}
+        />
+        <button type="button" class="text-button" title="Save (Ctrl S)" disabled={!savable} onClick={onSave}>
+          <Icon name="download" /> Save …
+        </button>
+        <a
+          class="text-button"
+          href={routeTo(null)}
+          title={mission.changed.value ? "The saved mission is flown: save first what is to fly" : "Choose a scenario and fly it live"}
+          onClick={() => setFirstMission(mission.id)}
+        >
+          <Icon name="play" /> Fly …
+        </a>
+        <CommonTools />
+      </div>
+    </header>
+  );
+}
+
+/** What a stroke does outside of fields, and Ctrl S everywhere; null: nothing. */
+function actOf(event: KeyboardEvent, mission: Mission, onSave: () => void): (() => void) | null {
+  const key = event.key.toLowerCase();
+  const control = event.ctrlKey || event.metaKey;
+  if (control && key === "s") return onSave;
+  if (["INPUT", "TEXTAREA", "SELECT"].includes((event.target as HTMLElement).tagName)) return null;
+  if (control && (key === "z" || key === "y")) return () => mission.undo(key === "y" || event.shiftKey);
+  return !control && key === "/" ? () => document.querySelector<HTMLElement>("#key-filter")?.focus() : null;
+}
+
+/** From the first picture on: a stroke that comes with it is not lost. */
+function useKeys(mission: Mission, onSave: () => void): void {
+  useLayoutEffect(() => {
+    const onKey = (event: KeyboardEvent) => {
+      const act = actOf(event, mission, onSave);
+      if (act === null) return;
+      event.preventDefault();
+      act();
+    };
+    window.addEventListener("keydown", onKey);
+    return () => window.removeEventListener("keydown", onKey);
+  }, [mission]);
+}
+
+/** Leaving the page with changes that are not saved is asked about by the browser. */
+function useGuard(mission: Mission): void {
+  useEffect(() => {
+    const ask = (event: BeforeUnloadEvent) => mission.changed.peek() && event.preventDefault();
+    window.addEventListener("beforeunload", ask);
+    return () => window.removeEventListener("beforeunload", ask);
+  }, [mission]);
+}
+
+export function DesignView() {
+  const mission = current.value!;
+  const saving = useSignal(false);
+  const save = async () => {
+    await mission.pending;
+    saving.value = mission.changed.peek() && mission.problems.peek().length === 0;
+  };
+  useKeys(mission, save);
+  useGuard(mission);
+  useEffect(() => {
+    document.title = `${mission.id} – MDAT`;
+  }, [mission]);
+  return (
+    <div class="workspace design" data-view="design">
+      <Head mission={mission} onSave={save} />
+      {mission.shipped ? <CopyForm mission={mission} /> : null}
+      <Problems mission={mission} />
+      <main class="design-views">
+        <Sections mission={mission} />
+        <Form mission={mission} />
+        <TextPane mission={mission} />
+      </main>
+      <footer class="design-foot">
+        <CommandText text={commandOf(mission)} label="command of these changes" />
+      </footer>
+      {saving.value ? (
+        <SaveDialog
+          mission={mission}
+          onClose={() => {
+            saving.value = false;
+          }}
+        />
+      ) : null}
+    </div>
+  );
+}

@@ -1,0 +1,96 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { changedLines } from "../../src/design/lines.ts";
+import { expectedText, fieldsOf, fittingFields, namesIn, presetText, sectionsOf } from "../../src/design/schema.ts";
+import type { EffectiveValue, Schema } from "../../src/design/types.ts";
+import { seeded } from "./seeded.ts";
+
+const root: Schema = {
+  properties: {
+    scan: {
+      type: "object",
+      properties: {
+        points: { type: "integer", minimum: 64, maximum: 4096, default: 1024, description: "rays of one scan" },
+        inner: { type: "object", properties: { width: { type: "number", minimum: 0, maximum: 9, "x-unit": "m" } } },
+      },
+    },
+    motion: {
+      type: "object",
+      additionalProperties: {
+        oneOf: [
+          { type: "object", properties: { kind: { const: "still" }, position_m: { type: "array", minItems: 3, maxItems: 3 } } },
+          { type: "object", properties: { kind: { const: "table" }, file: { type: "string" } } },
+        ],
+      },
+    },
+    scenario: {
+      type: "object",
+      additionalProperties: {
+        type: "object",
+        properties: {
+          frames: { type: "integer", minimum: 1, maximum: 9 },
+          override: { type: "object", properties: { gate: { type: "boolean" }, other: { type: "boolean" } } },
+        },
+      },
+    },
+  },
+};
+
+const value = (key: string, text: string): EffectiveValue => ({ key, value: text, unit: "", place: "m.toml:1", line: 1 });
+
+test("tables with chosen names are those of the text and of the values", () => {
+  const text = '[scan]\n[motion.slow]\n  [motion."very fast"]\n[scenario.spin.override]\n';
+  assert.deepEqual(namesIn("motion", text, []), ["slow", "very fast"]);
+  const sections = sectionsOf(root, text, [value("scenario.paper.frames", "3")]).map(({ path }) => path);
+  assert.deepEqual(sections, ["scan", "motion.slow", "motion.very fast", "scenario.spin", "scenario.paper"]);
+});
+
+test("a table's form has its keys, of several forms those of its kind, and the overrides that are written", () => {
+  const values = new Map(
+    [value("motion.slow.kind", '"table"'), value("scenario.spin.override.gate", "true")].map((each) => [each.key, each]),
+  );
+  const keys = (path: string, name: string) => {
+    const inner = root.properties![name].additionalProperties;
+    return fieldsOf({ path, schema: typeof inner === "object" ? inner : root.properties![name] }, values).map(({ key }) => key);
+  };
+  assert.deepEqual(keys("scan", "scan"), ["scan.points", "scan.inner.width"]);
+  assert.deepEqual(keys("motion.slow", "motion"), ["motion.slow.kind", "motion.slow.file"]);
+  assert.deepEqual(keys("scenario.spin", "scenario"), ["scenario.spin.frames", "scenario.spin.override.gate"]);
+});
+
+test("what may stand at a key is said in words, with units", () => {
+  assert.equal(expectedText({ type: "integer", minimum: 1, maximum: 9 }), "a whole number from 1 to 9");
+  assert.equal(expectedText({ type: "number", minimum: 0, maximum: 2, "x-unit": "m" }), "a number from 0 to 2 m");
+  assert.equal(
+    expectedText({ type: "array", minItems: 3, maxItems: 3, items: { type: "number", minimum: 0, maximum: 1 }, "x-unit": "deg" }),
+    "a list of 3 numbers, each from 0 to 1 deg",
+  );
+  assert.equal(expectedText({ enum: ["a", "b"] }), "one of a, b");
+  assert.equal(presetText({ type: "array", default: [0, 1] }), "[0, 1]");
+  assert.equal(presetText({ enum: ["a"], default: "a" }), '"a"');
+});
+
+test("keys are found by any words of key, meaning and unit", () => {
+  const fields = fieldsOf({ path: "scan", schema: root.properties!.scan }, new Map());
+  assert.deepEqual(
+    fittingFields(fields, "rays SCAN").map(({ key }) => key),
+    ["scan.points"],
+  );
+  assert.equal(fittingFields(fields, "none").length, 0);
+});
+
+test("changed lines make the one text of the other, whatever was changed", () => {
+  const random = seeded(11);
+  for (let round = 0; round < 200; ++round) {
+    const draw = () => Array.from({ length: Math.floor(random() * 8) }, () => "abc"[Math.floor(random() * 3)]);
+    const [before, after] = [
+      ["top", ...draw(), "end"],
+      ["top", ...draw(), "end"],
+    ];
+    const changes = changedLines(before.join("\n"), after.join("\n"));
+    const removed = new Set(changes.filter(({ sign }) => sign === "-").map(({ line }) => line));
+    const result = before.filter((_, i) => !removed.has(i + 1));
+    for (const { sign, line, text } of changes) if (sign === "+") result.splice(line - 1, 0, text);
+    assert.deepEqual(result, after);
+  }
+});
