@@ -203,6 +203,13 @@ void flown_trials(const StereoArguments& options) {
   std::printf("written to %s: flights.json, flights.csv\n", options.out.c_str());
 }
 
+// Words that one of the two would not hear: many pairs, or many flights.
+void check_kind_of_trial(const StereoArguments& options) {
+  if (options.views > 0 && options.flights > 0) throw InputError("--views: single pairs, and --flights flies: leave one of them out");
+  if (options.views > 0 && options.scene.seed) throw InputError("--views: --seed is of one pair, and of --flights: leave it out");
+  if (options.flights > 0 && options.scene.range_m) throw InputError("--flights: --range is of pairs: choose a scenario of one range");
+}
+
 // Words of one way to use the command that the other one would not hear.
 void check_trial(const StereoArguments& options, bool recorded) {
   const bool many = options.views > 0 || options.flights > 0;
@@ -210,12 +217,10 @@ void check_trial(const StereoArguments& options, bool recorded) {
   if (options.frames && options.flights == 0) throw InputError("--frames: goes with --flights");
   if (!many) return;
   const std::string which = options.views > 0 ? "--views" : "--flights";
-  if (options.views > 0 && options.flights > 0) throw InputError("--views: single pairs, and --flights flies: leave one of them out");
   if (recorded) throw InputError(which + ": pairs are those of a MISSION; leave out --left, --right and --calibration");
   if (options.depths.nearest_m > 0 || options.scene.time_s != 0 || !options.scene.camera.empty() || !options.scene.materials.empty())
     throw InputError(which + ": --nearest, --farthest, --time, --camera and --material are of one pair: leave them out");
-  if (options.views > 0 && options.scene.seed) throw InputError("--views: --seed is of one pair, and of --flights: leave it out");
-  if (options.flights > 0 && options.scene.range_m) throw InputError("--flights: --range is of pairs: choose a scenario of one range");
+  check_kind_of_trial(options);
 }
 
 void stereo(const StereoArguments& options) {

@@ -115,15 +115,16 @@ FrameRecorder::FrameRecorder(const std::filesystem::path& file, const Mesh* targ
 }
 
 void FrameRecorder::open(const std::filesystem::path& file, const RecordingHead& head) {
-  writer_.emplace(file, kRecordingProfile, "mdat");
+  mcap::Writer& writer = writer_.emplace(file, kRecordingProfile, "mdat");
   for (const Topic& topic : kTopics) {
     if (content_ == RecordingContent::kAll || topic.schema == ros::packet) add_topic({topic.name, topic.schema()}, topic.bulk);
   }
-  for (const auto& [name, bytes] : head.files) writer_->attach(name, "application/octet-stream", bytes, 0);
-  writer_->add_metadata(kRecordingMetadata, head.about);
+  for (const auto& [name, bytes] : head.files) writer.attach(name, "application/octet-stream", bytes, 0);
+  writer.add_metadata(kRecordingMetadata, head.about);
 }
 
 void FrameRecorder::add_topic(const MessageTopic& topic, mcap::Bulk bulk) {
+  if (!writer_) return;
   const auto [place, added] = schemas_.try_emplace(topic.schema.name, std::uint16_t{0});
   if (added) place->second = writer_->add_schema(topic.schema.name, "ros2msg", topic.schema.text);
   channels_[topic.name] = writer_->add_channel(topic.name, place->second, "cdr", {}, bulk);
@@ -180,7 +181,7 @@ void FrameRecorder::write_told(TimeUs boundary_us, ConstBytes packets) {
   for (const DecodedPacket& packet : decode_stream(packets, PacketType::kTelemetry).packets) {
     if (packet.row == nullptr) continue;
     const std::string topic = packet_topic(*packet.row);
-    if (writer_ && channels_.count(topic) == 0) add_topic({topic, packet_schema(*packet.row)}, mcap::Bulk::kSmall);
+    if (channels_.count(topic) == 0) add_topic({topic, packet_schema(*packet.row)}, mcap::Bulk::kSmall);
     write(topic, boundary_us, packet_message(boundary_us, packet));
     write_event(boundary_us, packet);
   }
@@ -194,6 +195,7 @@ void FrameRecorder::write_event(TimeUs boundary_us, const DecodedPacket& packet)
 
 // What is known of a run besides its estimates: the true target, and other bodies of its scene.
 void FrameRecorder::add_true_surfaces(const std::vector<std::array<std::uint32_t, 3>>& still, std::vector<ros::Surface>& surfaces) const {
+  if (!frames_) return;
   surfaces.push_back({"target, true", kTrueFrame, &target_->vertices, &still, Vec3(kTrueColor), kGhost});
   for (const SceneFrames::Body& body : frames_->bodies())
     surfaces.push_back({body.frame, body.frame, &body.surface->vertices, &body.surface->triangles, Vec3(kOtherColor), 1});
@@ -205,7 +207,7 @@ void FrameRecorder::write_surfaces(TimeUs t_us) {
   std::vector<ros::Surface> surfaces;
   std::vector<std::array<std::uint32_t, 3>> still;  // lives as long as the surfaces
   if (frames_) still = kept(target_->triangles, frames_->moved_triangles());
-  if (frames_) add_true_surfaces(still, surfaces);
+  add_true_surfaces(still, surfaces);
   surfaces.push_back({"target, estimated", kTargetFrame, &target_->vertices, &target_->triangles, Vec3(kEstimateColor), 1});
   write("/scene", t_us, ros::scene_bytes(t_us, surfaces));
 }

@@ -139,6 +139,21 @@ void check_run(const fs::path& file, RecordedRun& run, bool merged) {
         "whole recording");
 }
 
+// What the component told up to that time.
+void keep_telemetry(const std::vector<TimedPacket>& packets, std::uint64_t until_ns, RecordedRun& run) {
+  run.whole = until_ns == UINT64_MAX;
+  for (const TimedPacket& packet : packets) {
+    if (packet.t_ns > until_ns) continue;
+    run.telemetry += packet.bytes;
+    run.last_packet_ns = std::max(run.last_packet_ns, packet.t_ns);
+  }
+}
+
+bool came_in_datagrams(const mcap::Text& about) {
+  const auto form = about.find(kLinkForm);
+  return form != about.end() && form->second == kDatagrams;
+}
+
 }  // namespace
 
 RecordedRun read_recorded_run(const fs::path& file) {
@@ -163,15 +178,8 @@ RecordedRun read_recorded_run(const fs::path& file) {
   };
   run.damage = reader.read(visitor);
   check_run(file, run, merged);
-  const auto form = run.about.find(kLinkForm);
-  run.commands.datagrams = form != run.about.end() && form->second == kDatagrams;
-  const std::uint64_t until_ns = std::min(whole_until_ns(run.about), run.damage.empty() ? UINT64_MAX : scans_until_ns);
-  run.whole = until_ns == UINT64_MAX;
-  for (const TimedPacket& packet : packets) {
-    if (packet.t_ns > until_ns) continue;
-    run.telemetry += packet.bytes;
-    run.last_packet_ns = std::max(run.last_packet_ns, packet.t_ns);
-  }
+  run.commands.datagrams = came_in_datagrams(run.about);
+  keep_telemetry(packets, std::min(whole_until_ns(run.about), run.damage.empty() ? UINT64_MAX : scans_until_ns), run);
   return run;
 }
 

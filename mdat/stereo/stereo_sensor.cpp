@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "fsw/sense/pattern.hpp"
+#include "mdat/run/simulated_scenario.hpp"
 
 namespace lasso::mdat {
 namespace {
