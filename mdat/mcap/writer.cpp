@@ -46,6 +46,7 @@ std::string_view Writer::compressed(std::string_view bytes) {
 
 void Writer::put_out(std::string_view bytes, bool flush) {
   errno = 0;
+  // cppcheck-suppress invalidLifetime ; the callers' bytes live until it returns
   out_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   if (flush) out_.flush();
   if (!out_) throw InputError(path_.string() + ": cannot be written: " + (errno != 0 ? std::strerror(errno) : "the disk may be full"));

@@ -36,8 +36,10 @@ const std::vector<ros::PointField>& cloud_fields() {
 class MovingTarget {
  public:
   explicit MovingTarget(const ScanView& scan)
-      : p_(scan.T_sensor_target.p), v_mps_(scan.rates.v_mps), speed_radps_(scan.rates.omega_radps.norm()) {
-    still_ = to_matrix(scan.T_sensor_target.q).transpose();
+      : p_(scan.T_sensor_target.p),
+        v_mps_(scan.rates.v_mps),
+        speed_radps_(scan.rates.omega_radps.norm()),
+        still_(to_matrix(scan.T_sensor_target.q).transpose()) {
     if (!(speed_radps_ > 0)) return;
     const Vec3 axis = scan.rates.omega_radps / speed_radps_;
     Mat3 cross;
@@ -55,7 +57,7 @@ class MovingTarget {
  private:
   Vec3 p_, v_mps_;
   double speed_radps_;
-  Mat3 still_ = Mat3::Identity(), sine_ = Mat3::Zero(), versine_ = Mat3::Zero();  // Rodrigues' formula, times the attitude at dt_s = 0
+  Mat3 still_, sine_ = Mat3::Zero(), versine_ = Mat3::Zero();  // Rodrigues' formula, times the attitude at dt_s = 0
 };
 
 float residual_m(const MovingTarget& target, double dt_s, const RangeSample& sample, const sim::RayCaster& model) {
