@@ -11,7 +11,7 @@ namespace {
 using N = FlightNumber;
 
 constexpr double kOffsetSigmas = 2;      // rays reach this far to either side of the predicted contour
-constexpr double kLabelWorth = 0.6;      // how many labels make a measurement, measured: see docs/decisions/aimed-scans.md
+constexpr double kLabelWorth = 0.6;      // how many labels make a measurement, measured: docs/experiments/2026-11-26-aimed-scans.md
 constexpr double kSurfaceSpread = 5e-4;  // of the range: rays at a surface stay beside one another
 static_assert(kMaxAimSurfaces == kOutlookRays, "each can be a place");
 constexpr double kGoldenRatio = 0.6180339887498949;

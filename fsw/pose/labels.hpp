@@ -2,7 +2,7 @@
 //
 // A label's likelihood is e + (1 - e) Phi(y s / sigma), with s = d + a.x the distance inside the contour, y = +1 or -1 the side it was seen
 // on, sigma the contour's and the pointing's uncertainty, and e the probability that the label is wrong (a ray that dropped out looks like
-// a miss). Minka, "A family of algorithms for approximate Bayesian inference" (2001); figures in docs/decisions/silhouettes.md.
+// a miss). Minka, "A family of algorithms for approximate Bayesian inference" (2001); docs/experiments/2026-11-25-silhouettes.md.
 #pragma once
 
 #include "fsw/core/span.hpp"
