@@ -75,6 +75,12 @@ function compare(listener, poses) {
   }
 }
 
+// Valid poses from the first one on that this viewer heard: the run waits for nobody who connects.
+function since(listener, poses) {
+  const first = listener.heard.get("/pose")[0]?.timestamp ?? 0n;
+  return poses.filter((pose) => pose.valid === "yes" && BigInt(pose.t_measurement_us) * 1000n >= first).length;
+}
+
 // How much later than its time in the run each scan arrived, against the one that was quickest. The first ones come while viewers connect.
 function delays(listener) {
   const late = listener.heard.get("/scan").slice(BEGIN).map(({ timestamp, arrival }) => arrival - Number(timestamp) / 1e6);
@@ -170,7 +176,8 @@ for (const [i, listener] of listeners.entries()) {
   compare(listener, poses);
   const counts = Object.fromEntries([...listener.heard].map(([topic, messages]) => [topic, messages.length]));
   if (counts["/scene"] !== 1) find(`client ${i}: /scene came ${counts["/scene"]} times, expected once`);
-  if (counts["/pose"] !== valid) find(`client ${i}: ${counts["/pose"]} poses, telemetry has ${valid}`);
+  if (counts["/pose"] !== since(listener, poses)) find(`client ${i}: ${counts["/pose"]} poses, telemetry has ${since(listener, poses)} since its first`);
+  if (counts["/pose"] < valid - BEGIN) find(`client ${i}: ${counts["/pose"]} poses, telemetry has ${valid}`);
   if (counts["/events"] !== events) find(`client ${i}: ${counts["/events"]} events, telemetry has ${events}`);
   if ("/sensor_scans" in counts) find(`client ${i}: /sensor_scans is told`);
   if (!listener.status.some(({ message }) => message === "the run is over")) find(`client ${i}: is not told that the run is over`);

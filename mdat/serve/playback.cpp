@@ -13,10 +13,10 @@ constexpr std::uint64_t kMicrosecond_ns = 1000;
 
 std::string Playback::take(const PlaybackRequest& request, std::uint64_t now_ns) {
   if (ended_) return "the run is over";
-  if (!(request.speed > 0 && request.speed <= kMostPace))
-    return "playback control: speed " + format("%g", static_cast<double>(request.speed)) + ", expected above 0 and up to " +
-           format("%g", kMostPace);
-  pacing_.set_pace(static_cast<double>(request.speed));
+  const auto speed = static_cast<double>(request.speed);
+  if (!(speed > 0 && speed <= kMostPace))
+    return "playback control: speed " + format("%g", speed) + ", expected above 0 and up to " + format("%g", kMostPace);
+  pacing_.set_pace(speed);
   const bool back = request.seek_ns && *request.seek_ns < now_ns;
   if (request.seek_ns && !back) pacing_.hurry_to(static_cast<TimeUs>(std::min(*request.seek_ns, range_.end_ns) / kMicrosecond_ns));
   request.play ? pacing_.resume() : pacing_.pause();
