@@ -223,6 +223,20 @@ void warn_of_same_image(const RecordedFlight& flight, const std::vector<std::uin
                flight.file().c_str());
 }
 
+// A component with a store, or one that was uploaded to, may fly another image than the changed one.
+void warn_of_other_image(const RecordedFlight& flight, const SimulationResult& result, const std::vector<std::uint8_t>& image) {
+  const std::string telemetry = telemetry_bytes(result);
+  const std::vector<PoseTelemetry> poses = poses_in(bytes_of(telemetry));
+  const std::uint32_t changed = image_crc(image);
+  const auto other = [changed](const PoseTelemetry& pose) { return pose.image_crc != changed; };
+  const auto frames = static_cast<std::size_t>(std::count_if(poses.begin(), poses.end(), other));
+  if (frames == 0) return;
+  std::fprintf(stderr,
+               "warning: %s: %zu of %zu frames flew another image than the changed one (%08x): one that the component's store holds, or that "
+               "was uploaded\n",
+               flight.file().c_str(), frames, poses.size(), changed);
+}
+
 }  // namespace
 
 void replay_recording(const RecordedReplay& options, const LiveOptions& live) {
@@ -246,6 +260,7 @@ void replay_recording(const RecordedReplay& options, const LiveOptions& live) {
   const SimulationResult changed = flown_again(options, live, flight, mission, seen_by(component, mission), &component.image);
   tell_side_by_side(flight, mission, changed);
   warn_of_unserved(flight, changed);
+  warn_of_other_image(flight, changed, component.image);
   if (!options.record.empty()) std::printf("the recording: %s\n", options.record.c_str());
 }
 
