@@ -30,6 +30,22 @@ TEST(LiveRun, IsRecordedAsWell) {
   EXPECT_EQ(work.mdat("replay run.mcap").exit_code, 0);
 }
 
+TEST(LiveReplay, IsTheRecordedRun) {
+  VERIFIES("LASSO-REC-043~1");
+  const WorkFolder work;
+  work.write_mission();
+  ASSERT_EQ(work.mdat("run missions/test.toml --scenario spin --frames 4 --no-report --out run --record run.mcap").exit_code, 0);
+  const Answer answer = work.mdat("replay run.mcap --live 127.0.0.1:0 --pace 0 --set estimation.silhouettes=false --record changed.mcap");
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_EQ(answer.out.rfind("live: ws://127.0.0.1:", 0), 0U) << answer.out;
+  const Answer same = work.mdat("replay changed.mcap --live 0 --pace 0");
+  EXPECT_EQ(same.exit_code, 0) << same.err;
+  EXPECT_NE(same.out.find("telemetry: the same as recorded"), std::string::npos) << same.out;
+  const Answer scans = work.mdat("replay missions/test.toml --scans . --live 0");
+  EXPECT_EQ(scans.exit_code, 2);
+  EXPECT_NE(scans.err.find("--live: is for a recording of a run (.mcap) alone"), std::string::npos) << scans.err;
+}
+
 TEST(LiveRun, RefusesWhatItCannotTell) {
   VERIFIES("LASSO-REC-041~1");
   const WorkFolder work;

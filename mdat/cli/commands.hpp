@@ -40,10 +40,11 @@ struct RecordedReplay {
   std::string file, record, key;  // the recording; one to write, or none; the key of its commands, or none
   bool cached = true, force = false;
 };
-// The component gets the recorded scans and commands. Prints a summary and whether telemetry is the recorded one; of a changed component
+struct LiveOptions;
+// The component gets the recorded scans and commands; viewers are told as `live` says. Prints a summary and whether telemetry is the recorded one; of a changed component
 // the figures of both, side by side. Throws InputError or MissionError as what it reads; RunError where nothing was changed, and telemetry
 // differs.
-void replay_recording(const RecordedReplay& options);
+void replay_recording(const RecordedReplay& options, const LiveOptions& live);
 
 // --set KEY=VALUE of a subcommand that reads a mission; may be given again and again.
 void add_settings(CLI::App& command, std::vector<std::string>& settings);

@@ -1,4 +1,4 @@
-// --live of mdat run and mdat monitor: what comes is told to viewers while it does.
+// --live of mdat run, replay and monitor: what comes is told to viewers while it does.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -7,7 +7,8 @@
 #include <string>
 
 #include "mdat/missiondb/mission_source.hpp"
-#include "mdat/run/paced_listener.hpp"
+#include "mdat/recording/frame_recorder.hpp"
+#include "mdat/run/run_listener.hpp"
 #include "mdat/serve/live_server.hpp"
 
 namespace lasso::mdat {
@@ -25,21 +26,27 @@ void add_live_options(CLI::App& command, LiveOptions& options);
 // What is told is one run. Throws InputError where the scenario has several.
 void check_live(const LiveOptions& options, const MissionSource& source, const std::string& scenario);
 
+// When the messages of a simulated run come: from its epoch, so many frames of the period.
+serve::PlaybackRange playback_range(std::uint64_t frames, double period_s);
+
 // Where nobody is to be told, it does nothing.
 class LiveRun {
  public:
-  // Listens from now on, and prints its address. `name`: for the viewers. Throws InputError.
-  LiveRun(const LiveOptions& options, const std::string& name);
+  // Listens from now on, and prints its address. `name`: for the viewers. `range`: of a run that viewers may pause and pace; none: it has
+  // a clock of its own. Throws InputError.
+  LiveRun(const LiveOptions& options, const std::string& name, const std::optional<serve::PlaybackRange>& range);
 
   MessageTap* tap();
-  // What the run is told to instead of `next`; it keeps the pace, unless the run has another clock.
-  RunListener* paced(RunListener* next, bool has_clock);
+  // Tells the run of this mission, and keeps its pace; null: nobody is to be told.
+  RunListener* listener(const CompiledMission& mission, const std::string& scenario);
   void end(const char* message = "the run is over");
 
  private:
-  double pace_;
+  serve::Pacing pacing_;
+  std::optional<serve::Playback> playback_;
   std::unique_ptr<serve::LiveServer> server_;
-  std::optional<PacedListener> paced_;
+  std::unique_ptr<FrameRecorder> told_;  // passes each message on, and keeps none
+  std::unique_ptr<RunListener> paced_;
 };
 
 }  // namespace lasso::mdat

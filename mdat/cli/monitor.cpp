@@ -153,7 +153,7 @@ void monitor(const MonitorArguments& options) {
   const std::atomic<bool>& interrupted = interruption();
   std::unique_ptr<Monitor> shown;
   Connection connection({options.url, options.listens, key}, [&](const DecodedPacket& packet) { shown->take(packet); });
-  LiveRun live(options.live, "telemetry of " + options.url);
+  LiveRun live(options.live, "telemetry of " + options.url, std::nullopt);
   recorder.tap = live.tap();
   shown = std::make_unique<Monitor>(std::move(recorder), image);
   const std::string place = options.listens ? connection.address() : options.url;  // port 0 has become one

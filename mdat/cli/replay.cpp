@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "mdat/cli/commands.hpp"
+#include "mdat/cli/live_run.hpp"
 #include "mdat/common/errors.hpp"
 #include "mdat/common/flight_image.hpp"
 #include "mdat/common/output.hpp"
@@ -20,6 +21,7 @@ namespace {
 struct ReplayArguments {
   std::string mission, scenario, out, time_unit, axes, camera, topic;
   RecordedReplay recorded;  // what is for recordings alone
+  LiveOptions live;         // that, too
   ReplayOptions replay;
   std::vector<double> offset_m;
   std::vector<std::string> settings;
@@ -133,12 +135,13 @@ void refuse_for_recordings(const ReplayArguments& options) {
   for (const auto& [name, value] : kOfRecordings) {
     if (!value.empty()) throw InputError(std::string(name) + " " + value + ": is for a recording of a run (.mcap) alone");
   }
+  if (options.live.address) throw InputError("--live: is for a recording of a run (.mcap) alone");
 }
 
 bool is_recording(const ReplayArguments& options) { return std::filesystem::path(options.mission).extension() == ".mcap"; }
 
 void run(ReplayArguments options) {
-  if (is_recording(options)) return replay_recording(recorded_replay(options));
+  if (is_recording(options)) return replay_recording(recorded_replay(options), options.live);
   refuse_for_recordings(options);
   check_given(options);
   read_frame(options, options.replay);
@@ -208,6 +211,7 @@ void add_replay_command(CLI::App& app) {
   command->add_option("--scenario", options->scenario, "with this scenario's overrides of parameters");
   add_settings(*command, options->settings);
   add_recording_options(*command, options->recorded);
+  add_live_options(*command, options->live);
   command->add_flag("--force", options->force, "replace the files of an earlier replay");
   add_no_cache(*command, options->cached);
   command->callback([options] { run(*options); });

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "mdat/cli/commands.hpp"
+#include "mdat/cli/live_run.hpp"
 #include "mdat/cli/recorded_flight.hpp"
 #include "mdat/common/errors.hpp"
 #include "mdat/common/output.hpp"
@@ -132,10 +133,8 @@ RecordingHead replayed_head(const RecordedReplay& options, const RecordedFlight&
   return head;
 }
 
-SimulationResult flown_again(const RecordedReplay& options, const RecordedFlight& flight, const CompiledMission& mission,
-                             const CompiledMission& seen, const std::vector<std::uint8_t>* image) {
-  SimulationOptions simulation = flight.options();
-  if (image != nullptr) simulation.image = image;
+SimulationResult recorded_again(const RecordedReplay& options, const RecordedFlight& flight, const CompiledMission& mission,
+                                const CompiledMission& seen, SimulationOptions simulation) {
   if (options.record.empty()) return simulate(mission, simulation);
   const auto scans = std::make_shared<sim::SensorRecording>();
   FrameRecorder recorder(options.record, seen, replayed_head(options, flight), scans);
@@ -143,6 +142,19 @@ SimulationResult flown_again(const RecordedReplay& options, const RecordedFlight
   SimulationResult result = simulate(mission, simulation);
   const std::vector<std::uint8_t> of_mission = image_bytes(mission, result.tables[0].variants[0].parameters);
   recorder.close(simulation.image != nullptr ? *simulation.image : of_mission);
+  return result;
+}
+
+// `image`: of a changed component, else null. Viewers are told of what the component sees.
+SimulationResult flown_again(const RecordedReplay& options, const LiveOptions& told, const RecordedFlight& flight,
+                             const CompiledMission& mission, const CompiledMission& seen, const std::vector<std::uint8_t>* image) {
+  SimulationOptions simulation = flight.options();
+  if (image != nullptr) simulation.image = image;
+  const double period_s = parameters_for(mission.source, simulation.scenario).period_s;
+  LiveRun live(told, "replay of " + flight.file(), playback_range(simulation.frames.value_or(1), period_s));
+  simulation.listener = live.listener(seen, simulation.scenario);
+  SimulationResult result = recorded_again(options, flight, mission, seen, std::move(simulation));
+  live.end();
   return result;
 }
 
@@ -211,9 +223,23 @@ void warn_of_same_image(const RecordedFlight& flight, const std::vector<std::uin
                flight.file().c_str());
 }
 
+// A component with a store, or one that was uploaded to, may fly another image than the changed one.
+void warn_of_other_image(const RecordedFlight& flight, const SimulationResult& result, const std::vector<std::uint8_t>& image) {
+  const std::string telemetry = telemetry_bytes(result);
+  const std::vector<PoseTelemetry> poses = poses_in(bytes_of(telemetry));
+  const std::uint32_t changed = image_crc(image);
+  const auto other = [changed](const PoseTelemetry& pose) { return pose.image_crc != changed; };
+  const auto frames = static_cast<std::size_t>(std::count_if(poses.begin(), poses.end(), other));
+  if (frames == 0) return;
+  std::fprintf(stderr,
+               "warning: %s: %zu of %zu frames flew another image than the changed one (%08x): one that the component's store holds, or that "
+               "was uploaded\n",
+               flight.file().c_str(), frames, poses.size(), changed);
+}
+
 }  // namespace
 
-void replay_recording(const RecordedReplay& options) {
+void replay_recording(const RecordedReplay& options, const LiveOptions& live) {
   check_asked(options);
   RecordedFlight flight(options.file, options.key);
   MissionInput input = flight.mission();
@@ -221,7 +247,7 @@ void replay_recording(const RecordedReplay& options) {
   check_simulation(input.source, flight.options(), flight.options().commands != nullptr);
   const CompiledMission mission = compile_mission(std::move(input), ModelCache::of_user_if(options.cached));
   if (!is_changed(options)) {
-    const SimulationResult same = flown_again(options, flight, mission, mission, nullptr);
+    const SimulationResult same = flown_again(options, live, flight, mission, mission, nullptr);
     std::fputs(summary_text(same).c_str(), stdout);
     if (!options.record.empty()) std::printf("the recording: %s\n", options.record.c_str());
     return tell_comparison(flight, telemetry_bytes(same));
@@ -231,9 +257,10 @@ void replay_recording(const RecordedReplay& options) {
   check_period(options, component.image, parameters_for(mission.source, flight.options().scenario).period_s);
   check_sensors(options, component, mission);
   warn_of_same_image(flight, component.image);
-  const SimulationResult changed = flown_again(options, flight, mission, seen_by(component, mission), &component.image);
+  const SimulationResult changed = flown_again(options, live, flight, mission, seen_by(component, mission), &component.image);
   tell_side_by_side(flight, mission, changed);
   warn_of_unserved(flight, changed);
+  warn_of_other_image(flight, changed, component.image);
   if (!options.record.empty()) std::printf("the recording: %s\n", options.record.c_str());
 }
 

@@ -152,10 +152,11 @@ void warn_of_replay(const SimulationResult& result) {
       run.replay_unserved);
 }
 
-// Passes each message of a run on, and keeps none.
-std::unique_ptr<FrameRecorder> open_live_listener(const CompiledMission& mission, const std::string& scenario, MessageTap* tap) {
-  if (tap == nullptr) return nullptr;
-  return std::make_unique<FrameRecorder>("", mission, RecordingHead{{{"scenario", scenario}}, {}}, nullptr, RecordingContent::kAll, tap);
+// A run over a link keeps the clock's pace.
+std::optional<serve::PlaybackRange> playback_of(const SimulationOptions& simulation, const MissionSource& mission) {
+  if (simulation.link != nullptr) return std::nullopt;
+  const std::int64_t frames = simulation.frames.value_or(static_cast<std::uint32_t>(scenario_of(mission, simulation.scenario).frames));
+  return playback_range(static_cast<std::uint64_t>(frames), parameters_for(mission, simulation.scenario).period_s);
 }
 
 // Places of the run's recordings, where it has any: nothing may be there, and they can be written.
@@ -231,9 +232,8 @@ void run(const RunArguments& options) {
   simulation.authenticator = signatures.get();
   const std::unique_ptr<RunRecorders> recorders = open_recorders(options, recordings, mission, link.get());
   if (recorders) simulation.recorders = recorders->cases();
-  LiveRun live(options.live, mission.source.name + ", scenario " + simulation.scenario);
-  const std::unique_ptr<FrameRecorder> told = open_live_listener(mission, simulation.scenario, live.tap());
-  simulation.listener = live.paced(told.get(), link != nullptr);
+  LiveRun live(options.live, mission.source.name + ", scenario " + simulation.scenario, playback_of(simulation, mission.source));
+  simulation.listener = live.listener(mission, simulation.scenario);
   SimulationResult result = simulate(mission, simulation);
   live.end();
   if (recorders) recorders->close(image_bytes(mission, result.tables[0].variants[0].parameters));

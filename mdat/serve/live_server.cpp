@@ -63,12 +63,16 @@ struct LiveHub::Client {
 
 class LiveHub::Session final : public SocketSession {
  public:
-  Session(LiveHub& hub, std::shared_ptr<Client> client) : hub_(hub), client_(std::move(client)) {}
+  Session(LiveHub& hub, std::shared_ptr<Client> client) : hub_(hub), client_(std::move(client)) { ++hub_.sessions_; }
+  ~Session() override { hub_.leave(); }
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
 
   void on_message(std::string_view bytes, bool text) override {
     const ClientMessage message = client_message(bytes, text);
     if (const auto* subscribe = std::get_if<Subscribe>(&message)) hub_.subscribe(*client_, subscribe->subscriptions);
     if (const auto* unsubscribe = std::get_if<Unsubscribe>(&message)) hub_.unsubscribe(*client_, unsubscribe->ids);
+    if (const auto* request = std::get_if<PlaybackRequest>(&message)) hub_.control(*client_, *request);
     if (const auto* wrong = std::get_if<Misunderstood>(&message)) client_->tell(StatusLevel::kError, wrong->what);
   }
 
@@ -77,8 +81,8 @@ class LiveHub::Session final : public SocketSession {
   std::shared_ptr<Client> client_;
 };
 
-LiveHub::LiveHub(std::string host, std::string run)
-    : host_(std::move(host)), run_(std::move(run)), session_(random_token()), topics_(recorded_topics()) {}
+LiveHub::LiveHub(std::string host, std::string run, Playback* playback)
+    : host_(std::move(host)), run_(std::move(run)), session_(random_token()), playback_(playback), topics_(recorded_topics()) {}
 
 std::vector<std::shared_ptr<LiveHub::Client>> LiveHub::listening() const {
   std::vector<std::shared_ptr<Client>> clients;
@@ -141,6 +145,28 @@ void LiveHub::unsubscribe(Client& client, const std::vector<std::uint32_t>& ids)
   for (const std::uint32_t id : ids) std::erase_if(client.subscriptions, [id](const auto& one) { return one.second == id; });
 }
 
+void LiveHub::control(const Client& client, const PlaybackRequest& request) {
+  if (playback_ == nullptr) return client.tell(StatusLevel::kError, "playback control: this run keeps the clock of its link");
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const std::string refused = playback_->take(request, told_ns_);
+  if (!refused.empty()) client.tell(StatusLevel::kWarning, refused);
+  tell_playback(&client, request.id);
+}
+
+// Who asked is told which request it is that is answered.
+void LiveHub::tell_playback(const Client* asked, const std::string& request) {
+  const PlaybackState state = playback_->state(told_ns_);
+  for (const std::shared_ptr<Client>& client : listening()) {
+    const auto sender = client->sender.lock();
+    if (sender) sender->send_event(playback_state_data(state, client.get() == asked ? request : ""), false);
+  }
+}
+
+// Without a lock: the last one who holds a socket may be the run, under its own.
+void LiveHub::leave() {
+  if (--sessions_ == 0 && playback_ != nullptr) playback_->release();
+}
+
 Response LiveHub::answer(const Request& request) {
   if (std::optional<Response> refusal = refuse(request)) return std::move(*refusal);
   return error_response(426, "a WebSocket is served here: " + run_,
@@ -163,9 +189,11 @@ SocketOpening LiveHub::open(const Request& request) {
   return {subprotocol,
           [this](const std::shared_ptr<SocketSender>& sender) -> std::unique_ptr<SocketSession> {
             auto client = std::make_shared<Client>(sender);
-            sender->send_event(server_info_json(run_, session_), true);
+            sender->send_event(server_info_json(run_, session_, playback_ != nullptr ? std::optional(playback_->range()) : std::nullopt),
+                               true);
             sender->send_event(advertise_json(topics_, shown_topics(topics_)), true);
             const std::lock_guard<std::mutex> lock(mutex_);
+            if (playback_ != nullptr) sender->send_event(playback_state_data(playback_->state(told_ns_), ""), false);
             std::erase_if(clients_, [](const std::weak_ptr<Client>& one) { return one.expired(); });
             clients_.push_back(client);
             return std::make_unique<Session>(*this, std::move(client));
@@ -178,13 +206,21 @@ void LiveHub::say(const std::string& message) {
   for (const std::shared_ptr<Client>& client : listening()) client->tell(StatusLevel::kInfo, message);
 }
 
+void LiveHub::end(const std::string& message) {
+  say(message);
+  if (playback_ == nullptr) return;
+  playback_->end();
+  const std::lock_guard<std::mutex> lock(mutex_);
+  tell_playback(nullptr, "");
+}
+
 std::size_t LiveHub::clients() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return listening().size();
 }
 
-LiveServer::LiveServer(const NetworkOptions& options, const std::string& run)
-    : hub_(options.host, run), network_(options), host_(options.host), thread_([this] { network_.serve(hub_, stop_); }) {}
+LiveServer::LiveServer(const NetworkOptions& options, const std::string& run, Playback* playback)
+    : hub_(options.host, run, playback), network_(options), host_(options.host), thread_([this] { network_.serve(hub_, stop_); }) {}
 
 LiveServer::~LiveServer() {
   stop_ = true;
@@ -195,7 +231,7 @@ std::string LiveServer::address() const { return "ws://" + host_ + ":" + std::to
 
 void LiveServer::end(const std::string& message) {
   if (hub_.clients() == 0) return;
-  hub_.say(message);
+  hub_.end(message);
   std::this_thread::sleep_for(kFarewell);
 }
 

@@ -37,6 +37,10 @@ void Pacing::step() {
   });
 }
 
+void Pacing::hurry_to(TimeUs until_us) {
+  change([&] { hurried_us_ = until_us; });
+}
+
 void Pacing::stop() {
   change([&] { stopped_ = true; });
 }
@@ -62,6 +66,7 @@ bool Pacing::pass(TimeUs boundary_us) {
   std::unique_lock lock(mutex_);
   const Clock::time_point arrived = Clock::now();
   while (!stopped_) {
+    if (boundary_us <= hurried_us_) break;
     if (paused_ && steps_ > 0) {
       --steps_;
       break;

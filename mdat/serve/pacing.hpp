@@ -24,6 +24,8 @@ class Pacing {
   void resume();
   // Pauses, and lets one more boundary pass.
   void step();
+  // What comes until then passes at once, paused or not.
+  void hurry_to(TimeUs until_us);
   // The run ends at its next boundary, whatever it waits for.
   void stop();
   double pace() const;
@@ -42,6 +44,7 @@ class Pacing {
   double pace_;
   bool paused_ = false, stopped_ = false, begun_ = false;
   std::uint32_t steps_ = 0;  // that wait to be taken
+  TimeUs hurried_us_ = -1;   // until when nothing waits
   TimeUs last_us_ = 0;       // boundary that passed, and when
   Clock::time_point passed_{};
 };

@@ -78,6 +78,47 @@ TEST(LiveProtocol, SaysWhatItDoesNotTake) {
   EXPECT_TRUE(std::holds_alternative<Misunderstood>(client_message("\x01", false)));
 }
 
+// As the specification has it: kind, command, speed, whether to seek, where to, the id's length, the id.
+const std::string kStepRequest("\x03\x01\x00\x00\x20\x40\x01\x88\x77\x66\x55\x44\x33\x22\x11\x02\x00\x00\x00id", 21);
+
+TEST(LiveProtocol, ReadsPlaybackControl) {
+  VERIFIES("LASSO-REC-042~1");
+  const ClientMessage message = client_message(kStepRequest, false);
+  const auto* request = std::get_if<PlaybackRequest>(&message);
+  ASSERT_NE(request, nullptr);
+  EXPECT_FALSE(request->play);
+  EXPECT_EQ(request->speed, 2.5F);
+  EXPECT_EQ(request->seek_ns, 0x1122334455667788U);
+  EXPECT_EQ(request->id, "id");
+  std::string play = kStepRequest;
+  play[1] = play[6] = '\0';
+  const ClientMessage playing = client_message(play, false);
+  ASSERT_NE(std::get_if<PlaybackRequest>(&playing), nullptr);
+  EXPECT_TRUE(std::get<PlaybackRequest>(playing).play);
+  EXPECT_FALSE(std::get<PlaybackRequest>(playing).seek_ns.has_value());
+}
+
+TEST(LiveProtocol, PlaybackControlThatIsCutOrUnknownIsRefused) {
+  VERIFIES("LASSO-REC-041~1");
+  for (std::size_t size = 1; size < kStepRequest.size(); ++size)
+    EXPECT_TRUE(std::holds_alternative<Misunderstood>(client_message(kStepRequest.substr(0, size), false))) << size;
+  std::string unknown = kStepRequest, long_id = kStepRequest;
+  unknown[1] = 2;
+  long_id[18] = 0x7F;
+  EXPECT_TRUE(std::holds_alternative<Misunderstood>(client_message(unknown, false)));
+  EXPECT_TRUE(std::holds_alternative<Misunderstood>(client_message(long_id, false)));
+}
+
+TEST(LiveProtocol, PlaybackStateHasItsBytesAndItsRange) {
+  VERIFIES("LASSO-REC-042~1");
+  EXPECT_EQ(playback_state_data({PlaybackStatus::kPaused, 0x1122334455667788, 2.5F}, "id"),
+            std::string("\x05\x01\x88\x77\x66\x55\x44\x33\x22\x11\x00\x00\x20\x40\x00\x02\x00\x00\x00id", 21));
+  const auto info = nlohmann::json::parse(server_info_json("run", "7", PlaybackRange{1'000'000'000, 61'200'000'000}));
+  EXPECT_EQ(info.at("capabilities"), (nlohmann::json{"time", "playbackControl"}));
+  EXPECT_EQ(info.at("dataStartTime"), (nlohmann::json{{"sec", 1}, {"nsec", 0}}));
+  EXPECT_EQ(info.at("dataEndTime"), (nlohmann::json{{"sec", 61}, {"nsec", 200'000'000}}));
+}
+
 // Good messages with some bytes changed, cut or doubled: each is understood, or told to be none.
 TEST(LiveProtocol, NoBytesBreakIt) {
   VERIFIES("LASSO-REC-041~1");

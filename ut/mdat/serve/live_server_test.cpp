@@ -123,6 +123,82 @@ TEST_F(LiveHubTest, WrongQuestionsAreAnsweredAndChangeNothing) {
   EXPECT_EQ(line->frames.back(), message_data(1, 6, "one"));
 }
 
+std::string control_bytes(bool play, const std::string& speed, std::uint64_t seek_ns, const std::string& id) {
+  std::string bytes = std::string("\x03") + (play ? '\0' : '\1') + speed + (seek_ns != 0 ? '\1' : '\0');
+  for (int i = 0; i < 8; ++i) bytes += static_cast<char>(seek_ns >> (8 * i) & 0xFF);
+  return bytes + static_cast<char>(id.size()) + std::string(3, '\0') + id;
+}
+const std::string kTwice("\x00\x00\x00\x40", 4), kNoSpeed(4, '\0'), kNotANumber("\x00\x00\xc0\x7f", 4);
+
+// A run of the hub that can be paused, and two clients.
+class PlaybackTest : public ::testing::Test {
+ protected:
+  std::unique_ptr<SocketSession> connect(const std::shared_ptr<LiveLine>& line) { return hub_.open(upgrade()).begin(line); }
+  static std::string state(PlaybackStatus status, std::uint64_t time_ns, float speed, const std::string& id = "") {
+    return playback_state_data({status, time_ns, speed}, id);
+  }
+
+  Pacing pacing_{1};
+  Playback playback_{pacing_, {1'000'000'000, 9'000'000'000}};
+  LiveHub hub_{"127.0.0.1", "a run", &playback_};
+  std::shared_ptr<LiveLine> line_ = std::make_shared<LiveLine>(), other_ = std::make_shared<LiveLine>();
+  std::unique_ptr<SocketSession> session_ = connect(line_), second_ = connect(other_);
+};
+
+TEST_F(PlaybackTest, AllAreToldWhatOneAsksFor) {
+  VERIFIES("LASSO-REC-042~1");
+  EXPECT_EQ(line_->events.back(), state(PlaybackStatus::kPlaying, 1'000'000'000, 1));
+  session_->on_message(control_bytes(false, kTwice, 0, "a"), false);
+  EXPECT_TRUE(pacing_.paused());
+  EXPECT_EQ(pacing_.pace(), 2);
+  EXPECT_EQ(line_->events.back(), state(PlaybackStatus::kPaused, 1'000'000'000, 2, "a"));
+  EXPECT_EQ(other_->events.back(), state(PlaybackStatus::kPaused, 1'000'000'000, 2));
+  second_->on_message(control_bytes(true, kTwice, 0, "b"), false);
+  EXPECT_FALSE(pacing_.paused());
+  EXPECT_EQ(line_->events.back(), state(PlaybackStatus::kPlaying, 1'000'000'000, 2));
+  hub_.end("the run is over");
+  EXPECT_EQ(other_->events.back(), state(PlaybackStatus::kEnded, 1'000'000'000, 2));
+}
+
+// Paused, a later time lets the run go so far; an earlier one is refused, and nothing moves.
+TEST_F(PlaybackTest, ALaterTimeIsAStepAndAnEarlierOneIsRefused) {
+  VERIFIES("LASSO-REC-042~1");
+  hub_.on_message(topic_number("/pose"), 3'000'000'000, "x");
+  session_->on_message(control_bytes(false, kTwice, 3'200'000'000, "on"), false);
+  EXPECT_TRUE(pacing_.pass(3'200'000)) << "it would wait here for ever";
+  EXPECT_EQ(line_->events.back(), state(PlaybackStatus::kPaused, 3'000'000'000, 2, "on"));
+  session_->on_message(control_bytes(false, kTwice, 2'000'000'000, "back"), false);
+  EXPECT_EQ(line_->events.back(), state(PlaybackStatus::kPaused, 3'000'000'000, 2, "back"));
+  EXPECT_NE(line_->events.end()[-2].find("cannot go back"), std::string::npos);
+}
+
+TEST_F(PlaybackTest, SpeedsThatAreNoneChangeNothing) {
+  VERIFIES("LASSO-REC-041~1");
+  for (const std::string& speed : {kNoSpeed, kNotANumber}) {
+    session_->on_message(control_bytes(false, speed, 0, "x"), false);
+    EXPECT_FALSE(pacing_.paused());
+    EXPECT_EQ(pacing_.pace(), 1);
+    EXPECT_NE(line_->events.end()[-2].find("expected above 0"), std::string::npos);
+  }
+}
+
+TEST_F(PlaybackTest, ARunThatTheLastOneLeftGoesOn) {
+  VERIFIES("LASSO-REC-042~1");
+  session_->on_message(control_bytes(false, kTwice, 0, "a"), false);
+  session_.reset();
+  EXPECT_TRUE(pacing_.paused()) << "the other one may resume it";
+  second_.reset();
+  EXPECT_FALSE(pacing_.paused());
+}
+
+TEST_F(LiveHubTest, WithoutAPaceOfItsOwnARunIsNotPaused) {
+  VERIFIES("LASSO-REC-041~1");
+  const auto line = std::make_shared<LiveLine>();
+  const auto session = connect(line);
+  session->on_message(control_bytes(false, kTwice, 0, "a"), false);
+  EXPECT_NE(line->events.back().find("keeps the clock of its link"), std::string::npos);
+}
+
 TEST_F(LiveHubTest, PagesFromElsewhereAreRefused) {
   VERIFIES("LASSO-REC-041~1");
   const auto status = [&](const Request& request) {

@@ -112,5 +112,28 @@ TEST(PacingTest, AfterAPauseItGoesOnWithoutStepsThatAreLeft) {
   EXPECT_TRUE(pacing.paused());
 }
 
+TEST(PacingTest, ItHurriesToATimeAndStandsThereAgain) {
+  VERIFIES("LASSO-REC-042~1");
+  Pacing pacing(kNoWait);
+  pacing.pause();
+  PacedRun run(pacing);
+  pacing.hurry_to(3 * kFrame_us);
+  run.wait_for(4);  // boundaries at 0, 1, 2 and 3 frames
+  std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  EXPECT_EQ(run.passed(), 4U);
+  EXPECT_TRUE(pacing.paused());
+}
+
+TEST(PacingTest, HurryingEndsAWaitThatIsUnderWay) {
+  VERIFIES("LASSO-REC-042~1");
+  Pacing pacing(1e-6);  // a frame takes two days
+  PacedRun run(pacing);
+  run.wait_for(1);
+  pacing.hurry_to(2 * kFrame_us);
+  run.wait_for(3);
+  std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  EXPECT_EQ(run.passed(), 3U) << "then it keeps its pace again";
+}
+
 }  // namespace
 }  // namespace lasso::mdat::serve
