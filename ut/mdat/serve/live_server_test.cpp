@@ -183,7 +183,7 @@ TEST_F(PlaybackTest, SpeedsThatAreNoneChangeNothing) {
 }
 
 TEST_F(PlaybackTest, ARunThatTheLastOneLeftGoesOn) {
-  VERIFIES("LASSO-REC-042~1");
+  VERIFIES("LASSO-REC-044~1");
   session_->on_message(control_bytes(false, kTwice, 0, "a"), false);
   session_.reset();
   EXPECT_TRUE(pacing_.paused()) << "the other one may resume it";
