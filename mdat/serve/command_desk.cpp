@@ -12,7 +12,7 @@ namespace {
 
 using DeskJson = nlohmann::ordered_json;
 
-constexpr const char* kCommandPhases[] = {"waiting", "sent", "accepted", "executed", "failed", "refused", "unanswered"};
+constexpr const char* kCommandPhases[] = {"waiting", "sent", "accepted", "executed", "failed", "refused", "unanswered", "not_sent"};
 constexpr std::size_t kMostThatWait = 8;
 constexpr double kCommandAnswer_s = 3;
 
@@ -78,22 +78,31 @@ void CommandDesk::note(std::uint64_t number, CommandPhase phase, const std::stri
 }
 
 void CommandDesk::work(Station& station, const std::function<void()>& changed) {
-  for (CommandRecord record; next(record);) {
-    const auto noted = [&](CommandPhase phase, const std::string& why) {
-      note(record.number, phase, why);
-      changed();
-    };
+  CommandRecord record;
+  if (!next(record)) return;
+  const auto noted = [&](CommandPhase phase, const std::string& why) {
+    note(record.number, phase, why);
     changed();
-    station.on_acceptance([&] { noted(CommandPhase::kAccepted, ""); });
-    const PacketRow& row = command_row(record.order.name);
-    try {
-      const CommandAnswer answer =
-          record.order.arm ? station.arm(row, kCommandAnswer_s) : station.command(row, record.order.values, false, kCommandAnswer_s);
-      noted(phase_of(answer.outcome), answer.outcome == Outcome::kOpen ? "no answer came within 3 s" : answer.why);
-    } catch (const RunError& error) {
-      noted(CommandPhase::kUnanswered, error.what());
-    }
-    station.on_acceptance([] {});
+  };
+  changed();
+  station.on_acceptance([&] { noted(CommandPhase::kAccepted, ""); });
+  const PacketRow& row = command_row(record.order.name);
+  try {
+    const CommandAnswer answer =
+        record.order.arm ? station.arm(row, kCommandAnswer_s) : station.command(row, record.order.values, false, kCommandAnswer_s);
+    noted(phase_of(answer.outcome), answer.outcome == Outcome::kOpen ? "no answer came within 3 s" : answer.why);
+  } catch (const RunError& error) {
+    noted(CommandPhase::kUnanswered, error.what());
+  }
+  station.on_acceptance([] {});
+}
+
+void CommandDesk::drop(const std::string& why) {
+  const std::lock_guard lock(mutex_);
+  for (CommandRecord& record : records_) {
+    if (record.phase != CommandPhase::kWaiting) continue;
+    record.phase = CommandPhase::kNotSent;
+    record.why = why;
   }
 }
 

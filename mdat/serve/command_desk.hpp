@@ -17,7 +17,7 @@ struct CommandOrder {
   bool arm = false;  // not the command, but the one that arms it
 };
 
-enum class CommandPhase : std::uint8_t { kWaiting, kSent, kAccepted, kDone, kFailed, kRefused, kUnanswered };
+enum class CommandPhase : std::uint8_t { kWaiting, kSent, kAccepted, kDone, kFailed, kRefused, kUnanswered, kNotSent };
 
 struct CommandRecord {
   std::uint64_t number = 0;  // from 1
@@ -34,8 +34,10 @@ class CommandDesk {
   // Its number. Throws Refusal: 400 what the dictionary does not have, in its words; 409 too many wait.
   std::uint64_t order(const CommandOrder& order);
   bool waiting() const;
-  // Sends each that waits, and waits for its answer, some seconds at most. `changed` is called at each change of a phase.
+  // Sends the first that waits, and waits for its answer, some seconds at most. `changed` is called at each change of its phase.
   void work(Station& station, const std::function<void()>& changed);
+  // None that waits is sent any more: nobody wants a command of a link that was lost to be carried out at some later time.
+  void drop(const std::string& why);
   // The last ones, the newest at the end.
   std::deque<CommandRecord> records() const;
   void clear();

@@ -249,6 +249,7 @@ std::uint64_t Live::command(const CommandOrder& order) {
     const std::lock_guard lock(mutex_);
     if (state_.phase != LivePhase::kRunning || state_.address.empty())
       throw Refusal{409, "no component is connected", "connect to one; a run that the page flies takes no commands"};
+    if (!state_.trouble.empty()) throw Refusal{409, "the link has ended: " + state_.trouble, "wait until it is there again"};
   }
   if (!rights_.commands) throw Refusal{403, "commands are not allowed from this page", "start it with mdat serve --allow-commands"};
   const std::uint64_t number = desk_.order(order);

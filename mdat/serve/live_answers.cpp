@@ -20,19 +20,6 @@ std::string optional_text(const AskedJson& body, const char* name) {
   return found == body.end() || found->is_null() ? "" : body_text(body, name);
 }
 
-CommandOrder command_of(const AskedJson& body) {
-  CommandOrder order;
-  order.name = body_text(body, "name");
-  order.arm = body.value("arm", AskedJson(false)) == AskedJson(true);
-  const AskedJson values = body.value("values", AskedJson::object());
-  if (!values.is_object()) throw Refusal{400, "values: an object was expected", "see docs/serve.md"};
-  for (const auto& [item, value] : values.items()) {
-    if (!value.is_string()) throw Refusal{400, item + ": a text was expected", "see docs/serve.md"};
-    order.values[item] = value.get<std::string>();
-  }
-  return order;
-}
-
 double pace_of(const AskedJson& body) {
   const auto found = body.find("pace");
   if (found == body.end()) return 1;
@@ -84,7 +71,7 @@ constexpr LiveAct kActs[] = {
      [](Live& live, const AskedJson& body) {
        live.connect({body_text(body, "address"), optional_text(body, "mission")});
      }},
-    {"command", [](Live& live, const AskedJson& body) { (void)live.command(command_of(body)); }},
+    {"command", [](Live& live, const AskedJson& body) { (void)live.command(command_order(body)); }},
     {"pause", [](Live& live, const AskedJson&) { live.pause(); }},
     {"resume", [](Live& live, const AskedJson&) { live.resume(); }},
     {"step", [](Live& live, const AskedJson&) { live.step(); }},
@@ -107,6 +94,19 @@ class Watching final : public SocketSession {
 };
 
 }  // namespace
+
+CommandOrder command_order(const AskedJson& body) {
+  CommandOrder order;
+  order.name = body_text(body, "name");
+  order.arm = body.value("arm", AskedJson(false)) == AskedJson(true);
+  const AskedJson values = body.value("values", AskedJson::object());
+  if (!values.is_object()) throw Refusal{400, "values: an object was expected", "see docs/serve.md"};
+  for (const auto& [item, value] : values.items()) {
+    if (!value.is_string()) throw Refusal{400, item + ": a text was expected", "see docs/serve.md"};
+    order.values[item] = value.get<std::string>();
+  }
+  return order;
+}
 
 Response live_answer(Live& live, const Request& request, const Target& target) {
   const std::vector<std::string>& parts = target.parts;

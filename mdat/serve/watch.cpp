@@ -38,9 +38,14 @@ void watch_link(const WatchOrder& order, const std::string& commit, const std::a
   told.begun();
   while (!ending) {
     connection.listen(kLookEach_s, [&] { return ending || desk.waiting(); });
-    if (connection.station() != nullptr) desk.work(*connection.station(), told.commanded);
+    if (ending) break;
+    if (connection.station() != nullptr)
+      desk.work(*connection.station(), told.commanded);
+    else
+      desk.drop("the link has ended");
     told.looked(connection);
   }
+  desk.drop("the connection has ended");
   recorder->close();
 }
 

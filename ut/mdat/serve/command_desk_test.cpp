@@ -104,6 +104,22 @@ TEST(CommandDesk, WhatTheDictionaryDoesNotHaveIsRefusedInItsWords) {
   EXPECT_EQ(desk.records().size(), 8U);
 }
 
+TEST(CommandDesk, WhatWaitsForALostLinkIsNotSentLater) {
+  VERIFIES("LASSO-WEB-023~1");
+  CommandDesk desk;
+  desk.order({"ping", {}, false});
+  desk.order({"ping", {}, false});
+  AnsweringLink link({kSubserviceCompleted});
+  Station station(link, "link", [](const DecodedPacket&) {});
+  desk.work(station, [] {});
+  desk.drop("the link has ended");
+  desk.work(station, [] {});
+  EXPECT_EQ(link.commands.size(), 1U);
+  EXPECT_EQ(phase_name(desk.records().front().phase), std::string("executed"));
+  EXPECT_EQ(phase_name(desk.records().back().phase), std::string("not_sent"));
+  EXPECT_EQ(desk.records().back().why, "the link has ended");
+}
+
 TEST(CommandDesk, AllCommandsAreToldWithTheirItemsAndChoices) {
   VERIFIES("LASSO-WEB-023~1");
   const nlohmann::json told = nlohmann::json::parse(commands_json());

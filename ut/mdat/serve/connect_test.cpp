@@ -118,6 +118,20 @@ TEST_F(ConnectTest, NothingIsSentUnlessItIsAllowed) {
   EXPECT_TRUE(state()["commands"].empty());
 }
 
+TEST_F(ConnectTest, ALinkThatEndsSaysSoAndTakesNoCommands) {
+  VERIFIES("LASSO-WEB-022~1");
+  component_ = posix::open_link("tcp://:0");
+  ASSERT_EQ(post("connect", {{"address", component_->address()}}).status, 200U);
+  ASSERT_TRUE(told_until([](const ConnectJson& state) { return state["boundaries"] > 0; })) << state();
+  component_.reset();
+  while (state()["trouble"].is_null()) std::this_thread::yield();
+  EXPECT_EQ(state()["phase"], "running") << "it is tried again";
+  const Response refused = post("command", {{"name", "ping"}});
+  EXPECT_EQ(refused.status, 409U);
+  EXPECT_NE(refused.body.find("the link has ended"), std::string::npos) << refused.body;
+  EXPECT_TRUE(state()["commands"].empty());
+}
+
 TEST_F(ConnectTest, WhereNobodyIsTheStateSaysSo) {
   VERIFIES("LASSO-WEB-022~1");
   const std::string nobody = [] { return posix::open_link("tcp://:0")->address(); }();

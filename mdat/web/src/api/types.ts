@@ -173,7 +173,7 @@ export interface CommandRecord {
   /** It armed the command of this name. */
   arm: boolean;
   values: Record<string, string>;
-  phase: "waiting" | "sent" | "accepted" | "executed" | "failed" | "refused" | "unanswered";
+  phase: "waiting" | "sent" | "accepted" | "executed" | "failed" | "refused" | "unanswered" | "not_sent";
   why: string;
 }
 

@@ -70,6 +70,7 @@ const PHASES: Record<CommandRecord["phase"], string> = {
   failed: "accepted, but not carried out",
   refused: "refused",
   unanswered: "not answered",
+  not_sent: "not sent",
 };
 
 export function phaseText({ phase, why }: CommandRecord): string {

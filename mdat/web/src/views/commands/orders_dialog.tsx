@@ -160,7 +160,7 @@ function OrderForm({ state, command, list }: { state: LiveState; command: Comman
 }
 
 const DONE: CommandRecord["phase"][] = ["executed"];
-const BAD: CommandRecord["phase"][] = ["failed", "refused", "unanswered"];
+const BAD: CommandRecord["phase"][] = ["failed", "refused", "unanswered", "not_sent"];
 
 function Records({ records }: { records: CommandRecord[] }) {
   if (records.length === 0) return <p class="hint">No command has been given yet.</p>;

@@ -198,11 +198,15 @@ export function Fly() {
         <UnderWay state={state} />
       ) : missions.value === null ? (
         <p class="hint">Looking for missions …</p>
-      ) : missions.value.length === 0 ? (
-        <Empty title="There is no mission here.">Make one with mdat mission new in the folder that mdat serve was given, and reload.</Empty>
       ) : (
         <>
-          <Form missions={missions.value} />
+          {missions.value.length === 0 ? (
+            <Empty title="There is no mission here.">
+              Make one with mdat mission new in the folder that mdat serve was given, and reload.
+            </Empty>
+          ) : (
+            <Form missions={missions.value} />
+          )}
           <Connect missions={missions.value} onConnect={(address, mission) => begin(connectTo(address, mission))} />
         </>
       )}
