@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -60,6 +61,7 @@ struct SmallRecording {
   std::size_t lost = 4;                // this frame's scan never came
   std::size_t wrong = 3;               // this one's pose says that it is valid, and is 100 mm off
   std::size_t refused = 2;             // this one has too few inliers
+  std::size_t last_scan = 1000;        // later frames state the time of this one, and have no scan
 
   static TimeUs time_us(std::size_t n) { return kFirst_us + static_cast<TimeUs>(n) * kPeriod_us; }
   static Twist rates() { return {Vec3(0.02, -0.05, 0.03), Vec3(0.01, -0.02, 0.03)}; }
@@ -78,7 +80,7 @@ struct SmallRecording {
   PoseTelemetry told(std::size_t n) const {
     PoseTelemetry pose;
     pose.scan_id = static_cast<std::uint32_t>(n);
-    pose.t_measurement_us = time_us(n);
+    pose.t_measurement_us = time_us(std::min(n, last_scan));
     pose.t_publication_us = time_us(n) + 300'000;
     pose.mode = 2;
     pose.valid = n == refused || n == lost ? 0 : 1;
@@ -204,7 +206,7 @@ struct SmallRecording {
         writer.write(events, late_ns, ros::log_bytes(time_us(n), ros::LogLevel::kWarn, "scan_lost", "sensor 0, loss thin"));
       if (with_truth) writer.write(truths, ns, ros::pose_bytes({time_us(n), "sensor"}, truth(n)));
       writer.write(tf, ns, ros::tf_bytes(time_us(n), {{"world", "sensor", Pose{Quat::Identity(), Vec3(1, 2, 3)}}}));
-      if (n != lost) writer.write(scans, ns, ros::point_cloud_bytes({time_us(n), "sensor"}, cloud(n)));
+      if (n != lost && n <= last_scan) writer.write(scans, ns, ros::point_cloud_bytes({time_us(n), "sensor"}, cloud(n)));
       if (n % 2 == 1) writer.add_metadata("chunk", {});  // ends the chunks
     }
     if (with_image) attach_image(writer);
