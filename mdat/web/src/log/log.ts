@@ -18,6 +18,8 @@ export interface FrameColumns {
 
 const COLUMNS = ["time_s", "valid", "wrong", "mode"];
 const FRAMES_KEPT = 300;
+/** The sensor of a recording that was made of telemetry alone. */
+const LINK = "telemetry of a link";
 /** Of COLUMNS: a double and three floats. */
 const FRAME_BYTES = 20;
 
@@ -91,6 +93,11 @@ export class Log {
 
   private path(rest: string): string {
     return `/api/recordings/${encodeURIComponent(this.info.id)}/${rest}`;
+  }
+
+  /** Why a frame may have no scan. */
+  get scanless(): string | undefined {
+    return this.info.sensor === LINK ? "A link carries no scans." : undefined;
   }
 
   get frames(): number {

@@ -37,7 +37,7 @@ test("an item of several values wants all of them", () => {
   const place = item({ type: "f64", count: 3, unit: "m" });
   assert.equal(faultOf(place, "1, 2, -3.5"), null);
   for (const text of ["1, 2", "1, 2, 3, 4", "1,,3"]) assert.notEqual(faultOf(place, text), null, text);
-  assert.equal(hintOf(place), "3 numbers, with commas between m");
+  assert.equal(hintOf(place), "3 numbers in m, separated by commas");
   assert.equal(hintOf(item({ maximum: 9 })), "whole number from 0 to 9");
 });
 
@@ -50,6 +50,7 @@ test("one of an enumeration has to be chosen", () => {
 test("the command line is the one that mdat takes", () => {
   const offer = command({ name: "offer", hazardous: true, items: [item({ name: "p", type: "f64", count: 3 }), item({ name: "mode" })] });
   const values = valuesOf(offer, { p: "1, 2 , 3", mode: "safe" });
+  assert.equal(commandLine(offer, {}, "udp://:1"), "mdat command offer p=P mode=MODE --arm --to udp://:1");
   assert.equal(commandLine(offer, values, "udp://127.0.0.1:1"), "mdat command offer p=1,2,3 mode=safe --arm --to udp://127.0.0.1:1");
 });
 

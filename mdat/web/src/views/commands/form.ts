@@ -25,14 +25,20 @@ export function rangeOf(item: CommandItem): [number, number] {
   return [Math.max(least, item.minimum ?? least), Math.min(most, item.maximum ?? most)];
 }
 
+/** As people write it; several units are those of rows, in their order. */
+export function unitOf(item: CommandItem): string {
+  return unitText(item.unit).replace(/,/g, ", ");
+}
+
 /** What an item takes, in words. */
 export function hintOf(item: CommandItem): string {
   const [least, most] = rangeOf(item);
-  const unit = unitText(item.unit);
+  const unit = unitOf(item);
   const kind = item.type in WHOLE ? "whole number" : "number";
-  const many = item.count > 1 ? `${item.count} ${kind}s, with commas between` : kind;
+  const many = item.count > 1 ? `${item.count} ${kind}s` : kind;
   const bounds = [least > -1e15 ? `from ${least}` : "", most < 1e15 ? `to ${most}` : ""].filter(Boolean).join(" ");
-  return [many, bounds, unit].filter(Boolean).join(" ");
+  const what = [many, bounds, unit === "" ? "" : `in ${unit}`].filter(Boolean).join(" ");
+  return item.count > 1 ? `${what}, separated by commas` : what;
 }
 
 function isFitting(item: CommandItem, text: string): boolean {
@@ -55,8 +61,9 @@ export function valuesOf(command: CommandInfo, texts: Record<string, string>): R
   return Object.fromEntries(command.items.map(({ name }) => [name, (texts[name] ?? "").replace(/\s/g, "")]));
 }
 
+/** The same from the command line; what is missing stands there in capitals. */
 export function commandLine(command: CommandInfo, values: Record<string, string>, address: string): string {
-  const words = ["mdat", "command", command.name, ...command.items.map(({ name }) => `${name}=${values[name]}`)];
+  const words = ["mdat", "command", command.name, ...command.items.map(({ name }) => `${name}=${values[name] || name.toUpperCase()}`)];
   if (command.hazardous) words.push("--arm");
   words.push("--to", address);
   return words.map(shellWord).join(" ");

@@ -8,7 +8,7 @@ import { giveCommand, live } from "../../live/feed.ts";
 import { CommandText } from "../../parts/controls.tsx";
 import { Dialog } from "../../parts/dialog.tsx";
 import { Icon } from "../../parts/icon.tsx";
-import { ARMED_S, armedBy, commandLine, faultOf, hintOf, isForForms, phaseText, valuesOf } from "./form.ts";
+import { ARMED_S, armedBy, commandLine, faultOf, hintOf, isForForms, phaseText, unitOf, valuesOf } from "./form.ts";
 
 const LOOK_MS = 250;
 const FIRST = "set_mode";
@@ -49,7 +49,10 @@ function Field({ item, choices, text, onText }: FieldProps) {
   const field = `order-${item.name}`;
   return (
     <div class="order-field">
-      <label for={field}>{item.name}</label>
+      <span class="order-name">
+        <label for={field}>{item.name}</label>
+        {unitOf(item) === "" ? null : <span class="unit">{unitOf(item)}</span>}
+      </span>
       {choices !== undefined && item.count === 1 ? (
         <select id={field} value={text} aria-describedby={help} onChange={(event) => onText(event.currentTarget.value)}>
           <option value="">choose …</option>
@@ -150,7 +153,7 @@ function OrderForm({ state, command, list }: { state: LiveState; command: Comman
       </div>
       {state.may_command ? null : (
         <p class="order-refused" role="note">
-          <Icon name="info" /> Commands are not allowed from this page. Start it with mdat serve --allow-commands, or send it by the line
+          <Icon name="info" /> Commands are not allowed from this page. Start it with mdat serve --allow-commands, or use the command line
           below.
         </p>
       )}
@@ -163,7 +166,7 @@ const DONE: CommandRecord["phase"][] = ["executed"];
 const BAD: CommandRecord["phase"][] = ["failed", "refused", "unanswered", "not_sent"];
 
 function Records({ records }: { records: CommandRecord[] }) {
-  if (records.length === 0) return <p class="hint">No command has been given yet.</p>;
+  if (records.length === 0) return <p class="hint">None yet.</p>;
   return (
     <ol class="orders" reversed aria-label="Commands that were given" aria-live="polite">
       {[...records].reverse().map((record) => (
@@ -200,7 +203,7 @@ function CommandChoice({ commands, chosen }: { commands: CommandInfo[]; chosen: 
             key={name}
             type="button"
             class="value"
-            title={meaning}
+            title={hazardous ? `${meaning} (hazardous: arm it first)` : meaning}
             aria-pressed={chosen.value === name}
             onClick={() => {
               chosen.value = name;
@@ -231,7 +234,7 @@ export function OrdersDialog() {
         <CommandChoice commands={commands} chosen={chosen} />
         <div>
           <OrderForm key={command.name} state={state} command={command} list={list.value} />
-          <h3>What became of them</h3>
+          <h3>Commands sent</h3>
           <Records records={state.commands} />
         </div>
       </div>

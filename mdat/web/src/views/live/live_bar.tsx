@@ -108,14 +108,6 @@ function Running({ session, state }: { session: Session; state: LiveState }) {
         <span class="live-health" title="Packets of telemetry, gaps in their counts, and the newest one's age">
           {packetsText(state)}, {ageText(age)}
         </span>
-        {state.address === null ? null : (
-          <span
-            class="live-absent"
-            title="Telemetry has poses, reasons and values. Points, rays and errors need the sensor's scans and the truth, which a link does not carry."
-          >
-            no scans over a link
-          </span>
-        )}
         {follows ? (
           <span class="live-now">following the newest frame</span>
         ) : (
