@@ -16,6 +16,7 @@ constexpr double kNs = 1e-9;
 constexpr std::size_t kFactsTable = 0;
 constexpr std::size_t kTogether = 16;                         // chunks
 constexpr std::size_t kTogetherBytes = std::size_t{1} << 26;  // of their records: a small file may unpack to any size
+constexpr std::uint64_t kUsualLag_ns = 500'000'000;           // of reports behind their scans
 constexpr std::size_t kPatience = 64;                         // reports that wait for their true poses
 constexpr std::size_t kMostDamage = 100;                      // of chunks that cannot be read, each
 
@@ -69,12 +70,12 @@ struct Recording::Building {
     std::uint64_t time_ns = 0, stated_ns = 0, told_ns = 0;
     std::uint32_t chunk = 0;
   };
-  std::uint64_t time_ns_of(std::uint64_t stated_ns, std::uint64_t told_ns);
+  std::uint64_t time_ns_of(std::uint64_t stated_ns, std::uint64_t told_ns, bool scanned);
   std::map<std::uint16_t, std::string> topics;  // of the channels that are read whole
   std::map<const PacketRow*, PacketColumns> packets;
   std::unordered_map<std::uint64_t, Pose> truth;
-  std::deque<Told> waiting;                     // for the true pose, which may come behind the packet
-  std::uint64_t scan_ns = 0, scan_told_ns = 0;  // of the last scan: its time, and that of the first report of it
+  std::deque<Told> waiting;                          // for the true pose, which may come behind the packet
+  std::uint64_t scan_ns = 0, lag_ns = kUsualLag_ns;  // of the last scan: its time, and how much later its first report was
 };
 
 Recording::Recording(const std::filesystem::path& file) : file_(file), cache_(file_) {
@@ -195,20 +196,21 @@ void Recording::take_packet(const mcap::Message& message, std::size_t chunk, Bui
   place->second.add(kNs * static_cast<double>(message.log_ns), *packet, tables_[place->second.values().front().table]);
 }
 
-// Where no scan comes, as in safe mode, reports state the time of the last one: they belong as far behind it as their boundaries are.
-std::uint64_t Recording::Building::time_ns_of(std::uint64_t stated_ns, std::uint64_t told_ns) {
-  if (stated_ns != scan_ns) {
-    scan_ns = stated_ns;
-    scan_told_ns = told_ns;
-  }
-  return scan_ns + (told_ns - std::min(told_ns, scan_told_ns));
+// Where no scan comes, as in safe mode, reports state the time of the last one, which may be from before the recording. They get the time
+// that a scan would have.
+std::uint64_t Recording::Building::time_ns_of(std::uint64_t stated_ns, std::uint64_t told_ns, bool scanned) {
+  const bool anew = scan_ns == 0 ? scanned || told_ns - std::min(told_ns, stated_ns) < 2 * kUsualLag_ns : stated_ns != scan_ns;
+  scan_ns = stated_ns;
+  if (!anew) return told_ns - std::min(told_ns, lag_ns);
+  lag_ns = told_ns - std::min(told_ns, stated_ns);
+  return stated_ns;
 }
 
 void Recording::add_pose(const mcap::Message& message, ConstBytes packet, std::size_t chunk, Building& building) {
   PacketHeader header;
   PoseTelemetry pose;
   if (decode_pose(packet, header, pose) != PacketFault::kNone) return;
-  const std::uint64_t stated = stated_ns(pose, message.log_ns), time_ns = building.time_ns_of(stated, message.log_ns);
+  const std::uint64_t stated = stated_ns(pose, message.log_ns), time_ns = building.time_ns_of(stated, message.log_ns, pose.rays > 0);
   const double time_s = kNs * static_cast<double>(time_ns);
   const PacketColumns& columns = building.packets.at(telemetry_row(packet));
   columns.add(time_s, packet, tables_[columns.values().front().table]);

@@ -139,8 +139,10 @@ export class Log {
     return getJson<EventPage>(withQuery(this.path("events"), { ...query }), signal);
   }
 
-  get modelPath(): string {
-    return this.path("model.glb");
+  /** Of the target's surface; null: the recording has none. */
+  get modelPath(): string | null {
+    const coming = this.live.peek() && this.info.sensor !== LINK;
+    return coming || this.info.topics.some(({ name }) => name === "/scene") ? this.path("model.glb") : null;
   }
 
   csvPath(values: string[], from_s: number, to_s: number): string {

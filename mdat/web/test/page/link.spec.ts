@@ -108,14 +108,30 @@ test("a hazardous command is armed and fired by two clicks, and the component go
   await disconnect(page);
 });
 
-test("what nobody allowed is not sent, and the form says how it is", async ({ page }) => {
-  await connect(page, onlooker);
-  await page.getByRole("button", { name: "Commands" }).click();
-  await choose(page, "ping");
+test("what nobody allowed is not sent, and the form says how it is: by the keyboard alone, of a mission that is not known", async ({
+  page,
+}) => {
+  await page.goto(onlooker.line);
+  await page.getByLabel("Address").focus();
+  await page.keyboard.type(linkOf(component));
+  await page.keyboard.press("Enter");
+  await expect(page.locator(".live-mark")).toHaveText("Live");
+  await expect(page.locator(".verdict .chip").first()).toBeVisible();
+  await page.getByRole("button", { name: "Commands" }).focus();
+  await page.keyboard.press("Enter");
+  await expect(page.getByLabel("Filter commands")).toBeVisible();
+  while (!(await page.getByLabel("Filter commands").evaluate((field) => field === document.activeElement)))
+    await page.keyboard.press("Tab");
+  await page.keyboard.type("ping");
+  await page.keyboard.press("Tab");
+  await page.keyboard.press("Enter");
   await expect(page.getByText("Start it with mdat serve --allow-commands")).toBeVisible();
   await expect(page.getByRole("button", { name: "Send" })).toBeDisabled();
+  await screenshot(page, "commands-refused-light");
   await page.keyboard.press("Escape");
-  await disconnect(page);
+  await page.getByRole("button", { name: "Disconnect" }).focus();
+  await page.keyboard.press("Enter");
+  await expect(page.getByText("The connection has ended.")).toBeVisible();
 });
 
 test("a component that stops makes the data stale", async ({ page }) => {

@@ -77,7 +77,7 @@ class SceneRunner {
 
   private follow(): void {
     const { selection, scene, log } = this.session;
-    this.target.load(log.modelPath).then((size_m) => this.loaded(size_m), tell);
+    if (log.modelPath !== null) this.target.load(log.modelPath).then((size_m) => this.loaded(size_m), tell);
     this.ends.push(
       effect(() => this.applyTheme(theme.value)),
       effect(() => this.load(selection.frame.value, selection.iteration.value)),
