@@ -153,8 +153,8 @@ function OrderForm({ state, command, list }: { state: LiveState; command: Comman
       </div>
       {state.may_command ? null : (
         <p class="order-refused" role="note">
-          <Icon name="info" /> Commands are not allowed from this page. Start it with mdat serve --allow-commands, or use the command line
-          below.
+          <Icon name="info" /> Commands are not allowed from this page. Start it with <code>mdat serve --allow-commands</code>, or use the
+          command line below.
         </p>
       )}
       <CommandText text={commandLine(command, values, state.address ?? "")} label="command line of the command" />
