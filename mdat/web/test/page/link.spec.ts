@@ -10,12 +10,14 @@ test.setTimeout(300_000);
 let component: Started;
 let server: Started;
 let onlooker: Started;
+/** Tests that run beside these have folders of their own. */
+const own = (name: string): string => emptyFolder(`${name}-${process.env.TEST_WORKER_INDEX}`);
 const linkOf = ({ line }: Started): string => line.replace(/^.* by /, "");
 
 test.beforeAll(async () => {
-  component = await flyLinked(emptyFolder("link-run"));
-  server = await serve(emptyFolder("link"), ["--allow-commands"]);
-  onlooker = await serve(emptyFolder("link-watch"));
+  component = await flyLinked(own("link-run"));
+  server = await serve(own("link"), ["--allow-commands"]);
+  onlooker = await serve(own("link-watch"));
 });
 
 test.afterAll(() => {
