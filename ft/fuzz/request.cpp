@@ -1,9 +1,10 @@
-// Text that claims to be a request of a browser, to the handlers of mdat serve, which have a small recording. The first byte says whether
-// the asker has the token; ID in the target stands for that of the recording. Each request is answered, none with an error of the server's
-// own, and nobody without the token gets anything.
+// Text that claims to be a request of a browser, to the handlers of mdat serve, which have a small recording and a mission. The first byte
+// says whether the asker has the token; ID in the target stands for that of the recording. Each request is answered, none with an error of
+// the server's own, and nobody without the token gets anything. One recording alone is served: nothing is flown, connected or copied.
 #include <unistd.h>
 
 #include <filesystem>
+#include <fstream>
 #include <string>
 
 #include "fsw/link/pose_telemetry.hpp"
@@ -11,7 +12,10 @@
 #include "mdat/mcap/writer.hpp"
 #include "mdat/recording/recording_head.hpp"
 #include "mdat/recording/ros_messages.hpp"
+#include "mdat/serve/json_body.hpp"
+#include "mdat/serve/live_answers.hpp"
 #include "mdat/serve/service.hpp"
+#include "mdat/serve/target.hpp"
 
 namespace lasso::fuzz {
 namespace {
@@ -65,14 +69,21 @@ void write_recording(const fs::path& file) {
   writer.close();
 }
 
-// A folder of this process, and who serves it.
+void write_mission(const fs::path& folder) {
+  std::ofstream(folder / "target.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+  std::ofstream(folder / "m.toml") << "[mission]\nid = 1\nversion = 1\nname = \"m\"\n[target]\nmesh = \"target.obj\"\n";
+}
+
+// A folder of this process, and who serves a recording of it.
 class Place {
  public:
   Place() : path_(fs::temp_directory_path() / ("lasso_fuzz_request_" + std::to_string(getpid()))) {
     fs::create_directories(path_);
     write_recording(path_ / "a.mcap");
-    folder_ = std::make_unique<serve::Folder>(path_);
-    service_ = std::make_unique<serve::Service>(gate_, *folder_, serve::ServiceOptions{"fuzz", {}});
+    write_mission(path_);
+    folder_ = std::make_unique<serve::Folder>(path_ / "a.mcap");
+    live_ = std::make_unique<serve::Live>(*folder_, "fuzz");
+    service_ = std::make_unique<serve::Service>(gate_, *folder_, serve::ServiceOptions{"fuzz", {}, live_.get()});
     id_ = folder_->list().at(0).id;
   }
   ~Place() {
@@ -88,6 +99,7 @@ class Place {
   fs::path path_;
   serve::Gate gate_{"127.0.0.1", 8080, kToken};
   std::unique_ptr<serve::Folder> folder_;
+  std::unique_ptr<serve::Live> live_;
   std::unique_ptr<serve::Service> service_;
   std::string id_;
 };
@@ -118,13 +130,33 @@ serve::Request request_of(std::string_view text, bool known, const std::string& 
   return request;
 }
 
+// Only the first look is flown into the folder of a recording that is served alone.
+bool is_harmless(const std::string& target) {
+  const std::optional<serve::Target> parsed = serve::parse_target(target);
+  return !parsed || parsed->path.find("first") == std::string::npos;
+}
+
+// What is asked of a component: nobody is connected, so the service itself would not look at its values.
+void order_command(const serve::Request& request) {
+  serve::CommandDesk desk;
+  try {
+    (void)desk.order(serve::command_order(serve::json_body(request)));
+    expect(desk.waiting(), "a command that is taken waits");
+  } catch (const serve::Refusal& refusal) {
+    expect(refusal.status == 400 || refusal.status == 415, "what is no command is refused");
+    expect(!desk.waiting(), "what is refused does not wait");
+  }
+}
+
 void answer(ConstBytes input) {
   static Place place;
   if (input.empty()) return;
   const std::string_view text(reinterpret_cast<const char*>(input.data()) + 1, input.size() - 1);
   const bool known = input[0] % 2 != 0;
   serve::Request request = request_of(text, known, place.id());
-  if (request.method == serve::Method::kPost) request.target = "/";  // nothing is to be flown here
+  const bool posts = request.method == serve::Method::kPost;
+  if (posts && request.target == "/api/live/command") order_command(request);
+  if (posts && !is_harmless(request.target)) request.target = "/";
   const bool told = known || request.header("cookie").find(kToken) != std::string_view::npos ||
                     request.header("authorization").find(kToken) != std::string_view::npos ||
                     request.target.find(kToken) != std::string::npos;

@@ -1,5 +1,6 @@
 #include <cstdio>
 #include <memory>
+#include <utility>
 
 #include "mdat/cli/commands.hpp"
 #include "mdat/common/interruption.hpp"
@@ -13,15 +14,19 @@ namespace {
 struct ServeArguments {
   std::string place = ".";
   serve::NetworkOptions network;
+  serve::LinkRights rights;
+  std::string key;
 };
 
 bool is_loopback(const std::string& host) { return host == "localhost" || host == "::1" || host == "[::1]" || host.rfind("127.", 0) == 0; }
 
 void serve_page(const ServeArguments& options) {
+  serve::LinkRights rights = options.rights;
+  if (!options.key.empty()) rights.key = load_key(options.key);
   serve::Folder folder(options.place);
   serve::Network network(options.network);
   const serve::Gate gate(options.network.host, network.port(), serve::random_token());
-  serve::Live live(folder, kCommit);
+  serve::Live live(folder, kCommit, std::move(rights));
   serve::Service service(gate, folder, {kCommit, serve::page_files(), &live});
   std::printf("%s\n", gate.address().c_str());
   (void)std::fflush(stdout);
@@ -45,6 +50,9 @@ void add_serve_command(CLI::App& app) {
       ->check(CLI::Range(0, 65535));
   command->add_option("--host", options->network.host, "address to listen on; another one than loopback's lets other machines in")
       ->capture_default_str();
+  command->add_flag("--allow-commands", options->rights.commands, "the page may command a component that it is connected to");
+  command->add_option("--key", options->key,
+                      "file with the key that the component asks commands to be signed with (64 hexadecimal digits)");
   command->callback([options] { serve_page(*options); });
 }
 

@@ -35,8 +35,7 @@ void add_missions(const fs::path& folder, bool shipped, std::vector<LiveMission>
 }
 
 // A name that is free: hubble_tenth-spin-live.mcap, hubble_tenth-spin-live-2.mcap, ...
-fs::path free_file(const fs::path& folder, const LiveMission& mission, const std::string& scenario) {
-  const std::string stem = fs::path(mission.id).stem().string() + "-" + scenario + "-live";
+fs::path free_file(const fs::path& folder, const std::string& stem) {
   fs::path file = folder / (stem + ".mcap");
   for (int i = 2; fs::exists(file); ++i) file = folder / (stem + "-" + std::to_string(i) + ".mcap");
   return file;
@@ -48,12 +47,25 @@ bool is_plain_name(const std::string& name) {
   });
 }
 
+LiveJson commands_of(const CommandDesk& desk) {
+  LiveJson list = LiveJson::array();
+  for (const CommandRecord& record : desk.records())
+    list.push_back({{"number", record.number},
+                    {"name", record.order.name},
+                    {"arm", record.order.arm},
+                    {"values", record.order.values},
+                    {"phase", phase_name(record.phase)},
+                    {"why", record.why}});
+  return list;
+}
+
 }  // namespace
 
 Live::~Live() {
   {
     const std::lock_guard lock(mutex_);
     if (pacing_) pacing_->stop();
+    ending_ = true;
   }
   if (thread_.joinable()) thread_.join();
 }
@@ -75,39 +87,78 @@ LiveMission Live::mission(const std::string& id) const {
 void Live::start(const LiveOrder& order) {
   const LiveMission found = mission(order.mission);
   if (!is_plain_name(order.scenario)) throw Refusal{400, "the scenario has no such name", "choose one of the mission's scenarios"};
+  const fs::path file = free_file(folder_.path(), fs::path(found.id).stem().string() + "-" + order.scenario + "-live");
+  const FlightOrder flight{found.file, order.scenario, order.seed, order.pace, file};
+  State state;
+  state.mission = order.mission;
+  state.scenario = order.scenario;
+  state.command = flight_command(flight);
+  begin(std::move(state), file, order.pace, [this, flight] { fly_order(flight); });
+}
+
+void Live::connect(const LinkOrder& order) {
+  const std::string fault = address_fault(order.address);
+  if (!fault.empty()) throw Refusal{400, fault, "give the address that the component's link says"};
+  WatchOrder watched;
+  watched.address = order.address;
+  if (!order.mission.empty()) watched.mission = mission(order.mission).file;
+  const std::string stem = order.mission.empty() ? "component" : fs::path(order.mission).stem().string();
+  watched.file = free_file(folder_.path(), stem + "-link");
+  watched.key = rights_.key;
+  State state;
+  state.mission = order.mission;
+  state.address = order.address;
+  state.command = watch_command(watched);
+  begin(std::move(state), watched.file, 1, [this, watched] { watch_order(watched); });
+}
+
+void Live::begin(State state, const fs::path& file, double pace, const std::function<void()>& work) {
   if (!folder_.takes_files()) throw Refusal{409, "mdat serve shows one recording alone", "start it with a folder: mdat serve FOLDER"};
   const std::lock_guard lock(mutex_);
-  if (is_under_way(state_.phase)) throw Refusal{409, "another run is under way: " + state_.name, "stop it, or wait for its end"};
+  if (is_under_way(state_.phase)) throw Refusal{409, "another one is under way: " + state_.name, "stop it, or wait for its end"};
   if (thread_.joinable()) thread_.join();
-  FlightOrder flight{found.file, order.scenario, order.seed, order.pace, free_file(folder_.path(), found, order.scenario)};
-  state_ = {};
+  state_ = std::move(state);
   state_.phase = LivePhase::kPreparing;
-  state_.id = folder_.id_of(flight.file);
-  state_.name = flight.file.filename().string();
-  state_.mission = order.mission;
-  state_.scenario = order.scenario;
-  state_.command = flight_command(flight);
-  pacing_ = std::make_unique<Pacing>(order.pace);
-  file_ = flight.file;
+  state_.id = folder_.id_of(file);
+  state_.name = file.filename().string();
+  pacing_ = std::make_unique<Pacing>(pace);
+  ending_ = false;
+  desk_.clear();
+  file_ = file;
   recording_.reset();
   recorded_bytes_ = 0;
-  thread_ = std::thread([this, flight = std::move(flight)] { fly_order(flight); });
+  thread_ = std::thread([this, work] { finish_as(work); });
   tell();
 }
 
-// The run's thread. Its mutex is never held while it waits.
+// The thread's. No mutex is held while it waits.
+void Live::finish_as(const std::function<void()>& work) {
+  try {
+    work();
+    finish("");
+  } catch (const std::exception& error) {
+    finish(error.what());
+  }
+}
+
+void Live::change(const std::function<void(State&)>& to) {
+  const std::lock_guard lock(mutex_);
+  to(state_);
+  tell();
+}
+
+void Live::take_packets(ConstBytes packets) {
+  const std::lock_guard lock(mutex_);
+  state_.health.take(packets, std::chrono::steady_clock::now());
+}
+
 void Live::fly_order(const FlightOrder& order) {
-  const auto change = [this](const std::function<void(State&)>& to) {
-    const std::lock_guard lock(mutex_);
-    to(state_);
-    tell();
-  };
   FlightTold told;
   told.begun = [&](std::uint32_t frames) { change([&](State& state) { state.frames = frames; }); };
   told.packets = [this](TimeUs, ConstBytes packets) {
+    take_packets(packets);
     const std::lock_guard lock(mutex_);
     ++state_.boundaries;
-    state_.health.take(packets, std::chrono::steady_clock::now());
   };
   told.written = [&](std::uint64_t bytes) {
     change([&](State& state) {
@@ -115,27 +166,61 @@ void Live::fly_order(const FlightOrder& order) {
       state.phase = LivePhase::kRunning;
     });
   };
-  try {
-    fly(order, commit_, *pacing_, told);
-    finish("");
-  } catch (const std::exception& error) {
-    finish(error.what());
-  }
+  fly(order, commit_, *pacing_, told);
+}
+
+void Live::watch_order(const WatchOrder& order) {
+  WatchTold told;
+  told.begun = [&] { change([](State& state) { state.phase = LivePhase::kRunning; }); };
+  told.packet = [this](ConstBytes packet) { take_packets(packet); };
+  told.written = [this](const fs::path& file, std::uint64_t bytes, std::uint64_t frames) { take_written(file, bytes, frames); };
+  told.looked = [this](Connection& connection) { look(connection); };
+  told.commanded = [this] { change([](State&) {}); };
+  watch_link(order, commit_, ending_, desk_, told);
+}
+
+// In a further file, where the component's clock began anew.
+void Live::take_written(const fs::path& file, std::uint64_t bytes, std::uint64_t frames) {
+  change([&](State& state) {
+    if (file != file_) {
+      file_ = file;
+      state.id = folder_.id_of(file);
+      state.name = file.filename().string();
+      recording_.reset();
+      recorded_bytes_ = 0;
+    }
+    state.bytes = bytes;
+    state.boundaries = frames;
+  });
+}
+
+// It is told only where something has changed.
+void Live::look(Connection& connection) {
+  const std::lock_guard lock(mutex_);
+  if (state_.trouble == connection.trouble() && state_.other_bytes == connection.other_bytes()) return;
+  state_.trouble = connection.trouble();
+  state_.other_bytes = connection.other_bytes();
+  tell();
 }
 
 void Live::finish(const std::string& error) {
   std::error_code ignored;
   const std::lock_guard lock(mutex_);
-  if (!error.empty() && state_.bytes == 0) fs::remove(file_, ignored);
+  if (state_.bytes == 0) fs::remove(file_, ignored);
   state_.phase = error.empty() ? LivePhase::kOver : LivePhase::kFailed;
   state_.error = error;
   recording_.reset();
   tell();
 }
 
+void Live::check_under_way(bool paced) const {
+  if (!is_under_way(state_.phase)) throw Refusal{409, "nothing flies", "start a run"};
+  if (paced && !state_.address.empty()) throw Refusal{409, "a component keeps its own pace", "stop ends the connection"};
+}
+
 void Live::act(Act what) {
   const std::lock_guard lock(mutex_);
-  if (!is_under_way(state_.phase)) throw Refusal{409, "nothing flies", "start a run"};
+  check_under_way(true);
   (pacing_.get()->*what)();
   tell();
 }
@@ -143,13 +228,33 @@ void Live::act(Act what) {
 void Live::pause() { act(&Pacing::pause); }
 void Live::resume() { act(&Pacing::resume); }
 void Live::step() { act(&Pacing::step); }
-void Live::stop() { act(&Pacing::stop); }
+
+void Live::stop() {
+  const std::lock_guard lock(mutex_);
+  check_under_way(false);
+  ending_ = true;
+  pacing_->stop();
+  tell();
+}
 
 void Live::set_pace(double pace) {
   const std::lock_guard lock(mutex_);
-  if (!is_under_way(state_.phase)) throw Refusal{409, "nothing flies", "start a run"};
+  check_under_way(true);
   pacing_->set_pace(pace);
   tell();
+}
+
+std::uint64_t Live::command(const CommandOrder& order) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (state_.phase != LivePhase::kRunning || state_.address.empty())
+      throw Refusal{409, "no component is connected", "connect to one; a run that the page flies takes no commands"};
+    if (!state_.trouble.empty()) throw Refusal{409, "the link has ended: " + state_.trouble, "wait until it is there again"};
+  }
+  if (!rights_.commands) throw Refusal{403, "commands are not allowed from this page", "start it with mdat serve --allow-commands"};
+  const std::uint64_t number = desk_.order(order);
+  change([](State&) {});
+  return number;
 }
 
 std::string Live::state() const {
@@ -168,6 +273,11 @@ std::string Live::state_text() const {
                          {"mission", state_.mission},
                          {"scenario", state_.scenario},
                          {"command", state_.command},
+                         {"address", state_.address.empty() ? LiveJson() : LiveJson(state_.address)},
+                         {"trouble", state_.trouble.empty() ? LiveJson() : LiveJson(state_.trouble)},
+                         {"other_bytes", state_.other_bytes},
+                         {"may_command", rights_.commands},
+                         {"commands", commands_of(desk_)},
                          {"error", state_.error.empty() ? LiveJson() : LiveJson(state_.error)},
                          {"frames", state_.frames},
                          {"boundaries", state_.boundaries},

@@ -15,6 +15,11 @@ using AskedJson = nlohmann::ordered_json;
 
 std::string live_json(const AskedJson& json) { return json.dump(-1, ' ', false, AskedJson::error_handler_t::replace); }
 
+std::string optional_text(const AskedJson& body, const char* name) {
+  const auto found = body.find(name);
+  return found == body.end() || found->is_null() ? "" : body_text(body, name);
+}
+
 double pace_of(const AskedJson& body) {
   const auto found = body.find("pace");
   if (found == body.end()) return 1;
@@ -62,6 +67,11 @@ constexpr LiveAct kActs[] = {
      [](Live& live, const AskedJson& body) {
        live.start({body_text(body, "mission"), body_text(body, "scenario"), seed_of(body), pace_of(body)});
      }},
+    {"connect",
+     [](Live& live, const AskedJson& body) {
+       live.connect({body_text(body, "address"), optional_text(body, "mission")});
+     }},
+    {"command", [](Live& live, const AskedJson& body) { (void)live.command(command_order(body)); }},
     {"pause", [](Live& live, const AskedJson&) { live.pause(); }},
     {"resume", [](Live& live, const AskedJson&) { live.resume(); }},
     {"step", [](Live& live, const AskedJson&) { live.step(); }},
@@ -85,10 +95,24 @@ class Watching final : public SocketSession {
 
 }  // namespace
 
+CommandOrder command_order(const AskedJson& body) {
+  CommandOrder order;
+  order.name = body_text(body, "name");
+  order.arm = body.value("arm", AskedJson(false)) == AskedJson(true);
+  const AskedJson values = body.value("values", AskedJson::object());
+  if (!values.is_object()) throw Refusal{400, "values: an object was expected", "see docs/serve.md"};
+  for (const auto& [item, value] : values.items()) {
+    if (!value.is_string()) throw Refusal{400, item + ": a text was expected", "see docs/serve.md"};
+    order.values[item] = value.get<std::string>();
+  }
+  return order;
+}
+
 Response live_answer(Live& live, const Request& request, const Target& target) {
   const std::vector<std::string>& parts = target.parts;
   if (request.method == Method::kPost) return act_answer(live, request, target);
   if (parts.size() == 2) return json_response(live.state());
+  if (parts.size() == 3 && parts[2] == "commands") return json_response(commands_json());
   if (parts.size() == 3 && parts[2] == "missions") return missions_answer(live);
   if (parts.size() == 3 && parts[2] == "scenarios") return scenarios_answer(live, text_in(target, "mission"));
   throw Refusal{404, "there is no " + target.path.substr(0, 120), "see docs/serve.md"};

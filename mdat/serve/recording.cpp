@@ -16,6 +16,7 @@ constexpr double kNs = 1e-9;
 constexpr std::size_t kFactsTable = 0;
 constexpr std::size_t kTogether = 16;                         // chunks
 constexpr std::size_t kTogetherBytes = std::size_t{1} << 26;  // of their records: a small file may unpack to any size
+constexpr std::uint64_t kUsualLag_ns = 500'000'000;           // of reports behind their scans
 constexpr std::size_t kPatience = 64;                         // reports that wait for their true poses
 constexpr std::size_t kMostDamage = 100;                      // of chunks that cannot be read, each
 
@@ -32,6 +33,11 @@ std::optional<std::uint16_t> first_of_poses(const mcap::IndexedFile& file) {
     if (name == "geometry_msgs/msg/PoseStamped" || name == "geometry_msgs/msg/PoseWithCovarianceStamped") return id;
   }
   return std::nullopt;
+}
+
+// A report states the time of its scan; one before all scans has that of its boundary.
+std::uint64_t stated_ns(const PoseTelemetry& pose, std::uint64_t told_ns) {
+  return pose.t_measurement_us > 0 ? static_cast<std::uint64_t>(pose.t_measurement_us) * 1000 : told_ns;
 }
 
 }  // namespace
@@ -61,13 +67,15 @@ struct Recording::Building {
   struct Told {
     PoseTelemetry pose;
     double time_s = 0;
-    std::uint64_t time_ns = 0;
+    std::uint64_t time_ns = 0, stated_ns = 0, told_ns = 0;
     std::uint32_t chunk = 0;
   };
+  std::uint64_t time_ns_of(std::uint64_t stated_ns, std::uint64_t told_ns, bool scanned);
   std::map<std::uint16_t, std::string> topics;  // of the channels that are read whole
   std::map<const PacketRow*, PacketColumns> packets;
   std::unordered_map<std::uint64_t, Pose> truth;
-  std::deque<Told> waiting;  // for the true pose, which may come behind the packet
+  std::deque<Told> waiting;                          // for the true pose, which may come behind the packet
+  std::uint64_t scan_ns = 0, lag_ns = kUsualLag_ns;  // of the last scan: its time, and how much later its first report was
 };
 
 Recording::Recording(const std::filesystem::path& file) : file_(file), cache_(file_) {
@@ -188,16 +196,25 @@ void Recording::take_packet(const mcap::Message& message, std::size_t chunk, Bui
   place->second.add(kNs * static_cast<double>(message.log_ns), *packet, tables_[place->second.values().front().table]);
 }
 
-// A report without a scan has the time of its boundary.
+// Where no scan comes, as in safe mode, reports state the time of the last one, which may be from before the recording. They get the time
+// that a scan would have.
+std::uint64_t Recording::Building::time_ns_of(std::uint64_t stated_ns, std::uint64_t told_ns, bool scanned) {
+  const bool anew = scan_ns == 0 ? scanned || told_ns - std::min(told_ns, stated_ns) < 2 * kUsualLag_ns : stated_ns != scan_ns;
+  scan_ns = stated_ns;
+  if (!anew) return told_ns - std::min(told_ns, lag_ns);
+  lag_ns = told_ns - std::min(told_ns, stated_ns);
+  return stated_ns;
+}
+
 void Recording::add_pose(const mcap::Message& message, ConstBytes packet, std::size_t chunk, Building& building) {
   PacketHeader header;
   PoseTelemetry pose;
   if (decode_pose(packet, header, pose) != PacketFault::kNone) return;
-  const std::uint64_t time_ns = pose.t_measurement_us > 0 ? static_cast<std::uint64_t>(pose.t_measurement_us) * 1000 : message.log_ns;
+  const std::uint64_t stated = stated_ns(pose, message.log_ns), time_ns = building.time_ns_of(stated, message.log_ns, pose.rays > 0);
   const double time_s = kNs * static_cast<double>(time_ns);
   const PacketColumns& columns = building.packets.at(telemetry_row(packet));
   columns.add(time_s, packet, tables_[columns.values().front().table]);
-  building.waiting.push_back({pose, time_s, time_ns, static_cast<std::uint32_t>(chunk)});
+  building.waiting.push_back({pose, time_s, time_ns, stated, message.log_ns, static_cast<std::uint32_t>(chunk)});
 }
 
 // In their order: those whose true pose is there, and all but the last `keep`.
@@ -209,7 +226,8 @@ void Recording::judge_waiting(Building& building, std::size_t keep) {
     if (!known && building.waiting.size() <= keep) return;
     const FrameFacts facts(told.pose, known ? std::optional(found->second) : std::nullopt);
     add_facts(told.time_s, facts, tables_[kFactsTable]);
-    frames_.push_back({told.time_s, told.time_ns, told.chunk, told.pose.mode, told.pose.reason, told.pose.valid != 0, facts.wrong});
+    frames_.push_back({told.time_s, told.time_ns, told.stated_ns, told.told_ns, told.chunk, told.pose.mode, told.pose.reason,
+                       told.pose.valid != 0, facts.wrong});
     truth_ = truth_ || known;
     if (known) building.truth.erase(found);
     building.waiting.pop_front();
@@ -320,8 +338,7 @@ std::optional<PoseTelemetry> Recording::told(std::size_t n) const {
     PacketHeader header;
     PoseTelemetry pose;
     if (!packet || decode_pose(*packet, header, pose) != PacketFault::kNone) return;
-    const std::uint64_t time_ns = pose.t_measurement_us > 0 ? static_cast<std::uint64_t>(pose.t_measurement_us) * 1000 : message.log_ns;
-    if (time_ns == frames_[n].time_ns) found = pose;
+    if (message.log_ns == frames_[n].told_ns && stated_ns(pose, message.log_ns) == frames_[n].stated_ns) found = pose;
   });
   return found;
 }

@@ -19,9 +19,10 @@ namespace lasso::mdat::serve {
 
 // One report of the component on a scan: one packet `pose`. Of a recording by another program: one cloud of points.
 struct Frame {
-  double time_s = 0;          // to which its poses belong
-  std::uint64_t time_ns = 0;  // the same, as messages are stamped
-  std::uint32_t chunk = 0;    // that its packet is in
+  double time_s = 0;                         // to which its poses belong
+  std::uint64_t time_ns = 0;                 // the same, as messages are stamped
+  std::uint64_t stated_ns = 0, told_ns = 0;  // as its packet states it, and when the packet came
+  std::uint32_t chunk = 0;                   // that its packet is in
   std::uint8_t mode = 0, reason = 0;
   bool valid = false;
   std::optional<bool> wrong;  // none: no truth

@@ -17,6 +17,7 @@ std::string word_in(const mcap::Text& about, const std::string& key) {
 }
 
 Json seed_json(const std::string& text) {
+  if (text.empty()) return nullptr;
   const std::optional<std::size_t> seed = count_of(text);
   return seed ? Json(*seed) : Json(text);
 }

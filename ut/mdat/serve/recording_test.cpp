@@ -101,6 +101,33 @@ TEST(OpenRecording, WithoutATruthNothingIsSaidOfErrors) {
   EXPECT_NE(recording.value("sigma.position"), nullptr);
 }
 
+// As in safe mode: each report states the time of the last scan. The frames have times of their own all the same, and no scan.
+TEST(OpenRecording, ReportsWithoutAScanFollowTheLastOne) {
+  VERIFIES("LASSO-WEB-008~1");
+  const TestFolder folder;
+  SmallRecording small;
+  small.last_scan = 3;
+  const Recording recording(small.write(folder.path() / "a.mcap"));
+  ASSERT_EQ(recording.frames().size(), 6U);
+  for (std::size_t n = 0; n < 6; ++n) {
+    EXPECT_NEAR(recording.frames()[n].time_s, 1.1 + 0.2 * static_cast<double>(n), 1e-9) << n;
+    EXPECT_EQ(recording.told(n).value().scan_id, n) << n;
+    EXPECT_EQ(recording.message(n, "/scan").empty(), n > 3) << n;
+  }
+}
+
+// A link that is recorded while its component is safe: the last scan was long before.
+TEST(OpenRecording, ReportsOfAScanFromBeforeHaveTimesOfTheirBoundaries) {
+  VERIFIES("LASSO-WEB-008~1");
+  const TestFolder folder;
+  SmallRecording small;
+  small.last_scan = 0;
+  small.scan_before_us = 100'000;
+  const Recording recording(small.write(folder.path() / "a.mcap"));
+  ASSERT_EQ(recording.frames().size(), 6U);
+  for (std::size_t n = 0; n < 6; ++n) EXPECT_NEAR(recording.frames()[n].time_s, 1.4 - 0.5 + 0.2 * static_cast<double>(n), 1e-9) << n;
+}
+
 TEST(OpenRecording, OfAnotherProgramsCloudsEachIsAFrame) {
   VERIFIES("LASSO-WEB-008~1");
   const TestFolder folder;

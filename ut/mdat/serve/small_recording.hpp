@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -60,6 +61,8 @@ struct SmallRecording {
   std::size_t lost = 4;                // this frame's scan never came
   std::size_t wrong = 3;               // this one's pose says that it is valid, and is 100 mm off
   std::size_t refused = 2;             // this one has too few inliers
+  std::size_t last_scan = 1000;        // later frames state the time of this one, and have no scan
+  TimeUs scan_before_us = 0;           // all state this time, which is before the recording's
 
   static TimeUs time_us(std::size_t n) { return kFirst_us + static_cast<TimeUs>(n) * kPeriod_us; }
   static Twist rates() { return {Vec3(0.02, -0.05, 0.03), Vec3(0.01, -0.02, 0.03)}; }
@@ -78,7 +81,7 @@ struct SmallRecording {
   PoseTelemetry told(std::size_t n) const {
     PoseTelemetry pose;
     pose.scan_id = static_cast<std::uint32_t>(n);
-    pose.t_measurement_us = time_us(n);
+    pose.t_measurement_us = scan_before_us > 0 ? scan_before_us : time_us(std::min(n, last_scan));
     pose.t_publication_us = time_us(n) + 300'000;
     pose.mode = 2;
     pose.valid = n == refused || n == lost ? 0 : 1;
@@ -98,7 +101,7 @@ struct SmallRecording {
     }
     put_covariance(pose);
     for (std::size_t i = 0; i < kPoseSigmas; ++i) pose.filter_sigma_pose[i] = 0.001F;
-    pose.rays = kRays * kRays;
+    pose.rays = scan_before_us > 0 ? 0 : kRays * kRays;
     pose.returns = 300;
     pose.inliers = static_cast<std::uint16_t>(n == refused ? 7 : 290 + n);
     pose.iterations = 3;
@@ -204,7 +207,7 @@ struct SmallRecording {
         writer.write(events, late_ns, ros::log_bytes(time_us(n), ros::LogLevel::kWarn, "scan_lost", "sensor 0, loss thin"));
       if (with_truth) writer.write(truths, ns, ros::pose_bytes({time_us(n), "sensor"}, truth(n)));
       writer.write(tf, ns, ros::tf_bytes(time_us(n), {{"world", "sensor", Pose{Quat::Identity(), Vec3(1, 2, 3)}}}));
-      if (n != lost) writer.write(scans, ns, ros::point_cloud_bytes({time_us(n), "sensor"}, cloud(n)));
+      if (n != lost && n <= last_scan) writer.write(scans, ns, ros::point_cloud_bytes({time_us(n), "sensor"}, cloud(n)));
       if (n % 2 == 1) writer.add_metadata("chunk", {});  // ends the chunks
     }
     if (with_image) attach_image(writer);

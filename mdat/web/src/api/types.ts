@@ -166,7 +166,43 @@ export interface LiveScenario {
   seed: number;
 }
 
-/** The run that the server flies, or the last one; sent anew at each change. */
+/** A command that was given to a component, and what became of it. */
+export interface CommandRecord {
+  number: number;
+  name: string;
+  /** It armed the command of this name. */
+  arm: boolean;
+  values: Record<string, string>;
+  phase: "waiting" | "sent" | "accepted" | "executed" | "failed" | "refused" | "unanswered" | "not_sent";
+  why: string;
+}
+
+/** An item of a command: one number, or as many as `count`. */
+export interface CommandItem {
+  name: string;
+  type: "u8" | "u16" | "u32" | "i64" | "f32" | "f64";
+  count: number;
+  unit: string;
+  minimum: number | null;
+  maximum: number | null;
+  enumeration?: string;
+  meaning: string;
+}
+
+export interface CommandInfo {
+  name: string;
+  meaning: string;
+  /** It has to be armed before. */
+  hazardous: boolean;
+  items: CommandItem[];
+}
+
+export interface CommandList {
+  commands: CommandInfo[];
+  enumerations: Record<string, { value: number; name: string; meaning: string }[]>;
+}
+
+/** The run that the server flies or the component that it is connected to, or the last one; sent anew at each change. */
 export interface LiveState {
   phase: "idle" | "preparing" | "running" | "over" | "failed";
   paused: boolean;
@@ -179,7 +215,15 @@ export interface LiveState {
   scenario: string;
   command: string;
   error: string | null;
-  /** That it will have. */
+  /** Of a component elsewhere; null: a run of the server. */
+  address: string | null;
+  /** Why nothing can come from it now. */
+  trouble: string | null;
+  /** That came and belong to no packet. */
+  other_bytes: number;
+  may_command: boolean;
+  commands: CommandRecord[];
+  /** That a run will have. */
   frames: number;
   boundaries: number;
   /** Of the recording so far. */

@@ -6,6 +6,7 @@ import { useEffect } from "preact/hooks";
 import { mission } from "../design/mission.ts";
 import { IconButton } from "../parts/controls.tsx";
 import { Icon } from "../parts/icon.tsx";
+import { OrdersDialog } from "../views/commands/orders_dialog.tsx";
 import { ValuesDialog } from "../views/plots/values_dialog.tsx";
 import { Start } from "../views/start/start.tsx";
 import { CommandDialog } from "./command_dialog.tsx";
@@ -36,6 +37,7 @@ function Overlay() {
   if (overlay.value === "keys") return <KeysDialog />;
   if (overlay.value === "values" && session.value !== null) return <ValuesDialog />;
   if (overlay.value === "command" && session.value !== null) return <CommandDialog />;
+  if (overlay.value === "orders") return <OrdersDialog />;
   return null;
 }
 

@@ -2,7 +2,7 @@
 import { type Signal, signal } from "@preact/signals";
 import { getJson, postJson } from "../api/client.ts";
 import type { About, LiveState } from "../api/types.ts";
-import { tell } from "../app/notices.ts";
+import { remark, tell } from "../app/notices.ts";
 
 const AGAIN_MS = 1000;
 
@@ -81,9 +81,25 @@ export interface RunOrder {
   pace: number;
 }
 
+export interface CommandOrder {
+  name: string;
+  values: Record<string, string>;
+  arm?: boolean;
+}
+
+/** Of a component nothing is paced from here: it says so in place of acting. */
+function pace(act_: () => Promise<LiveState | null>): Promise<LiveState | null> {
+  if ((live.peek()?.address ?? null) === null) return act_();
+  remark("A component keeps its own pace. The arrow to the left looks back.");
+  return Promise.resolve(null);
+}
+
 export const startRun = (order: RunOrder): Promise<LiveState | null> => act("start", order);
+/** An empty mission: it is not known what flies. */
+export const connectTo = (address: string, mission: string): Promise<LiveState | null> => act("connect", { address, mission });
+export const giveCommand = (order: CommandOrder): Promise<LiveState | null> => act("command", order);
 export const stopRun = (): Promise<LiveState | null> => act("stop");
-export const stepRun = (): Promise<LiveState | null> => act("step");
-export const setPace = (pace: number): Promise<LiveState | null> => act("pace", { pace });
-export const toggleRun = (): Promise<LiveState | null> => act(live.peek()?.paused === true ? "resume" : "pause");
+export const stepRun = (): Promise<LiveState | null> => pace(() => act("step"));
+export const setPace = (next: number): Promise<LiveState | null> => pace(() => act("pace", { pace: next }));
+export const toggleRun = (): Promise<LiveState | null> => pace(() => act(live.peek()?.paused === true ? "resume" : "pause"));
 export const changePace = (steps: 1 | -1): Promise<LiveState | null> => setPace(nextPace(live.peek()?.pace ?? 1, steps));

@@ -18,6 +18,8 @@ export interface FrameColumns {
 
 const COLUMNS = ["time_s", "valid", "wrong", "mode"];
 const FRAMES_KEPT = 300;
+/** The sensor of a recording that was made of telemetry alone. */
+const LINK = "telemetry of a link";
 /** Of COLUMNS: a double and three floats. */
 const FRAME_BYTES = 20;
 
@@ -93,6 +95,11 @@ export class Log {
     return `/api/recordings/${encodeURIComponent(this.info.id)}/${rest}`;
   }
 
+  /** Why a frame may have no scan. */
+  get scanless(): string | undefined {
+    return this.info.sensor === LINK ? "A link carries no scans." : undefined;
+  }
+
   get frames(): number {
     return this.count.value;
   }
@@ -132,8 +139,10 @@ export class Log {
     return getJson<EventPage>(withQuery(this.path("events"), { ...query }), signal);
   }
 
-  get modelPath(): string {
-    return this.path("model.glb");
+  /** Of the target's surface; null: the recording has none. */
+  get modelPath(): string | null {
+    const coming = this.live.peek() && this.info.sensor !== LINK;
+    return coming || this.info.topics.some(({ name }) => name === "/scene") ? this.path("model.glb") : null;
   }
 
   csvPath(values: string[], from_s: number, to_s: number): string {

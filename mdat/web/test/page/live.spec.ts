@@ -16,7 +16,7 @@ test.beforeEach(async ({ page }) => {
 
 /** Starts a run, and waits until its view follows it. At a quarter of real time it flies for 80 s, longer than a busy machine needs to look at it. */
 async function fly(page: Page, scenario = "spin", pace = "0.25"): Promise<void> {
-  await page.getByLabel("Mission").selectOption("hubble_tenth");
+  await page.getByRole("combobox", { name: "Mission" }).selectOption("hubble_tenth");
   await page.getByLabel("Scenario").selectOption(scenario);
   await page.getByLabel("Pace of the run").selectOption(pace);
   await page.getByRole("button", { name: "Fly live" }).click();

@@ -36,28 +36,44 @@ function makeRecordings(folder: string): void {
   writeFileSync(join(folder, "cut.mcap"), whole.subarray(0, Math.floor(0.6 * statSync(join(folder, "spin.mcap")).size)));
 }
 
-/** Starts mdat serve and gives its address, which is the first line that it prints. */
-function serve(folder: string): Promise<{ address: string; process: ChildProcess }> {
-  const child = spawn(MDAT, ["serve", folder, "--port", "0"], { cwd: TOP, stdio: ["ignore", "pipe", "ignore"] });
+export interface Started {
+  process: ChildProcess;
+  /** The first line that it prints. */
+  line: string;
+}
+
+/** Starts mdat, and waits for its first line. */
+export function start(words: string[]): Promise<Started> {
+  const child = spawn(MDAT, words, { cwd: TOP, stdio: ["ignore", "pipe", "ignore"] });
   return new Promise((done, failed) => {
-    child.once("exit", (code) => failed(new Error(`mdat serve ended with ${code}`)));
-    createInterface({ input: child.stdout! }).once("line", (address) => done({ address, process: child }));
+    child.once("exit", (code) => failed(new Error(`mdat ${words[0]} ended with ${code}`)));
+    createInterface({ input: child.stdout! }).once("line", (line) => done({ line, process: child }));
   });
 }
 
+/** A folder below what the tests leave, with nothing in it. */
+export function emptyFolder(name: string): string {
+  const folder = join(OUT, name);
+  rmSync(folder, { recursive: true, force: true });
+  mkdirSync(folder, { recursive: true });
+  return folder;
+}
+
+/** Starts mdat serve: its line is the address. */
+export const serve = (folder: string, more: string[] = []): Promise<Started> => start(["serve", folder, "--port", "0", ...more]);
+
+/** A component behind a link, in real time: its line says where. */
+export const flyLinked = (out: string): Promise<Started> =>
+  start(["run", MISSION, "--scenario", "spin", "--frames", "5000", "--no-report", "--force", "--out", out, "--link", "udp://:0"]);
+
 export default async function setUp(): Promise<() => void> {
   const recordings = join(OUT, "recordings");
-  const empty = join(OUT, "empty");
   makeRecordings(recordings);
-  rmSync(empty, { recursive: true, force: true });
-  mkdirSync(empty, { recursive: true });
-  const live = join(OUT, "live");
-  rmSync(live, { recursive: true, force: true });
-  mkdirSync(live, { recursive: true });
-  const servers = [await serve(recordings), await serve(empty), await serve(live)];
-  process.env.PAGE_ADDRESS = servers[0].address;
-  process.env.PAGE_EMPTY_ADDRESS = servers[1].address;
-  process.env.PAGE_LIVE_ADDRESS = servers[2].address;
+  const live = emptyFolder("live");
+  const servers = [await serve(recordings), await serve(emptyFolder("empty")), await serve(live)];
+  process.env.PAGE_ADDRESS = servers[0].line;
+  process.env.PAGE_EMPTY_ADDRESS = servers[1].line;
+  process.env.PAGE_LIVE_ADDRESS = servers[2].line;
   process.env.PAGE_LIVE_FOLDER = live;
   process.env.PAGE_LIVE_PID = String(servers[2].process.pid);
   return () => {

@@ -4,7 +4,7 @@ import type { LiveMission, LiveScenario } from "../../api/types.ts";
 const MOST_SEED = 4294967295;
 
 /** A word of a shell: quoted where it has other signs than these. */
-function shellWord(text: string): string {
+export function shellWord(text: string): string {
   return /^[\w@%+=:,./-]+$/.test(text) ? text : `'${text.replace(/'/g, "'\\''")}'`;
 }
 
@@ -40,4 +40,18 @@ export function firstMission(missions: LiveMission[]): string {
 export function firstScenario(scenarios: LiveScenario[]): string {
   const watched = scenarios.filter((scenario) => scenario.runs === 1);
   return watched.find((scenario) => scenario.name === "spin")?.name ?? watched[0]?.name ?? "";
+}
+
+/** True of what the server connects to: networks and serial devices. */
+export function isAddress(text: string): boolean {
+  return /^(udp|tcp):\/\/[\d.]*:\d{1,5}$|^serial:\/dev\/\S+$/.test(text);
+}
+
+/** The same from the command line. */
+export function monitorCommandOf(address: string, mission: LiveMission | undefined): string {
+  const words = ["mdat", "monitor", address];
+  if (mission !== undefined) words.push("--mission", mission.file);
+  const stem = mission === undefined ? "component" : mission.id.replace(/^.*\//, "").replace(/\.toml$/, "");
+  words.push("--record", `${stem}-link.mcap`, "--live");
+  return words.map(shellWord).join(" ");
 }

@@ -5,10 +5,11 @@ import { getJson, withQuery } from "../../api/client.ts";
 import type { LiveMission, LiveScenario, LiveState } from "../../api/types.ts";
 import { tell } from "../../app/notices.ts";
 import { routeTo } from "../../app/route.ts";
-import { isUnderWay, live, startRun, stopRun } from "../../live/feed.ts";
+import { connectTo, isUnderWay, live, startRun, stopRun } from "../../live/feed.ts";
 import { CommandText, Empty } from "../../parts/controls.tsx";
 import { Icon } from "../../parts/icon.tsx";
 import { commandOf, firstMission, firstScenario, seedOf } from "./choice.ts";
+import { Connect } from "./connect.tsx";
 import { PaceChoice } from "./live_bar.tsx";
 
 /** The recording that this page has asked for: it is opened once it has a frame. */
@@ -20,8 +21,8 @@ function openWanted(state: LiveState): void {
   location.hash = routeTo(state.id);
 }
 
-async function begin(mission: string, scenario: string, seed: number | null, pace: number): Promise<void> {
-  const begun = await startRun({ mission, scenario, seed, pace });
+async function begin(asked: Promise<LiveState | null>): Promise<void> {
+  const begun = await asked;
   if (begun === null) return;
   wanted.id = begun.id;
   const state = live.peek();
@@ -59,7 +60,7 @@ function Form({ missions }: { missions: LiveMission[] }) {
   const ready = scenario !== "" && seed !== undefined;
   const submit = (event: Event) => {
     event.preventDefault();
-    if (ready) begin(mission.value, scenario, seed ?? null, pace.value);
+    if (ready) begin(startRun({ mission: mission.value, scenario, seed: seed ?? null, pace: pace.value }));
   };
   return (
     <form class="fly" aria-label="Fly live" onSubmit={submit}>
@@ -137,25 +138,32 @@ function Form({ missions }: { missions: LiveMission[] }) {
   );
 }
 
+/** What it is, and how far. */
+function progressText(state: LiveState): string {
+  if (state.address === null)
+    return state.phase === "preparing"
+      ? "is being prepared: its model is compiled …"
+      : `flies: frame ${state.boundaries} of ${state.frames}.`;
+  if (state.phase === "preparing") return "is being connected …";
+  if (state.trouble) return `is lost: ${state.trouble}. It is tried again every second.`;
+  if (state.packets === 0) return "is connected, and nothing has come yet: see whether the component runs, and sends to this machine.";
+  return `is connected: ${state.boundaries} frames so far.`;
+}
+
 function UnderWay({ state }: { state: LiveState }) {
   return (
     <div class="fly" role="status">
       <p>
-        <strong>
-          {state.mission}, {state.scenario}
-        </strong>{" "}
-        {state.phase === "preparing"
-          ? "is being prepared: its model is compiled …"
-          : `flies: frame ${state.boundaries} of ${state.frames}.`}
+        <strong>{state.address ?? `${state.mission}, ${state.scenario}`}</strong> {progressText(state)}
       </p>
       <div class="fly-fields">
-        {state.phase === "running" ? (
+        {state.phase === "running" && state.bytes > 0 ? (
           <a class="text-button" href={routeTo(state.id)}>
             <Icon name="play" /> Watch
           </a>
         ) : null}
         <button type="button" class="text-button" onClick={stopRun}>
-          <Icon name="stop" /> Stop
+          <Icon name="stop" /> {state.address === null ? "Stop" : "Disconnect"}
         </button>
       </div>
       <CommandText text={state.command} label="command of the live run" />
@@ -180,17 +188,27 @@ export function Fly() {
       <h2>Live</h2>
       {state.phase === "failed" ? (
         <p class="bad" role="alert">
-          <Icon name="error" /> The run of {state.mission}, {state.scenario}, failed: {state.error}
+          <Icon name="error" />{" "}
+          {state.address === null
+            ? `The run of ${state.mission}, ${state.scenario}, failed: ${state.error}`
+            : `No connection: ${state.error}`}
         </p>
       ) : null}
       {isUnderWay(state) ? (
         <UnderWay state={state} />
       ) : missions.value === null ? (
         <p class="hint">Looking for missions …</p>
-      ) : missions.value.length === 0 ? (
-        <Empty title="There is no mission here.">Make one with mdat mission new in the folder that mdat serve was given, and reload.</Empty>
       ) : (
-        <Form missions={missions.value} />
+        <>
+          {missions.value.length === 0 ? (
+            <Empty title="There is no mission here.">
+              Make one with mdat mission new in the folder that mdat serve was given, and reload.
+            </Empty>
+          ) : (
+            <Form missions={missions.value} />
+          )}
+          <Connect missions={missions.value} onConnect={(address, mission) => begin(connectTo(address, mission))} />
+        </>
       )}
     </section>
   );

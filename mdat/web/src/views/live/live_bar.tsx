@@ -2,11 +2,13 @@
 import { useSignal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 import type { LiveState } from "../../api/types.ts";
+import { openOverlay } from "../../app/overlay.ts";
+import { routeTo } from "../../app/route.ts";
 import type { Session } from "../../app/session.ts";
 import { age_s, connected, live, nextPace, PACES, paceText, setPace, stepRun, stopRun, toggleRun } from "../../live/feed.ts";
 import { IconButton } from "../../parts/controls.tsx";
 import { Icon } from "../../parts/icon.tsx";
-import { ageText, isStale, packetsText } from "./health.ts";
+import { ageText, isStale, packetsText, staleText } from "./health.ts";
 
 const LOOK_MS = 500;
 
@@ -60,16 +62,34 @@ function Controls({ state }: { state: LiveState }) {
   );
 }
 
-function Stale({ age }: { age: number | null }) {
+/** A component elsewhere keeps its own pace: it is commanded, and let go. */
+function LinkControls({ state }: { state: LiveState }) {
+  return (
+    <div class="live-controls" role="group" aria-label="The component">
+      <span class="live-address">{state.address}</span>
+      <button type="button" class="text-button" onClick={() => openOverlay("orders")}>
+        <Icon name="command" /> Commands
+      </button>
+      <button
+        type="button"
+        class="text-button"
+        title="End the connection; what was recorded stays, and the component goes on"
+        onClick={stopRun}
+      >
+        <Icon name="stop" /> Disconnect
+      </button>
+    </div>
+  );
+}
+
+function Stale({ state, age }: { state: LiveState; age: number | null }) {
   const lost = !connected.value;
   return (
     <div class="banner banner-stale" role="alert">
       <Icon name="warning" />
       <span>
         <strong>The data are stale.</strong>{" "}
-        {lost
-          ? "The server does not answer: see whether mdat serve still runs. It is asked again every second."
-          : `No packet has come for ${Math.floor(age ?? 0)} s. The machine may be busy: a slower pace helps, or stop the run.`}
+        {lost ? "The server does not answer: see whether mdat serve still runs. It is asked again every second." : staleText(state, age)}
       </span>
     </div>
   );
@@ -83,10 +103,8 @@ function Running({ session, state }: { session: Session; state: LiveState }) {
     <>
       <section class="live-bar" aria-label="Live">
         <span class={`live-mark${state.paused ? " paused" : ""}`}>{state.paused ? "Paused" : "Live"}</span>
-        <Controls state={state} />
-        <span class="live-count">
-          {log.frames} of {state.frames} frames
-        </span>
+        {state.address === null ? <Controls state={state} /> : <LinkControls state={state} />}
+        <span class="live-count">{state.address === null ? `${log.frames} of ${state.frames} frames` : `${log.frames} frames`}</span>
         <span class="live-health" title="Packets of telemetry, gaps in their counts, and the newest one's age">
           {packetsText(state)}, {ageText(age)}
         </span>
@@ -103,8 +121,26 @@ function Running({ session, state }: { session: Session; state: LiveState }) {
           </button>
         )}
       </section>
-      {!connected.value || isStale(state, age) ? <Stale age={age} /> : null}
+      {!connected.value || isStale(state, age) ? <Stale state={state} age={age} /> : null}
     </>
+  );
+}
+
+function endText(state: LiveState, failed: boolean): string {
+  if (state.address !== null) return failed ? "The connection failed." : "The connection has ended.";
+  return failed ? "The run failed." : "The run is over.";
+}
+
+/** A component that was reset: its clock began anew, and so did its recording. */
+function Anew({ state }: { state: LiveState }) {
+  return (
+    <div class="banner" role="alert">
+      <Icon name="warning" />
+      <span>
+        <strong>The component's clock began anew.</strong> Its telemetry goes on in a further recording:{" "}
+        <a href={routeTo(state.id)}>{state.name}</a>.
+      </span>
+    </div>
   );
 }
 
@@ -115,8 +151,7 @@ function Ended({ state, onClose }: { state: LiveState; onClose: () => void }) {
     <div class={`banner${failed ? "" : " banner-over"}`} role="status">
       <Icon name={failed ? "error" : "check"} />
       <span>
-        <strong>{failed ? "The run failed." : "The run is over."}</strong> {failed ? `${state.error ?? ""}. ` : ""}Its recording is{" "}
-        {state.name}, and is in the list.
+        <strong>{endText(state, failed)}</strong> {failed ? `${state.error ?? ""}. ` : ""}Its recording is {state.name}, and is in the list.
       </span>
       <IconButton icon="close" label="Close the message about the run" onClick={onClose} />
     </div>
@@ -127,7 +162,8 @@ export function LiveBar({ session }: { session: Session }) {
   const watched = useSignal(session.log.live.peek());
   const state = live.value;
   if (session.log.live.value) watched.value = true;
-  if (state === null || state.id !== session.log.info.id) return null;
+  if (state === null) return null;
+  if (state.id !== session.log.info.id) return session.log.live.value && state.phase === "running" ? <Anew state={state} /> : null;
   if (session.log.live.value) return <Running session={session} state={state} />;
   const close = () => {
     watched.value = false;

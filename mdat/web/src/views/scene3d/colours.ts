@@ -11,6 +11,8 @@ export interface LegendContent {
   low: number;
   high: number;
   classes: { label: string; index: number; count: number }[];
+  /** Why there is nothing to colour; empty: there is. */
+  lack: string;
   /** Further lines: magnification of the ellipsoid, weak directions. */
   notes: string[];
 }
@@ -64,7 +66,7 @@ function paintNumbers(scan: Scan, reading: Reading): Painted {
   for (let i = 0; i < scan.count; ++i)
     colours.set(Number.isFinite(column[i]) ? rampColour(reading.ramp, (column[i] - low) / (high - low)) : UNKNOWN, 3 * i);
   const { title, unit, factor, ramp } = reading;
-  return { colours, legend: { title, unit, ramp, low: low * factor, high: high * factor, classes: [], notes: [] } };
+  return { colours, legend: { title, unit, ramp, low: low * factor, high: high * factor, classes: [], lack: "", notes: [] } };
 }
 
 function paintClasses(scan: Scan, column: Float32Array, title: string, names: string[]): Painted {
@@ -81,10 +83,18 @@ function paintClasses(scan: Scan, column: Float32Array, title: string, names: st
     index,
     count: counts.get(index) ?? 0,
   }));
-  return { colours, legend: { title, unit: "", ramp: null, low: 0, high: 0, classes, notes: [] } };
+  const lack = classes.length === 0 ? "No point belongs to a class." : "";
+  return { colours, legend: { title, unit: "", ramp: null, low: 0, high: 0, classes, lack, notes: [] } };
 }
 
-export function paint(scan: Scan, colour: ColourName, parts: string[]): Painted {
+function paintNothing(lack: string): Painted {
+  const legend = { title: "No points", unit: "", ramp: null, low: 0, high: 0, classes: [], lack, notes: [] };
+  return { colours: new Float32Array(0), legend };
+}
+
+/** A scan's points; `lack` says why there may be none. */
+export function paint(scan: Scan, colour: ColourName, parts: string[], lack = "This frame has no scan."): Painted {
+  if (scan.count === 0) return paintNothing(lack);
   if (colour === "state") return paintClasses(scan, scan.columns.state, "State", STATES);
   if (colour === "part") return paintClasses(scan, scan.columns.part, "Part", parts);
   return paintNumbers(scan, READINGS[colour]);

@@ -4,7 +4,7 @@ import { shortNumber } from "../../maths/scales.ts";
 import type { LegendContent } from "./colours.ts";
 
 export function Legend({ content }: { content: LegendContent }) {
-  const { title, unit, ramp, low, high, classes, notes } = content;
+  const { title, unit, ramp, low, high, classes, lack, notes } = content;
   return (
     <div class="scene-legend" role="group" aria-label={`Colours: ${title}`}>
       <strong>
@@ -21,7 +21,7 @@ export function Legend({ content }: { content: LegendContent }) {
           </div>
         </>
       )}
-      {ramp === null && classes.length === 0 ? <span>No point belongs to a class.</span> : null}
+      {lack === "" ? null : <span>{lack}</span>}
       {classes.length === 0 ? null : (
         <ul>
           {classes.map((each) => (

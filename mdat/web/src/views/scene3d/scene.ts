@@ -77,7 +77,7 @@ class SceneRunner {
 
   private follow(): void {
     const { selection, scene, log } = this.session;
-    this.target.load(log.modelPath).then((size_m) => this.loaded(size_m), tell);
+    if (log.modelPath !== null) this.target.load(log.modelPath).then((size_m) => this.loaded(size_m), tell);
     this.ends.push(
       effect(() => this.applyTheme(theme.value)),
       effect(() => this.load(selection.frame.value, selection.iteration.value)),
@@ -139,7 +139,7 @@ class SceneRunner {
     const layers = scene.layers.peek();
     const place = frame.poses.estimate ?? frame.poses.filtered ?? frame.poses.truth ?? this.placeOfPoints(scan);
     const distance_m = place === null ? 0 : norm(place.position_m);
-    const painted = paint(scan, scene.colour.peek(), log.info.parts ?? []);
+    const painted = paint(scan, scene.colour.peek(), log.info.parts ?? [], log.scanless);
     this.cloud.show(scan, painted.colours, scene.colour.peek() === "state");
     this.cloud.points.visible = layers.points;
     this.lines.showScan(scan, distance_m);
