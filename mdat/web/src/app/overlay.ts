@@ -1,7 +1,7 @@
 // The one dialog that may lie over the page.
 import { signal } from "@preact/signals";
 
-export type OverlayName = "keys" | "values" | "command";
+export type OverlayName = "keys" | "values" | "command" | "mesh";
 
 export const overlay = signal<OverlayName | null>(null);
 

@@ -1,4 +1,4 @@
-// Before all tests: flies three short runs, records them, and starts mdat serve on them and on two empty folders. Ends all after the tests.
+// Before all tests: flies three short runs, records them, and starts mdat serve on them and on three empty folders. Ends all after the tests.
 import { type ChildProcess, execFileSync, spawn } from "node:child_process";
 import { copyFileSync, mkdirSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
 import { join, resolve } from "node:path";
@@ -54,11 +54,16 @@ export default async function setUp(): Promise<() => void> {
   const live = join(OUT, "live");
   rmSync(live, { recursive: true, force: true });
   mkdirSync(live, { recursive: true });
-  const servers = [await serve(recordings), await serve(empty), await serve(live)];
+  const meshes = join(OUT, "meshes");
+  rmSync(meshes, { recursive: true, force: true });
+  mkdirSync(meshes, { recursive: true });
+  const servers = [await serve(recordings), await serve(empty), await serve(live), await serve(meshes)];
   process.env.PAGE_ADDRESS = servers[0].address;
   process.env.PAGE_EMPTY_ADDRESS = servers[1].address;
   process.env.PAGE_LIVE_ADDRESS = servers[2].address;
   process.env.PAGE_LIVE_FOLDER = live;
+  process.env.PAGE_MESH_ADDRESS = servers[3].address;
+  process.env.PAGE_MESH_FOLDER = meshes;
   process.env.PAGE_LIVE_PID = String(servers[2].process.pid);
   return () => {
     for (const server of servers) server.process.kill("SIGINT");

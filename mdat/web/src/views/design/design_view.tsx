@@ -7,7 +7,9 @@ import { mission as current, type Mission } from "../../design/mission.ts";
 import { fieldsOf, fittingFields, type Section } from "../../design/schema.ts";
 import { CommandText, Empty, IconButton, Panel } from "../../parts/controls.tsx";
 import { Icon } from "../../parts/icon.tsx";
+import { shellWord } from "../../parts/shell_word.ts";
 import { setFirstMission } from "../live/choice.ts";
+import { Begun } from "./begun.tsx";
 import { FieldRow } from "./field.tsx";
 import { SaveDialog } from "./save_dialog.tsx";
 import { TextPane } from "./text_pane.tsx";
@@ -110,10 +112,6 @@ function Problems({ mission }: { mission: Mission }) {
       </ul>
     </div>
   );
-}
-
-function shellWord(text: string): string {
-  return /^[\w@%+=:,./-]+$/.test(text) ? text : `'${text.replace(/'/g, "'\\''")}'`;
 }
 
 function commandOf(mission: Mission): string {
@@ -235,6 +233,7 @@ export function DesignView() {
     <div class="workspace design" data-view="design">
       <Head mission={mission} onSave={save} />
       {mission.shipped ? <CopyForm mission={mission} /> : null}
+      <Begun mission={mission} />
       <Problems mission={mission} />
       <main class="design-views">
         <Sections mission={mission} />
