@@ -10,6 +10,7 @@
 #include "mdat/missiondb/value_row.hpp"
 #include "mdat/serve/http.hpp"
 #include "mdat/serve/new_folder.hpp"
+#include "mdat/serve/problem_words.hpp"
 #include "mdat/source/mission_error.hpp"
 
 namespace lasso::mdat::serve {
@@ -29,13 +30,9 @@ std::string kept_name(const std::string& file) {
   return stem + (ending == ".toml" ? "_model" : "") + ending;
 }
 
-// As mission new says it, with the file's own name instead of where it was kept.
 std::string mesh_words(const MissionError& error) {
   std::string words;
-  for (Problem problem : error.problems()) {
-    problem.file = fs::path(problem.file).filename().string();
-    words += (words.empty() ? "" : "; ") + to_string(problem);
-  }
+  for (const Problem& problem : error.problems()) words += (words.empty() ? "" : "; ") + problem_words(problem);
   return words;
 }
 

@@ -9,6 +9,7 @@
 #include "mdat/serve/begun_mission.hpp"
 #include "mdat/serve/json_body.hpp"
 #include "mdat/serve/mission_view.hpp"
+#include "mdat/serve/preview_answer.hpp"
 
 namespace lasso::mdat::serve {
 namespace {
@@ -64,12 +65,21 @@ Response begun(const Design& design, const Request& request, const Target& targe
   return json_response(design_json({{"id", mission.id}, {"remarks", mission.remarks}, {"command", mission.command}}));
 }
 
+std::size_t body_count(const DesignJson& body, const char* name) {
+  const auto found = body.find(name);
+  return found != body.end() && found->is_number_unsigned() ? found->get<std::size_t>() : 0;
+}
+
 struct DesignAct {
   const char* name;
   DesignJson (*act)(Design& design, const LiveMission& mission, const DesignJson& body);
 };
 constexpr DesignAct kDesignActs[] = {
     {"look", [](Design&, const LiveMission& mission, const DesignJson& body) { return view_json(mission, body_text(body, "text")); }},
+    {"preview",
+     [](Design&, const LiveMission& mission, const DesignJson& body) {
+       return DesignJson::parse(preview_json(mission, body_text(body, "text"), body_text(body, "scenario"), body_count(body, "run")));
+     }},
     {"set",
      [](Design&, const LiveMission& mission, const DesignJson& body) {
        const std::string text = Design::set(mission, body_text(body, "text"), words_of(body, "set"));
@@ -93,6 +103,8 @@ Response design_answer(Design& design, const Request& request, const Target& tar
   const bool acts = request.method == Method::kPost;
   if (!acts && target.parts.size() == 2) return opened(design, design.mission(text_in(target, "id")));
   if (acts && target.parts.size() == 3 && target.parts[2] == "new") return begun(design, request, target);
+  if (acts && target.parts.size() == 3 && target.parts[2] == "surface")
+    return mission_surface(design.mission(text_in(target, "id")), body_text(json_body(request), "text"));
   for (const DesignAct& row : kDesignActs) {
     if (!acts || target.parts.size() != 3 || target.parts[2] != row.name) continue;
     const DesignJson body = json_body(request);

@@ -2,6 +2,7 @@
 import { useSignal } from "@preact/signals";
 import { useEffect, useLayoutEffect } from "preact/hooks";
 import { CommonTools } from "../../app/common_tools.tsx";
+import { remembered } from "../../app/remembered.ts";
 import { routeTo, routeToMission } from "../../app/route.ts";
 import { mission as current, type Mission } from "../../design/mission.ts";
 import { fieldsOf, fittingFields, type Section } from "../../design/schema.ts";
@@ -11,8 +12,12 @@ import { shellWord } from "../../parts/shell_word.ts";
 import { setFirstMission } from "../live/choice.ts";
 import { Begun } from "./begun.tsx";
 import { FieldRow } from "./field.tsx";
+import { PreviewPane } from "./preview_pane.tsx";
 import { SaveDialog } from "./save_dialog.tsx";
 import { TextPane } from "./text_pane.tsx";
+
+/** Whether the preview is shown. */
+const previewed = remembered("design-preview", true);
 
 function hasProblem(mission: Mission, section: Section): boolean {
   return mission.problems.value.some(({ key }) => key === section.path || key.startsWith(`${section.path}.`));
@@ -167,6 +172,17 @@ function Head({ mission, onSave }: { mission: Mission; onSave: () => void }) {
           disabled={canRedo.value === null}
           onClick={() => mission.undo(true)}
         />
+        <button
+          type="button"
+          class="text-button"
+          title="Target and scan of the text, in 3D"
+          aria-pressed={previewed.value}
+          onClick={() => {
+            previewed.value = !previewed.value;
+          }}
+        >
+          <Icon name="layers" /> Preview
+        </button>
         <button type="button" class="text-button" title="Save (Ctrl S)" disabled={!savable} onClick={onSave}>
           <Icon name="download" /> Save …
         </button>
@@ -238,7 +254,10 @@ export function DesignView() {
       <main class="design-views">
         <Sections mission={mission} />
         <Form mission={mission} />
-        <TextPane mission={mission} />
+        <div class={`design-side${previewed.value ? " previewed" : ""}`}>
+          {previewed.value ? <PreviewPane mission={mission} /> : null}
+          <TextPane mission={mission} />
+        </div>
       </main>
       <footer class="design-foot">
         <CommandText text={commandOf(mission)} label="command of these changes" />
