@@ -6,6 +6,7 @@
 
 #include "mdat/serve/flown_image.hpp"
 #include "mdat/serve/http.hpp"
+#include "mdat/serve/messages.hpp"
 #include "mdat/serve/recording.hpp"
 #include "mdat/serve/target.hpp"
 
@@ -29,6 +30,8 @@ Response series_answer(const Shown& shown, const Target& target);
 Response statistics_answer(const Shown& shown, const Target& target);
 Response events_answer(const Shown& shown, const Target& target);
 Response model_answer(const Shown& shown);
+// A surface with triangles, as binary glTF in its own frame.
+Response surface_answer(const SurfaceTriangles& surface);
 Response csv_answer(const Shown& shown, const Target& target);
 
 // The value that the address names. Throws Refusal: 400 none is named, 404 there is no such.

@@ -42,6 +42,8 @@ class Application {
   virtual ~Application() = default;
   // Throws nothing.
   virtual Response answer(const Request& request) = 0;
+  // Bytes that this request's body may have, at most kMaxMeshBytes; asked before the body is read. Throws nothing.
+  virtual std::size_t body_limit(const Request& /*head*/) { return kMaxBodyBytes; }
   // A request for a WebSocket: the same checks, then who talks. Throws nothing.
   virtual SocketOpening open(const Request& request) = 0;
 };

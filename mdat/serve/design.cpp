@@ -9,6 +9,7 @@
 #include "mdat/missiondb/mission_files.hpp"
 #include "mdat/missiondb/mission_source.hpp"
 #include "mdat/serve/http.hpp"
+#include "mdat/serve/new_folder.hpp"
 #include "mdat/source/mission_error.hpp"
 #include "mdat/source/sha256.hpp"
 
@@ -57,12 +58,6 @@ void copy_files(const std::vector<fs::path>& files, const fs::path& from, const 
   }
 }
 
-bool is_plain(const std::string& name) {
-  constexpr char kSigns[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-";
-  constexpr std::size_t kLongest = 64;
-  return !name.empty() && name.size() <= kLongest && name.find_first_not_of(kSigns) == std::string::npos;
-}
-
 }  // namespace
 
 MissionText Design::open(const LiveMission& mission) const {
@@ -99,10 +94,8 @@ std::string Design::save(const LiveMission& mission, const std::string& text, co
 }
 
 std::string Design::copy(const LiveMission& mission, const std::string& name) {
-  if (!is_plain(name)) throw Refusal{400, "this is no name for a folder", "take up to 64 letters, digits, - and _"};
-  if (!folder_.takes_files()) throw Refusal{409, "mdat serve shows one recording alone", "start it with a folder: mdat serve FOLDER"};
+  const fs::path to = new_folder_path(folder_, name);
   const std::lock_guard lock(writing_);
-  const fs::path to = folder_.path() / name;
   if (fs::exists(fs::symlink_status(to))) throw Refusal{409, name + " is there already", "take another name"};
   const std::vector<fs::path> files = files_of_mission(mission);
   const fs::path from = folder_of_all(files);

@@ -32,6 +32,7 @@ class Design {
   std::string copy(const LiveMission& mission, const std::string& name);
 
   LiveMission mission(const std::string& id) const { return live_.mission(id); }
+  const Folder& folder() const { return folder_; }
 
  private:
   const Folder& folder_;

@@ -1,9 +1,15 @@
 #include "mdat/serve/design_answers.hpp"
 
+#include <algorithm>
+#include <iterator>
 #include <nlohmann/json.hpp>
+#include <optional>
 
+#include "mdat/missiondb/new_mission.hpp"
+#include "mdat/serve/begun_mission.hpp"
 #include "mdat/serve/json_body.hpp"
 #include "mdat/serve/mission_view.hpp"
+#include "mdat/serve/preview_answer.hpp"
 
 namespace lasso::mdat::serve {
 namespace {
@@ -33,12 +39,47 @@ Response opened(const Design& design, const LiveMission& mission) {
   return json_response(design_json(json));
 }
 
+std::optional<SensorKind> sensor_in(const Target& target) {
+  const std::string name = text_in(target, "sensor");
+  if (name.empty()) return std::nullopt;
+  const auto found = std::find(std::begin(kSensorKindNames), std::end(kSensorKindNames), name);
+  if (found == std::end(kSensorKindNames)) throw Refusal{400, "sensor: there is no such kind", "see docs/serve.md"};
+  return static_cast<SensorKind>(found - std::begin(kSensorKindNames));
+}
+
+// The bounds of mdat mission new.
+std::size_t simplify_in(const Target& target) {
+  constexpr std::size_t kFewest = 4, kMost = 500000;
+  if (text_in(target, "simplify") == "chosen") return kSimplifyChosen;
+  const std::size_t triangles = count_in(target, "simplify", 0, kMost);
+  if (triangles > 0 && triangles < kFewest) throw Refusal{400, "simplify: expected 4 to 500000 triangles", "correct it"};
+  return triangles;
+}
+
+Response begun(const Design& design, const Request& request, const Target& target) {
+  if (request.header("content-type") != "application/octet-stream")
+    throw Refusal{415, "the body has another type", "send the file's bytes, as Content-Type: application/octet-stream"};
+  const MeshOrder order{text_in(target, "name"), text_in(target, "file"),         request.body,
+                        sensor_in(target),       number_in(target, "scale", 1.0), simplify_in(target)};
+  const BegunMission mission = begin_mission(design.folder(), order);
+  return json_response(design_json({{"id", mission.id}, {"remarks", mission.remarks}, {"command", mission.command}}));
+}
+
+std::size_t body_count(const DesignJson& body, const char* name) {
+  const auto found = body.find(name);
+  return found != body.end() && found->is_number_unsigned() ? found->get<std::size_t>() : 0;
+}
+
 struct DesignAct {
   const char* name;
   DesignJson (*act)(Design& design, const LiveMission& mission, const DesignJson& body);
 };
 constexpr DesignAct kDesignActs[] = {
     {"look", [](Design&, const LiveMission& mission, const DesignJson& body) { return view_json(mission, body_text(body, "text")); }},
+    {"preview",
+     [](Design&, const LiveMission& mission, const DesignJson& body) {
+       return DesignJson::parse(preview_json(mission, body_text(body, "text"), body_text(body, "scenario"), body_count(body, "run")));
+     }},
     {"set",
      [](Design&, const LiveMission& mission, const DesignJson& body) {
        const std::string text = Design::set(mission, body_text(body, "text"), words_of(body, "set"));
@@ -61,6 +102,9 @@ constexpr DesignAct kDesignActs[] = {
 Response design_answer(Design& design, const Request& request, const Target& target) {
   const bool acts = request.method == Method::kPost;
   if (!acts && target.parts.size() == 2) return opened(design, design.mission(text_in(target, "id")));
+  if (acts && target.parts.size() == 3 && target.parts[2] == "new") return begun(design, request, target);
+  if (acts && target.parts.size() == 3 && target.parts[2] == "surface")
+    return mission_surface(design.mission(text_in(target, "id")), body_text(json_body(request), "text"));
   for (const DesignAct& row : kDesignActs) {
     if (!acts || target.parts.size() != 3 || target.parts[2] != row.name) continue;
     const DesignJson body = json_body(request);

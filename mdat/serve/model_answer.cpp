@@ -87,7 +87,11 @@ Response model_answer(const Shown& shown) {
   const std::optional<SurfaceTriangles> surface = read_surface(shown.recording->first_message("/scene"));
   if (!surface || surface->indices.empty())
     throw Refusal{404, "this recording holds no surface of the target", "record it with mdat run --record"};
-  const Corners corners = corners_of(*surface);
+  return surface_answer(*surface);
+}
+
+Response surface_answer(const SurfaceTriangles& surface) {
+  const Corners corners = corners_of(surface);
   std::string binary, chunks, bytes;
   put_all(corners.points, binary);
   put_all(corners.normals, binary);

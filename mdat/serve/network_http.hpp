@@ -27,7 +27,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   void read(std::chrono::milliseconds time) {
     parser_ = std::make_unique<Parser>();
     parser_->header_limit(kMaxHeaderBytes);
-    parser_->body_limit(kMaxBodyBytes);
+    parser_->body_limit(kMaxMeshBytes);
     stream_.expires_after(time);
     http::async_read_header(stream_, buffer_, *parser_, [self = shared_from_this()](beast::error_code error, std::size_t) {
       if (error) return self->fail(error);
@@ -41,12 +41,18 @@ class Connection : public std::enable_shared_from_this<Connection> {
       return send(error_response(501, "Transfer-Encoding is not taken", "send the body with its Content-Length"), false);
     if (header.count(http::field::expect) > 0) return send(error_response(417, "Expect is not taken", "leave it out"), false);
     if (websocket::is_upgrade(parser_->get())) return open_socket();
-    stream_.expires_after(shared_.options.header_time);
+    const std::uint64_t size = parser_->content_length().value_or(0);
+    const std::size_t limit = size > kMaxBodyBytes ? shared_.application.body_limit(request_of(header, "")) : kMaxBodyBytes;
+    if (size > limit) return send(too_large_response(limit), false);
+    stream_.expires_after(shared_.options.header_time + time_for(size));
     http::async_read(stream_, buffer_, *parser_, [self = shared_from_this()](beast::error_code error, std::size_t) {
       if (error) return self->fail(error);
       self->answer();
     });
   }
+
+  // What a large body may take longer: a second a megabyte.
+  static std::chrono::milliseconds time_for(std::uint64_t bytes) { return std::chrono::milliseconds(1000 * (bytes >> 20)); }
 
   void answer() {
     head_ = parser_->get().method() == http::verb::head;
@@ -89,7 +95,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   // What a client sent that is no request is told so, where it still listens.
   void fail(beast::error_code error) {
     if (error == http::error::header_limit) return send(error_response(431, "the headers are too large", "send less than 8 kB"), false);
-    if (error == http::error::body_limit) return send(error_response(413, "the body is too large", "send less than 64 kB"), false);
+    if (error == http::error::body_limit) return send(too_large_response(kMaxMeshBytes), false);
     const bool spoke = error.category() == http::make_error_code(http::error::bad_method).category();
     if (spoke && error != http::error::end_of_stream && error != http::error::partial_message)
       return send(error_response(400, "this is no HTTP request: " + error.message(), "send HTTP/1.1"), false);

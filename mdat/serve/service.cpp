@@ -65,6 +65,11 @@ Response Service::answer(const Request& request) {
   }
 }
 
+std::size_t Service::body_limit(const Request& head) {
+  const bool known = design_ && !gate_.refuse(head) && gate_.knows(head);
+  return known ? body_limit_of(head) : kMaxBodyBytes;
+}
+
 SocketOpening Service::open(const Request& request) {
   SocketOpening opening;
   Request checked = request;

@@ -30,6 +30,8 @@ class Service final : public Application {
   }
 
   Response answer(const Request& request) override;
+  // A large body is taken from those alone who may ask.
+  std::size_t body_limit(const Request& head) override;
   // That of /api/live/socket alone.
   SocketOpening open(const Request& request) override;
 

@@ -45,6 +45,7 @@ class Echo final : public Application {
     if (request.target == "/slow") wait();
     return {200, "text/plain", request.target + " " + request.body, {{"X-Test", "one"}}};
   }
+  std::size_t body_limit(const Request& head) override { return head.target == "/mesh" ? kMaxMeshBytes : kMaxBodyBytes; }
   SocketOpening open(const Request& request) override {
     SocketOpening opening;
     opening.subprotocol = std::string(request.header("sec-websocket-protocol"));
@@ -179,6 +180,22 @@ TEST(Network, WhatIsNoRequestIsRefusedAndTheSocketClosed) {
     EXPECT_EQ(status_of(client, request).substr(0, status.size()), status) << request.substr(0, 60);
     (void)client.read_to_end();
     EXPECT_TRUE(client.ended()) << request.substr(0, 60);
+  }
+}
+
+TEST(Network, ALargeBodyIsTakenWhereTheApplicationSaysSo) {
+  VERIFIES("LASSO-WEB-032~1");
+  const Running running;
+  const std::string body(std::size_t{3} << 20, 'm');
+  Client client(running.port());
+  client.send("POST /mesh HTTP/1.1\r\nHost: x\r\nConnection: close\r\nContent-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body);
+  const std::string answer = client.read_to_end();
+  EXPECT_EQ(answer.substr(answer.size() - body.size()), body);
+  for (const bool mesh : {true, false}) {
+    const std::string target = mesh ? "/mesh" : "/other";
+    Client refused(running.port());
+    const std::size_t size = mesh ? kMaxMeshBytes + 1 : body.size();
+    EXPECT_EQ(status_of(refused, "POST " + target + " HTTP/1.1\r\nContent-Length: " + std::to_string(size) + "\r\n\r\n"), "HTTP/1.1 413");
   }
 }
 

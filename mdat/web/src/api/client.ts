@@ -62,6 +62,17 @@ export async function postJson<T>(path: string, body?: object): Promise<T> {
   return (await (await ask(path, { method: "POST", ...sent })).json()) as T;
 }
 
+/** With a body of JSON; the answer is binary. */
+export async function postBinary(path: string, body: object): Promise<ArrayBuffer> {
+  return (await ask(path, { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify(body) })).arrayBuffer();
+}
+
+/** A file's bytes, as they are. */
+export async function postBytes<T>(path: string, bytes: Blob): Promise<T> {
+  const headers = { "Content-Type": "application/octet-stream" };
+  return (await (await ask(path, { method: "POST", headers, body: bytes })).json()) as T;
+}
+
 /** A path with the arguments that are not empty. */
 export function withQuery(path: string, query: Record<string, string | number | undefined>): string {
   const search = new URLSearchParams();

@@ -8,6 +8,8 @@ import { IconButton } from "../parts/controls.tsx";
 import { Icon } from "../parts/icon.tsx";
 import { OrdersDialog } from "../views/commands/orders_dialog.tsx";
 import { ValuesDialog } from "../views/plots/values_dialog.tsx";
+import { MeshDialog } from "../views/start/mesh_dialog.tsx";
+import { DropSign, useMeshDrop } from "../views/start/mesh_drop.tsx";
 import { Start } from "../views/start/start.tsx";
 import { CommandDialog } from "./command_dialog.tsx";
 import { KeysDialog } from "./keys_dialog.tsx";
@@ -35,6 +37,7 @@ function Notices() {
 
 function Overlay() {
   if (overlay.value === "keys") return <KeysDialog />;
+  if (overlay.value === "mesh") return <MeshDialog />;
   if (overlay.value === "values" && session.value !== null) return <ValuesDialog />;
   if (overlay.value === "command" && session.value !== null) return <CommandDialog />;
   if (overlay.value === "orders") return <OrdersDialog />;
@@ -56,9 +59,11 @@ function Design() {
 
 export function Shell() {
   const open = session.value;
+  useMeshDrop();
   return (
     <SessionContext.Provider value={open}>
       {open === null ? designing.value ? <Design /> : <Start /> : <Workspace key={open.log.info.id} session={open} />}
+      <DropSign />
       <Overlay />
       <Notices />
     </SessionContext.Provider>

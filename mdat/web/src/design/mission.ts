@@ -113,6 +113,21 @@ export class Mission {
     this.lookSoon();
   }
 
+  /** A change of lines that no setting says, as one step to be taken back. */
+  rewrite(label: string, text: string): void {
+    const old = this.text.peek();
+    const settings = this.settings.peek();
+    this.burst = null;
+    this.history.run({ label, apply: () => this.put(text, new Map()), revert: () => this.put(old, settings) });
+    this.look().catch(tell);
+  }
+
+  /** Goes to the line of a table's header. */
+  showHeader(path: string): void {
+    const lines = this.text.peek().split("\n");
+    this.line.value = 1 + lines.findIndex((line) => line.trim().startsWith(`[${path}]`));
+  }
+
   lookSoon(): void {
     clearTimeout(this.timer);
     this.timer = setTimeout(() => this.look().catch(tell), LOOK_MS);

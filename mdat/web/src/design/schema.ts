@@ -1,10 +1,13 @@
 // The form of a mission, made from its JSON Schema: which tables and keys there are, and what may stand there.
+import { treeOf } from "./tables.ts";
 import type { EffectiveValue, Schema } from "./types.ts";
 
 /** A table of keys: "scan", or one with a chosen name: "scenario.spin". */
 export interface Section {
   path: string;
   schema: Schema;
+  /** Of a node, below its parents. */
+  depth?: number;
 }
 
 export interface Field {
@@ -33,11 +36,22 @@ const TEXT_ALONE = ["campaign", "material"];
 
 /** All tables of a mission in the order of the schema; of named ones those that are there. */
 export function sectionsOf(root: Schema, text: string, values: EffectiveValue[]): Section[] {
+  const byKey = new Map(values.map((each) => [each.key, each]));
   const tables = Object.entries(root.properties ?? {}).filter(([table]) => !TEXT_ALONE.includes(table));
   return tables.flatMap(([table, schema]): Section[] => {
     const named = namedTable(schema);
-    if (named === null) return [{ path: table, schema }];
-    return namesIn(table, text, values).map((name) => ({ path: `${table}.${name}`, schema: named }));
+    if (named === null) return [{ path: table, schema, depth: 0 }];
+    const names = namesIn(table, text, values);
+    const tree = table === "node" ? treeOf(names, byKey) : names.map((name) => ({ name, depth: 0 }));
+    return tree.map(({ name, depth }) => ({ path: `${table}.${name}`, schema: named, depth }));
+  });
+}
+
+/** Tables of chosen names that the form can add to, with what one of them holds. */
+export function namedTables(root: Schema): { table: string; schema: Schema }[] {
+  return Object.entries(root.properties ?? {}).flatMap(([table, schema]) => {
+    const named = TEXT_ALONE.includes(table) ? null : namedTable(schema);
+    return named === null ? [] : [{ table, schema: named }];
   });
 }
 

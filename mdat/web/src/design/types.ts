@@ -48,6 +48,7 @@ export interface Schema {
   anyOf?: Schema[];
   oneOf?: Schema[];
   properties?: Record<string, Schema>;
+  required?: string[];
   additionalProperties?: Schema | false;
   "x-unit"?: string;
 }

@@ -10,6 +10,7 @@ const PATHS = {
   loop: "M4 6.5h7.5M9.5 4.5l2 2-2 2M12 9.5H4.5M6.5 7.5l-2 2 2 2",
   close: "M4 4l8 8M12 4l-8 8",
   add: "M8 3v10M3 8h10",
+  remove: "M3 8h10",
   table: "M2.5 3.5h11v9h-11zM2.5 6.5h11M2.5 9.5h11M6.5 3.5v9",
   download: "M8 2.5v7M5 7l3 3 3-3M3 13h10",
   picture: "M2.5 3.5h11v9h-11zM3 11l3-3 2.5 2.5L11 7.5l2.5 2.5M5.5 6.2h.1",

@@ -1,4 +1,4 @@
-// Before all tests: flies three short runs, records them, and starts mdat serve on them and on two empty folders. Ends all after the tests.
+// Before all tests: flies three short runs, records them, and starts mdat serve on them and on three empty folders. Ends all after the tests.
 import { type ChildProcess, execFileSync, spawn } from "node:child_process";
 import { copyFileSync, mkdirSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
 import { join, resolve } from "node:path";
@@ -70,11 +70,14 @@ export default async function setUp(): Promise<() => void> {
   const recordings = join(OUT, "recordings");
   makeRecordings(recordings);
   const live = emptyFolder("live");
-  const servers = [await serve(recordings), await serve(emptyFolder("empty")), await serve(live)];
+  const meshes = emptyFolder("meshes");
+  const servers = [await serve(recordings), await serve(emptyFolder("empty")), await serve(live), await serve(meshes)];
   process.env.PAGE_ADDRESS = servers[0].line;
   process.env.PAGE_EMPTY_ADDRESS = servers[1].line;
   process.env.PAGE_LIVE_ADDRESS = servers[2].line;
   process.env.PAGE_LIVE_FOLDER = live;
+  process.env.PAGE_MESH_ADDRESS = servers[3].line;
+  process.env.PAGE_MESH_FOLDER = meshes;
   process.env.PAGE_LIVE_PID = String(servers[2].process.pid);
   return () => {
     for (const server of servers) server.process.kill("SIGINT");

@@ -2,6 +2,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { changedLines } from "../../src/design/lines.ts";
 import { expectedText, fieldsOf, fittingFields, namesIn, presetText, sectionsOf } from "../../src/design/schema.ts";
+import { freeName, hasTable, nameProblem, treeOf, withCopy, withoutTable, withTable } from "../../src/design/tables.ts";
 import type { EffectiveValue, Schema } from "../../src/design/types.ts";
 import { seeded } from "./seeded.ts";
 
@@ -93,4 +94,73 @@ test("changed lines make the one text of the other, whatever was changed", () =>
     for (const { sign, line, text } of changes) if (sign === "+") result.splice(line - 1, 0, text);
     assert.deepEqual(result, after);
   }
+});
+
+const TABLES = `# a mission
+[scan]
+points = 1024
+
+# how it spins
+[scenario.spin]   # as it does
+frames = [
+  1, # [not.a.header]
+]
+text = """
+[scenario.none]
+"""
+
+[scenario.spin.override]
+gate = true
+
+[scenario."far off"]
+frames = 3
+`;
+
+test("a table is copied with its comments and all that is below it, and removed again without a trace", () => {
+  const copied = withCopy(TABLES, "scenario", "spin", "spin_2");
+  const block = TABLES.slice(TABLES.indexOf("# how"), TABLES.indexOf('[scenario."far'));
+  assert.equal(
+    copied,
+    TABLES.replace('[scenario."far', () => `${block.replaceAll("[scenario.spin", "[scenario.spin_2")}[scenario."far`),
+  );
+  assert.equal(withoutTable(copied, "scenario", "spin_2"), TABLES);
+  assert.ok(hasTable(TABLES, "scenario", "far off"));
+  assert.ok(!hasTable(TABLES, "scenario", "none"));
+  assert.ok(!withoutTable(TABLES, "scenario", "spin").includes("spin"));
+  assert.equal(withoutTable(withCopy(TABLES, "scenario", "far off", "near"), "scenario", "near"), TABLES);
+});
+
+test("a new table has the keys that it must have; names are plain and free", () => {
+  const schema: Schema = {
+    required: ["kind", "at", "range_m"],
+    properties: {
+      kind: { const: "still" },
+      at: { type: "array", minItems: 2, items: { minimum: 0.5, maximum: 2 } },
+      range_m: { type: "number", minimum: 0, maximum: 9, default: 3 },
+    },
+  };
+  const added = '[scan]\n\n[part.door]\nkind = "still"\nat = [0.5, 0.5]\nrange_m = 3\n';
+  assert.equal(withTable("[scan]\n\n\n", "part", "door", schema), added);
+  assert.equal(nameProblem("spin_2", ["spin"]), "");
+  assert.notEqual(nameProblem("a b", []), "");
+  assert.notEqual(nameProblem("spin", ["spin"]), "");
+  assert.equal(freeName("spin", ["spin", "spin_2"]), "spin_3");
+  assert.equal(freeName("spin_2", ["spin", "spin_2"]), "spin_3");
+});
+
+test("nodes stand below their parents, and each is there once, whatever the parents are", () => {
+  const names = ["probe", "arrays", "hubble", "chaser", "a", "b"];
+  const parents: [string, string][] = [
+    ["probe", "chaser"],
+    ["arrays", "hubble"],
+    ["a", "b"],
+    ["b", "a"],
+  ];
+  const byKey = new Map(parents.map(([name, parent]) => [`node.${name}.parent`, value(`node.${name}.parent`, `"${parent}"`)]));
+  const tree = treeOf(names, byKey);
+  assert.deepEqual(
+    tree.slice(0, 4).map(({ name, depth }) => `${depth} ${name}`),
+    ["0 hubble", "1 arrays", "0 chaser", "1 probe"],
+  );
+  assert.deepEqual(tree.map(({ name }) => name).sort(), [...names].sort());
 });

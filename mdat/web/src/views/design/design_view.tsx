@@ -2,23 +2,36 @@
 import { useSignal } from "@preact/signals";
 import { useEffect, useLayoutEffect } from "preact/hooks";
 import { CommonTools } from "../../app/common_tools.tsx";
+import { remark } from "../../app/notices.ts";
+import { remembered } from "../../app/remembered.ts";
 import { routeTo, routeToMission } from "../../app/route.ts";
 import { mission as current, type Mission } from "../../design/mission.ts";
 import { fieldsOf, fittingFields, type Section } from "../../design/schema.ts";
+import { hasTable, withoutTable } from "../../design/tables.ts";
 import { CommandText, Empty, IconButton, Panel } from "../../parts/controls.tsx";
 import { Icon } from "../../parts/icon.tsx";
+import { shellWord } from "../../parts/shell_word.ts";
 import { setFirstMission } from "../live/choice.ts";
+import { Begun } from "./begun.tsx";
 import { FieldRow } from "./field.tsx";
+import { PreviewPane } from "./preview_pane.tsx";
 import { SaveDialog } from "./save_dialog.tsx";
+import { TableDialog, type TableWish } from "./table_dialog.tsx";
 import { TextPane } from "./text_pane.tsx";
+
+/** Whether the preview is shown. */
+const previewed = remembered("design-preview", true);
 
 function hasProblem(mission: Mission, section: Section): boolean {
   return mission.problems.value.some(({ key }) => key === section.path || key.startsWith(`${section.path}.`));
 }
 
-function Sections({ mission }: { mission: Mission }) {
+type Ask = (wish: TableWish) => void;
+
+function Sections({ mission, onAsk }: { mission: Mission; onAsk: Ask }) {
+  const add = <IconButton icon="add" label="Add a table" onClick={() => onAsk({ table: "scenario", name: null })} />;
   return (
-    <Panel id="sections" title="Tables">
+    <Panel id="sections" title="Tables" tools={mission.shipped ? null : add}>
       <nav class="scroll sections" aria-label="Tables of the mission">
         {mission.sections.value.map((section) => (
           <button
@@ -30,7 +43,7 @@ function Sections({ mission }: { mission: Mission }) {
               mission.section.value = section.path;
             }}
           >
-            {section.path}
+            <span class={section.depth ? `node-depth-${Math.min(3, section.depth)}` : ""}>{section.path}</span>
             {hasProblem(mission, section) ? <Icon name="error" /> : null}
           </button>
         ))}
@@ -39,8 +52,25 @@ function Sections({ mission }: { mission: Mission }) {
   );
 }
 
+/** Of a table with a chosen name, and headers of its own in the text. */
+function TableTools({ mission, onAsk }: { mission: Mission; onAsk: Ask }) {
+  const [table, name] = mission.section.value.split(".");
+  if (name === undefined || mission.shipped || !hasTable(mission.text.value, table, name)) return null;
+  const remove = () => {
+    mission.rewrite(`removing ${table}.${name}`, withoutTable(mission.text.peek(), table, name));
+    mission.section.value = "scan";
+    remark(`${table}.${name} is removed. Undo brings it back.`);
+  };
+  return (
+    <>
+      <IconButton icon="copy" label={`Copy ${table}.${name}`} onClick={() => onAsk({ table, name })} />
+      <IconButton icon="remove" label={`Remove ${table}.${name}`} onClick={remove} />
+    </>
+  );
+}
+
 /** Of the table that is chosen; while the filter holds words, of all. */
-function Form({ mission }: { mission: Mission }) {
+function Form({ mission, onAsk }: { mission: Mission; onAsk: Ask }) {
   const words = mission.filter.value;
   const sections = mission.sections.value.filter((section) => words !== "" || section.path === mission.section.value);
   const fields = sections.flatMap((section) => fieldsOf(section, mission.byKey.value));
@@ -50,16 +80,19 @@ function Form({ mission }: { mission: Mission }) {
       id="form"
       title={words === "" ? mission.section.value : `${found.length} keys`}
       tools={
-        <input
-          type="search"
-          placeholder="Find a key (/)"
-          aria-label="Find a key"
-          id="key-filter"
-          value={words}
-          onInput={(event) => {
-            mission.filter.value = event.currentTarget.value;
-          }}
-        />
+        <>
+          {words === "" ? <TableTools mission={mission} onAsk={onAsk} /> : null}
+          <input
+            type="search"
+            placeholder="Find a key (/)"
+            aria-label="Find a key"
+            id="key-filter"
+            value={words}
+            onInput={(event) => {
+              mission.filter.value = event.currentTarget.value;
+            }}
+          />
+        </>
       }
     >
       <div class="scroll">
@@ -110,10 +143,6 @@ function Problems({ mission }: { mission: Mission }) {
       </ul>
     </div>
   );
-}
-
-function shellWord(text: string): string {
-  return /^[\w@%+=:,./-]+$/.test(text) ? text : `'${text.replace(/'/g, "'\\''")}'`;
 }
 
 function commandOf(mission: Mission): string {
@@ -169,6 +198,17 @@ function Head({ mission, onSave }: { mission: Mission; onSave: () => void }) {
           disabled={canRedo.value === null}
           onClick={() => mission.undo(true)}
         />
+        <button
+          type="button"
+          class="text-button"
+          title="Target and scan of the text, in 3D"
+          aria-pressed={previewed.value}
+          onClick={() => {
+            previewed.value = !previewed.value;
+          }}
+        >
+          <Icon name="layers" /> Preview
+        </button>
         <button type="button" class="text-button" title="Save (Ctrl S)" disabled={!savable} onClick={onSave}>
           <Icon name="download" /> Save …
         </button>
@@ -222,6 +262,10 @@ function useGuard(mission: Mission): void {
 export function DesignView() {
   const mission = current.value!;
   const saving = useSignal(false);
+  const wish = useSignal<TableWish | null>(null);
+  const ask: Ask = (next) => {
+    wish.value = next;
+  };
   const save = async () => {
     await mission.pending;
     saving.value = mission.changed.peek() && mission.problems.peek().length === 0;
@@ -235,15 +279,28 @@ export function DesignView() {
     <div class="workspace design" data-view="design">
       <Head mission={mission} onSave={save} />
       {mission.shipped ? <CopyForm mission={mission} /> : null}
+      <Begun mission={mission} />
       <Problems mission={mission} />
       <main class="design-views">
-        <Sections mission={mission} />
-        <Form mission={mission} />
-        <TextPane mission={mission} />
+        <Sections mission={mission} onAsk={ask} />
+        <Form mission={mission} onAsk={ask} />
+        <div class={`design-side${previewed.value ? " previewed" : ""}`}>
+          {previewed.value ? <PreviewPane mission={mission} /> : null}
+          <TextPane mission={mission} />
+        </div>
       </main>
       <footer class="design-foot">
         <CommandText text={commandOf(mission)} label="command of these changes" />
       </footer>
+      {wish.value === null ? null : (
+        <TableDialog
+          mission={mission}
+          wish={wish.value}
+          onClose={() => {
+            wish.value = null;
+          }}
+        />
+      )}
       {saving.value ? (
         <SaveDialog
           mission={mission}

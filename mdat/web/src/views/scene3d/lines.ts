@@ -33,7 +33,7 @@ export class Lines {
     new BufferGeometry(),
     new LineDashedMaterial({ dashSize: 0.05, gapSize: 0.05, transparent: true, opacity: 0.5 }),
   );
-  private reach_m = 0;
+  private drawnFrustum = "";
 
   constructor() {
     this.group.add(this.missed, this.passes, this.frustum, this.pattern, this.boresight);
@@ -62,8 +62,9 @@ export class Lines {
   showFrustum(camera: CameraInfo | null, distance_m: number, size_m: number): void {
     if (camera === null) return;
     const reach_m = Math.min(camera.range_m[1], Math.ceil((distance_m + size_m) * 2) / 2);
-    if (reach_m === this.reach_m) return;
-    this.reach_m = reach_m;
+    const drawn = [...camera.frustum_deg, ...camera.range_m, reach_m].join(" ");
+    if (drawn === this.drawnFrustum) return;
+    this.drawnFrustum = drawn;
     this.frustum.geometry.dispose();
     this.frustum.geometry = geometryOf(frustumSegments(camera, reach_m));
     this.boresight.geometry.dispose();

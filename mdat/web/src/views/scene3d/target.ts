@@ -72,7 +72,7 @@ export class Target {
   }
 
   /** Puts the surface where the frame says; a pose that is not there is not drawn. */
-  show(frame: FrameInfo, layers: Record<LayerName, boolean>): void {
+  show(frame: Pick<FrameInfo, "poses">, layers: Pick<Record<LayerName, boolean>, Place>): void {
     this.put("estimate", frame.poses.estimate, layers.estimate);
     this.put("truth", frame.poses.truth, layers.truth);
     this.put("filtered", frame.poses.filtered, layers.filtered);

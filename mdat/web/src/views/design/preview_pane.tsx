@@ -1,0 +1,107 @@
+// The panel of the preview: which scenario and range, the picture, and what it counts. three.js is loaded with the picture.
+import { useSignal } from "@preact/signals";
+import { useEffect, useMemo, useRef } from "preact/hooks";
+import { tell } from "../../app/notices.ts";
+import type { Mission } from "../../design/mission.ts";
+import { Preview, type PreviewAnswer } from "../../design/preview.ts";
+import { lengthText } from "../../maths/scales.ts";
+import { Empty, IconButton, Panel } from "../../parts/controls.tsx";
+import type { PreviewView } from "./preview_scene.ts";
+
+function Tools({ mission, preview, onFit }: { mission: Mission; preview: Preview; onFit: () => void }) {
+  const shown = preview.shown.value;
+  return (
+    <>
+      <select
+        aria-label="Scenario of the preview"
+        value={shown?.scenario ?? ""}
+        onChange={(event) => {
+          preview.run.value = 0;
+          preview.scenario.value = event.currentTarget.value;
+        }}
+      >
+        {mission.scenarios.value.map(({ name }) => (
+          <option key={name} value={name}>
+            {name}
+          </option>
+        ))}
+      </select>
+      {shown === null || shown.ranges_m.length < 2 ? null : (
+        <select
+          aria-label="Range of the preview"
+          value={shown.run}
+          onChange={(event) => {
+            preview.run.value = Number(event.currentTarget.value);
+          }}
+        >
+          {shown.ranges_m.map((range_m, i) => (
+            <option key={`${i} ${range_m}`} value={i}>
+              {range_m} m
+            </option>
+          ))}
+        </select>
+      )}
+      <IconButton icon="fit" label="Fit the target into the preview" stroke="f" onClick={onFit} />
+    </>
+  );
+}
+
+function countsOf({ sensor, ranges_m, run, rays, remark }: PreviewAnswer, hits: number): string {
+  const counts = `${sensor} at ${lengthText(ranges_m[run])}: ${rays.hit.length} rays, ${hits} on the target`;
+  return remark === "" ? counts : `${counts}; ${remark}`;
+}
+
+/** Draws as long as the panel is there; the failure of a browser without WebGL is told in its place. */
+function useScene(preview: Preview) {
+  const box = useRef<HTMLDivElement>(null);
+  const view = useRef<PreviewView | null>(null);
+  const failed = useSignal("");
+  useEffect(() => {
+    let gone = false;
+    const stop = preview.follow();
+    import("./preview_scene.ts").then(({ startPreview }) => {
+      if (gone || box.current === null) return;
+      try {
+        view.current = startPreview(box.current, preview);
+      } catch (error) {
+        failed.value = String(error);
+      }
+    }, tell);
+    return () => {
+      gone = true;
+      stop();
+      view.current?.destroy();
+      view.current = null;
+    };
+  }, [preview]);
+  return { box, view, failed };
+}
+
+export function PreviewPane({ mission }: { mission: Mission }) {
+  const preview = useMemo(() => new Preview(mission), [mission]);
+  const { box, view, failed } = useScene(preview);
+  const shown = preview.shown.value;
+  return (
+    <Panel id="preview" title="Preview" tools={<Tools mission={mission} preview={preview} onFit={() => view.current?.fit()} />}>
+      <div class="preview">
+        <div
+          ref={box}
+          class="stage"
+          tabIndex={0}
+          role="application"
+          aria-label="3D preview of sensor, scan and target; arrows turn it, Page up and down go nearer and farther, F fits"
+          onKeyDown={(event) => {
+            if (!event.ctrlKey && view.current?.press(event.key)) event.preventDefault();
+          }}
+        />
+        {failed.value === "" ? null : <Empty title="The browser cannot draw in 3D.">WebGL 2 is needed: {failed.value}</Empty>}
+        {preview.problem.value === "" ? null : (
+          <p class="older" role="status">
+            <strong>{shown === null ? "No picture yet." : "The picture is of an older text."}</strong> {preview.problem.value}
+          </p>
+        )}
+        {shown === null ? null : <p class="preview-counts">{countsOf(shown, preview.hits.value)}</p>}
+      </div>
+    </Panel>
+  );
+}
