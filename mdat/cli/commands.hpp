@@ -41,9 +41,9 @@ struct RecordedReplay {
   bool cached = true, force = false;
 };
 struct LiveOptions;
-// The component gets the recorded scans and commands; viewers are told as `live` says. Prints a summary and whether telemetry is the recorded one; of a changed component
-// the figures of both, side by side. Throws InputError or MissionError as what it reads; RunError where nothing was changed, and telemetry
-// differs.
+// The component gets the recorded scans and commands; viewers are told as `live` says. Prints a summary and whether telemetry is the
+// recorded one; of a changed component the figures of both, side by side. Throws InputError or MissionError as what it reads; RunError
+// where nothing was changed, and telemetry differs.
 void replay_recording(const RecordedReplay& options, const LiveOptions& live);
 
 // --set KEY=VALUE of a subcommand that reads a mission; may be given again and again.

@@ -10,6 +10,7 @@
 #include "mdat/common/errors.hpp"
 #include "mdat/common/output.hpp"
 #include "mdat/common/version.hpp"
+#include "mdat/link/upload.hpp"
 #include "mdat/recording/frame_recorder.hpp"
 #include "mdat/run/flight_figures.hpp"
 #include "mdat/run/results.hpp"
@@ -231,10 +232,11 @@ void warn_of_other_image(const RecordedFlight& flight, const SimulationResult& r
   const auto other = [changed](const PoseTelemetry& pose) { return pose.image_crc != changed; };
   const auto frames = static_cast<std::size_t>(std::count_if(poses.begin(), poses.end(), other));
   if (frames == 0) return;
-  std::fprintf(stderr,
-               "warning: %s: %zu of %zu frames flew another image than the changed one (%08x): one that the component's store holds, or that "
-               "was uploaded\n",
-               flight.file().c_str(), frames, poses.size(), changed);
+  std::fprintf(
+      stderr,
+      "warning: %s: %zu of %zu frames flew another image than the changed one (%08x): one that the component's store holds, or that "
+      "was uploaded\n",
+      flight.file().c_str(), frames, poses.size(), changed);
 }
 
 }  // namespace
