@@ -59,8 +59,11 @@ async function drop(page: Page, name: string, text: string): Promise<void> {
     },
     [name, text] as const,
   );
-  await page.dispatchEvent("main", "dragover", { dataTransfer: data });
-  await expect(page.locator(".drop-sign")).toBeVisible();
+  // As long as the pointer is over the page, a file manager says so again and again.
+  await expect(async () => {
+    await page.dispatchEvent("main", "dragover", { dataTransfer: data });
+    await expect(page.locator(".drop-sign")).toBeVisible({ timeout: 500 });
+  }).toPass();
   await page.dispatchEvent("main", "drop", { dataTransfer: data });
 }
 
