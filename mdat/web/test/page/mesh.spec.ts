@@ -114,6 +114,7 @@ test("by keys: the file's button, the fields, Enter; a name that is taken is lef
   await page.keyboard.press("Enter");
   const dialog = page.getByRole("dialog");
   await dialog.locator("input[type=file]").setInputFiles(file);
+  await expect(dialog.getByLabel("Name")).toHaveValue("by_keys");
   await dialog.getByLabel("Name").fill("my_satellite");
   await page.keyboard.press("Tab");
   await page.keyboard.press("Control+a");
