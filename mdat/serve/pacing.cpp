@@ -1,8 +1,11 @@
 #include "mdat/serve/pacing.hpp"
 
+#include <algorithm>
+
 namespace lasso::mdat::serve {
 namespace {
 
+constexpr double kLongestWait_s = 86400;         // a clock's time points do not hold what a pace near 0 asks for
 constexpr std::chrono::milliseconds kLate(100);  // by which a boundary that waited may be, to count as passed on time
 
 }  // namespace
@@ -58,7 +61,7 @@ bool Pacing::paused() const {
 // By the pace as it is now: a change holds for the wait that is under way.
 Pacing::Clock::time_point Pacing::due(TimeUs boundary_us) const {
   if (!begun_ || pace_ <= 0) return passed_;
-  const std::chrono::duration<double> wait(to_seconds(boundary_us - last_us_) / pace_);
+  const std::chrono::duration<double> wait(std::min(to_seconds(boundary_us - last_us_) / pace_, kLongestWait_s));
   return passed_ + std::chrono::duration_cast<Clock::duration>(wait);
 }
 

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "fsw/geometry/portable_math.hpp"
+#include "mdat/missiondb/scene_surfaces.hpp"
 #include "mdat/serve/answers.hpp"
 #include "mdat/serve/problem_words.hpp"
 #include "mdat/serve/scan_preview.hpp"
@@ -57,8 +58,9 @@ PreviewJson answer_of(const ScanPreview& preview, const Mesh& target) {
 
 PreviewJson preview_of(const LiveMission& mission, const std::string& text, const std::string& scenario, std::size_t run) {
   try {
-    const MissionSource source = load_mission_text(text, mission.file);
+    MissionSource source = load_mission_text(text, mission.file);
     const Mesh target = load_target(source);
+    load_scene(source, target);
     if (source.scenarios.empty()) return {{"problem", "the mission has no scenario that says where the target is"}};
     const bool known = source.scenarios.count(scenario) > 0;
     return answer_of(preview_scan(source, target, known ? scenario : source.scenarios.begin()->first, run), target);

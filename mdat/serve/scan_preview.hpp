@@ -29,7 +29,8 @@ struct ScanPreview {
   std::string remark;              // why there are no rays, or what they leave out; empty: nothing to say
 };
 
-// By the component's planner and pattern. `target` is load_target's. Throws MissionError: there is no such scenario.
+// By the component's planner and pattern, on the target alone.
+// `target` is load_target's, and the source's scene is loaded (load_scene). Throws MissionError: there is no such scenario.
 ScanPreview preview_scan(const MissionSource& source, const Mesh& target, const std::string& scenario, std::size_t run);
 
 }  // namespace lasso::mdat::serve

@@ -85,7 +85,7 @@ class PreviewScene {
     this.lines.showFrustum(answer.camera, distance_m, answer.size_m);
     this.lines.missed.visible = false;
     this.surface?.target.show({ poses: { estimate: answer.pose, filtered: null, truth: null } }, LAYERS);
-    if (this.surface?.digest !== answer.surface) this.load(answer.surface).catch(tell);
+    if (this.surface?.digest !== answer.surface) this.load(answer.surface).catch((error) => this.failed(answer.surface, error));
     this.look(answer);
     this.stage.renderer.domElement.dataset.rays = String(scan.count);
     this.stage.invalidate();
@@ -99,6 +99,12 @@ class PreviewScene {
     this.size_m = size_m;
     this.place = pose.position_m;
     this.cameras.setSize(size_m);
+  }
+
+  /** The next answer asks again. */
+  private failed(digest: string, error: unknown): void {
+    if (this.loading === digest) this.loading = "";
+    tell(error);
   }
 
   private async load(digest: string): Promise<void> {
