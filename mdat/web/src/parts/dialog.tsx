@@ -4,11 +4,21 @@ import { useLayoutEffect, useRef } from "preact/hooks";
 import { overlay } from "../app/overlay.ts";
 import { IconButton } from "./controls.tsx";
 
-export function Dialog({ title, children }: { title: string; children: ComponentChildren }) {
+function closeOverlay(): void {
+  overlay.value = null;
+}
+
+/** `onClose`: of a dialog that is not the page's overlay. */
+export function Dialog({
+  title,
+  onClose: close = closeOverlay,
+  children,
+}: {
+  title: string;
+  onClose?: () => void;
+  children: ComponentChildren;
+}) {
   const dialog = useRef<HTMLDialogElement>(null);
-  const close = () => {
-    overlay.value = null;
-  };
   // Before the browser draws: strokes right behind the one that opened it are the dialog's.
   useLayoutEffect(() => {
     dialog.current?.showModal();

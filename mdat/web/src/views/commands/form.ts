@@ -1,7 +1,7 @@
 // What is typed into the form of a command: whether it fits the dictionary, and the command line that does the same.
 import type { CommandInfo, CommandItem, CommandRecord } from "../../api/types.ts";
 import { unitText } from "../../api/units.ts";
-import { shellWord } from "../live/choice.ts";
+import { shellWord } from "../../parts/shell_word.ts";
 
 /** Whole numbers that a type holds. */
 const WHOLE: Partial<Record<CommandItem["type"], [number, number]>> = {

@@ -1,12 +1,11 @@
-// The panel of the preview: which scenario and range, the picture, and what it counts. three.js is loaded with the picture.
+// The panel of the preview: which scenario and range, the picture, and what it counts.
 import { useSignal } from "@preact/signals";
 import { useEffect, useMemo, useRef } from "preact/hooks";
-import { tell } from "../../app/notices.ts";
 import type { Mission } from "../../design/mission.ts";
 import { Preview, type PreviewAnswer } from "../../design/preview.ts";
 import { lengthText } from "../../maths/scales.ts";
 import { Empty, IconButton, Panel } from "../../parts/controls.tsx";
-import type { PreviewView } from "./preview_scene.ts";
+import { type PreviewView, startPreview } from "./preview_scene.ts";
 
 function Tools({ mission, preview, onFit }: { mission: Mission; preview: Preview; onFit: () => void }) {
   const shown = preview.shown.value;
@@ -57,18 +56,13 @@ function useScene(preview: Preview) {
   const view = useRef<PreviewView | null>(null);
   const failed = useSignal("");
   useEffect(() => {
-    let gone = false;
     const stop = preview.follow();
-    import("./preview_scene.ts").then(({ startPreview }) => {
-      if (gone || box.current === null) return;
-      try {
-        view.current = startPreview(box.current, preview);
-      } catch (error) {
-        failed.value = String(error);
-      }
-    }, tell);
+    try {
+      view.current = startPreview(box.current!, preview);
+    } catch (error) {
+      failed.value = String(error);
+    }
     return () => {
-      gone = true;
       stop();
       view.current?.destroy();
       view.current = null;

@@ -1,10 +1,9 @@
 // The name of a table that is added or copied.
 import { useSignal } from "@preact/signals";
-import { useLayoutEffect, useRef } from "preact/hooks";
 import type { Mission } from "../../design/mission.ts";
 import { namedTables, namesIn } from "../../design/schema.ts";
 import { freeName, nameProblem, withCopy, withTable } from "../../design/tables.ts";
-import { IconButton } from "../../parts/controls.tsx";
+import { Dialog } from "../../parts/dialog.tsx";
 
 /** A copy of table.name; a new one, of a table that is chosen, where there is no name. */
 export interface TableWish {
@@ -32,12 +31,10 @@ function TableChoice({ mission, table, onChoose }: { mission: Mission; table: st
 }
 
 export function TableDialog({ mission, wish, onClose }: { mission: Mission; wish: TableWish; onClose: () => void }) {
-  const dialog = useRef<HTMLDialogElement>(null);
   const table = useSignal(wish.table);
   const taken = namesIn(table.value, mission.text.value, mission.values.value);
   const name = useSignal(wish.name === null ? "" : freeName(wish.name, taken));
   const problem = nameProblem(name.value, taken);
-  useLayoutEffect(() => dialog.current?.showModal(), []);
   const title = wish.name === null ? "Add a table" : `Copy ${wish.table}.${wish.name}`;
   const submit = (event: Event) => {
     event.preventDefault();
@@ -50,12 +47,8 @@ export function TableDialog({ mission, wish, onClose }: { mission: Mission; wish
     onClose();
   };
   return (
-    <dialog ref={dialog} class="dialog" aria-label={title} onClose={onClose}>
-      <header>
-        <h2>{title}</h2>
-        <IconButton icon="close" label="Close" stroke="Escape" onClick={onClose} />
-      </header>
-      <form class="dialog-body mesh-form" onSubmit={submit}>
+    <Dialog title={title} onClose={onClose}>
+      <form class="mesh-form" onSubmit={submit}>
         {wish.name === null ? (
           <TableChoice
             mission={mission}
@@ -81,6 +74,6 @@ export function TableDialog({ mission, wish, onClose }: { mission: Mission; wish
           {wish.name === null ? "Add" : "Copy"}
         </button>
       </form>
-    </dialog>
+    </Dialog>
   );
 }

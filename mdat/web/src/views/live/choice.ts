@@ -1,12 +1,8 @@
 // What is to be flown: a mission of the list, one of its scenarios, a seed, a pace; and the command that does the same.
 import type { LiveMission, LiveScenario } from "../../api/types.ts";
+import { shellWord } from "../../parts/shell_word.ts";
 
 const MOST_SEED = 4294967295;
-
-/** A word of a shell: quoted where it has other signs than these. */
-export function shellWord(text: string): string {
-  return /^[\w@%+=:,./-]+$/.test(text) ? text : `'${text.replace(/'/g, "'\\''")}'`;
-}
 
 /** The seed that was typed; null: the scenario's own; undefined: it is none. */
 export function seedOf(text: string): number | null | undefined {

@@ -4,6 +4,7 @@ import type { LiveMission } from "../../api/types.ts";
 import { CommandText } from "../../parts/controls.tsx";
 import { Icon } from "../../parts/icon.tsx";
 import { isAddress, monitorCommandOf } from "./choice.ts";
+import { MissionOptions } from "./mission_options.tsx";
 
 const NONE = "";
 
@@ -48,11 +49,7 @@ export function Connect({ missions, onConnect }: { missions: LiveMission[]; onCo
             }}
           >
             <option value={NONE}>not known: no surface is shown</option>
-            {missions.map(({ id, shipped }) => (
-              <option key={id} value={id}>
-                {shipped ? id : `${id} (own)`}
-              </option>
-            ))}
+            <MissionOptions missions={missions} />
           </select>
         </label>
         <button type="submit" class="primary" disabled={!right}>

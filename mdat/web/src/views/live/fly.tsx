@@ -11,6 +11,7 @@ import { Icon } from "../../parts/icon.tsx";
 import { commandOf, firstMission, firstScenario, seedOf } from "./choice.ts";
 import { Connect } from "./connect.tsx";
 import { PaceChoice } from "./live_bar.tsx";
+import { MissionOptions } from "./mission_options.tsx";
 
 /** The recording that this page has asked for: it is opened once it has a frame. */
 const wanted: { id: string | null } = { id: null };
@@ -74,11 +75,7 @@ function Form({ missions }: { missions: LiveMission[] }) {
               mission.value = event.currentTarget.value;
             }}
           >
-            {missions.map(({ id, shipped }) => (
-              <option key={id} value={id}>
-                {shipped ? id : `${id} (own)`}
-              </option>
-            ))}
+            <MissionOptions missions={missions} />
           </select>
         </label>
         <label>
