@@ -8,6 +8,7 @@ import type { EffectiveValue, MissionView, OpenedMission, Problem, Schema } from
 
 const LOOK_MS = 400;
 const BURST_MS = 800;
+const MOST_CHANGES = 5;
 
 export class Mission {
   readonly id: string;
@@ -68,27 +69,31 @@ export class Mission {
     this.scenarios.value = view.scenarios ?? [];
   }
 
-  /** A value of the form: the server changes its span of the text. */
+  /** A value of the form: the server changes its span of the text. One after the other: each in the text that the one before has left. */
   set(key: string, value: string): void {
-    this.pending = this.change(key, value);
+    this.pending = this.pending.then(() => this.change(key, value)).catch(tell);
   }
 
+  /** What is typed meanwhile is not lost, and neither is the value: the span is then looked for in the newer text. */
   private async change(key: string, value: string): Promise<void> {
-    const mine = ++this.asked;
+    for (let i = 0; i < MOST_CHANGES; ++i) {
+      const old = this.text.peek();
+      const answer = await postJson<MissionView & { text: string }>(this.path("set"), { text: old, set: [`${key}=${value}`] });
+      if (old === this.text.peek()) return this.apply(key, value, answer);
+    }
+    remark(`${key} is not changed, as the text changes all the time. Set it again.`);
+  }
+
+  private apply(key: string, value: string, answer: MissionView & { text: string }): void {
     const before = this.settings.peek();
     const old = this.text.peek();
-    try {
-      const answer = await postJson<MissionView & { text: string }>(this.path("set"), { text: old, set: [`${key}=${value}`] });
-      // What was typed meanwhile is not lost.
-      if (mine !== this.asked || old !== this.text.peek() || answer.text === old) return;
-      const after = new Map([...before, [key, value]]);
-      this.burst = null;
-      this.history.run({ label: `${key} = ${value}`, apply: () => this.put(answer.text, after), revert: () => this.put(old, before) });
-      this.take(answer);
-      this.line.value = answer.values?.find((each) => each.key === key)?.line ?? this.line.peek();
-    } catch (error) {
-      tell(error);
-    }
+    if (answer.text === old) return;
+    const after = new Map([...before, [key, value]]);
+    ++this.asked;
+    this.burst = null;
+    this.history.run({ label: `${key} = ${value}`, apply: () => this.put(answer.text, after), revert: () => this.put(old, before) });
+    this.take(answer);
+    this.line.value = answer.values?.find((each) => each.key === key)?.line ?? this.line.peek();
   }
 
   private put(text: string, settings: ReadonlyMap<string, string>): void {

@@ -1,6 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { changedLines } from "../../src/design/lines.ts";
+import { Mission } from "../../src/design/mission.ts";
 import { expectedText, fieldsOf, fittingFields, namesIn, presetText, sectionsOf } from "../../src/design/schema.ts";
 import { freeName, hasTable, nameProblem, treeOf, withCopy, withoutTable, withTable } from "../../src/design/tables.ts";
 import type { EffectiveValue, Schema } from "../../src/design/types.ts";
@@ -164,3 +165,42 @@ test("nodes stand below their parents, and each is there once, whatever the pare
   );
   assert.deepEqual(tree.map(({ name }) => name).sort(), [...names].sort());
 });
+
+/** A server that sets `KEY = VALUE` lines after a while, and finds no problem. */
+async function withSlowServer(run: (mission: Mission) => Promise<void>): Promise<void> {
+  const fetched = globalThis.fetch;
+  globalThis.fetch = async (_, init) => {
+    const asked: { text: string; set?: string[] } = JSON.parse(String(init?.body));
+    await new Promise((resolve) => setTimeout(resolve, asked.set === undefined ? 1 : 20));
+    const text = (asked.set ?? []).reduce((lines, setting) => {
+      const [key, value] = setting.split("=");
+      return lines.replace(new RegExp(`^${key} = .*$`, "m"), `${key} = ${value}`);
+    }, asked.text);
+    return new Response(JSON.stringify({ text, problems: [], values: [] }));
+  };
+  try {
+    const opened = { id: "m", file: "m.toml", shipped: false, digest: "", text: "a = 1\nb = 2\n", problems: [], values: [] };
+    await run(new Mission(opened, root));
+  } finally {
+    globalThis.fetch = fetched;
+  }
+}
+
+test("values that are set one right behind the other are all kept, and looks at the text between them change nothing", () =>
+  withSlowServer(async (mission) => {
+    mission.set("a", "7");
+    mission.set("b", "8");
+    await mission.look();
+    await mission.pending;
+    assert.equal(mission.text.peek(), "a = 7\nb = 8\n");
+    mission.undo(false);
+    assert.equal(mission.text.peek(), "a = 7\nb = 2\n");
+  }));
+
+test("what is typed while a value is set stays, and the value is set in it", () =>
+  withSlowServer(async (mission) => {
+    mission.set("a", "7");
+    mission.type("# a word\na = 1\nb = 2\n");
+    await mission.pending;
+    assert.equal(mission.text.peek(), "# a word\na = 7\nb = 2\n");
+  }));

@@ -1,6 +1,6 @@
 // One key of the form: its value with unit, what it means, what may stand there, and where its value came from.
 import { useSignal } from "@preact/signals";
-import { useEffect } from "preact/hooks";
+import { useEffect, useRef } from "preact/hooks";
 import type { Mission } from "../../design/mission.ts";
 import { expectedText, type Field, presetText } from "../../design/schema.ts";
 
@@ -45,8 +45,11 @@ function Choice({ field, value, disabled, describedBy, invalid, onChoose, option
 /** What is typed becomes the value with Enter, or when the field is left. Escape takes it back. */
 function Typed({ field, value, disabled, describedBy, invalid, onChoose }: EntryProps) {
   const typed = useSignal(value);
+  const last = useRef(value);
+  // What is being typed stays: a new value takes the place of the one before alone.
   useEffect(() => {
-    typed.value = value;
+    if (typed.peek() === last.current) typed.value = value;
+    last.current = value;
   }, [value]);
   const commit = () => typed.value.trim() !== value && onChoose(typed.value.trim());
   return (
