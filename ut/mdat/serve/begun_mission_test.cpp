@@ -28,12 +28,6 @@ std::string box_obj(std::array<double, 3> low, std::array<double, 3> sides) {
   return text.str();
 }
 
-std::string bytes_of(const std::filesystem::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file, std::ios::binary).rdbuf();
-  return text.str();
-}
-
 class BegunMissionTest : public ::testing::Test {
  protected:
   static Request asked(const std::string& query, std::string body) {
@@ -61,7 +55,7 @@ TEST_F(BegunMissionTest, WritesWhatMissionNewWritesForTheSameFile) {
   ASSERT_EQ(response.status, 200U) << response.body;
   const BegunJson begun = BegunJson::parse(response.body);
   EXPECT_EQ(begun["id"], "box/box.toml");
-  EXPECT_EQ(bytes_of(place_.path() / "box/my_box.obj"), box);
+  EXPECT_EQ(bytes_of_file(place_.path() / "box/my_box.obj"), box);
 
   const std::filesystem::path other = place_.path() / "other";
   std::filesystem::create_directory(other);
@@ -71,7 +65,7 @@ TEST_F(BegunMissionTest, WritesWhatMissionNewWritesForTheSameFile) {
   request.out = other / "box.toml";
   request.scale = 0.001;
   EXPECT_EQ(begun["remarks"], BegunJson(write_new_mission(request)));
-  EXPECT_EQ(bytes_of(place_.path() / "box/box.toml"), bytes_of(other / "box.toml"));
+  EXPECT_EQ(bytes_of_file(place_.path() / "box/box.toml"), bytes_of_file(other / "box.toml"));
   const std::string path = (place_.path() / "box").string();
   EXPECT_EQ(begun["command"], "mdat mission new --model " + path + "/my_box.obj --scale 0.001 --out " + path + "/box.toml");
 }
@@ -102,7 +96,7 @@ TEST_F(BegunMissionTest, ANameThatIsTakenIsLeftAsItIs) {
   std::filesystem::create_directory(place_.path() / "taken");
   std::ofstream(place_.path() / "taken/letter.txt") << "Dear reader";
   EXPECT_EQ(begin("name=taken&file=box.obj", box_obj({0, 0, 0}, {1, 1, 1})).status, 409U);
-  EXPECT_EQ(bytes_of(place_.path() / "taken/letter.txt"), "Dear reader");
+  EXPECT_EQ(bytes_of_file(place_.path() / "taken/letter.txt"), "Dear reader");
   EXPECT_FALSE(std::filesystem::exists(place_.path() / "taken/box.obj"));
 }
 

@@ -18,12 +18,6 @@ namespace {
 using DesignTestJson = nlohmann::json;
 constexpr char kDesignToken[] = "00112233445566778899aabbccddeeff";
 
-std::string content_of(const std::filesystem::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file, std::ios::binary).rdbuf();
-  return text.str();
-}
-
 // A server's handlers on a folder with a copy of the tenth-scale Hubble, which names its model.
 class DesignTest : public ::testing::Test {
  protected:
@@ -69,12 +63,12 @@ DesignTestJson value_of(const DesignTestJson& view, const std::string& key) {
 TEST_F(DesignTest, AMissionOpensAsItsTextAndWhatItSays) {
   VERIFIES("LASSO-WEB-026~1");
   const DesignTestJson view = opened();
-  EXPECT_EQ(view["text"], content_of(file()));
+  EXPECT_EQ(view["text"], bytes_of_file(file()));
   EXPECT_TRUE(view["problems"].empty());
   EXPECT_FALSE(view["shipped"]);
   const DesignTestJson points = value_of(view, "scan.points");
   EXPECT_EQ(points["value"], "1024");
-  std::istringstream lines(content_of(file()));
+  std::istringstream lines(bytes_of_file(file()));
   std::string line;
   for (int i = 0; i < points["line"].get<int>(); ++i) std::getline(lines, line);
   EXPECT_EQ(line.rfind("points = 1024", 0), 0U) << line;
@@ -97,7 +91,7 @@ TEST_F(DesignTest, AValueIsSetInTheTextAndAProblemSaysWhere) {
   EXPECT_EQ(act("set", {{"text", text}, {"set", {"scan=5"}}}).status, 422U);
   EXPECT_EQ(act("set", {{"text", text}, {"set", "scan.points=5"}}).status, 400U);
   EXPECT_EQ(act("set", {{"text", text}, {"set", {5}}}).status, 400U);
-  EXPECT_EQ(content_of(file()), text) << "nothing is written before it is saved";
+  EXPECT_EQ(bytes_of_file(file()), text) << "nothing is written before it is saved";
 }
 
 TEST_F(DesignTest, SavesWhatIsValidOverTheFileThatWasOpened) {
@@ -106,10 +100,10 @@ TEST_F(DesignTest, SavesWhatIsValidOverTheFileThatWasOpened) {
   const std::string text = view["text"], comment = "# a remark\n" + text;
   EXPECT_EQ(act("save", {{"text", "[scan]\npoints = 5\n"}, {"digest", view["digest"]}}).status, 422U);
   EXPECT_EQ(act("save", {{"text", comment}, {"digest", "00"}}).status, 409U);
-  EXPECT_EQ(content_of(file()), text);
+  EXPECT_EQ(bytes_of_file(file()), text);
   const Response saved = act("save", {{"text", comment}, {"digest", view["digest"]}});
   ASSERT_EQ(saved.status, 200U) << saved.body;
-  EXPECT_EQ(content_of(file()), comment);
+  EXPECT_EQ(bytes_of_file(file()), comment);
   EXPECT_EQ(act("save", {{"text", text}, {"digest", view["digest"]}}).status, 409U) << "the file is another one now";
   EXPECT_EQ(act("save", {{"text", text}, {"digest", json(saved)["digest"]}}).status, 200U);
 }
@@ -121,7 +115,7 @@ TEST_F(DesignTest, ACopyHasAllFilesAndIsAMissionOfItsOwn) {
   ASSERT_EQ(copied.status, 200U) << copied.body;
   const std::string id = json(copied)["id"];
   EXPECT_EQ(id.rfind("second/", 0), 0U) << id;
-  EXPECT_EQ(content_of(place_.path() / id), content_of(file()));
+  EXPECT_EQ(bytes_of_file(place_.path() / id), bytes_of_file(file()));
   const DesignTestJson view = json(service_.answer(asked("/api/mission?id=" + id)));
   EXPECT_TRUE(view["problems"].empty()) << view["problems"];
   EXPECT_EQ(act("copy", {{"name", "second"}}).status, 409U);

@@ -87,6 +87,15 @@ TEST(PacingTest, AnotherPaceHoldsForTheWaitThatIsUnderWay) {
   EXPECT_EQ(pacing.pace(), kNoWait);
 }
 
+TEST(PacingTest, APaceNearZeroWaits) {
+  VERIFIES("LASSO-WEB-019~1");
+  Pacing pacing(1e-300);  // a frame takes longer than any clock counts
+  PacedRun run(pacing);
+  run.wait_for(1);
+  std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  EXPECT_EQ(run.passed(), 1U);
+}
+
 TEST(PacingTest, StoppingEndsEachKindOfWait) {
   VERIFIES("LASSO-WEB-019~1");
   Pacing slow(1e-6), paused(kNoWait);

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -12,6 +14,7 @@
 #include "mdat/serve/preview_answer.hpp"
 #include "mdat/source/mission_error.hpp"
 #include "ut/mdat/serve/small_recording.hpp"
+#include "ut/support/places.hpp"
 #include "ut/support/verifies.hpp"
 
 namespace lasso::mdat::serve {
@@ -105,6 +108,21 @@ TEST_F(ScanPreviewTest, FollowsTheTextThatIsEdited) {
   EXPECT_NE(answered(changed("points", "points = 5"))["problem"].get<std::string>().find("scan.points"), std::string::npos);
   const Response surface = mission_surface({"box.toml", file(), false}, text_);
   EXPECT_EQ(surface.body.substr(0, 4), "glTF");
+}
+
+// Each shipped mission, scenes with other bodies and stereo heads among them.
+TEST_F(ScanPreviewTest, AllShippedMissionsHaveOne) {
+  VERIFIES("LASSO-WEB-033~1");
+  std::size_t missions = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(test::source_folder() / "cfg/missions")) {
+    const std::string shipped = entry.path().string(), text = bytes_of_file(shipped);
+    const PreviewTestJson preview = PreviewTestJson::parse(preview_json({entry.path().stem(), shipped, true}, text, "", 0));
+    ASSERT_TRUE(preview.contains("rays")) << shipped << preview;
+    const std::vector<int> hits = preview["rays"]["hit"];
+    EXPECT_GT(std::count(hits.begin(), hits.end(), 1), 100) << shipped;
+    ++missions;
+  }
+  EXPECT_GE(missions, 7U);
 }
 
 }  // namespace

@@ -1,22 +1,18 @@
 // A mission that is copied, changed by its form and by its text, and saved; against the server that flies.
 import { readFileSync, writeFileSync } from "node:fs";
 import type { Page } from "@playwright/test";
+import { designCopy, field, text } from "./design_steps.ts";
 import { screenshot } from "./pictures.ts";
 import { expect, seriousFindings, test } from "./support.ts";
 
 test.describe.configure({ mode: "serial" });
 
-const text = (page: Page) => page.getByRole("textbox", { name: "The mission's text" });
-const field = (page: Page, key: string) => page.locator(`[id="field-${key}"]`);
 const fileOf = (folder: string): string => `${process.env.PAGE_LIVE_FOLDER}/${folder}/missions/hubble_tenth.toml`;
 
 /** Opens a copy of its own of the tenth-scale Hubble. */
 async function design(page: Page, folder: string): Promise<void> {
   await page.goto(process.env.PAGE_LIVE_ADDRESS!);
-  await page.getByRole("region", { name: "Design" }).getByRole("link", { name: "hubble_tenth", exact: true }).click();
-  await page.getByLabel("Folder").fill(folder);
-  await page.getByRole("button", { name: "Copy", exact: true }).click();
-  await expect(page.getByRole("heading", { level: 1 })).toHaveText(`${folder}/missions/hubble_tenth.toml`);
+  await designCopy(page, "hubble_tenth", folder);
 }
 
 test("a value of the form changes its span of the text, is taken back, and is saved behind a look at the lines", async ({ page }) => {

@@ -1,20 +1,17 @@
 // The preview of the editor: the target and a scan of the text as it is edited; against the server that flies.
 import { readFileSync } from "node:fs";
 import type { Page } from "@playwright/test";
+import { designCopy, field } from "./design_steps.ts";
 import { screenshot } from "./pictures.ts";
 import { differing, expect, pictureOf, seriousFindings, test } from "./support.ts";
 
-const field = (page: Page, key: string) => page.locator(`[id="field-${key}"]`);
 const counts = (page: Page) => page.locator(".preview-counts");
 const canvas = ".panel-preview .scene-canvas";
 
 /** Opens a copy of its own of the tenth-scale Hubble, and waits until its target is drawn. */
 async function design(page: Page, folder: string): Promise<void> {
   await page.goto(process.env.PAGE_LIVE_ADDRESS!);
-  await page.getByRole("region", { name: "Design" }).getByRole("link", { name: "hubble_tenth", exact: true }).click();
-  await page.getByLabel("Folder").fill(folder);
-  await page.getByRole("button", { name: "Copy", exact: true }).click();
-  await expect(page.getByRole("heading", { level: 1 })).toHaveText(`${folder}/missions/hubble_tenth.toml`);
+  await designCopy(page, "hubble_tenth", folder);
   await expect(page.locator(`${canvas}[data-surface]`)).toBeAttached();
 }
 

@@ -1,20 +1,15 @@
 // Tables of a mission that are added, copied and removed from the form; against the server that flies.
 import type { Page } from "@playwright/test";
+import { designCopy, field, text } from "./design_steps.ts";
 import { screenshot } from "./pictures.ts";
 import { expect, seriousFindings, test } from "./support.ts";
-
-const text = (page: Page) => page.getByRole("textbox", { name: "The mission's text" });
-const field = (page: Page, key: string) => page.locator(`[id="field-${key}"]`);
 
 /** Opens a copy of its own of a shipped mission, without the preview. */
 async function design(page: Page, mission: string, folder: string): Promise<void> {
   await page.goto(process.env.PAGE_LIVE_ADDRESS!);
   await page.evaluate(() => localStorage.setItem("mdat.design-preview", "false"));
   await page.reload();
-  await page.getByRole("region", { name: "Design" }).getByRole("link", { name: mission, exact: true }).click();
-  await page.getByLabel("Folder").fill(folder);
-  await page.getByRole("button", { name: "Copy", exact: true }).click();
-  await expect(page.getByRole("heading", { level: 1 })).toContainText(`${folder}/`);
+  await designCopy(page, mission, folder);
 }
 
 test("a scenario is copied, changed, removed and brought back; a node stands below its parent", async ({ page }) => {
