@@ -11,11 +11,6 @@
 namespace lasso {
 
 struct FixedNumber {
-  // Half of what floating point looks at: a pass takes 2.6 times the instructions, and with all of it a rough start takes more than a frame
-  // of a 603e.
-  static constexpr int kLinePlaces = 3;
-  static constexpr std::size_t kLineKept = 1;
-
   using Length = Fixed<22>;
   using Unit = Fixed<30>;
   using Tangent = Fixed<26>;

@@ -30,10 +30,6 @@
 namespace lasso {
 
 struct FloatNumber {
-  // Of a line search (fsw/pose/weak_axis.hpp): places each way, and poses that are registered.
-  static constexpr int kLinePlaces = 6;
-  static constexpr std::size_t kLineKept = 2;
-
   using Length = float;
   using Unit = float;
   using Tangent = float;

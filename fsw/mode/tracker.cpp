@@ -194,10 +194,7 @@ void change_mode(ModeEvent event, TrackState& state) {
   if (event == ModeEvent::kNear || event == ModeEvent::kFar) state.range_awaited = true;
   if (properties(next).by_parts) state.parts = PartsState{};
   if (properties(next).searches) ++state.searches;
-  if (properties(next).full_field || properties(next).searches) {
-    state.filter = FilterState{};
-    state.rival_m = 0;
-  }
+  if (properties(next).full_field || properties(next).searches) state.filter = FilterState{};
   if (properties(next).full_field) state.bearing = BearingState{};
 }
 
@@ -219,7 +216,6 @@ StartRefusal start_track(const Mission& mission, StartWay way, const StartOffer&
   state.interrupts = interrupts;
   state.missed = 0;
   state.check = StartCheck{};
-  state.rival_m = 0;
   state.rough = is_attitude_rough(state.filter);
   state.way = way;
   return StartRefusal::kNone;
@@ -236,9 +232,7 @@ TrackStep track_scan(const Mission& mission, Estimator& estimator, const RangeIm
   const bool wide = ((mode.wide_start && starts) || is_rough(mission, filter)) && p.wide_start > 0.5;
   Registration& registration = step.registration;
   registration = estimator.estimate(mission, scan,
-                                    StartPoint{filter.T_sensor_target, filter.rates, wide, rate_sigma(mission.radius_m, filter),
-                                               relative_covariance(filter), before.rival_m, false});
-  step.after.rival_m = registration.valid() ? registration.rival_m : before.rival_m;
+                                    StartPoint{filter.T_sensor_target, filter.rates, wide, rate_sigma(mission.radius_m, filter), false});
   if (registration.valid()) registration.reason = confirm(p, mode, starts, filter, registration);
   take(p, mode, step);
   return step;

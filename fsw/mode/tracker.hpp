@@ -47,7 +47,6 @@ struct TrackState {
   bool rough = false;              // its attitude was stated no better than kKnownAttitude_rad: other poses may lie within it
   StartCheck check;                // of that start, in mode starting
   bool interrupts = false;         // a start: the track that it interrupted is kept by whoever keeps this state
-  double rival_m = 0;              // Registration::rival_m of the last scan
   FilterState filter;
   SensorNumber sensor = 0;  // of the last scan: whose common errors the filter carries
   BearingState bearing;

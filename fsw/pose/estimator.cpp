@@ -41,8 +41,6 @@ Mat6 to_sensor_axes(const Mat6& covariance, const Pose& T_target_sensor) {
   return rotated_covariance(to_matrix(T_target_sensor.q).transpose(), covariance);
 }
 
-Mat6 to_target_axes(const Mat6& covariance, const Pose& T_target_sensor) { return to_sensor_axes(covariance, inverse(T_target_sensor)); }
-
 double range_sigma(const MissionParameters& p, double range_m, double scale) { return square_root(range_variance(p, range_m) * scale); }
 
 // Labels are linear within the band around the contour. Where the hits hold the pose more loosely than that, the contours nearest to the
@@ -67,8 +65,7 @@ struct HitKnowledge {
   Hold hold;         // by the outline, of the slack
 };
 
-void learn_from(const Mission& mission, const LineSearch& search, Workspace& workspace, HitKnowledge& known) {
-  const HitSolution& hits = search.best;
+void learn_from(const Mission& mission, const HitSolution& hits, Workspace& workspace, HitKnowledge& known) {
   const MissionParameters& p = mission.parameters;
   known.scale = noise_scale(p, hits, !(workspace.sigma_factor > FlightNumber::Factor{1}));
   known.covariance.setZero();
@@ -79,7 +76,6 @@ void learn_from(const Mission& mission, const LineSearch& search, Workspace& wor
   known.covariance = covariance_of_hits(mission.radius_m, hits.H, known.trust_scale, known.unseen);
   if (explained_share(hits) < p.inlier_share_min) return;  // it is refused, however sure it is
   widen_weak_axes(mission, hits, known.trust_scale, workspace, known.covariance, known.unseen);
-  known.covariance = with_rivals(search, known.covariance);
   known.slack = find_slack(mission, known.covariance);
 }
 
@@ -99,26 +95,24 @@ OutlineFit outline_of(const Mission& mission, const HitSolution& hits, const Hit
 
 // Registers the hits from where the outline has the pose: a few of them may have held it on a side of the model that they never met. False,
 // with all as it was before, where nothing is settled there.
-bool follow_outline(const Mission& mission, Workspace& workspace, LineSearch& search, HitKnowledge& known, OutlineFit& fit) {
-  HitSolution& hits = search.best;
+bool follow_outline(const Mission& mission, Workspace& workspace, HitSolution& hits, HitKnowledge& known, OutlineFit& fit) {
   const HitSolution before = hits;
   hits = register_hits(mission, fit.T_target_sensor, workspace);
   hits.iterations = static_cast<std::uint16_t>(hits.iterations + before.iterations);
-  learn_from(mission, search, workspace, known);
+  learn_from(mission, hits, workspace, known);
   fit = outline_of(mission, hits, known, kMostAskedAgain, workspace);
   if (fit.settled) return true;
   hits = before;
-  learn_from(mission, search, workspace, known);
+  learn_from(mission, hits, workspace, known);
   return false;
 }
 
 // Where the hits let the pose slide, the outline says where it is.
-void settle_slack(const Mission& mission, LineSearch& search, Workspace& workspace, HitKnowledge& known) {
-  HitSolution& hits = search.best;
+void settle_slack(const Mission& mission, HitSolution& hits, Workspace& workspace, HitKnowledge& known) {
   if (known.slack.count == 0) return;
   OutlineFit fit = outline_of(mission, hits, known, kMostAsked, workspace);
   if (!fit.settled) return;
-  if (fit.moved && !follow_outline(mission, workspace, search, known, fit)) return;
+  if (fit.moved && !follow_outline(mission, workspace, hits, known, fit)) return;
   hits.T_target_sensor = fit.T_target_sensor;
   known.hold = hold_by(mission, fit, known.slack, known.covariance, known.unseen);
 }
@@ -226,20 +220,19 @@ HitSolution register_wide(const Mission& mission, const Pose& T_target_sensor, W
 }
 
 // Its matrices are off the stack before those of `describe` are on it.
-[[gnu::noinline]] void register_scan(const Mission& mission, const StartPoint& start, Workspace& workspace, LineSearch& search) {
+[[gnu::noinline]] void register_scan(const Mission& mission, const StartPoint& start, Workspace& workspace, HitSolution& hits) {
   const Pose pose = inverse(start.T_sensor_target);
-  search.best = start.wide ? register_wide(mission, pose, workspace) : register_hits(mission, pose, workspace);
-  search_weak_axis(mission, {pose, to_target_axes(start.covariance, pose), start.rival_m}, workspace, search);
+  hits = start.wide ? register_wide(mission, pose, workspace) : register_hits(mission, pose, workspace);
+  minimise_weak_axis(mission, pose, workspace, hits);
 }
 
-[[gnu::noinline]] void describe(const Mission& mission, const ScanCare& care, LineSearch& search, Workspace& workspace,
+[[gnu::noinline]] void describe(const Mission& mission, const ScanCare& care, HitSolution& hits, Workspace& workspace,
                                 Registration& result) {
   HitKnowledge known;
-  learn_from(mission, search, workspace, known);
-  if (mission.parameters.silhouettes > 0.5 && care.shows_outline) settle_slack(mission, search, workspace, known);
-  describe_hits(search.best, known.scale, workspace, result);
-  if (has_information(search.best)) describe_pose(mission, search.best, care, known, workspace, result);
-  result.rival_m = search.rival_m;
+  learn_from(mission, hits, workspace, known);
+  if (mission.parameters.silhouettes > 0.5 && care.shows_outline) settle_slack(mission, hits, workspace, known);
+  describe_hits(hits, known.scale, workspace, result);
+  if (has_information(hits)) describe_pose(mission, hits, care, known, workspace, result);
 }
 
 // More than `most` within the time, or than `fastest` by itself; so is what is not a number.
@@ -270,12 +263,11 @@ Registration Estimator::estimate(const Mission& mission, const RangeImage& scan,
     return result;
   }
   prepare_rays(mission, scan, start, workspace_);
-  LineSearch search;
-  register_scan(mission, start, workspace_, search);
+  HitSolution hits;
+  register_scan(mission, start, workspace_, hits);
   const ScanCare care{scan.misses_known, scan.misses_known && !start.partial, kMotionSigmas * start.rate_sigma_mps * half_of(scan)};
-  describe(mission, care, search, workspace_, result);
+  describe(mission, care, hits, workspace_, result);
   result.reason = judge(mission.parameters, result, motion_variance(mission, start, care.motion_m));
-  if (result.valid() && search.contradicted) result.reason = PoseReason::kImplausible;
   return result;
 }
 

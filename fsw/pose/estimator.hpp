@@ -15,10 +15,8 @@ struct StartPoint {
   Pose T_sensor_target;
   Twist rates;        // for moving the points to the reference time (estimation.deskew)
   bool wide = false;  // a rough start (20 deg, a quarter of the model's size): where the near way fails, centroid, far field and slides
-  double rate_sigma_mps = 0;       // how far the rates may be off, as a velocity at the model's radius along any axis (1 sigma)
-  Mat6 covariance = Mat6::Zero();  // of the pose, as FilterState's: how far poses beside it are looked for; zero: none is
-  double rival_m = 0;              // Registration::rival_m of the scan before
-  bool partial = false;            // the model is a part of what is scanned: a return that meets none of it does not count against the pose
+  double rate_sigma_mps = 0;  // how far the rates may be off, as a velocity at the model's radius along any axis (1 sigma)
+  bool partial = false;       // the model is a part of what is scanned: a return that meets none of it does not count against the pose
 };
 
 // Does the target move too fast for rays to be moved back, with estimation.deskew: too far in the time, or beyond all measure? By half of a

@@ -14,6 +14,8 @@ namespace {
 
 using N = FlightNumber;
 
+constexpr double kHeld = 1e4;  // of the information of all translations: a held axis has that much more
+
 // A prior as wide as the model itself keeps directions that no ray sees solvable; it says nothing where any ray does. The part that grows
 // with the information covers the rounding of the sums.
 void add_wide_prior(double radius_m, Mat6& H) {
@@ -22,6 +24,17 @@ void add_wide_prior(double radius_m, Mat6& H) {
     H(i, i) += prior * radius_m * radius_m;
     H(i + 3, i + 3) += prior;
   }
+}
+
+// The normal equations of the sums into H of the pass and b; false where there are too few points.
+bool set_up(const Mission& mission, const MatchSettings<N>& s, Pass& pass, Vec6& b) {
+  if (pass.sums.rows.count() < kMinimumPoints) return false;
+  pass.sums.rows.unpack(pass.H, b);
+  const double scale = 1 / N::to_double(s.reference_variance);
+  pass.H *= scale;
+  b *= scale;
+  add_wide_prior(mission.radius_m, pass.H);
+  return true;
 }
 
 Vec6 cut_step(const Vec6& x, double radius_m, double longest_m) {
@@ -46,13 +59,8 @@ MatchSettings<N> make_settings(const MissionParameters& p, const Workspace& work
 void set_gate(double gate_m, MatchSettings<N>& s) { s.gate = N::to_length(gate_m); }
 
 void solve_pass(const Mission& mission, const MatchSettings<N>& s, Descent& descent, Pass& pass, Pose& T_target_sensor) {
-  if (pass.sums.rows.count() < kMinimumPoints) return;
   Vec6 b;
-  pass.sums.rows.unpack(pass.H, b);
-  const double scale = 1 / N::to_double(s.reference_variance);
-  pass.H *= scale;
-  b *= scale;
-  add_wide_prior(mission.radius_m, pass.H);
+  if (!set_up(mission, s, pass, b)) return;
   pass.status = solve6(pass.H, b, pass.x);
   if (pass.status != Status::kOk) return;
   if (descent.last.dot(pass.H * pass.x) < 0) descent.damping *= 0.5;
@@ -79,6 +87,15 @@ Pass take_pass(const Mission& mission, const MatchSettings<N>& s, const PassKind
 Pass take_pass(const Mission& mission, const MatchSettings<N>& s, const PassKind& kind, Workspace& workspace, Pose& T_target_sensor) {
   Descent whole;
   return take_pass(mission, s, kind, whole, workspace, T_target_sensor);
+}
+
+void take_held_pass(const Mission& mission, const Vec6& row, Workspace& workspace, Pose& T_target_sensor) {
+  const MatchSettings<N> s = make_settings(mission.parameters, workspace);
+  Pass pass = match_pass(mission, s, {}, T_target_sensor, workspace);
+  Vec6 b;
+  if (!set_up(mission, s, pass, b)) return;
+  pass.H += kHeld * pass.H.bottomRightCorner<3, 3>().trace() * row * row.transpose();
+  if (solve6(pass.H, b, pass.x) == Status::kOk) T_target_sensor = step_pose(T_target_sensor, pass.x);
 }
 
 }  // namespace lasso

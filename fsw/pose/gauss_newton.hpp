@@ -43,4 +43,8 @@ Pass take_pass(const Mission& mission, const MatchSettings<FlightNumber>& settin
 Pass take_pass(const Mission& mission, const MatchSettings<FlightNumber>& settings, const PassKind& kind, Workspace& workspace,
                Pose& T_target_sensor);
 
+// A whole pass over all points with one axis held: its step x has row.dot(x) = 0, but for 1e-4 of what the hits would ask for. `row` is
+// over (rotation, translation), target axes, and measures m. Without enough points the pose stays.
+void take_held_pass(const Mission& mission, const Vec6& row, Workspace& workspace, Pose& T_target_sensor);
+
 }  // namespace lasso

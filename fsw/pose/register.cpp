@@ -13,6 +13,7 @@ constexpr double kOwnUncertainty = 8.56;   // the same: below it are four of fiv
 constexpr double kNarrowestKernel = 1e-4;  // of the kernel's squared width
 constexpr double kNarrowed = 0.5;          // the same, from one pass to the next
 constexpr int kUndampedPasses = 8;
+constexpr double kNoCost = 1e300;
 
 bool is_small(const Vec6& x, const MissionParameters& p) {
   return x.head<3>().squaredNorm() < p.stop_rotation_rad * p.stop_rotation_rad &&
@@ -179,7 +180,7 @@ double explained_share(const HitSolution& solution) {
 
 double mean_cost(const HitSolution& solution) {
   const double left_out = static_cast<double>(solution.usable) - static_cast<double>(solution.inliers);
-  return solution.usable > 0 ? (solution.chi_squared + kUnexplainedCost * left_out) / solution.usable : 1e300;
+  return solution.usable > 0 ? (solution.chi_squared + kUnexplainedCost * left_out) / solution.usable : kNoCost;
 }
 
 HitSolution weigh_hits(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace) {
@@ -198,6 +199,16 @@ double cost_of_hits(const Mission& mission, const Pose& T_target_sensor, Workspa
   const MatchSettings<N> s = make_settings(mission.parameters, workspace);
   keep(match_pass(mission, s, kind, T_target_sensor, workspace), s, solution);
   return mean_cost(solution);
+}
+
+double bounded_cost(const Mission& mission, const Pose& T_target_sensor, double usable, Workspace& workspace) {
+  if (workspace.points.empty()) return kNoCost;
+  MatchSettings<N> s = make_settings(mission.parameters, workspace);
+  s.kernel_squared = N::to<N::Kernel>(3 * kMostOfAReturn);  // rho's bound is a third of it
+  const Span<MatchPoint<N>> points(workspace.points.begin(), workspace.points.size());
+  const CostSums<N> sums = cost_points(mission.field, to_path<N>(T_target_sensor), s, points);
+  if (sums.usable == 0) return kNoCost;
+  return kMostOfAReturn * (1 - N::to_double(sums.explained) / sums.usable) * usable;
 }
 
 HitSolution register_look(const Mission& mission, RegisterLook look, const Pose& T_target_sensor, Workspace& workspace) {

@@ -47,6 +47,13 @@ double mean_cost(const HitSolution& solution);
 // The same of the pose as it stands: one pass, nothing solved.
 double cost_of_hits(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace, const PassKind& kind = {});
 
+// What all returns cost at a pose, squared sigmas: of each Tukey's rho with a kernel of 3.5 sigmas, which is r^2 of a small residual and
+// kMostOfAReturn at most. A return that the pose leaves out costs that, too. So a return that passes an edge, or meets it with half of its
+// beam, decides nothing. Of `usable` returns, by the mean of those that the pose could explain: where more of them graze the surface, a
+// pose is not the better for it. One pass, nothing solved; infinite without any.
+double bounded_cost(const Mission& mission, const Pose& T_target_sensor, double usable, Workspace& workspace);
+constexpr double kMostOfAReturn = 4;  // from a sweep of 2 to 16 (docs/experiments/2026-11-29-profile.md)
+
 // A rough start made good enough for register_first, on at most 96 of the points: their centroid, the far field, then slides along the
 // target's axes, until 98 % of them lie on the model. Of the slides along an axis three that leave the points closest to the surface are
 // pulled to its planes by half of these points (all, of less than 48), and the closest of these is drawn along the rays. Converges from

@@ -62,8 +62,6 @@ struct Registration {
   double weakest_sigma_m = 0;             // largest sigma of the covariance's eigen-directions, rotation scaled by the model's radius
   Vec6 weakest_direction = Vec6::Zero();  // that direction: unit vector over (rotation * radius, translation), sensor axes
 
-  double rival_m = 0;  // how far off another pose is that explains the scan as well, at the model's radius; 0: none
-
   bool valid() const { return reason == PoseReason::kValid; }
 };
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "ut/pose/pose_fixture.hpp"
@@ -106,6 +107,25 @@ class GaussNewtonTest : public test::PoseFixture {
     return sums;
   }
 
+  // The mean over the points that count.
+  double brute_bounded(const Pose& pose) const {
+    const MissionParameters& p = mission_.parameters;
+    double cost = 0;
+    int usable = 0;
+    for (const Point& point : workspace_->points) {
+      const Met met = meet(scan_.model, pose, point);
+      const bool hit = met.met && std::abs(met.t) < static_cast<double>(point.reach);
+      const double tilt = met.n.dot(met.u);
+      if (hit && std::abs(tilt) < std::cos(p.incidence_max_rad)) continue;
+      ++usable;
+      const double variance = tilt * tilt * static_cast<double>(point.range_variance) +
+                              (1 - tilt * tilt) * static_cast<double>(point.across_variance) + p.surface_sigma_m * p.surface_sigma_m;
+      const double share = hit ? std::min(1.0, met.residual() * met.residual() / (3 * kMostOfAReturn * variance)) : 1;
+      cost += kMostOfAReturn * (1 - std::pow(1 - share, 3));
+    }
+    return cost / usable;
+  }
+
   void expect_sums(const PassSums<N>& sums, const BruteSums& truth, double reference_variance) const {
     Mat6 H;
     Vec6 b;
@@ -167,6 +187,34 @@ TEST_F(GaussNewtonTest, SumsAreThoseOfABruteForcePass) {
     ASSERT_GT(sums.rows.count(), 12u);
     expect_sums(sums, brute(pose, gate_m, kind.stride), N::to_double(s.reference_variance));
   }
+}
+
+// Tukey's rho with a kernel of sqrt(12) sigmas, point by point in double.
+TEST_F(GaussNewtonTest, TheBoundedCostIsThatOfABruteForcePass) {
+  VERIFIES("LASSO-REG-031~1");
+  for (int i = 0; i < 8; ++i) {
+    scan_.T_sensor_target = test::random_box_pose(random_);
+    parameters().incidence_max_rad = i % 2 == 0 ? 0.9 : 1.5;
+    scan();
+    const Pose pose = inverse(test::disturb(scan_.T_sensor_target, 0.001, 0.001, random_));
+    keep_clear_points(pose);
+    const double bounded = brute_bounded(pose);
+    ASSERT_GT(bounded, 0);
+    ASSERT_LT(bounded, kMostOfAReturn);
+    EXPECT_NEAR(bounded_cost(mission_, pose, 200, *workspace_), 200 * bounded, 0.1);
+  }
+}
+
+TEST_F(GaussNewtonTest, WithoutAReturnTheBoundedCostIsMoreThanAny) {
+  VERIFIES("LASSO-REG-031~1");
+  scan();
+  Pose behind = truth();
+  behind.p *= -20;
+  EXPECT_EQ(bounded_cost(mission_, behind, 7, *workspace_), 7 * kMostOfAReturn) << "all are left out";
+  for (MatchPoint<N>& point : workspace_->points) point.aimed = true;
+  EXPECT_GT(bounded_cost(mission_, behind, 7, *workspace_), 1e200) << "those at a contour may well be";
+  workspace_->points.clear();
+  EXPECT_GT(bounded_cost(mission_, truth(), 7, *workspace_), 1e200);
 }
 
 TEST_F(GaussNewtonTest, TheStepSolvesTheNormalEquations) {
@@ -237,6 +285,28 @@ TEST_F(GaussNewtonTest, TooFewPointsTakeNoStep) {
     EXPECT_EQ(pass.status, count == kMinimumPoints ? Status::kOk : Status::kNoData);
     EXPECT_EQ(pose.p == start.p, count < kMinimumPoints);
   }
+}
+
+// Against the least squares over the five directions that are left, in double, of brute-force sums.
+TEST_F(GaussNewtonTest, AHeldAxisStaysAndTheOthersAreSolved) {
+  VERIFIES("LASSO-REG-031~1");
+  scan();
+  const Pose start = inverse(test::disturb(scan_.T_sensor_target, 0.004, 0.003, random_));
+  keep_clear_points(start);
+  const BruteSums sums = brute(start, 0, 1);
+  for (int i = 0; i < 4; ++i) {
+    const Vec6 row = test::random_vec6(random_, 1).normalized();
+    const Eigen::Matrix<double, 6, 5> free = Eigen::FullPivLU<Eigen::Matrix<double, 1, 6>>(row.transpose()).kernel();
+    const Vec6 x = free * (free.transpose() * sums.H * free).ldlt().solve(free.transpose() * sums.b);
+    Pose pose = start;
+    take_held_pass(mission_, row, *workspace_, pose);
+    const Pose expected = step_pose(start, x);
+    EXPECT_LT(pose_difference(pose, expected).norm(), 5e-3 * x.norm()) << i;
+  }
+  keep_first_points(kMinimumPoints - 1);
+  Pose pose = start;
+  take_held_pass(mission_, Vec6::Unit(0), *workspace_, pose);
+  EXPECT_EQ(pose.p, start.p);
 }
 
 // Sums of `count` rows that all look at n from m.
@@ -312,6 +382,8 @@ TEST_F(GaussNewtonTest, SaysWhenThereIsNoSolution) {
   EXPECT_EQ(far.status, Status::kSingular);
   EXPECT_EQ(pose.p, start.p);
   EXPECT_EQ(pose.q.coeffs(), start.q.coeffs());
+  take_held_pass(mission_, Vec6::Unit(3), *workspace_, pose);
+  EXPECT_EQ(pose.p, start.p);
 }
 
 TEST_F(GaussNewtonTest, SettingsAreTheMissions) {
