@@ -558,6 +558,10 @@ icd: ## write: write docs/icd/link.md, and python/lasso_mdat/dictionary.json, fr
 	@$(BUILD)/mdat/mdat dictionary >$(LASSO_OUT)/link.md && { cmp -s $(LASSO_OUT)/link.md docs/icd/link.md || mv $(LASSO_OUT)/link.md docs/icd/link.md; }
 	@$(BUILD)/mdat/mdat dictionary --format json | python/pack_dictionary >$(LASSO_OUT)/dictionary.json && { cmp -s $(LASSO_OUT)/dictionary.json python/lasso_mdat/dictionary.json || mv $(LASSO_OUT)/dictionary.json python/lasso_mdat/dictionary.json; }
 
+hazards: ## write: write docs/hazards.md from reqs/hazards.yaml and reqs/fmea.yaml
+	$(call packages,trace)
+	@reqs/hazards
+
 campaign-table: ## write: write the tables of the missions' campaigns of docs/campaigns.md
 	$(call packages,build)
 	$(call configure,$(BUILD),)

@@ -1,7 +1,6 @@
 """The items of reqs/*.yaml: reads them with the line of each key, and checks all that can be known without test reports (reqs/README.md)."""
 import collections
 import dataclasses
-import functools
 import pathlib
 import re
 import sys
@@ -11,11 +10,14 @@ try:
 except ImportError:
     sys.exit('trace: PyYAML is missing: install the Debian package python3-yaml (cfg/packages/ensure trace)')
 
+import trace_evidence  # noqa: E402
+
 METHODS = ('test', 'analysis', 'inspection', 'demonstration')
 STATUSES = ('active', 'planned')
 PLATFORMS = ('host', 'ppc603e')
 ID = re.compile(r'LASSO-[A-Z]{3,4}-\d{3}')
 NEED = 'LASSO-NEED-'
+OTHER_FILES = ('hazards.yaml', 'fmea.yaml')  # trace_hazards.py
 # What cannot be measured. Words with a meaning of their own in the field (nominal, correctly rounded, best fit) are not listed.
 VAGUE = re.compile(
     r'\b(adequate(ly)?|appropriate(ly)?|as (far|much|fast|soon|many) as (possible|practical)|as (needed|required|necessary|applicable)|'
@@ -38,7 +40,10 @@ class Item:
     safety: bool = False
     status: str = ''
     evidence: str = ''  # file in the repository
+    shows: tuple = ()  # what the evidence has to say, with limits of its figures
+    command: str = ''  # that prints the figures of the evidence
     gate: str = ''  # make target whose last result speaks for the item
+    missing: str = ''  # of a planned item: what it still needs
     targets: tuple = ('host',)
     area: str = ''
     place: str = ''  # file:line of the item
@@ -90,6 +95,11 @@ def read_targets(node):
     return words if words and all(word in PLATFORMS for word in words) and len(set(words)) == len(words) else None
 
 
+def read_texts(node):
+    texts = tuple(map(read_text, node.value)) if isinstance(node, yaml.SequenceNode) else (read_text(node),)
+    return texts if texts and all(texts) else None
+
+
 Key = collections.namedtuple('Key', 'required read expected')  # read(node) is None where the value is not as expected
 KEYS = {
     'id': Key(True, read_match(ID), 'LASSO-AREA-nnn'),
@@ -101,43 +111,47 @@ KEYS = {
     'safety': Key(True, read_flag, 'true or false'),
     'status': Key(True, read_word(STATUSES), 'one of ' + ', '.join(STATUSES)),
     'evidence': Key(False, read_text, 'a file of the repository'),
+    'shows': Key(False, read_texts, 'a text that stands in the evidence, or a list of such'),
+    'command': Key(False, read_text, 'a command of the repository'),
+    'missing': Key(False, read_text, 'a sentence'),
     'gate': Key(False, read_text, 'the name of a make target'),
     'targets': Key(False, read_targets, 'a list of ' + ', '.join(PLATFORMS)),
 }
+Item.KEYS = KEYS
 
 
 def read_key(item, node, value, at, problems):
-    name = node.value if isinstance(node, yaml.ScalarNode) else 'of another type'
-    if name not in KEYS:
-        problems.append(f'{at}: unknown key {name!r}: the keys are {", ".join(KEYS)}')
+    name, keys = node.value if isinstance(node, yaml.ScalarNode) else 'of another type', item.KEYS
+    if name not in keys:
+        problems.append(f'{at}: unknown key {name!r}: the keys are {", ".join(keys)}')
         return
     if name in item.lines:
         problems.append(f'{at}: key {name!r} twice in one item: remove one')
     item.lines[name] = at
-    result = KEYS[name].read(value)
+    result = keys[name].read(value)
     if result is None:
         shown = repr(value.value) if isinstance(value, yaml.ScalarNode) else 'of another type'
-        problems.append(f'{at}: {name} is {shown}: write {KEYS[name].expected}')
+        problems.append(f'{at}: {name} is {shown}: write {keys[name].expected}')
     else:
         setattr(item, name, result)
 
 
-def read_item(node, file, problems):
+def read_item(node, file, problems, kind=Item):
     """The item of one list entry; None, with the reasons in problems, where it is not one."""
     place = f'{file}:{node.start_mark.line + 1}'
     if not isinstance(node, yaml.MappingNode):
         problems.append(f'{place}: not an item: write "- id: LASSO-AREA-nnn" and its keys below')
         return None
-    item, before = Item(place=place, area=pathlib.Path(file).stem), len(problems)
+    item, before = kind(place=place, area=pathlib.Path(file).stem), len(problems)
     for key, value in node.value:
         read_key(item, key, value, f'{file}:{key.start_mark.line + 1}', problems)
-    for name, key in KEYS.items():
+    for name, key in kind.KEYS.items():
         if key.required and name not in item.lines:
             problems.append(f'{place}: key {name!r} is missing: add it ({key.expected})')
     return item if len(problems) == before else None
 
 
-def read_file(path, shown):
+def read_file(path, shown, kind=Item):
     """The items of one file and the problems found in it."""
     try:
         root = yaml.compose(path.read_text(encoding='utf-8'), Loader=yaml.SafeLoader)
@@ -151,18 +165,18 @@ def read_file(path, shown):
     if not isinstance(root, yaml.SequenceNode):
         return [], [f'{shown}:1: not a list of items: begin each item with "- id: LASSO-AREA-nnn"']
     problems = []
-    items = [read_item(node, shown, problems) for node in root.value]
+    items = [read_item(node, shown, problems, kind) for node in root.value]
     return [item for item in items if item is not None], problems
 
 
 def read_items(root):
     """All items of ROOT/reqs/*.yaml in the files' order of names, needs first."""
-    files = sorted((root / 'reqs').glob('*.yaml'), key=lambda path: (path.stem != 'needs', path.stem))
+    files = sorted((path for path in (root / 'reqs').glob('*.yaml') if path.name not in OTHER_FILES), key=lambda path: (path.stem != 'needs', path.stem))
     if not files:
         return [], [f'reqs: no requirements found below {root}: give the folder that holds reqs/']
     items, problems = [], []
     for path in sorted((root / 'reqs').rglob('*.y*ml')):
-        if path not in files:
+        if path not in files and path.relative_to(root / 'reqs').as_posix() not in OTHER_FILES:
             problems.append(f'{path.relative_to(root)}:1: not read: move its items to a file reqs/AREA.yaml')
     for path in files:
         found, wrong = read_file(path, str(path.relative_to(root)))
@@ -184,33 +198,22 @@ def check_wording(item):
 
 def check_method(item, root):
     by_test = item.method == 'test'
-    if by_test and (item.evidence or item.gate):
-        yield f'{item.place}: {item.id} is verified by test: remove its evidence and gate, or change its method'
+    if by_test and (item.evidence or item.gate or item.shows or item.command):
+        yield f'{item.place}: {item.id} is verified by test: remove its evidence, gate, shows and command, or change its method'
     if not by_test and 'targets' in item.lines:
         yield f'{item.at("targets")}: {item.id} is verified by {item.method}: targets are for tests'
     if by_test or not item.active:
         return
-    if item.gate and item.gate not in make_gates(root):
+    if item.gate and item.gate not in trace_evidence.make_gates(root):
         yield f'{item.at("gate")}: {item.id}: there is no make {item.gate} yet that is a gate: correct the name, or plan the item until there is'
-    if not item.evidence:
-        yield f'{item.at("method")}: {item.id} has no evidence of its {item.method}: add "evidence: FILE"'
-    elif not is_file_within(root, item.evidence):
-        yield f'{item.at("evidence")}: {item.id}: there is no file {item.evidence} in the repository, or it is empty: write it or correct the path'
+    yield from trace_evidence.check_evidence(item, root)
 
 
-@functools.cache
-def make_gates(root):
-    """The targets that take away their old summary first, and so leave one."""
-    makefile = root / 'Makefile'
-    return re.findall(r'^([a-z][a-z0-9-]*):.*\n\t\$\(begin\)$', makefile.read_text(encoding='utf-8'), re.MULTILINE) if makefile.is_file() else []
-
-
-def is_file_within(root, name):
-    """A file with words in it, and none that is generated or hidden."""
-    root, path = root.resolve(), (root / name.split('#')[0]).resolve()
-    if not path.is_relative_to(root) or not path.is_file() or path.relative_to(root).parts[0].startswith(('out', '.')):
-        return False
-    return path.read_bytes().strip() != b''
+def check_status(item):
+    if item.is_need and not item.active and not item.missing:
+        yield f'{item.at("status")}: {item.id} is a planned need: say by "missing" what it still lacks'
+    if item.active and item.missing:
+        yield f'{item.at("missing")}: {item.id} is active: remove "missing", or plan the item'
 
 
 def check_parent(item, by_id):
@@ -245,7 +248,7 @@ def check_items(items, root):
         by_id.setdefault(item.id, item)
     parents = {item.parent for item in items}
     for item in items:
-        problems += [*check_wording(item), *check_parent(item, by_id), *check_method(item, root)]
+        problems += [*check_wording(item), *check_parent(item, by_id), *check_method(item, root), *check_status(item)]
         if item.is_need and item.id not in parents:
             problems.append(f'{item.place}: {item.id} has no children: nothing would fulfil it')
     return problems

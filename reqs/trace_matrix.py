@@ -5,11 +5,12 @@ import html
 import os
 import pathlib
 
+import trace_hazards
 import trace_reports
 
 STYLE = (pathlib.Path(__file__).parent / 'trace_matrix.css').read_text(encoding='utf-8')
 COLUMNS = ('id', 'revision', 'area', 'status', 'safety', 'method', 'text', 'rationale', 'parent', 'children', 'targets', 'tests', 'evidence',
-           'gate', 'gate_result', 'verdict')
+           'shows', 'command', 'missing', 'gate', 'gate_result', 'verdict')
 escape = html.escape
 
 
@@ -18,8 +19,8 @@ def area_title(area):
 
 
 class Matrix:
-    def __init__(self, root, items, tests, gates, problems, standing):
-        self.root, self.items, self.tests, self.gates, self.problems, self.standing = root, items, tests, gates, problems, standing
+    def __init__(self, root, items, tests, gates, problems, standing, safety):
+        self.root, self.items, self.tests, self.gates, self.problems, self.standing, self.safety = root, items, tests, gates, problems, standing, safety
         self.children = collections.defaultdict(list)
         for item in items:
             if not item.is_need:  # a need with a parent is a problem, and would lead the tree in a circle
@@ -62,6 +63,7 @@ class Matrix:
             'safety relevant': f'{sum(item.safety for item in active)} active, {sum(item.safety for item in self.items if not item.active)} planned',
             'tests passed': ', '.join(f'{count} on {platform}' for platform, count in sorted(passed.items())) or 'none',
         }
+        figures |= trace_hazards.figures(self.safety, self.items, self.verdict)
         if waiting:
             figures['waiting for a gate'] = ', '.join(sorted({item.gate for item in waiting}))
         left = collections.Counter(verdict for verdict in map(self.verdict, active) if verdict in ('unchanged', 'short form'))
@@ -73,7 +75,7 @@ class Matrix:
         tests = [f'{test.platform} {test.name} {test.result}' for test in trace_reports.tests_of(item, self.tests)]
         return (item.id, item.rev, item.area, item.status, str(item.safety).lower(), item.method, item.text, item.rationale, item.parent,
                 ' '.join(child.id for child in self.children[item.id]), ' '.join(item.targets) if item.method == 'test' else '', '; '.join(tests),
-                item.evidence, item.gate, self.gates.get(item.gate, ''), self.verdict(item))
+                item.evidence, '; '.join(item.shows), item.command, item.missing, item.gate, self.gates.get(item.gate, ''), self.verdict(item))
 
     def write_csv(self, path):
         with open(path, 'w', encoding='utf-8', newline='') as file:
@@ -164,6 +166,12 @@ class Page:
         parts = []
         if item.evidence:
             parts.append(f'<br><a href="{self.top}/{escape(item.evidence)}">{escape(item.evidence)}</a>')
+        if item.shows:
+            parts.append(f'<details><summary>what it has to say</summary><ul>{"".join(f"<li>{escape(text)}</li>" for text in item.shows)}</ul></details>')
+        if item.command:
+            parts.append(f'<br>repeat: <code>{escape(item.command)}</code>')
+        if item.missing:
+            parts.append(f'<br>missing: {escape(item.missing)}')
         if item.gate:
             parts.append(f'<br>make {escape(item.gate)}: {self.matrix.gates.get(item.gate, "not run")}')
         tests = trace_reports.tests_of(item, self.matrix.tests)

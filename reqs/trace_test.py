@@ -117,7 +117,7 @@ class TraceTest(unittest.TestCase):
 
     def test_need_without_children(self):
         self.write('reqs/needs.yaml', NEED + NEED.replace('NEED-001', 'NEED-002'))
-        self.fails('reqs/needs.yaml:9: LASSO-NEED-002 has no children')
+        self.fails('reqs/needs.yaml:11: LASSO-NEED-002 has no children')
 
     def test_need_with_a_parent(self):
         self.write('reqs/needs.yaml', NEED + '  parent: LASSO-ABC-001\n')
@@ -155,6 +155,18 @@ class TraceTest(unittest.TestCase):
                 self.write('.git/HEAD', 'ref: refs/heads/main\n')
                 self.write('reqs/needs.yaml', NEED.replace('docs/page.md', name))
                 self.fails(f'reqs/needs.yaml:8: LASSO-NEED-001: there is no file {name}')
+
+    def test_evidence_that_says_something_else(self):
+        self.edit('docs/page.md', '1,500', '900')
+        self.fails('LASSO-NEED-001: its evidence docs/page.md says "Seen 1,200 times of 900", where >= 1000 is asked')
+        self.edit('docs/page.md', 'Seen', 'Heard')
+        self.fails('reqs/needs.yaml:9: LASSO-NEED-001: its evidence docs/page.md does not say')
+
+    def test_needs_that_are_planned_say_why(self):
+        self.edit('reqs/needs.yaml', 'status: active', 'status: planned')
+        self.fails('LASSO-NEED-001 is a planned need: say by "missing" what it still lacks')
+        self.write('reqs/needs.yaml', NEED + '  missing: Eyes.\n')
+        self.fails('LASSO-NEED-001 is active: remove "missing"')
 
     def test_evidence_of_what_is_tested(self):
         self.edit('reqs/abc.yaml', 'safety: true\n', 'safety: true\n  evidence: docs/page.md\n')
@@ -295,7 +307,7 @@ class TraceTest(unittest.TestCase):
 
     def test_gate_failed(self):
         self.rest_on_golden({'gate': 'golden', 'passed': False, 'figures': {}})
-        self.fails('reqs/needs.yaml:9: LASSO-NEED-001 rests on make golden, which failed')
+        self.fails('reqs/needs.yaml:11: LASSO-NEED-001 rests on make golden, which failed')
 
     def test_gate_that_has_run_as_a_sample(self):
         self.rest_on_golden({'gate': 'golden', 'passed': True, 'figures': {}, 'sample': '3 of 360'})

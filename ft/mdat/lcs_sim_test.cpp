@@ -1,6 +1,7 @@
 // The camera in a program of its own: mdat lcs-sim, and mdat run over a line of this machine, in real time.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 
 #include "ft/mdat/command.hpp"
@@ -20,29 +21,38 @@ std::string with_camera(const std::string& listen, const std::string& device, co
 }
 
 struct LineHead {
-  const char *listen, *device, *sensor;
+  const char *name, *listen, *device, *sensor;
 };
 class LcsSim : public ::testing::TestWithParam<LineHead> {};
 
 TEST_P(LcsSim, IsTrackedOverALineOfThisMachine) {
   VERIFIES("LASSO-SIM-031~1 LASSO-GND-024~1 LASSO-LCS-017~1");
   const WorkFolder folder;
-  const std::string run = "'" + mdat_program() + "' run missions/test.toml --scenario spin --frames 12 --no-report --out run --sensor " +
+  const std::string run = "'" + mdat_program() +
+                          "' run missions/test.toml --scenario spin --frames 12 --no-report --force --out run --sensor " +
                           std::string(GetParam().sensor) + ":$line";
-  const Answer answer = folder.mdat(with_camera(GetParam().listen, GetParam().device, run));
-  ASSERT_EQ(answer.exit_code, 0) << folder.read("run.txt") << folder.read("camera.txt");
-  const Json results = Json::parse(folder.read("run/results.json")).at("noisy");
-  EXPECT_EQ(results.at("frames"), 12);
-  EXPECT_EQ(results.at("wrong"), 0);
-  EXPECT_LT(results.at("lost").get<int>(), 12)
-      << "a machine with other work is late at times, and such a track may end; not the first scans";
-  EXPECT_LT(results.at("rms_mm").get<double>(), 2);
-  EXPECT_NE(folder.read("camera.txt").find("the client has gone"), std::string::npos);
+  // A machine with other work is late at times, and such a track may end: one of three runs has to hold it, and none may be wrong.
+  int lost = 12;
+  for (int attempt = 0; attempt < 3 && lost > 0; ++attempt) {
+    const Answer answer = folder.mdat(with_camera(GetParam().listen, GetParam().device, run));
+    ASSERT_EQ(answer.exit_code, 0) << folder.read("run.txt") << folder.read("camera.txt");
+    const Json results = Json::parse(folder.read("run/results.json")).at("noisy");
+    ASSERT_EQ(results.at("frames"), 12);
+    EXPECT_EQ(results.at("wrong"), 0);
+    EXPECT_NE(folder.read("camera.txt").find("the client has gone"), std::string::npos);
+    lost = std::min(lost, results.at("lost").get<int>());
+    if (lost == 0) {
+      EXPECT_LT(results.at("rms_mm").get<double>(), 2);
+    }
+  }
+  EXPECT_EQ(lost, 0) << folder.read("run.txt");
 }
 INSTANTIATE_TEST_SUITE_P(All, LcsSim,
-                         ::testing::Values(LineHead{"tcp://127.0.0.1:0", "laser-camera", "lcs-wire"},
-                                           LineHead{"unix:line", "tridar", "tridar-wire"}, LineHead{"pty", "laser-camera", "lcs-wire"}),
-                         [](const auto& one) { return std::string(one.param.listen).substr(0, 3); });
+                         ::testing::Values(LineHead{"tcp", "tcp://127.0.0.1:0", "laser-camera", "lcs-wire"},
+                                           LineHead{"unix", "unix:line", "laser-camera", "lcs-wire"},
+                                           LineHead{"unix_tridar", "unix:line", "tridar", "tridar-wire"},
+                                           LineHead{"pty", "pty", "laser-camera", "lcs-wire"}),
+                         [](const auto& one) { return std::string(one.param.name); });
 
 // Every number is another one.
 constexpr char kOptics[] =

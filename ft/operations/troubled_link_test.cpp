@@ -141,7 +141,7 @@ std::size_t compare(const Ground& ground, const Ground& observer) {
 }
 
 TEST(TroubledLinkFlight, TenMinutesOfLossGarbageAndFloodsLeaveTheTrackAsItIs) {
-  VERIFIES("LASSO-LNK-029~1");
+  VERIFIES("LASSO-LNK-029~1 LASSO-NEED-009~1");
   TroubledLink quiet_link, troubled_link;
   LinkedFlight quiet(quiet_link), troubled(troubled_link);
   Ground observer(quiet_link), ground(troubled_link);

@@ -88,12 +88,16 @@ TEST(ComponentParts, AScanOfAPartIsLaidOverThePart) {
   ComponentScene scene(leaving_scene(), image_with_parts(test::two_halves()));
   scene.begin();
   double whole = 0;
+  int of_parts = 0;
   for (const PoseTelemetry& t : run(scene, 12)) {
     const double area = t.plan_half_extents[0] * t.plan_half_extents[1];
     if (t.part == 0) whole = area;
     if (t.part == 0) continue;
+    ++of_parts;
     EXPECT_LT(area, 0.8 * whole);
   }
+  EXPECT_GT(whole, 0);
+  EXPECT_GE(of_parts, 6);
 }
 
 TEST(ComponentParts, APartThatIsNotWhereItsModelSaysIsDroppedAndTold) {

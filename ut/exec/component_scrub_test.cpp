@@ -13,7 +13,7 @@ using ComponentScrub = test::MemoryFixture;
 
 // Flips while tracking: told within a period of the scrub, and poses go on.
 TEST_F(ComponentScrub, FlipsAreToldAndRepairedWhileTracking) {
-  VERIFIES("LASSO-IMG-016~1 LASSO-IMG-017~1 LASSO-HLT-010~2");
+  VERIFIES("LASSO-IMG-016~1 LASSO-IMG-017~1 LASSO-HLT-010~3");
   scene_->begin(first_image());
   scene_->run_frames(5);
   const std::vector<std::uint64_t> right = scene_->buffers[0];

@@ -54,7 +54,7 @@ TEST(Component, ReportsEachScanTwoBoundariesLater) {
 }
 
 TEST(Component, PublishesWithinFourTenthsOfASecond) {
-  VERIFIES("LASSO-EXE-007~1");
+  VERIFIES("LASSO-EXE-007~1 LASSO-NEED-003~1");
   ComponentScene scene(started_parameters());
   scene.begin();
   EXPECT_LE(report_of(scene, 5).age_us, 400000u);
@@ -196,7 +196,7 @@ TEST(Component, RefusesAStartThatMeansNothing) {
 }
 
 TEST(Component, NeedsAnImageThatFitsItsFrames) {
-  VERIFIES("LASSO-EXE-008~1");
+  VERIFIES("LASSO-EXE-008~2");
   ComponentScene scene(started_parameters());
   EXPECT_EQ(scene.component->begin(0), Status::kMissing);
   scene.begin();
@@ -210,7 +210,7 @@ TEST(Component, NeedsAnImageThatFitsItsFrames) {
 }
 
 TEST(Component, ARefusedImageLeavesNothingToBeginWith) {
-  VERIFIES("LASSO-EXE-008~1");
+  VERIFIES("LASSO-EXE-008~2");
   ComponentScene scene(started_parameters());
   ASSERT_EQ(scene.load().status, Status::kOk);
   test::TestImage damaged = test::make_box_image(started_parameters());

@@ -25,7 +25,7 @@ TEST(Lasso, LivesInMemoryOfTheCaller) {
 }
 
 TEST(Lasso, StepsGiveTheBytesOfTheComponentRunByItsSlots) {
-  VERIFIES("LASSO-EXE-012~1 LASSO-EXE-010~1");
+  VERIFIES("LASSO-EXE-012~1 LASSO-EXE-010~1 LASSO-SYS-015~2");
   const MissionParameters parameters = test::box_parameters(test::default_scene());
   test::ComponentScene reference(parameters);
   reference.begin();
@@ -51,7 +51,7 @@ TEST(Lasso, StepsGiveTheBytesOfTheComponentRunByItsSlots) {
 }
 
 TEST(Lasso, AnswersCommands) {
-  VERIFIES("LASSO-LNK-011~2");
+  VERIFIES("LASSO-LNK-011~2 LASSO-SYS-015~2");
   const auto memory = std::make_unique<Memory>();
   test::BoxSensor sensor(test::default_scene());
   Component& component = *create(memory->bytes, sizeof(Memory::bytes), sensor);

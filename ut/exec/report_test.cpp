@@ -95,7 +95,7 @@ PoseTelemetry numbered_report() {
 }
 
 TEST(Report, CarriesTheRegistration) {
-  VERIFIES("LASSO-EXE-006~1 LASSO-LNK-025~1");
+  VERIFIES("LASSO-EXE-006~1 LASSO-LNK-025~1 LASSO-NEED-004~1");
   const PoseTelemetry t = numbered_report();
   const Quat q = numbered_step().registration.T_sensor_target.q;
   EXPECT_EQ(t.scan_id, 1u);

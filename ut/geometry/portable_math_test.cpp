@@ -200,7 +200,7 @@ void add_elementary(test::Digest& digest, test::Generator& generator) {
 }
 
 TEST(PortableMath, BitsAreTheRecordedOnes) {
-  VERIFIES("LASSO-GEO-007~1");
+  VERIFIES("LASSO-GEO-007~2");
   test::Generator generator(33);
   test::Digest digest;
   for (int i = 0; i < 100000; ++i) add_elementary(digest, generator);

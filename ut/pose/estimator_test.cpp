@@ -269,6 +269,30 @@ TEST_F(EstimatorTest, TheSameInputGivesTheSameBits) {
   EXPECT_EQ(first.covariance, second.covariance);
 }
 
+// One noisy scan from twelve predictions, each a few sigmas of the pose off in its own direction: what comes out is the scan's, not theirs.
+TEST_F(EstimatorTest, ThePredictionIsWhereItBeginsAndNoMeasurement) {
+  VERIFIES("LASSO-REG-014~1");
+  scan_.sigma_m = 1e-3;
+  const auto image = test::scan_box(scan_, random_);
+  StartPoint start;
+  start.T_sensor_target = scan_.T_sensor_target;
+  const Registration reference = estimate(*image, start);
+  ASSERT_TRUE(reference.valid()) << to_string(reference.reason);
+  for (int i = 0; i < 12; ++i) {
+    start.T_sensor_target = test::disturb(scan_.T_sensor_target, 0.01, 0.005, random_);
+    const Vec6 offset = pose_difference(start.T_sensor_target, scan_.T_sensor_target);
+    const Registration r = estimate(*image, start);
+    ASSERT_TRUE(r.valid()) << to_string(r.reason);
+    const Vec6 moved = pose_difference(r.T_sensor_target, reference.T_sensor_target);
+    Vec6 x, far;
+    ASSERT_EQ(solve6(reference.covariance, moved, x), Status::kOk);
+    ASSERT_EQ(solve6(reference.covariance, offset, far), Status::kOk);
+    EXPECT_GT(offset.dot(far), 9) << "a start that a filter would have had to pull in";
+    EXPECT_LT(moved.dot(x), 0.01) << "a tenth of a sigma";
+    for (int k = 0; k < 6; ++k) EXPECT_NEAR(r.covariance(k, k) / reference.covariance(k, k), 1, 0.05) << k;
+  }
+}
+
 TEST_F(EstimatorTest, SomeTargetsAreTooFastToMoveTheirPointsBack) {
   VERIFIES("LASSO-REG-019~1");
   const auto too_fast = [this](const Vec3& omega_radps, const Vec3& v_mps, double half_scan_s) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <sstream>
 
 #include "mdat/link/dictionary_text.hpp"
 #include "ut/support/verifies.hpp"
@@ -210,6 +211,42 @@ TEST(Dictionary, IdsAndNamesAreUniqueAndEverythingIsExplained) {
       EXPECT_LE(row.range.minimum, row.range.maximum) << row.name;
     }
   }
+}
+
+// What a name says of its unit at its end; empty: nothing.
+std::string unit_of_name(const std::string& name) {
+  const std::pair<const char*, const char*> kEnds[] = {{"_radps", "rad/s"}, {"_mps", "m/s"}, {"_rad", "rad"},
+                                                       {"_us", "us"},       {"_m", "m"},     {"_s", "s"}};
+  for (const auto& [end, unit] : kEnds) {
+    if (name.ends_with(end)) return unit;
+  }
+  return "";
+}
+
+TEST(Dictionary, UnitsAreOfOneSystemAndNamesAgreeWithThem) {
+  VERIFIES("LASSO-SYS-022~2");
+  const std::set<std::string> system = {"1", "m", "rad", "m/s", "rad/s", "s", "us"};
+  int named = 0, mixed = 0, attitudes = 0;
+  for (const PacketRow& packet : kPackets) {
+    for (const ItemRow& row : packet.items) {
+      const std::string place = std::string(packet.name) + "." + row.name, unit = row.unit;
+      std::istringstream parts(unit == "as it says" ? "1" : unit);  // the value of a mission's key, whose own row says the unit
+      for (std::string part; std::getline(parts, part, ',');) EXPECT_TRUE(system.contains(part)) << place << " [" << unit << "]";
+      mixed += unit.find(',') != std::string::npos;
+      const std::string said = unit_of_name(row.name);
+      if (said != "") {
+        EXPECT_EQ(said, unit) << place;
+      }
+      named += said != "";
+      EXPECT_EQ(std::string(row.name).find("deg"), std::string::npos) << place;
+      if (row.count != 4 || !is_real(row.type) || std::string(row.name).find("q_") == std::string::npos) continue;
+      ++attitudes;
+      EXPECT_NE(std::string(row.name).find("q_sensor_target"), std::string::npos) << place;
+    }
+  }
+  EXPECT_GT(named, 20);
+  EXPECT_GT(mixed, 5) << "arrays of two quantities say both units, in their order";
+  EXPECT_GE(attitudes, 3);
 }
 
 }  // namespace
