@@ -9,11 +9,13 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <fstream>
 #include <system_error>
 
 #include "bsp/posix/serial_line.hpp"
+#include "bsp/posix/udp_peers.hpp"
 
 namespace lasso::posix {
 namespace {
@@ -123,33 +125,76 @@ std::string bound_address(const std::string& scheme, const Descriptor& socket) {
 
 std::size_t counted(ssize_t result) { return result > 0 ? static_cast<std::size_t>(result) : 0; }
 
-class Udp final : public PosixLink {
+// A component's end, or that of a ground that waits for one.
+class BoundUdp final : public PosixLink {
  public:
-  // The component's end listens at the place, the ground's sends to it.
-  Udp(const std::string& url, const sockaddr_in& place, bool listens) : peer_(place), known_(!listens) {
+  BoundUdp(const std::string& url, const sockaddr_in& place) {
     make_socket(url, SOCK_DGRAM, socket_);
-    if (listens) bind_to(url, socket_, place);
+    bind_to(url, socket_, place);
   }
+  void tell(const sockaddr_in& address) { peers_.configure(address); }
   bool datagrams() const override { return true; }
+  // Empty datagrams, and those of a crowd of strangers, are passed over: what is behind them must not wait for the next call.
   std::size_t read(Bytes out) override {
-    sockaddr_in from{};
-    socklen_t size = sizeof from;
-    const std::size_t taken = counted(recvfrom(socket_.get(), out.data(), out.size(), 0, generic(from), &size));
-    if (taken > 0) peer_ = from;
-    known_ = known_ || taken > 0;
-    return taken;
+    for (int i = 0; i < kMostPassedOver; ++i) {
+      sockaddr_in from{};
+      socklen_t size = sizeof from;
+      const ssize_t result = recvfrom(socket_.get(), out.data(), out.size(), 0, generic(from), &size);
+      if (result < 0) return 0;
+      const auto bytes = static_cast<std::size_t>(result);
+      if (bytes > 0 && peers_.heard(from, {out.data(), bytes}, std::chrono::steady_clock::now())) return bytes;
+    }
+    return 0;
   }
-  // While nobody has sent anything, or nobody listens any more, telemetry is lost, as it is on a radio link.
+  void peer_spoke() override { peers_.vouch(std::chrono::steady_clock::now()); }
+  // While nobody has commanded, or nobody listens any more, telemetry is lost, as it is on a radio link. It is taken once the first
+  // receiver's has been.
   std::size_t write(ConstBytes packet) override {
-    if (known_ && sendto(socket_.get(), packet.data(), packet.size(), 0, generic(peer_), sizeof peer_) < 0 && errno == EAGAIN) return 0;
+    bool first = true;
+    for (const sockaddr_in& peer : peers_.receivers(packet)) {
+      const bool sent = sendto(socket_.get(), packet.data(), packet.size(), 0, generic(peer), sizeof peer) >= 0;
+      if (!sent && errno == EAGAIN && first) return 0;
+      first = false;
+    }
     return packet.size();
   }
   std::string address() const override { return bound_address("udp", socket_); }
 
  private:
+  static constexpr int kMostPassedOver = 1024;
   Descriptor socket_;
-  sockaddr_in peer_;
-  bool known_;
+  UdpPeers peers_;
+};
+
+// The ground's end: the machine's kernel lets nobody else in.
+class ConnectedUdp final : public PosixLink {
+ public:
+  ConnectedUdp(const std::string& url, const sockaddr_in& place) {
+    make_socket(url, SOCK_DGRAM, socket_);
+    if (::connect(socket_.get(), generic(place), sizeof place) != 0) refuse_errno(url, "cannot be reached");
+  }
+  bool datagrams() const override { return true; }
+  std::size_t read(Bytes out) override { return counted(recv(socket_.get(), out.data(), out.size(), 0)); }
+  // What nobody takes is lost. That an earlier one found nobody is told to the next, which is not sent then.
+  std::size_t write(ConstBytes packet) override {
+    const auto sends = [&] { return ::send(socket_.get(), packet.data(), packet.size(), 0) >= 0; };
+    const bool sent = sends() || (errno == ECONNREFUSED && sends());
+    return !sent && errno == EAGAIN ? 0 : packet.size();
+  }
+  // An empty datagram asks: what is there passes it over.
+  bool unreached() override {
+    (void)::send(socket_.get(), nullptr, 0, 0);
+    pollfd waiting{socket_.get(), POLLERR, 0};
+    (void)::poll(&waiting, 1, kTold_ms);
+    int error = 0;
+    socklen_t size = sizeof error;
+    return getsockopt(socket_.get(), SOL_SOCKET, SO_ERROR, &error, &size) == 0 && error == ECONNREFUSED;
+  }
+  std::string address() const override { return bound_address("udp", socket_); }
+
+ private:
+  static constexpr int kTold_ms = 20;
+  Descriptor socket_;
 };
 
 class Tcp final : public PosixLink {
@@ -246,26 +291,35 @@ class File final : public PosixLink {
   std::ofstream telemetry_;
 };
 
-std::unique_ptr<PosixLink> open_socket(const std::string& url, bool listens) {
-  const Place place = place_of(url);
-  if (place.scheme == "file") refuse(url, "commands are sent by udp or tcp; a file is written by --out");
-  const sockaddr_in address = address_of(url, place);
-  if (place.scheme == "udp") return std::make_unique<Udp>(url, address, listens);
-  return std::make_unique<Tcp>(url, address, listens);
+std::unique_ptr<PosixLink> bound_udp(const std::string& url, const std::string& told) {
+  auto link = std::make_unique<BoundUdp>(url, address_of(url, place_of(url)));
+  if (!told.empty()) link->tell(address_of(told, place_of("udp://" + told)));
+  return link;
 }
 
 }  // namespace
 
-std::unique_ptr<PosixLink> open_link(const std::string& url) {
+std::unique_ptr<PosixLink> open_link(const std::string& url, const std::string& told) {
   const Place place = place_of(url);
+  if (!told.empty() && place.scheme != "udp") refuse(url, "only of udp:// is said whom it tells");
+  if (place.scheme == "udp") return bound_udp(url, told);
   if (place.scheme == "file") return std::make_unique<File>(place.host);
-  return open_socket(url, true);
+  return std::make_unique<Tcp>(url, address_of(url, place), true);
+}
+
+bool is_reached_from_elsewhere(const std::string& url) {
+  const Place place = place_of(url);
+  if (place.scheme == "file") return false;
+  return ntohl(address_of(url, place).sin_addr.s_addr) >> 24 != IN_LOOPBACKNET;
 }
 
 std::unique_ptr<PosixLink> connect_link(const std::string& url) {
   if (url.rfind(kSerial, 0) == 0) return std::make_unique<Line>(url, url.substr(sizeof kSerial - 1));
   if (url.rfind(kUnixSocket, 0) == 0) return std::make_unique<Line>(url, url);
-  return open_socket(url, false);
+  const Place place = place_of(url);
+  if (place.scheme == "file") refuse(url, "commands are sent by udp or tcp; a file is written by --out");
+  if (place.scheme == "udp") return std::make_unique<ConnectedUdp>(url, address_of(url, place));
+  return std::make_unique<Tcp>(url, address_of(url, place), false);
 }
 
 }  // namespace lasso::posix

@@ -25,14 +25,18 @@ class PosixLink : public ByteLink {
   virtual std::string address() const = 0;
   // The other end has gone, and cannot come back: the link has to be opened again.
   virtual bool ended() const { return false; }
+  // The ground's end of datagrams: the other machine says that nobody is at the port.
+  virtual bool unreached() { return false; }
 };
 
 // A component's end of a link:
-//   udp://[HOST]:PORT   bound there; telemetry goes to whom the last datagram came from
+//   udp://[HOST]:PORT   bound there; telemetry goes to who is vouched for (peer_spoke()), as UdpPeers says, and to `told`, HOST:PORT
 //   tcp://[HOST]:PORT   listens there; one ground station at a time, the next one when it has gone
 //   file://PATH         reads commands from PATH.commands, if there is one, and appends telemetry to PATH
 // Without a host the loopback address; a host is a numeric IPv4 address. Port 0: a free one, which address() says. Throws LinkError.
-std::unique_ptr<PosixLink> open_link(const std::string& url);
+std::unique_ptr<PosixLink> open_link(const std::string& url, const std::string& told = "");
+// Does open_link() of it let other machines in? Throws LinkError.
+bool is_reached_from_elsewhere(const std::string& url);
 // The ground's end of the first two, which a component hears only from its first datagram or connection on; or of a line:
 //   serial:PATH         a serial device, taken for this program alone, at the rate that it was set to (stty)
 //   unix:PATH           a Unix socket that stands for one

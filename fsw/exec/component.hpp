@@ -31,6 +31,7 @@
 #include "fsw/link/command_receiver.hpp"
 #include "fsw/link/downlink.hpp"
 #include "fsw/link/event_log.hpp"
+#include "fsw/link/frame_room.hpp"
 #include "fsw/link/health_report.hpp"
 #include "fsw/link/housekeeping.hpp"
 #include "fsw/link/link_report.hpp"
@@ -103,11 +104,13 @@ class Component {
   void hold_mode(bool held) { held_ = held; }
 
   // Bytes from the ground, in pieces of any size: their commands are carried out as they come, and answered in telemetry
-  // (docs/icd/link.md). Returns how many bytes were taken: kMaxCommandsPerFrame commands and refusals are answered in a frame, the rest
-  // waits for the next.
+  // (docs/icd/link.md). Returns how many bytes were taken. kMaxCommandsPerFrame commands are answered in a frame, and kMaxUrgentPerFrame
+  // that make safe; kMaxStrangersPerFrame other packets are looked at. The rest waits for the next frame.
   std::size_t receive(ConstBytes bytes, TimeUs now_us);
-  // A datagram: one command, whole. False, and it was not looked at, when the frame's commands are used up.
+  // A datagram: one command, whole. False, and it was not looked at, when the frame has no room for it.
   bool receive_packet(ConstBytes packet, TimeUs now_us);
+  // Did the last packet that was looked at come from who may command? See CommandReceiver::from_operator().
+  bool heard_operator() const { return receiver_.from_operator(); }
 
   // From now on commands need its trailer (fsw/link/authenticator.hpp); others are refused. It outlives the component.
   void use_authenticator(Authenticator& authenticator) { receiver_.use_authenticator(authenticator); }
@@ -213,11 +216,12 @@ class Component {
   TrackStep step_without_estimate();
   void send(const TrackStep& step, TimeUs now_us);
   void send_filter(const CommonErrors& common, TimeUs now_us);
+  bool answer_if_room(ConstBytes packet, TimeUs now_us);
   void answer(ConstBytes packet, TimeUs now_us);
   void carry_out(const Command& command, Verification& verification, TimeUs now_us);
   void pass_link_boundary(TimeUs now_us);
   void verify(std::uint8_t subservice, const Verification& verification, TimeUs now_us);
-  void refuse(const Verification& verification, TimeUs now_us);
+  void refuse(const Verification& verification, bool answered, TimeUs now_us);
   void fail(const Command& command, const Verification& verification, TimeUs now_us);
   ServiceRefusal serve(const Command& command, TimeUs now_us);
   ServiceRefusal serve_structure(CommandKind kind, const StructureCommand& command);
@@ -303,7 +307,8 @@ class Component {
   CommandReceiver receiver_;
   bool bytes_came_ = false;    // since the last boundary
   bool link_changed_ = false;  // since the link's counters were told
-  std::uint32_t commands_left_ = kMaxCommandsPerFrame;
+  bool packet_waits_ = false;  // the receiver's, for the next frame
+  FrameRoom room_;
   std::uint32_t skipped_told_ = 0;
   std::uint32_t silent_frames_ = 0;  // since the last valid command
   Housekeeping housekeeping_;

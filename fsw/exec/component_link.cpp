@@ -24,12 +24,14 @@ StartOffer offer_of(const StartCommand& command) {
   return offer;
 }
 
+static_assert(kSafeMode == static_cast<std::uint8_t>(TrackingMode::kSafe), "what makes safe has room of its own");
+
 // The command that is spoken of; zeros where its bytes are not there.
 Verification verification_of(ConstBytes packet) {
-  ByteReader in(packet);
+  const std::uint32_t key = command_key(packet);
   Verification verification;
-  verification.packet_id = in.u16();
-  verification.sequence_control = in.u16();
+  verification.packet_id = static_cast<std::uint16_t>(key >> 16);
+  verification.sequence_control = static_cast<std::uint16_t>(key & 0xFFFF);
   return verification;
 }
 
@@ -38,30 +40,33 @@ Verification verification_of(ConstBytes packet) {
 std::size_t Component::receive(ConstBytes bytes, TimeUs now_us) {
   if (!bytes.empty()) bytes_came_ = true;
   std::size_t taken = 0;
-  bool found = true;
-  while (found && commands_left_ > 0) {
+  bool more = !packet_waits_ || answer_if_room(receiver_.packet(), now_us);
+  while (more) {
     taken += receiver_.take(bytes.subspan(taken, bytes.size() - taken));
-    found = !receiver_.packet().empty();
-    if (found) answer(receiver_.packet(), now_us);
+    more = !receiver_.packet().empty() && answer_if_room(receiver_.packet(), now_us);
   }
+  packet_waits_ = !receiver_.packet().empty();
   return taken;
 }
 
-bool Component::receive_packet(ConstBytes packet, TimeUs now_us) {
-  if (commands_left_ == 0) return false;
+bool Component::receive_packet(ConstBytes packet, TimeUs now_us) { return answer_if_room(packet, now_us); }
+
+// False: it was not looked at, the frame has no room for it.
+bool Component::answer_if_room(ConstBytes packet, TimeUs now_us) {
+  if (!room_.takes(packet)) return false;
   answer(packet, now_us);
   return true;
 }
 
 void Component::answer(ConstBytes packet, TimeUs now_us) {
-  --commands_left_;
   link_changed_ = true;
   events_.set_time(now_us);
   Verification verification = verification_of(packet);
   Command command;
   const PacketFault fault = receiver_.accept(packet, command);
   verification.fault = static_cast<std::uint8_t>(fault);
-  if (fault != PacketFault::kNone) return refuse(verification, now_us);
+  const bool answered = room_.spend(fault, receiver_.from_operator());
+  if (fault != PacketFault::kNone) return refuse(verification, answered, now_us);
   silent_frames_ = 0;
   if ((command.header.acknowledge & kAcknowledgeAcceptance) != 0) verify(kSubserviceAccepted, verification, now_us);
   if ((command.header.acknowledge & kAcknowledgeStart) != 0) verify(kSubserviceStarted, verification, now_us);
@@ -86,10 +91,10 @@ void Component::carry_out(const Command& command, Verification& verification, Ti
 
 // What a false start held back is looked at when nothing has come for a frame.
 void Component::pass_link_boundary(TimeUs now_us) {
-  commands_left_ = kMaxCommandsPerFrame;
-  while (!bytes_came_ && commands_left_ > 0 && receiver_.give_up()) {
-    if (!receiver_.packet().empty()) answer(receiver_.packet(), now_us);
-  }
+  room_.renew();
+  bool more = !packet_waits_ || answer_if_room(receiver_.packet(), now_us);
+  while (!bytes_came_ && more && receiver_.give_up()) more = receiver_.packet().empty() || answer_if_room(receiver_.packet(), now_us);
+  packet_waits_ = !more;
   bytes_came_ = false;
   const bool skipped = receiver_.skipped() != skipped_told_;
   if (skipped) events_.raise<EventId::kBytesSkipped>(receiver_.skipped());
@@ -103,12 +108,12 @@ void Component::pass_link_boundary(TimeUs now_us) {
 void Component::verify(std::uint8_t subservice, const Verification& verification, TimeUs now_us) {
   std::uint8_t packet[kMaxLinkReportBytes];
   const PacketHeader header = downlink_.next_header({kServiceVerification, subservice}, now_us);
-  downlink_.send({packet, encode_verification(verification, header, Bytes(packet))});
+  downlink_.send_answer({packet, encode_verification(verification, header, Bytes(packet))});
 }
 
-void Component::refuse(const Verification& verification, TimeUs now_us) {
+void Component::refuse(const Verification& verification, bool answered, TimeUs now_us) {
   events_.raise<EventId::kCommandRefused>(verification.packet_id, verification.sequence_control, verification.fault);
-  verify(kSubserviceRefused, verification, now_us);
+  if (answered) verify(kSubserviceRefused, verification, now_us);
 }
 
 void Component::fail(const Command& command, const Verification& verification, TimeUs now_us) {
@@ -119,7 +124,7 @@ void Component::fail(const Command& command, const Verification& verification, T
 
 void Component::send_pong(TimeUs now_us) {
   std::uint8_t packet[kMaxLinkReportBytes];
-  downlink_.send({packet, encode_pong(downlink_.next_header({kServiceTest, kSubservicePong}, now_us), Bytes(packet))});
+  downlink_.send_answer({packet, encode_pong(downlink_.next_header({kServiceTest, kSubservicePong}, now_us), Bytes(packet))});
 }
 
 void Component::send_link(TimeUs now_us) {

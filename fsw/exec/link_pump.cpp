@@ -16,11 +16,17 @@ void LinkPump::receive(TimeUs now_us) {
 // True: nothing waits here any more.
 bool LinkPump::hand_over(TimeUs now_us) {
   const ConstBytes bytes(in_, in_size_);
-  const bool whole = link_.datagrams();
-  const std::size_t taken = whole ? (component_.receive_packet(bytes, now_us) ? in_size_ : 0) : component_.receive(bytes, now_us);
+  const std::size_t taken = link_.datagrams() ? hand_over_datagram(now_us) : component_.receive(bytes, now_us);
   in_size_ -= taken;
   std::memmove(in_, in_ + taken, in_size_);
   return in_size_ == 0;
+}
+
+// All of it, or nothing.
+std::size_t LinkPump::hand_over_datagram(TimeUs now_us) {
+  if (!component_.receive_packet({in_, in_size_}, now_us)) return 0;
+  if (component_.heard_operator()) link_.peer_spoke();
+  return in_size_;
 }
 
 void LinkPump::send() {

@@ -24,6 +24,7 @@ class LinkPump {
   static constexpr std::size_t kMaxReads = 16;
   static constexpr std::size_t kMaxWrites = 64;
   bool hand_over(TimeUs now_us);
+  std::size_t hand_over_datagram(TimeUs now_us);
   bool write_some();
 
   Component& component_;

@@ -15,6 +15,9 @@ class ByteLink {
   virtual std::size_t read(Bytes out) = 0;
   // Bytes that it takes of `packets`, which may be none. Of datagrams one packet, whole or not at all.
   virtual std::size_t write(ConstBytes packets) = 0;
+  // The datagram that was read last has been checked, and came from the other end: a component heard who may command, the ground its
+  // component. A link on which anybody may speak answers to these alone.
+  virtual void peer_spoke() {}
 
  protected:
   ~ByteLink() = default;  // never deleted through this interface

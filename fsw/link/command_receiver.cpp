@@ -25,6 +25,7 @@ PacketFault CommandReceiver::accept(ConstBytes packet, Command& command) {
     last_fault_ = fault;
     return fault;
   }
+  from_operator_ = true;
   heard_ = true;
   last_count_ = received.header.sequence_count;
   ++accepted_;
@@ -32,8 +33,8 @@ PacketFault CommandReceiver::accept(ConstBytes packet, Command& command) {
   return fault;
 }
 
-PacketFault CommandReceiver::check(ConstBytes packet, Command& command) const {
-  const PacketFault fault = decode_command(packet, command, authenticator_);
+PacketFault CommandReceiver::check(ConstBytes packet, Command& command) {
+  const PacketFault fault = decode_command(packet, command, authenticator_, from_operator_);
   if (fault != PacketFault::kNone) return fault;
   const auto ahead = static_cast<std::uint16_t>((command.header.sequence_count - last_count_) & kSequenceCountMask);
   const bool repeated = heard_ && (ahead == 0 || ahead >= kReplayWindow);

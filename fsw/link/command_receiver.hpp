@@ -29,6 +29,8 @@ class CommandReceiver {
   ConstBytes packet() const { return finder_.packet(); }
   // Decodes and counts a packet. When it is refused, `command` and the sequence are as they were.
   PacketFault accept(ConstBytes packet, Command& command);
+  // Does the last packet that was decoded come from who may command? The authenticator says so; without one, that it was accepted does.
+  bool from_operator() const { return from_operator_; }
 
   std::uint32_t accepted() const { return accepted_; }
   std::uint32_t refused() const { return refused_; }
@@ -36,11 +38,12 @@ class CommandReceiver {
   std::uint32_t skipped() const { return finder_.skipped(); }
 
  private:
-  PacketFault check(ConstBytes packet, Command& command) const;
+  PacketFault check(ConstBytes packet, Command& command);
 
   std::uint8_t buffer_[kMaxCommandBytes] = {};
   PacketFinder finder_;
   Authenticator* authenticator_ = nullptr;
+  bool from_operator_ = false;
   bool heard_ = false;  // the count below is that of a command
   std::uint16_t last_count_ = 0;
   std::uint32_t accepted_ = 0;

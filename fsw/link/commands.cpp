@@ -69,6 +69,8 @@ constexpr CommandForm kForms[] = {
 };
 static_assert(sizeof(kForms) / sizeof(kForms[0]) == sizeof(command_rows::kCommands) / sizeof(PacketRow), "a form for each command");
 
+const CommandForm& form_of(CommandKind kind) { return Span<const CommandForm>(kForms)[static_cast<std::size_t>(kind)]; }
+
 bool is_of(const CommandForm& form, const CommandHeader& header, ConstBytes data) {
   if (form.service != header.service || form.subservice != header.subservice) return false;
   return !form.numbered || form.number == ByteReader(data).u16();
@@ -90,13 +92,33 @@ PacketFault decode_data(ConstBytes data, Command& command) {
 }  // namespace
 
 PacketFault decode_command(ConstBytes packet, Command& command, Authenticator* authenticator) {
+  bool authentic = false;
+  return decode_command(packet, command, authenticator, authentic);
+}
+
+PacketFault decode_command(ConstBytes packet, Command& command, Authenticator* authenticator, bool& authentic) {
+  authentic = false;
   Command decoded;
   ConstBytes data;
   PacketFault fault = parse_command(packet, decoded.header, data);
-  if (fault == PacketFault::kNone && authenticator != nullptr) fault = authenticate(packet, *authenticator, data);
+  if (fault == PacketFault::kNone && authenticator != nullptr) {
+    fault = authenticate(packet, *authenticator, data);
+    authentic = fault == PacketFault::kNone;
+  }
   if (fault == PacketFault::kNone) fault = decode_data(data, decoded);
   if (fault == PacketFault::kNone) command = decoded;
   return fault;
+}
+
+bool is_urgent(ConstBytes packet) {
+  CommandHeader header;
+  ConstBytes data;
+  if (parse_command(packet, header, data) != PacketFault::kNone) return false;
+  if (is_of(form_of(CommandKind::kInhibitLaser), header, data)) return true;
+  if (!is_of(form_of(CommandKind::kMode), header, data)) return false;
+  ByteReader in(data);
+  static_cast<void>(in.u16());
+  return in.u8() == kSafeMode;
 }
 
 bool is_hazardous(const CommandName& name) {

@@ -45,4 +45,9 @@ void Downlink::send(ConstBytes packet) {
   static_cast<void>(queue_.push(packet));
 }
 
+void Downlink::send_answer(ConstBytes packet) {
+  invariant(!packet.empty(), "answer larger than its buffer");
+  static_cast<void>(queue_.push_answer(packet));
+}
+
 }  // namespace lasso

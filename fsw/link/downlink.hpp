@@ -32,6 +32,8 @@ class Downlink {
   TimeUs time_offset_us() const { return time_offset_us_; }
   // A whole packet. A full queue counts what it drops.
   void send(ConstBytes packet);
+  // As send(); an answer to a command, which has room of its own.
+  void send_answer(ConstBytes packet);
   // A packet of the values' items alone, or behind a number.
   template <class Values, std::size_t kRows>
   void send(MessageType type, const Codec<Values, kRows>& codec, const Values& values, TimeUs t_us) {

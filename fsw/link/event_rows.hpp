@@ -156,7 +156,7 @@ inline constexpr EventRow kRows[] = {
    "the mode is another one", "the item event says it", "see the table of modes"},
   {EventId::kStartRefused, "start_refused", Severity::kLow, {8, 25}, Span<const ItemRow>(kStartRefused),
    "a pose to start from is refused", "the item refusal says it", "see start_refusal"},
-  {EventId::kCommandRefused, "command_refused", Severity::kLow, kEach, Span<const ItemRow>(kCommandRefused),
+  {EventId::kCommandRefused, "command_refused", Severity::kLow, {8, 25}, Span<const ItemRow>(kCommandRefused),
    "a command is refused: it changes nothing", "the item fault says it", "see packet_fault"},
   {EventId::kCommandFailed, "command_failed", Severity::kLow, kEach, Span<const ItemRow>(kCommandFailed),
    "a command was accepted, but changes nothing", "the present state does not allow it", "see the refusal that is not none"},

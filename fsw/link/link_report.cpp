@@ -19,6 +19,19 @@ void write_items(const Verification& verification, std::uint8_t subservice, Byte
 
 }  // namespace
 
+std::uint32_t command_key(ConstBytes command) {
+  ByteReader in(command);
+  const std::uint32_t packet_id = in.u16();
+  return packet_id << 16 | in.u16();
+}
+
+bool is_answer(ConstBytes telemetry, std::uint32_t& key) {
+  constexpr std::size_t kServiceAt = kPrimaryHeaderBytes + 1;
+  if (telemetry.size() < kPacketHeaderBytes || telemetry[kServiceAt] != kServiceVerification) return false;
+  key = command_key(telemetry.subspan(kPacketHeaderBytes, telemetry.size() - kPacketHeaderBytes));
+  return true;
+}
+
 std::size_t encode_verification(const Verification& verification, const PacketHeader& header, Bytes out) {
   ByteWriter writer(out);
   begin_packet(header, writer);

@@ -46,6 +46,11 @@ struct LinkTelemetry {
   TimeUs time_offset_us = 0;        // spacecraft time minus the component's
 };
 
+// The four octets by which an answer names its command, its first ones; 0 where they are not there.
+std::uint32_t command_key(ConstBytes command);
+// Is this telemetry of service 1? Then `key` becomes that of the command.
+bool is_answer(ConstBytes telemetry, std::uint32_t& key);
+
 constexpr std::size_t kMaxLinkReportBytes = 64;
 
 // Whole packets; `header` says counts and time, service and subservice of a verification. The size, 0 when `out` is too small.

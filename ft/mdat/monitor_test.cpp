@@ -50,7 +50,7 @@ TEST(Monitor, RecordsWhatTheComponentTold) {
 }
 
 TEST(Monitor, RefusesWhatItCannotWatch) {
-  VERIFIES("LASSO-GND-161~1 LASSO-GND-163~1");
+  VERIFIES("LASSO-GND-161~2 LASSO-GND-163~1");
   const WorkFolder work;
   const std::string nobody = "tcp://127.0.0.1:" + free_port();
   const Answer gone = work.mdat("monitor " + nobody);
@@ -66,7 +66,7 @@ TEST(Monitor, RefusesWhatItCannotWatch) {
 }
 
 TEST(Monitor, SaysThatNothingComesAndLeavesNoFile) {
-  VERIFIES("LASSO-GND-161~1");
+  VERIFIES("LASSO-GND-161~2");
   const WorkFolder work;
   const Answer silent = work.mdat("monitor udp://127.0.0.1:" + free_port() + " --seconds 1.2 --record none.mcap --live 127.0.0.1:0");
   EXPECT_EQ(silent.exit_code, 0) << silent.err;
@@ -76,7 +76,7 @@ TEST(Monitor, SaysThatNothingComesAndLeavesNoFile) {
 }
 
 TEST(Monitor, EndsByCtrlCAndAnAddressInUseIsRefused) {
-  VERIFIES("LASSO-GND-161~1");
+  VERIFIES("LASSO-GND-161~2");
   const WorkFolder work;
   const std::string address = "udp://127.0.0.1:" + free_port();
   Program first(work, "monitor --listen " + address);

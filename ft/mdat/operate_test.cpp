@@ -88,13 +88,13 @@ TEST(Operate, AnOperatorCommandsARunningComponent) {
 }
 
 TEST(Operate, AComponentWithAKeyTakesSignedCommandsAlone) {
-  VERIFIES("LASSO-LNK-021~1");
+  VERIFIES("LASSO-LNK-021~1 LASSO-GND-164~1");
   const WorkFolder work;
   work.write("key", std::string(64, 'a') + "\n");
   work.write("other", std::string(64, 'b') + "\n");
   const std::string url = "udp://127.0.0.1:" + free_port();
   Program run(work, "run missions/test.toml --scenario spin --no-report --out run --force --frames 100000 --key key --link " + url);
-  const Answer signed_one = first_answer(work, "command set_mode mode=standby --key key --to " + url);
+  const Answer signed_one = work.mdat("command set_mode mode=standby --wait 60 --key key --to " + url);  // the run begins meanwhile
   EXPECT_EQ(signed_one.exit_code, 0) << signed_one.err;
   for (const char* key : {"", "--key other "}) {
     const Answer refused = work.mdat(std::string("command ping --wait 30 ") + key + "--to " + url);
@@ -103,6 +103,16 @@ TEST(Operate, AComponentWithAKeyTakesSignedCommandsAlone) {
   }
   EXPECT_EQ(work.mdat("command enable_laser --arm --wait 30 --key key --to " + url).exit_code, 0) << "two, each with a number of its own";
   EXPECT_EQ(run.interrupt().exit_code, 0);
+}
+
+TEST(Operate, OtherMachinesReachARunWithAKeyOrWhereTheUserSaysSo) {
+  VERIFIES("LASSO-LNK-042~1");
+  const WorkFolder work;
+  for (const std::string url : {"udp://0.0.0.0:0", "tcp://0.0.0.0:0"}) {
+    const Answer answer = work.mdat("run missions/test.toml --scenario spin --no-report --link " + url);
+    EXPECT_EQ(answer.exit_code, 2);
+    EXPECT_NE(answer.err.find("--link " + url + ": whoever reaches this machine could command the run"), std::string::npos) << answer.err;
+  }
 }
 
 TEST(Operate, CommandsGoToAFileAndARunReadsThem) {
@@ -134,14 +144,15 @@ TEST(Operate, WhatIsWrongIsNamed) {
            {"command ping --out x --to udp://:1", "--to or --out, not both"},
            {"command", "which one? mdat command --list shows all"},
            {"command ping --out x --key none", "none: no such file"},
-           {"run missions/test.toml --link udp://:x", "--link udp://:x: 'x' is no port"}}) {
+           {"run missions/test.toml --link udp://:x", "--link udp://:x: 'x' is no port"},
+           {"run missions/test.toml --link tcp://:0 --telemetry-to 127.0.0.1:1", "only of udp:// is said whom it tells"}}) {
     const Answer answer = work.mdat(arguments);
     EXPECT_EQ(answer.exit_code, 2) << arguments;
     EXPECT_NE(answer.err.find(said), std::string::npos) << answer.err;
   }
   const Answer silent = work.mdat("command ping --wait 0.2 --to udp://127.0.0.1:9");
   EXPECT_EQ(silent.exit_code, 1);
-  EXPECT_NE(silent.err.find("no answer within"), std::string::npos) << silent.err;
+  EXPECT_NE(silent.err.find("no answer: nobody listens at this port"), std::string::npos) << silent.err;
   EXPECT_NE(work.mdat("command --list").out.find("offer_start"), std::string::npos);
   EXPECT_NE(work.mdat("command set_hold").out.find("held"), std::string::npos);
 }

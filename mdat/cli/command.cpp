@@ -1,6 +1,8 @@
+#include <chrono>
 #include <cstdio>
 #include <memory>
 #include <optional>
+#include <thread>
 
 #include "bsp/posix/links.hpp"
 #include "mdat/cli/commands.hpp"
@@ -15,11 +17,15 @@ namespace {
 
 using Packet = std::vector<std::uint8_t>;
 
+constexpr double kNobody_s = 2, kCompiling_s = 120;
+constexpr std::chrono::milliseconds kLookAgain(100);
+
 struct CommandArguments {
   std::string name, to, out, key;
   std::vector<std::string> arguments;
   std::optional<std::uint16_t> count;
-  double wait_s = 2, listen_s = 0;
+  std::optional<double> wait_s;
+  double listen_s = 0;
   bool list = false, arm = false, poses = false;
 };
 
@@ -33,14 +39,37 @@ Station::Listener printer(bool poses) {
   };
 }
 
+// Opens the link once somebody is there: a run that was started just now may not have come so far.
+std::unique_ptr<posix::PosixLink> connect(const CommandArguments& options) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(options.wait_s.value_or(kNobody_s));
+  for (;;) {
+    const bool over = std::chrono::steady_clock::now() >= end;
+    try {
+      auto link = posix::connect_link(options.to);
+      if (!link->unreached()) return link;
+      if (over) throw RunError(options.to + ": no answer: nobody listens at this port");
+    } catch (const posix::LinkError&) {
+      if (over) throw;
+    }
+    std::this_thread::sleep_for(kLookAgain);
+  }
+}
+
 void send(const CommandArguments& options, const PacketRow& row, const std::map<std::string, std::string>& values) {
-  const std::unique_ptr<posix::PosixLink> link = posix::connect_link(options.to);
+  const std::unique_ptr<posix::PosixLink> link = connect(options);
   Station station(*link, options.to, printer(options.poses));
   if (options.count) station.set_count(*options.count);
   if (!options.key.empty()) station.sign_with(load_key(options.key));
-  const CommandAnswer answer = station.command(row, values, options.arm, options.wait_s);
+  const double wait_s = options.wait_s.value_or(kCompiling_s);
+  if (!options.wait_s) {
+    station.on_silence(kNobody_s, [&] {
+      std::fprintf(stderr, "%s: no answer yet: a run answers once its mission is compiled; waiting %s s at most (--wait)\n",
+                   options.to.c_str(), text_of(wait_s).c_str());
+    });
+  }
+  const CommandAnswer answer = station.command(row, values, options.arm, wait_s);
   static_cast<void>(station.listen(options.listen_s, [] { return false; }));
-  if (answer.outcome == Outcome::kOpen) throw RunError(options.to + ": no answer within " + text_of(options.wait_s) + " s");
+  if (answer.outcome == Outcome::kOpen) throw RunError(options.to + ": no answer within " + text_of(wait_s) + " s");
   if (answer.outcome != Outcome::kDone) throw RunError(std::string(row.name) + ": not carried out: " + answer.why);
 }
 
@@ -89,8 +118,7 @@ void add_command_command(CLI::App& app) {
   subcommand->add_flag("--arm", options->arm, "arm a hazardous command before it");
   subcommand->add_option("--count", options->count, "sequence count (with --to: one that the component takes; with --out: 0)")
       ->check(CLI::Range(0, 16383));
-  subcommand->add_option("--wait", options->wait_s, "seconds to wait for the answer")
-      ->capture_default_str()
+  subcommand->add_option("--wait", options->wait_s, "seconds to wait for the answer (2 where nobody listens, 120 for a run that compiles)")
       ->check(number_between(0.0, 3600.0));
   subcommand->add_option("--listen", options->listen_s, "seconds to go on printing what comes after the answer")
       ->capture_default_str()

@@ -29,7 +29,7 @@ namespace {
 
 struct RunArguments {
   std::string mission, sensor = "simulated", camera_faults, optics, calibration, out = "out/run", picture, record, record_for = "viewers",
-                       link, key, junit;
+                       link, told, key, junit;
   LiveOptions live;
   SimulationOptions simulation;
   std::vector<std::string> settings, required;
@@ -121,10 +121,15 @@ void write_pictures(const RunArguments& options, const CompiledMission& mission,
 }
 
 // An operator's link; none if there is no URL. Who reads its address finds the component running: it is told when the mission is compiled.
-std::unique_ptr<posix::PosixLink> open_link(const std::string& url) {
-  if (url.empty()) return nullptr;
+// From other machines it is reached with a key, or where the user says so.
+std::unique_ptr<posix::PosixLink> open_link(const RunArguments& options) {
+  if (options.link.empty()) return nullptr;
   try {
-    return posix::open_link(url);
+    if (options.key.empty() && !options.simulation.remote_line && posix::is_reached_from_elsewhere(options.link))
+      throw InputError("--link " + options.link +
+                       ": whoever reaches this machine could command the run: add --key FILE, so that only signed commands count, "
+                       "or --remote to allow it");
+    return posix::open_link(options.link, options.told);
   } catch (const posix::LinkError& error) {
     throw InputError("--link " + std::string(error.what()));
   }
@@ -221,7 +226,7 @@ void run(const RunArguments& options) {
   const std::vector<std::filesystem::path> recordings = recordings_of(options, input.source);
   const std::unique_ptr<SignatureCheck> signatures =
       options.key.empty() ? nullptr : std::make_unique<SignatureCheck>(load_key(options.key));
-  const std::unique_ptr<posix::PosixLink> link = open_link(options.link);
+  const std::unique_ptr<posix::PosixLink> link = open_link(options);
   const CompiledMission mission = compile_mission(std::move(input), ModelCache::of_user_if(options.cached));
   for (const std::string& warning : warnings_for(mission.source, options.simulation.scenario))
     std::fprintf(stderr, "warning: %s\n", warning.c_str());
@@ -317,7 +322,8 @@ void add_sensor_options(CLI::App* command, const SharedArguments& options) {
             throw InputError("--record-sensor " + file + ": is --record FILE.mcap now, which holds what the sensors gave");
           })
       ->group("");
-  command->add_flag("--remote", options->simulation.remote_line, "the line may lead to other machines");
+  command->add_flag("--remote", options->simulation.remote_line,
+                    "the line may lead to other machines, and a --link without --key be reached from them");
   command->add_option("--camera-faults", options->camera_faults,
                       "script of what goes wrong with laser cameras and their lines (docs/user-guide.md); with --sensor lcs-wire");
   command->add_option("--camera-optics", options->optics,
@@ -335,6 +341,10 @@ void add_link_options(CLI::App* command, const SharedArguments& options) {
       "--link", options->link,
       "udp://[HOST]:PORT, tcp://[HOST]:PORT or file://PATH: run the first range at the clock's pace, commanded over this link "
       "(mdat command --to), until its frames are flown or Ctrl-C ends it; without a host by the loopback address");
+  command
+      ->add_option("--telemetry-to", options->told,
+                   "with --link udp://...: HOST:PORT that telemetry goes to from the beginning, besides those who command")
+      ->needs("--link");
   command
       ->add_option(
           "--key", options->key,

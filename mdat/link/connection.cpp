@@ -10,7 +10,8 @@ namespace lasso::mdat {
 namespace {
 
 constexpr std::chrono::seconds kCallAfter(2), kTryAgainAfter(1);
-constexpr double kLookAfter_s = 0.1;  // at the link itself
+constexpr std::chrono::seconds kCallAgainAfter(20);  // before another may take the place (posix::UdpPeers)
+constexpr double kLookAfter_s = 0.1;                 // at the link itself
 constexpr std::chrono::milliseconds kNoLink(50);
 
 }  // namespace
@@ -62,7 +63,7 @@ void Connection::keep() {
     trouble_ = place_.url + ": the other end has closed the link";
   }
   const auto now = std::chrono::steady_clock::now();
-  if (link_) return call_where_silent();
+  if (link_) return call_in_time();
   if (now - acted_ < kTryAgainAfter) return;
   try {
     open();
@@ -71,12 +72,12 @@ void Connection::keep() {
   }
 }
 
-void Connection::call_where_silent() {
+void Connection::call_in_time() {
   if (!link_->datagrams() || place_.listens) return;
   const auto now = std::chrono::steady_clock::now();
   const double age_s = health_.age_s(now);
   const bool silent = age_s < 0 || age_s > std::chrono::duration<double>(kCallAfter).count();
-  if (!silent || now - acted_ < kCallAfter) return;
+  if (now - acted_ < (silent ? kCallAfter : kCallAgainAfter)) return;
   acted_ = now;
   (void)station_->call();
 }

@@ -28,8 +28,8 @@ class Connection {
   Connection(const Connection&) = delete;
   Connection& operator=(const Connection&) = delete;
 
-  // Takes what comes until `done` holds, at most so long; a link that has ended may take some seconds more to be opened again. Of datagrams
-  // a component tells whoever spoke last: it is called at first, and where nothing has come for 2 s.
+  // Takes what comes until `done` holds, at most so long; a link that has ended may take some seconds more to be opened again. By datagrams
+  // a component tells who has commanded: it is sent a ping at first, where nothing has come for 2 s, and each 20 s.
   void listen(double seconds, const std::function<bool()>& done);
 
   // Of all packets since the beginning; those that were missed between two links are missing.
@@ -47,7 +47,7 @@ class Connection {
   using Time = LinkHealth::Time;
   void open();
   void keep();
-  void call_where_silent();
+  void call_in_time();
 
   const ConnectionPlace place_;
   const Station::Listener listener_;

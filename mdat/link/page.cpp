@@ -120,7 +120,7 @@ DocumentSection service_section() {
   return {
       2,
       "Commands and their answers",
-      {"Service 1 answers each command: `refused`, with the reason and always; or `accepted` and `started`, each if asked for, and then "
+      {"Service 1 answers each command: `refused`, with the reason; or `accepted` and `started`, each if asked for, and then "
        "`completed`, if asked for, or "
        "`failed`, always. Progress is not reported: what a command does is done at once, or at the next boundary.",
        "A command is accepted once: its sequence count has to be 1 to 8191 after the one of the last accepted command, modulo 16384; "
@@ -131,12 +131,18 @@ DocumentSection service_section() {
        "without a right one it is refused as `not_authentic`, before its arguments are looked at. What the trailer is, the board says. "
        "That of `mdat run --link URL --key FILE`: a number that grows from command to command (8 bytes), and the first 16 bytes of the "
        "HMAC-SHA-256 over all bytes of the packet before them.",
-       format("In a frame %u commands are answered, the refused ones too; the rest waits for the next. A command takes effect at the "
-              "next boundary, at "
-              "most one frame later. In a byte stream what has no right CRC belongs to no packet: it is counted as skipped bytes "
-              "(packet `link`), and not "
-              "answered. A datagram is a packet whatever it holds, and is answered.",
-              kMaxCommandsPerFrame)},
+       format("In a frame %u commands are answered, and %u more that make safe (`inhibit_laser`, `set_mode mode=safe`); the rest waits for "
+              "the "
+              "next. A command takes effect at the next boundary, at most one frame later. What nobody sent who may command, whatever is "
+              "wrong with it, has room of its own: %u such packets are looked at in a frame, %u of them are answered, and %u more whose "
+              "sequence count alone is wrong. All are counted in the packet `link`. With an authenticator who may command is told by the "
+              "signature, and is always answered; without one each refused packet counts as nobody's. Answers wait for the link in room "
+              "of their own, too (%u bytes), so that no other telemetry keeps them from the operator.",
+              kMaxCommandsPerFrame, kMaxUrgentPerFrame, kMaxStrangersPerFrame, kMaxRefusalsPerFrame, kMaxRefusalsPerFrame,
+              static_cast<unsigned>(kAnswerBytes)),
+       std::string("In a byte stream what has no right CRC belongs to no packet: it is counted as skipped bytes "
+                   "(packet `link`), and not "
+                   "answered. A datagram is a packet whatever it holds.")},
       {}};
 }
 
@@ -237,11 +243,15 @@ std::vector<DocumentSection> transport_sections() {
        "Links",
        {"A board gives the component a link (`fsw/link/byte_link.hpp`): a stream of bytes, or datagrams of one packet each. On Linux these "
         "are "
-        "`udp://[HOST]:PORT` (telemetry goes to whom the last datagram came from), `tcp://[HOST]:PORT` (one ground station at a time) and "
+        "`udp://[HOST]:PORT`, `tcp://[HOST]:PORT` (one ground station at a time) and "
         "`file://PATH` (commands from `PATH.commands`, telemetry to `PATH`); without a host they are bound to the loopback address. `mdat "
         "run "
         "--link` runs a component in real time behind one of them, and `mdat command NAME ITEM=VALUE ... --to` commands it. On the "
-        "bare boards it is a serial port (`docs/boards/ppc603e.md`, `docs/boards/cortexa9.md`)."},
+        "bare boards it is a serial port (`docs/boards/ppc603e.md`, `docs/boards/cortexa9.md`).",
+        "By UDP anybody may send to the port. Telemetry goes to senders of valid commands, with a key of signed ones: the first of them "
+        "keeps its place until it is silent for 30 s and another one comes; up to three more are told beside it, and the one that was "
+        "silent longest makes way. `mdat run --telemetry-to HOST:PORT` names who is told besides, from the beginning. No other datagram "
+        "moves anything. An answer also goes to who asked."},
        {}},
       {2, "Types", {}, type_table()}};
 }

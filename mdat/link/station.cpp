@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <thread>
+#include <utility>
 
 #include "fsw/link/link_report.hpp"
 #include "mdat/common/errors.hpp"
@@ -22,8 +23,6 @@ std::uint16_t some_count() {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
   return static_cast<std::uint16_t>(std::chrono::duration_cast<std::chrono::milliseconds>(now).count() / 100 & kSequenceCountMask);
 }
-
-std::uint32_t key_of(ConstBytes packet) { return ByteReader(packet).u32(); }
 
 const DecodedItem* find_item(const DecodedPacket& packet, const std::string& item) {
   const auto found = std::find_if(packet.items.begin(), packet.items.end(), [&](const DecodedItem& it) { return item == it.row->name; });
@@ -64,6 +63,7 @@ Station::Station(ByteLink& link, std::string name, Listener listener)
 void Station::set_count(std::uint16_t count) {
   count_ = count;
   agreed_ = true;
+  fixed_ = true;
 }
 
 CommandAnswer Station::command(const PacketRow& row, const Values& values, bool arm, double wait_s) {
@@ -78,13 +78,13 @@ CommandAnswer Station::arm(const PacketRow& row, double wait_s) {
   return ask([&](std::uint16_t count) { return arm_for(row, count); }, wait_s);
 }
 
-// Of a count that the component does not take, the one half of all counts further on is taken, but where the last one was either of the
-// two: then the one behind it is.
+// Of a count that the component does not take, as others have counted on, the one half of all counts further on is taken, but where the
+// last one was either of the two: then the one behind it is.
 CommandAnswer Station::ask(const std::function<Packet(std::uint16_t)>& encode, double wait_s) {
   const std::uint16_t first = count_;
   CommandAnswer answer = wait_for(encode(count_++), wait_s);
   for (const unsigned further : {kHalf + 0U, kHalf + 1U, 1U}) {
-    if (answer.outcome != Outcome::kRepeated || agreed_) break;
+    if (answer.outcome != Outcome::kRepeated || fixed_) break;
     count_ = static_cast<std::uint16_t>((first + further) & kSequenceCountMask);
     answer = wait_for(encode(count_++), wait_s);
   }
@@ -93,9 +93,12 @@ CommandAnswer Station::ask(const std::function<Packet(std::uint16_t)>& encode, d
 }
 
 CommandAnswer Station::wait_for(const Packet& packet, double wait_s) {
-  const std::uint32_t key = key_of({packet.data(), packet.size()});
+  const std::uint32_t key = command_key({packet.data(), packet.size()});
   transmit(packet);
-  static_cast<void>(listen(wait_s, [&] { return sent_[key].outcome != Outcome::kOpen; }));
+  const auto answered = [&] { return sent_[key].outcome != Outcome::kOpen; };
+  const double quiet_s = silent_ ? std::min(silent_after_s_, wait_s) : 0;
+  if (silent_ && !listen(quiet_s, answered)) std::exchange(silent_, nullptr)();
+  static_cast<void>(listen(wait_s - quiet_s, answered));
   const CommandAnswer answer = sent_[key];
   sent_.erase(key);
   return answer;
@@ -114,7 +117,7 @@ void Station::transmit(const Packet& packet) {
     if (Clock::now() > end) throw RunError(name_ + ": does not take the command");
     std::this_thread::sleep_for(kPause);
   }
-  sent_[key_of({packet.data(), packet.size()})] = {};
+  sent_[command_key({packet.data(), packet.size()})] = {};
 }
 
 std::size_t Station::unanswered() const {
@@ -140,15 +143,29 @@ bool Station::listen(double seconds, const std::function<bool()>& done) {
 
 // By the time, so that it is not behind what others have counted since the last call.
 bool Station::call() {
-  const Packet ping = encode_command(command_row("ping"), {}, agreed_ ? count_++ : some_count());
+  const auto count = static_cast<std::uint16_t>((agreed_ ? count_++ : some_count() + shift_) & kSequenceCountMask);
+  const Packet ping = encode_command(command_row("ping"), {}, count);
+  called_ = command_key({ping.data(), ping.size()});
   const Packet sent = signer_ ? signer_->sign(ping) : ping;
   return link_.write({sent.data(), sent.size()}) > 0;
+}
+
+// A count half of all further on is taken where this one is not.
+void Station::note_call(const DecodedPacket& packet) {
+  std::uint32_t key = 0;
+  if (!is_answer(packet.bytes, key) || key != called_ || packet.bytes[8] != kSubserviceRefused) return;
+  if (item_value(packet, "fault") != static_cast<double>(PacketFault::kRepeated)) return;
+  agreed_ = false;
+  shift_ = static_cast<std::uint16_t>(shift_ ^ kHalf);
+  if (!called_again_) (void)call();
+  called_again_ = !called_again_;
 }
 
 void Station::note(const DecodedPacket& packet) {
   listener_(packet);
   if (packet.bytes[7] != kServiceVerification) return;
-  const auto sent = sent_.find(key_of(packet.bytes.subspan(kPacketHeaderBytes, 4)));
+  note_call(packet);
+  const auto sent = sent_.find(command_key(packet.bytes.subspan(kPacketHeaderBytes, 4)));
   if (sent == sent_.end()) return;
   CommandAnswer& answer = sent->second;
   const std::uint8_t subservice = packet.bytes[8];

@@ -37,7 +37,7 @@ class Station {
   // From now on commands are signed.
   void sign_with(const Key& key) { signer_.emplace(key); }
 
-  // From now on counts go on from here; otherwise one is found that the component takes.
+  // From now on counts go on from here; otherwise they are such that the component takes them.
   void set_count(std::uint16_t count);
 
   // Sends a command, and waits until it is answered, at most so long: kOpen then. Armed first, if asked for. Throws RunError where the
@@ -46,6 +46,11 @@ class Station {
 
   // The command that arms a hazardous one, which is carried out within kArmFrames frames. As command().
   CommandAnswer arm(const PacketRow& row, double wait_s);
+  // Called once where the answer to a command has not come after so long.
+  void on_silence(double after_s, std::function<void()> silent) {
+    silent_after_s_ = after_s;
+    silent_ = std::move(silent);
+  }
   // Called where a command is reported as accepted, before its end.
   void on_acceptance(std::function<void()> accepted) { accepted_ = std::move(accepted); }
 
@@ -58,8 +63,8 @@ class Station {
   // Of all that were sent: their answers are of no interest any more.
   void forget() { sent_.clear(); }
 
-  // Sends a ping whose answer is of no interest: a component at the other end of datagrams learns where to send its telemetry. False: the
-  // link takes nothing now.
+  // Sends a ping: a component at the other end of datagrams learns where to send its telemetry. Where it is refused for its count, the next
+  // one has another. False: the link takes nothing now.
   bool call();
 
   // Bytes that have come and belong to no packet.
@@ -73,14 +78,21 @@ class Station {
   CommandAnswer wait_for(const std::vector<std::uint8_t>& packet, double wait_s);
   void transmit(const std::vector<std::uint8_t>& packet);
   void note(const DecodedPacket& packet);
+  void note_call(const DecodedPacket& packet);
 
   ByteLink& link_;
   std::string name_;
   Listener listener_;
   std::function<void()> accepted_ = [] {};
+  double silent_after_s_ = 0;
+  std::function<void()> silent_;  // none: nobody wants to know, or it was called
   std::optional<Signer> signer_;
   std::uint16_t count_;
+  std::uint32_t called_ = 0;                     // key of the last call
+  bool called_again_ = false;                    // with another count
+  std::uint16_t shift_ = 0;                      // of counts by the time, for calls
   bool agreed_ = false;                          // the component has taken a count, or somebody has set it
+  bool fixed_ = false;                           // somebody has
   std::map<std::uint32_t, CommandAnswer> sent_;  // by the first four bytes
   TelemetryReceiver receiver_;
 };

@@ -26,7 +26,9 @@ bool TelemetryReceiver::take(ByteLink& link, const Listener& listener) {
   const auto now = std::chrono::steady_clock::now();
   const std::size_t came = link.read(Bytes(input_.data(), input_.size()));
   if (came > 0) last_ = now;
+  whole_ = false;
   search({input_.data(), came}, listener);
+  if (whole_) link.peer_spoke();
   if (link.datagrams() || now - last_ > kPatienceForRest) give_up(listener);
   return came > 0;
 }
@@ -36,6 +38,7 @@ void TelemetryReceiver::search(ConstBytes bytes, const Listener& listener) {
     const std::size_t taken = finder_.take(bytes);
     bytes = bytes.subspan(taken, bytes.size() - taken);
     const ConstBytes packet = finder_.packet();
+    if (!packet.empty()) whole_ = true;
     if (!packet.empty()) listener(decode_packet(packet, PacketType::kTelemetry));
   } while (!bytes.empty() || !finder_.packet().empty());
   other_bytes_ += finder_.skipped() - skipped_;

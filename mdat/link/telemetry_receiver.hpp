@@ -33,6 +33,7 @@ class TelemetryReceiver {
 
   std::vector<std::uint8_t> buffer_, input_;
   PacketFinder finder_;
+  bool whole_ = false;         // the last search found a packet
   std::uint32_t skipped_ = 0;  // of the finder, when it was asked last: it wraps
   std::uint64_t other_bytes_ = 0;
   std::chrono::steady_clock::time_point last_{};  // byte

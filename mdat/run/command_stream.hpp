@@ -34,6 +34,7 @@ class ListenedLink final : public ByteLink {
   bool datagrams() const override { return link_.datagrams(); }
   std::size_t read(Bytes out) override;
   std::size_t write(ConstBytes packets) override { return link_.write(packets); }
+  void peer_spoke() override { link_.peer_spoke(); }
 
  private:
   ByteLink& link_;

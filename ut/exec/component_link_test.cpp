@@ -219,9 +219,25 @@ TEST(ComponentLink, AFloodIsAnsweredByTheFrame) {
   std::size_t taken = 0;
   for (int frame = 0; frame < 3; ++frame) {
     taken += link.send(Stream(flood.begin() + static_cast<std::ptrdiff_t>(taken), flood.end()));
-    EXPECT_EQ(taken, std::min<std::size_t>(flood.size(), std::size_t{13} * kMaxCommandsPerFrame * static_cast<std::size_t>(frame + 1)));
+    const std::size_t packets = kMaxCommandsPerFrame * static_cast<std::size_t>(frame + 1) + 1;  // one waits
+    EXPECT_EQ(taken, std::min<std::size_t>(flood.size(), 13 * packets));
     EXPECT_EQ(link.component().receive_packet(view(test::ping(100)), 0), frame == 2);
     link.run_frame();
+  }
+}
+
+TEST(ComponentLink, WhatMakesSafeDoesNotWaitBehindAFramesCommands) {
+  VERIFIES("LASSO-LNK-040~1");
+  for (const bool datagrams : {false, true}) {
+    Link link;
+    const auto send = [&](const Stream& packet) {
+      return datagrams ? link.component().receive_packet(view(packet), 0) : link.send(packet) == packet.size();
+    };
+    for (std::uint16_t i = 0; i < kMaxCommandsPerFrame; ++i) EXPECT_TRUE(send(test::ping(i)));
+    EXPECT_TRUE(send(test::set_mode(kSafeMode, 20)));
+    EXPECT_EQ(link.answers().size(), 3 * kMaxCommandsPerFrame + 2) << "it is answered at once";
+    link.run_frame();
+    EXPECT_EQ(link.pose_of(link.run_frame()).mode, kSafeMode);
   }
 }
 
@@ -279,7 +295,7 @@ TEST(ComponentLink, BeginIsAnEvent) {
 }
 
 TEST(ComponentLink, EachRefusalIsAnEventWithItsReason) {
-  VERIFIES("LASSO-LNK-020~1 LASSO-LNK-015~1");
+  VERIFIES("LASSO-LNK-020~2 LASSO-LNK-015~1");
   Link link;
   link.run_frame();
   link.send(test::set_mode(99, 2));

@@ -1,8 +1,10 @@
 #include "fsw/exec/link_pump.hpp"
 
+#include <cstdio>
 #include <deque>
 
 #include "ut/exec/component_operator.hpp"
+#include "ut/link/keyed_sum.hpp"
 
 namespace lasso {
 namespace {
@@ -136,6 +138,78 @@ TEST(LinkPump, ADatagramThatIsTooLongIsRefused) {
   const std::vector<test::Packet> answers = test::packets_of(line.from_component);
   ASSERT_EQ(answers.size(), 1u);
   EXPECT_TRUE(answers[0].is(1, 2));
+}
+
+// Nobody who may command: what the flood of a frame is made of, one kind after the other.
+Stream bad_packet(std::uint32_t number) {
+  Stream packet = test::ping(static_cast<std::uint16_t>(number & kSequenceCountMask));
+  if (number % 5 == 0) return {0x1B};
+  if (number % 5 == 1) packet.back() ^= 1;
+  if (number % 5 == 2) packet.resize(9);
+  if (number % 5 == 3) return test::with_sum(test::ping(0));  // recorded, and sent again
+  return packet;                                              // whole, but not signed
+}
+
+struct FloodFigures {
+  std::uint32_t bad = 0, commands = 0, answered = 0, latest_slots = 0;
+  std::uint32_t telemetry = 0;  // packets
+  std::uint32_t inhibited = 0;  // events that the laser is inhibited
+};
+
+// `per_slot` bad packets come in each slot, before a command of the operator in each tenth frame: the laser is inhibited. What the ground's
+// queue of the link does not hold is lost, as in a socket.
+FloodFigures fly_through(std::uint32_t per_slot) {
+  constexpr std::size_t kSocketHolds = 277;  // datagrams of some bytes, of Linux' preset
+  constexpr std::uint32_t kFrames = 100;
+  Link link;
+  test::OnceSum authenticator;
+  link.component().use_authenticator(authenticator);
+  PieceLink line(true);
+  LinkPump pump(link.component(), line);
+  FloodFigures figures;
+  std::uint32_t sent_at = 0, open = 0;
+  line.to_component.push_back(test::with_sum(test::ping(0)));
+  for (std::uint32_t slot = 0; slot < kFrames * kSlotsPerFrame; ++slot) {
+    for (std::uint32_t i = 0; i < per_slot && line.to_component.size() < kSocketHolds; ++i)
+      line.to_component.push_back(bad_packet(figures.bad + i));
+    figures.bad += per_slot;
+    if (slot % (10 * kSlotsPerFrame) == kSlotsPerFrame) {
+      ++figures.commands;
+      open = 1;
+      sent_at = slot;
+      const Stream command = test::with_sum(test::plain_packet(CommandKind::kInhibitLaser, static_cast<std::uint16_t>(figures.commands)));
+      if (line.to_component.size() < kSocketHolds) line.to_component.push_back(command);
+    }
+    pump.receive(link.component().next_slot_us());
+    link.component().run_slot(link.component().next_slot_us());
+    link.component().run_estimation();
+    pump.send();
+    for (const test::Packet& packet : test::packets_of(line.from_component)) {
+      ++figures.telemetry;
+      if (packet.header.service == 5 && packet.data[1] == static_cast<std::uint8_t>(EventId::kLaserInhibited)) ++figures.inhibited;
+      if (!packet.is(1, 7) || open == 0) continue;
+      open = 0;
+      ++figures.answered;
+      figures.latest_slots = std::max(figures.latest_slots, slot - sent_at);
+    }
+    line.from_component.clear();
+  }
+  return figures;
+}
+
+TEST(LinkPump, AFloodOfBadPacketsCostsLittleAndHoldsNoCommandBack) {
+  VERIFIES("LASSO-LNK-040~1");
+  const FloodFigures quiet = fly_through(0), flood = fly_through(3);
+  ASSERT_EQ(quiet.commands, 10u);
+  const double each = static_cast<double>(flood.telemetry - quiet.telemetry) / flood.bad;
+  std::printf(
+      "300 bad packets a second: %u of %u commands answered, the latest after %u slots; %.2f packets of telemetry for each bad one\n",
+      flood.answered, flood.commands, flood.latest_slots, each);
+  EXPECT_EQ(quiet.answered, quiet.commands);
+  EXPECT_EQ(flood.answered, flood.commands);
+  EXPECT_EQ(flood.inhibited, quiet.inhibited) << "what happens is told as without the flood";
+  EXPECT_LE(flood.latest_slots, 2 * kSlotsPerFrame);
+  EXPECT_LT(each, 0.15);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 #include "fsw/link/command_receiver.hpp"
 
-#include "ut/link/command_packets.hpp"
+#include "ut/link/keyed_sum.hpp"
 
 namespace lasso {
 namespace {
@@ -77,6 +77,26 @@ TEST(CommandReceiver, ARefusedCommandDoesNotMoveTheWindow) {
   EXPECT_EQ(accept(receiver, test::ping(1)), PacketFault::kNone);
   EXPECT_EQ(accept(receiver, test::set_mode(99, 100)), PacketFault::kBadArgument);
   EXPECT_EQ(accept(receiver, test::ping(2)), PacketFault::kNone);
+}
+
+TEST(CommandReceiver, SaysWhetherAPacketComesFromWhoMayCommand) {
+  VERIFIES("LASSO-LNK-040~1");
+  CommandReceiver receiver;
+  Command command;
+  EXPECT_FALSE(receiver.from_operator());
+  const auto from_operator = [&](const Stream& packet) {
+    static_cast<void>(receiver.accept(view(packet), command));
+    return receiver.from_operator();
+  };
+  EXPECT_TRUE(from_operator(test::ping(1)));
+  EXPECT_FALSE(from_operator(test::ping(1))) << "repeated";
+  EXPECT_FALSE(from_operator(test::set_mode(99, 2)));
+  test::KeyedSum authenticator;
+  receiver.use_authenticator(authenticator);
+  EXPECT_FALSE(from_operator(test::ping(2)));
+  EXPECT_TRUE(from_operator(test::with_sum(test::ping(1)))) << "it is refused, but signed";
+  EXPECT_TRUE(from_operator(test::with_sum(test::set_mode(99, 3))));
+  EXPECT_FALSE(from_operator(Stream{1, 2, 3}));
 }
 
 TEST(CommandReceiver, LooksBehindWhatItGivesUp) {

@@ -205,6 +205,22 @@ TEST(Commands, RowsStandInTheOrderOfTheirKinds) {
   }
 }
 
+TEST(Commands, TwoOfThemMakeSafe) {
+  VERIFIES("LASSO-LNK-040~1");
+  std::string urgent;
+  for (const Stream& packet : every_command()) {
+    Command command;
+    ASSERT_EQ(decode(packet, command), PacketFault::kNone);
+    if (is_urgent(view(packet))) urgent += std::string(command_rows::row_of(command.kind).name) + " ";
+  }
+  EXPECT_EQ(urgent, "inhibit_laser ") << "set_mode has another mode here";
+  EXPECT_TRUE(is_urgent(view(test::set_mode(kSafeMode))));
+  EXPECT_FALSE(is_urgent(view(test::set_mode(kSafeMode - 1))));
+  Stream damaged = test::set_mode(kSafeMode);
+  damaged.back() ^= 1;
+  EXPECT_FALSE(is_urgent(view(damaged)));
+}
+
 TEST(Commands, ArgumentsOutOfRangeAreRefused) {
   VERIFIES("LASSO-LNK-034~1");
   EXPECT_EQ(fault_of(test::enable_event(kEvents)), PacketFault::kBadArgument);

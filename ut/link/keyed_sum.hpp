@@ -2,6 +2,8 @@
 // nobody. ut/mdat/link/signature_test.cpp has one that does.
 #pragma once
 
+#include <set>
+
 #include "fsw/core/crc.hpp"
 #include "fsw/link/authenticator.hpp"
 #include "ut/link/command_packets.hpp"
@@ -25,6 +27,18 @@ class KeyedSum final : public Authenticator {
     return ByteReader(trailer).u32() == keyed_sum(packet);
   }
   int asked = 0;
+};
+
+// Takes each packet once, as a number that has to grow does.
+class OnceSum final : public Authenticator {
+ public:
+  std::size_t trailer_bytes() const override { return kSumBytes; }
+  bool authentic(ConstBytes packet, ConstBytes trailer) override {
+    return ByteReader(trailer).u32() == keyed_sum(packet) && seen_.insert(keyed_sum(packet)).second;
+  }
+
+ private:
+  std::set<std::uint32_t> seen_;
 };
 
 inline Stream with_sum(Stream packet) {

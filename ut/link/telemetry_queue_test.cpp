@@ -53,6 +53,21 @@ TEST(TelemetryQueue, DropsAndCountsWhatDoesNotFit) {
   EXPECT_EQ(take(queue, kTelemetryQueueBytes), large);
 }
 
+TEST(TelemetryQueue, KeepsRoomForAnswersBehindAllElse) {
+  VERIFIES("LASSO-LNK-006~1 LASSO-LNK-040~1");
+  TelemetryQueue queue;
+  const auto large = packet_of(kTelemetryQueueBytes - 30, 1), answer = packet_of(kAnswerBytes / 2 - 24, 2);
+  ASSERT_EQ(queue.push(view(large)), Status::kOk);
+  EXPECT_EQ(queue.push(view(answer)), Status::kOverCapacity);
+  EXPECT_EQ(queue.push_answer(view(answer)), Status::kOk);
+  EXPECT_EQ(queue.push_answer(view(answer)), Status::kOk);
+  EXPECT_EQ(queue.push_answer(view(answer)), Status::kOverCapacity);
+  EXPECT_EQ(take(queue, kTelemetryQueueBytes), large) << "in order";
+  EXPECT_EQ(take(queue, answer.size()), answer);
+  EXPECT_EQ(queue.push(view(large)), Status::kOverCapacity) << "an answer takes the others' room, too";
+  EXPECT_EQ(take(queue, answer.size()), answer);
+}
+
 TEST(TelemetryQueue, RefusesWhatIsNotOnePacket) {
   VERIFIES("LASSO-LNK-006~1");
   TelemetryQueue queue;

@@ -10,7 +10,7 @@
 #include "bsp/posix/runner.hpp"
 #include "bsp/posix/serial_line.hpp"
 #include "ut/exec/component_scene.hpp"
-#include "ut/link/command_packets.hpp"
+#include "ut/link/keyed_sum.hpp"
 
 namespace lasso::posix {
 namespace {
@@ -39,6 +39,7 @@ TEST(Links, BytesPassBothWaysByUdpAndTcp) {
     Stream up{5, 6, 7, 8}, down{9, 8, 7};
     EXPECT_EQ(ground->write(test::view(up)), 4u);
     EXPECT_EQ(read_all(*component, 4), up);
+    component->peer_spoke();
     EXPECT_EQ(component->write(test::view(down)), 3u);
     EXPECT_EQ(read_all(*ground, 3), down);
     EXPECT_EQ(component->read(Bytes(up.data(), up.size())), 0u) << "no call waits";
@@ -53,9 +54,67 @@ TEST(Links, ASecondGroundStationTakesOverWhenTheFirstHasGone) {
       const auto ground = connect_link(component->address());
       ground->write(test::view(Stream{station}));
       EXPECT_EQ(read_all(*component, 1), Stream{station});
-      for (int i = 0; i < 3 && read_all(*ground, 1) != Stream{7}; ++i) component->write(test::view(Stream{7}));
+      component->peer_spoke();
+      bool told = false;
+      for (int i = 0; i < 3 && !told; ++i) {
+        component->write(test::view(Stream{7}));
+        told = read_all(*ground, 1) == Stream{7};
+      }
+      EXPECT_TRUE(told) << scheme;
     }
   }
+}
+
+TEST(Links, ByDatagramsWhoIsNotVouchedForIsToldNothingAndTakesNothing) {
+  VERIFIES("LASSO-LNK-041~1");
+  const auto component = open_link("udp://:0");
+  const auto ground = connect_link(component->address()), stranger = connect_link(component->address());
+  stranger->write(test::view(Stream{1}));
+  EXPECT_EQ(read_all(*component, 1), Stream{1});
+  component->write(test::view(Stream{7}));
+  ground->write(test::view(Stream{2}));
+  EXPECT_EQ(read_all(*component, 1), Stream{2});
+  component->peer_spoke();
+  for (int i = 0; i < 3; ++i) stranger->write(test::view(Stream{}));
+  stranger->write(test::view(Stream{3}));
+  EXPECT_EQ(read_all(*component, 1), Stream{3}) << "behind empty datagrams";
+  component->write(test::view(Stream{8}));
+  EXPECT_EQ(read_all(*ground, 1), Stream{8});
+  Stream nothing(10);
+  EXPECT_EQ(stranger->read(Bytes(nothing.data(), nothing.size())), 0u);
+}
+
+TEST(Links, TheGroundHearsItsComponentAlone) {
+  VERIFIES("LASSO-GND-165~1");
+  const auto component = open_link("udp://:0"), other = open_link("udp://:0");
+  const auto ground = connect_link(component->address());
+  const auto stranger = connect_link(ground->address());
+  ground->write(test::view(Stream{1}));
+  EXPECT_EQ(read_all(*component, 1), Stream{1});
+  component->peer_spoke();
+  stranger->write(test::view(Stream{9}));
+  component->write(test::view(Stream{5}));
+  EXPECT_EQ(read_all(*ground, 1), Stream{5}) << "what the stranger sent before is not there";
+  EXPECT_FALSE(ground->unreached());
+  const std::string nobody = [] { return open_link("udp://:0")->address(); }();
+  EXPECT_TRUE(connect_link(nobody)->unreached());
+}
+
+TEST(Links, WhoIsConfiguredIsToldFromTheBeginning) {
+  VERIFIES("LASSO-LNK-041~1");
+  const auto ground = open_link("udp://:0");
+  const auto component = open_link("udp://:0", ground->address().substr(6));
+  component->write(test::view(Stream{4}));
+  EXPECT_EQ(read_all(*ground, 1), Stream{4});
+  EXPECT_THROW(open_link("tcp://:0", "127.0.0.1:1"), LinkError);
+  EXPECT_THROW(open_link("udp://:0", "127.0.0.1"), LinkError);
+}
+
+TEST(Links, SayWhetherOtherMachinesReachThem) {
+  VERIFIES("LASSO-LNK-042~1");
+  for (const char* url : {"udp://:0", "tcp://127.0.0.1:0", "udp://127.9.9.9:0", "file:///nowhere"})
+    EXPECT_FALSE(is_reached_from_elsewhere(url)) << url;
+  for (const char* url : {"udp://0.0.0.0:0", "tcp://0.0.0.0:0", "udp://192.0.2.1:5"}) EXPECT_TRUE(is_reached_from_elsewhere(url)) << url;
 }
 
 TEST(Links, AreBoundToTheLoopbackAddressUnlessToldOtherwise) {
@@ -93,7 +152,7 @@ TEST(Links, WhatCannotBeOpenedIsNamed) {
 }
 
 TEST(Links, TheGroundReachesAComponentByASerialLine) {
-  VERIFIES("LASSO-GND-161~1");
+  VERIFIES("LASSO-GND-161~2");
   for (const std::string kind : {"pty", "unix"}) {
     const std::string socket = "unix:" + (std::filesystem::temp_directory_path() / ("lasso_line_" + std::to_string(::getpid()))).string();
     LineServer board;
@@ -126,7 +185,7 @@ TEST(Links, TheGroundReachesAComponentByASerialLine) {
 }
 
 TEST(Links, TheGroundSeesThatATcpLinkHasEnded) {
-  VERIFIES("LASSO-GND-161~1");
+  VERIFIES("LASSO-GND-161~2");
   auto component = open_link("tcp://:0");
   const auto ground = connect_link(component->address());
   EXPECT_EQ(component->write(test::view(Stream{1})), 1u);
@@ -165,6 +224,75 @@ TEST(Links, AComponentIsCommandedByAFile) {
   EXPECT_EQ(pongs, 20u);
   std::filesystem::remove(path);
   std::filesystem::remove(path.string() + ".commands");
+}
+
+// Five who may not command, each at a port of its own: junk, truncated, damaged, unsigned, and recorded from the operator.
+class Attackers {
+ public:
+  explicit Attackers(const std::string& url) {
+    for (int i = 0; i < 5; ++i) links_.push_back(connect_link(url));
+  }
+  void send(const Stream& recorded) {
+    Stream damaged = test::with_sum(test::ping(7)), truncated = recorded;
+    damaged.back() ^= 1;
+    truncated.resize(truncated.size() / 2);
+    const Stream packets[] = {Stream{0}, truncated, damaged, test::set_mode(0, 9), recorded};
+    for (std::size_t i = 0; i < links_.size(); ++i) links_[i]->write(test::view(packets[i]));
+  }
+  // What they are told; false: there is more than refusals of what they sent.
+  bool hear_refusals_alone(std::size_t& refusals) {
+    for (const auto& link : links_) {
+      for (Stream packet = next(*link); !packet.empty(); packet = next(*link)) {
+        if (packet[7] != 1 || packet[8] != 2) return false;
+        ++refusals;
+      }
+    }
+    return true;
+  }
+  static Stream next(PosixLink& link) {
+    Stream packet(2000);
+    packet.resize(link.read(Bytes(packet.data(), packet.size())));
+    return packet;
+  }
+
+ private:
+  std::vector<std::unique_ptr<PosixLink>> links_;
+};
+
+TEST(Links, AttackersAtOtherPortsNeitherTakeTelemetryNorHoldTheOperatorBack) {
+  VERIFIES("LASSO-LNK-040~1 LASSO-LNK-041~1");
+  constexpr std::uint16_t kAttackedFrames = 50;
+  test::ComponentScene scene(test::box_parameters(test::default_scene()));
+  test::OnceSum authenticator;
+  scene.component->use_authenticator(authenticator);
+  scene.begin();
+  const auto link = open_link("udp://:0");
+  Runner runner(*scene.component);
+  runner.connect(*link);
+  const auto ground = connect_link(link->address());
+  Attackers attackers(link->address());
+  std::size_t refusals = 0, completed = 0;
+  int expected = -1;
+  for (std::uint16_t frame = 0; frame < kAttackedFrames; ++frame) {
+    const Stream command = test::with_sum(test::plain_packet(CommandKind::kInhibitLaser, frame));
+    if (frame > 0) {
+      for (int i = 0; i < 12; ++i) attackers.send(test::with_sum(test::plain_packet(CommandKind::kInhibitLaser, 0)));
+    }
+    ground->write(test::view(command));
+    (void)runner.run_frame();
+    for (Stream packet = Attackers::next(*ground); !packet.empty(); packet = Attackers::next(*ground)) {
+      const int count = (packet[2] << 8 | packet[3]) & kSequenceCountMask;
+      if (expected >= 0) {
+        ASSERT_EQ(count, expected) << "nothing is missing";
+      }
+      expected = (count + 1) & kSequenceCountMask;
+      completed += packet[7] == 1 && packet[8] == 7 ? 1U : 0U;
+    }
+    ASSERT_TRUE(attackers.hear_refusals_alone(refusals));
+  }
+  EXPECT_EQ(completed, kAttackedFrames) << "each command is answered in its frame";
+  EXPECT_GT(refusals, 0u);
+  EXPECT_LE(refusals, kAttackedFrames * 2 * kMaxRefusalsPerFrame);
 }
 
 }  // namespace

@@ -64,5 +64,73 @@ TEST(Station, ACommandThatIsRefusedIsNotDoneAndSaysWhy) {
   EXPECT_NE(answer.why.find("not_authentic"), std::string::npos) << answer.why;
 }
 
+// A component whose last command had the count half of all before the first one that comes.
+class CountingLink final : public ByteLink {
+ public:
+  bool datagrams() const override { return true; }
+  std::size_t read(Bytes out) override { return downlink_.take(out); }
+  std::size_t write(ConstBytes command) override {
+    ++sent;
+    const bool repeated = sent <= repeated_first;
+    accepted += repeated ? 0U : 1U;
+    Verification verification;
+    verification.packet_id = static_cast<std::uint16_t>(command_key(command) >> 16);
+    verification.sequence_control = static_cast<std::uint16_t>(command_key(command));
+    verification.fault = static_cast<std::uint8_t>(repeated ? PacketFault::kRepeated : PacketFault::kNone);
+    std::uint8_t packet[kMaxLinkReportBytes];
+    const std::uint8_t subservice = repeated ? kSubserviceRefused : kSubserviceCompleted;
+    const PacketHeader header = downlink_.next_header({kServiceVerification, subservice}, 0);
+    downlink_.send({packet, encode_verification(verification, header, Bytes(packet))});
+    return command.size();
+  }
+  std::uint32_t repeated_first = 0, sent = 0, accepted = 0;
+
+ private:
+  Downlink downlink_;
+};
+
+TEST(Station, ACallThatIsRefusedForItsCountIsMadeOnceMore) {
+  VERIFIES("LASSO-GND-161~2");
+  CountingLink link;
+  Station station(link, "link", [](const DecodedPacket&) {});
+  link.repeated_first = 1;
+  ASSERT_TRUE(station.call());
+  EXPECT_TRUE(station.listen(5, [&] { return link.accepted == 1; }));
+  link.repeated_first = 1000;
+  ASSERT_TRUE(station.call());
+  EXPECT_FALSE(station.listen(0.1, [&] { return link.sent > 4; })) << "no storm";
+}
+
+TEST(Station, ACommandOvertakenByAnothersCountIsSentWithOneThatIsTaken) {
+  VERIFIES("LASSO-GND-165~1");
+  CountingLink link;
+  Station station(link, "link", [](const DecodedPacket&) {});
+  EXPECT_EQ(station.command(command_row("ping"), {}, false, 5).outcome, Outcome::kDone);
+  link.repeated_first = link.sent + 1;
+  EXPECT_EQ(station.command(command_row("ping"), {}, false, 5).outcome, Outcome::kDone);
+  station.set_count(7);
+  link.repeated_first = link.sent + 1;
+  EXPECT_EQ(station.command(command_row("ping"), {}, false, 5).outcome, Outcome::kRepeated) << "the user's count is kept";
+}
+
+// Nobody is there.
+class MuteLink final : public ByteLink {
+ public:
+  bool datagrams() const override { return true; }
+  std::size_t read(Bytes) override { return 0; }
+  std::size_t write(ConstBytes command) override { return command.size(); }
+};
+
+TEST(Station, SilenceIsToldOnceAndWaitedThroughAsLongAsWasAsked) {
+  VERIFIES("LASSO-GND-164~1");
+  MuteLink link;
+  Station station(link, "link", [](const DecodedPacket&) {});
+  int told = 0;
+  station.on_silence(0.02, [&] { ++told; });
+  EXPECT_EQ(station.command(command_row("ping"), {}, false, 0.06).outcome, Outcome::kOpen);
+  EXPECT_EQ(station.command(command_row("ping"), {}, false, 0.06).outcome, Outcome::kOpen);
+  EXPECT_EQ(told, 1);
+}
+
 }  // namespace
 }  // namespace lasso::mdat

@@ -50,7 +50,7 @@ class ConnectTest : public ::testing::Test {
       header.t_us = pose.t_publication_us;
       const TelemetryBytes packet = pose_packet(pose, header);
       TelemetryBytes heard(2000);
-      (void)component_->read(Bytes(heard.data(), heard.size()));
+      if (component_->read(Bytes(heard.data(), heard.size())) > 0) component_->peer_spoke();
       (void)component_->write({packet.data(), packet.size()});
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
