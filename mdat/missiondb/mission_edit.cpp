@@ -153,27 +153,32 @@ std::string with_setting(const std::string& text, const std::string& setting, co
   return text;
 }
 
-// One line of TOML, as its library writes it.
+std::string joined(const std::vector<std::string>& texts) {
+  std::string all;
+  for (const std::string& text : texts) all += (all.empty() ? "" : ", ") + text;
+  return all;
+}
+
+// The shortest text of a number that is no integer to TOML.
+std::string real_text(double value) {
+  const std::string text = number_text(value);
+  return text + (text.find_first_not_of("-0123456789") == std::string::npos ? ".0" : "");
+}
+
+// A value in one line of TOML. Bound: one call for each value inside of it.
 std::string toml_text(const toml::node& node) {
+  std::vector<std::string> inner;
+  if (const toml::table* table = node.as_table()) {
+    for (const auto& [name, value] : *table) inner.push_back(key_text({std::string(name.str())}) + " = " + toml_text(value));
+    return "{ " + joined(inner) + " }";
+  }
+  if (const toml::array* array = node.as_array()) {
+    for (const toml::node& value : *array) inner.push_back(toml_text(value));
+    return "[" + joined(inner) + "]";
+  }
+  if (const auto* real = node.as_floating_point()) return real_text(real->get());
   std::ostringstream out;
-  node.visit([&](const auto& value) {
-    using Value = std::decay_t<decltype(value)>;
-    if constexpr (toml::is_table<Value>) {
-      out << "{ ";
-      for (const auto& [name, inner] : value)
-        out << (out.view().size() > 2 ? ", " : "") << key_text({std::string(name.str())}) << " = " << toml_text(inner);
-      out << " }";
-    } else if constexpr (toml::is_array<Value>) {
-      out << "[";
-      for (const toml::node& inner : value) out << (out.view().size() > 1 ? ", " : "") << toml_text(inner);
-      out << "]";
-    } else if constexpr (toml::is_floating_point<Value>) {
-      const std::string text = number_text(value.get());
-      out << text << (text.find_first_not_of("-0123456789") == std::string::npos ? ".0" : "");
-    } else {
-      out << toml::toml_formatter{value, toml::format_flags::none};
-    }
-  });
+  node.visit([&out](const auto& value) { out << toml::toml_formatter{value, toml::format_flags::none}; });
   return out.str();
 }
 
