@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "mdat/missiondb/key_facts.hpp"
 #include "mdat/missiondb/settings.hpp"
 #include "mdat/missiondb/toml_reader.hpp"
 
@@ -152,6 +153,77 @@ std::string with_setting(const std::string& text, const std::string& setting, co
   return text;
 }
 
+std::string joined(const std::vector<std::string>& texts) {
+  std::string all;
+  for (const std::string& text : texts) all += (all.empty() ? "" : ", ") + text;
+  return all;
+}
+
+// The shortest text of a number that is no integer to TOML.
+std::string real_text(double value) {
+  const std::string text = number_text(value);
+  return text + (text.find_first_not_of("-0123456789") == std::string::npos ? ".0" : "");
+}
+
+// A value in one line of TOML. Bound: one call for each value inside of it.
+std::string toml_text(const toml::node& node) {
+  std::vector<std::string> inner;
+  if (const toml::table* table = node.as_table()) {
+    for (const auto& [name, value] : *table) inner.push_back(key_text({std::string(name.str())}) + " = " + toml_text(value));
+    return "{ " + joined(inner) + " }";
+  }
+  if (const toml::array* array = node.as_array()) {
+    for (const toml::node& value : *array) inner.push_back(toml_text(value));
+    return "[" + joined(inner) + "]";
+  }
+  if (const auto* real = node.as_floating_point()) return real_text(real->get());
+  std::ostringstream out;
+  node.visit([&out](const auto& value) { out << toml::toml_formatter{value, toml::format_flags::none}; });
+  return out.str();
+}
+
+// Whether the schema has keys of its own below a key.
+bool is_table_of_keys(const Names& names) {
+  const std::vector<KeyFacts> facts = facts_of(key_text(names));
+  return std::any_of(facts.begin(), facts.end(), [](const KeyFacts& form) { return form.table; });
+}
+
+void note_written(const toml::table& table, const Names& path, std::vector<WrittenValueText>& values) {
+  for (const auto& [name, node] : table) {
+    Names names = path;
+    names.emplace_back(name.str());
+    const toml::table* inner = node.as_table();
+    if (inner != nullptr && (!inner->is_inline() || is_table_of_keys(names)))
+      note_written(*inner, names, values);
+    else
+      values.push_back({key_text(names), toml_text(node), static_cast<int>(node.source().begin.line)});
+  }
+}
+
+// A text without its quotes where the command line reads it as the same.
+std::string setting_text(const Names& names, const toml::node& node) {
+  const std::string key = key_text(names) + "=", toml = toml_text(node);
+  const auto text = node.value<std::string>();
+  const bool same = text && !text->empty() && parts_of(key + *text).toml == parts_of(key + toml).toml;
+  return key + (same ? *text : toml);
+}
+
+// A new node or further sensor is set as a whole (apply_settings).
+bool is_set_whole(const Names& names) { return names.size() == 2 && (names[0] == "node" || names[0] == "further_sensor"); }
+
+void note_settings(const toml::table* before, const toml::table& after, const Names& path, std::vector<std::string>& settings) {
+  for (const auto& [name, node] : after) {
+    Names names = path;
+    names.emplace_back(name.str());
+    const toml::node* old = before == nullptr ? nullptr : before->get(name.str());
+    const toml::table* inner = node.as_table();
+    if (inner != nullptr && !inner->is_inline() && !(old == nullptr && is_set_whole(names)))
+      note_settings(old == nullptr ? nullptr : old->as_table(), *inner, names, settings);
+    else if (old == nullptr || toml_text(*old) != toml_text(node))
+      settings.push_back(setting_text(names, node));
+  }
+}
+
 std::vector<std::string> lines_of_text(const std::string& text) {
   std::vector<std::string> lines;
   std::istringstream in(text);
@@ -178,6 +250,27 @@ std::string edited(const std::string& text, const std::vector<std::string>& sett
   std::string result = text;
   for (const std::string& setting : settings) result = with_setting(result, setting, file);
   return result;
+}
+
+std::vector<WrittenValueText> written_below(const std::string& text, const std::string& table, const std::filesystem::path& file) {
+  const toml::table root = parse_toml_text(text, file);
+  const toml::table* found = root.get_as<toml::table>(table);
+  std::vector<WrittenValueText> values;
+  if (found != nullptr) note_written(*found, {table}, values);
+  return values;
+}
+
+std::optional<std::vector<std::string>> settings_between(const std::string& before, const std::string& after,
+                                                         const std::filesystem::path& file) {
+  toml::table mission = parse_toml_text(before, file);
+  const toml::table wanted = parse_toml_text(after, file);
+  std::vector<std::string> settings;
+  note_settings(&mission, wanted, {}, settings);
+  if (settings.size() > kMostSettings) return std::nullopt;
+  ProblemList problems(file);
+  apply_settings(settings, mission, problems);
+  if (!problems.empty() || mission != wanted) return std::nullopt;
+  return settings;
 }
 
 std::string changed_lines(const std::string& before, const std::string& after) {

@@ -24,6 +24,23 @@ std::optional<TextSpan> span_of(const std::string& text, const std::string& key,
 // no TOML, or it is written in a way in which the value has no place. The values themselves are not checked.
 std::string edited(const std::string& text, const std::vector<std::string>& settings, const std::filesystem::path& file);
 
+// A value as a text writes it: its dotted key, its TOML, and the line where it begins, from 1.
+struct WrittenValueText {
+  std::string key, toml;
+  int line = 0;
+};
+
+// The values that the text writes below [TABLE], in the order of their keys. What the schema has as a table is taken apart also where it is
+// written in braces; a law of a campaign is one value. Throws MissionError: the text is no TOML.
+std::vector<WrittenValueText> written_below(const std::string& text, const std::string& table, const std::filesystem::path& file);
+
+// The settings (KEY=VALUE) that make of one text's mission the other's, as `edited` does it, in the order of their keys; none needed:
+// empty. nullopt: there are none, as a value is gone, or as many as kMostSettings are not enough. Throws MissionError: one of the two is no
+// TOML.
+constexpr std::size_t kMostSettings = 100;
+std::optional<std::vector<std::string>> settings_between(const std::string& before, const std::string& after,
+                                                         const std::filesystem::path& file);
+
 // The lines between the first and the last one that differ, with their numbers in their text, as `12: -points = 1024` and
 // `12: +points = 512`, each with a line feed. Of one setting these are the lines that it changes. Bound: one pass.
 std::string changed_lines(const std::string& before, const std::string& after);

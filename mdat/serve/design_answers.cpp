@@ -18,7 +18,11 @@ using DesignJson = nlohmann::ordered_json;
 
 std::string design_json(const DesignJson& json) { return json.dump(-1, ' ', false, DesignJson::error_handler_t::replace); }
 
-DesignJson view_json(const LiveMission& mission, const std::string& text) { return DesignJson::parse(mission_view(text, mission.file)); }
+// With the settings that make it of the text that the body says was saved, where it says one.
+DesignJson view_json(const LiveMission& mission, const std::string& text, const DesignJson& body = DesignJson::object()) {
+  const std::string saved = body.contains("saved") ? body_text(body, "saved") : "";
+  return DesignJson::parse(mission_view(text, mission.file, body.contains("saved") ? &saved : nullptr));
+}
 
 std::vector<std::string> words_of(const DesignJson& body, const char* name) {
   const auto found = body.find(name);
@@ -75,7 +79,7 @@ struct DesignAct {
   DesignJson (*act)(Design& design, const LiveMission& mission, const DesignJson& body);
 };
 constexpr DesignAct kDesignActs[] = {
-    {"look", [](Design&, const LiveMission& mission, const DesignJson& body) { return view_json(mission, body_text(body, "text")); }},
+    {"look", [](Design&, const LiveMission& mission, const DesignJson& body) { return view_json(mission, body_text(body, "text"), body); }},
     {"preview",
      [](Design&, const LiveMission& mission, const DesignJson& body) {
        return DesignJson::parse(preview_json(mission, body_text(body, "text"), body_text(body, "scenario"), body_count(body, "run")));
@@ -84,7 +88,7 @@ constexpr DesignAct kDesignActs[] = {
      [](Design&, const LiveMission& mission, const DesignJson& body) {
        const std::string text = Design::set(mission, body_text(body, "text"), words_of(body, "set"));
        DesignJson json{{"text", text}};
-       json.update(view_json(mission, text));
+       json.update(view_json(mission, text, body));
        return json;
      }},
     {"save",

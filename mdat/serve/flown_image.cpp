@@ -103,6 +103,11 @@ std::string why_text(const PoseTelemetry& told, const std::vector<ValidityGate>&
   const Choice* reason = choice_at(kPoseReasons, told.reason);
   if (reason == nullptr) return format("the reason is %u, which this program does not know", told.reason);
   if (told.valid != 0) return "valid: " + std::string(reason->meaning);
+  const auto mode = static_cast<TrackingMode>(told.mode);
+  if (mode == TrackingMode::kSafe || mode == TrackingMode::kStandby) {
+    const Choice* at_rest = choice_at(kTrackingModes, told.mode);
+    return std::string("not valid: the component is in mode ") + at_rest->name + ": " + at_rest->meaning;
+  }
   std::string text = std::string("not valid, ") + reason->name + ": " + reason->meaning;
   for (const ValidityGate& gate : gates) {
     if (!gate.pass) {

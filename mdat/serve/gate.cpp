@@ -58,7 +58,7 @@ bool Gate::is_own_host(std::string_view header) const {
 
 std::optional<Response> Gate::refuse(const Request& request) const {
   if (request.target.size() > kMaxTargetBytes) return error_response(414, "the address is too long", "ask for less at a time");
-  if (const std::size_t limit = body_limit_of(request); request.body.size() > limit) return too_large_response(limit);
+  if (const std::size_t limit = body_limit_of(request); request.body.size() > limit) return too_large_response(limit, request.body.size());
   if (!request.header("transfer-encoding").empty())
     return error_response(501, "Transfer-Encoding is not taken", "send the body with its Content-Length");
   if (!is_own_host(request.header("host")))

@@ -13,6 +13,7 @@ namespace lasso::mdat::serve {
 
 constexpr std::size_t kMaxHeaderBytes = 8192;   // request line and headers
 constexpr std::size_t kMaxBodyBytes = 1 << 16;  // of a request
+constexpr std::size_t kMaxTextBytes = 1 << 22;  // of one with a mission's texts: two of the largest, as JSON writes them
 constexpr std::size_t kMaxMeshBytes = 1 << 27;  // of a mesh that is sent: 500,000 triangles take some 125 MB as text
 constexpr std::size_t kMaxTargetBytes = 4096;
 
@@ -31,7 +32,8 @@ struct Request {
   }
 };
 
-// Bytes that the body of a request may have: kMaxMeshBytes of POST /api/mission/new, kMaxBodyBytes of all others.
+// Bytes that the body of a request may have: kMaxMeshBytes of POST /api/mission/new, kMaxTextBytes of other posts below /api/mission,
+// kMaxBodyBytes of all others.
 std::size_t body_limit_of(const Request& head);
 
 using Headers = std::vector<std::pair<std::string, std::string>>;
@@ -45,7 +47,8 @@ struct Response {
 
 // {"error": what, "remedy": what helps}
 Response error_response(unsigned status, const std::string& what, const std::string& remedy);
-Response too_large_response(std::size_t limit_bytes);
+// 413, with the size that was sent where it is known (0: it is not), and the limit.
+Response too_large_response(std::size_t limit_bytes, std::uint64_t sent_bytes = 0);
 Response json_response(std::string json);
 Response binary_response(std::string bytes);
 

@@ -43,7 +43,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
     if (websocket::is_upgrade(parser_->get())) return open_socket();
     const std::uint64_t size = parser_->content_length().value_or(0);
     const std::size_t limit = size > kMaxBodyBytes ? shared_.application.body_limit(request_of(header, "")) : kMaxBodyBytes;
-    if (size > limit) return send(too_large_response(limit), false);
+    if (size > limit) return send(too_large_response(limit, size), false);
     stream_.expires_after(shared_.options.header_time + time_for(size));
     http::async_read(stream_, buffer_, *parser_, [self = shared_from_this()](beast::error_code error, std::size_t) {
       if (error) return self->fail(error);

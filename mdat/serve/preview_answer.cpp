@@ -38,9 +38,12 @@ PreviewJson rays_json(const ScanPreview& preview) {
   return {{"x", x}, {"y", y}, {"z", z}, {"age_s", age_s}, {"hit", hit}};
 }
 
+PreviewJson pose_json(const Pose& pose) {
+  return {{"position_m", {pose.p.x(), pose.p.y(), pose.p.z()}}, {"quaternion_xyzw", {pose.q.x(), pose.q.y(), pose.q.z(), pose.q.w()}}};
+}
+
 PreviewJson answer_of(const ScanPreview& preview, const Mesh& target) {
   const MissionParameters& p = preview.parameters;
-  const Pose& pose = preview.T_sensor_target;
   return {{"scenario", preview.scenario},
           {"run", preview.run},
           {"ranges_m", preview.ranges_m},
@@ -48,8 +51,8 @@ PreviewJson answer_of(const ScanPreview& preview, const Mesh& target) {
           {"camera",
            {{"frustum_deg", {2 * p.fov_half_x_rad / kRadPerDeg, 2 * p.fov_half_y_rad / kRadPerDeg}},
             {"range_m", {p.range_min_m, p.range_max_m}}}},
-          {"pose",
-           {{"position_m", {pose.p.x(), pose.p.y(), pose.p.z()}}, {"quaternion_xyzw", {pose.q.x(), pose.q.y(), pose.q.z(), pose.q.w()}}}},
+          {"pose", pose_json(preview.T_sensor_target)},
+          {"own", pose_json(preview.T_sensor_own)},
           {"size_m", preview.size_m},
           {"surface", surface_digest(target)},
           {"remark", preview.remark},

@@ -8,6 +8,7 @@
 #include "fsw/sense/planner.hpp"
 #include "hal_sim/ray_caster.hpp"
 #include "mdat/modelc/hull.hpp"
+#include "mdat/run/mounted_sensor.hpp"
 #include "mdat/run/simulated_scenario.hpp"
 #include "mdat/run/simulation.hpp"
 #include "mdat/run/true_target.hpp"
@@ -49,6 +50,7 @@ void choose_sensor(const MissionSource& source, ScanPreview& preview) {
     if (!turn(sensor.parameters)) continue;
     static_cast<SensorParameters&>(preview.parameters) = sensor.parameters;
     preview.sensor = sensor.name;
+    if (sensor.T_sensor_own) preview.T_sensor_own = *sensor.T_sensor_own;
     return;
   }
 }
@@ -60,18 +62,29 @@ SensorKind kind_of(const MissionSource& source, const std::string& sensor) {
   return source.sensor;
 }
 
-// The target is at rest while the scan lasts.
-std::vector<PreviewRay> cast_rays(const ScanPlan& plan, const Pose& T_sensor_target, const sim::RayCaster& target) {
-  const Pose T_target_sensor = inverse(T_sensor_target);
-  const double miss_range_m = T_sensor_target.p.norm();
+// The target is at rest while the scan lasts. `T_own_target` is of the sensor that scans.
+std::vector<PreviewRay> cast_rays(const ScanPlan& plan, const Pose& T_own_target, const sim::RayCaster& target) {
+  const Pose T_target_own = inverse(T_own_target);
+  const double miss_range_m = T_own_target.p.norm();
   std::vector<PreviewRay> rays;
   for (PatternGenerator pattern(plan); !pattern.done();) {
     const double time_s = 1e-6 * static_cast<double>(pattern_time_us(plan, pattern.index()));
     const Vec3 direction = pattern.next();
-    const sim::RayHit hit = target.cast(T_target_sensor.p, rotate(T_target_sensor.q, direction));
+    const sim::RayHit hit = target.cast(T_target_own.p, rotate(T_target_own.q, direction));
     rays.push_back({(hit.hit ? hit.range_m : miss_range_m) * direction, time_s, hit.hit});
   }
   return rays;
+}
+
+// In the axes of the sensor that scans. One that stands aside looks past the target unless a scan before has told how far away it is.
+Status plan_of(const ScanPreview& preview, const TargetOutline& outline, ScanPlan& plan) {
+  ScanPlan commanded;
+  const Status status = plan_scan(preview.parameters, outline, preview.T_sensor_target, 0, commanded);
+  if (status != Status::kOk) return status;
+  const SensorMounting mounting{preview.T_sensor_own, preview.parameters.fov_half_x_rad, preview.parameters.fov_half_y_rad};
+  std::optional<double> depth_m;
+  if (mounting.is_aside()) depth_m = preview.T_sensor_target.p.z();
+  return plan_from(mounting, depth_m, commanded, plan);
 }
 
 std::string remark_on(SensorKind kind, const ScanPreview& preview) {
@@ -101,12 +114,12 @@ ScanPreview preview_scan(const MissionSource& source, const Mesh& target, const 
   const MeshOutline outline(target);
   preview.size_m = 2 * outline.radius_m;
   ScanPlan plan;
-  const Status status = plan_scan(preview.parameters, outline.outline(), preview.T_sensor_target, 0, plan);
+  const Status status = plan_of(preview, outline.outline(), plan);
   if (status != Status::kOk) {
     preview.remark = "no scan is planned: the target is outside the field of view, or the pattern's counts do not fit its points";
     return preview;
   }
-  preview.rays = cast_rays(plan, preview.T_sensor_target, *make_target(target));
+  preview.rays = cast_rays(plan, inverse(preview.T_sensor_own) * preview.T_sensor_target, *make_target(target));
   preview.remark = remark_on(kind_of(source, preview.sensor), preview);
   return preview;
 }

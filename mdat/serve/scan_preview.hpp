@@ -11,7 +11,7 @@
 
 namespace lasso::mdat::serve {
 
-// A ray in the sensor frame; one that meets nothing is stated at the range of the target's origin.
+// A ray in the frame of the sensor that scans; one that meets nothing is stated at the range of the target's origin.
 struct PreviewRay {
   Vec3 place_m = Vec3::Zero();
   double time_s = 0;  // after the first
@@ -23,6 +23,7 @@ struct ScanPreview {
   std::vector<double> ranges_m;    // of the scenario's runs
   std::size_t run = 0;             // which of them is shown
   Pose T_sensor_target;            // true, at the begin of frame 0
+  Pose T_sensor_own;               // where that sensor stands and looks: its own frame in the sensor frame
   MissionParameters parameters{};  // of the sensor in this scenario
   double size_m = 0;               // diameter of a sphere about the target's origin that holds it
   std::vector<PreviewRay> rays;    // of scan 0, the target at rest

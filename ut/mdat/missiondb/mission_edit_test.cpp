@@ -97,6 +97,57 @@ TEST(MissionEdit, ChangesOneValueOfShippedMissions) {
   }
 }
 
+std::string joined_settings(const std::string& before, const std::string& after) {
+  const auto settings = settings_between(before, after, "m.toml");
+  std::string text;
+  for (const std::string& setting : settings.value_or(std::vector<std::string>{"(none)"})) text += (text.empty() ? "" : "; ") + setting;
+  return text;
+}
+
+// What `edited` does is undone by what the two texts say of each other.
+TEST(MissionEdit, SaysTheSettingsBetweenTwoTexts) {
+  VERIFIES("LASSO-WEB-026~2");
+  EXPECT_EQ(joined_settings(kText, kText), "");
+  EXPECT_EQ(joined_settings(kText, "# other words\n" + kText), "");
+  for (const char* setting : {"scan.points=512", "scan.name=other", "scan.name=\"7\"", "scan.list=[3]", "scan.inner={ a = 1, b = 3 }",
+                              "scenario.paper.override.x=true", "filter.a=7.5", "filter.a=[0.15, 2.0, -3.0, 1e-07]",
+                              "node.mine={ parent = \"root\", position_m = [1, 2.5, 3] }"})
+    EXPECT_EQ(joined_settings(kText, edited(kText, {setting}, "m.toml")), setting);
+  const std::string copied = kText + "\n[scenario.mine]\nframes = 3\noverride.tracking.coast_frames = 4\n";
+  EXPECT_EQ(joined_settings(kText, copied), "scenario.mine.frames=3; scenario.mine.override.tracking.coast_frames=4");
+  EXPECT_EQ(joined_settings(copied, kText), "(none)") << "nothing takes a value away";
+  EXPECT_EQ(joined_settings("", "[a.\"b.c\"]\nx = 1\n"), "(none)") << "a name with a dot is no key of the command line";
+  std::string many = "[a]\n";
+  for (std::size_t i = 0; i <= kMostSettings; ++i) many += "k" + std::to_string(i) + " = 1\n";
+  EXPECT_EQ(joined_settings("", many), "(none)");
+  EXPECT_THROW(static_cast<void>(settings_between(kText, "[scan", "m.toml")), MissionError);
+}
+
+// The copy of a scenario, as the page makes it of the text, is what the command line makes of its settings.
+TEST(MissionEdit, SettingsMakeACopiedScenarioOfAShippedMission) {
+  VERIFIES("LASSO-WEB-026~2");
+  const std::string text = read_file(kShippedMission);
+  const std::size_t begin = text.find("[scenario.spin]"), end = text.find("\n[", begin);
+  const std::string copied = text + "\n[scenario.mine]" + text.substr(begin + 15, end - begin - 15) + "\n";
+  const auto settings = settings_between(text, copied, kShippedMission);
+  ASSERT_TRUE(settings.has_value());
+  ASSERT_GT(settings->size(), 1U);
+  const std::string made = edited(text, *settings, kShippedMission);
+  EXPECT_EQ(joined_settings(made, copied), "");
+  EXPECT_EQ(joined_settings(copied, made), "");
+}
+
+TEST(MissionEdit, TellsWhatIsWrittenBelowATable) {
+  VERIFIES("LASSO-WEB-026~2");
+  const std::string text =
+      "[campaign.a]\ncases = 7\ntruth = { range_m = { uniform = [1,\n 2] } }\n[campaign.a.knowledge]\n[scan]\npoints = 1\n";
+  std::string told;
+  for (const WrittenValueText& value : written_below(text, "campaign", "m.toml"))
+    told += value.key + " " + value.toml + " " + std::to_string(value.line) + "; ";
+  EXPECT_EQ(told, "campaign.a.cases 7 2; campaign.a.truth.range_m { uniform = [1, 2] } 3; ");
+  EXPECT_TRUE(written_below(text, "material", "m.toml").empty());
+}
+
 TEST(MissionDiff, TellsWhatEitherHas) {
   VERIFIES("LASSO-GND-148~1");
   const std::vector<EffectiveValue> first{

@@ -101,7 +101,7 @@ TEST_F(BegunMissionTest, ANameThatIsTakenIsLeftAsItIs) {
 }
 
 TEST_F(BegunMissionTest, OnlyWhoMayAskSendsALargeBodyAndOnlyHere) {
-  VERIFIES("LASSO-WEB-032~1");
+  VERIFIES("LASSO-WEB-032~2");
   Request request = asked("name=a&file=b.stl", "");
   EXPECT_EQ(service_.body_limit(request), kMaxMeshBytes);
   request.headers.erase("cookie");
@@ -111,6 +111,8 @@ TEST_F(BegunMissionTest, OnlyWhoMayAskSendsALargeBodyAndOnlyHere) {
   EXPECT_EQ(service_.body_limit(request), kMaxBodyBytes);
   request = asked("name=a&file=b.stl", "");
   request.target = "/api/mission/save?id=a";
+  EXPECT_EQ(service_.body_limit(request), kMaxTextBytes) << "of the largest mission's text, as JSON";
+  request.target = "/api/live/start";
   EXPECT_EQ(service_.body_limit(request), kMaxBodyBytes);
   request = asked("name=a&file=b.stl", "solid");
   request.headers["content-type"] = "text/plain";

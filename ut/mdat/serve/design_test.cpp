@@ -61,7 +61,7 @@ DesignTestJson value_of(const DesignTestJson& view, const std::string& key) {
 }
 
 TEST_F(DesignTest, AMissionOpensAsItsTextAndWhatItSays) {
-  VERIFIES("LASSO-WEB-026~1");
+  VERIFIES("LASSO-WEB-026~2");
   const DesignTestJson view = opened();
   EXPECT_EQ(view["text"], bytes_of_file(file()));
   EXPECT_TRUE(view["problems"].empty());
@@ -78,7 +78,7 @@ TEST_F(DesignTest, AMissionOpensAsItsTextAndWhatItSays) {
 }
 
 TEST_F(DesignTest, AValueIsSetInTheTextAndAProblemSaysWhere) {
-  VERIFIES("LASSO-WEB-026~1");
+  VERIFIES("LASSO-WEB-026~2");
   const std::string text = opened()["text"];
   const DesignTestJson changed = json(act("set", {{"text", text}, {"set", {"scan.points=512"}}}));
   EXPECT_EQ(value_of(changed, "scan.points")["value"], "512");
@@ -92,6 +92,44 @@ TEST_F(DesignTest, AValueIsSetInTheTextAndAProblemSaysWhere) {
   EXPECT_EQ(act("set", {{"text", text}, {"set", "scan.points=5"}}).status, 400U);
   EXPECT_EQ(act("set", {{"text", text}, {"set", {5}}}).status, 400U);
   EXPECT_EQ(bytes_of_file(file()), text) << "nothing is written before it is saved";
+}
+
+TEST_F(DesignTest, TheSettingsSayWhatMissionSetWouldHaveToDo) {
+  VERIFIES("LASSO-WEB-026~2");
+  const std::string text = opened()["text"];
+  const DesignTestJson changed = json(act("set", {{"text", text}, {"saved", text}, {"set", {"scan.points=512", "scan.pattern=raster"}}}));
+  EXPECT_EQ(changed["settings"], (std::vector<std::string>{"scan.pattern=raster", "scan.points=512"}));
+  const DesignTestJson again = json(act("set", {{"text", text}, {"set", changed["settings"]}}));
+  EXPECT_EQ(again["text"], changed["text"]);
+  EXPECT_FALSE(again.contains("settings")) << "of no saved text";
+  EXPECT_TRUE(json(act("look", {{"text", text + "# a remark\n"}, {"saved", text}}))["settings"].empty());
+  EXPECT_TRUE(json(act("look", {{"text", "[scan]\n"}, {"saved", text}}))["settings"].is_null()) << "values are gone";
+  EXPECT_TRUE(json(act("look", {{"text", "[scan\n"}, {"saved", text}}))["settings"].is_null());
+  EXPECT_EQ(act("look", {{"text", text}, {"saved", 5}}).status, 400U);
+}
+
+TEST_F(DesignTest, CampaignsAndMaterialsAreToldAsTheyAreWritten) {
+  VERIFIES("LASSO-WEB-026~2");
+  const std::string more =
+      "\n[campaign.far]\nscenario = \"spin\"\ncases = 20\ntruth = { range_m = { uniform = [3, 6] } }\n"
+      "\n[material.shell]\nparts = [\"*\"]\npreset = \"mli\"\n";
+  const DesignTestJson view = json(act("look", {{"text", opened()["text"].get<std::string>() + more}}));
+  ASSERT_TRUE(view["problems"].empty()) << view["problems"];
+  EXPECT_EQ(value_of(view, "campaign.far.cases")["value"], "20");
+  EXPECT_EQ(value_of(view, "campaign.far.truth.range_m")["value"], "{ uniform = [3, 6] }");
+  EXPECT_EQ(value_of(view, "material.shell.preset")["value"], "\"mli\"");
+  EXPECT_EQ(value_of(view, "material.shell.parts")["line"].get<int>() + 1, value_of(view, "material.shell.preset")["line"].get<int>());
+}
+
+// The body of 64 kB that other requests may have would hold half of it.
+TEST_F(DesignTest, AMissionAsLargeAsItsFileMayBeIsEdited) {
+  VERIFIES("LASSO-WEB-032~2");
+  std::string text = opened()["text"];
+  while (text.size() < (std::size_t{1} << 20) - 100) text += "# one of many remarks\n";
+  EXPECT_EQ(act("set", {{"text", text}, {"saved", text}, {"set", {"scan.points=512"}}}).status, 200U);
+  const Response larger = act("look", {{"text", std::string(kMaxTextBytes, '#')}});
+  EXPECT_EQ(larger.status, 413U);
+  EXPECT_NE(json(larger)["remedy"].get<std::string>().find("a mission's text has at most 1 MB"), std::string::npos);
 }
 
 TEST_F(DesignTest, SavesWhatIsValidOverTheFileThatWasOpened) {

@@ -53,6 +53,9 @@ TEST(FlownImage, WhySaysReasonFiguresAndRemedy) {
   EXPECT_NE(why.find("(inliers 7, at least"), std::string::npos) << why;
   EXPECT_NE(why.find("What helps: start anew from a better pose"), std::string::npos) << why;
   EXPECT_EQ(why_text(SmallRecording{}.told(1), {}).rfind("valid: ", 0), 0U);
+  PoseTelemetry safe = told;
+  safe.mode = static_cast<std::uint8_t>(TrackingMode::kSafe);
+  EXPECT_EQ(why_text(safe, {}), "not valid: the component is in mode safe: no scans, the laser inhibited; left by command alone");
   PoseTelemetry unknown;
   unknown.reason = 200;
   EXPECT_NE(why_text(unknown, {}).find("200"), std::string::npos);

@@ -184,7 +184,7 @@ TEST(Network, WhatIsNoRequestIsRefusedAndTheSocketClosed) {
 }
 
 TEST(Network, ALargeBodyIsTakenWhereTheApplicationSaysSo) {
-  VERIFIES("LASSO-WEB-032~1");
+  VERIFIES("LASSO-WEB-032~2");
   const Running running;
   const std::string body(std::size_t{3} << 20, 'm');
   Client client(running.port());

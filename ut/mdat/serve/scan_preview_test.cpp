@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <iomanip>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -36,6 +38,11 @@ bool passes_box(const Vec3& from, const Vec3& direction) {
     leave = std::min(leave, std::max(a, b));
   }
   return enter < leave;
+}
+
+Pose pose_in(const PreviewTestJson& json) {
+  const std::vector<double> p = json["position_m"], q = json["quaternion_xyzw"];
+  return {Quat(q[3], q[0], q[1], q[2]), Vec3(p[0], p[1], p[2])};
 }
 
 class ScanPreviewTest : public ::testing::Test {
@@ -69,7 +76,7 @@ class ScanPreviewTest : public ::testing::Test {
 };
 
 TEST_F(ScanPreviewTest, RaysEndOnTheTargetWhereTheScenarioBegins) {
-  VERIFIES("LASSO-WEB-033~1");
+  VERIFIES("LASSO-WEB-033~2");
   const MissionSource source = load_mission(file());
   const ScanPreview preview = preview_scan(source, load_target(source), "spin", 0);
   EXPECT_NEAR(preview.T_sensor_target.p.norm(), preview.ranges_m.front(), 1e-6) << "its middle is the target's origin";
@@ -94,7 +101,7 @@ TEST_F(ScanPreviewTest, RaysEndOnTheTargetWhereTheScenarioBegins) {
 }
 
 TEST_F(ScanPreviewTest, FollowsTheTextThatIsEdited) {
-  VERIFIES("LASSO-WEB-033~1");
+  VERIFIES("LASSO-WEB-033~2");
   const PreviewTestJson before = answered(text_);
   ASSERT_TRUE(before.contains("rays")) << before;
   EXPECT_EQ(before["rays"]["x"].size(), 1024U);
@@ -110,9 +117,35 @@ TEST_F(ScanPreviewTest, FollowsTheTextThatIsEdited) {
   EXPECT_EQ(surface.body.substr(0, 4), "glTF");
 }
 
+// A camera 0.5 m beside the head, turned towards the target by atan(0.5 / 4): its own axis passes the box's middle 4 m ahead.
+TEST_F(ScanPreviewTest, AFurtherSensorScansFromItsOwnPlace) {
+  VERIFIES("LASSO-WEB-033~2");
+  const double half_rad = -std::atan(0.5 / 4) / 2;
+  std::ostringstream more;
+  more << std::setprecision(17)
+       << "\n[further_sensor.mast]\nuse_to_m = 6\nnode = \"mast\"\n[node.body]\ntarget = true\n[node.head]\nsensor = true\n"
+       << "[node.mast]\nparent = \"head\"\nposition_m = [0.5, 0, 0]\nquaternion = [0, " << std::sin(half_rad) << ", 0, "
+       << std::cos(half_rad) << "]\n[scenario.near]\nranges_m = [4.0]\noffset_m = [0, 0]\nframes = 1\n";
+  const std::string text = changed("use_from_m", "use_from_m = 5") + more.str();
+  const PreviewTestJson seen = answered(text, "near");
+  ASSERT_TRUE(seen.contains("rays")) << seen;
+  EXPECT_EQ(seen["sensor"], "mast");
+  const Pose T_target_own = inverse(pose_in(seen["pose"])) * pose_in(seen["own"]);
+  const Vec3 middle = inverse(T_target_own).p;
+  EXPECT_LT((middle - Vec3(0, 0, std::sqrt(0.25 + 16))).norm(), 1e-9) << middle.transpose();
+  int hits = 0;
+  for (std::size_t i = 0; i < seen["rays"]["x"].size(); ++i) {
+    const Vec3 place(seen["rays"]["x"][i], seen["rays"]["y"][i], seen["rays"]["z"][i]);
+    const bool hit = seen["rays"]["hit"][i] == 1;
+    EXPECT_NEAR(hit ? outside_m(T_target_own * place) : 0, 0, 2e-6) << i;
+    hits += hit ? 1 : 0;
+  }
+  EXPECT_GT(hits, 300);
+}
+
 // Each shipped mission, scenes with other bodies and stereo heads among them.
 TEST_F(ScanPreviewTest, AllShippedMissionsHaveOne) {
-  VERIFIES("LASSO-WEB-033~1");
+  VERIFIES("LASSO-WEB-033~2");
   std::size_t missions = 0;
   for (const auto& entry : std::filesystem::directory_iterator(test::source_folder() / "cfg/missions")) {
     const std::string shipped = entry.path().string(), text = bytes_of_file(shipped);

@@ -1,7 +1,21 @@
 // The command line's way to what the page shows.
+import type { LiveState } from "../api/types.ts";
+import { live } from "../live/feed.ts";
 import { CommandText } from "../parts/controls.tsx";
 import { Dialog } from "../parts/dialog.tsx";
 import { useSession } from "./session.ts";
+
+/** Of a run that this server has flown, or a component that it was connected to. */
+function LiveCommand({ state }: { state: LiveState }) {
+  return (
+    <>
+      <dt>{state.address === null ? "This run, flown live and recorded" : "This connection, watched and recorded"}</dt>
+      <dd>
+        <CommandText text={state.command} label="command of the live run" />
+      </dd>
+    </>
+  );
+}
 
 export function CommandDialog() {
   const { log, selection } = useSession();
@@ -12,6 +26,7 @@ export function CommandDialog() {
   return (
     <Dialog title="The same from the command line">
       <dl class="commands">
+        {live.value?.id === info.id ? <LiveCommand state={live.value} /> : null}
         <dt>Fly the recorded scans again and compare the telemetry</dt>
         <dd>
           <CommandText text={info.command} label="command of the replay" />

@@ -23,8 +23,10 @@ export class Mission {
   /** Of the last text without problems. */
   readonly values: Signal<EffectiveValue[]> = signal([]);
   readonly scenarios: Signal<{ name: string; runs: number }[]> = signal([]);
-  /** The values that the form has changed since the file was saved or the text was typed, by key: what `mdat mission set` needs. */
+  /** The values that the form has changed since the file was saved or the text was typed, by key. */
   readonly settings: Signal<ReadonlyMap<string, string>> = signal(new Map());
+  /** What `mdat mission set` has to set to make the text of the saved one, as KEY=VALUE; null: it cannot, as something is gone. */
+  readonly same: Signal<string[] | null> = signal([]);
   readonly section: Signal<string> = signal("scan");
   readonly filter: Signal<string> = signal("");
   /** The line to show; the pane of the text goes there. */
@@ -62,6 +64,7 @@ export class Mission {
   }
 
   private take(view: MissionView): void {
+    if (view.settings !== undefined) this.same.value = view.settings;
     this.problems.value = view.problems;
     if (view.problems.length > 0) return;
     this.warnings.value = view.warnings ?? [];
@@ -78,7 +81,8 @@ export class Mission {
   private async change(key: string, value: string): Promise<void> {
     for (let i = 0; i < MOST_CHANGES; ++i) {
       const old = this.text.peek();
-      const answer = await postJson<MissionView & { text: string }>(this.path("set"), { text: old, set: [`${key}=${value}`] });
+      const wish = { text: old, saved: this.saved.peek(), set: [`${key}=${value}`] };
+      const answer = await postJson<MissionView & { text: string }>(this.path("set"), wish);
       if (old === this.text.peek()) return this.apply(key, value, answer);
     }
     remark(`${key} is not changed, as the text changes all the time. Set it again.`);
@@ -140,7 +144,7 @@ export class Mission {
 
   async look(): Promise<void> {
     const mine = ++this.asked;
-    const view = await postJson<MissionView>(this.path("look"), { text: this.text.peek() });
+    const view = await postJson<MissionView>(this.path("look"), { text: this.text.peek(), saved: this.saved.peek() });
     if (mine === this.asked) this.take(view);
   }
 
@@ -161,6 +165,7 @@ export class Mission {
     }
     this.saved.value = text;
     this.settings.value = new Map();
+    this.same.value = [];
     remark("Saved.");
     return true;
   }

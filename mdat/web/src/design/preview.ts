@@ -1,5 +1,5 @@
 // What a scan of the edited text would look like, as the server answers; the last good answer stays while the text has a problem.
-import { computed, effect, type ReadonlySignal, type Signal, signal } from "@preact/signals";
+import { batch, computed, effect, type ReadonlySignal, type Signal, signal } from "@preact/signals";
 import { postBinary, postJson, withQuery } from "../api/client.ts";
 import type { Scan } from "../api/decode.ts";
 import type { CameraInfo, PoseData } from "../api/types.ts";
@@ -16,6 +16,8 @@ export interface PreviewAnswer {
   camera: CameraInfo;
   /** T_sensor_target. */
   pose: PoseData;
+  /** Where the sensor that scans stands in the sensor frame; rays and field of view are in its own one. */
+  own: PoseData;
   size_m: number;
   /** The same as long as the surface is. */
   surface: string;
@@ -43,7 +45,7 @@ export function scanOf({ rays }: PreviewAnswer): Scan {
 }
 
 export class Preview {
-  readonly scenario: Signal<string> = signal("");
+  readonly scenario: Signal<string>;
   readonly run: Signal<number> = signal(0);
   readonly shown: Signal<PreviewAnswer | null> = signal(null);
   /** Why what is shown is not the text's. */
@@ -52,13 +54,19 @@ export class Preview {
   private readonly mission: Mission;
   private asked = 0;
 
-  constructor(mission: Mission) {
+  /** Of a scenario of this name at first; then of the one that is designed. */
+  constructor(mission: Mission, scenario: string) {
     this.mission = mission;
+    this.scenario = signal(scenario);
   }
 
   /** Asks anew at each change, once the changes pause; gives what ends it. */
   follow(): () => void {
     let timer: ReturnType<typeof setTimeout> | undefined;
+    const stopChoosing = effect(() => {
+      const [table, name] = this.mission.section.value.split(".");
+      if (table === "scenario") batch(() => this.choose(name));
+    });
     const stop = effect(() => {
       const wish = { text: this.mission.text.value, scenario: this.scenario.value, run: this.run.value };
       clearTimeout(timer);
@@ -67,8 +75,14 @@ export class Preview {
     return () => {
       ++this.asked;
       clearTimeout(timer);
+      stopChoosing();
       stop();
     };
+  }
+
+  choose(scenario: string): void {
+    if (scenario !== this.scenario.peek()) this.run.value = 0;
+    this.scenario.value = scenario;
   }
 
   private async ask(wish: { text: string; scenario: string; run: number }): Promise<void> {

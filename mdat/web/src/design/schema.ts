@@ -31,14 +31,10 @@ export function namesIn(table: string, text: string, values: EffectiveValue[]): 
   return [...names];
 }
 
-/** Tables whose values the server does not tell: they are edited in the text alone. */
-const TEXT_ALONE = ["campaign", "material"];
-
 /** All tables of a mission in the order of the schema; of named ones those that are there. */
 export function sectionsOf(root: Schema, text: string, values: EffectiveValue[]): Section[] {
   const byKey = new Map(values.map((each) => [each.key, each]));
-  const tables = Object.entries(root.properties ?? {}).filter(([table]) => !TEXT_ALONE.includes(table));
-  return tables.flatMap(([table, schema]): Section[] => {
+  return Object.entries(root.properties ?? {}).flatMap(([table, schema]): Section[] => {
     const named = namedTable(schema);
     if (named === null) return [{ path: table, schema, depth: 0 }];
     const names = namesIn(table, text, values);
@@ -50,7 +46,7 @@ export function sectionsOf(root: Schema, text: string, values: EffectiveValue[])
 /** Tables of chosen names that the form can add to, with what one of them holds. */
 export function namedTables(root: Schema): { table: string; schema: Schema }[] {
   return Object.entries(root.properties ?? {}).flatMap(([table, schema]) => {
-    const named = TEXT_ALONE.includes(table) ? null : namedTable(schema);
+    const named = namedTable(schema);
     return named === null ? [] : [{ table, schema: named }];
   });
 }
@@ -63,18 +59,27 @@ function formOf(section: Section, values: Map<string, EffectiveValue>): Schema {
   return oneOf.find((form) => form.properties?.kind?.const === kind) ?? oneOf[0];
 }
 
-function fieldsBelow(path: string, prefix: string, schema: Schema): Field[] {
-  return Object.entries(schema.properties ?? {}).flatMap(([name, inner]): Field[] => {
+type Values = Map<string, EffectiveValue>;
+
+/** Keys and what stands at them; where names are chosen, under those that have values. */
+function membersOf(key: string, schema: Schema, values: Values): [string, Schema][] {
+  const { additionalProperties: named } = schema;
+  if (schema.properties !== undefined || typeof named !== "object") return Object.entries(schema.properties ?? {});
+  const below = [...values.keys()].filter((each) => each.startsWith(`${key}.`)).map((each) => each.slice(key.length + 1).split(".")[0]);
+  return [...new Set(below)].map((name) => [name, named]);
+}
+
+function fieldsBelow(path: string, prefix: string, schema: Schema, values: Values): Field[] {
+  return membersOf(prefix === "" ? path : `${path}.${prefix}`, schema, values).flatMap(([name, inner]): Field[] => {
     const own = prefix === "" ? name : `${prefix}.${name}`;
-    if (inner.properties !== undefined) return fieldsBelow(path, own, inner);
-    return inner.type === "object" ? [] : [{ key: `${path}.${own}`, name: own, schema: inner }];
+    return inner.type === "object" ? fieldsBelow(path, own, inner, values) : [{ key: `${path}.${own}`, name: own, schema: inner }];
   });
 }
 
-/** The keys of a section that hold a value. Of a scenario's overrides those that are written. */
-export function fieldsOf(section: Section, values: Map<string, EffectiveValue>): Field[] {
-  const fields = fieldsBelow(section.path, "", formOf(section, values));
-  return fields.filter(({ key, name }) => !name.startsWith("override.") || values.has(key));
+/** The keys of a section that hold a value. Of a scenario's overrides, and of a campaign's flight parameters, those that are written. */
+export function fieldsOf(section: Section, values: Values): Field[] {
+  const fields = fieldsBelow(section.path, "", formOf(section, values), values);
+  return fields.filter(({ key, name }) => !/^(override|mission)\./.test(name) || values.has(key));
 }
 
 /** What may stand there, in words. */
@@ -83,14 +88,18 @@ export function expectedText(schema: Schema): string {
   if (schema.const !== undefined) return `"${schema.const}"`;
   if (schema.enum !== undefined) return `one of ${schema.enum.join(", ")}`;
   if (schema.anyOf !== undefined) return schema.anyOf.map(expectedText).join(", or ");
+  if (schema.$ref !== undefined) return "a law, such as { uniform = [1, 2] }";
+  if (schema.type === "object") return `a table { ${Object.keys(schema.properties ?? {}).join(", ")} = … }`;
   if (schema.type === "boolean") return "true or false";
   if (schema.type === "string") return "a text";
   if (schema.type === "array") return listText(schema, unit);
+  if (schema.maximum === undefined) return `a number from ${schema.minimum ?? "any"} on${unit}`;
   return `${schema.type === "integer" ? "a whole number" : "a number"} from ${schema.minimum} to ${schema.maximum}${unit}`;
 }
 
 function listText({ minItems, maxItems, items }: Schema, unit: string): string {
   const count = minItems === maxItems ? String(minItems) : `${minItems ?? 1} to ${maxItems ?? "any number"}`;
+  if (items?.anyOf !== undefined) return `a list of ${count}, each ${expectedText(items)}`;
   if (items?.minimum === undefined) return `a list of ${count}`;
   return `a list of ${count} numbers, each from ${items.minimum} to ${items.maximum}${unit}`;
 }

@@ -24,6 +24,8 @@ export interface MissionView {
   warnings?: string[];
   values?: EffectiveValue[];
   scenarios?: { name: string; frames: number; runs: number; seed: number }[];
+  /** What `mdat mission set` has to set to make the text of the saved one; null: it cannot. */
+  settings?: string[] | null;
 }
 
 export interface OpenedMission extends MissionView {
@@ -36,6 +38,7 @@ export interface OpenedMission extends MissionView {
 
 export interface Schema {
   type?: string;
+  $ref?: string;
   const?: string;
   enum?: string[];
   description?: string;

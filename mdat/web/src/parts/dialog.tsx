@@ -4,6 +4,8 @@ import { useLayoutEffect, useRef } from "preact/hooks";
 import { overlay } from "../app/overlay.ts";
 import { IconButton } from "./controls.tsx";
 
+const FIRST_FIELD = ".dialog-body :is(input:not([readonly]), select):not(:disabled)";
+
 function closeOverlay(): void {
   overlay.value = null;
 }
@@ -22,6 +24,8 @@ export function Dialog({
   // Before the browser draws: strokes right behind the one that opened it are the dialog's.
   useLayoutEffect(() => {
     dialog.current?.showModal();
+    // The browser would take the button that closes it: Enter would then do nothing of what was asked for.
+    dialog.current?.querySelector<HTMLElement>(FIRST_FIELD)?.focus();
     // A click beside the dialog closes it, as Escape does.
     dialog.current?.addEventListener("click", (event) => event.target === dialog.current && close());
   }, []);

@@ -72,6 +72,8 @@ test("a component is connected, followed, and is a recording when it is let go",
 test("a command is sent by a form, and the page tells what became of it", async ({ page }) => {
   await connect(page, server);
   await page.getByRole("button", { name: "Commands" }).click();
+  await page.getByLabel("Filter commands").fill("safe");
+  await expect(page.getByRole("group", { name: "Commands", exact: true }).getByRole("button")).toHaveText(["set_mode"]);
   await choose(page, "set_structure_period");
   await expect(page.getByRole("button", { name: "Send" })).toBeDisabled();
   await page.getByLabel("structure", { exact: true }).selectOption("health");

@@ -1,7 +1,7 @@
 // The preview of the editor: the target and a scan of the text as it is edited; against the server that flies.
 import { readFileSync } from "node:fs";
 import type { Page } from "@playwright/test";
-import { designCopy, field } from "./design_steps.ts";
+import { designCopy, field, text } from "./design_steps.ts";
 import { screenshot } from "./pictures.ts";
 import { differing, expect, pictureOf, seriousFindings, test } from "./support.ts";
 
@@ -52,6 +52,19 @@ test("target, pattern and field of view follow the form, without saving; a probl
   await expect(counts(page)).toHaveText(last!);
   await screenshot(page, "preview-older-light");
   expect(readFileSync(`${process.env.PAGE_LIVE_FOLDER}/preview/missions/hubble_tenth.toml`, "utf8")).toBe(file);
+});
+
+test("a further sensor scans from its own place, and the scenario that is designed is the one that is drawn", async ({ page }) => {
+  await page.goto(process.env.PAGE_LIVE_ADDRESS!);
+  await designCopy(page, "hubble", "preview_mast");
+  const nodes = '\n[node.body]\ntarget = true\n[node.head]\nsensor = true\n[node.mast]\nparent = "head"\nposition_m = [0.6, 0, 0]\n';
+  const written = (await text(page).inputValue()).replace("[further_sensor.laser_camera]", '$&\nnode = "mast"');
+  await text(page).fill(`${written}${nodes}\n[scenario.near]\nranges_m = [6.0]\nframes = 3\n`);
+  await page.locator(".sections").getByRole("button", { name: "scenario.near" }).click();
+  await expect(page.getByLabel("Scenario of the preview")).toHaveValue("near");
+  await expect(counts(page)).toContainText("laser_camera at 6.000 m, from 0.6, 0, 0 m (right, down, ahead)");
+  await expect(page.locator(`${canvas}[data-place="0.6 0 0"]`)).toBeAttached();
+  await screenshot(page, "preview-mast-light");
 });
 
 test("by keys: the view turns, goes nearer and fits; the preview is put away, and stays so", async ({ page }) => {

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import type { CommandInfo, CommandItem, CommandRecord } from "../../src/api/types.ts";
-import { armedBy, commandLine, faultOf, hintOf, isForForms, phaseText, valuesOf } from "../../src/views/commands/form.ts";
+import { armedBy, commandLine, faultOf, hintOf, isAbout, isForForms, phaseText, valuesOf } from "../../src/views/commands/form.ts";
 import { isAddress, monitorCommandOf } from "../../src/views/live/choice.ts";
 
 const item = (changes: Partial<CommandItem>): CommandItem => ({
@@ -23,6 +23,14 @@ const record = (changes: Partial<CommandRecord>): CommandRecord => ({
   phase: "executed",
   why: "",
   ...changes,
+});
+
+test("a command is found by what can be chosen for its items, too", () => {
+  const mode = command({ name: "set_mode", items: [item({ name: "mode", enumeration: "modes", meaning: "from the next boundary on" })] });
+  const modes = { modes: [{ value: 9, name: "safe", meaning: "no scans" }] };
+  for (const word of ["", "MODE", "safe ", "no scans", "boundary"]) assert.equal(isAbout(mode, modes, word), true, word);
+  assert.equal(isAbout(mode, {}, "safe"), false);
+  assert.equal(isAbout(mode, modes, "laser"), false);
 });
 
 test("a value fits its type and its range, and nothing else does", () => {

@@ -60,6 +60,30 @@ test("a table's form has its keys, of several forms those of its kind, and the o
   assert.deepEqual(keys("scenario.spin", "scenario"), ["scenario.spin.frames", "scenario.spin.override.gate"]);
 });
 
+test("a campaign's form has its laws, its criteria by name, and the flight parameters that are written", () => {
+  const law: Schema = { anyOf: [{ type: "number", minimum: 0, maximum: 9 }, { $ref: "#/definitions/law" }] };
+  const criterion: Schema = { type: "object", properties: { figure: { enum: ["wrong"] }, at_most: { type: "number" } } };
+  const schema: Schema = {
+    type: "object",
+    properties: {
+      cases: { type: "integer" },
+      truth: { type: "object", properties: { range_m: law } },
+      mission: { type: "object", properties: { start: { type: "object", properties: { share: law, other: law } } } },
+      criteria: { type: "object", additionalProperties: criterion },
+    },
+  };
+  const written = ["campaign.a.mission.start.share", "campaign.a.criteria.never.figure", "campaign.b.criteria.other.figure"];
+  const fields = fieldsOf({ path: "campaign.a", schema }, new Map(written.map((key) => [key, value(key, "1")])));
+  assert.deepEqual(
+    fields.map(({ name }) => name),
+    ["cases", "truth.range_m", "mission.start.share", "criteria.never.figure", "criteria.never.at_most"],
+  );
+  assert.equal(expectedText(law), "a number from 0 to 9, or a law, such as { uniform = [1, 2] }");
+  assert.equal(expectedText({ type: "array", minItems: 2, maxItems: 2, items: law }), `a list of 2, each ${expectedText(law)}`);
+  const anyDirection: Schema = { type: "object", properties: { any_direction: law } };
+  assert.equal(expectedText(anyDirection), "a table { any_direction = … }");
+});
+
 test("what may stand at a key is said in words, with units", () => {
   assert.equal(expectedText({ type: "integer", minimum: 1, maximum: 9 }), "a whole number from 1 to 9");
   assert.equal(expectedText({ type: "number", minimum: 0, maximum: 2, "x-unit": "m" }), "a number from 0 to 2 m");

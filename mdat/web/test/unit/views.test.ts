@@ -92,6 +92,13 @@ test("limits of residuals are alike on both sides and not stretched by outliers"
   assert.ok(high >= 0.001 && high <= 0.005, String(high));
 });
 
+test("a third of wrong returns leaves the scale to the others", () => {
+  const draw = seeded(3);
+  const values = Float32Array.from({ length: 1000 }, (_, i) => (i % 3 === 0 ? 5 * draw() : 0.001 * normal(draw)));
+  const [, high] = limitsOf(values, "diverging");
+  assert.ok(high >= 0.001 && high <= 0.01, String(high));
+});
+
 test("only returns set the scale; classes are counted", () => {
   const scan = scanOf([
     { state: 0, range_m: 4, part: 1 },

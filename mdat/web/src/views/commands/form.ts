@@ -1,5 +1,5 @@
 // What is typed into the form of a command: whether it fits the dictionary, and the command line that does the same.
-import type { CommandInfo, CommandItem, CommandRecord } from "../../api/types.ts";
+import type { CommandInfo, CommandItem, CommandList, CommandRecord } from "../../api/types.ts";
 import { unitText } from "../../api/units.ts";
 import { shellWord } from "../../parts/shell_word.ts";
 
@@ -18,6 +18,13 @@ export const ARMED_S = 10;
 /** Not `arm`, which the form of each hazardous command has as its first button. */
 export function isForForms(command: CommandInfo): boolean {
   return command.name !== "arm" && command.items.every((item) => item.count <= MOST_VALUES);
+}
+
+/** Whether a command has to do with a word: its name and meaning, and those of its items and of what can be chosen for them. */
+export function isAbout({ name, meaning, items }: CommandInfo, enumerations: CommandList["enumerations"], word: string): boolean {
+  const choices = items.flatMap(({ enumeration }) => enumerations[enumeration ?? ""] ?? []);
+  const words = [{ name, meaning }, ...items, ...choices].map((each) => `${each.name} ${each.meaning}`);
+  return words.some((text) => text.toLowerCase().includes(word.trim().toLowerCase()));
 }
 
 export function rangeOf(item: CommandItem): [number, number] {

@@ -8,7 +8,7 @@ import { giveCommand, live } from "../../live/feed.ts";
 import { CommandText } from "../../parts/controls.tsx";
 import { Dialog } from "../../parts/dialog.tsx";
 import { Icon } from "../../parts/icon.tsx";
-import { ARMED_S, armedBy, commandLine, faultOf, hintOf, isForForms, phaseText, unitOf, valuesOf } from "./form.ts";
+import { ARMED_S, armedBy, commandLine, faultOf, hintOf, isAbout, isForForms, phaseText, unitOf, valuesOf } from "./form.ts";
 
 const LOOK_MS = 250;
 const FIRST = "set_mode";
@@ -182,10 +182,15 @@ function Records({ records }: { records: CommandRecord[] }) {
   );
 }
 
-function CommandChoice({ commands, chosen }: { commands: CommandInfo[]; chosen: Signal<string> }) {
+interface CommandChoiceProps {
+  commands: CommandInfo[];
+  enumerations: CommandList["enumerations"];
+  chosen: Signal<string>;
+}
+
+function CommandChoice({ commands, enumerations, chosen }: CommandChoiceProps) {
   const filter = useSignal("");
-  const word = filter.value.trim().toLowerCase();
-  const shown = commands.filter(({ name, meaning }) => `${name} ${meaning}`.toLowerCase().includes(word));
+  const shown = commands.filter((command) => isAbout(command, enumerations, filter.value));
   return (
     <div class="order-choice">
       <input
@@ -231,7 +236,7 @@ export function OrdersDialog() {
   return (
     <Dialog title={`Commands to ${state.address}`}>
       <div class="order-columns">
-        <CommandChoice commands={commands} chosen={chosen} />
+        <CommandChoice commands={commands} enumerations={list.value.enumerations} chosen={chosen} />
         <div>
           <OrderForm key={command.name} state={state} command={command} list={list.value} />
           <h3>Commands sent</h3>

@@ -1,11 +1,13 @@
 // The editor of missions: tables of keys at the left, the form of one in the middle, the text that it is made of at the right.
 import { useSignal } from "@preact/signals";
+import type { ComponentChildren } from "preact";
 import { useEffect, useLayoutEffect } from "preact/hooks";
 import { CommonTools } from "../../app/common_tools.tsx";
 import { remark } from "../../app/notices.ts";
 import { remembered } from "../../app/remembered.ts";
 import { routeTo, routeToMission } from "../../app/route.ts";
 import { mission as current, type Mission } from "../../design/mission.ts";
+import { hasRanges, rangeRows } from "../../design/ranges.ts";
 import { fieldsOf, fittingFields, type Section } from "../../design/schema.ts";
 import { hasTable, withoutTable } from "../../design/tables.ts";
 import { CommandText, Empty, IconButton, Panel } from "../../parts/controls.tsx";
@@ -15,6 +17,7 @@ import { setFirstMission } from "../live/choice.ts";
 import { Begun } from "./begun.tsx";
 import { FieldRow } from "./field.tsx";
 import { PreviewPane } from "./preview_pane.tsx";
+import { RangeAxisFigure } from "./range_axis.tsx";
 import { SaveDialog } from "./save_dialog.tsx";
 import { TableDialog, type TableWish } from "./table_dialog.tsx";
 import { TextPane } from "./text_pane.tsx";
@@ -24,6 +27,11 @@ const previewed = remembered("design-preview", true);
 
 function hasProblem(mission: Mission, section: Section): boolean {
   return mission.problems.value.some(({ key }) => key === section.path || key.startsWith(`${section.path}.`));
+}
+
+/** A long name goes on in a further line where its words end. */
+function breakable(path: string): ComponentChildren[] {
+  return path.split(/(?<=[._])/).flatMap((word) => [word, <wbr key={word} />]);
 }
 
 type Ask = (wish: TableWish) => void;
@@ -43,7 +51,7 @@ function Sections({ mission, onAsk }: { mission: Mission; onAsk: Ask }) {
               mission.section.value = section.path;
             }}
           >
-            <span class={section.depth ? `node-depth-${Math.min(3, section.depth)}` : ""}>{section.path}</span>
+            <span class={section.depth ? `node-depth-${Math.min(3, section.depth)}` : ""}>{breakable(section.path)}</span>
             {hasProblem(mission, section) ? <Icon name="error" /> : null}
           </button>
         ))}
@@ -96,6 +104,9 @@ function Form({ mission, onAsk }: { mission: Mission; onAsk: Ask }) {
       }
     >
       <div class="scroll">
+        {words === "" && hasRanges(rangeRows(mission.byKey.value, mission.section.value), mission.section.value) ? (
+          <RangeAxisFigure mission={mission} />
+        ) : null}
         {found.length === 0 ? <Empty title="No key fits.">Change the words, or look into the text.</Empty> : null}
         {found.map((field) => (
           <FieldRow key={field.key} mission={mission} field={field} />
@@ -146,9 +157,18 @@ function Problems({ mission }: { mission: Mission }) {
 }
 
 function commandOf(mission: Mission): string {
-  const settings = [...mission.settings.value].map(([key, value]) => `${key}=${value}`);
+  const settings = mission.same.value ?? [];
   const words = settings.length === 0 ? ["mdat", "mission", "check", mission.file] : ["mdat", "mission", "set", mission.file, ...settings];
   return words.map(shellWord).join(" ");
+}
+
+/** What the command does, where it is not what the page has done. */
+function commandRemark(mission: Mission): string {
+  const { changed, same, problems } = mission;
+  if (!changed.value || problems.value.length > 0 || (same.value ?? []).length > 0) return "";
+  return same.value === null
+    ? "Values are gone, or very many are new: no command does that. Save, then the file can be checked:"
+    : "Comments and order are changed, and no value:";
 }
 
 /** A shipped mission is read: what is designed is a copy. */
@@ -290,6 +310,7 @@ export function DesignView() {
         </div>
       </main>
       <footer class="design-foot">
+        {commandRemark(mission) === "" ? null : <p class="hint">{commandRemark(mission)}</p>}
         <CommandText text={commandOf(mission)} label="command of these changes" />
       </footer>
       {wish.value === null ? null : (

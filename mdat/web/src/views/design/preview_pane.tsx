@@ -4,7 +4,9 @@ import { useEffect, useMemo, useRef } from "preact/hooks";
 import type { Mission } from "../../design/mission.ts";
 import { Preview, type PreviewAnswer } from "../../design/preview.ts";
 import { lengthText } from "../../maths/scales.ts";
+import { norm } from "../../maths/vectors.ts";
 import { Empty, IconButton, Panel } from "../../parts/controls.tsx";
+import { firstScenario } from "../live/choice.ts";
 import { type PreviewView, startPreview } from "./preview_scene.ts";
 
 function Tools({ mission, preview, onFit }: { mission: Mission; preview: Preview; onFit: () => void }) {
@@ -14,10 +16,7 @@ function Tools({ mission, preview, onFit }: { mission: Mission; preview: Preview
       <select
         aria-label="Scenario of the preview"
         value={shown?.scenario ?? ""}
-        onChange={(event) => {
-          preview.run.value = 0;
-          preview.scenario.value = event.currentTarget.value;
-        }}
+        onChange={(event) => preview.choose(event.currentTarget.value)}
       >
         {mission.scenarios.value.map(({ name }) => (
           <option key={name} value={name}>
@@ -45,8 +44,21 @@ function Tools({ mission, preview, onFit }: { mission: Mission; preview: Preview
   );
 }
 
-function countsOf({ sensor, ranges_m, run, rays, remark }: PreviewAnswer, hits: number): string {
-  const counts = `${sensor} at ${lengthText(ranges_m[run])}: ${rays.hit.length} rays, ${hits} on the target`;
+/** Where a further sensor stands, if it is aside. */
+function placeText({ own }: PreviewAnswer): string {
+  const places = own.position_m.map((x) => Number(x.toFixed(3))).join(", ");
+  return norm(own.position_m) === 0 ? "" : `, from ${places} m (right, down, ahead)`;
+}
+
+/** How much of a plane across the boresight is seen at a range. */
+function fieldText({ camera }: PreviewAnswer, range_m: number): string {
+  const [across, down] = camera.frustum_deg.map((angle) => lengthText(2 * range_m * Math.tan((angle * Math.PI) / 360)));
+  return `a field of ${across} by ${down}`;
+}
+
+function countsOf(answer: PreviewAnswer, hits: number): string {
+  const { sensor, ranges_m, run, rays, remark } = answer;
+  const counts = `${sensor} at ${lengthText(ranges_m[run])}${placeText(answer)}: ${rays.hit.length} rays, ${hits} on the target; ${fieldText(answer, ranges_m[run])}`;
   return remark === "" ? counts : `${counts}; ${remark}`;
 }
 
@@ -72,7 +84,7 @@ function useScene(preview: Preview) {
 }
 
 export function PreviewPane({ mission }: { mission: Mission }) {
-  const preview = useMemo(() => new Preview(mission), [mission]);
+  const preview = useMemo(() => new Preview(mission, firstScenario(mission.scenarios.peek())), [mission]);
   const { box, view, failed } = useScene(preview);
   const shown = preview.shown.value;
   return (

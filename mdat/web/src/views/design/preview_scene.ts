@@ -4,9 +4,9 @@ import { AxesHelper, Color, Group, SRGBColorSpace } from "three";
 import { tell } from "../../app/notices.ts";
 import { cssValue, theme } from "../../app/theme.ts";
 import { type Preview, type PreviewAnswer, scanOf } from "../../design/preview.ts";
-import { norm } from "../../maths/vectors.ts";
+import { norm, subtract } from "../../maths/vectors.ts";
 import { textScale } from "../../parts/rem.ts";
-import { Cameras } from "../scene3d/cameras.ts";
+import { Cameras, matrixOf } from "../scene3d/cameras.ts";
 import { Cloud } from "../scene3d/cloud.ts";
 import { Lines } from "../scene3d/lines.ts";
 import { Stage } from "../scene3d/stage.ts";
@@ -28,6 +28,8 @@ class PreviewScene {
   private readonly cameras: Cameras;
   private readonly cloud: Cloud;
   private readonly lines = new Lines();
+  /** Of the sensor that scans. */
+  private readonly ownFrame = new Group();
   private readonly preview: Preview;
   private surface: Surface | null = null;
   private loading = "";
@@ -40,7 +42,9 @@ class PreviewScene {
     this.stage = new Stage(box);
     this.cameras = new Cameras(this.stage, null, 1);
     this.cloud = new Cloud(this.stage.renderer.getPixelRatio() * textScale());
-    this.stage.sensorFrame.add(this.cloud.points, this.lines.group, new AxesHelper(0.1));
+    this.ownFrame.matrixAutoUpdate = false;
+    this.ownFrame.add(this.cloud.points, this.lines.group, new AxesHelper(0.1));
+    this.stage.sensorFrame.add(this.ownFrame, new AxesHelper(0.05));
     this.ends = [effect(() => this.show(preview.shown.value)), effect(() => this.applyTheme(theme.value))];
   }
 
@@ -75,7 +79,9 @@ class PreviewScene {
     if (answer === null) return;
     const scan = scanOf(answer);
     const { r, g, b } = new Color(cssValue("--accent")).getRGB(new Color(), SRGBColorSpace);
-    const distance_m = norm(answer.pose.position_m);
+    const distance_m = norm(subtract(answer.pose.position_m, answer.own.position_m));
+    this.ownFrame.matrix.copy(matrixOf(answer.own));
+    this.ownFrame.matrixWorldNeedsUpdate = true;
     this.cloud.show(
       scan,
       Float32Array.from({ length: 3 * scan.count }, (_, i) => [r, g, b][i % 3]),
@@ -88,6 +94,7 @@ class PreviewScene {
     if (this.surface?.digest !== answer.surface) this.load(answer.surface).catch((error) => this.failed(answer.surface, error));
     this.look(answer);
     this.stage.renderer.domElement.dataset.rays = String(scan.count);
+    this.stage.renderer.domElement.dataset.place = answer.own.position_m.map((x) => Number(x.toFixed(4))).join(" ");
     this.stage.invalidate();
   }
 

@@ -33,7 +33,7 @@ export function firstMission(missions: LiveMission[]): string {
 }
 
 /** The scenario to offer first: "spin" shows the most, else the first that can be watched. */
-export function firstScenario(scenarios: LiveScenario[]): string {
+export function firstScenario(scenarios: Pick<LiveScenario, "name" | "runs">[]): string {
   const watched = scenarios.filter((scenario) => scenario.runs === 1);
   return watched.find((scenario) => scenario.name === "spin")?.name ?? watched[0]?.name ?? "";
 }

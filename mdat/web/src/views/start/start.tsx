@@ -151,8 +151,6 @@ export function Start() {
       <main class="start-body" data-view="start">
         <h1>Fly and replay</h1>
         <First about={about.value} />
-        <Fly />
-        <Missions />
         <section aria-label="Recordings">
           <h2>Recordings {about.value?.folder ? <small>in {about.value.folder}</small> : null}</h2>
           {entries.value === null ? (
@@ -161,6 +159,8 @@ export function Start() {
             <Recordings entries={entries.value} folder={about.value?.folder ?? ""} />
           )}
         </section>
+        <Fly />
+        <Missions />
       </main>
     </div>
   );
