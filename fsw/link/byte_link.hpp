@@ -17,7 +17,7 @@ class ByteLink {
   virtual std::size_t write(ConstBytes packets) = 0;
 
  protected:
-  ~ByteLink() = default;  // never deleted through this interface
+  ~ByteLink() = default;  // never deleted through this interface: no operator delete in flight code
 };
 
 }  // namespace lasso
