@@ -36,6 +36,7 @@ Verification verification_of(ConstBytes packet) {
 }  // namespace
 
 std::size_t Component::receive(ConstBytes bytes, TimeUs now_us) {
+  const Running running(identity_);
   if (!bytes.empty()) bytes_came_ = true;
   std::size_t taken = 0;
   bool found = true;
@@ -48,6 +49,7 @@ std::size_t Component::receive(ConstBytes bytes, TimeUs now_us) {
 }
 
 bool Component::receive_packet(ConstBytes packet, TimeUs now_us) {
+  const Running running(identity_);
   if (commands_left_ == 0) return false;
   answer(packet, now_us);
   return true;

@@ -89,10 +89,10 @@ PacketFault decode_data(ConstBytes data, Command& command) {
 
 }  // namespace
 
-PacketFault decode_command(ConstBytes packet, Command& command, Authenticator* authenticator) {
+PacketFault decode_command(ConstBytes packet, Command& command, Authenticator* authenticator, std::uint16_t apid) {
   Command decoded;
   ConstBytes data;
-  PacketFault fault = parse_command(packet, decoded.header, data);
+  PacketFault fault = parse_command(packet, decoded.header, data, apid);
   if (fault == PacketFault::kNone && authenticator != nullptr) fault = authenticate(packet, *authenticator, data);
   if (fault == PacketFault::kNone) fault = decode_data(data, decoded);
   if (fault == PacketFault::kNone) command = decoded;

@@ -158,8 +158,9 @@ struct Command {
 constexpr std::uint8_t kMaxStoredReports = 8;
 constexpr std::size_t kMaxCommandBytes = 256 + kMaxAuthenticationBytes;
 
-// Checks packet, trailer (where there is an authenticator) and arguments, in this order. `command` is untouched when it is refused.
-PacketFault decode_command(ConstBytes packet, Command& command, Authenticator* authenticator = nullptr);
+// For the component `apid`. Checks packet, trailer (where there is an authenticator) and arguments, in this order. `command` is untouched
+// when it is refused.
+PacketFault decode_command(ConstBytes packet, Command& command, Authenticator* authenticator = nullptr, std::uint16_t apid = kApid);
 
 // Is there a command of this name that has to be armed? Loop bound: the commands.
 bool is_hazardous(const CommandName& name);
