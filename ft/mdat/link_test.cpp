@@ -190,7 +190,7 @@ TEST(Link, AFileThatGrowsIsFollowed) {
 }
 
 TEST(Link, AnotherComponentsPacketsAreWrittenAndReadByItsApid) {
-  VERIFIES("LASSO-LNK-041~1");
+  VERIFIES("LASSO-LNK-044~1");
   const WorkFolder work;
   ASSERT_EQ(work.mdat("command ping --apid 0x2A5 --out ping").exit_code, 0);
   EXPECT_EQ(work.read("ping").substr(0, 2), "\x1A\xA5") << "a command, with secondary header, for 0x2A5";

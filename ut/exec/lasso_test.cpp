@@ -110,7 +110,7 @@ constexpr std::uint16_t kOtherApid = 0x2A5;
 const Identity kOther{kOtherApid, nullptr};
 
 TEST(Lasso, NoComponentHasAnApidOfTimeOrIdlePackets) {
-  VERIFIES("LASSO-LNK-040~1");
+  VERIFIES("LASSO-LNK-043~1");
   const auto memory = std::make_unique<Memory>();
   test::BoxSensor sensor(test::default_scene());
   for (const unsigned apid : {0x000U, 0x7FFU, 0x800U})
@@ -121,7 +121,7 @@ TEST(Lasso, NoComponentHasAnApidOfTimeOrIdlePackets) {
 }
 
 TEST(Lasso, TelemetryIsTheSameButForTheApid) {
-  VERIFIES("LASSO-LNK-040~1");
+  VERIFIES("LASSO-LNK-043~1");
   Hosted preset, other(kOther);
   const test::Stream expected = preset.run_to(6);
   test::Stream changed;
@@ -138,7 +138,7 @@ TEST(Lasso, TelemetryIsTheSameButForTheApid) {
 }
 
 TEST(Lasso, OfTwoComponentsEachDoesWhatItIsTold) {
-  VERIFIES("LASSO-LNK-040~1");
+  VERIFIES("LASSO-LNK-043~1");
   Hosted preset, other(kOther);
   const test::Stream to_other = test::for_apid(test::set_mode(static_cast<std::uint8_t>(TrackingMode::kBearing), 1), kOtherApid);
   EXPECT_TRUE(receive_packet(preset.component, test::view(to_other), 0));

@@ -65,7 +65,7 @@ TEST(Decode, GivesBackWhatTheFlightCodePacked) {
 }
 
 TEST(Decode, FindsTheComponentThatIsAskedForAlone) {
-  VERIFIES("LASSO-LNK-041~1");
+  VERIFIES("LASSO-LNK-044~1");
   Stream stream = pose_packet(7, {});
   const std::size_t first = stream.size();
   const Stream other = lasso::test::for_apid(pose_packet(8, {}), 0x2A5);

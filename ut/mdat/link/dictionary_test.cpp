@@ -186,7 +186,7 @@ TEST(DictionaryJson, HasEveryPacketItemAndChoice) {
 
 // The dictionary of another component is the preset's with another number, in each format where packets are told apart by it.
 TEST(Dictionaries, AreOfTheComponentThatIsAskedFor) {
-  VERIFIES("LASSO-LNK-041~1");
+  VERIFIES("LASSO-LNK-044~1");
   constexpr std::uint16_t kOther = 0x2A5;
   EXPECT_EQ(nlohmann::json::parse(dictionary_json(kOther)).at("apid"), kOther);
   const std::string preset[] = {dictionary_xtce(), dictionary_lua(), dictionary_cosmos().at("targets/LASSO/cmd_tlm/cmd.txt"),

@@ -65,7 +65,7 @@ TEST(Station, ACommandThatIsRefusedIsNotDoneAndSaysWhy) {
 }
 
 TEST(Station, SpeaksWithTheComponentThatItIsMadeFor) {
-  VERIFIES("LASSO-LNK-041~1");
+  VERIFIES("LASSO-LNK-044~1");
   for (const std::uint16_t apid : {kApid, std::uint16_t{0x2A5}}) {
     AlikeLink link(kSubserviceCompleted, PacketFault::kNone, 0, 0x2A5);
     Station station(
