@@ -48,6 +48,7 @@ class FlashLidar final : public PixelSensor {
   // Pixels whose middle is within the plan's window, row by row.
   PixelPoll poll(TimeUs now_us, Span<RangeSample> out) override;
   void abort() override { running_ = false; }
+  void permit_laser(bool /*permitted*/) override {}  // its light is the simulation's
 
  private:
   struct Frame {

@@ -18,6 +18,7 @@ class LcsDirect final : public Sensor {
   Status start(const ScanPlan& plan, TimeUs t_start_us) override;
   SensorPoll poll(TimeUs now_us, Span<RangeSample> out) override;
   void abort() override { scanner_.abort(); }
+  void permit_laser(bool permitted) override { scanner_.permit_laser(permitted); }
   void use_calibration(const TriangulationCalibration* calibration) override;
 
  private:

@@ -42,6 +42,7 @@ class ReplaySensor final : public Sensor {
   Status start(const ScanPlan& plan, TimeUs t_start_us) override;
   SensorPoll poll(TimeUs now_us, Span<RangeSample> out) override;
   void abort() override { scan_ = nullptr; }
+  void permit_laser(bool /*permitted*/) override {}  // it has none
 
   std::uint32_t unserved() const { return unserved_; }  // plans that are right, for which it has no scan
   std::uint32_t rounds() const { return rounds_; }      // how often it has begun anew, as the recording was at its end

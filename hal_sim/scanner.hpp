@@ -63,6 +63,7 @@ class SimulatedScanner final : public Sensor {
   // Casts at most out.size() rays. A sample is there from its own time on.
   SensorPoll poll(TimeUs now_us, Span<RangeSample> out) override;
   void abort() override { running_ = false; }
+  void permit_laser(bool /*permitted*/) override {}  // its light is the simulation's
 
  private:
   bool within_field_of_view(const ScanPlan& plan) const;

@@ -85,5 +85,5 @@ void restart(ResetCause cause, const char* text) {
 void board_fault() { lasso::bare::restart(lasso::ResetCause::kException, "exception"); }
 
 namespace lasso {
-[[noreturn]] void on_invariant_failure(const char* what) { bare::restart(ResetCause::kInvariant, what); }
+[[noreturn]] void on_invariant_failure(const InvariantFailure& failure) { bare::restart(ResetCause::kInvariant, failure.what); }
 }  // namespace lasso

@@ -7,6 +7,6 @@ extern "C" {
 [[noreturn]] long long __aeabi_ldiv0(long long);  // NOLINT(bugprone-reserved-identifier): likewise
 }
 
-int __aeabi_idiv0(int) { lasso::on_invariant_failure("division by zero"); }
+int __aeabi_idiv0(int) { lasso::fail_invariant("division by zero"); }
 
-long long __aeabi_ldiv0(long long) { lasso::on_invariant_failure("division by zero"); }
+long long __aeabi_ldiv0(long long) { lasso::fail_invariant("division by zero"); }

@@ -6,8 +6,8 @@
 
 namespace lasso {
 
-[[noreturn]] void on_invariant_failure(const char* what) {
-  (void)std::fprintf(stderr, "3dlasso: invariant failed: %s\n", what);
+[[noreturn]] void on_invariant_failure(const InvariantFailure& failure) {
+  (void)std::fprintf(stderr, "3dlasso: invariant failed: %s (APID 0x%03X)\n", failure.what, static_cast<unsigned>(failure.apid));
   std::abort();
 }
 

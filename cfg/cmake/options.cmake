@@ -3,7 +3,7 @@ find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 get_target_property(LASSO_EIGEN_INCLUDE Eigen3::Eigen INTERFACE_INCLUDE_DIRECTORIES)
 include(GNUInstallDirs)
 set(LASSO_HEADERS ${CMAKE_INSTALL_INCLUDEDIR}/3dlasso)
-option(LASSO_WERROR "Treat warnings as errors" ON)
+option(LASSO_WERROR "Treat warnings as errors" ${PROJECT_IS_TOP_LEVEL})
 
 # Host and target are compiled at the level at which the component is verified, unless the caller gives flags.
 if(CMAKE_CXX_FLAGS_RELEASE STREQUAL "-O3 -DNDEBUG")

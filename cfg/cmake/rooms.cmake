@@ -38,6 +38,15 @@ function(lasso_make_small NAME)
   endforeach()
 endfunction()
 
+# lasso_position_independent(TARGET): a program may put the component into a shared library. Boards that load no code have no use for it.
+function(lasso_position_independent TARGET)
+  if(LASSO_BOARD STREQUAL posix AND NOT CMAKE_CROSSCOMPILING)
+    set_target_properties(${TARGET} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+    # Nobody replaces a function of it: calls within it stay direct, and the compiler may copy them in.
+    target_compile_options(${TARGET} PRIVATE -fno-semantic-interposition)
+  endif()
+endfunction()
+
 # Flight room fsw/NAME, seeing the rooms in ARGN (and what they see).
 function(lasso_flight_room NAME)
   file(GLOB SOURCES CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/fsw/${NAME}/*.cpp)
@@ -49,6 +58,7 @@ function(lasso_flight_room NAME)
     set(VISIBILITY PUBLIC)
     target_link_libraries(fsw_${NAME} PRIVATE $<BUILD_INTERFACE:lasso_warnings> $<BUILD_INTERFACE:lasso_flight>)
     set_target_properties(fsw_${NAME} PROPERTIES LASSO_ALONE ON)
+    lasso_position_independent(fsw_${NAME})
     lasso_make_small(${NAME} ${SOURCES})
     if(NOT NAME IN_LIST LASSO_ROOMS_WITHOUT_EIGEN)
       lasso_precompile(flight fsw_${NAME})
@@ -69,6 +79,7 @@ function(lasso_sensor_driver NAME)
   add_library(hal_${NAME} STATIC ${SOURCES})
   target_link_libraries(hal_${NAME} PRIVATE $<BUILD_INTERFACE:lasso_warnings> $<BUILD_INTERFACE:lasso_flight> PUBLIC fsw_sense)
   lasso_precompile(flight hal_${NAME})
+  lasso_position_independent(hal_${NAME})
   set_target_properties(hal_${NAME} PROPERTIES LASSO_ALONE ON EXPORT_NAME ${NAME} OUTPUT_NAME 3dlasso_${NAME})
   set_property(GLOBAL APPEND PROPERTY LASSO_ROOMS hal_${NAME})
 endfunction()
@@ -97,9 +108,13 @@ function(lasso_board NAME)
     add_library(bsp_${NAME} STATIC ${SOURCES})
     target_compile_features(bsp_${NAME} PUBLIC cxx_std_17)
     target_link_libraries(bsp_${NAME} PRIVATE $<BUILD_INTERFACE:lasso_warnings> PUBLIC fsw_exec hal_lcs Threads::Threads)
+    lasso_position_independent(bsp_${NAME})
     target_compile_options(bsp_${NAME} PRIVATE -fexceptions)  # make coverage counts the flight code's branches without
+    # Whose component runs is known thread by thread; a shared library may hold it, and no call is needed to find it.
+    set_source_files_properties(${PROJECT_SOURCE_DIR}/fsw/core/invariant.cpp PROPERTIES
+                                COMPILE_OPTIONS "-DLASSO_PER_THREAD=thread_local;-ftls-model=initial-exec" SKIP_PRECOMPILE_HEADERS ON)
     # The rooms call the board's answer to a bug, but come after it on the linker's line.
-    target_link_options(bsp_${NAME} INTERFACE LINKER:--undefined=_ZN5lasso20on_invariant_failureEPKc)
+    target_link_options(bsp_${NAME} INTERFACE LINKER:--undefined=_ZN5lasso20on_invariant_failureERKNS_16InvariantFailureE)
     set_target_properties(bsp_${NAME} PROPERTIES LASSO_ALONE ON EXPORT_NAME ${NAME} OUTPUT_NAME 3dlasso_${NAME})
     set_property(GLOBAL APPEND PROPERTY LASSO_BOARDS bsp_${NAME})
   endif()

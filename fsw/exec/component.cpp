@@ -24,11 +24,16 @@ Twist initial_rates(const MissionParameters& p) {
 
 }  // namespace
 
-Component::Component(const SensorBank& sensors) : acquisition_(sensors) { images_.use_parameters(parameter_area_); }
+Component::Component(const SensorBank& sensors, const Identity& identity)
+    : identity_(identity), acquisition_(sensors), downlink_(identity.apid), receiver_(identity.apid) {
+  invariant(is_valid(identity), "an APID that a component can have");
+  images_.use_parameters(parameter_area_);
+}
 
-Component::Component(Sensor& sensor) : Component(only(sensor)) {}
+Component::Component(Sensor& sensor, const Identity& identity) : Component(only(sensor), identity) {}
 
 Status Component::begin(TimeUs boundary_0_us) {
+  const Running running(identity_);
   if (!images_.started()) return Status::kMissing;
   if (executive_.begun()) return Status::kBadOrder;
   const MissionParameters& p = mission().parameters;
@@ -52,6 +57,7 @@ void Component::start_from_mission(TimeUs t_us) {
 }
 
 StartRefusal Component::offer_start(StartWay way, const StartOffer& offer) {
+  const Running running(identity_);
   if (!executive_.begun()) return StartRefusal::kNotBegun;
   const auto index = static_cast<std::size_t>(way);
   if (index == 0 || way == StartWay::kSearch || index >= kStartWays) return StartRefusal::kNoSuchWay;
@@ -111,6 +117,7 @@ ModeRefusal Component::command_mode(TrackingMode mode) {
 Status Component::stop_tracking() { return command_mode(TrackingMode::kStandby) == ModeRefusal::kNone ? Status::kOk : Status::kBadOrder; }
 
 void Component::run_slot(TimeUs now_us) {
+  const Running running(identity_);
   invariant(executive_.begun(), "slot before begin");
   if (executive_.jumped(now_us)) follow_jump(now_us);
   executive_.note_start(now_us);
@@ -207,7 +214,10 @@ void Component::refuse_start(StartWay way, StartRefusal refusal) {
   events_.raise<EventId::kStartRefused>(way, refusal);
 }
 
-void Component::run_estimation() { estimation_.run(); }
+void Component::run_estimation() {
+  const Running running(identity_);
+  estimation_.run();
+}
 
 // At most four at a boundary (a scan's, a fault's, a command's, a start's), and a packet takes four: there is always room.
 void Component::note_change(const ModeChange& change) {

@@ -15,6 +15,8 @@
 #include <cstdint>
 
 #include "fsw/core/fixed_vector.hpp"
+#include "fsw/core/identity.hpp"
+#include "fsw/core/invariant.hpp"
 #include "fsw/core/span.hpp"
 #include "fsw/core/status.hpp"
 #include "fsw/core/time.hpp"
@@ -60,9 +62,14 @@ struct BoardMemory {
 
 class Component {
  public:
-  // The sensors, in the order of the mission's, outlive the component; there is one at least. Nothing moves before begin().
-  explicit Component(const SensorBank& sensors);
-  explicit Component(Sensor& sensor);
+  // The sensors, in the order of the mission's, outlive the component; there is one at least. The identity is valid. Nothing moves before
+  // begin().
+  explicit Component(const SensorBank& sensors, const Identity& identity = {});
+  explicit Component(Sensor& sensor, const Identity& identity = {});
+  Component(const Component&) = delete;
+  Component& operator=(const Component&) = delete;
+
+  const Identity& identity() const { return identity_; }
 
   // Validates and takes over `image`, which stays the component's memory (8-byte aligned, at most kMaxImageBytes). Before begin() only:
   // kBadOrder afterwards. kBadValue when a scan does not fit into a frame, or a sensor of the mission's is not there.
@@ -138,7 +145,10 @@ class Component {
   void run_estimation();
 
   // Moves whole packets into `out` and returns their bytes, oldest first.
-  std::size_t take_telemetry(Bytes out) { return downlink_.take(out); }
+  std::size_t take_telemetry(Bytes out) {
+    const Running running(identity_);
+    return downlink_.take(out);
+  }
 
   // Of the last boundary.
   const FaultMonitor& faults() const { return faults_; }
@@ -266,6 +276,7 @@ class Component {
   void leave_target();
   void take_up_again();
 
+  const Identity identity_;
   ImageKeeper images_;
   Executive executive_;
   AcquisitionTask acquisition_;

@@ -38,6 +38,7 @@ Verification verification_of(ConstBytes packet) {
 }  // namespace
 
 std::size_t Component::receive(ConstBytes bytes, TimeUs now_us) {
+  const Running running(identity_);
   if (!bytes.empty()) bytes_came_ = true;
   std::size_t taken = 0;
   bool more = !packet_waits_ || answer_if_room(receiver_.packet(), now_us);
@@ -49,11 +50,14 @@ std::size_t Component::receive(ConstBytes bytes, TimeUs now_us) {
   return taken;
 }
 
-bool Component::receive_packet(ConstBytes packet, TimeUs now_us) { return answer_if_room(packet, now_us); }
+bool Component::receive_packet(ConstBytes packet, TimeUs now_us) {
+  const Running running(identity_);
+  return answer_if_room(packet, now_us);
+}
 
 // False: it was not looked at, the frame has no room for it.
 bool Component::answer_if_room(ConstBytes packet, TimeUs now_us) {
-  if (!room_.takes(packet)) return false;
+  if (!room_.takes(packet, identity_.apid)) return false;
   answer(packet, now_us);
   return true;
 }

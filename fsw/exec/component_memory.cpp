@@ -69,11 +69,13 @@ ImageTelemetry describe(const ImageKeeper& images) {
 }  // namespace
 
 LoadFailure Component::load_image(Bytes image) {
+  const Running running(identity_);
   if (executive_.begun()) return {Status::kBadOrder, 0, 0, "the component has begun"};
   return images_.start(image, acquisition_.sensors());
 }
 
 LoadFailure Component::load_stored_image() {
+  const Running running(identity_);
   if (executive_.begun()) return {Status::kBadOrder, 0, 0, "the component has begun"};
   return images_.start_stored(acquisition_.sensors());
 }

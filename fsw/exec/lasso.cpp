@@ -4,17 +4,25 @@
 
 namespace lasso {
 
-std::size_t required_memory() { return sizeof(Component); }
-
-std::size_t required_alignment() { return alignof(Component); }
-
-Component* create(void* memory, std::size_t size, const SensorBank& sensors) {
-  if (memory == nullptr || size < required_memory() || sensors.empty()) return nullptr;
+Component* create(void* memory, std::size_t size, const SensorBank& sensors, const Identity& identity) {
+  if (memory == nullptr || size < required_memory() || sensors.empty() || !is_valid(identity)) return nullptr;
   if (reinterpret_cast<std::uintptr_t>(memory) % required_alignment() != 0) return nullptr;
-  return new (memory) Component(sensors);
+  return new (memory) Component(sensors, identity);
 }
 
-Component* create(void* memory, std::size_t size, Sensor& sensor) { return create(memory, size, only(sensor)); }
+Component* create(void* memory, std::size_t size, Sensor& sensor, const Identity& identity) {
+  return create(memory, size, only(sensor), identity);
+}
+
+Status use_memory(Component& component, const BoardMemory& memory) { return component.use_memory(memory); }
+
+void set_watchdog(Component& component, Watchdog& watchdog) { component.set_watchdog(watchdog); }
+
+void set_reset_cause(Component& component, ResetCause cause) { component.set_reset_cause(cause); }
+
+void use_authenticator(Component& component, Authenticator& authenticator) { component.use_authenticator(authenticator); }
+
+LoadFailure load_stored_image(Component& component) { return component.load_stored_image(); }
 
 LoadFailure load_image(Component& component, Bytes image) { return component.load_image(image); }
 
@@ -44,5 +52,9 @@ bool step(Component& component, TimeUs now_us) {
   component.run_estimation();
   return true;
 }
+
+TimeUs next_slot_us(const Component& component) { return component.next_slot_us(); }
+
+bool reset_due(const Component& component) { return component.reset_due(); }
 
 }  // namespace lasso

@@ -9,16 +9,22 @@
 
 namespace lasso {
 
-// The memory that create() needs, image apart, and its alignment.
-std::size_t required_memory();
-std::size_t required_alignment();
+// The memory that create() needs, image apart, and its alignment: `alignas(required_alignment()) std::uint8_t memory[required_memory()]`.
+constexpr std::size_t required_memory() { return sizeof(Component); }
+constexpr std::size_t required_alignment() { return alignof(Component); }
 
-// A component in `memory`; null when it is too small or not aligned, or there is no sensor. There is nothing to destroy: the memory may be
-// reused at any time. The sensors, in the order of the mission's, and `memory` outlive it.
-Component* create(void* memory, std::size_t size, const SensorBank& sensors);
-Component* create(void* memory, std::size_t size, Sensor& sensor);
+// A component in `memory`; null when it is too small or not aligned, there is no sensor, or no component can have this identity. There is
+// nothing to destroy: the memory may be reused at any time. The sensors, in the order of the mission's, and `memory` outlive it.
+Component* create(void* memory, std::size_t size, const SensorBank& sensors, const Identity& identity = {});
+Component* create(void* memory, std::size_t size, Sensor& sensor, const Identity& identity = {});
 
-// See the functions of the same name of Component.
+// See the functions of the same name of Component. What a board gives, before begin(): memory for images in flight (before the first
+// image), a watchdog, the reason of the start, and who says that a command is authentic.
+Status use_memory(Component& component, const BoardMemory& memory);
+void set_watchdog(Component& component, Watchdog& watchdog);
+void set_reset_cause(Component& component, ResetCause cause);
+void use_authenticator(Component& component, Authenticator& authenticator);
+LoadFailure load_stored_image(Component& component);
 LoadFailure load_image(Component& component, Bytes image);
 Status begin(Component& component, TimeUs boundary_0_us);
 Status start_tracking(Component& component, const Pose& T_sensor_target, const Twist& rates, TimeUs t_us);
@@ -34,5 +40,9 @@ std::size_t take_telemetry(Component& component, Bytes out);
 // Runs the next slot, and the estimate that it may leave pending, if the slot's time has come at now_us. False, and nothing has
 // happened, when it has not. Call it until it says false.
 bool step(Component& component, TimeUs now_us);
+// When the next slot's time comes: until then a host may sleep.
+TimeUs next_slot_us(const Component& component);
+// A command has asked for a reset, and its frame is over: take the telemetry, and create a component anew with ResetCause::kCommanded.
+bool reset_due(const Component& component);
 
 }  // namespace lasso

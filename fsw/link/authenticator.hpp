@@ -14,17 +14,15 @@ constexpr std::size_t kMaxAuthenticationBytes = 32;
 
 class Authenticator {
  public:
-  Authenticator() = default;
-  virtual ~Authenticator() = default;
-  Authenticator(const Authenticator&) = delete;
-  Authenticator& operator=(const Authenticator&) = delete;
-
   // Of its trailer: 1 to kMaxAuthenticationBytes, always the same.
   virtual std::size_t trailer_bytes() const = 0;
 
   // Does `trailer` show that `packet`, all bytes before it, comes from who may command, and is not sent again? Asked once for each packet
   // with right CRC and headers, before its arguments are looked at. Bounded; never waits.
   virtual bool authentic(ConstBytes packet, ConstBytes trailer) = 0;
+
+ protected:
+  ~Authenticator() = default;  // never deleted through this interface: no operator delete in flight code
 };
 
 // Takes the trailer off `data`, the end of a command's packet before its CRC, and has it judged. The packet's headers and CRC are right.

@@ -20,7 +20,7 @@ class ByteLink {
   virtual void peer_spoke() {}
 
  protected:
-  ~ByteLink() = default;  // never deleted through this interface
+  ~ByteLink() = default;  // never deleted through this interface: no operator delete in flight code
 };
 
 }  // namespace lasso

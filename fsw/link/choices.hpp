@@ -134,7 +134,7 @@ inline constexpr Choice kLossReasons[] = {
   {"none", "no scan was lost"},
   {"inhibited", "the sensor's light is inhibited", "permit it"},
   {"no_room", "the sensor takes no more commands: they do not leave", "look at the line"},
-  {"silent", "the sensor does not answer", "look at its power and at the line"},
+  {"silent", "the sensor does not answer, or has nothing to give", "look at its power and at the line"},
   {"busy", "an earlier scan ran", "none, unless it repeats: reset the sensor"},
   {"refused", "the plan is outside the sensor's limits", "compare the mission's field of view with the sensor's"},
   {"restarted", "the sensor started anew", "none, unless it repeats: look at its power"},

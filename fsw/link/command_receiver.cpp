@@ -34,7 +34,7 @@ PacketFault CommandReceiver::accept(ConstBytes packet, Command& command) {
 }
 
 PacketFault CommandReceiver::check(ConstBytes packet, Command& command) {
-  const PacketFault fault = decode_command(packet, command, authenticator_, from_operator_);
+  const PacketFault fault = decode_command(packet, command, authenticator_, apid_, from_operator_);
   if (fault != PacketFault::kNone) return fault;
   const auto ahead = static_cast<std::uint16_t>((command.header.sequence_count - last_count_) & kSequenceCountMask);
   const bool repeated = heard_ && (ahead == 0 || ahead >= kReplayWindow);

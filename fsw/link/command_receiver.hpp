@@ -13,7 +13,8 @@ namespace lasso {
 
 class CommandReceiver {
  public:
-  CommandReceiver() : finder_(PacketType::kCommand, Bytes(buffer_)) {}
+  // For the component `apid`.
+  explicit CommandReceiver(std::uint16_t apid = kApid) : apid_(apid), finder_(PacketType::kCommand, Bytes(buffer_), apid) {}
   CommandReceiver(const CommandReceiver&) = delete;
   CommandReceiver& operator=(const CommandReceiver&) = delete;
 
@@ -40,6 +41,7 @@ class CommandReceiver {
  private:
   PacketFault check(ConstBytes packet, Command& command);
 
+  std::uint16_t apid_;
   std::uint8_t buffer_[kMaxCommandBytes] = {};
   PacketFinder finder_;
   Authenticator* authenticator_ = nullptr;

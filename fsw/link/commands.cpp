@@ -91,16 +91,16 @@ PacketFault decode_data(ConstBytes data, Command& command) {
 
 }  // namespace
 
-PacketFault decode_command(ConstBytes packet, Command& command, Authenticator* authenticator) {
+PacketFault decode_command(ConstBytes packet, Command& command, Authenticator* authenticator, std::uint16_t apid) {
   bool authentic = false;
-  return decode_command(packet, command, authenticator, authentic);
+  return decode_command(packet, command, authenticator, apid, authentic);
 }
 
-PacketFault decode_command(ConstBytes packet, Command& command, Authenticator* authenticator, bool& authentic) {
+PacketFault decode_command(ConstBytes packet, Command& command, Authenticator* authenticator, std::uint16_t apid, bool& authentic) {
   authentic = false;
   Command decoded;
   ConstBytes data;
-  PacketFault fault = parse_command(packet, decoded.header, data);
+  PacketFault fault = parse_command(packet, decoded.header, data, apid);
   if (fault == PacketFault::kNone && authenticator != nullptr) {
     fault = authenticate(packet, *authenticator, data);
     authentic = fault == PacketFault::kNone;
@@ -110,10 +110,10 @@ PacketFault decode_command(ConstBytes packet, Command& command, Authenticator* a
   return fault;
 }
 
-bool is_urgent(ConstBytes packet) {
+bool is_urgent(ConstBytes packet, std::uint16_t apid) {
   CommandHeader header;
   ConstBytes data;
-  if (parse_command(packet, header, data) != PacketFault::kNone) return false;
+  if (parse_command(packet, header, data, apid) != PacketFault::kNone) return false;
   if (is_of(form_of(CommandKind::kInhibitLaser), header, data)) return true;
   if (!is_of(form_of(CommandKind::kMode), header, data)) return false;
   ByteReader in(data);

@@ -158,14 +158,15 @@ struct Command {
 constexpr std::uint8_t kMaxStoredReports = 8;
 constexpr std::size_t kMaxCommandBytes = 256 + kMaxAuthenticationBytes;
 
-// Checks packet, trailer (where there is an authenticator) and arguments, in this order. `command` is untouched when it is refused.
-PacketFault decode_command(ConstBytes packet, Command& command, Authenticator* authenticator = nullptr);
+// For the component `apid`. Checks packet, trailer (where there is an authenticator) and arguments, in this order. `command` is untouched
+// when it is refused.
+PacketFault decode_command(ConstBytes packet, Command& command, Authenticator* authenticator = nullptr, std::uint16_t apid = kApid);
 // As above; `authentic`: the authenticator was asked, and said yes, whatever is wrong with the arguments.
-PacketFault decode_command(ConstBytes packet, Command& command, Authenticator* authenticator, bool& authentic);
+PacketFault decode_command(ConstBytes packet, Command& command, Authenticator* authenticator, std::uint16_t apid, bool& authentic);
 
 constexpr std::uint8_t kSafeMode = 9;  // of set_mode; as TrackingMode says
-// Does the packet ask for what makes safe, inhibit_laser or set_mode safe? What it is signed with is not looked at.
-bool is_urgent(ConstBytes packet);
+// Does the packet ask the component `apid` for what makes safe, inhibit_laser or set_mode safe? What it is signed with is not looked at.
+bool is_urgent(ConstBytes packet, std::uint16_t apid = kApid);
 
 // Is there a command of this name that has to be armed? Loop bound: the commands.
 bool is_hazardous(const CommandName& name);

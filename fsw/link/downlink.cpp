@@ -19,6 +19,7 @@ std::size_t index_of(MessageType type) {
 PacketHeader Downlink::next_header(MessageType type, TimeUs t_us) {
   std::uint16_t& messages = Span<std::uint16_t>(messages_)[index_of(type)];
   PacketHeader header;
+  header.apid = apid_;
   header.sequence_count = packets_ & kSequenceCountMask;
   header.service = type.service;
   header.subservice = type.subservice;

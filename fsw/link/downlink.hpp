@@ -23,6 +23,8 @@ constexpr std::size_t kMessageTypeCount = sizeof(kMessageTypes) / sizeof(kMessag
 
 class Downlink {
  public:
+  // Of the component `apid`.
+  explicit Downlink(std::uint16_t apid = kApid) : apid_(apid) {}
   // Of the next packet of a kind, which has to be one of kMessageTypes. Loop bound: these.
   PacketHeader next_header(MessageType type, TimeUs t_us);
   // From now on headers state spacecraft time: the component's plus this. Both, and their sum, are within 2^62 us.
@@ -51,6 +53,7 @@ class Downlink {
  private:
   static constexpr std::size_t kMaxPlainPacketBytes = 256;
 
+  std::uint16_t apid_;
   TelemetryQueue queue_;
   std::uint16_t packets_ = 0;  // sent; the lower 14 bits are the sequence count
   std::uint16_t messages_[kMessageTypeCount] = {};

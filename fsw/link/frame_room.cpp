@@ -2,9 +2,9 @@
 
 namespace lasso {
 
-bool FrameRoom::takes(ConstBytes packet) const {
+bool FrameRoom::takes(ConstBytes packet, std::uint16_t apid) const {
   if (strangers_ == 0) return false;
-  return commands_ > 0 || (urgent_ > 0 && is_urgent(packet));
+  return commands_ > 0 || (urgent_ > 0 && is_urgent(packet, apid));
 }
 
 bool FrameRoom::spend(PacketFault fault, bool from_operator) {

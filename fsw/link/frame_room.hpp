@@ -11,8 +11,8 @@ namespace lasso {
 
 class FrameRoom {
  public:
-  // May the next packet be looked at in this frame? Where the commands are used up, what makes safe still may.
-  bool takes(ConstBytes packet) const;
+  // May the next packet be looked at in this frame? Where the commands are used up, what makes the component `apid` safe still may.
+  bool takes(ConstBytes packet, std::uint16_t apid = kApid) const;
   // It was, and the receiver said this of it. Is its sender answered? Who may command always is; of the others' refusals so many in a
   // frame. Those whose sequence count alone is wrong are counted apart: without an authenticator an operator is among them.
   bool spend(PacketFault fault, bool from_operator);

@@ -60,8 +60,8 @@ void begin_packet(const PacketHeader& header, ByteWriter& writer) {
   write_time(header.t_us, writer);
 }
 
-PacketFault parse_packet(ConstBytes packet, PacketHeader& header, ConstBytes& data) {
-  const PacketFault fault = check_packet(packet, PacketType::kTelemetry, kPacketHeaderBytes + kPacketTrailerBytes);
+PacketFault parse_packet(ConstBytes packet, PacketHeader& header, ConstBytes& data, std::uint16_t apid) {
+  const PacketFault fault = check_packet(packet, PacketType::kTelemetry, kPacketHeaderBytes + kPacketTrailerBytes, apid);
   if (fault != PacketFault::kNone) return fault;
   ByteReader in(packet.subspan(kPrimaryHeaderBytes, kPacketHeaderBytes - kPrimaryHeaderBytes));
   const std::uint8_t version = in.u8();

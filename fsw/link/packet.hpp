@@ -48,7 +48,7 @@ TimeUs from_cuc(CucTime t);   // nearest microsecond: from_cuc(to_cuc(t)) == t f
 // Begins a packet; finish_packet ends it.
 void begin_packet(const PacketHeader& header, ByteWriter& writer);
 
-// Checks a whole packet. `header` and `data` (the source data) are untouched when it is refused.
-PacketFault parse_packet(ConstBytes packet, PacketHeader& header, ConstBytes& data);
+// Checks a whole packet of the component `apid`. `header` and `data` (the source data) are untouched when it is refused.
+PacketFault parse_packet(ConstBytes packet, PacketHeader& header, ConstBytes& data, std::uint16_t apid = kApid);
 
 }  // namespace lasso

@@ -10,8 +10,8 @@ namespace {
 constexpr std::size_t kIdentificationBytes = 2, kFlagsEnd = 3;
 constexpr std::size_t kLeastBytes = kPrimaryHeaderBytes + kPacketTrailerBytes;
 
-std::uint8_t identification(PacketType type, std::size_t byte) {
-  const std::uint32_t word = static_cast<std::uint32_t>(type) << 12 | 1U << 11 | kApid;
+std::uint8_t identification(PacketType type, std::uint16_t apid, std::size_t byte) {
+  const std::uint32_t word = static_cast<std::uint32_t>(type) << 12 | 1U << 11 | apid;
   return static_cast<std::uint8_t>(byte == 0 ? word >> 8 : word);
 }
 
@@ -63,7 +63,7 @@ PacketFinder::Candidate PacketFinder::candidate(std::size_t at) const {
 // As far as the bytes go that are there.
 bool PacketFinder::may_begin(ConstBytes bytes) const {
   for (std::size_t i = 0; i < bytes.size() && i < kIdentificationBytes; ++i) {
-    if (bytes[i] != identification(type_, i)) return false;
+    if (bytes[i] != identification(type_, apid_, i)) return false;
   }
   if (bytes.size() >= kFlagsEnd && bytes[kIdentificationBytes] >> 6 != kUnsegmented) return false;
   if (bytes.size() < kPrimaryHeaderBytes) return true;

@@ -17,8 +17,9 @@ namespace lasso {
 
 class PacketFinder {
  public:
-  // `buffer` outlives the finder and holds at least a primary header; a packet that it does not hold is none.
-  PacketFinder(PacketType type, Bytes buffer) : type_(type), buffer_(buffer) {}
+  // Of the packets of the component `apid`. `buffer` outlives the finder and holds at least a primary header; a packet that it does not
+  // hold is none.
+  PacketFinder(PacketType type, Bytes buffer, std::uint16_t apid = kApid) : type_(type), apid_(apid), buffer_(buffer) {}
 
   // Takes bytes until a packet is whole or `input` has no more, and returns how many it took. Call it again with the others. Loop bound:
   // bytes of buffer and input; each costs at most one check sum over the buffer.
@@ -43,6 +44,7 @@ class PacketFinder {
   void drop(std::size_t bytes);
 
   PacketType type_;
+  std::uint16_t apid_;
   Bytes buffer_;
   std::size_t size_ = 0;
   std::size_t found_ = 0;

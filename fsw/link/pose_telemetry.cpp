@@ -23,10 +23,10 @@ std::size_t encode_pose(const PoseTelemetry& pose, PacketHeader header, Bytes ou
   return finish_packet(writer, out);
 }
 
-PacketFault decode_pose(ConstBytes packet, PacketHeader& header, PoseTelemetry& pose) {
+PacketFault decode_pose(ConstBytes packet, PacketHeader& header, PoseTelemetry& pose, std::uint16_t apid) {
   PacketHeader parsed;
   ConstBytes data;
-  const PacketFault fault = parse_packet(packet, parsed, data);
+  const PacketFault fault = parse_packet(packet, parsed, data, apid);
   if (fault != PacketFault::kNone) return fault;
   ByteReader in(data);
   if (!is_pose_report(parsed) || in.u16() != kPoseStructureId) return PacketFault::kUnknown;

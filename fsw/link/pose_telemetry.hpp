@@ -121,6 +121,6 @@ constexpr std::size_t kMaxPosePacketBytes = 896;
 std::size_t encode_pose(const PoseTelemetry& pose, PacketHeader header, Bytes out);
 
 // kUnknown: not a pose packet. When it is refused, `header` and `pose` are untouched.
-PacketFault decode_pose(ConstBytes packet, PacketHeader& header, PoseTelemetry& pose);
+PacketFault decode_pose(ConstBytes packet, PacketHeader& header, PoseTelemetry& pose, std::uint16_t apid = kApid);
 
 }  // namespace lasso

@@ -16,11 +16,11 @@ PacketFault check_size(ConstBytes packet, std::size_t least) {
   return stated == packet.size() ? PacketFault::kNone : PacketFault::kBadLength;
 }
 
-PacketFault check_header(const PrimaryHeader& header, PacketType type) {
+PacketFault check_header(const PrimaryHeader& header, PacketType type, std::uint16_t apid) {
   if (header.version != 0) return PacketFault::kBadVersion;
   if (header.type != type) return PacketFault::kBadType;
   if (!header.secondary_header) return PacketFault::kNoSecondaryHeader;
-  if (header.apid != kApid) return PacketFault::kOtherApid;
+  if (header.apid != apid) return PacketFault::kOtherApid;
   return header.sequence_flags == kUnsegmented ? PacketFault::kNone : PacketFault::kSegmented;
 }
 
@@ -99,12 +99,12 @@ std::size_t packet_size(ConstBytes stream) {
   return kPrimaryHeaderBytes + 1 + in.u16();
 }
 
-PacketFault check_packet(ConstBytes packet, PacketType type, std::size_t least) {
+PacketFault check_packet(ConstBytes packet, PacketType type, std::size_t least, std::uint16_t apid) {
   const PacketFault fault = check_size(packet, least);
   if (fault != PacketFault::kNone) return fault;
   // The check sum over data and its own check sum is zero.
   if (crc16_ccitt(packet) != 0) return PacketFault::kBadCrc;
-  return check_header(read_primary_header(packet), type);
+  return check_header(read_primary_header(packet), type, apid);
 }
 
 }  // namespace lasso

@@ -11,11 +11,11 @@
 #include <cstdint>
 
 #include "fsw/core/byte_codec.hpp"
+#include "fsw/core/identity.hpp"
 #include "fsw/core/span.hpp"
 
 namespace lasso {
 
-constexpr std::uint16_t kApid = 0x3D1;
 constexpr std::uint8_t kPusVersion = 2;
 constexpr std::uint8_t kUnsegmented = 3;
 constexpr std::size_t kPrimaryHeaderBytes = 6;
@@ -65,7 +65,7 @@ std::size_t finish_packet(ByteWriter& writer, Bytes out);
 std::size_t packet_size(ConstBytes stream);
 
 // Checks all that commands and telemetry have in common, in the order of PacketFault: at least `least` bytes, as many as it says, CRC, and
-// each field of the primary header.
-PacketFault check_packet(ConstBytes packet, PacketType type, std::size_t least);
+// each field of the primary header; its application process has to be `apid`.
+PacketFault check_packet(ConstBytes packet, PacketType type, std::size_t least, std::uint16_t apid);
 
 }  // namespace lasso

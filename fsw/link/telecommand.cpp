@@ -14,8 +14,8 @@ void begin_command(const CommandHeader& header, ByteWriter& writer) {
   writer.u16(header.source);
 }
 
-PacketFault parse_command(ConstBytes packet, CommandHeader& header, ConstBytes& data) {
-  const PacketFault fault = check_packet(packet, PacketType::kCommand, kCommandHeaderBytes + kPacketTrailerBytes);
+PacketFault parse_command(ConstBytes packet, CommandHeader& header, ConstBytes& data, std::uint16_t apid) {
+  const PacketFault fault = check_packet(packet, PacketType::kCommand, kCommandHeaderBytes + kPacketTrailerBytes, apid);
   if (fault != PacketFault::kNone) return fault;
   ByteReader in(packet.subspan(kPrimaryHeaderBytes, kCommandHeaderBytes - kPrimaryHeaderBytes));
   const std::uint8_t version = in.u8();

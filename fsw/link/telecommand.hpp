@@ -33,7 +33,7 @@ struct CommandHeader {
 // Begins a packet; finish_packet ends it.
 void begin_command(const CommandHeader& header, ByteWriter& writer);
 
-// Checks a whole packet. `header` and `data` (the application data) are untouched when it is refused.
-PacketFault parse_command(ConstBytes packet, CommandHeader& header, ConstBytes& data);
+// Checks a whole packet for the component `apid`. `header` and `data` (the application data) are untouched when it is refused.
+PacketFault parse_command(ConstBytes packet, CommandHeader& header, ConstBytes& data, std::uint16_t apid = kApid);
 
 }  // namespace lasso

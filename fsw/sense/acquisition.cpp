@@ -12,8 +12,9 @@ struct Cause {
 };
 constexpr Cause kCauses[] = {
     {Status::kMissing, ScanLoss::kInhibited},  {Status::kOverCapacity, ScanLoss::kNoRoom}, {Status::kTimeout, ScanLoss::kSilent},
-    {Status::kBusy, ScanLoss::kBusy},          {Status::kBadValue, ScanLoss::kRefused},    {Status::kBadOrder, ScanLoss::kRestarted},
-    {Status::kBadVersion, ScanLoss::kForeign}, {Status::kTruncated, ScanLoss::kStopped},   {Status::kOffPlan, ScanLoss::kOffPlan},
+    {Status::kNoData, ScanLoss::kSilent},      {Status::kBusy, ScanLoss::kBusy},           {Status::kBadValue, ScanLoss::kRefused},
+    {Status::kBadOrder, ScanLoss::kRestarted}, {Status::kBadVersion, ScanLoss::kForeign},  {Status::kTruncated, ScanLoss::kStopped},
+    {Status::kOffPlan, ScanLoss::kOffPlan},
 };
 
 constexpr double kDirectionTolerance = 2e-3;  // of the squared length

@@ -37,7 +37,7 @@ enum class ScanLoss : std::uint8_t {
   kNone = 0,         // it was not lost
   kInhibited = 1,    // the sensor's light is: kMissing
   kNoRoom = 2,       // the sensor takes no more commands: kOverCapacity
-  kSilent = 3,       // the sensor does not answer: kTimeout
+  kSilent = 3,       // the sensor does not answer, or has nothing: kTimeout, kNoData
   kBusy = 4,         // an earlier scan runs
   kRefused = 5,      // the plan is outside the sensor's limits: kBadValue
   kRestarted = 6,    // the sensor has started anew: kBadOrder
@@ -83,7 +83,7 @@ class Acquisition {
   //   kOk       complete, and at least kUsablePercent of the samples asked for are well formed (hits, misses, or declared invalid): usable
   //   kTimeout  not complete in time; usable when at least kUsablePercent of the points are there, well formed
   //   kBadValue complete, but fewer well-formed samples than that: not usable
-  //   kNoData   no scan was started
+  //   kNoData   no scan was started, or the sensor had nothing: its loss says which
   //   other     the sensor lost the scan, or refused it, for this reason: not usable
   // The image of a scan that is not usable is emptied: never half-used.
   ScanVerdict finish(Sensor& sensor, RangeImage& image);

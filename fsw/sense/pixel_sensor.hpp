@@ -28,7 +28,8 @@ class PixelSensor {
  public:
   virtual PixelPitch pitch() const = 0;
   // Takes a frame at t_start_us or as soon after as the hardware can. It may leave out pixels that lie outside the plan's window. kBusy
-  // while a frame is under way, kBadValue when the window is outside the sensor's limits; the sensor is then as it was.
+  // while a frame is under way, kBadValue when the window is outside the sensor's limits; the sensor is then as it was. Other answers, of
+  // poll(), too: as a Sensor's (sensor.hpp).
   virtual Status start(const ScanPlan& plan, TimeUs t_start_us) = 0;
   // Hands over at most out.size() pixels that are there by `now_us`. Each says where it looks (direction) even where it measured nothing:
   // kHit, kMiss (nothing returned), kInvalid (no measurement). Its t_us means nothing.
@@ -36,10 +37,10 @@ class PixelSensor {
   // Ends a frame and discards its pixels. No effect when idle.
   virtual void abort() = 0;
   virtual SensorCounters counters() const { return {}; }
-  virtual void permit_laser(bool /*permitted*/) {}
+  virtual void permit_laser(bool permitted) = 0;
 
  protected:
-  ~PixelSensor() = default;
+  ~PixelSensor() = default;  // never deleted through this interface: no operator delete in flight code
 };
 
 }  // namespace lasso

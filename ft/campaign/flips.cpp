@@ -66,6 +66,7 @@ class FlippingSensor final : public Sensor {
     return poll;
   }
   void abort() override { sensor_.abort(); }
+  void permit_laser(bool permitted) override { sensor_.permit_laser(permitted); }
 
  private:
   Sensor& sensor_;

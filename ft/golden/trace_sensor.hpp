@@ -16,6 +16,7 @@ class TraceRecorder final : public Sensor {
   Status start(const ScanPlan& plan, TimeUs t_start_us) override;
   SensorPoll poll(TimeUs now_us, Span<RangeSample> out) override;
   void abort() override;
+  void permit_laser(bool permitted) override { sensor_.permit_laser(permitted); }
 
   const std::vector<std::uint8_t>& calls() const { return calls_; }
 
@@ -34,6 +35,7 @@ class TracePlayer final : public Sensor {
   Status start(const ScanPlan& plan, TimeUs t_start_us) override;
   SensorPoll poll(TimeUs now_us, Span<RangeSample> out) override;
   void abort() override;
+  void permit_laser(bool /*permitted*/) override {}  // the trace is of one that was
 
   bool differs() const { return differs_; }
   std::size_t position() const { return calls_.position(); }  // bytes into the calls: where it stopped, once it differs

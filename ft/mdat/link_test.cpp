@@ -189,6 +189,22 @@ TEST(Link, AFileThatGrowsIsFollowed) {
   EXPECT_EQ(work.mdat("decode nothing --follow").exit_code, 2);
 }
 
+TEST(Link, AnotherComponentsPacketsAreWrittenAndReadByItsApid) {
+  VERIFIES("LASSO-LNK-044~1");
+  const WorkFolder work;
+  ASSERT_EQ(work.mdat("command ping --apid 0x2A5 --out ping").exit_code, 0);
+  EXPECT_EQ(work.read("ping").substr(0, 2), "\x1A\xA5") << "a command, with secondary header, for 0x2A5";
+  EXPECT_NE(work.mdat("decode ping --commands --apid 677").out.find("ping"), std::string::npos);
+  const Answer preset = work.mdat("decode ping --commands");
+  EXPECT_EQ(preset.exit_code, 2);
+  EXPECT_NE(preset.err.find("no command of APID 977"), std::string::npos) << preset.err;
+  EXPECT_NE(preset.err.find("--headers lists the APIDs"), std::string::npos) << preset.err;
+  EXPECT_EQ(Json::parse(work.mdat("dictionary --format json --apid 677").out).at("apid"), 677);
+  const Answer idle = work.mdat("command ping --apid 2047 --out ping");
+  EXPECT_EQ(idle.exit_code, 2);
+  EXPECT_NE(idle.err.find("'2047' is no number from 1 to 2046"), std::string::npos) << idle.err;
+}
+
 // Of somebody else: another APID, and a secondary header of another form.
 TEST(Link, HeadersOfAnyStreamAreListed) {
   VERIFIES("LASSO-GND-021~2");

@@ -64,7 +64,7 @@ void board_probe(std::uint32_t) {
     case 9:
       hang();
     case 10:
-      lasso::on_invariant_failure("planted");
+      lasso::fail_invariant("planted");
     default:
       hang();
   }

@@ -24,6 +24,7 @@ struct CommandArguments {
   std::string name, to, out, key;
   std::vector<std::string> arguments;
   std::optional<std::uint16_t> count;
+  std::uint16_t apid = kApid;
   std::optional<double> wait_s;
   double listen_s = 0;
   bool list = false, arm = false, poses = false;
@@ -57,7 +58,7 @@ std::unique_ptr<posix::PosixLink> connect(const CommandArguments& options) {
 
 void send(const CommandArguments& options, const PacketRow& row, const std::map<std::string, std::string>& values) {
   const std::unique_ptr<posix::PosixLink> link = connect(options);
-  Station station(*link, options.to, printer(options.poses));
+  Station station(*link, options.to, printer(options.poses), options.apid);
   if (options.count) station.set_count(*options.count);
   if (!options.key.empty()) station.sign_with(load_key(options.key));
   const double wait_s = options.wait_s.value_or(kCompiling_s);
@@ -76,8 +77,8 @@ void send(const CommandArguments& options, const PacketRow& row, const std::map<
 void write(const CommandArguments& options, const PacketRow& row, const std::map<std::string, std::string>& values) {
   std::uint16_t count = options.count.value_or(0);
   std::vector<Packet> packets;
-  if (options.arm) packets.push_back(arm_for(row, count++));
-  packets.push_back(encode_command(row, values, count));
+  if (options.arm) packets.push_back(arm_for(row, count++, options.apid));
+  packets.push_back(encode_command(row, values, count, options.apid));
   std::optional<Signer> signer;
   if (!options.key.empty()) signer.emplace(load_key(options.key));
   Packet bytes;
@@ -99,7 +100,7 @@ void command(const CommandArguments& options) {
   if (options.arm && row.hazard == Hazard::kNone) throw InputError(options.name + ": is not hazardous; leave --arm out");
   std::map<std::string, std::string> values;
   for (const std::string& argument : options.arguments) values.insert(split_argument(argument));
-  static_cast<void>(encode_command(row, values, 0));  // what is wrong is said before anything is sent
+  static_cast<void>(encode_command(row, values, 0, options.apid));  // what is wrong is said before anything is sent
   options.to.empty() ? write(options, row, values) : send(options, row, values);
 }
 
@@ -118,6 +119,7 @@ void add_command_command(CLI::App& app) {
   subcommand->add_flag("--arm", options->arm, "arm a hazardous command before it");
   subcommand->add_option("--count", options->count, "sequence count (with --to: one that the component takes; with --out: 0)")
       ->check(CLI::Range(0, 16383));
+  add_apid(*subcommand, options->apid);
   subcommand->add_option("--wait", options->wait_s, "seconds to wait for the answer (2 where nobody listens, 120 for a run that compiles)")
       ->check(number_between(0.0, 3600.0));
   subcommand->add_option("--listen", options->listen_s, "seconds to go on printing what comes after the answer")

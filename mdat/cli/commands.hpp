@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "fsw/core/identity.hpp"
 #include "mdat/missiondb/mission_source.hpp"
 
 namespace lasso::mdat {
@@ -57,6 +58,9 @@ void add_no_cache(CLI::App& command, bool& cached);
 
 // Of an option: a number from low to high. CLI11's own ranges take what is not a number.
 CLI::Validator number_between(double low, double high);
+
+// --apid of a subcommand that speaks with a component, or of one.
+void add_apid(CLI::App& command, std::uint16_t& apid);
 
 // Refuses an output that is one of the inputs, or another output. Throws InputError.
 void refuse_same_files(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs);

@@ -19,6 +19,7 @@ namespace {
 
 struct DecodeArguments {
   std::string file, format = "table";
+  std::uint16_t apid = kApid;
   bool headers = false, commands = false, follow = false;
   Selection selection;
 };
@@ -30,9 +31,12 @@ ConstBytes view(const std::string& content) { return {reinterpret_cast<const std
 // Of a run that recorded nothing there is nothing to print; what has bytes and no packet is another file.
 void require_packets(std::size_t packets, const DecodeArguments& options, const std::string& content) {
   if (packets > 0 || content.empty()) return;
-  const char* const kind = options.headers ? "space packet" : options.commands ? "command" : "packet of telemetry";
-  throw InputError(options.file + ": no " + kind + " in its " + std::to_string(content.size()) +
-                   " bytes: give a recorded stream (telemetry.ccsds of a run; one of commands with --commands)");
+  if (options.headers) throw InputError(options.file + ": no space packet in its " + std::to_string(content.size()) + " bytes");
+  const char* const kind = options.commands ? "command" : "packet of telemetry";
+  throw InputError(
+      format("%s: no %s of APID %u in its %zu bytes: give a recorded stream (telemetry.ccsds of a run; one of commands with "
+             "--commands; --headers lists the APIDs of any)",
+             options.file.c_str(), kind, options.apid, content.size()));
 }
 
 void list(const DecodeArguments& options, const std::string& content) {
@@ -89,7 +93,7 @@ void follow(const DecodeArguments& options) {
   std::size_t begun = 0;  // of the file, where `waiting` begins
   for (std::string waiting; !interrupted; std::this_thread::sleep_for(kLook)) {
     waiting += tail.take();
-    DecodedStream stream = decode_stream(view(waiting), options.commands ? PacketType::kCommand : PacketType::kTelemetry);
+    DecodedStream stream = decode_stream(view(waiting), options.commands ? PacketType::kCommand : PacketType::kTelemetry, options.apid);
     std::size_t done = waiting.size() > kLargestPacket ? waiting.size() - kLargestPacket : 0;
     if (!stream.packets.empty()) done = std::max(done, stream.packets.back().offset + stream.packets.back().bytes.size());
     for (DecodedPacket& packet : stream.packets) packet.offset += begun;
@@ -105,7 +109,7 @@ void decode(const DecodeArguments& options) {
   if (options.follow) return follow(options);
   const std::string content = file_content(options.file);
   if (options.headers) return list(options, content);
-  const DecodedStream stream = decode_stream(view(content), options.commands ? PacketType::kCommand : PacketType::kTelemetry);
+  const DecodedStream stream = decode_stream(view(content), options.commands ? PacketType::kCommand : PacketType::kTelemetry, options.apid);
   require_packets(stream.packets.size(), options, content);
   print(text_of(stream, options));
   std::fprintf(stderr, "%s, %s that belong to none\n", amount(stream.packets.size(), "packet").c_str(),
@@ -123,6 +127,7 @@ void add_decode_command(CLI::App& app) {
       ->check(CLI::IsMember({"table", "json", "csv", "pcap"}));
   command->add_option("--packet", options->selection.packet, "packets of this name alone");
   command->add_option("--items", options->selection.items, "these items alone, separated by commas")->delimiter(',');
+  add_apid(*command, options->apid);
   command->add_flag("--commands", options->commands, "the stream is one of commands, not of telemetry");
   command->add_flag("--headers", options->headers, "list headers, sequence gaps and check sums of any stream of space packets");
   command->add_flag("--follow", options->follow, "go on with what is added to the file, until Ctrl-C");

@@ -12,16 +12,17 @@
 namespace lasso::mdat {
 namespace {
 
-std::string text_of(const std::string& format) {
-  if (format == "html") return dictionary_html();
-  if (format == "json") return dictionary_json();
-  if (format == "xtce") return dictionary_xtce();
-  if (format == "xtce-flat") return dictionary_xtce(XtceArrays::kWrittenOut);
-  return format == "lua" ? dictionary_lua() : dictionary_markdown();
+std::string text_of(const std::string& format, std::uint16_t apid) {
+  if (format == "html") return dictionary_html(apid);
+  if (format == "json") return dictionary_json(apid);
+  if (format == "xtce") return dictionary_xtce(XtceArrays::kAsArrays, apid);
+  if (format == "xtce-flat") return dictionary_xtce(XtceArrays::kWrittenOut, apid);
+  return format == "lua" ? dictionary_lua(apid) : dictionary_markdown(apid);
 }
 
 struct DictionaryArguments {
   std::string format = "md", out;
+  std::uint16_t apid = kApid;
   bool force = false;
 };
 
@@ -33,7 +34,7 @@ void write_plug_in(const DictionaryArguments& options) {
   std::error_code ignored;
   if (!options.force && fs::exists(folder, ignored) && !fs::is_empty(folder, ignored))
     throw InputError(options.out + ": is not empty; --force writes the plug-in into it, --out DIR elsewhere");
-  const std::map<std::string, std::string> files = dictionary_cosmos();
+  const std::map<std::string, std::string> files = dictionary_cosmos(options.apid);
   for (const auto& [name, content] : files) {
     fs::create_directories((folder / name).parent_path());
     write_file(folder / name, content);
@@ -45,10 +46,10 @@ void write_plug_in(const DictionaryArguments& options) {
 void print_dictionary(const DictionaryArguments& options) {
   if (options.format == "cosmos") return write_plug_in(options);
   if (options.out.empty()) {
-    std::fputs(text_of(options.format).c_str(), stdout);
+    std::fputs(text_of(options.format, options.apid).c_str(), stdout);
   } else {
     if (!options.force) refuse_to_replace({options.out}, "--force replaces it");
-    write_file(options.out, text_of(options.format));
+    write_file(options.out, text_of(options.format, options.apid));
   }
 }
 
@@ -65,6 +66,7 @@ void add_dictionary_command(CLI::App& app) {
       ->capture_default_str()
       ->check(CLI::IsMember({"md", "html", "json", "xtce", "xtce-flat", "lua", "cosmos"}));
   command->add_option("-o,--out", options->out, "file to write instead; of cosmos the folder");
+  add_apid(*command, options->apid);
   command->add_flag("--force", options->force, "replace what is there");
   command->callback([options] { print_dictionary(*options); });
 }

@@ -27,6 +27,7 @@ constexpr double kStatusEach_s = 1, kSilent_s = 2;
 struct MonitorArguments {
   std::string url, mission, record, key;
   std::optional<double> seconds;
+  std::uint16_t apid = kApid;
   LiveOptions live;
   bool listens = false, force = false, cached = true;
 };
@@ -152,7 +153,7 @@ void monitor(const MonitorArguments& options) {
   }
   const std::atomic<bool>& interrupted = interruption();
   std::unique_ptr<Monitor> shown;
-  Connection connection({options.url, options.listens, key}, [&](const DecodedPacket& packet) { shown->take(packet); });
+  Connection connection({options.url, options.listens, key, options.apid}, [&](const DecodedPacket& packet) { shown->take(packet); });
   LiveRun live(options.live, "telemetry of " + options.url, std::nullopt);
   recorder.tap = live.tap();
   shown = std::make_unique<Monitor>(std::move(recorder), image);
@@ -186,6 +187,7 @@ void add_monitor_command(CLI::App& app) {
   command->add_flag("--listen", options->listens, "wait at this address for a component that sends by itself, instead of calling it");
   command->add_option("--key", options->key,
                       "file with the key that the component asks commands to be signed with (64 hexadecimal digits)");
+  add_apid(*command, options->apid);
   command->add_option("--seconds", options->seconds, "end after so long (until Ctrl-C)")->check(number_between(0.1, 1e9));
   command->add_flag("--force", options->force, "replace FILE.mcap");
   add_no_cache(*command, options->cached);

@@ -28,6 +28,12 @@ CLI::Validator number_between(double low, double high) {
   return CLI::Validator(check, numbers_span(low, high));
 }
 
+void add_apid(CLI::App& command, std::uint16_t& apid) {
+  command.add_option("--apid", apid, "application process of the component, as its host has given it (977 is 0x3D1)")
+      ->capture_default_str()
+      ->check(number_between(kLeastApid, kLargestApid));
+}
+
 void refuse_same_files(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs) {
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     for (const std::string& input : inputs) {

@@ -54,6 +54,7 @@ void add_upload_command(CLI::App& app) {
       ->required();
   subcommand->add_option("--key", options->key,
                          "file with the key that the component asks commands to be signed with (64 hexadecimal digits)");
+  add_apid(*subcommand, options->upload.apid);
   subcommand->add_flag("--activate", options->upload.activate, "arm and activate it, and wait until its first scans confirm it");
   subcommand->add_flag("--unchecked", options->unchecked, "send a flight image even if it is wrong: the component refuses it");
   add_no_cache(*subcommand, options->cached);

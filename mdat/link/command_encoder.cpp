@@ -107,8 +107,9 @@ void write_item(const PacketRow& row, const ItemRow& item, const std::string& te
   }
 }
 
-void begin(const PacketRow& row, std::uint16_t count, ByteWriter& writer) {
+void begin(const PacketRow& row, std::uint16_t count, std::uint16_t apid, ByteWriter& writer) {
   CommandHeader header;
+  header.apid = apid;
   header.sequence_count = count & kSequenceCountMask;
   header.service = row.service;
   header.subservice = row.subservice;
@@ -121,7 +122,7 @@ void finish(ByteWriter& writer, std::vector<std::uint8_t>& packet) {
 }
 
 void check_alone(const PacketRow& row, const std::vector<std::uint8_t>& packet) {
-  const HeldCommand held = held_command(ConstBytes(packet.data() + 1, packet.size() - 1));
+  const HeldCommand held = held_command(ConstBytes(packet.data() + 1, packet.size() - 1), apid_of({packet.data(), packet.size()}));
   if (held.name == nullptr) return;
   throw InputError(
       format("%s: holds another command (%s) at its byte %zu: were it damaged on its way, the component would carry that out. "
@@ -152,13 +153,14 @@ std::pair<std::string, std::string> split_argument(const std::string& argument) 
   return {argument.substr(0, equals), argument.substr(equals + 1)};
 }
 
-HeldCommand held_command(ConstBytes bytes) {
-  const DecodedStream found = decode_stream(bytes, PacketType::kCommand);
+HeldCommand held_command(ConstBytes bytes, std::uint16_t apid) {
+  const DecodedStream found = decode_stream(bytes, PacketType::kCommand, apid);
   if (found.packets.empty()) return {};
   return {found.packets.front().name(), found.packets.front().offset};
 }
 
-std::vector<std::uint8_t> encode_command(const PacketRow& row, const std::map<std::string, std::string>& values, std::uint16_t count) {
+std::vector<std::uint8_t> encode_command(const PacketRow& row, const std::map<std::string, std::string>& values, std::uint16_t count,
+                                         std::uint16_t apid) {
   std::vector<std::string> names;
   for (const ItemRow& item : row.items) names.emplace_back(item.name);
   for (const auto& [name, value] : values) {
@@ -168,7 +170,7 @@ std::vector<std::uint8_t> encode_command(const PacketRow& row, const std::map<st
   }
   std::vector<std::uint8_t> packet(kLargestCommand);
   ByteWriter writer{Bytes(packet.data(), packet.size())};
-  begin(row, count, writer);
+  begin(row, count, apid, writer);
   for (const ItemRow& item : row.items) {
     const auto value = values.find(item.name);
     if (value == values.end()) throw InputError(of(row, item) + " is missing\n" + command_help(row));
@@ -179,11 +181,11 @@ std::vector<std::uint8_t> encode_command(const PacketRow& row, const std::map<st
   return packet;
 }
 
-std::vector<std::uint8_t> arm_for(const PacketRow& row, std::uint16_t count) {
+std::vector<std::uint8_t> arm_for(const PacketRow& row, std::uint16_t count, std::uint16_t apid) {
   return encode_command(
       command_row("arm"),
       {{"service", std::to_string(row.service)}, {"subservice", std::to_string(row.subservice)}, {"number", std::to_string(row.number)}},
-      count);
+      count, apid);
 }
 
 std::string command_list() {

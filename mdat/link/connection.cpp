@@ -29,10 +29,13 @@ Connection::~Connection() = default;
 void Connection::open() {
   acted_ = std::chrono::steady_clock::now();
   link_ = place_.listens ? posix::open_link(place_.url) : posix::connect_link(place_.url);
-  station_ = std::make_unique<Station>(*link_, place_.url, [this](const DecodedPacket& packet) {
-    health_.take(packet.bytes, std::chrono::steady_clock::now());
-    listener_(packet);
-  });
+  station_ = std::make_unique<Station>(
+      *link_, place_.url,
+      [this](const DecodedPacket& packet) {
+        health_.take(packet.bytes, std::chrono::steady_clock::now());
+        listener_(packet);
+      },
+      place_.apid);
   if (place_.key) station_->sign_with(*place_.key);
   trouble_.clear();
   if (link_->datagrams() && !place_.listens) (void)station_->call();

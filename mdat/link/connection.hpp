@@ -18,6 +18,7 @@ struct ConnectionPlace {
   std::string url;         // as posix::connect_link takes it
   bool listens = false;    // bound there, udp or tcp, for a component that sends by itself
   std::optional<Key> key;  // by which commands are signed
+  std::uint16_t apid = kApid;
 };
 
 class Connection {

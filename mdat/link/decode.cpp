@@ -33,11 +33,11 @@ DecodedItem decode_item(const ItemRow& row, ConstBytes bytes) {
   return item;
 }
 
-// The size of the packet that `bytes` begin with, by a header of this component; 0: another header, or not whole.
-std::size_t own_packet(ConstBytes bytes, PacketType type) {
+// The size of the packet that `bytes` begin with, by a header of the component; 0: another header, or not whole.
+std::size_t own_packet(ConstBytes bytes, PacketType type, std::uint16_t apid) {
   if (bytes.size() < kPrimaryHeaderBytes) return 0;
   const PrimaryHeader header = read_primary_header(bytes);
-  const bool own = header.version == 0 && header.type == type && header.secondary_header && header.apid == kApid;
+  const bool own = header.version == 0 && header.type == type && header.secondary_header && header.apid == apid;
   const std::size_t size = packet_size(bytes);
   const bool fits = size >= kPrimaryHeaderBytes + kPacketTrailerBytes && size <= bytes.size();
   return own && header.sequence_flags == kUnsegmented && fits ? size : 0;
@@ -69,12 +69,12 @@ DecodedPacket decode_packet(ConstBytes bytes, PacketType type) {
   return packet;
 }
 
-DecodedStream decode_stream(ConstBytes stream, PacketType type) {
+DecodedStream decode_stream(ConstBytes stream, PacketType type, std::uint16_t apid) {
   const StreamCrc crc(stream);
   DecodedStream decoded;
   std::size_t in_packets = 0;
   for (std::size_t at = 0; at < stream.size();) {
-    const std::size_t size = own_packet(stream.subspan(at, stream.size() - at), type);
+    const std::size_t size = own_packet(stream.subspan(at, stream.size() - at), type, apid);
     if (size == 0 || !crc.right(at, size)) {
       ++at;
       continue;
@@ -87,5 +87,7 @@ DecodedStream decode_stream(ConstBytes stream, PacketType type) {
   decoded.other_bytes = stream.size() - in_packets;
   return decoded;
 }
+
+std::uint16_t apid_of(ConstBytes bytes) { return bytes.size() < kPrimaryHeaderBytes ? kApid : read_primary_header(bytes).apid; }
 
 }  // namespace lasso::mdat

@@ -33,10 +33,13 @@ struct DecodedStream {
 // Of the primary and the secondary header, in the order of the wire.
 std::vector<HeaderField> header_fields(PacketType type);
 
-// The packets of this component in `stream`, which outlives them: found by their headers and CRC, whatever lies between them.
-DecodedStream decode_stream(ConstBytes stream, PacketType type);
+// The packets of the component `apid` in `stream`, which outlives them: found by their headers and CRC, whatever lies between them.
+DecodedStream decode_stream(ConstBytes stream, PacketType type, std::uint16_t apid = kApid);
 
 // The packet at the start of `bytes`, which has to be whole and its CRC right.
 DecodedPacket decode_packet(ConstBytes bytes, PacketType type);
+
+// Whose the packet at the start of `bytes` is; of less than a primary header the preset.
+std::uint16_t apid_of(ConstBytes bytes);
 
 }  // namespace lasso::mdat

@@ -98,16 +98,16 @@ std::string header_item(const char* prefix, const HeaderField& field, unsigned v
   return format("  APPEND_ITEM %s %u UINT ", name.c_str(), field.bits) + quoted(field.meaning) + "\n";
 }
 
-unsigned type_value(const HeaderField& field, const PacketRow& packet) {
+unsigned type_value(const HeaderField& field, const PacketRow& packet, unsigned apid) {
   const std::string name = field.name;
-  if (name == "apid") return kApid;
+  if (name == "apid") return apid;
   return name == "service" ? packet.service : packet.subservice;
 }
 
-std::string telemetry_packet(const PacketRow& packet) {
+std::string telemetry_packet(const PacketRow& packet, unsigned apid) {
   std::string text = format("TELEMETRY %s %s BIG_ENDIAN ", kTarget, capitals(packet.name).c_str()) + quoted(packet.meaning) + "\n";
-  for (const HeaderField& field : kPrimaryFields) text += header_item("CCSDS_", field, type_value(field, packet));
-  for (const HeaderField& field : kTelemetryFields) text += header_item("PUS_", field, type_value(field, packet));
+  for (const HeaderField& field : kPrimaryFields) text += header_item("CCSDS_", field, type_value(field, packet, apid));
+  for (const HeaderField& field : kTelemetryFields) text += header_item("PUS_", field, type_value(field, packet, apid));
   if (packet.numbered) text += format("  APPEND_ID_ITEM PUS_NUMBER 16 UINT %u ", packet.number) + quoted(kNumberField.meaning) + "\n";
   for (const ItemRow& row : packet.items) text += telemetry_item(row);
   return text + "  APPEND_ITEM PACKET_CRC 16 UINT " + quoted(kCheckField.meaning) + "\n\n";
@@ -120,9 +120,9 @@ struct HeaderValue {
 
 HeaderValue fixed(unsigned value) { return {value, value, value}; }
 
-HeaderValue primary_value(const HeaderField& field, const PacketRow& packet) {
+HeaderValue primary_value(const HeaderField& field, const PacketRow& packet, unsigned apid) {
   const std::string name = field.name;
-  if (name == "apid") return fixed(kApid);
+  if (name == "apid") return fixed(apid);
   if (name == "sequence_flags") return fixed(kUnsegmented);
   if (name == "sequence_count") return {0, 16383, 0};
   if (name == "data_length")
@@ -144,10 +144,10 @@ std::string header_parameter(const char* prefix, const HeaderField& field, Heade
          quoted(field.meaning) + "\n";
 }
 
-std::string command_packet(const PacketRow& packet) {
+std::string command_packet(const PacketRow& packet, unsigned apid) {
   std::string text = format("COMMAND %s %s BIG_ENDIAN ", kTarget, capitals(packet.name).c_str()) + quoted(packet.meaning) + "\n";
   if (packet.hazard != Hazard::kNone) text += "  HAZARDOUS " + quoted("it is carried out only after the command arm") + "\n";
-  for (const HeaderField& field : kPrimaryFields) text += header_parameter("CCSDS_", field, primary_value(field, packet));
+  for (const HeaderField& field : kPrimaryFields) text += header_parameter("CCSDS_", field, primary_value(field, packet, apid));
   for (const HeaderField& field : kCommandFields) text += header_parameter("PUS_", field, secondary_value(field, packet));
   if (packet.numbered)
     text += format("  APPEND_ID_PARAMETER PUS_NUMBER 16 UINT %u %u %u ", packet.number, packet.number, packet.number) +
@@ -160,17 +160,17 @@ std::string head_of(const char* what) {
   return format("# %s of 3DLASSO %s, written by mdat dictionary --format cosmos: change nothing here.\n\n", what, kVersion);
 }
 
-std::string telemetry_text() {
+std::string telemetry_text(unsigned apid) {
   std::string text = head_of("Telemetry");
   for (const PacketRow& packet : kPackets) {
-    if (packet.type == PacketType::kTelemetry) text += telemetry_packet(packet);
+    if (packet.type == PacketType::kTelemetry) text += telemetry_packet(packet, apid);
   }
   return text;
 }
 
-std::string commands_text() {
+std::string commands_text(unsigned apid) {
   std::string text = head_of("Commands");
-  for (const PacketRow& packet : command_rows::kCommands) text += command_packet(packet);
+  for (const PacketRow& packet : command_rows::kCommands) text += command_packet(packet, apid);
   return text;
 }
 
@@ -270,12 +270,12 @@ A hazardous command is armed first: send ARM with its service, subservice and nu
 
 }  // namespace
 
-std::map<std::string, std::string> dictionary_cosmos() {
+std::map<std::string, std::string> dictionary_cosmos(std::uint16_t apid) {
   return {{"README.md", kReadMe},
           {"openc3-cosmos-lasso.gemspec", gem_text()},
           {"plugin.txt", head_of("The plug-in") + kConnection},
-          {"targets/LASSO/cmd_tlm/cmd.txt", commands_text()},
-          {"targets/LASSO/cmd_tlm/tlm.txt", telemetry_text()},
+          {"targets/LASSO/cmd_tlm/cmd.txt", commands_text(apid)},
+          {"targets/LASSO/cmd_tlm/tlm.txt", telemetry_text(apid)},
           {"targets/LASSO/lib/lasso_sequence_protocol.rb", kSequence},
           {"targets/LASSO/screens/pose.txt", screen_text()},
           {"targets/LASSO/target.txt", target_text()}};

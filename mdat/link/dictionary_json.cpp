@@ -72,8 +72,8 @@ Json parameters() {
 
 }  // namespace
 
-std::string dictionary_json() {
-  Json json = {{"apid", kApid},
+std::string dictionary_json(std::uint16_t apid) {
+  Json json = {{"apid", apid},
                {"headers",
                 {{"primary", fields(Span<const HeaderField>(kPrimaryFields))},
                  {"telemetry", fields(Span<const HeaderField>(kTelemetryFields))},

@@ -164,11 +164,11 @@ std::string packet_table(const PacketRow& row) {
 
 }  // namespace
 
-std::string dictionary_lua() {
+std::string dictionary_lua(std::uint16_t apid) {
   std::string text =
       "-- Wireshark dissector of 3DLASSO's telemetry and commands, written by `mdat dictionary --format lua`.\n"
       "-- tshark -X lua_script:THIS -r FILE.pcap -V, where `mdat decode --format pcap` writes FILE.pcap.\n";
-  text += format("local apid, least_bytes = %u, {[0] = %zu, [1] = %zu}\n", kApid, kPacketHeaderBytes + kPacketTrailerBytes,
+  text += format("local apid, least_bytes = %u, {[0] = %zu, [1] = %zu}\n", apid, kPacketHeaderBytes + kPacketTrailerBytes,
                  kCommandHeaderBytes + kPacketTrailerBytes);
   text += header_list("primary", Span<const HeaderField>(kPrimaryFields));
   text += header_list("telemetry", Span<const HeaderField>(kTelemetryFields));

@@ -61,9 +61,9 @@ constexpr char kHtmlHead[] =
 
 }  // namespace
 
-std::string dictionary_markdown() {
+std::string dictionary_markdown(std::uint16_t apid) {
   std::string text;
-  for (const DocumentSection& section : interface_document()) {
+  for (const DocumentSection& section : interface_document(apid)) {
     text += std::string(static_cast<std::size_t>(section.level), '#') + " " + section.title + "\n\n";
     for (const std::string& paragraph : section.paragraphs) text += paragraph + "\n\n";
     text += markdown(section.table);
@@ -71,9 +71,9 @@ std::string dictionary_markdown() {
   return text.substr(0, text.size() - 1);
 }
 
-std::string dictionary_html() {
+std::string dictionary_html(std::uint16_t apid) {
   std::string text = kHtmlHead;
-  for (const DocumentSection& section : interface_document()) {
+  for (const DocumentSection& section : interface_document(apid)) {
     const std::string level = std::to_string(section.level);
     text += "<h" + level + ">" + escape(section.title) + "</h" + level + ">\n";
     for (const std::string& paragraph : section.paragraphs) {

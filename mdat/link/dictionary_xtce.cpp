@@ -137,32 +137,32 @@ std::string extending(const char* base, const std::string& comparisons) {
          "</ComparisonList></RestrictionCriteria></BaseContainer>\n</SequenceContainer>\n";
 }
 
-std::string type_comparisons(unsigned service, unsigned subservice) {
-  return comparison("apid", kApid) + comparison("service", service) + comparison("subservice", subservice);
+std::string type_comparisons(unsigned apid, unsigned service, unsigned subservice) {
+  return comparison("apid", apid) + comparison("service", service) + comparison("subservice", subservice);
 }
 
 // Of packets that their number tells apart.
 std::string family(const PacketRow& packet) { return format("numbered_%u_%u", packet.service, packet.subservice); }
 
-std::string family_container(const PacketRow& packet) {
+std::string family_container(const PacketRow& packet, unsigned apid) {
   return format("<SequenceContainer name=\"%s\" abstract=\"true\" shortDescription=\"service %u, subservice %u\">\n<EntryList>\n",
                 family(packet).c_str(), packet.service, packet.subservice) +
-         entry(kNumber.name) + "</EntryList>\n" + extending("telemetry", type_comparisons(packet.service, packet.subservice));
+         entry(kNumber.name) + "</EntryList>\n" + extending("telemetry", type_comparisons(apid, packet.service, packet.subservice));
 }
 
-std::string container(const PacketRow& packet, XtceArrays arrays) {
+std::string container(const PacketRow& packet, XtceArrays arrays, unsigned apid) {
   std::string text =
       "<SequenceContainer" + attribute("name", packet.name) + attribute("shortDescription", packet.meaning) + ">\n<EntryList>\n";
   for (const ItemRow& row : packet.items) text += item_entries(packet, row, arrays);
   text += entry("crc") + "</EntryList>\n";
   if (packet.numbered) return text + extending(family(packet).c_str(), comparison(kNumber.name, packet.number));
-  return text + extending("telemetry", type_comparisons(packet.service, packet.subservice));
+  return text + extending("telemetry", type_comparisons(apid, packet.service, packet.subservice));
 }
 
 constexpr HeaderField kCrc{"crc", 0, 16, "CRC-16 over all bytes before it"};
 
 // Of the fields of a command's headers: who says its value.
-enum class Filled { kFixed, kByCommand, kBySender };
+enum class Filled { kFixed, kApid, kByCommand, kBySender };
 struct CommandField {
   const HeaderField* field;
   Filled filled;
@@ -172,7 +172,7 @@ const CommandField kCommandFieldValues[] = {
     {&kPrimaryFields[0], Filled::kFixed, 0},
     {&kPrimaryFields[1], Filled::kFixed, static_cast<unsigned>(PacketType::kCommand)},
     {&kPrimaryFields[2], Filled::kFixed, 1},
-    {&kPrimaryFields[3], Filled::kFixed, kApid},
+    {&kPrimaryFields[3], Filled::kApid, 0},
     {&kPrimaryFields[4], Filled::kFixed, kUnsegmented},
     {&kPrimaryFields[5], Filled::kBySender, 0},
     {&kPrimaryFields[6], Filled::kByCommand, 0},
@@ -194,10 +194,12 @@ std::string argument(const std::string& name, const std::string& type, const std
 
 std::string argument_entry(const std::string& name) { return "<ArgumentRefEntry" + attribute("argumentRef", name) + "/>\n"; }
 
+bool is_fixed(const CommandField& header) { return header.filled == Filled::kFixed || header.filled == Filled::kApid; }
+
 std::string command_types(XtceArrays arrays) {
   std::string text;
   for (const CommandField& header : kCommandFieldValues) {
-    if (header.filled != Filled::kFixed) text += header_type(*header.field, Kind::kArgument);
+    if (!is_fixed(header)) text += header_type(*header.field, Kind::kArgument);
   }
   for (const PacketRow& packet : command_rows::kCommands) {
     for (const ItemRow& row : packet.items) text += item_types(packet, row, Kind::kArgument, arrays);
@@ -205,13 +207,14 @@ std::string command_types(XtceArrays arrays) {
   return text;
 }
 
-std::string base_command() {
+std::string base_command(unsigned apid) {
   std::string arguments, entries;
   for (const CommandField& header : kCommandFieldValues) {
     const HeaderField& field = *header.field;
-    const bool fixed = header.filled == Filled::kFixed;
+    const bool fixed = is_fixed(header);
+    const unsigned value = header.filled == Filled::kApid ? apid : header.value;
     if (!fixed) arguments += argument(field.name, std::string(field.name) + "_t", field.meaning);
-    entries += fixed ? fixed_value(field.name, header.value, field.bits) : argument_entry(field.name);
+    entries += fixed ? fixed_value(field.name, value, field.bits) : argument_entry(field.name);
   }
   return "<MetaCommand name=\"command\" abstract=\"true\" shortDescription=\"what all commands have in common\">\n<ArgumentList>\n" +
          arguments + "</ArgumentList>\n<CommandContainer name=\"command\">\n<EntryList>\n" + entries +
@@ -256,8 +259,8 @@ std::string meta_command(const PacketRow& packet, XtceArrays arrays) {
          "</MetaCommand>\n";
 }
 
-std::string command_meta_data(XtceArrays arrays) {
-  std::string commands = base_command();
+std::string command_meta_data(XtceArrays arrays, unsigned apid) {
+  std::string commands = base_command(apid);
   for (const PacketRow& packet : command_rows::kCommands) commands += meta_command(packet, arrays);
   return "<CommandMetaData>\n<ArgumentTypeSet>\n" + command_types(arrays) + "</ArgumentTypeSet>\n<MetaCommandSet>\n" + commands +
          "</MetaCommandSet>\n</CommandMetaData>\n";
@@ -265,7 +268,7 @@ std::string command_meta_data(XtceArrays arrays) {
 
 }  // namespace
 
-std::string dictionary_xtce(XtceArrays arrays) {
+std::string dictionary_xtce(XtceArrays arrays, std::uint16_t apid) {
   std::string types, parameters, containers = base_container();
   std::set<std::string> families;
   const auto add_field = [&](const HeaderField& field) {
@@ -280,13 +283,13 @@ std::string dictionary_xtce(XtceArrays arrays) {
     if (packet.type != PacketType::kTelemetry) continue;
     for (const ItemRow& row : packet.items) types += item_types(packet, row, Kind::kParameter, arrays);
     for (const ItemRow& row : packet.items) parameters += item_parameters(packet, row, arrays);
-    if (packet.numbered && families.insert(family(packet)).second) containers += family_container(packet);
-    containers += container(packet, arrays);
+    if (packet.numbered && families.insert(family(packet)).second) containers += family_container(packet, apid);
+    containers += container(packet, arrays, apid);
   }
   return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<SpaceSystem xmlns=\"http://www.omg.org/spec/XTCE/20180204\" name=\"lasso\" "
          "shortDescription=\"pose estimation by 3D scans\">\n<TelemetryMetaData>\n<ParameterTypeSet>\n" +
          types + "</ParameterTypeSet>\n<ParameterSet>\n" + parameters + "</ParameterSet>\n<ContainerSet>\n" + containers +
-         "</ContainerSet>\n</TelemetryMetaData>\n" + command_meta_data(arrays) + "</SpaceSystem>\n";
+         "</ContainerSet>\n</TelemetryMetaData>\n" + command_meta_data(arrays, apid) + "</SpaceSystem>\n";
 }
 
 }  // namespace lasso::mdat

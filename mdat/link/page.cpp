@@ -188,7 +188,7 @@ std::string range_text(const ItemRow& row) {
 }
 
 // What every packet has.
-std::vector<DocumentSection> packet_sections() {
+std::vector<DocumentSection> packet_sections(std::uint16_t apid) {
   return {
       {1,
        "The link",
@@ -205,9 +205,9 @@ std::vector<DocumentSection> packet_sections() {
         "it (polynomial 0x1021, initial 0xFFFF, nothing reflected: the CRC over packet and CRC is 0). All is big-endian. Byte and bit "
         "count "
         "from the packet's start, the most significant bit first.",
-        format("The application process (APID) is %u (0x%X). Time is CUC (301.0-B-4) without P-field: 4 bytes of seconds and 3 bytes of "
+        format("The application process (APID) is %u (0x%X)%s. Time is CUC (301.0-B-4) without P-field: 4 bytes of seconds and 3 bytes of "
                "fraction since the mission's epoch; every microsecond of 2^32 seconds has its own.",
-               kApid, kApid)},
+               apid, apid, apid == kApid ? ", the preset: its host may give a component another one, and `--apid` the ground tool" : "")},
        {}},
       {3, "Primary header", {}, header_table(Span<const HeaderField>(kPrimaryFields))},
       {3,
@@ -256,8 +256,8 @@ std::vector<DocumentSection> transport_sections() {
       {2, "Types", {}, type_table()}};
 }
 
-std::vector<DocumentSection> interface_document() {
-  std::vector<DocumentSection> document = packet_sections();
+std::vector<DocumentSection> interface_document(std::uint16_t apid) {
+  std::vector<DocumentSection> document = packet_sections(apid);
   for (DocumentSection& section : transport_sections()) document.push_back(std::move(section));
   document.push_back(service_section());
   document.push_back(event_section());

@@ -20,7 +20,7 @@ struct DocumentSection {
   DocumentTable table;                  // none if it has no head
 };
 
-std::vector<DocumentSection> interface_document();
+std::vector<DocumentSection> interface_document(std::uint16_t apid);  // of the component
 
 // "0 to 1", "at least 0", "any"; of an enumeration, its name.
 std::string range_text(const ItemRow& row);

@@ -63,7 +63,9 @@ Packet Signer::sign(const Packet& packet) {
   number_ = std::max(number_ + 1, now_us());
   CommandHeader header;
   ConstBytes data;
-  if (parse_command({packet.data(), packet.size()}, header, data) != PacketFault::kNone) throw RunError("what is no command is not signed");
+  const ConstBytes bytes(packet.data(), packet.size());
+  const std::uint16_t apid = bytes.size() < kPrimaryHeaderBytes ? kApid : read_primary_header(bytes).apid;  // whoever it is for
+  if (parse_command(bytes, header, data, apid) != PacketFault::kNone) throw RunError("what is no command is not signed");
   // The code covers the length field as it will be: the packet is finished once for that, and once for its check sum.
   Packet out(packet.size() + kTrailerBytes);
   const auto finish = [&](const Code& code) {

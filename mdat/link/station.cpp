@@ -57,8 +57,8 @@ std::string item_name(const DecodedPacket& packet, const std::string& item) {
   return choice != nullptr ? choice->name : "unknown";
 }
 
-Station::Station(ByteLink& link, std::string name, Listener listener)
-    : link_(link), name_(std::move(name)), listener_(std::move(listener)), count_(some_count()) {}
+Station::Station(ByteLink& link, std::string name, Listener listener, std::uint16_t apid)
+    : link_(link), name_(std::move(name)), apid_(apid), listener_(std::move(listener)), count_(some_count()), receiver_(apid) {}
 
 void Station::set_count(std::uint16_t count) {
   count_ = count;
@@ -71,11 +71,11 @@ CommandAnswer Station::command(const PacketRow& row, const Values& values, bool 
     const CommandAnswer armed = this->arm(row, wait_s);
     if (armed.outcome != Outcome::kDone) return armed;
   }
-  return ask([&](std::uint16_t count) { return encode_command(row, values, count); }, wait_s);
+  return ask([&](std::uint16_t count) { return encode_command(row, values, count, apid_); }, wait_s);
 }
 
 CommandAnswer Station::arm(const PacketRow& row, double wait_s) {
-  return ask([&](std::uint16_t count) { return arm_for(row, count); }, wait_s);
+  return ask([&](std::uint16_t count) { return arm_for(row, count, apid_); }, wait_s);
 }
 
 // Of a count that the component does not take, as others have counted on, the one half of all counts further on is taken, but where the
@@ -104,7 +104,7 @@ CommandAnswer Station::wait_for(const Packet& packet, double wait_s) {
   return answer;
 }
 
-void Station::send(const PacketRow& row, const Values& values) { transmit(encode_command(row, values, count_++)); }
+void Station::send(const PacketRow& row, const Values& values) { transmit(encode_command(row, values, count_++, apid_)); }
 
 void Station::transmit(const Packet& packet) {
   const Packet sent = signer_ ? signer_->sign(packet) : packet;
@@ -144,7 +144,7 @@ bool Station::listen(double seconds, const std::function<bool()>& done) {
 // By the time, so that it is not behind what others have counted since the last call.
 bool Station::call() {
   const auto count = static_cast<std::uint16_t>((agreed_ ? count_++ : some_count() + shift_) & kSequenceCountMask);
-  const Packet ping = encode_command(command_row("ping"), {}, count);
+  const Packet ping = encode_command(command_row("ping"), {}, count, apid_);
   called_ = command_key({ping.data(), ping.size()});
   const Packet sent = signer_ ? signer_->sign(ping) : ping;
   return link_.write({sent.data(), sent.size()}) > 0;

@@ -31,8 +31,9 @@ class Station {
   using Values = std::map<std::string, std::string>;
   using Listener = TelemetryReceiver::Listener;
 
-  // `name` stands in errors. The listener gets each packet that comes, before anything else is done with it. The link outlives the station.
-  Station(ByteLink& link, std::string name, Listener listener);
+  // Of the component `apid`. `name` stands in errors. The listener gets each packet that comes, before anything else is done with it. The
+  // link outlives the station.
+  Station(ByteLink& link, std::string name, Listener listener, std::uint16_t apid = kApid);
 
   // From now on commands are signed.
   void sign_with(const Key& key) { signer_.emplace(key); }
@@ -82,6 +83,7 @@ class Station {
 
   ByteLink& link_;
   std::string name_;
+  std::uint16_t apid_;
   Listener listener_;
   std::function<void()> accepted_ = [] {};
   double silent_after_s_ = 0;

@@ -19,8 +19,8 @@ std::size_t largest_packet() {
 
 }  // namespace
 
-TelemetryReceiver::TelemetryReceiver()
-    : buffer_(largest_packet()), input_(kMostAtOnce), finder_(PacketType::kTelemetry, Bytes(buffer_.data(), buffer_.size())) {}
+TelemetryReceiver::TelemetryReceiver(std::uint16_t apid)
+    : buffer_(largest_packet()), input_(kMostAtOnce), finder_(PacketType::kTelemetry, Bytes(buffer_.data(), buffer_.size()), apid) {}
 
 bool TelemetryReceiver::take(ByteLink& link, const Listener& listener) {
   const auto now = std::chrono::steady_clock::now();

@@ -16,7 +16,8 @@ class TelemetryReceiver {
  public:
   using Listener = std::function<void(const DecodedPacket&)>;
 
-  TelemetryReceiver();
+  // Of the component `apid`.
+  explicit TelemetryReceiver(std::uint16_t apid = kApid);
   TelemetryReceiver(const TelemetryReceiver&) = delete;
   TelemetryReceiver& operator=(const TelemetryReceiver&) = delete;
 

@@ -23,7 +23,11 @@ std::string number(std::uint64_t value) { return std::to_string(value); }
 class Upload {
  public:
   Upload(ByteLink& link, const std::string& name, const std::vector<std::uint8_t>& image, const UploadOptions& options)
-      : name_(name), image_(image), options_(options), station_(link, name, [this](const DecodedPacket& packet) { note(packet); }) {
+      : name_(name),
+        image_(image),
+        options_(options),
+        station_(
+            link, name, [this](const DecodedPacket& packet) { note(packet); }, options.apid) {
     if (options.key) station_.sign_with(*options.key);
   }
 
@@ -181,9 +185,9 @@ class Upload {
 };
 
 // Before anything is sent.
-void check_blocks(const std::vector<std::uint8_t>& image) {
+void check_blocks(const std::vector<std::uint8_t>& image, std::uint16_t apid) {
   for (std::size_t offset = 0; offset < image.size(); offset += kMemoryBlockBytes) {
-    const HeldCommand held = held_command({image.data() + offset, std::min(kMemoryBlockBytes, image.size() - offset)});
+    const HeldCommand held = held_command({image.data() + offset, std::min(kMemoryBlockBytes, image.size() - offset)}, apid);
     if (held.name == nullptr) continue;
     throw InputError(
         format("the image holds a command (%s) at byte %zu: were that block damaged on its way, the component would carry it "
@@ -199,7 +203,7 @@ std::uint32_t image_crc(const std::vector<std::uint8_t>& image) { return ByteRea
 UploadEnd upload(ByteLink& link, const std::string& name, const std::vector<std::uint8_t>& image, const UploadOptions& options) {
   if (image.size() < kMemoryBlockBytes)
     throw InputError(format("%zu bytes are no flight image; mdat mission compile makes one", image.size()));
-  check_blocks(image);
+  check_blocks(image, options.apid);
   return Upload(link, name, image, options).run();
 }
 

@@ -14,8 +14,9 @@ namespace lasso::mdat {
 struct UploadOptions {
   bool activate = false;
   std::optional<Key> key;  // that commands are signed with
-  double answer_s = 5;     // to wait for the answer of a command
-  double trial_s = 30;     // to wait until an image that is active is confirmed, or taken back
+  std::uint16_t apid = kApid;
+  double answer_s = 5;  // to wait for the answer of a command
+  double trial_s = 30;  // to wait until an image that is active is confirmed, or taken back
 };
 
 enum class UploadEnd {

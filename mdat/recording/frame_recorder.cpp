@@ -178,7 +178,7 @@ void FrameRecorder::close(const std::vector<std::uint8_t>& image) {
 
 // Each packet by the dictionary. The file has a packet's topic from the first one on.
 void FrameRecorder::write_told(TimeUs boundary_us, ConstBytes packets) {
-  for (const DecodedPacket& packet : decode_stream(packets, PacketType::kTelemetry).packets) {
+  for (const DecodedPacket& packet : decode_stream(packets, PacketType::kTelemetry, apid_of(packets)).packets) {
     if (packet.row == nullptr) continue;
     const std::string topic = packet_topic(*packet.row);
     if (channels_.count(topic) == 0) add_topic({topic, packet_schema(*packet.row)}, mcap::Bulk::kSmall);

@@ -39,10 +39,11 @@ void LinkRecorder::begin() {
 void LinkRecorder::take(const DecodedPacket& packet) {
   PacketHeader header;
   ConstBytes data;
-  if (parse_packet(packet.bytes, header, data) != PacketFault::kNone) return;
+  const std::uint16_t apid = apid_of(packet.bytes);
+  if (parse_packet(packet.bytes, header, data, apid) != PacketFault::kNone) return;
   PoseTelemetry told;
   std::optional<PoseTelemetry> pose;
-  if (decode_pose(packet.bytes, header, told) == PacketFault::kNone) pose = told;
+  if (decode_pose(packet.bytes, header, told, apid) == PacketFault::kNone) pose = told;
   if (pose) offset_us_ = header.t_us - pose->t_publication_us;
   if (!offset_us_ && header.time_status == kTimeStatusCorrelated && held_.size() < kMostHeld) {
     held_.emplace_back(packet.bytes.data(), packet.bytes.data() + packet.bytes.size());
@@ -58,7 +59,7 @@ void LinkRecorder::write_held() {
     const DecodedPacket packet = decode_packet({bytes.data(), bytes.size()}, PacketType::kTelemetry);
     PacketHeader header;
     ConstBytes data;
-    if (parse_packet(packet.bytes, header, data) == PacketFault::kNone) write(packet, header.t_us, std::nullopt);
+    if (parse_packet(packet.bytes, header, data, apid_of(packet.bytes)) == PacketFault::kNone) write(packet, header.t_us, std::nullopt);
   }
 }
 

@@ -6,6 +6,7 @@
 #include <future>
 #include <unordered_map>
 
+#include "mdat/link/decode.hpp"
 #include "mdat/recording/recording_head.hpp"
 #include "mdat/serve/frame_facts.hpp"
 
@@ -209,7 +210,7 @@ std::uint64_t Recording::Building::time_ns_of(std::uint64_t stated_ns, std::uint
 void Recording::add_pose(const mcap::Message& message, ConstBytes packet, std::size_t chunk, Building& building) {
   PacketHeader header;
   PoseTelemetry pose;
-  if (decode_pose(packet, header, pose) != PacketFault::kNone) return;
+  if (decode_pose(packet, header, pose, apid_of(packet)) != PacketFault::kNone) return;
   const std::uint64_t stated = stated_ns(pose, message.log_ns), time_ns = building.time_ns_of(stated, message.log_ns, pose.rays > 0);
   const double time_s = kNs * static_cast<double>(time_ns);
   const PacketColumns& columns = building.packets.at(telemetry_row(packet));
@@ -337,7 +338,7 @@ std::optional<PoseTelemetry> Recording::told(std::size_t n) const {
     const std::optional<ConstBytes> packet = message.channel == *channel && !found ? read_packet(message.data) : std::nullopt;
     PacketHeader header;
     PoseTelemetry pose;
-    if (!packet || decode_pose(*packet, header, pose) != PacketFault::kNone) return;
+    if (!packet || decode_pose(*packet, header, pose, apid_of(*packet)) != PacketFault::kNone) return;
     if (message.log_ns == frames_[n].told_ns && stated_ns(pose, message.log_ns) == frames_[n].stated_ns) found = pose;
   });
   return found;

@@ -30,6 +30,7 @@ class StereoSensor final : public Sensor {
   Status start(const ScanPlan& plan, TimeUs t_start_us) override;
   SensorPoll poll(TimeUs now_us, Span<RangeSample> out) override;
   void abort() override { running_ = false; }
+  void permit_laser(bool /*permitted*/) override {}  // it has none
   std::string failure() const;
 
  private:

@@ -27,9 +27,10 @@ def layout(row):
 
 class Packets(collections.abc.Mapping):
     """By the names of the dictionary, an array with a row a packet: t_s of its header, and its items. Packets that are not in the dictionary, and bytes that
-    belong to none, are counted (`unknown`, `skipped`)."""
+    belong to none, are counted (`unknown`, `skipped`). `apid` is the component's, where its host has given it another one."""
 
-    def __init__(self, data, name='packets'):
+    def __init__(self, data, name='packets', apid=None):
+        self.apid = dictionary()['apid'] if apid is None else apid
         self.name, self.unknown, self.skipped, self.found = name, 0, 0, collections.defaultdict(list)
         self.rows = {(row['service'], row['subservice'], row['number'], row['size']): row for row in dictionary()['packets']}
         self.arrays, at = {}, 0
@@ -41,7 +42,7 @@ class Packets(collections.abc.Mapping):
 
     def size_at(self, data, at):
         """Of the whole packet there, with its right check sum; 0: there is none."""
-        if len(data) - at < LEAST or data[at] >> 5 != 0 or (data[at] & 0x7) << 8 | data[at + 1] != dictionary()['apid']:
+        if len(data) - at < LEAST or data[at] >> 5 != 0 or (data[at] & 0x7) << 8 | data[at + 1] != self.apid:
             return 0
         size = HEAD + 1 + (data[at + 4] << 8 | data[at + 5])
         return size if at + size <= len(data) and binascii.crc_hqx(data[at:at + size], 0xFFFF) == 0 else 0
@@ -87,9 +88,9 @@ def native(raw):
     return table
 
 
-def open_packets(path):
+def open_packets(path, apid=None):
     data = pathlib.Path(path).read_bytes()
-    packets = Packets(data, str(path))
+    packets = Packets(data, str(path), apid)
     if data and not packets.found:
-        raise LassoError(f'{path}: holds no packet of this dictionary ({len(data)} bytes); is it telemetry?')
+        raise LassoError(f'{path}: holds no packet of APID {packets.apid} ({len(data)} bytes); is it telemetry?')
     return packets

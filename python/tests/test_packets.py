@@ -1,4 +1,5 @@
 """Packets as NumPy arrays, against what mdat decode prints of the same bytes."""
+import binascii
 import io
 import json
 import subprocess
@@ -57,12 +58,20 @@ class PacketsTest(unittest.TestCase):
         np.testing.assert_array_equal(damaged['pose'], self.packets['pose'][1:])
         self.assertEqual(damaged.skipped, first['size'])
 
+    def test_another_component_is_read_by_its_apid(self):
+        first = next(packet for packet in flown.decoded() if packet['packet'] == 'pose')
+        packet = bytearray(self.path.read_bytes()[first['offset']:first['offset'] + first['size']])
+        packet[0:2] = bytes([packet[0] & 0xF8 | 0x2A5 >> 8, 0x2A5 & 0xFF])
+        packet[-2:] = binascii.crc_hqx(packet[:-2], 0xFFFF).to_bytes(2, 'big')
+        self.assertEqual(len(lasso_mdat.Packets(bytes(packet))), 0)
+        np.testing.assert_array_equal(lasso_mdat.Packets(bytes(packet), apid=0x2A5)['pose'], self.packets['pose'][:1])
+
     def test_what_is_not_there_is_told_with_what_is(self):
         with self.assertRaisesRegex(lasso_mdat.LassoError, 'telemetry.ccsds: has no packet pos; it has .*pose'):
             self.packets['pos']
         text = flown.folder() / 'text'
         text.write_text('no packets')
-        with self.assertRaisesRegex(lasso_mdat.LassoError, 'text: holds no packet of this dictionary'):
+        with self.assertRaisesRegex(lasso_mdat.LassoError, 'text: holds no packet of APID 977'):
             lasso_mdat.open_packets(text)
 
     def test_the_dictionary_is_that_of_mdat(self):

@@ -163,6 +163,7 @@ class EmptyField final : public PixelSensor {
     return result;
   }
   void abort() override {}
+  void permit_laser(bool) override {}
 
  private:
   TimeUs t_us_ = 0;

@@ -32,6 +32,7 @@ class SpoiledSensor final : public Sensor {
     return poll;
   }
   void abort() override { inner_.abort(); }
+  void permit_laser(bool permitted) override { inner_.permit_laser(permitted); }
 
   // The sample of this number in the last scan that was not spoiled.
   const RangeSample& before(std::size_t i) const { return last_.at(i < last_.size() ? i : last_.size() - 1); }
@@ -42,6 +43,84 @@ class SpoiledSensor final : public Sensor {
   std::vector<RangeSample> last_;
   std::size_t taken_ = 0;
 };
+
+// Does what a driver written in haste might do: answers anything.
+class StrangeSensor final : public Sensor {
+ public:
+  explicit StrangeSensor(const test::BoxScene& scene) : inner_(scene) {}
+  Status start(const ScanPlan& plan, TimeUs t_start_us) override {
+    return at_start != Status::kOk ? at_start : inner_.start(plan, t_start_us);
+  }
+  SensorPoll poll(TimeUs now_us, Span<RangeSample> out) override {
+    SensorPoll poll;
+    poll.status = at_poll;
+    return at_poll != Status::kOk ? poll : inner_.poll(now_us, out);
+  }
+  void abort() override { inner_.abort(); }
+  void permit_laser(bool permitted) override { inner_.permit_laser(permitted); }
+
+  Status at_start = Status::kOk, at_poll = Status::kOk;
+
+ private:
+  test::BoxSensor inner_;
+};
+
+// The table of fsw/sense/sensor.hpp, all statuses. kSensors: no fault.
+struct Meaning {
+  Status status;
+  L loss;
+  Fault fault;
+};
+constexpr Fault kNoFault = static_cast<Fault>(kFaults);
+constexpr Meaning kMeanings[] = {{Status::kMissing, L::kInhibited, kNoFault},
+                                 {Status::kBadValue, L::kRefused, kNoFault},
+                                 {Status::kOverCapacity, L::kNoRoom, kNoFault},
+                                 {Status::kBusy, L::kBusy, Fault::kSensorLate},
+                                 {Status::kTimeout, L::kSilent, Fault::kSensorSilent},
+                                 {Status::kNoData, L::kSilent, Fault::kSensorSilent},
+                                 {Status::kTruncated, L::kStopped, Fault::kScanIncomplete},
+                                 {Status::kBadOrder, L::kRestarted, Fault::kScanIncomplete},
+                                 {Status::kBadVersion, L::kForeign, Fault::kSensorCorrupt},
+                                 {Status::kOffPlan, L::kOffPlan, Fault::kSensorCorrupt},
+                                 {Status::kBadMagic, L::kOther, Fault::kSensorCorrupt},
+                                 {Status::kBadLength, L::kOther, Fault::kSensorCorrupt},
+                                 {Status::kBadCrc, L::kOther, Fault::kSensorCorrupt},
+                                 {Status::kBadIndex, L::kOther, Fault::kSensorCorrupt},
+                                 {Status::kNotFinite, L::kOther, Fault::kSensorCorrupt},
+                                 {Status::kSingular, L::kOther, Fault::kSensorCorrupt}};
+static_assert(sizeof(kMeanings) / sizeof(kMeanings[0]) == static_cast<std::size_t>(Status::kOffPlan), "each but kOk");
+
+// Runs until a fault that lasts is confirmed, and says what was lost, and which faults there are.
+void expect_meaning(const Meaning& meaning, StrangeSensor& sensor, const char* call) {
+  static const test::BoxTables tables = test::make_box_tables(test::default_scene().boxes());
+  const std::string where = std::string(to_string(meaning.status)) + " of " + call;
+  test::TestImage image = test::make_image(test::box_parameters(test::default_scene()), tables);
+  const auto component = std::make_unique<Component>(sensor);
+  ASSERT_EQ(component->load_image(Bytes(image.data(), image.size)).status, Status::kOk);
+  ASSERT_EQ(component->begin(0), Status::kOk);
+  std::vector<L> losses;
+  for (int frame = 0; frame < 12; ++frame) {
+    for (const test::Stream& event : test::events_of(test::packets_of(test::run_frame(*component)))) {
+      if (static_cast<EventId>(event[1]) == EventId::kScanLost) losses.push_back(static_cast<L>(event.back()));
+    }
+  }
+  EXPECT_FALSE(losses.empty()) << where;
+  for (const L loss : losses) EXPECT_EQ(loss, meaning.loss) << where;
+  for (const Fault fault : {Fault::kSensorSilent, Fault::kSensorLate, Fault::kSensorCorrupt, Fault::kSensorStuck, Fault::kSensorSaturated,
+                            Fault::kScanIncomplete})
+    EXPECT_EQ(component->faults().ever().has(fault), fault == meaning.fault) << where << ", fault " << static_cast<int>(fault);
+}
+
+TEST(StrangeSensorTest, WhatItAnswersLosesTheScanAsItsHeaderSays) {
+  VERIFIES("LASSO-SNS-058~1");
+  for (const Meaning& meaning : kMeanings) {
+    StrangeSensor at_start(test::default_scene()), at_poll(test::default_scene());
+    at_start.at_start = meaning.status;
+    expect_meaning(meaning, at_start, "start");
+    at_poll.at_poll = meaning.status;
+    expect_meaning(meaning, at_poll, "poll");
+  }
+}
 
 struct BadScan {
   const char* name;

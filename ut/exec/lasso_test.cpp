@@ -1,12 +1,24 @@
 #include "fsw/exec/lasso.hpp"
 
 #include <cstring>
+#include <functional>
+#include <type_traits>
 
+#include "fsw/sense/pixel_sensor.hpp"
+#include "ut/exec/component_operator.hpp"
 #include "ut/exec/component_scene.hpp"
-#include "ut/link/command_packets.hpp"
+#include "ut/link/keyed_sum.hpp"
 
 namespace lasso {
 namespace {
+
+static_assert(required_memory() > 0 && required_memory() <= 2u << 20 && required_alignment() <= 64, "known before anything runs");
+
+// The rule of docs/conventions.md: nobody deletes an implementation through the interface.
+template <class Interface>
+constexpr bool is_only_implemented = !std::has_virtual_destructor_v<Interface> && !std::is_destructible_v<Interface>;
+static_assert(is_only_implemented<Sensor> && is_only_implemented<PixelSensor> && is_only_implemented<Watchdog>);
+static_assert(is_only_implemented<Store> && is_only_implemented<Authenticator>);
 
 struct alignas(64) Memory {
   std::uint8_t bytes[2u << 20];
@@ -48,6 +60,136 @@ TEST(Lasso, StepsGiveTheBytesOfTheComponentRunByItsSlots) {
   }
   EXPECT_EQ(stream, reference.stream);
   EXPECT_EQ(test::decode_all(ConstBytes(stream.data(), stream.size())).size(), 18u);
+}
+
+// A component in memory of its own, with its image, begun.
+class Hosted {
+ public:
+  explicit Hosted(
+      const Identity& identity = {}, const std::function<void(Component&)>& prepare = [](Component&) {})
+      : memory_(std::make_unique<Memory>()),
+        image_(test::make_box_image(test::box_parameters(test::default_scene()), test::default_scene().box)),
+        component(*create(memory_->bytes, sizeof(Memory::bytes), sensor, identity)) {
+    prepare(component);
+    EXPECT_EQ(load_image(component, Bytes(image_.data(), image_.size)).status, Status::kOk);
+    EXPECT_EQ(begin(component, 0), Status::kOk);
+  }
+  // Until this frame has begun.
+  test::Stream run_to(std::uint32_t frame) {
+    test::Stream stream;
+    while (next_slot_us(component) <= frame * 200000) {
+      EXPECT_TRUE(step(component, next_slot_us(component)));
+      test::append(stream, test::telemetry_of(component));
+    }
+    return stream;
+  }
+  std::vector<test::Packet> answer_to(const test::Stream& packet) {
+    EXPECT_TRUE(receive_packet(component, test::view(packet), next_slot_us(component)));
+    return test::packets_of(test::telemetry_of(component));
+  }
+
+ private:
+  std::unique_ptr<Memory> memory_;
+  test::TestImage image_;
+
+ public:
+  test::BoxSensor sensor{test::default_scene()};
+  Component& component;
+};
+
+std::vector<test::Stream> split(const test::Stream& stream) {
+  std::vector<test::Stream> packets;
+  for (std::size_t at = 0; at < stream.size(); at += packets.back().size()) {
+    const std::size_t size = packet_size({stream.data() + at, stream.size() - at});
+    packets.emplace_back(stream.begin() + static_cast<std::ptrdiff_t>(at), stream.begin() + static_cast<std::ptrdiff_t>(at + size));
+  }
+  return packets;
+}
+
+constexpr std::uint16_t kOtherApid = 0x2A5;
+const Identity kOther{kOtherApid, nullptr};
+
+TEST(Lasso, NoComponentHasAnApidOfTimeOrIdlePackets) {
+  VERIFIES("LASSO-LNK-043~1");
+  const auto memory = std::make_unique<Memory>();
+  test::BoxSensor sensor(test::default_scene());
+  for (const unsigned apid : {0x000U, 0x7FFU, 0x800U})
+    EXPECT_EQ(create(memory->bytes, sizeof(Memory::bytes), sensor, {static_cast<std::uint16_t>(apid), nullptr}), nullptr) << apid;
+  EXPECT_EQ(create(memory->bytes, sizeof(Memory::bytes), sensor)->identity().apid, 0x3D1);
+  EXPECT_EQ(create(memory->bytes, sizeof(Memory::bytes), sensor, kOther)->identity().apid, kOtherApid);
+  EXPECT_DEATH(static_cast<void>(Component(sensor, {0x7FF, nullptr})), "an APID");
+}
+
+TEST(Lasso, TelemetryIsTheSameButForTheApid) {
+  VERIFIES("LASSO-LNK-043~1");
+  Hosted preset, other(kOther);
+  const test::Stream expected = preset.run_to(6);
+  test::Stream changed;
+  for (const test::Stream& packet : split(other.run_to(6))) {
+    EXPECT_EQ(read_primary_header(test::view(packet)).apid, kOtherApid);
+    PacketHeader header;
+    ConstBytes data;
+    EXPECT_EQ(parse_packet(test::view(packet), header, data), PacketFault::kOtherApid);
+    EXPECT_EQ(parse_packet(test::view(packet), header, data, kOtherApid), PacketFault::kNone);
+    EXPECT_EQ(header.apid, kOtherApid);
+    test::append(changed, test::for_apid(packet, kApid));
+  }
+  EXPECT_EQ(changed, expected);
+}
+
+TEST(Lasso, OfTwoComponentsEachDoesWhatItIsTold) {
+  VERIFIES("LASSO-LNK-043~1");
+  Hosted preset, other(kOther);
+  const test::Stream to_other = test::for_apid(test::set_mode(static_cast<std::uint8_t>(TrackingMode::kBearing), 1), kOtherApid);
+  EXPECT_TRUE(receive_packet(preset.component, test::view(to_other), 0));
+  EXPECT_TRUE(receive_packet(other.component, test::view(to_other), 0));
+  const std::vector<test::Stream> refusal = split(test::telemetry_of(preset.component)), done = split(test::telemetry_of(other.component));
+  ASSERT_EQ(refusal.size(), 1U);
+  EXPECT_EQ(refusal[0][8], kSubserviceRefused);
+  ASSERT_EQ(done.size(), 2U);
+  EXPECT_EQ(done[1][8], kSubserviceCompleted);
+  EXPECT_EQ(read_primary_header(test::view(done[1])).apid, kOtherApid);
+  // Both on one stream of bytes: each finds its own.
+  test::Stream both = test::ping(2);
+  test::append(both, test::for_apid(test::ping(2), kOtherApid));
+  for (Hosted* each : {&preset, &other}) {
+    EXPECT_EQ(receive(each->component, test::view(both), 0), both.size());
+    EXPECT_EQ(split(test::telemetry_of(each->component)).size(), 3U) << "accepted, pong, completed";
+  }
+}
+
+TEST(Lasso, ABoardGivesWhatItHas) {
+  VERIFIES("LASSO-EXE-010~1");
+  class Counting final : public Watchdog {
+   public:
+    void feed() override { ++fed; }
+    int fed = 0;
+  } watchdog;
+  test::KeyedSum authenticator;
+  Hosted hosted({}, [&](Component& component) {
+    static std::uint8_t odd[16];
+    EXPECT_EQ(use_memory(component, {{Bytes(odd), Bytes(odd, 8)}, nullptr, {}}), Status::kBadValue) << "buffers of two sizes";
+    EXPECT_EQ(load_stored_image(component).status, Status::kNoData);
+    set_watchdog(component, watchdog);
+    set_reset_cause(component, ResetCause::kWatchdog);
+    use_authenticator(component, authenticator);
+  });
+  hosted.run_to(3);
+  EXPECT_GT(watchdog.fed, 0);
+  EXPECT_TRUE(hosted.component.faults().active().has(Fault::kWatchdogReset));
+  const std::vector<test::Packet> answers = hosted.answer_to(test::ping(1));
+  ASSERT_EQ(answers.size(), 1U);
+  EXPECT_TRUE(answers[0].is(kServiceVerification, kSubserviceRefused)) << "it has no trailer";
+}
+
+TEST(Lasso, AResetIsDueAtTheEndOfItsFrame) {
+  VERIFIES("LASSO-EXE-010~1");
+  Hosted hosted;
+  hosted.answer_to(test::arm(CommandKind::kReset, 1));
+  hosted.answer_to(test::plain_packet(CommandKind::kReset, 2));
+  EXPECT_FALSE(reset_due(hosted.component));
+  hosted.run_to(1);
+  EXPECT_TRUE(reset_due(hosted.component));
 }
 
 TEST(Lasso, AnswersCommands) {

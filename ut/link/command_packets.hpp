@@ -27,6 +27,14 @@ inline Stream finished(ByteWriter& writer, Stream& packet) {
   return packet;
 }
 
+// A whole packet, as it would be of another component, or for it.
+inline Stream for_apid(Stream packet, std::uint16_t apid) {
+  packet[0] = static_cast<std::uint8_t>((packet[0] & 0xF8) | apid >> 8);
+  packet[1] = static_cast<std::uint8_t>(apid & 0xFF);
+  repair_crc(packet);
+  return packet;
+}
+
 // Begins a packet of this kind.
 inline void begin(CommandKind kind, std::uint16_t count, ByteWriter& writer) {
   const PacketRow& row = command_rows::row_of(kind);

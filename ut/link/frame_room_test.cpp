@@ -21,6 +21,8 @@ TEST(FrameRoom, WhatMakesSafeHasRoomBehindAllOtherCommands) {
   EXPECT_FALSE(room.takes(test::view(test::plain_packet(CommandKind::kEnableLaser))));
   EXPECT_FALSE(room.takes(test::view(test::Stream{0x1B})));
   EXPECT_TRUE(room.takes(test::view(laser)));
+  EXPECT_FALSE(room.takes(test::view(test::for_apid(laser, 0x2A5)))) << "another component's";
+  EXPECT_TRUE(room.takes(test::view(test::for_apid(laser, 0x2A5)), 0x2A5));
   EXPECT_EQ(taken(room, safe, PacketFault::kNone, true), 2u);
   EXPECT_FALSE(room.takes(test::view(laser)));
   room.renew();

@@ -48,6 +48,7 @@ class WallSensor final : public Sensor {
   }
 
   void abort() override { ++aborts; }
+  void permit_laser(bool) override {}
 
   void make(const ScanPlan& plan, TimeUs t_start_us) {
     for (std::uint16_t i = 0; i < plan.points; ++i) {

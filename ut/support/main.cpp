@@ -14,8 +14,9 @@ static void LASSO_BEFORE_ABORT() {}
 #endif
 
 namespace lasso {
-[[noreturn]] void on_invariant_failure(const char* what) {
-  std::fprintf(stderr, "invariant failed: %s\n", what);
+[[noreturn]] void on_invariant_failure(const InvariantFailure& failure) {
+  std::fprintf(stderr, "invariant failed: %s, of APID %u, context %p\n", failure.what, static_cast<unsigned>(failure.apid),
+               failure.context);
   LASSO_BEFORE_ABORT();
   std::abort();
 }

@@ -6,8 +6,8 @@
 #include "ut/support/box_image.hpp"
 
 namespace lasso {
-[[noreturn]] void on_invariant_failure(const char* what) {
-  std::fprintf(stderr, "invariant failed: %s\n", what);
+[[noreturn]] void on_invariant_failure(const InvariantFailure& failure) {
+  std::fprintf(stderr, "invariant failed: %s\n", failure.what);
   std::abort();
 }
 }  // namespace lasso

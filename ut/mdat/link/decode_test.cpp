@@ -64,6 +64,24 @@ TEST(Decode, GivesBackWhatTheFlightCodePacked) {
   EXPECT_EQ(std::get<double>(item(packet, "covariance").values.at(20)), 0.1);
 }
 
+TEST(Decode, FindsTheComponentThatIsAskedForAlone) {
+  VERIFIES("LASSO-LNK-044~1");
+  Stream stream = pose_packet(7, {});
+  const std::size_t first = stream.size();
+  const Stream other = lasso::test::for_apid(pose_packet(8, {}), 0x2A5);
+  stream.insert(stream.end(), other.begin(), other.end());
+  const DecodedStream preset = decode_stream(view(stream), PacketType::kTelemetry);
+  ASSERT_EQ(preset.packets.size(), 1U);
+  EXPECT_EQ(preset.packets[0].offset, 0U);
+  EXPECT_EQ(preset.other_bytes, other.size());
+  const DecodedStream asked = decode_stream(view(stream), PacketType::kTelemetry, 0x2A5);
+  ASSERT_EQ(asked.packets.size(), 1U);
+  EXPECT_EQ(asked.packets[0].offset, first);
+  EXPECT_STREQ(asked.packets[0].name(), "pose");
+  EXPECT_EQ(apid_of(asked.packets[0].bytes), 0x2A5);
+  EXPECT_EQ(apid_of({}), kApid);
+}
+
 TEST(Decode, AgreesWithTheFlightDecoderForAllBytes) {
   VERIFIES("LASSO-GND-021~2");
   test::Generator random(3);

@@ -5,6 +5,7 @@
 #include <set>
 #include <sstream>
 
+#include "mdat/link/dictionary_cosmos.hpp"
 #include "mdat/link/dictionary_text.hpp"
 #include "ut/support/verifies.hpp"
 
@@ -182,6 +183,33 @@ TEST(DictionaryJson, HasEveryPacketItemAndChoice) {
   EXPECT_EQ(pose.at("items").at(5).at("enumeration"), "pose_reason");
   EXPECT_EQ(json.at("enumerations").at("pose_reason").at(11).at("name"), "implausible");
   EXPECT_GT(json.at("parameters").size(), 70U);
+}
+
+// The dictionary of another component is the preset's with another number, in each format where packets are told apart by it.
+TEST(Dictionaries, AreOfTheComponentThatIsAskedFor) {
+  VERIFIES("LASSO-LNK-044~1");
+  constexpr std::uint16_t kOther = 0x2A5;
+  EXPECT_EQ(nlohmann::json::parse(dictionary_json(kOther)).at("apid"), kOther);
+  const std::string preset[] = {dictionary_xtce(), dictionary_lua(), dictionary_cosmos().at("targets/LASSO/cmd_tlm/cmd.txt"),
+                                dictionary_cosmos().at("targets/LASSO/cmd_tlm/tlm.txt")};
+  const auto cosmos = dictionary_cosmos(kOther);
+  const std::string other[] = {dictionary_xtce(XtceArrays::kAsArrays, kOther), dictionary_lua(kOther),
+                               cosmos.at("targets/LASSO/cmd_tlm/cmd.txt"), cosmos.at("targets/LASSO/cmd_tlm/tlm.txt")};
+  for (std::size_t i = 0; i < std::size(preset); ++i) {
+    std::istringstream a(preset[i]), b(other[i]);
+    std::string line, changed;
+    std::size_t differ = 0;
+    while (std::getline(a, line) && std::getline(b, changed)) {
+      if (line == changed) continue;
+      ++differ;
+      EXPECT_NE(line.find("977") == std::string::npos, line.find("03D1") == std::string::npos) << line;
+      EXPECT_NE(changed.find("677") == std::string::npos, changed.find("02A5") == std::string::npos) << changed;
+    }
+    EXPECT_GT(differ, 0U) << i;
+    EXPECT_EQ(other[i].find("977"), std::string::npos) << i;
+  }
+  EXPECT_NE(dictionary_markdown(kOther).find("(APID) is 677 (0x2A5). Time"), std::string::npos);
+  EXPECT_NE(dictionary_html(kOther).find("(APID) is 677 (0x2A5). Time"), std::string::npos);
 }
 
 TEST(Documents, HaveEveryItem) {

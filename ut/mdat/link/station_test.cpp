@@ -13,8 +13,8 @@ namespace {
 // A component that answers each command alike.
 class AlikeLink final : public ByteLink {
  public:
-  AlikeLink(std::uint8_t subservice, PacketFault fault, std::uint8_t service_refusal)
-      : subservice_(subservice), fault_(fault), service_refusal_(service_refusal) {}
+  AlikeLink(std::uint8_t subservice, PacketFault fault, std::uint8_t service_refusal, std::uint16_t apid = kApid)
+      : subservice_(subservice), fault_(fault), service_refusal_(service_refusal), downlink_(apid) {}
   bool datagrams() const override { return true; }
   std::size_t read(Bytes out) override { return downlink_.take(out); }
   std::size_t write(ConstBytes command) override {
@@ -130,6 +130,19 @@ TEST(Station, SilenceIsToldOnceAndWaitedThroughAsLongAsWasAsked) {
   EXPECT_EQ(station.command(command_row("ping"), {}, false, 0.06).outcome, Outcome::kOpen);
   EXPECT_EQ(station.command(command_row("ping"), {}, false, 0.06).outcome, Outcome::kOpen);
   EXPECT_EQ(told, 1);
+}
+
+TEST(Station, SpeaksWithTheComponentThatItIsMadeFor) {
+  VERIFIES("LASSO-LNK-044~1");
+  for (const std::uint16_t apid : {kApid, std::uint16_t{0x2A5}}) {
+    AlikeLink link(kSubserviceCompleted, PacketFault::kNone, 0, 0x2A5);
+    Station station(
+        link, "link", [](const DecodedPacket&) {}, apid);
+    const bool is_its_own = apid == 0x2A5;
+    const CommandAnswer answer = station.command(command_row("ping"), {}, false, is_its_own ? 5 : 0.02);
+    EXPECT_EQ(answer.outcome, is_its_own ? Outcome::kDone : Outcome::kOpen) << apid;
+    EXPECT_EQ(station.other_bytes() == 0, is_its_own) << apid;
+  }
 }
 
 }  // namespace

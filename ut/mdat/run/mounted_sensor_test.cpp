@@ -45,6 +45,7 @@ class BallSensor final : public Sensor {
     return result;
   }
   void abort() override {}
+  void permit_laser(bool) override {}
 
   std::vector<AimedRay> aimed;
 
