@@ -23,7 +23,7 @@ inline constexpr Choice kPoseReasons[] = {
   {"singular", "the normal equations had no solution: the returns leave a direction open", "wait for another aspect, or widen the scan"},
   {"no_track", "there is nothing to start from", "send a pose to start from, or command a search"},
   {"overrun", "the estimate was not ready at its boundary, and was dropped whole", "look at overruns; a shorter scan or fewer iterations take less time"},
-  {"implausible", "the filter excludes this pose, or one that explains the scan better: one of both is wrong", "none if it is rare; otherwise command reacquiring"},
+  {"implausible", "the filter's prediction excludes this pose: one of both is wrong", "none if it is rare; otherwise command reacquiring"},
   {"only_bearing", "a full-field scan: no attitude is looked for", "none: this is what mode bearing does"},
   {"far_from_start", "farther from the prediction that it was to confirm than start.gate allows", "send a better pose to start from"},
   {"searching", "no attitude is known: it is looked for", "none: this is what mode searching does"},

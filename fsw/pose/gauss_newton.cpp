@@ -14,7 +14,7 @@ namespace {
 
 using N = FlightNumber;
 
-constexpr double kHeld = 1e4;  // of the information of all translations: a held axis has that much more
+constexpr double kHeld = 1e3;  // of the information of all axes at the radius: a held one has that much more
 
 // A prior as wide as the model itself keeps directions that no ray sees solvable; it says nothing where any ray does. The part that grows
 // with the information covers the rounding of the sums.
@@ -89,13 +89,23 @@ Pass take_pass(const Mission& mission, const MatchSettings<N>& s, const PassKind
   return take_pass(mission, s, kind, whole, workspace, T_target_sensor);
 }
 
-void take_held_pass(const Mission& mission, const Vec6& row, Workspace& workspace, Pose& T_target_sensor) {
+double longest_step_m(const MissionParameters& p, const MatchSettings<N>& s) {
+  const double sigma_m = square_root(N::to_double(s.reference_variance));
+  return p.gate_first_m > sigma_m ? p.gate_first_m : sigma_m;
+}
+
+void take_held_pass(const Mission& mission, const Vec6& axis, Workspace& workspace, Pose& T_target_sensor) {
   const MatchSettings<N> s = make_settings(mission.parameters, workspace);
   Pass pass = match_pass(mission, s, {}, T_target_sensor, workspace);
   Vec6 b;
   if (!set_up(mission, s, pass, b)) return;
-  pass.H += kHeld * pass.H.bottomRightCorner<3, 3>().trace() * row * row.transpose();
-  if (solve6(pass.H, b, pass.x) == Status::kOk) T_target_sensor = step_pose(T_target_sensor, pass.x);
+  const Vec6 scale = radius_scale(mission.radius_m);
+  Mat6 H = at_radius(pass.H, 1 / mission.radius_m);
+  H += kHeld * H.trace() * axis * axis.transpose();
+  Vec6 step_m;
+  if (solve6(H, b.cwiseQuotient(scale), step_m) != Status::kOk) return;
+  const Vec6 x = cut_step(step_m.cwiseQuotient(scale), mission.radius_m, longest_step_m(mission.parameters, s));
+  T_target_sensor = step_pose(T_target_sensor, x);
 }
 
 }  // namespace lasso

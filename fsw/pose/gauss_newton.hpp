@@ -43,8 +43,12 @@ Pass take_pass(const Mission& mission, const MatchSettings<FlightNumber>& settin
 Pass take_pass(const Mission& mission, const MatchSettings<FlightNumber>& settings, const PassKind& kind, Workspace& workspace,
                Pose& T_target_sensor);
 
-// A whole pass over all points with one axis held: its step x has row.dot(x) = 0, but for 1e-4 of what the hits would ask for. `row` is
-// over (rotation, translation), target axes, and measures m. Without enough points the pose stays.
-void take_held_pass(const Mission& mission, const Vec6& row, Workspace& workspace, Pose& T_target_sensor);
+// No step goes farther than the start is believed to be off, or than the noise reaches, m at the model's radius: points that met the wrong
+// surface can ask for steps along directions that hardly any other point holds, past the minimum that the start lies in.
+double longest_step_m(const MissionParameters& parameters, const MatchSettings<FlightNumber>& settings);
+
+// A whole pass over all points with one axis held: its step has no part along `axis`, but for a 1000th of what the hits would ask for.
+// `axis` is a unit vector over (rotation * radius, translation), target axes. Without enough points, or a solution, the pose stays.
+void take_held_pass(const Mission& mission, const Vec6& axis, Workspace& workspace, Pose& T_target_sensor);
 
 }  // namespace lasso

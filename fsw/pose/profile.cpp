@@ -15,8 +15,8 @@ constexpr int kPredictionDraws = 2;
 Profile::Profile(const Mission& mission, const Vec6& axis, double usable, Workspace& workspace)
     : mission_(mission),
       workspace_(workspace),
-      along_(axis.cwiseQuotient(radius_scale(mission.radius_m))),
-      across_(axis.cwiseProduct(radius_scale(mission.radius_m))),
+      axis_(axis),
+      step_per_m_(axis.cwiseQuotient(radius_scale(mission.radius_m))),
       usable_(usable) {}
 
 CostedPose Profile::cost_at(const Pose& T_target_sensor) {
@@ -24,19 +24,19 @@ CostedPose Profile::cost_at(const Pose& T_target_sensor) {
 }
 
 CostedPose Profile::draw_at(const Pose& T_target_sensor, double step_m, int draws) {
-  Pose drawn = step_pose(T_target_sensor, step_m * along_);
-  for (int i = 0; i < draws; ++i) take_held_pass(mission_, across_, workspace_, drawn);
+  Pose drawn = step_pose(T_target_sensor, step_m * step_per_m_);
+  for (int i = 0; i < draws; ++i) take_held_pass(mission_, axis_, workspace_, drawn);
   return cost_at(drawn);
 }
 
 bool Profile::rises(const CostedPose& from, double way_m, double least) {
   for (const double step_m : {way_m, -way_m}) {
-    if (!(cost_at(step_pose(from.T_target_sensor, step_m * along_)).cost >= from.cost + least)) return false;
+    if (!(cost_at(step_pose(from.T_target_sensor, step_m * step_per_m_)).cost >= from.cost + least)) return false;
   }
   return true;
 }
 
-bool Profile::goes(double step_m, CostedPose& lowest) {
+bool Profile::try_step(double step_m, CostedPose& lowest) {
   const CostedPose next = draw_at(lowest.T_target_sensor, step_m, 1);
   if (!(next.cost < lowest.cost)) return false;
   lowest = next;
@@ -44,10 +44,10 @@ bool Profile::goes(double step_m, CostedPose& lowest) {
 }
 
 // The last step of those that lower the cost.
-double Profile::farther(double step_m, CostedPose& lowest) {
+double Profile::double_steps(double step_m, CostedPose& lowest) {
   const double farthest_m = kFarthest * mission_.radius_m;
   double way_m = step_m;
-  while ((way_m + 2 * step_m) * (way_m + 2 * step_m) <= farthest_m * farthest_m && goes(2 * step_m, lowest)) {
+  while ((way_m + 2 * step_m) * (way_m + 2 * step_m) <= farthest_m * farthest_m && try_step(2 * step_m, lowest)) {
     step_m *= 2;
     way_m += step_m;
   }
@@ -57,14 +57,14 @@ double Profile::farther(double step_m, CostedPose& lowest) {
 CostedPose Profile::descend(const CostedPose& from, double first_step_m) {
   CostedPose lowest = from;
   double step_m = first_step_m;
-  if (goes(step_m, lowest)) {
-    step_m = farther(step_m, lowest);
-  } else if (goes(-step_m, lowest)) {
-    step_m = farther(-step_m, lowest);
+  if (try_step(step_m, lowest)) {
+    step_m = double_steps(step_m, lowest);
+  } else if (try_step(-step_m, lowest)) {
+    step_m = double_steps(-step_m, lowest);
   }
   for (int i = 0; i < kHalvings; ++i) {
     step_m *= 0.5;
-    if (!goes(step_m, lowest)) (void)goes(-step_m, lowest);
+    if (!try_step(step_m, lowest)) (void)try_step(-step_m, lowest);
   }
   return lowest;
 }
@@ -77,10 +77,11 @@ bool minimise_along(const Mission& mission, const Vec6& axis, double first_step_
   CostedPose lowest = other.cost < registered.cost ? other : registered;
   if (!profile.rises(lowest, first_step_m, kRise)) lowest = profile.descend(lowest, first_step_m);
   if (!(lowest.cost < registered.cost - kMostOfAReturn)) return false;
-  const std::uint16_t iterations = hits.iterations;
-  hits = weigh_hits(mission, lowest.T_target_sensor, workspace);
-  hits.iterations = iterations;
-  hits.stop = StopReason::kConverged;
+  HitSolution moved = weigh_hits(mission, lowest.T_target_sensor, workspace);
+  if (moved.stop != StopReason::kNotRun) return false;
+  moved.iterations = hits.iterations;
+  moved.stop = hits.stop;
+  hits = moved;
   return true;
 }
 

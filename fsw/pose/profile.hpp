@@ -31,24 +31,24 @@ class Profile {
   bool rises(const CostedPose& from, double way_m, double least);
 
   // A local minimum along the axis: steps that are doubled while they lower the cost, as far as half of the radius, then halved twice.
-  // The first one is at least a 100th of the radius long: then at most 22 passes.
+  // The first one is at least a 100th of the radius long: then at most 20 passes.
   CostedPose descend(const CostedPose& from, double first_step_m);
 
  private:
-  bool goes(double step_m, CostedPose& lowest);
-  double farther(double step_m, CostedPose& lowest);
+  bool try_step(double step_m, CostedPose& lowest);
+  double double_steps(double step_m, CostedPose& lowest);
 
   const Mission& mission_;
   Workspace& workspace_;
-  Vec6 along_;   // per metre, over (rotation, translation)
-  Vec6 across_;  // row of (rotation, translation) that measures metres along the axis
+  Vec6 axis_;
+  Vec6 step_per_m_;  // of (rotation, translation)
   double usable_;
 };
 
 // Moves `hits` along the axis to where they cost least, if that is less by more than one return may cost; says whether it has. From the
 // registration or from the prediction drawn to the hits, whichever costs less: one of both often lies beside a minimum that the other is
-// in. Where the cost is higher by kRise, that of four returns, a step of `first_step_m` off, either way, it is a minimum. Bound: 29 passes
-// over all points.
+// in. Where the cost is higher by kRise, that of four returns, a step of `first_step_m` off, either way, it is taken for a minimum. The
+// pose stays where the hits have no solution at the other place. Why it stopped stays as it was. Bound: 27 passes over all points.
 constexpr double kRise = 4 * kMostOfAReturn;  // of a minimum's cost
 bool minimise_along(const Mission& mission, const Vec6& axis, double first_step_m, const Pose& predicted_T_target_sensor,
                     Workspace& workspace, HitSolution& hits);

@@ -14,6 +14,7 @@ constexpr double kNarrowestKernel = 1e-4;  // of the kernel's squared width
 constexpr double kNarrowed = 0.5;          // the same, from one pass to the next
 constexpr int kUndampedPasses = 8;
 constexpr double kNoCost = 1e300;
+constexpr double kLeastUsable = 0.5;  // a pose at which fewer of the returns could be inliers is none of theirs
 
 bool is_small(const Vec6& x, const MissionParameters& p) {
   return x.head<3>().squaredNorm() < p.stop_rotation_rad * p.stop_rotation_rad &&
@@ -38,13 +39,6 @@ bool narrow_kernel(const MissionParameters& p, const Pass& last, MatchSettings<N
   const double share = clamp(noise_of(last, s), kNarrowestKernel, 1.0);
   s.kernel_squared = N::to<N::Kernel>(p.kernel_width * p.kernel_width * share);
   return N::to_double(s.kernel_squared) < kNarrowed * before;
-}
-
-// Points that met the wrong surface can ask for steps along directions that hardly any other point holds, past the minimum that the start
-// lies in and on to another one. No step goes farther than the start is believed to be off, or than the noise reaches.
-double longest_step_m(const MissionParameters& p, const MatchSettings<N>& s) {
-  const double sigma_m = square_root(N::to_double(s.reference_variance));
-  return p.gate_first_m > sigma_m ? p.gate_first_m : sigma_m;
 }
 
 StopReason reason_of(Status status) { return status == Status::kNoData ? StopReason::kTooFewPoints : StopReason::kSingular; }
@@ -189,7 +183,9 @@ HitSolution weigh_hits(const Mission& mission, const Pose& T_target_sensor, Work
   if (workspace.points.empty()) return solution;
   const MatchSettings<N> s = make_settings(mission.parameters, workspace);
   Pose stepped = T_target_sensor;
-  keep(take_pass(mission, s, PassKind{}, workspace, stepped), s, solution);
+  const Pass pass = take_pass(mission, s, PassKind{}, workspace, stepped);
+  keep(pass, s, solution);
+  if (pass.status != Status::kOk) solution.stop = reason_of(pass.status);
   return solution;
 }
 
@@ -207,7 +203,7 @@ double bounded_cost(const Mission& mission, const Pose& T_target_sensor, double 
   s.kernel_squared = N::to<N::Kernel>(3 * kMostOfAReturn);  // rho's bound is a third of it
   const Span<MatchPoint<N>> points(workspace.points.begin(), workspace.points.size());
   const CostSums<N> sums = cost_points(mission.field, to_path<N>(T_target_sensor), s, points);
-  if (sums.usable == 0) return kNoCost;
+  if (sums.usable == 0 || kLeastUsable * usable > sums.usable) return kNoCost;
   return kMostOfAReturn * (1 - N::to_double(sums.explained) / sums.usable) * usable;
 }
 

@@ -36,11 +36,12 @@ HitSolution register_first(const Mission& mission, const Pose& T_target_sensor, 
 enum class RegisterLook : std::uint8_t { kFirst, kSecond };
 HitSolution register_look(const Mission& mission, RegisterLook look, const Pose& T_target_sensor, Workspace& workspace);
 
-// What the pose explains of the points as it stands: one pass, no step.
+// What the pose explains of the points as it stands: one pass, no step. `stop` says why there is none from it (kTooFewPoints, kSingular),
+// else kNotRun.
 HitSolution weigh_hits(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace);
 
 // How badly the solution explains the returns that it could explain: their mean squared residual in sigmas, kUnexplainedCost for one that
-// it leaves out. Infinite without any. Squared residuals are Tukey-weighted, with the kernel of the pass that they are of, which is
+// it leaves out. 1e300 without any. Squared residuals are Tukey-weighted, with the kernel of the pass that they are of, which is
 // not Tukey's rho: with a kernel of 10 sigmas a return costs most, 15, at 6, and hardly anything just within 10.
 double mean_cost(const HitSolution& solution);
 
@@ -50,7 +51,7 @@ double cost_of_hits(const Mission& mission, const Pose& T_target_sensor, Workspa
 // What all returns cost at a pose, squared sigmas: of each Tukey's rho with a kernel of 3.5 sigmas, which is r^2 of a small residual and
 // kMostOfAReturn at most. A return that the pose leaves out costs that, too. So a return that passes an edge, or meets it with half of its
 // beam, decides nothing. Of `usable` returns, by the mean of those that the pose could explain: where more of them graze the surface, a
-// pose is not the better for it. One pass, nothing solved; infinite without any.
+// pose is not the better for it. 1e300 where these are fewer than half, or none. One pass, nothing solved.
 double bounded_cost(const Mission& mission, const Pose& T_target_sensor, double usable, Workspace& workspace);
 constexpr double kMostOfAReturn = 4;  // from a sweep of 2 to 16 (docs/experiments/2026-11-29-profile.md)
 

@@ -25,7 +25,7 @@ enum class PoseReason : std::uint8_t {
   kSingular = 8,        // the normal equations had no solution
   kNoTrack = 9,         // nothing to start from
   kOverrun = 10,        // the estimate was not ready at its boundary: dropped whole
-  kImplausible = 11,    // the filter excludes this pose, or one that explains the scan better
+  kImplausible = 11,    // the filter's prediction excludes this pose
   kOnlyBearing = 12,    // a full-field scan: no attitude is looked for
   kFarFromStart = 13,   // farther from the prediction that it was to confirm than start.gate allows
   kSearching = 14,      // no attitude is known: it is looked for

@@ -66,9 +66,9 @@ void minimise_weak_axis(const Mission& mission, const Pose& predicted, Workspace
 void widen_weak_axes(const Mission& mission, const HitSolution& hits, double scale, Workspace& workspace, Mat6& covariance,
                      Directions& unseen) {
   const Eigen6 eigen = axes_at_radius(covariance, mission.radius_m);
+  if (square_root(eigen.values[5]) < kCertain * mission.radius_m) return;
   const double anywhere_m = kUnseenSigma * mission.radius_m;
-  CostedPose here{hits.T_target_sensor};
-  here.cost = bounded_cost(mission, hits.T_target_sensor, hits.usable, workspace);
+  const CostedPose here = Profile(mission, Vec6::Zero(), hits.usable, workspace).cost_at(hits.T_target_sensor);
   for (int i = 5; i >= 0; --i) {
     const double sigma_m = square_root(eigen.values[i]);
     if (sigma_m < kCertain * mission.radius_m) return;

@@ -79,7 +79,7 @@ TEST_F(WeakAxisTest, WithoutInformationOrInliersThePoseStays) {
   EXPECT_EQ(unexplained.inliers, 1u);
   hits.stop = StopReason::kIterationLimit;
   minimise_weak_axis(mission_, truth(), *workspace_, hits);
-  EXPECT_EQ(hits.stop, StopReason::kConverged) << "it moves";
+  EXPECT_LT(std::abs(turn_of(hits.T_target_sensor)), 0.03) << "it moves";
 }
 
 // A beam that is longer than the field says nothing of its place along itself. That hides nothing of its turn.
