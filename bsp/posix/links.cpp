@@ -291,9 +291,23 @@ class File final : public PosixLink {
   std::ofstream telemetry_;
 };
 
+// HOST:PORT that telemetry goes to. Where the kernel sends nothing there from the link's own address, nobody would notice.
+sockaddr_in told_address(const std::string& told, sockaddr_in from) {
+  if (told.find(':') == std::string::npos) refuse(told, "a port is missing: HOST:PORT");
+  const sockaddr_in to = address_of(told, {"udp", told.substr(0, told.rfind(':')), told.substr(told.rfind(':') + 1)});
+  if (to.sin_port == 0) refuse(told, "'0' is no port to send to: 1 to 65535");
+  Descriptor trial;
+  make_socket(told, SOCK_DGRAM, trial);
+  from.sin_port = 0;
+  bind_to(told, trial, from);
+  if (::connect(trial.get(), generic(to), sizeof to) != 0) refuse_errno(told, "is not reached from the link's address");
+  return to;
+}
+
 std::unique_ptr<PosixLink> bound_udp(const std::string& url, const std::string& told) {
-  auto link = std::make_unique<BoundUdp>(url, address_of(url, place_of(url)));
-  if (!told.empty()) link->tell(address_of(told, place_of("udp://" + told)));
+  const sockaddr_in place = address_of(url, place_of(url));
+  auto link = std::make_unique<BoundUdp>(url, place);
+  if (!told.empty()) link->tell(told_address(told, place));
   return link;
 }
 

@@ -131,7 +131,9 @@ std::unique_ptr<posix::PosixLink> open_link(const RunArguments& options) {
                        "or --remote to allow it");
     return posix::open_link(options.link, options.told);
   } catch (const posix::LinkError& error) {
-    throw InputError("--link " + std::string(error.what()));
+    const std::string what = error.what();
+    const bool of_receiver = !options.told.empty() && what.rfind(options.told + ": ", 0) == 0;
+    throw InputError((of_receiver ? "--telemetry-to " : "--link ") + what);
   }
 }
 

@@ -107,7 +107,22 @@ TEST(Links, WhoIsConfiguredIsToldFromTheBeginning) {
   component->write(test::view(Stream{4}));
   EXPECT_EQ(read_all(*ground, 1), Stream{4});
   EXPECT_THROW(open_link("tcp://:0", "127.0.0.1:1"), LinkError);
-  EXPECT_THROW(open_link("udp://:0", "127.0.0.1"), LinkError);
+}
+
+TEST(Links, AReceiverThatWouldBeToldNothingIsRefused) {
+  VERIFIES("LASSO-LNK-041~1");
+  const auto why = [](const std::string& told) -> std::string {
+    try {
+      open_link("udp://:0", told);
+    } catch (const LinkError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(why("127.0.0.1"), "127.0.0.1: a port is missing: HOST:PORT");
+  EXPECT_EQ(why("127.0.0.1:0"), "127.0.0.1:0: '0' is no port to send to: 1 to 65535");
+  EXPECT_NE(why("127.0.0.1:70000").find("127.0.0.1:70000: '70000' is no port"), std::string::npos);
+  EXPECT_NE(why("192.0.2.77:9").find("192.0.2.77:9: is not reached from the link's address: "), std::string::npos) << why("192.0.2.77:9");
 }
 
 TEST(Links, SayWhetherOtherMachinesReachThem) {
