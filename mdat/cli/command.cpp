@@ -8,6 +8,7 @@
 #include "mdat/cli/commands.hpp"
 #include "mdat/common/errors.hpp"
 #include "mdat/common/output.hpp"
+#include "mdat/common/text.hpp"
 #include "mdat/link/command_encoder.hpp"
 #include "mdat/link/decode_text.hpp"
 #include "mdat/link/station.hpp"
@@ -56,6 +57,12 @@ std::unique_ptr<posix::PosixLink> connect(const CommandArguments& options) {
   }
 }
 
+// An answer of another application process is none.
+std::string others_of(const Station& station, const CommandArguments& options) {
+  if (station.other_bytes() == 0) return "";
+  return format("; %s came that belong to no packet of APID %u (--apid)", amount(station.other_bytes(), "byte").c_str(), options.apid);
+}
+
 void send(const CommandArguments& options, const PacketRow& row, const std::map<std::string, std::string>& values) {
   const std::unique_ptr<posix::PosixLink> link = connect(options);
   Station station(*link, options.to, printer(options.poses), options.apid);
@@ -70,7 +77,8 @@ void send(const CommandArguments& options, const PacketRow& row, const std::map<
   }
   const CommandAnswer answer = station.command(row, values, options.arm, wait_s);
   static_cast<void>(station.listen(options.listen_s, [] { return false; }));
-  if (answer.outcome == Outcome::kOpen) throw RunError(options.to + ": no answer within " + text_of(wait_s) + " s");
+  if (answer.outcome == Outcome::kOpen)
+    throw RunError(options.to + ": no answer within " + text_of(wait_s) + " s" + others_of(station, options));
   if (answer.outcome != Outcome::kDone) throw RunError(std::string(row.name) + ": not carried out: " + answer.why);
 }
 

@@ -85,7 +85,8 @@ class Monitor {
     if (const std::optional<PoseTelemetry>& last = recorder_.last()) text += "; " + pose_text(*last);
     const double age_s = health.age_s(now);
     if (age_s > kSilent_s) text += "; nothing for " + decimals(age_s, 0) + " s";
-    if (age_s < 0) text = "nothing has come yet";
+    if (age_s < 0) text = "nothing has come yet" + others(connection);
+    tell_refusal(connection);
     if (!connection.trouble().empty()) text += "; " + connection.trouble() + ", trying again";
     terminal_.status(text);
   }
@@ -104,9 +105,19 @@ class Monitor {
   }
 
  private:
+  // Once: who is refused is told nothing but that.
+  void tell_refusal(const Connection& connection) {
+    const std::string refusal = connection.call_refusal();
+    if (refusal == refusal_) return;
+    refusal_ = refusal;
+    if (!refusal.empty()) terminal_.line("  the component refuses to tell its telemetry: " + refusal);
+  }
+  static std::string others(const Connection& connection) {
+    return connection.other_bytes() == 0 ? "" : ", " + amount(connection.other_bytes(), "byte") + " of none";
+  }
   std::string counts(const Connection& connection) const {
     std::string text = amount(connection.health().packets(), "packet") + ", " + std::to_string(connection.health().missing()) + " missing";
-    if (connection.other_bytes() > 0) text += ", " + amount(connection.other_bytes(), "byte") + " of none";
+    text += others(connection);
     if (unknown_ > 0) text += ", " + std::to_string(unknown_) + " not in the dictionary";
     return text;
   }
@@ -125,6 +136,7 @@ class Monitor {
 
   LinkRecorder recorder_;
   std::optional<std::uint32_t> image_;
+  std::string refusal_;  // that was told last
   Terminal terminal_;
   std::uint64_t frames_told_ = 0, unknown_ = 0;
 };

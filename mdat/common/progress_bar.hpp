@@ -16,6 +16,8 @@ class ProgressBar {
   ProgressBar(std::string label, std::size_t total, std::string unit, double quiet_s = 0);
   // Shows `done` steps, at most ten times a second (terminal) or at each tenth of the whole (no terminal).
   void show(std::size_t done);
+  // No more steps come than `done`, though more were to.
+  void end_at(std::size_t done) { total_ = done; }
   // The last line, with the time taken.
   void finish();
 

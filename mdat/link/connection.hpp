@@ -39,6 +39,8 @@ class Connection {
   std::uint64_t other_bytes() const;
   // Why nothing can come now; empty: it can.
   const std::string& trouble() const { return trouble_; }
+  // Why the component refused the last ping; empty: it did not.
+  std::string call_refusal() const { return station_ ? station_->call_refusal() : ""; }
   // Where the link is bound, or leads to; empty: it has ended.
   std::string address() const;
   // To command by; null: the link has ended.

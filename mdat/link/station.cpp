@@ -153,12 +153,21 @@ bool Station::call() {
 // A count half of all further on is taken where this one is not.
 void Station::note_call(const DecodedPacket& packet) {
   std::uint32_t key = 0;
-  if (!is_answer(packet.bytes, key) || key != called_ || packet.bytes[8] != kSubserviceRefused) return;
-  if (item_value(packet, "fault") != static_cast<double>(PacketFault::kRepeated)) return;
+  if (!is_answer(packet.bytes, key) || key != called_) return;
+  const bool refused = packet.bytes[8] == kSubserviceRefused;
+  const bool repeated = refused && item_value(packet, "fault") == static_cast<double>(PacketFault::kRepeated);
+  call_refusal_ = refused && !repeated ? refusal_of(packet) : "";
+  if (!repeated) return;
   agreed_ = false;
   shift_ = static_cast<std::uint16_t>(shift_ ^ kHalf);
   if (!called_again_) (void)call();
   called_again_ = !called_again_;
+}
+
+// A component without a key takes a signature for bytes too many.
+std::string Station::refusal_of(const DecodedPacket& packet) const {
+  const bool too_long = item_value(packet, "fault") == static_cast<double>(PacketFault::kBadLength);
+  return reason_of(packet) + (signer_ && too_long ? "; or leave --key out: a component without a key takes no signed command" : "");
 }
 
 void Station::note(const DecodedPacket& packet) {
@@ -174,7 +183,7 @@ void Station::note(const DecodedPacket& packet) {
   if (subservice != kSubserviceFailed && subservice != kSubserviceRefused) return;
   const bool repeated = item_value(packet, "fault") == static_cast<double>(PacketFault::kRepeated);
   const Outcome refused = repeated ? Outcome::kRepeated : Outcome::kRefused;
-  answer = {subservice == kSubserviceFailed ? Outcome::kFailed : refused, reason_of(packet)};
+  answer = {subservice == kSubserviceFailed ? Outcome::kFailed : refused, refusal_of(packet)};
 }
 
 }  // namespace lasso::mdat

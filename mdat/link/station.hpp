@@ -67,6 +67,8 @@ class Station {
   // Sends a ping: a component at the other end of datagrams learns where to send its telemetry. Where it is refused for its count, the next
   // one has another. False: the link takes nothing now.
   bool call();
+  // Why the last call was refused, its count aside; empty: it was not, or nothing has answered it.
+  const std::string& call_refusal() const { return call_refusal_; }
 
   // Bytes that have come and belong to no packet.
   std::uint64_t other_bytes() const { return receiver_.other_bytes(); }
@@ -80,6 +82,7 @@ class Station {
   void transmit(const std::vector<std::uint8_t>& packet);
   void note(const DecodedPacket& packet);
   void note_call(const DecodedPacket& packet);
+  std::string refusal_of(const DecodedPacket& packet) const;
 
   ByteLink& link_;
   std::string name_;
@@ -90,7 +93,8 @@ class Station {
   std::function<void()> silent_;  // none: nobody wants to know, or it was called
   std::optional<Signer> signer_;
   std::uint16_t count_;
-  std::uint32_t called_ = 0;                     // key of the last call
+  std::uint32_t called_ = 0;  // key of the last call
+  std::string call_refusal_;
   bool called_again_ = false;                    // with another count
   std::uint16_t shift_ = 0;                      // of counts by the time, for calls
   bool agreed_ = false;                          // the component has taken a count, or somebody has set it

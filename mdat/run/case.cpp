@@ -70,7 +70,7 @@ class Case {
   CaseResult fly(std::atomic<std::size_t>& done) {
     connect();
     const auto interrupted = [&] { return is_by_the_clock() && interruption(); };
-    std::size_t flown = 0;
+    std::uint32_t flown = 0;
     for (std::uint32_t frame = 0; frame < setup_.frames + kPipelineFrames && !interrupted(); ++frame) {
       const posix::FrameRecord record = runner_->run_frame();
       check_sensors();
@@ -83,10 +83,11 @@ class Case {
       ++flown;
       ++done;
     }
+    result_.flown = flown;
     result_.frames.resize(flown);
     result_.end_s = to_seconds(static_cast<DurationUs>(flown) * period_us_);
     if (setup_.scenario.prior == 0) {
-      const auto found = static_cast<std::ptrdiff_t>(std::min(std::size_t{result_.found_frame.value_or(setup_.frames)}, flown));
+      const auto found = static_cast<std::ptrdiff_t>(std::min(result_.found_frame.value_or(setup_.frames), flown));
       result_.frames.erase(result_.frames.begin(), result_.frames.begin() + found);
     }
     return std::move(result_);

@@ -88,6 +88,7 @@ constexpr std::size_t kDoubtfulScans = 3;
 
 struct CaseResult {
   std::vector<FrameError> frames;
+  std::uint32_t flown = 0;              // frames: fewer than asked for where Ctrl-C ended them
   double end_s = 0;                     // of the last frame, since frame 0
   std::vector<std::uint8_t> telemetry;  // all packets, in order
   std::vector<KeptScan> scans;

@@ -23,6 +23,7 @@ class Pool {
     }
     threads_.clear();  // joins
     if (error_) std::rethrow_exception(error_);
+    bar.end_at(done_);
     return std::move(results_);
   }
 

@@ -351,8 +351,9 @@ SimulationResult simulate(const CompiledMission& mission, const SimulationOption
   ProgressBar bar("track", plan.cases.size() * result.frames, "frames");
   collect(run_cases(plan.cases, options.jobs, bar), result);
   bar.finish();
-  if (scenario.scene != nullptr)
-    result.relative = relative_runs(*scenario.scene, result.tables.front().variants.front().cases.front().telemetry);
+  const CaseResult& first = result.tables.front().variants.front().cases.front();
+  result.frames = std::min(result.frames, first.flown);
+  if (scenario.scene != nullptr) result.relative = relative_runs(*scenario.scene, first.telemetry);
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return result;
 }

@@ -64,6 +64,32 @@ TEST(Station, ACommandThatIsRefusedIsNotDoneAndSaysWhy) {
   EXPECT_NE(answer.why.find("not_authentic"), std::string::npos) << answer.why;
 }
 
+TEST(Station, ACallThatIsRefusedSaysWhyUntilOneIsTaken) {
+  VERIFIES("LASSO-IMG-012~1");
+  AlikeLink refusing(kSubserviceRefused, PacketFault::kNotAuthentic, 0);
+  Station station(refusing, "link", [](const DecodedPacket&) {});
+  EXPECT_EQ(station.call_refusal(), "");
+  ASSERT_TRUE(station.call());
+  EXPECT_TRUE(station.listen(5, [&] { return !station.call_refusal().empty(); }));
+  EXPECT_NE(station.call_refusal().find("not_authentic"), std::string::npos) << station.call_refusal();
+  AlikeLink repeating(kSubserviceRefused, PacketFault::kRepeated, 0);
+  Station overtaken(repeating, "link", [](const DecodedPacket&) {});
+  ASSERT_TRUE(overtaken.call());
+  EXPECT_FALSE(overtaken.listen(0.05, [&] { return !overtaken.call_refusal().empty(); })) << "its count alone";
+}
+
+// Where there is no authenticator, a signature is bytes too many.
+TEST(Station, ASignatureThatNobodyAskedForIsToldAsSuch) {
+  VERIFIES("LASSO-IMG-012~1");
+  for (const bool is_signed : {false, true}) {
+    AlikeLink link(kSubserviceRefused, PacketFault::kBadLength, 0);
+    Station station(link, "link", [](const DecodedPacket&) {});
+    if (is_signed) station.sign_with(Key{});
+    const CommandAnswer answer = station.command(command_row("ping"), {}, false, 5);
+    EXPECT_EQ(answer.why.find("--key") != std::string::npos, is_signed) << answer.why;
+  }
+}
+
 // A component whose last command had the count half of all before the first one that comes.
 class CountingLink final : public ByteLink {
  public:
