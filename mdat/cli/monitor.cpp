@@ -113,7 +113,7 @@ class Monitor {
     if (!refusal.empty()) terminal_.line("  the component refuses to tell its telemetry: " + refusal);
   }
   static std::string others(const Connection& connection) {
-    return connection.other_bytes() == 0 ? "" : ", " + amount(connection.other_bytes(), "byte") + " of none";
+    return connection.other_bytes() == 0 ? "" : ", " + amount(connection.other_bytes(), "byte") + " of no packet of this APID";
   }
   std::string counts(const Connection& connection) const {
     std::string text = amount(connection.health().packets(), "packet") + ", " + std::to_string(connection.health().missing()) + " missing";
