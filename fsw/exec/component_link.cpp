@@ -41,7 +41,7 @@ std::size_t Component::receive(ConstBytes bytes, TimeUs now_us) {
   const Running running(identity_);
   if (!bytes.empty()) bytes_came_ = true;
   std::size_t taken = 0;
-  bool more = !packet_waits_ || answer_if_room(receiver_.packet(), now_us);
+  bool more = !packet_waits_;  // for the next frame: this one has no room for it
   while (more) {
     taken += receiver_.take(bytes.subspan(taken, bytes.size() - taken));
     more = !receiver_.packet().empty() && answer_if_room(receiver_.packet(), now_us);
@@ -96,7 +96,8 @@ void Component::carry_out(const Command& command, Verification& verification, Ti
 // What a false start held back is looked at when nothing has come for a frame.
 void Component::pass_link_boundary(TimeUs now_us) {
   room_.renew();
-  bool more = !packet_waits_ || answer_if_room(receiver_.packet(), now_us);
+  bool more = true;
+  if (packet_waits_) more = answer_if_room(receiver_.packet(), now_us);
   while (!bytes_came_ && more && receiver_.give_up()) more = receiver_.packet().empty() || answer_if_room(receiver_.packet(), now_us);
   packet_waits_ = !more;
   bytes_came_ = false;

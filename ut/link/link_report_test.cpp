@@ -31,6 +31,20 @@ Stream data_of(const Stream& packet) {
   return Stream(data.begin(), data.end());
 }
 
+TEST(LinkReport, AnAnswerNamesItsCommand) {
+  VERIFIES("LASSO-LNK-013~1");
+  const Stream answer = encode(kSubserviceRefused, kSample);
+  std::uint32_t key = 0;
+  ASSERT_TRUE(is_answer(test::view(answer), key));
+  EXPECT_EQ(key, 0x1BD1C007u);
+  EXPECT_EQ(key, command_key(test::view(Stream{0x1B, 0xD1, 0xC0, 0x07})));
+  Stream other = answer;
+  other[kPrimaryHeaderBytes + 1] = kServiceVerification + 1;
+  EXPECT_FALSE(is_answer(test::view(other), key));
+  EXPECT_FALSE(is_answer(ConstBytes(answer.data(), kPacketHeaderBytes - 1), key));
+  EXPECT_EQ(key, 0x1BD1C007u);
+}
+
 TEST(LinkReport, VerificationSaysWhichCommandAndWhy) {
   VERIFIES("LASSO-LNK-013~1");
   EXPECT_EQ(data_of(encode(kSubserviceAccepted, kSample)), (Stream{0x1B, 0xD1, 0xC0, 0x07}));
