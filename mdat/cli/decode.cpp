@@ -31,7 +31,8 @@ ConstBytes view(const std::string& content) { return {reinterpret_cast<const std
 // Of a run that recorded nothing there is nothing to print; what has bytes and no packet is another file.
 void require_packets(std::size_t packets, const DecodeArguments& options, const std::string& content) {
   if (packets > 0 || content.empty()) return;
-  if (options.headers) throw InputError(options.file + ": no space packet in its " + std::to_string(content.size()) + " bytes: give a recorded stream");
+  if (options.headers)
+    throw InputError(options.file + ": no space packet in its " + std::to_string(content.size()) + " bytes: give a recorded stream");
   const char* const kind = options.commands ? "command" : "packet of telemetry";
   throw InputError(
       format("%s: no %s of APID %u in its %zu bytes: give a recorded stream (telemetry.ccsds of a run; one of commands with "
