@@ -189,11 +189,11 @@ HitSolution weigh_hits(const Mission& mission, const Pose& T_target_sensor, Work
   return solution;
 }
 
-double cost_of_hits(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace, const PassKind& kind) {
+double cost_of_hits(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace) {
   HitSolution solution;
   if (workspace.points.empty()) return mean_cost(solution);
   const MatchSettings<N> s = make_settings(mission.parameters, workspace);
-  keep(match_pass(mission, s, kind, T_target_sensor, workspace), s, solution);
+  keep(match_pass(mission, s, {}, T_target_sensor, workspace), s, solution);
   return mean_cost(solution);
 }
 

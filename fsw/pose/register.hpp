@@ -46,7 +46,7 @@ HitSolution weigh_hits(const Mission& mission, const Pose& T_target_sensor, Work
 double mean_cost(const HitSolution& solution);
 
 // The same of the pose as it stands: one pass, nothing solved.
-double cost_of_hits(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace, const PassKind& kind = {});
+double cost_of_hits(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace);
 
 // What all returns cost at a pose, squared sigmas: of each Tukey's rho with a kernel of 3.5 sigmas, which is r^2 of a small residual and
 // kMostOfAReturn at most. A return that the pose leaves out costs that, too. So a return that passes an edge, or meets it with half of its

@@ -122,7 +122,7 @@ class WidenTest : public test::BeamTest {
   }
 };
 
-TEST_F(WidenTest, AnHonestCovarianceStays) {
+TEST_F(WidenTest, AnHonestSigmaIsDoubledOnceAtMost) {
   VERIFIES("LASSO-REG-025~2");
   scan();
   const HitSolution hits = registered(truth());
