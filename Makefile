@@ -357,6 +357,13 @@ search-count: ## board: instructions of a search, and its largest step: STARTS= 
 	$(call compile,$(PPC)-fixed,search_replay)
 	@ft/ppc603e/count-search $(BUILD) $(PPC) $(CLANG) $(PPC)-fixed $(or $(STARTS),24) $(or $(SEED),11)
 
+# Without the rig; another board builds the same program with files of its own (docs/porting.md).
+port-check: ## measure: what a port has to give, tried here: arithmetic, memory, stack, same bits, clock, slots: DIGEST= UNTIMED=1
+	$(call packages,build test)
+	$(call configure,$(BUILD),)
+	$(call compile,$(BUILD),port_check)
+	@$(BUILD)/ft/port/port_check $(if $(UNTIMED),--untimed) $(DIGEST)
+
 # $(on_first_board) builds the first bare board's image in floating point and the rig around it, $(on_board) those of both number types, and the second
 # board's. What the first one's stacks may hold make prove knows.
 define on_first_board
