@@ -74,9 +74,8 @@ void check_clock() {
     back_us = std::min(back_us, step_us);
     if (step_us > 0) smallest_us = std::min(smallest_us, step_us);
   }
-  say(back_us == 0, "clock", "of %d readings none is before another (%lld us)", kReadings, static_cast<long long>(back_us));
-  say(smallest_us <= kCoarsestUs, "resolution", "the smallest step is %lld us (at most %lld)", static_cast<long long>(smallest_us),
-      static_cast<long long>(kCoarsestUs));
+  say(back_us == 0, "clock", "of %d readings none is before another (%lld us)", kReadings, 0LL + back_us);
+  say(smallest_us <= kCoarsestUs, "resolution", "the smallest step is %lld us (at most %lld)", 0LL + smallest_us, 0LL + kCoarsestUs);
 }
 
 void check_wake_up() {
@@ -89,16 +88,14 @@ void check_wake_up() {
     worst_us = std::max(worst_us, late_us);
     early_us = std::min(early_us, late_us);
   }
-  say(early_us == 0, "early", "no wake-up call of %d comes before its time (%lld us)", kWakeUps, static_cast<long long>(early_us));
-  say(worst_us < kSlotUs, "late", "the latest comes %lld us after it (less than a slot, %lld)", static_cast<long long>(worst_us),
-      static_cast<long long>(kSlotUs));
+  say(early_us == 0, "early", "no wake-up call of %d comes before its time (%lld us)", kWakeUps, 0LL + early_us);
+  say(worst_us < kSlotUs, "late", "the latest comes %lld us after it (less than a slot, %lld)", 0LL + worst_us, 0LL + kSlotUs);
 }
 
 void check_times(const Longest& longest) {
-  say(longest.slot_us < kSlotUs, "slots", "the longest takes %lld us (less than %lld)", static_cast<long long>(longest.slot_us),
-      static_cast<long long>(kSlotUs));
-  say(longest.estimate_us < kPeriodUs, "estimate", "the longest takes %lld us (less than a frame, %lld)",
-      static_cast<long long>(longest.estimate_us), static_cast<long long>(kPeriodUs));
+  say(longest.slot_us < kSlotUs, "slots", "the longest takes %lld us (less than %lld)", 0LL + longest.slot_us, 0LL + kSlotUs);
+  say(longest.estimate_us < kPeriodUs, "estimate", "the longest takes %lld us (less than a frame, %lld)", 0LL + longest.estimate_us,
+      0LL + kPeriodUs);
 }
 
 #if defined(__has_feature)
