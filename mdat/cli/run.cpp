@@ -7,6 +7,7 @@
 #include "mdat/campaign/run_junit.hpp"
 #include "mdat/cli/commands.hpp"
 #include "mdat/cli/live_run.hpp"
+#include "mdat/cli/run_output.hpp"
 #include "mdat/common/errors.hpp"
 #include "mdat/common/output.hpp"
 #include "mdat/common/version.hpp"
@@ -15,11 +16,7 @@
 #include "mdat/missiondb/camera_faults.hpp"
 #include "mdat/recording/recorded_run.hpp"
 #include "mdat/recording/run_recorders.hpp"
-#include "mdat/render/run_pictures.hpp"
-#include "mdat/report/report.hpp"
 #include "mdat/run/camera.hpp"
-#include "mdat/run/frames_table.hpp"
-#include "mdat/run/relative_table.hpp"
 #include "mdat/run/results.hpp"
 #include "mdat/run/simulation.hpp"
 #include "mdat/stereo/stereo_maker.hpp"
@@ -83,41 +80,6 @@ void check_apart_from_inputs(const RunArguments& options, const std::vector<std:
   std::vector<std::string> inputs = {options.mission, options.camera_faults, options.optics, options.calibration, options.key};
   if (options.sensor.rfind(kReplay, 0) == 0) inputs.push_back(options.sensor.substr(sizeof kReplay - 1));
   refuse_same_files(outputs, inputs);
-}
-
-void write_results(const SimulationResult& result, OutputFolder& folder) {
-  folder.write("results.json", results_json(result));
-  folder.write("frames.csv", frames_csv(result));
-  folder.write("telemetry.ccsds", telemetry_bytes(result));
-  if (!result.relative.empty()) folder.write("relative.csv", relative_csv(result.relative));
-  folder.commit();
-  folder.remove("report.html");  // of an earlier run
-  if (result.relative.empty()) folder.remove("relative.csv");
-}
-
-std::vector<SeenPicture> seen_pictures(const CompiledMission& mission, const SimulationResult& result) {
-  std::vector<SeenPicture> pictures;
-  for (RunPicture& picture : run_pictures(mission, result, std::max(1U, std::thread::hardware_concurrency())))
-    pictures.push_back({std::move(picture.caption), std::move(picture.png)});
-  return pictures;
-}
-
-// After all else: what goes wrong here costs a picture. Throws PictureError.
-void write_pictures(const RunArguments& options, const CompiledMission& mission, const SimulationResult& result, OutputFolder& folder) {
-  Plotter plotter(folder.path());
-  std::string problem;
-  if (options.report) {
-    folder.write("report.html", report_html(plotter, mission, result, seen_pictures(mission, result)));
-    folder.commit();
-    std::printf("the report: %s\n", (folder.path() / "report.html").c_str());
-  }
-  if (!plotter.missing().empty()) problem = (folder.path() / "report.html").string() + ": figures are missing: " + plotter.missing();
-  try {
-    if (!options.picture.empty()) write_file(options.picture, picture_png(plotter, mission, result));
-  } catch (const PictureError& error) {
-    problem = problem.empty() ? options.picture + ": " + error.what() : problem;
-  }
-  if (!problem.empty()) throw PictureError(problem + "; all results are written");
 }
 
 // An operator's link; none if there is no URL. Who reads its address finds the component running: it is told when the mission is compiled.
@@ -195,8 +157,7 @@ std::unique_ptr<RunRecorders> open_recorders(const RunArguments& options, const 
   RecordingHead head = recording_head(mission, options.simulation, options.settings, {{"commit", kCommit}, {"sensor", options.sensor}});
   if (!options.calibration.empty()) head.files[kCalibrationAttachment] = file_content(options.calibration);
   tell_link(options, link, head);
-  const RecordingContent content = options.record_for == "replay" ? RecordingContent::kReplay : RecordingContent::kAll;
-  return std::make_unique<RunRecorders>(files, mission, head, content);
+  return std::make_unique<RunRecorders>(files, mission, head, recording_content(options.record_for));
 }
 
 // Pictures of one case take all cores; those of several cases one each.
@@ -254,7 +215,7 @@ void run(const RunArguments& options) {
               result.relative.empty() ? "" : ", relative.csv");
   for (const std::filesystem::path& file : recordings) std::printf("the recording: %s\n", file.c_str());
   (void)std::fflush(stdout);
-  if (options.report || !options.picture.empty()) write_pictures(options, mission, result, folder);
+  if (options.report || !options.picture.empty()) write_pictures(options.report, options.picture, mission, result, folder);
 }
 
 // The head and the line, or the recording, that --sensor names; none: simulated.
@@ -392,9 +353,11 @@ void add_run_command(CLI::App& app) {
   command->add_option("--record", options->record,
                       "FILE.mcap: also record all frames, for viewers and replay (docs/recordings.md); of several ranges a file each "
                       "(FILE-4m.mcap)");
-  command->add_option("--record-for", options->record_for, "viewers: all; replay: only what mdat replay needs")
+  command
+      ->add_option("--record-for", options->record_for,
+                   "viewers: all; replay: only what mdat replay needs; iterations: all, and each step of the registrations")
       ->needs("--record")
-      ->check(CLI::IsMember({"viewers", "replay"}))
+      ->check(CLI::IsMember({"viewers", "replay", "iterations"}))
       ->capture_default_str();
   command->callback([options] {
     set_cameras(*options);

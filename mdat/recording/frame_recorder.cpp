@@ -9,8 +9,8 @@
 #include "mdat/common/version.hpp"
 #include "mdat/link/decode_text.hpp"
 #include "mdat/recording/packet_messages.hpp"
+#include "mdat/recording/registration_steps.hpp"
 #include "mdat/recording/ros_schemas.hpp"
-#include "mdat/recording/scan_cloud.hpp"
 #include "mdat/run/case.hpp"
 #include "mdat/run/true_target.hpp"
 
@@ -38,6 +38,7 @@ constexpr Topic kTopics[] = {{"/tf", ros::tf_message},
                              {"/packets", ros::packet},
                              {"/sensor_scans", ros::packet, mcap::Bulk::kLarge},
                              {"/commands", ros::packet}};
+constexpr Topic kIterationTopics[] = {{"/iterations", ros::point_cloud, mcap::Bulk::kLarge}, {"/iteration_poses", ros::pose_array}};
 
 std::uint64_t nanoseconds(TimeUs t_us) { return static_cast<std::uint64_t>(t_us) * 1000; }
 
@@ -91,6 +92,11 @@ std::vector<std::array<std::uint32_t, 3>> kept(const std::vector<std::array<std:
 
 }  // namespace
 
+RecordingContent recording_content(const std::string& name) {
+  if (name == "replay") return RecordingContent::kReplay;
+  return name == "iterations" ? RecordingContent::kIterations : RecordingContent::kAll;
+}
+
 std::vector<MessageTopic> recorded_topics() {
   std::vector<MessageTopic> topics;
   for (const Topic& topic : kTopics) topics.push_back({topic.name, topic.schema()});
@@ -104,8 +110,12 @@ FrameRecorder::FrameRecorder(const std::filesystem::path& file, const CompiledMi
       frames_(std::in_place, mission.source, scenario_in(head)),
       tap_(tap),
       scans_(std::move(scans)),
-      content_(content) {
-  if (content_ == RecordingContent::kAll) model_ = make_target(mission.mesh);
+      content_(content),
+      sight_(std::in_place, mission.source, scenario_in(head)) {
+  if (content_ != RecordingContent::kReplay) model_ = make_target(mission.mesh);
+  if (content_ == RecordingContent::kIterations)
+    image_ = std::make_unique<LoadedImage>(mission.source.file.string(),
+                                           image_bytes(mission, parameters_for(mission.source, scenario_in(head))));
   if (!file.empty()) open(file, head);
 }
 
@@ -117,7 +127,10 @@ FrameRecorder::FrameRecorder(const std::filesystem::path& file, const Mesh* targ
 void FrameRecorder::open(const std::filesystem::path& file, const RecordingHead& head) {
   mcap::Writer& writer = writer_.emplace(file, kRecordingProfile, "mdat");
   for (const Topic& topic : kTopics) {
-    if (content_ == RecordingContent::kAll || topic.schema == ros::packet) add_topic({topic.name, topic.schema()}, topic.bulk);
+    if (content_ != RecordingContent::kReplay || topic.schema == ros::packet) add_topic({topic.name, topic.schema()}, topic.bulk);
+  }
+  for (const Topic& topic : kIterationTopics) {
+    if (content_ == RecordingContent::kIterations) add_topic({topic.name, topic.schema()}, topic.bulk);
   }
   for (const auto& [name, bytes] : head.files) writer.attach(name, "application/octet-stream", bytes, 0);
   writer.add_metadata(kRecordingMetadata, head.about);
@@ -147,7 +160,7 @@ void FrameRecorder::on_packets(TimeUs boundary_us, ConstBytes packets) {
     write("/packets", boundary_us, ros::packet_bytes({boundary_us, ""}, text_of(packet)));
     rest = rest.subspan(packet.size(), rest.size() - packet.size());
   }
-  if (content_ == RecordingContent::kAll) write_told(boundary_us, packets);
+  if (content_ != RecordingContent::kReplay) write_told(boundary_us, packets);
   take_scans(false);
 }
 
@@ -201,15 +214,21 @@ void FrameRecorder::add_true_surfaces(const std::vector<std::array<std::uint32_t
     surfaces.push_back({body.frame, body.frame, &body.surface->vertices, &body.surface->triangles, Vec3(kOtherColor), 1});
 }
 
-// Once: they move with their frames.
-void FrameRecorder::write_surfaces(TimeUs t_us) {
-  if (target_ == nullptr || std::exchange(surfaces_written_, true)) return;
+// Once: all of it moves with its frames. Lines of the sensors reach as far as the target.
+void FrameRecorder::write_scene(TimeUs t_us, const FlownFrame* frame) {
+  if (target_ == nullptr || std::exchange(scene_written_, true)) return;
   std::vector<ros::Surface> surfaces;
   std::vector<std::array<std::uint32_t, 3>> still;  // lives as long as the surfaces
   if (frames_) still = kept(target_->triangles, frames_->moved_triangles());
   add_true_surfaces(still, surfaces);
   surfaces.push_back({"target, estimated", kTargetFrame, &target_->vertices, &target_->triangles, Vec3(kEstimateColor), 1});
-  write("/scene", t_us, ros::scene_bytes(t_us, surfaces));
+  std::vector<ros::Path> paths;
+  if (frame != nullptr) {
+    const double range_m = frame->truth.T_sensor_target.p.norm();
+    paths = sight_->fields_of_view(range_m);
+    if (!frame->samples.empty()) paths.push_back(scan_path(frame->samples, range_m));
+  }
+  write("/scene", t_us, ros::scene_bytes(t_us, surfaces, paths));
 }
 
 void FrameRecorder::write_poses(const PoseTelemetry& told, const Pose* truth) {
@@ -237,21 +256,39 @@ void FrameRecorder::write_scan(const FlownFrame& frame) {
   const PoseTelemetry& told = frame.telemetry;
   const TimeUs t_us = told.t_measurement_us;
   const Twist rates{Vec3(told.filter_omega_radps), Vec3(told.filter_v_mps)};
-  const ScanView view{frame.samples, t_us, registration_pose(told), rates};
+  const SensorParameters& sensor = sight_->parameters(told.sensor);
+  const ScanView view{frame.samples, t_us, registration_pose(told), rates, told.part, sensor.sigma0_m, sensor.sigma_k_per_m};
   write("/scan", t_us, ros::point_cloud_bytes({t_us, kSensorFrame}, scan_cloud(view, *model_)));
   write("/rays_missed", t_us, ros::point_cloud_bytes({t_us, kSensorFrame}, missed_cloud(view)));
+  if (image_) write_iterations(view, told);
+}
+
+// Where nothing tells how the registration began, there are no messages.
+void FrameRecorder::write_iterations(const ScanView& view, const PoseTelemetry& told) {
+  const ros::Header header{view.t_us, kSensorFrame};
+  RangeImage scan;
+  if (!to_range_image(view.samples, scan)) return;
+  const std::vector<RegistrationStep> steps = registration_steps(*image_, before_, told, scan);
+  if (steps.empty()) return;
+  const ScanView moved{view.samples, view.t_us, {}, {Vec3(before_.filter_omega_radps), Vec3(before_.filter_v_mps)}};
+  const auto columns = static_cast<std::size_t>(image_->mission().parameters.iterations_max) + 2;  // the start, and a limit of none
+  write("/iterations", view.t_us, ros::point_cloud_bytes(header, steps_cloud(moved, steps, columns, *model_)));
+  std::vector<Pose> poses;
+  for (const RegistrationStep& step : steps) poses.push_back(step.T_sensor_target);
+  write("/iteration_poses", view.t_us, ros::pose_array_bytes(header, poses));
 }
 
 void FrameRecorder::on_frame(const FlownFrame& frame) {
   if (content_ == RecordingContent::kReplay) return;
-  write_surfaces(frame.telemetry.t_measurement_us);
+  write_scene(frame.telemetry.t_measurement_us, &frame);
   write_poses(frame.telemetry, &frame.truth.T_sensor_target);
   write_scan(frame);
+  before_ = frame.telemetry;
 }
 
 void FrameRecorder::on_report(const PoseTelemetry& told) {
   if (told.t_measurement_us <= 0) return;
-  write_surfaces(told.t_measurement_us);
+  write_scene(told.t_measurement_us, nullptr);
   write_poses(told, nullptr);
 }
 

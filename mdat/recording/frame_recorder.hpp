@@ -19,7 +19,9 @@
 #include "mdat/recording/message_tap.hpp"
 #include "mdat/recording/recording_head.hpp"
 #include "mdat/recording/ros_messages.hpp"
+#include "mdat/recording/scan_cloud.hpp"
 #include "mdat/recording/scene_frames.hpp"
+#include "mdat/recording/sensor_sight.hpp"
 #include "mdat/run/run_listener.hpp"
 
 namespace lasso::mdat {
@@ -29,7 +31,10 @@ constexpr char kRecordingProfile[] = "ros2";
 // What a run has told of: the topics of its messages, in the order by which a tap knows them.
 std::vector<MessageTopic> recorded_topics();
 
-enum class RecordingContent { kAll, kReplay };  // kReplay: packets, and what sensors and operator gave, which is all that mdat replay needs
+// kReplay: packets, and what sensors and operator gave, which is all that mdat replay needs. kIterations: all, and the residuals and poses
+// of each registration's steps (registration_steps.hpp).
+enum class RecordingContent { kAll, kReplay, kIterations };
+RecordingContent recording_content(const std::string& name);  // of "replay" and "iterations"; else all
 
 class FrameRecorder final : public RunListener {
  public:
@@ -57,7 +62,8 @@ class FrameRecorder final : public RunListener {
   void write(const std::string& topic, TimeUs t_us, const std::string& bytes);
   void write_told(TimeUs boundary_us, ConstBytes packets);
   void add_true_surfaces(const std::vector<std::array<std::uint32_t, 3>>& still, std::vector<ros::Surface>& surfaces) const;
-  void write_surfaces(TimeUs t_us);
+  void write_scene(TimeUs t_us, const FlownFrame* frame);
+  void write_iterations(const ScanView& view, const PoseTelemetry& told);
   void write_poses(const PoseTelemetry& told, const Pose* truth);
   void write_scan(const FlownFrame& frame);
   void write_event(TimeUs boundary_us, const DecodedPacket& packet);
@@ -72,7 +78,10 @@ class FrameRecorder final : public RunListener {
   std::shared_ptr<sim::SensorRecording> scans_;
   RecordingContent content_;
   std::size_t scans_taken_ = 0;
-  bool surfaces_written_ = false;
+  bool scene_written_ = false;
+  std::optional<SensorSight> sight_;    // of a run
+  std::unique_ptr<LoadedImage> image_;  // of kIterations
+  PoseTelemetry before_{};              // of the frame before
   std::uint64_t boundaries_ = 0;
 };
 

@@ -41,18 +41,48 @@ void put_triangles(const Surface& surface, CdrWriter& out) {
 
 void put_flag(bool flag, CdrWriter& out) { out.put(static_cast<std::uint8_t>(flag)); }
 
-// A SceneEntity: it stays for ever, moves with its frame, and is triangles alone.
-void put_entity(TimeUs t_us, const Surface& surface, CdrWriter& out) {
-  constexpr int kBefore = 5, kBehind = 2;  // kinds of primitives, of which there are none: arrows to lines; texts and models
-  put_header({t_us, surface.frame}, out);
-  out.text(surface.id);
+void put_path(const Path& path, CdrWriter& out) {
+  constexpr std::uint8_t kStrip = 0, kList = 2;
+  out.put(path.joined ? kStrip : kList);
+  put_pose(Pose{}, out);
+  out.put(1.0);  // pixels
+  put_flag(true, out);
+  out.put(static_cast<std::uint32_t>(path.points.size()));
+  for (const Vec3& point : path.points) put_vector(point, out);
+  put_color(path.color, 1, out);
+  out.put(std::uint32_t{0});  // colours of the points
+  out.put(std::uint32_t{0});  // indices
+}
+
+// Kinds of primitives of an entity, of which there are none.
+void put_none(int kinds, CdrWriter& out) {
+  for (int i = 0; i < kinds; ++i) out.put(std::uint32_t{0});
+}
+
+// The begin of a SceneEntity, which stays for ever and moves with its frame, up to its lines.
+void put_entity(TimeUs t_us, const std::string& id, const std::string& frame, CdrWriter& out) {
+  constexpr int kBeforeLines = 4;
+  put_header({t_us, frame}, out);
+  out.text(id);
   out.put(std::int32_t{0}).put(std::uint32_t{0});  // lifetime
   put_flag(true, out);
   out.put(std::uint32_t{0});  // metadata
-  for (int i = 0; i < kBefore; ++i) out.put(std::uint32_t{0});
+  put_none(kBeforeLines, out);
+}
+
+void put_surface(TimeUs t_us, const Surface& surface, CdrWriter& out) {
+  put_entity(t_us, surface.id, surface.frame, out);
+  put_none(1, out);  // lines
   out.put(std::uint32_t{1});
   put_triangles(surface, out);
-  for (int i = 0; i < kBehind; ++i) out.put(std::uint32_t{0});
+  put_none(2, out);  // texts and models
+}
+
+void put_lines(TimeUs t_us, const Path& path, CdrWriter& out) {
+  put_entity(t_us, path.id, path.frame, out);
+  out.put(std::uint32_t{1});
+  put_path(path, out);
+  put_none(3, out);  // triangles, texts and models
 }
 
 }  // namespace
@@ -77,6 +107,14 @@ std::string pose_bytes(const Header& header, const Pose& pose) {
   CdrWriter out;
   put_header(header, out);
   put_pose(pose, out);
+  return out.bytes();
+}
+
+std::string pose_array_bytes(const Header& header, const std::vector<Pose>& poses) {
+  CdrWriter out;
+  put_header(header, out);
+  out.put(static_cast<std::uint32_t>(poses.size()));
+  for (const Pose& pose : poses) put_pose(pose, out);
   return out.bytes();
 }
 
@@ -148,11 +186,12 @@ std::string packet_bytes(const Header& header, std::string_view packet) {
   return out.bytes();
 }
 
-std::string scene_bytes(TimeUs t_us, const std::vector<Surface>& surfaces) {
+std::string scene_bytes(TimeUs t_us, const std::vector<Surface>& surfaces, const std::vector<Path>& paths) {
   CdrWriter out;
   out.put(std::uint32_t{0});  // deletions
-  out.put(static_cast<std::uint32_t>(surfaces.size()));
-  for (const Surface& surface : surfaces) put_entity(t_us, surface, out);
+  out.put(static_cast<std::uint32_t>(surfaces.size() + paths.size()));
+  for (const Surface& surface : surfaces) put_surface(t_us, surface, out);
+  for (const Path& path : paths) put_lines(t_us, path, out);
   return out.bytes();
 }
 

@@ -31,6 +31,7 @@ void put_header(const Header& header, mcap::CdrWriter& out);
 
 std::string tf_bytes(TimeUs t_us, const std::vector<FrameTransform>& transforms);
 std::string pose_bytes(const Header& header, const Pose& pose);
+std::string pose_array_bytes(const Header& header, const std::vector<Pose>& poses);
 
 // `covariance`: of rotation, then translation, in the axes of the header's frame.
 std::string pose_with_covariance_bytes(const Header& header, const Pose& pose, const Mat6& covariance);
@@ -49,7 +50,7 @@ std::string odometry_bytes(const Header& header, const Odometry& odometry);
 
 enum class FieldType : std::uint8_t { kUint8 = 2, kInt32 = 5, kFloat32 = 7 };
 struct PointField {
-  const char* name;
+  std::string name;
   std::uint32_t offset;
   FieldType type;
 };
@@ -74,6 +75,13 @@ struct Surface {
   Vec3 color = Vec3::Ones();  // red, green, blue: 0 to 1
   double opacity = 1;
 };
-std::string scene_bytes(TimeUs t_us, const std::vector<Surface>& surfaces);
+// Lines that move with their frame, one pixel wide: each point to the next (joined), or the first of two to the second.
+struct Path {
+  std::string id, frame;
+  std::vector<Vec3> points;  // metres
+  bool joined = false;
+  Vec3 color = Vec3::Ones();
+};
+std::string scene_bytes(TimeUs t_us, const std::vector<Surface>& surfaces, const std::vector<Path>& paths = {});
 
 }  // namespace lasso::mdat::ros

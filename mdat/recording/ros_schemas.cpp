@@ -30,6 +30,7 @@ constexpr Definition kDefinitions[] = {
     {"geometry_msgs/TransformStamped", "std_msgs/Header header\nstring child_frame_id\ngeometry_msgs/Transform transform\n"},
     {"tf2_msgs/TFMessage", "geometry_msgs/TransformStamped[] transforms\n"},
     {"geometry_msgs/PoseStamped", "std_msgs/Header header\ngeometry_msgs/Pose pose\n"},
+    {"geometry_msgs/PoseArray", "std_msgs/Header header\ngeometry_msgs/Pose[] poses\n"},
     {"geometry_msgs/PoseWithCovarianceStamped", "std_msgs/Header header\ngeometry_msgs/PoseWithCovariance pose\n"},
     {"nav_msgs/Odometry",
      "std_msgs/Header header\nstring child_frame_id\ngeometry_msgs/PoseWithCovariance pose\ngeometry_msgs/TwistWithCovariance twist\n"},
@@ -116,6 +117,7 @@ RosSchema schema_with(const std::string& name, const std::string& fields) {
 RosSchema tf_message() { return schema_of("tf2_msgs/TFMessage"); }
 RosSchema point_cloud() { return schema_of("sensor_msgs/PointCloud2"); }
 RosSchema pose_stamped() { return schema_of("geometry_msgs/PoseStamped"); }
+RosSchema pose_array() { return schema_of("geometry_msgs/PoseArray"); }
 RosSchema pose_with_covariance() { return schema_of("geometry_msgs/PoseWithCovarianceStamped"); }
 RosSchema odometry() { return schema_of("nav_msgs/Odometry"); }
 RosSchema log() { return schema_of("rcl_interfaces/Log"); }

@@ -17,9 +17,10 @@ struct CloudPoint {
   float direction[3] = {};
   float range_m = 0, sigma_factor = 1, residual_m = kNothing;
   std::int32_t offset_us = 0;
-  std::uint8_t state = 0, unused[3] = {};
+  std::uint8_t state = 0, part = 0, unused[2] = {};
+  float sigma_m = kNothing;
 };
-static_assert(sizeof(CloudPoint) == 44, "no padding");
+static_assert(sizeof(CloudPoint) == 48, "no padding");
 
 const std::vector<ros::PointField>& cloud_fields() {
   static const std::vector<ros::PointField> kFields = {
@@ -28,7 +29,8 @@ const std::vector<ros::PointField>& cloud_fields() {
       {"uy", 16, ros::FieldType::kFloat32},       {"uz", 20, ros::FieldType::kFloat32},
       {"range", 24, ros::FieldType::kFloat32},    {"sigma_factor", 28, ros::FieldType::kFloat32},
       {"residual", 32, ros::FieldType::kFloat32}, {"offset_us", 36, ros::FieldType::kInt32},
-      {"state", 40, ros::FieldType::kUint8}};
+      {"state", 40, ros::FieldType::kUint8},      {"part", 41, ros::FieldType::kUint8},
+      {"sigma", 44, ros::FieldType::kFloat32}};
   return kFields;
 }
 
@@ -64,8 +66,14 @@ float residual_m(const MovingTarget& target, double dt_s, const RangeSample& sam
   const Mat3 R_target_sensor = target.R_target_sensor(dt_s);
   Vec3 direction;
   for (int i = 0; i < 3; ++i) direction[i] = static_cast<double>(sample.direction[i]);
+  if (!(direction.squaredNorm() > 0)) return kNothing;
   const sim::RayHit hit = model.cast(target.sensor_m(R_target_sensor, dt_s), R_target_sensor * direction.normalized());
   return hit.hit ? static_cast<float>(static_cast<double>(sample.range_m) - hit.range_m) : kNothing;
+}
+
+float sigma_m(const ScanView& scan, const RangeSample& sample) {
+  const double range_m = static_cast<double>(sample.range_m);
+  return sample.sigma_factor * static_cast<float>(std::hypot(scan.sigma0_m, scan.sigma_k_per_m * range_m * range_m));
 }
 
 CloudPoint point_of(const ScanView& scan, const MovingTarget& target, const RangeSample& sample, const sim::RayCaster& model) {
@@ -75,10 +83,12 @@ CloudPoint point_of(const ScanView& scan, const MovingTarget& target, const Rang
   point.sigma_factor = sample.sigma_factor;
   point.offset_us = static_cast<std::int32_t>(sample.t_us - scan.t_us);
   point.state = static_cast<std::uint8_t>(sample.state);
+  point.part = scan.part;
   if (sample.state != RayState::kHit) return point;
   point.x = sample.range_m * sample.direction[0];
   point.y = sample.range_m * sample.direction[1];
   point.z = sample.range_m * sample.direction[2];
+  point.sigma_m = sigma_m(scan, sample);
   point.residual_m = residual_m(target, to_seconds(sample.t_us - scan.t_us), sample, model);
   return point;
 }
@@ -94,6 +104,16 @@ ros::PointCloud scan_cloud(const ScanView& scan, const sim::RayCaster& model) {
     cloud.data.append(reinterpret_cast<const char*>(&point), sizeof point);
   }
   return cloud;
+}
+
+std::vector<float> residuals_of(const ScanView& scan, const sim::RayCaster& model) {
+  std::vector<float> residuals;
+  const MovingTarget target(scan);
+  for (const RangeSample& sample : scan.samples) {
+    const bool returned = sample.state == RayState::kHit;
+    residuals.push_back(returned ? residual_m(target, to_seconds(sample.t_us - scan.t_us), sample, model) : kNothing);
+  }
+  return residuals;
 }
 
 ros::PointCloud missed_cloud(const ScanView& scan) {

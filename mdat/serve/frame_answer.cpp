@@ -79,10 +79,10 @@ Json error_json(const FrameFacts& facts) {
           {"normalised_squared", facts.normalised_squared}};
 }
 
-Json iterations_json(const std::vector<Iteration>& iterations) {
+Json iterations_json(const std::vector<RegistrationStep>& iterations) {
   if (iterations.empty()) return nullptr;
   Json list = Json::array();
-  for (const Iteration& row : iterations) {
+  for (const RegistrationStep& row : iterations) {
     list.push_back({{"step_mm", 1e3 * row.step_m},
                     {"step_deg", row.step_rad / kRadPerDeg},
                     {"rms_mm", 1e3 * row.rms_m},

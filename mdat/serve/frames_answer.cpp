@@ -4,6 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
+#include "mdat/recording/recording_head.hpp"
+#include "mdat/run/simulated_scenario.hpp"
 #include "mdat/serve/answers.hpp"
 #include "mdat/serve/bits.hpp"
 
@@ -14,6 +16,22 @@ using Json = nlohmann::ordered_json;
 
 constexpr float kUnknownFlag = std::numeric_limits<float>::quiet_NaN();
 constexpr std::uint8_t kWarnLevel = 30, kErrorLevel = 40;  // of rcl_interfaces/Log
+
+// Frames as the run counts them (frames.csv), from its scans' times and period; of what no mission is known of, those that were told.
+class FrameNumbers {
+ public:
+  explicit FrameNumbers(const Recording& recording) {
+    const bool simulated = recording.own() && recording.file().metadata().at(kRecordingMetadata).count(kLinkAddress) == 0;
+    if (simulated && recording.image() != nullptr) period_us_ = to_us(recording.image()->mission().parameters.period_s);
+  }
+  float of(const Frame& frame, std::size_t index) const {
+    const TimeUs since_us = static_cast<TimeUs>(frame.time_ns / 1000) - kEpochUs;
+    return static_cast<float>(period_us_ > 0 && since_us >= 0 ? static_cast<std::size_t>(since_us / period_us_) : index);
+  }
+
+ private:
+  TimeUs period_us_ = 0;  // 0: not known
+};
 
 float flag_of(std::optional<bool> flag) { return flag ? (*flag ? 1.0F : 0.0F) : kUnknownFlag; }
 
@@ -33,6 +51,11 @@ void put_column(const Shown& shown, const std::string& name, std::size_t from, s
   const std::span<const Frame> frames = std::span(all).subspan(std::min(from, all.size()));
   if (name == "time_s") {
     for (const Frame& frame : frames) mcap::put(frame.time_s, bytes);
+    return;
+  }
+  if (name == "number") {
+    const FrameNumbers numbers(*shown.recording);
+    for (std::size_t i = all.size() - frames.size(); i < all.size(); ++i) mcap::put(numbers.of(all[i], i), bytes);
     return;
   }
   if (const FrameNumber number = frame_number(name)) {

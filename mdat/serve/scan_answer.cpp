@@ -2,7 +2,6 @@
 #include <limits>
 #include <optional>
 
-#include "fsw/pose/outlook.hpp"
 #include "fsw/sense/range_image.hpp"
 #include "mdat/run/case.hpp"
 #include "mdat/serve/answers.hpp"
@@ -29,16 +28,15 @@ struct ScanFields {
         uy(cloud.field("uy")),
         uz(cloud.field("uz")),
         range(cloud.field("range")),
-        sigma_factor(cloud.field("sigma_factor")),
+        sigma(cloud.field("sigma")),
         residual(cloud.field("residual")),
         offset_us(cloud.field("offset_us")),
         state(cloud.field("state")) {}
-  const CloudView::Field *x, *y, *z, *ux, *uy, *uz, *range, *sigma_factor, *residual, *offset_us, *state;
+  const CloudView::Field *x, *y, *z, *ux, *uy, *uz, *range, *sigma, *residual, *offset_us, *state;
 };
 
 struct ScanSetting {
-  double miss_range_m = 0;                      // at which rays that met nothing are shown
-  std::optional<MissionParameters> parameters;  // none: the sensor's noise is not known
+  double miss_range_m = 0;  // at which rays that met nothing are shown
   float part = -1;
 };
 
@@ -67,9 +65,7 @@ ScanPoint point_of(const CloudView& cloud, std::size_t i, const ScanFields& fiel
     place_miss(cloud, i, fields, setting.miss_range_m, point);
     return point;
   }
-  const float factor = fields.sigma_factor != nullptr ? cloud.value(i, fields.sigma_factor) : 1;
-  if (setting.parameters)
-    point.sigma_m = factor * static_cast<float>(std::sqrt(range_variance(*setting.parameters, static_cast<double>(point.range_m))));
+  point.sigma_m = cloud.value(i, fields.sigma);
   return point;
 }
 
@@ -86,7 +82,7 @@ std::string scan_bytes(const std::vector<ScanPoint>& points) {
 
 // Residuals at the pose of an iteration; its rates are those of the frame before, with which the registration moved the rays.
 void put_iteration(const Shown& shown, std::size_t n, std::size_t iteration, std::vector<ScanPoint>& points) {
-  const std::vector<Iteration> iterations = iterations_of(*shown.recording, n);
+  const std::vector<RegistrationStep> iterations = iterations_of(*shown.recording, n);
   const std::optional<RangeImage> scan = recorded_scan(*shown.recording, n);
   const std::optional<PoseTelemetry> before = n > 0 ? shown.recording->told(n - 1) : std::nullopt;
   if (iteration >= iterations.size() || !scan || !before)
@@ -110,7 +106,6 @@ Response scan_answer(const Shown& shown, std::size_t n, const Target& target) {
     setting.miss_range_m = registration_pose(*told).p.norm();
     setting.part = told->part;
   }
-  if (recording.image() != nullptr) setting.parameters = parameters_of(*recording.image(), told ? told->sensor : std::uint8_t{0});
   const ScanFields fields(*cloud);
   std::vector<ScanPoint> points;
   for (std::size_t i = 0; i < cloud->size(); ++i) points.push_back(point_of(*cloud, i, fields, setting));

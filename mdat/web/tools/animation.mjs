@@ -10,7 +10,7 @@ import { chromium } from "@playwright/test";
 
 const TOP = resolve(fileURLToPath(new URL("../../..", import.meta.url)));
 const MDAT = resolve(process.env.MDAT ?? join(TOP, "out/build/mdat/mdat"));
-const PICTURES = 30;
+const PICTURES = 22;
 const PERIOD_MS = 200; // of the sensor's frames
 const QUALITY = 58;
 const VIEW = { width: 1120, height: 660 };

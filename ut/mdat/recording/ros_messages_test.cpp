@@ -5,6 +5,8 @@
 #include "fsw/geometry/so3.hpp"
 #include "hal_sim/random.hpp"
 #include "mdat/mcap/cdr.hpp"
+#include "mdat/mcap/message_value.hpp"
+#include "mdat/recording/ros_schemas.hpp"
 #include "ut/support/verifies.hpp"
 
 namespace lasso::mdat::ros {
@@ -59,13 +61,15 @@ TEST(RosMessages, RatesAreInTheChildsAxes) {
   odometry.pose = random_pose(random);
   for (int i = 0; i < 3; ++i) odometry.rates.omega_radps[i] = random.gaussian();
   for (int i = 0; i < 3; ++i) odometry.rates.v_mps[i] = random.gaussian();
-  odometry.pose_sigmas.setOnes();
+  odometry.pose_sigmas << 0.1, 0.2, 0.3, 4, 5, 6;  // about x, y, z, then along
   odometry.rate_sigmas << 1, 2, 3, 4, 5, 6;
   const std::string bytes = odometry_bytes({0, "sensor"}, odometry);
   CdrReader in(bytes);
   read_header(in, 0, 0, "sensor");
   EXPECT_EQ(in.text(), "target");
-  for (int i = 0; i < 7 + 36; ++i) (void)in.get<double>();
+  for (int i = 0; i < 7; ++i) (void)in.get<double>();
+  const double variances[] = {16, 25, 36, 0.01, 0.04, 0.09};
+  for (int i = 0; i < 36; ++i) EXPECT_NEAR(in.get<double>(), i % 7 == 0 ? variances[i / 7] : 0, 1e-12) << i;
   constexpr double kDt = 1e-6;
   const Pose moved = inverse(odometry.pose) * propagate(odometry.pose, odometry.rates, kDt);  // T_child_later
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(in.get<double>(), moved.p[i] / kDt, 1e-5);
@@ -74,6 +78,40 @@ TEST(RosMessages, RatesAreInTheChildsAxes) {
   const Mat3 R = to_matrix(odometry.pose.q);
   const Mat3 linear = R.transpose() * Vec3(16, 25, 36).asDiagonal() * R;
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(in.get<double>(), linear(0, i), 1e-12);
+}
+
+// Read by the definitions that recordings hold.
+TEST(RosMessages, ASceneHasItsSurfacesThenItsLines) {
+  VERIFIES("LASSO-REC-001~1");
+  const std::vector<Vec3> corners = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
+  const std::vector<std::array<std::uint32_t, 3>> triangles = {{0, 1, 2}};
+  const std::vector<Path> paths = {{"pattern", "sensor", {Vec3(1, 2, 3), Vec3(4, 5, 6), Vec3(7, 8, 9)}, true, Vec3(0.1, 0.2, 0.3)},
+                                   {"edges", "sensor", {Vec3(1, 2, 3), Vec3(4, 5, 6)}, false, Vec3::Ones()}};
+  const std::string bytes = scene_bytes(3'000'000, {{"target", "target_true", &corners, &triangles, Vec3::Ones(), 1}}, paths);
+  const RosSchema schema = scene_update();
+  const mcap::MessageValue scene = mcap::value_of(mcap::parse_definition(schema.name, schema.text), bytes);
+  ASSERT_EQ(scene.at("entities").size(), 3U);
+  EXPECT_EQ(scene.at("entities")[0].at("triangles")[0].at("points").size(), 3U);
+  EXPECT_TRUE(scene.at("entities")[0].at("lines").empty());
+  const mcap::MessageValue& pattern = scene.at("entities")[1];
+  EXPECT_EQ(pattern.at("id"), "pattern");
+  EXPECT_EQ(pattern.at("frame_id"), "sensor");
+  EXPECT_TRUE(pattern.at("triangles").empty());
+  EXPECT_EQ(pattern.at("lines")[0].at("type"), 0);  // a strip
+  EXPECT_EQ(pattern.at("lines")[0].at("points")[2].at("y"), 8);
+  EXPECT_EQ(pattern.at("lines")[0].at("color").at("g"), 0.2);
+  EXPECT_EQ(scene.at("entities")[2].at("lines")[0].at("type"), 2);  // pairs
+}
+
+TEST(RosMessages, AnArrayOfPosesKeepsTheirOrder) {
+  VERIFIES("LASSO-REC-001~1");
+  sim::Random random(8);
+  const std::vector<Pose> poses = {random_pose(random), random_pose(random)};
+  const RosSchema schema = pose_array();
+  const mcap::MessageValue array = mcap::value_of(mcap::parse_definition(schema.name, schema.text), pose_array_bytes({1, "sensor"}, poses));
+  ASSERT_EQ(array.at("poses").size(), 2U);
+  EXPECT_EQ(array.at("poses")[1].at("position").at("z"), poses[1].p.z());
+  EXPECT_EQ(array.at("poses")[0].at("orientation").at("w"), poses[0].q.w());
 }
 
 TEST(RosMessages, TimesBeforeZeroHaveNanosecondsOfTheirOwn) {

@@ -75,6 +75,25 @@ TEST(ScanCloud, ResidualsAreOfTheTargetAtEachRaysOwnTime) {
   }
 }
 
+TEST(ScanCloud, TellsEachRangesNoiseAndThePart) {
+  VERIFIES("LASSO-REC-026~1");
+  const std::vector<RangeSample> samples = random_scan(11);
+  ScanView view{samples, 5'000'000, {Quat::Identity(), Vec3(0, 0, 4)}, Twist{}};
+  view.part = 3;
+  view.sigma0_m = 0.003;
+  view.sigma_k_per_m = 0.001;
+  const ros::PointCloud cloud = scan_cloud(view, Wall());
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    float sigma_m = 0;
+    std::memcpy(&sigma_m, cloud.data.data() + i * cloud.step + 44, sizeof sigma_m);
+    const double range_m = static_cast<double>(samples[i].range_m), far_m = 0.001 * range_m * range_m;
+    const double expected_m = static_cast<double>(samples[i].sigma_factor) * std::sqrt(9e-6 + far_m * far_m);
+    EXPECT_EQ(std::isnan(sigma_m), samples[i].state != RayState::kHit);
+    EXPECT_TRUE(samples[i].state != RayState::kHit || std::abs(static_cast<double>(sigma_m) - expected_m) < 1e-6) << i;
+    EXPECT_EQ(cloud.data[i * cloud.step + 41], 3);
+  }
+}
+
 TEST(ScanCloud, MissedRaysPassAtTheTargetsRange) {
   VERIFIES("LASSO-REC-001~1");
   const std::vector<RangeSample> samples = random_scan(10);

@@ -20,7 +20,7 @@ TEST(Iterations, LeadFromThePredictionToThePoseOfTheScan) {
   SmallRecording small;
   small.filter_shift_m = Vec3(0.004, -0.003, 0.005);
   const Recording recording(small.write(folder.path() / "a.mcap"));
-  const std::vector<Iteration> steps = iterations_of(recording, 1);
+  const std::vector<RegistrationStep> steps = iterations_of(recording, 1);
   ASSERT_GE(steps.size(), 3U);
   EXPECT_NEAR(off_m(steps.front().T_sensor_target, SmallRecording::truth(1)), small.filter_shift_m.norm(), 1e-6);  // constant rates
   EXPECT_LT(off_m(steps.back().T_sensor_target, SmallRecording::truth(1)), 2e-4);

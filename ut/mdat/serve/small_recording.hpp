@@ -160,8 +160,9 @@ struct SmallRecording {
                     {"uy", 16, FieldType::kFloat32},       {"uz", 20, FieldType::kFloat32},
                     {"range", 24, FieldType::kFloat32},    {"sigma_factor", 28, FieldType::kFloat32},
                     {"residual", 32, FieldType::kFloat32}, {"offset_us", 36, FieldType::kInt32},
-                    {"state", 40, FieldType::kUint8}};
-    cloud.step = 44;
+                    {"state", 40, FieldType::kUint8},      {"part", 41, FieldType::kUint8},
+                    {"sigma", 44, FieldType::kFloat32}};
+    cloud.step = 48;
     float number = 0;
     for (const RangeSample& sample : scan(n)) {
       for (const float u : sample.direction) mcap::put(sample.range_m * u, cloud.data);
@@ -169,6 +170,7 @@ struct SmallRecording {
       for (const float value : {sample.range_m, sample.sigma_factor, 0.001F * number++}) mcap::put(value, cloud.data);
       mcap::put(static_cast<std::int32_t>(sample.t_us - time_us(n)), cloud.data);
       mcap::put(static_cast<std::uint32_t>(sample.state), cloud.data);
+      mcap::put(0.002F, cloud.data);
     }
     return cloud;
   }

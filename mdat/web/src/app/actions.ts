@@ -21,14 +21,14 @@ export function jumpToVerdict(session: Session, verdict: "refused" | "wrong", di
   const from = session.selection.frame.peek();
   const found = nextIndex(session.log.frames, from, direction, (i) => verdictOf(valid[i], wrong[i]) === verdict);
   if (found >= 0) session.player.goTo(found);
-  else remark(`No ${verdict} pose ${direction === 1 ? "after" : "before"} frame ${from}.`);
+  else remark(`No ${verdict} pose ${direction === 1 ? "after" : "before"} frame ${session.log.number(from)}.`);
 }
 
 export function jumpToEvent(session: Session, direction: 1 | -1): void {
   const from = session.selection.frame.peek();
   const event = session.events.next(from, direction);
   if (event !== null) session.player.goTo(event.frame);
-  else remark(`No event ${direction === 1 ? "after" : "before"} frame ${from}.`);
+  else remark(`No event ${direction === 1 ? "after" : "before"} frame ${session.log.number(from)}.`);
 }
 
 /** Begins or ends the span at the cursor; the other end stays, or is the recording's. */

@@ -55,7 +55,7 @@ async function show(route: Route): Promise<void> {
   const wanted = open?.log.info.id === route.recording ? open : await Session.open(route.recording);
   // Meanwhile the user may have gone elsewhere.
   if (mine !== asked) return;
-  if (route.frame !== null) wanted.selection.setFrame(route.frame);
+  if (route.frame !== null) wanted.selection.setFrame(wanted.log.withNumber(route.frame));
   session.value = wanted;
   if (route.play) wanted.player.play(1);
 }

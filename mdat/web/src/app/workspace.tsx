@@ -41,7 +41,7 @@ function useClock(session: Session): void {
     });
     const stopNoting = effect(() => {
       const frame = session.selection.frame.value;
-      if (!session.player.playing.value && !session.selection.following.value) noteFrame(session.log.info.id, frame);
+      if (!session.player.playing.value && !session.selection.following.value) noteFrame(session.log.info.id, session.log.number(frame));
     });
     return () => {
       cancelAnimationFrame(request);

@@ -1,12 +1,12 @@
-// Searches in columns of frames, which are sorted by time.
+// Searches in columns of frames, which are sorted by time and number.
 
-/** The last index whose time is not after `time_s`; 0 where there is none. */
-export function frameAtTime(times_s: Float64Array, time_s: number): number {
+/** The last index of an ascending column whose value is not above `limit`; 0 where there is none. */
+export function lastNotAbove(column: Float64Array | Float32Array, limit: number): number {
   let low = 0;
-  let high = times_s.length;
+  let high = column.length;
   while (low < high) {
     const middle = (low + high) >> 1;
-    if (times_s[middle] <= time_s) low = middle + 1;
+    if (column[middle] <= limit) low = middle + 1;
     else high = middle;
   }
   return Math.max(0, low - 1);

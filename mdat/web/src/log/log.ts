@@ -6,22 +6,23 @@ import { decodeColumns, decodeScan, decodeSeries, type Scan, type Series } from 
 import type { EventPage, FrameInfo, RecordingInfo, Statistics } from "../api/types.ts";
 import { unitText } from "../api/units.ts";
 import { Cache } from "./cache.ts";
-import { frameAtTime } from "./frames.ts";
+import { lastNotAbove } from "./frames.ts";
 
-/** Columns of all frames: 1 and 0, NaN where it is not known; the mode as a number that indexes `modes`. */
+/** Columns of all frames: 1 and 0, NaN where it is not known; the mode as a number that indexes `modes`; the frame's number, as the run counts. */
 export interface FrameColumns {
   time_s: Float64Array;
+  number: Float32Array;
   valid: Float32Array;
   wrong: Float32Array;
   mode: Float32Array;
 }
 
-const COLUMNS = ["time_s", "valid", "wrong", "mode"];
+const COLUMNS = ["time_s", "number", "valid", "wrong", "mode"];
 const FRAMES_KEPT = 300;
 /** The sensor of a recording that was made of telemetry alone. */
 const LINK = "telemetry of a link";
-/** Of COLUMNS: a double and three floats. */
-const FRAME_BYTES = 20;
+/** Of COLUMNS: a double and four floats. */
+const FRAME_BYTES = 24;
 
 function joined(a: FrameColumns, b: FrameColumns): FrameColumns {
   const time_s = new Float64Array(a.time_s.length + b.time_s.length);
@@ -33,7 +34,13 @@ function joined(a: FrameColumns, b: FrameColumns): FrameColumns {
     both.set(then, first.length);
     return both;
   };
-  return { time_s, valid: float(a.valid, b.valid), wrong: float(a.wrong, b.wrong), mode: float(a.mode, b.mode) };
+  return {
+    time_s,
+    number: float(a.number, b.number),
+    valid: float(a.valid, b.valid),
+    wrong: float(a.wrong, b.wrong),
+    mode: float(a.mode, b.mode),
+  };
 }
 
 export interface EventQuery {
@@ -112,9 +119,19 @@ export class Log {
     return this.frames > 0 ? this.columns.time_s[this.frames - 1] : this.info.end_s;
   }
 
+  /** As the run counts its frames: frames that were not told are left out of the columns, and counted here. */
+  number(index: number): number {
+    return this.frames > 0 ? this.columns.number[Math.min(this.frames - 1, Math.max(0, index))] : 0;
+  }
+
+  /** The frame of a number; where it was not told the one before it, or else the first. */
+  withNumber(number: number): number {
+    return lastNotAbove(this.columns.number, number);
+  }
+
   /** The last frame that is not after the time; the first where all are. */
   frameAt(time_s: number): number {
-    return frameAtTime(this.columns.time_s, time_s);
+    return lastNotAbove(this.columns.time_s, time_s);
   }
 
   frame(index: number): Promise<FrameInfo> {

@@ -10,7 +10,14 @@ import { seeded } from "./seeded.ts";
 
 function columnsOf(from: number, frames: number): FrameColumns {
   const time_s = Float64Array.from({ length: frames }, (_, i) => 1 + 0.2 * (from + i));
-  return { time_s, valid: new Float32Array(frames).fill(1), wrong: new Float32Array(frames), mode: new Float32Array(frames).fill(from) };
+  const number = Float32Array.from(time_s, (_, i) => from + i);
+  return {
+    time_s,
+    number,
+    valid: new Float32Array(frames).fill(1),
+    wrong: new Float32Array(frames),
+    mode: new Float32Array(frames).fill(from),
+  };
 }
 
 function liveLog(frames: number): Log {

@@ -3,7 +3,7 @@ import { test } from "node:test";
 import type { RecordingInfo } from "../../src/api/types.ts";
 import { Cache } from "../../src/log/cache.ts";
 import { Events } from "../../src/log/events.ts";
-import { frameAtTime, nextIndex, runsOf, verdictOf } from "../../src/log/frames.ts";
+import { lastNotAbove, nextIndex, runsOf, verdictOf } from "../../src/log/frames.ts";
 import { type FrameColumns, Log } from "../../src/log/log.ts";
 import { Player } from "../../src/log/player.ts";
 import { orderedSpan, Selection } from "../../src/log/selection.ts";
@@ -13,7 +13,7 @@ import { seeded } from "./seeded.ts";
 function logOf(frames: number): Log {
   const time_s = Float64Array.from({ length: frames }, (_, i) => 1 + 0.2 * i);
   const zeros = () => new Float32Array(frames);
-  const columns: FrameColumns = { time_s, valid: zeros().fill(1), wrong: zeros(), mode: zeros() };
+  const columns: FrameColumns = { time_s, number: zeros().map((_, i) => i), valid: zeros().fill(1), wrong: zeros(), mode: zeros() };
   return new Log({ id: "a", frames, start_s: 1, end_s: 1 + 0.2 * frames } as RecordingInfo, columns);
 }
 
@@ -23,9 +23,22 @@ test("the frame at a time is the last that is not after it", () => {
   for (let i = 0; i < 400; ++i) {
     const time = Math.floor(1100 * draw()) / 10 - 5;
     const brute = times.filter((each) => each <= time).length - 1;
-    assert.equal(frameAtTime(times, time), Math.max(0, brute));
+    assert.equal(lastNotAbove(times, time), Math.max(0, brute));
   }
-  assert.equal(frameAtTime(new Float64Array(), 3), 0);
+  assert.equal(lastNotAbove(new Float64Array(), 3), 0);
+});
+
+test("a frame is found by the number that its run gave it; one that was not told by the frame before", () => {
+  const log = logOf(6);
+  log.columns.number.set([0, 1, 2, 5, 6, 9]);
+  assert.deepEqual(
+    [0, 3, 5].map((index) => log.number(index)),
+    [0, 5, 9],
+  );
+  assert.deepEqual(
+    [-1, 0, 2, 4, 5, 8, 9, 40].map((number) => log.withNumber(number)),
+    [0, 0, 2, 2, 3, 4, 5, 5],
+  );
 });
 
 test("the next index that fits lies strictly beyond, in either direction", () => {

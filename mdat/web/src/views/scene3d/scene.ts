@@ -180,7 +180,8 @@ class SceneRunner {
 
   private async savePicture(): Promise<void> {
     const picture = await this.stage.picture();
-    if (picture !== null) saveFile(`${this.session.log.info.name}_frame_${this.session.selection.frame.peek()}.png`, picture);
+    if (picture !== null)
+      saveFile(`${this.session.log.info.name}_frame_${this.session.log.number(this.session.selection.frame.peek())}.png`, picture);
   }
 }
 

@@ -60,7 +60,7 @@ function Track({ session }: { session: Session }) {
       aria-valuemin={0}
       aria-valuemax={Math.max(0, log.frames - 1)}
       aria-valuenow={selection.frame.value}
-      aria-valuetext={`frame ${selection.frame.value}, ${timeText(selection.time_s.value)} seconds`}
+      aria-valuetext={`frame ${log.number(selection.frame.value)}, ${timeText(selection.time_s.value)} seconds`}
     >
       <canvas ref={canvas} />
       <Marks session={session} width={width} />
@@ -143,12 +143,12 @@ function Where({ session }: { session: Session }) {
           id="frame-number"
           type="number"
           min={0}
-          max={Math.max(0, log.frames - 1)}
-          value={selection.frame.value}
-          onChange={(event) => player.goTo(Number(event.currentTarget.value))}
+          max={log.number(log.frames - 1)}
+          value={log.number(selection.frame.value)}
+          onChange={(event) => player.goTo(log.withNumber(Number(event.currentTarget.value)))}
           onKeyDown={(event) => (event.key === "Escape" || event.key === "Enter") && event.currentTarget.blur()}
         />
-        <span class="of">of {log.frames}</span>
+        <span class="of">of {log.number(log.frames - 1) + 1}</span>
       </label>
       <output aria-label="Time">{timeText(selection.time_s.value)} s</output>
     </div>

@@ -35,6 +35,7 @@ const VERDICTS = {
 } as const;
 
 function Verdict({ frame }: { frame: FrameInfo }) {
+  const { log } = useSession();
   const verdict = verdictOf(frame.valid === null ? Number.NaN : Number(frame.valid), frame.wrong === true ? 1 : 0);
   const { icon, text } = VERDICTS[verdict];
   return (
@@ -44,7 +45,7 @@ function Verdict({ frame }: { frame: FrameInfo }) {
       </span>
       {frame.mode === null ? null : <span class="chip">{frame.mode}</span>}
       <span class="verdict-frame">
-        frame {frame.index}, {timeText(frame.time_s)} s
+        frame {log.number(frame.index)}, {timeText(frame.time_s)} s
       </span>
       <p class="why-sentence">
         {sentence(frame.why || frame.reason || "")} {verdict === "wrong" ? wrongText(frame) : ""}
