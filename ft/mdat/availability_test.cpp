@@ -67,5 +67,21 @@ TEST(Availability, RefusesWhatHasNoLightOfAnOrbit) {
   EXPECT_EQ(work.mdat(short_availability("--betas 95")).exit_code, 2);
 }
 
+// A pose behind the sensor to start from.
+TEST(Availability, WhatTheComponentRefusesIsBadInput) {
+  VERIFIES("LASSO-AVA-002~1");
+  const WorkFolder work;
+  const Answer answer = work.mdat(short_availability("--no-report --out none --set scenario.approach.prior_shift_m=[0,0,-8]"));
+  if (is_refused_by_fixed_point(answer)) {
+    EXPECT_EQ(answer.exit_code, 2);
+    return;
+  }
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_NE(answer.err.find("refuses the pose to start from (out_of_reach): the scenario's prior_turn_deg and prior_shift_m"),
+            std::string::npos)
+      << answer.err;
+  EXPECT_EQ(lines_of(answer.err).size(), 1U) << answer.err;
+}
+
 }  // namespace
 }  // namespace lasso::ft

@@ -129,6 +129,7 @@ TEST(Render, RefusesWhatItCannotDraw) {
            {"--material wing=mli", "--material wing=mli: the target has no such part"},
            {"--as depth16 --scan", "--as depth16"},
            {"--scan --time 72", "--time 72: the scenario paper has scans for 72 s: choose an earlier time, or leave the scan out"},
+           {"--scenario spin --time 3 --scan --set scenario.spin.eclipse_s=[0.5,20]", "--scan: in frame 15 nothing was tracked"},
            {"--set scenario.paper.nonsense=1", "nonsense"},
            {"-o no/such/folder/a.png", "no/such/folder/a.png"},
            {"-o missions", "missions"}}) {

@@ -124,6 +124,22 @@ void write_examples(std::ostream& out, const MeshSize& size, double range_m) {
       << "]  # of the part's centre from the sensor\n# view = [-1, 0, 0]  # towards the sensors that see it\n# cone_deg = 75\n";
 }
 
+// The chaser comes along the x axis to the target's middle, which turns slowly.
+void write_scene_example(std::ostream& out, const MeshSize& size, double range_m) {
+  const std::string center = "[" + number_text(rounded(size.center[0])) + ", " + number_text(rounded(size.center[1])) + ", " +
+                             number_text(rounded(size.center[2])) + "]";
+  const auto place = [](double away_m) { return "position_m = [" + number_text(rounded(-away_m)) + ", 0, 0]}"; };
+  out << "\n# A scene: nodes that move, in place of ranges_m, and poses between named frames (docs/scenes.md). With "
+         "[orbit] it\n"
+         "# has the Sun's light, the Earth's shadow and the Hill frame.\n"
+      << "# [motion.turning]\n# kind = \"rates\"\n# pivot_m = " << center
+      << "\n# spin_degps = [0.3, 0.1, 0.5]\n# [motion.closing]\n# kind = \"waypoints\"\n# at = [{time_s = 0, " << place(range_m)
+      << ", {time_s = 120, " << place(0.8 * range_m) << "]\n"
+      << "# [node.craft]\n# target = true\n# motion = \"turning\"\n# [node.middle]\n# parent = \"craft\"\n# position_m = " << center
+      << "\n# [node.chaser]\n# motion = \"closing\"\n# towards = \"middle\"\n# [node.head]\n# parent = \"chaser\"\n# sensor = true\n"
+      << "# [relative.docking]  # of this frame in that one\n# of = \"middle\"\n# in = \"chaser\"\n# [scenario.scene]\n# frames = 600\n";
+}
+
 }  // namespace
 
 double sized_preset(const std::string& key, double largest_m) {
@@ -159,6 +175,7 @@ std::string new_mission_text(const NewMission& mission) {
   write_flight_parameters(out, sized_values(mission), guessed_noise(mission.size, mission.sensor).kind);
   write_scenarios(out, mission.size, initial_range_m(mission.size));
   write_examples(out, mission.size, initial_range_m(mission.size));
+  write_scene_example(out, mission.size, initial_range_m(mission.size));
   return out.str();
 }
 

@@ -329,7 +329,10 @@ std::vector<ScanMark> flown_scan(const CompiledMission& mission, double time_s, 
   const std::unique_ptr<sim::RayCaster> simulated = simulated_target(mission.mesh, setup.scenario, scene.seed, mission.source.target_laser);
   setup.target = simulated.get();
   const CaseResult result = flown_case(setup);
-  if (result.scans.empty()) throw InputError(format("--scan: frame %u has no scan; another --time has", frame));
+  // The first valid one is kept, too.
+  if (result.scans.empty() || result.scans.back().frame != frame)
+    throw InputError(
+        format("--scan: in frame %u nothing was tracked, and so there is no scan of the target: choose another --time", frame));
   const KeptScan& scan = result.scans.back();
   move_scene(mission, scan.telemetry.t_measurement_us - kEpochUs, scene);
   return scan_marks(mission, scene, scan);

@@ -130,7 +130,7 @@ class Case {
   void load() {
     const LoadFailure failure = memory_ ? memory_->start(*component_, {setup_.image->data(), setup_.image->size()})
                                         : component_->load_image(view(image_, setup_.image->size()));
-    if (failure.status != Status::kOk) throw RunError("the component refused the image: " + to_string(failure));
+    if (failure.status != Status::kOk) throw InputError("the component refuses the mission's image: " + to_string(failure));
     if (setup_.store.empty()) return;
     std::printf("image %08x of %s\n", component_->mission().image_crc, memory_->from_store() ? setup_.store.c_str() : "the mission");
     (void)std::fflush(stdout);
@@ -170,7 +170,11 @@ class Case {
     const Pose T_target_turned{q, center_m - rotate(q, center_m)};
     Pose T_sensor_start = trajectory_->at(truth_us).T_sensor_target * T_target_turned;
     T_sensor_start.p += Vec3(setup_.scenario.prior_shift_m.data());
-    expect(component_->start_tracking(T_sensor_start, Twist{}, truth_us + period_us_), "start tracking");
+    const StartOffer offer = rough_offer(component_->mission().parameters, T_sensor_start, Twist{}, truth_us + period_us_);
+    const StartRefusal refusal = component_->offer_start(StartWay::kUplink, offer);
+    if (refusal != StartRefusal::kNone)
+      throw InputError("the component refuses the pose to start from (" + std::string(lasso::to_string(refusal)) +
+                       "): the scenario's prior_turn_deg and prior_shift_m turn and shift it off the truth");
   }
 
   void read_packets(const posix::FrameRecord& record) {

@@ -92,6 +92,7 @@ TEST(MissionWriter, ItsExamplesOfASensorAndAPartAreGoodOnceUncommented) {
     const auto file = folder.path() / "new.toml";
     write_new_mission(scale, file);
     std::string text = read_file(file);
+    text.resize(text.find("\n# A scene: "));
     for (const char* start : {"[further", "kind", "use_", "[part", "box", "range_m =", "view", "cone"}) {
       for (std::size_t at = text.find("\n# " + std::string(start)); at != std::string::npos; at = text.find("\n# " + std::string(start))) {
         text.erase(at + 1, 2);
@@ -106,6 +107,19 @@ TEST(MissionWriter, ItsExamplesOfASensorAndAPartAreGoodOnceUncommented) {
     EXPECT_GT(part.triangles.size(), 0U);
     EXPECT_LT(part.triangles.size(), 2 * target.triangles.size());
   }
+}
+
+TEST(MissionWriter, ItsExampleOfASceneIsGoodOnceUncommented) {
+  VERIFIES("LASSO-GND-012~1 LASSO-SCN-020~2");
+  const Folder folder;
+  write_new_mission(0.3, folder.path() / "new.toml");
+  std::string text = read_file(folder.path() / "new.toml");
+  for (std::size_t at = text.find("\n# [motion.turning]"); at != std::string::npos; at = text.find("\n# ", at)) text.erase(at + 1, 2);
+  const MissionSource source = load_mission(folder.write("uncommented.toml", text));
+  const SceneRun& run = *source.scenarios.at("scene").scene;
+  EXPECT_EQ(run.relative.size(), 1U);
+  EXPECT_EQ(run.ranges_m.size(), 240U);
+  EXPECT_LT(run.ranges_m.back(), 0.9 * run.ranges_m.front());
 }
 
 TEST(MissionWriter, ALargeTargetIsMetByALidar) {
