@@ -5,22 +5,12 @@
 #include <cmath>
 #include <cstring>
 
+#include "ut/mdat/recording/wall.hpp"
 #include "ut/support/verifies.hpp"
 
 // Steps of a whole registration: ut/mdat/serve/iterations_test.cpp.
 namespace lasso::mdat {
 namespace {
-
-// A wall through the target's origin, along its x and y.
-class Wall final : public sim::RayCaster {
- public:
-  sim::RayHit cast(const Vec3& origin_m, const Vec3& direction) const override {
-    sim::RayHit hit;
-    hit.range_m = -origin_m.z() / direction.z();
-    hit.hit = hit.range_m > 0;
-    return hit;
-  }
-};
 
 float number(const ros::PointCloud& cloud, std::size_t point, std::size_t column) {
   float value = 0;
@@ -38,7 +28,7 @@ TEST(RegistrationSteps, TheCloudHasTheReturnsWithAResidualOfEachStep) {
   std::vector<RegistrationStep> steps(2);
   steps[0].T_sensor_target.p = Vec3(0, 0, 4);
   steps[1].T_sensor_target.p = Vec3(0, 0, 4.5);
-  const ros::PointCloud cloud = steps_cloud({samples, 0, {}, {}}, steps, 3, Wall());
+  const ros::PointCloud cloud = steps_cloud({samples, 0, {}, {}}, steps, 3, test::Wall());
   ASSERT_EQ(cloud.fields.size(), 6U);
   EXPECT_EQ(cloud.fields[5].name, "residual_2");
   EXPECT_EQ(cloud.fields[5].offset + 4, cloud.step);

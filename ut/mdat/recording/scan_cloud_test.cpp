@@ -7,21 +7,11 @@
 
 #include "fsw/geometry/so3.hpp"
 #include "hal_sim/random.hpp"
+#include "ut/mdat/recording/wall.hpp"
 #include "ut/support/verifies.hpp"
 
 namespace lasso::mdat {
 namespace {
-
-// A wall through the target's origin, along its x and y.
-class Wall final : public sim::RayCaster {
- public:
-  sim::RayHit cast(const Vec3& origin_m, const Vec3& direction) const override {
-    sim::RayHit hit;
-    hit.range_m = -origin_m.z() / direction.z();
-    hit.hit = hit.range_m > 0;
-    return hit;
-  }
-};
 
 std::vector<RangeSample> random_scan(std::uint64_t seed) {
   sim::Random random(seed);
@@ -50,7 +40,7 @@ TEST(ScanCloud, HoldsEachSampleBitByBit) {
   const std::vector<RangeSample> samples = random_scan(8);
   const ScanView view{samples, 5'002'500, {Quat::Identity(), Vec3(0, 0, 4)}, Twist{}};
   std::vector<RangeSample> back;
-  ASSERT_TRUE(samples_of(scan_cloud(view, Wall()), view.t_us, back));
+  ASSERT_TRUE(samples_of(scan_cloud(view, test::Wall()), view.t_us, back));
   ASSERT_EQ(back.size(), samples.size());
   for (std::size_t i = 0; i < samples.size(); ++i) EXPECT_TRUE(same_bits(samples[i], back[i])) << i;
 }
@@ -61,7 +51,7 @@ TEST(ScanCloud, ResidualsAreOfTheTargetAtEachRaysOwnTime) {
   const std::vector<RangeSample> samples = random_scan(9);
   const Twist rates{Vec3(0.1, -0.2, 0.05), Vec3(0.02, 0.01, -0.3)};
   const ScanView view{samples, 5'000'000, {exp_so3(Vec3(0.2, 0.1, -0.4)), Vec3(0.1, -0.1, 4)}, rates};
-  const ros::PointCloud cloud = scan_cloud(view, Wall());
+  const ros::PointCloud cloud = scan_cloud(view, test::Wall());
   for (std::size_t i = 0; i < samples.size(); ++i) {
     float residual_m = 0;
     std::memcpy(&residual_m, cloud.data.data() + i * cloud.step + 32, sizeof residual_m);
@@ -82,7 +72,7 @@ TEST(ScanCloud, TellsEachRangesNoiseAndThePart) {
   view.part = 3;
   view.sigma0_m = 0.003;
   view.sigma_k_per_m = 0.001;
-  const ros::PointCloud cloud = scan_cloud(view, Wall());
+  const ros::PointCloud cloud = scan_cloud(view, test::Wall());
   for (std::size_t i = 0; i < samples.size(); ++i) {
     float sigma_m = 0;
     std::memcpy(&sigma_m, cloud.data.data() + i * cloud.step + 44, sizeof sigma_m);
