@@ -76,6 +76,7 @@ void learn_from(const Mission& mission, const HitSolution& hits, Workspace& work
   known.covariance = covariance_of_hits(mission.radius_m, hits.H, known.trust_scale, known.unseen);
   if (explained_share(hits) < p.inlier_share_min) return;  // it is refused, however sure it is
   widen_weak_axes(mission, hits, known.trust_scale, workspace, known.covariance, known.unseen);
+  add_others(hits, known.covariance, known.unseen);
   known.slack = find_slack(mission, known.covariance);
 }
 

@@ -11,4 +11,11 @@ Pose step_pose(const Pose& T_target_sensor, const Vec6& x) {
   return result;
 }
 
+Vec6 way_between(const Pose& from, const Pose& to) {
+  const Quat turn = normalized(to.q * from.q.conjugate());
+  Vec6 way;
+  way << log_so3(turn), to.p - rotate(turn, from.p);
+  return way;
+}
+
 }  // namespace lasso

@@ -36,4 +36,7 @@ inline void transform(const PathPose<N>& path, const typename N::Length* p, type
 // Left step of a pose in target axes, x = (rotation, translation): p' = R(x) p + x_translation. Cayley's map for the rotation: no sine.
 Pose step_pose(const Pose& T_target_sensor, const Vec6& x);
 
+// The step from one pose to another, by the rotation vector: that of step_pose where it is small.
+Vec6 way_between(const Pose& from_T_target_sensor, const Pose& to_T_target_sensor);
+
 }  // namespace lasso

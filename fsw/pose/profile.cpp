@@ -19,6 +19,8 @@ Profile::Profile(const Mission& mission, const Vec6& axis, double usable, Worksp
       step_per_m_(axis.cwiseQuotient(radius_scale(mission.radius_m))),
       usable_(usable) {}
 
+double Profile::along_m(const Vec6& step) const { return axis_.dot(radius_scale(mission_.radius_m).cwiseProduct(step)); }
+
 CostedPose Profile::cost_at(const Pose& T_target_sensor) {
   return {T_target_sensor, bounded_cost(mission_, T_target_sensor, usable_, workspace_)};
 }
@@ -77,12 +79,7 @@ bool minimise_along(const Mission& mission, const Vec6& axis, double first_step_
   CostedPose lowest = other.cost < registered.cost ? other : registered;
   if (!profile.rises(lowest, first_step_m, kRise)) lowest = profile.descend(lowest, first_step_m);
   if (!(lowest.cost < registered.cost - kMostOfAReturn)) return false;
-  HitSolution moved = weigh_hits(mission, lowest.T_target_sensor, workspace);
-  if (moved.stop != StopReason::kNotRun) return false;
-  moved.iterations = hits.iterations;
-  moved.stop = hits.stop;
-  hits = moved;
-  return true;
+  return move_hits(mission, lowest.T_target_sensor, workspace, hits);
 }
 
 }  // namespace lasso

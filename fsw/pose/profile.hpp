@@ -21,6 +21,9 @@ class Profile {
   // `usable` is that of the registration: its number of returns.
   Profile(const Mission& mission, const Vec6& axis, double usable, Workspace& workspace);
 
+  // How far a step of (rotation, translation) goes along the axis.
+  double along_m(const Vec6& step) const;
+
   // One pass over all points, nothing solved.
   CostedPose cost_at(const Pose& T_target_sensor);
 

@@ -189,6 +189,15 @@ HitSolution weigh_hits(const Mission& mission, const Pose& T_target_sensor, Work
   return solution;
 }
 
+bool move_hits(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace, HitSolution& hits) {
+  HitSolution moved = weigh_hits(mission, T_target_sensor, workspace);
+  if (moved.stop != StopReason::kNotRun) return false;
+  moved.iterations = hits.iterations;
+  moved.stop = hits.stop;
+  hits = moved;
+  return true;
+}
+
 double cost_of_hits(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace) {
   HitSolution solution;
   if (workspace.points.empty()) return mean_cost(solution);

@@ -15,6 +15,10 @@ struct HitSolution {
   std::uint32_t usable = 0;  // returns that could have been inliers
   double chi_squared = 0;    // Tukey-weighted, in units of the assumed noise
   double squared_residual_m2 = 0;
+  // Other poses that explain the hits about as well (minima.hpp), target axes.
+  Mat6 spread = Mat6::Zero();  // of (rotation, translation): joins the covariance
+  bool others_apart = false;   // the hits do not show the place along:
+  Vec6 axis = Vec6::Zero();    // over (rotation * radius, translation)
 };
 
 constexpr std::uint32_t kMinimumPoints = 12;  // of fewer nothing is made
@@ -39,6 +43,10 @@ HitSolution register_look(const Mission& mission, RegisterLook look, const Pose&
 // What the pose explains of the points as it stands: one pass, no step. `stop` says why there is none from it (kTooFewPoints, kSingular),
 // else kNotRun.
 HitSolution weigh_hits(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace);
+
+// Moves a solution there, as weigh_hits has it. Iterations and why it stopped stay. False, and nothing moves, where there is no step from
+// it.
+bool move_hits(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace, HitSolution& hits);
 
 // How badly the solution explains the returns that it could explain: their mean squared residual in sigmas, kUnexplainedCost for one that
 // it leaves out. 1e300 without any. Squared residuals are Tukey-weighted, with the kernel of the pass that they are of, which is

@@ -4,6 +4,8 @@
 
 #include "fsw/geometry/portable_math.hpp"
 #include "fsw/geometry/symmetric6.hpp"
+#include "fsw/pose/minima.hpp"
+#include "fsw/pose/path_pose.hpp"
 #include "fsw/pose/profile.hpp"
 
 namespace lasso {
@@ -37,9 +39,7 @@ struct WeakAxis {
 // Is the pose more than five sigmas of the axis from the prediction, along it? Where rays have met the wrong surface, many of them hold it
 // there, and it is sure of itself.
 bool is_far(const Mission& mission, const Pose& predicted, const Pose& pose, const WeakAxis& weak) {
-  const Quat turn = normalized(predicted.q * pose.q.conjugate());
-  Vec6 way_m;
-  way_m << mission.radius_m * log_so3(turn), predicted.p - rotate(turn, pose.p);
+  const Vec6 way_m = radius_scale(mission.radius_m).cwiseProduct(way_between(pose, predicted));
   const double sigmas = weak.axis.dot(way_m) / weak.sigma_m;
   return sigmas * sigmas > kSigmas * kSigmas;
 }
@@ -49,6 +49,16 @@ double rising_way_m(Profile& profile, const CostedPose& from, double radius_m, d
   double way_m = kSigmas * sigma_m;
   while (way_m < radius_m && !profile.rises(from, way_m, kRise * scale)) way_m *= 2;
   return way_m;
+}
+
+// The nearest to the prediction of the minima, and what is not known where there are several.
+void look_for_others(const Mission& mission, const WeakAxis& weak, const Pose& predicted, Workspace& workspace, HitSolution& hits) {
+  Profile profile(mission, weak.axis, hits.usable, workspace);
+  const Minima minima = find_minima(mission, profile.cost_at(hits.T_target_sensor), weak.sigma_m, predicted, profile);
+  if (minima.is_elsewhere) (void)move_hits(mission, minima.T_target_sensor, workspace, hits);
+  hits.others_apart = minima.are_apart;
+  hits.axis = weak.axis;
+  hits.spread = minima.spread;
 }
 
 }  // namespace
@@ -61,6 +71,7 @@ void minimise_weak_axis(const Mission& mission, const Pose& predicted, Workspace
   if (weak.sigma_m < certain_m && !is_far(mission, predicted, hits.T_target_sensor, weak)) return;
   const double first_step_m = clamp(kSigmas * weak.sigma_m, kSigmas * certain_m, kLongestStep * mission.radius_m);
   (void)minimise_along(mission, weak.axis, first_step_m, predicted, workspace, hits);
+  look_for_others(mission, weak, predicted, workspace, hits);
 }
 
 void widen_weak_axes(const Mission& mission, const HitSolution& hits, double scale, Workspace& workspace, Mat6& covariance,
@@ -82,6 +93,12 @@ void widen_weak_axes(const Mission& mission, const HitSolution& hits, double sca
     const Vec6 row = axis.cwiseQuotient(radius_scale(mission.radius_m));
     covariance += (held_m * held_m - eigen.values[i]) * row * row.transpose();
   }
+}
+
+void add_others(const HitSolution& hits, Mat6& covariance, Directions& unseen) {
+  covariance += hits.spread;
+  if (!hits.others_apart) return;
+  if (unseen.count < 6) unseen.vectors.col(unseen.count++) = hits.axis;
 }
 
 }  // namespace lasso

@@ -26,4 +26,7 @@ void minimise_weak_axis(const Mission& mission, const Pose& predicted_T_target_s
 void widen_weak_axes(const Mission& mission, const HitSolution& hits, double scale, Workspace& workspace, Mat6& covariance,
                      Directions& unseen);
 
+// Other minima of minimise_weak_axis join the covariance, and their axis what the hits do not show.
+void add_others(const HitSolution& hits, Mat6& covariance, Directions& unseen);
+
 }  // namespace lasso
