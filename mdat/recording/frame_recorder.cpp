@@ -111,7 +111,7 @@ FrameRecorder::FrameRecorder(const std::filesystem::path& file, const CompiledMi
       tap_(tap),
       scans_(std::move(scans)),
       content_(content),
-      sight_(std::in_place, mission.source, scenario_in(head)) {
+      sight_(std::make_unique<const SensorSight>(mission.source, scenario_in(head))) {
   if (content_ != RecordingContent::kReplay) model_ = make_target(mission.mesh);
   if (content_ == RecordingContent::kIterations)
     image_ = std::make_unique<LoadedImage>(mission.source.file.string(),

@@ -79,9 +79,9 @@ class FrameRecorder final : public RunListener {
   RecordingContent content_;
   std::size_t scans_taken_ = 0;
   bool scene_written_ = false;
-  std::optional<SensorSight> sight_;    // of a run
-  std::unique_ptr<LoadedImage> image_;  // of kIterations
-  PoseTelemetry before_{};              // of the frame before
+  std::unique_ptr<const SensorSight> sight_;  // of a run
+  std::unique_ptr<LoadedImage> image_;        // of kIterations
+  PoseTelemetry before_{};                    // of the frame before
   std::uint64_t boundaries_ = 0;
 };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "mdat/recording/scene_frames.hpp"
+#include "mdat/run/simulation.hpp"
 
 namespace lasso::mdat {
 namespace {
