@@ -5,6 +5,7 @@
 #include "mdat/missiondb/campaign_rules.hpp"
 #include "mdat/missiondb/detector_reader.hpp"
 #include "mdat/missiondb/flash_rows.hpp"
+#include "mdat/missiondb/laser_safety.hpp"
 #include "mdat/missiondb/material_reader.hpp"
 #include "mdat/missiondb/mesh_import.hpp"
 #include "mdat/missiondb/mission_checks.hpp"
@@ -101,6 +102,7 @@ class Loader {
   void fill_mission() {
     source_.sensor = static_cast<SensorKind>(static_cast<int>(mission_number("sensor.kind")));
     source_.flash = read_flash(found_, "sensor.", source_.sensor, "sensor.", problems_);
+    source_.laser = read_laser_safety(found_, "sensor.", source_.sensor, "sensor.", problems_);
     for (const ParameterRow& row : parameter_rows()) {
       const double preset = preset_of(source_.sensor, row.key, row.preset);
       source_.parameters.*row.member = number_or(found_, value_row(row), preset) * row.to_si;

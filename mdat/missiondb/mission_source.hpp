@@ -63,13 +63,22 @@ enum class SensorKind : std::uint8_t { kLaserCamera = 0, kTimeOfFlight = 1, kFla
 constexpr const char* kSensorKindNames[] = {"laser_camera", "time_of_flight", "flash_lidar", "stereo"};  // as a mission writes them
 inline const char* kind_name(SensorKind kind) { return kSensorKindNames[static_cast<int>(kind)]; }
 
+// Of a sensor's laser, for people's safety (laser_safety.hpp).
+struct LaserSafety {
+  bool stated = false;     // the mission says something of it
+  double laser_class = 0;  // position in the choices of sensor.laser_class; 0: not stated
+  double hazard_distance_m = 0;
+  double inhibits = 0;  // in hardware
+};
+
 // A sensor besides [sensor]. The simulated one is as the mission says, with its kind's beam; what a scenario says of dropouts, outliers,
 // grazing rays and edges holds for it, too.
 struct FurtherSensor {
   std::string name;
   SensorKind kind = SensorKind::kLaserCamera;
   SensorParameters parameters{};
-  sim::FlashModel flash;                       // kFlashLidar
+  sim::FlashModel flash;  // kFlashLidar
+  LaserSafety laser;
   std::vector<std::string> calibration_files;  // as they were written
   sim::DetectorModel detector;
   std::string node;                  // where it stands; empty: in the sensor frame
@@ -151,7 +160,8 @@ struct MissionSource {
   TargetSource target;
   std::vector<PartSource> parts;  // in the order of their names, which is that of their numbers
   SensorKind sensor = SensorKind::kLaserCamera;
-  sim::FlashModel flash;                       // kFlashLidar
+  sim::FlashModel flash;  // kFlashLidar
+  LaserSafety laser;
   std::vector<std::string> calibration_files;  // as a further sensor's
   std::vector<FurtherSensor> further_sensors;  // in the order of their names: numbers 1, 2, ... ; [sensor] is number 0
   Calibrations calibrations;

@@ -7,6 +7,7 @@
 
 #include "mdat/missiondb/detector_reader.hpp"
 #include "mdat/missiondb/flash_rows.hpp"
+#include "mdat/missiondb/laser_safety.hpp"
 #include "mdat/missiondb/rule.hpp"
 #include "mdat/missiondb/sections.hpp"
 #include "mdat/missiondb/sensor_reader.hpp"
@@ -64,12 +65,22 @@ void write_flash(ValueLines& out, const MissionSource& source, const std::string
   }
 }
 
+// Where anything of it is stated: then that a class is not, too.
+void write_laser(ValueLines& out, const MissionSource& source, const std::string& prefix, const LaserSafety& laser) {
+  if (!laser.stated) return;
+  for (const ValueRow& row : laser_safety_rows()) {
+    const std::string key = prefix + row.key.substr(row.key.find('.') + 1);
+    write_line(out, key, value_text(row, {laser_safety_value(laser, row)}), row.unit, place_text(source, key), row.meaning);
+  }
+}
+
 void write_sensor(ValueLines& out, const MissionSource& source) {
   const ValueRow& row = *find_row(mission_rows(), "sensor.kind");
   write_line(out, row.key, value_text(row, {static_cast<double>(source.sensor)}), row.unit, place_text(source, row.key), row.meaning);
   write_calibration(out, source, "sensor.calibration", source.calibration_files);
   write_detector(out, source, "sensor.", source.detector);
   write_flash(out, source, "sensor.", source.sensor, source.flash);
+  write_laser(out, source, "sensor.", source.laser);
 }
 
 void write_further_sensor(ValueLines& out, const MissionSource& source, const FurtherSensor& sensor) {
@@ -85,6 +96,7 @@ void write_further_sensor(ValueLines& out, const MissionSource& source, const Fu
   write_calibration(out, source, prefix + "calibration", sensor.calibration_files);
   write_detector(out, source, prefix, sensor.detector);
   write_flash(out, source, prefix, sensor.kind, sensor.flash);
+  write_laser(out, source, prefix, sensor.laser);
   if (!sensor.node.empty())
     write_line(out, prefix + "node", '"' + sensor.node + '"', "", place_text(source, prefix + "node"),
                further_sensor_rows().back().meaning);

@@ -7,6 +7,7 @@
 #include "hal_sim/scanner_model.hpp"
 #include "mdat/missiondb/detector_reader.hpp"
 #include "mdat/missiondb/flash_rows.hpp"
+#include "mdat/missiondb/laser_safety.hpp"
 #include "mdat/missiondb/stereo_presets.hpp"
 
 namespace lasso::mdat {
@@ -160,6 +161,7 @@ std::vector<ValueRow> make_mission_rows() {
   };
   // clang-format on
   rows.insert(rows.end(), flash_rows().begin(), flash_rows().end());
+  rows.insert(rows.end(), laser_safety_rows().begin(), laser_safety_rows().end());
   for (const DetectorField& field : detector_fields()) {
     rows.push_back(field.row);
     rows.back().key = "sensor." + field.row.key;

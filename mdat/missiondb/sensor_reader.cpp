@@ -10,6 +10,7 @@
 #include "mdat/missiondb/calibration_file.hpp"
 #include "mdat/missiondb/detector_reader.hpp"
 #include "mdat/missiondb/flash_rows.hpp"
+#include "mdat/missiondb/laser_safety.hpp"
 #include "mdat/missiondb/optics_reader.hpp"
 #include "mdat/missiondb/sections.hpp"
 #include "mdat/source/nearest.hpp"
@@ -41,6 +42,7 @@ void read_sensor(const std::string& name, const toml::table& table, MissionSourc
     sensor.parameters.*sensor_member(row) = number * row.to_si;
   }
   sensor.flash = read_flash(found, "", sensor.kind, prefix, problems);
+  sensor.laser = read_laser_safety(found, "", sensor.kind, prefix, problems);
   sensor.calibration_files = texts_of(found, "calibration");
   sensor.detector = read_detector(found, "", prefix, problems);
   const std::vector<std::string> node = texts_of(found, "node");
@@ -126,6 +128,7 @@ const std::vector<ValueRow>& further_sensor_rows() {
     result.push_back(without_prefix(*find_row(mission_rows(), "sensor.calibration")));
     for (const DetectorField& field : detector_fields()) result.push_back(field.row);
     for (const ValueRow& row : flash_rows()) result.push_back(without_prefix(row));
+    for (const ValueRow& row : laser_safety_rows()) result.push_back(without_prefix(row));
     result.push_back(text_row("node", "[^\\x00-\\x1f]+",
                               "node at which it stands, fixed to that of sensor = true; its scans are moved to that one's frame"));
     return result;
