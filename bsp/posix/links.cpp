@@ -15,6 +15,7 @@
 #include <system_error>
 
 #include "bsp/posix/serial_line.hpp"
+#include "bsp/posix/socket.hpp"
 #include "bsp/posix/udp_peers.hpp"
 
 namespace lasso::posix {
@@ -64,32 +65,6 @@ sockaddr_in address_of(const std::string& url, const Place& place) {
   return address;
 }
 
-const sockaddr* generic(const sockaddr_in& address) { return reinterpret_cast<const sockaddr*>(&address); }
-sockaddr* generic(sockaddr_in& address) { return reinterpret_cast<sockaddr*>(&address); }
-
-// A descriptor that closes.
-class Descriptor {
- public:
-  Descriptor() = default;
-  explicit Descriptor(int fd) : fd_(fd) {}
-  ~Descriptor() { close(); }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  void reset(int fd) {
-    close();
-    fd_ = fd;
-  }
-  int get() const { return fd_; }
-  bool open() const { return fd_ >= 0; }
-
- private:
-  void close() {
-    if (fd_ >= 0) (void)::close(fd_);
-    fd_ = -1;
-  }
-  int fd_ = -1;
-};
-
 // Of a socket that does not wait.
 void connect_socket(const std::string& url, const Descriptor& socket, const sockaddr_in& place) {
   if (::connect(socket.get(), generic(place), sizeof place) == 0) return;
@@ -101,8 +76,7 @@ void connect_socket(const std::string& url, const Descriptor& socket, const sock
     if (settled && error == 0) return;
     if (!settled) error = ETIMEDOUT;
   }
-  errno = error;
-  refuse_errno(url, "nobody answers");
+  throw NobodyThere(url + ": nobody answers: " + std::generic_category().message(error));
 }
 
 void make_socket(const std::string& url, int type, Descriptor& socket) {
@@ -113,17 +87,6 @@ void make_socket(const std::string& url, int type, Descriptor& socket) {
 void bind_to(const std::string& url, const Descriptor& socket, const sockaddr_in& address) {
   if (::bind(socket.get(), generic(address), sizeof address) != 0) refuse_errno(url, "cannot be bound");
 }
-
-std::string bound_address(const std::string& scheme, const Descriptor& socket) {
-  sockaddr_in address{};
-  socklen_t size = sizeof address;
-  (void)getsockname(socket.get(), generic(address), &size);
-  char host[INET_ADDRSTRLEN] = {};
-  (void)inet_ntop(AF_INET, &address.sin_addr, host, sizeof host);
-  return scheme + "://" + host + ":" + std::to_string(ntohs(address.sin_port));
-}
-
-std::size_t counted(ssize_t result) { return result > 0 ? static_cast<std::size_t>(result) : 0; }
 
 // A component's end, or that of a ground that waits for one.
 class BoundUdp final : public PosixLink {
@@ -197,57 +160,77 @@ class ConnectedUdp final : public PosixLink {
   Descriptor socket_;
 };
 
-class Tcp final : public PosixLink {
+// A component's end: packets, as by datagrams.
+class BoundTcp final : public PosixLink {
  public:
-  Tcp(const std::string& url, const sockaddr_in& place, bool listens) : ever_(!listens) {
-    Descriptor& socket = listens ? listener_ : peer_;
-    make_socket(url, SOCK_STREAM, socket);
-    if (listens) {
-      const int yes = 1;  // what was said to an earlier listener may still be on its way
-      (void)setsockopt(socket.get(), SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
-      bind_to(url, socket, place);
-      if (::listen(socket.get(), 1) != 0) refuse_errno(url, "cannot listen");
-      return;
+  BoundTcp(const std::string& url, const sockaddr_in& place, const Heard& heard) : clients_(heard) {
+    make_socket(url, SOCK_STREAM, listener_);
+    const int yes = 1;  // what was said to an earlier listener may still be on its way
+    (void)setsockopt(listener_.get(), SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+    bind_to(url, listener_, place);
+    if (::listen(listener_.get(), static_cast<int>(TcpClients::kClients)) != 0) refuse_errno(url, "cannot listen");
+  }
+  bool datagrams() const override { return true; }
+  std::size_t read(Bytes out) override {
+    accept_clients();
+    return clients_.read(out, std::chrono::steady_clock::now());
+  }
+  void peer_spoke() override { clients_.vouch(std::chrono::steady_clock::now()); }
+  std::size_t write(ConstBytes packet) override {
+    accept_clients();
+    return clients_.write(packet) ? packet.size() : 0;
+  }
+  std::string address() const override { return bound_address("tcp", listener_); }
+
+ private:
+  void accept_clients() {
+    for (std::size_t i = 0; i < TcpClients::kClients; ++i) {
+      Descriptor client(accept4(listener_.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
+      if (!client.open()) return;
+      set(client, IPPROTO_TCP, TCP_NODELAY, 1);
+      // One that vanishes without a word (its cable, its power) would keep its place.
+      set(client, IPPROTO_TCP, TCP_USER_TIMEOUT, kVanished_s * 1000);
+      set(client, IPPROTO_TCP, TCP_KEEPIDLE, kVanished_s / 2);
+      set(client, IPPROTO_TCP, TCP_KEEPINTVL, 1);
+      set(client, IPPROTO_TCP, TCP_KEEPCNT, kVanished_s / 2);
+      set(client, SOL_SOCKET, SO_KEEPALIVE, 1);
+      clients_.add(std::move(client), std::chrono::steady_clock::now());
     }
-    connect_socket(url, socket, place);
+  }
+  static void set(const Descriptor& client, int level, int option, int value) {
+    (void)setsockopt(client.get(), level, option, &value, sizeof value);
+  }
+  Descriptor listener_;
+  TcpClients clients_;
+};
+
+// The ground's end.
+class ConnectedTcp final : public PosixLink {
+ public:
+  ConnectedTcp(const std::string& url, const sockaddr_in& place) {
+    make_socket(url, SOCK_STREAM, socket_);
+    connect_socket(url, socket_, place);
   }
   bool datagrams() const override { return false; }
   std::size_t read(Bytes out) override {
-    accept_peer();
-    if (!peer_.open()) return 0;
-    const ssize_t result = recv(peer_.get(), out.data(), out.size(), 0);
-    if (result == 0 || (result < 0 && errno != EAGAIN)) peer_.reset(-1);
+    if (!socket_.open()) return 0;
+    const ssize_t result = recv(socket_.get(), out.data(), out.size(), 0);
+    if (result == 0 || (result < 0 && errno != EAGAIN)) socket_.reset(-1);
     return counted(result);
   }
-  // As with UDP, what nobody listens to is lost. A peer that has gone takes its packet's rest with it: the next one starts within a packet,
-  // which framing allows for.
+  // What nobody listens to is lost.
   std::size_t write(ConstBytes packets) override {
-    accept_peer();
-    if (!peer_.open()) return packets.size();
-    const ssize_t result = ::send(peer_.get(), packets.data(), packets.size(), MSG_NOSIGNAL);
+    if (!socket_.open()) return packets.size();
+    const ssize_t result = ::send(socket_.get(), packets.data(), packets.size(), MSG_NOSIGNAL);
     if (result >= 0 || errno == EAGAIN) return counted(result);
-    peer_.reset(-1);
+    socket_.reset(-1);
     return packets.size();
   }
-  std::string address() const override { return bound_address("tcp", ever_ ? peer_ : listener_); }
-  bool ended() const override { return ever_ && !peer_.open(); }
+  std::string address() const override { return bound_address("tcp", socket_); }
+  bool ended() const override { return !socket_.open(); }
 
  private:
-  void accept_peer() {
-    if (peer_.open() || !listener_.open()) return;
-    peer_.reset(accept4(listener_.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
-    if (!peer_.open()) return;
-    set(IPPROTO_TCP, TCP_NODELAY, 1);
-    // One that vanishes without a word (its cable, its power) would keep the link from everybody else.
-    set(IPPROTO_TCP, TCP_USER_TIMEOUT, kVanished_s * 1000);
-    set(IPPROTO_TCP, TCP_KEEPIDLE, kVanished_s / 2);
-    set(IPPROTO_TCP, TCP_KEEPINTVL, 1);
-    set(IPPROTO_TCP, TCP_KEEPCNT, kVanished_s / 2);
-    set(SOL_SOCKET, SO_KEEPALIVE, 1);
-  }
-  void set(int level, int option, int value) { (void)setsockopt(peer_.get(), level, option, &value, sizeof value); }
-  Descriptor listener_, peer_;
-  bool ever_;  // the ground's end
+  Descriptor socket_;
 };
 
 // A serial device, or a Unix socket in its place.
@@ -313,12 +296,21 @@ std::unique_ptr<PosixLink> bound_udp(const std::string& url, const std::string& 
 
 }  // namespace
 
-std::unique_ptr<PosixLink> open_link(const std::string& url, const std::string& told) {
+std::string bound_address(const std::string& scheme, const Descriptor& socket) {
+  sockaddr_in address{};
+  socklen_t size = sizeof address;
+  (void)getsockname(socket.get(), generic(address), &size);
+  char host[INET_ADDRSTRLEN] = {};
+  (void)inet_ntop(AF_INET, &address.sin_addr, host, sizeof host);
+  return scheme + "://" + host + ":" + std::to_string(ntohs(address.sin_port));
+}
+
+std::unique_ptr<PosixLink> open_link(const std::string& url, const std::string& told, const Heard& heard) {
   const Place place = place_of(url);
   if (!told.empty() && place.scheme != "udp") refuse(url, "only of udp:// is said whom it tells");
   if (place.scheme == "udp") return bound_udp(url, told);
   if (place.scheme == "file") return std::make_unique<File>(place.host);
-  return std::make_unique<Tcp>(url, address_of(url, place), true);
+  return std::make_unique<BoundTcp>(url, address_of(url, place), heard);
 }
 
 bool is_reached_from_elsewhere(const std::string& url) {
@@ -333,7 +325,7 @@ std::unique_ptr<PosixLink> connect_link(const std::string& url) {
   const Place place = place_of(url);
   if (place.scheme == "file") refuse(url, "commands are sent by udp or tcp; a file is written by --out");
   if (place.scheme == "udp") return std::make_unique<ConnectedUdp>(url, address_of(url, place));
-  return std::make_unique<Tcp>(url, address_of(url, place), false);
+  return std::make_unique<ConnectedTcp>(url, address_of(url, place));
 }
 
 }  // namespace lasso::posix
