@@ -38,6 +38,10 @@ const char* to_string(Status status) {
       return "singular";
     case Status::kOffPlan:
       return "off plan";
+    case Status::kNotSigned:
+      return "not signed";
+    case Status::kNotAuthentic:
+      return "not authentic";
   }
   return "unknown";  // a value that no enumerator has, for example from a corrupt byte
 }

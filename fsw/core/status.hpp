@@ -23,6 +23,8 @@ enum class [[nodiscard]] Status : std::uint8_t{
     kNoData,        // nothing to work on
     kSingular,      // a factorisation or division has no meaning
     kOffPlan,       // a device does something else than it was told
+    kNotSigned,     // it has no signature, and needs one
+    kNotAuthentic,  // its signature is not right
 };
 
 // A short lower-case name for messages; never null.

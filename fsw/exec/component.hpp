@@ -36,6 +36,7 @@
 #include "fsw/link/frame_room.hpp"
 #include "fsw/link/health_report.hpp"
 #include "fsw/link/housekeeping.hpp"
+#include "fsw/link/key_change.hpp"
 #include "fsw/link/link_report.hpp"
 #include "fsw/link/pose_telemetry.hpp"
 #include "fsw/mission/image_keeper.hpp"
@@ -119,8 +120,13 @@ class Component {
   // Did the last packet that was looked at come from who may command? See CommandReceiver::from_operator().
   bool heard_operator() const { return receiver_.from_operator(); }
 
-  // From now on commands need its trailer (fsw/link/authenticator.hpp); others are refused. It outlives the component.
-  void use_authenticator(Authenticator& authenticator) { receiver_.use_authenticator(authenticator); }
+  // From now on commands need its trailer and images its signature (fsw/core/authenticator.hpp); others are refused. Before the first
+  // image: what was taken before is not judged. It outlives the component.
+  void use_authenticator(Authenticator& authenticator);
+  // Images alone: of a host whose link authenticates commands.
+  void authenticate_images(Authenticator& authenticator) { images_.use_authenticator(authenticator); }
+  // Images without a signature are taken, too: of a host that is sure of them by other means.
+  void accept_unsigned_images() { images_.accept_unsigned(); }
 
   // The board's watchdog, which outlives the component: fed at a boundary once every slot of the frame and the estimation thread have
   // checked in.
@@ -248,6 +254,8 @@ class Component {
   ServiceRefusal save_parameters();
   ServiceRefusal restore_parameters();
   ServiceRefusal select_calibration(const CalibrationCommand& choice);
+  ServiceRefusal change_key(std::uint32_t number);
+  ServiceRefusal confirm_key(std::uint32_t number);
   ServiceRefusal report_stored(const StoredCommand& command, TimeUs now_us);
   void reset();
   void check_area();
@@ -329,6 +337,7 @@ class Component {
   StoredLog log_;
   bool reset_asked_ = false, reset_due_ = false;
   Arming arming_;
+  KeyChange key_change_;
   Voted<std::uint8_t> laser_{0};  // 1: a command has enabled it, and none has inhibited it since
   Watched watched_;
   std::uint32_t troubles_told_[kMaxSensors] = {};

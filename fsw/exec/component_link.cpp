@@ -37,6 +37,12 @@ Verification verification_of(ConstBytes packet) {
 
 }  // namespace
 
+void Component::use_authenticator(Authenticator& authenticator) {
+  receiver_.use_authenticator(authenticator);
+  authenticate_images(authenticator);
+  key_change_.use_authenticator(authenticator);
+}
+
 std::size_t Component::receive(ConstBytes bytes, TimeUs now_us) {
   const Running running(identity_);
   if (!bytes.empty()) bytes_came_ = true;
@@ -107,6 +113,7 @@ void Component::pass_link_boundary(TimeUs now_us) {
     link_changed_ = true;
     events_.raise<EventId::kArmExpired>(arming_.name().service, arming_.name().subservice, arming_.name().number);
   }
+  if (key_change_.pass_boundary()) events_.raise<EventId::kKeyGivenUp>(key_change_.number());
   if (housekeeping_.due(kLinkStructureId, link_changed_ || skipped)) send_link(now_us);
 }
 

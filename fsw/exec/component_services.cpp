@@ -57,6 +57,10 @@ ServiceRefusal Component::serve(const Command& command, TimeUs now_us) {
       return report_stored(command.stored, now_us);
     case CommandKind::kSelectCalibration:
       return select_calibration(command.calibration);
+    case CommandKind::kChangeKey:
+      return change_key(command.key.number);
+    case CommandKind::kConfirmKey:
+      return confirm_key(command.key.number);
     case CommandKind::kBeginImage:
     case CommandKind::kCheckImage:
     case CommandKind::kActivateImage:
@@ -111,6 +115,18 @@ void Component::inhibit_laser() {
 bool Component::laser_enabled() const {
   std::uint8_t enabled = 0;
   return laser_.get(enabled) && enabled != 0;
+}
+
+ServiceRefusal Component::change_key(std::uint32_t number) {
+  const ServiceRefusal refusal = key_change_.begin(number);
+  if (refusal == ServiceRefusal::kNone) events_.raise<EventId::kKeyOnTrial>(number, kKeyTrialFrames);
+  return refusal;
+}
+
+ServiceRefusal Component::confirm_key(std::uint32_t number) {
+  const ServiceRefusal refusal = key_change_.confirm(number);
+  if (refusal == ServiceRefusal::kNone) events_.raise<EventId::kKeyConfirmed>(number);
+  return refusal;
 }
 
 // The laser goes out now, and whatever the board takes to restart.

@@ -22,6 +22,10 @@ void set_reset_cause(Component& component, ResetCause cause) { component.set_res
 
 void use_authenticator(Component& component, Authenticator& authenticator) { component.use_authenticator(authenticator); }
 
+void authenticate_images(Component& component, Authenticator& authenticator) { component.authenticate_images(authenticator); }
+
+void accept_unsigned_images(Component& component) { component.accept_unsigned_images(); }
+
 LoadFailure load_stored_image(Component& component) { return component.load_stored_image(); }
 
 LoadFailure load_image(Component& component, Bytes image) { return component.load_image(image); }

@@ -19,11 +19,13 @@ Component* create(void* memory, std::size_t size, const SensorBank& sensors, con
 Component* create(void* memory, std::size_t size, Sensor& sensor, const Identity& identity = {});
 
 // See the functions of the same name of Component. What a board gives, before begin(): memory for images in flight (before the first
-// image), a watchdog, the reason of the start, and who says that a command is authentic.
+// image), a watchdog, the reason of the start, and who says that a command or an image is authentic (before the first image).
 Status use_memory(Component& component, const BoardMemory& memory);
 void set_watchdog(Component& component, Watchdog& watchdog);
 void set_reset_cause(Component& component, ResetCause cause);
 void use_authenticator(Component& component, Authenticator& authenticator);
+void authenticate_images(Component& component, Authenticator& authenticator);
+void accept_unsigned_images(Component& component);
 LoadFailure load_stored_image(Component& component);
 LoadFailure load_image(Component& component, Bytes image);
 Status begin(Component& component, TimeUs boundary_0_us);

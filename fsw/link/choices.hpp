@@ -197,6 +197,10 @@ inline constexpr Choice kServiceRefusals[] = {
   {"nothing_stored", "the store has no such record that is right", "save it first; ask for an event that was told"},
   {"other_table", "it was saved by software with other parameters", "set the parameters again, and save them"},
   {"no_calibration", "the active image has no such calibration", "name a sensor and a calibration of the mission; see its calibration lists"},
+  {"no_such_key", "the board has no key of this number, or no keys; numbers grow", "name the number after that of the key in use"},
+  {"key_on_trial", "another key is on trial", "confirm it, or wait until it is given up"},
+  {"no_key_on_trial", "no key of this number is on trial", "send change_key"},
+  {"not_by_new_key", "the command is not signed with the key that it confirms", "sign it with the new key"},
 };
 inline constexpr Choice kStructureNames[] = {
   {"none", "no structure"},
@@ -246,6 +250,9 @@ inline constexpr Choice kStatuses[] = {
   {"timeout", "no answer in time"},
   {"no_data", "nothing to work on"},
   {"singular", "a division has no meaning"},
+  {"off_plan", "a device does something else than it was told"},
+  {"not_signed", "it has no signature, and the board takes signed images alone", "sign it: mdat mission sign"},
+  {"not_authentic", "its signature is not right: another key, or other bytes than those that were signed", "sign it with the key that the board has; load it again"},
 };
 inline constexpr Choice kPatterns[] = {
   {"rosette", "two circles of coprime frequencies"},

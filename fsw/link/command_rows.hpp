@@ -60,6 +60,9 @@ inline constexpr TypedRow<CalibrationCommand> kCalibration[] = {
   make_row<&CalibrationCommand::sensor>(1, "sensor", "1", Range{0, kMaxSensors - 1.0}, "0: the mission's [sensor], then the further ones"),
   make_row<&CalibrationCommand::calibration>(2, "calibration", "1", Range{0, kMaxCalibrations - 1.0}, "of those that the active image has for it, from 0 in the mission's order"),
 };
+inline constexpr TypedRow<KeyCommand> kKey[] = {
+  make_row<&KeyCommand::number>(1, "number", "1", Range{1, 4294967295.0}, "of the new key; the key itself is never sent"),
+};
 inline constexpr TypedRow<TimeCommand> kTime[] = {
   make_row<&TimeCommand::component_us>(1, "component_us", "us", kCucRange, "a moment in the component's time, that of the items ..."),
   make_row<&TimeCommand::spacecraft_us>(2, "spacecraft_us", "us", kCucRange, "... and the same moment in spacecraft time"),
@@ -77,6 +80,7 @@ inline constexpr auto kParameterItems = items_of(kParameter);
 inline constexpr auto kSetParameterItems = items_of(kSetParameter);
 inline constexpr auto kStoredItems = items_of(kStored);
 inline constexpr auto kCalibrationItems = items_of(kCalibration);
+inline constexpr auto kKeyItems = items_of(kKey);
 inline constexpr auto kBeginImageItems = items_of(memory_rows::kBegin);
 inline constexpr auto kActivateItems = items_of(memory_rows::kActivate);
 inline constexpr auto kLoadItems = items_of(memory_rows::kLoad);
@@ -142,6 +146,10 @@ inline constexpr PacketRow kCommands[] = {
    "asks for packets stored_event, of this start or of those before"},
   {"select_calibration", PacketType::kCommand, kServiceFunction, kSubservicePerform, true, 8, Span<const ItemRow>(kCalibrationItems.rows),
    "the sensor's scans go by this calibration, from the next one on; with an image that is activated, and after a start, they go by the first"},
+  {"change_key", PacketType::kCommand, kServiceFunction, kSubservicePerform, true, 9, Span<const ItemRow>(kKeyItems.rows),
+   "commands may be signed with the key of this number, too, which is on trial until confirm_key; see the events key_on_trial and key_given_up", "", "", Hazard::kOnce},
+  {"confirm_key", PacketType::kCommand, kServiceFunction, kSubservicePerform, true, 10, Span<const ItemRow>(kKeyItems.rows),
+   "signed with the key on trial: from now on commands need it, and the key before is of no use any more"},
 };
 // clang-format on
 

@@ -66,6 +66,8 @@ constexpr CommandForm kForms[] = {
     form(CommandKind::kRestoreParameters, read_nothing),
     form(CommandKind::kReportStored, read<&Command::stored, command_rows::kStored>),
     form(CommandKind::kSelectCalibration, read<&Command::calibration, command_rows::kCalibration>),
+    form(CommandKind::kChangeKey, read<&Command::key, command_rows::kKey>),
+    form(CommandKind::kConfirmKey, read<&Command::key, command_rows::kKey>),
 };
 static_assert(sizeof(kForms) / sizeof(kForms[0]) == sizeof(command_rows::kCommands) / sizeof(PacketRow), "a form for each command");
 

@@ -64,6 +64,8 @@ enum class CommandKind : std::uint8_t {
   kRestoreParameters,
   kReportStored,
   kSelectCalibration,
+  kChangeKey,
+  kConfirmKey,
 };
 
 // Why a command that is right by itself cannot be carried out. Modes and starts have reasons of their own.
@@ -94,6 +96,10 @@ enum class ServiceRefusal : std::uint8_t {
   kNothingStored = 23,
   kOtherTable = 24,
   kNoCalibration = 25,
+  kNoSuchKey = 26,
+  kKeyOnTrial = 27,
+  kNoKeyOnTrial = 28,
+  kNotByNewKey = 29,
 };
 
 struct ModeCommand {
@@ -130,6 +136,9 @@ struct CalibrationCommand {
   std::uint8_t sensor = 0;
   std::uint8_t calibration = 0;  // of those that the image has for it, from 0
 };
+struct KeyCommand {
+  std::uint32_t number = 0;
+};
 struct TimeCommand {  // the same moment
   TimeUs component_us = 0;
   TimeUs spacecraft_us = 0;
@@ -153,6 +162,7 @@ struct Command {
   MemoryCommand memory;
   StoredCommand stored;
   CalibrationCommand calibration;
+  KeyCommand key;
 };
 
 constexpr std::uint8_t kMaxStoredReports = 8;

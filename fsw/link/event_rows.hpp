@@ -148,6 +148,13 @@ inline constexpr ItemRow kCalibrationSelected[] = {
   number_item(2, "calibration", WireType::kU8, "1", "of those that the image has for it, from 0"),
   number_item(3, "serial", WireType::kU32, "1", "of the camera that it is for"),
 };
+inline constexpr ItemRow kKeyOnTrial[] = {
+  number_item(1, "number", WireType::kU32, "1", "of the key"),
+  number_item(2, "frames", WireType::kU32, "1", "until it is given up"),
+};
+inline constexpr ItemRow kKey[] = {
+  number_item(1, "number", WireType::kU32, "1", "of the key"),
+};
 
 inline constexpr EventRow kRows[] = {
   {EventId::kBegun, "begun", Severity::kInformative, kEach, Span<const ItemRow>(kBegun),
@@ -222,6 +229,12 @@ inline constexpr EventRow kRows[] = {
    "the board restarts the component at the end of this frame", "the command reset", ""},
   {EventId::kCalibrationSelected, "calibration_selected", Severity::kInformative, kEach, Span<const ItemRow>(kCalibrationSelected),
    "the sensor's scans go by this calibration from the next one on", "the command select_calibration", ""},
+  {EventId::kKeyOnTrial, "key_on_trial", Severity::kInformative, kEach, Span<const ItemRow>(kKeyOnTrial),
+   "commands may be signed with this key, too, until it is confirmed or given up", "the command change_key", "send confirm_key, signed with it"},
+  {EventId::kKeyConfirmed, "key_confirmed", Severity::kInformative, kEach, Span<const ItemRow>(kKey),
+   "commands need this key from now on", "the command confirm_key", ""},
+  {EventId::kKeyGivenUp, "key_given_up", Severity::kLow, kEach, Span<const ItemRow>(kKey),
+   "the key on trial is of no use any more: commands need the one before", "no confirm_key in time", "look at the new key of the ground; send change_key again"},
 };
 // clang-format on
 

@@ -64,7 +64,10 @@ enum class EventId : std::uint16_t {
   kParametersRestored = 34,
   kResetCommanded = 35,
   kCalibrationSelected = 36,
-  kEnd = 37  // behind the last one
+  kKeyOnTrial = 37,
+  kKeyConfirmed = 38,
+  kKeyGivenUp = 39,
+  kEnd = 40  // behind the last one
 };
 constexpr std::size_t kEvents = static_cast<std::size_t>(EventId::kEnd);  // with kNone
 constexpr std::size_t kMaxEventItems = 6;

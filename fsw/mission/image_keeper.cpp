@@ -34,6 +34,14 @@ void ImageKeeper::use_parameters(const ParameterArea& changed) {
   for (ImageSlot& slot : slots_) slot.use_parameters(changed);
 }
 
+void ImageKeeper::use_authenticator(Authenticator& authenticator) {
+  for (ImageSlot& slot : slots_) slot.use_authenticator(authenticator);
+}
+
+void ImageKeeper::accept_unsigned() {
+  for (ImageSlot& slot : slots_) slot.accept_unsigned();
+}
+
 LoadFailure ImageKeeper::start(Bytes image, std::size_t sensors) {
   started_ = false;  // whatever follows, the image that was loaded before may have been overwritten
   select(image.data() == slots_[1].buffer().data() ? 1 : 0);
@@ -117,7 +125,7 @@ ImageRefusal ImageKeeper::begin_check() {
   ImageSlot& slot = spare();
   if (slot.state() != ImageState::kLoading) return ImageRefusal::kNotOpen;
   if (!map_.complete()) return ImageRefusal::kIncomplete;
-  if (crc_at_end(slot.image()) != crc_) return ImageRefusal::kOtherImage;
+  if (crc_at_end(slot.body()) != crc_) return ImageRefusal::kOtherImage;
   slot.begin_check();
   stored_bytes_ = 0;
   return ImageRefusal::kNone;

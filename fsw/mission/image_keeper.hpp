@@ -48,6 +48,9 @@ class ImageKeeper {
   void use_store(Store& store) { store_ = &store; }
   // Parameters that were changed in flight; it outlives the keeper. What changes there holds from apply_parameters() on.
   void use_parameters(const ParameterArea& changed);
+  // See ImageSlot.
+  void use_authenticator(Authenticator& authenticator);
+  void accept_unsigned();
   // At a boundary, while nobody uses the active image.
   void apply_parameters() { slots_[active_].make_views(); }
   // Code that must not change. kOverCapacity. Loop bound: its bytes.
@@ -65,8 +68,8 @@ class ImageKeeper {
   std::uint8_t active_number() const { return static_cast<std::uint8_t>(active_); }
   ConstBytes code() const { return code_; }
 
-  // An image of so many bytes with this CRC-32C (its last four bytes) is to come into the other buffer. What has come of the same image
-  // stays; of another one it is forgotten.
+  // An image of so many bytes, its signature included, with this CRC-32C (its last four bytes before that) is to come into the other
+  // buffer. What has come of the same image stays; of another one it is forgotten.
   ImageRefusal open(std::uint32_t bytes, std::uint32_t crc);
   // A part of it: whole blocks, or up to the end of the image.
   ImageRefusal put(std::uint32_t offset, ConstBytes part);

@@ -1,9 +1,15 @@
 #include "fsw/mission/image_slot.hpp"
 
+#include "fsw/core/byte_codec.hpp"
 #include "fsw/core/crc.hpp"
 #include "fsw/mission/mission_fit.hpp"
 
 namespace lasso {
+namespace {
+
+constexpr std::size_t kLengthWordEnd = 12;  // of the image's header: word 2 is its length
+
+}  // namespace
 
 void ImageSlot::open(std::uint32_t bytes) {
   invariant(bytes <= buffer_.size(), "an image larger than its buffer");
@@ -12,9 +18,36 @@ void ImageSlot::open(std::uint32_t bytes) {
   result_ = LoadFailure{};
 }
 
+Bytes ImageSlot::body() const { return image().first(is_signed() ? bytes_ - authenticator_->image_signature_bytes() : bytes_); }
+
+// What is damaged, and says another length, counts as signed: its signature is not right.
+bool ImageSlot::is_signed() const {
+  const std::size_t signature = authenticator_ == nullptr ? 0 : authenticator_->image_signature_bytes();
+  if (signature == 0 || bytes_ < kLengthWordEnd + signature) return false;
+  return ByteReader(image().subspan(kLengthWordEnd - 4, 4)).u32() != bytes_;
+}
+
 void ImageSlot::begin_check() {
-  load_.begin(image());
   state_ = ImageState::kChecking;
+  judging_ = authenticator_ != nullptr && (is_signed() || !unsigned_too_);
+  judged_ = 0;
+  if (!judging_) return load_.begin(image());
+  authenticator_->begin_image();
+}
+
+// Nothing of an image is believed before its signature is.
+void ImageSlot::judge(std::uint32_t words) {
+  if (!is_signed()) return refuse(Status::kNotSigned, "the image is not signed: mdat mission sign");
+  const Bytes signed_bytes = body();
+  const std::size_t left = signed_bytes.size() - judged_, most = std::size_t{4} * words;
+  const ConstBytes piece = signed_bytes.subspan(judged_, left < most ? left : most);
+  authenticator_->take_image(piece);
+  judged_ += piece.size();
+  if (judged_ < signed_bytes.size()) return;
+  judging_ = false;
+  if (!authenticator_->image_authentic(image().subspan(judged_, bytes_ - judged_)))
+    return refuse(Status::kNotAuthentic, "the image's signature is not right");
+  load_.begin(signed_bytes);
 }
 
 void ImageSlot::refuse(Status status, const char* what) {
@@ -25,6 +58,7 @@ void ImageSlot::refuse(Status status, const char* what) {
 void ImageSlot::step(std::uint32_t words, std::size_t sensors) {
   if (state_ == ImageState::kConverting) return convert(words, sensors);
   if (state_ == ImageState::kSealing) return seal(words);
+  if (state_ == ImageState::kChecking && judging_) return judge(words);
   if (state_ != ImageState::kChecking || !load_.check(words)) return;
   result_ = load_.result();
   state_ = failed(result_) ? ImageState::kRefused : ImageState::kStoring;

@@ -2,6 +2,7 @@
 // each chunk of the image as it lies in memory, and of the views made of it, have been taken: what they are compared with from then on.
 #pragma once
 
+#include "fsw/core/authenticator.hpp"
 #include "fsw/mission/loader.hpp"
 #include "fsw/mission/parameter_area.hpp"
 
@@ -32,13 +33,17 @@ class ImageSlot {
   void use(Bytes buffer) { buffer_ = buffer; }
   // What is changed there holds in the views from the next make_views() on. It outlives the slot.
   void use_parameters(const ParameterArea& changed) { changed_ = &changed; }
+  // From the next check on an image needs a right signature. It outlives the slot.
+  void use_authenticator(Authenticator& authenticator) { authenticator_ = &authenticator; }
+  // One that has none is taken nevertheless.
+  void accept_unsigned() { unsigned_too_ = true; }
   Bytes buffer() const { return buffer_; }
 
   // An image of so many bytes (at most the buffer's) is to come. Whatever was there is gone.
   void open(std::uint32_t bytes);
   void begin_check();
-  // Checking, converting or sealing goes on for `words` words; in every other state nothing happens. `sensors` are connected. Loop bound:
-  // as ImageCheck::step, and the views of all sensors when the last word is converted.
+  // Authentication, then checking, converting or sealing goes on for `words` words; in every other state nothing happens. `sensors` are
+  // connected. Loop bound: as ImageCheck::step, and the views of all sensors when the last word is converted.
   void step(std::uint32_t words, std::size_t sensors);
   // From kStoring to kConverting.
   void begin_conversion();
@@ -50,7 +55,9 @@ class ImageSlot {
 
   ImageState state() const { return state_; }
   const LoadFailure& result() const { return result_; }
-  Bytes image() const { return buffer_.first(bytes_); }
+  Bytes image() const { return buffer_.first(bytes_); }  // with its signature, if it has one
+  // Without it: what the authenticator takes for one, where the image's own length field says that it ends before.
+  Bytes body() const;
   std::uint32_t bytes() const { return bytes_; }
   const MissionView& view(SensorNumber sensor) const { return views_[sensor]; }
 
@@ -78,6 +85,8 @@ class ImageSlot {
 
  private:
   static constexpr std::size_t kMaxViewChunks = kMaxSensors * sizeof(MissionView) / kChunkBytes + 1;
+  bool is_signed() const;
+  void judge(std::uint32_t words);
   void convert(std::uint32_t words, std::size_t sensors);
   void seal(std::uint32_t words);
   void seal_views();
@@ -87,6 +96,10 @@ class ImageSlot {
   std::uint32_t bytes_ = 0;
   ImageState state_ = ImageState::kEmpty;
   LoadFailure result_;
+  Authenticator* authenticator_ = nullptr;
+  bool unsigned_too_ = false;
+  bool judging_ = false;    // the check has not come to the image's content yet
+  std::size_t judged_ = 0;  // bytes that the authenticator has been given
   ImageLoad load_;
   MissionView views_[kMaxSensors];  // the first so many as the mission has sensors
   const ParameterArea* changed_ = nullptr;

@@ -11,7 +11,7 @@
 namespace lasso {
 namespace {
 
-constexpr int kStatusCount = static_cast<int>(Status::kOffPlan) + 1;
+constexpr int kStatusCount = static_cast<int>(Status::kNotAuthentic) + 1;
 
 TEST(Status, EveryReasonHasAnOwnLowerCaseName) {
   VERIFIES("LASSO-COR-001~1");

@@ -173,6 +173,8 @@ TEST(Lasso, ABoardGivesWhatItHas) {
     set_watchdog(component, watchdog);
     set_reset_cause(component, ResetCause::kWatchdog);
     use_authenticator(component, authenticator);
+    authenticate_images(component, authenticator);
+    accept_unsigned_images(component);
   });
   hosted.run_to(3);
   EXPECT_GT(watchdog.fed, 0);

@@ -96,6 +96,10 @@ inline Stream set_period(std::uint16_t structure, std::uint16_t frames, std::uin
 inline Stream select_calibration(const CalibrationCommand& choice, std::uint16_t count = 0) {
   return command_packet(CommandKind::kSelectCalibration, command_rows::kCalibration, choice, count);
 }
+// kChangeKey, kConfirmKey.
+inline Stream of_key(CommandKind kind, std::uint32_t number, std::uint16_t count = 0) {
+  return command_packet(kind, command_rows::kKey, KeyCommand{number}, count);
+}
 inline Stream set_parameter(std::size_t parameter, double value, std::uint16_t count = 0) {
   return command_packet(CommandKind::kSetParameter, command_rows::kSetParameter,
                         ParameterCommand{static_cast<std::uint16_t>(parameter), value}, count);

@@ -64,7 +64,9 @@ std::vector<Stream> every_command() {
           test::plain_packet(CommandKind::kSaveParameters),
           test::plain_packet(CommandKind::kRestoreParameters),
           test::report_stored(9, 3),
-          test::select_calibration({1, 3})};
+          test::select_calibration({1, 3}),
+          test::of_key(CommandKind::kChangeKey, 3),
+          test::of_key(CommandKind::kConfirmKey, 3)};
 }
 
 TEST(Commands, ArriveAsTheyWereSent) {

@@ -171,7 +171,11 @@ TEST(LinkReport, RefusalsHaveTheNumbersThatTheDictionaryNames) {
                                                           {ServiceRefusal::kStoreFailed, "store_failed"},
                                                           {ServiceRefusal::kNothingStored, "nothing_stored"},
                                                           {ServiceRefusal::kOtherTable, "other_table"},
-                                                          {ServiceRefusal::kNoCalibration, "no_calibration"}};
+                                                          {ServiceRefusal::kNoCalibration, "no_calibration"},
+                                                          {ServiceRefusal::kNoSuchKey, "no_such_key"},
+                                                          {ServiceRefusal::kKeyOnTrial, "key_on_trial"},
+                                                          {ServiceRefusal::kNoKeyOnTrial, "no_key_on_trial"},
+                                                          {ServiceRefusal::kNotByNewKey, "not_by_new_key"}};
   ASSERT_EQ(kServiceRefusal.choices.size(), std::size(names));
   for (const auto& [refusal, name] : names)
     EXPECT_STREQ(Span<const Choice>(kServiceRefusal.choices)[static_cast<std::size_t>(refusal)].name, name);

@@ -21,7 +21,7 @@ std::vector<std::uint8_t> packet_of(std::size_t data_bytes, std::uint8_t fill) {
   return packet;
 }
 
-ConstBytes view(const std::vector<std::uint8_t>& bytes) { return ConstBytes(bytes.data(), bytes.size()); }
+ConstBytes span_of(const std::vector<std::uint8_t>& bytes) { return ConstBytes(bytes.data(), bytes.size()); }
 
 std::vector<std::uint8_t> take(TelemetryQueue& queue, std::size_t room) {
   std::vector<std::uint8_t> out(room);
@@ -34,8 +34,8 @@ TEST(TelemetryQueue, GivesWholePacketsInOrder) {
   TelemetryQueue queue;
   const auto first = packet_of(10, 1);
   const auto second = packet_of(20, 2);
-  ASSERT_EQ(queue.push(view(first)), Status::kOk);
-  ASSERT_EQ(queue.push(view(second)), Status::kOk);
+  ASSERT_EQ(queue.push(span_of(first)), Status::kOk);
+  ASSERT_EQ(queue.push(span_of(second)), Status::kOk);
   EXPECT_TRUE(take(queue, first.size() - 1).empty());
   EXPECT_EQ(take(queue, first.size() + second.size() - 1), first);
   EXPECT_EQ(take(queue, 1000), second);
@@ -47,8 +47,8 @@ TEST(TelemetryQueue, DropsAndCountsWhatDoesNotFit) {
   VERIFIES("LASSO-LNK-006~1");
   TelemetryQueue queue;
   const auto large = packet_of(kTelemetryQueueBytes - 30, 1);
-  ASSERT_EQ(queue.push(view(large)), Status::kOk);
-  EXPECT_EQ(queue.push(view(packet_of(10, 2))), Status::kOverCapacity);
+  ASSERT_EQ(queue.push(span_of(large)), Status::kOk);
+  EXPECT_EQ(queue.push(span_of(packet_of(10, 2))), Status::kOverCapacity);
   EXPECT_EQ(queue.dropped(), 1u);
   EXPECT_EQ(take(queue, kTelemetryQueueBytes), large);
 }
@@ -57,14 +57,14 @@ TEST(TelemetryQueue, KeepsRoomForAnswersBehindAllElse) {
   VERIFIES("LASSO-LNK-006~1 LASSO-LNK-040~1");
   TelemetryQueue queue;
   const auto large = packet_of(kTelemetryQueueBytes - 30, 1), answer = packet_of(kAnswerBytes / 2 - 24, 2);
-  ASSERT_EQ(queue.push(view(large)), Status::kOk);
-  EXPECT_EQ(queue.push(view(answer)), Status::kOverCapacity);
-  EXPECT_EQ(queue.push_answer(view(answer)), Status::kOk);
-  EXPECT_EQ(queue.push_answer(view(answer)), Status::kOk);
-  EXPECT_EQ(queue.push_answer(view(answer)), Status::kOverCapacity);
+  ASSERT_EQ(queue.push(span_of(large)), Status::kOk);
+  EXPECT_EQ(queue.push(span_of(answer)), Status::kOverCapacity);
+  EXPECT_EQ(queue.push_answer(span_of(answer)), Status::kOk);
+  EXPECT_EQ(queue.push_answer(span_of(answer)), Status::kOk);
+  EXPECT_EQ(queue.push_answer(span_of(answer)), Status::kOverCapacity);
   EXPECT_EQ(take(queue, kTelemetryQueueBytes), large) << "in order";
   EXPECT_EQ(take(queue, answer.size()), answer);
-  EXPECT_EQ(queue.push(view(large)), Status::kOverCapacity) << "an answer takes the others' room, too";
+  EXPECT_EQ(queue.push(span_of(large)), Status::kOverCapacity) << "an answer takes the others' room, too";
   EXPECT_EQ(take(queue, answer.size()), answer);
 }
 
@@ -73,7 +73,7 @@ TEST(TelemetryQueue, RefusesWhatIsNotOnePacket) {
   TelemetryQueue queue;
   auto packet = packet_of(10, 1);
   packet.push_back(0);
-  EXPECT_EQ(queue.push(view(packet)), Status::kBadLength);
+  EXPECT_EQ(queue.push(span_of(packet)), Status::kBadLength);
   EXPECT_EQ(queue.push(ConstBytes()), Status::kBadLength);
   EXPECT_EQ(queue.size(), 0u);
   EXPECT_EQ(queue.dropped(), 0u);
@@ -88,7 +88,7 @@ TEST(TelemetryQueue, AgreesWithAListThroughManyTurnsOfTheRing) {
   for (int i = 0; i < 2000; ++i) {
     const auto packet = packet_of(random.below(900), static_cast<std::uint8_t>(i));
     const bool fits = model_bytes + packet.size() <= kTelemetryQueueBytes;
-    EXPECT_EQ(queue.push(view(packet)), fits ? Status::kOk : Status::kOverCapacity);
+    EXPECT_EQ(queue.push(span_of(packet)), fits ? Status::kOk : Status::kOverCapacity);
     if (fits) model.push_back(packet);
     if (fits) model_bytes += packet.size();
     if (random.below(3) != 0 || model.empty()) continue;

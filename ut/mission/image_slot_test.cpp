@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <memory>
 
@@ -9,6 +10,7 @@
 #include "ut/support/box_image.hpp"
 #include "ut/support/box_parts.hpp"
 #include "ut/support/box_sensors.hpp"
+#include "ut/support/signed_image.hpp"
 #include "ut/support/verifies.hpp"
 
 namespace lasso {
@@ -107,6 +109,95 @@ TEST_F(ImageSlotTest, ViewsAreMadeAgainForEachSensor) {
   slot_->make_views();
   EXPECT_EQ(slot_->views_sums()[0], crc32c(chunk_of(slot_->sealed_views(), 0)));
   EXPECT_EQ(slot_->view(1).mission.parameters.points, preset_parameters().points);
+}
+
+// What is refused, and why.
+class SignedSlotTest : public ImageSlotTest {
+ protected:
+  SignedSlotTest() { slot_->use_authenticator(sums_); }
+  Status status_of(const test::TestImage& image) {
+    take(image);
+    slot_->run(1);
+    return slot_->result().status;
+  }
+  const test::TestImage plain_ = test::make_box_image(preset_parameters());
+  const test::TestImage signed_ = test::signed_image(plain_);
+  test::ImageSum sums_;
+};
+
+TEST_F(SignedSlotTest, AnImageIsTakenWithARightSignatureAlone) {
+  VERIFIES("LASSO-IMG-022~1");
+  EXPECT_EQ(status_of(signed_), Status::kOk);
+  EXPECT_EQ(slot_->state(), ImageState::kReady);
+  EXPECT_EQ(slot_->sealed_image().size(), signed_.size) << "the signature is scrubbed as well";
+  const std::uint32_t crc = slot_->view(0).mission.image_crc;
+  EXPECT_EQ(status_of(plain_), Status::kNotSigned);
+  slot_->accept_unsigned();
+  EXPECT_EQ(status_of(plain_), Status::kOk);
+  EXPECT_EQ(slot_->view(0).mission.image_crc, crc) << "an image's name does not depend on its signature";
+  EXPECT_EQ(status_of(signed_), Status::kOk);
+}
+
+// A bit of each byte of the header and of the signature, and of some between. A repaired CRC helps nobody.
+TEST_F(SignedSlotTest, EveryChangedByteIsRefusedBeforeItIsRead) {
+  VERIFIES("LASSO-IMG-022~1");
+  const std::size_t stride = signed_.size / 40;
+  for (std::size_t at = 0; at < signed_.size; at += at < 32 || at + 16 > signed_.size ? 1 : std::min(stride, signed_.size - 16 - at) | 1U) {
+    test::TestImage other = signed_;
+    other.data()[at] = static_cast<std::uint8_t>(other.data()[at] ^ (1U << (at % 8)));
+    const bool claims_all = at == 11;  // its length field takes the signature for a part of the image
+    ASSERT_EQ(status_of(other), claims_all ? Status::kNotSigned : Status::kNotAuthentic) << at;
+  }
+  test::TestImage forged = plain_;
+  forged.data()[19] = 99;
+  test::repair_crcs(forged);
+  test::TestImage of_another = test::signed_image(forged);
+  std::memcpy(of_another.data() + plain_.size, test::TestImage(signed_).data() + plain_.size, test::kImageSumBytes);
+  EXPECT_EQ(status_of(of_another), Status::kNotAuthentic) << "the signature of another image";
+  slot_->accept_unsigned();
+  EXPECT_EQ(status_of(of_another), Status::kNotAuthentic) << "a wrong signature is worse than none";
+}
+
+TEST_F(SignedSlotTest, WhatIsTooShortHasNoSignature) {
+  VERIFIES("LASSO-IMG-022~1");
+  for (const std::size_t size : {std::size_t{0}, std::size_t{12}, std::size_t{19}}) {
+    test::TestImage cut = signed_;
+    cut.size = size;
+    EXPECT_EQ(status_of(cut), Status::kNotSigned) << size;
+  }
+  test::TestImage cut = signed_;
+  cut.size = 20;
+  EXPECT_EQ(status_of(cut), Status::kNotAuthentic);
+}
+
+TEST_F(SignedSlotTest, ASlotGivesTheAuthenticatorItsShareAlone) {
+  VERIFIES("LASSO-IMG-022~1");
+  take(signed_);
+  slot_->begin_check();
+  for (std::uint32_t steps = 1; steps <= (plain_.size + 2003) / 2004; ++steps) {
+    slot_->step(501, 1);
+    ASSERT_EQ(sums_.pieces, steps);
+  }
+  EXPECT_EQ(sums_.longest, 4U * 501U);
+  EXPECT_EQ(slot_->state(), ImageState::kChecking) << "authentic, and not checked yet";
+  while (slot_->state() == ImageState::kChecking) slot_->step(501, 1);
+  EXPECT_EQ(slot_->state(), ImageState::kStoring);
+}
+
+TEST_F(ImageSlotTest, AnAuthenticatorOfCommandsAloneTakesNoImage) {
+  VERIFIES("LASSO-IMG-022~1");
+  class OfCommands final : public Authenticator {
+    std::size_t trailer_bytes() const override { return 4; }
+    bool authentic(ConstBytes, ConstBytes) override { return true; }
+  } of_commands;
+  Authenticator& preset = of_commands;
+  slot_->use_authenticator(preset);
+  slot_->run(1);
+  EXPECT_EQ(slot_->result().status, Status::kNotSigned);
+  preset.begin_image();
+  preset.take_image({});
+  preset.end_key_trial(true);
+  EXPECT_FALSE(preset.image_authentic({}) || preset.try_key(1) || preset.by_key_on_trial());
 }
 
 }  // namespace

@@ -1,0 +1,36 @@
+// Another key for commands, by a command (docs/decisions/keys-by-link.md). Its number comes over the link, never the key. For
+// kKeyTrialFrames commands of either key count, so that an operator whose new key is wrong still has the component; then the new one has
+// been confirmed by a command of its own, or is given up. Used by one thread.
+#pragma once
+
+#include <cstdint>
+
+#include "fsw/core/authenticator.hpp"
+#include "fsw/link/commands.hpp"
+
+namespace lasso {
+
+constexpr std::uint32_t kKeyTrialFrames = 300;  // 60 s at 5 frames a second
+
+class KeyChange {
+ public:
+  // It outlives this. A trial that it knows of is over: the component has started anew.
+  void use_authenticator(Authenticator& authenticator);
+
+  // kNoSuchKey, kKeyOnTrial.
+  ServiceRefusal begin(std::uint32_t number);
+  // By the last command that was authentic. kNoKeyOnTrial, kNotByNewKey.
+  ServiceRefusal confirm(std::uint32_t number);
+  // A frame ends. True: the key on trial has just been given up.
+  bool pass_boundary();
+
+  std::uint32_t number() const { return number_; }  // of the last key on trial
+
+ private:
+  Authenticator* authenticator_ = nullptr;
+  std::uint32_t number_ = 0;
+  bool open_ = false;
+  std::uint32_t frames_left_ = 0;
+};
+
+}  // namespace lasso
