@@ -228,6 +228,13 @@ endurance: ## measure: a day of simulated time at 5 Hz: nothing drifts, grows, s
 	$(call compile,$(BUILD),endurance)
 	@ft/campaign/run endurance $(BUILD) $(or $(HOURS),24) $(or $(SEED),1)
 
+strangers: ## measure: a million packets of a stranger who knows the dictionary against a component with a key, while it tracks; PACKETS=
+	$(begin)
+	$(call packages,build test)
+	$(call configure,$(BUILD),)
+	$(call compile,$(BUILD),ft_operations_stranger_test)
+	@LASSO_STRANGERS=$(or $(PACKETS),1000000) $(BUILD)/ft/operations/ft_operations_stranger_test
+
 campaigns-sample: ## gate: a seeded hundredth of fuzz, flips, statistics and the missions' campaigns; an hour of endurance
 	$(begin)
 	$(fuzzers)

@@ -36,12 +36,14 @@ std::unique_ptr<sim::Trajectory> trajectory() {
 }  // namespace
 
 struct LinkedFlight::Parts {
-  explicit Parts(ByteLink& link)
+  Parts(ByteLink& link, Authenticator* authenticator)
       : motion(trajectory()),
         target(mdat::make_target(hubble().mesh)),
         scanner(*target, *motion, mdat::scanner_model(scenario(), parameters(), true), kSeed),
         component(std::make_unique<Component>(scanner)),
         pump(*component, link) {
+    if (authenticator != nullptr) component->use_authenticator(*authenticator);
+    component->accept_unsigned_images();  // of this program, which made it
     const std::vector<std::uint8_t> bytes = mdat::image_bytes(hubble(), parameters());
     image = mdat::aligned_copy(bytes);
     begin(*component, mdat::view(image, bytes.size()));
@@ -55,7 +57,7 @@ struct LinkedFlight::Parts {
   LinkPump pump;
 };
 
-LinkedFlight::LinkedFlight(ByteLink& link) : parts_(std::make_unique<Parts>(link)) {}
+LinkedFlight::LinkedFlight(ByteLink& link, Authenticator* authenticator) : parts_(std::make_unique<Parts>(link, authenticator)) {}
 LinkedFlight::~LinkedFlight() = default;
 
 Pose LinkedFlight::first_T_sensor_target() { return trajectory()->at(mdat::kEpochUs).T_sensor_target; }

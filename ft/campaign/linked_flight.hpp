@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "fsw/core/authenticator.hpp"
 #include "fsw/core/time.hpp"
 #include "fsw/geometry/se3.hpp"
 #include "fsw/link/byte_link.hpp"
@@ -14,8 +15,8 @@ namespace lasso::campaign {
 // The tenth-scale Hubble, spinning 4 m away, scanned by 256 rays with noise. The mission knows no pose to start from.
 class LinkedFlight {
  public:
-  // The link outlives the flight.
-  explicit LinkedFlight(ByteLink& link);
+  // The link outlives the flight, and so does who says which commands are authentic; null: all are.
+  explicit LinkedFlight(ByteLink& link, Authenticator* authenticator = nullptr);
   ~LinkedFlight();
   LinkedFlight(const LinkedFlight&) = delete;
   LinkedFlight& operator=(const LinkedFlight&) = delete;
