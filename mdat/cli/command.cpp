@@ -50,8 +50,8 @@ std::unique_ptr<posix::PosixLink> connect(const CommandArguments& options) {
       auto link = posix::connect_link(options.to);
       if (!link->unreached()) return link;
       if (over) throw RunError(options.to + ": no answer: nobody listens at this port");
-    } catch (const posix::LinkError&) {
-      if (over) throw;
+    } catch (const posix::NobodyThere& error) {
+      if (over) throw RunError(error.what());
     }
     std::this_thread::sleep_for(kLookAgain);
   }

@@ -29,6 +29,7 @@ void add_faults_command(CLI::App& app);
 void add_decode_command(CLI::App& app);
 void add_command_command(CLI::App& app);
 void add_upload_command(CLI::App& app);
+void add_key_command(CLI::App& app);
 void add_dictionary_command(CLI::App& app);
 void add_monitor_command(CLI::App& app);
 void add_serve_command(CLI::App& app);
@@ -60,7 +61,7 @@ void add_no_cache(CLI::App& command, bool& cached);
 CLI::Validator number_between(double low, double high);
 
 // --apid of a subcommand that speaks with a component, or of one.
-void add_apid(CLI::App& command, std::uint16_t& apid);
+CLI::Option* add_apid(CLI::App& command, std::uint16_t& apid);
 
 // Refuses an output that is one of the inputs, or another output. Throws InputError.
 void refuse_same_files(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs);

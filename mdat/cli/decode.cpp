@@ -20,7 +20,7 @@ namespace {
 struct DecodeArguments {
   std::string file, format = "table";
   std::uint16_t apid = kApid;
-  bool headers = false, commands = false, follow = false;
+  bool headers = false, commands = false, follow = false, of_one = false;  // of_one: --apid is given
   Selection selection;
 };
 
@@ -40,12 +40,22 @@ void require_packets(std::size_t packets, const DecodeArguments& options, const 
              options.file.c_str(), kind, options.apid, content.size()));
 }
 
+// Leaves the headers of the one that is asked for. What lies between two of them is then other packets as well.
+void require_apid(const DecodeArguments& options, HeaderList& headers) {
+  const auto other = [&](const HeaderLine& line) { return line.header.apid != options.apid; };
+  headers.lines.erase(std::remove_if(headers.lines.begin(), headers.lines.end(), other), headers.lines.end());
+  if (headers.lines.empty())
+    throw InputError(
+        format("%s: no packet of APID %u; without --apid, --headers lists all that are there", options.file.c_str(), options.apid));
+}
+
 void list(const DecodeArguments& options, const std::string& content) {
   if (options.format == "pcap" || !options.selection.packet.empty() || !options.selection.items.empty()) {
     throw CLI::ValidationError("--headers", "goes with --format table, json or csv alone");
   }
-  const HeaderList headers = list_headers(view(content));
+  HeaderList headers = list_headers(view(content));
   require_packets(headers.lines.size(), options, content);
+  if (options.of_one) require_apid(options, headers);
   if (options.format == "json") return print(headers_json(headers));
   print(options.format == "csv" ? headers_csv(headers) : headers_table(headers));
   std::fputs(headers_summary(headers).c_str(), stderr);
@@ -128,11 +138,15 @@ void add_decode_command(CLI::App& app) {
       ->check(CLI::IsMember({"table", "json", "csv", "pcap"}));
   command->add_option("--packet", options->selection.packet, "packets of this name alone");
   command->add_option("--items", options->selection.items, "these items alone, separated by commas")->delimiter(',');
-  add_apid(*command, options->apid);
+  const CLI::Option* const apid = add_apid(*command, options->apid);
   command->add_flag("--commands", options->commands, "the stream is one of commands, not of telemetry");
-  command->add_flag("--headers", options->headers, "list headers, sequence gaps and check sums of any stream of space packets");
+  command->add_flag("--headers", options->headers,
+                    "list headers, sequence gaps and check sums of any stream of space packets; with --apid those of one alone");
   command->add_flag("--follow", options->follow, "go on with what is added to the file, until Ctrl-C");
-  command->callback([options] { decode(*options); });
+  command->callback([options, apid] {
+    options->of_one = apid->count() > 0;
+    decode(*options);
+  });
 }
 
 }  // namespace lasso::mdat

@@ -66,6 +66,7 @@ int run(int argc, char** argv) {
   add_decode_command(app);
   add_command_command(app);
   add_upload_command(app);
+  add_key_command(app);
   add_dictionary_command(app);
   add_monitor_command(app);
   add_serve_command(app);

@@ -10,6 +10,7 @@
 #include "mdat/common/errors.hpp"
 #include "mdat/common/flight_image.hpp"
 #include "mdat/common/output.hpp"
+#include "mdat/link/signature.hpp"
 #include "mdat/missiondb/mission_text.hpp"
 #include "mdat/missiondb/new_mission.hpp"
 
@@ -17,7 +18,7 @@ namespace lasso::mdat {
 namespace {
 
 struct MissionOptions {
-  std::string file, scenario, out, model, kind, sensor;
+  std::string file, scenario, out, model, kind, sensor, key;
   std::optional<std::uint64_t> seed;  // of a target that is generated
   std::vector<std::string> settings;
   double scale = 1;
@@ -53,7 +54,16 @@ std::string sensors_text(const LoadedImage& image) {
   return text;
 }
 
-std::string image_text(const std::string& file) {
+// Throws InputError where the key is given, and has not signed the image.
+std::string signature_text(const std::string& file, const std::vector<std::uint8_t>& image, const std::string& key) {
+  if (!key.empty() && !is_signed_by(image, load_key(key)))
+    throw InputError(file + (has_signature(image) ? ": its signature is not that of " : ": is not signed with ") + key +
+                     "; mdat mission sign " + file + " --key " + key + " signs it");
+  if (!has_signature(image)) return "";
+  return key.empty() ? "signed; --key FILE says whether with that key\n" : "signed with " + key + "\n";
+}
+
+std::string image_text(const std::string& file, const std::string& key = "") {
   const std::vector<std::uint8_t> bytes = read_bytes(file);
   const LoadedImage image(file, bytes);
   const Mission& mission = image.mission();
@@ -65,7 +75,7 @@ std::string image_text(const std::string& file) {
       file.c_str(), mission.id, mission.version, bytes.size(), mission.image_crc, mission.radius_m, mission.edges.size(),
       mission.hull.size(), mission.search.views.size(), mission.search.symmetries.size(), mission.search.cells[0], mission.search.cells[1],
       mission.search.cells[2]);
-  return text + sensors_text(image) + parts_text(image);
+  return text + sensors_text(image) + parts_text(image) + signature_text(file, bytes, key);
 }
 
 std::string parameters_text(const std::string& file) {
@@ -81,7 +91,8 @@ std::string parameters_text(const std::string& file) {
 }
 
 void check(const MissionOptions& options) {
-  if (is_image_file(options.file)) return print_text(image_text(options.file));
+  if (is_image_file(options.file)) return print_text(image_text(options.file, options.key));
+  if (!options.key.empty()) throw InputError("--key " + options.key + ": of a flight image (.3dli); a mission file is not signed");
   const MissionInput input = load_mission_input(options.file);
   print_text(check_text(input.source, input.mesh));
 }
@@ -127,6 +138,26 @@ std::string report_text(const CompiledMission& mission, const std::string& out, 
   return parts_text(mission) + text;
 }
 
+std::string_view content(const std::vector<std::uint8_t>& bytes) { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
+
+// Of the key file, if there is one.
+std::vector<std::uint8_t> with_signature(const std::vector<std::uint8_t>& image, const std::string& key) {
+  return key.empty() ? image : sign_image(image, load_key(key));
+}
+
+// In its place, unless another one is named: what was signed before is signed anew.
+void sign(const MissionOptions& options) {
+  const std::string out = options.out.empty() ? options.file : options.out;
+  refuse_same_files({out}, {options.key});
+  if (out != options.file && !options.replace) refuse_to_replace({out}, "--force replaces it");
+  const std::vector<std::uint8_t> image = read_bytes(options.file);
+  const LoadedImage loads_in_flight(options.file, image);
+  const std::vector<std::uint8_t> bytes = with_signature(image, options.key);
+  write_file(out, content(bytes));
+  std::printf("%s: image %08x, %zu bytes and a signature of %zu\n", out.c_str(), loads_in_flight.mission().image_crc,
+              bytes.size() - kImageSignatureBytes, kImageSignatureBytes);
+}
+
 // An image is made from its mission again at any time: it is replaced, and that is told. Another file is kept. Throws InputError.
 std::string replaced_text(const std::filesystem::path& out, const MissionOptions& options) {
   std::error_code ignored;
@@ -146,9 +177,9 @@ void compile(const MissionOptions& options) {
   const ModelCache cache = ModelCache::of_user_if(options.cached);
   const CompiledMission mission = compile_mission(std::move(input), cache);
   for (const std::string& warning : warnings_for(mission.source, options.scenario)) std::fprintf(stderr, "warning: %s\n", warning.c_str());
-  const std::vector<std::uint8_t> bytes = image_bytes(mission, parameters);
+  const std::vector<std::uint8_t> bytes = with_signature(image_bytes(mission, parameters), options.key);
   const LoadedImage loads_in_flight(out.string(), bytes);
-  write_file(out, std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+  write_file(out, content(bytes));
   print_text(report_text(mission, out.string(), bytes.size()) + replaced + cache_text(mission, cache));
 }
 
@@ -264,6 +295,7 @@ void add_mission_commands(CLI::App& app) {
 
   CLI::App* check_command = add(*mission, "check", "check a mission (.toml) and its target, or a flight image (.3dli)", check, options);
   check_command->add_option("MISSION", options->file, "mission file or flight image")->required();
+  check_command->add_option("--key", options->key, "is the image signed with the master key in this file?");
 
   CLI::App* compile_command = add(*mission, "compile", "make the flight image of a mission", compile, options);
   compile_command->add_option("MISSION", options->file, "mission file")->required();
@@ -271,7 +303,14 @@ void add_mission_commands(CLI::App& app) {
   compile_command->add_option("--scenario", options->scenario, "with this scenario's overrides of parameters");
   add_settings(*compile_command, options->settings);
   compile_command->add_flag("--force", options->replace, "replace a file that is there and is no flight image");
+  compile_command->add_option("--key", options->key, "sign it with the master key in this file (64 hexadecimal digits)");
   add_no_cache(*compile_command, options->cached);
+
+  CLI::App* sign_command = add(*mission, "sign", "sign a flight image, as a component with a key asks for", sign, options);
+  sign_command->add_option("IMAGE", options->file, "flight image (mdat mission compile)")->required();
+  sign_command->add_option("--key", options->key, "file with the master key (64 hexadecimal digits)")->required();
+  sign_command->add_option("-o,--out", options->out, "signed image to write (in its place)");
+  sign_command->add_flag("--force", options->replace, "replace another file that is there");
 
   CLI::App* info_command =
       add(*mission, "info", "print every value of a mission or a flight image, its unit, meaning and origin", info, options);

@@ -28,8 +28,8 @@ CLI::Validator number_between(double low, double high) {
   return CLI::Validator(check, numbers_span(low, high));
 }
 
-void add_apid(CLI::App& command, std::uint16_t& apid) {
-  command.add_option("--apid", apid, "application process of the component, as its host has given it (977 is 0x3D1)")
+CLI::Option* add_apid(CLI::App& command, std::uint16_t& apid) {
+  return command.add_option("--apid", apid, "application process of the component, as its host has given it (977 is 0x3D1)")
       ->capture_default_str()
       ->check(number_between(kLeastApid, kLargestApid));
 }

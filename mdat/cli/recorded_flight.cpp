@@ -56,6 +56,7 @@ RecordedFlight::RecordedFlight(const std::string& file, const std::string& key)
   options_.replay = std::make_shared<sim::SensorRecording>(run_.scans);
   options_.plain = true;
   if (run_.files.count(kCalibrationAttachment) > 0) options_.calibration = load_calibration(folder_.file(kCalibrationAttachment));
+  if (!word(kOfApid).empty()) options_.apid = static_cast<std::uint16_t>(number(kOfApid));
   set_commands(key);
   if (word(kFlownImage) != kAttachedImage) return;
   const std::string& image = run_.files[kImageAttachment];
@@ -68,10 +69,19 @@ void RecordedFlight::set_commands(const std::string& key) {
   if (is_signed && key.empty())
     throw InputError(file_ + ": its component took signed commands alone, and recordings hold no keys: give it by --key FILE");
   if (!is_signed && !key.empty()) throw InputError("--key " + key + ": the commands of " + file_ + " needed none");
-  if (is_signed) signatures_ = std::make_unique<SignatureCheck>(load_key(key));
-  options_.authenticator = signatures_.get();
+  if (is_signed) check_signatures(load_key(key));
   if (!word(kLinkForm).empty()) options_.commands = std::make_shared<const CommandStream>(run_.commands);
   if (!word(kHasStore).empty()) options_.store = folder_.store();
+}
+
+// As they were checked in the run. Recordings of old say "yes" instead of the number that it began with, which was 0.
+void RecordedFlight::check_signatures(const Key& master) {
+  SignatureState state;
+  if (word(kSigned) != "yes") state.number = number(kSigned);
+  if (!word(kHasStore).empty()) state.key = load_signature_state(folder_.store()).key;
+  signatures_ = std::make_unique<SignatureCheck>(master, state);
+  options_.authenticator = signatures_.get();
+  options_.sign_image = [master](const std::vector<std::uint8_t>& image) { return sign_image(image, master); };
 }
 
 MissionInput RecordedFlight::mission(const std::vector<std::string>& more) const {

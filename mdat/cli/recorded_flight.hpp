@@ -44,6 +44,7 @@ class RecordedFlight {
   std::uint64_t number(const char* key) const;
   std::uint32_t frames_until(double period_s) const;
   void set_commands(const std::string& key);
+  void check_signatures(const Key& master);
 
   std::string file_;
   RecordedRun run_;

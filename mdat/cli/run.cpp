@@ -1,5 +1,6 @@
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <thread>
 #include <utility>
 
@@ -91,7 +92,7 @@ std::unique_ptr<posix::PosixLink> open_link(const RunArguments& options) {
       throw InputError("--link " + options.link +
                        ": whoever reaches this machine could command the run: add --key FILE, so that only signed commands count, "
                        "or --remote to allow it");
-    return posix::open_link(options.link, options.told);
+    return posix::open_link(options.link, options.told, {PacketType::kCommand, options.simulation.apid});
   } catch (const posix::LinkError& error) {
     const std::string what = error.what();
     const bool of_receiver = !options.told.empty() && what.rfind(options.told + ": ", 0) == 0;
@@ -141,22 +142,23 @@ std::vector<std::filesystem::path> recordings_of(const RunArguments& options, co
   return files;
 }
 
-// What flies a commanded run again, besides the commands.
-void tell_link(const RunArguments& options, const ByteLink* link, RecordingHead& head) {
+// What flies a run of another application process, or a commanded one, again, besides the commands.
+void tell_link(const RunArguments& options, const ByteLink* link, std::uint64_t signed_before, RecordingHead& head) {
+  if (options.simulation.apid != kApid) head.about[kOfApid] = std::to_string(options.simulation.apid);
   if (link == nullptr) return;
   head.about[kLinkForm] = link->datagrams() ? kDatagrams : kByteStream;
-  if (!options.key.empty()) head.about[kSigned] = "yes";
+  if (!options.key.empty()) head.about[kSigned] = std::to_string(signed_before);
   if (options.simulation.store.empty()) return;
   head.about[kHasStore] = "yes";
   head.files.merge(store_files(options.simulation.store));
 }
 
 std::unique_ptr<RunRecorders> open_recorders(const RunArguments& options, const std::vector<std::filesystem::path>& files,
-                                             const CompiledMission& mission, const ByteLink* link) {
+                                             const CompiledMission& mission, const ByteLink* link, std::uint64_t signed_before) {
   if (files.empty()) return nullptr;
   RecordingHead head = recording_head(mission, options.simulation, options.settings, {{"commit", kCommit}, {"sensor", options.sensor}});
   if (!options.calibration.empty()) head.files[kCalibrationAttachment] = file_content(options.calibration);
-  tell_link(options, link, head);
+  tell_link(options, link, signed_before, head);
   return std::make_unique<RunRecorders>(files, mission, head, recording_content(options.record_for));
 }
 
@@ -176,6 +178,20 @@ std::vector<Criterion> required_criteria(const RunArguments& options) {
   return criteria;
 }
 
+// Of a run whose commands and images have to be signed; otherwise empty.
+struct RunSignatures {
+  explicit RunSignatures(const RunArguments& options) {
+    if (options.key.empty()) return;
+    const Key master = load_key(options.key);
+    before = state_at_start(options.simulation.store, options.link);
+    check = std::make_unique<SignatureCheck>(master, before, keep_in(options.simulation.store));
+    sign = [master](const std::vector<std::uint8_t>& image) { return sign_image(image, master); };
+  }
+  SignatureState before;
+  std::unique_ptr<SignatureCheck> check;
+  SignImage sign;
+};
+
 void run(const RunArguments& options) {
   OutputFolder folder(options.out);
   check_earlier(options);
@@ -187,8 +203,7 @@ void run(const RunArguments& options) {
   check_simulation(input.source, options.simulation, !options.link.empty());
   check_live(options.live, input.source, options.simulation.scenario);
   const std::vector<std::filesystem::path> recordings = recordings_of(options, input.source);
-  const std::unique_ptr<SignatureCheck> signatures =
-      options.key.empty() ? nullptr : std::make_unique<SignatureCheck>(load_key(options.key));
+  const RunSignatures signatures(options);
   const std::unique_ptr<posix::PosixLink> link = open_link(options);
   const CompiledMission mission = compile_mission(std::move(input), ModelCache::of_user_if(options.cached));
   for (const std::string& warning : warnings_for(mission.source, options.simulation.scenario))
@@ -197,8 +212,9 @@ void run(const RunArguments& options) {
   if (link) tell_address(*link);
   simulation.make_stereo = stereo_for(mission, simulation);
   simulation.link = link.get();
-  simulation.authenticator = signatures.get();
-  const std::unique_ptr<RunRecorders> recorders = open_recorders(options, recordings, mission, link.get());
+  simulation.authenticator = signatures.check.get();
+  simulation.sign_image = signatures.sign;
+  const std::unique_ptr<RunRecorders> recorders = open_recorders(options, recordings, mission, link.get(), signatures.before.number);
   if (recorders) simulation.recorders = recorders->cases();
   LiveRun live(options.live, mission.source.name + ", scenario " + simulation.scenario, playback_of(simulation, mission.source));
   simulation.listener = live.listener(mission, simulation.scenario);
@@ -308,10 +324,11 @@ void add_link_options(CLI::App* command, const SharedArguments& options) {
       ->add_option("--telemetry-to", options->told,
                    "with --link udp://...: HOST:PORT that telemetry goes to from the beginning, besides those who command")
       ->needs("--link");
+  add_apid(*command, options->simulation.apid);
   command
-      ->add_option(
-          "--key", options->key,
-          "with --link: file with a key (64 hexadecimal digits); commands that are not signed with it are refused (mdat command --key)")
+      ->add_option("--key", options->key,
+                   "with --link: file with the master key (64 hexadecimal digits); commands and images that are not signed with it are "
+                   "refused (mdat command --key, mdat mission sign)")
       ->needs("--link");
   command
       ->add_option(

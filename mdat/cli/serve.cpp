@@ -53,6 +53,7 @@ void add_serve_command(CLI::App& app) {
   command->add_flag("--allow-commands", options->rights.commands, "the page may command a component that it is connected to");
   command->add_option("--key", options->key,
                       "file with the key that the component asks commands to be signed with (64 hexadecimal digits)");
+  add_apid(*command, options->rights.apid);
   command->callback([options] { serve_page(*options); });
 }
 

@@ -32,7 +32,7 @@ void run(const UploadArguments& options) {
   UploadOptions how = options.upload;
   if (!options.key.empty()) how.key = load_key(options.key);
   const std::unique_ptr<posix::PosixLink> link = posix::connect_link(options.to);
-  const std::vector<std::uint8_t> image = image_of(options);
+  const std::vector<std::uint8_t> image = image_to_send(image_of(options), how.key);
   const UploadEnd end = upload(*link, options.to, image, how);
   const unsigned crc = image_crc(image);
   if (end == UploadEnd::kReady)
@@ -52,8 +52,10 @@ void add_upload_command(CLI::App& app) {
   subcommand
       ->add_option("--to", options->to, "udp://HOST:PORT or tcp://HOST:PORT; what was loaded of the same image before is not sent again")
       ->required();
-  subcommand->add_option("--key", options->key,
-                         "file with the key that the component asks commands to be signed with (64 hexadecimal digits)");
+  subcommand->add_option(
+      "--key", options->key,
+      "file with the key that the component asks commands to be signed with (64 hexadecimal digits); the master key signs an image that "
+      "is not signed, too");
   add_apid(*subcommand, options->upload.apid);
   subcommand->add_flag("--activate", options->upload.activate, "arm and activate it, and wait until its first scans confirm it");
   subcommand->add_flag("--unchecked", options->unchecked, "send a flight image even if it is wrong: the component refuses it");
@@ -67,6 +69,8 @@ void add_upload_command(CLI::App& app) {
   subcommand->callback([options] {
     try {
       run(*options);
+    } catch (const posix::NobodyThere& error) {
+      throw RunError(error.what());
     } catch (const posix::LinkError& error) {
       throw InputError(error.what());
     }

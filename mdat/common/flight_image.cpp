@@ -159,8 +159,21 @@ std::string to_string(const LoadFailure& failure) {
   return text;
 }
 
+bool has_signature(const std::vector<std::uint8_t>& image) {
+  constexpr std::size_t kLengthWord = 8;  // bytes before the image's own length
+  if (image.size() < kLengthWord + 4) return false;
+  std::size_t length = 0;
+  for (std::size_t i = 0; i < 4; ++i) length = length << 8U | image[kLengthWord + i];
+  return image.size() == length + kImageSignatureBytes;
+}
+
+std::vector<std::uint8_t> without_signature(const std::vector<std::uint8_t>& image) {
+  return {image.begin(), image.end() - static_cast<std::ptrdiff_t>(has_signature(image) ? kImageSignatureBytes : 0)};
+}
+
 LoadedImage::LoadedImage(const std::string& name, const std::vector<std::uint8_t>& bytes) : memory_(aligned_copy(bytes)) {
-  const LoadFailure failure = load_image(view(memory_, bytes.size()), mission_, parts_);
+  const std::size_t size = bytes.size() - (has_signature(bytes) ? kImageSignatureBytes : 0);
+  const LoadFailure failure = load_image(view(memory_, size), mission_, parts_);
   if (failure.status != Status::kOk) throw InputError(name + ": not a valid flight image: " + to_string(failure));
 }
 

@@ -43,10 +43,15 @@ CompiledMission compile_mission(MissionInput input, ModelCache cache = ModelCach
 CompiledMission compile_mission(const std::filesystem::path& file, ModelCache cache = ModelCache::of_user());
 std::vector<std::uint8_t> image_bytes(const CompiledMission& mission, const MissionParameters& parameters);
 
+// Behind the last byte of a signed image (mdat/link/signature.hpp).
+constexpr std::size_t kImageSignatureBytes = 32;
+bool has_signature(const std::vector<std::uint8_t>& image);
+std::vector<std::uint8_t> without_signature(const std::vector<std::uint8_t>& image);
+
 // The memory of one image, aligned as the loader wants it, and the mission in it.
 class LoadedImage {
  public:
-  // Throws InputError that names `name` and what the loader refused.
+  // Of an image with or without signature. Throws InputError that names `name` and what the loader refused.
   LoadedImage(const std::string& name, const std::vector<std::uint8_t>& bytes);
   const Mission& mission() const { return mission_; }
   const Parts& parts() const { return parts_; }

@@ -28,7 +28,7 @@ Connection::~Connection() = default;
 
 void Connection::open() {
   acted_ = std::chrono::steady_clock::now();
-  link_ = place_.listens ? posix::open_link(place_.url) : posix::connect_link(place_.url);
+  link_ = place_.listens ? posix::open_link(place_.url, "", {PacketType::kTelemetry, place_.apid}) : posix::connect_link(place_.url);
   station_ = std::make_unique<Station>(
       *link_, place_.url,
       [this](const DecodedPacket& packet) {

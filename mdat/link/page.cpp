@@ -127,10 +127,17 @@ DocumentSection service_section() {
        "the first may "
        "have any. This stops what is sent again by mistake; against intent, commands are authenticated: most spacecraft do that below this "
        "link (CCSDS 355.0-B, space data link security). For those that do not, a board gives the component an authenticator "
-       "(`fsw/link/authenticator.hpp`). Each command then has a trailer between its application data and its CRC, counted in its length; "
+       "(`fsw/core/authenticator.hpp`). Each command then has a trailer between its application data and its CRC, counted in its length; "
        "without a right one it is refused as `not_authentic`, before its arguments are looked at. What the trailer is, the board says. "
        "That of `mdat run --link URL --key FILE`: a number that grows from command to command (8 bytes), and the first 16 bytes of the "
        "HMAC-SHA-256 over all bytes of the packet before them.",
+       "With an authenticator an image needs a signature behind its last byte as well, which `begin_image` counts among its bytes, and "
+       "which "
+       "its CRC-32C does not cover; that of `mdat` is the HMAC-SHA-256 over all bytes of the image, 32 bytes. `change_key` puts a further "
+       "key "
+       "of commands on trial by its number: for 300 frames both keys count, then the new one has been confirmed by `confirm_key`, signed "
+       "with "
+       "it, or is given up (`docs/decisions/keys-by-link.md`).",
        format("In a frame %u commands are answered, and %u more that make safe (`inhibit_laser`, `set_mode mode=safe`); the rest waits for "
               "the "
               "next. A command takes effect at the next boundary, at most one frame later. What nobody sent who may command, whatever is "
@@ -243,7 +250,7 @@ std::vector<DocumentSection> transport_sections() {
        "Links",
        {"A board gives the component a link (`fsw/link/byte_link.hpp`): a stream of bytes, or datagrams of one packet each. On Linux these "
         "are "
-        "`udp://[HOST]:PORT`, `tcp://[HOST]:PORT` (one ground station at a time) and "
+        "`udp://[HOST]:PORT`, `tcp://[HOST]:PORT` (one ground station is told at a time) and "
         "`file://PATH` (commands from `PATH.commands`, telemetry to `PATH`); without a host they are bound to the loopback address. `mdat "
         "run "
         "--link` runs a component in real time behind one of them, and `mdat command NAME ITEM=VALUE ... --to` commands it. On the "
@@ -251,7 +258,11 @@ std::vector<DocumentSection> transport_sections() {
         "By UDP anybody may send to the port. Telemetry goes to senders of valid commands, with a key of signed ones: the first of them "
         "keeps its place until it is silent for 30 s and another one comes; up to three more are told beside it, and the one that was "
         "silent longest makes way. `mdat run --telemetry-to HOST:PORT` names who is told besides, from the beginning. No other datagram "
-        "moves anything. An answer also goes to who asked."},
+        "moves anything. An answer also goes to who asked.",
+        "By TCP up to four may be connected, and each one's commands are taken. The first one is told telemetry, until another one has "
+        "sent "
+        "a valid command while it has sent none for 30 s, or never; where somebody else waits, one who never sent any is sent away after "
+        "30 s."},
        {}},
       {2, "Types", {}, type_table()}};
 }

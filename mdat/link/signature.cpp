@@ -1,97 +1,159 @@
 #include "mdat/link/signature.hpp"
 
-#include <openssl/crypto.h>
-#include <openssl/evp.h>
-#include <openssl/hmac.h>
-
 #include <algorithm>
-#include <array>
 #include <chrono>
+#include <filesystem>
+#include <sstream>
 
+#include "fsw/core/byte_codec.hpp"
 #include "fsw/link/telecommand.hpp"
 #include "mdat/common/errors.hpp"
 #include "mdat/common/flight_image.hpp"
+#include "mdat/common/output.hpp"
+#include "mdat/common/text.hpp"
 
 namespace lasso::mdat {
 namespace {
 
 using Packet = std::vector<std::uint8_t>;
 
-constexpr std::size_t kKeyBytes = 32;
 constexpr std::size_t kNumberBytes = 8;
 constexpr std::size_t kCodeBytes = 16;
 constexpr std::size_t kTrailerBytes = kNumberBytes + kCodeBytes;
-static_assert(kTrailerBytes <= kMaxAuthenticationBytes, "flight code has no room for it");
-using Code = std::array<std::uint8_t, kCodeBytes>;
+static_assert(kTrailerBytes <= kMaxAuthenticationBytes && kImageSignatureBytes <= kMaxAuthenticationBytes, "no room for it");
+static_assert(kImageSignatureBytes == kKeyBytes, "a whole code");
 
-Code code_of(const Key& key, const Packet& bytes) {
-  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
-  unsigned int size = 0;
-  if (HMAC(EVP_sha256(), key.data(), static_cast<int>(key.size()), bytes.data(), bytes.size(), digest.data(), &size) == nullptr) {
-    throw RunError("HMAC-SHA-256 is not available in this OpenSSL");
-  }
-  Code code{};
-  std::copy_n(digest.begin(), kCodeBytes, code.begin());
-  return code;
-}
+ConstBytes view(const Packet& bytes) { return {bytes.data(), bytes.size()}; }
 
-std::uint64_t now_us() {
-  const auto now = std::chrono::system_clock::now().time_since_epoch();
-  return static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::microseconds>(now).count());
-}
+std::filesystem::path state_file(const std::string& store) { return std::filesystem::path(store) / "authentication"; }
 
-Key bytes_of(const std::string& digits) {
-  long size = 0;
-  unsigned char* bytes = OPENSSL_hexstr2buf(digits.c_str(), &size);
-  Key key(bytes, bytes + (bytes == nullptr ? 0 : size));
-  OPENSSL_free(bytes);
-  return key;
+Digest image_code(ConstBytes body, const Key& master) {
+  KeyedHash hash(image_key(master));
+  hash.add(body);
+  return hash.end();
 }
 
 }  // namespace
 
-Key load_key(const std::string& file) {
-  const std::vector<std::uint8_t> bytes = read_bytes(file);
-  std::string text(bytes.begin(), bytes.end());
-  while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) text.pop_back();
-  const Key key = bytes_of(text);
-  if (text.size() == 2 * kKeyBytes && key.size() == kKeyBytes) return key;
-  throw InputError(file + ": is no key: 64 hexadecimal digits are expected (openssl rand -hex 32 > " + file + " makes one)");
+std::uint64_t number_of_now() {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  return static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::microseconds>(now).count());
 }
 
 Packet Signer::sign(const Packet& packet) {
-  number_ = std::max(number_ + 1, now_us());
+  number_ = std::max(number_ + 1, number_of_now());
   CommandHeader header;
   ConstBytes data;
-  const ConstBytes bytes(packet.data(), packet.size());
+  const ConstBytes bytes = view(packet);
   const std::uint16_t apid = bytes.size() < kPrimaryHeaderBytes ? kApid : read_primary_header(bytes).apid;  // whoever it is for
   if (parse_command(bytes, header, data, apid) != PacketFault::kNone) throw RunError("what is no command is not signed");
   // The code covers the length field as it will be: the packet is finished once for that, and once for its check sum.
   Packet out(packet.size() + kTrailerBytes);
-  const auto finish = [&](const Code& code) {
+  const auto finish = [&](const Digest& code) {
     ByteWriter writer{Bytes(out.data(), out.size())};
     begin_command(header, writer);
     writer.bytes(data);
     writer.u64(number_);
-    writer.bytes({code.data(), code.size()});
+    writer.bytes({code.data(), kCodeBytes});
     static_cast<void>(finish_packet(writer, Bytes(out.data(), out.size())));
   };
   finish({});
-  const auto covered = out.end() - static_cast<std::ptrdiff_t>(kCodeBytes + kPacketTrailerBytes);
-  finish(code_of(key_, Packet(out.begin(), covered)));
+  KeyedHash hash(key_);
+  hash.add({out.data(), out.size() - kCodeBytes - kPacketTrailerBytes});
+  finish(hash.end());
   return out;
+}
+
+std::vector<std::uint8_t> sign_image(const std::vector<std::uint8_t>& image, const Key& master) {
+  if (master.number != 0) throw InputError(format("key %u signs commands alone: images are signed with the master key", master.number));
+  std::vector<std::uint8_t> out = without_signature(image);
+  const Digest code = image_code(view(out), master);
+  out.insert(out.end(), code.begin(), code.end());
+  return out;
+}
+
+bool is_signed_by(const std::vector<std::uint8_t>& image, const Key& master) {
+  const std::vector<std::uint8_t> body = without_signature(image);
+  const Digest code = image_code(view(body), master);
+  return body.size() < image.size() && same_code({code.data(), code.size()}, view(image).subspan(body.size(), kImageSignatureBytes));
+}
+
+SignatureCheck::SignatureCheck(Key master, const SignatureState& state, Keep keep)
+    : master_(std::move(master)), key_(command_key(master_, state.key)), number_(state.number), keep_(std::move(keep)) {
+  if (master_.number != 0) throw InputError(format("key %u is a derived one: a component has the master key", master_.number));
 }
 
 std::size_t SignatureCheck::trailer_bytes() const { return kTrailerBytes; }
 
+bool SignatureCheck::is_by(const Key& key, ConstBytes packet, ConstBytes trailer) const {
+  KeyedHash hash(key);
+  hash.add(packet);
+  hash.add(trailer.first(kNumberBytes));
+  const Digest code = hash.end();
+  return same_code({code.data(), kCodeBytes}, trailer.subspan(kNumberBytes, kCodeBytes));
+}
+
 bool SignatureCheck::authentic(ConstBytes packet, ConstBytes trailer) {
   const std::uint64_t number = ByteReader(trailer).u64();
-  Packet covered(packet.begin(), packet.end());
-  covered.insert(covered.end(), trailer.begin(), trailer.begin() + kNumberBytes);
-  const bool right = CRYPTO_memcmp(code_of(key_, covered).data(), trailer.data() + kNumberBytes, kCodeBytes) == 0;
-  if (!right || number <= number_) return false;
+  const bool by_key = is_by(key_, packet, trailer), by_trial = trial_ && is_by(*trial_, packet, trailer);
+  if ((!by_key && !by_trial) || number <= number_) return false;
   number_ = number;
+  by_trial_ = by_trial;
+  keep();
   return true;
+}
+
+std::size_t SignatureCheck::image_signature_bytes() const { return kImageSignatureBytes; }
+
+void SignatureCheck::begin_image() { image_.emplace(image_key(master_)); }
+
+void SignatureCheck::take_image(ConstBytes piece) { image_->add(piece); }
+
+bool SignatureCheck::image_authentic(ConstBytes signature) {
+  const Digest code = image_->end();
+  return signature.size() == code.size() && same_code({code.data(), code.size()}, signature);
+}
+
+bool SignatureCheck::try_key(std::uint32_t number) {
+  if (number <= key_.number) return false;
+  trial_ = command_key(master_, number);
+  by_trial_ = false;
+  return true;
+}
+
+void SignatureCheck::end_key_trial(bool kept) {
+  if (trial_ && kept) key_ = *trial_;
+  trial_.reset();
+  by_trial_ = false;
+  keep();
+}
+
+void SignatureCheck::keep() const {
+  if (keep_) keep_({key_.number, number_});
+}
+
+SignatureState load_signature_state(const std::string& store) {
+  const std::filesystem::path file = state_file(store);
+  SignatureState state;
+  if (!std::filesystem::exists(file)) return state;
+  std::istringstream in(file_content(file));
+  std::string key, number;
+  if (in >> key >> state.key >> number >> state.number && key == "key" && number == "number") return state;
+  throw InputError(file.string() + ": expected 'key N' and 'number N', as a run with --key and --store leaves them there");
+}
+
+SignatureState state_at_start(const std::string& store, const std::string& link) {
+  if (!store.empty()) return load_signature_state(store);
+  return {0, link.rfind("file://", 0) == 0 ? 0 : number_of_now()};
+}
+
+SignatureCheck::Keep keep_in(const std::string& store) {
+  if (store.empty()) return {};
+  return [store](const SignatureState& now) { save_signature_state(store, now); };
+}
+
+void save_signature_state(const std::string& store, const SignatureState& state) {
+  write_file(state_file(store), format("key %u\nnumber %llu\n", state.key, static_cast<unsigned long long>(state.number)));
 }
 
 }  // namespace lasso::mdat

@@ -5,6 +5,7 @@
 #include "fsw/core/byte_codec.hpp"
 #include "fsw/link/choices.hpp"
 #include "mdat/common/errors.hpp"
+#include "mdat/common/flight_image.hpp"
 #include "mdat/common/progress_bar.hpp"
 #include "mdat/common/text.hpp"
 #include "mdat/link/decode.hpp"
@@ -198,7 +199,15 @@ void check_blocks(const std::vector<std::uint8_t>& image, std::uint16_t apid) {
 
 }  // namespace
 
-std::uint32_t image_crc(const std::vector<std::uint8_t>& image) { return ByteReader(ConstBytes(image.data() + image.size() - 4, 4)).u32(); }
+std::uint32_t image_crc(const std::vector<std::uint8_t>& image) {
+  const std::size_t end = image.size() - (has_signature(image) ? kImageSignatureBytes : 0);
+  return ByteReader(ConstBytes(image.data() + end - 4, 4)).u32();
+}
+
+std::vector<std::uint8_t> image_to_send(const std::vector<std::uint8_t>& image, const std::optional<Key>& key) {
+  if (!key) return without_signature(image);
+  return key->number == 0 && !has_signature(image) ? sign_image(image, *key) : image;
+}
 
 UploadEnd upload(ByteLink& link, const std::string& name, const std::vector<std::uint8_t>& image, const UploadOptions& options) {
   if (image.size() < kMemoryBlockBytes)

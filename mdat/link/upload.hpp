@@ -25,8 +25,12 @@ enum class UploadEnd {
   kConfirmed,  // active, and has given valid poses
 };
 
-// The check sum by which a component names an image: its last four bytes.
+// The check sum by which a component names an image: its last four bytes, before its signature.
 std::uint32_t image_crc(const std::vector<std::uint8_t>& image);
+
+// What a component that has `key` takes: an image that is not signed is signed with it, where it is the master; without a key the signature
+// stays behind, as the component would take it for bytes too many.
+std::vector<std::uint8_t> image_to_send(const std::vector<std::uint8_t>& image, const std::optional<Key>& key);
 
 // What was loaded of the same image before, by whomever, is not sent again. Says on standard error how far it is. Throws RunError, which
 // names the link and says what went wrong: nobody answers, a command or the image is refused, or it is taken back. The link is the ground's

@@ -20,10 +20,11 @@ constexpr char kWholeUntil[] = "whole_until_ns";
 // Of a run that ended: how many boundaries it passed, which are fewer than its frames need where somebody ended it.
 constexpr char kRecordingEnd[] = "3dlasso_end";
 constexpr char kBoundaries[] = "boundaries";
-// Of a run with an operator's link, in kRecordingMetadata: its form; whether its commands had to be signed; whether its board had a store.
-// What that held before is attached below kStoreFolder.
+// Of a run with an operator's link, in kRecordingMetadata: its form; that its commands had to be signed, with larger numbers than this;
+// whether its board had a store. What that held before is attached below kStoreFolder.
 constexpr char kLinkForm[] = "link", kDatagrams[] = "datagrams", kByteStream[] = "stream";
 constexpr char kSigned[] = "signed", kHasStore[] = "store";  // "yes"
+constexpr char kOfApid[] = "apid";                           // of the component, where it is not the preset
 constexpr char kStoreFolder[] = "store/";
 // In it, of telemetry that came over a link: its address. There are no scans then.
 constexpr char kLinkAddress[] = "link_address";

@@ -34,7 +34,7 @@ class Case {
         noisy_model_(scanner_model(setup.scenario, setup.parameters, true)),
         trajectory_(make_trajectory(setup.scenario, setup.range_m, kEpochUs, period_us_)),
         scanners_(make_scanners(setup, *trajectory_)),
-        component_(std::make_unique<Component>(bank_of(scanners_))),
+        component_(std::make_unique<Component>(bank_of(scanners_), Identity{setup.apid})),
         link_(setup.link, setup.commands.get(), setup.listener, [this] { return component_->next_slot_us(); }),
         memory_(link_.get() != nullptr ? std::make_unique<posix::ImageMemory>(setup.store) : nullptr),
         image_(memory_ ? std::vector<std::uint64_t>() : aligned_copy(*setup.image)),
@@ -119,7 +119,7 @@ class Case {
   void restart(TimeUs boundary_us) {
     runner_.reset();
     for (const auto& scanner : scanners_) scanner->recorded.abort();
-    component_ = std::make_unique<Component>(bank_of(scanners_));
+    component_ = std::make_unique<Component>(bank_of(scanners_), Identity{setup_.apid});
     component_->set_reset_cause(ResetCause::kCommanded);
     load();
     expect(component_->begin(boundary_us), "begin");
@@ -128,6 +128,7 @@ class Case {
 
   // A commanded run has all that a board has for images in flight; every other one has its image, and that is all.
   void load() {
+    if (setup_.authenticator != nullptr) component_->authenticate_images(*setup_.authenticator);
     const LoadFailure failure = memory_ ? memory_->start(*component_, {setup_.image->data(), setup_.image->size()})
                                         : component_->load_image(view(image_, setup_.image->size()));
     if (failure.status != Status::kOk) throw InputError("the component refuses the mission's image: " + to_string(failure));
@@ -144,7 +145,7 @@ class Case {
       const PacketRow& row = command_rows::row_of(kind);
       std::uint8_t packet[kMaxCommandBytes];
       ByteWriter writer{Bytes(packet)};
-      begin_command({kApid, count++, 0, row.service, row.subservice, 0}, writer);
+      begin_command({setup_.apid, count++, 0, row.service, row.subservice, 0}, writer);
       writer.u16(row.number);
       if (kind == CommandKind::kArm) codec_of(command_rows::kArm).write({enable.service, enable.subservice, enable.number}, writer);
       const ConstBytes bytes(packet, finish_packet(writer, Bytes(packet)));
@@ -183,7 +184,7 @@ class Case {
       PacketHeader header;
       PoseTelemetry pose;
       const ConstBytes packet = stream.first(std::min(size, stream.size()));
-      const PacketFault fault = decode_pose(packet, header, pose);
+      const PacketFault fault = decode_pose(packet, header, pose, setup_.apid);
       const bool other = fault == PacketFault::kUnknown;  // an event, an answer
       if (fault != PacketFault::kNone && !other)
         throw RunError("the component's telemetry cannot be decoded: " + std::string(to_string(fault)));

@@ -65,7 +65,8 @@ struct CaseSetup {
   MakeStereo make_stereo;    // of sensors of this kind, where there is noise; empty: a mission that has one is refused
   ByteLink* link = nullptr;  // an operator's; the run then keeps the clock's pace, and nobody else starts a track that is lost
   std::shared_ptr<const CommandStream> commands;  // those of an earlier run, instead of a link: given again, as fast as it goes
-  Authenticator* authenticator = nullptr;         // of the link's commands; null: they need none
+  std::uint16_t apid = kApid;                     // of the component
+  Authenticator* authenticator = nullptr;         // of the link's commands and images; null: they need none
   std::string store;  // folder of the board's store, whose image takes the place of `image` if there is one; empty: none
   const std::vector<std::uint8_t>* image = nullptr;
   const sim::RayCaster* target = nullptr;

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <iterator>
 
+#include "fsw/link/space_packet.hpp"
 #include "fsw/mode/modes.hpp"
 #include "mdat/common/errors.hpp"
 #include "mdat/run/case.hpp"
@@ -89,7 +90,7 @@ std::vector<PoseTelemetry> poses_in(ConstBytes telemetry) {
     const ConstBytes packet = telemetry.first(std::min(size, telemetry.size()));
     PacketHeader header;
     PoseTelemetry pose;
-    const PacketFault fault = decode_pose(packet, header, pose);
+    const PacketFault fault = decode_pose(packet, header, pose, read_primary_header(packet).apid);
     if (fault != PacketFault::kNone && fault != PacketFault::kUnknown)
       throw RunError("telemetry cannot be decoded: " + std::string(to_string(fault)));
     if (fault == PacketFault::kNone) poses.push_back(pose);

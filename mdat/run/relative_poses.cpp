@@ -62,7 +62,8 @@ std::vector<PoseTelemetry> registrations(const std::vector<std::uint8_t>& teleme
   while (const std::size_t size = packet_size(stream)) {
     PacketHeader header;
     PoseTelemetry pose;
-    const bool is_pose = decode_pose(stream.first(std::min(size, stream.size())), header, pose) == PacketFault::kNone;
+    const ConstBytes packet = stream.first(std::min(size, stream.size()));
+    const bool is_pose = decode_pose(packet, header, pose, read_primary_header(packet).apid) == PacketFault::kNone;
     if (is_pose && static_cast<StopReason>(pose.stop) != StopReason::kNotRun) packets.push_back(pose);
     stream = stream.subspan(std::min(size, stream.size()), stream.size() - std::min(size, stream.size()));
   }

@@ -172,9 +172,9 @@ CaseSetup make_case(const SimulationResult& result, const TableResult& table, co
   return setup;
 }
 
-// `first`: what is the scenario's number of the first range here. `image`: that of each case, or null.
+// `first`: what is the scenario's number of the first range here. `image`: that of each case, or null. `sign`: see SimulationOptions.
 Plan make_plan(const CompiledMission& mission, SimulationResult& result, const sim::RayCaster& target, std::size_t first,
-               const std::vector<std::uint8_t>* image) {
+               const std::vector<std::uint8_t>* image, const SignImage& sign) {
   Plan plan;
   std::size_t count = 0;
   for (const TableResult& table : result.tables) count += table.variants.size();
@@ -183,6 +183,7 @@ Plan make_plan(const CompiledMission& mission, SimulationResult& result, const s
     TableResult& table = result.tables[t];
     for (VariantResult& variant : table.variants) {
       plan.images.push_back(image != nullptr ? *image : image_bytes(mission, variant.parameters));
+      if (sign) plan.images.back() = sign(plan.images.back());
       variant.image_crc = LoadedImage("", plan.images.back()).mission().image_crc;
       for (std::size_t range = 0; range < table.scenario.runs_m().size(); ++range) {
         plan.cases.push_back(make_case(result, table, variant, range));
@@ -332,10 +333,11 @@ SimulationResult simulate(const CompiledMission& mission, const SimulationOption
   const std::unique_ptr<sim::RayCaster> target = simulated_target(mission.mesh, scenario, result.seed, mission.source.target_laser);
   std::optional<CompiledMission> changed;
   if (options.calibration && options.wire) changed = recalibrated(mission, *options.wire, *options.calibration);
-  Plan plan = make_plan(changed ? *changed : mission, result, *target, options.range.value_or(0), options.image);
+  Plan plan = make_plan(changed ? *changed : mission, result, *target, options.range.value_or(0), options.image, options.sign_image);
   for (CaseSetup& setup : plan.cases) {
     setup.link = options.link;
     setup.commands = options.commands;
+    setup.apid = options.apid;
     setup.authenticator = options.authenticator;
     setup.store = options.store;
     setup.camera_line = options.camera_line;

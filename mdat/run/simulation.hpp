@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,6 +14,8 @@
 #include "mdat/run/true_target.hpp"
 
 namespace lasso::mdat {
+
+using SignImage = std::function<std::vector<std::uint8_t>(const std::vector<std::uint8_t>&)>;
 
 struct SimulationOptions {
   std::string scenario = "paper";
@@ -36,7 +39,9 @@ struct SimulationOptions {
   MakeStereo make_stereo;                         // as CaseSetup's
   ByteLink* link = nullptr;                       // an operator's: one case, the scenario's first range, at the clock's pace
   std::shared_ptr<const CommandStream> commands;  // as CaseSetup's: one case, too
-  Authenticator* authenticator = nullptr;         // of the link's commands; null: they need none
+  std::uint16_t apid = kApid;                     // of each component
+  Authenticator* authenticator = nullptr;         // of the link's commands and images; null: they need none
+  SignImage sign_image;                           // as the authenticator wants the first image; empty: as it is
   const std::vector<std::uint8_t>* image =
       nullptr;               // that flies instead of the mission's, of the same period; the world stays the mission's
   std::string store;         // of the run with a link: a folder, see CaseSetup

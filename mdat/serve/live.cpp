@@ -105,6 +105,7 @@ void Live::connect(const LinkOrder& order) {
   const std::string stem = order.mission.empty() ? "component" : fs::path(order.mission).stem().string();
   watched.file = free_file(folder_.path(), stem + "-link");
   watched.key = rights_.key;
+  watched.apid = rights_.apid;
   State state;
   state.mission = order.mission;
   state.address = order.address;

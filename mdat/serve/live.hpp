@@ -39,10 +39,11 @@ struct LinkOrder {
   std::string address, mission;  // mission: its id, or empty
 };
 
-// Of who has the page over a component that it is connected to.
+// Of who has the page over a component that it is connected to, and which one that is.
 struct LinkRights {
   bool commands = false;
   std::optional<Key> key;  // by which they are signed
+  std::uint16_t apid = kApid;
 };
 
 // Safe for several threads.

@@ -28,7 +28,7 @@ void watch_link(const WatchOrder& order, const std::string& commit, const std::a
   options.head = link_recording_head(mission ? &*mission : nullptr, order.address, {{"commit", commit}});
   if (mission) options.target = &mission->mesh;
   std::unique_ptr<LinkRecorder> recorder;
-  Connection connection({order.address, false, order.key}, [&](const DecodedPacket& packet) {
+  Connection connection({order.address, false, order.key, order.apid}, [&](const DecodedPacket& packet) {
     told.packet(packet.bytes);
     const std::uint64_t frames = recorder->frames();
     recorder->take(packet);
@@ -59,6 +59,7 @@ std::string address_fault(const std::string& address) {
 std::string watch_command(const WatchOrder& order) {
   std::string text = "mdat monitor " + shell_word(order.address);
   if (!order.mission.empty()) text += " --mission " + shell_word(order.mission.string());
+  if (order.apid != kApid) text += " --apid " + std::to_string(order.apid);
   return text + " --record " + shell_word(order.file.string()) + " --live";
 }
 

@@ -19,6 +19,7 @@ struct WatchOrder {
   std::filesystem::path mission;  // that it flies; empty: not known
   std::filesystem::path file;     // to write
   std::optional<Key> key;         // by which commands are signed
+  std::uint16_t apid = kApid;
 };
 
 // Calls come from the watch's thread.

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -15,7 +16,7 @@ namespace {
 using test::Stream;
 using test::view;
 
-const Key kKey(32, 0x0B);
+const Key kKey{std::vector<std::uint8_t>(32, 0x0B), 0};
 
 // The authenticator that a packet is given to counts what it lets pass.
 PacketFault decode(Authenticator& check, const Stream& packet, Command& command) { return decode_command(view(packet), command, &check); }
@@ -24,19 +25,16 @@ PacketFault decode(Authenticator& check, const Stream& packet) {
   return decode(check, packet, command);
 }
 
-std::string written(const std::string& text) {
-  const std::filesystem::path file = std::filesystem::path(::testing::TempDir()) / "lasso_key.txt";
-  std::ofstream(file, std::ios::binary) << text;
-  return file.string();
-}
+using Image = std::vector<std::uint8_t>;
 
-std::string refusal(const std::string& file) {
-  try {
-    static_cast<void>(load_key(file));
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+// As short as an image can be that says its length.
+Image small_image() { return {'3', 'D', 'L', 'I', 0, 0, 0, 9, 0, 0, 0, 16, 1, 2, 3, 4}; }
+
+bool takes(SignatureCheck& check, const Image& image, std::size_t piece = 5) {
+  const std::size_t body = image.size() - check.image_signature_bytes();
+  check.begin_image();
+  for (std::size_t at = 0; at < body; at += piece) check.take_image(view(image).subspan(at, std::min(piece, body - at)));
+  return check.image_authentic(view(image).subspan(body, image.size() - body));
 }
 
 TEST(Signature, ASignedCommandIsTheCommand) {
@@ -69,7 +67,7 @@ TEST(Signature, TheCodeIsThatOfOpenSslOnTheCommandLine) {
 
 TEST(Signature, WhatIsNotSignedIsRefusedAndLearnsNothing) {
   VERIFIES("LASSO-LNK-021~1");
-  Signer signer(kKey), stranger(Key(32, 0x0C));
+  Signer signer(kKey), stranger(Key{std::vector<std::uint8_t>(32, 0x0C), 0});
   SignatureCheck check(kKey);
   EXPECT_EQ(decode(check, test::ping(1)), PacketFault::kNotAuthentic) << "too short for a trailer";
   EXPECT_EQ(decode(check, test::offer_start(StartCommand{}, 1)), PacketFault::kNotAuthentic);
@@ -107,15 +105,105 @@ TEST(Signature, ARecordedCommandIsRefused) {
   EXPECT_EQ(decode(check, signer.sign(test::ping(2))), PacketFault::kNone) << "of a number of its own";
 }
 
-TEST(Signature, AKeyIsReadOrRefusedInWords) {
-  VERIFIES("LASSO-LNK-021~1");
-  std::string digits;
-  for (int i = 0; i < 32; ++i) digits += "0b";
-  EXPECT_EQ(load_key(written(digits + "\n")), kKey);
-  for (const std::string& bad : {std::string(), digits.substr(2), digits + "0b", digits.substr(1) + "g", digits.substr(3) + ":0b"}) {
-    EXPECT_NE(refusal(written(bad)).find("64 hexadecimal digits are expected"), std::string::npos) << bad;
+// Independent of the code under test: `openssl dgst -sha256 -mac HMAC -macopt hexkey:2ca0..44fd`, the image key of key_test.cpp.
+TEST(Signature, TheSignatureOfAnImageIsThatOfOpenSslOnTheCommandLine) {
+  VERIFIES("LASSO-LNK-045~1");
+  const Image image = {'3', 'D', 'L', 'I', '.', '.', '.', '.'};
+  const Image made = sign_image(image, kKey);
+  const Image expected = {0x24, 0xAD, 0xA3, 0x56, 0xDA, 0xD6, 0x1B, 0xA6, 0x88, 0x62, 0x84, 0xD6, 0x14, 0x7D, 0xC8, 0xAF,
+                          0x5C, 0xE2, 0x21, 0xAA, 0x5F, 0x2D, 0x7A, 0x2A, 0xBD, 0x6E, 0x3B, 0x6D, 0xC5, 0x3B, 0x52, 0x24};
+  EXPECT_EQ(Image(made.begin() + 8, made.end()), expected);
+}
+
+TEST(Signature, AnImageIsTakenAsItWasSignedAndNoOtherWay) {
+  VERIFIES("LASSO-LNK-045~1");
+  const Image good = sign_image(small_image(), kKey);
+  SignatureCheck check(kKey);
+  EXPECT_TRUE(takes(check, good));
+  EXPECT_TRUE(takes(check, good, 1000)) << "in one piece";
+  for (std::size_t bit = 0; bit < 8 * good.size(); ++bit) {
+    Image other = good;
+    other[bit / 8] = static_cast<std::uint8_t>(other[bit / 8] ^ (1U << (bit % 8)));
+    ASSERT_FALSE(takes(check, other)) << bit;
   }
-  EXPECT_NE(refusal("none.key").find("none.key: no such file"), std::string::npos);
+  SignatureCheck stranger(Key{Image(32, 0x0C), 0});
+  EXPECT_FALSE(takes(stranger, good));
+  EXPECT_TRUE(is_signed_by(good, kKey));
+  EXPECT_FALSE(is_signed_by(small_image(), kKey));
+  EXPECT_FALSE(is_signed_by(good, Key{Image(32, 0x0C), 0}));
+  EXPECT_EQ(sign_image(good, kKey), good) << "signed anew";
+  EXPECT_THROW(static_cast<void>(sign_image(good, command_key(kKey, 1))), InputError);
+}
+
+TEST(Signature, DuringATrialBothKeysCountAndNumbersGoOn) {
+  VERIFIES("LASSO-LNK-046~1");
+  SignatureCheck check(kKey);
+  Signer before(kKey), after(command_key(kKey, 3));
+  const Stream early = after.sign(test::ping(1));
+  EXPECT_EQ(decode(check, early), PacketFault::kNotAuthentic) << "not on trial yet";
+  EXPECT_FALSE(check.try_key(0));
+  ASSERT_TRUE(check.try_key(3));
+  EXPECT_EQ(decode(check, before.sign(test::ping(1))), PacketFault::kNone);
+  EXPECT_FALSE(check.by_key_on_trial());
+  EXPECT_EQ(decode(check, early), PacketFault::kNotAuthentic) << "its number is used up";
+  EXPECT_EQ(decode(check, after.sign(test::ping(1))), PacketFault::kNone);
+  EXPECT_TRUE(check.by_key_on_trial());
+  check.end_key_trial(true);
+  EXPECT_EQ(decode(check, before.sign(test::ping(1))), PacketFault::kNotAuthentic);
+  EXPECT_EQ(decode(check, after.sign(test::ping(1))), PacketFault::kNone);
+  EXPECT_FALSE(check.try_key(3)) << "numbers grow";
+}
+
+TEST(Signature, AKeyThatIsGivenUpCountsNoMore) {
+  VERIFIES("LASSO-LNK-046~1");
+  SignatureCheck check(kKey);
+  Signer before(kKey), after(command_key(kKey, 3));
+  ASSERT_TRUE(check.try_key(3));
+  check.end_key_trial(false);
+  EXPECT_EQ(decode(check, after.sign(test::ping(1))), PacketFault::kNotAuthentic);
+  EXPECT_EQ(decode(check, before.sign(test::ping(1))), PacketFault::kNone);
+}
+
+// What was recorded before a restart is refused after it, and the key in use is the same.
+TEST(Signature, TheStateOutlivesARestart) {
+  VERIFIES("LASSO-LNK-047~1");
+  const std::filesystem::path store = std::filesystem::path(::testing::TempDir()) / "lasso_signature_state";
+  std::filesystem::create_directories(store);
+  std::filesystem::remove(store / "authentication");
+  const auto keep = [&](const SignatureState& state) { save_signature_state(store, state); };
+  Signer before(kKey), after(command_key(kKey, 2));
+  Stream last;
+  {
+    SignatureCheck check(kKey, load_signature_state(store), keep);
+    ASSERT_EQ(decode(check, before.sign(test::ping(1))), PacketFault::kNone);
+    ASSERT_TRUE(check.try_key(2));
+    last = after.sign(test::ping(2));
+    ASSERT_EQ(decode(check, last), PacketFault::kNone);
+    EXPECT_EQ(load_signature_state(store).key, 0U) << "on trial: it does not outlive a restart";
+    check.end_key_trial(true);
+  }
+  SignatureCheck check(kKey, load_signature_state(store), keep);
+  EXPECT_EQ(decode(check, last), PacketFault::kNotAuthentic);
+  EXPECT_EQ(decode(check, before.sign(test::ping(3))), PacketFault::kNotAuthentic);
+  EXPECT_EQ(decode(check, after.sign(test::ping(3))), PacketFault::kNone);
+  std::ofstream(store / "authentication") << "key two";
+  EXPECT_THROW(static_cast<void>(load_signature_state(store)), InputError);
+}
+
+TEST(Signature, WithoutAStoreWhatWasSignedBeforeIsRefused) {
+  VERIFIES("LASSO-LNK-047~1");
+  Signer signer(kKey);
+  const Stream before = signer.sign(test::ping(1));
+  SignatureCheck check(kKey, state_at_start("", "udp://:1"), keep_in(""));
+  EXPECT_EQ(decode(check, before), PacketFault::kNotAuthentic);
+  EXPECT_EQ(decode(check, signer.sign(test::ping(1))), PacketFault::kNone);
+  SignatureCheck of_a_file(kKey, state_at_start("", "file://commands"));
+  EXPECT_EQ(decode(of_a_file, before), PacketFault::kNone);
+}
+
+TEST(Signature, AComponentHasTheMaster) {
+  VERIFIES("LASSO-LNK-046~1");
+  EXPECT_THROW(SignatureCheck(command_key(kKey, 1)), InputError);
 }
 
 }  // namespace
