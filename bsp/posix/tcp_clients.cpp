@@ -97,12 +97,20 @@ TcpClients::Client* TcpClients::receiver(ConstBytes packet) {
 bool TcpClients::flush(Client& client) {
   if (client.rest.empty()) return true;
   const ssize_t result = ::send(client.socket.get(), client.rest.data(), client.rest.size(), MSG_NOSIGNAL);
-  if (result < 0 && errno != EAGAIN) client.rest.clear();  // it has gone, as the next read says
+  if (result < 0 && errno != EAGAIN) {
+    client.rest.clear();
+    client.socket.reset(-1);
+    return true;
+  }
   client.rest.erase(client.rest.begin(), client.rest.begin() + static_cast<std::ptrdiff_t>(counted(result)));
   return client.rest.empty();
 }
 
 bool TcpClients::write(ConstBytes packet) {
+  for (Place client = clients_.begin(); client != clients_.end();) {
+    const Place here = client++;
+    if (!here->socket.open() && here->in.empty()) drop(here);
+  }
   Client* const client = receiver(packet);
   if (client == nullptr) return true;
   if (!flush(*client)) return client != &clients_.front();  // an answer to somebody who does not listen is lost

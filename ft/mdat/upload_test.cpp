@@ -143,5 +143,23 @@ TEST_F(UploadTest, ABadImageIsRefusedOrTakenBack) {
   EXPECT_TRUE(is_active("first.3dli"));
 }
 
+// mdat upload signs what is not signed; what is signed with another key is refused, and says so.
+TEST_F(UploadTest, AComponentWithAKeyTakesASignedImageAlone) {
+  VERIFIES("LASSO-IMG-022~1 LASSO-LNK-045~1");
+  work_.write("key", std::string(64, 'a'));
+  work_.write("other", std::string(64, 'b'));
+  const LiveRun run(
+      work_, "run",
+      {"run", "missions/first.toml", "--scenario", "spin", "--no-report", "--frames", "100000", "--link", url_, "--key", "key"});
+  ASSERT_EQ(send("ping --key key").exit_code, 0);
+  ASSERT_EQ(work_.mdat("mission sign second.3dli -o forged.3dli --key other").exit_code, 0);
+  const Answer forged = upload("forged.3dli --key key");
+  EXPECT_EQ(forged.exit_code, 1);
+  EXPECT_NE(forged.err.find("the component refuses the image: not_authentic"), std::string::npos) << forged.err;
+  const Answer active = upload("second.3dli --activate --key key");
+  EXPECT_EQ(active.exit_code, 0) << active.err;
+  EXPECT_NE(active.out.find("image " + name_of("second.3dli") + " is active and confirmed"), std::string::npos) << active.out;
+}
+
 }  // namespace
 }  // namespace lasso::ft

@@ -120,7 +120,7 @@ class Stranger {
   }
 
  private:
-  std::size_t below(std::size_t n) { return static_cast<std::size_t>(random_.bits() % n); }
+  std::size_t below(std::size_t n) { return random_.bits() % n; }
   std::uint8_t byte() { return static_cast<std::uint8_t>(random_.bits()); }
 
   std::string value_of(const ItemRow& item) {
@@ -190,15 +190,17 @@ class Stranger {
   std::deque<Packet> heard_;
   std::uint16_t last_count_ = 0;
   mdat::Signer other_key_{mdat::Key{Packet(32, 0x2B), 0}}, zero_key_{mdat::Key{Packet(32, 0), 0}};
-  mdat::Signer next_key_{mdat::command_key(kKey, 1)};  // stolen before its time
+  mdat::Signer next_key_{mdat::derive_command_key(kKey, 1)};  // stolen before its time
 };
 
 // One flight with its operator, who has the key, and sends the same in each.
 class Operated {
  public:
   void fly_frame(std::uint32_t frame, const std::vector<Packet>& orders, const std::vector<Packet>& strangers, std::size_t place) {
-    link_.up.insert(link_.up.end(), strangers.begin(), strangers.end());
-    link_.up.insert(link_.up.begin() + static_cast<std::ptrdiff_t>(place), orders.begin(), orders.end());
+    for (std::size_t i = 0; i <= strangers.size(); ++i) {
+      if (i == place) link_.up.insert(link_.up.end(), orders.begin(), orders.end());
+      if (i < strangers.size()) link_.up.push_back(strangers[i]);
+    }
     for (const Packet& order : orders) sent_[key_of(order)] = frame;
     flight_.run_frame();
     for (const Packet& packet : link_.down) note({packet.data(), packet.size()}, frame);
@@ -208,7 +210,7 @@ class Operated {
   std::size_t left_over() const { return link_.up.size(); }
   std::size_t unanswered() const { return sent_.size(); }
 
-  std::vector<std::vector<std::uint8_t>> poses;  // what each packet says behind its header
+  std::vector<Packet> poses;  // what each packet says behind its header
   std::size_t valid = 0, refusals = 0, done = 0;
   std::uint32_t slowest = 0;  // frames from a command to its answer
   double accepted = 0, refused = 0;
@@ -256,6 +258,16 @@ class Operated {
   std::map<std::uint32_t, std::uint32_t> sent_;
 };
 
+// Where two flights' poses differ first; empty: nowhere.
+std::string difference(const std::vector<Packet>& a, const std::vector<Packet>& b) {
+  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
+    const auto [here, there] = std::mismatch(a[i].begin(), a[i].end(), b[i].begin(), b[i].end());
+    if (here == a[i].end() && there == b[i].end()) continue;
+    return "pose " + std::to_string(i) + ", byte " + std::to_string(here - a[i].begin()) + " behind the header";
+  }
+  return a.size() == b.size() ? "" : std::to_string(a.size()) + " poses, and " + std::to_string(b.size());
+}
+
 std::string list(const std::vector<double>& values) {
   std::string text;
   for (const double value : values) text += (text.empty() ? "" : ",") + mdat::text_of(value);
@@ -297,14 +309,16 @@ TEST(StrangerFlight, WhoHasNotTheKeyMovesNothing) {
   Operated quiet, flooded;
   std::uint16_t count = 0;
   std::size_t orders = 0;
-  for (std::uint32_t frame = 0; frame < frames + 3; ++frame) {
+  // The start comes before the flood, so that it is taken at the same boundary.
+  for (std::uint32_t frame = 0; frame <= frames + 3; ++frame) {
+    const bool floods = frame > 0 && frame <= frames;
     std::vector<Packet> sent, strangers;
     if (frame == 0) sent.push_back(signer.sign(start(count++)));
-    if (frame > 0 && frame < frames && frame % 3 == 0) sent.push_back(signer.sign(order(frame / 3, count++ & 0x3FFF)));
+    if (floods && frame % 3 == 0) sent.push_back(signer.sign(order(frame / 3, count++ & 0x3FFF)));
     orders += sent.size();
-    for (std::size_t i = 0; frame < frames && i < kPerFrame; ++i) strangers.push_back(stranger.next());
+    for (std::size_t i = 0; floods && i < kPerFrame; ++i) strangers.push_back(stranger.next());
     quiet.fly_frame(frame, sent, {}, 0);
-    flooded.fly_frame(frame, sent, strangers, static_cast<std::size_t>(random.bits() % (strangers.size() + 1)));
+    flooded.fly_frame(frame, sent, strangers, random.bits() % (strangers.size() + 1));
     for (const Packet& packet : sent) stranger.hear(packet);
   }
   EXPECT_EQ(flooded.left_over(), 0U);
@@ -314,8 +328,8 @@ TEST(StrangerFlight, WhoHasNotTheKeyMovesNothing) {
   EXPECT_EQ(flooded.done, orders);
   EXPECT_EQ(flooded.unanswered(), 0U);
   EXPECT_LE(flooded.slowest, kAnswered);
-  EXPECT_EQ(flooded.poses.size(), frames + 1);
-  EXPECT_TRUE(flooded.poses == quiet.poses) << "to the bit";
+  EXPECT_EQ(difference(flooded.poses, quiet.poses), "");
+  EXPECT_GE(flooded.poses.size(), frames);
   EXPECT_GT(quiet.valid, quiet.poses.size() / 2) << "a track that could have been disturbed";
   std::printf(
       "%zu packets of a stranger in %u frames: %.0f accepted besides the operator's %zu, which were answered within %u frames; %zu poses "

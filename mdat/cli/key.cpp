@@ -31,7 +31,7 @@ void derive(const KeyArguments& options) {
     throw InputError(options.master + ": is key " + std::to_string(master.number) + ", which no other key comes from; give the master key");
   refuse_same_files({options.out}, {options.master});
   if (!options.replace) refuse_to_replace({options.out}, "--force replaces it");
-  write_key(options, command_key(master, options.number));
+  write_key(options, derive_command_key(master, options.number));
   const std::string number = std::to_string(options.number);
   std::printf(
       "%s: key %s, for commands alone\nnext, while the key before is in use:\n"

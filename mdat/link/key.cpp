@@ -68,9 +68,9 @@ std::string key_text(const Key& key) {
   return text + (key.number == 0 ? "" : " " + std::to_string(key.number)) + "\n";
 }
 
-Key command_key(const Key& master, std::uint32_t number) { return number == 0 ? master : derived(master, kCommandLabel, number); }
+Key derive_command_key(const Key& master, std::uint32_t number) { return number == 0 ? master : derived(master, kCommandLabel, number); }
 
-Key image_key(const Key& master) { return derived(master, kImageLabel, 0); }
+Key derive_image_key(const Key& master) { return derived(master, kImageLabel, 0); }
 
 struct KeyedHash::Context {
   EVP_MD_CTX* hash = EVP_MD_CTX_new();

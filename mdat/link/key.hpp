@@ -32,8 +32,8 @@ Key load_key(const std::string& file);
 std::string key_text(const Key& key);
 
 // Of a master.
-Key command_key(const Key& master, std::uint32_t number);
-Key image_key(const Key& master);
+Key derive_command_key(const Key& master, std::uint32_t number);
+Key derive_image_key(const Key& master);
 
 // The code of bytes that come in pieces. Throws RunError where OpenSSL has no HMAC-SHA-256.
 class KeyedHash {

@@ -116,6 +116,12 @@ DocumentSection event_section() {
   return section;
 }
 
+constexpr const char* kOfKeys =
+    "With an authenticator an image needs a signature behind its last byte as well, which `begin_image` counts among its bytes, and which "
+    "its CRC-32C does not cover; that of `mdat` is the HMAC-SHA-256 over all bytes of the image, 32 bytes. `change_key` puts a further key "
+    "of commands on trial by its number: for 300 frames both keys count, then the new one has been confirmed by `confirm_key`, signed with "
+    "it, or is given up (`docs/decisions/keys-by-link.md`).";
+
 DocumentSection service_section() {
   return {
       2,
@@ -131,13 +137,7 @@ DocumentSection service_section() {
        "without a right one it is refused as `not_authentic`, before its arguments are looked at. What the trailer is, the board says. "
        "That of `mdat run --link URL --key FILE`: a number that grows from command to command (8 bytes), and the first 16 bytes of the "
        "HMAC-SHA-256 over all bytes of the packet before them.",
-       "With an authenticator an image needs a signature behind its last byte as well, which `begin_image` counts among its bytes, and "
-       "which "
-       "its CRC-32C does not cover; that of `mdat` is the HMAC-SHA-256 over all bytes of the image, 32 bytes. `change_key` puts a further "
-       "key "
-       "of commands on trial by its number: for 300 frames both keys count, then the new one has been confirmed by `confirm_key`, signed "
-       "with "
-       "it, or is given up (`docs/decisions/keys-by-link.md`).",
+       kOfKeys,
        format("In a frame %u commands are answered, and %u more that make safe (`inhibit_laser`, `set_mode mode=safe`); the rest waits for "
               "the "
               "next. A command takes effect at the next boundary, at most one frame later. What nobody sent who may command, whatever is "

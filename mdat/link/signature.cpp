@@ -28,7 +28,7 @@ ConstBytes view(const Packet& bytes) { return {bytes.data(), bytes.size()}; }
 std::filesystem::path state_file(const std::string& store) { return std::filesystem::path(store) / "authentication"; }
 
 Digest image_code(ConstBytes body, const Key& master) {
-  KeyedHash hash(image_key(master));
+  KeyedHash hash(derive_image_key(master));
   hash.add(body);
   return hash.end();
 }
@@ -79,7 +79,7 @@ bool is_signed_by(const std::vector<std::uint8_t>& image, const Key& master) {
 }
 
 SignatureCheck::SignatureCheck(Key master, const SignatureState& state, Keep keep)
-    : master_(std::move(master)), key_(command_key(master_, state.key)), number_(state.number), keep_(std::move(keep)) {
+    : master_(std::move(master)), key_(derive_command_key(master_, state.key)), number_(state.number), keep_(std::move(keep)) {
   if (master_.number != 0) throw InputError(format("key %u is a derived one: a component has the master key", master_.number));
 }
 
@@ -105,18 +105,21 @@ bool SignatureCheck::authentic(ConstBytes packet, ConstBytes trailer) {
 
 std::size_t SignatureCheck::image_signature_bytes() const { return kImageSignatureBytes; }
 
-void SignatureCheck::begin_image() { image_.emplace(image_key(master_)); }
+void SignatureCheck::begin_image() { image_.emplace(derive_image_key(master_)); }
 
-void SignatureCheck::take_image(ConstBytes piece) { image_->add(piece); }
+void SignatureCheck::take_image(ConstBytes piece) {
+  if (image_) image_->add(piece);
+}
 
 bool SignatureCheck::image_authentic(ConstBytes signature) {
+  if (!image_) return false;
   const Digest code = image_->end();
   return signature.size() == code.size() && same_code({code.data(), code.size()}, signature);
 }
 
 bool SignatureCheck::try_key(std::uint32_t number) {
   if (number <= key_.number) return false;
-  trial_ = command_key(master_, number);
+  trial_ = derive_command_key(master_, number);
   by_trial_ = false;
   return true;
 }

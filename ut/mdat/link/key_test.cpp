@@ -45,15 +45,15 @@ TEST(Key, AKeyIsReadOrRefusedInWords) {
 // mode:COUNTER -kdfopt salt:"3DLASSO command key" -kdfopt hexinfo:00000001 KBKDF`, and with another number, and another label.
 TEST(Key, DerivedKeysAreThoseOfOpenSslOnTheCommandLine) {
   VERIFIES("LASSO-LNK-046~1");
-  EXPECT_EQ(key_text(command_key(kMaster, 1)), "e07385179dd66466b2cc6d6fa3b9d30a3dc67fdaf04879bdfef9862615228014 1\n");
-  EXPECT_EQ(key_text(command_key(kMaster, 511)), "4795bb85acff9f8db11e9982fb354e3daacf385188f99b469c46ab2d394f2154 511\n");
-  EXPECT_EQ(key_text(image_key(kMaster)), "2ca0e8d170418ef01a9ab19c69f220f48dafd962ec2070eda3167925c83b44fd\n");
-  EXPECT_EQ(command_key(kMaster, 0), kMaster);
+  EXPECT_EQ(key_text(derive_command_key(kMaster, 1)), "e07385179dd66466b2cc6d6fa3b9d30a3dc67fdaf04879bdfef9862615228014 1\n");
+  EXPECT_EQ(key_text(derive_command_key(kMaster, 511)), "4795bb85acff9f8db11e9982fb354e3daacf385188f99b469c46ab2d394f2154 511\n");
+  EXPECT_EQ(key_text(derive_image_key(kMaster)), "2ca0e8d170418ef01a9ab19c69f220f48dafd962ec2070eda3167925c83b44fd\n");
+  EXPECT_EQ(derive_command_key(kMaster, 0), kMaster);
 }
 
 TEST(Key, AKeyThatIsWrittenIsReadAgain) {
   VERIFIES("LASSO-LNK-046~1");
-  const Key key = command_key(kMaster, 511);
+  const Key key = derive_command_key(kMaster, 511);
   EXPECT_EQ(load_key(written(key_text(key))), key);
 }
 

@@ -132,13 +132,13 @@ TEST(Signature, AnImageIsTakenAsItWasSignedAndNoOtherWay) {
   EXPECT_FALSE(is_signed_by(small_image(), kKey));
   EXPECT_FALSE(is_signed_by(good, Key{Image(32, 0x0C), 0}));
   EXPECT_EQ(sign_image(good, kKey), good) << "signed anew";
-  EXPECT_THROW(static_cast<void>(sign_image(good, command_key(kKey, 1))), InputError);
+  EXPECT_THROW(static_cast<void>(sign_image(good, derive_command_key(kKey, 1))), InputError);
 }
 
 TEST(Signature, DuringATrialBothKeysCountAndNumbersGoOn) {
   VERIFIES("LASSO-LNK-046~1");
   SignatureCheck check(kKey);
-  Signer before(kKey), after(command_key(kKey, 3));
+  Signer before(kKey), after(derive_command_key(kKey, 3));
   const Stream early = after.sign(test::ping(1));
   EXPECT_EQ(decode(check, early), PacketFault::kNotAuthentic) << "not on trial yet";
   EXPECT_FALSE(check.try_key(0));
@@ -157,7 +157,7 @@ TEST(Signature, DuringATrialBothKeysCountAndNumbersGoOn) {
 TEST(Signature, AKeyThatIsGivenUpCountsNoMore) {
   VERIFIES("LASSO-LNK-046~1");
   SignatureCheck check(kKey);
-  Signer before(kKey), after(command_key(kKey, 3));
+  Signer before(kKey), after(derive_command_key(kKey, 3));
   ASSERT_TRUE(check.try_key(3));
   check.end_key_trial(false);
   EXPECT_EQ(decode(check, after.sign(test::ping(1))), PacketFault::kNotAuthentic);
@@ -171,7 +171,7 @@ TEST(Signature, TheStateOutlivesARestart) {
   std::filesystem::create_directories(store);
   std::filesystem::remove(store / "authentication");
   const auto keep = [&](const SignatureState& state) { save_signature_state(store, state); };
-  Signer before(kKey), after(command_key(kKey, 2));
+  Signer before(kKey), after(derive_command_key(kKey, 2));
   Stream last;
   {
     SignatureCheck check(kKey, load_signature_state(store), keep);
@@ -203,7 +203,7 @@ TEST(Signature, WithoutAStoreWhatWasSignedBeforeIsRefused) {
 
 TEST(Signature, AComponentHasTheMaster) {
   VERIFIES("LASSO-LNK-046~1");
-  EXPECT_THROW(SignatureCheck(command_key(kKey, 1)), InputError);
+  EXPECT_THROW(SignatureCheck(derive_command_key(kKey, 1)), InputError);
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ class LaserSafetyTest : public ::testing::Test {
   Folder folder_;
 };
 
-const std::string kScenario = "[scenario.paper]\n";
+const std::string kScenario = "[scenario.paper]\nranges_m = [4.0]\n";
 
 TEST_F(LaserSafetyTest, WhatIsStatedOfEachSensorIsShown) {
   VERIFIES("LASSO-LCS-021~1");
@@ -30,10 +30,10 @@ TEST_F(LaserSafetyTest, WhatIsStatedOfEachSensorIsShown) {
       "[sensor]\nlaser_class = '3B'\nlaser_hazard_distance_m = 42.5\nlaser_inhibits = 2\n[further_sensor.near]\nkind = "
       "'flash_lidar'\nlaser_class = '1M'\n" +
       kScenario);
-  EXPECT_EQ(value(source, "sensor.laser_class"), "3B ");
+  EXPECT_EQ(value(source, "sensor.laser_class"), "\"3B\" ");
   EXPECT_EQ(value(source, "sensor.laser_hazard_distance_m"), "42.5 m");
   EXPECT_EQ(value(source, "sensor.laser_inhibits"), "2 ");
-  EXPECT_EQ(value(source, "further_sensor.near.laser_class"), "1M ");
+  EXPECT_EQ(value(source, "further_sensor.near.laser_class"), "\"1M\" ");
   EXPECT_EQ(value(source, "further_sensor.near.laser_inhibits"), "0 ");
 }
 
