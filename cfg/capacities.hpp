@@ -16,6 +16,7 @@ constexpr std::uint32_t kMaxCellDistance = 250;     // longest jump through empt
 constexpr std::size_t kMaxParts = 6;                // parts of the target with models of their own
 constexpr std::size_t kMaxSensors = 4;              // sensors of which one takes a scan
 constexpr std::size_t kMaxCalibrations = 4;         // of a sensor, of which one holds
+constexpr std::size_t kMaxNamedFrames = 4;          // frames besides the sensor's and the target's that poses are told in
 constexpr std::size_t kMaxHullPoints = 256;         // extreme points of the target, for aiming
 constexpr std::uint32_t kMaxElements = 1u << 18;
 constexpr std::uint32_t kMaxEdges = 1u << 17;

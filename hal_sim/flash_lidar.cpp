@@ -146,26 +146,32 @@ Vec3 FlashLidar::through(double column, double row) const {
   return Vec3(tan_half_x_ * (2 * column / model_.columns - 1), tan_half_y_ * (2 * row / model_.rows - 1), 1).normalized();
 }
 
+double FlashLidar::photons_of(const Echo& echo) const {
+  if (!model_.materials || echo.material == nullptr) return expected_photons(model_, echo.range_m, echo.cos_incidence);
+  return model_.photons_at_10m * (100 / (echo.range_m * echo.range_m)) * backscatter(*echo.material, echo.cos_incidence) /
+         kFlashReflectance;
+}
+
 FlashLidar::Echo FlashLidar::echo_of(const Vec3& direction) const {
   const Vec3 truly = rotate(exp_so3(-scanner_.common_sigma_rad * frame_.common.turn), direction);
   const auto cast = [&](const RayCaster& surface, const Pose& T_surface_sensor) {
     const Vec3 ray = rotate(T_surface_sensor.q, truly);
     const RayHit hit = surface.cast(T_surface_sensor.p, ray);
-    return hit.hit ? Echo{hit.range_m, std::abs(hit.normal.dot(ray)), 0} : Echo{kNoEcho, 0, 0};
+    return hit.hit ? Echo{hit.range_m, std::abs(hit.normal.dot(ray)), 0, hit.reflection} : Echo{kNoEcho, 0, 0, nullptr};
   };
   Echo nearest = cast(target_, frame_.T_target_sensor);
   for (std::size_t i = 0; i < others_.size(); ++i) {
     const Echo echo = cast(*others_[i].surface, frame_.T_others_sensor[i]);
     if (echo.range_m < nearest.range_m) nearest = echo;
   }
-  if (nearest.range_m > scanner_.range_max_m || nearest.cos_incidence < cos_dropout_incidence_) nearest = {kNoEcho, 0, 0};
-  if (nearest.range_m < kNoEcho) nearest.photons = expected_photons(model_, nearest.range_m, nearest.cos_incidence);
+  if (nearest.range_m > scanner_.range_max_m || nearest.cos_incidence < cos_dropout_incidence_) nearest = {kNoEcho, 0, 0, nullptr};
+  if (nearest.range_m < kNoEcho) nearest.photons = photons_of(nearest);
   return nearest;
 }
 
 FlashLidar::Echo FlashLidar::echo_of_pixel(int column, int row) const {
   if (model_.ideal) return echo_of(through(column + 0.5, row + 0.5));
-  Echo quarters[4], strongest{kNoEcho, 0, 0};
+  Echo quarters[4], strongest{kNoEcho, 0, 0, nullptr};
   for (int i = 0; i < 4; ++i) {
     quarters[i] = echo_of(through(column + (i % 2 == 0 ? 0.25 : 0.75), row + (i < 2 ? 0.25 : 0.75)));
     quarters[i].photons /= 4;

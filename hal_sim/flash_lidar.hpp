@@ -1,7 +1,8 @@
 // A simulated flash LIDAR: one pulse lights the whole field, and each pixel counts the photons that come back to it and times them. All
 // pixels are measured at one time. Noise comes of the photons alone, but for the clock's jitter:
 //
-//   N   = photons_at_10m (10 / R)^2 (rho / 0.5) cos(incidence)     expected counts of a pixel's return (Lambert)
+//   N   = photons_at_10m (10 / R)^2 b / 0.5                        expected counts of a pixel's return; b = rho cos(incidence) (Lambert),
+//                                                                 or of a surface with a material its backscatter (laser_reflection.hpp)
 //   B                                                             expected background counts within one bin of time, of length `bin_m`
 //   P_d = P(Poisson(N + B) >= threshold)                          a return is detected
 //   P_f = P(Poisson(B) >= threshold)                              a bin without a return is taken for one; the first detection counts
@@ -58,7 +59,9 @@ class FlashLidar final : public PixelSensor {
   };
   struct Echo {
     double range_m = 0, cos_incidence = 0, photons = 0;
+    const LaserReflection* material = nullptr;
   };
+  double photons_of(const Echo& echo) const;
 
   bool within_field_of_view(const ScanPlan& plan) const;
   void take_frame(TimeUs t_us);

@@ -14,7 +14,8 @@ struct FlashModel {
   double pulse_m = 0.15;                   // rms length of the pulse in range (1 ns), > 0
   double jitter_m = 0.01;                  // >= 0
   double dead_share = 0.001;               // of the pixels, the same in each frame: kInvalid; [0, 0.5]
-  double reflectance = kFlashReflectance;  // of the target, [0, 1]
+  double reflectance = kFlashReflectance;  // of all surfaces, [0, 1]
+  bool materials = false;                  // but of those that have a reflection of their own, which counts instead
   double noise_factor = 1;                 // of sigma
   bool ideal = false;                      // each pixel's middle ray, without noise; what photons there are does not count
   // What the sensor's users take one sigma of a range to be, sqrt(sigma0^2 + (k z^2)^2): a pixel's sigma_factor says how much more it is.

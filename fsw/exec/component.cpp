@@ -1,6 +1,7 @@
 #include "fsw/exec/component.hpp"
 
 #include "fsw/core/renew.hpp"
+#include "fsw/exec/named_pose.hpp"
 #include "fsw/exec/report.hpp"
 #include "fsw/exec/self_test.hpp"
 #include "fsw/geometry/portable_math.hpp"
@@ -170,6 +171,7 @@ void Component::publish_estimate(TimeUs now_us) {
     send(step, now_us);
   }
   if (housekeeping_.due(kFilterStructureId, estimated_.active)) send_filter(step.registration.common, now_us);
+  if (housekeeping_.due(kNamedPoseStructureId, estimated_.active)) send_named_poses(step.registration, now_us);
 }
 
 // Changes of the mode wait for the next packet, if one is on its way.
@@ -321,6 +323,22 @@ void Component::send_filter(const CommonErrors& common, TimeUs now_us) {
   const FilterTelemetry report = make_filter_report(estimated_.scan_id, track_.filter, common);
   std::uint8_t packet[kMaxFilterBytes];
   downlink_.send({packet, encode_filter(report, downlink_.next_header(kHousekeepingReport, now_us), Bytes(packet))});
+}
+
+// Frames that have decayed are not told before the scrub has put them right. Loop bound: kMaxNamedFrames.
+void Component::send_named_poses(const Registration& registration, TimeUs now_us) {
+  const ImageSlot& image = images_.active();
+  const auto pairs = static_cast<std::uint8_t>(image.named_frames());
+  NamedFrame frame;
+  for (std::uint8_t i = 0; i < pairs; ++i) {
+    if (!image.find_named_frame(i, frame) || !is_valid(frame)) continue;
+    NamedPoseTelemetry report = make_named_pose_report(frame, registration, track_.filter);
+    report.scan_id = estimated_.scan_id;
+    report.pair = static_cast<std::uint8_t>(i + 1);
+    report.pairs = pairs;
+    std::uint8_t packet[kMaxNamedPoseBytes];
+    downlink_.send({packet, encode_named_pose(report, downlink_.next_header(kHousekeepingReport, now_us), Bytes(packet))});
+  }
 }
 
 void Component::set_changes(PoseTelemetry& report) {

@@ -232,6 +232,7 @@ class Component {
   TrackStep step_without_estimate();
   void send(const TrackStep& step, TimeUs now_us);
   void send_filter(const CommonErrors& common, TimeUs now_us);
+  void send_named_poses(const Registration& registration, TimeUs now_us);
   bool answer_if_room(ConstBytes packet, TimeUs now_us);
   void answer(ConstBytes packet, TimeUs now_us);
   void carry_out(const Command& command, Verification& verification, TimeUs now_us);

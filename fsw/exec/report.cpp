@@ -1,5 +1,6 @@
 #include "fsw/exec/report.hpp"
 
+#include "fsw/exec/wire_values.hpp"
 #include "fsw/geometry/portable_math.hpp"
 
 #ifndef LASSO_BUILD_ID
@@ -14,23 +15,6 @@ constexpr std::uint32_t kMinor = 2;
 constexpr std::uint32_t kPatch = 0;
 constexpr char kVersion[] = "0.2.0";
 constexpr std::int64_t kMaxAgeUs = 0xFFFFFFFF;
-
-void copy_pose(const Pose& pose, double (&q)[4], double (&p)[3]) {
-  const double coefficients[4] = {pose.q.x(), pose.q.y(), pose.q.z(), pose.q.w()};
-  for (int i = 0; i < 4; ++i) q[i] = coefficients[i];
-  for (int i = 0; i < 3; ++i) p[i] = pose.p[i];
-}
-
-template <class Matrix, class Term>
-void copy_upper_triangle(const Matrix& covariance, Span<Term> terms) {
-  std::size_t term = 0;
-  for (int row = 0; row < covariance.rows(); ++row) {
-    for (int column = row; column < covariance.cols(); ++column) {
-      terms[term] = static_cast<Term>(covariance(row, column));
-      ++term;
-    }
-  }
-}
 
 float sigma_of(double variance) { return static_cast<float>(square_root(variance)); }
 

@@ -210,6 +210,7 @@ inline constexpr Choice kStructureNames[] = {
   {"health", "faults and what led to them"},
   {"image", "the two mission images, and the scrub of memory"},
   {"filter", "the covariance of the tracking filter; sent when it is asked for, or enabled"},
+  {"named_pose", "pose, rates and covariances between frames that the mission names"},
 };
 inline constexpr Choice kMemoryAreas[] = {
   {"other_image", "the image that is not active: the one that is loaded"},

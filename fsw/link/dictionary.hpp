@@ -9,6 +9,7 @@
 #include "fsw/link/filter_rows.hpp"
 #include "fsw/link/health_rows.hpp"
 #include "fsw/link/link_report_rows.hpp"
+#include "fsw/link/named_pose_rows.hpp"
 #include "fsw/link/packet.hpp"
 #include "fsw/link/packet_row.hpp"
 #include "fsw/link/pose_rows.hpp"
@@ -58,6 +59,7 @@ inline constexpr auto kPoseItems = items_of(pose_rows::kRows);
 inline constexpr auto kSensorItems = items_of(sensor_report_rows::kRows);
 inline constexpr auto kHealthItems = items_of(health_rows::kRows);
 inline constexpr auto kFilterItems = items_of(filter_rows::kRows);
+inline constexpr auto kNamedPoseItems = items_of(named_pose_rows::kRows);
 inline constexpr auto kImageItems = items_of(memory_rows::kImage);
 inline constexpr auto kDumpedItems = items_of(memory_rows::kDumped);
 inline constexpr auto kCheckedItems = items_of(memory_rows::kChecked);
@@ -81,6 +83,8 @@ inline constexpr PacketRow kTelemetry[] = {
    "the two mission images and the scrub, at the end of a frame in which an image's state has changed, or something was found"},
   {"filter", PacketType::kTelemetry, kServiceHousekeeping, kSubserviceHousekeepingReport, true, kFilterStructureId, Span<const ItemRow>(kFilterItems.rows),
    "the covariance of the tracking filter, at the end of a frame with a step of the track; disabled until enable_structure"},
+  {"named_pose", PacketType::kTelemetry, kServiceHousekeeping, kSubserviceHousekeepingReport, true, kNamedPoseStructureId, Span<const ItemRow>(kNamedPoseItems.rows),
+   "pose, rates and covariances between two frames that the mission names, at the end of a frame with a step of the track; none where the image names none"},
   {"dumped", PacketType::kTelemetry, kServiceMemory, kSubserviceDumped, false, 0, Span<const ItemRow>(kDumpedItems.rows),
    "the answer to dump_memory"},
   {"checked", PacketType::kTelemetry, kServiceMemory, kSubserviceChecked, false, 0, Span<const ItemRow>(kCheckedItems.rows),

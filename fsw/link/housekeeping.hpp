@@ -11,10 +11,11 @@ constexpr std::uint16_t kLinkStructureId = 2;
 constexpr std::uint16_t kSensorStructureId = 3;
 constexpr std::uint16_t kHealthStructureId = 4;
 constexpr std::uint16_t kImageStructureId = 5;
-constexpr std::uint16_t kFilterStructureId = 6;  // the only one that is sent on request alone
+constexpr std::uint16_t kFilterStructureId = 6;     // the only one that is sent on request alone
+constexpr std::uint16_t kNamedPoseStructureId = 7;  // of missions that name frames
 
 // Frames from one report to the next, by structure; 0: when there is news.
-inline constexpr std::uint16_t kPresetPeriods[] = {0, 1, 0, 0, 0, 0, 1};
+inline constexpr std::uint16_t kPresetPeriods[] = {0, 1, 0, 0, 0, 0, 1, 0};
 constexpr std::size_t kStructures = sizeof(kPresetPeriods) / sizeof(kPresetPeriods[0]);  // with number 0, which none has
 
 class Housekeeping {

@@ -9,7 +9,9 @@
 namespace lasso {
 namespace {
 
-constexpr std::uint32_t kDirectoryBytes = 4 * (kImageHeaderWords + kTableCount * kDirectoryEntryWords);
+// Of header and directory.
+constexpr std::uint32_t directory_bytes(std::uint32_t tables) { return 4 * (kImageHeaderWords + tables * kDirectoryEntryWords); }
+
 constexpr std::uint32_t kMaxBricksPerAxis = 1023;
 constexpr std::uint32_t kRecordWords[kTableCount] = {2,
                                                      kFieldGeometryWords,
@@ -29,20 +31,23 @@ constexpr std::uint32_t kRecordWords[kTableCount] = {2,
                                                      kPartWords,
                                                      1,
                                                      kSensorWords,
-                                                     kCalibrationWords};
+                                                     kCalibrationWords,
+                                                     kNamedFrameWords};
 static_assert(kSensorWords == 2 * kSensorValues, "two words a value");
 static_assert(kCalibrationWords == 2 + 2 * (kCalibrationRealCount + kResidualTerms), "two words a value");
 
 // Header and sizes.
-LoadFailure check_header(const FlightImage& image) {
-  if (image.bytes.size() < kDirectoryBytes + 4) return failure(Status::kTruncated, "shorter than header and directory");
+LoadFailure check_header(FlightImage& image) {
+  if (image.bytes.size() < directory_bytes(kLeastTables) + 4) return failure(Status::kTruncated, "shorter than header and directory");
   ByteReader reader(image.bytes);
   if (reader.u32() != kImageMagic) return failure(Status::kBadMagic, "no flight image");
   if (reader.u32() != kImageVersion)
     return failure(Status::kBadVersion, "image format version of another build: compile the mission again");
   if (reader.u32() != image.bytes.size()) return failure(Status::kBadLength, "length field is not the image's length");
   if (image.bytes.size() > kMaxImageBytes) return failure(Status::kOverCapacity, "larger than the image buffer");
-  if (reader.u32() != kTableCount) return failure(Status::kBadLength, "number of tables");
+  image.table_count = reader.u32();
+  if (image.table_count != kLeastTables && image.table_count != kTableCount) return failure(Status::kBadLength, "number of tables");
+  if (image.bytes.size() < directory_bytes(image.table_count) + 4) return failure(Status::kTruncated, "shorter than its directory");
   (void)reader.u32();  // mission id and version say nothing about validity
   (void)reader.u32();
   if (reader.u32() != parameter_rows().size()) return failure(Status::kBadVersion, "parameter count of another build");
@@ -95,7 +100,8 @@ LoadFailure check_counts(const FlightImage& image) {
                           {TableId::kSymmetries, 0, kMaxSymmetries},
                           {TableId::kParts, 0, kMaxParts},
                           {TableId::kSensors, 0, kMaxSensors - 1},
-                          {TableId::kCalibrations, 0, kMaxSensors * kMaxCalibrations}};
+                          {TableId::kCalibrations, 0, kMaxSensors * kMaxCalibrations},
+                          {TableId::kNamedFrames, 0, kMaxNamedFrames}};
   for (const Limit& limit : limits) {
     const std::uint32_t n = image[limit.id].records;
     if (n < limit.minimum || n > limit.maximum) return failure(Status::kOverCapacity, "number of records", limit.id);
@@ -211,6 +217,11 @@ LoadFailure check_calibration(const FlightImage& image, std::uint32_t i) {
   return status == Status::kOk ? LoadFailure{} : failure(status, "calibration", TableId::kCalibrations, i);
 }
 
+LoadFailure check_named_frame(const FlightImage& image, std::uint32_t i) {
+  if (is_valid(named_frame_of(image[TableId::kNamedFrames], i))) return {};
+  return failure(Status::kBadValue, "pose of a named frame", TableId::kNamedFrames, i);
+}
+
 // Parameters, and what tables say of each other's sizes.
 LoadFailure check_numbers(const FlightImage& image) {
   LoadFailure result = check_parameters(image[TableId::kParameters]);
@@ -222,9 +233,10 @@ LoadFailure check_numbers(const FlightImage& image) {
 }
 
 // Tables whose records are checked one by one, in this order.
-constexpr TableId kChecked[] = {TableId::kBricks,     TableId::kRayCells,   TableId::kRayLists,    TableId::kNearCells, TableId::kElements,
-                                TableId::kCurvatures, TableId::kFootPoints, TableId::kEdges,       TableId::kHull,      TableId::kViews,
-                                TableId::kSymmetries, TableId::kSensors,    TableId::kCalibrations};
+constexpr TableId kChecked[] = {TableId::kBricks,       TableId::kRayCells,   TableId::kRayLists,   TableId::kNearCells,
+                                TableId::kElements,     TableId::kCurvatures, TableId::kFootPoints, TableId::kEdges,
+                                TableId::kHull,         TableId::kViews,      TableId::kSymmetries, TableId::kSensors,
+                                TableId::kCalibrations, TableId::kNamedFrames};
 constexpr std::uint32_t kCheckedTables = sizeof(kChecked) / sizeof(kChecked[0]);
 
 LoadFailure check_record(const FlightImage& image, TableId id, std::uint32_t record) {
@@ -239,7 +251,8 @@ LoadFailure check_record(const FlightImage& image, TableId id, std::uint32_t rec
   if (id == TableId::kViews) return check_unit(image, id, record, 3);
   if (id == TableId::kSymmetries) return check_unit(image, id, record, 4);
   if (id == TableId::kSensors) return check_sensor(image, record);
-  return id == TableId::kCalibrations ? check_calibration(image, record) : LoadFailure{};
+  if (id == TableId::kCalibrations) return check_calibration(image, record);
+  return id == TableId::kNamedFrames ? check_named_frame(image, record) : LoadFailure{};
 }
 
 }  // namespace
@@ -303,7 +316,7 @@ std::uint32_t ImageCheck::check_whole_sum(std::uint32_t words) {
   const std::uint32_t used = check_sum(summed, words);
   if (summed_ < summed.size()) return used;
   ByteReader trailer(image_.bytes.subspan(image_.bytes.size() - 4, 4));
-  free_from_ = kDirectoryBytes;
+  free_from_ = directory_bytes(image_.table_count);
   enter(Stage::kDirectory, trailer.u32() == sum_ ? LoadFailure{} : failure(Status::kBadCrc, "image check sum"));
   return used;
 }
@@ -342,7 +355,7 @@ std::uint32_t ImageCheck::check_table_sum(std::uint32_t words) {
   if (summed_ < table.bytes()) return used;
   ++table_;
   const LoadFailure found = sum_ == stated_sum_ ? LoadFailure{} : failure(Status::kBadCrc, "table check sum", table_);
-  enter(table_ < kTableCount ? Stage::kDirectory : Stage::kNumbers, found);
+  enter(table_ < image_.table_count ? Stage::kDirectory : Stage::kNumbers, found);
   return used;
 }
 
@@ -379,6 +392,16 @@ TriangulationCalibration calibration_of(const ImageTable& table, std::uint32_t r
   for (const CalibrationReal& real : kCalibrationReals) calibration.*real.member = reader.f64();
   for (double& term : calibration.residual) term = reader.f64();
   return calibration;
+}
+
+NamedFrame named_frame_of(const ImageTable& table, std::uint32_t record) {
+  ByteReader reader(ConstBytes(table.data + std::size_t{4} * kNamedFrameWords * record, std::size_t{4} * kNamedFrameWords));
+  NamedFrame frame;
+  for (Pose* pose : {&frame.T_target_of, &frame.T_in_sensor}) {
+    for (double& term : pose->q.coeffs().reshaped()) term = reader.f64();
+    for (int i = 0; i < 3; ++i) pose->p[i] = reader.f64();
+  }
+  return frame;
 }
 
 MissionParameters parameters_of(const ImageTable& table) {

@@ -3,6 +3,7 @@
 
 #include "fsw/mission/calibration.hpp"
 #include "fsw/mission/mission.hpp"
+#include "fsw/mission/named_frame.hpp"
 
 namespace lasso {
 
@@ -22,7 +23,8 @@ struct ImageTable {
 struct FlightImage {
   Bytes bytes;
   ImageTable tables[kTableCount];
-  int length_bits = 0;  // of its field geometry, once that is checked
+  std::uint32_t table_count = kLeastTables;  // of which the image has the first so many
+  int length_bits = 0;                       // of its field geometry, once that is checked
   const ImageTable& operator[](TableId id) const { return tables[static_cast<std::uint32_t>(id) - 1]; }
 };
 
@@ -77,5 +79,6 @@ constexpr std::uint32_t kAllWords = 0xFFFFFFFFU / 4;  // more than an image has;
 MissionParameters parameters_of(const ImageTable& table);
 SensorParameters sensor_of(const ImageTable& table, std::uint32_t record);
 TriangulationCalibration calibration_of(const ImageTable& table, std::uint32_t record);
+NamedFrame named_frame_of(const ImageTable& table, std::uint32_t record);
 
 }  // namespace lasso

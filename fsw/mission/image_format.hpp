@@ -44,8 +44,10 @@ enum class TableId : std::uint32_t {
   kPartImages,      // 1 word a record: the parts' images one after the other, each a whole flight image
   kSensors,  // kSensorWords a record, at most kMaxSensors - 1: the sensors besides that of the parameters; of no meaning in a part's image
   kCalibrations,  // kCalibrationWords a record, at most kMaxCalibrations a sensor, in the order of the sensors' numbers; likewise
+  kNamedFrames,   // kNamedFrameWords a record, at most kMaxNamedFrames; only an image with records of it has this table
 };
-constexpr std::uint32_t kTableCount = 19;  // all of them, in the order of the ids
+constexpr std::uint32_t kTableCount = 20;                // all of them, in the order of the ids
+constexpr std::uint32_t kLeastTables = kTableCount - 1;  // what every image has
 
 // Words of the one FieldGeometry record.
 enum FieldGeometryWord : std::uint32_t {
@@ -166,5 +168,9 @@ constexpr std::uint32_t kSensorWords = 30;
 // The calibration of a laser camera: word 0 the sensor's number, 1 the camera's serial number, then binary64 values, two words each: those
 // of kCalibrationReals, and the terms of the residual (fsw/mission/calibration.hpp).
 constexpr std::uint32_t kCalibrationWords = 52;
+
+// A pair of named frames (fsw/mission/named_frame.hpp). Binary64 values, two words each: T_target_of, then T_in_sensor, each as quaternion
+// x, y, z, w and position in metres.
+constexpr std::uint32_t kNamedFrameWords = 28;
 
 }  // namespace lasso

@@ -68,6 +68,8 @@ class ImageSlot {
   bool find_calibration(SensorNumber sensor, std::uint8_t index, TriangulationCalibration& calibration) const {
     return load_.find_calibration(sensor, index, calibration);
   }
+  std::uint32_t named_frames() const { return load_.named_frames(); }
+  bool find_named_frame(std::uint32_t index, NamedFrame& frame) const { return load_.find_named_frame(index, frame); }
 
   // What is sealed; empty while nothing is.
   ConstBytes sealed_image() const { return state_ == ImageState::kReady ? ConstBytes(image()) : ConstBytes(); }

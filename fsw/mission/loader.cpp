@@ -262,6 +262,13 @@ bool ImageLoad::find_calibration(SensorNumber sensor, std::uint8_t index, Triang
   return true;
 }
 
+bool ImageLoad::find_named_frame(std::uint32_t index, NamedFrame& frame) const {
+  const ImageTable& table = whole_[TableId::kNamedFrames];
+  if (index >= table.records) return false;
+  frame = named_frame_of(table, index);
+  return true;
+}
+
 LoadFailure ImageLoad::run(Bytes bytes) {
   begin(bytes);
   while (!check(kAllWords)) {

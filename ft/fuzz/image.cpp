@@ -19,12 +19,13 @@ namespace {
 
 constexpr int kSearchSide = 13;  // rays each way: more would take milliseconds
 constexpr std::uint32_t kSlice = 10'000, kMaxSlices = 10'000;
-constexpr std::size_t kLengthAt = 8;
+constexpr std::size_t kLengthAt = 8, kTablesAt = 12;
 constexpr std::size_t kDirectoryAt = std::size_t{4} * kImageHeaderWords;
 constexpr std::size_t kPartBytes = std::size_t{4} * kPartWords;
 constexpr std::size_t kEntryBytes = std::size_t{4} * kDirectoryEntryWords;
 
 bool has_directory(ConstBytes image) { return image.size() >= kDirectoryAt + kTableCount * kEntryBytes + 4; }
+std::uint32_t tables_of(ConstBytes image) { return get_u32(image.data() + kTablesAt) == kTableCount ? kTableCount : kLeastTables; }
 std::uint8_t* entry_of(Bytes image, std::size_t table) { return image.data() + kDirectoryAt + table * kEntryBytes; }
 
 // The bytes of a table; none where its entry says nonsense.
@@ -51,7 +52,7 @@ Bytes part_of(Bytes image, std::size_t part) {
 void repair_one(Bytes image) {
   if (!has_directory(image)) return;
   put_u32(image.data() + kLengthAt, static_cast<std::uint32_t>(image.size()));
-  for (std::size_t i = 0; i < kTableCount; ++i) put_u32(entry_of(image, i) + 16, crc32c(table_of(image, i)));
+  for (std::size_t i = 0; i < tables_of(image); ++i) put_u32(entry_of(image, i) + 16, crc32c(table_of(image, i)));
   put_u32(image.data() + image.size() - 4, crc32c(image.first(image.size() - 4)));
 }
 
@@ -80,7 +81,7 @@ std::uint32_t mutated(std::uint32_t word, test::Generator& random) {
 
 void mutate_words(Bytes image, test::Generator& random) {
   for (std::uint64_t n = 1 + random.below(8); n > 0; --n) {
-    const Bytes table = table_of(image, random.below(kTableCount));
+    const Bytes table = table_of(image, random.below(tables_of(image)));
     if (table.size() < 4) continue;
     std::uint8_t* word = table.data() + 4 * random.below(table.size() / 4);
     put_u32(word, mutated(get_u32(word), random));

@@ -1,6 +1,11 @@
 // Scenes of a mission's nodes, flown and drawn.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
 #include "ft/mdat/command.hpp"
 #include "ut/support/verifies.hpp"
 
@@ -109,6 +114,56 @@ TEST(SceneRun, ASensorBesideTheSensorFrameTracks) {
   const std::vector<std::string> lines = lines_of(work.read("out/run/frames.csv"));
   EXPECT_EQ(std::count_if(lines.begin(), lines.end(), [](const std::string& line) { return line.find(",side,") != std::string::npos; }),
             18);
+}
+
+// Columns of a CSV text by their names, as numbers.
+class Columns {
+ public:
+  explicit Columns(const std::string& text) : lines_(lines_of(text)), names_(fields_of(lines_.at(0))) {}
+  std::size_t rows() const { return lines_.size() - 1; }
+  double at(const std::string& name, std::size_t row) const {
+    const auto column = static_cast<std::size_t>(std::find(names_.begin(), names_.end(), name) - names_.begin());
+    return std::stod(fields_of(lines_.at(row + 1)).at(column));
+  }
+
+ private:
+  std::vector<std::string> lines_, names_;
+};
+
+// The ground's table of a handle on the target in a port beside the camera, and what the component tells of the same.
+void expect_equal(const Columns& table, const Columns& told, std::size_t row) {
+  constexpr double kDegPerRad = 180 / 3.14159265358979323846;
+  const std::string axes[] = {"x", "y", "z"}, variances[] = {"covariance_15", "covariance_18", "covariance_20"};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::string& axis = axes[i];
+    const std::string term = "_" + std::to_string(i);
+    EXPECT_NEAR(table.at(axis + "_m", row), told.at("p_in_of_m" + term, row), 1e-8);
+    EXPECT_NEAR(table.at("q" + axis, row), told.at("q_in_of" + term, row), 1e-8);
+    EXPECT_NEAR(table.at("filtered_" + axis + "_m", row), told.at("filter_p_in_of_m" + term, row), 1e-8);
+    EXPECT_NEAR(table.at("v" + axis + "_mps", row), told.at("filter_v_mps" + term, row), 1e-8);
+    EXPECT_NEAR(table.at("w" + axis + "_degps", row), told.at("filter_omega_radps" + term, row) * kDegPerRad, 1e-6);
+    const double sigma_mm = table.at("sigma_" + axis + "_mm", row);
+    EXPECT_NEAR(sigma_mm, 1e3 * std::sqrt(told.at(variances[i], row)), 1e-5 * sigma_mm);
+  }
+}
+
+TEST(SceneRun, ItsComponentTellsPosesBetweenNamedFramesAsTheGroundFindsThem) {
+  VERIFIES("LASSO-LNK-050~1");
+  const WorkFolder work;
+  write_scenes(work);
+  const Answer answer = work.mdat(
+      "run missions/test.toml --scenario screened --frames 14 --out out/run --no-report "
+      "--set 'node.port={parent=\"camera\", position_m=[0.3, -0.2, -0.5], quaternion=[0.1, -0.5, 0.1, 0.8544003745]}' "
+      "--set 'node.handle={parent=\"telescope\", position_m=[-0.4, 0.1, 0.2], quaternion=[0.5, 0.5, -0.5, 0.5]}' "
+      "--set 'relative.grasp={of=\"handle\", in=\"port\"}'");
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  const Answer decoded = work.mdat("decode out/run/telemetry.ccsds --packet named_pose --format csv");
+  ASSERT_EQ(decoded.exit_code, 0) << decoded.err;
+  const Columns table(work.read("out/run/relative.csv")), told(decoded.out);
+  ASSERT_EQ(told.rows(), table.rows());
+  ASSERT_GE(told.rows(), 10U);
+  for (std::size_t row = 0; row < told.rows(); ++row) expect_equal(table, told, row);
+  EXPECT_GT(std::abs(told.at("filter_v_mps_1", told.rows() - 1)), 1e-3) << "the handle moves round the pivot";
 }
 
 // With the offers of a navigation system.

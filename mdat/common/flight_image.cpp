@@ -8,6 +8,7 @@
 
 #include "mdat/common/errors.hpp"
 #include "mdat/common/output.hpp"
+#include "mdat/missiondb/named_pairs.hpp"
 #include "mdat/missiondb/scene_surfaces.hpp"
 #include "mdat/modelc/image_writer.hpp"
 
@@ -78,6 +79,13 @@ void append_calibration(std::uint8_t sensor, const TriangulationCalibration& cal
   for (const double term : calibration.residual) append_value(term, words);
 }
 
+void append_named_frame(const NamedFrame& frame, std::vector<std::uint32_t>& words) {
+  for (const Pose* pose : {&frame.T_target_of, &frame.T_in_sensor}) {
+    for (const double term : {pose->q.x(), pose->q.y(), pose->q.z(), pose->q.w(), pose->p.x(), pose->p.y(), pose->p.z()})
+      append_value(term, words);
+  }
+}
+
 // Bytes as words of the image, filled up to a multiple of 8.
 void append_bytes(std::vector<std::uint8_t> bytes, std::vector<std::uint32_t>& words) {
   bytes.resize((bytes.size() + 7) / 8 * 8);
@@ -94,6 +102,7 @@ ModelTables with_parts_and_sensors(const CompiledMission& mission, const Mission
     for (const TriangulationCalibration& calibration : calibrations)
       append_calibration(sensor, calibration, tables[TableId::kCalibrations]);
   }
+  for (const NamedPair& pair : named_pairs(mission.source.scene)) append_named_frame(pair.frame, tables[TableId::kNamedFrames]);
   for (std::size_t i = 0; i < mission.parts.size(); ++i) {
     const std::vector<std::uint8_t> bytes =
         write_image(mission.source.id, mission.source.version, part_parameters(parameters), mission.parts[i].tables);

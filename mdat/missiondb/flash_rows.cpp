@@ -17,7 +17,9 @@ struct FlashField {
 template <auto kMember>
 FlashField flash_field(const char* key, const char* unit, double minimum, double maximum, const char* meaning) {
   using Value = std::remove_reference_t<decltype(std::declval<sim::FlashModel>().*kMember)>;
-  const ValueKind kind = std::is_same_v<Value, int> ? ValueKind::kInteger : ValueKind::kReal;
+  const ValueKind kind = std::is_same_v<Value, bool>  ? ValueKind::kBoolean
+                         : std::is_same_v<Value, int> ? ValueKind::kInteger
+                                                      : ValueKind::kReal;
   return {number_row(key, unit, kind, 1, minimum, maximum, static_cast<double>(sim::FlashModel{}.*kMember), meaning),
           [](const sim::FlashModel& model) { return static_cast<double>(model.*kMember); },
           [](sim::FlashModel& model, double value) { model.*kMember = static_cast<Value>(value); }};
@@ -35,6 +37,7 @@ const std::vector<FlashField>& flash_fields() {
     flash_field<&F::pulse_m>("sensor.flash_pulse_m", "m", 1e-4, 100, "flash_lidar: rms length of the pulse in range; 0.15 m are 1 ns"),
     flash_field<&F::jitter_m>("sensor.flash_jitter_m", "m", 0, 10, "flash_lidar: noise of a range that more photons do not lessen (1 sigma)"),
     flash_field<&F::dead_share>("sensor.flash_dead_share", "1", 0, 0.5, "flash_lidar: share of pixels that never measure"),
+    flash_field<&F::materials>("sensor.flash_materials", "1", 0, 1, "flash_lidar: surfaces return what their materials do at 1550 nm; false: as of reflectance 0.5"),
   };
   // clang-format on
   return fields;

@@ -60,8 +60,8 @@ std::vector<sim::LaserReflection> laser_reflections(const MissionSource& source,
 }
 
 bool has_detector(const MissionSource& source) {
-  return sim::is_simulated(source.detector) || std::any_of(source.further_sensors.begin(), source.further_sensors.end(),
-                                                           [](const FurtherSensor& one) { return sim::is_simulated(one.detector); });
+  const auto sees = [](const auto& sensor) { return sim::is_simulated(sensor.detector) || sensor.flash.materials; };
+  return sees(source) || std::any_of(source.further_sensors.begin(), source.further_sensors.end(), sees);
 }
 
 }  // namespace lasso::mdat

@@ -12,6 +12,7 @@
 #include "mdat/missiondb/mission_source.hpp"
 #include "mdat/missiondb/model_file.hpp"
 #include "mdat/missiondb/motion_reader.hpp"
+#include "mdat/missiondb/named_pairs.hpp"
 #include "mdat/missiondb/node_reader.hpp"
 #include "mdat/missiondb/old_kinds.hpp"
 #include "mdat/missiondb/part_reader.hpp"
@@ -70,6 +71,7 @@ class Loader {
     read_calibrations(source_, problems_);
     read_scenarios();
     if (problems_.empty()) warn_of_idle(source_);
+    if (problems_.empty()) check_named_pairs(source_, problems_);
     warn_of_no_sun(source_);
     check_contradictions();
     if (problems_.empty()) check_campaigns(source_, problems_);

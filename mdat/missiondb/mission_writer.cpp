@@ -129,7 +129,7 @@ void write_scene_example(std::ostream& out, const MeshSize& size, double range_m
   const std::string center = "[" + number_text(rounded(size.center[0])) + ", " + number_text(rounded(size.center[1])) + ", " +
                              number_text(rounded(size.center[2])) + "]";
   const auto place = [](double away_m) { return "position_m = [" + number_text(rounded(-away_m)) + ", 0, 0]}"; };
-  out << "\n# A scene: nodes that move, in place of ranges_m, and poses between named frames (docs/scenes.md). With "
+  out << "\n# A scene: nodes that move, in place of ranges_m, and poses between named frames, in telemetry, too (docs/scenes.md). With "
          "[orbit] it\n"
          "# has the Sun's light, the Earth's shadow and the Hill frame.\n"
       << "# [motion.turning]\n# kind = \"rates\"\n# pivot_m = " << center

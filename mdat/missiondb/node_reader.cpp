@@ -17,7 +17,9 @@ using enum ValueKind;
 constexpr std::size_t kMostParts = 64;
 constexpr std::size_t kLooks = 240;  // at a run's motion, for what checks ask; results are of all frames
 
-ValueRow flag_row(const char* key, const char* meaning) { return number_row(key, "1", kBoolean, 1, 0, 1, 0, meaning); }
+ValueRow flag_row(const char* key, const char* meaning, double preset = 0) {
+  return number_row(key, "1", kBoolean, 1, 0, 1, preset, meaning);
+}
 
 ValueRow parts_row() {
   ValueRow row =
@@ -255,6 +257,7 @@ const std::vector<ValueRow>& relative_rows() {
       required(text_row("in", "[^\\x00-\\x1f]+", "node that stands on what carries the sensor: whose axes the pose is in")),
       text_row("axes", "[^\\x00-\\x1f]+",
                "node whose axes it is said in instead, such as lvlh: how they turn against the sensors is taken as known"),
+      flag_row("telemetry", "the component tells it in telemetry, too, if the axes stand still against the sensors", 1),
   };
   return rows;
 }
@@ -271,7 +274,7 @@ void read_relative(const toml::table& root, MissionSource& source, ProblemList& 
       if (!written.empty() && std::find(names.begin(), names.end(), written) == names.end())
         values.complain(key, '"' + written + '"', "the mission has no [node." + written + "]" + did_you_mean(written, names));
     }
-    source.scene.relative.push_back({name, values.text("of"), values.text("in"), values.text("axes")});
+    source.scene.relative.push_back({name, values.text("of"), values.text("in"), values.text("axes"), values.number("telemetry") != 0});
   });
 }
 

@@ -77,6 +77,7 @@ struct WrittenValue {
 // A pose that results are also said of: of one node in another, in the axes of a third one (empty: of the second).
 struct RelativeSource {
   std::string name, of, in, axes;
+  bool telemetry = true;  // the component is to tell it, too, if it knows the axes (mdat/missiondb/named_pairs.hpp)
 };
 struct RelativePair {
   std::string name;

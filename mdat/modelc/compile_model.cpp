@@ -235,6 +235,8 @@ std::uint32_t words_per_record(TableId id) {
       return kSensorWords;
     case TableId::kCalibrations:
       return kCalibrationWords;
+    case TableId::kNamedFrames:
+      return kNamedFrameWords;
   }
   return 1;
 }

@@ -33,8 +33,8 @@ std::uint32_t put_table(std::vector<std::uint8_t>& bytes, std::size_t offset, co
   return crc32c({bytes.data() + offset, 4 * words.size()});
 }
 
-void put_header(std::vector<std::uint8_t>& bytes, std::uint32_t mission_id, std::uint32_t mission_version) {
-  const std::uint32_t header[] = {kImageMagic, kImageVersion,   static_cast<std::uint32_t>(bytes.size()),           kTableCount,
+void put_header(std::vector<std::uint8_t>& bytes, std::uint32_t table_count, std::uint32_t mission_id, std::uint32_t mission_version) {
+  const std::uint32_t header[] = {kImageMagic, kImageVersion,   static_cast<std::uint32_t>(bytes.size()),           table_count,
                                   mission_id,  mission_version, static_cast<std::uint32_t>(parameter_rows().size())};
   std::size_t offset = 0;
   for (const std::uint32_t word : header) {
@@ -49,9 +49,10 @@ std::vector<std::uint8_t> write_image(std::uint32_t mission_id, std::uint32_t mi
                                       const ModelTables& tables) {
   ModelTables all = tables;
   all[TableId::kParameters] = parameter_words(parameters);
+  const std::uint32_t table_count = all[TableId::kNamedFrames].empty() ? kLeastTables : kTableCount;
   std::size_t offsets[kTableCount + 1];
-  std::size_t end = 4 * (kImageHeaderWords + kDirectoryEntryWords * kTableCount);
-  for (std::uint32_t id = 1; id <= kTableCount; ++id) {
+  std::size_t end = 4 * (kImageHeaderWords + kDirectoryEntryWords * table_count);
+  for (std::uint32_t id = 1; id <= table_count; ++id) {
     offsets[id] = aligned(end);
     end = offsets[id] + 4 * all.words[id].size();
   }
@@ -59,8 +60,8 @@ std::vector<std::uint8_t> write_image(std::uint32_t mission_id, std::uint32_t mi
     fail("the flight image needs ", end + kTrailerBytes, " bytes; the limit is ", kMaxImageBytes);
   }
   std::vector<std::uint8_t> bytes(end + kTrailerBytes, 0);
-  put_header(bytes, mission_id, mission_version);
-  for (std::uint32_t id = 1; id <= kTableCount; ++id) {
+  put_header(bytes, table_count, mission_id, mission_version);
+  for (std::uint32_t id = 1; id <= table_count; ++id) {
     const std::uint32_t record = words_per_record(static_cast<TableId>(id));
     const std::uint32_t crc = put_table(bytes, offsets[id], all.words[id]);
     const std::uint32_t entry[] = {id, record, static_cast<std::uint32_t>(all.words[id].size()) / record,

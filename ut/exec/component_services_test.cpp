@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "ut/exec/component_operator.hpp"
+#include "ut/support/box_frames.hpp"
 
 namespace lasso {
 namespace {
@@ -184,6 +185,63 @@ TEST(ComponentServices, TheWholeStreamFits64KilobitsASecond) {
     for (const Packet& packet : link.run_frame()) fewer += packet.data.size() + 22;
   }
   EXPECT_LT(fewer * 4, bytes) << "the rate is selectable";
+}
+
+// Of each pair in the image, and of the same scan as the packet pose; none without.
+TEST(ComponentServices, PosesBetweenNamedFramesAreSentWhereTheImageNamesThem) {
+  VERIFIES("LASSO-LNK-050~1 LASSO-LNK-051~1");
+  const test::BoxScene truth = test::default_scene();
+  const NamedFrame docking = test::grapple_in_port();
+  const test::BoxTables tables = test::make_box_tables(truth.boxes());
+  const auto image = [&](const std::vector<NamedFrame>& frames) {
+    return test::make_image(test::box_parameters(truth), test::with_frames(tables, frames));
+  };
+  test::ComponentScene without(truth, image({}));
+  without.begin();
+  test::ComponentScene scene(truth, image({NamedFrame{}, docking}));
+  scene.begin();
+  const auto named = [](test::ComponentScene& of) {
+    std::vector<NamedPoseTelemetry> poses;
+    for (const Packet& packet : test::packets_of(test::run_frame(*of.component))) {
+      if (!packet.is(3, 25) || packet.data[1] != kNamedPoseStructureId) continue;
+      ByteReader in(test::view(packet.data));
+      in.u16();
+      codec_of(named_pose_rows::kRows).read(in, poses.emplace_back());
+    }
+    return poses;
+  };
+  std::size_t told = 0;
+  for (int frame = 0; frame < 8; ++frame) {
+    EXPECT_TRUE(named(without).empty());
+    const auto poses = named(scene);
+    if (poses.empty()) continue;
+    ASSERT_EQ(poses.size(), 2U);
+    EXPECT_EQ(poses[0].pair, 1);
+    EXPECT_EQ(poses[1].pair, 2);
+    EXPECT_EQ(poses[1].pairs, 2);
+    EXPECT_EQ(poses[1].valid, 1);
+    EXPECT_EQ(poses[1].started, 1);
+    const Pose T_in_of = docking.T_in_sensor * truth.pose_at(poses[1].t_measurement_us) * docking.T_target_of;
+    EXPECT_LT((Vec3(poses[1].p_in_of_m) - T_in_of.p).norm(), 3e-3);
+    EXPECT_LT((Vec3(poses[1].filter_p_in_of_m) - T_in_of.p).norm(), 3e-3);
+    EXPECT_LT((Vec3(poses[0].p_in_of_m) - truth.pose_at(poses[0].t_measurement_us).p).norm(), 3e-3);
+    ++told;
+  }
+  EXPECT_GE(told, 5U);
+  const auto send = [&](CommandKind kind, std::uint16_t count) {
+    const Stream bytes = test::of_structure(kind, kNamedPoseStructureId, count);
+    scene.component->receive(test::view(bytes), scene.component->next_slot_us());
+  };
+  auto* const image_bytes = const_cast<std::uint8_t*>(scene.component->images().active().sealed_image().data());
+  test::TestImage as_sent = image({NamedFrame{}, docking});
+  std::uint8_t& decayed = image_bytes[test::table_offset(as_sent, static_cast<std::uint32_t>(TableId::kNamedFrames))];
+  decayed ^= 0x40;
+  ASSERT_EQ(named(scene).size(), 1U) << "what has decayed is not told";
+  decayed ^= 0x40;
+  send(CommandKind::kDisableStructure, 0);
+  EXPECT_TRUE(named(scene).empty());
+  send(CommandKind::kReportStructure, 1);
+  EXPECT_EQ(named(scene).size(), 2U);
 }
 
 // What is told of its diagonal is what the packet pose of the same frame tells as sigmas.

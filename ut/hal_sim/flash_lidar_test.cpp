@@ -23,12 +23,13 @@ struct FlashPlane {
   std::unique_ptr<RayCaster> surface;
   ConstantTwist motion;
 
-  explicit FlashPlane(double range_m, double incidence_rad = 0, double from_x_m = -0.4, double half_m = 0.4)
-      : surface(make(from_x_m, half_m)), motion({Pose{exp_so3(Vec3(incidence_rad, 0, 0)), Vec3(0, 0, range_m)}, Twist{}}, 0) {}
-  static std::unique_ptr<RayCaster> make(double from_x_m, double half_m) {
+  explicit FlashPlane(double range_m, double incidence_rad = 0, double from_x_m = -0.4, double half_m = 0.4,
+                      const std::vector<LaserReflection>& reflections = {})
+      : surface(make(from_x_m, half_m, reflections)), motion({Pose{exp_so3(Vec3(incidence_rad, 0, 0)), Vec3(0, 0, range_m)}, Twist{}}, 0) {}
+  static std::unique_ptr<RayCaster> make(double from_x_m, double half_m, const std::vector<LaserReflection>& reflections) {
     ShapeMesh mesh;
     mesh.quad(Vec3(from_x_m, -half_m, 0), Vec3(half_m, -half_m, 0), Vec3(half_m, half_m, 0), Vec3(from_x_m, half_m, 0));
-    return make_ray_caster(mesh.vertices, mesh.triangles);
+    return make_ray_caster(mesh.vertices, mesh.triangles, reflections);
   }
 };
 
@@ -119,11 +120,14 @@ TEST(FlashLidar, RangeNoiseAndDetectionAreThoseOfThePhotonsThatComeBack) {
   FlashModel model = large_model();
   model.background = 0.2;
   model.threshold = 8;  // that the background reaches in none of 10^9 bins
-  const struct { double range_m, incidence_rad; } cases[] = {{5, 0}, {20, 0}, {60, 0}, {80, 0}, {60, 1.0}};
+  const struct {
+    double range_m, incidence_rad, reflectance;
+  } cases[] = {{5, 0, 0.5}, {20, 0, 0.5}, {60, 0, 0.5}, {80, 0, 0.5}, {60, 1, 0.5}, {20, 0.7, 0.1}, {40, 1.2, 0.9}};
   for (const auto& at : cases) {
+    model.reflectance = at.reflectance;
     const FlashPlane plane(at.range_m, at.incidence_rad);
     const PixelTally tally = pixel_tally(plane, narrow_field(), model, at.range_m, at.incidence_rad);
-    const double photons = 400 * std::pow(10 / at.range_m, 2) * std::cos(at.incidence_rad);
+    const double photons = 400 * std::pow(10 / at.range_m, 2) * (at.reflectance / 0.5) * std::cos(at.incidence_rad);
     const double detected = at_least(photons + 0.2, 8);
     const double all = tally.hits + tally.misses;
     ASSERT_EQ(all, 2 * 65536);
@@ -133,6 +137,35 @@ TEST(FlashLidar, RangeNoiseAndDetectionAreThoseOfThePhotonsThatComeBack) {
     const double sigma_m = std::sqrt(1e-4 + one_m2 * mean_inverse(photons + 0.2, 8));
     EXPECT_NEAR(tally.sigma_m() / sigma_m, 1, 0.05) << at.range_m;
     EXPECT_NEAR(tally.mean_m(), 0, 5 * sigma_m / std::sqrt(tally.hits) + 2e-4 * at.range_m) << at.range_m;
+  }
+}
+
+// The backscatter as docs/sensors.md states it. A material counts where the model says so.
+TEST(FlashLidar, RangeNoiseAndDetectionFollowTheMaterial) {
+  VERIFIES("LASSO-SIM-070~1");
+  FlashModel model = large_model();
+  model.background = 0.2;
+  model.threshold = 8;
+  const LaserReflection cells{0.05, 0.10, 0.06}, paint{0.75, 0.04, 0.50}, foil{0.18, 0.77, 0.22};
+  const struct {
+    const LaserReflection* surface;
+    double range_m, incidence_rad;
+  } cases[] = {{&paint, 60, 0}, {&foil, 60, 0.3}, {&cells, 20, 0.9}};
+  for (const auto& at : cases) {
+    const FlashPlane plane(at.range_m, at.incidence_rad, -0.4, 0.4, {*at.surface, *at.surface});
+    for (const bool materials : {true, false}) {
+      model.materials = materials;
+      const PixelTally tally = pixel_tally(plane, narrow_field(), model, at.range_m, at.incidence_rad);
+      const double c2 = std::pow(std::cos(at.incidence_rad), 2), a2 = at.surface->roughness * at.surface->roughness;
+      const double lobe = at.surface->specular * a2 / (4 * std::pow((a2 - 1) * c2 + 1, 2) * std::sqrt(c2 + a2 * (1 - c2)));
+      const double returned = materials ? at.surface->diffuse * std::sqrt(c2) + lobe : 0.5 * std::sqrt(c2);
+      const double photons = 400 * std::pow(10 / at.range_m, 2) * returned / 0.5;
+      const double detected = at_least(photons + 0.2, 8);
+      EXPECT_NEAR(tally.hits / (2 * 65536), detected, 0.05 * std::min(detected, 1 - detected) + 1e-3) << at.range_m << materials;
+      const double share = photons / (photons + 0.2);
+      const double one_m2 = share * 0.15 * 0.15 + (1 - share) * 0.6 * 0.6 / 12;
+      EXPECT_NEAR(tally.sigma_m() / std::sqrt(1e-4 + one_m2 * mean_inverse(photons + 0.2, 8)), 1, 0.05) << at.range_m << materials;
+    }
   }
 }
 
@@ -217,7 +250,7 @@ TEST(FlashLidar, APixelAcrossAStepReturnsARangeBetweenOrTheStrongerReturn) {
   for (const double step_m : {0.3, 3.0}) {
     const FlashPlane front(10, 0, 0.5 * pitch_m);
     OtherBodies others;
-    others.push_back({FlashPlane::make(-0.4, 0.4),
+    others.push_back({FlashPlane::make(-0.4, 0.4, {}),
                       std::make_shared<ConstantTwist>(TruthState{Pose{Quat::Identity(), Vec3(0, 0, 10 + step_m)}, Twist{}}, 0)});
     FlashLidar lidar(*front.surface, front.motion, narrow_field(), model, 3, others);
     const std::vector<RangeSample> pixels = flash_frame(lidar, whole_field(narrow_field(), 0));

@@ -11,9 +11,9 @@ namespace {
 using Telecommand = std::array<std::uint8_t, 15>;
 
 // Put together by hand from the standards; the check sum bit by bit with another program.
-constexpr Telecommand kByHand = {0x1B, 0xD1, 0xE5, 0x67, 0x00, 0x08, 0x29, 0x11, 0x01, 0x12, 0x34, 0xCA, 0xFE, 0xB6, 0x14};
+constexpr Telecommand kCommandByHand = {0x1B, 0xD1, 0xE5, 0x67, 0x00, 0x08, 0x29, 0x11, 0x01, 0x12, 0x34, 0xCA, 0xFE, 0xB6, 0x14};
 
-CommandHeader header_by_hand() {
+CommandHeader command_header_by_hand() {
   CommandHeader header;
   header.sequence_count = 0x2567;
   header.service = 17;
@@ -23,7 +23,7 @@ CommandHeader header_by_hand() {
 }
 
 Telecommand command_with_byte(std::size_t index, std::uint8_t value) {
-  Telecommand packet = kByHand;
+  Telecommand packet = kCommandByHand;
   packet[index] = value;
   const std::uint16_t crc = crc16_ccitt(ConstBytes(packet.data(), 13));
   packet[13] = static_cast<std::uint8_t>(crc >> 8);
@@ -31,7 +31,7 @@ Telecommand command_with_byte(std::size_t index, std::uint8_t value) {
   return packet;
 }
 
-PacketFault fault_of(const Telecommand& packet, std::size_t size = 15) {
+PacketFault command_fault_of(const Telecommand& packet, std::size_t size = 15) {
   CommandHeader header;
   header.source = 77;
   ConstBytes data;
@@ -48,17 +48,17 @@ TEST(Telecommand, IsByteForByteAsPutTogetherByHand) {
   Telecommand packet{};
   const Bytes out(packet.data(), packet.size());
   ByteWriter writer(out);
-  begin_command(header_by_hand(), writer);
+  begin_command(command_header_by_hand(), writer);
   writer.u16(0xCAFE);
   ASSERT_EQ(finish_packet(writer, out), packet.size());
-  EXPECT_EQ(packet, kByHand);
+  EXPECT_EQ(packet, kCommandByHand);
 }
 
 TEST(Telecommand, GivesBackItsHeaderAndData) {
   VERIFIES("LASSO-LNK-033~1");
   CommandHeader header;
   ConstBytes data;
-  ASSERT_EQ(parse_command(ConstBytes(kByHand.data(), kByHand.size()), header, data), PacketFault::kNone);
+  ASSERT_EQ(parse_command(ConstBytes(kCommandByHand.data(), kCommandByHand.size()), header, data), PacketFault::kNone);
   EXPECT_EQ(header.apid, kApid);
   EXPECT_EQ(header.sequence_count, 0x2567);
   EXPECT_EQ(header.acknowledge, kAcknowledgeAcceptance | kAcknowledgeCompletion);
@@ -71,24 +71,24 @@ TEST(Telecommand, GivesBackItsHeaderAndData) {
 
 TEST(Telecommand, RefusesEveryTruncationAndEveryBitError) {
   VERIFIES("LASSO-LNK-034~1");
-  for (std::size_t n = 0; n < kByHand.size(); ++n) EXPECT_EQ(fault_of(kByHand, n), PacketFault::kTruncated) << n;
-  for (std::size_t bit = 0; bit < kByHand.size() * 8; ++bit) {
-    Telecommand damaged = kByHand;
+  for (std::size_t n = 0; n < kCommandByHand.size(); ++n) EXPECT_EQ(command_fault_of(kCommandByHand, n), PacketFault::kTruncated) << n;
+  for (std::size_t bit = 0; bit < kCommandByHand.size() * 8; ++bit) {
+    Telecommand damaged = kCommandByHand;
     damaged[bit / 8] = static_cast<std::uint8_t>(damaged[bit / 8] ^ (1u << (bit % 8)));
-    EXPECT_NE(fault_of(damaged), PacketFault::kNone) << "bit " << bit;
+    EXPECT_NE(command_fault_of(damaged), PacketFault::kNone) << "bit " << bit;
   }
 }
 
 TEST(Telecommand, NamesWhatItRefuses) {
   VERIFIES("LASSO-LNK-034~1");
-  EXPECT_EQ(fault_of(command_with_byte(0, 0x3B)), PacketFault::kBadVersion);
-  EXPECT_EQ(fault_of(command_with_byte(0, 0x0B)), PacketFault::kBadType);
-  EXPECT_EQ(fault_of(command_with_byte(0, 0x13)), PacketFault::kNoSecondaryHeader);
-  EXPECT_EQ(fault_of(command_with_byte(1, 0xD2)), PacketFault::kOtherApid);
-  EXPECT_EQ(fault_of(command_with_byte(2, 0xA5)), PacketFault::kSegmented);
-  EXPECT_EQ(fault_of(command_with_byte(6, 0x19)), PacketFault::kBadPusVersion);
-  EXPECT_EQ(fault_of(command_with_byte(5, 0x07)), PacketFault::kBadLength);
-  EXPECT_EQ(fault_of(command_with_byte(5, 0x09)), PacketFault::kTruncated);
+  EXPECT_EQ(command_fault_of(command_with_byte(0, 0x3B)), PacketFault::kBadVersion);
+  EXPECT_EQ(command_fault_of(command_with_byte(0, 0x0B)), PacketFault::kBadType);
+  EXPECT_EQ(command_fault_of(command_with_byte(0, 0x13)), PacketFault::kNoSecondaryHeader);
+  EXPECT_EQ(command_fault_of(command_with_byte(1, 0xD2)), PacketFault::kOtherApid);
+  EXPECT_EQ(command_fault_of(command_with_byte(2, 0xA5)), PacketFault::kSegmented);
+  EXPECT_EQ(command_fault_of(command_with_byte(6, 0x19)), PacketFault::kBadPusVersion);
+  EXPECT_EQ(command_fault_of(command_with_byte(5, 0x07)), PacketFault::kBadLength);
+  EXPECT_EQ(command_fault_of(command_with_byte(5, 0x09)), PacketFault::kTruncated);
 }
 
 }  // namespace

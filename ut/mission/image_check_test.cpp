@@ -2,8 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <string>
+#include <vector>
 
+#include "cfg/capacities.hpp"
+#include "ut/support/box_frames.hpp"
 #include "ut/support/box_image.hpp"
 #include "ut/support/verifies.hpp"
 
@@ -36,6 +40,60 @@ TEST(ImageCheck, FindsTheTablesAndChangesNoByte) {
   EXPECT_EQ(checked.image[TableId::kElements].records, 6U);
   EXPECT_EQ(checked.image[TableId::kHull].bytes(), 8U * 3U * 4U);
   EXPECT_EQ(checked.image[TableId::kParts].records, 0U);
+}
+
+test::TestImage framed_image(const std::vector<NamedFrame>& frames) {
+  return test::make_image(preset_parameters(), test::with_frames(test::make_box_tables(test::BoxModel{}), frames));
+}
+
+TEST(ImageCheck, ATableOfNamedFramesIsOneMoreThanOtherImagesHave) {
+  VERIFIES("LASSO-LNK-050~1 LASSO-LNK-051~1 LASSO-IMG-001~1");
+  test::TestImage without = framed_image({});
+  EXPECT_EQ(without.data()[15], kLeastTables);
+  EXPECT_EQ(Checked(without).image[TableId::kNamedFrames].records, 0U);
+  const NamedFrame put = test::grapple_in_port();
+  test::TestImage image = framed_image({NamedFrame{}, put});
+  EXPECT_EQ(image.data()[15], kTableCount);
+  const Checked checked(image);
+  ASSERT_EQ(checked.result.status, Status::kOk) << checked.result.what;
+  ASSERT_EQ(checked.image[TableId::kNamedFrames].records, 2U);
+  const NamedFrame found = named_frame_of(checked.image[TableId::kNamedFrames], 1);
+  EXPECT_EQ(found.T_target_of.q.coeffs(), put.T_target_of.q.coeffs());
+  EXPECT_EQ(found.T_target_of.p, put.T_target_of.p);
+  EXPECT_EQ(found.T_in_sensor.q.coeffs(), put.T_in_sensor.q.coeffs());
+  EXPECT_EQ(found.T_in_sensor.p, put.T_in_sensor.p);
+}
+
+TEST(ImageCheck, RefusesNamedFramesThatAreNone) {
+  VERIFIES("LASSO-LNK-050~1 LASSO-IMG-005~1 LASSO-IMG-003~1");
+  const auto refused = [](test::TestImage image) { return Checked(image).result; };
+  EXPECT_EQ(refused(framed_image(std::vector<NamedFrame>(kMaxNamedFrames))).status, Status::kOk);
+  EXPECT_EQ(refused(framed_image(std::vector<NamedFrame>(kMaxNamedFrames + 1))).status, Status::kOverCapacity);
+  NamedFrame bad = test::grapple_in_port();
+  bad.T_target_of.p.x() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(refused(framed_image({NamedFrame{}, bad})).record, 1U);
+  bad = test::grapple_in_port();
+  bad.T_in_sensor.q.w() += 0.1;
+  const LoadFailure found = refused(framed_image({bad}));
+  EXPECT_EQ(found.status, Status::kBadValue);
+  EXPECT_EQ(found.table, static_cast<std::uint32_t>(TableId::kNamedFrames));
+  for (const std::uint32_t tables : {kLeastTables - 1, kTableCount + 1}) {
+    test::TestImage image = framed_image({});
+    image.data()[15] = static_cast<std::uint8_t>(tables);
+    test::repair_crcs(image);
+    EXPECT_EQ(refused(image).status, Status::kBadLength);
+  }
+}
+
+// As long as header and directory of 19 tables, and a check sum.
+TEST(ImageCheck, RefusesAnImageThatEndsInItsDirectory) {
+  VERIFIES("LASSO-IMG-003~1");
+  test::TestImage image = framed_image({NamedFrame{}});
+  image.size = 4 * (kImageHeaderWords + kLeastTables * kDirectoryEntryWords) + 4;
+  image.data()[8] = image.data()[9] = 0;
+  image.data()[10] = static_cast<std::uint8_t>(image.size >> 8);
+  image.data()[11] = static_cast<std::uint8_t>(image.size);
+  EXPECT_EQ(Checked(image).result.status, Status::kTruncated);
 }
 
 TEST(ImageCheck, RefusesTheFormatBeforeThisOne) {

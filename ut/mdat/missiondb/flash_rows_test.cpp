@@ -20,7 +20,7 @@ TEST_F(FlashRowsTest, ReadsAFlashLidarWithItsPresets) {
   VERIFIES("LASSO-GND-001~1 LASSO-SIM-050~1");
   const MissionSource source = load(
       "[sensor]\nkind = 'flash_lidar'\nflash_columns = 256\nflash_photons_at_10m = 1500.5\n[further_sensor.near]\nkind = "
-      "'flash_lidar'\nflash_threshold = 9\nuse_to_m = 5\n");
+      "'flash_lidar'\nflash_threshold = 9\nflash_materials = true\nuse_to_m = 5\n");
   EXPECT_EQ(source.sensor, SensorKind::kFlashLidar);
   EXPECT_EQ(source.flash.columns, 256);
   EXPECT_EQ(source.flash.rows, sim::FlashModel{}.rows);
@@ -30,6 +30,8 @@ TEST_F(FlashRowsTest, ReadsAFlashLidarWithItsPresets) {
   EXPECT_EQ(source.parameters.range_max_m, 60);
   ASSERT_EQ(source.further_sensors.size(), 1U);
   EXPECT_EQ(source.further_sensors[0].flash.threshold, 9);
+  EXPECT_TRUE(source.further_sensors[0].flash.materials);
+  EXPECT_FALSE(source.flash.materials);
   EXPECT_EQ(source.further_sensors[0].flash.columns, sim::FlashModel{}.columns);
   EXPECT_EQ(source.further_sensors[0].parameters.sigma_k_per_m, sim::FlashModel{}.stated_sigma_k_per_m);
 }

@@ -28,17 +28,16 @@ std::uint32_t word_at(const std::vector<std::uint8_t>& bytes, std::size_t offset
   return word;
 }
 
-TEST(ImageWriter, DirectoryFindsEveryTableAndCheckSumsHold) {
-  VERIFIES("LASSO-MDL-016~1");
-  const ModelTables tables = compile(shapes::sphere(0.3, 10, 12));
+void expect_every_table(const ModelTables& tables, std::uint32_t count) {
   const auto bytes = write_image(7, 3, preset_parameters(), tables);
   EXPECT_EQ(word_at(bytes, 0), kImageMagic);
   EXPECT_EQ(word_at(bytes, 8), bytes.size());
   EXPECT_EQ(word_at(bytes, 16), 7u);
   EXPECT_EQ(word_at(bytes, 20), 3u);
   EXPECT_EQ(word_at(bytes, 24), parameter_rows().size());
-  std::size_t end = 4 * (kImageHeaderWords + kTableCount * kDirectoryEntryWords);
-  for (std::uint32_t id = 1; id <= kTableCount; ++id) {
+  EXPECT_EQ(word_at(bytes, 12), count);
+  std::size_t end = 4 * (kImageHeaderWords + count * kDirectoryEntryWords);
+  for (std::uint32_t id = 1; id <= count; ++id) {
     const std::size_t entry = 4 * (kImageHeaderWords + kDirectoryEntryWords * (id - 1));
     EXPECT_EQ(word_at(bytes, entry), id);
     const std::size_t words = std::size_t{word_at(bytes, entry + 4)} * word_at(bytes, entry + 8);
@@ -56,6 +55,14 @@ TEST(ImageWriter, DirectoryFindsEveryTableAndCheckSumsHold) {
   EXPECT_EQ(bytes.size(), end + 4);
   EXPECT_EQ(word_at(bytes, end), crc32c({bytes.data(), end}));
   EXPECT_EQ(write_image(7, 3, preset_parameters(), tables), bytes);
+}
+
+TEST(ImageWriter, DirectoryFindsEveryTableAndCheckSumsHold) {
+  VERIFIES("LASSO-MDL-016~1 LASSO-LNK-050~1");
+  ModelTables tables = compile(shapes::sphere(0.3, 10, 12));
+  expect_every_table(tables, 19);  // as before there were named frames
+  tables[TableId::kNamedFrames].assign(kNamedFrameWords, 7);
+  expect_every_table(tables, 20);
 }
 
 TEST(ImageWriter, ParametersAreBinary64InTheOrderOfTheirRows) {
