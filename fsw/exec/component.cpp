@@ -331,7 +331,7 @@ void Component::send_named_poses(const Registration& registration, TimeUs now_us
   const auto pairs = static_cast<std::uint8_t>(image.named_frames());
   NamedFrame frame;
   for (std::uint8_t i = 0; i < pairs; ++i) {
-    if (!image.find_named_frame(i, frame) || !is_valid(frame)) continue;
+    if (!image.find_named_frame(i, frame)) continue;
     NamedPoseTelemetry report = make_named_pose_report(frame, registration, track_.filter);
     report.scan_id = estimated_.scan_id;
     report.pair = static_cast<std::uint8_t>(i + 1);

@@ -266,7 +266,7 @@ bool ImageLoad::find_named_frame(std::uint32_t index, NamedFrame& frame) const {
   const ImageTable& table = whole_[TableId::kNamedFrames];
   if (index >= table.records) return false;
   frame = named_frame_of(table, index);
-  return true;
+  return is_valid(frame);
 }
 
 LoadFailure ImageLoad::run(Bytes bytes) {

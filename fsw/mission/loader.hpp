@@ -23,7 +23,7 @@ class ImageLoad {
   void make(Mission& mission) const;
   // The calibration that the image has for a sensor; of several the one of this index. False: none.
   bool find_calibration(SensorNumber sensor, std::uint8_t index, TriangulationCalibration& calibration) const;
-  // Likewise of the pairs of frames that the mission names, from 0.
+  // The pairs of frames that the mission names, from 0. False: none, or its bytes have decayed since they were checked.
   std::uint32_t named_frames() const { return whole_[TableId::kNamedFrames].records; }
   bool find_named_frame(std::uint32_t index, NamedFrame& frame) const;
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cfg/capacities.hpp"
+#include "fsw/mission/loader.hpp"
 #include "ut/support/box_frames.hpp"
 #include "ut/support/box_image.hpp"
 #include "ut/support/verifies.hpp"
@@ -62,6 +63,22 @@ TEST(ImageCheck, ATableOfNamedFramesIsOneMoreThanOtherImagesHave) {
   EXPECT_EQ(found.T_target_of.p, put.T_target_of.p);
   EXPECT_EQ(found.T_in_sensor.q.coeffs(), put.T_in_sensor.q.coeffs());
   EXPECT_EQ(found.T_in_sensor.p, put.T_in_sensor.p);
+}
+
+TEST(ImageLoad, GivesNamedFramesByTheirPlaceAndNoneThatHasDecayed) {
+  VERIFIES("LASSO-LNK-050~1");
+  const NamedFrame put = test::grapple_in_port();
+  test::TestImage image = framed_image({NamedFrame{}, put});
+  ImageLoad load;
+  ASSERT_EQ(load.run(Bytes(image.data(), image.size)).status, Status::kOk);
+  ASSERT_EQ(load.named_frames(), 2U);
+  NamedFrame found;
+  ASSERT_TRUE(load.find_named_frame(1, found));
+  EXPECT_EQ(found.T_in_sensor.p, put.T_in_sensor.p);
+  EXPECT_FALSE(load.find_named_frame(2, found));
+  image.data()[test::table_offset(image, static_cast<std::uint32_t>(TableId::kNamedFrames))] ^= 0x40;  // the first quaternion's length
+  EXPECT_FALSE(load.find_named_frame(0, found));
+  EXPECT_TRUE(load.find_named_frame(1, found));
 }
 
 TEST(ImageCheck, RefusesNamedFramesThatAreNone) {
