@@ -234,10 +234,12 @@ TEST(ComponentServices, PosesBetweenNamedFramesAreSentWhereTheImageNamesThem) {
   };
   auto* const image_bytes = const_cast<std::uint8_t*>(scene.component->images().active().sealed_image().data());
   test::TestImage as_sent = image({NamedFrame{}, docking});
-  std::uint8_t& decayed = image_bytes[test::table_offset(as_sent, static_cast<std::uint32_t>(TableId::kNamedFrames))];
-  decayed ^= 0x40;
+  std::uint8_t* const decayed = image_bytes + test::table_offset(as_sent, static_cast<std::uint32_t>(TableId::kNamedFrames));
+  std::uint8_t before[8];  // of the first quaternion's x
+  std::copy_n(decayed, 8, before);
+  std::fill_n(decayed, 8, std::uint8_t{0x7F});
   ASSERT_EQ(named(scene).size(), 1U) << "what has decayed is not told";
-  decayed ^= 0x40;
+  std::copy_n(before, 8, decayed);
   send(CommandKind::kDisableStructure, 0);
   EXPECT_TRUE(named(scene).empty());
   send(CommandKind::kReportStructure, 1);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <string>
 #include <vector>
@@ -76,7 +77,7 @@ TEST(ImageLoad, GivesNamedFramesByTheirPlaceAndNoneThatHasDecayed) {
   ASSERT_TRUE(load.find_named_frame(1, found));
   EXPECT_EQ(found.T_in_sensor.p, put.T_in_sensor.p);
   EXPECT_FALSE(load.find_named_frame(2, found));
-  image.data()[test::table_offset(image, static_cast<std::uint32_t>(TableId::kNamedFrames))] ^= 0x40;  // the first quaternion's length
+  std::fill_n(image.data() + test::table_offset(image, static_cast<std::uint32_t>(TableId::kNamedFrames)), 8, std::uint8_t{0x7F});
   EXPECT_FALSE(load.find_named_frame(0, found));
   EXPECT_TRUE(load.find_named_frame(1, found));
 }
