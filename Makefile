@@ -500,7 +500,7 @@ requirements: ## gate: the requirements are well formed, and the tests name them
 	$(call packages,trace)
 	@reqs/requirements
 
-arrows: ## gate: includes obey the arrows between rooms and stages
+arrows: ## gate: includes obey the arrows between rooms
 	$(begin)
 	$(call packages,lint)
 	@cfg/quality/arrows

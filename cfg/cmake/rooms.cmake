@@ -22,7 +22,9 @@ endfunction()
 # What works once a frame, not once a ray, gains nothing from -O3 but size, and the flight image has to fit its 512 kB: whole rooms, and
 # sources of the others, which unrolled products of 6 x 6 matrices make four times as large.
 set(LASSO_SMALL_ROOMS mission mode link exec)
-set(LASSO_SMALL_SOURCES pose/afar.cpp pose/bearing.cpp pose/estimator.cpp pose/filter.cpp pose/outlook.cpp pose/search.cpp pose/slack.cpp)
+set(LASSO_SMALL_SOURCES pose/estimator/estimator.cpp pose/recognition/pose_search.cpp pose/registration/coarse_alignment.cpp
+                        pose/silhouette/information_forecast.cpp pose/silhouette/outline_constraint.cpp pose/tracking/bearing.cpp
+                        pose/tracking/pose_filter.cpp)
 set(LASSO_ROOMS_WITHOUT_EIGEN link)
 
 # lasso_make_small(ROOM SOURCE...): -O2 where it is said above.
@@ -49,7 +51,7 @@ endfunction()
 
 # Flight room fsw/NAME, seeing the rooms in ARGN (and what they see).
 function(lasso_flight_room NAME)
-  file(GLOB SOURCES CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/fsw/${NAME}/*.cpp)
+  file(GLOB_RECURSE SOURCES CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/fsw/${NAME}/*.cpp)
   if(NOT SOURCES)
     add_library(fsw_${NAME} INTERFACE)
     set(VISIBILITY INTERFACE)
@@ -163,12 +165,12 @@ function(lasso_flight_tests ROOM)
     set(FOLDER ${ROOM})
     set(LIBRARY ${ROOM})
   endif()
-  file(GLOB SOURCES CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${FOLDER}/*.cpp)
-  file(GLOB TESTS CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/ut/${ROOM}/*_test.cpp)
+  file(GLOB_RECURSE SOURCES CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}/${FOLDER} ${PROJECT_SOURCE_DIR}/${FOLDER}/*.cpp)
+  file(GLOB_RECURSE TESTS CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/ut/${ROOM}/*_test.cpp)
   foreach(SOURCE ${SOURCES})
-    get_filename_component(STEM ${SOURCE} NAME_WE)
-    if(NOT EXISTS ${PROJECT_SOURCE_DIR}/ut/${ROOM}/${STEM}_test.cpp)
-      list(APPEND MISSING ut/${ROOM}/${STEM}_test.cpp)
+    string(REGEX REPLACE "[.]cpp$" "_test.cpp" TEST ${SOURCE})
+    if(NOT EXISTS ${PROJECT_SOURCE_DIR}/ut/${ROOM}/${TEST})
+      list(APPEND MISSING ut/${ROOM}/${TEST})
     endif()
   endforeach()
   if(MISSING)

@@ -130,10 +130,10 @@ class Trial:
     def tests_near(self, program, file):
         """The test files of a program that include a header or test a source that does: its own test first."""
         include, room = f'#include "{file}"', program.removeprefix('ut_')
-        sources = [path for folder in ('fsw', '.') for path in (self.tree / folder / room).glob('*.cpp')]
+        sources = [path for folder in ('fsw', '.') for path in (self.tree / folder / room).rglob('*.cpp')]
         names = {f'{path.stem}_test.cpp' for path in sources if include in path.read_text(encoding='utf-8')}
         own = f'{pathlib.PurePath(file).stem}_test.cpp'
-        tests = [path for path in (self.tree / 'ut' / room).glob('*_test.cpp') if path.name in names or include in path.read_text(encoding='utf-8')]
+        tests = [path for path in (self.tree / 'ut' / room).rglob('*_test.cpp') if path.name in names or include in path.read_text(encoding='utf-8')]
         return sorted(tests, key=lambda path: (path.name != own, path.name))
 
     def suites_in(self, program, paths):

@@ -10,7 +10,7 @@
 #include "fsw/mission/mission.hpp"
 #include "fsw/mode/searcher.hpp"
 #include "fsw/mode/tracker.hpp"
-#include "fsw/pose/estimator.hpp"
+#include "fsw/pose/estimator/estimator.hpp"
 #include "fsw/sense/range_image.hpp"
 
 namespace lasso {

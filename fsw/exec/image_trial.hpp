@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "fsw/mode/modes.hpp"
-#include "fsw/pose/result.hpp"
+#include "fsw/pose/scan/result.hpp"
 
 namespace lasso {
 

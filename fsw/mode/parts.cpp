@@ -2,8 +2,8 @@
 
 #include "fsw/geometry/portable_math.hpp"
 #include "fsw/geometry/symmetric6.hpp"
-#include "fsw/pose/outlook.hpp"
-#include "fsw/pose/quality.hpp"
+#include "fsw/pose/silhouette/information_forecast.hpp"
+#include "fsw/pose/registration/integrity.hpp"
 
 namespace lasso {
 namespace {

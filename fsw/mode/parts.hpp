@@ -8,8 +8,8 @@
 #include <cstdint>
 
 #include "fsw/mission/mission.hpp"
-#include "fsw/pose/estimator.hpp"
-#include "fsw/pose/filter.hpp"
+#include "fsw/pose/estimator/estimator.hpp"
+#include "fsw/pose/tracking/pose_filter.hpp"
 
 namespace lasso {
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "fsw/mode/tracker.hpp"
-#include "fsw/pose/search.hpp"
+#include "fsw/pose/recognition/pose_search.hpp"
 
 namespace lasso {
 

@@ -1,7 +1,7 @@
 #include "fsw/mode/starts.hpp"
 
 #include "fsw/geometry/portable_math.hpp"
-#include "fsw/pose/estimator.hpp"
+#include "fsw/pose/estimator/estimator.hpp"
 
 namespace lasso {
 namespace {

@@ -8,8 +8,8 @@
 #include "fsw/core/time.hpp"
 #include "fsw/geometry/se3.hpp"
 #include "fsw/mission/mission.hpp"
-#include "fsw/pose/bearing.hpp"
-#include "fsw/pose/filter.hpp"
+#include "fsw/pose/tracking/bearing.hpp"
+#include "fsw/pose/tracking/pose_filter.hpp"
 
 namespace lasso {
 

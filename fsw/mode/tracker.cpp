@@ -33,7 +33,7 @@ bool begin_from(const MissionParameters& p, const Registration& registration, co
   return update_filter(begun, measurement_of(registration), kNoGate).accepted;
 }
 
-// A track begins with the registration and, where that shows nothing (unseen.hpp), with what its start was known by: a plate's shift would
+// A track begins with the registration and, where that shows nothing (observability.hpp), with what its start was known by: a plate's shift would
 // otherwise begin unknown by three radii, and what views from a little aside tell of so much is beyond a linear filter.
 Status restart_from(const MissionParameters& p, const Registration& registration, FilterState& filter) {
   FilterState begun;

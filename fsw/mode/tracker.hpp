@@ -12,12 +12,12 @@
 #include "fsw/mode/modes.hpp"
 #include "fsw/mode/parts.hpp"
 #include "fsw/mode/starts.hpp"
-#include "fsw/pose/aim.hpp"
-#include "fsw/pose/bearing.hpp"
-#include "fsw/pose/estimator.hpp"
-#include "fsw/pose/filter.hpp"
-#include "fsw/pose/result.hpp"
-#include "fsw/pose/search.hpp"
+#include "fsw/pose/silhouette/ray_placement.hpp"
+#include "fsw/pose/tracking/bearing.hpp"
+#include "fsw/pose/estimator/estimator.hpp"
+#include "fsw/pose/tracking/pose_filter.hpp"
+#include "fsw/pose/scan/result.hpp"
+#include "fsw/pose/recognition/pose_search.hpp"
 #include "fsw/sense/range_image.hpp"
 
 namespace lasso {

@@ -1,6 +1,6 @@
 #include "ft/bench/methods.hpp"
 
-#include "fsw/pose/estimator.hpp"
+#include "fsw/pose/estimator/estimator.hpp"
 #include "ft/bench/peer_pose.hpp"
 #include "ft/bench/sampling.hpp"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "fsw/pose/result.hpp"
+#include "fsw/pose/scan/result.hpp"
 #include "ft/bench/scans.hpp"
 
 namespace lasso::bench {

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "fsw/mode/searcher.hpp"
-#include "fsw/pose/estimator.hpp"
+#include "fsw/pose/estimator/estimator.hpp"
 #include "ft/bodies/likelihood.hpp"
 #include "mdat/benchmark/still_scans.hpp"
 #include "mdat/common/text.hpp"

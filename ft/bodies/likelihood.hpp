@@ -2,8 +2,8 @@
 // poses (compare.hpp). A measure on the ground: flight code has other scores (docs/experiments/2026-11-28-one-likelihood.md).
 #pragma once
 
-#include "fsw/pose/result.hpp"
-#include "fsw/pose/workspace.hpp"
+#include "fsw/pose/scan/result.hpp"
+#include "fsw/pose/scan/workspace.hpp"
 
 namespace lasso::bodies {
 

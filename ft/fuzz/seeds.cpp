@@ -9,7 +9,7 @@
 #include "fsw/link/commands.hpp"
 #include "fsw/link/pose_telemetry.hpp"
 #include "fsw/mission/mission.hpp"
-#include "fsw/pose/estimator.hpp"
+#include "fsw/pose/estimator/estimator.hpp"
 #include "ft/fuzz/request_seeds.hpp"
 #include "ft/fuzz/seed_file.hpp"
 #include "ft/fuzz/small_image.hpp"

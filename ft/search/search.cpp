@@ -3,7 +3,7 @@
 //
 // usage: search MISSION [CASE = all] [STARTS = 1000] [SEED = 1] [SCANS = 3] [SCALE = 1] [FOLDER]
 // With a FOLDER nothing is searched: image.3dli and scans.bin, SCANS of each start, are written there for search_replay.
-#include "fsw/pose/search.hpp"
+#include "fsw/pose/recognition/pose_search.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "fsw/pose/estimator.hpp"
+#include "fsw/pose/estimator/estimator.hpp"
 #include "fsw/sense/pattern.hpp"
 #include "ft/search/cases.hpp"
 #include "ft/search/recording.hpp"

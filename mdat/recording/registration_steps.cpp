@@ -5,9 +5,9 @@
 #include <memory>
 #include <optional>
 
-#include "fsw/pose/estimator.hpp"
-#include "fsw/pose/prepare.hpp"
-#include "fsw/pose/register.hpp"
+#include "fsw/pose/estimator/estimator.hpp"
+#include "fsw/pose/scan/prepare.hpp"
+#include "fsw/pose/registration/registration.hpp"
 #include "mdat/mcap/bytes.hpp"
 #include "mdat/run/case.hpp"
 

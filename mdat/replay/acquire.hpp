@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "fsw/mission/mission.hpp"
-#include "fsw/pose/search.hpp"
+#include "fsw/pose/recognition/pose_search.hpp"
 #include "hal_sim/scan_file.hpp"
 #include "mdat/replay/pose_errors.hpp"
 

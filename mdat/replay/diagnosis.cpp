@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "fsw/geometry/portable_math.hpp"
-#include "fsw/pose/estimator.hpp"
+#include "fsw/pose/estimator/estimator.hpp"
 #include "mdat/common/text.hpp"
 
 namespace lasso::mdat {

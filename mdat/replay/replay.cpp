@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "fsw/link/choices.hpp"
-#include "fsw/pose/estimator.hpp"
+#include "fsw/pose/estimator/estimator.hpp"
 #include "mdat/common/cpu_clock.hpp"
 #include "mdat/common/errors.hpp"
 #include "mdat/common/progress_bar.hpp"

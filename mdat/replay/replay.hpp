@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "fsw/mission/mission.hpp"
-#include "fsw/pose/result.hpp"
+#include "fsw/pose/scan/result.hpp"
 #include "hal_sim/scan_file.hpp"
 #include "mdat/replay/initial_poses.hpp"
 #include "mdat/replay/pose_errors.hpp"

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "fsw/pose/search.hpp"
+#include "fsw/pose/recognition/pose_search.hpp"
 
 namespace lasso::mdat {
 

@@ -5,8 +5,8 @@
 #include <memory>
 
 #include "fsw/geometry/portable_math.hpp"
-#include "fsw/pose/estimator.hpp"
-#include "fsw/pose/search.hpp"
+#include "fsw/pose/estimator/estimator.hpp"
+#include "fsw/pose/recognition/pose_search.hpp"
 
 namespace lasso::mdat {
 

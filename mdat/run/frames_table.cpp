@@ -1,7 +1,7 @@
 #include "mdat/run/frames_table.hpp"
 
 #include "fsw/mode/modes.hpp"
-#include "fsw/pose/result.hpp"
+#include "fsw/pose/scan/result.hpp"
 #include "mdat/common/text.hpp"
 #include "mdat/run/results.hpp"
 

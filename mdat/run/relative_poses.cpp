@@ -5,7 +5,7 @@
 
 #include "fsw/geometry/so3.hpp"
 #include "fsw/link/space_packet.hpp"
-#include "fsw/pose/result.hpp"
+#include "fsw/pose/scan/result.hpp"
 #include "mdat/run/case.hpp"
 
 namespace lasso::mdat {

@@ -7,7 +7,7 @@
 
 #include "fsw/geometry/se3.hpp"
 #include "fsw/mode/modes.hpp"
-#include "fsw/pose/result.hpp"
+#include "fsw/pose/scan/result.hpp"
 #include "fsw/sense/sensor_chooser.hpp"
 #include "mdat/run/bound.hpp"
 #include "mdat/run/protection_level.hpp"

@@ -5,7 +5,7 @@
 
 #include "fsw/geometry/symmetric6.hpp"
 #include "fsw/link/choices.hpp"
-#include "fsw/pose/quality.hpp"
+#include "fsw/pose/registration/integrity.hpp"
 #include "mdat/common/errors.hpp"
 #include "mdat/common/text.hpp"
 #include "mdat/recording/recording_head.hpp"

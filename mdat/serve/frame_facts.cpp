@@ -4,7 +4,7 @@
 #include <iterator>
 #include <limits>
 
-#include "fsw/pose/result.hpp"
+#include "fsw/pose/scan/result.hpp"
 #include "mdat/run/case.hpp"
 #include "mdat/run/verdict.hpp"
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "fsw/geometry/portable_math.hpp"
-#include "fsw/pose/register.hpp"
+#include "fsw/pose/registration/registration.hpp"
 #include "ut/pose/pose_fixture.hpp"
 
 namespace lasso::test {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <memory>
 
-#include "fsw/pose/bearing.hpp"
+#include "fsw/pose/tracking/bearing.hpp"
 #include "ut/support/box_scene.hpp"
 #include "ut/support/verifies.hpp"
 

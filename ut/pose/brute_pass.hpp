@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fsw/pose/gauss_newton.hpp"
+#include "fsw/pose/registration/gauss_newton.hpp"
 #include "ut/pose/pose_fixture.hpp"
 
 namespace lasso::test {

@@ -5,7 +5,7 @@
 
 #include <memory>
 
-#include "fsw/pose/estimator.hpp"
+#include "fsw/pose/estimator/estimator.hpp"
 #include "ut/support/box_scan.hpp"
 
 namespace lasso::test {

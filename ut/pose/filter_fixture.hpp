@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "fsw/geometry/portable_math.hpp"
-#include "fsw/pose/filter.hpp"
+#include "fsw/pose/tracking/pose_filter.hpp"
 #include "ut/support/dense.hpp"
 #include "ut/support/generator.hpp"
 

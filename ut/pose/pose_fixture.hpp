@@ -5,9 +5,9 @@
 
 #include <memory>
 
-#include "fsw/pose/path_pose.hpp"
-#include "fsw/pose/prepare.hpp"
-#include "fsw/pose/workspace.hpp"
+#include "fsw/pose/scan/path_pose.hpp"
+#include "fsw/pose/scan/prepare.hpp"
+#include "fsw/pose/scan/workspace.hpp"
 #include "ut/support/box_scan.hpp"
 #include "ut/support/path_numbers.hpp"
 

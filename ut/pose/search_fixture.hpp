@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "fsw/pose/evidence.hpp"
+#include "fsw/pose/recognition/scan_subset.hpp"
 #include "ut/pose/pose_fixture.hpp"
 
 namespace lasso::test {

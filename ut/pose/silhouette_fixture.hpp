@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "fsw/pose/silhouette.hpp"
+#include "fsw/pose/silhouette/silhouette.hpp"
 #include "ut/pose/box_contour.hpp"
 #include "ut/pose/pose_fixture.hpp"
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "fsw/geometry/portable_math.hpp"
-#include "fsw/pose/search.hpp"
+#include "fsw/pose/recognition/pose_search.hpp"
 #include "ut/pose/search_fixture.hpp"
 
 namespace lasso::test {

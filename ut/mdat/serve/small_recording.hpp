@@ -14,7 +14,7 @@
 #include "fsw/geometry/so3.hpp"
 #include "fsw/link/pose_telemetry.hpp"
 #include "fsw/mission/parameters.hpp"
-#include "fsw/pose/result.hpp"
+#include "fsw/pose/scan/result.hpp"
 #include "mdat/mcap/writer.hpp"
 #include "mdat/recording/recording_head.hpp"
 #include "mdat/recording/ros_messages.hpp"

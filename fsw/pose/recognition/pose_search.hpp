@@ -1,0 +1,183 @@
+// Autonomous recognition: the target's pose from one scan, or a few, without any prior attitude. docs/decisions/search.md says why it is
+// done like this.
+//
+// begin(), then for each scan add_scan() and advance() until it answers true; result() then says whether the pose is accepted, ambiguous
+// (with its candidates) or rejected, and why. A further scan may join (joins()) where it is ambiguous, or to see how it turns: candidates
+// are carried to it with the rate that their own poses show, nothing else is looked for there, and the scores of all scans are added. A
+// target may turn by some 15 deg between two scans. All state is in the object and is forgotten by begin(); the workspace holds nothing
+// between two calls.
+//
+// Work is done in steps and counted in units of some 75 PowerPC 603e instructions (work_units.hpp). advance() ends with the step that
+// uses the budget up; no step takes more than kLargestStep. The first scan of 1024 rays takes some 1.2 million units, some 80 million
+// instructions, in all, a later one some 0.6 million (docs/search.md): most hypotheses are looked at no longer than until others promise
+// more. Once limits.work_max of them are used, four fifths where further scans may join the first, nothing more is settled, explored or
+// swayed: what was found so far stands, as ambiguous. The best one's near-symmetries are measured while anything is left of them all.
+#pragma once
+
+#include "fsw/pose/recognition/hypothesis_list.hpp"
+#include "fsw/pose/recognition/search_result.hpp"
+#include "fsw/pose/scan/work_units.hpp"
+#include "fsw/pose/recognition/hypothesis_refinement.hpp"
+#include "fsw/pose/recognition/robust_refinement.hpp"
+#include "fsw/pose/recognition/acceptance.hpp"
+
+namespace lasso {
+
+constexpr std::size_t kMaxSearchScans = 3;
+// At estimation.iterations_max 12: a registration on all evidence, which is then weighed by regions, and its fit measured; or a track that
+// is pulled from farther, sketched and measured, and weighed as it was drawn.
+constexpr std::uint32_t kLargestSway =
+    look_work(kEvidenceHits, 14) + regions_work(kEvidenceHits, kRegions) + fit_work(kEvidenceHits, kEvidenceMisses);
+constexpr std::uint32_t kLargestSketch = pull_work(kSketchPoints) + draw_work(kSketchPoints) + look_work(kSketchPoints, 14) +
+                                         fit_work(kEvidenceHits, kEvidenceMisses) + weigh_work(kSketchPoints);
+constexpr std::uint32_t kLargestStep = kLargestSway > kLargestSketch ? kLargestSway : kLargestSketch;
+
+struct SearchLimits {
+  double hits_min = 80;  // returns looked at
+  double disagreement_max = 0.20;
+  double ratio_min = 1.3;  // score of the best distinct competitor over that of the pose; or what the returns make of both by their noise
+  std::uint32_t scans_max = kMaxSearchScans;
+  std::uint32_t work_max = 2'500'000;  // units of work on all scans; what they leave open makes the result ambiguous
+};
+
+class Search {
+ public:
+  enum class Stage : std::uint8_t { kIdle, kEvidence, kCoarse, kPull, kDraw, kSketch, kSettle, kExplore, kSway, kMirror, kVerdict };
+
+  void begin(const SearchLimits& limits);
+
+  // The quarter turns of a pose at the time of the first scan are hypotheses, too, and it itself. Between begin() and the first scan.
+  void suspect(const Pose& T_sensor_target);
+
+  // May a further scan join those so far, once result() stands? Not beyond limits.scans_max, after a rejection (nothing is worth carrying
+  // on with), or where it is ambiguous and too little of the work is left. What begins anew then is another search.
+  bool joins() const;
+
+  // Takes what it needs of the scan. kBusy while the last one is being worked on; kBadOrder where it does not join(), or is not later than
+  // the last one; kNoData for a scan without returns. Where it is refused nothing changes. Its work is part of the next
+  // advance()'s.
+  Status add_scan(const Mission& mission, const RangeImage& scan, Workspace& workspace);
+
+  // Works until the budget is used up; true when the result for the scans so far stands.
+  bool advance(const Mission& mission, Workspace& workspace, std::uint32_t budget);
+
+  // Does the best pose, of a search that is done, explain the last scan better than this one, T_sensor_target at the scan's time, as the
+  // same returns register it (one look, unless that leads more than 5 deg away)? By limits.ratio_min where they are more than 5 deg apart,
+  // at all where it is accepted and they are more than 15 deg apart: the search is to suspect() the pose, so that it was a candidate.
+  bool contradicts(const Mission& mission, const Pose& T_sensor_target, Workspace& workspace) const;
+
+  // Has a search that is done accepted this pose, T_sensor_target at the scan's time, to within 5 deg?
+  bool agrees(const Pose& T_sensor_target) const;
+
+  // The poses that a search that is done was judged by, the best first: what pose i is compared with that one by. False where it does not
+  // compete, within 15 deg of it.
+  std::size_t poses() const { return tracks_.size(); }
+  bool find_rival(std::size_t i, Rival& rival) const;
+
+  bool busy() const { return stage_ != Stage::kIdle; }
+  Stage stage() const { return stage_; }  // of the next step
+  const SearchResult& result() const { return result_; }
+
+ private:
+  // A pose in each scan.
+  struct Track {
+    Pose T_target_sensor[kMaxSearchScans];
+    Fit fits[kMaxSearchScans];
+    Fit total;
+    Pose start;               // in the last scan
+    bool sketched = false;    // in the last scan
+    bool settled = false;     // the same
+    bool swayed = false;      // in the last scan
+    double cost = kAnyScore;  // of the pose in the last scan, once it is: of its Standing
+    double whole_cost = kAnyScore;
+    double explained_cost = kAnyScore;  // the same
+    Mat6 H = Mat6::Zero();              // information of the registration in the last scan, target axes
+  };
+  // The line on which a track is explored: from its pose along its least certain direction.
+  struct Line {
+    Pose from;
+    Vec6 direction = Vec6::Zero();
+    Pose best;
+    Fit fit;
+    int next = 0;    // place to look at, in steps
+    int middle = 0;  // the best of every other one
+    bool begun = false;
+  };
+  static constexpr std::size_t kFinalists = 6;
+  static constexpr std::size_t kCarried = 6;
+  static constexpr std::size_t kExplored = 3;
+  static constexpr std::size_t kTracks = kCarried + (kMaxSymmetries > kFinalists ? kMaxSymmetries : kFinalists);
+
+  std::uint32_t step(const Mission& mission, Workspace& workspace);
+  void carry_over();
+  std::uint32_t gather_evidence(const Mission& mission);
+  std::uint32_t look_coarsely(const Mission& mission);
+  Pose hypothesis(const Mission& mission, std::size_t i) const;
+  std::size_t hypotheses() const { return coarse_.short_list().size() + (suspects_ ? kQuarterTurns : 0); }
+  std::uint32_t pull_next(const Mission& mission, Workspace& workspace);
+  std::uint32_t draw_next(const Mission& mission, Workspace& workspace);
+  double sketch_limit() const;
+  std::uint32_t sketch_near(const Mission& mission, Track& track, Workspace& workspace);
+  std::uint32_t sketch_afar(const Mission& mission, Track& track, Workspace& workspace);
+  std::uint32_t sketch_next(const Mission& mission, Workspace& workspace);
+  std::uint32_t settle_next(const Mission& mission, Workspace& workspace);
+  std::uint32_t explore_next(const Mission& mission);
+  std::uint32_t sway_next(const Mission& mission, Workspace& workspace);
+  std::uint32_t mirror_next(const Mission& mission, Workspace& workspace);
+  std::uint32_t mirror_before(const Mission& mission, const NearSymmetry<FlightNumber>& symmetry, Track& twin) const;
+  std::uint32_t end_mirroring();
+  bool is_new(const Pose& T_target_sensor, const Fit& fit) const;
+  std::uint32_t conclude();
+  void end_settling(const Mission& mission);
+  std::uint32_t begin_line(const Mission& mission);
+  std::uint32_t look_along(const Mission& mission, const Evidence& evidence);
+  void end_line();
+  bool is_apart(const Pose& T_target_sensor, double cos_half_angle) const;
+  const Drawn* best_drawn(double cos_half_angle) const;
+  void choose_finalists();
+  void add_twins(const Mission& mission);
+  void add_track(const Pose& T_target_sensor, const Fit& fit);
+  void take(const Settled& settled, Track& track) const;
+  const SwayCare& care_of(std::size_t track) const;
+  std::uint32_t take_swayed(const Mission& mission, Track& track) const;
+  void sum_up(Track& track) const;
+  double best_score() const;
+  bool is_hopeless(const Track& track) const;
+  bool is_rival(const Track& track) const;
+  bool may_work();
+  bool may_work_up_to(double share);
+  bool explores_next() const { return next_ < tracks_.size() && next_ < kExplored; }
+  bool is_distinct(const Track& track) const;
+  bool stands_alone() const;
+  void inherit(const Track& other, Track& twin) const;
+  void prune();
+  Pose carried(const Track& track) const;
+  Twist rates_of(const Track& track, std::size_t scan) const;
+  bool describe_covariance(const Track& best);
+  void describe_candidates();
+  void judge(bool registered);
+  std::size_t last() const { return scans_ - 1; }
+
+  SearchLimits limits_;
+  Stage stage_ = Stage::kIdle;
+  std::size_t scans_ = 0;
+  bool suspects_ = false;
+  Pose suspect_;                   // T_target_sensor
+  std::size_t next_ = 0;           // of the stage's items
+  bool twins_ = false;             // are there: of the first scan's best pose
+  bool mirrored_ = false;          // those of the best pose as it stands have been looked for
+  bool working_ = false;           // on the next track
+  bool unfinished_ = false;        // something that was worth it was not worked on
+  std::uint32_t adding_work_ = 0;  // of adding it, until a slice has paid for it
+  EvidenceMaker maker_;
+  CoarseSearch coarse_;
+  Evidence evidence_[kMaxSearchScans];
+  DrawnList drawn_;
+  FixedVector<Track, kTracks> tracks_;
+  Settler settler_;
+  Line line_;
+  Sway sway_;
+  SearchResult result_;
+};
+
+}  // namespace lasso

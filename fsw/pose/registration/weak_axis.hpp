@@ -1,0 +1,32 @@
+// Tests of a registration along its least certain axes. Gauss-Newton knows only the surfaces that the rays meet now. A few of them that met
+// the wrong one hold the pose at a wrong place, and the normal equations say that it is held there. So costs are compared (profile.hpp).
+//
+// Axes are eigenvectors of the hits' covariance over (rotation * radius, translation), target axes. Lengths along them are metres at the
+// model's radius: five sigmas of a 500th of it are 0.6 deg.
+#pragma once
+
+#include "fsw/mission/mission.hpp"
+#include "fsw/pose/registration/registration.hpp"
+#include "fsw/pose/registration/observability.hpp"
+
+namespace lasso {
+
+// Moves the registration to its minimum along the least certain axis that its hits see at all: small parts alone tell the roll of a round
+// body, or where a wing lies along itself. An axis more certain than a 500th of the radius is looked at where the pose is more than five
+// sigmas from the prediction along it. First steps are five sigmas long, a 100th of the radius at least and a tenth at most. Nothing moves
+// without information, or where the registration explains less than tracking.inlier_share_min. Bound: an inverse, two eigen-decompositions
+// and minimise_along.
+void minimise_weak_axis(const Mission& mission, const Pose& predicted_T_target_sensor, Workspace& workspace, HitSolution& hits);
+
+// Does the cost rise as the covariance says? Where it is not higher by kRise five sigmas off along an axis, either way, the sigma is
+// doubled until it is; without an end within the model's radius the axis is unseen. Of Gaussian residuals of many returns the bounded cost
+// is higher by 0.6 of the square, 15: most such sigmas are doubled once. Axes more certain than a 500th of
+// the radius are left, and those whose five sigmas reach beyond it: they say so. `covariance` is that of the hits (covariance_of_hits), of
+// a noise whose variance is `scale` times the assumed one. Bound: one eigen-decomposition, one pass over the points, and 14 for each axis.
+void widen_weak_axes(const Mission& mission, const HitSolution& hits, double scale, Workspace& workspace, Mat6& covariance,
+                     Directions& unseen);
+
+// Other minima of minimise_weak_axis join the covariance, and their axis what the hits do not show.
+void add_others(const HitSolution& hits, Mat6& covariance, Directions& unseen);
+
+}  // namespace lasso
