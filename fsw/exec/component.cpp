@@ -51,17 +51,17 @@ Status Component::begin(TimeUs boundary_0_us) {
 // The ways that are left are tried in bearing.
 void Component::start_from_mission(TimeUs t_us) {
   const MissionParameters& p = mission().parameters;
-  const StartRefusal refusal = offer_start(StartWay::kApriori, rough_offer(p, initial_pose(p), initial_rates(p), t_us));
-  if (refusal == StartRefusal::kNone) return request_start(StartWay::kApriori);
+  const StartRefusal refusal = offer_start(InitialPoseSource::kApriori, rough_offer(p, initial_pose(p), initial_rates(p), t_us));
+  if (refusal == StartRefusal::kNone) return request_start(InitialPoseSource::kApriori);
   request_ = Request::kCommand;
   requested_event_ = ModeEvent::kSeek;
 }
 
-StartRefusal Component::offer_start(StartWay way, const StartOffer& offer) {
+StartRefusal Component::offer_start(InitialPoseSource way, const StartOffer& offer) {
   const Running running(identity_);
   if (!executive_.begun()) return StartRefusal::kNotBegun;
   const auto index = static_cast<std::size_t>(way);
-  if (index == 0 || way == StartWay::kSearch || index >= kStartWays) return StartRefusal::kNoSuchWay;
+  if (index == 0 || way == InitialPoseSource::kSearch || index >= kInitialPoseSources) return StartRefusal::kNoSuchSource;
   TrackState tried = track_;
   StartRefusal refusal = start_track(mission(), way, offer, executive_.next_boundary_us(), tried);
   if (safe_requested()) refusal = StartRefusal::kNotFromHere;
@@ -70,7 +70,7 @@ StartRefusal Component::offer_start(StartWay way, const StartOffer& offer) {
     return refusal;
   }
   desk_.put(way, offer);
-  if (way == StartWay::kHandover || way == StartWay::kUplink) request_start(way);
+  if (way == InitialPoseSource::kHandover || way == InitialPoseSource::kUplink) request_start(way);
   return StartRefusal::kNone;
 }
 
@@ -81,14 +81,14 @@ void Component::drop_request() {
 }
 
 // A command takes the place of one that no boundary has carried out yet.
-void Component::request_start(StartWay way) {
+void Component::request_start(InitialPoseSource way) {
   if (request_ == Request::kStart && requested_way_ != way) static_cast<void>(desk_.take(requested_way_));
   request_ = Request::kStart;
   requested_way_ = way;
 }
 
 Status Component::start_tracking(const Pose& T_sensor_target, const Twist& rates, TimeUs t_us) {
-  const StartRefusal refusal = offer_start(StartWay::kUplink, rough_offer(mission().parameters, T_sensor_target, rates, t_us));
+  const StartRefusal refusal = offer_start(InitialPoseSource::kUplink, rough_offer(mission().parameters, T_sensor_target, rates, t_us));
   if (refusal == StartRefusal::kNone) return Status::kOk;
   if (refusal == StartRefusal::kNotBegun) return Status::kBadOrder;
   return refusal == StartRefusal::kNotFinite ? Status::kNotFinite : Status::kBadValue;
@@ -180,10 +180,10 @@ bool Component::report_overdue() const { return changes_.size() >= kPoseChanges 
 void Component::follow(TrackStep& step) {
   trial_.note(step.registration, track_.mode);
   refuse_in(step);
-  if (step.after.mode == TrackingMode::kTracking) desk_.put(StartWay::kSearch, StartOffer{});
-  if (step.parts.odd != kWhole) {
+  if (step.after.mode == TrackingMode::kTracking) desk_.put(InitialPoseSource::kSearch, StartOffer{});
+  if (step.parts.inconsistent != kWhole) {
     ++counters_.odd_parts;
-    events_.raise<EventId::kPartOdd>(step.parts.odd, step.parts.odd_sigmas);
+    events_.raise<EventId::kPartOdd>(step.parts.inconsistent, step.parts.inconsistency_sigmas);
   }
   if (step.event == ModeEvent::kFallBack) take_up_former(step);
   const TrackingMode next = next_mode(track_.mode, step.event);
@@ -205,11 +205,11 @@ void Component::refuse_in(const TrackStep& step) {
   const bool starting = track_.mode == TrackingMode::kStarting;
   const bool given_up = starting && step.event != ModeEvent::kPoseValid && next_mode(track_.mode, step.event) != track_.mode;
   const bool refused = step.refusal != StartRefusal::kNone;
-  if (refused) return refuse_start(starting ? track_.way : StartWay::kSearch, step.refusal);
+  if (refused) return refuse_start(starting ? track_.way : InitialPoseSource::kSearch, step.refusal);
   if (given_up) refuse_start(track_.way, StartRefusal::kNotConfirmed);
 }
 
-void Component::refuse_start(StartWay way, StartRefusal refusal) {
+void Component::refuse_start(InitialPoseSource way, StartRefusal refusal) {
   ++counters_.refused_starts;
   refused_way_ = way;
   refusal_ = refusal;
@@ -260,7 +260,7 @@ void Component::take(ModeEvent event) {
   before_trial_ = TrackState{};
 }
 
-void Component::try_start(StartWay way) {
+void Component::try_start(InitialPoseSource way) {
   const TrackingMode before = track_.mode;
   if (!track_.interrupts) former_ = track_.filter;
   const StartRefusal refusal = start_track(mission(), way, desk_.take(way), executive_.next_slot_us(), track_);
@@ -285,21 +285,21 @@ void Component::leave_track() {
 void Component::try_ways() {
   if (track_.held) return;
   const std::uint32_t refused = counters_.refused_starts;
-  StartWay way = next_way();
-  while (properties(track_.mode).awaits_start && way != StartWay::kNone) {
+  InitialPoseSource way = next_way();
+  while (properties(track_.mode).awaits_start && way != InitialPoseSource::kNone) {
     take_way(way);
     way = next_way();
   }
-  const bool left = properties(track_.mode).awaits_start && is_in_order(mission().parameters, StartWay::kSearch);
+  const bool left = properties(track_.mode).awaits_start && is_in_order(mission().parameters, InitialPoseSource::kSearch);
   if (left && counters_.refused_starts != refused) take(ModeEvent::kSeek);
 }
 
-StartWay Component::next_way() const {
+InitialPoseSource Component::next_way() const {
   return desk_.next(mission().parameters, properties(track_.mode).full_field && track_.bearing.started);
 }
 
-void Component::take_way(StartWay way) {
-  if (way != StartWay::kSearch) return try_start(way);
+void Component::take_way(InitialPoseSource way) {
+  if (way != InitialPoseSource::kSearch) return try_start(way);
   static_cast<void>(desk_.take(way));
   take(ModeEvent::kSearch);
 }

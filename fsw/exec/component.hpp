@@ -99,7 +99,7 @@ class Component {
   // A pose to start from. By hand-over and uplink the track starts from it at the next boundary; a running track is left, its scan in
   // flight is not reported. From navigation and a priori it is kept, the last one of each, until a mode awaits a start and the mission's
   // order (start.first, ...) comes to it. What is refused changes nothing, and telemetry says so, too.
-  StartRefusal offer_start(StartWay way, const StartOffer& offer);
+  StartRefusal offer_start(InitialPoseSource way, const StartOffer& offer);
   // An uplink as uncertain as tracking.start_sigma_* say. kBadOrder before begin(), kNotFinite, kBadValue for every other refusal.
   Status start_tracking(const Pose& T_sensor_target, const Twist& rates, TimeUs t_us);
   // Standby, bearing, searching, reacquiring, tracking (from short_range), short_range (from tracking) or safe, at the next boundary; until
@@ -205,14 +205,14 @@ class Component {
   Pose predicted_pose() const;
   Aim aim_of_scan() const;
   Aim aim_at_bearing() const;
-  StartWay next_way() const;
-  void take_way(StartWay way);
+  InitialPoseSource next_way() const;
+  void take_way(InitialPoseSource way);
 
   bool safe_requested() const { return request_ == Request::kCommand && requested_event_ == ModeEvent::kMakeSafe; }
   void drop_request();
-  void request_start(StartWay way);
+  void request_start(InitialPoseSource way);
   void start_from_mission(TimeUs t_us);
-  void try_start(StartWay way);
+  void try_start(InitialPoseSource way);
   void take(ModeEvent event);
   void feed_watchdog();
   void check_mode();
@@ -225,7 +225,7 @@ class Component {
   void leave_track();
   void take_up_former(TrackStep& step);
   void refuse_in(const TrackStep& step);
-  void refuse_start(StartWay way, StartRefusal refusal);
+  void refuse_start(InitialPoseSource way, StartRefusal refusal);
   void note_change(const ModeChange& change);
   void follow(TrackStep& step);
   bool report_overdue() const;
@@ -301,18 +301,18 @@ class Component {
   ScanInFlight acquired_;     // in this frame
   ScanInFlight estimated_;    // in this frame
   Counters counters_;
-  StartDesk desk_;
+  InitialPoseSources desk_;
   Request request_ = Request::kNone;
-  StartWay requested_way_ = StartWay::kNone;      // kStart
-  ModeEvent requested_event_ = ModeEvent::kStop;  // kCommand
+  InitialPoseSource requested_way_ = InitialPoseSource::kNone;  // kStart
+  ModeEvent requested_event_ = ModeEvent::kStop;                // kCommand
   bool held_ = false;
   Voted<TrackingMode> mode_{TrackingMode::kStandby};  // as of the end of the last boundary
   FaultMonitor faults_;
   FaultSet seen_;  // since the last boundary
   Watchdog* watchdog_ = nullptr;
   CheckIn check_in_;
-  HealthTelemetry health_;                  // what only grows is kept in it
-  StartWay refused_way_ = StartWay::kNone;  // the last one
+  HealthTelemetry health_;                                    // what only grows is kept in it
+  InitialPoseSource refused_way_ = InitialPoseSource::kNone;  // the last one
   StartRefusal refusal_ = StartRefusal::kNone;
   FixedVector<ModeChange, 2 * kPoseChanges> changes_;  // that no packet has told yet
 

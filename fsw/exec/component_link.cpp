@@ -92,7 +92,7 @@ void Component::carry_out(const Command& command, Verification& verification, Ti
   } else if (command.kind == CommandKind::kMode) {
     verification.mode_refusal = static_cast<std::uint8_t>(command_mode(static_cast<TrackingMode>(command.mode.mode)));
   } else if (command.kind == CommandKind::kStart) {
-    const auto way = static_cast<StartWay>(command.start.way);
+    const auto way = static_cast<InitialPoseSource>(command.start.way);
     verification.start_refusal = static_cast<std::uint8_t>(offer_start(way, offer_of(command.start)));
   } else {
     verification.service_refusal = static_cast<std::uint8_t>(serve(command, now_us));

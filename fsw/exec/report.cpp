@@ -101,8 +101,8 @@ void describe_search(const SearchResult& search, PoseTelemetry& out) {
 static_assert(kMaxParts <= 8, "a bit of parts_resting each");
 void describe_parts(const TrackStep& step, PoseTelemetry& out) {
   out.part = step.parts.scanned;
-  out.odd_part = step.parts.odd;
-  out.odd_sigmas = static_cast<float>(step.parts.odd_sigmas);
+  out.odd_part = step.parts.inconsistent;
+  out.odd_sigmas = static_cast<float>(step.parts.inconsistency_sigmas);
   if (!properties(step.after.mode).by_parts) return;
   for (std::size_t i = 0; i < kMaxParts; ++i) {
     if (rests(step.after.parts.of[i], step.registration.scan_id))

@@ -66,8 +66,8 @@ struct PoseTelemetry {
   std::uint8_t change_from[kPoseChanges] = {};   // TrackingMode
   std::uint8_t change_event[kPoseChanges] = {};  // ModeEvent
   std::uint8_t change_to[kPoseChanges] = {};     // TrackingMode
-  std::uint8_t start_way = 0;                    // StartWay of the present track
-  std::uint8_t refused_way = 0;                  // StartWay of the last pose to start from that was refused
+  std::uint8_t start_way = 0;                    // InitialPoseSource of the present track
+  std::uint8_t refused_way = 0;                  // InitialPoseSource of the last pose to start from that was refused
   std::uint8_t refusal = 0;                      // StartRefusal: why
   std::uint32_t refused_starts = 0;
   std::uint32_t refused_commands = 0;

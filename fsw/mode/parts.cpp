@@ -2,8 +2,8 @@
 
 #include "fsw/geometry/portable_math.hpp"
 #include "fsw/geometry/symmetric6.hpp"
-#include "fsw/pose/silhouette/information_forecast.hpp"
 #include "fsw/pose/registration/integrity.hpp"
+#include "fsw/pose/silhouette/information_forecast.hpp"
 
 namespace lasso {
 namespace {
@@ -58,25 +58,25 @@ Comparison compare(const Parts& parts, const PartsState& state, std::uint32_t sc
   return result;
 }
 
-// Is part a rather the odd one than b?
-bool is_odder(const Parts& parts, const Comparison& comparison, std::size_t a, std::size_t b) {
+// Is part a less consistent than b?
+bool is_less_consistent(const Parts& parts, const Comparison& comparison, std::size_t a, std::size_t b) {
   if (comparison.votes[a] != comparison.votes[b]) return comparison.votes[a] > comparison.votes[b];
   return parts[a].priority < parts[b].priority;
 }
 
-// The scanned part stands first, so that it is the odd one among equals.
-std::size_t find_odd(const Parts& parts, const Comparison& comparison, std::size_t scanned) {
-  std::size_t odd = scanned;
+// The scanned part stands first, so that among equals it is the inconsistent one.
+std::size_t find_inconsistent(const Parts& parts, const Comparison& comparison, std::size_t scanned) {
+  std::size_t inconsistent = scanned;
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    if (is_odder(parts, comparison, i, odd)) odd = i;
+    if (is_less_consistent(parts, comparison, i, inconsistent)) inconsistent = i;
   }
-  return odd;
+  return inconsistent;
 }
 
-void pardon(const Parts& parts, const Comparison& comparison, std::size_t odd, PartsState& state) {
+void reinstate(const Parts& parts, const Comparison& comparison, std::size_t inconsistent, PartsState& state) {
   for (std::size_t i = 0; i < parts.size(); ++i) {
     PartRecord& record = state.of[i];
-    if (!comparison.disagree[i][odd] || comparison.votes[i] != 1 || !record.told) continue;
+    if (!comparison.disagree[i][inconsistent] || comparison.votes[i] != 1 || !record.told) continue;
     record.told = false;
     record.rests_until = 0;
   }
@@ -97,17 +97,18 @@ bool is_placed(const Part& part, const FilterState& predicted) {
 }
 
 // What a scan of the part will tell of the target's pose, sensor axes.
-Outlook look_at(const Part& part, const Pose& T_sensor_target) {
+InformationForecast look_at(const Part& part, const Pose& T_sensor_target) {
   const Pose T_part_sensor = inverse(T_sensor_target * part.T_target_part);
   const View<FlightNumber> view = make_view(part.mission, T_part_sensor);
-  Outlook outlook = look_over(part.mission, view, visible_outline(part.mission, view), part.mission.parameters.points);
+  InformationForecast forecast =
+      forecast_information(part.mission, view, visible_outline(part.mission, view), part.mission.parameters.points);
   const Mat3 R = to_matrix(T_part_sensor.q);
   Mat6 to_part_axes = Mat6::Zero();
   to_part_axes.topLeftCorner<3, 3>() = R;
   to_part_axes.bottomRightCorner<3, 3>() = R;
   const Mat6 J = to_part_axes * moved_by(lever_of(part, T_sensor_target));
-  outlook.information = J.transpose() * outlook.information * J;
-  return outlook;
+  forecast.information = J.transpose() * forecast.information * J;
+  return forecast;
 }
 
 // The least certain direction: w.x is the displacement along it that a step x of the pose makes, in metres.
@@ -222,16 +223,16 @@ PoseReason compare_parts(const Mission& mission, const Parts& parts, const Regis
   record.covariance = pack(own + relative_covariance(predicted));
   const double limit = mission.parameters.disagreement_max;
   const Comparison comparison = compare(parts, state, scan_id, limit * limit);
-  const std::size_t odd = find_odd(parts, comparison, scanned);
-  if (comparison.votes[odd] == 0) return PoseReason::kValid;
-  pardon(parts, comparison, odd, state);
-  if (!state.of[odd].told) {
-    report.odd = static_cast<PartNumber>(odd + 1);
-    report.odd_sigmas = square_root(comparison.farthest2[odd]);
-    state.of[odd].told = true;
-    state.of[odd].rests_until = rests_until;
+  const std::size_t inconsistent = find_inconsistent(parts, comparison, scanned);
+  if (comparison.votes[inconsistent] == 0) return PoseReason::kValid;
+  reinstate(parts, comparison, inconsistent, state);
+  if (!state.of[inconsistent].told) {
+    report.inconsistent = static_cast<PartNumber>(inconsistent + 1);
+    report.inconsistency_sigmas = square_root(comparison.farthest2[inconsistent]);
+    state.of[inconsistent].told = true;
+    state.of[inconsistent].rests_until = rests_until;
   }
-  return odd == scanned ? PoseReason::kPartDisagrees : PoseReason::kValid;
+  return inconsistent == scanned ? PoseReason::kPartDisagrees : PoseReason::kValid;
 }
 
 PartNumber choose_part(const Mission& mission, const Parts& parts, const NextScan& next, PartsState& state) {
@@ -243,13 +244,13 @@ PartNumber choose_part(const Mission& mission, const Parts& parts, const NextSca
     const Part& part = parts[i];
     if (rests(record, next.scan_id) || !is_placed(part, next.predicted)) continue;
     if (!sees(part, next.predicted.T_sensor_target * part.T_target_part)) continue;
-    const Outlook outlook = look_at(part, next.predicted.T_sensor_target);
-    if (outlook.met < kLeastMet) continue;
+    const InformationForecast forecast = look_at(part, next.predicted.T_sensor_target);
+    if (forecast.met < kLeastMet) continue;
     Choice choice;
     choice.part = static_cast<PartNumber>(i + 1);
     choice.wait = next.scan_id - record.last_asked_id;
     choice.waited = choice.wait > kLongestWait;
-    choice.gain = part.priority * gain_of(need, outlook.information);
+    choice.gain = part.priority * gain_of(need, forecast.information);
     if (is_better(choice, best)) best = choice;
   }
   if (best.part != kWhole) state.of[best.part - 1U].last_asked_id = next.scan_id;

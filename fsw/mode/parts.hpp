@@ -1,6 +1,6 @@
 // A large target close by, of which no scan sees the whole: scans look at parts of it in turn, each with a model of its own. A part's
 // pose is stated in the target's frame and joins the one filter of the track; the last poses of the parts are compared with each other,
-// and the odd one is left out for short_range.rest_frames, as is a part that gave no pose. See docs/decisions/parts.md.
+// and the inconsistent one is left out for short_range.rest_frames, as is a part that gave no pose. See docs/decisions/parts.md.
 //
 // Parts are numbered from 1, in the image's order; 0 is the target as a whole.
 #pragma once
@@ -29,7 +29,7 @@ struct PartRecord {
   std::uint32_t scan_id = 0;        // of its last valid pose
   Vec6 off = Vec6::Zero();          // of the target by that pose from the filter's prediction, as pose_difference()
   PackedCovariance covariance;      // of both
-  bool told = false;                // as the odd one: it rests for that
+  bool told = false;                // as inconsistent: it rests for that
   std::uint32_t rests_until = 0;    // first scan that may look at it again
   std::uint32_t last_asked_id = 0;  // last scan that was planned to look at it
 };
@@ -41,8 +41,8 @@ struct PartsState {
 // What the parts had to do with one scan.
 struct PartsReport {
   PartNumber scanned = kWhole;
-  PartNumber odd = kWhole;  // that disagreed with the others and rests from now on; kWhole: none
-  double odd_sigmas = 0;    // how far from the one that it is farthest from
+  PartNumber inconsistent = kWhole;  // that disagreed with the others and rests from now on; kWhole: none
+  double inconsistency_sigmas = 0;   // how far from the one that it is farthest from
 };
 
 // Does the part rest when scan `scan_id` is planned?
@@ -57,10 +57,10 @@ Registration register_part(const Mission& mission, const Part& part, Estimator& 
                            const FilterState& predicted);
 
 // Notes the part's registration, valid or not, and compares it with the last ones of the other parts. kPartDisagrees if the scanned part
-// is the odd one; otherwise the registration's own reason. The odd one is the part that disagrees with the most others; among equals the
-// one of lower priority, then the scanned one. A part that rested because it disagreed with nobody but the odd one rests no longer. Two
-// poses disagree where their difference exceeds short_range.disagreement_max sigmas; poses older than kFreshScans scans do not count. Loop
-// bound: pairs of parts.
+// is inconsistent; otherwise the registration's own reason. It is the part that disagrees with the most others; among equals the
+// one of lower priority, then the scanned one. A part that rested because it disagreed with nobody but the inconsistent one rests no
+// longer. Two poses disagree where their difference exceeds short_range.disagreement_max sigmas; poses older than kFreshScans scans do not
+// count. Loop bound: pairs of parts.
 constexpr std::uint32_t kFreshScans = 25;
 PoseReason compare_parts(const Mission& mission, const Parts& parts, const Registration& registration, const FilterState& predicted,
                          PartsState& state, PartsReport& report);

@@ -84,7 +84,7 @@ bool Searcher::offer(const Mission& mission, TrackStep& step) {
     begin(mission.parameters, number_, false);
     return false;
   }
-  state.way = StartWay::kSearch;
+  state.way = InitialPoseSource::kSearch;
   return true;
 }
 
@@ -109,9 +109,9 @@ bool Searcher::takes_check(const Mission& mission, const RangeImage* scan, Works
   return search_.add_scan(mission, *scan, workspace) == Status::kOk;
 }
 
-CheckVerdict Searcher::verdict_on(const Mission& mission, const Pose& T_sensor_target, Workspace& workspace) const {
-  if (search_.contradicts(mission, T_sensor_target, workspace)) return CheckVerdict::kContradicted;
-  return search_.agrees(T_sensor_target) ? CheckVerdict::kSure : CheckVerdict::kUndecided;
+CheckOutcome Searcher::outcome_of(const Mission& mission, const Pose& T_sensor_target, Workspace& workspace) const {
+  if (search_.contradicts(mission, T_sensor_target, workspace)) return CheckOutcome::kContradicted;
+  return search_.agrees(T_sensor_target) ? CheckOutcome::kSure : CheckOutcome::kUndecided;
 }
 
 void Searcher::check(const Mission& mission, const RangeImage* scan, Workspace& workspace, TrackStep& step) {
@@ -124,7 +124,7 @@ void Searcher::check(const Mission& mission, const RangeImage* scan, Workspace& 
   }
   if (!search_.advance(mission, workspace, frame_work(p) / kCheckPart)) return;
   step.search = search_.result();
-  end_check(p, verdict_on(mission, check.T_sensor_target, workspace), step);
+  end_check(p, outcome_of(mission, check.T_sensor_target, workspace), step);
 }
 
 }  // namespace lasso

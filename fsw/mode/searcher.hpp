@@ -33,7 +33,7 @@ class Searcher {
 
  private:
   bool takes_check(const Mission& mission, const RangeImage* scan, Workspace& workspace, const TrackState& state);
-  CheckVerdict verdict_on(const Mission& mission, const Pose& T_sensor_target, Workspace& workspace) const;
+  CheckOutcome outcome_of(const Mission& mission, const Pose& T_sensor_target, Workspace& workspace) const;
   void begin(const MissionParameters& parameters, std::uint32_t number, bool checks);
   void receive(const Mission& mission, const RangeImage& scan, Workspace& workspace);
   void keep(const RangeImage& scan);
@@ -44,7 +44,7 @@ class Searcher {
     return !search_.busy() && search_.result().outcome == SearchOutcome::kAccepted && !stale(parameters, now_us);
   }
 
-  Search search_;
+  PoseSearch search_;
   RangeImage next_;  // where one waits
   bool waiting_ = false;
   TimeUs taken_us_ = 0;       // time of the last scan that was taken

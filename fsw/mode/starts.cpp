@@ -63,18 +63,18 @@ bool at_bearing(const Mission& mission, const BearingState& bearing, const Filte
   return square_root(apart_m.squaredNorm()) <= mission.radius_m + kBearingSigmas * square_root(variance);
 }
 
-struct WayOrder {
-  StartWay ways[5];
+struct SourceOrder {
+  InitialPoseSource sources[5];
 };
 
-WayOrder order_of(const MissionParameters& p) {
-  const auto way = [](double choice) { return static_cast<StartWay>(static_cast<std::uint8_t>(choice)); };
+SourceOrder order_of(const MissionParameters& p) {
+  const auto way = [](double choice) { return static_cast<InitialPoseSource>(static_cast<std::uint8_t>(choice)); };
   return {{way(p.start_first), way(p.start_second), way(p.start_third), way(p.start_fourth), way(p.start_fifth)}};
 }
 
-std::size_t index_of(StartWay way) {
+std::size_t index_of(InitialPoseSource way) {
   const auto index = static_cast<std::size_t>(way);
-  invariant(index < kStartWays, "no such way to start");
+  invariant(index < kInitialPoseSources, "no such way to start");
   return index;
 }
 
@@ -95,9 +95,9 @@ FilterNoise filter_noise(const MissionParameters& p) {
   return {p.acceleration_mps2, p.angular_acceleration_radps2, p.precession, p.common_memory_s};
 }
 
-bool is_in_order(const MissionParameters& p, StartWay way) {
+bool is_in_order(const MissionParameters& p, InitialPoseSource way) {
   bool named = false;
-  for (const StartWay one : order_of(p).ways) named = named || one == way;
+  for (const InitialPoseSource one : order_of(p).sources) named = named || one == way;
   return named;
 }
 
@@ -124,30 +124,30 @@ StartRefusal start_from(const Mission& mission, const StartOffer& offer, TimeUs 
   return StartRefusal::kNone;
 }
 
-void StartDesk::put(StartWay way, const StartOffer& offer) {
+void InitialPoseSources::put(InitialPoseSource way, const StartOffer& offer) {
   offers_[index_of(way)] = offer;
   fresh_[index_of(way)] = true;
 }
 
-const StartOffer& StartDesk::take(StartWay way) {
+const StartOffer& InitialPoseSources::take(InitialPoseSource way) {
   fresh_[index_of(way)] = false;
   return offers_[index_of(way)];
 }
 
-StartWay StartDesk::next(const MissionParameters& p, bool may_search) const {
-  StartWay again = StartWay::kNone;
-  for (const StartWay way : order_of(p).ways) {
-    const bool possible = may_search || way != StartWay::kSearch;
+InitialPoseSource InitialPoseSources::next(const MissionParameters& p, bool may_search) const {
+  InitialPoseSource again = InitialPoseSource::kNone;
+  for (const InitialPoseSource way : order_of(p).sources) {
+    const bool possible = may_search || way != InitialPoseSource::kSearch;
     if (possible && fresh_[index_of(way)]) return way;
-    if (possible && way == StartWay::kSearch) again = way;
+    if (possible && way == InitialPoseSource::kSearch) again = way;
   }
   return again;
 }
 
-const char* to_string(StartWay way) {
+const char* to_string(InitialPoseSource way) {
   static constexpr const char* kNames[] = {"none", "handover", "navigation", "apriori", "uplink", "search"};
   const auto index = static_cast<std::size_t>(way);
-  return index < kStartWays ? kNames[index] : "unknown";
+  return index < kInitialPoseSources ? kNames[index] : "unknown";
 }
 
 const char* to_string(StartRefusal refusal) {

@@ -13,8 +13,8 @@
 
 namespace lasso {
 
-enum class StartWay : std::uint8_t { kNone = 0, kHandover = 1, kNavigation = 2, kApriori = 3, kUplink = 4, kSearch = 5 };
-constexpr std::size_t kStartWays = 6;  // kNone included
+enum class InitialPoseSource : std::uint8_t { kNone = 0, kHandover = 1, kNavigation = 2, kApriori = 3, kUplink = 4, kSearch = 5 };
+constexpr std::size_t kInitialPoseSources = 6;  // kNone included
 
 // T_sensor_target and its rates at t_us, with the covariance of (rotation in sensor axes [rad], translation of the origin [m]).
 struct StartOffer {
@@ -27,7 +27,7 @@ struct StartOffer {
 enum class StartRefusal : std::uint8_t {
   kNone = 0,
   kNotBegun = 1,       // the component has not begun
-  kNoSuchWay = 2,      // kNone, or a number that is none
+  kNoSuchSource = 2,   // kNone, or a number that is none
   kNotFinite = 3,      // a value is not a number
   kNotUnit = 4,        // the quaternion is not of unit length
   kBadCovariance = 5,  // not symmetric, not of variances and correlations, or so wide that it tells nothing
@@ -40,15 +40,15 @@ enum class StartRefusal : std::uint8_t {
   kNotFromHere = 12,   // the table of modes has no start from the present one
   kContradicted = 13,  // a search of the scan that confirmed it found another pose (start.check)
 };
-const char* to_string(StartWay way);          // never null
-const char* to_string(StartRefusal refusal);  // never null
+const char* to_string(InitialPoseSource way);  // never null
+const char* to_string(StartRefusal refusal);   // never null
 
 // What the filter starts from, and moves by, in this mission.
 FilterStart filter_start(const MissionParameters& parameters, const StartOffer& offer);
 FilterNoise filter_noise(const MissionParameters& parameters);
 
 // Does the mission's order of ways name this one?
-bool is_in_order(const MissionParameters& parameters, StartWay way);
+bool is_in_order(const MissionParameters& parameters, InitialPoseSource way);
 
 // Believed as tracking.start_sigma_m and _deg say.
 StartOffer rough_offer(const MissionParameters& parameters, const Pose& T_sensor_target, const Twist& rates, TimeUs t_us);
@@ -59,17 +59,17 @@ StartRefusal start_from(const Mission& mission, const StartOffer& offer, TimeUs 
 
 // The last offer of each way that has not been tried. Search needs no offer: it is untried until its turn comes, and again once a track
 // holds; where all else has been tried, its turn comes again.
-class StartDesk {
+class InitialPoseSources {
  public:
-  void put(StartWay way, const StartOffer& offer);
+  void put(InitialPoseSource way, const StartOffer& offer);
   // The offer of the way; it counts as tried from now on.
-  const StartOffer& take(StartWay way);
+  const StartOffer& take(InitialPoseSource way);
   // The first way in the mission's order that has not been tried; kNone if there is none. Search only where `may_search`.
-  StartWay next(const MissionParameters& parameters, bool may_search) const;
+  InitialPoseSource next(const MissionParameters& parameters, bool may_search) const;
 
  private:
-  StartOffer offers_[kStartWays];
-  bool fresh_[kStartWays] = {false, false, false, false, false, true};
+  StartOffer offers_[kInitialPoseSources];
+  bool fresh_[kInitialPoseSources] = {false, false, false, false, false, true};
 };
 
 }  // namespace lasso

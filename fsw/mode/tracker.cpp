@@ -33,8 +33,8 @@ bool begin_from(const MissionParameters& p, const Registration& registration, co
   return update_filter(begun, measurement_of(registration), kNoGate).accepted;
 }
 
-// A track begins with the registration and, where that shows nothing (observability.hpp), with what its start was known by: a plate's shift would
-// otherwise begin unknown by three radii, and what views from a little aside tell of so much is beyond a linear filter.
+// A track begins with the registration and, where that shows nothing (observability.hpp), with what its start was known by: a plate's shift
+// would otherwise begin unknown by three radii, and what views from a little aside tell of so much is beyond a linear filter.
 Status restart_from(const MissionParameters& p, const Registration& registration, FilterState& filter) {
   FilterState begun;
   if (!begin_from(p, registration, filter, begun)) return start_alone(p, registration, filter);
@@ -69,7 +69,7 @@ PoseReason confirm(const MissionParameters& p, const ModeProperties& mode, bool 
 
 // A start by search has been compared with all other poses, and one whose attitude is known excludes them.
 bool is_checked(const MissionParameters& p, const TrackState& state) {
-  return p.start_check > 0.5 && state.mode == TrackingMode::kStarting && state.way != StartWay::kSearch && state.rough;
+  return p.start_check > 0.5 && state.mode == TrackingMode::kStarting && state.way != InitialPoseSource::kSearch && state.rough;
 }
 
 // By the sensor's axis about which it is known worst.
@@ -129,7 +129,7 @@ ModeEvent event_of_valid(const MissionParameters& p, const TrackState& state) {
 
 // Where no scan confirms a start, a search is a way that is left, unless it was its own; its turn comes in bearing.
 bool leaves_search(const MissionParameters& p, const TrackState& state) {
-  return state.mode == TrackingMode::kStarting && state.way != StartWay::kSearch && is_in_order(p, StartWay::kSearch);
+  return state.mode == TrackingMode::kStarting && state.way != InitialPoseSource::kSearch && is_in_order(p, InitialPoseSource::kSearch);
 }
 
 ModeEvent event_of(const MissionParameters& p, const TrackState& state, bool valid) {
@@ -170,7 +170,7 @@ bool is_rough(const Mission& mission, const FilterState& filter) {
 // Where predictions have been better than they claim, so is this one: a target need not accelerate as much as the mission allows it to.
 Mat6 likely_covariance(const FilterState& predicted) {
   Vec6 share;
-  for (int i = 0; i < 6; ++i) share[i] = square_root(clamp(predicted.surprise[i], kLeastSurprise, 1.0));
+  for (int i = 0; i < 6; ++i) share[i] = square_root(clamp(predicted.innovation_ratio[i], kLeastInnovationRatio, 1.0));
   return share.asDiagonal() * relative_covariance(predicted) * share.asDiagonal();
 }
 
@@ -207,7 +207,7 @@ void count_and_change(const MissionParameters& p, bool valid, TrackStep& step) {
   change_mode(step.event, state);
 }
 
-StartRefusal start_track(const Mission& mission, StartWay way, const StartOffer& offer, TimeUs t_us, TrackState& state) {
+StartRefusal start_track(const Mission& mission, InitialPoseSource way, const StartOffer& offer, TimeUs t_us, TrackState& state) {
   if (!has_transition(state.mode, ModeEvent::kStart)) return StartRefusal::kNotFromHere;
   const bool interrupts = would_interrupt(state);
   const StartRefusal refusal = start_from(mission, offer, t_us, state.bearing, state.filter);
@@ -238,12 +238,12 @@ TrackStep track_scan(const Mission& mission, Estimator& estimator, const RangeIm
   return step;
 }
 
-void end_check(const MissionParameters& p, CheckVerdict verdict, TrackStep& step) {
+void end_check(const MissionParameters& p, CheckOutcome verdict, TrackStep& step) {
   TrackState& state = step.after;
   Registration& registration = step.registration;
-  const bool again = verdict == CheckVerdict::kUndecided && !state.check.undecided;
+  const bool again = verdict == CheckOutcome::kUndecided && !state.check.undecided;
   state.check = StartCheck{};
-  if (verdict == CheckVerdict::kContradicted) {
+  if (verdict == CheckOutcome::kContradicted) {
     if (registration.reason == PoseReason::kUnchecked) registration.reason = PoseReason::kContradicted;
     step.refusal = StartRefusal::kContradicted;
     state.missed = UINT16_MAX;
@@ -286,7 +286,7 @@ void aim_next(const Mission& mission, Estimator& estimator, const TrackStep& ste
   if (!step.registration.valid()) return;
   FilterState predicted = step.after.filter;
   if (predict_filter(predicted, t_us, filter_noise(mission.parameters)) != Status::kOk) return;
-  const AimRequest request{scan_id, predicted.T_sensor_target, predicted.rates, likely_covariance(predicted)};
+  const RayPlacementRequest request{scan_id, predicted.T_sensor_target, predicted.rates, likely_covariance(predicted)};
   aim_rays(mission, request, estimator.workspace(), rays);
 }
 

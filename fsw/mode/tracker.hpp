@@ -12,12 +12,12 @@
 #include "fsw/mode/modes.hpp"
 #include "fsw/mode/parts.hpp"
 #include "fsw/mode/starts.hpp"
+#include "fsw/pose/estimator/estimator.hpp"
+#include "fsw/pose/recognition/pose_search.hpp"
+#include "fsw/pose/scan/result.hpp"
 #include "fsw/pose/silhouette/ray_placement.hpp"
 #include "fsw/pose/tracking/bearing.hpp"
-#include "fsw/pose/estimator/estimator.hpp"
 #include "fsw/pose/tracking/pose_filter.hpp"
-#include "fsw/pose/scan/result.hpp"
-#include "fsw/pose/recognition/pose_search.hpp"
 #include "fsw/sense/range_image.hpp"
 
 namespace lasso {
@@ -33,7 +33,7 @@ struct StartCheck {
   TimeUs t_us = 0;         // of the scan
   Pose T_sensor_target;    // in it
 };
-enum class CheckVerdict : std::uint8_t { kSure, kUndecided, kContradicted };
+enum class CheckOutcome : std::uint8_t { kSure, kUndecided, kContradicted };
 
 // A search tells poses apart that are more than 15 deg off each other: five sigmas of this. A start that is stated better excludes them
 // all.
@@ -41,12 +41,12 @@ constexpr double kKnownAttitude_rad = 3 * kRadPerDeg;
 
 struct TrackState {
   TrackingMode mode = TrackingMode::kStandby;
-  std::uint16_t missed = 0;        // scans without a valid pose since the last one, or since the mode began; at most 65535
-  bool held = false;               // no mode ends because its frames are used up
-  StartWay way = StartWay::kNone;  // by which the present track was started
-  bool rough = false;              // its attitude was stated no better than kKnownAttitude_rad: other poses may lie within it
-  StartCheck check;                // of that start, in mode starting
-  bool interrupts = false;         // a start: the track that it interrupted is kept by whoever keeps this state
+  std::uint16_t missed = 0;  // scans without a valid pose since the last one, or since the mode began; at most 65535
+  bool held = false;         // no mode ends because its frames are used up
+  InitialPoseSource way = InitialPoseSource::kNone;  // by which the present track was started
+  bool rough = false;       // its attitude was stated no better than kKnownAttitude_rad: other poses may lie within it
+  StartCheck check;         // of that start, in mode starting
+  bool interrupts = false;  // a start: the track that it interrupted is kept by whoever keeps this state
   FilterState filter;
   SensorNumber sensor = 0;  // of the last scan: whose common errors the filter carries
   BearingState bearing;
@@ -75,7 +75,7 @@ void change_mode(ModeEvent event, TrackState& state);
 
 // Takes up a track at t_us: kStarting. Where it interrupts a track, and no scan confirms it, the event is kFallBack. Refused as start_from
 // says, and kNotFromHere where the mode takes no start: `state` is then as it was.
-StartRefusal start_track(const Mission& mission, StartWay way, const StartOffer& offer, TimeUs t_us, TrackState& state);
+StartRefusal start_track(const Mission& mission, InitialPoseSource way, const StartOffer& offer, TimeUs t_us, TrackState& state);
 
 // One scan: predict, register, join to the filter, next mode. In a mode that confirms, a valid registration has to agree with the
 // prediction (start.gate, kFarFromStart), and starts the filter anew, since the prediction may be far off; so does one that the filter
@@ -99,7 +99,7 @@ void aim_next(const Mission& mission, Estimator& estimator, const TrackStep& ste
 
 // The word of one search. kContradicted: the start is refused (kContradicted), as if its frames were used up. kUndecided: another scan is
 // searched, once: of a symmetric target no search is sure. Otherwise this scan confirms it if it is kUnchecked, or the next valid one does.
-void end_check(const MissionParameters& parameters, CheckVerdict verdict, TrackStep& step);
+void end_check(const MissionParameters& parameters, CheckOutcome verdict, TrackStep& step);
 
 // Counts a frame with or without a valid pose, and takes the step along the table.
 void count_and_change(const MissionParameters& parameters, bool valid, TrackStep& step);

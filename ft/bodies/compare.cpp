@@ -72,7 +72,7 @@ class Comparer {
   const mdat::Subject& subject_;
   mdat::StillScans scans_;
   std::unique_ptr<Estimator> estimator_ = std::make_unique<Estimator>();
-  std::unique_ptr<Search> search_ = std::make_unique<Search>();
+  std::unique_ptr<PoseSearch> search_ = std::make_unique<PoseSearch>();
 };
 
 std::string accepted_text(const char* name, std::size_t accepted, std::size_t determined, std::size_t all, std::size_t wrong) {

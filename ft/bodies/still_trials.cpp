@@ -100,7 +100,7 @@ Tally search(const Subject& subject, std::size_t searches) {
   constexpr std::uint32_t kSlice = 160'000;
   Tally tally;
   StillScans scans(subject, ScanStream::kSearches);
-  const auto finder = std::make_unique<Search>();
+  const auto finder = std::make_unique<PoseSearch>();
   const auto workspace = std::make_unique<Workspace>();
   for (std::size_t i = 0; i < searches; ++i) {
     const Pose truth = scans.draw_pose();

@@ -98,7 +98,7 @@ void estimate(const Mission& mission, bool wide) {
 void search(const Mission& mission) {
   static const auto scan = small_scan(kSearchSide);
   static const auto workspace = std::make_unique<Workspace>();
-  static const auto search = std::make_unique<Search>();
+  static const auto search = std::make_unique<PoseSearch>();
   search->begin(SearchLimits());
   if (search->add_scan(mission, *scan, *workspace) != Status::kOk) return;
   for (std::uint32_t slices = 0; !search->advance(mission, *workspace, kSlice); ++slices) expect(slices < kMaxSlices, "a search ends");

@@ -41,13 +41,13 @@ bool read_scan(ByteReader& in, RangeImage& scan) {
   return true;
 }
 
-// By Search::Stage.
-constexpr const char* kStages[] = {"none",   "evidence", "coarse", "pull",   "draw",   "sketch",
-                                   "settle", "explore",  "sway",   "mirror", "verdict"};
+// By PoseSearch::Stage.
+constexpr const char* kStages[] = {"none",   "subset",      "view_matching", "align_on_distances", "align_on_rays", "fast_refine",
+                                   "refine", "line_search", "robust_refine", "symmetry_test",      "acceptance"};
 
 // The work of one counted pass.
 template <class Act>
-std::uint32_t count(const char* stage, const Search& search, Act act) {
+std::uint32_t count(const char* stage, const PoseSearch& search, Act act) {
   const std::uint32_t before = search.result().work;
   lasso_estimate_begins();
   act();
@@ -63,7 +63,7 @@ void tell(const SearchResult& r) {
               r.T_sensor_target.q.w(), r.T_sensor_target.p[0], r.T_sensor_target.p[1], r.T_sensor_target.p[2]);
 }
 
-void search_scan(const Mission& mission, const RangeImage& scan, Search& search, Workspace& workspace) {
+void search_scan(const Mission& mission, const RangeImage& scan, PoseSearch& search, Workspace& workspace) {
   std::uint32_t used = count("adding", search, [&] { static_cast<void>(search.add_scan(mission, scan, workspace)); });
   while (search.busy()) {
     while (search.busy() && used < frame_work(mission.parameters)) {
@@ -77,7 +77,7 @@ void search_scan(const Mission& mission, const RangeImage& scan, Search& search,
 }
 
 // The scan joins the search, or begins another one.
-void join(const Mission& mission, const RangeImage& scan, Search& search, Workspace& workspace) {
+void join(const Mission& mission, const RangeImage& scan, PoseSearch& search, Workspace& workspace) {
   if (!search.joins()) {
     std::printf("search\n");
     search.begin(SearchLimits());
@@ -107,7 +107,7 @@ int replay(const char* image_name, const char* scans_name, unsigned long each, C
   if (!golden::read_file(scans_name, scans)) return fail("the scans cannot be read");
   const auto mission = std::make_unique<Mission>();
   if (load_image(image.bytes(), *mission).status != Status::kOk) return fail("the image cannot be loaded");
-  const auto search = std::make_unique<Search>();
+  const auto search = std::make_unique<PoseSearch>();
   const auto workspace = std::make_unique<Workspace>();
   const auto scan = std::make_unique<RangeImage>();
   ByteReader in(scans.bytes());

@@ -3,8 +3,6 @@
 //
 // usage: search MISSION [CASE = all] [STARTS = 1000] [SEED = 1] [SCANS = 3] [SCALE = 1] [FOLDER]
 // With a FOLDER nothing is searched: image.3dli and scans.bin, SCANS of each start, are written there for search_replay.
-#include "fsw/pose/recognition/pose_search.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -14,6 +12,7 @@
 #include <vector>
 
 #include "fsw/pose/estimator/estimator.hpp"
+#include "fsw/pose/recognition/pose_search.hpp"
 #include "fsw/sense/pattern.hpp"
 #include "ft/search/cases.hpp"
 #include "ft/search/recording.hpp"
@@ -237,7 +236,7 @@ class Campaign {
   Moving motion_;
   double range_m_ = 0;
   std::uint32_t scan_id_ = 0;
-  std::unique_ptr<Search> search_ = std::make_unique<Search>();
+  std::unique_ptr<PoseSearch> search_ = std::make_unique<PoseSearch>();
   std::unique_ptr<Workspace> workspace_ = std::make_unique<Workspace>();
   std::unique_ptr<Estimator> estimator_ = std::make_unique<Estimator>();
   std::unique_ptr<RangeImage> image_scan_ = std::make_unique<RangeImage>();

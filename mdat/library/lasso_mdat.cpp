@@ -23,7 +23,7 @@ struct lasso_target {
   lasso::Mission mission;
   lasso::Parts parts;
   std::unique_ptr<lasso::mdat::SingleScans> singles;
-  std::unique_ptr<lasso::Search> search = std::make_unique<lasso::Search>();
+  std::unique_ptr<lasso::PoseSearch> search = std::make_unique<lasso::PoseSearch>();
   std::unique_ptr<lasso::Workspace> workspace = std::make_unique<lasso::Workspace>();
 };
 

@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t kTold = 10;          // scans
 constexpr std::uint32_t kSlice = 100'000;  // units of work; the result does not depend on it
 
-AcquiredScan acquire_scan(const Mission& mission, const RangeImage& image, Search& search, Workspace& workspace) {
+AcquiredScan acquire_scan(const Mission& mission, const RangeImage& image, PoseSearch& search, Workspace& workspace) {
   AcquiredScan acquired;
   const double begin_us = thread_cpu_us();
   SearchLimits limits = search_limits(mission.parameters);
@@ -69,7 +69,7 @@ std::string candidate_rows(const AcquiredScan& scan) {
 }  // namespace
 
 std::vector<AcquiredScan> acquire(const Mission& mission, const sim::RecordedScans& scans, const std::vector<InitialPose>& truth) {
-  const auto search = std::make_unique<Search>();
+  const auto search = std::make_unique<PoseSearch>();
   const auto workspace = std::make_unique<Workspace>();
   std::vector<AcquiredScan> acquired;
   ProgressBar bar("search", scans.size(), "scans", kQuietReplay_s);

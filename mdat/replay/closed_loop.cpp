@@ -14,7 +14,8 @@ constexpr double kWholeSearch = 2e9;  // units of work: more than any search tak
 ClosedLoop::ClosedLoop(const Mission& mission, const Pose& initial, bool wide) : mission_(mission) {
   if (wide) mission_.parameters.wide_start = 1;
   mission_.parameters.search_slice = kWholeSearch;
-  const StartRefusal refusal = start_track(mission_, StartWay::kUplink, rough_offer(mission_.parameters, initial, Twist(), 0), 0, state_);
+  const StartRefusal refusal =
+      start_track(mission_, InitialPoseSource::kUplink, rough_offer(mission_.parameters, initial, Twist(), 0), 0, state_);
   if (refusal != StartRefusal::kNone) throw RunError(std::string("the tracker refused the initial pose: ") + to_string(refusal));
 }
 

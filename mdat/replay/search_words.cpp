@@ -5,17 +5,19 @@
 namespace lasso::mdat {
 namespace {
 
-std::string score_text(const Rival& rival) {
+std::string score_text(const Competitor& rival) {
   return format("the best competitor (a pose more than 15 deg off) scores %.2f times as badly", rival.score_ratio);
 }
 
-std::string costs_text(const Rival& rival) {
+std::string costs_text(const Competitor& rival) {
   return format("mean squared residuals in sigmas are %.2f of it and %.2f of the pose", rival.cost, rival.best_cost);
 }
 
-double alone_from(const Rival& rival, double ratio_min) { return (rival.best_cost > kCleanCost ? kAloneInDoubt : kAlone) * ratio_min; }
+double alone_from(const Competitor& rival, double ratio_min) {
+  return (rival.best_cost > kCleanCost ? kScoreAloneInDoubt : kScoreAlone) * ratio_min;
+}
 
-std::string accepted(const std::optional<Rival>& rival, double ratio_min) {
+std::string accepted(const std::optional<Competitor>& rival, double ratio_min) {
   if (!rival) return "no competitor is left: no other pose more than 15 deg off explains the scan nearly as well";
   if (!is_near(rival->score_ratio, rival->best_cost, ratio_min)) {
     return score_text(*rival) + format(": more than %.3g is enough by itself", alone_from(*rival, ratio_min));
@@ -28,10 +30,10 @@ std::string accepted(const std::optional<Rival>& rival, double ratio_min) {
          costs_text(*rival);
 }
 
-std::string ambiguous(const std::optional<Rival>& rival, double ratio_min) {
+std::string ambiguous(const std::optional<Competitor>& rival, double ratio_min) {
   if (!rival) return "a competitor is not excluded";
   const std::string score = score_text(*rival);
-  if (seems_else(*rival)) {
+  if (is_another_object(*rival)) {
     return score + format(
                        ": less than %.3g; and the pose leaves %.0f %% unexplained and explains the rest worse than noise does (mean "
                        "squared residual "
@@ -50,19 +52,19 @@ std::string ambiguous(const std::optional<Rival>& rival, double ratio_min) {
 
 }  // namespace
 
-std::optional<Rival> decisive_rival(const Search& search, double ratio_min) {
-  std::optional<Rival> best;
+std::optional<Competitor> decisive_rival(const PoseSearch& search, double ratio_min) {
+  std::optional<Competitor> best;
   for (std::size_t i = 0; i < search.poses(); ++i) {
-    Rival rival;
-    if (!search.find_rival(i, rival)) continue;
-    const bool stands = !is_left_behind(rival, ratio_min);
-    const bool best_stands = best && !is_left_behind(*best, ratio_min);
+    Competitor rival;
+    if (!search.find_competitor(i, rival)) continue;
+    const bool stands = !is_outscored(rival, ratio_min);
+    const bool best_stands = best && !is_outscored(*best, ratio_min);
     if (!best || (stands && !best_stands) || (stands == best_stands && rival.score_ratio < best->score_ratio)) best = rival;
   }
   return best;
 }
 
-std::string search_words(const SearchResult& result, const std::optional<Rival>& rival, const SearchLimits& limits) {
+std::string search_words(const SearchResult& result, const std::optional<Competitor>& rival, const SearchLimits& limits) {
   switch (result.reason) {
     case SearchReason::kTooFewReturns:
       return format("%u returns are looked at; search.hits_min asks for %.0f", result.returns, limits.hits_min);

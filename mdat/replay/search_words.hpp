@@ -9,9 +9,9 @@
 namespace lasso::mdat {
 
 // The competitor that decided: of those that are not left behind, else of all, the one with the best score. `search` is done.
-std::optional<Rival> decisive_rival(const Search& search, double ratio_min);
+std::optional<Competitor> decisive_rival(const PoseSearch& search, double ratio_min);
 
 // One sentence without commas: the rule that decided, with its figures and limits.
-std::string search_words(const SearchResult& result, const std::optional<Rival>& rival, const SearchLimits& limits);
+std::string search_words(const SearchResult& result, const std::optional<Competitor>& rival, const SearchLimits& limits);
 
 }  // namespace lasso::mdat

@@ -30,7 +30,7 @@ class SingleScans {
 
   const Mission& mission_;
   std::unique_ptr<Estimator> estimator_ = std::make_unique<Estimator>();
-  std::unique_ptr<Search> search_ = std::make_unique<Search>();
+  std::unique_ptr<PoseSearch> search_ = std::make_unique<PoseSearch>();
 };
 
 }  // namespace lasso::mdat

@@ -172,7 +172,7 @@ class Case {
     Pose T_sensor_start = trajectory_->at(truth_us).T_sensor_target * T_target_turned;
     T_sensor_start.p += Vec3(setup_.scenario.prior_shift_m.data());
     const StartOffer offer = rough_offer(component_->mission().parameters, T_sensor_start, Twist{}, truth_us + period_us_);
-    const StartRefusal refusal = component_->offer_start(StartWay::kUplink, offer);
+    const StartRefusal refusal = component_->offer_start(InitialPoseSource::kUplink, offer);
     if (refusal != StartRefusal::kNone)
       throw InputError("the component refuses the pose to start from (" + std::string(lasso::to_string(refusal)) +
                        "): the scenario's prior_turn_deg and prior_shift_m turn and shift it off the truth");

@@ -14,7 +14,7 @@ NavigationSystem::NavigationSystem(const Scenario& scenario, const sim::Trajecto
 
 void NavigationSystem::offer(TimeUs now_us, Component& component) {
   if (now_us < next_us_) return;
-  (void)component.offer_start(StartWay::kNavigation, measure(now_us));
+  (void)component.offer_start(InitialPoseSource::kNavigation, measure(now_us));
   next_us_ += to_us(scenario_.navigation_period_s);
 }
 

@@ -70,9 +70,9 @@ TEST_F(TrackedComponent, SafeIsCommandedTakesNoStartAndIsLeftByCommand) {
   story.run(scene, 5);
   EXPECT_EQ(scene.sensor.starts, started) << "no scans";
   EXPECT_FALSE(scene.sensor.laser_permitted);
-  EXPECT_EQ(
-      scene.component->offer_start(StartWay::kUplink, rough_offer(scene.component->mission().parameters, truth.pose_at(0), truth.rates, 0)),
-      StartRefusal::kNotFromHere);
+  EXPECT_EQ(scene.component->offer_start(InitialPoseSource::kUplink,
+                                         rough_offer(scene.component->mission().parameters, truth.pose_at(0), truth.rates, 0)),
+            StartRefusal::kNotFromHere);
   EXPECT_EQ(scene.component->command_mode(M::kSearching), ModeRefusal::kNotFromHere);
   ASSERT_EQ(scene.component->command_mode(M::kStandby), ModeRefusal::kNone);
   story.run(scene, 3);
@@ -301,7 +301,7 @@ TEST(ComponentHealth, AClockThatJumpsIsFollowedByAnInterruptedTrack) {
   wrong.p.y() += 1;
   StartOffer offer = rough_offer(p, wrong, Twist{}, 8 * 200000);
   offer.covariance = 1e-4 * Mat6::Identity();
-  ASSERT_EQ(scene.component->offer_start(StartWay::kHandover, offer), StartRefusal::kNone);
+  ASSERT_EQ(scene.component->offer_start(InitialPoseSource::kHandover, offer), StartRefusal::kNone);
   story.run(scene, 2);
   scene.sensor.scene_ahead_us = -kJump_us;
   run_shifted(scene, story, kJump_us, 12);

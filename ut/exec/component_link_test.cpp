@@ -101,7 +101,7 @@ TEST(ComponentLink, AStartByUplinkIsTrackedFromTheNextBoundaryOn) {
   const PoseTelemetry pose = link.pose_of(link.run_frame());
   EXPECT_EQ(pose.scan_id, 1u) << "the scan of the frame behind the command";
   EXPECT_EQ(pose.valid, 1);
-  EXPECT_EQ(pose.start_way, static_cast<std::uint8_t>(StartWay::kUplink));
+  EXPECT_EQ(pose.start_way, static_cast<std::uint8_t>(InitialPoseSource::kUplink));
   EXPECT_LT(link.scene.error(pose).norm(), 1e-2);
 }
 
@@ -259,7 +259,8 @@ TEST(ComponentLink, EachRefusalIsAnEventWithItsReason) {
   EXPECT_EQ(events[0], (Stream{0, 4, 0x1B, 0xD1, 0xC0, 2, static_cast<std::uint8_t>(PacketFault::kBadArgument)}));
   EXPECT_EQ(events[1], (Stream{0, 4, 0x1B, 0xD1, 0xC0, 3, static_cast<std::uint8_t>(PacketFault::kRepeated)}));
   EXPECT_EQ(events[2], (Stream{0, 5, 8, 1, 0xC0, 4, static_cast<std::uint8_t>(ModeRefusal::kNotFromHere), 0, 0}));
-  EXPECT_EQ(events[3], (Stream{0, 3, static_cast<std::uint8_t>(StartWay::kUplink), static_cast<std::uint8_t>(StartRefusal::kNotUnit)}));
+  EXPECT_EQ(events[3],
+            (Stream{0, 3, static_cast<std::uint8_t>(InitialPoseSource::kUplink), static_cast<std::uint8_t>(StartRefusal::kNotUnit)}));
   EXPECT_EQ(events[4], (Stream{0, 5, 8, 1, 0xC0, 5, 0, static_cast<std::uint8_t>(StartRefusal::kNotUnit), 0}));
   EXPECT_EQ(packets.back().header.subservice, 2);
 }

@@ -66,7 +66,7 @@ TEST(ComponentModes, NavigationIsTakenWhereAStartIsAwaited) {
   VERIFIES("LASSO-MOD-131~1 LASSO-MOD-132~1");
   ComponentScene scene(story_parameters());
   scene.begin();
-  ASSERT_EQ(scene.component->offer_start(StartWay::kNavigation, offer_at(scene, 0)), StartRefusal::kNone);
+  ASSERT_EQ(scene.component->offer_start(InitialPoseSource::kNavigation, offer_at(scene, 0)), StartRefusal::kNone);
   Story story;
   story.run(scene, 3);
   EXPECT_TRUE(story.reports.empty()) << "standby waits for a command";
@@ -74,7 +74,7 @@ TEST(ComponentModes, NavigationIsTakenWhereAStartIsAwaited) {
   story.run(scene, 6);
   story.expect({{M::kStandby, E::kSeek, M::kBearing}, {M::kBearing, E::kStart, M::kStarting}, {M::kStarting, E::kPoseValid, M::kTracking}});
   EXPECT_EQ(story.last().mode, code(M::kTracking));
-  EXPECT_EQ(story.last().start_way, static_cast<std::uint8_t>(StartWay::kNavigation));
+  EXPECT_EQ(story.last().start_way, static_cast<std::uint8_t>(InitialPoseSource::kNavigation));
   EXPECT_LT(scene.error(story.last()).norm(), 1e-2);
 }
 
@@ -85,8 +85,8 @@ TEST(ComponentModes, AWrongHandOverIsRefusedAndTheNextWayIsTried) {
     p.recover = recover ? 1 : 0;
     ComponentScene scene(p);
     scene.begin();
-    ASSERT_EQ(scene.component->offer_start(StartWay::kNavigation, offer_at(scene, 0)), StartRefusal::kNone);
-    ASSERT_EQ(scene.component->offer_start(StartWay::kHandover, wrong_offer(scene, 0)), StartRefusal::kNone);
+    ASSERT_EQ(scene.component->offer_start(InitialPoseSource::kNavigation, offer_at(scene, 0)), StartRefusal::kNone);
+    ASSERT_EQ(scene.component->offer_start(InitialPoseSource::kHandover, wrong_offer(scene, 0)), StartRefusal::kNone);
     Story story;
     story.run(scene, 12);
     const M given_up = recover ? M::kBearing : M::kLost;
@@ -97,8 +97,8 @@ TEST(ComponentModes, AWrongHandOverIsRefusedAndTheNextWayIsTried) {
     for (const PoseTelemetry& t : story.reports) EXPECT_TRUE(t.valid == 0 || scene.error(t).norm() < 1e-2);
     const PoseTelemetry& t = story.last();
     EXPECT_EQ(t.mode, code(M::kTracking));
-    EXPECT_EQ(t.start_way, static_cast<std::uint8_t>(StartWay::kNavigation));
-    EXPECT_EQ(t.refused_way, static_cast<std::uint8_t>(StartWay::kHandover));
+    EXPECT_EQ(t.start_way, static_cast<std::uint8_t>(InitialPoseSource::kNavigation));
+    EXPECT_EQ(t.refused_way, static_cast<std::uint8_t>(InitialPoseSource::kHandover));
     EXPECT_EQ(t.refusal, static_cast<std::uint8_t>(StartRefusal::kNotConfirmed));
     EXPECT_EQ(t.refused_starts, 1u);
   }
@@ -108,11 +108,11 @@ TEST(ComponentModes, AWrongOfferCostsNoTrack) {
   VERIFIES("LASSO-MOD-185~1 LASSO-MOD-137~1");
   ComponentScene scene(story_parameters());
   scene.begin();
-  ASSERT_EQ(scene.component->offer_start(StartWay::kUplink, offer_at(scene, 0)), StartRefusal::kNone);
+  ASSERT_EQ(scene.component->offer_start(InitialPoseSource::kUplink, offer_at(scene, 0)), StartRefusal::kNone);
   Story story;
   story.run(scene, 8);
   for (const int frame : {8, 10}) {  // the second one before the first is given up
-    ASSERT_EQ(scene.component->offer_start(StartWay::kHandover, wrong_offer(scene, frame * 200000)), StartRefusal::kNone);
+    ASSERT_EQ(scene.component->offer_start(InitialPoseSource::kHandover, wrong_offer(scene, frame * 200000)), StartRefusal::kNone);
     story.run(scene, 2);
   }
   story.run(scene, 10);
@@ -122,7 +122,7 @@ TEST(ComponentModes, AWrongOfferCostsNoTrack) {
                 {M::kStarting, E::kStart, M::kStarting},
                 {M::kStarting, E::kFallBack, M::kReacquiring},
                 {M::kReacquiring, E::kPoseValid, M::kTracking}});
-  EXPECT_EQ(story.last().refused_way, static_cast<std::uint8_t>(StartWay::kHandover));
+  EXPECT_EQ(story.last().refused_way, static_cast<std::uint8_t>(InitialPoseSource::kHandover));
   EXPECT_EQ(story.last().refusal, static_cast<std::uint8_t>(StartRefusal::kNotConfirmed));
   for (const PoseTelemetry& t : story.reports) EXPECT_TRUE(t.valid == 0 || scene.error(t).norm() < 1e-2);
 }
@@ -131,7 +131,7 @@ TEST(ComponentModes, AShortEclipseIsCoastedALongerOneRecoveredNearThePrediction)
   VERIFIES("LASSO-MOD-138~1 LASSO-MOD-137~1");
   ComponentScene scene(story_parameters());
   scene.begin();
-  ASSERT_EQ(scene.component->offer_start(StartWay::kUplink, offer_at(scene, 0)), StartRefusal::kNone);
+  ASSERT_EQ(scene.component->offer_start(InitialPoseSource::kUplink, offer_at(scene, 0)), StartRefusal::kNone);
   Story story;
   story.run(scene, 12);
   story.changes.clear();
@@ -149,7 +149,7 @@ TEST(ComponentModes, ALongEclipseEndsInABearingAndANewStart) {
   VERIFIES("LASSO-MOD-138~1 LASSO-MOD-131~1");
   ComponentScene scene(story_parameters());
   scene.begin();
-  ASSERT_EQ(scene.component->offer_start(StartWay::kUplink, offer_at(scene, 0)), StartRefusal::kNone);
+  ASSERT_EQ(scene.component->offer_start(InitialPoseSource::kUplink, offer_at(scene, 0)), StartRefusal::kNone);
   Story story;
   story.run(scene, 8);
   story.changes.clear();
@@ -162,12 +162,12 @@ TEST(ComponentModes, ALongEclipseEndsInABearingAndANewStart) {
   scene.sensor.hidden = false;
   story.run(scene, 4);
   EXPECT_EQ(story.last().bearing_reason, 0);
-  EXPECT_EQ(story.last().start_way, static_cast<std::uint8_t>(StartWay::kUplink)) << "the last track's";
+  EXPECT_EQ(story.last().start_way, static_cast<std::uint8_t>(InitialPoseSource::kUplink)) << "the last track's";
   const TimeUs now_us = scene.component->next_slot_us();
   Vec6 far = Vec6::Zero();
   far[5] = 14;
-  ASSERT_EQ(scene.component->offer_start(StartWay::kNavigation, offer_at(scene, now_us, far)), StartRefusal::kNotAtBearing);
-  ASSERT_EQ(scene.component->offer_start(StartWay::kNavigation, offer_at(scene, now_us)), StartRefusal::kNone);
+  ASSERT_EQ(scene.component->offer_start(InitialPoseSource::kNavigation, offer_at(scene, now_us, far)), StartRefusal::kNotAtBearing);
+  ASSERT_EQ(scene.component->offer_start(InitialPoseSource::kNavigation, offer_at(scene, now_us)), StartRefusal::kNone);
   story.run(scene, 5);
   EXPECT_EQ(story.last().mode, code(M::kTracking));
   EXPECT_EQ(story.last().refusal, static_cast<std::uint8_t>(StartRefusal::kNotAtBearing));
@@ -187,7 +187,7 @@ TEST(ComponentModes, CommandsThatCannotBeAreRefusedByTheirName) {
   EXPECT_EQ(scene.component->command_mode(M::kReacquiring), ModeRefusal::kNoPrediction);
   EXPECT_EQ(scene.component->command_mode(M::kStandby), ModeRefusal::kNone) << "it is there already";
   scene.run_frame();
-  ASSERT_EQ(scene.component->offer_start(StartWay::kUplink, offer_at(scene, 0)), StartRefusal::kNone);
+  ASSERT_EQ(scene.component->offer_start(InitialPoseSource::kUplink, offer_at(scene, 0)), StartRefusal::kNone);
   scene.run_frame();
   EXPECT_EQ(scene.component->command_mode(M::kReacquiring), ModeRefusal::kNotFromHere) << "starting";
   Story story;
@@ -200,7 +200,7 @@ TEST(ComponentModes, AnyModeCanBeCommanded) {
   VERIFIES("LASSO-MOD-136~3 LASSO-MOD-137~1 LASSO-MOD-173~1");
   ComponentScene scene(story_parameters());
   scene.begin();
-  ASSERT_EQ(scene.component->offer_start(StartWay::kUplink, offer_at(scene, 0)), StartRefusal::kNone);
+  ASSERT_EQ(scene.component->offer_start(InitialPoseSource::kUplink, offer_at(scene, 0)), StartRefusal::kNone);
   Story story;
   story.run(scene, 8);
   ASSERT_EQ(scene.component->command_mode(M::kReacquiring), ModeRefusal::kNone);
@@ -230,7 +230,7 @@ TEST(ComponentModes, AHeldModeStaysUntilItIsReleased) {
   scene.component->hold_mode(true);
   Story story;
   story.run(scene, 4);
-  ASSERT_EQ(scene.component->offer_start(StartWay::kNavigation, offer_at(scene, 0)), StartRefusal::kNone);
+  ASSERT_EQ(scene.component->offer_start(InitialPoseSource::kNavigation, offer_at(scene, 0)), StartRefusal::kNone);
   story.run(scene, 4);
   EXPECT_EQ(story.last().mode, code(M::kBearing));
   EXPECT_EQ(story.last().held, 1);
@@ -252,14 +252,14 @@ TEST(ComponentModes, WrongOffersAreRefusedCountedAndTold) {
   VERIFIES("LASSO-MOD-134~2 LASSO-MOD-008~1");
   ComponentScene scene(story_parameters());
   const StartOffer good = rough_offer(story_parameters(), test::default_scene().at_zero, {}, 0);
-  EXPECT_EQ(scene.component->offer_start(StartWay::kUplink, good), StartRefusal::kNotBegun);
+  EXPECT_EQ(scene.component->offer_start(InitialPoseSource::kUplink, good), StartRefusal::kNotBegun);
   scene.begin();
-  EXPECT_EQ(scene.component->offer_start(StartWay::kNone, good), StartRefusal::kNoSuchWay);
-  EXPECT_EQ(scene.component->offer_start(static_cast<StartWay>(kStartWays), good), StartRefusal::kNoSuchWay);
-  EXPECT_EQ(scene.component->offer_start(StartWay::kSearch, good), StartRefusal::kNoSuchWay) << "nobody offers it";
+  EXPECT_EQ(scene.component->offer_start(InitialPoseSource::kNone, good), StartRefusal::kNoSuchSource);
+  EXPECT_EQ(scene.component->offer_start(static_cast<InitialPoseSource>(kInitialPoseSources), good), StartRefusal::kNoSuchSource);
+  EXPECT_EQ(scene.component->offer_start(InitialPoseSource::kSearch, good), StartRefusal::kNoSuchSource) << "nobody offers it";
   StartOffer bad = good;
   bad.t_us = 1;  // the next boundary is at 0
-  EXPECT_EQ(scene.component->offer_start(StartWay::kHandover, bad), StartRefusal::kFromFuture);
+  EXPECT_EQ(scene.component->offer_start(InitialPoseSource::kHandover, bad), StartRefusal::kFromFuture);
   EXPECT_EQ(scene.component->start_tracking(good.T_sensor_target, good.rates, 1), Status::kBadValue);
   bad = good;
   bad.T_sensor_target.p.x() = std::nan("");
@@ -269,7 +269,7 @@ TEST(ComponentModes, WrongOffersAreRefusedCountedAndTold) {
   story.run(scene, 4);
   EXPECT_EQ(story.last().mode, code(M::kBearing)) << "no offer was kept";
   EXPECT_EQ(story.last().refused_starts, 3u);
-  EXPECT_EQ(story.last().refused_way, static_cast<std::uint8_t>(StartWay::kUplink));
+  EXPECT_EQ(story.last().refused_way, static_cast<std::uint8_t>(InitialPoseSource::kUplink));
   EXPECT_EQ(story.last().refusal, static_cast<std::uint8_t>(StartRefusal::kNotFinite));
 }
 
@@ -279,15 +279,15 @@ TEST(ComponentModes, WhatHasGrownOldIsRefusedWhenItsTurnComes) {
   p.start_age_max_s = 1;
   ComponentScene scene(p);
   scene.begin();
-  ASSERT_EQ(scene.component->offer_start(StartWay::kNavigation, offer_at(scene, 0)), StartRefusal::kNone);
+  ASSERT_EQ(scene.component->offer_start(InitialPoseSource::kNavigation, offer_at(scene, 0)), StartRefusal::kNone);
   Story story;
   story.run(scene, 7);
-  ASSERT_EQ(scene.component->offer_start(StartWay::kApriori, offer_at(scene, 7 * 200000)), StartRefusal::kNone);
+  ASSERT_EQ(scene.component->offer_start(InitialPoseSource::kApriori, offer_at(scene, 7 * 200000)), StartRefusal::kNone);
   ASSERT_EQ(scene.component->command_mode(M::kBearing), ModeRefusal::kNone);
   story.run(scene, 5);
   EXPECT_EQ(story.last().mode, code(M::kTracking)) << "by the next way in the same frame";
-  EXPECT_EQ(story.last().start_way, static_cast<std::uint8_t>(StartWay::kApriori));
-  EXPECT_EQ(story.last().refused_way, static_cast<std::uint8_t>(StartWay::kNavigation));
+  EXPECT_EQ(story.last().start_way, static_cast<std::uint8_t>(InitialPoseSource::kApriori));
+  EXPECT_EQ(story.last().refused_way, static_cast<std::uint8_t>(InitialPoseSource::kNavigation));
   EXPECT_EQ(story.last().refusal, static_cast<std::uint8_t>(StartRefusal::kTooOld));
 }
 
@@ -304,15 +304,15 @@ TEST(ComponentModes, AMissionsOwnStartIsRefusedByItsReasonAndTheNextWayIsTried) 
   for (const auto& [p, refusal] : cases) {
     ComponentScene scene(p);
     scene.begin();
-    ASSERT_EQ(scene.component->offer_start(StartWay::kNavigation, offer_at(scene, 0)), StartRefusal::kNone);
+    ASSERT_EQ(scene.component->offer_start(InitialPoseSource::kNavigation, offer_at(scene, 0)), StartRefusal::kNone);
     Story story;
     story.run(scene, 6);
     story.expect(
         {{M::kStandby, E::kSeek, M::kBearing}, {M::kBearing, E::kStart, M::kStarting}, {M::kStarting, E::kPoseValid, M::kTracking}});
     EXPECT_EQ(story.last().mode, code(M::kTracking));
-    EXPECT_EQ(story.last().start_way, static_cast<std::uint8_t>(StartWay::kNavigation));
+    EXPECT_EQ(story.last().start_way, static_cast<std::uint8_t>(InitialPoseSource::kNavigation));
     EXPECT_EQ(story.last().refused_starts, 1u);
-    EXPECT_EQ(story.last().refused_way, static_cast<std::uint8_t>(StartWay::kApriori));
+    EXPECT_EQ(story.last().refused_way, static_cast<std::uint8_t>(InitialPoseSource::kApriori));
     EXPECT_EQ(story.last().refusal, static_cast<std::uint8_t>(refusal));
   }
 }
@@ -322,12 +322,12 @@ TEST(ComponentModes, ACommandTakesThePlaceOfTheOneBefore) {
   VERIFIES("LASSO-MOD-131~1");
   ComponentScene scene(story_parameters());
   scene.begin();
-  ASSERT_EQ(scene.component->offer_start(StartWay::kHandover, offer_at(scene, 0)), StartRefusal::kNone);
-  ASSERT_EQ(scene.component->offer_start(StartWay::kUplink, offer_at(scene, 0, wrong())), StartRefusal::kNone);
-  ASSERT_EQ(scene.component->offer_start(StartWay::kUplink, offer_at(scene, 0)), StartRefusal::kNone);
+  ASSERT_EQ(scene.component->offer_start(InitialPoseSource::kHandover, offer_at(scene, 0)), StartRefusal::kNone);
+  ASSERT_EQ(scene.component->offer_start(InitialPoseSource::kUplink, offer_at(scene, 0, wrong())), StartRefusal::kNone);
+  ASSERT_EQ(scene.component->offer_start(InitialPoseSource::kUplink, offer_at(scene, 0)), StartRefusal::kNone);
   Story story;
   story.run(scene, 4);
-  EXPECT_EQ(story.last().start_way, static_cast<std::uint8_t>(StartWay::kUplink));
+  EXPECT_EQ(story.last().start_way, static_cast<std::uint8_t>(InitialPoseSource::kUplink));
   EXPECT_EQ(story.last().mode, code(M::kTracking));
   ASSERT_EQ(scene.component->command_mode(M::kBearing), ModeRefusal::kNone);
   story.run(scene, 4);
@@ -344,9 +344,9 @@ TEST(ComponentModes, NoChangeOfTheModeGoesUntold) {
     const TimeUs now_us = scene.component->next_slot_us();
     if (i % 2 == 0) {  // to bearing, and from there to a start in the same frame
       ASSERT_EQ(scene.component->command_mode(M::kBearing), ModeRefusal::kNone);
-      ASSERT_EQ(scene.component->offer_start(StartWay::kNavigation, offer_at(scene, now_us)), StartRefusal::kNone);
+      ASSERT_EQ(scene.component->offer_start(InitialPoseSource::kNavigation, offer_at(scene, now_us)), StartRefusal::kNone);
     } else {
-      ASSERT_EQ(scene.component->offer_start(StartWay::kUplink, offer_at(scene, now_us)), StartRefusal::kNone);
+      ASSERT_EQ(scene.component->offer_start(InitialPoseSource::kUplink, offer_at(scene, now_us)), StartRefusal::kNone);
     }
     story.run(scene, 1);
   }

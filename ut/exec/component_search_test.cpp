@@ -18,7 +18,7 @@ MissionParameters search_parameters() {
   MissionParameters p = test::box_parameters(test::uneven_scene());
   p.initial_present = 0;
   p.recover = 1;
-  p.start_fifth = static_cast<double>(StartWay::kSearch);
+  p.start_fifth = static_cast<double>(InitialPoseSource::kSearch);
   p.points = 400;
   p.search_slice = 700000;
   return p;
@@ -36,7 +36,7 @@ TEST(ComponentSearch, TheTargetIsFoundWithoutAnyPriorAndTracked) {
                 {M::kSearching, E::kPoseValid, M::kStarting},
                 {M::kStarting, E::kPoseValid, M::kTracking}});
   EXPECT_EQ(story.last().mode, code(M::kTracking));
-  EXPECT_EQ(story.last().start_way, static_cast<std::uint8_t>(StartWay::kSearch));
+  EXPECT_EQ(story.last().start_way, static_cast<std::uint8_t>(InitialPoseSource::kSearch));
   EXPECT_LT(scene.error(story.last()).norm(), 1e-2);
   for (const PoseTelemetry& t : story.reports) EXPECT_TRUE(t.valid == 0 || scene.error(t).norm() < 1e-2);
 }
@@ -72,7 +72,7 @@ TEST(ComponentSearch, AWrongHandOverGivesPlaceToTheSearch) {
   wrong.p.y() += 0.6;
   StartOffer offer = rough_offer(p, wrong, truth.rates, 0);
   offer.covariance = 1e-4 * Mat6::Identity();
-  ASSERT_EQ(scene.component->offer_start(StartWay::kHandover, offer), StartRefusal::kNone);
+  ASSERT_EQ(scene.component->offer_start(InitialPoseSource::kHandover, offer), StartRefusal::kNone);
   Story story;
   story.run(scene, 22);
   story.expect({{M::kStandby, E::kStart, M::kStarting},
@@ -95,7 +95,7 @@ TEST(ComponentSearch, AStartThatASearchOfItsScanContradictsIsNeverTracked) {
   scene.begin();
   Pose wrong = test::uneven_scene().at_zero;
   wrong.q = wrong.q * exp_so3(Vec3(kPi, 0, 0));
-  ASSERT_EQ(scene.component->offer_start(StartWay::kHandover, rough_offer(p, wrong, {}, 0)), StartRefusal::kNone);
+  ASSERT_EQ(scene.component->offer_start(InitialPoseSource::kHandover, rough_offer(p, wrong, {}, 0)), StartRefusal::kNone);
   Story story;
   story.run(scene, 28);
   story.expect({{M::kStandby, E::kStart, M::kStarting},
@@ -103,7 +103,7 @@ TEST(ComponentSearch, AStartThatASearchOfItsScanContradictsIsNeverTracked) {
                 {M::kBearing, E::kSearch, M::kSearching},
                 {M::kSearching, E::kPoseValid, M::kStarting},
                 {M::kStarting, E::kPoseValid, M::kTracking}});
-  EXPECT_EQ(story.last().refused_way, static_cast<std::uint8_t>(StartWay::kHandover));
+  EXPECT_EQ(story.last().refused_way, static_cast<std::uint8_t>(InitialPoseSource::kHandover));
   EXPECT_EQ(story.last().refusal, static_cast<std::uint8_t>(StartRefusal::kContradicted));
   EXPECT_EQ(story.last().refused_starts, 1u);
   for (const PoseTelemetry& t : story.reports) EXPECT_TRUE(t.valid == 0 || scene.error(t).norm() < 5e-2);
@@ -116,7 +116,8 @@ TEST(ComponentSearch, ARightStartIsToldAsUncheckedAndThenTracked) {
   p.search_slice = 200000;
   ComponentScene scene(p, test::uneven_scene());
   scene.begin();
-  ASSERT_EQ(scene.component->offer_start(StartWay::kHandover, rough_offer(p, test::uneven_scene().at_zero, {}, 0)), StartRefusal::kNone);
+  ASSERT_EQ(scene.component->offer_start(InitialPoseSource::kHandover, rough_offer(p, test::uneven_scene().at_zero, {}, 0)),
+            StartRefusal::kNone);
   Story story;
   story.run(scene, 40);
   story.expect({{M::kStandby, E::kStart, M::kStarting}, {M::kStarting, E::kPoseValid, M::kTracking}});
@@ -134,12 +135,13 @@ TEST(ComponentSearch, AStartThatIsRefusedInLostGivesPlaceToTheSearch) {
     p.recover = 0;
     p.coast_frames = 0;
     p.start_age_max_s = 1;
-    if (!ordered) p.start_fifth = static_cast<double>(StartWay::kNone);
+    if (!ordered) p.start_fifth = static_cast<double>(InitialPoseSource::kNone);
     ComponentScene scene(p, test::uneven_scene());
     scene.begin();
     const test::BoxScene truth = test::uneven_scene();
     ASSERT_EQ(scene.component->start_tracking(truth.at_zero, truth.rates, 0), Status::kOk);
-    ASSERT_EQ(scene.component->offer_start(StartWay::kNavigation, rough_offer(p, truth.at_zero, truth.rates, 0)), StartRefusal::kNone);
+    ASSERT_EQ(scene.component->offer_start(InitialPoseSource::kNavigation, rough_offer(p, truth.at_zero, truth.rates, 0)),
+              StartRefusal::kNone);
     Story story;
     story.run(scene, 8);
     story.changes.clear();
@@ -148,7 +150,7 @@ TEST(ComponentSearch, AStartThatIsRefusedInLostGivesPlaceToTheSearch) {
     std::vector<ModeChange> expected{{M::kTracking, E::kExhausted, M::kLost}};
     if (ordered) expected.push_back({M::kLost, E::kSeek, M::kBearing});
     story.expect(expected);
-    EXPECT_EQ(story.last().refused_way, static_cast<std::uint8_t>(StartWay::kNavigation));
+    EXPECT_EQ(story.last().refused_way, static_cast<std::uint8_t>(InitialPoseSource::kNavigation));
     EXPECT_EQ(story.last().refusal, static_cast<std::uint8_t>(StartRefusal::kTooOld));
   }
 }
@@ -247,7 +249,7 @@ TEST(ComponentSearch, APoseThatWasFoundTooLateIsRefusedByItsName) {
   story.run(scene, 12);
   EXPECT_EQ(story.last().mode, code(M::kSearching));
   EXPECT_GE(story.last().refused_starts, 1u);
-  EXPECT_EQ(story.last().refused_way, static_cast<std::uint8_t>(StartWay::kSearch));
+  EXPECT_EQ(story.last().refused_way, static_cast<std::uint8_t>(InitialPoseSource::kSearch));
   EXPECT_EQ(story.last().refusal, static_cast<std::uint8_t>(StartRefusal::kTooOld));
 }
 

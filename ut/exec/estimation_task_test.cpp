@@ -14,7 +14,7 @@ class EstimationTaskTest : public ::testing::Test {
     image_ = test::make_box_image(test::box_parameters(scene_), scene_.box);
     ASSERT_EQ(load_image(Bytes(image_.data(), image_.size), mission_).status, Status::kOk);
     const StartOffer offer = rough_offer(mission_.parameters, scene_.at_zero, scene_.rates, 0);
-    ASSERT_EQ(start_track(mission_, StartWay::kUplink, offer, 0, job_.before), StartRefusal::kNone);
+    ASSERT_EQ(start_track(mission_, InitialPoseSource::kUplink, offer, 0, job_.before), StartRefusal::kNone);
     job_.scan_id = 7;
     job_.t_nominal_us = 90000;
     job_.mission = &mission_;

@@ -219,7 +219,7 @@ TEST(Lasso, DoesNothingBeforeItsTime) {
   EXPECT_FALSE(step(component, 1000));
   EXPECT_EQ(stop_tracking(component), Status::kOk);
   EXPECT_EQ(start_tracking(component, Pose{Quat(2, 0, 0, 0), Vec3::Zero()}, Twist{}, 0), Status::kBadValue);
-  EXPECT_EQ(offer_start(component, StartWay::kNone, StartOffer{}), StartRefusal::kNoSuchWay);
+  EXPECT_EQ(offer_start(component, InitialPoseSource::kNone, StartOffer{}), StartRefusal::kNoSuchSource);
   EXPECT_EQ(command_mode(component, TrackingMode::kCoasting), ModeRefusal::kNotByCommand);
   EXPECT_EQ(command_mode(component, TrackingMode::kBearing), ModeRefusal::kNone);
   hold_mode(component, true);

@@ -154,8 +154,8 @@ TEST(Report, CarriesTheParts) {
   VERIFIES("LASSO-MOD-162~1");
   TrackStep step = numbered_step();
   step.parts.scanned = 3;
-  step.parts.odd = 5;
-  step.parts.odd_sigmas = 7.5;
+  step.parts.inconsistent = 5;
+  step.parts.inconsistency_sigmas = 7.5;
   step.after.parts.of[1].rests_until = 2;  // the scan is number 1
   step.after.parts.of[4].rests_until = 3;
   step.after.parts.of[5].rests_until = 1;
@@ -172,7 +172,7 @@ TEST(Report, CarriesTheBearingAndTheTracksStart) {
   VERIFIES("LASSO-EXE-006~1 LASSO-MOD-101~1");
   TrackStep step = numbered_step();
   step.after.held = true;
-  step.after.way = StartWay::kNavigation;
+  step.after.way = InitialPoseSource::kNavigation;
   Bearing& b = step.bearing;
   b.reason = BearingReason::kValid;
   b.t_us = 1900000;
@@ -271,7 +271,7 @@ TEST(Report, DictionaryNamesTheEnumerationsAsTheCodeDoes) {
   expect_names(kFaultReaction, FaultReaction::kMakeSafe);
   expect_names(kTrackingMode, TrackingMode::kSafe);
   expect_names(kModeEvent, ModeEvent::kFallBack);
-  expect_names(kStartWay, StartWay::kSearch);
+  expect_names(kStartWay, InitialPoseSource::kSearch);
   expect_names(kStartRefusal, StartRefusal::kContradicted);
   expect_names(kModeRefusal, ModeRefusal::kNoPrediction);
   expect_names(kBearingReason, BearingReason::kJump);

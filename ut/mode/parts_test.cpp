@@ -141,7 +141,7 @@ TEST_F(ComparePartsTest, PartsThatAgreeJoin) {
   EXPECT_EQ(see(10, 1, 0), PoseReason::kValid);
   EXPECT_EQ(see(11, 2, 5.9e-3), PoseReason::kValid);
   EXPECT_EQ(see(12, 3, 3e-3), PoseReason::kValid);
-  EXPECT_EQ(report_.odd, kWhole);
+  EXPECT_EQ(report_.inconsistent, kWhole);
   for (std::size_t part = 1; part <= 3; ++part) EXPECT_FALSE(rests_now(part, 13));
 }
 
@@ -150,8 +150,8 @@ TEST_F(ComparePartsTest, TheScannedPartThatDisagreesIsDroppedForTheRest) {
   see(10, 1, 0);
   see(11, 2, 0);
   EXPECT_EQ(see(12, 3, 6.1e-3), PoseReason::kPartDisagrees);
-  EXPECT_EQ(report_.odd, 3);
-  EXPECT_NEAR(report_.odd_sigmas, 6.1, 1e-4);
+  EXPECT_EQ(report_.inconsistent, 3);
+  EXPECT_NEAR(report_.inconsistency_sigmas, 6.1, 1e-4);
   EXPECT_TRUE(rests_now(3, 13));
   EXPECT_TRUE(rests_now(3, 37));
   EXPECT_FALSE(rests_now(3, 38)) << "short_range.rest_frames";
@@ -165,12 +165,12 @@ TEST_F(ComparePartsTest, TheMajorityIsRightWhoeverCameFirst) {
   EXPECT_EQ(see(11, 2, 0), PoseReason::kPartDisagrees);
   EXPECT_TRUE(rests_now(2, 12));
   EXPECT_EQ(see(12, 3, 1e-3), PoseReason::kValid);
-  EXPECT_EQ(report_.odd, 1);
-  EXPECT_NEAR(report_.odd_sigmas, 20, 1e-4);
+  EXPECT_EQ(report_.inconsistent, 1);
+  EXPECT_NEAR(report_.inconsistency_sigmas, 20, 1e-4);
   EXPECT_TRUE(rests_now(1, 13));
   EXPECT_FALSE(rests_now(2, 13)) << "pardoned";
   EXPECT_EQ(see(13, 2, 0), PoseReason::kValid);
-  EXPECT_EQ(report_.odd, kWhole) << "the odd one rests already: no news";
+  EXPECT_EQ(report_.inconsistent, kWhole) << "the odd one rests already: no news";
 }
 
 TEST_F(ComparePartsTest, WhatWasToldOnceIsNoNews) {
@@ -181,10 +181,10 @@ TEST_F(ComparePartsTest, WhatWasToldOnceIsNoNews) {
   EXPECT_EQ(see(12, 3, 20e-3), PoseReason::kPartDisagrees);
   EXPECT_TRUE(rests_now(3, 14));
   EXPECT_EQ(see(16, 1, 0), PoseReason::kValid);
-  EXPECT_EQ(report_.odd, kWhole) << "of part 3 nothing new was seen";
+  EXPECT_EQ(report_.inconsistent, kWhole) << "of part 3 nothing new was seen";
   EXPECT_FALSE(rests_now(3, 17));
   EXPECT_EQ(see(17, 3, 20e-3), PoseReason::kPartDisagrees);
-  EXPECT_EQ(report_.odd, 3);
+  EXPECT_EQ(report_.inconsistent, 3);
 }
 
 TEST_F(ComparePartsTest, APartThatRestsForItsOwnSakeIsNotPardoned) {
@@ -201,7 +201,7 @@ TEST_F(ComparePartsTest, ARefusedPoseSpeaksOfNoOtherPart) {
   refuse_part(mission_.parameters, 10, state_.of[0]);
   EXPECT_TRUE(rests_now(1, 11));
   EXPECT_EQ(see(11, 2, 0), PoseReason::kValid);
-  EXPECT_EQ(report_.odd, kWhole);
+  EXPECT_EQ(report_.inconsistent, kWhole);
 }
 
 TEST_F(ComparePartsTest, OneThatDisagreesWithOthersTooIsNotPardoned) {
@@ -210,7 +210,7 @@ TEST_F(ComparePartsTest, OneThatDisagreesWithOthersTooIsNotPardoned) {
   see(11, 2, -20e-3);
   EXPECT_TRUE(rests_now(2, 12));
   EXPECT_EQ(see(12, 3, 0), PoseReason::kPartDisagrees);
-  EXPECT_EQ(report_.odd, 3) << "all disagree: the scanned one goes";
+  EXPECT_EQ(report_.inconsistent, 3) << "all disagree: the scanned one goes";
   EXPECT_TRUE(rests_now(2, 12));
 }
 
@@ -219,10 +219,10 @@ TEST_F(ComparePartsTest, AmongTwoTheOneOfLowerPriorityGoes) {
   parts_[0].priority = 0.5;
   see(10, 1, 10e-3);
   EXPECT_EQ(see(11, 2, 0), PoseReason::kValid);
-  EXPECT_EQ(report_.odd, 1);
+  EXPECT_EQ(report_.inconsistent, 1);
   EXPECT_TRUE(rests_now(1, 12));
   EXPECT_EQ(see(12, 1, 10e-3), PoseReason::kPartDisagrees) << "a scan that was in flight";
-  EXPECT_EQ(report_.odd, 1);
+  EXPECT_EQ(report_.inconsistent, 1);
 }
 
 TEST_F(ComparePartsTest, OldPosesDoNotCount) {
@@ -239,7 +239,7 @@ TEST_F(ComparePartsTest, APartWithoutAPoseRestsAndIsNotCompared) {
   VERIFIES("LASSO-MOD-162~1");
   see(10, 1, 0);
   EXPECT_EQ(see(11, 2, 1, PoseReason::kTooFewInliers), PoseReason::kTooFewInliers);
-  EXPECT_EQ(report_.odd, kWhole);
+  EXPECT_EQ(report_.inconsistent, kWhole);
   EXPECT_TRUE(rests_now(2, 12));
   EXPECT_FALSE(rests_now(1, 12));
 }

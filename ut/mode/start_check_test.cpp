@@ -94,12 +94,12 @@ TEST_F(StartCheckTest, AStartWhoseAttitudeIsKnownIsBelievedAtOnce) {
   VERIFIES("LASSO-MOD-184~4");
   StartOffer offer = rough_offer(mission_.parameters, scene_.at_zero, {}, 0);
   offer.covariance.diagonal().head<3>() = kKnownAttitude_rad * kKnownAttitude_rad * Vec3(0.1, 0.2, 0.99);
-  ASSERT_EQ(start_track(mission_, StartWay::kHandover, offer, 0, state_), StartRefusal::kNone);
+  ASSERT_EQ(start_track(mission_, InitialPoseSource::kHandover, offer, 0, state_), StartRefusal::kNone);
   EXPECT_TRUE(frame(0).registration.valid());
   EXPECT_EQ(state_.mode, TrackingMode::kTracking);
   offer.covariance(2, 2) = 1.01 * kKnownAttitude_rad * kKnownAttitude_rad;
   state_ = TrackState();
-  ASSERT_EQ(start_track(mission_, StartWay::kHandover, offer, 0, state_), StartRefusal::kNone);
+  ASSERT_EQ(start_track(mission_, InitialPoseSource::kHandover, offer, 0, state_), StartRefusal::kNone);
   mission_.parameters.search_slice = 1000;
   EXPECT_EQ(frame(0).registration.reason, PoseReason::kUnchecked);
 }
@@ -170,18 +170,18 @@ TEST_F(StartCheckTest, TheSecondSearchHasTheLastWordWhereTheFirstIsUndecided) {
   start(small_error());
   const TrackStep searching = frame(0);
   ASSERT_EQ(searching.registration.reason, PoseReason::kUnchecked);
-  const auto second_word = [&](CheckVerdict verdict) {
+  const auto second_word = [&](CheckOutcome verdict) {
     TrackStep step = searching;
-    end_check(mission_.parameters, CheckVerdict::kUndecided, step);
+    end_check(mission_.parameters, CheckOutcome::kUndecided, step);
     EXPECT_EQ(step.after.check.stage, Stage::kAgain);
     EXPECT_EQ(step.registration.reason, PoseReason::kUnchecked);
     step.after.check.stage = Stage::kSearching;
     end_check(mission_.parameters, verdict, step);
     return step;
   };
-  EXPECT_EQ(second_word(CheckVerdict::kSure).after.mode, TrackingMode::kTracking);
-  EXPECT_EQ(second_word(CheckVerdict::kUndecided).after.mode, TrackingMode::kTracking);
-  const TrackStep refused = second_word(CheckVerdict::kContradicted);
+  EXPECT_EQ(second_word(CheckOutcome::kSure).after.mode, TrackingMode::kTracking);
+  EXPECT_EQ(second_word(CheckOutcome::kUndecided).after.mode, TrackingMode::kTracking);
+  const TrackStep refused = second_word(CheckOutcome::kContradicted);
   EXPECT_EQ(refused.refusal, StartRefusal::kContradicted);
   EXPECT_NE(refused.after.mode, TrackingMode::kTracking);
 }
@@ -201,9 +201,9 @@ TEST_F(StartCheckTest, AnImplausibleScanEndsACheckThatWaitsForItsSecondSearch) {
 TEST_F(StartCheckTest, WhatWasSearchedOrIsFoundNearItsPredictionIsNotChecked) {
   VERIFIES("LASSO-MOD-184~4");
   start(small_error());
-  state_.way = StartWay::kSearch;
+  state_.way = InitialPoseSource::kSearch;
   EXPECT_EQ(try_frame(0).after.mode, TrackingMode::kTracking);
-  state_.way = StartWay::kUplink;
+  state_.way = InitialPoseSource::kUplink;
   EXPECT_EQ(try_frame(0).after.searches, 1u);
   change_mode(ModeEvent::kPoseValid, state_);
   change_mode(ModeEvent::kReacquire, state_);
@@ -322,7 +322,7 @@ class InterruptedTest : public StartCheckTest {
     Pose wrong = scene_.at_zero;
     wrong.q = normalized(exp_so3(Vec3(0, 0, kPi)) * wrong.q);
     StartOffer offer = rough_offer(mission_.parameters, wrong, Twist{}, 0);
-    ASSERT_EQ(start_track(mission_, StartWay::kHandover, offer, 1400000, state_), StartRefusal::kNone);
+    ASSERT_EQ(start_track(mission_, InitialPoseSource::kHandover, offer, 1400000, state_), StartRefusal::kNone);
   }
 
   FilterState tracked_;

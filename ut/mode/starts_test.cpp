@@ -155,57 +155,57 @@ TEST_F(StartsTest, WhatIsNotAtTheBearingIsRefused) {
 
 TEST_F(StartsTest, TheDeskFollowsTheMissionsOrder) {
   VERIFIES("LASSO-MOD-131~1 LASSO-MOD-133~3");
-  StartDesk desk;
+  InitialPoseSources desk;
   MissionParameters& p = mission_.parameters;
-  EXPECT_EQ(desk.next(p, false), StartWay::kNone);
-  desk.put(StartWay::kApriori, offer_);
-  desk.put(StartWay::kNavigation, offer_);
+  EXPECT_EQ(desk.next(p, false), InitialPoseSource::kNone);
+  desk.put(InitialPoseSource::kApriori, offer_);
+  desk.put(InitialPoseSource::kNavigation, offer_);
   offer_.t_us = 77;
-  desk.put(StartWay::kNavigation, offer_);  // the last one counts
-  EXPECT_EQ(desk.next(p, false), StartWay::kNavigation);
-  EXPECT_EQ(desk.take(StartWay::kNavigation).t_us, 77);
-  EXPECT_EQ(desk.next(p, false), StartWay::kApriori);
-  desk.put(StartWay::kHandover, offer_);
-  EXPECT_EQ(desk.next(p, false), StartWay::kHandover);
-  p.start_first = static_cast<double>(StartWay::kApriori);
-  EXPECT_EQ(desk.next(p, false), StartWay::kApriori);
-  p.start_first = p.start_second = p.start_third = p.start_fourth = static_cast<double>(StartWay::kNone);
-  EXPECT_EQ(desk.next(p, true), StartWay::kNone);
-  EXPECT_DEATH(desk.put(static_cast<StartWay>(kStartWays), offer_), "no such way");
+  desk.put(InitialPoseSource::kNavigation, offer_);  // the last one counts
+  EXPECT_EQ(desk.next(p, false), InitialPoseSource::kNavigation);
+  EXPECT_EQ(desk.take(InitialPoseSource::kNavigation).t_us, 77);
+  EXPECT_EQ(desk.next(p, false), InitialPoseSource::kApriori);
+  desk.put(InitialPoseSource::kHandover, offer_);
+  EXPECT_EQ(desk.next(p, false), InitialPoseSource::kHandover);
+  p.start_first = static_cast<double>(InitialPoseSource::kApriori);
+  EXPECT_EQ(desk.next(p, false), InitialPoseSource::kApriori);
+  p.start_first = p.start_second = p.start_third = p.start_fourth = static_cast<double>(InitialPoseSource::kNone);
+  EXPECT_EQ(desk.next(p, true), InitialPoseSource::kNone);
+  EXPECT_DEATH(desk.put(static_cast<InitialPoseSource>(kInitialPoseSources), offer_), "no such way");
 }
 
 TEST_F(StartsTest, SearchHasItsTurnWhereItIsPossibleAndAgainWhenAllElseIsTried) {
   VERIFIES("LASSO-MOD-131~1 LASSO-MOD-133~3");
-  StartDesk desk;
+  InitialPoseSources desk;
   MissionParameters& p = mission_.parameters;
-  p.start_first = static_cast<double>(StartWay::kSearch);
-  p.start_second = static_cast<double>(StartWay::kApriori);
-  desk.put(StartWay::kApriori, offer_);
-  EXPECT_EQ(desk.next(p, false), StartWay::kApriori);
-  EXPECT_EQ(desk.next(p, true), StartWay::kSearch);
-  (void)desk.take(StartWay::kSearch);
-  EXPECT_EQ(desk.next(p, true), StartWay::kApriori) << "the others first";
-  (void)desk.take(StartWay::kApriori);
-  EXPECT_EQ(desk.next(p, true), StartWay::kSearch) << "again";
-  EXPECT_EQ(desk.next(p, false), StartWay::kNone);
+  p.start_first = static_cast<double>(InitialPoseSource::kSearch);
+  p.start_second = static_cast<double>(InitialPoseSource::kApriori);
+  desk.put(InitialPoseSource::kApriori, offer_);
+  EXPECT_EQ(desk.next(p, false), InitialPoseSource::kApriori);
+  EXPECT_EQ(desk.next(p, true), InitialPoseSource::kSearch);
+  (void)desk.take(InitialPoseSource::kSearch);
+  EXPECT_EQ(desk.next(p, true), InitialPoseSource::kApriori) << "the others first";
+  (void)desk.take(InitialPoseSource::kApriori);
+  EXPECT_EQ(desk.next(p, true), InitialPoseSource::kSearch) << "again";
+  EXPECT_EQ(desk.next(p, false), InitialPoseSource::kNone);
 }
 
 TEST_F(StartsTest, TheOrderNamesItsWays) {
   VERIFIES("LASSO-MOD-133~3");
   MissionParameters& p = mission_.parameters;
-  p.start_first = static_cast<double>(StartWay::kSearch);
-  p.start_fifth = static_cast<double>(StartWay::kUplink);
-  EXPECT_TRUE(is_in_order(p, StartWay::kSearch));
-  EXPECT_TRUE(is_in_order(p, StartWay::kUplink));
-  p.start_first = static_cast<double>(StartWay::kNone);
-  EXPECT_FALSE(is_in_order(p, StartWay::kSearch));
+  p.start_first = static_cast<double>(InitialPoseSource::kSearch);
+  p.start_fifth = static_cast<double>(InitialPoseSource::kUplink);
+  EXPECT_TRUE(is_in_order(p, InitialPoseSource::kSearch));
+  EXPECT_TRUE(is_in_order(p, InitialPoseSource::kUplink));
+  p.start_first = static_cast<double>(InitialPoseSource::kNone);
+  EXPECT_FALSE(is_in_order(p, InitialPoseSource::kSearch));
 }
 
 TEST(StartNames, AreThoseOfTheCode) {
   VERIFIES("LASSO-MOD-134~2");
-  EXPECT_EQ(std::string(to_string(StartWay::kUplink)), "uplink");
-  EXPECT_EQ(std::string(to_string(StartWay::kSearch)), "search");
-  EXPECT_EQ(std::string(to_string(static_cast<StartWay>(6))), "unknown");
+  EXPECT_EQ(std::string(to_string(InitialPoseSource::kUplink)), "uplink");
+  EXPECT_EQ(std::string(to_string(InitialPoseSource::kSearch)), "search");
+  EXPECT_EQ(std::string(to_string(static_cast<InitialPoseSource>(6))), "unknown");
   EXPECT_EQ(std::string(to_string(StartRefusal::kNone)), "none");
   EXPECT_EQ(std::string(to_string(StartRefusal::kNotConfirmed)), "not_confirmed");
   EXPECT_EQ(std::string(to_string(StartRefusal::kContradicted)), "contradicted");

@@ -31,7 +31,7 @@ class TrackerTest : public ::testing::Test {
   }
 
   StartRefusal start_at(const Pose& pose, const Twist& rates, TimeUs stated_us, TimeUs t_us) {
-    return start_track(mission_, StartWay::kUplink, rough_offer(mission_.parameters, pose, rates, stated_us), t_us, state_);
+    return start_track(mission_, InitialPoseSource::kUplink, rough_offer(mission_.parameters, pose, rates, stated_us), t_us, state_);
   }
 
   RangeImage& scan(std::uint32_t scan_id) {

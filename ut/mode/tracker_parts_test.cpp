@@ -187,8 +187,8 @@ TEST_F(TrackerPartsTest, APartThatMovedAgainstTheTargetIsDropped) {
   EXPECT_TRUE(see(3, 1).registration.valid());
   const TrackStep step = see(4, 2);
   EXPECT_EQ(step.registration.reason, PoseReason::kPartDisagrees);
-  EXPECT_EQ(step.parts.odd, 2);
-  EXPECT_GT(step.parts.odd_sigmas, 6);
+  EXPECT_EQ(step.parts.inconsistent, 2);
+  EXPECT_GT(step.parts.inconsistency_sigmas, 6);
   EXPECT_EQ(state_.filter.accepted, 3U);
   EXPECT_LT(error(state_.filter.T_sensor_target, state_.filter.t_us).tail<3>().norm(), 2e-3);
 }

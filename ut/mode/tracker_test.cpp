@@ -197,16 +197,16 @@ TEST_F(TrackerTest, LooksNearThePredictionThenForTheBearing) {
 TEST_F(TrackerTest, AStartThatIsNotConfirmedLeavesASearchThatIsInTheOrder) {
   VERIFIES("LASSO-MOD-133~3");
   for (const bool ordered : {true, false}) {
-    for (const StartWay way : {StartWay::kUplink, StartWay::kSearch}) {
+    for (const InitialPoseSource way : {InitialPoseSource::kUplink, InitialPoseSource::kSearch}) {
       MissionParameters p = test::box_parameters(scene_);
       p.start_frames = 0;
       p.coast_frames = 0;
-      if (ordered) p.start_fifth = static_cast<double>(StartWay::kSearch);
+      if (ordered) p.start_fifth = static_cast<double>(InitialPoseSource::kSearch);
       load(p);
       state_ = TrackState();
       start(small_error());
       state_.way = way;
-      const bool searched = ordered && way != StartWay::kSearch;
+      const bool searched = ordered && way != InitialPoseSource::kSearch;
       EXPECT_EQ(miss(0).event, searched ? ModeEvent::kRecover : ModeEvent::kExhausted);
       EXPECT_EQ(state_.mode, searched ? TrackingMode::kBearing : TrackingMode::kLost);
       state_ = TrackState();
@@ -296,17 +296,17 @@ TEST_F(TrackerTest, RaysAreSpreadAsFarAsPredictionsHaveBeenOff) {
   start(small_error());
   TrackStep step;
   for (std::uint32_t k = 0; k < 6; ++k) step = track(k);
-  const auto spacing = [&](double surprise) {
+  const auto spacing = [&](double innovation_ratio) {
     AimedRays rays;
-    step.after.filter.surprise.setConstant(surprise);
+    step.after.filter.innovation_ratio.setConstant(innovation_ratio);
     aim_next(mission_, *estimator_, step, 13, step.registration.t_us + 2 * kPeriodUs, rays);
     EXPECT_GT(rays.size(), 200u);
     return mean_spacing(rays);
   };
   const double whole = spacing(1);
   EXPECT_NEAR(spacing(0.25) / whole, 0.5, 0.1);
-  EXPECT_NEAR(spacing(kLeastSurprise) / whole, 0.125, 0.04);
-  EXPECT_EQ(spacing(0), spacing(kLeastSurprise)) << "never less";
+  EXPECT_NEAR(spacing(kLeastInnovationRatio) / whole, 0.125, 0.04);
+  EXPECT_EQ(spacing(0), spacing(kLeastInnovationRatio)) << "never less";
   EXPECT_EQ(spacing(5), whole) << "never more";
 }
 

@@ -106,7 +106,7 @@ inline FilterState generic_state(Generator& random) {
 inline bool same(const FilterState& a, const FilterState& b) {
   return a.t_us == b.t_us && a.T_sensor_target.q.coeffs() == b.T_sensor_target.q.coeffs() && a.T_sensor_target.p == b.T_sensor_target.p &&
          a.rates.omega_radps == b.rates.omega_radps && a.rates.v_mps == b.rates.v_mps && a.covariance == b.covariance &&
-         a.surprise == b.surprise && a.initialised == b.initialised && a.accepted == b.accepted && a.rejected == b.rejected;
+         a.innovation_ratio == b.innovation_ratio && a.initialised == b.initialised && a.accepted == b.accepted && a.rejected == b.rejected;
 }
 
 inline void expect_symmetric_positive(const Mat12& P) {

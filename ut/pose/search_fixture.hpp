@@ -22,14 +22,14 @@ class SearchFixture : public PoseFixture {
   }
 
   // All of a scan's evidence.
-  std::unique_ptr<Evidence> make_evidence() {
-    auto maker = std::make_unique<EvidenceMaker>();
-    auto evidence = std::make_unique<Evidence>();
+  std::unique_ptr<ScanSubset> make_evidence() {
+    auto maker = std::make_unique<ScanSubsetMaker>();
+    auto subset = std::make_unique<ScanSubset>();
     maker->begin(mission_, *workspace_);
     std::uint32_t work = 0;
-    while (maker->step(mission_, *evidence, work)) {
+    while (maker->step(mission_, *subset, work)) {
     }
-    return evidence;
+    return subset;
   }
 };
 

@@ -50,7 +50,7 @@ class WholeSearch : public SearchFixture {
   }
 
   SearchLimits limits_;
-  std::unique_ptr<Search> search_ = std::make_unique<Search>();
+  std::unique_ptr<PoseSearch> search_ = std::make_unique<PoseSearch>();
 };
 
 }  // namespace lasso::test

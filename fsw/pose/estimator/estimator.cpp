@@ -4,16 +4,16 @@
 #include "fsw/geometry/symmetric6.hpp"
 #include "fsw/pose/registration/agreement.hpp"
 #include "fsw/pose/registration/common_error.hpp"
-#include "fsw/pose/silhouette/label_update.hpp"
-#include "fsw/pose/silhouette/outline_fit.hpp"
-#include "fsw/pose/silhouette/information_forecast.hpp"
-#include "fsw/pose/scan/path_pose.hpp"
-#include "fsw/pose/scan/prepare.hpp"
 #include "fsw/pose/registration/integrity.hpp"
 #include "fsw/pose/registration/registration.hpp"
-#include "fsw/pose/silhouette/silhouette.hpp"
-#include "fsw/pose/silhouette/outline_constraint.hpp"
 #include "fsw/pose/registration/weak_axis.hpp"
+#include "fsw/pose/scan/path_pose.hpp"
+#include "fsw/pose/scan/prepare.hpp"
+#include "fsw/pose/silhouette/information_forecast.hpp"
+#include "fsw/pose/silhouette/label_update.hpp"
+#include "fsw/pose/silhouette/outline_constraint.hpp"
+#include "fsw/pose/silhouette/outline_fit.hpp"
+#include "fsw/pose/silhouette/silhouette.hpp"
 
 namespace lasso {
 namespace {
@@ -43,11 +43,11 @@ Mat6 to_sensor_axes(const Mat6& covariance, const Pose& T_target_sensor) {
 
 double range_sigma(const MissionParameters& p, double range_m, double scale) { return square_root(range_variance(p, range_m) * scale); }
 
-// Labels are linear within the band around the contour. Where the hits hold the pose more loosely than that, the contours nearest to the
+// Labels are linear within the band around the contour. Where the hits leave the pose more uncertain than that, the contours nearest to the
 // rays may be other ones than those that they passed, and labels would confirm a wrong pose.
-bool are_held(const Mission& mission, const LabelSearch& search, const Directions& unseen, FixedVector<Label, kMaxSites>& labels) {
+bool are_held(const Mission& mission, const LabelSearch& search, const Directions& unobservable, FixedVector<Label, kMaxSites>& labels) {
   for (Label& label : labels) {
-    if (!forget_unseen(mission.radius_m, unseen, label)) return false;
+    if (!remove_unobservable(mission.radius_m, unobservable, label)) return false;
     if (!(label.a.dot(search.covariance * label.a) < search.band_m * search.band_m)) return false;
   }
   return true;
@@ -60,24 +60,24 @@ struct HitKnowledge {
   double scale = 1;        // of the noise's variance over the assumed one
   double trust_scale = 1;  // the same as the covariance takes it (estimation.noise_estimated)
   Mat6 covariance = Mat6::Zero();
-  Directions unseen;
-  Directions slack;  // too loose for labels
-  Hold hold;         // by the outline, of the slack
+  Directions unobservable;
+  Directions weakly_observable;  // too loose for labels
+  OutlineConstraint constraint;  // by the outline, of what is weakly observable
 };
 
 void learn_from(const Mission& mission, const HitSolution& hits, Workspace& workspace, HitKnowledge& known) {
   const MissionParameters& p = mission.parameters;
   known.scale = noise_scale(p, hits, !(workspace.sigma_factor > FlightNumber::Factor{1}));
   known.covariance.setZero();
-  known.unseen.count = known.slack.count = known.hold.axes.count = 0;
-  known.hold.band_m = p.silhouette_band_m;
+  known.unobservable.count = known.weakly_observable.count = known.constraint.axes.count = 0;
+  known.constraint.band_m = p.silhouette_band_m;
   if (!has_information(hits)) return;
   known.trust_scale = p.noise_estimated > 0.5 ? known.scale : 1;
-  known.covariance = covariance_of_hits(mission.radius_m, hits.H, known.trust_scale, known.unseen);
+  known.covariance = covariance_of_hits(mission.radius_m, hits.H, known.trust_scale, known.unobservable);
   if (explained_share(hits) < p.inlier_share_min) return;  // it is refused, however sure it is
-  widen_weak_axes(mission, hits, known.trust_scale, workspace, known.covariance, known.unseen);
-  add_others(hits, known.covariance, known.unseen);
-  known.slack = find_slack(mission, known.covariance);
+  widen_weak_axes(mission, hits, known.trust_scale, workspace, known.covariance, known.unobservable);
+  add_others(hits, known.covariance, known.unobservable);
+  known.weakly_observable = find_weakly_observable(mission, known.covariance);
 }
 
 double range_sigma(const MissionParameters& p, const Pose& T_target_sensor, const HitKnowledge& known) {
@@ -91,11 +91,11 @@ OutlineFit outline_of(const Mission& mission, const HitSolution& hits, const Hit
   const double range_m = square_root(hits.T_target_sensor.p.squaredNorm());
   const double variance = range_variance(p, range_m) * factor * factor + p.surface_sigma_m * p.surface_sigma_m;
   const OutlineCare care{square_root(variance * (known.scale > 1 ? known.scale : 1)), p.edge_depth_m, most_asked};
-  return fit_outline(mission, hits.T_target_sensor, known.slack, care, workspace);
+  return fit_outline(mission, hits.T_target_sensor, known.weakly_observable, care, workspace);
 }
 
-// Registers the hits from where the outline has the pose: a few of them may have held it on a side of the model that they never met. False,
-// with all as it was before, where nothing is settled there.
+// Registers the hits from where the outline has the pose: a few of them may have kept it on a side of the model that they never met. False,
+// with all as it was before, where the registration there fails.
 bool follow_outline(const Mission& mission, Workspace& workspace, HitSolution& hits, HitKnowledge& known, OutlineFit& fit) {
   const HitSolution before = hits;
   hits = register_hits(mission, fit.T_target_sensor, workspace);
@@ -109,24 +109,24 @@ bool follow_outline(const Mission& mission, Workspace& workspace, HitSolution& h
 }
 
 // Where the hits let the pose slide, the outline says where it is.
-void settle_slack(const Mission& mission, HitSolution& hits, Workspace& workspace, HitKnowledge& known) {
-  if (known.slack.count == 0) return;
+void constrain_weakly_observable(const Mission& mission, HitSolution& hits, Workspace& workspace, HitKnowledge& known) {
+  if (known.weakly_observable.count == 0) return;
   OutlineFit fit = outline_of(mission, hits, known, kMostAsked, workspace);
   if (!fit.settled) return;
   if (fit.moved && !follow_outline(mission, workspace, hits, known, fit)) return;
   hits.T_target_sensor = fit.T_target_sensor;
-  known.hold = hold_by(mission, fit, known.slack, known.covariance, known.unseen);
+  known.constraint = constrain_by_outline(mission, fit, known.weakly_observable, known.covariance, known.unobservable);
 }
 
 // What hits, outline and labels say, as a step from the pose; false where labels cannot be used, and are dropped.
 bool ask_labels(const Mission& mission, bool misses_known, HitKnowledge& known, const Pose& pose, Workspace& workspace,
                 PoseBelief& belief) {
   const double sigma_m = range_sigma(mission.parameters, pose, known);
-  LabelSearch search{misses_known, hold_slack(mission.radius_m, known.hold, known.covariance), sigma_m, known.hold.band_m};
+  LabelSearch search{misses_known, add_constraint(mission.radius_m, known.constraint, known.covariance), sigma_m, known.constraint.band_m};
   find_labels(mission, pose, search, workspace);
-  keep_shown(mission, workspace.labels.span(), known.covariance, known.hold, known.unseen);
-  search.covariance = hold_slack(mission.radius_m, known.hold, known.covariance);
-  if (!are_held(mission, search, known.unseen, workspace.labels)) {
+  keep_shown(mission, workspace.labels.span(), known.covariance, known.constraint, known.unobservable);
+  search.covariance = add_constraint(mission.radius_m, known.constraint, known.covariance);
+  if (!are_held(mission, search, known.unobservable, workspace.labels)) {
     workspace.labels.clear();
     return false;
   }
@@ -135,20 +135,20 @@ bool ask_labels(const Mission& mission, bool misses_known, HitKnowledge& known, 
   return true;
 }
 
-// Lets the silhouettes speak: moves the pose and shrinks the covariance. What only the outline holds is looked at twice, as labels are
+// Applies the labels: moves the pose and shrinks the covariance. What only the outline constrains is done twice, as labels are
 // linear near their contours alone: the first look slides the pose, the second one is from there.
 void use_silhouettes(const Mission& mission, bool misses_known, HitKnowledge& known, Workspace& workspace, Pose& pose) {
   PoseBelief belief;
   Pose from = pose;
-  for (int look = known.hold.axes.count > 0 ? 0 : 1; look < 2; ++look) {
+  for (int look = known.constraint.axes.count > 0 ? 0 : 1; look < 2; ++look) {
     if (!ask_labels(mission, misses_known, known, from, workspace, belief)) return;
-    if (look == 0) from = step_pose(from, narrow_hold(mission, belief, known.hold));
+    if (look == 0) from = step_pose(from, tighten_constraint(mission, belief, known.constraint));
   }
   pose = step_pose(from, belief.mean);
-  known.covariance = release_slack(mission.radius_m, known.hold, belief.covariance);
+  known.covariance = remove_constraint(mission.radius_m, known.constraint, belief.covariance);
 }
 
-// What holds for the scan as a whole.
+// Figures of the scan as a whole.
 struct ScanCare {
   bool misses_known = false;
   bool shows_outline = false;
@@ -215,7 +215,7 @@ double motion_variance(const Mission& mission, const StartPoint& start, double w
 HitSolution register_wide(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace) {
   HitSolution near = register_hits(mission, T_target_sensor, workspace);
   if (explained_share(near) >= kExplainedShare) return near;
-  const Pose closer = approach_from_afar(mission, T_target_sensor, workspace);
+  const Pose closer = align_coarsely(mission, T_target_sensor, workspace);
   const HitSolution far = register_first(mission, closer, workspace);
   return explained_share(far) > explained_share(near) ? far : near;
 }
@@ -231,7 +231,7 @@ HitSolution register_wide(const Mission& mission, const Pose& T_target_sensor, W
                                 Registration& result) {
   HitKnowledge known;
   learn_from(mission, hits, workspace, known);
-  if (mission.parameters.silhouettes > 0.5 && care.shows_outline) settle_slack(mission, hits, workspace, known);
+  if (mission.parameters.silhouettes > 0.5 && care.shows_outline) constrain_weakly_observable(mission, hits, workspace, known);
   describe_hits(hits, known.scale, workspace, result);
   if (has_information(hits)) describe_pose(mission, hits, care, known, workspace, result);
 }

@@ -1,6 +1,6 @@
-// From a range image to a pose and its covariance: match, solve, outline, silhouettes, quality. The workspace is a member; no state is kept
-// from scan to scan. Work is bounded by kMaxRays, estimation.iterations_max, what an outline may ask (outline_fit.hpp) and the field's list and
-// walk bounds.
+// From a range image to a pose and its covariance: registration, outline, silhouettes, tests of validity. The workspace is a member; no
+// state is kept from scan to scan. Work is bounded by kMaxRays, estimation.iterations_max, what an outline may ask (outline_fit.hpp) and
+// the field's list and walk bounds.
 #pragma once
 
 #include "fsw/mission/mission.hpp"

@@ -4,18 +4,18 @@
 
 namespace lasso {
 
-void DrawnList::add(const Pose& T_target_sensor, double score) {
-  invariant(list_.push_back({T_target_sensor, score, Fit()}), "as many as are pulled");
+void HypothesisList::add(const Pose& T_target_sensor, double score) {
+  invariant(list_.push_back({T_target_sensor, score, HypothesisScore()}), "as many as are pulled");
 }
 
-void DrawnList::keep_best() {
+void HypothesisList::keep_best() {
   std::size_t kept = 0;
-  for (; kept < kDrawn && kept < list_.size(); ++kept) {
+  for (; kept < kAligned && kept < list_.size(); ++kept) {
     std::size_t best = kept;
     for (std::size_t i = kept + 1; i < list_.size(); ++i) {
       if (list_[i].score < list_[best].score) best = i;
     }
-    const Drawn chosen = list_[best];
+    const AlignedHypothesis chosen = list_[best];
     list_[best] = list_[kept];
     list_[kept] = chosen;
     std::size_t left = kept + 1;
@@ -27,7 +27,7 @@ void DrawnList::keep_best() {
   list_.shrink(kept);
 }
 
-double DrawnList::best_score(std::size_t count) const {
+double HypothesisList::best_score(std::size_t count) const {
   double best = kAnyScore;
   for (std::size_t i = 0; i < count; ++i) {
     if (list_[i].score < best) best = list_[i].score;

@@ -40,7 +40,7 @@ bool is_bad(const FieldHit<N>& met, float distance, float on_surface, float in_f
   return t < -on_surface && distance > on_surface;
 }
 
-void add_hit(const Mission& mission, const PathPose<N>& pose, const MatchPoint<N>& point, const ReturnReach& reach, Fit& fit) {
+void add_hit(const Mission& mission, const PathPose<N>& pose, const MatchPoint<N>& point, const ReturnReach& reach, HypothesisScore& fit) {
   FieldRay<N> ray{};
   transform(pose, point.p, ray.m);
   rotate(pose, point.u, ray.u);
@@ -55,7 +55,7 @@ void add_hit(const Mission& mission, const PathPose<N>& pose, const MatchPoint<N
   if (is_bad(met, distance, on_surface, in_front)) fit.bad += 1;
 }
 
-bool exceeds(const Fit& fit, std::size_t ray, double limit) { return ray % kLookedAtOnce == 0 && fit.score() > limit; }
+bool exceeds(const HypothesisScore& fit, std::size_t ray, double limit) { return ray % kLookedAtOnce == 0 && fit.score() > limit; }
 
 // Returns are in an order in which any first of them are far apart, a fair sample: what runs ahead of its share of the limit will exceed
 // it.
@@ -65,7 +65,7 @@ double share_of_limit(std::size_t looked_at, std::size_t hits, std::size_t head_
 }
 
 // As if the others were like those that were looked at; beyond the limit, then.
-Fit extrapolated(Fit fit, std::size_t looked_at) {
+HypothesisScore extrapolated(HypothesisScore fit, std::size_t looked_at) {
   const double factor = fit.hits / static_cast<double>(looked_at);
   fit.bad *= factor;
   fit.distance *= factor;
@@ -74,32 +74,33 @@ Fit extrapolated(Fit fit, std::size_t looked_at) {
 
 }  // namespace
 
-double Fit::disagreement() const { return hits > 0 ? (bad + violated) / (hits + violated) : 1; }
+double HypothesisScore::disagreement() const { return hits > 0 ? (bad + violated) / (hits + violated) : 1; }
 
-double Fit::score() const { return disagreement() + kDistanceWeight * (hits > 0 ? distance / hits : 1); }
+double HypothesisScore::score() const { return disagreement() + kDistanceWeight * (hits > 0 ? distance / hits : 1); }
 
 double hopeless_beyond(double score) { return kHopeless * score + kHopelessFloor; }
 
 double poor_beyond(double score) { return kPoor * score + kPoorFloor; }
 
-Fit operator+(const Fit& a, const Fit& b) {
+HypothesisScore operator+(const HypothesisScore& a, const HypothesisScore& b) {
   return {a.hits + b.hits, a.bad + b.bad, a.violated + b.violated, a.distance + b.distance, a.walks + b.walks};
 }
 
-Fit measure_fit(const Mission& mission, const Pose& T_target_sensor, const Evidence& evidence, double limit, std::size_t head_start) {
+HypothesisScore measure_score(const Mission& mission, const Pose& T_target_sensor, const ScanSubset& subset, double limit,
+                              std::size_t head_start) {
   const PathPose<N> pose = to_path<N>(T_target_sensor);
-  const double per_miss = kMissWeight * evidence.misses_per_hit;
-  Fit fit;
-  fit.hits = static_cast<double>(evidence.hits.size());
-  for (std::size_t i = 0; i < evidence.hits.size(); ++i, ++fit.walks) {
-    if (exceeds(fit, i, limit * share_of_limit(i, evidence.hits.size(), head_start))) return extrapolated(fit, i);
-    add_hit(mission, pose, evidence.hits[i], evidence.reaches[i], fit);
+  const double per_miss = kMissWeight * subset.misses_per_hit;
+  HypothesisScore fit;
+  fit.hits = static_cast<double>(subset.hits.size());
+  for (std::size_t i = 0; i < subset.hits.size(); ++i, ++fit.walks) {
+    if (exceeds(fit, i, limit * share_of_limit(i, subset.hits.size(), head_start))) return extrapolated(fit, i);
+    add_hit(mission, pose, subset.hits[i], subset.reaches[i], fit);
   }
   std::uint32_t violated = 0;
-  for (std::size_t i = 0; i < evidence.misses.size(); ++i, ++fit.walks) {
+  for (std::size_t i = 0; i < subset.misses.size(); ++i, ++fit.walks) {
     fit.violated = per_miss * violated;
     if (exceeds(fit, i, limit)) return fit;
-    violated += meets_model(mission, pose, evidence.misses[i]) ? 1u : 0u;
+    violated += meets_model(mission, pose, subset.misses[i]) ? 1u : 0u;
   }
   fit.violated = per_miss * violated;
   return fit;

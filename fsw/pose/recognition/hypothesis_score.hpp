@@ -1,4 +1,4 @@
-// How well a pose explains a scan's evidence: returns on the surface, nothing in front of them, and misses that pass by.
+// How well a pose explains a scan's subset: returns on the surface, nothing in front of them, and misses that pass by.
 #pragma once
 
 #include "fsw/geometry/se3.hpp"
@@ -6,7 +6,7 @@
 
 namespace lasso {
 
-struct Fit {
+struct HypothesisScore {
   double hits = 0;          // returns looked at
   double bad = 0;           // of them: off the surface, or behind it
   double violated = 0;      // misses that the model would have returned, in terms of hits and weighted
@@ -19,7 +19,7 @@ struct Fit {
   double score() const;
 };
 
-Fit operator+(const Fit& a, const Fit& b);
+HypothesisScore operator+(const HypothesisScore& a, const HypothesisScore& b);
 
 constexpr double kAnyScore = 1e9;
 
@@ -28,11 +28,11 @@ double hopeless_beyond(double score);
 // And this is not worth a second attempt.
 double poor_beyond(double score);
 
-// At most kEvidenceHits + kEvidenceMisses walks through the field. Where the score is sure to exceed `limit`, no more are looked at; with a
+// At most kSubsetHits + kSubsetMisses walks through the field. Where the score is sure to exceed `limit`, no more are looked at; with a
 // head start of fewer than all returns, as soon as it exceeds the limit's share of those looked at and so many more, as it is likely to.
 // What is left among its returns is scored as if the others were like those looked at, and among its misses as if the others were met by
 // nothing: beyond the limit, but not what all would say.
-Fit measure_fit(const Mission& mission, const Pose& T_target_sensor, const Evidence& evidence, double limit = kAnyScore,
-                std::size_t head_start = kEvidenceHits);
+HypothesisScore measure_score(const Mission& mission, const Pose& T_target_sensor, const ScanSubset& subset, double limit = kAnyScore,
+                              std::size_t head_start = kSubsetHits);
 
 }  // namespace lasso

@@ -10,27 +10,28 @@
 // Work is done in steps and counted in units of some 75 PowerPC 603e instructions (work_units.hpp). advance() ends with the step that
 // uses the budget up; no step takes more than kLargestStep. The first scan of 1024 rays takes some 1.2 million units, some 80 million
 // instructions, in all, a later one some 0.6 million (docs/search.md): most hypotheses are looked at no longer than until others promise
-// more. Once limits.work_max of them are used, four fifths where further scans may join the first, nothing more is settled, explored or
-// swayed: what was found so far stands, as ambiguous. The best one's near-symmetries are measured while anything is left of them all.
+// more. Once limits.work_max of them are used, four fifths where further scans may join the first, nothing more is refined: what was found
+// so far is the result, as ambiguous. The best one's near-symmetries are measured while anything is left of them all.
 #pragma once
 
+#include "fsw/pose/recognition/acceptance.hpp"
 #include "fsw/pose/recognition/hypothesis_list.hpp"
-#include "fsw/pose/recognition/search_result.hpp"
-#include "fsw/pose/scan/work_units.hpp"
 #include "fsw/pose/recognition/hypothesis_refinement.hpp"
 #include "fsw/pose/recognition/robust_refinement.hpp"
-#include "fsw/pose/recognition/acceptance.hpp"
+#include "fsw/pose/recognition/search_result.hpp"
+#include "fsw/pose/scan/work_units.hpp"
 
 namespace lasso {
 
 constexpr std::size_t kMaxSearchScans = 3;
-// At estimation.iterations_max 12: a registration on all evidence, which is then weighed by regions, and its fit measured; or a track that
-// is pulled from farther, sketched and measured, and weighed as it was drawn.
-constexpr std::uint32_t kLargestSway =
-    look_work(kEvidenceHits, 14) + regions_work(kEvidenceHits, kRegions) + fit_work(kEvidenceHits, kEvidenceMisses);
-constexpr std::uint32_t kLargestSketch = pull_work(kSketchPoints) + draw_work(kSketchPoints) + look_work(kSketchPoints, 14) +
-                                         fit_work(kEvidenceHits, kEvidenceMisses) + weigh_work(kSketchPoints);
-constexpr std::uint32_t kLargestStep = kLargestSway > kLargestSketch ? kLargestSway : kLargestSketch;
+// At estimation.iterations_max 12: a registration on the whole subset, which is then weighed by regions and scored; or a hypothesis that
+// is aligned from farther away, refined fast, scored, and weighed as it was aligned.
+constexpr std::uint32_t kLargestRobustStep =
+    look_work(kSubsetHits, 14) + regions_work(kSubsetHits, kRegions) + score_work(kSubsetHits, kSubsetMisses);
+constexpr std::uint32_t kLargestFastRefine = distance_alignment_work(kFastRefinePoints) + ray_alignment_work(kFastRefinePoints) +
+                                             look_work(kFastRefinePoints, 14) + score_work(kSubsetHits, kSubsetMisses) +
+                                             weigh_work(kFastRefinePoints);
+constexpr std::uint32_t kLargestStep = kLargestRobustStep > kLargestFastRefine ? kLargestRobustStep : kLargestFastRefine;
 
 struct SearchLimits {
   double hits_min = 80;  // returns looked at
@@ -40,9 +41,21 @@ struct SearchLimits {
   std::uint32_t work_max = 2'500'000;  // units of work on all scans; what they leave open makes the result ambiguous
 };
 
-class Search {
+class PoseSearch {
  public:
-  enum class Stage : std::uint8_t { kIdle, kEvidence, kCoarse, kPull, kDraw, kSketch, kSettle, kExplore, kSway, kMirror, kVerdict };
+  enum class Stage : std::uint8_t {
+    kIdle,
+    kSubset,
+    kViewMatching,
+    kAlignOnDistances,
+    kAlignOnRays,
+    kFastRefine,
+    kRefine,
+    kLineSearch,
+    kRobustRefine,
+    kSymmetryTest,
+    kAcceptance
+  };
 
   void begin(const SearchLimits& limits);
 
@@ -72,7 +85,7 @@ class Search {
   // The poses that a search that is done was judged by, the best first: what pose i is compared with that one by. False where it does not
   // compete, within 15 deg of it.
   std::size_t poses() const { return tracks_.size(); }
-  bool find_rival(std::size_t i, Rival& rival) const;
+  bool find_competitor(std::size_t i, Competitor& competitor) const;
 
   bool busy() const { return stage_ != Stage::kIdle; }
   Stage stage() const { return stage_; }  // of the next step
@@ -82,74 +95,74 @@ class Search {
   // A pose in each scan.
   struct Track {
     Pose T_target_sensor[kMaxSearchScans];
-    Fit fits[kMaxSearchScans];
-    Fit total;
-    Pose start;               // in the last scan
-    bool sketched = false;    // in the last scan
-    bool settled = false;     // the same
-    bool swayed = false;      // in the last scan
-    double cost = kAnyScore;  // of the pose in the last scan, once it is: of its Standing
+    HypothesisScore scores[kMaxSearchScans];
+    HypothesisScore total;
+    Pose start;                     // in the last scan
+    bool fast_refined = false;      // in the last scan
+    bool refined = false;           // the same
+    bool robustly_refined = false;  // in the last scan
+    double cost = kAnyScore;        // of the pose in the last scan, once it is: of its RegionCosts
     double whole_cost = kAnyScore;
     double explained_cost = kAnyScore;  // the same
     Mat6 H = Mat6::Zero();              // information of the registration in the last scan, target axes
   };
-  // The line on which a track is explored: from its pose along its least certain direction.
+  // The line that is searched for a hypothesis: from its pose along its least certain direction.
   struct Line {
     Pose from;
     Vec6 direction = Vec6::Zero();
     Pose best;
-    Fit fit;
+    HypothesisScore fit;
     int next = 0;    // place to look at, in steps
     int middle = 0;  // the best of every other one
     bool begun = false;
   };
   static constexpr std::size_t kFinalists = 6;
   static constexpr std::size_t kCarried = 6;
-  static constexpr std::size_t kExplored = 3;
+  static constexpr std::size_t kLineSearched = 3;
   static constexpr std::size_t kTracks = kCarried + (kMaxSymmetries > kFinalists ? kMaxSymmetries : kFinalists);
 
   std::uint32_t step(const Mission& mission, Workspace& workspace);
   void carry_over();
-  std::uint32_t gather_evidence(const Mission& mission);
-  std::uint32_t look_coarsely(const Mission& mission);
+  std::uint32_t gather_subset(const Mission& mission);
+  std::uint32_t match_views(const Mission& mission);
   Pose hypothesis(const Mission& mission, std::size_t i) const;
   std::size_t hypotheses() const { return coarse_.short_list().size() + (suspects_ ? kQuarterTurns : 0); }
-  std::uint32_t pull_next(const Mission& mission, Workspace& workspace);
-  std::uint32_t draw_next(const Mission& mission, Workspace& workspace);
-  double sketch_limit() const;
-  std::uint32_t sketch_near(const Mission& mission, Track& track, Workspace& workspace);
-  std::uint32_t sketch_afar(const Mission& mission, Track& track, Workspace& workspace);
-  std::uint32_t sketch_next(const Mission& mission, Workspace& workspace);
-  std::uint32_t settle_next(const Mission& mission, Workspace& workspace);
-  std::uint32_t explore_next(const Mission& mission);
-  std::uint32_t sway_next(const Mission& mission, Workspace& workspace);
-  std::uint32_t mirror_next(const Mission& mission, Workspace& workspace);
-  std::uint32_t mirror_before(const Mission& mission, const NearSymmetry<FlightNumber>& symmetry, Track& twin) const;
-  std::uint32_t end_mirroring();
-  bool is_new(const Pose& T_target_sensor, const Fit& fit) const;
+  std::uint32_t align_on_distances_next(const Mission& mission, Workspace& workspace);
+  std::uint32_t align_on_rays_next(const Mission& mission, Workspace& workspace);
+  double fast_refine_limit() const;
+  std::uint32_t refine_fast_near(const Mission& mission, Track& track, Workspace& workspace);
+  std::uint32_t refine_fast_afar(const Mission& mission, Track& track, Workspace& workspace);
+  std::uint32_t refine_fast_next(const Mission& mission, Workspace& workspace);
+  std::uint32_t refine_next(const Mission& mission, Workspace& workspace);
+  std::uint32_t search_line_next(const Mission& mission);
+  std::uint32_t refine_robustly_next(const Mission& mission, Workspace& workspace);
+  std::uint32_t test_symmetry_next(const Mission& mission, Workspace& workspace);
+  std::uint32_t image_before(const Mission& mission, const NearSymmetry<FlightNumber>& symmetry, Track& symmetric) const;
+  std::uint32_t end_symmetry_test();
+  bool is_new(const Pose& T_target_sensor, const HypothesisScore& fit) const;
   std::uint32_t conclude();
-  void end_settling(const Mission& mission);
+  void end_refining(const Mission& mission);
   std::uint32_t begin_line(const Mission& mission);
-  std::uint32_t look_along(const Mission& mission, const Evidence& evidence);
+  std::uint32_t look_along(const Mission& mission, const ScanSubset& subset);
   void end_line();
   bool is_apart(const Pose& T_target_sensor, double cos_half_angle) const;
-  const Drawn* best_drawn(double cos_half_angle) const;
+  const AlignedHypothesis* best_aligned(double cos_half_angle) const;
   void choose_finalists();
-  void add_twins(const Mission& mission);
-  void add_track(const Pose& T_target_sensor, const Fit& fit);
-  void take(const Settled& settled, Track& track) const;
-  const SwayCare& care_of(std::size_t track) const;
-  std::uint32_t take_swayed(const Mission& mission, Track& track) const;
+  void add_symmetric_hypotheses(const Mission& mission);
+  void add_track(const Pose& T_target_sensor, const HypothesisScore& fit);
+  void take(const RefinedHypothesis& refined, Track& track) const;
+  const RobustSettings& robust_settings_of(std::size_t track) const;
+  std::uint32_t take_robust(const Mission& mission, Track& track) const;
   void sum_up(Track& track) const;
   double best_score() const;
   bool is_hopeless(const Track& track) const;
-  bool is_rival(const Track& track) const;
+  bool is_competitor(const Track& track) const;
   bool may_work();
   bool may_work_up_to(double share);
-  bool explores_next() const { return next_ < tracks_.size() && next_ < kExplored; }
+  bool is_next_searched() const { return next_ < tracks_.size() && next_ < kLineSearched; }
   bool is_distinct(const Track& track) const;
-  bool stands_alone() const;
-  void inherit(const Track& other, Track& twin) const;
+  bool outscores_all() const;
+  void inherit(const Track& other, Track& symmetric) const;
   void prune();
   Pose carried(const Track& track) const;
   Twist rates_of(const Track& track, std::size_t scan) const;
@@ -164,19 +177,19 @@ class Search {
   bool suspects_ = false;
   Pose suspect_;                   // T_target_sensor
   std::size_t next_ = 0;           // of the stage's items
-  bool twins_ = false;             // are there: of the first scan's best pose
-  bool mirrored_ = false;          // those of the best pose as it stands have been looked for
+  bool symmetries_ = false;        // are there: of the first scan's best pose
+  bool symmetry_tested_ = false;   // those of the best pose as it stands have been looked for
   bool working_ = false;           // on the next track
   bool unfinished_ = false;        // something that was worth it was not worked on
   std::uint32_t adding_work_ = 0;  // of adding it, until a slice has paid for it
-  EvidenceMaker maker_;
-  CoarseSearch coarse_;
-  Evidence evidence_[kMaxSearchScans];
-  DrawnList drawn_;
+  ScanSubsetMaker maker_;
+  ViewMatcher coarse_;
+  ScanSubset subsets_[kMaxSearchScans];
+  HypothesisList aligned_;
   FixedVector<Track, kTracks> tracks_;
-  Settler settler_;
+  HypothesisRefiner refiner_;
   Line line_;
-  Sway sway_;
+  RobustRefiner robust_refiner_;
   SearchResult result_;
 };
 

@@ -71,14 +71,14 @@ class RayDensity {
 
 }  // namespace
 
-void put_points(const Evidence& evidence, std::size_t count, Workspace& workspace) {
+void put_points(const ScanSubset& subset, std::size_t count, Workspace& workspace) {
   workspace.points.clear();
-  for (std::size_t i = 0; i < evidence.hits.size() && i < count; ++i) {
-    invariant(workspace.points.push_back(evidence.hits[i]), "as many points as rays");
+  for (std::size_t i = 0; i < subset.hits.size() && i < count; ++i) {
+    invariant(workspace.points.push_back(subset.hits[i]), "as many points as rays");
   }
 }
 
-void EvidenceMaker::begin(const Mission& mission, const Workspace& workspace) {
+void ScanSubsetMaker::begin(const Mission& mission, const Workspace& workspace) {
   const RayDensity density(workspace);
   const float spacing = density.spacing(workspace.rays.size());
   const float largest = kNeighbourShare * mission.search.size_m;
@@ -101,29 +101,29 @@ void EvidenceMaker::begin(const Mission& mission, const Workspace& workspace) {
   }
 }
 
-bool EvidenceMaker::step(const Mission& mission, Evidence& evidence, std::uint32_t& work) {
+bool ScanSubsetMaker::step(const Mission& mission, ScanSubset& subset, std::uint32_t& work) {
   if (judged_ < hits_.size()) {
     work += company_work(judge_isolation(judged_++));
     if (judged_ == hits_.size()) drop_isolated();
     return true;
   }
-  if (evidence.hits.empty()) {
-    evidence.returns = static_cast<std::uint32_t>(hits_.size() * hit_stride_);
-    find_centroid(evidence);
+  if (subset.hits.empty()) {
+    subset.returns = static_cast<std::uint32_t>(hits_.size() * hit_stride_);
+    find_centroid(subset);
     work += middle_work(hits_.size());
   }
-  if (evidence.hits.size() < hits_.size() && !evidence.hits.full()) {
-    choose(evidence);
+  if (subset.hits.size() < hits_.size() && !subset.hits.full()) {
+    choose(subset);
     work += choice_work(hits_.size());
     return true;
   }
-  choose_misses(mission, evidence);
+  choose_misses(mission, subset);
   work += passing_work(misses_.size());
   return false;
 }
 
 // Answers how many others it looked at.
-std::size_t EvidenceMaker::judge_isolation(std::size_t index) {
+std::size_t ScanSubsetMaker::judge_isolation(std::size_t index) {
   const float reach = hits_[index].reach;
   std::size_t company = 0;
   // Neighbours in time are near, mostly: the search begins with them.
@@ -136,7 +136,7 @@ std::size_t EvidenceMaker::judge_isolation(std::size_t index) {
   return k;
 }
 
-void EvidenceMaker::drop_isolated() {
+void ScanSubsetMaker::drop_isolated() {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < hits_.size(); ++i) {
     if (hits_[i].kept) hits_[kept++] = hits_[i];
@@ -145,7 +145,7 @@ void EvidenceMaker::drop_isolated() {
   judged_ = kept;
 }
 
-void EvidenceMaker::find_centroid(Evidence& evidence) const {
+void ScanSubsetMaker::find_centroid(ScanSubset& subset) const {
   Vec3 sum = Vec3::Zero();
   double weights = 0;
   for (const PoolHit& hit : hits_) {
@@ -154,13 +154,13 @@ void EvidenceMaker::find_centroid(Evidence& evidence) const {
     weights += weight;
   }
   if (!(weights > 0)) return;
-  evidence.centroid = sum / weights;
-  find_median(weights, evidence);
+  subset.centroid = sum / weights;
+  find_median(weights, subset);
 }
 
 // By halving the depths that it may have.
-void EvidenceMaker::find_median(double weights, Evidence& evidence) const {
-  const double range = square_root(evidence.centroid.squaredNorm());
+void ScanSubsetMaker::find_median(double weights, ScanSubset& subset) const {
+  const double range = square_root(subset.centroid.squaredNorm());
   double low = 0;
   double high = 2 * range;
   for (int k = 0; k < kHalvings; ++k) {
@@ -168,51 +168,51 @@ void EvidenceMaker::find_median(double weights, Evidence& evidence) const {
     double below = 0;
     for (const PoolHit& hit : hits_) {
       double along = 0;
-      for (int i = 0; i < 3; ++i) along += evidence.centroid[i] * N::to_double(hit.point.p[i]);
+      for (int i = 0; i < 3; ++i) along += subset.centroid[i] * N::to_double(hit.point.p[i]);
       if (along < depth * range) below += static_cast<double>(hit.weight);
     }
     (2 * below < weights ? low : high) = depth;
   }
-  evidence.median = 0.5 * (low + high) - range;
+  subset.median = 0.5 * (low + high) - range;
 }
 
 // The return that is farthest from all that were chosen; the pool's first one to begin with.
-void EvidenceMaker::choose(Evidence& evidence) {
+void ScanSubsetMaker::choose(ScanSubset& subset) {
   std::size_t farthest = 0;
   for (std::size_t i = 1; i < hits_.size(); ++i) {
     if (hits_[i].distance2 > hits_[farthest].distance2) farthest = i;
   }
   const MatchPoint<N>& chosen = hits_[farthest].point;
   const ReturnReach reach{N::from_float<N::Length>(root(squared_range(chosen.p))), kNoiseReach * root(N::to_float(chosen.range_variance))};
-  invariant(evidence.hits.push_back(chosen), "room for a return");
-  invariant(evidence.reaches.push_back(reach), "as many as returns");
-  const std::size_t region = evidence.hits.size() - 1;
+  invariant(subset.hits.push_back(chosen), "room for a return");
+  invariant(subset.reaches.push_back(reach), "as many as returns");
+  const std::size_t region = subset.hits.size() - 1;
   for (PoolHit& hit : hits_) {
     const float distance2 = squared_distance(hit.point.p, chosen.p);
     if (!(distance2 < hit.distance2)) continue;
     hit.distance2 = distance2;
     if (region < kRegions) hit.region = static_cast<std::uint8_t>(region);
   }
-  invariant(evidence.regions.push_back(hits_[farthest].region), "as many as returns");
+  invariant(subset.regions.push_back(hits_[farthest].region), "as many as returns");
 }
 
 // Misses that pass the target's middle within its radius; others say little.
-void EvidenceMaker::choose_misses(const Mission& mission, Evidence& evidence) const {
+void ScanSubsetMaker::choose_misses(const Mission& mission, ScanSubset& subset) const {
   const double limit = mission.radius_m * mission.radius_m;
   const auto passes_by = [&](const ScanRay<N>& ray) {
     const Vec3 u(N::to_double(ray.u[0]), N::to_double(ray.u[1]), N::to_double(ray.u[2]));
-    return evidence.centroid.cross(u).squaredNorm() < limit;
+    return subset.centroid.cross(u).squaredNorm() < limit;
   };
   std::size_t count = 0;
   for (const ScanRay<N>& ray : misses_) count += passes_by(ray) ? 1u : 0u;
-  const std::size_t stride = count / kEvidenceMisses + 1;
+  const std::size_t stride = count / kSubsetMisses + 1;
   std::size_t index = 0;
   for (const ScanRay<N>& ray : misses_) {
-    if (passes_by(ray) && index++ % stride == 0) invariant(evidence.misses.push_back(ray), "room for a miss");
+    if (passes_by(ray) && index++ % stride == 0) invariant(subset.misses.push_back(ray), "room for a miss");
   }
-  if (evidence.hits.empty()) return;
-  const double per_hit = static_cast<double>(hits_.size() * hit_stride_) / static_cast<double>(evidence.hits.size());
-  evidence.misses_per_hit = static_cast<double>(stride * miss_stride_) / per_hit;
+  if (subset.hits.empty()) return;
+  const double per_hit = static_cast<double>(hits_.size() * hit_stride_) / static_cast<double>(subset.hits.size());
+  subset.misses_per_hit = static_cast<double>(stride * miss_stride_) / per_hit;
 }
 
 }  // namespace lasso

@@ -5,10 +5,10 @@
 
 namespace lasso {
 
-constexpr std::size_t kPoolRays = 1024;       // returns and misses that the choice is made from
-constexpr std::size_t kEvidenceHits = 224;    // the first of them are as far apart as any as many
-constexpr std::size_t kEvidenceMisses = 192;  // that pass by the target
-constexpr std::size_t kRegions = 32;          // of the target, as the scan shows it: around the first returns of the evidence
+constexpr std::size_t kPoolRays = 1024;     // returns and misses that the choice is made from
+constexpr std::size_t kSubsetHits = 224;    // the first of them are as far apart as any as many
+constexpr std::size_t kSubsetMisses = 192;  // that pass by the target
+constexpr std::size_t kRegions = 32;        // of the target, as the scan shows it: around the first returns of the subset
 
 // What measuring a fit needs to know of a return, once.
 struct ReturnReach {
@@ -16,17 +16,17 @@ struct ReturnReach {
   float noise_m;               // 3 sigma along the ray
 };
 
-struct Evidence {
+struct ScanSubset {
   std::uint32_t scan_id = 0;
   TimeUs t_us = 0;
   std::uint32_t returns = 0;     // of the scan, isolated ones left out
   Vec3 centroid = Vec3::Zero();  // of the returns, each weighted by the area that it stands for; sensor frame
   double median = 0;             // m, how much farther than the centroid, along the line of sight to it, their median depth is
   double misses_per_hit = 1;     // how many misses of the scan one of these stands for, over the same of the hits
-  FixedVector<MatchPoint<FlightNumber>, kEvidenceHits> hits;
-  FixedVector<ReturnReach, kEvidenceHits> reaches;   // of the hits
-  FixedVector<std::uint8_t, kEvidenceHits> regions;  // of the hits: which of the first kRegions is closest
-  FixedVector<ScanRay<FlightNumber>, kEvidenceMisses> misses;
+  FixedVector<MatchPoint<FlightNumber>, kSubsetHits> hits;
+  FixedVector<ReturnReach, kSubsetHits> reaches;   // of the hits
+  FixedVector<std::uint8_t, kSubsetHits> regions;  // of the hits: which of the first kRegions is closest
+  FixedVector<ScanRay<FlightNumber>, kSubsetMisses> misses;
 
   void clear() {
     returns = 0;
@@ -40,18 +40,18 @@ struct Evidence {
   }
 };
 
-// The registration works on the workspace's points: the first `count` of the evidence.
-void put_points(const Evidence& evidence, std::size_t count, Workspace& workspace);
+// The registration works on the workspace's points: the first `count` of the subset.
+void put_points(const ScanSubset& subset, std::size_t count, Workspace& workspace);
 
-// Makes the evidence of a scan in small steps.
-class EvidenceMaker {
+// Makes the subset of a scan in small steps.
+class ScanSubsetMaker {
  public:
   // From the rays and points of `workspace` (prepare_rays). Of more than kPoolRays hits or misses every n-th is taken.
   void begin(const Mission& mission, const Workspace& workspace);
 
-  // One step, which adds its work; false when `evidence` is complete. A step looks at each return of the pool, the first with a choice
+  // One step, which adds its work; false when `subset` is complete. A step looks at each return of the pool, the first with a choice
   // some ten times.
-  bool step(const Mission& mission, Evidence& evidence, std::uint32_t& work);
+  bool step(const Mission& mission, ScanSubset& subset, std::uint32_t& work);
 
  private:
   struct PoolHit {
@@ -64,10 +64,10 @@ class EvidenceMaker {
   };
   std::size_t judge_isolation(std::size_t index);
   void drop_isolated();
-  void find_centroid(Evidence& evidence) const;
-  void find_median(double weights, Evidence& evidence) const;
-  void choose(Evidence& evidence);
-  void choose_misses(const Mission& mission, Evidence& evidence) const;
+  void find_centroid(ScanSubset& subset) const;
+  void find_median(double weights, ScanSubset& subset) const;
+  void choose(ScanSubset& subset);
+  void choose_misses(const Mission& mission, ScanSubset& subset) const;
 
   FixedVector<PoolHit, kPoolRays> hits_;
   FixedVector<ScanRay<FlightNumber>, kPoolRays> misses_;

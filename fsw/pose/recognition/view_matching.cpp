@@ -17,9 +17,9 @@ constexpr std::size_t kBlock = 8;       // points between two looks whether the 
 constexpr std::size_t kHeadStart = 12;  // points: by so many times its share of the limit a sum may run ahead
 constexpr std::uint32_t kUnwanted = 0xFFFFFFFFu;
 
-// 0 from afar, 1 from as near as the near views, between them by the inverse of the range; larger when nearer still.
-double nearness(const Mission& mission, const Evidence& evidence) {
-  const double range = square_root(evidence.centroid.squaredNorm());
+// 0 from far away, 1 from as near as the near views, between them by the inverse of the range; larger when nearer still.
+double nearness(const Mission& mission, const ScanSubset& subset) {
+  const double range = square_root(subset.centroid.squaredNorm());
   const double near = static_cast<double>(kNearView) * static_cast<double>(mission.search.size_m);
   return range > 0.5 * near ? near / range : 2;
 }
@@ -83,17 +83,17 @@ void ShortList::put_in(const Hypothesis& hypothesis) {
   if (hypothesis.score < last.score) last = hypothesis;
 }
 
-void CoarseSearch::begin(const Mission& mission, const Evidence& evidence) {
+void ViewMatcher::begin(const Mission& mission, const ScanSubset& subset) {
   short_list_.clear();
   next_view_ = 0;
   done_ = false;
   by_median_ = false;
-  count_ = evidence.hits.size() < kCoarsePoints ? evidence.hits.size() : kCoarsePoints;
-  const double range2 = evidence.centroid.squaredNorm();
-  sight_ = axes_along(range2 > 0 ? Vec3(-evidence.centroid / square_root(range2)) : Vec3(-Vec3::UnitZ()));
+  count_ = subset.hits.size() < kCoarsePoints ? subset.hits.size() : kCoarsePoints;
+  const double range2 = subset.centroid.squaredNorm();
+  sight_ = axes_along(range2 > 0 ? Vec3(-subset.centroid / square_root(range2)) : Vec3(-Vec3::UnitZ()));
   const double cells_per_m = static_cast<double>(mission.search.cells_per_m);
   for (std::size_t i = 0; i < count_; ++i) {
-    const Vec3 y = cells_per_m * (sight_.transpose() * (to_vec3(evidence.hits[i].p) - evidence.centroid));
+    const Vec3 y = cells_per_m * (sight_.transpose() * (to_vec3(subset.hits[i].p) - subset.centroid));
     for (int k = 0; k < 3; ++k) points_[i][k] = to_fixed(y[k], kFarthestCell, kPlaceBits);
   }
   for (std::uint32_t roll = 0; roll < kRolls / 2; ++roll) {
@@ -103,15 +103,15 @@ void CoarseSearch::begin(const Mission& mission, const Evidence& evidence) {
   }
 }
 
-std::uint32_t CoarseSearch::step(const Mission& mission, const Evidence& evidence) {
+std::uint32_t ViewMatcher::step(const Mission& mission, const ScanSubset& subset) {
   points_looked_at_ = offers_ = 0;
   const Mat3 axes = axes_along(to_vec3(mission.search.views[next_view_].direction));
-  const bool again = choose_place(mission, evidence);
+  const bool again = choose_place(mission, subset);
   turn_points(mission.search, axes);
   for (std::uint32_t roll = 0; roll < kRolls / 2; ++roll) {
     const RollScore both = score(mission.search, roll);
-    offer(evidence, axes, roll, both.here);
-    offer(evidence, axes, roll + kRolls / 2, both.opposite);
+    offer(subset, axes, roll, both.here);
+    offer(subset, axes, roll + kRolls / 2, both.opposite);
   }
   by_median_ = again;
   if (!again) ++next_view_;
@@ -120,18 +120,18 @@ std::uint32_t CoarseSearch::step(const Mission& mission, const Evidence& evidenc
 }
 
 // Where the returns' centroid is in the view. True where the view is to be laid once more.
-bool CoarseSearch::choose_place(const Mission& mission, const Evidence& evidence) {
+bool ViewMatcher::choose_place(const Mission& mission, const ScanSubset& subset) {
   const ModelView<N>& view = mission.search.views[next_view_];
-  const double near = nearness(mission, evidence);
+  const double near = nearness(mission, subset);
   const auto between = [&](double afar, double nearby) { return afar + near * (nearby - afar); };
   for (int i = 0; i < 3; ++i) centroid_[i] = between(N::to_double(view.centroid[i]), N::to_double(view.near_centroid[i]));
-  const double farther = between(N::to_double(view.median), N::to_double(view.near_median)) - evidence.median;
+  const double farther = between(N::to_double(view.median), N::to_double(view.near_median)) - subset.median;
   const double apart = kMedianApart * static_cast<double>(mission.search.truncation_m);
   if (by_median_) centroid_ -= farther * to_vec3(view.direction);
   return !by_median_ && (farther > apart || farther < -apart);
 }
 
-void CoarseSearch::turn_points(const SearchTables<N>& tables, const Mat3& view_axes) {
+void ViewMatcher::turn_points(const SearchTables<N>& tables, const Mat3& view_axes) {
   std::int32_t V[3][3];
   std::int32_t t[3];
   for (int k = 0; k < 3; ++k) {
@@ -150,7 +150,7 @@ void CoarseSearch::turn_points(const SearchTables<N>& tables, const Mat3& view_a
 }
 
 // The sums over the points of a block, at the roll and half a turn on.
-CoarseSearch::RollScore CoarseSearch::sum_block(const SearchTables<N>& tables, std::uint32_t roll, std::size_t first) const {
+ViewMatcher::RollScore ViewMatcher::sum_block(const SearchTables<N>& tables, std::uint32_t roll, std::size_t first) const {
   const std::int32_t cos = turns_[roll][0];
   const std::int32_t sin = turns_[roll][1];
   const std::size_t end = first + kBlock < count_ ? first + kBlock : count_;
@@ -165,13 +165,13 @@ CoarseSearch::RollScore CoarseSearch::sum_block(const SearchTables<N>& tables, s
 }
 
 // What the sum over the first `points` of them may be of a hypothesis that is to come on the list: their share of its limit, with a start.
-std::uint32_t CoarseSearch::share_of_limit(std::size_t points) const {
+std::uint32_t ViewMatcher::share_of_limit(std::size_t points) const {
   return short_list_.limit() * static_cast<std::uint32_t>(points + kHeadStart) / static_cast<std::uint32_t>(count_ + kHeadStart);
 }
 
 // The sum over the points, of both the roll and the one half a turn on; kUnwanted of both where neither promises to be among the best:
 // points are far apart, so that the first few are a fair sample of them all.
-CoarseSearch::RollScore CoarseSearch::score(const SearchTables<N>& tables, std::uint32_t roll) {
+ViewMatcher::RollScore ViewMatcher::score(const SearchTables<N>& tables, std::uint32_t roll) {
   RollScore sum;
   for (std::size_t first = 0; first < count_; first += kBlock) {
     const std::uint32_t bound = share_of_limit(first);
@@ -184,7 +184,7 @@ CoarseSearch::RollScore CoarseSearch::score(const SearchTables<N>& tables, std::
   return sum;
 }
 
-void CoarseSearch::offer(const Evidence& evidence, const Mat3& view_axes, std::uint32_t roll, std::uint32_t score) {
+void ViewMatcher::offer(const ScanSubset& subset, const Mat3& view_axes, std::uint32_t roll, std::uint32_t score) {
   if (score >= short_list_.limit()) return;
   ++offers_;
   const SinCos turn = sin_cos(2 * kPi / kRolls * roll);
@@ -194,7 +194,7 @@ void CoarseSearch::offer(const Evidence& evidence, const Mat3& view_axes, std::u
   Hypothesis hypothesis;
   hypothesis.score = score;
   hypothesis.T_target_sensor.q = to_quaternion(R_target_sensor);
-  hypothesis.T_target_sensor.p = centroid_ - R_target_sensor * evidence.centroid;
+  hypothesis.T_target_sensor.p = centroid_ - R_target_sensor * subset.centroid;
   short_list_.offer(hypothesis);
 }
 

@@ -43,13 +43,13 @@ constexpr double kCosHalfDistinct = 0.99144486137381038;  // 15 deg
 // Angle between two attitudes is more than the one whose half has this cosine.
 bool are_apart(const Quat& a, const Quat& b, double cos_half_angle);
 
-class CoarseSearch {
+class ViewMatcher {
  public:
-  void begin(const Mission& mission, const Evidence& evidence);
+  void begin(const Mission& mission, const ScanSubset& subset);
   // One view at all rolls: kRolls * kCoarsePoints cells at most. A view is laid with the middle of what is seen on that of the returns, and
   // once more with their median depths alike where that is another place: thin parts that are seen edge-on, or nearly, move a middle, and a
   // few parts far behind the others. Returns how much work it was (work_units.hpp); done() after the last view.
-  std::uint32_t step(const Mission& mission, const Evidence& evidence);
+  std::uint32_t step(const Mission& mission, const ScanSubset& subset);
   bool done() const { return done_; }
   const ShortList& short_list() const { return short_list_; }
 
@@ -66,12 +66,12 @@ class CoarseSearch {
     std::uint32_t here = 0;
     std::uint32_t opposite = 0;
   };
-  bool choose_place(const Mission& mission, const Evidence& evidence);
+  bool choose_place(const Mission& mission, const ScanSubset& subset);
   void turn_points(const SearchTables<N>& tables, const Mat3& view_axes);
   std::uint32_t share_of_limit(std::size_t points) const;
   RollScore score(const SearchTables<N>& tables, std::uint32_t roll);
   RollScore sum_block(const SearchTables<N>& tables, std::uint32_t roll, std::size_t first) const;
-  void offer(const Evidence& evidence, const Mat3& view_axes, std::uint32_t roll, std::uint32_t score);
+  void offer(const ScanSubset& subset, const Mat3& view_axes, std::uint32_t roll, std::uint32_t score);
 
   Mat3 sight_ = Mat3::Identity();  // columns: axes of the line of sight, the third one back to the sensor; sensor frame
   std::uint32_t next_view_ = 0;

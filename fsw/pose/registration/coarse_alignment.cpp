@@ -13,14 +13,14 @@ constexpr double kFarGateShrink = 0.8;           // per pass
 constexpr double kFrontOfCenter = 0.15;          // of the radius: how far in front of the model's centre its visible side lies
 constexpr int kSlides = 6;                       // each way
 constexpr double kSlideSteps[] = {0.055, 0.01};  // of the radius: coarse, fine
-constexpr int kPlacesOfAxis = 3;                 // slides along it that are pulled to the model
+constexpr int kPlacesOfAxis = 3;                 // slides along it that are aligned with the model
 constexpr double kGoodShare = 0.98;              // of the points explained: no slide can be better by much
 constexpr int kPlanePasses = 3;
 constexpr int kRayPasses = 3;
 
 std::size_t stride_of(const Workspace& workspace) { return (workspace.points.size() + kFarPoints - 1) / kFarPoints; }
 
-// Slides are pulled by every other of them, of a few by all.
+// Slides are aligned by every other of them, of a few by all.
 std::size_t slide_stride_of(const Workspace& workspace) {
   const std::size_t stride = stride_of(workspace);
   return workspace.points.size() >= std::size_t{4} * kMinimumPoints * stride ? 2 * stride : stride;
@@ -58,7 +58,7 @@ Pose center_points(const Mission& mission, const Pose& T_target_sensor, const Wo
   return moved;
 }
 
-// Pulls a point to the model's foot point of its brick: three rows, one per axis, Tukey-weighted by distance.
+// Adds the step of a point to the model's foot point of its brick: three rows, one per axis, Tukey-weighted by distance.
 void add_foot(const Field<N>& field, const GridPlace<N>& place, float gate_m, const FieldRay<N>& ray, PassSums<N>& sums) {
   const N::Length* foot = field.foot_points + std::size_t{3} * place.brick;
   const N::Length gap[3] = {foot[0] - ray.m[0], foot[1] - ray.m[1], foot[2] - ray.m[2]};
@@ -114,7 +114,7 @@ void take_plane_pass(const Mission& mission, const MatchSettings<N>& s, const Pl
   solve_pass(mission, s, whole, pass, pose);
 }
 
-void pull_to_planes(const Mission& mission, MatchSettings<N> s, std::size_t stride, const Workspace& workspace, Pose& pose) {
+void align_to_planes(const Mission& mission, MatchSettings<N> s, std::size_t stride, const Workspace& workspace, Pose& pose) {
   set_gate(2 * mission.parameters.gate_first_m, s);
   for (int i = 0; i < kPlanePasses; ++i) take_plane_pass(mission, s, {stride, false}, workspace, pose);
 }
@@ -141,7 +141,7 @@ struct Candidate {
   std::uint32_t score = 0;
 };
 
-// Draws a pose that planes have pulled to the model along the rays.
+// Aligns along the rays a pose that was aligned with the planes.
 Candidate drawn(const Mission& mission, const MatchSettings<N>& settings, Pose pose, Workspace& workspace) {
   MatchSettings<N> s = settings;
   set_gate(mission.parameters.gate_first_m, s);
@@ -154,7 +154,7 @@ Candidate drawn(const Mission& mission, const MatchSettings<N>& settings, Pose p
 }
 
 Candidate settled(const Mission& mission, const MatchSettings<N>& s, Pose pose, Workspace& workspace) {
-  pull_to_planes(mission, s, stride_of(workspace), workspace, pose);
+  align_to_planes(mission, s, stride_of(workspace), workspace, pose);
   return drawn(mission, s, pose, workspace);
 }
 
@@ -220,8 +220,8 @@ float distance_of(const Mission& mission, const Pose& pose, const Workspace& wor
   return sum;
 }
 
-// A wrong minimum is mostly a slide along an axis with a good rotation. Those that leave the points closest to the surface are pulled to
-// the model, and the closest of these is drawn along the rays.
+// A wrong minimum is mostly a slide along an axis with a good rotation. Those that leave the points closest to the surface are aligned with
+// the model, and the closest of these along the rays.
 Candidate slide(const Mission& mission, const MatchSettings<N>& s, int axis, double step_m, const Candidate& start, Workspace& workspace) {
   SlideDistances distances = distances_of(mission, axis, step_m, start.pose, workspace);
   distances.sum[kSlides] = UINT32_MAX;
@@ -230,7 +230,7 @@ Candidate slide(const Mission& mission, const MatchSettings<N>& s, int axis, dou
   for (int i = 0; i < kPlacesOfAxis; ++i) {
     Pose moved = start.pose;
     moved.p[axis] += take_closest(distances) * step_m;
-    pull_to_planes(mission, s, slide_stride_of(workspace), workspace, moved);
+    align_to_planes(mission, s, slide_stride_of(workspace), workspace, moved);
     const float distance_m = distance_of(mission, moved, workspace);
     if (!(distance_m < least_m)) continue;
     least_m = distance_m;
@@ -241,7 +241,7 @@ Candidate slide(const Mission& mission, const MatchSettings<N>& s, int axis, dou
 }
 
 // From far off: the middle of the points, then foot points and planes with a gate that shrinks.
-Pose pull_from_afar(const Mission& mission, MatchSettings<N> s, const Pose& T_target_sensor, const Workspace& workspace) {
+Pose align_from_afar(const Mission& mission, MatchSettings<N> s, const Pose& T_target_sensor, const Workspace& workspace) {
   Pose pose = center_points(mission, T_target_sensor, workspace);
   const double least_m = 2 * mission.parameters.gate_first_m;
   double gate_m = kFarGateFirst * mission.radius_m;
@@ -255,13 +255,13 @@ Pose pull_from_afar(const Mission& mission, MatchSettings<N> s, const Pose& T_ta
 
 }  // namespace
 
-Pose approach_from_afar(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace) {
+Pose align_coarsely(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace) {
   if (workspace.points.size() < kMinimumPoints) return T_target_sensor;
   const MatchSettings<N> s = make_settings(mission.parameters, workspace);
   const std::size_t stride = stride_of(workspace);
   const std::size_t looked_at = (workspace.points.size() + stride - 1) / stride;
   const double enough = kGoodShare * static_cast<double>(looked_at);
-  Candidate best = settled(mission, s, pull_from_afar(mission, s, T_target_sensor, workspace), workspace);
+  Candidate best = settled(mission, s, align_from_afar(mission, s, T_target_sensor, workspace), workspace);
   for (const double step : kSlideSteps) {
     for (int axis = 0; axis < 3 && best.score < enough; ++axis) {
       best = slide(mission, s, axis, step * mission.radius_m, best, workspace);

@@ -1,4 +1,4 @@
-// The pull of a rough hypothesis on the truncated distance to the surface, then on rays with a gate that shrinks.
+// Aligns a rough hypothesis by the truncated distance to the surface, then along the rays with a gate that shrinks.
 #include "fsw/pose/registration/gauss_newton.hpp"
 #include "fsw/pose/scan/work_units.hpp"
 
@@ -9,9 +9,9 @@ using N = FlightNumber;
 
 constexpr float kScaleFirst = 1.0F;                                // of the truncation
 constexpr float kScaleShrink = 0.84F;                              // per pass
-constexpr double kRayGates[kRayPulls] = {0.04, 0.02, 0.01, 0.01};  // of the model's size
+constexpr double kRayGates[kRaySteps] = {0.04, 0.02, 0.01, 0.01};  // of the model's size
 
-// Points within `scale` of the surface are pulled on to it along the distance's gradient. Returns the mean distance over the truncation.
+// Points within `scale` of the surface are moved on to it along the distance's gradient. Returns the mean distance over the truncation.
 double take_distance_pass(const Mission& mission, const MatchSettings<N>& s, float scale_m, const Workspace& workspace, Pose& pose) {
   const PathPose<N> path = to_path<N>(pose);
   Pass pass(mission);
@@ -37,7 +37,7 @@ double take_distance_pass(const Mission& mission, const MatchSettings<N>& s, flo
 
 }  // namespace
 
-Pose pull_on_rays(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace) {
+Pose align_on_rays(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace) {
   if (workspace.points.size() < kMinimumPoints) return T_target_sensor;
   MatchSettings<N> s = make_settings(mission.parameters, workspace);
   Pose pose = T_target_sensor;
@@ -48,21 +48,21 @@ Pose pull_on_rays(const Mission& mission, const Pose& T_target_sensor, Workspace
   return pose;
 }
 
-Pulled pull_on_distances(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace) {
-  Pulled pulled;
-  pulled.T_target_sensor = T_target_sensor;
-  if (workspace.points.size() < kMinimumPoints) return pulled;
+DistanceAlignment align_on_distances(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace) {
+  DistanceAlignment alignment;
+  alignment.T_target_sensor = T_target_sensor;
+  if (workspace.points.size() < kMinimumPoints) return alignment;
   const MatchSettings<N> s = make_settings(mission.parameters, workspace);
   float scale_m = kScaleFirst * mission.search.truncation_m;
-  for (std::uint32_t i = 0; i < kDistancePulls; ++i) {
-    pulled.distance = take_distance_pass(mission, s, scale_m, workspace, pulled.T_target_sensor);
+  for (std::uint32_t i = 0; i < kDistanceSteps; ++i) {
+    alignment.distance = take_distance_pass(mission, s, scale_m, workspace, alignment.T_target_sensor);
     scale_m *= kScaleShrink;
   }
-  return pulled;
+  return alignment;
 }
 
-Pose pull_in(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace) {
-  return pull_on_rays(mission, pull_on_distances(mission, T_target_sensor, workspace).T_target_sensor, workspace);
+Pose align_on_both(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace) {
+  return align_on_rays(mission, align_on_distances(mission, T_target_sensor, workspace).T_target_sensor, workspace);
 }
 
 }  // namespace lasso

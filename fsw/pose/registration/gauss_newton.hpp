@@ -44,7 +44,7 @@ Pass take_pass(const Mission& mission, const MatchSettings<FlightNumber>& settin
                Pose& T_target_sensor);
 
 // No step goes farther than the start is believed to be off, or than the noise reaches, m at the model's radius: points that met the wrong
-// surface can ask for steps along directions that hardly any other point holds, past the minimum that the start lies in.
+// surface can ask for steps along directions that hardly any other point observes, past the minimum that the start lies in.
 double longest_step_m(const MissionParameters& parameters, const MatchSettings<FlightNumber>& settings);
 
 // A whole pass over all points with one axis held: its step has no part along `axis`, but for a 1000th of what the hits would ask for.

@@ -1,8 +1,8 @@
 #include "fsw/pose/registration/minima.hpp"
 
 #include "fsw/core/fixed_vector.hpp"
-#include "fsw/pose/scan/path_pose.hpp"
 #include "fsw/pose/registration/observability.hpp"
+#include "fsw/pose/scan/path_pose.hpp"
 
 namespace lasso {
 namespace {
@@ -121,7 +121,7 @@ Minima find_minima(const Mission& mission, const CostedPose& from, double sigma_
   if (minima.is_elsewhere) places.all[chosen] = profile.descend(places.all[chosen], kFine * spacing_m);
   minima.T_target_sensor = places.all[chosen].T_target_sensor;
   const double apart_m = kSigmas * sigma_m > 0.5 * spacing_m ? kSigmas * sigma_m : 0.5 * spacing_m;
-  Spread spread(minima.T_target_sensor, apart_m, kUnseenSigma * mission.radius_m, profile);
+  Spread spread(minima.T_target_sensor, apart_m, kUnobservableSigma * mission.radius_m, profile);
   for (std::size_t i = 0; i < places.all.size(); ++i) {
     if (places.all[i].cost < places.limit) spread.add(places.all[i].T_target_sensor, i < places.minima);
   }

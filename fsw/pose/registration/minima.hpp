@@ -14,11 +14,11 @@ struct Minima {
   Mat6 spread = Mat6::Zero();  // what is not known of (rotation, translation) for all that, target axes: to be added to the covariance
 };
 
-// Looks at six places each way, a 30th of the radius apart, each drawn to the hits by a held pass. On either side the profile descends from
-// the lowest of those that lie lower than their neighbours. The last places count as well, as what lies beyond them is not looked at.
-// What is apart may be one of many places round the body: the pose is anywhere within three radii (kUnseenSigma) along the ways there,
-// which tell how all else changes with the place. A minimum that is not apart adds its squared way. `from` is a minimum, and `sigma_m` that
-// of the axis. Bound: 24 passes, and 3 x 20 for descents.
+// Looks at six places each way, a 30th of the radius apart, each fitted to the hits by a pass with the axis held. On either side the
+// profile descends from the lowest of those that lie lower than their neighbours. The last places count as well, as what lies beyond them
+// is not looked at. What is apart may be one of many places round the body: the pose is anywhere within three radii (kUnobservableSigma)
+// along the ways there, which tell how all else changes with the place. A minimum that is not apart adds its squared way. `from` is a
+// minimum, and `sigma_m` that of the axis. Bound: 24 passes, and 3 x 20 for descents.
 Minima find_minima(const Mission& mission, const CostedPose& from, double sigma_m, const Pose& predicted_T_target_sensor, Profile& profile);
 
 }  // namespace lasso

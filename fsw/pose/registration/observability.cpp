@@ -28,8 +28,8 @@ Vec6 radius_scale(double radius_m) {
 
 double prior_information(double radius_m, double translation_trace) { return 1 / (radius_m * radius_m) + kRounding * translation_trace; }
 
-Mat6 covariance_of_hits(double radius_m, const Mat6& H, double scale, Directions& unseen) {
-  unseen.count = 0;
+Mat6 covariance_of_hits(double radius_m, const Mat6& H, double scale, Directions& unobservable) {
+  unobservable.count = 0;
   Mat6 covariance;
   invariant(invert6(H, covariance) == Status::kOk, "information that was solved for a step has an inverse");
   const Mat6 scaled = at_radius(covariance, radius_m);
@@ -39,22 +39,22 @@ Mat6 covariance_of_hits(double radius_m, const Mat6& H, double scale, Directions
   Mat6 whole = Mat6::Zero();
   for (int i = 0; i < 6; ++i) {
     const Vec6 direction = eigen.vectors.col(i);
-    const bool is_unseen = eigen.values[i] * prior > kPriorLeads;
-    if (is_unseen) unseen.vectors.col(unseen.count++) = direction;
-    const double anywhere_m = kUnseenSigma * radius_m;
-    const double variance = is_unseen ? anywhere_m * anywhere_m : variance_without(prior, eigen.values[i], scale);
+    const bool is_unobservable = eigen.values[i] * prior > kPriorLeads;
+    if (is_unobservable) unobservable.vectors.col(unobservable.count++) = direction;
+    const double anywhere_m = kUnobservableSigma * radius_m;
+    const double variance = is_unobservable ? anywhere_m * anywhere_m : variance_without(prior, eigen.values[i], scale);
     whole += variance * direction * direction.transpose();
   }
   return at_radius(whole, 1 / radius_m);
 }
 
-bool forget_unseen(double radius_m, const Directions& unseen, Label& label) {
+bool remove_unobservable(double radius_m, const Directions& unobservable, Label& label) {
   const Vec6 to_radius = radius_scale(radius_m);
   Vec6 row = label.a.cwiseQuotient(to_radius);
-  for (int i = 0; i < unseen.count; ++i) {
-    const double along = row.dot(unseen.vectors.col(i));
-    if (along * along > kUnseenLever * kUnseenLever) return false;
-    row -= along * unseen.vectors.col(i);
+  for (int i = 0; i < unobservable.count; ++i) {
+    const double along = row.dot(unobservable.vectors.col(i));
+    if (along * along > kUnobservableLever * kUnobservableLever) return false;
+    row -= along * unobservable.vectors.col(i);
   }
   label.a = row.cwiseProduct(to_radius);
   return true;

@@ -1,4 +1,4 @@
-// Directions of the pose that a scan does not show: a tube's roll, a plate's shift within itself. All that the normal equations hold along
+// Directions of the pose that a scan does not show: a tube's roll, a plate's shift within itself. All that the normal equations know along
 // them is the wide prior that keeps these solvable (gauss_newton.hpp), which is no measurement and must not pass for one.
 #pragma once
 
@@ -7,8 +7,9 @@
 
 namespace lasso {
 
-constexpr double kUnseenSigma = 3;     // along such a direction, of the model's radius: anywhere
-constexpr double kUnseenLever = 0.05;  // of a label: one that reacts more than this to such a direction has no meaning while it is unknown
+constexpr double kUnobservableSigma = 3;  // along such a direction, of the model's radius: anywhere
+constexpr double kUnobservableLever =
+    0.05;  // of a label: one that reacts more than this to such a direction has no meaning while it is unknown
 
 // (rotation * radius, translation) of a step; a row of a step is scaled by the inverse.
 Vec6 radius_scale(double radius_m);
@@ -23,11 +24,11 @@ struct Directions {
 double prior_information(double radius_m, double translation_trace);
 
 // The covariance that the hits leave, target axes: the inverse of H less the prior in it, times `scale` (the noise's variance over the
-// assumed one). Where less is known than the prior says, the direction is unseen and has the sigma kUnseenSigma. H is positive definite.
-// Bound: one eigen-decomposition, where the prior counts at all.
-Mat6 covariance_of_hits(double radius_m, const Mat6& H, double scale, Directions& unseen);
+// assumed one). Where less is known than the prior says, the direction is unobservable and has the sigma kUnobservableSigma. H is positive
+// definite. Bound: one eigen-decomposition, where the prior counts at all.
+Mat6 covariance_of_hits(double radius_m, const Mat6& H, double scale, Directions& unobservable);
 
-// Takes what the label would say of unseen directions out of its row; false where that is too much for it to mean anything.
-bool forget_unseen(double radius_m, const Directions& unseen, Label& label);
+// Takes what the label would say of unobservable directions out of its row; false where that is too much for it to mean anything.
+bool remove_unobservable(double radius_m, const Directions& unobservable, Label& label);
 
 }  // namespace lasso

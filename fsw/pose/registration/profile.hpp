@@ -27,7 +27,7 @@ class Profile {
   // One pass over all points, nothing solved.
   CostedPose cost_at(const Pose& T_target_sensor);
 
-  // The pose a step along the axis from here, drawn to the hits by `draws` passes with the axis held, and its cost: one pass more.
+  // The pose a step along the axis from here, fitted to the hits by `draws` passes with the axis held, and its cost: one pass more.
   CostedPose draw_at(const Pose& T_target_sensor, double step_m, int draws);
 
   // Is the cost higher by `least`, so far off along the axis, either way? At most two passes.
@@ -49,7 +49,7 @@ class Profile {
 };
 
 // Moves `hits` along the axis to where they cost least, if that is less by more than one return may cost; says whether it has. From the
-// registration or from the prediction drawn to the hits, whichever costs less: one of both often lies beside a minimum that the other is
+// registration or from the prediction fitted to the hits, whichever costs less: one of both often lies beside a minimum that the other is
 // in. Where the cost is higher by kRise, that of four returns, a step of `first_step_m` off, either way, it is taken for a minimum. The
 // pose stays where the hits have no solution at the other place. Why it stopped stays as it was. Bound: 27 passes over all points.
 constexpr double kRise = 4 * kMostOfAReturn;  // of a minimum's cost

@@ -67,24 +67,24 @@ constexpr double kMostOfAReturn = 4;  // from a sweep of 2 to 16 (docs/experimen
 
 // A rough start made good enough for register_first, on at most 96 of the points: their centroid, the far field, then slides along the
 // target's axes, until 98 % of them lie on the model. Of the slides along an axis three that leave the points closest to the surface are
-// pulled to its planes by half of these points (all, of less than 48), and the closest of these is drawn along the rays. Converges from
-// about 20 deg and a quarter of the model's size. Bound: 20 + 6 + 6 x (3 x 3 / 2 + 3) passes over these points, and 6 x 13 look-ups of a
-// distance and 6 x 3 interpolated ones for each.
-Pose approach_from_afar(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace);
+// aligned with its planes by half of these points (all, of less than 48), and the closest of these is aligned along the rays. Converges
+// from about 20 deg and a quarter of the model's size. Bound: 20 + 6 + 6 x (3 x 3 / 2 + 3) passes over these points, and 6 x 13 look-ups of
+// a distance and 6 x 3 interpolated ones for each.
+Pose align_coarsely(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace);
 
-// A pose that is about right drawn to the model: 4 passes over all points on rays, with a gate that shrinks from 4 % of the model's size to
-// 1 %.
-Pose pull_on_rays(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace);
+// Aligns a pose that is about right along the rays: 4 passes over all points on rays, with a gate that shrinks from 4 % of the model's size
+// to 1 %.
+Pose align_on_rays(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace);
 
-// The hypothesis of a search drawn to the model: 8 passes on the truncated distance to it. Converges from about 20 deg and a tenth of the
-// model's size, to within pull_on_rays' reach.
-struct Pulled {
+// Aligns a hypothesis of a search by the truncated distance to the model, in 8 passes. Converges from about 20 deg and a tenth of the
+// model's size, to within align_on_rays' reach.
+struct DistanceAlignment {
   Pose T_target_sensor;
   double distance = 1;  // mean over the points before the last pass, in truncations
 };
-Pulled pull_on_distances(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace);
+DistanceAlignment align_on_distances(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace);
 
 // Both, one after the other.
-Pose pull_in(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace);
+Pose align_on_both(const Mission& mission, const Pose& T_target_sensor, Workspace& workspace);
 
 }  // namespace lasso

@@ -5,21 +5,21 @@
 #include "fsw/geometry/portable_math.hpp"
 #include "fsw/geometry/symmetric6.hpp"
 #include "fsw/pose/registration/minima.hpp"
-#include "fsw/pose/scan/path_pose.hpp"
 #include "fsw/pose/registration/profile.hpp"
+#include "fsw/pose/scan/path_pose.hpp"
 
 namespace lasso {
 namespace {
 
 constexpr double kSigmas = 5;         // a valid pose is not farther off than so many of its own
 constexpr double kCertain = 0.002;    // of the radius
-constexpr double kLongestStep = 0.1;  // of the radius: a first step of a profile; parts that hold an axis are no wider
+constexpr double kLongestStep = 0.1;  // of the radius: a first step of a profile; parts that fix an axis are no wider
 
 bool has_axes(const HitSolution& solution) {
   return solution.stop == StopReason::kConverged || solution.stop == StopReason::kIterationLimit;
 }
 
-// The least certain axis that the hits see at all. Unseen ones say themselves that nothing is known along them: a rod's place along itself
+// The least certain axis that the hits observe at all. Unobservable ones say so themselves: a rod's place along itself
 // hides nothing of its roll, which comes next. (One at least is seen where there are hits.)
 struct WeakAxis {
   Vec6 axis;
@@ -28,15 +28,15 @@ struct WeakAxis {
 
 // Not compiled into its caller, where its matrices would add to the stack of the profile.
 [[gnu::noinline]] void find_axis(const Mission& mission, const HitSolution& hits, WeakAxis& weak) {
-  Directions unseen;
-  const Mat6 covariance = covariance_of_hits(mission.radius_m, hits.H, 1, unseen);
+  Directions unobservable;
+  const Mat6 covariance = covariance_of_hits(mission.radius_m, hits.H, 1, unobservable);
   const Eigen6 eigen = axes_at_radius(covariance, mission.radius_m);
-  const int least_certain = 5 - std::min(unseen.count, 5);
+  const int least_certain = 5 - std::min(unobservable.count, 5);
   weak.axis = eigen.vectors.col(least_certain);
   weak.sigma_m = square_root(eigen.values[least_certain]);
 }
 
-// Is the pose more than five sigmas of the axis from the prediction, along it? Where rays have met the wrong surface, many of them hold it
+// Is the pose more than five sigmas of the axis from the prediction, along it? Where rays have met the wrong surface, many of them keep it
 // there, and it is sure of itself.
 bool is_far(const Mission& mission, const Pose& predicted, const Pose& pose, const WeakAxis& weak) {
   const Vec6 way_m = radius_scale(mission.radius_m).cwiseProduct(way_between(pose, predicted));
@@ -75,10 +75,10 @@ void minimise_weak_axis(const Mission& mission, const Pose& predicted, Workspace
 }
 
 void widen_weak_axes(const Mission& mission, const HitSolution& hits, double scale, Workspace& workspace, Mat6& covariance,
-                     Directions& unseen) {
+                     Directions& unobservable) {
   const Eigen6 eigen = axes_at_radius(covariance, mission.radius_m);
   if (square_root(eigen.values[5]) < kCertain * mission.radius_m) return;
-  const double anywhere_m = kUnseenSigma * mission.radius_m;
+  const double anywhere_m = kUnobservableSigma * mission.radius_m;
   const CostedPose here = Profile(mission, Vec6::Zero(), hits.usable, workspace).cost_at(hits.T_target_sensor);
   for (int i = 5; i >= 0; --i) {
     const double sigma_m = square_root(eigen.values[i]);
@@ -88,17 +88,17 @@ void widen_weak_axes(const Mission& mission, const HitSolution& hits, double sca
     Profile profile(mission, axis, hits.usable, workspace);
     const double way_m = rising_way_m(profile, here, mission.radius_m, sigma_m, scale);
     const bool is_seen = way_m < mission.radius_m;
-    if (!is_seen) unseen.vectors.col(unseen.count++) = axis;
+    if (!is_seen) unobservable.vectors.col(unobservable.count++) = axis;
     const double held_m = is_seen ? way_m / kSigmas : anywhere_m;
     const Vec6 row = axis.cwiseQuotient(radius_scale(mission.radius_m));
     covariance += (held_m * held_m - eigen.values[i]) * row * row.transpose();
   }
 }
 
-void add_others(const HitSolution& hits, Mat6& covariance, Directions& unseen) {
+void add_others(const HitSolution& hits, Mat6& covariance, Directions& unobservable) {
   covariance += hits.spread;
   if (!hits.others_apart) return;
-  if (unseen.count < 6) unseen.vectors.col(unseen.count++) = hits.axis;
+  if (unobservable.count < 6) unobservable.vectors.col(unobservable.count++) = hits.axis;
 }
 
 }  // namespace lasso

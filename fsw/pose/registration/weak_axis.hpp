@@ -1,13 +1,13 @@
 // Tests of a registration along its least certain axes. Gauss-Newton knows only the surfaces that the rays meet now. A few of them that met
-// the wrong one hold the pose at a wrong place, and the normal equations say that it is held there. So costs are compared (profile.hpp).
+// the wrong one keep the pose at a wrong place, and the normal equations take it for certain. So costs are compared (profile.hpp).
 //
 // Axes are eigenvectors of the hits' covariance over (rotation * radius, translation), target axes. Lengths along them are metres at the
 // model's radius: five sigmas of a 500th of it are 0.6 deg.
 #pragma once
 
 #include "fsw/mission/mission.hpp"
-#include "fsw/pose/registration/registration.hpp"
 #include "fsw/pose/registration/observability.hpp"
+#include "fsw/pose/registration/registration.hpp"
 
 namespace lasso {
 
@@ -19,14 +19,14 @@ namespace lasso {
 void minimise_weak_axis(const Mission& mission, const Pose& predicted_T_target_sensor, Workspace& workspace, HitSolution& hits);
 
 // Does the cost rise as the covariance says? Where it is not higher by kRise five sigmas off along an axis, either way, the sigma is
-// doubled until it is; without an end within the model's radius the axis is unseen. Of Gaussian residuals of many returns the bounded cost
-// is higher by 0.6 of the square, 15: most such sigmas are doubled once. Axes more certain than a 500th of
-// the radius are left, and those whose five sigmas reach beyond it: they say so. `covariance` is that of the hits (covariance_of_hits), of
-// a noise whose variance is `scale` times the assumed one. Bound: one eigen-decomposition, one pass over the points, and 14 for each axis.
+// doubled until it is; without an end within the model's radius the axis is unobservable. Of Gaussian residuals of many returns the bounded
+// cost is higher by 0.6 of the square, 15: most such sigmas are doubled once. Axes more certain than a 500th of the radius are left, and
+// those whose five sigmas reach beyond it: they say so. `covariance` is that of the hits (covariance_of_hits), of a noise whose variance is
+// `scale` times the assumed one. Bound: one eigen-decomposition, one pass over the points, and 14 for each axis.
 void widen_weak_axes(const Mission& mission, const HitSolution& hits, double scale, Workspace& workspace, Mat6& covariance,
-                     Directions& unseen);
+                     Directions& unobservable);
 
 // Other minima of minimise_weak_axis join the covariance, and their axis what the hits do not show.
-void add_others(const HitSolution& hits, Mat6& covariance, Directions& unseen);
+void add_others(const HitSolution& hits, Mat6& covariance, Directions& unobservable);
 
 }  // namespace lasso

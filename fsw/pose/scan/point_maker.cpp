@@ -17,7 +17,7 @@ void set_noise(const Settings& s, Length range, N::Factor factor, MatchPoint<N>&
   const auto across = bounded<Sigma>(range * s.angle);
   point.range_variance = bounded<N::Variance>(constant * constant + grown * grown);
   point.across_variance = bounded<N::Variance>(across * across);
-  // A bound of k sigma without a square root; 4 = tan 76 deg: what lies farther off for pointing noise at grazing incidence is let go.
+  // A bound of k sigma without a square root; 4 = tan 76 deg: what lies farther off for pointing noise at grazing incidence is left out.
   point.reach = bounded<Length>(s.width * (constant + grown + 4 * across + s.surface));
 }
 

@@ -1,10 +1,11 @@
+// Where an estimate starts.
 #pragma once
 
 #include "fsw/geometry/se3.hpp"
 
 namespace lasso {
 
-// Where the registration starts: the prediction for the scan's reference time.
+// The prediction for the scan's reference time.
 struct StartPoint {
   Pose T_sensor_target;
   Twist rates;        // for moving the points to the reference time (estimation.deskew)

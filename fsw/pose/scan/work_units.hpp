@@ -8,8 +8,8 @@
 namespace lasso {
 
 constexpr std::size_t kInstructionsPerUnit = 75;
-constexpr std::uint32_t kDistancePulls = 8;  // passes of pull_on_distances
-constexpr std::uint32_t kRayPulls = 4;       // of pull_on_rays
+constexpr std::uint32_t kDistanceSteps = 8;  // passes of align_on_distances
+constexpr std::uint32_t kRaySteps = 4;       // of align_on_rays
 
 // Instructions of one each, in the mean or, where a ray is walked along, rather more.
 namespace cost {
@@ -22,16 +22,16 @@ constexpr std::size_t kView = 1500;         // of the table, laid
 constexpr std::size_t kTurnedPoint = 40;    // a return in a view
 constexpr std::size_t kCoarsePoint = 75;    // at a roll and half a turn on
 constexpr std::size_t kOffer = 1800;        // of a hypothesis to the short list
-constexpr std::size_t kDistancePull = 450;  // of a point
-constexpr std::size_t kRayPull = 1350;      // of a point: its ray is walked along through a gate that begins wide
+constexpr std::size_t kDistanceStep = 450;  // of a point
+constexpr std::size_t kRayStep = 1350;      // of a point: its ray is walked along through a gate that begins wide
 constexpr std::size_t kRayWeighed = 1100;   // of a point, as the pose stands
 constexpr std::size_t kOpening = 200;       // of a point, when a registration begins
 constexpr std::size_t kPass = 550;          // of a point in a registration, each time
 constexpr std::size_t kSolution = 6000;     // of any pass
 constexpr std::size_t kFitHit = 2800;       // a return measured
 constexpr std::size_t kFitMiss = 1400;      // a miss measured
-constexpr std::size_t kRegion = 5500;       // of the evidence, besides its returns
-constexpr std::size_t kLine = 40000;        // to explore
+constexpr std::size_t kRegion = 5500;       // of the scan subset, besides its returns
+constexpr std::size_t kLine = 40000;        // to search a line
 constexpr std::size_t kEnding = 10500;      // of a stage: tracks put in order
 }  // namespace cost
 
@@ -47,10 +47,10 @@ constexpr std::uint32_t passing_work(std::size_t misses) { return units_of(cost:
 constexpr std::uint32_t view_work(std::size_t points, std::size_t looked_at, std::size_t offers) {
   return units_of(cost::kView + cost::kTurnedPoint * points + cost::kCoarsePoint * looked_at + cost::kOffer * offers);
 }
-constexpr std::uint32_t pull_work(std::size_t points) {
-  return units_of(kDistancePulls * (cost::kDistancePull * points + cost::kSolution));
+constexpr std::uint32_t distance_alignment_work(std::size_t points) {
+  return units_of(kDistanceSteps * (cost::kDistanceStep * points + cost::kSolution));
 }
-constexpr std::uint32_t draw_work(std::size_t points) { return units_of(kRayPulls * (cost::kRayPull * points + cost::kSolution)); }
+constexpr std::uint32_t ray_alignment_work(std::size_t points) { return units_of(kRaySteps * (cost::kRayStep * points + cost::kSolution)); }
 constexpr std::uint32_t look_work(std::size_t points, std::size_t passes) {
   return units_of(cost::kOpening * points + passes * (cost::kPass * points + cost::kSolution));
 }
@@ -58,6 +58,8 @@ constexpr std::uint32_t weigh_work(std::size_t points) { return units_of(cost::k
 constexpr std::uint32_t regions_work(std::size_t points, std::size_t regions) {
   return units_of(cost::kRayWeighed * points + regions * cost::kRegion);
 }
-constexpr std::uint32_t fit_work(std::size_t hits, std::size_t misses) { return units_of(cost::kFitHit * hits + cost::kFitMiss * misses); }
+constexpr std::uint32_t score_work(std::size_t hits, std::size_t misses) {
+  return units_of(cost::kFitHit * hits + cost::kFitMiss * misses);
+}
 
 }  // namespace lasso

@@ -1,8 +1,8 @@
 #include "fsw/pose/silhouette/information_forecast.hpp"
 
 #include "fsw/geometry/portable_math.hpp"
-#include "fsw/pose/silhouette/contour_probe.hpp"
 #include "fsw/pose/scan/model_ray.hpp"
+#include "fsw/pose/silhouette/contour_probe.hpp"
 
 namespace lasso {
 namespace {
@@ -73,10 +73,10 @@ ScanRectangle visible_outline(const Mission& mission, const View<N>& view) {
 }
 
 SeenPoint look_at(const Mission& mission, const View<N>& view, const ScanRectangle& r, int index) {
-  const int row = index / kOutlookColumns;
-  const int column = index % kOutlookColumns;
-  const double x = static_cast<double>(r.low[0]) + (column + 0.5) / kOutlookColumns * static_cast<double>(r.high[0] - r.low[0]);
-  const double y = static_cast<double>(r.low[1]) + (row + 0.5) / kOutlookRows * static_cast<double>(r.high[1] - r.low[1]);
+  const int row = index / kForecastColumns;
+  const int column = index % kForecastColumns;
+  const double x = static_cast<double>(r.low[0]) + (column + 0.5) / kForecastColumns * static_cast<double>(r.high[0] - r.low[0]);
+  const double y = static_cast<double>(r.low[1]) + (row + 0.5) / kForecastRows * static_cast<double>(r.high[1] - r.low[1]);
   const double scale = 1 / square_root(x * x + y * y + 1);
   ScanRay<N> ray{};
   for (int i = 0; i < 2; ++i) ray.u[i] = N::to<N::Unit>((i == 0 ? x : y) * scale);
@@ -84,15 +84,15 @@ SeenPoint look_at(const Mission& mission, const View<N>& view, const ScanRectang
   return see(mission, view.pose, ray);
 }
 
-Outlook look_over(const Mission& mission, const View<N>& view, const ScanRectangle& rectangle, double rays) {
-  Outlook outlook;
-  for (int i = 0; i < kOutlookRays; ++i) {
+InformationForecast forecast_information(const Mission& mission, const View<N>& view, const ScanRectangle& rectangle, double rays) {
+  InformationForecast forecast;
+  for (int i = 0; i < kForecastRays; ++i) {
     const SeenPoint seen = look_at(mission, view, rectangle, i);
-    outlook.met += seen.met ? 1 : 0;
-    outlook.information += seen.weight * seen.row * seen.row.transpose();
+    forecast.met += seen.met ? 1 : 0;
+    forecast.information += seen.weight * seen.row * seen.row.transpose();
   }
-  outlook.information = (rays / kOutlookRays) * outlook.information;
-  return outlook;
+  forecast.information = (rays / kForecastRays) * forecast.information;
+  return forecast;
 }
 
 }  // namespace lasso

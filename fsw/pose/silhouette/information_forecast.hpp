@@ -16,12 +16,12 @@ ScanRectangle outline_of(const Mission& mission, const View<FlightNumber>& view)
 // The same within the sensor's field of view; low is not below high where nothing of it is.
 ScanRectangle visible_outline(const Mission& mission, const View<FlightNumber>& view);
 
-struct Outlook {
+struct InformationForecast {
   Mat6 information = Mat6::Zero();  // of the pose: rotation about the target's origin and translation, target axes
   int met = 0;                      // of the kOutlookRays: how many meet the model
 };
-constexpr int kOutlookColumns = 8, kOutlookRows = 12;
-constexpr int kOutlookRays = kOutlookColumns * kOutlookRows;
+constexpr int kForecastColumns = 8, kForecastRows = 12;
+constexpr int kForecastRays = kForecastColumns * kForecastRows;
 
 // What a return along one ray will tell: the residual's row, and its variance.
 struct SeenPoint {
@@ -34,7 +34,8 @@ struct SeenPoint {
 SeenPoint look_at(const Mission& mission, const View<FlightNumber>& view, const ScanRectangle& rectangle, int index);
 
 // The returns of `rays` rays spread over the rectangle. Rays that graze the surface tell nothing. Bound: kOutlookRays walks.
-Outlook look_over(const Mission& mission, const View<FlightNumber>& view, const ScanRectangle& rectangle, double rays);
+InformationForecast forecast_information(const Mission& mission, const View<FlightNumber>& view, const ScanRectangle& rectangle,
+                                         double rays);
 
 // The sensor's range noise, without its pointing.
 double range_variance(const MissionParameters& parameters, double range_m);

@@ -1,7 +1,7 @@
-// A pose that its hits let slide (a plate within itself), settled by the scan's outline: which of its rays met the target and which passed
+// A pose that its hits let slide (a plate within itself), fixed by the scan's outline: which of its rays met the target and which passed
 // it by. Labels (silhouette.hpp) measure that finely, but only from near; this stage brings the pose near.
 //
-// A ray's cost is that of its gap, hit to surface, squared, up to three sigmas: a ray. So what the hits themselves hold is moved only
+// A ray's cost is that of its gap, hit to surface, squared, up to three sigmas: a ray. So what the hits themselves fix is moved only
 // where they are fewer than the rays that ask for it. A miss where there is a surface, and a hit where there is none, cost a ray.
 #pragma once
 
@@ -20,7 +20,7 @@ struct OutlineFit {
   bool moved = false;
   bool settled = false;  // disputed is no more than kDisputedShare of the rays, kFewRays and the drop-outs to be expected
   // For each direction, m at the model's radius: that far off either way kFewRays more dispute the pose. It is one of the steps that were
-  // tried, not the shortest; 0 where none was found, or nothing is settled.
+  // tried, not the shortest; 0 where none was found, or nothing is decided.
   Vec6 within_m = Vec6::Zero();
 };
 constexpr std::uint32_t kFewRays = 3;  // more than a pattern's chance

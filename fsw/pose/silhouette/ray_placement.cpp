@@ -13,7 +13,7 @@ using N = FlightNumber;
 constexpr double kOffsetSigmas = 2;      // rays reach this far to either side of the predicted contour
 constexpr double kLabelWorth = 0.6;      // how many labels make a measurement, measured: docs/experiments/2026-11-26-aimed-scans.md
 constexpr double kSurfaceSpread = 5e-4;  // of the range: rays at a surface stay beside one another
-static_assert(kMaxAimSurfaces == kOutlookRays, "each can be a place");
+static_assert(kMaxAimSurfaces == kForecastRays, "each can be a place");
 constexpr double kGoldenRatio = 0.6180339887498949;
 
 double square(double x) { return x * x; }
@@ -22,7 +22,7 @@ double larger(double a, double b) { return a > b ? a : b; }
 // Everything that stays the same from place to place.
 struct AimSearch {
   const Mission& mission;
-  const AimRequest& request;
+  const RayPlacementRequest& request;
   View<N> view;
   Mat6 P;  // of the prediction, target axes
   Mat3 R_sensor_target;
@@ -32,7 +32,7 @@ struct AimSearch {
   double limit_x, limit_y;  // of the field of view on the tangent plane
 };
 
-AimSearch make_search(const Mission& mission, const AimRequest& request) {
+AimSearch make_search(const Mission& mission, const RayPlacementRequest& request) {
   const MissionParameters& p = mission.parameters;
   const Pose T_target_sensor = inverse(request.T_sensor_target);
   const Mat3 R = to_matrix(request.T_sensor_target.q);
@@ -113,13 +113,13 @@ void add_surface(const AimSearch& s, const SeenPoint& seen, Workspace& workspace
 Mat6 look_around(const AimSearch& s, double rays, Workspace& workspace) {
   const ScanRectangle rectangle = outline_of(s.mission, s.view);
   Mat6 information = Mat6::Zero();
-  for (int i = 0; i < kOutlookRays; ++i) {
+  for (int i = 0; i < kForecastRays; ++i) {
     const SeenPoint seen = look_at(s.mission, s.view, rectangle, i);
     if (!(seen.weight > 0)) continue;
     information += seen.weight * seen.row * seen.row.transpose();
     add_surface(s, seen, workspace);
   }
-  return (rays / kOutlookRays) * information;
+  return (rays / kForecastRays) * information;
 }
 
 // How much the place's rays, of the weight w of one measurement, will take off trace(D C D).
@@ -207,7 +207,7 @@ std::size_t places_wanted(const MissionParameters& p) {
 
 }  // namespace
 
-void aim_rays(const Mission& mission, const AimRequest& request, Workspace& workspace, AimedRays& rays) {
+void aim_rays(const Mission& mission, const RayPlacementRequest& request, Workspace& workspace, AimedRays& rays) {
   rays.clear();
   const MissionParameters& p = mission.parameters;
   const std::size_t wanted = places_wanted(p);

@@ -18,7 +18,7 @@
 namespace lasso {
 
 // What is known of the target for the middle of the next scan.
-struct AimRequest {
+struct RayPlacementRequest {
   std::uint32_t scan_id = 0;  // the offsets differ from scan to scan
   Pose T_sensor_target;
   Twist rates;
@@ -32,6 +32,6 @@ constexpr std::size_t kRaysPerPlace = 6;
 // so there may be fewer rays than the share, or none. Bounds: the model's edges and kMaxContourEdges; kMaxAimPlaces places, each probed
 // once (four walks), and kMaxAimSurfaces; kMaxAimedRays / kRaysPerPlace choices, for each of which no place is asked twice; 96 walks for
 // the scan's own returns.
-void aim_rays(const Mission& mission, const AimRequest& request, Workspace& workspace, AimedRays& rays);
+void aim_rays(const Mission& mission, const RayPlacementRequest& request, Workspace& workspace, AimedRays& rays);
 
 }  // namespace lasso

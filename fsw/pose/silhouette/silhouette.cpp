@@ -75,13 +75,13 @@ bool measure(const EdgePlace& place, const ContourPoint& contour, const Line& li
 
 // +1 inside, -1 outside, 0 no statement.
 int side_of(const ScanRay<N>& ray, const ContourPoint& contour, const LabelSearch& search, double depth_m) {
-  const double slack = kConsistentDepths * depth_m + kConsistentSigmas * search.range_sigma_m;
+  const double weakly_observable = kConsistentDepths * depth_m + kConsistentSigmas * search.range_sigma_m;
   const double range = N::to_double(ray.range);
   if (ray.state == RayState::kMiss) return contour.kind == ContourKind::kOuter && search.misses_known ? -1 : 0;
-  const bool near_edge = range > contour.range_m - slack && range < contour.range_m + slack;
+  const bool near_edge = range > contour.range_m - weakly_observable && range < contour.range_m + weakly_observable;
   if (contour.kind == ContourKind::kOuter) return near_edge && search.misses_known ? 1 : 0;
   if (range < 0.5 * (contour.range_m + contour.far_range_m)) return near_edge ? 1 : 0;
-  return range < contour.far_range_m + slack ? -1 : 0;
+  return range < contour.far_range_m + weakly_observable ? -1 : 0;
 }
 
 bool is_informative(const Label& label, const Mat6& covariance, double own_variance) {
@@ -101,7 +101,7 @@ struct ProbedPlaces {
 };
 
 // Everything that stays the same from ray to ray.
-struct Search {
+struct PoseSearch {
   const Mission& mission;
   const View<N>& view;
   const LabelSearch& search;
@@ -119,7 +119,7 @@ struct FoundLabel {
 };
 
 // Rays that are aimed at one place follow one another: what is there has been found out for the first.
-ContourPoint probe_or_recall(const Search& s, std::uint32_t edge, const EdgePlace& place) {
+ContourPoint probe_or_recall(const PoseSearch& s, std::uint32_t edge, const EdgePlace& place) {
   ProbedPlace& last = s.probed.of_edge[edge % kProbedPlaces];
   const double step = N::to_double(s.probe.step);
   if (last.edge != edge || !((place.confirm - last.confirm).squaredNorm() < step * step)) {
@@ -131,7 +131,8 @@ ContourPoint probe_or_recall(const Search& s, std::uint32_t edge, const EdgePlac
 }
 
 // A label of one ray at one contour edge; false where there is none.
-bool label_edge(const Search& s, const ScanRay<N>& ray, const Line& line, const ContourEdge<N>& contour, double along, FoundLabel& found) {
+bool label_edge(const PoseSearch& s, const ScanRay<N>& ray, const Line& line, const ContourEdge<N>& contour, double along,
+                FoundLabel& found) {
   Label& label = found.label;
   ContourPoint& point = found.point;
   const EdgePlace place = place_on_edge(s.mission.edges.data()[contour.edge], contour, along, line);
@@ -154,7 +155,7 @@ bool label_edge(const Search& s, const ScanRay<N>& ray, const Line& line, const 
 bool misleads(bool nearer_without_label, double along, double d_m) { return nearer_without_label && (along <= 0 || along >= 1) && d_m > 0; }
 
 // The nearest contour labels the ray; a second one does where the ray passes inside a thin part, between two contours.
-void label_ray(const Search& s, std::size_t ray_index, Workspace& workspace) {
+void label_ray(const PoseSearch& s, std::size_t ray_index, Workspace& workspace) {
   const RayEdges<N>& edges = workspace.ray_edges[ray_index];
   const ScanRay<N>& ray = workspace.rays[ray_index];
   const Line line = to_line(s.view, ray);
@@ -187,7 +188,7 @@ double search_band(const Mission& mission, const LabelSearch& search, double own
   return smaller(search.band_m, square_root(kCertain2 * (2 * (shift + turn) + own_variance)));
 }
 
-Search make_search(const Mission& mission, const View<N>& view, const LabelSearch& search, ProbedPlaces& probed) {
+PoseSearch make_search(const Mission& mission, const View<N>& view, const LabelSearch& search, ProbedPlaces& probed) {
   const double range_m = N::to_double(view.target_depth);
   const MissionParameters& p = mission.parameters;
   const double across = range_m * p.sigma_angle_rad;
@@ -202,7 +203,7 @@ void find_labels(const Mission& mission, const Pose& T_target_sensor, const Labe
   workspace.labels.clear();
   const View<N> view = make_view(mission, T_target_sensor);
   ProbedPlaces probed;
-  const Search s = make_search(mission, view, search, probed);
+  const PoseSearch s = make_search(mission, view, search, probed);
   find_contour(mission, view, workspace);
   find_ray_edges(view, N::to_length(search_band(mission, search, s.own_variance)), workspace);
   for (std::size_t i = 0; i < workspace.rays.size() && !workspace.labels.full(); ++i) {

@@ -74,7 +74,7 @@ BearingReason choose(const Mission& mission, FieldReturns& returns, Bearing& bea
   const auto least = static_cast<std::size_t>(mission.parameters.bearing_returns_min);
   if (returns.size() < least) return BearingReason::kTooFewReturns;
   if (one_direction(returns)) return BearingReason::kOneDirection;
-  if (!keep_lone_group(mission.radius_m, returns)) return BearingReason::kOnlyBackground;
+  if (!keep_target_cluster(mission.radius_m, returns)) return BearingReason::kOnlyBackground;
   bearing.used = static_cast<std::uint16_t>(returns.size());
   return returns.size() < least ? BearingReason::kTooFewReturns : BearingReason::kValid;
 }

@@ -2,8 +2,8 @@
 // full-field scans. The centroid is that of the surface which the sensor sees: nearer than the target's origin, and it wanders over the
 // target as the target turns.
 //
-// One scan: the returns that the sensor can have measured; of these the group that is the target's (target_cluster.hpp); its mean, at the mean
-// of the returns' own times, with the covariance of a mean of so many points of that spread. Several scans: a Kalman filter of the
+// One scan: the returns that the sensor can have measured; of these the group that is the target's (target_cluster.hpp); its mean, at the
+// mean of the returns' own times, with the covariance of a mean of so many points of that spread. Several scans: a Kalman filter of the
 // centroid's place and velocity in sensor axes, constant velocity disturbed by white accelerations of filter.acceleration_mps2 (Bar-Shalom,
 // Li & Kirubarajan 2001, 6.3.2). The state is the explicit struct BearingState.
 #pragma once
@@ -73,7 +73,7 @@ constexpr double kOneDirection = 1e-6;         // returns within this of each ot
 class BearingFinder {
  public:
   // One full-field scan. A scan that is not valid leaves place, velocity and covariance as they were, except that the last of
-  // kBearingJumpsMax jumps in a row, or a scan bearing.memory_s after the last one joined, starts them anew. Bounds: keep_lone_group's.
+  // kBearingJumpsMax jumps in a row, or a scan bearing.memory_s after the last one joined, starts them anew. Bounds: keep_target_cluster's.
   Bearing find(const Mission& mission, const RangeImage& scan, BearingState& state);
 
  private:

@@ -6,11 +6,11 @@
 namespace lasso {
 namespace {
 
-constexpr double kSymmetryTolerance = 1e-9;  // of the geometric mean of the two variances
-constexpr double kMostExplained = 1.001;     // of a variance by common errors: all, and rounding
-constexpr double kSurpriseFades = 1.0 / 8;   // by each measurement
-constexpr double kAlarm2 = 9;                // three sigmas
-constexpr double kSmallAngle2 = 1e-4;        // rad^2: below, series to three terms are exact to 1e-17
+constexpr double kSymmetryTolerance = 1e-9;        // of the geometric mean of the two variances
+constexpr double kMostExplained = 1.001;           // of a variance by common errors: all, and rounding
+constexpr double kInnovationRatioDecay = 1.0 / 8;  // by each measurement
+constexpr double kAlarm2 = 9;                      // three sigmas
+constexpr double kSmallAngle2 = 1e-4;              // rad^2: below, series to three terms are exact to 1e-17
 
 // The covariance in 6x6 blocks of pose and rates. Products stay at this size: Eigen writes them out, whereas 12x12 ones would bring in its
 // blocked kernels and their allocations.
@@ -234,23 +234,25 @@ Status check_measurement(const FilterState& state, const PoseMeasurement& measur
 }
 
 // The innovation's square is on average the prediction's variance and the measurement's own, both for given common errors.
-[[gnu::noinline]] void note_surprise(const Vec6& innovation, const FilterState& state, const PoseMeasurement& measured, Vec6& surprise) {
+[[gnu::noinline]] void note_innovation_ratio(const Vec6& innovation, const FilterState& state, const PoseMeasurement& measured,
+                                             Vec6& innovation_ratio) {
   for (int i = 0; i < 6; ++i) {
     const CommonErrors& G = measured.common;
     const double own = measured.covariance(i, i) - G.row(i).squaredNorm();
     const double claimed = state.covariance(i, i) + (G.row(i) - 2 * state.common_pose.row(i)).dot(G.row(i));
     const double square = innovation[i] * innovation[i];
-    const bool alarming = square > kAlarm2 * (surprise[i] * claimed + own);
+    const bool alarming = square > kAlarm2 * (innovation_ratio[i] * claimed + own);
     const double seen = (square - own) / claimed;
-    const double next = surprise[i] + (alarming ? 1 : kSurpriseFades) * (seen - surprise[i]);
-    surprise[i] = is_finite(next) ? clamp(next, kLeastSurprise, 1.0) : 1.0;  // a flipped bit is over with the next measurement
+    const double next = innovation_ratio[i] + (alarming ? 1 : kInnovationRatioDecay) * (seen - innovation_ratio[i]);
+    innovation_ratio[i] =
+        is_finite(next) ? clamp(next, kLeastInnovationRatio, 1.0) : 1.0;  // a flipped bit is over with the next measurement
   }
 }
 
 void join_measurement(FilterState& state, const PoseMeasurement& measured, const Vec6& innovation, const Mat6& S_inverse) {
   Gain gain;
   set_gain(state, measured.common, S_inverse, gain);
-  note_surprise(innovation, state, measured, state.surprise);
+  note_innovation_ratio(innovation, state, measured, state.innovation_ratio);
   correct(state, gain.pose * innovation, gain.rates * innovation);
   update_by_joseph(measured.covariance, gain, state.covariance);
   join_common(measured.common, gain, state);

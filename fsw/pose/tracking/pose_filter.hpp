@@ -32,7 +32,7 @@ using Mat12 = Eigen::Matrix<double, 12, 12>;
 constexpr DurationUs kMaxPredictionUs = 1'000'000'000;  // longest step of the filter
 constexpr double kMaxStepRotationRad = 1e4;             // most rotation of one step: far beyond any use, inside sin_cos's domain
 constexpr double kNoGate = 0;
-constexpr double kLeastSurprise = 1.0 / 64;  // of a variance: an eighth of the claimed sigma
+constexpr double kLeastInnovationRatio = 1.0 / 64;  // of a variance: an eighth of the claimed sigma
 
 struct FilterState {
   // By call: unrolled wherever a state is copied, its numbers took 6 kB of the flight image.
@@ -44,9 +44,9 @@ struct FilterState {
   Pose T_sensor_target;
   Twist rates;
   Mat12 covariance = Mat12::Zero();  // order: rotation, translation, angular velocity, velocity
-  // How far predictions were off, over the variance that they claimed: rotation and translation, axis by axis, [kLeastSurprise, 1]. It
-  // rises at once and falls slowly. The filter does not use it.
-  Vec6 surprise = Vec6::Ones();
+  // How far predictions were off, over the variance that they claimed: rotation and translation, axis by axis, [kLeastInnovationRatio, 1].
+  // It rises at once and falls slowly. The filter does not use it.
+  Vec6 innovation_ratio = Vec6::Ones();
   CommonErrors common_pose = CommonErrors::Zero();   // covariance of the pose's error with the common errors, column by column
   CommonErrors common_rates = CommonErrors::Zero();  // of the rates' error
   bool initialised = false;

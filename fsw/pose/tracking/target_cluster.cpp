@@ -76,7 +76,7 @@ void drop_lonely(float radius2, FieldReturns& returns) {
 
 }  // namespace
 
-bool keep_lone_group(double radius_m, FieldReturns& returns) {
+bool keep_target_cluster(double radius_m, FieldReturns& returns) {
   const float radius2 = static_cast<float>(radius_m * radius_m);
   const float reach2 = 4 * radius2;
   const Group group = find_group(reach2, returns);

@@ -12,7 +12,7 @@ namespace lasso {
 struct FieldReturn {
   float p[3];             // m, sensor frame
   std::int32_t after_us;  // the scan's reference time
-  bool stray;             // inside of keep_lone_group
+  bool stray;             // inside of keep_target_cluster
 };
 using FieldReturns = FixedVector<FieldReturn, kMaxRays>;
 
@@ -22,6 +22,6 @@ constexpr std::uint32_t kStrayShare = 32;  // a return has a neighbour within ha
 // Leaves in `returns` the group of a target that lies within `radius_m` of a point of its own, in their order. The group lies within twice
 // that of its mean, and outnumbers what lies about it, up to four times the radius: a wall goes on, a target ends. Strays, which have too
 // few neighbours, go. False, and nothing changes, where no group outnumbers its surroundings. Loop bound: kMaxRays times kGroupLooks.
-bool keep_lone_group(double radius_m, FieldReturns& returns);
+bool keep_target_cluster(double radius_m, FieldReturns& returns);
 
 }  // namespace lasso

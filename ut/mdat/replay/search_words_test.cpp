@@ -7,7 +7,7 @@
 namespace lasso::mdat {
 namespace {
 
-std::string words(SearchReason reason, const std::optional<Rival>& rival = std::nullopt) {
+std::string words(SearchReason reason, const std::optional<Competitor>& rival = std::nullopt) {
   SearchResult result;
   result.reason = reason;
   result.returns = 61;
@@ -23,30 +23,30 @@ void expect_said(const std::string& text, std::initializer_list<const char*> par
 // Each competitor is judged by the flight code's own rule; the words are to name what it went by.
 TEST(SearchWords, SayByWhichRuleACompetitorStands) {
   VERIFIES("LASSO-MDT-072~1");
-  const Rival other_object{2.3, true, 1.0, 1.9, 1.7, 0.12, 1};
-  ASSERT_FALSE(is_left_behind(other_object, 1.3));
+  const Competitor other_object{2.3, true, 1.0, 1.9, 1.7, 0.12, 1};
+  ASSERT_FALSE(is_outscored(other_object, 1.3));
   expect_said(words(SearchReason::kCompetitor, other_object),
               {"2.30 times", "less than 3.9", "12 % unexplained", "1.70", "another object"});
-  const Rival alike{1.03, true, 1.05, 1.0, 1.0, 0.01, 1};
-  ASSERT_FALSE(is_left_behind(alike, 1.3));
+  const Competitor alike{1.03, true, 1.05, 1.0, 1.0, 0.01, 1};
+  ASSERT_FALSE(is_outscored(alike, 1.3));
   expect_said(words(SearchReason::kCompetitor, alike),
               {"1.03 times", "less than search.ratio_min 1.3", "does not tell them apart", "1.05"});
-  const Rival as_good{1.5, true, 1.1, 1.0, 1.0, 0.01, 1};
-  ASSERT_FALSE(is_left_behind(as_good, 1.3));
+  const Competitor as_good{1.5, true, 1.1, 1.0, 1.0, 0.01, 1};
+  ASSERT_FALSE(is_outscored(as_good, 1.3));
   expect_said(words(SearchReason::kCompetitor, as_good), {"1.50 times", "less than 1.95", "explains the returns about as well", "1.10"});
 }
 
 TEST(SearchWords, SayByWhichRuleThePoseIsAccepted) {
   VERIFIES("LASSO-MDT-072~1");
-  const Rival by_noise{1.03, true, 4.1, 1.0, 1.0, 0.01, 1};
-  ASSERT_TRUE(is_left_behind(by_noise, 1.3));
+  const Competitor by_noise{1.03, true, 4.1, 1.0, 1.0, 0.01, 1};
+  ASSERT_TRUE(is_outscored(by_noise, 1.3));
   expect_said(words(SearchReason::kDistinct, by_noise),
               {"1.03 times", "less than search.ratio_min 1.3", "noise of the returns tells them apart", "4.10", "1.00"});
-  const Rival far{4.2, false, 0, 1.0, 1.0, 0.01, 1};
-  ASSERT_TRUE(is_left_behind(far, 1.3));
+  const Competitor far{4.2, false, 0, 1.0, 1.0, 0.01, 1};
+  ASSERT_TRUE(is_outscored(far, 1.3));
   expect_said(words(SearchReason::kDistinct, far), {"4.20 times", "more than 1.95"});
-  const Rival both{1.5, true, 2.0, 1.0, 1.0, 0.01, 1};
-  ASSERT_TRUE(is_left_behind(both, 1.3));
+  const Competitor both{1.5, true, 2.0, 1.0, 1.0, 0.01, 1};
+  ASSERT_TRUE(is_outscored(both, 1.3));
   expect_said(words(SearchReason::kDistinct, both), {"1.50 times", "more than search.ratio_min 1.3", "agrees"});
   expect_said(words(SearchReason::kDistinct), {"no competitor"});
 }

@@ -12,12 +12,12 @@ using VerdictTest = test::WholeSearch;
 
 TEST(Verdict, AFarScoreLeavesARivalBehind) {
   VERIFIES("LASSO-MOD-122~1");
-  EXPECT_TRUE(is_left_behind({2.0, false, 0, 0}, 1.3));
-  EXPECT_TRUE(is_left_behind({2.0, true, 1.0, 1.0}, 1.3));
-  EXPECT_TRUE(is_left_behind({1.4, false, 0, 0}, 1.3)) << "nothing else is known";
-  EXPECT_FALSE(is_left_behind({2.3, true, 1.0, 1.9}, 1.3)) << "the best pose leaves returns unexplained";
-  EXPECT_TRUE(is_left_behind({4.0, true, 1.0, 1.9}, 1.3));
-  EXPECT_FALSE(is_left_behind({1.2, false, 0, 0}, 1.3));
+  EXPECT_TRUE(is_outscored({2.0, false, 0, 0}, 1.3));
+  EXPECT_TRUE(is_outscored({2.0, true, 1.0, 1.0}, 1.3));
+  EXPECT_TRUE(is_outscored({1.4, false, 0, 0}, 1.3)) << "nothing else is known";
+  EXPECT_FALSE(is_outscored({2.3, true, 1.0, 1.9}, 1.3)) << "the best pose leaves returns unexplained";
+  EXPECT_TRUE(is_outscored({4.0, true, 1.0, 1.9}, 1.3));
+  EXPECT_FALSE(is_outscored({1.2, false, 0, 0}, 1.3));
 }
 
 TEST(Verdict, ScoresAreComparedAboveAFloorAndNearOnesAskForCosts) {
@@ -32,35 +32,35 @@ TEST(Verdict, ScoresAreComparedAboveAFloorAndNearOnesAskForCosts) {
 
 TEST(Verdict, ANearScoreDoesNotWhereTheNoiseSaysOtherwise) {
   VERIFIES("LASSO-MOD-122~1 LASSO-MOD-121~1");
-  EXPECT_TRUE(is_left_behind({1.4, true, 1.5, 1.0}, 1.3));
-  EXPECT_FALSE(is_left_behind({1.4, true, 1.1, 0.8}, 1.3)) << "explained as the noise allows";
-  EXPECT_FALSE(is_left_behind({1.4, true, 3.0, 2.9}, 1.3)) << "as badly as the best";
+  EXPECT_TRUE(is_outscored({1.4, true, 1.5, 1.0}, 1.3));
+  EXPECT_FALSE(is_outscored({1.4, true, 1.1, 0.8}, 1.3)) << "explained as the noise allows";
+  EXPECT_FALSE(is_outscored({1.4, true, 3.0, 2.9}, 1.3)) << "as badly as the best";
 }
 
 TEST(Verdict, WhereSeveralScansTellTheNoiseHasToAgreeLessClearly) {
   VERIFIES("LASSO-MOD-122~1 LASSO-MOD-120~1");
-  EXPECT_FALSE(is_left_behind({2.0, true, 2.2, 2.0, 1.0, 0, 1}, 1.3));
-  EXPECT_TRUE(is_left_behind({2.0, true, 2.2, 2.0, 1.0, 0, 2}, 1.3));
-  EXPECT_FALSE(is_left_behind({2.0, true, 2.05, 2.0, 1.0, 0, 2}, 1.3)) << "alike";
-  EXPECT_FALSE(is_left_behind({1.9, true, 2.2, 2.0, 1.0, 0, 2}, 1.3)) << "near by its score";
+  EXPECT_FALSE(is_outscored({2.0, true, 2.2, 2.0, 1.0, 0, 1}, 1.3));
+  EXPECT_TRUE(is_outscored({2.0, true, 2.2, 2.0, 1.0, 0, 2}, 1.3));
+  EXPECT_FALSE(is_outscored({2.0, true, 2.05, 2.0, 1.0, 0, 2}, 1.3)) << "alike";
+  EXPECT_FALSE(is_outscored({1.9, true, 2.2, 2.0, 1.0, 0, 2}, 1.3)) << "near by its score";
 }
 
 TEST(Verdict, WhatIsExplainedHasToBeExplainedAsTheNoiseAllowsWhereSomethingIsNot) {
   VERIFIES("LASSO-MOD-122~1 LASSO-MOD-119~1");
-  EXPECT_TRUE(is_left_behind({1.4, false, 0, 2.5, 1.5, 0.05}, 1.3)) << "a part is off";
-  EXPECT_FALSE(is_left_behind({1.4, false, 0, 2.5, 1.55, 0.05}, 1.3)) << "everything is a little off";
-  EXPECT_FALSE(is_left_behind({1.4, true, 6.0, 2.5, 2.0, 0.05}, 1.3));
-  EXPECT_TRUE(is_left_behind({1.4, true, 6.0, 2.5, 1.5, 0.05}, 1.3));
-  EXPECT_TRUE(is_left_behind({1.4, false, 0, 2.5, 2.0, 0.01}, 1.3)) << "within the score's tolerance: it moves";
-  EXPECT_TRUE(is_left_behind({1.4, false, 0, 1.1, 2.0, 0.05}, 1.3)) << "nothing is unexplained";
-  EXPECT_TRUE(is_left_behind({4.0, false, 0, 2.5, 2.0, 0.05}, 1.3)) << "far by its score";
+  EXPECT_TRUE(is_outscored({1.4, false, 0, 2.5, 1.5, 0.05}, 1.3)) << "a part is off";
+  EXPECT_FALSE(is_outscored({1.4, false, 0, 2.5, 1.55, 0.05}, 1.3)) << "everything is a little off";
+  EXPECT_FALSE(is_outscored({1.4, true, 6.0, 2.5, 2.0, 0.05}, 1.3));
+  EXPECT_TRUE(is_outscored({1.4, true, 6.0, 2.5, 1.5, 0.05}, 1.3));
+  EXPECT_TRUE(is_outscored({1.4, false, 0, 2.5, 2.0, 0.01}, 1.3)) << "within the score's tolerance: it moves";
+  EXPECT_TRUE(is_outscored({1.4, false, 0, 1.1, 2.0, 0.05}, 1.3)) << "nothing is unexplained";
+  EXPECT_TRUE(is_outscored({4.0, false, 0, 2.5, 2.0, 0.05}, 1.3)) << "far by its score";
 }
 
 TEST(Verdict, TheNoiseAloneTellsWhatLooksAlike) {
   VERIFIES("LASSO-MOD-120~1");
-  EXPECT_TRUE(is_left_behind({1.05, true, 1.4, 1.0}, 1.3));
-  EXPECT_FALSE(is_left_behind({1.05, true, 1.2, 1.0}, 1.3));
-  EXPECT_FALSE(is_left_behind({1.05, true, 0.5, 1.0}, 1.3));
+  EXPECT_TRUE(is_outscored({1.05, true, 1.4, 1.0}, 1.3));
+  EXPECT_FALSE(is_outscored({1.05, true, 1.2, 1.0}, 1.3));
+  EXPECT_FALSE(is_outscored({1.05, true, 0.5, 1.0}, 1.3));
 }
 
 TEST_F(VerdictTest, RejectsAnotherTarget) {
@@ -148,10 +148,10 @@ TEST_F(SymmetricVerdictTest, ContradictsNoPoseThatTheReturnsLeadToAnEqualOf) {
     search_->begin(limits_);
     ASSERT_EQ(search(), Status::kOk);
     for (int axis = 0; axis < 3; ++axis) {
-      Pose twin;
-      twin.q = exp_so3(kPi * Vec3::Unit(axis));
-      twin.p = scan_.model.center - rotate(twin.q, scan_.model.center);
-      const Pose aside = test::disturb(scan_.T_sensor_target * twin, kRadPerDeg, 0.003, random_);
+      Pose symmetric;
+      symmetric.q = exp_so3(kPi * Vec3::Unit(axis));
+      symmetric.p = scan_.model.center - rotate(symmetric.q, scan_.model.center);
+      const Pose aside = test::disturb(scan_.T_sensor_target * symmetric, kRadPerDeg, 0.003, random_);
       EXPECT_FALSE(search_->contradicts(mission_, aside, *workspace_)) << i << ", " << axis;
     }
   }
@@ -188,14 +188,14 @@ TEST_F(VerdictTest, TheRivalsThatItGivesAreThoseThatItDecidedBy) {
   };
   const auto left_behind = [&] {
     bool all = true;
-    Rival rival;
+    Competitor competitor;
     for (std::size_t i = 0; i < search_->poses(); ++i)
-      all = all && (!search_->find_rival(i, rival) || is_left_behind(rival, limits_.ratio_min));
+      all = all && (!search_->find_competitor(i, competitor) || is_outscored(competitor, limits_.ratio_min));
     return all;
   };
   ASSERT_EQ(outcome(), SearchOutcome::kAccepted);
-  Rival rival;
-  EXPECT_FALSE(search_->find_rival(0, rival)) << "the best one competes with none";
+  Competitor competitor;
+  EXPECT_FALSE(search_->find_competitor(0, competitor)) << "the best one competes with none";
   EXPECT_TRUE(left_behind());
   limits_.ratio_min = 1e6;
   ASSERT_EQ(outcome(), SearchOutcome::kAmbiguous);

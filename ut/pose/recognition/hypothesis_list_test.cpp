@@ -15,9 +15,9 @@ Pose turned(double angle) {
   return pose;
 }
 
-TEST(DrawnList, KeepsTheBestOfEachPlaceBestFirst) {
+TEST(HypothesisList, KeepsTheBestOfEachPlaceBestFirst) {
   VERIFIES("LASSO-MOD-117~1");
-  DrawnList list;
+  HypothesisList list;
   list.add(turned(0.0), 0.5);
   list.add(turned(0.3), 0.2);
   list.add(turned(0.02), 0.4);  // 1 deg from the first
@@ -38,13 +38,13 @@ TEST(DrawnList, KeepsTheBestOfEachPlaceBestFirst) {
   EXPECT_EQ(list.size(), 0u);
 }
 
-TEST(DrawnList, KeepsNoMoreThanAreDrawn) {
+TEST(HypothesisList, KeepsNoMoreThanAreDrawn) {
   VERIFIES("LASSO-MOD-117~1");
-  DrawnList list;
+  HypothesisList list;
   for (std::size_t i = 0; i < kShortList; ++i) list.add(turned(0.09 * static_cast<double>(i)), static_cast<double>(kShortList - i));
   list.keep_best();
-  ASSERT_EQ(list.size(), kDrawn);
-  for (std::size_t i = 0; i < kDrawn; ++i) EXPECT_EQ(list[i].score, static_cast<double>(i + 1));
+  ASSERT_EQ(list.size(), kAligned);
+  for (std::size_t i = 0; i < kAligned; ++i) EXPECT_EQ(list[i].score, static_cast<double>(i + 1));
 }
 
 }  // namespace

@@ -69,7 +69,7 @@ TEST_F(SearchTest, ASlicePaysForTheScanThatIsAdded) {
   EXPECT_EQ(adding, prepare_work(image->samples.size()));
   EXPECT_FALSE(search_->advance(mission_, *workspace_, adding));
   EXPECT_EQ(result().work, adding) << "nothing was left of it";
-  EXPECT_EQ(search_->stage(), Search::Stage::kEvidence);
+  EXPECT_EQ(search_->stage(), PoseSearch::Stage::kSubset);
   EXPECT_FALSE(search_->advance(mission_, *workspace_, 1));
   EXPECT_GT(result().work, adding);
   search_->begin(limits_);
@@ -81,15 +81,15 @@ TEST_F(SearchTest, ASlicePaysForTheScanThatIsAdded) {
 // Of a fit that was given up only what was looked at is counted.
 TEST(SearchWork, OfAFitIsThatOfTheRaysThatWereLookedAt) {
   VERIFIES("LASSO-MOD-118~1");
-  Fit fit;
+  HypothesisScore fit;
   fit.hits = 100;
   fit.walks = 32;
-  EXPECT_EQ(fit_work(fit), fit_work(32, 0));
+  EXPECT_EQ(score_work(fit), score_work(32, 0));
   fit.walks = 100;
-  EXPECT_EQ(fit_work(fit), fit_work(100, 0));
+  EXPECT_EQ(score_work(fit), score_work(100, 0));
   fit.walks = 148;
-  EXPECT_EQ(fit_work(fit), fit_work(100, 48));
-  EXPECT_GT(fit_work(100, 48), fit_work(100, 0));
+  EXPECT_EQ(score_work(fit), score_work(100, 48));
+  EXPECT_GT(score_work(100, 48), score_work(100, 0));
 }
 
 // Whatever the work may be, it is not exceeded by more than what is always done, and no pose is accepted that more work would not accept.
@@ -128,7 +128,7 @@ TEST_F(SearchTest, IsJoinedByFurtherScansWhileWorkIsLeft) {
   EXPECT_TRUE(search_->joins());
   ASSERT_EQ(search_->add_scan(mission_, *scan_at(2), *workspace_), Status::kOk);
   while (search_->busy()) {
-    EXPECT_TRUE(search_->stage() == Search::Stage::kEvidence || search_->stage() > Search::Stage::kDraw);
+    EXPECT_TRUE(search_->stage() == PoseSearch::Stage::kSubset || search_->stage() > PoseSearch::Stage::kAlignOnRays);
     search_->advance(mission_, *workspace_, 1);
   }
   const std::uint32_t second = result().work - first;
@@ -166,7 +166,7 @@ TEST_F(SearchTest, CarriesAllCandidatesOfAScanThatWasLeftUnfinished) {
     int steps = 0;
     EXPECT_EQ(search_->add_scan(mission_, *second, *workspace_), Status::kOk);
     for (bool done = false; !done; done = search_->advance(mission_, *workspace_, 1)) {
-      steps += search_->stage() == Search::Stage::kSketch ? 1 : 0;
+      steps += search_->stage() == PoseSearch::Stage::kFastRefine ? 1 : 0;
     }
     EXPECT_EQ(result().scans, 2u);
     EXPECT_TRUE(is_right(result().T_sensor_target, 2));

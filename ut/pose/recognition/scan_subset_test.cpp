@@ -15,9 +15,9 @@ using N = FlightNumber;
 class EvidenceTest : public test::SearchFixture {
  protected:
   // Of the points on the boxes, to within the noise.
-  std::size_t strays(const Evidence& evidence) const {
+  std::size_t strays(const ScanSubset& subset) const {
     std::size_t count = 0;
-    for (const MatchPoint<N>& point : evidence.hits) {
+    for (const MatchPoint<N>& point : subset.hits) {
       const Vec3 u = rotate(truth().q, to_vec3(point.u));
       test::Boxes boxes = scan_.others;
       boxes.push_back(scan_.model);
@@ -34,10 +34,10 @@ TEST_F(EvidenceTest, LeavesOutReturnsWithoutCompany) {
   scan();
   std::size_t before = 0;
   for (const MatchPoint<N>& point : workspace_->points) before += std::abs(to_vec3(point.p).norm() - 2.5) > 0.6 ? 1u : 0u;
-  const auto evidence = make_evidence();
+  const auto subset = make_evidence();
   EXPECT_GT(before, 40u);
-  EXPECT_LT(strays(*evidence), 12u);
-  EXPECT_GT(evidence->hits.size(), 120u);
+  EXPECT_LT(strays(*subset), 12u);
+  EXPECT_GT(subset->hits.size(), 120u);
 }
 
 // By trying all of them.
@@ -45,13 +45,13 @@ TEST_F(EvidenceTest, EachReturnBelongsToTheClosestOfTheFirst) {
   VERIFIES("LASSO-MOD-115~2");
   scan_.side = 40;
   scan();
-  const auto evidence = make_evidence();
-  ASSERT_GT(evidence->hits.size(), 4 * kRegions);
-  ASSERT_EQ(evidence->regions.size(), evidence->hits.size());
-  for (std::size_t i = 0; i < evidence->hits.size(); ++i) {
-    const auto distance = [&](std::size_t k) { return (to_vec3(evidence->hits[i].p) - to_vec3(evidence->hits[k].p)).norm(); };
-    ASSERT_LT(evidence->regions[i], kRegions);
-    for (std::size_t k = 0; k < kRegions; ++k) EXPECT_LE(distance(evidence->regions[i]), distance(k) + 1e-6) << i;
+  const auto subset = make_evidence();
+  ASSERT_GT(subset->hits.size(), 4 * kRegions);
+  ASSERT_EQ(subset->regions.size(), subset->hits.size());
+  for (std::size_t i = 0; i < subset->hits.size(); ++i) {
+    const auto distance = [&](std::size_t k) { return (to_vec3(subset->hits[i].p) - to_vec3(subset->hits[k].p)).norm(); };
+    ASSERT_LT(subset->regions[i], kRegions);
+    for (std::size_t k = 0; k < kRegions; ++k) EXPECT_LE(distance(subset->regions[i]), distance(k) + 1e-6) << i;
   }
 }
 
@@ -59,13 +59,13 @@ TEST_F(EvidenceTest, BeginsWithReturnsThatAreFarApart) {
   VERIFIES("LASSO-MOD-111~1");
   scan_.side = 48;
   scan();
-  const auto evidence = make_evidence();
-  ASSERT_EQ(evidence->hits.size(), kEvidenceHits);
-  EXPECT_GT(evidence->returns, kEvidenceHits);
+  const auto subset = make_evidence();
+  ASSERT_EQ(subset->hits.size(), kSubsetHits);
+  EXPECT_GT(subset->returns, kSubsetHits);
   const auto closest = [&](std::size_t count) {
     double least = 1e9;
     for (std::size_t i = 0; i < count; ++i) {
-      for (std::size_t k = 0; k < i; ++k) least = std::min(least, (to_vec3(evidence->hits[i].p) - to_vec3(evidence->hits[k].p)).norm());
+      for (std::size_t k = 0; k < i; ++k) least = std::min(least, (to_vec3(subset->hits[i].p) - to_vec3(subset->hits[k].p)).norm());
     }
     return least;
   };
@@ -76,29 +76,29 @@ TEST_F(EvidenceTest, BeginsWithReturnsThatAreFarApart) {
 TEST_F(EvidenceTest, KnowsTheMedianOfTheDepths) {
   VERIFIES("LASSO-MOD-111~1");
   scan();
-  const auto evidence = make_evidence();
-  ASSERT_EQ(evidence->reaches.size(), evidence->hits.size());
-  const Vec3 sight = evidence->centroid.normalized();
+  const auto subset = make_evidence();
+  ASSERT_EQ(subset->reaches.size(), subset->hits.size());
+  const Vec3 sight = subset->centroid.normalized();
   int nearer = 0;
-  for (std::size_t i = 0; i < evidence->hits.size(); ++i) {
-    const Vec3 p = to_vec3(evidence->hits[i].p);
-    nearer += sight.dot(p) < evidence->centroid.norm() + evidence->median ? 1 : -1;
-    EXPECT_NEAR(static_cast<double>(evidence->reaches[i].range), p.norm(), 1e-6);
-    EXPECT_NEAR(evidence->reaches[i].noise_m, 3e-3, 1e-6);
+  for (std::size_t i = 0; i < subset->hits.size(); ++i) {
+    const Vec3 p = to_vec3(subset->hits[i].p);
+    nearer += sight.dot(p) < subset->centroid.norm() + subset->median ? 1 : -1;
+    EXPECT_NEAR(static_cast<double>(subset->reaches[i].range), p.norm(), 1e-6);
+    EXPECT_NEAR(subset->reaches[i].noise_m, 3e-3, 1e-6);
   }
-  EXPECT_LT(std::abs(nearer), static_cast<int>(evidence->hits.size() / 4));
-  EXPECT_NE(evidence->median, 0);
+  EXPECT_LT(std::abs(nearer), static_cast<int>(subset->hits.size() / 4));
+  EXPECT_NE(subset->median, 0);
 }
 
 TEST_F(EvidenceTest, PutsAsManyPointsIntoTheWorkspaceAsAreAskedFor) {
   VERIFIES("LASSO-MOD-111~1");
   scan();
-  const auto evidence = make_evidence();
-  put_points(*evidence, 20, *workspace_);
+  const auto subset = make_evidence();
+  put_points(*subset, 20, *workspace_);
   ASSERT_EQ(workspace_->points.size(), 20u);
-  EXPECT_EQ(workspace_->points[19].p[2], evidence->hits[19].p[2]);
-  put_points(*evidence, 1000, *workspace_);
-  EXPECT_EQ(workspace_->points.size(), evidence->hits.size());
+  EXPECT_EQ(workspace_->points[19].p[2], subset->hits[19].p[2]);
+  put_points(*subset, 1000, *workspace_);
+  EXPECT_EQ(workspace_->points.size(), subset->hits.size());
 }
 
 TEST_F(EvidenceTest, CentroidIsTheMiddleOfWhatIsSeenAndNotOfThePattern) {
@@ -126,17 +126,17 @@ TEST_F(EvidenceTest, TakesEveryNthOfLargeScansAndMissesThatPassBy) {
   scan_.side = 64;
   scan_.half_angle = 0.5;  // most rays miss, and many by far
   scan();
-  const auto evidence = make_evidence();
+  const auto subset = make_evidence();
   ASSERT_GT(workspace_->rays.size() - workspace_->points.size(), 2 * kPoolRays);
-  EXPECT_GT(evidence->misses.size(), 60u);
-  for (const ScanRay<N>& miss : evidence->misses) {
+  EXPECT_GT(subset->misses.size(), 60u);
+  for (const ScanRay<N>& miss : subset->misses) {
     EXPECT_EQ(miss.state, RayState::kMiss);
-    EXPECT_LT(evidence->centroid.cross(to_vec3(miss.u)).norm(), mission_.radius_m);
+    EXPECT_LT(subset->centroid.cross(to_vec3(miss.u)).norm(), mission_.radius_m);
   }
   scan_.half_angle = 0.1;  // every ray hits, or nearly so
   scan();
   ASSERT_GT(workspace_->points.size(), kPoolRays);
-  EXPECT_EQ(make_evidence()->hits.size(), kEvidenceHits);
+  EXPECT_EQ(make_evidence()->hits.size(), kSubsetHits);
 }
 
 TEST_F(EvidenceTest, ThinsOutMissesThatPassBy) {
@@ -144,9 +144,9 @@ TEST_F(EvidenceTest, ThinsOutMissesThatPassBy) {
   scan_.half_angle = 0.3;
   scan_.side = 48;
   scan();
-  const auto evidence = make_evidence();
-  EXPECT_GT(evidence->misses_per_hit, 0.5);
-  EXPECT_LE(evidence->misses.size(), kEvidenceMisses);
+  const auto subset = make_evidence();
+  EXPECT_GT(subset->misses_per_hit, 0.5);
+  EXPECT_LE(subset->misses.size(), kSubsetMisses);
 }
 
 TEST_F(EvidenceTest, IsEmptyWhereAllReturnsAreAlone) {
@@ -159,9 +159,9 @@ TEST_F(EvidenceTest, IsEmptyWhereAllReturnsAreAlone) {
   for (const ScanRay<N>& ray : all->rays) {
     if (ray.state == RayState::kMiss || index++ % 150 == 0) (void)workspace_->rays.push_back(ray);
   }
-  const auto evidence = make_evidence();
-  EXPECT_TRUE(evidence->hits.empty());
-  EXPECT_EQ(evidence->centroid, Vec3::Zero());
+  const auto subset = make_evidence();
+  EXPECT_TRUE(subset->hits.empty());
+  EXPECT_EQ(subset->centroid, Vec3::Zero());
 }
 
 TEST_F(EvidenceTest, TakesRaysOfOneDirectionAndFarOffTheBoresight) {

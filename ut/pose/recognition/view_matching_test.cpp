@@ -23,28 +23,28 @@ class CoarseTest : public test::SearchFixture {
   double nearest(const ShortList& list) const {
     double least = 10;
     for (std::size_t i = 0; i < list.size(); ++i) {
-      for (const Quat& twin : {Quat(1, 0, 0, 0), Quat(0, 1, 0, 0), Quat(0, 0, 1, 0), Quat(0, 0, 0, 1)}) {
-        least = std::min(least, angle_between(list[i].T_target_sensor.q, twin * truth().q));
+      for (const Quat& symmetric : {Quat(1, 0, 0, 0), Quat(0, 1, 0, 0), Quat(0, 0, 1, 0), Quat(0, 0, 0, 1)}) {
+        least = std::min(least, angle_between(list[i].T_target_sensor.q, symmetric * truth().q));
       }
     }
     return least;
   }
 
-  std::size_t search(CoarseSearch& coarse, const Evidence& evidence) const {
+  std::size_t search(ViewMatcher& coarse, const ScanSubset& subset) const {
     std::size_t steps = 0;
     while (!coarse.done()) {
-      EXPECT_LE(coarse.step(mission_, evidence), view_work(kCoarsePoints, kRolls / 2 * kCoarsePoints, kRolls));
+      EXPECT_LE(coarse.step(mission_, subset), view_work(kCoarsePoints, kRolls / 2 * kCoarsePoints, kRolls));
       ++steps;
     }
     return steps;
   }
 
   // The sum of distances, in floating point.
-  double sum_at(const Pose& T_target_sensor, const Evidence& evidence) const {
+  double sum_at(const Pose& T_target_sensor, const ScanSubset& subset) const {
     const SearchTables<FlightNumber>& tables = mission_.search;
     double sum = 0;
-    for (std::size_t i = 0; i < std::min(kCoarsePoints, evidence.hits.size()); ++i) {
-      const Vec3 p = T_target_sensor * to_vec3(evidence.hits[i].p);
+    for (std::size_t i = 0; i < std::min(kCoarsePoints, subset.hits.size()); ++i) {
+      const Vec3 p = T_target_sensor * to_vec3(subset.hits[i].p);
       std::uint32_t cell[3];
       for (int k = 0; k < 3; ++k) {
         const double place = static_cast<double>(tables.cells_per_m) * (p[k] - static_cast<double>(tables.origin_m[k]));
@@ -70,20 +70,20 @@ TEST_F(CoarseTest, ListsTheSumsAndLeavesOutNothingThatIsClearlyBetter) {
   for (int view = 0; view < 6; ++view) {
     scan_.T_sensor_target = test::random_box_pose(random_);
     scan();
-    const auto evidence = make_evidence();
-    CoarseSearch coarse;
-    coarse.begin(mission_, *evidence);
-    search(coarse, *evidence);
+    const auto subset = make_evidence();
+    ViewMatcher coarse;
+    coarse.begin(mission_, *subset);
+    search(coarse, *subset);
     const ShortList& list = coarse.short_list();
-    const Vec3 sight = evidence->centroid.normalized();
+    const Vec3 sight = subset->centroid.normalized();
     for (std::size_t i = 0; i < list.size(); ++i) {
       const Pose& T = list[i].T_target_sensor;
-      EXPECT_NEAR(list[i].score, sum_at(T, *evidence), 0.02 * list[i].score);
+      EXPECT_NEAR(list[i].score, sum_at(T, *subset), 0.02 * list[i].score);
       for (std::uint32_t roll = 1; roll < kRolls; ++roll) {
         Pose turn{exp_so3(2 * kPi / kRolls * roll * sight), Vec3::Zero()};
-        turn.p = evidence->centroid - rotate(turn.q, evidence->centroid);
+        turn.p = subset->centroid - rotate(turn.q, subset->centroid);
         const Pose other = T * turn;
-        const double sum = sum_at(other, *evidence);
+        const double sum = sum_at(other, *subset);
         if (sum > 0.8 * list.limit()) continue;
         ++better;
         EXPECT_TRUE(has_one_as_good(list, other, sum)) << sum << " of " << list.limit();
@@ -100,10 +100,10 @@ TEST_F(CoarseTest, HasAHypothesisNearTheTruth) {
     scan_.T_sensor_target = test::random_box_pose(random_);
     scan_.T_sensor_target.p[2] = i % 2 == 0 ? 2.5 : 4.0;
     scan();
-    const auto evidence = make_evidence();
-    CoarseSearch coarse;
-    coarse.begin(mission_, *evidence);
-    const std::size_t steps = search(coarse, *evidence);
+    const auto subset = make_evidence();
+    ViewMatcher coarse;
+    coarse.begin(mission_, *subset);
+    const std::size_t steps = search(coarse, *subset);
     EXPECT_GE(steps, mission_.search.views.size());
     EXPECT_LE(steps, 2 * mission_.search.views.size());
     EXPECT_EQ(coarse.short_list().size(), kShortList);
@@ -114,10 +114,10 @@ TEST_F(CoarseTest, HasAHypothesisNearTheTruth) {
 
 TEST_F(CoarseTest, TakesVeryNearAndEmptyEvidence) {
   VERIFIES("LASSO-MOD-111~1");
-  auto evidence = std::make_unique<Evidence>();
-  CoarseSearch coarse;
-  coarse.begin(mission_, *evidence);
-  EXPECT_GT(coarse.step(mission_, *evidence), 0u);
+  auto subset = std::make_unique<ScanSubset>();
+  ViewMatcher coarse;
+  coarse.begin(mission_, *subset);
+  EXPECT_GT(coarse.step(mission_, *subset), 0u);
   EXPECT_FALSE(coarse.done());
   EXPECT_EQ(coarse.short_list()[0].score, 0u);
 }
@@ -128,19 +128,19 @@ TEST_F(CoarseTest, LaysAViewByTheMedianOfTheDepthsToo) {
   ModelView<FlightNumber> view{};
   view.direction[2] = FlightNumber::Unit{1};
   mission_.search.views = {&view, 1};
-  auto evidence = std::make_unique<Evidence>();
-  evidence->centroid = Vec3(0, 0, 3);
+  auto subset = std::make_unique<ScanSubset>();
+  subset->centroid = Vec3(0, 0, 3);
   const double truncation = static_cast<double>(mission_.search.truncation_m);
   for (const double median : {-0.6 * truncation, 0.4 * truncation, 0.6 * truncation}) {
-    evidence->median = median;
-    CoarseSearch coarse;
-    coarse.begin(mission_, *evidence);
-    coarse.step(mission_, *evidence);
+    subset->median = median;
+    ViewMatcher coarse;
+    coarse.begin(mission_, *subset);
+    coarse.step(mission_, *subset);
     EXPECT_EQ(coarse.done(), std::abs(median) < 0.5 * truncation);
     if (coarse.done()) continue;
-    EXPECT_EQ(search(coarse, *evidence), 1u);
+    EXPECT_EQ(search(coarse, *subset), 1u);
     const Pose first = coarse.short_list()[0].T_target_sensor;
-    EXPECT_NEAR((first * evidence->centroid).z(), 0, 1e-6);
+    EXPECT_NEAR((first * subset->centroid).z(), 0, 1e-6);
   }
 }
 
@@ -151,14 +151,14 @@ TEST_F(CoarseTest, TheSecondPlaceOfAViewHasTheMediansAlike) {
   view.median = view.near_median = FlightNumber::to_length(0.2);
   mission_.search.views = {&view, 1};
   scan();
-  auto evidence = make_evidence();
-  evidence->median = 0.05;
-  CoarseSearch coarse;
-  coarse.begin(mission_, *evidence);
-  EXPECT_EQ(search(coarse, *evidence), 2u);
+  auto subset = make_evidence();
+  subset->median = 0.05;
+  ViewMatcher coarse;
+  coarse.begin(mission_, *subset);
+  EXPECT_EQ(search(coarse, *subset), 2u);
   int second = 0;
   for (std::size_t i = 0; i < coarse.short_list().size(); ++i) {
-    const double z = (coarse.short_list()[i].T_target_sensor * evidence->centroid).z();
+    const double z = (coarse.short_list()[i].T_target_sensor * subset->centroid).z();
     EXPECT_TRUE(std::abs(z) < 1e-6 || std::abs(z + 0.15) < 1e-6) << z;
     second += z < -0.1 ? 1 : 0;
   }
@@ -185,15 +185,15 @@ TEST_F(CoarseTest, ASmallLimitStillLetsABetterOneIn) {
   }
   tables.distances = distances.data();
   tables.views = {views.data(), views.size()};
-  auto evidence = std::make_unique<Evidence>();
-  evidence->centroid = Vec3(0, 0, 3);
+  auto subset = std::make_unique<ScanSubset>();
+  subset->centroid = Vec3(0, 0, 3);
   MatchPoint<FlightNumber> point{};
   point.p[2] = FlightNumber::to_length(3);
-  while (evidence->hits.size() < kCoarsePoints) ASSERT_TRUE(evidence->hits.push_back(point));
-  CoarseSearch coarse;
-  coarse.begin(mission_, *evidence);
+  while (subset->hits.size() < kCoarsePoints) ASSERT_TRUE(subset->hits.push_back(point));
+  ViewMatcher coarse;
+  coarse.begin(mission_, *subset);
   while (!coarse.done()) {
-    coarse.step(mission_, *evidence);
+    coarse.step(mission_, *subset);
   }
   ASSERT_EQ(coarse.short_list().size(), kShortList);
   EXPECT_LE(coarse.short_list().limit(), kCoarsePoints);

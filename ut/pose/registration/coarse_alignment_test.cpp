@@ -1,4 +1,4 @@
-// approach_from_afar (registration.hpp).
+// align_coarsely (registration.hpp).
 #include <gtest/gtest.h>
 
 #include "fsw/geometry/portable_math.hpp"
@@ -18,7 +18,7 @@ class AfarTest : public test::PoseFixture {
   // What is off, in rotation and translation, after the far way and a look from a start that is up to so much off.
   Vec6 error_from(double rotation_rad, double shift_m) {
     const Pose start = inverse(test::disturb(scan_.T_sensor_target, rotation_rad, shift_m, random_));
-    return error_of(register_first(mission_, approach_from_afar(mission_, start, *workspace_), *workspace_).T_target_sensor);
+    return error_of(register_first(mission_, align_coarsely(mission_, start, *workspace_), *workspace_).T_target_sensor);
   }
 };
 
@@ -84,7 +84,7 @@ TEST_F(AfarTest, TooFewPointsLeaveTheStart) {
   for (const std::size_t count : {std::size_t{11}, std::size_t{0}}) {
     keep_first_points(count);
     const Pose start = inverse(test::disturb(scan_.T_sensor_target, 0.3, 0.1, random_));
-    const Pose result = approach_from_afar(mission_, start, *workspace_);
+    const Pose result = align_coarsely(mission_, start, *workspace_);
     EXPECT_EQ(result.p, start.p);
     EXPECT_EQ(result.q.coeffs(), start.q.coeffs());
   }
@@ -94,7 +94,7 @@ TEST_F(AfarTest, PointsBeyondTheFieldsReachAreLeftOut) {
   VERIFIES("LASSO-REG-007~1");
   scan();
   for (std::size_t k = 0; k < workspace_->points.size() / 2; ++k) workspace_->points[k].p[2] = N::to_length(1e7);
-  const Pose moved = approach_from_afar(mission_, truth(), *workspace_);
+  const Pose moved = align_coarsely(mission_, truth(), *workspace_);
   EXPECT_TRUE(is_valid(moved));
   EXPECT_EQ(register_hits(mission_, moved, *workspace_).stop, StopReason::kTooFewPoints);
 }
@@ -105,7 +105,7 @@ TEST_F(AfarTest, AScanOfSomethingElseStaysFinite) {
   for (MatchPoint<N>& point : workspace_->points) {
     for (N::Length& p : point.p) p = N::to_length(random_.uniform(0.2, 300) * static_cast<double>(p));
   }
-  EXPECT_TRUE(is_valid(approach_from_afar(mission_, truth(), *workspace_)));
+  EXPECT_TRUE(is_valid(align_coarsely(mission_, truth(), *workspace_)));
 }
 
 }  // namespace

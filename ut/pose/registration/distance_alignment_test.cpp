@@ -19,8 +19,8 @@ TEST_F(PullTest, DrawsAHypothesisToTheModel) {
   for (int i = 0; i < 20; ++i) {
     scan_.T_sensor_target = test::random_box_pose(random_);
     scan();
-    const Pose pulled = pull_in(mission_, inverse(test::disturb(scan_.T_sensor_target, 0.12, 0.03, random_)), *workspace_);
-    near += error_of(pulled).head<3>().norm() < 0.03 && error_of(pulled).tail<3>().norm() < 0.02 ? 1 : 0;
+    const Pose alignment = align_on_both(mission_, inverse(test::disturb(scan_.T_sensor_target, 0.12, 0.03, random_)), *workspace_);
+    near += error_of(alignment).head<3>().norm() < 0.03 && error_of(alignment).tail<3>().norm() < 0.02 ? 1 : 0;
   }
   EXPECT_GE(near, 17);
 }
@@ -28,17 +28,17 @@ TEST_F(PullTest, DrawsAHypothesisToTheModel) {
 TEST_F(PullTest, StaysAtTheTruthOnRays) {
   VERIFIES("LASSO-MOD-111~1");
   scan();
-  const Pose pulled = pull_on_rays(mission_, truth(), *workspace_);
-  EXPECT_LT(error_of(pulled).head<3>().norm(), 0.01);
-  EXPECT_LT(error_of(pulled).tail<3>().norm(), 0.005);
+  const Pose alignment = align_on_rays(mission_, truth(), *workspace_);
+  EXPECT_LT(error_of(alignment).head<3>().norm(), 0.01);
+  EXPECT_LT(error_of(alignment).tail<3>().norm(), 0.005);
 }
 
 TEST_F(PullTest, LeavesTheStartWhereThereIsTooLittle) {
   VERIFIES("LASSO-MOD-111~1");
   scan();
   keep_first_points(11);
-  EXPECT_EQ(pull_in(mission_, truth(), *workspace_).p, truth().p);
-  EXPECT_EQ(pull_on_rays(mission_, truth(), *workspace_).p, truth().p);
+  EXPECT_EQ(align_on_both(mission_, truth(), *workspace_).p, truth().p);
+  EXPECT_EQ(align_on_rays(mission_, truth(), *workspace_).p, truth().p);
 }
 
 TEST_F(PullTest, DistancesAreThoseToTheBoxes) {

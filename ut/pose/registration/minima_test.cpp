@@ -71,7 +71,7 @@ TEST_F(MinimaTest, SlatsLookTheSameAfterEachOfThem) {
   const Minima found = minima(1e-3, truth());
   EXPECT_FALSE(found.is_elsewhere);
   EXPECT_TRUE(found.are_apart);
-  EXPECT_NEAR(std::sqrt(variance_along(found.spread)), kUnseenSigma * radius_m(), 1e-6 * radius_m());
+  EXPECT_NEAR(std::sqrt(variance_along(found.spread)), kUnobservableSigma * radius_m(), 1e-6 * radius_m());
   const Vec6 scale = radius_scale(radius_m());
   const Mat6 at_radius = scale.asDiagonal() * found.spread * scale.asDiagonal();
   EXPECT_LT(at_radius.trace(), 1.02 * variance_along(found.spread)) << "all else hardly changes on the way";
@@ -90,7 +90,7 @@ TEST_F(CloseMinimaTest, OfSeveralOnASideTheLowestIsLookedAt) {
     keep_middle(0.12);
     const Minima found = minima(1e-4, truth());
     EXPECT_TRUE(found.are_apart);
-    EXPECT_NEAR(std::sqrt(variance_along(found.spread)), kUnseenSigma * radius_m(), 1e-6 * radius_m());
+    EXPECT_NEAR(std::sqrt(variance_along(found.spread)), kUnobservableSigma * radius_m(), 1e-6 * radius_m());
     EXPECT_LT(error_of(found.T_target_sensor).tail<3>().norm(), 5e-3);
   }
 }
@@ -154,7 +154,7 @@ TEST_F(MinimaTest, TheCovarianceKnowsOfTheOthers) {
   add_others(hits, covariance, unseen);
   ASSERT_EQ(unseen.count, 1);
   EXPECT_GT(std::abs(unseen.vectors(3, 0)), 0.95);
-  EXPECT_GT(std::sqrt(covariance(3, 3)), 0.95 * kUnseenSigma * radius_m());
+  EXPECT_GT(std::sqrt(covariance(3, 3)), 0.95 * kUnobservableSigma * radius_m());
   EXPECT_LT(error_of(hits.T_target_sensor).tail<3>().norm(), 5e-3);
   unseen.count = 6;
   add_others(hits, covariance, unseen);

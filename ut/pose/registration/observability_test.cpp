@@ -81,7 +81,7 @@ TEST_F(UnseenTest, WhatNoHitShowsIsAnywhereWhateverTheNoise) {
     ASSERT_EQ(unseen_.count, 1);
     EXPECT_NEAR(std::abs(unseen_.vectors.col(0).dot(axes_.col(2))), 1, 1e-9);
     for (int i = 0; i < 6; ++i) {
-      const double truth = i == 2 ? std::pow(kUnseenSigma * kRadius_m, 2) : noise / values[i];
+      const double truth = i == 2 ? std::pow(kUnobservableSigma * kRadius_m, 2) : noise / values[i];
       EXPECT_NEAR(variance_along(covariance, i), truth, 1e-3 * truth + 1e-15) << i;  // rounding of the large beside the small
     }
   }
@@ -112,7 +112,7 @@ TEST_F(UnseenTest, ALabelSaysNothingOfWhatIsUnseen) {
   Label label{};
   const Vec6 kept = 0.8 * axes_.col(0) + 0.3 * axes_.col(5);
   label.a = scale().cwiseProduct(Vec6(kept + 0.04 * axes_.col(1) - 0.03 * axes_.col(3)));
-  ASSERT_TRUE(forget_unseen(kRadius_m, unseen_, label));
+  ASSERT_TRUE(remove_unobservable(kRadius_m, unseen_, label));
   EXPECT_LT((label.a - scale().cwiseProduct(kept)).norm(), 1e-8);
 }
 
@@ -125,13 +125,13 @@ TEST_F(UnseenTest, ALabelThatHangsOnWhatIsUnseenHasNoMeaning) {
     Label label{};
     label.a = scale().cwiseProduct(Vec6(axes_.col(0) + sign * 0.06 * axes_.col(1)));
     const Vec6 before = label.a;
-    EXPECT_FALSE(forget_unseen(kRadius_m, unseen_, label));
+    EXPECT_FALSE(remove_unobservable(kRadius_m, unseen_, label));
     EXPECT_EQ(label.a, before);
   }
   Label label{};
   label.a = test::random_vec6(random_, 1);
   const Vec6 before = label.a;
-  ASSERT_TRUE(forget_unseen(kRadius_m, Directions{}, label));
+  ASSERT_TRUE(remove_unobservable(kRadius_m, Directions{}, label));
   EXPECT_LT((label.a - before).norm(), 1e-15);
 }
 

@@ -13,7 +13,7 @@ class WeakAxisTest : public test::PeggedBeamTest {
  protected:
   WeakAxisTest() { scan_.sigma_m = parameters().sigma0_m = 0.01; }
   // A registration that stands a turn off, as Gauss-Newton leaves some.
-  HitSolution standing(double turn_rad) {
+  HitSolution region_costs(double turn_rad) {
     HitSolution hits = weigh_hits(mission_, turned(turn_rad), *workspace_);
     hits.stop = StopReason::kConverged;
     return hits;
@@ -28,7 +28,7 @@ class WeakAxisTest : public test::PeggedBeamTest {
 TEST_F(WeakAxisTest, AWrongTurnGivesPlaceToTheRightOne) {
   VERIFIES("LASSO-REG-031~1");
   scan();
-  HitSolution hits = standing(0.05);
+  HitSolution hits = region_costs(0.05);
   loosen(1e-4, hits);
   minimise_weak_axis(mission_, turned(0.06), *workspace_, hits);
   EXPECT_LT(std::abs(turn_of(hits.T_target_sensor)), 0.03);
@@ -39,10 +39,10 @@ TEST_F(WeakAxisTest, AnAxisThatIsCertainIsLeftNearThePredictionAlone) {
   VERIFIES("LASSO-REG-031~1");
   scan_.sigma_m = parameters().sigma0_m = 1e-3;
   scan();
-  HitSolution hits = standing(0.02);
+  HitSolution hits = region_costs(0.02);
   loosen(0.5, hits);
-  Directions unseen;
-  const Mat6 covariance = covariance_of_hits(mission_.radius_m, hits.H, 1, unseen);
+  Directions unobservable;
+  const Mat6 covariance = covariance_of_hits(mission_.radius_m, hits.H, 1, unobservable);
   const Eigen6 axes = axes_at_radius(covariance, mission_.radius_m);
   ASSERT_LT(std::sqrt(axes.values[5]), 0.002 * mission_.radius_m);
   const HitSolution before = hits;
@@ -64,7 +64,7 @@ TEST_F(WeakAxisTest, AnAxisThatIsCertainIsLeftNearThePredictionAlone) {
 TEST_F(WeakAxisTest, WithoutInformationOrInliersThePoseStays) {
   VERIFIES("LASSO-REG-031~1");
   scan();
-  HitSolution hits = standing(0.05);
+  HitSolution hits = region_costs(0.05);
   loosen(1e-4, hits);
   for (const StopReason stop : {StopReason::kTooFewPoints, StopReason::kSingular, StopReason::kNotRun}) {
     HitSolution nothing = hits;
@@ -90,11 +90,11 @@ TEST_F(WeakAxisTest, BesideAnAxisThatNothingTellsTheNextIsLookedAt) {
     const Vec3 p(FlightNumber::to_double(point.p[0]), FlightNumber::to_double(point.p[1]), FlightNumber::to_double(point.p[2]));
     return std::abs((truth() * p)[0]) < 0.12;
   });
-  HitSolution hits = standing(0.05);
+  HitSolution hits = region_costs(0.05);
   loosen(1e-2, hits);
-  Directions unseen;
-  (void)covariance_of_hits(mission_.radius_m, hits.H, 1, unseen);
-  ASSERT_EQ(unseen.count, 1);
+  Directions unobservable;
+  (void)covariance_of_hits(mission_.radius_m, hits.H, 1, unobservable);
+  ASSERT_EQ(unobservable.count, 1);
   minimise_weak_axis(mission_, turned(0.06), *workspace_, hits);
   EXPECT_LT(std::abs(turn_of(hits.T_target_sensor)), 0.03);
 }
@@ -108,16 +108,16 @@ class WidenTest : public test::BeamTest {
     scan_.side = 32;
   }
   Mat6 honest(const HitSolution& hits) {
-    Directions unseen;
-    return covariance_of_hits(mission_.radius_m, hits.H, 1, unseen);
+    Directions unobservable;
+    return covariance_of_hits(mission_.radius_m, hits.H, 1, unobservable);
   }
   Vec6 axis_sigmas_m(const Mat6& covariance) const {
     const Vec6 scale = radius_scale(mission_.radius_m);
     return eigen6(scale.asDiagonal() * covariance * scale.asDiagonal()).values.cwiseSqrt();
   }
-  Mat6 widened(const HitSolution& hits, const Mat6& covariance, Directions& unseen) {
+  Mat6 widened(const HitSolution& hits, const Mat6& covariance, Directions& unobservable) {
     Mat6 wide = covariance;
-    widen_weak_axes(mission_, hits, 1, *workspace_, wide, unseen);
+    widen_weak_axes(mission_, hits, 1, *workspace_, wide, unobservable);
     return wide;
   }
 };
@@ -126,14 +126,14 @@ TEST_F(WidenTest, AnHonestSigmaIsDoubledOnceAtMost) {
   VERIFIES("LASSO-REG-025~2");
   scan();
   const HitSolution hits = registered(truth());
-  Directions unseen;
+  Directions unobservable;
   const Mat6 covariance = honest(hits);
   ASSERT_GT(axis_sigmas_m(covariance)[5], 0.002 * mission_.radius_m);
   const Vec6 before = axis_sigmas_m(covariance);
-  const Vec6 after = axis_sigmas_m(widened(hits, covariance, unseen));
+  const Vec6 after = axis_sigmas_m(widened(hits, covariance, unobservable));
   for (int i = 0; i < 6; ++i) EXPECT_LT(after[i], 2.01 * before[i]) << i;
   EXPECT_GT(after[5], 0.999 * before[5]);
-  EXPECT_EQ(unseen.count, 0);
+  EXPECT_EQ(unobservable.count, 0);
 }
 
 // The cost rises with the square: a sigma that is short by f > 5/4 is doubled until it is short by less.
@@ -145,11 +145,11 @@ TEST_F(WidenTest, ASigmaThatIsTooSmallIsDoubledUntilTheCostRises) {
   const double sigma_m = axis_sigmas_m(covariance)[5];
   for (const double factor : {2.0, 4.0, 6.0}) {
     if (sigma_m / factor < 0.0021 * mission_.radius_m) continue;
-    Directions unseen;
-    const double found_m = axis_sigmas_m(widened(hits, covariance / (factor * factor), unseen))[5];
+    Directions unobservable;
+    const double found_m = axis_sigmas_m(widened(hits, covariance / (factor * factor), unobservable))[5];
     EXPECT_GT(found_m, 0.7 * sigma_m) << factor;
     EXPECT_LT(found_m, 2.1 * sigma_m) << factor;
-    EXPECT_EQ(unseen.count, 0);
+    EXPECT_EQ(unobservable.count, 0);
   }
 }
 
@@ -158,11 +158,11 @@ TEST_F(WidenTest, AnAxisAlongWhichNothingRisesIsUnseen) {
   scan();
   HitSolution hits = registered(truth());
   hits.usable = 0;  // no return counts: the cost is the same everywhere
-  Directions unseen;
+  Directions unobservable;
   const Mat6 covariance = honest(hits);
-  const Mat6 wide = widened(hits, covariance, unseen);
-  ASSERT_GT(unseen.count, 0);
-  EXPECT_NEAR(axis_sigmas_m(wide)[5], kUnseenSigma * mission_.radius_m, 1e-3 * mission_.radius_m);
+  const Mat6 wide = widened(hits, covariance, unobservable);
+  ASSERT_GT(unobservable.count, 0);
+  EXPECT_NEAR(axis_sigmas_m(wide)[5], kUnobservableSigma * mission_.radius_m, 1e-3 * mission_.radius_m);
 }
 
 TEST_F(WidenTest, AxesThatAreCertainAreNotTried) {
@@ -170,9 +170,9 @@ TEST_F(WidenTest, AxesThatAreCertainAreNotTried) {
   scan();
   HitSolution hits = registered(truth());
   hits.usable = 0;
-  Directions unseen;
+  Directions unobservable;
   const Mat6 certain = 1e-8 * Mat6::Identity();
-  EXPECT_EQ(widened(hits, certain, unseen), certain);
+  EXPECT_EQ(widened(hits, certain, unobservable), certain);
 }
 
 }  // namespace

@@ -30,31 +30,31 @@ class OutlookTest : public test::PoseFixture {
 
 TEST_F(OutlookTest, TellsWhatTheReturnsOfAScanWould) {
   const ScanRectangle r = outline_of(mission_, view());
-  const Outlook outlook = look_over(mission_, view(), r, 960);
+  const InformationForecast forecast = forecast_information(mission_, view(), r, 960);
   Mat6 expected = Mat6::Zero();
   int met = 0;
-  for (int i = 0; i < kOutlookRays; ++i) {
-    const int column = i % kOutlookColumns;
-    const int row = i / kOutlookColumns;
-    const double x = static_cast<double>(r.low[0]) + (column + 0.5) / kOutlookColumns * static_cast<double>(r.high[0] - r.low[0]);
-    const double y = static_cast<double>(r.low[1]) + (row + 0.5) / kOutlookRows * static_cast<double>(r.high[1] - r.low[1]);
+  for (int i = 0; i < kForecastRays; ++i) {
+    const int column = i % kForecastColumns;
+    const int row = i / kForecastColumns;
+    const double x = static_cast<double>(r.low[0]) + (column + 0.5) / kForecastColumns * static_cast<double>(r.high[0] - r.low[0]);
+    const double y = static_cast<double>(r.low[1]) + (row + 0.5) / kForecastRows * static_cast<double>(r.high[1] - r.low[1]);
     const Vec3 u = Vec3(x, y, 1).normalized();
     if (test::cast_box({}, truth().p, rotate(truth().q, u)) < 0) continue;
     ++met;
     const Vec6 g = gradient(truth(), u);
     expected += 10 * g * g.transpose() / 1e-6;
   }
-  EXPECT_EQ(outlook.met, met);
-  EXPECT_GT(met, kOutlookRays / 3);
-  EXPECT_LT(met, kOutlookRays);
-  EXPECT_LT((outlook.information - expected).norm(), 1e-3 * expected.norm());
+  EXPECT_EQ(forecast.met, met);
+  EXPECT_GT(met, kForecastRays / 3);
+  EXPECT_LT(met, kForecastRays);
+  EXPECT_LT((forecast.information - expected).norm(), 1e-3 * expected.norm());
 }
 
 TEST_F(OutlookTest, GrazingRaysMeetTheModelAndTellNothing) {
   parameters().incidence_max_rad = 45 * kRadPerDeg;
-  const Outlook all = look_over(mission_, view(), outline_of(mission_, view()), 96);
+  const InformationForecast all = forecast_information(mission_, view(), outline_of(mission_, view()), 96);
   parameters().incidence_max_rad = 1e-3;
-  const Outlook none = look_over(mission_, view(), outline_of(mission_, view()), 96);
+  const InformationForecast none = forecast_information(mission_, view(), outline_of(mission_, view()), 96);
   EXPECT_EQ(all.met, none.met);
   EXPECT_GT(all.information.norm(), 0);
   EXPECT_EQ(none.information.norm(), 0);
@@ -64,9 +64,9 @@ TEST_F(OutlookTest, MeetsNothingBesideTheModel) {
   ScanRectangle beside;
   beside.low[0] = beside.low[1] = 0.6F;
   beside.high[0] = beside.high[1] = 0.7F;
-  EXPECT_EQ(look_over(mission_, view(), beside, 96).met, 0);
+  EXPECT_EQ(forecast_information(mission_, view(), beside, 96).met, 0);
   scan_.T_sensor_target.p.z() = 1e6;  // so far that no cell can be named
-  EXPECT_EQ(look_over(mission_, view(), beside, 96).met, 0);
+  EXPECT_EQ(forecast_information(mission_, view(), beside, 96).met, 0);
 }
 
 TEST_F(OutlookTest, IsCutAtTheFieldOfView) {
@@ -92,9 +92,9 @@ TEST_F(OutlookTest, WhatLiesBehindTheSensorIsNotMet) {
   ahead.high[0] = ahead.high[1] = 0.05F;
   scan_.T_sensor_target.q = Quat::Identity();
   scan_.T_sensor_target.p = Vec3(0, 0, -0.25);  // all of it 0.1 m or more behind the sensor
-  EXPECT_EQ(look_over(mission_, view(), ahead, 96).met, 0);
+  EXPECT_EQ(forecast_information(mission_, view(), ahead, 96).met, 0);
   scan_.T_sensor_target.p = Vec3(0, 0, 0.25);
-  EXPECT_EQ(look_over(mission_, view(), ahead, 96).met, kOutlookRays);
+  EXPECT_EQ(forecast_information(mission_, view(), ahead, 96).met, kForecastRays);
 }
 
 TEST_F(OutlookTest, PointsBehindTheSensorHaveNoPlace) {

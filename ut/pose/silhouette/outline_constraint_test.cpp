@@ -47,13 +47,13 @@ class SlackTest : public test::PoseFixture {
 
 TEST_F(SlackTest, SlackAreTheAxesThatAreLooserThanAnOutlineHoldsThem) {
   VERIFIES("LASSO-REG-022~3");
-  const Directions slack = find_slack(mission_, covariance());
-  ASSERT_EQ(slack.count, 2);
-  for (int i = 0; i < 2; ++i) EXPECT_NEAR(std::abs(slack.vectors.col(i).dot(axes_.col(4 + i))), 1, 1e-9);
+  const Directions weakly_observable = find_weakly_observable(mission_, covariance());
+  ASSERT_EQ(weakly_observable.count, 2);
+  for (int i = 0; i < 2; ++i) EXPECT_NEAR(std::abs(weakly_observable.vectors.col(i).dot(axes_.col(4 + i))), 1, 1e-9);
   sigmas_m_[5] = 0.08;
-  EXPECT_EQ(find_slack(mission_, covariance()).count, 2);
+  EXPECT_EQ(find_weakly_observable(mission_, covariance()).count, 2);
   sigmas_m_[5] = 0.06;
-  EXPECT_EQ(find_slack(mission_, covariance()).count, 0) << "a tenth of the radius: none is that loose";
+  EXPECT_EQ(find_weakly_observable(mission_, covariance()).count, 0) << "a tenth of the radius: none is that loose";
 }
 
 TEST_F(SlackTest, TheOutlineHoldsWhatItSaysAndNoHitShowsTheRest) {
@@ -61,35 +61,36 @@ TEST_F(SlackTest, TheOutlineHoldsWhatItSaysAndNoHitShowsTheRest) {
   sigmas_m_ << 1e-4, 2e-4, 5e-3, 0.01, 2, 2.05;  // the last ones no hit shows
   OutlineFit outline;
   outline.within_m << 1e-3, 0, 0.02, 0, 0, 0;
-  const Directions slack = find_slack(mission_, covariance());
-  ASSERT_EQ(slack.count, 4);
-  Directions unseen;
-  unseen.count = 4;
-  const Hold hold = hold_by(mission_, outline, slack, covariance(), unseen);
-  ASSERT_EQ(hold.axes.count, 2);
-  EXPECT_EQ(hold.axes.vectors.col(0), slack.vectors.col(0));
-  EXPECT_EQ(hold.axes.vectors.col(1), slack.vectors.col(2));
-  EXPECT_DOUBLE_EQ(hold.sigma_m[0], 2e-3) << "half of the labels' band is enough";
-  EXPECT_DOUBLE_EQ(hold.sigma_m[1], 0.01);
-  EXPECT_DOUBLE_EQ(hold.band_m, 0.02);
-  ASSERT_EQ(unseen.count, 1);
-  EXPECT_EQ(unseen.vectors.col(0), slack.vectors.col(3));
+  const Directions weakly_observable = find_weakly_observable(mission_, covariance());
+  ASSERT_EQ(weakly_observable.count, 4);
+  Directions unobservable;
+  unobservable.count = 4;
+  const OutlineConstraint constraint = constrain_by_outline(mission_, outline, weakly_observable, covariance(), unobservable);
+  ASSERT_EQ(constraint.axes.count, 2);
+  EXPECT_EQ(constraint.axes.vectors.col(0), weakly_observable.vectors.col(0));
+  EXPECT_EQ(constraint.axes.vectors.col(1), weakly_observable.vectors.col(2));
+  EXPECT_DOUBLE_EQ(constraint.sigma_m[0], 2e-3) << "half of the labels' band is enough";
+  EXPECT_DOUBLE_EQ(constraint.sigma_m[1], 0.01);
+  EXPECT_DOUBLE_EQ(constraint.band_m, 0.02);
+  ASSERT_EQ(unobservable.count, 1);
+  EXPECT_EQ(unobservable.vectors.col(0), weakly_observable.vectors.col(3));
 }
 
 TEST_F(SlackTest, AnOutlineHoldsWhatItKnowsCloselyAndBetterThanTheHits) {
   VERIFIES("LASSO-REG-022~3");
   sigmas_m_ << 1e-4, 2e-4, 6e-3, 0.08, 0.09, 0.1;
-  const Directions slack = find_slack(mission_, covariance());
-  ASSERT_EQ(slack.count, 4);
+  const Directions weakly_observable = find_weakly_observable(mission_, covariance());
+  ASSERT_EQ(weakly_observable.count, 4);
   OutlineFit outline;
   outline.within_m << 0.011, 0.08, 0.09, 0, 0, 0;
-  Directions unseen;
-  EXPECT_EQ(hold_by(mission_, outline, slack, covariance(), unseen).axes.count, 2) << "an eighth of the radius is too wide";
+  Directions unobservable;
+  EXPECT_EQ(constrain_by_outline(mission_, outline, weakly_observable, covariance(), unobservable).axes.count, 2)
+      << "an eighth of the radius is too wide";
   outline.within_m << 0.013, 0, 0, 0.08, 0, 0;
-  const Hold hold = hold_by(mission_, outline, slack, covariance(), unseen);
-  ASSERT_EQ(hold.axes.count, 1);
-  EXPECT_EQ(hold.axes.vectors.col(0), slack.vectors.col(3));
-  EXPECT_EQ(unseen.count, 0);
+  const OutlineConstraint constraint = constrain_by_outline(mission_, outline, weakly_observable, covariance(), unobservable);
+  ASSERT_EQ(constraint.axes.count, 1);
+  EXPECT_EQ(constraint.axes.vectors.col(0), weakly_observable.vectors.col(3));
+  EXPECT_EQ(unobservable.count, 0);
 }
 
 class HoldTest : public SlackTest {
@@ -102,23 +103,23 @@ class HoldTest : public SlackTest {
   }
   double radius_m() const { return mission_.radius_m; }
 
-  Hold hold_;
+  OutlineConstraint hold_;
 };
 
 TEST_F(HoldTest, HeldIsWhatAMeasurementOfEachWouldLeave) {
   VERIFIES("LASSO-REG-023~1");
   Mat6 information = test::inverse_of(covariance());
   for (int i = 0; i < 2; ++i) information += information_along(axes_.col(4 + i), hold_.sigma_m[i]);
-  expect_same(hold_slack(radius_m(), hold_, covariance()), test::inverse_of(information), 1e-6);
+  expect_same(add_constraint(radius_m(), hold_, covariance()), test::inverse_of(information), 1e-6);
 }
 
 TEST_F(HoldTest, ReleasedIsWhatWouldBeKnownWithoutTheOutline) {
   VERIFIES("LASSO-REG-023~1");
-  const Mat6 held = hold_slack(radius_m(), hold_, covariance());
-  expect_same(release_slack(radius_m(), hold_, held), covariance(), 1e-6);
+  const Mat6 held = add_constraint(radius_m(), hold_, covariance());
+  expect_same(remove_constraint(radius_m(), hold_, held), covariance(), 1e-6);
   const Vec6 label = (axes_.col(5) + 0.4 * axes_.col(4) - 0.3 * axes_.col(1)).normalized();
   const Mat6 told = information_along(label, 6e-4);
-  const Mat6 released = release_slack(radius_m(), hold_, test::inverse_of(test::inverse_of(held) + told));
+  const Mat6 released = remove_constraint(radius_m(), hold_, test::inverse_of(test::inverse_of(held) + told));
   expect_same(released, test::inverse_of(test::inverse_of(covariance()) + told), 1e-6);
 }
 
@@ -127,19 +128,19 @@ TEST_F(HoldTest, WhatTheOutlineAloneHeldIsAnywhereOnceReleased) {
   for (const double radius : {0.7, 6.0, 10.0}) {
     for (const double rounding : {-1e-10, 0.0, 1e-10, 1e-9}) {
       mission_.radius_m = radius;
-      sigmas_m_[5] = kUnseenSigma * radius;
-      const Mat6 held = (1 + rounding) * hold_slack(radius, hold_, covariance());
-      const Mat6 released = scale().asDiagonal() * release_slack(radius, hold_, held) * scale().asDiagonal();
+      sigmas_m_[5] = kUnobservableSigma * radius;
+      const Mat6 held = (1 + rounding) * add_constraint(radius, hold_, covariance());
+      const Mat6 released = scale().asDiagonal() * remove_constraint(radius, hold_, held) * scale().asDiagonal();
       const double sigma_m = std::sqrt(axes_.col(5).dot(released * axes_.col(5)));
-      EXPECT_NEAR(sigma_m, kUnseenSigma * radius, 1e-2 * sigma_m) << radius << rounding;
+      EXPECT_NEAR(sigma_m, kUnobservableSigma * radius, 1e-2 * sigma_m) << radius << rounding;
     }
   }
 }
 
 TEST_F(HoldTest, WhereNothingIsHeldNotABitChanges) {
   VERIFIES("LASSO-REG-023~1");
-  EXPECT_EQ(hold_slack(radius_m(), Hold{}, covariance()), covariance());
-  EXPECT_EQ(release_slack(radius_m(), Hold{}, covariance()), covariance());
+  EXPECT_EQ(add_constraint(radius_m(), OutlineConstraint{}, covariance()), covariance());
+  EXPECT_EQ(remove_constraint(radius_m(), OutlineConstraint{}, covariance()), covariance());
 }
 
 TEST_F(HoldTest, ASecondLookStartsWhereTheFirstOneBelievesAndHoldsCautiously) {
@@ -150,14 +151,14 @@ TEST_F(HoldTest, ASecondLookStartsWhereTheFirstOneBelievesAndHoldsCautiously) {
   sigmas_m_[5] = 5e-3;  // hardly
   belief.covariance = covariance();
   belief.mean = Vec6(3e-3 * axes_.col(4) - 1e-3 * axes_.col(5) + 2e-4 * axes_.col(0)).cwiseQuotient(scale());
-  const Vec6 step = scale().cwiseProduct(narrow_hold(mission_, belief, hold_));
+  const Vec6 step = scale().cwiseProduct(tighten_constraint(mission_, belief, hold_));
   EXPECT_LT((step - 3e-3 * axes_.col(4) + 1e-3 * axes_.col(5)).norm(), 1e-12) << "not along what the hits hold";
   EXPECT_DOUBLE_EQ(hold_.sigma_m[0], 2e-3) << "half of the labels' band is enough";
   EXPECT_DOUBLE_EQ(hold_.sigma_m[1], 7e-3) << "never looser than before";
   EXPECT_DOUBLE_EQ(hold_.band_m, 14e-3);
   sigmas_m_[5] = 1e-3;
   belief.covariance = covariance();
-  (void)narrow_hold(mission_, belief, hold_);
+  (void)tighten_constraint(mission_, belief, hold_);
   EXPECT_NEAR(hold_.sigma_m[1], kCautious * 1e-3, 1e-9);
   EXPECT_NEAR(hold_.band_m, 6e-3, 1e-8);
 }
@@ -166,7 +167,7 @@ TEST_F(HoldTest, ASecondLookStartsWhereTheFirstOneBelievesAndHoldsCautiously) {
 class ShownTest : public HoldTest {
  protected:
   ShownTest() {
-    sigmas_m_[4] = sigmas_m_[5] = kUnseenSigma * mission_.radius_m;
+    sigmas_m_[4] = sigmas_m_[5] = kUnobservableSigma * mission_.radius_m;
     unseen_.count = 1;
     unseen_.vectors.col(0) = axes_.col(3);
   }
@@ -190,7 +191,7 @@ TEST_F(ShownTest, WhereAllIsShownNotABitChanges) {
   VERIFIES("LASSO-REG-023~1");
   add_labels(10, 0.9 * axes_.col(4) + 0.1 * axes_.col(5));
   add_labels(10, 0.3 * axes_.col(4) - 0.8 * axes_.col(5));
-  const Hold before = hold_;
+  const OutlineConstraint before = hold_;
   keep();
   EXPECT_EQ(hold_.axes.vectors, before.axes.vectors);
   EXPECT_EQ(hold_.sigma_m, before.sigma_m);

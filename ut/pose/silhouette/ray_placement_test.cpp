@@ -90,7 +90,7 @@ class AimScene : public Scene {
 
   void expect_places_on_contour() const;
 
-  AimRequest request_;
+  RayPlacementRequest request_;
   AimedRays rays_;
 };
 

@@ -182,7 +182,7 @@ TEST(FilterCommon, WhatCommonErrorsExplainIsNotTheFilters) {
   const Mat6 relative = relative_covariance(state);
   EXPECT_LT((relative - given).cwiseAbs().maxCoeff(), 1e-9);
   EXPECT_LT(std::sqrt(relative(5, 5)), 0.005) << "the error of 20 mm is in all scans";
-  EXPECT_GT(state.surprise[5], 2 * kLeastSurprise) << "predictions are off, beside it";
+  EXPECT_GT(state.innovation_ratio[5], 2 * kLeastInnovationRatio) << "predictions are off, beside it";
   EXPECT_TRUE(is_sound(state));
   forget_common_errors(state);
   EXPECT_EQ(relative_covariance(state)(5, 5), state.covariance(5, 5));

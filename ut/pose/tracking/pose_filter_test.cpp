@@ -271,15 +271,15 @@ FilterState follow(double share, Generator& random) {
 TEST(Filter, TellsHowFarItsPredictionsWereOff) {
   VERIFIES("LASSO-FLT-013~1");
   Generator random(12);
-  EXPECT_TRUE(started(random).surprise == Vec6::Ones()) << "nothing is known at the start";
+  EXPECT_TRUE(started(random).innovation_ratio == Vec6::Ones()) << "nothing is known at the start";
   for (const double share : {1.0, 0.25}) {
     double mean = 0;
-    for (int run = 0; run < 30; ++run) mean += follow(share, random).surprise.mean() / 30;
+    for (int run = 0; run < 30; ++run) mean += follow(share, random).innovation_ratio.mean() / 30;
     // The mean of 6 x 30 averages over some 15 squares of normal numbers, cut at 1 and raised by the few beyond three sigmas.
     EXPECT_GT(mean, 0.5 * share * share);
     EXPECT_LT(mean, 1.5 * share * share);
   }
-  EXPECT_LT((follow(0, random).surprise - Vec6::Constant(kLeastSurprise)).norm(), 1e-4) << "never less";
+  EXPECT_LT((follow(0, random).innovation_ratio - Vec6::Constant(kLeastInnovationRatio)).norm(), 1e-4) << "never less";
 }
 
 TEST(Filter, AWrongPredictionIsToldAtOnceOfItsAxisAlone) {
@@ -293,9 +293,9 @@ TEST(Filter, AWrongPredictionIsToldAtOnceOfItsAxisAlone) {
     off[axis] = 2 * std::sqrt(state.covariance(axis, axis));
     const PoseMeasurement measured{state.t_us, disturbed(state.T_sensor_target, off), 1e-12 * Mat6::Identity()};
     ASSERT_FALSE(update_filter(state, measured, 1e-9).accepted);
-    EXPECT_LT(state.surprise.maxCoeff(), 0.02) << "what is kept out tells nothing";
+    EXPECT_LT(state.innovation_ratio.maxCoeff(), 0.02) << "what is kept out tells nothing";
     ASSERT_TRUE(update_filter(state, measured, kNoGate).accepted);
-    for (int i = 0; i < 6; ++i) EXPECT_NEAR(state.surprise[i], i == axis ? 1 : kLeastSurprise, 1e-3);
+    for (int i = 0; i < 6; ++i) EXPECT_NEAR(state.innovation_ratio[i], i == axis ? 1 : kLeastInnovationRatio, 1e-3);
   }
 }
 
@@ -308,7 +308,7 @@ TEST(Filter, WhatWasToldFadesByAnEighthAMeasurement) {
     ASSERT_EQ(predict_filter(state, state.t_us + 200'000, kNoise), Status::kOk);
     ASSERT_TRUE(update_filter(state, {state.t_us, state.T_sensor_target, 1e-12 * Mat6::Identity()}, kNoGate).accepted);
     expected *= 7.0 / 8;
-    for (int i = 0; i < 6; ++i) EXPECT_NEAR(state.surprise[i], expected, 1e-3) << frame;
+    for (int i = 0; i < 6; ++i) EXPECT_NEAR(state.innovation_ratio[i], expected, 1e-3) << frame;
   }
 }
 
@@ -317,10 +317,10 @@ TEST(Filter, WhatItToldAndCannotBeIsForgotten) {
   Generator random(15);
   for (const double bad : {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
     FilterState state = started(random);
-    state.surprise[2] = bad;
+    state.innovation_ratio[2] = bad;
     ASSERT_EQ(predict_filter(state, state.t_us + 200'000, kNoise), Status::kOk);
     ASSERT_TRUE(update_filter(state, {state.t_us, state.T_sensor_target, 1e-12 * Mat6::Identity()}, kNoGate).accepted);
-    EXPECT_EQ(state.surprise[2], 1);
+    EXPECT_EQ(state.innovation_ratio[2], 1);
   }
 }
 

@@ -38,7 +38,7 @@ class LoneGroup : public ::testing::Test {
 TEST_F(LoneGroup, AllOfATargetAloneStaysInItsOrder) {
   VERIFIES("LASSO-MOD-102~1");
   for (int i = 0; i < 60; ++i) add_ball(Vec3(0.3, -0.2, 9), 0.8, 1, i);
-  EXPECT_TRUE(keep_lone_group(1.2, *returns_));
+  EXPECT_TRUE(keep_target_cluster(1.2, *returns_));
   ASSERT_EQ(returns_->size(), 60u);
   for (std::size_t i = 0; i < 60; ++i) EXPECT_EQ((*returns_)[i].after_us, static_cast<std::int32_t>(i));
 }
@@ -48,7 +48,7 @@ TEST_F(LoneGroup, BackgroundWithTenTimesTheReturnsGoes) {
   add_wall(30, 25, 0.5, 1);
   add_ball(Vec3(0.5, 0.4, 20), 0.8, 60, 2);
   add_wall(12, 3, 9, 3);  // specks far apart before it
-  EXPECT_TRUE(keep_lone_group(1.2, *returns_));
+  EXPECT_TRUE(keep_target_cluster(1.2, *returns_));
   EXPECT_EQ(returns_->size(), 60u);
   EXPECT_EQ(tagged(2), 60);
 }
@@ -56,7 +56,7 @@ TEST_F(LoneGroup, BackgroundWithTenTimesTheReturnsGoes) {
 TEST_F(LoneGroup, AWallAloneIsNoTarget) {
   VERIFIES("LASSO-MOD-102~1");
   add_wall(30, 40, 0.5, 1);
-  EXPECT_FALSE(keep_lone_group(1.2, *returns_));
+  EXPECT_FALSE(keep_target_cluster(1.2, *returns_));
   EXPECT_EQ(returns_->size(), 1600u);  // as it was
 }
 
@@ -69,7 +69,7 @@ TEST_F(LoneGroup, StraysNearTheTargetGo) {
     add(p, 2);
   }
   add(Vec3(0, 0, 22.2), 3);  // inside of the reach, with no neighbour
-  EXPECT_TRUE(keep_lone_group(1.2, *returns_));
+  EXPECT_TRUE(keep_target_cluster(1.2, *returns_));
   EXPECT_EQ(tagged(3), 0);
   EXPECT_LE(tagged(2), 2);
   EXPECT_GE(tagged(1), 72);
@@ -82,7 +82,7 @@ TEST_F(LoneGroup, AThirtySecondOfTheGroupMakesANeighbourhood) {
     returns_->clear();
     for (int i = 0; i < together; ++i) add(Vec3(0, 0, 10), 1);
     for (int i = 0; i < others; ++i) add(Vec3(0, 1.5, 10), 2);
-    EXPECT_TRUE(keep_lone_group(1.0, *returns_));
+    EXPECT_TRUE(keep_target_cluster(1.0, *returns_));
     EXPECT_EQ(tagged(1), together);
     return tagged(2);
   };
@@ -97,14 +97,14 @@ TEST_F(LoneGroup, MoreReturnsThanAreTriedAreStillSorted) {
   VERIFIES("LASSO-MOD-102~1");
   add_wall(60, 55, 1.0, 1);
   add_ball(Vec3(3, -2, 40), 1.6, 400, 2);
-  EXPECT_TRUE(keep_lone_group(2.4, *returns_));
+  EXPECT_TRUE(keep_target_cluster(2.4, *returns_));
   EXPECT_EQ(tagged(1), 0);
   EXPECT_EQ(tagged(2), 400);
 }
 
 TEST_F(LoneGroup, NothingIsNoGroup) {
   VERIFIES("LASSO-MOD-102~1");
-  EXPECT_FALSE(keep_lone_group(1.2, *returns_));
+  EXPECT_FALSE(keep_target_cluster(1.2, *returns_));
 }
 
 }  // namespace
