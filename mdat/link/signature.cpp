@@ -150,7 +150,9 @@ SignatureState load_signature_state(const std::string& store) {
   std::istringstream in(content);
   std::string key, number;
   if (in >> key >> state.key >> number >> state.number && content == state_text(state)) return state;
-  throw InputError(file.string() + ": expected 'key N' and 'number N', as a run with --key and --store leaves them there");
+  throw InputError(file.string() +
+                   ": expected 'key N' and 'number N', as a run with --key and --store leaves them there; without this file a run begins "
+                   "with the master key and the time");
 }
 
 SignatureState state_at_start(const std::string& store, const std::string& link) {
