@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <iterator>
+#include <utility>
 
 #include "fsw/link/link_report.hpp"
 
@@ -20,18 +21,20 @@ void TcpClients::drop(Place client) {
 
 void TcpClients::add(Descriptor socket, Time now) {
   if (clients_.size() == kClients) {
-    const auto victim = std::find_if(clients_.begin(), clients_.end(), [&](const Client& client) { return !keeps(client, now); });
-    if (victim == clients_.end()) return;
-    drop(victim);
+    const Place least = std::min_element(clients_.begin(), clients_.end(), [](const Client& a, const Client& b) {
+      return std::pair(a.vouched, a.heard) < std::pair(b.vouched, b.heard);
+    });
+    if (keeps(*least, now)) return;
+    drop(least);
   }
   clients_.emplace_back(std::move(socket), heard_, now);
 }
 
-// The holder alone: who waits keeps nobody from anything.
+// The holder alone: who waits keeps nobody from anything. One that was vouched for loses its place to another such one alone, in vouch().
 void TcpClients::drop_silent(Time now) {
   if (clients_.size() < 2) return;
   const Client& holder = clients_.front();
-  if (!keeps(holder, now) && now - std::max(holder.since, holder.heard) >= kSilent) drop(clients_.begin());
+  if (!holder.vouched && now - holder.heard >= kSilent) drop(clients_.begin());
 }
 
 // Loop bound: the clients, each of which is asked for kReadBytes at most.
@@ -82,12 +85,14 @@ void TcpClients::vouch(Time now) {
   clients_.splice(clients_.begin(), clients_, holder);
 }
 
+// A stranger's command may have the key of an operator's: the answer is the operator's then.
 TcpClients::Client* TcpClients::receiver(ConstBytes packet) {
   std::uint32_t key = 0;
   if (is_answer(packet, key)) {
-    if (last_ != nullptr && last_->asked == key) return last_;
-    for (Client& client : clients_) {
-      if (client.asked == key) return &client;
+    for (const bool vouched : {true, false}) {
+      for (Client& client : clients_) {
+        if (client.asked == key && client.vouched == vouched) return &client;
+      }
     }
   }
   return clients_.empty() ? nullptr : &clients_.front();

@@ -4,8 +4,8 @@
 //   - until somebody else is vouched for (sent a valid command, with a key a signed one) while the holder never was, or was silent for 30
 //   s,
 //   - or until the holder has gone; one that nobody vouched for is sent away after 30 s where somebody else waits.
-// An answer to a command goes to who sent it. There are at most kClients; a further one takes the place of the oldest that nobody vouched
-// for, or is sent away.
+// An answer to a command goes to who sent it, to one that was vouched for first. There are at most kClients; a further one takes the place
+// of the oldest that nobody vouched for, or else of the one that was silent longest, for 30 s at least, or is sent away.
 #pragma once
 
 #include <chrono>
@@ -52,7 +52,6 @@ class TcpClients {
         : socket(std::move(taken)),
           packet(packets.type == PacketType::kCommand ? kMaxCommandBytes : kLongestPacket),
           finder(packets.type, Bytes(packet.data(), packet.size()), packets.apid),
-          since(now),
           heard(now),
           came(now) {}
     Descriptor socket;
@@ -60,7 +59,7 @@ class TcpClients {
     PacketFinder finder;
     std::vector<std::uint8_t> in;    // that the finder has not taken yet
     std::vector<std::uint8_t> rest;  // of a packet of telemetry that was begun
-    Time since, heard, came;         // connected; vouched for; its last byte
+    Time heard, came;                // connected, or vouched for last; its last byte
     bool vouched = false;
     std::uint32_t asked = 0;  // key of its last command
   };

@@ -38,7 +38,7 @@ class Authenticator {
   // Is the last authentic packet by the key on trial?
   virtual bool by_key_on_trial() const { return false; }
   // Kept: the key on trial takes the place of the one in use, which is of no use any more, after a restart either. Otherwise the key on
-  // trial is. Numbers that have to grow go on. Nothing happens where there is no trial.
+  // trial is. Numbers that have to grow go on. Nothing happens, nor is written, where there is no trial: it is called at each boundary.
   virtual void end_key_trial(bool) {}
 
  protected:

@@ -5,33 +5,32 @@ namespace lasso {
 void KeyChange::use_authenticator(Authenticator& authenticator) {
   authenticator_ = &authenticator;
   authenticator.end_key_trial(false);
-  open_ = false;
+  frames_left_ = 0;
 }
 
 ServiceRefusal KeyChange::begin(std::uint32_t number) {
-  if (open_) return ServiceRefusal::kKeyOnTrial;
+  if (frames_left_ != 0) return ServiceRefusal::kKeyOnTrial;
   if (authenticator_ == nullptr || !authenticator_->try_key(number)) return ServiceRefusal::kNoSuchKey;
   number_ = number;
-  open_ = true;
   frames_left_ = kKeyTrialFrames;
   return ServiceRefusal::kNone;
 }
 
 ServiceRefusal KeyChange::confirm(std::uint32_t number) {
-  if (!open_ || number != number_) return ServiceRefusal::kNoKeyOnTrial;
+  if (frames_left_ == 0 || number != number_) return ServiceRefusal::kNoKeyOnTrial;
   if (!authenticator_->by_key_on_trial()) return ServiceRefusal::kNotByNewKey;
   authenticator_->end_key_trial(true);
-  open_ = false;
+  frames_left_ = 0;
   return ServiceRefusal::kNone;
 }
 
+// Between trials the authenticator is told so, too: no flipped bit of ours leaves two keys in use.
 bool KeyChange::pass_boundary() {
-  if (!open_) return false;
-  --frames_left_;
-  if (frames_left_ - 1U < kKeyTrialFrames) return false;  // more are a flipped bit, and end the trial
-  authenticator_->end_key_trial(false);
-  open_ = false;
-  return true;
+  if (authenticator_ == nullptr) return false;
+  const bool open = frames_left_ != 0;
+  if (open) frames_left_ = frames_left_ > kKeyTrialFrames ? 0 : frames_left_ - 1;  // more are a flipped bit
+  if (frames_left_ == 0) authenticator_->end_key_trial(false);
+  return open && frames_left_ == 0;
 }
 
 }  // namespace lasso

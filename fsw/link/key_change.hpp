@@ -29,8 +29,7 @@ class KeyChange {
  private:
   Authenticator* authenticator_ = nullptr;
   std::uint32_t number_ = 0;
-  bool open_ = false;
-  std::uint32_t frames_left_ = 0;
+  std::uint32_t frames_left_ = 0;  // of the trial; 0: there is none
 };
 
 }  // namespace lasso

@@ -48,7 +48,7 @@ TEST_F(KeysTest, AnImageIsSignedAndItsSignatureLookedAt) {
   ASSERT_EQ(work_.mdat("key master --number 1 --out key1").exit_code, 0);
   const Answer derived = work_.mdat("mission sign plain.3dli --key key1");
   EXPECT_EQ(derived.exit_code, 2);
-  EXPECT_NE(derived.err.find("key 1 signs commands alone: images are signed with the master key"), std::string::npos) << derived.err;
+  EXPECT_NE(derived.err.find("key1: is key 1, which signs commands alone: give the master key"), std::string::npos) << derived.err;
   EXPECT_EQ(work_.read("plain.3dli"), plain);
 }
 

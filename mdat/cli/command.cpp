@@ -66,6 +66,7 @@ std::string others_of(const Station& station, const CommandArguments& options) {
 void send(const CommandArguments& options, const PacketRow& row, const std::map<std::string, std::string>& values) {
   const std::unique_ptr<posix::PosixLink> link = connect(options);
   Station station(*link, options.to, printer(options.poses), options.apid);
+  station.end_where([&link] { return link->ended(); });
   if (options.count) station.set_count(*options.count);
   if (!options.key.empty()) station.sign_with(load_key(options.key));
   const double wait_s = options.wait_s.value_or(kCompiling_s);
@@ -76,7 +77,7 @@ void send(const CommandArguments& options, const PacketRow& row, const std::map<
     });
   }
   const CommandAnswer answer = station.command(row, values, options.arm, wait_s);
-  static_cast<void>(station.listen(options.listen_s, [] { return false; }));
+  static_cast<void>(station.listen(options.listen_s, [&link] { return link->ended(); }));
   if (answer.outcome == Outcome::kOpen)
     throw RunError(options.to + ": no answer within " + text_of(wait_s) + " s" + others_of(station, options));
   if (answer.outcome != Outcome::kDone) throw RunError(std::string(row.name) + ": not carried out: " + answer.why);

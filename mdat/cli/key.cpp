@@ -6,7 +6,6 @@
 #include <memory>
 
 #include "mdat/cli/commands.hpp"
-#include "mdat/common/errors.hpp"
 #include "mdat/common/output.hpp"
 
 namespace lasso::mdat {
@@ -26,9 +25,7 @@ void write_key(const KeyArguments& options, const Key& key) {
 }
 
 void derive(const KeyArguments& options) {
-  const Key master = load_key(options.master);
-  if (master.number != 0)
-    throw InputError(options.master + ": is key " + std::to_string(master.number) + ", which no other key comes from; give the master key");
+  const Key master = load_master_key(options.master);
   refuse_same_files({options.out}, {options.master});
   if (!options.replace) refuse_to_replace({options.out}, "--force replaces it");
   write_key(options, derive_command_key(master, options.number));

@@ -56,7 +56,7 @@ std::string sensors_text(const LoadedImage& image) {
 
 // Throws InputError where the key is given, and has not signed the image.
 std::string signature_text(const std::string& file, const std::vector<std::uint8_t>& image, const std::string& key) {
-  if (!key.empty() && !is_signed_by(image, load_key(key)))
+  if (!key.empty() && !is_signed_by(image, load_master_key(key)))
     throw InputError(file + (has_signature(image) ? ": its signature is not that of " : ": is not signed with ") + key +
                      "; mdat mission sign " + file + " --key " + key + " signs it");
   if (!has_signature(image)) return "";
@@ -140,11 +140,6 @@ std::string report_text(const CompiledMission& mission, const std::string& out, 
 
 std::string_view content(const std::vector<std::uint8_t>& bytes) { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
 
-// Of the key file, if there is one.
-std::vector<std::uint8_t> with_signature(const std::vector<std::uint8_t>& image, const std::string& key) {
-  return key.empty() ? image : sign_image(image, load_key(key));
-}
-
 // In its place, unless another one is named: what was signed before is signed anew.
 void sign(const MissionOptions& options) {
   const std::string out = options.out.empty() ? options.file : options.out;
@@ -152,7 +147,7 @@ void sign(const MissionOptions& options) {
   if (out != options.file && !options.replace) refuse_to_replace({out}, "--force replaces it");
   const std::vector<std::uint8_t> image = read_bytes(options.file);
   const LoadedImage loads_in_flight(options.file, image);
-  const std::vector<std::uint8_t> bytes = with_signature(image, options.key);
+  const std::vector<std::uint8_t> bytes = sign_image(image, load_master_key(options.key));
   write_file(out, content(bytes));
   std::printf("%s: image %08x, %zu bytes and a signature of %zu\n", out.c_str(), loads_in_flight.mission().image_crc,
               bytes.size() - kImageSignatureBytes, kImageSignatureBytes);
@@ -171,13 +166,16 @@ void compile(const MissionOptions& options) {
       options.out.empty() ? std::filesystem::path(options.file).filename().replace_extension(".3dli") : std::filesystem::path(options.out);
   check_writable(out);
   const std::string replaced = replaced_text(out, options);
+  std::optional<Key> key;
+  if (!options.key.empty()) key = load_master_key(options.key);
   MissionInput input = load_mission_input(options.file, options.settings, options.scenario);
   tell_idle_settings(input.source, options.scenario);
   const MissionParameters parameters = parameters_for(input.source, options.scenario);
   const ModelCache cache = ModelCache::of_user_if(options.cached);
   const CompiledMission mission = compile_mission(std::move(input), cache);
   for (const std::string& warning : warnings_for(mission.source, options.scenario)) std::fprintf(stderr, "warning: %s\n", warning.c_str());
-  const std::vector<std::uint8_t> bytes = with_signature(image_bytes(mission, parameters), options.key);
+  std::vector<std::uint8_t> bytes = image_bytes(mission, parameters);
+  if (key) bytes = sign_image(bytes, *key);
   const LoadedImage loads_in_flight(out.string(), bytes);
   write_file(out, content(bytes));
   print_text(report_text(mission, out.string(), bytes.size()) + replaced + cache_text(mission, cache));

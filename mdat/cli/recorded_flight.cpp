@@ -69,7 +69,7 @@ void RecordedFlight::set_commands(const std::string& key) {
   if (is_signed && key.empty())
     throw InputError(file_ + ": its component took signed commands alone, and recordings hold no keys: give it by --key FILE");
   if (!is_signed && !key.empty()) throw InputError("--key " + key + ": the commands of " + file_ + " needed none");
-  if (is_signed) check_signatures(load_key(key));
+  if (is_signed) check_signatures(load_master_key(key));
   if (!word(kLinkForm).empty()) options_.commands = std::make_shared<const CommandStream>(run_.commands);
   if (!word(kHasStore).empty()) options_.store = folder_.store();
 }

@@ -182,7 +182,7 @@ std::vector<Criterion> required_criteria(const RunArguments& options) {
 struct RunSignatures {
   explicit RunSignatures(const RunArguments& options) {
     if (options.key.empty()) return;
-    const Key master = load_key(options.key);
+    const Key master = load_master_key(options.key);
     before = state_at_start(options.simulation.store, options.link);
     check = std::make_unique<SignatureCheck>(master, before, keep_in(options.simulation.store));
     sign = [master](const std::vector<std::uint8_t>& image) { return sign_image(image, master); };
@@ -203,6 +203,8 @@ void run(const RunArguments& options) {
   check_simulation(input.source, options.simulation, !options.link.empty());
   check_live(options.live, input.source, options.simulation.scenario);
   const std::vector<std::filesystem::path> recordings = recordings_of(options, input.source);
+  std::optional<OutputFolder> store;  // is made, and can be written
+  if (!options.simulation.store.empty()) store.emplace(options.simulation.store);
   const RunSignatures signatures(options);
   const std::unique_ptr<posix::PosixLink> link = open_link(options);
   const CompiledMission mission = compile_mission(std::move(input), ModelCache::of_user_if(options.cached));

@@ -31,8 +31,11 @@ std::vector<std::uint8_t> image_of(const UploadArguments& options) {
 void run(const UploadArguments& options) {
   UploadOptions how = options.upload;
   if (!options.key.empty()) how.key = load_key(options.key);
+  const std::vector<std::uint8_t> given = image_of(options);
+  if (!options.unchecked) check_signature(options.image, given, how.key);
+  const std::vector<std::uint8_t> image = image_to_send(given, how.key);
   const std::unique_ptr<posix::PosixLink> link = posix::connect_link(options.to);
-  const std::vector<std::uint8_t> image = image_to_send(image_of(options), how.key);
+  how.ended = [&link] { return link->ended(); };
   const UploadEnd end = upload(*link, options.to, image, how);
   const unsigned crc = image_crc(image);
   if (end == UploadEnd::kReady)

@@ -58,6 +58,12 @@ Key load_key(const std::string& file) {
                    " makes one), and a blank and a number behind them where mdat key has derived it");
 }
 
+Key load_master_key(const std::string& file) {
+  Key key = load_key(file);
+  if (key.number == 0) return key;
+  throw InputError(file + ": is key " + std::to_string(key.number) + ", which signs commands alone: give the master key");
+}
+
 std::string key_text(const Key& key) {
   std::string text;
   for (const std::uint8_t byte : key.bytes) {

@@ -28,6 +28,8 @@ inline bool operator==(const Key& a, const Key& b) { return a.bytes == b.bytes &
 // Of a file with 64 hexadecimal digits, and, of a derived key, a blank and its number. Throws InputError, which names the file and what it
 // takes.
 Key load_key(const std::string& file);
+// As load_key(), of what signs images and is in a component. Throws InputError also where the key is a derived one.
+Key load_master_key(const std::string& file);
 // The content of such a file.
 std::string key_text(const Key& key);
 

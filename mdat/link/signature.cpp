@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdio>
 #include <filesystem>
 #include <sstream>
+#include <utility>
 
 #include "fsw/core/byte_codec.hpp"
 #include "fsw/link/telecommand.hpp"
@@ -26,6 +28,10 @@ static_assert(kImageSignatureBytes == kKeyBytes, "a whole code");
 ConstBytes view(const Packet& bytes) { return {bytes.data(), bytes.size()}; }
 
 std::filesystem::path state_file(const std::string& store) { return std::filesystem::path(store) / "authentication"; }
+
+std::string state_text(const SignatureState& state) {
+  return format("key %u\nnumber %llu\n", state.key, static_cast<unsigned long long>(state.number));
+}
 
 Digest image_code(ConstBytes body, const Key& master) {
   KeyedHash hash(derive_image_key(master));
@@ -125,7 +131,8 @@ bool SignatureCheck::try_key(std::uint32_t number) {
 }
 
 void SignatureCheck::end_key_trial(bool kept) {
-  if (trial_ && kept) key_ = *trial_;
+  if (!trial_) return;
+  if (kept) key_ = *trial_;
   trial_.reset();
   by_trial_ = false;
   keep();
@@ -139,24 +146,33 @@ SignatureState load_signature_state(const std::string& store) {
   const std::filesystem::path file = state_file(store);
   SignatureState state;
   if (!std::filesystem::exists(file)) return state;
-  std::istringstream in(file_content(file));
+  const std::string content = file_content(file);
+  std::istringstream in(content);
   std::string key, number;
-  if (in >> key >> state.key >> number >> state.number && key == "key" && number == "number") return state;
-  throw InputError(file.string() + ": expected 'key N' and 'number N', as a run with --key and --store leaves them there");
+  if (in >> key >> state.key >> number >> state.number && content == state_text(state)) return state;
+  throw InputError(file.string() +
+                   ": expected 'key N' and 'number N', as a run with --key and --store leaves them there; without this file a run begins "
+                   "with the master key and the time");
 }
 
 SignatureState state_at_start(const std::string& store, const std::string& link) {
-  if (!store.empty()) return load_signature_state(store);
+  if (!store.empty() && std::filesystem::exists(state_file(store))) return load_signature_state(store);
   return {0, link.rfind("file://", 0) == 0 ? 0 : number_of_now()};
 }
 
 SignatureCheck::Keep keep_in(const std::string& store) {
   if (store.empty()) return {};
-  return [store](const SignatureState& now) { save_signature_state(store, now); };
+  check_writable(state_file(store));
+  return [store, told = false](const SignatureState& now) mutable {
+    try {
+      save_signature_state(store, now);
+    } catch (const InputError& error) {
+      if (!std::exchange(told, true))
+        std::fprintf(stderr, "warning: %s; the next run with this store takes what was signed in this one again\n", error.what());
+    }
+  };
 }
 
-void save_signature_state(const std::string& store, const SignatureState& state) {
-  write_file(state_file(store), format("key %u\nnumber %llu\n", state.key, static_cast<unsigned long long>(state.number)));
-}
+void save_signature_state(const std::string& store, const SignatureState& state) { write_file(state_file(store), state_text(state)); }
 
 }  // namespace lasso::mdat

@@ -74,10 +74,11 @@ class SignatureCheck final : public Authenticator {
 SignatureState load_signature_state(const std::string& store);
 void save_signature_state(const std::string& store, const SignatureState& state);
 
-// Of a run that begins now: its store's. Without a store (empty) number is the time, so that what was recorded before is refused; but a
-// link that is a file has commands that were written before.
+// Of a run that begins now: its store's. Without a store (empty), or with one that no run with a key had, number is the time, so that what
+// was recorded before is refused; but a link that is a file has commands that were written before.
 SignatureState state_at_start(const std::string& store, const std::string& link);
-// Into that store; without one nothing is kept.
+// Into that store, which is there; without one nothing is kept. Throws InputError where it cannot be written. What cannot be written later
+// is told as a warning, once: commands go on.
 SignatureCheck::Keep keep_in(const std::string& store);
 
 }  // namespace lasso::mdat

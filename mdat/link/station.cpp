@@ -15,6 +15,8 @@ using Clock = std::chrono::steady_clock;
 using Packet = std::vector<std::uint8_t>;
 
 constexpr double kTakenWithin_s = 5;  // by a link that is full
+// After a refusal that a stranger may have provoked, by a packet with the count of a signed command: a component answers within 2 frames.
+constexpr double kOwnAnswer_s = 0.6;
 constexpr auto kPause = std::chrono::milliseconds(2);
 // Who does not know the counts before: any count is after the last one or, moved by half of all, is.
 constexpr std::uint16_t kHalf = 1U << 13;
@@ -99,6 +101,8 @@ CommandAnswer Station::wait_for(const Packet& packet, double wait_s) {
   const double quiet_s = silent_ ? std::min(silent_after_s_, wait_s) : 0;
   if (silent_ && !listen(quiet_s, answered)) std::exchange(silent_, nullptr)();
   static_cast<void>(listen(wait_s - quiet_s, answered));
+  if (signer_ && sent_[key].outcome == Outcome::kRefused)
+    static_cast<void>(listen(kOwnAnswer_s, [&] { return sent_[key].outcome != Outcome::kRefused; }));
   const CommandAnswer answer = sent_[key];
   sent_.erase(key);
   return answer;
@@ -136,6 +140,7 @@ bool Station::listen(double seconds, const std::function<bool()>& done) {
   const auto end = Clock::now() + std::chrono::duration<double>(seconds);
   while (!done()) {
     if (Clock::now() > end) return false;
+    if (ended_()) throw RunError(name_ + ": the other end has closed the link: it has ended, or others take all its connections");
     if (!receiver_.take(link_, [this](const DecodedPacket& packet) { note(packet); })) std::this_thread::sleep_for(kPause);
   }
   return true;
@@ -181,6 +186,7 @@ void Station::note(const DecodedPacket& packet) {
   if (subservice == kSubserviceAccepted) accepted_();
   if (subservice == kSubserviceCompleted) answer.outcome = Outcome::kDone;
   if (subservice != kSubserviceFailed && subservice != kSubserviceRefused) return;
+  if (answer.outcome == Outcome::kDone || answer.outcome == Outcome::kFailed) return;  // the refusal is of another packet
   const bool repeated = item_value(packet, "fault") == static_cast<double>(PacketFault::kRepeated);
   const Outcome refused = repeated ? Outcome::kRepeated : Outcome::kRefused;
   answer = {subservice == kSubserviceFailed ? Outcome::kFailed : refused, refusal_of(packet)};

@@ -52,6 +52,8 @@ class Station {
     silent_after_s_ = after_s;
     silent_ = std::move(silent);
   }
+  // Whether the other end has gone for good: what waits for an answer throws RunError then, instead of waiting on.
+  void end_where(std::function<bool()> ended) { ended_ = std::move(ended); }
   // Called where a command is reported as accepted, before its end.
   void on_acceptance(std::function<void()> accepted) { accepted_ = std::move(accepted); }
 
@@ -73,7 +75,7 @@ class Station {
   // Bytes that have come and belong to no packet.
   std::uint64_t other_bytes() const { return receiver_.other_bytes(); }
 
-  // Takes telemetry until `done` holds, at most so long. Whether it does.
+  // Takes telemetry until `done` holds, at most so long. Whether it does. Throws RunError where the other end has gone.
   bool listen(double seconds, const std::function<bool()>& done);
 
  private:
@@ -89,6 +91,7 @@ class Station {
   std::uint16_t apid_;
   Listener listener_;
   std::function<void()> accepted_ = [] {};
+  std::function<bool()> ended_ = [] { return false; };
   double silent_after_s_ = 0;
   std::function<void()> silent_;  // none: nobody wants to know, or it was called
   std::optional<Signer> signer_;

@@ -30,6 +30,7 @@ class Upload {
         station_(
             link, name, [this](const DecodedPacket& packet) { note(packet); }, options.apid) {
     if (options.key) station_.sign_with(*options.key);
+    if (options.ended) station_.end_where(options.ended);
   }
 
   UploadEnd run() {
@@ -207,6 +208,15 @@ std::uint32_t image_crc(const std::vector<std::uint8_t>& image) {
 std::vector<std::uint8_t> image_to_send(const std::vector<std::uint8_t>& image, const std::optional<Key>& key) {
   if (!key) return without_signature(image);
   return key->number == 0 && !has_signature(image) ? sign_image(image, *key) : image;
+}
+
+void check_signature(const std::string& name, const std::vector<std::uint8_t>& image, const std::optional<Key>& key) {
+  const std::string remedy = "; mdat mission sign or compile, with the --key that the component has, signs it";
+  if (!key) return;
+  if (key->number != 0 && !has_signature(image))
+    throw InputError(name + format(": is not signed, and key %u signs commands alone", key->number) + remedy);
+  if (key->number == 0 && has_signature(image) && !is_signed_by(image, *key))
+    throw InputError(name + ": is signed with another key" + remedy);
 }
 
 UploadEnd upload(ByteLink& link, const std::string& name, const std::vector<std::uint8_t>& image, const UploadOptions& options) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,8 +16,9 @@ struct UploadOptions {
   bool activate = false;
   std::optional<Key> key;  // that commands are signed with
   std::uint16_t apid = kApid;
-  double answer_s = 5;  // to wait for the answer of a command
-  double trial_s = 30;  // to wait until an image that is active is confirmed, or taken back
+  std::function<bool()> ended;  // has the other end gone for good? Empty: nobody knows
+  double answer_s = 5;          // to wait for the answer of a command
+  double trial_s = 30;          // to wait until an image that is active is confirmed, or taken back
 };
 
 enum class UploadEnd {
@@ -31,6 +33,9 @@ std::uint32_t image_crc(const std::vector<std::uint8_t>& image);
 // What a component that has `key` takes: an image that is not signed is signed with it, where it is the master; without a key the signature
 // stays behind, as the component would take it for bytes too many.
 std::vector<std::uint8_t> image_to_send(const std::vector<std::uint8_t>& image, const std::optional<Key>& key);
+
+// Throws InputError, which names `name`, where a component that has `key` would refuse the image for its signature.
+void check_signature(const std::string& name, const std::vector<std::uint8_t>& image, const std::optional<Key>& key);
 
 // What was loaded of the same image before, by whomever, is not sent again. Says on standard error how far it is. Throws RunError, which
 // names the link and says what went wrong: nobody answers, a command or the image is refused, or it is taken back. The link is the ground's

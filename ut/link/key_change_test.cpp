@@ -62,6 +62,15 @@ TEST_F(KeyChangeTest, AKeyThatNobodyConfirmsIsGivenUpInTime) {
   EXPECT_EQ(change_.begin(7), ServiceRefusal::kNone) << "it may be tried again";
 }
 
+// As after a flipped bit.
+TEST_F(KeyChangeTest, ATrialThatOnlyTheAuthenticatorKnowsOfEndsAtTheNextBoundary) {
+  VERIFIES("LASSO-LNK-046~1");
+  keys_.trial = 5;
+  EXPECT_FALSE(change_.pass_boundary());
+  EXPECT_EQ(keys_.trial, 0U);
+  EXPECT_FALSE(KeyChange().pass_boundary());
+}
+
 TEST_F(KeyChangeTest, OneKeyIsOnTrialAtATime) {
   VERIFIES("LASSO-LNK-046~1");
   EXPECT_EQ(change_.begin(1), ServiceRefusal::kNone);

@@ -111,24 +111,75 @@ TEST_F(TcpClientsTest, WhoIsSilentIsSentAwayAfter30SecondsWhereSomebodyWaits) {
   EXPECT_EQ(told(b), Stream{7});
 }
 
-TEST_F(TcpClientsTest, AnAnswerGoesToWhoAsked) {
+// Somebody who only listens has commanded before: a stranger who says nothing takes nothing from it.
+TEST_F(TcpClientsTest, AnOperatorWhoListensKeepsItsPlaceBesideStrangers) {
   VERIFIES("LASSO-LNK-048~1");
-  const Descriptor a = connect(), b = connect();
-  send(b, test::ping(9));
-  ASSERT_EQ(read(), test::ping(9));
+  const Descriptor operators = connect();
+  send(operators, test::ping(1));
+  ASSERT_EQ(read(), test::ping(1));
+  clients_.vouch(kBegin);
+  std::vector<Descriptor> strangers;
+  for (int i = 0; i < 10; ++i) strangers.push_back(connect(kBegin + seconds(31)));
+  read(kBegin + seconds(62));
+  EXPECT_EQ(clients_.size(), TcpClients::kClients);
+  EXPECT_FALSE(is_sent_away(operators));
+  EXPECT_EQ(holder(operators, strangers.back()), 'a');
+}
+
+TEST_F(TcpClientsTest, OfOperatorsAloneWhoIsSilentLongestMakesWay) {
+  VERIFIES("LASSO-LNK-048~1");
+  std::vector<Descriptor> operators;
+  for (std::uint16_t i = 0; i < TcpClients::kClients; ++i) {
+    operators.push_back(connect());
+    send(operators.back(), test::ping(i));
+    ASSERT_EQ(read(), test::ping(i));
+    clients_.vouch(kBegin + seconds(i == 1 ? 0 : 5));
+  }
+  const Descriptor early = connect(kBegin + seconds(29));
+  EXPECT_TRUE(is_sent_away(early));
+  const Descriptor late = connect(kBegin + seconds(30));
+  EXPECT_FALSE(is_sent_away(late));
+  EXPECT_TRUE(is_sent_away(operators[1]));
+}
+
+// What the component says of the command `asked`.
+Stream answer_to(const Stream& asked) {
   Stream answer(64);
   ByteWriter writer{Bytes(answer.data(), answer.size())};
   PacketHeader header;
   header.service = 1;
   header.subservice = 2;
   begin_packet(header, writer);
-  const Stream asked = test::ping(9);
   writer.bytes({asked.data(), 4});
   writer.u8(13);
   answer.resize(finish_packet(writer, Bytes(answer.data(), answer.size())));
+  return answer;
+}
+
+TEST_F(TcpClientsTest, AnAnswerGoesToWhoAsked) {
+  VERIFIES("LASSO-LNK-048~1");
+  const Descriptor a = connect(), b = connect();
+  send(b, test::ping(9));
+  ASSERT_EQ(read(), test::ping(9));
+  const Stream answer = answer_to(test::ping(9));
   EXPECT_TRUE(clients_.write(view(answer)));
   EXPECT_EQ(told(b), answer);
   EXPECT_EQ(told(a), Stream());
+}
+
+TEST_F(TcpClientsTest, NobodyGetsTheAnswerOfAnOperatorByItsCount) {
+  VERIFIES("LASSO-LNK-048~1");
+  const Descriptor stranger = connect(), a = connect(), b = connect();
+  for (const Descriptor* one : {&a, &b}) {
+    send(*one, test::ping(one == &a ? 8 : 9));
+    ASSERT_EQ(read(), test::ping(one == &a ? 8 : 9));
+    clients_.vouch(kBegin);
+  }
+  send(stranger, test::ping(9));
+  ASSERT_EQ(read(), test::ping(9));
+  EXPECT_TRUE(clients_.write(view(answer_to(test::ping(9)))));
+  EXPECT_EQ(told(b), answer_to(test::ping(9)));
+  EXPECT_EQ(told(stranger), Stream());
 }
 
 TEST_F(TcpClientsTest, ACrowdOfStrangersTakesNothingFromTheOperator) {

@@ -41,6 +41,18 @@ TEST(Key, AKeyIsReadOrRefusedInWords) {
   EXPECT_NE(refusal("none.key").find("none.key: no such file"), std::string::npos);
 }
 
+TEST(Key, ADerivedKeyIsNoMaster) {
+  VERIFIES("LASSO-LNK-046~1");
+  EXPECT_EQ(load_master_key(written(key_text(kMaster))), kMaster);
+  const std::string file = written(key_text(derive_command_key(kMaster, 7)));
+  try {
+    static_cast<void>(load_master_key(file));
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.what(), file + ": is key 7, which signs commands alone: give the master key");
+  }
+}
+
 // Independent of the code under test: by `openssl kdf -keylen 32 -kdfopt mac:HMAC -kdfopt digest:SHA256 -kdfopt hexkey:0b..0b -kdfopt
 // mode:COUNTER -kdfopt salt:"3DLASSO command key" -kdfopt hexinfo:00000001 KBKDF`, and with another number, and another label.
 TEST(Key, DerivedKeysAreThoseOfOpenSslOnTheCommandLine) {

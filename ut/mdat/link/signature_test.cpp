@@ -25,6 +25,14 @@ PacketFault decode(Authenticator& check, const Stream& packet) {
   return decode(check, packet, command);
 }
 
+// An empty folder.
+std::filesystem::path made_store(const std::string& name) {
+  const std::filesystem::path store = std::filesystem::path(::testing::TempDir()) / name;
+  std::filesystem::remove_all(store);
+  std::filesystem::create_directories(store);
+  return store;
+}
+
 using Image = std::vector<std::uint8_t>;
 
 // As short as an image can be that says its length.
@@ -167,9 +175,7 @@ TEST(Signature, AKeyThatIsGivenUpCountsNoMore) {
 // What was recorded before a restart is refused after it, and the key in use is the same.
 TEST(Signature, TheStateOutlivesARestart) {
   VERIFIES("LASSO-LNK-047~1");
-  const std::filesystem::path store = std::filesystem::path(::testing::TempDir()) / "lasso_signature_state";
-  std::filesystem::create_directories(store);
-  std::filesystem::remove(store / "authentication");
+  const std::filesystem::path store = made_store("lasso_signature_state");
   const auto keep = [&](const SignatureState& state) { save_signature_state(store, state); };
   Signer before(kKey), after(derive_command_key(kKey, 2));
   Stream last;
@@ -186,17 +192,43 @@ TEST(Signature, TheStateOutlivesARestart) {
   EXPECT_EQ(decode(check, last), PacketFault::kNotAuthentic);
   EXPECT_EQ(decode(check, before.sign(test::ping(3))), PacketFault::kNotAuthentic);
   EXPECT_EQ(decode(check, after.sign(test::ping(3))), PacketFault::kNone);
-  std::ofstream(store / "authentication") << "key two";
-  EXPECT_THROW(static_cast<void>(load_signature_state(store)), InputError);
 }
 
-TEST(Signature, WithoutAStoreWhatWasSignedBeforeIsRefused) {
+TEST(Signature, AStateThatNoRunLeftIsRefused) {
+  VERIFIES("LASSO-LNK-047~1");
+  const std::filesystem::path store = made_store("lasso_signature_states");
+  for (const char* text : {"", "key two", "key 1\nnumber 5", "key 1\nnumber -5\n", "key -1\nnumber 5\n", "key 4294967296\nnumber 5\n",
+                           "key 1\nnumber 5\nkey 2\n"}) {
+    std::ofstream(store / "authentication") << text;
+    EXPECT_THROW(static_cast<void>(state_at_start(store, "udp://:1")), InputError) << text;
+  }
+}
+
+// A disk that is full, or a folder that is gone, ends no flight.
+TEST(Signature, WhatCannotBeKeptIsToldAndCommandsGoOn) {
+  VERIFIES("LASSO-LNK-047~1");
+  const std::filesystem::path store = made_store("lasso_signature_store");
+  Signer signer(kKey);
+  SignatureCheck check(kKey, {}, keep_in(store));
+  std::filesystem::create_directories(store / "authentication.partial" / "full");
+  ::testing::internal::CaptureStderr();
+  EXPECT_EQ(decode(check, signer.sign(test::ping(1))), PacketFault::kNone);
+  EXPECT_EQ(decode(check, signer.sign(test::ping(2))), PacketFault::kNone);
+  const std::string told = ::testing::internal::GetCapturedStderr();
+  EXPECT_NE(told.find("authentication: cannot be written"), std::string::npos) << told;
+  EXPECT_EQ(std::count(told.begin(), told.end(), '\n'), 1) << told;
+  EXPECT_THROW(static_cast<void>(keep_in(store)), InputError) << "before a flight it is an error";
+}
+
+TEST(Signature, WithoutAStoreOrWithANewOneWhatWasSignedBeforeIsRefused) {
   VERIFIES("LASSO-LNK-047~1");
   Signer signer(kKey);
   const Stream before = signer.sign(test::ping(1));
-  SignatureCheck check(kKey, state_at_start("", "udp://:1"), keep_in(""));
-  EXPECT_EQ(decode(check, before), PacketFault::kNotAuthentic);
-  EXPECT_EQ(decode(check, signer.sign(test::ping(1))), PacketFault::kNone);
+  for (const std::string& store : {std::string(), made_store("lasso_signature_new").string()}) {
+    SignatureCheck check(kKey, state_at_start(store, "udp://:1"), keep_in(store));
+    EXPECT_EQ(decode(check, before), PacketFault::kNotAuthentic) << store;
+    EXPECT_EQ(decode(check, signer.sign(test::ping(1))), PacketFault::kNone) << store;
+  }
   SignatureCheck of_a_file(kKey, state_at_start("", "file://commands"));
   EXPECT_EQ(decode(of_a_file, before), PacketFault::kNone);
 }

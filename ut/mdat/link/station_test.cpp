@@ -5,6 +5,7 @@
 #include "fsw/core/byte_codec.hpp"
 #include "fsw/link/downlink.hpp"
 #include "fsw/link/link_report.hpp"
+#include "mdat/common/errors.hpp"
 #include "ut/support/verifies.hpp"
 
 namespace lasso::mdat {
@@ -62,6 +63,41 @@ TEST(Station, ACommandThatIsRefusedIsNotDoneAndSaysWhy) {
   const CommandAnswer answer = station.command(command_row("ping"), {}, false, 5);
   EXPECT_EQ(answer.outcome, Outcome::kRefused);
   EXPECT_NE(answer.why.find("not_authentic"), std::string::npos) << answer.why;
+}
+
+// A component that is sent, with the operator's command, another packet of its count: it refuses that, and carries out the command.
+class ImitatedLink final : public ByteLink {
+ public:
+  explicit ImitatedLink(bool before) : before_(before) {}
+  bool datagrams() const override { return false; }
+  std::size_t read(Bytes out) override { return downlink_.take(out); }
+  std::size_t write(ConstBytes command) override {
+    for (const bool refuses : {before_, !before_}) {
+      Verification verification;
+      verification.packet_id = static_cast<std::uint16_t>(command_key(command) >> 16);
+      verification.sequence_control = static_cast<std::uint16_t>(command_key(command));
+      verification.fault = static_cast<std::uint8_t>(refuses ? PacketFault::kNotAuthentic : PacketFault::kNone);
+      std::uint8_t packet[kMaxLinkReportBytes];
+      const std::uint8_t subservice = refuses ? kSubserviceRefused : kSubserviceCompleted;
+      downlink_.send(
+          {packet, encode_verification(verification, downlink_.next_header({kServiceVerification, subservice}, 0), Bytes(packet))});
+    }
+    return command.size();
+  }
+
+ private:
+  bool before_;
+  Downlink downlink_;
+};
+
+TEST(Station, ARefusalOfAnothersPacketIsNoneOfASignedCommand) {
+  VERIFIES("LASSO-LNK-049~1");
+  for (const bool before : {true, false}) {
+    ImitatedLink link(before);
+    Station station(link, "link", [](const DecodedPacket&) {});
+    station.sign_with(Key{std::vector<std::uint8_t>(32, 1), 0});
+    EXPECT_EQ(station.command(command_row("ping"), {}, false, 5).outcome, Outcome::kDone) << before;
+  }
 }
 
 TEST(Station, ACallThatIsRefusedSaysWhyUntilOneIsTaken) {
@@ -156,6 +192,20 @@ TEST(Station, SilenceIsToldOnceAndWaitedThroughAsLongAsWasAsked) {
   EXPECT_EQ(station.command(command_row("ping"), {}, false, 0.06).outcome, Outcome::kOpen);
   EXPECT_EQ(station.command(command_row("ping"), {}, false, 0.06).outcome, Outcome::kOpen);
   EXPECT_EQ(told, 1);
+}
+
+TEST(Station, WhoHasGoneIsNotWaitedFor) {
+  VERIFIES("LASSO-GND-164~1");
+  MuteLink link;
+  Station station(link, "link", [](const DecodedPacket&) {});
+  station.end_where([] { return true; });
+  try {
+    static_cast<void>(station.command(command_row("ping"), {}, false, 60));
+    ADD_FAILURE();
+  } catch (const RunError& error) {
+    EXPECT_EQ(std::string(error.what()).rfind("link: the other end has closed the link", 0), 0U) << error.what();
+  }
+  EXPECT_TRUE(station.listen(60, [] { return true; })) << "what is done is done";
 }
 
 TEST(Station, SpeaksWithTheComponentThatItIsMadeFor) {

@@ -44,5 +44,27 @@ TEST(Upload, RefusesAnImageOfWhichABlockHoldsACommand) {
   for (const std::size_t between : {block - 12, block - 1, 3 * block - 6}) EXPECT_EQ(said_of_command_at(between), "sent") << between;
 }
 
+// What is said of it; empty: it would be sent.
+std::string said_of_signature(const std::vector<std::uint8_t>& image, const std::optional<Key>& key) {
+  try {
+    check_signature("a.3dli", image, key);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Upload, WhatWouldBeRefusedForItsSignatureIsNotSent) {
+  VERIFIES("LASSO-LNK-045~1");
+  const Key master{std::vector<std::uint8_t>(32, 1), 0}, other{std::vector<std::uint8_t>(32, 2), 0},
+      derived = derive_command_key(master, 7);
+  const std::vector<std::uint8_t> plain = {'3', 'D', 'L', 'I', 0, 0, 0, 9, 0, 0, 0, 16, 1, 2, 3, 4}, right = sign_image(plain, master);
+  for (const auto& image : {plain, right}) EXPECT_EQ(said_of_signature(image, std::nullopt), "");
+  for (const auto& image : {plain, right}) EXPECT_EQ(said_of_signature(image, master), "") << "signed on the way, or right";
+  EXPECT_EQ(said_of_signature(right, derived), "") << "whose it is, only the component can say";
+  EXPECT_EQ(said_of_signature(right, other).rfind("a.3dli: is signed with another key; mdat mission sign", 0), 0U);
+  EXPECT_EQ(said_of_signature(plain, derived).rfind("a.3dli: is not signed, and key 7 signs commands alone; mdat", 0), 0U);
+}
+
 }  // namespace
 }  // namespace lasso::mdat
