@@ -193,7 +193,8 @@ class Loader {
     const std::filesystem::path folder = std::filesystem::absolute(source_.file).parent_path();
     for (const auto& candidate : {folder / written.texts.at(0), folder.parent_path() / written.texts.at(0)}) {
       source_.target.file = candidate.lexically_normal();
-      if (!std::filesystem::exists(candidate)) continue;
+      std::error_code unnameable;  // such as a name that is too long
+      if (!std::filesystem::exists(candidate, unnameable)) continue;
       source_.named_files.push_back(source_.target.file);
       return check_digest(written);
     }

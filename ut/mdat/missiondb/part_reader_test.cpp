@@ -55,6 +55,7 @@ TEST_F(PartReaderTest, APartWithoutAModelIsNamedWithItsPlaceAndTheRemedy) {
   expect_error("[part.bay]\n" + kPlace, "exactly one model: box_m (cut from the target), model or mesh; 0 are given");
   expect_error("[part.bay]\n" + kPlace + kBox + "mesh = 'x.stl'\n", "2 are given");
   expect_error("[part.bay]\n" + kPlace + "mesh = 'gone.stl'\n", "m.toml:10:8: part.bay.mesh: \"gone.stl\": no such file in");
+  expect_error("[part.bay]\n" + kPlace + "mesh = '" + std::string(300, 'g') + ".stl'\n", "ggg.stl\": no such file in");
   std::filesystem::create_directory(folder_.path() / "dir.toml");
   expect_error("[part.bay]\n" + kPlace + "model = 'dir.toml'\n", "m.toml:10:9: part.bay.model: \"dir.toml\": no such file in");
 }
