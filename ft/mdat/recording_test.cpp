@@ -1,6 +1,7 @@
 // Recordings of runs: written, looked into, flown again, cut.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "ft/mdat/command.hpp"
@@ -47,7 +48,7 @@ TEST_F(Recording, TellsWhatIsInIt) {
   record("--scenario spin");
   const Answer info = work_.mdat("recording info out/run.mcap");
   EXPECT_EQ(info.exit_code, 0) << info.err;
-  for (const char* text : {"profile ros2", "scenario    spin", "/scan                            12", "mission/test.toml", "image.3dli"})
+  for (const char* text : {"profile ros2", "scenario    spin", "/scan                                12", "mission/test.toml", "image.3dli"})
     EXPECT_NE(info.out.find(text), std::string::npos) << text << "\n" << info.out;
   EXPECT_EQ(info.out.find("damaged"), std::string::npos) << info.out;
 }
@@ -130,12 +131,33 @@ TEST_F(Recording, ForReplayIsSmallAndIsFlownAgain) {
 }
 
 TEST_F(Recording, OfNoRunIsRefused) {
-  VERIFIES("LASSO-REC-008~1");
+  VERIFIES("LASSO-REC-008~2");
   work_.write_mission();
   const std::vector<std::string> before = work_.contents();
   const Answer text = work_.mdat("replay missions/run.mcap");
   EXPECT_EQ(text.exit_code, 2);
   EXPECT_NE(text.err.find("missions/run.mcap: cannot be read"), std::string::npos) << text.err;
+  EXPECT_EQ(work_.contents(), before);
+}
+
+TEST_F(Recording, OfAnotherProfileIsRefusedByAllThatReadsOne) {
+  VERIFIES("LASSO-REC-008~2");
+  record("--scenario spin --record-for replay");
+  std::string bytes = work_.read("out/run.mcap");
+  ASSERT_NE(bytes.find("ros2"), std::string::npos);
+  work_.write("out/other.mcap", bytes.replace(bytes.find("ros2"), 4, "ros1"));
+  const std::vector<std::string> before = work_.contents();
+  for (const char* command :
+       {"replay out/other.mcap", "recording info out/other.mcap", "recording cut out/other.mcap --to 2 -o out/part.mcap",
+        "recording recover out/other.mcap -o out/part.mcap", "recording export out/other.mcap --format csv -o out/part",
+        "recording merge out/run.mcap out/other.mcap --prefix a,b -o out/part.mcap",
+        "replay missions/test.toml --scans out/other.mcap --initial search --out out/part.csv", "serve out/other.mcap"}) {
+    const Answer answer = work_.mdat(command);
+    EXPECT_EQ(answer.exit_code, 2) << command;
+    EXPECT_NE(answer.err.find("out/other.mcap: is an MCAP file of profile 'ros1': expected 'ros2', or none"), std::string::npos)
+        << command << answer.err;
+    EXPECT_EQ(std::count(answer.err.begin(), answer.err.end(), '\n'), 1) << command << answer.err;
+  }
   EXPECT_EQ(work_.contents(), before);
 }
 

@@ -109,6 +109,25 @@ TEST(Stereo, DrivesTheTrackerOfARun) {
   for (std::size_t i = 1; i < lines.size(); ++i) EXPECT_GT(std::stoi(fields_of(lines[i]).at(returns)), 100) << lines[i];
 }
 
+// Both pictures of each frame, and nothing of the run has changed; without them it is flown again.
+TEST(Stereo, ARecordingHasThePictures) {
+  VERIFIES("LASSO-REC-045~1 LASSO-REC-003~1");
+  const WorkFolder work;
+  work.write("missions/stereo.toml", read_text(source_path("cfg/missions/hubble_stereo.toml")));
+  const std::string run = "run missions/stereo.toml --scenario spin --frames 2 --no-report --set stereo.pixels=160 --set stereo.samples=1 ";
+  const Answer answer = work.mdat(run + "--out all --record all.mcap");
+  if (is_refused_by_fixed_point(answer)) return;
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  const std::string info = work.mdat("recording info all.mcap").out;
+  for (const char* topic : {"/camera/left/image/compressed", "/camera/left/camera_info", "/camera/right/image/compressed"})
+    EXPECT_GE(number_after(info, topic), 2) << info;
+  ASSERT_EQ(work.mdat(run + "--out little --record little.mcap --record-for replay").exit_code, 0);
+  EXPECT_EQ(work.mdat("recording info little.mcap").out.find("/camera"), std::string::npos);
+  EXPECT_EQ(work.read("all/telemetry.ccsds"), work.read("little/telemetry.ccsds"));
+  for (const char* file : {"all.mcap", "little.mcap"})
+    EXPECT_NE(work.mdat("replay " + std::string(file)).out.find("telemetry: the same as recorded"), std::string::npos) << file;
+}
+
 // A mission of fitted errors beside a program without its matcher: OpenCV is not asked for.
 TEST(Stereo, FliesByFittedErrorsWithoutPictures) {
   VERIFIES("LASSO-STE-016~1");

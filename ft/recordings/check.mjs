@@ -2,6 +2,7 @@
 // definition that the recording holds. What it finds is compared with PACKETS, what `mdat decode --format json` says of the same run's
 // telemetry. Exit codes: 0 the same, 1 not.
 import { open, readFile } from "node:fs/promises";
+import { inflateSync } from "node:zlib";
 import { McapIndexedReader } from "@mcap/core";
 import { FileHandleReadable } from "@mcap/nodejs";
 import { parse } from "@foxglove/rosmsg";
@@ -72,6 +73,71 @@ function checkScan(told, { value }) {
   if (returns !== told.returns) find(`scan ${told.scan_id}: ${returns} returns, and in telemetry ${told.returns}`);
 }
 
+// Grey, 8 bits, row by row (the PNG specification, section 9).
+function pixelsOf(png) {
+  const bytes = Buffer.from(png.buffer, png.byteOffset, png.byteLength);
+  const [width, height] = [bytes.readUInt32BE(16), bytes.readUInt32BE(20)];
+  const parts = [];
+  for (let at = 8; at < bytes.length; at += 12 + bytes.readUInt32BE(at)) {
+    if (bytes.toString("latin1", at + 4, at + 8) === "IDAT") parts.push(bytes.subarray(at + 8, at + 8 + bytes.readUInt32BE(at)));
+  }
+  const data = inflateSync(Buffer.concat(parts));
+  const pixels = new Uint8Array(width * height);
+  for (let y = 0; y < height; ++y) {
+    const filter = data[y * (width + 1)];
+    for (let x = 0; x < width; ++x) {
+      const left = x > 0 ? pixels[y * width + x - 1] : 0;
+      const up = y > 0 ? pixels[(y - 1) * width + x] : 0;
+      const corner = x > 0 && y > 0 ? pixels[(y - 1) * width + x - 1] : 0;
+      const [p, q, r] = [left, up, corner].map((value) => Math.abs(left + up - corner - value));
+      const paeth = p <= q && p <= r ? left : q <= r ? up : corner;
+      pixels[y * width + x] = data[y * (width + 1) + 1 + x] + [0, left, up, (left + up) >> 1, paeth][filter];
+    }
+  }
+  return { width, height, pixels };
+}
+
+// What the picture shows at each point of a cloud, by the camera's projection.
+function seenAt(points, { picture, info }) {
+  return points.map((point) => {
+    const [u, v, w] = [0, 4, 8].map((row) => info.p.slice(row, row + 4).reduce((sum, term, i) => sum + term * (point[i] ?? 1), 0));
+    const [x, y] = [Math.round(u / w), Math.round(v / w)];
+    return x < 0 || y < 0 || x >= picture.width || y >= picture.height ? NaN : picture.pixels[y * picture.width + x];
+  });
+}
+
+function correlation(first, second) {
+  const pairs = first.map((a, i) => [a, second[i]]).filter(([a, b]) => !Number.isNaN(a + b));
+  const mean = [0, 1].map((k) => pairs.reduce((sum, pair) => sum + pair[k], 0) / pairs.length);
+  const product = (j, k) => pairs.reduce((sum, pair) => sum + (pair[j] - mean[j]) * (pair[k] - mean[k]), 0);
+  return product(0, 1) / Math.sqrt(product(0, 0) * product(1, 1));
+}
+
+function pointsOf({ value }) {
+  const view = new DataView(value.data.buffer, value.data.byteOffset, value.data.byteLength);
+  const offset = Object.fromEntries(value.fields.map((field) => [field.name, field.offset]));
+  const points = Array.from({ length: value.width }, (_, i) => ["x", "y", "z"].map((name) => view.getFloat32(i * value.point_step + offset[name], true)));
+  return points.filter(([x]) => !Number.isNaN(x));
+}
+
+// Both cameras show a point of the scan alike, each where its own projection says.
+function checkPictures() {
+  const of = (topic) => new Map((topics.get(topic) ?? []).map(({ time, value }) => [time, value]));
+  const [lefts, rights] = ["left", "right"].map((camera) => [of(`/camera/${camera}/image/compressed`), of(`/camera/${camera}/camera_info`)]);
+  let compared = 0;
+  for (const scan of topics.get("/scan")) {
+    if (!lefts[0].has(scan.time)) continue;
+    const [left, right] = [lefts, rights].map(([images, infos]) => ({ picture: pixelsOf(images.get(scan.time).data), info: infos.get(scan.time) }));
+    if (left.picture.width !== left.info.width || right.picture.height !== right.info.height) find("/camera: a picture of another size than its calibration says");
+    const points = pointsOf(scan);
+    const same = correlation(seenAt(points, left), seenAt(points, right));
+    const astray = correlation(seenAt(points, left), seenAt(points, { ...right, info: left.info }));
+    if (!(same > 0.5 && same > astray + 0.2)) find(`/camera, ${scan.time}: both pictures correlate by ${same.toFixed(2)} at the points of the scan`);
+    compared += 1;
+  }
+  if (lefts[0].size !== rights[0].size || (lefts[0].size > 0 && compared === 0)) find(`/camera: ${lefts[0].size} and ${rights[0].size} pictures, ${compared} of scans`);
+}
+
 // Each set of frames hangs together from the world down.
 function checkFrames({ value }) {
   const parents = new Map(value.transforms.map((transform) => [transform.child_frame_id, transform.header.frame_id]));
@@ -131,6 +197,7 @@ for (const name of new Set(decoded.map(({ packet }) => packet))) {
 const valid = [...told.values()].filter((items) => items.valid === "yes");
 for (const message of topics.get("/pose_with_covariance")) checkPose(told.get(stamp(message)), message);
 for (const message of topics.get("/tf")) checkFrames(message);
+checkPictures();
 for (const message of topics.get("/scan")) checkScan(told.get(stamp(message)), message);
 if (topics.get("/pose_with_covariance").length !== valid.length) find(`${topics.get("/pose_with_covariance").length} poses, and ${valid.length} are valid`);
 

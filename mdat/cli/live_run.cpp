@@ -22,6 +22,7 @@ class HeldBack final : public RunListener {
   }
   void on_frame(const FlownFrame& frame) override { next_.on_frame(frame); }
   void on_commands(TimeUs slot_us, ConstBytes bytes) override { next_.on_commands(slot_us, bytes); }
+  void on_pair(const TakenPair& pair) override { next_.on_pair(pair); }
 
  private:
   RunListener& next_;

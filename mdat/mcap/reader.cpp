@@ -34,6 +34,15 @@ bool keep(std::string_view content, std::map<std::uint16_t, Record>& records) {
   return same(records.try_emplace(record.id, record).first->second, record);
 }
 
+// A file's profile says how its messages are to be read; it may be left out. What is not printable in a damaged one is shown as ?.
+void check_profile(const std::filesystem::path& file, const std::string& profile) {
+  if (profile.empty() || profile == "ros2") return;
+  std::string shown = profile.substr(0, 20);
+  for (char& c : shown) c = c < ' ' || c > '~' ? '?' : c;
+  const std::string remedy = profile == "ros1" ? "; rosbags-convert makes one of it" : "";
+  throw InputError(file.string() + ": is an MCAP file of profile '" + shown + "': expected 'ros2', or none" + remedy);
+}
+
 }  // namespace
 
 Reader::Reader(const std::filesystem::path& file) : path_(file), in_(file, std::ios::binary) {
@@ -52,6 +61,7 @@ Reader::Reader(const std::filesystem::path& file) : path_(file), in_(file, std::
   ByteReader reader(content);
   profile_ = reader.text();
   library_ = reader.text();
+  check_profile(file, profile_);
 }
 
 bool Reader::next(Op& op, std::string& content) {

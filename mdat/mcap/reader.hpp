@@ -30,10 +30,10 @@ struct Visitor {
 
 class Reader {
  public:
-  // Reads the header. Throws InputError: the file cannot be read, is no MCAP file, or is of another version.
+  // Reads the header. Throws InputError: the file cannot be read, is no MCAP file, or is of another version or profile.
   explicit Reader(const std::filesystem::path& file);
 
-  const std::string& profile() const { return profile_; }
+  const std::string& profile() const { return profile_; }  // ros2, or empty
   const std::string& library() const { return library_; }
   const std::map<std::uint16_t, Channel>& channels() const { return channels_; }  // that have been met
   const std::map<std::uint16_t, Schema>& schemas() const { return schemas_; }

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <system_error>
 
 #include "mdat/missiondb/mission_source.hpp"
 
@@ -13,7 +14,8 @@ inline bool find_beside(MissionSource& source, const std::string& written, std::
   const std::filesystem::path folder = std::filesystem::absolute(source.file).parent_path();
   for (const auto& candidate : {folder / written, folder.parent_path() / written}) {
     found = candidate.lexically_normal();
-    if (!std::filesystem::is_regular_file(candidate)) continue;
+    std::error_code unnameable;  // such as a name that is too long
+    if (!std::filesystem::is_regular_file(candidate, unnameable)) continue;
     source.named_files.push_back(found);
     return true;
   }

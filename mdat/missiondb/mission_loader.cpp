@@ -1,4 +1,3 @@
-#include <Eigen/Geometry>
 #include <algorithm>
 
 #include "mdat/missiondb/campaign_reader.hpp"
@@ -7,7 +6,6 @@
 #include "mdat/missiondb/flash_rows.hpp"
 #include "mdat/missiondb/laser_safety.hpp"
 #include "mdat/missiondb/material_reader.hpp"
-#include "mdat/missiondb/mesh_import.hpp"
 #include "mdat/missiondb/mission_checks.hpp"
 #include "mdat/missiondb/mission_source.hpp"
 #include "mdat/missiondb/model_file.hpp"
@@ -21,7 +19,6 @@
 #include "mdat/missiondb/settings.hpp"
 #include "mdat/missiondb/stereo_reader.hpp"
 #include "mdat/missiondb/toml_reader.hpp"
-#include "mdat/modelc/cut.hpp"
 #include "mdat/source/nearest.hpp"
 #include "mdat/source/sha256.hpp"
 
@@ -198,7 +195,8 @@ class Loader {
     const std::filesystem::path folder = std::filesystem::absolute(source_.file).parent_path();
     for (const auto& candidate : {folder / written.texts.at(0), folder.parent_path() / written.texts.at(0)}) {
       source_.target.file = candidate.lexically_normal();
-      if (!std::filesystem::exists(candidate)) continue;
+      std::error_code unnameable;  // such as a name that is too long
+      if (!std::filesystem::exists(candidate, unnameable)) continue;
       source_.named_files.push_back(source_.target.file);
       return check_digest(written);
     }
@@ -307,11 +305,6 @@ class Loader {
   std::map<std::string, ChosenMotions> motions_;  // by scenario
 };
 
-void warn_of_left_out(const std::filesystem::path& file, const std::vector<std::string>& left_out, std::vector<std::string>* warnings) {
-  if (warnings == nullptr) return;
-  for (const std::string& what : left_out) warnings->push_back(file.string() + ": not read: " + what);
-}
-
 }  // namespace
 
 Problem problem_at(const MissionSource& source, const std::string& key, const std::string& value, const std::string& expected) {
@@ -340,47 +333,6 @@ void check_settings(const MissionSource& source, const std::string& scenario) {
     const auto over = source.origins.find(own + "override." + key);
     if (over != source.origins.end() && !over->second.set) refuse(key, "the scenario overrides it; set " + own + "override." + key);
   }
-}
-
-Mesh load_target(const MissionSource& source, std::vector<std::string>* warnings) {
-  const TargetSource& target = source.target;
-  try {
-    std::vector<std::string> left_out;
-    Mesh mesh = target.parametric ? build_model(target.file, target.parameters) : import_mesh(target.file, target.scale, &left_out);
-    const double scale = target.parametric ? target.scale : 1;
-    const Eigen::Vector3d origin_m(target.origin_m.data());
-    for (Eigen::Vector3d& vertex : mesh.vertices) vertex = scale * vertex - origin_m;
-    warn_of_left_out(target.file, left_out, warnings);
-    check_extent(mesh);
-    return mesh;
-  } catch (const MeshError& error) {
-    throw MissionError(problem_at(source, target.file_key, target.file.string(), error.what()));
-  }
-}
-
-Mesh load_part(const MissionSource& source, const PartSource& part, const Mesh& target, std::vector<std::string>* warnings) {
-  const Eigen::Quaterniond q(part.quaternion[3], part.quaternion[0], part.quaternion[1], part.quaternion[2]);
-  const std::string key = "part." + part.name + (part.file.empty() ? ".box_m" : part.parametric ? ".model" : ".mesh");
-  const auto fail = [&](const std::string& value, const std::string& why) { throw MissionError(problem_at(source, key, value, why)); };
-  if (part.file.empty()) {
-    Mesh mesh = cut_by_box(target, Eigen::Vector3d(part.box_m.data()), Eigen::Vector3d(part.box_m.data() + 3));
-    if (mesh.triangles.empty())
-      fail("", "nothing of the target lies in the box: the part has no model; correct the box, or delete the part");
-    for (Eigen::Vector3d& vertex : mesh.vertices) vertex = q.conjugate() * (vertex - Eigen::Vector3d(part.origin_m.data()));
-    return mesh;
-  }
-  try {
-    std::vector<std::string> left_out;
-    Mesh mesh = part.parametric ? build_model(part.file, {}) : import_mesh(part.file, part.scale, &left_out);
-    const double scale = part.parametric ? part.scale : 1;
-    for (Eigen::Vector3d& vertex : mesh.vertices) vertex *= scale;
-    warn_of_left_out(part.file, left_out, warnings);
-    check_extent(mesh);
-    return mesh;
-  } catch (const MeshError& error) {
-    fail(part.file.string(), std::string(error.what()) + "; give the part another file, or delete it");
-  }
-  return {};
 }
 
 const Scenario& scenario_of(const MissionSource& source, const std::string& name) {

@@ -38,6 +38,11 @@ constexpr Topic kTopics[] = {{"/tf", ros::tf_message},
                              {"/packets", ros::packet},
                              {"/sensor_scans", ros::packet, mcap::Bulk::kLarge},
                              {"/commands", ros::packet}};
+// Of stereo cameras whose pictures are rendered. The file has them from the first pair on.
+constexpr Topic kCameraTopics[] = {{"/camera/left/image/compressed", ros::compressed_image, mcap::Bulk::kLarge},
+                                   {"/camera/left/camera_info", ros::camera_info},
+                                   {"/camera/right/image/compressed", ros::compressed_image, mcap::Bulk::kLarge},
+                                   {"/camera/right/camera_info", ros::camera_info}};
 constexpr Topic kIterationTopics[] = {{"/iterations", ros::point_cloud, mcap::Bulk::kLarge}, {"/iteration_poses", ros::pose_array}};
 
 std::uint64_t nanoseconds(TimeUs t_us) { return static_cast<std::uint64_t>(t_us) * 1000; }
@@ -69,10 +74,23 @@ const std::map<std::string, std::size_t>& tap_numbers() {
   static const std::map<std::string, std::size_t> kNumbers = [] {
     std::map<std::string, std::size_t> numbers;
     for (const Topic& topic : kTopics) numbers.emplace(topic.name, numbers.size());
+    for (const Topic& topic : kCameraTopics) numbers.emplace(topic.name, numbers.size());
     for (const PacketRow* packet : told_packets()) numbers.emplace(packet_topic(*packet), numbers.size());
     return numbers;
   }();
   return kNumbers;
+}
+
+// `shift_m`: along the left camera's x, as far as both are alike and look the same way.
+ros::CameraModel model_of(const PairCamera& camera, double shift_m) {
+  return {static_cast<std::uint32_t>(camera.width),
+          static_cast<std::uint32_t>(camera.height),
+          camera.focal_x_px,
+          camera.focal_y_px,
+          camera.center_x_px,
+          camera.center_y_px,
+          camera.distortion,
+          shift_m};
 }
 
 std::string scenario_in(const RecordingHead& head) {
@@ -100,6 +118,7 @@ RecordingContent recording_content(const std::string& name) {
 std::vector<MessageTopic> recorded_topics() {
   std::vector<MessageTopic> topics;
   for (const Topic& topic : kTopics) topics.push_back({topic.name, topic.schema()});
+  for (const Topic& topic : kCameraTopics) topics.push_back({topic.name, topic.schema()});
   for (const PacketRow* packet : told_packets()) topics.push_back({packet_topic(*packet), packet_schema(*packet)});
   return topics;
 }
@@ -239,6 +258,7 @@ void FrameRecorder::write_poses(const PoseTelemetry& told, const Pose* truth) {
   if (frames_ && truth != nullptr) frames = frames_->true_frames(t_us, *truth);
   frames.push_back({kSensorFrame, kTargetFrame, estimate});
   frames.push_back({kSensorFrame, kFilteredFrame, filtered});
+  if (sight_ && sight_->camera()) frames.push_back({kSensorFrame, kCameraFrame, *sight_->camera()});
   if (frames_) frames.insert(frames.end(), frames_->estimated_frames().begin(), frames_->estimated_frames().end());
   write("/tf", t_us, ros::tf_bytes(t_us, frames));
   if (truth != nullptr) write("/truth", t_us, ros::pose_bytes(header, *truth));
@@ -276,6 +296,21 @@ void FrameRecorder::write_iterations(const ScanView& view, const PoseTelemetry& 
   std::vector<Pose> poses;
   for (const RegistrationStep& step : steps) poses.push_back(step.T_sensor_target);
   write("/iteration_poses", view.t_us, ros::pose_array_bytes(header, poses));
+}
+
+void FrameRecorder::write_picture(const std::string& camera, TimeUs t_us, const std::string& png, const ros::CameraModel& model) {
+  const ros::Header header{t_us, kCameraFrame};
+  write(camera + "/image/compressed", t_us, ros::png_bytes(header, png));
+  write(camera + "/camera_info", t_us, ros::camera_info_bytes(header, model));
+}
+
+void FrameRecorder::on_pair(const TakenPair& pair) {
+  if (content_ == RecordingContent::kReplay) return;
+  for (const Topic& topic : kCameraTopics) {
+    if (channels_.count(topic.name) == 0) add_topic({topic.name, topic.schema()}, topic.bulk);
+  }
+  write_picture("/camera/left", pair.t_us, pair.left_png, model_of(pair.stated.left, 0));
+  write_picture("/camera/right", pair.t_us, pair.right_png, model_of(pair.stated.right, pair.stated.T_left_right.p.x()));
 }
 
 void FrameRecorder::on_frame(const FlownFrame& frame) {

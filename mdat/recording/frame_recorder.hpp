@@ -49,6 +49,7 @@ class FrameRecorder final : public RunListener {
   void on_packets(TimeUs boundary_us, ConstBytes packets) override;
   void on_frame(const FlownFrame& frame) override;
   void on_commands(TimeUs slot_us, ConstBytes bytes) override;
+  void on_pair(const TakenPair& pair) override;
   // A frame of which no more is known than what the component tells; one that has no scan leaves no message.
   void on_report(const PoseTelemetry& told);
   // All so far is in the file; returns its bytes, for who reads it while the run flies (mcap::IndexedFile). 0: there is no file.
@@ -66,6 +67,7 @@ class FrameRecorder final : public RunListener {
   void write_iterations(const ScanView& view, const PoseTelemetry& told);
   void write_poses(const PoseTelemetry& told, const Pose* truth);
   void write_scan(const FlownFrame& frame);
+  void write_picture(const std::string& camera, TimeUs t_us, const std::string& png, const ros::CameraModel& model);
   void write_event(TimeUs boundary_us, const DecodedPacket& packet);
   void take_scans(bool all);
 

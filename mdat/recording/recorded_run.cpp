@@ -94,10 +94,10 @@ std::string text_of(const Contents& contents) {
       if (!value.empty()) text += "  " + padded(key, 12) + one_line(value) + "\n";
     }
   }
-  text += "topics                       messages        size  of\n";
+  text += "topics                           messages        size  of\n";
   for (const auto& [name, topic] : contents.topics) {
     char line[200];
-    (void)std::snprintf(line, sizeof line, "  %-26s %8llu %11s  %s\n", name.substr(0, 80).c_str(),
+    (void)std::snprintf(line, sizeof line, "  %-30s %8llu %11s  %s\n", name.substr(0, 80).c_str(),
                         static_cast<unsigned long long>(topic.messages), size_text(topic.bytes).c_str(),
                         topic.schema.substr(0, 60).c_str());
     text += line;

@@ -170,6 +170,29 @@ std::string point_cloud_bytes(const Header& header, const PointCloud& cloud) {
   return out.bytes();
 }
 
+std::string png_bytes(const Header& header, std::string_view png) {
+  CdrWriter out;
+  put_header(header, out);
+  out.text("png").blob(png);
+  return out.bytes();
+}
+
+// Its pictures are rectified as they are: no rotation, and the projection is that of the camera itself.
+std::string camera_info_bytes(const Header& header, const CameraModel& camera) {
+  const double fx = camera.focal_x_px, fy = camera.focal_y_px, cx = camera.center_x_px, cy = camera.center_y_px;
+  CdrWriter out;
+  put_header(header, out);
+  out.put(camera.height).put(camera.width).text("plumb_bob");
+  out.put(static_cast<std::uint32_t>(camera.distortion.size()));
+  for (const double term : camera.distortion) out.put(term);
+  for (const double term : {fx, 0.0, cx, 0.0, fy, cy, 0.0, 0.0, 1.0}) out.put(term);
+  for (const double term : {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0}) out.put(term);
+  for (const double term : {fx, 0.0, cx, -fx * camera.shift_m, 0.0, fy, cy, 0.0, 0.0, 0.0, 1.0, 0.0}) out.put(term);
+  for (int binning_and_region = 0; binning_and_region < 6; ++binning_and_region) out.put(std::uint32_t{0});  // all pixels
+  put_flag(false, out);
+  return out.bytes();
+}
+
 std::string log_bytes(TimeUs t_us, LogLevel level, const std::string& name, const std::string& text) {
   CdrWriter out;
   put_time(t_us, out);

@@ -62,6 +62,18 @@ struct PointCloud {
 };
 std::string point_cloud_bytes(const Header& header, const PointCloud& cloud);
 
+std::string png_bytes(const Header& header, std::string_view png);  // a CompressedImage
+
+// A pinhole camera that looks along z of the header's frame, from `shift_m` along its x: 0, or the right camera's of a pair. The middle of
+// the first pixel is 0, as in OpenCV.
+struct CameraModel {
+  std::uint32_t width = 0, height = 0;
+  double focal_x_px = 0, focal_y_px = 0, center_x_px = 0, center_y_px = 0;
+  std::array<double, 5> distortion{};  // plumb_bob: k1, k2, p1, p2, k3
+  double shift_m = 0;
+};
+std::string camera_info_bytes(const Header& header, const CameraModel& camera);
+
 enum class LogLevel : std::uint8_t { kInfo = 20, kWarn = 30, kError = 40, kFatal = 50 };
 std::string log_bytes(TimeUs t_us, LogLevel level, const std::string& name, const std::string& text);
 

@@ -40,6 +40,11 @@ constexpr Definition kDefinitions[] = {
     {"sensor_msgs/PointCloud2",
      "std_msgs/Header header\nuint32 height\nuint32 width\nsensor_msgs/PointField[] fields\nbool is_bigendian\nuint32 point_step\n"
      "uint32 row_step\nuint8[] data\nbool is_dense\n"},
+    {"sensor_msgs/CompressedImage", "std_msgs/Header header\nstring format\nuint8[] data\n"},
+    {"sensor_msgs/RegionOfInterest", "uint32 x_offset\nuint32 y_offset\nuint32 height\nuint32 width\nbool do_rectify\n"},
+    {"sensor_msgs/CameraInfo",
+     "std_msgs/Header header\nuint32 height\nuint32 width\nstring distortion_model\nfloat64[] d\nfloat64[9] k\nfloat64[9] r\n"
+     "float64[12] p\nuint32 binning_x\nuint32 binning_y\nsensor_msgs/RegionOfInterest roi\n"},
     {"rcl_interfaces/Log",
      "byte DEBUG=10\nbyte INFO=20\nbyte WARN=30\nbyte ERROR=40\nbyte FATAL=50\nbuiltin_interfaces/Time stamp\nuint8 level\nstring name\n"
      "string msg\nstring file\nstring function\nuint32 line\n"},
@@ -116,6 +121,8 @@ RosSchema schema_with(const std::string& name, const std::string& fields) {
 
 RosSchema tf_message() { return schema_of("tf2_msgs/TFMessage"); }
 RosSchema point_cloud() { return schema_of("sensor_msgs/PointCloud2"); }
+RosSchema compressed_image() { return schema_of("sensor_msgs/CompressedImage"); }
+RosSchema camera_info() { return schema_of("sensor_msgs/CameraInfo"); }
 RosSchema pose_stamped() { return schema_of("geometry_msgs/PoseStamped"); }
 RosSchema pose_array() { return schema_of("geometry_msgs/PoseArray"); }
 RosSchema pose_with_covariance() { return schema_of("geometry_msgs/PoseWithCovarianceStamped"); }

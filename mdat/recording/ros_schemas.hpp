@@ -19,6 +19,8 @@ RosSchema schema_with(const std::string& name, const std::string& fields);
 
 RosSchema tf_message();            // tf2_msgs
 RosSchema point_cloud();           // sensor_msgs/PointCloud2
+RosSchema compressed_image();      // sensor_msgs/CompressedImage
+RosSchema camera_info();           // sensor_msgs/CameraInfo
 RosSchema pose_stamped();          // geometry_msgs
 RosSchema pose_array();            // geometry_msgs/PoseArray
 RosSchema pose_with_covariance();  // geometry_msgs/PoseWithCovarianceStamped

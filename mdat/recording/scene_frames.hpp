@@ -15,6 +15,7 @@ namespace lasso::mdat {
 constexpr char kWorldFrame[] = "world", kSensorFrame[] = "sensor";  // the root of all, and the frame in which scans and poses are stated
 constexpr char kTargetFrame[] = "target", kFilteredFrame[] = "target_filtered";  // estimates
 constexpr char kTrueFrame[] = "target_true";
+constexpr char kCameraFrame[] = "camera/left";  // of the pictures of both cameras of a stereo head
 
 class SceneFrames {
  public:

@@ -24,9 +24,19 @@ std::vector<Vec3> edges_of(const SensorParameters& sensor, const Pose& T_sensor_
   return points;
 }
 
+// Of the first one that is a stereo head.
+std::optional<Pose> camera_place(const MissionSource& mission) {
+  if (mission.stereo.is_fitted()) return std::nullopt;
+  if (mission.sensor == SensorKind::kStereo) return Pose{};
+  for (const FurtherSensor& sensor : mission.further_sensors) {
+    if (sensor.kind == SensorKind::kStereo) return sensor.T_sensor_own.value_or(Pose{});
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
-SensorSight::SensorSight(const MissionSource& mission, const std::string& scenario) {
+SensorSight::SensorSight(const MissionSource& mission, const std::string& scenario) : camera_(camera_place(mission)) {
   const std::vector<std::string> names = sensor_names(mission);
   sensors_.push_back({names.front(), parameters_for(mission, scenario), Pose{}});
   for (std::size_t i = 0; i < mission.further_sensors.size(); ++i) {

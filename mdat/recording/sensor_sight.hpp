@@ -1,6 +1,7 @@
 // Where a mission's sensors look, and what noise they are assumed to have: for the scene and the scans of a recording.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,8 @@ class SensorSight {
 
   // The edges of each sensor's field, in the sensor frame, up to a plane at this depth along its own boresight.
   std::vector<ros::Path> fields_of_view(double depth_m) const;
+  // The left camera's frame in the sensor frame, of a stereo head whose pictures are rendered; none: there is no such.
+  const std::optional<Pose>& camera() const { return camera_; }
   // Of a sensor by its number; of one that the mission does not have, the first's.
   const SensorParameters& parameters(std::uint8_t sensor) const;
 
@@ -27,6 +30,7 @@ class SensorSight {
     Pose T_sensor_own;
   };
   std::vector<Sensor> sensors_;
+  std::optional<Pose> camera_;
 };
 
 // Where the rays of a scan go, one after the other, in the sensor frame at this range.

@@ -74,6 +74,7 @@ class Case {
     for (std::uint32_t frame = 0; frame < setup_.frames + kPipelineFrames && !interrupted(); ++frame) {
       const posix::FrameRecord record = runner_->run_frame();
       check_sensors();
+      pass_pairs();
       result_.telemetry.insert(result_.telemetry.end(), record.telemetry.begin(), record.telemetry.end());
       if (setup_.listener != nullptr) setup_.listener->on_packets(record.boundary_us, record.telemetry);
       read_packets(record);
@@ -97,6 +98,16 @@ class Case {
     for (const auto& scanner : scanners_) {
       const std::string failure = scanner->stereo ? scanner->stereo->failure() : "";
       if (!failure.empty()) throw RunError(failure);
+    }
+  }
+
+  // Without a listener they are let go.
+  void pass_pairs() {
+    for (const auto& scanner : scanners_) {
+      if (!scanner->stereo) continue;
+      for (const TakenPair& pair : scanner->stereo->take_pairs()) {
+        if (setup_.listener != nullptr) setup_.listener->on_pair(pair);
+      }
     }
   }
 

@@ -25,6 +25,7 @@
 #include "mdat/run/run_listener.hpp"
 #include "mdat/run/simulated_scenario.hpp"
 #include "mdat/run/statistics.hpp"
+#include "mdat/run/taken_pair.hpp"
 #include "mdat/run/timeline.hpp"
 
 namespace lasso::mdat {
@@ -38,6 +39,8 @@ class MadeSensor {
   virtual Sensor& sensor() = 0;
   // Why it gives nothing more, in one line; empty: it works. The component's threads take no exception.
   virtual std::string failure() const = 0;
+  // The pairs that its scans since the last call were made of, in their order; of any thread.
+  virtual std::vector<TakenPair> take_pairs() { return {}; }
 };
 // Of the mission's stereo head, for a case, with noise by a seed.
 using MakeStereo = std::function<std::unique_ptr<MadeSensor>(const CaseSetup&, std::uint64_t)>;

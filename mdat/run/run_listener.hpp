@@ -7,6 +7,7 @@
 #include "fsw/link/pose_telemetry.hpp"
 #include "fsw/sense/range_image.hpp"
 #include "hal_sim/trajectory.hpp"
+#include "mdat/run/taken_pair.hpp"
 
 namespace lasso::mdat {
 
@@ -26,6 +27,8 @@ class RunListener {
   virtual void on_frame(const FlownFrame& frame) = 0;
   // What an operator's link gave for the slot that was to begin at `slot_us`: bytes of a stream, or one datagram.
   virtual void on_commands(TimeUs /*slot_us*/, ConstBytes /*bytes*/) {}
+  // Once the scan has begun that it is taken for.
+  virtual void on_pair(const TakenPair& /*pair*/) {}
 };
 
 }  // namespace lasso::mdat

@@ -90,6 +90,11 @@ class BothListeners final : public RunListener {
       if (listener != nullptr) listener->on_commands(slot_us, bytes);
     }
   }
+  void on_pair(const TakenPair& pair) override {
+    for (RunListener* listener : listeners_) {
+      if (listener != nullptr) listener->on_pair(pair);
+    }
+  }
 
  private:
   std::array<RunListener*, 2> listeners_;

@@ -1,6 +1,8 @@
 #include "mdat/stereo/stereo_maker.hpp"
 
+#include <mutex>
 #include <optional>
+#include <utility>
 
 #include "mdat/common/errors.hpp"
 #include "mdat/common/output.hpp"
@@ -66,15 +68,29 @@ class Photographer {
 
   PairRanges pair_at(TimeUs t_us) {
     const StereoPictures pictures = camera_.take(scene_.view_at(t_us), jobs_);
-    write_file(files_.left, grey_png(pictures.left));
-    write_file(files_.right, grey_png(pictures.right));
+    TakenPair pair{kEpochUs + t_us, camera_.head().stated, grey_png(pictures.left), grey_png(pictures.right)};
+    write_file(files_.left, pair.left_png);
+    write_file(files_.right, pair.right_png);
+    keep(std::move(pair));
     return ranges_in(match_files(matcher_program(), files_, scene_.depths));
   }
 
+  std::vector<TakenPair> take_pairs() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return std::exchange(pairs_, {});
+  }
+
  private:
+  void keep(TakenPair pair) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    pairs_.push_back(std::move(pair));
+  }
+
   StereoScene scene_;
   StereoCamera camera_;
   unsigned jobs_;
+  std::mutex mutex_;  // pairs_: the component's threads ask for scans, another one for these
+  std::vector<TakenPair> pairs_;
   ScratchFolder folder_;
   PairFiles files_{folder_.path() / "left.png", folder_.path() / "right.png", folder_.path() / "calibration.toml"};
 };
@@ -89,6 +105,8 @@ class Estimated {
     return [this](const Vec3& direction, TimeUs at_us) { return stereo_.sample(direction, at_us); };
   }
 
+  static std::vector<TakenPair> take_pairs() { return {}; }  // there are no pictures
+
  private:
   StereoScene scene_;
   FittedStereo stereo_;
@@ -102,6 +120,7 @@ class StereoOfCase final : public MadeSensor {
       : pairs_(arguments...), sensor_([this](TimeUs t_us) { return pairs_.pair_at(t_us); }) {}
   Sensor& sensor() override { return sensor_; }
   std::string failure() const override { return sensor_.failure(); }
+  std::vector<TakenPair> take_pairs() override { return pairs_.take_pairs(); }
 
  private:
   Pairs pairs_;

@@ -11,7 +11,7 @@ from .errors import LassoError
 from .packets import Packets
 
 MAGIC = b'\x89MCAP0\r\n'
-FOOTER, SCHEMA, CHANNEL, MESSAGE, CHUNK, ATTACHMENT, STATISTICS, METADATA = 2, 3, 4, 5, 6, 9, 11, 12
+HEADER, FOOTER, SCHEMA, CHANNEL, MESSAGE, CHUNK, ATTACHMENT, STATISTICS, METADATA = 1, 2, 3, 4, 5, 6, 9, 11, 12
 LARGEST_CHUNK = 1 << 31  # bytes: what says more is damaged
 POINT_TYPES = ('', 'i1', 'u1', 'i2', 'u2', 'i4', 'u4', 'f4', 'f8')
 
@@ -29,7 +29,11 @@ class Recording:
         if self.file.read(len(MAGIC)) != MAGIC:
             self.file.close()
             raise LassoError(f'{path}: is no MCAP file of version 0, as its first bytes say')
-        self.survey()
+        try:
+            self.survey()
+        except LassoError:
+            self.file.close()
+            raise
 
     def __enter__(self):
         return self
@@ -151,6 +155,11 @@ class Recording:
                 except struct.error:
                     self.damage.append(f'a record in the chunk at byte {place[0]} is shorter than it says: it is left out')
 
+    def check_profile(self, head):
+        profile = text_at(head, 0)[0]
+        if profile not in ('', 'ros2'):
+            raise LassoError(f'{self.path}: is an MCAP file of profile {profile[:20]!r}: expected \'ros2\', or none')
+
     def check_summary(self, at, start, _, check):
         """Of a footer whose content is at `at`. What a damaged summary says of topics is forgotten: chunks say it, too."""
         if not start or not check:
@@ -164,6 +173,8 @@ class Recording:
         if code == CHUNK:
             start, end = struct.unpack('<QQ', self.file.read(16))
             self.places.append((at, size, start, end))
+        elif code == HEADER:
+            self.check_profile(self.file.read(min(size, 4096)))
         elif code in (SCHEMA, CHANNEL, METADATA):
             self.declare(code, self.file.read(size))
         elif code == ATTACHMENT:

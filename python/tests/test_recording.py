@@ -151,6 +151,13 @@ class RecordingTest(unittest.TestCase):
         with self.assertRaisesRegex(lasso_mdat.LassoError, 'other.mcap: is no MCAP file'):
             lasso_mdat.open_recording(other)
 
+    def test_another_profile_is_refused_with_what_is_read(self):
+        data = self.path.read_bytes()
+        other = flown.folder() / 'profile.mcap'
+        other.write_bytes(data.replace(b'ros2', b'ros1', 1))
+        with self.assertRaisesRegex(lasso_mdat.LassoError, "profile.mcap: is an MCAP file of profile 'ros1': expected 'ros2', or none"):
+            lasso_mdat.open_recording(other)
+
 
 class CloudTest(unittest.TestCase):
     """Clouds of others: rows with bytes behind their points, either order of bytes, and such as are none."""

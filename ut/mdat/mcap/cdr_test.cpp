@@ -41,7 +41,7 @@ TEST(Cdr, WhatIsWrittenComesBack) {
 }
 
 TEST(Cdr, AnotherEncapsulationIsNotRead) {
-  VERIFIES("LASSO-REC-008~1");
+  VERIFIES("LASSO-REC-008~2");
   EXPECT_FALSE(CdrReader(std::string_view("\0\0\0\0\0\0\0\1", 8)).ok());
   EXPECT_FALSE(CdrReader("").ok());
 }

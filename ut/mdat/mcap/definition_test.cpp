@@ -31,7 +31,7 @@ TEST(RosDefinition, TakesWhatRosWrites) {
 }
 
 TEST(RosDefinition, WhatIsNoneIsRefusedWithItsLine) {
-  VERIFIES("LASSO-REC-008~1");
+  VERIFIES("LASSO-REC-008~2");
   const auto error_of = [](const std::string& text) {
     try {
       (void)parse_definition("a/msg/B", text);

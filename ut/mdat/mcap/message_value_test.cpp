@@ -47,7 +47,7 @@ TEST(MessageValue, ComesBackByteByByte) {
 }
 
 TEST(MessageValue, AMessageOfAnotherLengthIsRefused) {
-  VERIFIES("LASSO-REC-008~1");
+  VERIFIES("LASSO-REC-008~2");
   const std::string message = mixed_message();
   for (std::size_t size = 0; size < message.size(); ++size)
     EXPECT_THROW((void)value_of(mixed(), message.substr(0, size)), std::invalid_argument) << size;
@@ -57,7 +57,7 @@ TEST(MessageValue, AMessageOfAnotherLengthIsRefused) {
 
 // A damaged count asks for no memory beyond the message.
 TEST(MessageValue, ACountBeyondTheMessageIsRefused) {
-  VERIFIES("LASSO-REC-008~1");
+  VERIFIES("LASSO-REC-008~2");
   const Definition list = parse_definition("a/msg/List", "E[] many\n===\nMSG: a/E\nint32 x\n");
   CdrWriter out;
   out.put(std::uint32_t{0xFFFFFFFF});

@@ -136,23 +136,45 @@ TEST_F(McapReader, TakesChunksOfLz4) {
   EXPECT_TRUE(all.damage.empty());
 }
 
+std::string error_of(const std::filesystem::path& file) {
+  try {
+    const Reader reader(file);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
 TEST_F(McapReader, WhatIsNoRecordingIsRefusedByName) {
-  VERIFIES("LASSO-REC-008~1");
-  const auto error_of = [&] {
-    try {
-      Reader reader(file_);
-    } catch (const InputError& error) {
-      return std::string(error.what());
-    }
-    return std::string("none");
-  };
-  EXPECT_NE(error_of().find(file_.string() + ": cannot be read"), std::string::npos);
+  VERIFIES("LASSO-REC-008~2");
+  EXPECT_NE(error_of(file_).find(file_.string() + ": cannot be read"), std::string::npos);
   put("scan,qx,qy\n1,2,3\n");
-  EXPECT_NE(error_of().find("is no MCAP file"), std::string::npos);
+  EXPECT_NE(error_of(file_).find("is no MCAP file"), std::string::npos);
   put("\x89MCAP1\r\n");
-  EXPECT_NE(error_of().find("of another version"), std::string::npos);
+  EXPECT_NE(error_of(file_).find("of another version"), std::string::npos);
   put(kMagic);
-  EXPECT_NE(error_of().find("without a header"), std::string::npos);
+  EXPECT_NE(error_of(file_).find("without a header"), std::string::npos);
+}
+
+// Others' files need not say one: their messages are looked at when they are read.
+TEST_F(McapReader, AnotherProfileIsRefusedByItsName) {
+  VERIFIES("LASSO-REC-008~2");
+  const auto put_profile = [&](const std::string& profile) {
+    std::string header, file(kMagic);
+    put_text(profile, header);
+    put_text("another program", header);
+    put_record(Op::kHeader, header, file);
+    put(file);
+  };
+  for (const char* profile : {"", "ros2"}) {
+    put_profile(profile);
+    EXPECT_EQ(error_of(file_), "none") << profile;
+  }
+  put_profile("ros1");
+  EXPECT_EQ(error_of(file_),
+            file_.string() + ": is an MCAP file of profile 'ros1': expected 'ros2', or none; rosbags-convert makes one of it");
+  put_profile("x-\n\xff" + std::string(40, 'y'));
+  EXPECT_EQ(error_of(file_), file_.string() + ": is an MCAP file of profile 'x-??" + std::string(16, 'y') + "': expected 'ros2', or none");
 }
 
 }  // namespace

@@ -280,6 +280,9 @@ TEST_F(Missions, TargetFilesAreProtectedByTheirDigest) {
   const std::string head = "[mission]\nid = 7\nversion = 2\nname = 'test'\n[target]\nmesh = 'm.obj'\n";
   const std::string mesh = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
   expect_error(head, "m.toml:6:8: target.mesh: \"m.obj\": no such file");
+  const std::string no_name(300, 'm');  // longer than a file's may be
+  expect_error("[mission]\nid = 7\nversion = 2\nname = 'test'\n[target]\nmesh = '" + no_name + "'\n",
+               "m.toml:6:8: target.mesh: \"" + no_name + "\": no such file");
   folder.write("m.obj", mesh);
   const MissionSource unprotected = load(head);
   ASSERT_EQ(unprotected.warnings.size(), 1u);

@@ -114,6 +114,44 @@ TEST(RosMessages, AnArrayOfPosesKeepsTheirOrder) {
   EXPECT_EQ(array.at("poses")[0].at("orientation").at("w"), poses[0].q.w());
 }
 
+TEST(RosMessages, APictureIsTheFileItself) {
+  VERIFIES("LASSO-REC-045~1");
+  const std::string png("\x89PNG\r\n\x1a\n\0more", 13), bytes = png_bytes({2'000'000, "camera/left"}, png);
+  CdrReader in(bytes);
+  read_header(in, 2, 0, "camera/left");
+  EXPECT_EQ(in.text(), "png");
+  EXPECT_EQ(in.blob(), png);
+  EXPECT_TRUE(in.ok());
+  EXPECT_EQ(in.left(), 0U);
+}
+
+// Where the projection of each camera puts a point of the left one's frame: there lies its picture, by the pinhole's own triangles.
+TEST(RosMessages, BothCamerasProjectFromTheLeftOnesFrame) {
+  VERIFIES("LASSO-REC-045~1");
+  CameraModel camera{640, 480, 700, 710, 321, 242, {0.1, -0.2, 0.003, 0.004, 0.05}, 0};
+  const Vec3 point_m(0.4, -0.3, 2.5);
+  const RosSchema schema = camera_info();
+  for (const double shift_m : {0.0, 0.25}) {
+    camera.shift_m = shift_m;
+    const mcap::MessageValue info =
+        mcap::value_of(mcap::parse_definition(schema.name, schema.text), camera_info_bytes({1, "camera/left"}, camera));
+    EXPECT_EQ(info.at("width"), 640);
+    EXPECT_EQ(info.at("height"), 480);
+    EXPECT_EQ(info.at("distortion_model"), "plumb_bob");
+    EXPECT_EQ(info.at("d"), mcap::MessageValue(camera.distortion));
+    EXPECT_EQ(info.at("k"), mcap::MessageValue({700.0, 0.0, 321.0, 0.0, 710.0, 242.0, 0.0, 0.0, 1.0}));
+    EXPECT_EQ(info.at("r"), mcap::MessageValue({1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0}));
+    const auto p = info.at("p").get<std::vector<double>>();
+    ASSERT_EQ(p.size(), 12U);
+    const auto row = [&](std::size_t i) {
+      return p[4 * i] * point_m.x() + p[4 * i + 1] * point_m.y() + p[4 * i + 2] * point_m.z() + p[4 * i + 3];
+    };
+    EXPECT_NEAR(row(0) / row(2), 321 + 700 * (0.4 - shift_m) / 2.5, 1e-9);
+    EXPECT_NEAR(row(1) / row(2), 242 - 710 * 0.3 / 2.5, 1e-9);
+    EXPECT_EQ(info.at("roi").at("do_rectify"), false);
+  }
+}
+
 TEST(RosMessages, TimesBeforeZeroHaveNanosecondsOfTheirOwn) {
   VERIFIES("LASSO-REC-001~1");
   const std::string bytes = pose_bytes({-1, "world"}, Pose{});

@@ -32,7 +32,7 @@ void expect_complete(const RosSchema& schema) {
 TEST(RosSchemas, DefineEachTypeThatTheyUse) {
   VERIFIES("LASSO-REC-001~1");
   for (const RosSchema& schema : {ros::tf_message(), ros::point_cloud(), ros::pose_stamped(), ros::pose_with_covariance(), ros::odometry(),
-                                  ros::log(), ros::scene_update(), ros::packet()}) {
+                                  ros::log(), ros::scene_update(), ros::packet(), ros::compressed_image(), ros::camera_info()}) {
     EXPECT_NE(schema.name.find("/msg/"), std::string::npos);
     EXPECT_FALSE(schema.text.empty()) << schema.name;
     expect_complete(schema);

@@ -100,7 +100,7 @@ TEST(ScanCloud, MissedRaysPassAtTheTargetsRange) {
 }
 
 TEST(ScanCloud, AnotherCloudIsNotTakenForOne) {
-  VERIFIES("LASSO-REC-008~1");
+  VERIFIES("LASSO-REC-008~2");
   std::vector<RangeSample> samples;
   EXPECT_FALSE(samples_of({{}, 16, std::string(32, '\0')}, 0, samples));
   EXPECT_FALSE(samples_of({{}, 44, std::string(50, '\0')}, 0, samples));

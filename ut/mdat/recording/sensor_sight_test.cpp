@@ -46,6 +46,21 @@ TEST(SensorSight, FieldsHaveTheirAnglesInTheSensorsOwnAxes) {
   }
 }
 
+TEST(SensorSight, KnowsWherePicturesAreTaken) {
+  VERIFIES("LASSO-REC-045~1");
+  MissionSource mission = two_sensors();
+  EXPECT_FALSE(SensorSight(mission, "").camera());
+  mission.further_sensors[0].kind = SensorKind::kStereo;
+  EXPECT_EQ(SensorSight(mission, "").camera().value().p, Vec3(1, 2, 3));
+  mission.further_sensors[0].T_sensor_own.reset();
+  EXPECT_EQ(SensorSight(mission, "").camera().value().p, Vec3::Zero());
+  mission.stereo.model = 1;
+  EXPECT_FALSE(SensorSight(mission, "").camera()) << "errors alone, without pictures";
+  mission.stereo.model = 0;
+  mission.sensor = SensorKind::kStereo;
+  EXPECT_EQ(SensorSight(mission, "").camera().value().p, Vec3::Zero());
+}
+
 TEST(SensorSight, KnowsTheNoiseOfEachSensor) {
   VERIFIES("LASSO-REC-026~1");
   const SensorSight sight(two_sensors(), "");

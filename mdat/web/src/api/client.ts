@@ -1,4 +1,5 @@
 // Asks the server. Each failure becomes one ApiError that says what happened and what helps.
+import { sentence } from "../maths/scales.ts";
 
 export class ApiError extends Error {
   readonly remedy: string;
@@ -29,7 +30,7 @@ async function errorOf(response: Response): Promise<ApiError> {
   const words = plainWords(response.status);
   try {
     const said = (await response.json()) as { error?: string; remedy?: string };
-    return new ApiError(said.error ?? words.error, said.remedy ?? words.remedy, response.status);
+    return new ApiError(said.error ?? words.error, sentence(said.remedy ?? words.remedy), response.status);
   } catch (error) {
     if (wasAborted(error)) throw error;
     return new ApiError(words.error, words.remedy, response.status);

@@ -12,7 +12,7 @@ test("events are filtered by text and level, and one that is chosen is gone to",
   await expect.poll(async () => Number((await list.getAttribute("aria-label"))!.split(" ")[0])).toBeLessThan(all);
   for (const text of await rows.allTextContents()) expect(text.toLowerCase()).toContain("tracking");
   await rows.last().click();
-  const seconds = Number(await rows.last().locator(".event-time").textContent());
+  const seconds = Number.parseFloat((await rows.last().locator(".event-time").textContent())!);
   const shown = Number((await page.locator(".where output").textContent())!.replace(" s", ""));
   expect(Math.abs(seconds - shown)).toBeLessThan(0.25);
   await page.getByLabel("Filter events by text").fill("nothing has this");

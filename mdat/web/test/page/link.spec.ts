@@ -144,6 +144,7 @@ test("a component that stops makes the data stale", async ({ page }) => {
   try {
     await expect(page.getByText("The data are stale.")).toBeVisible();
     await expect(page.getByText(/No packet has come for \d+ s\. See whether the component runs/)).toBeVisible();
+    await expect(page.locator(".chart-nothing:visible")).toHaveText("No value in the time that is shown.");
     await screenshot(page, "link-stale-light");
   } finally {
     component.process.kill("SIGCONT");

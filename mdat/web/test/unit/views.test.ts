@@ -6,7 +6,7 @@ import type { ValueInfo } from "../../src/api/types.ts";
 import type { FrameColumns } from "../../src/log/log.ts";
 import { pagesOf, rowAfterKey, visibleRows } from "../../src/views/events/rows.ts";
 import { firstValues } from "../../src/views/plots/choice.ts";
-import { plotData, thinned, timeOfLargest, valueAt } from "../../src/views/plots/data.ts";
+import { hasValues, plotData, thinned, timeOfLargest, valueAt } from "../../src/views/plots/data.ts";
 import { limitsOf, paint } from "../../src/views/scene3d/colours.ts";
 import { ellipsoidOf, weakNote } from "../../src/views/scene3d/ellipsoid.ts";
 import { Latest } from "../../src/views/scene3d/latest.ts";
@@ -51,6 +51,12 @@ test("series of different times share one axis; a value that is missing is a gap
   assert.deepEqual(data[0], [1, 2, 3, 4]);
   assert.deepEqual(data[1], [10, null, undefined, 30]);
   assert.deepEqual(data[4], [undefined, 5, 6, undefined]);
+});
+
+test("a plot of gaps alone has no values", () => {
+  assert.ok(hasValues(plotData([seriesOf([1, 2], [Number.NaN, 3])])));
+  assert.ok(!hasValues(plotData([seriesOf([1, 2], [Number.NaN, Number.NaN])])));
+  assert.ok(!hasValues(plotData([])));
 });
 
 test("the value at the cursor is the last one known, and the largest is found among gaps", () => {

@@ -80,7 +80,7 @@ function EventRow({
       onClick={onChoose}
       onKeyDown={() => undefined}
     >
-      <span class="event-time">{timeText(event.time_s)}</span>
+      <span class="event-time">{timeText(event.time_s)} s</span>
       <span class="event-level" title={event.level}>
         <Icon name={ICONS[event.level] ?? "info"} />
         <span class="unseen">{event.level}</span>

@@ -5,7 +5,7 @@ import { cssValue } from "../../app/theme.ts";
 import type { Span } from "../../log/selection.ts";
 import { tickTexts } from "../../maths/scales.ts";
 import { textScale } from "../../parts/rem.ts";
-import type { PlotData } from "./data.ts";
+import { hasValues, type PlotData } from "./data.ts";
 
 const COLOURS = ["--series-1", "--series-2", "--series-3", "--series-4", "--series-5", "--series-6"];
 export const seriesColour = (i: number): string => COLOURS[i % COLOURS.length];
@@ -23,6 +23,9 @@ function bandOptions(values: ValueInfo[]): uPlot.Band[] {
   return values.map((_, i) => ({ series: [3 * i + 3, 3 * i + 2], fill: `${cssValue(seriesColour(i))}40` }));
 }
 
+/** What a scale of values shows; where there is none, something, so that its axis keeps its room. */
+const valueRange: uPlot.Range.Function = (_, low, high) => (low === null ? [0, 1] : uPlot.rangeNum(low, high, 0.1, true));
+
 /** Room for the longest number beside its tick. */
 function axisWidth(texts: string[] | null, scale: number): number {
   const longest = Math.max(4, ...(texts ?? []).map((text) => text.length));
@@ -39,7 +42,7 @@ function axisOptions(): uPlot.Axis[] {
     values: (_, marks) => tickTexts(marks),
   };
   return [
-    { ...common, size: 24 * scale, space: 70 * scale },
+    { ...common, size: 24 * scale, space: 70 * scale, values: (_, marks) => tickTexts(marks).map((text) => `${text} s`) },
     { ...common, size: (_, texts) => axisWidth(texts, scale), space: 26 * scale },
   ];
 }
@@ -50,6 +53,7 @@ export class Chart {
   private readonly cursor = document.createElement("div");
   private readonly hover = document.createElement("div");
   private readonly spanBox = document.createElement("div");
+  private readonly nothing = document.createElement("p");
 
   private marks: { time_s: number; hovered_s: number | null; span: Span | null } | null = null;
 
@@ -60,7 +64,7 @@ export class Chart {
       legend: { show: false },
       cursor: { show: false },
       padding: [6, 8, 0, 0],
-      scales: { x: { time: false, range: (_, low, high) => [low, high] } },
+      scales: { x: { time: false, range: (_, low, high) => [low, high] }, y: { range: valueRange } },
       series: seriesOptions(values),
       bands: bandOptions(values),
       axes: axisOptions(),
@@ -71,7 +75,10 @@ export class Chart {
     this.cursor.className = "cursor-line";
     this.hover.className = "hover-line";
     this.spanBox.className = "span";
-    this.over.append(this.spanBox, this.hover, this.cursor);
+    this.nothing.className = "chart-nothing";
+    this.nothing.textContent = "No value in the time that is shown.";
+    this.nothing.hidden = hasValues(data);
+    this.over.append(this.spanBox, this.hover, this.cursor, this.nothing);
     this.setWindow(window);
   }
 
@@ -93,6 +100,7 @@ export class Chart {
   setData(data: PlotData, window: Span): void {
     this.plot.batch(() => {
       this.plot.setData(data as uPlot.AlignedData, true);
+      this.nothing.hidden = hasValues(data);
       this.setWindow(window);
     });
   }

@@ -28,6 +28,9 @@ export function plotData(series: Series[]): PlotData {
   return [times, ...(columns as Column[])];
 }
 
+/** Whether any value is there to be drawn. */
+export const hasValues = ([, ...columns]: PlotData): boolean => columns.some((column) => column.some((x) => Number.isFinite(x)));
+
 /** The value at the last time that is not after `time_s`; null where there is none. */
 export function valueAt(series: Series, time_s: number): number | null {
   let low = 0;

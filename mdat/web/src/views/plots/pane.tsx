@@ -79,9 +79,9 @@ function Legend({ plot, session, values, series }: PaneParts & { plot: Plot }) {
       {values.map((value, i) => (
         <li key={value.id}>
           <i class="swatch" style={{ background: `var(${seriesColour(i)})` }} />
-          <span class="legend-name" title={`${value.label} (${value.topic})`}>
-            {shortLabel(value.label)}
-            {value.unit === "" ? "" : `, ${value.unit}`}
+          <span class="legend-label" title={`${value.label} (${value.topic})`}>
+            <span class="legend-name">{shortLabel(value.label)}</span>
+            {value.unit === "" ? null : <span>, {value.unit}</span>}
           </span>
           <b>{series[i] === undefined ? "" : valueText(value, valueAt(series[i], at_s))}</b>
           {values.length > 1 ? (
