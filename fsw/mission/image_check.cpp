@@ -4,6 +4,7 @@
 #include "fsw/core/byte_codec.hpp"
 #include "fsw/core/crc.hpp"
 #include "fsw/mission/image_layout.hpp"
+#include "fsw/mission/image_records.hpp"
 #include "fsw/mission/number_fit.hpp"
 
 namespace lasso {
@@ -375,40 +376,6 @@ std::uint32_t ImageCheck::check_records(std::uint32_t words) {
     if (++table_ == kCheckedTables) stage_ = Stage::kDone;
   }
   return used + 1;
-}
-
-SensorParameters sensor_of(const ImageTable& table, std::uint32_t record) {
-  SensorParameters sensor{};
-  ByteReader reader(ConstBytes(table.data + std::size_t{4} * kSensorWords * record, std::size_t{4} * kSensorWords));
-  for (const ParameterRow& row : sensor_rows()) sensor.*sensor_member(row) = reader.f64();
-  return sensor;
-}
-
-TriangulationCalibration calibration_of(const ImageTable& table, std::uint32_t record) {
-  TriangulationCalibration calibration;
-  ByteReader reader(ConstBytes(table.data + std::size_t{4} * kCalibrationWords * record, std::size_t{4} * kCalibrationWords));
-  static_cast<void>(reader.u32());  // the sensor's number
-  calibration.serial = reader.u32();
-  for (const CalibrationReal& real : kCalibrationReals) calibration.*real.member = reader.f64();
-  for (double& term : calibration.residual) term = reader.f64();
-  return calibration;
-}
-
-NamedFrame named_frame_of(const ImageTable& table, std::uint32_t record) {
-  ByteReader reader(ConstBytes(table.data + std::size_t{4} * kNamedFrameWords * record, std::size_t{4} * kNamedFrameWords));
-  NamedFrame frame;
-  for (Pose* pose : {&frame.T_target_of, &frame.T_in_sensor}) {
-    for (double& term : pose->q.coeffs().reshaped()) term = reader.f64();
-    for (int i = 0; i < 3; ++i) pose->p[i] = reader.f64();
-  }
-  return frame;
-}
-
-MissionParameters parameters_of(const ImageTable& table) {
-  MissionParameters parameters{};
-  ByteReader reader(ConstBytes(table.data, table.bytes()));
-  for (const ParameterRow& row : parameter_rows()) parameters.*row.member = reader.f64();
-  return parameters;
 }
 
 }  // namespace lasso

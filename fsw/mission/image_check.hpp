@@ -1,9 +1,7 @@
 // A flight image as its check sees it: tables in the format's words, and what each may say. Inside of fsw/mission.
 #pragma once
 
-#include "fsw/mission/calibration.hpp"
 #include "fsw/mission/mission.hpp"
-#include "fsw/mission/named_frame.hpp"
 
 namespace lasso {
 
@@ -74,11 +72,5 @@ class ImageCheck {
 };
 constexpr std::uint32_t kLargestRecord_words = 512;   // kRayCells
 constexpr std::uint32_t kAllWords = 0xFFFFFFFFU / 4;  // more than an image has; their bytes fit 32 bits
-
-// The parameters of a table that has been checked.
-MissionParameters parameters_of(const ImageTable& table);
-SensorParameters sensor_of(const ImageTable& table, std::uint32_t record);
-TriangulationCalibration calibration_of(const ImageTable& table, std::uint32_t record);
-NamedFrame named_frame_of(const ImageTable& table, std::uint32_t record);
 
 }  // namespace lasso

@@ -108,9 +108,9 @@ constexpr std::uint32_t kFootWords = 3;
 constexpr std::uint32_t kEdgeWords = 15;
 constexpr std::uint32_t kEdgeBoundary = 1;
 
-// What the search for a first pose needs (fsw/pose/recognition/pose_search.hpp): distances to the surface on a coarse grid of their own, one byte a cell:
-// distance of the cell's centre as a share of the truncation, 255 at and beyond it. Cell index = (iz * ny + iy) * nx + ix, nx a multiple
-// of 4. Outside the grid the distance is the truncation.
+// What the search for a first pose needs (fsw/pose/recognition/pose_search.hpp): distances to the surface on a coarse grid of their own,
+// one byte a cell: distance of the cell's centre as a share of the truncation, 255 at and beyond it. Cell index = (iz * ny + iy) * nx + ix,
+// nx a multiple of 4. Outside the grid the distance is the truncation.
 enum SearchGridWord : std::uint32_t {
   kSearchOriginX = 0,
   kSearchOriginY,

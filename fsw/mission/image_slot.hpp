@@ -3,7 +3,9 @@
 #pragma once
 
 #include "fsw/core/authenticator.hpp"
+#include "fsw/mission/calibration.hpp"
 #include "fsw/mission/loader.hpp"
+#include "fsw/mission/named_frame.hpp"
 #include "fsw/mission/parameter_area.hpp"
 
 namespace lasso {

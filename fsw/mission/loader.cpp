@@ -6,6 +6,7 @@
 #include "fsw/core/byte_codec.hpp"
 #include "fsw/geometry/portable_math.hpp"
 #include "fsw/mission/image_layout.hpp"
+#include "fsw/mission/image_records.hpp"
 
 namespace lasso {
 namespace {

@@ -2,7 +2,9 @@
 // conversion in place to this build's number type, then the mission's views.
 #pragma once
 
+#include "fsw/mission/calibration.hpp"
 #include "fsw/mission/image_check.hpp"
+#include "fsw/mission/named_frame.hpp"
 
 namespace lasso {
 

@@ -1,6 +1,7 @@
 #include "fsw/mission/number_fit.hpp"
 
 #include "fsw/mission/image_layout.hpp"
+#include "fsw/mission/image_records.hpp"
 
 namespace lasso {
 namespace {

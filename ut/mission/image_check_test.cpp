@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cfg/capacities.hpp"
+#include "fsw/mission/image_records.hpp"
 #include "fsw/mission/loader.hpp"
 #include "ut/support/box_frames.hpp"
 #include "ut/support/box_image.hpp"
