@@ -63,7 +63,7 @@ export class Chart {
       height,
       legend: { show: false },
       cursor: { show: false },
-      padding: [6, 8, 0, 0],
+      padding: [6, 18, 0, 0], // half of the longest tick of time
       scales: { x: { time: false, range: (_, low, high) => [low, high] }, y: { range: valueRange } },
       series: seriesOptions(values),
       bands: bandOptions(values),
