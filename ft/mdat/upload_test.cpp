@@ -143,7 +143,7 @@ TEST_F(UploadTest, ABadImageIsRefusedOrTakenBack) {
   EXPECT_TRUE(is_active("first.3dli"));
 }
 
-// mdat upload signs what is not signed; what is signed with another key is refused, and says so.
+// mdat upload signs what is not signed, and sends nothing that is signed with another key; the component refuses it, too.
 TEST_F(UploadTest, AComponentWithAKeyTakesASignedImageAlone) {
   VERIFIES("LASSO-IMG-022~1 LASSO-LNK-045~1");
   work_.write("key", std::string(64, 'a'));
@@ -153,7 +153,10 @@ TEST_F(UploadTest, AComponentWithAKeyTakesASignedImageAlone) {
       {"run", "missions/first.toml", "--scenario", "spin", "--no-report", "--frames", "100000", "--link", url_, "--key", "key"});
   ASSERT_EQ(send("ping --key key").exit_code, 0);
   ASSERT_EQ(work_.mdat("mission sign second.3dli -o forged.3dli --key other").exit_code, 0);
-  const Answer forged = upload("forged.3dli --key key");
+  const Answer kept = upload("forged.3dli --key key");
+  EXPECT_EQ(kept.exit_code, 2);
+  EXPECT_NE(kept.err.find("forged.3dli: is signed with another key"), std::string::npos) << kept.err;
+  const Answer forged = upload("forged.3dli --key key --unchecked");
   EXPECT_EQ(forged.exit_code, 1);
   EXPECT_NE(forged.err.find("the component refuses the image: not_authentic"), std::string::npos) << forged.err;
   const Answer active = upload("second.3dli --activate --key key");

@@ -17,24 +17,28 @@ struct UploadArguments {
   bool unchecked = false, cached = true;
 };
 
-// A flight image, or a mission that is compiled to one.
-std::vector<std::uint8_t> image_of(const UploadArguments& options) {
-  if (!is_image_file(options.image)) {
-    const CompiledMission mission = compile_mission(options.image, ModelCache::of_user_if(options.cached));
-    return image_bytes(mission, mission.source.parameters);
-  }
+// Read and checked before anybody is called: what the component would refuse at the end of it is not sent.
+std::vector<std::uint8_t> image_of_file(const UploadArguments& options, const std::optional<Key>& key) {
   std::vector<std::uint8_t> bytes = read_bytes(options.image);
-  if (!options.unchecked) static_cast<void>(LoadedImage(options.image, bytes));
-  return bytes;
+  if (options.unchecked) return image_to_send(bytes, key);
+  static_cast<void>(LoadedImage(options.image, bytes));
+  check_signature(options.image, bytes, key);
+  return image_to_send(bytes, key);
+}
+
+std::vector<std::uint8_t> image_of_mission(const UploadArguments& options, const std::optional<Key>& key) {
+  const CompiledMission mission = compile_mission(options.image, ModelCache::of_user_if(options.cached));
+  return image_to_send(image_bytes(mission, mission.source.parameters), key);
 }
 
 void run(const UploadArguments& options) {
   UploadOptions how = options.upload;
   if (!options.key.empty()) how.key = load_key(options.key);
-  const std::vector<std::uint8_t> given = image_of(options);
-  if (!options.unchecked) check_signature(options.image, given, how.key);
-  const std::vector<std::uint8_t> image = image_to_send(given, how.key);
+  const bool is_file = is_image_file(options.image);
+  std::vector<std::uint8_t> image;
+  if (is_file) image = image_of_file(options, how.key);
   const std::unique_ptr<posix::PosixLink> link = posix::connect_link(options.to);
+  if (!is_file) image = image_of_mission(options, how.key);
   how.ended = [&link] { return link->ended(); };
   const UploadEnd end = upload(*link, options.to, image, how);
   const unsigned crc = image_crc(image);
