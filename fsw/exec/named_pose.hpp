@@ -3,8 +3,8 @@
 
 #include "fsw/link/named_pose_report.hpp"
 #include "fsw/mission/named_frame.hpp"
-#include "fsw/pose/tracking/pose_filter.hpp"
 #include "fsw/pose/scan/result.hpp"
+#include "fsw/pose/tracking/pose_filter.hpp"
 
 namespace lasso {
 

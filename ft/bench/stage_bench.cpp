@@ -7,12 +7,12 @@
 #include <exception>
 
 #include "fsw/geometry/symmetric6.hpp"
-#include "fsw/pose/registration/agreement.hpp"
 #include "fsw/pose/estimator/estimator.hpp"
+#include "fsw/pose/registration/agreement.hpp"
 #include "fsw/pose/registration/gauss_newton.hpp"
-#include "fsw/pose/silhouette/label_update.hpp"
-#include "fsw/pose/scan/prepare.hpp"
 #include "fsw/pose/registration/registration.hpp"
+#include "fsw/pose/scan/prepare.hpp"
+#include "fsw/pose/silhouette/label_update.hpp"
 #include "fsw/pose/silhouette/silhouette.hpp"
 #include "ft/bench/scans.hpp"
 #include "mdat/common/cpu_clock.hpp"

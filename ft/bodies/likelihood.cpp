@@ -7,8 +7,8 @@
 #include "fsw/geometry/portable_math.hpp"
 #include "fsw/geometry/symmetric6.hpp"
 #include "fsw/mission/field.hpp"
-#include "fsw/pose/scan/model_ray.hpp"
 #include "fsw/pose/registration/observability.hpp"
+#include "fsw/pose/scan/model_ray.hpp"
 
 namespace lasso::bodies {
 namespace {

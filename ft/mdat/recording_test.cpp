@@ -48,7 +48,8 @@ TEST_F(Recording, TellsWhatIsInIt) {
   record("--scenario spin");
   const Answer info = work_.mdat("recording info out/run.mcap");
   EXPECT_EQ(info.exit_code, 0) << info.err;
-  for (const char* text : {"profile ros2", "scenario    spin", "/scan                                12", "mission/test.toml", "image.3dli"})
+  for (const char* text :
+       {"profile ros2", "scenario    spin", "/scan                                12", "mission/test.toml", "image.3dli"})
     EXPECT_NE(info.out.find(text), std::string::npos) << text << "\n" << info.out;
   EXPECT_EQ(info.out.find("damaged"), std::string::npos) << info.out;
 }

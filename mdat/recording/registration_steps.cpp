@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "fsw/pose/estimator/estimator.hpp"
-#include "fsw/pose/scan/prepare.hpp"
 #include "fsw/pose/registration/registration.hpp"
+#include "fsw/pose/scan/prepare.hpp"
 #include "mdat/mcap/bytes.hpp"
 #include "mdat/run/case.hpp"
 

@@ -22,8 +22,9 @@ struct ValidityGate {
   bool pass = false;
 };
 
-// Those of the registration itself, in the order in which they are asked (fsw/pose/registration/integrity.hpp); empty where no registration ran. The limit
-// of the residuals leaves out what the target's unknown motion may add: where the component had more patience than the limit, it passes.
+// Those of the registration itself, in the order in which they are asked (fsw/pose/registration/integrity.hpp); empty where no registration
+// ran. The limit of the residuals leaves out what the target's unknown motion may add: where the component had more patience than the
+// limit, it passes.
 std::vector<ValidityGate> validity_gates(const PoseTelemetry& told, const MissionParameters& parameters);
 
 // A direction in which the pose is less certain than the mission asks.

@@ -1,8 +1,8 @@
 #include "fsw/pose/registration/agreement.hpp"
 
 #include "fsw/geometry/portable_math.hpp"
-#include "fsw/pose/scan/model_ray.hpp"
 #include "fsw/pose/registration/observability.hpp"
+#include "fsw/pose/scan/model_ray.hpp"
 
 namespace lasso {
 namespace {

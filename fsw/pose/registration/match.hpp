@@ -4,8 +4,8 @@
 
 #include "fsw/core/span.hpp"
 #include "fsw/mission/field.hpp"
-#include "fsw/pose/scan/path_pose.hpp"
 #include "fsw/pose/registration/scan_sums.hpp"
+#include "fsw/pose/scan/path_pose.hpp"
 #include "fsw/pose/scan/workspace.hpp"
 
 namespace lasso {

@@ -1,8 +1,8 @@
 #include "fsw/pose/silhouette/outline_fit.hpp"
 
 #include "fsw/geometry/portable_math.hpp"
-#include "fsw/pose/silhouette/contour.hpp"
 #include "fsw/pose/scan/model_ray.hpp"
+#include "fsw/pose/silhouette/contour.hpp"
 
 namespace lasso {
 namespace {
