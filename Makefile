@@ -565,12 +565,13 @@ inputs: ## gate: gates.toml names what the gates really read; after the gates
 verify: ## gate: every gate in its whole form; goes on where it was, and writes the record by which .ci/run skips
 	@cfg/quality/run-gates verify
 
-icd: ## write: write docs/icd/link.md, and python/lasso_mdat/dictionary.json, from the dictionary of packets
+icd: ## write: write docs/icd/link.md and python/lasso_mdat/dictionary.json from the dictionary of packets, cfg/mission.schema.json from the rows of keys
 	$(call packages,build)
 	$(call configure,$(BUILD),)
 	$(call compile,$(BUILD),mdat)
 	@$(BUILD)/mdat/mdat dictionary >$(LASSO_OUT)/link.md && { cmp -s $(LASSO_OUT)/link.md docs/icd/link.md || mv $(LASSO_OUT)/link.md docs/icd/link.md; }
 	@$(BUILD)/mdat/mdat dictionary --format json | python/pack_dictionary >$(LASSO_OUT)/dictionary.json && { cmp -s $(LASSO_OUT)/dictionary.json python/lasso_mdat/dictionary.json || mv $(LASSO_OUT)/dictionary.json python/lasso_mdat/dictionary.json; }
+	@$(BUILD)/mdat/mdat mission schema >$(LASSO_OUT)/mission.schema.json && { cmp -s $(LASSO_OUT)/mission.schema.json cfg/mission.schema.json || mv $(LASSO_OUT)/mission.schema.json cfg/mission.schema.json; }
 
 hazards: ## write: write docs/hazards.md from reqs/hazards.yaml and reqs/fmea.yaml
 	$(call packages,trace)

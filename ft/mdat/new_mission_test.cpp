@@ -257,6 +257,13 @@ void expect_flies(const WorkFolder& work, const Kind& kind) {
   }
 }
 
+TEST(MissionSchema, IsPrintedAsItIsShipped) {
+  VERIFIES("LASSO-GND-001~1");
+  const Answer answer = WorkFolder().mdat("mission schema");
+  EXPECT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_EQ(answer.out, read_text(source_path("cfg/mission.schema.json")));
+}
+
 TEST(NewMission, FliesWhateverTheMesh) {
   VERIFIES("LASSO-NEED-011~1 LASSO-GND-012~1 LASSO-GND-040~1 LASSO-GND-041~1 LASSO-GND-042~1 LASSO-GND-043~1");
   const char* meshes = std::getenv("MESHES");

@@ -11,6 +11,7 @@
 #include "mdat/common/flight_image.hpp"
 #include "mdat/common/output.hpp"
 #include "mdat/link/signature.hpp"
+#include "mdat/missiondb/mission_schema.hpp"
 #include "mdat/missiondb/mission_text.hpp"
 #include "mdat/missiondb/new_mission.hpp"
 
@@ -314,6 +315,9 @@ void add_mission_commands(CLI::App& app) {
       add(*mission, "info", "print every value of a mission or a flight image, its unit, meaning and origin", info, options);
   info_command->add_option("MISSION", options->file, "mission file or flight image")->required();
   info_command->add_option("--scenario", options->scenario, "with this scenario's overrides of parameters");
+  add(
+      *mission, "schema", "print the JSON Schema of missions, by which editors check keys and values",
+      [](const MissionOptions&) { print_text(mission_schema_text()); }, options);
   add_new_command(*mission, options);
   add_mission_edits(*mission);
 }
