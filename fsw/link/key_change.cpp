@@ -1,5 +1,7 @@
 #include "fsw/link/key_change.hpp"
 
+#include <algorithm>
+
 namespace lasso {
 
 void KeyChange::use_authenticator(Authenticator& authenticator) {
@@ -28,7 +30,7 @@ ServiceRefusal KeyChange::confirm(std::uint32_t number) {
 bool KeyChange::pass_boundary() {
   if (authenticator_ == nullptr) return false;
   const bool open = frames_left_ != 0;
-  if (open) frames_left_ = frames_left_ > kKeyTrialFrames ? 0 : frames_left_ - 1;  // more are a flipped bit
+  if (open) frames_left_ = std::min(frames_left_, kKeyTrialFrames) - 1;  // a flipped bit makes no trial longer than two
   if (frames_left_ == 0) authenticator_->end_key_trial(false);
   return open && frames_left_ == 0;
 }
