@@ -116,28 +116,34 @@ DocumentSection event_section() {
   return section;
 }
 
+constexpr const char* kOfAnswers =
+    "Service 1 answers each command: `refused`, with the reason; or `accepted` and `started`, each if asked for, and then `completed`, if "
+    "asked for, or `failed`, always. Progress is not reported: what a command does is done at once, or at the next boundary.";
+
+constexpr const char* kOfAcceptance =
+    "A command is accepted once: its sequence count has to be 1 to 8191 after the one of the last accepted command, modulo 16384; the "
+    "first may have any. This stops what is sent again by mistake; against intent, commands are authenticated: most spacecraft do "
+    "that below this link (CCSDS 355.0-B, space data link security). For those that do not, a board gives the component an "
+    "authenticator (`fsw/core/authenticator.hpp`). Each command then has a trailer between its application data and its CRC, counted "
+    "in its length; without a right one it is refused as `not_authentic`, before its arguments are looked at. What the trailer is, "
+    "the board says. That of `mdat run --link URL --key FILE`: a number that grows from command to command (8 bytes), and the first "
+    "16 bytes of the HMAC-SHA-256 over all bytes of the packet before them.";
+
 constexpr const char* kOfKeys =
     "With an authenticator an image needs a signature behind its last byte as well, which `begin_image` counts among its bytes, and which "
     "its CRC-32C does not cover; that of `mdat` is the HMAC-SHA-256 over all bytes of the image, 32 bytes. `change_key` puts a further key "
     "of commands on trial by its number: for 300 frames both keys count, then the new one has been confirmed by `confirm_key`, signed with "
     "it, or is given up (`docs/decisions/keys-by-link.md`).";
 
+constexpr const char* kOfStreams =
+    "In a byte stream what has no right CRC belongs to no packet: it is counted as skipped bytes (packet `link`), and not answered. A "
+    "datagram is a packet whatever it holds.";
+
 DocumentSection service_section() {
   return {
       2,
       "Commands and their answers",
-      {"Service 1 answers each command: `refused`, with the reason; or `accepted` and `started`, each if asked for, and then "
-       "`completed`, if asked for, or "
-       "`failed`, always. Progress is not reported: what a command does is done at once, or at the next boundary.",
-       "A command is accepted once: its sequence count has to be 1 to 8191 after the one of the last accepted command, modulo 16384; "
-       "the first may "
-       "have any. This stops what is sent again by mistake; against intent, commands are authenticated: most spacecraft do that below this "
-       "link (CCSDS 355.0-B, space data link security). For those that do not, a board gives the component an authenticator "
-       "(`fsw/core/authenticator.hpp`). Each command then has a trailer between its application data and its CRC, counted in its length; "
-       "without a right one it is refused as `not_authentic`, before its arguments are looked at. What the trailer is, the board says. "
-       "That of `mdat run --link URL --key FILE`: a number that grows from command to command (8 bytes), and the first 16 bytes of the "
-       "HMAC-SHA-256 over all bytes of the packet before them.",
-       kOfKeys,
+      {kOfAnswers, kOfAcceptance, kOfKeys,
        format("In a frame %u commands are answered, and %u more that make safe (`inhibit_laser`, `set_mode mode=safe`); the rest waits for "
               "the "
               "next. A command takes effect at the next boundary, at most one frame later. What nobody sent who may command, whatever is "
@@ -147,9 +153,7 @@ DocumentSection service_section() {
               "of their own, too (%u bytes), so that no other telemetry keeps them from the operator.",
               kMaxCommandsPerFrame, kMaxUrgentPerFrame, kMaxStrangersPerFrame, kMaxRefusalsPerFrame, kMaxRefusalsPerFrame,
               static_cast<unsigned>(kAnswerBytes)),
-       std::string("In a byte stream what has no right CRC belongs to no packet: it is counted as skipped bytes "
-                   "(packet `link`), and not "
-                   "answered. A datagram is a packet whatever it holds.")},
+       kOfStreams},
       {}};
 }
 
