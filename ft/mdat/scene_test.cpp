@@ -49,6 +49,20 @@ void write_scenes(const WorkFolder& work) {
   work.write("models/probe.toml", read_text(source_path("cfg/models/probe.toml")));
 }
 
+// Columns of a CSV text by their names, as numbers.
+class Columns {
+ public:
+  explicit Columns(const std::string& text) : lines_(lines_of(text)), names_(fields_of(lines_.at(0))) {}
+  std::size_t rows() const { return lines_.size() - 1; }
+  double at(const std::string& name, std::size_t row) const {
+    const auto column = static_cast<std::size_t>(std::find(names_.begin(), names_.end(), name) - names_.begin());
+    return std::stod(fields_of(lines_.at(row + 1)).at(column));
+  }
+
+ private:
+  std::vector<std::string> lines_, names_;
+};
+
 // Its target is the one of the scenario spin, but for the screen.
 TEST(SceneRun, FliesTheNodesOfAMission) {
   VERIFIES("LASSO-SCN-020~2 LASSO-SCN-021~1");
@@ -56,13 +70,9 @@ TEST(SceneRun, FliesTheNodesOfAMission) {
   write_scenes(work);
   const Answer answer = work.mdat("run missions/test.toml --scenario screened --out out/run --no-report");
   ASSERT_EQ(answer.exit_code, 0) << answer.err;
-  const std::vector<std::string> lines = lines_of(work.read("out/run/frames.csv"));
-  const std::vector<std::string> names = fields_of(lines.at(0));
-  const auto column = [&](const std::string& name, std::size_t frame) {
-    return fields_of(lines.at(frame + 1)).at(static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin()));
-  };
-  for (std::size_t frame = 2; frame < 17; ++frame) EXPECT_EQ(column("valid", frame), "1") << frame;
-  for (std::size_t frame = 22; frame < 40; ++frame) EXPECT_EQ(column("valid", frame), "0") << frame;
+  const Columns frames(work.read("out/run/frames.csv"));
+  for (std::size_t frame = 2; frame < 17; ++frame) EXPECT_EQ(frames.at("valid", frame), 1) << frame;
+  for (std::size_t frame = 22; frame < 40; ++frame) EXPECT_EQ(frames.at("valid", frame), 0) << frame;
   const Json results = Json::parse(work.read("out/run/results.json"));
   EXPECT_EQ(results.at("timeline").at("wrong"), 0);
   EXPECT_LT(results.at("timeline").at("rms_mm").get<double>(), 0.5);
@@ -90,11 +100,9 @@ TEST(SceneRun, LasersMeetClouds) {
   work.write("models/wall.ply", wall_of_points());
   const Answer answer = work.mdat("run missions/test.toml --scenario screened --frames 26 --out out/run --no-report");
   ASSERT_EQ(answer.exit_code, 0) << answer.err;
-  const std::vector<std::string> lines = lines_of(work.read("out/run/frames.csv"));
-  const std::vector<std::string> names = fields_of(lines.at(0));
-  const auto valid = static_cast<std::size_t>(std::find(names.begin(), names.end(), "valid") - names.begin());
-  for (std::size_t frame = 2; frame < 17; ++frame) EXPECT_EQ(fields_of(lines.at(frame + 1)).at(valid), "1") << frame;
-  for (std::size_t frame = 22; frame < 26; ++frame) EXPECT_EQ(fields_of(lines.at(frame + 1)).at(valid), "0") << frame;
+  const Columns frames(work.read("out/run/frames.csv"));
+  for (std::size_t frame = 2; frame < 17; ++frame) EXPECT_EQ(frames.at("valid", frame), 1) << frame;
+  for (std::size_t frame = 22; frame < 26; ++frame) EXPECT_EQ(frames.at("valid", frame), 0) << frame;
 }
 
 // A hundredth of the range beside the sensor frame, and turned by 6 deg: a laser camera that is in use all the time.
@@ -115,20 +123,6 @@ TEST(SceneRun, ASensorBesideTheSensorFrameTracks) {
   EXPECT_EQ(std::count_if(lines.begin(), lines.end(), [](const std::string& line) { return line.find(",side,") != std::string::npos; }),
             18);
 }
-
-// Columns of a CSV text by their names, as numbers.
-class Columns {
- public:
-  explicit Columns(const std::string& text) : lines_(lines_of(text)), names_(fields_of(lines_.at(0))) {}
-  std::size_t rows() const { return lines_.size() - 1; }
-  double at(const std::string& name, std::size_t row) const {
-    const auto column = static_cast<std::size_t>(std::find(names_.begin(), names_.end(), name) - names_.begin());
-    return std::stod(fields_of(lines_.at(row + 1)).at(column));
-  }
-
- private:
-  std::vector<std::string> lines_, names_;
-};
 
 // The ground's table of a handle on the target in a port beside the camera, and what the component tells of the same.
 void expect_equal(const Columns& table, const Columns& told, std::size_t row) {

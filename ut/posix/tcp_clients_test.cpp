@@ -50,6 +50,15 @@ class TcpClientsTest : public ::testing::Test {
     return first ? 'a' : 'b';
   }
 
+  // Connected, and vouched for by a command.
+  Descriptor connect_operator() {
+    Descriptor operators = connect();
+    send(operators, test::ping(1));
+    EXPECT_EQ(read(), test::ping(1));
+    clients_.vouch(kBegin);
+    return operators;
+  }
+
   TcpClients clients_{Heard{}};
 };
 
@@ -114,10 +123,7 @@ TEST_F(TcpClientsTest, WhoIsSilentIsSentAwayAfter30SecondsWhereSomebodyWaits) {
 // Somebody who only listens has commanded before: a stranger who says nothing takes nothing from it.
 TEST_F(TcpClientsTest, AnOperatorWhoListensKeepsItsPlaceBesideStrangers) {
   VERIFIES("LASSO-LNK-048~1");
-  const Descriptor operators = connect();
-  send(operators, test::ping(1));
-  ASSERT_EQ(read(), test::ping(1));
-  clients_.vouch(kBegin);
+  const Descriptor operators = connect_operator();
   std::vector<Descriptor> strangers;
   for (int i = 0; i < 10; ++i) strangers.push_back(connect(kBegin + seconds(31)));
   read(kBegin + seconds(62));
@@ -184,10 +190,7 @@ TEST_F(TcpClientsTest, NobodyGetsTheAnswerOfAnOperatorByItsCount) {
 
 TEST_F(TcpClientsTest, ACrowdOfStrangersTakesNothingFromTheOperator) {
   VERIFIES("LASSO-LNK-048~1");
-  const Descriptor operators = connect();
-  send(operators, test::ping(1));
-  ASSERT_EQ(read(), test::ping(1));
-  clients_.vouch(kBegin);
+  const Descriptor operators = connect_operator();
   std::vector<Descriptor> strangers;
   for (int i = 0; i < 10; ++i) strangers.push_back(connect());
   EXPECT_EQ(clients_.size(), TcpClients::kClients);
