@@ -69,20 +69,20 @@ StartRefusal Component::offer_start(InitialPoseSource way, const StartOffer& off
     refuse_start(way, refusal);
     return refusal;
   }
-  desk_.put(way, offer);
+  sources_.put(way, offer);
   if (way == InitialPoseSource::kHandover || way == InitialPoseSource::kUplink) request_start(way);
   return StartRefusal::kNone;
 }
 
 // What was asked for does not come later.
 void Component::drop_request() {
-  if (request_ == Request::kStart) static_cast<void>(desk_.take(requested_way_));
+  if (request_ == Request::kStart) static_cast<void>(sources_.take(requested_way_));
   request_ = Request::kNone;
 }
 
 // A command takes the place of one that no boundary has carried out yet.
 void Component::request_start(InitialPoseSource way) {
-  if (request_ == Request::kStart && requested_way_ != way) static_cast<void>(desk_.take(requested_way_));
+  if (request_ == Request::kStart && requested_way_ != way) static_cast<void>(sources_.take(requested_way_));
   request_ = Request::kStart;
   requested_way_ = way;
 }
@@ -180,7 +180,7 @@ bool Component::report_overdue() const { return changes_.size() >= kPoseChanges 
 void Component::follow(TrackStep& step) {
   trial_.note(step.registration, track_.mode);
   refuse_in(step);
-  if (step.after.mode == TrackingMode::kTracking) desk_.put(InitialPoseSource::kSearch, StartOffer{});
+  if (step.after.mode == TrackingMode::kTracking) sources_.put(InitialPoseSource::kSearch, StartOffer{});
   if (step.parts.inconsistent != kWhole) {
     ++counters_.odd_parts;
     events_.raise<EventId::kPartOdd>(step.parts.inconsistent, step.parts.inconsistency_sigmas);
@@ -263,7 +263,7 @@ void Component::take(ModeEvent event) {
 void Component::try_start(InitialPoseSource way) {
   const TrackingMode before = track_.mode;
   if (!track_.interrupts) former_ = track_.filter;
-  const StartRefusal refusal = start_track(mission(), way, desk_.take(way), executive_.next_slot_us(), track_);
+  const StartRefusal refusal = start_track(mission(), way, sources_.take(way), executive_.next_slot_us(), track_);
   if (refusal != StartRefusal::kNone) {
     refuse_start(way, refusal);
     return;
@@ -295,12 +295,12 @@ void Component::try_ways() {
 }
 
 InitialPoseSource Component::next_way() const {
-  return desk_.next(mission().parameters, properties(track_.mode).full_field && track_.bearing.started);
+  return sources_.next(mission().parameters, properties(track_.mode).full_field && track_.bearing.started);
 }
 
 void Component::take_way(InitialPoseSource way) {
   if (way != InitialPoseSource::kSearch) return try_start(way);
-  static_cast<void>(desk_.take(way));
+  static_cast<void>(sources_.take(way));
   take(ModeEvent::kSearch);
 }
 

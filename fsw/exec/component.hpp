@@ -301,7 +301,7 @@ class Component {
   ScanInFlight acquired_;     // in this frame
   ScanInFlight estimated_;    // in this frame
   Counters counters_;
-  InitialPoseSources desk_;
+  InitialPoseSources sources_;
   Request request_ = Request::kNone;
   InitialPoseSource requested_way_ = InitialPoseSource::kNone;  // kStart
   ModeEvent requested_event_ = ModeEvent::kStop;                // kCommand

@@ -45,7 +45,7 @@ void Component::follow_jump(TimeUs now_us) {
   former_.t_us += moved_us;
   track_.bearing.t_us += moved_us;
   before_trial_ = TrackState{};
-  desk_ = InitialPoseSources{};
+  sources_ = InitialPoseSources{};
   downlink_.forget_time();
   leave_track();
   estimated_.active = false;

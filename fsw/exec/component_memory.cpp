@@ -196,7 +196,7 @@ void Component::take_up_again() {
 
 // What was known of the target, and of the sensors, is of no use with an image of another one.
 void Component::leave_target() {
-  desk_ = InitialPoseSources{};
+  sources_ = InitialPoseSources{};
   chooser_ = SensorChooser{};
   sensor_ = SensorChoice{};
   track_.filter = FilterState{};
