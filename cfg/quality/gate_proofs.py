@@ -17,13 +17,22 @@ class Proofs:
         except (OSError, ValueError, TypeError):
             self.all = {}
 
-    def date(self, name):
-        """When the gate passed in its whole form at this commit, with these tools, at most a week ago; None: it has to run."""
-        proof = self.all.get(name, {})
-        if not self.commit or (proof.get('commit'), proof.get('tools')) != (self.commit, self.tools):
+    def of(self, row):
+        """The proof of a gate that passed in its whole form, with these tools, at most a week ago, at this commit or at an earlier one since which nothing
+        that it depends on changed; None: it has to run."""
+        proof = self.all.get(row.name, {})
+        if not self.commit or proof.get('tools') != self.tools or not self.stands(row, proof['commit']):
             return None
-        date = datetime.datetime.fromisoformat(proof['date'])
-        return date if datetime.datetime.now(datetime.timezone.utc) - date <= gate_record.OLDEST else None
+        age = datetime.datetime.now(datetime.timezone.utc) - datetime.datetime.fromisoformat(proof['date'])
+        return proof if age <= gate_record.OLDEST else None
+
+    def stands(self, row, commit):
+        if commit == self.commit:
+            return True
+        try:
+            return gate_record.Since(self.top, commit).stands(row)
+        except ValueError:
+            return False
 
     def keep(self, name, whole):
         """Of a gate that has just passed; a short form, or sources that changed meanwhile, take away what was known of it."""

@@ -47,11 +47,31 @@ def packages(names):
     return [line for line in done.stdout.splitlines() if not line.endswith(' ')] if names else []
 
 
+class Since:
+    """What changed since a commit: in commits, in the working tree, and in files that git does not know yet. ValueError: git cannot tell."""
+
+    def __init__(self, top, commit):
+        if not re.fullmatch('[0-9a-f]{40}', commit) or ask('git', 'merge-base', '--is-ancestor', commit, 'HEAD', cwd=top) is None:
+            raise ValueError(f'{commit[:10]} is no ancestor of this commit')
+        differing = ask('git', '-c', 'core.quotepath=off', 'diff', '--name-only', '--no-renames', commit, '--', cwd=top)
+        new = ask('git', '-c', 'core.quotepath=off', 'ls-files', '--others', '--exclude-standard', cwd=top)
+        text = ask('git', 'show', f'{commit}:{gate_table.PLACE}', cwd=top)
+        if differing is None or new is None or text is None:
+            raise ValueError(f'git cannot compare with {commit[:10]}')
+        self.rows, self.changed = gate_table.parse(text), {*differing.splitlines(), *new.splitlines()} - {PLACE}
+
+    def stands(self, row):
+        """Whether a result of the gate from then still holds: nothing that it depends on changed, its row of the table included."""
+        then = self.rows.get(row.name)
+        same = then and (then.inputs, then.landing, then.verify) == (row.inputs, row.landing, row.verify)
+        return bool(row.inputs and same and not any(map(row.depends_on, self.changed)))
+
+
 class Record:
     """`commit` is empty where nothing may rest on the record, and `reason` says why."""
 
     def __init__(self, top):
-        self.top, self.commit, self.when, self.gates, self.rows, self.changed = pathlib.Path(top), '', '', [], {}, set()
+        self.top, self.commit, self.when, self.gates, self.since = pathlib.Path(top), '', '', [], None
         self.reason = self.read()
 
     def read(self):
@@ -65,34 +85,20 @@ class Record:
             return f'{PLACE} is not readable ({type(error).__name__}: {error})'
         if not -datetime.timedelta(hours=1) < age <= OLDEST:
             return f'{PLACE} is of {date:%Y-%m-%d}: older than {OLDEST.days} days, or of the future'
-        if not re.fullmatch('[0-9a-f]{40}', commit) or ask('git', 'merge-base', '--is-ancestor', commit, 'HEAD', cwd=self.top) is None:
-            return f'{commit[:10]}, which {PLACE} names, is no ancestor of this commit'
+        try:
+            self.since = Since(self.top, commit)
+        except ValueError as error:
+            return f'{PLACE}: {error}'
         present = tools(self.top)
         other = sorted(name for name in present.keys() | versions.keys() if present.get(name) != versions.get(name))
         if other:
             return f'other tools than in {PLACE}: {", ".join(other)}'
-        return self.compare(commit, date, proven)
-
-    def compare(self, commit, date, proven):
-        """What differs from that commit here: in commits since, in the working tree, and in files that git does not know yet."""
-        differing = ask('git', '-c', 'core.quotepath=off', 'diff', '--name-only', '--no-renames', commit, '--', cwd=self.top)
-        new = ask('git', '-c', 'core.quotepath=off', 'ls-files', '--others', '--exclude-standard', cwd=self.top)
-        text = ask('git', 'show', f'{commit}:{gate_table.PLACE}', cwd=self.top)
-        if differing is None or new is None or text is None:
-            return f'git cannot compare with {commit[:10]}'
-        try:
-            self.rows = gate_table.parse(text)
-        except ValueError:
-            return f'the {gate_table.PLACE} of {commit[:10]} is not readable'
-        self.changed = {*differing.splitlines(), *new.splitlines()} - {PLACE}
         self.commit, self.when, self.gates = commit, f'{date:%Y-%m-%d}', proven
         return ''
 
     def stands(self, row):
-        """Whether the gate passed then, and nothing that it depends on changed, its row of the table included."""
-        then = self.rows.get(row.name)
-        same = then and (then.inputs, then.landing, then.verify) == (row.inputs, row.landing, row.verify)
-        return bool(self.commit and row.inputs and same and row.name in self.gates and not any(map(row.depends_on, self.changed)))
+        """Whether the gate passed then, and its result still holds."""
+        return bool(self.commit) and row.name in self.gates and self.since.stands(row)
 
 
 def clean_commit(top):
