@@ -24,7 +24,7 @@ std::size_t aim_bytes(const ScanPlan& plan) { return (plan.aimed.size() + kAimed
 
 }  // namespace
 
-Driver::Driver(Line& line, const Optics& optics) : line_(line), made_(optics), optics_(optics) {
+Driver::Driver(Line& line, const Optics& optics) : line_(line), made_(optics), optics_(optics), reader_(line.from_camera) {
   invariant(optics.validate() == Status::kOk, "lcs calibration");
   inhibit();  // whatever was before
 }
@@ -77,10 +77,10 @@ void Driver::send_start(const ScanPlan& plan, TimeUs t_start_us) {
 void Driver::send_start_command(const ScanPlan& plan) {
   StartCommand command = start_command(plan);
   const std::size_t bytes = kLineBytes - line_.to_camera.room() + encode(sent_, command).size;
-  command_us_ = static_cast<DurationUs>(static_cast<double>(bytes) * kBitsPerByte * 1e6 / line_.bits_per_s + 0.5);
-  first_us_ = command_us_ < kStartDelayUs ? kStartDelayUs : command_us_;
-  command.delay_us = static_cast<std::uint32_t>(first_us_ - command_us_);
-  start_sequence_ = sent_;
+  scan_.command_us = static_cast<DurationUs>(static_cast<double>(bytes) * kBitsPerByte * 1e6 / line_.bits_per_s + 0.5);
+  scan_.first_us = scan_.command_us < kStartDelayUs ? kStartDelayUs : scan_.command_us;
+  command.delay_us = static_cast<std::uint32_t>(scan_.first_us - scan_.command_us);
+  scan_.start_sequence = sent_;
   send(encode(sent_, command));
 }
 
@@ -135,17 +135,17 @@ Status Driver::start(const ScanPlan& plan, TimeUs t_start_us) {
   inhibit();
   laser_.set(laser_permitted() ? 1 : 0);
   if (!laser_permitted()) return refuse(Loss::kInhibited, Status::kMissing);
-  tag_ = tag_of(plan.scan_id);
+  scan_.tag = tag_of(plan.scan_id);
   if (!has_room(kCommandBytes + aim_bytes(plan) + kMaxFrame)) return refuse(Loss::kLineFull, Status::kOverCapacity);
   send_start(plan, t_start_us);
   state_ = State::kStarting;
   loss_ = Status::kOk;
-  plan_ = plan;
-  t_start_us_ = t_start_us;
-  last_us_ = t_start_us;
-  next_ = off_plan_ = 0;
-  end_seen_ = false;
-  pending_.count = taken_ = 0;
+  scan_.plan = plan;
+  scan_.t_start_us = t_start_us;
+  scan_.last_us = t_start_us;
+  scan_.next = scan_.off_plan = 0;
+  scan_.end_seen = false;
+  scan_.pending.count = scan_.taken = 0;
   return Status::kOk;
 }
 
@@ -156,7 +156,7 @@ void Driver::abort() {
 }
 
 SensorCounters Driver::counters() const {
-  const FrameDecoder::Counters& line = decoder_.counters();
+  const FrameDecoder::Counters& line = reader_.counters();
   SensorCounters counters;
   counters.frames = line.frames;
   counters.damaged_frames = line.bad_crc + line.bad_length;
@@ -177,24 +177,11 @@ SensorCounters Driver::counters() const {
 
 // --- what the camera says
 
-bool Driver::read_frame(Frame& frame) {
-  for (;;) {  // ends with the budget
-    const FrameDecoder::Step step = decoder_.step(ConstBytes(chunk_ + chunk_at_, chunk_size_ - chunk_at_), frame);
-    chunk_at_ += step.taken;
-    if (step.found) return true;
-    const std::size_t most = budget_ < kMaxFrame ? budget_ : kMaxFrame;
-    chunk_at_ = 0;
-    chunk_size_ = line_.from_camera.read(Bytes(chunk_, most));
-    if (chunk_size_ == 0) return false;
-    budget_ -= chunk_size_;
-  }
-}
-
 // What came while no scan ran.
 void Driver::listen() {
-  budget_ = kLineBytes;
+  reader_.renew_budget();
   Frame frame;
-  while (read_frame(frame)) receive(frame);  // ends with the budget
+  while (reader_.read(frame)) receive(frame);  // ends with the budget
 }
 
 void Driver::receive(const Frame& frame) {
@@ -226,25 +213,15 @@ void Driver::take_refusal(Result result) {
 void Driver::take(const Answer& answer) {
   if (answer.to == Type::kLaser && answer.sequence == inhibit_sequence_) inhibit_due_ = inhibit_due_ && answer.result != Result::kDone;
   if (answer.to != Type::kStart) return;
-  if (state_ != State::kStarting || answer.sequence != start_sequence_) {
+  if (state_ != State::kStarting || answer.sequence != scan_.start_sequence) {
     ++health_.strayed;
     return;
   }
   if (answer.result != Result::kDone) return take_refusal(answer.result);
-  const TimeUs t_command_us = t_start_us_ + command_us_;
-  if (clock_known_ && jumped(answer.clock_us, t_command_us)) ++health_.clock_jumps;
-  clock_known_ = true;
-  clock_at_us_ = t_command_us;
-  clock_us_ = answer.clock_us;
+  const TimeUs t_command_us = scan_.t_start_us + scan_.command_us;
+  if (tie_.jumped(answer.clock_us, t_command_us)) ++health_.clock_jumps;
+  tie_.tie(answer.clock_us, t_command_us);
   begin();
-}
-
-// Whether the camera's clock has gone otherwise than ours since they were tied; modulo its wrap, and with a thousandth of drift.
-bool Driver::jumped(std::uint32_t clock_us, TimeUs t_us) const {
-  const DurationUs elapsed_us = t_us - clock_at_us_;
-  const std::int64_t off_us = static_cast<std::int32_t>(clock_us - clock_us_ - static_cast<std::uint32_t>(elapsed_us));
-  const DurationUs tolerance_us = kClockToleranceUs + elapsed_us / 1000;
-  return off_us > tolerance_us || off_us < -tolerance_us;
 }
 
 bool Driver::known_head() const {
@@ -267,93 +244,93 @@ void Driver::take(const CameraStatus& status) {
     return;
   }
   ++health_.boots;
-  clock_known_ = false;
+  tie_.forget();
   if (under_way()) lose(Loss::kBooted, Status::kBadOrder);
 }
 
 // Samples whose answer to the start was damaged are timed by the clock as it was tied before, unless that is long ago.
 void Driver::take(const Samples& samples) {
-  const bool timed = clock_known_ && t_start_us_ - clock_at_us_ < kTieUs;
-  if (state_ == State::kStarting && timed && samples.tag == tag_) begin();
-  const bool ours =
-      state_ == State::kScanning && samples.tag == tag_ && samples.first >= next_ && samples.first + samples.count <= plan_.points;
+  if (state_ == State::kStarting && tie_.serves(scan_.t_start_us) && samples.tag == scan_.tag) begin();
+  const bool ours = state_ == State::kScanning && samples.tag == scan_.tag && samples.first >= scan_.next &&
+                    samples.first + samples.count <= scan_.plan.points;
   if (!ours) {
     health_.strayed += static_cast<std::uint32_t>(samples.count);
     return;
   }
-  pending_ = samples;
-  taken_ = 0;
+  scan_.pending = samples;
+  scan_.taken = 0;
   check_plan(samples);
 }
 
 void Driver::check_plan(const Samples& samples) {
   const RawSample& raw = samples.samples[0];
   if (raw.kind == SampleKind::kNotAimed) return;
-  const Vec3 planned = pattern_direction(plan_, samples.first);
+  const Vec3 planned = pattern_direction(scan_.plan, samples.first);
   const Mirrors mirrors = optics_.mirrors();
   const double off_x = tangent(raw.angle_x_rad + mirrors.x_offset_rad) - planned.x() / planned.z();
   const double off_y = tangent(raw.angle_y_rad + mirrors.y_offset_rad) - planned.y() / planned.z();
   if (magnitude(off_x) < kMirrorTolerance && magnitude(off_y) < kMirrorTolerance) return;
   ++health_.off_plan;
-  if (++off_plan_ == kOffPlanFrames) lose(Loss::kOffPlan, Status::kOffPlan);
+  if (++scan_.off_plan == kOffPlanFrames) lose(Loss::kOffPlan, Status::kOffPlan);
 }
 
 void Driver::take(const ScanEnd& end) {
-  if (end.tag != tag_) ++health_.strayed;
-  if (state_ != State::kScanning || end.tag != tag_) return;  // the one of a scan that is complete tells nothing new
-  end_seen_ = true;
+  if (end.tag != scan_.tag) ++health_.strayed;
+  if (state_ != State::kScanning || end.tag != scan_.tag) return;  // the one of a scan that is complete tells nothing new
+  scan_.end_seen = true;
   if (!end.whole) lose(Loss::kStopped, Status::kTruncated);
 }
 
 // --- samples
 
-TimeUs Driver::time_of(std::uint32_t clock_us) const { return clock_at_us_ + static_cast<std::int32_t>(clock_us - clock_us_); }
-
 void Driver::convert(const RawSample& raw, RangeSample& sample) {
-  const TimeUs t_us = time_of(raw.clock_us);
-  const DurationUs late_us = t_us - (t_start_us_ + first_us_ + pattern_time_us(plan_, static_cast<std::uint16_t>(next_)));
+  const TimeUs t_us = tie_.time_of(raw.clock_us);
+  const DurationUs late_us =
+      t_us - (scan_.t_start_us + scan_.first_us + pattern_time_us(scan_.plan, static_cast<std::uint16_t>(scan_.next)));
   const Fate fate = optics_.convert(raw, t_us, sample);
-  if (t_us >= last_us_ && late_us <= kClockToleranceUs && late_us >= -kClockToleranceUs) {
-    last_us_ = t_us;
+  if (t_us >= scan_.last_us && late_us <= kClockToleranceUs && late_us >= -kClockToleranceUs) {
+    scan_.last_us = t_us;
     ++health_.fates[static_cast<std::size_t>(fate)];
     return;
   }
   ++health_.bad_times;
   sample = RangeSample{};
-  sample.t_us = last_us_;
+  sample.t_us = scan_.last_us;
 }
 
-// Of the ray next_: as it came, or lost, if a later one is there or the scan has ended.
+// Of the ray scan_.next: as it came, or lost, if a later one is there or the scan has ended.
 void Driver::next_sample(RangeSample& sample) {
-  if (taken_ < pending_.count && pending_.first + taken_ == next_) return convert(pending_.samples[taken_++], sample);
+  if (scan_.taken < scan_.pending.count && scan_.pending.first + scan_.taken == scan_.next)
+    return convert(scan_.pending.samples[scan_.taken++], sample);
   ++health_.samples_lost;
   sample = RangeSample{};
   sample.state = RayState::kLost;
-  sample.t_us = last_us_;
+  sample.t_us = scan_.last_us;
 }
 
 // What is known of the scan's next samples, into `out` from `count` on.
 std::size_t Driver::hand_over(Span<RangeSample> out, std::size_t count) {
-  while (count < out.size() && state_ == State::kScanning && (taken_ < pending_.count || (end_seen_ && next_ < plan_.points))) {
+  while (count < out.size() && state_ == State::kScanning &&
+         (scan_.taken < scan_.pending.count || (scan_.end_seen && scan_.next < scan_.plan.points))) {
     next_sample(out[count++]);
-    ++next_;
+    ++scan_.next;
   }
   return count;
 }
 
 SensorPoll Driver::poll(TimeUs now_us, Span<RangeSample> out) {
   SensorPoll answer;
-  budget_ = kLineBytes;
+  reader_.renew_budget();
   Frame frame;
   answer.count = hand_over(out, 0);
-  while (answer.count < out.size() && read_frame(frame)) {  // ends with the budget
+  while (answer.count < out.size() && reader_.read(frame)) {  // ends with the budget
     receive(frame);
     answer.count = hand_over(out, answer.count);
   }
   inhibit();
   keep_lit(now_us);
-  if (state_ == State::kStarting && now_us - t_start_us_ > kAnswerTimeoutUs) lose(Loss::kSilent, Status::kTimeout);
-  answer.complete = state_ == State::kScanning && next_ == plan_.points;
+  if (state_ == State::kStarting && now_us - scan_.t_start_us > kAnswerTimeoutUs) lose(Loss::kSilent, Status::kTimeout);
+  answer.complete = state_ == State::kScanning && scan_.next == scan_.plan.points;
   if (state_ == State::kEnded) answer.status = loss_;
   if (state_ == State::kIdle) answer.status = Status::kNoData;
   if (answer.complete || state_ == State::kEnded) state_ = State::kIdle;

@@ -12,7 +12,9 @@
 #include "fsw/core/voted.hpp"
 #include "fsw/sense/sensor.hpp"
 #include "hal_lcs/byte_ring.hpp"
+#include "hal_lcs/clock_tie.hpp"
 #include "hal_lcs/frame.hpp"
+#include "hal_lcs/frame_reader.hpp"
 #include "hal_lcs/messages.hpp"
 #include "hal_lcs/optics.hpp"
 
@@ -21,8 +23,6 @@ namespace lasso::lcs {
 constexpr std::size_t kLineBytes = 8192;         // each way: 20 ms of the fastest line
 constexpr DurationUs kStartDelayUs = 1'000;      // from a start to the first sample; what is sent before it takes less at 1 Mbit/s
 constexpr DurationUs kAnswerTimeoutUs = 50'000;  // the answer to a start
-constexpr DurationUs kClockToleranceUs = 5'000;  // of the camera's clock from scan to scan, and of a sample from its plan
-constexpr DurationUs kTieUs = 10'000'000;        // as long a tie of the clocks serves scans whose answer was damaged
 constexpr double kMirrorTolerance = 0.01;        // of a mirror from its plan, on the tangent plane
 constexpr std::uint32_t kOffPlanFrames = 16;     // as many make a scan of another pattern
 
@@ -83,11 +83,25 @@ class Driver final : public Sensor {
   SensorCounters counters() const override;
 
   const Health& health() const { return health_; }
-  const FrameDecoder::Counters& line_counters() const { return decoder_.counters(); }
+  const FrameDecoder::Counters& line_counters() const { return reader_.counters(); }
   const CameraStatus& camera() const { return camera_; }  // as it last said, dark after an inhibit; serial 0: never
 
  private:
   enum class State : std::uint8_t { kIdle, kStarting, kScanning, kEnded };
+  struct Scan {
+    ScanPlan plan;
+    std::uint8_t tag = 0;
+    std::uint8_t start_sequence = 0;
+    TimeUs t_start_us = 0;
+    DurationUs command_us = 0;  // from t_start_us to the start command's last byte ...
+    DurationUs first_us = 0;    // ... and to the first sample
+    TimeUs last_us = 0;         // of the last sample
+    std::uint32_t next = 0;     // sample to hand over
+    std::uint32_t off_plan = 0;
+    bool end_seen = false;
+    Samples pending;  // received, from `taken` on not handed over
+    std::size_t taken = 0;
+  };
 
   bool may_be_dark(TimeUs now_us) const { return now_us - spoken_us_ > kUnheardUs / 2; }
   bool under_way() const { return state_ == State::kStarting || state_ == State::kScanning; }
@@ -103,11 +117,9 @@ class Driver final : public Sensor {
   void lose(Loss loss, Status reason);
   void stop_camera();
   void listen();
-  bool jumped(std::uint32_t clock_us, TimeUs t_us) const;
   bool known_head() const;
   void begin();
   void take_refusal(Result result);
-  bool read_frame(Frame& frame);
   void receive(const Frame& frame);
   void take(const Answer& answer);
   void take(const CameraStatus& status);
@@ -117,12 +129,11 @@ class Driver final : public Sensor {
   void next_sample(RangeSample& sample);
   void convert(const RawSample& raw, RangeSample& sample);
   std::size_t hand_over(Span<RangeSample> out, std::size_t count);
-  TimeUs time_of(std::uint32_t clock_us) const;
 
   Line& line_;
   Optics made_;    // as it was made
   Optics optics_;  // as they are believed
-  FrameDecoder decoder_;
+  FrameReader<kLineBytes> reader_;
   Health health_;
   CameraStatus camera_;
   Voted<std::uint8_t> laser_{0};  // 1: permitted
@@ -132,28 +143,10 @@ class Driver final : public Sensor {
   TimeUs spoken_us_ = 0;       // when the camera was last told something that keeps its laser lit
   std::uint8_t expected_ = 0;  // sequence of the next frame
   bool heard_ = false;         // any frame
-  bool clock_known_ = false;
-  TimeUs clock_at_us_ = 0;  // when the camera's clock showed clock_us_
-  std::uint32_t clock_us_ = 0;
-
-  // Of the scan.
+  ClockTie tie_;
   State state_ = State::kIdle;
   Status loss_ = Status::kOk;
-  ScanPlan plan_;
-  std::uint8_t tag_ = 0;
-  std::uint8_t start_sequence_ = 0;
-  TimeUs t_start_us_ = 0;
-  DurationUs command_us_ = 0;  // from t_start_us to the start command's last byte ...
-  DurationUs first_us_ = 0;    // ... and to the first sample
-  TimeUs last_us_ = 0;         // of the last sample
-  std::uint32_t next_ = 0;     // sample to hand over
-  std::uint32_t off_plan_ = 0;
-  bool end_seen_ = false;
-  Samples pending_;  // received, from `taken_` on not handed over
-  std::size_t taken_ = 0;
-  std::size_t budget_ = 0;              // bytes that this call may still read
-  std::uint8_t chunk_[kMaxFrame] = {};  // read from the line, from chunk_at_ on not decoded
-  std::size_t chunk_at_ = 0, chunk_size_ = 0;
+  Scan scan_;
 };
 
 }  // namespace lasso::lcs

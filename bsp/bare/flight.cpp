@@ -55,14 +55,14 @@ void Flight::tick() {
   in_slot_ = true;
   wake_in(static_cast<std::uint32_t>(clock_.ticks_in(kHungUs)));
   const std::uint64_t begun = clock_.ticks();
-  late_ticks_ = begun - clock_.ticks_at(component_.next_slot_us());
+  measured_.late_ticks = begun - clock_.ticks_at(component_.next_slot_us());
   lines_.camera.look();  // an interrupt of theirs that went astray costs a slot, not the line
   lines_.ground.look();
   allow_interrupts();
   const TimeUs now_us = time_of_slot();
   run_slot(now_us);
-  slot_ticks_ = clock_.ticks() - begun;
-  foreground_ticks_ = foreground_ticks_ + slot_ticks_;
+  measured_.slot_ticks = clock_.ticks() - begun;
+  measured_.foreground_ticks = measured_.foreground_ticks + measured_.slot_ticks;
   let_world_move(RigKind::kSlot, now_us);
   forbid_interrupts();
   if (is_reset_now()) restart(ResetCause::kCommanded, "the command reset");
@@ -76,10 +76,10 @@ bool Flight::is_reset_now() {
 }
 
 void Flight::run_slot(TimeUs now_us) {
-  slot_ = component_.next_slot_is_boundary() ? 0 : slot_ + 1;
+  measured_.slot = component_.next_slot_is_boundary() ? 0 : measured_.slot + 1;
   pump_.receive(now_us);
   component_.run_slot(now_us);
-  if (board_probe != nullptr) board_probe(slot_);
+  if (board_probe != nullptr) board_probe(measured_.slot);
   if (component_.next_slot_is_boundary()) send_telemetry();
 }
 
@@ -89,7 +89,7 @@ void Flight::send_telemetry() {
   for (std::size_t size = packet_size(rest); size > 0; size = packet_size(rest)) {
     const bool fits = lines_.ground_line.out.room() >= size;
     if (fits) static_cast<void>(lines_.ground_line.write(rest.first(size)));
-    if (!fits) ++packets_dropped_;
+    if (!fits) ++measured_.packets_dropped;
     rest = rest.subspan(size, rest.size() - size);
   }
 }
@@ -115,28 +115,28 @@ void Flight::let_world_move(RigKind kind, TimeUs t_us) {
   words[kRigTimeLow] = static_cast<std::uint32_t>(t_us);
   words[kRigCameraSent] = lines_.camera.sent();
   words[kRigGroundSent] = lines_.ground.sent();
-  words[kRigSlot] = slot_;
-  words[kRigSlotTicks] = static_cast<std::uint32_t>(slot_ticks_);
-  words[kRigEstimateTicks] = estimate_ticks_;
-  words[kRigLateTicks] = static_cast<std::uint32_t>(late_ticks_);
-  words[kRigIdleTicks] = idle_ticks_;
+  words[kRigSlot] = measured_.slot;
+  words[kRigSlotTicks] = static_cast<std::uint32_t>(measured_.slot_ticks);
+  words[kRigEstimateTicks] = measured_.estimate_ticks;
+  words[kRigLateTicks] = static_cast<std::uint32_t>(measured_.late_ticks);
+  words[kRigIdleTicks] = measured_.idle_ticks;
   words[kRigRestarts] = fault.restarts;
   words[kRigCause] = fault.cause;
   words[kRigVector] = fault.registers.vector;
   words[kRigAddress] = fault_address(fault.registers);
-  if (slot_ == 0) {
+  if (measured_.slot == 0) {
     words[kRigEstimateStack] = used(board_estimation_stack_begin, board_estimation_stack_end);
     words[kRigAcquireStack] = used(board_acquisition_stack_begin, board_acquisition_stack_end);
   }
   words[kRigLostBytes] = lines_.camera.lost() + lines_.ground.lost();
   words[kRigMemory] = sizeof(Component);
-  words[kRigLineTicks] = static_cast<std::uint32_t>(line_ticks_);
+  words[kRigLineTicks] = static_cast<std::uint32_t>(measured_.line_ticks);
   words[kRigServicesCut] = lines_.camera.cut() + lines_.ground.cut();
-  words[kRigLinesMasked] = lines_masked_;
-  words[kRigDropped] = packets_dropped_;
+  words[kRigLinesMasked] = measured_.lines_masked;
+  words[kRigDropped] = measured_.packets_dropped;
   words[kRigBusyLateTicks] = probe_.take_worst();
-  estimate_ticks_ = idle_ticks_ = 0;
-  line_ticks_ = 0;
+  measured_.estimate_ticks = measured_.idle_ticks = 0;
+  measured_.line_ticks = 0;
   const RigAnswer answer = rig_->report(words);
   stopped_ = answer.stop();
   rest_until(
@@ -169,12 +169,12 @@ void Flight::run() {
 
 void Flight::estimate() {
   forbid_interrupts();
-  const std::uint64_t begun = clock_.ticks(), elsewhere = foreground_ticks_;
+  const std::uint64_t begun = clock_.ticks(), elsewhere = measured_.foreground_ticks;
   allow_interrupts();
   component_.run_estimation();
   forbid_interrupts();
-  const std::uint64_t taken = clock_.ticks() - begun - (foreground_ticks_ - elsewhere);
-  estimate_ticks_ = static_cast<std::uint32_t>(taken);
+  const std::uint64_t taken = clock_.ticks() - begun - (measured_.foreground_ticks - elsewhere);
+  measured_.estimate_ticks = static_cast<std::uint32_t>(taken);
   allow_interrupts();
 }
 
@@ -184,7 +184,7 @@ void Flight::rest() {
   forbid_interrupts();
   if (component_.estimation_pending() || stopped_) return allow_interrupts();
   if (rig_ != nullptr) {
-    idle_ticks_ = idle_ticks_ + static_cast<std::uint32_t>(clock_.skip_to(component_.next_slot_us()));
+    measured_.idle_ticks = measured_.idle_ticks + static_cast<std::uint32_t>(clock_.skip_to(component_.next_slot_us()));
     clock_.wake_at(component_.next_slot_us());
     return allow_interrupts();
   }

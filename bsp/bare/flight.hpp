@@ -47,9 +47,9 @@ class Flight final : public Watchdog {
   bool probed(std::uint64_t now) { return probe_.answers(now); }
   // Of the lines' interrupt: when it began, what camera and ground took of it; whether it does not end, and is masked until the next slot.
   void note_lines(std::uint64_t begun, std::uint64_t ticks, bool masked) {
-    line_ticks_ += ticks;
+    measured_.line_ticks += ticks;
     probe_.ask(begun);
-    if (masked) lines_masked_ = lines_masked_ + 1;
+    if (masked) measured_.lines_masked = measured_.lines_masked + 1;
   }
 
   void feed() override {
@@ -61,6 +61,15 @@ class Flight final : public Watchdog {
   static constexpr DurationUs kHungUs = 2'000'000;       // a slot that takes longer hangs
   static constexpr std::uint32_t kUnfedSlots = 20 * 15;  // slots without feed(): estimation hangs
   static constexpr std::uint32_t kSettledFrames = 900;   // frames with feed(): the board does well, three minutes of 200 ms
+
+  // What the rig is told of the slots and estimates.
+  struct Measured {
+    std::uint32_t slot = 0;
+    std::uint64_t late_ticks = 0, slot_ticks = 0, line_ticks = 0;
+    volatile std::uint64_t foreground_ticks = 0;
+    volatile std::uint32_t estimate_ticks = 0, idle_ticks = 0, lines_masked = 0;
+    std::uint32_t packets_dropped = 0;
+  };
 
   TimeUs time_of_slot() const;
   bool is_reset_now();
@@ -81,12 +90,7 @@ class Flight final : public Watchdog {
   LatencyProbe probe_;
   std::uint32_t unfed_slots_ = 0, fed_frames_ = 0;
   std::uint8_t telemetry_[kTelemetryQueueBytes] = {};
-  // Of the report.
-  std::uint32_t slot_ = 0;
-  std::uint64_t late_ticks_ = 0, slot_ticks_ = 0, line_ticks_ = 0;
-  volatile std::uint64_t foreground_ticks_ = 0;
-  volatile std::uint32_t estimate_ticks_ = 0, idle_ticks_ = 0, lines_masked_ = 0;
-  std::uint32_t packets_dropped_ = 0;
+  Measured measured_;
 };
 
 }  // namespace lasso::bare

@@ -10,9 +10,9 @@ void layout();
 void layout() {
   PLACE("views_at", offsetof(Component, images_) + offsetof(ImageKeeper, slots_) + offsetof(ImageSlot, views_));
   PLACE("views_bytes", sizeof(MissionView));
-  PLACE("mode_at", offsetof(Component, mode_));
-  PLACE("mode_bytes", sizeof(Component::mode_));
-  PLACE("parameters_at", offsetof(Component, parameter_area_));
+  PLACE("mode_at", offsetof(Component, modes_) + offsetof(ModeManager, mode_));
+  PLACE("mode_bytes", sizeof(ModeManager::mode_));
+  PLACE("parameters_at", offsetof(Component, parameters_) + offsetof(ParameterService, area_));
   PLACE("parameters_bytes", sizeof(ParameterArea));
   PLACE("laser_at", offsetof(lcs::Driver, laser_));
   PLACE("laser_bytes", sizeof(lcs::Driver::laser_));

@@ -30,7 +30,7 @@ std::string modes(Link& link, int frames) {
   return modes;
 }
 
-TEST(ComponentParameters, AreReportedSetAndReverted) {
+TEST(ParameterService, AreReportedSetAndReverted) {
   VERIFIES("LASSO-IMG-018~1 LASSO-LNK-022~1");
   Link link;
   const std::size_t row = row_of("tracking.inlier_share_min");
@@ -58,7 +58,7 @@ TEST(ComponentParameters, AreReportedSetAndReverted) {
 }
 
 // By what it does: with fewer frames to coast a track that sees nothing is lost earlier.
-TEST(ComponentParameters, AChangeActsAtTheNextBoundary) {
+TEST(ParameterService, AChangeActsAtTheNextBoundary) {
   VERIFIES("LASSO-LNK-022~1 LASSO-IMG-018~1");
   Link as_loaded, changed;
   changed.send(test::set_parameter(row_of("tracking.coast_frames"), 2, 0));
@@ -71,7 +71,7 @@ TEST(ComponentParameters, AChangeActsAtTheNextBoundary) {
   EXPECT_NE(short_story.find("334"), std::string::npos) << short_story;
 }
 
-TEST(ComponentParameters, WhatIsRefusedSaysWhyAndChangesNothing) {
+TEST(ParameterService, WhatIsRefusedSaysWhyAndChangesNothing) {
   VERIFIES("LASSO-IMG-018~1 LASSO-LNK-013~1");
   Link link;
   const MissionParameters before = link.component().mission().parameters;
@@ -105,7 +105,7 @@ std::vector<std::uint8_t*> places_of(Component& component, double value) {
   return places;
 }
 
-TEST(ComponentParameters, AFlippedCopyIsRepairedAndTwoAreTold) {
+TEST(ParameterService, AFlippedCopyIsRepairedAndTwoAreTold) {
   VERIFIES("LASSO-IMG-018~1");
   Link link;
   const std::size_t row = row_of("tracking.inlier_share_min");
@@ -129,7 +129,7 @@ TEST(ComponentParameters, AFlippedCopyIsRepairedAndTwoAreTold) {
   EXPECT_TRUE(link.component().faults().ever().has(Fault::kParametersLost));
 }
 
-TEST(ComponentParameters, AChangeWaitsForALateEstimate) {
+TEST(ParameterService, AChangeWaitsForALateEstimate) {
   VERIFIES("LASSO-EXE-003~1");
   Link link;
   Component& component = link.component();

@@ -80,7 +80,7 @@ TEST_F(TrackedComponent, SafeIsCommandedTakesNoStartAndIsLeftByCommand) {
 }
 
 // What a later command of the same frame displaced does not come when a start is awaited next.
-TEST(ComponentHealth, AStartThatIsDisplacedStaysAway) {
+TEST(HealthMonitor, AStartThatIsDisplacedStaysAway) {
   VERIFIES("LASSO-HLT-002~1");
   ComponentScene scene(test::story_parameters());
   scene.begin();
@@ -145,7 +145,7 @@ TEST_F(TrackedComponent, MirrorsThatStandStillLoseTheScan) {
 }
 
 // The target is elsewhere from one scan to the next: the filter excludes it, until it is itself what cannot be believed.
-TEST(ComponentHealth, AFilterThatExcludesScanAfterScanIsStartedAnew) {
+TEST(HealthMonitor, AFilterThatExcludesScanAfterScanIsStartedAnew) {
   VERIFIES("LASSO-FLT-011~1 LASSO-HLT-001~1");
   MissionParameters p = test::box_parameters(test::default_scene());
   p.coast_frames = 20;
@@ -173,7 +173,7 @@ std::vector<double*> copies_of_place(Component& component, const double (&p_m)[3
   return found;
 }
 
-TEST(ComponentHealth, AFilterWithoutNumbersIsLeftForABearing) {
+TEST(HealthMonitor, AFilterWithoutNumbersIsLeftForABearing) {
   VERIFIES("LASSO-FLT-011~1 LASSO-HLT-001~1");
   MissionParameters p = test::box_parameters(test::default_scene());
   p.coast_frames = 20;
@@ -269,7 +269,7 @@ void run_shifted(ComponentScene& scene, Story& story, DurationUs off_us, int fra
   story.run(scene, frames);
 }
 
-TEST(ComponentHealth, AClockThatJumpsIsFollowedAndTheTargetLookedForAgain) {
+TEST(HealthMonitor, AClockThatJumpsIsFollowedAndTheTargetLookedForAgain) {
   VERIFIES("LASSO-HLT-006~1");
   for (const DurationUs jump_us : {DurationUs{3'600'000'000}, DurationUs{-40'000'000}}) {
     MissionParameters p = test::box_parameters(test::default_scene());
@@ -287,7 +287,7 @@ TEST(ComponentHealth, AClockThatJumpsIsFollowedAndTheTargetLookedForAgain) {
 }
 
 // The track that a wrong offer interrupts is of the old clock's time, too.
-TEST(ComponentHealth, AClockThatJumpsIsFollowedByAnInterruptedTrack) {
+TEST(HealthMonitor, AClockThatJumpsIsFollowedByAnInterruptedTrack) {
   VERIFIES("LASSO-HLT-006~1 LASSO-MOD-185~1");
   constexpr DurationUs kJump_us = 100'000'000;
   MissionParameters p = test::box_parameters(test::default_scene());
@@ -313,7 +313,7 @@ TEST(ComponentHealth, AClockThatJumpsIsFollowedByAnInterruptedTrack) {
   EXPECT_LT(pose_difference(told, test::default_scene().pose_at(story.last().t_measurement_us - kJump_us)).norm(), 1e-2);
 }
 
-TEST(ComponentHealth, AJumpStartsNothingWhereNothingIsTracked) {
+TEST(HealthMonitor, AJumpStartsNothingWhereNothingIsTracked) {
   VERIFIES("LASSO-HLT-006~1");
   for (const M mode : {M::kStandby, M::kBearing}) {
     ComponentScene scene(test::story_parameters());

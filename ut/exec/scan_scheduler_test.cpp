@@ -26,7 +26,7 @@ test::BoxScene scene_at(double range_m, double away_mps) {
 }
 
 // The first sensor is for far: rough, used from 2.6 m. The second one is fine, has a narrow field, and is used up to 3 m.
-class ComponentScansTest : public ::testing::Test {
+class ScanSchedulerTest : public ::testing::Test {
  protected:
   static MissionParameters parameters(const test::BoxScene& scene) {
     MissionParameters p = test::box_parameters(scene);
@@ -102,7 +102,7 @@ class ComponentScansTest : public ::testing::Test {
   std::unique_ptr<Component> component_;
 };
 
-TEST_F(ComponentScansTest, TheTargetsRangeSaysWhichSensorTakesAScan) {
+TEST_F(ScanSchedulerTest, TheTargetsRangeSaysWhichSensorTakesAScan) {
   VERIFIES("LASSO-SNS-041~1 LASSO-SNS-042~1 LASSO-SNS-046~1 LASSO-SNS-048~1");
   constexpr std::uint32_t kSettled = 10;
   begin(scene_at(2.4, 0.1));
@@ -121,7 +121,7 @@ TEST_F(ComponentScansTest, TheTargetsRangeSaysWhichSensorTakesAScan) {
 }
 
 // What a scan is worth is what its own sensor's noise says: the covariance is that of 4 mm, and of 1 mm.
-TEST_F(ComponentScansTest, EachScanIsPlannedAndEstimatedByItsOwnSensorsParameters) {
+TEST_F(ScanSchedulerTest, EachScanIsPlannedAndEstimatedByItsOwnSensorsParameters) {
   VERIFIES("LASSO-SNS-046~1");
   MissionParameters p = parameters(scene_at(2.4, 0.1));
   p.noise_estimated = 0;
@@ -140,7 +140,7 @@ TEST_F(ComponentScansTest, EachScanIsPlannedAndEstimatedByItsOwnSensorsParameter
 }
 
 // Once, however long it lasts; so is the end of it.
-TEST_F(ComponentScansTest, AFailureIsToldOnceAndSoIsItsEnd) {
+TEST_F(ScanSchedulerTest, AFailureIsToldOnceAndSoIsItsEnd) {
   VERIFIES("LASSO-SNS-044~1");
   begin(scene_at(2.4, 0));
   EXPECT_TRUE(failures_told(6).empty());
@@ -149,7 +149,7 @@ TEST_F(ComponentScansTest, AFailureIsToldOnceAndSoIsItsEnd) {
   EXPECT_EQ(failures_told(60), expected);
 }
 
-TEST_F(ComponentScansTest, ASensorThatFailsIsReplacedAndTold) {
+TEST_F(ScanSchedulerTest, ASensorThatFailsIsReplacedAndTold) {
   VERIFIES("LASSO-SNS-044~1 LASSO-SNS-048~1");
   begin(scene_at(2.4, 0));
   run(6);
@@ -166,7 +166,7 @@ TEST_F(ComponentScansTest, ASensorThatFailsIsReplacedAndTold) {
   EXPECT_TRUE(substituted);
 }
 
-TEST_F(ComponentScansTest, TheSensorWithTroubleIsToldAndAllWhenAskedFor) {
+TEST_F(ScanSchedulerTest, TheSensorWithTroubleIsToldAndAllWhenAskedFor) {
   VERIFIES("LASSO-LCS-012~1 LASSO-LNK-014~1");
   for (const std::uint8_t troubled : {std::uint8_t{0}, std::uint8_t{1}}) {
     begin(scene_at(troubled == 0 ? 4 : 2.4, 0));
@@ -181,7 +181,7 @@ TEST_F(ComponentScansTest, TheSensorWithTroubleIsToldAndAllWhenAskedFor) {
   }
 }
 
-TEST_F(ComponentScansTest, AScanThatCannotBePlannedIsNoFaultOfTheSensor) {
+TEST_F(ScanSchedulerTest, AScanThatCannotBePlannedIsNoFaultOfTheSensor) {
   VERIFIES("LASSO-SNS-044~1");
   test::BoxScene scene = scene_at(1.5, 0);
   scene.at_zero.p.x() = 2;  // beside both fields
@@ -194,7 +194,7 @@ TEST_F(ComponentScansTest, AScanThatCannotBePlannedIsNoFaultOfTheSensor) {
   EXPECT_EQ(near_->starts, 0);
 }
 
-TEST_F(ComponentScansTest, WithoutABearingTheSensorsLookInTurn) {
+TEST_F(ScanSchedulerTest, WithoutABearingTheSensorsLookInTurn) {
   VERIFIES("LASSO-SNS-045~1");
   begin(scene_at(2.4, 0));
   run(3);
@@ -212,7 +212,7 @@ TEST_F(ComponentScansTest, WithoutABearingTheSensorsLookInTurn) {
   EXPECT_EQ(static_cast<BearingReason>(found.back().bearing_reason), BearingReason::kValid);
 }
 
-TEST_F(ComponentScansTest, ASearchKeepsItsSensor) {
+TEST_F(ScanSchedulerTest, ASearchKeepsItsSensor) {
   VERIFIES("LASSO-SNS-042~1");
   begin(scene_at(2.4, 0));
   run(3);
@@ -225,7 +225,7 @@ TEST_F(ComponentScansTest, ASearchKeepsItsSensor) {
 }
 
 // A part that was chosen for the scans of one sensor is not scanned by another one: its first scans are of the whole.
-TEST_F(ComponentScansTest, WhatWasPlannedForAnotherSensorCountsNoMore) {
+TEST_F(ScanSchedulerTest, WhatWasPlannedForAnotherSensorCountsNoMore) {
   VERIFIES("LASSO-SNS-046~1 LASSO-MOD-164~1");
   const test::BoxScene scene = scene_at(2.5, 0.1);
   MissionParameters p = parameters(scene);
@@ -245,7 +245,7 @@ TEST_F(ComponentScansTest, WhatWasPlannedForAnotherSensorCountsNoMore) {
   EXPECT_TRUE(switched);
 }
 
-TEST_F(ComponentScansTest, AMissionWithMoreSensorsThanThereAreIsRefused) {
+TEST_F(ScanSchedulerTest, AMissionWithMoreSensorsThanThereAreIsRefused) {
   VERIFIES("LASSO-SNS-047~1");
   const test::BoxScene scene = scene_at(2.4, 0);
   test::BoxSensor sensor(scene);
@@ -259,7 +259,7 @@ TEST_F(ComponentScansTest, AMissionWithMoreSensorsThanThereAreIsRefused) {
   EXPECT_EQ(one->begin(0), Status::kMissing);
 }
 
-TEST_F(ComponentScansTest, ASensorWithoutARangeOrATurnIsRefused) {
+TEST_F(ScanSchedulerTest, ASensorWithoutARangeOrATurnIsRefused) {
   VERIFIES("LASSO-SNS-047~1");
   const test::BoxScene scene = scene_at(2.4, 0);
   test::BoxSensor sensor(scene);

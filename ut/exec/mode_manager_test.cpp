@@ -36,7 +36,7 @@ StartOffer wrong_offer(const ComponentScene& scene, TimeUs t_us) {
   return offer;
 }
 
-TEST(ComponentModes, ABearingIsSoughtOverTheWholeField) {
+TEST(ModeManager, ABearingIsSoughtOverTheWholeField) {
   VERIFIES("LASSO-MOD-101~1 LASSO-MOD-136~3 LASSO-MOD-137~1");
   ComponentScene scene(story_parameters());
   scene.begin();
@@ -62,7 +62,7 @@ TEST(ComponentModes, ABearingIsSoughtOverTheWholeField) {
   EXPECT_EQ(story.last().bearing[2], 0) << "nothing stale";
 }
 
-TEST(ComponentModes, NavigationIsTakenWhereAStartIsAwaited) {
+TEST(ModeManager, NavigationIsTakenWhereAStartIsAwaited) {
   VERIFIES("LASSO-MOD-131~1 LASSO-MOD-132~1");
   ComponentScene scene(story_parameters());
   scene.begin();
@@ -78,7 +78,7 @@ TEST(ComponentModes, NavigationIsTakenWhereAStartIsAwaited) {
   EXPECT_LT(scene.error(story.last()).norm(), 1e-2);
 }
 
-TEST(ComponentModes, AWrongHandOverIsRefusedAndTheNextWayIsTried) {
+TEST(ModeManager, AWrongHandOverIsRefusedAndTheNextWayIsTried) {
   VERIFIES("LASSO-MOD-131~1 LASSO-MOD-132~1 LASSO-MOD-133~3 LASSO-MOD-137~1");
   for (const bool recover : {true, false}) {
     MissionParameters p = story_parameters();
@@ -104,7 +104,7 @@ TEST(ComponentModes, AWrongHandOverIsRefusedAndTheNextWayIsTried) {
   }
 }
 
-TEST(ComponentModes, AWrongOfferCostsNoTrack) {
+TEST(ModeManager, AWrongOfferCostsNoTrack) {
   VERIFIES("LASSO-MOD-185~1 LASSO-MOD-137~1");
   ComponentScene scene(story_parameters());
   scene.begin();
@@ -127,7 +127,7 @@ TEST(ComponentModes, AWrongOfferCostsNoTrack) {
   for (const PoseTelemetry& t : story.reports) EXPECT_TRUE(t.valid == 0 || scene.error(t).norm() < 1e-2);
 }
 
-TEST(ComponentModes, AShortEclipseIsCoastedALongerOneRecoveredNearThePrediction) {
+TEST(ModeManager, AShortEclipseIsCoastedALongerOneRecoveredNearThePrediction) {
   VERIFIES("LASSO-MOD-138~1 LASSO-MOD-137~1");
   ComponentScene scene(story_parameters());
   scene.begin();
@@ -145,7 +145,7 @@ TEST(ComponentModes, AShortEclipseIsCoastedALongerOneRecoveredNearThePrediction)
   EXPECT_LT(scene.error(story.last()).norm(), 1e-2);
 }
 
-TEST(ComponentModes, ALongEclipseEndsInABearingAndANewStart) {
+TEST(ModeManager, ALongEclipseEndsInABearingAndANewStart) {
   VERIFIES("LASSO-MOD-138~1 LASSO-MOD-131~1");
   ComponentScene scene(story_parameters());
   scene.begin();
@@ -173,7 +173,7 @@ TEST(ComponentModes, ALongEclipseEndsInABearingAndANewStart) {
   EXPECT_EQ(story.last().refusal, static_cast<std::uint8_t>(StartRefusal::kNotAtBearing));
 }
 
-TEST(ComponentModes, CommandsThatCannotBeAreRefusedByTheirName) {
+TEST(ModeManager, CommandsThatCannotBeAreRefusedByTheirName) {
   VERIFIES("LASSO-MOD-136~3 LASSO-MOD-173~1");
   ComponentScene scene(story_parameters());
   EXPECT_EQ(scene.component->command_mode(M::kStandby), ModeRefusal::kNotBegun);
@@ -196,7 +196,7 @@ TEST(ComponentModes, CommandsThatCannotBeAreRefusedByTheirName) {
   EXPECT_EQ(story.last().refused_commands, 7u);
 }
 
-TEST(ComponentModes, AnyModeCanBeCommanded) {
+TEST(ModeManager, AnyModeCanBeCommanded) {
   VERIFIES("LASSO-MOD-136~3 LASSO-MOD-137~1 LASSO-MOD-173~1");
   ComponentScene scene(story_parameters());
   scene.begin();
@@ -222,7 +222,7 @@ TEST(ComponentModes, AnyModeCanBeCommanded) {
                 {M::kBearing, E::kStop, M::kStandby}});
 }
 
-TEST(ComponentModes, AHeldModeStaysUntilItIsReleased) {
+TEST(ModeManager, AHeldModeStaysUntilItIsReleased) {
   VERIFIES("LASSO-MOD-136~3 LASSO-MOD-173~1");
   ComponentScene scene(story_parameters());
   scene.begin();
@@ -248,7 +248,7 @@ TEST(ComponentModes, AHeldModeStaysUntilItIsReleased) {
   EXPECT_EQ(story.last().mode, code(M::kStandby));
 }
 
-TEST(ComponentModes, WrongOffersAreRefusedCountedAndTold) {
+TEST(ModeManager, WrongOffersAreRefusedCountedAndTold) {
   VERIFIES("LASSO-MOD-134~2 LASSO-MOD-008~1");
   ComponentScene scene(story_parameters());
   const StartOffer good = rough_offer(story_parameters(), test::default_scene().at_zero, {}, 0);
@@ -273,7 +273,7 @@ TEST(ComponentModes, WrongOffersAreRefusedCountedAndTold) {
   EXPECT_EQ(story.last().refusal, static_cast<std::uint8_t>(StartRefusal::kNotFinite));
 }
 
-TEST(ComponentModes, WhatHasGrownOldIsRefusedWhenItsTurnComes) {
+TEST(ModeManager, WhatHasGrownOldIsRefusedWhenItsTurnComes) {
   VERIFIES("LASSO-MOD-133~3 LASSO-MOD-134~2");
   MissionParameters p = story_parameters();
   p.start_age_max_s = 1;
@@ -291,7 +291,7 @@ TEST(ComponentModes, WhatHasGrownOldIsRefusedWhenItsTurnComes) {
   EXPECT_EQ(story.last().refusal, static_cast<std::uint8_t>(StartRefusal::kTooOld));
 }
 
-TEST(ComponentModes, AMissionsOwnStartIsRefusedByItsReasonAndTheNextWayIsTried) {
+TEST(ModeManager, AMissionsOwnStartIsRefusedByItsReasonAndTheNextWayIsTried) {
   VERIFIES("LASSO-MOD-133~3 LASSO-MOD-134~2 LASSO-MOD-137~1");
   MissionParameters behind = test::box_parameters(test::default_scene());
   behind.initial_z_m = -2.5;
@@ -318,7 +318,7 @@ TEST(ComponentModes, AMissionsOwnStartIsRefusedByItsReasonAndTheNextWayIsTried) 
 }
 
 // The last command counts, and the one before it is not tried later.
-TEST(ComponentModes, ACommandTakesThePlaceOfTheOneBefore) {
+TEST(ModeManager, ACommandTakesThePlaceOfTheOneBefore) {
   VERIFIES("LASSO-MOD-131~1");
   ComponentScene scene(story_parameters());
   scene.begin();
@@ -335,7 +335,7 @@ TEST(ComponentModes, ACommandTakesThePlaceOfTheOneBefore) {
 }
 
 // A command in each frame leaves no scan to be reported; the changes are told all the same, in order, by packets of their own.
-TEST(ComponentModes, NoChangeOfTheModeGoesUntold) {
+TEST(ModeManager, NoChangeOfTheModeGoesUntold) {
   VERIFIES("LASSO-MOD-137~1");
   ComponentScene scene(story_parameters());
   scene.begin();

@@ -37,7 +37,7 @@ class NumberedKeys final : public test::ImageSum {
   bool by_trial_ = false;
 };
 
-class KeyedComponent : public ::testing::Test {
+class CommandServicesTest : public ::testing::Test {
  protected:
   void begin(const TestImage& image) {
     scene_.component->use_authenticator(keys_);
@@ -73,7 +73,7 @@ class KeyedComponent : public ::testing::Test {
   std::uint16_t count_ = 0;
 };
 
-TEST_F(KeyedComponent, TakesSignedImagesAlone) {
+TEST_F(CommandServicesTest, TakesSignedImagesAlone) {
   VERIFIES("LASSO-IMG-022~1");
   scene_.component->use_authenticator(keys_);
   TestImage plain = test::first_image();
@@ -98,7 +98,7 @@ TEST_F(KeyedComponent, TakesSignedImagesAlone) {
   }
 }
 
-TEST_F(KeyedComponent, ASignedImageIsLoadedInFlightAndStartedFromTheStore) {
+TEST_F(CommandServicesTest, ASignedImageIsLoadedInFlightAndStartedFromTheStore) {
   VERIFIES("LASSO-IMG-022~1");
   begin(signed_image(test::first_image()));
   scene_.run_frames(2);
@@ -117,14 +117,14 @@ TEST_F(KeyedComponent, ASignedImageIsLoadedInFlightAndStartedFromTheStore) {
   EXPECT_EQ(scene_.component->mission().image_crc, test::crc_of(test::better_image()));
 }
 
-TEST_F(KeyedComponent, AHostThatIsSureTakesUnsignedImagesToo) {
+TEST_F(CommandServicesTest, AHostThatIsSureTakesUnsignedImagesToo) {
   VERIFIES("LASSO-IMG-022~1");
   scene_.component->accept_unsigned_images();
   begin(test::first_image());
   EXPECT_EQ(scene_.component->mission().image_crc, test::crc_of(test::first_image()));
 }
 
-TEST_F(KeyedComponent, AHostWhoseLinkAuthenticatesHasItsImagesJudgedAlone) {
+TEST_F(CommandServicesTest, AHostWhoseLinkAuthenticatesHasItsImagesJudgedAlone) {
   VERIFIES("LASSO-IMG-022~1");
   scene_.component->authenticate_images(keys_);
   TestImage plain = test::first_image();
@@ -135,7 +135,7 @@ TEST_F(KeyedComponent, AHostWhoseLinkAuthenticatesHasItsImagesJudgedAlone) {
   EXPECT_EQ(test::answer_in(test::packets_of(test::telemetry_of(*scene_.component))), ServiceRefusal::kNone);
 }
 
-TEST_F(KeyedComponent, ANewKeyTakesTheOldOnesPlaceOnceItIsConfirmed) {
+TEST_F(CommandServicesTest, ANewKeyTakesTheOldOnesPlaceOnceItIsConfirmed) {
   VERIFIES("LASSO-LNK-046~1");
   begin(signed_image(test::first_image()));
   EXPECT_EQ(send(test::of_key(CommandKind::kChangeKey, 3, count_++), 0), ServiceRefusal::kNotArmed);
@@ -153,7 +153,7 @@ TEST_F(KeyedComponent, ANewKeyTakesTheOldOnesPlaceOnceItIsConfirmed) {
   EXPECT_EQ(keys_.in_use, 3U);
 }
 
-TEST_F(KeyedComponent, AKeyThatNobodyConfirmsIsGivenUp) {
+TEST_F(CommandServicesTest, AKeyThatNobodyConfirmsIsGivenUp) {
   VERIFIES("LASSO-LNK-046~1");
   begin(signed_image(test::first_image()));
   EXPECT_EQ(change(3, 0), ServiceRefusal::kNone);

@@ -22,9 +22,9 @@ const TestImage& wrong_image() {
   }();
   return image;
 }
-using ComponentMemory = test::MemoryFixture;
+using ImageServiceTest = test::MemoryFixture;
 
-TEST_F(ComponentMemory, ABoardGivesItsMemoryBeforeTheFirstImage) {
+TEST_F(ImageServiceTest, ABoardGivesItsMemoryBeforeTheFirstImage) {
   VERIFIES("LASSO-IMG-011~1");
   BoardMemory odd;
   odd.image_buffers[0] = scene_->buffer(0);
@@ -41,7 +41,7 @@ TEST_F(ComponentMemory, ABoardGivesItsMemoryBeforeTheFirstImage) {
 }
 
 // At a boundary, by its CRC; the track goes on, one scan is not reported.
-TEST_F(ComponentMemory, ANewImageTakesOverAtABoundary) {
+TEST_F(ImageServiceTest, ANewImageTakesOverAtABoundary) {
   VERIFIES("LASSO-IMG-011~1 LASSO-IMG-013~1");
   scene_->begin(first_image());
   EXPECT_TRUE(all_valid(scene_->run_frames(10)));
@@ -65,7 +65,7 @@ TEST_F(ComponentMemory, ANewImageTakesOverAtABoundary) {
   EXPECT_TRUE(scene_->told(EventId::kImageConfirmed));
 }
 
-TEST_F(ComponentMemory, TheImageBeforeIsActiveAgainByCommand) {
+TEST_F(ImageServiceTest, TheImageBeforeIsActiveAgainByCommand) {
   VERIFIES("LASSO-IMG-014~1");
   scene_->begin(first_image());
   scene_->run_frames(6);
@@ -101,7 +101,7 @@ TEST(ImageTrial, AStartThatIsCheckedSaysNothingOfTheImage) {
 }
 
 // By itself, within the scans of the trial; the track is that of before.
-TEST_F(ComponentMemory, AnImageThatFailsItsFirstScansIsTakenBack) {
+TEST_F(ImageServiceTest, AnImageThatFailsItsFirstScansIsTakenBack) {
   VERIFIES("LASSO-IMG-014~1");
   scene_->begin(first_image());
   scene_->run_frames(10);
@@ -126,7 +126,7 @@ TEST_F(ComponentMemory, AnImageThatFailsItsFirstScansIsTakenBack) {
 }
 
 // The track is given up before the trial has its scans: it has failed all the same.
-TEST_F(ComponentMemory, AnImageThatLosesTheTrackDuringItsTrialIsTakenBack) {
+TEST_F(ImageServiceTest, AnImageThatLosesTheTrackDuringItsTrialIsTakenBack) {
   VERIFIES("LASSO-IMG-014~1");
   for (const bool recover : {false, true}) {
     scene_ = std::make_unique<MemoryScene>();
@@ -151,7 +151,7 @@ TEST_F(ComponentMemory, AnImageThatLosesTheTrackDuringItsTrialIsTakenBack) {
 }
 
 // Standby is commanded during the trial: taking the image back does not bring the old track back.
-TEST_F(ComponentMemory, ARollBackUndoesNoCommand) {
+TEST_F(ImageServiceTest, ARollBackUndoesNoCommand) {
   VERIFIES("LASSO-IMG-014~1 LASSO-HLT-002~1");
   for (const TrackingMode mode : {TrackingMode::kStandby, TrackingMode::kSafe}) {
     scene_ = std::make_unique<MemoryScene>();
@@ -171,7 +171,7 @@ TEST_F(ComponentMemory, ARollBackUndoesNoCommand) {
   }
 }
 
-TEST_F(ComponentMemory, WithoutATrialAnImageIsTrusted) {
+TEST_F(ImageServiceTest, WithoutATrialAnImageIsTrusted) {
   VERIFIES("LASSO-IMG-014~1");
   MissionParameters trusting = MemoryScene::parameters();
   trusting.image_trial_scans = 0;
@@ -185,7 +185,7 @@ TEST_F(ComponentMemory, WithoutATrialAnImageIsTrusted) {
 }
 
 // An image of another target: nothing that was known of the old one serves.
-TEST_F(ComponentMemory, ATrackEndsWithItsTarget) {
+TEST_F(ImageServiceTest, ATrackEndsWithItsTarget) {
   VERIFIES("LASSO-IMG-013~1");
   scene_->begin(first_image());
   scene_->run_frames(10);
@@ -203,7 +203,7 @@ TEST_F(ComponentMemory, ATrackEndsWithItsTarget) {
 }
 
 // A search works with the active image's tables.
-TEST_F(ComponentMemory, ASearchEndsWithItsImage) {
+TEST_F(ImageServiceTest, ASearchEndsWithItsImage) {
   VERIFIES("LASSO-IMG-013~1");
   MissionParameters p = MemoryScene::parameters();
   p.initial_present = 0;
@@ -220,7 +220,7 @@ TEST_F(ComponentMemory, ASearchEndsWithItsImage) {
 }
 
 // An estimate that overruns still reads the image: the change waits for it.
-TEST_F(ComponentMemory, AnEstimateUnderWayKeepsItsImage) {
+TEST_F(ImageServiceTest, AnEstimateUnderWayKeepsItsImage) {
   VERIFIES("LASSO-IMG-011~1 LASSO-IMG-013~1");
   scene_->begin(first_image());
   scene_->run_frames(5);
@@ -235,7 +235,7 @@ TEST_F(ComponentMemory, AnEstimateUnderWayKeepsItsImage) {
 }
 
 // What was commanded holds for the image that was named then, not for the one that has been loaded over it meanwhile.
-TEST_F(ComponentMemory, AnotherImageThanTheOneThatWasNamedStaysOut) {
+TEST_F(ImageServiceTest, AnotherImageThanTheOneThatWasNamedStaysOut) {
   VERIFIES("LASSO-IMG-013~1");
   scene_->begin(first_image());
   scene_->run_frames(5);
@@ -253,7 +253,7 @@ TEST_F(ComponentMemory, AnotherImageThanTheOneThatWasNamedStaysOut) {
 }
 
 // What was ready when the command came may have decayed at the boundary.
-TEST_F(ComponentMemory, AnImageThatIsNotReadyAtTheBoundaryStaysOut) {
+TEST_F(ImageServiceTest, AnImageThatIsNotReadyAtTheBoundaryStaysOut) {
   VERIFIES("LASSO-IMG-013~1");
   scene_->begin(first_image());
   scene_->run_frames(3);
@@ -275,7 +275,7 @@ TEST_F(ComponentMemory, AnImageThatIsNotReadyAtTheBoundaryStaysOut) {
   EXPECT_EQ(scene_->last(EventId::kMemoryCorrupt).items[5], 0) << "not repaired";
 }
 
-TEST_F(ComponentMemory, ARefusedImageIsTold) {
+TEST_F(ImageServiceTest, ARefusedImageIsTold) {
   VERIFIES("LASSO-IMG-013~1");
   scene_->begin(first_image());
   TestImage spoiled = better_image();
@@ -288,7 +288,7 @@ TEST_F(ComponentMemory, ARefusedImageIsTold) {
 }
 
 // The image before decays while the new one is on trial: there is nothing to go back to, and yet a way on.
-TEST_F(ComponentMemory, ATrialThatFailsWithNothingToGoBackToLeavesAWayOn) {
+TEST_F(ImageServiceTest, ATrialThatFailsWithNothingToGoBackToLeavesAWayOn) {
   VERIFIES("LASSO-IMG-014~1");
   MissionParameters patient = MemoryScene::parameters();
   patient.image_trial_scans = 60;
@@ -312,7 +312,7 @@ TEST_F(ComponentMemory, ATrialThatFailsWithNothingToGoBackToLeavesAWayOn) {
   EXPECT_NE(component().open_image(100000, 7), ImageRefusal::kBusy);
 }
 
-TEST_F(ComponentMemory, AnImageOfAnotherTargetDoesNotEndModeSafe) {
+TEST_F(ImageServiceTest, AnImageOfAnotherTargetDoesNotEndModeSafe) {
   VERIFIES("LASSO-HLT-002~1");
   scene_->begin(first_image());
   scene_->run_frames(5);

@@ -16,7 +16,7 @@ using test::true_start;
 using test::view;
 using test::without_events;
 
-TEST(ComponentLink, PingIsAnswered) {
+TEST(CommandDispatcher, PingIsAnswered) {
   VERIFIES("LASSO-LNK-013~1 LASSO-LNK-011~2");
   Link link;
   EXPECT_EQ(link.send(test::ping(7)), test::ping(7).size());
@@ -32,7 +32,7 @@ TEST(ComponentLink, PingIsAnswered) {
   }
 }
 
-TEST(ComponentLink, WithAnAuthenticatorOnlyItsCommandsAreCarriedOut) {
+TEST(CommandDispatcher, WithAnAuthenticatorOnlyItsCommandsAreCarriedOut) {
   VERIFIES("LASSO-LNK-021~1");
   Link link;
   test::KeyedSum authenticator;
@@ -48,7 +48,7 @@ TEST(ComponentLink, WithAnAuthenticatorOnlyItsCommandsAreCarriedOut) {
   EXPECT_TRUE(answers[1].is(17, 2));
 }
 
-TEST(ComponentLink, ALinkThatIsSilentForLongIsAFaultWhereTheMissionSaysSo) {
+TEST(CommandDispatcher, ALinkThatIsSilentForLongIsAFaultWhereTheMissionSaysSo) {
   VERIFIES("LASSO-HLT-001~1");
   for (const double silence_max_s : {0.0, 1.1}) {
     MissionParameters p = test::box_parameters(test::default_scene());
@@ -69,7 +69,7 @@ TEST(ComponentLink, ALinkThatIsSilentForLongIsAFaultWhereTheMissionSaysSo) {
   }
 }
 
-TEST(ComponentLink, ReportsAreSentAsAskedFor) {
+TEST(CommandDispatcher, ReportsAreSentAsAskedFor) {
   VERIFIES("LASSO-LNK-013~1");
   Link link;
   for (const std::uint8_t asked : {std::uint8_t{0}, std::uint8_t{1}, std::uint8_t{8}, std::uint8_t{9}}) {
@@ -88,7 +88,7 @@ TEST(ComponentLink, ReportsAreSentAsAskedFor) {
   }
 }
 
-TEST(ComponentLink, AStartByUplinkIsTrackedFromTheNextBoundaryOn) {
+TEST(CommandDispatcher, AStartByUplinkIsTrackedFromTheNextBoundaryOn) {
   VERIFIES("LASSO-LNK-022~1 LASSO-LNK-011~2");
   Link link;
   link.run_frame();
@@ -105,7 +105,7 @@ TEST(ComponentLink, AStartByUplinkIsTrackedFromTheNextBoundaryOn) {
   EXPECT_LT(link.scene.error(pose).norm(), 1e-2);
 }
 
-TEST(ComponentLink, ACommandedModeIsTakenAtTheNextBoundary) {
+TEST(CommandDispatcher, ACommandedModeIsTakenAtTheNextBoundary) {
   VERIFIES("LASSO-LNK-022~1");
   Link link;
   link.send(test::set_mode(static_cast<std::uint8_t>(TrackingMode::kBearing)));
@@ -118,7 +118,7 @@ TEST(ComponentLink, ACommandedModeIsTakenAtTheNextBoundary) {
   EXPECT_EQ(pose.scan_id, 0u);
 }
 
-TEST(ComponentLink, WhatThePresentStateDoesNotAllowFailsWithItsReason) {
+TEST(CommandDispatcher, WhatThePresentStateDoesNotAllowFailsWithItsReason) {
   VERIFIES("LASSO-LNK-013~1");
   Link link;
   link.send(test::set_mode(static_cast<std::uint8_t>(TrackingMode::kReacquiring)));
@@ -137,7 +137,7 @@ TEST(ComponentLink, WhatThePresentStateDoesNotAllowFailsWithItsReason) {
   EXPECT_EQ(answers[1].data[5], static_cast<std::uint8_t>(StartRefusal::kNotUnit));
 }
 
-TEST(ComponentLink, ARefusedCommandSaysWhyAndChangesNothing) {
+TEST(CommandDispatcher, ARefusedCommandSaysWhyAndChangesNothing) {
   VERIFIES("LASSO-LNK-013~1 LASSO-LNK-018~1 LASSO-LNK-019~1");
   Link link;
   link.send(test::set_mode(99));
@@ -157,7 +157,7 @@ TEST(ComponentLink, ARefusedCommandSaysWhyAndChangesNothing) {
   EXPECT_EQ(answers[0].data, (Stream{1, 2, 0, 0, static_cast<std::uint8_t>(PacketFault::kTruncated)})) << "what is there of it";
 }
 
-TEST(ComponentLink, CountersAreToldWhenTheyChange) {
+TEST(CommandDispatcher, CountersAreToldWhenTheyChange) {
   VERIFIES("LASSO-LNK-013~1");
   Link link;
   EXPECT_TRUE(link.run_link_frame().empty()) << "standby, and no command";
@@ -176,7 +176,7 @@ TEST(ComponentLink, CountersAreToldWhenTheyChange) {
   EXPECT_EQ(told[0].data[14], 3);
 }
 
-TEST(ComponentLink, BytesThatBelongToNoCommandAreAnEvent) {
+TEST(CommandDispatcher, BytesThatBelongToNoCommandAreAnEvent) {
   VERIFIES("LASSO-LNK-015~1");
   Link link;
   link.run_frame();
@@ -186,7 +186,7 @@ TEST(ComponentLink, BytesThatBelongToNoCommandAreAnEvent) {
   EXPECT_EQ(events[0], (Stream{0, static_cast<std::uint8_t>(EventId::kBytesSkipped), 0, 0, 0, 3}));
 }
 
-TEST(ComponentLink, ALostScanIsToldWithItsSensor) {
+TEST(CommandDispatcher, ALostScanIsToldWithItsSensor) {
   VERIFIES("LASSO-LCS-012~1");
   Link link;
   ASSERT_EQ(link.component().start_tracking(test::default_scene().pose_at(0), test::default_scene().rates, 0), Status::kOk);
@@ -211,7 +211,7 @@ TEST(ComponentLink, ALostScanIsToldWithItsSensor) {
   }
 }
 
-TEST(ComponentLink, CommandsDoNotDisturbTheTrack) {
+TEST(CommandDispatcher, CommandsDoNotDisturbTheTrack) {
   VERIFIES("LASSO-LNK-011~2");
   Link quiet, busy;
   test::Generator random(9);
@@ -229,7 +229,7 @@ TEST(ComponentLink, CommandsDoNotDisturbTheTrack) {
   }
 }
 
-TEST(ComponentLink, BeginIsAnEvent) {
+TEST(CommandDispatcher, BeginIsAnEvent) {
   VERIFIES("LASSO-LNK-015~1");
   Link link;
   const std::vector<Packet> packets = link.run_frame();
@@ -242,7 +242,7 @@ TEST(ComponentLink, BeginIsAnEvent) {
   EXPECT_EQ(events[0][13], crc & 0xFF);
 }
 
-TEST(ComponentLink, EachRefusalIsAnEventWithItsReason) {
+TEST(CommandDispatcher, EachRefusalIsAnEventWithItsReason) {
   VERIFIES("LASSO-LNK-020~2 LASSO-LNK-015~1");
   Link link;
   link.run_frame();
@@ -265,7 +265,7 @@ TEST(ComponentLink, EachRefusalIsAnEventWithItsReason) {
   EXPECT_EQ(packets.back().header.subservice, 2);
 }
 
-TEST(ComponentLink, EventsAreDisabledAndEnabledByCommand) {
+TEST(CommandDispatcher, EventsAreDisabledAndEnabledByCommand) {
   VERIFIES("LASSO-LNK-015~1 LASSO-LNK-022~1");
   Link link;
   link.send(test::disable_event(1, 0));
@@ -289,7 +289,7 @@ TEST(ComponentLink, EventsAreDisabledAndEnabledByCommand) {
 }
 
 // The story of modes is told twice: in the pose packets, and as events.
-TEST(ComponentLink, EveryTransitionIsAnEventWithItsReason) {
+TEST(CommandDispatcher, EveryTransitionIsAnEventWithItsReason) {
   VERIFIES("LASSO-MOD-172~1");
   Link link;
   std::vector<Stream> events, changes;
@@ -313,7 +313,7 @@ TEST(ComponentLink, EveryTransitionIsAnEventWithItsReason) {
   EXPECT_EQ(events, changes);
 }
 
-TEST(ComponentLink, LostScansAndSensorsAreEvents) {
+TEST(CommandDispatcher, LostScansAndSensorsAreEvents) {
   VERIFIES("LASSO-LNK-015~1");
   Link link;
   link.send(test::set_mode(static_cast<std::uint8_t>(TrackingMode::kBearing)));
@@ -335,7 +335,7 @@ TEST(ComponentLink, LostScansAndSensorsAreEvents) {
   EXPECT_TRUE(back) << "it has rested";
 }
 
-TEST(ComponentLink, LateSlotsLateEstimatesAndLostTelemetryAreEvents) {
+TEST(CommandDispatcher, LateSlotsLateEstimatesAndLostTelemetryAreEvents) {
   VERIFIES("LASSO-LNK-015~1");
   Link link;
   link.send(test::set_mode(static_cast<std::uint8_t>(TrackingMode::kBearing)));
@@ -352,6 +352,30 @@ TEST(ComponentLink, LateSlotsLateEstimatesAndLostTelemetryAreEvents) {
   EXPECT_TRUE(told(13)) << "a slot was late";
   EXPECT_TRUE(told(12)) << "nobody estimated";
   EXPECT_TRUE(told(7)) << "nobody took telemetry for 15 frames";
+}
+
+// Each report by its bit, in the order of what happens.
+TEST(CommandDispatcher, ReportsOfACommandAreThoseThatItAsksFor) {
+  VERIFIES("LASSO-LNK-013~1");
+  constexpr std::uint8_t kBits[] = {kAcknowledgeAcceptance, kAcknowledgeStart, kAcknowledgeCompletion};
+  constexpr std::uint8_t kReports[] = {kSubserviceAccepted, kSubserviceStarted, kSubserviceCompleted};
+  for (std::uint8_t asked = 0; asked < 16; ++asked) {
+    Link link;
+    Stream packet = test::ping(7);
+    packet[6] = static_cast<std::uint8_t>((packet[6] & 0xF0) | asked);
+    ByteWriter writer{Bytes(packet.data(), packet.size())};
+    for (std::size_t i = 0; i + kPacketTrailerBytes < packet.size(); ++i) writer.u8(packet[i]);
+    finish_packet(writer, Bytes(packet.data(), packet.size()));
+    link.send(packet);
+    Stream said, expected;
+    for (const Packet& answer : link.answers()) {
+      if (!answer.is(17, 2)) said.push_back(answer.header.subservice);
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+      if ((asked & kBits[i]) != 0) expected.push_back(kReports[i]);
+    }
+    EXPECT_EQ(said, expected) << static_cast<int>(asked);
+  }
 }
 
 }  // namespace
