@@ -1,6 +1,5 @@
 #include "fsw/exec/health_monitor.hpp"
 
-#include "cfg/capacities.hpp"
 #include "fsw/exec/self_test.hpp"
 
 namespace lasso {

@@ -4,7 +4,6 @@
 
 #include <cstdint>
 
-#include "cfg/capacities.hpp"
 #include "fsw/core/time.hpp"
 #include "fsw/exec/acquisition_task.hpp"
 #include "fsw/exec/estimation_task.hpp"
