@@ -11,7 +11,7 @@ constexpr std::uint16_t kLinkStructureId = 2;
 constexpr std::uint16_t kSensorStructureId = 3;
 constexpr std::uint16_t kHealthStructureId = 4;
 constexpr std::uint16_t kImageStructureId = 5;
-constexpr std::uint16_t kFilterStructureId = 6;     // the only one that is sent on request alone
+constexpr std::uint16_t kFilterStructureId = 6;     // the only one that is disabled at first
 constexpr std::uint16_t kNamedPoseStructureId = 7;  // of missions that name frames
 
 // Frames from one report to the next, by structure; 0: when there is news.

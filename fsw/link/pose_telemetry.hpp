@@ -1,5 +1,5 @@
 // The navigation output of one frame, as plain values: what the packet `pose` says. The executive fills it, its rows (pose_rows.hpp) carry
-// it to the ground and back. Units and frames as in the design: SI, T_sensor_target, quaternions x, y, z, w.
+// it to the ground and back. Units and frames as in docs/conventions.md: SI, T_sensor_target, quaternions x, y, z, w.
 #pragma once
 
 #include <cstddef>

@@ -2,7 +2,7 @@
 // parameters (IEEE binary64). No pointers: tables refer to each other by index. One image serves every number type: lengths are integers
 // with `length_fraction_bits` (value = word * 2^-bits, metres, |value| < 2^(31-bits)), unit vectors Q1.30, curvature Q15.16 (1/m).
 //
-//   header      16 words, see ImageHeader
+//   header      16 words, listed below
 //   directory   table_count entries of 5 words: id, words per record, records, byte offset from the image's start, CRC-32C of its bytes
 //   tables      in the order of the directory, each starting on a multiple of 8 bytes, gaps are zero
 //   trailer     CRC-32C of all bytes before it

@@ -80,7 +80,7 @@ struct NextScan {
 // cone, and that kLeastMet of the rays over its outline in the field of view meet. Chosen is the one that, weighted by its priority, takes
 // the largest share off the variance of the filter's least certain direction (rotation at the target's radius), with what the scan in
 // flight will tell; one that was not asked for kLongestWait scans comes before, the longest first. Among equals the first. So no part that
-// is seen waits for more than kLongestWait + kMaxParts scans. Bounds: kOutlookRays walks a part.
+// is seen waits for more than kLongestWait + kMaxParts scans. Bounds: kForecastRays walks a part.
 constexpr std::uint32_t kLongestWait = 12;
 constexpr int kLeastMet = 16;
 PartNumber choose_part(const Mission& mission, const Parts& parts, const NextScan& next, PartsState& state);

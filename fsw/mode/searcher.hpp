@@ -21,14 +21,15 @@ class Searcher {
   // One frame in mode searching. `step` is the bearing's (bearing_scan, track_without_scan) and is completed: search, registration
   // (kSearching), state and event. `scan` is null where it was lost; it is taken where none is being worked on and it was aimed by a
   // bearing; while one is, the first scan 2 s later waits for its turn. A new search begins when step.after.searches says so, and with a
-  // scan that the last one does not join (Search::joins). At most frame_work units, and those of the step that uses them up (kLargestStep).
-  // A pose that is accepted is offered as a start: kStarting, or step.refusal says why not. One from a single scan since which the target
-  // may have turned by 5 deg waits for another scan, which shows its rate. It is offered again where the frame that said so came too late.
+  // scan that does not join the last one (PoseSearch::joins). At most frame_work units, and those of the step that uses them up
+  // (kLargestStep). A pose that is accepted is offered as a start: kStarting, or step.refusal says why not. One from a single scan since
+  // which the target may have turned by 5 deg waits for another scan, which shows its rate. It is offered again where the frame that said
+  // so came too late.
   void work(const Mission& mission, const RangeImage* scan, Workspace& workspace, TrackStep& step);
 
   // One frame of a check (state.check of `step`, which track_scan or track_without_scan gave). The frame that says so gives its scan; from
-  // the next one on half of frame_work is done on it in each. The search suspects the pose (Search::suspect), and end_check is told what
-  // it makes of it. A check whose scan is gone (its frame came too late) is forgotten: the next scan begins another.
+  // the next one on half of frame_work is done on it in each. The search suspects the pose (PoseSearch::suspect), and end_check is told
+  // what it makes of it. A check whose scan is gone (its frame came too late) is forgotten: the next scan begins another.
   void check(const Mission& mission, const RangeImage* scan, Workspace& workspace, TrackStep& step);
 
  private:

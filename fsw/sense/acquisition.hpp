@@ -1,6 +1,6 @@
-// The acquisition task: starts a scan, collects its samples call by call, and says at the frame boundary what it is worth. The only code
-// that touches a sensor. It owns its state and nothing else: the image being filled belongs to the caller (who keeps two of them) and must
-// be the same one from start() to finish().
+// The acquisition of one scan: starts it, collects its samples call by call, and says at the frame boundary what it is worth. Besides it
+// only its caller, AcquisitionTask (fsw/exec/acquisition_task.hpp), calls a sensor. It owns its state and nothing else: the image being
+// filled belongs to the caller (who keeps two of them) and must be the same one from start() to finish().
 #pragma once
 
 #include <cstdint>

@@ -38,28 +38,32 @@ constexpr char kColumns[] = R"(# The modes
 Printed by `mdat modes` from the table that the component executes (`fsw/mode/modes.cpp`). Words: [glossary](glossary.md).
 
 The columns of the first table:
-- **confirms**: a valid pose confirms a start, and starts the filter anew. It has to explain `start.inlier_share_min` of the returns. It has to agree with
-  the prediction within `start.gate`. Where `start.check` is set, and its attitude is stated no better than 3° (1 sigma), its scan is searched. The start is `unchecked` until the search has found no
-  better pose. Where that search is not sure, another scan is searched, too.
-- **takes up**: the share of returns that a valid pose explains, and its agreement, have to exceed the limits of tracking by `tracking.hysteresis`. The
-  agreement has to by no more than half of what is missing to 1.
-- **awaits a start**: the next untried pose to start from is taken, in the mission's order `start.first` to `start.fifth`. Search has its turn in bearing,
-  once the bearing is known.
+- **scans**: where the sensor scans. *Aimed* is around the predicted target. With a *wide start* the registration may begin far off.
+- **confirms**: a valid pose confirms the start or the prediction, and starts the filter anew. It has to explain `start.inlier_share_min` of the returns, and
+  to agree with the prediction within `start.gate`. In starting, a pose from another source than search is checked as well, where `start.check` is set and the
+  attitude of the start is stated no better than to 3° (1 sigma): its scan is searched for a better pose. Poses are `unchecked` until the search ends. Where it
+  neither accepts the pose nor contradicts it, another scan is searched, once.
+- **takes up**: the share of returns that a valid pose explains has to exceed the limit of tracking by `tracking.hysteresis`. So has its agreement, but by no
+  more than half of the way from that limit to 1.
+- **awaits a start**: the next pose to start from that has not been tried is taken, in the mission's order `start.first` to `start.fifth`. A search is tried in
+  bearing alone, once the bearing is known.
 
 )";
 
 constexpr char kEvents[] = R"(Events of the second table:
-- `exhausted` and `recover` come when the mode's frames are used up and the mode is not held. `tracking.recover` says which of the two. The frames are
-  `start.frames`, `tracking.coast_frames`, `tracking.reacquire_frames` or `search.frames`.
-- A start that no scan confirmed ends with `fall_back` where it interrupted a track. It ends with `recover`, too, where the order leaves a search to be
-  tried.
-- `near` is a valid pose within `short_range.enter_m` of the target's origin, in tracking. `far` is one beyond `short_range.leave_m`, in short_range. Both
-  need a mode that is not held. Both may also be commanded.
-- An event that a mode has no row for changes nothing.
+- `exhausted` and `recover` come when more frames in a row than the mode allows gave no valid pose, and the mode is not held. `tracking.recover` says which of
+  the two. The frames allowed are `start.frames` in starting, `search.frames` in searching, `tracking.reacquire_frames` in reacquiring and
+  `tracking.coast_frames` in all other modes.
+- A start that no scan confirmed, or that its check contradicted, ends with `fall_back` where it interrupted a track. Otherwise it ends with `recover` also
+  where the mission's order names a search, unless that search gave the start. The search is then tried in bearing.
+- `near` comes with a valid pose in tracking, when the target's origin is within `short_range.enter_m`. `far` comes with one in short_range, when the origin is
+  beyond `short_range.leave_m`. The range causes neither while the mode is held. Both may
+  also be commanded: `set_mode mode=short_range` in tracking, `mode=tracking` in short_range.
+- An event without a row for the present mode changes nothing.
 
-After `near` or `far` the range does not change the mode back at once. Before that, a valid pose has to be where the mode is for. In short_range that is
-within `short_range.leave_m`, otherwise it is not within `short_range.enter_m`. Until then a short_range that was commanded far away stays, and so does a
-tracking close by. Another command ends it.
+After `near` or `far` the range does not change the mode back at once. First a valid pose has to be at a range that suits the mode: within
+`short_range.leave_m` in short_range, not within `short_range.enter_m` in any other mode. So a short_range that was commanded far away stays, and so does a
+tracking that was commanded close by. A new start ends this. Other commands still change the mode.
 
 )";
 

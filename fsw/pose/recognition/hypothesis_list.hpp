@@ -21,7 +21,7 @@ class HypothesisList {
  public:
   void clear() { list_.clear(); }
   void add(const Pose& T_target_sensor, double score);
-  // Leaves the best, at most kDrawn, best first; of those that came to the same attitude within 5 deg, one.
+  // Leaves the best, at most kAligned, best first; of those that came to the same attitude within 5 deg, one.
   void keep_best();
   std::size_t size() const { return list_.size(); }
   AlignedHypothesis& operator[](std::size_t i) { return list_[i]; }

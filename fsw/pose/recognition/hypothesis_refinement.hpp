@@ -15,7 +15,7 @@ struct RefinedHypothesis {
 
 struct FastRefineStart {
   Pose T_target_sensor;
-  HypothesisScore fit;  // of this pose; Fit() where it is not known, which no registration strays from
+  HypothesisScore fit;  // of this pose; HypothesisScore() where it is not known: then any registration is taken
 };
 
 // `work` is added to (work_units.hpp).

@@ -74,7 +74,7 @@ struct Label {
   Vec6 a;
 };
 
-// A place on a contour, or on a surface, that rays of the next scan can be aimed at. Rows and steps as of a label, or of a return.
+// A place on a contour, or on a surface, that rays of the scan planned next can be aimed at. Rows and steps as of a label, or of a return.
 struct AimPlace {
   enum class Fate : std::uint8_t { kOpen, kChosen, kNoContour };
 

@@ -18,7 +18,7 @@ ScanRectangle visible_outline(const Mission& mission, const View<FlightNumber>& 
 
 struct InformationForecast {
   Mat6 information = Mat6::Zero();  // of the pose: rotation about the target's origin and translation, target axes
-  int met = 0;                      // of the kOutlookRays: how many meet the model
+  int met = 0;                      // of the kForecastRays: how many meet the model
 };
 constexpr int kForecastColumns = 8, kForecastRows = 12;
 constexpr int kForecastRays = kForecastColumns * kForecastRows;
@@ -30,10 +30,10 @@ struct SeenPoint {
   Vec6 row = Vec6::Zero();
   double weight = 0;  // 1/m^2; 0: nothing met, or grazed
 };
-// The ray in the middle of field `index` of the kOutlookRays that the rectangle is divided into. Bound: a walk.
+// The ray in the middle of field `index` of the kForecastRays that the rectangle is divided into. Bound: a walk.
 SeenPoint look_at(const Mission& mission, const View<FlightNumber>& view, const ScanRectangle& rectangle, int index);
 
-// The returns of `rays` rays spread over the rectangle. Rays that graze the surface tell nothing. Bound: kOutlookRays walks.
+// The returns of `rays` rays spread over the rectangle. Rays that graze the surface tell nothing. Bound: kForecastRays walks.
 InformationForecast forecast_information(const Mission& mission, const View<FlightNumber>& view, const ScanRectangle& rectangle,
                                          double rays);
 

@@ -109,7 +109,7 @@ void add_surface(const AimSearch& s, const SeenPoint& seen, Workspace& workspace
   static_cast<void>(workspace.places.push_back(place));  // as many as fit
 }
 
-// What the pattern's `rays` rays will tell, as kOutlookRays of them show. Where one of these returns is a place, too.
+// What the pattern's `rays` rays will tell, as kForecastRays of them show. Where one of these returns is a place, too.
 Mat6 look_around(const AimSearch& s, double rays, Workspace& workspace) {
   const ScanRectangle rectangle = outline_of(s.mission, s.view);
   Mat6 information = Mat6::Zero();

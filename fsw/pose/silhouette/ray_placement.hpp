@@ -1,5 +1,5 @@
-// Where to look next: rays of the next scan at the contours that the model predicts, where a hit or a miss says most about what the rest
-// of the scan leaves uncertain, and at its surfaces, where returns do.
+// Where to look next: aimed rays of the scan that is planned next, two after the estimated one. They go to contours that the model
+// predicts, where a hit or a miss says most about what the rest of that scan leaves uncertain, and to its surfaces, where returns do.
 //
 // Places lie evenly along the contour edges of the predicted view. Each offers rows a of the labels (silhouette.hpp): a.x is how much a
 // step x of the pose moves the contour across the rays. Starting from the covariance C that the prediction and the scan's own returns
@@ -17,7 +17,7 @@
 
 namespace lasso {
 
-// What is known of the target for the middle of the next scan.
+// What is known of the target for the middle of that scan.
 struct RayPlacementRequest {
   std::uint32_t scan_id = 0;  // the offsets differ from scan to scan
   Pose T_sensor_target;
