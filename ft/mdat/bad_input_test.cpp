@@ -282,6 +282,7 @@ TEST(BadUsage, UnknownCommandsOptionsAndValues) {
   expect_refused(work, "benchmark score none a.csv --csv z.csv --json z.csv", "z.csv: is named twice");
   expect_refused(work, "benchmark make none --seed 4294967295 --bodies 2", "above 4294967295");
   expect_refused(work, "mission new --model none.stl --scale 1 -o m.toml", "none.stl");
+  expect_refused(work, "mission new --model x.stl --scale 1 --sensor stereo -o m.toml", "stereo");
 }
 
 TEST(Help, OnEachCommand) {

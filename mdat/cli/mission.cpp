@@ -263,8 +263,10 @@ void add_new_command(CLI::App& mission, const std::shared_ptr<MissionOptions>& o
       ->check(number_between(0.0, 4294967295.0));
   command->add_option("--kind", options->kind, "of the target that is made; otherwise the seed says it")
       ->check(CLI::IsMember(body_kind_names()));
-  command->add_option("--sensor", options->sensor, "otherwise guessed from the target's size")
-      ->check(CLI::IsMember(std::vector<std::string>(std::begin(kSensorKindNames), std::end(kSensorKindNames))));
+  command
+      ->add_option("--sensor", options->sensor,
+                   "otherwise guessed from the target's size; for stereo cameras begin with a copy of hubble_stereo.toml")
+      ->check(CLI::IsMember({"laser_camera", "time_of_flight", "flash_lidar"}));
   command->add_option("--scale", options->scale, "the file's lengths times this are metres")
       ->capture_default_str()
       ->check(number_between(1e-6, 1e6));
