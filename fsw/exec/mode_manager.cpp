@@ -1,5 +1,7 @@
 #include "fsw/exec/mode_manager.hpp"
 
+#include "fsw/core/renew.hpp"
+
 namespace lasso {
 namespace {
 
@@ -180,7 +182,7 @@ void ModeManager::take(ModeEvent event) {
   context_.scans.look_at_whole();
   if (event == ModeEvent::kNear || event == ModeEvent::kFar) return;
   context_.scans.drop_plans();
-  before_trial_ = TrackState{};
+  forget_before_trial();
 }
 
 void ModeManager::try_start(InitialPoseSource way) {
@@ -193,7 +195,7 @@ void ModeManager::try_start(InitialPoseSource way) {
   }
   note_change({before, ModeEvent::kStart, track_.mode});
   context_.scans.drop_plans();
-  before_trial_ = TrackState{};
+  forget_before_trial();
 }
 
 // Loop bound: each try takes an offer, of which there is one a source; a search awaits no other start. Where all are refused a search is
@@ -220,6 +222,14 @@ void ModeManager::take_source(InitialPoseSource way) {
   take(ModeEvent::kSearch);
 }
 
+void ModeManager::forget_before_trial() {
+  renew(before_trial_, [] { return TrackState{}; });
+}
+
+void ModeManager::forget_offers() {
+  renew(sources_, [] { return InitialPoseSources{}; });
+}
+
 void ModeManager::use_sensor(SensorNumber sensor) {
   if (track_.sensor != sensor) forget_common_errors(track_.filter);
   track_.sensor = sensor;
@@ -230,13 +240,13 @@ void ModeManager::follow_jump(DurationUs moved_us) {
   track_.check = StartCheck{};  // its scan is of another time
   former_.t_us += moved_us;
   track_.bearing.t_us += moved_us;
-  before_trial_ = TrackState{};
-  sources_ = InitialPoseSources{};
+  forget_before_trial();
+  forget_offers();
 }
 
 void ModeManager::take_over_track(bool kept, bool on_trial) {
   track_.check = StartCheck{};  // a search of the other image's tables
-  before_trial_ = TrackState{};
+  forget_before_trial();
   if (kept && on_trial) before_trial_ = track_;
   context_.scans.drop_plans();
   if (!kept) leave_target();
@@ -252,7 +262,7 @@ void ModeManager::restore_track() {
 
 // What was known of the target, and of the sensors, is of no use with an image of another one.
 void ModeManager::leave_target() {
-  sources_ = InitialPoseSources{};
+  forget_offers();
   context_.scans.forget_sensors();
   track_.filter = FilterState{};
   track_.sensor = 0;  // the other image may have fewer

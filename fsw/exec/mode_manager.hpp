@@ -90,6 +90,8 @@ class ModeManager {
   void note_change(const ModeChange& change);
   void doubt_track();
   void leave_target();
+  void forget_before_trial();
+  void forget_offers();
   void move_changes(PoseTelemetry& report);
 
   const ComponentContext& context_;
