@@ -12,9 +12,11 @@ namespace {
 
 TEST(Invariant, NothingHappensWhereItHolds) { invariant(true, "never said"); }
 
-TEST(Invariant, OutsideOfAComponentTheFailureNamesNone) { EXPECT_DEATH(invariant(false, "of nobody"), "failed: of nobody, of APID 0,"); }
+TEST(InvariantDeathTest, OutsideOfAComponentTheFailureNamesNone) {
+  EXPECT_DEATH(invariant(false, "of nobody"), "failed: of nobody, of APID 0,");
+}
 
-TEST(Invariant, TheFailureNamesTheComponentWhoseCodeRan) {
+TEST(InvariantDeathTest, TheFailureNamesTheComponentWhoseCodeRan) {
   VERIFIES("LASSO-COR-010~1");
   Identity first, second;
   first.apid = 0x3D1;
@@ -29,7 +31,7 @@ TEST(Invariant, TheFailureNamesTheComponentWhoseCodeRan) {
 }
 
 #ifdef __linux__
-TEST(Invariant, AnotherThreadRunsNobodysCode) {
+TEST(InvariantDeathTest, AnotherThreadRunsNobodysCode) {
   const Identity identity;
   const Running running(identity);
   EXPECT_DEATH(std::thread([] { invariant(false, "elsewhere"); }).join(), "elsewhere, of APID 0,");
