@@ -346,10 +346,10 @@ ppc-count: ## board: instructions of one estimate, by function; both number type
 	$(call compile,$(PPC)-soft-fixed,golden_replay)
 	@ft/ppc603e/count $(BUILD) $(PPC) $(FRAMES) fixed=$(CLANG),$(PPC)-fixed soft-float=$(BUILD),$(PPC)-soft soft-fixed=$(CLANG),$(PPC)-soft-fixed
 
-start-count: ## board: instructions of an estimate from a rough start, and those beyond a frame: STARTS= SEED= MISSION=
+start-count: ## board: instructions of an estimate from a rough start, and those beyond a frame: STARTS= SEED= MISSION= SCENARIO= RANGES=2,4,7
 	$(begin)
 	$(replays)
-	@ft/ppc603e/count-starts $(BUILD) $(PPC) $(or $(STARTS),300) $(or $(SEED),1) "$(MISSION)"
+	@ft/ppc603e/count-starts $(BUILD) $(PPC) $(or $(STARTS),300) $(or $(SEED),1) "$(MISSION)" "$(SCENARIO)" "$(RANGES)"
 
 search-count: ## board: instructions of a search, and its largest step: STARTS= SEED=
 	$(begin)
