@@ -7,6 +7,7 @@
 
 #include "mdat/link/dictionary_cosmos.hpp"
 #include "mdat/link/dictionary_text.hpp"
+#include "ut/link/pose_packet.hpp"
 #include "ut/support/verifies.hpp"
 
 namespace lasso::mdat {
@@ -176,7 +177,7 @@ TEST(DictionaryJson, HasEveryPacketItemAndChoice) {
   EXPECT_EQ(json.at("apid"), kApid);
   ASSERT_EQ(json.at("packets").size(), std::size(kPackets));
   const auto& pose = json.at("packets").at(0);
-  EXPECT_EQ(pose.at("size"), 835);
+  EXPECT_EQ(pose.at("size"), test::pose_packet_bytes());
   ASSERT_EQ(pose.at("items").size(), kPackets[0].items.size());
   EXPECT_EQ(pose.at("items").at(0).at("byte"), 22);
   EXPECT_TRUE(pose.at("items").at(0).at("maximum").is_null()) << "unbounded";
