@@ -176,7 +176,7 @@ inline constexpr Choice kServiceRefusals[] = {
   {"not_armed", "a hazardous command that the last arm did not name, or too long ago", "arm it, then send it again"},
   {"not_hazardous", "arm names no hazardous command", "see which commands are hazardous"},
   {"no_such_structure", "no structure has this number", "compare the sender's dictionary with this one"},
-  {"no_such_parameter", "no parameter has this number", "compare the sender's dictionary with this one"},
+  {"no_such_parameter", "no parameter has this id", "compare the sender's dictionary with this one"},
   {"fixed_parameter", "it is the mission image's alone", "upload an image that has it"},
   {"out_of_limits", "the value is outside of the parameter's limits, or not whole", "see the parameter's limits"},
   {"inconsistent", "the value contradicts another parameter", "change the other one first (short_range.leave_m stays above enter_m)"},

@@ -46,10 +46,10 @@ inline constexpr TypedRow<StructureCommand> kPeriod[] = {
   make_row<&StructureCommand::period_frames>(2, "period_frames", "1", kAny, "frames from one report to the next, 0: when there is news"),
 };
 inline constexpr TypedRow<ParameterCommand> kParameter[] = {
-  make_row<&ParameterCommand::parameter>(1, "parameter", "1", kAny, "its number"),
+  make_row<&ParameterCommand::parameter>(1, "parameter", "1", kAny, "its id"),
 };
 inline constexpr TypedRow<ParameterCommand> kSetParameter[] = {
-  make_row<&ParameterCommand::parameter>(1, "parameter", "1", kAny, "its number"),
+  make_row<&ParameterCommand::parameter>(1, "parameter", "1", kAny, "its id"),
   make_row<&ParameterCommand::value>(2, "value", "as it says", kAny, "new value, in the parameter's unit"),
 };
 inline constexpr TypedRow<StoredCommand> kStored[] = {

@@ -129,7 +129,7 @@ struct StoredCommand {
   std::uint8_t count = 0;  // of those that end with it
 };
 struct ParameterCommand {
-  std::uint16_t parameter = 0;  // row of parameter_rows()
+  std::uint16_t parameter = 0;  // ParameterRow::id
   double value = 0;             // kSetParameter: in the row's unit
 };
 struct CalibrationCommand {

@@ -135,7 +135,7 @@ inline constexpr ItemRow kFaultCleared[] = {
   choice_item(1, "fault", kFault, "that was not seen for as many frames as its row asks for"),
 };
 inline constexpr ItemRow kParameterChanged[] = {
-  number_item(1, "parameter", WireType::kU16, "1", "its number"),
+  number_item(1, "parameter", WireType::kU16, "1", "its id"),
   number_item(2, "value", WireType::kF64, "as it says", "in the parameter's unit"),
 };
 inline constexpr ItemRow kParametersRestored[] = {

@@ -156,7 +156,7 @@ class Subject {
 
   // By command, so that the copies are what a command makes of them.
   void change_parameter() {
-    ParameterCommand command{row_of("tracking.coast_frames"), kChanged};
+    ParameterCommand command{parameter_rows()[row_of("tracking.coast_frames")].id, kChanged};
     const PacketRow& row = command_rows::row_of(CommandKind::kSetParameter);
     std::uint8_t packet[kMaxCommandBytes];
     ByteWriter writer{Bytes(packet)};
@@ -165,8 +165,8 @@ class Subject {
     if (!component_->receive_packet({packet, finish_packet(writer, Bytes(packet))}, component_->next_slot_us()))
       throw mdat::RunError("no command");
   }
-  static std::uint16_t row_of(const char* key) {
-    std::uint16_t row = 0;
+  static std::size_t row_of(const char* key) {
+    std::size_t row = 0;
     while (std::strcmp(parameter_rows()[row].key, key) != 0) ++row;
     return row;
   }

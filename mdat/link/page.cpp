@@ -163,12 +163,11 @@ std::string kind_text(const ParameterRow& row) {
 }
 
 DocumentTable parameter_table() {
-  DocumentTable table{{"number", "name", "unit", "type", "least", "most", "preset", "set in flight", "meaning"}, {}};
-  std::size_t number_in_list = 0;
+  DocumentTable table{{"id", "name", "unit", "type", "least", "most", "preset", "set in flight", "meaning"}, {}};
+  std::size_t index = 0;
   for (const ParameterRow& row : parameter_rows()) {
-    const std::size_t i = number_in_list++;
-    table.rows.push_back({std::to_string(i), row.key, row.unit, kind_text(row), real_text(row.minimum), real_text(row.maximum),
-                          real_text(row.preset), is_changeable(i) ? "yes" : "no", row.meaning});
+    table.rows.push_back({std::to_string(row.id), row.key, row.unit, kind_text(row), real_text(row.minimum), real_text(row.maximum),
+                          real_text(row.preset), is_changeable(index++) ? "yes" : "no", row.meaning});
   }
   return table;
 }
@@ -290,7 +289,7 @@ std::vector<DocumentSection> interface_document(std::uint16_t apid) {
         "`revert_parameters` takes all changes back. Changes are kept apart from the image, in two copies with check sums that are "
         "compared in "
         "each frame (events `parameters_repaired` and `parameters_lost`), and hold for the next image, too. They end with a restart. `mdat "
-        "command` takes a parameter by its name."},
+        "command` takes a parameter by its name. Ids are never used again for another parameter, so a later version changes none of them."},
        parameter_table()});
   return document;
 }

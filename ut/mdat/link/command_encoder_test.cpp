@@ -1,9 +1,11 @@
 #include "mdat/link/command_encoder.hpp"
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "mdat/common/errors.hpp"
 #include "mdat/link/decode.hpp"
+#include "mdat/link/dictionary_text.hpp"
 #include "ut/support/generator.hpp"
 #include "ut/support/verifies.hpp"
 
@@ -71,6 +73,10 @@ TEST(CommandEncoder, TakesParametersByName) {
   VERIFIES("LASSO-GND-021~2");
   const PacketRow& row = command_row("report_parameter");
   EXPECT_EQ(encode_command(row, {{"parameter", "sensor.sigma_k_per_m"}}, 0), encode_command(row, {{"parameter", "1"}}, 0));
+  for (const nlohmann::json& parameter : nlohmann::json::parse(dictionary_json()).at("parameters")) {
+    const std::string name = parameter.at("name"), id = parameter.at("id").dump();
+    EXPECT_EQ(encode_command(row, {{"parameter", name}}, 0), encode_command(row, {{"parameter", id}}, 0)) << name;
+  }
   EXPECT_NE(refusal_of("report_parameter", {{"parameter", "sensor.size"}}).find("not an integer"), std::string::npos);
 }
 
