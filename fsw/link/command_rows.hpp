@@ -22,7 +22,7 @@ inline constexpr TypedRow<HoldCommand> kHold[] = {
   make_row<&HoldCommand::held>(1, "held", kYesNo, "no mode ends because its frames are used up, and no start is taken but by command"),
 };
 inline constexpr TypedRow<StartCommand> kStart[] = {
-  make_row<&StartCommand::way>(1, "way", kStartWay, "by which the pose comes: handover or uplink start at once, navigation waits for its turn"),
+  make_row<&StartCommand::source>(1, "start_source", kStartSource, "from which the pose comes: handover or uplink start at once, navigation waits for its turn"),
   make_row<&StartCommand::t_us>(2, "t_us", "us", kAny, "time at which pose and rates are stated"),
   make_row<&StartCommand::q_sensor_target>(3, "q_sensor_target", "1", kAny, "Hamilton quaternion x, y, z, w of unit length, target to sensor"),
   make_row<&StartCommand::p_sensor_target_m>(4, "p_sensor_target_m", "m", kAny, "target's origin in the sensor frame"),

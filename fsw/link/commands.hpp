@@ -109,8 +109,8 @@ struct HoldCommand {
   std::uint8_t held = 0;
 };
 struct StartCommand {
-  std::uint8_t way = 0;  // InitialPoseSource
-  TimeUs t_us = 0;       // at which the rest is stated
+  std::uint8_t source = 0;  // InitialPoseSource
+  TimeUs t_us = 0;          // at which the rest is stated
   double q_sensor_target[4] = {0, 0, 0, 1};
   double p_sensor_target_m[3] = {};
   double omega_radps[3] = {};  // sensor axes

@@ -45,7 +45,7 @@ inline constexpr ItemRow kModeChanged[] = {
   choice_item(3, "to", kTrackingMode, "mode after"),
 };
 inline constexpr ItemRow kStartRefused[] = {
-  choice_item(1, "way", kStartWay, "by which the pose came"),
+  choice_item(1, "start_source", kStartSource, "from which the pose came"),
   choice_item(2, "refusal", kStartRefusal, "why it is refused"),
 };
 inline constexpr ItemRow kCommandRefused[] = {
@@ -86,7 +86,7 @@ inline constexpr ItemRow kEstimateLate[] = {
 inline constexpr ItemRow kSlotLate[] = {
   number_item(1, "slot_slips", WireType::kU32, "1", "slots that began later than their own length, so far"),
 };
-inline constexpr ItemRow kPartOdd[] = {
+inline constexpr ItemRow kPartInconsistent[] = {
   number_item(1, "part", WireType::kU8, "1", "part of the target"),
   number_item(2, "sigmas", WireType::kF32, "1", "how far it is from the one it is farthest from"),
 };
@@ -183,7 +183,7 @@ inline constexpr EventRow kRows[] = {
    "a frame is reported without a pose", "the estimate of its scan was not done at its boundary", "look at the processor's load; give the period more time"},
   {EventId::kSlotLate, "slot_late", Severity::kLow, {1, 25}, Span<const ItemRow>(kSlotLate),
    "a slot began later than its own length", "the processor was busy elsewhere", "look at the processor's load"},
-  {EventId::kPartOdd, "part_odd", Severity::kLow, {4, 25}, Span<const ItemRow>(kPartOdd),
+  {EventId::kPartInconsistent, "part_inconsistent", Severity::kLow, {4, 25}, Span<const ItemRow>(kPartInconsistent),
    "a part of the target disagrees with the others", "it has moved, or its scans deceive", "look at the part; leave it out of the mission image if it has moved"},
   {EventId::kEventsSuppressed, "events_suppressed", Severity::kInformative, kEach, Span<const ItemRow>(kEventsSuppressed),
    "an event happened more often than it was told", "its row allows so many in so many frames", "see that event"},

@@ -41,7 +41,7 @@ enum class EventId : std::uint16_t {
   kScanLost = 11,
   kEstimateLate = 12,
   kSlotLate = 13,
-  kPartOdd = 14,
+  kPartInconsistent = 14,
   kEventsSuppressed = 15,
   kEventsDropped = 16,
   kCommandArmed = 17,

@@ -37,7 +37,7 @@ struct MissionParameters : SensorParameters {
   // [tracking] validity and loss
   double start_sigma_m, start_sigma_rad, inliers_min, inlier_share_min, agreement_min, sigma_position_max_m, sigma_attitude_max_rad,
       innovation_max, coast_frames, hysteresis, recover, reacquire_frames;
-  // [start] the ways to a pose to start from
+  // [start] the sources of a pose to start from
   double start_frames, start_inlier_share_min, start_gate, start_check, start_age_max_s, start_first, start_second, start_third,
       start_fourth, start_fifth;
   // [search] the first pose without any prior attitude

@@ -101,7 +101,7 @@ TEST(CommandDispatcher, AStartByUplinkIsTrackedFromTheNextBoundaryOn) {
   const PoseTelemetry pose = link.pose_of(link.run_frame());
   EXPECT_EQ(pose.scan_id, 1u) << "the scan of the frame behind the command";
   EXPECT_EQ(pose.valid, 1);
-  EXPECT_EQ(pose.start_way, static_cast<std::uint8_t>(InitialPoseSource::kUplink));
+  EXPECT_EQ(pose.start_source, static_cast<std::uint8_t>(InitialPoseSource::kUplink));
   EXPECT_LT(link.scene.error(pose).norm(), 1e-2);
 }
 

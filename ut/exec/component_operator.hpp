@@ -92,7 +92,7 @@ inline StartCommand true_start(TimeUs t_us) {
   const BoxScene truth = default_scene();
   const Pose pose = truth.pose_at(t_us);
   StartCommand start;
-  start.way = static_cast<std::uint8_t>(InitialPoseSource::kUplink);
+  start.source = static_cast<std::uint8_t>(InitialPoseSource::kUplink);
   start.t_us = t_us;
   const double q[4] = {pose.q.x(), pose.q.y(), pose.q.z(), pose.q.w()};
   for (std::size_t i = 0; i < 4; ++i) start.q_sensor_target[i] = q[i];

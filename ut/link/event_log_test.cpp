@@ -20,7 +20,7 @@ TEST(EventLog, KeepsWhatIsRaisedInOrderWithTimeAndItems) {
   log.set_time(7);
   log.raise<EventId::kBegun>(0x01020304U, 5U, 0xFFFFFFFFU, 2);
   log.set_time(8);
-  log.raise<EventId::kPartOdd>(3, -2.5);
+  log.raise<EventId::kPartInconsistent>(3, -2.5);
   ASSERT_EQ(log.records().size(), 2u);
   EXPECT_EQ(log.records()[0].id, EventId::kBegun);
   EXPECT_EQ(log.records()[0].severity, Severity::kInformative);

@@ -201,9 +201,9 @@ TEST_F(StartCheckTest, AnImplausibleScanEndsACheckThatWaitsForItsSecondSearch) {
 TEST_F(StartCheckTest, WhatWasSearchedOrIsFoundNearItsPredictionIsNotChecked) {
   VERIFIES("LASSO-MOD-184~4");
   start(small_error());
-  state_.way = InitialPoseSource::kSearch;
+  state_.source = InitialPoseSource::kSearch;
   EXPECT_EQ(try_frame(0).after.mode, TrackingMode::kTracking);
-  state_.way = InitialPoseSource::kUplink;
+  state_.source = InitialPoseSource::kUplink;
   EXPECT_EQ(try_frame(0).after.searches, 1u);
   change_mode(ModeEvent::kPoseValid, state_);
   change_mode(ModeEvent::kReacquire, state_);

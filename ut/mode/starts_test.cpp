@@ -171,7 +171,7 @@ TEST_F(StartsTest, TheDeskFollowsTheMissionsOrder) {
   EXPECT_EQ(desk.next(p, false), InitialPoseSource::kApriori);
   p.start_first = p.start_second = p.start_third = p.start_fourth = static_cast<double>(InitialPoseSource::kNone);
   EXPECT_EQ(desk.next(p, true), InitialPoseSource::kNone);
-  EXPECT_DEATH(desk.put(static_cast<InitialPoseSource>(kInitialPoseSources), offer_), "no such way");
+  EXPECT_DEATH(desk.put(static_cast<InitialPoseSource>(kInitialPoseSources), offer_), "no such source");
 }
 
 TEST_F(StartsTest, SearchHasItsTurnWhereItIsPossibleAndAgainWhenAllElseIsTried) {
@@ -190,7 +190,7 @@ TEST_F(StartsTest, SearchHasItsTurnWhereItIsPossibleAndAgainWhenAllElseIsTried) 
   EXPECT_EQ(desk.next(p, false), InitialPoseSource::kNone);
 }
 
-TEST_F(StartsTest, TheOrderNamesItsWays) {
+TEST_F(StartsTest, TheOrderNamesItsSources) {
   VERIFIES("LASSO-MOD-133~3");
   MissionParameters& p = mission_.parameters;
   p.start_first = static_cast<double>(InitialPoseSource::kSearch);

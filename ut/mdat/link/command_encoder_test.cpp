@@ -96,9 +96,9 @@ TEST(CommandEncoder, WhatIsWrongIsNamedWithItsPlaceAndRemedy) {
   EXPECT_NE(refusal_of("correlate_time", {{"component_us", "1.5"}, {"spacecraft_us", "0"}}).find("not an integer"), std::string::npos);
   EXPECT_THROW(split_argument("mode"), InputError);
   EXPECT_EQ(split_argument("a=b=c").second, "b=c");
-  std::map<std::string, std::string> start{
-      {"way", "uplink"},        {"t_us", "0"},     {"q_sensor_target", "0,0,0"}, {"p_sensor_target_m", "0,0,1"},
-      {"omega_radps", "0,0,0"}, {"v_mps", "0,0,0"}};
+  std::map<std::string, std::string> start{{"start_source", "uplink"},   {"t_us", "0"},
+                                           {"q_sensor_target", "0,0,0"}, {"p_sensor_target_m", "0,0,1"},
+                                           {"omega_radps", "0,0,0"},     {"v_mps", "0,0,0"}};
   EXPECT_NE(refusal_of("offer_start", start).find("q_sensor_target=0,0,0: has 3 values, and needs 4"), std::string::npos);
 }
 
