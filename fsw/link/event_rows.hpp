@@ -8,7 +8,7 @@
 
 namespace lasso {
 
-// At most so many in so many frames; what is beyond is counted, and the count told (events_suppressed). 0: each one is told.
+// At most so many in so many frames; what is beyond is counted, and the count reported (events_suppressed). 0: each one is reported.
 struct Throttle {
   std::uint16_t most;
   std::uint16_t frames;
@@ -92,10 +92,10 @@ inline constexpr ItemRow kPartInconsistent[] = {
 };
 inline constexpr ItemRow kEventsSuppressed[] = {
   {1, "event", WireType::kU16, 1, "1", Range{1, static_cast<double>(kEvents) - 1}, &Names::kEvent, "that was raised too often"},
-  number_item(2, "suppressed", WireType::kU32, "1", "times that it was not told"),
+  number_item(2, "suppressed", WireType::kU32, "1", "times that it was not reported"),
 };
 inline constexpr ItemRow kEventsDropped[] = {
-  number_item(1, "dropped", WireType::kU32, "1", "events that were not told, so far"),
+  number_item(1, "dropped", WireType::kU32, "1", "events that were not reported, so far"),
 };
 inline constexpr ItemRow kArmed[] = {
   number_item(1, "service", WireType::kU8, "1", "of the hazardous command"),
@@ -170,7 +170,7 @@ inline constexpr EventRow kRows[] = {
   {EventId::kBytesSkipped, "bytes_skipped", Severity::kLow, {1, 25}, Span<const ItemRow>(kBytesSkipped),
    "bytes from the ground belonged to no packet", "noise on the link, or a damaged command", "look at the link; send again what was not answered"},
   {EventId::kPacketsDropped, "packets_dropped", Severity::kMedium, {1, 25}, Span<const ItemRow>(kPacketsDropped),
-   "telemetry is lost", "the queue was full: the link takes less than there is to tell", "look at the link, or ask for less"},
+   "telemetry is lost", "the queue was full: the link takes less than there is to report", "look at the link, or ask for less"},
   {EventId::kSensorChanged, "sensor_changed", Severity::kInformative, {4, 25}, Span<const ItemRow>(kSensorChanged),
    "another sensor takes the scans", "the item reason says it", ""},
   {EventId::kSensorFailed, "sensor_failed", Severity::kMedium, {4, 250}, Span<const ItemRow>(kSensorOnly),
@@ -186,7 +186,7 @@ inline constexpr EventRow kRows[] = {
   {EventId::kPartInconsistent, "part_inconsistent", Severity::kLow, {4, 25}, Span<const ItemRow>(kPartInconsistent),
    "a part of the target disagrees with the others", "it has moved, or its scans deceive", "look at the part; leave it out of the mission image if it has moved"},
   {EventId::kEventsSuppressed, "events_suppressed", Severity::kInformative, kEach, Span<const ItemRow>(kEventsSuppressed),
-   "an event happened more often than it was told", "its row allows so many in so many frames", "see that event"},
+   "an event happened more often than it was reported", "its row allows so many in so many frames", "see that event"},
   {EventId::kEventsDropped, "events_dropped", Severity::kLow, {1, 25}, Span<const ItemRow>(kEventsDropped),
    "events are lost", "more were raised in a frame than it holds", ""},
   {EventId::kCommandArmed, "command_armed", Severity::kInformative, kEach, Span<const ItemRow>(kArmed),

@@ -101,7 +101,7 @@ const ParameterRow kRows[] = {
   {84, "short_range.rest_frames", "1", kInteger, &P::rest_frames, 1, 0, 10000, 25, "", "frames for which a part that disagrees, or gives no pose, is left out"},
   {85, "image.trial_scans", "1", kInteger, &P::image_trial_scans, 1, 0, 1000, 10, "", "scans in which an image that takes this one's place has to give valid poses, or is taken back; 0: it is trusted"},
   {86, "image.trial_valid_min", "1", kInteger, &P::image_trial_valid_min, 1, 1, 1000, 3, "", "valid poses that it has to give in them"},
-  {87, "link.silence_max_s", "s", kReal, &P::link_silence_max_s, 1, 0, 1e6, 0, "", "without a valid command for longer, the fault link_silent is told; 0: it is not watched for"},
+  {87, "link.silence_max_s", "s", kReal, &P::link_silence_max_s, 1, 0, 1e6, 0, "", "without a valid command for longer, the fault link_silent is reported; 0: it is not watched for"},
   {88, "tracking.initial.present", "1", kBoolean, &P::initial_present, 1, 0, 1, 0, "", "tracking starts from the pose below"},
   {89, "tracking.initial.qx", "1", kReal, &P::initial_qx, 1, -1, 1, 0, "", "quaternion of T_sensor_target"},
   {90, "tracking.initial.qy", "1", kReal, &P::initial_qy, 1, -1, 1, 0, "", "quaternion of T_sensor_target"},

@@ -166,7 +166,7 @@ class Stranger {
     if (below(2) == 0) repair(packet);
     return packet;
   }
-  // One or two bits that the code has to cover, and a check sum that is right.
+  // One or two bits that the code has to cover, and a checksum that is right.
   Packet changed(Packet packet) {
     for (std::size_t i = below(2) + 1; i > 0; --i) {
       std::uint8_t& place = packet[below(packet.size() - kCrc)];

@@ -28,7 +28,7 @@ std::string agreement_fault(const Subject& s) {
   const double contradicting = 1 - s.p.agreement_min;
   if (s.scenario != nullptr || contradicting <= kMostContradicting) return "";
   return "as many rays as " + percent_text(contradicting) +
-         " of the returns may contradict a pose: a target that is not as modelled is then not told; the preset is " +
+         " of the returns may contradict a pose: a target that is not as modelled is then not reported; the preset is " +
          figure(preset_parameters().agreement_min);
 }
 
@@ -99,7 +99,7 @@ std::string fast_start_fault(const Subject& s) {
 std::string silence_fault(const Subject& s) {
   if (s.p.link_silence_max_s == 0 || s.p.link_silence_max_s >= s.p.period_s) return "";
   return "is less than filter.period_s, which is " + figure(s.p.period_s) +
-         " s: link_silent would be told between any two commands; 0 is never";
+         " s: link_silent would be reported between any two commands; 0 is never";
 }
 
 template <int kTurn>

@@ -1,4 +1,4 @@
-// The component's search for a target of which nothing is known, as telemetry tells it.
+// The component's search for a target of which nothing is known, as telemetry states it.
 #include <cmath>
 
 #include "ut/exec/mode_story.hpp"
@@ -180,7 +180,7 @@ TEST(ComponentSearch, ALostTargetIsLookedForNearItsPredictionThenSearched) {
   EXPECT_LT(scene.error(story.last()).norm(), 1e-2);
 }
 
-// A box looks alike from several sides: never a guess, and the candidates are told.
+// A box looks alike from several sides: never a guess, and the candidates are reported.
 TEST(ComponentSearch, AnAmbiguousTargetIsNeverTracked) {
   VERIFIES("LASSO-MOD-124~1 LASSO-MOD-120~1 LASSO-MOD-136~3");
   MissionParameters p = story_parameters();

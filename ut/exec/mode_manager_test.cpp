@@ -1,4 +1,4 @@
-// The component's modes, starts and commands, as telemetry tells them.
+// The component's modes, starts and commands, as telemetry states them.
 #include <cmath>
 
 #include "ut/exec/mode_story.hpp"
@@ -334,7 +334,7 @@ TEST(ModeManager, ACommandTakesThePlaceOfTheOneBefore) {
   EXPECT_EQ(story.last().mode, code(M::kBearing)) << "the hand-over is not left to be tried";
 }
 
-// A command in each frame leaves no scan to be reported; the changes are told all the same, in order, by packets of their own.
+// A command in each frame leaves no scan to be reported; the changes are reported all the same, in order, by packets of their own.
 TEST(ModeManager, NoChangeOfTheModeGoesUntold) {
   VERIFIES("LASSO-MOD-137~1");
   ComponentScene scene(story_parameters());

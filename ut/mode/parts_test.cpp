@@ -168,7 +168,7 @@ TEST_F(ComparePartsTest, TheMajorityIsRightWhoeverCameFirst) {
   EXPECT_EQ(report_.inconsistent, 1);
   EXPECT_NEAR(report_.inconsistency_sigmas, 20, 1e-4);
   EXPECT_TRUE(rests_now(1, 13));
-  EXPECT_FALSE(rests_now(2, 13)) << "pardoned";
+  EXPECT_FALSE(rests_now(2, 13)) << "reinstated";
   EXPECT_EQ(see(13, 2, 0), PoseReason::kValid);
   EXPECT_EQ(report_.inconsistent, kWhole) << "the inconsistent one rests already: no news";
 }

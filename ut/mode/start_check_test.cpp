@@ -84,7 +84,7 @@ TEST_F(StartCheckTest, ARightStartIsBelievedOnceTheSearchHasFoundNothingElse) {
   EXPECT_EQ(step.event, ModeEvent::kPoseValid);
   EXPECT_EQ(step.after.mode, TrackingMode::kTracking);
   EXPECT_EQ(step.after.check.stage, Stage::kNone);
-  EXPECT_NE(step.search.outcome, SearchOutcome::kNone) << "what it found is told";
+  EXPECT_NE(step.search.outcome, SearchOutcome::kNone) << "what it found is reported";
   EXPECT_EQ(step.after.filter.accepted, k) << "the track was followed meanwhile";
   EXPECT_LT(error(step.after.filter.T_sensor_target, 0).norm(), 5e-3);
 }
