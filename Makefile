@@ -191,14 +191,14 @@ montecarlo: ## measure: 2000 closed-loop flights drawn at random: how often a po
 	$(begin)
 	$(call fly,$(FLIGHTS))
 
-flips: ## measure: 10000 flights, each with one flipped bit: masked, told, silent: FLIPS= SEED=
+flips: ## measure: 10000 flights, each with one flipped bit: masked, reported, silent: FLIPS= SEED=
 	$(begin)
 	$(call packages,build)
 	$(call configure,$(BUILD),)
 	$(call compile,$(BUILD),flips)
 	@ft/campaign/run flips $(BUILD) $(or $(FLIPS),10000) $(or $(SEED),1)
 
-scrub: ## measure: 100000 flips in what the scrub protects: told in time or not: FLIPS= SEED=
+scrub: ## measure: 100000 flips in what the scrub protects: reported in time or not: FLIPS= SEED=
 	$(begin)
 	$(call packages,build)
 	$(call configure,$(BUILD),)

@@ -35,7 +35,7 @@ class TcpClients {
   explicit TcpClients(const Heard& heard) : heard_(heard) {}
 
   void add(Descriptor socket, Time now);
-  // A packet with right check sum, of one client after the other; 0: there is none.
+  // A packet with right checksum, of one client after the other; 0: there is none.
   std::size_t read(Bytes out, Time now);
   // The last packet came from who may command.
   void vouch(Time now);

@@ -91,7 +91,7 @@ class ImageKeeper {
   void step(std::size_t sensors);
   // One slot's share of the scrub, of slots of this length. True: something was found, which repair() answers.
   bool scrub(DurationUs slot_us);
-  // At a boundary, while nobody uses the active image. What cannot be repaired is told again in each pass.
+  // At a boundary, while nobody uses the active image. What cannot be repaired is reported again in each pass.
   MemoryFinding repair();
   bool found() const { return scrub_.found(); }
 

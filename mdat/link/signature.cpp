@@ -53,7 +53,7 @@ Packet Signer::sign(const Packet& packet) {
   const ConstBytes bytes = view(packet);
   const std::uint16_t apid = bytes.size() < kPrimaryHeaderBytes ? kApid : read_primary_header(bytes).apid;  // whoever it is for
   if (parse_command(bytes, header, data, apid) != PacketFault::kNone) throw RunError("what is no command is not signed");
-  // The code covers the length field as it will be: the packet is finished once for that, and once for its check sum.
+  // The code covers the length field as it will be: the packet is finished once for that, and once for its checksum.
   Packet out(packet.size() + kTrailerBytes);
   const auto finish = [&](const Digest& code) {
     ByteWriter writer{Bytes(out.data(), out.size())};

@@ -27,7 +27,7 @@ enum class UploadEnd {
   kConfirmed,  // active, and has given valid poses
 };
 
-// The check sum by which a component names an image: its last four bytes, before its signature.
+// The checksum by which a component names an image: its last four bytes, before its signature.
 std::uint32_t image_crc(const std::vector<std::uint8_t>& image);
 
 // What a component that has `key` takes: an image that is not signed is signed with it, where it is the master; without a key the signature

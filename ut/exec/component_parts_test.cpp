@@ -48,7 +48,7 @@ TEST(ComponentParts, ScansThePartsInTurnAndHandsOverBothWays) {
   double wholes = 0;
   for (const PoseTelemetry& t : run(scene, 40)) {
     EXPECT_EQ(t.valid, 1) << t.scan_id << " " << to_string(static_cast<PoseReason>(t.reason));
-    EXPECT_EQ(t.odd_parts, 0U);
+    EXPECT_EQ(t.inconsistent_parts, 0U);
     EXPECT_EQ(t.parts_resting, 0);
     const Vec6 e = scene.error(t);
     EXPECT_LT(e.head<3>().norm(), 5e-3) << t.scan_id;
@@ -107,19 +107,19 @@ TEST(ComponentParts, APartThatIsNotWhereItsModelSaysIsDroppedAndTold) {
   parts[2].T_target_part.p += Vec3(0, 0.006, 0.004);
   ComponentScene scene(leaving_scene(), image_with_parts(parts));
   scene.begin();
-  std::uint32_t odd = 0;
+  std::uint32_t inconsistent = 0;
   for (const PoseTelemetry& t : run(scene, 22)) {
-    if (t.odd_part != 0) {
-      ++odd;
-      EXPECT_EQ(t.odd_part, 3);
+    if (t.inconsistent_part != 0) {
+      ++inconsistent;
+      EXPECT_EQ(t.inconsistent_part, 3);
       EXPECT_EQ(t.parts_resting, 4);
-      EXPECT_GT(t.odd_sigmas, 6);
+      EXPECT_GT(t.inconsistency_sigmas, 6);
     }
-    EXPECT_EQ(t.odd_parts, odd);
+    EXPECT_EQ(t.inconsistent_parts, inconsistent);
     if (t.valid == 0) continue;
     EXPECT_LT(scene.error(t).tail<3>().norm(), 3e-3) << t.scan_id;
   }
-  EXPECT_GE(odd, 1U);
+  EXPECT_GE(inconsistent, 1U);
 }
 
 // In both directions the track goes on without a gap, and stays where it was commanded whatever the range.

@@ -11,7 +11,7 @@ using test::first_image;
 using test::MemoryScene;
 using ComponentScrub = test::MemoryFixture;
 
-// Flips while tracking: told within a period of the scrub, and poses go on.
+// Flips while tracking: reported within a period of the scrub, and poses go on.
 TEST_F(ComponentScrub, FlipsAreToldAndRepairedWhileTracking) {
   VERIFIES("LASSO-IMG-016~1 LASSO-IMG-017~1 LASSO-HLT-010~3");
   scene_->begin(first_image());

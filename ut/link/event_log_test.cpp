@@ -20,7 +20,7 @@ TEST(EventLog, KeepsWhatIsRaisedInOrderWithTimeAndItems) {
   log.set_time(7);
   log.raise<EventId::kBegun>(0x01020304U, 5U, 0xFFFFFFFFU, 2);
   log.set_time(8);
-  log.raise<EventId::kPartOdd>(3, -2.5);
+  log.raise<EventId::kPartInconsistent>(3, -2.5);
   ASSERT_EQ(log.records().size(), 2u);
   EXPECT_EQ(log.records()[0].id, EventId::kBegun);
   EXPECT_EQ(log.records()[0].severity, Severity::kInformative);
@@ -32,11 +32,11 @@ TEST(EventLog, KeepsWhatIsRaisedInOrderWithTimeAndItems) {
   EXPECT_TRUE(log.records().empty());
 }
 
-// Records that are to be told.
+// Records that are to be reported.
 std::vector<EventId> told(const EventLog& log) {
   std::vector<EventId> ids;
   for (const EventRecord& event : log.records()) {
-    if (event.told) ids.push_back(event.id);
+    if (event.reported) ids.push_back(event.id);
   }
   return ids;
 }
@@ -141,7 +141,7 @@ TEST(EventLog, AFlippedBitOfAWindowSuppressesNothing) {
   EXPECT_FALSE(log.records().empty()) << "a new window";
 }
 
-// Nothing is lost without being counted: told, suppressed and dropped make up all that was raised.
+// Nothing is lost without being counted: reported, suppressed and dropped make up all that was raised.
 TEST(EventLog, EveryEventOfAStormIsToldOrCounted) {
   VERIFIES("LASSO-LNK-015~1");
   EventLog log;

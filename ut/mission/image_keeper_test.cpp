@@ -138,7 +138,7 @@ TEST_F(KeeperTest, RefusesPartsThatDoNotBelong) {
   for (std::uint32_t at = 0; at < 1000; at += 256) {
     EXPECT_EQ(keeper_->put(at, ConstBytes(part, std::min(256U, 1000 - at))), ImageRefusal::kNone);
   }
-  EXPECT_EQ(keeper_->begin_check(), ImageRefusal::kOtherImage);  // its last bytes are not the check sum that was named
+  EXPECT_EQ(keeper_->begin_check(), ImageRefusal::kOtherImage);  // its last bytes are not the checksum that was named
   ASSERT_EQ(keeper_->open(1200, 2), ImageRefusal::kNone);
   EXPECT_EQ(keeper_->map().loaded(), 0U);
 }

@@ -60,7 +60,7 @@ TEST_F(TrackerTest, MovesTheStartToItsFrame) {
   EXPECT_LT(error(state_.filter.T_sensor_target, 1000000).norm(), 1e-12);
   EXPECT_EQ(state_.filter.t_us, 1000000);
   EXPECT_EQ(state_.mode, TrackingMode::kStarting);
-  EXPECT_EQ(state_.way, InitialPoseSource::kUplink);
+  EXPECT_EQ(state_.source, InitialPoseSource::kUplink);
 }
 
 TEST_F(TrackerTest, RefusesAStartThatMeansNothing) {

@@ -99,7 +99,7 @@ TEST(Decode, AgreesWithTheFlightDecoderForAllBytes) {
     const DecodedPacket& ground = decoded.packets.front();
     EXPECT_EQ(std::get<std::int64_t>(item(ground, "image_crc").values[0]), pose.image_crc);
     EXPECT_EQ(std::get<std::int64_t>(item(ground, "t_search_us").values[0]), pose.t_search_us);
-    EXPECT_EQ(std::get<std::int64_t>(item(ground, "odd_parts").values[0]), pose.odd_parts);
+    EXPECT_EQ(std::get<std::int64_t>(item(ground, "inconsistent_parts").values[0]), pose.inconsistent_parts);
     EXPECT_EQ(text_of(item(ground, "bearing").values[5]), text_of(Number(pose.bearing[5])));
   }
 }

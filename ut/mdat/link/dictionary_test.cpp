@@ -1,6 +1,7 @@
 #include "fsw/link/dictionary.hpp"
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
@@ -183,7 +184,10 @@ TEST(DictionaryJson, HasEveryPacketItemAndChoice) {
   EXPECT_TRUE(pose.at("items").at(0).at("maximum").is_null()) << "unbounded";
   EXPECT_EQ(pose.at("items").at(5).at("enumeration"), "pose_reason");
   EXPECT_EQ(json.at("enumerations").at("pose_reason").at(11).at("name"), "implausible");
-  EXPECT_GT(json.at("parameters").size(), 70U);
+  std::map<int, std::string> parameters;
+  for (const auto& parameter : json.at("parameters")) EXPECT_TRUE(parameters.emplace(parameter.at("id"), parameter.at("name")).second);
+  EXPECT_GT(parameters.size(), 70U);
+  EXPECT_EQ(parameters.at(60), "tracking.coast_frames");
 }
 
 // The dictionary of another component is the preset's with another number, in each format where packets are told apart by it.
