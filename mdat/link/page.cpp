@@ -267,7 +267,7 @@ std::vector<DocumentSection> transport_sections() {
         "By TCP up to four may be connected, and each one's commands are taken. The first one is told telemetry, until another one has "
         "sent "
         "a valid command while it has sent none for 30 s, or never; where somebody else waits, one who never sent any is sent away after "
-        "30 s."},
+        "30 s. An answer goes to who asked alone."},
        {}},
       {2, "Types", {}, type_table()}};
 }
