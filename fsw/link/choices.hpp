@@ -197,10 +197,12 @@ inline constexpr Choice kServiceRefusals[] = {
   {"nothing_stored", "the store has no such record that is right", "save it first; ask for an event that was reported"},
   {"other_table", "it was saved by software with other parameters", "set the parameters again, and save them"},
   {"no_calibration", "the active image has no such calibration", "name a sensor and a calibration of the mission; see its calibration lists"},
-  {"no_such_key", "the board has no key of this number, or no keys; numbers grow", "name the number after that of the key in use"},
+  {"no_such_key", "the board has no key of this number, or no keys; numbers grow, and are used up at 4294967295",
+   "name the number after that of the key in use; where they are used up, start with a new master key"},
   {"key_on_trial", "another key is on trial", "confirm it, or wait until it is given up"},
   {"no_key_on_trial", "no key of this number is on trial", "send change_key"},
   {"not_by_new_key", "the command is not signed with the key that it confirms", "sign it with the new key"},
+  {"not_kept", "the board cannot store that this key is in use: a restart would lose it", "look at the board's store; confirm it again before the trial ends"},
 };
 inline constexpr Choice kStructureNames[] = {
   {"none", "no structure"},

@@ -61,7 +61,7 @@ inline constexpr TypedRow<CalibrationCommand> kCalibration[] = {
   make_row<&CalibrationCommand::calibration>(2, "calibration", "1", Range{0, kMaxCalibrations - 1.0}, "of those that the active image has for it, from 0 in the mission's order"),
 };
 inline constexpr TypedRow<KeyCommand> kKey[] = {
-  make_row<&KeyCommand::number>(1, "number", "1", Range{1, 4294967295.0}, "of the new key; the key itself is never sent"),
+  make_row<&KeyCommand::number>(1, "number", "1", Range{1, 4294967295.0}, "of the new key, larger by a small step than that of the key in use; the key itself is never sent"),
 };
 inline constexpr TypedRow<TimeCommand> kTime[] = {
   make_row<&TimeCommand::component_us>(1, "component_us", "us", kCucRange, "a moment in the component's time, that of the items ..."),

@@ -100,6 +100,7 @@ enum class ServiceRefusal : std::uint8_t {
   kKeyOnTrial = 27,
   kNoKeyOnTrial = 28,
   kNotByNewKey = 29,
+  kNotKept = 30,
 };
 
 struct ModeCommand {
