@@ -81,8 +81,8 @@ void describe_bearing(const Bearing& bearing, PoseTelemetry& out) {
 void describe_candidate(const SearchCandidate& candidate, std::size_t index, PoseTelemetry& out) {
   double q[4], p[3];
   copy_pose(candidate.T_sensor_target, q, p);
-  for (std::size_t i = 0; i < 4; ++i) out.candidate_q[4 * index + i] = static_cast<float>(q[i]);
-  for (std::size_t i = 0; i < 3; ++i) out.candidate_p_m[3 * index + i] = static_cast<float>(p[i]);
+  for (std::size_t i = 0; i < 4; ++i) out.candidate_q_sensor_target[4 * index + i] = static_cast<float>(q[i]);
+  for (std::size_t i = 0; i < 3; ++i) out.candidate_p_sensor_target_m[3 * index + i] = static_cast<float>(p[i]);
 }
 
 void describe_search(const SearchResult& search, PoseTelemetry& out) {

@@ -100,12 +100,14 @@ DisabledEvents EventLog::disabled() const {
   return disabled;
 }
 
+// A flipped bit can make a window end early, or begin anew: what was suppressed in it is told after two windows at the latest.
 void EventLog::pass_boundary() {
   records_.clear();
   for (std::size_t i = 0; i < kEvents; ++i) {
     State& state = states_[i];
-    if (state.frames_left == 0) continue;
-    --state.frames_left;
+    const std::uint16_t longest = kRows.of[i].throttle.frames;
+    if (state.frames_left > longest) state.frames_left = longest;
+    if (state.frames_left > 0) --state.frames_left;
     if (state.frames_left > 0 || state.suppressed == 0) continue;
     if (!state.disabled) raise<EventId::kEventsSuppressed>(i, state.suppressed);
     state.suppressed = 0;

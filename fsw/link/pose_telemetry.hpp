@@ -87,9 +87,9 @@ struct PoseTelemetry {
   float search_ratio = 0;
   float search_disagreement = 0;
   std::uint32_t search_work = 0;
-  TimeUs t_search_us = 0;                            // at which the candidates are stated
-  float candidate_q[4 * kTelemetryCandidates] = {};  // as q_sensor_target, one after the other
-  float candidate_p_m[3 * kTelemetryCandidates] = {};
+  TimeUs t_search_us = 0;                                          // at which the candidates are stated
+  float candidate_q_sensor_target[4 * kTelemetryCandidates] = {};  // as q_sensor_target, one after the other
+  float candidate_p_sensor_target_m[3 * kTelemetryCandidates] = {};
 
   std::uint8_t part = 0;                 // that the scan looked at, from 1 in the image's order; 0: the target as a whole
   std::uint8_t parts_resting = 0;        // bit i: part i + 1 is left out for some scans

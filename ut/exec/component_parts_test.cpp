@@ -39,7 +39,7 @@ std::vector<PoseTelemetry> run(ComponentScene& scene, int frames) {
 }
 
 TEST(ComponentParts, ScansThePartsInTurnAndHandsOverBothWays) {
-  VERIFIES("LASSO-MOD-161~1 LASSO-MOD-162~1 LASSO-MOD-164~1 LASSO-MOD-171~1");
+  VERIFIES("LASSO-MOD-161~2 LASSO-MOD-162~1 LASSO-MOD-164~1 LASSO-MOD-171~1");
   ComponentScene scene(leaving_scene(), image_with_parts(test::two_halves()));
   scene.begin();
   ASSERT_EQ(scene.component->parts().size(), 2U);
@@ -64,7 +64,7 @@ TEST(ComponentParts, ScansThePartsInTurnAndHandsOverBothWays) {
 }
 
 TEST(ComponentParts, APartWhoseScansOutlastThePeriodIsRefused) {
-  VERIFIES("LASSO-MOD-161~1");
+  VERIFIES("LASSO-EXE-008~2");
   MissionParameters p = parameters();
   p.duration_s = 2 * p.period_s;
   const test::BoxTables whole = test::make_box_tables(test::BoxModel{});
@@ -84,7 +84,7 @@ TEST(ComponentParts, AModeThatIsLeftWhereItIsEnteredIsRefused) {
 }
 
 TEST(ComponentParts, AScanOfAPartIsLaidOverThePart) {
-  VERIFIES("LASSO-MOD-161~1");
+  VERIFIES("LASSO-MOD-161~2");
   ComponentScene scene(leaving_scene(), image_with_parts(test::two_halves()));
   scene.begin();
   double whole = 0;

@@ -224,9 +224,9 @@ TEST(Report, CarriesTheSearchAndItsFirstCandidates) {
   EXPECT_EQ(t.search_disagreement, 0.125F);
   EXPECT_EQ(t.search_work, 3000000u);
   ASSERT_EQ(t.search_candidates, kTelemetryCandidates);
-  EXPECT_EQ(t.candidate_q[4 * 3 + 1], -0.5F);
-  EXPECT_EQ(t.candidate_q[4 * 3 + 3], 0.5F);
-  EXPECT_EQ(t.candidate_p_m[3 * 2 + 1], 12.0F);
+  EXPECT_EQ(t.candidate_q_sensor_target[4 * 3 + 1], -0.5F);
+  EXPECT_EQ(t.candidate_q_sensor_target[4 * 3 + 3], 0.5F);
+  EXPECT_EQ(t.candidate_p_sensor_target_m[3 * 2 + 1], 12.0F);
   EXPECT_EQ(numbered_report().search_candidates, 0);
 }
 

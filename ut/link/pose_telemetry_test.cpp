@@ -77,8 +77,8 @@ TEST(PoseTelemetry, LiesAtTheseBytes) {
   EXPECT_EQ(offset_of("search_outcome"), 679u);
   EXPECT_EQ(offset_of("search_ratio"), 683u);
   EXPECT_EQ(offset_of("t_search_us"), 695u);
-  EXPECT_EQ(offset_of("candidate_q"), 703u);
-  EXPECT_EQ(offset_of("candidate_p_m"), 767u);
+  EXPECT_EQ(offset_of("candidate_q_sensor_target"), 703u);
+  EXPECT_EQ(offset_of("candidate_p_sensor_target_m"), 767u);
   EXPECT_EQ(offset_of("part"), 815u);
   EXPECT_EQ(offset_of("inconsistency_sigmas"), 818u);
   EXPECT_EQ(encode(PoseTelemetry{}).size(), 835u);
