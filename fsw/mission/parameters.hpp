@@ -59,10 +59,10 @@ enum class ParameterKind : std::uint8_t { kReal, kInteger, kBoolean, kChoice };
 constexpr std::uint16_t kNextParameterId = 102;
 
 struct ParameterRow {
-  std::uint16_t id;  // names the parameter on the link, wherever its row stands
-  const char* key;   // TOML path, e.g. "sensor.fov_half_x_deg"
-  const char* unit;  // unit of the TOML value: "m", "deg", "1", ...
-  ParameterKind kind;
+  std::uint16_t id;    // names the parameter on the link, wherever its row stands
+  ParameterKind kind;  // beside the id, where it takes no room in a flight image
+  const char* key;     // TOML path, e.g. "sensor.fov_half_x_deg"
+  const char* unit;    // unit of the TOML value: "m", "deg", "1", ...
   double MissionParameters::*member;
   double to_si;                     // member = value * to_si
   double minimum, maximum, preset;  // in the TOML unit, inclusive
