@@ -13,7 +13,7 @@ OLDEST = datetime.timedelta(days=7)
 PROGRAMS = ('g++', 'clang++-19', 'powerpc-linux-gnu-g++', 'arm-linux-gnueabihf-g++', 'qemu-ppc', 'qemu-system-ppc', 'qemu-system-arm', 'cmake', 'ninja', 'gcovr',
             'llvm-cov-19', 'clang-format', 'clang-tidy-22', 'cppcheck')
 # The lists in cfg/packages that the gates need.
-PACKAGES = ('build', 'target', 'target-arm', 'lint', 'clang', 'test', 'trace', 'coverage', 'bench', 'soft-float', 'package', 'web', 'page')
+PACKAGES = ('build', 'target', 'target-arm', 'lint', 'clang', 'test', 'trace', 'coverage', 'bench', 'soft-float', 'package', 'web', 'page', 'python')
 
 
 def ask(*command, cwd=None):
