@@ -36,7 +36,7 @@ TEST_F(HeldPassTest, WithoutAReturnTheBoundedCostIsMoreThanAny) {
   const auto count = static_cast<double>(workspace_->points.size());
   EXPECT_EQ(bounded_cost(mission_, behind, 2 * count, *workspace_), 2 * count * kMostOfAReturn);
   EXPECT_GT(bounded_cost(mission_, behind, 2.01 * count, *workspace_), 1e200) << "fewer than half of those of the registration";
-  for (MatchPoint<N>& point : workspace_->points) point.aimed = true;
+  for (auto& point : workspace_->points) point.aimed = true;
   EXPECT_GT(bounded_cost(mission_, behind, 7, *workspace_), 1e200) << "those at a contour may well be";
   workspace_->points.clear();
   EXPECT_GT(bounded_cost(mission_, truth(), 7, *workspace_), 1e200);
