@@ -100,7 +100,6 @@ enum class ServiceRefusal : std::uint8_t {
   kKeyOnTrial = 27,
   kNoKeyOnTrial = 28,
   kNotByNewKey = 29,
-  kNotKept = 30,
 };
 
 struct ModeCommand {
@@ -110,8 +109,8 @@ struct HoldCommand {
   std::uint8_t held = 0;
 };
 struct StartCommand {
-  std::uint8_t source = 0;  // InitialPoseSource
-  TimeUs t_us = 0;          // at which the rest is stated
+  std::uint8_t way = 0;  // InitialPoseSource
+  TimeUs t_us = 0;       // at which the rest is stated
   double q_sensor_target[4] = {0, 0, 0, 1};
   double p_sensor_target_m[3] = {};
   double omega_radps[3] = {};  // sensor axes
@@ -130,7 +129,7 @@ struct StoredCommand {
   std::uint8_t count = 0;  // of those that end with it
 };
 struct ParameterCommand {
-  std::uint16_t parameter = 0;  // ParameterRow::id
+  std::uint16_t parameter = 0;  // row of parameter_rows()
   double value = 0;             // kSetParameter: in the row's unit
 };
 struct CalibrationCommand {

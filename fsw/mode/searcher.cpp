@@ -84,7 +84,7 @@ bool Searcher::offer(const Mission& mission, TrackStep& step) {
     begin(mission.parameters, number_, false);
     return false;
   }
-  state.source = InitialPoseSource::kSearch;
+  state.way = InitialPoseSource::kSearch;
   return true;
 }
 

@@ -44,9 +44,8 @@ struct SignatureState {
 // The component's end, which has the master.
 class SignatureCheck final : public Authenticator {
  public:
-  using Keep = std::function<bool(const SignatureState&)>;
-  // `keep` is called with each state that a restart has to begin with, and says whether it is kept; it may be empty: nothing outlives a
-  // restart then.
+  using Keep = std::function<void(const SignatureState&)>;
+  // `keep` is called with each state that a restart has to begin with; it may be empty.
   explicit SignatureCheck(Key master, const SignatureState& state = {}, Keep keep = {});
   std::size_t trailer_bytes() const override;
   bool authentic(ConstBytes packet, ConstBytes trailer) override;
@@ -56,11 +55,11 @@ class SignatureCheck final : public Authenticator {
   bool image_authentic(ConstBytes signature) override;
   bool try_key(std::uint32_t number) override;
   bool by_key_on_trial() const override { return by_trial_; }
-  bool end_key_trial(bool kept) override;
+  void end_key_trial(bool kept) override;
 
  private:
   bool is_by(const Key& key, ConstBytes packet, ConstBytes trailer) const;
-  bool keep(std::uint32_t key) const;
+  void keep() const;
 
   Key master_, key_;
   std::optional<Key> trial_;
@@ -79,7 +78,7 @@ void save_signature_state(const std::string& store, const SignatureState& state)
 // was recorded before is refused; but a link that is a file has commands that were written before.
 SignatureState state_at_start(const std::string& store, const std::string& link);
 // Into that store, which is there; without one nothing is kept. Throws InputError where it cannot be written. What cannot be written later
-// is told as a warning, once: commands go on, but no further key is confirmed.
+// is told as a warning, once: commands go on.
 SignatureCheck::Keep keep_in(const std::string& store);
 
 }  // namespace lasso::mdat
